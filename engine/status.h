@@ -1,0 +1,79 @@
+// Status codes, reports and warnings: how every part of the engine says what went wrong.
+//
+// The engine never prints, exits or aborts on input. A function that can fail returns SbStatus and
+// fills the caller's SbReport (which may be NULL); a result that is usable but outside its model's
+// validity carries SbWarnings.
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#if defined(__GNUC__)
+#define SB_PRINTF(format_index, first) __attribute__((format(printf, format_index, first)))
+#else
+#define SB_PRINTF(format_index, first)
+#endif
+
+// code, one-line text
+#define SB_STATUS_LIST(X)                                                                          \
+  X(SB_OK, "done")                                                                                 \
+  X(SB_ERROR_INPUT, "bad input")                                                                   \
+  X(SB_ERROR_RANGE, "value out of range")                                                          \
+  X(SB_ERROR_INFEASIBLE, "no solution exists for this input")                                      \
+  X(SB_ERROR_NOT_CONVERGED, "the solver did not converge")                                         \
+  X(SB_ERROR_CANCELLED, "cancelled")                                                               \
+  X(SB_ERROR_MEMORY, "out of memory")                                                              \
+  X(SB_ERROR_IO, "input or output failed")
+
+typedef enum {
+#define SB_STATUS_ENUM(code, text) code,
+  SB_STATUS_LIST(SB_STATUS_ENUM)
+#undef SB_STATUS_ENUM
+} SbStatus;
+
+// Details of a failure, owned by the caller. All fields are zero after a success.
+typedef struct {
+  SbStatus status;
+  char text[256];     // one sentence for a person, no trailing newline
+  char parameter[64]; // catalogue key at fault, or empty
+  double residual;    // last residual of an iteration, 0 if none
+  int iteration;      // iterations done, 0 if none
+} SbReport;
+
+// Fixed text of a status code; borrowed, never NULL.
+const char *sb_status_text(SbStatus status);
+
+// Fills the report (if any) with a formatted sentence and returns `status`, so that a failing
+// function can end in `return sb_fail(report, SB_ERROR_RANGE, "speed %g m/s ...", u);`.
+SbStatus sb_fail(SbReport *report, SbStatus status, const char *format, ...) SB_PRINTF(3, 4);
+
+// The same with the catalogue key of the parameter at fault.
+SbStatus sb_fail_parameter(SbReport *report, SbStatus status, const char *parameter,
+                           const char *format, ...) SB_PRINTF(4, 5);
+
+// Clears the report (if any) and returns SB_OK.
+SbStatus sb_succeed(SbReport *report);
+
+enum { SB_WARNINGS_MAX = 48 };
+
+// One validity warning: a stable code ("film-below-continuum"), a sentence, and the catalogue key of
+// the parameter that a user would change (may be empty).
+typedef struct {
+  char code[48];
+  char text[200];
+  char parameter[64];
+} SbWarning;
+
+// A bounded list without duplicates (same code and parameter). `dropped` counts what did not fit.
+typedef struct {
+  size_t count;
+  size_t dropped;
+  SbWarning item[SB_WARNINGS_MAX];
+} SbWarnings;
+
+// Adds a warning unless one with the same code and parameter is there; `list` may be NULL.
+void sb_warn(SbWarnings *list, const char *code, const char *parameter, const char *format, ...)
+    SB_PRINTF(4, 5);
+
+// Adds all of `from` to `list`.
+void sb_warnings_merge(SbWarnings *list, const SbWarnings *from);
