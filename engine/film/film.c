@@ -1,0 +1,195 @@
+// Film models: checks of the problem, scales, and the choice of the model.
+//
+// Scales after Hertz (line contact): b = R sqrt(8 W / pi), p_H = 2 w / (pi b), film b^2 / R (thesis
+// eq. 6.33-6.44 with the factor 8 of the audit). With them the isoviscous problem depends on lambda
+// alone. End pressures: see sb_film_dry_pressure and reference/ehl.md, "Unequal end pressures".
+#include "engine/film/film.h"
+
+#include "engine/film/scale.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct SbFilmSolver {
+  bool warm;
+};
+
+static const struct {
+  const char *name;
+  const char *help;
+} model_text[SB_FILM_MODEL_COUNT] = {
+#define SB_FILM_MODEL_TEXT(model, name, help) {name, help},
+    SB_FILM_MODEL_LIST(SB_FILM_MODEL_TEXT)
+#undef SB_FILM_MODEL_TEXT
+};
+
+const char *sb_film_model_name(SbFilmModel model) {
+  return (int)model >= 0 && model < SB_FILM_MODEL_COUNT ? model_text[model].name : "unknown";
+}
+
+const char *sb_film_model_help(SbFilmModel model) {
+  return (int)model >= 0 && model < SB_FILM_MODEL_COUNT ? model_text[model].help : "";
+}
+
+bool sb_film_model_from_name(SbFilmModel *out, const char *name) {
+  for (int i = 0; name != NULL && i < SB_FILM_MODEL_COUNT; i++) {
+    if (strcmp(model_text[i].name, name) == 0) {
+      *out = (SbFilmModel)i;
+      return true;
+    }
+  }
+  return false;
+}
+
+void sb_film_problem_init(SbFilmProblem *problem) {
+  *problem = (SbFilmProblem){.model = SB_FILM_REYNOLDS, .tolerance = 1e-3};
+}
+
+SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
+  *out = calloc(1, sizeof **out);
+  return *out != NULL ? sb_succeed(report)
+                      : sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
+}
+
+void sb_film_solver_destroy(SbFilmSolver *solver) {
+  free(solver);
+}
+
+void sb_film_solver_forget(SbFilmSolver *solver) {
+  solver->warm = false;
+}
+
+// Ranges wide enough for every seal and narrow enough that nothing overflows.
+static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
+  const struct {
+    const char *name;
+    const char *key;
+    const char *unit;
+    double value, min, max;
+  } range[] = {
+      {"load", "", "N/m", problem->load, 1e-6, 1e9},
+      {"speed", "drive.speed", "m/s", fabs(problem->speed), 0.0, 1e4},
+      {"radius", "seal.section_diameter", "m", problem->radius, 1e-7, 1e3},
+      {"reduced modulus", "seal.modulus", "Pa", problem->modulus, 1.0, 1e13},
+      {"viscosity", "fluid.viscosity", "Pa s", problem->viscosity, 1e-9, 1e6},
+      {"pressure left", "canister.pressure", "Pa", problem->pressure_left, 0.0, 1e10},
+      {"pressure right", "canister.pressure", "Pa", problem->pressure_right, 0.0, 1e10},
+      {"tolerance", "", "", problem->tolerance, 1e-8, 0.1},
+  };
+  if ((int)problem->model < 0 || problem->model >= SB_FILM_MODEL_COUNT) {
+    return sb_fail(report, SB_ERROR_INPUT, "there is no film model number %d", (int)problem->model);
+  }
+  for (size_t i = 0; i < sizeof range / sizeof range[0]; i++) {
+    // The comparison is written so that a NaN fails it.
+    if (!(range[i].value >= range[i].min && range[i].value <= range[i].max)) {
+      return sb_fail_parameter(report, SB_ERROR_RANGE, range[i].key,
+                               "film: %s %g %s is outside %g ... %g", range[i].name, range[i].value,
+                               range[i].unit, range[i].min, range[i].max);
+    }
+  }
+  return SB_OK;
+}
+
+SbFilmScale sb_film_scale(const SbFilmProblem *problem) {
+  SbFilmScale s = {0};
+  double ER = problem->modulus * problem->radius;
+  s.U = problem->viscosity * fabs(problem->speed) / 2.0 / ER;
+  s.W = problem->load / ER;
+  s.half_width = problem->radius * sqrt(8.0 * s.W / M_PI);
+  s.pressure = 2.0 * problem->load / (M_PI * s.half_width);
+  s.film = s.half_width * s.half_width / problem->radius;
+  s.M = s.U > 0.0 ? s.W / sqrt(2.0 * s.U) : 0.0;
+  s.lambda = 0.75 * M_PI * M_PI * s.U / (s.W * s.W);
+  bool forward = problem->speed >= 0.0;
+  s.inlet = (forward ? problem->pressure_left : problem->pressure_right) / s.pressure;
+  s.outlet = (forward ? problem->pressure_right : problem->pressure_left) / s.pressure;
+  s.kappa = 1.0 - (s.inlet - s.outlet) / M_PI;
+  return s;
+}
+
+double sb_film_dry_gap(double X) {
+  double a = fabs(X);
+  if (a <= 1.0) {
+    return 0.0;
+  }
+  // 1/2 [a sqrt(a^2 - 1) - ln(a + sqrt(a^2 - 1))], by its series where the two terms cancel.
+  double t = a - 1.0;
+  if (t < 1e-3) {
+    return sqrt(2.0) * t * sqrt(t) * (2.0 / 3.0 + t * (1.0 / 10.0 - t / 112.0));
+  }
+  double r = sqrt(t * (a + 1.0));
+  return 0.5 * (a * r - log(a + r));
+}
+
+double sb_film_dry_pressure(double X, double inlet, double outlet) {
+  if (X <= -1.0) {
+    return inlet;
+  }
+  if (X >= 1.0) {
+    return outlet;
+  }
+  double step = asin(X) / M_PI;
+  return sqrt((1.0 - X) * (1.0 + X)) + inlet * (0.5 - step) + outlet * (0.5 + step);
+}
+
+void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale) {
+  memset(out, 0, sizeof *out);
+  out->model = problem->model;
+  out->hertz_half_width = scale->half_width;
+  out->hertz_pressure = scale->pressure;
+  out->moes_M = scale->M;
+  out->moes_U = scale->U;
+  out->moes_W = scale->W;
+  out->lambda = scale->lambda;
+  // Moes: below about 0.5 the deformation hardly matters, above about 20 the Hertz contact stands.
+  const char *regime = scale->U <= 0.0   ? "dry"
+                       : scale->M < 0.5  ? "rigid-isoviscous"
+                       : scale->M < 20.0 ? "transition"
+                                         : "elastic-isoviscous";
+  strncpy(out->regime, regime, sizeof out->regime - 1);
+  out->valid = true;
+}
+
+void sb_film_warn_common(SbFilm *out, const SbFilmProblem *problem) {
+  if (problem->speed != 0.0 && out->film_min < 2e-9) {
+    sb_warn(&out->warnings, "film-below-continuum", "drive.speed",
+            "minimum film %.3g nm is thinner than the continuum limit of about 2 nm: formal result",
+            out->film_min * 1e9);
+  }
+}
+
+SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *memory,
+                       SbReport *report) {
+  memset(out, 0, sizeof *out);
+  SbStatus status = check(problem, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  SbFilmScale scale = sb_film_scale(problem);
+  sb_film_begin(out, problem, &scale);
+  if (scale.kappa <= 0.0) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "canister.pressure",
+                             "film: the inlet pressure exceeds the outlet's by more than pi times "
+                             "the Hertz pressure and opens the contact");
+  }
+  if (scale.U <= 0.0) {
+    status = sb_film_solve_dry(out, problem, &scale, report);
+  } else {
+    switch (problem->model) {
+    case SB_FILM_KARASZKIEWICZ:
+    case SB_FILM_THESIS:
+    case SB_FILM_ASYMPTOTIC:
+      status = sb_film_solve_law(out, problem, &scale, report);
+      break;
+    default:
+      status = sb_fail(report, SB_ERROR_INPUT, "film: model %s is not built in",
+                       sb_film_model_name(problem->model));
+      break;
+    }
+  }
+  if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+    sb_film_warn_common(out, problem);
+  }
+  return status;
+}

@@ -1,0 +1,141 @@
+// Film models of the sealing contact: one problem, one result, one call for all of them.
+//
+// A seal slides over a wall with a fluid between them. Per unit length it is a line contact: an
+// elastic half-plane (reduced modulus E', 2/E' = sum (1 - nu^2)/E) with a cylinder of radius R,
+// isoviscous and incompressible unless an option says otherwise. Every model gives the film, the
+// pressure, the friction of the film and the range where it may be used:
+//
+//   reynolds       coupled elastohydrodynamic solution, every speed (reynolds.c)
+//   inverse        Blok's film of a given smooth dry pressure (inverse.c)
+//   karaszkiewicz  H* = 4.4 U^0.65 W^-0.21, thesis eq. 7.6 (= 5.5)
+//   thesis         H* = 1.492 U^0.5434 W^-0.2893, thesis eq. 7.5
+//   asymptotic     exact thin-film limit, h_min = 3.00434 R U^0.6 W^-0.2, h_flux = 3.77334 ...
+//
+// with U = eta (u/2) / (E' R) and W = load / (E' R): u is the sliding speed, u/2 the entrainment.
+//
+// Axes: x in the seal's frame, 0 at the cylinder's axis; speed > 0 moves the wall to +x, so that
+// the inlet is on the left. Pressures are gauge. SI units throughout, per metre of circumference.
+#pragma once
+
+#include "engine/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+// model, name on the command line, one line of help
+#define SB_FILM_MODEL_LIST(X)                                                                      \
+  X(SB_FILM_REYNOLDS, "reynolds", "coupled elastohydrodynamic solution")                           \
+  X(SB_FILM_INVERSE, "inverse", "Blok's inverse film of a smooth dry pressure")                    \
+  X(SB_FILM_KARASZKIEWICZ, "karaszkiewicz", "power law of Karaszkiewicz, thesis eq. 7.6")          \
+  X(SB_FILM_THESIS, "thesis", "power law of the thesis, eq. 7.5")                                  \
+  X(SB_FILM_ASYMPTOTIC, "asymptotic", "exact limit of thin films on a half-plane")
+
+typedef enum {
+#define SB_FILM_MODEL_ENUM(model, name, help) model,
+  SB_FILM_MODEL_LIST(SB_FILM_MODEL_ENUM)
+#undef SB_FILM_MODEL_ENUM
+      SB_FILM_MODEL_COUNT
+} SbFilmModel;
+
+enum { SB_FILM_POINTS = 1200 }; // capacity of a profile
+
+// What to solve. Start from sb_film_problem_init(): every option off.
+typedef struct {
+  SbFilmModel model;
+  double load;    // W [N/m] > 0: integral of (p - ambient), left ambient for x < 0, right for x > 0
+  double speed;   // sliding speed [m/s], signed; 0 gives the dry contact
+  double radius;  // R [m] > 0
+  double modulus; // reduced modulus E' [Pa] > 0
+  double viscosity;      // eta [Pa s] > 0
+  double pressure_left;  // gauge [Pa] >= 0
+  double pressure_right; // gauge [Pa] >= 0
+  double tolerance;      // relative error wanted in the films, 1e-8 .. 0.1
+
+  // Dry pressure of the inverse model: `dry_count` pairs, x increasing; borrowed during the call.
+  const double *dry_x;        // [m]
+  const double *dry_pressure; // [Pa]
+  size_t dry_count;
+
+  // Polled between Newton steps; true stops the solve with SB_ERROR_CANCELLED. May be NULL.
+  bool (*cancelled)(void *data);
+  void *cancelled_data;
+} SbFilmProblem;
+
+// How the numbers were found.
+typedef struct {
+  bool converged;
+  size_t unknowns;
+  int newton_iterations;     // over all continuation steps
+  int continuation_steps;    // 1 for a direct solve
+  double residual;           // scaled, largest over all equations, at the end
+  double error_film_min;     // relative, discretisation and iteration
+  double error_film_central; // relative
+  double error_film_flux;    // relative
+  double load_error;         // |integral of p - load| / load
+  double flux_error;         // largest |flux(x) / flux - 1| over the full film
+  double wall_s;             // time of the solve, cold or warm, without any output
+} SbFilmSolverInfo;
+
+// What came out. Plain data without pointers: may be copied and handed to another thread.
+typedef struct {
+  SbFilmModel model;
+  double film_min;          // [m]
+  double film_central;      // film at x = 0 [m]
+  double film_flux;         // flow / (speed/2) [m]
+  double flow;              // [m^2/s], signed as the speed
+  double pressure_max;      // [Pa], gauge
+  double position_film_min; // x [m]
+  double position_rupture;  // x where the film breaks [m]; the end of the contact if it does not
+  bool ruptured;            // the film breaks inside the domain
+  double hertz_half_width;  // b = R sqrt(8 W / pi) [m]
+  double hertz_pressure;    // p_H = 2 w / (pi b) [Pa]
+  double
+      friction_couette; // integral of eta speed / h over the full film [N/m], signed as the speed
+  double friction_poiseuille; // integral of (h/2) dp/dx over the full film [N/m]
+  double moes_M;              // W / sqrt(2 U)
+  double moes_U;              // U = eta |speed| / (2 E' R)
+  double moes_W;              // W = load / (E' R)
+  double lambda;              // 3 pi^2 U / (4 W^2) = (3 pi^2 / 8) / M^2
+  double expected_error;      // relative error of the model itself in the flux film, 0 = exact
+  char regime[48];            // "dry", "rigid-isoviscous", "transition", "elastic-isoviscous", ...
+  bool valid;                 // false: outside the model's range, see warnings
+  SbWarnings warnings;
+  SbFilmSolverInfo solver;
+
+  // Profile, x increasing, dense in the inlet and outlet layers; at least 400 points.
+  size_t points;
+  double x[SB_FILM_POINTS];        // [m]
+  double pressure[SB_FILM_POINTS]; // gauge [Pa]
+  double film[SB_FILM_POINTS];     // gap between the surfaces [m]
+} SbFilm;
+
+// Workspace of the film solver and its last solution: later solves start from it and allocate
+// nothing. One per thread and per seal.
+typedef struct SbFilmSolver SbFilmSolver;
+
+// A new solver in *out (owned by the caller). SB_ERROR_MEMORY.
+SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report);
+
+// Takes NULL.
+void sb_film_solver_destroy(SbFilmSolver *solver);
+
+// Forgets the last solution, so that the next solve is cold; keeps the memory.
+void sb_film_solver_forget(SbFilmSolver *solver);
+
+// Every option off, tolerance 1e-3, model reynolds, no pressures; sizes are zero and must be set.
+void sb_film_problem_init(SbFilmProblem *problem);
+
+// Solves `problem` with its model. `memory` may be NULL (then a workspace lives for the call only).
+// SB_ERROR_RANGE / SB_ERROR_INPUT: nothing solved, *out is zero. SB_ERROR_NOT_CONVERGED: *out holds
+// the best state found, solver.converged is false. SB_ERROR_CANCELLED, SB_ERROR_MEMORY.
+SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *memory,
+                       SbReport *report);
+
+// Name on the command line; borrowed, never NULL.
+const char *sb_film_model_name(SbFilmModel model);
+
+// One line of help; borrowed, never NULL.
+const char *sb_film_model_help(SbFilmModel model);
+
+// The model of that name; false if there is none.
+bool sb_film_model_from_name(SbFilmModel *out, const char *name);

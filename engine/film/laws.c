@@ -1,0 +1,108 @@
+// Closed-form films, and the dry contact at zero speed.
+//
+//   karaszkiewicz  H = 4.4 U^0.65 W^-0.21       thesis eq. 7.6 (= 5.5), the film of a fitted O-ring
+//   thesis         H = 1.492 U^0.5434 W^-0.2893 thesis eq. 7.5, central film, fitted to
+//   Tables 7.9, 7.10 asymptotic     h_min = 3.00434 R U^0.6 W^-0.2, h_flux = 3.77334 R U^0.6
+//   W^-0.2: exact as M grows
+//                  (reference/ehl.md), with the end pressures' factor kappa^-0.8
+//
+// The two power laws know one film only, reported as minimum, central and flux film alike. The
+// profile is Hertz's dry pressure and gap raised by the film; friction is that of the flat film.
+// Left out: layers at the edges, so the profile is no solution of Reynolds' equation. The expected
+// error is the distance from a blend of the rigid and the elastic limit.
+#include "engine/film/scale.h"
+
+#include <math.h>
+#include <string.h>
+
+// Films of the exact limits over R, and their blend, as functions of the flux film.
+static double blended_flux(const SbFilmScale *scale) {
+  double rigid = 4.894968 * 1.225748 * scale->U / scale->W;
+  double elastic = 3.77334 * pow(scale->U, 0.6) * pow(scale->W, -0.2);
+  // The exponent 1.4 keeps the blend within 3 % of the solved films from M = 1 to 1e4.
+  return pow(pow(rigid, 1.4) + pow(elastic, 1.4), 1.0 / 1.4);
+}
+
+// Dry pressure and gap on points dense at both edges, the gap raised by `film`.
+static void dry_profile(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                        double film) {
+  enum { POINTS = 601 };
+  bool forward = problem->speed >= 0.0;
+  out->points = POINTS;
+  for (int i = 0; i < POINTS; i++) {
+    // A sine in three periods: |X| <= 1 in the middle half, up to 3 outside, dense at +-1.
+    double s = -2.0 + 4.0 * i / (POINTS - 1);
+    double X =
+        fabs(s) <= 1.0 ? sin(s * M_PI / 2.0) : copysign(1.0 + 2.0 * pow(fabs(s) - 1.0, 2), s);
+    out->x[i] = X * scale->half_width;
+    double flow = forward ? X : -X;
+    out->pressure[i] = scale->pressure * sb_film_dry_pressure(flow, scale->inlet, scale->outlet);
+    out->film[i] = scale->film * sb_film_dry_gap(X) + film;
+    out->pressure_max = fmax(out->pressure_max, out->pressure[i]);
+  }
+}
+
+SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                           SbReport *report) {
+  dry_profile(out, problem, scale, 0.0);
+  out->position_rupture = scale->half_width;
+  out->solver.converged = true;
+  sb_warn(&out->warnings, "film-zero-speed", "drive.speed",
+          "at zero speed there is no film: dry contact");
+  return sb_succeed(report);
+}
+
+SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                           SbReport *report) {
+  double U = scale->U;
+  double W = scale->W;
+  double R = problem->radius;
+  double direction = problem->speed >= 0.0 ? 1.0 : -1.0;
+  double width = scale->half_width;
+  out->position_rupture = direction * width;
+
+  if (problem->model == SB_FILM_ASYMPTOTIC) {
+    double layer = pow(scale->lambda, 0.4);
+    double unit = R * pow(U, 0.6) * pow(W, -0.2) * pow(scale->kappa, -0.8);
+    out->film_min = 3.00434 * unit;
+    out->film_flux = 3.77334 * unit;
+    out->film_central = out->film_flux;
+    out->position_film_min = direction * width * (1.0 - 0.17041 * layer);
+    out->position_rupture = direction * width * (1.0 + 0.16406 * layer);
+    out->ruptured = scale->outlet <= 0.0;
+  } else {
+    bool thesis = problem->model == SB_FILM_THESIS;
+    double H =
+        thesis ? 1.492 * pow(U, 0.5434) * pow(W, -0.2893) : 4.4 * pow(U, 0.65) * pow(W, -0.21);
+    out->film_min = out->film_central = out->film_flux = R * H;
+    // The data behind eq. 7.5: Tables 7.9 and 7.10.
+    if (thesis && (U < 5.9e-10 || U > 1.6e-7 || W < 0.0566 || W > 0.1906)) {
+      out->valid = false;
+      sb_warn(&out->warnings, "film-law-range", "models.film",
+              "eq. 7.5 was fitted for U 5.9e-10 ... 1.6e-7, W 0.057 ... 0.191; here %.3g, %.3g", U,
+              W);
+    }
+  }
+
+  // How far the law is from the exact limits: its expected error.
+  double expected = fabs(out->film_flux / R / blended_flux(scale) / pow(scale->kappa, -0.8) - 1.0);
+  out->expected_error = expected;
+  if (expected > 0.1) {
+    out->valid = false;
+    sb_warn(&out->warnings, "film-law-error", "models.film",
+            "model %s is about %.0f %% from the solved film here",
+            sb_film_model_name(problem->model), 100.0 * expected);
+  }
+  if (problem->model != SB_FILM_ASYMPTOTIC && (scale->inlet > 0.0 || scale->outlet > 0.0)) {
+    sb_warn(&out->warnings, "film-law-pressure", "models.film",
+            "the power law knows end pressures only through the load");
+  }
+
+  dry_profile(out, problem, scale, out->film_flux);
+  out->flow = out->film_flux * problem->speed / 2.0;
+  out->friction_couette = problem->viscosity * problem->speed * 2.0 * width / out->film_flux;
+  out->friction_poiseuille =
+      0.5 * out->film_flux * (problem->pressure_right - problem->pressure_left);
+  out->solver.converged = true;
+  return sb_succeed(report);
+}

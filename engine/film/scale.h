@@ -1,0 +1,41 @@
+// Scales and dry contact shared by the film models (private to engine/film).
+#pragma once
+
+#include "engine/film/film.h"
+
+// Scales of a line contact. The scaled problem has X = x / b, P = p / p_H, H = h R / b^2 and only
+// one parameter, lambda = 3 pi^2 U / (4 W^2), when nothing but Reynolds and elasticity acts.
+typedef struct {
+  double half_width; // b [m]
+  double pressure;   // p_H [Pa]
+  double film;       // b^2 / R [m]
+  double U;          // eta |speed| / (2 E' R)
+  double W;          // load / (E' R)
+  double M;          // W / sqrt(2 U); infinite is replaced by 0 at zero speed
+  double lambda;     // 3 pi^2 U / (4 W^2)
+  double inlet;      // scaled gauge pressure at the inlet
+  double outlet;     // scaled gauge pressure at the outlet
+  double kappa; // slope factor of the dry pressure at the inlet edge, 1 - (inlet - outlet) / pi
+} SbFilmScale;
+
+// Scales of `problem`, which must have been checked.
+SbFilmScale sb_film_scale(const SbFilmProblem *problem);
+
+// Scaled gap of the dry Hertz contact outside it, |X| > 1; 0 inside. In units of b^2 / R.
+double sb_film_dry_gap(double X);
+
+// Scaled dry pressure in the flow frame (inlet at X = -1), with end pressures: Hertz's plus the
+// transition of the end pressures with the tilt removed so that the contact stays |X| < 1.
+double sb_film_dry_pressure(double X, double inlet, double outlet);
+
+// Fills the scales, numbers of Moes and the sign-dependent parts common to every model.
+void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale);
+
+// The closed-form models and the dry contact at zero speed.
+SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                           SbReport *report);
+SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                           SbReport *report);
+
+// Flags films thinner than a few molecules and pressures that the models do not cover.
+void sb_film_warn_common(SbFilm *out, const SbFilmProblem *problem);

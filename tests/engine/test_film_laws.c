@@ -1,0 +1,107 @@
+// Closed-form films: the thesis' figures, the exact limit, ranges, and the dry contact at rest.
+#include "engine/film/film.h"
+
+#include <glib.h>
+#include <math.h>
+
+// The inhaler seal of the thesis at the test speed: 850.2 N/m, R 0.805 mm, E' 6.5725 MPa.
+static SbFilmProblem inhaler(SbFilmModel model, double speed) {
+  SbFilmProblem problem;
+  sb_film_problem_init(&problem);
+  problem.model = model;
+  problem.load = 850.2;
+  problem.speed = speed;
+  problem.radius = 0.805e-3;
+  problem.modulus = 6.5725e6;
+  problem.viscosity = 0.211e-3;
+  return problem;
+}
+
+static void close_to(double got, double want, double relative) {
+  if (!(fabs(got - want) <= relative * fabs(want))) {
+    g_test_message("got %.9g, want %.9g within %g", got, want, relative);
+    g_test_fail();
+  }
+}
+
+static void test_figures(void) {
+  SbFilm film;
+  SbReport report;
+  SbFilmProblem problem = inhaler(SB_FILM_KARASZKIEWICZ, 1e-3 / 3.0);
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_OK);
+  close_to(film.film_central, 0.282e-9, 2e-3);
+  g_assert_false(film.valid); // 68 % below the solved film
+  problem.model = SB_FILM_THESIS;
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_OK);
+  close_to(film.film_central, 1.720e-9, 1e-3);
+  g_assert_false(film.valid); // 90 times below its data
+  // The exact limit differs from the solved 0.861 and 0.685 nm only by the finite M.
+  problem.model = SB_FILM_ASYMPTOTIC;
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_OK);
+  close_to(film.film_central, 0.861e-9, 1e-3);
+  close_to(film.film_min, 0.685e-9, 1e-3);
+  g_assert_true(film.valid);
+  g_assert_cmpuint(film.points, >=, 400);
+}
+
+static void test_direction(void) {
+  SbFilm film, back;
+  SbReport report;
+  SbFilmProblem problem = inhaler(SB_FILM_ASYMPTOTIC, 0.5);
+  problem.pressure_left = 0.2e6;
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_OK);
+  problem.speed = -0.5;
+  problem.pressure_left = 0.0;
+  problem.pressure_right = 0.2e6;
+  g_assert_cmpint(sb_film_solve(&back, &problem, NULL, &report), ==, SB_OK);
+  close_to(back.film_min, film.film_min, 1e-14);
+  close_to(back.position_rupture, -film.position_rupture, 1e-14);
+  close_to(back.friction_couette, -film.friction_couette, 1e-14);
+  close_to(back.flow, -film.flow, 1e-14);
+  for (size_t i = 0; i < film.points; i++) {
+    close_to(back.pressure[film.points - 1 - i], film.pressure[i], 1e-12);
+  }
+}
+
+// At rest: Hertz's pressure carries the load, and end pressures leave it unchanged.
+static void test_dry(void) {
+  SbFilm film;
+  SbReport report;
+  SbFilmProblem problem = inhaler(SB_FILM_REYNOLDS, 0.0);
+  problem.pressure_left = 0.3e6;
+  problem.pressure_right = 0.1e6;
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_OK);
+  double load = 0.0;
+  for (size_t i = 1; i < film.points; i++) {
+    double step = film.x[i] + film.x[i - 1] < 0.0 ? 0.3e6 : 0.1e6;
+    load += (film.x[i] - film.x[i - 1]) * (0.5 * (film.pressure[i] + film.pressure[i - 1]) - step);
+  }
+  close_to(load, problem.load, 1e-4);
+  g_assert_cmpfloat(film.film_min, ==, 0.0);
+  g_assert_cmpuint(film.warnings.count, ==, 1);
+  g_assert_cmpstr(film.warnings.item[0].code, ==, "film-zero-speed");
+}
+
+static void test_refusals(void) {
+  SbFilm film;
+  SbReport report;
+  SbFilmProblem problem = inhaler(SB_FILM_THESIS, 1.0);
+  problem.load = -1.0;
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_ERROR_RANGE);
+  problem = inhaler(SB_FILM_THESIS, (double)NAN);
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_ERROR_RANGE);
+  g_assert_cmpstr(report.parameter, ==, "drive.speed");
+  SbFilmModel model;
+  g_assert_true(sb_film_model_from_name(&model, "inverse"));
+  g_assert_cmpint(model, ==, SB_FILM_INVERSE);
+  g_assert_false(sb_film_model_from_name(&model, "magic"));
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/film/laws/figures", test_figures);
+  g_test_add_func("/film/laws/direction", test_direction);
+  g_test_add_func("/film/laws/dry", test_dry);
+  g_test_add_func("/film/laws/refusals", test_refusals);
+  return g_test_run();
+}
