@@ -1,0 +1,154 @@
+// Compiles parameters to the model: overrides resolved, derived sizes computed, senseless combinations
+// refused.
+//
+// Derived sizes (thesis section 5.2 and 6.4.1; definitions of the contract): squeeze eps = (d - g)/d on the
+// free section; fitted mean diameter D - g; mean stretch eps_z = (D - g - (ID + d))/(ID + d); section after
+// stretch d (1 - nu eps_z), the uniform-shrink estimate (the finite-strain ring is flatter, 1.500 mm against
+// 1.576 mm for the thesis valve).
+#include "engine/model.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+const char *sb_seal_name(int seal) {
+  return seal == SB_OUTER ? "outer" : "inner";
+}
+
+static void SB_PRINTF(5, 6) add_problem(SbProblems *problems, const char *key, double min, double max,
+                                        const char *format, ...) {
+  if (problems == NULL || problems->count == SB_PROBLEMS_MAX) {
+    return;
+  }
+  SbProblem *problem = &problems->item[problems->count++];
+  snprintf(problem->key, sizeof problem->key, "%s", key);
+  problem->min = min;
+  problem->max = max;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(problem->text, sizeof problem->text, format, arguments);
+  va_end(arguments);
+}
+
+// One seal's own quantities. Returns false (with problems added) where they make no sense.
+static bool compile_seal(SbModel *model, int index, const SbParams *params, SbProblems *problems) {
+  SbSealModel *seal = &model->seal[index];
+  bool outer = index == SB_OUTER;
+  SbParamId diameter_id =
+      outer ? SB_P_SEAL_OUTER_SECTION_DIAMETER : SB_P_SEAL_INNER_SECTION_DIAMETER;
+  SbParamId inner_id = outer ? SB_P_SEAL_OUTER_INNER_DIAMETER : SB_P_SEAL_INNER_INNER_DIAMETER;
+  seal->section_diameter = sb_params_get(params, diameter_id);
+  seal->inner_diameter = sb_params_get(params, inner_id);
+  seal->modulus =
+      sb_params_get(params, outer ? SB_P_SEAL_OUTER_MODULUS : SB_P_SEAL_INNER_MODULUS);
+  seal->poisson_ratio =
+      sb_params_get(params, outer ? SB_P_SEAL_OUTER_POISSON_RATIO : SB_P_SEAL_INNER_POISSON_RATIO);
+
+  // Thesis equation 5.8.
+  double nu = seal->poisson_ratio;
+  double nu_h = model->housing_poisson_ratio;
+  seal->reduced_modulus =
+      2 / ((1 - nu * nu) / seal->modulus + (1 - nu_h * nu_h) / model->housing_modulus);
+  seal->radius = seal->section_diameter / 2;
+
+  double d = seal->section_diameter;
+  double g = model->radial_space;
+  double mean_free = seal->inner_diameter + d;
+  double mean_fitted = model->bore_diameter - g;
+  double floor = model->bore_diameter - 2 * g;
+  seal->squeeze = (d - g) / d;
+  seal->stretch_mean = (mean_fitted - mean_free) / mean_free;
+  seal->stretch_inner = (floor - seal->inner_diameter) / seal->inner_diameter;
+  seal->section_fitted = d * (1 - nu * seal->stretch_mean);
+  seal->interference = seal->section_fitted - g;
+  seal->gland_fill = M_PI / 4 * d * d / (g * model->axial_width);
+
+  // Beyond 60 % no model here means anything; the fit models warn long before.
+  bool good = true;
+  if (seal->squeeze > 0.6) {
+    add_problem(problems, sb_param(diameter_id)->key, NAN, g / 0.4,
+                "squeezes the %s seal by %.0f %%, more than 60 %%", sb_seal_name(index),
+                100 * seal->squeeze);
+    good = false;
+  }
+  if (seal->stretch_inner > 1) {
+    add_problem(problems, sb_param(inner_id)->key, floor / 2, NAN,
+                "stretches the %s seal by %.0f %% onto the groove floor, more than 100 %%",
+                sb_seal_name(index), 100 * seal->stretch_inner);
+    good = false;
+  }
+  return good;
+}
+
+SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems) {
+  if (problems != NULL) {
+    problems->count = 0;
+  }
+  SbModel model = {
+      .radial_space = sb_params_get(params, SB_P_GLAND_RADIAL_SPACE),
+      .axial_width = sb_params_get(params, SB_P_GLAND_AXIAL_WIDTH),
+      .bore_diameter = sb_params_get(params, SB_P_BORE_DIAMETER),
+      .land_edge = sb_params_get(params, SB_P_BORE_LAND_EDGE),
+      .housing_modulus = sb_params_get(params, SB_P_HOUSING_MODULUS),
+      .housing_poisson_ratio = sb_params_get(params, SB_P_HOUSING_POISSON_RATIO),
+      .canister_pressure = sb_params_get(params, SB_P_CANISTER_PRESSURE),
+      .pressure_map = (SbPressureMap)sb_params_get(params, SB_P_CANISTER_PRESSURE_MAP),
+      .stem_mass = sb_params_get(params, SB_P_STEM_MASS),
+      .viscosity = sb_params_get(params, SB_P_FLUID_VISCOSITY),
+      .pressure_viscosity = sb_params_get(params, SB_P_FLUID_PRESSURE_VISCOSITY),
+      .density = sb_params_get(params, SB_P_FLUID_DENSITY),
+      .gt_product = sb_params_get(params, SB_P_SURFACE_GT_PRODUCT),
+      .sigma = sb_params_get(params, SB_P_SURFACE_SIGMA),
+      .sigma_over_beta = sb_params_get(params, SB_P_SURFACE_SIGMA_OVER_BETA),
+      .hamaker_constant = sb_params_get(params, SB_P_SURFACE_HAMAKER_CONSTANT),
+      .shear_strength = sb_params_get(params, SB_P_FRICTION_SHEAR_STRENGTH),
+      .load_coefficient = sb_params_get(params, SB_P_FRICTION_LOAD_COEFFICIENT),
+      .static_ratio = sb_params_get(params, SB_P_FRICTION_STATIC_RATIO),
+      .speed = sb_params_get(params, SB_P_DRIVE_SPEED),
+      .stroke = sb_params_get(params, SB_P_DRIVE_STROKE),
+      .reversal_force = sb_params_get(params, SB_P_DRIVE_REVERSAL_FORCE),
+      .stiffness = sb_params_get(params, SB_P_DRIVE_STIFFNESS),
+      .tolerance = sb_params_get(params, SB_P_OUTPUT_TOLERANCE),
+      .frames = (int)sb_params_get(params, SB_P_OUTPUT_FRAMES),
+      .fit = (int)sb_params_get(params, SB_P_MODELS_FIT),
+      .film = (SbModelFilm)sb_params_get(params, SB_P_MODELS_FILM),
+      .surface = (SbModelSurface)sb_params_get(params, SB_P_MODELS_SURFACE),
+      .motion = (SbModelMotion)sb_params_get(params, SB_P_MODELS_MOTION),
+      .views = (unsigned)sb_params_get(params, SB_P_OUTPUT_VIEWS),
+  };
+  model.bore_circumference = M_PI * model.bore_diameter;
+  double pressure_diameter = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER);
+  model.pressure_force = model.canister_pressure * M_PI / 4 * pressure_diameter * pressure_diameter;
+
+  // The stem must fit into the bore and the groove must leave a core.
+  bool good = true;
+  if (pressure_diameter > model.bore_diameter) {
+    add_problem(problems, "bore.diameter", pressure_diameter, NAN,
+                "the bore is smaller than the stem (stem.pressure_diameter %.4g mm)",
+                pressure_diameter * 1e3);
+    good = false;
+  }
+  if (2 * model.radial_space >= model.bore_diameter) {
+    add_problem(problems, "gland.radial_space", NAN, model.bore_diameter / 2,
+                "the groove leaves no stem: twice the radial space exceeds the bore diameter");
+    good = false;
+  }
+  for (int i = 0; good && i < SB_SEAL_COUNT; i++) {
+    good = compile_seal(&model, i, params, problems) && good;
+  }
+  if (!good) {
+    return SB_ERROR_INPUT;
+  }
+  *out = model;
+  return SB_OK;
+}
+
+SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber) {
+  double canister = model->canister_pressure;
+  bool vented_at_rest = model->pressure_map == SB_MAP_CHAMBER_VENTED;
+  double in_chamber = chamber == SB_CHAMBER_AT_REST && vented_at_rest ? 0 : canister;
+  if (seal == SB_INNER) {
+    return (SbSealPressure){canister, in_chamber};
+  }
+  return (SbSealPressure){in_chamber, 0};
+}

@@ -1,0 +1,104 @@
+// The model: a checked, immutable set of physical quantities compiled from parameters.
+//
+// Everything downstream reads SbModel and nothing else; keys, defaults and overrides end here.
+#pragma once
+
+#include "engine/params.h"
+#include "engine/status.h"
+
+#include <stddef.h>
+
+enum { SB_OUTER = 0, SB_INNER = 1, SB_SEAL_COUNT = 2 };
+
+// "outer" or "inner"; borrowed.
+const char *sb_seal_name(int seal);
+
+enum { SB_PROBLEMS_MAX = 32 };
+
+// One thing wrong with a parameter set: the key to change, why, and the range that would do (SI; NaN
+// where that side is open).
+typedef struct {
+  char key[64];
+  char text[200];
+  double min, max;
+} SbProblem;
+
+typedef struct {
+  size_t count;
+  SbProblem item[SB_PROBLEMS_MAX];
+} SbProblems;
+
+typedef enum { SB_MAP_CHAMBER_FILLED, SB_MAP_CHAMBER_VENTED } SbPressureMap;
+typedef enum {
+  SB_MODEL_FILM_THESIS,
+  SB_MODEL_FILM_KARASZKIEWICZ,
+  SB_MODEL_FILM_ASYMPTOTIC,
+  SB_MODEL_FILM_REYNOLDS
+} SbModelFilm;
+typedef enum { SB_MODEL_SURFACE_GREENWOOD_TRIPP, SB_MODEL_SURFACE_PERSSON } SbModelSurface;
+typedef enum { SB_MODEL_MOTION_QUASI_STATIC, SB_MODEL_MOTION_DYNAMIC, SB_MODEL_MOTION_BODIES } SbModelMotion;
+
+// One ring and what follows from its size and its gland alone.
+typedef struct {
+  double section_diameter; // d, free [m]
+  double inner_diameter;   // free [m]
+  double modulus;          // E [Pa]
+  double poisson_ratio;    // nu
+  double reduced_modulus;  // E' of thesis equation 5.8: 2/E' = sum (1 - nu^2)/E [Pa]
+  double radius;           // R_x = d/2 [m]
+  double squeeze;          // (d - g)/d
+  double stretch_mean;     // of the mean diameter, (D_fitted - D_free)/D_free
+  double stretch_inner;    // of the inner diameter
+  double section_fitted;   // section diameter after stretch, d (1 - nu stretch_mean) [m]
+  double interference;     // section_fitted - g [m]
+  double gland_fill;       // section area over groove area
+} SbSealModel;
+
+typedef struct {
+  SbSealModel seal[SB_SEAL_COUNT];
+  double radial_space, axial_width;          // g, b [m]
+  double bore_diameter;                      // D [m]
+  double bore_circumference;                 // pi D: the friction area's length [m]
+  double land_edge;                          // stem displacement at C [m]
+  double housing_modulus, housing_poisson_ratio;
+  double canister_pressure;                  // gauge [Pa]
+  SbPressureMap pressure_map;
+  double pressure_force;                     // p pi D_p^2/4, pushes the stem out [N]
+  double stem_mass;                          // [kg]
+  double viscosity, pressure_viscosity, density;
+  double gt_product, sigma, sigma_over_beta, hamaker_constant;
+  double shear_strength, load_coefficient, static_ratio;
+  double speed, stroke, reversal_force, stiffness;
+  double tolerance;
+  int frames;
+  int fit;                                   // index among the choices of models.fit = SbFitModel
+  SbModelFilm film;
+  SbModelSurface surface;
+  SbModelMotion motion;
+  unsigned views;                            // bit mask of SbView
+} SbModel;
+
+typedef enum {
+  SB_VIEW_HYSTERESIS = 1 << 0,
+  SB_VIEW_PROFILES = 1 << 1,
+  SB_VIEW_SECTION = 1 << 2,
+  SB_VIEW_DASHBOARD = 1 << 3
+} SbView;
+
+// Compiles parameters. On SB_OK the model is complete. Otherwise SB_ERROR_INPUT, and `problems` (may be
+// NULL) lists every combination that makes no sense: bore smaller than the stem, no room for the ring...
+SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems);
+
+// Pressures on the two sides of a seal [Pa gauge]: canister side (left, x < 0) and ambient side (right).
+typedef struct {
+  double left, right;
+} SbSealPressure;
+
+// Where in the cycle the chamber and so the seals' pressures change (thesis/device.md, table 2).
+typedef enum {
+  SB_CHAMBER_AT_REST,  // A to C: as filled or vented before
+  SB_CHAMBER_OPEN,     // C to F: open to the canister, the inner seal out of contact
+  SB_CHAMBER_CLOSED    // F to A: cut off again, still at canister pressure
+} SbChamber;
+
+SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber);

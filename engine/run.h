@@ -1,0 +1,96 @@
+// A run: one scene's cycle, computed step by step on whatever thread calls sb_run_execute().
+//
+// One thread executes; any thread may at the same time read what has been published: sb_run_frames()
+// returns a stable array and the number of frames complete so far (acquire/release), so a reader never
+// waits and a frame never changes once seen.
+#pragma once
+
+#include "engine/frame.h"
+#include "engine/plan.h"
+
+#include <stdatomic.h>
+
+typedef struct SbRun SbRun;
+
+// What the run tells and asks while it works. Both may be NULL. `progress` is called at most every few
+// milliseconds with the fraction done; a true answer of `cancelled` ends the run within 50 ms with
+// SB_ERROR_CANCELLED, its frames so far kept.
+typedef struct {
+  void (*progress)(void *data, double fraction, size_t frames);
+  bool (*cancelled)(void *data);
+  void *data;
+} SbRunHooks;
+
+typedef struct {
+  bool reached;
+  double time, displacement, force; // just before the event
+  size_t frame;                     // index of the frame that sits on it
+} SbStageMark;
+
+// One seal's figures of the contract: at the middle of B-C, friction_static at B.
+typedef struct {
+  double contact_width, contact_left, contact_right, load, load_per_length, pressure_peak;
+  double film_min, film_central;
+  double film_karaszkiewicz, film_thesis, film_asymptotic, film_reynolds; // central; NaN: not computed
+  double lambda;
+  double friction_boundary, friction_viscous, friction_static, coefficient_of_friction;
+  double leakage_per_stroke; // [m3], thesis equation 5.20
+} SbSealSummary;
+
+// Energy of the cycle, each term accumulated by itself [J].
+typedef struct {
+  double external;       // by the platen and the canister pressure on the stem
+  double external_max;   // largest |external| on the way, the scale of the closure
+  double friction;       // by both seals
+  double stored;         // change of elastic energy (machine, stops)
+  double seal;           // released where the stem jumps (slip onset, land edge) or lost inside the rubber
+  double kinetic;        // change
+  double stop;           // lost at the stops
+  double loop;           // area of the force-displacement loop: energy_loss_J
+  double closure;        // |external - friction - stored - seal - kinetic - stop| / external_max
+} SbEnergy;
+
+typedef struct {
+  size_t reynolds_solves, ring_solves, disc_solves, fit_solves, field_evaluations, profile_evaluations;
+} SbCounters;
+
+typedef struct {
+  SbStatus status;
+  double force_peak, force_breakaway, force_return_min;
+  bool returns;
+  double leakage_per_cycle; // outer seal, out minus in [m3]
+  double duration;          // [s]
+  SbStageMark stage[SB_STAGE_COUNT];
+  SbSealSummary seal[SB_SEAL_COUNT];
+  SbEnergy energy;
+  SbWarnings warnings;
+  bool converged;
+  size_t frames, steps, rejected_steps, newton_iterations;
+  double wall_s;
+  double error_force, error_energy, error_film, error_load; // relative estimates; NaN: does not apply
+  SbCounters counters;
+} SbSummary;
+
+// Allocates a run for `model` by `plan` (both copied). *out is owned by the caller.
+SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, SbReport *report);
+
+// Frees a run that no thread executes any more; NULL is allowed.
+void sb_run_destroy(SbRun *run);
+
+// Computes the whole cycle once. SB_OK, SB_ERROR_CANCELLED, or a solver's status with the last good
+// state kept; the summary is valid after any of them.
+SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Frames published so far, oldest first; borrowed, valid until sb_run_destroy(). Any thread.
+const SbFrame *sb_run_frames(const SbRun *run, size_t *count);
+
+// Number of frames a complete run will have at most (for progress). Any thread.
+size_t sb_run_capacity(const SbRun *run);
+
+// Profile `index` of the run; borrowed. Any thread, for an index found in a published frame.
+const SbContactProfile *sb_run_profile(const SbRun *run, uint32_t index);
+
+// Only after sb_run_execute() returned; borrowed.
+const SbSummary *sb_run_summary(const SbRun *run);
+const SbModel *sb_run_model(const SbRun *run);
+const SbPlan *sb_run_plan(const SbRun *run);

@@ -1,0 +1,91 @@
+// The catalogue is sound, and the thesis valve's derived sizes come out as the thesis prints them.
+#include "engine/sealbench.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+static void test_catalogue(void) {
+  SbParams params;
+  sb_params_init(&params);
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    g_assert_nonnull(param->key);
+    g_assert_nonnull(strchr(param->key, '.'));
+    g_assert_cmpint(sb_param_find(param->key), ==, i);
+    SbReport report = {0};
+    g_assert_cmpint(sb_params_set(&params, (SbParamId)i, param->fallback, &report), ==, SB_OK);
+    g_assert_true(strlen(param->help) > 0 && strlen(param->source) > 0);
+    bool known = strcmp(param->tag, "thesis") == 0 || strcmp(param->tag, "inferred") == 0 ||
+                 strcmp(param->tag, "ours") == 0;
+    g_assert_true(known);
+  }
+  g_assert_cmpint(sb_param_find("seal.outer.modulus"), >=, 0);
+  g_assert_cmpint(sb_param_find("no.such"), ==, -1);
+}
+
+static void test_overrides(void) {
+  SbParams params;
+  sb_params_init(&params);
+  SbReport report = {0};
+  g_assert_cmpint(sb_params_set(&params, SB_P_SEAL_MODULUS, 3e6, &report), ==, SB_OK);
+  g_assert_cmpfloat(sb_params_get(&params, SB_P_SEAL_OUTER_MODULUS), ==, 3e6);
+  g_assert_cmpint(sb_params_set(&params, SB_P_SEAL_OUTER_MODULUS, 4e6, &report), ==, SB_OK);
+  g_assert_cmpfloat(sb_params_get(&params, SB_P_SEAL_OUTER_MODULUS), ==, 4e6);
+  g_assert_cmpfloat(sb_params_get(&params, SB_P_SEAL_INNER_MODULUS), ==, 3e6);
+  g_assert_cmpint(sb_params_set(&params, SB_P_SEAL_MODULUS, NAN, &report), ==, SB_ERROR_INPUT);
+  g_assert_cmpint(sb_params_set(&params, SB_P_SEAL_MODULUS, -1, &report), ==, SB_ERROR_RANGE);
+  g_assert_cmpstr(report.parameter, ==, "seal.modulus");
+}
+
+static void test_derived(void) {
+  SbParams params;
+  sb_params_init(&params);
+  SbModel model;
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  const SbSealModel *seal = &model.seal[SB_OUTER];
+  g_assert_cmpfloat_with_epsilon(seal->squeeze, 0.25 / 1.61, 1e-12);
+  g_assert_cmpfloat_with_epsilon(seal->stretch_mean, 0.0427, 5e-5);
+  g_assert_cmpfloat_with_epsilon(seal->stretch_inner, 0.155, 1e-3);
+  g_assert_cmpfloat_with_epsilon(seal->section_fitted, 1.5763e-3, 1e-7);
+  g_assert_cmpfloat_with_epsilon(seal->reduced_modulus, 6.5725e6, 6.5725e2);
+  g_assert_cmpfloat_with_epsilon(model.pressure_force, 14.5, 0.005);
+}
+
+static void test_problems(void) {
+  SbParams params;
+  sb_params_init(&params);
+  SbReport report = {0};
+  g_assert_cmpint(sb_params_set(&params, SB_P_BORE_DIAMETER, 5e-3, &report), ==, SB_OK);
+  SbModel model;
+  SbProblems problems;
+  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpuint(problems.count, ==, 1);
+  g_assert_cmpstr(problems.item[0].key, ==, "bore.diameter");
+}
+
+static void test_pressure_maps(void) {
+  SbParams params;
+  sb_params_init(&params);
+  SbModel model;
+  sb_model_compile(&model, &params, NULL);
+  SbSealPressure outer = sb_model_seal_pressure(&model, SB_OUTER, SB_CHAMBER_AT_REST);
+  SbSealPressure inner = sb_model_seal_pressure(&model, SB_INNER, SB_CHAMBER_AT_REST);
+  g_assert_cmpfloat(outer.left - outer.right, ==, 0.55e6);
+  g_assert_cmpfloat(inner.left - inner.right, ==, 0);
+  model.pressure_map = SB_MAP_CHAMBER_VENTED;
+  outer = sb_model_seal_pressure(&model, SB_OUTER, SB_CHAMBER_AT_REST);
+  inner = sb_model_seal_pressure(&model, SB_INNER, SB_CHAMBER_AT_REST);
+  g_assert_cmpfloat(outer.left - outer.right, ==, 0);
+  g_assert_cmpfloat(inner.left - inner.right, ==, 0.55e6);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/model/catalogue", test_catalogue);
+  g_test_add_func("/model/overrides", test_overrides);
+  g_test_add_func("/model/derived", test_derived);
+  g_test_add_func("/model/problems", test_problems);
+  g_test_add_func("/model/pressure-maps", test_pressure_maps);
+  return g_test_run();
+}
