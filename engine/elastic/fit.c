@@ -1,0 +1,227 @@
+// One entrance to the contact models: checks the problem, derives the sizes that all models share
+// (definitions of the contract), calls the model and fills the common result; see the header.
+#include "engine/elastic/fit.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "engine/elastic/hertz.h"
+#include "engine/elastic/karaszkiewicz.h"
+#include "engine/elastic/reduced_modulus.h"
+
+static const char *const model_names[SB_FIT_MODEL_COUNT] = {
+#define MODEL_NAME(code, text) [code] = text,
+    SB_FIT_MODEL_LIST(MODEL_NAME)
+#undef MODEL_NAME
+};
+
+const char *sb_fit_model_name(SbFitModel model) {
+  return (unsigned)model < SB_FIT_MODEL_COUNT ? model_names[model] : NULL;
+}
+
+bool sb_fit_model_from_name(SbFitModel *out, const char *name) {
+  for (int i = 0; i < SB_FIT_MODEL_COUNT; i++) {
+    if (strcmp(name, model_names[i]) == 0) {
+      *out = (SbFitModel)i;
+      return true;
+    }
+  }
+  return false;
+}
+
+const char *sb_fit_variant_name(SbFitModel model, int variant) {
+  return (unsigned)model < SB_FIT_MODEL_COUNT && variant == 0 ? "default" : NULL;
+}
+
+// ---- input
+
+static SbStatus check_positive(double value, const char *key, const char *what, SbReport *report) {
+  if (isfinite(value) && value > 0.0) {
+    return SB_OK;
+  }
+  return sb_fail_parameter(report, SB_ERROR_RANGE, key, "%s %g is not positive and finite", what,
+                           value);
+}
+
+static SbStatus check(const SbFitProblem *in, SbReport *report) {
+  if ((unsigned)in->model >= SB_FIT_MODEL_COUNT ||
+      sb_fit_variant_name(in->model, in->variant) == NULL) {
+    return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
+                             "there is no contact model %d, variant %d", (int)in->model,
+                             in->variant);
+  }
+  const struct {
+    double value;
+    const char *key;
+    const char *what;
+  } sizes[] = {
+      {in->section_diameter, "seal.section_diameter", "section diameter [m]"},
+      {in->inner_diameter, "seal.inner_diameter", "inner diameter [m]"},
+      {in->modulus, "seal.modulus", "modulus of the rubber [Pa]"},
+      {in->radial_space, "gland.radial_space", "radial space [m]"},
+      {in->gland_width, "gland.axial_width", "gland width [m]"},
+      {in->bore_diameter, "bore.diameter", "bore diameter [m]"},
+  };
+  for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+    SbStatus status = check_positive(sizes[i].value, sizes[i].key, sizes[i].what, report);
+    if (status != SB_OK) {
+      return status;
+    }
+  }
+  if (!(in->poisson_ratio >= 0.0 && in->poisson_ratio < 0.5)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.poisson_ratio",
+                             "Poisson's ratio %g is not in [0, 0.5)", in->poisson_ratio);
+  }
+  if (!(in->housing_modulus >= 0.0)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "housing.modulus",
+                             "modulus of the housing %g Pa is negative", in->housing_modulus);
+  }
+  if (!(in->housing_poisson >= 0.0 && in->housing_poisson <= 0.5)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "housing.poisson_ratio",
+                             "Poisson's ratio %g is not in [0, 0.5]", in->housing_poisson);
+  }
+  if (!isfinite(in->pressure)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.pressure",
+                             "pressure is not a finite number");
+  }
+  if (!(in->tolerance >= 0.0 && in->tolerance < 1.0)) {
+    return sb_fail(report, SB_ERROR_RANGE, "tolerance %g is not in [0, 1)", in->tolerance);
+  }
+  if (!(in->bore_diameter > 2.0 * in->radial_space)) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "bore.diameter",
+                             "bore %.4g mm leaves no stem inside a radial space of %.4g mm",
+                             1e3 * in->bore_diameter, 1e3 * in->radial_space);
+  }
+  return SB_OK;
+}
+
+// ---- what all models share
+
+static void fill_sizes(SbFit *out, const SbFitProblem *in) {
+  const double d = in->section_diameter;
+  const double g = in->radial_space;
+  const double mean_free = in->inner_diameter + d;
+  const double mean_fitted = in->bore_diameter - g;
+  out->model = in->model;
+  out->variant = in->variant;
+  out->squeeze = (d - g) / d;
+  out->stretch_mean = (mean_fitted - mean_free) / mean_free;
+  out->stretch_inner = (in->bore_diameter - 2.0 * g - in->inner_diameter) / in->inner_diameter;
+  out->section_diameter_fitted = d * (1.0 - in->poisson_ratio * out->stretch_mean);
+  out->interference = out->section_diameter_fitted - g;
+  out->gland_fill = 0.25 * M_PI * d * d * mean_free / (g * mean_fitted * in->gland_width);
+}
+
+// Closed forms hold to rounding and have no unknowns. The profile is the elliptic one of the
+// model's width and load, on Chebyshev-spaced points.
+static void fill_closed_form(SbFit *out, double circumference, double width,
+                             double load_per_length) {
+  enum { POINTS = 257 };
+  out->circumference = circumference;
+  out->contact_width = width;
+  out->contact_left = -0.5 * width;
+  out->contact_right = 0.5 * width;
+  out->load_per_length = load_per_length;
+  out->load = load_per_length * circumference;
+  out->touches = width > 0.0;
+  out->pressure_peak = out->touches ? 4.0 * load_per_length / (M_PI * width) : 0.0;
+  out->solver.converged = true;
+  out->solver.error_estimate.load = 16.0 * DBL_EPSILON;
+  out->solver.error_estimate.pressure_peak = 16.0 * DBL_EPSILON;
+  out->solver.error_estimate.contact_width = 16.0 * DBL_EPSILON;
+  out->profile_count = out->touches ? POINTS : 0;
+  for (size_t i = 0; i < out->profile_count; i++) {
+    double angle = M_PI * ((double)i / (POINTS - 1) - 0.5);
+    out->profile_x[i] = 0.5 * width * sin(angle);
+    out->profile_p[i] = out->pressure_peak * (i == 0 || i == POINTS - 1 ? 0.0 : cos(angle));
+  }
+}
+
+// Any warning but that of a ring that does not touch means that a model is outside its range.
+static void judge_validity(SbFit *out) {
+  out->valid = true;
+  for (size_t i = 0; i < out->warnings.count; i++) {
+    if (strcmp(out->warnings.item[i].code, "no-contact") != 0) {
+      out->valid = false;
+    }
+  }
+}
+
+static void warn_pressure_ignored(SbFit *out, const SbFitProblem *in) {
+  if (in->pressure != 0.0 && out->touches) {
+    sb_warn(&out->warnings, "pressure-ignored", "canister.pressure",
+            "the model %s knows no fluid pressure: %.3g MPa left out", sb_fit_model_name(in->model),
+            1e-6 * in->pressure);
+  }
+}
+
+// ---- the models
+
+static SbStatus solve_karaszkiewicz(SbFit *out, const SbFitProblem *in, SbReport *report) {
+  const SbKaraszkiewiczInput input = {
+      .section_diameter = in->section_diameter,
+      .inner_diameter = in->inner_diameter,
+      .radial_space = in->radial_space,
+      .modulus = in->modulus,
+      .poisson_ratio = in->poisson_ratio,
+      .pressure = in->pressure,
+  };
+  SbKaraszkiewicz k;
+  SbStatus status = sb_karaszkiewicz(&k, &input, &out->warnings, report);
+  if (status == SB_OK) {
+    fill_closed_form(out, k.circumference, k.contact_width, k.load_per_length);
+  }
+  return status;
+}
+
+// The disc of the free section between flats that approach by d - g.
+static SbStatus solve_hertz(SbFit *out, const SbFitProblem *in, SbReport *report) {
+  SbHertz h;
+  const double nu = in->poisson_ratio;
+  SbStatus status = sb_hertz_from_approach(
+      &h, in->section_diameter - in->radial_space, 0.5 * in->section_diameter,
+      sb_reduced_modulus(in->modulus, nu, in->housing_modulus, in->housing_poisson),
+      in->modulus / (1.0 - nu * nu), &out->warnings, report);
+  if (status == SB_OK) {
+    fill_closed_form(out, M_PI * (in->inner_diameter + in->section_diameter), 2.0 * h.half_width,
+                     h.load_per_length);
+    warn_pressure_ignored(out, in);
+  }
+  return status;
+}
+
+static SbStatus solve_model(SbFit *out, const SbFitProblem *in, SbReport *report) {
+  switch (in->model) {
+  case SB_FIT_KARASZKIEWICZ:
+    return solve_karaszkiewicz(out, in, report);
+  case SB_FIT_HERTZ:
+    return solve_hertz(out, in, report);
+  default:
+    return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
+                             "the contact model %s is not in this build",
+                             sb_fit_model_name(in->model));
+  }
+}
+
+static double seconds_since(const struct timespec *start) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
+}
+
+SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report) {
+  struct timespec start;
+  clock_gettime(CLOCK_MONOTONIC, &start);
+  memset(out, 0, sizeof *out);
+  SbStatus status = check(problem, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  fill_sizes(out, problem);
+  status = solve_model(out, problem, report);
+  judge_validity(out);
+  out->solver.wall_s = seconds_since(&start);
+  return status == SB_OK ? sb_succeed(report) : status;
+}

@@ -1,0 +1,276 @@
+// Karaszkiewicz, Hertz and E' against the thesis' printed tables, closed identities and limits, and
+// every way in which they warn or refuse.
+#include "engine/elastic/fit.h"
+#include "engine/elastic/hertz.h"
+#include "engine/elastic/karaszkiewicz.h"
+#include "engine/elastic/reduced_modulus.h"
+
+#include <glib.h>
+#include <math.h>
+
+#define assert_close(value, expected, relative)                                                    \
+  g_assert_cmpfloat(fabs((value) - (expected)), <=, (relative)*fabs(expected))
+
+// The valve of the thesis (tables 7.1 and section 7.2.1), unpressurised.
+static SbFitProblem thesis(SbFitModel model) {
+  return (SbFitProblem){
+      .model = model,
+      .section_diameter = 1.61e-3,
+      .inner_diameter = 2.84e-3,
+      .modulus = 2.5e6,
+      .poisson_ratio = 0.49,
+      .housing_modulus = 2.6e9,
+      .housing_poisson = 0.35,
+      .radial_space = 1.36e-3,
+      .bore_diameter = 6.0e-3,
+      .gland_width = 2.0e-3,
+  };
+}
+
+static bool warned(const SbWarnings *list, const char *code) {
+  for (size_t i = 0; i < list->count; i++) {
+    if (g_str_equal(list->item[i].code, code)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static void test_reduced_modulus(void) {
+  assert_close(sb_reduced_modulus(2.5e6, 0.49, 2.6e9, 0.35), 6.5725e6, 1e-5);
+  assert_close(sb_reduced_modulus(2.5e6, 0.49, 0.0, 0.0), 2.0 * 2.5e6 / (1.0 - 0.49 * 0.49), 1e-15);
+  assert_close(sb_reduced_modulus(2.5e6, 0.49, INFINITY, 0.3), 2.0 * 2.5e6 / (1.0 - 0.49 * 0.49),
+               1e-15);
+  g_assert_true(isinf(sb_reduced_modulus(0.0, 0.3, INFINITY, 0.3)));
+}
+
+// Tables 7.2 to 7.4, columns of Karaszkiewicz. Printed to five digits in load (four in width),
+// hence the tolerance of 0.01 %.
+static void test_karaszkiewicz_tables(void) {
+  const struct {
+    double id_mm, d_mm, p_mpa, width_mm, load, peak;
+  } row[] = {
+      {2.82, 1.61, 0.55, 0.9567, 14.714, 1407084.8}, {2.84, 1.61, 0.55, 0.9567, 14.781, 1407084.8},
+      {2.86, 1.61, 0.55, 0.9567, 14.847, 1407084.8}, {2.84, 1.59, 0.55, 0.9160, 13.733, 1371666.7},
+      {2.84, 1.63, 0.55, 0.9976, 15.861, 1441633.6}, {2.84, 1.61, 0.00, 0.7093, 5.719, 734265.0},
+      {2.84, 1.61, 0.29, 0.8700, 10.403, 1089024.5},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(row); i++) {
+    SbFitProblem in = thesis(SB_FIT_KARASZKIEWICZ);
+    in.inner_diameter = 1e-3 * row[i].id_mm;
+    in.section_diameter = 1e-3 * row[i].d_mm;
+    in.pressure = 1e6 * row[i].p_mpa;
+    SbFit fit;
+    g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+    assert_close(fit.contact_width, 1e-3 * row[i].width_mm, 1e-4);
+    assert_close(fit.load, row[i].load, 1e-4);
+    assert_close(fit.pressure_peak, row[i].peak, 1e-6);
+    g_assert_true(fit.valid && fit.touches && fit.solver.converged);
+    g_assert_cmpuint(fit.warnings.count, ==, 0);
+  }
+}
+
+// The profile carries the load and reaches the peak: trapezium rule in the angle of its points.
+static void test_profile(void) {
+  SbFitProblem in = thesis(SB_FIT_KARASZKIEWICZ);
+  in.pressure = 0.55e6;
+  SbFit fit;
+  g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+  double load = 0.0;
+  double peak = 0.0;
+  for (size_t i = 1; i < fit.profile_count; i++) {
+    g_assert_cmpfloat(fit.profile_x[i], >, fit.profile_x[i - 1]);
+    load +=
+        0.5 * (fit.profile_p[i] + fit.profile_p[i - 1]) * (fit.profile_x[i] - fit.profile_x[i - 1]);
+    peak = fmax(peak, fit.profile_p[i]);
+  }
+  assert_close(load, fit.load_per_length, 1e-4);
+  assert_close(peak, fit.pressure_peak, 1e-12);
+  g_assert_cmpfloat(fit.profile_x[0], ==, fit.contact_left);
+  g_assert_cmpfloat(fit.profile_x[fit.profile_count - 1], ==, fit.contact_right);
+}
+
+// Sizes by the definitions of the contract (device.md, equations.md).
+static void test_sizes(void) {
+  SbFitProblem in = thesis(SB_FIT_KARASZKIEWICZ);
+  SbFit fit;
+  g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+  assert_close(fit.squeeze, 0.25 / 1.61, 1e-12);
+  assert_close(fit.stretch_mean, 0.19 / 4.45, 1e-12);
+  assert_close(fit.stretch_inner, 0.44 / 2.84, 1e-12);
+  assert_close(fit.section_diameter_fitted, 1.5763e-3, 3e-5);
+  assert_close(fit.interference, 0.2163e-3, 3e-4);
+  assert_close(fit.circumference, 13.98e-3, 1e-4);
+  // Ring volume over gland volume, both as solids of revolution.
+  double ring = 0.25 * M_PI * 1.61 * 1.61 * M_PI * 4.45;
+  double gland = 0.25 * M_PI * (6.0 * 6.0 - 3.28 * 3.28) * 2.0;
+  assert_close(fit.gland_fill, ring / gland, 1e-12);
+}
+
+static void test_hertz(void) {
+  // 6.33 with the factor 8: 0.515 mm and 1.05 MPa at 850.2 N/m (audit 2.20).
+  SbHertz h;
+  g_assert_cmpint(
+      sb_hertz_from_load(&h, 850.2, 0.805e-3, 6.5725e6, 2.5e6 / (1 - 0.49 * 0.49), NULL, NULL), ==,
+      SB_OK);
+  assert_close(h.half_width, 0.515e-3, 1e-3);
+  assert_close(h.pressure_peak, 1.05e6, 2e-3);
+  assert_close(h.pressure_peak, 6.5725e6 * h.half_width / (4 * 0.805e-3), 1e-12);
+  g_assert_cmpfloat(sb_hertz_pressure(&h, 0.0), ==, h.pressure_peak);
+  g_assert_cmpfloat(sb_hertz_pressure(&h, h.half_width), ==, 0.0);
+  assert_close(sb_hertz_pressure(&h, -0.6 * h.half_width), 0.8 * h.pressure_peak, 1e-12);
+
+  // Load to approach and back.
+  SbHertz back;
+  g_assert_cmpint(sb_hertz_from_approach(&back, h.approach, 0.805e-3, 6.5725e6,
+                                         2.5e6 / (1 - 0.49 * 0.49), NULL, NULL),
+                  ==, SB_OK);
+  assert_close(back.load_per_length, 850.2, 1e-12);
+
+  // Row "Hertz" of the reference figures: rigid flats, squeeze 0.25/1.61.
+  SbFitProblem in = thesis(SB_FIT_HERTZ);
+  in.housing_modulus = 0.0;
+  SbFit fit;
+  g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+  assert_close(fit.load_per_length / (2.5e6 * 1.61e-3), 0.0917, 6e-4);
+  assert_close(fit.contact_width / 1.61e-3, 0.4212, 2e-4);
+  assert_close(fit.pressure_peak / 2.5e6, 0.2771, 2e-4);
+
+  // Small squeeze: width and load vanish together and stay finite.
+  for (double squeeze = 1e-2; squeeze > 1e-12; squeeze *= 0.1) {
+    g_assert_cmpint(
+        sb_hertz_from_approach(&h, squeeze * 1.61e-3, 0.805e-3, 6.5725e6, 3.29e6, NULL, NULL), ==,
+        SB_OK);
+    assert_close(h.approach, squeeze * 1.61e-3, 1e-12);
+  }
+}
+
+static void test_no_contact(void) {
+  for (int model = SB_FIT_KARASZKIEWICZ; model <= SB_FIT_HERTZ; model++) {
+    SbFitProblem in = thesis((SbFitModel)model);
+    in.section_diameter = 1.30e-3;
+    in.pressure = 0.55e6;
+    SbFit fit;
+    g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+    g_assert_cmpfloat(fit.load, ==, 0.0);
+    g_assert_cmpfloat(fit.contact_width, ==, 0.0);
+    g_assert_cmpfloat(fit.pressure_peak, ==, 0.0);
+    g_assert_cmpuint(fit.profile_count, ==, 0);
+    g_assert_true(fit.valid);
+    g_assert_false(fit.touches);
+    g_assert_true(warned(&fit.warnings, "no-contact"));
+  }
+}
+
+// One row for each validity warning: what triggers it, and a neighbour that does not.
+static void test_warnings(void) {
+  const struct {
+    SbFitModel model;
+    double d_mm, p_mpa;
+    const char *code; // NULL: valid
+  } row[] = {
+      {SB_FIT_KARASZKIEWICZ, 1.46, 0.0, "karaszkiewicz-squeeze"}, // 6.8 %
+      {SB_FIT_KARASZKIEWICZ, 1.47, 0.0, NULL},                    // 7.5 %
+      {SB_FIT_KARASZKIEWICZ, 1.81, 0.0, NULL},                    // 24.9 %
+      {SB_FIT_KARASZKIEWICZ, 1.82, 0.0, "karaszkiewicz-squeeze"}, // 25.3 %
+      {SB_FIT_HERTZ, 1.45, 0.0, NULL},                            // b/R 0.26
+      {SB_FIT_HERTZ, 1.61, 0.0, "hertz-width"},                   // b/R 0.42
+      {SB_FIT_HERTZ, 1.45, 0.2, "pressure-ignored"},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(row); i++) {
+    SbFitProblem in = thesis(row[i].model);
+    in.section_diameter = 1e-3 * row[i].d_mm;
+    in.pressure = 1e6 * row[i].p_mpa;
+    SbFit fit;
+    g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+    g_assert_cmpint(fit.valid, ==, row[i].code == NULL);
+    g_assert_cmpuint(fit.warnings.count, ==, row[i].code == NULL ? 0 : 1);
+    if (row[i].code != NULL) {
+      g_assert_true(warned(&fit.warnings, row[i].code));
+    }
+  }
+}
+
+// Everything unphysical is refused with the key at fault and leaves no number behind.
+static void test_refusals(void) {
+  const struct {
+    size_t offset;
+    double value;
+    const char *key;
+    SbStatus status;
+  } row[] = {
+      {G_STRUCT_OFFSET(SbFitProblem, section_diameter), 0.0, "seal.section_diameter",
+       SB_ERROR_RANGE},
+      {G_STRUCT_OFFSET(SbFitProblem, section_diameter), NAN, "seal.section_diameter",
+       SB_ERROR_RANGE},
+      {G_STRUCT_OFFSET(SbFitProblem, inner_diameter), -1e-3, "seal.inner_diameter", SB_ERROR_RANGE},
+      {G_STRUCT_OFFSET(SbFitProblem, modulus), INFINITY, "seal.modulus", SB_ERROR_RANGE},
+      {G_STRUCT_OFFSET(SbFitProblem, poisson_ratio), 0.5, "seal.poisson_ratio", SB_ERROR_RANGE},
+      {G_STRUCT_OFFSET(SbFitProblem, poisson_ratio), NAN, "seal.poisson_ratio", SB_ERROR_RANGE},
+      {G_STRUCT_OFFSET(SbFitProblem, housing_modulus), -1.0, "housing.modulus", SB_ERROR_RANGE},
+      {G_STRUCT_OFFSET(SbFitProblem, housing_poisson), 0.6, "housing.poisson_ratio",
+       SB_ERROR_RANGE},
+      {G_STRUCT_OFFSET(SbFitProblem, radial_space), 0.0, "gland.radial_space", SB_ERROR_RANGE},
+      {G_STRUCT_OFFSET(SbFitProblem, gland_width), 0.0, "gland.axial_width", SB_ERROR_RANGE},
+      {G_STRUCT_OFFSET(SbFitProblem, pressure), INFINITY, "canister.pressure", SB_ERROR_RANGE},
+      {G_STRUCT_OFFSET(SbFitProblem, tolerance), 1.0, "", SB_ERROR_RANGE},
+      {G_STRUCT_OFFSET(SbFitProblem, bore_diameter), 2.72e-3, "bore.diameter", SB_ERROR_INFEASIBLE},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(row); i++) {
+    SbFitProblem in = thesis(SB_FIT_KARASZKIEWICZ);
+    G_STRUCT_MEMBER(double, &in, row[i].offset) = row[i].value;
+    SbFit fit;
+    SbReport report = {0};
+    g_assert_cmpint(sb_fit_solve(&fit, &in, &report), ==, row[i].status);
+    g_assert_cmpstr(report.parameter, ==, row[i].key);
+    g_assert_cmpfloat(fit.load, ==, 0.0);
+  }
+
+  // A disc squeezed so far that Hertz's contact would be as wide as itself.
+  SbFitProblem in = thesis(SB_FIT_HERTZ);
+  in.section_diameter = 3.0e-3;
+  SbFit fit;
+  SbReport report = {0};
+  g_assert_cmpint(sb_fit_solve(&fit, &in, &report), ==, SB_ERROR_INFEASIBLE);
+  in.variant = 99;
+  g_assert_cmpint(sb_fit_solve(&fit, &in, &report), ==, SB_ERROR_INPUT);
+
+  // The functions below it check by themselves.
+  SbKaraszkiewicz k;
+  g_assert_cmpint(sb_karaszkiewicz(&k, &(SbKaraszkiewiczInput){0}, NULL, &report), ==,
+                  SB_ERROR_RANGE);
+  g_assert_cmpstr(report.parameter, ==, "seal.section_diameter");
+  SbHertz h;
+  g_assert_cmpint(sb_hertz_from_load(&h, -1.0, 1e-3, 1e6, 1e6, NULL, NULL), ==, SB_ERROR_RANGE);
+  g_assert_cmpint(sb_hertz_from_approach(&h, NAN, 1e-3, 1e6, 1e6, NULL, NULL), ==, SB_ERROR_RANGE);
+  g_assert_cmpint(sb_hertz_from_approach(&h, 1e-4, 0.0, 1e6, 1e6, NULL, NULL), ==, SB_ERROR_RANGE);
+}
+
+static void test_names(void) {
+  for (int i = 0; i < SB_FIT_MODEL_COUNT; i++) {
+    SbFitModel model;
+    g_assert_true(sb_fit_model_from_name(&model, sb_fit_model_name((SbFitModel)i)));
+    g_assert_cmpint(model, ==, i);
+    g_assert_nonnull(sb_fit_variant_name(model, 0));
+    g_assert_null(sb_fit_variant_name(model, 1000));
+    g_assert_null(sb_fit_variant_name(model, -1));
+  }
+  SbFitModel untouched = SB_FIT_RING;
+  g_assert_false(sb_fit_model_from_name(&untouched, "no such model"));
+  g_assert_cmpint(untouched, ==, SB_FIT_RING);
+  g_assert_null(sb_fit_model_name(SB_FIT_MODEL_COUNT));
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/elastic/reduced-modulus", test_reduced_modulus);
+  g_test_add_func("/elastic/karaszkiewicz/tables", test_karaszkiewicz_tables);
+  g_test_add_func("/elastic/fit/profile", test_profile);
+  g_test_add_func("/elastic/fit/sizes", test_sizes);
+  g_test_add_func("/elastic/hertz", test_hertz);
+  g_test_add_func("/elastic/fit/no-contact", test_no_contact);
+  g_test_add_func("/elastic/fit/warnings", test_warnings);
+  g_test_add_func("/elastic/fit/refusals", test_refusals);
+  g_test_add_func("/elastic/fit/names", test_names);
+  return g_test_run();
+}
