@@ -6,48 +6,58 @@
 #include <stdint.h>
 
 // Events of the cycle; definitions in the command line's contract (README).
-typedef enum { SB_STAGE_A, SB_STAGE_B, SB_STAGE_C, SB_STAGE_D, SB_STAGE_E, SB_STAGE_F, SB_STAGE_COUNT } SbStage;
+typedef enum {
+  SB_STAGE_A,
+  SB_STAGE_B,
+  SB_STAGE_C,
+  SB_STAGE_D,
+  SB_STAGE_E,
+  SB_STAGE_F,
+  SB_STAGE_COUNT
+} SbStage;
 
 // "A" to "F"; borrowed.
 const char *sb_stage_name(SbStage stage);
 
 // One seal at one instant.
 typedef struct {
-  float land_fraction;       // share of the contact width on the land: 1 sliding on it, 0 off
-  float pressure_left;       // fluid pressure, canister side [Pa]
-  float pressure_right;      // fluid pressure, ambient side [Pa]
-  uint32_t profile;          // index into the run's contact profiles
-  double contact_left;       // contact in the seal's frame [m], left < right; equal when there is none
-  double contact_right;      //
-  double load;               // total contact load, around the circumference [N]
-  double pressure_peak;      // [Pa]
-  double film_min;           // [m], 0 at rest
-  double film_central;       // [m]
-  double lambda;             // film_central / sigma
-  double friction_boundary;  // signed as friction [N]
-  double friction_viscous;   //
-  double friction;           // force on the stem, positive when it pushes the stem out (resists the
-                             // in-stroke) [N]
+  float land_fraction;  // share of the contact width on the land: 1 sliding on it, 0 off
+  float pressure_left;  // fluid pressure, canister side [Pa]
+  float pressure_right; // fluid pressure, ambient side [Pa]
+  uint32_t profile;     // index into the run's contact profiles
+  double contact_left;  // contact in the seal's frame [m], left < right; equal when there is none
+  double contact_right; //
+  double load;          // total contact load, around the circumference [N]
+  double pressure_peak; // [Pa]
+  double film_min;      // [m], 0 at rest
+  double film_central;  // [m]
+  double lambda;        // film_central / sigma
+  double friction_boundary; // signed as friction [N]
+  double friction_viscous;  //
+  double friction;          // force on the stem, positive when it pushes the stem out (resists the
+                            // in-stroke) [N]
 } SbSealFrame;
 
 // The valve at one instant. Displacement s > 0 is the in-stroke; compression forces are positive.
 typedef struct {
-  double time;             // [s]
-  double displacement;     // of the stem [m]
-  double velocity;         // of the stem [m/s]
-  double platen;           // displacement of the machine's platen [m]
-  double force;            // on the stem by the machine, positive in compression [N]
-  double pressure_force;   // pushes the stem out [N]
-  double stop_force;       // of the end stop, positive pushes the stem out; of the rest stop, negative [N]
-  uint8_t stage;           // SbStage of the last event passed
-  uint8_t chamber;         // SbChamber
-  uint8_t on_event;        // 1 if this frame sits exactly on an event, just before it
+  double time;           // [s]
+  double displacement;   // of the stem [m]
+  double velocity;       // of the stem [m/s]
+  double platen;         // displacement of the machine's platen [m]
+  double force;          // on the stem by the machine, positive in compression [N]
+  double pressure_force; // pushes the stem out [N]
+  double
+      stop_force;   // of the end stop, positive pushes the stem out; of the rest stop, negative [N]
+  uint8_t stage;    // SbStage of the last event passed
+  uint8_t chamber;  // SbChamber
+  uint8_t on_event; // 1 if this frame sits exactly on an event, just before it
   uint8_t unused;
   SbSealFrame seal[SB_SEAL_COUNT];
 } SbFrame;
 
-// Pressure and film over one contact, shared by all frames that have the same state. Arrays of `count`,
-// owned by the run. x in the seal's frame [m]; film is 0 where none was computed (a seal at rest).
+// Pressure and film over one contact, shared by all frames that have the same state. Arrays of
+// `count`, owned by the run. x in the seal's frame [m]; film is 0 where none was computed (a seal
+// at rest).
 typedef struct {
   size_t count;
   const double *x;

@@ -1,10 +1,10 @@
-// Compiles parameters to the model: overrides resolved, derived sizes computed, senseless combinations
-// refused.
+// Compiles parameters to the model: overrides resolved, derived sizes computed, senseless
+// combinations refused.
 //
-// Derived sizes (thesis section 5.2 and 6.4.1; definitions of the contract): squeeze eps = (d - g)/d on the
-// free section; fitted mean diameter D - g; mean stretch eps_z = (D - g - (ID + d))/(ID + d); section after
-// stretch d (1 - nu eps_z), the uniform-shrink estimate (the finite-strain ring is flatter, 1.500 mm against
-// 1.576 mm for the thesis valve).
+// Derived sizes (thesis section 5.2 and 6.4.1; definitions of the contract): squeeze eps = (d -
+// g)/d on the free section; fitted mean diameter D - g; mean stretch eps_z = (D - g - (ID + d))/(ID
+// + d); section after stretch d (1 - nu eps_z), the uniform-shrink estimate (the finite-strain ring
+// is flatter, 1.500 mm against 1.576 mm for the thesis valve).
 #include "engine/model.h"
 
 #include <math.h>
@@ -15,8 +15,8 @@ const char *sb_seal_name(int seal) {
   return seal == SB_OUTER ? "outer" : "inner";
 }
 
-static void SB_PRINTF(5, 6) add_problem(SbProblems *problems, const char *key, double min, double max,
-                                        const char *format, ...) {
+static void SB_PRINTF(5, 6) add_problem(SbProblems *problems, const char *key, double min,
+                                        double max, const char *format, ...) {
   if (problems == NULL || problems->count == SB_PROBLEMS_MAX) {
     return;
   }
@@ -39,8 +39,7 @@ static bool compile_seal(SbModel *model, int index, const SbParams *params, SbPr
   SbParamId inner_id = outer ? SB_P_SEAL_OUTER_INNER_DIAMETER : SB_P_SEAL_INNER_INNER_DIAMETER;
   seal->section_diameter = sb_params_get(params, diameter_id);
   seal->inner_diameter = sb_params_get(params, inner_id);
-  seal->modulus =
-      sb_params_get(params, outer ? SB_P_SEAL_OUTER_MODULUS : SB_P_SEAL_INNER_MODULUS);
+  seal->modulus = sb_params_get(params, outer ? SB_P_SEAL_OUTER_MODULUS : SB_P_SEAL_INNER_MODULUS);
   seal->poisson_ratio =
       sb_params_get(params, outer ? SB_P_SEAL_OUTER_POISSON_RATIO : SB_P_SEAL_INNER_POISSON_RATIO);
 

@@ -15,8 +15,8 @@ const char *sb_seal_name(int seal);
 
 enum { SB_PROBLEMS_MAX = 32 };
 
-// One thing wrong with a parameter set: the key to change, why, and the range that would do (SI; NaN
-// where that side is open).
+// One thing wrong with a parameter set: the key to change, why, and the range that would do (SI;
+// NaN where that side is open).
 typedef struct {
   char key[64];
   char text[200];
@@ -36,7 +36,11 @@ typedef enum {
   SB_MODEL_FILM_REYNOLDS
 } SbModelFilm;
 typedef enum { SB_MODEL_SURFACE_GREENWOOD_TRIPP, SB_MODEL_SURFACE_PERSSON } SbModelSurface;
-typedef enum { SB_MODEL_MOTION_QUASI_STATIC, SB_MODEL_MOTION_DYNAMIC, SB_MODEL_MOTION_BODIES } SbModelMotion;
+typedef enum {
+  SB_MODEL_MOTION_QUASI_STATIC,
+  SB_MODEL_MOTION_DYNAMIC,
+  SB_MODEL_MOTION_BODIES
+} SbModelMotion;
 
 // One ring and what follows from its size and its gland alone.
 typedef struct {
@@ -56,26 +60,26 @@ typedef struct {
 
 typedef struct {
   SbSealModel seal[SB_SEAL_COUNT];
-  double radial_space, axial_width;          // g, b [m]
-  double bore_diameter;                      // D [m]
-  double bore_circumference;                 // pi D: the friction area's length [m]
-  double land_edge;                          // stem displacement at C [m]
+  double radial_space, axial_width; // g, b [m]
+  double bore_diameter;             // D [m]
+  double bore_circumference;        // pi D: the friction area's length [m]
+  double land_edge;                 // stem displacement at C [m]
   double housing_modulus, housing_poisson_ratio;
-  double canister_pressure;                  // gauge [Pa]
+  double canister_pressure; // gauge [Pa]
   SbPressureMap pressure_map;
-  double pressure_force;                     // p pi D_p^2/4, pushes the stem out [N]
-  double stem_mass;                          // [kg]
+  double pressure_force; // p pi D_p^2/4, pushes the stem out [N]
+  double stem_mass;      // [kg]
   double viscosity, pressure_viscosity, density;
   double gt_product, sigma, sigma_over_beta, hamaker_constant;
   double shear_strength, load_coefficient, static_ratio;
   double speed, stroke, reversal_force, stiffness;
   double tolerance;
   int frames;
-  int fit;                                   // index among the choices of models.fit = SbFitModel
+  int fit; // index among the choices of models.fit = SbFitModel
   SbModelFilm film;
   SbModelSurface surface;
   SbModelMotion motion;
-  unsigned views;                            // bit mask of SbView
+  unsigned views; // bit mask of SbView
 } SbModel;
 
 typedef enum {
@@ -85,20 +89,22 @@ typedef enum {
   SB_VIEW_DASHBOARD = 1 << 3
 } SbView;
 
-// Compiles parameters. On SB_OK the model is complete. Otherwise SB_ERROR_INPUT, and `problems` (may be
-// NULL) lists every combination that makes no sense: bore smaller than the stem, no room for the ring...
+// Compiles parameters. On SB_OK the model is complete. Otherwise SB_ERROR_INPUT, and `problems`
+// (may be NULL) lists every combination that makes no sense: bore smaller than the stem, no room
+// for the ring...
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems);
 
-// Pressures on the two sides of a seal [Pa gauge]: canister side (left, x < 0) and ambient side (right).
+// Pressures on the two sides of a seal [Pa gauge]: canister side (left, x < 0) and ambient side
+// (right).
 typedef struct {
   double left, right;
 } SbSealPressure;
 
 // Where in the cycle the chamber and so the seals' pressures change (thesis/device.md, table 2).
 typedef enum {
-  SB_CHAMBER_AT_REST,  // A to C: as filled or vented before
-  SB_CHAMBER_OPEN,     // C to F: open to the canister, the inner seal out of contact
-  SB_CHAMBER_CLOSED    // F to A: cut off again, still at canister pressure
+  SB_CHAMBER_AT_REST, // A to C: as filled or vented before
+  SB_CHAMBER_OPEN,    // C to F: open to the canister, the inner seal out of contact
+  SB_CHAMBER_CLOSED   // F to A: cut off again, still at canister pressure
 } SbChamber;
 
 SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber);

@@ -7,25 +7,25 @@
 
 static const SbParam table[SB_PARAM_COUNT] = {
 #define SB_REAL(id, key, symbol, si, unit, min, max, fallback, label, help, source, tag)           \
-  [SB_P_##id] = {key,  SB_PARAM_REAL, symbol, si,     unit, min, max, fallback,                    \
-                 NULL, label,         help,   source, tag,  -1},
+  [SB_P_##id] = {key,      SB_PARAM_REAL, symbol, si,   unit,   min, max,                          \
+                 fallback, NULL,          label,  help, source, tag, -1},
 #define SB_INT(id, key, symbol, min, max, fallback, label, help, source, tag)                      \
-  [SB_P_##id] = {key,  SB_PARAM_INT, symbol, "1",    "",  min, max, fallback,                      \
-                 NULL, label,        help,   source, tag, -1},
+  [SB_P_##id] = {key,      SB_PARAM_INT, symbol, "1",  "",     min, max,                           \
+                 fallback, NULL,         label,  help, source, tag, -1},
 #define SB_CHOICE(id, key, choices, fallback, label, help, source, tag)                            \
-  [SB_P_##id] = {key,     SB_PARAM_CHOICE, "",   "1",    "",  0, 0, fallback,                      \
-                 choices, label,           help, source, tag, -1},
+  [SB_P_##id] = {key,      SB_PARAM_CHOICE, "",    "1",  "",     0,   0,                           \
+                 fallback, choices,         label, help, source, tag, -1},
 #define SB_FLAGS(id, key, choices, fallback, label, help, source, tag)                             \
-  [SB_P_##id] = {key,     SB_PARAM_FLAGS, "",   "1",    "",  0, 0, fallback,                       \
-                 choices, label,          help, source, tag, -1},
+  [SB_P_##id] = {key,      SB_PARAM_FLAGS, "",    "1",  "",     0,   0,                            \
+                 fallback, choices,        label, help, source, tag, -1},
 #define SB_SEAL(id, name, symbol, si, unit, min, max, fallback, label, help, source, tag)          \
   SB_REAL(SEAL_##id, "seal." name, symbol, si, unit, min, max, fallback, label, help, source, tag) \
-  [SB_P_SEAL_OUTER_##id] = {"seal.outer." name, SB_PARAM_REAL, symbol, si,   unit,                 \
-                            min,                max,           fallback, NULL, label,              \
-                            help,               source,        tag,    SB_P_SEAL_##id},            \
-  [SB_P_SEAL_INNER_##id] = {"seal.inner." name, SB_PARAM_REAL, symbol, si,   unit,                 \
-                            min,                max,           fallback, NULL, label,              \
-                            help,               source,        tag,    SB_P_SEAL_##id},
+  [SB_P_SEAL_OUTER_##                                                                              \
+      id] = {"seal.outer." name, SB_PARAM_REAL, symbol, si,   unit,   min, max,                    \
+             fallback,           NULL,          label,  help, source, tag, SB_P_SEAL_##id},        \
+    [SB_P_SEAL_INNER_##                                                                            \
+        id] = {"seal.inner." name, SB_PARAM_REAL, symbol, si,   unit,   min, max,                  \
+               fallback,           NULL,          label,  help, source, tag, SB_P_SEAL_##id},
 #include "engine/params.def"
 #undef SB_REAL
 #undef SB_INT
@@ -74,8 +74,8 @@ SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *r
     return sb_fail_parameter(report, SB_ERROR_INPUT, param->key, "not a finite number");
   }
   if (value < min || value > max) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, param->key, "%g is outside %g to %g (%s)", value,
-                             min, max, param->si);
+    return sb_fail_parameter(report, SB_ERROR_RANGE, param->key, "%g is outside %g to %g (%s)",
+                             value, min, max, param->si);
   }
   if (param->kind != SB_PARAM_REAL && value != floor(value)) {
     return sb_fail_parameter(report, SB_ERROR_INPUT, param->key, "%g is not a whole number", value);

@@ -1,7 +1,8 @@
 // The parameter catalogue and a set of values.
 //
-// SbParams holds one double per parameter (SI; an index for a choice, a bit mask for flags) and whether
-// it was given. The catalogue knows ranges and texts; what a combination of values means is model.h.
+// SbParams holds one double per parameter (SI; an index for a choice, a bit mask for flags) and
+// whether it was given. The catalogue knows ranges and texts; what a combination of values means is
+// model.h.
 #pragma once
 
 #include "engine/status.h"
@@ -11,9 +12,9 @@
 
 typedef enum {
 #define SB_REAL(id, ...) SB_P_##id,
-#define SB_INT SB_REAL
-#define SB_CHOICE SB_REAL
-#define SB_FLAGS SB_REAL
+#define SB_INT           SB_REAL
+#define SB_CHOICE        SB_REAL
+#define SB_FLAGS         SB_REAL
 #define SB_SEAL(id, ...) SB_P_SEAL_##id, SB_P_SEAL_OUTER_##id, SB_P_SEAL_INNER_##id,
 #include "engine/params.def"
 #undef SB_REAL
@@ -28,13 +29,13 @@ typedef enum { SB_PARAM_REAL, SB_PARAM_INT, SB_PARAM_CHOICE, SB_PARAM_FLAGS } Sb
 
 // One row of the catalogue. All strings are static.
 typedef struct {
-  const char *key;    // "gland.radial_space": group, dot, name
-  SbParamKind kind;   //
-  const char *symbol; // short symbol for panels, UTF-8
-  const char *si;     // SI unit as udunits reads it, "1" if none
-  const char *unit;   // unit shown and saved first, "" if none
-  double min, max;    // allowed range, SI, inclusive
-  double fallback;    // default, SI
+  const char *key;     // "gland.radial_space": group, dot, name
+  SbParamKind kind;    //
+  const char *symbol;  // short symbol for panels, UTF-8
+  const char *si;      // SI unit as udunits reads it, "1" if none
+  const char *unit;    // unit shown and saved first, "" if none
+  double min, max;     // allowed range, SI, inclusive
+  double fallback;     // default, SI
   const char *choices; // "first|second" for choices and flags, else NULL
   const char *label;   // "Radial space"
   const char *help;    // one line
@@ -58,12 +59,13 @@ int sb_param_find(const char *key);
 // All defaults, nothing given.
 void sb_params_init(SbParams *params);
 
-// The value in force: its own if given, its parent's for an override that was not, else the default.
+// The value in force: its own if given, its parent's for an override that was not, else the
+// default.
 double sb_params_get(const SbParams *params, SbParamId id);
 
-// Sets a value after checking kind and range; on failure nothing changes and the report names the key
-// and the range (in the parameter's display unit if `to_display` is 1/SI scale known to the caller; the
-// engine itself prints SI).
+// Sets a value after checking kind and range; on failure nothing changes and the report names the
+// key and the range (in the parameter's display unit if `to_display` is 1/SI scale known to the
+// caller; the engine itself prints SI).
 SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *report);
 
 // Back to the default (or to the parent's value).

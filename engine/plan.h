@@ -1,5 +1,5 @@
-// The plan: the smallest set of fields that a scene's views and outputs need, each by the cheapest model
-// that meets the tolerance, with predicted cost and error.
+// The plan: the smallest set of fields that a scene's views and outputs need, each by the cheapest
+// model that meets the tolerance, with predicted cost and error.
 #pragma once
 
 #include "engine/model.h"
@@ -18,10 +18,10 @@ typedef struct {
   size_t field_count, skipped_count;
   SbPlanItem field[SB_PLAN_ITEMS_MAX];
   SbPlanItem skipped[SB_PLAN_ITEMS_MAX];
-  bool profiles;        // contact pressure and film over x are kept
-  bool section_fields;  // interior fields at drawn frames
-  bool reynolds;        // the film is solved
-  bool ring;            // the ring is solved
+  bool profiles;       // contact pressure and film over x are kept
+  bool section_fields; // interior fields at drawn frames
+  bool reynolds;       // the film is solved
+  bool ring;           // the ring is solved
 } SbPlan;
 
 // Plans `model` for its own views. Always succeeds.

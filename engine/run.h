@@ -1,8 +1,8 @@
 // A run: one scene's cycle, computed step by step on whatever thread calls sb_run_execute().
 //
-// One thread executes; any thread may at the same time read what has been published: sb_run_frames()
-// returns a stable array and the number of frames complete so far (acquire/release), so a reader never
-// waits and a frame never changes once seen.
+// One thread executes; any thread may at the same time read what has been published:
+// sb_run_frames() returns a stable array and the number of frames complete so far
+// (acquire/release), so a reader never waits and a frame never changes once seen.
 #pragma once
 
 #include "engine/frame.h"
@@ -12,9 +12,9 @@
 
 typedef struct SbRun SbRun;
 
-// What the run tells and asks while it works. Both may be NULL. `progress` is called at most every few
-// milliseconds with the fraction done; a true answer of `cancelled` ends the run within 50 ms with
-// SB_ERROR_CANCELLED, its frames so far kept.
+// What the run tells and asks while it works. Both may be NULL. `progress` is called at most every
+// few milliseconds with the fraction done; a true answer of `cancelled` ends the run within 50 ms
+// with SB_ERROR_CANCELLED, its frames so far kept.
 typedef struct {
   void (*progress)(void *data, double fraction, size_t frames);
   bool (*cancelled)(void *data);
@@ -31,7 +31,8 @@ typedef struct {
 typedef struct {
   double contact_width, contact_left, contact_right, load, load_per_length, pressure_peak;
   double film_min, film_central;
-  double film_karaszkiewicz, film_thesis, film_asymptotic, film_reynolds; // central; NaN: not computed
+  double film_karaszkiewicz, film_thesis, film_asymptotic,
+      film_reynolds; // central; NaN: not computed
   double lambda;
   double friction_boundary, friction_viscous, friction_static, coefficient_of_friction;
   double leakage_per_stroke; // [m3], thesis equation 5.20
@@ -39,19 +40,20 @@ typedef struct {
 
 // Energy of the cycle, each term accumulated by itself [J].
 typedef struct {
-  double external;       // by the platen and the canister pressure on the stem
-  double external_max;   // largest |external| on the way, the scale of the closure
-  double friction;       // by both seals
-  double stored;         // change of elastic energy (machine, stops)
-  double seal;           // released where the stem jumps (slip onset, land edge) or lost inside the rubber
-  double kinetic;        // change
-  double stop;           // lost at the stops
-  double loop;           // area of the force-displacement loop: energy_loss_J
-  double closure;        // |external - friction - stored - seal - kinetic - stop| / external_max
+  double external;     // by the platen and the canister pressure on the stem
+  double external_max; // largest |external| on the way, the scale of the closure
+  double friction;     // by both seals
+  double stored;       // change of elastic energy (machine, stops)
+  double seal;    // released where the stem jumps (slip onset, land edge) or lost inside the rubber
+  double kinetic; // change
+  double stop;    // lost at the stops
+  double loop;    // area of the force-displacement loop: energy_loss_J
+  double closure; // |external - friction - stored - seal - kinetic - stop| / external_max
 } SbEnergy;
 
 typedef struct {
-  size_t reynolds_solves, ring_solves, disc_solves, fit_solves, field_evaluations, profile_evaluations;
+  size_t reynolds_solves, ring_solves, disc_solves, fit_solves, field_evaluations,
+      profile_evaluations;
 } SbCounters;
 
 typedef struct {
@@ -67,7 +69,8 @@ typedef struct {
   bool converged;
   size_t frames, steps, rejected_steps, newton_iterations;
   double wall_s;
-  double error_force, error_energy, error_film, error_load; // relative estimates; NaN: does not apply
+  double error_force, error_energy, error_film,
+      error_load; // relative estimates; NaN: does not apply
   SbCounters counters;
 } SbSummary;
 

@@ -56,8 +56,8 @@ SbStatus sb_succeed(SbReport *report);
 
 enum { SB_WARNINGS_MAX = 48 };
 
-// One validity warning: a stable code ("film-below-continuum"), a sentence, and the catalogue key of
-// the parameter that a user would change (may be empty).
+// One validity warning: a stable code ("film-below-continuum"), a sentence, and the catalogue key
+// of the parameter that a user would change (may be empty).
 typedef struct {
   char code[48];
   char text[200];

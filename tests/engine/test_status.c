@@ -5,8 +5,7 @@
 
 static void test_report(void) {
   SbReport report = {0};
-  SbStatus status =
-      sb_fail_parameter(&report, SB_ERROR_RANGE, "drive.speed", "speed %g m/s", -1.0);
+  SbStatus status = sb_fail_parameter(&report, SB_ERROR_RANGE, "drive.speed", "speed %g m/s", -1.0);
   g_assert_cmpint(status, ==, SB_ERROR_RANGE);
   g_assert_cmpint(report.status, ==, SB_ERROR_RANGE);
   g_assert_cmpstr(report.text, ==, "speed -1 m/s");
