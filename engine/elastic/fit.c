@@ -2,14 +2,13 @@
 // (definitions of the contract), calls the model and fills the common result; see the header.
 #include "engine/elastic/fit.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 #include <time.h>
 
-#include "engine/elastic/hertz.h"
-#include "engine/elastic/karaszkiewicz.h"
-#include "engine/elastic/reduced_modulus.h"
+#include "engine/elastic/fit_models.h"
+#include "engine/elastic/green_english.h"
+#include "engine/elastic/lindley.h"
 
 static const char *const model_names[SB_FIT_MODEL_COUNT] = {
 #define MODEL_NAME(code, text) [code] = text,
@@ -31,8 +30,39 @@ bool sb_fit_model_from_name(SbFitModel *out, const char *name) {
   return false;
 }
 
+static const char *const lindley_names[] = {
+#define LINDLEY_NAME(code, text) text,
+    SB_LINDLEY_LIST(LINDLEY_NAME)
+#undef LINDLEY_NAME
+};
+
+static const char *const green_english_names[] = {
+#define GREEN_ENGLISH_NAME(code, text, a, b, c, n, s_max) text,
+    SB_GREEN_ENGLISH_LIST(GREEN_ENGLISH_NAME)
+#undef GREEN_ENGLISH_NAME
+};
+
+static const char *const default_names[] = {"default"};
+
 const char *sb_fit_variant_name(SbFitModel model, int variant) {
-  return (unsigned)model < SB_FIT_MODEL_COUNT && variant == 0 ? "default" : NULL;
+  if ((unsigned)model >= SB_FIT_MODEL_COUNT) {
+    return NULL;
+  }
+  const char *const *names = default_names;
+  int count = 1;
+  switch (model) {
+  case SB_FIT_LINDLEY:
+    names = lindley_names;
+    count = SB_LINDLEY_COUNT;
+    break;
+  case SB_FIT_GREEN_ENGLISH:
+    names = green_english_names;
+    count = SB_GREEN_ENGLISH_COUNT;
+    break;
+  default:
+    break;
+  }
+  return variant >= 0 && variant < count ? names[variant] : NULL;
 }
 
 // ---- input
@@ -114,31 +144,6 @@ static void fill_sizes(SbFit *out, const SbFitProblem *in) {
   out->gland_fill = 0.25 * M_PI * d * d * mean_free / (g * mean_fitted * in->gland_width);
 }
 
-// Closed forms hold to rounding and have no unknowns. The profile is the elliptic one of the
-// model's width and load, on Chebyshev-spaced points.
-static void fill_closed_form(SbFit *out, double circumference, double width,
-                             double load_per_length) {
-  enum { POINTS = 257 };
-  out->circumference = circumference;
-  out->contact_width = width;
-  out->contact_left = -0.5 * width;
-  out->contact_right = 0.5 * width;
-  out->load_per_length = load_per_length;
-  out->load = load_per_length * circumference;
-  out->touches = width > 0.0;
-  out->pressure_peak = out->touches ? 4.0 * load_per_length / (M_PI * width) : 0.0;
-  out->solver.converged = true;
-  out->solver.error_estimate.load = 16.0 * DBL_EPSILON;
-  out->solver.error_estimate.pressure_peak = 16.0 * DBL_EPSILON;
-  out->solver.error_estimate.contact_width = 16.0 * DBL_EPSILON;
-  out->profile_count = out->touches ? POINTS : 0;
-  for (size_t i = 0; i < out->profile_count; i++) {
-    double angle = M_PI * ((double)i / (POINTS - 1) - 0.5);
-    out->profile_x[i] = 0.5 * width * sin(angle);
-    out->profile_p[i] = out->pressure_peak * (i == 0 || i == POINTS - 1 ? 0.0 : cos(angle));
-  }
-}
-
 // Any warning but that of a ring that does not touch means that a model is outside its range.
 static void judge_validity(SbFit *out) {
   out->valid = true;
@@ -149,55 +154,16 @@ static void judge_validity(SbFit *out) {
   }
 }
 
-static void warn_pressure_ignored(SbFit *out, const SbFitProblem *in) {
-  if (in->pressure != 0.0 && out->touches) {
-    sb_warn(&out->warnings, "pressure-ignored", "canister.pressure",
-            "the model %s knows no fluid pressure: %.3g MPa left out", sb_fit_model_name(in->model),
-            1e-6 * in->pressure);
-  }
-}
-
-// ---- the models
-
-static SbStatus solve_karaszkiewicz(SbFit *out, const SbFitProblem *in, SbReport *report) {
-  const SbKaraszkiewiczInput input = {
-      .section_diameter = in->section_diameter,
-      .inner_diameter = in->inner_diameter,
-      .radial_space = in->radial_space,
-      .modulus = in->modulus,
-      .poisson_ratio = in->poisson_ratio,
-      .pressure = in->pressure,
-  };
-  SbKaraszkiewicz k;
-  SbStatus status = sb_karaszkiewicz(&k, &input, &out->warnings, report);
-  if (status == SB_OK) {
-    fill_closed_form(out, k.circumference, k.contact_width, k.load_per_length);
-  }
-  return status;
-}
-
-// The disc of the free section between flats that approach by d - g.
-static SbStatus solve_hertz(SbFit *out, const SbFitProblem *in, SbReport *report) {
-  SbHertz h;
-  const double nu = in->poisson_ratio;
-  SbStatus status = sb_hertz_from_approach(
-      &h, in->section_diameter - in->radial_space, 0.5 * in->section_diameter,
-      sb_reduced_modulus(in->modulus, nu, in->housing_modulus, in->housing_poisson),
-      in->modulus / (1.0 - nu * nu), &out->warnings, report);
-  if (status == SB_OK) {
-    fill_closed_form(out, M_PI * (in->inner_diameter + in->section_diameter), 2.0 * h.half_width,
-                     h.load_per_length);
-    warn_pressure_ignored(out, in);
-  }
-  return status;
-}
-
 static SbStatus solve_model(SbFit *out, const SbFitProblem *in, SbReport *report) {
   switch (in->model) {
   case SB_FIT_KARASZKIEWICZ:
-    return solve_karaszkiewicz(out, in, report);
+    return sb_fit_karaszkiewicz(out, in, report);
   case SB_FIT_HERTZ:
-    return solve_hertz(out, in, report);
+    return sb_fit_hertz(out, in, report);
+  case SB_FIT_LINDLEY:
+    return sb_fit_lindley(out, in, report);
+  case SB_FIT_GREEN_ENGLISH:
+    return sb_fit_green_english(out, in, report);
   default:
     return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
                              "the contact model %s is not in this build",

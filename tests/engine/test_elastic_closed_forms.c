@@ -1,8 +1,10 @@
 // Karaszkiewicz, Hertz and E' against the thesis' printed tables, closed identities and limits, and
 // every way in which they warn or refuse.
 #include "engine/elastic/fit.h"
+#include "engine/elastic/green_english.h"
 #include "engine/elastic/hertz.h"
 #include "engine/elastic/karaszkiewicz.h"
+#include "engine/elastic/lindley.h"
 #include "engine/elastic/reduced_modulus.h"
 
 #include <glib.h>
@@ -145,8 +147,72 @@ static void test_hertz(void) {
   }
 }
 
+// Figures of equations.md for the thesis' ring: 4.34 N with D = 4.45 mm, widths 0.618 and 0.600 mm
+// (2.10, 2.11), Kuran 2.5 x = 0.625 mm, and the identity 2.9.
+static void test_lindley(void) {
+  SbFit fit[SB_LINDLEY_COUNT];
+  for (int i = 0; i < SB_LINDLEY_COUNT; i++) {
+    SbFitProblem in = thesis(SB_FIT_LINDLEY);
+    in.variant = i;
+    g_assert_cmpint(sb_fit_solve(&fit[i], &in, NULL), ==, SB_OK);
+  }
+  assert_close(fit[SB_LINDLEY_EXTENDED].load, 4.34, 2e-3);
+  assert_close(fit[SB_LINDLEY_EXTENDED].contact_width, 0.618e-3, 1e-3);
+  assert_close(fit[SB_LINDLEY_SIMPLE_WIDTH].contact_width, 0.600e-3, 1e-12);
+  assert_close(fit[SB_LINDLEY_KURAN].contact_width, 0.625e-3, 1e-12);
+  g_assert_cmpfloat(fit[SB_LINDLEY_KURAN].load, ==, fit[SB_LINDLEY_EXTENDED].load);
+  const double b = fit[SB_LINDLEY_EXTENDED].contact_width;
+  assert_close(fit[SB_LINDLEY_EXTENDED].load, M_PI * M_PI * b * b * 4.45e-3 * 2.5e6 / (6 * 1.61e-3),
+               1e-12);
+  // Reference figures: 0.0772 and width 0.373 d at 15.53 % (the initial formula gives 0.0765,
+  // 0.382).
+  assert_close(fit[SB_LINDLEY_EXTENDED].load_per_length / (2.5e6 * 1.61e-3), 0.0772, 1e-3);
+  assert_close(fit[SB_LINDLEY_SIMPLE_WIDTH].contact_width / 1.61e-3, 0.373, 1e-3);
+  assert_close(fit[SB_LINDLEY_INITIAL].load,
+               M_PI * 1.61e-3 * 4.45e-3 * 2.5e6 * 1.25 * pow(0.25 / 1.61, 1.5), 1e-12);
+}
+
+// Every row of table 2.1 at 5, 15.5 and 30 % squeeze, computed apart from this program.
+static void test_green_english(void) {
+  const struct {
+    const char *name;
+    double factor[3];
+  } row[] = {
+      {"axial-unrestrained-lubricated", {0.0176112292685, 0.0777654944192, 0.217437703834}},
+      {"axial-unrestrained-unlubricated", {0.0203892324906, 0.096524770519, 0.301200143362}},
+      {"radial-unrestrained", {0.0221551758873, 0.104903131114, 0.330816268595}},
+      {"plane-strain-unrestrained", {0.0204957389979, 0.0970113264244, 0.303969594374}},
+      {"axial-restrained", {0.0259218540211, 0.166775524386, 1.63553524421}},
+      {"radial-restrained", {0.027786360354, 0.1794967069, 1.8953023003}},
+      {"plane-strain-restrained", {0.0249428230374, 0.155559800491, 1.39505942735}},
+  };
+  const double squeeze[3] = {0.05, 0.155, 0.30};
+  for (size_t i = 0; i < G_N_ELEMENTS(row); i++) {
+    int variant = 0;
+    while (!g_str_equal(sb_fit_variant_name(SB_FIT_GREEN_ENGLISH, variant), row[i].name)) {
+      variant++;
+    }
+    for (int k = 0; k < 3; k++) {
+      SbFitProblem in = thesis(SB_FIT_GREEN_ENGLISH);
+      in.variant = variant;
+      in.radial_space = (1.0 - squeeze[k]) * in.section_diameter;
+      SbFit fit;
+      g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+      assert_close(fit.load / (M_PI * 1.61e-3 * 4.45e-3 * 2.5e6), row[i].factor[k], 1e-9);
+      assert_close(fit.load,
+                   M_PI * M_PI * pow(fit.contact_width, 2) * 4.45e-3 * 2.5e6 / (6 * 1.61e-3),
+                   1e-12);
+    }
+  }
+  g_assert_cmpint(G_N_ELEMENTS(row), ==, SB_GREEN_ENGLISH_COUNT);
+  // Reference figure: plane strain 0.0973 at 0.25/1.61.
+  SbGreenEnglish g;
+  sb_green_english(&g, SB_GREEN_ENGLISH_PLANE, 0.25 / 1.61, 0.49, NULL);
+  assert_close(g.load_factor, 0.0973, 1e-3);
+}
+
 static void test_no_contact(void) {
-  for (int model = SB_FIT_KARASZKIEWICZ; model <= SB_FIT_HERTZ; model++) {
+  for (int model = SB_FIT_KARASZKIEWICZ; model <= SB_FIT_GREEN_ENGLISH; model++) {
     SbFitProblem in = thesis((SbFitModel)model);
     in.section_diameter = 1.30e-3;
     in.pressure = 0.55e6;
@@ -168,19 +234,37 @@ static void test_warnings(void) {
     SbFitModel model;
     double d_mm, p_mpa;
     const char *code; // NULL: valid
+    int variant;
+    double poisson; // 0: 0.49
   } row[] = {
-      {SB_FIT_KARASZKIEWICZ, 1.46, 0.0, "karaszkiewicz-squeeze"}, // 6.8 %
-      {SB_FIT_KARASZKIEWICZ, 1.47, 0.0, NULL},                    // 7.5 %
-      {SB_FIT_KARASZKIEWICZ, 1.81, 0.0, NULL},                    // 24.9 %
-      {SB_FIT_KARASZKIEWICZ, 1.82, 0.0, "karaszkiewicz-squeeze"}, // 25.3 %
-      {SB_FIT_HERTZ, 1.45, 0.0, NULL},                            // b/R 0.26
-      {SB_FIT_HERTZ, 1.61, 0.0, "hertz-width"},                   // b/R 0.42
-      {SB_FIT_HERTZ, 1.45, 0.2, "pressure-ignored"},
+      {SB_FIT_KARASZKIEWICZ, 1.46, 0.0, "karaszkiewicz-squeeze", 0, 0.0}, // 6.8 %
+      {SB_FIT_KARASZKIEWICZ, 1.47, 0.0, NULL, 0, 0.0},                    // 7.5 %
+      {SB_FIT_KARASZKIEWICZ, 1.81, 0.0, NULL, 0, 0.0},                    // 24.9 %
+      {SB_FIT_KARASZKIEWICZ, 1.82, 0.0, "karaszkiewicz-squeeze", 0, 0.0}, // 25.3 %
+      {SB_FIT_HERTZ, 1.45, 0.0, NULL, 0, 0.0},                            // b/R 0.26
+      {SB_FIT_HERTZ, 1.61, 0.0, "hertz-width", 0, 0.0},                   // b/R 0.42
+      {SB_FIT_HERTZ, 1.45, 0.2, "pressure-ignored", 0, 0.0},
+      {SB_FIT_LINDLEY, 1.81, 0.0, NULL, SB_LINDLEY_EXTENDED, 0.0},
+      {SB_FIT_LINDLEY, 1.82, 0.0, "lindley-squeeze", SB_LINDLEY_EXTENDED, 0.0},
+      {SB_FIT_LINDLEY, 1.82, 0.0, "lindley-squeeze", SB_LINDLEY_KURAN, 0.0},
+      {SB_FIT_LINDLEY, 1.59, 0.0, NULL, SB_LINDLEY_INITIAL, 0.0},
+      {SB_FIT_LINDLEY, 1.61, 0.0, "lindley-squeeze", SB_LINDLEY_INITIAL, 0.0},
+      {SB_FIT_LINDLEY, 1.61, 0.2, "pressure-ignored", SB_LINDLEY_EXTENDED, 0.0},
+      {SB_FIT_LINDLEY, 1.61, 0.0, "incompressible-assumed", SB_LINDLEY_EXTENDED, 0.44},
+      {SB_FIT_GREEN_ENGLISH, 1.99, 0.0, NULL, SB_GREEN_ENGLISH_RADIAL, 0.0},
+      {SB_FIT_GREEN_ENGLISH, 2.01, 0.0, "green-english-squeeze", SB_GREEN_ENGLISH_RADIAL, 0.0},
+      {SB_FIT_GREEN_ENGLISH, 1.51, 0.0, NULL, SB_GREEN_ENGLISH_RADIAL_RESTRAINED, 0.0},
+      {SB_FIT_GREEN_ENGLISH, 1.52, 0.0, "green-english-squeeze", SB_GREEN_ENGLISH_RADIAL_RESTRAINED,
+       0.0},
+      {SB_FIT_GREEN_ENGLISH, 1.61, 0.2, "pressure-ignored", SB_GREEN_ENGLISH_PLANE, 0.0},
+      {SB_FIT_GREEN_ENGLISH, 1.61, 0.0, "incompressible-assumed", SB_GREEN_ENGLISH_PLANE, 0.44},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(row); i++) {
     SbFitProblem in = thesis(row[i].model);
     in.section_diameter = 1e-3 * row[i].d_mm;
     in.pressure = 1e6 * row[i].p_mpa;
+    in.variant = row[i].variant;
+    in.poisson_ratio = row[i].poisson > 0.0 ? row[i].poisson : in.poisson_ratio;
     SbFit fit;
     g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
     g_assert_cmpint(fit.valid, ==, row[i].code == NULL);
@@ -268,6 +352,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/elastic/fit/profile", test_profile);
   g_test_add_func("/elastic/fit/sizes", test_sizes);
   g_test_add_func("/elastic/hertz", test_hertz);
+  g_test_add_func("/elastic/lindley", test_lindley);
+  g_test_add_func("/elastic/green-english", test_green_english);
   g_test_add_func("/elastic/fit/no-contact", test_no_contact);
   g_test_add_func("/elastic/fit/warnings", test_warnings);
   g_test_add_func("/elastic/fit/refusals", test_refusals);
