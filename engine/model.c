@@ -114,9 +114,24 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
       .surface = (SbModelSurface)sb_params_get(params, SB_P_MODELS_SURFACE),
       .motion = (SbModelMotion)sb_params_get(params, SB_P_MODELS_MOTION),
       .views = (unsigned)sb_params_get(params, SB_P_OUTPUT_VIEWS),
+      .shape =
+          {
+              .entry_diameter = sb_params_get(params, SB_P_BORE_ENTRY_DIAMETER),
+              .entry_length = sb_params_get(params, SB_P_BORE_ENTRY_LENGTH),
+              .land_length = sb_params_get(params, SB_P_BORE_LAND_LENGTH),
+              .vent_position = sb_params_get(params, SB_P_BORE_VENT_POSITION),
+              .vent_diameter = sb_params_get(params, SB_P_BORE_VENT_DIAMETER),
+              .seal_spacing = sb_params_get(params, SB_P_STEM_SEAL_SPACING),
+              .nose_length = sb_params_get(params, SB_P_STEM_NOSE_LENGTH),
+              .chamber_depth = sb_params_get(params, SB_P_STEM_CHAMBER_DEPTH),
+              .chamber_length = sb_params_get(params, SB_P_STEM_CHAMBER_LENGTH),
+              .shoulder_length = sb_params_get(params, SB_P_STEM_SHOULDER_LENGTH),
+              .rod_diameter = sb_params_get(params, SB_P_STEM_ROD_DIAMETER),
+          },
   };
   model.bore_circumference = M_PI * model.bore_diameter;
   double pressure_diameter = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER);
+  model.stem_diameter = pressure_diameter;
   model.pressure_force = model.canister_pressure * M_PI / 4 * pressure_diameter * pressure_diameter;
 
   // The stem must fit into the bore and the groove must leave a core.

@@ -58,6 +58,14 @@ typedef struct {
   double gland_fill;       // section area over groove area
 } SbSealModel;
 
+// Sizes that only the drawing of the section needs; the thesis gives none of them, and no result
+// depends on them. All in m; the catalogue says what each is.
+typedef struct {
+  double entry_diameter, entry_length, land_length, vent_position, vent_diameter; // housing
+  double seal_spacing, nose_length, chamber_depth, chamber_length, shoulder_length,
+      rod_diameter; // stem
+} SbValveShape;
+
 typedef struct {
   SbSealModel seal[SB_SEAL_COUNT];
   double radial_space, axial_width; // g, b [m]
@@ -79,7 +87,9 @@ typedef struct {
   SbModelFilm film;
   SbModelSurface surface;
   SbModelMotion motion;
-  unsigned views; // bit mask of SbView
+  unsigned views;       // bit mask of SbView
+  double stem_diameter; // D_p, also the stem's land [m]
+  SbValveShape shape;   // for the drawing only
 } SbModel;
 
 typedef enum {

@@ -50,6 +50,12 @@ static void test_derived(void) {
   g_assert_cmpfloat_with_epsilon(seal->section_fitted, 1.5763e-3, 1e-7);
   g_assert_cmpfloat_with_epsilon(seal->reduced_modulus, 6.5725e6, 6.5725e2);
   g_assert_cmpfloat_with_epsilon(model.pressure_force, 14.5, 0.005);
+
+  // The drawing's own sizes leave both seals on the land until the inner one reaches its edge.
+  const SbValveShape *shape = &model.shape;
+  g_assert_cmpfloat(model.land_edge + shape->seal_spacing + model.axial_width, <,
+                    shape->vent_position + shape->vent_diameter);
+  g_assert_cmpfloat(shape->chamber_length + model.axial_width, <, shape->seal_spacing);
 }
 
 static void test_problems(void) {
