@@ -66,3 +66,16 @@ typedef struct {
   const double *asperity_pressure; // part of the pressure that asperities carry [Pa]
   const char *model;               // the model that made it ("hertz shape of karaszkiewicz", ...)
 } SbContactProfile;
+
+// Energy of the cycle, each term accumulated by itself [J].
+typedef struct {
+  double external;     // by the platen and the canister pressure on the stem
+  double external_max; // largest |external| on the way, the scale of the closure
+  double friction;     // by both seals
+  double stored;       // change of elastic energy (machine, stops)
+  double seal;    // released where the stem jumps (slip onset, land edge) or lost inside the rubber
+  double kinetic; // change
+  double stop;    // lost at the stops
+  double loop;    // area of the force-displacement loop: energy_loss_J
+  double closure; // |external - friction - stored - seal - kinetic - stop| / external_max
+} SbEnergy;

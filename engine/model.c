@@ -60,7 +60,7 @@ static bool compile_seal(SbModel *model, int index, const SbParams *params, SbPr
   seal->stretch_inner = (floor - seal->inner_diameter) / seal->inner_diameter;
   seal->section_fitted = d * (1 - nu * seal->stretch_mean);
   seal->interference = seal->section_fitted - g;
-  seal->gland_fill = M_PI / 4 * d * d / (g * model->axial_width);
+  seal->gland_fill = M_PI / 4 * d * d / (g * model->axial_width) * mean_free / mean_fitted;
 
   // Beyond 60 % no model here means anything; the fit models warn long before.
   bool good = true;

@@ -55,7 +55,7 @@ typedef struct {
   double stretch_inner;    // of the inner diameter
   double section_fitted;   // section diameter after stretch, d (1 - nu stretch_mean) [m]
   double interference;     // section_fitted - g [m]
-  double gland_fill;       // section area over groove area
+  double gland_fill;       // ring volume over groove volume
 } SbSealModel;
 
 // Sizes that only the drawing of the section needs; the thesis gives none of them, and no result

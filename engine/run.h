@@ -38,19 +38,6 @@ typedef struct {
   double leakage_per_stroke; // [m3], thesis equation 5.20
 } SbSealSummary;
 
-// Energy of the cycle, each term accumulated by itself [J].
-typedef struct {
-  double external;     // by the platen and the canister pressure on the stem
-  double external_max; // largest |external| on the way, the scale of the closure
-  double friction;     // by both seals
-  double stored;       // change of elastic energy (machine, stops)
-  double seal;    // released where the stem jumps (slip onset, land edge) or lost inside the rubber
-  double kinetic; // change
-  double stop;    // lost at the stops
-  double loop;    // area of the force-displacement loop: energy_loss_J
-  double closure; // |external - friction - stored - seal - kinetic - stop| / external_max
-} SbEnergy;
-
 typedef struct {
   size_t reynolds_solves, ring_solves, disc_solves, fit_solves, field_evaluations,
       profile_evaluations;

@@ -1,0 +1,64 @@
+// A seal's steady sliding state: fitment, film, rough contact and the friction that follows, at one
+// pressure and one sliding velocity, by the models that the scene chose.
+//
+//   boundary  F_b = tau_0 A_a + m W          thesis equation 5.14, A_a = A (real share), m on the
+//   TOTAL load viscous   F_v = tau (A - A_a)            thesis equations 5.15 and 5.16, tau =
+//   min(eta |u|/h, tau_0) static    F_s = ratio (tau_0 A_a(0) + m W)   break-away from rest, where
+//   the film has gone
+//
+// A = contact width x pi D (bore), for every fitment model. The real share A_a/A comes from
+// Greenwood and Tripp at lambda = h_central/sigma. tau_0 is both the boundary shear strength and
+// the Eyring limit.
+#pragma once
+
+#include "engine/elastic/fit.h"
+#include "engine/film/film.h"
+#include "engine/model.h"
+
+typedef struct {
+  bool touches;
+  double contact_left, contact_right; // seal's frame [m]
+  double load, load_per_length;       // total, fluid's share included [N], [N/m]
+  double load_net;               // per length, above the ambient step: what the film carries [N/m]
+  double pressure_peak;          // [Pa]
+  double film_min, film_central; // [m]; 0 at rest
+  double film_reynolds;          // central, of the solved film; NaN if not solved
+  double film_error;             // relative error estimate of the solved film; NaN if closed form
+  double lambda;                 // film_central / sigma
+  double area_share;             // A_a / A
+  double boundary_area;          // tau_0 A_a, the part of F_b in proportion to the width [N]
+  double boundary_load;          // m W, the part in proportion to the load [N]
+  double viscous;                // [N]
+  double friction_static;        // [N]
+} SbSliding;
+
+// Kinetic friction of a whole contact [N].
+double sb_sliding_friction(const SbSliding *state);
+
+// Workspaces that one seal's evaluations share; plain create and destroy (NULL allowed).
+typedef struct SbSlidingMemory SbSlidingMemory;
+SbStatus sb_sliding_memory_create(SbSlidingMemory **out, SbReport *report);
+void sb_sliding_memory_destroy(SbSlidingMemory *memory);
+
+// What the last evaluation solved, for profiles; borrowed, overwritten by the next call.
+const SbFit *sb_sliding_fit(const SbSlidingMemory *memory);
+const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
+
+// Counts of what was computed; added to, never reset.
+typedef struct {
+  size_t fit_solves, disc_solves, ring_solves, film_evaluations, reynolds_solves, newton_iterations;
+} SbSlidingCounts;
+
+// Evaluates `seal` of `model` between `pressure`, sliding at `speed` (> 0: bore moves to +x, the
+// in-stroke; 0: at rest). The fitment is reused from the last call when the pressure has not
+// changed. A ring that does not touch gives zeros and touches = false. SB_ERROR_NOT_CONVERGED with
+// the best state.
+SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
+                          double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
+                          SbWarnings *warnings, SbReport *report);
+
+// The film problem of a seal in a run: net load, reduced modulus, radius, pressures (thesis
+// sections 5.2 and 7.1; entrainment is half the sliding speed). `model` of the problem is left at
+// its default.
+void sb_sliding_film_problem(SbFilmProblem *out, const SbModel *model, int seal,
+                             SbSealPressure pressure, double load_net, double speed);

@@ -1,0 +1,121 @@
+// Decides what a scene computes: its views and figures pull in fields, and nothing else is
+// computed.
+//
+// Predicted cost is the number of solves times a typical time of one solve on one core, as
+// `sealbench bench` measures it; predicted error is the tolerance for solvers and 0 for closed
+// forms, whose own (model) error no discretisation shows. The counters in a run's results are the
+// proof of the plan.
+#include "engine/plan.h"
+
+#include "engine/elastic/fit.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+// Typical seconds per solve.
+static const double cost_closed_form = 2e-6;
+static const double cost_disc = 3e-3;
+static const double cost_ring = 250e-3;
+static const double cost_reynolds = 5e-3;
+static const double cost_frame = 3e-7;
+
+// Sliding states of a cycle: the outer seal in three chamber states, the inner in two, both ways.
+enum { FIT_STATES = 5, FILM_STATES = 10 };
+
+static void SB_PRINTF(7, 8)
+    add(SbPlanItem *items, size_t *count, const char *name, const char *model, double cost,
+        double error, const char *format, ...) {
+  if (*count == SB_PLAN_ITEMS_MAX) {
+    return;
+  }
+  SbPlanItem *item = &items[(*count)++];
+  snprintf(item->name, sizeof item->name, "%s", name);
+  snprintf(item->model, sizeof item->model, "%s", model);
+  item->cost_s = cost;
+  item->error = error;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(item->reason, sizeof item->reason, format, arguments);
+  va_end(arguments);
+}
+
+// Names of the views that want something, "profiles, section".
+static void view_names(unsigned views, char *text, size_t size) {
+  static const char *const names[] = {"hysteresis", "profiles", "section", "dashboard"};
+  size_t used = 0;
+  text[0] = '\0';
+  for (unsigned i = 0; i < sizeof names / sizeof names[0]; i++) {
+    if ((views & (1u << i)) != 0 && used < size) {
+      used += (size_t)snprintf(text + used, size - used, "%s%s", used > 0 ? ", " : "", names[i]);
+    }
+  }
+}
+
+static void plan_fit(SbPlan *plan, const SbModel *model) {
+  SbFitModel fit = (SbFitModel)model->fit;
+  bool closed = fit != SB_FIT_DISC && fit != SB_FIT_DISC_THESIS && fit != SB_FIT_RING;
+  double cost = closed ? cost_closed_form : fit == SB_FIT_RING ? cost_ring : cost_disc;
+  plan->ring = fit == SB_FIT_RING;
+  add(plan->field, &plan->field_count, "contact load and width", sb_fit_model_name(fit),
+      FIT_STATES * cost, closed ? 0 : model->tolerance,
+      "friction and film need them; %d pressure states of two seals", FIT_STATES);
+  if (!plan->ring) {
+    add(plan->skipped, &plan->skipped_count, "ring", "", 0, 0,
+        "models.fit = %s already gives load and width", sb_fit_model_name(fit));
+  }
+}
+
+static void plan_film(SbPlan *plan, const SbModel *model) {
+  plan->reynolds = model->film == SB_MODEL_FILM_REYNOLDS;
+  char name[32];
+  sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model->film, name, sizeof name);
+  add(plan->field, &plan->field_count, "film", name,
+      FILM_STATES * (plan->reynolds ? cost_reynolds : cost_closed_form),
+      plan->reynolds ? model->tolerance : 0,
+      "boundary share, viscous friction and leakage need it");
+  if (!plan->reynolds) {
+    add(plan->skipped, &plan->skipped_count, "reynolds film", "", 0, 0,
+        "models.film = %s meets what the friction needs", name);
+  }
+}
+
+void sb_plan_make(SbPlan *out, const SbModel *model) {
+  *out = (SbPlan){0};
+  plan_fit(out, model);
+  plan_film(out, model);
+  char surface[32];
+  sb_param_choice_name(sb_param(SB_P_MODELS_SURFACE), (int)model->surface, surface, sizeof surface);
+  add(out->field, &out->field_count, "real contact area", surface, FILM_STATES * cost_closed_form,
+      0, "boundary friction needs it");
+  char motion[32];
+  sb_param_choice_name(sb_param(SB_P_MODELS_MOTION), (int)model->motion, motion, sizeof motion);
+  add(out->field, &out->field_count, "force and displacement", motion, model->frames * cost_frame,
+      0, "figures of the cycle, %d frames", model->frames);
+
+  // Profiles over x, for whoever draws them.
+  char who[80];
+  unsigned drawn = SB_VIEW_PROFILES | SB_VIEW_SECTION | SB_VIEW_DASHBOARD;
+  out->profiles = (model->views & drawn) != 0;
+  view_names(model->views & drawn, who, sizeof who);
+  if (out->profiles) {
+    add(out->field, &out->field_count, "contact profiles",
+        out->reynolds ? "reynolds" : "closed form", FILM_STATES * 2e-5,
+        out->reynolds ? model->tolerance : 0, "drawn by %s", who);
+  } else {
+    add(out->skipped, &out->skipped_count, "contact profiles", "", 0, 0, "no view draws them");
+  }
+
+  // Interior fields, only for a drawn section and only where the fitment model has an interior.
+  unsigned sections = model->views & (SB_VIEW_SECTION | SB_VIEW_DASHBOARD);
+  bool interior = model->fit == SB_FIT_RING;
+  view_names(sections, who, sizeof who);
+  out->section_fields = sections != 0 && interior;
+  if (out->section_fields) {
+    add(out->field, &out->field_count, "interior fields", "ring", 2e-3, model->tolerance,
+        "drawn by %s, at drawn frames only", who);
+  } else {
+    add(out->skipped, &out->skipped_count, "interior fields", "", 0, 0, "%s",
+        sections == 0 ? "no view draws a section"
+                      : "the closed-form fitment has no interior: the section is schematic");
+  }
+}

@@ -1,0 +1,338 @@
+// The cycle A to F against a hand calculation from the printed equations, and on its hard cases.
+#include "engine/sealbench.h"
+
+#include "engine/leak/stroke.h"
+
+#include <glib.h>
+#include <math.h>
+#include <time.h>
+
+typedef struct {
+  int id;
+  double value;
+} Setting;
+
+static void compile(SbModel *model, const Setting *settings, size_t count) {
+  SbParams params;
+  sb_params_init(&params);
+  for (size_t i = 0; i < count; i++) {
+    SbReport report = {0};
+    SbStatus status = sb_params_set(&params, (SbParamId)settings[i].id, settings[i].value, &report);
+    g_assert_cmpint(status, ==, SB_OK);
+  }
+  g_assert_cmpint(sb_model_compile(model, &params, NULL), ==, SB_OK);
+}
+
+static SbRun *run_cycle(const Setting *settings, size_t count) {
+  SbModel model;
+  compile(&model, settings, count);
+  SbPlan plan;
+  sb_plan_make(&plan, &model);
+  SbRun *run = NULL;
+  SbReport report = {0};
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
+  SbStatus status = sb_run_execute(run, NULL, &report);
+  if (status != SB_OK) {
+    g_test_message("%s", report.text);
+  }
+  g_assert_cmpint(status, ==, SB_OK);
+  return run;
+}
+
+// Kinetic friction by the printed equations 5.2, 5.4, 5.11, 5.14, 7.5 alone, F_2 expanded about
+// contact: F_2(l) = 1/2 - l sqrt(2/pi) + l^2/2 for small l.
+static double hand_friction(double d, double p, double gt, double speed) {
+  double g = 1.36e-3;
+  double E = 2.5e6;
+  double e = (d - g) / d;
+  double a = 2 * e + 0.13;
+  double width = d * (a + (0.39 / (1 - e) - 0.5 * a) * (1 - exp(-4.6 * p / E)));
+  double sigma = M_PI / 6 * a * E + 0.49 / 0.51 * p;
+  double w = width * sigma;
+  double load = w * M_PI * (2.84e-3 + d);
+  double Ep = 2 / ((1 - 0.49 * 0.49) / E + (1 - 0.35 * 0.35) / 2.6e9);
+  double R = d / 2;
+  double net = w - p * width / 2;
+  double U = 0.211e-3 * speed / 2 / (Ep * R);
+  double h = 1.492 * pow(U, 0.5434) * pow(net / (Ep * R), -0.2893) * R;
+  double l = h / 1e-6;
+  double F2 = 0.5 - l * sqrt(2 / M_PI) + l * l / 2;
+  double area = width * M_PI * 6e-3;
+  double share = M_PI * M_PI * gt * gt * F2;
+  return 3.5e6 * share * area + 0.19 * load + 0.211e-3 * speed / h * (1 - share) * area;
+}
+
+// Force of the frame nearest to displacement `s` on the way in or out.
+static double force_at(const SbRun *run, double s, bool in) {
+  size_t count;
+  const SbFrame *frames = sb_run_frames(run, &count);
+  double best = INFINITY;
+  double force = NAN;
+  for (size_t i = 0; i < count; i++) {
+    bool way_in = frames[i].stage < SB_STAGE_D;
+    double miss = fabs(frames[i].displacement - s);
+    if (way_in == in && miss < best) {
+      best = miss;
+      force = frames[i].force;
+    }
+  }
+  return force;
+}
+
+static void check_hand(double d, double p, double gt) {
+  Setting settings[] = {
+      {SB_P_SEAL_SECTION_DIAMETER, d}, {SB_P_CANISTER_PRESSURE, p}, {SB_P_SURFACE_GT_PRODUCT, gt}};
+  SbRun *run = run_cycle(settings, G_N_ELEMENTS(settings));
+  double speed = 20e-3 / 60;
+  double Fp = p * M_PI / 4 * 5.794e-3 * 5.794e-3;
+  double outer = hand_friction(d, p, gt, speed);
+  double inner = hand_friction(d, 0, gt, speed);
+  double cases[][2] = {{force_at(run, 1.6e-3, true), Fp + outer + inner},
+                       {force_at(run, 5.5e-3, true), Fp + outer},
+                       {force_at(run, 5.5e-3, false), Fp - outer},
+                       {force_at(run, 1.6e-3, false), Fp - outer - inner}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_assert_cmpfloat(fabs(cases[i][0] / cases[i][1] - 1), <, 1e-3);
+  }
+  sb_run_destroy(run);
+}
+
+static void test_hand(void) {
+  check_hand(1.61e-3, 0.55e6, 0.1289);
+  check_hand(1.63e-3, 0.55e6, 0.1289);
+  check_hand(1.63e-3, 0.29e6, 0.05);
+}
+
+// At p = 0.29 MPa, d = 1.63 mm and the thesis' surface pressure cannot beat both seals: sliding
+// exists in B-C, C-D and E-F; in F-A the stem has stalled, the platen is free and carries nothing.
+static void test_hand_acceptance(void) {
+  Setting settings[] = {{SB_P_SEAL_SECTION_DIAMETER, 1.63e-3}, {SB_P_CANISTER_PRESSURE, 0.29e6}};
+  SbRun *run = run_cycle(settings, G_N_ELEMENTS(settings));
+  double speed = 20e-3 / 60;
+  double Fp = 0.29e6 * M_PI / 4 * 5.794e-3 * 5.794e-3;
+  double outer = hand_friction(1.63e-3, 0.29e6, 0.1289, speed);
+  double inner = hand_friction(1.63e-3, 0, 0.1289, speed);
+  g_assert_cmpfloat(fabs(force_at(run, 1.6e-3, true) / (Fp + outer + inner) - 1), <, 1e-3);
+  g_assert_cmpfloat(fabs(force_at(run, 5.5e-3, true) / (Fp + outer) - 1), <, 1e-3);
+  g_assert_cmpfloat(fabs(force_at(run, 5.5e-3, false) / (Fp - outer) - 1), <, 1e-3);
+  g_assert_cmpfloat(fabs(sb_run_summary(run)->force_return_min - (Fp - outer - inner)), <,
+                    1e-3 * Fp);
+  sb_run_destroy(run);
+}
+
+static void test_thesis_cycle(void) {
+  SbRun *run = run_cycle(NULL, 0);
+  const SbSummary *s = sb_run_summary(run);
+  for (int i = 0; i < SB_STAGE_COUNT; i++) {
+    g_assert_true(s->stage[i].reached);
+    if (i > 0) {
+      g_assert_cmpfloat(s->stage[i].time, >, s->stage[i - 1].time);
+    }
+  }
+  g_assert_cmpfloat(fabs(s->force_breakaway - 27.5), <, 3);
+  g_assert_cmpfloat(s->force_peak, >, 30);
+  g_assert_cmpfloat_with_epsilon(s->stage[SB_STAGE_C].displacement, 3.3e-3, 1e-12);
+  g_assert_cmpfloat_with_epsilon(s->stage[SB_STAGE_D].displacement, 6.6e-3, 1e-12);
+  g_assert_cmpfloat(s->stage[SB_STAGE_C].force - s->stage[SB_STAGE_D].force, >, 4);
+  g_assert_cmpfloat(force_at(run, 1e-3, false), <, force_at(run, 5.5e-3, false) - 4);
+  g_assert_cmpfloat_with_epsilon(s->force_return_min, 1.6, 0.1);
+  g_assert_true(s->returns);
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    double boundary = s->seal[i].friction_boundary;
+    g_assert_cmpfloat(boundary / (boundary + s->seal[i].friction_viscous), >, 0.95);
+  }
+  g_assert_cmpfloat_with_epsilon(s->seal[SB_OUTER].friction_boundary, 8, 0.1);
+  g_assert_cmpfloat_with_epsilon(s->seal[SB_INNER].friction_boundary, 5, 0.1);
+  g_assert_cmpfloat(s->energy.closure, <, 1e-6);
+  g_assert_cmpfloat(s->energy.stored, <, 1e-9);
+  sb_run_destroy(run);
+}
+
+// Section 7.6: +30 % roughness nearly or fully stops the return, -30 % eases it.
+static void test_roughness(void) {
+  Setting rough = {SB_P_SURFACE_GT_PRODUCT, 1.3 * 0.1289};
+  Setting smooth = {SB_P_SURFACE_GT_PRODUCT, 0.7 * 0.1289};
+  SbRun *run = run_cycle(&rough, 1);
+  const SbSummary *summary = sb_run_summary(run);
+  g_assert_cmpfloat(summary->force_return_min, <, 0);
+  g_assert_false(summary->returns);
+  g_assert_cmpfloat(summary->energy.closure, <, 1e-6);
+  sb_run_destroy(run);
+  run = run_cycle(&smooth, 1);
+  g_assert_cmpfloat_with_epsilon(sb_run_summary(run)->force_return_min, 6.2, 0.2);
+  sb_run_destroy(run);
+}
+
+// Twice the frames, the same figures; the least return force of the frames is the reported one.
+static void test_frames(void) {
+  Setting coarse = {SB_P_OUTPUT_FRAMES, 200};
+  Setting fine = {SB_P_OUTPUT_FRAMES, 400};
+  SbRun *a = run_cycle(&coarse, 1);
+  SbRun *b = run_cycle(&fine, 1);
+  g_assert_cmpfloat(sb_run_summary(a)->force_peak, ==, sb_run_summary(b)->force_peak);
+  g_assert_cmpfloat(sb_run_summary(a)->energy.loop, ==, sb_run_summary(b)->energy.loop);
+
+  // The loop's area from the frames alone, by trapezoids, agrees with the engine's own.
+  size_t count;
+  const SbFrame *frames = sb_run_frames(b, &count);
+  double area = 0;
+  for (size_t i = 1; i < count; i++) {
+    area += (frames[i].force + frames[i - 1].force) / 2 *
+            (frames[i].displacement - frames[i - 1].displacement);
+  }
+  g_assert_cmpfloat(fabs(area / sb_run_summary(b)->energy.loop - 1), <, 1e-3);
+  for (size_t i = 1; i < count; i++) {
+    g_assert_cmpfloat(frames[i].time, >=, frames[i - 1].time);
+    double balance = frames[i].force - frames[i].pressure_force - frames[i].stop_force -
+                     frames[i].seal[0].friction - frames[i].seal[1].friction;
+    g_assert_cmpfloat(fabs(balance), <, 1e-9);
+  }
+  sb_run_destroy(a);
+  sb_run_destroy(b);
+}
+
+// Energy closes and the run ends for every odd valve.
+static void test_hard_cases(void) {
+  const Setting cases[][3] = {
+      {{SB_P_DRIVE_STIFFNESS, 2e3}, {SB_P_OUTPUT_FRAMES, 50}, {SB_P_BORE_LAND_EDGE, 3.3e-3}},
+      {{SB_P_DRIVE_STIFFNESS, 1e10}, {SB_P_OUTPUT_FRAMES, 50}, {SB_P_BORE_LAND_EDGE, 3.3e-3}},
+      {{SB_P_CANISTER_PRESSURE_MAP, 1}, {SB_P_OUTPUT_FRAMES, 50}, {SB_P_BORE_LAND_EDGE, 3.3e-3}},
+      {{SB_P_CANISTER_PRESSURE_MAP, 1}, {SB_P_DRIVE_STIFFNESS, 2e3}, {SB_P_OUTPUT_FRAMES, 50}},
+      {{SB_P_BORE_LAND_EDGE, 0}, {SB_P_OUTPUT_FRAMES, 50}, {SB_P_DRIVE_SPEED, 1e-6}},
+      {{SB_P_BORE_LAND_EDGE, 6.2e-3}, {SB_P_OUTPUT_FRAMES, 50}, {SB_P_DRIVE_SPEED, 10}},
+      {{SB_P_BORE_LAND_EDGE, 20e-3}, {SB_P_OUTPUT_FRAMES, 50}, {SB_P_DRIVE_SPEED, 1}},
+      {{SB_P_DRIVE_REVERSAL_FORCE, 20}, {SB_P_OUTPUT_FRAMES, 50}, {SB_P_DRIVE_SPEED, 1}},
+      {{SB_P_DRIVE_REVERSAL_FORCE, 0}, {SB_P_OUTPUT_FRAMES, 50}, {SB_P_DRIVE_SPEED, 1}},
+      {{SB_P_CANISTER_PRESSURE, 0}, {SB_P_OUTPUT_FRAMES, 50}, {SB_P_DRIVE_SPEED, 1}},
+      {{SB_P_SEAL_SECTION_DIAMETER, 1.3e-3}, {SB_P_OUTPUT_FRAMES, 2}, {SB_P_DRIVE_SPEED, 1e-3}},
+      {{SB_P_SEAL_INNER_SECTION_DIAMETER, 1.3e-3},
+       {SB_P_OUTPUT_FRAMES, 9},
+       {SB_P_DRIVE_SPEED, 1e-3}},
+      {{SB_P_FRICTION_STATIC_RATIO, 5}, {SB_P_DRIVE_REVERSAL_FORCE, 200}, {SB_P_OUTPUT_FRAMES, 50}},
+      {{SB_P_FRICTION_SHEAR_STRENGTH, 0},
+       {SB_P_FRICTION_LOAD_COEFFICIENT, 0},
+       {SB_P_OUTPUT_FRAMES, 9}},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    SbRun *run = run_cycle(cases[i], 3);
+    const SbSummary *summary = sb_run_summary(run);
+    g_test_message("case %zu: %zu segments, closure %g, peak %g N, returns %d", i, summary->steps,
+                   summary->energy.closure, summary->force_peak, summary->returns);
+    g_assert_cmpfloat(summary->energy.closure, <, 1e-6);
+    g_assert_cmpuint(summary->frames, >, 0);
+    size_t count;
+    const SbFrame *frames = sb_run_frames(run, &count);
+    for (size_t f = 0; f < count; f++) {
+      g_assert_true(isfinite(frames[f].force) && isfinite(frames[f].velocity));
+      g_assert_cmpfloat(frames[f].force, >=, 0);
+    }
+    sb_run_destroy(run);
+  }
+}
+
+// A ring that does not touch: load 0, a warning, and the other seal still works.
+static void test_no_contact(void) {
+  Setting settings[] = {{SB_P_SEAL_INNER_SECTION_DIAMETER, 1.3e-3}};
+  SbRun *run = run_cycle(settings, 1);
+  const SbSummary *summary = sb_run_summary(run);
+  g_assert_cmpfloat(summary->seal[SB_INNER].load, ==, 0);
+  g_assert_cmpfloat(summary->seal[SB_OUTER].load, >, 10);
+  bool warned = false;
+  for (size_t i = 0; i < summary->warnings.count; i++) {
+    warned = warned || g_str_equal(summary->warnings.item[i].code, "no-contact");
+  }
+  g_assert_true(warned);
+  g_assert_false(summary->stage[SB_STAGE_C].reached);
+  sb_run_destroy(run);
+}
+
+static bool always(void *data) {
+  return true;
+}
+
+static void test_cancel(void) {
+  Setting many = {SB_P_OUTPUT_FRAMES, 2000000};
+  SbModel model;
+  compile(&model, &many, 1);
+  SbPlan plan;
+  sb_plan_make(&plan, &model);
+  SbRun *run = NULL;
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, NULL), ==, SB_OK);
+  SbRunHooks hooks = {.cancelled = always};
+  g_assert_cmpint(sb_run_execute(run, &hooks, NULL), ==, SB_ERROR_CANCELLED);
+  sb_run_destroy(run);
+}
+
+// Table 7.13: 400 strokes, D = 6 mm, L_s = 6.60 mm.
+static void test_leakage(void) {
+  const double rows[][2] = {{0.00050636, 1.010e-8}, {0.00046489, 9.31e-9},  {0.00034522, 6.92e-9},
+                            {0.00023650, 4.74e-9},  {0.00010849, 2.17e-9},  {0.00009062, 1.82e-9},
+                            {0.00007475, 1.50e-9},  {0.00006366, 1.28e-9},  {0.00004539, 9.09e-10},
+                            {0.00003851, 7.71e-10}, {0.00003332, 6.67e-10}, {0.00002567, 5.14e-10},
+                            {0.00046118, 9.24e-9},  {0.00050303, 1.010e-8}, {0.00056226, 1.13e-8},
+                            {0.00061808, 1.24e-8},  {0.00065734, 1.32e-8}};
+  for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+    double leak = 400 * sb_leak_stroke(6e-3, rows[i][0] * 0.805e-3, 6.60e-3);
+    g_assert_cmpfloat(fabs(leak / rows[i][1] - 1), <, 0.01);
+  }
+}
+
+// Which fields a scene computes follows from its views.
+static void test_plan(void) {
+  Setting loop = {SB_P_OUTPUT_VIEWS, SB_VIEW_HYSTERESIS};
+  Setting profiles = {SB_P_OUTPUT_VIEWS, SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES};
+  SbRun *run = run_cycle(&loop, 1);
+  const SbSummary *summary = sb_run_summary(run);
+  g_assert_cmpuint(summary->counters.field_evaluations, ==, 0);
+  g_assert_cmpuint(summary->counters.reynolds_solves, ==, 0);
+  g_assert_cmpuint(summary->counters.profile_evaluations, ==, 0);
+  sb_run_destroy(run);
+  run = run_cycle(&profiles, 1);
+  g_assert_cmpuint(sb_run_summary(run)->counters.profile_evaluations, >, 0);
+  size_t count;
+  const SbFrame *frames = sb_run_frames(run, &count);
+  const SbContactProfile *profile = sb_run_profile(run, frames[count / 4].seal[SB_OUTER].profile);
+  g_assert_nonnull(profile);
+  g_assert_cmpuint(profile->count, >, 100);
+  for (size_t i = 1; i < profile->count; i++) {
+    g_assert_cmpfloat(profile->x[i], >=, profile->x[i - 1]);
+  }
+  sb_run_destroy(run);
+}
+
+// Median of 20 closed-form cycles of 400 frames, after one warm-up.
+static int compare(const void *a, const void *b) {
+  double x = *(const double *)a;
+  double y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static void test_speed(void) {
+  double wall[21];
+  for (int i = 0; i < 21; i++) {
+    SbRun *run = run_cycle(NULL, 0);
+    wall[i] = sb_run_summary(run)->wall_s;
+    sb_run_destroy(run);
+  }
+  qsort(wall + 1, 20, sizeof *wall, compare);
+  g_test_message("closed-form cycle of 400 frames: %.3f ms", wall[10] * 1e3);
+#ifndef __SANITIZE_ADDRESS__
+  g_assert_cmpfloat(wall[10], <, 5e-3);
+#endif
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/cycle/hand", test_hand);
+  g_test_add_func("/cycle/hand-acceptance", test_hand_acceptance);
+  g_test_add_func("/cycle/thesis", test_thesis_cycle);
+  g_test_add_func("/cycle/roughness", test_roughness);
+  g_test_add_func("/cycle/frames", test_frames);
+  g_test_add_func("/cycle/hard-cases", test_hard_cases);
+  g_test_add_func("/cycle/no-contact", test_no_contact);
+  g_test_add_func("/cycle/cancel", test_cancel);
+  g_test_add_func("/cycle/leakage", test_leakage);
+  g_test_add_func("/cycle/plan", test_plan);
+  g_test_add_func("/cycle/speed", test_speed);
+  return g_test_run();
+}
