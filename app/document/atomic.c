@@ -1,0 +1,126 @@
+// Temporary files are named ".NAME.part-PID": those of processes that are gone can be told and
+// removed by the next one.
+#include "app/document/atomic.h"
+
+#include "app/document/issue.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <glib/gstdio.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static bool fail(GError **error, const char *path, int code) {
+  char *shown = sb_printable(path, strlen(path));
+  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s: %s", shown, g_strerror(code));
+  g_free(shown);
+  return false;
+}
+
+// Removes temporaries of `prefix` (".NAME.part-") whose process does not live any more.
+static void remove_stale(const char *directory, const char *prefix) {
+  GDir *dir = g_dir_open(directory, 0, NULL);
+  if (dir == NULL) {
+    return;
+  }
+  const char *name;
+  while ((name = g_dir_read_name(dir)) != NULL) {
+    if (!g_str_has_prefix(name, prefix)) {
+      continue;
+    }
+    char *end = NULL;
+    long pid = strtol(name + strlen(prefix), &end, 10);
+    if (*end == '\0' && pid > 1 && kill((pid_t)pid, 0) != 0 && errno == ESRCH) {
+      char *stale = g_build_filename(directory, name, NULL);
+      g_unlink(stale);
+      g_free(stale);
+    }
+  }
+  g_dir_close(dir);
+}
+
+bool sb_atomic_file_begin(SbAtomicFile *out, const char *path, GError **error) {
+  struct stat info;
+  if (stat(path, &info) == 0 && !S_ISREG(info.st_mode)) {
+    return fail(error, path, S_ISDIR(info.st_mode) ? EISDIR : EEXIST);
+  }
+  char *directory = g_path_get_dirname(path);
+  char *name = g_path_get_basename(path);
+  char *prefix = g_strdup_printf(".%s.part-", name);
+  remove_stale(directory, prefix);
+  char *own = g_strdup_printf("%s%ld", prefix, (long)getpid());
+  char *temporary = g_build_filename(directory, own, NULL);
+  int fd = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
+  FILE *stream = fd >= 0 ? fdopen(fd, "wb") : NULL;
+  int code = errno;
+  if (stream != NULL) {
+    *out = (SbAtomicFile){g_strdup(path), g_steal_pointer(&temporary), stream};
+  } else {
+    if (fd >= 0) {
+      close(fd);
+      g_unlink(temporary);
+    }
+    fail(error, path, code);
+  }
+  g_free(temporary);
+  g_free(own);
+  g_free(prefix);
+  g_free(name);
+  g_free(directory);
+  return stream != NULL;
+}
+
+bool sb_atomic_file_seal(SbAtomicFile *file, GError **error) {
+  errno = 0;
+  bool good = ferror(file->stream) == 0 && fflush(file->stream) == 0;
+  good = good && (fsync(fileno(file->stream)) == 0 || errno == EINVAL || errno == EROFS);
+  int code = errno != 0 ? errno : EIO;
+  if (fclose(file->stream) != 0 && good) {
+    good = false;
+    code = errno;
+  }
+  file->stream = NULL;
+  if (!good) {
+    fail(error, file->path, code);
+    sb_atomic_file_abort(file);
+  }
+  return good;
+}
+
+bool sb_atomic_file_commit(SbAtomicFile *file, GError **error) {
+  if (file->stream != NULL && !sb_atomic_file_seal(file, error)) {
+    return false;
+  }
+  if (g_rename(file->temporary, file->path) != 0) {
+    fail(error, file->path, errno);
+    sb_atomic_file_abort(file);
+    return false;
+  }
+  g_clear_pointer(&file->temporary, g_free);
+  g_clear_pointer(&file->path, g_free);
+  return true;
+}
+
+void sb_atomic_file_abort(SbAtomicFile *file) {
+  if (file->stream != NULL) {
+    fclose(file->stream);
+    file->stream = NULL;
+  }
+  if (file->temporary != NULL) {
+    g_unlink(file->temporary);
+  }
+  g_clear_pointer(&file->temporary, g_free);
+  g_clear_pointer(&file->path, g_free);
+}
+
+bool sb_atomic_write(const char *path, const char *text, size_t length, GError **error) {
+  SbAtomicFile file;
+  if (!sb_atomic_file_begin(&file, path, error)) {
+    return false;
+  }
+  fwrite(text, 1, length, file.stream);
+  return sb_atomic_file_commit(&file, error);
+}

@@ -1,0 +1,542 @@
+// Documents: values in layers, problems collected, edits undone. Writing is document_write.c.
+#include "app/document/document_private.h"
+#include "app/document/reader.h"
+
+#include <math.h>
+#include <string.h>
+
+SbDocument *sb_document_new(void) {
+  SbDocument *document = g_new0(SbDocument, 1);
+  document->kind = SB_DOCUMENT_VALVE;
+  document->title = g_strdup("Untitled");
+  document->text = g_strdup("[sealbench]\nformat = 1\nkind = valve\n");
+  GPtrArray *none = sb_issues_new();
+  document->entries = sb_reader_scan(document->text, strlen(document->text), "", none);
+  g_ptr_array_unref(none);
+  document->edits = g_array_new(FALSE, FALSE, sizeof(Edit));
+  sb_params_init(&document->base);
+  sb_params_init(&document->own);
+  sb_params_init(&document->saved);
+  return document;
+}
+
+void sb_document_free(SbDocument *document) {
+  if (document == NULL) {
+    return;
+  }
+  g_free(document->path);
+  g_free(document->title);
+  g_free(document->valve_path);
+  g_free(document->valve_name);
+  g_free(document->text);
+  g_ptr_array_unref(document->entries);
+  g_array_unref(document->edits);
+  g_free(document);
+}
+
+// ---- Reading ----
+
+// The value of [sealbench] NAME, or NULL.
+static const char *meta_value(const GPtrArray *entries, const char *name) {
+  for (guint i = 0; i < entries->len; i++) {
+    const SbEntry *entry = entries->pdata[i];
+    if (entry->name != NULL && strcmp(entry->group, SB_META_GROUP) == 0 &&
+        strcmp(entry->name, name) == 0) {
+      return entry->value;
+    }
+  }
+  return NULL;
+}
+
+// Number of single-character edits between two short names, for "did you mean".
+static int distance(const char *a, const char *b) {
+  enum { LENGTH_MAX = 40 };
+  int row[LENGTH_MAX + 1];
+  int n = (int)strlen(b);
+  if (n > LENGTH_MAX || strlen(a) > LENGTH_MAX) {
+    return LENGTH_MAX;
+  }
+  for (int j = 0; j <= n; j++) {
+    row[j] = j;
+  }
+  for (int i = 1; a[i - 1] != '\0'; i++) {
+    int diagonal = row[0];
+    row[0] = i;
+    for (int j = 1; j <= n; j++) {
+      int above = row[j];
+      int cost = diagonal + (a[i - 1] != b[j - 1]);
+      row[j] = MIN(MIN(above, row[j - 1]) + 1, cost);
+      diagonal = above;
+    }
+  }
+  return row[n];
+}
+
+// The catalogue key most like `key`, or NULL.
+static const char *nearest_key(const char *key) {
+  const char *best = NULL;
+  int least = 4;
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    int d = distance(key, sb_param((SbParamId)i)->key);
+    if (d < least) {
+      least = d;
+      best = sb_param((SbParamId)i)->key;
+    }
+  }
+  return best;
+}
+
+static bool is_group(const char *group) {
+  size_t length = strlen(group);
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const char *key = sb_param((SbParamId)i)->key;
+    const char *dot = strrchr(key, '.');
+    if ((size_t)(dot - key) == length && strncmp(key, group, length) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Moves the values of a scanned file into `params`.
+static void read_values(SbParams *params, const GPtrArray *entries, const char *shown,
+                        GPtrArray *issues) {
+  bool known_group = true;
+  for (guint i = 0; i < entries->len; i++) {
+    const SbEntry *entry = entries->pdata[i];
+    if (strcmp(entry->group, SB_META_GROUP) == 0) {
+      continue;
+    }
+    if (entry->name == NULL) {
+      known_group = is_group(entry->group);
+      if (!known_group) {
+        sb_issues_add(issues, shown, entry->line, NULL, NULL, "unknown group [%.60s]",
+                      entry->group);
+      }
+      continue;
+    }
+    if (!known_group) {
+      continue;
+    }
+    char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
+    int id = sb_param_find(key);
+    if (id < 0) {
+      const char *near = issues->len < SB_ISSUES_MAX ? nearest_key(key) : NULL;
+      sb_issues_add(issues, shown, entry->line, key, NULL, "unknown key%s%s%s",
+                    near != NULL ? ", do you mean " : "", near != NULL ? near : "",
+                    near != NULL ? "?" : "");
+    } else {
+      GError *error = NULL;
+      double value = 0;
+      if (sb_param_parse(&value, (SbParamId)id, entry->value, &error)) {
+        sb_params_set(params, (SbParamId)id, value, NULL);
+      } else {
+        char *range = sb_param_range((SbParamId)id);
+        sb_issues_add(issues, shown, entry->line, key, range, "%s", error->message);
+        g_free(range);
+        g_error_free(error);
+      }
+    }
+    g_free(key);
+  }
+}
+
+// Checks group [sealbench] and finds the kind. False if this is no document at all.
+static bool read_meta(SbDocumentKind *kind, const GPtrArray *entries, const char *shown,
+                      GPtrArray *issues) {
+  const SbEntry *first = entries->len > 0 ? entries->pdata[0] : NULL;
+  if (first == NULL || strcmp(first->group, SB_META_GROUP) != 0) {
+    sb_issues_add(issues, shown, 0, NULL, NULL,
+                  "is not a valve or scene: the first group must be [sealbench]");
+    return false;
+  }
+  const char *format = meta_value(entries, "format");
+  if (format == NULL || strcmp(format, "1") != 0) {
+    sb_issues_add(issues, shown, 0, "sealbench.format", "1", "%s",
+                  format == NULL ? "is missing" : "is a format that this version cannot read");
+  }
+  const char *name = meta_value(entries, "kind");
+  if (name != NULL && strcmp(name, "valve") == 0) {
+    *kind = SB_DOCUMENT_VALVE;
+  } else if (name != NULL && strcmp(name, "scene") == 0) {
+    *kind = SB_DOCUMENT_SCENE;
+  } else {
+    sb_issues_add(issues, shown, 0, "sealbench.kind", "valve, scene", "%s",
+                  name == NULL ? "is missing" : "is unknown");
+    return false;
+  }
+  for (guint i = 0; i < entries->len; i++) {
+    const SbEntry *entry = entries->pdata[i];
+    if (entry->name == NULL || strcmp(entry->group, SB_META_GROUP) != 0) {
+      continue;
+    }
+    static const char *const names[] = {"format", "kind", "title", "valve", NULL};
+    if (!g_strv_contains(names, entry->name)) {
+      char *key = g_strdup_printf("%s.%s", SB_META_GROUP, entry->name);
+      sb_issues_add(issues, shown, entry->line, key, "format, kind, title, valve", "unknown key");
+      g_free(key);
+    }
+  }
+  return true;
+}
+
+// Reads a scene's valve into document->base.
+static void read_valve(SbDocument *document, const char *directory, const char *shown,
+                       GPtrArray *issues) {
+  if (document->valve_name == NULL || *document->valve_name == '\0') {
+    sb_issues_add(issues, shown, 0, "sealbench.valve", NULL,
+                  "is missing: a scene names its valve's file");
+    return;
+  }
+  document->valve_path = g_path_is_absolute(document->valve_name) || directory == NULL
+                             ? g_strdup(document->valve_name)
+                             : g_build_filename(directory, document->valve_name, NULL);
+  guint before = issues->len;
+  size_t length = 0;
+  char *text = sb_reader_load(&length, document->valve_path, document->valve_path,
+                              SB_DOCUMENT_BYTES_MAX, issues);
+  if (text == NULL) {
+    // Name the key of the scene as well: that is the line to mend.
+    SbIssue *last = issues->pdata[issues->len - 1];
+    if (issues->len > before && last->key == NULL && issues->len <= SB_ISSUES_MAX) {
+      char *reason = g_strdup_printf("the valve's file %s: %s", last->file, last->text);
+      g_free(last->file);
+      g_free(last->text);
+      last->file = sb_printable(shown, strlen(shown));
+      last->key = g_strdup("sealbench.valve");
+      last->text = reason;
+    }
+    return;
+  }
+  GPtrArray *entries = sb_reader_scan(text, length, document->valve_path, issues);
+  SbDocumentKind kind = SB_DOCUMENT_VALVE;
+  if (issues->len == before && read_meta(&kind, entries, document->valve_path, issues) &&
+      kind != SB_DOCUMENT_VALVE) {
+    sb_issues_add(issues, document->valve_path, 0, "sealbench.kind", "valve",
+                  "a scene needs a valve here");
+  }
+  read_values(&document->base, entries, document->valve_path, issues);
+  g_ptr_array_unref(entries);
+  g_free(text);
+}
+
+void sb_document_refresh_title(SbDocument *document) {
+  g_free(document->title);
+  const char *title = meta_value(document->entries, "title");
+  if (title != NULL && *title != '\0') {
+    document->title = sb_printable(title, strlen(title));
+  } else if (document->path != NULL) {
+    char *name = g_path_get_basename(document->path);
+    document->title = sb_printable(name, strlen(name));
+    g_free(name);
+  } else {
+    document->title = g_strdup("Untitled");
+  }
+}
+
+SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
+                              const char *directory, GPtrArray *issues) {
+  guint before = issues->len;
+  GPtrArray *entries = sb_reader_scan(text, length, name, issues);
+  SbDocumentKind kind = SB_DOCUMENT_VALVE;
+  // Without a single line that means something there is only one thing to say.
+  bool readable = entries->len > 0 || issues->len == before;
+  if (!readable || !read_meta(&kind, entries, name, issues)) {
+    g_ptr_array_unref(entries);
+    return NULL;
+  }
+  SbDocument *document = sb_document_new();
+  document->kind = kind;
+  g_free(document->text);
+  document->text = g_strndup(text, length);
+  g_ptr_array_unref(document->entries);
+  document->entries = entries;
+  if (kind == SB_DOCUMENT_SCENE) {
+    document->valve_name = g_strdup(meta_value(entries, "valve"));
+    read_valve(document, directory, name, issues);
+  } else if (meta_value(entries, "valve") != NULL) {
+    sb_issues_add(issues, name, 0, "sealbench.valve", NULL, "only a scene names a valve");
+  }
+  read_values(&document->own, entries, name, issues);
+  document->saved = document->own;
+  sb_document_refresh_title(document);
+  if (issues->len == before) {
+    SbModel model;
+    document->path = g_strdup(name);
+    sb_document_compile(document, &model, issues);
+    g_clear_pointer(&document->path, g_free);
+  }
+  return document;
+}
+
+SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
+  size_t length = 0;
+  char *text = sb_reader_load(&length, path, path, SB_DOCUMENT_BYTES_MAX, issues);
+  if (text == NULL) {
+    return NULL;
+  }
+  char *directory = g_path_get_dirname(path);
+  SbDocument *document = sb_document_parse(text, length, path, directory, issues);
+  if (document != NULL) {
+    document->path = g_strdup(path);
+    sb_document_refresh_title(document);
+  }
+  g_free(directory);
+  g_free(text);
+  return document;
+}
+
+// ---- Asking ----
+
+SbDocumentKind sb_document_kind(const SbDocument *document) {
+  return document->kind;
+}
+
+const char *sb_document_path(const SbDocument *document) {
+  return document->path;
+}
+
+const char *sb_document_valve_path(const SbDocument *document) {
+  return document->valve_path;
+}
+
+const char *sb_document_title(const SbDocument *document) {
+  return document->title;
+}
+
+SbParams sb_document_params(const SbDocument *document) {
+  SbParams params = document->base;
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    if (document->own.given[i]) {
+      params.given[i] = true;
+      params.value[i] = document->own.value[i];
+    }
+  }
+  return params;
+}
+
+double sb_document_value(const SbDocument *document, SbParamId id) {
+  SbParams params = sb_document_params(document);
+  return sb_params_get(&params, id);
+}
+
+char *sb_document_text(const SbDocument *document, SbParamId id) {
+  return sb_param_format(id, sb_document_value(document, id));
+}
+
+// Range of a problem in the parameter's unit: "at least 5.79 mm".
+static char *problem_range(const SbProblem *problem, const SbParam *param) {
+  char min[SB_NUMBER_SIZE] = "";
+  char max[SB_NUMBER_SIZE] = "";
+  double low = sb_quantity_to_shown(problem->min, param->si, param->unit);
+  double high = sb_quantity_to_shown(problem->max, param->si, param->unit);
+  bool has_min = isfinite(problem->min);
+  bool has_max = isfinite(problem->max);
+  if (has_min) {
+    sb_number_round(min, low, 5);
+  }
+  if (has_max) {
+    sb_number_round(max, high, 5);
+  }
+  const char *space = param->unit[0] != '\0' ? " " : "";
+  if (has_min && has_max) {
+    return g_strdup_printf("%s to %s%s%s", min, max, space, param->unit);
+  }
+  if (has_min || has_max) {
+    return g_strdup_printf("at %s %s%s%s", has_min ? "least" : "most", has_min ? min : max, space,
+                           param->unit);
+  }
+  return NULL;
+}
+
+bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues) {
+  SbParams params = sb_document_params(document);
+  SbProblems problems;
+  if (sb_model_compile(out, &params, &problems) == SB_OK) {
+    return true;
+  }
+  for (size_t i = 0; i < problems.count; i++) {
+    const SbProblem *problem = &problems.item[i];
+    int id = sb_param_find(problem->key);
+    if (id < 0) {
+      sb_issues_add(issues, document->path, 0, problem->key, NULL, "%s", problem->text);
+      continue;
+    }
+    // The line to mend: the override's own, else its parent's; in this file, else in the valve's.
+    const SbParam *param = sb_param((SbParamId)id);
+    if (!params.given[id] && param->parent >= 0) {
+      id = param->parent;
+      param = sb_param((SbParamId)id);
+    }
+    bool in_valve = !document->own.given[id] && document->base.given[id];
+    char *range = problem_range(problem, param);
+    sb_issues_add(issues, in_valve ? document->valve_path : document->path, 0, param->key, range,
+                  "%s", problem->text);
+    g_free(range);
+  }
+  return false;
+}
+
+char *sb_document_sha256(const SbDocument *document) {
+  SbParams params = sb_document_params(document);
+  GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    char digits[SB_NUMBER_SIZE];
+    sb_number_format(digits, sb_params_get(&params, (SbParamId)i));
+    char *line = g_strdup_printf("%s=%s\n", sb_param((SbParamId)i)->key, digits);
+    g_checksum_update(sum, (const guchar *)line, -1);
+    g_free(line);
+  }
+  char *hex = g_strdup(g_checksum_get_string(sum));
+  g_checksum_free(sum);
+  return hex;
+}
+
+// ---- Editing ----
+
+// Puts one side of an edit in force.
+static void apply(SbDocument *document, const Edit *edit, int side) {
+  document->own.given[edit->id] = edit->given[side];
+  document->own.value[edit->id] = edit->value[side];
+  document->serial++;
+}
+
+// Records a change of one key and makes it.
+static void edit_key(SbDocument *document, SbParamId id, bool given, double value, bool merge) {
+  SbParams *own = &document->own;
+  if (own->given[id] == given && own->value[id] == value) {
+    return;
+  }
+  g_array_set_size(document->edits, document->done);
+  Edit *last =
+      document->done > 0 ? &g_array_index(document->edits, Edit, document->done - 1) : NULL;
+  if (merge && document->mergeable && last != NULL && last->id == id) {
+    last->given[1] = given;
+    last->value[1] = value;
+  } else {
+    Edit edit = {id, {own->given[id], given}, {own->value[id], value}};
+    g_array_append_val(document->edits, edit);
+    document->done++;
+  }
+  document->mergeable = merge;
+  Edit made = g_array_index(document->edits, Edit, document->done - 1);
+  apply(document, &made, 1);
+}
+
+// Adds the allowed range to a message.
+static bool fail_with_range(GError **error, SbParamId id, const char *message) {
+  char *range = sb_param_range(id);
+  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s (allowed %s)", message, range);
+  g_free(range);
+  return false;
+}
+
+bool sb_document_set(SbDocument *document, SbParamId id, const char *text, GError **error) {
+  GError *inner = NULL;
+  double value = 0;
+  if (!sb_param_parse(&value, id, text, &inner)) {
+    fail_with_range(error, id, inner->message);
+    g_error_free(inner);
+    return false;
+  }
+  return sb_document_set_value(document, id, value, false, error);
+}
+
+bool sb_document_set_value(SbDocument *document, SbParamId id, double value, bool merge,
+                           GError **error) {
+  SbParams trial = document->own;
+  SbReport report = {0};
+  if (sb_params_set(&trial, id, value, &report) != SB_OK) {
+    char *shown = sb_param_format(id, value);
+    char *message = g_strdup_printf("%s is out of range", shown);
+    fail_with_range(error, id, report.status == SB_ERROR_RANGE ? message : report.text);
+    g_free(message);
+    g_free(shown);
+    return false;
+  }
+  edit_key(document, id, true, value, merge);
+  return true;
+}
+
+bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray *issues) {
+  const char *equal = strchr(option, '=');
+  if (!g_utf8_validate(option, -1, NULL) || equal == NULL || equal == option) {
+    sb_issues_add(issues, "--set", 0, NULL, NULL, "\"%.60s\" is not KEY=VALUE", option);
+    return false;
+  }
+  char *key = g_strstrip(g_strndup(option, (size_t)(equal - option)));
+  int id = sb_param_find(key);
+  double value = 0;
+  GError *error = NULL;
+  bool good = false;
+  if (id < 0) {
+    const char *near = issues->len < SB_ISSUES_MAX ? nearest_key(key) : NULL;
+    sb_issues_add(issues, "--set", 0, key, NULL, "unknown key%s%s%s",
+                  near != NULL ? ", do you mean " : "", near != NULL ? near : "",
+                  near != NULL ? "?" : "");
+  } else if (!sb_param_parse(&value, (SbParamId)id, equal + 1, &error)) {
+    char *range = sb_param_range((SbParamId)id);
+    sb_issues_add(issues, "--set", 0, key, range, "%s", error->message);
+    g_free(range);
+    g_error_free(error);
+  } else {
+    good = sb_document_set_value(document, (SbParamId)id, value, false, NULL);
+  }
+  g_free(key);
+  return good;
+}
+
+void sb_document_unset(SbDocument *document, SbParamId id) {
+  edit_key(document, id, false, sb_param(id)->fallback, false);
+}
+
+bool sb_document_gives(const SbDocument *document, SbParamId id) {
+  return document->own.given[id];
+}
+
+bool sb_document_differs(const SbDocument *document, SbParamId id) {
+  bool given = document->own.given[id];
+  return given != document->saved.given[id] ||
+         (given && document->own.value[id] != document->saved.value[id]);
+}
+
+bool sb_document_is_modified(const SbDocument *document) {
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    if (sb_document_differs(document, (SbParamId)i)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+int sb_document_undo(SbDocument *document) {
+  if (!sb_document_can_undo(document)) {
+    return -1;
+  }
+  Edit edit = g_array_index(document->edits, Edit, --document->done);
+  document->mergeable = false;
+  apply(document, &edit, 0);
+  return (int)edit.id;
+}
+
+int sb_document_redo(SbDocument *document) {
+  if (!sb_document_can_redo(document)) {
+    return -1;
+  }
+  Edit edit = g_array_index(document->edits, Edit, document->done++);
+  document->mergeable = false;
+  apply(document, &edit, 1);
+  return (int)edit.id;
+}
+
+bool sb_document_can_undo(const SbDocument *document) {
+  return document->done > 0;
+}
+
+bool sb_document_can_redo(const SbDocument *document) {
+  return document->done < document->edits->len;
+}
+
+unsigned sb_document_serial(const SbDocument *document) {
+  return document->serial;
+}

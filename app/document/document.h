@@ -1,0 +1,111 @@
+// A document: one valve or scene file, what it says, and what the user has changed since.
+//
+// Values lie in layers: the catalogue's defaults, then (for a scene) its valve's file, then the
+// document's own keys. Edits go to the document's own keys and can be undone. Files are GKeyFile
+// text with units in the values; comments and untouched values survive saving as they stand.
+//
+// Not thread-safe: a document belongs to one thread. Hand SbParams or SbModel copies to others.
+#pragma once
+
+#include "app/document/issue.h"
+#include "app/document/unit.h"
+
+#include "engine/model.h"
+
+typedef struct SbDocument SbDocument;
+
+typedef enum { SB_DOCUMENT_VALVE, SB_DOCUMENT_SCENE } SbDocumentKind;
+
+enum { SB_DOCUMENT_FORMAT = 1, SB_DOCUMENT_BYTES_MAX = 1 << 20 };
+
+// An empty valve: all defaults, no file. Owned by the caller.
+SbDocument *sb_document_new(void);
+
+// Reads a valve or scene file (and a scene's valve). Every problem found is added to `issues`; a
+// key with a problem keeps its default. NULL if nothing could be made of it; then `issues` has at
+// least one. With an empty `issues` afterwards the document is sound: its model compiles. Refuses
+// what is not a regular file, larger than SB_DOCUMENT_BYTES_MAX, not UTF-8, or binary, without
+// reading it.
+SbDocument *sb_document_load(const char *path, GPtrArray *issues);
+
+// The same from memory; `name` stands in messages, `directory` is where a scene looks for its valve
+// (NULL: the current one).
+SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
+                              const char *directory, GPtrArray *issues);
+
+// Takes NULL.
+void sb_document_free(SbDocument *document);
+G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbDocument, sb_document_free)
+
+SbDocumentKind sb_document_kind(const SbDocument *document);
+
+// Path of the file, or NULL before the first save; borrowed until the next save.
+const char *sb_document_path(const SbDocument *document);
+
+// Path of a scene's valve file, or NULL; borrowed.
+const char *sb_document_valve_path(const SbDocument *document);
+
+// Name for titles: the `title` of group [sealbench], else the file's name, else "Untitled";
+// borrowed until the next load or save.
+const char *sb_document_title(const SbDocument *document);
+
+// All values in force (defaults, valve, own); `given` tells which anybody gave. A copy.
+SbParams sb_document_params(const SbDocument *document);
+
+// Value in force of one parameter, SI.
+double sb_document_value(const SbDocument *document, SbParamId id);
+
+// The same as text with unit. Owned by the caller.
+char *sb_document_text(const SbDocument *document, SbParamId id);
+
+// Compiles the values in force. False with at least one issue (file, key, range) if they do not go
+// together.
+bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues);
+
+// SHA-256 (hex) over the canonical text of all values in force. Owned by the caller.
+char *sb_document_sha256(const SbDocument *document);
+
+// Sets a parameter from text ("1.63 mm", "reynolds", "400"); an undoable edit. On failure
+// SB_APP_ERROR_INPUT, nothing changes, and the message ends with the allowed range.
+bool sb_document_set(SbDocument *document, SbParamId id, const char *text, GError **error);
+
+// The same from an SI value. With `merge`, an edit of the same key right after another becomes one
+// undo step (a drag).
+bool sb_document_set_value(SbDocument *document, SbParamId id, double value, bool merge,
+                           GError **error);
+
+// "KEY=VALUE" of --set. Issues name the file "--set".
+bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray *issues);
+
+// Removes the document's own value: the valve's or the default is in force again. Undoable.
+void sb_document_unset(SbDocument *document, SbParamId id);
+
+// True if the document itself gives this key (not its valve, not the default).
+bool sb_document_gives(const SbDocument *document, SbParamId id);
+
+// True if the key differs from what the file on disk says.
+bool sb_document_differs(const SbDocument *document, SbParamId id);
+
+// True if any key does: there is something to save.
+bool sb_document_is_modified(const SbDocument *document);
+
+// Undo and redo; each returns the parameter that changed, or -1 if there was nothing to do.
+int sb_document_undo(SbDocument *document);
+int sb_document_redo(SbDocument *document);
+bool sb_document_can_undo(const SbDocument *document);
+bool sb_document_can_redo(const SbDocument *document);
+
+// Counts every change of a value; two equal numbers mean equal values.
+unsigned sb_document_serial(const SbDocument *document);
+
+// The text that saving to `path` would write (NULL: where it is now). Owned by the caller.
+char *sb_document_to_text(const SbDocument *document, const char *path);
+
+// A valve text with every value in force, which stands alone (for a picture that can be opened
+// again). Owned by the caller.
+char *sb_document_to_flat_text(const SbDocument *document);
+
+// Writes the file by way of a temporary one in the same folder and a rename; afterwards nothing
+// differs and `path` is the document's. On failure SB_APP_ERROR_IO and an earlier file is intact. A
+// scene saved elsewhere keeps its valve by a new relative path.
+bool sb_document_save(SbDocument *document, const char *path, GError **error);

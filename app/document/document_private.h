@@ -1,0 +1,32 @@
+// Inside of a document, shared by document.c (reading, values) and document_write.c (files).
+#pragma once
+
+#include "app/document/document.h"
+
+#define SB_META_GROUP "sealbench"
+
+typedef struct {
+  SbParamId id;
+  bool given[2]; // before, after
+  double value[2];
+} Edit;
+
+struct SbDocument {
+  SbDocumentKind kind;
+  char *path;         // NULL before the first save
+  char *title;        //
+  char *valve_path;   // scenes: path to open, else NULL
+  char *valve_name;   // scenes: as the file has it
+  char *text;         // of the file as last read or written
+  GPtrArray *entries; // of that text
+  SbParams base;      // what the valve gives (scenes)
+  SbParams own;       // what the document gives
+  SbParams saved;     // what its file gives
+  GArray *edits;      // Edit
+  guint done;         // edits before this one are in force
+  bool mergeable;     // the last edit may swallow the next one of its key
+  unsigned serial;
+};
+
+// Sets the title anew from the text or the path.
+void sb_document_refresh_title(SbDocument *document);

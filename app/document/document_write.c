@@ -1,0 +1,160 @@
+// Documents as text and files: only the lines that differ are rewritten.
+#include "app/document/atomic.h"
+#include "app/document/document_private.h"
+#include "app/document/reader.h"
+#include "app/document/writer.h"
+
+#include <string.h>
+
+// Path of `target` as seen from `directory`. Owned by the caller.
+static char *relative_path(const char *target, const char *directory) {
+  char *to = g_canonicalize_filename(target, NULL);
+  char *from = g_canonicalize_filename(directory, NULL);
+  char **a = g_strsplit(to, "/", -1);
+  char **b = g_strsplit(from, "/", -1);
+  size_t common = 0;
+  while (a[common] != NULL && b[common] != NULL && strcmp(a[common], b[common]) == 0) {
+    common++;
+  }
+  GString *path = g_string_new(NULL);
+  for (size_t i = common; b[i] != NULL && *b[i] != '\0'; i++) {
+    g_string_append(path, "../");
+  }
+  for (size_t i = common; a[i] != NULL; i++) {
+    g_string_append_printf(path, "%s%s", a[i], a[i + 1] != NULL ? "/" : "");
+  }
+  g_strfreev(a);
+  g_strfreev(b);
+  g_free(to);
+  g_free(from);
+  return g_string_free(path, FALSE);
+}
+
+// What a scene at `path` must call its valve; NULL if nothing changes. Owned by the caller.
+static char *moved_valve(const SbDocument *document, const char *path) {
+  bool moves =
+      document->valve_path != NULL && path != NULL && !g_path_is_absolute(document->valve_name);
+  if (!moves) {
+    return NULL;
+  }
+  char *directory = g_path_get_dirname(path);
+  char *name = relative_path(document->valve_path, directory);
+  char *before = document->path != NULL ? g_path_get_dirname(document->path) : g_strdup(".");
+  char *same = relative_path(directory, before);
+  if (*same == '\0') {
+    g_clear_pointer(&name, g_free);
+  }
+  g_free(same);
+  g_free(before);
+  g_free(directory);
+  return name;
+}
+
+// Splits a catalogue key at its last dot; both owned by the caller.
+static void split_key(const char *key, char **group, char **name) {
+  const char *dot = strrchr(key, '.');
+  *group = g_strndup(key, (size_t)(dot - key));
+  *name = g_strdup(dot + 1);
+}
+
+static void free_changes(GArray *changes) {
+  for (guint i = 0; i < changes->len; i++) {
+    SbChange *change = &g_array_index(changes, SbChange, i);
+    g_free((char *)change->group);
+    g_free((char *)change->name);
+    g_free((char *)change->value);
+  }
+  g_array_unref(changes);
+}
+
+char *sb_document_to_text(const SbDocument *document, const char *path) {
+  GArray *changes = g_array_new(FALSE, FALSE, sizeof(SbChange));
+  char *valve = moved_valve(document, path);
+  if (valve != NULL) {
+    SbChange change = {g_strdup(SB_META_GROUP), g_strdup("valve"), valve};
+    g_array_append_val(changes, change);
+  }
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    if (sb_document_differs(document, (SbParamId)i)) {
+      char *group = NULL;
+      char *name = NULL;
+      split_key(sb_param((SbParamId)i)->key, &group, &name);
+      char *value =
+          document->own.given[i] ? sb_param_format((SbParamId)i, document->own.value[i]) : NULL;
+      SbChange change = {group, name, value};
+      g_array_append_val(changes, change);
+    }
+  }
+  char *text = sb_writer_apply(document->text, document->entries, (const SbChange *)changes->data,
+                               changes->len);
+  free_changes(changes);
+  return text;
+}
+
+// Appends the values of the `length` bytes long group at `group`, and its heading if there are any.
+static void append_group(GString *text, const SbParams *params, const char *group, size_t length) {
+  bool heading = false;
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    // Overrides that nobody gave follow their parents and need no line.
+    bool needed = params->given[i] || param->parent < 0;
+    const char *dot = strrchr(param->key, '.');
+    if (needed && (size_t)(dot - param->key) == length && strncmp(param->key, group, length) == 0) {
+      if (!heading) {
+        g_string_append_printf(text, "\n[%.*s]\n", (int)length, group);
+        heading = true;
+      }
+      char *value = sb_param_format((SbParamId)i, params->value[i]);
+      g_string_append_printf(text, "%s = %s\n", dot + 1, value);
+      g_free(value);
+    }
+  }
+}
+
+char *sb_document_to_flat_text(const SbDocument *document) {
+  SbParams params = sb_document_params(document);
+  GString *text = g_string_new("[" SB_META_GROUP "]\nformat = 1\nkind = valve\n");
+  g_string_append_printf(text, "title = %s\n", document->title);
+  // Each group once, in the catalogue's order.
+  GHashTable *seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const char *key = sb_param((SbParamId)i)->key;
+    size_t length = (size_t)(strrchr(key, '.') - key);
+    if (g_hash_table_add(seen, g_strndup(key, length))) {
+      append_group(text, &params, key, length);
+    }
+  }
+  g_hash_table_unref(seen);
+  return g_string_free(text, FALSE);
+}
+
+bool sb_document_save(SbDocument *document, const char *path, GError **error) {
+  char *text = sb_document_to_text(document, path);
+  if (!sb_atomic_write(path, text, strlen(text), error)) {
+    g_free(text);
+    return false;
+  }
+  // Now the file says what the document says.
+  char *valve = moved_valve(document, path);
+  if (valve != NULL) {
+    g_free(document->valve_name);
+    document->valve_name = valve;
+    char *directory = g_path_get_dirname(path);
+    g_free(document->valve_path);
+    document->valve_path = g_build_filename(directory, valve, NULL);
+    g_free(directory);
+  }
+  g_free(document->text);
+  document->text = text;
+  GPtrArray *none = sb_issues_new();
+  g_ptr_array_unref(document->entries);
+  document->entries = sb_reader_scan(text, strlen(text), path, none);
+  g_ptr_array_unref(none);
+  char *kept = g_strdup(path);
+  g_free(document->path);
+  document->path = kept;
+  document->saved = document->own;
+  document->mergeable = false;
+  sb_document_refresh_title(document);
+  return true;
+}

@@ -1,0 +1,92 @@
+// Lists of problems, and text of strangers made fit to print.
+#include "app/document/issue.h"
+
+#include <stdarg.h>
+#include <string.h>
+
+static void issue_free(gpointer data) {
+  SbIssue *issue = data;
+  g_free(issue->file);
+  g_free(issue->key);
+  g_free(issue->text);
+  g_free(issue->allowed);
+  g_free(issue);
+}
+
+GPtrArray *sb_issues_new(void) {
+  return g_ptr_array_new_with_free_func(issue_free);
+}
+
+void sb_issues_add(GPtrArray *issues, const char *file, int line, const char *key,
+                   const char *allowed, const char *format, ...) {
+  // The list is full: the last issue counts.
+  if (issues->len > SB_ISSUES_MAX) {
+    SbIssue *last = issues->pdata[issues->len - 1];
+    last->line++;
+    g_free(last->text);
+    last->text = g_strdup_printf("and %d more", last->line);
+    return;
+  }
+  SbIssue *issue = g_new0(SbIssue, 1);
+  if (issues->len == SB_ISSUES_MAX) {
+    issue->line = 1;
+    issue->text = g_strdup("and 1 more");
+    g_ptr_array_add(issues, issue);
+    return;
+  }
+  issue->file = file != NULL ? sb_printable(file, strlen(file)) : NULL;
+  issue->line = line;
+  issue->key = key != NULL ? sb_printable(key, strlen(key)) : NULL;
+  issue->allowed = allowed != NULL ? sb_printable(allowed, strlen(allowed)) : NULL;
+  va_list arguments;
+  va_start(arguments, format);
+  char *text = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  issue->text = sb_printable(text, strlen(text));
+  g_free(text);
+  g_ptr_array_add(issues, issue);
+}
+
+char *sb_issue_line(const SbIssue *issue) {
+  GString *line = g_string_new(NULL);
+  if (issue->file != NULL) {
+    g_string_append_printf(line, "%s: ", issue->file);
+  }
+  if (issue->key != NULL) {
+    const char *dot = strrchr(issue->key, '.');
+    if (dot != NULL) {
+      g_string_append_printf(line, "[%.*s] %s: ", (int)(dot - issue->key), issue->key, dot + 1);
+    } else {
+      g_string_append_printf(line, "[%s]: ", issue->key);
+    }
+  } else if (issue->file != NULL && issue->line > 0) {
+    g_string_append_printf(line, "line %d: ", issue->line);
+  }
+  g_string_append(line, issue->text);
+  if (issue->allowed != NULL) {
+    g_string_append_printf(line, " (allowed %s)", issue->allowed);
+  }
+  return g_string_free(line, FALSE);
+}
+
+char *sb_printable(const char *text, size_t length) {
+  enum { CHARACTERS_MAX = 300 };
+  GString *out = g_string_new(NULL);
+  const char *end = text + length;
+  int count = 0;
+  for (const char *c = text; c < end; count++) {
+    if (count == CHARACTERS_MAX) {
+      g_string_append(out, "...");
+      break;
+    }
+    gunichar code = g_utf8_get_char_validated(c, end - c);
+    if (code == (gunichar)-1 || code == (gunichar)-2 || code == 0) {
+      g_string_append_c(out, '?');
+      c++;
+      continue;
+    }
+    g_string_append_unichar(out, g_unichar_isprint(code) ? code : '?');
+    c = g_utf8_next_char(c);
+  }
+  return g_string_free(out, FALSE);
+}

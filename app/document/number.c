@@ -1,0 +1,101 @@
+// Numbers as text. Digits come from the C library's correctly rounded conversions (by way of
+// GLib, which takes the locale out); this file only chooses how many and where the point goes.
+#include "app/document/number.h"
+
+#include <glib.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Splits "d.ddde[+-]xx" into digits without trailing zeros and the decimal exponent.
+static int split(char digits[SB_NUMBER_SIZE], const char *scientific) {
+  int count = 0;
+  const char *c = scientific;
+  for (; *c != '\0' && *c != 'e'; c++) {
+    if (g_ascii_isdigit(*c)) {
+      digits[count++] = *c;
+    }
+  }
+  while (count > 1 && digits[count - 1] == '0') {
+    count--;
+  }
+  digits[count] = '\0';
+  return *c == 'e' ? atoi(c + 1) : 0;
+}
+
+// Lays digits out as plain decimals, or with an exponent where there would be many zeros.
+static char *lay_out(char text[SB_NUMBER_SIZE], bool negative, const char *digits, int exponent) {
+  int count = (int)strlen(digits);
+  char *c = text;
+  if (negative) {
+    *c++ = '-';
+  }
+  if (exponent < -5 || exponent > 15) {
+    *c++ = digits[0];
+    if (count > 1) {
+      *c++ = '.';
+      memcpy(c, digits + 1, (size_t)count - 1);
+      c += count - 1;
+    }
+    snprintf(c, 8, "e%+03d", exponent);
+    return text;
+  }
+  if (exponent < 0) {
+    *c++ = '0';
+    *c++ = '.';
+    for (int i = -1; i > exponent; i--) {
+      *c++ = '0';
+    }
+    memcpy(c, digits, (size_t)count + 1);
+    return text;
+  }
+  for (int i = 0; i <= exponent || i < count; i++) {
+    if (i == exponent + 1) {
+      *c++ = '.';
+    }
+    *c++ = i < count ? digits[i] : '0';
+  }
+  *c = '\0';
+  return text;
+}
+
+static char *special(char text[SB_NUMBER_SIZE], double value) {
+  const char *word = value == 0 ? "0" : isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+  return strcpy(text, word);
+}
+
+char *sb_number_format_shifted(char text[SB_NUMBER_SIZE], double value, int shift) {
+  if (!isfinite(value) || value == 0) {
+    return special(text, value);
+  }
+  // Fifteen digits hold every shorter decimal; sixteen or seventeen only where they are needed.
+  static const char *const formats[] = {"%.14e", "%.15e", "%.16e"};
+  char scientific[SB_NUMBER_SIZE];
+  for (size_t i = 0; i < G_N_ELEMENTS(formats); i++) {
+    g_ascii_formatd(scientific, sizeof scientific, formats[i], fabs(value));
+    if (g_ascii_strtod(scientific, NULL) == fabs(value)) {
+      break;
+    }
+  }
+  char digits[SB_NUMBER_SIZE];
+  int exponent = split(digits, scientific);
+  return lay_out(text, value < 0, digits, exponent - shift);
+}
+
+char *sb_number_format(char text[SB_NUMBER_SIZE], double value) {
+  return sb_number_format_shifted(text, value, 0);
+}
+
+char *sb_number_round(char text[SB_NUMBER_SIZE], double value, int digits) {
+  if (!isfinite(value) || value == 0) {
+    return special(text, value);
+  }
+  char format[8];
+  snprintf(format, sizeof format, "%%.%de", CLAMP(digits, 1, 17) - 1);
+  char scientific[SB_NUMBER_SIZE];
+  g_ascii_formatd(scientific, sizeof scientific, format, fabs(value));
+  char kept[SB_NUMBER_SIZE];
+  int exponent = split(kept, scientific);
+  return lay_out(text, value < 0, kept, exponent);
+}

@@ -1,0 +1,167 @@
+// Reads and scans key files from anywhere: sizes are bounded before reading, devices and folders
+// refused, and every line that means nothing is told.
+#include "app/document/reader.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <glib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t bytes_max,
+                     GPtrArray *issues) {
+  // Not to hang on a pipe, nor to read what is too large anyway.
+  int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) {
+    sb_issues_add(issues, shown, 0, NULL, NULL, "%s", g_strerror(errno));
+    return NULL;
+  }
+  struct stat info;
+  char *text = NULL;
+  if (fstat(fd, &info) != 0) {
+    sb_issues_add(issues, shown, 0, NULL, NULL, "%s", g_strerror(errno));
+  } else if (S_ISDIR(info.st_mode)) {
+    sb_issues_add(issues, shown, 0, NULL, NULL, "is a folder, not a file");
+  } else if (!S_ISREG(info.st_mode)) {
+    sb_issues_add(issues, shown, 0, NULL, NULL, "is not a regular file");
+  } else if ((guint64)info.st_size > bytes_max) {
+    sb_issues_add(issues, shown, 0, NULL, "at most 1 MiB", "is too large (%.1f MiB)",
+                  (double)info.st_size / (1 << 20));
+  } else {
+    text = g_malloc(bytes_max + 2);
+  }
+  // One byte more than allowed shows that the file has grown meanwhile.
+  size_t count = 0;
+  while (text != NULL && count <= bytes_max) {
+    ssize_t got = read(fd, text + count, bytes_max + 1 - count);
+    if (got < 0 && errno == EINTR) {
+      continue;
+    }
+    if (got < 0) {
+      sb_issues_add(issues, shown, 0, NULL, NULL, "%s", g_strerror(errno));
+      g_clear_pointer(&text, g_free);
+    }
+    if (got <= 0) {
+      break;
+    }
+    count += (size_t)got;
+  }
+  if (text != NULL && count > bytes_max) {
+    sb_issues_add(issues, shown, 0, NULL, "at most 1 MiB", "is too large");
+    g_clear_pointer(&text, g_free);
+  }
+  if (text != NULL) {
+    text[count] = '\0';
+    *length = count;
+  }
+  close(fd);
+  return text;
+}
+
+static void entry_free(gpointer data) {
+  SbEntry *entry = data;
+  g_free(entry->group);
+  g_free(entry->name);
+  g_free(entry->value);
+  g_free(entry);
+}
+
+static void add_entry(GPtrArray *entries, const char *group, const char *name, const char *value,
+                      int line) {
+  SbEntry *entry = g_new0(SbEntry, 1);
+  *entry = (SbEntry){g_strdup(group), g_strdup(name), g_strdup(value), line};
+  g_ptr_array_add(entries, entry);
+}
+
+// Line number of byte `at`.
+static int line_of(const char *text, const char *at) {
+  int line = 1;
+  for (const char *c = text; c < at; c++) {
+    line += *c == '\n';
+  }
+  return line;
+}
+
+// Name of a "[group]" line, or NULL. Owned by the caller.
+static char *group_name(const char *line) {
+  size_t length = strlen(line);
+  if (length < 3 || line[0] != '[' || line[length - 1] != ']') {
+    return NULL;
+  }
+  char *name = g_strndup(line + 1, length - 2);
+  if (strpbrk(name, "[]") != NULL) {
+    g_clear_pointer(&name, g_free);
+  }
+  return name;
+}
+
+GPtrArray *sb_reader_scan(const char *text, size_t length, const char *shown, GPtrArray *issues) {
+  GPtrArray *entries = g_ptr_array_new_with_free_func(entry_free);
+  // Text at all?
+  const char *bad = NULL;
+  if (memchr(text, '\0', length) != NULL) {
+    sb_issues_add(issues, shown, 0, NULL, NULL, "is binary, not text");
+    return entries;
+  }
+  if (!g_utf8_validate(text, (gssize)length, &bad)) {
+    sb_issues_add(issues, shown, line_of(text, bad), NULL, NULL, "is not UTF-8 text");
+    return entries;
+  }
+  GHashTable *seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+  char *group = NULL;
+  bool skip = false; // inside a group whose heading was no good
+  int number = 0;
+  char *copy = g_strndup(text, length);
+  const char *start = copy;
+  if (length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) {
+    start += 3;
+  }
+  while (*start != '\0') {
+    const char *end = strchr(start, '\n');
+    size_t bytes = end != NULL ? (size_t)(end - start) : strlen(start);
+    char *line = g_strstrip(g_strndup(start, bytes));
+    start += bytes + (end != NULL);
+    number++;
+    if (*line == '\0' || *line == '#') {
+      g_free(line);
+      continue;
+    }
+    char *equal = strchr(line, '=');
+    if (*line == '[') {
+      g_free(group);
+      group = group_name(line);
+      skip = group == NULL;
+      if (skip) {
+        sb_issues_add(issues, shown, number, NULL, NULL, "\"%.60s\" is not a [group]", line);
+      } else if (!g_hash_table_add(seen, g_strdup_printf("[%s]", group))) {
+        sb_issues_add(issues, shown, number, NULL, NULL, "group [%.60s] appears twice", group);
+      } else {
+        add_entry(entries, group, NULL, NULL, number);
+      }
+    } else if (equal == NULL || equal == line) {
+      sb_issues_add(issues, shown, number, NULL, NULL,
+                    "\"%.60s\" is not \"key = value\" (is the file cut off?)", line);
+    } else if (skip) {
+      // Already told.
+    } else if (group == NULL) {
+      sb_issues_add(issues, shown, number, NULL, NULL, "a key stands before the first [group]");
+    } else {
+      char *name = g_strchomp(g_strndup(line, (size_t)(equal - line)));
+      char *key = g_strdup_printf("%s.%s", group, name);
+      if (!g_hash_table_add(seen, g_strdup(key))) {
+        sb_issues_add(issues, shown, number, key, NULL, "is given twice (again on line %d)",
+                      number);
+      } else {
+        add_entry(entries, group, name, g_strchug(equal + 1), number);
+      }
+      g_free(key);
+      g_free(name);
+    }
+    g_free(line);
+  }
+  g_free(copy);
+  g_free(group);
+  g_hash_table_unref(seen);
+  return entries;
+}

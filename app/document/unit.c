@@ -1,0 +1,427 @@
+// Values with units by udunits-2.
+//
+// udunits keeps one parser and one unit system per process and reads numbers by the locale, so one
+// lock and the C locale surround every call to it. Scales of unit pairs are remembered.
+#include "app/document/unit.h"
+
+#include "app/document/issue.h"
+
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <udunits2.h>
+
+G_DEFINE_QUARK(sb - app - error - quark, sb_app_error)
+
+typedef enum { SCALE_OK, SCALE_UNKNOWN, SCALE_WRONG, SCALE_NO_DATABASE } ScaleStatus;
+
+typedef struct {
+  ScaleStatus status;
+  double scale; // SI value of one unit
+} Scale;
+
+static GMutex lock;
+
+// A unit may hold digits as exponents only ("m3", "s-2") or as the leading "1/" of a reciprocal;
+// "mm 10" or "5 mm" inside a unit would be silent factors.
+static bool unit_is_plain(const char *unit) {
+  for (const char *c = unit; *c != '\0'; c++) {
+    if (*c == '@' || *c == '(' || *c == ')' || g_ascii_iscntrl(*c)) {
+      return false;
+    }
+    if (g_ascii_isdigit(*c)) {
+      bool reciprocal = c == unit && c[0] == '1' && c[1] == '/';
+      char before = c > unit ? c[-1] : ' ';
+      bool exponent = before != ' ' && before != '.' && before != '*' && before != '/';
+      if (!reciprocal && !exponent) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+// Asks udunits. The lock is held and the thread is in the C locale.
+static Scale ask(const char *unit, const char *si) {
+  static ut_system *units = NULL;
+  if (units == NULL) {
+    ut_set_error_message_handler(ut_ignore);
+    units = ut_read_xml(NULL);
+    if (units == NULL) {
+      return (Scale){SCALE_NO_DATABASE, 0};
+    }
+  }
+  Scale result = {SCALE_UNKNOWN, 0};
+  ut_unit *from = ut_parse(units, unit, UT_UTF8);
+  ut_unit *to = ut_parse(units, si, UT_UTF8);
+  if (from != NULL && to != NULL) {
+    cv_converter *converter = NULL;
+    if (ut_are_convertible(from, to)) {
+      converter = ut_get_converter(from, to);
+    }
+    result.status = SCALE_WRONG;
+    // Only units that are a plain multiple: no offsets, no logarithms, no reciprocal conversion.
+    if (converter != NULL && cv_convert_double(converter, 0) == 0) {
+      double one = cv_convert_double(converter, 1);
+      double two = cv_convert_double(converter, 2);
+      if (isfinite(one) && one > 0 && fabs(two - 2 * one) <= 1e-12 * two) {
+        result = (Scale){SCALE_OK, one};
+      }
+    }
+    cv_free(converter);
+  }
+  ut_free(from);
+  ut_free(to);
+  return result;
+}
+
+static Scale find_scale(const char *unit, const char *si) {
+  enum { REMEMBERED_MAX = 512, UNIT_LENGTH_MAX = 40 };
+  if (*unit == '\0') {
+    unit = "1";
+  }
+  if (strlen(unit) > UNIT_LENGTH_MAX || !unit_is_plain(strcmp(unit, "1") == 0 ? "" : unit)) {
+    return (Scale){SCALE_UNKNOWN, 0};
+  }
+  static GHashTable *remembered = NULL;
+  char *pair = g_strdup_printf("%s|%s", unit, si);
+  g_mutex_lock(&lock);
+  if (remembered == NULL) {
+    remembered = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
+  }
+  Scale *known = g_hash_table_lookup(remembered, pair);
+  Scale scale;
+  if (known != NULL) {
+    scale = *known;
+  } else {
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    locale_t before = plain != (locale_t)0 ? uselocale(plain) : (locale_t)0;
+    scale = ask(unit, si);
+    if (plain != (locale_t)0) {
+      uselocale(before);
+      freelocale(plain);
+    }
+    if (scale.status != SCALE_NO_DATABASE && g_hash_table_size(remembered) < REMEMBERED_MAX) {
+      g_hash_table_insert(remembered, g_strdup(pair), g_memdup2(&scale, sizeof scale));
+    }
+  }
+  g_mutex_unlock(&lock);
+  g_free(pair);
+  return scale;
+}
+
+// True and the exponent k if `scale` is 10^k.
+static bool is_power_of_ten(double scale, int *power) {
+  int k = (int)lround(log10(scale));
+  *power = k;
+  return fabs(scale - pow(10, k)) <= 1e-13 * scale;
+}
+
+// number x scale, the scale taken as a division where its inverse is whole: 20 mm/min is 20/60000.
+static double apply_scale(double number, double scale) {
+  double inverse = 1 / scale;
+  if (inverse > 1 && inverse < 1e15 && fabs(inverse - round(inverse)) <= 1e-12 * inverse) {
+    return number / round(inverse);
+  }
+  return number * scale;
+}
+
+// The extent of a decimal number at the start of `text`: its length, and where its exponent starts
+// (the end if it has none). 0 if there is no number.
+static size_t scan_number(const char *text, size_t *exponent_at) {
+  const char *c = text;
+  if (*c == '+' || *c == '-') {
+    c++;
+  }
+  int digits = 0;
+  for (; g_ascii_isdigit(*c); c++) {
+    digits++;
+  }
+  if (*c == '.') {
+    for (c++; g_ascii_isdigit(*c); c++) {
+      digits++;
+    }
+  }
+  if (digits == 0) {
+    return 0;
+  }
+  *exponent_at = (size_t)(c - text);
+  if (*c == 'e' || *c == 'E') {
+    const char *e = c + 1;
+    if (*e == '+' || *e == '-') {
+      e++;
+    }
+    if (g_ascii_isdigit(*e)) {
+      while (g_ascii_isdigit(*e)) {
+        e++;
+      }
+      c = e;
+    }
+  }
+  return (size_t)(c - text);
+}
+
+// The number at text[0..length) times 10^power, rounded once.
+static double read_decimal(const char *text, size_t exponent_at, size_t length, int power) {
+  long exponent = 0;
+  if (exponent_at < length) {
+    exponent = strtol(text + exponent_at + 1, NULL, 10);
+  }
+  exponent = CLAMP(exponent, -100000, 100000) + power;
+  char *moved = g_strdup_printf("%.*se%ld", (int)exponent_at, text, exponent);
+  double value = g_ascii_strtod(moved, NULL);
+  g_free(moved);
+  return value;
+}
+
+static bool fail(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
+static bool fail(GError **error, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  char *raw = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  char *text = sb_printable(raw, strlen(raw));
+  g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, text);
+  g_free(text);
+  g_free(raw);
+  return false;
+}
+
+bool sb_quantity_parse(double *out, const char *text, const char *si, const char *shown,
+                       GError **error) {
+  enum { LENGTH_MAX = 200 };
+  bool plain = strcmp(si, "1") == 0;
+  if (strlen(text) > LENGTH_MAX) {
+    return fail(error, "\"%.20s...\" is too long for a value", text);
+  }
+  char *copy = g_strstrip(g_strdup(text));
+  bool good = false;
+  size_t exponent_at = 0;
+  size_t length = scan_number(copy, &exponent_at);
+  if (length == 0) {
+    const char *word = copy + (*copy == '-' || *copy == '+');
+    bool infinite =
+        g_ascii_strncasecmp(word, "nan", 3) == 0 || g_ascii_strncasecmp(word, "inf", 3) == 0;
+    if (*copy == '\0') {
+      fail(error, "no value");
+    } else if (infinite) {
+      fail(error, "\"%s\" is not a finite number", copy);
+    } else {
+      fail(error, "\"%s\" is not a number%s%s", copy, plain ? "" : " with a unit such as ",
+           plain ? "" : shown);
+    }
+    goto done;
+  }
+  char *unit = copy + length;
+  while (g_ascii_isspace(*unit)) {
+    unit++;
+  }
+  if (*unit == ',' && g_ascii_isdigit(unit[1])) {
+    fail(error, "\"%s\" has a decimal comma, write a point", copy);
+    goto done;
+  }
+  if (strpbrk(unit, "#") != NULL) {
+    fail(error, "\"%s\": a comment must stand on a line of its own", copy);
+    goto done;
+  }
+  if (*unit == '\0' && !plain) {
+    fail(error, "\"%.*s\" has no unit, write for example \"%.*s %s\"", (int)length, copy,
+         (int)length, copy, shown);
+    goto done;
+  }
+  // "2.8/GPa" for "2.8 1/GPa".
+  char *reciprocal = *unit == '/' ? g_strconcat("1", unit, NULL) : NULL;
+  Scale scale = find_scale(reciprocal != NULL ? reciprocal : unit, si);
+  g_free(reciprocal);
+  if (scale.status == SCALE_NO_DATABASE) {
+    fail(error, "the units database of udunits-2 is missing");
+    goto done;
+  }
+  if (scale.status != SCALE_OK) {
+    const char *what =
+        scale.status == SCALE_UNKNOWN ? "is not a unit" : "is a unit of another kind";
+    if (plain) {
+      fail(error, "\"%s\" %s: this value has none", unit, what);
+    } else {
+      fail(error, "\"%s\" %s, expected %s or another unit of that kind", unit, what, shown);
+    }
+    goto done;
+  }
+  int power = 0;
+  double value = is_power_of_ten(scale.scale, &power)
+                     ? read_decimal(copy, exponent_at, length, power)
+                     : apply_scale(read_decimal(copy, exponent_at, length, 0), scale.scale);
+  if (!isfinite(value)) {
+    fail(error, "\"%s\" is not a finite number", copy);
+    goto done;
+  }
+  *out = value;
+  good = true;
+done:
+  g_free(copy);
+  return good;
+}
+
+double sb_quantity_to_shown(double value, const char *si, const char *shown) {
+  Scale scale = find_scale(shown, si);
+  if (scale.status != SCALE_OK) {
+    return value;
+  }
+  double inverse = 1 / scale.scale;
+  if (inverse > 1 && fabs(inverse - round(inverse)) <= 1e-12 * inverse) {
+    return value * round(inverse);
+  }
+  return value / scale.scale;
+}
+
+double sb_quantity_from_shown(double number, const char *si, const char *shown) {
+  Scale scale = find_scale(shown, si);
+  if (scale.status != SCALE_OK) {
+    return number;
+  }
+  int power = 0;
+  if (is_power_of_ten(scale.scale, &power)) {
+    char digits[SB_NUMBER_SIZE];
+    return g_ascii_strtod(sb_number_format_shifted(digits, number, -power), NULL);
+  }
+  return apply_scale(number, scale.scale);
+}
+
+// Fewest digits of value / scale that come back as `value`; false if no 17 digits do.
+static bool format_scaled(char text[SB_NUMBER_SIZE], double value, double scale) {
+  double near = value / scale;
+  for (int digits = 1; digits <= 17; digits++) {
+    sb_number_round(text, near, digits);
+    if (apply_scale(g_ascii_strtod(text, NULL), scale) == value) {
+      return true;
+    }
+  }
+  // The nearest doubles beside it.
+  const double side[] = {nextafter(near, INFINITY), nextafter(near, -INFINITY)};
+  for (size_t i = 0; i < G_N_ELEMENTS(side); i++) {
+    sb_number_format(text, side[i]);
+    if (apply_scale(side[i], scale) == value) {
+      return true;
+    }
+  }
+  return false;
+}
+
+char *sb_quantity_format(double value, const char *si, const char *shown) {
+  char text[SB_NUMBER_SIZE];
+  Scale scale = find_scale(shown, si);
+  int power = 0;
+  if (!isfinite(value) || scale.status != SCALE_OK) {
+    sb_number_format(text, value);
+    shown = si;
+  } else if (is_power_of_ten(scale.scale, &power)) {
+    sb_number_format_shifted(text, value, power);
+  } else if (!format_scaled(text, value, scale.scale)) {
+    sb_number_format(text, value);
+    shown = si;
+  }
+  bool bare = *shown == '\0' || strcmp(shown, "1") == 0;
+  return bare ? g_strdup(text) : g_strconcat(text, " ", shown, NULL);
+}
+
+char *sb_param_format(SbParamId id, double value) {
+  const SbParam *param = sb_param(id);
+  char name[64];
+  switch (param->kind) {
+  case SB_PARAM_REAL:
+    return sb_quantity_format(value, param->si, param->unit);
+  case SB_PARAM_INT:
+    return g_strdup_printf("%.0f", value);
+  case SB_PARAM_CHOICE:
+    sb_param_choice_name(param, (int)value, name, sizeof name);
+    return g_strdup(name);
+  case SB_PARAM_FLAGS:
+    break;
+  }
+  GString *list = g_string_new(NULL);
+  for (int i = 0; i < sb_param_choice_count(param); i++) {
+    if ((unsigned)value & 1u << i) {
+      sb_param_choice_name(param, i, name, sizeof name);
+      g_string_append_printf(list, "%s%s", list->len > 0 ? ";" : "", name);
+    }
+  }
+  return g_string_free(list, FALSE);
+}
+
+// Bit mask of a list "hysteresis;profiles".
+static bool parse_flags(double *out, const SbParam *param, const char *text, GError **error) {
+  unsigned mask = 0;
+  char **names = g_strsplit(text, ";", 64);
+  bool good = true;
+  for (char **name = names; good && *name != NULL; name++) {
+    g_strstrip(*name);
+    if (**name == '\0') {
+      continue;
+    }
+    int index = sb_param_choice(param, *name, strlen(*name));
+    if (index < 0) {
+      good = fail(error, "\"%.60s\" is not one of the names", *name);
+    } else {
+      mask |= 1u << index;
+    }
+  }
+  g_strfreev(names);
+  if (good) {
+    *out = mask;
+  }
+  return good;
+}
+
+bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error) {
+  const SbParam *param = sb_param(id);
+  double value = 0;
+  if (param->kind == SB_PARAM_FLAGS) {
+    return parse_flags(out, param, text, error);
+  }
+  if (param->kind == SB_PARAM_CHOICE) {
+    char *name = g_strstrip(g_strdup(text));
+    int index = sb_param_choice(param, name, strlen(name));
+    bool good = index >= 0 || fail(error, "\"%.60s\" is not one of the names", name);
+    g_free(name);
+    if (good) {
+      *out = index;
+    }
+    return good;
+  }
+  if (!sb_quantity_parse(&value, text, param->si, param->unit, error)) {
+    return false;
+  }
+  if (param->kind == SB_PARAM_INT && value != floor(value)) {
+    return fail(error, "\"%.60s\" is not a whole number", text);
+  }
+  if (value < param->min || value > param->max) {
+    char *shown = sb_param_format(id, value);
+    fail(error, "%s is out of range", shown);
+    g_free(shown);
+    return false;
+  }
+  *out = value;
+  return true;
+}
+
+char *sb_param_range(SbParamId id) {
+  const SbParam *param = sb_param(id);
+  if (param->kind == SB_PARAM_CHOICE || param->kind == SB_PARAM_FLAGS) {
+    char **names = g_strsplit(param->choices, "|", 0);
+    char *list = g_strjoinv(", ", names);
+    g_strfreev(names);
+    return list;
+  }
+  char *min = sb_quantity_format(param->min, param->si, param->unit);
+  char *max = sb_param_format(id, param->max);
+  char *space = param->unit[0] != '\0' ? strchr(min, ' ') : NULL;
+  if (space != NULL && g_str_has_suffix(max, space)) {
+    *space = '\0';
+  }
+  char *range = g_strdup_printf("%s to %s", min, max);
+  g_free(min);
+  g_free(max);
+  return range;
+}

@@ -1,0 +1,50 @@
+// Values with units: text to SI and back.
+//
+// "1.61mm", "1.61 mm", "0.211mPa.s", "20 mm/min", "2.8 1/GPa" and "1 µm" are read by udunits-2; a
+// value whose unit is a power of ten of the SI unit is scaled in decimal, so that "1.61 mm" is
+// exactly the double 1.61e-3. A bare number is an error unless the quantity has no unit. No locale
+// plays a role. Safe to call from any thread.
+#pragma once
+
+#include "app/document/number.h"
+
+#include "engine/params.h"
+
+#include <glib.h>
+
+// How messages and exit codes are sorted. BAD_INPUT is the user's, IO the system's.
+typedef enum {
+  SB_APP_ERROR_INPUT,
+  SB_APP_ERROR_IO,
+  SB_APP_ERROR_CANCELLED,
+  SB_APP_ERROR_NOT_CONVERGED
+} SbAppError;
+#define SB_APP_ERROR (sb_app_error_quark())
+GQuark sb_app_error_quark(void);
+
+// Reads `text` as a quantity of the dimension of `si` ("m", "Pa.s", "1"). `shown` is the unit that
+// error messages propose. Returns false with SB_APP_ERROR_INPUT and one sentence that names the
+// expected unit; *out is untouched then.
+bool sb_quantity_parse(double *out, const char *text, const char *si, const char *shown,
+                       GError **error);
+
+// `value` [SI] in unit `shown` with the fewest digits that read back to the same double; the number
+// alone if `shown` is empty. Falls back to the SI unit where `shown` cannot express the value
+// exactly. Owned by the caller.
+char *sb_quantity_format(double value, const char *si, const char *shown);
+
+// The number alone, for a spin button or a table whose heading has the unit: value / (shown in SI).
+double sb_quantity_to_shown(double value, const char *si, const char *shown);
+double sb_quantity_from_shown(double number, const char *si, const char *shown);
+
+// A catalogue value as text: with its unit, or the name of a choice, the names of flags with ';',
+// or a whole number. Owned by the caller.
+char *sb_param_format(SbParamId id, double value);
+
+// Text of a catalogue value, checked for kind, unit and range. On failure the sentence does not
+// repeat the key or the range.
+bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error);
+
+// Allowed range of a parameter for people: "0.2 to 20 mm", "thesis or reynolds". Owned by the
+// caller.
+char *sb_param_range(SbParamId id);

@@ -1,0 +1,297 @@
+// Documents: shipped files hold what the catalogue says, edits undo, saving changes nothing else.
+#include "app/document/document.h"
+
+#include <glib/gstdio.h>
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char *asset(const char *name) {
+  return g_build_filename(g_getenv("SEALBENCH_ASSETS"), name, NULL);
+}
+
+static SbDocument *load(const char *path) {
+  GPtrArray *issues = sb_issues_new();
+  SbDocument *document = sb_document_load(path, issues);
+  for (guint i = 0; i < issues->len; i++) {
+    char *line = sb_issue_line(issues->pdata[i]);
+    g_error("%s", line);
+  }
+  g_ptr_array_unref(issues);
+  g_assert_nonnull(document);
+  return document;
+}
+
+static char *temporary_folder(void) {
+  GError *error = NULL;
+  char *folder = g_dir_make_tmp("sealbench-test-XXXXXX", &error);
+  g_assert_no_error(error);
+  return folder;
+}
+
+static void remove_folder(char *folder) {
+  GDir *dir = g_dir_open(folder, 0, NULL);
+  const char *name;
+  while ((name = g_dir_read_name(dir)) != NULL) {
+    char *path = g_build_filename(folder, name, NULL);
+    g_remove(path);
+    g_free(path);
+  }
+  g_dir_close(dir);
+  g_assert_cmpint(g_rmdir(folder), ==, 0);
+  g_free(folder);
+}
+
+// The shipped valve gives every physical key that the thesis has or leaves to be inferred, with the
+// catalogue's default, exactly.
+static void test_piston(void) {
+  char *path = asset("valves/piston.valve");
+  SbDocument *document = load(path);
+  g_assert_cmpint(sb_document_kind(document), ==, SB_DOCUMENT_VALVE);
+  g_assert_cmpstr(sb_document_title(document), ==, "Piston valve of the thesis");
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    bool physical = !g_str_has_prefix(param->key, "models.") &&
+                    !g_str_has_prefix(param->key, "output.") && param->parent < 0;
+    bool given = sb_document_gives(document, (SbParamId)i);
+    if (physical && strcmp(param->tag, "ours") != 0 && !given) {
+      g_error("piston.valve lacks %s", param->key);
+    }
+    if (physical && given) {
+      g_assert_cmpfloat(sb_document_value(document, (SbParamId)i), ==, param->fallback);
+    }
+  }
+  sb_document_free(document);
+  g_free(path);
+}
+
+// Every shipped scene is sound and stands on its valve.
+static void test_scenes(void) {
+  char *folder = asset("scenes");
+  GDir *dir = g_dir_open(folder, 0, NULL);
+  g_assert_nonnull(dir);
+  const char *name;
+  int count = 0;
+  while ((name = g_dir_read_name(dir)) != NULL) {
+    char *path = g_build_filename(folder, name, NULL);
+    SbDocument *document = load(path);
+    g_assert_cmpint(sb_document_kind(document), ==, SB_DOCUMENT_SCENE);
+    g_assert_nonnull(sb_document_valve_path(document));
+    count++;
+    sb_document_free(document);
+    g_free(path);
+  }
+  g_assert_cmpint(count, >=, 2);
+  g_dir_close(dir);
+  g_free(folder);
+}
+
+static void test_layers(void) {
+  char *folder = temporary_folder();
+  char *valve = g_build_filename(folder, "a.valve", NULL);
+  char *scene = g_build_filename(folder, "b.scene", NULL);
+  const char *valve_text = "[sealbench]\nformat=1\nkind=valve\n[seal]\nmodulus = 3 MPa\n"
+                           "[seal.outer]\nmodulus = 4 MPa\n";
+  const char *scene_text = "[sealbench]\nformat=1\nkind=scene\nvalve=a.valve\n[seal]\n"
+                           "modulus = 5 MPa\n[output]\nviews = section;profiles;\nframes = 7\n";
+  g_assert_true(g_file_set_contents(valve, valve_text, -1, NULL));
+  g_assert_true(g_file_set_contents(scene, scene_text, -1, NULL));
+  SbDocument *document = load(scene);
+  g_assert_cmpfloat(sb_document_value(document, SB_P_SEAL_MODULUS), ==, 5e6);
+  g_assert_cmpfloat(sb_document_value(document, SB_P_SEAL_OUTER_MODULUS), ==, 4e6);
+  g_assert_cmpfloat(sb_document_value(document, SB_P_SEAL_INNER_MODULUS), ==, 5e6);
+  g_assert_cmpfloat(sb_document_value(document, SB_P_OUTPUT_VIEWS), ==,
+                    SB_VIEW_SECTION | SB_VIEW_PROFILES);
+  g_assert_cmpfloat(sb_document_value(document, SB_P_OUTPUT_FRAMES), ==, 7);
+  g_assert_false(sb_document_gives(document, SB_P_SEAL_OUTER_MODULUS));
+  SbParams params = sb_document_params(document);
+  g_assert_true(params.given[SB_P_SEAL_OUTER_MODULUS]);
+
+  // The hash follows values, not how they are written.
+  char *before = sb_document_sha256(document);
+  g_assert_true(sb_document_set(document, SB_P_SEAL_MODULUS, "5000 kPa", NULL));
+  char *same = sb_document_sha256(document);
+  g_assert_true(sb_document_set(document, SB_P_SEAL_MODULUS, "5.1 MPa", NULL));
+  char *after = sb_document_sha256(document);
+  g_assert_cmpstr(before, ==, same);
+  g_assert_cmpstr(before, !=, after);
+  g_assert_cmpuint(strlen(before), ==, 64);
+  g_free(before);
+  g_free(same);
+  g_free(after);
+
+  // A text that stands alone has the same values.
+  char *flat = sb_document_to_flat_text(document);
+  GPtrArray *issues = sb_issues_new();
+  SbDocument *copy = sb_document_parse(flat, strlen(flat), "flat", NULL, issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  char *one = sb_document_sha256(document);
+  char *two = sb_document_sha256(copy);
+  g_assert_cmpstr(one, ==, two);
+  g_free(one);
+  g_free(two);
+  g_free(flat);
+  g_ptr_array_unref(issues);
+  sb_document_free(copy);
+  sb_document_free(document);
+  g_free(valve);
+  g_free(scene);
+  remove_folder(folder);
+}
+
+static void test_undo(void) {
+  SbDocument *document = sb_document_new();
+  SbParamId d = SB_P_SEAL_SECTION_DIAMETER;
+  g_assert_false(sb_document_is_modified(document));
+  g_assert_cmpint(sb_document_undo(document), ==, -1);
+  g_assert_true(sb_document_set(document, d, "1.62mm", NULL));
+  g_assert_true(sb_document_set(document, d, "1.63mm", NULL));
+  g_assert_true(sb_document_set(document, SB_P_FLUID_VISCOSITY, "0.209 mPa.s", NULL));
+  g_assert_true(sb_document_differs(document, d));
+  unsigned serial = sb_document_serial(document);
+  g_assert_cmpint(sb_document_undo(document), ==, SB_P_FLUID_VISCOSITY);
+  g_assert_cmpint(sb_document_undo(document), ==, d);
+  g_assert_cmpfloat(sb_document_value(document, d), ==, 1.62e-3);
+  g_assert_cmpuint(sb_document_serial(document), !=, serial);
+  g_assert_cmpint(sb_document_redo(document), ==, d);
+  g_assert_cmpfloat(sb_document_value(document, d), ==, 1.63e-3);
+  // A new edit forgets what could be redone.
+  sb_document_unset(document, d);
+  g_assert_cmpfloat(sb_document_value(document, d), ==, 1.61e-3);
+  g_assert_false(sb_document_can_redo(document));
+  g_assert_false(sb_document_is_modified(document));
+  g_assert_cmpint(sb_document_undo(document), ==, d);
+  g_assert_cmpfloat(sb_document_value(document, d), ==, 1.63e-3);
+
+  // A drag is one step; the same value is none.
+  for (int i = 0; i < 10; i++) {
+    g_assert_true(sb_document_set_value(document, d, (1.64 + 0.01 * i) * 1e-3, true, NULL));
+  }
+  g_assert_true(sb_document_set_value(document, d, sb_document_value(document, d), true, NULL));
+  g_assert_cmpint(sb_document_undo(document), ==, d);
+  g_assert_cmpfloat(sb_document_value(document, d), ==, 1.63e-3);
+
+  // A refused edit changes nothing and names the range.
+  GError *error = NULL;
+  g_assert_false(sb_document_set(document, d, "30 mm", &error));
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+  g_assert_cmpstr(error->message, ==, "30 mm is out of range (allowed 0.2 to 20 mm)");
+  g_clear_error(&error);
+  g_assert_false(sb_document_set_value(document, d, NAN, false, &error));
+  g_clear_error(&error);
+  g_assert_cmpfloat(sb_document_value(document, d), ==, 1.63e-3);
+  sb_document_free(document);
+}
+
+static void test_save(void) {
+  char *folder = temporary_folder();
+  char *path = g_build_filename(folder, "a.valve", NULL);
+  const char *text = "# A comment at the top\n[sealbench]\nformat = 1\nkind = valve\n\n"
+                     "[seal]\n# why 1610\nsection_diameter = 1610 um\n  modulus=2.5MPa\n\n"
+                     "# about the gland\n[gland]\nradial_space = 1.36 mm";
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+  SbDocument *document = load(path);
+
+  // Nothing changed: the same bytes (and a final line end).
+  char *out = sb_document_to_text(document, NULL);
+  char *expected = g_strconcat(text, "\n", NULL);
+  g_assert_cmpstr(out, ==, expected);
+  g_free(out);
+  g_free(expected);
+
+  // Changed, new in a group, new group, removed.
+  g_assert_true(sb_document_set(document, SB_P_GLAND_RADIAL_SPACE, "1.37 mm", NULL));
+  g_assert_true(sb_document_set(document, SB_P_SEAL_POISSON_RATIO, "0.48", NULL));
+  g_assert_true(sb_document_set(document, SB_P_SEAL_INNER_DIAMETER, "2.86 mm", NULL));
+  g_assert_true(sb_document_set(document, SB_P_SEAL_OUTER_MODULUS, "2.6 MPa", NULL));
+  g_assert_true(sb_document_set(document, SB_P_SEAL_OUTER_POISSON_RATIO, "0.47", NULL));
+  sb_document_unset(document, SB_P_SEAL_MODULUS);
+  GError *error = NULL;
+  g_assert_true(sb_document_save(document, path, &error));
+  g_assert_no_error(error);
+  g_assert_false(sb_document_is_modified(document));
+  g_assert_true(g_file_get_contents(path, &out, NULL, NULL));
+  g_assert_cmpstr(out, ==,
+                  "# A comment at the top\n[sealbench]\nformat = 1\nkind = valve\n\n"
+                  "[seal]\n# why 1610\nsection_diameter = 1610 um\n"
+                  "inner_diameter = 2.86 mm\npoisson_ratio = 0.48\n\n"
+                  "# about the gland\n[gland]\nradial_space = 1.37 mm\n\n"
+                  "[seal.outer]\nmodulus = 2.6 MPa\npoisson_ratio = 0.47\n");
+  g_free(out);
+
+  // GLib reads it as the key file that the contract promises.
+  GKeyFile *keys = g_key_file_new();
+  g_assert_true(g_key_file_load_from_file(keys, path, G_KEY_FILE_KEEP_COMMENTS, &error));
+  g_assert_no_error(error);
+  char *value = g_key_file_get_string(keys, "seal.outer", "modulus", NULL);
+  g_assert_cmpstr(value, ==, "2.6 MPa");
+  g_free(value);
+  g_key_file_unref(keys);
+
+  // Read again: the same values; a second edit lands in the new text.
+  SbDocument *again = load(path);
+  char *one = sb_document_sha256(document);
+  char *two = sb_document_sha256(again);
+  g_assert_cmpstr(one, ==, two);
+  g_free(one);
+  g_free(two);
+  g_assert_true(sb_document_set(document, SB_P_SEAL_OUTER_MODULUS, "2.7 MPa", NULL));
+  g_assert_true(sb_document_save(document, path, &error));
+  sb_document_free(again);
+  again = load(path);
+  g_assert_cmpfloat(sb_document_value(again, SB_P_SEAL_OUTER_MODULUS), ==, 2.7e6);
+  sb_document_free(again);
+
+  // Undo goes beyond the save and then differs from the file.
+  g_assert_cmpint(sb_document_undo(document), ==, SB_P_SEAL_OUTER_MODULUS);
+  g_assert_true(sb_document_is_modified(document));
+
+  // Not writable: an error, the old file stays, no other file appears.
+  char *bad = g_build_filename(folder, "no", "such", "x.valve", NULL);
+  g_assert_false(sb_document_save(document, bad, &error));
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_IO);
+  g_clear_error(&error);
+  g_free(bad);
+  g_assert_false(sb_document_save(document, folder, &error));
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_IO);
+  g_clear_error(&error);
+  g_assert_cmpstr(sb_document_path(document), ==, path);
+  g_assert_cmpint(g_unlink(path), ==, 0);
+  sb_document_free(document);
+  g_free(path);
+  remove_folder(folder); // fails if a temporary file was left
+}
+
+// A scene saved into another folder still finds its valve.
+static void test_moved_scene(void) {
+  char *folder = temporary_folder();
+  char *target = g_build_filename(folder, "moved.scene", NULL);
+  char *path = asset("scenes/thesis-cycle.scene");
+  SbDocument *document = load(path);
+  GError *error = NULL;
+  g_assert_true(sb_document_save(document, target, &error));
+  g_assert_no_error(error);
+  SbDocument *moved = load(target);
+  char *one = sb_document_sha256(document);
+  char *two = sb_document_sha256(moved);
+  g_assert_cmpstr(one, ==, two);
+  g_free(one);
+  g_free(two);
+  sb_document_free(moved);
+  sb_document_free(document);
+  g_free(path);
+  g_free(target);
+  remove_folder(folder);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/document/piston", test_piston);
+  g_test_add_func("/document/scenes", test_scenes);
+  g_test_add_func("/document/layers", test_layers);
+  g_test_add_func("/document/undo", test_undo);
+  g_test_add_func("/document/save", test_save);
+  g_test_add_func("/document/moved-scene", test_moved_scene);
+  return g_test_run();
+}

@@ -1,0 +1,218 @@
+// Text to SI and back: exact, in every unit of the catalogue, and every wrong text has its message.
+#include "app/document/unit.h"
+
+#include <locale.h>
+#include <math.h>
+#include <string.h>
+
+static double parsed(const char *text, const char *si, const char *shown) {
+  GError *error = NULL;
+  double value = -1;
+  sb_quantity_parse(&value, text, si, shown, &error);
+  g_assert_no_error(error);
+  return value;
+}
+
+static void test_parse(void) {
+  // Powers of ten are exact: the same double as the literal.
+  static const struct {
+    const char *text, *si;
+    double value;
+  } cases[] = {
+      {"1.61mm", "m", 1.61e-3},
+      {"1.61 mm", "m", 1.61e-3},
+      {"  1.61   mm  ", "m", 1.61e-3},
+      {"+1.61e0 mm", "m", 1.61e-3},
+      {"1610 µm", "m", 1.61e-3},
+      {"1610 \xce\xbcm", "m", 1.61e-3},
+      {"1610um", "m", 1.61e-3},
+      {"0.00161 m", "m", 1.61e-3},
+      {"0.211mPa.s", "Pa.s", 0.211e-3},
+      {"0.211 mPa s", "Pa.s", 0.211e-3},
+      {"850.2N/m", "N/m", 850.2},
+      {"20 mm/min", "m/s", 20.0 / 60000},
+      {"10mm/s", "m/s", 10e-3},
+      {"2.8 1/GPa", "1/Pa", 2.8e-9},
+      {"2.8/GPa", "1/Pa", 2.8e-9},
+      {"2.8 GPa-1", "1/Pa", 2.8e-9},
+      {"1 µm", "m", 1e-6},
+      {"1226 kg/m3", "kg/m3", 1226},
+      {"1226 kg/m^3", "kg/m3", 1226},
+      {"1.226 g/cm3", "kg/m3", 1226},
+      {"3.73 g", "kg", 3.73e-3},
+      {"100 N/mm", "N/m", 1e5},
+      {"5.5 bar", "Pa", 5.5e5},
+      {"1.35e-19 J", "J", 1.35e-19},
+      {"0.49", "1", 0.49},
+      {".5", "1", 0.5},
+      {"12 %", "1", 0.12},
+      {"-3", "1", -3},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    double value = parsed(cases[i].text, cases[i].si, cases[i].si);
+    if (value != cases[i].value) {
+      g_error("\"%s\" gives %.17g, not %.17g", cases[i].text, value, cases[i].value);
+    }
+  }
+}
+
+static void test_refused(void) {
+  static const struct {
+    const char *text, *si, *shown, *says;
+  } cases[] = {
+      {"1.61", "m", "mm", "has no unit, write for example \"1.61 mm\""},
+      {"1.61 s", "m", "mm", "unit of another kind, expected mm"},
+      {"1.61 mm2", "m", "mm", "unit of another kind"},
+      {"1.61 furlongz", "m", "mm", "is not a unit, expected mm"},
+      {"1,61 mm", "m", "mm", "decimal comma"},
+      {"", "m", "mm", "no value"},
+      {"mm", "m", "mm", "is not a number with a unit such as mm"},
+      {"nan mm", "m", "mm", "not a finite number"},
+      {"-inf mm", "m", "mm", "not a finite number"},
+      {"1e400 mm", "m", "mm", "not a finite number"},
+      {"0x10 mm", "m", "mm", "is not a unit"},
+      {"1 5 mm", "m", "mm", "is not a unit"},
+      {"1 mm 10", "m", "mm", "is not a unit"},
+      {"1 mm*10", "m", "mm", "is not a unit"},
+      {"1 mm @ 5", "m", "mm", "is not a unit"},
+      {"1 lg(re 1 mm)", "m", "mm", "is not a unit"},
+      {"1.61 mm # nominal", "m", "mm", "line of its own"},
+      {"0.3 mm", "1", "", "this value has none"},
+      {"20 degC", "K", "K", "another kind"},
+      {"1 1/m", "m", "mm", "another kind"},
+      {"1 \x1b[31mmm", "m", "mm", "is not a unit"},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    GError *error = NULL;
+    double value = 42;
+    g_assert_false(sb_quantity_parse(&value, cases[i].text, cases[i].si, cases[i].shown, &error));
+    g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+    if (strstr(error->message, cases[i].says) == NULL) {
+      g_error("\"%s\": \"%s\" does not say \"%s\"", cases[i].text, error->message, cases[i].says);
+    }
+    g_assert_null(strchr(error->message, '\x1b'));
+    g_assert_cmpfloat(value, ==, 42);
+    g_error_free(error);
+  }
+}
+
+static void test_format(void) {
+  static const struct {
+    double value;
+    const char *si, *shown, *text;
+  } cases[] = {
+      {1.61e-3, "m", "mm", "1.61 mm"},
+      {20.0 / 60000, "m/s", "mm/min", "20 mm/min"},
+      {0.211e-3, "Pa.s", "mPa.s", "0.211 mPa.s"},
+      {2.8e-9, "1/Pa", "1/GPa", "2.8 1/GPa"},
+      {1e-6, "m", "µm", "1 µm"},
+      {0.49, "1", "", "0.49"},
+      {2e7, "1", "", "20000000"},
+      {1.35e-19, "J", "J", "1.35e-19 J"},
+      {0, "m", "mm", "0 mm"},
+      {-0.5e-3, "m", "mm", "-0.5 mm"},
+      {1.0 / 3, "1", "", "0.3333333333333333"},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    char *text = sb_quantity_format(cases[i].value, cases[i].si, cases[i].shown);
+    g_assert_cmpstr(text, ==, cases[i].text);
+    g_free(text);
+  }
+}
+
+// Any value of any parameter comes back as the same double.
+static void test_round_trip(void) {
+  GRand *random = g_rand_new_with_seed(7);
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    const SbParam *param = sb_param((SbParamId)id);
+    for (int i = 0; param->kind == SB_PARAM_REAL && i < 300; i++) {
+      double share = i == 0 ? 0 : i == 1 ? 1 : g_rand_double(random);
+      double value = param->min + share * (param->max - param->min);
+      value = CLAMP(value, param->min, param->max);
+      char *text = sb_param_format((SbParamId)id, value);
+      double back = 0;
+      GError *error = NULL;
+      sb_param_parse(&back, (SbParamId)id, text, &error);
+      g_assert_no_error(error);
+      g_assert_cmpfloat(back, ==, value);
+      // The panel's way: number and unit apart.
+      double number = sb_quantity_to_shown(value, param->si, param->unit);
+      double again = sb_quantity_from_shown(number, param->si, param->unit);
+      g_assert_cmpfloat(fabs(again - value), <=, 1e-15 * fabs(value));
+      g_free(text);
+    }
+  }
+  g_rand_free(random);
+}
+
+static void test_params(void) {
+  double value = 0;
+  g_assert_true(sb_param_parse(&value, SB_P_MODELS_FIT, " ring ", NULL));
+  char *text = sb_param_format(SB_P_MODELS_FIT, value);
+  g_assert_cmpstr(text, ==, "ring");
+  g_free(text);
+  g_assert_true(sb_param_parse(&value, SB_P_OUTPUT_VIEWS, "section;hysteresis;", NULL));
+  text = sb_param_format(SB_P_OUTPUT_VIEWS, value);
+  g_assert_cmpstr(text, ==, "hysteresis;section");
+  g_free(text);
+  text = sb_param_range(SB_P_SEAL_SECTION_DIAMETER);
+  g_assert_cmpstr(text, ==, "0.2 to 20 mm");
+  g_free(text);
+  text = sb_param_range(SB_P_OUTPUT_FRAMES);
+  g_assert_cmpstr(text, ==, "2 to 20000000");
+  g_free(text);
+  static const struct {
+    SbParamId id;
+    const char *text;
+  } bad[] = {{SB_P_MODELS_FIT, "torus"},          {SB_P_OUTPUT_VIEWS, "section;nonsense"},
+             {SB_P_OUTPUT_FRAMES, "2.5"},         {SB_P_OUTPUT_FRAMES, "1"},
+             {SB_P_SEAL_SECTION_DIAMETER, "9 m"}, {SB_P_OUTPUT_FRAMES, "400 mm"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+    g_assert_false(sb_param_parse(&value, bad[i].id, bad[i].text, NULL));
+  }
+}
+
+static void test_locale(void) {
+  if (setlocale(LC_ALL, "de_DE.UTF-8") == NULL) {
+    g_test_skip("no German locale");
+    return;
+  }
+  g_assert_cmpint(localeconv()->decimal_point[0], ==, ',');
+  test_parse();
+  test_refused();
+  test_format();
+  setlocale(LC_ALL, "C");
+}
+
+static void test_numbers(void) {
+  char text[SB_NUMBER_SIZE];
+  GRand *random = g_rand_new_with_seed(3);
+  for (int i = 0; i < 20000; i++) {
+    guint64 bits = (guint64)g_rand_int(random) << 32 | g_rand_int(random);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    if (isfinite(value)) {
+      sb_number_format(text, value);
+      g_assert_cmpfloat(g_ascii_strtod(text, NULL), ==, value);
+    }
+  }
+  g_rand_free(random);
+  g_assert_cmpstr(sb_number_round(text, 27.4567, 3), ==, "27.5");
+  g_assert_cmpstr(sb_number_round(text, 1.7204e-9, 3), ==, "1.72e-09");
+  g_assert_cmpstr(sb_number_round(text, -1234567, 2), ==, "-1200000");
+  g_assert_cmpstr(sb_number_format(text, 123456.789), ==, "123456.789");
+  g_assert_cmpstr(sb_number_format(text, 0.00012), ==, "0.00012");
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/units/parse", test_parse);
+  g_test_add_func("/units/refused", test_refused);
+  g_test_add_func("/units/format", test_format);
+  g_test_add_func("/units/round-trip", test_round_trip);
+  g_test_add_func("/units/params", test_params);
+  g_test_add_func("/units/numbers", test_numbers);
+  // Last: it changes the process' locale.
+  g_test_add_func("/units/locale", test_locale);
+  return g_test_run();
+}
