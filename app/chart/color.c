@@ -1,0 +1,111 @@
+// Colour arithmetic. OKLab after Ottosson (2020), contrast after WCAG 2.1, dichromacy after
+// Machado, Oliveira and Fernandes (2009), table 1, severity 1, in linear light. All values are
+// dimensionless. Leaves out chromatic adaptation: sRGB with D65 throughout.
+#include "app/chart/color.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+static double to_linear(double c) {
+  return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+static double to_gamma(double c) {
+  return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1.0 / 2.4) - 0.055;
+}
+
+static double clamp01(double c) {
+  return c < 0 ? 0 : c > 1 ? 1 : c;
+}
+
+SbColor sb_color_hex(unsigned rgb) {
+  return (SbColor){((rgb >> 16) & 0xff) / 255.0, ((rgb >> 8) & 0xff) / 255.0, (rgb & 0xff) / 255.0};
+}
+
+SbOklab sb_color_to_oklab(SbColor color) {
+  double r = to_linear(color.r), g = to_linear(color.g), b = to_linear(color.b);
+  double l = cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+  double m = cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+  double s = cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+  return (SbOklab){0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+                   1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+                   0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
+}
+
+SbColor sb_color_from_oklab(SbOklab lab) {
+  double l = lab.l + 0.3963377774 * lab.a + 0.2158037573 * lab.b;
+  double m = lab.l - 0.1055613458 * lab.a - 0.0638541728 * lab.b;
+  double s = lab.l - 0.0894841775 * lab.a - 1.2914855480 * lab.b;
+  l = l * l * l;
+  m = m * m * m;
+  s = s * s * s;
+  return (SbColor){to_gamma(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+                   to_gamma(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+                   to_gamma(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+}
+
+static bool in_gamut(SbColor c) {
+  const double slack = 1e-6;
+  return c.r >= -slack && c.r <= 1 + slack && c.g >= -slack && c.g <= 1 + slack && c.b >= -slack &&
+         c.b <= 1 + slack;
+}
+
+SbColor sb_color_oklch(double lightness, double chroma, double hue_degrees) {
+  const double hue = hue_degrees * (3.14159265358979323846 / 180);
+  double ca = cos(hue), sa = sin(hue);
+  SbColor out = sb_color_from_oklab((SbOklab){lightness, chroma * ca, chroma * sa});
+  if (!in_gamut(out)) {
+    // Grey is always inside for lightness in 0..1, so the largest chroma that fits is bracketed.
+    double low = 0, high = chroma;
+    for (int i = 0; i < 40; i++) {
+      double mid = 0.5 * (low + high);
+      SbColor c = sb_color_from_oklab((SbOklab){lightness, mid * ca, mid * sa});
+      if (in_gamut(c)) {
+        low = mid;
+      } else {
+        high = mid;
+      }
+    }
+    out = sb_color_from_oklab((SbOklab){lightness, low * ca, low * sa});
+  }
+  return (SbColor){clamp01(out.r), clamp01(out.g), clamp01(out.b)};
+}
+
+double sb_color_distance(SbColor a, SbColor b) {
+  SbOklab p = sb_color_to_oklab(a), q = sb_color_to_oklab(b);
+  return sqrt((p.l - q.l) * (p.l - q.l) + (p.a - q.a) * (p.a - q.a) + (p.b - q.b) * (p.b - q.b));
+}
+
+static double luminance(SbColor c) {
+  return 0.2126 * to_linear(c.r) + 0.7152 * to_linear(c.g) + 0.0722 * to_linear(c.b);
+}
+
+double sb_color_contrast(SbColor a, SbColor b) {
+  double p = luminance(a), q = luminance(b);
+  return (fmax(p, q) + 0.05) / (fmin(p, q) + 0.05);
+}
+
+SbColor sb_color_over(SbColor over, double alpha, SbColor ground) {
+  return (SbColor){ground.r + alpha * (over.r - ground.r), ground.g + alpha * (over.g - ground.g),
+                   ground.b + alpha * (over.b - ground.b)};
+}
+
+SbColor sb_color_simulate(SbColor color, SbVision vision) {
+  static const double matrix[3][3][3] = {
+      {{0.152286, 1.052583, -0.204868},
+       {0.114503, 0.786281, 0.099216},
+       {-0.003882, -0.048116, 1.051998}},
+      {{0.367322, 0.860646, -0.227968},
+       {0.280085, 0.672501, 0.047413},
+       {-0.011820, 0.042940, 0.968881}},
+      {{1.255528, -0.076749, -0.178779},
+       {-0.078411, 0.930809, 0.147602},
+       {0.004733, 0.691367, 0.303900}},
+  };
+  double in[3] = {to_linear(color.r), to_linear(color.g), to_linear(color.b)}, out[3];
+  for (int i = 0; i < 3; i++) {
+    const double *row = matrix[vision][i];
+    out[i] = to_gamma(clamp01(row[0] * in[0] + row[1] * in[1] + row[2] * in[2]));
+  }
+  return (SbColor){out[0], out[1], out[2]};
+}

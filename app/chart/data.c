@@ -1,0 +1,96 @@
+// Small questions that several views ask of their data. Computes nothing of its own.
+#include "app/chart/data.h"
+
+#include <math.h>
+
+const SbFrame *sb_chart_frame(const SbChartData *data) {
+  if (data->run.count == 0) {
+    return NULL;
+  }
+  size_t i = data->playhead < data->run.count ? data->playhead : data->run.count - 1;
+  return &data->run.frames[i];
+}
+
+bool sb_chart_complete(const SbChartData *data) {
+  return data->run.state == SB_CHART_DONE && data->run.trace &&
+         sb_trace_frames(data->run.trace) >= data->run.count;
+}
+
+const char *sb_chart_phase(const SbChartRun *run, int stage) {
+  // Whether the inner seal touches at all is the run's own business: look at its frames.
+  bool inner = true, outer = true;
+  if (run->trace && stage >= 0 && stage < SB_STAGE_COUNT) {
+    const SbStageMark *mark = &sb_trace_marks(run->trace)[stage];
+    size_t i = mark->frame + 1;
+    if (mark->reached && i < run->count) {
+      inner = run->frames[i].seal[SB_INNER].load > 0;
+      outer = run->frames[i].seal[SB_OUTER].load > 0;
+    }
+  }
+  switch (stage) {
+  case SB_STAGE_A:
+    return "at rest, force builds up";
+  case SB_STAGE_B:
+    return inner && outer ? "both seals slide"
+           : outer        ? "outer seal slides"
+           : inner        ? "inner seal slides"
+                          : "stem slides free";
+  case SB_STAGE_C:
+    return "chamber open";
+  case SB_STAGE_D:
+    return "at the stop";
+  case SB_STAGE_E:
+    return "return, chamber open";
+  case SB_STAGE_F:
+    return inner && outer ? "both seals slide back"
+           : outer        ? "outer seal slides back"
+                          : "stem slides back";
+  default:
+    return "";
+  }
+}
+
+const char *sb_chart_span(int stage) {
+  static const char *const spans[SB_STAGE_COUNT] = {"A\xe2\x80\x93"
+                                                    "B",
+                                                    "B\xe2\x80\x93"
+                                                    "C",
+                                                    "C\xe2\x80\x93"
+                                                    "D",
+                                                    "D\xe2\x80\x93"
+                                                    "E",
+                                                    "E\xe2\x80\x93"
+                                                    "F",
+                                                    "F\xe2\x80\x93"
+                                                    "A"};
+  return stage >= 0 && stage < SB_STAGE_COUNT ? spans[stage] : "";
+}
+
+static const SbContactProfile *run_profile(const void *source, uint32_t index) {
+  return sb_run_profile(source, index);
+}
+
+void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace,
+                       SbChartState state) {
+  *out = (SbChartRun){.state = state, .trace = trace, .profile = run_profile, .source = run};
+  out->frames = sb_run_frames(run, &out->count);
+  out->model = sb_run_model(run);
+  bool ended = state != SB_CHART_RUNNING && state != SB_CHART_EMPTY;
+  out->summary = ended ? sb_run_summary(run) : NULL;
+}
+
+static double known(double error) {
+  return isfinite(error) && error > 0 ? error : 0;
+}
+
+double sb_chart_error_force(const SbChartRun *run) {
+  return run->summary ? known(run->summary->error_force) : 0;
+}
+
+double sb_chart_error_film(const SbChartRun *run) {
+  return run->summary ? known(run->summary->error_film) : 0;
+}
+
+double sb_chart_error_load(const SbChartRun *run) {
+  return run->summary ? known(run->summary->error_load) : 0;
+}

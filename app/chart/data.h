@@ -1,0 +1,69 @@
+// What a view is given: a run so far, where the playhead stands, what to compare with, and in which
+// state the program is. Views are pure functions of this, a rectangle and a theme.
+#pragma once
+
+#include "app/chart/trace.h"
+#include "engine/sealbench.h"
+
+typedef enum {
+  SB_CHART_EMPTY,   // no run yet
+  SB_CHART_RUNNING, // frames still come
+  SB_CHART_DONE,    //
+  SB_CHART_PARTIAL, // cancelled: what there is can be played
+  SB_CHART_FAILED   // a solver gave up: the last good state stays
+} SbChartState;
+
+// One run as charts see it. All pointers are borrowed.
+typedef struct {
+  SbChartState state;
+  const SbFrame *frames;    // `count` of them may be read
+  size_t count;             //
+  const SbTrace *trace;     // of the same frames; may lag behind count
+  const SbModel *model;     // may be NULL
+  const SbSummary *summary; // NULL until the run has ended
+  // Contact profile of a frame's seal by its index; NULL function or NULL answer: none was kept.
+  const SbContactProfile *(*profile)(const void *source, uint32_t index);
+  const void *source;
+} SbChartRun;
+
+typedef struct {
+  SbChartRun run;
+  const SbChartRun *earlier; // shown at 45 % while `run` is being computed; NULL: none
+  const SbChartRun *pinned;  // to compare with; NULL: none
+  const char *pinned_name;   // "roughness -30 %"
+  size_t playhead;           // frame shown
+  bool playing;              // no effect on layout
+  double progress;           // of a running run, 0 to 1
+  const char *title;         // "Piston valve, one actuation"
+  const char *subtitle;      // files and conditions, parts joined by middle dots
+  const char *hash;          // of the parameters; the first eight digits are shown
+  const char *stale;         // sentence of the amber strip; NULL: the run fits the parameters
+  const char *failure;       // sentence of the red strip; NULL: none
+} SbChartData;
+
+// Flags of every view.
+enum {
+  SB_CHART_PANEL = 1 << 0,  // with the panel's ground, hairline and padding
+  SB_CHART_COMPACT = 1 << 1 // the window's column: smaller title, no explaining lines
+};
+
+// The frame under the playhead; NULL if there is none.
+const SbFrame *sb_chart_frame(const SbChartData *data);
+
+// The whole run is readable: done, and the trace has caught up.
+bool sb_chart_complete(const SbChartData *data);
+
+// What happens after stage `stage` until the next: "both seals slide".
+const char *sb_chart_phase(const SbChartRun *run, int stage);
+
+// "B-C" with an en dash: the stage a frame is in and the next.
+const char *sb_chart_span(int stage);
+
+// Fills a view of a run that the caller keeps. The trace is the caller's; the summary is read only
+// once the run has ended.
+void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace, SbChartState state);
+
+// Relative error to quote for forces and films: the run's estimate, or 0 when unknown.
+double sb_chart_error_force(const SbChartRun *run);
+double sb_chart_error_film(const SbChartRun *run);
+double sb_chart_error_load(const SbChartRun *run);

@@ -1,0 +1,621 @@
+// The hysteresis chart. Played part thick, rest thin; an earlier or a pinned run behind; stages A
+// to F as ringed dots with the force just before the event; labels placed by the collision rule,
+// *now* first. Displacement in mm, force in N, both from the frames; loss and least return from the
+// run's summary and therefore only after its end. Leaves out any smoothing: lines join computed
+// frames.
+#include "app/chart/hysteresis.h"
+#include "app/chart/format.h"
+#include "app/chart/label.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+  SbCanvas canvas;
+  SbHysteresisLayout at;
+  SbLabels *labels;
+  const SbChartData *data;
+  unsigned flags;
+} View;
+
+static SbRect inner_rect(SbRect rect, unsigned flags) {
+  double pad = flags & SB_CHART_PANEL ? SB_GRID_PADDING : 0;
+  return (SbRect){rect.x + pad, rect.y + pad, rect.width - 2 * pad, rect.height - 2 * pad};
+}
+
+static void include_run(const SbChartRun *run, double *x1, double *y0, double *y1) {
+  if (!run || !run->trace || run->count == 0) {
+    return;
+  }
+  SbTraceRange r = sb_trace_range(run->trace);
+  *x1 = fmax(*x1, r.displacement_max * 1e3);
+  *y0 = fmin(*y0, r.force_min);
+  *y1 = fmax(*y1, r.force_max);
+}
+
+void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartData *data,
+                          unsigned flags) {
+  bool compact = flags & SB_CHART_COMPACT;
+  SbRect in = inner_rect(rect, flags);
+
+  // Ranges hold for the whole cycle from the first frame on, so that a growing loop does not jump.
+  const SbModel *model = data->run.model;
+  double x1 = model ? model->stroke * 1e3 : 1, y0 = 0;
+  double y1 = model ? fmax(model->reversal_force, 1.2 * model->pressure_force) : 10;
+  include_run(&data->run, &x1, &y0, &y1);
+  include_run(data->pinned, &x1, &y0, &y1);
+  if (data->run.state == SB_CHART_RUNNING) {
+    include_run(data->earlier, &x1, &y0, &y1);
+  }
+  if (y0 > -1e-3) {
+    y0 = 0; // rounding noise below zero is no reason for a negative axis
+  }
+  int wanted_y = in.height > 420 ? 8 : in.height > 240 ? 6 : 4;
+  double y_top = y1;
+  sb_axis_round_out(&y0, &y_top, wanted_y);
+
+  // 64 px to the right of the stroke for the values of D and E; 18 px left of zero for A.
+  const double left = compact ? 44 : 34, right = 12, top = compact ? 48 : 95, bottom = 40;
+  out->plot = (SbRect){in.x + left, in.y + top, fmax(in.width - left - right, 40),
+                       fmax(in.height - top - bottom, 40)};
+  double room_left = 18, room_right = fmin(64, 0.25 * out->plot.width);
+  double per_px = x1 / fmax(out->plot.width - room_left - room_right, 20);
+  out->x = (SbScale){-room_left * per_px, x1 + room_right * per_px, out->plot.x,
+                     out->plot.x + out->plot.width, false};
+  out->y = (SbScale){y0, y_top, out->plot.y + out->plot.height, out->plot.y, false};
+  sb_axis_ticks(&out->x_ticks, 0, out->x.hi, out->plot.width > 300 ? 8 : 5);
+  sb_axis_ticks(&out->y_ticks, y0, y_top, wanted_y);
+}
+
+static SbPoint to_px(const SbHysteresisLayout *at, double displacement, double force) {
+  return (SbPoint){sb_axis_at(&at->x, displacement * 1e3), sb_axis_at(&at->y, force)};
+}
+
+// Pixels of the trace's points from frame `first` to `last`, with the exact frames at both ends.
+// Owned by the caller.
+static SbPoint *trace_pixels(const SbHysteresisLayout *at, const SbChartRun *run, size_t first,
+                             size_t last, size_t *count) {
+  size_t n = 0, total = 0;
+  *count = 0;
+  if (!run->trace || run->count == 0 || first > last) {
+    return NULL;
+  }
+  const SbTracePoint *p = sb_trace_points(run->trace, &total);
+  last = MIN(last, run->count - 1);
+  if (total == 0 || first >= run->count) {
+    return NULL;
+  }
+  SbPoint *out = g_new(SbPoint, total + 2);
+  out[n++] = to_px(at, run->frames[first].displacement, run->frames[first].force);
+  for (size_t i = sb_trace_find(run->trace, first); i < total && p[i].frame < last; i++) {
+    if (p[i].frame > first) {
+      out[n++] = to_px(at, p[i].displacement, p[i].force);
+    }
+  }
+  if (last > first) {
+    out[n++] = to_px(at, run->frames[last].displacement, run->frames[last].force);
+  }
+  *count = n;
+  return out;
+}
+
+// Grid, axes, titles.
+static void draw_axes(View *v) {
+  SbCanvas *c = &v->canvas;
+  const SbHysteresisLayout *at = &v->at;
+  char text[SB_FORMAT_MAX];
+  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  double left = at->plot.x, right = at->plot.x + at->plot.width;
+  double bottom = at->plot.y + at->plot.height;
+  for (int i = 0; i < at->y_ticks.count; i++) {
+    double y = sb_axis_at(&at->y, at->y_ticks.value[i]);
+    sb_canvas_hairline(c, left, y, right, y, sb_canvas_role(c, SB_ROLE_GRID));
+    sb_format_fixed(text, at->y_ticks.value[i], at->y_ticks.decimals);
+    sb_canvas_text(c, text, &label, left - 8, y + 4.3, SB_RIGHT);
+  }
+  double zero = sb_axis_at(&at->y, 0);
+  sb_canvas_hairline(c, left, zero, right, zero, sb_canvas_role(c, SB_ROLE_AXIS));
+  if (zero < bottom - 1) {
+    // Forces below zero: the ticks stay at the bottom.
+    sb_canvas_hairline(c, left, bottom, right, bottom, sb_canvas_role(c, SB_ROLE_AXIS));
+  }
+  for (int i = 0; i < at->x_ticks.count; i++) {
+    double x = sb_axis_at(&at->x, at->x_ticks.value[i]);
+    sb_canvas_hairline(c, x, bottom, x, bottom + 5, sb_canvas_role(c, SB_ROLE_AXIS));
+    sb_format_fixed(text, at->x_ticks.value[i], at->x_ticks.decimals);
+    sb_canvas_text(c, text, &label, floor(x) + 0.5, bottom + 18, SB_MIDDLE);
+  }
+  sb_canvas_text(c, "stem displacement / mm", &label, right, bottom + 36, SB_RIGHT);
+}
+
+static void draw_titles(View *v, SbRect rect) {
+  SbCanvas *c = &v->canvas;
+  SbRect in = inner_rect(rect, v->flags);
+  bool compact = v->flags & SB_CHART_COMPACT;
+  SbTextStyle title =
+      sb_canvas_style(c, compact ? SB_TYPE_PANEL_WINDOW : SB_TYPE_PANEL, 700, SB_ROLE_INK);
+  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  sb_canvas_text_fit(c, "Force and displacement", &title, in.x, in.y + 14, in.width);
+  if (!compact) {
+    const char *note = "";
+    switch (v->data->run.state) {
+    case SB_CHART_RUNNING:
+      note = v->data->earlier ? "being computed; faint: the earlier run" : "being computed";
+      break;
+    case SB_CHART_PARTIAL:
+      note = "partial: the run was cancelled";
+      break;
+    case SB_CHART_FAILED:
+      note = "up to the last good state";
+      break;
+    case SB_CHART_DONE:
+      note = "thick line: played so far";
+      break;
+    default:
+      break;
+    }
+    sb_canvas_text_fit(c, note, &label, in.x, in.y + 34, in.width);
+  }
+  sb_canvas_text(c, "force on the stem / N", &label, in.x, in.y + (compact ? 34 : 64), SB_LEFT);
+}
+
+// Another run behind: dashed when pinned, faint when earlier.
+static void draw_other(View *v, const SbChartRun *run, bool dashed) {
+  size_t n;
+  SbPoint *p = run && run->count > 0 ? trace_pixels(&v->at, run, 0, run->count - 1, &n) : NULL;
+  if (!p) {
+    return;
+  }
+  SbCanvas *c = &v->canvas;
+  if (dashed) {
+    sb_canvas_pen(c, SB_LINE_PINNED, &sb_dash_pinned);
+    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_PINNED), 1);
+  } else {
+    sb_canvas_pen(c, SB_LINE_FUTURE, NULL);
+    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), SB_OPACITY_EARLIER);
+  }
+  sb_canvas_polyline(c, p, n);
+  sb_labels_avoid(v->labels, p, n, dashed ? 0.7 : 0.4);
+  g_free(p);
+}
+
+// The run itself: interior, future, played part.
+static void draw_loop(View *v) {
+  const SbChartRun *run = &v->data->run;
+  SbCanvas *c = &v->canvas;
+  size_t n, now = MIN(v->data->playhead, run->count - 1);
+  SbPoint *all = trace_pixels(&v->at, run, 0, run->count - 1, &n);
+  if (!all) {
+    return;
+  }
+  SbColor ink = sb_canvas_role(c, SB_ROLE_INK);
+  if (sb_chart_complete(v->data)) {
+    cairo_new_path(c->cr);
+    sb_canvas_path(c, all, n);
+    cairo_close_path(c->cr);
+    sb_canvas_color(c, ink, c->theme->loop_fill);
+    cairo_fill(c->cr);
+  }
+  sb_labels_avoid(v->labels, all, n, 1);
+
+  if (v->data->pinned) {
+    draw_other(v, v->data->pinned, true);
+  }
+
+  size_t future;
+  SbPoint *rest = trace_pixels(&v->at, run, now, run->count - 1, &future);
+  if (rest && future > 1) {
+    sb_canvas_pen(c, SB_LINE_FUTURE, NULL);
+    sb_canvas_color(c, ink, SB_OPACITY_FUTURE);
+    sb_canvas_polyline(c, rest, future);
+  }
+  g_free(rest);
+  size_t played;
+  SbPoint *past = trace_pixels(&v->at, run, 0, now, &played);
+  if (past && played > 1) {
+    sb_canvas_pen(c, SB_LINE_ACTIVE, NULL);
+    sb_canvas_color(c, ink, 1);
+    sb_canvas_polyline(c, past, played);
+  }
+  g_free(past);
+  g_free(all);
+}
+
+// An arrow at `fraction` of the way along the curve between two frames.
+static void draw_arrow(View *v, size_t first, size_t last, double fraction, bool played) {
+  size_t n;
+  SbPoint *p = trace_pixels(&v->at, &v->data->run, first, last, &n);
+  double length = 0, walked = 0;
+  for (size_t i = 1; p && i < n; i++) {
+    length += hypot(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);
+  }
+  if (length > 44) {
+    for (size_t i = 1; i < n; i++) {
+      double d = hypot(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);
+      if (walked + d >= fraction * length && d > 0) {
+        double t = (fraction * length - walked) / d;
+        SbPoint tip = {p[i - 1].x + t * (p[i].x - p[i - 1].x),
+                       p[i - 1].y + t * (p[i].y - p[i - 1].y)};
+        // Direction over the arrow's own length, not of one short piece.
+        size_t back = i - 1;
+        while (back > 0 && hypot(tip.x - p[back].x, tip.y - p[back].y) < 11) {
+          back--;
+        }
+        sb_canvas_color(&v->canvas, sb_canvas_role(&v->canvas, SB_ROLE_INK), played ? 1 : 0.6);
+        sb_canvas_arrowhead(&v->canvas, tip.x, tip.y, tip.x - p[back].x, tip.y - p[back].y, 1);
+        break;
+      }
+      walked += d;
+    }
+  }
+  g_free(p);
+}
+
+// First frame of the upward stroke on the stop is D; its top is the frame of largest platen force
+// between D and E.
+static size_t top_of_stop(const SbChartRun *run, size_t d, size_t e) {
+  size_t n, best = d;
+  const SbTracePoint *p = sb_trace_points(run->trace, &n);
+  double force = -INFINITY;
+  for (size_t i = sb_trace_find(run->trace, d); i < n && p[i].frame <= e; i++) {
+    if (p[i].force > force) {
+      force = p[i].force;
+      best = p[i].frame;
+    }
+  }
+  return best;
+}
+
+static void draw_arrows(View *v) {
+  const SbChartRun *run = &v->data->run;
+  const SbStageMark *mark = sb_trace_marks(run->trace);
+  for (int s = 0; s < SB_STAGE_COUNT; s++) {
+    if (!mark[s].reached) {
+      continue;
+    }
+    size_t first = mark[s].frame;
+    size_t last =
+        s + 1 < SB_STAGE_COUNT && mark[s + 1].reached ? mark[s + 1].frame : run->count - 1;
+    if (s == SB_STAGE_D) {
+      last = top_of_stop(run, first, last);
+    }
+    double fraction = s == SB_STAGE_B ? 0.4 : s == SB_STAGE_A ? 0.55 : 0.5;
+    size_t middle = first + (size_t)(fraction * (double)(last - first));
+    draw_arrow(v, first, last, fraction, middle <= v->data->playhead);
+  }
+}
+
+// A letter in bold and its value, as one label.
+static void draw_mark(View *v, int stage, SbPoint at, const char *value, const SbPlace *place,
+                      int count) {
+  SbCanvas *c = &v->canvas;
+  SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
+  SbTextStyle plain = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
+  const char *letter = sb_stage_name((SbStage)stage);
+  double letter_width = sb_canvas_text_width(c, letter, &bold);
+  double gap = value[0] ? 6 : 0;
+  double width = letter_width + gap + (value[0] ? sb_canvas_text_width(c, value, &plain) : 0);
+  SbPlace chosen;
+  if (!sb_labels_place_box(v->labels, width, SB_TYPE_LABEL, place, count, &chosen)) {
+    // No room for the value: the letter alone.
+    value = "";
+    if (!sb_labels_place_box(v->labels, letter_width, SB_TYPE_LABEL, place, count, &chosen)) {
+      return;
+    }
+    width = letter_width;
+  }
+  double x = chosen.x - (chosen.align == SB_LEFT     ? 0
+                         : chosen.align == SB_MIDDLE ? 0.5 * width
+                                                     : width);
+  sb_canvas_text_halo(c, letter, &bold, x, chosen.y, SB_LEFT);
+  if (value[0]) {
+    sb_canvas_text_halo(c, value, &plain, x + letter_width + gap, chosen.y, SB_LEFT);
+  }
+}
+
+static void draw_marks(View *v) {
+  const SbChartRun *run = &v->data->run;
+  SbCanvas *c = &v->canvas;
+  const SbStageMark *mark = sb_trace_marks(run->trace);
+  SbColor ink = sb_canvas_role(c, SB_ROLE_INK);
+  // All dots first: labels keep off every one of them.
+  for (int s = 0; s < SB_STAGE_COUNT; s++) {
+    if (mark[s].reached) {
+      SbPoint p = to_px(&v->at, mark[s].displacement, mark[s].force);
+      sb_canvas_ringed_dot(c, p.x, p.y, ink);
+      sb_labels_block(v->labels, (SbRect){p.x - 5, p.y - 5, 10, 10});
+    }
+  }
+  char shown[SB_FORMAT_MAX] = "";
+  for (int s = 0; s < SB_STAGE_COUNT; s++) {
+    if (!mark[s].reached) {
+      continue;
+    }
+    SbPoint p = to_px(&v->at, mark[s].displacement, mark[s].force);
+    char value[SB_FORMAT_MAX] = "";
+    sb_format_text(value, SB_QUANTITY_FORCE, mark[s].force, sb_chart_error_force(run));
+    // F stands on the line that E has just labelled; A is the origin.
+    bool again = s == SB_STAGE_F && strcmp(value, shown) == 0;
+    g_strlcpy(shown, value, sizeof shown);
+    if (again || s == SB_STAGE_A) {
+      value[0] = 0;
+    }
+    const SbPlace above = {p.x, p.y - 13, SB_LEFT}, over = {p.x, p.y - 12, SB_MIDDLE};
+    const SbPlace right = {p.x + 11, p.y + 4, SB_LEFT}, left = {p.x - 10, p.y + 4, SB_RIGHT};
+    const SbPlace up_right = {p.x + 8, p.y - 12, SB_LEFT}, up_left = {p.x - 8, p.y - 9, SB_RIGHT};
+    const SbPlace below = {p.x, p.y + 20, SB_MIDDLE}, down_right = {p.x + 8, p.y + 19, SB_LEFT};
+    const SbPlace down_left = {p.x - 8, p.y + 19, SB_RIGHT};
+    switch (s) {
+    case SB_STAGE_A:
+      draw_mark(v, s, p, value, (SbPlace[]){{p.x - 9, p.y - 8, SB_RIGHT}, left, up_right, above},
+                4);
+      break;
+    case SB_STAGE_B:
+      draw_mark(v, s, p, value, (SbPlace[]){above, up_right, right, up_left, down_right}, 5);
+      break;
+    case SB_STAGE_C:
+      draw_mark(v, s, p, value, (SbPlace[]){up_right, right, over, up_left, down_right}, 5);
+      break;
+    case SB_STAGE_D:
+    case SB_STAGE_E:
+      draw_mark(v, s, p, value, (SbPlace[]){right, up_right, down_right, up_left, down_left}, 5);
+      break;
+    default:
+      draw_mark(v, s, p, value, (SbPlace[]){over, up_right, up_left, below, down_left, right}, 6);
+      break;
+    }
+  }
+}
+
+// *Now*: a dot, its figures, a dashed line down to the axis.
+static void draw_now(View *v, bool line) {
+  const SbFrame *frame = sb_chart_frame(v->data);
+  SbCanvas *c = &v->canvas;
+  SbColor now = sb_canvas_role(c, SB_ROLE_NOW);
+  SbPoint p = to_px(&v->at, frame->displacement, frame->force);
+  double bottom = v->at.plot.y + v->at.plot.height;
+  if (line) {
+    sb_canvas_pen(c, 1, &sb_dash_now);
+    sb_canvas_color(c, now, 1);
+    cairo_move_to(c->cr, p.x, p.y);
+    cairo_line_to(c->cr, p.x, bottom);
+    cairo_stroke(c->cr);
+    SbPoint drop[2] = {p, {p.x, bottom}};
+    sb_labels_avoid(v->labels, drop, 2, 0.8);
+    return;
+  }
+  sb_canvas_dot(c, p.x, p.y, 8, sb_canvas_role(c, SB_ROLE_PANEL));
+  sb_canvas_dot(c, p.x, p.y, 6, now);
+}
+
+static void label_now(View *v) {
+  const SbFrame *frame = sb_chart_frame(v->data);
+  SbCanvas *c = &v->canvas;
+  SbPoint p = to_px(&v->at, frame->displacement, frame->force);
+  sb_labels_block(v->labels, (SbRect){p.x - 8, p.y - 8, 16, 16});
+  char place_text[SB_FORMAT_MAX], force_text[SB_FORMAT_MAX], text[2 * SB_FORMAT_MAX + 4];
+  sb_format_text(place_text, SB_QUANTITY_LENGTH, frame->displacement, 0);
+  sb_format_text(force_text, SB_QUANTITY_FORCE, frame->force, sb_chart_error_force(&v->data->run));
+  g_snprintf(text, sizeof text, "%s, %s", place_text, force_text);
+  SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_NOW);
+  const SbPlace places[] = {
+      {p.x, p.y - 14, SB_MIDDLE},     {p.x + 10, p.y - 14, SB_LEFT}, {p.x - 10, p.y - 14, SB_RIGHT},
+      {p.x + 14, p.y + 4, SB_LEFT},   {p.x - 14, p.y + 4, SB_RIGHT}, {p.x + 10, p.y + 24, SB_LEFT},
+      {p.x - 10, p.y + 24, SB_RIGHT}, {p.x, p.y + 24, SB_MIDDLE},    {p.x + 14, p.y - 30, SB_LEFT},
+      {p.x - 14, p.y - 30, SB_RIGHT},
+  };
+  SbPlace at;
+  if (sb_labels_place(v->labels, c, text, &style, places, G_N_ELEMENTS(places), &at)) {
+    sb_canvas_text_halo(c, text, &style, at.x, at.y, at.align);
+  }
+}
+
+static void label_curve(View *v, const char *text, SbRole role, const SbPlace *place, int count) {
+  SbCanvas *c = &v->canvas;
+  SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, role);
+  SbPlace at;
+  if (sb_labels_place(v->labels, c, text, &style, place, count, &at)) {
+    sb_canvas_text_halo(c, text, &style, at.x, at.y, at.align);
+  }
+}
+
+// Point of the curve at a share of the way in time between two stages.
+static bool between(const View *v, int stage, double share, SbPoint *out) {
+  const SbChartRun *run = &v->data->run;
+  const SbStageMark *mark = sb_trace_marks(run->trace);
+  if (!mark[stage].reached) {
+    return false;
+  }
+  size_t first = mark[stage].frame;
+  bool next = stage + 1 < SB_STAGE_COUNT && mark[stage + 1].reached;
+  if (!next && !(stage == SB_STAGE_F && sb_chart_complete(v->data))) {
+    return false;
+  }
+  size_t last = next ? mark[stage + 1].frame : run->count - 1;
+  size_t i = first + (size_t)(share * (double)(last - first));
+  *out = to_px(&v->at, run->frames[i].displacement, run->frames[i].force);
+  return true;
+}
+
+static void draw_notes(View *v) {
+  const SbChartRun *run = &v->data->run;
+  char value[SB_FORMAT_MAX], text[128];
+  SbPoint p;
+  const SbStageMark *mark = sb_trace_marks(run->trace);
+  double left = v->at.plot.x, right = left + v->at.plot.width;
+  if (mark[SB_STAGE_D].reached) {
+    p = to_px(&v->at, mark[SB_STAGE_D].displacement, v->at.y.hi);
+    label_curve(v, "stop", SB_ROLE_SECOND,
+                (SbPlace[]){{p.x - 8, p.y + 5, SB_RIGHT}, {p.x + 8, p.y + 5, SB_LEFT}}, 2);
+  }
+  double reference = run->model ? run->model->pressure_force : 0;
+  if (reference > 0) {
+    double y = sb_axis_at(&v->at.y, reference);
+    sb_format_text(value, SB_QUANTITY_FORCE, reference, 0);
+    g_snprintf(text, sizeof text, "pressure force %s", value);
+    double zero = sb_axis_at(&v->at.x, 0), end = sb_axis_at(&v->at.x, v->at.x.hi);
+    double stroke = run->model ? sb_axis_at(&v->at.x, run->model->stroke * 1e3) : end;
+    label_curve(v, text, SB_ROLE_FLUID,
+                (SbPlace[]){{stroke - 8, y - 7, SB_RIGHT},
+                            {zero + 10, y - 7, SB_LEFT},
+                            {stroke - 8, y + 16, SB_RIGHT},
+                            {0.5 * (zero + stroke), y - 7, SB_MIDDLE},
+                            {zero + 10, y + 16, SB_LEFT}},
+                5);
+  }
+  const SbSummary *sum = run->summary;
+  if (sum && sb_chart_complete(v->data)) {
+    double zero = sb_axis_at(&v->at.x, 0);
+    if (isfinite(sum->energy.loop) && sum->energy.loop > 0) {
+      sb_format_text(value, SB_QUANTITY_ENERGY, sum->energy.loop,
+                     isfinite(sum->error_energy) ? sum->error_energy : 0);
+      g_snprintf(text, sizeof text, "loss per cycle %s", value);
+      double y = sb_axis_at(&v->at.y, reference > 0 ? reference : 0.5 * v->at.y.hi);
+      label_curve(v, text, SB_ROLE_SECOND,
+                  (SbPlace[]){{zero + 12, y + 18, SB_LEFT},
+                              {zero + 12, y + 36, SB_LEFT},
+                              {zero + 12, y - 10, SB_LEFT},
+                              {zero + 12, y - 28, SB_LEFT},
+                              {zero + 120, y + 18, SB_LEFT}},
+                  5);
+    }
+    if (isfinite(sum->force_return_min)) {
+      sb_format_text(value, SB_QUANTITY_FORCE, sum->force_return_min, sb_chart_error_force(run));
+      g_snprintf(text, sizeof text, "least return %s", value);
+      double y = sb_axis_at(&v->at.y, fmax(sum->force_return_min, v->at.y.lo));
+      label_curve(v, text, SB_ROLE_INK,
+                  (SbPlace[]){{zero + 12, y - 9, SB_LEFT},
+                              {zero + 12, y - 26, SB_LEFT},
+                              {zero + 60, y - 9, SB_LEFT},
+                              {zero + 12, y + 18, SB_LEFT}},
+                  4);
+    }
+  }
+  if (between(v, SB_STAGE_C, 0.5, &p)) {
+    label_curve(v, "in-stroke", SB_ROLE_INK,
+                (SbPlace[]){{p.x, p.y - 10, SB_MIDDLE},
+                            {p.x, p.y + 19, SB_MIDDLE},
+                            {p.x + 50, p.y - 10, SB_MIDDLE},
+                            {p.x - 50, p.y - 10, SB_MIDDLE}},
+                4);
+  }
+  if (between(v, SB_STAGE_E, 0.32, &p)) {
+    label_curve(v, "return", SB_ROLE_INK,
+                (SbPlace[]){{p.x, p.y + 17, SB_MIDDLE},
+                            {p.x, p.y - 10, SB_MIDDLE},
+                            {p.x - 40, p.y + 17, SB_MIDDLE}},
+                3);
+  }
+  if (v->data->pinned && v->data->pinned->trace) {
+    // Beside the pinned run's own in-stroke.
+    View other = *v;
+    SbChartData shown = *v->data;
+    shown.run = *v->data->pinned;
+    other.data = &shown;
+    if (between(&other, SB_STAGE_C, 0.05, &p)) {
+      g_snprintf(text, sizeof text, "%s%s", v->data->pinned_name ? "pinned run: " : "pinned run",
+                 v->data->pinned_name ? v->data->pinned_name : "");
+      double end =
+          fmin(right,
+               sb_axis_at(&v->at.x, 1e3 * sb_trace_range(v->data->run.trace).displacement_max) - 8);
+      label_curve(v, text, SB_ROLE_SECOND,
+                  (SbPlace[]){{p.x, p.y + 18, SB_LEFT},
+                              {p.x, p.y - 9, SB_LEFT},
+                              {end, p.y + 18, SB_RIGHT},
+                              {end, p.y - 9, SB_RIGHT},
+                              {p.x, p.y + 34, SB_LEFT}},
+                  5);
+    }
+  }
+}
+
+static void draw_empty(View *v) {
+  SbCanvas *c = &v->canvas;
+  SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  const char *text = v->data->run.state == SB_CHART_RUNNING ? "The run has begun." : "No run yet.";
+  sb_canvas_text_halo(c, text, &style, v->at.plot.x + 0.5 * v->at.plot.width,
+                      v->at.plot.y + 0.5 * v->at.plot.height, SB_MIDDLE);
+}
+
+void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                        unsigned flags) {
+  View v = {.data = data, .flags = flags};
+  SbCanvas *c = &v.canvas;
+  sb_canvas_init(c, cr, theme);
+  sb_hysteresis_layout(&v.at, rect, data, flags);
+  if (flags & SB_CHART_PANEL) {
+    sb_canvas_panel(c, rect);
+  }
+  draw_titles(&v, rect);
+  draw_axes(&v);
+  v.labels = g_new(SbLabels, 1);
+  // Labels may use the whole panel below its title, but stay above the axis.
+  SbRect plot = v.at.plot;
+  sb_labels_init(v.labels, (SbRect){plot.x - 8, plot.y - 14, plot.width + 16, plot.height + 14});
+
+  // The pressure force, which the loop straddles.
+  const SbModel *model = data->run.model;
+  if (model && model->pressure_force > 0) {
+    double y = floor(sb_axis_at(&v.at.y, model->pressure_force)) + 0.5;
+    SbPoint line[2] = {{sb_axis_at(&v.at.x, 0), y}, {plot.x + plot.width, y}};
+    sb_canvas_pen(c, 1.2, &sb_dash_reference);
+    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_FLUID), 1);
+    cairo_move_to(cr, line[0].x, line[0].y);
+    cairo_line_to(cr, line[1].x, line[1].y);
+    cairo_stroke(cr);
+    sb_labels_avoid(v.labels, line, 2, 1);
+  }
+  if (data->run.state == SB_CHART_RUNNING) {
+    draw_other(&v, data->earlier, false);
+  }
+  const SbFrame *now = sb_chart_frame(data);
+  size_t traced = data->run.trace ? sb_trace_frames(data->run.trace) : 0;
+  if (now && traced > 0) {
+    draw_now(&v, true);
+    draw_loop(&v);
+    draw_arrows(&v);
+    label_now(&v);
+    draw_marks(&v);
+    draw_now(&v, false);
+    draw_notes(&v);
+  } else {
+    draw_empty(&v);
+  }
+  g_free(v.labels);
+  sb_canvas_finish(c);
+}
+
+bool sb_hysteresis_hit(size_t *frame, SbRect rect, const SbChartData *data, unsigned flags,
+                       double x, double y, double reach) {
+  SbHysteresisLayout at;
+  const SbChartRun *run = &data->run;
+  sb_hysteresis_layout(&at, rect, data, flags);
+  size_t n = 0;
+  const SbTracePoint *p = run->trace ? sb_trace_points(run->trace, &n) : NULL;
+  double best = INFINITY;
+  size_t nearest = 0;
+  for (size_t i = 0; i < n; i++) {
+    SbPoint q = to_px(&at, p[i].displacement, p[i].force);
+    // Distance to the piece up to the next point, so that long straight pieces are found too.
+    double dx = 0, dy = 0, t = 0;
+    if (i + 1 < n) {
+      SbPoint r = to_px(&at, p[i + 1].displacement, p[i + 1].force);
+      dx = r.x - q.x;
+      dy = r.y - q.y;
+      double l2 = dx * dx + dy * dy;
+      t = l2 > 0 ? CLAMP(((x - q.x) * dx + (y - q.y) * dy) / l2, 0, 1) : 0;
+    }
+    double d = hypot(x - q.x - t * dx, y - q.y - t * dy);
+    if (d < best) {
+      best = d;
+      size_t next = i + 1 < n ? p[i + 1].frame : p[i].frame;
+      nearest = p[i].frame + (size_t)lround(t * (double)(next - p[i].frame));
+    }
+  }
+  if (!(best <= reach)) {
+    return false;
+  }
+  *frame = MIN(nearest, run->count - 1);
+  return true;
+}

@@ -1,0 +1,122 @@
+// Greedy label placement. Cost of a place: rank in the offer, plus the length of curve that its box
+// covers; taken boxes and the bounds are hard limits. Greedy, in order of importance, because the
+// order is part of the design (a label gives way to *now*), and stable: a playhead that moves does
+// not make far labels jump. Leaves out a global optimum.
+#include "app/chart/label.h"
+
+#include <math.h>
+
+void sb_labels_init(SbLabels *labels, SbRect bounds) {
+  labels->bounds = bounds;
+  labels->box_count = 0;
+  labels->line_count = 0;
+}
+
+double sb_rect_overlap(SbRect a, SbRect b) {
+  double w = fmin(a.x + a.width, b.x + b.width) - fmax(a.x, b.x);
+  double h = fmin(a.y + a.height, b.y + b.height) - fmax(a.y, b.y);
+  return w > 0 && h > 0 ? w * h : 0;
+}
+
+void sb_labels_block(SbLabels *labels, SbRect box) {
+  if (labels->box_count < SB_LABELS_MAX) {
+    labels->box[labels->box_count++] = box;
+  }
+}
+
+void sb_labels_avoid(SbLabels *labels, const SbPoint *point, size_t count, double weight) {
+  // Straight stretches need one segment: a point is kept when the line turns or has gone 40 px.
+  size_t anchor = 0;
+  for (size_t i = 1; i < count; i++) {
+    SbPoint a = point[anchor], b = point[i];
+    bool last = i + 1 == count;
+    bool keep = last || hypot(b.x - a.x, b.y - a.y) > 40;
+    if (!keep) {
+      SbPoint c = point[i + 1];
+      double cross = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+      double along = (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y);
+      keep = fabs(cross) > 1.0 * hypot(c.x - a.x, c.y - a.y) + 1e-9 || along < 0;
+    }
+    if (keep) {
+      if (labels->line_count < SB_LABEL_LINES_MAX && isfinite(a.x + a.y + b.x + b.y)) {
+        labels->line[labels->line_count].a = a;
+        labels->line[labels->line_count].b = b;
+        labels->line[labels->line_count++].weight = weight;
+      }
+      anchor = i;
+    }
+  }
+}
+
+// Length of the segment inside the box (Liang-Barsky).
+static double length_inside(SbPoint a, SbPoint b, SbRect box) {
+  double t0 = 0, t1 = 1, dx = b.x - a.x, dy = b.y - a.y;
+  const double p[4] = {-dx, dx, -dy, dy};
+  const double q[4] = {a.x - box.x, box.x + box.width - a.x, a.y - box.y, box.y + box.height - a.y};
+  for (int i = 0; i < 4; i++) {
+    if (p[i] == 0) {
+      if (q[i] < 0) {
+        return 0;
+      }
+    } else {
+      double r = q[i] / p[i];
+      if (p[i] < 0) {
+        t0 = fmax(t0, r);
+      } else {
+        t1 = fmin(t1, r);
+      }
+    }
+  }
+  return t1 > t0 ? (t1 - t0) * hypot(dx, dy) : 0;
+}
+
+bool sb_labels_hits(const SbLabels *labels, SbRect box) {
+  const SbRect *in = &labels->bounds;
+  if (box.x < in->x || box.y < in->y || box.x + box.width > in->x + in->width ||
+      box.y + box.height > in->y + in->height) {
+    return true;
+  }
+  for (int i = 0; i < labels->box_count; i++) {
+    if (sb_rect_overlap(box, labels->box[i]) > 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool sb_labels_place_box(SbLabels *labels, double width, double size, const SbPlace *place,
+                         int count, SbPlace *out) {
+  const double margin = 2;
+  double best = INFINITY;
+  SbRect best_box = {0, 0, 0, 0};
+  for (int i = 0; i < count; i++) {
+    double shift = place[i].align == SB_LEFT     ? 0
+                   : place[i].align == SB_MIDDLE ? -0.5 * width
+                                                 : -width;
+    SbRect box = {place[i].x + shift - margin, place[i].y - 0.80 * size - margin,
+                  width + 2 * margin, 1.03 * size + 2 * margin};
+    if (sb_labels_hits(labels, box)) {
+      continue;
+    }
+    double cost = 4.0 * i;
+    for (int k = 0; k < labels->line_count; k++) {
+      cost += labels->line[k].weight * length_inside(labels->line[k].a, labels->line[k].b, box);
+    }
+    if (cost < best) {
+      best = cost;
+      best_box = box;
+      *out = place[i];
+    }
+  }
+  if (!isfinite(best)) {
+    return false;
+  }
+  sb_labels_block(labels, best_box);
+  return true;
+}
+
+bool sb_labels_place(SbLabels *labels, SbCanvas *canvas, const char *text, const SbTextStyle *style,
+                     const SbPlace *place, int count, SbPlace *out) {
+  double width = sb_canvas_text_width(canvas, text, style);
+  return sb_labels_place_box(labels, width, style->size, place, count, out);
+}

@@ -1,0 +1,166 @@
+// Streaming thinning in the space (time, displacement, force), each over its expected range. The
+// gap of 1/4000 of a range is below half a pixel on any chart up to 2000 px; larger pictures show
+// straight pieces of that length, which no eye separates. If a run is longer than expected the gap
+// doubles and the points are thinned again, so memory stays bounded.
+#include "app/chart/trace.h"
+
+#include <glib.h>
+#include <math.h>
+
+enum { POINTS_MAX = 60000 };
+
+struct SbTrace {
+  GArray *points; // SbTracePoint
+  size_t consumed;
+  double time_scale, displacement_scale, force_scale; // gap in each
+  SbTraceRange range;
+  SbStageMark mark[SB_STAGE_COUNT];
+  SbFrame last;
+  bool last_kept;
+};
+
+SbTrace *sb_trace_create(const SbModel *model) {
+  SbTrace *trace = g_new0(SbTrace, 1);
+  trace->points = g_array_sized_new(FALSE, FALSE, sizeof(SbTracePoint), 4096);
+  double stroke = model && model->stroke > 0 ? model->stroke : 6.6e-3;
+  double force = model ? fmax(model->reversal_force, model->pressure_force) : 35;
+  double speed = model && model->speed > 0 ? model->speed : 0.333e-3;
+  trace->displacement_scale = stroke / 4000;
+  trace->force_scale = (force > 0 ? force : 35) / 4000;
+  trace->time_scale = 2.2 * stroke / speed / 4000;
+  return trace;
+}
+
+void sb_trace_destroy(SbTrace *trace) {
+  if (trace) {
+    g_array_unref(trace->points);
+    g_free(trace);
+  }
+}
+
+static bool far_apart(const SbTrace *t, const SbTracePoint *p, double time, double displacement,
+                      double force) {
+  return fabs(time - p->time) >= t->time_scale ||
+         fabs(displacement - p->displacement) >= t->displacement_scale ||
+         fabs(force - p->force) >= t->force_scale;
+}
+
+static void thin_again(SbTrace *trace) {
+  trace->time_scale *= 2;
+  trace->displacement_scale *= 2;
+  trace->force_scale *= 2;
+  guint kept = 0;
+  SbTracePoint *p = (SbTracePoint *)(void *)trace->points->data;
+  for (guint i = 0; i < trace->points->len; i++) {
+    bool event = false;
+    for (int s = 0; s < SB_STAGE_COUNT; s++) {
+      event = event || (trace->mark[s].reached && trace->mark[s].frame == p[i].frame);
+    }
+    if (kept == 0 || event || i + 1 == trace->points->len ||
+        far_apart(trace, &p[kept - 1], p[i].time, p[i].displacement, p[i].force)) {
+      p[kept++] = p[i];
+    }
+  }
+  g_array_set_size(trace->points, kept);
+}
+
+static void keep(SbTrace *trace, const SbFrame *frame, size_t index) {
+  SbTracePoint point = {frame->time, frame->displacement, frame->force, index};
+  if (trace->points->len >= POINTS_MAX) {
+    thin_again(trace);
+  }
+  g_array_append_val(trace->points, point);
+}
+
+static void mark(SbTrace *trace, int stage, const SbFrame *frame, size_t index) {
+  if (stage >= 0 && stage < SB_STAGE_COUNT && !trace->mark[stage].reached) {
+    trace->mark[stage] = (SbStageMark){true, frame->time, frame->displacement, frame->force, index};
+  }
+}
+
+static void widen(SbTraceRange *r, const SbFrame *frame, bool first) {
+  r->time_max = first ? frame->time : fmax(r->time_max, frame->time);
+  r->displacement_min =
+      first ? frame->displacement : fmin(r->displacement_min, frame->displacement);
+  r->displacement_max =
+      first ? frame->displacement : fmax(r->displacement_max, frame->displacement);
+  r->force_min = first ? frame->force : fmin(r->force_min, frame->force);
+  r->force_max = first ? frame->force : fmax(r->force_max, frame->force);
+  for (int s = 0; s < SB_SEAL_COUNT; s++) {
+    r->pressure_peak_max = fmax(r->pressure_peak_max, frame->seal[s].pressure_peak);
+    if (frame->seal[s].film_min > 0) {
+      r->film_min =
+          r->film_min > 0 ? fmin(r->film_min, frame->seal[s].film_min) : frame->seal[s].film_min;
+      r->film_max = fmax(r->film_max, frame->seal[s].film_central);
+    }
+  }
+}
+
+bool sb_trace_extend(SbTrace *trace, const SbFrame *frames, size_t count, size_t limit) {
+  size_t end = limit > 0 ? MIN(count, trace->consumed + limit) : count;
+  for (size_t i = trace->consumed; i < end; i++) {
+    const SbFrame *frame = &frames[i];
+    widen(&trace->range, frame, i == 0);
+    bool event = i == 0 || frame->on_event;
+    if (i == 0) {
+      mark(trace, SB_STAGE_A, frame, 0);
+    } else if (frame->stage != trace->last.stage) {
+      // The event lies between the last frame and this one, or on the one that says so.
+      bool here = frame->on_event && !trace->last.on_event;
+      mark(trace, frame->stage, here ? frame : &trace->last, here ? i : i - 1);
+      if (!trace->last_kept) {
+        keep(trace, &trace->last, i - 1);
+      }
+      event = true;
+    }
+    const SbTracePoint *p =
+        trace->points->len > 0 ? &g_array_index(trace->points, SbTracePoint, trace->points->len - 1)
+                               : NULL;
+    bool far = !p || far_apart(trace, p, frame->time, frame->displacement, frame->force);
+    if (far && !event && p && !trace->last_kept &&
+        (fabs(frame->force - p->force) > 4 * trace->force_scale ||
+         fabs(frame->displacement - p->displacement) > 4 * trace->displacement_scale)) {
+      // A jump: keep the frame before it, else the corner is cut.
+      keep(trace, &trace->last, i - 1);
+    }
+    trace->last_kept = far || event;
+    if (trace->last_kept) {
+      keep(trace, frame, i);
+    }
+    trace->last = *frame;
+  }
+  trace->consumed = MAX(trace->consumed, end);
+  return trace->consumed < count;
+}
+
+const SbTracePoint *sb_trace_points(const SbTrace *trace, size_t *count) {
+  *count = trace->points->len;
+  return (const SbTracePoint *)(const void *)trace->points->data;
+}
+
+size_t sb_trace_frames(const SbTrace *trace) {
+  return trace->consumed;
+}
+
+SbTraceRange sb_trace_range(const SbTrace *trace) {
+  return trace->range;
+}
+
+const SbStageMark *sb_trace_marks(const SbTrace *trace) {
+  return trace->mark;
+}
+
+size_t sb_trace_find(const SbTrace *trace, size_t frame) {
+  size_t count, lo = 0;
+  const SbTracePoint *p = sb_trace_points(trace, &count);
+  size_t hi = count;
+  while (lo < hi) {
+    size_t mid = lo + (hi - lo) / 2;
+    if (p[mid].frame <= frame) {
+      lo = mid + 1;
+    } else {
+      hi = mid;
+    }
+  }
+  return lo > 0 ? lo - 1 : 0;
+}

@@ -1,0 +1,119 @@
+// The thinned trace: bounded, complete, the same however the frames arrive; and finding the frame
+// under a point.
+#include "app/chart/hysteresis.h"
+#include "tests/app/synthetic.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+static void test_events(void) {
+  Synthetic run;
+  synthetic_init(&run, 1250, 1);
+  const SbStageMark *mark = sb_trace_marks(run.trace);
+  static const double force[SB_STAGE_COUNT] = {0, 28.7, 27.4, 22.5, 6.5, 6.5};
+  static const double place[SB_STAGE_COUNT] = {0, 0, 3.3e-3, 6.6e-3, 6.6e-3, 3.3e-3};
+  for (int s = 0; s < SB_STAGE_COUNT; s++) {
+    g_assert_true(mark[s].reached);
+    g_assert_cmpfloat(fabs(mark[s].force - force[s]), <, 1e-6);
+    g_assert_cmpfloat(fabs(mark[s].displacement - place[s]), <, 1e-9);
+    g_assert_cmpfloat(run.frames[mark[s].frame].force, ==, mark[s].force);
+  }
+  synthetic_clear(&run);
+}
+
+// Every frame lies within the gap of the polyline, and pieces give the same as the whole.
+static void test_faithful(void) {
+  Synthetic run;
+  synthetic_init(&run, 100000, 1);
+  size_t n, m;
+  const SbTracePoint *p = sb_trace_points(run.trace, &n);
+  g_assert_cmpuint(n, <, 20000);
+  size_t k = 0;
+  double worst = 0;
+  for (size_t i = 0; i < run.count; i++) {
+    while (k + 1 < n && p[k + 1].frame <= i) {
+      k++;
+    }
+    const SbFrame *f = &run.frames[i];
+    size_t next = MIN(k + 1, n - 1);
+    double d = INFINITY;
+    for (size_t q = k; q <= next; q++) {
+      d = fmin(d,
+               hypot((f->displacement - p[q].displacement) / 6.6e-3, (f->force - p[q].force) / 35));
+    }
+    worst = fmax(worst, d);
+  }
+  g_test_message("%zu points of %zu frames, furthest %.2g of the range", n, run.count, worst);
+  g_assert_cmpfloat(worst, <, 4.0 / 4000);
+
+  SbTrace *pieces = sb_trace_create(&run.model);
+  size_t turns = 0;
+  while (sb_trace_extend(pieces, run.frames, run.count, 777)) {
+    turns++;
+  }
+  g_assert_cmpuint(turns, ==, run.count / 777);
+  const SbTracePoint *q = sb_trace_points(pieces, &m);
+  g_assert_cmpuint(m, ==, n);
+  g_assert_cmpint(memcmp(p, q, n * sizeof *p), ==, 0);
+  sb_trace_destroy(pieces);
+  synthetic_clear(&run);
+}
+
+// A run that lasts far longer than its model says, and jitters: memory stays bounded.
+static void test_bounded(void) {
+  SbTrace *trace = sb_trace_create(NULL);
+  enum { COUNT = 200000 };
+  SbFrame *frames = g_new0(SbFrame, COUNT);
+  for (size_t i = 0; i < COUNT; i++) {
+    frames[i] = (SbFrame){.time = (double)i,
+                          .displacement = 3e-3 * (1 + sin(0.1 * (double)i)),
+                          .force = 20 * cos(0.37 * (double)i)};
+  }
+  sb_trace_extend(trace, frames, COUNT, 0);
+  size_t n;
+  const SbTracePoint *p = sb_trace_points(trace, &n);
+  g_assert_cmpuint(n, <=, 60001);
+  for (size_t i = 1; i < n; i++) {
+    g_assert_cmpuint(p[i].frame, >, p[i - 1].frame);
+  }
+  g_free(frames);
+  sb_trace_destroy(trace);
+  sb_trace_destroy(NULL);
+}
+
+static void test_hit(void) {
+  Synthetic run;
+  synthetic_init(&run, 1250, 1);
+  SbChartData data;
+  synthetic_data(&data, &run, 7.27);
+  const SbRect rect = {10, 20, 640, 560};
+  SbHysteresisLayout at;
+  sb_hysteresis_layout(&at, rect, &data, SB_CHART_PANEL);
+  int exact = 0, tried = 0;
+  for (size_t i = 40; i < run.count; i += 37, tried++) {
+    const SbFrame *f = &run.frames[i];
+    double x = sb_axis_at(&at.x, f->displacement * 1e3), y = sb_axis_at(&at.y, f->force);
+    size_t hit = SIZE_MAX;
+    g_assert_true(sb_hysteresis_hit(&hit, rect, &data, SB_CHART_PANEL, x, y, 6));
+    const SbFrame *h = &run.frames[hit];
+    // The frame found is at the same place on the picture, within its neighbours' spacing.
+    double d = hypot(sb_axis_at(&at.x, h->displacement * 1e3) - x, sb_axis_at(&at.y, h->force) - y);
+    g_assert_cmpfloat(d, <, 3);
+    exact += hit == i;
+  }
+  g_test_message("%d of %d hit exactly", exact, tried);
+  g_assert_cmpint(exact, >, tried / 2);
+  size_t none;
+  g_assert_false(sb_hysteresis_hit(&none, rect, &data, SB_CHART_PANEL, 330, 260, 6));
+  synthetic_clear(&run);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/trace/events", test_events);
+  g_test_add_func("/trace/faithful", test_faithful);
+  g_test_add_func("/trace/bounded", test_bounded);
+  g_test_add_func("/trace/hit", test_hit);
+  return g_test_run();
+}
