@@ -1,0 +1,194 @@
+// Rigid wedge, tapered film, regimes and attraction against quadrature and printed values.
+#include "engine/film/regime.h"
+#include "engine/film/wedge.h"
+#include "engine/surface/van_der_waals.h"
+
+#include <glib.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
+#include <math.h>
+
+static const SbWedgeProblem problem = {1e-7, 0.2, 0.805e-3, 2e-3, 0, 0};
+
+static double gap(double x, const SbWedgeProblem *p) {
+  return p->film_min + x * x / (2 * p->radius);
+}
+
+// Reynolds' equation itself, dp/dx = 6 eta U (h - hm)/h^3.
+typedef struct {
+  const SbWedgeProblem *problem;
+  double flux_film;
+  int what; // 0: gradient, 1: x times gradient, 2: Couette, 3: Poiseuille
+} Reynolds;
+
+static double integrand(double x, void *data) {
+  const Reynolds *r = data;
+  double h = gap(x, r->problem);
+  double gradient =
+      6 * r->problem->viscosity * r->problem->speed * (h - r->flux_film) / (h * h * h);
+  switch (r->what) {
+  case 1:
+    return x * gradient;
+  case 2:
+    return r->problem->viscosity * r->problem->speed / h;
+  case 3:
+    return h / 2 * gradient;
+  default:
+    return gradient;
+  }
+}
+
+static double integrate(const SbWedgeProblem *p, double flux_film, int what, double from,
+                        double to) {
+  gsl_integration_workspace *work = gsl_integration_workspace_alloc(1000);
+  Reynolds r = {p, flux_film, what};
+  gsl_function f = {integrand, &r};
+  double unit = sqrt(2 * p->radius * p->film_min);
+  double middle = fmax(fmin(to, 3 * unit), -10 * unit);
+  double tail = 0;
+  double body = 0;
+  double error = 0;
+  if (isinf(from)) {
+    from = -10 * unit;
+    middle = to;
+    gsl_integration_qagil(&f, from, 0, 1e-12, 1000, work, &tail, &error);
+  }
+  gsl_integration_qag(&f, from, middle, 0, 1e-13, 1000, GSL_INTEG_GAUSS61, work, &body, &error);
+  gsl_integration_workspace_free(work);
+  return tail + body;
+}
+
+// The four end-pressure cases of thesis section 6.1: the solution satisfies Reynolds' equation, its
+// boundary values and its load, all by quadrature.
+static void test_pressures(void) {
+  const double ends[4][2] = {{0, 0}, {0.55e6, 0}, {0, 0.55e6}, {0.55e6, 0.55e6}};
+  for (int i = 0; i < 4; i++) {
+    SbWedgeProblem p = problem;
+    p.pressure_left = ends[i][0];
+    p.pressure_right = ends[i][1];
+    SbWedge out;
+    SbReport report = {0};
+    g_assert_cmpint(sb_wedge_solve(&out, &p, &report), ==, SB_OK);
+    double xe = out.position_rupture;
+    double unit = sqrt(2 * p.radius * p.film_min);
+    double scale = out.pressure_max;
+    for (double x = -3 * unit; x < xe; x += unit / 7) {
+      double exact = p.pressure_left + integrate(&p, out.film_flux, 0, -INFINITY, x);
+      g_assert_cmpfloat(fabs(sb_wedge_pressure(&out, &p, x) - exact) / scale, <, 1e-9);
+    }
+    double end = p.pressure_left + integrate(&p, out.film_flux, 0, -INFINITY, xe);
+    g_assert_cmpfloat(fabs(end - p.pressure_right) / scale, <, 1e-9);
+    g_assert_cmpfloat(fabs(gap(xe, &p) / out.film_flux - 1), <, 1e-12);
+
+    // Net load: by parts the integral of (p - ambient) is minus that of x dp/dx.
+    double load = -integrate(&p, out.film_flux, 1, -INFINITY, xe);
+    g_assert_cmpfloat(fabs(load / out.load - 1), <, 1e-9);
+    g_assert_cmpfloat(
+        fabs(integrate(&p, out.film_flux, 2, -INFINITY, xe) / out.friction_couette - 1), <, 1e-9);
+    g_assert_cmpfloat(
+        fabs(integrate(&p, out.film_flux, 3, -INFINITY, xe) - out.friction_poiseuille), <,
+        1e-9 * out.friction_couette);
+  }
+}
+
+// Printed: rupture 25.41 degrees, load 4.894968 eta u_m R/h0, film ratio 1.225748, 0.475130 sqrt(2
+// R h0).
+static void test_classical(void) {
+  SbWedge out;
+  sb_wedge_solve(&out, &problem, NULL);
+  g_assert_cmpfloat_with_epsilon(out.rupture_angle * 180 / M_PI, 25.41, 0.005);
+  double unit = problem.viscosity * problem.speed / 2 * problem.radius / problem.film_min;
+  g_assert_cmpfloat_with_epsilon(out.load / unit, 4.894968, 1e-6);
+  g_assert_cmpfloat_with_epsilon(out.film_flux / problem.film_min, 1.225748, 1e-6);
+  g_assert_cmpfloat_with_epsilon(out.position_rupture / sqrt(2 * problem.radius * problem.film_min),
+                                 0.475130, 1e-6);
+}
+
+static void test_load(void) {
+  for (double load = 1e-3; load < 1e6; load *= 7) {
+    SbWedgeProblem p = problem;
+    p.pressure_left = 0.2e6;
+    SbWedge out;
+    double film = 0;
+    SbReport report = {0};
+    g_assert_cmpint(sb_wedge_solve_load(&out, &film, &p, load, &report), ==, SB_OK);
+    g_assert_cmpfloat(fabs(out.load / load - 1), <, 1e-9);
+  }
+}
+
+static void test_refused(void) {
+  SbWedge out;
+  SbReport report = {0};
+  SbWedgeProblem p = problem;
+  p.speed = 0;
+  g_assert_cmpint(sb_wedge_solve(&out, &p, &report), ==, SB_ERROR_RANGE);
+  p = problem;
+  p.pressure_right = 1e12;
+  g_assert_cmpint(sb_wedge_solve(&out, &p, &report), ==, SB_ERROR_INFEASIBLE);
+  double film = 0;
+  p = problem;
+  g_assert_cmpint(sb_wedge_solve_load(&out, &film, &p, -1, &report), ==, SB_ERROR_RANGE);
+}
+
+// Drag of a plane taper by quadrature: Couette plus Poiseuille of Reynolds' equation on h = 1 + e
+// (1 - x).
+static void test_taper(void) {
+  const double ratios[] = {1, 1 + 5e-4, 1 + 2e-3, 1.1, 1.5, 2, 5, 20};
+  for (size_t i = 0; i < G_N_ELEMENTS(ratios); i++) {
+    double e = ratios[i] - 1;
+    double hm = 2 * ratios[i] / (1 + ratios[i]);
+    double drag = 0;
+    int n = 200000;
+    for (int k = 0; k < n; k++) {
+      double h = 1 + e * (1 - (k + 0.5) / n);
+      drag += (1 / h + 3 * (h - hm) / (h * h)) / n;
+    }
+    double factor = sb_taper_factor(ratios[i]);
+    g_assert_cmpfloat(fabs(factor - drag), <, 1e-8);
+  }
+}
+
+// Audit section 1: g_E 6.6e3, g_V 49 at 0.03 m/s; the misprinted alpha changes the regime.
+static void test_chart(void) {
+  double modulus = 6.5725e6;
+  double R = 0.805e-3;
+  double load = 0.16071 * modulus * R;
+  SbChartPoint point = sb_regime_chart(load, 0.015, R, modulus, 2.09e-4, 2.8e-9);
+  g_assert_cmpfloat_with_epsilon(point.g_E, 6.6e3, 50);
+  g_assert_cmpfloat_with_epsilon(point.g_V, 49, 1);
+  g_assert_cmpint(point.regime, ==, SB_REGIME_ELASTIC_ISOVISCOUS);
+  point = sb_regime_chart(load, 0.015, R, modulus, 2.09e-4, 2.8e-7);
+  g_assert_cmpfloat_with_epsilon(point.g_V, 4.9e3, 50);
+  g_assert_cmpint(sb_regime_chart(1e-3, 1, R, 1e11, 1e-2, 0).regime, ==,
+                  SB_REGIME_RIGID_ISOVISCOUS);
+  g_assert_cmpstr(sb_regime_of_lambda(0.001), ==, "boundary");
+  g_assert_cmpstr(sb_regime_of_lambda(2), ==, "mixed");
+  g_assert_cmpstr(sb_regime_of_lambda(3), ==, "full film");
+}
+
+// Thesis: 0.40 MPa at 2.61 nm, 7.2 MPa at 1 nm, 364 MPa at 0.27 nm; held below the cut-off.
+static void test_attraction(void) {
+  double A = 1.35e-19;
+  g_assert_cmpfloat_with_epsilon(sb_vdw_attraction(A, 2.61e-9), 0.40e6, 0.005e6);
+  g_assert_cmpfloat_with_epsilon(sb_vdw_attraction(A, 1e-9), 7.2e6, 0.05e6);
+  g_assert_cmpfloat_with_epsilon(sb_vdw_attraction(A, 0.27e-9), 364e6, 1e6);
+  g_assert_cmpfloat(sb_vdw_attraction(A, 0), ==, sb_vdw_attraction(A, SB_VDW_CUTOFF));
+  double h = 1e-9;
+  double difference = (sb_vdw_attraction(A, h + 1e-14) - sb_vdw_attraction(A, h - 1e-14)) / 2e-14;
+  g_assert_cmpfloat(fabs(sb_vdw_slope(A, h) / difference - 1), <, 1e-6);
+  g_assert_cmpfloat(sb_vdw_slope(A, 1e-10), ==, 0);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  // An integral near zero cannot meet a relative tolerance; the assertions judge the values.
+  gsl_set_error_handler_off();
+  g_test_add_func("/closed-films/pressures", test_pressures);
+  g_test_add_func("/closed-films/classical", test_classical);
+  g_test_add_func("/closed-films/load", test_load);
+  g_test_add_func("/closed-films/refused", test_refused);
+  g_test_add_func("/closed-films/taper", test_taper);
+  g_test_add_func("/closed-films/chart", test_chart);
+  g_test_add_func("/closed-films/attraction", test_attraction);
+  return g_test_run();
+}
