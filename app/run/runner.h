@@ -1,0 +1,59 @@
+// The engine's own thread: one run at a time, the newest request wins, results are kept as long as
+// anybody holds them.
+//
+// Any thread may call any function here. Hand-over is by a mutex and C11 atomics only, so that the
+// thread sanitizer sees all of it.
+#pragma once
+
+#include "engine/sealbench.h"
+
+// One run, computed or being computed. Reference counted.
+typedef struct SbRunHandle SbRunHandle;
+
+SbRunHandle *sb_run_handle_ref(SbRunHandle *handle);
+
+// Takes NULL. The last one frees the run.
+void sb_run_handle_unref(SbRunHandle *handle);
+
+// The run, whose published frames may be read at any time; NULL if it could not be created (see the
+// report). Borrowed while the handle is held.
+const SbRun *sb_run_handle_run(const SbRunHandle *handle);
+
+// Number of the request that made it.
+unsigned sb_run_handle_ticket(const SbRunHandle *handle);
+
+// Fraction done, 0 to 1.
+double sb_run_handle_fraction(const SbRunHandle *handle);
+
+// True once it has ended in whatever way; only then may its summary, status and report be read.
+bool sb_run_handle_is_done(const SbRunHandle *handle);
+SbStatus sb_run_handle_status(const SbRunHandle *handle);
+const SbReport *sb_run_handle_report(const SbRunHandle *handle); // borrowed
+
+typedef struct SbRunner SbRunner;
+
+// Called on the engine's thread when there is something new to look at: a run began, has more
+// frames (at most every 15 ms), or ended. Must return at once; typically it posts one idle callback
+// unless one is pending.
+typedef void (*SbRunnerNotify)(void *data);
+
+// Starts the thread. NULL if the system has none left. Owned by the caller.
+SbRunner *sb_runner_create(SbRunnerNotify notify, void *data);
+
+// Cancels, waits for the thread (at most about 50 ms) and frees. After it returned `notify` is not
+// called again. Handles stay valid. Takes NULL. Not from inside `notify`.
+void sb_runner_destroy(SbRunner *runner);
+
+// Asks for a run of `model` (copied) by its own plan. What is being computed is cancelled, what was
+// waiting is dropped. Returns the request's ticket; tickets grow from 1.
+unsigned sb_runner_submit(SbRunner *runner, const SbModel *model);
+
+// Stops what is being computed and drops what waits. May be called at any time, any number of
+// times.
+void sb_runner_cancel(SbRunner *runner);
+
+// True while a request waits or is being computed.
+bool sb_runner_is_busy(SbRunner *runner);
+
+// The latest run that began (done or not), with a reference for the caller; NULL before the first.
+SbRunHandle *sb_runner_latest(SbRunner *runner);
