@@ -1,0 +1,168 @@
+// Item by item. The hatch is drawn as lines clipped to its polygon, so that SVG and PDF stay small
+// and sharp. A mesh is painted triangle by triangle with a hairline of its own colour against
+// seams; a rectangle-shaped mesh (a legend) as a linear gradient.
+#include "app/section/draw_cairo.h"
+
+#include <glib.h>
+#include <math.h>
+#include <pango/pangocairo.h>
+
+static void set_colour(cairo_t *cr, SbDrawColour colour) {
+  cairo_set_source_rgba(cr, (double)colour.r, (double)colour.g, (double)colour.b, (double)colour.a);
+}
+
+static void trace(cairo_t *cr, const SbDrawPoint *points, size_t count, bool closed) {
+  for (size_t i = 0; i < count; i++) {
+    if (i == 0) {
+      cairo_move_to(cr, (double)points[i].x, (double)points[i].y);
+    } else {
+      cairo_line_to(cr, (double)points[i].x, (double)points[i].y);
+    }
+  }
+  if (closed) {
+    cairo_close_path(cr);
+  }
+}
+
+static void draw_hatch(cairo_t *cr, const SbDrawHatch *hatch) {
+  double x0, y0, x1, y1;
+  cairo_clip_extents(cr, &x0, &y0, &x1, &y1);
+  double lean = (double)hatch->lean;
+  double step = (double)hatch->pitch * sqrt(2);
+  // x + lean y = c; c runs over the corners' range.
+  double low = x0 + fmin(lean * y0, lean * y1);
+  double high = x1 + fmax(lean * y0, lean * y1);
+  double first = (double)hatch->offset + ceil((low - (double)hatch->offset) / step) * step;
+  for (double c = first; c <= high; c += step) {
+    cairo_move_to(cr, c - lean * y0, y0);
+    cairo_line_to(cr, c - lean * y1, y1);
+  }
+  cairo_set_dash(cr, NULL, 0, 0);
+  cairo_set_line_width(cr, (double)hatch->width);
+  set_colour(cr, hatch->colour);
+  cairo_stroke(cr);
+}
+
+static void draw_fill(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *points) {
+  trace(cr, points, item->count, true);
+  set_colour(cr, item->colour);
+  if (item->hatch.width <= 0.0f) {
+    cairo_fill(cr);
+    return;
+  }
+  cairo_fill_preserve(cr);
+  cairo_save(cr);
+  cairo_clip(cr);
+  draw_hatch(cr, &item->hatch);
+  cairo_restore(cr);
+}
+
+static void draw_stroke(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *points) {
+  trace(cr, points, item->count, item->closed);
+  cairo_set_line_width(cr, (double)item->width);
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_cap(cr, item->round_caps ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+  if (item->dash == SB_DASH_SOLID) {
+    cairo_set_dash(cr, NULL, 0, 0);
+  } else {
+    const float *pattern = sb_draw_dash_pattern(item->dash);
+    const double dashes[4] = {(double)pattern[0], (double)pattern[1], (double)pattern[2],
+                              (double)pattern[3]};
+    cairo_set_dash(cr, dashes, 4, 0);
+  }
+  set_colour(cr, item->colour);
+  cairo_stroke(cr);
+}
+
+static SbDrawColour map_colour(const SbDrawItem *item, float scalar) {
+  float t = (scalar - item->map_min) / fmaxf(item->map_max - item->map_min, 1e-30f);
+  return item->map->entry[(int)(255.0f * CLAMP(t, 0.0f, 1.0f) + 0.5f)];
+}
+
+static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *points,
+                      const float *scalars) {
+  // Two triangles on one rectangle are a legend: a gradient along x.
+  if (item->count == 6) {
+    cairo_pattern_t *gradient =
+        cairo_pattern_create_linear((double)points[0].x, 0.0, (double)points[1].x, 0.0);
+    for (int i = 0; i <= 32; i++) {
+      SbDrawColour c = map_colour(item, scalars[0] + (scalars[1] - scalars[0]) * (float)i / 32.0f);
+      cairo_pattern_add_color_stop_rgb(gradient, i / 32.0, (double)c.r, (double)c.g, (double)c.b);
+    }
+    cairo_rectangle(cr, (double)points[0].x, (double)points[0].y,
+                    (double)(points[2].x - points[0].x), (double)(points[2].y - points[0].y));
+    cairo_set_source(cr, gradient);
+    cairo_fill(cr);
+    cairo_pattern_destroy(gradient);
+    return;
+  }
+  cairo_set_line_width(cr, 0.4);
+  cairo_set_dash(cr, NULL, 0, 0);
+  for (size_t i = 0; i + 2 < item->count; i += 3) {
+    set_colour(cr, map_colour(item, (scalars[i] + scalars[i + 1] + scalars[i + 2]) / 3.0f));
+    trace(cr, points + i, 3, true);
+    cairo_fill_preserve(cr);
+    cairo_stroke(cr);
+  }
+}
+
+static void draw_text(cairo_t *cr, const SbDrawItem *item, const char *string, SbText *text) {
+  double baseline, width;
+  PangoLayout *layout =
+      sb_text_layout(text, string, (double)item->size, item->weight, &baseline, &width);
+  double x = (double)item->x;
+  if (item->align == SB_ALIGN_CENTRE) {
+    x -= width / 2;
+  } else if (item->align == SB_ALIGN_RIGHT) {
+    x -= width;
+  }
+  cairo_move_to(cr, x, (double)item->y - baseline);
+  if (item->halo > 0.0f) {
+    pango_cairo_layout_path(cr, layout);
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_dash(cr, NULL, 0, 0);
+    cairo_set_line_width(cr, 2 * (double)item->halo);
+    set_colour(cr, item->halo_colour);
+    cairo_stroke(cr);
+    cairo_move_to(cr, x, (double)item->y - baseline);
+  }
+  set_colour(cr, item->colour);
+  pango_cairo_show_layout(cr, layout);
+}
+
+void sb_draw_list_to_cairo(const SbDrawList *list, SbText *text, cairo_t *cr) {
+  cairo_save(cr);
+  cairo_rectangle(cr, 0, 0, (double)list->width, (double)list->height);
+  set_colour(cr, list->background);
+  cairo_fill(cr);
+  for (size_t i = 0; i < list->item_count; i++) {
+    const SbDrawItem *item = &list->item[i];
+    const SbDrawRect *clip = &list->clip[item->clip];
+    bool clipped = item->clip != 0;
+    if (clipped) {
+      cairo_save(cr);
+      cairo_rectangle(cr, (double)clip->x, (double)clip->y, (double)clip->width,
+                      (double)clip->height);
+      cairo_clip(cr);
+    }
+    const SbDrawPoint *points = list->point + item->first;
+    switch (item->kind) {
+    case SB_DRAW_FILL:
+      draw_fill(cr, item, points);
+      break;
+    case SB_DRAW_STROKE:
+      draw_stroke(cr, item, points);
+      break;
+    case SB_DRAW_MESH:
+      draw_mesh(cr, item, points, list->scalar + item->first_scalar);
+      break;
+    case SB_DRAW_TEXT:
+      draw_text(cr, item, list->text + item->first, text);
+      break;
+    }
+    if (clipped) {
+      cairo_restore(cr);
+    }
+  }
+  cairo_restore(cr);
+}

@@ -1,0 +1,142 @@
+// A display list: what a picture consists of, in logical pixels, before anyone draws it.
+//
+// The section builds one list per frame; the GL renderer and the cairo path draw the same list, so
+// that window, PNG, movie, SVG and PDF show the same thing. Items are drawn in the order in which
+// they were added. A list owns its arrays and reuses them: after the first frames, clearing and
+// refilling allocates nothing.
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// Straight (not premultiplied) sRGB, each 0 to 1.
+typedef struct {
+  float r, g, b, a;
+} SbDrawColour;
+
+// From 0xRRGGBB and an opacity.
+SbDrawColour sb_draw_colour(uint32_t rgb, double alpha);
+
+// `a` where t = 0, `b` where t = 1; opacity too.
+SbDrawColour sb_draw_mix(SbDrawColour a, SbDrawColour b, double t);
+
+typedef struct {
+  float x, y;
+} SbDrawPoint;
+
+typedef struct {
+  float x, y, width, height;
+} SbDrawRect;
+
+typedef enum {
+  SB_DRAW_FILL,   // simple polygon
+  SB_DRAW_STROKE, // polyline
+  SB_DRAW_MESH,   // triangles with a scalar per vertex, coloured by a map
+  SB_DRAW_TEXT
+} SbDrawKind;
+
+// 45-degree hatch over a fill. The lines are x + lean * y = offset + n * pitch * sqrt(2); lean is
+// +1 or -1. width 0: no hatch.
+typedef struct {
+  SbDrawColour colour;
+  float pitch, width, lean, offset;
+} SbDrawHatch;
+
+typedef enum {
+  SB_DASH_SOLID,
+  SB_DASH_PINNED,    // 7-3
+  SB_DASH_REFERENCE, // 5-4
+  SB_DASH_DIMENSION, // 3-3
+  SB_DASH_CENTRE,    // 14-3-2-3
+  SB_DASH_DOSE,      // 8-4
+  SB_DASH_COUNT
+} SbDrawDash;
+
+// On and off lengths in pixels, always four (a two-part pattern is repeated); borrowed.
+const float *sb_draw_dash_pattern(SbDrawDash dash);
+
+// A colour map of 256 entries; the caller keeps it alive and unchanged as long as lists refer to
+// it.
+typedef struct {
+  SbDrawColour entry[256];
+} SbDrawMap;
+
+typedef enum { SB_ALIGN_LEFT, SB_ALIGN_CENTRE, SB_ALIGN_RIGHT } SbDrawAlign;
+
+enum { SB_DRAW_TEXT_MAX = 160 };
+
+typedef struct {
+  SbDrawKind kind;
+  SbDrawColour colour;
+  int clip;            // index into SbDrawList.clip
+  size_t first, count; // points (fill, stroke, mesh) or bytes (text, without the final zero)
+  // Stroke.
+  float width;
+  SbDrawDash dash;
+  bool closed;
+  bool round_caps;
+  // Fill.
+  SbDrawHatch hatch;
+  bool feather; // edges get analytic coverage; false where an outline follows
+  // Mesh: `count` vertices, three per triangle, with scalars from `first_scalar`.
+  size_t first_scalar;
+  const SbDrawMap *map;
+  float map_min, map_max;
+  // Text: anchored at the baseline.
+  float x, y, size;
+  int weight;
+  SbDrawAlign align;
+  float halo; // width of an outline in `halo_colour`, 0 for none
+  SbDrawColour halo_colour;
+} SbDrawItem;
+
+typedef struct {
+  float width, height; // of the picture, logical pixels
+  SbDrawColour background;
+  size_t item_count, item_capacity;
+  SbDrawItem *item;
+  size_t point_count, point_capacity;
+  SbDrawPoint *point;
+  size_t scalar_count, scalar_capacity;
+  float *scalar;
+  size_t text_count, text_capacity;
+  char *text;
+  size_t clip_count, clip_capacity;
+  SbDrawRect *clip; // clip[0] is the whole picture
+  int current_clip;
+} SbDrawList;
+
+void sb_draw_list_init(SbDrawList *list);
+void sb_draw_list_finish(SbDrawList *list);
+
+// Empties the list and starts a picture of this size.
+void sb_draw_list_clear(SbDrawList *list, double width, double height, SbDrawColour background);
+
+// Items added from now on show only inside this rectangle (NULL: the whole picture). Clips do not
+// nest.
+void sb_draw_clip(SbDrawList *list, const SbDrawRect *rect);
+
+// Each of these adds one item and returns it; the pointer holds until the next addition. Points
+// are copied.
+SbDrawItem *sb_draw_fill(SbDrawList *list, const SbDrawPoint *points, size_t count,
+                         SbDrawColour colour);
+SbDrawItem *sb_draw_rect(SbDrawList *list, double x, double y, double width, double height,
+                         SbDrawColour colour);
+SbDrawItem *sb_draw_round_rect(SbDrawList *list, double x, double y, double width, double height,
+                               double radius, SbDrawColour colour);
+SbDrawItem *sb_draw_disc(SbDrawList *list, double x, double y, double radius, SbDrawColour colour);
+SbDrawItem *sb_draw_stroke(SbDrawList *list, const SbDrawPoint *points, size_t count, double width,
+                           SbDrawColour colour);
+SbDrawItem *sb_draw_line(SbDrawList *list, double x0, double y0, double x1, double y1, double width,
+                         SbDrawColour colour);
+SbDrawItem *sb_draw_round_frame(SbDrawList *list, double x, double y, double width, double height,
+                                double radius, double line, SbDrawColour colour);
+SbDrawItem *sb_draw_mesh(SbDrawList *list, const SbDrawPoint *points, const float *scalars,
+                         size_t count, const SbDrawMap *map, double min, double max);
+SbDrawItem *sb_draw_text(SbDrawList *list, double x, double y, double size, int weight,
+                         SbDrawAlign align, SbDrawColour colour, const char *text);
+
+// An arrow from (x0, y0) to its point (x1, y1): a shaft and a head of length x width.
+void sb_draw_arrow(SbDrawList *list, double x0, double y0, double x1, double y1, double line,
+                   double head_length, double head_width, SbDrawColour colour);

@@ -1,0 +1,29 @@
+// The section's colours: the theme's roles as the display list wants them, and its two maps (a
+// field in a seal, the fluid by pressure) as tables.
+#pragma once
+
+#include "app/section/draw_list.h"
+#include "engine/model.h"
+
+typedef struct {
+  bool dark;
+  SbDrawColour background, panel, hairline, grid, axis;
+  SbDrawColour ink, second, third;
+  SbDrawColour seal[SB_SEAL_COUNT];
+  SbDrawColour fluid_line, now;
+  SbDrawColour housing, housing_hatch, stem, stem_hatch, outline;
+  SbDrawColour warn, error;
+  SbDrawMap field; // stress in a seal
+  SbDrawMap fluid; // pressure from 0 to 0.7 MPa
+} SbPalette;
+
+enum { SB_PALETTE_LIGHT, SB_PALETTE_DARK, SB_PALETTE_COUNT };
+
+// Full scale of the fluid map [Pa].
+#define SB_PALETTE_FLUID_FULL 0.7e6
+
+// The palette, made once; borrowed for the life of the program. Any thread.
+const SbPalette *sb_palette(bool dark);
+
+// Colour of fluid at gauge pressure p [Pa]; beyond the map's ends their colours.
+SbDrawColour sb_palette_fluid(const SbPalette *palette, double p);

@@ -1,0 +1,357 @@
+// The section's layout, its rings and its parts in order, back to front. Labels of the strip are in
+// section_labels.c, the insets in section_insets.c, header, legends and footer in section_frame.c.
+#include "app/section/section_private.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+// Radius drawn above the bore, and room beside the valve [m per m of bore diameter].
+static const double TOP = 0.79, RIGHT_ROOM = 0.26;
+
+SbSection *sb_section_create(const SbModel *model, const SbSectionLimits *limits) {
+  SbSection *section = g_new0(SbSection, 1);
+  section->model = *model;
+  section->limits = *limits;
+  section->text = sb_text_create();
+  sb_valve_make(&section->valve, model, limits->inner_contact_left, 2 * model->bore_diameter);
+  return section;
+}
+
+void sb_section_destroy(SbSection *section) {
+  if (section == NULL) {
+    return;
+  }
+  sb_text_destroy(section->text);
+  g_free(section);
+}
+
+void sb_section_limits_of_run(SbSectionLimits *limits, const SbRun *run) {
+  *limits = (SbSectionLimits){0};
+  size_t count;
+  const SbFrame *frames = sb_run_frames(run, &count);
+  bool inner_found = false;
+  for (size_t i = 0; i < count; i++) {
+    for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+      const SbSealFrame *at = &frames[i].seal[seal];
+      limits->pressure_max = fmax(limits->pressure_max, at->pressure_peak);
+      limits->film_max = fmax(limits->film_max, at->film_central);
+      limits->contact_left[seal] = fmin(limits->contact_left[seal], at->contact_left);
+      limits->contact_right[seal] = fmax(limits->contact_right[seal], at->contact_right);
+    }
+    // The inner contact as it reaches the land edge: the last whole one before it.
+    const SbSealFrame *inner = &frames[i].seal[SB_INNER];
+    if (frames[i].stage <= SB_STAGE_B && inner->land_fraction >= 1 &&
+        inner->contact_right > inner->contact_left) {
+      limits->inner_contact_left = inner->contact_left;
+      inner_found = true;
+    }
+  }
+  if (!inner_found && count > 0) {
+    limits->inner_contact_left = frames[0].seal[SB_INNER].contact_left;
+  }
+}
+
+SbDrawPoint sb_section_at(const SbSection *section, double x, double y) {
+  return (SbDrawPoint){(float)(section->x0 + x * section->scale),
+                       (float)(section->y0 - y * section->scale)};
+}
+
+double sb_section_displacement(const SbSection *section) {
+  return section->instant->frame->displacement;
+}
+
+double sb_section_origin(const SbSection *section, int seal) {
+  return section->valve.origin[seal] - sb_section_displacement(section);
+}
+
+const SbRingShape *sb_section_ring(const SbSection *section, int seal) {
+  return &section->ring[seal];
+}
+
+const SbValve *sb_section_valve(const SbSection *section) {
+  return &section->valve;
+}
+
+void sb_section_transform(const SbSection *section, double *scale, double *x0, double *y0) {
+  *scale = section->scale;
+  *x0 = section->x0;
+  *y0 = section->y0;
+}
+
+typedef struct {
+  const SbValve *valve;
+  double origin;
+} Surroundings;
+
+static double housing_above(void *data, double x) {
+  const Surroundings *around = data;
+  return sb_valve_bore_at(around->valve, x + around->origin) - around->valve->floor;
+}
+
+// Outlines of both rings in their own frames.
+static void shape_rings(SbSection *section) {
+  const SbValve *valve = &section->valve;
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const SbSealFrame *seal = &section->instant->frame->seal[i];
+    Surroundings around = {valve, sb_section_origin(section, i)};
+    SbRingRoom room = {
+        .space = valve->bore - valve->floor,
+        .wall_left = valve->groove_left[i] - valve->origin[i],
+        .wall_right = valve->groove_right[i] - valve->origin[i],
+        .area = valve->section_area[i],
+        .section = 2 * sqrt(valve->section_area[i] / M_PI),
+        .housing = housing_above,
+        .data = &around,
+    };
+    double edge = -around.origin;
+    double left = fmax(seal->contact_left, fmin(edge, seal->contact_right));
+    sb_ring_shape_make(&section->ring[i], &room, left, seal->contact_right, seal->land_fraction);
+  }
+}
+
+void sb_section_draw_ring(SbSection *section, int seal, double ax, double bx, double ay,
+                          double by) {
+  const SbPalette *palette = section->palette;
+  SbDrawList *list = section->list;
+  const SbSectionRing *mesh = section->instant->ring[seal];
+  if (mesh != NULL) {
+    SbDrawPoint *corner = g_new(SbDrawPoint, 3 * mesh->triangle_count);
+    float *scalar = g_new(float, 3 * mesh->triangle_count);
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+      unsigned node = mesh->triangle[i];
+      corner[i] = (SbDrawPoint){(float)(ax + bx * mesh->x[node]), (float)(ay + by * mesh->y[node])};
+      scalar[i] = (float)mesh->scalar[node];
+    }
+    sb_draw_mesh(list, corner, scalar, 3 * mesh->triangle_count, &palette->field, mesh->scalar_min,
+                 mesh->scalar_max);
+    for (size_t i = 0; i < mesh->outline_count; i++) {
+      unsigned node = mesh->outline[i];
+      corner[i] = (SbDrawPoint){(float)(ax + bx * mesh->x[node]), (float)(ay + by * mesh->y[node])};
+    }
+    sb_draw_stroke(list, corner, mesh->outline_count, 1.8, palette->outline)->closed = true;
+    g_free(corner);
+    g_free(scalar);
+    return;
+  }
+  const SbRingShape *shape = &section->ring[seal];
+  SbDrawPoint points[SB_RING_POINTS];
+  for (size_t i = 0; i < shape->count; i++) {
+    points[i] = (SbDrawPoint){(float)(ax + bx * shape->x[i]), (float)(ay + by * shape->y[i])};
+  }
+  SbDrawColour fill = sb_draw_mix(palette->panel, palette->seal[seal], palette->dark ? 0.42 : 0.34);
+  sb_draw_fill(list, points, shape->count, fill)->feather = false;
+  sb_draw_stroke(list, points, shape->count, 1.8, palette->outline)->closed = true;
+}
+
+// Fluid behind everything: tinted by pressure, changing at the sealing contacts.
+static void draw_fluid(SbSection *section) {
+  const SbFrame *frame = section->instant->frame;
+  const SbDrawRect *strip = &section->strip;
+  const SbSealFrame *inner = &frame->seal[SB_INNER];
+  const SbSealFrame *outer = &frame->seal[SB_OUTER];
+  double split_inner = sb_section_at(section,
+                                     sb_section_origin(section, SB_INNER) +
+                                         (inner->contact_left + inner->contact_right) / 2,
+                                     0)
+                           .x;
+  double split_outer = sb_section_at(section,
+                                     sb_section_origin(section, SB_OUTER) +
+                                         (outer->contact_left + outer->contact_right) / 2,
+                                     0)
+                           .x;
+  double right = strip->x + strip->width;
+  const double edge[4] = {strip->x, CLAMP(split_inner, strip->x, right),
+                          CLAMP(split_outer, strip->x, right), right};
+  const double pressure[3] = {inner->pressure_left, outer->pressure_left, outer->pressure_right};
+  for (int i = 0; i < 3; i++) {
+    if (edge[i + 1] > edge[i]) {
+      sb_draw_rect(section->list, edge[i], strip->y, edge[i + 1] - edge[i], strip->height,
+                   sb_palette_fluid(section->palette, pressure[i]))
+          ->feather = false;
+    }
+  }
+}
+
+static void hatch(SbDrawItem *item, SbDrawColour colour, double lean, double offset) {
+  item->hatch = (SbDrawHatch){colour, 11.0f, 0.7f, (float)lean, (float)offset};
+  item->feather = false;
+}
+
+// Fills and outlines one run of points of the housing, closed above the picture.
+static void draw_housing_part(SbSection *section, const SbValvePoint *points, size_t count) {
+  SbDrawPoint pixel[SB_VALVE_POINTS_MAX + 2];
+  for (size_t i = 0; i < count; i++) {
+    pixel[i] = sb_section_at(section, points[i].x, points[i].y);
+    pixel[i].y = MAX(pixel[i].y, section->strip.y - 20);
+  }
+  SbDrawItem *item = sb_draw_fill(section->list, pixel, count, section->palette->housing);
+  hatch(item, section->palette->housing_hatch, 1, section->x0 + section->y0);
+  sb_draw_stroke(section->list, pixel, count, 1.8, section->palette->outline);
+}
+
+static void draw_housing(SbSection *section) {
+  const SbValve *valve = &section->valve;
+  const SbValveOutline *outline = &valve->housing;
+  double top = outline->point[0].y;
+  if (valve->vent_right <= valve->vent_left) {
+    draw_housing_part(section, outline->point, outline->count);
+    return;
+  }
+  // The vent cuts the housing in two; the last three points lie right of it.
+  SbValvePoint part[SB_VALVE_POINTS_MAX];
+  size_t split = outline->count - 3;
+  memcpy(part, outline->point, split * sizeof *part);
+  part[split] = (SbValvePoint){valve->vent_left, valve->bore};
+  part[split + 1] = (SbValvePoint){valve->vent_left, top};
+  draw_housing_part(section, part, split + 2);
+  part[0] = (SbValvePoint){valve->vent_right, top};
+  part[1] = (SbValvePoint){valve->vent_right, valve->bore};
+  memcpy(part + 2, outline->point + split, 3 * sizeof *part);
+  draw_housing_part(section, part, 5);
+}
+
+static void draw_stem(SbSection *section) {
+  const SbValveOutline *outline = &section->valve.stem;
+  double s = sb_section_displacement(section);
+  SbDrawPoint pixel[SB_VALVE_POINTS_MAX];
+  for (size_t i = 0; i < outline->count; i++) {
+    pixel[i] = sb_section_at(section, outline->point[i].x - s, outline->point[i].y);
+    pixel[i].x = MIN(pixel[i].x, section->strip.x + section->strip.width + 20);
+    pixel[i].y = MIN(pixel[i].y, section->strip.y + section->strip.height + 20);
+  }
+  SbDrawItem *item = sb_draw_fill(section->list, pixel, outline->count, section->palette->stem);
+  hatch(item, section->palette->stem_hatch, -1, section->x0 - s * section->scale - section->y0);
+  sb_draw_stroke(section->list, pixel, outline->count, 1.8, section->palette->outline);
+}
+
+void sb_section_draw_strip(SbSection *section) {
+  const SbPalette *palette = section->palette;
+  SbDrawList *list = section->list;
+  const SbFrame *frame = section->instant->frame;
+  sb_draw_clip(list, &section->strip);
+  draw_fluid(section);
+  draw_housing(section);
+  draw_stem(section);
+
+  // Rings, and the contact bars over exactly the engine's contact.
+  double bore = section->valve.bore;
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    SbDrawPoint origin =
+        sb_section_at(section, sb_section_origin(section, i), section->valve.floor);
+    sb_section_draw_ring(section, i, origin.x, section->scale, origin.y, -section->scale);
+    const SbRingShape *ring = &section->ring[i];
+    if (frame->seal[i].land_fraction > 0 && ring->contact_right > ring->contact_left) {
+      double left = sb_section_origin(section, i) + ring->contact_left;
+      double right = sb_section_origin(section, i) + ring->contact_right;
+      SbDrawPoint a = sb_section_at(section, left, bore);
+      SbDrawPoint b = sb_section_at(section, right, bore);
+      sb_draw_line(list, a.x, a.y, b.x, b.y, 4, palette->seal[i]);
+    }
+  }
+  if (section->view->zoom == SB_SECTION_WHOLE) {
+    double y = section->y0 - 0.5;
+    sb_draw_line(list, section->strip.x, y, section->strip.x + section->strip.width, y, 1,
+                 palette->outline)
+        ->dash = SB_DASH_CENTRE;
+  }
+  sb_draw_clip(list, NULL);
+}
+
+// Where strip and insets go. The strip takes the width; what its height leaves goes to the insets.
+typedef struct {
+  double margin, top, legend_width, inset_top, inset_height, footer_top;
+  bool insets, column;
+} Layout;
+
+static void lay_out(SbSection *section, Layout *layout) {
+  const SbSectionView *view = section->view;
+  const SbValve *valve = &section->valve;
+  const SbModel *model = &section->model;
+  double width = view->width;
+  double margin = view->bare ? 0 : width >= 900 ? 32 : 20;
+  layout->margin = margin;
+  layout->top = view->bare ? 0 : margin + 68;
+  layout->column = width - 2 * margin >= 860;
+  layout->legend_width = layout->column ? 232 : MIN(232, width / 2 - margin - 12);
+  double footer = view->bare ? 0 : 52;
+  layout->footer_top = view->height - footer;
+  double scale_row = 34;
+  double bottom = layout->footer_top - scale_row;
+
+  double strip_width = width - 2 * margin;
+  if (view->zoom != SB_SECTION_WHOLE) {
+    // One seal's surroundings: from below the groove floor to above the land.
+    int seal = view->zoom == SB_SECTION_ZOOM_INNER ? SB_INNER : SB_OUTER;
+    double tall = bottom - layout->top - (layout->column ? 0 : 60);
+    section->strip =
+        (SbDrawRect){(float)margin, (float)(bottom - tall), (float)strip_width, (float)tall};
+    double g = model->radial_space;
+    section->scale = MIN(strip_width / (3.4 * g), tall / (1.85 * g));
+    double centre = valve->origin[seal] - sb_section_displacement(section);
+    section->x0 = margin + strip_width / 2 - centre * section->scale;
+    section->y0 = bottom - tall * 0.62 + (valve->floor + g / 2) * section->scale;
+    layout->insets = false;
+    return;
+  }
+
+  // Room on the left for the pressure arrow at full stroke, on the right for the ambient.
+  double travel = MAX(model->stroke, 0);
+  double arrow = 3.4 * model->pressure_force + 18;
+  double face_left = MIN(valve->nose - travel, valve->face);
+  double left_room = MAX((valve->face - face_left) * 0 + arrow, 24);
+  double right = valve->end + RIGHT_ROOM * model->bore_diameter;
+  double scale = (strip_width - left_room) / (right - face_left);
+  // A low picture gives the insets at least 110 px, then none.
+  double radius = TOP * model->bore_diameter;
+  double gap = 30, titles = layout->column ? 22 : 70;
+  double free_height = bottom - layout->top - radius * scale - gap - titles;
+  layout->insets = !view->hide_insets && bottom - layout->top >= 330;
+  if (layout->insets && free_height < 130) {
+    scale = (bottom - layout->top - gap - titles - 130) / radius;
+    free_height = 130;
+  } else if (!layout->insets) {
+    scale = MIN(scale, (bottom - layout->top - (layout->column ? 90 : titles)) / radius);
+  }
+  double tall = radius * scale;
+  section->scale = scale;
+  section->strip =
+      (SbDrawRect){(float)margin, (float)(bottom - tall), (float)strip_width, (float)tall};
+  double used = (right - face_left) * scale + left_room;
+  section->x0 = margin + (strip_width - used) / 2 + left_room - face_left * scale;
+  section->y0 = bottom;
+  layout->inset_top = layout->top + titles;
+  layout->inset_height = MIN(free_height, 320);
+}
+
+void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *view,
+                     const SbSectionInstant *instant) {
+  section->list = list;
+  section->view = view;
+  section->instant = instant;
+  section->palette = sb_palette(view->dark);
+  section->placed_count = 0;
+  sb_draw_list_clear(list, view->width, view->height, section->palette->panel);
+
+  Layout layout = {0};
+  lay_out(section, &layout);
+  shape_rings(section);
+  sb_section_draw_strip(section);
+  sb_section_draw_strip_labels(section);
+  if (!view->bare) {
+    sb_section_draw_header(section, layout.margin);
+    sb_section_draw_footer(section, layout.margin, layout.footer_top);
+  }
+  sb_section_draw_legends(section, layout.margin, layout.top, layout.legend_width);
+  if (layout.insets) {
+    double x = layout.margin + (layout.column ? layout.legend_width + 48 : 0);
+    double gap = 24;
+    double each = (view->width - layout.margin - x - gap) / 2;
+    SbDrawRect pressure = {(float)x, (float)layout.inset_top, (float)each,
+                           (float)layout.inset_height};
+    SbDrawRect film = {(float)(x + each + gap), (float)layout.inset_top, (float)each,
+                       (float)layout.inset_height};
+    sb_section_draw_insets(section, &pressure, &film);
+  }
+  section->list = NULL;
+}

@@ -1,0 +1,81 @@
+// The axial section of the valve at one instant, as a display list: what engine numbers look like.
+//
+// Canister on the left, axis at the bottom, housing at rest. The valve strip is to scale in both
+// directions; the two insets zoom onto one seal's contact (pressure over the bore; film on a scale
+// of nanometres with the exaggeration written on it). Without a ring mesh the rings are the
+// schematic shapes of ring_shape.h and say so.
+#pragma once
+
+#include "app/section/draw_list.h"
+#include "app/section/ring_shape.h"
+#include "app/section/valve.h"
+#include "engine/sealbench.h"
+
+typedef struct SbSection SbSection;
+
+// What stays the same over a whole film.
+typedef struct {
+  double inner_contact_left; // of the inner seal when it reaches the land edge [m]
+  double pressure_max;       // largest contact pressure, for the inset's scale [Pa]
+  double film_max;           // largest central film, for the inset's scale [m]
+  double contact_left[SB_SEAL_COUNT], contact_right[SB_SEAL_COUNT]; // outermost, for the inset [m]
+} SbSectionLimits;
+
+// A ring's own shape and field, for the time that a finite-element ring supplies them: nodes in
+// the seal's frame (x axial, y from the groove floor) [m], triangles by node index, one scalar per
+// node, the outline as node indices. Borrowed.
+typedef struct {
+  size_t node_count, triangle_count, outline_count;
+  const double *x, *y, *scalar;
+  const unsigned *triangle; // 3 per triangle
+  const unsigned *outline;
+  const char *field_name, *field_unit; // "von Mises stress", "MPa"
+  double scalar_min, scalar_max;       // limits of the colour map, in `scalar`'s unit
+  double display_scale;                // scalar * display_scale is in `field_unit`
+} SbSectionRing;
+
+typedef enum {
+  SB_SECTION_WHOLE,      // the valve strip with insets
+  SB_SECTION_ZOOM_INNER, // the strip shows one seal's surroundings
+  SB_SECTION_ZOOM_OUTER
+} SbSectionZoom;
+
+typedef struct {
+  double width, height; // logical pixels
+  bool dark;
+  bool bare; // only the section on the panel's ground: no header, read-outs, footer
+  bool hide_insets, hide_forces, hide_labels;
+  int inset_seal; // SB_OUTER or SB_INNER
+  SbSectionZoom zoom;
+  const char *title, *subtitle;          // of the header; may be NULL
+  const char *models, *errors, *warning; // of the footer; may be NULL
+  const char *stamp; // "Sealbench 0.1 · run 4f21c09 · frame 218 of 1251"; or NULL
+} SbSectionView;
+
+// The instant to draw; everything borrowed. profile and ring may hold NULL.
+typedef struct {
+  const SbFrame *frame;
+  const SbContactProfile *profile[SB_SEAL_COUNT];
+  const SbSectionRing *ring[SB_SEAL_COUNT];
+} SbSectionInstant;
+
+// Prepares the drawing of one model's frames (the model is copied). Owned by the caller; for one
+// thread at a time.
+SbSection *sb_section_create(const SbModel *model, const SbSectionLimits *limits);
+void sb_section_destroy(SbSection *section);
+
+// Reads the limits off published frames and their profiles.
+void sb_section_limits_of_run(SbSectionLimits *limits, const SbRun *run);
+
+// Fills `list` (cleared first) with the picture.
+void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *view,
+                     const SbSectionInstant *instant);
+
+// What sb_section_draw() made of seal i: the ring's outline in the housing's frame, for checks and
+// hit tests. Valid after a draw; borrowed.
+const SbRingShape *sb_section_ring(const SbSection *section, int seal);
+const SbValve *sb_section_valve(const SbSection *section);
+
+// Logical pixels per metre and the place of the housing frame's origin (land edge on the axis) of
+// the last picture.
+void sb_section_transform(const SbSection *section, double *scale, double *x0, double *y0);

@@ -1,0 +1,360 @@
+// The two insets on one seal: contact pressure over the bore, to scale axially and radially, and
+// the film, whose radial scale is blown up by a factor that is written on it.
+//
+// Pressure is the profile's total contact pressure with the fluid's outside the contact; its scale
+// is the same over the whole film. The film inset leaves the roughness out and says so. Where the
+// seal is off the land or the run kept no profile, the inset says that instead.
+#include "app/section/section_private.h"
+
+#include <glib.h>
+#include <math.h>
+#include <stdio.h>
+
+enum { CURVE_MAX = 600 };
+
+typedef struct {
+  SbDrawRect rect;
+  double centre, scale; // seal's x in the middle [m], px per m
+} Inset;
+
+static double inset_x(const Inset *inset, double x) {
+  return inset->rect.x + inset->rect.width / 2 + (x - inset->centre) * inset->scale;
+}
+
+// Thins a profile to the pixels of an inset: runs of samples, ends kept. Returns the point count.
+static size_t curve(const Inset *inset, const SbContactProfile *profile, const double *value,
+                    double base, double px, double low, SbDrawPoint *points) {
+  size_t count = 0;
+  for (size_t i = 0; i < profile->count; i++) {
+    double x = inset_x(inset, profile->x[i]);
+    if (x < inset->rect.x - 60 || x > inset->rect.x + inset->rect.width + 60) {
+      continue;
+    }
+    double y = MIN(base - value[i] * px, low);
+    if (count > 0 && i + 1 < profile->count) {
+      double dx = x - points[count - 1].x, dy = y - points[count - 1].y;
+      if (dx * dx + dy * dy < 0.36) {
+        continue;
+      }
+    }
+    if (count == CURVE_MAX) {
+      break;
+    }
+    points[count++] = (SbDrawPoint){(float)x, (float)y};
+  }
+  return count;
+}
+
+static void inset_title(SbSection *section, const Inset *inset, int seal, const char *what) {
+  const SbPalette *palette = section->palette;
+  const char *const name = seal == SB_OUTER ? "Outer seal" : "Inner seal";
+  double y = inset->rect.y - 9;
+  sb_draw_text(section->list, inset->rect.x, y, 13, 700, SB_ALIGN_LEFT, palette->ink, name);
+  double width = sb_text_width(section->text, name, 13, 700);
+  sb_draw_text(section->list, inset->rect.x + width, y, 13, 400, SB_ALIGN_LEFT, palette->ink, what);
+}
+
+static void frame_inset(SbSection *section, const Inset *inset, int seal) {
+  const SbDrawRect *rect = &inset->rect;
+  sb_draw_clip(section->list, NULL);
+  sb_draw_round_frame(section->list, rect->x + 0.5, rect->y + 0.5, rect->width - 1,
+                      rect->height - 1, 4, 1.4, section->palette->seal[seal]);
+}
+
+static void hatch_rect(SbSection *section, double x, double y, double width, double height) {
+  SbDrawItem *item = sb_draw_rect(section->list, x, y, width, height, section->palette->housing);
+  item->feather = false;
+  item->hatch = (SbDrawHatch){section->palette->housing_hatch, 11.0f, 0.7f, 1.0f, 0.0f};
+}
+
+static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
+  const SbPalette *palette = section->palette;
+  SbDrawList *list = section->list;
+  const SbDrawRect *rect = &inset->rect;
+  const SbSealFrame *frame = &section->instant->frame->seal[seal];
+  const SbContactProfile *profile = section->instant->profile[seal];
+  bool contact = frame->land_fraction > 0 && frame->contact_right > frame->contact_left;
+  double bore = rect->y + 0.74 * rect->height;
+  double low = rect->y + rect->height;
+  char text[96], value[SB_SECTION_NUMBER];
+
+  // Body above the bore line, ring and fluid below it.
+  sb_draw_clip(list, rect);
+  hatch_rect(section, rect->x, rect->y, rect->width, bore - rect->y);
+  double middle = inset_x(inset, (frame->contact_left + frame->contact_right) / 2);
+  middle = CLAMP(middle, rect->x, rect->x + rect->width);
+  sb_draw_rect(list, rect->x, bore, middle - rect->x, low - bore,
+               sb_palette_fluid(palette, frame->pressure_left))
+      ->feather = false;
+  sb_draw_rect(list, middle, bore, rect->x + rect->width - middle, low - bore,
+               sb_palette_fluid(palette, frame->pressure_right))
+      ->feather = false;
+  sb_section_draw_ring(section, seal, inset_x(inset, 0), inset->scale,
+                       bore + section->model.radial_space * inset->scale, -inset->scale);
+
+  // Pressure rises from the bore line into the housing.
+  double px = (bore - rect->y - 34) / fmax(section->limits.pressure_max, 1);
+  double left_px = inset_x(inset, frame->contact_left);
+  double right_px = inset_x(inset, frame->contact_right);
+  if (profile != NULL && profile->count > 1 && contact) {
+    SbDrawPoint points[CURVE_MAX + 2];
+    size_t count = curve(inset, profile, profile->pressure, bore, px, bore, points + 1);
+    // Fluid's part outside the contact in the fluid's colour, the contact's in the seal's.
+    SbDrawPoint *first = points + 1;
+    size_t begin = 0, end = count;
+    while (begin + 1 < count && first[begin].x < left_px - 0.3) {
+      begin++;
+    }
+    while (end > begin + 1 && first[end - 1].x > right_px + 0.3) {
+      end--;
+    }
+    SbDrawPoint *from = first + begin;
+    size_t inside = end - begin;
+    SbDrawPoint before = *(from - 1), after = first[end];
+    from[-1] = (SbDrawPoint){from[0].x, (float)bore};
+    first[end] = (SbDrawPoint){from[inside - 1].x, (float)bore};
+    SbDrawColour fill = palette->seal[seal];
+    fill.a = 0.3f;
+    sb_draw_fill(list, from - 1, inside + 2, fill)->feather = false;
+    from[-1] = before;
+    first[end] = after;
+    sb_draw_stroke(list, from, inside, 2.4, palette->seal[seal]);
+  }
+  const double side[2][3] = {{rect->x, left_px, frame->pressure_left},
+                             {right_px, rect->x + rect->width, frame->pressure_right}};
+  for (int i = 0; i < 2 && contact; i++) {
+    double height = side[i][2] * px;
+    if (height < 1) {
+      continue;
+    }
+    SbDrawColour wash = palette->fluid_line;
+    wash.a = 0.16f;
+    sb_draw_rect(list, side[i][0], bore - height, side[i][1] - side[i][0], height, wash)->feather =
+        false;
+    sb_draw_line(list, side[i][0], bore - height, side[i][1], bore - height, 2,
+                 palette->fluid_line);
+    snprintf(text, sizeof text, "fluid %s", sb_section_megapascal(value, side[i][2]));
+    SbSectionLabel style = {11, 600, i == 0 ? SB_ALIGN_LEFT : SB_ALIGN_RIGHT, palette->fluid_line,
+                            &palette->housing};
+    double x = i == 0 ? rect->x + 8 : rect->x + rect->width - 8;
+    if (sb_text_width(section->text, text, 11, 600) + 14 < side[i][1] - side[i][0]) {
+      sb_section_label(section, x, bore - height - 7, &style, text);
+    }
+  }
+  sb_draw_line(list, rect->x, bore, rect->x + rect->width, bore, 1.8, palette->outline);
+
+  // Peak, and the contact's width.
+  if (contact) {
+    double peak_x = (left_px + right_px) / 2;
+    if (profile != NULL) {
+      double best = 0;
+      for (size_t i = 0; i < profile->count; i++) {
+        if (profile->pressure[i] > best) {
+          best = profile->pressure[i];
+          peak_x = inset_x(inset, profile->x[i]);
+        }
+      }
+    }
+    SbSectionLabel peak = {13, 700, SB_ALIGN_CENTRE, palette->seal[seal], &palette->housing};
+    sb_section_label(section, CLAMP(peak_x, rect->x + 50, rect->x + rect->width - 50),
+                     bore - frame->pressure_peak * px - 9, &peak,
+                     sb_section_megapascal(value, frame->pressure_peak));
+    double y = bore + 17;
+    SbDrawColour line = palette->ink;
+    sb_draw_line(list, left_px, y - 5, left_px, y + 5, 1.2, line);
+    sb_draw_line(list, right_px, y - 5, right_px, y + 5, 1.2, line);
+    sb_draw_line(list, left_px, y, right_px, y, 1.2, line);
+    snprintf(text, sizeof text, "contact %s",
+             sb_section_millimetre(value, frame->contact_right - frame->contact_left));
+    SbSectionLabel style = {11, 600, SB_ALIGN_CENTRE, palette->ink, &palette->panel};
+    bool inside = right_px - left_px > sb_text_width(section->text, text, 11, 600) + 30;
+    sb_section_label(section, (left_px + right_px) / 2, inside ? y + 4 : y + 20, &style, text);
+  } else {
+    SbSectionLabel style = {12, 600, SB_ALIGN_CENTRE, palette->seal[seal], &palette->housing};
+    sb_section_label(section, rect->x + rect->width / 2, (rect->y + bore) / 2, &style,
+                     "off the land: no contact");
+  }
+  frame_inset(section, inset, seal);
+  inset_title(section, inset, seal, ", contact pressure on the bore");
+}
+
+// Least 1, 2 or 5 times a power of ten that is not below v.
+static double nice_above(double v) {
+  double unit = pow(10, floor(log10(v)));
+  double m = v / unit;
+  return unit * (m <= 1 ? 1 : m <= 2 ? 2 : m <= 5 ? 5 : 10);
+}
+
+// Share of the contact's load that asperities carry, or a negative number.
+static double asperity_share(const SbContactProfile *profile, const SbSealFrame *frame) {
+  double carried = 0, total = 0;
+  for (size_t i = 1; i < profile->count; i++) {
+    double x = (profile->x[i] + profile->x[i - 1]) / 2;
+    if (x < frame->contact_left || x > frame->contact_right) {
+      continue;
+    }
+    double dx = profile->x[i] - profile->x[i - 1];
+    carried += dx * (profile->asperity_pressure[i] + profile->asperity_pressure[i - 1]) / 2;
+    total += dx * (profile->pressure[i] + profile->pressure[i - 1]) / 2;
+  }
+  return total > 0 ? carried / total : -1;
+}
+
+static void draw_film(SbSection *section, const Inset *inset, int seal) {
+  const SbPalette *palette = section->palette;
+  SbDrawList *list = section->list;
+  const SbDrawRect *rect = &inset->rect;
+  const SbFrame *whole = section->instant->frame;
+  const SbSealFrame *frame = &whole->seal[seal];
+  const SbContactProfile *profile = section->instant->profile[seal];
+  bool contact = frame->land_fraction > 0 && frame->contact_right > frame->contact_left;
+  double bore = rect->y + MIN(32, 0.2 * rect->height);
+  double low = rect->y + rect->height;
+  double right = rect->x + rect->width;
+  char text[192], value[SB_SECTION_NUMBER];
+
+  sb_draw_clip(list, rect);
+  double split =
+      contact ? CLAMP(inset_x(inset, frame->contact_right), rect->x, right) : rect->x + rect->width;
+  sb_draw_rect(list, rect->x, bore, split - rect->x, low - bore,
+               sb_palette_fluid(palette, frame->pressure_left))
+      ->feather = false;
+  sb_draw_rect(list, split, bore, right - split, low - bore,
+               sb_palette_fluid(palette, frame->pressure_right))
+      ->feather = false;
+  hatch_rect(section, rect->x, rect->y, rect->width, bore - rect->y);
+
+  // The ring's surface under the bore, on a scale that holds over the film.
+  double full = nice_above(fmax(1.5 * section->limits.film_max, 1e-12));
+  double px = 0.82 * (low - bore) / full;
+  bool film = contact && profile != NULL && profile->count > 1 && frame->film_central > 0;
+  double body_top = low;
+  if (film) {
+    SbDrawPoint points[CURVE_MAX + 2];
+    size_t count = curve(inset, profile, profile->film, bore, -px, low + 40, points);
+    if (count > 1) {
+      points[count] = (SbDrawPoint){points[count - 1].x, (float)(low + 40)};
+      points[count + 1] = (SbDrawPoint){points[0].x, (float)(low + 40)};
+      sb_draw_fill(list, points, count + 2,
+                   sb_draw_mix(palette->panel, palette->seal[seal], palette->dark ? 0.24 : 0.22))
+          ->feather = false;
+      sb_draw_stroke(list, points, count, 2.4, palette->seal[seal]);
+      body_top = bore + frame->film_central * px;
+    }
+  } else if (contact) {
+    double left_px = inset_x(inset, frame->contact_left);
+    sb_draw_rect(list, left_px, bore, split - left_px, low - bore,
+                 sb_draw_mix(palette->panel, palette->seal[seal], palette->dark ? 0.24 : 0.22))
+        ->feather = false;
+    body_top = bore;
+  }
+  sb_draw_line(list, rect->x, bore, right, bore, 1.8, palette->outline);
+
+  // The scale of the film, right.
+  bool micro = full >= 2e-6;
+  for (int i = 0; i <= 2 && film; i++) {
+    double y = bore + full / 2 * i * px;
+    sb_draw_line(list, right - 19, y, right - 14, y, 1.2, palette->ink);
+    double shown = full / 2 * i * (micro ? 1e6 : 1e9);
+    sb_section_fixed(value, shown, shown >= 10 ? 0 : shown >= 1 ? (fmod(shown, 1) > 0) : 2);
+    snprintf(text, sizeof text, "%s %s", value, micro ? "\xc2\xb5m" : "nm");
+    sb_draw_text(list, right - 23, i == 0 ? y + 13 : y + 4, 11, 400, SB_ALIGN_RIGHT, palette->ink,
+                 text);
+  }
+  if (film) {
+    sb_draw_line(list, right - 14, bore, right - 14, bore + full * px, 1.2, palette->ink);
+  }
+
+  // What the bore does in the seal's frame.
+  double ground = rect->y + (bore - rect->y) / 2;
+  SbSectionLabel small = {11, 400, SB_ALIGN_LEFT, palette->ink, &palette->housing};
+  if (fabs(whole->velocity) > 0) {
+    bool out = whole->velocity < 0;
+    sb_draw_arrow(list, rect->x + (out ? 58 : 14), ground, rect->x + (out ? 14 : 58), ground, 1.4,
+                  8, 7, palette->ink);
+    sb_section_label(section, rect->x + 68, ground + 4, &small, "bore, relative to the seal");
+  } else {
+    sb_section_label(section, rect->x + 14, ground + 4, &small, "bore, at rest");
+  }
+
+  // The figures, inside the ring's body.
+  double left_edge = contact ? MAX(inset_x(inset, frame->contact_left), rect->x) : rect->x;
+  double x = contact ? (left_edge + split) / 2 : rect->x + rect->width / 2;
+  double y = MAX(body_top, bore) + 24;
+  SbDrawAlign centre = SB_ALIGN_CENTRE;
+  if (!contact) {
+    sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->seal[seal],
+                 "off the land: no film");
+  } else if (!film) {
+    const char *why = frame->film_central > 0 ? "no film profile in this run"
+                                              : "at rest: no film, the surfaces touch";
+    sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->ink, why);
+  } else {
+    char least[SB_SECTION_NUMBER];
+    sb_section_film(value, frame->film_central);
+    sb_section_film(least, frame->film_min);
+    snprintf(text, sizeof text, "centre %s, least %s", value, least);
+    sb_draw_text(list, x, y, 12, 600, centre, palette->ink, text);
+    snprintf(text, sizeof text, "radial scale \xc3\x97 %s of axial",
+             sb_section_two_digits(value, px / inset->scale));
+    sb_draw_text(list, x, y + 18, 12, 400, centre, palette->ink, text);
+    char sigma[SB_SECTION_NUMBER];
+    snprintf(text, sizeof text, "roughness \xcf\x83 %s %s is not drawn",
+             sb_section_significant(sigma, section->model.sigma * 1e6), "\xc2\xb5m");
+    if (y + 40 < low) {
+      sb_draw_text(list, x, y + 35, 11, 400, centre, palette->second, text);
+    }
+    double share = asperity_share(profile, frame);
+    if (share > 0 && y + 58 < low) {
+      snprintf(text, sizeof text, "asperities carry %s %% of the load",
+               sb_section_fixed(value, 100 * share, share > 0.1 ? 0 : 1));
+      sb_draw_text(list, x, y + 52, 11, 400, centre, palette->second, text);
+    }
+  }
+  frame_inset(section, inset, seal);
+  inset_title(section, inset, seal, ", film under the contact");
+}
+
+// From both insets to a box round the contact in the strip.
+static void draw_leader(SbSection *section, const SbDrawRect *left, const SbDrawRect *right,
+                        int seal, const Inset *inset) {
+  SbDrawColour colour = section->palette->seal[seal];
+  double origin = sb_section_origin(section, seal);
+  double half = inset->rect.width / 2 / inset->scale;
+  SbDrawPoint middle = sb_section_at(section, origin + inset->centre, section->valve.bore);
+  double width = 2 * half * section->scale;
+  double height = 0.26 * inset->rect.height / inset->scale * section->scale;
+  double above = MIN(8, 0.5 * height);
+  double box_left = CLAMP(middle.x - width / 2, section->strip.x,
+                          section->strip.x + section->strip.width - width);
+  sb_draw_round_frame(section->list, box_left, middle.y - above, width, height + above, 3, 1.4,
+                      colour);
+  double bottom = left->y + left->height;
+  double elbow = (bottom + section->strip.y) / 2 + 1;
+  double from = left->x + left->width / 2, to = right->x + right->width / 2;
+  double drop = box_left + 7;
+  const SbDrawPoint bracket[4] = {{(float)from, (float)bottom},
+                                  {(float)from, (float)elbow},
+                                  {(float)to, (float)elbow},
+                                  {(float)to, (float)bottom}};
+  sb_draw_stroke(section->list, bracket, 4, 1.2, colour);
+  if (drop < from || drop > to) {
+    sb_draw_line(section->list, drop < from ? from : to, elbow, drop, elbow, 1.2, colour);
+  }
+  sb_draw_line(section->list, drop, elbow, drop, middle.y - above, 1.2, colour);
+}
+
+void sb_section_draw_insets(SbSection *section, const SbDrawRect *pressure,
+                            const SbDrawRect *film) {
+  int seal = section->view->inset_seal;
+  const SbSectionLimits *limits = &section->limits;
+  double left = limits->contact_left[seal], right = limits->contact_right[seal];
+  double d = section->model.seal[seal].section_diameter;
+  double range = fmax(1.9 * (right - left), 0.75 * d);
+  Inset inset = {*pressure, (left + right) / 2, pressure->width / range};
+  draw_pressure(section, &inset, seal);
+  draw_leader(section, pressure, film, seal, &inset);
+  inset.rect = *film;
+  inset.scale = film->width / range;
+  draw_film(section, &inset, seal);
+}

@@ -1,0 +1,347 @@
+// Labels, dimensions and force arrows of the valve strip. Forces are to scale, 3.4 px per newton;
+// labels on hatch get a plate in the body's colour, and one that would cover another moves or gives
+// way.
+#include "app/section/section_private.h"
+
+#include <glib.h>
+#include <math.h>
+#include <stdio.h>
+
+static const double PX_PER_NEWTON = 3.4;
+
+static SbSectionLabel label_style(SbDrawColour colour, int weight, SbDrawAlign align,
+                                  const SbDrawColour *plate) {
+  return (SbSectionLabel){12, weight, align, colour, plate};
+}
+
+// First of the candidate places (pairs x, y) where the label fits; false: none did.
+static bool place(SbSection *section, const double (*at)[2], size_t count,
+                  const SbSectionLabel *style, const char *string) {
+  for (size_t i = 0; i < count; i++) {
+    if (sb_section_label_fits(section, at[i][0], at[i][1], style, string, &section->strip)) {
+      sb_section_label(section, at[i][0], at[i][1], style, string);
+      return true;
+    }
+  }
+  return false;
+}
+
+// "Canister 0.55 MPa" and its likes: a bold name, the value behind it or below.
+static void name_and_pressure(SbSection *section, double x, double y, const char *name,
+                              double pressure, bool below) {
+  const SbPalette *palette = section->palette;
+  char value[SB_SECTION_NUMBER];
+  SbSectionLabel bold = label_style(palette->ink, 600, SB_ALIGN_LEFT, NULL);
+  SbSectionLabel plain = label_style(palette->ink, 400, SB_ALIGN_LEFT, NULL);
+  sb_section_megapascal(value, pressure);
+  double width = sb_section_label(section, x, y, &bold, name);
+  if (below) {
+    sb_section_label(section, x, y + 17, &plain, value);
+  } else {
+    sb_section_label(section, x + width + 6, y, &plain, value);
+  }
+}
+
+static void draw_regions(SbSection *section) {
+  const SbPalette *palette = section->palette;
+  const SbFrame *frame = section->instant->frame;
+  const SbValve *valve = &section->valve;
+  const SbDrawRect *strip = &section->strip;
+  double top = strip->y + 22;
+  name_and_pressure(section, strip->x + 12, top, "Canister", frame->seal[SB_INNER].pressure_left,
+                    false);
+  double end = sb_section_at(section, valve->end, 0).x;
+  name_and_pressure(section, end + 10, top, "Ambient", frame->seal[SB_OUTER].pressure_right, true);
+
+  double vent = sb_section_at(section, valve->vent_left, 0).x;
+  double housing_x = valve->vent_right > valve->vent_left ? vent - 12 : end - 50;
+  SbSectionLabel style = label_style(palette->ink, 600, SB_ALIGN_RIGHT, &palette->housing);
+  sb_section_label(section, housing_x, top, &style, "Housing");
+  if (valve->vent_right > valve->vent_left) {
+    SbSectionLabel small = label_style(palette->second, 400, SB_ALIGN_LEFT, &palette->housing);
+    sb_section_label(section, sb_section_at(section, valve->vent_right, 0).x + 10, top, &small,
+                     "vent");
+  }
+
+  // The chamber, in the fluid between the stem's lands.
+  SbDrawPoint chamber = sb_section_at(section, valve->chamber - sb_section_displacement(section),
+                                      (valve->chamber_floor + valve->land) / 2);
+  char value[SB_SECTION_NUMBER];
+  sb_section_megapascal(value, frame->seal[SB_INNER].pressure_right);
+  double depth = (valve->bore - valve->chamber_floor) * section->scale;
+  SbSectionLabel bold = label_style(palette->ink, 600, SB_ALIGN_CENTRE, NULL);
+  SbSectionLabel plain = label_style(palette->ink, 400, SB_ALIGN_CENTRE, NULL);
+  if (depth > 38) {
+    sb_section_label(section, chamber.x, chamber.y + 1, &bold, "Chamber");
+    sb_section_label(section, chamber.x, chamber.y + 17, &plain, value);
+  } else if (depth > 18) {
+    sb_section_label(section, chamber.x, chamber.y + 6, &bold, "Chamber");
+  }
+}
+
+// Land edge, inner contact and the way between them.
+static void draw_land_edge(SbSection *section) {
+  const SbPalette *palette = section->palette;
+  SbDrawList *list = section->list;
+  const SbFrame *frame = section->instant->frame;
+  const SbSealFrame *inner = &frame->seal[SB_INNER];
+  double bore = section->valve.bore;
+  SbDrawPoint edge = sb_section_at(section, 0, bore);
+  double way = section->model.land_edge - frame->displacement;
+  double y = section->strip.y + 22;
+  char text[128], length[SB_SECTION_NUMBER];
+  sb_section_millimetre(length, fabs(way));
+  bool ahead = way > 0;
+  if (ahead && frame->velocity >= 0) {
+    snprintf(text, sizeof text, "land edge: fill path opens in %s", length);
+  } else if (ahead) {
+    snprintf(text, sizeof text, "land edge: passed, %s ago", length);
+  } else {
+    snprintf(text, sizeof text, "land edge");
+  }
+  double low = y + 11, bottom = edge.y - 4;
+  if (bottom < low + 8) {
+    return;
+  }
+  sb_draw_line(list, edge.x, bottom, edge.x, low, 1, palette->second)->dash = SB_DASH_DIMENSION;
+  if (ahead && inner->land_fraction > 0) {
+    double contact = sb_section_at(section, way, bore).x;
+    sb_draw_line(list, contact, bottom, contact, low, 1, palette->second)->dash = SB_DASH_DIMENSION;
+    if (contact - edge.x > 12) {
+      sb_draw_arrow(list, contact, low + 8, edge.x + 1, low + 8, 1.2, 8, 6, palette->second);
+    }
+  }
+  SbSectionLabel letter = label_style(palette->ink, 700, SB_ALIGN_LEFT, &palette->housing);
+  SbSectionLabel plain = label_style(palette->ink, 400, SB_ALIGN_LEFT, &palette->housing);
+  char whole[140];
+  snprintf(whole, sizeof whole, "C  %s", text);
+  if (sb_section_label_fits(section, edge.x + 1, y, &plain, whole, &section->strip)) {
+    double width = sb_section_label(section, edge.x + 1, y, &letter, "C");
+    sb_section_label(section, edge.x + 1 + width + 7, y, &plain, text);
+  }
+}
+
+// The names under the rings, and "no contact" where the engine says so.
+static void draw_seal_names(SbSection *section) {
+  const SbPalette *palette = section->palette;
+  static const char *const name[SB_SEAL_COUNT] = {
+      [SB_OUTER] = "Outer seal", [SB_INNER] = "Inner seal"};
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const SbSealFrame *seal = &section->instant->frame->seal[i];
+    char text[64];
+    snprintf(text, sizeof text, "%s%s", name[i], seal->land_fraction > 0 ? "" : ", no contact");
+    SbDrawPoint below = sb_section_at(section, sb_section_origin(section, i), section->valve.floor);
+    SbSectionLabel style = label_style(palette->seal[i], 600, SB_ALIGN_CENTRE, &palette->stem);
+    const double at[2][2] = {{below.x, below.y + 21}, {below.x, below.y + 38}};
+    place(section, at, 2, &style, text);
+  }
+}
+
+static void draw_friction(SbSection *section) {
+  const SbPalette *palette = section->palette;
+  const SbFrame *frame = section->instant->frame;
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const SbSealFrame *seal = &frame->seal[i];
+    double length = PX_PER_NEWTON * seal->friction;
+    if (fabs(seal->friction) < 0.05 || seal->land_fraction <= 0) {
+      continue;
+    }
+    // Friction on the stem; the arrow stands just above the contact.
+    double middle = sb_section_origin(section, i) +
+                    (section->ring[i].contact_left + section->ring[i].contact_right) / 2;
+    SbDrawPoint at = sb_section_at(section, middle, section->valve.bore);
+    double y = at.y - 14;
+    sb_draw_arrow(section->list, at.x - length / 2, y, at.x + length / 2, y, 3, 11, 10,
+                  palette->seal[i]);
+    sb_section_reserve(section, at.x - fabs(length) / 2, y - 5, fabs(length), 10);
+    char text[80], value[SB_SECTION_NUMBER];
+    snprintf(text, sizeof text, "friction %s", sb_section_force(value, fabs(seal->friction)));
+    SbSectionLabel style = label_style(palette->seal[i], 600, SB_ALIGN_CENTRE, &palette->housing);
+    const double place_at[4][2] = {
+        {at.x, y - 10}, {at.x + 30, y - 10}, {at.x, y - 27}, {at.x + 30, y - 27}};
+    place(section, place_at, 4, &style, text);
+  }
+}
+
+// Arrows on the stem: canister pressure on the nose, the drive and the stop on the rod.
+static void draw_stem_forces(SbSection *section) {
+  const SbPalette *palette = section->palette;
+  SbDrawList *list = section->list;
+  const SbFrame *frame = section->instant->frame;
+  const SbDrawRect *strip = &section->strip;
+  double axis = strip->y + strip->height;
+  double y = axis - 40;
+  char text[80], value[SB_SECTION_NUMBER];
+
+  double nose = sb_section_at(section, section->valve.nose - frame->displacement, 0).x;
+  double length = PX_PER_NEWTON * frame->pressure_force;
+  if (length > 2) {
+    sb_draw_arrow(list, nose - length, y, nose - 1.5, y, 5, 15, 16, palette->fluid_line);
+    snprintf(text, sizeof text, "pressure %s", sb_section_force(value, frame->pressure_force));
+    SbSectionLabel style = {13, 700, SB_ALIGN_LEFT, palette->fluid_line, &palette->stem};
+    sb_section_label(section, nose + 10, y + 5, &style, text);
+  }
+
+  double right = strip->x + strip->width - 10;
+  double force = frame->force;
+  if (fabs(force) >= 0.05) {
+    double shown = PX_PER_NEWTON * fabs(force);
+    double tail = force > 0 ? right : right - shown;
+    sb_draw_arrow(list, tail, y, tail + (force > 0 ? -shown : shown), y, 7, 20, 22, palette->ink);
+    sb_section_reserve(section, right - shown, y - 11, shown, 22);
+  }
+  snprintf(text, sizeof text, "drive %s", sb_section_force(value, force));
+  SbSectionLabel style = {14, 700, SB_ALIGN_RIGHT, palette->ink, &palette->stem};
+  sb_section_label(section, right, y - 18, &style, text);
+
+  if (fabs(frame->stop_force) >= 0.05) {
+    double shown = PX_PER_NEWTON * frame->stop_force;
+    double from = shown > 0 ? right - shown : right;
+    double stop_y = axis - 15;
+    sb_draw_arrow(list, from, stop_y, from + shown, stop_y, 3, 11, 10, palette->second);
+    snprintf(text, sizeof text, "stop %s", sb_section_force(value, frame->stop_force));
+    SbSectionLabel small = label_style(palette->second, 600, SB_ALIGN_RIGHT, &palette->stem);
+    sb_section_label(section, MIN(from, from + shown) - 8, stop_y + 4, &small, text);
+  }
+}
+
+// "Stem" and its speed.
+static void draw_motion(SbSection *section) {
+  const SbPalette *palette = section->palette;
+  const SbFrame *frame = section->instant->frame;
+  double axis = section->strip.y + section->strip.height;
+  double middle = sb_section_at(section, section->valve.chamber - frame->displacement, 0).x;
+  SbSectionLabel bold = label_style(palette->ink, 600, SB_ALIGN_CENTRE, &palette->stem);
+  const double at[2][2] = {{middle, axis - 52}, {middle + 60, axis - 52}};
+  place(section, at, 2, &bold, "Stem");
+  double speed = fabs(frame->velocity) * 1e3;
+  if (speed < 1e-9) {
+    return;
+  }
+  char text[80], value[SB_SECTION_NUMBER];
+  sb_section_fixed(value, speed, speed >= 100 ? 0 : speed >= 10 ? 1 : speed >= 1 ? 2 : 3);
+  snprintf(text, sizeof text, "%s mm/s", value);
+  SbSectionLabel plain = label_style(palette->second, 400, SB_ALIGN_LEFT, &palette->stem);
+  double from = middle - 34, to = middle + 34;
+  const double left[1][2] = {{to + 10, axis - 15}};
+  if (place(section, left, 1, &plain, text)) {
+    bool in = frame->velocity > 0;
+    sb_draw_arrow(section->list, in ? to : from, axis - 19, in ? from : to, axis - 19, 1.4, 8, 7,
+                  palette->second);
+  }
+}
+
+// The way of the dose once the chamber is open: from the canister over the freed ring.
+static void draw_dose_path(SbSection *section) {
+  const SbPalette *palette = section->palette;
+  const SbFrame *frame = section->instant->frame;
+  const SbValve *valve = &section->valve;
+  if (frame->chamber != SB_CHAMBER_OPEN || frame->seal[SB_INNER].land_fraction > 0) {
+    return;
+  }
+  double g = section->model.radial_space;
+  double s = frame->displacement;
+  double ring = sb_section_origin(section, SB_INNER);
+  double radius = sqrt(valve->section_area[SB_INNER] / M_PI);
+  double top = valve->floor + 2 * radius;
+  double mouth = sb_valve_bore_at(valve, ring);
+  double over = isfinite(mouth) ? (fmax(top, valve->land) + mouth) / 2 : top + 0.3 * g;
+  // Behind the ring, between the stem's land and whatever of the housing is above it.
+  double behind = ring + 1.2 * radius;
+  double roof = fmin(sb_valve_bore_at(valve, behind), top + 0.1 * g);
+  double mouth_left = valve->stem.point[7].x - s;
+  double depth = valve->land - valve->chamber_floor;
+  // Knots of the way, from left to right; in between a Catmull-Rom curve.
+  const SbValvePoint knot[6] = {
+      {fmin(valve->face, ring) - 1.75 * g, valve->bore + 0.62 * g},
+      {fmin(valve->face, ring) - 0.6 * g, valve->bore + 0.55 * g},
+      {ring, over},
+      {behind, (valve->land + roof) / 2},
+      {fmax(mouth_left + 0.1 * g, behind + 0.15 * g), valve->land + 0.02 * g},
+      {fmax(mouth_left, behind) + 0.62 * g, valve->land - 0.45 * depth},
+  };
+  enum { STEPS = 12 };
+  SbDrawPoint curve[5 * STEPS + 1];
+  size_t count = 0;
+  for (int i = 0; i < 5; i++) {
+    SbValvePoint a = knot[MAX(i - 1, 0)], b = knot[i], c = knot[i + 1], d = knot[MIN(i + 2, 5)];
+    for (int j = 0; j < STEPS + (i == 4); j++) {
+      double t = (double)j / STEPS;
+      double wa = -t * (1 - t) * (1 - t) / 2, wb = 1 - 2.5 * t * t + 1.5 * t * t * t;
+      double wc = t * (1 + t * (4 - 3 * t)) / 2, wd = -t * t * (1 - t) / 2;
+      curve[count++] = sb_section_at(section, wa * a.x + wb * b.x + wc * c.x + wd * d.x,
+                                     wa * a.y + wb * b.y + wc * c.y + wd * d.y);
+    }
+  }
+  sb_draw_clip(section->list, &section->strip);
+  sb_draw_stroke(section->list, curve, count - 3, 2.2, palette->fluid_line)->dash = SB_DASH_DOSE;
+  sb_draw_arrow(section->list, curve[count - 4].x, curve[count - 4].y, curve[count - 1].x,
+                curve[count - 1].y, 2.2, 11, 9, palette->fluid_line);
+  sb_draw_clip(section->list, NULL);
+  SbDrawPoint start = curve[0];
+  SbSectionLabel style = label_style(palette->fluid_line, 600, SB_ALIGN_LEFT, NULL);
+  const double at[3][2] = {
+      {start.x, start.y - 9}, {start.x, start.y + 20}, {section->strip.x + 12, start.y + 20}};
+  place(section, at, 3, &style, "dose path open");
+}
+
+// Below the strip: what the picture is, and its scales.
+static void draw_scales(SbSection *section) {
+  const SbPalette *palette = section->palette;
+  SbDrawList *list = section->list;
+  double y = section->strip.y + section->strip.height + 22;
+  double right = section->strip.x + section->strip.width;
+  // A bar of 1, 2 or 5 times a power of ten, about a tenth of the width.
+  double target = 0.12 * section->strip.width / section->scale * 1e3;
+  double unit = pow(10, floor(log10(target)));
+  double length = unit * (target / unit >= 5 ? 5 : target / unit >= 2 ? 2 : 1);
+  double bar = length * 1e-3 * section->scale;
+  sb_draw_line(list, right - bar, y - 4, right - bar, y + 4, 1.4, palette->ink);
+  sb_draw_line(list, right - 0.7, y - 4, right - 0.7, y + 4, 1.4, palette->ink);
+  sb_draw_line(list, right - bar, y, right, y, 1.4, palette->ink);
+  char text[80], value[SB_SECTION_NUMBER];
+  snprintf(text, sizeof text, "%s mm",
+           sb_section_fixed(value, length, length >= 1 ? 0 : (int)ceil(-log10(unit))));
+  sb_draw_text(list, right - bar - 8, y + 4, 11, 400, SB_ALIGN_RIGHT, palette->second, text);
+  double x = right - bar - 8 - sb_text_width(section->text, text, 11, 400) - 24;
+  if (!section->view->hide_forces && section->view->zoom == SB_SECTION_WHOLE) {
+    sb_draw_arrow(list, x, y, x - 10 * PX_PER_NEWTON, y, 3, 9, 9, palette->ink);
+    sb_draw_text(list, x - 10 * PX_PER_NEWTON - 8, y + 4, 11, 400, SB_ALIGN_RIGHT, palette->second,
+                 "10 N");
+    x -= 10 * PX_PER_NEWTON + 44;
+  }
+  bool schematic =
+      section->instant->ring[SB_OUTER] == NULL || section->instant->ring[SB_INNER] == NULL;
+  const char *const whole = section->view->zoom == SB_SECTION_WHOLE ? "axis of the valve; " : "";
+  char caption[160];
+  snprintf(caption, sizeof caption, "%sto scale in both directions%s", whole,
+           schematic ? "; rings: schematic shape, contact width and area true" : "");
+  if (section->strip.x + sb_text_width(section->text, caption, 11, 400) + 12 < x) {
+    sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_ALIGN_LEFT, palette->second, caption);
+  } else if (schematic) {
+    sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_ALIGN_LEFT, palette->second,
+                 "rings: schematic shape");
+  }
+}
+
+void sb_section_draw_strip_labels(SbSection *section) {
+  bool whole = section->view->zoom == SB_SECTION_WHOLE;
+  if (!section->view->hide_labels && whole) {
+    draw_regions(section);
+    draw_land_edge(section);
+  }
+  if (!section->view->hide_forces && whole) {
+    draw_stem_forces(section);
+    draw_friction(section);
+  }
+  if (!section->view->hide_labels) {
+    if (whole) {
+      draw_dose_path(section);
+    }
+    draw_seal_names(section);
+    if (whole) {
+      draw_motion(section);
+    }
+  }
+  draw_scales(section);
+}

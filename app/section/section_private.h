@@ -1,0 +1,75 @@
+// What the files of the section share: the state of one drawing and the helpers for labels.
+#pragma once
+
+#include "app/section/palette.h"
+#include "app/section/section.h"
+#include "app/section/text.h"
+
+enum { SB_SECTION_PLACED_MAX = 64 };
+
+struct SbSection {
+  SbModel model;
+  SbSectionLimits limits;
+  SbValve valve;
+  SbText *text;
+  SbRingShape ring[SB_SEAL_COUNT];
+  // The drawing in hand.
+  SbDrawList *list;
+  const SbSectionView *view;
+  const SbSectionInstant *instant;
+  const SbPalette *palette;
+  SbDrawRect strip;
+  double scale, x0, y0; // px per m, px of the housing frame's origin (land edge, axis)
+  size_t placed_count;
+  SbDrawRect placed[SB_SECTION_PLACED_MAX]; // labels that later ones must not cover
+};
+
+// Pixel of a point of the housing's frame.
+SbDrawPoint sb_section_at(const SbSection *section, double x, double y);
+
+// Stem displacement of the instant [m].
+double sb_section_displacement(const SbSection *section);
+
+// x of seal i's origin in the housing's frame [m].
+double sb_section_origin(const SbSection *section, int seal);
+
+typedef struct {
+  double size;
+  int weight;
+  SbDrawAlign align;
+  SbDrawColour colour;
+  const SbDrawColour *plate; // ground of the body below, or NULL
+} SbSectionLabel;
+
+// Draws a label with its plate at the baseline and reserves its place. Returns its width.
+double sb_section_label(SbSection *section, double x, double y, const SbSectionLabel *style,
+                        const char *string);
+
+// Whether a label at this place would cover one that is there or leave the rectangle `within`.
+bool sb_section_label_fits(SbSection *section, double x, double y, const SbSectionLabel *style,
+                           const char *string, const SbDrawRect *within);
+
+// Reserves a rectangle.
+void sb_section_reserve(SbSection *section, double x, double y, double width, double height);
+
+// Parts of the picture.
+void sb_section_draw_strip(SbSection *section);
+void sb_section_draw_strip_labels(SbSection *section);
+void sb_section_draw_insets(SbSection *section, const SbDrawRect *pressure, const SbDrawRect *film);
+void sb_section_draw_header(SbSection *section, double margin);
+void sb_section_draw_footer(SbSection *section, double margin, double top);
+void sb_section_draw_legends(SbSection *section, double x, double y, double width);
+
+// Fill of seal i's ring from its outline mapped by x -> ax + bx x, y -> ay + by y, and its outline.
+void sb_section_draw_ring(SbSection *section, int seal, double ax, double bx, double ay, double by);
+
+// Numbers as the look wants them: three digits (two below ten for forces), true minus, thin-space
+// thousands, "0" for zero; with the unit. The buffer holds at least SB_SECTION_NUMBER bytes.
+enum { SB_SECTION_NUMBER = 64 };
+const char *sb_section_force(char *buffer, double newtons);
+const char *sb_section_megapascal(char *buffer, double pascals);
+const char *sb_section_millimetre(char *buffer, double metres);
+const char *sb_section_film(char *buffer, double metres);
+const char *sb_section_fixed(char *buffer, double value, int decimals);
+const char *sb_section_two_digits(char *buffer, double value);
+const char *sb_section_significant(char *buffer, double value); // as short as three digits allow

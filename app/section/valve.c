@@ -1,0 +1,159 @@
+// Outlines of housing and stem from the model. What is drawn: bore land with a broken edge and a
+// lead-in to the mouth, chamfered housing ends, stem nose with a chamfer, two rectangular grooves,
+// the dose chamber with sloped flanks, the shoulder, the rod. Left out: fillets, the split of the
+// stem into its three parts, the crimp.
+#include "app/section/valve.h"
+
+#include <math.h>
+
+// Proportions that are not worth a parameter, relative to the radial space (1.36 mm in the thesis
+// valve): broken land edge, flank of the dose chamber, chamfers.
+static const double EDGE_LENGTH = 0.044, EDGE_RISE = 0.015;
+static const double CHAMFER = 0.08;
+static const double FLANK_SLOPE = 0.33;
+
+static void add(SbValveOutline *outline, double x, double y) {
+  if (outline->count < SB_VALVE_POINTS_MAX) {
+    outline->point[outline->count++] = (SbValvePoint){x, y};
+  }
+}
+
+static double at_least(SbValve *valve, double value, double least) {
+  if (value >= least) {
+    return value;
+  }
+  valve->adjusted = true;
+  return least;
+}
+
+static double at_most(SbValve *valve, double value, double most) {
+  if (value <= most) {
+    return value;
+  }
+  valve->adjusted = true;
+  return most;
+}
+
+// Half the axial width of an unpressurised ring flattened to the radial space with its area kept,
+// by the closed-form shape with a contact of 0.36 sections (the thesis valve's 0.56 mm).
+static double half_width(double area, double section, double space) {
+  double contact = fmin(0.36 * section, 0.8 * area / space);
+  return contact / 2 + 2 * (area - contact * space) / (M_PI * space);
+}
+
+static void make_housing(SbValve *valve, const SbModel *model, double top) {
+  const SbValveShape *shape = &model->shape;
+  double g = model->radial_space;
+  double mouth = at_least(valve, shape->entry_diameter / 2, valve->bore + 0.1 * g);
+  mouth = at_most(valve, mouth, 0.8 * top + 0.2 * valve->bore);
+  double chamfer = CHAMFER * g;
+  double rise = mouth - valve->bore;
+  double lead = 1.18 * (rise - EDGE_RISE * g);
+  double entry = at_least(valve, shape->entry_length, lead + EDGE_LENGTH * g + 2 * chamfer);
+  valve->face = -entry;
+
+  SbValveOutline *outline = &valve->housing;
+  outline->count = 0;
+  add(outline, -entry, top);
+  add(outline, -entry, mouth + chamfer);
+  add(outline, -entry + chamfer, mouth);
+  add(outline, -EDGE_LENGTH * g - lead, mouth);
+  add(outline, -EDGE_LENGTH * g, valve->bore + EDGE_RISE * g);
+  add(outline, 0, valve->bore);
+  add(outline, valve->end - chamfer, valve->bore);
+  add(outline, valve->end, valve->bore + chamfer);
+  add(outline, valve->end, top);
+}
+
+static void make_stem(SbValve *valve, const SbModel *model) {
+  const SbValveShape *shape = &model->shape;
+  double g = model->radial_space;
+  double chamfer = fmin(0.33 * g, 0.3 * shape->nose_length);
+  double land = valve->land;
+  double rod = at_most(valve, shape->rod_diameter / 2, valve->floor);
+  double length = valve->groove_left[SB_OUTER] - valve->groove_right[SB_INNER];
+  double chamber = at_most(valve, shape->chamber_length, 0.9 * length);
+  double depth = at_most(valve, shape->chamber_depth, land - 0.3 * valve->floor);
+  double flank = fmin(FLANK_SLOPE * depth, 0.3 * chamber);
+  double shoulder = valve->groove_right[SB_OUTER] + shape->shoulder_length;
+  double shoulder_chamfer = fmin(0.22 * g, 0.5 * shape->shoulder_length);
+  valve->nose = valve->groove_left[SB_INNER] - shape->nose_length;
+  valve->chamber = (valve->groove_left[SB_OUTER] + valve->groove_right[SB_INNER]) / 2;
+  valve->chamber_floor = land - depth;
+  valve->shoulder = shoulder;
+  valve->rod = rod;
+
+  SbValveOutline *outline = &valve->stem;
+  outline->count = 0;
+  add(outline, valve->nose, 0);
+  add(outline, valve->nose, land - 1.22 * chamfer);
+  add(outline, valve->nose + chamfer, land);
+  add(outline, valve->groove_left[SB_INNER], land);
+  add(outline, valve->groove_left[SB_INNER], valve->floor);
+  add(outline, valve->groove_right[SB_INNER], valve->floor);
+  add(outline, valve->groove_right[SB_INNER], land);
+  add(outline, valve->chamber - chamber / 2, land);
+  add(outline, valve->chamber - chamber / 2 + flank, land - depth);
+  add(outline, valve->chamber + chamber / 2 - flank, land - depth);
+  add(outline, valve->chamber + chamber / 2, land);
+  add(outline, valve->groove_left[SB_OUTER], land);
+  add(outline, valve->groove_left[SB_OUTER], valve->floor);
+  add(outline, valve->groove_right[SB_OUTER], valve->floor);
+  add(outline, valve->groove_right[SB_OUTER], land);
+  add(outline, shoulder - shoulder_chamfer, land);
+  add(outline, shoulder, land - shoulder_chamfer);
+  add(outline, shoulder, rod);
+  add(outline, valve->end + 40 * model->bore_diameter, rod);
+  add(outline, valve->end + 40 * model->bore_diameter, 0);
+}
+
+void sb_valve_make(SbValve *valve, const SbModel *model, double inner_contact_left, double top) {
+  *valve = (SbValve){0};
+  const SbValveShape *shape = &model->shape;
+  double b = model->axial_width;
+  valve->bore = model->bore_diameter / 2;
+  valve->floor = valve->bore - model->radial_space;
+  valve->land = fmax(model->stem_diameter / 2, valve->floor + 0.2 * model->radial_space);
+  valve->adjusted = valve->land > model->stem_diameter / 2;
+
+  // Each ring rests against the thrust wall on its right.
+  double half[SB_SEAL_COUNT];
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const SbSealModel *seal = &model->seal[i];
+    double d = seal->section_diameter;
+    valve->section_area[i] = M_PI / 4 * d * d / (1 + seal->stretch_mean);
+    half[i] = fmin(half_width(valve->section_area[i], d, model->radial_space), b / 2);
+  }
+  valve->origin[SB_INNER] = model->land_edge - inner_contact_left;
+  double spacing = at_least(valve, shape->seal_spacing, 1.2 * b);
+  valve->groove_right[SB_INNER] = valve->origin[SB_INNER] + half[SB_INNER];
+  valve->groove_right[SB_OUTER] = valve->groove_right[SB_INNER] + spacing;
+  valve->origin[SB_OUTER] = valve->groove_right[SB_OUTER] - half[SB_OUTER];
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    valve->groove_left[i] = valve->groove_right[i] - b;
+  }
+
+  // The land holds the outer seal at rest.
+  valve->end = at_least(valve, shape->land_length, valve->groove_right[SB_OUTER] + 0.2 * b);
+  if (shape->vent_diameter > 0 && shape->vent_position + shape->vent_diameter < valve->end) {
+    valve->vent_left = shape->vent_position - shape->vent_diameter / 2;
+    valve->vent_right = shape->vent_position + shape->vent_diameter / 2;
+  }
+  make_housing(valve, model, top);
+  make_stem(valve, model);
+}
+
+double sb_valve_bore_at(const SbValve *valve, double x) {
+  const SbValveOutline *outline = &valve->housing;
+  if (x < valve->face || x > valve->end) {
+    return HUGE_VAL;
+  }
+  for (size_t i = 1; i + 2 < outline->count; i++) {
+    SbValvePoint a = outline->point[i];
+    SbValvePoint b = outline->point[i + 1];
+    if (x >= a.x && x <= b.x && b.x > a.x) {
+      return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
+    }
+  }
+  return valve->bore;
+}

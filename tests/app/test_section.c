@@ -1,0 +1,214 @@
+// The section says what the engine says: drawn contacts, areas and walls, read from the shapes and
+// from the display list, over every frame of a thesis cycle.
+#include "app/section/draw_cairo.h"
+#include "app/section/section.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+  SbModel model;
+  SbRun *run;
+  size_t count;
+  const SbFrame *frames;
+  SbSection *section;
+  SbDrawList list;
+  SbSectionView view;
+} Fixture;
+
+static void fixture_open(Fixture *f) {
+  SbParams params;
+  sb_params_init(&params);
+  SbReport report = {0};
+  sb_params_set(&params, SB_P_OUTPUT_VIEWS, SB_VIEW_SECTION, &report);
+  sb_params_set(&params, SB_P_OUTPUT_FRAMES, 150, &report);
+  g_assert_cmpint(sb_model_compile(&f->model, &params, NULL), ==, SB_OK);
+  SbPlan plan;
+  sb_plan_make(&plan, &f->model);
+  g_assert_cmpint(sb_run_create(&f->run, &f->model, &plan, &report), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(f->run, NULL, &report), ==, SB_OK);
+  f->frames = sb_run_frames(f->run, &f->count);
+  SbSectionLimits limits;
+  sb_section_limits_of_run(&limits, f->run);
+  f->section = sb_section_create(&f->model, &limits);
+  sb_draw_list_init(&f->list);
+  f->view = (SbSectionView){.width = 1280, .height = 720, .inset_seal = SB_OUTER, .title = "Test"};
+}
+
+static void fixture_close(Fixture *f) {
+  sb_draw_list_finish(&f->list);
+  sb_section_destroy(f->section);
+  sb_run_destroy(f->run);
+}
+
+static void draw(Fixture *f, size_t index) {
+  SbSectionInstant instant = {.frame = &f->frames[index]};
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    instant.profile[i] = sb_run_profile(f->run, f->frames[index].seal[i].profile);
+  }
+  sb_section_draw(f->section, &f->list, &f->view, &instant);
+}
+
+// Area within 1e-6, no point beyond floor, walls or housing.
+static void test_ring_invariants(void) {
+  Fixture f = {0};
+  fixture_open(&f);
+  size_t whole = 0, partial = 0, free_rings = 0;
+  for (size_t k = 0; k < f.count; k++) {
+    draw(&f, k);
+    const SbValve *valve = sb_section_valve(f.section);
+    for (int i = 0; i < SB_SEAL_COUNT; i++) {
+      const SbRingShape *ring = sb_section_ring(f.section, i);
+      const SbSealFrame *seal = &f.frames[k].seal[i];
+      double origin = valve->origin[i] - f.frames[k].displacement;
+      double area = sb_ring_shape_area(ring->x, ring->y, ring->count);
+      g_assert_true(ring->area_conserved);
+      g_assert_cmpfloat_with_epsilon(area, valve->section_area[i], 2e-6 * valve->section_area[i]);
+      for (size_t j = 0; j < ring->count; j++) {
+        double x = ring->x[j] + valve->origin[i];
+        g_assert_cmpfloat(x, >=, valve->groove_left[i] - 1e-12);
+        g_assert_cmpfloat(x, <=, valve->groove_right[i] + 1e-12);
+        g_assert_cmpfloat(ring->y[j], >=, 0);
+        g_assert_cmpfloat(ring->y[j] + valve->floor, <=,
+                          sb_valve_bore_at(valve, ring->x[j] + origin) + 1e-9);
+      }
+      // Points on the bore: exactly the contact where all of it is on the land.
+      if (seal->land_fraction >= 1) {
+        double least = HUGE_VAL, most = -HUGE_VAL;
+        for (size_t j = 0; j < ring->count; j++) {
+          if (ring->y[j] >= f.model.radial_space - 1e-12) {
+            least = fmin(least, ring->x[j]);
+            most = fmax(most, ring->x[j]);
+          }
+        }
+        g_assert_cmpfloat_with_epsilon(least, seal->contact_left, 1e-9);
+        g_assert_cmpfloat_with_epsilon(most, seal->contact_right, 1e-9);
+        whole++;
+      } else if (seal->land_fraction > 0) {
+        partial++;
+      } else {
+        g_assert_false(ring->contact);
+        free_rings++;
+      }
+    }
+  }
+  g_assert_cmpuint(whole, >, 100);
+  g_assert_cmpuint(free_rings, >, 20);
+  g_test_message("%zu whole, %zu partial, %zu free", whole, partial, free_rings);
+  fixture_close(&f);
+}
+
+// The contact bar in the list is as long as the reported contact, within a pixel.
+static void test_contact_bar(void) {
+  Fixture f = {0};
+  fixture_open(&f);
+  size_t found = 0;
+  for (size_t k = 0; k < f.count; k += 7) {
+    draw(&f, k);
+    double scale, x0, y0;
+    sb_section_transform(f.section, &scale, &x0, &y0);
+    const SbValve *valve = sb_section_valve(f.section);
+    double bore = y0 - valve->bore * scale;
+    for (size_t i = 0; i < f.list.item_count; i++) {
+      const SbDrawItem *item = &f.list.item[i];
+      const SbDrawPoint *point = f.list.point + item->first;
+      if (item->kind != SB_DRAW_STROKE || item->width != 4.0f || item->count != 2 ||
+          fabs((double)point[0].y - bore) > 0.01) {
+        continue;
+      }
+      double middle = (double)(point[0].x + point[1].x) / 2;
+      int seal = fabs(middle - x0 - (valve->origin[SB_OUTER] - f.frames[k].displacement) * scale) <
+                         1.5e-3 * scale
+                     ? SB_OUTER
+                     : SB_INNER;
+      const SbSealFrame *at = &f.frames[k].seal[seal];
+      if (at->land_fraction >= 1) {
+        double width = (at->contact_right - at->contact_left) * scale;
+        g_assert_cmpfloat_with_epsilon((double)(point[1].x - point[0].x), width, 1);
+        found++;
+      }
+    }
+  }
+  g_assert_cmpuint(found, >, 20);
+  fixture_close(&f);
+}
+
+// Shapes that a user may ask for: the area stays, or the shape says that it does not.
+static void test_ring_extremes(void) {
+  double space = 1.36e-3, area = 1.95e-6;
+  for (double half = 0.05e-3; half < 1.4e-3; half += 0.05e-3) {
+    SbRingRoom room = {space, -1e-3, 1e-3, area, 1.576e-3, NULL, NULL};
+    SbRingShape ring;
+    sb_ring_shape_make(&ring, &room, -half, half, 1);
+    for (size_t i = 0; i < ring.count; i++) {
+      g_assert_true(isfinite(ring.x[i]) && fabs(ring.x[i]) <= 1e-3 + 1e-12);
+      g_assert_true(ring.y[i] >= 0 && ring.y[i] <= space);
+    }
+    if (ring.area_conserved) {
+      g_assert_cmpfloat_with_epsilon(ring.area, area, 1e-5 * area);
+    } else {
+      g_assert_cmpfloat(half, >, 0.5e-3);
+    }
+  }
+  // A groove too narrow for the section cannot keep the area, and says so.
+  SbRingRoom narrow = {space, -0.5e-3, 0.5e-3, area, 1.576e-3, NULL, NULL};
+  SbRingShape ring;
+  sb_ring_shape_make(&ring, &narrow, -0.2e-3, 0.2e-3, 1);
+  g_assert_false(ring.area_conserved);
+}
+
+static bool shows(const SbDrawList *list, const char *text) {
+  for (size_t i = 0; i < list->item_count; i++) {
+    if (list->item[i].kind == SB_DRAW_TEXT &&
+        strstr(list->text + list->item[i].first, text) != NULL) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Labels state the frame's numbers, and what is schematic is called so.
+static void test_labels(void) {
+  Fixture f = {0};
+  fixture_open(&f);
+  const SbSummary *summary = sb_run_summary(f.run);
+  size_t c = summary->stage[SB_STAGE_C].frame, d = summary->stage[SB_STAGE_D].frame;
+  draw(&f, c - 3);
+  g_assert_true(shows(&f.list, "schematic"));
+  g_assert_true(shows(&f.list, "27.4"));
+  g_assert_true(shows(&f.list, "fill path opens in"));
+  g_assert_false(shows(&f.list, "no contact"));
+  draw(&f, (c + d) / 2);
+  g_assert_true(shows(&f.list, "Inner seal, no contact"));
+  g_assert_true(shows(&f.list, "dose path open"));
+  g_assert_true(shows(&f.list, "of axial"));
+  fixture_close(&f);
+}
+
+// Filling the list again and again allocates nothing more.
+static void test_no_growth(void) {
+  Fixture f = {0};
+  fixture_open(&f);
+  for (size_t k = 0; k < f.count; k++) {
+    draw(&f, k);
+  }
+  size_t items = f.list.item_capacity, points = f.list.point_capacity, text = f.list.text_capacity;
+  for (int i = 0; i < 1000; i++) {
+    draw(&f, (size_t)(i * 37) % f.count);
+  }
+  g_assert_cmpuint(f.list.item_capacity, ==, items);
+  g_assert_cmpuint(f.list.point_capacity, ==, points);
+  g_assert_cmpuint(f.list.text_capacity, ==, text);
+  fixture_close(&f);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/section/ring-invariants", test_ring_invariants);
+  g_test_add_func("/section/contact-bar", test_contact_bar);
+  g_test_add_func("/section/ring-extremes", test_ring_extremes);
+  g_test_add_func("/section/labels", test_labels);
+  g_test_add_func("/section/no-growth", test_no_growth);
+  return g_test_run();
+}
