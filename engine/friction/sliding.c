@@ -7,6 +7,7 @@
 #include "engine/friction/sliding.h"
 
 #include "engine/surface/greenwood_tripp.h"
+#include "engine/surface/persson.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -137,6 +138,44 @@ static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSea
   return status;
 }
 
+// Share of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
+// film, Persson's on the net pressure that the solids must carry.
+static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *model, int seal,
+                          SbWarnings *warnings, SbReport *report) {
+  if (model->surface == SB_MODEL_SURFACE_PERSSON) {
+    SbSpectrum spectrum;
+    SbStatus status = sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
+                                                  model->gt_product, report);
+    if (status != SB_OK) {
+      return status;
+    }
+    double pressure = fmax(out->load_net, 0) / (out->contact_right - out->contact_left);
+    out->area_share =
+        sb_persson_area_share(&spectrum, spectrum.q1, model->seal[seal].reduced_modulus, pressure);
+    *rest_share = out->area_share;
+    sb_warn(
+        warnings, "persson-shear-strength", "friction.shear_strength",
+        "Persson's real contact is %.0f %% here; the default shear strength was set with Greenwood "
+        "and Tripp's few per cent",
+        100 * out->area_share);
+    return SB_OK;
+  }
+  SbGtIntegrals sliding;
+  SbGtIntegrals rest;
+  sb_gt_integrals(&sliding, out->lambda, NULL);
+  sb_gt_integrals(&rest, 0, NULL);
+  out->area_share = sb_gt_area_share(model->gt_product, sliding.F2);
+  *rest_share = sb_gt_area_share(model->gt_product, rest.F2);
+  if (out->area_share > 0.3) {
+    sb_warn(
+        warnings, "real-area-large", "surface.gt_product",
+        "asperities of the %s seal touch on %.0f %% of the area: Greenwood and Tripp's asperities "
+        "are no longer independent",
+        sb_seal_name(seal), 100 * out->area_share);
+  }
+  return SB_OK;
+}
+
 SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
                           double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                           SbWarnings *warnings, SbReport *report) {
@@ -179,14 +218,13 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
   }
 
   // Rough contact and friction.
-  SbGtIntegrals sliding;
-  SbGtIntegrals rest;
-  out->lambda = out->film_central / model->sigma;
-  sb_gt_integrals(&sliding, out->lambda, NULL);
-  sb_gt_integrals(&rest, 0, NULL);
   double area = fit->contact_width * model->bore_circumference;
-  out->area_share = sb_gt_area_share(model->gt_product, sliding.F2);
-  double rest_share = sb_gt_area_share(model->gt_product, rest.F2);
+  double rest_share;
+  out->lambda = out->film_central / model->sigma;
+  SbStatus area_status = real_area(out, &rest_share, model, seal, warnings, report);
+  if (area_status != SB_OK) {
+    return area_status;
+  }
   out->boundary_area = model->shear_strength * out->area_share * area;
   out->boundary_load = model->load_coefficient * out->load;
   if (speed != 0 && out->film_central > 0) {
@@ -208,13 +246,6 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
               "λ = %.2g at the %s seal: boundary regime, the film is thinner than the roughness",
               out->lambda, sb_seal_name(seal));
     }
-  }
-  if (out->area_share > 0.3) {
-    sb_warn(
-        warnings, "real-area-large", "surface.gt_product",
-        "asperities of the %s seal touch on %.0f %% of the area: Greenwood and Tripp's asperities "
-        "are no longer independent",
-        sb_seal_name(seal), 100 * out->area_share);
   }
   return status;
 }
