@@ -7,6 +7,7 @@
 // read while this one writes.
 #include "engine/run.h"
 
+#include "engine/leak/percolation.h"
 #include "engine/leak/stroke.h"
 #include "engine/motion/cycle.h"
 
@@ -386,6 +387,49 @@ static double film_by(const SbRun *run, int seal, const SbSliding *state, SbFilm
   return central;
 }
 
+// Leak at rest under the pressure that the rubber itself exerts on the bore (net of the fluid's
+// step).
+static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
+  const SbModel *model = &run->model;
+  const SbSliding *state = &run->cycle.states.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  SbSealPressure pressure = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
+  SbSpectrum spectrum;
+  SbPercolation leak;
+  out->leakage_static = out->closing_pressure = out->leak_sensitivity = NAN;
+  if (!state->touches ||
+      sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
+                                  model->gt_product, NULL) != SB_OK) {
+    return;
+  }
+  SbPercolationProblem problem = {
+      .spectrum = &spectrum,
+      .modulus = model->seal[seal].reduced_modulus,
+      .contact_pressure = fmax(state->load_net, 0) / out->contact_width,
+      .viscosity = model->viscosity,
+      .pressure_drop = fabs(pressure.left - pressure.right),
+      .width = out->contact_width,
+      .circumference = model->bore_circumference,
+  };
+  if (sb_percolation_solve(&leak, &problem, NULL) != SB_OK) {
+    return;
+  }
+  out->leakage_static = leak.leak_rate;
+  out->closing_pressure = leak.closing_pressure;
+  out->leak_sensitivity = leak.sensitivity;
+  if (leak.percolates) {
+    sb_warn(
+        &run->summary.warnings, "static-leak", "gland.radial_space",
+        "the %s seal leaks at rest: %.3g MPa of contact pressure, open channels close at %.3g MPa",
+        sb_seal_name(seal), problem.contact_pressure * 1e-6, leak.closing_pressure * 1e-6);
+  } else if (problem.contact_pressure < 1.5 * leak.closing_pressure) {
+    sb_warn(
+        &run->summary.warnings, "static-leak-near", "gland.radial_space",
+        "the %s seal is near its leak at rest: %.3g MPa of contact pressure, channels open below "
+        "%.3g MPa",
+        sb_seal_name(seal), problem.contact_pressure * 1e-6, leak.closing_pressure * 1e-6);
+  }
+}
+
 static void summarise_seal(SbRun *run, int seal) {
   const SbSliding *state = &run->cycle.states.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   SbSealSummary *out = &run->summary.seal[seal];
@@ -411,6 +455,7 @@ static void summarise_seal(SbRun *run, int seal) {
   out->coefficient_of_friction = state->load > 0 ? friction / state->load : NAN;
   out->leakage_per_stroke =
       sb_leak_stroke(run->model.bore_diameter, state->film_central, run->model.stroke);
+  static_leak(run, seal, out);
 }
 
 // Film dragged out under the outer seal on the way in, less what comes back (thesis equation 5.21).

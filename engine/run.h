@@ -36,6 +36,9 @@ typedef struct {
   double lambda;
   double friction_boundary, friction_viscous, friction_static, coefficient_of_friction;
   double leakage_per_stroke; // [m3], thesis equation 5.20
+  double leakage_static; // through the contact at rest [m3/s], leak/percolation.h; NaN: no surface
+  double closing_pressure; // solid contact pressure above which that leak is nil [Pa]
+  double leak_sensitivity; // d ln(leak)/d ln(contact pressure); 0 while closed
 } SbSealSummary;
 
 typedef struct {

@@ -277,6 +277,22 @@ static void test_leakage(void) {
   }
 }
 
+// The thesis valve is tight at rest with a wide margin; a bare touch leaks, and the user is told.
+static void test_static_leak(void) {
+  SbRun *run = run_cycle(NULL, 0);
+  const SbSealSummary *outer = &sb_run_summary(run)->seal[SB_OUTER];
+  g_assert_cmpfloat(outer->leakage_static, ==, 0);
+  g_assert_cmpfloat(outer->closing_pressure, <, 0.5e6);
+  sb_run_destroy(run);
+
+  Setting rough[] = {{SB_P_SURFACE_SIGMA_OVER_BETA, 1}, {SB_P_SURFACE_GT_PRODUCT, 0.026}};
+  run = run_cycle(rough, 2);
+  outer = &sb_run_summary(run)->seal[SB_OUTER];
+  g_assert_cmpfloat(outer->leakage_static, >, 0);
+  g_assert_cmpfloat(outer->leak_sensitivity, <, 0);
+  sb_run_destroy(run);
+}
+
 // Which fields a scene computes follows from its views.
 static void test_plan(void) {
   Setting loop = {SB_P_OUTPUT_VIEWS, SB_VIEW_HYSTERESIS};
@@ -332,6 +348,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cycle/no-contact", test_no_contact);
   g_test_add_func("/cycle/cancel", test_cancel);
   g_test_add_func("/cycle/leakage", test_leakage);
+  g_test_add_func("/cycle/static-leak", test_static_leak);
   g_test_add_func("/cycle/plan", test_plan);
   g_test_add_func("/cycle/speed", test_speed);
   return g_test_run();
