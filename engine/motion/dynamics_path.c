@@ -1,0 +1,244 @@
+// Motion between two events of dynamics.h, and where the next one is.
+#include "engine/motion/dynamics_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+// A rest of this length [s] is looked at again; it costs one segment.
+static const double horizon_max = 1e6;
+
+static bool has_closed_form(const SbDynamics *s) {
+  if (!s->loads.constant || s->piece.curved) {
+    return false;
+  }
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    if (s->state[i] == SB_CONTACT_SLIP && sb_motion_speed_dependent(s->model, i)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+static void closed_path(SbDynamics *s) {
+  Linear l;
+  sb_motion_linear_forces(s, &l);
+  if (s->held) {
+    sb_oscillator_hold(&s->motion, s->x);
+  } else {
+    sb_oscillator_init(&s->motion, s->model->mass, l.c, l.k, l.f0, l.f1, s->x, s->v);
+  }
+  double horizon = fmin(s->piece.until - s->t, horizon_max);
+  s->t_end = isfinite(s->piece.until) && horizon < horizon_max ? s->piece.until : s->t + horizon;
+  s->event = EVENT_BREAK;
+  for (int event = 0; event < EVENT_COUNT; event++) {
+    SbGauge gauge;
+    bool found;
+    if (!sb_motion_event_gauge(s, event, &l, &gauge)) {
+      continue;
+    }
+    double at = sb_gauge_first(&gauge, &s->motion, horizon, &found);
+    if (found && (at < horizon || s->event == EVENT_BREAK)) {
+      horizon = at;
+      s->t_end = s->t + at;
+      s->event = event;
+    }
+  }
+}
+
+// ---- numerical path ----
+
+typedef struct {
+  double value[EVENT_COUNT], grain[EVENT_COUNT];
+  bool live[EVENT_COUNT];
+} Values;
+
+static void values_at(const SbDynamics *s, double t, const double *z, Values *out) {
+  SbDynamics at;
+  sb_motion_anchor_copy(&at, s, t, z);
+  for (int event = 0; event < EVENT_COUNT; event++) {
+    out->live[event] = sb_motion_event_value(&at, event, &out->value[event], &out->grain[event]);
+  }
+}
+
+static double one_value(const SbDynamics *s, int event, double t, const double *z) {
+  SbDynamics at;
+  double value = 0.0, grain;
+  sb_motion_anchor_copy(&at, s, t, z);
+  return sb_motion_event_value(&at, event, &value, &grain) ? value : 1.0;
+}
+
+// Where `event` turns negative between two fractions of a step, on its dense output.
+static double dense_root(const SbDynamics *s, const SbRadauStep *step, int event, double low,
+                         double high) {
+  double z[SB_RADAU_MAX];
+  for (int i = 0; i < 48; i++) {
+    double theta = 0.5 * (low + high);
+    sb_radau_dense(step, &s->system, theta, z, NULL);
+    if (one_value(s, event, step->t + theta * step->h, z) < 0.0) {
+      high = theta;
+    } else {
+      low = theta;
+    }
+  }
+  return high;
+}
+
+// Shortens a step so that it ends on the event, by stepping again: the event is then as accurate as
+// the solution, not as its dense output.
+//
+// Where Newton's iteration fails on the way, the step ends earlier, without the event (*reached).
+static bool end_on_event(SbDynamics *s, SbRadauStep *step, int event, double theta, bool *reached) {
+  SbRadauStep first = *step, trial = *step;
+  double z[SB_RADAU_MAX], h = theta * first.h;
+  *reached = true;
+  for (int i = 0; i < 6; i++) {
+    if (h < 1e-14 * first.h) {
+      // At once: a step of no length.
+      trial = first;
+      trial.h = 0.0;
+      break;
+    }
+    if (!sb_radau_step(&trial, &s->system, first.t, first.z0, h, &s->radau)) {
+      *reached = false;
+      for (int half = 0; half < 40; half++) {
+        h *= 0.5;
+        if (sb_radau_step(step, &s->system, first.t, first.z0, h, &s->radau)) {
+          s->h = h;
+          return true;
+        }
+      }
+      return false;
+    }
+    double value = one_value(s, event, first.t + h, trial.z1);
+    // Slope from the dense output of the whole step.
+    double span = fmax(1e-4 * first.h, 1e-12 * fabs(first.t));
+    double a, b;
+    sb_radau_dense(&first, &s->system, (h - span) / first.h, z, NULL);
+    a = one_value(s, event, first.t + h - span, z);
+    sb_radau_dense(&first, &s->system, (h + span) / first.h, z, NULL);
+    b = one_value(s, event, first.t + h + span, z);
+    double slope = 0.5 * (b - a) / span;
+    double change = slope < 0.0 ? -value / slope : 0.0;
+    change = fmin(fmax(change, -0.25 * first.h), 0.25 * first.h);
+    if (fabs(change) <= 1e-13 * fmax(first.h, 0.0) || h + change <= 0.0) {
+      break;
+    }
+    h = fmin(h + change, 1.25 * first.h);
+  }
+  *step = trial;
+  return true;
+}
+
+// Looks for the earliest event in the two steps; cuts them there.
+static bool cut_at_event(SbDynamics *s, SbReport *report) {
+  enum { PARTS = 4 };
+  Values before, after;
+  double z[SB_RADAU_MAX];
+  values_at(s, s->step[0].t, s->step[0].z0, &before);
+  for (int half = 0; half < 2; half++) {
+    SbRadauStep *step = &s->step[half];
+    for (int part = 1; part <= PARTS; part++) {
+      double low = (part - 1) / (double)PARTS, high = part / (double)PARTS, best = 2.0;
+      int found = EVENT_NONE;
+      sb_radau_dense(step, &s->system, high, z, NULL);
+      values_at(s, step->t + high * step->h, z, &after);
+      for (int event = 0; event < EVENT_COUNT; event++) {
+        // Armed once it was clearly positive; before that only a clear fall counts.
+        bool armed = before.live[event] && before.value[event] > before.grain[event];
+        if (!after.live[event] || !(after.value[event] < 0.0) ||
+            !(armed || after.value[event] < -after.grain[event])) {
+          continue;
+        }
+        double at = dense_root(s, step, event, low, high);
+        if (at < best) {
+          best = at;
+          found = event;
+        }
+      }
+      if (found != EVENT_NONE) {
+        bool reached;
+        if (!end_on_event(s, step, found, best, &reached)) {
+          sb_fail(report, SB_ERROR_NOT_CONVERGED, "no step to the event at %.9g s", step->t);
+          return false;
+        }
+        if (half == 0) {
+          s->step[1].h = 0.0;
+          s->step[1].t = step->t + step->h;
+        }
+        s->t_end = step->t + step->h;
+        s->event = reached ? found : EVENT_BREAK;
+        return true;
+      }
+      before = after;
+    }
+  }
+  return true;
+}
+
+static double first_step(const SbDynamics *s) {
+  Linear l;
+  sb_motion_linear_forces(s, &l);
+  double rate = fmax(sqrt(l.k / s->model->mass), l.c / s->model->mass);
+  return rate > 0.0 ? 0.05 / rate : 1e-5;
+}
+
+static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
+  const SbDynamicsModel *m = s->model;
+  double z[SB_RADAU_MAX] = {s->x, s->v};
+  memcpy(z + 2, s->d, m->contacts * sizeof *z);
+  memcpy(z + 2 + m->contacts, s->extra, m->extras * sizeof *z);
+  double left = fmin(s->piece.until - s->t, horizon_max);
+  double h = s->h > 0.0 ? s->h : first_step(s);
+  if (s->piece.curved) {
+    h = fmin(h, s->piece.step);
+  }
+  s->system.user = s;
+  for (int attempt = 0; attempt < 80; attempt++) {
+    double error;
+    bool last = h >= left;
+    h = last ? left : h;
+    if (s->t + h <= s->t) {
+      break;
+    }
+    if (!sb_radau_pair(s->step, &error, &s->system, s->t, z, h, &s->radau)) {
+      h *= 0.25;
+      s->counters.rejected++;
+      continue;
+    }
+    double factor = error > 0.0 ? fmin(4.0, fmax(0.2, 0.85 * pow(error, -1.0 / 6.0))) : 4.0;
+    if (error > 1.0) {
+      h *= fmin(factor, 0.7);
+      s->counters.rejected++;
+      continue;
+    }
+    s->counters.steps++;
+    s->counters.error_estimate += error * s->system.tolerance;
+    s->h = h * factor;
+    s->middle = s->step[0].t + s->step[0].h;
+    s->t_end = last ? s->t + left : s->t + h;
+    s->event = EVENT_BREAK;
+    if (last && isfinite(s->piece.until)) {
+      s->t_end = s->piece.until;
+    }
+    if (!cut_at_event(s, report)) {
+      return SB_ERROR_NOT_CONVERGED;
+    }
+    s->middle = s->step[0].t + s->step[0].h;
+    if (s->event != EVENT_BREAK) {
+      // What follows may be much quicker.
+      s->h = fmin(s->h, first_step(s));
+    }
+    return SB_OK;
+  }
+  return sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                 "no step of the motion converges at %.9g s (step %.3g s)", s->t, h);
+}
+
+SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report) {
+  s->linear = has_closed_form(s);
+  if (s->linear) {
+    closed_path(s);
+    return SB_OK;
+  }
+  return numerical_path(s, report);
+}

@@ -1,0 +1,223 @@
+// See radau.h. The unknowns are the stage rates k_i = f(t + c_i h, z + h sum_j a_ij k_j), found by
+// a simplified Newton iteration with a differenced Jacobian: at most 30 unknowns, dense LU.
+#include "engine/motion/radau.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum { S = SB_RADAU_STAGES, N = SB_RADAU_MAX, UNKNOWNS = SB_RADAU_STAGES * SB_RADAU_MAX };
+
+#define ROOT6 2.449489742783178
+
+static const double node[S] = {(4.0 - ROOT6) / 10.0, (4.0 + ROOT6) / 10.0, 1.0};
+static const double butcher[S][S] = {
+    {(88.0 - 7.0 * ROOT6) / 360.0, (296.0 - 169.0 * ROOT6) / 1800.0, (-2.0 + 3.0 * ROOT6) / 225.0},
+    {(296.0 + 169.0 * ROOT6) / 1800.0, (88.0 + 7.0 * ROOT6) / 360.0, (-2.0 - 3.0 * ROOT6) / 225.0},
+    {(16.0 - ROOT6) / 36.0, (16.0 + ROOT6) / 36.0, 1.0 / 9.0},
+};
+
+typedef struct {
+  size_t size;
+  double m[UNKNOWNS][UNKNOWNS];
+  int row[UNKNOWNS];
+} Factors;
+
+static bool factorise(Factors *f) {
+  for (size_t c = 0; c < f->size; c++) {
+    size_t best = c;
+    for (size_t r = c + 1; r < f->size; r++) {
+      if (fabs(f->m[r][c]) > fabs(f->m[best][c])) {
+        best = r;
+      }
+    }
+    f->row[c] = (int)best;
+    if (f->m[best][c] == 0.0 || !isfinite(f->m[best][c])) {
+      return false;
+    }
+    if (best != c) {
+      for (size_t k = 0; k < f->size; k++) {
+        double swap = f->m[c][k];
+        f->m[c][k] = f->m[best][k];
+        f->m[best][k] = swap;
+      }
+    }
+    for (size_t r = c + 1; r < f->size; r++) {
+      double factor = f->m[r][c] /= f->m[c][c];
+      if (factor != 0.0) {
+        for (size_t k = c + 1; k < f->size; k++) {
+          f->m[r][k] -= factor * f->m[c][k];
+        }
+      }
+    }
+  }
+  return true;
+}
+
+static void back_substitute(const Factors *f, double *b) {
+  for (size_t c = 0; c < f->size; c++) {
+    double swap = b[c];
+    b[c] = b[f->row[c]];
+    b[f->row[c]] = swap;
+  }
+  for (size_t r = 0; r < f->size; r++) {
+    for (size_t k = 0; k < r; k++) {
+      b[r] -= f->m[r][k] * b[k];
+    }
+  }
+  for (size_t r = f->size; r-- > 0;) {
+    for (size_t k = r + 1; k < f->size; k++) {
+      b[r] -= f->m[r][k] * b[k];
+    }
+    b[r] /= f->m[r][r];
+  }
+}
+
+static double scale(const SbRadauSystem *s, size_t i, double value) {
+  return s->tolerance * (fabs(value) + s->floor[i]);
+}
+
+// Forward differences of the rates; `base` are the rates at z.
+static void jacobian(double j[N][N], double *base, const SbRadauSystem *s, double t,
+                     const double *z, SbRadauCounters *counters) {
+  double power[SB_RADAU_POWERS], moved[N], dz[N];
+  s->rates(base, power, t, z, s->user);
+  memcpy(moved, z, s->n * sizeof *z);
+  for (size_t c = 0; c < s->n; c++) {
+    double step = sqrt(DBL_EPSILON) * (fabs(z[c]) + s->floor[c]);
+    moved[c] = z[c] + step;
+    step = moved[c] - z[c];
+    s->rates(dz, power, t, moved, s->user);
+    for (size_t r = 0; r < s->n; r++) {
+      j[r][c] = (dz[r] - base[r]) / step;
+    }
+    moved[c] = z[c];
+  }
+  counters->evaluations += (long)s->n + 1;
+}
+
+static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const double *z, double h,
+                  double j[N][N], const double *base, SbRadauCounters *counters) {
+  Factors f = {.size = S * s->n};
+  for (size_t a = 0; a < S; a++) {
+    for (size_t b = 0; b < S; b++) {
+      for (size_t r = 0; r < s->n; r++) {
+        for (size_t c = 0; c < s->n; c++) {
+          double one = a == b && r == c ? 1.0 : 0.0;
+          f.m[a * s->n + r][b * s->n + c] = one - h * butcher[a][b] * j[r][c];
+        }
+      }
+    }
+  }
+  counters->factorisations++;
+  if (!factorise(&f)) {
+    return false;
+  }
+  step->t = t;
+  step->h = h;
+  memcpy(step->z0, z, s->n * sizeof *z);
+  for (size_t a = 0; a < S; a++) {
+    memcpy(step->k[a], base, s->n * sizeof *base);
+  }
+  double previous = INFINITY;
+  for (int iteration = 0; iteration < 12; iteration++) {
+    double residual[UNKNOWNS];
+    for (size_t a = 0; a < S; a++) {
+      double at[N], dz[N];
+      for (size_t i = 0; i < s->n; i++) {
+        at[i] = z[i];
+        for (size_t b = 0; b < S; b++) {
+          at[i] += h * butcher[a][b] * step->k[b][i];
+        }
+      }
+      s->rates(dz, step->q[a], t + node[a] * h, at, s->user);
+      for (size_t i = 0; i < s->n; i++) {
+        residual[a * s->n + i] = dz[i] - step->k[a][i];
+      }
+    }
+    counters->evaluations += S;
+    counters->newton_iterations++;
+    back_substitute(&f, residual);
+    double size = 0.0;
+    bool rounding = true;
+    for (size_t a = 0; a < S; a++) {
+      for (size_t i = 0; i < s->n; i++) {
+        double change = residual[a * s->n + i];
+        step->k[a][i] += change;
+        size = fmax(size, fabs(h * change) / scale(s, i, z[i]));
+        rounding = rounding && fabs(change) <= 64.0 * DBL_EPSILON * fabs(step->k[a][i]);
+      }
+    }
+    if (!isfinite(size)) {
+      return false;
+    }
+    // The powers were taken one update earlier: ask for a small update, so that they are as good.
+    if (size < 1e-3 || rounding) {
+      for (size_t i = 0; i < s->n; i++) {
+        step->z1[i] = z[i];
+        for (size_t b = 0; b < S; b++) {
+          step->z1[i] += h * butcher[S - 1][b] * step->k[b][i];
+        }
+      }
+      return true;
+    }
+    if (iteration > 1 && size > 2.0 * previous) {
+      return false;
+    }
+    previous = size;
+  }
+  return false;
+}
+
+bool sb_radau_step(SbRadauStep *step, const SbRadauSystem *system, double t, const double *z,
+                   double h, SbRadauCounters *counters) {
+  double j[N][N], base[N];
+  jacobian(j, base, system, t, z, counters);
+  return solve(step, system, t, z, h, j, base, counters);
+}
+
+bool sb_radau_pair(SbRadauStep pair[2], double *error, const SbRadauSystem *system, double t,
+                   const double *z, double h, SbRadauCounters *counters) {
+  double j[N][N], base[N];
+  SbRadauStep whole;
+  jacobian(j, base, system, t, z, counters);
+  if (!solve(&whole, system, t, z, h, j, base, counters) ||
+      !solve(&pair[0], system, t, z, 0.5 * h, j, base, counters)) {
+    return false;
+  }
+  double power[SB_RADAU_POWERS];
+  system->rates(base, power, t + 0.5 * h, pair[0].z1, system->user);
+  counters->evaluations++;
+  if (!solve(&pair[1], system, t + 0.5 * h, pair[0].z1, 0.5 * h, j, base, counters)) {
+    return false;
+  }
+  *error = 0.0;
+  for (size_t i = 0; i < system->n; i++) {
+    double allowed = scale(system, i, fmax(fabs(z[i]), fabs(pair[1].z1[i])));
+    *error = fmax(*error, fabs(whole.z1[i] - pair[1].z1[i]) / (31.0 * allowed));
+  }
+  return isfinite(*error);
+}
+
+void sb_radau_dense(const SbRadauStep *step, const SbRadauSystem *system, double theta, double *z,
+                    double *integral) {
+  // Integrals over (0, theta) of the Lagrange polynomials on the three nodes.
+  double b[S];
+  for (int i = 0; i < S; i++) {
+    double p = node[(i + 1) % S], q = node[(i + 2) % S];
+    double norm = (node[i] - p) * (node[i] - q);
+    b[i] = theta * (theta * (theta / 3.0 - 0.5 * (p + q)) + p * q) / norm;
+  }
+  for (size_t i = 0; z != NULL && i < system->n; i++) {
+    z[i] = step->z0[i];
+    for (int a = 0; a < S; a++) {
+      z[i] += step->h * b[a] * step->k[a][i];
+    }
+  }
+  for (size_t i = 0; integral != NULL && i < system->powers; i++) {
+    integral[i] = 0.0;
+    for (int a = 0; a < S; a++) {
+      integral[i] += step->h * b[a] * step->q[a][i];
+    }
+  }
+}

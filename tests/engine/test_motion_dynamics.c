@@ -1,0 +1,305 @@
+// Motion with friction and stops against closed forms: decay, stick-slip, bounces, rest, energy.
+#include "engine/motion/dynamics.h"
+
+#include <glib.h>
+#include <math.h>
+
+enum { EVENTS = 4000 };
+
+typedef struct {
+  SbMotionEvent event[EVENTS];
+  int count;
+} Log;
+
+static void record(const SbMotionEvent *event, void *user) {
+  Log *log = user;
+  if (log->count < EVENTS) {
+    log->event[log->count++] = *event;
+  }
+}
+
+// The n-th event of a kind, or NULL.
+static const SbMotionEvent *nth(const Log *log, SbMotionEventKind kind, int n) {
+  for (int i = 0; i < log->count; i++) {
+    if (log->event[i].kind == kind && n-- == 0) {
+      return &log->event[i];
+    }
+  }
+  return NULL;
+}
+
+// Loads of the tests: a force and levels that hold everywhere.
+typedef struct {
+  SbDynamicsLoads loads;
+} Flat;
+
+static void flat_loads(SbDynamicsLoads *loads, double x, size_t region, const double *extra,
+                       void *user) {
+  *loads = ((Flat *)user)->loads;
+}
+
+static void go(SbDynamics *s, const SbDynamicsModel *m, Log *log) {
+  SbReport report = {0};
+  SbStatus status = sb_dynamics_init(s, m, &report);
+  g_assert_cmpstr(report.text, ==, "");
+  g_assert_cmpint(status, ==, SB_OK);
+  if (log != NULL) {
+    log->count = 0;
+    sb_dynamics_listen(s, record, log);
+  }
+}
+
+static void advance(SbDynamics *s, double t) {
+  SbReport report = {0};
+  SbStatus status = sb_dynamics_advance(s, t, &report);
+  g_assert_cmpstr(report.text, ==, "");
+  g_assert_cmpint(status, ==, SB_OK);
+}
+
+static double closure(const SbDynamics *s) {
+  SbDynamicsEnergy e;
+  sb_dynamics_sample(s, NULL, &e);
+  return e.closure;
+}
+
+#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
+
+// ---- rigid friction ----
+
+// A mass on a spring with Coulomb friction loses 2F/k of amplitude each half period, then stays.
+static void coulomb_decay(bool numerical, double tolerance) {
+  double k = 100.0, mass = 0.5, level = 3.0, x0 = 0.4;
+  Flat flat = {{.level = {level}, .constant = !numerical}};
+  SbDynamicsModel m = {.mass = mass,
+                       .spring_stiffness = k,
+                       .contacts = 1,
+                       .contact = {{.static_ratio = 1.0, .stiffness = INFINITY}},
+                       .loads = flat_loads,
+                       .user = &flat,
+                       .start_position = x0,
+                       .tolerance = 1e-11};
+  SbDynamics s;
+  Log log;
+  go(&s, &m, &log);
+  advance(&s, 20.0);
+  double half = G_PI / sqrt(k / mass), x = x0;
+  int turns = 0;
+  while (fabs(x) > level / k) {
+    x = x > 0.0 ? -(x - 2.0 * level / k) : -(x + 2.0 * level / k);
+    turns++;
+    const SbMotionEvent *e = nth(&log, SB_MOTION_STICK, turns - 1);
+    g_assert_nonnull(e);
+    ASSERT_NEAR(e->position, x, tolerance * x0);
+    ASSERT_NEAR(e->time, turns * half, tolerance * half);
+  }
+  g_assert_cmpint(turns, ==, 7);
+  g_assert_null(nth(&log, SB_MOTION_STICK, turns));
+  SbDynamicsSample sample;
+  SbDynamicsEnergy e;
+  sb_dynamics_sample(&s, &sample, &e);
+  g_assert_true(sample.speed == 0.0);
+  ASSERT_NEAR(sample.position, x, tolerance * x0);
+  ASSERT_NEAR(sample.friction[0], k * x, tolerance * k * x0);
+  // All that was stored and is not any more was rubbed away. No external work: compare directly.
+  ASSERT_NEAR(-e.stored, e.friction, tolerance * e.friction);
+}
+
+static void test_decay(void) {
+  coulomb_decay(false, 1e-12);
+  coulomb_decay(true, 1e-8);
+}
+
+// A mass dragged through a spring at constant speed, which is the mass on a belt: stick and slip.
+static void belt(bool numerical, double tolerance) {
+  double k = 50.0, mass = 0.2, level = 2.0, ratio = 1.6, speed = 0.05;
+  Flat flat = {{.level = {level}, .constant = !numerical}};
+  SbDynamicsModel m = {
+      .mass = mass,
+      .contacts = 1,
+      .contact = {{.static_ratio = ratio, .stiffness = INFINITY}},
+      .loads = flat_loads,
+      .user = &flat,
+      .drive = {.kind = SB_DRIVE_RAMP, .rate = speed, .end = 1.0},
+      .drive_stiffness = k,
+      .drive_bonded = true,
+      .tolerance = 1e-11,
+  };
+  SbDynamics s;
+  Log log;
+  go(&s, &m, &log);
+  advance(&s, 15.0);
+  double w = sqrt(k / mass), a = (ratio - 1.0) * level / k;
+  double slip = 2.0 * (G_PI - atan(a * w / speed)) / w, stick = 2.0 * a / speed;
+  double start = ratio * level / k / speed;
+  for (int i = 0; i < 8; i++) {
+    ASSERT_NEAR(nth(&log, SB_MOTION_SLIP, i)->time, start + i * (slip + stick), tolerance * 10.0);
+    ASSERT_NEAR(nth(&log, SB_MOTION_STICK, i)->time, start + i * (slip + stick) + slip,
+                tolerance * 10.0);
+    ASSERT_NEAR(nth(&log, SB_MOTION_SLIP, i)->drive_force, ratio * level, tolerance * 10.0);
+  }
+  g_assert_cmpfloat(closure(&s), <, 1e-9);
+}
+
+static void test_belt(void) {
+  belt(false, 1e-12);
+  belt(true, 1e-8);
+}
+
+// 99.9 % of the limit: not a bit of movement, in a million steps, rigid or through a seal.
+static void test_incline(void) {
+  Flat flat = {{.force = 0.999 * 5.0, .level = {5.0}, .constant = true}};
+  SbDynamicsModel m = {.mass = 1.0,
+                       .contacts = 1,
+                       .contact = {{.static_ratio = 1.0, .stiffness = INFINITY}},
+                       .loads = flat_loads,
+                       .user = &flat,
+                       .start_position = 0.123456789};
+  SbDynamics s;
+  SbDynamicsSample sample;
+  go(&s, &m, NULL);
+  for (int i = 1; i <= 1000000; i++) {
+    advance(&s, i * 1e-3);
+  }
+  sb_dynamics_sample(&s, &sample, NULL);
+  g_assert_true(sample.position == 0.123456789);
+  g_assert_true(sample.speed == 0.0);
+  ASSERT_NEAR(sample.friction[0], -0.999 * 5.0, 1e-15);
+  g_assert_cmpint(sb_dynamics_counters(&s).events, ==, 0);
+  // Through an elastic seal that was never overloaded the patch stays where it is, exactly.
+  flat.loads.force = 0.0;
+  m.drive = (SbDrive){
+      .kind = SB_DRIVE_RAMP, .quantity = SB_DRIVE_OF_FORCE, .rate = 0.1, .end = 0.999 * 5.0};
+  m.contact[0].stiffness = 1e4;
+  m.contact[0].damping = 20.0;
+  go(&s, &m, NULL);
+  advance(&s, 60.0);
+  sb_dynamics_sample(&s, &sample, NULL);
+  double patch = sample.position - sample.deflection[0], at = sample.position;
+  for (int i = 1; i <= 100000; i++) {
+    advance(&s, 60.0 + i * 1e-3);
+  }
+  sb_dynamics_sample(&s, &sample, NULL);
+  g_assert_true(sample.position == at);
+  g_assert_true(sample.position - sample.deflection[0] == patch);
+  ASSERT_NEAR(patch, 0.123456789, 1e-16);
+  ASSERT_NEAR(sample.deflection[0], 0.999 * 5.0 / 1e4, 1e-15);
+  g_assert_cmpint(sb_dynamics_counters(&s).events, <=, 1);
+}
+
+// ---- stops ----
+
+// A mass thrown at a rigid floor: every bounce at its time, then rest with its weight on the floor.
+static void test_bounce(void) {
+  double g = 9.81, mass = 0.3, height = 0.7, e = 0.8;
+  Flat flat = {{.force = -mass * g, .constant = true}};
+  SbDynamicsModel m = {.mass = mass,
+                       .stops = 1,
+                       .stop = {{.side = -1, .stiffness = INFINITY, .restitution = e}},
+                       .loads = flat_loads,
+                       .user = &flat,
+                       .start_position = height};
+  SbDynamics s;
+  Log log;
+  go(&s, &m, &log);
+  advance(&s, 10.0);
+  double t = sqrt(2.0 * height / g), v = g * t;
+  for (int i = 0; i < 40; i++) {
+    const SbMotionEvent *event = nth(&log, SB_MOTION_TOUCH_STOP, i);
+    ASSERT_NEAR(event->time, t, 1e-12);
+    ASSERT_NEAR(-event->speed, v, 1e-10 * v);
+    v *= e;
+    t += 2.0 * v / g;
+  }
+  SbDynamicsSample sample;
+  SbDynamicsEnergy energy;
+  sb_dynamics_sample(&s, &sample, &energy);
+  g_assert_true(sample.position == 0.0);
+  g_assert_true(sample.speed == 0.0);
+  ASSERT_NEAR(sample.stop_force[0], mass * g, 1e-12);
+  ASSERT_NEAR(energy.stop, mass * g * height, 1e-10 * energy.stop);
+  g_assert_cmpfloat(energy.closure, <, 1e-12);
+  g_assert_true(sb_dynamics_at_rest(&s));
+}
+
+// Between two springy walls the speed falls by the restitution at each, whatever the stiffness.
+static void test_walls(void) {
+  double mass = 3.73e-3;
+  for (int stiff = 4; stiff <= 9; stiff++) {
+    for (int i = 0; i < 4; i++) {
+      double e = (double[]){0.05, 0.3, 0.7, 0.95}[i], k = pow(10.0, stiff), v = 0.5;
+      SbDynamicsModel m = {
+          .mass = mass,
+          .stops = 2,
+          .stop = {{.position = 0.0, .side = -1, .stiffness = k, .restitution = e},
+                   {.position = 0.01, .side = 1, .stiffness = k, .restitution = e}},
+          .start_position = 0.005,
+          .start_speed = v};
+      SbDynamics s;
+      Log log;
+      go(&s, &m, &log);
+      advance(&s, 2.0);
+      for (int n = 0; n < 5; n++) {
+        const SbMotionEvent *touch = nth(&log, SB_MOTION_TOUCH_STOP, n);
+        if (touch == NULL) {
+          break;
+        }
+        ASSERT_NEAR(fabs(touch->speed), v * pow(e, n), 1e-9 * v * pow(e, n));
+      }
+      SbDynamicsEnergy energy;
+      sb_dynamics_sample(&s, NULL, &energy);
+      ASSERT_NEAR(energy.stop + energy.kinetic + energy.stored, 0.0, 1e-12 * mass * v * v);
+    }
+  }
+}
+
+// A constant push onto a stop for 10 s: few events, no creep, the right reaction.
+static void test_push(void) {
+  for (int rigid = 0; rigid < 2; rigid++) {
+    Flat flat = {{.force = 20.0, .level = {3.0}, .constant = true}};
+    SbDynamicsModel m = {
+        .mass = 3.73e-3,
+        .contacts = 1,
+        .contact = {{.static_ratio = 1.1,
+                     .stiffness = rigid ? INFINITY : 2e4,
+                     .damping = rigid ? 0.0 : 2.0}},
+        .stops = 1,
+        .stop = {{.position = 6.6e-3, .side = 1, .stiffness = 1e7, .restitution = 0.3}},
+        .loads = flat_loads,
+        .user = &flat,
+        .start_position = 6.1e-3};
+    SbDynamics s;
+    go(&s, &m, NULL);
+    advance(&s, 10.0);
+    SbDynamicsSample sample;
+    SbDynamicsEnergy energy;
+    sb_dynamics_sample(&s, &sample, &energy);
+    g_test_message("push: %ld events, %ld segments, stop force %.12g N, friction %.12g N",
+                   sb_dynamics_counters(&s).events, sb_dynamics_counters(&s).segments,
+                   sample.stop_force[0], sample.friction[0]);
+    g_assert_cmpint(sb_dynamics_counters(&s).events, <=, 10);
+    // Force balance at rest, and the stop's own law.
+    ASSERT_NEAR(sample.stop_force[0], 20.0 + sample.friction[0], 1e-9);
+    ASSERT_NEAR(sample.stop_force[0], 1e7 * (sample.position - 6.6e-3), 1e-9);
+    g_assert_cmpfloat(fabs(sample.friction[0]), <=, 3.3);
+    g_assert_cmpfloat(energy.closure, <, 1e-9);
+    // Without friction the reaction is the push.
+    flat.loads.level[0] = 0.0;
+    go(&s, &m, NULL);
+    advance(&s, 10.0);
+    sb_dynamics_sample(&s, &sample, &energy);
+    g_assert_cmpint(sb_dynamics_counters(&s).events, <=, 10);
+    ASSERT_NEAR(sample.stop_force[0], 20.0, 1e-9);
+    g_assert_cmpfloat(energy.closure, <, 1e-9);
+  }
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/motion/dynamics/decay", test_decay);
+  g_test_add_func("/motion/dynamics/belt", test_belt);
+  g_test_add_func("/motion/dynamics/incline", test_incline);
+  g_test_add_func("/motion/dynamics/bounce", test_bounce);
+  g_test_add_func("/motion/dynamics/walls", test_walls);
+  g_test_add_func("/motion/dynamics/push", test_push);
+  return g_test_run();
+}
