@@ -7,6 +7,8 @@
 // is flatter, 1.500 mm against 1.576 mm for the thesis valve).
 #include "engine/model.h"
 
+#include "engine/elastic/reduced_modulus.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -43,11 +45,9 @@ static bool compile_seal(SbModel *model, int index, const SbParams *params, SbPr
   seal->poisson_ratio =
       sb_params_get(params, outer ? SB_P_SEAL_OUTER_POISSON_RATIO : SB_P_SEAL_INNER_POISSON_RATIO);
 
-  // Thesis equation 5.8.
   double nu = seal->poisson_ratio;
-  double nu_h = model->housing_poisson_ratio;
   seal->reduced_modulus =
-      2 / ((1 - nu * nu) / seal->modulus + (1 - nu_h * nu_h) / model->housing_modulus);
+      sb_reduced_modulus(seal->modulus, nu, model->housing_modulus, model->housing_poisson_ratio);
   seal->radius = seal->section_diameter / 2;
 
   double d = seal->section_diameter;

@@ -198,9 +198,13 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
   out->load = fit->load;
   out->load_per_length = fit->load_per_length;
   out->pressure_peak = fit->pressure_peak;
+  // Closed forms that know no pressure give the rubber's share alone: nothing to take off.
+  bool holds_fluid = fit->model != SB_FIT_HERTZ && fit->model != SB_FIT_LINDLEY &&
+                     fit->model != SB_FIT_GREEN_ENGLISH;
   double step_left = fmin(fmax(-fit->contact_left, 0), fit->contact_width);
-  out->load_net = fit->load_per_length - fmax(pressure.left - pressure.right, 0) * step_left -
-                  fmax(pressure.right - pressure.left, 0) * (fit->contact_width - step_left);
+  double fluid = fmax(pressure.left - pressure.right, 0) * step_left +
+                 fmax(pressure.right - pressure.left, 0) * (fit->contact_width - step_left);
+  out->load_net = fit->load_per_length - (holds_fluid ? fluid : 0);
 
   // Film, only when sliding.
   if (speed != 0 && out->load_net <= 0) {
