@@ -42,6 +42,15 @@ static const char *const green_english_names[] = {
 #undef GREEN_ENGLISH_NAME
 };
 
+// The kernel, and whether the fluid is on the left alone (and the ring on the groove wall) or on
+// both flanks.
+static const char *const disc_names[] = {
+    "vertical",
+    "radial",
+    "vertical-both-flanks",
+    "radial-both-flanks",
+};
+
 static const char *const default_names[] = {"default"};
 
 const char *sb_fit_variant_name(SbFitModel model, int variant) {
@@ -58,6 +67,10 @@ const char *sb_fit_variant_name(SbFitModel model, int variant) {
   case SB_FIT_GREEN_ENGLISH:
     names = green_english_names;
     count = SB_GREEN_ENGLISH_COUNT;
+    break;
+  case SB_FIT_DISC:
+    names = disc_names;
+    count = (int)(sizeof disc_names / sizeof disc_names[0]);
     break;
   default:
     break;
@@ -164,6 +177,10 @@ static SbStatus solve_model(SbFit *out, const SbFitProblem *in, SbReport *report
     return sb_fit_lindley(out, in, report);
   case SB_FIT_GREEN_ENGLISH:
     return sb_fit_green_english(out, in, report);
+  case SB_FIT_DISC_THESIS:
+    return sb_fit_disc_thesis(out, in, report);
+  case SB_FIT_DISC:
+    return sb_fit_disc(out, in, report);
   default:
     return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
                              "the contact model %s is not in this build",

@@ -8,3 +8,5 @@ SbStatus sb_fit_karaszkiewicz(SbFit *out, const SbFitProblem *in, SbReport *repo
 SbStatus sb_fit_hertz(SbFit *out, const SbFitProblem *in, SbReport *report);
 SbStatus sb_fit_lindley(SbFit *out, const SbFitProblem *in, SbReport *report);
 SbStatus sb_fit_green_english(SbFit *out, const SbFitProblem *in, SbReport *report);
+SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report);
+SbStatus sb_fit_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report);
