@@ -7,7 +7,10 @@
 #include <math.h>
 #include <string.h>
 
+// Large type wants the tighter drawing of the same family where there is one.
 static const char families[] = "Inter, Cantarell, DejaVu Sans";
+static const char large_families[] = "Inter Display, Inter, Cantarell, DejaVu Sans";
+static const double large_size = 24;
 
 void sb_canvas_init(SbCanvas *canvas, cairo_t *cr, const SbTheme *theme) {
   canvas->cr = cr;
@@ -62,7 +65,8 @@ SbTextStyle sb_canvas_style(const SbCanvas *canvas, double size, int weight, SbR
 // Puts the text into the layout.
 static void shape(SbCanvas *canvas, const char *text, const SbTextStyle *style) {
   PangoFontDescription *font = pango_font_description_new();
-  pango_font_description_set_family_static(font, families);
+  pango_font_description_set_family_static(font,
+                                           style->size >= large_size ? large_families : families);
   pango_font_description_set_absolute_size(font, style->size * PANGO_SCALE);
   pango_font_description_set_weight(font, (PangoWeight)style->weight);
   pango_layout_set_font_description(canvas->layout, font);

@@ -26,25 +26,34 @@ typedef struct {
   const void *source;
 } SbChartRun;
 
+// A bookmark of the user's.
+typedef struct {
+  double time;
+  const char *name;
+} SbChartMarker;
+
 typedef struct {
   SbChartRun run;
-  const SbChartRun *earlier; // shown at 45 % while `run` is being computed; NULL: none
-  const SbChartRun *pinned;  // to compare with; NULL: none
-  const char *pinned_name;   // "roughness -30 %"
-  size_t playhead;           // frame shown
-  bool playing;              // no effect on layout
-  double progress;           // of a running run, 0 to 1
-  const char *title;         // "Piston valve, one actuation"
-  const char *subtitle;      // files and conditions, parts joined by middle dots
-  const char *hash;          // of the parameters; the first eight digits are shown
-  const char *stale;         // sentence of the amber strip; NULL: the run fits the parameters
-  const char *failure;       // sentence of the red strip; NULL: none
+  const SbChartRun *earlier;   // shown at 45 % while `run` is being computed; NULL: none
+  const SbChartRun *pinned;    // to compare with; NULL: none
+  const char *pinned_name;     // "roughness -30 %"
+  size_t playhead;             // frame shown
+  bool playing;                // no effect on layout
+  double progress;             // of a running run, 0 to 1
+  const SbChartMarker *marker; // `marker_count` of them
+  size_t marker_count;
+  const char *title;    // "Piston valve, one actuation"
+  const char *subtitle; // files and conditions, parts joined by middle dots
+  const char *hash;     // of the parameters; the first eight digits are shown
+  const char *stale;    // sentence of the amber strip; NULL: the run fits the parameters
+  const char *failure;  // sentence of the red strip; NULL: none
 } SbChartData;
 
 // Flags of every view.
 enum {
-  SB_CHART_PANEL = 1 << 0,  // with the panel's ground, hairline and padding
-  SB_CHART_COMPACT = 1 << 1 // the window's column: smaller title, no explaining lines
+  SB_CHART_PANEL = 1 << 0,   // with the panel's ground, hairline and padding
+  SB_CHART_COMPACT = 1 << 1, // the window's column: smaller title, no explaining lines
+  SB_CHART_WHOLE = 1 << 2    // no playhead: the whole run is shown as played
 };
 
 // The frame under the playhead; NULL if there is none.

@@ -142,6 +142,24 @@ char *sb_format_text(char *out, SbQuantity quantity, double value, double relati
   return out;
 }
 
+char *sb_format_given(char *out, SbQuantity quantity, double value) {
+  SbFormatted parts;
+  sb_format(&parts, quantity, value, 0);
+  if (strchr(parts.number, '.')) {
+    size_t end = strlen(parts.number);
+    while (parts.number[end - 1] == '0') {
+      end--;
+    }
+    parts.number[parts.number[end - 1] == '.' ? end - 1 : end] = 0;
+  }
+  g_strlcpy(out, parts.number, SB_FORMAT_MAX);
+  if (parts.unit[0]) {
+    g_strlcat(out, NO_BREAK, SB_FORMAT_MAX);
+    g_strlcat(out, parts.unit, SB_FORMAT_MAX);
+  }
+  return out;
+}
+
 char *sb_format_film_tick(char *out, double length) {
   const char *unit = "nm";
   double shown = length * 1e9;

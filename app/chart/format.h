@@ -35,6 +35,9 @@ void sb_format(SbFormatted *out, SbQuantity quantity, double value, double relat
 // "27.4 N" into `out` (of SB_FORMAT_MAX bytes), which is returned. No break inside.
 char *sb_format_text(char *out, SbQuantity quantity, double value, double relative_error);
 
+// As sb_format_text() for a given value rather than a computed one: no trailing zeros.
+char *sb_format_given(char *out, SbQuantity quantity, double value);
+
 // A plain number with a fixed number of decimals, true minus and thin-space thousands; "0" for
 // zero.
 char *sb_format_fixed(char *out, double value, int decimals);

@@ -150,7 +150,7 @@ static void draw_titles(View *v, SbRect rect) {
       note = "up to the last good state";
       break;
     case SB_CHART_DONE:
-      note = "thick line: played so far";
+      note = v->flags & SB_CHART_WHOLE ? "one actuation, A to F" : "thick line: played so far";
       break;
     default:
       break;
@@ -184,7 +184,8 @@ static void draw_other(View *v, const SbChartRun *run, bool dashed) {
 static void draw_loop(View *v) {
   const SbChartRun *run = &v->data->run;
   SbCanvas *c = &v->canvas;
-  size_t n, now = MIN(v->data->playhead, run->count - 1);
+  size_t n,
+      now = v->flags & SB_CHART_WHOLE ? run->count - 1 : MIN(v->data->playhead, run->count - 1);
   SbPoint *all = trace_pixels(&v->at, run, 0, run->count - 1, &n);
   if (!all) {
     return;
@@ -282,7 +283,7 @@ static void draw_arrows(View *v) {
     }
     double fraction = s == SB_STAGE_B ? 0.4 : s == SB_STAGE_A ? 0.55 : 0.5;
     size_t middle = first + (size_t)(fraction * (double)(last - first));
-    draw_arrow(v, first, last, fraction, middle <= v->data->playhead);
+    draw_arrow(v, first, last, fraction, v->flags & SB_CHART_WHOLE || middle <= v->data->playhead);
   }
 }
 
@@ -572,12 +573,19 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
   const SbFrame *now = sb_chart_frame(data);
   size_t traced = data->run.trace ? sb_trace_frames(data->run.trace) : 0;
   if (now && traced > 0) {
-    draw_now(&v, true);
+    bool whole = flags & SB_CHART_WHOLE;
+    if (!whole) {
+      draw_now(&v, true);
+    }
     draw_loop(&v);
     draw_arrows(&v);
-    label_now(&v);
+    if (!whole) {
+      label_now(&v);
+    }
     draw_marks(&v);
-    draw_now(&v, false);
+    if (!whole) {
+      draw_now(&v, false);
+    }
     draw_notes(&v);
   } else {
     draw_empty(&v);

@@ -88,6 +88,8 @@ static void widen(SbTraceRange *r, const SbFrame *frame, bool first) {
   r->force_max = first ? frame->force : fmax(r->force_max, frame->force);
   for (int s = 0; s < SB_SEAL_COUNT; s++) {
     r->pressure_peak_max = fmax(r->pressure_peak_max, frame->seal[s].pressure_peak);
+    r->contact_left = fmin(r->contact_left, frame->seal[s].contact_left);
+    r->contact_right = fmax(r->contact_right, frame->seal[s].contact_right);
     if (frame->seal[s].film_min > 0) {
       r->film_min =
           r->film_min > 0 ? fmin(r->film_min, frame->seal[s].film_min) : frame->seal[s].film_min;

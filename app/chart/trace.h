@@ -33,8 +33,9 @@ typedef struct {
   double time_max;
   double displacement_min, displacement_max;
   double force_min, force_max;
-  double pressure_peak_max;  // of both seals
-  double film_max, film_min; // of sliding contacts; 0 if none slid
+  double pressure_peak_max;           // of both seals
+  double film_max, film_min;          // of sliding contacts; 0 if none slid
+  double contact_left, contact_right; // outermost ends of all contacts; equal if there were none
 } SbTraceRange;
 
 SbTraceRange sb_trace_range(const SbTrace *trace);

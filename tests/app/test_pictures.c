@@ -1,6 +1,9 @@
 // Golden pictures of the charts in both themes, each with a slightly wrong partner that must be
 // caught.
+#include "app/chart/dashboard.h"
 #include "app/chart/hysteresis.h"
+#include "app/chart/profiles.h"
+#include "app/chart/timeline.h"
 #include "tests/app/picture.h"
 #include "tests/app/synthetic.h"
 
@@ -38,14 +41,50 @@ static void check_rejected(Draw draw, const SbChartData *data, const char *name,
 
 static Synthetic run, weaker, off;
 
+#define ROUGHNESS                                                                                  \
+  "roughness \xe2\x88\x92"                                                                         \
+  "30 %"
+
+// A stand-in for the section: two rectangles, so that the page's layout is part of the picture.
+static void draw_section(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                         void *user) {
+  SbColor housing = theme->role[SB_ROLE_HOUSING], stem = theme->role[SB_ROLE_STEM];
+  cairo_set_source_rgb(cr, housing.r, housing.g, housing.b);
+  cairo_rectangle(cr, rect.x + 20, rect.y + 40, rect.width - 40, 0.4 * rect.height);
+  cairo_fill(cr);
+  cairo_set_source_rgb(cr, stem.r, stem.g, stem.b);
+  cairo_rectangle(cr, rect.x + 20, rect.y + 0.6 * rect.height, rect.width - 40, 0.3 * rect.height);
+  cairo_fill(cr);
+}
+
+// A run whose outer profile is `factor` wider in pressure.
+static SbContactProfile wrong_profile[2];
+static double wrong_pressure[2][201];
+
+static const SbContactProfile *wrong_profiles(const void *source, uint32_t index) {
+  return index < 2 ? &wrong_profile[index] : NULL;
+}
+
+static SbChartRun run_with_film(const SbChartRun *from, double factor) {
+  SbChartRun out = *from;
+  for (int i = 0; i < 2; i++) {
+    wrong_profile[i] = *from->profile(from->source, (uint32_t)i);
+    for (size_t k = 0; k < 201; k++) {
+      wrong_pressure[i][k] = wrong_profile[i].pressure[k] * factor;
+    }
+    wrong_profile[i].pressure = wrong_pressure[i];
+  }
+  out.profile = wrong_profiles;
+  return out;
+}
+
 static void test_hysteresis(void) {
   SbChartData data, wrong;
   synthetic_data(&data, &run, 7.27);
   SbChartData pinned;
   synthetic_data(&pinned, &weaker, 7.27);
   data.pinned = &pinned.run;
-  data.pinned_name = "roughness \xe2\x88\x92"
-                     "30 %";
+  data.pinned_name = ROUGHNESS;
   check_view(sb_hysteresis_draw, &data, "hysteresis", 640, 560, 1, false, SB_CHART_PANEL);
   check_view(sb_hysteresis_draw, &data, "hysteresis-dark", 640, 560, 1, true, SB_CHART_PANEL);
   // A loop whose friction is 1 % too large.
@@ -56,12 +95,47 @@ static void test_hysteresis(void) {
   check_rejected(sb_hysteresis_draw, &wrong, "hysteresis-dark", 640, 560, 1, true, SB_CHART_PANEL);
 }
 
+static void draw_dashboard(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                           unsigned flags) {
+  sb_dashboard_draw(cr, rect, theme, data, flags, draw_section, NULL);
+}
+
+static void test_dashboard(void) {
+  SbChartData data, pinned, wrong;
+  synthetic_data(&data, &run, 7.27);
+  synthetic_data(&pinned, &weaker, 7.27);
+  data.pinned = &pinned.run;
+  data.pinned_name = ROUGHNESS;
+  check_view(draw_dashboard, &data, "dashboard", 1920, 1080, 1, false, 0);
+  check_view(draw_dashboard, &data, "dashboard-dark", 1920, 1080, 1, true, 0);
+  // The playhead three frames further.
+  wrong = data;
+  wrong.playhead += 3;
+  check_rejected(draw_dashboard, &wrong, "dashboard", 1920, 1080, 1, false, 0);
+  check_rejected(draw_dashboard, &wrong, "dashboard-dark", 1920, 1080, 1, true, 0);
+}
+
+static void test_profiles(void) {
+  SbChartData data, wrong;
+  synthetic_data(&data, &run, 7.27);
+  check_view(sb_profiles_draw, &data, "profiles", 1280, 280, 1, false, SB_CHART_PANEL);
+  check_view(sb_profiles_draw, &data, "profiles-dark", 1280, 280, 1, true, SB_CHART_PANEL);
+  check_view(sb_profiles_draw, &data, "profiles-window", 400, 460, 1, false, SB_CHART_COMPACT);
+  wrong = data;
+  SbChartRun thick = run_with_film(&wrong.run, 1.05);
+  wrong.run = thick;
+  check_rejected(sb_profiles_draw, &wrong, "profiles", 1280, 280, 1, false, SB_CHART_PANEL);
+  check_rejected(sb_profiles_draw, &wrong, "profiles-dark", 1280, 280, 1, true, SB_CHART_PANEL);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   synthetic_init(&run, 1250, 1);
   synthetic_init(&weaker, 1250, 0.64);
   synthetic_init(&off, 1250, 1.01);
   g_test_add_func("/pictures/hysteresis", test_hysteresis);
+  g_test_add_func("/pictures/profiles", test_profiles);
+  g_test_add_func("/pictures/dashboard", test_dashboard);
   int result = g_test_run();
   synthetic_clear(&run);
   synthetic_clear(&weaker);

@@ -1,0 +1,271 @@
+// Header and footer of a page. Every export says which models made it, what its error estimates are
+// and what to be warned of; where a run gives no estimate the footer says so rather than nothing.
+#include "app/chart/page.h"
+#include "app/chart/format.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#define DOT "  \xc2\xb7  "
+
+// ---------------------------------------------------------------------------------------------------
+// Texts
+
+static void append_choice(GString *out, const char *label, SbParamId id, int index) {
+  char name[64];
+  sb_param_choice_name(sb_param(id), index, name, sizeof name);
+  if (name[0]) {
+    g_string_append_printf(out, "%s%s %s", out->len ? DOT : "", label, name);
+  }
+}
+
+void sb_page_models_text(char *out, size_t size, const SbChartRun *run) {
+  g_autoptr(GString) text = g_string_new(NULL);
+  const SbModel *m = run->model;
+  if (m) {
+    append_choice(text, "fit", SB_P_MODELS_FIT, m->fit);
+    append_choice(text, "film", SB_P_MODELS_FILM, (int)m->film);
+    append_choice(text, "surface", SB_P_MODELS_SURFACE, (int)m->surface);
+    append_choice(text, "motion", SB_P_MODELS_MOTION, (int)m->motion);
+  }
+  g_strlcpy(out, text->str, size);
+}
+
+// Errors have two digits at most: they are estimates.
+static void append_error(GString *out, const char *label, double error) {
+  if (!isfinite(error)) {
+    return;
+  }
+  char number[SB_FORMAT_MAX];
+  if (error == 0) {
+    g_strlcpy(number, "0", sizeof number);
+  } else if (fabs(error) < 5e-6) {
+    // Below half a thousandth of a percent, digits say nothing.
+    g_strlcpy(number, "< 0.001", sizeof number);
+  } else {
+    sb_format_digits(number, 100 * error, 2);
+    size_t end = strlen(number);
+    while (strchr(number, '.') && number[end - 1] == '0') {
+      number[--end] = 0;
+    }
+    if (end > 0 && number[end - 1] == '.') {
+      number[end - 1] = 0;
+    }
+  }
+  g_string_append_printf(out, "%s%s %s %%", out->len ? ", " : "", label, number);
+}
+
+void sb_page_errors_text(char *out, size_t size, const SbChartRun *run) {
+  g_autoptr(GString) text = g_string_new(NULL);
+  const SbSummary *s = run->summary;
+  if (s) {
+    append_error(text, "load", s->error_load);
+    append_error(text, "force", s->error_force);
+    append_error(text, "film", s->error_film);
+    append_error(text, "energy", s->error_energy);
+    bool any = text->len > 0;
+    append_error(text, "energy closure", s->energy.closure);
+    g_string_append(text, any ? "  (discretisation only, not the choice of model)"
+                              : "  (closed forms: no discretisation error)");
+  } else {
+    g_string_append(text, "known when the run has ended");
+  }
+  g_strlcpy(out, text->str, size);
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Header
+
+// One read-out: number large, unit smaller, label below; right-aligned. Returns its left edge.
+static double readout(SbCanvas *c, double right, double y, const char *number, const char *unit,
+                      const char *reserve, const char *label, SbRole role) {
+  SbTextStyle large = sb_canvas_style(c, SB_TYPE_READOUT, 600, role);
+  SbTextStyle small = sb_canvas_style(c, 0.6 * SB_TYPE_READOUT, 400, role);
+  SbTextStyle below = sb_canvas_style(c, 13, 400, role == SB_ROLE_NOW ? role : SB_ROLE_SECOND);
+  if (role == SB_ROLE_NOW) {
+    below.weight = 600;
+  }
+  double unit_width = unit[0] ? sb_canvas_text_width(c, unit, &small) + 6 : 0;
+  if (unit[0]) {
+    sb_canvas_text(c, unit, &small, right, y, SB_RIGHT);
+  }
+  sb_canvas_text(c, number, &large, right - unit_width, y, SB_RIGHT);
+  sb_canvas_text(c, label, &below, right, y + 20, SB_RIGHT);
+  // Room for the widest number, so that nothing moves during a film.
+  double width = sb_canvas_text_width(c, reserve, &large) + unit_width;
+  return right - fmax(width, sb_canvas_text_width(c, label, &below));
+}
+
+// A coloured plate with the state's sentence; returns its width.
+static double state_chip(SbCanvas *c, const char *text, SbRole ink, SbRole ground, double x,
+                         double y, double width) {
+  SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, ink);
+  double natural = fmin(sb_canvas_text_width(c, text, &style), width - 36);
+  SbRect box = {x, y - 16, natural + 36, 22};
+  sb_canvas_rounded(c, box, 4);
+  sb_canvas_color(c, sb_canvas_role(c, ground), 1);
+  cairo_fill(c->cr);
+  // A triangle with its exclamation mark: state is never told by colour alone.
+  sb_canvas_color(c, sb_canvas_role(c, ink), 1);
+  cairo_move_to(c->cr, x + 15, y - 12);
+  cairo_line_to(c->cr, x + 22, y + 1);
+  cairo_line_to(c->cr, x + 8, y + 1);
+  cairo_close_path(c->cr);
+  cairo_fill(c->cr);
+  SbTextStyle mark = sb_canvas_style(c, SB_TYPE_NOTE - 1, 700, ground);
+  sb_canvas_text(c, "!", &mark, x + 15, y - 0.5, SB_MIDDLE);
+  sb_canvas_text_fit(c, text, &style, x + 28, y, natural + 1);
+  return box.width;
+}
+
+void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                         unsigned flags) {
+  SbCanvas canvas;
+  SbCanvas *c = &canvas;
+  sb_canvas_init(c, cr, theme);
+  double left = rect.x + SB_GRID_MARGIN, right = rect.x + rect.width - SB_GRID_MARGIN;
+  const SbFrame *frame = flags & SB_CHART_WHOLE ? NULL : sb_chart_frame(data);
+  double free_right = right;
+  double y = rect.y + 48;
+  if (frame) {
+    SbFormatted f;
+    sb_format(&f, SB_QUANTITY_FORCE, frame->force, sb_chart_error_force(&data->run));
+    double x = readout(c, right, y, f.number, f.unit, "00.0", "force on the stem", SB_ROLE_INK);
+    // Place and time get a fixed number of decimals: digits that come and go distract.
+    char number[SB_FORMAT_MAX];
+    sb_format_fixed(number, frame->displacement * 1e3, 2);
+    x = readout(c, x - 42, y, number, "mm", "0.00", "displacement", SB_ROLE_INK);
+    double duration = data->run.trace ? sb_trace_range(data->run.trace).time_max : 0;
+    sb_format_fixed(number, frame->time, duration < 1 ? 4 : duration < 200 ? 2 : 1);
+    x = readout(c, x - 42, y, number, "s", "00.00", "time", SB_ROLE_INK);
+    double x_time = x - 42;
+    free_right = readout(c, x_time, y, sb_chart_span(frame->stage), "",
+                         "B\xe2\x80\x93"
+                         "C",
+                         sb_chart_phase(&data->run, frame->stage), SB_ROLE_NOW);
+  }
+
+  SbTextStyle title = sb_canvas_style(c, SB_TYPE_TITLE, 700, SB_ROLE_INK);
+  SbTextStyle sub = sb_canvas_style(c, 14, 400, SB_ROLE_SECOND);
+  double width = free_right - left - 24;
+  sb_canvas_text_fit(c, data->title ? data->title : "Sealbench", &title, left, rect.y + 44, width);
+
+  // State first, then the subtitle in what is left of the line.
+  char text[256] = "";
+  double x = left;
+  SbRole ink = SB_ROLE_WARN, ground = SB_ROLE_WARN_GROUND;
+  if (data->failure) {
+    g_strlcpy(text, data->failure, sizeof text);
+    ink = SB_ROLE_ERROR;
+    ground = SB_ROLE_ERROR_GROUND;
+  } else if (data->stale) {
+    g_strlcpy(text, data->stale, sizeof text);
+  } else if (data->run.state == SB_CHART_PARTIAL) {
+    g_strlcpy(text, "partial: the run was cancelled", sizeof text);
+  } else if (data->run.state == SB_CHART_FAILED) {
+    g_strlcpy(text, "the solver did not converge: up to the last good state", sizeof text);
+    ink = SB_ROLE_ERROR;
+    ground = SB_ROLE_ERROR_GROUND;
+  } else if (data->run.state == SB_CHART_RUNNING) {
+    g_snprintf(text, sizeof text, "being computed, %.0f\xc2\xa0%%",
+               100 * CLAMP(data->progress, 0, 1));
+  }
+  if (text[0]) {
+    x += state_chip(c, text, ink, ground, left, rect.y + 68, width) + 12;
+  }
+  if (data->subtitle && left + width - x > 80) {
+    sb_canvas_text_fit(c, data->subtitle, &sub, x, rect.y + 68, left + width - x);
+  }
+  sb_canvas_finish(c);
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Footer
+
+void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                         unsigned flags) {
+  SbCanvas canvas;
+  SbCanvas *c = &canvas;
+  sb_canvas_init(c, cr, theme);
+  double left = rect.x + SB_GRID_MARGIN, right = rect.x + rect.width - SB_GRID_MARGIN;
+  double y = rect.y + rect.height - 38, y2 = rect.y + rect.height - 20;
+  const SbSummary *summary = data->run.summary;
+  SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_SECOND);
+  SbTextStyle plain = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  SbTextStyle third = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_THIRD);
+  SbTextStyle warn = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_WARN);
+  SbTextStyle warn_bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_WARN);
+
+  // Right: version, run, frame; measured first because it may not be cut.
+  char text[512], version[160];
+  g_snprintf(version, sizeof version, "Sealbench %s", sb_version());
+  if (data->hash && data->hash[0]) {
+    g_strlcat(version, DOT "run ", sizeof version);
+    size_t used = strlen(version);
+    g_strlcpy(version + used, data->hash, MIN(sizeof version - used, 9));
+  }
+  if (data->run.count > 0) {
+    size_t used = strlen(version);
+    if (flags & SB_CHART_WHOLE) {
+      g_snprintf(version + used, sizeof version - used, DOT "%zu frames", data->run.count);
+    } else {
+      g_snprintf(version + used, sizeof version - used, DOT "frame %zu of %zu",
+                 MIN(data->playhead, data->run.count - 1) + 1, data->run.count);
+    }
+  }
+  double version_width = sb_canvas_text_width(c, version, &third);
+  sb_canvas_text(c, version, &third, right, y2, SB_RIGHT);
+
+  // Left: models and errors.
+  double width = sb_canvas_text(c, "Models", &bold, left, y, SB_LEFT);
+  sb_page_models_text(text, sizeof text, &data->run);
+  double models_width = sb_canvas_text_width(c, text, &plain);
+  size_t warnings = summary ? summary->warnings.count + summary->warnings.dropped : 0;
+  double room = right - left - width - 8;
+  double models_room = warnings ? fmin(models_width, 0.62 * room) : room;
+  models_room = sb_canvas_text_fit(c, text, &plain, left + width + 8, y, models_room);
+  double warn_left = left + width + 8 + models_room + 32;
+
+  width = sb_canvas_text(c, "Error estimates", &bold, left, y2, SB_LEFT);
+  sb_page_errors_text(text, sizeof text, &data->run);
+  sb_canvas_text_fit(c, text, &plain, left + width + 8, y2,
+                     right - version_width - 24 - left - width - 8);
+
+  // Right: as many warnings as fit, the number of the others.
+  if (warnings) {
+    const SbWarnings *list = &summary->warnings;
+    const char *head = warnings == 1 ? "Warning" : "Warnings";
+    double head_width = sb_canvas_text_width(c, head, &warn_bold) + 8;
+    double space = right - warn_left - head_width;
+    g_autoptr(GString) line = g_string_new(NULL);
+    size_t shown = 0;
+    while (shown < list->count) {
+      g_autofree char *tried =
+          g_strdup_printf("%s%s%s", line->str, shown ? ";  " : "", list->item[shown].text);
+      char rest[32] = "";
+      if (warnings - shown - 1 > 0) {
+        g_snprintf(rest, sizeof rest, "  and %zu more", warnings - shown - 1);
+      }
+      g_autofree char *whole = g_strconcat(tried, rest, NULL);
+      if (shown > 0 && sb_canvas_text_width(c, whole, &warn) > space) {
+        break;
+      }
+      g_string_assign(line, tried);
+      shown++;
+    }
+    char rest[32] = "";
+    if (warnings > shown) {
+      g_snprintf(rest, sizeof rest, "  and %zu more", warnings - shown);
+    }
+    double rest_width = rest[0] ? sb_canvas_text_width(c, rest, &warn_bold) : 0;
+    double line_width = fmin(sb_canvas_text_width(c, line->str, &warn), space - rest_width);
+    double x = right - rest_width - line_width - head_width;
+    sb_canvas_text(c, head, &warn_bold, x, y, SB_LEFT);
+    sb_canvas_text_fit(c, line->str, &warn, x + head_width, y, line_width + 0.5);
+    if (rest[0]) {
+      sb_canvas_text(c, rest, &warn_bold, right, y, SB_RIGHT);
+    }
+  }
+  sb_canvas_finish(c);
+}

@@ -1,0 +1,25 @@
+// What stands around the views of an exported picture: title and key figures above; models, errors
+// and warnings below.
+#pragma once
+
+#include "app/chart/canvas.h"
+#include "app/chart/data.h"
+
+// Heights of the two strips [px].
+#define SB_PAGE_HEADER 88.0
+#define SB_PAGE_FOOTER 56.0
+
+// Title, subtitle or state, and (unless SB_CHART_WHOLE) the read-outs of the frame, inside the page
+// margins of `rect` (the whole page).
+void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                         unsigned flags);
+
+// Models, error estimates, warnings, version, run and frame at the foot of `rect`.
+void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                         unsigned flags);
+
+// "fit karaszkiewicz . film thesis . surface greenwood-tripp . motion quasi-static", into `out`.
+void sb_page_models_text(char *out, size_t size, const SbChartRun *run);
+
+// "load 0.17 %, film 0.3 %, energy closure 0.02 % (discretisation only, ...)", into `out`.
+void sb_page_errors_text(char *out, size_t size, const SbChartRun *run);

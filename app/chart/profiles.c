@@ -1,0 +1,562 @@
+// Profiles of one frame. Pressure [MPa] and film [nm to um, logarithmic] against the axial position
+// in the seal's frame [mm], canister on the left. Where the run kept a profile its points are drawn
+// as they are; where it kept none, the frame's peak, width and central film are drawn as the shape
+// of Hertz and labelled schematic. Film of a seal at rest and contact of a seal off the land do not
+// exist and are said in words. Leaves out what the solver left out: asperities' share of the
+// pressure is drawn only if the profile has one.
+#include "app/chart/profiles.h"
+#include "app/chart/axis.h"
+#include "app/chart/format.h"
+#include "app/chart/label.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+enum { SCHEMATIC_POINTS = 97 };
+
+// One of the four small charts.
+typedef struct {
+  SbCanvas *canvas;
+  SbRect plot;
+  SbScale x, y;
+  SbLabels *labels;
+  const SbChartData *data;
+  const SbSealFrame *seal; // NULL: no frame at all
+  int index;               // SB_OUTER, SB_INNER
+  SbColor color;
+} Small;
+
+// The contact's curve in SI.
+typedef struct {
+  size_t count;
+  double *x, *pressure, *film; // one block, owned through x
+  const char *model;           // who made it; NULL: schematic
+} Curve;
+
+static bool touches(const SbSealFrame *seal) {
+  return seal && seal->contact_right > seal->contact_left && seal->load > 0;
+}
+
+// Gap of a Hertz contact beside it, over a^2/R (Johnson, Contact Mechanics, section 4.2).
+static double hertz_gap(double xi) {
+  double root = sqrt(fmax(xi * xi - 1, 0));
+  return 0.5 * (fabs(xi) * root - log(fabs(xi) + root));
+}
+
+static void schematic(Curve *out, const SbSealFrame *seal, const SbModel *model, int index) {
+  out->count = SCHEMATIC_POINTS;
+  double half = 0.5 * (seal->contact_right - seal->contact_left);
+  double middle = 0.5 * (seal->contact_right + seal->contact_left);
+  double radius = model ? model->seal[index].radius : 0.8e-3;
+  for (int i = 0; i < SCHEMATIC_POINTS; i++) {
+    double xi = -1.6 + 3.2 * i / (SCHEMATIC_POINTS - 1);
+    double inside = fmax(1 - xi * xi, 0),
+           side = xi < 0 ? seal->pressure_left : seal->pressure_right;
+    out->x[i] = middle + xi * half;
+    out->pressure[i] = fabs(xi) < 1 ? fmax(seal->pressure_peak * sqrt(inside), side) : side;
+    out->film[i] = seal->film_central > 0
+                       ? seal->film_central +
+                             half * half / fmax(radius, 1e-6) * (fabs(xi) > 1 ? hertz_gap(xi) : 0)
+                       : 0;
+  }
+}
+
+static void curve_init(Curve *out, const Small *s) {
+  const SbChartRun *run = &s->data->run;
+  const SbContactProfile *kept = run->profile ? run->profile(run->source, s->seal->profile) : NULL;
+  size_t capacity = kept && kept->count > 1 ? kept->count : SCHEMATIC_POINTS;
+  out->x = g_new0(double, 3 * capacity);
+  out->pressure = out->x + capacity;
+  out->film = out->x + 2 * capacity;
+  out->model = NULL;
+  if (kept && kept->count > 1) {
+    out->count = kept->count;
+    out->model = kept->model;
+    memcpy(out->x, kept->x, kept->count * sizeof(double));
+    memcpy(out->pressure, kept->pressure, kept->count * sizeof(double));
+    memcpy(out->film, kept->film, kept->count * sizeof(double));
+  } else {
+    schematic(out, s->seal, run->model, s->index);
+  }
+}
+
+static void curve_finish(Curve *curve) {
+  g_free(curve->x);
+}
+
+// Linear interpolation in a curve.
+static double curve_at(const Curve *curve, const double *value, double x) {
+  for (size_t i = 1; i < curve->count; i++) {
+    if (curve->x[i] >= x) {
+      double d = curve->x[i] - curve->x[i - 1];
+      double t = d > 0 ? (x - curve->x[i - 1]) / d : 1;
+      return value[i - 1] + CLAMP(t, 0, 1) * (value[i] - value[i - 1]);
+    }
+  }
+  return curve->count > 0 ? value[curve->count - 1] : 0;
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Shared scales
+
+static SbTraceRange range_of(const SbChartData *data) {
+  SbTraceRange none = {0};
+  return data->run.trace ? sb_trace_range(data->run.trace) : none;
+}
+
+static void position_scale(SbScale *out, SbTicks *ticks, const SbChartData *data, SbRect plot) {
+  SbTraceRange r = range_of(data);
+  double lo = r.contact_left * 1e3, hi = r.contact_right * 1e3;
+  if (!(hi > lo)) {
+    lo = -0.5;
+    hi = 0.5;
+  }
+  double margin = 0.34 * (hi - lo);
+  *out = (SbScale){lo - margin, hi + margin, plot.x, plot.x + plot.width, false};
+  sb_axis_ticks(ticks, out->lo, out->hi, 3);
+}
+
+static void pressure_scale(SbScale *out, SbTicks *ticks, const SbChartData *data, SbRect plot) {
+  const SbModel *model = data->run.model;
+  double top = fmax(range_of(data).pressure_peak_max, model ? model->canister_pressure : 0) * 1e-6;
+  // Head-room for the peak's label, at least 26 px.
+  double room = plot.height > 80 ? plot.height / (plot.height - 30) : 1.3;
+  *out = (SbScale){0, (top > 0 ? top : 1) * room, plot.y + plot.height, plot.y, false};
+  sb_axis_ticks(ticks, out->lo, out->hi, plot.height > 200 ? 5 : 3);
+}
+
+static void film_scale(SbScale *out, SbTicks *ticks, const SbChartData *data, SbRect plot) {
+  const SbModel *model = data->run.model;
+  SbTraceRange r = range_of(data);
+  double least = r.film_min > 0 ? r.film_min : 1e-9;
+  double most = fmax(r.film_max, model ? model->sigma : 1e-6);
+  *out = (SbScale){0.38 * least, 45 * most, plot.y + plot.height, plot.y, true};
+  sb_axis_log_ticks(ticks, out->lo, out->hi);
+  // Not closer than 18 px.
+  int stride = 1;
+  while (ticks->count > 1 && plot.height * stride / (log10(out->hi / out->lo)) < 18 &&
+         stride < ticks->count) {
+    stride++;
+  }
+  if (stride > 1) {
+    int kept = 0;
+    for (int i = 0; i < ticks->count; i += stride) {
+      ticks->value[kept++] = ticks->value[i];
+    }
+    ticks->count = kept;
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Parts of one small chart
+
+static void small_axes(Small *s, const SbTicks *xt, const SbTicks *yt, bool film, bool numbers) {
+  SbCanvas *c = s->canvas;
+  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  double left = s->plot.x, right = left + s->plot.width, bottom = s->plot.y + s->plot.height;
+  char text[SB_FORMAT_MAX];
+  for (int i = 0; i < yt->count; i++) {
+    double y = sb_axis_at(&s->y, yt->value[i]);
+    if (y < s->plot.y - 0.5 || y > bottom + 0.5) {
+      continue;
+    }
+    sb_canvas_hairline(c, left, y, right, y, sb_canvas_role(c, SB_ROLE_GRID));
+    if (numbers) {
+      if (film) {
+        sb_format_film_tick(text, yt->value[i]);
+      } else {
+        sb_format_fixed(text, yt->value[i], yt->decimals);
+      }
+      sb_canvas_text(c, text, &label, left - 8, y + 4.3, SB_RIGHT);
+    }
+  }
+  sb_canvas_hairline(c, left, bottom, right, bottom, sb_canvas_role(c, SB_ROLE_AXIS));
+  for (int i = 0; i < xt->count; i++) {
+    double x = sb_axis_at(&s->x, xt->value[i]);
+    sb_canvas_hairline(c, x, bottom, x, bottom + 5, sb_canvas_role(c, SB_ROLE_AXIS));
+    sb_format_fixed(text, xt->value[i], xt->decimals);
+    sb_canvas_text(c, text, &label, floor(x) + 0.5, bottom + 18, SB_MIDDLE);
+  }
+}
+
+static void small_label(Small *s, const char *text, const SbTextStyle *style, const SbPlace *place,
+                        int count) {
+  SbPlace at;
+  if (sb_labels_place(s->labels, s->canvas, text, style, place, count, &at)) {
+    sb_canvas_text_halo(s->canvas, text, style, at.x, at.y, at.align);
+  }
+}
+
+// A figure that stands beside its like at the other seal: both get the decimals that both deserve.
+static void shared_format(char *out, const Small *s, double value, double other, double scale,
+                          const char *unit) {
+  double error = sb_chart_error_load(&s->data->run);
+  int decimals = sb_format_decimals(value * scale, 3, error);
+  if (other > 0) {
+    decimals = MIN(decimals, sb_format_decimals(other * scale, 3, error));
+  }
+  // ... but never none at all.
+  decimals = MAX(decimals, sb_format_decimals(value * scale, 1, 0));
+  char number[SB_FORMAT_MAX];
+  sb_format_fixed(number, value * scale, decimals);
+  g_snprintf(out, SB_FORMAT_MAX, "%s\xc2\xa0%s", number, unit);
+}
+
+// Ground of the fluid on one side of the contact, up to its pressure.
+static void fluid_ground(Small *s, double from, double to, double pressure) {
+  if (!(pressure > 0)) {
+    return;
+  }
+  SbCanvas *c = s->canvas;
+  SbColor fluid = sb_canvas_role(c, SB_ROLE_FLUID);
+  double x0 = CLAMP(sb_axis_at(&s->x, from * 1e3), s->plot.x, s->plot.x + s->plot.width);
+  double x1 = CLAMP(sb_axis_at(&s->x, to * 1e3), s->plot.x, s->plot.x + s->plot.width);
+  double y = sb_axis_at(&s->y, pressure * 1e-6), bottom = s->plot.y + s->plot.height;
+  sb_canvas_color(c, fluid, 0.15);
+  cairo_rectangle(c->cr, x0, y, x1 - x0, bottom - y);
+  cairo_fill(c->cr);
+  sb_canvas_pen(c, 1.6, NULL);
+  sb_canvas_color(c, fluid, 1);
+  cairo_move_to(c->cr, x0, y);
+  cairo_line_to(c->cr, x1, y);
+  cairo_stroke(c->cr);
+  SbPoint line[2] = {{x0, y}, {x1, y}};
+  sb_labels_avoid(s->labels, line, 2, 1);
+}
+
+static void fluid_label(Small *s, double from, double to, double pressure) {
+  if (!(pressure > 0)) {
+    return;
+  }
+  double x0 = fmax(sb_axis_at(&s->x, from * 1e3), s->plot.x);
+  double x1 = fmin(sb_axis_at(&s->x, to * 1e3), s->plot.x + s->plot.width);
+  double y = sb_axis_at(&s->y, pressure * 1e-6);
+  char value[SB_FORMAT_MAX], text[64];
+  sb_format_given(value, SB_QUANTITY_PRESSURE, pressure);
+  g_snprintf(text, sizeof text, "fluid %s", value);
+  SbTextStyle style = sb_canvas_style(s->canvas, SB_TYPE_LABEL, 400, SB_ROLE_FLUID);
+  const SbPlace places[] = {
+      {x0 + 4, y - 6, SB_LEFT}, {x1 - 4, y - 6, SB_RIGHT}, {x0 + 4, y + 16, SB_LEFT}};
+  small_label(s, text, &style, places, 3);
+}
+
+static void pressure_chart(Small *s) {
+  SbCanvas *c = s->canvas;
+  const SbSealFrame *seal = s->seal;
+  double bottom = s->plot.y + s->plot.height;
+  const double far = 1;
+  if (!touches(seal)) {
+    double side = seal ? fmax(seal->pressure_left, seal->pressure_right) : 0;
+    fluid_ground(s, -far, far, side);
+    fluid_label(s, -far, far, side);
+    SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
+    double x = s->plot.x + 0.5 * s->plot.width, y = s->plot.y + 0.5 * s->plot.height;
+    small_label(s, seal ? "no contact" : "no run yet", &note,
+                (SbPlace[]){{x, y, SB_MIDDLE}, {x, y - 30, SB_MIDDLE}, {x, y + 30, SB_MIDDLE}}, 3);
+    return;
+  }
+  double left = seal->contact_left, right = seal->contact_right;
+  fluid_ground(s, -far, left, seal->pressure_left);
+  fluid_ground(s, right, far, seal->pressure_right);
+
+  // The curve between the contact's ends, which stand on the fluid's pressure.
+  Curve curve;
+  curve_init(&curve, s);
+  SbPoint *p = g_new(SbPoint, curve.count + 4);
+  size_t n = 0;
+  double peak = 0, peak_x = 0.5 * (left + right);
+  p[n++] = (SbPoint){sb_axis_at(&s->x, left * 1e3),
+                     sb_axis_at(&s->y, curve_at(&curve, curve.pressure, left) * 1e-6)};
+  for (size_t i = 0; i < curve.count; i++) {
+    if (curve.x[i] > left && curve.x[i] < right) {
+      p[n++] = (SbPoint){sb_axis_at(&s->x, curve.x[i] * 1e3),
+                         sb_axis_at(&s->y, curve.pressure[i] * 1e-6)};
+      if (curve.pressure[i] > peak) {
+        peak = curve.pressure[i];
+        peak_x = curve.x[i];
+      }
+    }
+  }
+  p[n++] = (SbPoint){sb_axis_at(&s->x, right * 1e3),
+                     sb_axis_at(&s->y, curve_at(&curve, curve.pressure, right) * 1e-6)};
+  cairo_new_path(c->cr);
+  sb_canvas_path(c, p, n);
+  cairo_line_to(c->cr, p[n - 1].x, bottom);
+  cairo_line_to(c->cr, p[0].x, bottom);
+  cairo_close_path(c->cr);
+  sb_canvas_color(c, s->color, c->theme->curve_fill);
+  cairo_fill(c->cr);
+  sb_canvas_pen(c, SB_LINE_SEAL, NULL);
+  sb_canvas_color(c, s->color, 1);
+  sb_canvas_polyline(c, p, n);
+  sb_labels_avoid(s->labels, p, n, 1);
+  g_free(p);
+
+  // Peak, width, fluid.
+  const SbFrame *frame = sb_chart_frame(s->data);
+  const SbSealFrame *other = &frame->seal[s->index == SB_OUTER ? SB_INNER : SB_OUTER];
+  other = touches(other) ? other : NULL;
+  char value[SB_FORMAT_MAX], text[96];
+  if (peak > 0) {
+    double x = sb_axis_at(&s->x, peak_x * 1e3), y = sb_axis_at(&s->y, peak * 1e-6);
+    sb_canvas_dot(c, x, y, 2.6, s->color);
+    shared_format(value, s, peak, other ? other->pressure_peak : 0, 1e-6, "MPa");
+    g_snprintf(text, sizeof text, "peak %s", value);
+    SbTextStyle style = {SB_TYPE_LABEL, 600, s->color, 1};
+    small_label(s, text, &style,
+                (SbPlace[]){{x, y - 9, SB_MIDDLE},
+                            {x + 8, y - 9, SB_LEFT},
+                            {x - 8, y - 9, SB_RIGHT},
+                            {s->plot.x + 4, s->plot.y + 10, SB_LEFT}},
+                4);
+  }
+  double middle = sb_axis_at(&s->x, 0.5e3 * (left + right));
+  shared_format(value, s, right - left, other ? other->contact_right - other->contact_left : 0, 1e3,
+                "mm");
+  SbTextStyle strong = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
+  double width = sb_canvas_text_width(c, value, &strong) + 8;
+  double room = sb_axis_at(&s->x, right * 1e3) - sb_axis_at(&s->x, left * 1e3);
+  SbPlace at;
+  const SbPlace widths[] = {{middle, bottom - 8, SB_MIDDLE},
+                            {sb_axis_at(&s->x, right * 1e3) + 8, bottom - 8, SB_LEFT}};
+  // Inside if it fits, else beside.
+  bool inside = width < room;
+  if (sb_labels_place(s->labels, c, value, &strong, inside ? widths : widths + 1, 1, &at)) {
+    sb_canvas_text(c, value, &strong, at.x, at.y, at.align);
+  }
+  fluid_label(s, -far, left, seal->pressure_left);
+  fluid_label(s, right, far, seal->pressure_right);
+  if (seal->land_fraction < 0.999F) {
+    g_snprintf(text, sizeof text, "%.0f%% on the land", 100.0 * (double)seal->land_fraction);
+    SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+    small_label(s, text, &note, (SbPlace[]){{middle, bottom - 26, SB_MIDDLE}}, 1);
+  }
+  curve_finish(&curve);
+}
+
+static void film_chart(Small *s) {
+  SbCanvas *c = s->canvas;
+  cairo_t *cr = c->cr;
+  const SbSealFrame *seal = s->seal;
+  double left_px = s->plot.x, right_px = left_px + s->plot.width;
+  double bottom = s->plot.y + s->plot.height;
+  char value[SB_FORMAT_MAX], least[SB_FORMAT_MAX], text[128];
+
+  // Roughness, dashed, and its label.
+  double sigma = s->data->run.model ? s->data->run.model->sigma : 0;
+  double sigma_y = sigma > 0 ? sb_axis_at(&s->y, sigma) : -1e9;
+  if (sigma_y > s->plot.y && sigma_y < bottom) {
+    double y = floor(sigma_y) + 0.5;
+    SbPoint line[2] = {{left_px, y}, {right_px, y}};
+    sb_canvas_pen(c, 1.2, &sb_dash_reference);
+    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_SECOND), 1);
+    cairo_move_to(cr, line[0].x, y);
+    cairo_line_to(cr, line[1].x, y);
+    cairo_stroke(cr);
+    sb_labels_avoid(s->labels, line, 2, 1);
+  }
+  bool slides = touches(seal) && seal->film_central > 0;
+  Curve curve = {0};
+  if (slides) {
+    curve_init(&curve, s);
+    SbPoint *p = g_new(SbPoint, curve.count + 1);
+    size_t n = 0;
+    double from = seal->land_fraction < 0.999F ? seal->contact_left : -1;
+    for (size_t i = 0; i < curve.count; i++) {
+      if (curve.x[i] >= from && curve.film[i] > 0) {
+        p[n++] = (SbPoint){sb_axis_at(&s->x, curve.x[i] * 1e3), sb_axis_at(&s->y, curve.film[i])};
+      }
+    }
+    cairo_save(cr);
+    cairo_rectangle(cr, left_px, s->plot.y, s->plot.width, s->plot.height);
+    cairo_clip(cr);
+    sb_canvas_pen(c, SB_LINE_SEAL, NULL);
+    sb_canvas_color(c, s->color, 1);
+    sb_canvas_polyline(c, p, n);
+    cairo_restore(cr);
+    sb_labels_avoid(s->labels, p, n, 1);
+    g_free(p);
+
+    // Central and least film above the flat.
+    double error = sb_chart_error_film(&s->data->run);
+    double x = sb_axis_at(&s->x, 0.5e3 * (seal->contact_left + seal->contact_right));
+    double y = sb_axis_at(&s->y, seal->film_central);
+    sb_format_text(value, SB_QUANTITY_FILM, seal->film_central, error);
+    sb_format_text(least, SB_QUANTITY_FILM, seal->film_min, error);
+    bool uniform = seal->film_min >= 0.995 * seal->film_central;
+    SbTextStyle style = {SB_TYPE_LABEL, 600, s->color, 1};
+    g_snprintf(text, sizeof text, uniform ? "%s, uniform" : "%s, least %s", value, least);
+    double room =
+        sb_axis_at(&s->x, seal->contact_right * 1e3) - sb_axis_at(&s->x, seal->contact_left * 1e3);
+    if (sb_canvas_text_width(c, text, &style) + 8 <= room) {
+      small_label(s, text, &style, (SbPlace[]){{x, y - 9, SB_MIDDLE}, {x, y - 24, SB_MIDDLE}}, 2);
+    } else {
+      // Narrow: one line under the other.
+      g_snprintf(text, sizeof text, uniform ? "uniform" : "least %s", least);
+      small_label(s, text, &style,
+                  (SbPlace[]){{x, y - 9, SB_MIDDLE}, {right_px - 4, y - 9, SB_RIGHT}}, 2);
+      small_label(s, value, &style,
+                  (SbPlace[]){{x, y - 25, SB_MIDDLE}, {right_px - 4, y - 25, SB_RIGHT}}, 2);
+    }
+  } else {
+    SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
+    double x = left_px + 0.5 * s->plot.width, y = s->plot.y + 0.62 * s->plot.height;
+    const char *words = !seal ? "no run yet" : !touches(seal) ? "no contact" : "at rest: no film";
+    small_label(s, words, &note, (SbPlace[]){{x, y, SB_MIDDLE}, {x, y - 20, SB_MIDDLE}}, 2);
+  }
+
+  if (sigma_y > s->plot.y && sigma_y < bottom) {
+    sb_format_given(value, SB_QUANTITY_FILM, sigma);
+    g_snprintf(text, sizeof text, "roughness \xcf\x83 %s", value);
+    SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+    double x = touches(seal) ? sb_axis_at(&s->x, 0.5e3 * (seal->contact_left + seal->contact_right))
+                             : left_px + 0.5 * s->plot.width;
+    small_label(s, text, &style,
+                (SbPlace[]){{x, sigma_y + 15, SB_MIDDLE},
+                            {x, sigma_y - 6, SB_MIDDLE},
+                            {right_px - 4, sigma_y + 15, SB_RIGHT},
+                            {left_px + 4, sigma_y + 15, SB_LEFT}},
+                4);
+  }
+  if (s->y.lo < SB_CONTINUUM_LIMIT) {
+    SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_WARN);
+    double y = fmin(sb_axis_at(&s->y, SB_CONTINUUM_LIMIT) + 13, bottom - 5);
+    small_label(s, "below continuum", &style,
+                (SbPlace[]){{right_px - 6, bottom - 7, SB_RIGHT},
+                            {right_px - 6, y, SB_RIGHT},
+                            {left_px + 6, bottom - 7, SB_LEFT},
+                            {left_px + 6, y, SB_LEFT}},
+                4);
+  }
+  curve_finish(&curve);
+}
+
+// A band where a film is thinner than a few molecules.
+static void continuum_band(Small *s) {
+  double y = sb_axis_at(&s->y, SB_CONTINUUM_LIMIT), bottom = s->plot.y + s->plot.height;
+  if (y < bottom) {
+    y = fmax(y, s->plot.y);
+    sb_canvas_color(s->canvas, sb_canvas_role(s->canvas, SB_ROLE_WARN), 0.13);
+    cairo_rectangle(s->canvas->cr, s->plot.x, y, s->plot.width, bottom - y);
+    cairo_fill(s->canvas->cr);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Panels
+
+// What made the curves, for the title line: one model for both seals or "schematic".
+static const char *curve_model(const SbChartData *data, const SbFrame *frame) {
+  const char *model = NULL;
+  bool any = false;
+  for (int i = 0; frame && i < SB_SEAL_COUNT; i++) {
+    if (touches(&frame->seal[i])) {
+      const SbContactProfile *kept =
+          data->run.profile ? data->run.profile(data->run.source, frame->seal[i].profile) : NULL;
+      any = true;
+      model = kept && kept->count > 1 ? kept->model : NULL;
+    }
+  }
+  return any ? (model ? model : "schematic, shape of Hertz") : NULL;
+}
+
+static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                       unsigned flags, bool film) {
+  SbCanvas canvas;
+  SbCanvas *c = &canvas;
+  sb_canvas_init(c, cr, theme);
+  bool compact = flags & SB_CHART_COMPACT, panel = flags & SB_CHART_PANEL;
+  const SbFrame *frame = sb_chart_frame(data);
+  if (panel) {
+    sb_canvas_panel(c, rect);
+  }
+  double pad = panel ? SB_GRID_PADDING : 0;
+  SbRect in = {rect.x + pad, rect.y + (panel ? 14 : 0), rect.width - 2 * pad,
+               rect.height - (panel ? 14 + 9 : 0)};
+
+  // Title and the line beside it.
+  SbTextStyle title =
+      sb_canvas_style(c, compact ? SB_TYPE_PANEL_WINDOW : SB_TYPE_PANEL, 700, SB_ROLE_INK);
+  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  double width = sb_canvas_text(c, film ? "Film thickness" : "Contact pressure", &title, in.x,
+                                in.y + 14, SB_LEFT);
+  char note[160];
+  if (film) {
+    const char *bore = !frame || frame->velocity == 0 ? "at rest"
+                       : frame->velocity > 0          ? "bore moves right"
+                                                      : "bore moves left";
+    g_snprintf(note, sizeof note, "%s%s",
+               compact ? "log scale, position / mm, " : "log scale against axial position / mm, ",
+               bore);
+  } else {
+    g_strlcpy(note,
+              compact ? "MPa, position / mm"
+                      : "MPa against axial position / mm, canister on the left",
+              sizeof note);
+  }
+  const char *model = curve_model(data, frame);
+  if (model && !compact) {
+    g_strlcat(note, "  \xc2\xb7  ", sizeof note);
+    g_strlcat(note, model, sizeof note);
+  }
+  sb_canvas_text_fit(c, note, &label, in.x + width + 12, in.y + 14, in.width - width - 12);
+
+  // Two plots; numbers at the left one only.
+  double numbers = film ? 54 : 34, gap = in.width > 500 ? 44 : 20;
+  double top = in.y + (compact ? 42 : 48), bottom = in.y + in.height - 22;
+  double each = 0.5 * (in.width - numbers - gap - 10);
+  SbTicks xt, yt;
+  static const int order[2] = {SB_INNER, SB_OUTER};
+  SbLabels *labels = g_new(SbLabels, 1);
+  for (int k = 0; k < 2; k++) {
+    Small s = {.canvas = c, .labels = labels, .data = data, .index = order[k]};
+    s.color = sb_theme_seal(theme, s.index);
+    s.seal = frame ? &frame->seal[s.index] : NULL;
+    s.plot = (SbRect){in.x + numbers + k * (each + gap), top, each, fmax(bottom - top, 30)};
+    sb_labels_init(labels,
+                   (SbRect){s.plot.x - 2, s.plot.y - 12, s.plot.width + 4, s.plot.height + 12});
+    position_scale(&s.x, &xt, data, s.plot);
+    SbTextStyle name = {SB_TYPE_LABEL, 600, s.color, 1};
+    sb_canvas_text(c, s.index == SB_INNER ? "Inner seal" : "Outer seal", &name, s.plot.x,
+                   in.y + (compact ? 34 : 40), SB_LEFT);
+    if (film) {
+      film_scale(&s.y, &yt, data, s.plot);
+      continuum_band(&s);
+      small_axes(&s, &xt, &yt, true, k == 0);
+      film_chart(&s);
+    } else {
+      pressure_scale(&s.y, &yt, data, s.plot);
+      small_axes(&s, &xt, &yt, false, k == 0);
+      pressure_chart(&s);
+    }
+  }
+  g_free(labels);
+  sb_canvas_finish(c);
+}
+
+void sb_profiles_pressure_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
+                               const SbChartData *data, unsigned flags) {
+  draw_panel(cr, rect, theme, data, flags, false);
+}
+
+void sb_profiles_film_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                           unsigned flags) {
+  draw_panel(cr, rect, theme, data, flags, true);
+}
+
+void sb_profiles_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                      unsigned flags) {
+  SbRect first = rect, second = rect;
+  if (rect.width > 1.6 * rect.height && rect.width > 700) {
+    first.width = floor(0.5 * (rect.width - SB_GRID_GUTTER));
+    second.x = rect.x + first.width + SB_GRID_GUTTER;
+    second.width = rect.x + rect.width - second.x;
+  } else {
+    first.height = floor(0.5 * (rect.height - 16));
+    second.y = rect.y + first.height + 16;
+    second.height = rect.y + rect.height - second.y;
+  }
+  sb_profiles_pressure_draw(cr, first, theme, data, flags);
+  sb_profiles_film_draw(cr, second, theme, data, flags);
+}

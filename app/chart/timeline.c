@@ -1,0 +1,309 @@
+// Stage strips over time [s] with the stem's displacement. The time axis is the whole cycle's from
+// the first frame on: the platen goes to the stop plus the reversal force over the stiffness and
+// back at constant speed, so its duration is known before the run has ended. What is not computed
+// yet is left blank, what a cancelled run lacks is hatched.
+#include "app/chart/timeline.h"
+#include "app/chart/format.h"
+#include "app/chart/label.h"
+
+#include <glib.h>
+#include <math.h>
+
+static double duration_of(const SbChartData *data) {
+  const SbChartRun *run = &data->run;
+  double known = run->trace ? sb_trace_range(run->trace).time_max : 0;
+  const SbModel *m = run->model;
+  bool whole = run->state == SB_CHART_DONE && run->summary;
+  if (whole && run->summary->duration > 0) {
+    return fmax(known, run->summary->duration);
+  }
+  double expected = 0;
+  if (m && m->speed > 0 && m->stiffness > 0) {
+    expected = 2 * (m->stroke + m->reversal_force / m->stiffness) / m->speed;
+  }
+  double longest = fmax(known, expected);
+  return longest > 0 ? longest : 1;
+}
+
+SbScale sb_timeline_scale(SbRect rect, const SbChartData *data) {
+  return (SbScale){0, duration_of(data), rect.x, rect.x + rect.width, false};
+}
+
+bool sb_timeline_hit(size_t *frame, SbRect rect, const SbChartData *data, double x) {
+  const SbChartRun *run = &data->run;
+  if (run->count == 0) {
+    return false;
+  }
+  SbScale scale = sb_timeline_scale(rect, data);
+  double time = sb_axis_value(&scale, x);
+  size_t lo = 0, hi = run->count - 1;
+  while (lo < hi) {
+    size_t mid = lo + (hi - lo) / 2;
+    if (run->frames[mid].time < time) {
+      lo = mid + 1;
+    } else {
+      hi = mid;
+    }
+  }
+  if (lo > 0 && time - run->frames[lo - 1].time < run->frames[lo].time - time) {
+    lo--;
+  }
+  *frame = lo;
+  return true;
+}
+
+typedef struct {
+  SbCanvas canvas;
+  SbRect rect;
+  SbScale x, s; // time, displacement
+  double top, bottom;
+  SbLabels *labels;
+  const SbChartData *data;
+  int stage;  // under the playhead, -1 without one
+  bool whole; // no playhead
+} View;
+
+static void hatch(View *v, double x0, double x1) {
+  cairo_t *cr = v->canvas.cr;
+  cairo_save(cr);
+  cairo_rectangle(cr, x0, v->top, x1 - x0, v->bottom - v->top);
+  cairo_clip(cr);
+  sb_canvas_pen(&v->canvas, 0.7, NULL);
+  sb_canvas_color(&v->canvas, sb_canvas_role(&v->canvas, SB_ROLE_AXIS), 0.8);
+  double h = v->bottom - v->top;
+  for (double x = x0 - h; x < x1; x += 11) {
+    cairo_move_to(cr, x, v->bottom);
+    cairo_line_to(cr, x + h, v->top);
+  }
+  cairo_stroke(cr);
+  cairo_restore(cr);
+}
+
+// Strips from event to event; the current one in the colour of *now*.
+static void draw_strips(View *v) {
+  SbCanvas *c = &v->canvas;
+  const SbStageMark *mark = sb_trace_marks(v->data->run.trace);
+  double last = sb_trace_range(v->data->run.trace).time_max;
+  for (int s = 0; s < SB_STAGE_COUNT; s++) {
+    if (!mark[s].reached) {
+      continue;
+    }
+    double end = s + 1 < SB_STAGE_COUNT && mark[s + 1].reached ? mark[s + 1].time : last;
+    double x0 = sb_axis_at(&v->x, mark[s].time), x1 = sb_axis_at(&v->x, end);
+    if (s == v->stage) {
+      sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_NOW), c->theme->dark ? 0.20 : 0.11);
+    } else {
+      sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), s % 2 == 0 ? 0.075 : 0.035);
+    }
+    cairo_rectangle(c->cr, x0, v->top, x1 - x0, v->bottom - v->top);
+    cairo_fill(c->cr);
+  }
+  double done = sb_axis_at(&v->x, last);
+  if (v->data->run.state == SB_CHART_PARTIAL || v->data->run.state == SB_CHART_FAILED) {
+    hatch(v, done, v->rect.x + v->rect.width);
+  }
+}
+
+static void draw_displacement(View *v) {
+  const SbChartRun *run = &v->data->run;
+  SbCanvas *c = &v->canvas;
+  size_t n;
+  const SbTracePoint *p = sb_trace_points(run->trace, &n);
+  size_t now = v->whole ? run->count - 1 : MIN(v->data->playhead, run->count - 1);
+  size_t split = MIN(sb_trace_find(run->trace, now), n - 1);
+  SbPoint *q = g_new(SbPoint, n + 1);
+  for (size_t i = 0; i < n; i++) {
+    q[i] = (SbPoint){sb_axis_at(&v->x, p[i].time), sb_axis_at(&v->s, p[i].displacement)};
+  }
+  sb_canvas_pen(c, 1.4, NULL);
+  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_SECOND), 1);
+  sb_canvas_polyline(c, q, n);
+  sb_labels_avoid(v->labels, q, n, 1);
+  q[split + 1] = (SbPoint){sb_axis_at(&v->x, run->frames[now].time),
+                           sb_axis_at(&v->s, run->frames[now].displacement)};
+  sb_canvas_pen(c, 2.4, NULL);
+  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
+  sb_canvas_polyline(c, q, split + 2);
+  g_free(q);
+}
+
+static void draw_events(View *v) {
+  SbCanvas *c = &v->canvas;
+  SbTextStyle letter = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
+  const SbStageMark *mark = sb_trace_marks(v->data->run.trace);
+  double taken = -1e9;
+  double right = v->rect.x + v->rect.width;
+  for (int s = 0; s < SB_STAGE_COUNT; s++) {
+    if (!mark[s].reached) {
+      continue;
+    }
+    double x = sb_axis_at(&v->x, mark[s].time);
+    sb_canvas_hairline(c, x, v->top - 3, x, v->bottom, sb_canvas_role(c, SB_ROLE_AXIS));
+    // Letters stand apart by at least 4 px, to the right of their line if they must.
+    double width = sb_canvas_text_width(c, sb_stage_name((SbStage)s), &letter);
+    double left = fmax(x - 0.5 * width, fmax(taken + 4, v->rect.x));
+    if (left + width <= right && left - x < 14) {
+      sb_canvas_text(c, sb_stage_name((SbStage)s), &letter, left, v->top - 7, SB_LEFT);
+      taken = left + width;
+    }
+  }
+  if (sb_chart_complete(v->data) && taken < right - 20) {
+    sb_canvas_text(c, "A", &letter, right, v->top - 7, SB_RIGHT);
+  }
+}
+
+static void draw_axis(View *v) {
+  SbCanvas *c = &v->canvas;
+  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  SbColor axis = sb_canvas_role(c, SB_ROLE_AXIS);
+  double right = v->rect.x + v->rect.width;
+  sb_canvas_hairline(c, v->rect.x, v->bottom, right, v->bottom, axis);
+  SbTicks t;
+  sb_axis_ticks(&t, 0, v->x.hi, v->rect.width > 700 ? 8 : 5);
+  char text[SB_FORMAT_MAX];
+  for (int i = 0; i < t.count; i++) {
+    double x = sb_axis_at(&v->x, t.value[i]);
+    sb_canvas_hairline(c, x, v->bottom, x, v->bottom + 6, axis);
+    if (t.value[i] == 0) {
+      sb_canvas_text(c, "0 s", &label, v->rect.x, v->bottom + 20, SB_LEFT);
+    } else {
+      sb_format_fixed(text, t.value[i], t.decimals);
+      double half = 0.5 * sb_canvas_text_width(c, text, &label);
+      sb_canvas_text(c, text, &label, fmin(x, right - half), v->bottom + 20, SB_MIDDLE);
+    }
+    for (int k = 1; k < 5; k++) {
+      double minor = t.value[i] + k * t.step / 5;
+      if (minor < v->x.hi && sb_axis_at(&v->x, minor) - x > 5.0 * k) {
+        double mx = sb_axis_at(&v->x, minor);
+        sb_canvas_hairline(c, mx, v->bottom, mx, v->bottom + 3, axis);
+      }
+    }
+  }
+}
+
+static void draw_markers(View *v) {
+  SbCanvas *c = &v->canvas;
+  SbColor violet = sb_canvas_role(c, SB_ROLE_VIOLET);
+  for (size_t i = 0; i < v->data->marker_count; i++) {
+    const SbChartMarker *m = &v->data->marker[i];
+    double x = floor(sb_axis_at(&v->x, m->time)) + 0.5;
+    sb_canvas_pen(c, 1.4, &sb_dash_dimension);
+    sb_canvas_color(c, violet, 1);
+    cairo_move_to(c->cr, x, v->top);
+    cairo_line_to(c->cr, x, v->bottom);
+    cairo_stroke(c->cr);
+    SbTextStyle style = {SB_TYPE_NOTE, 700,
+                         sb_theme_readable(c->theme, sb_canvas_role(c, SB_ROLE_PANEL), violet), 1};
+    double width = sb_canvas_text_width(c, m->name, &style) + 6;
+    double left = fmin(x - 0.5, v->rect.x + v->rect.width - width);
+    sb_canvas_color(c, violet, 1);
+    cairo_rectangle(c->cr, left, v->top - 17, width, 15);
+    cairo_fill(c->cr);
+    sb_canvas_text(c, m->name, &style, left + 3, v->top - 5.5, SB_LEFT);
+  }
+}
+
+static void draw_names(View *v) {
+  SbCanvas *c = &v->canvas;
+  const SbChartRun *run = &v->data->run;
+  const SbStageMark *mark = sb_trace_marks(run->trace);
+  SbTextStyle plain = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  SbTextStyle now = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_NOW);
+  double last = sb_trace_range(run->trace).time_max;
+  SbPlace at;
+  if (mark[SB_STAGE_D].reached) {
+    double x = sb_axis_at(&v->x, mark[SB_STAGE_D].time) - 8;
+    char value[SB_FORMAT_MAX], text[64];
+    sb_format_text(value, SB_QUANTITY_LENGTH, mark[SB_STAGE_D].displacement, 0);
+    g_snprintf(text, sizeof text, "stroke %s", value);
+    if (sb_labels_place(v->labels, c, text, &plain, (SbPlace[]){{x, v->bottom - 9, SB_RIGHT}}, 1,
+                        &at)) {
+      sb_canvas_text(c, text, &plain, at.x, at.y, at.align);
+    }
+  }
+  for (int s = 0; s < SB_STAGE_COUNT; s++) {
+    if (!mark[s].reached) {
+      continue;
+    }
+    double end = s + 1 < SB_STAGE_COUNT && mark[s + 1].reached ? mark[s + 1].time : last;
+    double x0 = sb_axis_at(&v->x, mark[s].time), x1 = sb_axis_at(&v->x, end);
+    const char *text = sb_chart_phase(run, s);
+    const SbTextStyle *style = s == v->stage ? &now : &plain;
+    double width = sb_canvas_text_width(c, text, style);
+    if (width + 16 > x1 - x0) {
+      continue; // does not fit its own strip
+    }
+    double middle = 0.5 * (x0 + x1 - width);
+    const SbPlace places[] = {{x0 + 10, v->bottom - 9, SB_LEFT}, {x0 + 10, v->top + 16, SB_LEFT},
+                              {middle, v->top + 16, SB_LEFT},    {middle, v->bottom - 9, SB_LEFT},
+                              {x1 - 8, v->top + 16, SB_RIGHT},   {x1 - 8, v->bottom - 9, SB_RIGHT}};
+    if (sb_labels_place(v->labels, c, text, style, places, G_N_ELEMENTS(places), &at)) {
+      sb_canvas_text(c, text, style, at.x, at.y, at.align);
+    }
+  }
+  if (run->state == SB_CHART_PARTIAL || run->state == SB_CHART_FAILED) {
+    double x0 = sb_axis_at(&v->x, last), x1 = v->rect.x + v->rect.width;
+    if (x1 - x0 > 60) {
+      SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_WARN);
+      sb_canvas_text_plate(c, run->state == SB_CHART_PARTIAL ? "partial" : "not computed", &style,
+                           0.5 * (x0 + x1), 0.5 * (v->top + v->bottom) + 4, SB_MIDDLE,
+                           sb_canvas_role(c, SB_ROLE_WARN_GROUND));
+    }
+  }
+}
+
+static void draw_playhead(View *v) {
+  SbCanvas *c = &v->canvas;
+  const SbFrame *frame = sb_chart_frame(v->data);
+  double x = sb_axis_at(&v->x, frame->time), y = sb_axis_at(&v->s, frame->displacement);
+  SbColor now = sb_canvas_role(c, SB_ROLE_NOW);
+  sb_canvas_pen(c, 2, NULL);
+  sb_canvas_color(c, now, 1);
+  cairo_move_to(c->cr, x, v->top - 14);
+  cairo_line_to(c->cr, x, v->bottom + 6);
+  cairo_stroke(c->cr);
+  cairo_move_to(c->cr, x - 6, v->top - 18);
+  cairo_line_to(c->cr, x + 6, v->top - 18);
+  cairo_line_to(c->cr, x, v->top - 8);
+  cairo_close_path(c->cr);
+  cairo_fill(c->cr);
+  sb_canvas_dot(c, x, y, 5.6, sb_canvas_role(c, SB_ROLE_PANEL));
+  sb_canvas_dot(c, x, y, 4, now);
+}
+
+void sb_timeline_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                      unsigned flags) {
+  View v = {.rect = rect, .data = data, .stage = -1, .whole = flags & SB_CHART_WHOLE};
+  sb_canvas_init(&v.canvas, cr, theme);
+  v.top = rect.y + 18;
+  v.bottom = rect.y + fmax(rect.height - 22, 40);
+  v.x = sb_timeline_scale(rect, data);
+  const SbFrame *frame = v.whole ? NULL : sb_chart_frame(data);
+  bool any = data->run.count > 0 && data->run.trace && sb_trace_frames(data->run.trace) > 0;
+  draw_axis(&v);
+  if (any) {
+    double stroke = sb_trace_range(data->run.trace).displacement_max;
+    if (data->run.model) {
+      stroke = fmax(stroke, data->run.model->stroke);
+    }
+    v.s = (SbScale){0, stroke > 0 ? stroke : 1, v.bottom - 4, v.top + 6, false};
+    v.stage = frame ? frame->stage : -1;
+    v.labels = g_new(SbLabels, 1);
+    sb_labels_init(v.labels, (SbRect){rect.x, v.top, rect.width, v.bottom - v.top});
+    if (frame) {
+      // Names keep off the playhead.
+      double x = sb_axis_at(&v.x, frame->time);
+      sb_labels_block(v.labels, (SbRect){x - 4, v.top, 8, v.bottom - v.top});
+    }
+    draw_strips(&v);
+    draw_displacement(&v);
+    draw_events(&v);
+    draw_markers(&v);
+    draw_names(&v);
+    if (frame) {
+      draw_playhead(&v);
+    }
+    g_free(v.labels);
+  }
+  sb_canvas_finish(&v.canvas);
+}
