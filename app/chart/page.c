@@ -183,13 +183,26 @@ void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
 // ---------------------------------------------------------------------------------------------------
 // Footer
 
+static bool is_narrow(SbRect rect) {
+  return rect.width < 1300;
+}
+
+double sb_page_footer_height(SbRect rect) {
+  return is_narrow(rect) ? SB_PAGE_FOOTER + 18 : SB_PAGE_FOOTER;
+}
+
 void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                          unsigned flags) {
   SbCanvas canvas;
   SbCanvas *c = &canvas;
   sb_canvas_init(c, cr, theme);
   double left = rect.x + SB_GRID_MARGIN, right = rect.x + rect.width - SB_GRID_MARGIN;
-  double y = rect.y + rect.height - 38, y2 = rect.y + rect.height - 20;
+  bool narrow = is_narrow(rect);
+  double y2 = rect.y + rect.height - 20, y = y2 - 18, y_warn = y;
+  if (narrow) {
+    y2 -= 18;
+    y -= 18;
+  }
   const SbSummary *summary = data->run.summary;
   SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_SECOND);
   SbTextStyle plain = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
@@ -223,9 +236,9 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   double models_width = sb_canvas_text_width(c, text, &plain);
   size_t warnings = summary ? summary->warnings.count + summary->warnings.dropped : 0;
   double room = right - left - width - 8;
-  double models_room = warnings ? fmin(models_width, 0.62 * room) : room;
+  double models_room = warnings && !narrow ? fmin(models_width, 0.62 * room) : room;
   models_room = sb_canvas_text_fit(c, text, &plain, left + width + 8, y, models_room);
-  double warn_left = left + width + 8 + models_room + 32;
+  double warn_left = narrow ? left : left + width + 8 + models_room + 32;
 
   width = sb_canvas_text(c, "Error estimates", &bold, left, y2, SB_LEFT);
   sb_page_errors_text(text, sizeof text, &data->run);
@@ -260,11 +273,14 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
     }
     double rest_width = rest[0] ? sb_canvas_text_width(c, rest, &warn_bold) : 0;
     double line_width = fmin(sb_canvas_text_width(c, line->str, &warn), space - rest_width);
-    double x = right - rest_width - line_width - head_width;
-    sb_canvas_text(c, head, &warn_bold, x, y, SB_LEFT);
-    sb_canvas_text_fit(c, line->str, &warn, x + head_width, y, line_width + 0.5);
+    double x = narrow ? left : right - rest_width - line_width - head_width;
+    if (narrow) {
+      y_warn = rect.y + rect.height - 20;
+    }
+    sb_canvas_text(c, head, &warn_bold, x, y_warn, SB_LEFT);
+    sb_canvas_text_fit(c, line->str, &warn, x + head_width, y_warn, line_width + 0.5);
     if (rest[0]) {
-      sb_canvas_text(c, rest, &warn_bold, right, y, SB_RIGHT);
+      sb_canvas_text(c, rest, &warn_bold, x + head_width + line_width, y_warn, SB_LEFT);
     }
   }
   sb_canvas_finish(c);

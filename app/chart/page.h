@@ -9,6 +9,9 @@
 #define SB_PAGE_HEADER 88.0
 #define SB_PAGE_FOOTER 56.0
 
+// Height of the footer on this page: a narrow one gives the warnings a line of their own.
+double sb_page_footer_height(SbRect rect);
+
 // Title, subtitle or state, and (unless SB_CHART_WHOLE) the read-outs of the frame, inside the page
 // margins of `rect` (the whole page).
 void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,

@@ -1,0 +1,208 @@
+// The table of views and the page that each is put on. A page is scaled as a whole from the size its
+// view is made for, but not below 0.8: then the view gets less room and text stays readable. A still
+// of the loop without a given time shows the whole run; the other views need an instant and take the
+// middle of B-C.
+#include "app/export/render.h"
+
+#include "app/chart/hysteresis.h"
+#include "app/chart/page.h"
+#include "app/chart/profiles.h"
+#include "app/export/still.h"
+
+#include <math.h>
+#include <string.h>
+
+static const SbRenderView views[] = {
+    {"section", "Axial section", 1280, 720, true},
+    {"hysteresis", "Force and displacement", 960, 720, false},
+    {"profiles", "Contact pressure and film", 1440, 520, false},
+    {"dashboard", "Dashboard", 1920, 1080, true},
+};
+
+const SbRenderView *sb_render_views(size_t *count) {
+  *count = G_N_ELEMENTS(views);
+  return views;
+}
+
+const SbRenderView *sb_render_view(const char *name) {
+  for (size_t i = 0; i < G_N_ELEMENTS(views); i++) {
+    if (strcmp(views[i].name, name) == 0) {
+      return &views[i];
+    }
+  }
+  return NULL;
+}
+
+void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                    unsigned flags, const SbRenderView *view, SbSectionDraw section, void *user) {
+  if (strcmp(view->name, "dashboard") == 0) {
+    sb_dashboard_draw(cr, rect, theme, data, flags, section, user);
+    return;
+  }
+  double scale = fmin(rect.width / view->width, rect.height / view->height);
+  if (scale < 0.8) {
+    scale = fmin(0.8, fmin(rect.width / 560, rect.height / 420));
+  }
+  scale = fmax(scale, 0.02);
+  SbRect page = {0, 0, rect.width / scale, rect.height / scale};
+  cairo_save(cr);
+  cairo_translate(cr, rect.x, rect.y);
+  cairo_scale(cr, scale, scale);
+  SbColor ground = theme->role[SB_ROLE_BACKGROUND];
+  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
+  cairo_rectangle(cr, 0, 0, page.width, page.height);
+  cairo_fill(cr);
+
+  // A narrow page has no room for read-outs beside its title; the view's own labels say the same.
+  unsigned header = page.width < 1000 ? flags | SB_CHART_WHOLE : flags;
+  sb_page_header_draw(cr, page, theme, data, header);
+  double footer = sb_page_footer_height(page);
+  SbRect body = {SB_GRID_MARGIN, SB_PAGE_HEADER, page.width - 2 * SB_GRID_MARGIN,
+                 page.height - SB_PAGE_HEADER - footer - 8};
+  flags |= SB_CHART_PANEL;
+  if (strcmp(view->name, "hysteresis") == 0) {
+    sb_hysteresis_draw(cr, body, theme, data, flags);
+  } else if (strcmp(view->name, "profiles") == 0) {
+    sb_profiles_draw(cr, body, theme, data, flags);
+  } else if (section) {
+    SbCanvas canvas;
+    sb_canvas_init(&canvas, cr, theme);
+    sb_canvas_panel(&canvas, body);
+    sb_canvas_finish(&canvas);
+    cairo_save(cr);
+    cairo_rectangle(cr, body.x, body.y, body.width, body.height);
+    cairo_clip(cr);
+    section(cr, body, theme, data, user);
+    cairo_restore(cr);
+  }
+  sb_page_footer_draw(cr, page, theme, data, flags);
+  cairo_restore(cr);
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Stills
+
+static size_t nearest_frame(const SbFrame *frames, size_t count, double time) {
+  size_t lo = 0, hi = count - 1;
+  while (lo < hi) {
+    size_t mid = lo + (hi - lo) / 2;
+    if (frames[mid].time < time) {
+      lo = mid + 1;
+    } else {
+      hi = mid;
+    }
+  }
+  return lo > 0 && time - frames[lo - 1].time < frames[lo].time - time ? lo - 1 : lo;
+}
+
+bool sb_render_frame_at(size_t *frame, const SbRun *run, const char *at, GError **error) {
+  size_t count;
+  const SbFrame *frames = sb_run_frames(run, &count);
+  const SbSummary *summary = sb_run_summary(run);
+  if (count == 0) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the run has no frame to show");
+    return false;
+  }
+  if (!at || !at[0]) {
+    const SbStageMark *b = &summary->stage[SB_STAGE_B], *c = &summary->stage[SB_STAGE_C];
+    *frame = b->reached && c->reached
+                 ? nearest_frame(frames, count, 0.5 * (b->time + c->time))
+                 : count - 1;
+    return true;
+  }
+  for (int s = 0; s < SB_STAGE_COUNT; s++) {
+    if (g_ascii_strcasecmp(at, sb_stage_name((SbStage)s)) == 0) {
+      if (!summary->stage[s].reached) {
+        g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "stage %s was not reached",
+                    sb_stage_name((SbStage)s));
+        return false;
+      }
+      *frame = summary->stage[s].frame;
+      return true;
+    }
+  }
+  double time;
+  GError *reason = NULL;
+  if (!sb_quantity_parse(&time, at, "s", "s", &reason)) {
+    g_propagate_prefixed_error(error, reason, "neither a stage (A to F) nor a time: ");
+    return false;
+  }
+  double last = frames[count - 1].time;
+  if (!(time >= 0 && time <= last * (1 + 1e-9))) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "the run has no time %s (allowed 0 to %.4g s)", at, last);
+    return false;
+  }
+  *frame = nearest_frame(frames, count, time);
+  return true;
+}
+
+typedef struct {
+  const SbRenderView *view;
+  const SbRenderOptions *options;
+  const SbTheme *theme;
+  const SbChartData *data;
+  unsigned flags;
+} Page;
+
+static void draw_page(cairo_t *cr, double width, double height, void *user) {
+  const Page *page = user;
+  sb_render_draw(cr, (SbRect){0, 0, width, height}, page->theme, page->data, page->flags,
+                 page->view, page->options->section, page->options->section_data);
+}
+
+bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const char *path,
+                     GError **error) {
+  const SbRenderView *view = sb_render_view(options->view);
+  if (!view) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "there is no view \"%s\"", options->view);
+    return false;
+  }
+  if (strcmp(view->name, "section") == 0 && !options->section) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the section cannot be drawn here");
+    return false;
+  }
+  size_t frame;
+  if (!sb_render_frame_at(&frame, run, options->at, error)) {
+    return false;
+  }
+
+  const SbSummary *summary = sb_run_summary(run);
+  size_t count;
+  const SbFrame *frames = sb_run_frames(run, &count);
+  SbTrace *trace = sb_trace_create(sb_run_model(run));
+  sb_trace_extend(trace, frames, count, 0);
+  SbChartData data = {.playhead = frame,
+                      .title = options->title,
+                      .subtitle = options->subtitle,
+                      .hash = options->hash};
+  SbChartState state = summary->status == SB_OK                ? SB_CHART_DONE
+                       : summary->status == SB_ERROR_CANCELLED ? SB_CHART_PARTIAL
+                                                               : SB_CHART_FAILED;
+  sb_chart_run_init(&data.run, run, trace, state);
+
+  // Models, errors and warnings also go into the file's own texts.
+  char models[256], errors[256];
+  sb_page_models_text(models, sizeof models, &data.run);
+  sb_page_errors_text(errors, sizeof errors, &data.run);
+  GString *comment = g_string_new(NULL);
+  g_string_append_printf(comment, "Models: %s\nError estimates: %s", models, errors);
+  for (size_t i = 0; i < summary->warnings.count; i++) {
+    g_string_append_printf(comment, "\nWarning: %s", summary->warnings.item[i].text);
+  }
+  bool whole = !options->at && strcmp(view->name, "hysteresis") == 0;
+  Page page = {view, options, sb_theme(options->dark), &data, whole ? SB_CHART_WHOLE : 0};
+  SbStill still = {.width = options->width > 0 ? options->width : view->width,
+                   .height = options->height > 0 ? options->height : view->height,
+                   .scale = options->scale,
+                   .title = options->title,
+                   .scene = options->scene,
+                   .hash = options->hash,
+                   .comment = comment->str,
+                   .draw = draw_page,
+                   .user = &page};
+  bool good = sb_still_write(&still, path, error);
+  g_string_free(comment, TRUE);
+  sb_trace_destroy(trace);
+  return good;
+}

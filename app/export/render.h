@@ -1,0 +1,52 @@
+// Views by name: what `sealbench render` and the export dialog draw, as a still or as one frame of a
+// film.
+#pragma once
+
+#include "app/chart/dashboard.h"
+#include "app/document/unit.h"
+#include "engine/run.h"
+
+// One view of the table.
+typedef struct {
+  const char *name;          // "hysteresis"
+  const char *label;         // "Force and displacement"
+  double width, height;      // size it is made for
+  bool section;              // needs the section's drawing function
+} SbRenderView;
+
+// The table, `*count` rows; static.
+const SbRenderView *sb_render_views(size_t *count);
+
+// A row by name; NULL if there is none.
+const SbRenderView *sb_render_view(const char *name);
+
+// What a picture takes beside the run. Pointers are borrowed; zero is a good default everywhere but
+// `view`.
+typedef struct {
+  const char *view;         // name in the table
+  double width, height;     // logical pixels; 0: the view's own size
+  double scale;             // PNG pixels per logical pixel; 0 counts as 1
+  bool dark;                //
+  const char *at;           // "C" or "7.27 s"; NULL: see sb_render_frame_at()
+  const char *title;        // of the scene
+  const char *subtitle;     // files and conditions
+  const char *hash;         // of the parameters
+  const char *scene;        // text that restores the scene, for PNG and SVG
+  SbSectionDraw section;    // draws the section; NULL: views that need it are refused
+  void *section_data;
+} SbRenderOptions;
+
+// Draws one page of the view: ground, header, the view, footer. For films call it once per frame on
+// an image surface. `data` may be of a run that is still going.
+void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                    unsigned flags, const SbRenderView *view, SbSectionDraw section, void *user);
+
+// Renders a finished run (done, cancelled or failed) into PNG, SVG or PDF by the ending of `path`.
+// Fails with SB_APP_ERROR_INPUT (unknown view, stage not reached, size, ending) or SB_APP_ERROR_IO.
+bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const char *path,
+                     GError **error);
+
+// Frame of "A" to "F" (just before the event) or of a time with unit (nearest frame). NULL: the
+// middle of B-C, where the run's figures are defined, or the last frame of a run that has no C.
+// False with an error if the stage was not reached or the text is neither.
+bool sb_render_frame_at(size_t *frame, const SbRun *run, const char *at, GError **error);

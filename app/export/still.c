@@ -1,0 +1,333 @@
+// Still pictures. PNG through libpng, because cairo cannot write text chunks: 8-bit RGB (the page is
+// opaque) with iTXt chunks Title, Software, Comment, sealbench-hash and sealbench-scene, and its
+// physical size. SVG and PDF by cairo into memory, so that the file is written in one go; the SVG
+// gets the same texts as a metadata element, the PDF as document information. A logical pixel is
+// 1/96 inch on paper. Leaves out transparency and colour profiles (sRGB is meant, and said in PNG).
+#include "app/export/still.h"
+
+#include "app/document/atomic.h"
+#include "engine/sealbench.h"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <errno.h>
+#include <math.h>
+#include <png.h>
+#include <setjmp.h>
+#include <string.h>
+
+#define SCENE_KEY "sealbench-scene"
+#define HASH_KEY  "sealbench-hash"
+
+static bool fail_cairo(GError **error, cairo_status_t status) {
+  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "the picture could not be drawn: %s",
+              cairo_status_to_string(status));
+  return false;
+}
+
+// Draws on a surface and says whether everything went well.
+static bool draw_on(cairo_surface_t *surface, const SbStill *still, double scale, GError **error) {
+  cairo_t *cr = cairo_create(surface);
+  cairo_scale(cr, scale, scale);
+  still->draw(cr, still->width, still->height, still->user);
+  cairo_status_t status = cairo_status(cr);
+  cairo_destroy(cr);
+  if (status != CAIRO_STATUS_SUCCESS) {
+    return fail_cairo(error, status);
+  }
+  return true;
+}
+
+// ---------------------------------------------------------------------------------------------------
+// PNG
+
+// libpng reports by a callback that must not return.
+typedef struct {
+  jmp_buf back;
+  char text[160];
+} PngFailure;
+
+static void png_failed(png_structp png, png_const_charp text) {
+  PngFailure *failure = png_get_error_ptr(png);
+  g_strlcpy(failure->text, text, sizeof failure->text);
+  longjmp(failure->back, 1);
+}
+
+static void png_warned(png_structp png, png_const_charp text) {
+}
+
+static void png_write_bytes(png_structp png, png_bytep data, png_size_t length) {
+  FILE *stream = png_get_io_ptr(png);
+  if (fwrite(data, 1, length, stream) != length) {
+    png_error(png, g_strerror(errno));
+  }
+}
+
+static void png_flush_bytes(png_structp png) {
+}
+
+static int add_text(png_text *text, int count, const char *key, const char *value) {
+  if (value && value[0]) {
+    // The library wants pointers to char but only reads them.
+    text[count] = (png_text){.compression = strlen(value) > 400 ? PNG_ITXT_COMPRESSION_zTXt
+                                                                : PNG_ITXT_COMPRESSION_NONE,
+                             .key = (char *)(gintptr)key,
+                             .text = (char *)(gintptr)value,
+                             .itxt_length = strlen(value)};
+    count++;
+  }
+  return count;
+}
+
+// Only plain variables live across the jump; all are set before it.
+static bool encode_png(FILE *stream, cairo_surface_t *surface, const SbStill *still, double scale,
+                       const char *software, png_byte *row, GError **error) {
+  PngFailure failure = {.text = ""};
+  png_structp png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, png_failed, png_warned);
+  png_infop info = png ? png_create_info_struct(png) : NULL;
+  if (!info) {
+    png_destroy_write_struct(&png, NULL);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "no memory for the picture");
+    return false;
+  }
+  if (setjmp(failure.back)) {
+    png_destroy_write_struct(&png, &info);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s", failure.text);
+    return false;
+  }
+  int width = cairo_image_surface_get_width(surface);
+  int height = cairo_image_surface_get_height(surface);
+  int stride = cairo_image_surface_get_stride(surface);
+  const unsigned char *pixels = cairo_image_surface_get_data(surface);
+  png_set_write_fn(png, stream, png_write_bytes, png_flush_bytes);
+  png_set_IHDR(png, info, (png_uint_32)width, (png_uint_32)height, 8, PNG_COLOR_TYPE_RGB,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_uint_32 per_metre = (png_uint_32)lround(96 * scale / 0.0254);
+  png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
+  png_text text[5];
+  memset(text, 0, sizeof text);
+  int count = add_text(text, 0, "Title", still->title);
+  count = add_text(text, count, "Software", software);
+  count = add_text(text, count, "Comment", still->comment);
+  count = add_text(text, count, HASH_KEY, still->hash);
+  count = add_text(text, count, SCENE_KEY, still->scene);
+  png_set_text(png, info, text, count);
+  png_write_info(png, info);
+  for (int y = 0; y < height; y++) {
+    const guint32 *from = (const guint32 *)(const void *)(pixels + (size_t)y * (size_t)stride);
+    for (int x = 0; x < width; x++) {
+      row[3 * x] = (png_byte)(from[x] >> 16);
+      row[3 * x + 1] = (png_byte)(from[x] >> 8);
+      row[3 * x + 2] = (png_byte)from[x];
+    }
+    png_write_row(png, row);
+  }
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return true;
+}
+
+static bool write_png(const SbStill *still, const char *path, GError **error) {
+  double scale = still->scale > 0 ? still->scale : 1;
+  double width = round(still->width * scale), height = round(still->height * scale);
+  if (width > SB_STILL_MAX || height > SB_STILL_MAX) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "a picture of %.0fx%.0f pixels is too large (at most %d a side)", width, height,
+                SB_STILL_MAX);
+    return false;
+  }
+  cairo_surface_t *surface =
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
+  bool good = true;
+  if (cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) {
+    good = fail_cairo(error, cairo_surface_status(surface));
+  } else {
+    cairo_surface_set_device_scale(surface, scale, scale);
+    good = draw_on(surface, still, 1, error);
+  }
+  if (good) {
+    cairo_surface_flush(surface);
+    char *software = g_strdup_printf("Sealbench %s", sb_version());
+    png_byte *row = g_malloc(3 * (size_t)width);
+    SbAtomicFile file;
+    good = sb_atomic_file_begin(&file, path, error);
+    if (good) {
+      GError *reason = NULL;
+      if (encode_png(file.stream, surface, still, scale, software, row, &reason)) {
+        good = sb_atomic_file_commit(&file, error);
+      } else {
+        sb_atomic_file_abort(&file);
+        g_propagate_prefixed_error(error, reason, "%s: ", path);
+        good = false;
+      }
+    }
+    g_free(row);
+    g_free(software);
+  }
+  cairo_surface_destroy(surface);
+  return good;
+}
+
+// ---------------------------------------------------------------------------------------------------
+// SVG and PDF
+
+static cairo_status_t append_bytes(void *closure, const unsigned char *data, unsigned length) {
+  g_byte_array_append(closure, data, length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+// The texts as elements that any reader of SVG skips and we can find.
+static char *svg_metadata(const SbStill *still) {
+  GString *out = g_string_new("\n");
+  char *title = g_markup_escape_text(still->title ? still->title : "Sealbench", -1);
+  char *comment = g_markup_escape_text(still->comment ? still->comment : "", -1);
+  char *scene = g_markup_escape_text(still->scene ? still->scene : "", -1);
+  char *hash = g_markup_escape_text(still->hash ? still->hash : "", -1);
+  g_string_append_printf(out, "<title>%s</title>\n<desc>%s</desc>\n", title, comment);
+  g_string_append_printf(out,
+                         "<metadata><sealbench xmlns=\"urn:sealbench\" version=\"%s\" "
+                         "hash=\"%s\">%s</sealbench></metadata>",
+                         sb_version(), hash, scene);
+  g_free(hash);
+  g_free(scene);
+  g_free(comment);
+  g_free(title);
+  return g_string_free(out, FALSE);
+}
+
+static bool write_svg(const SbStill *still, const char *path, GError **error) {
+  GByteArray *bytes = g_byte_array_new();
+  cairo_surface_t *surface =
+      cairo_svg_surface_create_for_stream(append_bytes, bytes, still->width, still->height);
+  cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+  bool good = draw_on(surface, still, 1, error);
+  cairo_surface_finish(surface);
+  if (good && cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) {
+    good = fail_cairo(error, cairo_surface_status(surface));
+  }
+  cairo_surface_destroy(surface);
+  if (good) {
+    // Behind the opening tag of the document.
+    g_byte_array_append(bytes, (const guint8 *)"", 1);
+    const char *text = (const char *)bytes->data, *tag = strstr(text, "<svg");
+    const char *end = tag ? strchr(tag, '>') : NULL;
+    GString *out = g_string_new(NULL);
+    if (end) {
+      char *metadata = svg_metadata(still);
+      g_string_append_len(out, text, end + 1 - text);
+      g_string_append(out, metadata);
+      g_string_append(out, end + 1);
+      g_free(metadata);
+    } else {
+      g_string_append(out, text);
+    }
+    good = sb_atomic_write(path, out->str, out->len, error);
+    g_string_free(out, TRUE);
+  }
+  g_byte_array_unref(bytes);
+  return good;
+}
+
+static bool write_pdf(const SbStill *still, const char *path, GError **error) {
+  const double points = 0.75; // 72 per inch over 96 pixels per inch
+  GByteArray *bytes = g_byte_array_new();
+  cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(
+      append_bytes, bytes, still->width * points, still->height * points);
+  char *creator = g_strdup_printf("Sealbench %s", sb_version());
+  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, creator);
+  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE,
+                                 still->title ? still->title : "Sealbench");
+  if (still->comment) {
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, still->comment);
+  }
+  if (still->hash) {
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_KEYWORDS, still->hash);
+  }
+  bool good = draw_on(surface, still, points, error);
+  cairo_surface_finish(surface);
+  if (good && cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) {
+    good = fail_cairo(error, cairo_surface_status(surface));
+  }
+  cairo_surface_destroy(surface);
+  good = good && sb_atomic_write(path, (const char *)bytes->data, bytes->len, error);
+  g_free(creator);
+  g_byte_array_unref(bytes);
+  return good;
+}
+
+bool sb_still_write(const SbStill *still, const char *path, GError **error) {
+  if (!(still->width >= SB_STILL_MIN && still->height >= SB_STILL_MIN &&
+        still->width <= SB_STILL_MAX && still->height <= SB_STILL_MAX)) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "a picture of %.0fx%.0f is not possible (%d to %d a side)", still->width,
+                still->height, SB_STILL_MIN, SB_STILL_MAX);
+    return false;
+  }
+  char *lower = g_ascii_strdown(path, -1);
+  bool good = false;
+  if (g_str_has_suffix(lower, ".png")) {
+    good = write_png(still, path, error);
+  } else if (g_str_has_suffix(lower, ".svg")) {
+    good = write_svg(still, path, error);
+  } else if (g_str_has_suffix(lower, ".pdf")) {
+    good = write_pdf(still, path, error);
+  } else {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "%s: the ending must be .png, .svg or .pdf", path);
+  }
+  g_free(lower);
+  return good;
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Reading back
+
+static char *find_scene(FILE *stream, GError **error) {
+  PngFailure failure = {.text = ""};
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, png_failed, png_warned);
+  png_infop info = png ? png_create_info_struct(png) : NULL;
+  if (!info) {
+    png_destroy_read_struct(&png, NULL, NULL);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "no memory for the picture");
+    return NULL;
+  }
+  if (setjmp(failure.back)) {
+    png_destroy_read_struct(&png, &info, NULL);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "not a readable PNG: %s", failure.text);
+    return NULL;
+  }
+  png_init_io(png, stream);
+  png_set_chunk_malloc_max(png, 4000000);
+  png_read_info(png, info);
+  png_textp text = NULL;
+  int count = 0;
+  char *found = NULL;
+  png_get_text(png, info, &text, &count);
+  for (int i = 0; i < count && !found; i++) {
+    if (strcmp(text[i].key, SCENE_KEY) == 0 && text[i].text) {
+      found = g_strdup(text[i].text);
+    }
+  }
+  png_destroy_read_struct(&png, &info, NULL);
+  if (!found) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "this PNG holds no scene");
+  }
+  return found;
+}
+
+char *sb_still_read_scene(const char *path, GError **error) {
+  FILE *stream = fopen(path, "rb");
+  if (!stream) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s: %s", path, g_strerror(errno));
+    return NULL;
+  }
+  GError *reason = NULL;
+  char *found = find_scene(stream, &reason);
+  fclose(stream);
+  if (!found) {
+    g_propagate_prefixed_error(error, reason, "%s: ", path);
+  }
+  return found;
+}
