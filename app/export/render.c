@@ -1,7 +1,7 @@
-// The table of views and the page that each is put on. A page is scaled as a whole from the size its
-// view is made for, but not below 0.8: then the view gets less room and text stays readable. A still
-// of the loop without a given time shows the whole run; the other views need an instant and take the
-// middle of B-C.
+// The table of views and the page that each is put on. A page is scaled as a whole from the size
+// its view is made for, but not below 0.8: then the view gets less room and text stays readable. A
+// still of the loop without a given time shows the whole run; the other views need an instant and
+// take the middle of B-C.
 #include "app/export/render.h"
 
 #include "app/chart/hysteresis.h"
@@ -105,9 +105,8 @@ bool sb_render_frame_at(size_t *frame, const SbRun *run, const char *at, GError 
   }
   if (!at || !at[0]) {
     const SbStageMark *b = &summary->stage[SB_STAGE_B], *c = &summary->stage[SB_STAGE_C];
-    *frame = b->reached && c->reached
-                 ? nearest_frame(frames, count, 0.5 * (b->time + c->time))
-                 : count - 1;
+    *frame = b->reached && c->reached ? nearest_frame(frames, count, 0.5 * (b->time + c->time))
+                                      : count - 1;
     return true;
   }
   for (int s = 0; s < SB_STAGE_COUNT; s++) {

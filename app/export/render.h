@@ -1,5 +1,5 @@
-// Views by name: what `sealbench render` and the export dialog draw, as a still or as one frame of a
-// film.
+// Views by name: what `sealbench render` and the export dialog draw, as a still or as one frame of
+// a film.
 #pragma once
 
 #include "app/chart/dashboard.h"
@@ -8,10 +8,10 @@
 
 // One view of the table.
 typedef struct {
-  const char *name;          // "hysteresis"
-  const char *label;         // "Force and displacement"
-  double width, height;      // size it is made for
-  bool section;              // needs the section's drawing function
+  const char *name;     // "hysteresis"
+  const char *label;    // "Force and displacement"
+  double width, height; // size it is made for
+  bool section;         // needs the section's drawing function
 } SbRenderView;
 
 // The table, `*count` rows; static.
@@ -23,16 +23,16 @@ const SbRenderView *sb_render_view(const char *name);
 // What a picture takes beside the run. Pointers are borrowed; zero is a good default everywhere but
 // `view`.
 typedef struct {
-  const char *view;         // name in the table
-  double width, height;     // logical pixels; 0: the view's own size
-  double scale;             // PNG pixels per logical pixel; 0 counts as 1
-  bool dark;                //
-  const char *at;           // "C" or "7.27 s"; NULL: see sb_render_frame_at()
-  const char *title;        // of the scene
-  const char *subtitle;     // files and conditions
-  const char *hash;         // of the parameters
-  const char *scene;        // text that restores the scene, for PNG and SVG
-  SbSectionDraw section;    // draws the section; NULL: views that need it are refused
+  const char *view;      // name in the table
+  double width, height;  // logical pixels; 0: the view's own size
+  double scale;          // PNG pixels per logical pixel; 0 counts as 1
+  bool dark;             //
+  const char *at;        // "C" or "7.27 s"; NULL: see sb_render_frame_at()
+  const char *title;     // of the scene
+  const char *subtitle;  // files and conditions
+  const char *hash;      // of the parameters
+  const char *scene;     // text that restores the scene, for PNG and SVG
+  SbSectionDraw section; // draws the section; NULL: views that need it are refused
   void *section_data;
 } SbRenderOptions;
 

@@ -1,5 +1,5 @@
-// Still pictures. PNG through libpng, because cairo cannot write text chunks: 8-bit RGB (the page is
-// opaque) with iTXt chunks Title, Software, Comment, sealbench-hash and sealbench-scene, and its
+// Still pictures. PNG through libpng, because cairo cannot write text chunks: 8-bit RGB (the page
+// is opaque) with iTXt chunks Title, Software, Comment, sealbench-hash and sealbench-scene, and its
 // physical size. SVG and PDF by cairo into memory, so that the file is written in one go; the SVG
 // gets the same texts as a metadata element, the PDF as document information. A logical pixel is
 // 1/96 inch on paper. Leaves out transparency and colour profiles (sRGB is meant, and said in PNG).
@@ -53,8 +53,7 @@ static void png_failed(png_structp png, png_const_charp text) {
   longjmp(failure->back, 1);
 }
 
-static void png_warned(png_structp png, png_const_charp text) {
-}
+static void png_warned(png_structp png, png_const_charp text) {}
 
 static void png_write_bytes(png_structp png, png_bytep data, png_size_t length) {
   FILE *stream = png_get_io_ptr(png);
@@ -63,8 +62,7 @@ static void png_write_bytes(png_structp png, png_bytep data, png_size_t length) 
   }
 }
 
-static void png_flush_bytes(png_structp png) {
-}
+static void png_flush_bytes(png_structp png) {}
 
 static int add_text(png_text *text, int count, const char *key, const char *value) {
   if (value && value[0]) {
@@ -173,6 +171,22 @@ static bool write_png(const SbStill *still, const char *path, GError **error) {
 // ---------------------------------------------------------------------------------------------------
 // SVG and PDF
 
+// The whole of a text or nothing, with the system's own reason.
+static bool write_whole(const char *path, const void *data, size_t length, GError **error) {
+  SbAtomicFile file;
+  if (!sb_atomic_file_begin(&file, path, error)) {
+    return false;
+  }
+  errno = 0;
+  if (fwrite(data, 1, length, file.stream) != length || fflush(file.stream) != 0) {
+    int code = errno ? errno : EIO;
+    sb_atomic_file_abort(&file);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s: %s", path, g_strerror(code));
+    return false;
+  }
+  return sb_atomic_file_commit(&file, error);
+}
+
 static cairo_status_t append_bytes(void *closure, const unsigned char *data, unsigned length) {
   g_byte_array_append(closure, data, length);
   return CAIRO_STATUS_SUCCESS;
@@ -223,7 +237,7 @@ static bool write_svg(const SbStill *still, const char *path, GError **error) {
     } else {
       g_string_append(out, text);
     }
-    good = sb_atomic_write(path, out->str, out->len, error);
+    good = write_whole(path, out->str, out->len, error);
     g_string_free(out, TRUE);
   }
   g_byte_array_unref(bytes);
@@ -251,7 +265,7 @@ static bool write_pdf(const SbStill *still, const char *path, GError **error) {
     good = fail_cairo(error, cairo_surface_status(surface));
   }
   cairo_surface_destroy(surface);
-  good = good && sb_atomic_write(path, (const char *)bytes->data, bytes->len, error);
+  good = good && write_whole(path, bytes->data, bytes->len, error);
   g_free(creator);
   g_byte_array_unref(bytes);
   return good;

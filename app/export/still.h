@@ -21,9 +21,9 @@ typedef struct {
 #define SB_STILL_MAX 16384
 #define SB_STILL_MIN 16
 
-// Draws and writes `path`, whose ending (.png, .svg, .pdf) says how. Fails with SB_APP_ERROR_INPUT on
-// an unknown ending or an impossible size, SB_APP_ERROR_IO on a full disk and the like; an earlier
-// file under that name stays intact then.
+// Draws and writes `path`, whose ending (.png, .svg, .pdf) says how. Fails with SB_APP_ERROR_INPUT
+// on an unknown ending or an impossible size, SB_APP_ERROR_IO on a full disk and the like; an
+// earlier file under that name stays intact then.
 bool sb_still_write(const SbStill *still, const char *path, GError **error);
 
 // The scene's text in a PNG that sb_still_write() made; owned by the caller. NULL with an error if
