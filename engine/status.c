@@ -15,6 +15,7 @@ const char *sb_status_text(SbStatus status) {
   return index < sizeof texts / sizeof texts[0] ? texts[index] : "unknown status";
 }
 
+SB_PRINTF(4, 0)
 static SbStatus fail_v(SbReport *report, SbStatus status, const char *parameter, const char *format,
                        va_list arguments) {
   if (report != NULL) {
