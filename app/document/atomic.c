@@ -43,9 +43,15 @@ static void remove_stale(const char *directory, const char *prefix) {
 }
 
 bool sb_atomic_file_begin(SbAtomicFile *out, const char *path, GError **error) {
+  // Devices and pipes are written to as they are.
   struct stat info;
   if (stat(path, &info) == 0 && !S_ISREG(info.st_mode)) {
-    return fail(error, path, S_ISDIR(info.st_mode) ? EISDIR : EEXIST);
+    FILE *direct = S_ISDIR(info.st_mode) ? NULL : fopen(path, "wbe");
+    if (direct == NULL) {
+      return fail(error, path, S_ISDIR(info.st_mode) ? EISDIR : errno);
+    }
+    *out = (SbAtomicFile){g_strdup(path), NULL, direct};
+    return true;
   }
   char *directory = g_path_get_dirname(path);
   char *name = g_path_get_basename(path);
@@ -74,10 +80,21 @@ bool sb_atomic_file_begin(SbAtomicFile *out, const char *path, GError **error) {
 }
 
 bool sb_atomic_file_seal(SbAtomicFile *file, GError **error) {
-  errno = 0;
-  bool good = ferror(file->stream) == 0 && fflush(file->stream) == 0;
-  good = good && (fsync(fileno(file->stream)) == 0 || errno == EINVAL || errno == EROFS);
-  int code = errno != 0 ? errno : EIO;
+  int code = EIO;
+  bool good = ferror(file->stream) == 0;
+  if (!good && write(fileno(file->stream), "", 1) < 0) {
+    // The stream has forgotten why; the next write says it again.
+    code = errno;
+  }
+  if (good && fflush(file->stream) != 0) {
+    good = false;
+    code = errno;
+  }
+  // Pipes and devices cannot be synced.
+  if (good && file->temporary != NULL && fsync(fileno(file->stream)) != 0) {
+    good = false;
+    code = errno;
+  }
   if (fclose(file->stream) != 0 && good) {
     good = false;
     code = errno;
@@ -94,7 +111,7 @@ bool sb_atomic_file_commit(SbAtomicFile *file, GError **error) {
   if (file->stream != NULL && !sb_atomic_file_seal(file, error)) {
     return false;
   }
-  if (g_rename(file->temporary, file->path) != 0) {
+  if (file->temporary != NULL && g_rename(file->temporary, file->path) != 0) {
     fail(error, file->path, errno);
     sb_atomic_file_abort(file);
     return false;

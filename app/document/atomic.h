@@ -7,7 +7,7 @@
 
 typedef struct {
   char *path;      // final path
-  char *temporary; // where it is written now
+  char *temporary; // where it is written now; NULL for a device or pipe, written directly
   FILE *stream;    // to write to; NULL when finished. Writers may ignore errors until commit
 } SbAtomicFile;
 

@@ -9,6 +9,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+static void add_too_large(GPtrArray *issues, const char *shown, size_t bytes_max, double bytes) {
+  const double mebibyte = 1 << 20;
+  char *allowed = g_strdup_printf("at most %.0f MiB", (double)bytes_max / mebibyte);
+  sb_issues_add(issues, shown, 0, NULL, allowed, "is too large (%.1f MiB)", bytes / mebibyte);
+  g_free(allowed);
+}
+
 char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t bytes_max,
                      GPtrArray *issues) {
   // Not to hang on a pipe, nor to read what is too large anyway.
@@ -26,8 +33,7 @@ char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t
   } else if (!S_ISREG(info.st_mode)) {
     sb_issues_add(issues, shown, 0, NULL, NULL, "is not a regular file");
   } else if ((guint64)info.st_size > bytes_max) {
-    sb_issues_add(issues, shown, 0, NULL, "at most 1 MiB", "is too large (%.1f MiB)",
-                  (double)info.st_size / (1 << 20));
+    add_too_large(issues, shown, bytes_max, (double)info.st_size);
   } else {
     text = g_malloc(bytes_max + 2);
   }
@@ -48,7 +54,7 @@ char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t
     count += (size_t)got;
   }
   if (text != NULL && count > bytes_max) {
-    sb_issues_add(issues, shown, 0, NULL, "at most 1 MiB", "is too large");
+    add_too_large(issues, shown, bytes_max, (double)count);
     g_clear_pointer(&text, g_free);
   }
   if (text != NULL) {

@@ -1,0 +1,256 @@
+// Shared parts of the commands.
+#include "app/cli/cli.h"
+
+#include "app/document/atomic.h"
+
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+// ---- Options and messages ----
+
+bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int operands_min,
+                  int operands_max, const char *notes) {
+  const SbCommand *command = sb_commands();
+  while (strcmp(command->name, (*argv)[0]) != 0) {
+    command++;
+  }
+  char *name = g_strdup_printf("sealbench %s", command->name);
+  g_set_prgname(name);
+  g_free(name);
+  GOptionContext *context = g_option_context_new(command->usage);
+  g_option_context_set_summary(context, command->help);
+  g_option_context_set_description(context, notes);
+  if (entries != NULL) {
+    g_option_context_add_main_entries(context, entries, NULL);
+  }
+  GError *error = NULL;
+  bool good = g_option_context_parse(context, argc, argv, &error);
+  if (!good) {
+    sb_cli_fail("%s (see sealbench %s --help)", error->message, command->name);
+    g_error_free(error);
+  }
+  // A "--" that separates operands stays in argv.
+  if (good && *argc > 1 && strcmp((*argv)[1], "--") == 0) {
+    memmove(*argv + 1, *argv + 2, (size_t)(*argc - 1) * sizeof **argv);
+    (*argc)--;
+  }
+  int operands = *argc - 1;
+  if (good && (operands < operands_min || operands > operands_max)) {
+    sb_cli_fail("%s: usage: sealbench %s %s",
+                operands < operands_min ? "something is missing" : "too many operands",
+                command->name, command->usage);
+    good = false;
+  }
+  g_option_context_free(context);
+  return good;
+}
+
+static void print_line(const char *text) {
+  char *printable = sb_printable(text, strlen(text));
+  fprintf(stderr, "sealbench: %s\n", printable);
+  g_free(printable);
+}
+
+int sb_cli_fail(const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  char *text = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  print_line(text);
+  g_free(text);
+  return SB_EXIT_INPUT;
+}
+
+int sb_cli_error(GError *error) {
+  int code = SB_EXIT_IO;
+  if (error->domain == SB_APP_ERROR) {
+    code = error->code == SB_APP_ERROR_INPUT           ? SB_EXIT_INPUT
+           : error->code == SB_APP_ERROR_CANCELLED     ? SB_EXIT_INTERRUPTED
+           : error->code == SB_APP_ERROR_NOT_CONVERGED ? SB_EXIT_NOT_CONVERGED
+                                                       : SB_EXIT_IO;
+  }
+  print_line(error->message);
+  g_error_free(error);
+  return code;
+}
+
+int sb_cli_status(SbStatus status, const SbReport *report) {
+  if (status == SB_OK) {
+    return SB_EXIT_DONE;
+  }
+  const char *text = report->text[0] != '\0' ? report->text : sb_status_text(status);
+  int id = sb_param_find(report->parameter);
+  if (id >= 0) {
+    char *range = sb_param_range((SbParamId)id);
+    GPtrArray *issues = sb_issues_new();
+    sb_issues_add(issues, NULL, 0, report->parameter, range, "%s", text);
+    sb_cli_issues(issues);
+    g_ptr_array_unref(issues);
+    g_free(range);
+  } else {
+    print_line(text);
+  }
+  switch (status) {
+  case SB_ERROR_NOT_CONVERGED:
+    return SB_EXIT_NOT_CONVERGED;
+  case SB_ERROR_CANCELLED:
+    return SB_EXIT_INTERRUPTED;
+  case SB_ERROR_MEMORY:
+  case SB_ERROR_IO:
+    return SB_EXIT_IO;
+  default:
+    return SB_EXIT_INPUT;
+  }
+}
+
+void sb_cli_issues(const GPtrArray *issues) {
+  for (guint i = 0; i < issues->len; i++) {
+    char *line = sb_issue_line(issues->pdata[i]);
+    print_line(line);
+    g_free(line);
+  }
+}
+
+bool sb_cli_quantity(double *out, const char *option, const char *text, bool required,
+                     const char *si, const char *shown) {
+  if (text == NULL) {
+    if (required) {
+      sb_cli_fail("%s is missing%s%s", option, *shown != '\0' ? ", a value in " : "", shown);
+    }
+    return !required;
+  }
+  GError *error = NULL;
+  bool good = g_utf8_validate(text, -1, NULL);
+  if (!good) {
+    sb_cli_fail("%s: not UTF-8 text", option);
+  } else if (!sb_quantity_parse(out, text, si, shown, &error)) {
+    sb_cli_fail("%s: %s", option, error->message);
+    g_error_free(error);
+    good = false;
+  }
+  return good;
+}
+
+SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings) {
+  GPtrArray *issues = sb_issues_new();
+  SbDocument *document = sb_document_load(path, issues);
+  for (char **setting = settings; document != NULL && setting != NULL && *setting != NULL;
+       setting++) {
+    sb_document_set_option(document, *setting, issues);
+  }
+  if (document != NULL && issues->len == 0) {
+    sb_document_compile(document, model, issues);
+  }
+  sb_cli_issues(issues);
+  if (issues->len > 0) {
+    sb_document_free(document);
+    document = NULL;
+  }
+  g_ptr_array_unref(issues);
+  return document;
+}
+
+// ---- Output ----
+
+int sb_cli_emit(const char *json, const char *target) {
+  if (strcmp(target, "-") == 0) {
+    fputs(json, stdout);
+    if (fflush(stdout) != 0 || ferror(stdout) != 0) {
+      sb_cli_fail("standard output: %s", g_strerror(errno));
+      return SB_EXIT_IO;
+    }
+    return SB_EXIT_DONE;
+  }
+  GError *error = NULL;
+  return sb_atomic_write(target, json, strlen(json), &error) ? SB_EXIT_DONE : sb_cli_error(error);
+}
+
+void sb_cli_line(const char *label, const char *text) {
+  enum { WIDTH = 30 };
+  glong gap = WIDTH - g_utf8_strlen(label, -1);
+  printf("  %s%*s %s\n", label, (int)MAX(gap, 0), "", text);
+}
+
+void sb_cli_figure(const char *label, double value, const char *si, const char *shown) {
+  char digits[SB_NUMBER_SIZE];
+  if (!isfinite(value)) {
+    sb_cli_line(label, "-");
+    return;
+  }
+  sb_number_round(digits, sb_quantity_to_shown(value, si, shown), 5);
+  char *text = g_strdup_printf("%s%s%s", digits, *shown != '\0' ? " " : "", shown);
+  sb_cli_line(label, text);
+  g_free(text);
+}
+
+void sb_cli_warnings(const SbWarnings *warnings) {
+  for (size_t i = 0; i < warnings->count; i++) {
+    const SbWarning *warning = &warnings->item[i];
+    printf("%s  %s: %s%s%s%s\n", i == 0 ? "Warnings\n" : "", warning->code, warning->text,
+           warning->parameter[0] != '\0' ? " (" : "", warning->parameter,
+           warning->parameter[0] != '\0' ? ")" : "");
+  }
+}
+
+// ---- Interrupts ----
+
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int number) {
+  interrupted = 1;
+}
+
+void sb_cli_catch_interrupts(void) {
+  struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+}
+
+bool sb_cli_interrupted(void *unused) {
+  return interrupted != 0;
+}
+
+// ---- Progress ----
+
+void sb_progress_start(SbProgress *progress, bool quiet) {
+  *progress = (SbProgress){quiet, isatty(STDERR_FILENO) != 0, 0, g_get_monotonic_time()};
+}
+
+void sb_progress_update(SbProgress *progress, double fraction) {
+  int percent = (int)(100 * CLAMP(fraction, 0, 1));
+  if (progress->quiet) {
+    return;
+  }
+  if (!progress->bar) {
+    for (; progress->last < percent / 10; progress->last++) {
+      fprintf(stderr, "sealbench: %d %%\n", 10 * (progress->last + 1));
+    }
+    return;
+  }
+  // The first blink of a short run needs no bar.
+  double elapsed = (double)(g_get_monotonic_time() - progress->start) / G_USEC_PER_SEC;
+  if (percent <= progress->last || elapsed < 0.3) {
+    return;
+  }
+  progress->last = percent;
+  enum { WIDTH = 40 };
+  char cells[WIDTH + 1];
+  for (int i = 0; i < WIDTH; i++) {
+    cells[i] = i < WIDTH * percent / 100 ? '#' : '.';
+  }
+  cells[WIDTH] = '\0';
+  fprintf(stderr, "\r[%s] %3d %%  %.0f s left ", cells, percent,
+          elapsed * (100 - percent) / percent);
+}
+
+void sb_progress_end(SbProgress *progress) {
+  if (!progress->quiet && progress->bar && progress->last > 0) {
+    fprintf(stderr, "\r\033[K");
+  }
+}

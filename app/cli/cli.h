@@ -1,0 +1,87 @@
+// What all commands share: options, messages, exit codes, tables, interrupts, progress.
+//
+// Results go to standard output, everything else to standard error as "sealbench: ...". The program
+// never calls setlocale(): numbers and files are the same everywhere.
+#pragma once
+
+#include "app/document/document.h"
+
+#include "engine/sealbench.h"
+
+#include <stdio.h>
+
+enum {
+  SB_EXIT_DONE = 0,
+  SB_EXIT_INPUT = 1,         // bad input or usage; nothing was written
+  SB_EXIT_NOT_CONVERGED = 2, // results are written and flagged
+  SB_EXIT_IO = 3,
+  SB_EXIT_INTERRUPTED = 130 // what was finished is written and flagged
+};
+
+typedef struct {
+  const char *name;
+  const char *usage; // behind the name
+  const char *help;  // one line
+  int (*main)(int argc, char **argv);
+} SbCommand;
+
+// All commands, ending with a name of NULL.
+const SbCommand *sb_commands(void);
+
+// Takes the options of `entries` (NULL-terminated; strings as G_OPTION_ARG_FILENAME, so that bytes
+// pass untouched) out of argv, which keeps its name and the operands. Prints a message and returns
+// false for wrong ones or a number of operands outside [min, max]. Handles --help and exits.
+bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int operands_min,
+                  int operands_max, const char *notes);
+
+// "sealbench: ..." on standard error; returns SB_EXIT_INPUT.
+int sb_cli_fail(const char *format, ...) G_GNUC_PRINTF(1, 2);
+
+// Prints and frees an error; returns its exit code.
+int sb_cli_error(GError *error);
+
+// Exit code of an engine's status, with its message printed unless it is SB_OK.
+int sb_cli_status(SbStatus status, const SbReport *report);
+
+// Prints each on a line.
+void sb_cli_issues(const GPtrArray *issues);
+
+// Reads an option's value with unit; prints what is wrong. `text` NULL: `required` decides.
+bool sb_cli_quantity(double *out, const char *option, const char *text, bool required,
+                     const char *si, const char *shown);
+
+// Opens a valve or scene, applies KEY=VALUE settings and compiles; prints every problem and returns
+// NULL if there is any. Owned by the caller.
+SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings);
+
+// Writes `json` to standard output ("-") or a file, whole or not at all; returns an exit code.
+int sb_cli_emit(const char *json, const char *target);
+
+// "  Contact width        0.8886 mm": a figure with at most five digits; "-" if it is not finite.
+void sb_cli_figure(const char *label, double value, const char *si, const char *shown);
+void sb_cli_line(const char *label, const char *text);
+void sb_cli_warnings(const SbWarnings *warnings);
+
+// After this Ctrl-C and SIGTERM only set a flag; a second Ctrl-C ends the program at once.
+void sb_cli_catch_interrupts(void);
+bool sb_cli_interrupted(void *unused);
+
+// Progress on standard error: a bar on a terminal, a line every 10 % otherwise.
+typedef struct {
+  bool quiet, bar;
+  int last;     // last percent (bar) or decile (lines) shown
+  gint64 start; // [us]
+} SbProgress;
+
+void sb_progress_start(SbProgress *progress, bool quiet);
+void sb_progress_update(SbProgress *progress, double fraction);
+void sb_progress_end(SbProgress *progress);
+
+int sb_command_run(int argc, char **argv);
+int sb_command_check(int argc, char **argv);
+int sb_command_list(int argc, char **argv);
+int sb_command_fit(int argc, char **argv);
+int sb_command_film(int argc, char **argv);
+int sb_command_asperity(int argc, char **argv);
+int sb_command_plan(int argc, char **argv);
+int sb_command_open(int argc, char **argv);

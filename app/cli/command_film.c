@@ -1,0 +1,197 @@
+// sealbench film: the film of one sliding line contact.
+#include "app/cli/cli.h"
+#include "app/cli/timing.h"
+#include "app/document/reader.h"
+#include "app/export/results.h"
+
+#include <math.h>
+#include <string.h>
+
+static void print_table(const SbFilm *film) {
+  printf("Film by %s\n", sb_film_model_name(film->model));
+  sb_cli_figure("Film, least", film->film_min, "m", "nm");
+  sb_cli_figure("Film, central", film->film_central, "m", "nm");
+  sb_cli_figure("Film, of the flow", film->film_flux, "m", "nm");
+  sb_cli_figure("Pressure, largest", film->pressure_max, "Pa", "MPa");
+  sb_cli_figure("Place of the least film", film->position_film_min, "m", "mm");
+  sb_cli_figure("Place of rupture", film->position_rupture, "m", "mm");
+  sb_cli_figure("Hertz half-width", film->hertz_half_width, "m", "mm");
+  sb_cli_figure("Hertz pressure", film->hertz_pressure, "Pa", "MPa");
+  sb_cli_figure("Friction, Couette", film->friction_couette, "N/m", "N/m");
+  sb_cli_figure("Friction, Poiseuille", film->friction_poiseuille, "N/m", "N/m");
+  sb_cli_figure("Moes' M", film->moes_M, "1", "");
+  sb_cli_line("Regime", film->regime);
+  sb_cli_figure("Error estimate, least film", film->solver.error_film_min, "1", "");
+  sb_cli_figure("Error estimate, central film", film->solver.error_film_central, "1", "");
+  sb_cli_figure("Time", film->solver.wall_s, "s", "ms");
+  if (!film->solver.converged) {
+    sb_cli_line("Converged", "NO");
+  }
+  sb_cli_warnings(&film->warnings);
+}
+
+// Two columns x [m], p [Pa], separated by a comma, semicolon or blanks; '#' comments and one
+// heading line are allowed. False with a message.
+static bool read_dry_pressure(const char *path, GArray *x, GArray *p) {
+  GPtrArray *issues = sb_issues_new();
+  size_t length = 0;
+  char *text = sb_reader_load(&length, path, path, SB_DOCUMENT_BYTES_MAX, issues);
+  if (text != NULL && (memchr(text, '\0', length) != NULL || !g_utf8_validate(text, -1, NULL))) {
+    sb_issues_add(issues, path, 0, NULL, NULL, "is not a text table");
+    g_clear_pointer(&text, g_free);
+  }
+  char **lines = g_strsplit(text != NULL ? text : "", "\n", -1);
+  for (int i = 0; lines[i] != NULL && issues->len == 0; i++) {
+    const char *c = g_strstrip(lines[i]);
+    if (*c == '\0' || *c == '#') {
+      continue;
+    }
+    char *end = NULL;
+    double value[2];
+    bool good = true;
+    for (int k = 0; k < 2 && good; k++) {
+      value[k] = g_ascii_strtod(c, &end);
+      good = end != c && isfinite(value[k]);
+      c = end + strspn(end, ",; \t");
+    }
+    if (good && *c == '\0') {
+      double before = x->len > 0 ? g_array_index(x, double, x->len - 1) : -INFINITY;
+      if (value[0] <= before) {
+        sb_issues_add(issues, path, i + 1, NULL, NULL, "x does not increase");
+      }
+      g_array_append_val(x, value[0]);
+      g_array_append_val(p, value[1]);
+    } else if (x->len > 0 || !g_ascii_isalpha(lines[i][0])) {
+      sb_issues_add(issues, path, i + 1, NULL, NULL, "\"%.40s\" is not two numbers x [m], p [Pa]",
+                    lines[i]);
+    }
+  }
+  if (issues->len == 0 && x->len < 3) {
+    sb_issues_add(issues, path, 0, NULL, NULL, "has %u points, at least 3 are needed", x->len);
+  }
+  bool good = issues->len == 0;
+  sb_cli_issues(issues);
+  g_ptr_array_unref(issues);
+  g_strfreev(lines);
+  g_free(text);
+  return good;
+}
+
+static bool on_cancelled(void *data) {
+  return sb_cli_interrupted(NULL);
+}
+
+typedef struct {
+  SbFilm *film;
+  const SbFilmProblem *problem;
+  SbReport report;
+} Solve;
+
+static SbStatus solve(void *data, double *wall_s) {
+  Solve *job = data;
+  SbStatus status = sb_film_solve(job->film, job->problem, NULL, &job->report);
+  *wall_s = job->film->solver.wall_s;
+  return status;
+}
+
+int sb_command_film(int argc, char **argv) {
+  char *load = NULL;
+  char *speed = NULL;
+  char *radius = NULL;
+  char *modulus = NULL;
+  char *viscosity = NULL;
+  char *left = NULL;
+  char *right = NULL;
+  char *name = NULL;
+  char *dry = NULL;
+  char *tolerance = NULL;
+  char *target = NULL;
+  const GOptionEntry entries[] = {
+      {"load", 0, 0, G_OPTION_ARG_FILENAME, &load, "Net load per length", "W"},
+      {"speed", 0, 0, G_OPTION_ARG_FILENAME, &speed, "Sliding speed, signed", "U"},
+      {"radius", 0, 0, G_OPTION_ARG_FILENAME, &radius, "Radius of the cylinder", "R"},
+      {"modulus", 0, 0, G_OPTION_ARG_FILENAME, &modulus, "Reduced modulus, 2/E' = sum (1-nu^2)/E",
+       "E"},
+      {"viscosity", 0, 0, G_OPTION_ARG_FILENAME, &viscosity, "Dynamic viscosity", "ETA"},
+      {"pressure-left", 0, 0, G_OPTION_ARG_FILENAME, &left, "Gauge pressure at x < 0", "P"},
+      {"pressure-right", 0, 0, G_OPTION_ARG_FILENAME, &right, "Gauge pressure at x > 0", "P"},
+      {"model", 0, 0, G_OPTION_ARG_FILENAME, &name,
+       "reynolds (default), inverse, karaszkiewicz, thesis or asymptotic", "NAME"},
+      {"dry-pressure", 0, 0, G_OPTION_ARG_FILENAME, &dry,
+       "Table x [m], p [Pa] for the model inverse", "FILE.csv"},
+      {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &tolerance, "Relative error wanted", "T"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  GArray *x = g_array_new(FALSE, FALSE, sizeof(double));
+  GArray *p = g_array_new(FALSE, FALSE, sizeof(double));
+  SbFilm *film = NULL;
+  SbFilmProblem problem;
+  sb_film_problem_init(&problem);
+  if (!sb_cli_parse(&argc, &argv, entries, 0, 0, SB_TIMING_NOTE) ||
+      !sb_cli_quantity(&problem.load, "--load", load, true, "N/m", "N/m") ||
+      !sb_cli_quantity(&problem.speed, "--speed", speed, true, "m/s", "mm/s") ||
+      !sb_cli_quantity(&problem.radius, "--radius", radius, true, "m", "mm") ||
+      !sb_cli_quantity(&problem.modulus, "--modulus", modulus, true, "Pa", "MPa") ||
+      !sb_cli_quantity(&problem.viscosity, "--viscosity", viscosity, true, "Pa.s", "mPa.s") ||
+      !sb_cli_quantity(&problem.pressure_left, "--pressure-left", left, false, "Pa", "MPa") ||
+      !sb_cli_quantity(&problem.pressure_right, "--pressure-right", right, false, "Pa", "MPa") ||
+      !sb_cli_quantity(&problem.tolerance, "--tolerance", tolerance, false, "1", "")) {
+    goto done;
+  }
+  if (name != NULL && !sb_film_model_from_name(&problem.model, name)) {
+    sb_cli_fail("--model: there is no film model \"%s\" (allowed reynolds, inverse, "
+                "karaszkiewicz, thesis, asymptotic)",
+                name);
+    goto done;
+  }
+  if ((problem.model == SB_FILM_INVERSE) != (dry != NULL)) {
+    sb_cli_fail(dry != NULL ? "--dry-pressure: only the model inverse takes it"
+                            : "--dry-pressure is missing: the model inverse needs it");
+    goto done;
+  }
+  if (dry != NULL) {
+    if (!read_dry_pressure(dry, x, p)) {
+      goto done;
+    }
+    problem.dry_x = (const double *)x->data;
+    problem.dry_pressure = (const double *)p->data;
+    problem.dry_count = x->len;
+  }
+  problem.cancelled = on_cancelled;
+  film = g_new0(SbFilm, 1);
+  Solve job = {film, &problem, {0}};
+  sb_cli_catch_interrupts();
+  double wall_s = 0;
+  SbStatus status = sb_timing_median(&wall_s, solve, &job);
+  film->solver.wall_s = wall_s;
+  code = sb_cli_status(status, &job.report);
+  if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+    int written = SB_EXIT_DONE;
+    if (target != NULL) {
+      char *json = sb_results_film(film);
+      written = sb_cli_emit(json, target);
+      g_free(json);
+    } else {
+      print_table(film);
+    }
+    code = written != SB_EXIT_DONE ? written : code;
+  }
+done:
+  g_array_unref(x);
+  g_array_unref(p);
+  g_free(film);
+  g_free(load);
+  g_free(speed);
+  g_free(radius);
+  g_free(modulus);
+  g_free(viscosity);
+  g_free(left);
+  g_free(right);
+  g_free(name);
+  g_free(dry);
+  g_free(tolerance);
+  g_free(target);
+  return code;
+}

@@ -1,0 +1,172 @@
+// sealbench fit: one seal in its gland, by any of the contact models.
+#include "app/cli/cli.h"
+#include "app/cli/timing.h"
+#include "app/export/results.h"
+
+#include <string.h>
+
+static void print_table(const SbFit *fit, const char *seal) {
+  printf("%s seal by %s\n", seal, sb_fit_model_name(fit->model));
+  sb_cli_figure("Squeeze", fit->squeeze, "1", "%");
+  sb_cli_figure("Stretch, mean diameter", fit->stretch_mean, "1", "%");
+  sb_cli_figure("Stretch, inner diameter", fit->stretch_inner, "1", "%");
+  sb_cli_figure("Section when fitted", fit->section_diameter_fitted, "m", "mm");
+  sb_cli_figure("Interference", fit->interference, "m", "mm");
+  sb_cli_figure("Gland fill", fit->gland_fill, "1", "%");
+  sb_cli_figure("Circumference of the load", fit->circumference, "m", "mm");
+  sb_cli_figure("Contact width", fit->contact_width, "m", "mm");
+  sb_cli_figure("Load", fit->load, "N", "N");
+  sb_cli_figure("Load per length", fit->load_per_length, "N/m", "N/m");
+  sb_cli_figure("Peak pressure", fit->pressure_peak, "Pa", "MPa");
+  sb_cli_figure("Error estimate, load", fit->solver.error_estimate.load, "1", "");
+  sb_cli_figure("Time", fit->solver.wall_s, "s", "ms");
+  if (!fit->solver.converged) {
+    sb_cli_line("Converged", "NO");
+  }
+  sb_cli_warnings(&fit->warnings);
+}
+
+static bool on_cancel(void *data) {
+  return sb_cli_interrupted(NULL);
+}
+
+// What is to be timed.
+typedef struct {
+  SbFit *fit;
+  const SbFitProblem *problem;
+  SbReport report;
+} Solve;
+
+static SbStatus solve(void *data, double *wall_s) {
+  Solve *job = data;
+  SbStatus status = sb_fit_solve(job->fit, job->problem, &job->report);
+  *wall_s = job->fit->solver.wall_s;
+  return status;
+}
+
+static SbFitProblem make_problem(const SbModel *model, int seal) {
+  const SbSealModel *ring = &model->seal[seal];
+  return (SbFitProblem){
+      .model = (SbFitModel)model->fit,
+      .section_diameter = ring->section_diameter,
+      .inner_diameter = ring->inner_diameter,
+      .modulus = ring->modulus,
+      .poisson_ratio = ring->poisson_ratio,
+      .housing_modulus = model->housing_modulus,
+      .housing_poisson = model->housing_poisson_ratio,
+      .radial_space = model->radial_space,
+      .bore_diameter = model->bore_diameter,
+      .gland_width = model->axial_width,
+      .tolerance = model->tolerance,
+      .cancel = on_cancel,
+  };
+}
+
+// --model NAME or NAME:VARIANT.
+static bool choose_model(SbFitProblem *problem, const char *name) {
+  const char *colon = strchr(name, ':');
+  char *base = colon != NULL ? g_strndup(name, (size_t)(colon - name)) : g_strdup(name);
+  bool good = sb_fit_model_from_name(&problem->model, base);
+  g_free(base);
+  if (good && colon != NULL) {
+    const char *variant = NULL;
+    int i = 0;
+    while ((variant = sb_fit_variant_name(problem->model, i)) != NULL &&
+           strcmp(variant, colon + 1) != 0) {
+      i++;
+    }
+    problem->variant = i;
+    good = variant != NULL;
+  }
+  if (!good) {
+    GString *names = g_string_new(NULL);
+    for (int i = 0; i < SB_FIT_MODEL_COUNT; i++) {
+      const char *model = sb_fit_model_name((SbFitModel)i);
+      g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", model);
+      for (int k = 1; sb_fit_variant_name((SbFitModel)i, k) != NULL; k++) {
+        g_string_append_printf(names, ", %s:%s", model, sb_fit_variant_name((SbFitModel)i, k));
+      }
+    }
+    sb_cli_fail("--model: there is no fitment model \"%s\" (allowed %s)", name, names->str);
+    g_string_free(names, TRUE);
+  }
+  return good;
+}
+
+int sb_command_fit(int argc, char **argv) {
+  char *seal = NULL;
+  char *pressure = NULL;
+  char *name = NULL;
+  char *tolerance = NULL;
+  char *target = NULL;
+  char **settings = NULL;
+  const GOptionEntry entries[] = {
+      {"seal", 0, 0, G_OPTION_ARG_FILENAME, &seal, "outer or inner", "NAME"},
+      {"pressure", 0, 0, G_OPTION_ARG_FILENAME, &pressure,
+       "Pressure on the left, right at ambient; none unless given", "P"},
+      {"model", 0, 0, G_OPTION_ARG_FILENAME, &name, "Model, or MODEL:VARIANT; else the file's",
+       "NAME"},
+      {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &tolerance, "Relative error wanted", "T"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, "Overrides a parameter", "KEY=VALUE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  SbModel model;
+  SbDocument *document = NULL;
+  SbFit *fit = NULL;
+  if (!sb_cli_parse(&argc, &argv, entries, 1, 1, SB_TIMING_NOTE)) {
+    goto done;
+  }
+  document = sb_cli_open(&model, argv[1], settings);
+  if (document == NULL) {
+    goto done;
+  }
+  int index = 0;
+  while (index < SB_SEAL_COUNT && g_strcmp0(sb_seal_name(index), seal) != 0) {
+    index++;
+  }
+  if (index == SB_SEAL_COUNT) {
+    sb_cli_fail("--seal: %s (allowed outer, inner)", seal == NULL ? "is missing" : "unknown seal");
+    goto done;
+  }
+  SbFitProblem problem = make_problem(&model, index);
+  problem.tolerance = 1e-3;
+  if (!sb_cli_quantity(&problem.pressure, "--pressure", pressure, false, "Pa", "MPa") ||
+      !sb_cli_quantity(&problem.tolerance, "--tolerance", tolerance, false, "1", "") ||
+      (name != NULL && !choose_model(&problem, name))) {
+    goto done;
+  }
+  if (!(problem.tolerance >= 1e-8 && problem.tolerance <= 0.1)) {
+    sb_cli_fail("--tolerance: out of range (allowed 1e-8 to 0.1)");
+    goto done;
+  }
+  fit = g_new0(SbFit, 1);
+  Solve job = {fit, &problem, {0}};
+  sb_cli_catch_interrupts();
+  double wall_s = 0;
+  SbStatus status = sb_timing_median(&wall_s, solve, &job);
+  fit->solver.wall_s = wall_s;
+  code = sb_cli_status(status, &job.report);
+  if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+    int written = SB_EXIT_DONE;
+    if (target != NULL) {
+      char *json = sb_results_fit(fit, seal, problem.pressure);
+      written = sb_cli_emit(json, target);
+      g_free(json);
+    } else {
+      print_table(fit, seal);
+    }
+    code = written != SB_EXIT_DONE ? written : code;
+  }
+done:
+  g_free(fit);
+  sb_document_free(document);
+  g_strfreev(settings);
+  g_free(seal);
+  g_free(pressure);
+  g_free(name);
+  g_free(tolerance);
+  g_free(target);
+  return code;
+}

@@ -1,0 +1,145 @@
+// sealbench run: a scene's cycle to a table, JSON or a folder of results.
+#include "app/cli/cli.h"
+#include "app/export/results_files.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+static void print_seal(const char *name, const SbSealSummary *seal) {
+  printf("%s seal, middle of B-C\n", name);
+  sb_cli_figure("Contact width", seal->contact_width, "m", "mm");
+  sb_cli_figure("Load", seal->load, "N", "N");
+  sb_cli_figure("Peak pressure", seal->pressure_peak, "Pa", "MPa");
+  sb_cli_figure("Film, least", seal->film_min, "m", "nm");
+  sb_cli_figure("Film, central", seal->film_central, "m", "nm");
+  sb_cli_figure("  by Karaszkiewicz, eq. 7.6", seal->film_karaszkiewicz, "m", "nm");
+  sb_cli_figure("  by the thesis, eq. 7.5", seal->film_thesis, "m", "nm");
+  sb_cli_figure("  by Reynolds, solved", seal->film_reynolds, "m", "nm");
+  sb_cli_figure("Film over roughness", seal->lambda, "1", "");
+  sb_cli_figure("Friction, boundary", seal->friction_boundary, "N", "N");
+  sb_cli_figure("Friction, viscous", seal->friction_viscous, "N", "N");
+  sb_cli_figure("Friction, static", seal->friction_static, "N", "N");
+  sb_cli_figure("Coefficient of friction", seal->coefficient_of_friction, "1", "");
+  sb_cli_figure("Leakage per stroke", seal->leakage_per_stroke, "m3", "nl");
+}
+
+static void print_table(const SbDocument *document, const SbRun *run) {
+  const SbSummary *summary = sb_run_summary(run);
+  printf("%s\n", sb_document_title(document));
+  sb_cli_figure("Peak force", summary->force_peak, "N", "N");
+  sb_cli_figure("Break-away force", summary->force_breakaway, "N", "N");
+  sb_cli_figure("Least return force", summary->force_return_min, "N", "N");
+  sb_cli_line("Stem returns", summary->returns ? "yes" : "no");
+  sb_cli_figure("Energy of the loop", summary->energy.loop, "J", "mJ");
+  sb_cli_figure("Energy closure", summary->energy.closure, "1", "");
+  sb_cli_figure("Leakage per cycle", summary->leakage_per_cycle, "m3", "nl");
+  sb_cli_figure("Duration", summary->duration, "s", "s");
+  for (int i = 0; i < SB_STAGE_COUNT; i++) {
+    const SbStageMark *mark = &summary->stage[i];
+    char digits[3][SB_NUMBER_SIZE];
+    char *text =
+        mark->reached
+            ? g_strdup_printf("%s s, %s mm, %s N", sb_number_round(digits[0], mark->time, 4),
+                              sb_number_round(digits[1], mark->displacement * 1e3, 4),
+                              sb_number_round(digits[2], mark->force, 4))
+            : g_strdup("not reached");
+    char label[] = {'S', 't', 'a', 'g', 'e', ' ', sb_stage_name((SbStage)i)[0], '\0'};
+    sb_cli_line(label, text);
+    g_free(text);
+  }
+  print_seal("Outer", &summary->seal[SB_OUTER]);
+  print_seal("Inner", &summary->seal[SB_INNER]);
+  sb_cli_warnings(&summary->warnings);
+  printf("Solver\n");
+  sb_cli_line("Converged", summary->converged ? "yes" : "NO");
+  char *frames = g_strdup_printf("%zu", summary->frames);
+  sb_cli_line("Frames", frames);
+  g_free(frames);
+  sb_cli_figure("Engine time", summary->wall_s, "s", "ms");
+}
+
+static void on_progress(void *data, double fraction, size_t frames) {
+  sb_progress_update(data, fraction);
+}
+
+static bool on_cancelled(void *data) {
+  return sb_cli_interrupted(NULL);
+}
+
+int sb_command_run(int argc, char **argv) {
+  char *folder = NULL;
+  char *json_target = NULL;
+  char **settings = NULL;
+  gboolean quiet = FALSE;
+  const GOptionEntry entries[] = {
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &folder,
+       "Folder for results.json, cycle.csv and profiles.csv", "DIR"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, "Overrides a parameter", "KEY=VALUE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &json_target, "JSON to a file or - ", "FILE|-"},
+      {"quiet", 0, 0, G_OPTION_ARG_NONE, &quiet, "No progress, no table", NULL},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  SbModel model;
+  SbDocument *document = NULL;
+  SbRun *run = NULL;
+  if (!sb_cli_parse(&argc, &argv, entries, 1, 1, NULL)) {
+    goto done;
+  }
+  document = sb_cli_open(&model, argv[1], settings);
+  if (document == NULL) {
+    goto done;
+  }
+  // A folder that cannot be is told before the work, not after it.
+  GError *error = NULL;
+  if (folder != NULL && !sb_results_folder_check(folder, &error)) {
+    code = sb_cli_error(error);
+    goto done;
+  }
+  SbPlan plan;
+  SbReport report = {0};
+  sb_plan_make(&plan, &model);
+  SbStatus status = sb_run_create(&run, &model, &plan, &report);
+  if (status != SB_OK) {
+    code = sb_cli_status(status, &report);
+    goto done;
+  }
+  SbProgress progress;
+  sb_progress_start(&progress, quiet);
+  sb_cli_catch_interrupts();
+  SbRunHooks hooks = {on_progress, on_cancelled, &progress};
+  status = sb_run_execute(run, &hooks, &report);
+  sb_progress_end(&progress);
+  code = sb_cli_status(status, &report);
+  bool has_results =
+      status == SB_OK || status == SB_ERROR_NOT_CONVERGED || status == SB_ERROR_CANCELLED;
+  if (!has_results) {
+    goto done;
+  }
+  char *sha256 = sb_document_sha256(document);
+  SbResultsInfo info = {argv[1], sha256, status == SB_ERROR_CANCELLED};
+  char *json = sb_results_run(run, &info);
+  int written = SB_EXIT_DONE;
+  if (folder != NULL && !sb_results_folder_write(folder, run, json, &error)) {
+    written = sb_cli_error(error);
+  }
+  if (json_target != NULL && written == SB_EXIT_DONE) {
+    written = sb_cli_emit(json, json_target);
+  } else if (!quiet && written == SB_EXIT_DONE) {
+    print_table(document, run);
+    if (folder != NULL) {
+      printf("Results are in %s\n", folder);
+    }
+  }
+  code = written != SB_EXIT_DONE ? written : code;
+  g_free(json);
+  g_free(sha256);
+done:
+  sb_run_destroy(run);
+  sb_document_free(document);
+  g_strfreev(settings);
+  g_free(folder);
+  g_free(json_target);
+  return code;
+}

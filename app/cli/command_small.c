@@ -1,0 +1,253 @@
+// sealbench check, list, plan, asperity and open.
+#include "app/cli/cli.h"
+#include "app/export/json.h"
+#include "app/export/results.h"
+
+#include "engine/surface/greenwood_tripp.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+int sb_command_check(int argc, char **argv) {
+  if (!sb_cli_parse(&argc, &argv, NULL, 1, 1, NULL)) {
+    return SB_EXIT_INPUT;
+  }
+  SbModel model;
+  SbDocument *document = sb_cli_open(&model, argv[1], NULL);
+  if (document == NULL) {
+    return SB_EXIT_INPUT;
+  }
+  const char *kind = sb_document_kind(document) == SB_DOCUMENT_SCENE ? "scene" : "valve";
+  char *shown = sb_printable(argv[1], strlen(argv[1]));
+  printf("%s: a %s without problems\n", shown, kind);
+  g_free(shown);
+  sb_document_free(document);
+  return SB_EXIT_DONE;
+}
+
+// ---- list ----
+
+static void list_params(void) {
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    if (param->parent >= 0) {
+      continue;
+    }
+    char *value = sb_param_format((SbParamId)i, param->fallback);
+    char *range = sb_param_range((SbParamId)i);
+    printf("%-32s %s\n", param->key, param->help);
+    printf("    %s (allowed %s; %s: %s)\n", *value != '\0' ? value : "none", range, param->tag,
+           param->source);
+    g_free(value);
+    g_free(range);
+  }
+  printf("seal.outer.* and seal.inner.* override seal.* for one seal.\n");
+}
+
+static void list_models(void) {
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    if (g_str_has_prefix(param->key, "models.")) {
+      char *range = sb_param_range((SbParamId)i);
+      printf("%-16s %s\n", param->key, range);
+      g_free(range);
+    }
+  }
+  printf("%-16s ", "film --model");
+  for (int i = 0; i < SB_FILM_MODEL_COUNT; i++) {
+    printf("%s%s", i > 0 ? ", " : "", sb_film_model_name((SbFilmModel)i));
+  }
+  printf("\n");
+}
+
+static char *views_json(void) {
+  const SbParam *param = sb_param(SB_P_OUTPUT_VIEWS);
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_array(&json, NULL);
+  for (int i = 0; i < sb_param_choice_count(param); i++) {
+    char name[64];
+    sb_param_choice_name(param, i, name, sizeof name);
+    sb_json_object(&json, NULL);
+    sb_json_string(&json, "name", name);
+    sb_json_object_end(&json);
+  }
+  sb_json_array_end(&json);
+  return sb_json_finish(&json);
+}
+
+int sb_command_list(int argc, char **argv) {
+  char *target = NULL;
+  const GOptionEntry entries[] = {
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  if (!sb_cli_parse(&argc, &argv, entries, 1, 1,
+                    "JSON numbers are SI in \"unit\"; \"display_unit\" is what people see.")) {
+    goto done;
+  }
+  const char *what = argv[1];
+  bool params = strcmp(what, "params") == 0;
+  bool models = strcmp(what, "models") == 0;
+  if (!params && !models && strcmp(what, "views") != 0) {
+    sb_cli_fail("there is no list \"%s\" (allowed params, models, views)", what);
+    goto done;
+  }
+  code = SB_EXIT_DONE;
+  if (target != NULL) {
+    char *json = params ? sb_results_params() : models ? sb_results_models() : views_json();
+    code = sb_cli_emit(json, target);
+    g_free(json);
+  } else if (params) {
+    list_params();
+  } else if (models) {
+    list_models();
+  } else {
+    char **names = g_strsplit(sb_param(SB_P_OUTPUT_VIEWS)->choices, "|", 0);
+    for (char **name = names; *name != NULL; name++) {
+      printf("%s\n", *name);
+    }
+    g_strfreev(names);
+  }
+done:
+  g_free(target);
+  return code;
+}
+
+// ---- plan ----
+
+static void print_plan(const SbPlan *plan) {
+  printf("Computed\n");
+  for (size_t i = 0; i < plan->field_count; i++) {
+    const SbPlanItem *item = &plan->field[i];
+    char cost[SB_NUMBER_SIZE];
+    char error[SB_NUMBER_SIZE];
+    printf("  %s by %s: %s (about %s s, error %s)\n", item->name, item->model, item->reason,
+           sb_number_round(cost, item->cost_s, 2), sb_number_round(error, item->error, 2));
+  }
+  printf("Skipped\n");
+  for (size_t i = 0; i < plan->skipped_count; i++) {
+    printf("  %s: %s\n", plan->skipped[i].name, plan->skipped[i].reason);
+  }
+}
+
+int sb_command_plan(int argc, char **argv) {
+  char *target = NULL;
+  char **settings = NULL;
+  const GOptionEntry entries[] = {
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, "Overrides a parameter", "KEY=VALUE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  SbModel model;
+  SbDocument *document = NULL;
+  if (sb_cli_parse(&argc, &argv, entries, 1, 1, NULL)) {
+    document = sb_cli_open(&model, argv[1], settings);
+  }
+  if (document != NULL) {
+    SbPlan plan;
+    sb_plan_make(&plan, &model);
+    code = SB_EXIT_DONE;
+    if (target != NULL) {
+      char *json = sb_results_plan(&plan);
+      code = sb_cli_emit(json, target);
+      g_free(json);
+    } else {
+      print_plan(&plan);
+    }
+  }
+  sb_document_free(document);
+  g_strfreev(settings);
+  g_free(target);
+  return code;
+}
+
+// ---- asperity ----
+
+static char *asperity_json(const SbGtIntegrals *integrals) {
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_object(&json, NULL);
+  sb_json_number(&json, "lambda", integrals->lambda);
+  sb_json_number(&json, "F2", integrals->F2);
+  sb_json_number(&json, "F5_2", integrals->F5_2);
+  sb_json_bool(&json, "underflow", integrals->underflow);
+  sb_json_array(&json, "warnings");
+  if (integrals->underflow) {
+    sb_json_object(&json, NULL);
+    sb_json_string(&json, "code", "asperity-underflow");
+    sb_json_string(&json, "text",
+                   "the surfaces are so far apart that the integrals underflow to 0");
+    sb_json_string(&json, "parameter", NULL);
+    sb_json_object_end(&json);
+  }
+  sb_json_array_end(&json);
+  sb_json_object_end(&json);
+  return sb_json_finish(&json);
+}
+
+int sb_command_asperity(int argc, char **argv) {
+  char *target = NULL;
+  char *lambda_text = NULL;
+  const GOptionEntry entries[] = {
+      {"lambda", 0, 0, G_OPTION_ARG_FILENAME, &lambda_text, "Film over height deviation", "L"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  double lambda = 0;
+  if (sb_cli_parse(&argc, &argv, entries, 0, 0, NULL) &&
+      sb_cli_quantity(&lambda, "--lambda", lambda_text, true, "1", "")) {
+    SbGtIntegrals integrals;
+    SbReport report = {0};
+    SbStatus status = sb_gt_integrals(&integrals, lambda, &report);
+    code = sb_cli_status(status, &report);
+    if (status == SB_OK && target != NULL) {
+      char *json = asperity_json(&integrals);
+      code = sb_cli_emit(json, target);
+      g_free(json);
+    } else if (status == SB_OK) {
+      char digits[SB_NUMBER_SIZE];
+      sb_cli_line("lambda", sb_number_format(digits, integrals.lambda));
+      sb_cli_line("F2", sb_number_format(digits, integrals.F2));
+      sb_cli_line("F5/2", sb_number_format(digits, integrals.F5_2));
+      if (integrals.underflow) {
+        printf("Warnings\n  asperity-underflow: the integrals underflow to 0\n");
+      }
+    }
+  }
+  g_free(lambda_text);
+  g_free(target);
+  return code;
+}
+
+// ---- open ----
+
+int sb_command_open(int argc, char **argv) {
+  if (!sb_cli_parse(&argc, &argv, NULL, 0, 1, NULL)) {
+    return SB_EXIT_INPUT;
+  }
+  // Beside this program (installed, or in the build folder), else on the path.
+  static const char *const places[] = {"sealbench-gtk", "ui/sealbench-gtk", "../ui/sealbench-gtk"};
+  char self[PATH_MAX];
+  ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+  self[MAX(length, 0)] = '\0';
+  char *folder = g_path_get_dirname(self);
+  char *arguments[] = {(char *)"sealbench-gtk", argc > 1 ? argv[1] : NULL, NULL};
+  for (size_t i = 0; length > 0 && i < G_N_ELEMENTS(places); i++) {
+    char *path = g_build_filename(folder, places[i], NULL);
+    if (access(path, X_OK) == 0) {
+      execv(path, arguments);
+    }
+    g_free(path);
+  }
+  g_free(folder);
+  execvp("sealbench-gtk", arguments);
+  sb_cli_fail("the window's program sealbench-gtk cannot be started: %s", g_strerror(errno));
+  return SB_EXIT_IO;
+}

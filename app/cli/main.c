@@ -1,0 +1,73 @@
+// sealbench: the command line. Finds the command and hands over.
+#include "app/cli/cli.h"
+
+#include <cblas.h>
+#include <errno.h>
+#include <locale.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const SbCommand commands[] = {
+    {"run", "FILE.scene", "Computes a scene's cycle", sb_command_run},
+    {"plan", "FILE.scene", "Says what a scene would compute, and why", sb_command_plan},
+    {"check", "FILE", "Reports every problem of a valve or scene file", sb_command_check},
+    {"fit", "FILE.valve --seal NAME", "Fits one seal into its gland", sb_command_fit},
+    {"film", "--load W --speed U --radius R --modulus E --viscosity ETA",
+     "Computes the film of a sliding line contact", sb_command_film},
+    {"asperity", "--lambda L", "Greenwood and Tripp's integrals F2 and F5/2", sb_command_asperity},
+    {"list", "params|models|views", "Lists parameters, models or views", sb_command_list},
+    {"open", "[FILE]", "Starts the window", sb_command_open},
+    {NULL, NULL, NULL, NULL},
+};
+
+const SbCommand *sb_commands(void) {
+  return commands;
+}
+
+static void print_help(FILE *stream) {
+  fprintf(stream, "Sealbench %s: a workbench for the seals of inhaler valves.\n\nUsage:\n",
+          sb_version());
+  for (const SbCommand *command = commands; command->name != NULL; command++) {
+    char *head = g_strdup_printf("%s %s", command->name, command->usage);
+    if (strlen(head) > 30) {
+      fprintf(stream, "  sealbench %s\n  %41s%s\n", head, "", command->help);
+    } else {
+      fprintf(stream, "  sealbench %-30s %s\n", head, command->help);
+    }
+    g_free(head);
+  }
+  fputs("  sealbench --version | --help | COMMAND --help\n\n"
+        "Values carry units: --load 850.2N/m, --set seal.section_diameter=1.63mm.\n"
+        "Exit codes: 0 done, 1 bad input, 2 not converged, 3 input/output failed, "
+        "130 interrupted.\n",
+        stream);
+}
+
+int main(int argc, char **argv) {
+  // One thread per solve keeps results repeatable.
+  openblas_set_num_threads(1);
+  int code = SB_EXIT_INPUT;
+  const SbCommand *command = commands;
+  while (argc > 1 && command->name != NULL && strcmp(command->name, argv[1]) != 0) {
+    command++;
+  }
+  if (argc < 2) {
+    print_help(stderr);
+  } else if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
+    print_help(stdout);
+    code = SB_EXIT_DONE;
+  } else if (strcmp(argv[1], "--version") == 0) {
+    printf("sealbench %s\n", sb_version());
+    code = SB_EXIT_DONE;
+  } else if (command->name == NULL) {
+    sb_cli_fail("there is no command \"%s\" (see sealbench --help)", argv[1]);
+  } else {
+    code = command->main(argc - 1, argv + 1);
+  }
+  // A full disk behind standard output shows here at the latest.
+  if ((fflush(stdout) != 0 || ferror(stdout) != 0) && code == SB_EXIT_DONE) {
+    sb_cli_fail("standard output: %s", g_strerror(errno));
+    code = SB_EXIT_IO;
+  }
+  return code;
+}

@@ -1,0 +1,62 @@
+// Frames and profiles as text tables.
+#include "app/export/csv.h"
+
+#include "app/document/number.h"
+
+static void put(FILE *stream, double value, char end) {
+  char digits[SB_NUMBER_SIZE];
+  fputs(sb_number_format(digits, value), stream);
+  fputc(end, stream);
+}
+
+void sb_csv_cycle(FILE *stream, const SbRun *run) {
+  fputs("time [s],displacement [m],velocity [m/s],force [N],pressure_force [N],"
+        "friction_inner [N],friction_outer [N],platen [m],stop_force [N],stage,on_event,"
+        "load_inner [N],load_outer [N],film_central_inner [m],film_central_outer [m],"
+        "land_fraction_inner [1],land_fraction_outer [1]\n",
+        stream);
+  size_t count = 0;
+  const SbFrame *frames = sb_run_frames(run, &count);
+  for (size_t i = 0; i < count && ferror(stream) == 0; i++) {
+    const SbFrame *frame = &frames[i];
+    const SbSealFrame *inner = &frame->seal[SB_INNER];
+    const SbSealFrame *outer = &frame->seal[SB_OUTER];
+    const double before[] = {frame->time,     frame->displacement,   frame->velocity,
+                             frame->force,    frame->pressure_force, inner->friction,
+                             outer->friction, frame->platen,         frame->stop_force};
+    for (size_t k = 0; k < sizeof before / sizeof before[0]; k++) {
+      put(stream, before[k], ',');
+    }
+    fprintf(stream, "%s,%d,", sb_stage_name((SbStage)frame->stage), frame->on_event);
+    const double after[] = {inner->load,         outer->load,          inner->film_central,
+                            outer->film_central, inner->land_fraction, outer->land_fraction};
+    const size_t last = sizeof after / sizeof after[0] - 1;
+    for (size_t k = 0; k <= last; k++) {
+      put(stream, after[k], k < last ? ',' : '\n');
+    }
+  }
+}
+
+void sb_csv_profiles(FILE *stream, const SbRun *run) {
+  fputs("frame,seal,x [m],pressure [Pa],film [m],asperity_pressure [Pa]\n", stream);
+  size_t count = 0;
+  const SbFrame *frames = sb_run_frames(run, &count);
+  uint32_t shown[SB_SEAL_COUNT] = {UINT32_MAX, UINT32_MAX};
+  for (size_t i = 0; i < count; i++) {
+    for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+      uint32_t index = frames[i].seal[seal].profile;
+      if (index == shown[seal]) {
+        continue;
+      }
+      shown[seal] = index;
+      const SbContactProfile *profile = index != UINT32_MAX ? sb_run_profile(run, index) : NULL;
+      for (size_t k = 0; profile != NULL && k < profile->count && ferror(stream) == 0; k++) {
+        fprintf(stream, "%zu,%s,", i, sb_seal_name(seal));
+        put(stream, profile->x[k], ',');
+        put(stream, profile->pressure[k], ',');
+        put(stream, profile->film[k], ',');
+        put(stream, profile->asperity_pressure[k], '\n');
+      }
+    }
+  }
+}

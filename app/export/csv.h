@@ -1,0 +1,14 @@
+// Tables of a run as comma-separated values: a heading with units, then numbers that read back
+// exactly, the same bytes in every locale. Errors show in the stream (ferror).
+#pragma once
+
+#include "engine/run.h"
+
+#include <stdio.h>
+
+// One row per frame: time, displacement, velocity, force, ...
+void sb_csv_cycle(FILE *stream, const SbRun *run);
+
+// Contact profiles: frame, seal, x, pressure, film, asperity pressure. A seal's profile is written
+// for the first frame that has it and again whenever it changes; it holds until then.
+void sb_csv_profiles(FILE *stream, const SbRun *run);

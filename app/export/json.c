@@ -1,0 +1,129 @@
+// The JSON writer.
+#include "app/export/json.h"
+
+#include "app/document/number.h"
+
+#include <math.h>
+
+void sb_json_init(SbJson *json) {
+  *json = (SbJson){g_string_new(NULL), 0, true};
+}
+
+char *sb_json_finish(SbJson *json) {
+  g_string_append_c(json->text, '\n');
+  char *text = g_string_free(json->text, FALSE);
+  *json = (SbJson){NULL, 0, true};
+  return text;
+}
+
+static void indent(SbJson *json) {
+  g_string_append_c(json->text, '\n');
+  for (int i = 0; i < json->depth; i++) {
+    g_string_append(json->text, "  ");
+  }
+}
+
+static void quote(SbJson *json, const char *value) {
+  char *valid = g_utf8_make_valid(value, -1);
+  g_string_append_c(json->text, '"');
+  for (const char *c = valid; *c != '\0'; c++) {
+    if (*c == '"' || *c == '\\') {
+      g_string_append_c(json->text, '\\');
+      g_string_append_c(json->text, *c);
+    } else if ((unsigned char)*c < 0x20) {
+      g_string_append_printf(json->text, "\\u%04x", (unsigned)*c);
+    } else {
+      g_string_append_c(json->text, *c);
+    }
+  }
+  g_string_append_c(json->text, '"');
+  g_free(valid);
+}
+
+// Comma, new line and key before a value.
+static void begin(SbJson *json, const char *key) {
+  if (!json->first) {
+    g_string_append_c(json->text, ',');
+  }
+  if (json->depth > 0) {
+    indent(json);
+  }
+  json->first = false;
+  if (key != NULL) {
+    quote(json, key);
+    g_string_append(json->text, ": ");
+  }
+}
+
+static void open(SbJson *json, const char *key, char bracket) {
+  begin(json, key);
+  g_string_append_c(json->text, bracket);
+  json->depth++;
+  json->first = true;
+}
+
+static void close(SbJson *json, char bracket) {
+  json->depth--;
+  if (!json->first) {
+    indent(json);
+  }
+  g_string_append_c(json->text, bracket);
+  json->first = false;
+}
+
+void sb_json_object(SbJson *json, const char *key) {
+  open(json, key, '{');
+}
+
+void sb_json_object_end(SbJson *json) {
+  close(json, '}');
+}
+
+void sb_json_array(SbJson *json, const char *key) {
+  open(json, key, '[');
+}
+
+void sb_json_array_end(SbJson *json) {
+  close(json, ']');
+}
+
+static void number(SbJson *json, double value) {
+  char digits[SB_NUMBER_SIZE];
+  g_string_append(json->text, isfinite(value) ? sb_number_format(digits, value) : "null");
+}
+
+void sb_json_number(SbJson *json, const char *key, double value) {
+  begin(json, key);
+  number(json, value);
+}
+
+void sb_json_count(SbJson *json, const char *key, guint64 value) {
+  begin(json, key);
+  g_string_append_printf(json->text, "%" G_GUINT64_FORMAT, value);
+}
+
+void sb_json_bool(SbJson *json, const char *key, bool value) {
+  begin(json, key);
+  g_string_append(json->text, value ? "true" : "false");
+}
+
+void sb_json_string(SbJson *json, const char *key, const char *value) {
+  begin(json, key);
+  if (value != NULL) {
+    quote(json, value);
+  } else {
+    g_string_append(json->text, "null");
+  }
+}
+
+void sb_json_numbers(SbJson *json, const char *key, const double *values, size_t count) {
+  begin(json, key);
+  g_string_append_c(json->text, '[');
+  for (size_t i = 0; i < count; i++) {
+    if (i > 0) {
+      g_string_append(json->text, ", ");
+    }
+    number(json, values[i]);
+  }
+  g_string_append_c(json->text, ']');
+}

@@ -1,0 +1,32 @@
+// A strict JSON writer: UTF-8, shortest digits that read back exactly, null for what is not a
+// number, the same bytes in every locale. Two spaces of indentation; arrays of numbers on one line.
+#pragma once
+
+#include <glib.h>
+#include <stdbool.h>
+
+typedef struct {
+  GString *text;
+  int depth;
+  bool first; // nothing yet in the open object or array
+} SbJson;
+
+void sb_json_init(SbJson *json);
+
+// The finished text with a final line end; owned by the caller. The writer is empty afterwards.
+char *sb_json_finish(SbJson *json);
+
+// `key` is NULL inside arrays and for the outermost value.
+void sb_json_object(SbJson *json, const char *key);
+void sb_json_object_end(SbJson *json);
+void sb_json_array(SbJson *json, const char *key);
+void sb_json_array_end(SbJson *json);
+void sb_json_number(SbJson *json, const char *key, double value);
+void sb_json_count(SbJson *json, const char *key, guint64 value);
+void sb_json_bool(SbJson *json, const char *key, bool value);
+
+// NULL becomes null; what is not UTF-8 is replaced.
+void sb_json_string(SbJson *json, const char *key, const char *value);
+
+// An array of `count` numbers on one line.
+void sb_json_numbers(SbJson *json, const char *key, const double *values, size_t count);

@@ -1,0 +1,354 @@
+// The contract's JSON documents.
+#include "app/export/results.h"
+
+#include "app/export/json.h"
+
+#include <math.h>
+#include <string.h>
+
+static void put_warnings(SbJson *json, const SbWarnings *warnings) {
+  sb_json_array(json, "warnings");
+  for (size_t i = 0; i < warnings->count; i++) {
+    const SbWarning *warning = &warnings->item[i];
+    sb_json_object(json, NULL);
+    sb_json_string(json, "code", warning->code);
+    sb_json_string(json, "text", warning->text);
+    sb_json_string(json, "parameter", warning->parameter[0] != '\0' ? warning->parameter : NULL);
+    sb_json_object_end(json);
+  }
+  sb_json_array_end(json);
+}
+
+// ---- run ----
+
+static void put_choice(SbJson *json, const char *key, SbParamId id, int index) {
+  char name[64];
+  sb_param_choice_name(sb_param(id), index, name, sizeof name);
+  sb_json_string(json, key, name);
+}
+
+static void put_stages(SbJson *json, const SbSummary *summary) {
+  sb_json_object(json, "stages");
+  for (int i = 0; i < SB_STAGE_COUNT; i++) {
+    const SbStageMark *mark = &summary->stage[i];
+    sb_json_object(json, sb_stage_name((SbStage)i));
+    sb_json_number(json, "time_s", mark->reached ? mark->time : NAN);
+    sb_json_number(json, "displacement_m", mark->reached ? mark->displacement : NAN);
+    sb_json_number(json, "force_N", mark->reached ? mark->force : NAN);
+    sb_json_object_end(json);
+  }
+  sb_json_object_end(json);
+}
+
+static void put_cycle(SbJson *json, const SbSummary *summary) {
+  sb_json_object(json, "cycle");
+  sb_json_number(json, "force_peak_N", summary->force_peak);
+  sb_json_number(json, "force_breakaway_N", summary->force_breakaway);
+  sb_json_number(json, "force_return_min_N", summary->force_return_min);
+  sb_json_bool(json, "returns", summary->returns);
+  sb_json_number(json, "energy_loss_J", summary->energy.loop);
+  sb_json_number(json, "energy_closure", summary->energy.closure);
+  sb_json_number(json, "leakage_per_cycle_m3", summary->leakage_per_cycle);
+  sb_json_number(json, "duration_s", summary->duration);
+  put_stages(json, summary);
+  const SbEnergy *energy = &summary->energy;
+  sb_json_object(json, "energy");
+  sb_json_number(json, "external_J", energy->external);
+  sb_json_number(json, "external_max_J", energy->external_max);
+  sb_json_number(json, "friction_J", energy->friction);
+  sb_json_number(json, "stored_J", energy->stored);
+  sb_json_number(json, "seal_J", energy->seal);
+  sb_json_number(json, "kinetic_J", energy->kinetic);
+  sb_json_number(json, "stop_J", energy->stop);
+  sb_json_object_end(json);
+  sb_json_object_end(json);
+}
+
+static void put_seal(SbJson *json, const char *name, const SbSealSummary *seal) {
+  sb_json_object(json, name);
+  sb_json_number(json, "contact_width_m", seal->contact_width);
+  sb_json_number(json, "contact_left_m", seal->contact_left);
+  sb_json_number(json, "contact_right_m", seal->contact_right);
+  sb_json_number(json, "load_N", seal->load);
+  sb_json_number(json, "load_N_per_m", seal->load_per_length);
+  sb_json_number(json, "pressure_peak_Pa", seal->pressure_peak);
+  sb_json_number(json, "film_min_m", seal->film_min);
+  sb_json_number(json, "film_central_m", seal->film_central);
+  sb_json_object(json, "film_by_model");
+  sb_json_number(json, "karaszkiewicz", seal->film_karaszkiewicz);
+  sb_json_number(json, "thesis", seal->film_thesis);
+  sb_json_number(json, "asymptotic", seal->film_asymptotic);
+  sb_json_number(json, "reynolds", seal->film_reynolds);
+  sb_json_object_end(json);
+  sb_json_number(json, "lambda", seal->lambda);
+  sb_json_number(json, "friction_boundary_N", seal->friction_boundary);
+  sb_json_number(json, "friction_viscous_N", seal->friction_viscous);
+  sb_json_number(json, "friction_static_N", seal->friction_static);
+  sb_json_number(json, "coefficient_of_friction", seal->coefficient_of_friction);
+  sb_json_number(json, "leakage_per_stroke_m3", seal->leakage_per_stroke);
+  sb_json_object_end(json);
+}
+
+static void put_run_solver(SbJson *json, const SbSummary *summary) {
+  sb_json_object(json, "solver");
+  sb_json_bool(json, "converged", summary->converged);
+  sb_json_count(json, "frames", summary->frames);
+  sb_json_count(json, "steps", summary->steps);
+  sb_json_count(json, "rejected_steps", summary->rejected_steps);
+  sb_json_count(json, "newton_iterations", summary->newton_iterations);
+  sb_json_number(json, "wall_s", summary->wall_s);
+  sb_json_object(json, "error_estimate");
+  sb_json_number(json, "force", summary->error_force);
+  sb_json_number(json, "energy", summary->error_energy);
+  sb_json_number(json, "film", summary->error_film);
+  sb_json_number(json, "load", summary->error_load);
+  sb_json_object_end(json);
+  const SbCounters *counters = &summary->counters;
+  sb_json_object(json, "counters");
+  sb_json_count(json, "reynolds_solves", counters->reynolds_solves);
+  sb_json_count(json, "ring_solves", counters->ring_solves);
+  sb_json_count(json, "disc_solves", counters->disc_solves);
+  sb_json_count(json, "fit_solves", counters->fit_solves);
+  sb_json_count(json, "field_evaluations", counters->field_evaluations);
+  sb_json_count(json, "profile_evaluations", counters->profile_evaluations);
+  sb_json_object_end(json);
+  sb_json_object_end(json);
+}
+
+char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
+  const SbSummary *summary = sb_run_summary(run);
+  const SbModel *model = sb_run_model(run);
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_object(&json, NULL);
+  sb_json_string(&json, "scene", info->scene);
+  sb_json_string(&json, "version", sb_version());
+  sb_json_string(&json, "parameters_sha256", info->sha256);
+  sb_json_bool(&json, "partial", info->partial);
+  sb_json_object(&json, "models");
+  put_choice(&json, "fit", SB_P_MODELS_FIT, model->fit);
+  put_choice(&json, "film", SB_P_MODELS_FILM, (int)model->film);
+  put_choice(&json, "surface", SB_P_MODELS_SURFACE, (int)model->surface);
+  sb_json_string(&json, "friction", "boundary-viscous-static");
+  put_choice(&json, "motion", SB_P_MODELS_MOTION, (int)model->motion);
+  sb_json_object_end(&json);
+  put_cycle(&json, summary);
+  sb_json_object(&json, "seals");
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    put_seal(&json, sb_seal_name(i), &summary->seal[i]);
+  }
+  sb_json_object_end(&json);
+  put_warnings(&json, &summary->warnings);
+  put_run_solver(&json, summary);
+  sb_json_object_end(&json);
+  return sb_json_finish(&json);
+}
+
+// ---- film and fit ----
+
+char *sb_results_film(const SbFilm *film) {
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_object(&json, NULL);
+  sb_json_string(&json, "model", sb_film_model_name(film->model));
+  sb_json_number(&json, "film_min_m", film->film_min);
+  sb_json_number(&json, "film_central_m", film->film_central);
+  sb_json_number(&json, "film_flux_m", film->film_flux);
+  sb_json_number(&json, "pressure_max_Pa", film->pressure_max);
+  sb_json_number(&json, "position_film_min_m", film->position_film_min);
+  sb_json_number(&json, "position_rupture_m", film->position_rupture);
+  sb_json_bool(&json, "ruptured", film->ruptured);
+  sb_json_number(&json, "hertz_half_width_m", film->hertz_half_width);
+  sb_json_number(&json, "hertz_pressure_Pa", film->hertz_pressure);
+  sb_json_number(&json, "friction_couette_N_per_m", film->friction_couette);
+  sb_json_number(&json, "friction_poiseuille_N_per_m", film->friction_poiseuille);
+  sb_json_number(&json, "moes_M", film->moes_M);
+  sb_json_string(&json, "regime", film->regime);
+  sb_json_number(&json, "expected_model_error", film->expected_error);
+  sb_json_bool(&json, "valid", film->valid);
+  put_warnings(&json, &film->warnings);
+  const SbFilmSolverInfo *solver = &film->solver;
+  sb_json_object(&json, "solver");
+  sb_json_bool(&json, "converged", solver->converged);
+  sb_json_count(&json, "unknowns", solver->unknowns);
+  sb_json_count(&json, "newton_iterations", (guint64)MAX(solver->newton_iterations, 0));
+  sb_json_count(&json, "continuation_steps", (guint64)MAX(solver->continuation_steps, 0));
+  sb_json_number(&json, "residual", solver->residual);
+  sb_json_object(&json, "error_estimate");
+  sb_json_number(&json, "film_min", solver->error_film_min);
+  sb_json_number(&json, "film_central", solver->error_film_central);
+  sb_json_number(&json, "film_flux", solver->error_film_flux);
+  sb_json_object_end(&json);
+  sb_json_number(&json, "load_error", solver->load_error);
+  sb_json_number(&json, "flux_error", solver->flux_error);
+  sb_json_number(&json, "wall_s", solver->wall_s);
+  sb_json_object_end(&json);
+  sb_json_object(&json, "profile");
+  sb_json_numbers(&json, "x_m", film->x, film->points);
+  sb_json_numbers(&json, "pressure_Pa", film->pressure, film->points);
+  sb_json_numbers(&json, "film_m", film->film, film->points);
+  sb_json_object_end(&json);
+  sb_json_object_end(&json);
+  return sb_json_finish(&json);
+}
+
+char *sb_results_fit(const SbFit *fit, const char *seal, double pressure) {
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_object(&json, NULL);
+  sb_json_string(&json, "model", sb_fit_model_name(fit->model));
+  sb_json_string(&json, "variant", sb_fit_variant_name(fit->model, fit->variant));
+  sb_json_string(&json, "seal", seal);
+  sb_json_number(&json, "pressure_Pa", pressure);
+  sb_json_number(&json, "squeeze", fit->squeeze);
+  sb_json_number(&json, "stretch_mean", fit->stretch_mean);
+  sb_json_number(&json, "stretch_inner", fit->stretch_inner);
+  sb_json_number(&json, "section_diameter_fitted_m", fit->section_diameter_fitted);
+  sb_json_number(&json, "interference_m", fit->interference);
+  sb_json_number(&json, "gland_fill", fit->gland_fill);
+  sb_json_number(&json, "circumference_m", fit->circumference);
+  sb_json_number(&json, "contact_width_m", fit->contact_width);
+  sb_json_number(&json, "contact_left_m", fit->contact_left);
+  sb_json_number(&json, "contact_right_m", fit->contact_right);
+  sb_json_number(&json, "load_N", fit->load);
+  sb_json_number(&json, "load_N_per_m", fit->load_per_length);
+  sb_json_number(&json, "pressure_peak_Pa", fit->pressure_peak);
+  sb_json_bool(&json, "touches", fit->touches);
+  sb_json_bool(&json, "valid", fit->valid);
+  put_warnings(&json, &fit->warnings);
+  sb_json_object(&json, "solver");
+  sb_json_bool(&json, "converged", fit->solver.converged);
+  sb_json_count(&json, "unknowns", fit->solver.unknowns);
+  sb_json_count(&json, "newton_iterations", fit->solver.newton_iterations);
+  sb_json_object(&json, "error_estimate");
+  sb_json_number(&json, "load", fit->solver.error_estimate.load);
+  sb_json_number(&json, "pressure_peak", fit->solver.error_estimate.pressure_peak);
+  sb_json_number(&json, "contact_width", fit->solver.error_estimate.contact_width);
+  sb_json_object_end(&json);
+  sb_json_number(&json, "wall_s", fit->solver.wall_s);
+  sb_json_object_end(&json);
+  sb_json_object(&json, "profile");
+  sb_json_numbers(&json, "x_m", fit->profile_x, fit->profile_count);
+  sb_json_numbers(&json, "pressure_Pa", fit->profile_p, fit->profile_count);
+  sb_json_object_end(&json);
+  sb_json_object_end(&json);
+  return sb_json_finish(&json);
+}
+
+// ---- plan and lists ----
+
+char *sb_results_plan(const SbPlan *plan) {
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_object(&json, NULL);
+  sb_json_array(&json, "fields");
+  for (size_t i = 0; i < plan->field_count; i++) {
+    const SbPlanItem *item = &plan->field[i];
+    sb_json_object(&json, NULL);
+    sb_json_string(&json, "name", item->name);
+    sb_json_string(&json, "model", item->model);
+    sb_json_string(&json, "reason", item->reason);
+    sb_json_number(&json, "cost_s", item->cost_s);
+    sb_json_number(&json, "error", item->error);
+    sb_json_object_end(&json);
+  }
+  sb_json_array_end(&json);
+  sb_json_array(&json, "skipped");
+  for (size_t i = 0; i < plan->skipped_count; i++) {
+    sb_json_object(&json, NULL);
+    sb_json_string(&json, "name", plan->skipped[i].name);
+    sb_json_string(&json, "reason", plan->skipped[i].reason);
+    sb_json_object_end(&json);
+  }
+  sb_json_array_end(&json);
+  sb_json_object_end(&json);
+  return sb_json_finish(&json);
+}
+
+static void put_choices(SbJson *json, const SbParam *param, double fallback) {
+  char name[64];
+  sb_json_string(json, "min", NULL);
+  sb_json_string(json, "max", NULL);
+  if (param->kind == SB_PARAM_CHOICE) {
+    sb_param_choice_name(param, (int)fallback, name, sizeof name);
+    sb_json_string(json, "default", name);
+  } else {
+    sb_json_array(json, "default");
+    for (int i = 0; i < sb_param_choice_count(param); i++) {
+      if ((unsigned)fallback & 1u << i) {
+        sb_param_choice_name(param, i, name, sizeof name);
+        sb_json_string(json, NULL, name);
+      }
+    }
+    sb_json_array_end(json);
+  }
+  sb_json_array(json, "choices");
+  for (int i = 0; i < sb_param_choice_count(param); i++) {
+    sb_param_choice_name(param, i, name, sizeof name);
+    sb_json_string(json, NULL, name);
+  }
+  sb_json_array_end(json);
+}
+
+char *sb_results_params(void) {
+  static const char *const kinds[] = {"real", "integer", "choice", "flags"};
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_array(&json, NULL);
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    sb_json_object(&json, NULL);
+    sb_json_string(&json, "key", param->key);
+    sb_json_string(&json, "kind", kinds[param->kind]);
+    sb_json_string(&json, "symbol", param->symbol);
+    // min, max and default are SI; people see display_unit.
+    sb_json_string(&json, "unit", param->si);
+    sb_json_string(&json, "display_unit", param->unit);
+    if (param->choices != NULL) {
+      put_choices(&json, param, param->fallback);
+    } else {
+      sb_json_number(&json, "min", param->min);
+      sb_json_number(&json, "max", param->max);
+      sb_json_number(&json, "default", param->fallback);
+    }
+    sb_json_string(&json, "help", param->help);
+    sb_json_string(&json, "source", param->source);
+    sb_json_string(&json, "tag", param->tag);
+    sb_json_object_end(&json);
+  }
+  sb_json_array_end(&json);
+  return sb_json_finish(&json);
+}
+
+char *sb_results_models(void) {
+  static const SbParamId ids[] = {SB_P_MODELS_FIT, SB_P_MODELS_FILM, SB_P_MODELS_SURFACE,
+                                  SB_P_MODELS_MOTION};
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_array(&json, NULL);
+  for (size_t i = 0; i < G_N_ELEMENTS(ids); i++) {
+    const SbParam *param = sb_param(ids[i]);
+    for (int k = 0; k < sb_param_choice_count(param); k++) {
+      char name[64];
+      sb_param_choice_name(param, k, name, sizeof name);
+      sb_json_object(&json, NULL);
+      sb_json_string(&json, "key", param->key);
+      sb_json_string(&json, "name", name);
+      sb_json_bool(&json, "default", k == (int)param->fallback);
+      sb_json_object_end(&json);
+    }
+  }
+  // Film models that only the command `film` has.
+  for (int k = 0; k < SB_FILM_MODEL_COUNT; k++) {
+    const char *name = sb_film_model_name((SbFilmModel)k);
+    if (sb_param_choice(sb_param(SB_P_MODELS_FILM), name, strlen(name)) < 0) {
+      sb_json_object(&json, NULL);
+      sb_json_string(&json, "key", "film");
+      sb_json_string(&json, "name", name);
+      sb_json_bool(&json, "default", false);
+      sb_json_object_end(&json);
+    }
+  }
+  sb_json_array_end(&json);
+  return sb_json_finish(&json);
+}

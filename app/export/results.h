@@ -1,0 +1,23 @@
+// Results as JSON documents, keys and units as the contract of the command line says.
+#pragma once
+
+#include "engine/elastic/fit.h"
+#include "engine/film/film.h"
+#include "engine/sealbench.h"
+
+#include <glib.h>
+
+// What a run's document needs beyond the run.
+typedef struct {
+  const char *scene;  // path or title
+  const char *sha256; // of the parameters
+  bool partial;       // interrupted
+} SbResultsInfo;
+
+// All of these return a text owned by the caller. Numbers that do not exist are null.
+char *sb_results_run(const SbRun *run, const SbResultsInfo *info);
+char *sb_results_film(const SbFilm *film);
+char *sb_results_fit(const SbFit *fit, const char *seal, double pressure);
+char *sb_results_plan(const SbPlan *plan);
+char *sb_results_params(void);
+char *sb_results_models(void);
