@@ -5,15 +5,12 @@
 // alone. End pressures: see sb_film_dry_pressure and reference/ehl.md, "Unequal end pressures".
 #include "engine/film/film.h"
 
+#include "engine/film/reynolds.h"
 #include "engine/film/scale.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-struct SbFilmSolver {
-  bool warm;
-};
 
 static const struct {
   const char *name;
@@ -48,17 +45,22 @@ void sb_film_problem_init(SbFilmProblem *problem) {
 
 SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
   *out = calloc(1, sizeof **out);
-  return *out != NULL ? sb_succeed(report)
-                      : sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
+  if (*out == NULL || !sb_reynolds_init(*out)) {
+    sb_film_solver_destroy(*out);
+    *out = NULL;
+    return sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
+  }
+  return sb_succeed(report);
 }
 
 void sb_film_solver_destroy(SbFilmSolver *solver) {
-  free(solver);
+  if (solver != NULL) {
+    sb_reynolds_finish(solver);
+    free(solver);
+  }
 }
 
-void sb_film_solver_forget(SbFilmSolver *solver) {
-  solver->warm = false;
-}
+void sb_film_solver_forget(SbFilmSolver *solver) {}
 
 // Ranges wide enough for every seal and narrow enough that nothing overflows.
 static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
@@ -182,6 +184,17 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
     case SB_FILM_ASYMPTOTIC:
       status = sb_film_solve_law(out, problem, &scale, report);
       break;
+    case SB_FILM_REYNOLDS: {
+      SbFilmSolver *own = NULL;
+      if (memory == NULL) {
+        status = sb_film_solver_create(&own, report);
+      }
+      if (status == SB_OK) {
+        status = sb_reynolds_solve(out, problem, &scale, memory != NULL ? memory : own, report);
+      }
+      sb_film_solver_destroy(own);
+      break;
+    }
     default:
       status = sb_fail(report, SB_ERROR_INPUT, "film: model %s is not built in",
                        sb_film_model_name(problem->model));

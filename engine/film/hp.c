@@ -1,0 +1,573 @@
+// Spectral elements for a pressure on an elastic half-plane, scaled: gap of a pressure P is
+// -(1/pi) integral P ln|X - X'| dX' (thesis eq. 6.46-6.50 without its constant).
+//
+// Each element maps r in [-1, 1] to X so that the pressure is smooth in r: affine in the layers,
+// X = -cos(theta) inside the contact with Hertz's sine taken out, and inverse squares towards the
+// infinite ends, where p falls like s^4 and faster. Near a target the logarithm is split into
+// ln|z - r|, z being the target's own (complex) coordinate, and a smooth remainder. The first part
+// is exact for polynomials: integral of P_k(r) ln(z - r) = 2/(2k+1) (Q_{k+1} - Q_{k-1})(z) with the
+// Legendre functions of the second kind; the remainder and distant targets take Gauss rules.
+//
+// Left out: anything but the half-plane; unequal far pressures are given the tilt of
+// reference/ehl.md (the dry contact stays |x| < b).
+#include "engine/film/hp.h"
+
+#include "engine/numeric/legendre.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  COLUMNS = SB_HP_DEGREE_MAX + 2,
+  TARGETS_MAX = SB_HP_DOFS_MAX + SB_HP_ELEMENTS_MAX + 4,
+  STRIDE = SB_HP_DEGREE_MAX + 1,
+};
+
+// Half the sum of the distances to -1 and 1 is (rho + 1/rho)/2 on Bernstein's ellipse rho: closer
+// than NEAR (rho = 2) the split kernel is used, beyond FAR (rho = 6) the coarse rule suffices.
+static const double NEAR = 1.25;
+static const double FAR = 3.1;
+
+void sb_hp_tables_init(SbHpTables *tables) {
+  sb_legendre_gauss(tables->fine, tables->fine_weight, SB_HP_QUAD);
+  sb_legendre_gauss(tables->far, tables->far_weight, SB_HP_QUAD_FAR);
+  for (int q = 0; q < SB_HP_QUAD; q++) {
+    sb_legendre_values(tables->fine_legendre[q], tables->fine[q], SB_HP_PROJECT);
+  }
+}
+
+const SbHpTable *sb_hp_table(SbHpTables *tables, int degree) {
+  SbHpTable *t = &tables->table[degree];
+  if (t->ready) {
+    return t;
+  }
+  t->degree = degree;
+  int count = degree + 1;
+  sb_legendre_lobatto(t->node, degree);
+  sb_barycentric_weights(t->bary, t->node, count);
+  for (int rule = 0; rule < 2; rule++) {
+    int points = degree + rule;
+    sb_legendre_gauss(t->gauss[rule], t->weight[rule], points);
+    for (int i = 0; i < points; i++) {
+      sb_barycentric_basis(t->value[rule][i], t->gauss[rule][i], t->node, t->bary, count);
+      sb_barycentric_slope(t->slope[rule][i], t->gauss[rule][i], t->node, t->bary, count);
+    }
+  }
+  for (int q = 0; q < SB_HP_QUAD; q++) {
+    sb_barycentric_basis(t->fine[q], tables->fine[q], t->node, t->bary, count);
+  }
+  for (int q = 0; q < SB_HP_QUAD_FAR; q++) {
+    sb_barycentric_basis(t->far[q], tables->far[q], t->node, t->bary, count);
+  }
+  // Points of the gap: both ends and the Gauss points, or one end and one more Gauss point.
+  t->gap_node[0][0] = -1.0;
+  memcpy(&t->gap_node[0][1], t->gauss[0], (size_t)degree * sizeof(double));
+  t->gap_node[0][degree + 1] = 1.0;
+  memcpy(&t->gap_node[1][0], t->gauss[1], (size_t)count * sizeof(double));
+  t->gap_node[1][degree + 1] = 1.0;
+  t->gap_node[2][0] = -1.0;
+  memcpy(&t->gap_node[2][1], t->gauss[1], (size_t)count * sizeof(double));
+  for (int kind = 0; kind < 3; kind++) {
+    sb_barycentric_weights(t->gap_bary[kind], t->gap_node[kind], degree + 2);
+  }
+  t->ready = true;
+  return t;
+}
+
+// ---------------------------------------------------------------- maps
+
+// s of an infinite element: 1 at its finite end, 0 at infinity.
+static double inverse_coordinate(const SbHpElement *e, double r) {
+  return e->map == SB_HP_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
+}
+
+double sb_hp_position(const SbHpElement *e, double r) {
+  double s;
+  switch (e->map) {
+  case SB_HP_AFFINE:
+    return e->m + e->h * r;
+  case SB_HP_COSINE:
+    return -cos(e->m + e->h * r);
+  case SB_HP_INLET:
+    s = inverse_coordinate(e, r);
+    return e->A - e->B / (s * s);
+  default:
+    s = inverse_coordinate(e, r);
+    return e->A + e->B / (s * s);
+  }
+}
+
+double sb_hp_stretch(const SbHpElement *e, double r) {
+  switch (e->map) {
+  case SB_HP_AFFINE:
+    return e->h;
+  case SB_HP_COSINE:
+    return e->h * sin(e->m + e->h * r);
+  default: {
+    double s = inverse_coordinate(e, r);
+    return e->B / (s * s * s);
+  }
+  }
+}
+
+static bool is_infinite(const SbHpElement *e) {
+  return e->map == SB_HP_INLET || e->map == SB_HP_OUTLET;
+}
+
+// Factor of the nodal polynomial in the pressure, and the node that touches the neighbour.
+static double factor(const SbHpElement *e, double r) {
+  if (!is_infinite(e)) {
+    return 1.0;
+  }
+  double s = inverse_coordinate(e, r);
+  return s * s * s * s;
+}
+
+static int touching_node(const SbHpElement *e) {
+  return e->map == SB_HP_INLET ? e->degree : 0;
+}
+
+// Known part of the pressure, without the far pressure: basis holds the Lagrange values at r.
+static double known_part(const SbHpElement *e, const SbHpTable *t, const double *basis, double r) {
+  if (e->map == SB_HP_COSINE) {
+    double known = sin(e->m + e->h * r);
+    for (int k = 0; k <= e->degree; k++) {
+      known -= basis[k] * sin(e->m + e->h * t->node[k]);
+    }
+    return known;
+  }
+  // The touching node holds the full pressure, of which the far pressure is no part of s^4 (...).
+  return is_infinite(e) ? -e->far_pressure * factor(e, r) * basis[touching_node(e)] : 0.0;
+}
+
+// ---------------------------------------------------------------- logarithmic moments
+
+// out[k] = Re integral over [-1, 1] of P_k(r) ln(z - r), k = 0 .. n, for real z near the element.
+static void moments_real(double *out, double z, int n) {
+  double plus = log(fmax(fabs(z + 1.0), 1e-40));
+  double minus = log(fmax(fabs(z - 1.0), 1e-40));
+  double before = 0.5 * (plus - minus);
+  double now = z * before - 1.0;
+  out[0] = (z + 1.0) * plus - (z - 1.0) * minus - 2.0;
+  for (int k = 1; k <= n; k++) {
+    double next = ((2 * k + 1) * z * now - k * before) / (k + 1);
+    out[k] = 2.0 / (2 * k + 1) * (next - before);
+    before = now;
+    now = next;
+  }
+}
+
+static void moments_complex(double *out, double real, double imaginary, int n) {
+  double complex z = real + imaginary * I;
+  double complex plus = clog(z + 1.0);
+  double complex minus = clog(z - 1.0);
+  double complex before = 0.5 * (plus - minus);
+  double complex now = z * before - 1.0;
+  out[0] = creal((z + 1.0) * plus - (z - 1.0) * minus - 2.0);
+  for (int k = 1; k <= n; k++) {
+    double complex next = ((2 * k + 1) * z * now - k * before) / (k + 1);
+    out[k] = 2.0 / (2 * k + 1) * creal(next - before);
+    before = now;
+    now = next;
+  }
+}
+
+// ---------------------------------------------------------------- elements
+
+// Everything about an element that its integrals need, for every target alike.
+static void prepare(SbHpElement *e, SbHpTables *tables) {
+  const SbHpTable *t = sb_hp_table(tables, e->degree);
+  int columns = e->degree + 2;
+  int extra = e->map == SB_HP_AFFINE ? 0 : e->map == SB_HP_COSINE ? 10 : 1;
+  e->modes = e->degree + extra;
+  memset(e->project, 0, sizeof e->project);
+  memset(e->integral, 0, sizeof e->integral);
+  for (int q = 0; q < SB_HP_QUAD; q++) {
+    double r = tables->fine[q];
+    double scale = tables->fine_weight[q] * sb_hp_stretch(e, r);
+    double f = factor(e, r);
+    for (int k = 0; k <= e->degree; k++) {
+      e->fine_wb[q][k] = scale * f * t->fine[q][k];
+    }
+    e->fine_wb[q][e->degree + 1] = scale * known_part(e, t, t->fine[q], r);
+    e->fine_x[q] = is_infinite(e) ? inverse_coordinate(e, r) : sb_hp_position(e, r);
+    for (int j = 0; j < columns; j++) {
+      e->integral[j] += e->fine_wb[q][j];
+    }
+    for (int k = 0; k <= e->modes; k++) {
+      double mode = 0.5 * (2 * k + 1) * tables->fine_legendre[q][k];
+      for (int j = 0; j < columns; j++) {
+        e->project[k][j] += mode * e->fine_wb[q][j];
+      }
+    }
+  }
+  for (int q = 0; q < SB_HP_QUAD_FAR; q++) {
+    double r = tables->far[q];
+    double scale = tables->far_weight[q] * sb_hp_stretch(e, r);
+    double f = factor(e, r);
+    for (int k = 0; k <= e->degree; k++) {
+      e->far_wb[q][k] = scale * f * t->far[q][k];
+    }
+    e->far_wb[q][e->degree + 1] = scale * known_part(e, t, t->far[q], r);
+    e->far_x[q] = is_infinite(e) ? inverse_coordinate(e, r) : sb_hp_position(e, r);
+  }
+  if (is_infinite(e)) {
+    // Integral with ln s, the distance from the infinite end.
+    double moment[SB_HP_PROJECT + 1];
+    moments_real(moment, e->map == SB_HP_INLET ? -1.0 : 1.0, e->modes);
+    for (int j = 0; j < columns; j++) {
+      e->log_s[j] = -log(2.0) * e->integral[j];
+      for (int k = 0; k <= e->modes; k++) {
+        e->log_s[j] += moment[k] * e->project[k][j];
+      }
+    }
+  }
+}
+
+static void add_moments(double *row, const SbHpElement *e, const double *moment, double times) {
+  for (int k = 0; k <= e->modes; k++) {
+    for (int j = 0; j < e->degree + 2; j++) {
+      row[j] += times * moment[k] * e->project[k][j];
+    }
+  }
+}
+
+// Finite elements: row[j] = integral of column j times ln|X - X'|.
+static void row_finite(double *row, const SbHpElement *e, const double *fine, double X) {
+  int columns = e->degree + 2;
+  // The target's own coordinate, complex outside |X| <= 1 on the cosine map.
+  double imaginary = 0.0;
+  double real;
+  if (e->map == SB_HP_AFFINE) {
+    real = (X - e->m) / e->h;
+  } else if (fabs(X) <= 1.0) {
+    real = (acos(-X) - e->m) / e->h;
+  } else {
+    real = ((X < 0.0 ? 0.0 : M_PI) - e->m) / e->h;
+    imaginary = acosh(fabs(X)) / e->h;
+  }
+  double distance = imaginary == 0.0
+                        ? fmax(1.0, fabs(real))
+                        : 0.5 * (hypot(real - 1.0, imaginary) + hypot(real + 1.0, imaginary));
+  if (distance > FAR) {
+    for (int q = 0; q < SB_HP_QUAD_FAR; q++) {
+      double value = log(fabs(X - e->far_x[q]));
+      for (int j = 0; j < columns; j++) {
+        row[j] += value * e->far_wb[q][j];
+      }
+    }
+    return;
+  }
+  if (distance > NEAR) {
+    for (int q = 0; q < SB_HP_QUAD; q++) {
+      double value = log(fabs(X - e->fine_x[q]));
+      for (int j = 0; j < columns; j++) {
+        row[j] += value * e->fine_wb[q][j];
+      }
+    }
+    return;
+  }
+  double moment[SB_HP_PROJECT + 1];
+  if (imaginary == 0.0) {
+    moments_real(moment, real, e->modes);
+  } else {
+    moments_complex(moment, real, imaginary, e->modes);
+  }
+  add_moments(row, e, moment, 1.0);
+  if (e->map == SB_HP_AFFINE) {
+    double value = log(e->h);
+    for (int j = 0; j < columns; j++) {
+      row[j] += value * e->integral[j];
+    }
+    return;
+  }
+  // Remainder of the cosine map's kernel, ln|(X - X')/(z - r)|, smooth in r.
+  for (int q = 0; q < SB_HP_QUAD; q++) {
+    double dr = real - fine[q];
+    double dX = X - e->fine_x[q];
+    double value = 0.5 * log(dX * dX / (dr * dr + imaginary * imaginary));
+    for (int j = 0; j < columns; j++) {
+      row[j] += value * e->fine_wb[q][j];
+    }
+  }
+}
+
+// Infinite elements: |X - X'| = |B + a s^2| / s^2 with a = X - A (inlet) or A - X (outlet).
+static void row_infinite(double *row, const SbHpElement *e, double X) {
+  int columns = e->degree + 2;
+  double side = e->map == SB_HP_INLET ? 1.0 : -1.0;
+  double a = side * (X - e->A);
+  for (int j = 0; j < columns; j++) {
+    row[j] -= 2.0 * e->log_s[j];
+  }
+  // Roots s = +-y or +-iy; in r they are side (2 s - 1).
+  double y = a != 0.0 ? sqrt(e->B / fabs(a)) : 1e30;
+  bool near = a < 0.0 ? 2.0 * y - 1.0 < NEAR : sqrt(1.0 + y * y) + y < NEAR;
+  if (!near) {
+    for (int q = 0; q < SB_HP_QUAD; q++) {
+      double s = e->fine_x[q];
+      double value = log(fabs(e->B + a * s * s));
+      for (int j = 0; j < columns; j++) {
+        row[j] += value * e->fine_wb[q][j];
+      }
+    }
+    return;
+  }
+  double moment[SB_HP_PROJECT + 1];
+  if (a < 0.0) {
+    moments_real(moment, side * (2.0 * y - 1.0), e->modes);
+    add_moments(row, e, moment, 1.0);
+    if (2.0 * y + 1.0 < NEAR) {
+      moments_real(moment, -side * (2.0 * y + 1.0), e->modes);
+      add_moments(row, e, moment, 1.0);
+    } else {
+      for (int q = 0; q < SB_HP_QUAD; q++) {
+        double value = log(2.0 * (e->fine_x[q] + y));
+        for (int j = 0; j < columns; j++) {
+          row[j] += value * e->fine_wb[q][j];
+        }
+      }
+    }
+  } else {
+    moments_complex(moment, -side, 2.0 * y, e->modes);
+    add_moments(row, e, moment, 2.0);
+  }
+  double value = log(0.25 * fabs(a));
+  for (int j = 0; j < columns; j++) {
+    row[j] += value * e->integral[j];
+  }
+}
+
+// ---------------------------------------------------------------- meshes
+
+bool sb_hp_mesh_init(SbHpMesh *mesh) {
+  memset(mesh, 0, sizeof *mesh);
+  size_t targets = TARGETS_MAX;
+  size_t dofs = SB_HP_DOFS_MAX;
+  mesh->gap = malloc(targets * dofs * sizeof(double));
+  mesh->gap_known = malloc(targets * sizeof(double));
+  mesh->x = malloc(targets * sizeof(double));
+  mesh->weight = malloc(targets * sizeof(double));
+  mesh->value = malloc(targets * STRIDE * sizeof(double));
+  mesh->slope = malloc(targets * STRIDE * sizeof(double));
+  mesh->value_known = malloc(targets * sizeof(double));
+  mesh->slope_known = malloc(targets * sizeof(double));
+  mesh->owner = malloc(targets * sizeof(int));
+  mesh->load = malloc(dofs * sizeof(double));
+  if (mesh->gap == NULL || mesh->gap_known == NULL || mesh->x == NULL || mesh->weight == NULL ||
+      mesh->value == NULL || mesh->slope == NULL || mesh->value_known == NULL ||
+      mesh->slope_known == NULL || mesh->owner == NULL || mesh->load == NULL) {
+    sb_hp_mesh_finish(mesh);
+    return false;
+  }
+  return true;
+}
+
+void sb_hp_mesh_finish(SbHpMesh *mesh) {
+  free(mesh->gap);
+  free(mesh->gap_known);
+  free(mesh->x);
+  free(mesh->weight);
+  free(mesh->value);
+  free(mesh->slope);
+  free(mesh->value_known);
+  free(mesh->slope_known);
+  free(mesh->owner);
+  free(mesh->load);
+  memset(mesh, 0, sizeof *mesh);
+}
+
+void sb_hp_mesh_begin(SbHpMesh *mesh, double inlet_pressure, double outlet_pressure) {
+  mesh->count = 0;
+  mesh->dofs = 0;
+  mesh->rows = 0;
+  mesh->inlet_pressure = inlet_pressure;
+  mesh->outlet_pressure = outlet_pressure;
+}
+
+bool sb_hp_mesh_add(SbHpMesh *mesh, SbHpMap map, double x0, double x1, double A, int degree,
+                    bool apart) {
+  int shared = mesh->count > 0 && !apart ? 1 : 0;
+  int points = degree + (map == SB_HP_INLET || map == SB_HP_OUTLET ? 1 : 0);
+  if (mesh->count >= SB_HP_ELEMENTS_MAX || mesh->dofs - shared + degree + 1 > SB_HP_DOFS_MAX ||
+      mesh->rows + points > SB_HP_DOFS_MAX) {
+    return false;
+  }
+  SbHpElement *e = &mesh->element[mesh->count++];
+  e->map = map;
+  e->degree = degree;
+  e->points = points;
+  e->apart = apart;
+  e->x0 = x0;
+  e->x1 = x1;
+  e->A = A;
+  e->first_dof = mesh->dofs - shared;
+  e->first_row = mesh->rows;
+  e->far_pressure = 0.0;
+  mesh->dofs = e->first_dof + degree + 1;
+  mesh->rows += points;
+  switch (map) {
+  case SB_HP_AFFINE:
+    e->m = 0.5 * (x0 + x1);
+    e->h = 0.5 * (x1 - x0);
+    break;
+  case SB_HP_COSINE: {
+    double begin = acos(-x0);
+    double end = acos(-x1);
+    e->m = 0.5 * (begin + end);
+    e->h = 0.5 * (end - begin);
+    break;
+  }
+  case SB_HP_INLET:
+    e->B = A - x1;
+    e->far_pressure = mesh->inlet_pressure;
+    break;
+  case SB_HP_OUTLET:
+    e->B = x0 - A;
+    e->far_pressure = mesh->outlet_pressure;
+    break;
+  }
+  return true;
+}
+
+// Position and owner of every target: collocation points, then ends.
+static void place_targets(SbHpMesh *mesh, SbHpTables *tables) {
+  int targets = mesh->rows;
+  for (int i = 0; i < mesh->count; i++) {
+    SbHpElement *e = &mesh->element[i];
+    const SbHpTable *t = sb_hp_table(tables, e->degree);
+    int rule = e->points - e->degree;
+    for (int k = 0; k < e->points; k++) {
+      double r = t->gauss[rule][k];
+      int row = e->first_row + k;
+      double stretch = sb_hp_stretch(e, r);
+      mesh->x[row] = sb_hp_position(e, r);
+      mesh->owner[row] = i;
+      mesh->weight[row] = t->weight[rule][k] * stretch;
+      // Pressure and its slope from the nodes, the factor s^4 differentiated with them.
+      double f = factor(e, r);
+      double f_slope = 0.0;
+      if (is_infinite(e)) {
+        double s = inverse_coordinate(e, r);
+        f_slope = (e->map == SB_HP_INLET ? 2.0 : -2.0) * s * s * s;
+      }
+      double *value = mesh->value + (size_t)row * STRIDE;
+      double *slope = mesh->slope + (size_t)row * STRIDE;
+      for (int j = 0; j <= e->degree; j++) {
+        value[j] = f * t->value[rule][k][j];
+        slope[j] = (f * t->slope[rule][k][j] + f_slope * t->value[rule][k][j]) / stretch;
+      }
+      mesh->value_known[row] = known_part(e, t, t->value[rule][k], r) + e->far_pressure;
+      mesh->slope_known[row] = 0.0;
+      if (is_infinite(e)) {
+        mesh->slope_known[row] = -e->far_pressure * slope[touching_node(e)];
+      } else if (e->map == SB_HP_COSINE) {
+        double known = e->h * cos(e->m + e->h * r);
+        for (int j = 0; j <= e->degree; j++) {
+          known -= t->slope[rule][k][j] * sin(e->m + e->h * t->node[j]);
+        }
+        mesh->slope_known[row] = known / stretch;
+      }
+    }
+    // Ends: the left one is the right one of the element before, unless apart or first.
+    e->left_target = -1;
+    if (e->map != SB_HP_INLET) {
+      if (i > 0 && !e->apart) {
+        e->left_target = mesh->element[i - 1].right_target;
+      } else {
+        e->left_target = targets;
+        mesh->owner[targets] = i;
+        mesh->x[targets++] = e->x0;
+      }
+    }
+    e->right_target = -1;
+    if (e->map != SB_HP_OUTLET) {
+      e->right_target = targets;
+      mesh->owner[targets] = i;
+      mesh->x[targets++] = e->x1;
+    }
+  }
+  mesh->targets = targets;
+}
+
+// x (ln|x| - 1): the gap of a constant pressure on a half-line, up to tilt and constant.
+static double half_line(double x) {
+  return x == 0.0 ? 0.0 : x * (log(fabs(x)) - 1.0);
+}
+
+void sb_hp_mesh_build(SbHpMesh *mesh, SbHpTables *tables) {
+  for (int i = 0; i < mesh->count; i++) {
+    prepare(&mesh->element[i], tables);
+  }
+  place_targets(mesh, tables);
+  const SbHpElement *first = &mesh->element[0];
+  const SbHpElement *last = &mesh->element[mesh->count - 1];
+  mesh->left_end = first->map == SB_HP_INLET ? first->x1 : first->x0;
+  mesh->right_end = last->map == SB_HP_OUTLET ? last->x0 : last->x1;
+  double in = mesh->inlet_pressure / M_PI;
+  double out = mesh->outlet_pressure / M_PI;
+
+  for (int i = 0; i < mesh->targets; i++) {
+    double *gap = mesh->gap + (size_t)i * (size_t)mesh->dofs;
+    double X = mesh->x[i];
+    double known = 0.0;
+    memset(gap, 0, (size_t)mesh->dofs * sizeof *gap);
+    for (int k = 0; k < mesh->count; k++) {
+      const SbHpElement *e = &mesh->element[k];
+      double row[COLUMNS] = {0};
+      if (is_infinite(e)) {
+        row_infinite(row, e, X);
+      } else {
+        row_finite(row, e, tables->fine, X);
+      }
+      for (int j = 0; j <= e->degree; j++) {
+        gap[e->first_dof + j] -= row[j] / M_PI;
+      }
+      known -= row[e->degree + 1] / M_PI;
+    }
+    known += in * half_line(X - mesh->left_end) - out * half_line(X - mesh->right_end);
+    mesh->gap_known[i] = known + (in - out) * log(2.0) * X;
+  }
+
+  memset(mesh->load, 0, (size_t)mesh->dofs * sizeof(double));
+  mesh->load_known = 0.0;
+  for (int k = 0; k < mesh->count; k++) {
+    const SbHpElement *e = &mesh->element[k];
+    for (int j = 0; j <= e->degree; j++) {
+      mesh->load[e->first_dof + j] += e->integral[j];
+    }
+    mesh->load_known += e->integral[e->degree + 1];
+  }
+}
+
+double sb_hp_pressure(const SbHpMesh *mesh, SbHpTables *tables, const SbHpElement *e,
+                      const double *nodal, double r) {
+  const SbHpTable *t = sb_hp_table(tables, e->degree);
+  double basis[SB_HP_DEGREE_MAX + 1];
+  sb_barycentric_basis(basis, r, t->node, t->bary, e->degree + 1);
+  double sum = 0.0;
+  for (int k = 0; k <= e->degree; k++) {
+    sum += basis[k] * nodal[e->first_dof + k];
+  }
+  return e->far_pressure + factor(e, r) * sum + known_part(e, t, basis, r);
+}
+
+double sb_hp_gap(const SbHpMesh *mesh, SbHpTables *tables, int element, const double *target_gap,
+                 double r) {
+  const SbHpElement *e = &mesh->element[element];
+  const SbHpTable *t = sb_hp_table(tables, e->degree);
+  int kind = e->map == SB_HP_INLET ? 1 : e->map == SB_HP_OUTLET ? 2 : 0;
+  double basis[SB_HP_DEGREE_MAX + 2];
+  sb_barycentric_basis(basis, r, t->gap_node[kind], t->gap_bary[kind], e->degree + 2);
+  double sum = 0.0;
+  for (int k = 0; k < e->degree + 2; k++) {
+    int collocated = kind == 1 ? k : k - 1;
+    int target = collocated < 0           ? e->left_target
+                 : collocated < e->points ? e->first_row + collocated
+                                          : e->right_target;
+    sum += basis[k] * target_gap[target] * factor(e, t->gap_node[kind][k]);
+  }
+  return sum / factor(e, r);
+}

@@ -1,0 +1,127 @@
+// Spectral elements for a pressure on a half-plane (private to engine/film).
+//
+// The line is cut into elements; on each the pressure is a polynomial in the element's own
+// coordinate r in [-1, 1], continuous across elements, and the film equation is collocated at Gauss
+// points. The gap's integral with the logarithmic kernel is taken exactly for these polynomials.
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum {
+  SB_HP_DEGREE_MAX = 16,
+  SB_HP_ELEMENTS_MAX = 40,
+  SB_HP_DOFS_MAX = 420, // nodal pressures
+  SB_HP_EXTRA = 4,      // room for the unknowns beside the pressures
+  SB_HP_QUAD = 24,      // points of the fine rule for smooth remainders
+  SB_HP_QUAD_FAR = 14,  // and of the coarse rule for distant targets
+  SB_HP_PROJECT = SB_HP_DEGREE_MAX + 12
+};
+
+// How r maps to X.
+typedef enum {
+  SB_HP_AFFINE, // X = m + h r
+  SB_HP_COSINE, // X = -cos(theta), theta = m + h r; pressure = sin(theta) + polynomial
+  SB_HP_INLET,  // X = A - B / s^2, s = (1 + r) / 2, to minus infinity; p = far + s^4 polynomial
+  SB_HP_OUTLET  // X = A + B / s^2, s = (1 - r) / 2, to infinity
+} SbHpMap;
+
+// Tables of one degree.
+typedef struct {
+  int degree;
+  double node[SB_HP_DEGREE_MAX + 1]; // Lobatto
+  double bary[SB_HP_DEGREE_MAX + 1];
+  // Gauss rules of collocation: [0] with `degree` points, [1] with degree + 1.
+  double gauss[2][SB_HP_DEGREE_MAX + 1];
+  double weight[2][SB_HP_DEGREE_MAX + 1];
+  double value[2][SB_HP_DEGREE_MAX + 1][SB_HP_DEGREE_MAX + 1]; // [rule][point][node]
+  double slope[2][SB_HP_DEGREE_MAX + 1][SB_HP_DEGREE_MAX + 1];
+  double fine[SB_HP_QUAD][SB_HP_DEGREE_MAX + 1]; // basis at the fine rule
+  double far[SB_HP_QUAD_FAR][SB_HP_DEGREE_MAX + 1];
+  // Points from which the gap is interpolated: the collocation points and the finite ends.
+  // [0] finite elements, [1] inlet, [2] outlet; degree + 2 points each.
+  double gap_node[3][SB_HP_DEGREE_MAX + 2];
+  double gap_bary[3][SB_HP_DEGREE_MAX + 2];
+  bool ready;
+} SbHpTable;
+
+// One element. Columns 0 .. degree belong to the nodes, column degree + 1 to the known part of the
+// pressure (the sine, or the far pressure).
+typedef struct {
+  SbHpMap map;
+  int degree;
+  int points;    // collocation points
+  int first_dof; // of degree + 1; the first is shared with the element before unless `apart`
+  int first_row;
+  int left_target, right_target; // targets at the ends, -1 at infinity
+  bool apart;                    // does not touch the element before: a cavity lies between
+  double x0, x1;                 // ends; the infinite one is unused
+  double m, h, A, B;
+  double far_pressure;
+  int modes; // highest Legendre mode of the projected weight
+  double project[SB_HP_PROJECT + 1][SB_HP_DEGREE_MAX + 2];
+  double fine_x[SB_HP_QUAD];
+  double fine_wb[SB_HP_QUAD][SB_HP_DEGREE_MAX + 2];
+  double far_x[SB_HP_QUAD_FAR];
+  double far_wb[SB_HP_QUAD_FAR][SB_HP_DEGREE_MAX + 2];
+  double integral[SB_HP_DEGREE_MAX + 2]; // of the pressure (less the far pressure) over X
+  double log_s[SB_HP_DEGREE_MAX + 2];    // integral with ln s, infinite elements
+} SbHpElement;
+
+// A mesh with its operators. Targets are the collocation points (the first `rows`), then the finite
+// ends of the elements. The known parts hold what does not depend on the nodal pressures.
+typedef struct {
+  int count;
+  SbHpElement element[SB_HP_ELEMENTS_MAX];
+  int dofs, rows, targets;
+  double inlet_pressure, outlet_pressure; // constant pressure beyond the two ends of the mesh
+  double left_end, right_end;             // where those constants begin
+  double *gap;                            // [targets][dofs] -(1/pi) integral of basis ln|X - X'|
+  double *gap_known; // [targets] gap of the known pressure, of the far pressures and their tilt
+  double *x;         // [targets]
+  double *weight;    // [rows] quadrature weights dX of the collocation points
+  // Local operators: a collocation point sees the nodes of its element only.
+  double *value;                     // [rows][SB_HP_DEGREE_MAX + 1]
+  double *slope;                     // d/dX
+  double *value_known, *slope_known; // [rows]
+  int *owner;                        // [targets] element of a target
+  double *load;                      // [dofs] integral of the basis
+  double load_known;
+} SbHpMesh;
+
+// Everything that outlives a solve: rules and tables of the degrees in use.
+typedef struct {
+  double fine[SB_HP_QUAD], fine_weight[SB_HP_QUAD];
+  double far[SB_HP_QUAD_FAR], far_weight[SB_HP_QUAD_FAR];
+  double fine_legendre[SB_HP_QUAD][SB_HP_PROJECT + 1];
+  SbHpTable table[SB_HP_DEGREE_MAX + 1];
+} SbHpTables;
+
+// Rules; the tables of a degree follow on first use.
+void sb_hp_tables_init(SbHpTables *tables);
+const SbHpTable *sb_hp_table(SbHpTables *tables, int degree);
+
+// Storage of a mesh: false when out of memory. Finish takes a zeroed mesh.
+bool sb_hp_mesh_init(SbHpMesh *mesh);
+void sb_hp_mesh_finish(SbHpMesh *mesh);
+
+// Empties the mesh and adds elements from left to right. Returns false when the mesh is full.
+void sb_hp_mesh_begin(SbHpMesh *mesh, double inlet_pressure, double outlet_pressure);
+bool sb_hp_mesh_add(SbHpMesh *mesh, SbHpMap map, double x0, double x1, double A, int degree,
+                    bool apart);
+
+// Numbers the unknowns and builds every operator.
+void sb_hp_mesh_build(SbHpMesh *mesh, SbHpTables *tables);
+
+// X of the element's coordinate, and dX/dr.
+double sb_hp_position(const SbHpElement *e, double r);
+double sb_hp_stretch(const SbHpElement *e, double r);
+
+// Pressure at r of element e from nodal values; the far pressure included.
+double sb_hp_pressure(const SbHpMesh *mesh, SbHpTables *tables, const SbHpElement *e,
+                      const double *nodal, double r);
+
+// Gap at r of element e, interpolated from the gap at all targets (`target_gap`) at the
+// collocation points and ends of the element.
+double sb_hp_gap(const SbHpMesh *mesh, SbHpTables *tables, int element, const double *target_gap,
+                 double r);

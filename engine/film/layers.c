@@ -1,0 +1,322 @@
+// Meshes and starting guesses of the film solver.
+//
+// Thin films: Hertz's contact with two layers of width lambda^0.4 at its edges, where pressure
+// scales with lambda^0.2 and film with lambda^0.6. Elements follow them; between them the cosine
+// map takes steps that grow by a constant factor in theta. Thick films (M below about 4) live on
+// the length of the rigid wedge, sqrt(2 H_min). The guess joins the layers' shapes, read off our
+// own solution at M = 1e4, or takes the rigid wedge (thesis eq. 6.17-6.19). It only starts Newton's
+// method: its digits do not reach the result.
+#include "engine/film/layers.h"
+
+#include "engine/film/scale.h"
+
+#include <math.h>
+
+// Shapes of the layers: distance from the edge over the layer's width, pressure over lambda^0.2,
+// film over the flux film (in the inlet: its excess over the dry gap).
+static const double inlet_z[] = {-100, -30, -10, -6,  -4, -3, -2, -1.5, -1, -0.5,
+                                 0,    0.5, 1,   1.5, 2,  3,  4,  6,    10};
+static const double inlet_p[] = {0.000053, 0.00061, 0.00539, 0.01436, 0.0301, 0.0492, 0.0919,
+                                 0.1345,   0.2077,  0.3373,  0.5584,  0.8813, 1.2504, 1.5965,
+                                 1.8965,   2.3857,  2.7837,  3.4347,  4.4484};
+static const double inlet_h[] = {1.3,    1.4,    1.6957, 1.8636, 2.008,  2.111,  2.2458,
+                                 2.325,  2.4026, 2.4414, 2.2531, 1.6869, 1.3937, 1.2529,
+                                 1.1832, 1.1222, 1.096,  1.0717, 1.0517};
+static const double outlet_z[] = {-10,  -6,   -4,   -3,   -2, -1.5, -1,  -0.7, -0.5,
+                                  -0.4, -0.3, -0.2, -0.1, 0,  0.05, 0.1, 0.15, 0.16406};
+static const double outlet_p[] = {4.4608, 3.4596, 2.827,  2.4497, 2.0018, 1.7367,
+                                  1.4283, 1.192,  0.976,  0.8364, 0.6692, 0.4764,
+                                  0.2759, 0.1082, 0.0508, 0.0151, 0.0006, 0.0};
+static const double outlet_h[] = {0.9609, 0.9509, 0.9416, 0.9341, 0.9223, 0.9141,
+                                  0.8999, 0.8764, 0.8465, 0.8276, 0.8091, 0.797,
+                                  0.8024, 0.8402, 0.8755, 0.9228, 0.9819, 1.0};
+enum {
+  INLET_COUNT = sizeof inlet_z / sizeof inlet_z[0],
+  OUTLET_COUNT = sizeof outlet_z / sizeof outlet_z[0]
+};
+
+// Films thicker than this layer width start from the rigid wedge and have its mesh.
+static const double THICK = 1.0;
+static const double RUPTURE_ANGLE = 0.44355; // thesis eq. 6.19
+
+static double interpolate(double z, const double *node, const double *value, int count) {
+  if (z <= node[0]) {
+    return value[0];
+  }
+  for (int i = 1; i < count; i++) {
+    if (z <= node[i]) {
+      double t = (z - node[i - 1]) / (node[i] - node[i - 1]);
+      return value[i - 1] + t * (value[i] - value[i - 1]);
+    }
+  }
+  return value[count - 1];
+}
+
+// Slope factors of the dry pressure at the inlet and outlet edges.
+static double inlet_slope(const SbLayers *l) {
+  return 1.0 - (l->inlet - l->outlet) / M_PI;
+}
+
+static double outlet_slope(const SbLayers *l) {
+  return 1.0 + (l->inlet - l->outlet) / M_PI;
+}
+
+// Starving thins the layers: film^2 slope / width^0.5 ~ lambda.
+static double starved(const SbLayers *l) {
+  return pow(l->starvation, 1.5);
+}
+
+double sb_layers_width(const SbLayers *l) {
+  return pow(l->lambda, 0.4) * pow(inlet_slope(l), -1.2) * starved(l);
+}
+
+// A flux below what the outlet's own slope would carry narrows its layer as starving does, to the
+// inlet's width.
+static double outlet_width(const SbLayers *l) {
+  return pow(l->lambda, 0.4) * pow(fmax(inlet_slope(l), outlet_slope(l)), -1.2) * starved(l);
+}
+
+// Minimum film of the rigid wedge: h_min = 4.894968 R U / W.
+static double rigid_film(const SbLayers *l) {
+  return 4.894968 * l->lambda / (6.0 * M_PI);
+}
+
+double sb_layers_flux(const SbLayers *l) {
+  double elastic = 0.44582 * pow(l->lambda, 0.6) * pow(inlet_slope(l), -0.8);
+  double rigid = 1.225748 * rigid_film(l);
+  return pow(pow(elastic, 1.4) + pow(rigid, 1.4), 1.0 / 1.4);
+}
+
+// Distance from the axis to the rupture, well enough to place the mesh.
+static double rupture_guess(const SbLayers *l) {
+  double width = outlet_width(l);
+  double elastic = 1.0 + 0.16406 * width - 0.25 * fmin(width, 0.3) * width;
+  if (sb_layers_width(l) <= THICK) {
+    return elastic;
+  }
+  double rigid = tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l)) + 0.8;
+  elastic = 1.0 + 0.164 * width;
+  return 1.0 / sqrt(1.0 / (elastic * elastic) + 1.0 / (rigid * rigid));
+}
+
+// Place of the least film before a flooded outlet, read off our own solutions: at rest the layer
+// lies on the edge, higher outlet pressure pushes it out.
+static double flooded_outlet(const SbLayers *l) {
+  return 1.0 + 0.4 * pow(l->lambda, 0.4) * exp(0.98 * (l->outlet - l->inlet));
+}
+
+// Edge of the contact that the outlet layer's shape belongs to.
+static double outlet_edge(const SbLayers *l) {
+  return l->end == SB_LAYERS_FULL ? flooded_outlet(l) + 0.17 * outlet_width(l) : 1.0;
+}
+
+// The flooded outlet beyond `from`: elements of growing size, then the infinite one.
+static bool add_outlet(SbHpMesh *mesh, double from, double unit, int degree, bool apart) {
+  static const double step[] = {0.0, 0.4, 1.5, 4.0};
+  for (int i = 1; i < 4; i++) {
+    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, from + unit * step[i - 1], from + unit * step[i], 0.0,
+                        degree, apart && i == 1)) {
+      return false;
+    }
+  }
+  double begin = from + 4.0 * unit;
+  return sb_hp_mesh_add(mesh, SB_HP_OUTLET, begin, 0.0, begin - 4.5 * unit, degree, false);
+}
+
+// Elements on the scale of the rigid wedge.
+static bool thick_mesh(SbHpMesh *mesh, const SbLayers *l) {
+  static const double step[] = {5.0, 2.6, 1.9, 1.3, 0.75, 0.35, 0.1, 0.0};
+  enum { STEPS = sizeof step / sizeof step[0] };
+  double unit = sqrt(1.44 + 0.52 * l->lambda);
+  double end = rupture_guess(l);
+  double from = end - unit * step[0];
+  if (!sb_hp_mesh_add(mesh, SB_HP_INLET, 0.0, from, from + unit, l->degree, false)) {
+    return false;
+  }
+  for (int i = 1; i < STEPS; i++) {
+    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, end - unit * step[i - 1], end - unit * step[i], 0.0,
+                        l->degree, false)) {
+      return false;
+    }
+  }
+  if (l->end == SB_LAYERS_FULL) {
+    return add_outlet(mesh, end, 0.5 * unit, l->degree, false);
+  }
+  return true;
+}
+
+// Elements that follow the two layers.
+static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
+  static const double inlet_step[] = {-4.0, -1.0, 1.5, 4.0};
+  static const double outlet_step[] = {-8.0, -2.5, -0.8, -0.1};
+  static const double GROWTH = 5.0;
+  static const double MIDDLE = 0.6; // theta where the growth stops
+  double in = sb_layers_width(l);
+  double out = outlet_width(l);
+  double left[4], right[5];
+  int lefts = 0;
+  for (int i = 0; i < 4; i++) {
+    double x = -1.0 + in * inlet_step[i];
+    if (i < 2 || x < 0.3) {
+      left[lefts++] = x;
+    }
+  }
+  int rights = 0;
+  bool full = l->end == SB_LAYERS_FULL;
+  double edge = full ? flooded_outlet(l) : 1.0;
+  for (int i = 0; i < (full ? 3 : 4); i++) {
+    double x = edge + out * outlet_step[i];
+    if (x > left[lefts - 1] + 0.6 * fmax(in, out) && x > -0.3) {
+      right[rights++] = x;
+    }
+  }
+  right[rights++] = full ? edge : rupture_guess(l);
+
+  // Inlet and its layer.
+  if (!sb_hp_mesh_add(mesh, SB_HP_INLET, 0.0, left[0], -1.0 + 0.5 * in, l->degree, false)) {
+    return false;
+  }
+  for (int i = 1; i < lefts; i++) {
+    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, left[i - 1], left[i], 0.0, l->degree, false)) {
+      return false;
+    }
+  }
+
+  // Inside the contact, steps growing from both layers to the middle.
+  double begin = acos(-left[lefts - 1]);
+  double end = acos(right[0]);
+  double theta[SB_HP_ELEMENTS_MAX];
+  int thetas = 0;
+  int steps = begin < MIDDLE ? (int)ceil(log(MIDDLE / begin) / log(GROWTH)) : 0;
+  for (int i = 0; i <= steps; i++) {
+    theta[thetas++] = begin * pow(MIDDLE / begin, steps > 0 ? (double)i / steps : 0.0);
+  }
+  steps = end < MIDDLE ? (int)ceil(log(MIDDLE / end) / log(GROWTH)) : 0;
+  for (int i = steps; i >= 0; i--) {
+    theta[thetas++] = M_PI - end * pow(MIDDLE / end, steps > 0 ? (double)i / steps : 0.0);
+  }
+  SbHpMap map = in > 0.25 ? SB_HP_AFFINE : SB_HP_COSINE;
+  double x0 = left[lefts - 1];
+  for (int i = 1; i < thetas; i++) {
+    double x1 = i == thetas - 1 ? right[0] : -cos(theta[i]);
+    if (!sb_hp_mesh_add(mesh, map, x0, x1, 0.0, l->degree, false)) {
+      return false;
+    }
+    x0 = x1;
+  }
+
+  // Outlet layer.
+  for (int i = 1; i < rights; i++) {
+    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, right[i - 1], right[i], 0.0, l->degree, false)) {
+      return false;
+    }
+  }
+  if (l->end == SB_LAYERS_FULL) {
+    return add_outlet(mesh, right[rights - 1], out, l->degree, false);
+  }
+  return true;
+}
+
+bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *l) {
+  sb_hp_mesh_begin(mesh, l->inlet, l->outlet);
+  bool fits = sb_layers_width(l) > THICK ? thick_mesh(mesh, l) : thin_mesh(mesh, l);
+  if (fits && l->end == SB_LAYERS_REFORM) {
+    fits = add_outlet(mesh, l->reform, 0.5 * (l->reform - 1.0), l->degree, true);
+  }
+  if (fits) {
+    sb_hp_mesh_build(mesh, tables);
+  }
+  return fits;
+}
+
+// Dry gap with the bend that unequal end pressures add outside the contact.
+static double dry_gap(const SbLayers *l, double X) {
+  double a = fabs(X);
+  if (a <= 1.0) {
+    return 0.0;
+  }
+  double bend = (l->inlet - l->outlet) / M_PI * (a * acosh(a) - sqrt((a - 1.0) * (a + 1.0)));
+  return fmax(sb_film_dry_gap(X) + (X < 0.0 ? -bend : bend), 0.0);
+}
+
+// Pressure and film of the joined layers at X.
+static void layer_shape(double *pressure, double *film, const SbLayers *l, double flux, double X) {
+  double in = sb_layers_width(l);
+  double out = outlet_width(l);
+  double inside = fmin(fmax(X, -1.0), 1.0);
+  double step = asin(inside) / M_PI;
+  double ends = l->inlet * (0.5 - step) + l->outlet * (0.5 + step);
+  if (X < 0.0) {
+    double z = (X + 1.0) / in;
+    double p = z > 10.0     ? sqrt(2.0 * z)
+               : z < -100.0 ? 0.53 / (z * z)
+                            : interpolate(z, inlet_z, inlet_p, INLET_COUNT);
+    *pressure = ends + sqrt(in) * p * sqrt(0.5 * (1.0 - X));
+    *film = dry_gap(l, X) + flux * interpolate(z, inlet_z, inlet_h, INLET_COUNT);
+  } else {
+    double z = (X - outlet_edge(l)) / out;
+    double p = z < -10.0 ? sqrt(-2.0 * z) : interpolate(z, outlet_z, outlet_p, OUTLET_COUNT);
+    *pressure = ends + sqrt(out) * p * sqrt(0.5 * (1.0 + fmin(X, 1.0)));
+    *film = flux * interpolate(z, outlet_z, outlet_h, OUTLET_COUNT);
+    if (z > 0.16406) {
+      *film += dry_gap(l, X);
+    }
+  }
+}
+
+// Rigid parabola with its rupture, thesis eq. 6.17-6.19.
+static double rigid_pressure(const SbLayers *l, double X) {
+  double film = rigid_film(l);
+  double length = sqrt(2.0 * film);
+  double t = fmin(atan(X / length), RUPTURE_ANGLE);
+  double cosine = cos(RUPTURE_ANGLE);
+  double s = 1.0 / (cosine * cosine);
+  double sum = 0.5 * t + 0.25 * sin(2.0 * t) -
+               s * (0.375 * t + 0.25 * sin(2.0 * t) + sin(4.0 * t) / 32.0) + 0.25 * M_PI -
+               0.1875 * M_PI * s;
+  return l->lambda * length / (film * film) * fmax(sum, 0.0);
+}
+
+void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, const SbHpMesh *mesh,
+                     SbHpTables *tables, const SbLayers *l) {
+  bool thick = sb_layers_width(l) > THICK;
+  *flux = thick ? 1.225748 * rigid_film(l) : sb_layers_flux(l);
+  *shift = thick ? tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l)) - rupture_guess(l) : 0.0;
+  for (int i = 0; i < mesh->count; i++) {
+    const SbHpElement *e = &mesh->element[i];
+    const SbHpTable *t = sb_hp_table(tables, e->degree);
+    for (int k = 0; k <= e->degree; k++) {
+      double r = t->node[k];
+      bool inlet = e->map == SB_HP_INLET;
+      bool outlet = e->map == SB_HP_OUTLET;
+      // At infinity the nodal value is that of the neighbouring node.
+      if (inlet && k == 0) {
+        r = t->node[1];
+      } else if (outlet && k == e->degree) {
+        r = t->node[e->degree - 1];
+      }
+      double X = sb_hp_position(e, r);
+      double pressure, film;
+      if (thick) {
+        pressure = rigid_pressure(l, X + *shift) + (X < 0.0 ? l->inlet : l->outlet);
+      } else {
+        layer_shape(&pressure, &film, l, *flux, X);
+      }
+      double s = inlet ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
+      bool touching = (inlet && k == e->degree) || (outlet && k == 0);
+      if ((inlet || outlet) && !touching) {
+        pressure = (pressure - e->far_pressure) / (s * s * s * s);
+      }
+      nodal[e->first_dof + k] = pressure;
+    }
+  }
+  for (int i = 0; i < mesh->targets; i++) {
+    double X = mesh->x[i];
+    double pressure;
+    if (thick) {
+      gap[i] = rigid_film(l) + 0.5 * (X + *shift) * (X + *shift);
+    } else {
+      layer_shape(&pressure, &gap[i], l, *flux, X);
+    }
+  }
+}

@@ -1,0 +1,36 @@
+// Meshes and starting guesses of the film solver, laid out by the inlet and outlet layers (private
+// to engine/film). Everything is scaled and in the flow frame: inlet left, X = x / b.
+#pragma once
+
+#include "engine/film/hp.h"
+
+// How the film ends.
+typedef enum {
+  SB_LAYERS_RUPTURE, // breaks at the end of the mesh, p = 0 and p' = 0 there
+  SB_LAYERS_FULL,    // flooded outlet under pressure
+  SB_LAYERS_REFORM   // breaks, and forms again at `reform` before the flooded outlet
+} SbLayersEnd;
+
+// What fixes a mesh.
+typedef struct {
+  double lambda;
+  double inlet, outlet; // end pressures over the rupture pressure, scaled
+  double starvation;    // flux over the flooded flux, 1 when flooded
+  double meniscus;      // where the film begins; -infinity when flooded
+  double reform;        // where it forms again
+  SbLayersEnd end;
+  int degree;
+} SbLayers;
+
+// Flux film (h where dp/dx = 0) of a flooded contact, scaled, to a few per cent.
+double sb_layers_flux(const SbLayers *layers);
+
+// Width of the inlet layer, about lambda^0.4.
+double sb_layers_width(const SbLayers *layers);
+
+// Builds the mesh. Returns false if it does not fit.
+bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *layers);
+
+// Fills nodal pressures, gaps at all targets, and the shift and flux of a cold start.
+void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, const SbHpMesh *mesh,
+                     SbHpTables *tables, const SbLayers *layers);

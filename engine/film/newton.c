@@ -1,0 +1,370 @@
+// Newton's method for Reynolds' equation coupled with the half-plane.
+//
+// Scaled (thesis eq. 6.37-6.50): H^3 m P' / lambda - H + H* = 0 at the collocation points, the flux
+// film H* being an unknown, with H = H0 + (X + c)^2 / 2 - (1/pi) integral P ln|X - X'| dX', the
+// load integral P = pi/2, and Swift-Stieber's end p = 0, H = H* (that is p' = 0). The mesh is fixed
+// in X and the axis moves by c: the rupture point is free and the kernel constant, so that the
+// whole system is smooth and Newton's method converges quadratically without a contact search. m =
+// exp(-alpha p) sqrt(1 + (tau/tau_0)^2) holds Barus' viscosity and Eyring's thinning of the
+// pressure flow under a dominant shear (Ehret, Dowson and Taylor 1998); m = 1 without them.
+//
+// A film that begins at a meniscus or forms again behind a cavity has one more free end, which
+// moves the mesh; its column of the Jacobian is a difference quotient.
+#include "engine/film/reynolds.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  STRIDE = SB_HP_DEGREE_MAX + 1,
+  ORDER_MAX = SB_HP_DOFS_MAX + SB_HP_EXTRA,
+  ITERATIONS_MAX = 10,
+};
+
+bool sb_reynolds_init(SbFilmSolver *solver) {
+  sb_hp_tables_init(&solver->tables);
+  size_t order = ORDER_MAX;
+  solver->matrix = malloc(order * order * sizeof(double));
+  solver->right = malloc(order * sizeof(double));
+  solver->column = malloc(order * sizeof(double));
+  solver->gaps = malloc((order + SB_HP_ELEMENTS_MAX) * sizeof(double));
+  solver->pivot = malloc(order * sizeof(int));
+  bool done = sb_hp_mesh_init(&solver->mesh[0]) && sb_hp_mesh_init(&solver->mesh[1]);
+  return done && solver->matrix != NULL && solver->right != NULL && solver->column != NULL &&
+         solver->gaps != NULL && solver->pivot != NULL;
+}
+
+void sb_reynolds_finish(SbFilmSolver *solver) {
+  sb_hp_mesh_finish(&solver->mesh[0]);
+  sb_hp_mesh_finish(&solver->mesh[1]);
+  free(solver->matrix);
+  free(solver->right);
+  free(solver->column);
+  free(solver->gaps);
+  free(solver->pivot);
+}
+
+// Gap from the pressure at all targets.
+static void elastic_gaps(double *out, const SbHpMesh *mesh, const SbReynoldsState *state) {
+  for (int i = 0; i < mesh->targets; i++) {
+    double x = mesh->x[i] + state->shift;
+    out[i] = state->H0 + 0.5 * x * x + mesh->gap_known[i];
+  }
+  cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->targets, mesh->dofs, 1.0, mesh->gap, mesh->dofs,
+              state->nodal, 1, 1.0, out, 1);
+}
+
+// Local pressure or its slope at row i.
+static double local(const SbHpMesh *mesh, const double *operators, const double *known,
+                    const double *nodal, int i) {
+  const SbHpElement *e = &mesh->element[mesh->owner[i]];
+  const double *row = operators + (size_t)i * STRIDE;
+  double sum = known[i];
+  for (int j = 0; j <= e->degree; j++) {
+    sum += row[j] * nodal[e->first_dof + j];
+  }
+  return sum;
+}
+
+// Mobility factor m and its derivatives to film and pressure.
+static void mobility(double *m, double *m_film, double *m_pressure, const SbReynoldsCase *problem,
+                     double film, double pressure) {
+  *m = 1.0;
+  *m_film = 0.0;
+  *m_pressure = 0.0;
+  double barus = exp(-problem->barus * pressure);
+  if (problem->eyring > 0.0) {
+    double shear = problem->eyring / (barus * film);
+    double root = sqrt(1.0 + shear * shear);
+    *m = barus * root;
+    *m_film = -barus * shear * shear / (root * film);
+    *m_pressure = problem->barus * barus * (shear * shear / root - root);
+  } else if (problem->barus > 0.0) {
+    *m = barus;
+    *m_pressure = -problem->barus * barus;
+  }
+}
+
+// Where the conditions beside the collocation rows act.
+typedef struct {
+  bool rupture;              // p = 0 and H = H* at the end of element `last`
+  int last;                  // element that ends at the rupture
+  bool meniscus;             // p given at the first node, H* given, the meniscus free
+  bool reform;               // p = 0 at the first node of element last + 1, its place free
+  int shift, flux, free_end; // columns, -1 if not an unknown
+  int order;
+} Layout;
+
+static Layout lay_out(const SbHpMesh *mesh, const SbReynoldsCase *problem) {
+  Layout l = {.last = mesh->count - 1, .shift = -1, .flux = -1, .free_end = -1};
+  l.rupture = problem->layers.end != SB_LAYERS_FULL;
+  l.meniscus = isfinite(problem->layers.meniscus);
+  l.reform = problem->layers.end == SB_LAYERS_REFORM;
+  for (int i = 1; i < mesh->count; i++) {
+    if (mesh->element[i].apart) {
+      l.last = i - 1;
+    }
+  }
+  l.order = mesh->dofs + 1;
+  if (l.rupture) {
+    l.shift = l.order++;
+  }
+  if (!l.meniscus) {
+    l.flux = l.order++;
+  }
+  if (l.meniscus || l.reform) {
+    l.free_end = l.order++;
+  }
+  return l;
+}
+
+// Load less its target.
+static double load_residual(const SbHpMesh *mesh, const SbReynoldsState *state) {
+  double sum = mesh->load_known - 0.5 * M_PI;
+  for (int j = 0; j < mesh->dofs; j++) {
+    sum += mesh->load[j] * state->nodal[j];
+  }
+  sum += mesh->inlet_pressure * (mesh->left_end + state->shift);
+  return sum - mesh->outlet_pressure * (mesh->right_end + state->shift);
+}
+
+// The larger size, a NaN counting as infinite.
+static double larger(double largest, double value) {
+  return isfinite(value) ? fmax(largest, fabs(value)) : INFINITY;
+}
+
+// Residuals into `right` and, if `matrix` is given, the Jacobian without the free end's column.
+// Returns the largest scaled residual. A gap guess is linearised about when `independent`.
+static double assemble(double *right, double *matrix, const double *gaps, const SbHpMesh *mesh,
+                       const SbReynoldsState *state, const SbReynoldsCase *problem,
+                       const Layout *layout, bool independent) {
+  int dofs = mesh->dofs;
+  size_t order = (size_t)layout->order;
+  double lambda = problem->layers.lambda;
+  double largest = 0.0;
+  if (matrix != NULL) {
+    memset(matrix, 0, order * order * sizeof *matrix);
+  }
+
+  // Reynolds' equation at the collocation points, divided by the film.
+  for (int i = 0; i < mesh->rows; i++) {
+    double elastic = gaps[i];
+    double H = independent ? state->gap[i] : elastic;
+    double slope = local(mesh, mesh->slope, mesh->slope_known, state->nodal, i);
+    double pressure = local(mesh, mesh->value, mesh->value_known, state->nodal, i);
+    double m, m_film, m_pressure;
+    mobility(&m, &m_film, &m_pressure, problem, H, pressure);
+    double G = H * H * H * m / lambda;
+    double by_film = (3.0 * H * H * m + H * H * H * m_film) / lambda * slope - 1.0;
+    double by_pressure = H * H * H * m_pressure / lambda * slope;
+    double scale = 1.0 / fmax(fabs(H), state->flux);
+    double residual = G * slope - H + state->flux + by_film * (elastic - H);
+    right[i] = scale * residual;
+    largest = larger(largest, right[i]);
+    if (matrix == NULL) {
+      continue;
+    }
+    double *row = matrix + (size_t)i * order;
+    const double *gap = mesh->gap + (size_t)i * (size_t)dofs;
+    for (int j = 0; j < dofs; j++) {
+      row[j] = scale * by_film * gap[j];
+    }
+    const SbHpElement *e = &mesh->element[mesh->owner[i]];
+    for (int j = 0; j <= e->degree; j++) {
+      row[e->first_dof + j] += scale * (G * mesh->slope[(size_t)i * STRIDE + (size_t)j] +
+                                        by_pressure * mesh->value[(size_t)i * STRIDE + (size_t)j]);
+    }
+    row[dofs] = scale * by_film;
+    if (layout->shift >= 0) {
+      row[layout->shift] = scale * by_film * (mesh->x[i] + state->shift);
+    }
+    if (layout->flux >= 0) {
+      row[layout->flux] = scale;
+    }
+  }
+  int next = mesh->rows;
+
+  // Rupture: p = 0 and H = H*.
+  if (layout->rupture) {
+    const SbHpElement *e = &mesh->element[layout->last];
+    int node = e->first_dof + e->degree;
+    int target = e->right_target;
+    right[next] = state->nodal[node];
+    double scale = 1.0 / state->flux;
+    right[next + 1] = scale * (gaps[target] - state->flux);
+    largest = larger(larger(largest, right[next]), right[next + 1]);
+    if (matrix != NULL) {
+      matrix[(size_t)next * order + (size_t)node] = 1.0;
+      double *row = matrix + (size_t)(next + 1) * order;
+      for (int j = 0; j < dofs; j++) {
+        row[j] = scale * mesh->gap[(size_t)target * (size_t)dofs + (size_t)j];
+      }
+      row[dofs] = scale;
+      row[layout->shift] = scale * (mesh->x[target] + state->shift);
+      if (layout->flux >= 0) {
+        row[layout->flux] = -scale;
+      }
+    }
+    next += 2;
+  }
+  // Pressure where the film begins or forms again.
+  if (layout->meniscus || layout->reform) {
+    int node = layout->reform ? mesh->element[layout->last + 1].first_dof : 0;
+    right[next] = state->nodal[node] - (layout->reform ? 0.0 : problem->layers.inlet);
+    largest = larger(largest, right[next]);
+    if (matrix != NULL) {
+      matrix[(size_t)next * order + (size_t)node] = 1.0;
+    }
+    next++;
+  }
+  // Load.
+  right[next] = load_residual(mesh, state);
+  largest = larger(largest, right[next]);
+  if (matrix != NULL) {
+    double *row = matrix + (size_t)next * order;
+    memcpy(row, mesh->load, (size_t)dofs * sizeof *row);
+    if (layout->shift >= 0) {
+      row[layout->shift] = mesh->inlet_pressure - mesh->outlet_pressure;
+    }
+  }
+  return largest;
+}
+
+// Moves the free end to `place` and rebuilds the mesh.
+static bool move_free_end(SbFilmSolver *solver, int which, SbReynoldsCase *problem, double place) {
+  if (problem->layers.end == SB_LAYERS_REFORM) {
+    problem->layers.reform = place;
+  } else {
+    problem->layers.meniscus = place;
+  }
+  return sb_layers_mesh(&solver->mesh[which], &solver->tables, &problem->layers);
+}
+
+static double free_end(const SbReynoldsCase *problem) {
+  return problem->layers.end == SB_LAYERS_REFORM ? problem->layers.reform
+                                                 : problem->layers.meniscus;
+}
+
+// Derivative of the residuals to the free end: the mesh is moved a little and put back.
+static bool difference_column(SbFilmSolver *solver, int which, SbReynoldsCase *problem,
+                              const Layout *layout) {
+  SbHpMesh *mesh = &solver->mesh[which];
+  SbReynoldsState *state = &solver->state[which];
+  double place = free_end(problem);
+  double step = 1e-6 * sb_layers_width(&problem->layers);
+  if (!move_free_end(solver, which, problem, place + step)) {
+    return false;
+  }
+  elastic_gaps(solver->gaps, mesh, state);
+  assemble(solver->column, NULL, solver->gaps, mesh, state, problem, layout, false);
+  if (!move_free_end(solver, which, problem, place)) {
+    return false;
+  }
+  for (int i = 0; i < layout->order; i++) {
+    solver->column[i] = (solver->column[i] - solver->right[i]) / step;
+  }
+  return true;
+}
+
+SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int which,
+                            SbReynoldsCase *problem, bool independent, double tolerance,
+                            const SbFilmProblem *callback) {
+  SbHpMesh *mesh = &solver->mesh[which];
+  SbReynoldsState *state = &solver->state[which];
+  Layout layout = lay_out(mesh, problem);
+  if (layout.free_end >= 0 && independent) {
+    independent = false; // the difference quotient needs a consistent gap
+  }
+  int order = layout.order;
+  double *matrix = solver->matrix;
+  double *right = solver->right;
+  double before_residual = INFINITY;
+  *trace = (SbReynoldsTrace){.residual = INFINITY, .step = INFINITY};
+
+  for (int iteration = 0; iteration <= ITERATIONS_MAX; iteration++) {
+    if (callback->cancelled != NULL && callback->cancelled(callback->cancelled_data)) {
+      return SB_ERROR_CANCELLED;
+    }
+    bool first = independent && iteration == 0;
+    elastic_gaps(solver->gaps, mesh, state);
+    trace->residual = assemble(right, matrix, solver->gaps, mesh, state, problem, &layout, first);
+    if (!isfinite(trace->residual)) {
+      return SB_ERROR_NOT_CONVERGED;
+    }
+    // Done at the tolerance, or where rounding stops the descent not far above it.
+    bool stalled = trace->residual <= 10.0 * tolerance && trace->residual > 0.3 * before_residual;
+    if (!first && (trace->residual <= tolerance || stalled)) {
+      break;
+    }
+    before_residual = trace->residual;
+    if (iteration == ITERATIONS_MAX) {
+      return SB_ERROR_NOT_CONVERGED;
+    }
+    if (layout.free_end >= 0) {
+      if (!difference_column(solver, which, problem, &layout)) {
+        return SB_ERROR_NOT_CONVERGED;
+      }
+      for (int i = 0; i < order; i++) {
+        matrix[(size_t)i * (size_t)order + (size_t)layout.free_end] = solver->column[i];
+      }
+    }
+    // The rows of our matrix are LAPACK's columns: solve with the transpose.
+    if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, matrix, order, solver->pivot) != 0 ||
+        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', order, 1, matrix, order, solver->pivot, right,
+                            order) != 0) {
+      return SB_ERROR_NOT_CONVERGED;
+    }
+    trace->iterations++;
+
+    // Full steps unless the film would vanish.
+    double flux_change = layout.flux >= 0 ? right[layout.flux] : 0.0;
+    double factor = 1.0;
+    const double before_H0 = state->H0, before_shift = state->shift, before_flux = state->flux;
+    double place = layout.free_end >= 0 ? free_end(problem) : 0.0;
+    double applied = 0.0;
+    for (int cut = 0;; cut++) {
+      for (int j = 0; j < mesh->dofs; j++) {
+        state->nodal[j] -= (factor - applied) * right[j];
+      }
+      applied = factor;
+      state->H0 = before_H0 - factor * right[mesh->dofs];
+      if (layout.shift >= 0) {
+        state->shift = before_shift - factor * right[layout.shift];
+      }
+      state->flux = before_flux - factor * flux_change;
+      if (layout.free_end >= 0 &&
+          !move_free_end(solver, which, problem, place - factor * right[layout.free_end])) {
+        return SB_ERROR_NOT_CONVERGED;
+      }
+      bool thin = state->flux < 0.1 * before_flux;
+      elastic_gaps(solver->gaps, mesh, state);
+      for (int i = 0; !first && !thin && i < mesh->rows; i++) {
+        thin = solver->gaps[i] < 0.1 * state->gap[i];
+      }
+      if (!thin || first) {
+        break;
+      }
+      if (cut >= 8) {
+        return SB_ERROR_NOT_CONVERGED;
+      }
+      factor *= 0.5;
+    }
+    trace->step = fabs(state->flux - before_flux) / before_flux;
+    if (state->flux <= 0.0) {
+      return SB_ERROR_NOT_CONVERGED;
+    }
+    memcpy(state->gap, solver->gaps, (size_t)mesh->targets * sizeof(double));
+  }
+
+  // A film that is not positive everywhere is no solution.
+  memcpy(state->gap, solver->gaps, (size_t)mesh->targets * sizeof(double));
+  for (int i = 0; i < mesh->rows; i++) {
+    if (!(state->gap[i] > 0.0)) {
+      return SB_ERROR_NOT_CONVERGED;
+    }
+  }
+  return SB_OK;
+}

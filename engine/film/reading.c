@@ -1,0 +1,337 @@
+// What is read off a solution of the coupled film solver: films, places, friction, profile, and the
+// transfer to another degree. Everything is interpolated at the solver's own order: the pressure
+// by its nodal polynomials, the gap through the collocation points and ends of an element.
+#include "engine/film/reynolds.h"
+
+#include "engine/numeric/legendre.h"
+
+#include <math.h>
+#include <string.h>
+
+// Nodal polynomial of element e at r: pressure without factor, far and known parts.
+static double nodal_polynomial(SbHpTables *tables, const SbHpElement *e, const double *nodal,
+                               double far, double r) {
+  const SbHpTable *t = sb_hp_table(tables, e->degree);
+  double basis[SB_HP_DEGREE_MAX + 1];
+  sb_barycentric_basis(basis, r, t->node, t->bary, e->degree + 1);
+  int touching = e->map == SB_HP_INLET ? e->degree : e->map == SB_HP_OUTLET ? 0 : -1;
+  double sum = 0.0;
+  for (int k = 0; k <= e->degree; k++) {
+    sum += basis[k] * (nodal[e->first_dof + k] - (k == touching ? far : 0.0));
+  }
+  return sum;
+}
+
+void sb_reynolds_carry(SbFilmSolver *solver, int from, int to) {
+  const SbHpMesh *a = &solver->mesh[from];
+  const SbHpMesh *b = &solver->mesh[to];
+  const SbReynoldsState *old = &solver->state[from];
+  SbReynoldsState *new = &solver->state[to];
+  for (int i = 0; i < b->count; i++) {
+    const SbHpElement *e = &a->element[i];
+    const SbHpElement *f = &b->element[i];
+    const SbHpTable *t = sb_hp_table(&solver->tables, f->degree);
+    int touching = f->map == SB_HP_INLET ? f->degree : f->map == SB_HP_OUTLET ? 0 : -1;
+    for (int k = 0; k <= f->degree; k++) {
+      double r = t->node[k];
+      double value;
+      if (f->map == SB_HP_INLET || f->map == SB_HP_OUTLET) {
+        value = nodal_polynomial(&solver->tables, e, old->nodal, e->far_pressure, r) +
+                (k == touching ? f->far_pressure : 0.0);
+      } else {
+        value = sb_hp_pressure(a, &solver->tables, e, old->nodal, r);
+      }
+      new->nodal[f->first_dof + k] = value;
+    }
+    for (int k = 0; k < f->points; k++) {
+      double r = t->gauss[f->points - f->degree][k];
+      new->gap[f->first_row + k] = sb_hp_gap(a, &solver->tables, i, old->gap, r);
+    }
+  }
+  for (int i = b->rows; i < b->targets; i++) {
+    new->gap[i] = old->flux; // ends: not used by the first step
+  }
+  new->H0 = old->H0;
+  new->shift = old->shift;
+  new->flux = old->flux;
+}
+
+// r of position X in element e.
+static double coordinate(const SbHpElement *e, double X) {
+  switch (e->map) {
+  case SB_HP_AFFINE:
+    return (X - e->m) / e->h;
+  case SB_HP_COSINE:
+    return (acos(fmin(fmax(-X, -1.0), 1.0)) - e->m) / e->h;
+  case SB_HP_INLET:
+    return 2.0 * sqrt(e->B / (e->A - X)) - 1.0;
+  default:
+    return 1.0 - 2.0 * sqrt(e->B / (X - e->A));
+  }
+}
+
+// Element that holds X; a cavity belongs to the element after it.
+static int find_element(const SbHpMesh *mesh, double X) {
+  for (int i = 0; i < mesh->count - 1; i++) {
+    if (X <= mesh->element[i].x1) {
+      return i;
+    }
+  }
+  return mesh->count - 1;
+}
+
+void sb_reynolds_resample(SbFilmSolver *solver, int from, int to) {
+  const SbHpMesh *a = &solver->mesh[from];
+  const SbHpMesh *b = &solver->mesh[to];
+  const SbReynoldsState *old = &solver->state[from];
+  SbReynoldsState *new = &solver->state[to];
+  for (int i = 0; i < b->count; i++) {
+    const SbHpElement *f = &b->element[i];
+    const SbHpTable *t = sb_hp_table(&solver->tables, f->degree);
+    bool infinite = f->map == SB_HP_INLET || f->map == SB_HP_OUTLET;
+    for (int k = 0; k <= f->degree; k++) {
+      // Beside the node at infinity the neighbour's value is taken.
+      double r = t->node[k];
+      bool far = (f->map == SB_HP_INLET && k == 0) || (f->map == SB_HP_OUTLET && k == f->degree);
+      r = far ? 0.5 * (r + t->node[k == 0 ? 1 : k - 1]) : r;
+      double X = sb_hp_position(f, r);
+      const SbHpElement *e = &a->element[find_element(a, X)];
+      double value = X > a->right_end && e->map != SB_HP_OUTLET
+                         ? 0.0
+                         : sb_hp_pressure(a, &solver->tables, e, old->nodal, coordinate(e, X));
+      bool touching = f->map == SB_HP_INLET ? k == f->degree : k == 0;
+      if (infinite && !touching) {
+        double s = f->map == SB_HP_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
+        value = (value - f->far_pressure) / (s * s * s * s);
+      }
+      new->nodal[f->first_dof + k] = value;
+    }
+  }
+  for (int i = 0; i < b->targets; i++) {
+    int k = find_element(a, b->x[i]);
+    const SbHpElement *e = &a->element[k];
+    double r = coordinate(e, b->x[i]);
+    new->gap[i] = sb_hp_gap(a, &solver->tables, k, old->gap, fmin(r, 1.1));
+  }
+  new->H0 = old->H0;
+  new->shift = old->shift;
+  new->flux = old->flux;
+}
+
+// Value of the gap (sign +1) or of the pressure (sign -1, nodal given) at r of an element.
+static double sampled(SbFilmSolver *solver, int which, int element, bool pressure, double r) {
+  const SbHpMesh *mesh = &solver->mesh[which];
+  const SbReynoldsState *state = &solver->state[which];
+  if (pressure) {
+    return -sb_hp_pressure(mesh, &solver->tables, &mesh->element[element], state->nodal, r);
+  }
+  return sb_hp_gap(mesh, &solver->tables, element, state->gap, r);
+}
+
+// Least value over an element by sampling and golden section.
+static double minimum(double *place, SbFilmSolver *solver, int which, int element, bool pressure) {
+  enum { SAMPLES = 16 };
+  const SbHpElement *e = &solver->mesh[which].element[element];
+  double begin = e->map == SB_HP_INLET ? -0.9 : -1.0;
+  double end = e->map == SB_HP_OUTLET ? 0.9 : 1.0;
+  double step = (end - begin) / SAMPLES;
+  double best = begin;
+  double least = INFINITY;
+  for (int i = 0; i <= SAMPLES; i++) {
+    double r = begin + step * i;
+    double value = sampled(solver, which, element, pressure, r);
+    if (value < least) {
+      least = value;
+      best = r;
+    }
+  }
+  static const double RATIO = 0.6180339887498949;
+  double a = fmax(begin, best - step);
+  double b = fmin(end, best + step);
+  double c = b - RATIO * (b - a);
+  double d = a + RATIO * (b - a);
+  double at_c = sampled(solver, which, element, pressure, c);
+  double at_d = sampled(solver, which, element, pressure, d);
+  for (int i = 0; i < 36; i++) {
+    if (at_c < at_d) {
+      b = d;
+      d = c;
+      at_d = at_c;
+      c = b - RATIO * (b - a);
+      at_c = sampled(solver, which, element, pressure, c);
+    } else {
+      a = c;
+      c = d;
+      at_c = at_d;
+      d = a + RATIO * (b - a);
+      at_d = sampled(solver, which, element, pressure, d);
+    }
+  }
+  double r = 0.5 * (a + b);
+  double value = sampled(solver, which, element, pressure, r);
+  if (value < least) {
+    least = value;
+    best = r;
+  }
+  *place = sb_hp_position(e, best);
+  return least;
+}
+
+// Film at r of an element that carries the flux under the pressure's slope there, by fixed-point
+// steps from `film`; the Poiseuille part is small where this is used.
+static double reynolds_film(SbFilmSolver *solver, int which, const SbReynoldsCase *problem,
+                            int element, double r, double film) {
+  const SbHpMesh *mesh = &solver->mesh[which];
+  const SbReynoldsState *state = &solver->state[which];
+  const SbHpElement *e = &mesh->element[element];
+  double step = fmin(1e-3, 0.5 * (1.0 - fabs(r)) + 1e-6);
+  double before = fmax(-1.0, r - step);
+  double after = fmin(1.0, r + step);
+  double slope = (sb_hp_pressure(mesh, &solver->tables, e, state->nodal, after) -
+                  sb_hp_pressure(mesh, &solver->tables, e, state->nodal, before)) /
+                 (sb_hp_position(e, after) - sb_hp_position(e, before));
+  double pressure = sb_hp_pressure(mesh, &solver->tables, e, state->nodal, r);
+  double barus = exp(-problem->barus * pressure);
+  for (int i = 0; i < 20; i++) {
+    double shear = problem->eyring / (barus * film);
+    double m = barus * sqrt(1.0 + shear * shear);
+    film = state->flux + film * film * film * m * slope / problem->layers.lambda;
+  }
+  return film;
+}
+
+void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
+                      const SbReynoldsCase *problem) {
+  const SbHpMesh *mesh = &solver->mesh[which];
+  const SbReynoldsState *state = &solver->state[which];
+  memset(out, 0, sizeof *out);
+  out->film_flux = state->flux;
+
+  // Film at the axis.
+  int axis = find_element(mesh, -state->shift);
+  double at_axis = coordinate(&mesh->element[axis], -state->shift);
+  out->film_central = sb_hp_gap(mesh, &solver->tables, axis, state->gap, at_axis);
+  if (sb_layers_width(&problem->layers) < 0.08) {
+    // Thin films there hang on small differences of large deflections between the collocation
+    // points; Reynolds' equation gives them from the slope of the pressure, with far less noise.
+    out->film_central = reynolds_film(solver, which, problem, axis, at_axis, out->film_central);
+  }
+
+  // Least film and largest pressure: search around the best collocation points.
+  int thinnest = 0;
+  int highest = 0;
+  double peak = -INFINITY;
+  double load = mesh->load_known - 0.5 * M_PI +
+                mesh->inlet_pressure * (mesh->left_end + state->shift) -
+                mesh->outlet_pressure * (mesh->right_end + state->shift);
+  for (int j = 0; j < mesh->dofs; j++) {
+    load += mesh->load[j] * state->nodal[j];
+  }
+  out->load_error = fabs(load) / (0.5 * M_PI);
+  for (int i = 0; i < mesh->rows; i++) {
+    const SbHpElement *e = &mesh->element[mesh->owner[i]];
+    const double *value = mesh->value + (size_t)i * (SB_HP_DEGREE_MAX + 1);
+    const double *slope = mesh->slope + (size_t)i * (SB_HP_DEGREE_MAX + 1);
+    double P = mesh->value_known[i];
+    double P_slope = mesh->slope_known[i];
+    for (int j = 0; j <= e->degree; j++) {
+      P += value[j] * state->nodal[e->first_dof + j];
+      P_slope += slope[j] * state->nodal[e->first_dof + j];
+    }
+    double H = state->gap[i];
+    if (H < state->gap[thinnest]) {
+      thinnest = i;
+    }
+    out->pressure_min = fmin(out->pressure_min, P);
+    if (P > peak) {
+      peak = P;
+      highest = i;
+    }
+    // Friction and flux by the rule of the collocation points.
+    double barus = exp(-problem->barus * P);
+    double shear = problem->eyring / (barus * H);
+    double thinning = shear > 0.0 ? asinh(shear) / shear : 1.0;
+    out->couette += mesh->weight[i] * thinning / (barus * H);
+    out->poiseuille += mesh->weight[i] * 0.5 * H * P_slope;
+    double m = barus * (shear > 0.0 ? sqrt(1.0 + shear * shear) : 1.0);
+    double flux = H - H * H * H * m / problem->layers.lambda * P_slope;
+    out->flux_error = fmax(out->flux_error, fabs(flux - state->flux) / fmax(H, state->flux));
+  }
+  out->film_min = INFINITY;
+  out->pressure_max = -INFINITY;
+  int around = mesh->owner[thinnest];
+  for (int i = around > 0 ? around - 1 : 0; i <= around + 1 && i < mesh->count; i++) {
+    double place;
+    double value = minimum(&place, solver, which, i, false);
+    if (value < out->film_min) {
+      out->film_min = value;
+      out->position_min = place + state->shift;
+    }
+  }
+  around = mesh->owner[highest];
+  for (int i = around > 0 ? around - 1 : 0; i <= around + 1 && i < mesh->count; i++) {
+    double place;
+    out->pressure_max = fmax(out->pressure_max, -minimum(&place, solver, which, i, true));
+  }
+
+  // End of the film: the rupture, or the end of the contact.
+  out->position_rupture = 1.0;
+  if (problem->layers.end != SB_LAYERS_FULL) {
+    int last = mesh->count - 1;
+    for (int i = 1; i < mesh->count; i++) {
+      if (mesh->element[i].apart) {
+        last = i - 1;
+      }
+    }
+    out->position_rupture = mesh->element[last].x1 + state->shift;
+  }
+}
+
+void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
+                         const SbReynoldsCase *problem, const SbFilmScale *scale, bool forward,
+                         double rupture_pressure) {
+  const SbHpMesh *mesh = &solver->mesh[which];
+  const SbReynoldsState *state = &solver->state[which];
+  size_t per = (SB_FILM_POINTS - 8) / (size_t)mesh->count;
+  // The inlet is followed until the load left out is below 1e-6 of the whole, at least three
+  // half-widths.
+  double reach = fmax(3.0, sqrt(2.0 / 3.0 * problem->layers.lambda / (0.5 * M_PI * 1e-6)));
+  size_t n = 0;
+  for (int i = 0; i < mesh->count; i++) {
+    const SbHpElement *e = &mesh->element[i];
+    double begin = -1.0;
+    double end = 1.0;
+    if (e->map == SB_HP_INLET) {
+      begin = coordinate(e, -1.0 - reach);
+    } else if (e->map == SB_HP_OUTLET) {
+      end = coordinate(e, 1.0 + reach);
+    }
+    bool joined = i > 0 && !e->apart;
+    for (size_t k = joined ? 1 : 0; k <= per; k++) {
+      // Denser at the ends of the element, as its polynomials are.
+      double s = -cos(M_PI * (double)k / (double)per);
+      double r = begin + (end - begin) * 0.5 * (1.0 + s);
+      double X = sb_hp_position(e, r);
+      double P = sb_hp_pressure(mesh, &solver->tables, e, state->nodal, r) + rupture_pressure;
+      out->x[n] = (X + state->shift) * scale->half_width;
+      out->pressure[n] = P * scale->pressure;
+      out->film[n] = sb_hp_gap(mesh, &solver->tables, i, state->gap, r) * scale->film;
+      n++;
+    }
+  }
+  out->points = n;
+  if (!forward) {
+    for (size_t i = 0; i < n; i++) {
+      out->x[i] = -out->x[i];
+    }
+    for (size_t i = 0, j = n - 1; i < j; i++, j--) {
+      double x = out->x[i], pressure = out->pressure[i], film = out->film[i];
+      out->x[i] = out->x[j];
+      out->pressure[i] = out->pressure[j];
+      out->film[i] = out->film[j];
+      out->x[j] = x;
+      out->pressure[j] = pressure;
+      out->film[j] = film;
+    }
+  }
+}

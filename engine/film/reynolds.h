@@ -1,0 +1,78 @@
+// Inside of the coupled film solver (private to engine/film): the state on a mesh, Newton's method,
+// and what is read off a solution.
+#pragma once
+
+#include "engine/film/hp.h"
+#include "engine/film/layers.h"
+#include "engine/film/scale.h"
+
+// Unknowns on a mesh: nodal pressures, H0, shift c of the axis, flux film, and one free end.
+typedef struct {
+  double nodal[SB_HP_DOFS_MAX];
+  double gap[SB_HP_DOFS_MAX + SB_HP_ELEMENTS_MAX + 4]; // at all targets
+  double H0, shift, flux;
+} SbReynoldsState;
+
+// The scaled problem in the flow frame.
+typedef struct {
+  SbLayers layers;
+  double barus;  // alpha p_H
+  double eyring; // eta |speed| / (tau_0 b^2 / R): shear stress over Eyring's at unit film; 0 = off
+} SbReynoldsCase;
+
+// What Newton's method did.
+typedef struct {
+  int iterations;
+  double residual; // largest scaled residual
+  double step;     // last relative change of the flux film
+} SbReynoldsTrace;
+
+// Quantities of a solution, scaled, in the flow frame with x from the axis.
+typedef struct {
+  double film_min, film_central, film_flux;
+  double position_min, position_rupture;
+  double pressure_max, pressure_min;
+  double couette;    // integral of dX / H, times Eyring's factor when set
+  double poiseuille; // integral of H/2 dP/dX
+  double load_error, flux_error;
+} SbReynoldsReading;
+
+struct SbFilmSolver {
+  SbHpTables tables;
+  SbHpMesh mesh[2]; // the current level and the next
+  SbReynoldsState state[2];
+  double *matrix; // of Newton's method, row after row
+  double *right;
+  double *column; // derivative to the free end
+  double *gaps;   // at all targets
+  int *pivot;
+};
+
+// Storage; false when out of memory.
+bool sb_reynolds_init(SbFilmSolver *solver);
+void sb_reynolds_finish(SbFilmSolver *solver);
+
+// Newton's method on mesh/state `which`. `independent`: state.gap is a guess of its own, to be made
+// consistent by the first step; otherwise it is computed from the pressure.
+SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int which,
+                            SbReynoldsCase *problem, bool independent, double tolerance,
+                            const SbFilmProblem *callback);
+
+// Carries a solution from mesh/state `from` to `to`, which has the same elements in other degrees.
+void sb_reynolds_carry(SbFilmSolver *solver, int from, int to);
+
+// The same to a mesh of other elements, by place.
+void sb_reynolds_resample(SbFilmSolver *solver, int from, int to);
+
+// Reads a solution.
+void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
+                      const SbReynoldsCase *problem);
+
+// Profile of a solution into `out`, in SI and in the seal's frame.
+void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
+                         const SbReynoldsCase *problem, const SbFilmScale *scale, bool forward,
+                         double rupture_pressure);
+
+// The whole solve.
+SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                           SbFilmSolver *solver, SbReport *report);
