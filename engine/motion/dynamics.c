@@ -199,7 +199,7 @@ static void meet_stop(SbDynamics *s, size_t i) {
     touch->relic = 0.0;
     return;
   }
-  double rest = s->model->rest_speed > 0.0 ? s->model->rest_speed : 1e-9;
+  double rest = sb_motion_rest_speed(s->model);
   double back = -p->restitution * s->v;
   if (fabs(back) < rest) {
     back = 0.0;
@@ -226,6 +226,7 @@ static void rigid_event(SbDynamics *s, int direction) {
     return;
   }
   // Comes to rest, or turns if the forces are too large to hold it.
+  s->energy.friction += 0.5 * m->mass * s->v * s->v;
   s->v = 0.0;
   tell(s, SB_MOTION_STICK, -1, 0);
   turn_rigid(s);
@@ -245,6 +246,10 @@ static void contact_event(SbDynamics *s, size_t i, int direction) {
   const SbDynamicsContact *c = &s->model->contact[i];
   if (s->state[i] == SB_CONTACT_SLIP) {
     tell(s, SB_MOTION_STICK, (int)i, 0);
+    if (c->damping > 0.0 && s->brisk[i]) {
+      // It still crept a little: the spring takes what the damper carried of it.
+      jump_deflection(s, i, s->d[i] - c->damping / c->stiffness * sb_motion_patch_speed(s, i));
+    }
     s->state[i] = SB_CONTACT_STUCK;
     s->since[i] = s->t;
     s->fresh[i] = false;
@@ -372,6 +377,9 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
   for (;;) {
     if (!s->ready) {
       sb_drive_piece(&s->piece, &s->drive, &s->model->drive, s->t);
+      if (s->push.on && sb_motion_finger_gone(s)) {
+        switch_drive(s);
+      }
       SbStatus status = sb_motion_find_path(s, report);
       if (status != SB_OK) {
         s->now = s->t;
@@ -488,6 +496,5 @@ SbDynamicsCounters sb_dynamics_counters(const SbDynamics *s) {
   SbDynamicsCounters c = s->counters;
   c.newton_iterations = s->radau.newton_iterations;
   c.evaluations = s->radau.evaluations;
-  c.error_estimate = fmax(c.error_estimate, 1e-13 * (double)(1 + c.segments));
   return c;
 }

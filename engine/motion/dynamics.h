@@ -83,12 +83,14 @@ typedef struct {
   double (*speed_factor)(size_t contact, double speed, void *user);
   void *user;
   SbDrive drive;
-  double drive_stiffness, drive_damping; // N/m, N s/m; a force drive has no stiffness
-  bool drive_bonded;                     // pulls as well as pushes
-  double start_position, start_speed;    // m, m/s
-  double start_dwell;                    // s of rest before the start
-  double tolerance;                      // relative, of the numerical path; 0: 1e-9
-  double rest_speed; // m/s below which a rigid stop no longer throws back; 0: 1e-9
+  // N/m, N s/m. A force drive has no stiffness; its push falls by drive_damping times the speed, as
+  // a finger's does, and ends with the force.
+  double drive_stiffness, drive_damping;
+  bool drive_bonded;                  // pulls as well as pushes
+  double start_position, start_speed; // m, m/s
+  double start_dwell;                 // s of rest before the start
+  double tolerance;                   // relative, of the numerical path, <= 1e-5; 0: 1e-9
+  double rest_speed; // m/s below which a slowing contact rests, a rigid stop keeps; 0: 1e-9
   long max_events;   // 0: 1e6
 } SbDynamicsModel;
 
@@ -140,7 +142,7 @@ typedef struct {
 
 typedef struct {
   long events, segments, steps, rejected, newton_iterations, evaluations;
-  double error_estimate; // relative, summed local errors of the numerical path; rounding otherwise
+  double local_error; // sum of the numerical path's local errors of position, over |x| + 1 mm
 } SbDynamicsCounters;
 
 // One of stop or platen as a spring and damper in one direction.
@@ -168,6 +170,9 @@ typedef struct {
   SbDynamicsEnergy energy;
   double stored_start, kinetic_start;
   bool ready, linear, held;
+  // The patch started the segment clearly faster than rest_speed: falling below it is coming to
+  // rest.
+  bool brisk[SB_DYNAMICS_CONTACTS];
   int event; // that ends the segment, or -1
   SbOscillator motion;
   SbRadauSystem system;

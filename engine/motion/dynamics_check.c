@@ -87,8 +87,8 @@ SbStatus sb_dynamics_check(const SbDynamicsModel *m, SbReport *report) {
   if (!isfinite(m->start_position) || !isfinite(m->start_speed) || !(m->start_dwell >= 0.0)) {
     return sb_fail(report, SB_ERROR_RANGE, "start position, speed or dwell out of range");
   }
-  if (!(m->tolerance >= 0.0) || m->tolerance > 1e-3) {
-    return sb_fail(report, SB_ERROR_RANGE, "tolerance must lie between 0 and 1e-3");
+  if (!(m->tolerance >= 0.0) || m->tolerance > 1e-5) {
+    return sb_fail(report, SB_ERROR_RANGE, "tolerance must lie between 0 and 1e-5");
   }
   if (m->drive.kind != SB_DRIVE_NONE) {
     bool force = m->drive.quantity == SB_DRIVE_OF_FORCE;

@@ -177,11 +177,20 @@ double sb_motion_deflection_at(const SbDynamics *s, size_t i, double tau, double
   return end + left;
 }
 
+double sb_motion_patch_speed(const SbDynamics *s, size_t i) {
+  const SbDynamicsContact *c = &s->model->contact[i];
+  if (is_rigid(s->model, i) || c->damping == 0.0) {
+    return s->v;
+  }
+  double level = sb_motion_sliding_level(s, i, s->loads.level[i], s->sign[i] * s->v);
+  return s->v - (s->sign[i] * level - c->stiffness * s->d[i]) / c->damping;
+}
+
 // ---- gauges of the closed-form path ----
 
 static bool drive_gauge(const SbDynamics *s, SbGauge *g) {
   const SbDynamicsModel *m = s->model;
-  if (m->drive.kind == SB_DRIVE_NONE || m->drive_bonded) {
+  if (m->drive.kind == SB_DRIVE_NONE || m->drive_bonded || sb_motion_finger_gone(s)) {
     return false;
   }
   double value, rate, side = s->push.on ? 1.0 : -1.0;
@@ -269,7 +278,9 @@ static bool rigid_gauge(const SbDynamics *s, int side, const Linear *l, SbGauge 
     }
     any = true;
     if (s->state[i] == SB_CONTACT_SLIP) {
-      *g = (SbGauge){.of_v = s->sign[i]};
+      // Slowing down for ever is coming to rest.
+      *g = (SbGauge){.constant = s->brisk[i] ? -sb_motion_rest_speed(s->model) : 0.0,
+                     .of_v = s->sign[i]};
       return side > 0;
     }
     add_holding(s, i, g);
@@ -287,6 +298,7 @@ static bool contact_gauge(const SbDynamics *s, size_t i, int side, SbGauge *g) {
   }
   *g = (SbGauge){0};
   if (s->state[i] == SB_CONTACT_SLIP) {
+    g->constant = s->brisk[i] ? -sb_motion_rest_speed(s->model) : 0.0;
     g->of_v = s->sign[i];
     if (c->damping > 0.0) {
       g->relax_rate = c->stiffness / c->damping;

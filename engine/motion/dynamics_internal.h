@@ -38,8 +38,20 @@ typedef struct {
   double f0, f1, k, c;
 } Linear;
 
+// Stiffness INFINITY.
 static inline bool is_rigid(const SbDynamicsModel *m, size_t i) {
   return m->contact[i].stiffness > 1e300;
+}
+
+static inline double sb_motion_rest_speed(const SbDynamicsModel *m) {
+  return m->rest_speed > 0.0 ? m->rest_speed : 1e-9;
+}
+
+// A force that stays at zero: the finger has been taken away, damper and all.
+static inline bool sb_motion_finger_gone(const SbDynamics *s) {
+  return s->model->drive.kind != SB_DRIVE_NONE && s->model->drive.quantity == SB_DRIVE_OF_FORCE &&
+         !s->model->drive_bonded && !s->piece.curved && s->piece.value == 0.0 &&
+         s->piece.rate == 0.0;
 }
 
 // Position of the drive's moving end, and its rate, or its force and rate, at time t.
@@ -79,6 +91,9 @@ double sb_motion_demand(const SbDynamics *s, double t, double x, const double *d
 // and how fast it relaxes if it slides.
 double sb_motion_deflection_at(const SbDynamics *s, size_t i, double tau, double travel,
                                double *rate);
+
+// Speed of the sliding patch of contact i over the bore, at the anchor.
+double sb_motion_patch_speed(const SbDynamics *s, size_t i);
 
 // Gauge of an event in the closed-form path; false if it cannot happen in this mode.
 bool sb_motion_event_gauge(const SbDynamics *s, int event, const Linear *linear, SbGauge *gauge);

@@ -194,13 +194,13 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
   }
   s->system.user = s;
   for (int attempt = 0; attempt < 80; attempt++) {
-    double error;
+    double error, local[SB_RADAU_MAX];
     bool last = h >= left;
     h = last ? left : h;
     if (s->t + h <= s->t) {
       break;
     }
-    if (!sb_radau_pair(s->step, &error, &s->system, s->t, z, h, &s->radau)) {
+    if (!sb_radau_pair(s->step, &error, local, &s->system, s->t, z, h, &s->radau)) {
       h *= 0.25;
       s->counters.rejected++;
       continue;
@@ -212,7 +212,7 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
       continue;
     }
     s->counters.steps++;
-    s->counters.error_estimate += error * s->system.tolerance;
+    s->counters.local_error += local[0] / (fabs(s->x) + s->system.floor[0]);
     s->h = h * factor;
     s->middle = s->step[0].t + s->step[0].h;
     s->t_end = last ? s->t + left : s->t + h;
@@ -236,6 +236,10 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
 
 SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report) {
   s->linear = has_closed_form(s);
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    double slip = fabs(sb_motion_patch_speed(s, i));
+    s->brisk[i] = s->state[i] == SB_CONTACT_SLIP && slip > 2.0 * sb_motion_rest_speed(s->model);
+  }
   if (s->linear) {
     closed_path(s);
     return SB_OK;

@@ -176,8 +176,8 @@ bool sb_radau_step(SbRadauStep *step, const SbRadauSystem *system, double t, con
   return solve(step, system, t, z, h, j, base, counters);
 }
 
-bool sb_radau_pair(SbRadauStep pair[2], double *error, const SbRadauSystem *system, double t,
-                   const double *z, double h, SbRadauCounters *counters) {
+bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local, const SbRadauSystem *system,
+                   double t, const double *z, double h, SbRadauCounters *counters) {
   double j[N][N], base[N];
   SbRadauStep whole;
   jacobian(j, base, system, t, z, counters);
@@ -192,6 +192,9 @@ bool sb_radau_pair(SbRadauStep pair[2], double *error, const SbRadauSystem *syst
     return false;
   }
   *error = 0.0;
+  for (size_t i = 0; i < system->n; i++) {
+    local[i] = fabs(whole.z1[i] - pair[1].z1[i]) / 31.0;
+  }
   for (size_t i = 0; i < system->n; i++) {
     double allowed = scale(system, i, fmax(fabs(z[i]), fabs(pair[1].z1[i])));
     *error = fmax(*error, fabs(whole.z1[i] - pair[1].z1[i]) / (31.0 * allowed));

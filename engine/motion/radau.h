@@ -40,8 +40,8 @@ bool sb_radau_step(SbRadauStep *step, const SbRadauSystem *system, double t, con
 
 // Two steps of h/2 and, against one of h, the scaled error of the pair (accept below 1). The pair
 // is more accurate than that by about 31. False as above.
-bool sb_radau_pair(SbRadauStep pair[2], double *error, const SbRadauSystem *system, double t,
-                   const double *z, double h, SbRadauCounters *counters);
+bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local, const SbRadauSystem *system,
+                   double t, const double *z, double h, SbRadauCounters *counters);
 
 // State z[n] at t + theta h, 0 <= theta <= 1, and the quadratures over (t, t + theta h); either may
 // be NULL.
