@@ -1,0 +1,122 @@
+// Gland read-outs of the thesis' valve, their tolerance ranges and bands.
+#include "engine/elastic/gland.h"
+
+#include <glib.h>
+#include <math.h>
+
+#define assert_close(value, expected, relative)                                                    \
+  g_assert_cmpfloat(fabs((value) - (expected)), <=, (relative)*fabs(expected))
+
+static SbGland thesis(void) {
+  return (SbGland){.section_diameter = 1.61e-3,
+                   .section_diameter_tolerance = 0.02e-3,
+                   .inner_diameter = 2.84e-3,
+                   .inner_diameter_tolerance = 0.02e-3,
+                   .radial_space = 1.36e-3,
+                   .radial_space_tolerance = 0.02e-3,
+                   .axial_width = 2.0e-3,
+                   .axial_width_tolerance = 0.05e-3,
+                   .bore_diameter = 6.0e-3,
+                   .bore_diameter_tolerance = 0.01e-3,
+                   .land_diameter = 5.794e-3,
+                   .land_diameter_tolerance = 0.02e-3,
+                   .poisson_ratio = 0.49};
+}
+
+static void test_thesis_valve(void) {
+  const SbGland gland = thesis();
+  SbGlandReadout out[SB_GLAND_COUNT];
+  g_assert_cmpint(sb_gland_readouts(out, &gland, NULL), ==, SB_OK);
+  // device.md, equations.md.
+  assert_close(out[SB_GLAND_STRETCH_INNER].nominal, 0.155, 1e-3);
+  assert_close(out[SB_GLAND_STRETCH_MEAN].nominal, 0.0427, 1e-3);
+  assert_close(out[SB_GLAND_SQUEEZE].nominal, 0.1553, 1e-3);
+  assert_close(out[SB_GLAND_SECTION_FITTED].nominal, 1.5763e-3, 3e-5);
+  assert_close(out[SB_GLAND_INTERFERENCE].nominal, 0.2163e-3, 3e-4);
+  assert_close(out[SB_GLAND_EXTRUSION_GAP].nominal, 0.206e-3, 1e-9);
+  assert_close(out[SB_GLAND_FILL].nominal, 0.718, 1e-3);
+
+  // Stretched three times as much as is customary, squeezed as usual, land too loose.
+  g_assert_cmpint(out[SB_GLAND_STRETCH_INNER].band, ==, SB_BAND_ABOVE);
+  g_assert_cmpint(out[SB_GLAND_SQUEEZE].band, ==, SB_BAND_WITHIN);
+  g_assert_cmpint(out[SB_GLAND_INTERFERENCE].band, ==, SB_BAND_WITHIN);
+  g_assert_cmpint(out[SB_GLAND_FILL].band, ==, SB_BAND_WITHIN);
+  g_assert_cmpint(out[SB_GLAND_EXTRUSION_GAP].band, ==, SB_BAND_ABOVE);
+  g_assert_cmpint(out[SB_GLAND_STRETCH_MEAN].band, ==, SB_BAND_NONE);
+  // With its tolerances the squeeze may fall below 15 %.
+  g_assert_cmpint(out[SB_GLAND_SQUEEZE].band_worst, ==, SB_BAND_BELOW);
+  for (int i = 0; i < SB_GLAND_COUNT; i++) {
+    g_assert_cmpstr(out[i].name, !=, "");
+    g_assert_cmpint(out[i].band != SB_BAND_NONE, ==, out[i].source[0] != '\0');
+    g_assert_cmpfloat(out[i].worst_low, <=, out[i].rss_low + 1e-5 * fabs(out[i].nominal));
+    g_assert_cmpfloat(out[i].worst_high, >=, out[i].rss_high - 1e-5 * fabs(out[i].nominal));
+    g_assert_cmpfloat(out[i].rss_low, <=, out[i].nominal);
+  }
+  g_assert_cmpstr(sb_band_text(SB_BAND_BELOW), ==, "below");
+  g_assert_cmpstr(sb_band_text(SB_BAND_WITHIN), ==, "within");
+  g_assert_cmpstr(sb_band_text(SB_BAND_ABOVE), ==, "above");
+  g_assert_cmpstr(sb_band_text(SB_BAND_NONE), ==, "");
+}
+
+// Ranges by hand: squeeze 1 - g/d at its corners, and its linear RSS.
+static void test_tolerances(void) {
+  SbGland gland = thesis();
+  SbGlandReadout out[SB_GLAND_COUNT];
+  g_assert_cmpint(sb_gland_readouts(out, &gland, NULL), ==, SB_OK);
+  assert_close(out[SB_GLAND_SQUEEZE].worst_low, 1.0 - 1.38 / 1.59, 1e-12);
+  assert_close(out[SB_GLAND_SQUEEZE].worst_high, 1.0 - 1.34 / 1.63, 1e-12);
+  const double half = hypot(0.02 / 1.61, 1.36 * 0.02 / (1.61 * 1.61));
+  assert_close(out[SB_GLAND_SQUEEZE].rss_high - out[SB_GLAND_SQUEEZE].nominal, half, 1e-3);
+  assert_close(out[SB_GLAND_EXTRUSION_GAP].worst_high, 0.236e-3, 1e-9);
+  assert_close(out[SB_GLAND_EXTRUSION_GAP].rss_high, 0.206e-3 + hypot(0.01e-3, 0.02e-3), 1e-9);
+  assert_close(out[SB_GLAND_FILL].worst_high,
+               0.25 * M_PI * 1.63 * 1.63 * (2.86 + 1.63) / (1.34 * (5.99 - 1.34) * 1.95), 1e-12);
+
+  // Swell fills the groove.
+  gland.volume_swell = 0.151;
+  g_assert_cmpint(sb_gland_readouts(out, &gland, NULL), ==, SB_OK);
+  assert_close(out[SB_GLAND_FILL_SWOLLEN].nominal, 1.151 * out[SB_GLAND_FILL].nominal, 1e-12);
+  g_assert_cmpint(out[SB_GLAND_SWELL].band, ==, SB_BAND_WITHIN);
+  gland.volume_swell = 0.35;
+  g_assert_cmpint(sb_gland_readouts(out, &gland, NULL), ==, SB_OK);
+  g_assert_cmpint(out[SB_GLAND_SWELL].band, ==, SB_BAND_ABOVE);
+  g_assert_cmpint(out[SB_GLAND_FILL_SWOLLEN].band, ==, SB_BAND_ABOVE);
+
+  // No tolerances: no range.
+  gland.section_diameter_tolerance = gland.inner_diameter_tolerance = 0.0;
+  gland.radial_space_tolerance = gland.axial_width_tolerance = 0.0;
+  gland.bore_diameter_tolerance = gland.land_diameter_tolerance = 0.0;
+  g_assert_cmpint(sb_gland_readouts(out, &gland, NULL), ==, SB_OK);
+  for (int i = 0; i < SB_GLAND_COUNT; i++) {
+    g_assert_cmpfloat(out[i].worst_low, ==, out[i].worst_high);
+    g_assert_cmpfloat(out[i].rss_low, ==, out[i].rss_high);
+    g_assert_cmpint(out[i].band, ==, out[i].band_worst);
+  }
+}
+
+static void test_refusals(void) {
+  SbGlandReadout out[SB_GLAND_COUNT];
+  SbReport report = {0};
+  SbGland gland = thesis();
+  gland.inner_diameter = 0.0;
+  g_assert_cmpint(sb_gland_readouts(out, &gland, &report), ==, SB_ERROR_RANGE);
+  g_assert_cmpstr(report.parameter, ==, "seal.inner_diameter");
+  gland = thesis();
+  gland.axial_width_tolerance = 2.0e-3;
+  g_assert_cmpint(sb_gland_readouts(out, &gland, &report), ==, SB_ERROR_RANGE);
+  g_assert_cmpstr(report.parameter, ==, "gland.axial_width");
+  gland = thesis();
+  gland.volume_swell = NAN;
+  g_assert_cmpint(sb_gland_readouts(out, &gland, &report), ==, SB_ERROR_RANGE);
+  gland = thesis();
+  gland.bore_diameter = 2.75e-3;
+  g_assert_cmpint(sb_gland_readouts(out, &gland, &report), ==, SB_ERROR_INFEASIBLE);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/gland/thesis-valve", test_thesis_valve);
+  g_test_add_func("/gland/tolerances", test_tolerances);
+  g_test_add_func("/gland/refusals", test_refusals);
+  return g_test_run();
+}
