@@ -127,7 +127,13 @@ static void draw_text(cairo_t *cr, const SbDrawItem *item, const char *string, S
     cairo_move_to(cr, x, (double)item->y - baseline);
   }
   set_colour(cr, item->colour);
-  pango_cairo_show_layout(cr, layout);
+  // Pixels: outlines, since cairo puts cached glyphs on whole pixels. SVG and PDF: text.
+  if (cairo_surface_get_type(cairo_get_target(cr)) == CAIRO_SURFACE_TYPE_IMAGE) {
+    pango_cairo_layout_path(cr, layout);
+    cairo_fill(cr);
+  } else {
+    pango_cairo_show_layout(cr, layout);
+  }
 }
 
 void sb_draw_list_to_cairo(const SbDrawList *list, SbText *text, cairo_t *cr) {

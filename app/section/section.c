@@ -1,5 +1,5 @@
 // The section's layout, its rings and its parts in order, back to front. Labels of the strip are in
-// section_labels.c, the insets in section_insets.c, header, legends and footer in section_frame.c.
+// section_labels.c, the insets in section_insets.c, the legends in section_frame.c.
 #include "app/section/section_private.h"
 
 #include <glib.h>
@@ -26,10 +26,8 @@ void sb_section_destroy(SbSection *section) {
   g_free(section);
 }
 
-void sb_section_limits_of_run(SbSectionLimits *limits, const SbRun *run) {
+void sb_section_limits_of_frames(SbSectionLimits *limits, const SbFrame *frames, size_t count) {
   *limits = (SbSectionLimits){0};
-  size_t count;
-  const SbFrame *frames = sb_run_frames(run, &count);
   bool inner_found = false;
   for (size_t i = 0; i < count; i++) {
     for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
@@ -259,69 +257,70 @@ void sb_section_draw_strip(SbSection *section) {
 }
 
 // Where strip and insets go. The strip takes the width; what its height leaves goes to the insets.
+// A wide picture has its title and legends in a column on the left of the insets, a narrow one in a
+// row above them.
 typedef struct {
-  double margin, top, legend_width, inset_top, inset_height, footer_top;
+  double margin, top, legend_width, inset_top, inset_height;
   bool insets, column;
 } Layout;
+
+static const double COLUMN_LEAST = 860, LEGENDS = 232, COLUMN_GAP = 48, SCALE_ROW = 34;
+
+// One seal's surroundings, from below the groove floor to above the land.
+static void lay_out_zoom(SbSection *section, const Layout *layout, double bottom) {
+  const SbSectionView *view = section->view;
+  const SbValve *valve = &section->valve;
+  int seal = view->zoom == SB_SECTION_ZOOM_INNER ? SB_INNER : SB_OUTER;
+  double left = layout->margin + (layout->column ? LEGENDS + COLUMN_GAP : 0);
+  double top = layout->top + (layout->column ? 0 : 66);
+  double width = view->width - layout->margin - left, tall = bottom - top;
+  section->strip = (SbDrawRect){(float)left, (float)top, (float)width, (float)tall};
+  double g = section->model.radial_space;
+  section->scale = MIN(width / (2.6 * g), tall / (1.85 * g));
+  double centre = valve->origin[seal] - sb_section_displacement(section);
+  section->x0 = left + width / 2 - centre * section->scale;
+  section->y0 = bottom - tall * 0.56 + (valve->floor + g / 2) * section->scale;
+}
 
 static void lay_out(SbSection *section, Layout *layout) {
   const SbSectionView *view = section->view;
   const SbValve *valve = &section->valve;
   const SbModel *model = &section->model;
-  double width = view->width;
-  double margin = view->bare ? 0 : width >= 900 ? 32 : 20;
+  double margin = view->margin;
   layout->margin = margin;
-  layout->top = view->bare ? 0 : margin + 68;
-  layout->column = width - 2 * margin >= 860;
-  layout->legend_width = layout->column ? 232 : MIN(232, width / 2 - margin - 12);
-  double footer = view->bare ? 0 : 52;
-  layout->footer_top = view->height - footer;
-  double scale_row = 34;
-  double bottom = layout->footer_top - scale_row;
-
-  double strip_width = width - 2 * margin;
+  layout->top = margin;
+  layout->column = view->width - 2 * margin >= COLUMN_LEAST;
+  layout->legend_width = layout->column ? LEGENDS : MIN(LEGENDS, view->width / 2 - margin - 12);
+  double bottom = view->height - margin - SCALE_ROW + 8;
   if (view->zoom != SB_SECTION_WHOLE) {
-    // One seal's surroundings: from below the groove floor to above the land.
-    int seal = view->zoom == SB_SECTION_ZOOM_INNER ? SB_INNER : SB_OUTER;
-    double tall = bottom - layout->top - (layout->column ? 0 : 60);
-    section->strip =
-        (SbDrawRect){(float)margin, (float)(bottom - tall), (float)strip_width, (float)tall};
-    double g = model->radial_space;
-    section->scale = MIN(strip_width / (3.4 * g), tall / (1.85 * g));
-    double centre = valve->origin[seal] - sb_section_displacement(section);
-    section->x0 = margin + strip_width / 2 - centre * section->scale;
-    section->y0 = bottom - tall * 0.62 + (valve->floor + g / 2) * section->scale;
-    layout->insets = false;
+    lay_out_zoom(section, layout, bottom);
     return;
   }
 
   // Room on the left for the pressure arrow at full stroke, on the right for the ambient.
-  double travel = MAX(model->stroke, 0);
-  double arrow = 3.4 * model->pressure_force + 18;
-  double face_left = MIN(valve->nose - travel, valve->face);
-  double left_room = MAX((valve->face - face_left) * 0 + arrow, 24);
+  double strip_width = view->width - 2 * margin;
+  double left_room = 3.4 * model->pressure_force + 18;
+  double left = MIN(valve->nose - model->stroke, valve->face);
   double right = valve->end + RIGHT_ROOM * model->bore_diameter;
-  double scale = (strip_width - left_room) / (right - face_left);
-  // A low picture gives the insets at least 110 px, then none.
+  double scale = (strip_width - left_room) / (right - left);
   double radius = TOP * model->bore_diameter;
-  double gap = 30, titles = layout->column ? 22 : 70;
-  double free_height = bottom - layout->top - radius * scale - gap - titles;
-  layout->insets = !view->hide_insets && bottom - layout->top >= 330;
-  if (layout->insets && free_height < 130) {
-    scale = (bottom - layout->top - gap - titles - 130) / radius;
-    free_height = 130;
-  } else if (!layout->insets) {
-    scale = MIN(scale, (bottom - layout->top - (layout->column ? 90 : titles)) / radius);
+  // A low picture gives the insets at least 130 px of the strip's height, then none.
+  double titles = layout->column ? 22 : 82, gap = 30;
+  double room = bottom - layout->top;
+  layout->insets = !view->hide_insets && room >= 330;
+  if (layout->insets) {
+    scale = MIN(scale, (room - gap - titles - 130) / radius);
+    layout->inset_height = MIN(room - radius * scale - gap - titles, 320);
+  } else {
+    scale = MAX(MIN(scale, (room - (layout->column ? 100 : titles)) / radius), 1 / radius);
   }
-  double tall = radius * scale;
-  section->scale = scale;
-  section->strip =
-      (SbDrawRect){(float)margin, (float)(bottom - tall), (float)strip_width, (float)tall};
-  double used = (right - face_left) * scale + left_room;
-  section->x0 = margin + (strip_width - used) / 2 + left_room - face_left * scale;
-  section->y0 = bottom;
   layout->inset_top = layout->top + titles;
-  layout->inset_height = MIN(free_height, 320);
+  section->scale = scale;
+  section->strip = (SbDrawRect){(float)margin, (float)(bottom - radius * scale), (float)strip_width,
+                                (float)(radius * scale)};
+  double used = (right - left) * scale + left_room;
+  section->x0 = margin + (strip_width - used) / 2 + left_room - left * scale;
+  section->y0 = bottom;
 }
 
 void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *view,
@@ -338,13 +337,9 @@ void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *
   shape_rings(section);
   sb_section_draw_strip(section);
   sb_section_draw_strip_labels(section);
-  if (!view->bare) {
-    sb_section_draw_header(section, layout.margin);
-    sb_section_draw_footer(section, layout.margin, layout.footer_top);
-  }
   sb_section_draw_legends(section, layout.margin, layout.top, layout.legend_width);
   if (layout.insets) {
-    double x = layout.margin + (layout.column ? layout.legend_width + 48 : 0);
+    double x = layout.margin + (layout.column ? layout.legend_width + COLUMN_GAP : 0);
     double gap = 24;
     double each = (view->width - layout.margin - x - gap) / 2;
     SbDrawRect pressure = {(float)x, (float)layout.inset_top, (float)each,

@@ -42,14 +42,11 @@ typedef enum {
 
 typedef struct {
   double width, height; // logical pixels
+  double margin;        // kept free all round
   bool dark;
-  bool bare; // only the section on the panel's ground: no header, read-outs, footer
   bool hide_insets, hide_forces, hide_labels;
   int inset_seal; // SB_OUTER or SB_INNER
   SbSectionZoom zoom;
-  const char *title, *subtitle;          // of the header; may be NULL
-  const char *models, *errors, *warning; // of the footer; may be NULL
-  const char *stamp; // "Sealbench 0.1 · run 4f21c09 · frame 218 of 1251"; or NULL
 } SbSectionView;
 
 // The instant to draw; everything borrowed. profile and ring may hold NULL.
@@ -64,8 +61,8 @@ typedef struct {
 SbSection *sb_section_create(const SbModel *model, const SbSectionLimits *limits);
 void sb_section_destroy(SbSection *section);
 
-// Reads the limits off published frames and their profiles.
-void sb_section_limits_of_run(SbSectionLimits *limits, const SbRun *run);
+// Reads the limits off frames.
+void sb_section_limits_of_frames(SbSectionLimits *limits, const SbFrame *frames, size_t count);
 
 // Fills `list` (cleared first) with the picture.
 void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *view,

@@ -1,144 +1,9 @@
-// Around the section: title and read-outs, legends, footer with models, errors and warnings.
+// Beside the section: its title, the legends of its colours, the balance of forces.
 #include "app/section/section_private.h"
 
 #include <glib.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
-
-// What happens after each event.
-static const char *const phase[SB_STAGE_COUNT] = {
-    [SB_STAGE_A] = "force builds up",      [SB_STAGE_B] = "both seals slide",
-    [SB_STAGE_C] = "chamber open",         [SB_STAGE_D] = "at the stop",
-    [SB_STAGE_E] = "return, chamber open", [SB_STAGE_F] = "both seals slide back",
-};
-
-// What an event is; a frame on an event sits just before it.
-static const char *const event[SB_STAGE_COUNT] = {
-    [SB_STAGE_A] = "start",       [SB_STAGE_B] = "first slip",   [SB_STAGE_C] = "land edge reached",
-    [SB_STAGE_D] = "at the stop", [SB_STAGE_E] = "reverse slip", [SB_STAGE_F] = "contact again",
-};
-
-// A value with its unit smaller behind it, right-aligned at x; a caption below. Returns the width.
-static double read_out(SbSection *section, double x, double y, const char *value, const char *unit,
-                       const char *caption, SbDrawColour value_colour, SbDrawColour caption_colour,
-                       int caption_weight) {
-  double size = 30;
-  double unit_width = unit[0] != '\0' ? sb_text_width(section->text, unit, 0.6 * size, 400) : 0;
-  double value_width = sb_text_width(section->text, value, size, 600);
-  double gap = unit[0] != '\0' ? 6 : 0;
-  sb_draw_text(section->list, x, y, 0.6 * size, 400, SB_ALIGN_RIGHT, section->palette->ink, unit);
-  sb_draw_text(section->list, x - unit_width - gap, y, size, 600, SB_ALIGN_RIGHT, value_colour,
-               value);
-  sb_draw_text(section->list, x, y + 24, 12.5, caption_weight, SB_ALIGN_RIGHT, caption_colour,
-               caption);
-  double caption_width = sb_text_width(section->text, caption, 12.5, caption_weight);
-  return fmax(value_width + gap + unit_width, caption_width);
-}
-
-void sb_section_draw_header(SbSection *section, double margin) {
-  const SbPalette *palette = section->palette;
-  const SbSectionView *view = section->view;
-  const SbFrame *frame = section->instant->frame;
-  double y = margin + 14;
-  double right = view->width - margin;
-  char number[SB_SECTION_NUMBER];
-
-  // Columns of constant width, so that the figures stand still while they change.
-  double column = view->width >= 1100 ? 128 : 104;
-  sb_section_fixed(number, frame->force, fabs(frame->force) >= 100 ? 0 : 1);
-  read_out(section, right, y, number, "N", "force on the stem", palette->ink, palette->second, 400);
-  sb_section_fixed(number, frame->displacement * 1e3, 2);
-  read_out(section, right - column, y, number, "mm", "stroke", palette->ink, palette->second, 400);
-  sb_section_fixed(number, frame->time, 2);
-  read_out(section, right - 2 * column, y, number, "s", "time", palette->ink, palette->second, 400);
-  SbStage stage = (SbStage)MIN(frame->stage, SB_STAGE_COUNT - 1);
-  SbStage next = (SbStage)((stage + 1) % SB_STAGE_COUNT);
-  char letters[16];
-  const char *caption = phase[stage];
-  if (frame->on_event) {
-    SbStage at = frame->time > 0 ? next : SB_STAGE_A;
-    snprintf(letters, sizeof letters, "%s", sb_stage_name(at));
-    caption = at == SB_STAGE_A && frame->time > 0 ? "back at rest" : event[at];
-  } else {
-    snprintf(letters, sizeof letters, "%s\xe2\x80\x93%s", sb_stage_name(stage),
-             sb_stage_name(next));
-  }
-  double used = 3 * column;
-  used += read_out(section, right - 3 * column, y, letters, "", caption, palette->now, palette->now,
-                   600);
-
-  double room = right - used - 24 - margin;
-  if (view->title != NULL && sb_text_width(section->text, view->title, 28, 700) < room) {
-    sb_draw_text(section->list, margin, y, 28, 700, SB_ALIGN_LEFT, palette->ink, view->title);
-  } else if (view->title != NULL && sb_text_width(section->text, view->title, 17, 700) < room) {
-    sb_draw_text(section->list, margin, y - 4, 17, 700, SB_ALIGN_LEFT, palette->ink, view->title);
-  }
-  if (view->subtitle != NULL && sb_text_width(section->text, view->subtitle, 13, 400) < room) {
-    sb_draw_text(section->list, margin, y + 24, 13, 400, SB_ALIGN_LEFT, palette->second,
-                 view->subtitle);
-  }
-}
-
-// "Models  fit karaszkiewicz ..." with a bold head; false if it does not fit into `room`.
-static bool headed_line(SbSection *section, double x, double y, const char *head, const char *body,
-                        double room) {
-  double width = sb_text_width(section->text, head, 12, 600);
-  if (width + 6 + sb_text_width(section->text, body, 12, 400) > room) {
-    return false;
-  }
-  sb_draw_text(section->list, x, y, 12, 600, SB_ALIGN_LEFT, section->palette->second, head);
-  sb_draw_text(section->list, x + width + 6, y, 12, 400, SB_ALIGN_LEFT, section->palette->second,
-               body);
-  return true;
-}
-
-void sb_section_draw_footer(SbSection *section, double margin, double top) {
-  const SbPalette *palette = section->palette;
-  const SbSectionView *view = section->view;
-  double right = view->width - margin;
-  double first = top + 16, second = top + 34;
-  double warning_room = view->width - 2 * margin;
-  if (view->stamp != NULL) {
-    sb_draw_text(section->list, right, second, 12, 400, SB_ALIGN_RIGHT, palette->third,
-                 view->stamp);
-  }
-  double stamp = view->stamp != NULL ? sb_text_width(section->text, view->stamp, 12, 400) : 0;
-  if (view->errors != NULL) {
-    headed_line(section, margin, second, "Error estimates", view->errors,
-                warning_room - stamp - 16);
-  }
-  double models = 0;
-  if (view->models != NULL &&
-      headed_line(section, margin, first, "Models", view->models, warning_room)) {
-    models = sb_text_width(section->text, "Models", 12, 600) + 6 +
-             sb_text_width(section->text, view->models, 12, 400);
-  }
-  if (view->warning == NULL || view->warning[0] == '\0') {
-    return;
-  }
-  // As much of the warning as fits, cut at a word.
-  double head = sb_text_width(section->text, "Warning", 12, 600) + 6;
-  double room = warning_room - models - 24 - head;
-  char text[SB_DRAW_TEXT_MAX];
-  g_utf8_strncpy(text, view->warning, MIN(g_utf8_strlen(view->warning, -1), 120));
-  bool cut = false;
-  while (text[0] != '\0' && sb_text_width(section->text, text, 12, 400) + (cut ? 14 : 0) > room) {
-    char *space = strrchr(text, ' ');
-    *(space != NULL ? space : text) = '\0';
-    cut = true;
-  }
-  if (text[0] == '\0') {
-    return;
-  }
-  if (cut) {
-    g_strlcat(text, " \xe2\x80\xa6", sizeof text);
-  }
-  double width = sb_text_width(section->text, text, 12, 400);
-  sb_draw_text(section->list, right, first, 12, 400, SB_ALIGN_RIGHT, palette->warn, text);
-  sb_draw_text(section->list, right - width - 6, first, 12, 600, SB_ALIGN_RIGHT, palette->warn,
-               "Warning");
-}
 
 // One bar of a colour map with its ticks.
 static double legend(SbSection *section, double x, double y, double width, const char *name,
@@ -209,7 +74,8 @@ void sb_section_draw_legends(SbSection *section, double x, double y, double widt
   const SbSectionRing *ring = section->instant->ring[SB_OUTER];
   const SbFrame *frame = section->instant->frame;
   bool column = view->width - 2 * x >= 860;
-  double low = section->strip.y - 10;
+  bool zoom = view->zoom != SB_SECTION_WHOLE;
+  double low = zoom ? view->height - x : (double)section->strip.y - 10;
   if (!column) {
     legend(section, x, y + 12, width, "fluid pressure", "MPa, gauge", &palette->fluid, 0,
            SB_PALETTE_FLUID_FULL * 1e-6);

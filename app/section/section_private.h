@@ -56,8 +56,6 @@ void sb_section_reserve(SbSection *section, double x, double y, double width, do
 void sb_section_draw_strip(SbSection *section);
 void sb_section_draw_strip_labels(SbSection *section);
 void sb_section_draw_insets(SbSection *section, const SbDrawRect *pressure, const SbDrawRect *film);
-void sb_section_draw_header(SbSection *section, double margin);
-void sb_section_draw_footer(SbSection *section, double margin, double top);
 void sb_section_draw_legends(SbSection *section, double x, double y, double width);
 
 // Fill of seal i's ring from its outline mapped by x -> ax + bx x, y -> ay + by y, and its outline.
