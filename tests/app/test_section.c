@@ -30,10 +30,10 @@ static void fixture_open(Fixture *f) {
   g_assert_cmpint(sb_run_execute(f->run, NULL, &report), ==, SB_OK);
   f->frames = sb_run_frames(f->run, &f->count);
   SbSectionLimits limits;
-  sb_section_limits_of_run(&limits, f->run);
+  sb_section_limits_of_frames(&limits, f->frames, f->count);
   f->section = sb_section_create(&f->model, &limits);
   sb_draw_list_init(&f->list);
-  f->view = (SbSectionView){.width = 1280, .height = 720, .inset_seal = SB_OUTER, .title = "Test"};
+  f->view = (SbSectionView){.width = 1216, .height = 568, .margin = 20, .inset_seal = SB_OUTER};
 }
 
 static void fixture_close(Fixture *f) {
@@ -176,7 +176,7 @@ static void test_labels(void) {
   size_t c = summary->stage[SB_STAGE_C].frame, d = summary->stage[SB_STAGE_D].frame;
   draw(&f, c - 3);
   g_assert_true(shows(&f.list, "schematic"));
-  g_assert_true(shows(&f.list, "27.4"));
+  g_assert_true(shows(&f.list, "drive 27.4 N"));
   g_assert_true(shows(&f.list, "fill path opens in"));
   g_assert_false(shows(&f.list, "no contact"));
   draw(&f, (c + d) / 2);

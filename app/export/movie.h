@@ -1,0 +1,56 @@
+// H.264 films in MP4, encoded in this process while the next pictures are drawn.
+//
+// A caller's function draws picture after picture; a thread of the movie's own converts (BT.709,
+// limited range, tagged so) and encodes (libavcodec with libx264, yuv420p). The file appears under
+// its name only when it is complete: it is written beside it and renamed. A cancelled film keeps
+// the pictures done so far, playable, with "partial" in its comment.
+#pragma once
+
+#include "engine/status.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { SB_MOVIE_SIZE_MIN = 16, SB_MOVIE_SIZE_MAX = 8192 };
+
+typedef struct {
+  int width, height;    // of the pictures; odd sizes are padded by a repeated column or row
+  int fps_num, fps_den; // frames per second; 0/0 counts as 30/1
+  size_t frames;        // how many pictures
+  const char *preset;   // libx264's; NULL: "veryfast"
+  int quality;          // constant rate factor, 1 (best) to 51; 0: 18
+  int threads;          // of the encoder; 0: one per processor, up to 4
+  bool bit_exact;       // the same bytes on every run (for tests); needs threads = 1
+  const char *title;    // metadata; may be NULL
+  const char *comment;  // metadata, such as models and errors; may be NULL
+} SbMovieOptions;
+
+// Draws picture `frame` into `pixels`: rows top down, cairo's ARGB32, `stride` bytes a row. Called
+// in order on the thread of sb_movie_write(). A status other than SB_OK ends the film.
+typedef SbStatus (*SbMovieDraw)(void *data, size_t frame, uint8_t *pixels, size_t stride,
+                                SbReport *report);
+
+// Both may be NULL; called on the thread of sb_movie_write() once per picture.
+typedef struct {
+  void (*progress)(void *data, size_t done, size_t total);
+  bool (*cancelled)(void *data);
+  void *data;
+} SbMovieHooks;
+
+// What became of it, and where the time went.
+typedef struct {
+  size_t frames;                 // in the file
+  bool partial;                  // cancelled before the last one
+  double wall_s, draw_s, wait_s; // this thread: all, drawing, waiting for the encoder
+  double convert_s, encode_s;    // the encoder's thread
+} SbMovieResult;
+
+// Writes the film. SB_OK; SB_ERROR_CANCELLED (a partial file is there if result->frames > 0);
+// SB_ERROR_RANGE for an impossible size or rate; SB_ERROR_IO for a full disk or a missing encoder,
+// with nothing new under `path` and an earlier file intact; or the drawing's own failure, likewise.
+SbStatus sb_movie_write(const char *path, const SbMovieOptions *options, SbMovieDraw draw,
+                        void *draw_data, const SbMovieHooks *hooks, SbMovieResult *result,
+                        SbReport *report);
+
+// round(duration * fps), at least 1.
+size_t sb_movie_frames(double duration, int fps_num, int fps_den);

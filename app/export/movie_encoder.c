@@ -1,0 +1,216 @@
+// libavcodec and libavformat. pts is the picture's index in units of 1/fps; the index (moov) is
+// moved to the file's front; colours are tagged BT.709, limited range, chroma at the block's
+// centre. Every write is checked, the last ones too: a full disk shows first in either.
+#include "app/export/movie_encoder.h"
+
+#include "app/export/colour.h"
+
+#include <errno.h>
+#include <glib.h>
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/opt.h>
+#include <unistd.h>
+
+struct SbMovieEncoder {
+  AVFormatContext *format;
+  AVCodecContext *codec;
+  AVStream *stream;
+  AVFrame *frame;
+  AVPacket *packet;
+  int width, height;
+  int64_t next;
+  bool header;
+};
+
+static SbStatus fail(SbReport *report, const char *what, int code) {
+  if (code == AVERROR(ENOSPC) || code == AVERROR(EDQUOT)) {
+    return sb_fail(report, SB_ERROR_IO, "the disk is full");
+  }
+  char text[AV_ERROR_MAX_STRING_SIZE] = "";
+  av_strerror(code, text, sizeof text);
+  return sb_fail(report, SB_ERROR_IO, "%s: %s", what, text);
+}
+
+// An error that the buffered output met since.
+static SbStatus check_output(SbMovieEncoder *encoder, SbReport *report) {
+  int code = encoder->format->pb->error;
+  return code < 0 ? fail(report, "writing the film", code) : SB_OK;
+}
+
+static SbStatus set_up_codec(SbMovieEncoder *encoder, const SbMovieOptions *options,
+                             SbReport *report) {
+  const AVCodec *found = avcodec_find_encoder_by_name("libx264");
+  if (found == NULL) {
+    return sb_fail(report, SB_ERROR_IO, "libavcodec has no libx264 encoder");
+  }
+  AVCodecContext *codec = encoder->codec = avcodec_alloc_context3(found);
+  if (codec == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the encoder");
+  }
+  codec->width = (options->width + 1) & ~1;
+  codec->height = (options->height + 1) & ~1;
+  codec->pix_fmt = AV_PIX_FMT_YUV420P;
+  codec->time_base = (AVRational){options->fps_den, options->fps_num};
+  codec->framerate = (AVRational){options->fps_num, options->fps_den};
+  codec->gop_size = MAX(1, 2 * options->fps_num / options->fps_den);
+  codec->color_range = AVCOL_RANGE_MPEG;
+  codec->color_primaries = AVCOL_PRI_BT709;
+  codec->color_trc = AVCOL_TRC_BT709;
+  codec->colorspace = AVCOL_SPC_BT709;
+  codec->chroma_sample_location = AVCHROMA_LOC_CENTER;
+  codec->sample_aspect_ratio = (AVRational){1, 1};
+  codec->thread_count =
+      options->threads > 0 ? options->threads : (int)CLAMP(sysconf(_SC_NPROCESSORS_ONLN), 1, 4);
+  if (encoder->format->oformat->flags & AVFMT_GLOBALHEADER) {
+    codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+  }
+  if (options->bit_exact) {
+    codec->flags |= AV_CODEC_FLAG_BITEXACT;
+  }
+  AVDictionary *set = NULL;
+  av_dict_set(&set, "preset", options->preset != NULL ? options->preset : "veryfast", 0);
+  av_dict_set_int(&set, "crf", options->quality > 0 ? options->quality : 18, 0);
+  int code = avcodec_open2(codec, found, &set);
+  av_dict_free(&set);
+  if (code < 0) {
+    return fail(report, "the H.264 encoder does not open", code);
+  }
+  return SB_OK;
+}
+
+SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
+                               const SbMovieOptions *options, SbReport *report) {
+  *out = NULL;
+  av_log_set_level(AV_LOG_QUIET);
+  SbMovieEncoder *encoder = g_new0(SbMovieEncoder, 1);
+  encoder->width = options->width;
+  encoder->height = options->height;
+  char *url = g_strdup_printf("file:%s", path);
+  SbStatus status = SB_OK;
+  int code = avformat_alloc_output_context2(&encoder->format, NULL, "mp4", url);
+  if (code < 0) {
+    status = fail(report, "no MP4 writer", code);
+  } else {
+    status = set_up_codec(encoder, options, report);
+  }
+  if (status == SB_OK) {
+    encoder->stream = avformat_new_stream(encoder->format, NULL);
+    encoder->frame = av_frame_alloc();
+    encoder->packet = av_packet_alloc();
+    if (encoder->stream == NULL || encoder->frame == NULL || encoder->packet == NULL) {
+      status = sb_fail(report, SB_ERROR_MEMORY, "no memory for the film");
+    }
+  }
+  if (status == SB_OK) {
+    encoder->stream->time_base = encoder->codec->time_base;
+    encoder->stream->avg_frame_rate = encoder->codec->framerate;
+    code = avcodec_parameters_from_context(encoder->stream->codecpar, encoder->codec);
+    encoder->frame->format = AV_PIX_FMT_YUV420P;
+    encoder->frame->width = encoder->codec->width;
+    encoder->frame->height = encoder->codec->height;
+    if (code >= 0) {
+      code = av_frame_get_buffer(encoder->frame, 0);
+    }
+    if (code >= 0) {
+      code = avio_open(&encoder->format->pb, url, AVIO_FLAG_WRITE);
+    }
+    if (code < 0) {
+      status = fail(report, "the film does not open", code);
+    }
+  }
+  if (status == SB_OK) {
+    if (options->bit_exact) {
+      encoder->format->flags |= AVFMT_FLAG_BITEXACT;
+    }
+    if (options->title != NULL) {
+      av_dict_set(&encoder->format->metadata, "title", options->title, 0);
+    }
+    AVDictionary *set = NULL;
+    av_dict_set(&set, "movflags", "+faststart", 0);
+    code = avformat_write_header(encoder->format, &set);
+    av_dict_free(&set);
+    encoder->header = code >= 0;
+    status = code < 0 ? fail(report, "the film's header", code) : check_output(encoder, report);
+  }
+  g_free(url);
+  if (status != SB_OK) {
+    sb_movie_encoder_destroy(encoder);
+    return status;
+  }
+  *out = encoder;
+  return sb_succeed(report);
+}
+
+// Hands a picture (or NULL: the end) to the encoder and writes what comes out.
+static SbStatus push(SbMovieEncoder *encoder, const AVFrame *frame, SbReport *report) {
+  int code = avcodec_send_frame(encoder->codec, frame);
+  if (code < 0) {
+    return fail(report, "encoding", code);
+  }
+  while ((code = avcodec_receive_packet(encoder->codec, encoder->packet)) >= 0) {
+    encoder->packet->stream_index = encoder->stream->index;
+    encoder->packet->duration = 1;
+    av_packet_rescale_ts(encoder->packet, encoder->codec->time_base, encoder->stream->time_base);
+    code = av_interleaved_write_frame(encoder->format, encoder->packet);
+    if (code < 0) {
+      return fail(report, "writing the film", code);
+    }
+  }
+  if (code != AVERROR(EAGAIN) && code != AVERROR_EOF) {
+    return fail(report, "encoding", code);
+  }
+  return check_output(encoder, report);
+}
+
+SbStatus sb_movie_encoder_add(SbMovieEncoder *encoder, const uint8_t *pixels, size_t stride,
+                              double *convert_s, double *encode_s, SbReport *report) {
+  int64_t begin = g_get_monotonic_time();
+  int code = av_frame_make_writable(encoder->frame);
+  if (code < 0) {
+    return fail(report, "no memory for a picture", code);
+  }
+  sb_colour_to_yuv420(encoder->frame->data, encoder->frame->linesize, pixels, stride,
+                      encoder->width, encoder->height);
+  encoder->frame->pts = encoder->next++;
+  int64_t middle = g_get_monotonic_time();
+  SbStatus status = push(encoder, encoder->frame, report);
+  int64_t end = g_get_monotonic_time();
+  *convert_s += 1e-6 * (double)(middle - begin);
+  *encode_s += 1e-6 * (double)(end - middle);
+  return status;
+}
+
+SbStatus sb_movie_encoder_finish(SbMovieEncoder *encoder, const char *comment, SbReport *report) {
+  SbStatus status = push(encoder, NULL, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  if (comment != NULL) {
+    av_dict_set(&encoder->format->metadata, "comment", comment, 0);
+  }
+  int code = av_write_trailer(encoder->format);
+  encoder->header = false;
+  status = code < 0 ? fail(report, "the film's index", code) : check_output(encoder, report);
+  code = avio_closep(&encoder->format->pb);
+  if (status == SB_OK && code < 0) {
+    status = fail(report, "closing the film", code);
+  }
+  return status;
+}
+
+void sb_movie_encoder_destroy(SbMovieEncoder *encoder) {
+  if (encoder == NULL) {
+    return;
+  }
+  av_packet_free(&encoder->packet);
+  av_frame_free(&encoder->frame);
+  avcodec_free_context(&encoder->codec);
+  if (encoder->format != NULL) {
+    if (encoder->format->pb != NULL) {
+      avio_closep(&encoder->format->pb);
+    }
+    avformat_free_context(encoder->format);
+  }
+  g_free(encoder);
+}
