@@ -11,6 +11,10 @@
 #include <math.h>
 #include <string.h>
 
+// Width of "D 22.5 N" beside its dot: inside the plot, and in the margin to its right [px].
+#define LABEL_ROOM         56.0
+#define LABEL_ROOM_OUTSIDE 12.0
+
 typedef struct {
   SbCanvas canvas;
   SbHysteresisLayout at;
@@ -55,17 +59,23 @@ void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartDat
   double y_top = y1;
   sb_axis_round_out(&y0, &y_top, wanted_y);
 
-  // 64 px to the right of the stroke for the values of D and E; 18 px left of zero for A.
-  const double left = compact ? 44 : 34, right = 12, top = compact ? 48 : 95, bottom = 40;
+  // Room to the right of the stroke for the values of D and E; 18 px left of zero for A.
+  const double left = compact ? 44 : 34, right = LABEL_ROOM_OUTSIDE, top = compact ? 48 : 95,
+               bottom = 40;
   out->plot = (SbRect){in.x + left, in.y + top, fmax(in.width - left - right, 40),
                        fmax(in.height - top - bottom, 40)};
-  double room_left = 18, room_right = fmin(64, 0.25 * out->plot.width);
+  double room_left = 18, room_right = fmin(LABEL_ROOM, 0.25 * out->plot.width);
   double per_px = x1 / fmax(out->plot.width - room_left - room_right, 20);
   out->x = (SbScale){-room_left * per_px, x1 + room_right * per_px, out->plot.x,
                      out->plot.x + out->plot.width, false};
   out->y = (SbScale){y0, y_top, out->plot.y + out->plot.height, out->plot.y, false};
   sb_axis_ticks(&out->x_ticks, 0, out->x.hi, out->plot.width > 300 ? 8 : 5);
   sb_axis_ticks(&out->y_ticks, y0, y_top, wanted_y);
+}
+
+// Frames that may be drawn: the trace may lag behind the run, and no line is drawn over a gap.
+static size_t drawable(const SbChartRun *run) {
+  return run->trace ? MIN(run->count, sb_trace_frames(run->trace)) : 0;
 }
 
 static SbPoint to_px(const SbHysteresisLayout *at, double displacement, double force) {
@@ -78,14 +88,12 @@ static SbPoint *trace_pixels(const SbHysteresisLayout *at, const SbChartRun *run
                              size_t last, size_t *count) {
   size_t n = 0, total = 0;
   *count = 0;
-  if (!run->trace || run->count == 0 || first > last) {
+  size_t limit = drawable(run);
+  if (limit == 0 || first > last || first >= limit) {
     return NULL;
   }
   const SbTracePoint *p = sb_trace_points(run->trace, &total);
-  last = MIN(last, run->count - 1);
-  if (total == 0 || first >= run->count) {
-    return NULL;
-  }
+  last = MIN(last, limit - 1);
   SbPoint *out = g_new(SbPoint, total + 2);
   out[n++] = to_px(at, run->frames[first].displacement, run->frames[first].force);
   for (size_t i = sb_trace_find(run->trace, first); i < total && p[i].frame < last; i++) {
@@ -163,7 +171,7 @@ static void draw_titles(View *v, SbRect rect) {
 // Another run behind: dashed when pinned, faint when earlier.
 static void draw_other(View *v, const SbChartRun *run, bool dashed) {
   size_t n;
-  SbPoint *p = run && run->count > 0 ? trace_pixels(&v->at, run, 0, run->count - 1, &n) : NULL;
+  SbPoint *p = run && drawable(run) > 0 ? trace_pixels(&v->at, run, 0, run->count - 1, &n) : NULL;
   if (!p) {
     return;
   }
@@ -298,7 +306,10 @@ static void draw_mark(View *v, int stage, SbPoint at, const char *value, const S
   double gap = value[0] ? 6 : 0;
   double width = letter_width + gap + (value[0] ? sb_canvas_text_width(c, value, &plain) : 0);
   SbPlace chosen;
-  if (!sb_labels_place_box(v->labels, width, SB_TYPE_LABEL, place, count, &chosen)) {
+  v->labels->crossing_max = 10;
+  bool room = sb_labels_place_box(v->labels, width, SB_TYPE_LABEL, place, count, &chosen);
+  v->labels->crossing_max = INFINITY;
+  if (!room) {
     // No room for the value: the letter alone.
     value = "";
     if (!sb_labels_place_box(v->labels, letter_width, SB_TYPE_LABEL, place, count, &chosen)) {
@@ -343,6 +354,7 @@ static void draw_marks(View *v) {
       value[0] = 0;
     }
     const SbPlace above = {p.x, p.y - 13, SB_LEFT}, over = {p.x, p.y - 12, SB_MIDDLE};
+    const SbPlace higher = {p.x, p.y - 30, SB_LEFT};
     const SbPlace right = {p.x + 11, p.y + 4, SB_LEFT}, left = {p.x - 10, p.y + 4, SB_RIGHT};
     const SbPlace up_right = {p.x + 8, p.y - 12, SB_LEFT}, up_left = {p.x - 8, p.y - 9, SB_RIGHT};
     const SbPlace below = {p.x, p.y + 20, SB_MIDDLE}, down_right = {p.x + 8, p.y + 19, SB_LEFT};
@@ -353,10 +365,11 @@ static void draw_marks(View *v) {
                 4);
       break;
     case SB_STAGE_B:
-      draw_mark(v, s, p, value, (SbPlace[]){above, up_right, right, up_left, down_right}, 5);
+      draw_mark(v, s, p, value, (SbPlace[]){above, up_right, higher, right, up_left, down_right},
+                6);
       break;
     case SB_STAGE_C:
-      draw_mark(v, s, p, value, (SbPlace[]){up_right, right, over, up_left, down_right}, 5);
+      draw_mark(v, s, p, value, (SbPlace[]){up_right, right, over, higher, up_left, down_right}, 6);
       break;
     case SB_STAGE_D:
     case SB_STAGE_E:
@@ -396,9 +409,10 @@ static void label_now(View *v) {
   SbPoint p = to_px(&v->at, frame->displacement, frame->force);
   sb_labels_block(v->labels, (SbRect){p.x - 8, p.y - 8, 16, 16});
   char place_text[SB_FORMAT_MAX], force_text[SB_FORMAT_MAX], text[2 * SB_FORMAT_MAX + 4];
-  sb_format_text(place_text, SB_QUANTITY_LENGTH, frame->displacement, 0);
+  // A fixed number of decimals: digits that come and go distract.
+  sb_format_fixed(place_text, frame->displacement * 1e3, 2);
   sb_format_text(force_text, SB_QUANTITY_FORCE, frame->force, sb_chart_error_force(&v->data->run));
-  g_snprintf(text, sizeof text, "%s, %s", place_text, force_text);
+  g_snprintf(text, sizeof text, "%s\xc2\xa0mm, %s", place_text, force_text);
   SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_NOW);
   const SbPlace places[] = {
       {p.x, p.y - 14, SB_MIDDLE},     {p.x + 10, p.y - 14, SB_LEFT}, {p.x - 10, p.y - 14, SB_RIGHT},
@@ -553,7 +567,8 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
   v.labels = g_new(SbLabels, 1);
   // Labels may use the whole panel below its title, but stay above the axis.
   SbRect plot = v.at.plot;
-  sb_labels_init(v.labels, (SbRect){plot.x - 8, plot.y - 14, plot.width + 16, plot.height + 14});
+  sb_labels_init(v.labels, (SbRect){plot.x - 8, plot.y - 14, plot.width + 8 + LABEL_ROOM_OUTSIDE,
+                                    plot.height + 14});
 
   // The pressure force, which the loop straddles.
   const SbModel *model = data->run.model;
@@ -570,6 +585,9 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
   if (data->run.state == SB_CHART_RUNNING) {
     draw_other(&v, data->earlier, false);
   }
+  double zero = sb_axis_at(&v.at.y, 0);
+  SbPoint axis[2] = {{plot.x, zero}, {plot.x + plot.width, zero}};
+  sb_labels_avoid(v.labels, axis, 2, 0.3);
   const SbFrame *now = sb_chart_frame(data);
   size_t traced = data->run.trace ? sb_trace_frames(data->run.trace) : 0;
   if (now && traced > 0) {

@@ -10,6 +10,7 @@ void sb_labels_init(SbLabels *labels, SbRect bounds) {
   labels->bounds = bounds;
   labels->box_count = 0;
   labels->line_count = 0;
+  labels->crossing_max = INFINITY;
 }
 
 double sb_rect_overlap(SbRect a, SbRect b) {
@@ -25,17 +26,17 @@ void sb_labels_block(SbLabels *labels, SbRect box) {
 }
 
 void sb_labels_avoid(SbLabels *labels, const SbPoint *point, size_t count, double weight) {
-  // Straight stretches need one segment: a point is kept when the line turns or has gone 40 px.
+  // A point is kept when the line turns or has gone 12 px, so that no corner is cut by a pixel.
   size_t anchor = 0;
   for (size_t i = 1; i < count; i++) {
     SbPoint a = point[anchor], b = point[i];
     bool last = i + 1 == count;
-    bool keep = last || hypot(b.x - a.x, b.y - a.y) > 40;
+    bool keep = last || hypot(b.x - a.x, b.y - a.y) > 12;
     if (!keep) {
       SbPoint c = point[i + 1];
       double cross = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
       double along = (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y);
-      keep = fabs(cross) > 1.0 * hypot(c.x - a.x, c.y - a.y) + 1e-9 || along < 0;
+      keep = fabs(cross) > 0.4 * hypot(c.x - a.x, c.y - a.y) + 1e-9 || along < 0;
     }
     if (keep) {
       if (labels->line_count < SB_LABEL_LINES_MAX && isfinite(a.x + a.y + b.x + b.y)) {
@@ -98,17 +99,18 @@ bool sb_labels_place_box(SbLabels *labels, double width, double size, const SbPl
     if (sb_labels_hits(labels, box)) {
       continue;
     }
-    double cost = 4.0 * i;
+    double crossing = 0;
     for (int k = 0; k < labels->line_count; k++) {
-      cost += labels->line[k].weight * length_inside(labels->line[k].a, labels->line[k].b, box);
+      crossing += labels->line[k].weight * length_inside(labels->line[k].a, labels->line[k].b, box);
     }
-    if (cost < best) {
+    double cost = 4.0 * i + crossing;
+    if (crossing <= labels->crossing_max && cost < best) {
       best = cost;
       best_box = box;
       *out = place[i];
     }
   }
-  if (!isfinite(best)) {
+  if (!isfinite(best) || labels->box_count == SB_LABELS_MAX) {
     return false;
   }
   sb_labels_block(labels, best_box);

@@ -11,6 +11,7 @@ typedef struct {
   SbRect bounds; // labels stay inside
   int box_count;
   SbRect box[SB_LABELS_MAX]; // taken
+  double crossing_max; // places that cover more of a curve [px] are refused; INFINITY at first
   int line_count;
   struct {
     SbPoint a, b;

@@ -32,16 +32,16 @@ void sb_page_models_text(char *out, size_t size, const SbChartRun *run) {
   g_strlcpy(out, text->str, size);
 }
 
+// Below this an estimate is rounding of double numbers, not discretisation.
+#define ROUNDING 1e-9
+
 // Errors have two digits at most: they are estimates.
 static void append_error(GString *out, const char *label, double error) {
-  if (!isfinite(error)) {
+  if (!isfinite(error) || error < ROUNDING) {
     return;
   }
   char number[SB_FORMAT_MAX];
-  if (error == 0) {
-    g_strlcpy(number, "0", sizeof number);
-  } else if (fabs(error) < 5e-6) {
-    // Below half a thousandth of a percent, digits say nothing.
+  if (error < 5e-6) {
     g_strlcpy(number, "< 0.001", sizeof number);
   } else {
     sb_format_digits(number, 100 * error, 2);
@@ -49,28 +49,40 @@ static void append_error(GString *out, const char *label, double error) {
     while (strchr(number, '.') && number[end - 1] == '0') {
       number[--end] = 0;
     }
-    if (end > 0 && number[end - 1] == '.') {
-      number[end - 1] = 0;
-    }
   }
-  g_string_append_printf(out, "%s%s %s %%", out->len ? ", " : "", label, number);
+  g_string_append_printf(out, "%s%s %s\xc2\xa0%%", out->len ? ", " : "", label, number);
+}
+
+static void append_rounding(GString *out, const char *label, double error) {
+  if (isfinite(error) && error < ROUNDING) {
+    g_string_append_printf(out, "%s%s", out->len ? ", " : "", label);
+  }
 }
 
 void sb_page_errors_text(char *out, size_t size, const SbChartRun *run) {
-  g_autoptr(GString) text = g_string_new(NULL);
   const SbSummary *s = run->summary;
-  if (s) {
-    append_error(text, "load", s->error_load);
-    append_error(text, "force", s->error_force);
-    append_error(text, "film", s->error_film);
-    append_error(text, "energy", s->error_energy);
-    bool any = text->len > 0;
-    append_error(text, "energy closure", s->energy.closure);
-    g_string_append(text, any ? "  (discretisation only, not the choice of model)"
-                              : "  (closed forms: no discretisation error)");
-  } else {
-    g_string_append(text, "known when the run has ended");
+  if (!s) {
+    g_strlcpy(out, "known when the run has ended", size);
+    return;
   }
+  const struct {
+    const char *label;
+    double error;
+  } parts[] = {{"load", s->error_load},
+               {"force", s->error_force},
+               {"film", s->error_film},
+               {"energy", s->error_energy},
+               {"energy closure", s->energy.closure}};
+  g_autoptr(GString) text = g_string_new(NULL);
+  g_autoptr(GString) rounding = g_string_new(NULL);
+  for (size_t i = 0; i < G_N_ELEMENTS(parts); i++) {
+    append_error(text, parts[i].label, parts[i].error);
+    append_rounding(rounding, parts[i].label, parts[i].error);
+  }
+  if (rounding->len) {
+    g_string_append_printf(text, "%s%s: rounding only", text->len ? "; " : "", rounding->str);
+  }
+  g_string_append(text, "  (discretisation, not the choice of model)");
   g_strlcpy(out, text->str, size);
 }
 
@@ -187,8 +199,13 @@ static bool is_narrow(SbRect rect) {
   return rect.width < 1300;
 }
 
+// No room for the version beside the models.
+static bool is_very_narrow(SbRect rect) {
+  return rect.width < 900;
+}
+
 double sb_page_footer_height(SbRect rect) {
-  return is_narrow(rect) ? SB_PAGE_FOOTER + 18 : SB_PAGE_FOOTER;
+  return SB_PAGE_FOOTER + (is_narrow(rect) ? 18 : 0) + (is_very_narrow(rect) ? 18 : 0);
 }
 
 void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
@@ -198,10 +215,19 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   sb_canvas_init(c, cr, theme);
   double left = rect.x + SB_GRID_MARGIN, right = rect.x + rect.width - SB_GRID_MARGIN;
   bool narrow = is_narrow(rect);
-  double y2 = rect.y + rect.height - 20, y = y2 - 18, y_warn = y;
-  if (narrow) {
+  double y2 = rect.y + rect.height - 20, y = y2 - 18;
+  bool very_narrow = is_very_narrow(rect);
+  double y_version = narrow ? y : y2, y_warn = y;
+  if (very_narrow) {
+    y_version = y2;
     y2 -= 18;
     y -= 18;
+  }
+  if (narrow) {
+    y_warn = y2;
+    y2 -= 18;
+    y -= 18;
+    y_version = very_narrow ? y_version : y;
   }
   const SbSummary *summary = data->run.summary;
   SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_SECOND);
@@ -228,14 +254,14 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
     }
   }
   double version_width = sb_canvas_text_width(c, version, &third);
-  sb_canvas_text(c, version, &third, right, y2, SB_RIGHT);
+  sb_canvas_text(c, version, &third, right, y_version, SB_RIGHT);
 
   // Left: models and errors.
   double width = sb_canvas_text(c, "Models", &bold, left, y, SB_LEFT);
   sb_page_models_text(text, sizeof text, &data->run);
   double models_width = sb_canvas_text_width(c, text, &plain);
   size_t warnings = summary ? summary->warnings.count + summary->warnings.dropped : 0;
-  double room = right - left - width - 8;
+  double room = right - left - width - 8 - (narrow && !very_narrow ? version_width + 24 : 0);
   double models_room = warnings && !narrow ? fmin(models_width, 0.62 * room) : room;
   models_room = sb_canvas_text_fit(c, text, &plain, left + width + 8, y, models_room);
   double warn_left = narrow ? left : left + width + 8 + models_room + 32;
@@ -243,7 +269,7 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   width = sb_canvas_text(c, "Error estimates", &bold, left, y2, SB_LEFT);
   sb_page_errors_text(text, sizeof text, &data->run);
   sb_canvas_text_fit(c, text, &plain, left + width + 8, y2,
-                     right - version_width - 24 - left - width - 8);
+                     right - left - width - 8 - (narrow ? 0 : version_width + 24));
 
   // Right: as many warnings as fit, the number of the others.
   if (warnings) {
@@ -274,9 +300,6 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
     double rest_width = rest[0] ? sb_canvas_text_width(c, rest, &warn_bold) : 0;
     double line_width = fmin(sb_canvas_text_width(c, line->str, &warn), space - rest_width);
     double x = narrow ? left : right - rest_width - line_width - head_width;
-    if (narrow) {
-      y_warn = rect.y + rect.height - 20;
-    }
     sb_canvas_text(c, head, &warn_bold, x, y_warn, SB_LEFT);
     sb_canvas_text_fit(c, line->str, &warn, x + head_width, y_warn, line_width + 0.5);
     if (rest[0]) {

@@ -24,5 +24,5 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
 // "fit karaszkiewicz . film thesis . surface greenwood-tripp . motion quasi-static", into `out`.
 void sb_page_models_text(char *out, size_t size, const SbChartRun *run);
 
-// "load 0.17 %, film 0.3 %, energy closure 0.02 % (discretisation only, ...)", into `out`.
+// "load 0.17 %, film 0.3 %; energy closure: rounding only (discretisation, ...)", into `out`.
 void sb_page_errors_text(char *out, size_t size, const SbChartRun *run);

@@ -24,6 +24,7 @@ typedef struct {
   const SbChartData *data;
   const SbSealFrame *seal; // NULL: no frame at all
   int index;               // SB_OUTER, SB_INNER
+  bool *band_named;        // the band below the continuum limit has its label
   SbColor color;
 } Small;
 
@@ -112,7 +113,9 @@ static void position_scale(SbScale *out, SbTicks *ticks, const SbChartData *data
     lo = -0.5;
     hi = 0.5;
   }
-  double margin = 0.34 * (hi - lo);
+  // Room beside the contact for the fluid's pressure and the film's mouth.
+  double room = CLAMP(64 / plot.width, 0.20, 0.25);
+  double margin = (hi - lo) * room / (1 - 2 * room);
   *out = (SbScale){lo - margin, hi + margin, plot.x, plot.x + plot.width, false};
   sb_axis_ticks(ticks, out->lo, out->hi, 3);
 }
@@ -180,12 +183,14 @@ static void small_axes(Small *s, const SbTicks *xt, const SbTicks *yt, bool film
   }
 }
 
-static void small_label(Small *s, const char *text, const SbTextStyle *style, const SbPlace *place,
+static bool small_label(Small *s, const char *text, const SbTextStyle *style, const SbPlace *place,
                         int count) {
   SbPlace at;
-  if (sb_labels_place(s->labels, s->canvas, text, style, place, count, &at)) {
-    sb_canvas_text_halo(s->canvas, text, style, at.x, at.y, at.align);
+  if (!sb_labels_place(s->labels, s->canvas, text, style, place, count, &at)) {
+    return false;
   }
+  sb_canvas_text_halo(s->canvas, text, style, at.x, at.y, at.align);
+  return true;
 }
 
 // A figure that stands beside its like at the other seal: both get the decimals that both deserve.
@@ -236,6 +241,9 @@ static void fluid_label(Small *s, double from, double to, double pressure) {
   sb_format_given(value, SB_QUANTITY_PRESSURE, pressure);
   g_snprintf(text, sizeof text, "fluid %s", value);
   SbTextStyle style = sb_canvas_style(s->canvas, SB_TYPE_LABEL, 400, SB_ROLE_FLUID);
+  if (sb_canvas_text_width(s->canvas, text, &style) + 8 > x1 - x0) {
+    g_strlcpy(text, value, sizeof text);
+  }
   const SbPlace places[] = {
       {x0 + 4, y - 6, SB_LEFT}, {x1 - 4, y - 6, SB_RIGHT}, {x0 + 4, y + 16, SB_LEFT}};
   small_label(s, text, &style, places, 3);
@@ -328,7 +336,8 @@ static void pressure_chart(Small *s) {
   fluid_label(s, -far, left, seal->pressure_left);
   fluid_label(s, right, far, seal->pressure_right);
   if (seal->land_fraction < 0.999F) {
-    g_snprintf(text, sizeof text, "%.0f%% on the land", 100.0 * (double)seal->land_fraction);
+    g_snprintf(text, sizeof text, "%.0f\xc2\xa0%% on the land",
+               100.0 * (double)seal->land_fraction);
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
     small_label(s, text, &note, (SbPlace[]){{middle, bottom - 26, SB_MIDDLE}}, 1);
   }
@@ -392,12 +401,14 @@ static void film_chart(Small *s) {
     if (sb_canvas_text_width(c, text, &style) + 8 <= room) {
       small_label(s, text, &style, (SbPlace[]){{x, y - 9, SB_MIDDLE}, {x, y - 24, SB_MIDDLE}}, 2);
     } else {
-      // Narrow: one line under the other.
-      g_snprintf(text, sizeof text, uniform ? "uniform" : "least %s", least);
-      small_label(s, text, &style,
-                  (SbPlace[]){{x, y - 9, SB_MIDDLE}, {right_px - 4, y - 9, SB_RIGHT}}, 2);
-      small_label(s, value, &style,
-                  (SbPlace[]){{x, y - 25, SB_MIDDLE}, {right_px - 4, y - 25, SB_RIGHT}}, 2);
+      // Narrow: one line under the other, the least film next to the curve.
+      g_snprintf(text, sizeof text, "least %s", least);
+      const SbPlace near[] = {{x, y - 9, SB_MIDDLE}, {right_px - 4, y - 9, SB_RIGHT}};
+      const SbPlace above[] = {{x, y - 25, SB_MIDDLE}, {right_px - 4, y - 25, SB_RIGHT}};
+      if (!uniform) {
+        small_label(s, text, &style, near, 2);
+      }
+      small_label(s, value, &style, uniform ? near : above, 2);
     }
   } else {
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
@@ -419,15 +430,17 @@ static void film_chart(Small *s) {
                             {left_px + 4, sigma_y + 15, SB_LEFT}},
                 4);
   }
-  if (s->y.lo < SB_CONTINUUM_LIMIT) {
+  if (s->y.lo < SB_CONTINUUM_LIMIT && !*s->band_named) {
     SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_WARN);
     double y = fmin(sb_axis_at(&s->y, SB_CONTINUUM_LIMIT) + 13, bottom - 5);
-    small_label(s, "below continuum", &style,
-                (SbPlace[]){{right_px - 6, bottom - 7, SB_RIGHT},
-                            {right_px - 6, y, SB_RIGHT},
-                            {left_px + 6, bottom - 7, SB_LEFT},
-                            {left_px + 6, y, SB_LEFT}},
-                4);
+    // Once is enough: both charts share the scale. Over a curve only if there is no other way.
+    s->labels->crossing_max = s->index == SB_INNER ? 1 : INFINITY;
+    *s->band_named = small_label(s, "below continuum", &style,
+                                 (SbPlace[]){{right_px - 6, bottom - 7, SB_RIGHT},
+                                             {right_px - 6, y, SB_RIGHT},
+                                             {left_px + 6, bottom - 7, SB_LEFT},
+                                             {left_px + 6, y, SB_LEFT}},
+                                 4);
   }
   curve_finish(&curve);
 }
@@ -509,8 +522,10 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   SbTicks xt, yt;
   static const int order[2] = {SB_INNER, SB_OUTER};
   SbLabels *labels = g_new(SbLabels, 1);
+  bool band_named = false;
   for (int k = 0; k < 2; k++) {
-    Small s = {.canvas = c, .labels = labels, .data = data, .index = order[k]};
+    Small s = {
+        .canvas = c, .labels = labels, .data = data, .index = order[k], .band_named = &band_named};
     s.color = sb_theme_seal(theme, s.index);
     s.seal = frame ? &frame->seal[s.index] : NULL;
     s.plot = (SbRect){in.x + numbers + k * (each + gap), top, each, fmax(bottom - top, 30)};

@@ -109,7 +109,9 @@ static void draw_displacement(View *v) {
   SbCanvas *c = &v->canvas;
   size_t n;
   const SbTracePoint *p = sb_trace_points(run->trace, &n);
-  size_t now = v->whole ? run->count - 1 : MIN(v->data->playhead, run->count - 1);
+  // The trace may lag behind the run.
+  size_t limit = MIN(run->count, sb_trace_frames(run->trace));
+  size_t now = v->whole ? limit - 1 : MIN(v->data->playhead, limit - 1);
   size_t split = MIN(sb_trace_find(run->trace, now), n - 1);
   SbPoint *q = g_new(SbPoint, n + 1);
   for (size_t i = 0; i < n; i++) {

@@ -52,12 +52,16 @@ static cairo_surface_t *golden(const char *name) {
   return cairo_image_surface_create_from_png(file);
 }
 
-void picture_check(cairo_surface_t *actual, const char *name) {
+void picture_show(cairo_surface_t *surface, const char *name) {
   const char *out = g_getenv("SB_PICTURES");
   if (out) {
     g_autofree char *file = g_strdup_printf("%s/%s.png", out, name);
-    cairo_surface_write_to_png(actual, file);
+    cairo_surface_write_to_png(surface, file);
   }
+}
+
+void picture_check(cairo_surface_t *actual, const char *name) {
+  picture_show(actual, name);
   if (g_getenv("SB_GOLDEN_UPDATE")) {
     g_autofree char *file = g_strdup_printf("%s/%s.png", SB_GOLDEN_DIR, name);
     g_assert_cmpint(cairo_surface_write_to_png(actual, file), ==, CAIRO_STATUS_SUCCESS);

@@ -19,3 +19,6 @@ void picture_check(cairo_surface_t *actual, const char *name);
 
 // The must-fail partner: true if `wrong` would NOT pass as NAME.
 bool picture_rejects(cairo_surface_t *wrong, const char *name);
+
+// Leaves a picture in SB_PICTURES, if set, for eyes.
+void picture_show(cairo_surface_t *surface, const char *name);

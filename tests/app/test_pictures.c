@@ -128,6 +128,95 @@ static void test_profiles(void) {
   check_rejected(sb_profiles_draw, &wrong, "profiles-dark", 1280, 280, 1, true, SB_CHART_PANEL);
 }
 
+// States that a window meets. What is drawn must differ from the finished picture (nobody may take
+// a partial run for a whole one), and nothing may fail.
+static void test_states(void) {
+  SbChartData done, data;
+  synthetic_data(&done, &run, 7.27);
+  cairo_surface_t *finished = draw_view(draw_dashboard, &done, 1600, 900, 1, false, 0);
+
+  SbTrace *half_trace = sb_trace_create(&run.model);
+  size_t half = 3 * run.count / 5;
+  sb_trace_extend(half_trace, run.frames, half, 0);
+  SbChartRun half_run = done.run;
+  half_run.count = half;
+  half_run.trace = half_trace;
+  half_run.summary = NULL;
+  static const SbChartMarker markers[] = {{28.2, "M1"}, {41, "stuck"}};
+  for (int state = 0; state < 6; state++) {
+    data = done;
+    data.run = half_run;
+    const char *name = "";
+    switch (state) {
+    case 0:
+      name = "state-empty";
+      data.run = (SbChartRun){.state = SB_CHART_EMPTY, .model = &run.model};
+      break;
+    case 1:
+      name = "state-running";
+      data.run.state = SB_CHART_RUNNING;
+      data.progress = 0.6;
+      data.earlier = &done.run;
+      data.playhead = half - 1;
+      break;
+    case 2:
+      name = "state-partial";
+      data.run.state = SB_CHART_PARTIAL;
+      data.run.summary = &run.summary;
+      break;
+    case 3:
+      name = "state-failed";
+      data.run.state = SB_CHART_FAILED;
+      data.run.summary = &run.summary;
+      data.failure = "Reynolds did not converge: residual 3e-4 after 40 iterations at 14.7 s "
+                     "(fluid.viscosity)";
+      break;
+    case 4:
+      name = "state-stale";
+      data.run = done.run;
+      data.stale = "shows the last good run, axial width 2.0 mm";
+      data.marker = markers;
+      data.marker_count = 2;
+      break;
+    default:
+      // A trace that lags behind, and no model, summary or profiles at all.
+      name = "state-bare";
+      data = (SbChartData){.run = {.state = SB_CHART_RUNNING,
+                                   .frames = run.frames,
+                                   .count = run.count,
+                                   .trace = half_trace}};
+      break;
+    }
+    for (int dark = 0; dark < 2; dark++) {
+      cairo_surface_t *shown = draw_view(draw_dashboard, &data, 1600, 900, 1, dark, 0);
+      g_assert_cmpint(cairo_surface_status(shown), ==, CAIRO_STATUS_SUCCESS);
+      if (!dark) {
+        picture_show(shown, name);
+        g_assert_cmpfloat(picture_distance(finished, shown, NULL), >, 1e-3);
+      }
+      cairo_surface_destroy(shown);
+    }
+    // The window's column too.
+    cairo_surface_t *column =
+        draw_view(sb_hysteresis_draw, &data, 392, 400, 1, false, SB_CHART_COMPACT);
+    g_autofree char *column_name = g_strconcat(name, "-column", NULL);
+    picture_show(column, column_name);
+    cairo_surface_destroy(column);
+  }
+  cairo_surface_destroy(finished);
+  sb_trace_destroy(half_trace);
+}
+
+// Friction so large that the stem does not return: the axis goes below zero.
+static void test_no_return(void) {
+  Synthetic stuck;
+  synthetic_init(&stuck, 1250, 1.3);
+  SbChartData data;
+  synthetic_data(&data, &stuck, 36);
+  check_view(sb_hysteresis_draw, &data, "hysteresis-no-return", 640, 560, 1, false, SB_CHART_PANEL);
+  synthetic_clear(&stuck);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   synthetic_init(&run, 1250, 1);
@@ -136,6 +225,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/pictures/hysteresis", test_hysteresis);
   g_test_add_func("/pictures/profiles", test_profiles);
   g_test_add_func("/pictures/dashboard", test_dashboard);
+  g_test_add_func("/pictures/states", test_states);
+  g_test_add_func("/pictures/no-return", test_no_return);
   int result = g_test_run();
   synthetic_clear(&run);
   synthetic_clear(&weaker);
