@@ -105,7 +105,7 @@ static void test_hit(void) {
   g_test_message("%d of %d hit exactly", exact, tried);
   g_assert_cmpint(exact, >, tried / 2);
   size_t none;
-  g_assert_false(sb_hysteresis_hit(&none, rect, &data, SB_CHART_PANEL, 330, 260, 6));
+  g_assert_false(sb_hysteresis_hit(&none, rect, &data, SB_CHART_PANEL, 200, 300, 6));
   synthetic_clear(&run);
 }
 
