@@ -195,10 +195,11 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
       sb_film_solver_destroy(own);
       break;
     }
-    default:
-      status = sb_fail(report, SB_ERROR_INPUT, "film: model %s is not built in",
-                       sb_film_model_name(problem->model));
+    case SB_FILM_INVERSE:
+      status = sb_film_solve_inverse(out, problem, &scale, report);
       break;
+    case SB_FILM_MODEL_COUNT:
+      break; // refused by check()
     }
   }
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {

@@ -173,11 +173,11 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
   right[rights++] = full ? edge : rupture_guess(l);
 
   // Inlet and its layer.
-  if (!sb_hp_mesh_add(mesh, SB_HP_INLET, 0.0, left[0], -1.0 + 0.5 * in, l->degree, false)) {
+  if (!sb_hp_mesh_add(mesh, SB_HP_INLET, 0.0, left[0], -1.0 + 0.5 * in, l->degree + 2, false)) {
     return false;
   }
   for (int i = 1; i < lefts; i++) {
-    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, left[i - 1], left[i], 0.0, l->degree, false)) {
+    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, left[i - 1], left[i], 0.0, l->degree + 2, false)) {
       return false;
     }
   }
@@ -199,7 +199,7 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
   double x0 = left[lefts - 1];
   for (int i = 1; i < thetas; i++) {
     double x1 = i == thetas - 1 ? right[0] : -cos(theta[i]);
-    if (!sb_hp_mesh_add(mesh, map, x0, x1, 0.0, l->degree, false)) {
+    if (!sb_hp_mesh_add(mesh, map, x0, x1, 0.0, l->degree + 2, false)) {
       return false;
     }
     x0 = x1;

@@ -12,7 +12,7 @@
 
 // Degrees of the levels; every tolerance takes at least the first three.
 static const int level_degree[] = {4, 6, 8, 10, 12, 14};
-enum { LEVELS = sizeof level_degree / sizeof level_degree[0], LEVELS_LEAST = 2 };
+enum { LEVELS = sizeof level_degree / sizeof level_degree[0], LEVELS_LEAST = 3 };
 
 static double seconds(void) {
   struct timespec now;
@@ -29,21 +29,24 @@ static void differences(double out[3], const SbReynoldsReading *fine,
 }
 
 // Estimate of the errors of the last level: its change from the level below times the rate at which
-// changes shrink. A single film may agree by chance, so none is trusted far below the others.
+// changes shrink. Centre and flux film go together and the minimum follows the outlet layer; a
+// single film may agree by chance, so none is trusted far below its companion.
 static void estimate(SbFilmSolverInfo *info, const SbReynoldsReading *reading, int levels,
                      double noise) {
-  double last[3], before[3];
+  double last[3], before[3] = {0};
   differences(last, &reading[levels - 1], &reading[levels - 2]);
-  double largest = fmax(last[0], fmax(last[1], last[2]));
-  double rate = 0.4;
   if (levels > 2) {
     differences(before, &reading[levels - 2], &reading[levels - 3]);
-    double previous = fmax(before[0], fmax(before[1], before[2]));
-    rate = fmin(fmax(largest / fmax(previous, 1e-300), 0.25), 1.0);
   }
+  double middle = fmax(fmax(last[1], last[2]), 0.03 * last[0]);
+  double largest[3] = {fmax(last[0], middle), middle, middle};
+  double middle_before = fmax(before[1], before[2]);
+  double previous[3] = {fmax(before[0], middle_before), middle_before, middle_before};
   double estimates[3];
   for (int i = 0; i < 3; i++) {
-    estimates[i] = rate * fmax(last[i], 0.6 * largest) + noise;
+    double rate = levels > 2 ? largest[i] / fmax(previous[i], 1e-300) : 0.4;
+    rate = fmin(fmax(rate, 0.25), 1.0);
+    estimates[i] = rate * largest[i] + noise;
   }
   info->error_film_min = estimates[0];
   info->error_film_central = estimates[1];

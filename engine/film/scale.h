@@ -31,9 +31,11 @@ double sb_film_dry_pressure(double X, double inlet, double outlet);
 // Fills the scales, numbers of Moes and the sign-dependent parts common to every model.
 void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale);
 
-// The closed-form models and the dry contact at zero speed.
+// The closed-form models, Blok's inverse film, and the dry contact at zero speed.
 SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                            SbReport *report);
+SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                               SbReport *report);
 SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                            SbReport *report);
 

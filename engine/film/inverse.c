@@ -1,0 +1,240 @@
+// Inverse film of Blok (1963): the film that a given smooth dry pressure forces through the
+// contact.
+//
+// Reynolds' equation p' h^3 = 12 eta u_m (h - h*) is a cubic for h where p' is known. A film that
+// passes the steepest point of the inlet, p'' = 0, must have there h_a^2 = 4 eta u_m / p'_max,
+// hence h* = 2 h_a / 3 (reference/ehl.md). Upstream the larger root is taken, downstream the
+// smaller. SI.
+//
+// Validity: lambda below 1e-5 (error under 1 %); -10 % at 1e-2, 4 % from 1e-3 to 3e-5. The pressure
+// must be smooth: at a square-root edge like Hertz's the steepest slope grows without bound as the
+// table is refined, so such tables are refused. Left out: elasticity beyond the dry pressure, hence
+// the constriction of the outlet at small M.
+#include "engine/film/scale.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_spline.h>
+#include <math.h>
+#include <stdlib.h>
+
+enum { TABLE_LEAST = 9, SAMPLES = 1101, SEARCH = 8 };
+
+// The table in the flow frame, and its spline.
+typedef struct {
+  double *x, *p;
+  size_t count;
+  gsl_interp *spline;
+  gsl_interp_accel *accel;
+} Table;
+
+static void finish(Table *t) {
+  free(t->x);
+  free(t->p);
+  if (t->spline != NULL) {
+    gsl_interp_free(t->spline);
+  }
+  if (t->accel != NULL) {
+    gsl_interp_accel_free(t->accel);
+  }
+}
+
+// Every `stride`-th point of the problem's table, turned round for reversed flow.
+static bool start(Table *t, const SbFilmProblem *problem, size_t stride) {
+  bool forward = problem->speed >= 0.0;
+  *t = (Table){.count = (problem->dry_count - 1) / stride + 1};
+  t->x = malloc(t->count * sizeof(double));
+  t->p = malloc(t->count * sizeof(double));
+  t->spline = gsl_interp_alloc(gsl_interp_cspline, t->count);
+  t->accel = gsl_interp_accel_alloc();
+  if (t->x == NULL || t->p == NULL || t->spline == NULL || t->accel == NULL) {
+    return false;
+  }
+  for (size_t i = 0; i < t->count; i++) {
+    size_t k = i * stride;
+    size_t from = forward ? k : (t->count - 1) * stride - k;
+    t->x[i] = forward ? problem->dry_x[from] : -problem->dry_x[from];
+    t->p[i] = problem->dry_pressure[from];
+  }
+  return gsl_interp_init(t->spline, t->x, t->p, t->count) == GSL_SUCCESS;
+}
+
+static double slope_at(const Table *t, double x) {
+  double slope = 0.0;
+  if (gsl_interp_eval_deriv_e(t->spline, t->x, t->p, x, t->accel, &slope) != GSL_SUCCESS) {
+    return 0.0;
+  }
+  return slope;
+}
+
+// Steepest rise and its place.
+static double steepest(double *place, const Table *t) {
+  double best = 0.0;
+  *place = t->x[0];
+  for (size_t i = 1; i < t->count; i++) {
+    for (int k = 0; k < SEARCH; k++) {
+      double x = t->x[i - 1] + (t->x[i] - t->x[i - 1]) * k / SEARCH;
+      double slope = slope_at(t, x);
+      if (slope > best) {
+        best = slope;
+        *place = x;
+      }
+    }
+  }
+  return best;
+}
+
+// h / h* at a slope k = p' h*^2 / (12 eta u_m) <= 4/27: root of k y^3 - y + 1.
+static double root(double k, bool upstream) {
+  k = fmin(k, 4.0 / 27.0);
+  if (k <= 0.0 && upstream) {
+    return INFINITY;
+  }
+  double y = upstream ? 1.0 / sqrt(k) : 1.0;
+  for (int i = 0; i < 60; i++) {
+    double value = (k * y * y - 1.0) * y + 1.0;
+    double derivative = 3.0 * k * y * y - 1.0;
+    if (fabs(derivative) < 1e-9) {
+      return 1.5;
+    }
+    double step = value / derivative;
+    y -= step;
+    if (fabs(step) < 1e-14 * y) {
+      break;
+    }
+  }
+  return upstream ? fmax(y, 1.5) : fmin(y, 1.5);
+}
+
+static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
+  if (problem->dry_count < TABLE_LEAST || problem->dry_x == NULL || problem->dry_pressure == NULL) {
+    return sb_fail(report, SB_ERROR_INPUT,
+                   "film: the inverse model needs a dry pressure of at least %d points",
+                   TABLE_LEAST);
+  }
+  for (size_t i = 0; i < problem->dry_count; i++) {
+    if (!isfinite(problem->dry_x[i]) || !isfinite(problem->dry_pressure[i]) ||
+        (i > 0 && !(problem->dry_x[i] > problem->dry_x[i - 1]))) {
+      return sb_fail(report, SB_ERROR_INPUT,
+                     "film: dry pressure, point %zu: x must increase and numbers be finite", i + 1);
+    }
+  }
+  return SB_OK;
+}
+
+// Films along the table into the profile and the scalars; the steepest slope is known.
+static void evaluate(SbFilm *out, const SbFilmProblem *problem, const Table *t, double place,
+                     double steep) {
+  double eta_u = 0.5 * problem->viscosity * fabs(problem->speed);
+  double flux = 2.0 / 3.0 * sqrt(4.0 * eta_u / steep);
+  double sign = problem->speed >= 0.0 ? 1.0 : -1.0;
+  double begin = t->x[0];
+  double end = t->x[t->count - 1];
+  double axis = 0.0 > begin && 0.0 < end ? 0.0 : 0.5 * (begin + end);
+  out->film_flux = flux;
+  out->flow = 0.5 * problem->speed * flux;
+  out->film_min = INFINITY;
+  out->film_central = flux * root(slope_at(t, axis) * flux * flux / (12.0 * eta_u), axis < place);
+  out->position_rupture = sign * end;
+  out->ruptured = true;
+  double load = 0.0;
+  double before_x = 0.0, before_p = 0.0, before_shear = 0.0, before_h = 0.0;
+  size_t n = 0;
+  for (int i = 0; i < SAMPLES; i++) {
+    double x = i == SAMPLES - 1 ? end : begin + (end - begin) * i / (SAMPLES - 1);
+    double p = 0.0;
+    if (gsl_interp_eval_e(t->spline, t->x, t->p, x, t->accel, &p) != GSL_SUCCESS) {
+      continue;
+    }
+    double y = root(slope_at(t, x) * flux * flux / (12.0 * eta_u), x < place);
+    if (!isfinite(y)) {
+      continue; // flat upstream: no film that fills the gap is defined
+    }
+    double h = flux * y;
+    double shear = problem->viscosity * problem->speed / h;
+    if (n > 0) {
+      load += 0.5 * (p + before_p) * (x - before_x);
+      out->friction_couette += 0.5 * (shear + before_shear) * (x - before_x);
+      out->friction_poiseuille += sign * 0.25 * (h + before_h) * (p - before_p);
+    }
+    if (h < out->film_min) {
+      out->film_min = h;
+      out->position_film_min = sign * x;
+    }
+    out->pressure_max = fmax(out->pressure_max, p);
+    out->x[n] = x;
+    out->pressure[n] = p;
+    out->film[n++] = h;
+    before_x = x;
+    before_p = p;
+    before_shear = shear;
+    before_h = h;
+  }
+  out->points = n;
+  if (sign < 0.0) {
+    for (size_t i = 0, j = n - 1; i <= j && j < n; i++, j--) {
+      double x = out->x[i], p = out->pressure[i], h = out->film[i];
+      out->x[i] = -out->x[j];
+      out->pressure[i] = out->pressure[j];
+      out->film[i] = out->film[j];
+      out->x[j] = -x;
+      out->pressure[j] = p;
+      out->film[j] = h;
+    }
+  }
+  if (fabs(load / problem->load - 1.0) > 0.01) {
+    sb_warn(&out->warnings, "film-dry-load", "",
+            "the dry pressure carries %.4g N/m, the load is %.4g", load, problem->load);
+  }
+}
+
+SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                               SbReport *report) {
+  SbStatus status = check(problem, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  Table fine, coarse = {0};
+  bool ready = start(&fine, problem, 1) && start(&coarse, problem, 2);
+  if (!ready) {
+    status = sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
+  } else {
+    double place, coarse_place;
+    double steep = steepest(&place, &fine);
+    double coarse_steep = steepest(&coarse_place, &coarse);
+    // A smooth slope does not care for every second point; a square-root edge gives sqrt(2).
+    double change = coarse_steep > 0.0 ? fabs(sqrt(steep / coarse_steep) - 1.0) : 1.0;
+    if (!(steep > 0.0)) {
+      status = sb_fail(report, SB_ERROR_INFEASIBLE, "film: the dry pressure never rises");
+    } else if (change > 0.1) {
+      status = sb_fail(report, SB_ERROR_INFEASIBLE,
+                       "film: the steepest slope of the dry pressure changes by %.0f %% with every "
+                       "second point left out: a square-root edge or too coarse a table",
+                       200.0 * change);
+    } else {
+      evaluate(out, problem, &fine, place, steep);
+      out->solver.converged = true;
+      out->solver.unknowns = fine.count;
+      out->solver.error_film_min = out->solver.error_film_central = out->solver.error_film_flux =
+          change;
+      if (change > problem->tolerance) {
+        sb_warn(&out->warnings, "film-dry-coarse", "",
+                "the table of the dry pressure is coarse: films are uncertain by %.2g %%",
+                100.0 * change);
+      }
+      // Errors against full solutions for smooth pressures, reference/ehl.md.
+      double lambda = scale->lambda;
+      out->expected_error = lambda < 1e-5 ? 0.01 : lambda < 1e-3 ? 0.04 : lambda < 1e-2 ? 0.1 : 1.0;
+      if (lambda > 1e-2) {
+        out->valid = false;
+        sb_warn(&out->warnings, "film-inverse-range", "models.film",
+                "the inverse film holds for lambda below 1e-2, here %.2g: the film changes the "
+                "pressure",
+                lambda);
+      }
+      status = sb_succeed(report);
+    }
+  }
+  finish(&fine);
+  finish(&coarse);
+  return status;
+}
