@@ -47,10 +47,11 @@ typedef struct {
   double force;          // on the stem by the machine, positive in compression [N]
   double pressure_force; // pushes the stem out [N]
   double
-      stop_force;   // of the end stop, positive pushes the stem out; of the rest stop, negative [N]
-  uint8_t stage;    // SbStage of the last event passed
-  uint8_t chamber;  // SbChamber
-  uint8_t on_event; // 1 if this frame sits exactly on an event, just before it
+      stop_force; // of the end stop, positive pushes the stem out; of the rest stop, negative [N]
+  double spring_force; // of a return spring, pushes the stem out [N]
+  uint8_t stage;       // SbStage of the last event passed
+  uint8_t chamber;     // SbChamber
+  uint8_t on_event;    // 1 if this frame sits exactly on an event, just before it
   uint8_t unused;
   SbSealFrame seal[SB_SEAL_COUNT];
 } SbFrame;

@@ -79,6 +79,31 @@ static bool compile_seal(SbModel *model, int index, const SbParams *params, SbPr
   return good;
 }
 
+// What only the motion with inertia can do. The quasi-static balance is not silently asked for it.
+static bool compile_quasi_static(const SbModel *model, SbProblems *problems) {
+  const struct {
+    const char *key;
+    bool used;
+  } uses[] = {
+      {"drive.kind", model->drive != SB_MODEL_DRIVE_MACHINE},
+      {"drive.cycles", model->cycles > 1},
+      {"friction.dwell_gain", model->dwell_gain > 0},
+      {"friction.stribeck_speed", model->stribeck_speed > 0},
+      {"friction.tangential_stiffness", model->tangential_stiffness > 0},
+      {"stem.spring_stiffness", model->spring_stiffness > 0},
+      {"stem.spring_preload", model->spring_preload > 0},
+  };
+  bool good = true;
+  for (size_t i = 0; i < sizeof uses / sizeof uses[0]; i++) {
+    if (uses[i].used) {
+      add_problem(problems, uses[i].key, NAN, NAN,
+                  "needs models.motion = dynamic; the quasi-static cycle knows only the machine");
+      good = false;
+    }
+  }
+  return good;
+}
+
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems) {
   if (problems != NULL) {
     problems->count = 0;
@@ -107,6 +132,23 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
       .stroke = sb_params_get(params, SB_P_DRIVE_STROKE),
       .reversal_force = sb_params_get(params, SB_P_DRIVE_REVERSAL_FORCE),
       .stiffness = sb_params_get(params, SB_P_DRIVE_STIFFNESS),
+      .drive = (SbDriveChoice)sb_params_get(params, SB_P_DRIVE_KIND),
+      .peak_force = sb_params_get(params, SB_P_DRIVE_PEAK_FORCE),
+      .rise_time = sb_params_get(params, SB_P_DRIVE_RISE_TIME),
+      .hold_time = sb_params_get(params, SB_P_DRIVE_HOLD_TIME),
+      .amplitude = sb_params_get(params, SB_P_DRIVE_AMPLITUDE),
+      .frequency = sb_params_get(params, SB_P_DRIVE_FREQUENCY),
+      .cycles = (int)sb_params_get(params, SB_P_DRIVE_CYCLES),
+      .damping_ratio = sb_params_get(params, SB_P_DRIVE_DAMPING_RATIO),
+      .rest = sb_params_get(params, SB_P_DRIVE_REST),
+      .dwell_gain = sb_params_get(params, SB_P_FRICTION_DWELL_GAIN),
+      .dwell_time = sb_params_get(params, SB_P_FRICTION_DWELL_TIME),
+      .stribeck_speed = sb_params_get(params, SB_P_FRICTION_STRIBECK_SPEED),
+      .tangential_stiffness = sb_params_get(params, SB_P_FRICTION_TANGENTIAL_STIFFNESS),
+      .stop_stiffness = sb_params_get(params, SB_P_HOUSING_STOP_STIFFNESS),
+      .stop_restitution = sb_params_get(params, SB_P_HOUSING_STOP_RESTITUTION),
+      .spring_stiffness = sb_params_get(params, SB_P_STEM_SPRING_STIFFNESS),
+      .spring_preload = sb_params_get(params, SB_P_STEM_SPRING_PRELOAD),
       .tolerance = sb_params_get(params, SB_P_OUTPUT_TOLERANCE),
       .frames = (int)sb_params_get(params, SB_P_OUTPUT_FRAMES),
       .fit = (int)sb_params_get(params, SB_P_MODELS_FIT),
@@ -146,6 +188,9 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
     add_problem(problems, "gland.radial_space", NAN, model.bore_diameter / 2,
                 "the groove leaves no stem: twice the radial space exceeds the bore diameter");
     good = false;
+  }
+  if (model.motion == SB_MODEL_MOTION_QUASI_STATIC) {
+    good = compile_quasi_static(&model, problems) && good;
   }
   for (int i = 0; good && i < SB_SEAL_COUNT; i++) {
     good = compile_seal(&model, i, params, problems) && good;

@@ -42,6 +42,13 @@ typedef enum {
   SB_MODEL_MOTION_BODIES
 } SbModelMotion;
 
+typedef enum {
+  SB_MODEL_DRIVE_MACHINE,
+  SB_MODEL_DRIVE_HAND,
+  SB_MODEL_DRIVE_FREE_RETURN,
+  SB_MODEL_DRIVE_SINUSOID
+} SbDriveChoice;
+
 // One ring and what follows from its size and its gland alone.
 typedef struct {
   double section_diameter; // d, free [m]
@@ -81,6 +88,15 @@ typedef struct {
   double gt_product, sigma, sigma_over_beta, hamaker_constant;
   double shear_strength, load_coefficient, static_ratio;
   double speed, stroke, reversal_force, stiffness;
+  SbDriveChoice drive;
+  double peak_force, rise_time, hold_time; // hand
+  double amplitude, frequency;             // sinusoid
+  int cycles;
+  double damping_ratio; // of machine and seal shear
+  double rest;          // before the first stroke [s]
+  double dwell_gain, dwell_time, stribeck_speed, tangential_stiffness;
+  double stop_stiffness, stop_restitution;
+  double spring_stiffness, spring_preload; // return spring
   double tolerance;
   int frames;
   int fit; // index among the choices of models.fit = SbFitModel

@@ -20,7 +20,7 @@ static double edge_start(const SbCycle *cycle) {
   return cycle->states.model->land_edge;
 }
 
-static double edge_end(const SbCycle *cycle, SbChamber chamber, int direction) {
+double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction) {
   const SbSliding *inner = &cycle->states.state[SB_INNER][chamber][direction];
   return cycle->states.model->land_edge + inner->contact_right - inner->contact_left;
 }
@@ -67,16 +67,18 @@ double sb_cycle_friction(const SbCycle *cycle, SbChamber chamber, int direction,
          sb_cycle_seal_friction(cycle, SB_INNER, chamber, direction, s);
 }
 
+double sb_cycle_static_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
+                                double s) {
+  const SbSliding *state = &cycle->states.state[seal][chamber][direction];
+  double kinetic = sb_sliding_friction(state);
+  double ratio = kinetic > 0 ? state->friction_static / kinetic : 1;
+  return ratio * sb_cycle_seal_friction(cycle, seal, chamber, direction, s);
+}
+
 // Static limit of both seals [N].
 static double static_limit(const SbCycle *cycle, SbChamber chamber, int direction, double s) {
-  double sum = 0;
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    const SbSliding *state = &cycle->states.state[seal][chamber][direction];
-    double kinetic = sb_sliding_friction(state);
-    double ratio = kinetic > 0 ? state->friction_static / kinetic : 1;
-    sum += ratio * sb_cycle_seal_friction(cycle, seal, chamber, direction, s);
-  }
-  return sum;
+  return sb_cycle_static_friction(cycle, SB_OUTER, chamber, direction, s) +
+         sb_cycle_static_friction(cycle, SB_INNER, chamber, direction, s);
 }
 
 // d f/d s of the inner seal while the edge passes, from the same ellipse [N/m].
@@ -140,6 +142,15 @@ double sb_cycle_stem(const SbCycle *cycle, const SbCycleSegment *segment, double
     s = next;
   }
   return s;
+}
+
+double sb_cycle_stem_rate(const SbCycle *cycle, const SbCycleSegment *segment, double s) {
+  if (segment->mode != SB_CYCLE_SLIP) {
+    return 0;
+  }
+  double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
+  double slope = friction_slope(cycle, segment->chamber, segment->direction, s);
+  return 1 / (1 + sign * slope / cycle->states.model->stiffness);
 }
 
 double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, double X, double s,
@@ -220,7 +231,7 @@ static double piece_end(const Planner *p) {
   if (p->direction == SB_CYCLE_OUT && chamber == SB_CHAMBER_OPEN) {
     chamber = SB_CHAMBER_CLOSED;
   }
-  double end = edge_end(p->cycle, chamber, p->direction);
+  double end = sb_cycle_edge_end(p->cycle, chamber, p->direction);
   double marks[] = {start, (start + end) / 2, end};
   double best = p->direction == SB_CYCLE_IN ? model->stroke : 0;
   for (int i = 0; i < 3; i++) {
@@ -261,7 +272,7 @@ static int event_at(const Planner *p, double s) {
       return SB_STAGE_D;
     }
   } else if (p->chamber == SB_CHAMBER_OPEN && touches &&
-             s == edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT)) {
+             s == sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT)) {
     return SB_STAGE_F;
   }
   return -1;
@@ -273,10 +284,10 @@ static void switch_chamber(Planner *p) {
     return;
   }
   if (p->direction == SB_CYCLE_IN && p->chamber != SB_CHAMBER_OPEN &&
-      p->s >= edge_end(cycle, p->chamber, p->direction)) {
+      p->s >= sb_cycle_edge_end(cycle, p->chamber, p->direction)) {
     p->chamber = SB_CHAMBER_OPEN;
   } else if (p->direction == SB_CYCLE_OUT && p->chamber == SB_CHAMBER_OPEN &&
-             p->s <= edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT)) {
+             p->s <= sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT)) {
     p->chamber = SB_CHAMBER_CLOSED;
   }
 }
@@ -364,7 +375,7 @@ static void slide(Planner *p) {
 }
 
 // Least F_p - f over the way back from `s`.
-static double least_return_force(const SbCycle *cycle, double s, SbChamber chamber) {
+double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber) {
   double least =
       cycle->states.model->pressure_force - static_limit(cycle, chamber, SB_CYCLE_OUT, s);
   least = fmin(least, balance_force(cycle, chamber, SB_CYCLE_OUT, s));
@@ -384,7 +395,7 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   // A chamber whose inner seal does not touch is always open.
   bool touches = inner_touches(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
   p.chamber = touches ? SB_CHAMBER_AT_REST : SB_CHAMBER_OPEN;
-  if (touches && edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN) <= 0) {
+  if (touches && sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN) <= 0) {
     p.chamber = SB_CHAMBER_OPEN;
   }
 
@@ -425,7 +436,7 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   cycle->stem_final = p.s;
   cycle->returns = p.s == 0;
   cycle->force_return_min =
-      s_return > 0 ? least_return_force(cycle, s_return, chamber_return) : model->pressure_force;
+      s_return > 0 ? sb_cycle_least_return(cycle, s_return, chamber_return) : model->pressure_force;
   if (p.full) {
     return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "drive.stiffness",
                              "the cycle does not end within %d events", SB_CYCLE_SEGMENTS_MAX);

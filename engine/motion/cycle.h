@@ -79,6 +79,9 @@ double sb_cycle_friction(const SbCycle *cycle, SbChamber chamber, int direction,
 // Stem displacement of `segment` at platen position X (inside the segment).
 double sb_cycle_stem(const SbCycle *cycle, const SbCycleSegment *segment, double X);
 
+// ds/dX at stem displacement s of `segment`: how much of the platen's motion the stem makes.
+double sb_cycle_stem_rate(const SbCycle *cycle, const SbCycleSegment *segment, double s);
+
 // Force k (X - s) on the stem, not below zero.
 double sb_cycle_force(const SbCycle *cycle, double X, double s);
 
@@ -87,6 +90,17 @@ double sb_cycle_force(const SbCycle *cycle, double X, double s);
 // pushes out.
 double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, double X, double s,
                         double *stop_force);
+
+// Static limit of one seal at a place [N].
+double sb_cycle_static_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
+                                double s);
+
+// Stem displacement at which the inner contact has left the land on the way in (chamber at rest) or
+// meets it on the way out (chamber closed).
+double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction);
+
+// Least F_p - f over the way back from displacement s, whatever moves the stem.
+double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber);
 
 // Energy of the whole cycle, every term by its own quadrature; fills all fields but kinetic (0).
 void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out);

@@ -1,0 +1,58 @@
+// What the files of a run share: its state, and the steps that sb_run_execute() takes in order.
+#pragma once
+
+#include "engine/motion/cycle.h"
+#include "engine/run.h"
+
+enum {
+  SB_RUN_MOTIONS = 3, // sliding in, sliding out, at rest
+  SB_RUN_REST = 2,
+  SB_RUN_PROFILE_SLOTS = SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
+  SB_RUN_EVENT_FRAMES = 2 * SB_CYCLE_SEGMENTS_MAX // room for frames that sit on events
+};
+
+typedef struct {
+  SbContactProfile view;
+  double *data; // x, pressure, film, asperity pressure
+} SbRunProfile;
+
+struct SbRun {
+  SbModel model;
+  SbPlan plan;
+  SbCycle cycle; // its states serve every motion model
+  SbSummary summary;
+  SbSlidingMemory *memory[SB_SEAL_COUNT];
+  SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
+  SbFrame *frames;
+  size_t capacity;
+  atomic_size_t published;
+};
+
+// Solves every steady sliding state the cycle can need, and the profiles if the plan wants them
+// (run_states.c).
+SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Where the profile of a state is kept; `motion` is SB_CYCLE_IN, SB_CYCLE_OUT or SB_RUN_REST.
+uint32_t sb_run_profile_slot(int seal, SbChamber chamber, int motion);
+
+// Contact, load, film of one seal of a frame, at stem displacement s (run_states.c). Friction is
+// left to the caller.
+void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber chamber,
+                         int direction, bool moving, double s);
+
+// Frames, stages, energy and leakage of the quasi-static cycle (run_cycle.c) and of the motion with
+// inertia (run_dynamic.c).
+SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Figures of each seal at the middle of B-C (run_seals.c).
+void sb_run_summarise_seals(SbRun *run);
+
+// Makes the first `count` frames visible to other threads.
+void sb_run_publish(SbRun *run, size_t count);
+
+// Remembers the first time a stage is reached.
+void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t index);
+
+// Whether the hooks ask to stop; fills the report then.
+bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report);

@@ -1,0 +1,174 @@
+// Sliding states and contact profiles of a run: each steady state is solved once and shared by all
+// frames.
+#include "engine/run_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { OUTSIDE_POINTS = 60, PROFILE_POINTS = SB_FIT_PROFILE_MAX + 2 * OUTSIDE_POINTS };
+
+uint32_t sb_run_profile_slot(int seal, SbChamber chamber, int motion) {
+  return (uint32_t)((seal * SB_CYCLE_CHAMBERS + (int)chamber) * SB_RUN_MOTIONS + motion);
+}
+
+// Gap of a Hertz contact of half-width a outside it, at distance xi a from its middle (Johnson,
+// Contact Mechanics, section 4.2), over R/a^2 [-].
+static double hertz_gap(double xi) {
+  double root = sqrt(fmax(xi * xi - 1, 0));
+  return (xi * root - log(xi + root)) / 2;
+}
+
+// Pressure and film over one contact, from what the seal's memory has just solved. With a solved
+// film it is the solver's own profile; with a closed form it is the fitment's pressure, the central
+// film held uniform (the law knows no shape) and the dry gap outside.
+static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, const SbSliding *state,
+                             SbRunProfile *profile, SbReport *report) {
+  const SbFit *fit = sb_sliding_fit(run->memory[seal]);
+  const SbFilm *film = sb_sliding_film(run->memory[seal]);
+  bool solved = run->model.film == SB_MODEL_FILM_REYNOLDS && state->film_central > 0;
+  size_t capacity = solved ? film->points : (size_t)PROFILE_POINTS;
+  double *data = calloc(4 * capacity, sizeof *data);
+  if (data == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a profile");
+  }
+  double *x = data;
+  double *p = data + capacity;
+  double *h = data + 2 * capacity;
+  size_t n = 0;
+  if (solved) {
+    n = film->points;
+    memcpy(x, film->x, n * sizeof *x);
+    memcpy(p, film->pressure, n * sizeof *p);
+    memcpy(h, film->film, n * sizeof *h);
+  } else if (state->touches) {
+    double a = fit->contact_width / 2;
+    double middle = (fit->contact_left + fit->contact_right) / 2;
+    double scale = a * a / run->model.seal[seal].radius;
+    for (int i = OUTSIDE_POINTS; i > 0; i--) {
+      double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
+      x[n] = middle - xi * a;
+      p[n] = pressure.left;
+      h[n++] = state->film_central + scale * hertz_gap(xi);
+    }
+    for (size_t i = 0; i < fit->profile_count; i++) {
+      x[n] = fit->profile_x[i];
+      p[n] = fmax(fit->profile_p[i], x[n] < middle ? pressure.left : pressure.right);
+      h[n++] = state->film_central;
+    }
+    for (int i = 1; i <= OUTSIDE_POINTS; i++) {
+      double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
+      x[n] = middle + xi * a;
+      p[n] = pressure.right;
+      h[n++] = state->film_central + scale * hertz_gap(xi);
+    }
+  }
+  free(profile->data);
+  profile->data = data;
+  profile->view = (SbContactProfile){
+      .count = n,
+      .x = x,
+      .pressure = p,
+      .film = h,
+      .asperity_pressure = data + 3 * capacity,
+      .model = solved ? "reynolds" : sb_fit_model_name((SbFitModel)run->model.fit),
+  };
+  run->summary.counters.profile_evaluations++;
+  return SB_OK;
+}
+
+// Whether the cycle can visit this state at all: the outer seal does in every chamber state, the
+// inner one slides only while it touches the land.
+static bool state_needed(int seal, SbChamber chamber) {
+  return seal == SB_OUTER || chamber != SB_CHAMBER_OPEN;
+}
+
+SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+  SbSummary *summary = &run->summary;
+  SbSlidingCounts counts = {0};
+  SbStatus worst = SB_OK;
+  summary->error_film = NAN;
+  summary->error_load = 0;
+  run->cycle.states.model = &run->model;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
+      SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, (SbChamber)chamber);
+      for (int motion = 0; motion < SB_RUN_MOTIONS && state_needed(seal, (SbChamber)chamber);
+           motion++) {
+        if (sb_run_cancelled(hooks, report)) {
+          return SB_ERROR_CANCELLED;
+        }
+        if (motion == SB_RUN_REST && !run->plan.profiles) {
+          continue;
+        }
+        double speed = motion == SB_CYCLE_IN   ? run->model.speed
+                       : motion == SB_RUN_REST ? 0
+                                               : -run->model.speed;
+        SbSliding rest;
+        SbSliding *state =
+            motion == SB_RUN_REST ? &rest : &run->cycle.states.state[seal][chamber][motion];
+        SbStatus status = sb_sliding_solve(state, &run->model, seal, pressure, speed,
+                                           run->memory[seal], &counts, &summary->warnings, report);
+        if (status == SB_ERROR_NOT_CONVERGED) {
+          worst = status;
+        } else if (status != SB_OK) {
+          return status;
+        }
+        summary->error_load = fmax(summary->error_load,
+                                   sb_sliding_fit(run->memory[seal])->solver.error_estimate.load);
+        if (!isnan(state->film_error)) {
+          summary->error_film =
+              fmax(isnan(summary->error_film) ? 0 : summary->error_film, state->film_error);
+        }
+        if (run->plan.profiles) {
+          status = make_profile(
+              run, seal, pressure, state,
+              &run->profile[sb_run_profile_slot(seal, (SbChamber)chamber, motion)], report);
+          if (status != SB_OK) {
+            return status;
+          }
+        }
+      }
+    }
+  }
+  summary->counters.fit_solves = counts.fit_solves;
+  summary->counters.disc_solves = counts.disc_solves;
+  summary->counters.ring_solves = counts.ring_solves;
+  summary->counters.reynolds_solves = counts.reynolds_solves;
+  summary->newton_iterations = counts.newton_iterations;
+  return worst;
+}
+
+void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber chamber,
+                         int direction, bool moving, double s) {
+  const SbSliding *state = &run->cycle.states.state[seal][chamber][direction];
+  SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, chamber);
+  double width_share;
+  double load_share;
+  sb_cycle_land_share(&run->cycle, seal, chamber, direction, s, &width_share, &load_share);
+  double width = state->contact_right - state->contact_left;
+
+  // The edge takes the contact away from the canister side.
+  *out = (SbSealFrame){
+      .land_fraction = (float)width_share,
+      .pressure_left = (float)pressure.left,
+      .pressure_right = (float)pressure.right,
+      .profile = run->plan.profiles && state->touches
+                     ? sb_run_profile_slot(seal, chamber, moving ? direction : SB_RUN_REST)
+                     : UINT32_MAX,
+      .contact_left = state->contact_right - width_share * width,
+      .contact_right = state->contact_right,
+      .load = load_share * state->load,
+      .pressure_peak = width_share > 0.5 ? state->pressure_peak : 0,
+  };
+  if (width_share > 0 && width_share <= 0.5) {
+    // The elliptic profile's greatest remaining value, at the edge.
+    double c = 1 - 2 * (1 - width_share);
+    out->pressure_peak = state->pressure_peak * sqrt(fmax(1 - c * c, 0));
+  }
+  if (moving && width_share > 0) {
+    out->film_min = state->film_min;
+    out->film_central = state->film_central;
+    out->lambda = state->lambda;
+  }
+}
