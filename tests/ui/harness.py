@@ -1,0 +1,225 @@
+"""Drives sealbench-gtk by accessible names, waiting on states and never for a fixed time.
+
+Each test is one process under `dbus-run-session -- xvfb-run -a`. `start()` runs the program with a
+configuration folder of its own; everything is looked up by role and name in the accessibility tree.
+"""
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import gi
+
+gi.require_version("Atspi", "2.0")
+import pyatspi  # noqa: E402
+
+PROGRAM = os.environ["SEALBENCH_GTK"]
+ASSETS = os.environ["SEALBENCH_ASSETS"]
+TIMEOUT = 40.0
+
+
+def wait(what, question, timeout=TIMEOUT):
+    """Asks again and again until the answer is true; returns it."""
+    end = time.monotonic() + timeout
+    last = None
+    while time.monotonic() < end:
+        try:
+            answer = question()
+            if answer:
+                return answer
+        except Exception as error:  # a widget that went away while we looked
+            last = error
+        time.sleep(0.02)
+    raise AssertionError("waited %.0f s for: %s (%r)" % (timeout, what, last))
+
+
+class App:
+    def __init__(self, *files, env=None, theme="light"):
+        self.folder = tempfile.mkdtemp(prefix="sealbench-ui-")
+        config = os.path.join(self.folder, "sealbench")
+        os.makedirs(config)
+        with open(os.path.join(config, "window.ini"), "w") as out:
+            out.write("[window]\ntheme=%s\nwidth=1260\nheight=900\n" % theme)
+        self.latency_path = os.path.join(self.folder, "latency.json")
+        surroundings = dict(os.environ, XDG_CONFIG_HOME=self.folder, XDG_DATA_HOME=self.folder,
+                            SEALBENCH_LATENCY=self.latency_path, NO_AT_BRIDGE="0",
+                            G_DEBUG="fatal-criticals", GTK_RECENT_FILES_ENABLED="0")
+        surroundings.update(env or {})
+        self.process = subprocess.Popen([PROGRAM, *files], env=surroundings)
+        self.node = wait("the program's window", self._find)
+
+    def _find(self):
+        if self.process.poll() is not None:
+            raise SystemExit("the program ended with %d" % self.process.returncode)
+        desktop = pyatspi.Registry.getDesktop(0)
+        for i in range(desktop.childCount):
+            app = desktop.getChildAtIndex(i)
+            if app is not None and app.get_process_id() == self.process.pid and app.childCount > 0:
+                return app
+        return None
+
+    # Looking -----------------------------------------------------------------------------------
+
+    def all(self, role, name=None, root=None, showing=True):
+        found = []
+        self._walk(root or self.node, role, name, showing, found)
+        return found
+
+    def _walk(self, node, role, name, showing, found, depth=0):
+        if node is None or depth > 40:
+            return
+        if (role is None or node.getRoleName() == role) and self._named(node, name):
+            if not showing or node.getState().contains(pyatspi.STATE_SHOWING):
+                found.append(node)
+        for i in range(node.childCount):
+            self._walk(node.getChildAtIndex(i), role, name, showing, found, depth + 1)
+
+    @staticmethod
+    def _named(node, name):
+        if name is None:
+            return True
+        if hasattr(name, "search"):
+            return name.search(node.name or "") is not None
+        return node.name == name
+
+    def find(self, role, name, showing=True, timeout=TIMEOUT):
+        return wait("%s %r" % (role, name),
+                    lambda: (self.all(role, name, showing=showing) or [None])[0], timeout)
+
+    def has(self, role, name):
+        return bool(self.all(role, name))
+
+    def label(self, pattern):
+        """The first shown label whose text matches."""
+        expression = re.compile(pattern)
+        for node in self.all("label"):
+            text = self.text(node)
+            if expression.search(text):
+                return text
+        return None
+
+    @staticmethod
+    def text(node):
+        try:
+            interface = node.queryText()
+            return interface.getText(0, interface.characterCount)
+        except NotImplementedError:
+            return node.name or ""
+
+    def status(self):
+        """Text of the status bar's first label: "stage C, 3.30 mm, 27.4 N"."""
+        return self.label(r"^(stage [A-F]|nothing has run)") or ""
+
+    # Doing -------------------------------------------------------------------------------------
+
+    def press(self, role, name, action="click"):
+        self.act(self.find(role, name), action)
+
+    @staticmethod
+    def act(node, action):
+        actions = node.queryAction()
+        names = [actions.getName(i) for i in range(actions.nActions)]
+        assert action in names, "%r offers %r" % (node.name, names)
+        actions.doAction(names.index(action))
+
+    def unfold(self, group):
+        node = self.find("toggle button", group, showing=False)
+        if not node.getState().contains(pyatspi.STATE_EXPANDED):
+            self.act(node, "activate")
+
+    def field(self, name):
+        # It may be scrolled out of sight.
+        return self.find("text", name, showing=False)
+
+    def edit(self, name, text):
+        node = self.field(name)
+        node.queryEditableText().setTextContents(text)
+        self.act(node, "activate")
+
+    def value(self, name):
+        return self.text(self.field(name))
+
+    def key(self, combination):
+        subprocess.run(["xdotool", "key", "--clearmodifiers", combination], check=True)
+
+    def click(self, node, share_x, share_y):
+        box = node.queryComponent().getExtents(pyatspi.DESKTOP_COORDS)
+        x = int(box.x + box.width * share_x)
+        y = int(box.y + box.height * share_y)
+        subprocess.run(["xdotool", "mousemove", str(x), str(y), "click", "1"], check=True)
+
+    def gaction(self, name):
+        """Calls an action of the application, as a desktop would."""
+        subprocess.run(["gdbus", "call", "--session", "--dest", "org.sealbench.Sealbench",
+                        "--object-path", "/org/sealbench/Sealbench", "--method",
+                        "org.gtk.Actions.Activate", name, "[]", "{}"], check=True,
+                       stdout=subprocess.DEVNULL)
+
+    def latency(self):
+        """What the program's own probe of its main loop has measured."""
+        if os.path.exists(self.latency_path):
+            os.remove(self.latency_path)
+        self.gaction("write-latency")
+
+        def read():
+            with open(self.latency_path) as file:
+                return json.load(file)
+        return wait("the latency file", read)
+
+    def loop_text(self):
+        return self.find("chart", "Force and displacement").description or ""
+
+    def breakaway(self):
+        """The break-away force that the loop's description tells, in newtons."""
+        match = re.search(r"break-away ([\d.]+)\sN", self.loop_text())
+        return float(match.group(1)) if match else None
+
+    def run_done(self):
+        return self.has("push button", "Run") and self.breakaway() is not None
+
+    def quit(self):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGTERM)
+            self.process.wait(10)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *problem):
+        self.quit()
+
+
+def scene(folder, **values):
+    """A copy of the shipped scene beside its valve, with keys replaced."""
+    shutil.copytree(os.path.join(ASSETS, "valves"), os.path.join(folder, "valves"))
+    shutil.copytree(os.path.join(ASSETS, "scenes"), os.path.join(folder, "scenes"))
+    path = os.path.join(folder, "scenes", "thesis-cycle.scene")
+    with open(path) as file:
+        text = file.read()
+    for key, value in values.items():
+        text = re.sub(r"(?m)^%s = .*$" % key, "%s = %s" % (key, value), text)
+    with open(path, "w") as file:
+        file.write(text)
+    return path
+
+
+def main(*tests):
+    """Runs the tests and prints TAP."""
+    print("1..%d" % len(tests))
+    failed = 0
+    for number, test in enumerate(tests, 1):
+        try:
+            with tempfile.TemporaryDirectory() as folder:
+                test(folder)
+            print("ok %d - %s" % (number, test.__name__), flush=True)
+        except Exception as error:
+            failed += 1
+            print("not ok %d - %s" % (number, test.__name__))
+            print("# %s" % str(error).replace("\n", "\n# "), flush=True)
+    sys.exit(1 if failed else 0)

@@ -1,0 +1,129 @@
+"""Editing, files and undo in the window."""
+import os
+import pyatspi
+import re
+
+from harness import App, main, scene, wait
+
+
+def edit_with_a_unit_changes_the_breakaway_force(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        before = app.breakaway()
+        assert 24 < before < 31, before
+        app.edit("Section diameter", "1650 um")
+        wait("the value in the panel's unit", lambda: app.value("Section diameter") == "1.65 mm")
+        wait("another break-away force", lambda: app.run_done() and app.breakaway() > before + 1)
+        # A thinner ring is squeezed less.
+        app.edit("Section diameter", "0.0639 in")
+        wait("a lower force", lambda: app.run_done() and app.breakaway() < before + 1.2)
+
+
+def bad_values_stay_in_their_field(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        before = app.breakaway()
+        for text in ("99 m", "1.61", "1.61 kg", "rubbish", "nan mm", ""):
+            app.edit("Section diameter", text)
+            wait("one value to fix after %r" % text, lambda: app.label(r"1 value to fix"))
+            assert app.label(r"0\.2 to 20 mm\).*\.$|0\.2 to 20 mm\.$"), "no range in the sentence"
+        assert app.label(r"^Section diameter is out of range\. Pictures show the last good run")
+        assert app.breakaway() == before
+        app.press("push button", "Set 1.61 mm")
+        wait("no error", lambda: not app.label(r"to fix"))
+        assert app.value("Section diameter") == "1.61 mm"
+
+
+def values_that_do_not_go_together_are_told_at_their_field(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        app.unfold("Bore")
+        app.edit("Bore diameter", "2 mm")
+        wait("one value to fix", lambda: app.label(r"to fix"))
+        wait("the sentence", lambda: app.label(r"smaller than the stem"))
+        app.press("push button", "Undo")
+        wait("no error", lambda: not app.label(r"to fix"))
+
+
+def undo_and_redo(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        app.edit("Radial space", "1.40 mm")
+        wait("edited", lambda: app.label(r"edited"))
+        app.edit("Radial space", "1.42 mm")
+        app.press("push button", "Undo")
+        wait("1.4", lambda: app.value("Radial space") == "1.4 mm")
+        app.press("push button", "Undo")
+        wait("1.36", lambda: app.value("Radial space") == "1.36 mm")
+        assert not app.label(r"edited")
+        app.press("push button", "Redo")
+        wait("1.4 again", lambda: app.value("Radial space") == "1.4 mm")
+        app.press("push button", "Reset Radial space")
+        wait("1.36 again", lambda: app.value("Radial space") == "1.36 mm")
+
+
+def saved_values_come_back(folder):
+    path = scene(folder)
+    with App(path) as app:
+        wait("the first run", app.run_done)
+        app.edit("Section diameter", "1630 um")
+        app.edit("Pressure", "2.9 bar")
+        app.unfold("Inner seal only")
+        app.edit("Inner seal: Modulus", "3 MPa")
+        wait("edited", lambda: app.label(r"edited"))
+        app.press("push button", "Save")
+        wait("saved", lambda: not app.label(r"edited"))
+    with open(path) as file:
+        assert "# The thesis' own models." in file.read(), "the comment was lost"
+    with App(path) as app:
+        wait("the first run", app.run_done)
+        assert app.value("Section diameter") == "1.63 mm"
+        assert app.value("Pressure") == "0.29 MPa"
+        app.unfold("Inner seal only")
+        assert app.value("Inner seal: Modulus") == "3 MPa"
+        assert app.value("Modulus") == "2.5 MPa"
+
+
+def closing_asks_about_changes(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        app.edit("Section diameter", "1.63 mm")
+        wait("edited", lambda: app.label(r"edited"))
+        app.gaction("quit")
+        app.press("push button", "Cancel")
+        wait("the question gone", lambda: not app.has("push button", "Close without Saving"))
+        assert app.value("Section diameter") == "1.63 mm"
+        app.gaction("quit")
+        app.press("push button", "Close without Saving")
+        wait("the end of the program", lambda: app.process.poll() is not None)
+        assert app.process.returncode == 0
+
+
+def broken_files_are_told_in_one_dialog(folder):
+    path = os.path.join(folder, "broken.valve")
+    with open(path, "w") as file:
+        file.write("[sealbench]\nformat = 1\nkind = valve\n[seal]\nsection_diameter = 1.61\n"
+                   "modulus = 3 kg\n[nonsense]\nx = 1\n")
+    with App(path) as app:
+        text = wait("the problems", lambda: app.label(r"section_diameter"))
+        for word in ("modulus", "nonsense"):
+            assert word in text, text
+
+
+def search_finds_parameters(folder):
+    with App(scene(folder)) as app:
+        box = app.find("text", "Search parameters")
+        box.queryEditableText().setTextContents("roughness")
+        wait("nothing found", lambda: app.label(r"No parameter matches"))
+        box.queryEditableText().setTextContents("viscos")
+        wait("the viscosity", lambda: app.has("text", "Viscosity"))
+        wait("the rest hidden", lambda: not app.has("text", "Section diameter"))
+        box.queryEditableText().setTextContents("")
+        wait("everything back", lambda: app.has("text", "Section diameter"))
+
+
+if __name__ == "__main__":
+    main(edit_with_a_unit_changes_the_breakaway_force, bad_values_stay_in_their_field,
+         values_that_do_not_go_together_are_told_at_their_field, undo_and_redo,
+         saved_values_come_back, closing_asks_about_changes,
+         broken_files_are_told_in_one_dialog, search_finds_parameters)

@@ -1,0 +1,82 @@
+"""Long runs, cancelling, the playhead, and how long the main loop is blocked."""
+import re
+
+from harness import App, main, scene, wait
+
+
+def drawn_frames(app):
+    match = re.match(r"^(\d+) frames", app.label(r"^\d+ frames") or "")
+    return int(match.group(1)) if match else 0
+
+
+def a_long_run_grows_and_can_be_cancelled(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        app.unfold("Output")
+        app.gaction("reset-latency")
+        app.edit("Frames", "2000000")
+        app.find("push button", "Stop")
+        first = wait("the first frames", lambda: drawn_frames(app) > 1000 and drawn_frames(app))
+        wait("more frames", lambda: drawn_frames(app) > first)
+        app.press("push button", "Stop")
+        wait("the end", lambda: app.has("push button", "Run"), timeout=5)
+        wait("the word partial", lambda: app.label(r"^Partial run"))
+        count = wait("frames that stay", lambda: drawn_frames(app))
+        assert 1000 < count < 2000000, count
+        assert app.label(r"^stage [A-F]")
+        latency = app.latency()
+        print("# main loop blocked: %(p99_ms).1f ms at the 99th percentile, %(max_ms).1f ms at "
+              "most, %(samples)d samples" % latency)
+        assert latency["samples"] > 100, latency
+        assert latency["p99_ms"] <= 50, latency
+        assert latency["max_ms"] <= 200, latency
+
+
+def the_newest_edit_wins(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        app.unfold("Output")
+        app.edit("Frames", "2000000")
+        app.find("push button", "Stop")
+        app.edit("Frames", "400")
+        wait("the short run", lambda: app.run_done() and drawn_frames(app) < 1000)
+        assert not app.label(r"^Partial run")
+
+
+def scrub_to_stage_c(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        # By the buttons.
+        app.key("Home")
+        wait("the start", lambda: app.status().startswith("stage A"))
+        for stage in "BC":
+            app.press("push button", "Next event")
+            wait("stage " + stage, lambda: app.status().startswith("stage %s," % stage))
+        match = re.match(r"stage C, ([\d.]+)\smm, ([\d.]+)\sN", app.status())
+        assert match, app.status()
+        assert abs(float(match.group(1)) - 3.30) < 0.02, app.status()
+        assert 26 < float(match.group(2)) < 29, app.status()
+        at_c = app.status()
+        # By the keys.
+        app.key("Right")
+        wait("the frame after", lambda: app.status() != at_c)
+        app.key("ctrl+Left")
+        wait("stage C again", lambda: app.status() == at_c)
+        # By the mouse: the middle of the timeline is past C and before the return's end.
+        app.click(app.find("slider", "Timeline"), 0.5, 0.5)
+        wait("the middle", lambda: re.match(r"stage [D-E]", app.status()))
+
+
+def playback_moves_the_playhead(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        app.press("push button", "Play")
+        first = app.status()
+        wait("movement", lambda: app.status() != first)
+        app.press("push button", "Pause")
+        app.find("push button", "Play")
+
+
+if __name__ == "__main__":
+    main(a_long_run_grows_and_can_be_cancelled, the_newest_edit_wins, scrub_to_stage_c,
+         playback_moves_the_playhead)

@@ -1,0 +1,213 @@
+// A widget around one chart of app/chart. The loop takes the pointer: press or drag near the curve
+// and the playhead goes to the nearest frame. Every chart has an accessible description that says
+// in a sentence what it shows now, and its numbers can be copied as a table.
+#include "ui/chart_view.h"
+
+#include "app/chart/format.h"
+#include "app/chart/hysteresis.h"
+#include "app/chart/profiles.h"
+#include "ui/style.h"
+
+#include <math.h>
+
+typedef struct {
+  SbSession *session;
+  SbChartViewKind kind;
+  GtkWidget *area;
+  guint describe; // source that renews the description, 0 if none is due
+} View;
+
+static const struct {
+  const char *name;
+  int height;
+} kinds[] = {{"Force and displacement", 260}, {"Contact pressure", 178}, {"Film thickness", 178}};
+
+// The widget less the column's padding.
+static SbRect whole(GtkWidget *widget) {
+  return (SbRect){16, 12, MAX(gtk_widget_get_allocated_width(widget) - 28, 1),
+                  MAX(gtk_widget_get_allocated_height(widget) - 18, 1)};
+}
+
+static gboolean on_draw(GtkWidget *widget, cairo_t *cr, View *view) {
+  const SbTheme *theme = sb_theme(sb_style_is_dark());
+  const SbChartData *data = sb_session_chart(view->session);
+  SbColor ground = theme->role[SB_ROLE_PANEL];
+  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
+  cairo_paint(cr);
+  switch (view->kind) {
+  case SB_CHART_VIEW_LOOP:
+    sb_hysteresis_draw(cr, whole(widget), theme, data, SB_CHART_COMPACT);
+    break;
+  case SB_CHART_VIEW_PRESSURE:
+    sb_profiles_pressure_draw(cr, whole(widget), theme, data, SB_CHART_COMPACT);
+    break;
+  case SB_CHART_VIEW_FILM:
+    sb_profiles_film_draw(cr, whole(widget), theme, data, SB_CHART_COMPACT);
+    break;
+  }
+  if (gtk_widget_has_visible_focus(widget)) {
+    GtkStyleContext *style = gtk_widget_get_style_context(widget);
+    gtk_render_focus(style, cr, 3, 3, gtk_widget_get_allocated_width(widget) - 6,
+                     gtk_widget_get_allocated_height(widget) - 6);
+  }
+  return GDK_EVENT_PROPAGATE;
+}
+
+// Description ------------------------------------------------------------------------------------
+
+static void describe_loop(SbSession *session, GString *text) {
+  const SbChartData *data = sb_session_chart(session);
+  char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
+  if (data->run.count == 0) {
+    g_string_append(text, "No run yet.");
+    return;
+  }
+  const SbStageMark *marks = sb_trace_marks(data->run.trace);
+  for (int i = 0; i < SB_STAGE_COUNT; i++) {
+    if (marks[i].reached) {
+      g_string_append_printf(text, "%s %s at %s, ", sb_stage_name((SbStage)i),
+                             sb_format_text(a, SB_QUANTITY_FORCE, marks[i].force, 0),
+                             sb_format_text(b, SB_QUANTITY_LENGTH, marks[i].displacement, 0));
+    }
+  }
+  const SbSummary *summary = data->run.summary;
+  if (summary != NULL) {
+    g_string_append_printf(text, "break-away %s, ",
+                           sb_format_text(a, SB_QUANTITY_FORCE, summary->force_breakaway, 0));
+    g_string_append_printf(text, "least return force %s, ",
+                           sb_format_text(a, SB_QUANTITY_FORCE, summary->force_return_min, 0));
+    g_string_append_printf(text, "loss per cycle %s, ",
+                           sb_format_text(a, SB_QUANTITY_ENERGY, summary->energy.loop, 0));
+  }
+  g_autofree char *where = sb_session_where(session);
+  g_string_append_printf(text, "now %s.", where);
+}
+
+static void describe_contacts(SbSession *session, SbChartViewKind kind, GString *text) {
+  const SbFrame *frame = sb_session_frame(session);
+  char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
+  if (frame == NULL) {
+    g_string_append(text, "No run yet.");
+    return;
+  }
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const SbSealFrame *seal = &frame->seal[i];
+    double width = seal->contact_right - seal->contact_left;
+    if (width <= 0 || seal->land_fraction <= 0) {
+      g_string_append_printf(text, "%s seal: no contact. ", i == SB_OUTER ? "Outer" : "Inner");
+    } else if (kind == SB_CHART_VIEW_PRESSURE) {
+      g_string_append_printf(text, "%s seal: peak %s over %s. ", i == SB_OUTER ? "Outer" : "Inner",
+                             sb_format_text(a, SB_QUANTITY_PRESSURE, seal->pressure_peak, 0),
+                             sb_format_text(b, SB_QUANTITY_LENGTH, width, 0));
+    } else if (seal->film_central > 0) {
+      g_string_append_printf(text, "%s seal: centre %s, least %s. ",
+                             i == SB_OUTER ? "Outer" : "Inner",
+                             sb_format_text(a, SB_QUANTITY_FILM, seal->film_central, 0),
+                             sb_format_text(b, SB_QUANTITY_FILM, seal->film_min, 0));
+    } else {
+      g_string_append_printf(text, "%s seal: at rest. ", i == SB_OUTER ? "Outer" : "Inner");
+    }
+  }
+}
+
+static gboolean describe(gpointer data) {
+  View *view = data;
+  g_autoptr(GString) text = g_string_new(NULL);
+  if (view->kind == SB_CHART_VIEW_LOOP) {
+    describe_loop(view->session, text);
+  } else {
+    describe_contacts(view->session, view->kind, text);
+  }
+  sb_style_name(view->area, kinds[view->kind].name, text->str);
+  view->describe = 0;
+  return G_SOURCE_REMOVE;
+}
+
+char *sb_chart_view_table(SbSession *session) {
+  const SbChartData *data = sb_session_chart(session);
+  GString *text = g_string_new("stage\ttime [s]\tdisplacement [m]\tforce [N]\n");
+  if (data->run.count > 0) {
+    const SbStageMark *marks = sb_trace_marks(data->run.trace);
+    for (int i = 0; i < SB_STAGE_COUNT; i++) {
+      char a[G_ASCII_DTOSTR_BUF_SIZE], b[G_ASCII_DTOSTR_BUF_SIZE], c[G_ASCII_DTOSTR_BUF_SIZE];
+      if (marks[i].reached) {
+        g_string_append_printf(text, "%s\t%s\t%s\t%s\n", sb_stage_name((SbStage)i),
+                               g_ascii_formatd(a, sizeof a, "%.6g", marks[i].time),
+                               g_ascii_formatd(b, sizeof b, "%.6g", marks[i].displacement),
+                               g_ascii_formatd(c, sizeof c, "%.6g", marks[i].force));
+      }
+    }
+  }
+  return g_string_free(text, FALSE);
+}
+
+// Pointer ----------------------------------------------------------------------------------------
+
+static gboolean scrub(View *view, double x, double y, double reach) {
+  size_t frame = 0;
+  if (!sb_hysteresis_hit(&frame, whole(view->area), sb_session_chart(view->session),
+                         SB_CHART_COMPACT, x, y, reach)) {
+    return FALSE;
+  }
+  sb_session_play(view->session, FALSE);
+  sb_session_set_playhead(view->session, frame);
+  return TRUE;
+}
+
+static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
+  gtk_widget_grab_focus(widget);
+  if (event->button != GDK_BUTTON_PRIMARY || view->kind != SB_CHART_VIEW_LOOP) {
+    return GDK_EVENT_PROPAGATE;
+  }
+  scrub(view, event->x, event->y, 24);
+  return GDK_EVENT_STOP;
+}
+
+static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
+  if ((event->state & GDK_BUTTON1_MASK) != 0 && view->kind == SB_CHART_VIEW_LOOP) {
+    scrub(view, event->x, event->y, 80);
+  }
+  return GDK_EVENT_STOP;
+}
+
+// Life -------------------------------------------------------------------------------------------
+
+static void on_change(View *view) {
+  gtk_widget_queue_draw(view->area);
+  // Screen readers need no more than a few sentences a second.
+  if (view->describe == 0) {
+    view->describe = g_timeout_add(200, describe, view);
+  }
+}
+
+static void on_destroy(GtkWidget *widget, View *view) {
+  g_signal_handlers_disconnect_by_data(view->session, view);
+  if (view->describe != 0) {
+    g_source_remove(view->describe);
+    view->describe = 0;
+  }
+}
+
+GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
+  View *view = g_new0(View, 1);
+  view->session = session;
+  view->kind = kind;
+  view->area = gtk_drawing_area_new();
+  g_object_set_data_full(G_OBJECT(view->area), "view", view, g_free);
+  sb_style_class(view->area, "sb-canvas");
+  gtk_widget_set_size_request(view->area, 300, kinds[kind].height);
+  gtk_widget_set_can_focus(view->area, TRUE);
+  gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |
+                                        GDK_KEY_PRESS_MASK | GDK_FOCUS_CHANGE_MASK);
+  atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_CHART);
+  g_signal_connect(view->area, "draw", G_CALLBACK(on_draw), view);
+  g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
+  g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
+  g_signal_connect(view->area, "destroy", G_CALLBACK(on_destroy), view);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_change), view);
+  g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_change), view);
+  g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(on_change), view);
+  describe(view);
+  gtk_widget_show(view->area);
+  return view->area;
+}

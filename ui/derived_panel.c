@@ -1,0 +1,178 @@
+// What follows from the values: squeeze, stretch and gland fill at once from the model, the return
+// force from the run. Each has a bar with the recommended band, a word and a sign, so that colour
+// is not alone.
+//
+// Bands: squeeze 8 to 20 % for a reciprocating ring, inner stretch at most 5 %, gland fill 60 to
+// 85 % are the usual recommendations of O-ring makers' handbooks. A return force of at least 2 N,
+// an eighth of the pressure force of the thesis valve, is this program's own.
+#include "ui/derived_panel.h"
+
+#include "app/chart/format.h"
+#include "app/chart/theme.h"
+#include "ui/style.h"
+
+#include <math.h>
+
+typedef struct {
+  const char *name, *low, *high, *tip;
+  SbQuantity quantity;
+  double axis_lo, axis_hi; // ends of the bar
+  double lo, hi;           // recommended band
+} Item;
+
+static const Item items[] = {
+    {"Squeeze", "low", "high",
+     "Share of the free section by which the groove squeezes the ring. Recommended for a "
+     "reciprocating ring: 8 to 20 %.",
+     SB_QUANTITY_FRACTION, 0, 0.35, 0.08, 0.20},
+    {"Stretch, inner", "low", "high",
+     "Stretch of the inner diameter onto the groove floor. Recommended: at most 5 %.",
+     SB_QUANTITY_FRACTION, 0, 0.25, 0, 0.05},
+    {"Gland fill", "low", "high", "Section area over groove area. Recommended: 60 to 85 %.",
+     SB_QUANTITY_FRACTION, 0.3, 1.1, 0.60, 0.85},
+    {"Return force", "low", "high",
+     "Least of pressure force minus friction on the way back, from the run. Below zero the valve "
+     "sticks; this program asks for 2 N.",
+     SB_QUANTITY_FORCE, -2, 8, 2, INFINITY},
+};
+enum { ITEMS = G_N_ELEMENTS(items) };
+
+typedef struct {
+  SbSession *session;
+  GtkWidget *note;
+  GtkWidget *value[ITEMS], *bar[ITEMS], *icon[ITEMS], *verdict[ITEMS];
+  double shown[ITEMS]; // NAN: not known
+} Panel;
+
+static SbColor verdict_color(const SbTheme *theme, const Item *item, double value) {
+  return theme->role[value < item->lo || value > item->hi ? SB_ROLE_WARN : SB_ROLE_PASS];
+}
+
+static gboolean on_draw(GtkWidget *widget, cairo_t *cr, Panel *panel) {
+  int index = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(widget), "index"));
+  const Item *item = &items[index];
+  const SbTheme *theme = sb_theme(sb_style_is_dark());
+  double width = gtk_widget_get_allocated_width(widget);
+  double height = gtk_widget_get_allocated_height(widget);
+  double y = floor(height / 2) - 3;
+  double scale = width / (item->axis_hi - item->axis_lo);
+
+  // The range of the bar, the band in it, and the value as an upright mark.
+  SbColor ground = theme->role[SB_ROLE_HAIRLINE];
+  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
+  cairo_rectangle(cr, 0, y, width, 6);
+  cairo_fill(cr);
+  double from = (fmax(item->lo, item->axis_lo) - item->axis_lo) * scale;
+  double to = (fmin(item->hi, item->axis_hi) - item->axis_lo) * scale;
+  SbColor band = theme->role[SB_ROLE_PASS];
+  cairo_set_source_rgba(cr, band.r, band.g, band.b, 0.55);
+  cairo_rectangle(cr, from, y, to - from, 6);
+  cairo_fill(cr);
+  double value = panel->shown[index];
+  if (!isnan(value)) {
+    double x = (fmin(fmax(value, item->axis_lo), item->axis_hi) - item->axis_lo) * scale;
+    x = fmin(fmax(floor(x), 1), width - 2);
+    SbColor mark = verdict_color(theme, item, value);
+    cairo_set_source_rgb(cr, mark.r, mark.g, mark.b);
+    cairo_rectangle(cr, x - 1, y - 5, 3, 16);
+    cairo_fill(cr);
+  }
+  return GDK_EVENT_PROPAGATE;
+}
+
+static void show(Panel *panel, int index, double value) {
+  const Item *item = &items[index];
+  panel->shown[index] = value;
+  GtkStyleContext *style = gtk_widget_get_style_context(panel->verdict[index]);
+  GtkStyleContext *icon_style = gtk_widget_get_style_context(panel->icon[index]);
+  gtk_style_context_remove_class(style, "sb-pass");
+  gtk_style_context_remove_class(style, "sb-warn");
+  gtk_style_context_remove_class(icon_style, "sb-pass");
+  gtk_style_context_remove_class(icon_style, "sb-warn");
+  const char *word = "";
+  char text[SB_FORMAT_MAX] = "–";
+  if (!isnan(value)) {
+    sb_format_text(text, item->quantity, value, 0);
+    gboolean good = value >= item->lo && value <= item->hi;
+    word = good ? "pass" : value < item->lo ? item->low : item->high;
+    gtk_style_context_add_class(style, good ? "sb-pass" : "sb-warn");
+    gtk_style_context_add_class(icon_style, good ? "sb-pass" : "sb-warn");
+    gtk_image_set_from_icon_name(GTK_IMAGE(panel->icon[index]),
+                                 good ? "object-select-symbolic" : "dialog-warning-symbolic",
+                                 GTK_ICON_SIZE_MENU);
+  } else {
+    gtk_image_clear(GTK_IMAGE(panel->icon[index]));
+  }
+  gtk_label_set_text(GTK_LABEL(panel->value[index]), text);
+  gtk_label_set_text(GTK_LABEL(panel->verdict[index]), word);
+  g_autofree char *spoken = g_strdup_printf("%s %s %s", item->name, text, word);
+  sb_style_name(panel->value[index], spoken, item->tip);
+  gtk_widget_queue_draw(panel->bar[index]);
+}
+
+// Sizes come from the present values; while those do not go together, from the shown run.
+static void refresh(Panel *panel) {
+  const SbModel *model = sb_session_model(panel->session);
+  const SbRun *run = sb_session_run(panel->session);
+  const SbSummary *summary = sb_session_summary(panel->session);
+  gboolean old = model == NULL || sb_session_error_count(panel->session) > 0;
+  if (model == NULL && run != NULL) {
+    model = sb_run_model(run);
+  }
+  const SbSealModel *seal = model != NULL ? &model->seal[SB_OUTER] : NULL;
+  show(panel, 0, seal != NULL ? seal->squeeze : NAN);
+  show(panel, 1, seal != NULL ? seal->stretch_inner : NAN);
+  show(panel, 2, seal != NULL ? seal->gland_fill : NAN);
+  show(panel, 3, summary != NULL ? summary->force_return_min : NAN);
+  gtk_label_set_text(GTK_LABEL(panel->note), old && run != NULL ? "last good run" : "outer seal");
+}
+
+static void on_destroy(GtkWidget *widget, Panel *panel) {
+  g_signal_handlers_disconnect_by_data(panel->session, panel);
+}
+
+static GtkWidget *label_new(const char *text, const char *style, float align) {
+  GtkWidget *label = gtk_label_new(text);
+  gtk_label_set_xalign(GTK_LABEL(label), align);
+  sb_style_class(label, style);
+  return label;
+}
+
+GtkWidget *sb_derived_panel_new(SbSession *session) {
+  Panel *panel = g_new0(Panel, 1);
+  panel->session = session;
+  GtkWidget *grid = gtk_grid_new();
+  gtk_grid_set_row_spacing(GTK_GRID(grid), 6);
+  gtk_grid_set_column_spacing(GTK_GRID(grid), 10);
+  sb_style_class(grid, "sb-derived");
+  sb_style_class(grid, "sb-panel");
+  gtk_grid_attach(GTK_GRID(grid), label_new("Derived", "sb-title", 0), 0, 0, 1, 1);
+  panel->note = label_new("", "sb-note", 1);
+  gtk_grid_attach(GTK_GRID(grid), panel->note, 1, 0, 4, 1);
+  for (int i = 0; i < ITEMS; i++) {
+    GtkWidget *name = label_new(items[i].name, "sb-derived-name", 0);
+    gtk_widget_set_hexpand(name, TRUE);
+    gtk_widget_set_tooltip_text(name, items[i].tip);
+    panel->value[i] = label_new("", "sb-derived-value", 1);
+    panel->bar[i] = gtk_drawing_area_new();
+    gtk_widget_set_size_request(panel->bar[i], 80, 18);
+    gtk_widget_set_tooltip_text(panel->bar[i], items[i].tip);
+    g_object_set_data(G_OBJECT(panel->bar[i]), "index", GINT_TO_POINTER(i));
+    g_signal_connect(panel->bar[i], "draw", G_CALLBACK(on_draw), panel);
+    panel->icon[i] = gtk_image_new();
+    panel->verdict[i] = label_new("", "sb-verdict", 0);
+    gtk_label_set_width_chars(GTK_LABEL(panel->verdict[i]), 4);
+    gtk_grid_attach(GTK_GRID(grid), name, 0, i + 1, 1, 1);
+    gtk_grid_attach(GTK_GRID(grid), panel->value[i], 1, i + 1, 1, 1);
+    gtk_grid_attach(GTK_GRID(grid), panel->bar[i], 2, i + 1, 1, 1);
+    gtk_grid_attach(GTK_GRID(grid), panel->icon[i], 3, i + 1, 1, 1);
+    gtk_grid_attach(GTK_GRID(grid), panel->verdict[i], 4, i + 1, 1, 1);
+  }
+  g_object_set_data_full(G_OBJECT(grid), "panel", panel, g_free);
+  g_signal_connect(grid, "destroy", G_CALLBACK(on_destroy), panel);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), panel);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), panel);
+  refresh(panel);
+  gtk_widget_show_all(grid);
+  return grid;
+}

@@ -1,0 +1,14 @@
+// A probe of the main loop: how long would a key press have waited?
+#pragma once
+
+#include <glib.h>
+
+// Starts the probe on the default main context. It costs one wake-up each 5 ms; nothing runs
+// without a call.
+void sb_latency_start(void);
+
+// Forgets what was measured so far.
+void sb_latency_reset(void);
+
+// Writes {"samples", "p50_ms", "p99_ms", "max_ms"} to `path`.
+gboolean sb_latency_write(const char *path, GError **error);

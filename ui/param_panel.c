@@ -1,0 +1,247 @@
+// The column of parameters. The catalogue's order and the first part of each key make the groups;
+// overrides for one ring get groups of their own, folded until something in them differs. A search
+// shows the matching rows with their groups unfolded.
+#include "ui/param_panel.h"
+
+#include "ui/param_row.h"
+#include "ui/style.h"
+
+#include <string.h>
+
+typedef struct {
+  GtkWidget *expander, *note;
+  GtkWidget *box;
+  gboolean unfolded; // as the user left it, while a search unfolds all
+} Group;
+
+struct _SbParamPanel {
+  GtkBox parent_instance;
+  SbSession *session;
+  GtkWidget *search, *scroller, *list, *nothing;
+  GtkWidget *row[SB_PARAM_COUNT];
+  int group_of[SB_PARAM_COUNT];
+  GArray *groups; // of Group
+  gboolean searching;
+  guint refresh_handler;
+};
+
+G_DEFINE_TYPE(SbParamPanel, sb_param_panel, GTK_TYPE_BOX)
+
+// Headings by key prefix. A prefix that is not here gets its own name with a capital.
+static const struct {
+  const char *prefix, *title, *note;
+  gboolean unfolded;
+} headings[] = {
+    {"seal.outer.", "Outer seal only", NULL, FALSE},
+    {"seal.inner.", "Inner seal only", NULL, FALSE},
+    {"seal.", "Seals", "both", TRUE},
+    {"gland.", "Gland", NULL, TRUE},
+    {"canister.", "Canister", NULL, TRUE},
+    {"surface.", "Surface", NULL, TRUE},
+    {"drive.", "Drive", NULL, TRUE},
+    {"bore.", "Bore", NULL, FALSE},
+    {"models.", "Models", NULL, TRUE},
+};
+
+static int heading_of(const char *key) {
+  for (guint i = 0; i < G_N_ELEMENTS(headings); i++) {
+    if (g_str_has_prefix(key, headings[i].prefix)) {
+      return (int)i;
+    }
+  }
+  return -1;
+}
+
+// The group that a key belongs to, made on first use.
+static int group_for(SbParamPanel *panel, GHashTable *by_title, const char *key) {
+  int heading = heading_of(key);
+  g_autofree char *title = NULL;
+  if (heading >= 0) {
+    title = g_strdup(headings[heading].title);
+  } else {
+    title = g_strndup(key, strcspn(key, "."));
+    title[0] = g_ascii_toupper(title[0]);
+  }
+  gpointer found = NULL;
+  if (g_hash_table_lookup_extended(by_title, title, NULL, &found)) {
+    return GPOINTER_TO_INT(found);
+  }
+
+  Group group = {0};
+  group.unfolded = heading >= 0 && headings[heading].unfolded;
+  GtkWidget *caption = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+  GtkWidget *name = gtk_label_new(title);
+  gtk_label_set_xalign(GTK_LABEL(name), 0);
+  gtk_box_pack_start(GTK_BOX(caption), name, TRUE, TRUE, 0);
+  group.note = gtk_label_new(heading >= 0 ? headings[heading].note : NULL);
+  sb_style_class(group.note, "sb-group-note");
+  gtk_box_pack_end(GTK_BOX(caption), group.note, FALSE, FALSE, 0);
+  group.expander = gtk_expander_new(NULL);
+  gtk_expander_set_label_widget(GTK_EXPANDER(group.expander), caption);
+  gtk_expander_set_label_fill(GTK_EXPANDER(group.expander), TRUE);
+  gtk_expander_set_expanded(GTK_EXPANDER(group.expander), group.unfolded);
+  sb_style_name(group.expander, title, NULL);
+  sb_style_class(name, "sb-group");
+  gtk_widget_set_hexpand(caption, TRUE);
+  group.box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
+  gtk_widget_set_margin_start(group.box, 22);
+  gtk_widget_set_margin_bottom(group.box, 4);
+  gtk_container_add(GTK_CONTAINER(group.expander), group.box);
+  gtk_box_pack_start(GTK_BOX(panel->list), group.expander, FALSE, FALSE, 0);
+  g_array_append_val(panel->groups, group);
+  int index = (int)panel->groups->len - 1;
+  g_hash_table_insert(by_title, g_steal_pointer(&title), GINT_TO_POINTER(index));
+  return index;
+}
+
+static Group *group_at(SbParamPanel *panel, int index) {
+  return &g_array_index(panel->groups, Group, (guint)index);
+}
+
+static void refresh(SbParamPanel *panel) {
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    sb_param_row_refresh(SB_PARAM_ROW(panel->row[id]));
+  }
+
+  // The groups of single seals say how much of them is in force.
+  for (guint g = 0; g < panel->groups->len; g++) {
+    Group *group = group_at(panel, (int)g);
+    int own = 0;
+    gboolean override = FALSE;
+    for (int id = 0; id < SB_PARAM_COUNT; id++) {
+      if (panel->group_of[id] == (int)g && sb_param((SbParamId)id)->parent >= 0) {
+        override = TRUE;
+        own += sb_document_gives(sb_session_document(panel->session), (SbParamId)id);
+      }
+    }
+    if (override) {
+      g_autofree char *note = own > 0 ? g_strdup_printf("%d differ", own) : g_strdup("as both");
+      gtk_label_set_text(GTK_LABEL(group->note), note);
+    }
+  }
+}
+
+// Shows the rows that match and unfolds their groups; with an empty search as it was before.
+static void on_search(GtkSearchEntry *entry, SbParamPanel *panel) {
+  g_autofree char *needle = g_utf8_casefold(gtk_entry_get_text(GTK_ENTRY(entry)), -1);
+  g_strstrip(needle);
+  gboolean searching = needle[0] != '\0';
+  if (searching && !panel->searching) {
+    for (guint g = 0; g < panel->groups->len; g++) {
+      Group *group = group_at(panel, (int)g);
+      group->unfolded = gtk_expander_get_expanded(GTK_EXPANDER(group->expander));
+    }
+  }
+  int found = 0;
+  for (guint g = 0; g < panel->groups->len; g++) {
+    Group *group = group_at(panel, (int)g);
+    int in_group = 0;
+    for (int id = 0; id < SB_PARAM_COUNT; id++) {
+      if (panel->group_of[id] == (int)g) {
+        gboolean match = !searching || sb_param_row_matches(SB_PARAM_ROW(panel->row[id]), needle);
+        gtk_widget_set_visible(panel->row[id], match);
+        in_group += match;
+      }
+    }
+    found += in_group;
+    gtk_widget_set_visible(group->expander, in_group > 0);
+    if (searching) {
+      gtk_expander_set_expanded(GTK_EXPANDER(group->expander), TRUE);
+    } else if (panel->searching) {
+      gtk_expander_set_expanded(GTK_EXPANDER(group->expander), group->unfolded);
+    }
+  }
+  gtk_widget_set_visible(panel->nothing, found == 0);
+  panel->searching = searching;
+}
+
+// Escape in the search box clears it (GtkSearchEntry) and gives the focus back to the fields.
+static void on_stop_search(GtkSearchEntry *entry, SbParamPanel *panel) {
+  gtk_entry_set_text(GTK_ENTRY(entry), "");
+  gtk_widget_child_focus(panel->list, GTK_DIR_TAB_FORWARD);
+}
+
+static gboolean on_map_scroll(gpointer data) {
+  GtkWidget *row = data;
+  GtkWidget *scroller = gtk_widget_get_ancestor(row, GTK_TYPE_SCROLLED_WINDOW);
+  GtkWidget *list = gtk_bin_get_child(GTK_BIN(gtk_bin_get_child(GTK_BIN(scroller))));
+  int x = 0;
+  int y = 0;
+  if (gtk_widget_translate_coordinates(row, list, 0, 0, &x, &y)) {
+    GtkAdjustment *adjustment = gtk_scrolled_window_get_vadjustment(GTK_SCROLLED_WINDOW(scroller));
+    gtk_adjustment_clamp_page(adjustment, y - 40, y + gtk_widget_get_allocated_height(row) + 40);
+  }
+  g_object_unref(row);
+  return G_SOURCE_REMOVE;
+}
+
+void sb_param_panel_reveal(SbParamPanel *panel, SbParamId id) {
+  gtk_entry_set_text(GTK_ENTRY(panel->search), "");
+  Group *group = group_at(panel, panel->group_of[id]);
+  gtk_expander_set_expanded(GTK_EXPANDER(group->expander), TRUE);
+  sb_param_row_focus(SB_PARAM_ROW(panel->row[id]));
+  g_idle_add(on_map_scroll, g_object_ref(panel->row[id]));
+}
+
+void sb_param_panel_search(SbParamPanel *panel) {
+  gtk_widget_grab_focus(panel->search);
+}
+
+GtkWidget *sb_param_panel_new(SbSession *session) {
+  SbParamPanel *panel =
+      g_object_new(SB_TYPE_PARAM_PANEL, "orientation", GTK_ORIENTATION_VERTICAL, NULL);
+  panel->session = session;
+  g_autoptr(GHashTable) by_title = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+  g_autoptr(GtkSizeGroup) fields = gtk_size_group_new(GTK_SIZE_GROUP_HORIZONTAL);
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    panel->group_of[id] = group_for(panel, by_title, sb_param((SbParamId)id)->key);
+    panel->row[id] = sb_param_row_new(session, (SbParamId)id, fields);
+    gtk_box_pack_start(GTK_BOX(group_at(panel, panel->group_of[id])->box), panel->row[id], FALSE,
+                       FALSE, 0);
+  }
+  g_signal_connect_object(session, "params-changed", G_CALLBACK(refresh), panel, G_CONNECT_SWAPPED);
+  refresh(panel);
+  gtk_widget_show_all(GTK_WIDGET(panel->list));
+  return GTK_WIDGET(panel);
+}
+
+static void finalize(GObject *object) {
+  g_array_unref(SB_PARAM_PANEL(object)->groups);
+  G_OBJECT_CLASS(sb_param_panel_parent_class)->finalize(object);
+}
+
+static void sb_param_panel_class_init(SbParamPanelClass *class) {
+  G_OBJECT_CLASS(class)->finalize = finalize;
+}
+
+static void sb_param_panel_init(SbParamPanel *panel) {
+  panel->groups = g_array_new(FALSE, TRUE, sizeof(Group));
+  sb_style_class(GTK_WIDGET(panel), "sb-panel");
+
+  panel->search = gtk_search_entry_new();
+  g_autofree char *hint = g_strdup_printf("Search %d parameters", SB_PARAM_COUNT);
+  gtk_entry_set_placeholder_text(GTK_ENTRY(panel->search), hint);
+  sb_style_name(panel->search, "Search parameters",
+                "Shows the parameters whose name, key, symbol "
+                "or help holds the text");
+  g_object_set(panel->search, "margin-start", 20, "margin-end", 20, "margin-top", 10,
+               "margin-bottom", 6, NULL);
+  g_signal_connect(panel->search, "search-changed", G_CALLBACK(on_search), panel);
+  g_signal_connect(panel->search, "stop-search", G_CALLBACK(on_stop_search), panel);
+  gtk_box_pack_start(GTK_BOX(panel), panel->search, FALSE, FALSE, 0);
+
+  panel->list = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
+  g_object_set(panel->list, "margin-start", 18, "margin-end", 16, "margin-bottom", 12, NULL);
+  panel->nothing = gtk_label_new("No parameter matches.");
+  sb_style_class(panel->nothing, "sb-note");
+  gtk_widget_set_margin_top(panel->nothing, 24);
+  gtk_widget_set_no_show_all(panel->nothing, TRUE);
+  gtk_box_pack_start(GTK_BOX(panel->list), panel->nothing, FALSE, FALSE, 0);
+
+  panel->scroller = gtk_scrolled_window_new(NULL, NULL);
+  gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(panel->scroller), GTK_POLICY_NEVER,
+                                 GTK_POLICY_AUTOMATIC);
+  gtk_container_add(GTK_CONTAINER(panel->scroller), panel->list);
+  gtk_box_pack_start(GTK_BOX(panel), panel->scroller, TRUE, TRUE, 0);
+  gtk_widget_show_all(GTK_WIDGET(panel));
+}

@@ -1,0 +1,25 @@
+// One row of the parameter panel: label and range, a field with unit, the symbol, a reset button,
+// and an error line. Generated from the catalogue.
+#pragma once
+
+#include "ui/session.h"
+
+#include <gtk/gtk.h>
+
+#define SB_TYPE_PARAM_ROW (sb_param_row_get_type())
+G_DECLARE_FINAL_TYPE(SbParamRow, sb_param_row, SB, PARAM_ROW, GtkBox)
+
+// A row for parameter `id` of the session's document. The label columns of all rows in `labels`
+// get one width.
+GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fields);
+
+SbParamId sb_param_row_id(SbParamRow *row);
+
+// Shows the value in force, the error, and what may be edited.
+void sb_param_row_refresh(SbParamRow *row);
+
+// True if the text (lower case) occurs in the label, the key, the symbol or the help.
+gboolean sb_param_row_matches(SbParamRow *row, const char *needle);
+
+// Moves the keyboard focus into the row's field.
+void sb_param_row_focus(SbParamRow *row);

@@ -1,0 +1,377 @@
+// The section of the valve at the playhead. The picture is the display list of app/section. Before
+// the first run it is a section at rest, from a run of the closed forms with two frames that takes
+// a fraction of a millisecond. Zooming keeps the size of text and lines and enlarges the valve;
+// drag moves it.
+#include "ui/section_view.h"
+
+#include "app/chart/theme.h"
+#include "app/section/draw_cairo.h"
+#include "app/section/section.h"
+#include "ui/style.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { LIMIT_SAMPLES = 400 }; // frames read per update for the scales
+
+typedef struct {
+  SbSession *session;
+  GtkWidget *box, *area, *inset_combo, *forces, *labels, *empty;
+  SbSection *section; // of `run`'s model, or of the resting valve
+  const SbRun *run;   // what `section` was made for; never read through
+  const SbRun *rest;  // owned: the resting valve
+  SbSectionLimits limits;
+  size_t limits_frames; // frames that the limits have seen
+  SbDrawList list;
+  SbText *text;
+  double zoom, pan_x, pan_y;
+  double press_x, press_y;
+  guint describe;
+} View;
+
+// The resting valve ------------------------------------------------------------------------------
+
+// Whatever the models of the scene are, closed forms do for a picture at rest.
+static SbRun *make_rest(const SbModel *model) {
+  SbModel quick = *model;
+  quick.fit = 0;
+  quick.film = SB_MODEL_FILM_THESIS;
+  quick.motion = SB_MODEL_MOTION_QUASI_STATIC;
+  quick.frames = 2;
+  quick.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION;
+  SbPlan plan;
+  sb_plan_make(&plan, &quick);
+  SbRun *run = NULL;
+  SbReport report = {0};
+  if (sb_run_create(&run, &quick, &plan, &report) != SB_OK) {
+    return NULL;
+  }
+  sb_run_execute(run, NULL, &report);
+  size_t count = 0;
+  sb_run_frames(run, &count);
+  if (count == 0) {
+    sb_run_destroy(run);
+    return NULL;
+  }
+  return run;
+}
+
+static void drop_rest(View *view) {
+  sb_run_destroy((SbRun *)(guintptr)view->rest);
+  view->rest = NULL;
+}
+
+// Scales -----------------------------------------------------------------------------------------
+
+// Widens the limits by frames that have come since, reading at most LIMIT_SAMPLES of them. True if
+// they grew.
+static gboolean widen_limits(View *view, const SbFrame *frames, size_t count) {
+  SbSectionLimits *limits = &view->limits;
+  SbSectionLimits before = *limits;
+  size_t stride = MAX((count - view->limits_frames) / LIMIT_SAMPLES, 1);
+  for (size_t i = view->limits_frames; i < count; i += stride) {
+    const SbFrame *frame = &frames[i];
+    for (int k = 0; k < SB_SEAL_COUNT; k++) {
+      const SbSealFrame *seal = &frame->seal[k];
+      limits->pressure_max = fmax(limits->pressure_max, seal->pressure_peak);
+      limits->film_max = fmax(limits->film_max, seal->film_central);
+      limits->contact_left[k] = fmin(limits->contact_left[k], seal->contact_left);
+      limits->contact_right[k] = fmax(limits->contact_right[k], seal->contact_right);
+    }
+    const SbSealFrame *inner = &frame->seal[SB_INNER];
+    if (frame->stage <= SB_STAGE_B && inner->land_fraction >= 1 &&
+        inner->contact_right > inner->contact_left) {
+      limits->inner_contact_left = inner->contact_left;
+    }
+  }
+  view->limits_frames = count;
+  return memcmp(&before, limits, sizeof before) != 0;
+}
+
+// Makes the section fit what is shown. Returns the frame to draw, or NULL.
+static const SbFrame *prepare(View *view) {
+  const SbRun *run = sb_session_run(view->session);
+  const SbFrame *frame = sb_session_frame(view->session);
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(view->session, &count);
+  if (run == NULL || frame == NULL) {
+    const SbModel *model = sb_session_model(view->session);
+    if (view->rest == NULL && model != NULL) {
+      view->rest = make_rest(model);
+    }
+    run = view->rest;
+    if (run == NULL) {
+      return NULL;
+    }
+    frames = sb_run_frames(run, &count);
+    frame = frames;
+  }
+  gboolean other = run != view->run;
+  if (other) {
+    view->limits = (SbSectionLimits){0};
+    view->limits_frames = 0;
+    view->run = run;
+  }
+  if (widen_limits(view, frames, count) || other || view->section == NULL) {
+    sb_section_destroy(view->section);
+    view->section = sb_section_create(sb_run_model(run), &view->limits);
+  }
+  return frame;
+}
+
+// Drawing ----------------------------------------------------------------------------------------
+
+static gboolean on_draw(GtkWidget *widget, cairo_t *cr, View *view) {
+  const SbTheme *theme = sb_theme(sb_style_is_dark());
+  SbColor ground = theme->role[SB_ROLE_PANEL];
+  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
+  cairo_paint(cr);
+  const SbFrame *frame = prepare(view);
+  if (frame == NULL) {
+    return GDK_EVENT_PROPAGATE;
+  }
+  double width = gtk_widget_get_allocated_width(widget);
+  double height = gtk_widget_get_allocated_height(widget);
+  const char *inset = gtk_combo_box_get_active_id(GTK_COMBO_BOX(view->inset_combo));
+  SbSectionView how = {
+      .width = width * view->zoom,
+      .height = height * view->zoom,
+      .dark = sb_style_is_dark(),
+      .bare = false,
+      .hide_insets = g_strcmp0(inset, "none") == 0,
+      .hide_forces = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->forces)),
+      .hide_labels = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->labels)),
+      .inset_seal = g_strcmp0(inset, "inner") == 0 ? SB_INNER : SB_OUTER,
+  };
+  SbSectionInstant instant = {.frame = frame};
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    instant.profile[i] = sb_run_profile(view->run, frame->seal[i].profile);
+  }
+  sb_section_draw(view->section, &view->list, &how, &instant);
+  cairo_translate(cr, -view->pan_x, -view->pan_y);
+  sb_draw_list_to_cairo(&view->list, view->text, cr);
+  cairo_translate(cr, view->pan_x, view->pan_y);
+
+  // An earlier run behind one under way recedes; so does a picture that no longer fits the values.
+  if (gtk_widget_has_visible_focus(widget)) {
+    gtk_render_focus(gtk_widget_get_style_context(widget), cr, 3, 3, width - 6, height - 6);
+  }
+  return GDK_EVENT_PROPAGATE;
+}
+
+static gboolean describe(gpointer data) {
+  View *view = data;
+  g_autofree char *where = sb_session_where(view->session);
+  g_autofree char *text = where[0] != '\0'
+                              ? g_strdup_printf("Axial section of the valve, %s", where)
+                              : g_strdup("Axial section of the valve at rest");
+  sb_style_name(view->area, "Section", text);
+  view->describe = 0;
+  return G_SOURCE_REMOVE;
+}
+
+static void on_change(View *view) {
+  gtk_widget_queue_draw(view->area);
+  if (view->describe == 0) {
+    view->describe = g_timeout_add(200, describe, view);
+  }
+}
+
+static void on_run_changed(View *view) {
+  gtk_widget_set_visible(view->empty, sb_session_state(view->session) == SB_SESSION_EMPTY);
+  on_change(view);
+}
+
+static void on_params_changed(View *view) {
+  if (sb_session_run(view->session) == NULL) {
+    drop_rest(view);
+    view->run = NULL;
+  }
+  on_run_changed(view);
+}
+
+// Zoom and pan -----------------------------------------------------------------------------------
+
+static void clamp_pan(View *view) {
+  double width = gtk_widget_get_allocated_width(view->area);
+  double height = gtk_widget_get_allocated_height(view->area);
+  view->pan_x = fmin(fmax(view->pan_x, 0), width * (view->zoom - 1));
+  view->pan_y = fmin(fmax(view->pan_y, 0), height * (view->zoom - 1));
+}
+
+// Zooms so that the point (x, y) of the widget stays where it is.
+static void zoom_at(View *view, double factor, double x, double y) {
+  double zoom = fmin(fmax(view->zoom * factor, 1), 6);
+  view->pan_x = (view->pan_x + x) * zoom / view->zoom - x;
+  view->pan_y = (view->pan_y + y) * zoom / view->zoom - y;
+  view->zoom = zoom;
+  clamp_pan(view);
+  gtk_widget_queue_draw(view->area);
+}
+
+void sb_section_view_zoom(GtkWidget *widget, int direction) {
+  View *view = g_object_get_data(G_OBJECT(widget), "view");
+  double factor = direction > 0 ? 1.5 : direction < 0 ? 1 / 1.5 : 1e-9;
+  zoom_at(view, factor, gtk_widget_get_allocated_width(view->area) / 2.0,
+          gtk_widget_get_allocated_height(view->area) * 0.75);
+}
+
+static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, View *view) {
+  double dx = 0;
+  double dy = 0;
+  if (event->direction == GDK_SCROLL_UP) {
+    dy = -1;
+  } else if (event->direction == GDK_SCROLL_DOWN) {
+    dy = 1;
+  } else {
+    gdk_event_get_scroll_deltas((GdkEvent *)event, &dx, &dy);
+  }
+  zoom_at(view, pow(1.2, -dy), event->x, event->y);
+  return GDK_EVENT_STOP;
+}
+
+static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
+  gtk_widget_grab_focus(widget);
+  view->press_x = event->x + view->pan_x;
+  view->press_y = event->y + view->pan_y;
+  return GDK_EVENT_STOP;
+}
+
+static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
+  view->pan_x = view->press_x - event->x;
+  view->pan_y = view->press_y - event->y;
+  clamp_pan(view);
+  gtk_widget_queue_draw(widget);
+  return GDK_EVENT_STOP;
+}
+
+// Life -------------------------------------------------------------------------------------------
+
+static void on_destroy(GtkWidget *widget, View *view) {
+  g_signal_handlers_disconnect_by_data(view->session, view);
+  if (view->describe != 0) {
+    g_source_remove(view->describe);
+    view->describe = 0;
+  }
+}
+
+static void view_free(gpointer data) {
+  View *view = data;
+  sb_section_destroy(view->section);
+  sb_draw_list_finish(&view->list);
+  sb_text_destroy(view->text);
+  drop_rest(view);
+  g_free(view);
+}
+
+static GtkWidget *toggle_new(View *view, const char *label, const char *tip, GtkBox *box) {
+  GtkWidget *toggle = gtk_toggle_button_new_with_label(label);
+  gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(toggle), TRUE);
+  gtk_widget_set_tooltip_text(toggle, tip);
+  g_signal_connect_swapped(toggle, "toggled", G_CALLBACK(on_change), view);
+  gtk_box_pack_start(box, toggle, FALSE, FALSE, 0);
+  return toggle;
+}
+
+static GtkWidget *icon_button(const char *icon, const char *name, const char *action, GtkBox *box) {
+  GtkWidget *button = gtk_button_new_from_icon_name(icon, GTK_ICON_SIZE_BUTTON);
+  gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+  gtk_widget_set_tooltip_text(button, name);
+  sb_style_name(button, name, NULL);
+  gtk_box_pack_start(box, button, FALSE, FALSE, 0);
+  return button;
+}
+
+static GtkWidget *linked_box(void) {
+  GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+  sb_style_class(box, "linked");
+  return box;
+}
+
+static GtkWidget *make_toolbar(View *view) {
+  GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+  sb_style_class(bar, "sb-toolbar");
+  GtkWidget *heading = gtk_label_new("Section");
+  sb_style_class(heading, "sb-heading");
+  gtk_widget_set_margin_end(heading, 4);
+  gtk_box_pack_start(GTK_BOX(bar), heading, FALSE, FALSE, 0);
+
+  view->inset_combo = gtk_combo_box_text_new();
+  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "outer", "Insets: outer seal");
+  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "inner", "Insets: inner seal");
+  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "none", "No insets");
+  gtk_combo_box_set_active(GTK_COMBO_BOX(view->inset_combo), 0);
+  sb_style_name(view->inset_combo, "Insets", "Which seal's contact the insets enlarge");
+  g_signal_connect_swapped(view->inset_combo, "changed", G_CALLBACK(on_change), view);
+  gtk_box_pack_start(GTK_BOX(bar), view->inset_combo, FALSE, FALSE, 0);
+
+  GtkWidget *toggles = linked_box();
+  view->forces = toggle_new(view, "Forces", "Force arrows", GTK_BOX(toggles));
+  view->labels = toggle_new(view, "Labels", "Names and values of the parts", GTK_BOX(toggles));
+  gtk_box_pack_start(GTK_BOX(bar), toggles, FALSE, FALSE, 0);
+
+  GtkWidget *zooms = linked_box();
+  icon_button("zoom-out-symbolic", "Zoom out", "win.zoom-out", GTK_BOX(zooms));
+  icon_button("zoom-fit-best-symbolic", "Whole valve", "win.zoom-fit", GTK_BOX(zooms));
+  icon_button("zoom-in-symbolic", "Zoom in", "win.zoom-in", GTK_BOX(zooms));
+  gtk_box_pack_end(GTK_BOX(bar), zooms, FALSE, FALSE, 0);
+  return bar;
+}
+
+// Over the picture while nothing has run: one sentence, one button.
+static GtkWidget *make_empty(void) {
+  GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 10);
+  sb_style_class(box, "sb-empty");
+  gtk_widget_set_halign(box, GTK_ALIGN_CENTER);
+  gtk_widget_set_valign(box, GTK_ALIGN_START);
+  gtk_widget_set_margin_top(box, 120);
+  gtk_container_add(GTK_CONTAINER(box),
+                    gtk_label_new("Run the cycle to see forces, contacts and film."));
+  GtkWidget *button = gtk_button_new_with_label("Run the cycle");
+  gtk_actionable_set_action_name(GTK_ACTIONABLE(button), "win.run-or-stop");
+  gtk_widget_set_halign(button, GTK_ALIGN_CENTER);
+  sb_style_class(button, "suggested-action");
+  gtk_container_add(GTK_CONTAINER(box), button);
+  gtk_widget_show_all(box);
+  gtk_widget_set_no_show_all(box, TRUE);
+  return box;
+}
+
+GtkWidget *sb_section_view_new(SbSession *session) {
+  View *view = g_new0(View, 1);
+  view->session = session;
+  view->zoom = 1;
+  view->text = sb_text_create();
+  sb_draw_list_init(&view->list);
+  view->box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+  g_object_set_data_full(G_OBJECT(view->box), "view", view, view_free);
+  gtk_box_pack_start(GTK_BOX(view->box), make_toolbar(view), FALSE, FALSE, 0);
+
+  view->area = gtk_drawing_area_new();
+  sb_style_class(view->area, "sb-canvas");
+  gtk_widget_set_can_focus(view->area, TRUE);
+  gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |
+                                        GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK);
+  atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_IMAGE);
+  gtk_widget_set_size_request(view->area, 400, 320);
+  GtkWidget *overlay = gtk_overlay_new();
+  gtk_container_add(GTK_CONTAINER(overlay), view->area);
+  view->empty = make_empty();
+  gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->empty);
+  gtk_box_pack_start(GTK_BOX(view->box), overlay, TRUE, TRUE, 0);
+
+  g_signal_connect(view->area, "draw", G_CALLBACK(on_draw), view);
+  g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_scroll), view);
+  g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
+  g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
+  g_signal_connect_swapped(view->area, "size-allocate", G_CALLBACK(clamp_pan), view);
+  g_signal_connect(view->box, "destroy", G_CALLBACK(on_destroy), view);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_params_changed), view);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_run_changed), view);
+  g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_change), view);
+  g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(on_change), view);
+  describe(view);
+  gtk_widget_show_all(view->box);
+  on_run_changed(view);
+  return view->box;
+}

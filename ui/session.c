@@ -1,0 +1,227 @@
+// The session: edits go to the document and, shortly after, to the runner; what the runner
+// publishes comes back as the shown run. A refused text stays with its field, so that the value in
+// force (and the pictures) remain what they were.
+#include "ui/session.h"
+
+#include "ui/session_private.h"
+
+#include <string.h>
+
+static guint signals[SB_SIGNAL_COUNT];
+
+G_DEFINE_TYPE(SbSession, sb_session, G_TYPE_OBJECT)
+
+// "9 m is out of range" -> "9 m is out of range."
+static char *sentence(const char *text, const char *allowed) {
+  g_autofree char *copy =
+      allowed != NULL ? g_strdup_printf("%s (allowed: %s)", text, allowed) : g_strdup(text);
+  gsize length = strlen(copy);
+  if (length > 0) {
+    copy[0] = g_ascii_toupper(copy[0]);
+  }
+  return g_strconcat(copy, length > 0 && copy[length - 1] == '.' ? "" : ".", NULL);
+}
+
+static void forget_rejected(SbSession *session, int id) {
+  g_clear_pointer(&session->rejected[id], g_free);
+  g_clear_pointer(&session->error[id], g_free);
+}
+
+// Compiles the values; what does not go together becomes errors of the fields named. Errors of
+// refused texts stay.
+static void compile(SbSession *session) {
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    if (session->rejected[id] == NULL) {
+      g_clear_pointer(&session->error[id], g_free);
+    }
+  }
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  session->model_valid = sb_document_compile(session->document, &session->model, issues);
+  for (guint i = 0; !session->model_valid && i < issues->len; i++) {
+    const SbIssue *issue = g_ptr_array_index(issues, i);
+    int id = issue->key != NULL ? sb_param_find(issue->key) : -1;
+    if (id >= 0 && session->error[id] == NULL) {
+      session->error[id] = sentence(issue->text, issue->allowed);
+    }
+  }
+}
+
+void sb_session_emit(SbSession *session, SbSessionSignal signal) {
+  g_signal_emit(session, signals[signal], 0);
+}
+
+static void changed(SbSession *session) {
+  compile(session);
+  sb_session_values_changed(session);
+  sb_session_emit(session, SB_SIGNAL_PARAMS);
+}
+
+const SbDocument *sb_session_document(SbSession *session) {
+  return session->document;
+}
+
+static void replace_document(SbSession *session, SbDocument *document) {
+  sb_document_free(session->document);
+  session->document = document;
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    forget_rejected(session, id);
+  }
+  sb_session_clear_runs(session);
+  changed(session);
+}
+
+gboolean sb_session_open(SbSession *session, const char *path, GPtrArray *issues) {
+  SbDocument *document = sb_document_load(path, issues);
+  if (document == NULL) {
+    return FALSE;
+  }
+  replace_document(session, document);
+  return TRUE;
+}
+
+gboolean sb_session_save(SbSession *session, const char *path, GError **error) {
+  const char *target = path != NULL ? path : sb_document_path(session->document);
+  if (!sb_document_save(session->document, target, error)) {
+    return FALSE;
+  }
+  sb_session_emit(session, SB_SIGNAL_PARAMS);
+  return TRUE;
+}
+
+void sb_session_reset(SbSession *session) {
+  replace_document(session, sb_document_new());
+}
+
+gboolean sb_session_is_modified(SbSession *session) {
+  return sb_document_is_modified(session->document);
+}
+
+gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text) {
+  g_autoptr(GError) error = NULL;
+  forget_rejected(session, (int)id);
+  gboolean good = sb_document_set(session->document, id, text, &error);
+  if (!good) {
+    session->rejected[id] = g_strdup(text);
+    session->error[id] = sentence(error->message, NULL);
+  }
+  changed(session);
+  return good;
+}
+
+gboolean sb_session_edit_value(SbSession *session, SbParamId id, double value) {
+  g_autoptr(GError) error = NULL;
+  forget_rejected(session, (int)id);
+  gboolean good = sb_document_set_value(session->document, id, value, TRUE, &error);
+  changed(session);
+  return good;
+}
+
+void sb_session_unset(SbSession *session, SbParamId id) {
+  forget_rejected(session, (int)id);
+  if (sb_document_gives(session->document, id)) {
+    sb_document_unset(session->document, id);
+  }
+  changed(session);
+}
+
+void sb_session_undo(SbSession *session) {
+  int id = sb_document_undo(session->document);
+  if (id >= 0) {
+    forget_rejected(session, id);
+    changed(session);
+  }
+}
+
+void sb_session_redo(SbSession *session) {
+  int id = sb_document_redo(session->document);
+  if (id >= 0) {
+    forget_rejected(session, id);
+    changed(session);
+  }
+}
+
+const char *sb_session_error(SbSession *session, SbParamId id) {
+  return session->error[id];
+}
+
+const char *sb_session_rejected(SbSession *session, SbParamId id) {
+  return session->rejected[id];
+}
+
+int sb_session_error_count(SbSession *session) {
+  int count = 0;
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    count += session->error[id] != NULL;
+  }
+  return count;
+}
+
+int sb_session_first_error(SbSession *session) {
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    if (session->error[id] != NULL) {
+      return id;
+    }
+  }
+  return -1;
+}
+
+void sb_session_clear_error(SbSession *session, SbParamId id) {
+  if (session->rejected[id] != NULL) {
+    forget_rejected(session, (int)id);
+    changed(session);
+  }
+}
+
+const SbModel *sb_session_model(SbSession *session) {
+  return session->model_valid ? &session->model : NULL;
+}
+
+const char *sb_session_lock(SbSession *session, SbParamId id) {
+  // Values that the chosen models do not read.
+  const SbDocument *document = session->document;
+  int motion = (int)sb_document_value(document, SB_P_MODELS_MOTION);
+  int film = (int)sb_document_value(document, SB_P_MODELS_FILM);
+  if (id == SB_P_STEM_MASS && motion == SB_MODEL_MOTION_QUASI_STATIC) {
+    return "Locked: the quasi-static motion has no inertia";
+  }
+  if (id == SB_P_OUTPUT_TOLERANCE && film != SB_MODEL_FILM_REYNOLDS &&
+      sb_document_value(document, SB_P_MODELS_FIT) < 4) {
+    return "Locked: closed forms have no discretisation error";
+  }
+  return NULL;
+}
+
+static void dispose(GObject *object) {
+  sb_session_dispose_runs(SB_SESSION(object));
+  G_OBJECT_CLASS(sb_session_parent_class)->dispose(object);
+}
+
+static void finalize(GObject *object) {
+  SbSession *session = SB_SESSION(object);
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    forget_rejected(session, id);
+  }
+  sb_document_free(session->document);
+  G_OBJECT_CLASS(sb_session_parent_class)->finalize(object);
+}
+
+static void sb_session_class_init(SbSessionClass *class) {
+  static const char *const names[SB_SIGNAL_COUNT] = {"params-changed", "run-changed",
+                                                     "frames-changed", "playhead-changed"};
+  G_OBJECT_CLASS(class)->dispose = dispose;
+  G_OBJECT_CLASS(class)->finalize = finalize;
+  for (int i = 0; i < SB_SIGNAL_COUNT; i++) {
+    signals[i] = g_signal_new(names[i], SB_TYPE_SESSION, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+                              G_TYPE_NONE, 0);
+  }
+}
+
+static void sb_session_init(SbSession *session) {
+  session->document = sb_document_new();
+  sb_session_init_runs(session);
+  compile(session);
+}
+
+SbSession *sb_session_new(void) {
+  return g_object_new(SB_TYPE_SESSION, NULL);
+}

@@ -1,0 +1,157 @@
+// What a window works on: one document, the run that belongs to it, and the playhead. Widgets read
+// it and listen to it; they never talk to each other.
+//
+// Signals (all on the main thread):
+//   "params-changed"    a value, a field error, or the document's name or edited state changed
+//   "run-changed"       the state of the run, or which run is shown, changed
+//   "frames-changed"    the run under way has more frames (at most once per drawn frame)
+//   "playhead-changed"  the shown frame, or whether it plays, changed
+#pragma once
+
+#include "app/chart/data.h"
+#include "app/document/document.h"
+#include "engine/sealbench.h"
+
+#include <gio/gio.h>
+
+#define SB_TYPE_SESSION (sb_session_get_type())
+G_DECLARE_FINAL_TYPE(SbSession, sb_session, SB, SESSION, GObject)
+
+typedef enum {
+  SB_SESSION_EMPTY,   // nothing has run
+  SB_SESSION_RUNNING, // a run is under way (or about to start)
+  SB_SESSION_DONE,    // the shown run is complete and belongs to the values
+  SB_SESSION_PARTIAL, // the shown run was cancelled: its frames so far stand
+  SB_SESSION_FAILED   // the last run failed; the last good state is shown
+} SbSessionState;
+
+// An untitled valve with all defaults, nothing run.
+SbSession *sb_session_new(void);
+
+// The document -----------------------------------------------------------------------------------
+
+// Borrowed; read only. Edits go through the session.
+const SbDocument *sb_session_document(SbSession *session);
+
+// Opens a file in place of the present document. On failure nothing changes and `issues` (of
+// SbIssue) says why; issues of a file that opened all the same are added as well.
+gboolean sb_session_open(SbSession *session, const char *path, GPtrArray *issues);
+
+// Writes the document to `path` (NULL: where it came from).
+gboolean sb_session_save(SbSession *session, const char *path, GError **error);
+
+// A fresh untitled valve.
+void sb_session_reset(SbSession *session);
+
+gboolean sb_session_is_modified(SbSession *session);
+
+// Edits a value by text. A text that cannot be taken stays as the field's error, and the value in
+// force stays as it was.
+gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text);
+
+// The same by value; successive calls merge into one undo step.
+gboolean sb_session_edit_value(SbSession *session, SbParamId id, double value);
+
+// The value of the valve, the parent or the catalogue again; clears the field's error.
+void sb_session_unset(SbSession *session, SbParamId id);
+
+void sb_session_undo(SbSession *session);
+void sb_session_redo(SbSession *session);
+
+// What is wrong with a field: the sentence and the rejected text; NULL if nothing is. Borrowed
+// until the next change.
+const char *sb_session_error(SbSession *session, SbParamId id);
+const char *sb_session_rejected(SbSession *session, SbParamId id);
+
+// Number of fields with an error, and the first of them (-1 if none).
+int sb_session_error_count(SbSession *session);
+int sb_session_first_error(SbSession *session);
+
+// Drops a field's rejected text, so that the value in force stands again.
+void sb_session_clear_error(SbSession *session, SbParamId id);
+
+// The model of the present values; NULL while they do not go together. Borrowed until the next
+// change.
+const SbModel *sb_session_model(SbSession *session);
+
+// Why a parameter is locked now (it would have no effect, or a run holds it); NULL if it is not.
+const char *sb_session_lock(SbSession *session, SbParamId id);
+
+// The run
+// ------------------------------------------------------------------------------------------
+
+SbSessionState sb_session_state(SbSession *session);
+
+// Share of the run under way that is done, 0 to 1.
+double sb_session_progress(SbSession *session);
+
+// Starts a run of the present values now (without the delay that edits wait for).
+void sb_session_start(SbSession *session);
+
+// Cancels the run under way; its frames so far stay. Does nothing if none is.
+void sb_session_stop(SbSession *session);
+
+// Whether edits start runs by themselves.
+gboolean sb_session_auto_run(SbSession *session);
+void sb_session_set_auto_run(SbSession *session, gboolean on);
+
+// The shown run and how many of its frames are there; NULL if nothing is shown. Borrowed until the
+// next "run-changed".
+const SbRun *sb_session_run(SbSession *session);
+const SbFrame *sb_session_frames(SbSession *session, size_t *count);
+
+// The shown run's summary; NULL while it is computed.
+const SbSummary *sb_session_summary(SbSession *session);
+
+// Keeps the shown run for comparison, or lets it go.
+void sb_session_pin(SbSession *session, gboolean on);
+
+// Name of the pinned run, by what distinguishes it; NULL if none is pinned.
+const char *sb_session_pinned_name(SbSession *session);
+
+// True if the shown run is not of the present values; then `*id` is a parameter in which it differs
+// (-1 if several do) and `*value` the shown run's value [SI].
+gboolean sb_session_is_stale(SbSession *session, int *id, double *value);
+
+// All that views of app/chart are given. Borrowed; its pointers hold until the next signal.
+const SbChartData *sb_session_chart(SbSession *session);
+
+// What went wrong in the last run, one sentence with residual, time and parameter; NULL if nothing
+// did.
+const char *sb_session_failure(SbSession *session);
+
+// The playhead
+// ---------------------------------------------------------------------------------------
+
+// Index of the shown frame; 0 if there are none.
+size_t sb_session_playhead(SbSession *session);
+void sb_session_set_playhead(SbSession *session, size_t frame);
+
+// The shown frame, or NULL.
+const SbFrame *sb_session_frame(SbSession *session);
+
+// Frame nearest to a time [s] of the shown run.
+size_t sb_session_frame_at(SbSession *session, double time);
+
+// Moves by frames, or to the next or previous event.
+void sb_session_step(SbSession *session, int frames);
+void sb_session_step_event(SbSession *session, int direction);
+
+gboolean sb_session_is_playing(SbSession *session);
+void sb_session_play(SbSession *session, gboolean on);
+gboolean sb_session_loops(SbSession *session);
+void sb_session_set_loops(SbSession *session, gboolean on);
+
+// How long one cycle takes to play [s].
+double sb_session_play_duration(SbSession *session);
+void sb_session_set_play_duration(SbSession *session, double seconds);
+
+// To be called once per drawn frame with the frame clock's time [us]: takes over what the runner
+// has published and moves the playhead.
+void sb_session_tick(SbSession *session, gint64 now);
+
+// True while sb_session_tick() has something to do.
+gboolean sb_session_wants_ticks(SbSession *session);
+
+// "stage C, 3.30 mm, 27.4 N" of the shown frame, "" if there is none. Owned by the caller.
+char *sb_session_where(SbSession *session);

@@ -1,0 +1,56 @@
+// The inside of a session, shared by session.c (document) and session_run.c (runs, playhead).
+#pragma once
+
+#include "ui/playhead.h"
+#include "ui/session.h"
+#include "ui/shown_run.h"
+
+typedef enum {
+  SB_SIGNAL_PARAMS,
+  SB_SIGNAL_RUN,
+  SB_SIGNAL_FRAMES,
+  SB_SIGNAL_PLAYHEAD,
+  SB_SIGNAL_COUNT
+} SbSessionSignal;
+
+typedef struct SbSessionInbox SbSessionInbox;
+
+struct _SbSession {
+  GObject parent_instance;
+
+  // The document and what is wrong with its fields.
+  SbDocument *document; // owned
+  char *rejected[SB_PARAM_COUNT];
+  char *error[SB_PARAM_COUNT];
+  SbModel model;
+  gboolean model_valid;
+
+  // Runs. `fresh` is what the runner computes; `shown` is what the pictures show: `fresh` as soon
+  // as it is worth it, else the run before.
+  SbRunner *runner; // owned
+  SbSessionInbox *inbox;
+  unsigned ticket; // of the request under way; 0 if none is
+  SbParams asked;  // its values
+  SbShownRun *fresh, *shown, *earlier, *pinned;
+  char *pinned_name;
+  SbSessionState state;
+  char *failure;
+  gboolean auto_run;
+  guint debounce; // source of the delayed start
+  gint64 started; // [us]
+
+  SbPlayhead playhead;
+  SbChartData chart; // what views are given
+  char *hash;
+};
+
+void sb_session_emit(SbSession *session, SbSessionSignal signal);
+
+// After each change of values: asks for a run soon.
+void sb_session_values_changed(SbSession *session);
+
+// Forgets runs and the playhead (another document).
+void sb_session_clear_runs(SbSession *session);
+
+void sb_session_init_runs(SbSession *session);
+void sb_session_dispose_runs(SbSession *session);

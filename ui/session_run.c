@@ -1,0 +1,577 @@
+// Runs and the playhead of a session. An edit starts a run 150 ms later; a newer edit cancels it
+// and starts again with the newest values. The new run replaces the shown one when it is complete,
+// or once it has lasted long enough to be watched while it grows; the run before then stays behind
+// it, paler, until the new one is complete, and comes back if the new one fails.
+#include "ui/session_private.h"
+
+#include "app/chart/format.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+  DEBOUNCE_MS = 150,      // after the last edit
+  WATCH_US = 120000,      // a run that lasts longer is shown while it grows
+  FRAMES_PER_TICK = 20000 // read per drawn frame: about 2 ms
+};
+
+static void start_now(SbSession *session);
+
+static SbShownRun **slot(SbShownRun **slot, SbShownRun *value) {
+  SbShownRun *old = *slot;
+  *slot = sb_shown_run_ref(value);
+  sb_shown_run_unref(old);
+  return slot;
+}
+
+// What views see ---------------------------------------------------------------------------------
+
+static SbChartState chart_state(SbSessionState state) {
+  switch (state) {
+  case SB_SESSION_RUNNING:
+    return SB_CHART_RUNNING;
+  case SB_SESSION_PARTIAL:
+    return SB_CHART_PARTIAL;
+  case SB_SESSION_FAILED:
+    return SB_CHART_FAILED;
+  case SB_SESSION_DONE:
+    return SB_CHART_DONE;
+  default:
+    return SB_CHART_EMPTY;
+  }
+}
+
+static void refresh_chart(SbSession *session) {
+  SbChartData *chart = &session->chart;
+  memset(chart, 0, sizeof *chart);
+  if (session->shown != NULL) {
+    chart->run = session->shown->chart;
+    // The run before is complete, whatever becomes of the new one.
+    chart->run.state =
+        session->shown == session->fresh ? chart_state(session->state) : SB_CHART_DONE;
+  }
+  chart->earlier = session->earlier != NULL ? &session->earlier->chart : NULL;
+  chart->pinned = session->pinned != NULL ? &session->pinned->chart : NULL;
+  chart->pinned_name = session->pinned_name;
+  chart->playhead = session->playhead.frame;
+  chart->playing = session->playhead.playing;
+  chart->progress = sb_session_progress(session);
+  chart->title = sb_document_title(session->document);
+  g_free(session->hash);
+  session->hash = sb_document_sha256(session->document);
+  chart->hash = session->hash;
+  chart->failure = session->failure;
+}
+
+static void run_changed(SbSession *session) {
+  refresh_chart(session);
+  sb_session_emit(session, SB_SIGNAL_RUN);
+}
+
+static void playhead_changed(SbSession *session) {
+  session->chart.playhead = session->playhead.frame;
+  session->chart.playing = session->playhead.playing;
+  sb_session_emit(session, SB_SIGNAL_PLAYHEAD);
+}
+
+const SbChartData *sb_session_chart(SbSession *session) {
+  return &session->chart;
+}
+
+// Showing ----------------------------------------------------------------------------------------
+
+// Puts the fresh run in front; what was shown before stays behind it.
+static void show_fresh(SbSession *session) {
+  if (session->shown == session->fresh) {
+    return;
+  }
+  slot(&session->earlier, session->shown);
+  slot(&session->shown, session->fresh);
+}
+
+// Keeps the playhead at the same share of the cycle when another run is shown.
+static void carry_playhead(SbSession *session, double share) {
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  if (count == 0) {
+    session->playhead.frame = 0;
+  } else if (session->playhead.follows) {
+    session->playhead.frame = count - 1;
+  } else {
+    session->playhead.frame = sb_playhead_nearest(frames, count, share * frames[count - 1].time);
+    session->playhead.time = frames[session->playhead.frame].time;
+  }
+}
+
+static double playhead_share(SbSession *session) {
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  if (count == 0 || session->playhead.frame >= count || frames[count - 1].time <= 0) {
+    return 1;
+  }
+  return frames[session->playhead.frame].time / frames[count - 1].time;
+}
+
+// Job --------------------------------------------------------------------------------------------
+
+static void set_failure(SbSession *session, const SbReport *report) {
+  g_free(session->failure);
+  size_t count = 0;
+  sb_run_frames(session->fresh->run, &count);
+  g_autoptr(GString) text =
+      g_string_new(report->text[0] != '\0' ? report->text : sb_status_text(report->status));
+  text->str[0] = g_ascii_toupper(text->str[0]);
+  if (report->residual > 0) {
+    g_string_append_printf(text, " Residual %.1e after %d iterations.", report->residual,
+                           report->iteration);
+  }
+  if (count > 0) {
+    const SbFrame *frames = sb_run_frames(session->fresh->run, &count);
+    g_string_append_printf(text, " At %.2f s of the cycle.", frames[count - 1].time);
+  }
+  if (report->parameter[0] != '\0') {
+    g_string_append_printf(text, " Parameter %s.", report->parameter);
+  }
+  session->failure = g_string_free(g_steal_pointer(&text), FALSE);
+}
+
+static void finish(SbSession *session) {
+  SbShownRun *fresh = session->fresh;
+  SbStatus status = sb_run_handle_status(fresh->handle);
+  double share = playhead_share(session);
+  session->ticket = 0;
+  fresh->chart.summary = sb_run_summary(fresh->run);
+  g_clear_pointer(&session->failure, g_free);
+  if (status == SB_OK) {
+    session->state = SB_SESSION_DONE;
+    fresh->chart.state = SB_CHART_DONE;
+  } else if (status == SB_ERROR_CANCELLED) {
+    session->state = SB_SESSION_PARTIAL;
+    fresh->chart.state = SB_CHART_PARTIAL;
+  } else {
+    session->state = SB_SESSION_FAILED;
+    fresh->chart.state = SB_CHART_FAILED;
+    set_failure(session, sb_run_handle_report(fresh->handle));
+  }
+
+  // A failed run shows its own last good state if it got anywhere, else the run before it does.
+  size_t count = 0;
+  sb_run_frames(fresh->run, &count);
+  if (count > 0) {
+    slot(&session->shown, fresh);
+  } else if (session->shown == fresh) {
+    slot(&session->shown, session->earlier);
+  }
+  slot(&session->earlier, NULL);
+
+  // A short run is read at once; a long one goes on being read by the ticks.
+  if (session->shown == fresh) {
+    sb_shown_run_update(fresh, FRAMES_PER_TICK);
+  }
+  carry_playhead(session, share);
+  run_changed(session);
+  sb_session_emit(session, SB_SIGNAL_FRAMES);
+  playhead_changed(session);
+}
+
+// The runner has something new.
+static void look(SbSession *session) {
+  SbRunHandle *handle = session->ticket != 0 ? sb_runner_latest(session->runner) : NULL;
+  if (handle == NULL || sb_run_handle_ticket(handle) != session->ticket) {
+    sb_run_handle_unref(handle);
+    return;
+  }
+  if (sb_run_handle_run(handle) == NULL) {
+    if (sb_run_handle_is_done(handle)) {
+      session->failure =
+          g_strdup_printf("The run could not start: %s.", sb_run_handle_report(handle)->text);
+      session->ticket = 0;
+      session->state = SB_SESSION_FAILED;
+      run_changed(session);
+    }
+    sb_run_handle_unref(handle);
+    return;
+  }
+  if (session->fresh == NULL) {
+    session->fresh = sb_shown_run_new(handle, &session->asked);
+  } else {
+    sb_run_handle_unref(handle);
+  }
+  if (sb_run_handle_is_done(session->fresh->handle)) {
+    finish(session);
+  }
+}
+
+// The way from the engine's thread to the main loop: at most one idle callback is on its way. It
+// outlives the session by as much as that callback needs.
+struct SbSessionInbox {
+  SbSession *session; // NULL once the session is gone; main thread only
+  int references;     // atomic
+  int pending;        // atomic
+};
+
+static void inbox_unref(SbSessionInbox *inbox) {
+  if (g_atomic_int_dec_and_test(&inbox->references)) {
+    g_free(inbox);
+  }
+}
+
+static gboolean on_inbox(gpointer data) {
+  SbSessionInbox *inbox = data;
+  g_atomic_int_set(&inbox->pending, 0);
+  if (inbox->session != NULL) {
+    look(inbox->session);
+  }
+  inbox_unref(inbox);
+  return G_SOURCE_REMOVE;
+}
+
+static void on_notify(void *data) {
+  SbSessionInbox *inbox = data;
+  if (g_atomic_int_compare_and_exchange(&inbox->pending, 0, 1)) {
+    g_atomic_int_inc(&inbox->references);
+    g_idle_add_full(G_PRIORITY_DEFAULT, on_inbox, inbox, NULL);
+  }
+}
+
+static void start_now(SbSession *session) {
+  if (session->debounce != 0) {
+    g_source_remove(session->debounce);
+    session->debounce = 0;
+  }
+  if (!session->model_valid) {
+    return;
+  }
+  // A run that this one overtakes while it was being watched makes room for the one before it.
+  if (session->ticket != 0 && session->shown == session->fresh && session->earlier != NULL) {
+    slot(&session->shown, session->earlier);
+  }
+  slot(&session->earlier, NULL);
+  slot(&session->fresh, NULL);
+  g_clear_pointer(&session->failure, g_free);
+  // The window shows everything: the views of the scene do not limit it.
+  SbModel model = session->model;
+  model.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION;
+  session->asked = sb_document_params(session->document);
+  session->started = g_get_monotonic_time();
+  session->state = SB_SESSION_RUNNING;
+  session->ticket = sb_runner_submit(session->runner, &model);
+  run_changed(session);
+}
+
+static gboolean on_debounced(gpointer data) {
+  SbSession *session = data;
+  session->debounce = 0;
+  start_now(session);
+  return G_SOURCE_REMOVE;
+}
+
+void sb_session_values_changed(SbSession *session) {
+  // Values that are those of the shown or growing run need none (undo back to where it was).
+  const SbParams *newest = session->ticket != 0                ? &session->asked
+                           : session->state == SB_SESSION_DONE ? &session->shown->params
+                                                               : NULL;
+  SbParams params = sb_document_params(session->document);
+  gboolean same = newest != NULL;
+  for (int id = 0; same && id < SB_PARAM_COUNT; id++) {
+    same = sb_params_get(&params, (SbParamId)id) == sb_params_get(newest, (SbParamId)id);
+  }
+  if (session->debounce != 0) {
+    g_source_remove(session->debounce);
+    session->debounce = 0;
+  }
+  if (same || !session->model_valid || !session->auto_run) {
+    return;
+  }
+  session->debounce = g_timeout_add(DEBOUNCE_MS, on_debounced, session);
+}
+
+void sb_session_start(SbSession *session) {
+  start_now(session);
+}
+
+void sb_session_stop(SbSession *session) {
+  if (session->debounce != 0) {
+    g_source_remove(session->debounce);
+    session->debounce = 0;
+  }
+  sb_runner_cancel(session->runner);
+  if (session->ticket != 0 && session->fresh == NULL) {
+    // It never began.
+    session->ticket = 0;
+    session->state = session->shown != NULL ? SB_SESSION_DONE : SB_SESSION_EMPTY;
+    run_changed(session);
+  }
+}
+
+gboolean sb_session_auto_run(SbSession *session) {
+  return session->auto_run;
+}
+
+void sb_session_set_auto_run(SbSession *session, gboolean on) {
+  session->auto_run = on;
+  if (on) {
+    sb_session_values_changed(session);
+  }
+}
+
+// Questions --------------------------------------------------------------------------------------
+
+SbSessionState sb_session_state(SbSession *session) {
+  return session->state;
+}
+
+double sb_session_progress(SbSession *session) {
+  return session->ticket != 0 && session->fresh != NULL
+             ? sb_run_handle_fraction(session->fresh->handle)
+             : 0;
+}
+
+const SbRun *sb_session_run(SbSession *session) {
+  return session->shown != NULL ? session->shown->run : NULL;
+}
+
+const SbFrame *sb_session_frames(SbSession *session, size_t *count) {
+  *count = session->shown != NULL ? session->shown->chart.count : 0;
+  return session->shown != NULL ? session->shown->chart.frames : NULL;
+}
+
+const SbSummary *sb_session_summary(SbSession *session) {
+  return session->shown != NULL ? session->shown->chart.summary : NULL;
+}
+
+const char *sb_session_failure(SbSession *session) {
+  return session->failure;
+}
+
+gboolean sb_session_is_stale(SbSession *session, int *id, double *value) {
+  if (session->shown == NULL) {
+    return FALSE;
+  }
+  SbParams params = sb_document_params(session->document);
+  int found = 0;
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    double old = sb_params_get(&session->shown->params, (SbParamId)i);
+    gboolean differs = sb_params_get(&params, (SbParamId)i) != old;
+    // An override that only follows its parent is not a change of its own.
+    gboolean follows =
+        sb_param((SbParamId)i)->parent >= 0 && !params.given[i] && !session->shown->params.given[i];
+    if (differs && !follows) {
+      found++;
+      if (id != NULL) {
+        *id = found == 1 ? i : -1;
+      }
+      if (value != NULL) {
+        *value = old;
+      }
+    }
+  }
+  return found > 0;
+}
+
+static char *pin_name(SbSession *session) {
+  char peak[SB_FORMAT_MAX];
+  sb_format_text(peak, SB_QUANTITY_FORCE, sb_run_summary(session->pinned->run)->force_breakaway, 0);
+  return g_strdup_printf("break-away %s", peak);
+}
+
+void sb_session_pin(SbSession *session, gboolean on) {
+  slot(&session->pinned, on && session->shown != NULL && session->shown->chart.summary != NULL
+                             ? session->shown
+                             : NULL);
+  g_clear_pointer(&session->pinned_name, g_free);
+  if (session->pinned != NULL) {
+    session->pinned_name = pin_name(session);
+  }
+  run_changed(session);
+}
+
+const char *sb_session_pinned_name(SbSession *session) {
+  return session->pinned_name;
+}
+
+// Playhead ---------------------------------------------------------------------------------------
+
+size_t sb_session_playhead(SbSession *session) {
+  return session->playhead.frame;
+}
+
+const SbFrame *sb_session_frame(SbSession *session) {
+  return sb_chart_frame(&session->chart);
+}
+
+void sb_session_set_playhead(SbSession *session, size_t frame) {
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  if (count == 0) {
+    return;
+  }
+  session->playhead.frame = MIN(frame, count - 1);
+  session->playhead.time = frames[session->playhead.frame].time;
+  session->playhead.follows = session->playhead.frame + 1 == count;
+  playhead_changed(session);
+}
+
+size_t sb_session_frame_at(SbSession *session, double time) {
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  return count > 0 ? sb_playhead_nearest(frames, count, time) : 0;
+}
+
+void sb_session_step(SbSession *session, int frames) {
+  gint64 frame = (gint64)session->playhead.frame + frames;
+  sb_session_play(session, FALSE);
+  sb_session_set_playhead(session, (size_t)MAX(frame, 0));
+}
+
+void sb_session_step_event(SbSession *session, int direction) {
+  size_t count = 0;
+  sb_session_frames(session, &count);
+  if (session->shown == NULL || count == 0) {
+    return;
+  }
+  size_t frame = sb_playhead_event(&session->playhead, sb_trace_marks(session->shown->trace), count,
+                                   direction);
+  sb_session_play(session, FALSE);
+  sb_session_set_playhead(session, frame);
+}
+
+gboolean sb_session_is_playing(SbSession *session) {
+  return session->playhead.playing;
+}
+
+void sb_session_play(SbSession *session, gboolean on) {
+  if (on == session->playhead.playing) {
+    return;
+  }
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  sb_playhead_play(&session->playhead, frames, count, on);
+  playhead_changed(session);
+}
+
+gboolean sb_session_loops(SbSession *session) {
+  return session->playhead.loops;
+}
+
+void sb_session_set_loops(SbSession *session, gboolean on) {
+  session->playhead.loops = on;
+}
+
+double sb_session_play_duration(SbSession *session) {
+  return session->playhead.duration;
+}
+
+void sb_session_set_play_duration(SbSession *session, double seconds) {
+  session->playhead.duration = seconds;
+}
+
+void sb_session_tick(SbSession *session, gint64 now) {
+  gboolean more = FALSE;
+  look(session);
+  if (session->ticket != 0 && session->fresh != NULL && session->shown != session->fresh &&
+      g_get_monotonic_time() - session->started > WATCH_US) {
+    show_fresh(session);
+    session->playhead.follows = TRUE;
+    sb_shown_run_update(session->fresh, FRAMES_PER_TICK);
+    run_changed(session);
+    more = TRUE;
+  }
+  if (session->shown != NULL) {
+    more = sb_shown_run_update(session->shown, FRAMES_PER_TICK) || more;
+  }
+  if (more && session->playhead.follows && session->shown->chart.count > 0) {
+    session->playhead.frame = session->shown->chart.count - 1;
+    session->playhead.time = session->shown->chart.frames[session->playhead.frame].time;
+  }
+  if (more || session->ticket != 0) {
+    refresh_chart(session);
+    sb_session_emit(session, SB_SIGNAL_FRAMES);
+  }
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  if (sb_playhead_tick(&session->playhead, frames, count, now) || more) {
+    playhead_changed(session);
+  }
+}
+
+gboolean sb_session_wants_ticks(SbSession *session) {
+  return session->ticket != 0 || session->playhead.playing ||
+         (session->shown != NULL && !sb_shown_run_complete(session->shown));
+}
+
+char *sb_session_where(SbSession *session) {
+  const SbFrame *frame = sb_session_frame(session);
+  if (frame == NULL) {
+    return g_strdup("");
+  }
+  // On the frame of an event its letter; in between the two letters.
+  const char *stage = sb_chart_span(frame->stage);
+  const SbStageMark *marks = sb_trace_marks(session->shown->trace);
+  for (int i = 0; i < SB_STAGE_COUNT; i++) {
+    if (marks[i].reached && marks[i].frame == session->playhead.frame) {
+      stage = sb_stage_name((SbStage)i);
+    }
+  }
+  char displacement[SB_FORMAT_MAX], force[SB_FORMAT_MAX];
+  sb_format_text(displacement, SB_QUANTITY_LENGTH, frame->displacement, 0);
+  sb_format_text(force, SB_QUANTITY_FORCE, frame->force, 0);
+  return g_strdup_printf("stage %s, %s, %s", stage, displacement, force);
+}
+
+// Life -------------------------------------------------------------------------------------------
+
+static void drop_runs(SbSession *session) {
+  session->ticket = 0;
+  session->state = SB_SESSION_EMPTY;
+  slot(&session->fresh, NULL);
+  slot(&session->shown, NULL);
+  slot(&session->earlier, NULL);
+  slot(&session->pinned, NULL);
+  g_clear_pointer(&session->pinned_name, g_free);
+  g_clear_pointer(&session->failure, g_free);
+  bool loops = session->playhead.loops;
+  double duration = session->playhead.duration;
+  sb_playhead_init(&session->playhead);
+  session->playhead.loops = loops;
+  session->playhead.duration = duration;
+}
+
+void sb_session_clear_runs(SbSession *session) {
+  if (session->debounce != 0) {
+    g_source_remove(session->debounce);
+    session->debounce = 0;
+  }
+  sb_runner_cancel(session->runner);
+  drop_runs(session);
+  run_changed(session);
+  playhead_changed(session);
+}
+
+void sb_session_init_runs(SbSession *session) {
+  session->inbox = g_new0(SbSessionInbox, 1);
+  session->inbox->session = session;
+  session->inbox->references = 1;
+  session->runner = sb_runner_create(on_notify, session->inbox);
+  if (session->runner == NULL) {
+    g_error("The system has no thread left for the engine.");
+  }
+  session->auto_run = TRUE;
+  sb_playhead_init(&session->playhead);
+  refresh_chart(session);
+}
+
+void sb_session_dispose_runs(SbSession *session) {
+  if (session->runner == NULL) {
+    return;
+  }
+  if (session->debounce != 0) {
+    g_source_remove(session->debounce);
+    session->debounce = 0;
+  }
+  g_clear_pointer(&session->runner, sb_runner_destroy);
+  session->inbox->session = NULL;
+  g_clear_pointer(&session->inbox, inbox_unref);
+  drop_runs(session);
+  g_clear_pointer(&session->hash, g_free);
+}

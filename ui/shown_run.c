@@ -1,0 +1,71 @@
+// A run as the window holds it. The count of frames that charts see never runs ahead of the trace
+// by more than one update, so that a curve and its playhead agree.
+#include "ui/shown_run.h"
+
+enum { LARGE = 100000 }; // frames
+
+SbShownRun *sb_shown_run_new(SbRunHandle *handle, const SbParams *params) {
+  const SbRun *run = sb_run_handle_run(handle);
+  SbShownRun *shown = g_new0(SbShownRun, 1);
+  shown->references = 1;
+  shown->handle = handle;
+  shown->run = run;
+  shown->params = *params;
+  shown->trace = sb_trace_create(sb_run_model(run));
+  sb_chart_run_init(&shown->chart, run, shown->trace, SB_CHART_RUNNING);
+  shown->chart.count = 0;
+  shown->chart.summary = NULL;
+  return shown;
+}
+
+SbShownRun *sb_shown_run_ref(SbShownRun *shown) {
+  if (shown != NULL) {
+    shown->references++;
+  }
+  return shown;
+}
+
+// Returning half a gigabyte to the system takes tens of milliseconds: not on the main loop.
+static gpointer release(gpointer data) {
+  sb_run_handle_unref(data);
+  return NULL;
+}
+
+void sb_shown_run_unref(SbShownRun *shown) {
+  if (shown == NULL || --shown->references > 0) {
+    return;
+  }
+  sb_trace_destroy(shown->trace);
+  GThread *thread = sb_run_capacity(shown->run) > LARGE
+                        ? g_thread_try_new("release", release, shown->handle, NULL)
+                        : NULL;
+  if (thread != NULL) {
+    g_thread_unref(thread);
+  } else {
+    sb_run_handle_unref(shown->handle);
+  }
+  g_free(shown);
+}
+
+bool sb_shown_run_update(SbShownRun *shown, size_t limit) {
+  size_t published = 0;
+  const SbFrame *frames = sb_run_frames(shown->run, &published);
+  size_t before = sb_trace_frames(shown->trace);
+  if (before >= published) {
+    return false;
+  }
+  sb_trace_extend(shown->trace, frames, published, limit);
+  shown->chart.frames = frames;
+  shown->chart.count = sb_trace_frames(shown->trace);
+  return true;
+}
+
+bool sb_shown_run_complete(const SbShownRun *shown) {
+  size_t published = 0;
+  sb_run_frames(shown->run, &published);
+  return sb_trace_frames(shown->trace) >= published;
+}
+
+const SbSummary *sb_shown_run_summary(const SbShownRun *shown) {
+  return sb_run_handle_is_done(shown->handle) ? sb_run_summary(shown->run) : NULL;
+}

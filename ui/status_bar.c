@@ -1,0 +1,194 @@
+// The line at the bottom: where the playhead is (also for screen readers and tests), models, run
+// time, error estimate, the pinned run, and the warnings with a list behind a button.
+#include "ui/status_bar.h"
+
+#include "app/chart/format.h"
+#include "ui/style.h"
+
+#include <math.h>
+
+typedef struct {
+  SbSession *session;
+  GtkWidget *where, *models, *run, *error, *pinned_key, *pinned, *warnings, *list, *count;
+} Bar;
+
+static char *choice_name(SbParamId id, int index) {
+  char name[64];
+  sb_param_choice_name(sb_param(id), index, name, sizeof name);
+  return g_strdup(name);
+}
+
+static void append_error(GString *text, const char *name, double error) {
+  if (isfinite(error) && error > 0 && error < 1e-5) {
+    g_string_append_printf(text, "%s%s below 0.001 %%", text->len > 0 ? ", " : "", name);
+  } else if (isfinite(error) && error > 0) {
+    g_string_append_printf(text, "%s%s %.2g %%", text->len > 0 ? ", " : "", name, 100 * error);
+  }
+}
+
+static void refresh_models(Bar *bar) {
+  const SbRun *run = sb_session_run(bar->session);
+  const SbModel *model = run != NULL ? sb_run_model(run) : sb_session_model(bar->session);
+  if (model == NULL) {
+    return;
+  }
+  g_autofree char *fit = choice_name(SB_P_MODELS_FIT, model->fit);
+  g_autofree char *film = choice_name(SB_P_MODELS_FILM, (int)model->film);
+  g_autofree char *surface = choice_name(SB_P_MODELS_SURFACE, (int)model->surface);
+  g_autofree char *motion = choice_name(SB_P_MODELS_MOTION, (int)model->motion);
+  g_autofree char *text =
+      g_strdup_printf("fit %s, film %s, surface %s, motion %s", fit, film, surface, motion);
+  gtk_label_set_text(GTK_LABEL(bar->models), text);
+}
+
+static GtkWidget *warning_row(const SbWarning *warning) {
+  GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+  GtkWidget *icon = gtk_image_new_from_icon_name("dialog-warning-symbolic", GTK_ICON_SIZE_MENU);
+  gtk_widget_set_valign(icon, GTK_ALIGN_START);
+  sb_style_class(icon, "sb-warn");
+  gtk_box_pack_start(GTK_BOX(box), icon, FALSE, FALSE, 0);
+  g_autofree char *text =
+      warning->parameter[0] != '\0'
+          ? g_markup_printf_escaped("%s\n<small>%s, %s</small>", warning->text, warning->code,
+                                    warning->parameter)
+          : g_markup_printf_escaped("%s\n<small>%s</small>", warning->text, warning->code);
+  GtkWidget *label = gtk_label_new(NULL);
+  gtk_label_set_markup(GTK_LABEL(label), text);
+  gtk_label_set_xalign(GTK_LABEL(label), 0);
+  gtk_label_set_line_wrap(GTK_LABEL(label), TRUE);
+  gtk_label_set_max_width_chars(GTK_LABEL(label), 60);
+  gtk_label_set_selectable(GTK_LABEL(label), TRUE);
+  gtk_widget_set_can_focus(label, FALSE);
+  gtk_box_pack_start(GTK_BOX(box), label, TRUE, TRUE, 0);
+  return box;
+}
+
+static void refresh_warnings(Bar *bar, const SbSummary *summary) {
+  GList *rows = gtk_container_get_children(GTK_CONTAINER(bar->list));
+  for (GList *item = rows; item != NULL; item = item->next) {
+    gtk_widget_destroy(item->data);
+  }
+  g_list_free(rows);
+  size_t count = summary != NULL ? summary->warnings.count + summary->warnings.dropped : 0;
+  for (size_t i = 0; summary != NULL && i < summary->warnings.count; i++) {
+    gtk_container_add(GTK_CONTAINER(bar->list), warning_row(&summary->warnings.item[i]));
+  }
+  gtk_widget_show_all(bar->list);
+  g_autofree char *text = count == 0
+                              ? g_strdup("No warnings")
+                              : g_strdup_printf("%zu warning%s", count, count == 1 ? "" : "s");
+  gtk_label_set_text(GTK_LABEL(bar->count), text);
+  GtkStyleContext *style = gtk_widget_get_style_context(bar->count);
+  if (count > 0) {
+    gtk_style_context_add_class(style, "sb-warn");
+  } else {
+    gtk_style_context_remove_class(style, "sb-warn");
+  }
+  sb_style_name(bar->warnings, text, "Opens the list of warnings of the shown run");
+  gtk_widget_set_visible(bar->warnings, summary != NULL);
+  gtk_widget_set_sensitive(bar->warnings, count > 0);
+}
+
+static void refresh_where(Bar *bar) {
+  g_autofree char *where = sb_session_where(bar->session);
+  gtk_label_set_text(GTK_LABEL(bar->where), where[0] != '\0' ? where : "nothing has run");
+}
+
+static void refresh_frames(Bar *bar) {
+  size_t count = 0;
+  sb_session_frames(bar->session, &count);
+  const SbSummary *summary = sb_session_summary(bar->session);
+  g_autofree char *text = NULL;
+  if (summary != NULL && summary->wall_s < 0.0995) {
+    text = g_strdup_printf("%zu frames in %.2g ms", summary->frames, 1e3 * summary->wall_s);
+  } else if (summary != NULL) {
+    text = g_strdup_printf("%zu frames in %.2f s", summary->frames, summary->wall_s);
+  } else {
+    text = g_strdup_printf("%zu frames", count);
+  }
+  gtk_label_set_text(GTK_LABEL(bar->run), text);
+  refresh_where(bar);
+}
+
+static void refresh(Bar *bar) {
+  const SbSummary *summary = sb_session_summary(bar->session);
+  refresh_models(bar);
+  refresh_frames(bar);
+  refresh_warnings(bar, summary);
+  g_autoptr(GString) error = g_string_new(NULL);
+  if (summary != NULL) {
+    append_error(error, "force", summary->error_force);
+    append_error(error, "load", summary->error_load);
+    append_error(error, "film", summary->error_film);
+  }
+  gtk_label_set_text(GTK_LABEL(bar->error), error->len > 0 ? error->str : "–");
+  const char *pinned = sb_session_pinned_name(bar->session);
+  gtk_label_set_text(GTK_LABEL(bar->pinned), pinned != NULL ? pinned : "");
+  gtk_widget_set_visible(bar->pinned_key, pinned != NULL);
+  gtk_widget_set_visible(bar->pinned, pinned != NULL);
+}
+
+static GtkWidget *add_label(GtkBox *box, const char *text, const char *style) {
+  GtkWidget *label = gtk_label_new(text);
+  if (style != NULL) {
+    sb_style_class(label, style);
+  }
+  gtk_box_pack_start(box, label, FALSE, FALSE, 0);
+  return label;
+}
+
+static GtkWidget *add_pair(GtkBox *box, const char *key, const char *name) {
+  GtkWidget *label = add_label(box, key, "sb-key");
+  gtk_widget_set_margin_start(label, 14);
+  GtkWidget *value = add_label(box, "", NULL);
+  gtk_label_set_ellipsize(GTK_LABEL(value), PANGO_ELLIPSIZE_END);
+  sb_style_name(label, name, NULL);
+  return value;
+}
+
+static void on_destroy(GtkWidget *widget, Bar *bar) {
+  g_signal_handlers_disconnect_by_data(bar->session, bar);
+}
+
+GtkWidget *sb_status_bar_new(SbSession *session) {
+  Bar *bar = g_new0(Bar, 1);
+  bar->session = session;
+  GtkWidget *widget = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+  GtkBox *box = GTK_BOX(widget);
+  g_object_set_data_full(G_OBJECT(widget), "bar", bar, g_free);
+  sb_style_class(widget, "sb-status");
+  atk_object_set_role(gtk_widget_get_accessible(widget), ATK_ROLE_STATUSBAR);
+  sb_style_name(widget, "Status", NULL);
+
+  bar->where = add_label(box, "", "sb-now");
+  gtk_label_set_width_chars(GTK_LABEL(bar->where), 26);
+  gtk_label_set_xalign(GTK_LABEL(bar->where), 0);
+  bar->models = add_pair(box, "Models", "Models");
+  bar->run = add_pair(box, "Run", "Run");
+  bar->error = add_pair(box, "Error estimate", "Error estimate");
+
+  bar->warnings = gtk_menu_button_new();
+  bar->count = gtk_label_new("");
+  gtk_container_add(GTK_CONTAINER(bar->warnings), bar->count);
+  GtkWidget *popover = gtk_popover_new(bar->warnings);
+  bar->list = gtk_box_new(GTK_ORIENTATION_VERTICAL, 10);
+  g_object_set(bar->list, "margin", 14, NULL);
+  gtk_container_add(GTK_CONTAINER(popover), bar->list);
+  gtk_menu_button_set_popover(GTK_MENU_BUTTON(bar->warnings), popover);
+  gtk_widget_set_valign(bar->warnings, GTK_ALIGN_CENTER);
+  gtk_box_pack_end(box, bar->warnings, FALSE, FALSE, 0);
+  bar->pinned = gtk_label_new("");
+  gtk_box_pack_end(box, bar->pinned, FALSE, FALSE, 0);
+  bar->pinned_key = gtk_label_new("Pinned");
+  sb_style_class(bar->pinned_key, "sb-key");
+  gtk_box_pack_end(box, bar->pinned_key, FALSE, FALSE, 0);
+  gtk_widget_show_all(widget);
+
+  g_signal_connect(widget, "destroy", G_CALLBACK(on_destroy), bar);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), bar);
+  g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(refresh_frames), bar);
+  g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(refresh_where), bar);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh_models), bar);
+  refresh(bar);
+  return widget;
+}

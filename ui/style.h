@@ -1,0 +1,18 @@
+// Look of the widgets: the style sheet, and light or dark.
+#pragma once
+
+#include <gtk/gtk.h>
+
+typedef enum { SB_STYLE_SYSTEM, SB_STYLE_LIGHT, SB_STYLE_DARK } SbStyleTheme;
+
+// Loads the style sheet for the whole display and follows `theme`. Call again to change it.
+void sb_style_apply(SbStyleTheme theme);
+
+// True if the dark palette is on (of a theme of its own or because the desktop asks for it).
+gboolean sb_style_is_dark(void);
+
+// Gives `widget` an accessible name; `description` may be NULL.
+void sb_style_name(GtkWidget *widget, const char *name, const char *description);
+
+// Adds a style class.
+void sb_style_class(GtkWidget *widget, const char *name);

@@ -1,0 +1,235 @@
+// The cycle in time, with the controls of the playhead: previous event, play, next event, looping
+// and speed. Press or drag on the timeline scrubs to the nearest frame. The keys (Space, arrows,
+// Home, End) are the window's, so that they work wherever no text is typed.
+#include "ui/timeline_view.h"
+
+#include "app/chart/timeline.h"
+#include "ui/style.h"
+
+#include <math.h>
+
+typedef struct {
+  SbSession *session;
+  GtkWidget *area, *play, *play_icon, *loop, *speed;
+  double cycle; // duration that the speed texts were made for [s]
+} View;
+
+static const int durations[] = {2, 5, 10, 20, 60, 0}; // seconds per cycle; 0: real time
+
+static SbRect whole(GtkWidget *widget) {
+  return (SbRect){8, 10, MAX(gtk_widget_get_allocated_width(widget) - 28, 1),
+                  MAX(gtk_widget_get_allocated_height(widget) - 14, 1)};
+}
+
+static gboolean on_draw(GtkWidget *widget, cairo_t *cr, View *view) {
+  const SbTheme *theme = sb_theme(sb_style_is_dark());
+  SbColor ground = theme->role[SB_ROLE_PANEL];
+  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
+  cairo_paint(cr);
+  sb_timeline_draw(cr, whole(widget), theme, sb_session_chart(view->session), SB_CHART_COMPACT);
+  if (gtk_widget_has_visible_focus(widget)) {
+    gtk_render_focus(gtk_widget_get_style_context(widget), cr, 2, 2,
+                     gtk_widget_get_allocated_width(widget) - 4,
+                     gtk_widget_get_allocated_height(widget) - 4);
+  }
+  return GDK_EVENT_PROPAGATE;
+}
+
+static void scrub(View *view, double x) {
+  size_t frame = 0;
+  if (sb_timeline_hit(&frame, whole(view->area), sb_session_chart(view->session), x)) {
+    sb_session_play(view->session, FALSE);
+    sb_session_set_playhead(view->session, frame);
+  }
+}
+
+static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
+  gtk_widget_grab_focus(widget);
+  if (event->button == GDK_BUTTON_PRIMARY) {
+    scrub(view, event->x);
+  }
+  return GDK_EVENT_STOP;
+}
+
+static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
+  scrub(view, event->x);
+  return GDK_EVENT_STOP;
+}
+
+static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, View *view) {
+  if (event->direction == GDK_SCROLL_UP) {
+    sb_session_step(view->session, -1);
+  } else if (event->direction == GDK_SCROLL_DOWN) {
+    sb_session_step(view->session, 1);
+  }
+  return GDK_EVENT_STOP;
+}
+
+// Speed ------------------------------------------------------------------------------------------
+
+static double cycle_of(SbSession *session) {
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  return count > 1 ? frames[count - 1].time : 0;
+}
+
+// The texts hold the speed, which depends on how long the cycle lasts.
+static void refresh_speeds(View *view) {
+  double cycle = cycle_of(view->session);
+  if (fabs(cycle - view->cycle) <= 0.005 * view->cycle &&
+      gtk_combo_box_get_active(GTK_COMBO_BOX(view->speed)) >= 0) {
+    return;
+  }
+  view->cycle = cycle;
+  int active = MAX(gtk_combo_box_get_active(GTK_COMBO_BOX(view->speed)), 0);
+  if (gtk_combo_box_get_active(GTK_COMBO_BOX(view->speed)) < 0) {
+    active = 2;
+  }
+  gtk_combo_box_text_remove_all(GTK_COMBO_BOX_TEXT(view->speed));
+  for (guint i = 0; i < G_N_ELEMENTS(durations); i++) {
+    g_autofree char *text = NULL;
+    if (durations[i] == 0) {
+      text = g_strdup("× 1, real time");
+    } else if (cycle > 0) {
+      text = g_strdup_printf("× %.3g, cycle in %d s", cycle / durations[i], durations[i]);
+    } else {
+      text = g_strdup_printf("cycle in %d s", durations[i]);
+    }
+    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(view->speed), text);
+  }
+  gtk_combo_box_set_active(GTK_COMBO_BOX(view->speed), active);
+}
+
+static void on_speed(GtkComboBox *combo, View *view) {
+  int active = gtk_combo_box_get_active(combo);
+  if (active >= 0) {
+    double seconds = durations[active] > 0 ? durations[active] : fmax(view->cycle, 1e-3);
+    sb_session_set_play_duration(view->session, seconds);
+  }
+}
+
+// Controls ---------------------------------------------------------------------------------------
+
+static void on_play(GtkButton *button, View *view) {
+  sb_session_play(view->session, !sb_session_is_playing(view->session));
+}
+
+static void on_loop(GtkToggleButton *button, View *view) {
+  sb_session_set_loops(view->session, gtk_toggle_button_get_active(button));
+}
+
+static void on_playhead(View *view) {
+  gboolean playing = sb_session_is_playing(view->session);
+  gtk_image_set_from_icon_name(GTK_IMAGE(view->play_icon),
+                               playing ? "media-playback-pause-symbolic"
+                                       : "media-playback-start-symbolic",
+                               GTK_ICON_SIZE_BUTTON);
+  sb_style_name(view->play, playing ? "Pause" : "Play", NULL);
+  gtk_widget_set_tooltip_text(view->play, playing ? "Pause (Space)" : "Play (Space)");
+  g_autofree char *where = sb_session_where(view->session);
+  sb_style_name(view->area, "Timeline", where[0] != '\0' ? where : "No run yet");
+  gtk_widget_queue_draw(view->area);
+}
+
+static void on_frames(View *view) {
+  refresh_speeds(view);
+  size_t count = 0;
+  sb_session_frames(view->session, &count);
+  gtk_widget_set_sensitive(view->play, count > 1);
+  on_playhead(view);
+}
+
+static GtkWidget *action_button(const char *icon, const char *name, const char *tip,
+                                const char *action) {
+  GtkWidget *button = gtk_button_new_from_icon_name(icon, GTK_ICON_SIZE_BUTTON);
+  gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
+  gtk_widget_set_tooltip_text(button, tip);
+  sb_style_name(button, name, NULL);
+  return button;
+}
+
+static GtkWidget *make_controls(View *view) {
+  GtkWidget *rows = gtk_box_new(GTK_ORIENTATION_VERTICAL, 10);
+  gtk_widget_set_valign(rows, GTK_ALIGN_CENTER);
+  GtkWidget *row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+  gtk_container_add(GTK_CONTAINER(rows), row);
+
+  GtkWidget *linked = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+  sb_style_class(linked, "linked");
+  gtk_container_add(GTK_CONTAINER(linked),
+                    action_button("media-skip-backward-symbolic", "Previous event",
+                                  "Previous event (Ctrl+Left)", "win.previous-event"));
+  view->play = gtk_button_new();
+  view->play_icon = gtk_image_new();
+  gtk_container_add(GTK_CONTAINER(view->play), view->play_icon);
+  g_signal_connect(view->play, "clicked", G_CALLBACK(on_play), view);
+  gtk_container_add(GTK_CONTAINER(linked), view->play);
+  gtk_container_add(GTK_CONTAINER(linked),
+                    action_button("media-skip-forward-symbolic", "Next event",
+                                  "Next event (Ctrl+Right)", "win.next-event"));
+  gtk_container_add(GTK_CONTAINER(row), linked);
+
+  view->loop = gtk_toggle_button_new();
+  gtk_container_add(
+      GTK_CONTAINER(view->loop),
+      gtk_image_new_from_icon_name("media-playlist-repeat-symbolic", GTK_ICON_SIZE_BUTTON));
+  gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(view->loop), sb_session_loops(view->session));
+  gtk_widget_set_tooltip_text(view->loop, "Start again at the end");
+  sb_style_name(view->loop, "Loop", NULL);
+  g_signal_connect(view->loop, "toggled", G_CALLBACK(on_loop), view);
+  gtk_container_add(GTK_CONTAINER(row), view->loop);
+
+  GtkWidget *pin = gtk_toggle_button_new();
+  gtk_container_add(GTK_CONTAINER(pin),
+                    gtk_image_new_from_icon_name("view-pin-symbolic", GTK_ICON_SIZE_BUTTON));
+  gtk_actionable_set_action_name(GTK_ACTIONABLE(pin), "win.pin");
+  gtk_widget_set_tooltip_text(pin, "Keep this run to compare the next ones with (Ctrl+P)");
+  sb_style_name(pin, "Pin this run", NULL);
+  gtk_container_add(GTK_CONTAINER(row), pin);
+
+  row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+  gtk_container_add(GTK_CONTAINER(rows), row);
+  gtk_container_add(GTK_CONTAINER(row), gtk_label_new("Speed"));
+  view->speed = gtk_combo_box_text_new();
+  sb_style_name(view->speed, "Speed", "How fast the cycle plays");
+  g_signal_connect(view->speed, "changed", G_CALLBACK(on_speed), view);
+  gtk_container_add(GTK_CONTAINER(row), view->speed);
+  return rows;
+}
+
+static void on_destroy(GtkWidget *widget, View *view) {
+  g_signal_handlers_disconnect_by_data(view->session, view);
+}
+
+GtkWidget *sb_timeline_view_new(SbSession *session) {
+  View *view = g_new0(View, 1);
+  view->session = session;
+  GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 16);
+  g_object_set_data_full(G_OBJECT(box), "view", view, g_free);
+  sb_style_class(box, "sb-timeline");
+  GtkWidget *controls = make_controls(view);
+  gtk_widget_set_margin_start(controls, 16);
+  gtk_widget_set_size_request(controls, 300, -1);
+  gtk_box_pack_start(GTK_BOX(box), controls, FALSE, FALSE, 0);
+
+  view->area = gtk_drawing_area_new();
+  sb_style_class(view->area, "sb-canvas");
+  gtk_widget_set_size_request(view->area, 300, 131);
+  gtk_widget_set_can_focus(view->area, TRUE);
+  gtk_widget_add_events(view->area,
+                        GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK | GDK_SCROLL_MASK);
+  atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_SLIDER);
+  g_signal_connect(view->area, "draw", G_CALLBACK(on_draw), view);
+  g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
+  g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
+  g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_scroll), view);
+  gtk_box_pack_start(GTK_BOX(box), view->area, TRUE, TRUE, 0);
+
+  g_signal_connect(box, "destroy", G_CALLBACK(on_destroy), view);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_frames), view);
+  g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_frames), view);
+  g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(on_playhead), view);
+  gtk_widget_show_all(box);
+  on_frames(view);
+  return box;
+}

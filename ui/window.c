@@ -1,0 +1,502 @@
+// One window: puts the parts together, turns the session's state into the header, the strip and the
+// sensitivity of actions, and asks before changes are lost.
+#include "ui/window.h"
+
+#include "ui/chart_view.h"
+#include "ui/derived_panel.h"
+#include "ui/param_panel.h"
+#include "ui/preferences.h"
+#include "ui/section_view.h"
+#include "ui/session.h"
+#include "ui/status_bar.h"
+#include "ui/style.h"
+#include "ui/timeline_view.h"
+#include "ui/window_files.h"
+
+#include <math.h>
+#include <string.h>
+
+struct _SbWindow {
+  GtkApplicationWindow parent_instance;
+  SbSession *session; // owned
+  GtkWidget *header, *recent_button, *run_button, *run_icon, *run_label;
+  GtkWidget *run_state_icon, *run_state_label, *run_progress;
+  GtkWidget *left_column, *centre_column, *right_column, *bottom;
+  GtkWidget *strip_revealer, *strip, *strip_icon, *strip_label, *strip_button;
+  GtkWidget *panel; // SbParamPanel
+  GtkWidget *section;
+  SbWindowFiles *files;
+  guint tick;
+  int strip_id;       // parameter that the strip's button mends, or -1
+  double strip_value; // and the value it sets [SI]
+};
+
+G_DEFINE_TYPE(SbWindow, sb_window, GTK_TYPE_APPLICATION_WINDOW)
+
+// The clock runs only while something moves ------------------------------------------------------
+
+static gboolean on_tick(GtkWidget *widget, GdkFrameClock *clock, gpointer data) {
+  SbWindow *window = SB_WINDOW(widget);
+  sb_session_tick(window->session, gdk_frame_clock_get_frame_time(clock));
+  if (!sb_session_wants_ticks(window->session)) {
+    window->tick = 0;
+    return G_SOURCE_REMOVE;
+  }
+  return G_SOURCE_CONTINUE;
+}
+
+static void ensure_tick(SbWindow *window) {
+  if (window->tick == 0 && sb_session_wants_ticks(window->session)) {
+    window->tick = gtk_widget_add_tick_callback(GTK_WIDGET(window), on_tick, NULL, NULL);
+  }
+}
+
+// State to header and strip ----------------------------------------------------------------------
+
+static void set_enabled(SbWindow *window, const char *name, gboolean enabled) {
+  GAction *action = g_action_map_lookup_action(G_ACTION_MAP(window), name);
+  g_simple_action_set_enabled(G_SIMPLE_ACTION(action), enabled);
+}
+
+static void refresh_titles(SbWindow *window) {
+  const SbDocument *document = sb_session_document(window->session);
+  const char *path = sb_document_path(document);
+  g_autofree char *file = path != NULL ? g_path_get_basename(path) : g_strdup("not saved yet");
+  g_autofree char *subtitle =
+      g_strconcat(file, sb_session_is_modified(window->session) ? ", edited" : "", NULL);
+  g_autofree char *title =
+      g_strdup_printf("%s (%s) – Sealbench", sb_document_title(document), subtitle);
+  gtk_window_set_title(GTK_WINDOW(window), title);
+  // The header bar copies the window's title, so its own, shorter one comes last.
+  gtk_header_bar_set_title(GTK_HEADER_BAR(window->header), sb_document_title(document));
+  gtk_header_bar_set_subtitle(GTK_HEADER_BAR(window->header), subtitle);
+}
+
+static void set_strip(SbWindow *window, const char *kind, const char *text, const char *button) {
+  gtk_revealer_set_reveal_child(GTK_REVEALER(window->strip_revealer), text != NULL);
+  gtk_widget_set_visible(window->strip_revealer, text != NULL);
+  if (text == NULL) {
+    return;
+  }
+  GtkStyleContext *style = gtk_widget_get_style_context(window->strip);
+  gtk_style_context_remove_class(style, "warn");
+  gtk_style_context_remove_class(style, "error");
+  gtk_style_context_add_class(style, kind);
+  gtk_image_set_from_icon_name(GTK_IMAGE(window->strip_icon),
+                               strcmp(kind, "error") == 0 ? "dialog-error-symbolic"
+                                                          : "dialog-warning-symbolic",
+                               GTK_ICON_SIZE_MENU);
+  gtk_label_set_text(GTK_LABEL(window->strip_label), text);
+  gtk_widget_set_visible(window->strip_button, button != NULL);
+  if (button != NULL) {
+    gtk_button_set_label(GTK_BUTTON(window->strip_button), button);
+  }
+}
+
+// What is wrong with the values or the run, and the one button that mends it.
+static void refresh_strip(SbWindow *window) {
+  SbSession *session = window->session;
+  const char *failure = sb_session_failure(session);
+  const SbRun *run = sb_session_run(session);
+  int wrong = sb_session_first_error(session);
+  int differs = -1;
+  double value = 0;
+  window->strip_id = -1;
+  if (wrong >= 0) {
+    const SbParam *param = sb_param((SbParamId)wrong);
+    double old = sb_document_value(sb_session_document(session), (SbParamId)wrong);
+    if (sb_session_is_stale(session, &differs, &value) && differs == wrong) {
+      old = value;
+    }
+    g_autofree char *shown = sb_param_format((SbParamId)wrong, old);
+    g_autofree char *label = g_utf8_strdown(param->label, -1);
+    g_autofree char *text =
+        g_strdup_printf(run != NULL ? "%s is out of range. Pictures show the last good run, %s %s."
+                                    : "%s is out of range. Nothing has run yet; %s %s would do.",
+                        param->label, label, shown);
+    g_autofree char *button = g_strdup_printf("Set %s", shown);
+    window->strip_id = wrong;
+    window->strip_value = old;
+    set_strip(window, "warn", text, button);
+  } else if (failure != NULL) {
+    set_strip(window, "error", failure, "Run again");
+  } else if (sb_session_state(session) == SB_SESSION_PARTIAL) {
+    size_t count = 0;
+    const SbFrame *frames = sb_session_frames(session, &count);
+    g_autofree char *text =
+        count > 0
+            ? g_strdup_printf("Cancelled after %.1f s of the cycle: the pictures are partial.",
+                              frames[count - 1].time)
+            : g_strdup("Cancelled before the first frame.");
+    set_strip(window, "warn", text, "Run again");
+  } else if (sb_session_state(session) != SB_SESSION_RUNNING &&
+             sb_session_is_stale(session, &differs, &value)) {
+    g_autofree char *text = NULL;
+    if (differs >= 0) {
+      g_autofree char *label = g_utf8_strdown(sb_param((SbParamId)differs)->label, -1);
+      g_autofree char *shown = sb_param_format((SbParamId)differs, value);
+      text =
+          g_strdup_printf("Values have changed. Pictures show the run with %s %s.", label, shown);
+    } else {
+      text = g_strdup("Values have changed. Pictures show an earlier run.");
+    }
+    set_strip(window, "warn", text, "Run");
+  } else {
+    set_strip(window, "warn", NULL, NULL);
+  }
+}
+
+static void refresh_run_state(SbWindow *window) {
+  SbSession *session = window->session;
+  SbSessionState state = sb_session_state(session);
+  int errors = sb_session_error_count(session);
+  gboolean running = state == SB_SESSION_RUNNING;
+  g_autofree char *text = NULL;
+  const char *style = NULL;
+  const char *icon = NULL;
+  if (running) {
+    text = g_strdup_printf("Running %.0f %%", 100 * sb_session_progress(session));
+  } else if (errors > 0) {
+    text = g_strdup_printf("%s%d value%s to fix",
+                           sb_session_run(session) != NULL ? "Last good run, " : "", errors,
+                           errors == 1 ? "" : "s");
+    style = "sb-warn";
+    icon = "dialog-warning-symbolic";
+  } else if (state == SB_SESSION_FAILED) {
+    text = g_strdup("Run failed");
+    style = "sb-error";
+    icon = "dialog-error-symbolic";
+  } else if (state == SB_SESSION_PARTIAL) {
+    text = g_strdup("Partial run");
+    style = "sb-warn";
+    icon = "dialog-warning-symbolic";
+  } else if (sb_session_is_stale(session, NULL, NULL)) {
+    text = g_strdup("Earlier run");
+    style = "sb-warn";
+    icon = "dialog-warning-symbolic";
+  }
+  GtkWidget *parts[] = {window->run_state_icon, window->run_state_label};
+  for (guint i = 0; i < G_N_ELEMENTS(parts); i++) {
+    GtkStyleContext *context = gtk_widget_get_style_context(parts[i]);
+    gtk_style_context_remove_class(context, "sb-warn");
+    gtk_style_context_remove_class(context, "sb-error");
+    if (style != NULL) {
+      gtk_style_context_add_class(context, style);
+    }
+  }
+  gtk_widget_set_visible(window->run_state_icon, icon != NULL);
+  if (icon != NULL) {
+    gtk_image_set_from_icon_name(GTK_IMAGE(window->run_state_icon), icon, GTK_ICON_SIZE_MENU);
+  }
+  gtk_label_set_text(GTK_LABEL(window->run_state_label), text != NULL ? text : "");
+  gtk_widget_set_visible(window->run_progress, running);
+  gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(window->run_progress),
+                                running ? sb_session_progress(session) : 0);
+
+  gtk_image_set_from_icon_name(GTK_IMAGE(window->run_icon),
+                               running ? "media-playback-stop-symbolic"
+                                       : "media-playback-start-symbolic",
+                               GTK_ICON_SIZE_BUTTON);
+  gtk_label_set_text(GTK_LABEL(window->run_label), running ? "Stop" : "Run");
+  sb_style_name(window->run_button, running ? "Stop" : "Run", NULL);
+  gtk_widget_set_tooltip_text(window->run_button,
+                              running ? "Stop the run, keeping what is done (Ctrl+R)"
+                                      : "Run the cycle with these values (Ctrl+R)");
+  set_enabled(window, "run-or-stop", running || sb_session_model(session) != NULL);
+}
+
+static void refresh(SbWindow *window) {
+  const SbDocument *document = sb_session_document(window->session);
+  refresh_titles(window);
+  refresh_strip(window);
+  refresh_run_state(window);
+  set_enabled(window, "undo", sb_document_can_undo(document));
+  set_enabled(window, "redo", sb_document_can_redo(document));
+  set_enabled(window, "pin", sb_session_summary(window->session) != NULL);
+  ensure_tick(window);
+}
+
+static void on_frames(SbWindow *window) {
+  refresh_run_state(window);
+  ensure_tick(window);
+}
+
+// Actions ----------------------------------------------------------------------------------------
+
+static void on_undo(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_session_undo(SB_WINDOW(data)->session);
+}
+
+static void on_redo(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_session_redo(SB_WINDOW(data)->session);
+}
+
+static void on_run_or_stop(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SbSession *session = SB_WINDOW(data)->session;
+  if (sb_session_state(session) == SB_SESSION_RUNNING) {
+    sb_session_stop(session);
+  } else {
+    sb_session_start(session);
+  }
+}
+
+static void on_search(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_param_panel_search(SB_PARAM_PANEL(SB_WINDOW(data)->panel));
+}
+
+static void on_next_error(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SbWindow *window = data;
+  int id = sb_session_first_error(window->session);
+  if (id >= 0) {
+    sb_param_panel_reveal(SB_PARAM_PANEL(window->panel), (SbParamId)id);
+  }
+}
+
+static void on_previous_event(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_session_step_event(SB_WINDOW(data)->session, -1);
+}
+
+static void on_next_event(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_session_step_event(SB_WINDOW(data)->session, 1);
+}
+
+static void on_pin(GSimpleAction *action, GVariant *state, gpointer data) {
+  sb_session_pin(SB_WINDOW(data)->session, g_variant_get_boolean(state));
+  g_simple_action_set_state(action, state);
+}
+
+static void on_auto_run(GSimpleAction *action, GVariant *state, gpointer data) {
+  sb_session_set_auto_run(SB_WINDOW(data)->session, g_variant_get_boolean(state));
+  g_simple_action_set_state(action, state);
+}
+
+static void on_open(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_window_files_open_dialog(SB_WINDOW(data)->files);
+}
+
+static void on_new(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_window_files_new(SB_WINDOW(data)->files);
+}
+
+static void on_save(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_window_files_save(SB_WINDOW(data)->files, FALSE);
+}
+
+static void on_save_as(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_window_files_save(SB_WINDOW(data)->files, TRUE);
+}
+
+static void on_zoom_in(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_section_view_zoom(SB_WINDOW(data)->section, 1);
+}
+
+static void on_zoom_out(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_section_view_zoom(SB_WINDOW(data)->section, -1);
+}
+
+static void on_zoom_fit(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_section_view_zoom(SB_WINDOW(data)->section, 0);
+}
+
+static void on_copy_table(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  g_autofree char *text = sb_chart_view_table(SB_WINDOW(data)->session);
+  gtk_clipboard_set_text(gtk_clipboard_get(GDK_SELECTION_CLIPBOARD), text, -1);
+}
+
+static void on_strip_button(GtkButton *button, SbWindow *window) {
+  if (window->strip_id >= 0) {
+    int id = window->strip_id;
+    sb_session_clear_error(window->session, (SbParamId)id);
+    sb_session_edit_value(window->session, (SbParamId)id, window->strip_value);
+  } else {
+    sb_session_start(window->session);
+  }
+}
+
+// Keys that belong to the playhead unless a field is being typed into.
+static gboolean on_key(GtkWidget *widget, GdkEventKey *event, gpointer data) {
+  SbWindow *window = SB_WINDOW(widget);
+  GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
+  gboolean plain =
+      (event->state & gtk_accelerator_get_default_mod_mask() & ~(guint)GDK_SHIFT_MASK) == 0;
+  if (!plain || GTK_IS_ENTRY(focus)) {
+    return GDK_EVENT_PROPAGATE;
+  }
+  size_t count = 0;
+  sb_session_frames(window->session, &count);
+  switch (event->keyval) {
+  case GDK_KEY_space:
+    if (GTK_IS_BUTTON(focus) || GTK_IS_EXPANDER(focus) || GTK_IS_COMBO_BOX(focus)) {
+      return GDK_EVENT_PROPAGATE;
+    }
+    sb_session_play(window->session, !sb_session_is_playing(window->session));
+    return GDK_EVENT_STOP;
+  case GDK_KEY_Left:
+    sb_session_step(window->session, -1);
+    return GDK_EVENT_STOP;
+  case GDK_KEY_Right:
+    sb_session_step(window->session, 1);
+    return GDK_EVENT_STOP;
+  case GDK_KEY_Home:
+    sb_session_set_playhead(window->session, 0);
+    return GDK_EVENT_STOP;
+  case GDK_KEY_End:
+    sb_session_set_playhead(window->session, count > 0 ? count - 1 : 0);
+    return GDK_EVENT_STOP;
+  case GDK_KEY_Escape:
+    if (sb_session_state(window->session) == SB_SESSION_RUNNING) {
+      sb_session_stop(window->session);
+      return GDK_EVENT_STOP;
+    }
+    return GDK_EVENT_PROPAGATE;
+  default:
+    return GDK_EVENT_PROPAGATE;
+  }
+}
+
+// Life -------------------------------------------------------------------------------------------
+
+static gboolean on_delete(GtkWidget *widget, GdkEvent *event, gpointer data) {
+  SbWindow *window = SB_WINDOW(widget);
+  int width = 0;
+  int height = 0;
+  gtk_window_get_size(GTK_WINDOW(window), &width, &height);
+  gboolean maximized = gtk_window_is_maximized(GTK_WINDOW(window));
+  if (!maximized) {
+    sb_preferences_set_int("width", width);
+    sb_preferences_set_int("height", height);
+  }
+  sb_preferences_set_int("maximized", maximized);
+  return !sb_window_files_may_discard(window->files);
+}
+
+static void dispose(GObject *object) {
+  SbWindow *window = SB_WINDOW(object);
+  g_clear_pointer(&window->files, sb_window_files_free);
+  G_OBJECT_CLASS(sb_window_parent_class)->dispose(object);
+}
+
+static void finalize(GObject *object) {
+  g_clear_object(&SB_WINDOW(object)->session);
+  G_OBJECT_CLASS(sb_window_parent_class)->finalize(object);
+}
+
+static void sb_window_class_init(SbWindowClass *class) {
+  GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+  G_OBJECT_CLASS(class)->dispose = dispose;
+  G_OBJECT_CLASS(class)->finalize = finalize;
+  gtk_widget_class_set_template_from_resource(widget, "/org/sealbench/ui/window.ui");
+#define CHILD(name) gtk_widget_class_bind_template_child(widget, SbWindow, name)
+  CHILD(header);
+  CHILD(recent_button);
+  CHILD(run_button);
+  CHILD(run_icon);
+  CHILD(run_label);
+  CHILD(run_state_icon);
+  CHILD(run_state_label);
+  CHILD(run_progress);
+  CHILD(left_column);
+  CHILD(centre_column);
+  CHILD(right_column);
+  CHILD(bottom);
+  CHILD(strip_revealer);
+  CHILD(strip);
+  CHILD(strip_icon);
+  CHILD(strip_label);
+  CHILD(strip_button);
+#undef CHILD
+}
+
+static void sb_window_init(SbWindow *window) {
+  window->strip_id = -1;
+  window->session = sb_session_new();
+  gtk_widget_init_template(GTK_WIDGET(window));
+  static const GActionEntry entries[] = {
+      {.name = "open", .activate = on_open},
+      {.name = "new", .activate = on_new},
+      {.name = "save", .activate = on_save},
+      {.name = "save-as", .activate = on_save_as},
+      {.name = "undo", .activate = on_undo},
+      {.name = "redo", .activate = on_redo},
+      {.name = "search", .activate = on_search},
+      {.name = "next-error", .activate = on_next_error},
+      {.name = "run-or-stop", .activate = on_run_or_stop},
+      {.name = "previous-event", .activate = on_previous_event},
+      {.name = "next-event", .activate = on_next_event},
+      {.name = "zoom-in", .activate = on_zoom_in},
+      {.name = "zoom-out", .activate = on_zoom_out},
+      {.name = "zoom-fit", .activate = on_zoom_fit},
+      {.name = "copy-table", .activate = on_copy_table},
+      {.name = "pin", .state = "false", .change_state = on_pin},
+      {.name = "auto-run", .state = "true", .change_state = on_auto_run},
+  };
+  g_action_map_add_action_entries(G_ACTION_MAP(window), entries, G_N_ELEMENTS(entries), window);
+
+  // Where the desktop names no font of its own, the look's.
+  g_autofree char *font = NULL;
+  g_object_get(gtk_settings_get_default(), "gtk-font-name", &font, NULL);
+  sb_style_class(GTK_WIDGET(window), "sb-window");
+  if (font == NULL || g_str_has_prefix(font, "Sans ")) {
+    sb_style_class(GTK_WIDGET(window), "sb-builtin-font");
+  }
+
+  // The parts.
+  window->panel = sb_param_panel_new(window->session);
+  gtk_box_pack_start(GTK_BOX(window->left_column), window->panel, TRUE, TRUE, 0);
+  gtk_box_pack_start(GTK_BOX(window->left_column), sb_derived_panel_new(window->session), FALSE,
+                     FALSE, 0);
+  window->section = sb_section_view_new(window->session);
+  gtk_box_pack_start(GTK_BOX(window->centre_column), window->section, TRUE, TRUE, 0);
+  for (int kind = SB_CHART_VIEW_LOOP; kind <= SB_CHART_VIEW_FILM; kind++) {
+    if (kind > SB_CHART_VIEW_LOOP) {
+      GtkWidget *line = gtk_separator_new(GTK_ORIENTATION_HORIZONTAL);
+      gtk_widget_show(line);
+      gtk_box_pack_start(GTK_BOX(window->right_column), line, FALSE, FALSE, 0);
+    }
+    gtk_box_pack_start(GTK_BOX(window->right_column),
+                       sb_chart_view_new(window->session, (SbChartViewKind)kind),
+                       kind == SB_CHART_VIEW_LOOP, TRUE, 0);
+  }
+  gtk_box_pack_start(GTK_BOX(window->bottom), sb_timeline_view_new(window->session), FALSE, FALSE,
+                     0);
+  gtk_box_pack_start(GTK_BOX(window->bottom), sb_status_bar_new(window->session), FALSE, FALSE, 0);
+  window->files = sb_window_files_new_for(GTK_WINDOW(window), window->session,
+                                          GTK_MENU_BUTTON(window->recent_button));
+  g_autoptr(GtkBuilder) builder = gtk_builder_new_from_resource("/org/sealbench/ui/shortcuts.ui");
+  gtk_application_window_set_help_overlay(
+      GTK_APPLICATION_WINDOW(window),
+      GTK_SHORTCUTS_WINDOW(gtk_builder_get_object(builder, "help_overlay")));
+
+  g_signal_connect(window->strip_button, "clicked", G_CALLBACK(on_strip_button), window);
+  g_signal_connect(window, "key-press-event", G_CALLBACK(on_key), NULL);
+  g_signal_connect(window, "delete-event", G_CALLBACK(on_delete), NULL);
+  g_signal_connect_object(window->session, "params-changed", G_CALLBACK(refresh), window,
+                          G_CONNECT_SWAPPED);
+  g_signal_connect_object(window->session, "run-changed", G_CALLBACK(refresh), window,
+                          G_CONNECT_SWAPPED);
+  g_signal_connect_object(window->session, "frames-changed", G_CALLBACK(on_frames), window,
+                          G_CONNECT_SWAPPED);
+  g_signal_connect_object(window->session, "playhead-changed", G_CALLBACK(ensure_tick), window,
+                          G_CONNECT_SWAPPED);
+
+  gtk_window_set_default_size(GTK_WINDOW(window), sb_preferences_int("width", 1600),
+                              sb_preferences_int("height", 1000));
+  if (sb_preferences_int("maximized", 0)) {
+    gtk_window_maximize(GTK_WINDOW(window));
+  }
+  refresh(window);
+  gtk_window_set_focus(GTK_WINDOW(window), window->run_button);
+}
+
+GtkWidget *sb_window_new(SbApplication *application) {
+  return g_object_new(SB_TYPE_WINDOW, "application", application, NULL);
+}
+
+void sb_window_open(SbWindow *window, GFile *file) {
+  sb_window_files_open(window->files, file);
+}
+
+gboolean sb_window_is_fresh(SbWindow *window) {
+  return sb_document_path(sb_session_document(window->session)) == NULL &&
+         !sb_session_is_modified(window->session);
+}

@@ -1,0 +1,247 @@
+// Opening and saving in a window. What is wrong with a file appears in one dialog with a line for
+// each problem; a file that opened in spite of problems says so there too. A document that was
+// opened from a path is saved back by way of a temporary file (app/document), so a failed save
+// loses nothing.
+#include "ui/window_files.h"
+
+#include "ui/preferences.h"
+
+#include <string.h>
+
+struct SbWindowFiles {
+  GtkWindow *window;  // borrowed: owns this
+  SbSession *session; // borrowed
+};
+
+// Lines shown of a list of problems; more are counted.
+enum { LINES_MAX = 12 };
+
+static void tell(SbWindowFiles *files, GtkMessageType type, const char *title, const char *text) {
+  GtkWidget *dialog =
+      gtk_message_dialog_new(files->window, GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT, type,
+                             GTK_BUTTONS_CLOSE, "%s", title);
+  gtk_message_dialog_format_secondary_text(GTK_MESSAGE_DIALOG(dialog), "%s", text);
+  g_signal_connect(dialog, "response", G_CALLBACK(gtk_widget_destroy), NULL);
+  gtk_widget_show_all(dialog);
+}
+
+static char *lines_of(const GPtrArray *issues) {
+  GString *text = g_string_new(NULL);
+  for (guint i = 0; i < issues->len && i < LINES_MAX; i++) {
+    g_autofree char *line = sb_issue_line(g_ptr_array_index(issues, i));
+    g_string_append_printf(text, "%s%s", i > 0 ? "\n" : "", line);
+  }
+  if (issues->len > LINES_MAX) {
+    g_string_append_printf(text, "\nand %u more", issues->len - LINES_MAX);
+  }
+  return g_string_free(text, FALSE);
+}
+
+static void load(SbWindowFiles *files, GFile *file) {
+  g_autofree char *path = g_file_get_path(file);
+  if (path == NULL) {
+    tell(files, GTK_MESSAGE_ERROR, "This file cannot be opened.",
+         "Only files on this computer can be opened.");
+    return;
+  }
+  g_autofree char *name = g_path_get_basename(path);
+  g_autofree char *shown = g_filename_display_name(name);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  gboolean opened = sb_session_open(files->session, path, issues);
+  if (issues->len > 0) {
+    g_autofree char *title =
+        g_strdup_printf(opened ? "%s has problems. Values with a problem keep their defaults."
+                               : "%s cannot be opened.",
+                        shown);
+    g_autofree char *text = lines_of(issues);
+    tell(files, opened ? GTK_MESSAGE_WARNING : GTK_MESSAGE_ERROR, title, text);
+  }
+  if (opened) {
+    g_autofree char *uri = g_file_get_uri(file);
+    g_autofree char *folder = g_path_get_dirname(path);
+    gtk_recent_manager_add_item(gtk_recent_manager_get_default(), uri);
+    sb_preferences_set_string("folder", folder);
+  }
+}
+
+// Asks to save, discard or stay. True: go on.
+gboolean sb_window_files_may_discard(SbWindowFiles *files) {
+  if (!sb_session_is_modified(files->session)) {
+    return TRUE;
+  }
+  GtkWidget *dialog =
+      gtk_message_dialog_new(files->window, GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT,
+                             GTK_MESSAGE_QUESTION, GTK_BUTTONS_NONE, "Save the changes to “%s”?",
+                             sb_document_title(sb_session_document(files->session)));
+  gtk_message_dialog_format_secondary_text(GTK_MESSAGE_DIALOG(dialog),
+                                           "They are lost if you do not save them.");
+  gtk_dialog_add_buttons(GTK_DIALOG(dialog), "Close _without Saving", GTK_RESPONSE_NO, "_Cancel",
+                         GTK_RESPONSE_CANCEL, "_Save", GTK_RESPONSE_YES, NULL);
+  gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_YES);
+  int answer = gtk_dialog_run(GTK_DIALOG(dialog));
+  gtk_widget_destroy(dialog);
+  if (answer == GTK_RESPONSE_YES) {
+    return sb_window_files_save(files, FALSE);
+  }
+  return answer == GTK_RESPONSE_NO;
+}
+
+static void add_filters(GtkFileChooser *chooser) {
+  static const struct {
+    const char *name, *patterns[3];
+  } filters[] = {{"Valves and scenes", {"*.valve", "*.scene"}}, {"All files", {"*"}}};
+  for (guint i = 0; i < G_N_ELEMENTS(filters); i++) {
+    GtkFileFilter *filter = gtk_file_filter_new();
+    gtk_file_filter_set_name(filter, filters[i].name);
+    for (int k = 0; k < 3 && filters[i].patterns[k] != NULL; k++) {
+      gtk_file_filter_add_pattern(filter, filters[i].patterns[k]);
+    }
+    gtk_file_chooser_add_filter(chooser, filter);
+  }
+}
+
+void sb_window_files_open_dialog(SbWindowFiles *files) {
+  if (!sb_window_files_may_discard(files)) {
+    return;
+  }
+  GtkWidget *dialog = gtk_file_chooser_dialog_new(
+      "Open a valve or scene", files->window, GTK_FILE_CHOOSER_ACTION_OPEN, "_Cancel",
+      GTK_RESPONSE_CANCEL, "_Open", GTK_RESPONSE_ACCEPT, NULL);
+  gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_ACCEPT);
+  add_filters(GTK_FILE_CHOOSER(dialog));
+  g_autofree char *folder = sb_preferences_string("folder", NULL);
+  if (folder != NULL) {
+    gtk_file_chooser_set_current_folder(GTK_FILE_CHOOSER(dialog), folder);
+  }
+  int answer = gtk_dialog_run(GTK_DIALOG(dialog));
+  g_autoptr(GFile) file = gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog));
+  gtk_widget_destroy(dialog);
+  if (answer == GTK_RESPONSE_ACCEPT && file != NULL) {
+    load(files, file);
+  }
+}
+
+void sb_window_files_open(SbWindowFiles *files, GFile *file) {
+  if (sb_window_files_may_discard(files)) {
+    load(files, file);
+  }
+}
+
+void sb_window_files_new(SbWindowFiles *files) {
+  if (sb_window_files_may_discard(files)) {
+    sb_session_reset(files->session);
+  }
+}
+
+// A name from the dialog, or NULL.
+static char *ask_name(SbWindowFiles *files) {
+  const SbDocument *document = sb_session_document(files->session);
+  gboolean scene = sb_document_kind(document) == SB_DOCUMENT_SCENE;
+  GtkWidget *dialog =
+      gtk_file_chooser_dialog_new("Save as", files->window, GTK_FILE_CHOOSER_ACTION_SAVE, "_Cancel",
+                                  GTK_RESPONSE_CANCEL, "_Save", GTK_RESPONSE_ACCEPT, NULL);
+  GtkFileChooser *chooser = GTK_FILE_CHOOSER(dialog);
+  gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_ACCEPT);
+  gtk_file_chooser_set_do_overwrite_confirmation(chooser, TRUE);
+  add_filters(chooser);
+  const char *path = sb_document_path(document);
+  if (path != NULL) {
+    gtk_file_chooser_set_filename(chooser, path);
+  } else {
+    gtk_file_chooser_set_current_name(chooser, scene ? "untitled.scene" : "untitled.valve");
+  }
+  char *name = NULL;
+  if (gtk_dialog_run(GTK_DIALOG(dialog)) == GTK_RESPONSE_ACCEPT) {
+    name = gtk_file_chooser_get_filename(chooser);
+  }
+  gtk_widget_destroy(dialog);
+  return name;
+}
+
+gboolean sb_window_files_save(SbWindowFiles *files, gboolean as) {
+  g_autofree char *name = NULL;
+  if (as || sb_document_path(sb_session_document(files->session)) == NULL) {
+    name = ask_name(files);
+    if (name == NULL) {
+      return FALSE;
+    }
+  }
+  g_autoptr(GError) error = NULL;
+  if (!sb_session_save(files->session, name, &error)) {
+    tell(files, GTK_MESSAGE_ERROR, "The file was not saved.", error->message);
+    return FALSE;
+  }
+  if (name != NULL) {
+    g_autofree char *uri = g_filename_to_uri(name, NULL, NULL);
+    if (uri != NULL) {
+      gtk_recent_manager_add_item(gtk_recent_manager_get_default(), uri);
+    }
+  }
+  return TRUE;
+}
+
+static void on_recent(GtkRecentChooser *chooser, SbWindowFiles *files) {
+  g_autofree char *uri = gtk_recent_chooser_get_current_uri(chooser);
+  if (uri != NULL) {
+    g_autoptr(GFile) file = g_file_new_for_uri(uri);
+    sb_window_files_open(files, file);
+  }
+}
+
+static GtkWidget *recent_menu(SbWindowFiles *files) {
+  GtkWidget *menu = gtk_recent_chooser_menu_new_for_manager(gtk_recent_manager_get_default());
+  GtkRecentFilter *filter = gtk_recent_filter_new();
+  gtk_recent_filter_add_pattern(filter, "*.valve");
+  gtk_recent_filter_add_pattern(filter, "*.scene");
+  gtk_recent_chooser_set_filter(GTK_RECENT_CHOOSER(menu), filter);
+  gtk_recent_chooser_set_sort_type(GTK_RECENT_CHOOSER(menu), GTK_RECENT_SORT_MRU);
+  gtk_recent_chooser_set_local_only(GTK_RECENT_CHOOSER(menu), TRUE);
+  gtk_recent_chooser_set_limit(GTK_RECENT_CHOOSER(menu), 10);
+  g_signal_connect(menu, "item-activated", G_CALLBACK(on_recent), files);
+  return menu;
+}
+
+static gboolean open_later(gpointer data) {
+  GObject *window = data;
+  g_autoptr(GFile) file = g_object_steal_data(window, "sb-dropped");
+  SbWindowFiles *files = g_object_get_data(window, "sb-files");
+  if (file != NULL && files != NULL) {
+    sb_window_files_open(files, file);
+  }
+  g_object_unref(window);
+  return G_SOURCE_REMOVE;
+}
+
+// A file dropped on the window. The question about unsaved changes must not run inside the drop.
+static void on_drop(GtkWidget *widget, GdkDragContext *context, int x, int y,
+                    GtkSelectionData *selection, guint info, guint time, SbWindowFiles *files) {
+  g_auto(GStrv) uris = gtk_selection_data_get_uris(selection);
+  gboolean good = uris != NULL && uris[0] != NULL;
+  gtk_drag_finish(context, good, FALSE, time);
+  if (good) {
+    g_object_set_data_full(G_OBJECT(widget), "sb-dropped", g_file_new_for_uri(uris[0]),
+                           g_object_unref);
+    g_idle_add(open_later, g_object_ref(widget));
+  }
+}
+
+SbWindowFiles *sb_window_files_new_for(GtkWindow *window, SbSession *session,
+                                       GtkMenuButton *recent) {
+  SbWindowFiles *files = g_new0(SbWindowFiles, 1);
+  files->window = window;
+  files->session = session;
+  gtk_menu_button_set_popup(recent, recent_menu(files));
+  gtk_drag_dest_set(GTK_WIDGET(window), GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);
+  gtk_drag_dest_add_uri_targets(GTK_WIDGET(window));
+  g_signal_connect(window, "drag-data-received", G_CALLBACK(on_drop), files);
+  g_object_set_data(G_OBJECT(window), "sb-files", files);
+  return files;
+}
+
+void sb_window_files_free(SbWindowFiles *files) {
+  if (files != NULL) {
+    g_object_set_data(G_OBJECT(files->window), "sb-files", NULL);
+    g_signal_handlers_disconnect_by_data(files->window, files);
+    g_free(files);
+  }
+}
