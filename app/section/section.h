@@ -44,6 +44,7 @@ typedef struct {
   double width, height; // logical pixels
   double margin;        // kept free all round
   bool dark;
+  bool read_outs; // stage, time, stroke and force in place of a title, where no page has them
   bool hide_insets, hide_forces, hide_labels;
   int inset_seal; // SB_OUTER or SB_INNER
   SbSectionZoom zoom;

@@ -1,6 +1,9 @@
 // Beside the section: its title, the legends of its colours, the balance of forces.
 #include "app/section/section_private.h"
 
+#include "app/chart/data.h"
+#include "app/chart/theme.h"
+
 #include <glib.h>
 #include <math.h>
 #include <stdio.h>
@@ -68,36 +71,67 @@ static void force_bars(SbSection *section, double x, double y, double width) {
   sb_draw_line(list, zero - 0.5, y + 8, zero - 0.5, y + 8 + 17 * 4, 1, palette->axis);
 }
 
+// Title of the panel, or the frame's read-outs in its place. At most 44 px high.
+static void draw_title(SbSection *section, double x, double y) {
+  const SbPalette *palette = section->palette;
+  const SbFrame *frame = section->instant->frame;
+  SbDrawList *list = section->list;
+  char text[160], time[SB_SECTION_NUMBER];
+  sb_section_fixed(time, frame->time, 2);
+  if (!section->view->read_outs) {
+    sb_draw_text(list, x, y + 14, SB_TYPE_PANEL, 700, SB_ALIGN_LEFT, palette->ink, "Axial section");
+    snprintf(text, sizeof text, "stem and seals at %s s, housing at rest", time);
+    sb_draw_text(list, x, y + 34, 12, 400, SB_ALIGN_LEFT, palette->second, text);
+    return;
+  }
+  const char *span = sb_chart_span(frame->stage);
+  sb_draw_text(list, x, y + 20, 26, 700, SB_ALIGN_LEFT, palette->now, span);
+  double width = sb_text_width(section->text, span, 26, 700);
+  static const char *const phase[SB_STAGE_COUNT] = {
+      [SB_STAGE_A] = "force builds up",      [SB_STAGE_B] = "both seals slide",
+      [SB_STAGE_C] = "chamber open",         [SB_STAGE_D] = "at the stop",
+      [SB_STAGE_E] = "return, chamber open", [SB_STAGE_F] = "both seals slide back",
+  };
+  sb_draw_text(list, x + width + 10, y + 20, 13, 600, SB_ALIGN_LEFT, palette->now,
+               phase[MIN(frame->stage, SB_STAGE_COUNT - 1)]);
+  char stroke[SB_SECTION_NUMBER], force[SB_SECTION_NUMBER];
+  snprintf(text, sizeof text, "%s s    %s    %s", time,
+           sb_section_millimetre(stroke, frame->displacement),
+           sb_section_force(force, frame->force));
+  sb_draw_text(list, x, y + 42, 13, 600, SB_ALIGN_LEFT, palette->ink, text);
+}
+
 void sb_section_draw_legends(SbSection *section, double x, double y, double width) {
   const SbPalette *palette = section->palette;
   const SbSectionView *view = section->view;
   const SbSectionRing *ring = section->instant->ring[SB_OUTER];
-  const SbFrame *frame = section->instant->frame;
   bool column = view->width - 2 * x >= 860;
   bool zoom = view->zoom != SB_SECTION_WHOLE;
   double low = zoom ? view->height - x : (double)section->strip.y - 10;
+  draw_title(section, x, y);
+  double fluid_full = SB_PALETTE_FLUID_FULL * 1e-6;
   if (!column) {
-    legend(section, x, y + 12, width, "fluid pressure", "MPa, gauge", &palette->fluid, 0,
-           SB_PALETTE_FLUID_FULL * 1e-6);
-    if (ring != NULL) {
-      legend(section, view->width - x - width, y + 12, width, ring->field_name, ring->field_unit,
+    // A row right of the title, as far as there is room.
+    double right = view->width - x, each = MIN(width, 200);
+    double left = x + 260;
+    if (right - each >= left) {
+      legend(section, right - each, y + 8, each, "fluid pressure", "MPa, gauge", &palette->fluid, 0,
+             fluid_full);
+    }
+    if (ring != NULL && right - 2 * each - 24 >= left) {
+      legend(section, right - 2 * each - 24, y + 8, each, ring->field_name, ring->field_unit,
              &palette->field, ring->scalar_min * ring->display_scale,
              ring->scalar_max * ring->display_scale);
     }
     return;
   }
-  char text[96], value[SB_SECTION_NUMBER];
-  sb_draw_text(section->list, x, y + 14, 17, 700, SB_ALIGN_LEFT, palette->ink, "Axial section");
-  snprintf(text, sizeof text, "stem and seals at %s s, housing at rest",
-           sb_section_fixed(value, frame->time, 2));
-  sb_draw_text(section->list, x, y + 34, 12, 400, SB_ALIGN_LEFT, palette->second, text);
-  double at = y + 64;
+  double at = y + 68;
   if (ring != NULL) {
     at += legend(section, x, at, width, ring->field_name, ring->field_unit, &palette->field,
                  ring->scalar_min * ring->display_scale, ring->scalar_max * ring->display_scale);
   }
-  at += legend(section, x, at, width, "fluid pressure", "MPa, gauge", &palette->fluid, 0,
-               SB_PALETTE_FLUID_FULL * 1e-6);
+  at +=
+      legend(section, x, at, width, "fluid pressure", "MPa, gauge", &palette->fluid, 0, fluid_full);
   if (!view->hide_forces && at + 84 < low) {
     force_bars(section, x, at + 4, width);
   }
