@@ -1,0 +1,121 @@
+// Rigid bodies in joints: degrees of freedom, accelerations and joint reactions by multipliers.
+//
+// Newton and Euler for each part with the joints' conditions as Lagrange multipliers (thesis ch. 4,
+// eq. 4.2, 4.16, 4.17; its Euler-angle momenta 4.11-4.13 are misprinted, so that spins and unit
+// quaternions are used instead):
+//
+//   [ M  J' ] [ a  ]   [ applied - gyroscopic ]
+//   [ J  0  ] [ -l ] = [ -(dJ/dt) velocity    ]
+//
+// J has 6 rows for a fixed joint, 5 for a translational or revolute one. Gruebler's count
+// 6 (n - 1) - sum of constraints is compared with the rank of J: conditions that repeat each other
+// or a part that nothing holds are named. SI units, ground frame. Leaves out: flexible parts,
+// clearance, friction inside joints (apply it as a force).
+#pragma once
+
+#include "engine/status.h"
+
+enum { SB_BODIES_MAX = 16, SB_JOINTS_MAX = 20, SB_BODY_NAME = 32 };
+
+typedef struct {
+  char name[SB_BODY_NAME];
+  bool ground;                 // does not move; mass and inertia are not used
+  double mass;                 // kg
+  double inertia[3];           // principal moments about the centre of mass, body axes, kg m2
+  double position[3];          // centre of mass, m
+  double orientation[4];       // unit quaternion w, x, y, z: body to ground
+  double velocity[3], spin[3]; // m/s, rad/s, ground axes
+  double force[3], torque[3];  // applied at the centre of mass, N, N m
+} SbBody;
+
+typedef enum { SB_JOINT_FIXED, SB_JOINT_TRANSLATIONAL, SB_JOINT_REVOLUTE } SbJointKind;
+
+// Joint between bodies i and j. `point` and `axis` are given in the ground frame as assembled.
+typedef struct {
+  SbJointKind kind;
+  size_t i, j;
+  double point[3], axis[3];
+  double local_i[3], local_j[3], frame_j[9]; // set by sb_assembly_join
+  double twist[4];                           // orientation of i in j as assembled
+} SbJoint;
+
+typedef struct {
+  size_t bodies, joints;
+  SbBody body[SB_BODIES_MAX];
+  SbJoint joint[SB_JOINTS_MAX];
+} SbAssembly;
+
+typedef struct {
+  int gruebler;    // 6 (n - 1) - constraints
+  int constraints; // sum over joints
+  int redundant;   // of them, that repeat others
+  int freedom;     // real degrees of freedom, 6 (n - 1) - rank
+  char text[256];  // one sentence: count, and what is over- or under-constrained
+} SbMobility;
+
+// What a joint does to body i (body j gets the opposite), at the joint's point.
+typedef struct {
+  double force[3], torque[3];
+} SbReaction;
+
+typedef struct {
+  double acceleration[SB_BODIES_MAX][3], spin_rate[SB_BODIES_MAX][3];
+  SbReaction reaction[SB_JOINTS_MAX];
+} SbAssemblyForces;
+
+// Appends a body at rest, unrotated; *index tells where. Ground needs no mass.
+SbStatus sb_assembly_add(SbAssembly *assembly, size_t *index, const char *name, double mass,
+                         const double inertia[3], const double position[3], SbReport *report);
+SbStatus sb_assembly_add_ground(SbAssembly *assembly, size_t *index, SbReport *report);
+
+// Appends a joint through `point`; `axis` is that of the sliding or turning (ignored if fixed).
+SbStatus sb_assembly_join(SbAssembly *assembly, size_t *index, SbJointKind kind, size_t i, size_t j,
+                          const double point[3], const double axis[3], SbReport *report);
+
+// Adds a force [N] at a point, ground frame, to what is applied to a body.
+void sb_assembly_apply(SbAssembly *assembly, size_t body, const double force[3],
+                       const double point[3]);
+void sb_assembly_clear_forces(SbAssembly *assembly);
+
+// Counts. SB_ERROR_INFEASIBLE, with the text of `mobility`, unless there are exactly `expected`
+// degrees of freedom and no redundant conditions; expected < 0 accepts any freedom.
+SbStatus sb_assembly_mobility(SbMobility *mobility, const SbAssembly *assembly, int expected,
+                              SbReport *report);
+
+// Accelerations and reactions under the applied forces. SB_ERROR_INFEASIBLE if conditions repeat
+// each other (reactions are then not unique).
+SbStatus sb_assembly_forces(SbAssemblyForces *forces, const SbAssembly *assembly, SbReport *report);
+
+// Mass that a push along the single degree of freedom sees at a body's centre moving along `axis`
+// [kg]: what a one-coordinate model (dynamics.h) needs. SB_ERROR_INFEASIBLE unless freedom is 1 and
+// that body moves along the axis.
+SbStatus sb_assembly_effective_mass(double *mass, const SbAssembly *assembly, size_t body,
+                                    const double axis[3], SbReport *report);
+
+// Advances by h with the classical Runge-Kutta method (order 4), the applied forces held or set
+// anew at each stage by `apply` (may be NULL), and brings positions back onto the joints.
+SbStatus sb_assembly_step(SbAssembly *assembly, double time, double h,
+                          void (*apply)(SbAssembly *assembly, double time, void *user), void *user,
+                          SbReport *report);
+
+// Brings positions and velocities onto the joints' conditions by the smallest change in the sense
+// of the masses. SB_ERROR_NOT_CONVERGED if the parts are too far from an assembled state.
+SbStatus sb_assembly_settle(SbAssembly *assembly, SbReport *report);
+
+// Indices of the thesis' valve in sb_assembly_thesis_valve.
+enum {
+  SB_VALVE_HOUSING,
+  SB_VALVE_STEM_CENTRE,
+  SB_VALVE_STEM_TOP,
+  SB_VALVE_STEM_BOTTOM,
+  SB_VALVE_INNER_SEAL,
+  SB_VALVE_OUTER_SEAL,
+  SB_VALVE_BLOCK,
+  SB_VALVE_GROUND,
+  SB_VALVE_BODIES,
+};
+
+// Eight parts with the masses and moments of table 4.1 and the joints of table 4.3 in its order,
+// axis along x (in-stroke > 0), everything on the axis. Where the parts sit along it is not given
+// there: ours, without effect on axial loads.
+SbStatus sb_assembly_thesis_valve(SbAssembly *assembly, SbReport *report);
