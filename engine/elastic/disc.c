@@ -126,7 +126,7 @@ typedef struct {
 static double excess_at(const double *nodal, size_t n, double half, double tau) {
   const double eta = acos(fmax(-1.0, fmin(1.0, tau)));
   const double sine = sin(eta);
-  if (sine < 1e-9) {
+  if (sine < 1e-6) {
     return 0.0;
   }
   // F(tau) by barycentric interpolation at Chebyshev points of the first kind.
@@ -226,54 +226,71 @@ static double hertz_start(double approach) {
   return fmin(t, 0.9);
 }
 
-// Solves at the present resolution for pressure `target`, in smaller steps if Newton fails. On
-// failure the system holds the last pressure that worked.
-static bool solve_pressure(SbDiscSystem *s, double target, double *v, double *wall,
-                           double tolerance, size_t *iterations, double *last, double *shift_free) {
-  // Without pressure difference.
+// Unknowns of one resolution after the next: the dry half-width, and the edges under pressure.
+typedef struct {
+  double dry;
+  double wet[3];
+  bool has_wet;
+  size_t iterations;
+  double residual;   // of the last Newton
+  double free_bulge; // of the dry flank
+} Progress;
+
+// Solves at the present resolution for pressure `target`, in smaller steps if Newton fails. Returns
+// the pressure that was reached, with the system's solution for it; negative if not even the dry
+// disc.
+static double solve_pressure(SbDiscSystem *s, double target, Progress *at, double tolerance) {
   s->pressure = 0.0;
-  if (!newton(s, v, 1, tolerance, iterations, last)) {
-    return false;
+  if (!newton(s, &at->dry, 1, tolerance, &at->iterations, &at->residual)) {
+    return -1.0;
   }
-  *shift_free = sb_disc_system_bulge(s, unpack(v, 1));
+  at->free_bulge = sb_disc_system_bulge(s, unpack(&at->dry, 1));
   if (target == 0.0) {
-    return true;
+    return 0.0;
   }
+
   // From the coarser resolution's state if there is one.
-  double state[3] = {v[1], v[2], *wall};
-  if (*wall > 0.0) {
+  if (at->has_wet) {
+    double trial[3] = {at->wet[0], at->wet[1], at->wet[2]};
     s->pressure = target;
-    if (newton(s, state, 3, tolerance, iterations, last)) {
-      v[1] = state[0];
-      v[2] = state[1];
-      *wall = state[2];
-      return true;
+    if (newton(s, trial, 3, tolerance, &at->iterations, &at->residual)) {
+      for (int k = 0; k < 3; k++) {
+        at->wet[k] = trial[k];
+      }
+      return target;
     }
   }
-  state[0] = -v[0];
-  state[1] = v[0];
-  state[2] = 0.0;
+
+  // From the dry disc, the wall as wide as Hertz's contact under the fluid's force.
   double done = 0.0;
   double step = target;
-  for (int i = 0; i < 40 && done < target; i++) {
-    double trial[3] = {state[0], state[1], state[2]};
+  at->has_wet = false;
+  while (done < target && step > target / 128.0) {
+    double trial[3] = {at->wet[0], at->wet[1], at->wet[2]};
     s->pressure = fmin(target, done + step);
-    if (done == 0.0) {
-      trial[2] = fmin(0.8, sqrt(4.0 * s->pressure * sqrt(1.0 - v[0] * v[0])));
+    if (!at->has_wet) {
+      trial[0] = -at->dry;
+      trial[1] = at->dry;
+      trial[2] = fmin(0.8, sqrt(4.0 * s->pressure * sqrt(1.0 - at->dry * at->dry)));
     }
-    if (newton(s, trial, 3, tolerance, iterations, last)) {
+    if (newton(s, trial, 3, tolerance, &at->iterations, &at->residual)) {
       done = s->pressure;
-      state[0] = trial[0];
-      state[1] = trial[1];
-      state[2] = trial[2];
+      for (int k = 0; k < 3; k++) {
+        at->wet[k] = trial[k];
+      }
+      at->has_wet = true;
     } else {
       step *= 0.5;
     }
   }
-  v[1] = state[0];
-  v[2] = state[1];
-  *wall = state[2];
-  return done >= target;
+  if (done < target) {
+    // The solution of what was reached.
+    double ignored[3];
+    s->pressure = done;
+    const double *edges = at->has_wet ? at->wet : &at->dry;
+    sb_disc_system_solve(s, unpack(edges, at->has_wet ? 3 : 1), ignored);
+  }
+  return done;
 }
 
 static void keep(SbDisc *out, const SbDiscSystem *s, SbDiscEdges edges, Figures f,
@@ -396,44 +413,54 @@ SbStatus sb_disc_solve(SbDisc *out, const SbDiscProblem *problem, SbWarnings *wa
   static const size_t points[] = {4, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48};
   enum { LEVELS = sizeof points / sizeof points[0] };
   Figures f[LEVELS];
-  double v[3] = {hertz_start(approach), 0.0, 0.0};
-  double wall = 0.0;
-  double last = 0.0;
-  bool solved = false;
-  for (size_t level = 0; level < LEVELS; level++) {
+  const double target = difference * compliance;
+  Progress at = {.dry = hertz_start(approach)};
+  double reached = target;
+  double worst = 1.0;
+  for (size_t level = 0; level < LEVELS && !out->converged && reached == target; level++) {
     sb_disc_system_points(s, points[level]);
-    double bulge = 0.0;
-    solved = solve_pressure(s, difference * compliance, v, &wall, 1e-12, &out->newton_iterations,
-                            &last, &bulge);
-    if (!solved) {
-      break;
+    reached = solve_pressure(s, target, &at, 1e-12);
+    if (reached < 0.0 || (reached < target && out->touches)) {
+      break; // nothing, or nothing better than the coarser resolution
     }
-    const SbDiscEdges edges = s->pressure != 0.0 ? (SbDiscEdges){v[1], v[2], wall} : unpack(v, 1);
+    if (reached < target) {
+      // The last good state is that of a smaller pressure, and says so.
+      out->problem.pressure_left = both + (out->mirrored ? 0.0 : reached / compliance);
+      out->problem.pressure_right = both + (out->mirrored ? reached / compliance : 0.0);
+    }
+    const SbDiscEdges edges = s->pressure != 0.0 ? unpack(at.wet, 3) : unpack(&at.dry, 1);
     f[level] = figures(s, edges);
-    keep(out, s, edges, f[level], bulge);
+    keep(out, s, edges, f[level], at.free_bulge);
     out->touches = true;
-    if (level >= 2) {
+    if (level >= 2 && reached == target) {
       estimate(out, &f[level - 2], &points[level - 2], s->radial, s->pressure != 0.0);
-      const double worst = fmax(out->error_estimate.load, fmax(out->error_estimate.pressure_peak,
-                                                               out->error_estimate.contact_width));
-      if (worst <= wanted) {
-        out->converged = true;
-        break;
-      }
+      worst = fmax(out->error_estimate.load,
+                   fmax(out->error_estimate.pressure_peak, out->error_estimate.contact_width));
+      out->converged = worst <= wanted;
     }
   }
   free(s);
-  if (!out->converged) {
-    status = sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED,
-                               difference > 0.0 ? "canister.pressure" : "gland.radial_space",
-                               "the linear disc found no contact state (edge residual %.2g)", last);
-    if (report != NULL) {
-      report->residual = last;
-      report->iteration = (int)out->newton_iterations;
-    }
-    return status;
+  out->newton_iterations = at.iterations;
+  if (out->converged) {
+    return sb_succeed(report);
   }
-  return sb_succeed(report);
+  if (reached == target) {
+    status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                     "the linear disc's error estimate %.2g stays above %.2g", worst, wanted);
+  } else {
+    out->error_estimate.load = 1.0;
+    out->error_estimate.pressure_peak = 1.0;
+    out->error_estimate.contact_width = 1.0;
+    status = sb_fail_parameter(
+        report, SB_ERROR_NOT_CONVERGED, reached < 0.0 ? "gland.radial_space" : "canister.pressure",
+        "the linear disc found no contact state beyond %.3g MPa (edge residual %.2g)",
+        1e-6 * fmax(0.0, reached) / compliance, at.residual);
+  }
+  if (report != NULL) {
+    report->residual = at.residual;
+    report->iteration = (int)at.iterations;
+  }
+  return status;
 }
 
 double sb_disc_pressure(const SbDisc *disc, double x) {

@@ -380,7 +380,22 @@ static void test_limits(void) {
   g_assert_cmpint(status, ==, SB_ERROR_NOT_CONVERGED);
   g_assert_cmpstr(report.parameter, ==, "canister.pressure");
   g_assert_false(disc.converged);
-  g_assert_true(isfinite(disc.load_per_length));
+  g_assert_true(disc.touches);
+  g_assert_cmpfloat(disc.problem.pressure_left, >, 0.5e6);
+  g_assert_cmpfloat(disc.problem.pressure_left, <, 5e6);
+  g_assert_cmpfloat(disc.error_estimate.load, ==, 1.0);
+  check_profile(&disc, disc.problem.pressure_left, 0.0);
+  in.pressure_left = disc.problem.pressure_left;
+  assert_close(disc.load_per_length, solve(&in).load_per_length, 0.05);
+  // Contacts as wide as the disc: not even dry.
+  in = disc_problem(SB_DISC_RADIAL, 0.42, 0.0, 0.0);
+  g_assert_cmpint(sb_disc_solve(&disc, &in, NULL, &report), ==, SB_ERROR_NOT_CONVERGED);
+  g_assert_cmpstr(report.parameter, ==, "gland.radial_space");
+  // A tolerance below what the radial kernel's kink allows.
+  in = disc_problem(SB_DISC_RADIAL, 0.3, 0.0, 0.0);
+  in.tolerance = 1e-10;
+  g_assert_cmpint(sb_disc_solve(&disc, &in, NULL, &report), ==, SB_ERROR_NOT_CONVERGED);
+  g_assert_cmpfloat(disc.error_estimate.load, <, 1e-8);
 
   const SbDiscProblem good = disc_problem(SB_DISC_VERTICAL, 0.1, 0.0, 0.0);
   SbDiscProblem bad = good;
