@@ -1,6 +1,9 @@
 // Small questions that several views ask of their data. Computes nothing of its own.
 #include "app/chart/data.h"
 
+#include "app/chart/format.h"
+
+#include <glib.h>
 #include <math.h>
 
 const SbFrame *sb_chart_frame(const SbChartData *data) {
@@ -77,6 +80,74 @@ void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace,
   out->model = sb_run_model(run);
   bool ended = state != SB_CHART_RUNNING && state != SB_CHART_EMPTY;
   out->summary = ended ? sb_run_summary(run) : NULL;
+}
+
+static void say(GString *out, const char *label, SbQuantity quantity, double value, double error) {
+  char text[SB_FORMAT_MAX];
+  g_string_append_printf(out, "%s %s", label, sb_format_text(text, quantity, value, error));
+}
+
+char *sb_chart_summary(const SbChartData *data) {
+  const SbChartRun *run = &data->run;
+  const SbFrame *f = sb_chart_frame(data);
+  GString *out = g_string_new(NULL);
+  if (!f) {
+    g_string_append(out, run->state == SB_CHART_RUNNING ? "The run has begun." : "No run yet.");
+    return g_string_free(out, FALSE);
+  }
+  switch (run->state) {
+  case SB_CHART_RUNNING:
+    g_string_append_printf(out, "Being computed, %zu frames so far. ", run->count);
+    break;
+  case SB_CHART_PARTIAL:
+    g_string_append(out, "Partial: the run was cancelled. ");
+    break;
+  case SB_CHART_FAILED:
+    g_string_append(out, "The solver did not converge; up to the last good state. ");
+    break;
+  default:
+    break;
+  }
+
+  // The instant.
+  double force_error = sb_chart_error_force(run), film_error = sb_chart_error_film(run);
+  g_string_append_printf(out, "Stage %s, %s:", sb_chart_span(f->stage),
+                         sb_chart_phase(run, f->stage));
+  say(out, "", SB_QUANTITY_TIME, f->time, 0);
+  say(out, ", displacement", SB_QUANTITY_LENGTH, f->displacement, 0);
+  say(out, ", force on the stem", SB_QUANTITY_FORCE, f->force, force_error);
+  say(out, ", pressure force", SB_QUANTITY_FORCE, f->pressure_force, 0);
+  g_string_append(out, ".");
+  static const int order[SB_SEAL_COUNT] = {SB_INNER, SB_OUTER};
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const SbSealFrame *s = &f->seal[order[i]];
+    const char *name = order[i] == SB_INNER ? " Inner seal:" : " Outer seal:";
+    if (!(s->load > 0)) {
+      g_string_append_printf(out, "%s no contact.", name);
+      continue;
+    }
+    g_string_append(out, name);
+    say(out, " friction", SB_QUANTITY_FORCE, s->friction, force_error);
+    say(out, ", contact", SB_QUANTITY_LENGTH, s->contact_right - s->contact_left, 0);
+    say(out, ", peak", SB_QUANTITY_PRESSURE, s->pressure_peak, 0);
+    if (s->film_central > 0) {
+      say(out, ", film", SB_QUANTITY_FILM, s->film_central, film_error);
+      say(out, ", least", SB_QUANTITY_FILM, s->film_min, film_error);
+    } else {
+      g_string_append(out, ", at rest");
+    }
+    g_string_append(out, ".");
+  }
+
+  // The whole loop.
+  if (run->summary && sb_chart_complete(data)) {
+    say(out, " Break-away", SB_QUANTITY_FORCE, run->summary->force_breakaway, force_error);
+    say(out, ", least return", SB_QUANTITY_FORCE, run->summary->force_return_min, force_error);
+    say(out, ", loss per cycle", SB_QUANTITY_ENERGY, run->summary->energy.loop, 0);
+    g_string_append(out,
+                    run->summary->returns ? "; the stem returns." : "; the stem does not return.");
+  }
+  return g_string_free(out, FALSE);
 }
 
 static double known(double error) {

@@ -1,11 +1,9 @@
 // The hysteresis chart. Played part thick, rest thin; an earlier or a pinned run behind; stages A
 // to F as ringed dots with the force just before the event; labels placed by the collision rule,
-// *now* first. Displacement in mm, force in N, both from the frames; loss and least return from the
-// run's summary and therefore only after its end. Leaves out any smoothing: lines join computed
-// frames.
-#include "app/chart/hysteresis.h"
+// *now* first (hysteresis_labels.c). Displacement in mm, force in N, both from the frames. Leaves
+// out any smoothing: lines join computed frames.
 #include "app/chart/format.h"
-#include "app/chart/label.h"
+#include "app/chart/hysteresis_private.h"
 
 #include <glib.h>
 #include <math.h>
@@ -14,14 +12,6 @@
 // Width of "D 22.5 N" beside its dot: inside the plot, and in the margin to its right [px].
 #define LABEL_ROOM         56.0
 #define LABEL_ROOM_OUTSIDE 12.0
-
-typedef struct {
-  SbCanvas canvas;
-  SbHysteresisLayout at;
-  SbLabels *labels;
-  const SbChartData *data;
-  unsigned flags;
-} View;
 
 static SbRect inner_rect(SbRect rect, unsigned flags) {
   double pad = flags & SB_CHART_PANEL ? SB_GRID_PADDING : 0;
@@ -78,7 +68,7 @@ static size_t drawable(const SbChartRun *run) {
   return run->trace ? MIN(run->count, sb_trace_frames(run->trace)) : 0;
 }
 
-static SbPoint to_px(const SbHysteresisLayout *at, double displacement, double force) {
+SbPoint sb_hysteresis_pixel(const SbHysteresisLayout *at, double displacement, double force) {
   return (SbPoint){sb_axis_at(&at->x, displacement * 1e3), sb_axis_at(&at->y, force)};
 }
 
@@ -95,21 +85,21 @@ static SbPoint *trace_pixels(const SbHysteresisLayout *at, const SbChartRun *run
   const SbTracePoint *p = sb_trace_points(run->trace, &total);
   last = MIN(last, limit - 1);
   SbPoint *out = g_new(SbPoint, total + 2);
-  out[n++] = to_px(at, run->frames[first].displacement, run->frames[first].force);
+  out[n++] = sb_hysteresis_pixel(at, run->frames[first].displacement, run->frames[first].force);
   for (size_t i = sb_trace_find(run->trace, first); i < total && p[i].frame < last; i++) {
     if (p[i].frame > first) {
-      out[n++] = to_px(at, p[i].displacement, p[i].force);
+      out[n++] = sb_hysteresis_pixel(at, p[i].displacement, p[i].force);
     }
   }
   if (last > first) {
-    out[n++] = to_px(at, run->frames[last].displacement, run->frames[last].force);
+    out[n++] = sb_hysteresis_pixel(at, run->frames[last].displacement, run->frames[last].force);
   }
   *count = n;
   return out;
 }
 
 // Grid, axes, titles.
-static void draw_axes(View *v) {
+static void draw_axes(SbHysteresisView *v) {
   SbCanvas *c = &v->canvas;
   const SbHysteresisLayout *at = &v->at;
   char text[SB_FORMAT_MAX];
@@ -137,7 +127,7 @@ static void draw_axes(View *v) {
   sb_canvas_text(c, "stem displacement / mm", &label, right, bottom + 36, SB_RIGHT);
 }
 
-static void draw_titles(View *v, SbRect rect) {
+static void draw_titles(SbHysteresisView *v, SbRect rect) {
   SbCanvas *c = &v->canvas;
   SbRect in = inner_rect(rect, v->flags);
   bool compact = v->flags & SB_CHART_COMPACT;
@@ -169,7 +159,7 @@ static void draw_titles(View *v, SbRect rect) {
 }
 
 // Another run behind: dashed when pinned, faint when earlier.
-static void draw_other(View *v, const SbChartRun *run, bool dashed) {
+static void draw_other(SbHysteresisView *v, const SbChartRun *run, bool dashed) {
   size_t n;
   SbPoint *p = run && drawable(run) > 0 ? trace_pixels(&v->at, run, 0, run->count - 1, &n) : NULL;
   if (!p) {
@@ -189,7 +179,7 @@ static void draw_other(View *v, const SbChartRun *run, bool dashed) {
 }
 
 // The run itself: interior, future, played part.
-static void draw_loop(View *v) {
+static void draw_loop(SbHysteresisView *v) {
   const SbChartRun *run = &v->data->run;
   SbCanvas *c = &v->canvas;
   size_t n,
@@ -232,7 +222,8 @@ static void draw_loop(View *v) {
 }
 
 // An arrow at `fraction` of the way along the curve between two frames.
-static void draw_arrow(View *v, size_t first, size_t last, double fraction, bool played) {
+static void draw_arrow(SbHysteresisView *v, size_t first, size_t last, double fraction,
+                       bool played) {
   size_t n;
   SbPoint *p = trace_pixels(&v->at, &v->data->run, first, last, &n);
   double length = 0, walked = 0;
@@ -276,7 +267,7 @@ static size_t top_of_stop(const SbChartRun *run, size_t d, size_t e) {
   return best;
 }
 
-static void draw_arrows(View *v) {
+static void draw_arrows(SbHysteresisView *v) {
   const SbChartRun *run = &v->data->run;
   const SbStageMark *mark = sb_trace_marks(run->trace);
   for (int s = 0; s < SB_STAGE_COUNT; s++) {
@@ -295,257 +286,7 @@ static void draw_arrows(View *v) {
   }
 }
 
-// A letter in bold and its value, as one label.
-static void draw_mark(View *v, int stage, SbPoint at, const char *value, const SbPlace *place,
-                      int count) {
-  SbCanvas *c = &v->canvas;
-  SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
-  SbTextStyle plain = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
-  const char *letter = sb_stage_name((SbStage)stage);
-  double letter_width = sb_canvas_text_width(c, letter, &bold);
-  double gap = value[0] ? 6 : 0;
-  double width = letter_width + gap + (value[0] ? sb_canvas_text_width(c, value, &plain) : 0);
-  SbPlace chosen;
-  v->labels->crossing_max = 10;
-  bool room = sb_labels_place_box(v->labels, width, SB_TYPE_LABEL, place, count, &chosen);
-  v->labels->crossing_max = INFINITY;
-  if (!room) {
-    // No room for the value: the letter alone.
-    value = "";
-    if (!sb_labels_place_box(v->labels, letter_width, SB_TYPE_LABEL, place, count, &chosen)) {
-      return;
-    }
-    width = letter_width;
-  }
-  double x = chosen.x - (chosen.align == SB_LEFT     ? 0
-                         : chosen.align == SB_MIDDLE ? 0.5 * width
-                                                     : width);
-  sb_canvas_text_halo(c, letter, &bold, x, chosen.y, SB_LEFT);
-  if (value[0]) {
-    sb_canvas_text_halo(c, value, &plain, x + letter_width + gap, chosen.y, SB_LEFT);
-  }
-}
-
-static void draw_marks(View *v) {
-  const SbChartRun *run = &v->data->run;
-  SbCanvas *c = &v->canvas;
-  const SbStageMark *mark = sb_trace_marks(run->trace);
-  SbColor ink = sb_canvas_role(c, SB_ROLE_INK);
-  // All dots first: labels keep off every one of them.
-  for (int s = 0; s < SB_STAGE_COUNT; s++) {
-    if (mark[s].reached) {
-      SbPoint p = to_px(&v->at, mark[s].displacement, mark[s].force);
-      sb_canvas_ringed_dot(c, p.x, p.y, ink);
-      sb_labels_block(v->labels, (SbRect){p.x - 5, p.y - 5, 10, 10});
-    }
-  }
-  char shown[SB_FORMAT_MAX] = "";
-  for (int s = 0; s < SB_STAGE_COUNT; s++) {
-    if (!mark[s].reached) {
-      continue;
-    }
-    SbPoint p = to_px(&v->at, mark[s].displacement, mark[s].force);
-    char value[SB_FORMAT_MAX] = "";
-    sb_format_text(value, SB_QUANTITY_FORCE, mark[s].force, sb_chart_error_force(run));
-    // F stands on the line that E has just labelled; A is the origin.
-    bool again = s == SB_STAGE_F && strcmp(value, shown) == 0;
-    g_strlcpy(shown, value, sizeof shown);
-    if (again || s == SB_STAGE_A) {
-      value[0] = 0;
-    }
-    const SbPlace above = {p.x, p.y - 13, SB_LEFT}, over = {p.x, p.y - 12, SB_MIDDLE};
-    const SbPlace higher = {p.x, p.y - 30, SB_LEFT};
-    const SbPlace right = {p.x + 11, p.y + 4, SB_LEFT}, left = {p.x - 10, p.y + 4, SB_RIGHT};
-    const SbPlace up_right = {p.x + 8, p.y - 12, SB_LEFT}, up_left = {p.x - 8, p.y - 9, SB_RIGHT};
-    const SbPlace below = {p.x, p.y + 20, SB_MIDDLE}, down_right = {p.x + 8, p.y + 19, SB_LEFT};
-    const SbPlace down_left = {p.x - 8, p.y + 19, SB_RIGHT};
-    switch (s) {
-    case SB_STAGE_A:
-      draw_mark(v, s, p, value, (SbPlace[]){{p.x - 9, p.y - 8, SB_RIGHT}, left, up_right, above},
-                4);
-      break;
-    case SB_STAGE_B:
-      draw_mark(v, s, p, value, (SbPlace[]){above, up_right, higher, right, up_left, down_right},
-                6);
-      break;
-    case SB_STAGE_C:
-      draw_mark(v, s, p, value, (SbPlace[]){up_right, right, over, higher, up_left, down_right}, 6);
-      break;
-    case SB_STAGE_D:
-    case SB_STAGE_E:
-      draw_mark(v, s, p, value, (SbPlace[]){right, up_right, down_right, up_left, down_left}, 5);
-      break;
-    default:
-      draw_mark(v, s, p, value, (SbPlace[]){over, up_right, up_left, below, down_left, right}, 6);
-      break;
-    }
-  }
-}
-
-// *Now*: a dot, its figures, a dashed line down to the axis.
-static void draw_now(View *v, bool line) {
-  const SbFrame *frame = sb_chart_frame(v->data);
-  SbCanvas *c = &v->canvas;
-  SbColor now = sb_canvas_role(c, SB_ROLE_NOW);
-  SbPoint p = to_px(&v->at, frame->displacement, frame->force);
-  double bottom = v->at.plot.y + v->at.plot.height;
-  if (line) {
-    sb_canvas_pen(c, 1, &sb_dash_now);
-    sb_canvas_color(c, now, 1);
-    cairo_move_to(c->cr, p.x, p.y);
-    cairo_line_to(c->cr, p.x, bottom);
-    cairo_stroke(c->cr);
-    SbPoint drop[2] = {p, {p.x, bottom}};
-    sb_labels_avoid(v->labels, drop, 2, 0.8);
-    return;
-  }
-  sb_canvas_dot(c, p.x, p.y, 8, sb_canvas_role(c, SB_ROLE_PANEL));
-  sb_canvas_dot(c, p.x, p.y, 6, now);
-}
-
-static void label_now(View *v) {
-  const SbFrame *frame = sb_chart_frame(v->data);
-  SbCanvas *c = &v->canvas;
-  SbPoint p = to_px(&v->at, frame->displacement, frame->force);
-  sb_labels_block(v->labels, (SbRect){p.x - 8, p.y - 8, 16, 16});
-  char place_text[SB_FORMAT_MAX], force_text[SB_FORMAT_MAX], text[2 * SB_FORMAT_MAX + 4];
-  // A fixed number of decimals: digits that come and go distract.
-  sb_format_fixed(place_text, frame->displacement * 1e3, 2);
-  sb_format_text(force_text, SB_QUANTITY_FORCE, frame->force, sb_chart_error_force(&v->data->run));
-  g_snprintf(text, sizeof text, "%s\xc2\xa0mm, %s", place_text, force_text);
-  SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_NOW);
-  const SbPlace places[] = {
-      {p.x, p.y - 14, SB_MIDDLE},     {p.x + 10, p.y - 14, SB_LEFT}, {p.x - 10, p.y - 14, SB_RIGHT},
-      {p.x + 14, p.y + 4, SB_LEFT},   {p.x - 14, p.y + 4, SB_RIGHT}, {p.x + 10, p.y + 24, SB_LEFT},
-      {p.x - 10, p.y + 24, SB_RIGHT}, {p.x, p.y + 24, SB_MIDDLE},    {p.x + 14, p.y - 30, SB_LEFT},
-      {p.x - 14, p.y - 30, SB_RIGHT},
-  };
-  SbPlace at;
-  if (sb_labels_place(v->labels, c, text, &style, places, G_N_ELEMENTS(places), &at)) {
-    sb_canvas_text_halo(c, text, &style, at.x, at.y, at.align);
-  }
-}
-
-static void label_curve(View *v, const char *text, SbRole role, const SbPlace *place, int count) {
-  SbCanvas *c = &v->canvas;
-  SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, role);
-  SbPlace at;
-  if (sb_labels_place(v->labels, c, text, &style, place, count, &at)) {
-    sb_canvas_text_halo(c, text, &style, at.x, at.y, at.align);
-  }
-}
-
-// Point of the curve at a share of the way in time between two stages.
-static bool between(const View *v, int stage, double share, SbPoint *out) {
-  const SbChartRun *run = &v->data->run;
-  const SbStageMark *mark = sb_trace_marks(run->trace);
-  if (!mark[stage].reached) {
-    return false;
-  }
-  size_t first = mark[stage].frame;
-  bool next = stage + 1 < SB_STAGE_COUNT && mark[stage + 1].reached;
-  if (!next && !(stage == SB_STAGE_F && sb_chart_complete(v->data))) {
-    return false;
-  }
-  size_t last = next ? mark[stage + 1].frame : run->count - 1;
-  size_t i = first + (size_t)(share * (double)(last - first));
-  *out = to_px(&v->at, run->frames[i].displacement, run->frames[i].force);
-  return true;
-}
-
-static void draw_notes(View *v) {
-  const SbChartRun *run = &v->data->run;
-  char value[SB_FORMAT_MAX], text[128];
-  SbPoint p;
-  const SbStageMark *mark = sb_trace_marks(run->trace);
-  double left = v->at.plot.x, right = left + v->at.plot.width;
-  if (mark[SB_STAGE_D].reached) {
-    p = to_px(&v->at, mark[SB_STAGE_D].displacement, v->at.y.hi);
-    label_curve(v, "stop", SB_ROLE_SECOND,
-                (SbPlace[]){{p.x - 8, p.y + 5, SB_RIGHT}, {p.x + 8, p.y + 5, SB_LEFT}}, 2);
-  }
-  double reference = run->model ? run->model->pressure_force : 0;
-  if (reference > 0) {
-    double y = sb_axis_at(&v->at.y, reference);
-    sb_format_text(value, SB_QUANTITY_FORCE, reference, 0);
-    g_snprintf(text, sizeof text, "pressure force %s", value);
-    double zero = sb_axis_at(&v->at.x, 0), end = sb_axis_at(&v->at.x, v->at.x.hi);
-    double stroke = run->model ? sb_axis_at(&v->at.x, run->model->stroke * 1e3) : end;
-    label_curve(v, text, SB_ROLE_FLUID,
-                (SbPlace[]){{stroke - 8, y - 7, SB_RIGHT},
-                            {zero + 10, y - 7, SB_LEFT},
-                            {stroke - 8, y + 16, SB_RIGHT},
-                            {0.5 * (zero + stroke), y - 7, SB_MIDDLE},
-                            {zero + 10, y + 16, SB_LEFT}},
-                5);
-  }
-  const SbSummary *sum = run->summary;
-  if (sum && sb_chart_complete(v->data)) {
-    double zero = sb_axis_at(&v->at.x, 0);
-    if (isfinite(sum->energy.loop) && sum->energy.loop > 0) {
-      sb_format_text(value, SB_QUANTITY_ENERGY, sum->energy.loop,
-                     isfinite(sum->error_energy) ? sum->error_energy : 0);
-      g_snprintf(text, sizeof text, "loss per cycle %s", value);
-      double y = sb_axis_at(&v->at.y, reference > 0 ? reference : 0.5 * v->at.y.hi);
-      label_curve(v, text, SB_ROLE_SECOND,
-                  (SbPlace[]){{zero + 12, y + 18, SB_LEFT},
-                              {zero + 12, y + 36, SB_LEFT},
-                              {zero + 12, y - 10, SB_LEFT},
-                              {zero + 12, y - 28, SB_LEFT},
-                              {zero + 120, y + 18, SB_LEFT}},
-                  5);
-    }
-    if (isfinite(sum->force_return_min)) {
-      sb_format_text(value, SB_QUANTITY_FORCE, sum->force_return_min, sb_chart_error_force(run));
-      g_snprintf(text, sizeof text, "least return %s", value);
-      double y = sb_axis_at(&v->at.y, fmax(sum->force_return_min, v->at.y.lo));
-      label_curve(v, text, SB_ROLE_INK,
-                  (SbPlace[]){{zero + 12, y - 9, SB_LEFT},
-                              {zero + 12, y - 26, SB_LEFT},
-                              {zero + 60, y - 9, SB_LEFT},
-                              {zero + 12, y + 18, SB_LEFT}},
-                  4);
-    }
-  }
-  if (between(v, SB_STAGE_C, 0.5, &p)) {
-    label_curve(v, "in-stroke", SB_ROLE_INK,
-                (SbPlace[]){{p.x, p.y - 10, SB_MIDDLE},
-                            {p.x, p.y + 19, SB_MIDDLE},
-                            {p.x + 50, p.y - 10, SB_MIDDLE},
-                            {p.x - 50, p.y - 10, SB_MIDDLE}},
-                4);
-  }
-  if (between(v, SB_STAGE_E, 0.32, &p)) {
-    label_curve(v, "return", SB_ROLE_INK,
-                (SbPlace[]){{p.x, p.y + 17, SB_MIDDLE},
-                            {p.x, p.y - 10, SB_MIDDLE},
-                            {p.x - 40, p.y + 17, SB_MIDDLE}},
-                3);
-  }
-  if (v->data->pinned && v->data->pinned->trace) {
-    // Beside the pinned run's own in-stroke.
-    View other = *v;
-    SbChartData shown = *v->data;
-    shown.run = *v->data->pinned;
-    other.data = &shown;
-    if (between(&other, SB_STAGE_C, 0.05, &p)) {
-      g_snprintf(text, sizeof text, "%s%s", v->data->pinned_name ? "pinned run: " : "pinned run",
-                 v->data->pinned_name ? v->data->pinned_name : "");
-      double end =
-          fmin(right,
-               sb_axis_at(&v->at.x, 1e3 * sb_trace_range(v->data->run.trace).displacement_max) - 8);
-      label_curve(v, text, SB_ROLE_SECOND,
-                  (SbPlace[]){{p.x, p.y + 18, SB_LEFT},
-                              {p.x, p.y - 9, SB_LEFT},
-                              {end, p.y + 18, SB_RIGHT},
-                              {end, p.y - 9, SB_RIGHT},
-                              {p.x, p.y + 34, SB_LEFT}},
-                  5);
-    }
-  }
-}
-
-static void draw_empty(View *v) {
+static void draw_empty(SbHysteresisView *v) {
   SbCanvas *c = &v->canvas;
   SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   const char *text = v->data->run.state == SB_CHART_RUNNING ? "The run has begun." : "No run yet.";
@@ -555,7 +296,7 @@ static void draw_empty(View *v) {
 
 void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                         unsigned flags) {
-  View v = {.data = data, .flags = flags};
+  SbHysteresisView v = {.data = data, .flags = flags};
   SbCanvas *c = &v.canvas;
   sb_canvas_init(c, cr, theme);
   sb_hysteresis_layout(&v.at, rect, data, flags);
@@ -593,18 +334,18 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
   if (now && traced > 0) {
     bool whole = flags & SB_CHART_WHOLE;
     if (!whole) {
-      draw_now(&v, true);
+      sb_hysteresis_now(&v, true);
     }
     draw_loop(&v);
     draw_arrows(&v);
     if (!whole) {
-      label_now(&v);
+      sb_hysteresis_label_now(&v);
     }
-    draw_marks(&v);
+    sb_hysteresis_marks(&v);
     if (!whole) {
-      draw_now(&v, false);
+      sb_hysteresis_now(&v, false);
     }
-    draw_notes(&v);
+    sb_hysteresis_notes(&v);
   } else {
     draw_empty(&v);
   }
@@ -622,11 +363,11 @@ bool sb_hysteresis_hit(size_t *frame, SbRect rect, const SbChartData *data, unsi
   double best = INFINITY;
   size_t nearest = 0;
   for (size_t i = 0; i < n; i++) {
-    SbPoint q = to_px(&at, p[i].displacement, p[i].force);
+    SbPoint q = sb_hysteresis_pixel(&at, p[i].displacement, p[i].force);
     // Distance to the piece up to the next point, so that long straight pieces are found too.
     double dx = 0, dy = 0, t = 0;
     if (i + 1 < n) {
-      SbPoint r = to_px(&at, p[i + 1].displacement, p[i + 1].force);
+      SbPoint r = sb_hysteresis_pixel(&at, p[i + 1].displacement, p[i + 1].force);
       dx = r.x - q.x;
       dy = r.y - q.y;
       double l2 = dx * dx + dy * dy;

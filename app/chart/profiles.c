@@ -86,6 +86,28 @@ static void curve_finish(Curve *curve) {
   g_free(curve->x);
 }
 
+// Moves the ends of the part to draw outwards to where the pressure has come down to the fluid's: a
+// solved film spreads a little beyond the dry contact that the frame's width tells.
+static void extend_ends(const Curve *curve, const SbSealFrame *seal, double *left, double *right) {
+  double slack = 2e-3 * seal->pressure_peak;
+  for (size_t i = curve->count; i-- > 0;) {
+    if (curve->x[i] < *left) {
+      if (curve->pressure[i] <= (double)seal->pressure_left + slack) {
+        break;
+      }
+      *left = curve->x[i];
+    }
+  }
+  for (size_t i = 0; i < curve->count; i++) {
+    if (curve->x[i] > *right) {
+      if (curve->pressure[i] <= (double)seal->pressure_right + slack) {
+        break;
+      }
+      *right = curve->x[i];
+    }
+  }
+}
+
 // Linear interpolation in a curve.
 static double curve_at(const Curve *curve, const double *value, double x) {
   for (size_t i = 1; i < curve->count; i++) {
@@ -265,12 +287,15 @@ static void pressure_chart(Small *s) {
     return;
   }
   double left = seal->contact_left, right = seal->contact_right;
+  Curve curve;
+  curve_init(&curve, s);
+  if (curve.model && seal->land_fraction > 0.999F) {
+    extend_ends(&curve, seal, &left, &right);
+  }
   fluid_ground(s, -far, left, seal->pressure_left);
   fluid_ground(s, right, far, seal->pressure_right);
 
-  // The curve between the contact's ends, which stand on the fluid's pressure.
-  Curve curve;
-  curve_init(&curve, s);
+  // The curve between its ends, which stand on the fluid's pressure.
   SbPoint *p = g_new(SbPoint, curve.count + 4);
   size_t n = 0;
   double peak = 0, peak_x = 0.5 * (left + right);
@@ -319,12 +344,13 @@ static void pressure_chart(Small *s) {
                             {s->plot.x + 4, s->plot.y + 10, SB_LEFT}},
                 4);
   }
-  double middle = sb_axis_at(&s->x, 0.5e3 * (left + right));
-  shared_format(value, s, right - left, other ? other->contact_right - other->contact_left : 0, 1e3,
-                "mm");
+  // The width is the frame's contact, whatever the curve's feet.
+  double wide = seal->contact_right - seal->contact_left;
+  double middle = sb_axis_at(&s->x, 0.5e3 * (seal->contact_left + seal->contact_right));
+  shared_format(value, s, wide, other ? other->contact_right - other->contact_left : 0, 1e3, "mm");
   SbTextStyle strong = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
   double width = sb_canvas_text_width(c, value, &strong) + 8;
-  double room = sb_axis_at(&s->x, right * 1e3) - sb_axis_at(&s->x, left * 1e3);
+  double room = sb_axis_at(&s->x, wide * 1e3) - sb_axis_at(&s->x, 0);
   SbPlace at;
   const SbPlace widths[] = {{middle, bottom - 8, SB_MIDDLE},
                             {sb_axis_at(&s->x, right * 1e3) + 8, bottom - 8, SB_LEFT}};
@@ -404,7 +430,7 @@ static void film_chart(Small *s) {
       // Narrow: one line under the other, the least film next to the curve.
       g_snprintf(text, sizeof text, "least %s", least);
       const SbPlace near[] = {{x, y - 9, SB_MIDDLE}, {right_px - 4, y - 9, SB_RIGHT}};
-      const SbPlace above[] = {{x, y - 25, SB_MIDDLE}, {right_px - 4, y - 25, SB_RIGHT}};
+      const SbPlace above[] = {{x, y - 26, SB_MIDDLE}, {right_px - 4, y - 26, SB_RIGHT}};
       if (!uniform) {
         small_label(s, text, &style, near, 2);
       }
