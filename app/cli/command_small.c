@@ -1,6 +1,7 @@
 // sealbench check, list, plan, asperity and open.
 #include "app/cli/cli.h"
 #include "app/export/json.h"
+#include "app/export/render.h"
 #include "app/export/results.h"
 
 #include "engine/surface/greenwood_tripp.h"
@@ -64,19 +65,29 @@ static void list_models(void) {
 }
 
 static char *views_json(void) {
-  const SbParam *param = sb_param(SB_P_OUTPUT_VIEWS);
+  size_t count = 0;
+  const SbRenderView *views = sb_render_views(&count);
   SbJson json;
   sb_json_init(&json);
   sb_json_array(&json, NULL);
-  for (int i = 0; i < sb_param_choice_count(param); i++) {
-    char name[64];
-    sb_param_choice_name(param, i, name, sizeof name);
+  for (size_t i = 0; i < count; i++) {
     sb_json_object(&json, NULL);
-    sb_json_string(&json, "name", name);
+    sb_json_string(&json, "name", views[i].name);
+    sb_json_string(&json, "label", views[i].label);
+    sb_json_number(&json, "width_px", views[i].width);
+    sb_json_number(&json, "height_px", views[i].height);
     sb_json_object_end(&json);
   }
   sb_json_array_end(&json);
   return sb_json_finish(&json);
+}
+
+static void list_views(void) {
+  size_t count = 0;
+  const SbRenderView *views = sb_render_views(&count);
+  for (size_t i = 0; i < count; i++) {
+    printf("%-12s %s\n", views[i].name, views[i].label);
+  }
 }
 
 int sb_command_list(int argc, char **argv) {
@@ -107,11 +118,7 @@ int sb_command_list(int argc, char **argv) {
   } else if (models) {
     list_models();
   } else {
-    char **names = g_strsplit(sb_param(SB_P_OUTPUT_VIEWS)->choices, "|", 0);
-    for (char **name = names; *name != NULL; name++) {
-      printf("%s\n", *name);
-    }
-    g_strfreev(names);
+    list_views();
   }
 done:
   g_free(target);

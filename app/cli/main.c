@@ -9,6 +9,7 @@
 
 static const SbCommand commands[] = {
     {"run", "FILE.scene", "Computes a scene's cycle", sb_command_run},
+    {"render", "FILE.scene -o OUT.{mp4,png,svg,pdf}", "Draws a view of a scene", sb_command_render},
     {"plan", "FILE.scene", "Says what a scene would compute, and why", sb_command_plan},
     {"check", "FILE", "Reports every problem of a valve or scene file", sb_command_check},
     {"fit", "FILE.valve --seal NAME", "Fits one seal into its gland", sb_command_fit},
@@ -29,10 +30,10 @@ static void print_help(FILE *stream) {
           sb_version());
   for (const SbCommand *command = commands; command->name != NULL; command++) {
     char *head = g_strdup_printf("%s %s", command->name, command->usage);
-    if (strlen(head) > 30) {
-      fprintf(stream, "  sealbench %s\n  %41s%s\n", head, "", command->help);
+    if (strlen(head) > 32) {
+      fprintf(stream, "  sealbench %s\n  %43s%s\n", head, "", command->help);
     } else {
-      fprintf(stream, "  sealbench %-30s %s\n", head, command->help);
+      fprintf(stream, "  sealbench %-32s %s\n", head, command->help);
     }
     g_free(head);
   }

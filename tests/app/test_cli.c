@@ -461,6 +461,57 @@ static void test_io_errors(void) {
   g_free(out);
 }
 
+static void test_render(void) {
+  static const struct {
+    const char *view, *ending, *magic;
+  } cases[] = {
+      {"hysteresis", "png", "\x89PNG"}, {"hysteresis", "svg", "<?xml"},
+      {"profiles", "pdf", "%PDF"},      {"section", "png", "\x89PNG"},
+      {"section", "svg", "<?xml"},      {"dashboard", "png", "\x89PNG"},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    char *name = g_strdup_printf("picture.%s", cases[i].ending);
+    char *path = g_build_filename(folder, name, NULL);
+    Result result = RUN("render", scene, "-o", path, "--view", cases[i].view, "--quiet", "--size",
+                        "640x400", "--at", "C");
+    g_assert_cmpstr(result.err, ==, "");
+    g_assert_cmpint(result.code, ==, 0);
+    char *picture = contents(folder, name);
+    g_assert_true(strncmp(picture, cases[i].magic, 4) == 0);
+    clear(&result);
+    g_free(picture);
+    g_unlink(path);
+    g_free(path);
+    g_free(name);
+  }
+  static const struct {
+    const char *arguments[8];
+    int code;
+  } bad[] = {
+      {{"-o", "x.gif"}, 1},
+      {{"-o", "x.png", "--view", "clouds"}, 1},
+      {{"-o", "x.png", "--size", "12"}, 1},
+      {{"-o", "x.png", "--size", "1x1"}, 1},
+      {{"-o", "x.png", "--at", "Q"}, 1},
+      {{"-o", "x.png", "--at", "900 s"}, 1},
+      {{"--view", "section"}, 1},
+      {{"-o", "/no/such/x.png"}, 3},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+    const char *arguments[12] = {"render", scene, "--quiet"};
+    for (size_t k = 0; bad[i].arguments[k] != NULL; k++) {
+      arguments[k + 3] = bad[i].arguments[k];
+    }
+    Result result = run_with(arguments, NULL, NULL);
+    if (result.code != bad[i].code) {
+      g_error("case %zu: exit %d, not %d: %s", i, result.code, bad[i].code, result.err);
+    }
+    g_assert_cmpstr(result.err, !=, "");
+    g_assert_false(g_file_test("x.png", G_FILE_TEST_EXISTS));
+    clear(&result);
+  }
+}
+
 static void test_interrupt(void) {
   char *out = g_build_filename(folder, "part", NULL);
   const char *const argv[] = {program, "run", scene, "-o", out, "--set", "output.frames=1000000",
@@ -511,6 +562,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/json/small", test_json_small);
   g_test_add_func("/cli/results-and-locale", test_results_and_locale);
   g_test_add_func("/cli/io-errors", test_io_errors);
+  g_test_add_func("/cli/render", test_render);
   g_test_add_func("/cli/interrupt", test_interrupt);
   int result = g_test_run();
   g_rmdir(folder);
