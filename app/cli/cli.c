@@ -218,8 +218,8 @@ bool sb_cli_interrupted(void *unused) {
 
 // ---- Progress ----
 
-void sb_progress_start(SbProgress *progress, bool quiet) {
-  *progress = (SbProgress){quiet, isatty(STDERR_FILENO) != 0, 0, g_get_monotonic_time()};
+void sb_progress_start(SbProgress *progress, const char *what, bool quiet) {
+  *progress = (SbProgress){what, quiet, isatty(STDERR_FILENO) != 0, 0, g_get_monotonic_time()};
 }
 
 void sb_progress_update(SbProgress *progress, double fraction) {
@@ -229,7 +229,7 @@ void sb_progress_update(SbProgress *progress, double fraction) {
   }
   if (!progress->bar) {
     for (; progress->last < percent / 10; progress->last++) {
-      fprintf(stderr, "sealbench: %d %%\n", 10 * (progress->last + 1));
+      fprintf(stderr, "sealbench: %s%d %%\n", progress->what, 10 * (progress->last + 1));
     }
     return;
   }
@@ -245,7 +245,7 @@ void sb_progress_update(SbProgress *progress, double fraction) {
     cells[i] = i < WIDTH * percent / 100 ? '#' : '.';
   }
   cells[WIDTH] = '\0';
-  fprintf(stderr, "\r[%s] %3d %%  %.0f s left ", cells, percent,
+  fprintf(stderr, "\r[%s] %s%3d %%  %.0f s left ", cells, progress->what, percent,
           elapsed * (100 - percent) / percent);
 }
 

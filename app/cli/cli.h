@@ -68,12 +68,13 @@ bool sb_cli_interrupted(void *unused);
 
 // Progress on standard error: a bar on a terminal, a line every 10 % otherwise.
 typedef struct {
+  const char *what; // "drawing ", in front of the percentage; may be empty
   bool quiet, bar;
   int last;     // last percent (bar) or decile (lines) shown
   gint64 start; // [us]
 } SbProgress;
 
-void sb_progress_start(SbProgress *progress, bool quiet);
+void sb_progress_start(SbProgress *progress, const char *what, bool quiet);
 void sb_progress_update(SbProgress *progress, double fraction);
 void sb_progress_end(SbProgress *progress);
 

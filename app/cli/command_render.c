@@ -37,7 +37,7 @@ static void on_picture(void *data, size_t done, size_t total) {
 static int render_film(const SbRun *run, const SbRenderOptions *options, double fps,
                        double duration, const char *output, bool quiet) {
   SbProgress progress;
-  sb_progress_start(&progress, quiet);
+  sb_progress_start(&progress, "drawing ", quiet);
   SbRenderMovie movie = {fps, duration, {on_picture, on_cancelled, &progress}};
   SbMovieResult result = {0};
   GError *error = NULL;
@@ -147,7 +147,7 @@ int sb_command_render(int argc, char **argv) {
   sb_plan_make(&plan, &model);
   SbStatus status = sb_run_create(&run, &model, &plan, &report);
   SbProgress progress;
-  sb_progress_start(&progress, quiet);
+  sb_progress_start(&progress, "computing ", quiet);
   if (status == SB_OK) {
     sb_cli_catch_interrupts();
     SbRunHooks hooks = {on_progress, on_cancelled, &progress};

@@ -106,7 +106,7 @@ int sb_command_run(int argc, char **argv) {
     goto done;
   }
   SbProgress progress;
-  sb_progress_start(&progress, quiet);
+  sb_progress_start(&progress, "", quiet);
   sb_cli_catch_interrupts();
   SbRunHooks hooks = {on_progress, on_cancelled, &progress};
   status = sb_run_execute(run, &hooks, &report);

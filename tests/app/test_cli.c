@@ -494,7 +494,13 @@ static void test_render(void) {
       {{"-o", "x.png", "--size", "1x1"}, 1},
       {{"-o", "x.png", "--at", "Q"}, 1},
       {{"-o", "x.png", "--at", "900 s"}, 1},
+      {{"-o", "x.png", "--fps", "30"}, 1},
+      {{"-o", "x.mp4", "--at", "C"}, 1},
+      {{"-o", "x.mp4", "--fps", "0"}, 1},
+      {{"-o", "x.mp4", "--duration", "3"}, 1},
+      {{"-o", "x.mp4", "--backend", "vulkan"}, 1},
       {{"--view", "section"}, 1},
+      {{"-o", "/no/such/x.mp4"}, 3},
       {{"-o", "/no/such/x.png"}, 3},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
@@ -512,10 +518,9 @@ static void test_render(void) {
   }
 }
 
-static void test_interrupt(void) {
-  char *out = g_build_filename(folder, "part", NULL);
-  const char *const argv[] = {program, "run", scene, "-o", out, "--set", "output.frames=1000000",
-                              NULL};
+// Starts the program, interrupts it at its first byte of progress that starts with `word`, and
+// returns its exit code.
+static int interrupted_run(const char *const *argv, const char *word) {
   GPid pid;
   int err = -1;
   GError *error = NULL;
@@ -523,18 +528,55 @@ static void test_interrupt(void) {
                            G_SPAWN_DO_NOT_REAP_CHILD | G_SPAWN_STDOUT_TO_DEV_NULL, NULL, NULL, &pid,
                            NULL, NULL, &err, &error);
   g_assert_no_error(error);
-  // The first line of progress says that it works.
-  char first = 0;
-  g_assert_cmpint(read(err, &first, 1), ==, 1);
-  kill(pid, SIGINT);
-  char rest[4096];
-  while (read(err, rest, sizeof rest) > 0) {
+  GString *seen = g_string_new(NULL);
+  bool sent = false;
+  char c;
+  while (read(err, &c, 1) == 1) {
+    g_string_append_c(seen, c);
+    if (!sent && strstr(seen->str, word) != NULL) {
+      kill(pid, SIGINT);
+      sent = true;
+    }
   }
+  g_assert_true(sent);
+  g_string_free(seen, TRUE);
   close(err);
   int status = 0;
   waitpid(pid, &status, 0);
   g_assert_true(WIFEXITED(status));
-  g_assert_cmpint(WEXITSTATUS(status), ==, 130);
+  return WEXITSTATUS(status);
+}
+
+// Film: whole with its pictures, or partial but under its name after Ctrl-C.
+static void test_film_file(void) {
+  char *path = g_build_filename(folder, "film.mp4", NULL);
+  Result result = RUN("render", scene, "-o", path, "--view", "hysteresis", "--quiet", "--size",
+                      "320x180", "--fps", "5", "--duration", "1 s");
+  g_assert_cmpstr(result.err, ==, "");
+  g_assert_cmpint(result.code, ==, 0);
+  clear(&result);
+  char *bytes = NULL;
+  gsize length = 0;
+  g_assert_true(g_file_get_contents(path, &bytes, &length, NULL));
+  g_assert_cmpuint(length, >, 1000);
+  g_assert_cmpint(memcmp(bytes + 4, "ftyp", 4), ==, 0);
+  g_free(bytes);
+  g_unlink(path);
+  const char *const argv[] = {program,      "render", scene,     "-o",         path,    "--view",
+                              "hysteresis", "--size", "320x180", "--duration", "300 s", NULL};
+  g_assert_cmpint(interrupted_run(argv, "drawing 10"), ==, 130);
+  g_assert_true(g_file_get_contents(path, &bytes, &length, NULL));
+  g_assert_cmpuint(length, >, 1000);
+  g_free(bytes);
+  g_unlink(path);
+  g_free(path);
+}
+
+static void test_interrupt(void) {
+  char *out = g_build_filename(folder, "part", NULL);
+  const char *const argv[] = {program, "run", scene, "-o", out, "--set", "output.frames=1000000",
+                              NULL};
+  g_assert_cmpint(interrupted_run(argv, "s"), ==, 130);
   char *json = contents(out, "results.json");
   JsonNode *root = parse(json);
   g_assert_true(json_node_get_boolean(at(root, "partial")));
@@ -563,6 +605,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/results-and-locale", test_results_and_locale);
   g_test_add_func("/cli/io-errors", test_io_errors);
   g_test_add_func("/cli/render", test_render);
+  g_test_add_func("/cli/film-file", test_film_file);
   g_test_add_func("/cli/interrupt", test_interrupt);
   int result = g_test_run();
   g_rmdir(folder);
