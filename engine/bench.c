@@ -1,0 +1,247 @@
+// The bench's cases; see bench.h. Reference films: an independent hp-collocation solver, relative
+// error 1e-6 (Swift-Stieber, flooded, half-plane). Reference discs and rings: spectral disc and an
+// independent finite-strain finite element program, to the digits given.
+#include "engine/bench.h"
+
+#include "engine/elastic/fit.h"
+#include "engine/film/film.h"
+#include "engine/film/wedge.h"
+#include "engine/model.h"
+#include "engine/run.h"
+#include "engine/surface/greenwood_tripp.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+typedef enum { ASPERITY, WEDGE, FILM, DISC, RING, CYCLE } Kind;
+
+typedef struct {
+  Kind kind;
+  double parameter; // M of a film, squeeze of a disc, motion of a cycle
+  double tolerance;
+  double expected[3]; // films: H* minimum, centre, flux; fits: load per length or load
+} Case;
+
+#define FILM_CASES(M, least, centre, flux)                                                         \
+  {FILM, M, 1e-3, {least, centre, flux}}, {                                                        \
+    FILM, M, 1e-7, {                                                                               \
+      least, centre, flux                                                                          \
+    }                                                                                              \
+  }
+
+static const Case cases[] = {
+    {ASPERITY, -4, 0, {0, 0, 0}},
+    {WEDGE, 0, 0, {4.894968, 0, 0}},
+    FILM_CASES(1, 3.06313643, 3.27656797, 3.79061479),
+    FILM_CASES(5, 1.59060139, 2.03650729, 2.01593519),
+    FILM_CASES(20, 1.12468687, 1.42051119, 1.41937373),
+    FILM_CASES(100, 0.796100592, 1.00142813, 1.00138870),
+    FILM_CASES(1000, 0.498582133, 0.626358505, 0.626358192),
+    FILM_CASES(10000, 0.314215466, 0.394658764, 0.394658762),
+    {DISC, 0.02, 1e-2, {27.205, 0, 0}},
+    {DISC, 0.02, 1e-3, {27.205, 0, 0}},
+    {DISC, 0.04, 1e-3, {62.944, 0, 0}},
+    {DISC, 0.10, 1e-3, {199.60, 0, 0}},
+    {RING, 0.1553, 1e-2, {4.772, 0, 0}},
+    {RING, 0.1553, 1e-3, {4.772, 0, 0}},
+    {CYCLE, SB_MODEL_MOTION_QUASI_STATIC, 0, {0, 0, 0}},
+    {CYCLE, SB_MODEL_MOTION_DYNAMIC, 0, {0, 0, 0}},
+};
+
+size_t sb_bench_count(void) {
+  return sizeof cases / sizeof cases[0];
+}
+
+static double now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double relative(double value, double expected) {
+  return fabs(value / expected - 1);
+}
+
+// F_2 at lambda <= 0, where its closed form does not cancel.
+static SbStatus run_asperity(SbBenchCase *out, const Case *c, SbReport *report) {
+  double l = c->parameter;
+  SbGtIntegrals integrals;
+  SbStatus status = sb_gt_integrals(&integrals, l, report);
+  double tail = erfc(l / M_SQRT2) / 2;
+  double density = exp(-l * l / 2) / sqrt(2 * M_PI);
+  out->error = relative(integrals.F2, (1 + l * l) * tail - l * density);
+  snprintf(out->name, sizeof out->name, "F2 at lambda = %g", l);
+  return status;
+}
+
+static SbStatus run_wedge(SbBenchCase *out, const Case *c, SbReport *report) {
+  SbWedgeProblem problem = {1e-6, 2, 1e-3, 1e-3, 0, 0};
+  SbWedge wedge;
+  SbStatus status = sb_wedge_solve(&wedge, &problem, report);
+  out->error = relative(wedge.load, c->expected[0] * 1e-3 * 1 * 1e-3 / 1e-6);
+  snprintf(out->name, sizeof out->name, "load without end pressures");
+  return status;
+}
+
+// Cold: no solver memory, so that mesh, kernel and continuation are all in the time.
+static SbStatus run_film(SbBenchCase *out, const Case *c, SbReport *report) {
+  SbFilm *film = malloc(sizeof *film);
+  if (film == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a film");
+  }
+  double U = 1e-10;
+  double R = 1e-3;
+  SbFilmProblem problem;
+  sb_film_problem_init(&problem);
+  problem.radius = R;
+  problem.modulus = 1e6;
+  problem.viscosity = 1e-3;
+  problem.speed = 2 * U * problem.modulus * R / problem.viscosity;
+  problem.load = c->parameter * sqrt(2 * U) * problem.modulus * R;
+  problem.tolerance = c->tolerance;
+  SbStatus status = sb_film_solve(film, &problem, NULL, report);
+  double unit = R * sqrt(2 * U);
+  out->error = fmax(relative(film->film_min / unit, c->expected[0]),
+                    fmax(relative(film->film_central / unit, c->expected[1]),
+                         relative(film->film_flux / unit, c->expected[2])));
+  out->unknowns = film->solver.unknowns;
+  out->iterations = (size_t)film->solver.newton_iterations;
+  out->error_estimate = fmax(film->solver.error_film_min,
+                             fmax(film->solver.error_film_central, film->solver.error_film_flux));
+  snprintf(out->name, sizeof out->name, "M = %g, tolerance %g", c->parameter, c->tolerance);
+  free(film);
+  return status;
+}
+
+static SbStatus run_fit(SbBenchCase *out, const Case *c, SbReport *report) {
+  SbFit *fit = malloc(sizeof *fit);
+  if (fit == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a fit");
+  }
+  bool ring = c->kind == RING;
+  double d = 1.61e-3;
+  double D = 6e-3;
+  double g = ring ? 1.36e-3 : d * (1 - c->parameter);
+  SbFitProblem problem = {
+      .model = ring ? SB_FIT_RING : SB_FIT_DISC,
+      .section_diameter = d,
+      .inner_diameter = ring ? 2.84e-3 : D - g - d, // a disc of no stretch
+      .modulus = 2.5e6,
+      .poisson_ratio = 0.49,
+      .radial_space = g,
+      .bore_diameter = D,
+      .gland_width = 3e-3,
+      .tolerance = c->tolerance,
+  };
+  SbStatus status = sb_fit_solve(fit, &problem, report);
+  out->error = relative(ring ? fit->load : fit->load_per_length, c->expected[0]);
+  out->unknowns = fit->solver.unknowns;
+  out->iterations = fit->solver.newton_iterations;
+  out->error_estimate = fit->solver.error_estimate.load;
+  snprintf(out->name, sizeof out->name, "squeeze %.4g %%, tolerance %g", 100 * c->parameter,
+           c->tolerance);
+  free(fit);
+  return status;
+}
+
+// The whole cycle by closed forms; its error is what the energy balance does not close.
+static SbStatus run_cycle(SbBenchCase *out, const Case *c, SbReport *report) {
+  SbParams params;
+  sb_params_init(&params);
+  sb_params_set(&params, SB_P_MODELS_MOTION, c->parameter, NULL);
+  SbModel model;
+  SbPlan plan;
+  SbRun *run = NULL;
+  SbStatus status = sb_model_compile(&model, &params, NULL);
+  if (status != SB_OK) {
+    return sb_fail(report, status, "the default valve does not compile");
+  }
+  sb_plan_make(&plan, &model);
+  status = sb_run_create(&run, &model, &plan, report);
+  if (status == SB_OK) {
+    status = sb_run_execute(run, NULL, report);
+    const SbSummary *summary = sb_run_summary(run);
+    out->error = summary->energy.closure;
+    out->error_estimate = summary->error_energy;
+    out->iterations = summary->steps;
+    snprintf(out->name, sizeof out->name, "energy of the thesis cycle, %zu frames",
+             summary->frames);
+  }
+  sb_run_destroy(run);
+  return status;
+}
+
+static SbStatus run_once(SbBenchCase *out, const Case *c, SbReport *report) {
+  switch (c->kind) {
+  case ASPERITY:
+    return run_asperity(out, c, report);
+  case WEDGE:
+    return run_wedge(out, c, report);
+  case FILM:
+    return run_film(out, c, report);
+  case DISC:
+  case RING:
+    return run_fit(out, c, report);
+  case CYCLE:
+    break;
+  }
+  return run_cycle(out, c, report);
+}
+
+static int compare(const void *a, const void *b) {
+  double x = *(const double *)a;
+  double y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static const char *solver_name(const Case *c) {
+  switch (c->kind) {
+  case ASPERITY:
+    return "greenwood-tripp";
+  case WEDGE:
+    return "wedge";
+  case FILM:
+    return "reynolds";
+  case DISC:
+    return "disc";
+  case RING:
+    return "ring";
+  case CYCLE:
+    break;
+  }
+  return c->parameter == (double)SB_MODEL_MOTION_QUASI_STATIC ? "quasi-static" : "dynamic";
+}
+
+SbStatus sb_bench_run(SbBenchCase *out, size_t index, int repeats, const SbBenchCase *previous,
+                      SbReport *report) {
+  enum { REPEATS_MAX = 50 };
+  const Case *c = &cases[index];
+  *out = (SbBenchCase){.error = NAN, .error_estimate = NAN, .order = NAN};
+  snprintf(out->solver, sizeof out->solver, "%s", solver_name(c));
+  SbStatus status = run_once(out, c, report);
+  if (status != SB_OK) {
+    out->error = NAN;
+    return status;
+  }
+  double wall[REPEATS_MAX];
+  int n = repeats < 1 ? 1 : repeats > REPEATS_MAX ? REPEATS_MAX : repeats;
+  for (int i = 0; i < n; i++) {
+    double start = now();
+    run_once(out, c, NULL);
+    wall[i] = now() - start;
+  }
+  qsort(wall, (size_t)n, sizeof *wall, compare);
+  out->wall_s = wall[n / 2];
+
+  // Order between two meshes of one case.
+  if (previous != NULL && index > 0 && cases[index - 1].kind == c->kind &&
+      cases[index - 1].parameter == c->parameter && out->unknowns != previous->unknowns &&
+      out->error > 0 && previous->error > 0) {
+    out->order = -log(out->error / previous->error) /
+                 log((double)out->unknowns / (double)previous->unknowns);
+  }
+  return status;
+}
