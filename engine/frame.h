@@ -38,6 +38,21 @@ typedef struct {
                             // in-stroke) [N]
 } SbSealFrame;
 
+// Fluid pressure on each side above the lower of the two [Pa]: the step that the contact holds.
+// Contact pressures of frames and profiles count from the lower one too; what both sides share lies
+// on everything.
+static inline double sb_seal_step_left(const SbSealFrame *seal) {
+  return (double)(seal->pressure_left > seal->pressure_right
+                      ? seal->pressure_left - seal->pressure_right
+                      : 0);
+}
+
+static inline double sb_seal_step_right(const SbSealFrame *seal) {
+  return (double)(seal->pressure_right > seal->pressure_left
+                      ? seal->pressure_right - seal->pressure_left
+                      : 0);
+}
+
 // The valve at one instant. Displacement s > 0 is the in-stroke; compression forces are positive.
 typedef struct {
   double time;           // [s]
@@ -62,8 +77,9 @@ typedef struct {
 typedef struct {
   size_t count;
   const double *x;
-  const double *pressure;          // total contact pressure, the fluid's outside the contact [Pa]
-  const double *film;              // [m]
+  const double
+      *pressure;      // total contact pressure, the fluid's outside it, above the lower side [Pa]
+  const double *film; // [m]
   const double *asperity_pressure; // part of the pressure that asperities carry [Pa]
   const char *model;               // the model that made it ("hertz shape of karaszkiewicz", ...)
 } SbContactProfile;

@@ -36,10 +36,15 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
   double *p = data + capacity;
   double *h = data + 2 * capacity;
   size_t n = 0;
+  double low = fmin(pressure.left, pressure.right);
+  double left = pressure.left - low;
+  double right = pressure.right - low;
   if (solved) {
     n = film->points;
     memcpy(x, film->x, n * sizeof *x);
-    memcpy(p, film->pressure, n * sizeof *p);
+    for (size_t i = 0; i < n; i++) {
+      p[i] = film->pressure[i] - low;
+    }
     memcpy(h, film->film, n * sizeof *h);
   } else if (state->touches) {
     double a = fit->contact_width / 2;
@@ -48,18 +53,18 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
     for (int i = OUTSIDE_POINTS; i > 0; i--) {
       double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
       x[n] = middle - xi * a;
-      p[n] = pressure.left;
+      p[n] = left;
       h[n++] = state->film_central + scale * hertz_gap(xi);
     }
     for (size_t i = 0; i < fit->profile_count; i++) {
       x[n] = fit->profile_x[i];
-      p[n] = fmax(fit->profile_p[i], x[n] < middle ? pressure.left : pressure.right);
+      p[n] = fmax(fit->profile_p[i], x[n] < middle ? left : right);
       h[n++] = state->film_central;
     }
     for (int i = 1; i <= OUTSIDE_POINTS; i++) {
       double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
       x[n] = middle + xi * a;
-      p[n] = pressure.right;
+      p[n] = right;
       h[n++] = state->film_central + scale * hertz_gap(xi);
     }
   }

@@ -53,7 +53,7 @@ static void schematic(Curve *out, const SbSealFrame *seal, const SbModel *model,
   for (int i = 0; i < SCHEMATIC_POINTS; i++) {
     double xi = -1.6 + 3.2 * i / (SCHEMATIC_POINTS - 1);
     double inside = fmax(1 - xi * xi, 0),
-           side = xi < 0 ? seal->pressure_left : seal->pressure_right;
+           side = xi < 0 ? sb_seal_step_left(seal) : sb_seal_step_right(seal);
     out->x[i] = middle + xi * half;
     out->pressure[i] = fabs(xi) < 1 ? fmax(seal->pressure_peak * sqrt(inside), side) : side;
     out->film[i] = seal->film_central > 0
@@ -92,7 +92,7 @@ static void extend_ends(const Curve *curve, const SbSealFrame *seal, double *lef
   double slack = 2e-3 * seal->pressure_peak;
   for (size_t i = curve->count; i-- > 0;) {
     if (curve->x[i] < *left) {
-      if (curve->pressure[i] <= (double)seal->pressure_left + slack) {
+      if (curve->pressure[i] <= sb_seal_step_left(seal) + slack) {
         break;
       }
       *left = curve->x[i];
@@ -100,7 +100,7 @@ static void extend_ends(const Curve *curve, const SbSealFrame *seal, double *lef
   }
   for (size_t i = 0; i < curve->count; i++) {
     if (curve->x[i] > *right) {
-      if (curve->pressure[i] <= (double)seal->pressure_right + slack) {
+      if (curve->pressure[i] <= sb_seal_step_right(seal) + slack) {
         break;
       }
       *right = curve->x[i];
@@ -277,7 +277,7 @@ static void pressure_chart(Small *s) {
   double bottom = s->plot.y + s->plot.height;
   const double far = 1;
   if (!touches(seal)) {
-    double side = seal ? fmax(seal->pressure_left, seal->pressure_right) : 0;
+    double side = seal ? fmax(sb_seal_step_left(seal), sb_seal_step_right(seal)) : 0;
     fluid_ground(s, -far, far, side);
     fluid_label(s, -far, far, side);
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
@@ -292,8 +292,8 @@ static void pressure_chart(Small *s) {
   if (curve.model && seal->land_fraction > 0.999F) {
     extend_ends(&curve, seal, &left, &right);
   }
-  fluid_ground(s, -far, left, seal->pressure_left);
-  fluid_ground(s, right, far, seal->pressure_right);
+  fluid_ground(s, -far, left, sb_seal_step_left(seal));
+  fluid_ground(s, right, far, sb_seal_step_right(seal));
 
   // The curve between its ends, which stand on the fluid's pressure.
   SbPoint *p = g_new(SbPoint, curve.count + 4);
@@ -359,8 +359,8 @@ static void pressure_chart(Small *s) {
   if (sb_labels_place(s->labels, c, value, &strong, inside ? widths : widths + 1, 1, &at)) {
     sb_canvas_text(c, value, &strong, at.x, at.y, at.align);
   }
-  fluid_label(s, -far, left, seal->pressure_left);
-  fluid_label(s, right, far, seal->pressure_right);
+  fluid_label(s, -far, left, sb_seal_step_left(seal));
+  fluid_label(s, right, far, sb_seal_step_right(seal));
   if (seal->land_fraction < 0.999F) {
     g_snprintf(text, sizeof text, "%.0f\xc2\xa0%% on the land",
                100.0 * (double)seal->land_fraction);

@@ -120,8 +120,8 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
     first[end] = after;
     sb_draw_stroke(list, from, inside, 2.4, palette->seal[seal]);
   }
-  const double side[2][3] = {{rect->x, left_px, frame->pressure_left},
-                             {right_px, rect->x + rect->width, frame->pressure_right}};
+  const double side[2][3] = {{rect->x, left_px, sb_seal_step_left(frame)},
+                             {right_px, rect->x + rect->width, sb_seal_step_right(frame)}};
   for (int i = 0; i < 2 && contact; i++) {
     double height = side[i][2] * px;
     if (height < 1) {
