@@ -86,4 +86,5 @@ int sb_command_film(int argc, char **argv);
 int sb_command_asperity(int argc, char **argv);
 int sb_command_plan(int argc, char **argv);
 int sb_command_render(int argc, char **argv);
+int sb_command_bench(int argc, char **argv);
 int sb_command_open(int argc, char **argv);

@@ -17,6 +17,7 @@ static const SbCommand commands[] = {
      "Computes the film of a sliding line contact", sb_command_film},
     {"asperity", "--lambda L", "Greenwood and Tripp's integrals F2 and F5/2", sb_command_asperity},
     {"list", "params|models|views", "Lists parameters, models or views", sb_command_list},
+    {"bench", "[-o DIR]", "Measures error against time for every solver", sb_command_bench},
     {"open", "[FILE]", "Starts the window", sb_command_open},
     {NULL, NULL, NULL, NULL},
 };

@@ -352,6 +352,25 @@ static void test_json_small(void) {
   }
 }
 
+static void test_json_bench(void) {
+  Result result = RUN("bench", "--quick", "--json", "-");
+  g_assert_cmpstr(result.err, ==, "");
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *root = parse(result.out);
+  JsonArray *cases = json_node_get_array(at(root, "cases"));
+  g_assert_cmpuint(json_array_get_length(cases), >, 10);
+  for (guint i = 0; i < json_array_get_length(cases); i++) {
+    JsonNode *row = json_array_get_element(cases, i);
+    has_keys(row, "solver case unknowns iterations wall_s error error_estimate order");
+    // Solved films keep what their tolerance promised, against independent figures.
+    if (strcmp(json_node_get_string(at(row, "solver")), "film-reynolds") == 0) {
+      g_assert_cmpfloat(number(row, "error"), <, 1e-3);
+    }
+  }
+  json_node_unref(root);
+  clear(&result);
+}
+
 // ---- Files ----
 
 static char *contents(const char *where, const char *name) {
@@ -562,8 +581,8 @@ static void test_film_file(void) {
   g_assert_cmpint(memcmp(bytes + 4, "ftyp", 4), ==, 0);
   g_free(bytes);
   g_unlink(path);
-  const char *const argv[] = {program,      "render", scene,     "-o",         path,    "--view",
-                              "hysteresis", "--size", "320x180", "--duration", "300 s", NULL};
+  const char *const argv[] = {program,      "render", scene,     "-o",         path,   "--view",
+                              "hysteresis", "--size", "320x180", "--duration", "20 s", NULL};
   g_assert_cmpint(interrupted_run(argv, "drawing 10"), ==, 130);
   g_assert_true(g_file_get_contents(path, &bytes, &length, NULL));
   g_assert_cmpuint(length, >, 1000);
@@ -602,6 +621,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/json/fit", test_json_fit);
   g_test_add_func("/cli/json/film", test_json_film);
   g_test_add_func("/cli/json/small", test_json_small);
+  g_test_add_func("/cli/json/bench", test_json_bench);
   g_test_add_func("/cli/results-and-locale", test_results_and_locale);
   g_test_add_func("/cli/io-errors", test_io_errors);
   g_test_add_func("/cli/render", test_render);
