@@ -39,9 +39,24 @@ static bool compile_seal(SbModel *model, int index, const SbParams *params, SbPr
   SbParamId diameter_id =
       outer ? SB_P_SEAL_OUTER_SECTION_DIAMETER : SB_P_SEAL_INNER_SECTION_DIAMETER;
   SbParamId inner_id = outer ? SB_P_SEAL_OUTER_INNER_DIAMETER : SB_P_SEAL_INNER_INNER_DIAMETER;
-  seal->section_diameter = sb_params_get(params, diameter_id);
-  seal->inner_diameter = sb_params_get(params, inner_id);
-  seal->modulus = sb_params_get(params, outer ? SB_P_SEAL_OUTER_MODULUS : SB_P_SEAL_INNER_MODULUS);
+  // The new ring, and what storage makes of it.
+  seal->stored = (SbRubberStorage){
+      .section_diameter = sb_params_get(params, diameter_id),
+      .inner_diameter = sb_params_get(params, inner_id),
+      .modulus = sb_params_get(params, outer ? SB_P_SEAL_OUTER_MODULUS : SB_P_SEAL_INNER_MODULUS),
+      .radial_space = model->radial_space,
+      .storage_time = sb_params_get(params, SB_P_STORAGE_TIME),
+      .temperature = sb_params_get(params, SB_P_STORAGE_TEMPERATURE),
+      .recovery_time = sb_params_get(params, SB_P_STORAGE_RECOVERY_TIME),
+  };
+  SbReport report = {0};
+  if (sb_rubber_state(&seal->storage, &model->rubber, &seal->stored, NULL, &report) != SB_OK) {
+    add_problem(problems, report.parameter, NAN, NAN, "%s", report.text);
+    return false;
+  }
+  seal->section_diameter = seal->storage.section_diameter;
+  seal->inner_diameter = seal->storage.inner_diameter;
+  seal->modulus = seal->storage.modulus;
   seal->poisson_ratio =
       sb_params_get(params, outer ? SB_P_SEAL_OUTER_POISSON_RATIO : SB_P_SEAL_INNER_POISSON_RATIO);
 
@@ -77,6 +92,34 @@ static bool compile_seal(SbModel *model, int index, const SbParams *params, SbPr
     good = false;
   }
   return good;
+}
+
+static SbRubber read_rubber(const SbParams *params, double fluid_density) {
+  return (SbRubber){
+      .reference_temperature = sb_params_get(params, SB_P_RUBBER_REFERENCE_TEMPERATURE),
+      .terms = 3,
+      .g = {sb_params_get(params, SB_P_RUBBER_RELAXATION_SHARE_1),
+            sb_params_get(params, SB_P_RUBBER_RELAXATION_SHARE_2),
+            sb_params_get(params, SB_P_RUBBER_RELAXATION_SHARE_3)},
+      .tau = {sb_params_get(params, SB_P_RUBBER_RELAXATION_TIME_1),
+              sb_params_get(params, SB_P_RUBBER_RELAXATION_TIME_2),
+              sb_params_get(params, SB_P_RUBBER_RELAXATION_TIME_3)},
+      .shift = (SbShift)sb_params_get(params, SB_P_RUBBER_SHIFT),
+      .wlf_c1 = sb_params_get(params, SB_P_RUBBER_WLF_C1),
+      .wlf_c2 = sb_params_get(params, SB_P_RUBBER_WLF_C2),
+      .relaxation_energy = sb_params_get(params, SB_P_RUBBER_RELAXATION_ENERGY),
+      .entropic = sb_params_get(params, SB_P_RUBBER_ENTROPIC) != 0.0,
+      .thermal_expansion = sb_params_get(params, SB_P_RUBBER_THERMAL_EXPANSION),
+      .network_rate = sb_params_get(params, SB_P_RUBBER_NETWORK_RATE),
+      .network_energy = sb_params_get(params, SB_P_RUBBER_NETWORK_ENERGY),
+      .network_reform = sb_params_get(params, SB_P_RUBBER_NETWORK_REFORM),
+      .swell_mass = sb_params_get(params, SB_P_RUBBER_SWELL_MASS),
+      .rubber_density = sb_params_get(params, SB_P_RUBBER_DENSITY),
+      .fluid_density = fluid_density,
+      .diffusion = sb_params_get(params, SB_P_RUBBER_DIFFUSION),
+      .diffusion_energy = sb_params_get(params, SB_P_RUBBER_DIFFUSION_ENERGY),
+      .swell_modulus = sb_params_get(params, SB_P_RUBBER_SWELL_MODULUS),
+  };
 }
 
 // What only the motion with inertia can do. The quasi-static balance is not silently asked for it.
@@ -171,6 +214,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
               .rod_diameter = sb_params_get(params, SB_P_STEM_ROD_DIAMETER),
           },
   };
+  model.rubber = read_rubber(params, model.density);
   model.bore_circumference = M_PI * model.bore_diameter;
   double pressure_diameter = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER);
   model.stem_diameter = pressure_diameter;
@@ -200,6 +244,38 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   }
   *out = model;
   return SB_OK;
+}
+
+void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings) {
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    SbRubberState ignored;
+    sb_rubber_state(&ignored, &model->rubber, &model->seal[i].stored, warnings, NULL);
+  }
+}
+
+void sb_model_gland(SbGland *out, const SbModel *model, const SbParams *params, int seal) {
+  const SbSealModel *ring = &model->seal[seal];
+  const bool outer = seal == SB_OUTER;
+  *out = (SbGland){
+      .section_diameter = ring->stored.section_diameter,
+      .section_diameter_tolerance =
+          sb_params_get(params, outer ? SB_P_SEAL_OUTER_SECTION_DIAMETER_TOLERANCE
+                                      : SB_P_SEAL_INNER_SECTION_DIAMETER_TOLERANCE),
+      .inner_diameter = ring->stored.inner_diameter,
+      .inner_diameter_tolerance =
+          sb_params_get(params, outer ? SB_P_SEAL_OUTER_INNER_DIAMETER_TOLERANCE
+                                      : SB_P_SEAL_INNER_INNER_DIAMETER_TOLERANCE),
+      .radial_space = model->radial_space,
+      .radial_space_tolerance = sb_params_get(params, SB_P_GLAND_RADIAL_SPACE_TOLERANCE),
+      .axial_width = model->axial_width,
+      .axial_width_tolerance = sb_params_get(params, SB_P_GLAND_AXIAL_WIDTH_TOLERANCE),
+      .bore_diameter = model->bore_diameter,
+      .bore_diameter_tolerance = sb_params_get(params, SB_P_BORE_DIAMETER_TOLERANCE),
+      .land_diameter = model->stem_diameter,
+      .land_diameter_tolerance = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER_TOLERANCE),
+      .poisson_ratio = ring->poisson_ratio,
+      .volume_swell = ring->storage.volume_swell,
+  };
 }
 
 SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber) {

@@ -3,6 +3,8 @@
 // Everything downstream reads SbModel and nothing else; keys, defaults and overrides end here.
 #pragma once
 
+#include "engine/elastic/gland.h"
+#include "engine/elastic/rubber_time.h"
 #include "engine/params.h"
 #include "engine/status.h"
 
@@ -49,8 +51,11 @@ typedef enum {
   SB_MODEL_DRIVE_SINUSOID
 } SbDriveChoice;
 
-// One ring and what follows from its size and its gland alone.
+// One ring and what follows from its size and its gland alone. Sizes and modulus are those after
+// storage; the new ring's are in `stored`.
 typedef struct {
+  SbRubberStorage stored;  // the new ring and what it went through
+  SbRubberState storage;   // what that made of it
   double section_diameter; // d, free [m]
   double inner_diameter;   // free [m]
   double modulus;          // E [Pa]
@@ -75,6 +80,7 @@ typedef struct {
 
 typedef struct {
   SbSealModel seal[SB_SEAL_COUNT];
+  SbRubber rubber;                  // how storage changes it
   double radial_space, axial_width; // g, b [m]
   double bore_diameter;             // D [m]
   double bore_circumference;        // pi D: the friction area's length [m]
@@ -119,6 +125,13 @@ typedef enum {
 // (may be NULL) lists every combination that makes no sense: bore smaller than the stem, no room
 // for the ring...
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems);
+
+// Adds what the storage of the rings has to say about its validity.
+void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings);
+
+// The gland of a seal with the tolerances of the parameters it was compiled from, for
+// sb_gland_readouts: sizes as stored.
+void sb_model_gland(SbGland *out, const SbModel *model, const SbParams *params, int seal);
 
 // Pressures on the two sides of a seal [Pa gauge]: canister side (left, x < 0) and ambient side
 // (right).

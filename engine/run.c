@@ -78,6 +78,7 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   double start = now();
   SbSummary *summary = &run->summary;
   *summary = (SbSummary){.error_film = NAN, .force_breakaway = NAN};
+  sb_model_warn_storage(&run->model, &summary->warnings);
   sb_run_publish(run, 0);
 
   // A film that did not converge leaves its best state: the cycle is still worth having, flagged.

@@ -26,6 +26,25 @@ static void print_table(const SbFit *fit, const char *seal) {
   sb_cli_warnings(&fit->warnings);
 }
 
+// Read-outs that have a customary band: value, worst case, verdict and source.
+static void print_gland(const SbGlandReadout *gland) {
+  printf("Gland against customary bands\n");
+  for (int i = 0; i < SB_GLAND_COUNT; i++) {
+    const SbGlandReadout *r = &gland[i];
+    if (r->band == SB_BAND_NONE) {
+      continue;
+    }
+    const bool length = strcmp(r->unit, "m") == 0;
+    const double scale = length ? 1e3 : 1e2;
+    char *text = g_strdup_printf("%.4g %s (worst %.4g to %.4g, RSS %.4g to %.4g): %s; %s",
+                                 scale * r->nominal, length ? "mm" : "%", scale * r->worst_low,
+                                 scale * r->worst_high, scale * r->rss_low, scale * r->rss_high,
+                                 sb_band_text(r->band), r->source);
+    sb_cli_line(r->name, text);
+    g_free(text);
+  }
+}
+
 static bool on_cancel(void *data) {
   return sb_cli_interrupted(NULL);
 }
@@ -148,14 +167,29 @@ int sb_command_fit(int argc, char **argv) {
   SbStatus status = sb_timing_median(&wall_s, solve, &job);
   fit->solver.wall_s = wall_s;
   code = sb_cli_status(status, &job.report);
+  sb_model_warn_storage(&model, &fit->warnings);
+
+  // Design read-outs of the gland.
+  const SbParams params = sb_document_params(document);
+  SbGland gland;
+  SbGlandReadout readouts[SB_GLAND_COUNT];
+  SbReport gland_report = {0};
+  sb_model_gland(&gland, &model, &params, index);
+  if (sb_gland_readouts(readouts, &gland, &gland_report) != SB_OK) {
+    sb_cli_fail("%s: %s", gland_report.parameter, gland_report.text);
+    code = SB_EXIT_INPUT;
+    goto done;
+  }
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int written = SB_EXIT_DONE;
     if (target != NULL) {
-      char *json = sb_results_fit(fit, seal, problem.pressure);
+      char *json =
+          sb_results_fit(fit, seal, problem.pressure, readouts, &model.seal[index].storage);
       written = sb_cli_emit(json, target);
       g_free(json);
     } else {
       print_table(fit, seal);
+      print_gland(readouts);
     }
     code = written != SB_EXIT_DONE ? written : code;
   }

@@ -192,7 +192,47 @@ char *sb_results_film(const SbFilm *film) {
   return sb_json_finish(&json);
 }
 
-char *sb_results_fit(const SbFit *fit, const char *seal, double pressure) {
+// The gland's read-outs, and what storage made of the ring.
+static void put_gland(SbJson *json, const SbGlandReadout *gland) {
+  sb_json_array(json, "gland");
+  for (int i = 0; i < SB_GLAND_COUNT; i++) {
+    const SbGlandReadout *r = &gland[i];
+    sb_json_object(json, NULL);
+    sb_json_string(json, "name", r->name);
+    sb_json_string(json, "unit", r->unit);
+    sb_json_number(json, "nominal", r->nominal);
+    sb_json_number(json, "worst_low", r->worst_low);
+    sb_json_number(json, "worst_high", r->worst_high);
+    sb_json_number(json, "rss_low", r->rss_low);
+    sb_json_number(json, "rss_high", r->rss_high);
+    sb_json_number(json, "band_low", r->band_low);
+    sb_json_number(json, "band_high", r->band_high);
+    sb_json_string(json, "band", r->band == SB_BAND_NONE ? NULL : sb_band_text(r->band));
+    sb_json_string(json, "band_worst",
+                   r->band == SB_BAND_NONE ? NULL : sb_band_text(r->band_worst));
+    sb_json_string(json, "source", r->source[0] == '\0' ? NULL : r->source);
+    sb_json_object_end(json);
+  }
+  sb_json_array_end(json);
+}
+
+static void put_storage(SbJson *json, const SbRubberState *storage) {
+  sb_json_object(json, "storage");
+  sb_json_number(json, "section_diameter_m", storage->section_diameter);
+  sb_json_number(json, "inner_diameter_m", storage->inner_diameter);
+  sb_json_number(json, "modulus_Pa", storage->modulus);
+  sb_json_number(json, "relaxation", storage->relaxation);
+  sb_json_number(json, "network", storage->network);
+  sb_json_number(json, "compression_set", storage->compression_set);
+  sb_json_number(json, "section_diameter_after_set_m", storage->section_after_set);
+  sb_json_number(json, "uptake", storage->uptake);
+  sb_json_number(json, "volume_swell", storage->volume_swell);
+  sb_json_number(json, "linear_swell", storage->linear_swell);
+  sb_json_object_end(json);
+}
+
+char *sb_results_fit(const SbFit *fit, const char *seal, double pressure,
+                     const SbGlandReadout *gland, const SbRubberState *storage) {
   SbJson json;
   sb_json_init(&json);
   sb_json_object(&json, NULL);
@@ -231,6 +271,8 @@ char *sb_results_fit(const SbFit *fit, const char *seal, double pressure) {
   sb_json_numbers(&json, "x_m", fit->profile_x, fit->profile_count);
   sb_json_numbers(&json, "pressure_Pa", fit->profile_p, fit->profile_count);
   sb_json_object_end(&json);
+  put_gland(&json, gland);
+  put_storage(&json, storage);
   sb_json_object_end(&json);
   return sb_json_finish(&json);
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "engine/elastic/fit.h"
+#include "engine/elastic/gland.h"
+#include "engine/elastic/rubber_time.h"
 #include "engine/film/film.h"
 #include "engine/sealbench.h"
 
@@ -17,7 +19,8 @@ typedef struct {
 // All of these return a text owned by the caller. Numbers that do not exist are null.
 char *sb_results_run(const SbRun *run, const SbResultsInfo *info);
 char *sb_results_film(const SbFilm *film);
-char *sb_results_fit(const SbFit *fit, const char *seal, double pressure);
+char *sb_results_fit(const SbFit *fit, const char *seal, double pressure,
+                     const SbGlandReadout *gland, const SbRubberState *storage);
 char *sb_results_plan(const SbPlan *plan);
 char *sb_results_params(void);
 char *sb_results_models(void);

@@ -26,6 +26,10 @@ static void evaluate(double *q, const Sizes *s, const SbGland *gland) {
   q[SB_GLAND_SQUEEZE_FITTED] = q[SB_GLAND_INTERFERENCE] / q[SB_GLAND_SECTION_FITTED];
   q[SB_GLAND_FILL] = 0.25 * M_PI * d * d * (id + d) / (g * (bore - g) * b);
   q[SB_GLAND_FILL_SWOLLEN] = q[SB_GLAND_FILL] * (1.0 + gland->volume_swell);
+  const double growth = cbrt(1.0 + gland->volume_swell);
+  const double mean_swollen = (bore - g) / (growth * (id + d)) - 1.0;
+  q[SB_GLAND_SECTION_SWOLLEN] = growth * d * (1.0 - gland->poisson_ratio * mean_swollen);
+  q[SB_GLAND_SQUEEZE_SWOLLEN] = 1.0 - g / (growth * d);
   q[SB_GLAND_SWELL] = gland->volume_swell;
   q[SB_GLAND_EXTRUSION_GAP] = bore - land;
 }

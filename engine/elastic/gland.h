@@ -12,6 +12,8 @@
 //   interference section_fitted - g     gland_fill (pi/4) d^2 (ID + d)/(g (D - g) b)
 //   squeeze_fitted interference/section_fitted
 //   extrusion_gap D - D_land, diametral
+//   section_diameter_swollen, squeeze_swollen: the free ring grown by (1 + v)^(1/3), then fitted
+//   gland_fill_swollen gland_fill (1 + v)
 #pragma once
 
 #include "engine/status.h"
@@ -31,6 +33,9 @@
   X(SB_GLAND_FILL, "gland_fill", "1", 0.60, 0.85, "Parker ORD 5700: 60 to 85 %, best 75 %")        \
   X(SB_GLAND_FILL_SWOLLEN, "gland_fill_swollen", "1", -1.0, 0.95,                                  \
     "room for swell: the groove must not be filled")                                               \
+  X(SB_GLAND_SECTION_SWOLLEN, "section_diameter_swollen", "m", -1.0, 1e9, "")                      \
+  X(SB_GLAND_SQUEEZE_SWOLLEN, "squeeze_swollen", "1", -1.0, 0.30,                                  \
+    "Parker ORD 5700, section 5.9: at most 30 %")                                                  \
   X(SB_GLAND_SWELL, "volume_swell", "1", -1.0, 0.20,                                               \
     "Parker ORD 5700, section 5.16.4: above 20 % is excessive for a moving seal")                  \
   X(SB_GLAND_EXTRUSION_GAP, "extrusion_gap", "m", 0.05e-3, 0.13e-3,                                \

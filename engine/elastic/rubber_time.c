@@ -135,13 +135,13 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
   double sum = 0.0;
   for (size_t i = 0; i < r->terms && i < SB_RUBBER_TERMS; i++) {
     if (!(r->g[i] >= 0.0 && r->tau[i] > 0.0 && isfinite(r->tau[i]))) {
-      return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.relaxation",
+      return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.relaxation_share_1",
                                "Prony term %zu: share %g, time %g s", i + 1, r->g[i], r->tau[i]);
     }
     sum += r->g[i];
   }
   if (r->terms > SB_RUBBER_TERMS || !(sum < 1.0)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.relaxation",
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.relaxation_share_1",
                              "%zu Prony terms with shares that sum to %g (at most %d, below 1)",
                              r->terms, sum, SB_RUBBER_TERMS);
   }
@@ -152,14 +152,14 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
                              in->temperature, r->reference_temperature - r->wlf_c2);
   }
   if (!(r->network_rate >= 0.0 && r->network_reform >= 0.0 && r->network_reform <= 1.0)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.network",
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.network_rate",
                              "network rate %g 1/s or reformed share %g makes no sense",
                              r->network_rate, r->network_reform);
   }
   if (!(r->swell_mass >= 0.0 && r->diffusion >= 0.0 && r->swell_modulus >= 0.0 &&
         isfinite(r->swell_mass + r->diffusion + r->swell_modulus)) ||
       (r->swell_mass > 0.0 && !(r->rubber_density > 0.0 && r->fluid_density > 0.0))) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.swell",
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.swell_mass",
                              "swell of %g by mass with diffusion %g m2/s makes no sense",
                              r->swell_mass, r->diffusion);
   }
@@ -202,9 +202,9 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
   for (size_t i = 0; i < r->terms; i++) {
     tau[i] = r->tau[i] * out->shift;
     out->relaxation += r->g[i] * expm1(-t / tau[i]);
-    longest = fmax(longest, tau[i]);
+    longest = r->g[i] > 0.0 ? fmax(longest, tau[i]) : longest;
   }
-  if (r->terms > 0 && t > 10.0 * longest) {
+  if (longest > 0.0 && t > 10.0 * longest) {
     sb_warn(warnings, "relaxation-extrapolated", "storage.time",
             "storage is %.2g times the longest relaxation time: slower relaxation is unknown",
             t / longest);
@@ -228,7 +228,7 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
   out->swell_modulus = r->swell_modulus > 0.0 ? pow(r->swell_modulus, out->uptake)
                                               : 1.0 / cbrt(1.0 + out->volume_swell);
   if (out->volume_swell > 0.5) {
-    sb_warn(warnings, "swell-large", "rubber.swell",
+    sb_warn(warnings, "swell-large", "rubber.swell_mass",
             "swell of %.0f %% by volume: diffusion and elasticity are no longer linear",
             100.0 * out->volume_swell);
   }

@@ -77,6 +77,10 @@ static void test_tolerances(void) {
   g_assert_cmpint(sb_gland_readouts(out, &gland, NULL), ==, SB_OK);
   assert_close(out[SB_GLAND_FILL_SWOLLEN].nominal, 1.151 * out[SB_GLAND_FILL].nominal, 1e-12);
   g_assert_cmpint(out[SB_GLAND_SWELL].band, ==, SB_BAND_WITHIN);
+  const double growth = cbrt(1.151);
+  assert_close(out[SB_GLAND_SQUEEZE_SWOLLEN].nominal, 1.0 - 1.36 / (1.61 * growth), 1e-12);
+  assert_close(out[SB_GLAND_SECTION_SWOLLEN].nominal,
+               1.61e-3 * growth * (1.0 - 0.49 * (4.64 / (4.45 * growth) - 1.0)), 1e-12);
   gland.volume_swell = 0.35;
   g_assert_cmpint(sb_gland_readouts(out, &gland, NULL), ==, SB_OK);
   g_assert_cmpint(out[SB_GLAND_SWELL].band, ==, SB_BAND_ABOVE);

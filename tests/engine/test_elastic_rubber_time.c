@@ -319,7 +319,7 @@ static void test_refusals(void) {
   SbRubber r = prony();
   r.g[2] = 0.8;
   g_assert_cmpint(sb_rubber_state(&s, &r, &in, NULL, &report), ==, SB_ERROR_RANGE);
-  g_assert_cmpstr(report.parameter, ==, "rubber.relaxation");
+  g_assert_cmpstr(report.parameter, ==, "rubber.relaxation_share_1");
   r = prony();
   r.tau[0] = 0.0;
   g_assert_cmpint(sb_rubber_state(&s, &r, &in, NULL, &report), ==, SB_ERROR_RANGE);
@@ -338,10 +338,10 @@ static void test_refusals(void) {
   in = stored(1.0, 293.15);
   r = (SbRubber){.reference_temperature = 293.15, .swell_mass = 0.1};
   g_assert_cmpint(sb_rubber_state(&s, &r, &in, NULL, &report), ==, SB_ERROR_RANGE);
-  g_assert_cmpstr(report.parameter, ==, "rubber.swell");
+  g_assert_cmpstr(report.parameter, ==, "rubber.swell_mass");
   r = (SbRubber){.reference_temperature = 293.15, .network_reform = 1.5};
   g_assert_cmpint(sb_rubber_state(&s, &r, &in, NULL, &report), ==, SB_ERROR_RANGE);
-  g_assert_cmpstr(report.parameter, ==, "rubber.network");
+  g_assert_cmpstr(report.parameter, ==, "rubber.network_rate");
   in.section_diameter = 0.0;
   g_assert_cmpint(sb_rubber_state(&s, &r, &in, NULL, &report), ==, SB_ERROR_RANGE);
   g_assert_cmpstr(report.parameter, ==, "seal.section_diameter");

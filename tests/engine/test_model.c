@@ -86,6 +86,77 @@ static void test_pressure_maps(void) {
   g_assert_cmpfloat(inner.left - inner.right, ==, 0.55e6);
 }
 
+static void set(SbParams *params, const char *key, double value) {
+  SbReport report = {0};
+  g_assert_cmpint(sb_params_set(params, (SbParamId)sb_param_find(key), value, &report), ==, SB_OK);
+}
+
+// Storage is off by default; swell and relaxation change sizes and modulus, and speak up beyond
+// what is known.
+static void test_storage(void) {
+  SbParams params;
+  sb_params_init(&params);
+  SbModel fresh;
+  g_assert_cmpint(sb_model_compile(&fresh, &params, NULL), ==, SB_OK);
+  g_assert_cmpfloat(fresh.seal[SB_OUTER].section_diameter, ==, 1.61e-3);
+  g_assert_cmpfloat(fresh.seal[SB_OUTER].modulus, ==, 2.5e6);
+
+  set(&params, "storage.time", 30 * 86400.0);
+  set(&params, "rubber.swell_mass", 0.17);
+  set(&params, "rubber.relaxation_share_1", 0.2);
+  SbModel stored;
+  g_assert_cmpint(sb_model_compile(&stored, &params, NULL), ==, SB_OK);
+  const SbSealModel *seal = &stored.seal[SB_INNER];
+  const double growth = cbrt(1 + 0.17 * 1090 / 1226);
+  g_assert_cmpfloat_with_epsilon(seal->section_diameter, 1.61e-3 * growth, 1e-8);
+  g_assert_cmpfloat_with_epsilon(seal->inner_diameter, 2.84e-3 * growth, 1e-8);
+  g_assert_cmpfloat_with_epsilon(seal->modulus, 2.5e6 * 0.8 / growth, 10);
+  g_assert_cmpfloat_with_epsilon(seal->radius, seal->section_diameter / 2, 1e-15);
+  g_assert_cmpfloat(seal->gland_fill, >, fresh.seal[SB_INNER].gland_fill);
+  g_assert_cmpfloat(seal->stored.section_diameter, ==, 1.61e-3);
+
+  // 30 days are far beyond the one hour that is known to relax.
+  SbWarnings warnings = {0};
+  sb_model_warn_storage(&stored, &warnings);
+  g_assert_cmpuint(warnings.count, ==, 1);
+  g_assert_cmpstr(warnings.item[0].code, ==, "relaxation-extrapolated");
+  warnings = (SbWarnings){0};
+  sb_model_warn_storage(&fresh, &warnings);
+  g_assert_cmpuint(warnings.count, ==, 0);
+
+  // Constants that make no sense together are a problem with its key.
+  set(&params, "rubber.relaxation_share_2", 0.9);
+  SbProblems problems;
+  g_assert_cmpint(sb_model_compile(&stored, &params, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpuint(problems.count, >=, 1);
+  g_assert_cmpstr(problems.item[0].key, ==, "rubber.relaxation_share_1");
+}
+
+static void test_gland(void) {
+  SbParams params;
+  sb_params_init(&params);
+  SbModel model;
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  SbGland gland;
+  sb_model_gland(&gland, &model, &params, SB_OUTER);
+  SbGlandReadout out[SB_GLAND_COUNT];
+  g_assert_cmpint(sb_gland_readouts(out, &gland, NULL), ==, SB_OK);
+  g_assert_cmpfloat_with_epsilon(out[SB_GLAND_SQUEEZE].nominal, model.seal[SB_OUTER].squeeze,
+                                 1e-12);
+  g_assert_cmpfloat_with_epsilon(out[SB_GLAND_FILL].nominal, model.seal[SB_OUTER].gland_fill,
+                                 1e-12);
+  g_assert_cmpint(out[SB_GLAND_STRETCH_INNER].band, ==, SB_BAND_ABOVE);
+  // The tolerance of one seal is its own.
+  set(&params, "seal.outer.section_diameter_tolerance", 0);
+  set(&params, "gland.radial_space_tolerance", 0);
+  sb_model_gland(&gland, &model, &params, SB_OUTER);
+  g_assert_cmpint(sb_gland_readouts(out, &gland, NULL), ==, SB_OK);
+  g_assert_cmpfloat(out[SB_GLAND_SQUEEZE].worst_low, ==, out[SB_GLAND_SQUEEZE].worst_high);
+  sb_model_gland(&gland, &model, &params, SB_INNER);
+  g_assert_cmpint(sb_gland_readouts(out, &gland, NULL), ==, SB_OK);
+  g_assert_cmpfloat(out[SB_GLAND_SQUEEZE].worst_low, <, out[SB_GLAND_SQUEEZE].worst_high);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/model/catalogue", test_catalogue);
@@ -93,5 +164,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/model/derived", test_derived);
   g_test_add_func("/model/problems", test_problems);
   g_test_add_func("/model/pressure-maps", test_pressure_maps);
+  g_test_add_func("/model/storage", test_storage);
+  g_test_add_func("/model/gland", test_gland);
   return g_test_run();
 }
