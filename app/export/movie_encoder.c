@@ -68,7 +68,10 @@ static SbStatus set_up_codec(SbMovieEncoder *encoder, const SbMovieOptions *opti
   if (options->bit_exact) {
     codec->flags |= AV_CODEC_FLAG_BITEXACT;
   }
+  // Few pictures held at once: a third less memory for some per cent of size on drawings like ours.
+  codec->max_b_frames = 1;
   AVDictionary *set = NULL;
+  av_dict_set(&set, "x264-params", "rc-lookahead=4:sync-lookahead=0", 0);
   av_dict_set(&set, "preset", options->preset != NULL ? options->preset : "veryfast", 0);
   av_dict_set_int(&set, "crf", options->quality > 0 ? options->quality : 18, 0);
   int code = avcodec_open2(codec, found, &set);
