@@ -176,24 +176,26 @@ static void hatch(SbDrawItem *item, SbDrawColour colour, double lean, double off
   item->feather = false;
 }
 
-// Fills and outlines one run of points of the housing, closed above the picture.
-static void draw_housing_part(SbSection *section, const SbValvePoint *points, size_t count) {
+// Fills and outlines one run of points of the housing, cut off above the picture.
+static void draw_housing_part(SbSection *section, const SbSectionFrameMap *map,
+                              const SbValvePoint *points, size_t count) {
   SbDrawPoint pixel[SB_VALVE_POINTS_MAX + 2];
   for (size_t i = 0; i < count; i++) {
-    pixel[i] = sb_section_at(section, points[i].x, points[i].y);
-    pixel[i].y = MAX(pixel[i].y, section->strip.y - 20);
+    pixel[i] = (SbDrawPoint){(float)(map->x0 + points[i].x * map->scale),
+                             (float)(map->y0 - points[i].y * map->scale)};
+    pixel[i].y = MAX(pixel[i].y, (float)map->top);
   }
   SbDrawItem *item = sb_draw_fill(section->list, pixel, count, section->palette->housing);
-  hatch(item, section->palette->housing_hatch, 1, section->x0 + section->y0);
+  hatch(item, section->palette->housing_hatch, 1, map->x0 + map->y0);
   sb_draw_stroke(section->list, pixel, count, 1.8, section->palette->outline);
 }
 
-static void draw_housing(SbSection *section) {
+void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map) {
   const SbValve *valve = &section->valve;
   const SbValveOutline *outline = &valve->housing;
   double top = outline->point[0].y;
   if (valve->vent_right <= valve->vent_left) {
-    draw_housing_part(section, outline->point, outline->count);
+    draw_housing_part(section, map, outline->point, outline->count);
     return;
   }
   // The vent cuts the housing in two; the last three points lie right of it.
@@ -202,11 +204,11 @@ static void draw_housing(SbSection *section) {
   memcpy(part, outline->point, split * sizeof *part);
   part[split] = (SbValvePoint){valve->vent_left, valve->bore};
   part[split + 1] = (SbValvePoint){valve->vent_left, top};
-  draw_housing_part(section, part, split + 2);
+  draw_housing_part(section, map, part, split + 2);
   part[0] = (SbValvePoint){valve->vent_right, top};
   part[1] = (SbValvePoint){valve->vent_right, valve->bore};
   memcpy(part + 2, outline->point + split, 3 * sizeof *part);
-  draw_housing_part(section, part, 5);
+  draw_housing_part(section, map, part, 5);
 }
 
 static void draw_stem(SbSection *section) {
@@ -229,7 +231,8 @@ void sb_section_draw_strip(SbSection *section) {
   const SbFrame *frame = section->instant->frame;
   sb_draw_clip(list, &section->strip);
   draw_fluid(section);
-  draw_housing(section);
+  SbSectionFrameMap map = {section->x0, section->y0, section->scale, (double)section->strip.y - 20};
+  sb_section_draw_housing(section, &map);
   draw_stem(section);
 
   // Rings, and the contact bars over exactly the engine's contact.
@@ -336,16 +339,20 @@ void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *
   lay_out(section, &layout);
   shape_rings(section);
   sb_section_draw_strip(section);
+  double x = layout.margin + (layout.column ? layout.legend_width + COLUMN_GAP : 0);
+  double gap = 24;
+  double each = (view->width - layout.margin - x - gap) / 2;
+  SbDrawRect pressure = {(float)x, (float)layout.inset_top, (float)each,
+                         (float)layout.inset_height};
+  SbDrawRect film = {(float)(x + each + gap), (float)layout.inset_top, (float)each,
+                     (float)layout.inset_height};
+  // The leader goes below the labels, which keep off it.
+  if (layout.insets) {
+    sb_section_draw_leader(section, &pressure, &film);
+  }
   sb_section_draw_strip_labels(section);
   sb_section_draw_legends(section, layout.margin, layout.top, layout.legend_width);
   if (layout.insets) {
-    double x = layout.margin + (layout.column ? layout.legend_width + COLUMN_GAP : 0);
-    double gap = 24;
-    double each = (view->width - layout.margin - x - gap) / 2;
-    SbDrawRect pressure = {(float)x, (float)layout.inset_top, (float)each,
-                           (float)layout.inset_height};
-    SbDrawRect film = {(float)(x + each + gap), (float)layout.inset_top, (float)each,
-                       (float)layout.inset_height};
     sb_section_draw_insets(section, &pressure, &film);
   }
   section->list = NULL;

@@ -75,20 +75,22 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
   const SbContactProfile *profile = section->instant->profile[seal];
   bool contact = frame->land_fraction > 0 && frame->contact_right > frame->contact_left;
   double bore = rect->y + 0.74 * rect->height;
-  double low = rect->y + rect->height;
   char text[96], value[SB_SECTION_NUMBER];
 
-  // Body above the bore line, ring and fluid below it.
+  // Fluid, then the housing as it stands over the seal, then the ring.
   sb_draw_clip(list, rect);
-  hatch_rect(section, rect->x, rect->y, rect->width, bore - rect->y);
   double middle = inset_x(inset, (frame->contact_left + frame->contact_right) / 2);
   middle = CLAMP(middle, rect->x, rect->x + rect->width);
-  sb_draw_rect(list, rect->x, bore, middle - rect->x, low - bore,
+  sb_draw_rect(list, rect->x, rect->y, middle - rect->x, rect->height,
                sb_palette_fluid(palette, frame->pressure_left))
       ->feather = false;
-  sb_draw_rect(list, middle, bore, rect->x + rect->width - middle, low - bore,
+  sb_draw_rect(list, middle, rect->y, rect->x + rect->width - middle, rect->height,
                sb_palette_fluid(palette, frame->pressure_right))
       ->feather = false;
+  SbSectionFrameMap map = {inset_x(inset, -sb_section_origin(section, seal)),
+                           bore + section->valve.bore * inset->scale, inset->scale,
+                           (double)rect->y - 20};
+  sb_section_draw_housing(section, &map);
   sb_section_draw_ring(section, seal, inset_x(inset, 0), inset->scale,
                        bore + section->model.radial_space * inset->scale, -inset->scale);
 
@@ -141,7 +143,6 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
       sb_section_label(section, x, bore - height - 7, &style, text);
     }
   }
-  sb_draw_line(list, rect->x, bore, rect->x + rect->width, bore, 1.8, palette->outline);
 
   // Peak, and the contact's width.
   if (contact) {
@@ -170,19 +171,24 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
     bool inside = right_px - left_px > sb_text_width(section->text, text, 11, 600) + 30;
     sb_section_label(section, (left_px + right_px) / 2, inside ? y + 4 : y + 20, &style, text);
   } else {
-    SbSectionLabel style = {12, 600, SB_ALIGN_CENTRE, palette->seal[seal], &palette->housing};
-    sb_section_label(section, rect->x + rect->width / 2, (rect->y + bore) / 2, &style,
+    SbSectionLabel style = {12, 600, SB_ALIGN_CENTRE, palette->seal[seal], &palette->panel};
+    sb_section_label(section, rect->x + rect->width / 2, rect->y + 24, &style,
                      "off the land: no contact");
   }
   frame_inset(section, inset, seal);
   inset_title(section, inset, seal, ", contact pressure on the bore");
 }
 
-// Least 1, 2 or 5 times a power of ten that is not below v.
+// Least round number (1, 2, 3, 4, 5, 6, 8 times a power of ten) that is not below v.
 static double nice_above(double v) {
+  static const double round[] = {1, 2, 3, 4, 5, 6, 8};
   double unit = pow(10, floor(log10(v)));
-  double m = v / unit;
-  return unit * (m <= 1 ? 1 : m <= 2 ? 2 : m <= 5 ? 5 : 10);
+  for (size_t i = 0; i < G_N_ELEMENTS(round); i++) {
+    if (v <= round[i] * unit * (1 + 1e-12)) {
+      return round[i] * unit;
+    }
+  }
+  return 10 * unit;
 }
 
 // Share of the contact's load that asperities carry, or a negative number.
@@ -225,7 +231,7 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
   hatch_rect(section, rect->x, rect->y, rect->width, bore - rect->y);
 
   // The ring's surface under the bore, on a scale that holds over the film.
-  double full = nice_above(fmax(1.5 * section->limits.film_max, 1e-12));
+  double full = nice_above(fmax(1.35 * section->limits.film_max, 1e-12));
   double px = 0.82 * (low - bore) / full;
   bool film = contact && profile != NULL && profile->count > 1 && frame->film_central > 0;
   double body_top = low;
@@ -256,7 +262,7 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     double y = bore + full / 2 * i * px;
     sb_draw_line(list, right - 19, y, right - 14, y, 1.2, palette->ink);
     double shown = full / 2 * i * (micro ? 1e6 : 1e9);
-    sb_section_fixed(value, shown, shown >= 10 ? 0 : shown >= 1 ? (fmod(shown, 1) > 0) : 2);
+    sb_section_significant(value, shown);
     snprintf(text, sizeof text, "%s %s", value, micro ? "\xc2\xb5m" : "nm");
     sb_draw_text(list, right - 23, i == 0 ? y + 13 : y + 4, 11, 400, SB_ALIGN_RIGHT, palette->ink,
                  text);
@@ -277,10 +283,12 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     sb_section_label(section, rect->x + 14, ground + 4, &small, "bore, at rest");
   }
 
-  // The figures, inside the ring's body.
+  // The figures: inside the ring's body, or in the film where that is thicker.
   double left_edge = contact ? MAX(inset_x(inset, frame->contact_left), rect->x) : rect->x;
   double x = contact ? (left_edge + split) / 2 : rect->x + rect->width / 2;
-  double y = MAX(body_top, bore) + 24;
+  bool in_body = low - body_top > 66 || low - body_top > body_top - bore;
+  double y = in_body ? MAX(body_top, bore) + 24 : bore + 22;
+  double floor = in_body ? low : body_top;
   SbDrawAlign centre = SB_ALIGN_CENTRE;
   if (!contact) {
     sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->seal[seal],
@@ -301,11 +309,11 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     char sigma[SB_SECTION_NUMBER];
     snprintf(text, sizeof text, "roughness \xcf\x83 %s %s is not drawn",
              sb_section_significant(sigma, section->model.sigma * 1e6), "\xc2\xb5m");
-    if (y + 40 < low) {
+    if (y + 40 < floor) {
       sb_draw_text(list, x, y + 35, 11, 400, centre, palette->second, text);
     }
     double share = asperity_share(profile, frame);
-    if (share > 0 && y + 58 < low) {
+    if (share > 0 && y + 58 < floor) {
       snprintf(text, sizeof text, "asperities carry %s %% of the load",
                sb_section_fixed(value, 100 * share, share > 0.1 ? 0 : 1));
       sb_draw_text(list, x, y + 52, 11, 400, centre, palette->second, text);
@@ -315,23 +323,36 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
   inset_title(section, inset, seal, ", film under the contact");
 }
 
+// The part of a seal that both insets show.
+static Inset inset_of(const SbSection *section, const SbDrawRect *rect) {
+  int seal = section->view->inset_seal;
+  const SbSectionLimits *limits = &section->limits;
+  double left = limits->contact_left[seal], right = limits->contact_right[seal];
+  double range = fmax(1.9 * (right - left), 0.75 * section->model.seal[seal].section_diameter);
+  return (Inset){*rect, (left + right) / 2, (double)rect->width / range};
+}
+
 // From both insets to a box round the contact in the strip.
-static void draw_leader(SbSection *section, const SbDrawRect *left, const SbDrawRect *right,
-                        int seal, const Inset *inset) {
+void sb_section_draw_leader(SbSection *section, const SbDrawRect *pressure,
+                            const SbDrawRect *film) {
+  int seal = section->view->inset_seal;
+  Inset inset = inset_of(section, pressure);
   SbDrawColour colour = section->palette->seal[seal];
   double origin = sb_section_origin(section, seal);
-  double half = inset->rect.width / 2 / inset->scale;
-  SbDrawPoint middle = sb_section_at(section, origin + inset->centre, section->valve.bore);
+  double half = (double)pressure->width / 2 / inset.scale;
+  SbDrawPoint middle = sb_section_at(section, origin + inset.centre, section->valve.bore);
   double width = 2 * half * section->scale;
-  double height = 0.26 * inset->rect.height / inset->scale * section->scale;
+  double height = 0.26 * (double)pressure->height / inset.scale * section->scale;
   double above = MIN(8, 0.5 * height);
-  double box_left = CLAMP(middle.x - width / 2, section->strip.x,
-                          section->strip.x + section->strip.width - width);
-  sb_draw_round_frame(section->list, box_left, middle.y - above, width, height + above, 3, 1.4,
-                      colour);
-  double bottom = left->y + left->height;
-  double elbow = (bottom + section->strip.y) / 2 + 1;
-  double from = left->x + left->width / 2, to = right->x + right->width / 2;
+  double strip_right = (double)(section->strip.x + section->strip.width);
+  double box_left =
+      CLAMP((double)middle.x - width / 2, (double)section->strip.x, strip_right - width);
+  double box_top = (double)middle.y - above;
+  sb_draw_round_frame(section->list, box_left, box_top, width, height + above, 3, 1.4, colour);
+  double bottom = (double)(pressure->y + pressure->height);
+  double elbow = (bottom + (double)section->strip.y) / 2 + 1;
+  double from = (double)(pressure->x + pressure->width / 2);
+  double to = (double)(film->x + film->width / 2);
   double drop = box_left + 7;
   const SbDrawPoint bracket[4] = {{(float)from, (float)bottom},
                                   {(float)from, (float)elbow},
@@ -341,20 +362,15 @@ static void draw_leader(SbSection *section, const SbDrawRect *left, const SbDraw
   if (drop < from || drop > to) {
     sb_draw_line(section->list, drop < from ? from : to, elbow, drop, elbow, 1.2, colour);
   }
-  sb_draw_line(section->list, drop, elbow, drop, middle.y - above, 1.2, colour);
+  sb_draw_line(section->list, drop, elbow, drop, box_top, 1.2, colour);
+  sb_section_reserve(section, drop - 2, elbow, 4, box_top - elbow);
 }
 
 void sb_section_draw_insets(SbSection *section, const SbDrawRect *pressure,
                             const SbDrawRect *film) {
   int seal = section->view->inset_seal;
-  const SbSectionLimits *limits = &section->limits;
-  double left = limits->contact_left[seal], right = limits->contact_right[seal];
-  double d = section->model.seal[seal].section_diameter;
-  double range = fmax(1.9 * (right - left), 0.75 * d);
-  Inset inset = {*pressure, (left + right) / 2, pressure->width / range};
+  Inset inset = inset_of(section, pressure);
   draw_pressure(section, &inset, seal);
-  draw_leader(section, pressure, film, seal, &inset);
-  inset.rect = *film;
-  inset.scale = film->width / range;
+  inset = inset_of(section, film);
   draw_film(section, &inset, seal);
 }

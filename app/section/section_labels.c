@@ -157,9 +157,12 @@ static void draw_friction(SbSection *section) {
     char text[80], value[SB_SECTION_NUMBER];
     snprintf(text, sizeof text, "friction %s", sb_section_force(value, fabs(seal->friction)));
     SbSectionLabel style = label_style(palette->seal[i], 600, SB_ALIGN_CENTRE, &palette->housing);
-    const double place_at[4][2] = {
-        {at.x, y - 10}, {at.x + 30, y - 10}, {at.x, y - 27}, {at.x + 30, y - 27}};
-    place(section, place_at, 4, &style, text);
+    const double place_at[5][2] = {{at.x, y - 10},
+                                   {at.x + 30, y - 10},
+                                   {at.x + 50, y - 10},
+                                   {at.x - 50, y - 10},
+                                   {at.x, y - 27}};
+    place(section, place_at, 5, &style, text);
   }
 }
 
@@ -245,7 +248,7 @@ static void draw_dose_path(SbSection *section) {
   double radius = sqrt(valve->section_area[SB_INNER] / M_PI);
   double top = valve->floor + 2 * radius;
   double mouth = sb_valve_bore_at(valve, ring);
-  double over = isfinite(mouth) ? (fmax(top, valve->land) + mouth) / 2 : top + 0.3 * g;
+  double over = isfinite(mouth) ? (fmax(top, valve->land) + mouth) / 2 : top + 0.17 * g;
   // Behind the ring, between the stem's land and whatever of the housing is above it.
   double behind = ring + 1.2 * radius;
   double roof = fmin(sb_valve_bore_at(valve, behind), top + 0.1 * g);
@@ -258,7 +261,7 @@ static void draw_dose_path(SbSection *section) {
       {ring, over},
       {behind, (valve->land + roof) / 2},
       {fmax(mouth_left + 0.1 * g, behind + 0.15 * g), valve->land + 0.02 * g},
-      {fmax(mouth_left, behind) + 0.62 * g, valve->land - 0.45 * depth},
+      {fmax(mouth_left, behind) + 0.46 * g, valve->land - 0.4 * depth},
   };
   enum { STEPS = 12 };
   SbDrawPoint curve[5 * STEPS + 1];
@@ -324,24 +327,66 @@ static void draw_scales(SbSection *section) {
   }
 }
 
+// A zoomed strip: contact width over the land, the fluid's pressure on either side.
+static void draw_zoom(SbSection *section) {
+  const SbPalette *palette = section->palette;
+  SbDrawList *list = section->list;
+  int i = section->view->zoom == SB_SECTION_ZOOM_INNER ? SB_INNER : SB_OUTER;
+  const SbSealFrame *seal = &section->instant->frame->seal[i];
+  const SbValve *valve = &section->valve;
+  double origin = sb_section_origin(section, i);
+  char text[96], value[SB_SECTION_NUMBER];
+  if (seal->land_fraction > 0) {
+    SbDrawPoint a = sb_section_at(section, origin + section->ring[i].contact_left, valve->bore);
+    SbDrawPoint b = sb_section_at(section, origin + section->ring[i].contact_right, valve->bore);
+    double y = (double)a.y + 17;
+    sb_draw_line(list, a.x, y - 5, a.x, y + 5, 1.2, palette->ink);
+    sb_draw_line(list, b.x, y - 5, b.x, y + 5, 1.2, palette->ink);
+    sb_draw_line(list, a.x, y, b.x, y, 1.2, palette->ink);
+    snprintf(text, sizeof text, "contact %s",
+             sb_section_millimetre(value, seal->contact_right - seal->contact_left));
+    SbSectionLabel style = label_style(palette->ink, 600, SB_ALIGN_CENTRE, &palette->panel);
+    sb_section_label(section, (double)(a.x + b.x) / 2, y + 4, &style, text);
+  }
+  // In the groove's corners, beside the ring.
+  double s = section->instant->frame->displacement;
+  double y = sb_section_at(section, 0, valve->floor).y - 14;
+  const double wall[2] = {sb_section_at(section, valve->groove_left[i] - s, 0).x + 8,
+                          sb_section_at(section, valve->groove_right[i] - s, 0).x - 8};
+  const double pressure[2] = {seal->pressure_left, seal->pressure_right};
+  for (int side = 0; side < 2; side++) {
+    // Beyond the wall, on the stem, pointing into the corner.
+    SbSectionLabel style = label_style(palette->fluid_line, 600,
+                                       side == 0 ? SB_ALIGN_RIGHT : SB_ALIGN_LEFT, &palette->stem);
+    snprintf(text, sizeof text, "fluid %s", sb_section_megapascal(value, pressure[side]));
+    double x = wall[side] + (side == 0 ? -20 : 20);
+    sb_section_label(section, x, y, &style, text);
+  }
+}
+
 void sb_section_draw_strip_labels(SbSection *section) {
   bool whole = section->view->zoom == SB_SECTION_WHOLE;
-  if (!section->view->hide_labels && whole) {
+  bool labels = !section->view->hide_labels, forces = !section->view->hide_forces;
+  if (labels && whole) {
     draw_regions(section);
     draw_land_edge(section);
   }
-  if (!section->view->hide_forces && whole) {
+  if (forces && whole) {
     draw_stem_forces(section);
+  }
+  if (forces) {
     draw_friction(section);
   }
-  if (!section->view->hide_labels) {
-    if (whole) {
-      draw_dose_path(section);
-    }
+  if (labels && whole) {
+    draw_dose_path(section);
+  }
+  if (labels) {
     draw_seal_names(section);
-    if (whole) {
-      draw_motion(section);
-    }
+  }
+  if (labels && whole) {
+    draw_motion(section);
+  } else if (labels) {
+    draw_zoom(section);
   }
   draw_scales(section);
 }

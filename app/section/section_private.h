@@ -55,8 +55,17 @@ void sb_section_reserve(SbSection *section, double x, double y, double width, do
 // Parts of the picture.
 void sb_section_draw_strip(SbSection *section);
 void sb_section_draw_strip_labels(SbSection *section);
+void sb_section_draw_leader(SbSection *section, const SbDrawRect *pressure, const SbDrawRect *film);
 void sb_section_draw_insets(SbSection *section, const SbDrawRect *pressure, const SbDrawRect *film);
 void sb_section_draw_legends(SbSection *section, double x, double y, double width);
+
+// Where the housing's frame lies in a picture: pixel of its origin, pixels per metre, and the pixel
+// above which nothing shows.
+typedef struct {
+  double x0, y0, scale, top;
+} SbSectionFrameMap;
+
+void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map);
 
 // Fill of seal i's ring from its outline mapped by x -> ax + bx x, y -> ay + by y, and its outline.
 void sb_section_draw_ring(SbSection *section, int seal, double ax, double bx, double ay, double by);

@@ -1,0 +1,240 @@
+// The GL renderer: both back ends draw the same picture, the pictures are the golden ones (light,
+// dark, zoomed; each with a partner a little wrong that must be caught), and drawing on and on
+// neither grows nor leaks.
+#include "app/section/gl_renderer.h"
+#include "app/section/section.h"
+#include "tests/app/picture.h"
+
+#include <glib.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { WIDTH = 1216, HEIGHT = 568, SAMPLES = 201 };
+
+// An instant made by hand, so that the golden pictures depend on the drawing alone.
+typedef struct {
+  SbModel model;
+  SbFrame frame;
+  double x[SB_SEAL_COUNT][SAMPLES], pressure[SB_SEAL_COUNT][SAMPLES];
+  double film[SB_SEAL_COUNT][SAMPLES], asperities[SB_SEAL_COUNT][SAMPLES];
+  SbContactProfile profile[SB_SEAL_COUNT];
+} Scene;
+
+static void set_seal(Scene *scene, int i, double half, double peak, double left, double right,
+                     double film, double friction, double land) {
+  scene->frame.seal[i] = (SbSealFrame){.land_fraction = (float)land,
+                                       .pressure_left = (float)left,
+                                       .pressure_right = (float)right,
+                                       .contact_left = land > 0 ? -half : 0,
+                                       .contact_right = land > 0 ? half : 0,
+                                       .pressure_peak = peak,
+                                       .film_central = film,
+                                       .film_min = 0.8 * film,
+                                       .friction = friction};
+  for (int j = 0; j < SAMPLES; j++) {
+    double x = half * (2.0 * j / (SAMPLES - 1) - 1) * 1.4;
+    double t = x / half;
+    scene->x[i][j] = x;
+    scene->pressure[i][j] = fmax(fabs(t) < 1 ? peak * sqrt(1 - t * t) : 0, t < 0 ? left : right);
+    scene->film[i][j] = film * (fabs(t) < 1 ? 1 : 1 + 4e5 * (fabs(t) - 1));
+    scene->asperities[i][j] = 0.9 * scene->pressure[i][j];
+  }
+  scene->profile[i] = (SbContactProfile){SAMPLES,        scene->x[i],          scene->pressure[i],
+                                         scene->film[i], scene->asperities[i], "by hand"};
+}
+
+static void make_scene(Scene *scene, double displacement, double half) {
+  SbParams params;
+  sb_params_init(&params);
+  g_assert_cmpint(sb_model_compile(&scene->model, &params, NULL), ==, SB_OK);
+  bool open = displacement > 4.1e-3;
+  scene->frame = (SbFrame){.time = displacement / 3.333e-4,
+                           .displacement = displacement,
+                           .velocity = 3.333e-4,
+                           .force = open ? 22.5 : 27.4,
+                           .pressure_force = 14.5,
+                           .stage = open ? SB_STAGE_C : SB_STAGE_B,
+                           .chamber = open ? SB_CHAMBER_OPEN : SB_CHAMBER_AT_REST};
+  set_seal(scene, SB_OUTER, half, 1.2e6, 0.55e6, 0, 0.9e-9, 8.0, 1);
+  set_seal(scene, SB_INNER, 0.3e-3, 0.7e6, 0.55e6, 0.55e6, 1e-9, open ? 0 : 4.9, open ? 0 : 1);
+}
+
+static void draw_list(SbDrawList *list, const Scene *scene, bool dark, SbSectionZoom zoom) {
+  SbSectionLimits limits = {.inner_contact_left = -0.3e-3,
+                            .pressure_max = 1.2e6,
+                            .film_max = 1e-9,
+                            .contact_left = {-0.4e-3, -0.3e-3},
+                            .contact_right = {0.4e-3, 0.3e-3}};
+  SbSection *section = sb_section_create(&scene->model, &limits);
+  SbSectionView view = {.width = WIDTH,
+                        .height = HEIGHT,
+                        .margin = 20,
+                        .dark = dark,
+                        .inset_seal = SB_OUTER,
+                        .zoom = zoom};
+  SbSectionInstant instant = {.frame = &scene->frame,
+                              .profile = {&scene->profile[0], &scene->profile[1]}};
+  sb_section_draw(section, list, &view, &instant);
+  sb_section_destroy(section);
+}
+
+static cairo_surface_t *render(SbGlBackend backend, const SbDrawList *list, double scale) {
+  SbReport report = {0};
+  SbGlContext *context;
+  if (sb_gl_context_create(&context, backend, &report) != SB_OK) {
+    g_test_message("%s", report.text);
+    return NULL;
+  }
+  SbGlRenderer *renderer;
+  g_assert_cmpint(sb_gl_renderer_create(&renderer, context, &report), ==, SB_OK);
+  int width = (int)lround((double)list->width * scale);
+  int height = (int)lround((double)list->height * scale);
+  cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
+  g_assert_cmpint(sb_gl_renderer_draw(renderer, list, width, height, scale, &report), ==, SB_OK);
+  cairo_surface_flush(surface);
+  sb_gl_renderer_read(renderer, cairo_image_surface_get_data(surface),
+                      (size_t)cairo_image_surface_get_stride(surface));
+  cairo_surface_mark_dirty(surface);
+  sb_gl_renderer_destroy(renderer);
+  sb_gl_context_destroy(context);
+  return surface;
+}
+
+static void test_backends(void) {
+  static Scene scene;
+  make_scene(&scene, 2.15e-3, 0.37e-3);
+  SbDrawList list;
+  sb_draw_list_init(&list);
+  for (int i = 0; i < 3; i++) {
+    draw_list(&list, &scene, i == 1, i == 2 ? SB_SECTION_ZOOM_OUTER : SB_SECTION_WHOLE);
+    double scale = i == 1 ? 1.5 : 1;
+    cairo_surface_t *osmesa = render(SB_GL_OSMESA, &list, scale);
+    cairo_surface_t *egl = render(SB_GL_EGL, &list, scale);
+    if (osmesa == NULL || egl == NULL) {
+      g_test_skip("one of the back ends is missing");
+    } else {
+      g_assert_cmpfloat(picture_distance(osmesa, egl, NULL), <=, 0.001);
+    }
+    if (osmesa != NULL) {
+      cairo_surface_destroy(osmesa);
+    }
+    if (egl != NULL) {
+      cairo_surface_destroy(egl);
+    }
+  }
+  sb_draw_list_finish(&list);
+}
+
+typedef struct {
+  const char *name;
+  double displacement;
+  bool dark;
+  SbSectionZoom zoom;
+} Golden;
+
+static const Golden goldens[] = {
+    {"section", 2.15e-3, false, SB_SECTION_WHOLE},
+    {"section-dark", 2.15e-3, true, SB_SECTION_WHOLE},
+    {"section-open-dark", 5.5e-3, true, SB_SECTION_WHOLE},
+    {"section-zoom", 2.15e-3, false, SB_SECTION_ZOOM_OUTER},
+};
+
+static void test_golden(void) {
+  static Scene scene;
+  SbDrawList list;
+  sb_draw_list_init(&list);
+  for (size_t i = 0; i < G_N_ELEMENTS(goldens); i++) {
+    const Golden *golden = &goldens[i];
+    make_scene(&scene, golden->displacement, 0.37e-3);
+    draw_list(&list, &scene, golden->dark, golden->zoom);
+    cairo_surface_t *picture = render(SB_GL_AUTO, &list, 1);
+    g_assert_nonnull(picture);
+    picture_check(picture, golden->name);
+    cairo_surface_destroy(picture);
+    // A contact wider by a hundredth of a millimetre.
+    make_scene(&scene, golden->displacement, 0.375e-3);
+    draw_list(&list, &scene, golden->dark, golden->zoom);
+    picture = render(SB_GL_AUTO, &list, 1);
+    g_assert_true(picture_rejects(picture, golden->name));
+    cairo_surface_destroy(picture);
+  }
+  sb_draw_list_finish(&list);
+}
+
+// Resident memory [kB].
+static long resident(void) {
+  char *text = NULL;
+  long pages = 0;
+  if (g_file_get_contents("/proc/self/statm", &text, NULL, NULL)) {
+    long total;
+    g_assert_cmpint(sscanf(text, "%ld %ld", &total, &pages), ==, 2);
+    g_free(text);
+  }
+  return 4 * pages;
+}
+
+// Pictures with ever new texts: the atlas is emptied when full, and nothing grows.
+static void test_steady(void) {
+  static Scene scene;
+  SbReport report = {0};
+  SbGlContext *context;
+  g_assert_cmpint(sb_gl_context_create(&context, SB_GL_AUTO, &report), ==, SB_OK);
+  SbGlRenderer *renderer;
+  g_assert_cmpint(sb_gl_renderer_create(&renderer, context, &report), ==, SB_OK);
+  SbDrawList list;
+  sb_draw_list_init(&list);
+  make_scene(&scene, 2.15e-3, 0.37e-3);
+  int rounds = g_test_slow() ? 10000 : 500;
+  long before = 0;
+  gint64 start = g_get_monotonic_time();
+  for (int i = 0; i < rounds; i++) {
+    sb_draw_list_clear(&list, 320, 180, (SbDrawColour){1.0f, 1.0f, 1.0f, 1.0f});
+    for (int j = 0; j < 20; j++) {
+      char text[64];
+      g_snprintf(text, sizeof text, "%d.%03d N", i, 37 * j);
+      sb_draw_text(&list, 10 + 3 * j, 8 * j + 10, 12, 600, SB_ALIGN_LEFT,
+                   (SbDrawColour){0.0f, 0.0f, 0.0f, 1.0f}, text);
+    }
+    g_assert_cmpint(sb_gl_renderer_draw(renderer, &list, 320, 180, 1, &report), ==, SB_OK);
+    if (i == rounds / 2) {
+      before = resident();
+    }
+  }
+  g_test_message("%.0f pictures a second",
+                 rounds / (1e-6 * (double)(g_get_monotonic_time() - start)));
+  g_assert_cmpint(resident() - before, <, 4096);
+  sb_draw_list_finish(&list);
+  sb_gl_renderer_destroy(renderer);
+  sb_gl_context_destroy(context);
+}
+
+// Sizes that cannot be are refused with a reason, and a wrong name is no back end.
+static void test_refusals(void) {
+  SbReport report = {0};
+  SbGlContext *context;
+  g_assert_cmpint(sb_gl_context_create(&context, SB_GL_AUTO, &report), ==, SB_OK);
+  g_assert_cmpuint(strlen(sb_gl_context_reason(context)), >, 10);
+  SbGlRenderer *renderer;
+  g_assert_cmpint(sb_gl_renderer_create(&renderer, context, &report), ==, SB_OK);
+  SbDrawList list;
+  sb_draw_list_init(&list);
+  sb_draw_list_clear(&list, 10, 10, (SbDrawColour){0.0f, 0.0f, 0.0f, 1.0f});
+  int most = sb_gl_renderer_size_max(renderer);
+  g_assert_cmpint(sb_gl_renderer_draw(renderer, &list, most + 1, 10, 1, &report), ==,
+                  SB_ERROR_RANGE);
+  g_assert_cmpint(sb_gl_renderer_draw(renderer, &list, 0, 10, 1, &report), ==, SB_ERROR_RANGE);
+  g_assert_cmpint(sb_gl_backend_find("vulkan"), ==, -1);
+  sb_draw_list_finish(&list);
+  sb_gl_renderer_destroy(renderer);
+  sb_gl_context_destroy(context);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/renderer/backends", test_backends);
+  g_test_add_func("/renderer/golden", test_golden);
+  g_test_add_func("/renderer/steady", test_steady);
+  g_test_add_func("/renderer/refusals", test_refusals);
+  return g_test_run();
+}
