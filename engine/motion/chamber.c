@@ -1,0 +1,177 @@
+// See chamber.h.
+#include "engine/motion/chamber.h"
+
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+
+SbStatus sb_chamber_check(const SbChamberModel *m, SbReport *report) {
+  if (!(m->canister >= 0.0) || !isfinite(m->canister)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.pressure",
+                             "the canister's pressure must not be below 0");
+  }
+  if (!(m->volume > 0.0) || !(m->stiffness > 0.0) || !(m->density > 0.0) || !isfinite(m->volume) ||
+      !isfinite(m->stiffness) || !isfinite(m->density)) {
+    return sb_fail(report, SB_ERROR_RANGE,
+                   "the chamber's volume, stiffness and the liquid's density must be above 0");
+  }
+  if (m->ports > SB_CHAMBER_PORTS) {
+    return sb_fail(report, SB_ERROR_RANGE, "a chamber has at most %d ports", SB_CHAMBER_PORTS);
+  }
+  for (size_t i = 0; i < m->ports; i++) {
+    const SbChamberPort *p = &m->port[i];
+    if (!(p->high > p->low) || !(p->area > 0.0) || !isfinite(p->pressure)) {
+      return sb_fail(report, SB_ERROR_RANGE, "port %zu needs a stretch, an area and a pressure", i);
+    }
+  }
+  return sb_succeed(report);
+}
+
+size_t sb_chamber_edges(const SbChamberModel *m, double *edges) {
+  size_t n = 0;
+  for (size_t i = 0; i < 2 * m->ports; i++) {
+    double x = i % 2 ? m->port[i / 2].high : m->port[i / 2].low;
+    size_t at = 0;
+    while (at < n && edges[at] < x) {
+      at++;
+    }
+    if (!isfinite(x) || (at < n && edges[at] == x)) {
+      continue;
+    }
+    for (size_t k = n; k > at; k--) {
+      edges[k] = edges[k - 1];
+    }
+    edges[at] = x;
+    n++;
+  }
+  return n;
+}
+
+static void equalise(const SbDoseChamber *c, double *pressure) {
+  for (size_t i = 0; i < c->model->ports; i++) {
+    if (c->open[i] && isinf(c->model->port[i].area)) {
+      *pressure = c->model->port[i].pressure;
+    }
+  }
+}
+
+void sb_chamber_start(SbDoseChamber *c, const SbChamberModel *m, double x, double *pressure) {
+  *c = (SbDoseChamber){.model = m};
+  for (size_t i = 0; i < m->ports; i++) {
+    const SbChamberPort *p = &m->port[i];
+    c->open[i] = p->way == SB_PORT_BOTH_WAYS && x >= p->low && x < p->high;
+  }
+  equalise(c, pressure);
+}
+
+void sb_chamber_cross(SbDoseChamber *c, double x, int direction, double *pressure) {
+  for (size_t i = 0; i < c->model->ports; i++) {
+    const SbChamberPort *p = &c->model->port[i];
+    if (x == p->low) {
+      c->open[i] = direction > 0 && p->way == SB_PORT_BOTH_WAYS;
+    } else if (x == p->high) {
+      c->open[i] = direction < 0;
+    }
+  }
+  equalise(c, pressure);
+}
+
+// sign(d) sqrt|d|, with a smooth bend within `bend` of zero.
+static double bent_root(double d, double bend) {
+  double u = d / bend;
+  if (fabs(u) < 1.0) {
+    return sqrt(bend) * u * (1.25 - 0.25 * u * u);
+  }
+  return d > 0.0 ? sqrt(d) : -sqrt(-d);
+}
+
+double sb_chamber_rate(const SbDoseChamber *c, double pressure) {
+  const SbChamberModel *m = c->model;
+  double flow = 0.0, bend = 1e-4 * fmax(m->canister, 1e3);
+  for (size_t i = 0; i < m->ports; i++) {
+    if (c->open[i] && isfinite(m->port[i].area)) {
+      flow += m->port[i].area * sqrt(2.0 / m->density) *
+              bent_root(m->port[i].pressure - pressure, bend);
+    }
+  }
+  return m->stiffness / m->volume * flow;
+}
+
+bool sb_chamber_settled(const SbDoseChamber *c, double pressure) {
+  double most = 0.0;
+  for (size_t i = 0; i < c->model->ports; i++) {
+    if (c->open[i] && isfinite(c->model->port[i].area)) {
+      most = fmax(most, fabs(c->model->port[i].pressure - pressure));
+    }
+  }
+  return most <= 1e-9 * fmax(c->model->canister, 1e3);
+}
+
+SbDoseState sb_chamber_state(const SbDoseChamber *c) {
+  SbDoseState state = SB_DOSE_CLOSED;
+  for (size_t i = 0; i < c->model->ports; i++) {
+    if (c->open[i]) {
+      if (c->model->port[i].pressure < c->model->canister) {
+        return SB_DOSE_VENTING;
+      }
+      state = SB_DOSE_FILLING;
+    }
+  }
+  return state;
+}
+
+void sb_chamber_differences(const SbChamberModel *m, double pressure, bool inner_touches,
+                            double *inner, double *outer) {
+  *inner = inner_touches ? m->canister - pressure : 0.0;
+  *outer = pressure;
+}
+
+double sb_chamber_stem_force(const SbChamberModel *m, double pressure, double inner_area,
+                             double outer_area) {
+  return -((m->canister - pressure) * inner_area + pressure * outer_area);
+}
+
+SbStatus sb_chamber_reading(SbChamberModel *m, int reading, double canister, double open_at,
+                            double release, double area, double volume, double stiffness,
+                            double density, SbReport *report) {
+  if (reading != 1 && reading != 2) {
+    return sb_fail_parameter(report, SB_ERROR_INPUT, "canister.pressure_map",
+                             "there are readings 1 and 2, not %d", reading);
+  }
+  if (!(release > 0.0) || !(open_at > release)) {
+    return sb_fail(report, SB_ERROR_RANGE,
+                   "the dose must be released between rest and where the chamber opens");
+  }
+  SbChamberPort fill = {open_at, INFINITY, SB_PORT_BOTH_WAYS, canister, area};
+  *m = (SbChamberModel){.canister = canister,
+                        .volume = volume,
+                        .stiffness = stiffness,
+                        .density = density,
+                        .ports = 2,
+                        .port = {fill}};
+  if (reading == 1) {
+    m->port[1] = (SbChamberPort){-INFINITY, release, SB_PORT_BOTH_WAYS, 0.0, area};
+  } else {
+    m->ports = 3;
+    m->port[1] = (SbChamberPort){0.5 * release, release, SB_PORT_ON_RETURN, 0.0, area};
+    m->port[2] = (SbChamberPort){-INFINITY, 0.5 * release, SB_PORT_BOTH_WAYS, canister, area};
+  }
+  return sb_chamber_check(m, report);
+}
+
+double sb_chamber_metered_volume(double bore, double stem, double spacing,
+                                 double section_diameter) {
+  // Half of each ring's section lies between the centres; by Pappus, at its mean radius plus the
+  // half disc's lever (which is axial, so that the mean radius is the ring's own).
+  double annulus = pi / 4.0 * (bore - stem) * (bore + stem) * spacing;
+  double mean = 0.5 * bore - 0.5 * section_diameter;
+  double rings = 2.0 * pi * mean * (pi / 4.0) * section_diameter * section_diameter;
+  return annulus - rings;
+}
+
+long sb_chamber_doses(double metered_volume, double liquid, double left) {
+  if (!(metered_volume > 0.0) || !(liquid > left)) {
+    return 0;
+  }
+  return (long)floor((liquid - left) / metered_volume * (1.0 + 1e-12));
+}

@@ -1,0 +1,88 @@
+// Pressure in the dose chamber as a state: open to the canister, closed, venting.
+//
+// The chamber lies between the inner and the outer seal. Ports join it to the canister or to the
+// outside while the stem is in a stretch of its stroke; through an open port of effective area CdA
+// liquid flows as through an orifice, Q = CdA sqrt(2 dp / rho), and the pressure follows
+// p' = (B/V) sum Q, B the stiffness of liquid, rings and walls together. An infinite area equalises
+// in one step. Then the seals see canister - chamber (inner) and chamber - outside (outer), and the
+// thesis' two readings (device.md, table of pressure differences) are two sets of ports, not two
+// tables. SI units, gauge pressures, stem position > 0 into the canister. Leaves out: boiling in
+// the chamber and the aerosol (B stands for both), heat, the seals' own leakage (see leak/).
+#pragma once
+
+#include "engine/status.h"
+
+enum { SB_CHAMBER_PORTS = 4, SB_CHAMBER_EDGES = 2 * SB_CHAMBER_PORTS };
+
+typedef enum {
+  SB_PORT_BOTH_WAYS, // open whenever the stem is in the stretch
+  SB_PORT_ON_RETURN, // opens only if the stem enters the stretch from above; open until it leaves
+} SbPortWay;
+
+typedef struct {
+  double low, high; // stretch of stem position, m; -INFINITY and INFINITY allowed
+  SbPortWay way;
+  double pressure; // beyond it, Pa gauge
+  double area;     // effective (discharge coefficient included), m2; INFINITY: at once
+} SbChamberPort;
+
+typedef struct {
+  double canister;  // Pa gauge
+  double volume;    // m3
+  double stiffness; // B, Pa
+  double density;   // kg/m3
+  size_t ports;
+  SbChamberPort port[SB_CHAMBER_PORTS];
+} SbChamberModel;
+
+typedef enum { SB_DOSE_CLOSED, SB_DOSE_FILLING, SB_DOSE_VENTING } SbDoseState;
+
+typedef struct {
+  const SbChamberModel *model; // borrowed
+  bool open[SB_CHAMBER_PORTS];
+} SbDoseChamber;
+
+// Refuses what makes no sense.
+SbStatus sb_chamber_check(const SbChamberModel *model, SbReport *report);
+
+// Positions at which ports open or close, increasing, without doubles: the events to declare to the
+// motion (dynamics.h). Returns how many; edges[SB_CHAMBER_EDGES].
+size_t sb_chamber_edges(const SbChamberModel *model, double *edges);
+
+// Ports for a stem at rest at x; `pressure` is equalised through ports of infinite area.
+void sb_chamber_start(SbDoseChamber *chamber, const SbChamberModel *model, double x,
+                      double *pressure);
+
+// The stem crosses the edge at position x in direction +1 or -1.
+void sb_chamber_cross(SbDoseChamber *chamber, double x, int direction, double *pressure);
+
+// dp/dt [Pa/s], and whether nothing flows any more (to 1e-9 of the canister's pressure).
+double sb_chamber_rate(const SbDoseChamber *chamber, double pressure);
+bool sb_chamber_settled(const SbDoseChamber *chamber, double pressure);
+
+// Closed, or open to something at canister pressure (filling) or below (venting).
+SbDoseState sb_chamber_state(const SbDoseChamber *chamber);
+
+// Pressure differences over the seals, canister side less outside [Pa]; a seal out of contact
+// has none.
+void sb_chamber_differences(const SbChamberModel *model, double pressure, bool inner_touches,
+                            double *inner, double *outer);
+
+// Net pressure force on the stem [N], < 0 (outwards), for seals on lands of these areas [m2].
+double sb_chamber_stem_force(const SbChamberModel *model, double pressure, double inner_area,
+                             double outer_area);
+
+// The two readings of device.md. `open_at`: the inner seal leaves the land; `release`: stem
+// position at which the dose leaves on the return (< open_at). Reading 1: vented whenever the stem
+// is below `release`. Reading 2: vented on the return between `release` / 2 and `release`, refilled
+// through a rest port below that. area applies to all ports.
+SbStatus sb_chamber_reading(SbChamberModel *model, int reading, double canister, double open_at,
+                            double release, double area, double volume, double stiffness,
+                            double density, SbReport *report);
+
+// Volume [m3] enclosed between two rings of section diameter d a distance `spacing` apart (centre
+// to centre) on a stem of diameter `stem` in a bore: the annulus less the rings' inner halves.
+double sb_chamber_metered_volume(double bore, double stem, double spacing, double section_diameter);
+
+// Whole doses in a fill of `liquid` m3 until `left` m3 can no longer be drawn.
+long sb_chamber_doses(double metered_volume, double liquid, double left);

@@ -1,0 +1,200 @@
+// The dose chamber: both readings of device.md from ports, venting against its closed form, and the
+// chamber as a state of the moving valve.
+#include "engine/motion/chamber.h"
+#include "engine/motion/dynamics.h"
+
+#include <glib.h>
+#include <math.h>
+
+#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
+
+static const double pc = 0.55e6;
+
+// Walks a stem through a cycle with ports that act at once; differences at each stage of the table.
+static void test_readings(void) {
+  for (int reading = 1; reading <= 2; reading++) {
+    SbChamberModel m;
+    SbReport report = {0};
+    g_assert_cmpint(
+        sb_chamber_reading(&m, reading, pc, 3.3e-3, 1.0e-3, INFINITY, 50e-9, 1e7, 1226.0, &report),
+        ==, SB_OK);
+    double edges[SB_CHAMBER_EDGES], inner, outer, p = reading == 1 ? 0.0 : pc;
+    size_t n = sb_chamber_edges(&m, edges);
+    g_assert_cmpuint(n, ==, reading == 1 ? 2 : 3);
+    SbDoseChamber c;
+    sb_chamber_start(&c, &m, 0.0, &p);
+    // In-stroke: A-C, then C-F.
+    for (size_t i = 0; i < n; i++) {
+      sb_chamber_differences(&m, p, true, &inner, &outer);
+      ASSERT_NEAR(inner, reading == 1 ? pc : 0.0, 1e-6);
+      ASSERT_NEAR(outer, reading == 1 ? 0.0 : pc, 1e-6);
+      sb_chamber_cross(&c, edges[i], 1, &p);
+    }
+    g_assert_cmpint(sb_chamber_state(&c), ==, SB_DOSE_FILLING);
+    sb_chamber_differences(&m, p, false, &inner, &outer);
+    g_assert_true(inner == 0.0 && outer == pc);
+    // Return: F to release, then after release.
+    sb_chamber_cross(&c, 3.3e-3, -1, &p);
+    g_assert_cmpint(sb_chamber_state(&c), ==, SB_DOSE_CLOSED);
+    sb_chamber_differences(&m, p, true, &inner, &outer);
+    g_assert_true(inner == 0.0 && outer == pc);
+    sb_chamber_cross(&c, 1.0e-3, -1, &p);
+    g_assert_cmpint(sb_chamber_state(&c), ==, SB_DOSE_VENTING);
+    sb_chamber_differences(&m, p, true, &inner, &outer);
+    g_assert_true(inner == pc && outer == 0.0);
+    // Whatever the chamber does, the stem feels the same force on equal bores.
+    ASSERT_NEAR(sb_chamber_stem_force(&m, p, 26.4e-6, 26.4e-6), -pc * 26.4e-6, 1e-12);
+    if (reading == 2) {
+      sb_chamber_cross(&c, 0.5e-3, -1, &p);
+      g_assert_true(p == pc); // refilled at rest
+    }
+  }
+}
+
+// Orifice outflow: the root of the pressure falls linearly in time.
+static void test_vent(void) {
+  SbChamberModel m;
+  SbReport report = {0};
+  double area = 1e-8;
+  sb_chamber_reading(&m, 1, pc, 3.3e-3, 1e-3, area, 50e-9, 1e7, 1226.0, &report);
+  SbDoseChamber c;
+  double p = pc, t = 0.0, h = 1e-6;
+  sb_chamber_start(&c, &m, 0.0, &p);
+  double slope = 0.5 * m.stiffness / m.volume * area * sqrt(2.0 / m.density);
+  while (p > 0.01 * pc) {
+    // Classical Runge-Kutta, independent of the engine's integrators.
+    double k1 = sb_chamber_rate(&c, p), k2 = sb_chamber_rate(&c, p + 0.5 * h * k1);
+    double k3 = sb_chamber_rate(&c, p + 0.5 * h * k2), k4 = sb_chamber_rate(&c, p + h * k3);
+    p += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+    t += h;
+    ASSERT_NEAR(sqrt(p), sqrt(pc) - slope * t, 1e-9 * sqrt(pc));
+  }
+  g_assert_false(sb_chamber_settled(&c, p));
+  g_assert_true(sb_chamber_settled(&c, 0.0));
+}
+
+// ---- in the valve ----
+
+typedef struct {
+  SbChamberModel model;
+  SbDoseChamber chamber;
+  double edge[SB_CHAMBER_EDGES];
+  size_t edges, land;
+  double lowest, highest; // chamber pressure seen
+} Valve;
+
+static void loads(SbDynamicsLoads *out, double x, size_t region, const double *extra, void *user) {
+  Valve *v = user;
+  double inner, outer, area = 14.5 / pc;
+  bool touches = region <= v->land;
+  sb_chamber_differences(&v->model, extra[0], touches, &inner, &outer);
+  out->force = sb_chamber_stem_force(&v->model, extra[0], area, area);
+  out->level[0] = touches ? 5.0 + 3.0 * inner / pc : 0.0;
+  out->level[1] = 5.0 + 3.0 * outer / pc;
+  out->constant = sb_chamber_settled(&v->chamber, extra[0]);
+  v->lowest = fmin(v->lowest, extra[0]);
+  v->highest = fmax(v->highest, extra[0]);
+}
+
+static void rates(double *rate, double x, double speed, size_t region, const double *extra,
+                  void *user) {
+  rate[0] = sb_chamber_rate(&((Valve *)user)->chamber, extra[0]);
+}
+
+static void crossed(size_t edge, int direction, double *extra, void *user) {
+  Valve *v = user;
+  sb_chamber_cross(&v->chamber, v->edge[edge], direction, extra);
+}
+
+static void test_valve(void) {
+  for (int reading = 1; reading <= 2; reading++) {
+    for (int at_once = 0; at_once < 2; at_once++) {
+      Valve v = {.lowest = INFINITY, .highest = -INFINITY};
+      SbReport report = {0};
+      double start = reading == 1 ? 0.0 : pc;
+      sb_chamber_reading(&v.model, reading, pc, 3.3e-3, 1e-3, at_once ? INFINITY : 8e-9, 50e-9, 1e7,
+                         1226.0, &report);
+      v.edges = sb_chamber_edges(&v.model, v.edge);
+      v.land = v.edges - 1;
+      sb_chamber_start(&v.chamber, &v.model, 0.0, &start);
+      SbDynamicsContact seal = {.static_ratio = 1.1, .stiffness = 3e4, .damping = 3.0};
+      SbDynamicsModel m = {
+          .mass = 3.73e-3,
+          .contacts = 2,
+          .contact = {seal, seal},
+          .stops = 2,
+          .stop = {{.position = 6.6e-3, .side = 1, .stiffness = 1e7, .restitution = 0.3},
+                   {.position = 1.45e-6, .side = -1, .stiffness = 1e7, .restitution = 0.3}},
+          .extras = 1,
+          .extra_start = {start},
+          .extra_scale = {1e5},
+          .edges = v.edges,
+          .loads = loads,
+          .extra_rates = rates,
+          .cross = crossed,
+          .user = &v,
+          .drive = {.kind = SB_DRIVE_CYCLE,
+                    .speed = 1e-2,
+                    .end = INFINITY,
+                    .reversal_force = 35.0,
+                    .cycles = 1},
+          .drive_stiffness = 1e5,
+          .drive_damping = 5.0};
+      for (size_t i = 0; i < v.edges; i++) {
+        m.edge[i] = v.edge[i];
+      }
+      SbDynamics s;
+      SbDynamicsSample sample;
+      SbDynamicsEnergy e;
+      g_assert_cmpint(sb_dynamics_init(&s, &m, &report), ==, SB_OK);
+      double in_force = 0.0, open_pressure = 0.0;
+      for (int i = 1; i <= 200; i++) {
+        g_assert_cmpint(sb_dynamics_advance(&s, i * 1e-2, &report), ==, SB_OK);
+        sb_dynamics_sample(&s, &sample, &e);
+        g_assert_cmpfloat(sample.extra[0], >=, -1.0);
+        g_assert_cmpfloat(sample.extra[0], <=, pc + 1.0);
+        if (i == 30) {
+          in_force = sample.drive_force;
+        }
+        if (i == 65) {
+          open_pressure = sample.extra[0];
+        }
+      }
+      ASSERT_NEAR(open_pressure, pc, 1e-3 * pc);
+      ASSERT_NEAR(sample.position, 0.0, 1e-5);
+      ASSERT_NEAR(sample.extra[0], start, 1e-3 * pc);
+      g_assert_cmpfloat(v.lowest, <, 1.0);
+      g_assert_cmpfloat(e.closure, <, 1e-6);
+      g_test_message("reading %d, %s: force at 3 mm %.2f N, closure %.1e, events %ld, steps %ld",
+                     reading, at_once ? "at once" : "orifices", in_force, e.closure,
+                     sb_dynamics_counters(&s).events, sb_dynamics_counters(&s).steps);
+    }
+  }
+}
+
+static void test_volume(void) {
+  // 50 ul from spacing: the annulus less two half rings.
+  double v = sb_chamber_metered_volume(6e-3, 4e-3, 4e-3, 1e-3);
+  double annulus = G_PI / 4.0 * 20e-6 * 4e-3, rings = 2.0 * G_PI * 2.5e-3 * G_PI / 4.0 * 1e-6;
+  ASSERT_NEAR(v, annulus - rings, 1e-18);
+  g_assert_cmpint(sb_chamber_doses(50e-9, 10e-6, 0.0), ==, 200);
+  g_assert_cmpint(sb_chamber_doses(50e-9, 10e-6, 1e-6), ==, 180);
+  g_assert_cmpint(sb_chamber_doses(0.0, 10e-6, 1e-6), ==, 0);
+  SbChamberModel bad;
+  SbReport report = {0};
+  g_assert_cmpint(sb_chamber_reading(&bad, 3, pc, 3e-3, 1e-3, 1e-9, 1e-9, 1e7, 1e3, &report), !=,
+                  SB_OK);
+  g_assert_cmpint(sb_chamber_reading(&bad, 1, pc, 1e-3, 3e-3, 1e-9, 1e-9, 1e7, 1e3, &report), !=,
+                  SB_OK);
+  g_assert_cmpint(sb_chamber_reading(&bad, 1, pc, 3e-3, 1e-3, 0.0, 1e-9, 1e7, 1e3, &report), !=,
+                  SB_OK);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/motion/chamber/readings", test_readings);
+  g_test_add_func("/motion/chamber/vent", test_vent);
+  g_test_add_func("/motion/chamber/valve", test_valve);
+  g_test_add_func("/motion/chamber/volume", test_volume);
+  return g_test_run();
+}
