@@ -74,7 +74,7 @@ static void test_png(void) {
   g_autofree char *again = path_of("again.png");
   assert_written(sb_render_still(run, &options, again, &error), error);
   g_autofree char *a = NULL, *b = NULL;
-  gsize na, nb;
+  gsize na = 0, nb = 0;
   g_assert_true(g_file_get_contents(path, &a, &na, NULL) &&
                 g_file_get_contents(again, &b, &nb, NULL));
   g_assert_cmpmem(a, na, b, nb);

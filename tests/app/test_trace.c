@@ -118,8 +118,8 @@ static void test_summary(void) {
   g_autofree char *text = sb_chart_summary(&data);
   g_test_message("%s", text);
   g_assert_true(g_utf8_validate(text, -1, NULL));
-  static const char *const parts[] = {"Stage B\xe2\x80\x93"
-                                      "C, both seals slide: ",
+  static const char *const parts[] = {("Stage B\xe2\x80\x93"
+                                       "C, both seals slide: "),
                                       "force on the stem 27.4\xc2\xa0N",
                                       "Outer seal: friction 8.0\xc2\xa0N",
                                       "film 0.82\xc2\xa0nm",
