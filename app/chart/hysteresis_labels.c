@@ -68,13 +68,13 @@ void sb_hysteresis_marks(SbHysteresisView *v) {
     }
     const SbPlace above = {p.x, p.y - 13, SB_LEFT}, over = {p.x, p.y - 12, SB_MIDDLE};
     const SbPlace higher = {p.x, p.y - 30, SB_LEFT};
-    const SbPlace right = {p.x + 11, p.y + 4, SB_LEFT}, left = {p.x - 10, p.y + 4, SB_RIGHT};
+    const SbPlace right = {p.x + 11, p.y + 4, SB_LEFT}, left = {p.x - 12, p.y + 4, SB_RIGHT};
     const SbPlace up_right = {p.x + 8, p.y - 12, SB_LEFT}, up_left = {p.x - 8, p.y - 9, SB_RIGHT};
     const SbPlace below = {p.x, p.y + 20, SB_MIDDLE}, down_right = {p.x + 8, p.y + 19, SB_LEFT};
     const SbPlace down_left = {p.x - 8, p.y + 19, SB_RIGHT};
     switch (s) {
     case SB_STAGE_A:
-      draw_mark(v, s, p, value, (SbPlace[]){{p.x - 9, p.y - 8, SB_RIGHT}, left, up_right, above},
+      draw_mark(v, s, p, value, (SbPlace[]){{p.x - 11, p.y - 8, SB_RIGHT}, left, up_right, above},
                 4);
       break;
     case SB_STAGE_B:

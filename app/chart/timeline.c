@@ -135,6 +135,9 @@ static void draw_events(View *v) {
   const SbStageMark *mark = sb_trace_marks(v->data->run.trace);
   double taken = -1e9;
   double right = v->rect.x + v->rect.width;
+  // Letters keep off the playhead's triangle.
+  const SbFrame *frame = v->whole ? NULL : sb_chart_frame(v->data);
+  double now = frame ? sb_axis_at(&v->x, frame->time) : -1e9;
   for (int s = 0; s < SB_STAGE_COUNT; s++) {
     if (!mark[s].reached) {
       continue;
@@ -144,13 +147,17 @@ static void draw_events(View *v) {
     // Letters stand apart by at least 4 px, to the right of their line if they must.
     double width = sb_canvas_text_width(c, sb_stage_name((SbStage)s), &letter);
     double left = fmax(x - 0.5 * width, fmax(taken + 4, v->rect.x));
-    if (left + width <= right && left - x < 14) {
+    if (left < now + 8 && left + width > now - 8) {
+      left = now + 8;
+    }
+    if (left + width <= right && left - x < 18) {
       sb_canvas_text(c, sb_stage_name((SbStage)s), &letter, left, v->top - 7, SB_LEFT);
       taken = left + width;
     }
   }
-  if (sb_chart_complete(v->data) && taken < right - 20) {
-    sb_canvas_text(c, "A", &letter, right, v->top - 7, SB_RIGHT);
+  double end = now > right - 20 ? fmin(right, now - 8) : right;
+  if (sb_chart_complete(v->data) && taken < end - 12) {
+    sb_canvas_text(c, "A", &letter, end, v->top - 7, SB_RIGHT);
   }
 }
 
@@ -213,16 +220,6 @@ static void draw_names(View *v) {
   SbTextStyle now = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_NOW);
   double last = sb_trace_range(run->trace).time_max;
   SbPlace at;
-  if (mark[SB_STAGE_D].reached) {
-    double x = sb_axis_at(&v->x, mark[SB_STAGE_D].time) - 8;
-    char value[SB_FORMAT_MAX], text[64];
-    sb_format_text(value, SB_QUANTITY_LENGTH, mark[SB_STAGE_D].displacement, 0);
-    g_snprintf(text, sizeof text, "stroke %s", value);
-    if (sb_labels_place(v->labels, c, text, &plain, (SbPlace[]){{x, v->bottom - 9, SB_RIGHT}}, 1,
-                        &at)) {
-      sb_canvas_text(c, text, &plain, at.x, at.y, at.align);
-    }
-  }
   for (int s = 0; s < SB_STAGE_COUNT; s++) {
     if (!mark[s].reached) {
       continue;
@@ -241,6 +238,18 @@ static void draw_names(View *v) {
                               {x1 - 8, v->top + 16, SB_RIGHT},   {x1 - 8, v->bottom - 9, SB_RIGHT}};
     if (sb_labels_place(v->labels, c, text, style, places, G_N_ELEMENTS(places), &at)) {
       sb_canvas_text(c, text, style, at.x, at.y, at.align);
+    }
+  }
+  if (mark[SB_STAGE_D].reached) {
+    double x = sb_axis_at(&v->x, mark[SB_STAGE_D].time) - 8;
+    char value[SB_FORMAT_MAX], text[64];
+    sb_format_text(value, SB_QUANTITY_LENGTH, mark[SB_STAGE_D].displacement, 0);
+    g_snprintf(text, sizeof text, "stroke %s", value);
+    // Only where there is room left for it.
+    v->labels->crossing_max = 1;
+    if (sb_labels_place(v->labels, c, text, &plain, (SbPlace[]){{x, v->bottom - 9, SB_RIGHT}}, 1,
+                        &at)) {
+      sb_canvas_text(c, text, &plain, at.x, at.y, at.align);
     }
   }
   if (run->state == SB_CHART_PARTIAL || run->state == SB_CHART_FAILED) {

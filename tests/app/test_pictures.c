@@ -126,6 +126,7 @@ static void test_profiles(void) {
   wrong.run = thick;
   check_rejected(sb_profiles_draw, &wrong, "profiles", 1280, 280, 1, false, SB_CHART_PANEL);
   check_rejected(sb_profiles_draw, &wrong, "profiles-dark", 1280, 280, 1, true, SB_CHART_PANEL);
+  check_rejected(sb_profiles_draw, &wrong, "profiles-window", 400, 460, 1, false, SB_CHART_COMPACT);
 }
 
 // States that a window meets. What is drawn must differ from the finished picture (nobody may take
@@ -207,6 +208,38 @@ static void test_states(void) {
   sb_trace_destroy(half_trace);
 }
 
+static void test_timeline(void) {
+  static const SbChartMarker markers[] = {{28.2, "M1"}};
+  SbChartData data;
+  synthetic_data(&data, &run, 14.7);
+  data.marker = markers;
+  data.marker_count = 1;
+  check_view(sb_timeline_draw, &data, "timeline", 1100, 104, 1, false, 0);
+  check_view(sb_timeline_draw, &data, "timeline-dark", 1100, 104, 1, true, 0);
+  data.playhead += 4;
+  check_rejected(sb_timeline_draw, &data, "timeline", 1100, 104, 1, false, 0);
+  check_rejected(sb_timeline_draw, &data, "timeline-dark", 1100, 104, 1, true, 0);
+}
+
+// The comparison itself: two grey levels pass, three do not, nor does another size.
+static void test_comparison(void) {
+  cairo_surface_t *a = picture_new(100, 100, 1), *b = picture_new(100, 100, 1);
+  cairo_surface_t *c = picture_new(100, 101, 1);
+  for (int delta = 0; delta < 4; delta++) {
+    cairo_t *cr = cairo_create(b);
+    cairo_set_source_rgb(cr, delta / 255.0, 0, 0);
+    cairo_rectangle(cr, 10, 10, 4, 5); // 0.2 %
+    cairo_fill(cr);
+    cairo_destroy(cr);
+    double share = picture_distance(a, b, NULL);
+    g_assert_cmpfloat(share, ==, delta > 2 ? 0.002 : 0);
+  }
+  g_assert_cmpfloat(picture_distance(a, c, NULL), ==, 1);
+  cairo_surface_destroy(a);
+  cairo_surface_destroy(b);
+  cairo_surface_destroy(c);
+}
+
 // Friction so large that the stem does not return: the axis goes below zero.
 static void test_no_return(void) {
   Synthetic stuck;
@@ -214,6 +247,9 @@ static void test_no_return(void) {
   SbChartData data;
   synthetic_data(&data, &stuck, 36);
   check_view(sb_hysteresis_draw, &data, "hysteresis-no-return", 640, 560, 1, false, SB_CHART_PANEL);
+  data.playhead += 20;
+  check_rejected(sb_hysteresis_draw, &data, "hysteresis-no-return", 640, 560, 1, false,
+                 SB_CHART_PANEL);
   synthetic_clear(&stuck);
 }
 
@@ -225,6 +261,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/pictures/hysteresis", test_hysteresis);
   g_test_add_func("/pictures/profiles", test_profiles);
   g_test_add_func("/pictures/dashboard", test_dashboard);
+  g_test_add_func("/pictures/comparison", test_comparison);
+  g_test_add_func("/pictures/timeline", test_timeline);
   g_test_add_func("/pictures/states", test_states);
   g_test_add_func("/pictures/no-return", test_no_return);
   int result = g_test_run();

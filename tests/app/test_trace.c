@@ -1,6 +1,7 @@
 // The thinned trace: bounded, complete, the same however the frames arrive; and finding the frame
 // under a point.
 #include "app/chart/hysteresis.h"
+#include "app/chart/timeline.h"
 #include "tests/app/synthetic.h"
 
 #include <glib.h>
@@ -109,6 +110,29 @@ static void test_hit(void) {
   synthetic_clear(&run);
 }
 
+static void test_timeline_hit(void) {
+  Synthetic run;
+  synthetic_init(&run, 1250, 1);
+  SbChartData data;
+  synthetic_data(&data, &run, 0);
+  const SbRect rect = {30, 0, 1300, 104};
+  SbScale scale = sb_timeline_scale(rect, &data);
+  for (size_t i = 0; i < run.count; i += 7) {
+    size_t hit = SIZE_MAX;
+    g_assert_true(sb_timeline_hit(&hit, rect, &data, sb_axis_at(&scale, run.frames[i].time)));
+    g_assert_cmpfloat(run.frames[hit].time, ==, run.frames[i].time);
+  }
+  // Beyond the ends: the first and the last frame.
+  size_t hit;
+  g_assert_true(sb_timeline_hit(&hit, rect, &data, -50));
+  g_assert_cmpuint(hit, ==, 0);
+  g_assert_true(sb_timeline_hit(&hit, rect, &data, 5000));
+  g_assert_cmpuint(hit, ==, run.count - 1);
+  data.run.count = 0;
+  g_assert_false(sb_timeline_hit(&hit, rect, &data, 100));
+  synthetic_clear(&run);
+}
+
 // The charts in words.
 static void test_summary(void) {
   Synthetic run;
@@ -143,6 +167,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/trace/faithful", test_faithful);
   g_test_add_func("/trace/bounded", test_bounded);
   g_test_add_func("/trace/hit", test_hit);
+  g_test_add_func("/trace/timeline-hit", test_timeline_hit);
   g_test_add_func("/chart/summary", test_summary);
   return g_test_run();
 }
