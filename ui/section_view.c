@@ -7,12 +7,17 @@
 #include "app/chart/theme.h"
 #include "app/section/draw_cairo.h"
 #include "app/section/section.h"
+#include "ui/force_balance.h"
 #include "ui/style.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { LIMIT_SAMPLES = 400 }; // frames read per update for the scales
+enum {
+  LIMIT_SAMPLES = 400, // frames read per update for the scales
+  MARGIN = 16,         // beside the picture [px]
+  WIDE = 860           // from here the section has a column for legends and forces [px]
+};
 
 typedef struct {
   SbSession *session;
@@ -130,16 +135,21 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, View *view) {
   if (frame == NULL) {
     return GDK_EVENT_PROPAGATE;
   }
-  double width = gtk_widget_get_allocated_width(widget);
+  double width = gtk_widget_get_allocated_width(widget) - 2 * MARGIN;
   double height = gtk_widget_get_allocated_height(widget);
+  const SbChartData *data = sb_session_chart(view->session);
+  gboolean ran = sb_session_run(view->session) != NULL;
+  // A wide picture has the forces in its own column.
+  double top = 14;
+  double bottom = ran && width < WIDE ? SB_FORCE_BALANCE_HEIGHT : 8;
+  SbRect picture = {MARGIN, top, fmax(width, 1), fmax(height - top - bottom, 1)};
   const char *inset = gtk_combo_box_get_active_id(GTK_COMBO_BOX(view->inset_combo));
   SbSectionView how = {
-      .width = width * view->zoom,
-      .height = height * view->zoom,
+      .width = picture.width * view->zoom,
+      .height = picture.height * view->zoom,
       .dark = sb_style_is_dark(),
-      .margin = SB_GRID_PADDING,
-      .read_outs = true,
-      .hide_insets = g_strcmp0(inset, "none") == 0,
+      .read_outs = ran,
+      .hide_insets = !ran || g_strcmp0(inset, "none") == 0,
       .hide_forces = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->forces)),
       .hide_labels = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->labels)),
       .inset_seal = g_strcmp0(inset, "inner") == 0 ? SB_INNER : SB_OUTER,
@@ -149,13 +159,20 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, View *view) {
     instant.profile[i] = sb_run_profile(view->run, frame->seal[i].profile);
   }
   sb_section_draw(view->section, &view->list, &how, &instant);
-  cairo_translate(cr, -view->pan_x, -view->pan_y);
+  cairo_save(cr);
+  cairo_rectangle(cr, 0, 0, gtk_widget_get_allocated_width(widget), picture.y + picture.height);
+  cairo_clip(cr);
+  cairo_translate(cr, picture.x - view->pan_x, picture.y - view->pan_y);
   sb_draw_list_to_cairo(&view->list, view->text, cr);
-  cairo_translate(cr, view->pan_x, view->pan_y);
+  cairo_restore(cr);
+  if (ran && width < WIDE) {
+    SbRect balance = {MARGIN, height - bottom, width, bottom};
+    sb_force_balance_draw(cr, balance, theme, data);
+  }
 
-  // An earlier run behind one under way recedes; so does a picture that no longer fits the values.
   if (gtk_widget_has_visible_focus(widget)) {
-    gtk_render_focus(gtk_widget_get_style_context(widget), cr, 3, 3, width - 6, height - 6);
+    gtk_render_focus(gtk_widget_get_style_context(widget), cr, 3, 3,
+                     gtk_widget_get_allocated_width(widget) - 6, height - 6);
   }
   return GDK_EVENT_PROPAGATE;
 }
@@ -325,7 +342,7 @@ static GtkWidget *make_empty(void) {
   sb_style_class(box, "sb-empty");
   gtk_widget_set_halign(box, GTK_ALIGN_CENTER);
   gtk_widget_set_valign(box, GTK_ALIGN_START);
-  gtk_widget_set_margin_top(box, 120);
+  gtk_widget_set_margin_top(box, 170);
   gtk_container_add(GTK_CONTAINER(box),
                     gtk_label_new("Run the cycle to see forces, contacts and film."));
   GtkWidget *button = gtk_button_new_with_label("Run the cycle");

@@ -10,6 +10,7 @@
 
 #include "app/chart/data.h"
 #include "app/document/document.h"
+#include "app/run/runner.h"
 #include "engine/sealbench.h"
 
 #include <gio/gio.h>
@@ -99,6 +100,9 @@ void sb_session_set_auto_run(SbSession *session, gboolean on);
 // next "run-changed".
 const SbRun *sb_session_run(SbSession *session);
 const SbFrame *sb_session_frames(SbSession *session, size_t *count);
+
+// The shown run for others to keep, once it has ended: a reference for the caller; NULL before.
+SbRunHandle *sb_session_handle(SbSession *session);
 
 // The shown run's summary; NULL while it is computed.
 const SbSummary *sb_session_summary(SbSession *session);

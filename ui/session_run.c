@@ -336,6 +336,12 @@ const SbFrame *sb_session_frames(SbSession *session, size_t *count) {
   return session->shown != NULL ? session->shown->chart.frames : NULL;
 }
 
+SbRunHandle *sb_session_handle(SbSession *session) {
+  return session->shown != NULL && session->shown->chart.summary != NULL
+             ? sb_run_handle_ref(session->shown->handle)
+             : NULL;
+}
+
 const SbSummary *sb_session_summary(SbSession *session) {
   return session->shown != NULL ? session->shown->chart.summary : NULL;
 }

@@ -92,6 +92,12 @@ static void refresh_warnings(Bar *bar, const SbSummary *summary) {
 static void refresh_where(Bar *bar) {
   g_autofree char *where = sb_session_where(bar->session);
   gtk_label_set_text(GTK_LABEL(bar->where), where[0] != '\0' ? where : "nothing has run");
+  GtkStyleContext *style = gtk_widget_get_style_context(bar->where);
+  if (where[0] != '\0') {
+    gtk_style_context_add_class(style, "sb-now");
+  } else {
+    gtk_style_context_remove_class(style, "sb-now");
+  }
 }
 
 static void refresh_frames(Bar *bar) {
@@ -160,7 +166,7 @@ GtkWidget *sb_status_bar_new(SbSession *session) {
   atk_object_set_role(gtk_widget_get_accessible(widget), ATK_ROLE_STATUSBAR);
   sb_style_name(widget, "Status", NULL);
 
-  bar->where = add_label(box, "", "sb-now");
+  bar->where = add_label(box, "", NULL);
   gtk_label_set_width_chars(GTK_LABEL(bar->where), 26);
   gtk_label_set_xalign(GTK_LABEL(bar->where), 0);
   bar->models = add_pair(box, "Models", "Models");

@@ -4,6 +4,7 @@
 
 #include "ui/chart_view.h"
 #include "ui/derived_panel.h"
+#include "ui/export_dialog.h"
 #include "ui/param_panel.h"
 #include "ui/preferences.h"
 #include "ui/section_view.h"
@@ -202,7 +203,7 @@ static void refresh_run_state(SbWindow *window) {
   gtk_widget_set_tooltip_text(window->run_button,
                               running ? "Stop the run, keeping what is done (Ctrl+R)"
                                       : "Run the cycle with these values (Ctrl+R)");
-  set_enabled(window, "run-or-stop", running || sb_session_model(session) != NULL);
+  set_enabled(window, "run-or-stop", running || (sb_session_model(session) != NULL && errors == 0));
 }
 
 static void refresh(SbWindow *window) {
@@ -212,6 +213,9 @@ static void refresh(SbWindow *window) {
   refresh_run_state(window);
   set_enabled(window, "undo", sb_document_can_undo(document));
   set_enabled(window, "redo", sb_document_can_redo(document));
+  set_enabled(window, "previous-event", sb_session_run(window->session) != NULL);
+  set_enabled(window, "next-event", sb_session_run(window->session) != NULL);
+  set_enabled(window, "export", sb_session_summary(window->session) != NULL);
   set_enabled(window, "pin", sb_session_summary(window->session) != NULL);
   ensure_tick(window);
 }
@@ -301,6 +305,10 @@ static void on_zoom_fit(GSimpleAction *action, GVariant *parameter, gpointer dat
 static void on_copy_table(GSimpleAction *action, GVariant *parameter, gpointer data) {
   g_autofree char *text = sb_chart_view_table(SB_WINDOW(data)->session);
   gtk_clipboard_set_text(gtk_clipboard_get(GDK_SELECTION_CLIPBOARD), text, -1);
+}
+
+static void on_export(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_export_dialog_open(GTK_WINDOW(data), SB_WINDOW(data)->session);
 }
 
 static void on_strip_button(GtkButton *button, SbWindow *window) {
@@ -426,6 +434,7 @@ static void sb_window_init(SbWindow *window) {
       {.name = "zoom-in", .activate = on_zoom_in},
       {.name = "zoom-out", .activate = on_zoom_out},
       {.name = "zoom-fit", .activate = on_zoom_fit},
+      {.name = "export", .activate = on_export},
       {.name = "copy-table", .activate = on_copy_table},
       {.name = "pin", .state = "false", .change_state = on_pin},
       {.name = "auto-run", .state = "true", .change_state = on_auto_run},

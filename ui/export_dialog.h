@@ -1,0 +1,10 @@
+// The export dialog: a picture (PNG, SVG, PDF) or a film (MP4) of the shown run.
+#pragma once
+
+#include "ui/session.h"
+
+#include <gtk/gtk.h>
+
+// Opens it over `parent`; it destroys itself. Does nothing while no complete or partial run is
+// shown.
+void sb_export_dialog_open(GtkWindow *parent, SbSession *session);

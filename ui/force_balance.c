@@ -1,0 +1,85 @@
+// The balance of forces on the stem: machine force = pressure force + friction of both seals
+// (negative on the way back) + stop force. What is missing from it is inertia, which a quasi-static
+// run lacks and the window does not draw.
+#include "ui/force_balance.h"
+
+#include "app/chart/format.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// One part of the balance. Returns where the next one may start.
+static double part(SbCanvas *canvas, double x, double y, double scale, SbColor color,
+                   const char *name, double force) {
+  const SbTheme *theme = canvas->theme;
+  char number[SB_FORMAT_MAX], text[2 * SB_FORMAT_MAX];
+  sb_format_text(number, SB_QUANTITY_FORCE, fabs(force), 0);
+  SbTextStyle bold = {12, 600, color, 1};
+  SbTextStyle plain = sb_canvas_style(canvas, 12, 400, SB_ROLE_INK);
+  double name_width = sb_canvas_text_width(canvas, name, &bold);
+  snprintf(text, sizeof text, " %s", number);
+  double text_width = name_width + sb_canvas_text_width(canvas, text, &plain) + 16;
+  double width = fabs(force) * scale;
+
+  // A force that works against the machine is outlined, one with it filled; a bar too short for its
+  // text is filled only.
+  sb_canvas_color(canvas, color, force >= 0 || width < text_width ? 0.16 : 0.05);
+  cairo_rectangle(canvas->cr, x, y - 15, width, 20);
+  cairo_fill(canvas->cr);
+  sb_canvas_color(canvas, color, 1);
+  if (force < 0 && width >= text_width) {
+    sb_canvas_pen(canvas, 1, NULL);
+    cairo_rectangle(canvas->cr, x + 0.5, y - 14.5, fmax(width - 1, 1), 19);
+    cairo_stroke(canvas->cr);
+  }
+  cairo_rectangle(canvas->cr, x, y - 15, 3, 20);
+  cairo_fill(canvas->cr);
+  bold.color = sb_theme_readable(theme, color, theme->role[SB_ROLE_PANEL]);
+  sb_canvas_text(canvas, name, &bold, x + 9, y - 0.5, SB_LEFT);
+  sb_canvas_text(canvas, text, &plain, x + 9 + name_width, y - 0.5, SB_LEFT);
+  return x + fmax(width, text_width);
+}
+
+void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
+                           const SbChartData *data) {
+  const SbFrame *frame = sb_chart_frame(data);
+  if (frame == NULL) {
+    return;
+  }
+  SbCanvas canvas;
+  sb_canvas_init(&canvas, cr, theme);
+  sb_canvas_hairline(&canvas, rect.x, rect.y, rect.x + rect.width, rect.y,
+                     theme->role[SB_ROLE_HAIRLINE]);
+  SbTextStyle bold = sb_canvas_style(&canvas, 12, 700, SB_ROLE_INK);
+  SbTextStyle plain = sb_canvas_style(&canvas, 12, 400, SB_ROLE_SECOND);
+  double y = rect.y + rect.height / 2 + 5;
+  char number[SB_FORMAT_MAX], text[2 * SB_FORMAT_MAX];
+  sb_format_text(number, SB_QUANTITY_FORCE, frame->force, sb_chart_error_force(&data->run));
+  snprintf(text, sizeof text, "Drive %s", number);
+  sb_canvas_text(&canvas, text, &bold, rect.x, y, SB_LEFT);
+
+  // One scale for the whole run: 38 N take the width that is left.
+  double x = rect.x + 102;
+  double scale = (rect.width - 102 - 60) / 38;
+  sb_canvas_text(&canvas, "=", &plain, x - 14, y, SB_MIDDLE);
+  x = part(&canvas, x, y, scale, theme->role[SB_ROLE_FLUID], "pressure", frame->pressure_force);
+  static const char *const names[SB_SEAL_COUNT] = {[SB_OUTER] = "outer", [SB_INNER] = "inner"};
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const SbSealFrame *seal = &frame->seal[i];
+    if (seal->load <= 0 || seal->land_fraction <= 0) {
+      snprintf(text, sizeof text, "%s seal off the land", names[i]);
+      x += 14;
+      x += sb_canvas_text(&canvas, text, &plain, x, y, SB_LEFT);
+    } else if (fabs(seal->friction) > 0.005) {
+      sb_canvas_text(&canvas, seal->friction < 0 ? "\xe2\x88\x92" : "+", &plain, x + 9, y,
+                     SB_MIDDLE);
+      x = part(&canvas, x + 18, y, scale, sb_theme_seal(theme, i), names[i], seal->friction);
+    }
+  }
+  if (fabs(frame->stop_force) > 0.005) {
+    sb_canvas_text(&canvas, frame->stop_force < 0 ? "\xe2\x88\x92" : "+", &plain, x + 9, y,
+                   SB_MIDDLE);
+    part(&canvas, x + 18, y, scale, theme->role[SB_ROLE_THIRD], "stop", frame->stop_force);
+  }
+  sb_canvas_finish(&canvas);
+}

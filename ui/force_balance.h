@@ -1,0 +1,11 @@
+// The balance of forces on the stem, as a row below the section.
+#pragma once
+
+#include "app/chart/canvas.h"
+#include "app/chart/data.h"
+
+// Height of the row [px].
+#define SB_FORCE_BALANCE_HEIGHT 44.0
+
+// "Drive 22.5 N = pressure 14.5 N + outer 8.0 N" as bars to one scale, in `rect`.
+void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data);
