@@ -17,6 +17,7 @@ typedef struct {
   GtkWidget *cancel, *export;
   SbExportJob *job;
   guint poll;
+  guint later;     // source of what the user asked for, 0 if none is due
   gboolean sizing; // the preset writes the numbers, not the user
 } Dialog;
 
@@ -89,7 +90,9 @@ static void on_format(GtkComboBox *combo, Dialog *dialog) {
   follow_format(dialog);
 }
 
-static void on_choose(GtkButton *button, Dialog *dialog) {
+static gboolean choose(gpointer data) {
+  Dialog *dialog = data;
+  dialog->later = 0;
   GtkFileChooserNative *chooser = gtk_file_chooser_native_new(
       "Export to", GTK_WINDOW(dialog->dialog), GTK_FILE_CHOOSER_ACTION_SAVE, "_Choose", "_Cancel");
   gtk_file_chooser_set_filename(GTK_FILE_CHOOSER(chooser),
@@ -102,6 +105,18 @@ static void on_choose(GtkButton *button, Dialog *dialog) {
     follow_format(dialog);
   }
   g_object_unref(chooser);
+  return G_SOURCE_REMOVE;
+}
+
+// Questions run a loop of their own, which must not start inside a call from a screen reader.
+static void later(Dialog *dialog, GSourceFunc function) {
+  if (dialog->later == 0) {
+    dialog->later = g_idle_add(function, dialog);
+  }
+}
+
+static void on_choose(GtkButton *button, Dialog *dialog) {
+  later(dialog, choose);
 }
 
 // The job
@@ -175,20 +190,22 @@ static char *instant_of(Dialog *dialog) {
   return g_strdup_printf("%s s", g_ascii_dtostr(number, sizeof number, frame->time));
 }
 
-static void start(Dialog *dialog) {
+static gboolean start(gpointer data) {
+  Dialog *dialog = data;
+  dialog->later = 0;
   follow_format(dialog);
   const char *path = gtk_entry_get_text(GTK_ENTRY(dialog->path));
   SbRunHandle *handle = sb_session_handle(dialog->session);
   if (handle == NULL) {
     say(dialog, "The run has not ended yet.", "sb-error");
-    return;
+    return G_SOURCE_REMOVE;
   }
   if (!g_path_is_absolute(path) || !may_replace(dialog, path)) {
     sb_run_handle_unref(handle);
     if (!g_path_is_absolute(path)) {
       say(dialog, "The file needs its folder: an absolute path.", "sb-error");
     }
-    return;
+    return G_SOURCE_REMOVE;
   }
   g_autofree char *folder = g_path_get_dirname(path);
   sb_preferences_set_string("export-folder", folder);
@@ -211,11 +228,12 @@ static void start(Dialog *dialog) {
   set_busy(dialog, TRUE);
   dialog->job = sb_export_job_start(handle, &request, on_done, dialog);
   dialog->poll = g_timeout_add(50, on_poll, dialog);
+  return G_SOURCE_REMOVE;
 }
 
 static void on_response(GtkDialog *widget, int response, Dialog *dialog) {
   if (response == GTK_RESPONSE_ACCEPT && dialog->job == NULL) {
-    start(dialog);
+    later(dialog, start);
   } else if (response == GTK_RESPONSE_CANCEL && dialog->job != NULL) {
     sb_export_job_cancel(dialog->job);
   } else if (response != GTK_RESPONSE_ACCEPT) {
@@ -225,6 +243,9 @@ static void on_response(GtkDialog *widget, int response, Dialog *dialog) {
 
 static void on_destroy(GtkWidget *widget, Dialog *dialog) {
   stop_polling(dialog);
+  if (dialog->later != 0) {
+    g_source_remove(dialog->later);
+  }
   g_clear_pointer(&dialog->job, sb_export_job_free);
   g_object_unref(dialog->session);
   g_free(dialog);

@@ -142,7 +142,7 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, View *view) {
   // A wide picture has the forces in its own column.
   double top = 14;
   double bottom = ran && width < WIDE ? SB_FORCE_BALANCE_HEIGHT : 8;
-  SbRect picture = {MARGIN, top, fmax(width, 1), fmax(height - top - bottom, 1)};
+  SbRect picture = {MARGIN, top, fmax(width, 1), fmax(height - top - bottom - 8, 1)};
   const char *inset = gtk_combo_box_get_active_id(GTK_COMBO_BOX(view->inset_combo));
   SbSectionView how = {
       .width = picture.width * view->zoom,

@@ -11,7 +11,10 @@
 struct SbWindowFiles {
   GtkWindow *window;  // borrowed: owns this
   SbSession *session; // borrowed
+  guint later;        // source of what the user asked for, 0 if none is due
 };
+
+static gboolean save(SbWindowFiles *files, gboolean as);
 
 // Lines shown of a list of problems; more are counted.
 enum { LINES_MAX = 12 };
@@ -81,7 +84,7 @@ gboolean sb_window_files_may_discard(SbWindowFiles *files) {
   int answer = gtk_dialog_run(GTK_DIALOG(dialog));
   gtk_widget_destroy(dialog);
   if (answer == GTK_RESPONSE_YES) {
-    return sb_window_files_save(files, FALSE);
+    return save(files, FALSE);
   }
   return answer == GTK_RESPONSE_NO;
 }
@@ -100,7 +103,7 @@ static void add_filters(GtkFileChooser *chooser) {
   }
 }
 
-void sb_window_files_open_dialog(SbWindowFiles *files) {
+static void ask_open(SbWindowFiles *files) {
   if (!sb_window_files_may_discard(files)) {
     return;
   }
@@ -127,7 +130,7 @@ void sb_window_files_open(SbWindowFiles *files, GFile *file) {
   }
 }
 
-void sb_window_files_new(SbWindowFiles *files) {
+static void make_new(SbWindowFiles *files) {
   if (sb_window_files_may_discard(files)) {
     sb_session_reset(files->session);
   }
@@ -158,7 +161,7 @@ static char *ask_name(SbWindowFiles *files) {
   return name;
 }
 
-gboolean sb_window_files_save(SbWindowFiles *files, gboolean as) {
+static gboolean save(SbWindowFiles *files, gboolean as) {
   g_autofree char *name = NULL;
   if (as || sb_document_path(sb_session_document(files->session)) == NULL) {
     name = ask_name(files);
@@ -178,6 +181,54 @@ gboolean sb_window_files_save(SbWindowFiles *files, gboolean as) {
     }
   }
   return TRUE;
+}
+
+// Dialogs run a loop of their own, which must not start inside a call from a screen reader; so each
+// wish is granted from the main loop.
+static void later(SbWindowFiles *files, GSourceFunc function) {
+  if (files->later == 0) {
+    files->later = g_idle_add(function, files);
+  }
+}
+
+static gboolean open_now(gpointer data) {
+  SbWindowFiles *files = data;
+  files->later = 0;
+  ask_open(files);
+  return G_SOURCE_REMOVE;
+}
+
+static gboolean new_now(gpointer data) {
+  SbWindowFiles *files = data;
+  files->later = 0;
+  make_new(files);
+  return G_SOURCE_REMOVE;
+}
+
+static gboolean save_now(gpointer data) {
+  SbWindowFiles *files = data;
+  files->later = 0;
+  save(files, FALSE);
+  return G_SOURCE_REMOVE;
+}
+
+static gboolean save_as_now(gpointer data) {
+  SbWindowFiles *files = data;
+  files->later = 0;
+  save(files, TRUE);
+  return G_SOURCE_REMOVE;
+}
+
+void sb_window_files_open_dialog(SbWindowFiles *files) {
+  later(files, open_now);
+}
+
+void sb_window_files_new(SbWindowFiles *files) {
+  later(files, new_now);
+}
+
+void sb_window_files_save(SbWindowFiles *files, gboolean as) {
+  later(files, as ? save_as_now : save_now);
 }
 
 static void on_recent(GtkRecentChooser *chooser, SbWindowFiles *files) {
@@ -242,6 +293,9 @@ void sb_window_files_free(SbWindowFiles *files) {
   if (files != NULL) {
     g_object_set_data(G_OBJECT(files->window), "sb-files", NULL);
     g_signal_handlers_disconnect_by_data(files->window, files);
+    if (files->later != 0) {
+      g_source_remove(files->later);
+    }
     g_free(files);
   }
 }

@@ -14,13 +14,14 @@ SbWindowFiles *sb_window_files_new_for(GtkWindow *window, SbSession *session,
                                        GtkMenuButton *recent);
 void sb_window_files_free(SbWindowFiles *files);
 
-// Each asks first if changes would be lost.
+// Each asks first if changes would be lost. Open, new and save act from the main loop, after the
+// call.
 void sb_window_files_open_dialog(SbWindowFiles *files);
 void sb_window_files_open(SbWindowFiles *files, GFile *file);
 void sb_window_files_new(SbWindowFiles *files);
 
-// Saves; asks for a name if there is none or if `as`. True if it was saved.
-gboolean sb_window_files_save(SbWindowFiles *files, gboolean as);
+// Saves; asks for a name if there is none or if `as`.
+void sb_window_files_save(SbWindowFiles *files, gboolean as);
 
 // True if nothing would be lost, or the user saved or said that it may be.
 gboolean sb_window_files_may_discard(SbWindowFiles *files);

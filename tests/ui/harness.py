@@ -39,6 +39,8 @@ def wait(what, question, timeout=TIMEOUT):
 
 
 class App:
+    SENSITIVE = pyatspi.STATE_SENSITIVE
+
     def __init__(self, *files, env=None, theme="light"):
         self.folder = tempfile.mkdtemp(prefix="sealbench-ui-")
         config = os.path.join(self.folder, "sealbench")
@@ -143,6 +145,16 @@ class App:
 
     def value(self, name):
         return self.text(self.field(name))
+
+    def choose(self, combo, item):
+        """Picks an item of a combo box."""
+        node = self.find("combo box", combo)
+        items = self.all("menu item", root=node, showing=False)
+        index = [self.text(entry) or entry.name for entry in items].index(item)
+        node.querySelection().selectChild(index)
+
+    def spin(self, name, number):
+        self.find("spin button", name).queryValue().currentValue = number
 
     def key(self, combination):
         subprocess.run(["xdotool", "key", "--clearmodifiers", combination], check=True)

@@ -1,0 +1,89 @@
+"""Exports from the window: pictures, films, and cancelling one."""
+import os
+import struct
+import subprocess
+
+from harness import App, main, scene, wait
+
+
+def open_dialog(app, path, kind, view=None):
+    wait("the first run", app.run_done)
+    app.press("push button", "Export")
+    app.find("combo box", "Format")
+    app.choose("Format", kind)
+    if view is not None:
+        app.choose("View", view)
+    app.field("File").queryEditableText().setTextContents(path)
+
+
+def export_button(app):
+    return [node for node in app.all("push button", "Export") if node.getState().contains(
+        app.SENSITIVE)][-1]
+
+
+def a_picture(folder):
+    path = os.path.join(folder, "loop.png")
+    with App(scene(folder)) as app:
+        open_dialog(app, path, "Picture, PNG", "Dashboard")
+        app.act(export_button(app), "click")
+        wait("the result", lambda: app.label(r"^loop\.png is written"))
+        with open(path, "rb") as file:
+            head = file.read(24)
+        assert head[:8] == b"\x89PNG\r\n\x1a\n"
+        assert struct.unpack(">II", head[16:24]) == (1920, 1080)
+        # A second export of the same name asks first.
+        app.act(export_button(app), "click")
+        app.press("push button", "Keep")
+        assert os.path.exists(path)
+
+
+def a_film(folder):
+    path = os.path.join(folder, "cycle.mp4")
+    with App(scene(folder)) as app:
+        open_dialog(app, path, "Film, MP4", "Axial section")
+        app.spin("Width", 320)
+        app.spin("Height", 180)
+        app.spin("Frames per second", 10)
+        app.spin("Duration", 2)
+        app.act(export_button(app), "click")
+        wait("the result", lambda: app.label(r"^cycle\.mp4 is written: 20 frames"))
+    probe = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-select_streams", "v",
+                            "-show_entries", "stream=codec_name,pix_fmt,nb_read_frames,width",
+                            "-of", "csv=p=0", path], capture_output=True, text=True, check=True)
+    assert probe.stdout.strip() == "h264,320,yuv420p,20", probe.stdout
+
+
+def a_cancelled_film(folder):
+    path = os.path.join(folder, "cycle.mp4")
+    with App(scene(folder)) as app:
+        open_dialog(app, path, "Film, MP4", "Dashboard")
+        app.spin("Duration", 600)
+        app.gaction("reset-latency")
+        app.act(export_button(app), "click")
+        bar = app.find("progress bar", "Progress of the export")
+        wait("progress", lambda: bar.queryValue().currentValue > 0)
+        latency = app.latency()
+        app.press("push button", "Cancel")
+        text = wait("the result", lambda: app.label(r"^Cancelled: "))
+        assert "partial" in text, text
+        # The file is there, playable and short; the window goes on.
+        assert 0 < os.path.getsize(path) < 50e6
+        # The window has a button of that name too.
+        app.act(app.all("push button", "Close")[-1], "click")
+        wait("the dialog gone", lambda: not app.has("combo box", "Format"))
+        assert app.run_done()
+        print("# main loop blocked while exporting: %(p99_ms).1f ms at the 99th percentile, "
+              "%(max_ms).1f ms at most" % latency)
+        assert latency["p99_ms"] <= 50 and latency["max_ms"] <= 200, latency
+    assert not [name for name in os.listdir(folder) if "tmp" in name or name.startswith(".")]
+
+
+def a_place_that_cannot_be_written(folder):
+    with App(scene(folder)) as app:
+        open_dialog(app, "/proc/nowhere/loop.png", "Picture, PNG")
+        app.act(export_button(app), "click")
+        wait("the reason", lambda: app.label(r"^Nothing was written: "))
+
+
+if __name__ == "__main__":
+    main(a_picture, a_film, a_cancelled_film, a_place_that_cannot_be_written)
