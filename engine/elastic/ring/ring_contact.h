@@ -1,0 +1,83 @@
+// Rigid surfaces around the ring, unilateral contact with Coulomb friction, and fluid pressure.
+//
+// Internal to the ring; all quantities in the element solver's units. A boundary node that is held
+// by a surface lies on it exactly and may only be pushed; the fluid loads every side of the
+// boundary that is not closed by contact, and a node is let go when the contact pushes less than
+// the fluid would. So fluid enters exactly as far as the first held node, and contact pressure
+// starts there from the fluid's.
+#pragma once
+
+#include "engine/elastic/ring/ring_fem.h"
+
+typedef enum {
+  SB_RING_BORE,
+  SB_RING_FLOOR,
+  SB_RING_WALL_RIGHT,
+  SB_RING_WALL_LEFT,
+  SB_RING_SURFACES
+} SbRingSurface;
+
+// Where the surfaces stand and what acts, once per load step.
+typedef struct {
+  double bore, floor;           // radii
+  double wall_left, wall_right; // axial places, +-INFINITY: none
+  double land_left, land_right; // axial ends of the bore's land, +-INFINITY: none
+  double chamfer_slope;         // radial opening per axial length beyond an end of the land
+  double edge_length;           // axial length over which the slope sets in
+  double pressure_left, pressure_right;
+  double slide;                      // axial place of the bore's surface
+  double friction[SB_RING_SURFACES]; // Coulomb coefficients
+  double traction;                   // given shear on the ring from the bore, replaces Coulomb if
+  bool use_traction;                 // use_traction is set
+} SbRingSetting;
+
+// One boundary node against one surface.
+typedef struct {
+  bool held;
+  signed char slip; // 0 sticks; +-1 slides with the friction force on the ring along +-t
+  double force;     // normal contact force on the ring, >= 0 when held
+  double tangent;   // tangential contact force along t
+} SbRingTouch;
+
+typedef struct {
+  SbRingFem *fem; // borrowed
+  SbRingSetting now;
+  int count;          // boundary nodes
+  SbRingTouch *touch; // [count][SB_RING_SURFACES]
+  bool *closed;       // [count / 2] boundary sides closed by contact
+  double *share;      // [2 count] force that the fluid would put on the closed sides' nodes
+  double *weight;     // [count] current area of the boundary nodes
+  double *fluid;      // [2 count] fluid force on the open sides' nodes
+  double *anchor;     // [2 count] place at the start of the step, for sticking
+  double slide_start; // slide at the start of the step
+  bool *saved;        // for sb_ring_contact_save
+  signed char *saved_slip;
+  double force_scale; // for tolerances
+} SbRingContact;
+
+SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report);
+void sb_ring_contact_destroy(SbRingContact *contact);
+
+// Gap (>= 0 outside), its gradient and its second derivative along z at a place.
+double sb_ring_gap(const SbRingSetting *setting, SbRingSurface surface, const double x[2],
+                   double gradient[2], double *curvature);
+
+// Marks every node that is on or inside a surface as held.
+void sb_ring_contact_detect(SbRingContact *contact);
+
+// After assembly: adds fluid to residual and tangent, writes the nodes' conditions. Returns the
+// largest penetration or gap of a held node.
+double sb_ring_contact_apply(SbRingContact *contact);
+
+// After the solve and the step: new held set and slip states from the linear model's reactions.
+// Returns how many changed. With `gentle` only the worst offender of each kind changes.
+int sb_ring_contact_update(SbRingContact *contact, bool gentle);
+
+// At convergence: forces of all touches from the residual.
+void sb_ring_contact_forces(SbRingContact *contact);
+
+// Sum of a surface's force on the ring, (r, z).
+void sb_ring_contact_total(const SbRingContact *contact, SbRingSurface surface, double force[2]);
+
+void sb_ring_contact_save(SbRingContact *contact);
+void sb_ring_contact_restore(SbRingContact *contact);

@@ -1,0 +1,37 @@
+// What a ring object holds. Internal to the ring.
+#pragma once
+
+#include "engine/elastic/ring/ring.h"
+#include "engine/elastic/ring/ring_newton.h"
+
+struct SbRing {
+  SbRingBody body;
+  SbRingLoad load;
+  SbRingOptions options;
+  double length, stress, force; // units of the element solver: d, mu, mu d^2 (mu d in the plane)
+  double centre;                // radius of the free section's centre, in section diameters
+  SbRingMesh *mesh;
+  SbRingFem *fem;
+  SbRingContact *contact;
+  SbRingCount count;
+};
+
+// One contiguous contact with a surface, in the order of the loop.
+typedef struct {
+  int first, last;        // loop places of the outermost held nodes (last may exceed the count)
+  double angle[2];        // material angle of both ends, angle[0] < angle[1]
+  double place[2];        // place of both ends along the surface (z, or r for a wall)
+  double end_pressure[2]; // fluid pressure at both ends
+} SbRingPatch;
+
+// Finds a surface's contact; false if it does not touch.
+bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch);
+
+// Contact pressure at a loop node (element solver's units), from the excess over the fluid's.
+double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface);
+
+// Replaces the mesh by one fitted to the present contacts and solves on it; the state before is
+// kept if that fails.
+SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
+
+SbRingSetting sb_ring_setting(const SbRing *ring, const SbRingLoad *load);

@@ -1,0 +1,301 @@
+// The fitted ring against independent finite elements, its convergence, its balances, its limits.
+#include "engine/elastic/ring/ring.h"
+
+#include <glib.h>
+#include <math.h>
+
+static const SbRingBody BODY = {.section_diameter = 1.61e-3,
+                                .inner_diameter = 2.84e-3,
+                                .modulus = 2.5e6,
+                                .poisson_ratio = 0.49};
+
+static SbRingLoad groove(void) {
+  SbRingLoad load = SB_RING_LOAD_INIT;
+  load.floor_radius = 1.64e-3;
+  load.bore_radius = 3e-3;
+  return load;
+}
+
+static SbRingBody cord(double poisson) {
+  SbRingBody body = BODY;
+  body.plane_strain = true;
+  body.poisson_ratio = poisson;
+  return body;
+}
+
+static SbRing *fitted(const SbRingBody *body, const SbRingLoad *load, double size,
+                      SbRingResult *result) {
+  SbRing *ring = NULL;
+  SbReport report = {0};
+  SbRingOptions options = {.element_size = size, .fit_mesh = true};
+  SbStatus status = sb_ring_create(&ring, body, load, &options, &report);
+  if (status != SB_OK) {
+    g_test_message("%s", report.text);
+  }
+  g_assert_cmpint(status, ==, SB_OK);
+  sb_ring_result(ring, result);
+  return ring;
+}
+
+static void near(double value, double reference, double tolerance) {
+  g_test_message("%.6g, reference %.6g (%+.3f %%)", value, reference,
+                 100.0 * (value / reference - 1.0));
+  g_assert_cmpfloat(fabs(value / reference - 1.0), <, tolerance);
+}
+
+// Every state must satisfy these: no penetration, no tension, balance along the axis.
+static void check_state(const SbRing *ring) {
+  SbRingResult r;
+  sb_ring_result(ring, &r);
+  g_assert_cmpfloat(r.penetration, <=, 1e-12);
+  g_assert_cmpfloat(r.pressure_least, >=, -1e-3);
+  g_assert_cmpfloat(r.axial_imbalance, <, 1e-8);
+}
+
+// Plane strain squeeze of 15.53 %: reference 399.96 N/m +- 0.01 %, 0.692 mm, 0.7386 MPa; 406.1 N/m
+// at nu = 0.499.
+static void test_plane(void) {
+  SbRingBody body = cord(0.49);
+  SbRingLoad load = groove();
+  load.floor_radius = 0.0;
+  load.bore_radius = BODY.section_diameter * (1.0 - 0.1553);
+  SbRingResult r;
+  SbRing *ring = fitted(&body, &load, 0.04, &r);
+  near(r.bore_force, 399.96, 5e-4);
+  near(r.floor_force, r.bore_force, 1e-9);
+  near(r.contact_right - r.contact_left, 0.692e-3, 5e-3);
+  near(r.pressure_peak, 0.7386e6, 2e-3);
+  check_state(ring);
+  sb_ring_destroy(ring);
+  body.poisson_ratio = 0.499;
+  ring = fitted(&body, &load, 0.04, &r);
+  near(r.bore_force, 406.1, 5e-4);
+  sb_ring_destroy(ring);
+}
+
+// The valve's ring: bore 4.772 N, floor 4.446 N, 0.552 mm, 0.585 MPa.
+static void test_ring(void) {
+  SbRingLoad load = groove();
+  SbRingResult r;
+  SbRing *ring = fitted(&BODY, &load, 0.04, &r);
+  near(r.bore_force, 4.772, 1e-3);
+  near(r.floor_force, 4.446, 1e-3);
+  near(r.contact_right - r.contact_left, 0.552e-3, 1e-2);
+  near(r.pressure_peak, 0.585e6, 5e-3);
+  g_assert_cmpfloat(fabs(r.contact_right + r.contact_left), <, 1e-9);
+  check_state(ring);
+  sb_ring_destroy(ring);
+}
+
+// Only stretched: floor 1.657 N, radial thickness 1.500 mm; the bore is not touched.
+static void test_stretched(void) {
+  SbRingLoad load = groove();
+  load.bore_radius = 3.3e-3;
+  SbRingResult r;
+  SbRing *ring = fitted(&BODY, &load, 0.04, &r);
+  near(r.floor_force, 1.657, 2e-3);
+  near(r.thickness, 1.5e-3, 1e-3);
+  g_assert_false(r.touching);
+  g_assert_cmpfloat(r.bore_force, ==, 0.0);
+  check_state(ring);
+  sb_ring_destroy(ring);
+}
+
+// Mesh convergence of the load on meshes fitted to the contact, against the finest.
+static void test_convergence(void) {
+  SbRingLoad load = groove();
+  SbRingResult r;
+  static const double SIZE[] = {0.08, 0.04, 0.01};
+  double force[3], peak[3];
+  for (int i = 0; i < 3; i++) {
+    SbRing *ring = fitted(&BODY, &load, SIZE[i], &r);
+    force[i] = r.bore_force;
+    peak[i] = r.pressure_peak;
+    g_test_message("size %.3f: %d unknowns, %.6f N, %.5g Pa", SIZE[i], r.unknowns, force[i],
+                   peak[i]);
+    sb_ring_destroy(ring);
+  }
+  double coarse = fabs(force[0] / force[2] - 1.0), fine = fabs(force[1] / force[2] - 1.0);
+  g_assert_cmpfloat(coarse, <, 2e-3);
+  g_assert_cmpfloat(fine, <, 4e-4);
+  g_assert_cmpfloat(fabs(peak[0] / peak[2] - 1.0), <, 1e-2);
+  g_assert_cmpfloat(fabs(peak[1] / peak[2] - 1.0), <, 3e-3);
+}
+
+// Pressure against the groove wall: the wall carries exactly the pressure on the open annulus
+// between the contacts' held ends; the contact widens and moves to the wall.
+static void test_pressure(void) {
+  SbRingLoad load = groove();
+  SbRingResult dry, r;
+  sb_ring_destroy(fitted(&BODY, &load, 0.05, &dry));
+  load.wall_left = -1e-3;
+  load.wall_right = 1e-3;
+  static const double PRESSURE[] = {0.13e6, 0.55e6, 2e6};
+  double width = dry.contact_right - dry.contact_left;
+  for (int i = 0; i < 3; i++) {
+    load.pressure_left = PRESSURE[i];
+    SbRing *ring = fitted(&BODY, &load, 0.05, &r);
+    double area =
+        G_PI * (load.bore_radius * load.bore_radius - load.floor_radius * load.floor_radius);
+    near(r.wall_right_force, PRESSURE[i] * area, 1e-9);
+    check_state(ring);
+    g_assert_cmpfloat(r.contact_right - r.contact_left, >, width);
+    width = r.contact_right - r.contact_left;
+    // The profile starts from the fluid's pressure and ends at zero, and is never negative.
+    double x[512], p[512];
+    int n = sb_ring_profile(ring, x, p, NULL, 512);
+    g_assert_cmpint(n, >, 12);
+    g_assert_cmpint(n, <=, 512);
+    near(p[0], PRESSURE[i], 1e-12);
+    g_assert_cmpfloat(p[n - 1], ==, 0.0);
+    for (int k = 0; k < n; k++) {
+      g_assert_cmpfloat(p[k], >=, 0.0);
+      g_assert_true(k == 0 || x[k] > x[k - 1]);
+    }
+    sb_ring_destroy(ring);
+  }
+  // Equal pressure on both flanks narrows the contact.
+  load.pressure_left = load.pressure_right = 0.55e6;
+  sb_ring_destroy(fitted(&BODY, &load, 0.05, &r));
+  g_assert_cmpfloat(r.contact_right - r.contact_left, <, dry.contact_right - dry.contact_left);
+  g_assert_cmpfloat(r.bore_force, >, dry.bore_force);
+}
+
+// Squeeze 2 .. 40 %, nearly incompressible; the volume change vanishes with 1 - 2 nu.
+static void test_range(void) {
+  static const double SQUEEZE[] = {0.02, 0.1, 0.2, 0.3, 0.4};
+  static const double POISSON[] = {0.45, 0.49, 0.4999};
+  for (int i = 0; i < 5; i++) {
+    double change[3];
+    for (int k = 0; k < 3; k++) {
+      SbRingBody body = cord(POISSON[k]);
+      SbRingLoad load = groove();
+      load.floor_radius = 0.0;
+      load.bore_radius = BODY.section_diameter * (1.0 - SQUEEZE[i]);
+      SbRingResult r;
+      SbRing *ring = fitted(&body, &load, 0.06, &r);
+      check_state(ring);
+      change[k] = r.volume_change;
+      sb_ring_destroy(ring);
+    }
+    // Mean pressure over bulk modulus: proportional to 1 - 2 nu within the change of the pressure.
+    g_assert_cmpfloat(change[0], <, 0.0);
+    near(change[2] / change[1], 0.01, 0.05);
+    near(change[1] / change[0], 0.2, 0.35);
+  }
+  static const double STRETCH[] = {0.0, 0.2};
+  for (int i = 0; i < 2; i++) {
+    SbRingLoad load = groove();
+    load.floor_radius = 1.42e-3 * (1.0 + STRETCH[i]);
+    load.bore_radius = load.floor_radius + 1.3e-3;
+    SbRingResult r;
+    SbRing *ring = fitted(&BODY, &load, 0.06, &r);
+    g_assert_true(r.touching);
+    check_state(ring);
+    sb_ring_destroy(ring);
+  }
+}
+
+// Input without a solution is refused with its parameter; nothing crashes.
+static void test_refused(void) {
+  SbRing *ring = NULL;
+  SbReport report;
+  SbRingLoad load = groove();
+  load.bore_radius = 1.6e-3;
+  g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpstr(report.parameter, ==, "bore.diameter");
+  g_assert_null(ring);
+  load = groove();
+  load.wall_left = -0.6e-3;
+  load.wall_right = 0.6e-3;
+  g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpstr(report.parameter, ==, "gland.axial_width");
+  load = groove();
+  load.pressure_left = 1e5;
+  g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
+  load = groove();
+  load.bore_radius = NAN;
+  g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_INPUT);
+  SbRingBody body = BODY;
+  body.poisson_ratio = 0.5;
+  load = groove();
+  g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, &report), ==, SB_ERROR_RANGE);
+  g_assert_cmpstr(report.parameter, ==, "seal.poisson_ratio");
+  sb_ring_destroy(NULL);
+}
+
+static bool stop(void *data) {
+  (void)data;
+  return true;
+}
+
+static void test_cancel(void) {
+  SbRing *ring = NULL;
+  SbReport report;
+  SbRingLoad load = groove();
+  SbRingOptions options = {.poll = stop};
+  g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, &options, &report), ==, SB_ERROR_CANCELLED);
+  g_assert_null(ring);
+}
+
+// Drawing data: sizes agree, the outline lies on the triangles' boundary, stresses are finite.
+static void test_fields(void) {
+  SbRingLoad load = groove();
+  SbRingResult r;
+  SbRing *ring = fitted(&BODY, &load, 0.05, &r);
+  int nodes, triangles, outline;
+  sb_ring_sizes(ring, &nodes, &triangles, &outline);
+  SbRingFields fields = {
+      .place = g_new(double, 2 * nodes),
+      .displacement = g_new(double, 2 * nodes),
+      .mises = g_new(double, nodes),
+      .hydrostatic = g_new(double, nodes),
+      .shear = g_new(double, nodes),
+      .contact = g_new(double, nodes),
+      .triangle = g_new(int, 3 * triangles),
+      .outline = g_new(int, outline),
+  };
+  sb_ring_fields(ring, &fields);
+  double inside = 0.0, around = 0.0, most = 0.0;
+  for (int i = 0; i < triangles; i++) {
+    const double *a = &fields.place[2 * fields.triangle[3 * i]];
+    const double *b = &fields.place[2 * fields.triangle[3 * i + 1]];
+    const double *c = &fields.place[2 * fields.triangle[3 * i + 2]];
+    inside += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]));
+  }
+  for (int i = 0; i < outline; i++) {
+    const double *a = &fields.place[2 * fields.outline[i]];
+    const double *b = &fields.place[2 * fields.outline[(i + 1) % outline]];
+    around += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+    most = fmax(most, fields.contact[fields.outline[i]]);
+  }
+  near(inside, around, 1e-9);
+  g_assert_cmpfloat(inside, >, 0.0);
+  // The stretched ring presses harder on the floor than on the bore.
+  g_assert_cmpfloat(most, >, 0.99 * r.pressure_peak);
+  g_assert_cmpfloat(most, <, 2.0 * r.pressure_peak);
+  for (int i = 0; i < nodes; i++) {
+    g_assert_true(isfinite(fields.mises[i]) && isfinite(fields.hydrostatic[i]));
+    g_assert_cmpfloat(fields.mises[i], >=, 0.0);
+  }
+  void *owned[] = {fields.place, fields.displacement, fields.mises,    fields.hydrostatic,
+                   fields.shear, fields.contact,      fields.triangle, fields.outline};
+  for (size_t i = 0; i < G_N_ELEMENTS(owned); i++) {
+    g_free(owned[i]);
+  }
+  sb_ring_destroy(ring);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/ring/plane", test_plane);
+  g_test_add_func("/ring/ring", test_ring);
+  g_test_add_func("/ring/stretched", test_stretched);
+  g_test_add_func("/ring/convergence", test_convergence);
+  g_test_add_func("/ring/pressure", test_pressure);
+  g_test_add_func("/ring/range", test_range);
+  g_test_add_func("/ring/refused", test_refused);
+  g_test_add_func("/ring/cancel", test_cancel);
+  g_test_add_func("/ring/fields", test_fields);
+  return g_test_run();
+}

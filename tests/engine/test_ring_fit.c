@@ -1,0 +1,99 @@
+// sb_ring_fit: its error estimate must be honest against a much finer mesh, over squeeze, pressure
+// and Poisson's ratio: true error <= 3 x estimate everywhere, median estimate / true <= 10.
+#include "engine/elastic/ring/ring.h"
+
+#include <glib.h>
+#include <math.h>
+#include <stdlib.h>
+
+static int by_size(const void *a, const void *b) {
+  double p = *(const double *)a, q = *(const double *)b;
+  return (p > q) - (p < q);
+}
+
+static void test_honest(void) {
+  static const double SQUEEZE[] = {0.1, 0.1553, 0.25, 0.4},
+                      PRESSURE[] = {0.0, 0.29e6, 0.7e6, 1.5e6};
+  static const double POISSON[] = {0.49, 0.4999};
+  double ratio[3][16];
+  int cases = 0;
+  // Quick: the valve's own squeeze only.
+  for (int i = g_test_slow() ? 0 : 1; i < (g_test_slow() ? 4 : 2); i++) {
+    for (int j = 0; j < 4; j++) {
+      SbRingBody body = {.section_diameter = 1.61e-3,
+                         .inner_diameter = 2.84e-3,
+                         .modulus = 2.5e6,
+                         .poisson_ratio = POISSON[(i + j) % 2]};
+      SbRingLoad load = SB_RING_LOAD_INIT;
+      load.floor_radius = 1.64e-3;
+      load.bore_radius = 1.64e-3 + 1.61e-3 * (1.0 - SQUEEZE[i]);
+      load.wall_right = SQUEEZE[i] < 0.2 ? 1e-3 : 1.3e-3;
+      load.wall_left = -load.wall_right;
+      load.pressure_left = PRESSURE[j];
+      SbRingResult r, fine;
+      SbRingError error;
+      SbReport report = {0};
+      SbWarnings warnings = {0};
+      SbStatus status = sb_ring_fit(NULL, &r, &error, &body, &load, 1e-3, NULL, &warnings, &report);
+      if (status != SB_OK) {
+        g_test_message("%s", report.text);
+      }
+      g_assert_cmpint(status, ==, SB_OK);
+      SbRing *ring = NULL;
+      SbRingOptions options = {.element_size = 0.015, .fit_mesh = true};
+      g_assert_cmpint(sb_ring_create(&ring, &body, &load, &options, &report), ==, SB_OK);
+      sb_ring_result(ring, &fine);
+      sb_ring_destroy(ring);
+      double truth[3] = {
+          fabs(r.bore_force / fine.bore_force - 1.0),
+          fabs(r.pressure_peak / fine.pressure_peak - 1.0),
+          fabs((r.contact_right - r.contact_left) / (fine.contact_right - fine.contact_left) - 1.0),
+      };
+      double estimate[3] = {error.load, error.peak, error.width};
+      g_test_message(
+          "squeeze %.3f pressure %.2f MPa: %d unknowns, %d iterations; load %.1e (%.1e), "
+          "peak %.1e (%.1e), width %.1e (%.1e)",
+          SQUEEZE[i], 1e-6 * PRESSURE[j], r.unknowns, r.newton_iterations, truth[0], estimate[0],
+          truth[1], estimate[1], truth[2], estimate[2]);
+      for (int k = 0; k < 3; k++) {
+        g_assert_cmpfloat(truth[k], <=, 3.0 * estimate[k]);
+        ratio[k][cases] = estimate[k] / fmax(truth[k], 1e-12);
+      }
+      // The contract's tolerance of 1e-3 on the load, with the estimate's own margin.
+      g_assert_cmpfloat(truth[0], <, 2.5e-3);
+      cases++;
+    }
+  }
+  for (int k = 0; k < 3; k++) {
+    qsort(ratio[k], (size_t)cases, sizeof(double), by_size);
+    g_test_message("median estimate / true: %.2f", ratio[k][cases / 2]);
+    g_assert_cmpfloat(ratio[k][cases / 2], <=, 10.0);
+  }
+}
+
+static void test_no_contact(void) {
+  SbRingBody body = {.section_diameter = 1.61e-3,
+                     .inner_diameter = 2.84e-3,
+                     .modulus = 2.5e6,
+                     .poisson_ratio = 0.49};
+  SbRingLoad load = SB_RING_LOAD_INIT;
+  load.floor_radius = 1.64e-3;
+  load.bore_radius = 3.3e-3;
+  SbRingResult r;
+  SbRingError error;
+  SbReport report;
+  SbWarnings warnings = {0};
+  g_assert_cmpint(sb_ring_fit(NULL, &r, &error, &body, &load, 1e-3, NULL, &warnings, &report), ==,
+                  SB_OK);
+  g_assert_false(r.touching);
+  g_assert_cmpfloat(r.bore_force, ==, 0.0);
+  g_assert_cmpuint(warnings.count, ==, 1);
+  g_assert_cmpstr(warnings.item[0].code, ==, "ring-no-contact");
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/ring-fit/honest", test_honest);
+  g_test_add_func("/ring-fit/no-contact", test_no_contact);
+  return g_test_run();
+}
