@@ -5,6 +5,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "engine/elastic/disc_system.h"
 
@@ -56,11 +57,59 @@ static bool small_solve(double a[3][3], const double *b, double *x, size_t n) {
   return finite;
 }
 
-// Newton on the edges from `v`; the Jacobian by differences, steps halved until the residual falls.
-// On success `v` and the system's solution belong together.
-static bool newton(SbDiscSystem *s, double *v, size_t count, double tolerance, size_t *iterations,
-                   double *last) {
+// Derivatives of the residuals by the edges, carried from one solve to the next.
+typedef struct {
+  double a[3][3];
+  bool known;
+} Jacobian;
+
+static bool differentiate(SbDiscSystem *s, const double *v, const double *r, size_t count,
+                          Jacobian *jacobian) {
+  for (size_t j = 0; j < count; j++) {
+    double shifted[3] = {0.0};
+    memcpy(shifted, v, count * sizeof(double));
+    const double h = 1e-6 * fabs(v[j]) + 1e-12;
+    shifted[j] += h;
+    double rj[3];
+    bool ok;
+    edge_residuals(s, shifted, count, rj, &ok);
+    if (!ok) {
+      return false;
+    }
+    for (size_t i = 0; i < count; i++) {
+      jacobian->a[i][j] = (rj[i] - r[i]) / h;
+    }
+  }
+  jacobian->known = true;
+  return true;
+}
+
+// Broyden's correction after a step from residual `before` to `after`.
+static void correct(Jacobian *jacobian, const double *step, const double *before,
+                    const double *after, size_t count) {
+  double square = 0.0;
+  for (size_t j = 0; j < count; j++) {
+    square += step[j] * step[j];
+  }
+  for (size_t i = 0; i < count && square > 0.0; i++) {
+    double miss = after[i] - before[i];
+    for (size_t j = 0; j < count; j++) {
+      miss -= jacobian->a[i][j] * step[j];
+    }
+    for (size_t j = 0; j < count; j++) {
+      jacobian->a[i][j] += miss * step[j] / square;
+    }
+  }
+}
+
+// Newton on the edges from `v`. The Jacobian comes from an earlier solve or from differences and is
+// corrected by Broyden's formula while each step at least halves the residual; with a fresh one
+// steps are shortened until the residual falls. On success `v` and the system's solution belong
+// together.
+static bool newton(SbDiscSystem *s, double *v, size_t count, double tolerance, Jacobian *jacobian,
+                   size_t *iterations, double *last) {
   bool ok;
+  bool fresh = false;
   double r[3];
   double norm = edge_residuals(s, v, count, r, &ok);
   for (int it = 0; ok && it < NEWTON_MAX; it++) {
@@ -68,49 +117,52 @@ static bool newton(SbDiscSystem *s, double *v, size_t count, double tolerance, s
     if (norm <= tolerance) {
       return true;
     }
-    double jacobian[3][3] = {{0}};
-    for (size_t j = 0; j < count; j++) {
-      double shifted[3] = {v[0], count > 1 ? v[1] : 0.0, count > 1 ? v[2] : 0.0};
-      const double h = 1e-6 * fabs(v[j]) + 1e-12;
-      shifted[j] += h;
-      double rj[3];
-      edge_residuals(s, shifted, count, rj, &ok);
-      if (!ok) {
+    if (!jacobian->known) {
+      if (!differentiate(s, v, r, count, jacobian)) {
         return false;
       }
-      for (size_t i = 0; i < count; i++) {
-        jacobian[i][j] = (rj[i] - r[i]) / h;
-      }
+      fresh = true;
     }
     double step[3];
-    if (!small_solve(jacobian, r, step, count)) {
-      return false;
+    if (!small_solve(jacobian->a, r, step, count)) {
+      jacobian->known = false;
+      if (fresh) {
+        return false;
+      }
+      continue;
     }
     (*iterations)++;
 
-    // Shorten until it helps; a residual at rounding level cannot be bettered.
-    double scale = 1.0;
+    double scale = -1.0;
     bool better = false;
-    for (int k = 0; k < 12 && !better; k++, scale *= 0.5) {
-      double next[3];
+    for (int k = 0; k < (fresh ? 12 : 1) && !better; k++, scale *= 0.5) {
+      double next[3] = {0.0};
+      double moved[3] = {0.0};
       for (size_t i = 0; i < count; i++) {
-        next[i] = v[i] - scale * step[i];
+        moved[i] = scale * step[i];
+        next[i] = v[i] + moved[i];
       }
       double rn[3];
       const double trial = edge_residuals(s, next, count, rn, &ok);
-      if (ok && trial < norm) {
-        for (size_t i = 0; i < count; i++) {
-          v[i] = next[i];
-          r[i] = rn[i];
-        }
+      if (ok && trial < (fresh ? norm : 0.5 * norm)) {
+        correct(jacobian, moved, r, rn, count);
+        memcpy(v, next, count * sizeof(double));
+        memcpy(r, rn, count * sizeof(double));
         norm = trial;
         better = true;
       }
     }
-    if (!better) {
+    if (better) {
+      fresh = false;
+    } else if (fresh) {
+      // A residual at rounding level cannot be bettered.
+      jacobian->known = false;
       norm = edge_residuals(s, v, count, r, &ok);
       *last = norm;
       return ok && norm <= 1e3 * tolerance;
+    } else {
+      jacobian->known = false;
+      ok = true;
     }
   }
   return false;
@@ -234,14 +286,15 @@ typedef struct {
   size_t iterations;
   double residual;   // of the last Newton
   double free_bulge; // of the dry flank
+  Jacobian dry_jacobian, wet_jacobian;
 } Progress;
 
 // Solves at the present resolution for pressure `target`, in smaller steps if Newton fails. Returns
 // the pressure that was reached, with the system's solution for it; negative if not even the dry
 // disc.
-static double solve_pressure(SbDiscSystem *s, double target, Progress *at, double tolerance) {
+static double solve_pressure(SbDiscSystem *s, double target, Progress *at) {
   s->pressure = 0.0;
-  if (!newton(s, &at->dry, 1, tolerance, &at->iterations, &at->residual)) {
+  if (!newton(s, &at->dry, 1, 1e-12, &at->dry_jacobian, &at->iterations, &at->residual)) {
     return -1.0;
   }
   at->free_bulge = sb_disc_system_bulge(s, unpack(&at->dry, 1));
@@ -253,7 +306,7 @@ static double solve_pressure(SbDiscSystem *s, double target, Progress *at, doubl
   if (at->has_wet) {
     double trial[3] = {at->wet[0], at->wet[1], at->wet[2]};
     s->pressure = target;
-    if (newton(s, trial, 3, tolerance, &at->iterations, &at->residual)) {
+    if (newton(s, trial, 3, 1e-9, &at->wet_jacobian, &at->iterations, &at->residual)) {
       for (int k = 0; k < 3; k++) {
         at->wet[k] = trial[k];
       }
@@ -273,7 +326,7 @@ static double solve_pressure(SbDiscSystem *s, double target, Progress *at, doubl
       trial[1] = at->dry;
       trial[2] = fmin(0.8, sqrt(4.0 * s->pressure * sqrt(1.0 - at->dry * at->dry)));
     }
-    if (newton(s, trial, 3, tolerance, &at->iterations, &at->residual)) {
+    if (newton(s, trial, 3, 1e-9, &at->wet_jacobian, &at->iterations, &at->residual)) {
       done = s->pressure;
       for (int k = 0; k < 3; k++) {
         at->wet[k] = trial[k];
@@ -419,7 +472,7 @@ SbStatus sb_disc_solve(SbDisc *out, const SbDiscProblem *problem, SbWarnings *wa
   double worst = 1.0;
   for (size_t level = 0; level < LEVELS && !out->converged && reached == target; level++) {
     sb_disc_system_points(s, points[level]);
-    reached = solve_pressure(s, target, &at, 1e-12);
+    reached = solve_pressure(s, target, &at);
     if (reached < 0.0 || (reached < target && out->touches)) {
       break; // nothing, or nothing better than the coarser resolution
     }
