@@ -25,7 +25,7 @@ SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, Sb
   }
   run->model = *model;
   run->plan = *plan;
-  run->capacity = (size_t)model->frames + SB_RUN_EVENT_FRAMES;
+  run->capacity = (size_t)model->frames + SB_RUN_EVENT_FRAMES + 2 * (size_t)model->cycles;
   // Left untouched until used: a run that is cancelled early never pays for the rest.
   run->frames = malloc(run->capacity * sizeof *run->frames);
   SbStatus status = SB_OK;

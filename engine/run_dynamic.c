@@ -233,6 +233,20 @@ static double drive_end(const SbRun *run) {
   return 0;
 }
 
+// Corner `index` of the drive: where the platen turns or the finger's force bends, so that a frame
+// sits on every extreme whatever the frames' spacing. INFINITY behind the last.
+static double drive_corner(const SbRun *run, int index) {
+  const SbModel *model = &run->model;
+  if (model->drive == SB_MODEL_DRIVE_MACHINE && index < model->cycles) {
+    return (2 * index + 1) * platen_top(&run->cycle) / model->speed;
+  }
+  if (model->drive == SB_MODEL_DRIVE_HAND && index < 2 * model->cycles) {
+    double period = 3 * model->rise_time + model->hold_time;
+    return index / 2 * period + model->rise_time + index % 2 * model->hold_time;
+  }
+  return INFINITY;
+}
+
 // Steps in which the first pass looks whether the motion has ended, and the longest it may last
 // [s].
 static double first_step(const SbModel *model) {
@@ -332,8 +346,9 @@ static SbStatus second_pass(Valve *valve, const SbDynamicsModel *model, double d
   size_t total = (size_t)run->model.frames;
   size_t count = 0;
   int stage = SB_STAGE_B;
+  int corner = 0;
   for (size_t next = 0; next < total && status == SB_OK;) {
-    // The next even instant, or the next marked event before it.
+    // The next even instant, or a marked event or a corner of the drive before it.
     double time = duration * (double)next / (double)(total - 1);
     while (stage < SB_STAGE_COUNT && !marked[stage]) {
       stage++;
@@ -341,6 +356,11 @@ static SbStatus second_pass(Valve *valve, const SbDynamicsModel *model, double d
     bool event = stage < SB_STAGE_COUNT && marks[stage].time <= time;
     if (event) {
       time = marks[stage].time;
+    }
+    bool turn = drive_corner(run, corner) < time;
+    if (turn) {
+      time = drive_corner(run, corner++);
+      event = false;
     }
     status = sb_dynamics_advance(&dynamics, time, report);
     SbFrame *frame = &run->frames[count];
@@ -353,7 +373,7 @@ static SbStatus second_pass(Valve *valve, const SbDynamicsModel *model, double d
       frame->velocity = marks[stage].speed;
       sb_run_mark_stage(run, (SbStage)stage, frame, count);
       stage++;
-    } else {
+    } else if (!turn) {
       next++;
     }
     run->summary.force_peak = fmax(run->summary.force_peak, frame->force);

@@ -1,0 +1,99 @@
+// Every shipped scene: sound, closes its energy, keeps to its plan, and does not depend on its
+// frames.
+#include "app/document/document.h"
+
+#include "engine/sealbench.h"
+
+#include <math.h>
+
+typedef void SceneTest(const char *path);
+
+static SbRun *run_scene(const char *path, int frames_factor, unsigned views) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) document = sb_document_load(path, issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  g_assert_nonnull(document);
+  SbModel model;
+  g_assert_true(sb_document_compile(document, &model, issues));
+  model.frames *= frames_factor;
+  if (views != 0) {
+    model.views = views;
+  }
+  SbPlan plan;
+  sb_plan_make(&plan, &model);
+  SbRun *run = NULL;
+  SbReport report = {0};
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_OK);
+  return run;
+}
+
+// At least one actuation: the stem leaves its rest and the machine or hand turns it.
+static void actuates(const char *path) {
+  SbRun *run = run_scene(path, 1, 0);
+  const SbSummary *summary = sb_run_summary(run);
+  g_assert_true(summary->stage[SB_STAGE_B].reached);
+  g_assert_true(summary->stage[SB_STAGE_D].reached);
+  g_assert_cmpfloat(summary->energy.closure, <=, 1e-6);
+  sb_run_destroy(run);
+}
+
+// What the plan lists is what the counters show.
+static void keeps_plan(const char *path) {
+  const unsigned views[] = {0, SB_VIEW_HYSTERESIS, SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES,
+                            SB_VIEW_SECTION};
+  for (size_t i = 0; i < G_N_ELEMENTS(views); i++) {
+    SbRun *run = run_scene(path, 1, views[i]);
+    const SbPlan *plan = sb_run_plan(run);
+    const SbCounters *counters = &sb_run_summary(run)->counters;
+    g_assert_cmpint(plan->profiles, ==, counters->profile_evaluations > 0);
+    g_assert_cmpint(plan->reynolds, ==, counters->reynolds_solves > 0);
+    g_assert_cmpint(plan->ring, ==, counters->ring_solves > 0);
+    g_assert_cmpint(plan->section_fields, ==, counters->field_evaluations > 0);
+    if (views[i] == SB_VIEW_HYSTERESIS) {
+      g_assert_cmpuint(counters->field_evaluations, ==, 0);
+      g_assert_cmpuint(counters->profile_evaluations, ==, 0);
+    }
+    sb_run_destroy(run);
+  }
+}
+
+// Half the step: peak, return force and energy stay.
+static void converges(const char *path) {
+  SbRun *a = run_scene(path, 1, 0);
+  SbRun *b = run_scene(path, 2, 0);
+  const SbSummary *x = sb_run_summary(a);
+  const SbSummary *y = sb_run_summary(b);
+  g_assert_cmpfloat(fabs(x->force_peak / y->force_peak - 1), <, 1e-3);
+  g_assert_cmpfloat(fabs(x->force_breakaway / y->force_breakaway - 1), <, 1e-3);
+  g_assert_cmpfloat(fabs(x->energy.loop / y->energy.loop - 1), <, 1e-3);
+  g_assert_cmpfloat(fabs(x->force_return_min - y->force_return_min), <, 1e-3 * 14.5);
+  sb_run_destroy(a);
+  sb_run_destroy(b);
+}
+
+static void each_scene(gconstpointer data) {
+  SceneTest *test = *(SceneTest *const *)data;
+  g_autofree char *folder = g_build_filename(g_getenv("SEALBENCH_ASSETS"), "scenes", NULL);
+  g_autoptr(GDir) dir = g_dir_open(folder, 0, NULL);
+  g_assert_nonnull(dir);
+  int count = 0;
+  for (const char *name = g_dir_read_name(dir); name != NULL; name = g_dir_read_name(dir)) {
+    if (g_str_has_suffix(name, ".scene")) {
+      g_test_message("%s", name);
+      g_autofree char *path = g_build_filename(folder, name, NULL);
+      test(path);
+      count++;
+    }
+  }
+  g_assert_cmpint(count, >=, 2);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  static SceneTest *const tests[] = {actuates, keeps_plan, converges};
+  g_test_add_data_func("/scenes/actuate", &tests[0], each_scene);
+  g_test_add_data_func("/scenes/keep-plan", &tests[1], each_scene);
+  g_test_add_data_func("/scenes/converge", &tests[2], each_scene);
+  return g_test_run();
+}
