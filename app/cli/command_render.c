@@ -47,11 +47,13 @@ static int render_film(const SbRun *run, const SbRenderOptions *options, double 
     return sb_cli_error(error);
   }
   if (!quiet && result.wall_s > 0) {
+    double read_back = sb_section_painter_read_back(options->section_data);
     fprintf(stderr,
-            "sealbench: %zu pictures in %.1f s (%.0f a second; drawing %.1f s, encoding "
-            "%.1f s beside it)\n",
+            "sealbench: %zu pictures in %.1f s (%.0f a second): drawing %.1f s, of it %.1f s "
+            "waiting for GL and reading back; beside it colours %.1f s and encoding %.1f s; engine "
+            "%.2f s before\n",
             result.frames, result.wall_s, (double)result.frames / result.wall_s, result.draw_s,
-            result.encode_s);
+            read_back, result.convert_s, result.encode_s, sb_run_summary(run)->wall_s);
   }
   return SB_EXIT_DONE;
 }

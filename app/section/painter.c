@@ -18,6 +18,7 @@ struct SbSectionPainter {
   SbDrawList list;
   SbText *text;
   cairo_surface_t *picture; // GL's result
+  gint64 read_back;         // [us]
   // The section in use and what it was made for.
   SbSection *section;
   SbModel model;
@@ -69,6 +70,10 @@ void sb_section_painter_destroy(SbSectionPainter *painter) {
 
 const char *sb_section_painter_reason(const SbSectionPainter *painter) {
   return painter->reason;
+}
+
+double sb_section_painter_read_back(const SbSectionPainter *painter) {
+  return 1e-6 * (double)painter->read_back;
 }
 
 void sb_section_painter_style(SbSectionPainter *painter, const SbSectionStyle *style) {
@@ -125,8 +130,10 @@ static bool paint_by_gl(SbSectionPainter *painter, cairo_t *cr, SbRect rect) {
     return false;
   }
   cairo_surface_flush(painter->picture);
+  gint64 begin = g_get_monotonic_time();
   sb_gl_renderer_read(painter->renderer, cairo_image_surface_get_data(painter->picture),
                       (size_t)cairo_image_surface_get_stride(painter->picture));
+  painter->read_back += g_get_monotonic_time() - begin;
   cairo_surface_mark_dirty(painter->picture);
   cairo_save(cr);
   cairo_identity_matrix(cr);

@@ -26,6 +26,9 @@ void sb_section_painter_destroy(SbSectionPainter *painter);
 // "osmesa (llvmpipe ...): why", or "cairo: why"; borrowed.
 const char *sb_section_painter_reason(const SbSectionPainter *painter);
 
+// Seconds spent so far in waiting for GL and reading its pictures back.
+double sb_section_painter_read_back(const SbSectionPainter *painter);
+
 void sb_section_painter_style(SbSectionPainter *painter, const SbSectionStyle *style);
 
 // Draws into `rect` (an SbSectionDraw; `user` is the SbSectionPainter). Nothing where there is no

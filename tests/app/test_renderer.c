@@ -1,6 +1,7 @@
 // The GL renderer: both back ends draw the same picture, the pictures are the golden ones (light,
 // dark, zoomed; each with a partner a little wrong that must be caught), and drawing on and on
 // neither grows nor leaks.
+#include "app/section/gl_private.h"
 #include "app/section/gl_renderer.h"
 #include "app/section/section.h"
 #include "tests/app/picture.h"
@@ -162,6 +163,59 @@ static void test_golden(void) {
   sb_draw_list_finish(&list);
 }
 
+// A context of somebody else's, and a framebuffer of its own whose rows run upwards: the same
+// picture, upside down in memory.
+static void test_wrapped(void) {
+  static Scene scene;
+  SbReport report = {0};
+  void *state = NULL;
+  if (sb_gl_egl_table.open(&state, &report) != SB_OK) {
+    sb_gl_egl_table.close(state);
+    g_test_skip(report.text);
+    return;
+  }
+  SbGlContext *context;
+  g_assert_cmpint(sb_gl_context_wrap(&context, sb_gl_egl_table.get_proc, state, "window", &report),
+                  ==, SB_OK);
+  g_assert_cmpstr(sb_gl_context_name(context), ==, "window");
+  SbGlRenderer *renderer;
+  g_assert_cmpint(sb_gl_renderer_create(&renderer, context, &report), ==, SB_OK);
+  SbDrawList list;
+  sb_draw_list_init(&list);
+  make_scene(&scene, 2.15e-3, 0.37e-3);
+  draw_list(&list, &scene, false, SB_SECTION_WHOLE);
+  const SbGlApi *gl = sb_gl_context_api(context);
+  GLuint framebuffer, buffer;
+  gl->GenFramebuffers(1, &framebuffer);
+  gl->GenRenderbuffers(1, &buffer);
+  gl->BindRenderbuffer(GL_RENDERBUFFER, buffer);
+  gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, WIDTH, HEIGHT);
+  gl->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffer);
+  sb_gl_renderer_draw_bound(renderer, &list, WIDTH, HEIGHT, 1);
+  uint8_t *pixels = g_malloc((size_t)4 * WIDTH * HEIGHT);
+  gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
+  gl->ReadPixels(0, 0, WIDTH, HEIGHT, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, pixels);
+  cairo_surface_t *upright = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, WIDTH, HEIGHT);
+  cairo_surface_flush(upright);
+  for (size_t j = 0; j < HEIGHT; j++) {
+    memcpy(cairo_image_surface_get_data(upright) + j * 4 * WIDTH,
+           pixels + (HEIGHT - 1 - j) * 4 * WIDTH, 4 * WIDTH);
+  }
+  cairo_surface_mark_dirty(upright);
+  g_free(pixels);
+  gl->DeleteFramebuffers(1, &framebuffer);
+  gl->DeleteRenderbuffers(1, &buffer);
+  sb_gl_renderer_destroy(renderer);
+  sb_gl_context_destroy(context);
+  sb_gl_egl_table.close(state);
+  cairo_surface_t *own = render(SB_GL_AUTO, &list, 1);
+  g_assert_cmpfloat(picture_distance(upright, own, NULL), <=, 0.001);
+  cairo_surface_destroy(own);
+  cairo_surface_destroy(upright);
+  sb_draw_list_finish(&list);
+}
+
 // Resident memory [kB].
 static long resident(void) {
   char *text = NULL;
@@ -233,6 +287,7 @@ static void test_refusals(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/renderer/backends", test_backends);
+  g_test_add_func("/renderer/wrapped", test_wrapped);
   g_test_add_func("/renderer/golden", test_golden);
   g_test_add_func("/renderer/steady", test_steady);
   g_test_add_func("/renderer/refusals", test_refusals);
