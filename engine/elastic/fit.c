@@ -181,6 +181,8 @@ static SbStatus solve_model(SbFit *out, const SbFitProblem *in, SbReport *report
     return sb_fit_disc_thesis(out, in, report);
   case SB_FIT_DISC:
     return sb_fit_disc(out, in, report);
+  case SB_FIT_RING:
+    return sb_fit_ring(out, in, report);
   default:
     return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
                              "the contact model %s is not in this build",

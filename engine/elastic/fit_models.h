@@ -10,3 +10,4 @@ SbStatus sb_fit_lindley(SbFit *out, const SbFitProblem *in, SbReport *report);
 SbStatus sb_fit_green_english(SbFit *out, const SbFitProblem *in, SbReport *report);
 SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report);
 SbStatus sb_fit_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report);
+SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report);

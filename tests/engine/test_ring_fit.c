@@ -88,7 +88,7 @@ static void test_no_contact(void) {
   g_assert_false(r.touching);
   g_assert_cmpfloat(r.bore_force, ==, 0.0);
   g_assert_cmpuint(warnings.count, ==, 1);
-  g_assert_cmpstr(warnings.item[0].code, ==, "ring-no-contact");
+  g_assert_cmpstr(warnings.item[0].code, ==, "no-contact");
 }
 
 int main(int argc, char **argv) {
