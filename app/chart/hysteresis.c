@@ -311,6 +311,12 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
   sb_labels_init(v.labels, (SbRect){plot.x - 8, plot.y - 14, plot.width + 8 + LABEL_ROOM_OUTSIDE,
                                     plot.height + 14});
 
+  for (int i = 0; i < v.at.y_ticks.count; i++) {
+    double y = sb_axis_at(&v.at.y, v.at.y_ticks.value[i]);
+    SbPoint line[2] = {{plot.x, y}, {plot.x + plot.width, y}};
+    sb_labels_avoid(v.labels, line, 2, 0.01);
+  }
+
   // The pressure force, which the loop straddles.
   const SbModel *model = data->run.model;
   if (model && model->pressure_force > 0) {

@@ -33,9 +33,10 @@ static void draw_mark(SbHysteresisView *v, int stage, SbPoint at, const char *va
   double x = chosen.x - (chosen.align == SB_LEFT     ? 0
                          : chosen.align == SB_MIDDLE ? 0.5 * width
                                                      : width);
-  sb_canvas_text_halo(c, letter, &bold, x, chosen.y, SB_LEFT);
+  sb_labels_draw(v->labels, c, letter, &bold, &(SbPlace){x, chosen.y, SB_LEFT});
   if (value[0]) {
-    sb_canvas_text_halo(c, value, &plain, x + letter_width + gap, chosen.y, SB_LEFT);
+    sb_labels_draw(v->labels, c, value, &plain,
+                   &(SbPlace){x + letter_width + gap, chosen.y, SB_LEFT});
   }
 }
 
@@ -135,7 +136,7 @@ void sb_hysteresis_label_now(SbHysteresisView *v) {
   };
   SbPlace at;
   if (sb_labels_place(v->labels, c, text, &style, places, G_N_ELEMENTS(places), &at)) {
-    sb_canvas_text_halo(c, text, &style, at.x, at.y, at.align);
+    sb_labels_draw(v->labels, c, text, &style, &at);
   }
 }
 
@@ -145,7 +146,7 @@ static void label_curve(SbHysteresisView *v, const char *text, SbRole role, cons
   SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, role);
   SbPlace at;
   if (sb_labels_place(v->labels, c, text, &style, place, count, &at)) {
-    sb_canvas_text_halo(c, text, &style, at.x, at.y, at.align);
+    sb_labels_draw(v->labels, c, text, &style, &at);
   }
 }
 

@@ -105,6 +105,7 @@ bool sb_labels_place_box(SbLabels *labels, double width, double size, const SbPl
     }
     double cost = 4.0 * i + crossing;
     if (crossing <= labels->crossing_max && cost < best) {
+      labels->crossing = crossing;
       best = cost;
       best_box = box;
       *out = place[i];
@@ -121,4 +122,13 @@ bool sb_labels_place(SbLabels *labels, SbCanvas *canvas, const char *text, const
                      const SbPlace *place, int count, SbPlace *out) {
   double width = sb_canvas_text_width(canvas, text, style);
   return sb_labels_place_box(labels, width, style->size, place, count, out);
+}
+
+void sb_labels_draw(const SbLabels *labels, SbCanvas *canvas, const char *text,
+                    const SbTextStyle *style, const SbPlace *at) {
+  if (labels->crossing > 0) {
+    sb_canvas_text_halo(canvas, text, style, at->x, at->y, at->align);
+  } else {
+    sb_canvas_text(canvas, text, style, at->x, at->y, at->align);
+  }
 }

@@ -11,6 +11,7 @@ typedef struct {
   SbRect bounds; // labels stay inside
   int box_count;
   SbRect box[SB_LABELS_MAX]; // taken
+  double crossing;     // of the label placed last: 0 if it stands on nothing and needs no halo
   double crossing_max; // places that cover more of a curve [px] are refused; INFINITY at first
   int line_count;
   struct {
@@ -41,6 +42,10 @@ bool sb_labels_place(SbLabels *labels, SbCanvas *canvas, const char *text, const
 // The same for a box of `width` whose type size is `size`.
 bool sb_labels_place_box(SbLabels *labels, double width, double size, const SbPlace *place,
                          int count, SbPlace *out);
+
+// Draws a label at its place, over a halo if it was placed over something. Right after placing.
+void sb_labels_draw(const SbLabels *labels, SbCanvas *canvas, const char *text,
+                    const SbTextStyle *style, const SbPlace *at);
 
 // True if the box would cover one that is taken or leave the bounds.
 bool sb_labels_hits(const SbLabels *labels, SbRect box);

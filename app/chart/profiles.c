@@ -187,6 +187,8 @@ static void small_axes(Small *s, const SbTicks *xt, const SbTicks *yt, bool film
       continue;
     }
     sb_canvas_hairline(c, left, y, right, y, sb_canvas_role(c, SB_ROLE_GRID));
+    SbPoint line[2] = {{left, y}, {right, y}};
+    sb_labels_avoid(s->labels, line, 2, 0.01);
     if (numbers) {
       if (film) {
         sb_format_film_tick(text, yt->value[i]);
@@ -211,7 +213,7 @@ static bool small_label(Small *s, const char *text, const SbTextStyle *style, co
   if (!sb_labels_place(s->labels, s->canvas, text, style, place, count, &at)) {
     return false;
   }
-  sb_canvas_text_halo(s->canvas, text, style, at.x, at.y, at.align);
+  sb_labels_draw(s->labels, s->canvas, text, style, &at);
   return true;
 }
 
