@@ -43,7 +43,7 @@ typedef struct {
   const SbChartMarker *marker; // `marker_count` of them
   size_t marker_count;
   const char *title;    // "Piston valve, one actuation"
-  const char *subtitle; // files and conditions, parts joined by middle dots
+  const char *subtitle; // names of the files; the header adds the run's conditions
   const char *hash;     // of the parameters; the first eight digits are shown
   const char *stale;    // sentence of the amber strip; NULL: the run fits the parameters
   const char *failure;  // sentence of the red strip; NULL: none

@@ -32,6 +32,26 @@ void sb_page_models_text(char *out, size_t size, const SbChartRun *run) {
   g_strlcpy(out, text->str, size);
 }
 
+void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run) {
+  const SbModel *m = run->model;
+  if (!m) {
+    g_strlcpy(out, "", size);
+    return;
+  }
+  char pressure[SB_FORMAT_MAX], speed[SB_FORMAT_MAX], map[64];
+  sb_format_given(pressure, SB_QUANTITY_PRESSURE, m->canister_pressure);
+  if (m->speed < 1e-3) {
+    // As test machines are set.
+    char number[SB_FORMAT_MAX];
+    sb_format_given(number, SB_QUANTITY_NUMBER, m->speed * 60e3);
+    g_snprintf(speed, sizeof speed, "%s\xc2\xa0mm/min", number);
+  } else {
+    sb_format_given(speed, SB_QUANTITY_SPEED, m->speed);
+  }
+  sb_param_choice_name(sb_param(SB_P_CANISTER_PRESSURE_MAP), (int)m->pressure_map, map, sizeof map);
+  g_snprintf(out, size, "canister %s" DOT "%s" DOT "%s", pressure, speed, map);
+}
+
 // Below this an estimate is rounding of double numbers, not discretisation.
 #define ROUNDING 1e-9
 
@@ -186,8 +206,13 @@ void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   if (text[0]) {
     x += state_chip(c, text, ink, ground, left, rect.y + 68, width) + 12;
   }
-  if (data->subtitle && left + width - x > 80) {
-    sb_canvas_text_fit(c, data->subtitle, &sub, x, rect.y + 68, left + width - x);
+  char conditions[160];
+  sb_page_conditions_text(conditions, sizeof conditions, &data->run);
+  g_autofree char *line = g_strconcat(
+      data->subtitle ? data->subtitle : "",
+      data->subtitle && data->subtitle[0] && conditions[0] ? DOT : "", conditions, NULL);
+  if (line[0] && left + width - x > 80) {
+    sb_canvas_text_fit(c, line, &sub, x, rect.y + 68, left + width - x);
   }
   sb_canvas_finish(c);
 }

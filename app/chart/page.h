@@ -12,8 +12,8 @@
 // Height of the footer on this page: a narrow one gives the warnings a line of their own.
 double sb_page_footer_height(SbRect rect);
 
-// Title, subtitle or state, and (unless SB_CHART_WHOLE) the read-outs of the frame, inside the page
-// margins of `rect` (the whole page).
+// Title, state, subtitle with the run's conditions behind it, and (unless SB_CHART_WHOLE) the
+// read-outs of the frame, inside the page margins of `rect` (the whole page).
 void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                          unsigned flags);
 
@@ -23,6 +23,9 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
 
 // "fit karaszkiewicz . film thesis . surface greenwood-tripp . motion quasi-static", into `out`.
 void sb_page_models_text(char *out, size_t size, const SbChartRun *run);
+
+// "canister 0.55 MPa . 20 mm/min . chamber-filled", into `out`; empty without a model.
+void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run);
 
 // "load 0.17 %, film 0.3 %; energy closure: rounding only (discretisation, ...)", into `out`.
 void sb_page_errors_text(char *out, size_t size, const SbChartRun *run);

@@ -58,6 +58,17 @@ static int render_film(const SbRun *run, const SbRenderOptions *options, double 
   return SB_EXIT_DONE;
 }
 
+// "piston.valve . thesis-cycle.scene", for the line below the title. Owned by the caller.
+static char *file_names(const SbDocument *document) {
+  const char *path = sb_document_path(document), *valve_path = sb_document_valve_path(document);
+  char *own = path != NULL ? g_path_get_basename(path) : g_strdup("");
+  char *valve = valve_path != NULL ? g_path_get_basename(valve_path) : NULL;
+  char *names = valve != NULL ? g_strdup_printf("%s  \xc2\xb7  %s", valve, own) : g_strdup(own);
+  g_free(valve);
+  g_free(own);
+  return names;
+}
+
 int sb_command_render(int argc, char **argv) {
   char *output = NULL;
   char *view = NULL;
@@ -96,6 +107,7 @@ int sb_command_render(int argc, char **argv) {
   double duration = 10;
   char *sha256 = NULL;
   char *scene = NULL;
+  char *subtitle = NULL;
   SbRenderOptions options = {.dark = dark};
   if (!sb_cli_parse(&argc, &argv, entries, 1, 1, NULL)) {
     goto done;
@@ -174,6 +186,8 @@ int sb_command_render(int argc, char **argv) {
   sha256 = sb_document_sha256(document);
   scene = sb_document_to_flat_text(document);
   options.title = sb_document_title(document);
+  subtitle = file_names(document);
+  options.subtitle = subtitle;
   options.hash = sha256;
   options.scene = scene;
   options.section = sb_section_painter_draw;
@@ -191,6 +205,7 @@ done:
   sb_document_free(document);
   g_strfreev(settings);
   g_free(sha256);
+  g_free(subtitle);
   g_free(scene);
   g_free(output);
   g_free(view);

@@ -29,7 +29,7 @@ typedef struct {
   bool dark;             //
   const char *at;        // "C" or "7.27 s"; NULL: see sb_render_frame_at()
   const char *title;     // of the scene
-  const char *subtitle;  // files and conditions
+  const char *subtitle;  // names of the files; the header adds the run's conditions
   const char *hash;      // of the parameters
   const char *scene;     // text that restores the scene, for PNG and SVG
   SbSectionDraw section; // draws the section; NULL: views that need it are refused
