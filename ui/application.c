@@ -8,6 +8,8 @@
 #include "ui/style.h"
 #include "ui/window.h"
 
+#include <glib/gi18n.h>
+
 struct _SbApplication {
   GtkApplication parent_instance;
 };
@@ -28,8 +30,8 @@ static void on_quit(GSimpleAction *action, GVariant *parameter, gpointer data) {
 static void on_about(GSimpleAction *action, GVariant *parameter, gpointer data) {
   GtkWindow *parent = gtk_application_get_active_window(data);
   gtk_show_about_dialog(parent, "program-name", "Sealbench", "version", sb_version(), "comments",
-                        "Workbench for the seals of inhaler valves: fitment, film, friction, "
-                        "leakage and motion.",
+                        _("Workbench for the seals of inhaler valves: fitment, film, friction, "
+                          "leakage and motion."),
                         "license-type", GTK_LICENSE_GPL_3_0, "logo-icon-name",
                         "org.sealbench.Sealbench", NULL);
 }
