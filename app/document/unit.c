@@ -96,12 +96,14 @@ static Scale find_scale(const char *unit, const char *si) {
   if (known != NULL) {
     scale = *known;
   } else {
-    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    static locale_t plain = (locale_t)0; // kept: it is needed again
+    if (plain == (locale_t)0) {
+      plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    }
     locale_t before = plain != (locale_t)0 ? uselocale(plain) : (locale_t)0;
     scale = ask(unit, si);
     if (plain != (locale_t)0) {
       uselocale(before);
-      freelocale(plain);
     }
     if (scale.status != SCALE_NO_DATABASE && g_hash_table_size(remembered) < REMEMBERED_MAX) {
       g_hash_table_insert(remembered, g_strdup(pair), g_memdup2(&scale, sizeof scale));
