@@ -462,7 +462,7 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
     for (size_t i = 0; i < m->extras; i++) {
       rates[i] = 0.0;
     }
-    if (!loads.constant && m->extra_rates != NULL) {
+    if (!s->loads.constant && m->extra_rates != NULL) {
       m->extra_rates(rates, x, v, s->region, extra, m->user);
     }
   }
