@@ -1,0 +1,50 @@
+// See life.h.
+#include "engine/motion/life.h"
+
+#include <math.h>
+
+double sb_life_roughness(const SbRunningIn *law, long n) {
+  return law->end + (law->start - law->end) * exp(-(double)n / law->actuations);
+}
+
+SbStatus sb_life_run(SbLife *life, SbLifeActuation *each, const SbRunningIn *law, long count,
+                     SbStatus (*actuate)(SbLifeActuation *out, long n, double roughness, void *user,
+                                         SbReport *report),
+                     bool (*cancelled)(void *user), void *user, SbReport *report) {
+  *life = (SbLife){.return_least = INFINITY};
+  if (count < 1 || !(law->start >= 0.0) || !(law->end >= 0.0) || !(law->actuations > 0.0) ||
+      !isfinite(law->start) || !isfinite(law->end)) {
+    return sb_fail(report, SB_ERROR_RANGE,
+                   "a life needs at least one actuation and a running-in above 0");
+  }
+  double lost = 0.0; // rounding of the sum (Kahan)
+  for (long n = 0; n < count; n++) {
+    if (cancelled != NULL && cancelled(user)) {
+      return sb_fail(report, SB_ERROR_CANCELLED, "cancelled after %ld actuations", n);
+    }
+    SbLifeActuation one = {0};
+    SbStatus status = actuate(&one, n, sb_life_roughness(law, n), user, report);
+    if (status != SB_OK) {
+      return status;
+    }
+    double add = one.leakage - lost, sum = life->leakage + add;
+    lost = (sum - life->leakage) - add;
+    life->leakage = sum;
+    if (n == 0) {
+      life->leakage_first = one.leakage;
+      life->peak_first = one.force_peak;
+    }
+    life->leakage_last = one.leakage;
+    life->peak_last = one.force_peak;
+    life->return_least = fmin(life->return_least, one.force_return);
+    if (!one.returns) {
+      life->failures++;
+      life->first_failure = life->first_failure == 0 ? n + 1 : life->first_failure;
+    }
+    if (each != NULL) {
+      each[n] = one;
+    }
+    life->done = n + 1;
+  }
+  return sb_succeed(report);
+}

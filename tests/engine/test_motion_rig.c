@@ -1,0 +1,253 @@
+// The rig's coefficients, an actuation's stages and errors, and a life.
+#include "engine/motion/actuation.h"
+#include "engine/motion/life.h"
+#include "engine/motion/rig.h"
+
+#include <glib.h>
+#include <math.h>
+
+#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
+
+// ---- coefficients of a signal ----
+
+static void test_signal(void) {
+  // First peak 1.02, then peaks 0.8, 0.84, 0.82 over troughs of 0.7; ripple of 0.01 is no peak.
+  double corner[][2] = {{0, 0},      {200, 1.02}, {220, 0.70}, {300, 0.80}, {310, 0.70},
+                        {400, 0.84}, {410, 0.70}, {500, 0.82}, {510, 0.70}, {600, 0.75}};
+  double force[601];
+  size_t k = 0;
+  for (int i = 0; i <= 600; i++) {
+    while (i > corner[k + 1][0]) {
+      k++;
+    }
+    double f = (i - corner[k][0]) / (corner[k + 1][0] - corner[k][0]);
+    force[i] = corner[k][1] + f * (corner[k + 1][1] - corner[k][1]);
+    bool at_corner = i == corner[k][0] || i == corner[k + 1][0];
+    force[i] += at_corner ? 0.0 : (i % 2 ? -0.005 : -0.0002);
+  }
+  SbRigCoefficients c;
+  SbReport report = {0};
+  g_assert_cmpint(sb_rig_coefficients(&c, force, 601, 1000.0, 2.0, 0.03, &report), ==, SB_OK);
+  ASSERT_NEAR(c.static_coefficient, 0.51, 1e-12);
+  ASSERT_NEAR(c.dynamic_coefficient, (0.80 + 0.84 + 0.82) / 6.0, 1e-12);
+  ASSERT_NEAR(c.first_time, 0.2, 1e-12);
+  g_assert_cmpuint(c.peaks, ==, 3);
+  g_assert_true(c.stick_slip);
+  g_assert_cmpfloat(c.mean_coefficient, <, c.dynamic_coefficient);
+  // Never broke away.
+  g_assert_cmpint(sb_rig_coefficients(&c, force, 150, 1000.0, 2.0, 0.03, &report), ==,
+                  SB_ERROR_INFEASIBLE);
+  g_assert_cmpint(sb_rig_coefficients(&c, force, 601, 1000.0, 0.0, 0.03, &report), ==,
+                  SB_ERROR_RANGE);
+}
+
+// Stick-slip of a rigid plate on a spring: peaks and period of the closed form, within what a
+// thousand samples a second can see.
+static void test_rig(void) {
+  SbRig rig = sb_rig_defaults();
+  rig.contact = (SbDynamicsContact){.static_ratio = 1.4, .stiffness = INFINITY};
+  rig.thread_damping = 0.0;
+  static double force[100001], position[100001];
+  SbDynamicsEnergy energy;
+  SbReport report = {0};
+  size_t n = sb_rig_samples(&rig);
+  g_assert_cmpuint(n, ==, 5001);
+  g_assert_cmpint(sb_rig_run(&rig, force, position, &energy, &report), ==, SB_OK);
+  g_assert_cmpfloat(energy.closure, <, 1e-9);
+  SbRigCoefficients c;
+  g_assert_cmpint(sb_rig_coefficients(&c, force, n, rig.rate, rig.load, 0.02, &report), ==, SB_OK);
+  // The force goes on rising after the slip has begun until the plate is as fast as the thread.
+  double level = rig.coefficient * rig.load, k = rig.thread_stiffness;
+  double w = sqrt(k / rig.mass), a = 0.4 * level / k;
+  double peak = (level + k * hypot(a, rig.speed / w)) / rig.load;
+  double sample = k * rig.speed / rig.rate; // rise between two samples, N
+  ASSERT_NEAR(c.static_coefficient, peak, sample / rig.load);
+  ASSERT_NEAR(c.dynamic_coefficient, peak, sample / rig.load);
+  double stick = 2.0 * 0.4 * level / k / rig.speed;
+  double slip = 2.0 * (G_PI - atan(a * w / rig.speed)) / w;
+  double expected = (5.0 - 1.4 * level / k / rig.speed) / (stick + slip);
+  ASSERT_NEAR((double)c.peaks, floor(expected), 1.0);
+  g_test_message("rigid: static %.4f dynamic %.4f mean %.4f, %zu peaks", c.static_coefficient,
+                 c.dynamic_coefficient, c.mean_coefficient, c.peaks);
+  // At ten times the rate the sampled peaks come closer.
+  rig.rate = 1e4;
+  n = sb_rig_samples(&rig);
+  g_assert_cmpint(sb_rig_run(&rig, force, NULL, NULL, &report), ==, SB_OK);
+  g_assert_cmpint(sb_rig_coefficients(&c, force, n, rig.rate, rig.load, 0.02, &report), ==, SB_OK);
+  ASSERT_NEAR(c.dynamic_coefficient, peak, 0.1 * sample / rig.load);
+  // The default rig: strength that grows with rest makes the first peak the highest.
+  rig = sb_rig_defaults();
+  n = sb_rig_samples(&rig);
+  g_assert_cmpint(sb_rig_run(&rig, force, NULL, &energy, &report), ==, SB_OK);
+  g_assert_cmpfloat(energy.closure, <, 1e-9);
+  g_assert_cmpint(sb_rig_coefficients(&c, force, n, rig.rate, rig.load, 0.01, &report), ==, SB_OK);
+  g_test_message("default: static %.4f dynamic %.4f mean %.4f, %zu peaks", c.static_coefficient,
+                 c.dynamic_coefficient, c.mean_coefficient, c.peaks);
+  g_assert_true(c.stick_slip);
+  g_assert_cmpfloat(c.static_coefficient, >, c.dynamic_coefficient + 0.02);
+  g_assert_cmpfloat(c.dynamic_coefficient, >, c.mean_coefficient);
+  g_assert_cmpfloat(c.mean_coefficient, >, 0.9 * rig.coefficient);
+  rig.load = -1.0;
+  g_assert_cmpint(sb_rig_run(&rig, force, NULL, NULL, &report), ==, SB_ERROR_RANGE);
+}
+
+// ---- an actuation ----
+
+typedef struct {
+  double inner, outer, film; // friction levels at unit roughness, N; film thickness, m
+  double roughness;
+} Valve;
+
+static void loads(SbDynamicsLoads *out, double x, size_t region, const double *extra, void *user) {
+  const Valve *v = user;
+  out->force = -14.5;
+  out->level[0] = region == 0 ? v->inner * v->roughness : 0.0;
+  out->level[1] = v->outer * v->roughness;
+  out->constant = true;
+}
+
+static SbDynamicsModel model_of(Valve *v) {
+  SbDynamicsContact seal = {.static_ratio = 1.0, .stiffness = 3e4, .damping = 3.0};
+  return (SbDynamicsModel){
+      .mass = 3.73e-3,
+      .contacts = 2,
+      .contact = {seal, seal},
+      .stops = 2,
+      .stop = {{.position = 6.6e-3, .side = 1, .stiffness = 1e7, .restitution = 0.3},
+               {.position = 1.45e-6, .side = -1, .stiffness = 1e7, .restitution = 0.3}},
+      .edges = 1,
+      .edge = {3.3e-3},
+      .loads = loads,
+      .user = v,
+      .drive = {.kind = SB_DRIVE_CYCLE,
+                .speed = 20e-3 / 60.0,
+                .end = INFINITY,
+                .reversal_force = 35.0,
+                .cycles = 1},
+      .drive_stiffness = 1e5,
+      .drive_damping = 5.0};
+}
+
+static const SbActuationOptions options = {
+    .until = 45.0, .frames = 400, .land_edge = 0, .end_stop = 0, .rest_stop = 1, .estimate = true};
+
+static void test_stages(void) {
+  Valve v = {5.0, 8.0, 1e-9, 1.0};
+  SbDynamicsModel m = model_of(&v);
+  static SbDynamicsSample sample[400];
+  SbActuation a;
+  SbReport report = {0};
+  size_t done;
+  g_assert_cmpint(sb_actuation_run(&a, sample, NULL, &done, &m, &options, &report), ==, SB_OK);
+  g_assert_cmpuint(done, ==, 400);
+  for (int i = 0; i < SB_ACTUATION_STAGES; i++) {
+    g_test_message("%c: %.6f s, %.6f mm, %.4f N", 'A' + i, a.stage[i].time,
+                   1e3 * a.stage[i].position, a.stage[i].force);
+    g_assert_true(a.stage[i].passed);
+    g_assert_true(i == 0 || a.stage[i].time > a.stage[i - 1].time);
+  }
+  // Quasi-static values of the thesis' picture; the damper of the machine adds c v at the start.
+  ASSERT_NEAR(a.stage[1].force, 27.5, 0.01);
+  ASSERT_NEAR(a.stage[2].force, 27.5, 0.01);
+  ASSERT_NEAR(a.stage[3].force, 22.5, 0.01);
+  ASSERT_NEAR(a.stage[4].force, 6.5, 0.01);
+  ASSERT_NEAR(a.stage[5].force, 6.5, 0.01);
+  ASSERT_NEAR(a.stage[2].position, 3.3e-3, 1e-15);
+  ASSERT_NEAR(a.stage[3].position, 6.6e-3, 1e-12);
+  ASSERT_NEAR(a.force_return_min, 14.5 - 13.0, 1e-9);
+  g_assert_true(a.returns);
+  g_assert_cmpfloat(a.energy.closure, <, 1e-9);
+  g_assert_cmpfloat(a.error_position, <, 1e-12);
+  // Thirty per cent rougher: it stays in.
+  v.roughness = 1.3;
+  g_assert_cmpint(sb_actuation_run(&a, NULL, NULL, NULL, &m, &options, &report), ==, SB_OK);
+  ASSERT_NEAR(a.force_return_min, 14.5 - 16.9, 1e-9);
+  g_assert_false(a.returns);
+  // With a speed law the errors come from a second run.
+  v.roughness = 1.0;
+  for (int i = 0; i < 2; i++) {
+    m.contact[i].static_ratio = 1.1;
+    m.contact[i].stribeck_speed = 2e-3;
+    m.contact[i].stribeck_exponent = 1.0;
+  }
+  m.tolerance = 1e-8;
+  g_assert_cmpint(sb_actuation_run(&a, sample, NULL, NULL, &m, &options, &report), ==, SB_OK);
+  SbActuation fine;
+  m.tolerance = 1e-11;
+  static SbDynamicsSample exact[400];
+  g_assert_cmpint(sb_actuation_run(&fine, exact, NULL, NULL, &m, &options, &report), ==, SB_OK);
+  double error = 0.0;
+  for (int i = 0; i < 400; i++) {
+    error = fmax(error, fabs(sample[i].position - exact[i].position));
+  }
+  g_test_message("Stribeck: error %.2e m, estimate %.2e m; peak %.2e N, %.2e N; %ld steps", error,
+                 a.error_position, fabs(a.force_peak - fine.force_peak), a.error_force,
+                 a.counters.steps);
+  g_assert_cmpfloat(error, <=, 3.0 * a.error_position);
+  g_assert_cmpfloat(fabs(a.force_peak - fine.force_peak), <=, 3.0 * a.error_force);
+  g_assert_cmpfloat(fabs(a.energy.friction - fine.energy.friction), <=, 3.0 * a.error_energy);
+  SbActuationOptions wrong = options;
+  wrong.land_edge = 5;
+  g_assert_cmpint(sb_actuation_run(&a, NULL, NULL, NULL, &m, &wrong, &report), ==, SB_ERROR_RANGE);
+}
+
+// ---- a life ----
+
+static SbStatus actuate(SbLifeActuation *out, long n, double roughness, void *user,
+                        SbReport *report) {
+  Valve *v = user;
+  v->roughness = roughness;
+  SbDynamicsModel m = model_of(v);
+  SbActuation a;
+  SbStatus status = sb_actuation_run(&a, NULL, NULL, NULL, &m, &options, report);
+  // Thesis eq. 5.20: one stroke under a film.
+  out->leakage = 0.5 * G_PI * 6e-3 * v->film * 6.6e-3;
+  out->force_peak = a.force_peak;
+  out->force_return = a.force_return_min;
+  out->returns = a.returns;
+  return status;
+}
+
+static bool stop_at_once(void *user) {
+  return true;
+}
+
+static void test_life(void) {
+  Valve v = {5.0, 8.0, 1.71e-9, 1.0};
+  SbRunningIn law = {1.3, 0.9, 60.0};
+  ASSERT_NEAR(sb_life_roughness(&law, 0), 1.3, 1e-15);
+  ASSERT_NEAR(sb_life_roughness(&law, 60), 0.9 + 0.4 * exp(-1.0), 1e-15);
+  static SbLifeActuation each[400];
+  SbLife life;
+  SbReport report = {0};
+  gint64 start = g_get_monotonic_time();
+  g_assert_cmpint(sb_life_run(&life, each, &law, 400, actuate, NULL, &v, &report), ==, SB_OK);
+  double took = (double)(g_get_monotonic_time() - start) * 1e-6;
+  g_test_message("400 actuations: %.3g m3, return least %.3f N, %ld failures, %.3f s", life.leakage,
+                 life.return_least, life.failures, took);
+  g_assert_cmpfloat(took, <, 10.0);
+  ASSERT_NEAR(life.leakage, 400.0 * each[0].leakage, 1e-15 * life.leakage);
+  ASSERT_NEAR(life.return_least, 14.5 - 13.0 * 1.3, 1e-9);
+  g_assert_cmpint(life.first_failure, ==, 1);
+  // Fails until the roughness is below 14.5/13, to within the give of the seals.
+  long last = 0;
+  for (long n = 0; n < 400; n++) {
+    last = each[n].returns ? last : n;
+  }
+  ASSERT_NEAR(sb_life_roughness(&law, last), 14.5 / 13.0, 0.02);
+  g_assert_cmpfloat(life.peak_last, <, life.peak_first);
+  g_assert_cmpint(sb_life_run(&life, NULL, &law, 5, actuate, stop_at_once, &v, &report), ==,
+                  SB_ERROR_CANCELLED);
+  g_assert_cmpint(life.done, ==, 0);
+  g_assert_cmpint(sb_life_run(&life, NULL, &law, 0, actuate, NULL, &v, &report), ==,
+                  SB_ERROR_RANGE);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/motion/rig/signal", test_signal);
+  g_test_add_func("/motion/rig/plate", test_rig);
+  g_test_add_func("/motion/actuation/stages", test_stages);
+  g_test_add_func("/motion/life/run", test_life);
+  return g_test_run();
+}
