@@ -78,6 +78,11 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
       {"pressure left", "canister.pressure", "Pa", problem->pressure_left, 0.0, 1e10},
       {"pressure right", "canister.pressure", "Pa", problem->pressure_right, 0.0, 1e10},
       {"tolerance", "", "", problem->tolerance, 1e-8, 0.1},
+      {"pressure viscosity", "fluid.pressure_viscosity", "1/Pa", problem->pressure_viscosity, 0.0,
+       1e-5},
+      {"Eyring stress", "", "Pa", problem->eyring_stress, 0.0, 1e12},
+      {"inlet film", "", "m", problem->inlet_film, 0.0, 1.0},
+      {"rupture pressure", "", "Pa", problem->rupture_pressure, -1e6, 1e9},
   };
   if ((int)problem->model < 0 || problem->model >= SB_FILM_MODEL_COUNT) {
     return sb_fail(report, SB_ERROR_INPUT, "there is no film model number %d", (int)problem->model);
@@ -104,8 +109,11 @@ SbFilmScale sb_film_scale(const SbFilmProblem *problem) {
   s.M = s.U > 0.0 ? s.W / sqrt(2.0 * s.U) : 0.0;
   s.lambda = 0.75 * M_PI * M_PI * s.U / (s.W * s.W);
   bool forward = problem->speed >= 0.0;
-  s.inlet = (forward ? problem->pressure_left : problem->pressure_right) / s.pressure;
-  s.outlet = (forward ? problem->pressure_right : problem->pressure_left) / s.pressure;
+  // Only the coupled solver knows a rupture pressure; it works with pressures above it.
+  bool coupled = problem->model == SB_FILM_REYNOLDS && problem->speed != 0.0;
+  double rupture = coupled ? problem->rupture_pressure : 0.0;
+  s.inlet = ((forward ? problem->pressure_left : problem->pressure_right) - rupture) / s.pressure;
+  s.outlet = ((forward ? problem->pressure_right : problem->pressure_left) - rupture) / s.pressure;
   s.kappa = 1.0 - (s.inlet - s.outlet) / M_PI;
   return s;
 }

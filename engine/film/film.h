@@ -51,6 +51,12 @@ typedef struct {
   double pressure_right; // gauge [Pa] >= 0
   double tolerance;      // relative error wanted in the films, 1e-8 .. 0.1
 
+  // Options of the reynolds model, zero when off.
+  double pressure_viscosity; // Barus' alpha [1/Pa]: eta exp(alpha p), p gauge
+  double eyring_stress;      // tau_0 [Pa] of Eyring's shear thinning
+  double inlet_film;         // layer [m] that the moving wall brings; 0 floods the inlet
+  double rupture_pressure;   // gauge [Pa] at which the film breaks, a vapour pressure for instance
+
   // Dry pressure of the inverse model: `dry_count` pairs, x increasing; borrowed during the call.
   const double *dry_x;        // [m]
   const double *dry_pressure; // [Pa]
@@ -86,7 +92,8 @@ typedef struct {
   double pressure_max;      // [Pa], gauge
   double position_film_min; // x [m]
   double position_rupture;  // x where the film breaks [m]; the end of the contact if it does not
-  bool ruptured;            // the film breaks inside the domain
+  bool ruptured;            // the film breaks
+  bool starved;             // less film is supplied than the contact would take
   double hertz_half_width;  // b = R sqrt(8 W / pi) [m]
   double hertz_pressure;    // p_H = 2 w / (pi b) [Pa]
   double

@@ -123,6 +123,22 @@ static bool add_outlet(SbHpMesh *mesh, double from, double unit, int degree, boo
   return sb_hp_mesh_add(mesh, SB_HP_OUTLET, begin, 0.0, begin - 4.5 * unit, degree, false);
 }
 
+// A film that begins at a meniscus: five elements from there to `last`, evenly in asinh z.
+static bool add_meniscus(SbHpMesh *mesh, const SbLayers *l, double unit, double last) {
+  enum { COUNT = 5 };
+  double begin = asinh((l->meniscus + 1.0) / unit);
+  double end = asinh((last + 1.0) / unit);
+  double x0 = l->meniscus;
+  for (int i = 1; i <= COUNT; i++) {
+    double x1 = i == COUNT ? last : -1.0 + unit * sinh(begin + (end - begin) * i / COUNT);
+    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, x0, x1, 0.0, l->degree, false)) {
+      return false;
+    }
+    x0 = x1;
+  }
+  return true;
+}
+
 // Elements on the scale of the rigid wedge.
 static bool thick_mesh(SbHpMesh *mesh, const SbLayers *l) {
   static const double step[] = {5.0, 2.6, 1.9, 1.3, 0.75, 0.35, 0.1, 0.0};
@@ -173,12 +189,18 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
   right[rights++] = full ? edge : rupture_guess(l);
 
   // Inlet and its layer.
-  if (!sb_hp_mesh_add(mesh, SB_HP_INLET, 0.0, left[0], -1.0 + 0.5 * in, l->degree + 2, false)) {
-    return false;
-  }
-  for (int i = 1; i < lefts; i++) {
-    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, left[i - 1], left[i], 0.0, l->degree + 2, false)) {
+  if (isfinite(l->meniscus)) {
+    if (!add_meniscus(mesh, l, in, left[lefts - 1])) {
       return false;
+    }
+  } else {
+    if (!sb_hp_mesh_add(mesh, SB_HP_INLET, 0.0, left[0], -1.0 + 0.5 * in, l->degree + 2, false)) {
+      return false;
+    }
+    for (int i = 1; i < lefts; i++) {
+      if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, left[i - 1], left[i], 0.0, l->degree + 2, false)) {
+        return false;
+      }
     }
   }
 
@@ -219,9 +241,13 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
 
 bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *l) {
   sb_hp_mesh_begin(mesh, l->inlet, l->outlet);
-  bool fits = sb_layers_width(l) > THICK ? thick_mesh(mesh, l) : thin_mesh(mesh, l);
+  bool thick = sb_layers_width(l) > THICK && !isfinite(l->meniscus);
+  bool fits = thick ? thick_mesh(mesh, l) : thin_mesh(mesh, l);
   if (fits && l->end == SB_LAYERS_REFORM) {
-    fits = add_outlet(mesh, l->reform, 0.5 * (l->reform - 1.0), l->degree, true);
+    double unit =
+        sb_layers_width(l) > THICK ? 0.3 * sqrt(1.44 + 0.52 * l->lambda) : outlet_width(l);
+    unit = 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0);
+    fits = add_outlet(mesh, l->reform, unit, l->degree, true);
   }
   if (fits) {
     sb_hp_mesh_build(mesh, tables);
@@ -317,6 +343,71 @@ void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, co
       gap[i] = rigid_film(l) + 0.5 * (X + *shift) * (X + *shift);
     } else {
       layer_shape(&pressure, &gap[i], l, *flux, X);
+    }
+  }
+}
+
+// Gap behind the rupture less the flux film.
+static double gap_beyond(const SbLayers *l, double X) {
+  if (sb_layers_width(l) > THICK) {
+    double end = tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l));
+    double x = X - rupture_guess(l) + end;
+    return 0.5 * (x * x - end * end);
+  }
+  return dry_gap(l, X);
+}
+
+double sb_layers_gain(const SbLayers *l, double flux, double X) {
+  // X' = X + t / (1 - t)^2 in units of the film's own length, midpoint rule.
+  enum { POINTS = 200 };
+  double end = rupture_guess(l);
+  double unit = sqrt(2.0 * flux) + 0.1 * (X - end);
+  double sum = 0.0;
+  for (int i = 0; i < POINTS; i++) {
+    double t = (i + 0.5) / POINTS;
+    double x = X + unit * t / ((1.0 - t) * (1.0 - t));
+    double stretch = unit * (1.0 + t) / ((1.0 - t) * (1.0 - t) * (1.0 - t));
+    double film = flux + gap_beyond(l, x);
+    sum += l->lambda * (film - flux) / (film * film * film) * stretch / POINTS;
+  }
+  return sum;
+}
+
+double sb_layers_reform(const SbLayers *l, double flux) {
+  double begin = rupture_guess(l);
+  double low = begin;
+  double high = begin + 10.0 * (sqrt(1.44 + 0.52 * l->lambda) + cbrt(l->lambda / l->outlet));
+  for (int pass = 0; pass < 60; pass++) {
+    double X = 0.5 * (low + high);
+    if (sb_layers_gain(l, flux, X) > l->outlet) {
+      low = X;
+    } else {
+      high = X;
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+void sb_layers_fill_reformed(double *nodal, double *gap, const SbHpMesh *mesh, SbHpTables *tables,
+                             const SbLayers *l, double flux) {
+  int begin = mesh->count;
+  for (int i = 0; i < mesh->count; i++) {
+    const SbHpElement *e = &mesh->element[i];
+    const SbHpTable *t = sb_hp_table(tables, e->degree);
+    if (e->apart) {
+      begin = i;
+    }
+    for (int k = 0; i >= begin && k <= e->degree; k++) {
+      bool outlet = e->map == SB_HP_OUTLET;
+      double r = outlet && k == e->degree ? t->node[k - 1] : t->node[k];
+      double gain = sb_layers_gain(l, flux, sb_hp_position(e, r));
+      double s = 0.5 * (1.0 - r);
+      nodal[e->first_dof + k] = outlet && k > 0 ? -gain / (s * s * s * s) : l->outlet - gain;
+    }
+  }
+  for (int i = 0; i < mesh->targets; i++) {
+    if (mesh->owner[i] >= begin) {
+      gap[i] = flux + gap_beyond(l, mesh->x[i]);
     }
   }
 }

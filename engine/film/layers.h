@@ -34,3 +34,14 @@ bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *layers);
 // Fills nodal pressures, gaps at all targets, and the shift and flux of a cold start.
 void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, const SbHpMesh *mesh,
                      SbHpTables *tables, const SbLayers *layers);
+
+// Pressure that a film formed again at X gains until infinity, by Reynolds' equation on the dry
+// gap.
+double sb_layers_gain(const SbLayers *layers, double flux, double X);
+
+// Where the film forms again, by that measure.
+double sb_layers_reform(const SbLayers *layers, double flux);
+
+// Starting pressure and gap of the elements behind the cavity.
+void sb_layers_fill_reformed(double *nodal, double *gap, const SbHpMesh *mesh, SbHpTables *tables,
+                             const SbLayers *layers, double flux);

@@ -75,7 +75,7 @@ static void mobility(double *m, double *m_film, double *m_pressure, const SbReyn
   *m = 1.0;
   *m_film = 0.0;
   *m_pressure = 0.0;
-  double barus = exp(-problem->barus * pressure);
+  double barus = exp(-problem->barus * (pressure + problem->rupture));
   if (problem->eyring > 0.0) {
     double shear = problem->eyring / (barus * film);
     double root = sqrt(1.0 + shear * shear);
@@ -102,7 +102,7 @@ static Layout lay_out(const SbHpMesh *mesh, const SbReynoldsCase *problem) {
   Layout l = {.last = mesh->count - 1, .shift = -1, .flux = -1, .free_end = -1};
   l.rupture = problem->layers.end != SB_LAYERS_FULL;
   l.meniscus = isfinite(problem->layers.meniscus);
-  l.reform = problem->layers.end == SB_LAYERS_REFORM;
+  l.reform = problem->layers.end == SB_LAYERS_REFORM && !problem->hold;
   for (int i = 1; i < mesh->count; i++) {
     if (mesh->element[i].apart) {
       l.last = i - 1;
@@ -112,10 +112,10 @@ static Layout lay_out(const SbHpMesh *mesh, const SbReynoldsCase *problem) {
   if (l.rupture) {
     l.shift = l.order++;
   }
-  if (!l.meniscus) {
+  if (!l.meniscus || problem->hold) {
     l.flux = l.order++;
   }
-  if (l.meniscus || l.reform) {
+  if ((l.meniscus && !problem->hold) || l.reform) {
     l.free_end = l.order++;
   }
   return l;
@@ -248,6 +248,15 @@ static double free_end(const SbReynoldsCase *problem) {
                                                  : problem->layers.meniscus;
 }
 
+// A film cannot form again before it breaks, nor begin behind the middle of the contact.
+static bool allowed(const SbHpMesh *mesh, const SbReynoldsCase *problem, const Layout *layout,
+                    double place) {
+  double width = sb_layers_width(&problem->layers);
+  return problem->layers.end == SB_LAYERS_REFORM
+             ? place > mesh->element[layout->last].x1 + 1e-3 * width
+             : place < -0.5;
+}
+
 // Derivative of the residuals to the free end: the mesh is moved a little and put back.
 static bool difference_column(SbFilmSolver *solver, int which, SbReynoldsCase *problem,
                               const Layout *layout) {
@@ -335,11 +344,14 @@ SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int wh
         state->shift = before_shift - factor * right[layout.shift];
       }
       state->flux = before_flux - factor * flux_change;
-      if (layout.free_end >= 0 &&
-          !move_free_end(solver, which, problem, place - factor * right[layout.free_end])) {
-        return SB_ERROR_NOT_CONVERGED;
-      }
       bool thin = state->flux < 0.1 * before_flux;
+      if (layout.free_end >= 0) {
+        double moved = place - factor * right[layout.free_end];
+        thin = thin || !allowed(mesh, problem, &layout, moved);
+        if (!thin && !move_free_end(solver, which, problem, moved)) {
+          return SB_ERROR_NOT_CONVERGED;
+        }
+      }
       elastic_gaps(solver->gaps, mesh, state);
       for (int i = 0; !first && !thin && i < mesh->rows; i++) {
         thin = solver->gaps[i] < 0.1 * state->gap[i];

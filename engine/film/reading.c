@@ -191,7 +191,7 @@ static double reynolds_film(SbFilmSolver *solver, int which, const SbReynoldsCas
                   sb_hp_pressure(mesh, &solver->tables, e, state->nodal, before)) /
                  (sb_hp_position(e, after) - sb_hp_position(e, before));
   double pressure = sb_hp_pressure(mesh, &solver->tables, e, state->nodal, r);
-  double barus = exp(-problem->barus * pressure);
+  double barus = exp(-problem->barus * (pressure + problem->rupture));
   for (int i = 0; i < 20; i++) {
     double shear = problem->eyring / (barus * film);
     double m = barus * sqrt(1.0 + shear * shear);
@@ -239,16 +239,18 @@ void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
       P_slope += slope[j] * state->nodal[e->first_dof + j];
     }
     double H = state->gap[i];
+    if (P < out->pressure_min) {
+      out->pressure_min = P;
+    }
     if (H < state->gap[thinnest]) {
       thinnest = i;
     }
-    out->pressure_min = fmin(out->pressure_min, P);
     if (P > peak) {
       peak = P;
       highest = i;
     }
     // Friction and flux by the rule of the collocation points.
-    double barus = exp(-problem->barus * P);
+    double barus = exp(-problem->barus * (P + problem->rupture));
     double shear = problem->eyring / (barus * H);
     double thinning = shear > 0.0 ? asinh(shear) / shear : 1.0;
     out->couette += mesh->weight[i] * thinning / (barus * H);
@@ -288,8 +290,7 @@ void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
 }
 
 void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
-                         const SbReynoldsCase *problem, const SbFilmScale *scale, bool forward,
-                         double rupture_pressure) {
+                         const SbReynoldsCase *problem, const SbFilmScale *scale, bool forward) {
   const SbHpMesh *mesh = &solver->mesh[which];
   const SbReynoldsState *state = &solver->state[which];
   size_t per = (SB_FILM_POINTS - 8) / (size_t)mesh->count;
@@ -312,7 +313,7 @@ void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
       double s = -cos(M_PI * (double)k / (double)per);
       double r = begin + (end - begin) * 0.5 * (1.0 + s);
       double X = sb_hp_position(e, r);
-      double P = sb_hp_pressure(mesh, &solver->tables, e, state->nodal, r) + rupture_pressure;
+      double P = sb_hp_pressure(mesh, &solver->tables, e, state->nodal, r) + problem->rupture;
       out->x[n] = (X + state->shift) * scale->half_width;
       out->pressure[n] = P * scale->pressure;
       out->film[n] = sb_hp_gap(mesh, &solver->tables, i, state->gap, r) * scale->film;

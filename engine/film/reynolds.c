@@ -53,119 +53,35 @@ static void estimate(SbFilmSolverInfo *info, const SbReynoldsReading *reading, i
   info->error_film_flux = estimates[2];
 }
 
-// Adds what a call of Newton's method did to the totals.
-static void account(SbFilmSolverInfo *info, const SbReynoldsTrace *trace) {
-  info->newton_iterations += trace->iterations;
-  info->continuation_steps++;
-  info->residual = trace->residual;
-}
-
-// Cold start on the lowest degree.
-static SbStatus cold_start(SbFilmSolver *solver, int which, SbReynoldsCase *c, double tolerance,
-                           SbFilmSolverInfo *info, const SbFilmProblem *problem) {
-  SbReynoldsState *state = &solver->state[which];
-  if (!sb_layers_mesh(&solver->mesh[which], &solver->tables, &c->layers)) {
-    return SB_ERROR_NOT_CONVERGED;
-  }
-  state->H0 = 0.0;
-  sb_layers_guess(state->nodal, state->gap, &state->shift, &state->flux, &solver->mesh[which],
-                  &solver->tables, &c->layers);
-  SbReynoldsTrace trace;
-  SbStatus status = sb_reynolds_newton(&trace, solver, which, c, true, tolerance, problem);
-  account(info, &trace);
-  return status;
-}
-
-// True when both meshes have the same elements up to their places and degrees.
-static bool same_elements(const SbHpMesh *a, const SbHpMesh *b) {
-  if (a->count != b->count) {
-    return false;
-  }
-  for (int i = 0; i < a->count; i++) {
-    if (a->element[i].map != b->element[i].map || a->element[i].apart != b->element[i].apart) {
-      return false;
-    }
-  }
-  return true;
-}
-
-// The case a fraction t of the way from an easy one: small end pressures, no options, M = 20 if
-// thick.
-static SbReynoldsCase between(const SbReynoldsCase *target, double t) {
-  SbReynoldsCase c = *target;
-  static const double EASY_LAMBDA = 0.0093; // M = 20
-  static const double EASY_PRESSURE = 0.3;
-  if (c.layers.lambda > EASY_LAMBDA) {
-    c.layers.lambda = EASY_LAMBDA * pow(c.layers.lambda / EASY_LAMBDA, t);
-  }
-  double inlet = fmin(c.layers.inlet, EASY_PRESSURE);
-  double outlet = fmin(c.layers.outlet, EASY_PRESSURE);
-  c.layers.inlet = inlet + t * (c.layers.inlet - inlet);
-  c.layers.outlet = outlet + t * (c.layers.outlet - outlet);
-  c.barus *= t;
-  c.eyring *= t;
-  return c;
-}
-
-// Reaches the case on the lowest degree by continuation; the layers carry the last solution along.
-// Ends in mesh/state *which.
-static SbStatus continuation(SbFilmSolver *solver, int *which, const SbReynoldsCase *target,
-                             double tolerance, SbFilmSolverInfo *info,
-                             const SbFilmProblem *problem) {
-  enum { STEPS_MAX = 60 };
-  SbReynoldsCase c = between(target, 0.0);
-  SbStatus status = cold_start(solver, *which, &c, tolerance, info, problem);
-  double done = 0.0;
-  double step = 0.25;
-  for (int i = 0; status == SB_OK && done < 1.0; i++) {
-    double t = fmin(1.0, done + step);
-    SbReynoldsCase next = between(target, t);
-    int to = 1 - *which;
-    SbStatus tried = SB_ERROR_NOT_CONVERGED;
-    if (sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
-      if (same_elements(&solver->mesh[*which], &solver->mesh[to])) {
-        sb_reynolds_carry(solver, *which, to);
-        double scale = sb_layers_flux(&next.layers) / sb_layers_flux(&c.layers);
-        SbReynoldsState *state = &solver->state[to];
-        state->flux *= scale;
-        for (int k = 0; k < solver->mesh[to].targets; k++) {
-          state->gap[k] *= scale;
-        }
-      } else {
-        sb_reynolds_resample(solver, *which, to);
-      }
-      SbReynoldsTrace trace;
-      tried = sb_reynolds_newton(&trace, solver, to, &next, true, tolerance, problem);
-      account(info, &trace);
-    }
-    if (tried == SB_ERROR_CANCELLED) {
-      return tried;
-    }
-    if (tried == SB_OK) {
-      *which = to;
-      done = t;
-      c = next;
-      step *= 1.5;
-    } else {
-      step *= 0.4;
-      if (step < 0.004 || i > STEPS_MAX) {
-        return SB_ERROR_NOT_CONVERGED;
-      }
-    }
-  }
-  return status;
-}
-
 SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                            SbFilmSolver *solver, SbReport *report) {
   double begin = seconds();
-  SbReynoldsCase c = {0};
-  c.layers = (SbLayers){.lambda = scale->lambda,
-                        .inlet = scale->inlet,
-                        .outlet = scale->outlet,
-                        .starvation = 1.0,
-                        .meniscus = -INFINITY,
-                        .end = scale->outlet > 0.0 ? SB_LAYERS_FULL : SB_LAYERS_RUPTURE};
+  SbReynoldsCase c = {
+      .rupture = problem->rupture_pressure / scale->pressure,
+      .barus = problem->pressure_viscosity * scale->pressure,
+      .eyring = problem->eyring_stress > 0.0 ? problem->viscosity * fabs(problem->speed) /
+                                                   (problem->eyring_stress * scale->film)
+                                             : 0.0,
+      .layers = {.lambda = scale->lambda,
+                 .inlet = scale->inlet,
+                 .outlet = scale->outlet > 0.0 && scale->outlet <= 1e-9 ? 0.0 : scale->outlet,
+                 .starvation = 1.0,
+                 .meniscus = -INFINITY,
+                 .end = scale->outlet > 1e-9 ? SB_LAYERS_FULL : SB_LAYERS_RUPTURE},
+  };
+  if (c.layers.inlet < 0.0) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE,
+                   "film: the inlet's pressure is below the rupture pressure: no liquid there");
+  }
+  if (c.layers.outlet < 0.0) {
+    c.layers.outlet = 0.0;
+    sb_warn(&out->warnings, "film-outlet-vapour", "",
+            "the outlet's pressure is below the rupture pressure: it is taken to stay at that "
+            "pressure behind the contact");
+  }
+  // A supplied layer moves with the wall at the full speed, the flux film with half of it.
+  double supply = problem->inlet_film > 0.0 ? 2.0 * problem->inlet_film / scale->film : INFINITY;
+  bool flooded = true;
   SbFilmSolverInfo *info = &out->solver;
 
   // Rounding of the gap, of size one, against the film: no residual can be smaller.
@@ -178,22 +94,15 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
     SbStatus status;
     c.layers.degree = level_degree[level];
     if (level == 0) {
-      status = cold_start(solver, which, &c, tolerance, info, problem);
-      if (status == SB_ERROR_NOT_CONVERGED) {
-        status = continuation(solver, &which, &c, tolerance, info, problem);
-      }
+      status = sb_reynolds_start(&flooded, solver, &which, &c, supply, tolerance, info, problem);
     } else {
-      int to = 1 - which;
-      if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &c.layers)) {
-        break;
-      }
-      sb_reynolds_carry(solver, which, to);
-      which = to;
-      SbReynoldsTrace trace;
-      status = sb_reynolds_newton(&trace, solver, which, &c, true, tolerance, problem);
-      account(info, &trace);
+      status = sb_reynolds_refine(solver, &which, &c, tolerance, info, problem);
     }
     info->unknowns = (size_t)solver->mesh[which].dofs + 3;
+    if (status == SB_ERROR_INFEASIBLE) {
+      return sb_fail(report, status,
+                     "film: a starved inlet together with a cavity before a flooded outlet");
+    }
     if (status == SB_ERROR_CANCELLED) {
       return sb_fail(report, status, "film: cancelled");
     }
@@ -223,10 +132,11 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
   out->film_central = r->film_central * scale->film;
   out->film_flux = r->film_flux * scale->film;
   out->flow = 0.5 * problem->speed * out->film_flux;
-  out->pressure_max = r->pressure_max * scale->pressure;
+  out->pressure_max = (r->pressure_max + c.rupture) * scale->pressure;
   out->position_film_min = sign * r->position_min * scale->half_width;
   out->position_rupture = sign * r->position_rupture * scale->half_width;
   out->ruptured = c.layers.end != SB_LAYERS_FULL;
+  out->starved = !flooded;
   out->friction_couette =
       problem->viscosity * problem->speed * r->couette * scale->half_width / scale->film;
   out->friction_poiseuille = sign * r->poiseuille * scale->film * scale->pressure;
@@ -240,6 +150,6 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
   info->flux_error = r->flux_error;
   info->converged = true;
   info->wall_s = seconds() - begin;
-  sb_reynolds_profile(out, solver, which, &c, scale, forward, 0.0);
+  sb_reynolds_profile(out, solver, which, &c, scale, forward);
   return sb_succeed(report);
 }

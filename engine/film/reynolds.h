@@ -16,8 +16,10 @@ typedef struct {
 // The scaled problem in the flow frame.
 typedef struct {
   SbLayers layers;
-  double barus;  // alpha p_H
-  double eyring; // eta |speed| / (tau_0 b^2 / R): shear stress over Eyring's at unit film; 0 = off
+  bool hold;      // a free end stays where it is
+  double rupture; // rupture pressure: all pressures of the solver are above it
+  double barus;   // alpha p_H
+  double eyring;  // eta |speed| / (tau_0 b^2 / R): shear stress over Eyring's at unit film; 0 = off
 } SbReynoldsCase;
 
 // What Newton's method did.
@@ -70,8 +72,20 @@ void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
 
 // Profile of a solution into `out`, in SI and in the seal's frame.
 void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
-                         const SbReynoldsCase *problem, const SbFilmScale *scale, bool forward,
-                         double rupture_pressure);
+                         const SbReynoldsCase *problem, const SbFilmScale *scale, bool forward);
+
+// A solution of the lowest degree in mesh/state *which, from nothing: directly, or by continuation
+// from an easier case, with the cavity or the meniscus that the case needs. `problem->layers` is
+// completed (end, reform, meniscus, starvation). `flux` is the flux film supplied, infinite when
+// flooded. *flooded tells whether the supply was enough.
+SbStatus sb_reynolds_start(bool *flooded, SbFilmSolver *solver, int *which, SbReynoldsCase *problem,
+                           double flux, double tolerance, SbFilmSolverInfo *info,
+                           const SbFilmProblem *callback);
+
+// Solves on the next degree from the solution in mesh/state *which, moving the free end last.
+SbStatus sb_reynolds_refine(SbFilmSolver *solver, int *which, SbReynoldsCase *problem,
+                            double tolerance, SbFilmSolverInfo *info,
+                            const SbFilmProblem *callback);
 
 // The whole solve.
 SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
