@@ -177,6 +177,10 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
       left[lefts++] = x;
     }
   }
+  if (isfinite(l->meniscus)) {
+    left[0] = fmin(-1.0 + 4.0 * in, 0.0);
+    lefts = 1;
+  }
   int rights = 0;
   bool full = l->end == SB_LAYERS_FULL;
   double edge = full ? flooded_outlet(l) : 1.0;

@@ -291,6 +291,8 @@ SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int wh
   double *matrix = solver->matrix;
   double *right = solver->right;
   double before_residual = INFINITY;
+  // Rounding of deflections of size one against the film: no residual is smaller.
+  tolerance = fmax(tolerance, 1.1e-16 / state->flux);
   *trace = (SbReynoldsTrace){.residual = INFINITY, .step = INFINITY};
 
   for (int iteration = 0; iteration <= ITERATIONS_MAX; iteration++) {

@@ -16,6 +16,15 @@ static void account(SbFilmSolverInfo *info, const SbReynoldsTrace *trace) {
   info->residual = trace->residual;
 }
 
+// Newton's method with its account.
+static SbStatus iterate(SbFilmSolver *solver, int which, SbReynoldsCase *c, bool independent,
+                        double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+  SbReynoldsTrace trace;
+  SbStatus status = sb_reynolds_newton(&trace, solver, which, c, independent, tolerance, problem);
+  account(info, &trace);
+  return status;
+}
+
 // Cold start on the lowest degree.
 static SbStatus cold_start(SbFilmSolver *solver, int which, SbReynoldsCase *c, double tolerance,
                            SbFilmSolverInfo *info, const SbFilmProblem *problem) {
@@ -26,10 +35,7 @@ static SbStatus cold_start(SbFilmSolver *solver, int which, SbReynoldsCase *c, d
   state->H0 = 0.0;
   sb_layers_guess(state->nodal, state->gap, &state->shift, &state->flux, &solver->mesh[which],
                   &solver->tables, &c->layers);
-  SbReynoldsTrace trace;
-  SbStatus status = sb_reynolds_newton(&trace, solver, which, c, true, tolerance, problem);
-  account(info, &trace);
-  return status;
+  return iterate(solver, which, c, true, tolerance, info, problem);
 }
 
 // True when both meshes have the same elements up to their places and degrees.
@@ -43,6 +49,18 @@ static bool same_elements(const SbHpMesh *a, const SbHpMesh *b) {
     }
   }
   return true;
+}
+
+// Carries a solution to another case: the film scales with the flux that the layers let expect.
+static void carry_scaled(SbFilmSolver *solver, int from, int to, const SbReynoldsCase *old,
+                         const SbReynoldsCase *new) {
+  sb_reynolds_carry(solver, from, to);
+  double scale = sb_layers_flux(&new->layers) / sb_layers_flux(&old->layers);
+  SbReynoldsState *state = &solver->state[to];
+  state->flux *= scale;
+  for (int k = 0; k < solver->mesh[to].targets; k++) {
+    state->gap[k] *= scale;
+  }
 }
 
 // The case a fraction t of the way from an easy one: small end pressures, no options, M = 20 if
@@ -80,19 +98,11 @@ static SbStatus continuation(SbFilmSolver *solver, int *which, const SbReynoldsC
     SbStatus tried = SB_ERROR_NOT_CONVERGED;
     if (sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
       if (same_elements(&solver->mesh[*which], &solver->mesh[to])) {
-        sb_reynolds_carry(solver, *which, to);
-        double scale = sb_layers_flux(&next.layers) / sb_layers_flux(&c.layers);
-        SbReynoldsState *state = &solver->state[to];
-        state->flux *= scale;
-        for (int k = 0; k < solver->mesh[to].targets; k++) {
-          state->gap[k] *= scale;
-        }
+        carry_scaled(solver, *which, to, &c, &next);
       } else {
         sb_reynolds_resample(solver, *which, to);
       }
-      SbReynoldsTrace trace;
-      tried = sb_reynolds_newton(&trace, solver, to, &next, true, tolerance, problem);
-      account(info, &trace);
+      tried = iterate(solver, to, &next, true, tolerance, info, problem);
     }
     if (tried == SB_ERROR_CANCELLED) {
       return tried;
@@ -112,38 +122,8 @@ static SbStatus continuation(SbFilmSolver *solver, int *which, const SbReynoldsC
   return status;
 }
 
-// Newton's method with its account.
-static SbStatus iterate(SbFilmSolver *solver, int which, SbReynoldsCase *c, bool independent,
-                        double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
-  SbReynoldsTrace trace;
-  SbStatus status = sb_reynolds_newton(&trace, solver, which, c, independent, tolerance, problem);
-  account(info, &trace);
-  return status;
-}
-
 static bool has_free_end(const SbReynoldsCase *c) {
   return c->layers.end == SB_LAYERS_REFORM || isfinite(c->layers.meniscus);
-}
-
-SbStatus sb_reynolds_refine(SbFilmSolver *solver, int *which, SbReynoldsCase *c, double tolerance,
-                            SbFilmSolverInfo *info, const SbFilmProblem *problem) {
-  int to = 1 - *which;
-  if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &c->layers)) {
-    return SB_ERROR_NOT_CONVERGED;
-  }
-  sb_reynolds_carry(solver, *which, to);
-  *which = to;
-  double flux = solver->state[to].flux;
-  c->hold = has_free_end(c);
-  SbStatus status = iterate(solver, to, c, true, tolerance, info, problem);
-  if (status == SB_OK && c->hold) {
-    c->hold = false;
-    if (isfinite(c->layers.meniscus)) {
-      solver->state[to].flux = flux; // supplied
-    }
-    status = iterate(solver, to, c, false, tolerance, info, problem);
-  }
-  return status;
 }
 
 // Least pressure at the collocation points.
@@ -151,6 +131,60 @@ static double least_pressure(SbFilmSolver *solver, int which, const SbReynoldsCa
   SbReynoldsReading reading;
   sb_reynolds_read(&reading, solver, which, c);
   return reading.pressure_min;
+}
+
+SbStatus sb_reynolds_refine(SbFilmSolver *solver, int *which, SbReynoldsCase *c, int degree,
+                            double tolerance, SbFilmSolverInfo *info,
+                            const SbFilmProblem *problem) {
+  SbReynoldsCase next = *c;
+  next.layers.degree = degree;
+  int to = 1 - *which;
+  if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
+    return SB_ERROR_NOT_CONVERGED;
+  }
+  sb_reynolds_carry(solver, *which, to);
+  double flux = solver->state[to].flux;
+  next.hold = has_free_end(&next);
+  SbStatus status = iterate(solver, to, &next, true, tolerance, info, problem);
+  if (status == SB_OK && next.hold) {
+    next.hold = false;
+    if (isfinite(next.layers.meniscus)) {
+      solver->state[to].flux = flux; // supplied
+    }
+    status = iterate(solver, to, &next, false, tolerance, info, problem);
+  }
+  if (status == SB_OK) {
+    *which = to;
+    *c = next;
+  }
+  return status;
+}
+
+SbStatus sb_reynolds_follow(SbFilmSolver *solver, int *which, const SbReynoldsCase *old,
+                            const SbReynoldsCase *c, double tolerance, SbFilmSolverInfo *info,
+                            const SbFilmProblem *problem) {
+  // Far from the old case a cold start is as good.
+  if (has_free_end(old) || has_free_end(c) || old->layers.end != c->layers.end ||
+      fabs(log(c->layers.lambda / old->layers.lambda)) > 1.5 ||
+      fabs(c->layers.inlet - old->layers.inlet) > 0.2 ||
+      fabs(c->layers.outlet - old->layers.outlet) > 0.2) {
+    return SB_ERROR_NOT_CONVERGED;
+  }
+  int to = 1 - *which;
+  if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &c->layers) ||
+      !same_elements(&solver->mesh[*which], &solver->mesh[to])) {
+    return SB_ERROR_NOT_CONVERGED;
+  }
+  carry_scaled(solver, *which, to, old, c);
+  SbReynoldsCase next = *c;
+  SbStatus status = iterate(solver, to, &next, true, tolerance, info, problem);
+  if (status == SB_OK && c->layers.end == SB_LAYERS_FULL && least_pressure(solver, to, c) < -1e-9) {
+    status = SB_ERROR_NOT_CONVERGED; // a cavity opens: start anew
+  }
+  if (status == SB_OK) {
+    *which = to;
+  }
+  return status;
 }
 
 // Breaks the film and forms it again: from the solution with an empty outlet at the rupture
@@ -214,66 +248,102 @@ static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbReynoldsCase *ta
   return SB_OK;
 }
 
-// Draws the meniscus in until the contact takes no more than `flux`: the meniscus is held at a
-// distance z (in layer widths), the flux it lets through is a rising function of -z.
+// One solution with the meniscus held `distance` flooded layer widths before the edge; the mesh is
+// laid out for the flux `expected`. Ends in mesh/state *which.
+static SbStatus hold_meniscus(SbFilmSolver *solver, int *which, SbReynoldsCase *c,
+                              const SbReynoldsCase *flooded, double distance, double ratio,
+                              double tolerance, SbFilmSolverInfo *info,
+                              const SbFilmProblem *problem) {
+  SbReynoldsCase next = *flooded;
+  next.hold = true;
+  next.layers.meniscus = -1.0 - distance * sb_layers_width(&flooded->layers);
+  next.layers.starvation = fmin(ratio, 1.0);
+  int to = 1 - *which;
+  if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
+    return SB_ERROR_NOT_CONVERGED;
+  }
+  if (same_elements(&solver->mesh[*which], &solver->mesh[to])) {
+    sb_reynolds_carry(solver, *which, to);
+  } else {
+    sb_reynolds_resample(solver, *which, to);
+  }
+  SbStatus status = iterate(solver, to, &next, true, tolerance, info, problem);
+  if (status == SB_OK) {
+    *which = to;
+    *c = next;
+  }
+  return status;
+}
+
+// Draws the meniscus in until the contact takes no more than `flux`: by steps of its distance d to
+// the edge until the supply is bracketed, then by secants of ln flux over ln d; last, the supply is
+// given and the meniscus free.
 static SbStatus starve(bool *flooded, SbFilmSolver *solver, int *which, SbReynoldsCase *target,
                        double flux, double tolerance, SbFilmSolverInfo *info,
                        const SbFilmProblem *problem) {
-  enum { STEPS_MAX = 60 };
-  static const double FAR = -30.0;
+  enum { STEPS_MAX = 80 };
   double full = solver->state[*which].flux;
   *flooded = flux >= full;
   if (*flooded) {
     return SB_OK;
   }
+  double close = 0.03 * (1.0 - flux / full) + 1e-5;
+  double far_d = INFINITY, far_flux = full; // flux above the supply
+  double near_d = 0.0, near_flux = 0.0;     // flux below it
+  double d = 30.0;
+  double growth = 0.6;
+  double ratio = 1.0; // for which the mesh is laid out
+  bool settled = false;
   SbReynoldsCase c = *target;
-  c.hold = true;
-  double z = FAR;
-  double step = 0.5;
-  double reached = full;
-  bool first = true;
-  double z_above = FAR, z_below = INFINITY; // brackets by flux above and below the supply
-  for (int i = 0; i < STEPS_MAX; i++) {
-    SbReynoldsCase next = c;
-    next.layers.starvation = fmin(1.0, fmax(reached, flux) / full);
-    next.layers.meniscus = -1.0 + z * sb_layers_width(&next.layers);
-    int to = 1 - *which;
-    SbStatus tried = SB_ERROR_NOT_CONVERGED;
-    if (sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
-      if (first || !same_elements(&solver->mesh[*which], &solver->mesh[to])) {
-        sb_reynolds_resample(solver, *which, to);
-      } else {
-        sb_reynolds_carry(solver, *which, to);
-      }
-      tried = iterate(solver, to, &next, true, tolerance, info, problem);
+  for (int i = 0;; i++) {
+    if (i >= STEPS_MAX) {
+      return SB_ERROR_NOT_CONVERGED;
     }
-    if (tried == SB_ERROR_CANCELLED) {
-      return tried;
+    SbStatus status = hold_meniscus(solver, which, &c, target, d, ratio, tolerance, info, problem);
+    if (status == SB_ERROR_CANCELLED) {
+      return status;
     }
-    if (tried == SB_OK) {
-      *which = to;
-      c = next;
-      first = false;
-      reached = solver->state[to].flux;
-      if (reached > flux) {
-        z_above = z;
-      } else {
-        z_below = z;
+    if (status == SB_OK) {
+      double reached = solver->state[*which].flux;
+      if (!settled && reached <= 1.2 * flux) {
+        // Near the supply the mesh is laid out for it, once, and the bracket starts anew.
+        settled = true;
+        ratio = flux / full;
+        far_d = INFINITY;
+        near_d = 0.0;
+        continue;
       }
-      if (fabs(reached / flux - 1.0) < 0.05) {
+      if (settled && fabs(reached / flux - 1.0) < close) {
         break;
       }
+      ratio = settled ? ratio : reached / full;
+      if (reached > flux) {
+        far_d = d;
+        far_flux = reached;
+      } else {
+        near_d = d;
+        near_flux = reached;
+      }
     } else {
-      step *= 0.5;
-      if (step < 1e-3) {
-        return SB_ERROR_NOT_CONVERGED;
+      growth = sqrt(growth);
+      if (growth > 0.995) {
+        return status;
       }
     }
-    // Next distance: nearer by a factor until bracketed, then halved.
-    z = isfinite(z_below) ? 0.5 * (z_above + z_below)
-                          : (z_above < -0.5 ? z_above * (1.0 - step) : z_above + 0.5 * step);
+    if (isfinite(far_d) && near_d > 0.0 && status == SB_OK) {
+      // Secant kept inside the middle of the bracket.
+      double t = log(flux / near_flux) / log(far_flux / near_flux);
+      d = near_d * pow(far_d / near_d, fmin(fmax(t, 0.1), 0.9));
+    } else if (isfinite(far_d)) {
+      d = fmax(far_d * growth, near_d > 0.0 ? sqrt(far_d * near_d) : 0.0);
+    } else {
+      d *= near_d > 0.0 ? 1.3 : 3.0;
+      if (d > 1e5) {
+        *flooded = true; // the supply is the flooded flux but for rounding
+        return SB_OK;
+      }
+    }
   }
-  // Now the supply is given and the meniscus free.
   c.hold = false;
   solver->state[*which].flux = flux;
   SbStatus status = iterate(solver, *which, &c, false, tolerance, info, problem);

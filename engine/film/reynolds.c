@@ -53,52 +53,69 @@ static void estimate(SbFilmSolverInfo *info, const SbReynoldsReading *reading, i
   info->error_film_flux = estimates[2];
 }
 
-SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
-                           SbFilmSolver *solver, SbReport *report) {
-  double begin = seconds();
+// Scaled problem in the flow frame.
+static SbReynoldsCase scaled_case(const SbFilmProblem *problem, const SbFilmScale *scale) {
+  double outlet = scale->outlet > 1e-9 ? scale->outlet : 0.0;
   SbReynoldsCase c = {
       .rupture = problem->rupture_pressure / scale->pressure,
       .barus = problem->pressure_viscosity * scale->pressure,
-      .eyring = problem->eyring_stress > 0.0 ? problem->viscosity * fabs(problem->speed) /
-                                                   (problem->eyring_stress * scale->film)
-                                             : 0.0,
       .layers = {.lambda = scale->lambda,
                  .inlet = scale->inlet,
-                 .outlet = scale->outlet > 0.0 && scale->outlet <= 1e-9 ? 0.0 : scale->outlet,
+                 .outlet = outlet,
                  .starvation = 1.0,
                  .meniscus = -INFINITY,
-                 .end = scale->outlet > 1e-9 ? SB_LAYERS_FULL : SB_LAYERS_RUPTURE},
+                 .end = outlet > 0.0 ? SB_LAYERS_FULL : SB_LAYERS_RUPTURE,
+                 .degree = level_degree[0]},
   };
-  if (c.layers.inlet < 0.0) {
-    return sb_fail(report, SB_ERROR_INFEASIBLE,
-                   "film: the inlet's pressure is below the rupture pressure: no liquid there");
+  if (problem->eyring_stress > 0.0) {
+    c.eyring = problem->viscosity * fabs(problem->speed) / (problem->eyring_stress * scale->film);
   }
-  if (c.layers.outlet < 0.0) {
-    c.layers.outlet = 0.0;
-    sb_warn(&out->warnings, "film-outlet-vapour", "",
-            "the outlet's pressure is below the rupture pressure: it is taken to stay at that "
-            "pressure behind the contact");
-  }
-  // A supplied layer moves with the wall at the full speed, the flux film with half of it.
-  double supply = problem->inlet_film > 0.0 ? 2.0 * problem->inlet_film / scale->film : INFINITY;
-  bool flooded = true;
-  SbFilmSolverInfo *info = &out->solver;
+  return c;
+}
 
-  // Rounding of the gap, of size one, against the film: no residual can be smaller.
-  double noise = 2.0 * 2.2e-16 / fmin(1.0, pow(scale->lambda, 0.6));
-  double tolerance = fmax(1e-11, noise);
-  SbReynoldsReading reading[LEVELS];
-  int which = 0;
-  int levels = 0;
+// Results in SI and in the seal's frame.
+static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                 const SbReynoldsCase *c, const SbReynoldsReading *r) {
+  double sign = problem->speed >= 0.0 ? 1.0 : -1.0;
+  out->film_min = r->film_min * scale->film;
+  out->film_central = r->film_central * scale->film;
+  out->film_flux = r->film_flux * scale->film;
+  out->flow = 0.5 * problem->speed * out->film_flux;
+  out->pressure_max = (r->pressure_max + c->rupture) * scale->pressure;
+  out->position_film_min = sign * r->position_min * scale->half_width;
+  out->position_rupture = sign * r->position_rupture * scale->half_width;
+  out->ruptured = c->layers.end != SB_LAYERS_FULL;
+  out->starved = isfinite(c->layers.meniscus);
+  out->friction_couette =
+      problem->viscosity * problem->speed * r->couette * scale->half_width / scale->film;
+  out->friction_poiseuille = sign * r->poiseuille * scale->film * scale->pressure;
+  out->solver.load_error = r->load_error;
+  out->solver.flux_error = r->flux_error;
+  if (out->ruptured && c->layers.end == SB_LAYERS_REFORM) {
+    sb_warn(&out->warnings, "film-cavity", "canister.pressure",
+            "the film breaks before the flooded outlet and forms again behind a cavity");
+  }
+}
+
+// Rounding in the films, relative: deflections of size one against the film.
+static double rounding(const SbReynoldsReading *r) {
+  return 1e-15 / fmin(1.0, r->film_min);
+}
+
+// Climbs the levels from a cold start. *levels is 0 when nothing was found.
+static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFilmSolver *solver,
+                      SbReynoldsCase *c, double supply, SbFilmSolverInfo *info,
+                      const SbFilmProblem *problem, SbReport *report) {
+  static const double RESIDUAL = 1e-11;
+  *which = 0;
+  *levels = 0;
+  int least = problem->tolerance >= 5e-3 ? LEVELS_LEAST - 1 : LEVELS_LEAST;
   for (int level = 0; level < LEVELS; level++) {
-    SbStatus status;
-    c.layers.degree = level_degree[level];
-    if (level == 0) {
-      status = sb_reynolds_start(&flooded, solver, &which, &c, supply, tolerance, info, problem);
-    } else {
-      status = sb_reynolds_refine(solver, &which, &c, tolerance, info, problem);
-    }
-    info->unknowns = (size_t)solver->mesh[which].dofs + 3;
+    bool flooded = true;
+    SbStatus status =
+        level == 0
+            ? sb_reynolds_start(&flooded, solver, which, c, supply, RESIDUAL, info, problem)
+            : sb_reynolds_refine(solver, which, c, level_degree[level], RESIDUAL, info, problem);
     if (status == SB_ERROR_INFEASIBLE) {
       return sb_fail(report, status,
                      "film: a starved inlet together with a cavity before a flooded outlet");
@@ -115,41 +132,104 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
       }
       return status;
     }
-    sb_reynolds_read(&reading[level], solver, which, &c);
-    levels = level + 1;
-    if (levels >= LEVELS_LEAST) {
-      estimate(info, reading, levels, noise + info->residual);
-      double worst = fmax(info->error_film_min, info->error_film_central);
-      if (worst <= 0.1 * problem->tolerance) {
-        break;
-      }
+    sb_reynolds_read(&reading[level], solver, *which, c);
+    *levels = level + 1;
+    if (*levels >= 2) {
+      estimate(info, reading, *levels, rounding(&reading[level]) + info->residual);
+    }
+    double worst = fmax(info->error_film_min, info->error_film_central);
+    if (*levels >= least && worst <= 0.1 * problem->tolerance) {
+      break;
     }
   }
-  const SbReynoldsReading *r = &reading[levels - 1];
-  bool forward = problem->speed >= 0.0;
-  double sign = forward ? 1.0 : -1.0;
-  out->film_min = r->film_min * scale->film;
-  out->film_central = r->film_central * scale->film;
-  out->film_flux = r->film_flux * scale->film;
-  out->flow = 0.5 * problem->speed * out->film_flux;
-  out->pressure_max = (r->pressure_max + c.rupture) * scale->pressure;
-  out->position_film_min = sign * r->position_min * scale->half_width;
-  out->position_rupture = sign * r->position_rupture * scale->half_width;
-  out->ruptured = c.layers.end != SB_LAYERS_FULL;
-  out->starved = !flooded;
-  out->friction_couette =
-      problem->viscosity * problem->speed * r->couette * scale->half_width / scale->film;
-  out->friction_poiseuille = sign * r->poiseuille * scale->film * scale->pressure;
-  if (r->pressure_min < -1e-3) {
-    out->valid = false;
-    sb_warn(&out->warnings, "film-cavity-inside", "canister.pressure",
-            "the pressure falls %.3g Pa below the rupture pressure inside the film",
-            -r->pressure_min * scale->pressure);
+  return SB_OK;
+}
+
+SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                           SbFilmSolver *solver, SbReport *report) {
+  double begin = seconds();
+  SbReynoldsCase c = scaled_case(problem, scale);
+  SbFilmSolverInfo *info = &out->solver;
+  // Refusals: no liquid at the inlet, or a film below what double precision resolves.
+  if (c.layers.inlet < 0.0) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE,
+                   "film: the inlet's pressure is below the rupture pressure: no liquid there");
   }
-  info->load_error = r->load_error;
-  info->flux_error = r->flux_error;
-  info->converged = true;
+  if (sb_layers_flux(&c.layers) < 1e-11) {
+    return sb_fail(report, SB_ERROR_RANGE,
+                   "film: M = %.3g: the film is below 1e-11 of b^2/R and lost in rounding; use the "
+                   "asymptotic model",
+                   scale->M);
+  }
+  if (scale->outlet < 0.0) {
+    sb_warn(&out->warnings, "film-outlet-vapour", "",
+            "the outlet's pressure is below the rupture pressure: it is taken to stay at that "
+            "pressure behind the contact");
+  }
+  if (scale->half_width > problem->radius) {
+    out->valid = false;
+    sb_warn(&out->warnings, "film-contact-wide", "seal.modulus",
+            "the contact's half-width is %.2g of the radius: no parabola on a half-plane",
+            scale->half_width / problem->radius);
+  }
+  // A supplied layer moves with the wall at the full speed, the flux film with half of it.
+  double supply = problem->inlet_film > 0.0 ? 2.0 * problem->inlet_film / scale->film : INFINITY;
+
+  SbReynoldsReading reading[LEVELS];
+  int levels = 0;
+  int which = 0;
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  bool warm =
+      solver->last.ready && solver->last.tolerance <= problem->tolerance && !isfinite(supply);
+  solver->last.ready = false;
+  if (warm) {
+    // The layers follow the case, so the error of the discretisation stays what it was.
+    which = solver->last.which;
+    c.layers.degree = solver->last.problem.layers.degree;
+    status = sb_reynolds_follow(solver, &which, &solver->last.problem, &c, 1e-11, info, problem);
+    if (status == SB_ERROR_CANCELLED) {
+      return sb_fail(report, status, "film: cancelled");
+    }
+    if (status == SB_OK) {
+      sb_reynolds_read(&reading[0], solver, which, &c);
+      levels = 1;
+      double noise = rounding(&reading[0]) + info->residual;
+      info->error_film_min = solver->last.error[0] + noise;
+      info->error_film_central = solver->last.error[1] + noise;
+      info->error_film_flux = solver->last.error[2] + noise;
+    }
+    c.layers.degree = status == SB_OK ? c.layers.degree : level_degree[0];
+  }
+  if (levels == 0) {
+    status = climb(reading, &levels, &which, solver, &c, supply, info, problem, report);
+    if (levels == 0) {
+      return status;
+    }
+    if (levels == 1) {
+      info->error_film_min = info->error_film_central = info->error_film_flux = 1.0;
+    }
+  }
+
+  // The tolerance decides, whether or not the last level was reached.
+  const SbReynoldsReading *r = &reading[levels - 1];
+  fill(out, problem, scale, &c, r);
+  info->unknowns = (size_t)solver->mesh[which].dofs + 3;
+  info->converged = fmax(info->error_film_min, info->error_film_central) <= problem->tolerance;
+  if (info->converged) {
+    solver->last.ready = true;
+    solver->last.which = which;
+    solver->last.problem = c;
+    solver->last.tolerance = problem->tolerance;
+    solver->last.error[0] = info->error_film_min;
+    solver->last.error[1] = info->error_film_central;
+    solver->last.error[2] = info->error_film_flux;
+    status = sb_succeed(report);
+  } else if (status == SB_OK) {
+    status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                     "film: estimated error %.2g, above the tolerance, on the finest mesh",
+                     fmax(info->error_film_min, info->error_film_central));
+  }
   info->wall_s = seconds() - begin;
-  sb_reynolds_profile(out, solver, which, &c, scale, forward);
-  return sb_succeed(report);
+  sb_reynolds_profile(out, solver, which, &c, scale, problem->speed >= 0.0);
+  return status;
 }

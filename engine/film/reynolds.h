@@ -48,6 +48,15 @@ struct SbFilmSolver {
   double *column; // derivative to the free end
   double *gaps;   // at all targets
   int *pivot;
+
+  // The last solution, for warm starts.
+  struct {
+    bool ready;
+    int which;
+    SbReynoldsCase problem;
+    double tolerance; // that it met
+    double error[3];  // minimum, centre, flux
+  } last;
 };
 
 // Storage; false when out of memory.
@@ -82,9 +91,16 @@ SbStatus sb_reynolds_start(bool *flooded, SbFilmSolver *solver, int *which, SbRe
                            double flux, double tolerance, SbFilmSolverInfo *info,
                            const SbFilmProblem *callback);
 
-// Solves on the next degree from the solution in mesh/state *which, moving the free end last.
-SbStatus sb_reynolds_refine(SbFilmSolver *solver, int *which, SbReynoldsCase *problem,
+// Solves on another degree from the solution in mesh/state *which, moving a free end last. On
+// failure the old solution and case stand.
+SbStatus sb_reynolds_refine(SbFilmSolver *solver, int *which, SbReynoldsCase *problem, int degree,
                             double tolerance, SbFilmSolverInfo *info,
+                            const SbFilmProblem *callback);
+
+// Solves a case near the one whose solution is in mesh/state *which, on the same degree. Anything
+// but SB_OK asks for a cold start; the old solution stands.
+SbStatus sb_reynolds_follow(SbFilmSolver *solver, int *which, const SbReynoldsCase *old,
+                            const SbReynoldsCase *problem, double tolerance, SbFilmSolverInfo *info,
                             const SbFilmProblem *callback);
 
 // The whole solve.
