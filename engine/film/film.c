@@ -60,7 +60,9 @@ void sb_film_solver_destroy(SbFilmSolver *solver) {
   }
 }
 
-void sb_film_solver_forget(SbFilmSolver *solver) {}
+void sb_film_solver_forget(SbFilmSolver *solver) {
+  solver->last.ready = false;
+}
 
 // Ranges wide enough for every seal and narrow enough that nothing overflows.
 static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
@@ -154,9 +156,9 @@ void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale 
   out->lambda = scale->lambda;
   // Moes: below about 0.5 the deformation hardly matters, above about 20 the Hertz contact stands.
   const char *regime = scale->U <= 0.0   ? "dry"
-                       : scale->M < 0.5  ? "rigid-isoviscous"
+                       : scale->M < 0.5  ? "isoviscous-rigid"
                        : scale->M < 20.0 ? "transition"
-                                         : "elastic-isoviscous";
+                                         : "isoviscous-elastic";
   strncpy(out->regime, regime, sizeof out->regime - 1);
   out->valid = true;
 }
@@ -178,10 +180,11 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
   }
   SbFilmScale scale = sb_film_scale(problem);
   sb_film_begin(out, problem, &scale);
-  if (scale.kappa <= 0.0) {
+  if (scale.kappa <= 0.02 || scale.kappa >= 1.98) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "canister.pressure",
-                             "film: the inlet pressure exceeds the outlet's by more than pi times "
-                             "the Hertz pressure and opens the contact");
+                             "film: the end pressures differ by %.3g of the Hertz pressure; near "
+                             "pi they open the contact",
+                             fabs(scale.inlet - scale.outlet));
   }
   if (scale.U <= 0.0) {
     status = sb_film_solve_dry(out, problem, &scale, report);
@@ -190,6 +193,7 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
     case SB_FILM_KARASZKIEWICZ:
     case SB_FILM_THESIS:
     case SB_FILM_ASYMPTOTIC:
+    case SB_FILM_MOES:
       status = sb_film_solve_law(out, problem, &scale, report);
       break;
     case SB_FILM_REYNOLDS: {

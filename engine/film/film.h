@@ -10,6 +10,7 @@
 //   karaszkiewicz  H* = 4.4 U^0.65 W^-0.21, thesis eq. 7.6 (= 5.5)
 //   thesis         H* = 1.492 U^0.5434 W^-0.2893, thesis eq. 7.5
 //   asymptotic     exact thin-film limit, h_min = 3.00434 R U^0.6 W^-0.2, h_flux = 3.77334 ...
+//   moes           blend of the rigid and the elastic limit, fitted to our own solutions
 //
 // with U = eta (u/2) / (E' R) and W = load / (E' R): u is the sliding speed, u/2 the entrainment.
 //
@@ -28,7 +29,8 @@
   X(SB_FILM_INVERSE, "inverse", "Blok's inverse film of a smooth dry pressure")                    \
   X(SB_FILM_KARASZKIEWICZ, "karaszkiewicz", "power law of Karaszkiewicz, thesis eq. 7.6")          \
   X(SB_FILM_THESIS, "thesis", "power law of the thesis, eq. 7.5")                                  \
-  X(SB_FILM_ASYMPTOTIC, "asymptotic", "exact limit of thin films on a half-plane")
+  X(SB_FILM_ASYMPTOTIC, "asymptotic", "exact limit of thin films on a half-plane")                 \
+  X(SB_FILM_MOES, "moes", "blend of the rigid and the elastic limit")
 
 typedef enum {
 #define SB_FILM_MODEL_ENUM(model, name, help) model,
@@ -37,7 +39,7 @@ typedef enum {
       SB_FILM_MODEL_COUNT
 } SbFilmModel;
 
-enum { SB_FILM_POINTS = 1200 }; // capacity of a profile
+enum { SB_FILM_POINTS = 1800 }; // capacity of a profile
 
 // What to solve. Start from sb_film_problem_init(): every option off.
 typedef struct {
@@ -104,7 +106,7 @@ typedef struct {
   double moes_W;              // W = load / (E' R)
   double lambda;              // 3 pi^2 U / (4 W^2) = (3 pi^2 / 8) / M^2
   double expected_error;      // relative error of the model itself in the flux film, 0 = exact
-  char regime[48];            // "dry", "rigid-isoviscous", "transition", "elastic-isoviscous", ...
+  char regime[48];            // "dry", "isoviscous-rigid", "transition", "isoviscous-elastic"
   bool valid;                 // false: outside the model's range, see warnings
   SbWarnings warnings;
   SbFilmSolverInfo solver;

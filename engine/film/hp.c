@@ -391,8 +391,8 @@ bool sb_hp_mesh_add(SbHpMesh *mesh, SbHpMap map, double x0, double x1, double A,
                     bool apart) {
   int shared = mesh->count > 0 && !apart ? 1 : 0;
   int points = degree + (map == SB_HP_INLET || map == SB_HP_OUTLET ? 1 : 0);
-  if (mesh->count >= SB_HP_ELEMENTS_MAX || mesh->dofs - shared + degree + 1 > SB_HP_DOFS_MAX ||
-      mesh->rows + points > SB_HP_DOFS_MAX) {
+  if (degree > SB_HP_DEGREE_MAX || mesh->count >= SB_HP_ELEMENTS_MAX ||
+      mesh->dofs - shared + degree + 1 > SB_HP_DOFS_MAX || mesh->rows + points > SB_HP_DOFS_MAX) {
     return false;
   }
   SbHpElement *e = &mesh->element[mesh->count++];

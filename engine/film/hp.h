@@ -9,7 +9,7 @@
 #include <stddef.h>
 
 enum {
-  SB_HP_DEGREE_MAX = 16,
+  SB_HP_DEGREE_MAX = 18,
   SB_HP_ELEMENTS_MAX = 40,
   SB_HP_DOFS_MAX = 420, // nodal pressures
   SB_HP_EXTRA = 4,      // room for the unknowns beside the pressures

@@ -5,6 +5,7 @@
 //   Tables 7.9, 7.10 asymptotic     h_min = 3.00434 R U^0.6 W^-0.2, h_flux = 3.77334 R U^0.6
 //   W^-0.2: exact as M grows
 //                  (reference/ehl.md), with the end pressures' factor kappa^-0.8
+//   moes           blend of that limit and the rigid wedge's, for every M
 //
 // The two power laws know one film only, reported as minimum, central and flux film alike. The
 // profile is Hertz's dry pressure and gap raised by the film; friction is that of the flat film.
@@ -15,12 +16,22 @@
 #include <math.h>
 #include <string.h>
 
-// Films of the exact limits over R, and their blend, as functions of the flux film.
-static double blended_flux(const SbFilmScale *scale) {
-  double rigid = 4.894968 * 1.225748 * scale->U / scale->W;
-  double elastic = 3.77334 * pow(scale->U, 0.6) * pow(scale->W, -0.2);
-  // The exponent 1.4 keeps the blend within 3 % of the solved films from M = 1 to 1e4.
-  return pow(pow(rigid, 1.4) + pow(elastic, 1.4), 1.0 / 1.4);
+// Blend of the rigid and the elastic limit: (rigid^s + elastic^s)^(1/s).
+static double blend(double rigid, double elastic, double s) {
+  return pow(pow(rigid, s) + pow(elastic, s), 1.0 / s);
+}
+
+// Moes-type blend with exponents fitted to our own solutions from M = 0.1 to 1e6: minimum and flux
+// within 2 %, centre within 5 % (checked by the tests). Films over R.
+static void blended(double *minimum, double *central, double *flux, const SbFilmScale *scale) {
+  double M = scale->M;
+  double rigid = 4.894968 * scale->U / scale->W;
+  double elastic = pow(scale->U, 0.6) * pow(scale->W, -0.2);
+  double s = 1.25 + 1.35 / (1.0 + 0.52 * M);
+  double kappa = pow(scale->kappa, -0.8);
+  *minimum = kappa * blend(rigid, 3.00434 * elastic, s);
+  *flux = kappa * blend(1.225748 * rigid, 3.77334 * elastic, s);
+  *central = kappa * blend(rigid, 3.77334 * elastic, 1.2 + 1.9 / (1.0 + 0.55 * pow(M, 1.6)));
 }
 
 // Dry pressure and gap on points dense at both edges, the gap raised by `film`.
@@ -70,6 +81,11 @@ SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFi
     out->position_film_min = direction * width * (1.0 - 0.17041 * layer);
     out->position_rupture = direction * width * (1.0 + 0.16406 * layer);
     out->ruptured = scale->outlet <= 0.0;
+  } else if (problem->model == SB_FILM_MOES) {
+    blended(&out->film_min, &out->film_central, &out->film_flux, scale);
+    out->film_min *= R;
+    out->film_central *= R;
+    out->film_flux *= R;
   } else {
     bool thesis = problem->model == SB_FILM_THESIS;
     double H =
@@ -84,8 +100,10 @@ SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFi
     }
   }
 
-  // How far the law is from the exact limits: its expected error.
-  double expected = fabs(out->film_flux / R / blended_flux(scale) / pow(scale->kappa, -0.8) - 1.0);
+  // How far the law is from the blend, which is good to a few per cent: its expected error.
+  double minimum, central, flux;
+  blended(&minimum, &central, &flux, scale);
+  double expected = fabs(out->film_flux / R / flux - 1.0) + 0.02;
   out->expected_error = expected;
   if (expected > 0.1) {
     out->valid = false;
@@ -93,7 +111,8 @@ SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFi
             "model %s is about %.0f %% from the solved film here",
             sb_film_model_name(problem->model), 100.0 * expected);
   }
-  if (problem->model != SB_FILM_ASYMPTOTIC && (scale->inlet > 0.0 || scale->outlet > 0.0)) {
+  if ((problem->model == SB_FILM_THESIS || problem->model == SB_FILM_KARASZKIEWICZ) &&
+      (scale->inlet > 0.0 || scale->outlet > 0.0)) {
     sb_warn(&out->warnings, "film-law-pressure", "models.film",
             "the power law knows end pressures only through the load");
   }

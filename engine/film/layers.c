@@ -192,17 +192,17 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
   }
   right[rights++] = full ? edge : rupture_guess(l);
 
-  // Inlet and its layer.
+  // Inlet and its layer: higher degree, as the flux there is a small difference.
   if (isfinite(l->meniscus)) {
     if (!add_meniscus(mesh, l, in, left[lefts - 1])) {
       return false;
     }
   } else {
-    if (!sb_hp_mesh_add(mesh, SB_HP_INLET, 0.0, left[0], -1.0 + 0.5 * in, l->degree + 2, false)) {
+    if (!sb_hp_mesh_add(mesh, SB_HP_INLET, 0.0, left[0], -1.0 + 0.5 * in, l->degree + 4, false)) {
       return false;
     }
     for (int i = 1; i < lefts; i++) {
-      if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, left[i - 1], left[i], 0.0, l->degree + 2, false)) {
+      if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, left[i - 1], left[i], 0.0, l->degree + 4, false)) {
         return false;
       }
     }

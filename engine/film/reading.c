@@ -293,7 +293,13 @@ void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
                          const SbReynoldsCase *problem, const SbFilmScale *scale, bool forward) {
   const SbHpMesh *mesh = &solver->mesh[which];
   const SbReynoldsState *state = &solver->state[which];
-  size_t per = (SB_FILM_POINTS - 8) / (size_t)mesh->count;
+  // Two thirds of the points go to the elements alike, a third to the contact's inside by its
+  // angle.
+  double angle = 0.0;
+  for (int i = 0; i < mesh->count; i++) {
+    angle += mesh->element[i].map == SB_HP_COSINE ? mesh->element[i].h : 0.0;
+  }
+  int alike = (SB_FILM_POINTS - 8) * (angle > 0.0 ? 2 : 3) / 3 / mesh->count;
   // The inlet is followed until the load left out is below 1e-6 of the whole, at least three
   // half-widths.
   double reach = fmax(3.0, sqrt(2.0 / 3.0 * problem->layers.lambda / (0.5 * M_PI * 1e-6)));
@@ -307,10 +313,15 @@ void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
     } else if (e->map == SB_HP_OUTLET) {
       end = coordinate(e, 1.0 + reach);
     }
+    size_t per = (size_t)alike;
+    if (e->map == SB_HP_COSINE) {
+      per += (size_t)((SB_FILM_POINTS / 3 - 8) * e->h / angle);
+    }
     bool joined = i > 0 && !e->apart;
     for (size_t k = joined ? 1 : 0; k <= per; k++) {
-      // Denser at the ends of the element, as its polynomials are.
-      double s = -cos(M_PI * (double)k / (double)per);
+      // Denser at the ends of the element, as its polynomials are; even in the angle inside.
+      double even = -1.0 + 2.0 * (double)k / (double)per;
+      double s = even;
       double r = begin + (end - begin) * 0.5 * (1.0 + s);
       double X = sb_hp_position(e, r);
       double P = sb_hp_pressure(mesh, &solver->tables, e, state->nodal, r) + problem->rupture;
