@@ -264,10 +264,11 @@ void sb_section_draw_strip(SbSection *section) {
 // row above them.
 typedef struct {
   double margin, top, legend_width, inset_top, inset_height;
-  bool insets, column;
+  bool insets, column, stacked;
 } Layout;
 
-static const double COLUMN_LEAST = 860, LEGENDS = 232, COLUMN_GAP = 48, SCALE_ROW = 34;
+static const double COLUMN_LEAST = 860, LEGENDS = 232, COLUMN_GAP = 48, SCALE_ROW = 34,
+                    STACK_GAP = 46;
 
 // One seal's surroundings, from below the groove floor to above the land.
 static void lay_out_zoom(SbSection *section, const Layout *layout, double bottom) {
@@ -307,13 +308,20 @@ static void lay_out(SbSection *section, Layout *layout) {
   double right = valve->end + RIGHT_ROOM * model->bore_diameter;
   double scale = (strip_width - left_room) / (right - left);
   double radius = TOP * model->bore_diameter;
-  // A low picture gives the insets at least 130 px of the strip's height, then none.
+  // A low picture gives the insets at least 130 px of the strip's height, then none. A high narrow
+  // one stacks them, and what it cannot use stays free below.
   double titles = layout->column ? 22 : 82, gap = 30;
   double room = bottom - layout->top;
   layout->insets = !view->hide_insets && room >= 330;
   if (layout->insets) {
     scale = MIN(scale, (room - gap - titles - 130) / radius);
-    layout->inset_height = MIN(room - radius * scale - gap - titles, 320);
+    double height = room - radius * scale - gap - titles;
+    double most = 0.62 * strip_width;
+    layout->stacked = !layout->column && height > 1.2 * most;
+    layout->inset_height = layout->stacked ? MIN((height - STACK_GAP) / 2, most)
+                                           : MIN(height, layout->column ? 320 : most);
+    double used = layout->stacked ? 2 * layout->inset_height + STACK_GAP : layout->inset_height;
+    bottom -= layout->column ? 0 : height - used;
   } else {
     scale = MAX(MIN(scale, (room - (layout->column ? 100 : titles)) / radius), 1 / radius);
   }
@@ -341,11 +349,16 @@ void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *
   sb_section_draw_strip(section);
   double x = layout.margin + (layout.column ? layout.legend_width + COLUMN_GAP : 0);
   double gap = 24;
-  double each = (view->width - layout.margin - x - gap) / 2;
+  double width = view->width - layout.margin - x;
+  double each = layout.stacked ? width : (width - gap) / 2;
   SbDrawRect pressure = {(float)x, (float)layout.inset_top, (float)each,
                          (float)layout.inset_height};
-  SbDrawRect film = {(float)(x + each + gap), (float)layout.inset_top, (float)each,
-                     (float)layout.inset_height};
+  SbDrawRect film = pressure;
+  if (layout.stacked) {
+    film.y += (float)(layout.inset_height + STACK_GAP);
+  } else {
+    film.x += (float)(each + gap);
+  }
   // The leader goes below the labels, which keep off it.
   if (layout.insets) {
     sb_section_draw_leader(section, &pressure, &film);

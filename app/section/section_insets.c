@@ -101,13 +101,19 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
   if (profile != NULL && profile->count > 1 && contact) {
     SbDrawPoint points[CURVE_MAX + 2];
     size_t count = curve(inset, profile, profile->pressure, bore, px, bore, points + 1);
-    // Fluid's part outside the contact in the fluid's colour, the contact's in the seal's.
+    // Outside the contact as far as the pressure is the fluid's it is drawn in the fluid's colour;
+    // a film's inlet belongs to the seal.
     SbDrawPoint *first = points + 1;
+    double near = 0.01 * section->limits.pressure_max * px;
+    double left_y = bore - (double)frame->pressure_left * px;
+    double right_y = bore - (double)frame->pressure_right * px;
     size_t begin = 0, end = count;
-    while (begin + 1 < count && first[begin].x < left_px - 0.3) {
+    while (begin + 1 < count && (double)first[begin].x < left_px - 0.3 &&
+           fabs((double)first[begin + 1].y - left_y) < near) {
       begin++;
     }
-    while (end > begin + 1 && first[end - 1].x > right_px + 0.3) {
+    while (end > begin + 1 && (double)first[end - 1].x > right_px + 0.3 &&
+           fabs((double)first[end - 2].y - right_y) < near) {
       end--;
     }
     SbDrawPoint *from = first + begin;
@@ -121,6 +127,8 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
     from[-1] = before;
     first[end] = after;
     sb_draw_stroke(list, from, inside, 2.4, palette->seal[seal]);
+    left_px = fmin(left_px, (double)from[0].x);
+    right_px = fmax(right_px, (double)from[inside - 1].x);
   }
   const double side[2][3] = {{rect->x, left_px, sb_seal_step_left(frame)},
                              {right_px, rect->x + rect->width, sb_seal_step_right(frame)}};
@@ -145,6 +153,8 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
   }
 
   // Peak, and the contact's width.
+  left_px = inset_x(inset, frame->contact_left);
+  right_px = inset_x(inset, frame->contact_right);
   if (contact) {
     double peak_x = (left_px + right_px) / 2;
     if (profile != NULL) {
@@ -220,8 +230,15 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
   char text[192], value[SB_SECTION_NUMBER];
 
   sb_draw_clip(list, rect);
-  double split =
-      contact ? CLAMP(inset_x(inset, frame->contact_right), rect->x, right) : rect->x + rect->width;
+  // The fluid changes where the film ends: at the contact's edge, or where a solved film opens.
+  double film_end = frame->contact_right;
+  for (size_t i = profile != NULL ? profile->count : 0; i-- > 0;) {
+    if (profile->film[i] > 0 && profile->film[i] < 2 * frame->film_central) {
+      film_end = fmax(film_end, profile->x[i]);
+      break;
+    }
+  }
+  double split = contact ? CLAMP(inset_x(inset, film_end), (double)rect->x, right) : right;
   sb_draw_rect(list, rect->x, bore, split - rect->x, low - bore,
                sb_palette_fluid(palette, frame->pressure_left))
       ->feather = false;
@@ -239,12 +256,20 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     SbDrawPoint points[CURVE_MAX + 2];
     size_t count = curve(inset, profile, profile->film, bore, -px, low + 40, points);
     if (count > 1) {
-      points[count] = (SbDrawPoint){points[count - 1].x, (float)(low + 40)};
+      // A solved film ends where it ruptures; beyond, the gap opens by micrometres: a vertical
+      // here.
+      SbDrawPoint last = points[count - 1];
+      bool rupture = (double)last.y < low && last.x < (float)right;
+      points[count] = (SbDrawPoint){last.x, (float)(low + 40)};
       points[count + 1] = (SbDrawPoint){points[0].x, (float)(low + 40)};
       sb_draw_fill(list, points, count + 2,
                    sb_draw_mix(palette->panel, palette->seal[seal], palette->dark ? 0.24 : 0.22))
           ->feather = false;
-      sb_draw_stroke(list, points, count, 2.4, palette->seal[seal]);
+      sb_draw_stroke(list, points, rupture ? count + 1 : count, 2.4, palette->seal[seal]);
+      if (rupture) {
+        sb_draw_disc(list, last.x, last.y, 4.6, palette->panel);
+        sb_draw_disc(list, last.x, last.y, 3.2, palette->seal[seal]);
+      }
       body_top = bore + frame->film_central * px;
     }
   } else if (contact) {
@@ -302,18 +327,31 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     sb_section_film(value, frame->film_central);
     sb_section_film(least, frame->film_min);
     snprintf(text, sizeof text, "centre %s, least %s", value, least);
+    bool narrow = sb_text_width(section->text, text, 12, 600) > split - left_edge - 12;
+    if (narrow) {
+      snprintf(text, sizeof text, "centre %s", value);
+      sb_draw_text(list, x, y, 12, 600, centre, palette->ink, text);
+      y += 17;
+      snprintf(text, sizeof text, "least %s", least);
+    }
     sb_draw_text(list, x, y, 12, 600, centre, palette->ink, text);
-    snprintf(text, sizeof text, "radial scale \xc3\x97 %s of axial",
-             sb_section_two_digits(value, px / inset->scale));
+    sb_section_two_digits(value, px / inset->scale);
+    if (narrow) {
+      sb_draw_text(list, x, y + 18, 12, 400, centre, palette->ink, "radial scale");
+      y += 17;
+      snprintf(text, sizeof text, "\xc3\x97 %s of axial", value);
+    } else {
+      snprintf(text, sizeof text, "radial scale \xc3\x97 %s of axial", value);
+    }
     sb_draw_text(list, x, y + 18, 12, 400, centre, palette->ink, text);
     char sigma[SB_SECTION_NUMBER];
     snprintf(text, sizeof text, "roughness \xcf\x83 %s %s is not drawn",
              sb_section_significant(sigma, section->model.sigma * 1e6), "\xc2\xb5m");
-    if (y + 40 < floor) {
+    if (y + 40 < floor && !narrow) {
       sb_draw_text(list, x, y + 35, 11, 400, centre, palette->second, text);
     }
     double share = asperity_share(profile, frame);
-    if (share > 0 && y + 58 < floor) {
+    if (share > 0 && y + 58 < floor && !narrow) {
       snprintf(text, sizeof text, "asperities carry %s %% of the load",
                sb_section_fixed(value, 100 * share, share > 0.1 ? 0 : 1));
       sb_draw_text(list, x, y + 52, 11, 400, centre, palette->second, text);
@@ -349,7 +387,8 @@ void sb_section_draw_leader(SbSection *section, const SbDrawRect *pressure,
       CLAMP((double)middle.x - width / 2, (double)section->strip.x, strip_right - width);
   double box_top = (double)middle.y - above;
   sb_draw_round_frame(section->list, box_left, box_top, width, height + above, 3, 1.4, colour);
-  double bottom = (double)(pressure->y + pressure->height);
+  bool stacked = film->y > pressure->y;
+  double bottom = (double)(film->y + film->height);
   double elbow = (bottom + (double)section->strip.y) / 2 + 1;
   double from = (double)(pressure->x + pressure->width / 2);
   double to = (double)(film->x + film->width / 2);
@@ -358,7 +397,12 @@ void sb_section_draw_leader(SbSection *section, const SbDrawRect *pressure,
                                   {(float)from, (float)elbow},
                                   {(float)to, (float)elbow},
                                   {(float)to, (float)bottom}};
-  sb_draw_stroke(section->list, bracket, 4, 1.2, colour);
+  if (stacked) {
+    from = to;
+    sb_draw_stroke(section->list, bracket + 2, 2, 1.2, colour);
+  } else {
+    sb_draw_stroke(section->list, bracket, 4, 1.2, colour);
+  }
   if (drop < from || drop > to) {
     sb_draw_line(section->list, drop < from ? from : to, elbow, drop, elbow, 1.2, colour);
   }

@@ -26,7 +26,7 @@ static bool place(SbSection *section, const double (*at)[2], size_t count,
   return false;
 }
 
-// "Canister 0.55 MPa" and its likes: a bold name, the value behind it or below.
+// "Canister 0.55 MPa" and its likes: a bold name, the value behind it or below. Gives way.
 static void name_and_pressure(SbSection *section, double x, double y, const char *name,
                               double pressure, bool below) {
   const SbPalette *palette = section->palette;
@@ -34,11 +34,14 @@ static void name_and_pressure(SbSection *section, double x, double y, const char
   SbSectionLabel bold = label_style(palette->ink, 600, SB_ALIGN_LEFT, NULL);
   SbSectionLabel plain = label_style(palette->ink, 400, SB_ALIGN_LEFT, NULL);
   sb_section_megapascal(value, pressure);
-  double width = sb_section_label(section, x, y, &bold, name);
-  if (below) {
-    sb_section_label(section, x, y + 17, &plain, value);
-  } else {
-    sb_section_label(section, x + width + 6, y, &plain, value);
+  const double at[1][2] = {{x, y}};
+  if (!place(section, at, 1, &bold, name)) {
+    return;
+  }
+  double width = sb_text_width(section->text, name, bold.size, bold.weight);
+  const double behind[1][2] = {{below ? x : x + width + 6, below ? y + 17 : y}};
+  if (below || sb_section_label_fits(section, x + width + 10, y, &plain, value, NULL)) {
+    sb_section_label(section, behind[0][0], behind[0][1], &plain, value);
   }
 }
 
@@ -47,20 +50,24 @@ static void draw_regions(SbSection *section) {
   const SbFrame *frame = section->instant->frame;
   const SbValve *valve = &section->valve;
   const SbDrawRect *strip = &section->strip;
-  double top = strip->y + 22;
-  name_and_pressure(section, strip->x + 12, top, "Canister", frame->seal[SB_INNER].pressure_left,
-                    false);
-  double end = sb_section_at(section, valve->end, 0).x;
-  name_and_pressure(section, end + 10, top, "Ambient", frame->seal[SB_OUTER].pressure_right, true);
+  double top = (double)strip->y + 22;
+  name_and_pressure(section, (double)strip->x + 12, top, "Canister",
+                    (double)frame->seal[SB_INNER].pressure_left, false);
+  double end = (double)sb_section_at(section, valve->end, 0).x;
+  name_and_pressure(section, end + 10, top, "Ambient", (double)frame->seal[SB_OUTER].pressure_right,
+                    true);
 
-  double vent = sb_section_at(section, valve->vent_left, 0).x;
-  double housing_x = valve->vent_right > valve->vent_left ? vent - 12 : end - 50;
+  bool has_vent = valve->vent_right > valve->vent_left;
+  double vent = (double)sb_section_at(section, valve->vent_left, 0).x;
+  double vent_end = (double)sb_section_at(section, valve->vent_right, 0).x;
   SbSectionLabel style = label_style(palette->ink, 600, SB_ALIGN_RIGHT, &palette->housing);
-  sb_section_label(section, housing_x, top, &style, "Housing");
-  if (valve->vent_right > valve->vent_left) {
-    SbSectionLabel small = label_style(palette->second, 400, SB_ALIGN_LEFT, &palette->housing);
-    sb_section_label(section, sb_section_at(section, valve->vent_right, 0).x + 10, top, &small,
-                     "vent");
+  const double housing[1][2] = {{has_vent ? vent - 12 : end - 50, top}};
+  place(section, housing, 1, &style, "Housing");
+  SbSectionLabel small = label_style(palette->second, 400, SB_ALIGN_LEFT, &palette->housing);
+  double room = end - vent_end - 16;
+  if (has_vent && sb_text_width(section->text, "vent", 12, 400) < room) {
+    const double at[1][2] = {{vent_end + 10, top}};
+    place(section, at, 1, &small, "vent");
   }
 
   // The chamber, in the fluid between the stem's lands.
@@ -71,11 +78,15 @@ static void draw_regions(SbSection *section) {
   double depth = (valve->bore - valve->chamber_floor) * section->scale;
   SbSectionLabel bold = label_style(palette->ink, 600, SB_ALIGN_CENTRE, NULL);
   SbSectionLabel plain = label_style(palette->ink, 400, SB_ALIGN_CENTRE, NULL);
-  if (depth > 38) {
-    sb_section_label(section, chamber.x, chamber.y + 1, &bold, "Chamber");
-    sb_section_label(section, chamber.x, chamber.y + 17, &plain, value);
-  } else if (depth > 18) {
-    sb_section_label(section, chamber.x, chamber.y + 6, &bold, "Chamber");
+  double length = section->model.shape.chamber_length * section->scale;
+  if (length > 1.3 * sb_text_width(section->text, "Chamber", 12, 600)) {
+    const double high[1][2] = {{(double)chamber.x, (double)chamber.y + 1}};
+    const double middle[1][2] = {{(double)chamber.x, (double)chamber.y + 6}};
+    if (depth > 38 && place(section, high, 1, &bold, "Chamber")) {
+      sb_section_label(section, (double)chamber.x, (double)chamber.y + 17, &plain, value);
+    } else if (depth > 18) {
+      place(section, middle, 1, &bold, "Chamber");
+    }
   }
 }
 
@@ -173,7 +184,7 @@ static void draw_stem_forces(SbSection *section) {
   const SbFrame *frame = section->instant->frame;
   const SbDrawRect *strip = &section->strip;
   double axis = strip->y + strip->height;
-  double y = axis - 40;
+  double y = axis - fmin(40, 0.45 * section->valve.rod * section->scale);
   char text[80], value[SB_SECTION_NUMBER];
 
   double nose = sb_section_at(section, section->valve.nose - frame->displacement, 0).x;
@@ -183,6 +194,7 @@ static void draw_stem_forces(SbSection *section) {
     snprintf(text, sizeof text, "pressure %s", sb_section_force(value, frame->pressure_force));
     SbSectionLabel style = {13, 700, SB_ALIGN_LEFT, palette->fluid_line, &palette->stem};
     sb_section_label(section, nose + 10, y + 5, &style, text);
+    sb_section_reserve(section, nose - length, y - 8, length, 16);
   }
 
   double right = strip->x + strip->width - 10;
@@ -216,7 +228,9 @@ static void draw_motion(SbSection *section) {
   double middle = sb_section_at(section, section->valve.chamber - frame->displacement, 0).x;
   SbSectionLabel bold = label_style(palette->ink, 600, SB_ALIGN_CENTRE, &palette->stem);
   const double at[2][2] = {{middle, axis - 52}, {middle + 60, axis - 52}};
-  place(section, at, 2, &bold, "Stem");
+  if (axis - 52 > (double)sb_section_at(section, 0, section->valve.floor).y + 16) {
+    place(section, at, 2, &bold, "Stem");
+  }
   double speed = fabs(frame->velocity) * 1e3;
   if (speed < 1e-9) {
     return;
@@ -367,23 +381,20 @@ static void draw_zoom(SbSection *section) {
 void sb_section_draw_strip_labels(SbSection *section) {
   bool whole = section->view->zoom == SB_SECTION_WHOLE;
   bool labels = !section->view->hide_labels, forces = !section->view->hide_forces;
-  if (labels && whole) {
-    draw_regions(section);
-    draw_land_edge(section);
-  }
+  // In the order of their right to stay.
   if (forces && whole) {
     draw_stem_forces(section);
   }
   if (forces) {
     draw_friction(section);
   }
-  if (labels && whole) {
-    draw_dose_path(section);
-  }
   if (labels) {
     draw_seal_names(section);
   }
   if (labels && whole) {
+    draw_regions(section);
+    draw_land_edge(section);
+    draw_dose_path(section);
     draw_motion(section);
   } else if (labels) {
     draw_zoom(section);
