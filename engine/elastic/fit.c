@@ -183,11 +183,11 @@ static SbStatus solve_model(SbFit *out, const SbFitProblem *in, SbReport *report
     return sb_fit_disc(out, in, report);
   case SB_FIT_RING:
     return sb_fit_ring(out, in, report);
-  default:
-    return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
-                             "the contact model %s is not in this build",
-                             sb_fit_model_name(in->model));
+  case SB_FIT_MODEL_COUNT:
+    break;
   }
+  return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit", "there is no contact model %d",
+                           (int)in->model);
 }
 
 static double seconds_since(const struct timespec *start) {
@@ -207,6 +207,7 @@ SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report)
   fill_sizes(out, problem);
   status = solve_model(out, problem, report);
   judge_validity(out);
+  out->valid = out->valid && status == SB_OK;
   out->solver.wall_s = seconds_since(&start);
   return status == SB_OK ? sb_succeed(report) : status;
 }
