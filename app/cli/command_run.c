@@ -22,6 +22,8 @@ static void print_seal(const char *name, const SbSealSummary *seal) {
   sb_cli_figure("Friction, static", seal->friction_static, "N", "N");
   sb_cli_figure("Coefficient of friction", seal->coefficient_of_friction, "1", "");
   sb_cli_figure("Leakage per stroke", seal->leakage_per_stroke, "m3", "nl");
+  sb_cli_figure("Leak at rest", seal->leakage_static, "m3/s", "nl/s");
+  sb_cli_figure("Closed at a pressure of", seal->closing_pressure, "Pa", "MPa");
 }
 
 static void print_table(const SbDocument *document, const SbRun *run) {

@@ -11,7 +11,8 @@ static void put(FILE *stream, double value, char end) {
 
 void sb_csv_cycle(FILE *stream, const SbRun *run) {
   fputs("time [s],displacement [m],velocity [m/s],force [N],pressure_force [N],"
-        "friction_inner [N],friction_outer [N],platen [m],stop_force [N],stage,on_event,"
+        "friction_inner [N],friction_outer [N],platen [m],stop_force [N],spring_force [N],"
+        "stage,on_event,"
         "load_inner [N],load_outer [N],film_central_inner [m],film_central_outer [m],"
         "land_fraction_inner [1],land_fraction_outer [1]\n",
         stream);
@@ -21,9 +22,10 @@ void sb_csv_cycle(FILE *stream, const SbRun *run) {
     const SbFrame *frame = &frames[i];
     const SbSealFrame *inner = &frame->seal[SB_INNER];
     const SbSealFrame *outer = &frame->seal[SB_OUTER];
-    const double before[] = {frame->time,     frame->displacement,   frame->velocity,
-                             frame->force,    frame->pressure_force, inner->friction,
-                             outer->friction, frame->platen,         frame->stop_force};
+    const double before[] = {frame->time,        frame->displacement,   frame->velocity,
+                             frame->force,       frame->pressure_force, inner->friction,
+                             outer->friction,    frame->platen,         frame->stop_force,
+                             frame->spring_force};
     for (size_t k = 0; k < sizeof before / sizeof before[0]; k++) {
       put(stream, before[k], ',');
     }

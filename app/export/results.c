@@ -86,6 +86,9 @@ static void put_seal(SbJson *json, const char *name, const SbSealSummary *seal) 
   sb_json_number(json, "friction_static_N", seal->friction_static);
   sb_json_number(json, "coefficient_of_friction", seal->coefficient_of_friction);
   sb_json_number(json, "leakage_per_stroke_m3", seal->leakage_per_stroke);
+  sb_json_number(json, "leakage_static_m3_per_s", seal->leakage_static);
+  sb_json_number(json, "closing_pressure_Pa", seal->closing_pressure);
+  sb_json_number(json, "leak_sensitivity", seal->leak_sensitivity);
   sb_json_object_end(json);
 }
 

@@ -196,7 +196,7 @@ static void test_json_run(void) {
     has_keys(seal, "contact_width_m load_N pressure_peak_Pa film_min_m film_central_m "
                    "film_by_model.karaszkiewicz film_by_model.thesis film_by_model.reynolds "
                    "lambda friction_boundary_N friction_viscous_N friction_static_N "
-                   "coefficient_of_friction leakage_per_stroke_m3");
+                   "coefficient_of_friction leakage_per_stroke_m3 leakage_static_m3_per_s");
   }
   has_keys(at(root, "warnings.0"), "code text parameter");
   g_assert_cmpfloat(number(root, "cycle.force_breakaway_N"), >, 24.5);
@@ -369,6 +369,26 @@ static void test_json_bench(void) {
   }
   json_node_unref(root);
   clear(&result);
+}
+
+// Options pass as bytes: a micro sign works in every locale.
+static void test_utf8_options(void) {
+  static const char *const locales[] = {"C", "C.UTF-8", "de_DE.UTF-8"};
+  for (size_t i = 0; i < G_N_ELEMENTS(locales); i++) {
+    char **environment = g_get_environ();
+    environment = g_environ_setenv(environment, "LC_ALL", locales[i], TRUE);
+    const char *const arguments[] = {
+        "run", scene, "--quiet", "--json", "-", "--set", "surface.sigma=2 \xc2\xb5m", NULL};
+    Result result = run_with(arguments, environment, NULL);
+    g_assert_cmpstr(result.err, ==, "");
+    g_assert_cmpint(result.code, ==, 0);
+    JsonNode *root = parse(result.out);
+    double ratio = number(root, "seals.outer.film_central_m") / number(root, "seals.outer.lambda");
+    g_assert_cmpfloat(fabs(ratio - 2e-6), <, 1e-15);
+    json_node_unref(root);
+    clear(&result);
+    g_strfreev(environment);
+  }
 }
 
 // ---- Files ----
@@ -622,6 +642,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/json/film", test_json_film);
   g_test_add_func("/cli/json/small", test_json_small);
   g_test_add_func("/cli/json/bench", test_json_bench);
+  g_test_add_func("/cli/utf8-options", test_utf8_options);
   g_test_add_func("/cli/results-and-locale", test_results_and_locale);
   g_test_add_func("/cli/io-errors", test_io_errors);
   g_test_add_func("/cli/render", test_render);
