@@ -6,6 +6,7 @@
 #include "app/chart/format.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/profiles.h"
+#include "ui/picture.h"
 #include "ui/style.h"
 
 #include <math.h>
@@ -14,43 +15,48 @@ typedef struct {
   SbSession *session;
   SbChartViewKind kind;
   GtkWidget *area;
+  SbPicture *picture;
   guint describe; // source that renews the description, 0 if none is due
 } View;
 
 static const struct {
   const char *name;
   int height;
-} kinds[] = {{"Force and displacement", 260}, {"Contact pressure", 178}, {"Film thickness", 178}};
+  int interval; // between drawings while something moves [ms]
+} kinds[] = {
+    {"Force and displacement", 260, 50},
+    {"Contact pressure", 178, 80},
+    {"Film thickness", 178, 80},
+};
 
 // The widget less the column's padding.
-static SbRect whole(GtkWidget *widget) {
-  return (SbRect){16, 12, MAX(gtk_widget_get_allocated_width(widget) - 28, 1),
-                  MAX(gtk_widget_get_allocated_height(widget) - 18, 1)};
+static SbRect inside(double width, double height) {
+  return (SbRect){16, 12, fmax(width - 28, 1), fmax(height - 18, 1)};
 }
 
-static gboolean on_draw(GtkWidget *widget, cairo_t *cr, View *view) {
+static SbRect whole(GtkWidget *widget) {
+  return inside(gtk_widget_get_allocated_width(widget), gtk_widget_get_allocated_height(widget));
+}
+
+static void draw(cairo_t *cr, double width, double height, void *user) {
+  View *view = user;
   const SbTheme *theme = sb_theme(sb_style_is_dark());
   const SbChartData *data = sb_session_chart(view->session);
+  SbRect rect = inside(width, height);
   SbColor ground = theme->role[SB_ROLE_PANEL];
   cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
   cairo_paint(cr);
   switch (view->kind) {
   case SB_CHART_VIEW_LOOP:
-    sb_hysteresis_draw(cr, whole(widget), theme, data, SB_CHART_COMPACT);
+    sb_hysteresis_draw(cr, rect, theme, data, SB_CHART_COMPACT);
     break;
   case SB_CHART_VIEW_PRESSURE:
-    sb_profiles_pressure_draw(cr, whole(widget), theme, data, SB_CHART_COMPACT);
+    sb_profiles_pressure_draw(cr, rect, theme, data, SB_CHART_COMPACT);
     break;
   case SB_CHART_VIEW_FILM:
-    sb_profiles_film_draw(cr, whole(widget), theme, data, SB_CHART_COMPACT);
+    sb_profiles_film_draw(cr, rect, theme, data, SB_CHART_COMPACT);
     break;
   }
-  if (gtk_widget_has_visible_focus(widget)) {
-    GtkStyleContext *style = gtk_widget_get_style_context(widget);
-    gtk_render_focus(style, cr, 3, 3, gtk_widget_get_allocated_width(widget) - 6,
-                     gtk_widget_get_allocated_height(widget) - 6);
-  }
-  return GDK_EVENT_PROPAGATE;
 }
 
 // Description ------------------------------------------------------------------------------------
@@ -173,7 +179,8 @@ static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) 
 // Life -------------------------------------------------------------------------------------------
 
 static void on_change(View *view) {
-  gtk_widget_queue_draw(view->area);
+  sb_picture_change(view->picture,
+                    sb_session_wants_ticks(view->session) ? kinds[view->kind].interval : 0);
   // Screen readers need no more than a few sentences a second.
   if (view->describe == 0) {
     view->describe = g_timeout_add(200, describe, view);
@@ -200,7 +207,7 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |
                                         GDK_KEY_PRESS_MASK | GDK_FOCUS_CHANGE_MASK);
   atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_CHART);
-  g_signal_connect(view->area, "draw", G_CALLBACK(on_draw), view);
+  view->picture = sb_picture_attach(view->area, draw, view);
   g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
   g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
   g_signal_connect(view->area, "destroy", G_CALLBACK(on_destroy), view);

@@ -8,12 +8,14 @@
 #include "app/section/draw_cairo.h"
 #include "app/section/section.h"
 #include "ui/force_balance.h"
+#include "ui/picture.h"
 #include "ui/style.h"
 
 #include <math.h>
 #include <string.h>
 
 enum {
+  INTERVAL = 33,       // between drawings while something moves [ms]
   LIMIT_SAMPLES = 400, // frames read per update for the scales
   MARGIN = 16,         // beside the picture [px]
   WIDE = 860           // from here the section has a column for legends and forces [px]
@@ -31,7 +33,8 @@ typedef struct {
   SbText *text;
   double zoom, pan_x, pan_y;
   double press_x, press_y;
-  guint describe;
+  SbPicture *picture;
+  guint describe; // source that renews the description, 0 if none is due
 } View;
 
 // The resting valve ------------------------------------------------------------------------------
@@ -126,17 +129,18 @@ static const SbFrame *prepare(View *view) {
 
 // Drawing ----------------------------------------------------------------------------------------
 
-static gboolean on_draw(GtkWidget *widget, cairo_t *cr, View *view) {
+static void draw(cairo_t *cr, double area_width, double area_height, void *user) {
+  View *view = user;
   const SbTheme *theme = sb_theme(sb_style_is_dark());
   SbColor ground = theme->role[SB_ROLE_PANEL];
   cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
   cairo_paint(cr);
   const SbFrame *frame = prepare(view);
   if (frame == NULL) {
-    return GDK_EVENT_PROPAGATE;
+    return;
   }
-  double width = gtk_widget_get_allocated_width(widget) - 2 * MARGIN;
-  double height = gtk_widget_get_allocated_height(widget);
+  double width = area_width - 2 * MARGIN;
+  double height = area_height;
   const SbChartData *data = sb_session_chart(view->session);
   gboolean ran = sb_session_run(view->session) != NULL;
   // A wide picture has the forces in its own column.
@@ -160,7 +164,7 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, View *view) {
   }
   sb_section_draw(view->section, &view->list, &how, &instant);
   cairo_save(cr);
-  cairo_rectangle(cr, 0, 0, gtk_widget_get_allocated_width(widget), picture.y + picture.height);
+  cairo_rectangle(cr, 0, 0, area_width, picture.y + picture.height);
   cairo_clip(cr);
   cairo_translate(cr, picture.x - view->pan_x, picture.y - view->pan_y);
   sb_draw_list_to_cairo(&view->list, view->text, cr);
@@ -169,12 +173,6 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, View *view) {
     SbRect balance = {MARGIN, height - bottom, width, bottom};
     sb_force_balance_draw(cr, balance, theme, data);
   }
-
-  if (gtk_widget_has_visible_focus(widget)) {
-    gtk_render_focus(gtk_widget_get_style_context(widget), cr, 3, 3,
-                     gtk_widget_get_allocated_width(widget) - 6, height - 6);
-  }
-  return GDK_EVENT_PROPAGATE;
 }
 
 static gboolean describe(gpointer data) {
@@ -188,8 +186,12 @@ static gboolean describe(gpointer data) {
   return G_SOURCE_REMOVE;
 }
 
+static void redraw(View *view) {
+  sb_picture_change(view->picture, sb_session_wants_ticks(view->session) ? INTERVAL : 0);
+}
+
 static void on_change(View *view) {
-  gtk_widget_queue_draw(view->area);
+  redraw(view);
   if (view->describe == 0) {
     view->describe = g_timeout_add(200, describe, view);
   }
@@ -224,7 +226,7 @@ static void zoom_at(View *view, double factor, double x, double y) {
   view->pan_y = (view->pan_y + y) * zoom / view->zoom - y;
   view->zoom = zoom;
   clamp_pan(view);
-  gtk_widget_queue_draw(view->area);
+  redraw(view);
 }
 
 void sb_section_view_zoom(GtkWidget *widget, int direction) {
@@ -259,7 +261,7 @@ static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) 
   view->pan_x = view->press_x - event->x;
   view->pan_y = view->press_y - event->y;
   clamp_pan(view);
-  gtk_widget_queue_draw(widget);
+  redraw(view);
   return GDK_EVENT_STOP;
 }
 
@@ -366,6 +368,7 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   gtk_box_pack_start(GTK_BOX(view->box), make_toolbar(view), FALSE, FALSE, 0);
 
   view->area = gtk_drawing_area_new();
+  view->picture = sb_picture_attach(view->area, draw, view);
   sb_style_class(view->area, "sb-canvas");
   gtk_widget_set_can_focus(view->area, TRUE);
   gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |
@@ -378,7 +381,6 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->empty);
   gtk_box_pack_start(GTK_BOX(view->box), overlay, TRUE, TRUE, 0);
 
-  g_signal_connect(view->area, "draw", G_CALLBACK(on_draw), view);
   g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_scroll), view);
   g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
   g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);

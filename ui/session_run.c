@@ -57,13 +57,13 @@ static void refresh_chart(SbSession *session) {
   chart->playing = session->playhead.playing;
   chart->progress = sb_session_progress(session);
   chart->title = sb_document_title(session->document);
-  g_free(session->hash);
-  session->hash = sb_document_sha256(session->document);
   chart->hash = session->hash;
   chart->failure = session->failure;
 }
 
 static void run_changed(SbSession *session) {
+  g_free(session->hash);
+  session->hash = sb_document_sha256(session->document);
   refresh_chart(session);
   sb_session_emit(session, SB_SIGNAL_RUN);
 }

@@ -10,7 +10,14 @@
 typedef struct {
   SbSession *session;
   GtkWidget *where, *models, *run, *error, *pinned_key, *pinned, *warnings, *list, *count;
+  guint later; // source that renews the texts, 0 if none is due
 } Bar;
+
+static void set_text(GtkWidget *label, const char *text) {
+  if (g_strcmp0(gtk_label_get_text(GTK_LABEL(label)), text) != 0) {
+    gtk_label_set_text(GTK_LABEL(label), text);
+  }
+}
 
 static char *choice_name(SbParamId id, int index) {
   char name[64];
@@ -91,7 +98,7 @@ static void refresh_warnings(Bar *bar, const SbSummary *summary) {
 
 static void refresh_where(Bar *bar) {
   g_autofree char *where = sb_session_where(bar->session);
-  gtk_label_set_text(GTK_LABEL(bar->where), where[0] != '\0' ? where : "nothing has run");
+  set_text(bar->where, where[0] != '\0' ? where : "nothing has run");
   GtkStyleContext *style = gtk_widget_get_style_context(bar->where);
   if (where[0] != '\0') {
     gtk_style_context_add_class(style, "sb-now");
@@ -112,8 +119,24 @@ static void refresh_frames(Bar *bar) {
   } else {
     text = g_strdup_printf("%zu frames", count);
   }
-  gtk_label_set_text(GTK_LABEL(bar->run), text);
+  set_text(bar->run, text);
   refresh_where(bar);
+}
+
+static gboolean on_later(gpointer data) {
+  Bar *bar = data;
+  bar->later = 0;
+  refresh_frames(bar);
+  return G_SOURCE_REMOVE;
+}
+
+// A new text lays the bar out again: ten times a second is enough while something moves.
+static void refresh_soon(Bar *bar) {
+  if (!sb_session_wants_ticks(bar->session)) {
+    refresh_frames(bar);
+  } else if (bar->later == 0) {
+    bar->later = g_timeout_add(100, on_later, bar);
+  }
 }
 
 static void refresh(Bar *bar) {
@@ -153,6 +176,10 @@ static GtkWidget *add_pair(GtkBox *box, const char *key, const char *name) {
 }
 
 static void on_destroy(GtkWidget *widget, Bar *bar) {
+  if (bar->later != 0) {
+    g_source_remove(bar->later);
+    bar->later = 0;
+  }
   g_signal_handlers_disconnect_by_data(bar->session, bar);
 }
 
@@ -192,8 +219,8 @@ GtkWidget *sb_status_bar_new(SbSession *session) {
 
   g_signal_connect(widget, "destroy", G_CALLBACK(on_destroy), bar);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), bar);
-  g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(refresh_frames), bar);
-  g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(refresh_where), bar);
+  g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(refresh_soon), bar);
+  g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(refresh_soon), bar);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh_models), bar);
   refresh(bar);
   return widget;

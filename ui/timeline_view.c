@@ -4,6 +4,7 @@
 #include "ui/timeline_view.h"
 
 #include "app/chart/timeline.h"
+#include "ui/picture.h"
 #include "ui/style.h"
 
 #include <math.h>
@@ -11,28 +12,32 @@
 typedef struct {
   SbSession *session;
   GtkWidget *area, *play, *play_icon, *loop, *speed;
-  double cycle; // duration that the speed texts were made for [s]
+  SbPicture *picture;
+  gboolean playing; // as the button shows
+  guint describe;   // source that renews the description, 0 if none is due
+  double cycle;     // duration that the speed texts were made for [s]
 } View;
+
+enum { INTERVAL = 33 }; // between drawings while something moves [ms]
 
 static const int durations[] = {2, 5, 10, 20, 60, 0}; // seconds per cycle; 0: real time
 
-static SbRect whole(GtkWidget *widget) {
-  return (SbRect){8, 10, MAX(gtk_widget_get_allocated_width(widget) - 28, 1),
-                  MAX(gtk_widget_get_allocated_height(widget) - 14, 1)};
+static SbRect inside(double width, double height) {
+  return (SbRect){8, 10, fmax(width - 28, 1), fmax(height - 14, 1)};
 }
 
-static gboolean on_draw(GtkWidget *widget, cairo_t *cr, View *view) {
+static SbRect whole(GtkWidget *widget) {
+  return inside(gtk_widget_get_allocated_width(widget), gtk_widget_get_allocated_height(widget));
+}
+
+static void draw(cairo_t *cr, double width, double height, void *user) {
+  View *view = user;
   const SbTheme *theme = sb_theme(sb_style_is_dark());
   SbColor ground = theme->role[SB_ROLE_PANEL];
   cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
   cairo_paint(cr);
-  sb_timeline_draw(cr, whole(widget), theme, sb_session_chart(view->session), SB_CHART_COMPACT);
-  if (gtk_widget_has_visible_focus(widget)) {
-    gtk_render_focus(gtk_widget_get_style_context(widget), cr, 2, 2,
-                     gtk_widget_get_allocated_width(widget) - 4,
-                     gtk_widget_get_allocated_height(widget) - 4);
-  }
-  return GDK_EVENT_PROPAGATE;
+  sb_timeline_draw(cr, inside(width, height), theme, sb_session_chart(view->session),
+                   SB_CHART_COMPACT);
 }
 
 static void scrub(View *view, double x) {
@@ -118,17 +123,32 @@ static void on_loop(GtkToggleButton *button, View *view) {
   sb_session_set_loops(view->session, gtk_toggle_button_get_active(button));
 }
 
-static void on_playhead(View *view) {
-  gboolean playing = sb_session_is_playing(view->session);
+static void show_playing(View *view, gboolean playing) {
   gtk_image_set_from_icon_name(GTK_IMAGE(view->play_icon),
                                playing ? "media-playback-pause-symbolic"
                                        : "media-playback-start-symbolic",
                                GTK_ICON_SIZE_BUTTON);
   sb_style_name(view->play, playing ? "Pause" : "Play", NULL);
   gtk_widget_set_tooltip_text(view->play, playing ? "Pause (Space)" : "Play (Space)");
+  view->playing = playing;
+}
+
+static gboolean describe(gpointer data) {
+  View *view = data;
   g_autofree char *where = sb_session_where(view->session);
   sb_style_name(view->area, "Timeline", where[0] != '\0' ? where : "No run yet");
-  gtk_widget_queue_draw(view->area);
+  view->describe = 0;
+  return G_SOURCE_REMOVE;
+}
+
+static void on_playhead(View *view) {
+  if (sb_session_is_playing(view->session) != view->playing) {
+    show_playing(view, !view->playing);
+  }
+  if (view->describe == 0) {
+    view->describe = g_timeout_add(200, describe, view);
+  }
+  sb_picture_change(view->picture, sb_session_wants_ticks(view->session) ? INTERVAL : 0);
 }
 
 static void on_frames(View *view) {
@@ -198,6 +218,10 @@ static GtkWidget *make_controls(View *view) {
 }
 
 static void on_destroy(GtkWidget *widget, View *view) {
+  if (view->describe != 0) {
+    g_source_remove(view->describe);
+    view->describe = 0;
+  }
   g_signal_handlers_disconnect_by_data(view->session, view);
 }
 
@@ -219,7 +243,7 @@ GtkWidget *sb_timeline_view_new(SbSession *session) {
   gtk_widget_add_events(view->area,
                         GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK | GDK_SCROLL_MASK);
   atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_SLIDER);
-  g_signal_connect(view->area, "draw", G_CALLBACK(on_draw), view);
+  view->picture = sb_picture_attach(view->area, draw, view);
   g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
   g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
   g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_scroll), view);
@@ -230,6 +254,7 @@ GtkWidget *sb_timeline_view_new(SbSession *session) {
   g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_frames), view);
   g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(on_playhead), view);
   gtk_widget_show_all(box);
+  show_playing(view, FALSE);
   on_frames(view);
   return box;
 }

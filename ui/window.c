@@ -220,8 +220,16 @@ static void refresh(SbWindow *window) {
   ensure_tick(window);
 }
 
+// While frames come only the progress changes.
 static void on_frames(SbWindow *window) {
-  refresh_run_state(window);
+  if (sb_session_state(window->session) == SB_SESSION_RUNNING) {
+    double progress = sb_session_progress(window->session);
+    g_autofree char *text = g_strdup_printf("Running %.0f %%", 100 * progress);
+    if (strcmp(gtk_label_get_text(GTK_LABEL(window->run_state_label)), text) != 0) {
+      gtk_label_set_text(GTK_LABEL(window->run_state_label), text);
+      gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(window->run_progress), progress);
+    }
+  }
   ensure_tick(window);
 }
 

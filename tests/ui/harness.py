@@ -105,6 +105,13 @@ class App:
                 return text
         return None
 
+    def label_node(self, pattern):
+        """The label itself, for asking often: a walk through the whole window takes its time."""
+        expression = re.compile(pattern)
+        return wait("a label like %s" % pattern,
+                    lambda: ([node for node in self.all("label")
+                              if expression.search(self.text(node))] or [None])[0])
+
     @staticmethod
     def text(node):
         try:
