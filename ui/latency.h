@@ -10,5 +10,6 @@ void sb_latency_start(void);
 // Forgets what was measured so far.
 void sb_latency_reset(void);
 
-// Writes {"samples", "p50_ms", "p99_ms", "max_ms"} to `path`.
+// Writes {"samples", "p50_ms", "p99_ms", "max_ms", "own_p99_ms", "own_max_ms"} to `path`; "own" is
+// the part in which the main thread used the processor.
 gboolean sb_latency_write(const char *path, GError **error);

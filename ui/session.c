@@ -98,6 +98,7 @@ gboolean sb_session_is_modified(SbSession *session) {
 
 gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text) {
   g_autoptr(GError) error = NULL;
+  session->last_edited = (int)id;
   forget_rejected(session, (int)id);
   gboolean good = sb_document_set(session->document, id, text, &error);
   if (!good) {
@@ -110,6 +111,7 @@ gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text) {
 
 gboolean sb_session_edit_value(SbSession *session, SbParamId id, double value) {
   g_autoptr(GError) error = NULL;
+  session->last_edited = (int)id;
   forget_rejected(session, (int)id);
   gboolean good = sb_document_set_value(session->document, id, value, TRUE, &error);
   changed(session);
@@ -157,6 +159,9 @@ int sb_session_error_count(SbSession *session) {
 }
 
 int sb_session_first_error(SbSession *session) {
+  if (session->last_edited >= 0 && session->error[session->last_edited] != NULL) {
+    return session->last_edited;
+  }
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     if (session->error[id] != NULL) {
       return id;
@@ -218,6 +223,7 @@ static void sb_session_class_init(SbSessionClass *class) {
 
 static void sb_session_init(SbSession *session) {
   session->document = sb_document_new();
+  session->last_edited = -1;
   sb_session_init_runs(session);
   compile(session);
 }

@@ -64,7 +64,9 @@ void sb_session_redo(SbSession *session);
 const char *sb_session_error(SbSession *session, SbParamId id);
 const char *sb_session_rejected(SbSession *session, SbParamId id);
 
-// Number of fields with an error, and the first of them (-1 if none).
+// Number of fields with an error, and the one to name: the last edited if it has one, else the
+// first
+// (-1 if none).
 int sb_session_error_count(SbSession *session);
 int sb_session_first_error(SbSession *session);
 

@@ -22,6 +22,7 @@ struct _SbSession {
   SbDocument *document; // owned
   char *rejected[SB_PARAM_COUNT];
   char *error[SB_PARAM_COUNT];
+  int last_edited; // parameter, or -1
   SbModel model;
   gboolean model_valid;
 

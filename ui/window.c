@@ -111,10 +111,15 @@ static void refresh_strip(SbWindow *window) {
     }
     g_autofree char *shown = sb_param_format((SbParamId)wrong, old);
     g_autofree char *label = g_utf8_strdown(param->label, -1);
+    const char *what = sb_session_rejected(session, (SbParamId)wrong) == NULL
+                           ? "does not go with the other values"
+                       : strstr(sb_session_error(session, (SbParamId)wrong), "out of range") != NULL
+                           ? "is out of range"
+                           : "cannot be read";
     g_autofree char *text =
-        g_strdup_printf(run != NULL ? "%s is out of range. Pictures show the last good run, %s %s."
-                                    : "%s is out of range. Nothing has run yet; %s %s would do.",
-                        param->label, label, shown);
+        g_strdup_printf(run != NULL ? "%s %s. Pictures show the last good run, %s %s."
+                                    : "%s %s. Nothing has run yet; %s %s would do.",
+                        param->label, what, label, shown);
     g_autofree char *button = g_strdup_printf("Set %s", shown);
     window->strip_id = wrong;
     window->strip_value = old;

@@ -41,7 +41,7 @@ def values_that_do_not_go_together_are_told_at_their_field(folder):
         app.unfold("Bore")
         app.edit("Bore diameter", "2 mm")
         wait("one value to fix", lambda: app.label(r"to fix"))
-        wait("the sentence", lambda: app.label(r"smaller than the stem"))
+        wait("the sentence", lambda: app.label(r"^Bore diameter does not go with the other values"))
         app.press("push button", "Undo")
         wait("no error", lambda: not app.label(r"to fix"))
 
@@ -75,7 +75,7 @@ def saved_values_come_back(folder):
         app.press("push button", "Save")
         wait("saved", lambda: not app.label(r"edited"))
     with open(path) as file:
-        assert "# The thesis' own models." in file.read(), "the comment was lost"
+        assert "# The compression test of the thesis" in file.read(), "the comment was lost"
     with App(path) as app:
         wait("the first run", app.run_done)
         assert app.value("Section diameter") == "1.63 mm"

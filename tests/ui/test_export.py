@@ -62,7 +62,7 @@ def a_cancelled_film(folder):
         app.act(export_button(app), "click")
         bar = app.find("progress bar", "Progress of the export")
         wait("progress", lambda: bar.queryValue().currentValue > 0)
-        latency = app.latency()
+        app.check_latency("a film is made")
         app.press("push button", "Cancel")
         text = wait("the result", lambda: app.label(r"^Cancelled: "))
         assert "partial" in text, text
@@ -72,9 +72,6 @@ def a_cancelled_film(folder):
         app.act(app.all("push button", "Close")[-1], "click")
         wait("the dialog gone", lambda: not app.has("combo box", "Format"))
         assert app.run_done()
-        print("# main loop blocked while exporting: %(p99_ms).1f ms at the 99th percentile, "
-              "%(max_ms).1f ms at most" % latency)
-        assert latency["p99_ms"] <= 50 and latency["max_ms"] <= 200, latency
     assert not [name for name in os.listdir(folder) if "tmp" in name or name.startswith(".")]
 
 
