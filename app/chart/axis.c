@@ -48,6 +48,8 @@ double sb_axis_at(const SbScale *scale, double value) {
   } else {
     t = (value - scale->lo) / (scale->hi - scale->lo);
   }
+  // A value far out stays far out, at a distance that drawing survives (dashes!).
+  t = t > 1000 ? 1000 : t < -1000 ? -1000 : t;
   return scale->p0 + t * (scale->p1 - scale->p0);
 }
 

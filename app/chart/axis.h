@@ -23,8 +23,8 @@ typedef struct {
 // degenerate or not finite range becomes the nearest sensible one; {0, 1} if there is none.
 void sb_axis_repair(double *lo, double *hi);
 
-// Pixel of a value; values beyond the ends go on linearly. A logarithmic scale sends values <= 0
-// far below its lower end (never NaN).
+// Pixel of a value; values beyond the ends go on linearly, up to a thousand ranges away. A
+// logarithmic scale sends values <= 0 far below its lower end (never NaN).
 double sb_axis_at(const SbScale *scale, double value);
 
 // Value of a pixel.

@@ -11,7 +11,9 @@ const SbFrame *sb_chart_frame(const SbChartData *data) {
     return NULL;
   }
   size_t i = data->playhead < data->run.count ? data->playhead : data->run.count - 1;
-  return &data->run.frames[i];
+  const SbFrame *frame = &data->run.frames[i];
+  return isfinite(frame->time) && isfinite(frame->displacement) && isfinite(frame->force) ? frame
+                                                                                          : NULL;
 }
 
 bool sb_chart_complete(const SbChartData *data) {

@@ -56,7 +56,8 @@ enum {
   SB_CHART_WHOLE = 1 << 2    // no playhead: the whole run is shown as played
 };
 
-// The frame under the playhead; NULL if there is none.
+// The frame under the playhead; NULL if there is none, or if it has no finite time, place and force
+// (an engine's defect: the views then show the run without *now*).
 const SbFrame *sb_chart_frame(const SbChartData *data);
 
 // The whole run is readable: done, and the trace has caught up.

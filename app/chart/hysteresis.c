@@ -49,9 +49,19 @@ void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartDat
   double y_top = y1;
   sb_axis_round_out(&y0, &y_top, wanted_y);
 
-  // Room to the right of the stroke for the values of D and E; 18 px left of zero for A.
-  const double left = compact ? 44 : 34, right = LABEL_ROOM_OUTSIDE, top = compact ? 48 : 95,
-               bottom = 40;
+  sb_axis_ticks(&out->y_ticks, y0, y_top, wanted_y);
+
+  // Room to the left for the numbers, to the right of the stroke for the values of D and E; 18 px
+  // left of zero for A.
+  size_t longest = 0;
+  for (int i = 0; i < out->y_ticks.count; i++) {
+    char text[SB_FORMAT_MAX];
+    sb_format_fixed(text, out->y_ticks.value[i], out->y_ticks.decimals);
+    longest = MAX(longest, (size_t)g_utf8_strlen(text, -1));
+  }
+  double digits = 18 + 8 * (double)longest;
+  const double left = compact ? fmax(digits, 44) : fmax(digits, 34);
+  const double right = LABEL_ROOM_OUTSIDE, top = compact ? 48 : 95, bottom = 40;
   out->plot = (SbRect){in.x + left, in.y + top, fmax(in.width - left - right, 40),
                        fmax(in.height - top - bottom, 40)};
   double room_left = 18, room_right = fmin(LABEL_ROOM, 0.25 * out->plot.width);
@@ -60,7 +70,6 @@ void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartDat
                      out->plot.x + out->plot.width, false};
   out->y = (SbScale){y0, y_top, out->plot.y + out->plot.height, out->plot.y, false};
   sb_axis_ticks(&out->x_ticks, 0, out->x.hi, out->plot.width > 300 ? 8 : 5);
-  sb_axis_ticks(&out->y_ticks, y0, y_top, wanted_y);
 }
 
 // Frames that may be drawn: the trace may lag behind the run, and no line is drawn over a gap.
@@ -280,6 +289,9 @@ static void draw_arrows(SbHysteresisView *v) {
     if (s == SB_STAGE_D) {
       last = top_of_stop(run, first, last);
     }
+    if (last < first) {
+      continue; // stages out of order
+    }
     double fraction = s == SB_STAGE_B ? 0.4 : s == SB_STAGE_A ? 0.55 : 0.5;
     size_t middle = first + (size_t)(fraction * (double)(last - first));
     draw_arrow(v, first, last, fraction, v->flags & SB_CHART_WHOLE || middle <= v->data->playhead);
@@ -337,8 +349,8 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
   sb_labels_avoid(v.labels, axis, 2, 0.3);
   const SbFrame *now = sb_chart_frame(data);
   size_t traced = data->run.trace ? sb_trace_frames(data->run.trace) : 0;
-  if (now && traced > 0) {
-    bool whole = flags & SB_CHART_WHOLE;
+  if (data->run.count > 0 && traced > 0) {
+    bool whole = !now || flags & SB_CHART_WHOLE;
     if (!whole) {
       sb_hysteresis_now(&v, true);
     }

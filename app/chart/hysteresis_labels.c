@@ -163,6 +163,9 @@ static bool between(const SbHysteresisView *v, int stage, double share, SbPoint 
     return false;
   }
   size_t last = next ? mark[stage + 1].frame : run->count - 1;
+  if (last < first) {
+    return false; // stages out of order
+  }
   size_t i = first + (size_t)(share * (double)(last - first));
   *out = sb_hysteresis_pixel(&v->at, run->frames[i].displacement, run->frames[i].force);
   return true;

@@ -31,8 +31,9 @@ typedef struct {
 // The contact's curve in SI.
 typedef struct {
   size_t count;
-  double *x, *pressure, *film; // one block, owned through x
-  const char *model;           // who made it; NULL: schematic
+  double *x, *pressure, *film, *asperity; // one block, owned through x
+  bool asperities;                        // any share of the pressure is known to be theirs
+  const char *model;                      // who made it; NULL: schematic
 } Curve;
 
 static bool touches(const SbSealFrame *seal) {
@@ -67,9 +68,11 @@ static void curve_init(Curve *out, const Small *s) {
   const SbChartRun *run = &s->data->run;
   const SbContactProfile *kept = run->profile ? run->profile(run->source, s->seal->profile) : NULL;
   size_t capacity = kept && kept->count > 1 ? kept->count : SCHEMATIC_POINTS;
-  out->x = g_new0(double, 3 * capacity);
+  out->x = g_new0(double, 4 * capacity);
   out->pressure = out->x + capacity;
   out->film = out->x + 2 * capacity;
+  out->asperity = out->x + 3 * capacity;
+  out->asperities = false;
   out->model = NULL;
   if (kept && kept->count > 1) {
     out->count = kept->count;
@@ -77,6 +80,10 @@ static void curve_init(Curve *out, const Small *s) {
     memcpy(out->x, kept->x, kept->count * sizeof(double));
     memcpy(out->pressure, kept->pressure, kept->count * sizeof(double));
     memcpy(out->film, kept->film, kept->count * sizeof(double));
+    for (size_t i = 0; kept->asperity_pressure && i < kept->count; i++) {
+      out->asperity[i] = kept->asperity_pressure[i];
+      out->asperities = out->asperities || out->asperity[i] > 0;
+    }
   } else {
     schematic(out, s->seal, run->model, s->index);
   }
@@ -232,6 +239,34 @@ static void shared_format(char *out, const Small *s, double value, double other,
   g_snprintf(out, SB_FORMAT_MAX, "%s\xc2\xa0%s", number, unit);
 }
 
+// The asperities' share of the pressure: a dashed line under the curve, named once.
+static void asperity_share(Small *s, const Curve *curve, double left, double right) {
+  SbCanvas *c = s->canvas;
+  SbPoint *p = g_new(SbPoint, curve->count + 1);
+  size_t n = 0, top = 0;
+  for (size_t i = 0; i < curve->count; i++) {
+    if (curve->x[i] >= left && curve->x[i] <= right) {
+      p[n] = (SbPoint){sb_axis_at(&s->x, curve->x[i] * 1e3),
+                       sb_axis_at(&s->y, curve->asperity[i] * 1e-6)};
+      top = p[n].y < p[top].y ? n : top;
+      n++;
+    }
+  }
+  if (n > 1) {
+    sb_canvas_pen(c, SB_LINE_FRAME, &sb_dash_dimension);
+    sb_canvas_color(c, s->color, 1);
+    sb_canvas_polyline(c, p, n);
+    sb_labels_avoid(s->labels, p, n, 1);
+    SbTextStyle style = {SB_TYPE_NOTE, 400, s->color, 1};
+    small_label(s, "asperities", &style,
+                (SbPlace[]){{p[top].x, p[top].y - 6, SB_MIDDLE},
+                            {p[top].x, p[top].y + 14, SB_MIDDLE},
+                            {p[n - 1].x + 8, p[top].y, SB_LEFT}},
+                3);
+  }
+  g_free(p);
+}
+
 // Ground of the fluid on one side of the contact, up to its pressure.
 static void fluid_ground(Small *s, double from, double to, double pressure) {
   if (!(pressure > 0)) {
@@ -273,6 +308,25 @@ static void fluid_label(Small *s, double from, double to, double pressure) {
   small_label(s, text, &style, places, 3);
 }
 
+// What both sides share is not in the curve: it lies on everything, and is told in words.
+static void common_label(Small *s) {
+  const SbSealFrame *seal = s->seal;
+  double common = seal ? fmin((double)seal->pressure_left, (double)seal->pressure_right) : 0;
+  if (!(common > 0)) {
+    return;
+  }
+  char value[SB_FORMAT_MAX], text[96];
+  sb_format_given(value, SB_QUANTITY_PRESSURE, common);
+  g_snprintf(text, sizeof text, "fluid %s on both sides", value);
+  SbTextStyle style = sb_canvas_style(s->canvas, SB_TYPE_NOTE, 400, SB_ROLE_FLUID);
+  double left = s->plot.x + 4, right = s->plot.x + s->plot.width - 4;
+  small_label(s, text, &style,
+              (SbPlace[]){{left, s->plot.y + 12, SB_LEFT},
+                          {right, s->plot.y + 12, SB_RIGHT},
+                          {left, s->plot.y + 30, SB_LEFT}},
+              3);
+}
+
 static void pressure_chart(Small *s) {
   SbCanvas *c = s->canvas;
   const SbSealFrame *seal = s->seal;
@@ -286,6 +340,7 @@ static void pressure_chart(Small *s) {
     double x = s->plot.x + 0.5 * s->plot.width, y = s->plot.y + 0.5 * s->plot.height;
     small_label(s, seal ? "no contact" : "no run yet", &note,
                 (SbPlace[]){{x, y, SB_MIDDLE}, {x, y - 30, SB_MIDDLE}, {x, y + 30, SB_MIDDLE}}, 3);
+    common_label(s);
     return;
   }
   double left = seal->contact_left, right = seal->contact_right;
@@ -363,6 +418,10 @@ static void pressure_chart(Small *s) {
   }
   fluid_label(s, -far, left, sb_seal_step_left(seal));
   fluid_label(s, right, far, sb_seal_step_right(seal));
+  common_label(s);
+  if (curve.asperities) {
+    asperity_share(s, &curve, left, right);
+  }
   if (seal->land_fraction < 0.999F) {
     g_snprintf(text, sizeof text, "%.0f\xc2\xa0%% on the land",
                100.0 * (double)seal->land_fraction);
@@ -532,8 +591,8 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
                bore);
   } else {
     g_strlcpy(note,
-              compact ? "MPa, position / mm"
-                      : "MPa against axial position / mm, canister on the left",
+              compact ? "MPa above the lower fluid, position / mm"
+                      : "MPa above the lower fluid pressure, position / mm, canister on the left",
               sizeof note);
   }
   const char *model = curve_model(data, frame);

@@ -8,6 +8,7 @@
 #include "tests/app/synthetic.h"
 
 #include <glib.h>
+#include <math.h>
 #include <string.h>
 
 typedef void (*Draw)(cairo_t *, SbRect, const SbTheme *, const SbChartData *, unsigned);
@@ -221,6 +222,88 @@ static void test_timeline(void) {
   check_rejected(sb_timeline_draw, &data, "timeline-dark", 1100, 104, 1, true, 0);
 }
 
+// A third of the pressure on asperities, and forces of thousands of newtons.
+static void test_unusual(void) {
+  static double share[201];
+  SbChartData data;
+  synthetic_data(&data, &run, 7.27);
+  SbChartRun rough = run_with_film(&data.run, 1);
+  for (int i = 0; i < 201; i++) {
+    share[i] = wrong_profile[SB_OUTER].pressure[i] / 3;
+  }
+  wrong_profile[SB_OUTER].asperity_pressure = share;
+  data.run = rough;
+  cairo_surface_t *shown = draw_view(sb_profiles_draw, &data, 1280, 280, 1, false, SB_CHART_PANEL);
+  picture_show(shown, "profiles-asperities");
+  g_assert_true(picture_rejects(shown, "profiles"));
+  cairo_surface_destroy(shown);
+
+  Synthetic strong;
+  synthetic_init(&strong, 1250, 1);
+  for (size_t i = 0; i < strong.count; i++) {
+    strong.frames[i].force *= -1000;
+    strong.frames[i].displacement *= 100;
+  }
+  sb_trace_destroy(strong.trace);
+  strong.trace = sb_trace_create(NULL);
+  sb_trace_extend(strong.trace, strong.frames, strong.count, 0);
+  synthetic_data(&data, &strong, 7.27);
+  shown = draw_view(sb_hysteresis_draw, &data, 400, 400, 1, false, SB_CHART_COMPACT);
+  picture_show(shown, "hysteresis-strong");
+  cairo_surface_destroy(shown);
+  synthetic_clear(&strong);
+}
+
+// Frames that no engine should make: any bits at all. Nothing may crash, and cairo stays sound.
+static void test_hostile(void) {
+  GRand *rand = g_rand_new_with_seed(5);
+  static const double odd[] = {NAN, INFINITY, -INFINITY, 0, 1e308, -1e308, 1e-320, -1};
+  for (int turn = 0; turn < 40; turn++) {
+    enum { COUNT = 60 };
+    SbFrame frames[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+      double *value[] = {&frames[i].time,
+                         &frames[i].displacement,
+                         &frames[i].velocity,
+                         &frames[i].force,
+                         &frames[i].seal[0].contact_left,
+                         &frames[i].seal[0].contact_right,
+                         &frames[i].seal[0].load,
+                         &frames[i].seal[0].pressure_peak,
+                         &frames[i].seal[0].film_min,
+                         &frames[i].seal[0].film_central};
+      memset(&frames[i], 0, sizeof frames[i]);
+      for (size_t k = 0; k < G_N_ELEMENTS(value); k++) {
+        *value[k] = g_rand_int_range(rand, 0, 4) == 0 ? odd[g_rand_int_range(rand, 0, 8)]
+                                                      : g_rand_double_range(rand, -1, 1);
+      }
+      frames[i].stage = (uint8_t)g_rand_int_range(rand, 0, 256);
+      frames[i].on_event = (uint8_t)g_rand_int_range(rand, 0, 2);
+      frames[i].seal[0].profile = g_rand_int(rand);
+      frames[i].seal[1] = frames[i].seal[0];
+    }
+    SbTrace *trace = sb_trace_create(NULL);
+    sb_trace_extend(trace, frames, COUNT, 0);
+    SbChartData data = {.run = {.state = (SbChartState)(turn % 5),
+                                .frames = frames,
+                                .count = COUNT,
+                                .trace = trace,
+                                .summary = &run.summary,
+                                .model = turn % 2 ? &run.model : NULL},
+                        .playhead = (size_t)turn};
+    cairo_surface_t *shown = draw_view(draw_dashboard, &data, 700, 500, 1, turn % 2, 0);
+    g_assert_cmpint(cairo_surface_status(shown), ==, CAIRO_STATUS_SUCCESS);
+    cairo_surface_destroy(shown);
+    size_t frame;
+    const SbRect rect = {0, 0, 300, 300};
+    sb_hysteresis_hit(&frame, rect, &data, 0, 100, 100, 1000);
+    sb_timeline_hit(&frame, rect, &data, 100);
+    g_free(sb_chart_summary(&data));
+    sb_trace_destroy(trace);
+  }
+  g_rand_free(rand);
+}
+
 // The comparison itself: two grey levels pass, three do not, nor does another size.
 static void test_comparison(void) {
   cairo_surface_t *a = picture_new(100, 100, 1), *b = picture_new(100, 100, 1);
@@ -261,6 +344,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/pictures/hysteresis", test_hysteresis);
   g_test_add_func("/pictures/profiles", test_profiles);
   g_test_add_func("/pictures/dashboard", test_dashboard);
+  g_test_add_func("/pictures/unusual", test_unusual);
+  g_test_add_func("/pictures/hostile", test_hostile);
   g_test_add_func("/pictures/comparison", test_comparison);
   g_test_add_func("/pictures/timeline", test_timeline);
   g_test_add_func("/pictures/states", test_states);
