@@ -287,7 +287,9 @@ static SbStatus lean(SbRing *ring, const SbRingSetting *s, SbReport *report) {
   for (int i = 0; i < contact->count; i++) {
     int node = ring->mesh->loop[i];
     double z = ring->mesh->x[2 * node + 1] + ring->fem->u[2 * node + 1];
-    contact->touch[SB_RING_SURFACES * i + wall].held = difference > 0.0 ? z >= place : z <= place;
+    SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i];
+    touch[wall].held = difference > 0.0 ? z >= place : z <= place;
+    touch[difference > 0.0 ? SB_RING_WALL_LEFT : SB_RING_WALL_RIGHT].held = false;
   }
   return SB_OK;
 }
@@ -411,11 +413,22 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   }
   SbRingSetting target = sb_ring_setting(ring, load);
   SbRingNewton newton = newton_options(ring);
-  status = lean(ring, &target, report);
+  const SbRingSetting *now = &ring->contact->now;
+  double before = now->pressure_left - now->pressure_right;
+  double after = target.pressure_left - target.pressure_right;
+  if (before * after < 0.0) {
+    // The pressure changes sides: by way of equal pressures, where the ring may cross the groove.
+    SbRingSetting even = *now;
+    even.pressure_left = even.pressure_right = fmin(target.pressure_left, target.pressure_right);
+    status = sb_ring_advance(ring->contact, &even, &newton, &ring->count, report);
+  }
+  if (status == SB_OK) {
+    status = lean(ring, &target, report);
+  }
   if (status == SB_OK) {
     status = sb_ring_advance(ring->contact, &target, &newton, &ring->count, report);
-    ring->load = status == SB_OK ? *load : load_of(ring, &ring->contact->now);
   }
+  ring->load = status == SB_OK ? *load : load_of(ring, &ring->contact->now);
   return status;
 }
 

@@ -75,7 +75,8 @@ typedef struct {
   double volume_change;                     // relative to the free ring
   double penetration;                       // largest over the boundary nodes, m
   double pressure_least;                    // least nodal contact pressure above the fluid's, Pa
-  double axial_imbalance;                   // sum of all axial forces over the largest one
+  double friction_excess; // N beyond Coulomb's law at nodes that could not settle, 0
+  double axial_imbalance; // sum of all axial forces over the largest one
   int unknowns, newton_iterations, load_steps, rejected_steps;
 } SbRingResult;
 

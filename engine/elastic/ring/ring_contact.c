@@ -14,6 +14,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+// A node that keeps changing between sticking and sliding has no discrete solution of Coulomb's law
+// (it happens at coefficients near 1, where the continuous problem may have none either). It is
+// left sticking after this many changes, and what exceeds the law is reported.
+enum { FLIPS_MAX = 5 };
+
+// The same can happen to an end node of a contact under fluid with friction, which jumps by mu p
+// when the node is caught. After being caught so often it stays as long as the surface pushes at
+// all, even if slightly less than the fluid would.
+enum { CATCHES_MAX = 4 };
+
 static const double GAUSS_X[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};
 static const double GAUSS_W[3] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
 
@@ -32,12 +42,13 @@ SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *r
   contact->share = calloc(2 * n, sizeof(double));
   contact->weight = calloc(n, sizeof(double));
   contact->fluid = calloc(2 * n, sizeof(double));
+  contact->pressed = calloc(2 * n, sizeof(double));
   contact->anchor = calloc(2 * n, sizeof(double));
   contact->saved = calloc(n * SB_RING_SURFACES, sizeof(bool));
   contact->saved_slip = calloc(n * SB_RING_SURFACES, sizeof(signed char));
   if (contact->touch == NULL || contact->closed == NULL || contact->share == NULL ||
-      contact->weight == NULL || contact->fluid == NULL || contact->anchor == NULL ||
-      contact->saved == NULL || contact->saved_slip == NULL) {
+      contact->weight == NULL || contact->fluid == NULL || contact->pressed == NULL ||
+      contact->anchor == NULL || contact->saved == NULL || contact->saved_slip == NULL) {
     sb_ring_contact_destroy(contact);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's contact");
   }
@@ -52,6 +63,7 @@ void sb_ring_contact_destroy(SbRingContact *contact) {
     free(contact->share);
     free(contact->weight);
     free(contact->fluid);
+    free(contact->pressed);
     free(contact->anchor);
     free(contact->saved);
     free(contact->saved_slip);
@@ -159,6 +171,61 @@ static const SbRingTouch *held_touch(const SbRingContact *contact, int i, int s)
   return touch->held ? touch : NULL;
 }
 
+// Unit normal (into the free side) and tangent of a surface at a place.
+static void frame(const SbRingContact *contact, SbRingSurface surface, const double x[2],
+                  double n[2], double t[2], double *gap, double *curvature) {
+  double g[2];
+  *gap = sb_ring_gap(&contact->now, surface, x, g, curvature);
+  double length = hypot(g[0], g[1]);
+  n[0] = g[0] / length;
+  n[1] = g[1] / length;
+  *gap /= length;
+  bool along_z = surface == SB_RING_BORE || surface == SB_RING_FLOOR;
+  t[0] = along_z ? (surface == SB_RING_BORE ? -n[1] * n[0] / fabs(n[0]) : 0.0) : 1.0;
+  t[1] = along_z ? fabs(n[0]) : 0.0;
+  *curvature /= length;
+}
+
+// Brings the fluid's force on one node of an open side into the balance. What presses a held node
+// on its surface is kept apart: it changes no motion, but without it the node's contact force, and
+// with it friction, would jump whenever the neighbour is caught or let go.
+static void load_node(SbRingContact *contact, const int at[3], int a, const double force[2],
+                      double k[2][3][2]) {
+  SbRingFem *fem = contact->fem;
+  int node = fem->mesh->loop[at[a]], held = 0;
+  double n[2] = {0.0, 0.0}, t[2], gap, curvature, x[2];
+  node_place(contact, at[a], x);
+  for (int s = 0; s < SB_RING_SURFACES; s++) {
+    if (contact->touch[SB_RING_SURFACES * at[a] + s].held) {
+      frame(contact, (SbRingSurface)s, x, n, t, &gap, &curvature);
+      held++;
+    }
+  }
+  // What remains of a force vector v in the balance: P v, all of it, its tangential part, or
+  // nothing.
+  double p[2][2];
+  for (int i = 0; i < 2; i++) {
+    for (int j = 0; j < 2; j++) {
+      p[i][j] = held > 1 ? 0.0 : (i == j ? 1.0 : 0.0) - (held == 1 ? n[i] * n[j] : 0.0);
+    }
+  }
+  for (int i = 0; i < 2; i++) {
+    double acting = p[i][0] * force[0] + p[i][1] * force[1];
+    contact->fluid[2 * at[a] + i] += acting;
+    contact->pressed[2 * at[a] + i] += force[i] - acting;
+    contact->share[2 * at[a] + i] += force[i] - acting;
+    fem->residual[2 * node + i] -= acting;
+    for (int b = 0; b < 3; b++) {
+      for (int j = 0; j < 2; j++) {
+        double value = p[i][0] * k[0][b][j] + p[i][1] * k[1][b][j];
+        if (value != 0.0) {
+          sb_ring_fem_add(fem, node, i, fem->mesh->loop[at[b]], j, value);
+        }
+      }
+    }
+  }
+}
+
 // Fluid force on the three nodes of one side, and its tangent if the side is open.
 static void load_side(SbRingContact *contact, int side, double pressure, bool closed) {
   SbRingFem *fem = contact->fem;
@@ -202,21 +269,11 @@ static void load_side(SbRingContact *contact, int side, double pressure, bool cl
     return;
   }
   for (int a = 0; a < 3; a++) {
-    int node = fem->mesh->loop[at[a]];
-    for (int i = 0; i < 2; i++) {
-      if (closed) {
-        contact->share[2 * at[a] + i] += force[a][i];
-        continue;
-      }
-      contact->fluid[2 * at[a] + i] += force[a][i];
-      fem->residual[2 * node + i] -= force[a][i];
-      for (int b = 0; b < 3; b++) {
-        for (int j = 0; j < 2; j++) {
-          if (k[a][i][b][j] != 0.0) {
-            sb_ring_fem_add(fem, node, i, fem->mesh->loop[at[b]], j, k[a][i][b][j]);
-          }
-        }
-      }
+    if (closed) {
+      contact->share[2 * at[a]] += force[a][0];
+      contact->share[2 * at[a] + 1] += force[a][1];
+    } else {
+      load_node(contact, at, a, force[a], k[a]);
     }
   }
 }
@@ -230,6 +287,7 @@ static void load_boundary(SbRingContact *contact) {
   int past = floor_at > bore ? floor_at : floor_at + contact->count;
   memset(contact->share, 0, sizeof(double) * 2 * (size_t)contact->count);
   memset(contact->fluid, 0, sizeof(double) * 2 * (size_t)contact->count);
+  memset(contact->pressed, 0, sizeof(double) * 2 * (size_t)contact->count);
   memset(contact->weight, 0, sizeof(double) * (size_t)contact->count);
   for (int side = 0; side < sides; side++) {
     bool closed = false;
@@ -245,21 +303,6 @@ static void load_boundary(SbRingContact *contact) {
     load_side(contact, side, right ? contact->now.pressure_right : contact->now.pressure_left,
               closed);
   }
-}
-
-// Unit normal (into the free side) and tangent of a surface at a place.
-static void frame(const SbRingContact *contact, SbRingSurface surface, const double x[2],
-                  double n[2], double t[2], double *gap, double *curvature) {
-  double g[2];
-  *gap = sb_ring_gap(&contact->now, surface, x, g, curvature);
-  double length = hypot(g[0], g[1]);
-  n[0] = g[0] / length;
-  n[1] = g[1] / length;
-  *gap /= length;
-  bool along_z = surface == SB_RING_BORE || surface == SB_RING_FLOOR;
-  t[0] = along_z ? (surface == SB_RING_BORE ? -n[1] * n[0] / fabs(n[0]) : 0.0) : 1.0;
-  t[1] = along_z ? fabs(n[0]) : 0.0;
-  *curvature /= length;
 }
 
 // Relative motion along t since the start of the step.
@@ -351,6 +394,76 @@ static void split_force(SbRingContact *contact, int i, const double x[2], const 
   }
 }
 
+// How far a held node is from Coulomb's law, in units of force: too large a sticking force, or a
+// slip that its own friction would have to drive. The new slip state is given too.
+static double slip_fault(const SbRingContact *contact, SbRingSurface surface, int i,
+                         signed char *state) {
+  const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + surface];
+  double friction = contact->now.friction[surface];
+  *state = touch->slip;
+  if (!touch->held || friction <= 0.0 || (surface == SB_RING_BORE && contact->now.use_traction)) {
+    return 0.0;
+  }
+  double tiny = 1e-11 * contact->force_scale;
+  if (touch->slip == 0) {
+    double over = fabs(touch->tangent) - friction * touch->force;
+    *state = touch->tangent > 0.0 ? 1 : -1;
+    return over > tiny ? over : 0.0;
+  }
+  double x[2], n[2], t[2], gap, curvature;
+  node_place(contact, i, x);
+  frame(contact, surface, x, n, t, &gap, &curvature);
+  double against = slipped(contact, surface, i, x, t) * touch->slip;
+  *state = 0;
+  // A length as a force by a stiffness of order one per unit of boundary.
+  return against > 1e-11 ? against * contact->weight[i] : 0.0;
+}
+
+static void flip(SbRingTouch *touch, signed char state) {
+  touch->flips++;
+  touch->slip = touch->flips >= FLIPS_MAX ? 0 : state;
+}
+
+// Renews stick and slip; with `gentle` only the worst fault.
+static int update_slip(SbRingContact *contact, bool gentle) {
+  int changes = 0, worst = -1;
+  double most = 0.0;
+  signed char worst_state = 0;
+  for (int i = 0; i < contact->count; i++) {
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      signed char state;
+      double fault = slip_fault(contact, (SbRingSurface)s, i, &state);
+      SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + s];
+      if (touch->flips >= FLIPS_MAX) {
+        continue;
+      }
+      if (fault > 0.0 && !gentle) {
+        flip(touch, state);
+        changes++;
+      } else if (fault > most) {
+        most = fault;
+        worst = SB_RING_SURFACES * i + s;
+        worst_state = state;
+      }
+    }
+  }
+  if (worst >= 0) {
+    flip(&contact->touch[worst], worst_state);
+    changes++;
+  }
+  return changes;
+}
+
+// Slip state of a node that is being caught: friction against its motion in this step.
+static signed char caught_slip(const SbRingContact *contact, SbRingSurface surface, int i,
+                               const double x[2], const double t[2]) {
+  if (contact->now.friction[surface] <= 0.0) {
+    return 0;
+  }
+  double moved = slipped(contact, surface, i, x, t);
+  return moved > 1e-9 ? -1 : moved < -1e-9 ? 1 : 0;
+}
+
 int sb_ring_contact_update(SbRingContact *contact, bool gentle) {
   SbRingFem *fem = contact->fem;
   int changes = 0;
@@ -370,58 +483,65 @@ int sb_ring_contact_update(SbRingContact *contact, bool gentle) {
       SbRingTouch *touch = &contact->touch[at];
       double n[2], t[2], gap, curvature;
       frame(contact, (SbRingSurface)s, x, n, t, &gap, &curvature);
-      if (!touch->held) {
-        if (gap < -1e-11 && gentle) {
-          if (gap < deepest) {
-            deepest = gap;
-            worst_catch = at;
-          }
-        } else if (gap < -1e-11) {
-          touch->held = true;
-          touch->slip = 0;
-          changes++;
-        }
-        continue;
-      }
       // The fluid would push this node off the surface, along n, by its share.
-      double excess =
-          touch->force - (n[0] * contact->share[2 * i] + n[1] * contact->share[2 * i + 1]);
-      if (excess < -tiny) {
-        if (gentle) {
-          if (excess < least) {
-            least = excess;
-            worst_release = at;
-          }
-        } else {
-          touch->held = false;
-          changes++;
-        }
+      double excess = touch->force;
+      if (touch->catches < CATCHES_MAX) {
+        excess -= n[0] * contact->share[2 * i] + n[1] * contact->share[2 * i + 1];
+      }
+      if (!touch->held && gap < deepest) {
+        worst_catch = at;
+        deepest = gentle ? gap : deepest;
+      } else if (touch->held && excess < least) {
+        worst_release = at;
+        least = gentle ? excess : least;
+      } else {
         continue;
       }
-      // Coulomb: too large a sticking force slides; a slip against its own friction sticks.
-      double friction = contact->now.friction[s];
-      if (friction > 0.0 && !(s == SB_RING_BORE && contact->now.use_traction)) {
-        if (touch->slip == 0 && fabs(touch->tangent) > friction * touch->force + tiny) {
-          touch->slip = touch->tangent > 0.0 ? 1 : -1;
-          changes++;
-        } else if (touch->slip != 0 &&
-                   slipped(contact, (SbRingSurface)s, i, x, t) * touch->slip > 1e-11) {
-          touch->slip = 0;
-          changes++;
-        }
+      if (!gentle) {
+        touch->held = !touch->held;
+        touch->catches += touch->held ? 1 : 0;
+        touch->slip = touch->held ? caught_slip(contact, (SbRingSurface)s, i, x, t) : 0;
+        changes++;
       }
     }
   }
-  if (worst_release >= 0) {
+  if (gentle && worst_release >= 0) {
     contact->touch[worst_release].held = false;
     changes++;
   }
-  if (worst_catch >= 0) {
+  if (gentle && worst_catch >= 0) {
+    int i = worst_catch / SB_RING_SURFACES;
+    SbRingSurface s = (SbRingSurface)(worst_catch % SB_RING_SURFACES);
+    double x[2], n[2], t[2], gap, curvature;
+    node_place(contact, i, x);
+    frame(contact, s, x, n, t, &gap, &curvature);
     contact->touch[worst_catch].held = true;
-    contact->touch[worst_catch].slip = 0;
+    contact->touch[worst_catch].catches++;
+    contact->touch[worst_catch].slip = caught_slip(contact, s, i, x, t);
     changes++;
   }
-  return changes;
+  // Friction follows once the contact is steady: both at once chase each other.
+  return changes > 0 ? changes : update_slip(contact, gentle);
+}
+
+void sb_ring_contact_begin(SbRingContact *contact) {
+  for (int i = 0; i < SB_RING_SURFACES * contact->count; i++) {
+    contact->touch[i].flips = contact->touch[i].catches = 0;
+  }
+}
+
+// Sum of what exceeds Coulomb's law at sticking nodes.
+static double slip_excess(const SbRingContact *contact) {
+  double sum = 0.0;
+  for (int i = 0; i < SB_RING_SURFACES * contact->count; i++) {
+    const SbRingTouch *touch = &contact->touch[i];
+    double friction = contact->now.friction[i % SB_RING_SURFACES];
+    bool given = i % SB_RING_SURFACES == SB_RING_BORE && contact->now.use_traction;
+    if (touch->held && touch->slip == 0 && friction > 0.0 && !given) {
+      sum += fmax(0.0, fabs(touch->tangent) - friction * touch->force);
+    }
+  }
+  return sum;
 }
 
 void sb_ring_contact_forces(SbRingContact *contact) {
@@ -430,6 +550,18 @@ void sb_ring_contact_forces(SbRingContact *contact) {
     double x[2];
     node_place(contact, i, x);
     split_force(contact, i, x, &fem->residual[2 * fem->mesh->loop[i]]);
+  }
+  contact->slip_excess = slip_excess(contact);
+  // For the record, the fluid on open sides is the fluid's again, not the contact's.
+  for (int i = 0; i < contact->count; i++) {
+    double x[2], force[2];
+    node_place(contact, i, x);
+    for (int k = 0; k < 2; k++) {
+      force[k] = fem->residual[2 * fem->mesh->loop[i] + k] - contact->pressed[2 * i + k];
+      contact->fluid[2 * i + k] += contact->pressed[2 * i + k];
+      contact->share[2 * i + k] -= contact->pressed[2 * i + k];
+    }
+    split_force(contact, i, x, force);
   }
 }
 

@@ -34,9 +34,11 @@ typedef struct {
 // One boundary node against one surface.
 typedef struct {
   bool held;
-  signed char slip; // 0 sticks; +-1 slides with the friction force on the ring along +-t
-  double force;     // normal contact force on the ring, >= 0 when held
-  double tangent;   // tangential contact force along t
+  signed char slip;      // 0 sticks; +-1 slides with the friction force on the ring along +-t
+  unsigned char flips;   // changes of the slip state in this solve
+  unsigned char catches; // times this node was caught in this solve
+  double force;          // normal contact force on the ring, >= 0 when held
+  double tangent;        // tangential contact force along t
 } SbRingTouch;
 
 typedef struct {
@@ -45,13 +47,15 @@ typedef struct {
   int count;          // boundary nodes
   SbRingTouch *touch; // [count][SB_RING_SURFACES]
   bool *closed;       // [count / 2] boundary sides closed by contact
-  double *share;      // [2 count] force that the fluid would put on the closed sides' nodes
+  double *share;      // [2 count] force of the fluid that held nodes must exceed
+  double *pressed;    // [2 count] the part of it from open sides
   double *weight;     // [count] current area of the boundary nodes
   double *fluid;      // [2 count] fluid force on the open sides' nodes
   double *anchor;     // [2 count] place at the start of the step, for sticking
   double slide_start; // slide at the start of the step
   bool *saved;        // for sb_ring_contact_save
   signed char *saved_slip;
+  double slip_excess; // sum of what exceeds Coulomb's law at nodes that could not settle
   double force_scale; // for tolerances
 } SbRingContact;
 
@@ -64,6 +68,9 @@ double sb_ring_gap(const SbRingSetting *setting, SbRingSurface surface, const do
 
 // Marks every node that is on or inside a surface as held.
 void sb_ring_contact_detect(SbRingContact *contact);
+
+// Before a solve: forgets how often slip states have changed.
+void sb_ring_contact_begin(SbRingContact *contact);
 
 // After assembly: adds fluid to residual and tangent, writes the nodes' conditions. Returns the
 // largest penetration or gap of a held node.

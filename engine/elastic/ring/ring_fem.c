@@ -323,7 +323,7 @@ bool sb_ring_fem_assemble(SbRingFem *fem) {
   }
   double stiffness = fem->axial_spring + fem->axial_damping;
   for (int i = 0; i < mesh->nodes && stiffness > 0.0; i++) {
-    fem->residual[2 * i + 1] += fem->axial_spring * fem->u[2 * i + 1];
+    fem->residual[2 * i + 1] += fem->axial_spring * (fem->u[2 * i + 1] - fem->saved[1][2 * i + 1]);
     fem->value[fem->row_start[2 * i + 1] + fem->diagonal[i] + 1] += stiffness;
   }
   return true;

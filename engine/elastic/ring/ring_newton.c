@@ -50,6 +50,7 @@ SbStatus sb_ring_newton(SbRingContact *contact, const SbRingNewton *options, SbR
   SbRingFem *fem = contact->fem;
   int changes = 0;
   double step = 1.0, det_before = 1.0;
+  sb_ring_contact_begin(contact);
   fem->axial_damping = DAMPING / fem->mesh->nodes;
   for (int it = 0;; it++) {
     if (options->poll != NULL && options->poll(options->poll_data)) {

@@ -261,11 +261,11 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   for (int s = SB_RING_BORE; s <= SB_RING_FLOOR; s++) {
     force[s][0] += (s == SB_RING_BORE ? -1.0 : 1.0) * end_share(ring, (SbRingSurface)s);
   }
-  out->bore_force = -force[SB_RING_BORE][0] * f;
+  out->bore_force = 0.0 - force[SB_RING_BORE][0] * f; // not -0
   out->bore_drag = force[SB_RING_BORE][1] * f;
   out->floor_force = force[SB_RING_FLOOR][0] * f;
   out->floor_drag = force[SB_RING_FLOOR][1] * f;
-  out->wall_right_force = -force[SB_RING_WALL_RIGHT][1] * f;
+  out->wall_right_force = 0.0 - force[SB_RING_WALL_RIGHT][1] * f;
   out->wall_right_drag = force[SB_RING_WALL_RIGHT][0] * f;
   out->wall_left_force = force[SB_RING_WALL_LEFT][1] * f;
   out->wall_left_drag = force[SB_RING_WALL_LEFT][0] * f;
@@ -321,6 +321,7 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
     axial_most = fmax(axial_most, fmax(fabs(force[s][1]), fabs(force[s][0])));
   }
   out->axial_imbalance = axial_most > 0.0 ? fabs(axial) / axial_most : 0.0;
+  out->friction_excess = contact->slip_excess * f;
   double reference, deformed;
   sb_ring_fem_volume(ring->fem, &reference, &deformed);
   out->volume_change = deformed / reference - 1.0;

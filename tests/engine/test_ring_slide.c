@@ -1,0 +1,206 @@
+// Sliding and load changes of a fitted ring: drag and its reversal, Coulomb's law, warm start,
+// given shear, the land's edge, refusal that keeps the state.
+#include "engine/elastic/ring/ring.h"
+
+#include <glib.h>
+#include <math.h>
+
+static const SbRingBody BODY = {.section_diameter = 1.61e-3,
+                                .inner_diameter = 2.84e-3,
+                                .modulus = 2.5e6,
+                                .poisson_ratio = 0.49};
+
+static SbRingLoad groove(double pressure) {
+  SbRingLoad load = SB_RING_LOAD_INIT;
+  load.floor_radius = 1.64e-3;
+  load.bore_radius = 3e-3;
+  load.wall_left = -1e-3;
+  load.wall_right = 1e-3;
+  load.pressure_left = pressure;
+  return load;
+}
+
+static SbRing *create(const SbRingLoad *load) {
+  SbRing *ring = NULL;
+  SbReport report = {0};
+  SbRingOptions options = {.element_size = 0.06, .fit_mesh = true};
+  SbStatus status = sb_ring_create(&ring, &BODY, load, &options, &report);
+  if (status != SB_OK) {
+    g_test_message("%s", report.text);
+  }
+  g_assert_cmpint(status, ==, SB_OK);
+  return ring;
+}
+
+static void step(SbRing *ring, const SbRingLoad *load, SbRingResult *r) {
+  SbReport report = {0};
+  SbStatus status = sb_ring_step(ring, load, &report);
+  if (status != SB_OK) {
+    g_test_message("%s", report.text);
+  }
+  g_assert_cmpint(status, ==, SB_OK);
+  sb_ring_result(ring, r);
+  g_assert_cmpfloat(r->axial_imbalance, <, 1e-8);
+  g_assert_cmpfloat(r->penetration, <=, 1e-12);
+}
+
+// Moves the bore by `travel` in `steps` and returns the last state.
+static SbRingResult slide(SbRing *ring, SbRingLoad *load, double travel, int steps) {
+  SbRingResult r = {0};
+  for (int i = 0; i < steps; i++) {
+    load->bore_position += travel / steps;
+    step(ring, load, &r);
+  }
+  return r;
+}
+
+// Slid far both ways, without pressure: full sliding at mu W, the contact shifted and the load
+// raised, and the return is the mirror image although the ring remembers.
+static void test_reversal(void) {
+  SbRingLoad load = groove(0.0);
+  load.friction_bore = load.friction_floor = load.friction_wall = 0.2;
+  SbRing *ring = create(&load);
+  SbRingResult rest, forth, back;
+  sb_ring_result(ring, &rest);
+  g_assert_cmpfloat(fabs(rest.bore_drag), <, 1e-9 * rest.bore_force);
+  // At first it rolls: half a step of the bore, little drag.
+  forth = slide(ring, &load, 0.1e-3, 4);
+  g_assert_cmpfloat(forth.bore_drag, <, 0.2 * 0.2 * forth.bore_force);
+  double middle = 0.5 * (forth.contact_left + forth.contact_right);
+  g_assert_cmpfloat(middle, >, 0.3 * 0.1e-3);
+  g_assert_cmpfloat(middle, <, 0.8 * 0.1e-3);
+  // Then the wall holds it and the bore slides over.
+  forth = slide(ring, &load, 0.5e-3, 16);
+  g_assert_cmpfloat(fabs(forth.bore_drag / forth.bore_force - 0.2), <, 1e-9);
+  g_assert_cmpfloat(forth.bore_force, >, 1.03 * rest.bore_force);
+  g_assert_cmpfloat(forth.friction_excess, <, 1e-9);
+  back = slide(ring, &load, -1.2e-3, 40);
+  g_assert_cmpfloat(fabs(back.bore_drag / back.bore_force + 0.2), <, 1e-9);
+  g_test_message("load %.4f at rest, %.4f forth, %.4f back; contact %.4f..%.4f, %.4f..%.4f mm",
+                 rest.bore_force, forth.bore_force, back.bore_force, 1e3 * forth.contact_left,
+                 1e3 * forth.contact_right, 1e3 * back.contact_left, 1e3 * back.contact_right);
+  // Mirrored within what the discrete mesh lets single nodes stick.
+  g_assert_cmpfloat(fabs(back.bore_force / forth.bore_force - 1.0), <, 1e-2);
+  g_assert_cmpfloat(fabs(back.contact_left + forth.contact_right), <, 1e-5);
+  sb_ring_destroy(ring);
+}
+
+// Under pressure the wall carries pressure and drag; the drag differs with the direction.
+static void test_pressed(void) {
+  SbRingLoad load = groove(0.55e6);
+  load.friction_bore = load.friction_floor = load.friction_wall = 0.2;
+  SbRing *ring = create(&load);
+  SbRingResult rest, forth, back;
+  sb_ring_result(ring, &rest);
+  forth = slide(ring, &load, 0.3e-3, 12);
+  back = slide(ring, &load, -0.4e-3, 16);
+  g_test_message("drag %.4f forth, %.4f back; wall %.4f, %.4f, at rest %.4f N", forth.bore_drag,
+                 back.bore_drag, forth.wall_right_force, back.wall_right_force,
+                 rest.wall_right_force);
+  g_assert_cmpfloat(forth.bore_drag, >, -1.2 * back.bore_drag);
+  // Wall = pressure on the annulus of the closed contact + the drags, within the fluid that the
+  // last partly wetted side carries.
+  double annulus = G_PI * (9e-6 - 1.64e-3 * 1.64e-3) * 0.55e6;
+  g_assert_cmpfloat(fabs(forth.wall_right_force - annulus - forth.bore_drag - forth.floor_drag), <,
+                    1e-6 * annulus);
+  g_assert_cmpfloat(fabs(back.wall_right_force - annulus - back.bore_drag - back.floor_drag), <,
+                    1e-6 * annulus);
+  // Friction of the total contact pressure, the fluid's share included.
+  g_assert_cmpfloat(fabs(forth.bore_drag / forth.bore_force - 0.2), <, 4e-3);
+  sb_ring_destroy(ring);
+}
+
+// A given shear on the contact instead of Coulomb's law.
+static void test_traction(void) {
+  SbRingLoad load = groove(0.0);
+  load.use_bore_traction = true;
+  load.bore_traction = 5e4;
+  load.friction_floor = 0.3;
+  SbRing *ring = create(&load);
+  SbRingResult r;
+  sb_ring_result(ring, &r);
+  double area = 2.0 * G_PI * load.bore_radius * (r.contact_right - r.contact_left);
+  g_test_message("drag %.5f N, shear x area %.5f N", r.bore_drag, 5e4 * area);
+  g_assert_cmpfloat(fabs(r.bore_drag / (5e4 * area) - 1.0), <, 0.05);
+  sb_ring_destroy(ring);
+}
+
+// Stepping to a load and creating there give the same frictionless state; a small step is cheap.
+static void test_warm(void) {
+  SbRingLoad load = groove(0.2e6);
+  SbRing *ring = create(&load);
+  SbRingResult before, r, fresh;
+  sb_ring_result(ring, &before);
+  load.pressure_left = 0.25e6;
+  load.bore_radius = 2.98e-3;
+  step(ring, &load, &r);
+  g_assert_cmpint(r.newton_iterations - before.newton_iterations, <=, 12);
+  SbRing *other = create(&load);
+  sb_ring_result(other, &fresh);
+  // Different meshes (each fitted to its own first state).
+  g_assert_cmpfloat(fabs(r.bore_force / fresh.bore_force - 1.0), <, 5e-3);
+  // The pressure may change sides: the ring goes to the other wall.
+  load.pressure_left = 0.0;
+  load.pressure_right = 0.25e6;
+  step(ring, &load, &r);
+  g_assert_cmpfloat(r.wall_left_force, >, 0.0);
+  g_assert_cmpfloat(r.wall_right_force, ==, 0.0);
+  // The mesh is coarser on the flank that was not meant for it.
+  g_assert_cmpfloat(fabs(r.contact_left + fresh.contact_right), <, 3e-5);
+  sb_ring_destroy(other);
+  sb_ring_destroy(ring);
+}
+
+// The land's edge passes under the seal: contact ends before the chamfer's opening, load falls to
+// nothing, nothing penetrates; then back.
+static void test_land_edge(void) {
+  SbRingLoad load = groove(0.0);
+  load.chamfer_angle = 0.5;
+  load.edge_length = 0.1e-3;
+  load.land_right = 1.2e-3;
+  SbRing *ring = create(&load);
+  SbRingResult r;
+  sb_ring_result(ring, &r);
+  double full = r.bore_force, last = full;
+  for (double edge = 1.0e-3; edge > -1.3e-3; edge -= 0.1e-3) {
+    load.land_right = edge;
+    step(ring, &load, &r);
+    g_assert_cmpfloat(r.bore_force, <=, 1.02 * last);
+    last = r.bore_force;
+    if (edge > -0.05e-3 && edge < 0.05e-3) {
+      g_test_message("edge half-way: %.4f N of %.4f N, pushed to the wall by %.4f N", r.bore_force,
+                     full, r.wall_right_force);
+      g_assert_cmpfloat(r.bore_force, <, 0.8 * full);
+      g_assert_cmpfloat(r.bore_force, >, 0.4 * full);
+    }
+  }
+  g_assert_cmpfloat(last, <, 0.05 * full);
+  sb_ring_destroy(ring);
+}
+
+// A step that cannot be done is refused and the ring stays where it was.
+static void test_keeps_state(void) {
+  SbRingLoad load = groove(0.0);
+  SbRing *ring = create(&load);
+  SbRingResult before, after;
+  sb_ring_result(ring, &before);
+  SbRingLoad bad = load;
+  bad.bore_radius = 1.6e-3;
+  SbReport report;
+  g_assert_cmpint(sb_ring_step(ring, &bad, &report), ==, SB_ERROR_INFEASIBLE);
+  sb_ring_result(ring, &after);
+  g_assert_cmpfloat(after.bore_force, ==, before.bore_force);
+  g_assert_cmpfloat(sb_ring_load(ring)->bore_radius, ==, 3e-3);
+  sb_ring_destroy(ring);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/ring-slide/reversal", test_reversal);
+  g_test_add_func("/ring-slide/pressed", test_pressed);
+  g_test_add_func("/ring-slide/traction", test_traction);
+  g_test_add_func("/ring-slide/warm", test_warm);
+  g_test_add_func("/ring-slide/land-edge", test_land_edge);
+  g_test_add_func("/ring-slide/keeps-state", test_keeps_state);
+  return g_test_run();
+}
