@@ -1,6 +1,7 @@
 // Documents: values in layers, problems collected, edits undone. Writing is document_write.c.
 #include "app/document/document_private.h"
 #include "app/document/reader.h"
+#include "app/export/still.h"
 
 #include <math.h>
 #include <string.h>
@@ -269,7 +270,24 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   return document;
 }
 
+// A picture that this program wrote holds its scene.
+static SbDocument *load_picture(const char *path, GPtrArray *issues) {
+  GError *error = NULL;
+  char *text = sb_still_read_scene(path, &error);
+  if (text == NULL) {
+    sb_issues_add(issues, NULL, 0, NULL, NULL, "%s", error->message);
+    g_error_free(error);
+    return NULL;
+  }
+  SbDocument *document = sb_document_parse(text, strlen(text), path, NULL, issues);
+  g_free(text);
+  return document;
+}
+
 SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
+  if (g_str_has_suffix(path, ".png") && g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
+    return load_picture(path, issues);
+  }
   size_t length = 0;
   char *text = sb_reader_load(&length, path, path, SB_DOCUMENT_BYTES_MAX, issues);
   if (text == NULL) {

@@ -25,7 +25,8 @@ SbDocument *sb_document_new(void);
 // key with a problem keeps its default. NULL if nothing could be made of it; then `issues` has at
 // least one. With an empty `issues` afterwards the document is sound: its model compiles. Refuses
 // what is not a regular file, larger than SB_DOCUMENT_BYTES_MAX, not UTF-8, or binary, without
-// reading it.
+// reading it. A .png that this program wrote gives the scene it was drawn from, as a valve with all
+// its values and without a path.
 SbDocument *sb_document_load(const char *path, GPtrArray *issues);
 
 // The same from memory; `name` stands in messages, `directory` is where a scene looks for its valve

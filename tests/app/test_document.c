@@ -1,5 +1,6 @@
 // Documents: shipped files hold what the catalogue says, edits undo, saving changes nothing else.
 #include "app/document/document.h"
+#include "app/export/still.h"
 
 #include <glib/gstdio.h>
 #include <math.h>
@@ -285,6 +286,50 @@ static void test_moved_scene(void) {
   remove_folder(folder);
 }
 
+static void draw_nothing(cairo_t *cr, double width, double height, void *user) {}
+
+// A picture gives back the scene it was drawn from; another picture gives one clear line.
+static void test_picture(void) {
+  char *folder = temporary_folder();
+  char *path = g_build_filename(folder, "p.png", NULL);
+  char *source = asset("scenes/thesis-cycle.scene");
+  SbDocument *document = load(source);
+  char *text = sb_document_to_flat_text(document);
+  SbStill still = {.width = 32, .height = 32, .scene = text, .draw = draw_nothing};
+  GError *error = NULL;
+  g_assert_true(sb_still_write(&still, path, &error));
+  g_assert_no_error(error);
+  SbDocument *back = load(path);
+  char *one = sb_document_sha256(document);
+  char *two = sb_document_sha256(back);
+  g_assert_cmpstr(one, ==, two);
+  g_assert_cmpstr(sb_document_title(back), ==, sb_document_title(document));
+  g_assert_null(sb_document_path(back));
+  g_free(one);
+  g_free(two);
+  g_free(text);
+  sb_document_free(back);
+  sb_document_free(document);
+
+  static const char *const bad[] = {NULL, "not a picture", "\x89PNG\r\n\x1a\n"};
+  for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+    still.scene = NULL;
+    if (bad[i] == NULL) {
+      g_assert_true(sb_still_write(&still, path, &error));
+    } else {
+      g_assert_true(g_file_set_contents(path, bad[i], -1, NULL));
+    }
+    GPtrArray *issues = sb_issues_new();
+    g_assert_null(sb_document_load(path, issues));
+    g_assert_cmpuint(issues->len, ==, 1);
+    g_ptr_array_unref(issues);
+  }
+  g_unlink(path);
+  g_free(path);
+  g_free(source);
+  remove_folder(folder);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/document/piston", test_piston);
@@ -293,5 +338,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/document/undo", test_undo);
   g_test_add_func("/document/save", test_save);
   g_test_add_func("/document/moved-scene", test_moved_scene);
+  g_test_add_func("/document/picture", test_picture);
   return g_test_run();
 }
