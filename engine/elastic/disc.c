@@ -390,7 +390,7 @@ static void estimate(SbDisc *out, const Figures f[3], const size_t n[3], bool ki
   const double value[3][3] = {{f[0].load, f[1].load, f[2].load},
                               {f[0].peak, f[1].peak, f[2].peak},
                               {f[0].width, f[1].width, f[2].width}};
-  const double floor = unsymmetric ? 2e-7 : 1e-13;
+  const double floor = unsymmetric ? 2e-7 : 1e-12;
   double d1[3];
   double d2[3];
   double rate[3];

@@ -140,6 +140,22 @@ static void test_reference(void) {
     assert_close(disc.pressure_peak, 1e3 * row[i][3], 3e-5);
   }
 
+  // The same by a separate program: Chebyshev polynomials of the second kind over the half contact,
+  // least consistent edge by bracketing; agrees to twelve digits.
+  const double digits[5][4] = {{0.02, 27.20480692135, 0.1833780477988, 188.5824532781},
+                               {0.04, 62.94421156184, 0.2774639056453, 287.7609762505},
+                               {0.10, 199.5995305575, 0.4844834369810, 518.4766107936},
+                               {0.25 / 1.61, 356.1416637403, 0.6334166914361, 701.4554269842},
+                               {0.30, 879.5485072372, 0.9327486184390, 1145.185372155}};
+  for (int i = 0; i < 5; i++) {
+    in = disc_problem(SB_DISC_VERTICAL, digits[i][0], 0.0, 0.0);
+    in.tolerance = 1e-10;
+    disc = solve(&in);
+    assert_close(disc.load_per_length, digits[i][1], 1e-11);
+    assert_close(disc.contact_width, 1e-3 * digits[i][2], 1e-11);
+    assert_close(disc.pressure_peak, 1e3 * digits[i][3], 1e-11);
+  }
+
   // The vertical kernel feels Poisson's ratio through the plane-strain modulus alone.
   SbDiscProblem soft = disc_problem(SB_DISC_VERTICAL, 0.1, 0.0, 0.0);
   soft.poisson_ratio = 0.2;
