@@ -110,7 +110,7 @@ void sb_hysteresis_now(SbHysteresisView *v, bool line) {
     cairo_line_to(c->cr, p.x, bottom);
     cairo_stroke(c->cr);
     SbPoint drop[2] = {p, {p.x, bottom}};
-    sb_labels_avoid(v->labels, drop, 2, 0.8);
+    sb_labels_avoid(v->labels, drop, 2, 3);
     return;
   }
   sb_canvas_dot(c, p.x, p.y, 8, sb_canvas_role(c, SB_ROLE_PANEL));
@@ -198,6 +198,10 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
                 5);
   }
   const SbSummary *sum = run->summary;
+  // Beyond the line of *now*, for labels that it would cross.
+  const SbFrame *frame = v->flags & SB_CHART_WHOLE ? NULL : sb_chart_frame(v->data);
+  double beyond =
+      frame ? sb_hysteresis_pixel(&v->at, frame->displacement, frame->force).x + 12 : left;
   if (sum && sb_chart_complete(v->data)) {
     double zero = sb_axis_at(&v->at.x, 0);
     if (isfinite(sum->energy.loop) && sum->energy.loop > 0) {
@@ -210,8 +214,9 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
                               {zero + 12, y + 36, SB_LEFT},
                               {zero + 12, y - 10, SB_LEFT},
                               {zero + 12, y - 28, SB_LEFT},
-                              {zero + 120, y + 18, SB_LEFT}},
-                  5);
+                              {beyond, y + 18, SB_LEFT},
+                              {beyond, y - 10, SB_LEFT}},
+                  6);
     }
     if (isfinite(sum->force_return_min)) {
       sb_format_text(value, SB_QUANTITY_FORCE, sum->force_return_min, sb_chart_error_force(run));
@@ -220,7 +225,7 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
       label_curve(v, text, SB_ROLE_INK,
                   (SbPlace[]){{zero + 12, y - 9, SB_LEFT},
                               {zero + 12, y - 26, SB_LEFT},
-                              {zero + 60, y - 9, SB_LEFT},
+                              {beyond, y - 9, SB_LEFT},
                               {zero + 12, y + 18, SB_LEFT}},
                   4);
     }

@@ -426,7 +426,13 @@ static void pressure_chart(Small *s) {
     g_snprintf(text, sizeof text, "%.0f\xc2\xa0%% on the land",
                100.0 * (double)seal->land_fraction);
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-    small_label(s, text, &note, (SbPlace[]){{middle, bottom - 26, SB_MIDDLE}}, 1);
+    // The land's edge takes the canister side away: there is room on that side.
+    double edge = sb_axis_at(&s->x, seal->contact_left * 1e3) - 6;
+    small_label(s, text, &note,
+                (SbPlace[]){{edge, bottom - 8, SB_RIGHT},
+                            {edge, bottom - 26, SB_RIGHT},
+                            {middle, bottom - 26, SB_MIDDLE}},
+                3);
   }
   curve_finish(&curve);
 }
@@ -490,12 +496,15 @@ static void film_chart(Small *s) {
     } else {
       // Narrow: one line under the other, the least film next to the curve.
       g_snprintf(text, sizeof text, "least %s", least);
-      const SbPlace near[] = {{x, y - 9, SB_MIDDLE}, {right_px - 4, y - 9, SB_RIGHT}};
-      const SbPlace above[] = {{x, y - 26, SB_MIDDLE}, {right_px - 4, y - 26, SB_RIGHT}};
+      double edge = sb_axis_at(&s->x, seal->contact_left * 1e3) - 8;
+      const SbPlace near[] = {
+          {x, y - 9, SB_MIDDLE}, {right_px - 4, y - 9, SB_RIGHT}, {edge, y - 9, SB_RIGHT}};
+      const SbPlace above[] = {
+          {x, y - 26, SB_MIDDLE}, {right_px - 4, y - 26, SB_RIGHT}, {edge, y - 26, SB_RIGHT}};
       if (!uniform) {
-        small_label(s, text, &style, near, 2);
+        small_label(s, text, &style, near, 3);
       }
-      small_label(s, value, &style, uniform ? near : above, 2);
+      small_label(s, value, &style, uniform ? near : above, 3);
     }
   } else {
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);

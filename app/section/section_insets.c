@@ -156,7 +156,7 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
   left_px = inset_x(inset, frame->contact_left);
   right_px = inset_x(inset, frame->contact_right);
   if (contact) {
-    double peak_x = (left_px + right_px) / 2;
+    double peak_x = (left_px + right_px) / 2, peak_pressure = frame->pressure_peak;
     if (profile != NULL) {
       double best = 0;
       for (size_t i = 0; i < profile->count; i++) {
@@ -165,11 +165,16 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
           peak_x = inset_x(inset, profile->x[i]);
         }
       }
+      // The number is that of the curve under it, as in the chart of profiles: a solved film's peak
+      // is not the dry fitment's.
+      if (best > 0 && frame->land_fraction > 0.999F) {
+        peak_pressure = best;
+      }
     }
     SbSectionLabel peak = {13, 700, SB_ALIGN_CENTRE, palette->seal[seal], &palette->housing};
     sb_section_label(section, CLAMP(peak_x, rect->x + 50, rect->x + rect->width - 50),
-                     bore - frame->pressure_peak * px - 9, &peak,
-                     sb_section_megapascal(value, frame->pressure_peak));
+                     bore - peak_pressure * px - 9, &peak,
+                     sb_section_megapascal(value, peak_pressure));
     double y = bore + 17;
     SbDrawColour line = palette->ink;
     sb_draw_line(list, left_px, y - 5, left_px, y + 5, 1.2, line);
