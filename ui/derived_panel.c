@@ -123,7 +123,9 @@ static void refresh(Panel *panel) {
   show(panel, 0, seal != NULL ? seal->squeeze : NAN);
   show(panel, 1, seal != NULL ? seal->stretch_inner : NAN);
   show(panel, 2, seal != NULL ? seal->gland_fill : NAN);
-  show(panel, 3, summary != NULL ? summary->force_return_min : NAN);
+  // The stem must have come back for a return force to be known.
+  gboolean returned = summary != NULL && summary->stage[SB_STAGE_E].reached;
+  show(panel, 3, returned ? summary->force_return_min : NAN);
   gtk_label_set_text(GTK_LABEL(panel->note), old && run != NULL ? "last good run" : "outer seal");
 }
 

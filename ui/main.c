@@ -1,12 +1,13 @@
 // sealbench-gtk: starts the application.
 #include "ui/application.h"
 
-#include <glib/gi18n.h>
+#include <locale.h>
 
 int main(int argc, char **argv) {
-  bindtextdomain("sealbench", SB_LOCALE_DIR);
-  bind_textdomain_codeset("sealbench", "UTF-8");
-  textdomain("sealbench");
+  // Numbers look the same in every locale, as in the files.
+  setlocale(LC_ALL, "");
+  setlocale(LC_NUMERIC, "C");
+  gtk_disable_setlocale();
   g_autoptr(SbApplication) application = sb_application_new();
   return g_application_run(G_APPLICATION(application), argc, argv);
 }

@@ -164,7 +164,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   }
   sb_section_draw(view->section, &view->list, &how, &instant);
   cairo_save(cr);
-  cairo_rectangle(cr, 0, 0, area_width, picture.y + picture.height);
+  cairo_rectangle(cr, 0, 0, area_width, picture.y + picture.height + 8);
   cairo_clip(cr);
   cairo_translate(cr, picture.x - view->pan_x, picture.y - view->pan_y);
   sb_draw_list_to_cairo(&view->list, view->text, cr);

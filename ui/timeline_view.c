@@ -72,7 +72,11 @@ static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, View *view) 
 
 // Speed ------------------------------------------------------------------------------------------
 
+// Duration of the shown cycle; 0 while it is not known.
 static double cycle_of(SbSession *session) {
+  if (sb_session_state(session) == SB_SESSION_RUNNING) {
+    return 0;
+  }
   size_t count = 0;
   const SbFrame *frames = sb_session_frames(session, &count);
   return count > 1 ? frames[count - 1].time : 0;

@@ -155,7 +155,7 @@ class App:
 
     def choose(self, combo, item):
         """Picks an item of a combo box."""
-        node = self.find("combo box", combo)
+        node = self.find("combo box", combo, showing=False)
         items = self.all("menu item", root=node, showing=False)
         index = [self.text(entry) or entry.name for entry in items].index(item)
         node.querySelection().selectChild(index)

@@ -36,7 +36,7 @@ def a_long_run_grows_and_can_be_cancelled(folder):
 
 
 def a_long_run_ends_by_itself(folder):
-    with App(scene(folder)) as app:
+    with App(scene(folder, film="thesis")) as app:
         wait("the first run", app.run_done)
         app.unfold("Output")
         app.gaction("reset-latency")
