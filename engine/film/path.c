@@ -63,12 +63,21 @@ static void carry_scaled(SbFilmSolver *solver, int from, int to, const SbReynold
   }
 }
 
-// The case a fraction t of the way from an easy one: small end pressures, no options, M = 20 if
-// thick.
-static SbReynoldsCase between(const SbReynoldsCase *target, double t) {
-  SbReynoldsCase c = *target;
+// Ways to a case: from small end pressures, no options and M = 20 if the film is thick, or from no
+// inlet pressure and no options at the same M.
+typedef enum { WAY_THIN, WAY_SAME, WAYS } Way;
+
+// The case a fraction t of a way.
+static SbReynoldsCase between(const SbReynoldsCase *target, Way way, double t) {
   static const double EASY_LAMBDA = 0.0093; // M = 20
   static const double EASY_PRESSURE = 0.3;
+  SbReynoldsCase c = *target;
+  c.barus *= t;
+  c.eyring *= t;
+  if (way == WAY_SAME) {
+    c.layers.inlet *= t;
+    return c;
+  }
   if (c.layers.lambda > EASY_LAMBDA) {
     c.layers.lambda = EASY_LAMBDA * pow(c.layers.lambda / EASY_LAMBDA, t);
   }
@@ -76,24 +85,21 @@ static SbReynoldsCase between(const SbReynoldsCase *target, double t) {
   double outlet = fmin(c.layers.outlet, EASY_PRESSURE);
   c.layers.inlet = inlet + t * (c.layers.inlet - inlet);
   c.layers.outlet = outlet + t * (c.layers.outlet - outlet);
-  c.barus *= t;
-  c.eyring *= t;
   return c;
 }
 
 // Reaches the case on the lowest degree by continuation; the layers carry the last solution along.
 // Ends in mesh/state *which.
-static SbStatus continuation(SbFilmSolver *solver, int *which, const SbReynoldsCase *target,
-                             double tolerance, SbFilmSolverInfo *info,
-                             const SbFilmProblem *problem) {
+static SbStatus go(SbFilmSolver *solver, int *which, const SbReynoldsCase *target, Way way,
+                   double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
   enum { STEPS_MAX = 60 };
-  SbReynoldsCase c = between(target, 0.0);
+  SbReynoldsCase c = between(target, way, 0.0);
   SbStatus status = cold_start(solver, *which, &c, tolerance, info, problem);
   double done = 0.0;
   double step = 0.25;
   for (int i = 0; status == SB_OK && done < 1.0; i++) {
     double t = fmin(1.0, done + step);
-    SbReynoldsCase next = between(target, t);
+    SbReynoldsCase next = between(target, way, t);
     int to = 1 - *which;
     SbStatus tried = SB_ERROR_NOT_CONVERGED;
     if (sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
@@ -124,6 +130,16 @@ static SbStatus continuation(SbFilmSolver *solver, int *which, const SbReynoldsC
 
 static bool has_free_end(const SbReynoldsCase *c) {
   return c->layers.end == SB_LAYERS_REFORM || isfinite(c->layers.meniscus);
+}
+
+static SbStatus continuation(SbFilmSolver *solver, int *which, const SbReynoldsCase *target,
+                             double tolerance, SbFilmSolverInfo *info,
+                             const SbFilmProblem *problem) {
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  for (int way = 0; way < WAYS && status == SB_ERROR_NOT_CONVERGED; way++) {
+    status = go(solver, which, target, (Way)way, tolerance, info, problem);
+  }
+  return status;
 }
 
 // Least pressure at the collocation points.

@@ -32,23 +32,35 @@ static void differences(double out[3], const SbReynoldsReading *fine,
 // changes shrink. Centre and flux film go together and the minimum follows the outlet layer; a
 // single film may agree by chance, so none is trusted far below its companion.
 static void estimate(SbFilmSolverInfo *info, const SbReynoldsReading *reading, int levels,
-                     double noise) {
+                     const SbLayers *layers, double noise) {
+  // Two levels can agree on the minimum by chance: it is not trusted below a third of what a level
+  // is found to leave in it over the range of M, with an empty and with a flooded outlet.
+  static const double LEFT[2][LEVELS] = {{3e-5, 6e-6, 3.3e-7, 1.5e-8, 1e-9, 1e-9},
+                                         {1.3e-4, 1.8e-5, 1.65e-6, 6.5e-7, 5e-8, 5e-9}};
+
+  bool flooded = layers->end != SB_LAYERS_RUPTURE;
+  bool plain = !flooded && layers->inlet == 0.0 && !isfinite(layers->meniscus);
+  bool thin = !plain || sb_layers_width(layers) < 0.8;
+  // Rate that is believed at best.
+  double slowest = plain ? 0.1 : 0.18;
   double last[3], before[3] = {0};
   differences(last, &reading[levels - 1], &reading[levels - 2]);
   if (levels > 2) {
     differences(before, &reading[levels - 2], &reading[levels - 3]);
   }
-  double middle = fmax(fmax(last[1], last[2]), 0.03 * last[0]);
+  double middle = fmax(fmax(last[1], last[2]), 0.01 * last[0]);
   double largest[3] = {fmax(last[0], middle), middle, middle};
   double middle_before = fmax(before[1], before[2]);
   double previous[3] = {fmax(before[0], middle_before), middle_before, middle_before};
   double estimates[3];
   for (int i = 0; i < 3; i++) {
     double rate = levels > 2 ? largest[i] / fmax(previous[i], 1e-300) : 0.4;
-    rate = fmin(fmax(rate, 0.25), 1.0);
-    estimates[i] = rate * largest[i] + noise;
+    rate = fmin(fmax(rate, slowest), 1.0);
+    // The same for the inside, where the fourth level leaves up to 1.5e-7 at M near 25.
+    estimates[i] = fmax(rate * largest[i], levels == 4 ? 5e-8 : 0.0) + noise;
   }
-  info->error_film_min = estimates[0];
+  info->error_film_min =
+      fmax(estimates[0], LEFT[flooded ? 1 : 0][levels - 1] * (thin ? 1.0 : 0.02));
   info->error_film_central = estimates[1];
   info->error_film_flux = estimates[2];
 }
@@ -135,7 +147,7 @@ static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFil
     sb_reynolds_read(&reading[level], solver, *which, c);
     *levels = level + 1;
     if (*levels >= 2) {
-      estimate(info, reading, *levels, rounding(&reading[level]) + info->residual);
+      estimate(info, reading, *levels, &c->layers, rounding(&reading[level]) + info->residual);
     }
     double worst = fmax(info->error_film_min, info->error_film_central);
     if (*levels >= least && worst <= 0.1 * problem->tolerance) {
