@@ -24,7 +24,8 @@ typedef struct {
   float land_fraction;  // share of the contact width on the land: 1 sliding on it, 0 off
   float pressure_left;  // fluid pressure, canister side [Pa]
   float pressure_right; // fluid pressure, ambient side [Pa]
-  uint32_t profile;     // index into the run's contact profiles
+  uint32_t profile;     // index into the run's contact profiles, UINT32_MAX: none
+  uint32_t shape;       // index into the run's solved ring shapes, UINT32_MAX: none
   double contact_left;  // contact in the seal's frame [m], left < right; equal when there is none
   double contact_right; //
   double load;          // total contact load, around the circumference [N]
@@ -83,6 +84,29 @@ typedef struct {
   const double *asperity_pressure; // part of the pressure that asperities carry [Pa]
   const char *model;               // the model that made it ("hertz shape of karaszkiewicz", ...)
 } SbContactProfile;
+
+// Fields on a solved ring, for drawing.
+typedef enum {
+  SB_FIELD_VON_MISES,    // [Pa]
+  SB_FIELD_HYDROSTATIC,  // mean pressure, compression positive [Pa]
+  SB_FIELD_SHEAR,        // axial-radial [Pa]
+  SB_FIELD_CONTACT,      // contact or fluid pressure on the surface, 0 inside [Pa]
+  SB_FIELD_DISPLACEMENT, // from the free ring, magnitude [m]
+  SB_FIELD_COUNT
+} SbField;
+
+// A solved ring's deformed section, shared by all frames in the same state. Arrays owned by the
+// run.
+typedef struct {
+  size_t nodes, triangles, outline;
+  const double *place; // [2 nodes]: x in the seal's frame, y above the groove floor [m]
+  const float *field[SB_FIELD_COUNT]; // [nodes] each
+  const int *triangle;                // [3 triangles] node numbers
+  const int *outline_node;            // [outline] in order, closed by the first
+  double contact_left, contact_right; // bore contact [m]; equal if there is none
+  double load;                        // on the bore [N]
+  double drag_share;                  // share of the seal's friction that this equilibrium bears
+} SbSealShape;
 
 // Energy of the cycle, each term accumulated by itself [J].
 typedef struct {

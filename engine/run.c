@@ -51,6 +51,11 @@ void sb_run_destroy(SbRun *run) {
   for (int i = 0; i < SB_RUN_PROFILE_SLOTS; i++) {
     free(run->profile[i].data);
   }
+  for (int i = 0; i < SB_RUN_SHAPES; i++) {
+    free(run->shape[i].real);
+    free(run->shape[i].floats);
+    free(run->shape[i].integers);
+  }
   free(run->frames);
   free(run);
 }
@@ -83,6 +88,9 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
 
   // A film that did not converge leaves its best state: the cycle is still worth having, flagged.
   SbStatus status = sb_run_solve_states(run, hooks, report);
+  if (status == SB_OK && run->plan.section_fields) {
+    status = sb_run_solve_shapes(run, hooks, report);
+  }
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     bool inertia = run->model.motion != SB_MODEL_MOTION_QUASI_STATIC;
     SbStatus motion = inertia ? sb_run_dynamic(run, hooks, status == SB_OK ? report : NULL)
@@ -120,6 +128,10 @@ const SbContactProfile *sb_run_profile(const SbRun *run, uint32_t index) {
   return index < SB_RUN_PROFILE_SLOTS && run->profile[index].data != NULL
              ? &run->profile[index].view
              : NULL;
+}
+
+const SbSealShape *sb_run_shape(const SbRun *run, uint32_t index) {
+  return index < SB_RUN_SHAPES && run->shape[index].view.nodes > 0 ? &run->shape[index].view : NULL;
 }
 
 const SbSummary *sb_run_summary(const SbRun *run) {

@@ -83,6 +83,10 @@ size_t sb_run_capacity(const SbRun *run);
 // Profile `index` of the run; borrowed. Any thread, for an index found in a published frame.
 const SbContactProfile *sb_run_profile(const SbRun *run, uint32_t index);
 
+// Solved ring shape `index`, NULL if there is none; borrowed. Any thread, for an index found in a
+// published frame.
+const SbSealShape *sb_run_shape(const SbRun *run, uint32_t index);
+
 // Only after sb_run_execute() returned; borrowed.
 const SbSummary *sb_run_summary(const SbRun *run);
 const SbModel *sb_run_model(const SbRun *run);

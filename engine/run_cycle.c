@@ -19,6 +19,12 @@ static void fill_seal(SbSealFrame *out, const SbRun *run, int seal, const SbCycl
   if (!moving) {
     out->friction = stuck_friction;
     out->friction_boundary = stuck_friction;
+    if (stuck_friction != 0) {
+      // A stuck ring keeps the shear of the friction that holds it.
+      out->shape =
+          sb_run_shape_index(run, seal, chamber, stuck_friction > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT,
+                             (double)out->land_fraction);
+    }
     return;
   }
   double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;

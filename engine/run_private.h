@@ -16,6 +16,21 @@ typedef struct {
   double *data; // x, pressure, film, asperity pressure
 } SbRunProfile;
 
+enum {
+  SB_RUN_EDGES = 8, // places of the land's edge under the inner seal
+  SB_RUN_SHAPE_FREE = SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
+  SB_RUN_SHAPE_EDGE = SB_RUN_SHAPE_FREE + 1,
+  SB_RUN_SEAL_SHAPES = SB_RUN_SHAPE_EDGE + SB_RUN_EDGES,
+  SB_RUN_SHAPES = SB_SEAL_COUNT * SB_RUN_SEAL_SHAPES
+};
+
+typedef struct {
+  SbSealShape view;
+  double *real;
+  float *floats;
+  int *integers;
+} SbRunShape;
+
 struct SbRun {
   SbModel model;
   SbPlan plan;
@@ -23,6 +38,8 @@ struct SbRun {
   SbSummary summary;
   SbSlidingMemory *memory[SB_SEAL_COUNT];
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
+  SbRunShape shape[SB_RUN_SHAPES];
+  uint32_t shape_slot[SB_RUN_SHAPES]; // where a state's shape is: equal states share one
   SbFrame *frames;
   size_t capacity;
   atomic_size_t published;
@@ -31,6 +48,15 @@ struct SbRun {
 // Solves every steady sliding state the cycle can need, and the profiles if the plan wants them
 // (run_states.c).
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Solves the rings' deformed sections for drawing (run_shapes.c). A shape that cannot be found is
+// left out with a warning; only a cancel or no memory is an error.
+SbStatus sb_run_solve_shapes(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Shape of a seal in a frame: by its chamber, its motion (SB_CYCLE_IN, SB_CYCLE_OUT, SB_RUN_REST)
+// and the share of its contact on the land. UINT32_MAX if none was solved.
+uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion,
+                            double land_share);
 
 // Where the profile of a state is kept; `motion` is SB_CYCLE_IN, SB_CYCLE_OUT or SB_RUN_REST.
 uint32_t sb_run_profile_slot(int seal, SbChamber chamber, int motion);

@@ -1,0 +1,276 @@
+// Deformed sections of the rings for the views that draw them, by the finite-strain ring.
+//
+// One equilibrium for each seal, pressure difference and way of sliding: fitted and pressed first,
+// then dragged by the seal's own friction as a uniform shear on the bore contact, held by Coulomb
+// friction on floor and wall. A few more for the inner ring while the land's edge passes under it,
+// and its free shape. Frames only refer to them, so that a film of any length costs the same. Where
+// the drag is more than the ring can bear without rolling, the last equilibrium on the way is kept
+// and the share it bears is told.
+#include "engine/elastic/ring/ring.h"
+#include "engine/run_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// Friction of rubber on the plastic of groove floor and wall, for the drawing only.
+static const double floor_friction = 0.3;
+static const double wall_friction = 0.1;
+
+typedef struct {
+  const SbRunHooks *hooks;
+} Poll;
+
+static bool poll(void *data) {
+  const Poll *p = data;
+  return p->hooks != NULL && p->hooks->cancelled != NULL && p->hooks->cancelled(p->hooks->data);
+}
+
+static uint32_t slot(int seal, int index) {
+  return (uint32_t)(seal * SB_RUN_SEAL_SHAPES + index);
+}
+
+uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion,
+                            double land_share) {
+  if (!run->plan.section_fields) {
+    return UINT32_MAX;
+  }
+  int index = (int)chamber * SB_RUN_MOTIONS + motion;
+  if (land_share <= 0) {
+    index = SB_RUN_SHAPE_FREE;
+  } else if (land_share < 1) {
+    index = SB_RUN_SHAPE_EDGE + (int)((1 - land_share) * SB_RUN_EDGES);
+  }
+  uint32_t found = run->shape_slot[slot(seal, index)];
+  return found < SB_RUN_SHAPES && run->shape[found].view.nodes > 0 ? found : UINT32_MAX;
+}
+
+// Copies the present state of a ring into a slot.
+static SbStatus keep(SbRun *run, uint32_t index, const SbRing *ring, double floor_radius,
+                     double drag_share, SbReport *report) {
+  int nodes;
+  int triangles;
+  int outline;
+  sb_ring_sizes(ring, &nodes, &triangles, &outline);
+  size_t n = (size_t)nodes;
+  SbRunShape *shape = &run->shape[index];
+  double *work = malloc(8 * n * sizeof *work);
+  shape->real = malloc(2 * n * sizeof *shape->real);
+  shape->floats = malloc(SB_FIELD_COUNT * n * sizeof *shape->floats);
+  shape->integers = malloc((3 * (size_t)triangles + (size_t)outline) * sizeof *shape->integers);
+  if (work == NULL || shape->real == NULL || shape->floats == NULL || shape->integers == NULL) {
+    free(work);
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a ring's shape");
+  }
+  SbRingFields fields = {
+      .place = shape->real,
+      .displacement = work,
+      .mises = work + 2 * n,
+      .hydrostatic = work + 3 * n,
+      .shear = work + 4 * n,
+      .contact = work + 5 * n,
+      .triangle = shape->integers,
+      .outline = shape->integers + 3 * triangles,
+  };
+  sb_ring_fields(ring, &fields);
+  for (size_t i = 0; i < n; i++) {
+    shape->real[2 * i + 1] -= floor_radius;
+    shape->floats[SB_FIELD_VON_MISES * n + i] = (float)fields.mises[i];
+    shape->floats[SB_FIELD_HYDROSTATIC * n + i] = (float)-fields.hydrostatic[i];
+    shape->floats[SB_FIELD_SHEAR * n + i] = (float)fields.shear[i];
+    shape->floats[SB_FIELD_CONTACT * n + i] = (float)fields.contact[i];
+    shape->floats[SB_FIELD_DISPLACEMENT * n + i] =
+        (float)hypot(fields.displacement[2 * i], fields.displacement[2 * i + 1]);
+  }
+  free(work);
+  SbRingResult result;
+  sb_ring_result(ring, &result);
+  shape->view = (SbSealShape){
+      .nodes = n,
+      .triangles = (size_t)triangles,
+      .outline = (size_t)outline,
+      .place = shape->real,
+      .triangle = shape->integers,
+      .outline_node = shape->integers + 3 * triangles,
+      .contact_left = result.touching ? result.contact_left : 0,
+      .contact_right = result.touching ? result.contact_right : 0,
+      .load = result.bore_force,
+      .drag_share = drag_share,
+  };
+  for (int f = 0; f < SB_FIELD_COUNT; f++) {
+    shape->view.field[f] = shape->floats + (size_t)f * n;
+  }
+  run->summary.counters.field_evaluations++;
+  return SB_OK;
+}
+
+static SbRingBody ring_body(const SbModel *model, int seal) {
+  const SbSealModel *s = &model->seal[seal];
+  return (SbRingBody){
+      .section_diameter = s->section_diameter,
+      .inner_diameter = s->inner_diameter,
+      .modulus = s->modulus,
+      .poisson_ratio = s->poisson_ratio,
+  };
+}
+
+static SbRingLoad ring_load(const SbModel *model, SbSealPressure pressure) {
+  SbRingLoad load = SB_RING_LOAD_INIT;
+  double low = fmin(pressure.left, pressure.right);
+  load.bore_radius = model->bore_diameter / 2;
+  load.floor_radius = load.bore_radius - model->radial_space;
+  load.wall_left = -model->axial_width / 2;
+  load.wall_right = model->axial_width / 2;
+  load.pressure_left = pressure.left - low;
+  load.pressure_right = pressure.right - low;
+  return load;
+}
+
+// A step, or as much of it as has an equilibrium; *share is how far it went.
+static SbStatus step(SbRun *run, SbRing *ring, const SbRingLoad *from, const SbRingLoad *to,
+                     double *share, SbReport *report) {
+  SbStatus status = sb_ring_step(ring, to, report);
+  run->summary.counters.ring_solves++;
+  *share = 1;
+  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    return status;
+  }
+  if (status != SB_OK) {
+    double whole = to->bore_traction - from->bore_traction;
+    *share = whole != 0 ? (sb_ring_load(ring)->bore_traction - from->bore_traction) / whole : 0;
+  }
+  return SB_OK;
+}
+
+// At rest, dragged by the in-stroke, dragged by the return, for one seal and chamber state.
+static SbStatus solve_dragged(SbRun *run, int seal, SbChamber chamber, Poll *hooks,
+                              SbReport *report) {
+  const SbModel *model = &run->model;
+  SbRingBody body = ring_body(model, seal);
+  SbRingLoad load = ring_load(model, sb_model_seal_pressure(model, seal, chamber));
+  load.friction_floor = floor_friction;
+  load.friction_wall = wall_friction;
+  SbRingOptions options = {.poll = poll, .poll_data = hooks};
+  const int order[SB_RUN_MOTIONS] = {SB_RUN_REST, SB_CYCLE_IN, SB_CYCLE_OUT};
+  for (int i = 0; i < SB_RUN_MOTIONS; i++) {
+    // Each from the fitted ring, so that one way of sliding does not carry the other's history.
+    SbRing *ring = NULL;
+    SbStatus status = sb_ring_create(&ring, &body, &load, &options, report);
+    run->summary.counters.ring_solves++;
+    if (status != SB_OK) {
+      return status;
+    }
+    double share = 1;
+    if (order[i] != SB_RUN_REST) {
+      const SbSliding *state = &run->cycle.states.state[seal][chamber][order[i]];
+      double width = state->contact_right - state->contact_left;
+      SbRingLoad dragged = load;
+      dragged.use_bore_traction = true;
+      dragged.bore_traction = (order[i] == SB_CYCLE_IN ? 1 : -1) * sb_sliding_friction(state) /
+                              (model->bore_circumference * width);
+      status = step(run, ring, &load, &dragged, &share, report);
+      if (share < 0.999) {
+        sb_warn(&run->summary.warnings, "ring-drag", "friction.shear_strength",
+                "the %s ring bears %.0f %% of its friction before it rolls: drawn there",
+                sb_seal_name(seal), 100 * share);
+      }
+    }
+    if (status == SB_OK) {
+      status = keep(run, slot(seal, (int)chamber * SB_RUN_MOTIONS + order[i]), ring,
+                    load.floor_radius, share, report);
+    }
+    sb_ring_destroy(ring);
+    if (status != SB_OK) {
+      return status;
+    }
+  }
+  return SB_OK;
+}
+
+// The inner ring while the edge passes from the left end of its contact to the right one, and off
+// the land.
+static SbStatus solve_edge(SbRun *run, Poll *hooks, SbReport *report) {
+  const SbModel *model = &run->model;
+  SbRingBody body = ring_body(model, SB_INNER);
+  SbRingLoad load = ring_load(model, sb_model_seal_pressure(model, SB_INNER, SB_CHAMBER_AT_REST));
+  SbRingOptions options = {.poll = poll, .poll_data = hooks};
+  SbRing *ring = NULL;
+  SbStatus status = sb_ring_create(&ring, &body, &load, &options, report);
+  run->summary.counters.ring_solves++;
+  SbRingResult fitted;
+  if (status == SB_OK) {
+    sb_ring_result(ring, &fitted);
+  }
+  for (int i = 0; i < SB_RUN_EDGES && status == SB_OK; i++) {
+    SbRingLoad edged = load;
+    double t = (i + 0.5) / SB_RUN_EDGES;
+    edged.land_left = fitted.contact_left + t * (fitted.contact_right - fitted.contact_left);
+    double share;
+    status = step(run, ring, &load, &edged, &share, report);
+    if (status == SB_OK) {
+      status = keep(run, slot(SB_INNER, SB_RUN_SHAPE_EDGE + i), ring, load.floor_radius, 1, report);
+    }
+  }
+  sb_ring_destroy(ring);
+  ring = NULL;
+  if (status != SB_OK) {
+    return status;
+  }
+  load.bore_radius += model->seal[SB_INNER].section_diameter;
+  load.pressure_left = load.pressure_right = 0;
+  status = sb_ring_create(&ring, &body, &load, &options, report);
+  run->summary.counters.ring_solves++;
+  if (status == SB_OK) {
+    status = keep(run, slot(SB_INNER, SB_RUN_SHAPE_FREE), ring, load.floor_radius, 1, report);
+  }
+  sb_ring_destroy(ring);
+  return status;
+}
+
+// Whether two chamber states put the same pressure step on a seal, so that one solution serves
+// both.
+static bool same_pressure(const SbModel *model, int seal, SbChamber a, SbChamber b) {
+  SbSealPressure p = sb_model_seal_pressure(model, seal, a);
+  SbSealPressure q = sb_model_seal_pressure(model, seal, b);
+  return p.left - p.right == q.left - q.right;
+}
+
+SbStatus sb_run_solve_shapes(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+  Poll p = {hooks};
+  for (uint32_t i = 0; i < SB_RUN_SHAPES; i++) {
+    run->shape_slot[i] = i;
+  }
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
+      if (!run->cycle.states.state[seal][chamber][SB_CYCLE_IN].touches) {
+        continue;
+      }
+      // Reuse an earlier chamber state of equal pressure.
+      int before = -1;
+      for (int c = 0; c < chamber && before < 0; c++) {
+        bool known = run->cycle.states.state[seal][c][SB_CYCLE_IN].touches;
+        before =
+            known && same_pressure(&run->model, seal, (SbChamber)c, (SbChamber)chamber) ? c : -1;
+      }
+      if (before >= 0) {
+        for (int m = 0; m < SB_RUN_MOTIONS; m++) {
+          run->shape_slot[slot(seal, chamber * SB_RUN_MOTIONS + m)] =
+              run->shape_slot[slot(seal, before * SB_RUN_MOTIONS + m)];
+        }
+        continue;
+      }
+      SbStatus status = solve_dragged(run, seal, (SbChamber)chamber, &p, report);
+      if (status == SB_OK && seal == SB_INNER && chamber == SB_CHAMBER_AT_REST) {
+        status = solve_edge(run, &p, report);
+      }
+      if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+        return status;
+      }
+      if (status != SB_OK) {
+        sb_warn(&run->summary.warnings, "ring-shape", "models.fit",
+                "no solved shape of the %s ring in one of its states: drawn schematically",
+                sb_seal_name(seal));
+      }
+    }
+  }
+  return sb_succeed(report);
+}
