@@ -45,6 +45,8 @@ static const Case cases[] = {
     {DISC, 0.02, 1e-3, {27.20480692135, 0, 0}},
     {DISC, 0.04, 1e-3, {62.94421156184, 0, 0}},
     {DISC, 0.10, 1e-3, {199.5995305575, 0, 0}},
+    {RING, 0.1553, 1e-2, {4.772, 0, 0}},
+    {RING, 0.1553, 1e-3, {4.772, 0, 0}},
     {CYCLE, SB_MODEL_MOTION_QUASI_STATIC, 0, {0, 0, 0}},
     {CYCLE, SB_MODEL_MOTION_DYNAMIC, 0, {0, 0, 0}},
 };

@@ -83,6 +83,9 @@ size_t sb_run_capacity(const SbRun *run);
 // Profile `index` of the run; borrowed. Any thread, for an index found in a published frame.
 const SbContactProfile *sb_run_profile(const SbRun *run, uint32_t index);
 
+// No shape has an index as large as this.
+enum { SB_RUN_SHAPES_MAX = 64 };
+
 // Solved ring shape `index`, NULL if there is none; borrowed. Any thread, for an index found in a
 // published frame.
 const SbSealShape *sb_run_shape(const SbRun *run, uint32_t index);

@@ -23,6 +23,8 @@ enum {
   SB_RUN_SEAL_SHAPES = SB_RUN_SHAPE_EDGE + SB_RUN_EDGES,
   SB_RUN_SHAPES = SB_SEAL_COUNT * SB_RUN_SEAL_SHAPES
 };
+_Static_assert((int)SB_RUN_SHAPES <= (int)SB_RUN_SHAPES_MAX,
+               "shapes are indexed below SB_RUN_SHAPES_MAX");
 
 typedef struct {
   SbSealShape view;

@@ -19,14 +19,41 @@ static double hertz_gap(double xi) {
   return (xi * root - log(xi + root)) / 2;
 }
 
+// Contact pressure of the fitment at x, by straight lines; the fluid's outside the contact.
+static double fit_pressure(const SbFit *fit, double x, double left, double right) {
+  size_t n = fit->profile_count;
+  if (n < 2 || x <= fit->profile_x[0]) {
+    return left;
+  }
+  if (x >= fit->profile_x[n - 1]) {
+    return right;
+  }
+  size_t low = 0;
+  size_t high = n - 1;
+  while (high - low > 1) {
+    size_t middle = (low + high) / 2;
+    if (fit->profile_x[middle] <= x) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  double span = fit->profile_x[high] - fit->profile_x[low];
+  double t = span > 0 ? (x - fit->profile_x[low]) / span : 0;
+  return fit->profile_p[low] + t * (fit->profile_p[high] - fit->profile_p[low]);
+}
+
 // Pressure and film over one contact, from what the seal's memory has just solved. With a solved
-// film it is the solver's own profile; with a closed form it is the fitment's pressure, the central
-// film held uniform (the law knows no shape) and the dry gap outside.
+// film it is the solver's own profile, or the fitment's pressure where that solved one; with a
+// closed form it is the fitment's pressure, the central film held uniform (the law knows no shape)
+// and the dry gap outside.
 static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, const SbSliding *state,
                              SbRunProfile *profile, SbReport *report) {
   const SbFit *fit = sb_sliding_fit(run->memory[seal]);
   const SbFilm *film = sb_sliding_film(run->memory[seal]);
   bool solved = run->model.film == SB_MODEL_FILM_REYNOLDS && state->film_central > 0;
+  bool own_pressure = run->model.fit == SB_FIT_DISC || run->model.fit == SB_FIT_DISC_THESIS ||
+                      run->model.fit == SB_FIT_RING;
   size_t capacity = solved ? film->points : (size_t)PROFILE_POINTS;
   double *data = calloc(4 * capacity, sizeof *data);
   if (data == NULL) {
@@ -39,13 +66,23 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
   double low = fmin(pressure.left, pressure.right);
   double left = pressure.left - low;
   double right = pressure.right - low;
-  if (solved) {
+  if (solved && own_pressure) {
+    // The film's coordinate is scaled from its half-plane contact to the fitted one.
+    double middle = (fit->contact_left + fit->contact_right) / 2;
+    double stretch = fit->contact_width / 2 / film->hertz_half_width;
+    n = film->points;
+    for (size_t i = 0; i < n; i++) {
+      x[i] = middle + stretch * film->x[i];
+      p[i] = fit_pressure(fit, x[i], left, right);
+      h[i] = film->film[i];
+    }
+  } else if (solved) {
     n = film->points;
     memcpy(x, film->x, n * sizeof *x);
+    memcpy(h, film->film, n * sizeof *h);
     for (size_t i = 0; i < n; i++) {
       p[i] = film->pressure[i] - low;
     }
-    memcpy(h, film->film, n * sizeof *h);
   } else if (state->touches) {
     double a = fit->contact_width / 2;
     double middle = (fit->contact_left + fit->contact_right) / 2;
@@ -76,7 +113,7 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
       .pressure = p,
       .film = h,
       .asperity_pressure = data + 3 * capacity,
-      .model = solved ? "reynolds" : sb_fit_model_name((SbFitModel)run->model.fit),
+      .model = solved && !own_pressure ? "reynolds" : sb_fit_model_name((SbFitModel)run->model.fit),
   };
   run->summary.counters.profile_evaluations++;
   return SB_OK;

@@ -117,6 +117,7 @@ static const SbFrame *prepare(View *view) {
   gboolean other = run != view->run;
   if (other) {
     view->limits = (SbSectionLimits){0};
+    sb_section_limits_add_run(&view->limits, run);
     view->limits_frames = 0;
     view->run = run;
   }
@@ -161,6 +162,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   SbSectionInstant instant = {.frame = frame};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     instant.profile[i] = sb_run_profile(view->run, frame->seal[i].profile);
+    instant.ring[i] = sb_run_shape(view->run, frame->seal[i].shape);
   }
   sb_section_draw(view->section, &view->list, &how, &instant);
   cairo_save(cr);

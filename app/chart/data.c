@@ -75,9 +75,14 @@ static const SbContactProfile *run_profile(const void *source, uint32_t index) {
   return sb_run_profile(source, index);
 }
 
+static const SbSealShape *run_shape(const void *source, uint32_t index) {
+  return sb_run_shape(source, index);
+}
+
 void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace,
                        SbChartState state) {
-  *out = (SbChartRun){.state = state, .trace = trace, .profile = run_profile, .source = run};
+  *out = (SbChartRun){
+      .state = state, .trace = trace, .profile = run_profile, .shape = run_shape, .source = run};
   out->frames = sb_run_frames(run, &out->count);
   out->model = sb_run_model(run);
   bool ended = state != SB_CHART_RUNNING && state != SB_CHART_EMPTY;

@@ -23,6 +23,8 @@ typedef struct {
   const SbSummary *summary; // NULL until the run has ended
   // Contact profile of a frame's seal by its index; NULL function or NULL answer: none was kept.
   const SbContactProfile *(*profile)(const void *source, uint32_t index);
+  // Solved shape of a frame's ring, likewise.
+  const SbSealShape *(*shape)(const void *source, uint32_t index);
   const void *source;
 } SbChartRun;
 

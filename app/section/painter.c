@@ -90,6 +90,9 @@ static void prepare(SbSectionPainter *painter, const SbChartRun *run) {
   }
   SbSectionLimits limits;
   sb_section_limits_of_frames(&limits, run->frames, run->count);
+  for (uint32_t i = 0; run->shape != NULL && i < SB_RUN_SHAPES_MAX; i++) {
+    sb_section_limits_add_shape(&limits, run->shape(run->source, i));
+  }
   bool same_limits = memcmp(&limits, &painter->limits, sizeof limits) == 0;
   painter->frames = run->frames;
   painter->count = run->count;
@@ -157,6 +160,9 @@ void sb_section_painter_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
   SbSectionInstant instant = {.frame = frame};
   for (int i = 0; i < SB_SEAL_COUNT && data->run.profile != NULL; i++) {
     instant.profile[i] = data->run.profile(data->run.source, frame->seal[i].profile);
+  }
+  for (int i = 0; i < SB_SEAL_COUNT && data->run.shape != NULL; i++) {
+    instant.ring[i] = data->run.shape(data->run.source, frame->seal[i].shape);
   }
   // Inside the panel's hairline and rounded corners.
   SbRect inside = {rect.x + 2, rect.y + 2, rect.width - 4, rect.height - 4};

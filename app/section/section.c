@@ -4,6 +4,7 @@
 
 #include <glib.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 // Radius drawn above the bore, and room beside the valve [m per m of bore diameter].
@@ -48,6 +49,47 @@ void sb_section_limits_of_frames(SbSectionLimits *limits, const SbFrame *frames,
   if (!inner_found && count > 0) {
     limits->inner_contact_left = frames[0].seal[SB_INNER].contact_left;
   }
+}
+
+static int ascending(const void *a, const void *b) {
+  float x = *(const float *)a;
+  float y = *(const float *)b;
+  return (x > y) - (x < y);
+}
+
+void sb_section_limits_add_shape(SbSectionLimits *limits, const SbSealShape *shape) {
+  if (shape == NULL) {
+    return;
+  }
+  float *sorted = g_new(float, shape->nodes);
+  for (int field = 0; field < SB_FIELD_COUNT; field++) {
+    memcpy(sorted, shape->field[field], shape->nodes * sizeof *sorted);
+    qsort(sorted, shape->nodes, sizeof *sorted, ascending);
+    limits->field_min[field] = fmin(limits->field_min[field], sorted[shape->nodes / 50]);
+    limits->field_max[field] =
+        fmax(limits->field_max[field], sorted[shape->nodes - 1 - shape->nodes / 50]);
+  }
+  g_free(sorted);
+}
+
+void sb_section_limits_add_run(SbSectionLimits *limits, const SbRun *run) {
+  for (uint32_t i = 0; i < SB_RUN_SHAPES_MAX; i++) {
+    sb_section_limits_add_shape(limits, sb_run_shape(run, i));
+  }
+}
+
+const char *sb_section_field_name(SbField field) {
+  static const char *const names[SB_FIELD_COUNT] = {
+      "von Mises stress", "mean pressure", "shear stress", "surface pressure", "displacement"};
+  return names[field];
+}
+
+const char *sb_section_field_unit(SbField field) {
+  return field == SB_FIELD_DISPLACEMENT ? "mm" : "MPa";
+}
+
+double sb_section_field_scale(SbField field) {
+  return field == SB_FIELD_DISPLACEMENT ? 1e3 : 1e-6;
 }
 
 SbDrawPoint sb_section_at(const SbSection *section, double x, double y) {
@@ -105,31 +147,55 @@ static void shape_rings(SbSection *section) {
     double edge = -around.origin;
     double left = fmax(seal->contact_left, fmin(edge, seal->contact_right));
     sb_ring_shape_make(&section->ring[i], &room, left, seal->contact_right, seal->land_fraction);
+    // Bars and labels follow the contact that is drawn.
+    const SbSealShape *solved = section->instant->ring[i];
+    if (solved != NULL) {
+      section->ring[i].contact_left = solved->contact_left;
+      section->ring[i].contact_right = solved->contact_right;
+    }
   }
+}
+
+// Field of a solved ring in its deformed triangles, then its outline.
+static void draw_solved_ring(SbSection *section, const SbSealShape *shape, double ax, double bx,
+                             double ay, double by) {
+  const SbPalette *palette = section->palette;
+  SbField field = section->view->field;
+  size_t corners = 3 * shape->triangles;
+  SbDrawPoint *point = g_new(SbDrawPoint, MAX(corners, shape->outline));
+  float *scalar = g_new(float, corners);
+  for (size_t i = 0; i < corners; i++) {
+    int node = shape->triangle[i];
+    point[i] = (SbDrawPoint){(float)(ax + bx * shape->place[2 * node]),
+                             (float)(ay + by * shape->place[2 * node + 1])};
+    scalar[i] = shape->field[field][node];
+  }
+  sb_draw_mesh(section->list, point, scalar, corners, &palette->field,
+               section->limits.field_min[field], section->limits.field_max[field]);
+  if (section->view->mesh) {
+    SbDrawColour line = palette->outline;
+    line.a = 0.35f;
+    for (size_t i = 0; i < corners; i += 3) {
+      sb_draw_stroke(section->list, point + i, 3, 0.6, line)->closed = true;
+    }
+  }
+  for (size_t i = 0; i < shape->outline; i++) {
+    int node = shape->outline_node[i];
+    point[i] = (SbDrawPoint){(float)(ax + bx * shape->place[2 * node]),
+                             (float)(ay + by * shape->place[2 * node + 1])};
+  }
+  sb_draw_stroke(section->list, point, shape->outline, 1.8, palette->outline)->closed = true;
+  g_free(point);
+  g_free(scalar);
 }
 
 void sb_section_draw_ring(SbSection *section, int seal, double ax, double bx, double ay,
                           double by) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
-  const SbSectionRing *mesh = section->instant->ring[seal];
-  if (mesh != NULL) {
-    SbDrawPoint *corner = g_new(SbDrawPoint, 3 * mesh->triangle_count);
-    float *scalar = g_new(float, 3 * mesh->triangle_count);
-    for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
-      unsigned node = mesh->triangle[i];
-      corner[i] = (SbDrawPoint){(float)(ax + bx * mesh->x[node]), (float)(ay + by * mesh->y[node])};
-      scalar[i] = (float)mesh->scalar[node];
-    }
-    sb_draw_mesh(list, corner, scalar, 3 * mesh->triangle_count, &palette->field, mesh->scalar_min,
-                 mesh->scalar_max);
-    for (size_t i = 0; i < mesh->outline_count; i++) {
-      unsigned node = mesh->outline[i];
-      corner[i] = (SbDrawPoint){(float)(ax + bx * mesh->x[node]), (float)(ay + by * mesh->y[node])};
-    }
-    sb_draw_stroke(list, corner, mesh->outline_count, 1.8, palette->outline)->closed = true;
-    g_free(corner);
-    g_free(scalar);
+  const SbSealShape *solved = section->instant->ring[seal];
+  if (solved != NULL) {
+    draw_solved_ring(section, solved, ax, bx, ay, by);
     return;
   }
   const SbRingShape *shape = &section->ring[seal];

@@ -19,20 +19,8 @@ typedef struct {
   double pressure_max;       // largest contact pressure, for the inset's scale [Pa]
   double film_max;           // largest central film, for the inset's scale [m]
   double contact_left[SB_SEAL_COUNT], contact_right[SB_SEAL_COUNT]; // outermost, for the inset [m]
+  double field_min[SB_FIELD_COUNT], field_max[SB_FIELD_COUNT]; // of the solved rings, for the map
 } SbSectionLimits;
-
-// A ring's own shape and field, for the time that a finite-element ring supplies them: nodes in
-// the seal's frame (x axial, y from the groove floor) [m], triangles by node index, one scalar per
-// node, the outline as node indices. Borrowed.
-typedef struct {
-  size_t node_count, triangle_count, outline_count;
-  const double *x, *y, *scalar;
-  const unsigned *triangle; // 3 per triangle
-  const unsigned *outline;
-  const char *field_name, *field_unit; // "von Mises stress", "MPa"
-  double scalar_min, scalar_max;       // limits of the colour map, in `scalar`'s unit
-  double display_scale;                // scalar * display_scale is in `field_unit`
-} SbSectionRing;
 
 typedef enum {
   SB_SECTION_WHOLE,      // the valve strip with insets
@@ -48,13 +36,16 @@ typedef struct {
   bool hide_insets, hide_forces, hide_labels;
   int inset_seal; // SB_OUTER or SB_INNER
   SbSectionZoom zoom;
+  SbField field; // shown on solved rings
+  bool mesh;     // their elements' edges too
 } SbSectionView;
 
-// The instant to draw; everything borrowed. profile and ring may hold NULL.
+// The instant to draw; everything borrowed. profile and ring may hold NULL; without a solved shape
+// a ring is drawn schematically.
 typedef struct {
   const SbFrame *frame;
   const SbContactProfile *profile[SB_SEAL_COUNT];
-  const SbSectionRing *ring[SB_SEAL_COUNT];
+  const SbSealShape *ring[SB_SEAL_COUNT];
 } SbSectionInstant;
 
 // Prepares the drawing of one model's frames (the model is copied). Owned by the caller; for one
@@ -64,6 +55,19 @@ void sb_section_destroy(SbSection *section);
 
 // Reads the limits off frames.
 void sb_section_limits_of_frames(SbSectionLimits *limits, const SbFrame *frames, size_t count);
+
+// Widens the field limits by one solved ring (NULL: nothing). The highest fiftieth of the nodes is
+// left out, so that a contact's corner does not bleach the rest.
+void sb_section_limits_add_shape(SbSectionLimits *limits, const SbSealShape *shape);
+
+// The same for every solved ring of a run.
+void sb_section_limits_add_run(SbSectionLimits *limits, const SbRun *run);
+
+// "von Mises stress" and "MPa" of a field, and what its SI values are multiplied by to be in that
+// unit.
+const char *sb_section_field_name(SbField field);
+const char *sb_section_field_unit(SbField field);
+double sb_section_field_scale(SbField field);
 
 // Fills `list` (cleared first) with the picture.
 void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *view,

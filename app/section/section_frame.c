@@ -104,7 +104,11 @@ static void draw_title(SbSection *section, double x, double y) {
 void sb_section_draw_legends(SbSection *section, double x, double y, double width) {
   const SbPalette *palette = section->palette;
   const SbSectionView *view = section->view;
-  const SbSectionRing *ring = section->instant->ring[SB_OUTER];
+  bool ring = section->instant->ring[SB_OUTER] != NULL || section->instant->ring[SB_INNER] != NULL;
+  const char *name = sb_section_field_name(view->field);
+  const char *unit = sb_section_field_unit(view->field);
+  double least = section->limits.field_min[view->field] * sb_section_field_scale(view->field);
+  double most = section->limits.field_max[view->field] * sb_section_field_scale(view->field);
   bool column = view->width - 2 * x >= 860;
   bool zoom = view->zoom != SB_SECTION_WHOLE;
   double low = zoom ? view->height - x : (double)section->strip.y - 10;
@@ -118,17 +122,14 @@ void sb_section_draw_legends(SbSection *section, double x, double y, double widt
       legend(section, right - each, y + 8, each, "fluid pressure", "MPa, gauge", &palette->fluid, 0,
              fluid_full);
     }
-    if (ring != NULL && right - 2 * each - 24 >= left) {
-      legend(section, right - 2 * each - 24, y + 8, each, ring->field_name, ring->field_unit,
-             &palette->field, ring->scalar_min * ring->display_scale,
-             ring->scalar_max * ring->display_scale);
+    if (ring && right - 2 * each - 24 >= left) {
+      legend(section, right - 2 * each - 24, y + 8, each, name, unit, &palette->field, least, most);
     }
     return;
   }
   double at = y + 68;
-  if (ring != NULL) {
-    at += legend(section, x, at, width, ring->field_name, ring->field_unit, &palette->field,
-                 ring->scalar_min * ring->display_scale, ring->scalar_max * ring->display_scale);
+  if (ring) {
+    at += legend(section, x, at, width, name, unit, &palette->field, least, most);
   }
   at +=
       legend(section, x, at, width, "fluid pressure", "MPa, gauge", &palette->fluid, 0, fluid_full);

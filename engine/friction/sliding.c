@@ -201,9 +201,7 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
   // Closed forms that know no pressure give the rubber's share alone: nothing to take off.
   bool holds_fluid = fit->model != SB_FIT_HERTZ && fit->model != SB_FIT_LINDLEY &&
                      fit->model != SB_FIT_GREEN_ENGLISH;
-  double step_left = fmin(fmax(-fit->contact_left, 0), fit->contact_width);
-  double fluid = fmax(pressure.left - pressure.right, 0) * step_left +
-                 fmax(pressure.right - pressure.left, 0) * (fit->contact_width - step_left);
+  double fluid = fabs(pressure.left - pressure.right) * fit->contact_width / 2;
   out->load_net = fit->load_per_length - (holds_fluid ? fluid : 0);
 
   // Film, only when sliding.

@@ -245,7 +245,10 @@ static void test_plan_matches(void) {
       profiles |= strstr(what, "profile") != NULL;
       interior |= strstr(what, "interior") != NULL;
     }
-    has_keys(plan_root, "skipped.0.name skipped.0.reason");
+    // A scene that shows everything skips nothing.
+    if (json_array_get_length(json_node_get_array(at(plan_root, "skipped"))) > 0) {
+      has_keys(plan_root, "skipped.0.name skipped.0.reason");
+    }
     JsonNode *counters = at(run_root, "solver.counters");
     g_assert_cmpint(number(counters, "reynolds_solves") > 0, ==, reynolds);
     g_assert_cmpint(number(counters, "ring_solves") > 0, ==, ring);
