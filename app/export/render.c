@@ -4,6 +4,7 @@
 // take the middle of B-C.
 #include "app/export/render.h"
 
+#include "app/chart/format.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/page.h"
 #include "app/chart/profiles.h"
@@ -128,8 +129,9 @@ bool sb_render_frame_at(size_t *frame, const SbRun *run, const char *at, GError 
   }
   double last = frames[count - 1].time;
   if (!(time >= 0 && time <= last * (1 + 1e-9))) {
+    char most[SB_FORMAT_MAX];
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "the run has no time %s (allowed 0 to %.4g s)", at, last);
+                "the run has no time %s (allowed 0 to %s s)", at, sb_format_digits(most, last, 4));
     return false;
   }
   *frame = nearest_frame(frames, count, time);
@@ -174,7 +176,8 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
   SbChartData data = {.playhead = frame,
                       .title = options->title,
                       .subtitle = options->subtitle,
-                      .hash = options->hash};
+                      .hash = options->hash,
+                      .stale = options->stale};
   SbChartState state = summary->status == SB_OK                ? SB_CHART_DONE
                        : summary->status == SB_ERROR_CANCELLED ? SB_CHART_PARTIAL
                                                                : SB_CHART_FAILED;
@@ -186,6 +189,9 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
   sb_page_errors_text(errors, sizeof errors, &data.run);
   GString *comment = g_string_new(NULL);
   g_string_append_printf(comment, "Models: %s\nError estimates: %s", models, errors);
+  if (options->stale) {
+    g_string_append_printf(comment, "\nStale: %s", options->stale);
+  }
   for (size_t i = 0; i < summary->warnings.count; i++) {
     g_string_append_printf(comment, "\nWarning: %s", summary->warnings.item[i].text);
   }

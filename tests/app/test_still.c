@@ -189,6 +189,22 @@ static void test_bad_requests(void) {
   g_clear_error(&error);
 }
 
+// A stale run says so on the page and in the file.
+static void test_stale(void) {
+  GError *error = NULL;
+  g_autofree char *svg = path_of("stale.svg");
+  SbRenderOptions options = options_for("hysteresis");
+  options.stale = "shows the last good run, axial width 2.0 mm";
+  assert_written(sb_render_still(run, &options, svg, &error), error);
+  g_autofree char *text = NULL;
+  g_assert_true(g_file_get_contents(svg, &text, NULL, NULL));
+  g_assert_nonnull(strstr(text, "Stale: shows the last good run"));
+  g_assert_nonnull(strstr(text, "Models: fit "));
+  g_assert_nonnull(strstr(text, "Error estimates: "));
+  // The amber ground, 0xFBF1DC, is on the page.
+  g_assert_nonnull(strstr(text, "rgb(98.431373%,94.509804%,86.27451%)"));
+}
+
 static void test_instants(void) {
   size_t frame, count;
   GError *error = NULL;
@@ -230,6 +246,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/still/vector", test_vector);
   g_test_add_func("/still/disk-full", test_disk_full);
   g_test_add_func("/still/bad-requests", test_bad_requests);
+  g_test_add_func("/still/stale", test_stale);
   g_test_add_func("/still/instants", test_instants);
   g_test_add_func("/still/sizes", test_sizes);
   int result = g_test_run();
