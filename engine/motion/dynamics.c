@@ -253,9 +253,16 @@ static void contact_event(SbDynamics *s, size_t i, int direction) {
     s->state[i] = SB_CONTACT_STUCK;
     s->since[i] = s->t;
     s->fresh[i] = false;
+    if (s->t > s->slipped[i] * (1.0 + 1e-14)) {
+      s->margin[i] = 0.0;
+    } else {
+      // Exactly at its limit: rounding cannot decide, so it holds a hair more.
+      s->margin[i] = fmax(4.0 * s->margin[i], 1e-12 * s->loads.level[i]);
+    }
     return;
   }
   tell(s, SB_MOTION_SLIP, (int)i, direction);
+  s->slipped[i] = s->t;
   s->state[i] = SB_CONTACT_SLIP;
   s->sign[i] = direction;
   s->fresh[i] = false;
@@ -330,10 +337,15 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
   sb_drive_start(&s->drive, &m->drive);
   sb_drive_piece(&s->piece, &s->drive, &m->drive, 0.0);
   s->push.on = m->drive_bonded;
+  if (m->drive.kind != SB_DRIVE_NONE && m->drive.quantity == SB_DRIVE_OF_POSITION) {
+    // A platen that starts in the stem's place is already pressed.
+    s->push.on = s->push.on || s->piece.value > s->x;
+  }
   reload(s);
   for (size_t i = 0; i < m->contacts; i++) {
     s->fresh[i] = false;
     s->since[i] = -m->start_dwell;
+    s->slipped[i] = -1.0;
   }
   s->system = (SbRadauSystem){.n = 2 + m->contacts + m->extras,
                               .powers = POWER_COUNT,

@@ -160,7 +160,9 @@ typedef struct {
   SbContactState state[SB_DYNAMICS_CONTACTS];
   int sign[SB_DYNAMICS_CONTACTS];
   double since[SB_DYNAMICS_CONTACTS]; // start of the rest
-  bool fresh[SB_DYNAMICS_CONTACTS];   // newly loaded: sticks up to the sliding level only
+  // Last slip, and what a contact holds beyond its limit because that slip had no duration, N.
+  double slipped[SB_DYNAMICS_CONTACTS], margin[SB_DYNAMICS_CONTACTS];
+  bool fresh[SB_DYNAMICS_CONTACTS]; // newly loaded: sticks up to the sliding level only
   size_t region;
   SbDynamicsLoads loads;
   SbDynamicsTouch touch[SB_DYNAMICS_STOPS], push;

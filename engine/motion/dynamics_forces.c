@@ -120,7 +120,8 @@ void sb_motion_linear_forces(const SbDynamics *s, Linear *l) {
   const SbDynamicsModel *m = s->model;
   *l = (Linear){.f0 = s->loads.force - m->spring_preload - m->spring_stiffness * s->x,
                 .k = m->spring_stiffness,
-                .c = m->damping};
+                .c = m->damping,
+                .size = fabs(s->loads.force) + fabs(m->spring_preload)};
   if (s->push.on && m->drive.kind != SB_DRIVE_NONE) {
     double value, rate;
     sb_motion_drive_at(s, s->t, &value, &rate);
@@ -128,10 +129,12 @@ void sb_motion_linear_forces(const SbDynamics *s, Linear *l) {
     if (m->drive.quantity == SB_DRIVE_OF_FORCE) {
       l->f0 += value;
       l->f1 += rate;
+      l->size += fabs(value);
     } else {
       l->k += m->drive_stiffness;
       l->f0 += m->drive_stiffness * (value - s->x) + m->drive_damping * rate;
       l->f1 += m->drive_stiffness * rate;
+      l->size += m->drive_stiffness * (fabs(value) + fabs(rate * s->t) + fabs(s->x));
     }
   }
   for (size_t i = 0; i < m->stops; i++) {
@@ -139,6 +142,7 @@ void sb_motion_linear_forces(const SbDynamics *s, Linear *l) {
       l->k += m->stop[i].stiffness;
       l->c += s->stop_damping[i];
       l->f0 -= m->stop[i].stiffness * (s->x - m->stop[i].position);
+      l->size += m->stop[i].stiffness * (fabs(s->x) + fabs(m->stop[i].position));
     }
   }
   for (size_t i = 0; i < m->contacts; i++) {
@@ -149,10 +153,12 @@ void sb_motion_linear_forces(const SbDynamics *s, Linear *l) {
     l->c += c->viscous;
     if (s->state[i] == SB_CONTACT_SLIP) {
       l->f0 -= s->sign[i] * s->loads.level[i];
+      l->size += s->loads.level[i];
     } else if (!is_rigid(m, i)) {
       l->k += c->stiffness;
       l->c += c->damping;
       l->f0 -= c->stiffness * s->d[i];
+      l->size += c->stiffness * fabs(s->d[i]);
     }
   }
 }
@@ -202,6 +208,7 @@ static bool drive_gauge(const SbDynamics *s, SbGauge *g) {
   double k = m->drive_stiffness, c = m->drive_damping;
   // The drive's position carries the rounding of the time since its piece began.
   *g = (SbGauge){.noise = fabs(s->piece.value) + fabs(value) + fabs(rate * s->t) + fabs(s->x)};
+  g->noise += length_noise;
   if (s->push.on) {
     g->noise *= k;
     g->constant = k * (value - s->x) + c * rate;
@@ -221,7 +228,7 @@ static bool drive_gauge(const SbDynamics *s, SbGauge *g) {
 static bool stop_gauge(const SbDynamics *s, size_t i, const Linear *l, SbGauge *g) {
   const SbDynamicsStop *p = &s->model->stop[i];
   double side = p->side, gap = side * (p->position - s->x);
-  *g = (SbGauge){.noise = fabs(p->position) + fabs(s->x)};
+  *g = (SbGauge){.noise = fabs(p->position) + fabs(s->x) + length_noise};
   if (!s->touch[i].on) {
     if (s->held) {
       return false;
@@ -233,7 +240,7 @@ static bool stop_gauge(const SbDynamics *s, size_t i, const Linear *l, SbGauge *
     return true;
   }
   if (p->stiffness > 1e300) {
-    *g = (SbGauge){.constant = side * l->f0, .rate = side * l->f1};
+    *g = (SbGauge){.constant = side * l->f0, .rate = side * l->f1, .noise = l->size};
     return true;
   }
   g->noise *= p->stiffness;
@@ -247,6 +254,7 @@ static bool stop_gauge(const SbDynamics *s, size_t i, const Linear *l, SbGauge *
 static void add_holding(const SbDynamics *s, size_t i, SbGauge *g) {
   const SbDynamicsContact *c = &s->model->contact[i];
   double level = s->loads.level[i];
+  g->constant += s->margin[i];
   if (s->fresh[i]) {
     g->constant += sb_motion_sliding_level(s, i, level, 0.0);
     return;
@@ -286,6 +294,7 @@ static bool rigid_gauge(const SbDynamics *s, int side, const Linear *l, SbGauge 
     add_holding(s, i, g);
   }
   g->constant -= side * l->f0;
+  g->noise = l->size;
   g->rate = -side * l->f1;
   // On a rigid stop the stop carries first.
   return any && !on_rigid_stop(s);
@@ -385,6 +394,7 @@ void sb_motion_anchor_copy(SbDynamics *at, const SbDynamics *s, double t, const 
 
 bool sb_motion_event_value(const SbDynamics *at, int event, double *value, double *grain) {
   Linear l = {0};
+  sb_motion_linear_forces(at, &l);
   if (at->held) {
     l.f0 = sb_motion_demand(at, at->t, at->x, at->d, &at->loads);
   }

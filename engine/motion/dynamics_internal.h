@@ -36,7 +36,11 @@ enum {
 // included at their level, rigid sticking ones and the rigid stop that holds it left out.
 typedef struct {
   double f0, f1, k, c;
+  double size; // sum of the magnitudes in f0: its rounding
 } Linear;
+
+// Positions closer than rounding of this are the same [m].
+static const double length_noise = 1e-6;
 
 // Stiffness INFINITY.
 static inline bool is_rigid(const SbDynamicsModel *m, size_t i) {

@@ -36,6 +36,13 @@ static void closed_path(SbDynamics *s) {
     if (!sb_motion_event_gauge(s, event, &l, &gauge)) {
       continue;
     }
+    // The time itself is rounded, and with it whatever changes fast. Not so the edges: crossing one
+    // puts the stem on it.
+    double v = s->held ? 0.0 : s->v, a = s->held ? 0.0 : (l.f0 - l.c * v) / s->model->mass;
+    if (event != EVENT_EDGE_UP && event != EVENT_EDGE_DOWN) {
+      gauge.noise += s->t * (fabs(gauge.rate) + fabs(gauge.of_x * v) + fabs(gauge.of_v * a) +
+                             fabs(gauge.relax * gauge.relax_rate));
+    }
     double at = sb_gauge_first(&gauge, &s->motion, horizon, &found);
     if (found && (at < horizon || s->event == EVENT_BREAK)) {
       horizon = at;
