@@ -220,7 +220,8 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
     }
     s->counters.steps++;
     s->counters.local_error += local[0] / (fabs(s->x) + s->system.floor[0]);
-    s->h = h * factor;
+    // A step that had to be shortened is not lengthened at once.
+    s->h = h * (attempt > 0 ? fmin(factor, 1.0) : factor);
     s->middle = s->step[0].t + s->step[0].h;
     s->t_end = last ? s->t + left : s->t + h;
     s->event = EVENT_BREAK;
