@@ -4,8 +4,8 @@
 // slips; C the stem crosses the land edge inwards; D first touch of the end stop; E the first slip
 // backwards of everything after D; F the edge outwards. A stage's force is the drive's just before
 // the event. Errors of a run that needs the numerical path are estimated by a second run at ten
-// times the tolerance: with break-away in the cycle a sum of local errors says little (tested), the
-// difference of two runs is honest. SI units.
+// times the tolerance: with break-away in the cycle a sum of local errors says little (tested), one
+// and a half times the difference of two runs is honest. SI units.
 #pragma once
 
 #include "engine/motion/dynamics.h"
