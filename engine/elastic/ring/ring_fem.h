@@ -79,6 +79,12 @@ void sb_ring_fem_add(SbRingFem *fem, int a, int i, int b, int j, double k);
 // Solves for du under the nodes' conditions; keeps the raw rows of conditioned nodes.
 SbStatus sb_ring_fem_solve(SbRingFem *fem, SbReport *report);
 
+// The same in parts, for several right-hand sides: replaces the conditioned rows (rhs = -residual
+// and gaps), factorises; solves du for the present rhs; frees the factor (NULL is fine).
+SbStatus sb_ring_fem_factor(SbRingFem *fem, void **factor, SbReport *report);
+SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, void *factor, SbReport *report);
+void sb_ring_fem_free_factor(void **factor);
+
 // The force R + K du that a conditioned node receives after the step, by the linear model.
 void sb_ring_fem_reaction(const SbRingFem *fem, int node, double force[2]);
 

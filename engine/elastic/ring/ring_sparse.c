@@ -159,7 +159,7 @@ static void apply_condition(SbRingFem *fem, int node, int raw_at) {
   rhs[1 - fixed] = c->drive - (w0 * r0 + w1 * r1);
 }
 
-SbStatus sb_ring_fem_solve(SbRingFem *fem, SbReport *report) {
+SbStatus sb_ring_fem_factor(SbRingFem *fem, void **factor, SbReport *report) {
   int nodes = fem->mesh->nodes, raw_at = 0;
   for (int i = 0; i < 2 * nodes; i++) {
     fem->rhs[i] = -fem->residual[i];
@@ -170,26 +170,41 @@ SbStatus sb_ring_fem_solve(SbRingFem *fem, SbReport *report) {
       raw_at += 2 * (fem->row_start[2 * i + 1] - fem->row_start[2 * i]);
     }
   }
-  void *numeric = NULL;
-  int code = umfpack_di_numeric(fem->row_start, fem->column, fem->value, fem->symbolic, &numeric,
+  *factor = NULL;
+  int code = umfpack_di_numeric(fem->row_start, fem->column, fem->value, fem->symbolic, factor,
                                 fem->control, fem->info);
   fem->factorizations++;
-  if (code == UMFPACK_OK) {
-    code = umfpack_di_wsolve(UMFPACK_At, fem->row_start, fem->column, fem->value, fem->du, fem->rhs,
-                             numeric, fem->control, fem->info, fem->work_int, fem->work);
-  }
-  umfpack_di_free_numeric(&numeric);
   if (code == UMFPACK_ERROR_out_of_memory) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory to factorise the ring's matrix");
   }
-  for (int i = 0; code == UMFPACK_OK && i < 2 * nodes; i++) {
+  return code == UMFPACK_OK ? SB_OK
+                            : sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                                      "the ring's stiffness is singular (UMFPACK %d)", code);
+}
+
+SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, void *factor, SbReport *report) {
+  int code = umfpack_di_wsolve(UMFPACK_At, fem->row_start, fem->column, fem->value, fem->du,
+                               fem->rhs, factor, fem->control, fem->info, fem->work_int, fem->work);
+  for (int i = 0; code == UMFPACK_OK && i < 2 * fem->mesh->nodes; i++) {
     code = isfinite(fem->du[i]) ? UMFPACK_OK : UMFPACK_WARNING_singular_matrix;
   }
-  if (code != UMFPACK_OK) {
-    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's stiffness is singular (UMFPACK %d)",
-                   code);
+  return code == UMFPACK_OK ? SB_OK
+                            : sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                                      "the ring's stiffness is singular (UMFPACK %d)", code);
+}
+
+void sb_ring_fem_free_factor(void **factor) {
+  umfpack_di_free_numeric(factor);
+}
+
+SbStatus sb_ring_fem_solve(SbRingFem *fem, SbReport *report) {
+  void *factor = NULL;
+  SbStatus status = sb_ring_fem_factor(fem, &factor, report);
+  if (status == SB_OK) {
+    status = sb_ring_fem_apply_factor(fem, factor, report);
   }
-  return SB_OK;
+  sb_ring_fem_free_factor(&factor);
+  return status;
 }
 
 void sb_ring_fem_reaction(const SbRingFem *fem, int node, double force[2]) {
