@@ -130,11 +130,11 @@ static int touching_node(const SbHpElement *e) {
 }
 
 // Known part of the pressure, without the far pressure: basis holds the Lagrange values at r.
-static double known_part(const SbHpElement *e, const SbHpTable *t, const double *basis, double r) {
+static double known_part(const SbHpElement *e, const double *basis, double r) {
   if (e->map == SB_HP_COSINE) {
     double known = sin(e->m + e->h * r);
     for (int k = 0; k <= e->degree; k++) {
-      known -= basis[k] * sin(e->m + e->h * t->node[k]);
+      known -= basis[k] * e->node_sine[k];
     }
     return known;
   }
@@ -180,6 +180,9 @@ static void moments_complex(double *out, double real, double imaginary, int n) {
 static void prepare(SbHpElement *e, SbHpTables *tables) {
   const SbHpTable *t = sb_hp_table(tables, e->degree);
   int columns = e->degree + 2;
+  for (int k = 0; k <= e->degree && e->map == SB_HP_COSINE; k++) {
+    e->node_sine[k] = sin(e->m + e->h * t->node[k]);
+  }
   int extra = e->map == SB_HP_AFFINE ? 0 : e->map == SB_HP_COSINE ? 10 : 1;
   e->modes = e->degree + extra;
   memset(e->project, 0, sizeof e->project);
@@ -191,7 +194,7 @@ static void prepare(SbHpElement *e, SbHpTables *tables) {
     for (int k = 0; k <= e->degree; k++) {
       e->fine_wb[q][k] = scale * f * t->fine[q][k];
     }
-    e->fine_wb[q][e->degree + 1] = scale * known_part(e, t, t->fine[q], r);
+    e->fine_wb[q][e->degree + 1] = scale * known_part(e, t->fine[q], r);
     e->fine_x[q] = is_infinite(e) ? inverse_coordinate(e, r) : sb_hp_position(e, r);
     for (int j = 0; j < columns; j++) {
       e->integral[j] += e->fine_wb[q][j];
@@ -210,7 +213,7 @@ static void prepare(SbHpElement *e, SbHpTables *tables) {
     for (int k = 0; k <= e->degree; k++) {
       e->far_wb[q][k] = scale * f * t->far[q][k];
     }
-    e->far_wb[q][e->degree + 1] = scale * known_part(e, t, t->far[q], r);
+    e->far_wb[q][e->degree + 1] = scale * known_part(e, t->far[q], r);
     e->far_x[q] = is_infinite(e) ? inverse_coordinate(e, r) : sb_hp_position(e, r);
   }
   if (is_infinite(e)) {
@@ -234,8 +237,10 @@ static void add_moments(double *row, const SbHpElement *e, const double *moment,
   }
 }
 
-// Finite elements: row[j] = integral of column j times ln|X - X'|.
-static void row_finite(double *row, const SbHpElement *e, const double *fine, double X) {
+// Finite elements: row[j] = integral of column j times ln|X - X'|. `angle` is acos(-X) inside the
+// contact, acosh|X| outside.
+static void row_finite(double *row, const SbHpElement *e, const double *fine, double X,
+                       double angle) {
   int columns = e->degree + 2;
   // The target's own coordinate, complex outside |X| <= 1 on the cosine map.
   double imaginary = 0.0;
@@ -243,10 +248,10 @@ static void row_finite(double *row, const SbHpElement *e, const double *fine, do
   if (e->map == SB_HP_AFFINE) {
     real = (X - e->m) / e->h;
   } else if (fabs(X) <= 1.0) {
-    real = (acos(-X) - e->m) / e->h;
+    real = (angle - e->m) / e->h;
   } else {
     real = ((X < 0.0 ? 0.0 : M_PI) - e->m) / e->h;
-    imaginary = acosh(fabs(X)) / e->h;
+    imaginary = angle / e->h;
   }
   double distance = imaginary == 0.0
                         ? fmax(1.0, fabs(real))
@@ -362,6 +367,9 @@ bool sb_hp_mesh_init(SbHpMesh *mesh) {
     sb_hp_mesh_finish(mesh);
     return false;
   }
+  memset(mesh->gap, 0, targets * dofs * sizeof(double));
+  memset(mesh->value, 0, targets * STRIDE * sizeof(double));
+  memset(mesh->slope, 0, targets * STRIDE * sizeof(double));
   return true;
 }
 
@@ -459,14 +467,14 @@ static void place_targets(SbHpMesh *mesh, SbHpTables *tables) {
         value[j] = f * t->value[rule][k][j];
         slope[j] = (f * t->slope[rule][k][j] + f_slope * t->value[rule][k][j]) / stretch;
       }
-      mesh->value_known[row] = known_part(e, t, t->value[rule][k], r) + e->far_pressure;
+      mesh->value_known[row] = known_part(e, t->value[rule][k], r) + e->far_pressure;
       mesh->slope_known[row] = 0.0;
       if (is_infinite(e)) {
         mesh->slope_known[row] = -e->far_pressure * slope[touching_node(e)];
       } else if (e->map == SB_HP_COSINE) {
         double known = e->h * cos(e->m + e->h * r);
         for (int j = 0; j <= e->degree; j++) {
-          known -= t->slope[rule][k][j] * sin(e->m + e->h * t->node[j]);
+          known -= t->slope[rule][k][j] * e->node_sine[j];
         }
         mesh->slope_known[row] = known / stretch;
       }
@@ -512,6 +520,7 @@ void sb_hp_mesh_build(SbHpMesh *mesh, SbHpTables *tables) {
   for (int i = 0; i < mesh->targets; i++) {
     double *gap = mesh->gap + (size_t)i * (size_t)mesh->dofs;
     double X = mesh->x[i];
+    double angle = fabs(X) <= 1.0 ? acos(-X) : acosh(fabs(X));
     double known = 0.0;
     memset(gap, 0, (size_t)mesh->dofs * sizeof *gap);
     for (int k = 0; k < mesh->count; k++) {
@@ -520,7 +529,7 @@ void sb_hp_mesh_build(SbHpMesh *mesh, SbHpTables *tables) {
       if (is_infinite(e)) {
         row_infinite(row, e, X);
       } else {
-        row_finite(row, e, tables->fine, X);
+        row_finite(row, e, tables->fine, X, angle);
       }
       for (int j = 0; j <= e->degree; j++) {
         gap[e->first_dof + j] -= row[j] / M_PI;
@@ -551,7 +560,7 @@ double sb_hp_pressure(const SbHpMesh *mesh, SbHpTables *tables, const SbHpElemen
   for (int k = 0; k <= e->degree; k++) {
     sum += basis[k] * nodal[e->first_dof + k];
   }
-  return e->far_pressure + factor(e, r) * sum + known_part(e, t, basis, r);
+  return e->far_pressure + factor(e, r) * sum + known_part(e, basis, r);
 }
 
 double sb_hp_gap(const SbHpMesh *mesh, SbHpTables *tables, int element, const double *target_gap,

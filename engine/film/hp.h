@@ -58,7 +58,8 @@ typedef struct {
   double x0, x1;                 // ends; the infinite one is unused
   double m, h, A, B;
   double far_pressure;
-  int modes; // highest Legendre mode of the projected weight
+  double node_sine[SB_HP_DEGREE_MAX + 1]; // sin(theta) at the nodes of the cosine map
+  int modes;                              // highest Legendre mode of the projected weight
   double project[SB_HP_PROJECT + 1][SB_HP_DEGREE_MAX + 2];
   double fine_x[SB_HP_QUAD];
   double fine_wb[SB_HP_QUAD][SB_HP_DEGREE_MAX + 2];
