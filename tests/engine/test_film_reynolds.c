@@ -92,6 +92,29 @@ static void test_reference(void) {
   }
 }
 
+// Convergence in the unknowns is spectral: from 1e-2 to 1e-6 the error of the minimum falls faster
+// than the tenth power of their number, while the Newton steps per level stay few.
+static void test_order(void) {
+  for (size_t i = 3; i < G_N_ELEMENTS(reference); i++) {
+    double unknowns[2], errors[2], steps[2];
+    static const double tolerances[] = {1e-2, 1e-6};
+    for (int k = 0; k < 2; k++) {
+      SbFilmProblem problem = contact(reference[i][0], 0.0, 0.0);
+      problem.tolerance = tolerances[k];
+      solve(&film, &problem);
+      unknowns[k] = (double)film.solver.unknowns;
+      errors[k] = fabs(moes(film.film_min) / reference[i][1] - 1.0);
+      steps[k] = (double)film.solver.newton_iterations / film.solver.continuation_steps;
+    }
+    double order = log(errors[0] / errors[1]) / log(unknowns[1] / unknowns[0]);
+    g_test_message("M %g: %g to %g unknowns, error %.2g to %.2g, order %.1f, steps %.1f, %.1f",
+                   reference[i][0], unknowns[0], unknowns[1], errors[0], errors[1], order, steps[0],
+                   steps[1]);
+    g_assert_cmpfloat(order, >, 10.0);
+    g_assert_cmpfloat(steps[1], <=, steps[0] + 1.0);
+  }
+}
+
 // Limits of reference/ehl.md: the rigid wedge as M -> 0, the exact power laws as M -> infinity.
 static void test_limits(void) {
   SbFilmProblem problem = contact(1e-3, 0.0, 0.0);
@@ -210,6 +233,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_assert_cmpint(sb_film_solver_create(&solver, NULL), ==, SB_OK);
   g_test_add_func("/film/reynolds/reference", test_reference);
+  g_test_add_func("/film/reynolds/order", test_order);
   g_test_add_func("/film/reynolds/limits", test_limits);
   g_test_add_func("/film/reynolds/speeds", test_speeds);
   g_test_add_func("/film/reynolds/conservation", test_conservation);
