@@ -556,11 +556,11 @@ static void continuum_band(Small *s) {
 // Panels
 
 // What made the curves, for the title line: one model for both seals or "schematic".
-static const char *curve_model(const SbChartData *data, const SbFrame *frame) {
+static const char *curve_model(const SbChartData *data, const SbFrame *frame, bool film) {
   const char *model = NULL;
   bool any = false;
   for (int i = 0; frame && i < SB_SEAL_COUNT; i++) {
-    if (touches(&frame->seal[i])) {
+    if (touches(&frame->seal[i]) && (!film || frame->seal[i].film_central > 0)) {
       const SbContactProfile *kept =
           data->run.profile ? data->run.profile(data->run.source, frame->seal[i].profile) : NULL;
       any = true;
@@ -604,7 +604,7 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
                       : "MPa above the lower fluid pressure, position / mm, canister on the left",
               sizeof note);
   }
-  const char *model = curve_model(data, frame);
+  const char *model = curve_model(data, frame, film);
   if (model && !compact) {
     g_strlcat(note, "  \xc2\xb7  ", sizeof note);
     g_strlcat(note, model, sizeof note);
