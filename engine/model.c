@@ -193,6 +193,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
       .spring_stiffness = sb_params_get(params, SB_P_STEM_SPRING_STIFFNESS),
       .spring_preload = sb_params_get(params, SB_P_STEM_SPRING_PRELOAD),
       .tolerance = sb_params_get(params, SB_P_OUTPUT_TOLERANCE),
+      .actuations = (int)sb_params_get(params, SB_P_OUTPUT_ACTUATIONS),
       .frames = (int)sb_params_get(params, SB_P_OUTPUT_FRAMES),
       .fit = (int)sb_params_get(params, SB_P_MODELS_FIT),
       .film = (SbModelFilm)sb_params_get(params, SB_P_MODELS_FILM),

@@ -105,7 +105,8 @@ typedef struct {
   double spring_stiffness, spring_preload; // return spring
   double tolerance;
   int frames;
-  int fit; // index among the choices of models.fit = SbFitModel
+  int actuations; // over which leakage is summed
+  int fit;        // index among the choices of models.fit = SbFitModel
   SbModelFilm film;
   SbModelSurface surface;
   SbModelMotion motion;

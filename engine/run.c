@@ -97,6 +97,8 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
                               : sb_run_quasi_static(run, hooks, status == SB_OK ? report : NULL);
     status = motion != SB_OK ? motion : status;
     sb_run_summarise_seals(run);
+    summary->leakage_carried = run->model.actuations * summary->seal[SB_OUTER].leakage_per_stroke;
+    summary->leakage_net = run->model.actuations * summary->leakage_per_cycle;
     if (summary->stage[SB_STAGE_B].reached) {
       summary->force_breakaway = summary->stage[SB_STAGE_B].force;
     }

@@ -51,6 +51,8 @@ typedef struct {
   double force_peak, force_breakaway, force_return_min;
   bool returns;
   double leakage_per_cycle; // outer seal, out minus in [m3]
+  double leakage_carried;   // by the outer seal's out-strokes of all actuations, as table 7.13 [m3]
+  double leakage_net;       // of all actuations, out minus in [m3]
   double duration;          // [s]
   SbStageMark stage[SB_STAGE_COUNT];
   SbSealSummary seal[SB_SEAL_COUNT];

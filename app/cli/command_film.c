@@ -4,6 +4,8 @@
 #include "app/document/reader.h"
 #include "app/export/results.h"
 
+#include "engine/film/regime.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -77,6 +79,42 @@ static bool read_dry_pressure(const char *path, GArray *x, GArray *p) {
   return good;
 }
 
+// The same contact by every closed form and by the solver, so that their differences are seen at
+// once; and why a printed table of the thesis differs.
+static void print_other_models(const SbFilm *film, const SbFilmProblem *problem) {
+  static const SbFilmModel models[] = {SB_FILM_REYNOLDS,      SB_FILM_ASYMPTOTIC, SB_FILM_MOES,
+                                       SB_FILM_KARASZKIEWICZ, SB_FILM_THESIS,     SB_FILM_RIGID};
+  SbFilm *other = g_new0(SbFilm, 1);
+  printf("By model                         central      least\n");
+  for (size_t i = 0; i < G_N_ELEMENTS(models); i++) {
+    SbFilmProblem same = *problem;
+    same.model = models[i];
+    SbReport report = {0};
+    if (sb_film_solve(other, &same, NULL, &report) == SB_OK) {
+      printf("  %-26s %9.4g nm %9.4g nm%s\n", sb_film_model_name(models[i]),
+             other->film_central * 1e9, other->film_min * 1e9,
+             other->valid ? "" : "  outside its range");
+    } else {
+      printf("  %-26s %s\n", sb_film_model_name(models[i]), report.text);
+    }
+  }
+  g_free(other);
+  double entrainment = fabs(problem->speed) / 2;
+  if (entrainment > 0) {
+    SbChartPoint chart = sb_regime_chart(problem->load, entrainment, problem->radius,
+                                         problem->modulus, problem->viscosity, 2.8e-9);
+    printf("Greenwood's chart (alpha 2.8/GPa): g_E %.4g, g_V %.4g, %s\n", chart.g_E, chart.g_V,
+           sb_regime_name(chart.regime));
+  }
+  if (film->model == SB_FILM_KARASZKIEWICZ || film->model == SB_FILM_THESIS) {
+    puts("Note: the laws take the entrainment speed, half the sliding speed. Tables 7.5 and 7.12 "
+         "of the\n"
+         "thesis are thicker: their Karaszkiewicz columns hold the speed times 1000/60, their "
+         "current\n"
+         "column of 7.12 the full sliding speed and the load over pi x 6 mm.");
+  }
+}
+
 static bool on_cancelled(void *data) {
   return sb_cli_interrupted(NULL);
 }
@@ -116,7 +154,7 @@ int sb_command_film(int argc, char **argv) {
       {"pressure-left", 0, 0, G_OPTION_ARG_FILENAME, &left, "Gauge pressure at x < 0", "P"},
       {"pressure-right", 0, 0, G_OPTION_ARG_FILENAME, &right, "Gauge pressure at x > 0", "P"},
       {"model", 0, 0, G_OPTION_ARG_FILENAME, &name,
-       "reynolds (default), inverse, karaszkiewicz, thesis or asymptotic", "NAME"},
+       "reynolds (default), inverse, karaszkiewicz, thesis, asymptotic, moes or rigid", "NAME"},
       {"dry-pressure", 0, 0, G_OPTION_ARG_FILENAME, &dry,
        "Table x [m], p [Pa] for the model inverse", "FILE.csv"},
       {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &tolerance, "Relative error wanted", "T"},
@@ -142,7 +180,7 @@ int sb_command_film(int argc, char **argv) {
   }
   if (name != NULL && !sb_film_model_from_name(&problem.model, name)) {
     sb_cli_fail("--model: there is no film model \"%s\" (allowed reynolds, inverse, "
-                "karaszkiewicz, thesis, asymptotic)",
+                "karaszkiewicz, thesis, asymptotic, moes, rigid)",
                 name);
     goto done;
   }
@@ -175,6 +213,7 @@ int sb_command_film(int argc, char **argv) {
       g_free(json);
     } else {
       print_table(film);
+      print_other_models(film, &problem);
     }
     code = written != SB_EXIT_DONE ? written : code;
   }

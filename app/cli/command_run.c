@@ -36,6 +36,8 @@ static void print_table(const SbDocument *document, const SbRun *run) {
   sb_cli_figure("Energy of the loop", summary->energy.loop, "J", "mJ");
   sb_cli_figure("Energy closure", summary->energy.closure, "1", "");
   sb_cli_figure("Leakage per cycle", summary->leakage_per_cycle, "m3", "nl");
+  sb_cli_figure("  carried out, all actuations", summary->leakage_carried, "m3", "nl");
+  sb_cli_figure("  net, all actuations", summary->leakage_net, "m3", "nl");
   sb_cli_figure("Duration", summary->duration, "s", "s");
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
     const SbStageMark *mark = &summary->stage[i];

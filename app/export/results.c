@@ -1,5 +1,6 @@
 // The contract's JSON documents.
 #include "app/export/results.h"
+#include "engine/film/regime.h"
 
 #include "app/export/json.h"
 
@@ -49,6 +50,8 @@ static void put_cycle(SbJson *json, const SbSummary *summary) {
   sb_json_number(json, "energy_loss_J", summary->energy.loop);
   sb_json_number(json, "energy_closure", summary->energy.closure);
   sb_json_number(json, "leakage_per_cycle_m3", summary->leakage_per_cycle);
+  sb_json_number(json, "leakage_carried_all_actuations_m3", summary->leakage_carried);
+  sb_json_number(json, "leakage_net_all_actuations_m3", summary->leakage_net);
   sb_json_number(json, "duration_s", summary->duration);
   put_stages(json, summary);
   const SbEnergy *energy = &summary->energy;
@@ -81,6 +84,7 @@ static void put_seal(SbJson *json, const char *name, const SbSealSummary *seal) 
   sb_json_number(json, "reynolds", seal->film_reynolds);
   sb_json_object_end(json);
   sb_json_number(json, "lambda", seal->lambda);
+  sb_json_string(json, "regime", sb_regime_of_lambda(seal->lambda));
   sb_json_number(json, "friction_boundary_N", seal->friction_boundary);
   sb_json_number(json, "friction_viscous_N", seal->friction_viscous);
   sb_json_number(json, "friction_static_N", seal->friction_static);

@@ -207,6 +207,9 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
       sb_film_solver_destroy(own);
       break;
     }
+    case SB_FILM_RIGID:
+      status = sb_film_solve_rigid(out, problem, &scale, report);
+      break;
     case SB_FILM_INVERSE:
       status = sb_film_solve_inverse(out, problem, &scale, report);
       break;

@@ -9,6 +9,7 @@
 //   inverse        Blok's film of a given smooth dry pressure (inverse.c)
 //   karaszkiewicz  H* = 4.4 U^0.65 W^-0.21, thesis eq. 7.6 (= 5.5)
 //   thesis         H* = 1.492 U^0.5434 W^-0.2893, thesis eq. 7.5
+//   rigid          analytical wedge between rigid surfaces, thesis section 6.1 (wedge.c)
 //   asymptotic     exact thin-film limit, h_min = 3.00434 R U^0.6 W^-0.2, h_flux = 3.77334 ...
 //   moes           blend of the rigid and the elastic limit, fitted to our own solutions
 //
@@ -30,7 +31,8 @@
   X(SB_FILM_KARASZKIEWICZ, "karaszkiewicz", "power law of Karaszkiewicz, thesis eq. 7.6")          \
   X(SB_FILM_THESIS, "thesis", "power law of the thesis, eq. 7.5")                                  \
   X(SB_FILM_ASYMPTOTIC, "asymptotic", "exact limit of thin films on a half-plane")                 \
-  X(SB_FILM_MOES, "moes", "blend of the rigid and the elastic limit")
+  X(SB_FILM_MOES, "moes", "blend of the rigid and the elastic limit")                              \
+  X(SB_FILM_RIGID, "rigid", "rigid analytical wedge, thesis section 6.1")
 
 typedef enum {
 #define SB_FILM_MODEL_ENUM(model, name, help) model,

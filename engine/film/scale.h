@@ -36,6 +36,8 @@ SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFi
                            SbReport *report);
 SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                                SbReport *report);
+SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                             SbReport *report);
 SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                            SbReport *report);
 

@@ -44,6 +44,32 @@ static void test_figures(void) {
   g_assert_cmpuint(film.points, >=, 400);
 }
 
+// The rigid wedge by the common call: the classical load at small M, either direction, refused as
+// valid at large.
+static void test_rigid(void) {
+  SbFilm film, back;
+  SbReport report;
+  SbFilmProblem problem = inhaler(SB_FILM_RIGID, 0.5);
+  problem.load = 1e-3;
+  problem.viscosity = 1;
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_OK);
+  close_to(film.film_min, 4.894968 * problem.viscosity * 0.25 * problem.radius / problem.load,
+           1e-6);
+  close_to(film.film_flux / film.film_min, 1.225748, 1e-6);
+  g_assert_true(film.valid);
+  g_assert_cmpuint(film.points, >=, 400);
+  for (size_t i = 1; i < film.points; i++) {
+    g_assert_cmpfloat(film.x[i], >, film.x[i - 1]);
+  }
+  problem.speed = -0.5;
+  g_assert_cmpint(sb_film_solve(&back, &problem, NULL, &report), ==, SB_OK);
+  close_to(back.film_min, film.film_min, 1e-12);
+  close_to(back.position_rupture, -film.position_rupture, 1e-12);
+  problem = inhaler(SB_FILM_RIGID, 0.5);
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_OK);
+  g_assert_false(film.valid);
+}
+
 static void test_direction(void) {
   SbFilm film, back;
   SbReport report;
@@ -150,6 +176,7 @@ static void test_inverse(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/film/laws/figures", test_figures);
+  g_test_add_func("/film/laws/rigid", test_rigid);
   g_test_add_func("/film/laws/direction", test_direction);
   g_test_add_func("/film/laws/dry", test_dry);
   g_test_add_func("/film/laws/refusals", test_refusals);
