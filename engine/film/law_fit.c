@@ -1,0 +1,135 @@
+// Least squares of ln H = ln k + a ln U + b ln W by GSL's multifit over a grid of coupled solutions
+// (thesis eq. 7.2-7.4). One solver follows the grid along U, so that most solves are warm.
+#include "engine/film/law_fit.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_multifit.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// A contact with these numbers; R and E' drop out of h / R.
+static SbFilmProblem contact(double U, double W, double tolerance) {
+  SbFilmProblem problem;
+  sb_film_problem_init(&problem);
+  problem.radius = 1e-3;
+  problem.modulus = 1e7;
+  problem.tolerance = tolerance;
+  double unit = problem.modulus * problem.radius;
+  problem.load = W * unit;
+  // eta u / 2 = U E' R at 1 m/s, unless the viscosity left its range.
+  problem.viscosity = fmin(fmax(2.0 * U * unit, 1e-8), 1e5);
+  problem.speed = 2.0 * U * unit / problem.viscosity;
+  return problem;
+}
+
+static SbStatus check(const SbFilmLawRange *range, SbReport *report) {
+  bool sane = range->U_min > 0.0 && range->U_max > range->U_min && isfinite(range->U_max) &&
+              range->W_min > 0.0 && range->W_max > range->W_min && isfinite(range->W_max);
+  if (!sane || range->U_count < 2 || range->W_count < 2 || range->U_count > SB_FILM_LAW_POINTS ||
+      range->W_count > SB_FILM_LAW_POINTS / range->U_count) {
+    return sb_fail(
+        report, SB_ERROR_RANGE,
+        "film law: the ranges of U and W must be positive and rising, with 2 points each "
+        "and %d in all at most",
+        SB_FILM_LAW_POINTS);
+  }
+  return SB_OK;
+}
+
+// Fills the points of the law.
+static SbStatus solve_grid(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSolver *memory,
+                           SbReport *report) {
+  SbFilm *film = malloc(sizeof *film);
+  if (film == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "film law: out of memory");
+  }
+  SbStatus status = SB_OK;
+  for (size_t j = 0; status == SB_OK && j < range->W_count; j++) {
+    double v = (double)j / (double)(range->W_count - 1);
+    double W = range->W_min * pow(range->W_max / range->W_min, v);
+    for (size_t i = 0; status == SB_OK && i < range->U_count; i++) {
+      double u = (double)i / (double)(range->U_count - 1);
+      double U = range->U_min * pow(range->U_max / range->U_min, u);
+      SbFilmProblem problem = contact(U, W, range->tolerance);
+      status = sb_film_solve(film, &problem, memory, report);
+      double h = range->film == SB_FILM_LAW_MIN       ? film->film_min
+                 : range->film == SB_FILM_LAW_CENTRAL ? film->film_central
+                                                      : film->film_flux;
+      out->U[out->count] = U;
+      out->W[out->count] = W;
+      out->H[out->count] = h / problem.radius;
+      out->count += status == SB_OK ? 1 : 0;
+    }
+  }
+  free(film);
+  return status;
+}
+
+// The regression itself.
+static SbStatus regress(SbFilmLaw *out, SbReport *report) {
+  size_t n = out->count;
+  gsl_matrix *X = gsl_matrix_alloc(n, 3);
+  gsl_vector *y = gsl_vector_alloc(n);
+  gsl_vector *c = gsl_vector_alloc(3);
+  gsl_matrix *covariance = gsl_matrix_alloc(3, 3);
+  gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(n, 3);
+  SbStatus status = SB_OK;
+  if (X == NULL || y == NULL || c == NULL || covariance == NULL || work == NULL) {
+    status = sb_fail(report, SB_ERROR_MEMORY, "film law: out of memory");
+  } else {
+    for (size_t i = 0; i < n; i++) {
+      gsl_matrix_set(X, i, 0, 1.0);
+      gsl_matrix_set(X, i, 1, log(out->U[i]));
+      gsl_matrix_set(X, i, 2, log(out->W[i]));
+      gsl_vector_set(y, i, log(out->H[i]));
+    }
+    double chi2 = 0.0;
+    if (gsl_multifit_linear(X, y, c, covariance, &chi2, work) != 0) {
+      status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "film law: the regression failed");
+    } else {
+      out->k = exp(gsl_vector_get(c, 0));
+      out->a = gsl_vector_get(c, 1);
+      out->b = gsl_vector_get(c, 2);
+      double quantile = n > 3 ? gsl_cdf_tdist_Pinv(0.975, (double)(n - 3)) : 0.0;
+      out->k_confidence = quantile * sqrt(gsl_matrix_get(covariance, 0, 0));
+      out->a_confidence = quantile * sqrt(gsl_matrix_get(covariance, 1, 1));
+      out->b_confidence = quantile * sqrt(gsl_matrix_get(covariance, 2, 2));
+      double sum = 0.0;
+      for (size_t i = 0; i < n; i++) {
+        double law = out->k * pow(out->U[i], out->a) * pow(out->W[i], out->b);
+        out->residual[i] = out->H[i] / law - 1.0;
+        sum += out->residual[i] * out->residual[i];
+        out->largest_residual = fmax(out->largest_residual, fabs(out->residual[i]));
+      }
+      out->rms_residual = sqrt(sum / (double)n);
+    }
+  }
+  gsl_multifit_linear_free(work);
+  gsl_matrix_free(covariance);
+  gsl_vector_free(c);
+  gsl_vector_free(y);
+  gsl_matrix_free(X);
+  return status;
+}
+
+SbStatus sb_film_law_fit(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSolver *memory,
+                         SbReport *report) {
+  memset(out, 0, sizeof *out);
+  SbStatus status = check(range, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  SbFilmSolver *own = NULL;
+  if (memory == NULL) {
+    status = sb_film_solver_create(&own, report);
+  }
+  if (status == SB_OK) {
+    status = solve_grid(out, range, memory != NULL ? memory : own, report);
+  }
+  sb_film_solver_destroy(own);
+  if (status == SB_OK) {
+    status = regress(out, report);
+  }
+  return status == SB_OK ? sb_succeed(report) : status;
+}
