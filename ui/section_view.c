@@ -1,11 +1,13 @@
-// The section of the valve at the playhead. The picture is the display list of app/section. Before
-// the first run it is a section at rest, from a run of the closed forms with two frames that takes
-// a fraction of a millisecond. Zooming keeps the size of text and lines and enlarges the valve;
-// drag moves it.
+// The section of the valve at the playhead. The picture is the display list of app/section, drawn
+// by GL (read back into the window's picture) where rings have fields, else by cairo. Before the
+// first run it is a section at rest, from a run of the closed forms with two frames that takes a
+// fraction of a millisecond. Zooming keeps the size of text and lines and enlarges the valve; drag
+// moves it.
 #include "ui/section_view.h"
 
 #include "app/chart/theme.h"
 #include "app/section/draw_cairo.h"
+#include "app/section/gl_renderer.h"
 #include "app/section/section.h"
 #include "ui/force_balance.h"
 #include "ui/picture.h"
@@ -17,6 +19,7 @@
 enum {
   INTERVAL = 33,       // between drawings while something moves [ms]
   LIMIT_SAMPLES = 400, // frames read per update for the scales
+  EDGE = 4,            // of the picture beyond the section [px]
   MARGIN = 16,         // beside the picture [px]
   WIDE = 860           // from here the section has a column for legends and forces [px]
 };
@@ -33,6 +36,9 @@ typedef struct {
   SbText *text;
   double zoom, pan_x, pan_y;
   double press_x, press_y;
+  SbGlContext *context;   // NULL where no GL works
+  SbGlRenderer *renderer; // likewise
+  cairo_surface_t *read;  // GL's picture
   SbPicture *picture;
   guint describe; // source that renews the description, 0 if none is due
 } View;
@@ -128,6 +134,49 @@ static const SbFrame *prepare(View *view) {
   return frame;
 }
 
+// By GL ------------------------------------------------------------------------------------------
+
+// Fields inside rings are smooth by GL; cairo would draw facets. The context has no window: OSMesa
+// or EGL, so that it works the same on every display.
+static void open_gl(View *view) {
+  SbReport report = {0};
+  if (sb_gl_context_create(&view->context, SB_GL_AUTO, &report) == SB_OK &&
+      sb_gl_renderer_create(&view->renderer, view->context, &report) != SB_OK) {
+    g_clear_pointer(&view->context, sb_gl_context_destroy);
+  }
+  if (view->renderer == NULL) {
+    g_info("section by cairo: %s", report.text);
+  } else {
+    g_info("section by GL: %s", sb_gl_context_reason(view->context));
+  }
+}
+
+// Draws the list at the picture's place; false if GL cannot.
+static gboolean draw_by_gl(View *view, cairo_t *cr, const SbRect *rect) {
+  int scale = gtk_widget_get_scale_factor(view->area);
+  int width = (int)ceil(rect->width) * scale;
+  int height = (int)ceil(rect->height) * scale;
+  if (view->renderer == NULL || !sb_gl_context_make_current(view->context) ||
+      sb_gl_renderer_draw(view->renderer, &view->list, width, height, scale, NULL) != SB_OK) {
+    return FALSE;
+  }
+  if (view->read == NULL || cairo_image_surface_get_width(view->read) != width ||
+      cairo_image_surface_get_height(view->read) != height) {
+    g_clear_pointer(&view->read, cairo_surface_destroy);
+    view->read = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+  }
+  cairo_surface_flush(view->read);
+  sb_gl_renderer_read(view->renderer, cairo_image_surface_get_data(view->read),
+                      (size_t)cairo_image_surface_get_stride(view->read));
+  cairo_surface_mark_dirty(view->read);
+  cairo_surface_set_device_scale(view->read, scale, scale);
+  cairo_set_source_surface(cr, view->read, rect->x, rect->y);
+  cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
+  cairo_rectangle(cr, rect->x, rect->y, ceil(rect->width), ceil(rect->height));
+  cairo_fill(cr);
+  return TRUE;
+}
+
 // Drawing ----------------------------------------------------------------------------------------
 
 static void draw(cairo_t *cr, double area_width, double area_height, void *user) {
@@ -147,11 +196,14 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   // A wide picture has the forces in its own column.
   double top = 14;
   double bottom = ran && width < WIDE ? SB_FORCE_BALANCE_HEIGHT : 8;
-  SbRect picture = {MARGIN, top, fmax(width, 1), fmax(height - top - bottom - 8, 1)};
+  // A little more than the section itself, so that no letter is cut.
+  SbRect picture = {MARGIN - EDGE, top - EDGE, fmax(width, 1) + 2 * EDGE,
+                    fmax(height - top - bottom - 8, 1) + 2 * EDGE};
   const char *inset = gtk_combo_box_get_active_id(GTK_COMBO_BOX(view->inset_combo));
   SbSectionView how = {
       .width = picture.width * view->zoom,
       .height = picture.height * view->zoom,
+      .margin = EDGE,
       .dark = sb_style_is_dark(),
       .read_outs = ran,
       .hide_insets = !ran || g_strcmp0(inset, "none") == 0,
@@ -166,10 +218,13 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   }
   sb_section_draw(view->section, &view->list, &how, &instant);
   cairo_save(cr);
-  cairo_rectangle(cr, 0, 0, area_width, picture.y + picture.height + 8);
+  cairo_rectangle(cr, 0, 0, area_width, picture.y + picture.height + 4);
   cairo_clip(cr);
-  cairo_translate(cr, picture.x - view->pan_x, picture.y - view->pan_y);
-  sb_draw_list_to_cairo(&view->list, view->text, cr);
+  gboolean field = instant.ring[SB_OUTER] != NULL || instant.ring[SB_INNER] != NULL;
+  if (!field || view->zoom > 1 || !draw_by_gl(view, cr, &picture)) {
+    cairo_translate(cr, picture.x - view->pan_x, picture.y - view->pan_y);
+    sb_draw_list_to_cairo(&view->list, view->text, cr);
+  }
   cairo_restore(cr);
   if (ran && width < WIDE) {
     SbRect balance = {MARGIN, height - bottom, width, bottom};
@@ -279,6 +334,9 @@ static void on_destroy(GtkWidget *widget, View *view) {
 
 static void view_free(gpointer data) {
   View *view = data;
+  sb_gl_renderer_destroy(view->renderer);
+  sb_gl_context_destroy(view->context);
+  g_clear_pointer(&view->read, cairo_surface_destroy);
   sb_section_destroy(view->section);
   sb_draw_list_finish(&view->list);
   sb_text_destroy(view->text);
@@ -365,6 +423,7 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   view->zoom = 1;
   view->text = sb_text_create();
   sb_draw_list_init(&view->list);
+  open_gl(view);
   view->box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
   g_object_set_data_full(G_OBJECT(view->box), "view", view, view_free);
   gtk_box_pack_start(GTK_BOX(view->box), make_toolbar(view), FALSE, FALSE, 0);
