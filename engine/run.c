@@ -71,6 +71,15 @@ void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t i
   }
 }
 
+void sb_run_progress(const SbRun *run, const SbRunHooks *hooks, double fraction, size_t frames) {
+  if (hooks == NULL || hooks->progress == NULL) {
+    return;
+  }
+  double share = run->before_frames;
+  hooks->progress(hooks->data, frames == 0 ? share * fraction : share + (1 - share) * fraction,
+                  frames);
+}
+
 bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report) {
   if (hooks != NULL && hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
     sb_fail(report, SB_ERROR_CANCELLED, "cancelled");
@@ -85,6 +94,8 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   *summary = (SbSummary){.error_film = NAN, .force_breakaway = NAN};
   sb_model_warn_storage(&run->model, &summary->warnings);
   sb_run_publish(run, 0);
+  // Solved rings take seconds, everything else before the frames milliseconds.
+  run->before_frames = run->plan.section_fields ? 0.95 : run->plan.ring ? 0.9 : 0;
 
   // A film that did not converge leaves its best state: the cycle is still worth having, flagged.
   SbStatus status = sb_run_solve_states(run, hooks, report);

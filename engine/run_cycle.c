@@ -88,8 +88,8 @@ static SbStatus emit_frames(SbRun *run, const SbRunHooks *hooks, SbReport *repor
         if (sb_run_cancelled(hooks, report)) {
           return SB_ERROR_CANCELLED;
         }
-        if (hooks != NULL && hooks->progress != NULL && count % 4096 == 0) {
-          hooks->progress(hooks->data, (double)next / (double)total, count);
+        if (count % 4096 == 0) {
+          sb_run_progress(run, hooks, (double)next / (double)total, count);
         }
       }
     }

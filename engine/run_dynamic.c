@@ -386,8 +386,8 @@ static SbStatus second_pass(Valve *valve, const SbDynamicsModel *model, double d
       if (sb_run_cancelled(hooks, report)) {
         return SB_ERROR_CANCELLED;
       }
-      if (hooks != NULL && hooks->progress != NULL && count % 4096 == 0) {
-        hooks->progress(hooks->data, (double)next / (double)total, count);
+      if (count % 4096 == 0) {
+        sb_run_progress(run, hooks, (double)next / (double)total, count);
       }
     }
   }

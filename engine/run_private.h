@@ -42,6 +42,7 @@ struct SbRun {
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
   SbRunShape shape[SB_RUN_SHAPES];
   uint32_t shape_slot[SB_RUN_SHAPES]; // where a state's shape is: equal states share one
+  double before_frames;               // share of the work that lies before the first frame
   SbFrame *frames;
   size_t capacity;
   atomic_size_t published;
@@ -81,6 +82,10 @@ void sb_run_publish(SbRun *run, size_t count);
 
 // Remembers the first time a stage is reached.
 void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t index);
+
+// Tells how far the run is: `fraction` of the work before the frames, or of the frames once there
+// are any.
+void sb_run_progress(const SbRun *run, const SbRunHooks *hooks, double fraction, size_t frames);
 
 // Whether the hooks ask to stop; fills the report then.
 bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report);

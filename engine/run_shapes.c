@@ -258,6 +258,10 @@ SbStatus sb_run_solve_shapes(SbRun *run, const SbRunHooks *hooks, SbReport *repo
         }
         continue;
       }
+      sb_run_progress(run, hooks,
+                      0.3 + 0.7 * (seal * SB_CYCLE_CHAMBERS + chamber) /
+                                (SB_SEAL_COUNT * SB_CYCLE_CHAMBERS),
+                      0);
       SbStatus status = solve_dragged(run, seal, (SbChamber)chamber, &p, report);
       if (status == SB_OK && seal == SB_INNER && chamber == SB_CHAMBER_AT_REST) {
         status = solve_edge(run, &p, report);

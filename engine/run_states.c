@@ -140,6 +140,9 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
         if (sb_run_cancelled(hooks, report)) {
           return SB_ERROR_CANCELLED;
         }
+        sb_run_progress(
+            run, hooks,
+            0.3 * (seal * SB_CYCLE_CHAMBERS + chamber) / (SB_SEAL_COUNT * SB_CYCLE_CHAMBERS), 0);
         if (motion == SB_RUN_REST && !run->plan.profiles) {
           continue;
         }
