@@ -7,6 +7,7 @@
 #include "engine/film/regime.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 static void print_table(const SbFilm *film) {
@@ -132,79 +133,78 @@ static SbStatus solve(void *data, double *wall_s) {
   return status;
 }
 
-int sb_command_film(int argc, char **argv) {
-  char *load = NULL;
-  char *speed = NULL;
-  char *radius = NULL;
-  char *modulus = NULL;
-  char *viscosity = NULL;
-  char *left = NULL;
-  char *right = NULL;
-  char *name = NULL;
-  char *dry = NULL;
-  char *tolerance = NULL;
-  char *target = NULL;
-  const GOptionEntry entries[] = {
-      {"load", 0, 0, G_OPTION_ARG_FILENAME, &load, "Net load per length", "W"},
-      {"speed", 0, 0, G_OPTION_ARG_FILENAME, &speed, "Sliding speed, signed", "U"},
-      {"radius", 0, 0, G_OPTION_ARG_FILENAME, &radius, "Radius of the cylinder", "R"},
-      {"modulus", 0, 0, G_OPTION_ARG_FILENAME, &modulus, "Reduced modulus, 2/E' = sum (1-nu^2)/E",
-       "E"},
-      {"viscosity", 0, 0, G_OPTION_ARG_FILENAME, &viscosity, "Dynamic viscosity", "ETA"},
-      {"pressure-left", 0, 0, G_OPTION_ARG_FILENAME, &left, "Gauge pressure at x < 0", "P"},
-      {"pressure-right", 0, 0, G_OPTION_ARG_FILENAME, &right, "Gauge pressure at x > 0", "P"},
-      {"model", 0, 0, G_OPTION_ARG_FILENAME, &name,
-       "reynolds (default), inverse, karaszkiewicz, thesis, asymptotic, moes or rigid", "NAME"},
-      {"dry-pressure", 0, 0, G_OPTION_ARG_FILENAME, &dry,
-       "Table x [m], p [Pa] for the model inverse", "FILE.csv"},
-      {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &tolerance, "Relative error wanted", "T"},
-      {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
-      {0},
-  };
-  int code = SB_EXIT_INPUT;
-  GArray *x = g_array_new(FALSE, FALSE, sizeof(double));
-  GArray *p = g_array_new(FALSE, FALSE, sizeof(double));
-  SbFilm *film = NULL;
-  SbFilmProblem problem;
-  sb_film_problem_init(&problem);
-  if (!sb_cli_parse(&argc, &argv, entries, 0, 0, SB_TIMING_NOTE) ||
-      !sb_cli_quantity(&problem.load, "--load", load, true, "N/m", "N/m") ||
-      !sb_cli_quantity(&problem.speed, "--speed", speed, true, "m/s", "mm/s") ||
-      !sb_cli_quantity(&problem.radius, "--radius", radius, true, "m", "mm") ||
-      !sb_cli_quantity(&problem.modulus, "--modulus", modulus, true, "Pa", "MPa") ||
-      !sb_cli_quantity(&problem.viscosity, "--viscosity", viscosity, true, "Pa.s", "mPa.s") ||
-      !sb_cli_quantity(&problem.pressure_left, "--pressure-left", left, false, "Pa", "MPa") ||
-      !sb_cli_quantity(&problem.pressure_right, "--pressure-right", right, false, "Pa", "MPa") ||
-      !sb_cli_quantity(&problem.tolerance, "--tolerance", tolerance, false, "1", "")) {
-    goto done;
-  }
-  if (name != NULL && !sb_film_model_from_name(&problem.model, name)) {
-    sb_cli_fail("--model: there is no film model \"%s\" (allowed reynolds, inverse, "
-                "karaszkiewicz, thesis, asymptotic, moes, rigid)",
-                name);
-    goto done;
-  }
-  if ((problem.model == SB_FILM_INVERSE) != (dry != NULL)) {
-    sb_cli_fail(dry != NULL ? "--dry-pressure: only the model inverse takes it"
-                            : "--dry-pressure is missing: the model inverse needs it");
-    goto done;
-  }
-  if (dry != NULL) {
-    if (!read_dry_pressure(dry, x, p)) {
-      goto done;
+// An option that is a quantity: where its text and its value go.
+typedef struct {
+  const char *name;
+  bool required;
+  const char *si, *shown, *help;
+  size_t offset; // of the double in SbFilmProblem
+} Quantity;
+
+static const Quantity quantities[] = {
+    {"load", true, "N/m", "N/m", "Net load per length", offsetof(SbFilmProblem, load)},
+    {"speed", true, "m/s", "mm/s", "Sliding speed, signed", offsetof(SbFilmProblem, speed)},
+    {"radius", true, "m", "mm", "Radius of the cylinder", offsetof(SbFilmProblem, radius)},
+    {"modulus", true, "Pa", "MPa", "Reduced modulus, 2/E' = sum (1-nu^2)/E",
+     offsetof(SbFilmProblem, modulus)},
+    {"viscosity", true, "Pa.s", "mPa.s", "Dynamic viscosity", offsetof(SbFilmProblem, viscosity)},
+    {"pressure-left", false, "Pa", "MPa", "Gauge pressure at x < 0",
+     offsetof(SbFilmProblem, pressure_left)},
+    {"pressure-right", false, "Pa", "MPa", "Gauge pressure at x > 0",
+     offsetof(SbFilmProblem, pressure_right)},
+    {"tolerance", false, "1", "", "Relative error wanted, 1e-3",
+     offsetof(SbFilmProblem, tolerance)},
+    {"pressure-viscosity", false, "1/Pa", "1/GPa", "Barus coefficient (reynolds)",
+     offsetof(SbFilmProblem, pressure_viscosity)},
+    {"eyring-stress", false, "Pa", "MPa", "Eyring's stress of shear thinning (reynolds)",
+     offsetof(SbFilmProblem, eyring_stress)},
+    {"inlet-film", false, "m", "nm", "Layer that the wall brings; else flooded (reynolds)",
+     offsetof(SbFilmProblem, inlet_film)},
+    {"rupture-pressure", false, "Pa", "MPa", "Gauge pressure at which the film breaks (reynolds)",
+     offsetof(SbFilmProblem, rupture_pressure)},
+};
+enum { QUANTITIES = G_N_ELEMENTS(quantities) };
+
+// Reads every quantity given; false with a message.
+static bool read_quantities(SbFilmProblem *problem, char *const *texts) {
+  for (int i = 0; i < QUANTITIES; i++) {
+    const Quantity *q = &quantities[i];
+    double value = 0;
+    char *option = g_strconcat("--", q->name, NULL);
+    bool good = sb_cli_quantity(&value, option, texts[i], q->required, q->si, q->shown);
+    g_free(option);
+    if (!good) {
+      return false;
     }
-    problem.dry_x = (const double *)x->data;
-    problem.dry_pressure = (const double *)p->data;
-    problem.dry_count = x->len;
+    if (texts[i] != NULL) {
+      *(double *)(void *)((char *)problem + q->offset) = value;
+    }
   }
-  problem.cancelled = on_cancelled;
-  film = g_new0(SbFilm, 1);
-  Solve job = {film, &problem, {0}};
+  return true;
+}
+
+static bool choose_model(SbFilmProblem *problem, const char *name) {
+  if (sb_film_model_from_name(&problem->model, name)) {
+    return true;
+  }
+  GString *names = g_string_new(NULL);
+  for (int i = 0; i < SB_FILM_MODEL_COUNT; i++) {
+    g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", sb_film_model_name((SbFilmModel)i));
+  }
+  sb_cli_fail("--model: there is no film model \"%s\" (allowed %s)", name, names->str);
+  g_string_free(names, TRUE);
+  return false;
+}
+
+// Solves, and writes or prints what came out; an exit code.
+static int solve_and_show(const SbFilmProblem *problem, const char *target) {
+  SbFilm *film = g_new0(SbFilm, 1);
+  Solve job = {film, problem, {0}};
   sb_cli_catch_interrupts();
   double wall_s = 0;
   SbStatus status = sb_timing_median(&wall_s, solve, &job);
   film->solver.wall_s = wall_s;
-  code = sb_cli_status(status, &job.report);
+  int code = sb_cli_status(status, &job.report);
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int written = SB_EXIT_DONE;
     if (target != NULL) {
@@ -217,20 +217,59 @@ int sb_command_film(int argc, char **argv) {
     }
     code = written != SB_EXIT_DONE ? written : code;
   }
+  g_free(film);
+  return code;
+}
+
+int sb_command_film(int argc, char **argv) {
+  char *texts[QUANTITIES] = {NULL};
+  char *name = NULL;
+  char *dry = NULL;
+  char *target = NULL;
+  const GOptionEntry others[] = {
+      {"model", 0, 0, G_OPTION_ARG_FILENAME, &name,
+       "reynolds (default), or another of sealbench list models", "NAME"},
+      {"dry-pressure", 0, 0, G_OPTION_ARG_FILENAME, &dry,
+       "Table x [m], p [Pa] for the model inverse", "FILE.csv"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
+  };
+  enum { OTHERS = G_N_ELEMENTS(others) };
+  GOptionEntry entries[QUANTITIES + OTHERS + 1] = {0};
+  for (int i = 0; i < QUANTITIES; i++) {
+    entries[i] = (GOptionEntry){quantities[i].name, 0,      0, G_OPTION_ARG_FILENAME, &texts[i],
+                                quantities[i].help, "VALUE"};
+  }
+  memcpy(&entries[QUANTITIES], others, sizeof others);
+  int code = SB_EXIT_INPUT;
+  GArray *x = g_array_new(FALSE, FALSE, sizeof(double));
+  GArray *p = g_array_new(FALSE, FALSE, sizeof(double));
+  SbFilmProblem problem;
+  sb_film_problem_init(&problem);
+  problem.cancelled = on_cancelled;
+  if (!sb_cli_parse(&argc, &argv, entries, 0, 0, SB_TIMING_NOTE) ||
+      !read_quantities(&problem, texts) || (name != NULL && !choose_model(&problem, name))) {
+    goto done;
+  }
+  if ((problem.model == SB_FILM_INVERSE) != (dry != NULL)) {
+    sb_cli_fail(dry != NULL ? "--dry-pressure: only the model inverse takes it"
+                            : "--dry-pressure is missing: the model inverse needs it");
+    goto done;
+  }
+  if (dry != NULL && !read_dry_pressure(dry, x, p)) {
+    goto done;
+  }
+  problem.dry_x = (const double *)(void *)x->data;
+  problem.dry_pressure = (const double *)(void *)p->data;
+  problem.dry_count = x->len;
+  code = solve_and_show(&problem, target);
 done:
   g_array_unref(x);
   g_array_unref(p);
-  g_free(film);
-  g_free(load);
-  g_free(speed);
-  g_free(radius);
-  g_free(modulus);
-  g_free(viscosity);
-  g_free(left);
-  g_free(right);
+  for (int i = 0; i < QUANTITIES; i++) {
+    g_free(texts[i]);
+  }
   g_free(name);
   g_free(dry);
-  g_free(tolerance);
   g_free(target);
   return code;
 }

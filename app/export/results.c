@@ -165,6 +165,7 @@ char *sb_results_film(const SbFilm *film) {
   sb_json_number(&json, "position_film_min_m", film->position_film_min);
   sb_json_number(&json, "position_rupture_m", film->position_rupture);
   sb_json_bool(&json, "ruptured", film->ruptured);
+  sb_json_bool(&json, "starved", film->starved);
   sb_json_number(&json, "hertz_half_width_m", film->hertz_half_width);
   sb_json_number(&json, "hertz_pressure_Pa", film->hertz_pressure);
   sb_json_number(&json, "friction_couette_N_per_m", film->friction_couette);

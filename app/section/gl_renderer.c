@@ -240,7 +240,7 @@ static bool build(SbGlRenderer *renderer, const SbDrawList *list, double scale) 
   renderer->batch_count = 0;
   for (size_t i = 0; i < list->item_count; i++) {
     const SbDrawItem *item = &list->item[i];
-    const SbDrawPoint *points = list->point + item->first;
+    const SbDrawPoint *points = list->point != NULL ? list->point + item->first : NULL;
     Batch *batch = NULL;
     switch (item->kind) {
     case SB_DRAW_FILL:

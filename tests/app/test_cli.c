@@ -321,6 +321,61 @@ static void test_json_film(void) {
   clear(&result);
 }
 
+static void test_film_options(void) {
+#define CONTACT                                                                                    \
+  "film", "--load", "850.2N/m", "--speed", "1 m/s", "--radius", "0.805mm", "--modulus",            \
+      "6.5725MPa", "--viscosity", "0.211mPa.s"
+  Result flooded = RUN(CONTACT, "--json", "-");
+  Result starved = RUN(CONTACT, "--json", "-", "--inlet-film", "20 nm");
+  g_assert_cmpint(flooded.code, ==, 0);
+  g_assert_cmpint(starved.code, ==, 0);
+  JsonNode *one = parse(flooded.out);
+  JsonNode *two = parse(starved.out);
+  g_assert_false(json_node_get_boolean(at(one, "starved")));
+  g_assert_true(json_node_get_boolean(at(two, "starved")));
+  g_assert_cmpfloat(number(two, "film_central_m"), <, number(one, "film_central_m"));
+  json_node_unref(one);
+  json_node_unref(two);
+  clear(&flooded);
+  clear(&starved);
+
+  // The inverse model reads its table; a table that is none gives one line.
+  char *path = g_build_filename(folder, "dry.csv", NULL);
+  GString *table = g_string_new("x,p\n# smooth\n");
+  for (int i = -40; i <= 40; i++) {
+    double X = i / 40.0;
+    char x[G_ASCII_DTOSTR_BUF_SIZE];
+    char p[G_ASCII_DTOSTR_BUF_SIZE];
+    g_ascii_dtostr(x, sizeof x, 0.5e-3 * X);
+    g_ascii_dtostr(p, sizeof p, 1e6 * (1 - X * X) * (1 - X * X));
+    g_string_append_printf(table, "%s,%s\n", x, p);
+  }
+  g_assert_true(g_file_set_contents(path, table->str, -1, NULL));
+  g_string_free(table, TRUE);
+  Result result = RUN(CONTACT, "--json", "-", "--model", "inverse", "--dry-pressure", path);
+  g_assert_cmpstr(result.err, ==, "");
+  g_assert_cmpint(result.code, ==, 0);
+  clear(&result);
+  static const char *const bad[] = {
+      "",        "x,p\n0,1\n", "0,1\n0,2\n1,1\n", "0 1\n1 nan\n2 3\n", "0,1,2\n1,2,3\n2,3,4\n",
+      "\xff\xfe"};
+  for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+    g_assert_true(g_file_set_contents(path, bad[i], -1, NULL));
+    result = RUN(CONTACT, "--model", "inverse", "--dry-pressure", path);
+    g_assert_cmpint(result.code, ==, 1);
+    g_assert_true(g_str_has_prefix(result.err, "sealbench: "));
+    clear(&result);
+  }
+  result = RUN(CONTACT, "--model", "inverse");
+  g_assert_cmpint(result.code, ==, 1);
+  clear(&result);
+  result = RUN(CONTACT, "--model", "wet");
+  g_assert_nonnull(strstr(result.err, "moes"));
+  clear(&result);
+  g_unlink(path);
+  g_free(path);
+}
+
 static void test_json_small(void) {
   Result result = RUN("asperity", "--lambda", "-3", "--json", "-");
   JsonNode *root = parse(result.out);
@@ -643,6 +698,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/json/plan", test_plan_matches);
   g_test_add_func("/cli/json/fit", test_json_fit);
   g_test_add_func("/cli/json/film", test_json_film);
+  g_test_add_func("/cli/film-options", test_film_options);
   g_test_add_func("/cli/json/small", test_json_small);
   g_test_add_func("/cli/json/bench", test_json_bench);
   g_test_add_func("/cli/utf8-options", test_utf8_options);
