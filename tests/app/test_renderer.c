@@ -6,6 +6,8 @@
 #include "app/section/section.h"
 #include "tests/app/picture.h"
 
+#include "tests/sanitized.h"
+
 #include <glib.h>
 #include <math.h>
 #include <stdio.h>
@@ -228,17 +230,6 @@ static long resident(void) {
   return 4 * pages;
 }
 
-#if defined(__SANITIZE_ADDRESS__)
-#define SANITIZED true
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define SANITIZED true
-#endif
-#endif
-#ifndef SANITIZED
-#define SANITIZED false
-#endif
-
 // Pictures with ever new texts: the atlas is emptied when full, and nothing grows.
 static void test_steady(void) {
   static Scene scene;
@@ -269,7 +260,7 @@ static void test_steady(void) {
   g_test_message("%.0f pictures a second",
                  rounds / (1e-6 * (double)(g_get_monotonic_time() - start)));
   // The address sanitizer holds freed memory back.
-  if (!SANITIZED) {
+  if (!SB_SANITIZED) {
     g_assert_cmpint(resident() - before, <, 4096);
   }
   sb_draw_list_finish(&list);
