@@ -213,7 +213,7 @@ static int solve_and_show(const SbFilmProblem *problem, const char *target) {
       g_free(json);
     } else {
       print_table(film);
-      print_other_models(film, &problem);
+      print_other_models(film, problem);
     }
     code = written != SB_EXIT_DONE ? written : code;
   }
