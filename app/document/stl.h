@@ -1,0 +1,30 @@
+// Triangle meshes from STL files, binary or text, for the mass of a part (engine/motion/solid.h).
+//
+// The format knows no unit: the reader asks for one. Corners with the same coordinates become one
+// vertex, since STL repeats them; triangles that lose a corner by that are left out and counted.
+// Files are bounded in size, text is read independently of locale, and a file that is not STL, is
+// cut short or holds anything but finite numbers is refused with the place.
+#pragma once
+
+#include <glib.h>
+
+enum { SB_STL_TRIANGLES_MAX = 2000000 };
+
+typedef struct {
+  double *vertices;    // 3 vertex_count, m
+  unsigned *triangles; // 3 triangle_count
+  gsize vertex_count, triangle_count;
+  gsize dropped; // triangles without area because two corners coincide
+  gboolean text; // whether the file was the text form
+} SbStl;
+
+// Reads `path`, whose numbers are in `unit` ("mm", "inch", ...). On success the arrays are the
+// caller's (sb_stl_clear); on failure *out is empty and the error is of SB_APP_ERROR.
+gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **error);
+
+// The same from memory; `name` stands for the file in messages.
+gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *unit,
+                      const char *name, GError **error);
+
+// Frees the arrays; takes an empty or NULL one.
+void sb_stl_clear(SbStl *stl);

@@ -1,0 +1,157 @@
+// STL files: both forms, units, what is refused; and the mass of what they hold.
+#include "app/document/stl.h"
+
+#include "app/document/unit.h"
+#include "engine/motion/solid.h"
+
+#include <glib/gstdio.h>
+#include <math.h>
+#include <string.h>
+
+// Corners of a box of 2 x 3 x 5, twelve triangles seen from outside.
+static const double corner[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0},
+                                    {0, 0, 5}, {2, 0, 5}, {2, 3, 5}, {0, 3, 5}};
+static const unsigned face[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7},
+                                     {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5},
+                                     {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+
+static GString *text_box(void) {
+  GString *s = g_string_new("solid box of 3 sides\n");
+  for (int f = 0; f < 12; f++) {
+    g_string_append(s, "  facet normal 0 0 0\n    outer loop\n");
+    for (int k = 0; k < 3; k++) {
+      const double *c = corner[face[f][k]];
+      g_string_append_printf(s, "      vertex %d.0 %de0 %d\n", (int)c[0], (int)c[1], (int)c[2]);
+    }
+    g_string_append(s, "    endloop\n  endfacet\n");
+  }
+  return g_string_append(s, "endsolid box\n");
+}
+
+static GByteArray *binary_box(void) {
+  GByteArray *a = g_byte_array_new();
+  char header[80] = "solid but binary";
+  g_byte_array_append(a, (guint8 *)header, sizeof header);
+  guint32 n = GUINT32_TO_LE(12);
+  g_byte_array_append(a, (guint8 *)&n, 4);
+  for (int f = 0; f < 12; f++) {
+    float record[12] = {0};
+    for (int k = 0; k < 9; k++) {
+      record[3 + k] = (float)corner[face[f][k / 3]][k % 3];
+    }
+    for (int k = 0; k < 12; k++) {
+      guint32 bits;
+      memcpy(&bits, &record[k], 4);
+      bits = GUINT32_TO_LE(bits);
+      g_byte_array_append(a, (guint8 *)&bits, 4);
+    }
+    g_byte_array_append(a, (guint8 *)"\0\0", 2);
+  }
+  return a;
+}
+
+static void weigh(const SbStl *stl, double unit) {
+  SbSolid solid;
+  SbReport report = {0};
+  g_assert_cmpuint(stl->vertex_count, ==, 8);
+  g_assert_cmpuint(stl->triangle_count, ==, 12);
+  sb_solid_mesh(&solid, stl->vertices, stl->vertex_count, stl->triangles, stl->triangle_count,
+                1000.0, &report);
+  g_assert_cmpstr(report.text, ==, "");
+  double volume = 30.0 * unit * unit * unit;
+  g_assert_cmpfloat_with_epsilon(solid.volume, volume, 1e-12 * volume);
+  g_assert_cmpfloat_with_epsilon(solid.centre[2], 2.5 * unit, 1e-12 * unit);
+}
+
+static void test_forms(void) {
+  GError *error = NULL;
+  SbStl stl;
+  GString *text = text_box();
+  g_assert_true(sb_stl_parse(&stl, text->str, text->len, "mm", "box.stl", &error));
+  g_assert_no_error(error);
+  g_assert_true(stl.text);
+  weigh(&stl, 1e-3);
+  sb_stl_clear(&stl);
+  GByteArray *binary = binary_box();
+  g_assert_true(sb_stl_parse(&stl, (char *)binary->data, binary->len, "inch", "box.stl", &error));
+  g_assert_no_error(error);
+  g_assert_false(stl.text);
+  weigh(&stl, 0.0254);
+  sb_stl_clear(&stl);
+  // From a file.
+  char *path = g_build_filename(g_get_tmp_dir(), "sealbench-box.stl", NULL);
+  g_assert_true(g_file_set_contents(path, (char *)binary->data, (gssize)binary->len, NULL));
+  g_assert_true(sb_stl_read(&stl, path, "mm", &error));
+  weigh(&stl, 1e-3);
+  sb_stl_clear(&stl);
+  g_unlink(path);
+  g_assert_false(sb_stl_read(&stl, path, "mm", &error));
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_IO);
+  g_clear_error(&error);
+  g_free(path);
+  g_byte_array_unref(binary);
+  g_string_free(text, TRUE);
+  sb_stl_clear(NULL);
+}
+
+static void refuse(const char *data, gsize length, const char *unit, const char *why) {
+  GError *error = NULL;
+  SbStl stl;
+  g_assert_false(sb_stl_parse(&stl, data, length, unit, "part.stl", &error));
+  g_assert_nonnull(error);
+  g_assert_true(error->domain == SB_APP_ERROR);
+  g_assert_null(stl.vertices);
+  if (strstr(error->message, why) == NULL) {
+    g_error("'%s' does not say '%s'", error->message, why);
+  }
+  g_error_free(error);
+}
+
+static void test_refused(void) {
+  GString *text = text_box();
+  GByteArray *binary = binary_box();
+  const char *data = (char *)binary->data;
+  refuse(text->str, text->len, "", "unit");
+  refuse(text->str, text->len, "kg", "kg");
+  refuse(text->str, text->len - 13, "mm", "endsolid");
+  refuse(text->str, text->len / 2, "mm", "expected");
+  for (gsize n = 0; n < binary->len; n += 37) {
+    // Cut short anywhere: neither form, for the header is no text either.
+    refuse(data, n, "mm", "part.stl");
+  }
+  guint32 infinite = GUINT32_TO_LE(0x7f800000u);
+  memcpy(binary->data + 84 + 12, &infinite, 4);
+  refuse(data, binary->len, "mm", "triangle 0");
+  refuse("hello", 5, "mm", "not an STL file");
+  refuse("solid x\nendsolid x\n", 19, "mm", "no triangles");
+  const char *wrong = "solid x\n facet normal 0 0 0 outer loop vertex 1 2 three";
+  refuse(wrong, strlen(wrong), "mm", "part.stl:2: a number expected, not 'three'");
+  const char *junk = "solid x\n circle 1\nendsolid";
+  refuse(junk, strlen(junk), "mm", "'circle' is not part of STL");
+  g_byte_array_unref(binary);
+  g_string_free(text, TRUE);
+}
+
+// A triangle that welding makes a line is left out.
+static void test_dropped(void) {
+  GString *text = text_box();
+  gssize at = (gssize)(strstr(text->str, "endsolid") - text->str);
+  g_string_insert(text, at,
+                  "facet normal 0 0 1 outer loop vertex 0 0 0 vertex -0 0 0 vertex 2 0 0 endloop "
+                  "endfacet\n");
+  SbStl stl;
+  GError *error = NULL;
+  g_assert_true(sb_stl_parse(&stl, text->str, text->len, "mm", "box.stl", &error));
+  g_assert_cmpuint(stl.dropped, ==, 1);
+  weigh(&stl, 1e-3);
+  sb_stl_clear(&stl);
+  g_string_free(text, TRUE);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/document/stl/forms", test_forms);
+  g_test_add_func("/document/stl/refused", test_refused);
+  g_test_add_func("/document/stl/dropped", test_dropped);
+  return g_test_run();
+}
