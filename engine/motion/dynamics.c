@@ -201,7 +201,10 @@ static void meet_stop(SbDynamics *s, size_t i) {
   }
   double rest = sb_motion_rest_speed(s->model);
   double back = -p->restitution * s->v;
-  if (fabs(back) < rest) {
+  // A rebound lower than a picometre is none either: bounces would go on below what is resolved.
+  double press = p->side * sb_motion_demand(s, s->t, p->position, s->d, &s->loads);
+  bool low = press > 0.0 && s->model->mass * back * back < 2e-12 * press;
+  if (fabs(back) < rest || low) {
     back = 0.0;
     touch->on = true;
   }

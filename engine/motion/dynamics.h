@@ -15,7 +15,8 @@
 // Contacts that the land does not reach have level 0.
 //
 // Stops. Spring and damper in one direction, the damper from the restitution of a free impact that
-// ends when the force does (Schwager and Poeschel 2007); stiffness INFINITY is an impact law. A
+// ends when the force does (Schwager and Poeschel 2007); stiffness INFINITY is an impact law, at
+// rest once a rebound would stay below 1 pm. A
 // massless stop or platen that is left behind relaxes by its own damper and can be met again.
 //
 // Method. Between events the motion is linear in almost all models: closed form (oscillator.h),
