@@ -3,6 +3,8 @@
 #include "app/cli/timing.h"
 #include "app/export/results.h"
 
+#include "engine/friction/sliding.h"
+
 #include <string.h>
 
 static void print_table(const SbFit *fit, const char *seal) {
@@ -61,24 +63,6 @@ static SbStatus solve(void *data, double *wall_s) {
   SbStatus status = sb_fit_solve(job->fit, job->problem, &job->report);
   *wall_s = job->fit->solver.wall_s;
   return status;
-}
-
-static SbFitProblem make_problem(const SbModel *model, int seal) {
-  const SbSealModel *ring = &model->seal[seal];
-  return (SbFitProblem){
-      .model = (SbFitModel)model->fit,
-      .section_diameter = ring->section_diameter,
-      .inner_diameter = ring->inner_diameter,
-      .modulus = ring->modulus,
-      .poisson_ratio = ring->poisson_ratio,
-      .housing_modulus = model->housing_modulus,
-      .housing_poisson = model->housing_poisson_ratio,
-      .radial_space = model->radial_space,
-      .bore_diameter = model->bore_diameter,
-      .gland_width = model->axial_width,
-      .tolerance = model->tolerance,
-      .cancel = on_cancel,
-  };
 }
 
 // --model NAME or NAME:VARIANT.
@@ -149,7 +133,9 @@ int sb_command_fit(int argc, char **argv) {
     sb_cli_fail("--seal: %s (allowed outer, inner)", seal == NULL ? "is missing" : "unknown seal");
     goto done;
   }
-  SbFitProblem problem = make_problem(&model, index);
+  SbFitProblem problem;
+  sb_sliding_fit_problem(&problem, &model, index, 0);
+  problem.cancel = on_cancel;
   problem.tolerance = 1e-3;
   if (!sb_cli_quantity(&problem.pressure, "--pressure", pressure, false, "Pa", "MPa") ||
       !sb_cli_quantity(&problem.tolerance, "--tolerance", tolerance, false, "1", "") ||

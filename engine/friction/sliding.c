@@ -70,13 +70,9 @@ static SbFilmModel film_model(SbModelFilm film) {
   return SB_FILM_THESIS;
 }
 
-static SbStatus solve_fit(SbSlidingMemory *memory, const SbModel *model, int seal, double pressure,
-                          SbSlidingCounts *counts, SbReport *report) {
-  if (memory->fitted && memory->fitted_pressure == pressure && memory->fitted_seal == seal) {
-    return SB_OK;
-  }
+void sb_sliding_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure) {
   const SbSealModel *ring = &model->seal[seal];
-  SbFitProblem problem = {
+  *out = (SbFitProblem){
       .model = (SbFitModel)model->fit,
       .section_diameter = ring->section_diameter,
       .inner_diameter = ring->inner_diameter,
@@ -90,6 +86,15 @@ static SbStatus solve_fit(SbSlidingMemory *memory, const SbModel *model, int sea
       .pressure = pressure,
       .tolerance = model->tolerance,
   };
+}
+
+static SbStatus solve_fit(SbSlidingMemory *memory, const SbModel *model, int seal, double pressure,
+                          SbSlidingCounts *counts, SbReport *report) {
+  if (memory->fitted && memory->fitted_pressure == pressure && memory->fitted_seal == seal) {
+    return SB_OK;
+  }
+  SbFitProblem problem;
+  sb_sliding_fit_problem(&problem, model, seal, pressure);
   SbStatus status = sb_fit_solve(&memory->fit, &problem, report);
   counts->fit_solves++;
   counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
