@@ -48,6 +48,9 @@ void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
   }
   SbCanvas canvas;
   sb_canvas_init(&canvas, cr, theme);
+  cairo_save(cr);
+  cairo_rectangle(cr, rect.x, rect.y - 1, rect.width, rect.height + 1);
+  cairo_clip(cr);
   sb_canvas_hairline(&canvas, rect.x, rect.y, rect.x + rect.width, rect.y,
                      theme->role[SB_ROLE_HAIRLINE]);
   SbTextStyle bold = sb_canvas_style(&canvas, 12, 700, SB_ROLE_INK);
@@ -58,9 +61,11 @@ void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
   snprintf(text, sizeof text, "Drive %s", number);
   sb_canvas_text(&canvas, text, &bold, rect.x, y, SB_LEFT);
 
-  // One scale for the whole run: 38 N take the width that is left.
+  // One scale for the whole run; the thesis valve's 38 N or the run's largest sum fill the width.
+  double largest = data->run.trace != NULL ? sb_trace_range(data->run.trace).force_max : 0;
+  double span = fmax(38, fmax(2.6 * frame->pressure_force, 1.1 * largest));
   double x = rect.x + 102;
-  double scale = (rect.width - 102 - 60) / 38;
+  double scale = (rect.width - 102 - 60) / span;
   sb_canvas_text(&canvas, "=", &plain, x - 14, y, SB_MIDDLE);
   x = part(&canvas, x, y, scale, theme->role[SB_ROLE_FLUID], "pressure", frame->pressure_force);
   static const char *const names[SB_SEAL_COUNT] = {[SB_OUTER] = "outer", [SB_INNER] = "inner"};
@@ -81,5 +86,6 @@ void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                    SB_MIDDLE);
     part(&canvas, x + 18, y, scale, theme->role[SB_ROLE_THIRD], "stop", frame->stop_force);
   }
+  cairo_restore(cr);
   sb_canvas_finish(&canvas);
 }

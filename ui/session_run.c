@@ -114,24 +114,30 @@ static double playhead_share(SbSession *session) {
 
 // Job --------------------------------------------------------------------------------------------
 
-static void set_failure(SbSession *session, const SbReport *report) {
-  g_free(session->failure);
+// One sentence each: what, how far off, how far it got, which parameter, and what is shown.
+static void set_failure(SbSession *session, SbStatus status, const SbReport *report) {
   size_t count = 0;
-  sb_run_frames(session->fresh->run, &count);
+  const SbFrame *frames = sb_run_frames(session->fresh->run, &count);
   g_autoptr(GString) text =
-      g_string_new(report->text[0] != '\0' ? report->text : sb_status_text(report->status));
+      g_string_new(report->text[0] != '\0' ? report->text : sb_status_text(status));
   text->str[0] = g_ascii_toupper(text->str[0]);
+  if (text->str[text->len - 1] != '.') {
+    g_string_append_c(text, '.');
+  }
   if (report->residual > 0) {
     g_string_append_printf(text, " Residual %.1e after %d iterations.", report->residual,
                            report->iteration);
   }
-  if (count > 0) {
-    const SbFrame *frames = sb_run_frames(session->fresh->run, &count);
-    g_string_append_printf(text, " At %.2f s of the cycle.", frames[count - 1].time);
-  }
   if (report->parameter[0] != '\0') {
-    g_string_append_printf(text, " Parameter %s.", report->parameter);
+    g_string_append_printf(text, " Look at %s.", report->parameter);
   }
+  if (count > 0) {
+    g_string_append_printf(text, " Pictures show its last good state, up to %.2f s of the cycle.",
+                           frames[count - 1].time);
+  } else if (session->shown != NULL) {
+    g_string_append(text, " Pictures show the run before.");
+  }
+  g_free(session->failure);
   session->failure = g_string_free(g_steal_pointer(&text), FALSE);
 }
 
@@ -151,7 +157,7 @@ static void finish(SbSession *session) {
   } else {
     session->state = SB_SESSION_FAILED;
     fresh->chart.state = SB_CHART_FAILED;
-    set_failure(session, sb_run_handle_report(fresh->handle));
+    set_failure(session, status, sb_run_handle_report(fresh->handle));
   }
 
   // A failed run shows its own last good state if it got anywhere, else the run before it does.

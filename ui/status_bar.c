@@ -28,6 +28,8 @@ static char *choice_name(SbParamId id, int index) {
 static void append_error(GString *text, const char *name, double error) {
   if (isfinite(error) && error > 0 && error < 1e-5) {
     g_string_append_printf(text, "%s%s below 0.001 %%", text->len > 0 ? ", " : "", name);
+  } else if (isfinite(error) && error > 0.1) {
+    g_string_append_printf(text, "%s%s %.0f %%", text->len > 0 ? ", " : "", name, 100 * error);
   } else if (isfinite(error) && error > 0) {
     g_string_append_printf(text, "%s%s %.2g %%", text->len > 0 ? ", " : "", name, 100 * error);
   }

@@ -63,6 +63,23 @@ def the_newest_edit_wins(folder):
         assert not app.label(r"^Partial run")
 
 
+def a_failed_run_keeps_the_pictures_and_says_why(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        before = app.status()
+        # The ring's finite elements take at most four times the modulus.
+        app.edit("Modulus", "0.1 MPa")
+        app.edit("Pressure", "2 MPa")
+        app.choose("Fitment", "ring")
+        wait("the state", lambda: app.label(r"^Run failed"))
+        text = app.label(r"Look at canister\.pressure\.")
+        assert text and "Pictures show" in text, text
+        assert app.status().startswith("stage"), before
+        for _ in range(3):
+            app.press("push button", "Undo")
+        wait("a good run", lambda: app.run_done() and not app.label(r"^Run failed"))
+
+
 def scrub_to_stage_c(folder):
     with App(scene(folder)) as app:
         wait("the first run", app.run_done)
@@ -98,5 +115,6 @@ def playback_moves_the_playhead(folder):
 
 
 if __name__ == "__main__":
-    main(a_long_run_grows_and_can_be_cancelled, a_long_run_ends_by_itself, the_newest_edit_wins, scrub_to_stage_c,
+    main(a_long_run_grows_and_can_be_cancelled, a_long_run_ends_by_itself, the_newest_edit_wins,
+         a_failed_run_keeps_the_pictures_and_says_why, scrub_to_stage_c,
          playback_moves_the_playhead)
