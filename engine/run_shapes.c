@@ -149,7 +149,7 @@ static SbStatus solve_dragged(SbRun *run, int seal, SbChamber chamber, Poll *hoo
   SbRingLoad load = ring_load(model, sb_model_seal_pressure(model, seal, chamber));
   load.friction_floor = floor_friction;
   load.friction_wall = wall_friction;
-  SbRingOptions options = {.poll = poll, .poll_data = hooks};
+  SbRingOptions options = {.fit_mesh = true, .poll = poll, .poll_data = hooks};
   const int order[SB_RUN_MOTIONS] = {SB_RUN_REST, SB_CYCLE_IN, SB_CYCLE_OUT};
   for (int i = 0; i < SB_RUN_MOTIONS; i++) {
     // Each from the fitted ring, so that one way of sliding does not carry the other's history.

@@ -79,6 +79,40 @@ static SbDrawColour map_colour(const SbDrawItem *item, float scalar) {
   return item->map->entry[(int)(255.0f * CLAMP(t, 0.0f, 1.0f) + 0.5f)];
 }
 
+// Lines of equal value: in each triangle the segment between the two sides that a level crosses.
+static void draw_isolines(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *points,
+                          const float *scalars) {
+  double range = (double)(item->map_max - item->map_min) / (double)item->isolines;
+  for (size_t i = 0; i + 2 < item->count && range > 0; i += 3) {
+    double v[3];
+    for (int k = 0; k < 3; k++) {
+      v[k] = (double)(scalars[i + (size_t)k] - item->map_min) / range;
+    }
+    double low = fmin(v[0], fmin(v[1], v[2])), high = fmax(v[0], fmax(v[1], v[2]));
+    for (double level = ceil(low); level < high; level += 1) {
+      bool begun = false;
+      for (int k = 0; k < 3; k++) {
+        double a = v[k], b = v[(k + 1) % 3];
+        if ((a < level) == (b < level)) {
+          continue;
+        }
+        SbDrawPoint p = points[i + (size_t)k], q = points[i + (size_t)((k + 1) % 3)];
+        double t = (level - a) / (b - a);
+        double x = (double)p.x + t * (double)(q.x - p.x), y = (double)p.y + t * (double)(q.y - p.y);
+        if (begun) {
+          cairo_line_to(cr, x, y);
+        } else {
+          cairo_move_to(cr, x, y);
+        }
+        begun = true;
+      }
+    }
+  }
+  cairo_set_line_width(cr, (double)item->width);
+  set_colour(cr, item->line_colour);
+  cairo_stroke(cr);
+}
+
 static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *points,
                       const float *scalars) {
   // Two triangles on one rectangle are a legend: a gradient along x.
@@ -98,11 +132,15 @@ static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *po
   }
   cairo_set_line_width(cr, 0.4);
   cairo_set_dash(cr, NULL, 0, 0);
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   for (size_t i = 0; i + 2 < item->count; i += 3) {
     set_colour(cr, map_colour(item, (scalars[i] + scalars[i + 1] + scalars[i + 2]) / 3.0f));
     trace(cr, points + i, 3, true);
     cairo_fill_preserve(cr);
     cairo_stroke(cr);
+  }
+  if (item->isolines > 0.0f) {
+    draw_isolines(cr, item, points, scalars);
   }
 }
 

@@ -83,6 +83,8 @@ typedef struct {
   size_t first_scalar;
   const SbDrawMap *map;
   float map_min, map_max;
+  float isolines; // how many steps the map's range has for lines of equal value, 0 for none
+  SbDrawColour line_colour;
   // Text: anchored at the baseline.
   float x, y, size;
   int weight;

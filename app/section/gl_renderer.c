@@ -23,7 +23,7 @@ typedef enum {
 
 typedef struct {
   GLuint id;
-  GLint to_clip, flip, pattern, line_colour, line, sampler;
+  GLint to_clip, flip, pattern, line_colour, line, levels, sampler;
 } Program;
 
 typedef struct {
@@ -96,6 +96,7 @@ static SbStatus build_program(SbGlRenderer *renderer, ProgramId id, GLuint verte
   program->pattern = gl->GetUniformLocation(program->id, "pattern");
   program->line_colour = gl->GetUniformLocation(program->id, "line_colour");
   program->line = gl->GetUniformLocation(program->id, "line");
+  program->levels = gl->GetUniformLocation(program->id, "levels");
   program->sampler = gl->GetUniformLocation(program->id, id == PROGRAM_TEXT ? "atlas" : "map");
   return SB_OK;
 }
@@ -312,6 +313,10 @@ static void set_parameters(SbGlRenderer *renderer, const Batch *batch, const Pro
     gl->Uniform4f(program->line_colour, c.r * c.a, c.g * c.a, c.b * c.a, c.a);
     gl->Uniform2f(program->line, s * item->hatch.pitch, s * item->hatch.width / 2.0f);
   } else if (batch->program == PROGRAM_FIELD) {
+    SbDrawColour c = item->line_colour;
+    gl->Uniform1f(program->levels, item->isolines);
+    gl->Uniform4f(program->line_colour, c.r, c.g, c.b, c.a);
+    gl->Uniform2f(program->line, 0.0f, s * item->width / 2.0f);
     gl->BindTexture(GL_TEXTURE_2D, map_texture(renderer, item->map));
   } else if (batch->program == PROGRAM_TEXT) {
     gl->BindTexture(GL_TEXTURE_2D, sb_gl_atlas_texture(renderer->atlas));

@@ -38,6 +38,7 @@ static void make_palette(SbPalette *palette, bool dark) {
   }
   for (int i = 0; i < 256; i++) {
     palette->field.entry[i] = convert(sb_theme_field(theme, i / 255.0));
+    palette->diverging.entry[i] = convert(sb_theme_diverging(theme, 2 * i / 255.0 - 1));
     palette->fluid.entry[i] = convert(sb_theme_fluid(theme, SB_PALETTE_FLUID_FULL * i / 255.0));
   }
 }

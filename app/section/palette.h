@@ -13,8 +13,9 @@ typedef struct {
   SbDrawColour fluid_line, now;
   SbDrawColour housing, housing_hatch, stem, stem_hatch, outline;
   SbDrawColour warn, error;
-  SbDrawMap field; // stress in a seal
-  SbDrawMap fluid; // pressure from 0 to 0.7 MPa
+  SbDrawMap field;     // stress in a seal
+  SbDrawMap diverging; // a signed field, -1 to 1
+  SbDrawMap fluid;     // pressure from 0 to 0.7 MPa
 } SbPalette;
 
 enum { SB_PALETTE_LIGHT, SB_PALETTE_DARK, SB_PALETTE_COUNT };

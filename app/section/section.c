@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { ISOLINES = 12 }; // over the range of a field
+
 // Radius drawn above the bore, and room beside the valve [m per m of bore diameter].
 static const double TOP = 0.79, RIGHT_ROOM = 0.26;
 
@@ -24,6 +26,8 @@ void sb_section_destroy(SbSection *section) {
     return;
   }
   sb_text_destroy(section->text);
+  g_free(section->scratch);
+  g_free(section->scratch_scalar);
   g_free(section);
 }
 
@@ -156,22 +160,57 @@ static void shape_rings(SbSection *section) {
   }
 }
 
-// Field of a solved ring in its deformed triangles, then its outline.
-static void draw_solved_ring(SbSection *section, const SbSealShape *shape, double ax, double bx,
-                             double ay, double by) {
+void sb_section_field_limits(const SbSection *section, SbField field, double *least,
+                             double *greatest) {
+  *least = section->limits.field_min[field];
+  *greatest = section->limits.field_max[field];
+  if (field == SB_FIELD_SHEAR) {
+    // Signed: the map's middle is zero.
+    *greatest = fmax(*greatest, -*least);
+    *least = -*greatest;
+  }
+}
+
+// Height of a node above the groove floor as drawn: the passage over the land edge is solved for a
+// few places of the edge only; in between nothing may stand in the housing.
+static double drawn_height(const SbSection *section, int seal, double x, double y) {
+  if (section->instant->frame->seal[seal].land_fraction >= 1.0f) {
+    return y;
+  }
+  const SbValve *valve = &section->valve;
+  return fmin(y, sb_valve_bore_at(valve, x + sb_section_origin(section, seal)) - valve->floor);
+}
+
+// Field of a solved ring in its deformed triangles with lines of equal value, then its outline.
+static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *shape, double ax,
+                             double bx, double ay, double by) {
   const SbPalette *palette = section->palette;
   SbField field = section->view->field;
   size_t corners = 3 * shape->triangles;
-  SbDrawPoint *point = g_new(SbDrawPoint, MAX(corners, shape->outline));
-  float *scalar = g_new(float, corners);
+  size_t most = MAX(corners, shape->outline);
+  if (most > section->scratch_size) {
+    section->scratch_size = most;
+    section->scratch = g_renew(SbDrawPoint, section->scratch, most);
+    section->scratch_scalar = g_renew(float, section->scratch_scalar, most);
+  }
+  SbDrawPoint *point = section->scratch;
+  float *scalar = section->scratch_scalar;
   for (size_t i = 0; i < corners; i++) {
     int node = shape->triangle[i];
-    point[i] = (SbDrawPoint){(float)(ax + bx * shape->place[2 * node]),
-                             (float)(ay + by * shape->place[2 * node + 1])};
+    double x = shape->place[2 * node];
+    double y = drawn_height(section, seal, x, shape->place[2 * node + 1]);
+    point[i] = (SbDrawPoint){(float)(ax + bx * x), (float)(ay + by * y)};
     scalar[i] = shape->field[field][node];
   }
-  sb_draw_mesh(section->list, point, scalar, corners, &palette->field,
-               section->limits.field_min[field], section->limits.field_max[field]);
+  double least, greatest;
+  sb_section_field_limits(section, field, &least, &greatest);
+  bool sign = field == SB_FIELD_SHEAR;
+  SbDrawItem *item = sb_draw_mesh(section->list, point, scalar, corners,
+                                  sign ? &palette->diverging : &palette->field, least, greatest);
+  item->isolines = ISOLINES;
+  item->width = 0.6f;
+  item->line_colour = palette->ink;
+  item->line_colour.a = 0.16f;
   if (section->view->mesh) {
     SbDrawColour line = palette->outline;
     line.a = 0.35f;
@@ -181,12 +220,11 @@ static void draw_solved_ring(SbSection *section, const SbSealShape *shape, doubl
   }
   for (size_t i = 0; i < shape->outline; i++) {
     int node = shape->outline_node[i];
-    point[i] = (SbDrawPoint){(float)(ax + bx * shape->place[2 * node]),
-                             (float)(ay + by * shape->place[2 * node + 1])};
+    double x = shape->place[2 * node];
+    double y = drawn_height(section, seal, x, shape->place[2 * node + 1]);
+    point[i] = (SbDrawPoint){(float)(ax + bx * x), (float)(ay + by * y)};
   }
   sb_draw_stroke(section->list, point, shape->outline, 1.8, palette->outline)->closed = true;
-  g_free(point);
-  g_free(scalar);
 }
 
 void sb_section_draw_ring(SbSection *section, int seal, double ax, double bx, double ay,
@@ -195,7 +233,7 @@ void sb_section_draw_ring(SbSection *section, int seal, double ax, double bx, do
   SbDrawList *list = section->list;
   const SbSealShape *solved = section->instant->ring[seal];
   if (solved != NULL) {
-    draw_solved_ring(section, solved, ax, bx, ay, by);
+    draw_solved_ring(section, seal, solved, ax, bx, ay, by);
     return;
   }
   const SbRingShape *shape = &section->ring[seal];

@@ -107,8 +107,11 @@ void sb_section_draw_legends(SbSection *section, double x, double y, double widt
   bool ring = section->instant->ring[SB_OUTER] != NULL || section->instant->ring[SB_INNER] != NULL;
   const char *name = sb_section_field_name(view->field);
   const char *unit = sb_section_field_unit(view->field);
-  double least = section->limits.field_min[view->field] * sb_section_field_scale(view->field);
-  double most = section->limits.field_max[view->field] * sb_section_field_scale(view->field);
+  double least, most;
+  sb_section_field_limits(section, view->field, &least, &most);
+  least *= sb_section_field_scale(view->field);
+  most *= sb_section_field_scale(view->field);
+  const SbDrawMap *map = view->field == SB_FIELD_SHEAR ? &palette->diverging : &palette->field;
   bool column = view->width - 2 * x >= 860;
   bool zoom = view->zoom != SB_SECTION_WHOLE;
   double low = zoom ? view->height - x : (double)section->strip.y - 10;
@@ -123,13 +126,13 @@ void sb_section_draw_legends(SbSection *section, double x, double y, double widt
              fluid_full);
     }
     if (ring && right - 2 * each - 24 >= left) {
-      legend(section, right - 2 * each - 24, y + 8, each, name, unit, &palette->field, least, most);
+      legend(section, right - 2 * each - 24, y + 8, each, name, unit, map, least, most);
     }
     return;
   }
   double at = y + 68;
   if (ring) {
-    at += legend(section, x, at, width, name, unit, &palette->field, least, most);
+    at += legend(section, x, at, width, name, unit, map, least, most);
   }
   at +=
       legend(section, x, at, width, "fluid pressure", "MPa, gauge", &palette->fluid, 0, fluid_full);

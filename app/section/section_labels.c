@@ -263,26 +263,31 @@ static void draw_dose_path(SbSection *section) {
   double top = valve->floor + 2 * radius;
   double mouth = sb_valve_bore_at(valve, ring);
   double over = isfinite(mouth) ? (fmax(top, valve->land) + mouth) / 2 : top + 0.17 * g;
-  // Behind the ring, between the stem's land and whatever of the housing is above it.
-  double behind = ring + 1.2 * radius;
+  // Down along the ring between it and the housing, then over the stem's land.
+  double beside = ring + 0.72 * radius;
+  double shoulder = valve->floor + radius * (1 + 0.694);
+  double above = fmin(sb_valve_bore_at(valve, beside), top + 0.1 * g);
+  double behind = ring + 1.25 * radius;
   double roof = fmin(sb_valve_bore_at(valve, behind), top + 0.1 * g);
   double mouth_left = valve->stem.point[7].x - s;
   double depth = valve->land - valve->chamber_floor;
+  enum { KNOTS = 7, STEPS = 12 };
   // Knots of the way, from left to right; in between a Catmull-Rom curve.
-  const SbValvePoint knot[6] = {
+  const SbValvePoint knot[KNOTS] = {
       {fmin(valve->face, ring) - 1.75 * g, valve->bore + 0.62 * g},
-      {fmin(valve->face, ring) - 0.6 * g, valve->bore + 0.55 * g},
+      {fmin(valve->face, ring) - 0.45 * g, valve->housing.point[2].y - 0.02 * g},
       {ring, over},
+      {beside, fmin((shoulder + above) / 2, above)},
       {behind, (valve->land + roof) / 2},
       {fmax(mouth_left + 0.1 * g, behind + 0.15 * g), valve->land + 0.02 * g},
       {fmax(mouth_left, behind) + 0.46 * g, valve->land - 0.4 * depth},
   };
-  enum { STEPS = 12 };
-  SbDrawPoint curve[5 * STEPS + 1];
+  SbDrawPoint curve[(KNOTS - 1) * STEPS + 1];
   size_t count = 0;
-  for (int i = 0; i < 5; i++) {
-    SbValvePoint a = knot[MAX(i - 1, 0)], b = knot[i], c = knot[i + 1], d = knot[MIN(i + 2, 5)];
-    for (int j = 0; j < STEPS + (i == 4); j++) {
+  for (int i = 0; i < KNOTS - 1; i++) {
+    SbValvePoint a = knot[MAX(i - 1, 0)], b = knot[i], c = knot[i + 1];
+    SbValvePoint d = knot[MIN(i + 2, KNOTS - 1)];
+    for (int j = 0; j < STEPS + (i == KNOTS - 2); j++) {
       double t = (double)j / STEPS;
       double wa = -t * (1 - t) * (1 - t) / 2, wb = 1 - 2.5 * t * t + 1.5 * t * t * t;
       double wc = t * (1 + t * (4 - 3 * t)) / 2, wd = -t * t * (1 - t) / 2;

@@ -13,6 +13,9 @@ struct SbSection {
   SbValve valve;
   SbText *text;
   SbRingShape ring[SB_SEAL_COUNT];
+  size_t scratch_size; // of a mesh's corners
+  SbDrawPoint *scratch;
+  float *scratch_scalar;
   // The drawing in hand.
   SbDrawList *list;
   const SbSectionView *view;
@@ -66,6 +69,10 @@ typedef struct {
 } SbSectionFrameMap;
 
 void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map);
+
+// Limits of a field's colour map, in its SI unit.
+void sb_section_field_limits(const SbSection *section, SbField field, double *least,
+                             double *greatest);
 
 // Fill of seal i's ring from its outline mapped by x -> ax + bx x, y -> ay + by y, and its outline.
 void sb_section_draw_ring(SbSection *section, int seal, double ax, double bx, double ay, double by);

@@ -34,13 +34,6 @@ static double at_most(SbValve *valve, double value, double most) {
   return most;
 }
 
-// Half the axial width of an unpressurised ring flattened to the radial space with its area kept,
-// by the closed-form shape with a contact of 0.36 sections (the thesis valve's 0.56 mm).
-static double half_width(double area, double section, double space) {
-  double contact = fmin(0.36 * section, 0.8 * area / space);
-  return contact / 2 + 2 * (area - contact * space) / (M_PI * space);
-}
-
 static void make_housing(SbValve *valve, const SbModel *model, double top) {
   const SbValveShape *shape = &model->shape;
   double g = model->radial_space;
@@ -116,19 +109,17 @@ void sb_valve_make(SbValve *valve, const SbModel *model, double inner_contact_le
   valve->land = fmax(model->stem_diameter / 2, valve->floor + 0.2 * model->radial_space);
   valve->adjusted = valve->land > model->stem_diameter / 2;
 
-  // Each ring rests against the thrust wall on its right.
-  double half[SB_SEAL_COUNT];
+  // A seal's frame has its origin in its groove's middle.
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const SbSealModel *seal = &model->seal[i];
     double d = seal->section_diameter;
     valve->section_area[i] = M_PI / 4 * d * d / (1 + seal->stretch_mean);
-    half[i] = fmin(half_width(valve->section_area[i], d, model->radial_space), b / 2);
   }
   valve->origin[SB_INNER] = model->land_edge - inner_contact_left;
   double spacing = at_least(valve, shape->seal_spacing, 1.2 * b);
-  valve->groove_right[SB_INNER] = valve->origin[SB_INNER] + half[SB_INNER];
+  valve->groove_right[SB_INNER] = valve->origin[SB_INNER] + b / 2;
   valve->groove_right[SB_OUTER] = valve->groove_right[SB_INNER] + spacing;
-  valve->origin[SB_OUTER] = valve->groove_right[SB_OUTER] - half[SB_OUTER];
+  valve->origin[SB_OUTER] = valve->groove_right[SB_OUTER] - b / 2;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     valve->groove_left[i] = valve->groove_right[i] - b;
   }
