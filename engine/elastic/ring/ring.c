@@ -237,11 +237,19 @@ static void guess(SbRing *ring, const SbRingSetting *s, double share) {
   thickness -= share * squeeze;
   double centre = low - flat - 0.5 * (1.0 - share) * squeeze + 0.5 * thickness;
   stretch = plane ? 1.0 : centre / ring->centre;
+  // An end of the land under the ring pushes it to the wall on the open side; start there, since
+  // without friction the state in the middle of the groove is not stable.
+  double half = 0.5 / (stretch * thickness), shift = 0.0;
+  if (fabs(s->land_right) < 0.6 && isfinite(s->wall_right)) {
+    shift = s->wall_right - half;
+  } else if (fabs(s->land_left) < 0.6 && isfinite(s->wall_left)) {
+    shift = s->wall_left + half;
+  }
   SbRingFem *fem = ring->fem;
   for (int i = 0; i < ring->mesh->nodes; i++) {
     double r = ring->mesh->x[2 * i], z = ring->mesh->x[2 * i + 1];
     fem->u[2 * i] = centre + thickness * (r - ring->centre) - r;
-    fem->u[2 * i + 1] = z / (stretch * thickness) - z;
+    fem->u[2 * i + 1] = z / (stretch * thickness) + shift - z;
   }
   memset(fem->inner, 0, sizeof(double) * SB_RING_INNER * (size_t)ring->mesh->elements);
 }
@@ -311,10 +319,18 @@ static SbStatus fit_and_press(SbRing *ring, const SbRingSetting *smooth, SbRepor
   if (status == SB_ERROR_NOT_CONVERGED) {
     SbRingSetting wide = dry;
     wide.bore = fmax(dry.bore, dry.floor + 0.85);
-    ring->contact->now = wide;
     guess(ring, &wide, 0.4);
+    // The ends of the land come in from outside.
+    wide.land_right = fmax(dry.land_right, 1.5);
+    wide.land_left = fmin(dry.land_left, -1.5);
+    ring->contact->now = wide;
     sb_ring_contact_detect(ring->contact);
     status = sb_ring_newton(ring->contact, &newton, &ring->count, report);
+    SbRingSetting squeezed = wide;
+    squeezed.bore = dry.bore;
+    if (status == SB_OK) {
+      status = sb_ring_advance(ring->contact, &squeezed, &newton, &ring->count, report);
+    }
     if (status == SB_OK) {
       status = sb_ring_advance(ring->contact, &dry, &newton, &ring->count, report);
     }

@@ -71,16 +71,18 @@ void sb_ring_contact_destroy(SbRingContact *contact) {
   }
 }
 
-// Height above zero that sets in with a parabola of the given length, then slope 1.
+// Height above zero whose slope rises smoothly from 0 to 1 over a length (twice differentiable, so
+// that Newton does not stumble where the chamfer sets in).
 static double ramp(double x, double length, double *slope, double *curvature) {
   if (x <= 0.0) {
     *slope = *curvature = 0.0;
     return 0.0;
   }
   if (x < length) {
-    *slope = x / length;
-    *curvature = 1.0 / length;
-    return 0.5 * x * x / length;
+    double t = x / length;
+    *slope = t * t * (3.0 - 2.0 * t);
+    *curvature = 6.0 * t * (1.0 - t) / length;
+    return length * t * t * t * (1.0 - 0.5 * t);
   }
   *slope = 1.0;
   *curvature = 0.0;
