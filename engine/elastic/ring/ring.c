@@ -263,6 +263,16 @@ static SbStatus lean(SbRing *ring, const SbRingSetting *s, SbReport *report) {
     rubs = rubs || s->friction[k] > 0.0;
   }
   bool land = s->land_left > -INFINITY || s->land_right < INFINITY;
+  SbRingPatch patch;
+  if (difference == 0.0 && land && !rubs && sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+    // A chamfer under the contact pushes towards its open side; without friction the ring would
+    // otherwise balance on the land's edge, which is not stable.
+    if (s->land_right < patch.place[1] && isfinite(s->wall_right)) {
+      difference = 1e-3;
+    } else if (s->land_left > patch.place[0] && isfinite(s->wall_left)) {
+      difference = -1e-3;
+    }
+  }
   if (difference == 0.0) {
     return SB_OK;
   }
@@ -287,7 +297,7 @@ static SbStatus lean(SbRing *ring, const SbRingSetting *s, SbReport *report) {
     return SB_OK; // friction decides how far it goes
   }
   // Sunk in by a little more than it takes, so that the wall contact starts with some width.
-  double sunk = fmin(0.06, 0.05 * fabs(difference));
+  double sunk = fmin(0.06, fmax(0.003, 0.05 * fabs(difference)));
   double shift = difference > 0.0 ? least + sunk : -least - sunk;
   for (int i = 0; i < ring->mesh->nodes; i++) {
     ring->fem->u[2 * i + 1] += shift;
