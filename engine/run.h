@@ -94,5 +94,7 @@ const SbSealShape *sb_run_shape(const SbRun *run, uint32_t index);
 
 // Only after sb_run_execute() returned; borrowed.
 const SbSummary *sb_run_summary(const SbRun *run);
+
+// What the run was made for; any time, any thread; borrowed.
 const SbModel *sb_run_model(const SbRun *run);
 const SbPlan *sb_run_plan(const SbRun *run);

@@ -23,6 +23,7 @@ typedef struct {
   size_t edge_open;   // index of the edge behind which the chamber opens on the way in
   size_t edge_closed; // and closes on the way out
   double last_event;  // time [s]
+  double turn;        // time after which a reverse slip is the return [s]
   double force_peak;
   SbMotionEvent mark[SB_STAGE_COUNT];
   bool marked[SB_STAGE_COUNT];
@@ -59,6 +60,21 @@ static void valve_cross(size_t edge, int direction, double *extra, void *user) {
   }
 }
 
+// When the drive has turned: from then on a reverse slip is the return, before it a rebound [s].
+static double drive_turn(const SbModel *model, double top) {
+  switch (model->drive) {
+  case SB_MODEL_DRIVE_MACHINE:
+    return top / model->speed;
+  case SB_MODEL_DRIVE_HAND:
+    return model->rise_time + model->hold_time;
+  case SB_MODEL_DRIVE_SINUSOID:
+    return 0.25 / model->frequency;
+  case SB_MODEL_DRIVE_FREE_RETURN:
+    break;
+  }
+  return 0;
+}
+
 static void mark(Valve *valve, SbStage stage, const SbMotionEvent *event) {
   if (!valve->marked[stage]) {
     valve->marked[stage] = true;
@@ -75,7 +91,7 @@ static void valve_event(const SbMotionEvent *event, void *user) {
   case SB_MOTION_SLIP:
     if (event->sign > 0 && valve->stage == SB_STAGE_A) {
       mark(valve, SB_STAGE_B, event);
-    } else if (event->sign < 0 && valve->stage >= SB_STAGE_C) {
+    } else if (event->sign < 0 && event->time >= valve->turn) {
       mark(valve, SB_STAGE_E, event);
     }
     valve->direction = event->sign > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT;
@@ -210,6 +226,7 @@ static void set_model(SbDynamicsModel *out, Valve *valve) {
     valve->edge_closed = closed > open ? 2 : 1;
   }
   set_drive(out, valve);
+  valve->turn = drive_turn(model, platen_top(cycle));
   if (model->drive == SB_MODEL_DRIVE_FREE_RETURN && model->stroke > out->edge[1] && touches) {
     valve->chamber = SB_CHAMBER_OPEN;
   }
@@ -332,6 +349,17 @@ static void fill_frame(SbFrame *out, const Valve *valve, const SbDynamics *dynam
   }
 }
 
+// The earliest marked stage not yet shown, or -1.
+static int next_mark(const SbMotionEvent *marks, const bool *marked, const bool *shown) {
+  int best = -1;
+  for (int stage = SB_STAGE_B; stage < SB_STAGE_COUNT; stage++) {
+    if (marked[stage] && !shown[stage] && (best < 0 || marks[stage].time < marks[best].time)) {
+      best = stage;
+    }
+  }
+  return best;
+}
+
 static SbStatus second_pass(Valve *valve, const SbDynamicsModel *model, double duration,
                             const SbMotionEvent *marks, const bool *marked,
                             SbDynamicsEnergy *energy, SbDynamicsCounters *counters,
@@ -345,15 +373,14 @@ static SbStatus second_pass(Valve *valve, const SbDynamicsModel *model, double d
   sb_dynamics_listen(&dynamics, valve_event, valve);
   size_t total = (size_t)run->model.frames;
   size_t count = 0;
-  int stage = SB_STAGE_B;
+  bool shown[SB_STAGE_COUNT] = {0};
+  SbStage passed = SB_STAGE_A;
   int corner = 0;
   for (size_t next = 0; next < total && status == SB_OK;) {
     // The next even instant, or a marked event or a corner of the drive before it.
     double time = duration * (double)next / (double)(total - 1);
-    while (stage < SB_STAGE_COUNT && !marked[stage]) {
-      stage++;
-    }
-    bool event = stage < SB_STAGE_COUNT && marks[stage].time <= time;
+    int stage = next_mark(marks, marked, shown);
+    bool event = stage >= 0 && marks[stage].time <= time;
     if (event) {
       time = marks[stage].time;
     }
@@ -364,7 +391,7 @@ static SbStatus second_pass(Valve *valve, const SbDynamicsModel *model, double d
     }
     status = sb_dynamics_advance(&dynamics, time, report);
     SbFrame *frame = &run->frames[count];
-    fill_frame(frame, valve, &dynamics, event ? (SbStage)(stage - 1) : valve->stage);
+    fill_frame(frame, valve, &dynamics, passed);
     if (event) {
       // The event's figures are those just before it.
       frame->on_event = 1;
@@ -372,7 +399,8 @@ static SbStatus second_pass(Valve *valve, const SbDynamicsModel *model, double d
       frame->displacement = marks[stage].position;
       frame->velocity = marks[stage].speed;
       sb_run_mark_stage(run, (SbStage)stage, frame, count);
-      stage++;
+      shown[stage] = true;
+      passed = (SbStage)stage;
     } else if (!turn) {
       next++;
     }
@@ -429,6 +457,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   memcpy(marked, valve.marked, sizeof marked);
   valve = (Valve){.run = run,
                   .chamber = chamber,
+                  .turn = valve.turn,
                   .edge_open = valve.edge_open,
                   .edge_closed = valve.edge_closed};
   SbDynamicsEnergy energy = {0};

@@ -1,6 +1,7 @@
 // sealbench-gtk: starts the application.
 #include "ui/application.h"
 
+#include <cblas.h>
 #include <locale.h>
 
 int main(int argc, char **argv) {
@@ -8,6 +9,8 @@ int main(int argc, char **argv) {
   setlocale(LC_ALL, "");
   setlocale(LC_NUMERIC, "C");
   gtk_disable_setlocale();
+  // One thread for a solve: repeatable results, and the second core is the window's.
+  openblas_set_num_threads(1);
   g_autoptr(SbApplication) application = sb_application_new();
   return g_application_run(G_APPLICATION(application), argc, argv);
 }

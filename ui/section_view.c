@@ -26,7 +26,7 @@ enum {
 
 typedef struct {
   SbSession *session;
-  GtkWidget *box, *area, *inset_combo, *forces, *labels, *empty;
+  GtkWidget *box, *area, *field_combo, *inset_combo, *forces, *labels, *mesh, *empty;
   SbSection *section; // of `run`'s model, or of the resting valve
   const SbRun *run;   // what `section` was made for; never read through
   const SbRun *rest;  // owned: the resting valve
@@ -210,6 +210,8 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
       .hide_forces = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->forces)),
       .hide_labels = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->labels)),
       .inset_seal = g_strcmp0(inset, "inner") == 0 ? SB_INNER : SB_OUTER,
+      .field = (SbField)MAX(gtk_combo_box_get_active(GTK_COMBO_BOX(view->field_combo)), 0),
+      .mesh = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->mesh)),
   };
   SbSectionInstant instant = {.frame = frame};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
@@ -256,6 +258,13 @@ static void on_change(View *view) {
 
 static void on_run_changed(View *view) {
   gtk_widget_set_visible(view->empty, sb_session_state(view->session) == SB_SESSION_EMPTY);
+  // Only rings solved by finite elements have a field and a mesh to show.
+  const SbRun *run = sb_session_run(view->session);
+  gboolean solved = run != NULL && sb_run_plan(run)->section_fields;
+  gtk_widget_set_sensitive(view->field_combo, solved);
+  gtk_widget_set_sensitive(view->mesh, solved);
+  gtk_widget_set_tooltip_text(view->mesh,
+                              solved ? "Elements of solved rings" : "Needs the fitment model ring");
   on_change(view);
 }
 
@@ -344,9 +353,10 @@ static void view_free(gpointer data) {
   g_free(view);
 }
 
-static GtkWidget *toggle_new(View *view, const char *label, const char *tip, GtkBox *box) {
+static GtkWidget *toggle_new(View *view, const char *label, const char *tip, gboolean active,
+                             GtkBox *box) {
   GtkWidget *toggle = gtk_toggle_button_new_with_label(label);
-  gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(toggle), TRUE);
+  gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(toggle), active);
   gtk_widget_set_tooltip_text(toggle, tip);
   g_signal_connect_swapped(toggle, "toggled", G_CALLBACK(on_change), view);
   gtk_box_pack_start(box, toggle, FALSE, FALSE, 0);
@@ -376,6 +386,16 @@ static GtkWidget *make_toolbar(View *view) {
   gtk_widget_set_margin_end(heading, 4);
   gtk_box_pack_start(GTK_BOX(bar), heading, FALSE, FALSE, 0);
 
+  view->field_combo = gtk_combo_box_text_new();
+  for (int i = 0; i < SB_FIELD_COUNT; i++) {
+    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(view->field_combo),
+                                   sb_section_field_name((SbField)i));
+  }
+  gtk_combo_box_set_active(GTK_COMBO_BOX(view->field_combo), 0);
+  sb_style_name(view->field_combo, "Field", "What the colours of solved rings show");
+  g_signal_connect_swapped(view->field_combo, "changed", G_CALLBACK(on_change), view);
+  gtk_box_pack_start(GTK_BOX(bar), view->field_combo, FALSE, FALSE, 0);
+
   view->inset_combo = gtk_combo_box_text_new();
   gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "outer", "Insets: outer seal");
   gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "inner", "Insets: inner seal");
@@ -386,8 +406,10 @@ static GtkWidget *make_toolbar(View *view) {
   gtk_box_pack_start(GTK_BOX(bar), view->inset_combo, FALSE, FALSE, 0);
 
   GtkWidget *toggles = linked_box();
-  view->forces = toggle_new(view, "Forces", "Force arrows", GTK_BOX(toggles));
-  view->labels = toggle_new(view, "Labels", "Names and values of the parts", GTK_BOX(toggles));
+  view->forces = toggle_new(view, "Forces", "Force arrows", TRUE, GTK_BOX(toggles));
+  view->labels =
+      toggle_new(view, "Labels", "Names and values of the parts", TRUE, GTK_BOX(toggles));
+  view->mesh = toggle_new(view, "Mesh", "Elements of solved rings", FALSE, GTK_BOX(toggles));
   gtk_box_pack_start(GTK_BOX(bar), toggles, FALSE, FALSE, 0);
 
   GtkWidget *zooms = linked_box();
