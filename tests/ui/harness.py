@@ -244,6 +244,9 @@ def scene(folder, **values):
 
 def main(*tests):
     """Runs the tests and prints TAP."""
+    # The bus and its registry talk on standard output too: results go through a descriptor of their own.
+    if "SEALBENCH_TAP_FD" in os.environ:
+        sys.stdout = os.fdopen(int(os.environ["SEALBENCH_TAP_FD"]), "w", buffering=1)
     print("1..%d" % len(tests))
     failed = 0
     for number, test in enumerate(tests, 1):
