@@ -32,7 +32,7 @@ static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
   SbSpectrum spectrum;
   SbPercolation leak;
   out->leakage_static = out->closing_pressure = out->leak_sensitivity = NAN;
-  if (!state->touches ||
+  if (!state->touches || state->load_net <= 0 ||
       sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
                                   model->gt_product, NULL) != SB_OK) {
     return;

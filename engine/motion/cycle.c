@@ -150,7 +150,8 @@ double sb_cycle_stem_rate(const SbCycle *cycle, const SbCycleSegment *segment, d
   }
   double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
   double slope = friction_slope(cycle, segment->chamber, segment->direction, s);
-  return 1 / (1 + sign * slope / cycle->states.model->stiffness);
+  // On the brink of a jump the rate has no bound; a thousand times the platen's stands for it.
+  return 1 / fmax(1 + sign * slope / cycle->states.model->stiffness, 1e-3);
 }
 
 double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, double X, double s,

@@ -86,7 +86,8 @@ double sb_persson_area_share(const SbSpectrum *s, double q, double modulus, doub
 // is not and is summed over ln t by Simpson's rule, 48 intervals to where exp(-t) is nothing.
 static double inner_integral(double a) {
   const double gamma = 0.45;
-  double t0 = a * a;
+  // Without pressure the surfaces part without bound; GSL's integral must not be asked for that.
+  double t0 = fmax(a * a, 1e-280);
   if (t0 > 600) {
     return 0;
   }

@@ -67,6 +67,13 @@ static void test_separation(void) {
   g_assert_cmpfloat(sb_persson_separation(&s, s.q0, modulus, 1e8), <, 1e-12);
 }
 
+// No pressure at all: far apart, but a number.
+static void test_no_pressure(void) {
+  SbSpectrum s = thesis_surface();
+  g_assert_true(isfinite(sb_persson_separation(&s, s.q0, modulus, 0)));
+  g_assert_cmpfloat(sb_persson_area_share(&s, s.q1, modulus, 0), ==, 0);
+}
+
 // The leak falls with the contact pressure and reaches zero at the closing pressure, ever more
 // steeply.
 static void test_leak(void) {
@@ -113,6 +120,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/persson/moments", test_moments);
   g_test_add_func("/persson/area", test_area);
   g_test_add_func("/persson/separation", test_separation);
+  g_test_add_func("/persson/no-pressure", test_no_pressure);
   g_test_add_func("/persson/leak", test_leak);
   g_test_add_func("/persson/refused", test_refused);
   return g_test_run();
