@@ -5,6 +5,8 @@
 #include "app/export/results.h"
 
 #include "engine/film/regime.h"
+#include "engine/film/wedge.h"
+#include "engine/surface/van_der_waals.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -106,6 +108,17 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem)
                                          problem->modulus, problem->viscosity, 2.8e-9);
     printf("Greenwood's chart (alpha 2.8/GPa): g_E %.4g, g_V %.4g, %s\n", chart.g_E, chart.g_V,
            sb_regime_name(chart.regime));
+  }
+  // Equations 5.9 and 5.17 at this film: the drag of a plane taper from central to least film over
+  // the Hertz width, and the attraction across the least film with the thesis' Hamaker constant.
+  if (film->film_min > 0) {
+    double taper = sb_taper_factor(fmax(film->film_central / film->film_min, 1));
+    sb_cli_figure("Friction, tapered film (5.9)",
+                  problem->viscosity * fabs(problem->speed) / film->film_min * taper * 2 *
+                      film->hertz_half_width,
+                  "N/m", "N/m");
+    sb_cli_figure("Van der Waals pull (5.17)", sb_vdw_attraction(1.35e-19, film->film_min), "Pa",
+                  "MPa");
   }
   if (film->model == SB_FILM_KARASZKIEWICZ || film->model == SB_FILM_THESIS) {
     puts("Note: the laws take the entrainment speed, half the sliding speed. Tables 7.5 and 7.12 "
