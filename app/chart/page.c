@@ -40,7 +40,12 @@ void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run) {
   }
   char pressure[SB_FORMAT_MAX], speed[SB_FORMAT_MAX], map[64];
   sb_format_given(pressure, SB_QUANTITY_PRESSURE, m->canister_pressure);
-  if (m->speed < 1e-3) {
+  if (m->drive != SB_MODEL_DRIVE_MACHINE) {
+    // A speed belongs to the machine only.
+    char kind[32];
+    sb_param_choice_name(sb_param(SB_P_DRIVE_KIND), (int)m->drive, kind, sizeof kind);
+    g_snprintf(speed, sizeof speed, "drive %s", kind);
+  } else if (m->speed < 1e-3) {
     // As test machines are set.
     char number[SB_FORMAT_MAX];
     sb_format_given(number, SB_QUANTITY_NUMBER, m->speed * 60e3);
