@@ -81,7 +81,7 @@ typedef struct {
   const double
       *pressure;      // total contact pressure, the fluid's outside it, above the lower side [Pa]
   const double *film; // [m]
-  const double *asperity_pressure; // part of the pressure that asperities carry [Pa]
+  const double *asperity_pressure; // what asperities bear at this film [Pa]
   const char *model;               // the model that made it ("hertz shape of karaszkiewicz", ...)
 } SbContactProfile;
 

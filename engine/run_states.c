@@ -1,6 +1,7 @@
 // Sliding states and contact profiles of a run: each steady state is solved once and shared by all
 // frames.
 #include "engine/run_private.h"
+#include "engine/surface/greenwood_tripp.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,13 +11,6 @@ enum { OUTSIDE_POINTS = 60, PROFILE_POINTS = SB_FIT_PROFILE_MAX + 2 * OUTSIDE_PO
 
 uint32_t sb_run_profile_slot(int seal, SbChamber chamber, int motion) {
   return (uint32_t)((seal * SB_CYCLE_CHAMBERS + (int)chamber) * SB_RUN_MOTIONS + motion);
-}
-
-// Gap of a Hertz contact of half-width a outside it, at distance xi a from its middle (Johnson,
-// Contact Mechanics, section 4.2), over R/a^2 [-].
-static double hertz_gap(double xi) {
-  double root = sqrt(fmax(xi * xi - 1, 0));
-  return (xi * root - log(xi + root)) / 2;
 }
 
 // Contact pressure of the fitment at x, by straight lines; the fluid's outside the contact.
@@ -41,6 +35,27 @@ static double fit_pressure(const SbFit *fit, double x, double left, double right
   double span = fit->profile_x[high] - fit->profile_x[low];
   double t = span > 0 ? (x - fit->profile_x[low]) / span : 0;
   return fit->profile_p[low] + t * (fit->profile_p[high] - fit->profile_p[low]);
+}
+
+// What Greenwood and Tripp's asperities bear at the local film (thesis equation 5.12). The film
+// does not give this load up to them (sliding.h): it is shown beside the film's pressure.
+static void asperity_pressure(const SbModel *model, int seal, const double *film, double *out,
+                              size_t n) {
+  double last = NAN;
+  double pressure = 0;
+  for (size_t i = 0; i < n; i++) {
+    // F_5/2 changes by less than 2e-4 over this step; the flat of the film then costs one integral.
+    double lambda = film[i] / model->sigma;
+    if (!(fabs(lambda - last) < 1e-4)) {
+      SbGtIntegrals integrals;
+      pressure = sb_gt_integrals(&integrals, lambda, NULL) == SB_OK
+                     ? sb_gt_pressure(model->gt_product, model->sigma_over_beta,
+                                      model->seal[seal].reduced_modulus, integrals.F5_2)
+                     : 0;
+      last = lambda;
+    }
+    out[i] = pressure;
+  }
 }
 
 // Pressure and film over one contact, from what the seal's memory has just solved. With a solved
@@ -91,7 +106,7 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
       double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
       x[n] = middle - xi * a;
       p[n] = left;
-      h[n++] = state->film_central + scale * hertz_gap(xi);
+      h[n++] = state->film_central + scale * sb_film_dry_gap(xi);
     }
     for (size_t i = 0; i < fit->profile_count; i++) {
       x[n] = fit->profile_x[i];
@@ -102,8 +117,11 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
       double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
       x[n] = middle + xi * a;
       p[n] = right;
-      h[n++] = state->film_central + scale * hertz_gap(xi);
+      h[n++] = state->film_central + scale * sb_film_dry_gap(xi);
     }
+  }
+  if (state->touches && run->model.surface == SB_MODEL_SURFACE_GREENWOOD_TRIPP) {
+    asperity_pressure(&run->model, seal, h, data + 3 * capacity, n);
   }
   free(profile->data);
   profile->data = data;

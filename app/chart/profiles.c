@@ -9,6 +9,8 @@
 #include "app/chart/format.h"
 #include "app/chart/label.h"
 
+#include "engine/film/film.h"
+
 #include <glib.h>
 #include <math.h>
 #include <string.h>
@@ -40,12 +42,6 @@ static bool touches(const SbSealFrame *seal) {
   return seal && seal->contact_right > seal->contact_left && seal->load > 0;
 }
 
-// Gap of a Hertz contact beside it, over a^2/R (Johnson, Contact Mechanics, section 4.2).
-static double hertz_gap(double xi) {
-  double root = sqrt(fmax(xi * xi - 1, 0));
-  return 0.5 * (fabs(xi) * root - log(fabs(xi) + root));
-}
-
 static void schematic(Curve *out, const SbSealFrame *seal, const SbModel *model, int index) {
   out->count = SCHEMATIC_POINTS;
   double half = 0.5 * (seal->contact_right - seal->contact_left);
@@ -58,8 +54,7 @@ static void schematic(Curve *out, const SbSealFrame *seal, const SbModel *model,
     out->x[i] = middle + xi * half;
     out->pressure[i] = fabs(xi) < 1 ? fmax(seal->pressure_peak * sqrt(inside), side) : side;
     out->film[i] = seal->film_central > 0
-                       ? seal->film_central +
-                             half * half / fmax(radius, 1e-6) * (fabs(xi) > 1 ? hertz_gap(xi) : 0)
+                       ? seal->film_central + half * half / fmax(radius, 1e-6) * sb_film_dry_gap(xi)
                        : 0;
   }
 }

@@ -104,8 +104,9 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem)
   g_free(other);
   double entrainment = fabs(problem->speed) / 2;
   if (entrainment > 0) {
-    SbChartPoint chart = sb_regime_chart(problem->load, entrainment, problem->radius,
-                                         problem->modulus, problem->viscosity, 2.8e-9);
+    SbChartPoint chart =
+        sb_regime_chart(problem->load, entrainment, problem->radius, problem->modulus,
+                        problem->viscosity, sb_param(SB_P_FLUID_PRESSURE_VISCOSITY)->fallback);
     printf("Greenwood's chart (alpha 2.8/GPa): g_E %.4g, g_V %.4g, %s\n", chart.g_E, chart.g_V,
            sb_regime_name(chart.regime));
   }
@@ -117,8 +118,10 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem)
                   problem->viscosity * fabs(problem->speed) / film->film_min * taper * 2 *
                       film->hertz_half_width,
                   "N/m", "N/m");
-    sb_cli_figure("Van der Waals pull (5.17)", sb_vdw_attraction(1.35e-19, film->film_min), "Pa",
-                  "MPa");
+    sb_cli_figure(
+        "Van der Waals pull (5.17)",
+        sb_vdw_attraction(sb_param(SB_P_SURFACE_HAMAKER_CONSTANT)->fallback, film->film_min), "Pa",
+        "MPa");
   }
   if (film->model == SB_FILM_KARASZKIEWICZ || film->model == SB_FILM_THESIS) {
     puts("Note: the laws take the entrainment speed, half the sliding speed. Tables 7.5 and 7.12 "

@@ -142,6 +142,10 @@ void sb_film_problem_init(SbFilmProblem *problem);
 SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *memory,
                        SbReport *report);
 
+// Gap of the dry Hertz line contact at X half-widths from its middle, in units of b^2/R; 0 inside
+// (Johnson, Contact Mechanics, section 4.2).
+double sb_film_dry_gap(double X);
+
 // Name on the command line; borrowed, never NULL.
 const char *sb_film_model_name(SbFilmModel model);
 

@@ -21,9 +21,6 @@ typedef struct {
 // Scales of `problem`, which must have been checked.
 SbFilmScale sb_film_scale(const SbFilmProblem *problem);
 
-// Scaled gap of the dry Hertz contact outside it, |X| > 1; 0 inside. In units of b^2 / R.
-double sb_film_dry_gap(double X);
-
 // Scaled dry pressure in the flow frame (inlet at X = -1), with end pressures: Hertz's plus the
 // transition of the end pressures with the tilt removed so that the contact stays |X| < 1.
 double sb_film_dry_pressure(double X, double inlet, double outlet);

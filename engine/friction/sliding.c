@@ -12,9 +12,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Below about 2 nm a film is a few molecules and the continuum equations are formal only.
-static const double continuum_limit = 2e-9;
-
 struct SbSlidingMemory {
   SbFit fit;
   SbFilm film;
@@ -243,11 +240,6 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
 
   // Regime and validity.
   if (speed != 0 && out->film_central > 0) {
-    if (out->film_min < continuum_limit) {
-      sb_warn(warnings, "film-below-continuum", "drive.speed",
-              "film %.2g nm of the %s seal is below the continuum limit, about 2 nm: formal result",
-              out->film_min * 1e9, sb_seal_name(seal));
-    }
     if (out->lambda < 1) {
       sb_warn(warnings, "boundary-regime", "surface.sigma",
               "λ = %.2g at the %s seal: boundary regime, the film is thinner than the roughness",

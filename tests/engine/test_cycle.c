@@ -278,6 +278,10 @@ static void test_leakage(void) {
     double leak = 400 * sb_leak_stroke(6e-3, rows[i][0] * 0.805e-3, 6.60e-3);
     g_assert_cmpfloat(fabs(leak / rows[i][1] - 1), <, 0.01);
   }
+  // Equation 5.19 over the time of a stroke is equation 5.20.
+  double speed = 1e-2;
+  double over_time = sb_leak_flow(6e-3, 1e-9, speed) * (6.60e-3 / speed);
+  g_assert_cmpfloat(fabs(over_time / sb_leak_stroke(6e-3, 1e-9, 6.60e-3) - 1), <, 1e-12);
 }
 
 // The thesis valve is tight at rest with a wide margin; a bare touch leaks, and the user is told.
@@ -313,6 +317,9 @@ static void test_plan(void) {
   const SbContactProfile *profile = sb_run_profile(run, frames[count / 4].seal[SB_OUTER].profile);
   g_assert_nonnull(profile);
   g_assert_cmpuint(profile->count, >, 100);
+  // Audit section 1: asperities bear 160 kPa sqrt(sigma/beta) in contact, here with 0.1.
+  g_assert_cmpfloat_with_epsilon(profile->asperity_pressure[profile->count / 2], 160e3 * sqrt(0.1),
+                                 1e3);
   for (size_t i = 1; i < profile->count; i++) {
     g_assert_cmpfloat(profile->x[i], >=, profile->x[i - 1]);
   }
