@@ -6,6 +6,7 @@
 #include "app/chart/format.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/profiles.h"
+#include "ui/canvas_area.h"
 #include "ui/picture.h"
 #include "ui/style.h"
 
@@ -21,12 +22,12 @@ typedef struct {
 
 static const struct {
   const char *name;
-  int height;
+  int least_height, height;
   int interval; // between drawings while something moves [ms]
 } kinds[] = {
-    {"Force and displacement", 260, 50},
-    {"Contact pressure", 178, 80},
-    {"Film thickness", 178, 80},
+    {"Force and displacement", 190, 260, 50},
+    {"Contact pressure", 132, 178, 80},
+    {"Film thickness", 132, 178, 80},
 };
 
 // The widget less the column's padding.
@@ -199,10 +200,9 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   View *view = g_new0(View, 1);
   view->session = session;
   view->kind = kind;
-  view->area = gtk_drawing_area_new();
+  view->area = sb_canvas_area_new(280, 300, kinds[kind].least_height, kinds[kind].height);
   g_object_set_data_full(G_OBJECT(view->area), "view", view, g_free);
   sb_style_class(view->area, "sb-canvas");
-  gtk_widget_set_size_request(view->area, 300, kinds[kind].height);
   gtk_widget_set_can_focus(view->area, TRUE);
   gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |
                                         GDK_KEY_PRESS_MASK | GDK_FOCUS_CHANGE_MASK);

@@ -9,6 +9,7 @@
 #include "app/section/draw_cairo.h"
 #include "app/section/gl_renderer.h"
 #include "app/section/section.h"
+#include "ui/canvas_area.h"
 #include "ui/force_balance.h"
 #include "ui/picture.h"
 #include "ui/style.h"
@@ -450,14 +451,13 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   g_object_set_data_full(G_OBJECT(view->box), "view", view, view_free);
   gtk_box_pack_start(GTK_BOX(view->box), make_toolbar(view), FALSE, FALSE, 0);
 
-  view->area = gtk_drawing_area_new();
+  view->area = sb_canvas_area_new(400, 400, 240, 320);
   view->picture = sb_picture_attach(view->area, draw, view);
   sb_style_class(view->area, "sb-canvas");
   gtk_widget_set_can_focus(view->area, TRUE);
   gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |
                                         GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK);
   atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_IMAGE);
-  gtk_widget_set_size_request(view->area, 400, 320);
   GtkWidget *overlay = gtk_overlay_new();
   gtk_container_add(GTK_CONTAINER(overlay), view->area);
   view->empty = make_empty();

@@ -4,6 +4,7 @@
 #include "ui/timeline_view.h"
 
 #include "app/chart/timeline.h"
+#include "ui/canvas_area.h"
 #include "ui/picture.h"
 #include "ui/style.h"
 
@@ -240,9 +241,8 @@ GtkWidget *sb_timeline_view_new(SbSession *session) {
   gtk_widget_set_size_request(controls, 300, -1);
   gtk_box_pack_start(GTK_BOX(box), controls, FALSE, FALSE, 0);
 
-  view->area = gtk_drawing_area_new();
+  view->area = sb_canvas_area_new(300, 300, 104, 131);
   sb_style_class(view->area, "sb-canvas");
-  gtk_widget_set_size_request(view->area, 300, 131);
   gtk_widget_set_can_focus(view->area, TRUE);
   gtk_widget_add_events(view->area,
                         GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK | GDK_SCROLL_MASK);

@@ -3,6 +3,7 @@
 #include "ui/window.h"
 
 #include "ui/chart_view.h"
+#include "ui/columns.h"
 #include "ui/derived_panel.h"
 #include "ui/export_dialog.h"
 #include "ui/param_panel.h"
@@ -22,7 +23,7 @@ struct _SbWindow {
   SbSession *session; // owned
   GtkWidget *header, *recent_button, *run_button, *run_icon, *run_label;
   GtkWidget *run_state_icon, *run_state_label, *run_progress;
-  GtkWidget *left_column, *centre_column, *right_column, *bottom;
+  GtkWidget *columns, *views, *left_column, *centre_column, *right_column, *bottom;
   GtkWidget *strip_revealer, *strip, *strip_icon, *strip_label, *strip_button;
   GtkWidget *panel; // SbParamPanel
   GtkWidget *section;
@@ -416,6 +417,8 @@ static void sb_window_class_init(SbWindowClass *class) {
   CHILD(run_state_icon);
   CHILD(run_state_label);
   CHILD(run_progress);
+  CHILD(columns);
+  CHILD(views);
   CHILD(left_column);
   CHILD(centre_column);
   CHILD(right_column);
@@ -463,6 +466,7 @@ static void sb_window_init(SbWindow *window) {
   }
 
   // The parts.
+  sb_columns_attach(GTK_PANED(window->columns), GTK_PANED(window->views));
   window->panel = sb_param_panel_new(window->session);
   gtk_box_pack_start(GTK_BOX(window->left_column), window->panel, TRUE, TRUE, 0);
   gtk_box_pack_start(GTK_BOX(window->left_column), sb_derived_panel_new(window->session), FALSE,
