@@ -68,7 +68,7 @@ typedef struct {
   uint8_t stage;       // SbStage of the last event passed
   uint8_t chamber;     // SbChamber
   uint8_t on_event;    // 1 if this frame sits exactly on an event, just before it
-  uint8_t unused;
+  uint8_t peak;        // of a rig's force: 1 the first peak, 2 a following one, else 0
   SbSealFrame seal[SB_SEAL_COUNT];
 } SbFrame;
 

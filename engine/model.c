@@ -147,6 +147,34 @@ static bool compile_quasi_static(const SbModel *model, SbProblems *problems) {
   return good;
 }
 
+// The rig's rings obey the friction.* keys: the static ratio, its growth with rest, the loss with
+// speed and the shear stiffness of one ring. Dampers as drive.damping_ratio says.
+static SbRig read_rig(const SbModel *model, const SbParams *params) {
+  SbRig rig = {
+      .load = sb_params_get(params, SB_P_RIG_LOAD),
+      .mass = sb_params_get(params, SB_P_RIG_MASS),
+      .coefficient = sb_params_get(params, SB_P_RIG_COEFFICIENT),
+      .speed = sb_params_get(params, SB_P_RIG_SPEED),
+      .thread_stiffness = sb_params_get(params, SB_P_RIG_THREAD_STIFFNESS),
+      .duration = sb_params_get(params, SB_P_RIG_DURATION),
+      .rate = sb_params_get(params, SB_P_RIG_RATE),
+      .rest = model->rest,
+      .contact = {.static_ratio = model->static_ratio,
+                  .dwell_gain = model->dwell_gain,
+                  .dwell_time = model->dwell_time,
+                  .stribeck_speed = model->stribeck_speed,
+                  .stribeck_exponent = 1,
+                  .stiffness = INFINITY},
+  };
+  rig.thread_damping = model->damping_ratio * 2 * sqrt(rig.thread_stiffness * rig.mass);
+  if (model->tangential_stiffness > 0) {
+    rig.contact.stiffness = model->tangential_stiffness;
+    rig.contact.damping =
+        model->damping_ratio * 2 * sqrt(model->tangential_stiffness * rig.mass / SB_RIG_RINGS);
+  }
+  return rig;
+}
+
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems) {
   if (problems != NULL) {
     problems->count = 0;
@@ -216,6 +244,8 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
           },
   };
   model.rubber = read_rubber(params, model.density);
+  model.rig = read_rig(&model, params);
+  model.rig_prominence = sb_params_get(params, SB_P_RIG_PROMINENCE);
   model.bore_circumference = M_PI * model.bore_diameter;
   double pressure_diameter = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER);
   model.stem_diameter = pressure_diameter;
@@ -236,6 +266,14 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   }
   if (model.motion == SB_MODEL_MOTION_QUASI_STATIC) {
     good = compile_quasi_static(&model, problems) && good;
+  }
+  // As many samples as there may be frames.
+  const double samples = model.rig.duration * model.rig.rate;
+  if (model.motion == SB_MODEL_MOTION_RIG && !(samples >= 2 && samples <= 2e7)) {
+    add_problem(problems, "rig.duration", 2 / model.rig.rate, 2e7 / model.rig.rate,
+                "makes %.3g samples at %.4g Hz, not between 2 and 20 million", samples,
+                model.rig.rate);
+    good = false;
   }
   for (int i = 0; good && i < SB_SEAL_COUNT; i++) {
     good = compile_seal(&model, i, params, problems) && good;

@@ -5,6 +5,7 @@
 
 #include "engine/elastic/gland.h"
 #include "engine/elastic/rubber_time.h"
+#include "engine/motion/rig.h"
 #include "engine/params.h"
 #include "engine/status.h"
 
@@ -38,7 +39,11 @@ typedef enum {
   SB_MODEL_FILM_REYNOLDS
 } SbModelFilm;
 typedef enum { SB_MODEL_SURFACE_GREENWOOD_TRIPP, SB_MODEL_SURFACE_PERSSON } SbModelSurface;
-typedef enum { SB_MODEL_MOTION_QUASI_STATIC, SB_MODEL_MOTION_DYNAMIC } SbModelMotion;
+typedef enum {
+  SB_MODEL_MOTION_QUASI_STATIC,
+  SB_MODEL_MOTION_DYNAMIC,
+  SB_MODEL_MOTION_RIG // the sliding plate of thesis 3.3 instead of the valve
+} SbModelMotion;
 
 typedef enum {
   SB_MODEL_DRIVE_MACHINE,
@@ -106,16 +111,20 @@ typedef struct {
   SbModelFilm film;
   SbModelSurface surface;
   SbModelMotion motion;
-  unsigned views;       // bit mask of SbView
-  double stem_diameter; // D_p, also the stem's land [m]
-  SbValveShape shape;   // for the drawing only
+  SbRig rig;             // motion RIG
+  double rig_prominence; // fall of the force that makes a peak [N]
+  unsigned views;        // bit mask of SbView
+  double stem_diameter;  // D_p, also the stem's land [m]
+  SbValveShape shape;    // for the drawing only
 } SbModel;
 
 typedef enum {
   SB_VIEW_HYSTERESIS = 1 << 0,
   SB_VIEW_PROFILES = 1 << 1,
   SB_VIEW_SECTION = 1 << 2,
-  SB_VIEW_DASHBOARD = 1 << 3
+  SB_VIEW_DASHBOARD = 1 << 3,
+  SB_VIEW_RIG = 1 << 4,
+  SB_VIEW_LIFE = 1 << 5
 } SbView;
 
 // Compiles parameters. On SB_OK the model is complete. Otherwise SB_ERROR_INPUT, and `problems`

@@ -41,7 +41,8 @@ static void SB_PRINTF(7, 8)
 
 // Names of the views that want something, "profiles, section".
 static void view_names(unsigned views, char *text, size_t size) {
-  static const char *const names[] = {"hysteresis", "profiles", "section", "dashboard"};
+  static const char *const names[] = {"hysteresis", "profiles", "section",
+                                      "dashboard",  "rig",      "life"};
   size_t used = 0;
   text[0] = '\0';
   for (unsigned i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -79,8 +80,23 @@ static void plan_film(SbPlan *plan, const SbModel *model) {
   }
 }
 
+static void plan_rig(SbPlan *plan, const SbModel *model) {
+  size_t samples = sb_rig_samples(&model->rig);
+  add(plan->field, &plan->field_count, "thread force and plate", "rig",
+      (double)samples * cost_frame, 0, "the coefficients come from its %zu samples", samples);
+  add(plan->field, &plan->field_count, "real contact area", "greenwood-tripp", cost_closed_form, 0,
+      "what the valve's surface model says under the plate's load");
+  add(plan->skipped, &plan->skipped_count, "contact load and width", "", 0, 0,
+      "the rig gives its load; there is no valve");
+  add(plan->skipped, &plan->skipped_count, "film", "", 0, 0, "the rig's friction is its input");
+}
+
 void sb_plan_make(SbPlan *out, const SbModel *model) {
   *out = (SbPlan){0};
+  if (model->motion == SB_MODEL_MOTION_RIG) {
+    plan_rig(out, model);
+    return;
+  }
   plan_fit(out, model);
   plan_film(out, model);
   char surface[32];

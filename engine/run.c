@@ -25,7 +25,9 @@ SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, Sb
   }
   run->model = *model;
   run->plan = *plan;
-  run->capacity = (size_t)model->frames + SB_RUN_EVENT_FRAMES + 2 * (size_t)model->cycles;
+  run->capacity = model->motion == SB_MODEL_MOTION_RIG
+                      ? sb_rig_samples(&model->rig)
+                      : (size_t)model->frames + SB_RUN_EVENT_FRAMES + 2 * (size_t)model->cycles;
   // Left untouched until used: a run that is cancelled early never pays for the rest.
   run->frames = malloc(run->capacity * sizeof *run->frames);
   SbStatus status = SB_OK;
@@ -88,12 +90,10 @@ bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report) {
   return false;
 }
 
-SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
-  double start = now();
+// The valve's actuation: sliding states, shapes to draw, then the motion.
+static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
-  *summary = (SbSummary){.error_film = NAN, .force_breakaway = NAN};
   sb_model_warn_storage(&run->model, &summary->warnings);
-  sb_run_publish(run, 0);
   // Solved rings take seconds, everything else before the frames milliseconds.
   run->before_frames = run->plan.section_fields ? 0.95 : run->plan.ring ? 0.9 : 0;
 
@@ -118,6 +118,17 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
               "the stem does not return: least return force %.3g N", summary->force_return_min);
     }
   }
+  return status;
+}
+
+SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+  double start = now();
+  SbSummary *summary = &run->summary;
+  *summary = (SbSummary){.error_film = NAN, .force_breakaway = NAN};
+  sb_run_publish(run, 0);
+  run->before_frames = 0;
+  SbStatus status = run->model.motion == SB_MODEL_MOTION_RIG ? sb_run_rig(run, hooks, report)
+                                                             : execute_valve(run, hooks, report);
   summary->frames = atomic_load_explicit(&run->published, memory_order_relaxed);
   if (hooks != NULL && hooks->progress != NULL && status == SB_OK) {
     hooks->progress(hooks->data, 1, summary->frames);

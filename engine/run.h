@@ -41,6 +41,14 @@ typedef struct {
   double leak_sensitivity; // d ln(leak)/d ln(contact pressure); 0 while closed
 } SbSealSummary;
 
+// What the sliding-plate rig reports (motion/rig.h).
+typedef struct {
+  bool found; // whether the force has a first peak; else the coefficients mean nothing
+  SbRigCoefficients of;
+  double contact_coefficient; // what the valve's surface model gives under the rig's load
+  double contact_load;        // load under which that model gives the sliding coefficient [N]
+} SbRigSummary;
+
 typedef struct {
   size_t reynolds_solves, ring_solves, disc_solves, fit_solves, field_evaluations,
       profile_evaluations;
@@ -57,6 +65,7 @@ typedef struct {
   SbStageMark stage[SB_STAGE_COUNT];
   SbSealSummary seal[SB_SEAL_COUNT];
   SbEnergy energy;
+  SbRigSummary rig; // motion RIG
   SbWarnings warnings;
   bool converged;
   size_t frames, steps, rejected_steps, newton_iterations;

@@ -74,6 +74,9 @@ void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber
 SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
+// The sliding-plate rig in place of the valve (run_rig.c).
+SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
 // Figures of each seal at the middle of B-C (run_seals.c).
 void sb_run_summarise_seals(SbRun *run);
 

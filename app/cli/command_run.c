@@ -26,9 +26,44 @@ static void print_seal(const char *name, const SbSealSummary *seal) {
   sb_cli_figure("Closed at a pressure of", seal->closing_pressure, "Pa", "MPa");
 }
 
+static void print_rig(const SbRun *run) {
+  const SbRigSummary *rig = &sb_run_summary(run)->rig;
+  const SbRigCoefficients *of = &rig->of;
+  double none = NAN;
+  sb_cli_figure("Static coefficient", rig->found ? of->static_coefficient : none, "1", "");
+  sb_cli_figure("Dynamic coefficient", rig->found ? of->dynamic_coefficient : none, "1", "");
+  sb_cli_figure("  of the mean force", rig->found ? of->mean_coefficient : none, "1", "");
+  sb_cli_figure("  measured in the thesis", SB_RIG_MEASURED_DYNAMIC, "1", "");
+  sb_cli_figure("  predicted there", SB_RIG_PREDICTED_DYNAMIC, "1", "");
+  sb_cli_figure("  surface model, this load", rig->contact_coefficient, "1", "");
+  sb_cli_figure("First peak", rig->found ? of->first_peak : none, "N", "N");
+  sb_cli_figure("  at", rig->found ? of->first_time : none, "s", "s");
+  char *peaks = g_strdup_printf("%zu", rig->found ? of->peaks : 0);
+  sb_cli_line("Peaks that follow", peaks);
+  g_free(peaks);
+}
+
+static void print_solver(const SbSummary *summary) {
+  sb_cli_warnings(&summary->warnings);
+  printf("Solver\n");
+  sb_cli_line("Converged", summary->converged ? "yes" : "NO");
+  char *frames = g_strdup_printf("%zu", summary->frames);
+  sb_cli_line("Frames", frames);
+  g_free(frames);
+  sb_cli_figure("Engine time", summary->wall_s, "s", "ms");
+}
+
 static void print_table(const SbDocument *document, const SbRun *run) {
   const SbSummary *summary = sb_run_summary(run);
   printf("%s\n", sb_document_title(document));
+  if (sb_run_model(run)->motion == SB_MODEL_MOTION_RIG) {
+    print_rig(run);
+    sb_cli_figure("Energy of the pull", summary->energy.loop, "J", "mJ");
+    sb_cli_figure("Energy closure", summary->energy.closure, "1", "");
+    sb_cli_figure("Duration", summary->duration, "s", "s");
+    print_solver(summary);
+    return;
+  }
   sb_cli_figure("Peak force", summary->force_peak, "N", "N");
   sb_cli_figure("Break-away force", summary->force_breakaway, "N", "N");
   sb_cli_figure("Least return force", summary->force_return_min, "N", "N");
@@ -54,13 +89,7 @@ static void print_table(const SbDocument *document, const SbRun *run) {
   }
   print_seal("Outer", &summary->seal[SB_OUTER]);
   print_seal("Inner", &summary->seal[SB_INNER]);
-  sb_cli_warnings(&summary->warnings);
-  printf("Solver\n");
-  sb_cli_line("Converged", summary->converged ? "yes" : "NO");
-  char *frames = g_strdup_printf("%zu", summary->frames);
-  sb_cli_line("Frames", frames);
-  g_free(frames);
-  sb_cli_figure("Engine time", summary->wall_s, "s", "ms");
+  print_solver(summary);
 }
 
 static void on_progress(void *data, double fraction, size_t frames) {

@@ -14,8 +14,11 @@ void sb_csv_cycle(FILE *stream, const SbRun *run) {
         "friction_inner [N],friction_outer [N],platen [m],stop_force [N],spring_force [N],"
         "stage,on_event,"
         "load_inner [N],load_outer [N],film_central_inner [m],film_central_outer [m],"
-        "land_fraction_inner [1],land_fraction_outer [1]\n",
+        "land_fraction_inner [1],land_fraction_outer [1]",
         stream);
+  // Of the rig's force: 1 the first peak, 2 one that follows.
+  bool rig = sb_run_model(run)->motion == SB_MODEL_MOTION_RIG;
+  fputs(rig ? ",peak\n" : "\n", stream);
   size_t count = 0;
   const SbFrame *frames = sb_run_frames(run, &count);
   for (size_t i = 0; i < count && ferror(stream) == 0; i++) {
@@ -34,7 +37,10 @@ void sb_csv_cycle(FILE *stream, const SbRun *run) {
                             outer->film_central, inner->land_fraction, outer->land_fraction};
     const size_t last = sizeof after / sizeof after[0] - 1;
     for (size_t k = 0; k <= last; k++) {
-      put(stream, after[k], k < last ? ',' : '\n');
+      put(stream, after[k], k < last || rig ? ',' : '\n');
+    }
+    if (rig) {
+      fprintf(stream, "%d\n", frame->peak);
     }
   }
 }

@@ -84,7 +84,7 @@ static void put_seal(SbJson *json, const char *name, const SbSealSummary *seal) 
   sb_json_number(json, "reynolds", seal->film_reynolds);
   sb_json_object_end(json);
   sb_json_number(json, "lambda", seal->lambda);
-  sb_json_string(json, "regime", sb_regime_of_lambda(seal->lambda));
+  sb_json_string(json, "regime", isnan(seal->lambda) ? NULL : sb_regime_of_lambda(seal->lambda));
   sb_json_number(json, "friction_boundary_N", seal->friction_boundary);
   sb_json_number(json, "friction_viscous_N", seal->friction_viscous);
   sb_json_number(json, "friction_static_N", seal->friction_static);
@@ -93,6 +93,26 @@ static void put_seal(SbJson *json, const char *name, const SbSealSummary *seal) 
   sb_json_number(json, "leakage_static_m3_per_s", seal->leakage_static);
   sb_json_number(json, "closing_pressure_Pa", seal->closing_pressure);
   sb_json_number(json, "leak_sensitivity", seal->leak_sensitivity);
+  sb_json_object_end(json);
+}
+
+static void put_rig(SbJson *json, const SbModel *model, const SbRigSummary *rig) {
+  const SbRigCoefficients *of = &rig->of;
+  sb_json_object(json, "rig");
+  sb_json_number(json, "load_N", model->rig.load);
+  sb_json_number(json, "sampling_rate_Hz", model->rig.rate);
+  sb_json_number(json, "coefficient_sliding", model->rig.coefficient);
+  sb_json_number(json, "coefficient_static", rig->found ? of->static_coefficient : NAN);
+  sb_json_number(json, "coefficient_dynamic", rig->found ? of->dynamic_coefficient : NAN);
+  sb_json_number(json, "coefficient_mean", rig->found ? of->mean_coefficient : NAN);
+  sb_json_number(json, "first_peak_N", rig->found ? of->first_peak : NAN);
+  sb_json_number(json, "first_peak_s", rig->found ? of->first_time : NAN);
+  sb_json_count(json, "following_peaks", rig->found ? of->peaks : 0);
+  sb_json_bool(json, "stick_slip", rig->found && of->stick_slip);
+  sb_json_number(json, "coefficient_measured", SB_RIG_MEASURED_DYNAMIC);
+  sb_json_number(json, "coefficient_predicted", SB_RIG_PREDICTED_DYNAMIC);
+  sb_json_number(json, "coefficient_contact_model", rig->contact_coefficient);
+  sb_json_number(json, "load_of_sliding_coefficient_N", rig->contact_load);
   sb_json_object_end(json);
 }
 
@@ -140,6 +160,9 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   put_choice(&json, "motion", SB_P_MODELS_MOTION, (int)model->motion);
   sb_json_object_end(&json);
   put_cycle(&json, summary);
+  if (model->motion == SB_MODEL_MOTION_RIG) {
+    put_rig(&json, model, &summary->rig);
+  }
   sb_json_object(&json, "seals");
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     put_seal(&json, sb_seal_name(i), &summary->seal[i]);

@@ -1,24 +1,9 @@
 // See rig.h.
 #include "engine/motion/rig.h"
 
-#include <math.h>
+#include "engine/elastic/hertz.h"
 
-SbRig sb_rig_defaults(void) {
-  return (SbRig){.load = 2.0,
-                 .mass = 0.204,
-                 .coefficient = 0.4,
-                 .contact = {.static_ratio = 1.0,
-                             .dwell_gain = 0.04,
-                             .dwell_time = 0.01,
-                             .stiffness = 5e3,
-                             .damping = 1.0},
-                 .speed = 1e-3,
-                 .thread_stiffness = 2e3,
-                 .thread_damping = 1.0,
-                 .rest = 60.0,
-                 .duration = 5.0,
-                 .rate = 1000.0};
-}
+#include <math.h>
 
 size_t sb_rig_samples(const SbRig *rig) {
   return (size_t)floor(rig->duration * rig->rate * (1.0 + 1e-12)) + 1;
@@ -33,8 +18,16 @@ static void rig_loads(SbDynamicsLoads *loads, double x, size_t region, const dou
   loads->constant = true;
 }
 
-SbStatus sb_rig_run(const SbRig *rig, double *force, double *position, SbDynamicsEnergy *energy,
-                    SbReport *report) {
+// Keeps the first slip.
+static void rig_event(const SbMotionEvent *event, void *user) {
+  SbMotionEvent *slip = user;
+  if (event->kind == SB_MOTION_SLIP && slip->time < 0.0) {
+    *slip = *event;
+  }
+}
+
+SbStatus sb_rig_run(const SbRig *rig, SbRigEach each, void *user, SbMotionEvent *slip,
+                    SbDynamicsEnergy *energy, SbDynamicsCounters *counters, SbReport *report) {
   if (!(rig->load > 0.0) || !(rig->coefficient >= 0.0) || !(rig->duration > 0.0) ||
       !(rig->rate > 0.0) || !isfinite(rig->duration * rig->rate) ||
       rig->duration * rig->rate > 1e8) {
@@ -55,23 +48,41 @@ SbStatus sb_rig_run(const SbRig *rig, double *force, double *position, SbDynamic
   }
   SbDynamics motion;
   SbStatus status = sb_dynamics_init(&motion, &model, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  SbMotionEvent first = {.time = -1.0};
+  sb_dynamics_listen(&motion, rig_event, &first);
   size_t count = sb_rig_samples(rig);
   for (size_t i = 0; i < count && status == SB_OK; i++) {
     SbDynamicsSample sample;
     status = sb_dynamics_advance(&motion, (double)i / rig->rate, report);
     sb_dynamics_sample(&motion, &sample, i + 1 == count ? energy : NULL);
-    if (force != NULL) {
-      force[i] = sample.drive_force;
+    if (status == SB_OK && !each(i, &sample, user)) {
+      status = sb_fail(report, SB_ERROR_CANCELLED, "cancelled after %zu samples", i + 1);
     }
-    if (position != NULL) {
-      position[i] = sample.position;
-    }
+  }
+  if (slip != NULL && first.time >= 0.0) {
+    *slip = first;
+  }
+  if (counters != NULL) {
+    *counters = sb_dynamics_counters(&motion);
   }
   return status;
 }
 
+double sb_rig_contact_coefficient(double load, double diameter, double radius,
+                                  double reduced_modulus, double area_share, double shear_strength,
+                                  double load_coefficient) {
+  double length = M_PI * diameter;
+  double width = 2.0 * sb_hertz_half_width(load / SB_RIG_RINGS / length, radius, reduced_modulus);
+  double area = area_share * SB_RIG_RINGS * length * width;
+  return shear_strength * area / load + load_coefficient;
+}
+
 SbStatus sb_rig_coefficients(SbRigCoefficients *out, const double *force, size_t count, double rate,
-                             double load, double prominence, SbReport *report) {
+                             double load, double prominence, size_t *peak, size_t peak_max,
+                             SbReport *report) {
   *out = (SbRigCoefficients){0};
   if (!(load > 0.0) || !(prominence >= 0.0) || !(rate > 0.0) || count < 3) {
     return sb_fail(report, SB_ERROR_RANGE,
@@ -91,6 +102,10 @@ SbStatus sb_rig_coefficients(SbRigCoefficients *out, const double *force, size_t
         top = force[i];
         top_at = i;
       } else if (top - force[i] > prominence && top_at > 0) {
+        size_t found = out->found_first ? out->peaks + 1 : 0;
+        if (peak != NULL && found < peak_max) {
+          peak[found] = top_at;
+        }
         if (!out->found_first) {
           out->found_first = true;
           out->first_peak = top;

@@ -29,7 +29,8 @@ static void test_signal(void) {
   }
   SbRigCoefficients c;
   SbReport report = {0};
-  g_assert_cmpint(sb_rig_coefficients(&c, force, 601, 1000.0, 2.0, 0.03, &report), ==, SB_OK);
+  g_assert_cmpint(sb_rig_coefficients(&c, force, 601, 1000.0, 2.0, 0.03, NULL, 0, &report), ==,
+                  SB_OK);
   ASSERT_NEAR(c.static_coefficient, 0.51, 1e-12);
   ASSERT_NEAR(c.dynamic_coefficient, (0.80 + 0.84 + 0.82) / 6.0, 1e-12);
   ASSERT_NEAR(c.first_time, 0.2, 1e-12);
@@ -37,16 +38,47 @@ static void test_signal(void) {
   g_assert_true(c.stick_slip);
   g_assert_cmpfloat(c.mean_coefficient, <, c.dynamic_coefficient);
   // Never broke away.
-  g_assert_cmpint(sb_rig_coefficients(&c, force, 150, 1000.0, 2.0, 0.03, &report), ==,
+  g_assert_cmpint(sb_rig_coefficients(&c, force, 150, 1000.0, 2.0, 0.03, NULL, 0, &report), ==,
                   SB_ERROR_INFEASIBLE);
-  g_assert_cmpint(sb_rig_coefficients(&c, force, 601, 1000.0, 0.0, 0.03, &report), ==,
+  g_assert_cmpint(sb_rig_coefficients(&c, force, 601, 1000.0, 0.0, 0.03, NULL, 0, &report), ==,
                   SB_ERROR_RANGE);
+}
+
+// The rig of sliding-plate.scene.
+static SbRig rig_defaults(void) {
+  return (SbRig){.load = 2.0,
+                 .mass = 0.204,
+                 .coefficient = 0.4,
+                 .contact = {.static_ratio = 1.0,
+                             .dwell_gain = 0.04,
+                             .dwell_time = 0.01,
+                             .stiffness = 5e3,
+                             .damping = 1.0},
+                 .speed = 1e-3,
+                 .thread_stiffness = 2e3,
+                 .thread_damping = 1.0,
+                 .rest = 60.0,
+                 .duration = 5.0,
+                 .rate = 1000.0};
+}
+
+typedef struct {
+  double *force, *position;
+} Signal;
+
+static bool keep(size_t index, const SbDynamicsSample *sample, void *user) {
+  Signal *signal = user;
+  signal->force[index] = sample->drive_force;
+  if (signal->position != NULL) {
+    signal->position[index] = sample->position;
+  }
+  return true;
 }
 
 // Stick-slip of a rigid plate on a spring: peaks and period of the closed form, within what a
 // thousand samples a second can see.
 static void test_rig(void) {
-  SbRig rig = sb_rig_defaults();
+  SbRig rig = rig_defaults();
   rig.contact = (SbDynamicsContact){.static_ratio = 1.4, .stiffness = INFINITY};
   rig.thread_damping = 0.0;
   static double force[100001], position[100001];
@@ -54,10 +86,12 @@ static void test_rig(void) {
   SbReport report = {0};
   size_t n = sb_rig_samples(&rig);
   g_assert_cmpuint(n, ==, 5001);
-  g_assert_cmpint(sb_rig_run(&rig, force, position, &energy, &report), ==, SB_OK);
+  g_assert_cmpint(sb_rig_run(&rig, keep, &(Signal){force, position}, NULL, &energy, NULL, &report),
+                  ==, SB_OK);
   g_assert_cmpfloat(energy.closure, <, 1e-9);
   SbRigCoefficients c;
-  g_assert_cmpint(sb_rig_coefficients(&c, force, n, rig.rate, rig.load, 0.02, &report), ==, SB_OK);
+  g_assert_cmpint(sb_rig_coefficients(&c, force, n, rig.rate, rig.load, 0.02, NULL, 0, &report), ==,
+                  SB_OK);
   // The force goes on rising after the slip has begun until the plate is as fast as the thread.
   double level = rig.coefficient * rig.load, k = rig.thread_stiffness;
   double w = sqrt(k / rig.mass), a = 0.4 * level / k;
@@ -74,15 +108,19 @@ static void test_rig(void) {
   // At ten times the rate the sampled peaks come closer.
   rig.rate = 1e4;
   n = sb_rig_samples(&rig);
-  g_assert_cmpint(sb_rig_run(&rig, force, NULL, NULL, &report), ==, SB_OK);
-  g_assert_cmpint(sb_rig_coefficients(&c, force, n, rig.rate, rig.load, 0.02, &report), ==, SB_OK);
+  g_assert_cmpint(sb_rig_run(&rig, keep, &(Signal){force, NULL}, NULL, NULL, NULL, &report), ==,
+                  SB_OK);
+  g_assert_cmpint(sb_rig_coefficients(&c, force, n, rig.rate, rig.load, 0.02, NULL, 0, &report), ==,
+                  SB_OK);
   ASSERT_NEAR(c.dynamic_coefficient, peak, 0.1 * sample / rig.load);
   // The default rig: strength that grows with rest makes the first peak the highest.
-  rig = sb_rig_defaults();
+  rig = rig_defaults();
   n = sb_rig_samples(&rig);
-  g_assert_cmpint(sb_rig_run(&rig, force, NULL, &energy, &report), ==, SB_OK);
+  g_assert_cmpint(sb_rig_run(&rig, keep, &(Signal){force, NULL}, NULL, &energy, NULL, &report), ==,
+                  SB_OK);
   g_assert_cmpfloat(energy.closure, <, 1e-9);
-  g_assert_cmpint(sb_rig_coefficients(&c, force, n, rig.rate, rig.load, 0.01, &report), ==, SB_OK);
+  g_assert_cmpint(sb_rig_coefficients(&c, force, n, rig.rate, rig.load, 0.01, NULL, 0, &report), ==,
+                  SB_OK);
   g_test_message("default: static %.4f dynamic %.4f mean %.4f, %zu peaks", c.static_coefficient,
                  c.dynamic_coefficient, c.mean_coefficient, c.peaks);
   g_assert_true(c.stick_slip);
@@ -90,7 +128,8 @@ static void test_rig(void) {
   g_assert_cmpfloat(c.dynamic_coefficient, >, c.mean_coefficient);
   g_assert_cmpfloat(c.mean_coefficient, >, 0.9 * rig.coefficient);
   rig.load = -1.0;
-  g_assert_cmpint(sb_rig_run(&rig, force, NULL, NULL, &report), ==, SB_ERROR_RANGE);
+  g_assert_cmpint(sb_rig_run(&rig, keep, &(Signal){force, NULL}, NULL, NULL, NULL, &report), ==,
+                  SB_ERROR_RANGE);
 }
 
 // ---- an actuation ----
