@@ -175,6 +175,25 @@ static SbRig read_rig(const SbModel *model, const SbParams *params) {
   return rig;
 }
 
+// Ranges must rise.
+static bool compile_study(const SbModel *model, SbProblems *problems) {
+  const struct {
+    const char *key;
+    double min, max;
+  } ranges[] = {
+      {"study.squeeze_max", model->study.squeeze_min, model->study.squeeze_max},
+  };
+  bool good = true;
+  for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
+    if (!(ranges[i].max > ranges[i].min)) {
+      add_problem(problems, ranges[i].key, ranges[i].min, NAN,
+                  "the range of the study does not rise");
+      good = false;
+    }
+  }
+  return good;
+}
+
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems) {
   if (problems != NULL) {
     problems->count = 0;
@@ -228,6 +247,12 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
       .surface = (SbModelSurface)sb_params_get(params, SB_P_MODELS_SURFACE),
       .motion = (SbModelMotion)sb_params_get(params, SB_P_MODELS_MOTION),
       .views = (unsigned)sb_params_get(params, SB_P_OUTPUT_VIEWS),
+      .studies = (unsigned)sb_params_get(params, SB_P_OUTPUT_STUDIES),
+      .study =
+          {
+              .squeeze_min = sb_params_get(params, SB_P_STUDY_SQUEEZE_MIN),
+              .squeeze_max = sb_params_get(params, SB_P_STUDY_SQUEEZE_MAX),
+          },
       .shape =
           {
               .entry_diameter = sb_params_get(params, SB_P_BORE_ENTRY_DIAMETER),
@@ -264,6 +289,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
                 "the groove leaves no stem: twice the radial space exceeds the bore diameter");
     good = false;
   }
+  good = compile_study(&model, problems) && good;
   if (model.motion == SB_MODEL_MOTION_QUASI_STATIC) {
     good = compile_quasi_static(&model, problems) && good;
   }

@@ -79,6 +79,11 @@ typedef struct {
       rod_diameter; // stem
 } SbValveShape;
 
+// Ranges that studies cover.
+typedef struct {
+  double squeeze_min, squeeze_max; // of the free section
+} SbStudyRange;
+
 typedef struct {
   SbSealModel seal[SB_SEAL_COUNT];
   SbRubber rubber;                  // how storage changes it
@@ -114,8 +119,10 @@ typedef struct {
   SbRig rig;             // motion RIG
   double rig_prominence; // fall of the force that makes a peak [N]
   unsigned views;        // bit mask of SbView
+  unsigned studies;      // bit mask, 1 << SbStudyKind
   double stem_diameter;  // D_p, also the stem's land [m]
   SbValveShape shape;    // for the drawing only
+  SbStudyRange study;
 } SbModel;
 
 typedef enum {

@@ -8,6 +8,7 @@
 #include "engine/plan.h"
 
 #include "engine/elastic/fit.h"
+#include "engine/study/study.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -91,6 +92,29 @@ static void plan_rig(SbPlan *plan, const SbModel *model) {
   add(plan->skipped, &plan->skipped_count, "film", "", 0, 0, "the rig's friction is its input");
 }
 
+// Studies are asked for one by one; the others share a line.
+static void plan_studies(SbPlan *plan, const SbModel *model) {
+  char others[160] = "";
+  size_t used = 0;
+  plan->studies = model->studies;
+  for (int i = 0; i < SB_STUDY_COUNT; i++) {
+    const char *name = sb_study_name((SbStudyKind)i);
+    if ((model->studies & (1u << i)) != 0) {
+      char item[40];
+      snprintf(item, sizeof item, "study %s", name);
+      add(plan->field, &plan->field_count, item, "several", sb_study_cost((SbStudyKind)i, model),
+          model->tolerance, "output.studies asks for it");
+    } else if (used < sizeof others) {
+      used +=
+          (size_t)snprintf(others + used, sizeof others - used, "%s%s", used > 0 ? ", " : "", name);
+    }
+  }
+  if (used > 0) {
+    add(plan->skipped, &plan->skipped_count, "studies", "", 0, 0,
+        "output.studies does not ask for %s", others);
+  }
+}
+
 void sb_plan_make(SbPlan *out, const SbModel *model) {
   *out = (SbPlan){0};
   if (model->motion == SB_MODEL_MOTION_RIG) {
@@ -134,4 +158,5 @@ void sb_plan_make(SbPlan *out, const SbModel *model) {
         sections == 0 ? "no view draws a section"
                       : "the closed-form fitment has no interior: the section is schematic");
   }
+  plan_studies(out, model);
 }

@@ -22,6 +22,7 @@ typedef struct {
   bool section_fields; // interior fields at drawn frames
   bool reynolds;       // the film is solved
   bool ring;           // the ring is solved
+  unsigned studies;    // bit mask, 1 << SbStudyKind: computed beside the cycle
 } SbPlan;
 
 // Plans `model` for its own views. Always succeeds.

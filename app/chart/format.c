@@ -175,3 +175,16 @@ char *sb_format_film_tick(char *out, double length) {
   g_snprintf(out, SB_FORMAT_MAX, "%s" NO_BREAK "%s", number, unit);
   return out;
 }
+
+char *sb_format_power(char *out, int exponent) {
+  static const char *const raised[] = {
+      "\xe2\x81\xb0", "\xc2\xb9",     "\xc2\xb2",     "\xc2\xb3",     "\xe2\x81\xb4",
+      "\xe2\x81\xb5", "\xe2\x81\xb6", "\xe2\x81\xb7", "\xe2\x81\xb8", "\xe2\x81\xb9"};
+  char digits[16];
+  g_snprintf(digits, sizeof digits, "%d", ABS(exponent));
+  g_strlcpy(out, exponent < 0 ? "10\xe2\x81\xbb" : "10", SB_FORMAT_MAX);
+  for (const char *digit = digits; *digit != '\0'; digit++) {
+    g_strlcat(out, raised[*digit - '0'], SB_FORMAT_MAX);
+  }
+  return out;
+}

@@ -51,3 +51,6 @@ int sb_format_decimals(double shown, int digits, double relative_error);
 
 // Mark of a logarithmic length axis [m]: "1 nm", "100 nm", "10 um".
 char *sb_format_film_tick(char *out, double length);
+
+// 10 to a whole power, the exponent raised: "10^-3" with superscript digits.
+char *sb_format_power(char *out, int exponent);

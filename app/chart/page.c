@@ -238,8 +238,7 @@ double sb_page_footer_height(SbRect rect) {
   return SB_PAGE_FOOTER + (is_narrow(rect) ? 18 : 0) + (is_very_narrow(rect) ? 18 : 0);
 }
 
-void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
-                         unsigned flags) {
+void sb_page_foot_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbPageFoot *foot) {
   SbCanvas canvas;
   SbCanvas *c = &canvas;
   sb_canvas_init(c, cr, theme);
@@ -259,51 +258,34 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
     y -= 18;
     y_version = very_narrow ? y_version : y;
   }
-  const SbSummary *summary = data->run.summary;
   SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_SECOND);
   SbTextStyle plain = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   SbTextStyle third = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_THIRD);
   SbTextStyle warn = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_WARN);
   SbTextStyle warn_bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_WARN);
 
-  // Right: version, run, frame; measured first because it may not be cut.
-  char text[512], version[160];
-  g_snprintf(version, sizeof version, "Sealbench %s", sb_version());
-  if (data->hash && data->hash[0]) {
-    g_strlcat(version, DOT "run ", sizeof version);
-    size_t used = strlen(version);
-    g_strlcpy(version + used, data->hash, MIN(sizeof version - used, 9));
-  }
-  if (data->run.count > 0) {
-    size_t used = strlen(version);
-    if (flags & SB_CHART_WHOLE) {
-      g_snprintf(version + used, sizeof version - used, DOT "%zu frames", data->run.count);
-    } else {
-      g_snprintf(version + used, sizeof version - used, DOT "frame %zu of %zu",
-                 MIN(data->playhead, data->run.count - 1) + 1, data->run.count);
-    }
-  }
+  // Right: version and run; measured first because it may not be cut.
+  const char *version = foot->version;
   double version_width = sb_canvas_text_width(c, version, &third);
   sb_canvas_text(c, version, &third, right, y_version, SB_RIGHT);
 
   // Left: models and errors.
   double width = sb_canvas_text(c, "Models", &bold, left, y, SB_LEFT);
-  sb_page_models_text(text, sizeof text, &data->run);
+  const char *text = foot->models;
   double models_width = sb_canvas_text_width(c, text, &plain);
-  size_t warnings = summary ? summary->warnings.count + summary->warnings.dropped : 0;
+  size_t warnings = foot->warnings ? foot->warnings->count + foot->warnings->dropped : 0;
   double room = right - left - width - 8 - (narrow && !very_narrow ? version_width + 24 : 0);
   double models_room = warnings && !narrow ? fmin(models_width, 0.62 * room) : room;
   models_room = sb_canvas_text_fit(c, text, &plain, left + width + 8, y, models_room);
   double warn_left = narrow ? left : left + width + 8 + models_room + 32;
 
   width = sb_canvas_text(c, "Error estimates", &bold, left, y2, SB_LEFT);
-  sb_page_errors_text(text, sizeof text, &data->run);
-  sb_canvas_text_fit(c, text, &plain, left + width + 8, y2,
+  sb_canvas_text_fit(c, foot->errors, &plain, left + width + 8, y2,
                      right - left - width - 8 - (narrow ? 0 : version_width + 24));
 
   // Right: as many warnings as fit, the number of the others.
   if (warnings) {
-    const SbWarnings *list = &summary->warnings;
+    const SbWarnings *list = foot->warnings;
     const char *head = warnings == 1 ? "Warning" : "Warnings";
     double head_width = sb_canvas_text_width(c, head, &warn_bold) + 8;
     double space = right - warn_left - head_width;
@@ -337,4 +319,29 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
     }
   }
   sb_canvas_finish(c);
+}
+
+void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                         unsigned flags) {
+  char models[512], errors[512], version[160];
+  sb_page_models_text(models, sizeof models, &data->run);
+  sb_page_errors_text(errors, sizeof errors, &data->run);
+  g_snprintf(version, sizeof version, "Sealbench %s", sb_version());
+  if (data->hash && data->hash[0]) {
+    g_strlcat(version, DOT "run ", sizeof version);
+    size_t used = strlen(version);
+    g_strlcpy(version + used, data->hash, MIN(sizeof version - used, 9));
+  }
+  if (data->run.count > 0) {
+    size_t used = strlen(version);
+    if (flags & SB_CHART_WHOLE) {
+      g_snprintf(version + used, sizeof version - used, DOT "%zu frames", data->run.count);
+    } else {
+      g_snprintf(version + used, sizeof version - used, DOT "frame %zu of %zu",
+                 MIN(data->playhead, data->run.count - 1) + 1, data->run.count);
+    }
+  }
+  const SbSummary *summary = data->run.summary;
+  SbPageFoot foot = {models, errors, version, summary ? &summary->warnings : NULL};
+  sb_page_foot_draw(cr, rect, theme, &foot);
 }

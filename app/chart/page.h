@@ -21,6 +21,16 @@ void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
 void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                          unsigned flags);
 
+// The foot of a page whose texts are already known.
+typedef struct {
+  const char *models, *errors;
+  const char *version;        // and what run or frame this is
+  const SbWarnings *warnings; // NULL: none
+} SbPageFoot;
+
+// Draws it at the foot of `rect`, with the height that sb_page_footer_height() tells.
+void sb_page_foot_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbPageFoot *foot);
+
 // "fit karaszkiewicz . film thesis . surface greenwood-tripp . motion quasi-static", into `out`.
 void sb_page_models_text(char *out, size_t size, const SbChartRun *run);
 

@@ -7,6 +7,7 @@
 #include "app/document/document.h"
 
 #include "engine/sealbench.h"
+#include "engine/study/study.h"
 
 #include <stdio.h>
 
@@ -77,6 +78,10 @@ typedef struct {
 void sb_progress_start(SbProgress *progress, const char *what, bool quiet);
 void sb_progress_update(SbProgress *progress, double fraction);
 void sb_progress_end(SbProgress *progress);
+
+// Computes a study with progress and interrupts; prints what is wrong. SB_EXIT_DONE or
+// SB_EXIT_NOT_CONVERGED (with gaps) leave *out to be written, anything else does not.
+int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model, bool quiet);
 
 int sb_command_run(int argc, char **argv);
 int sb_command_check(int argc, char **argv);

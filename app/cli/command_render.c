@@ -1,6 +1,7 @@
 // sealbench render: a view of a scene as a picture or a film.
 #include "app/cli/cli.h"
 #include "app/export/render_movie.h"
+#include "app/export/studies.h"
 #include "app/section/painter.h"
 
 #include <stdlib.h>
@@ -69,6 +70,32 @@ static char *file_names(const SbDocument *document) {
   return names;
 }
 
+// A study needs no run.
+static int render_study(SbStudyKind kind, SbDocument *document, const SbModel *model,
+                        const SbRenderOptions *options, const char *output, bool quiet) {
+  SbStudy *study = g_new(SbStudy, 1);
+  int code = sb_cli_study(study, kind, model, quiet);
+  if (code == SB_EXIT_DONE || code == SB_EXIT_NOT_CONVERGED) {
+    g_autofree char *sha256 = sb_document_sha256(document);
+    g_autofree char *scene = sb_document_to_flat_text(document);
+    g_autofree char *subtitle = file_names(document);
+    SbStudyPage page = {.model = model,
+                        .title = sb_document_title(document),
+                        .subtitle = subtitle,
+                        .hash = sha256,
+                        .scene = scene,
+                        .dark = options->dark,
+                        .width = options->width,
+                        .height = options->height};
+    GError *error = NULL;
+    if (!sb_study_still(study, &page, output, &error)) {
+      code = sb_cli_error(error);
+    }
+  }
+  g_free(study);
+  return code;
+}
+
 int sb_command_render(int argc, char **argv) {
   char *output = NULL;
   char *view = NULL;
@@ -84,7 +111,8 @@ int sb_command_render(int argc, char **argv) {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output,
        "Picture (.png, .svg, .pdf) or film (.mp4) to write", "OUT"},
       {"view", 0, 0, G_OPTION_ARG_FILENAME, &view,
-       "section (default), hysteresis, profiles or dashboard", "VIEW"},
+       "section (default), hysteresis, profiles, dashboard or a study (sealbench list views)",
+       "VIEW"},
       {"size", 0, 0, G_OPTION_ARG_FILENAME, &size, "Size in pixels", "WxH"},
       {"at", 0, 0, G_OPTION_ARG_FILENAME, &at, "Stage (A to F) or time (\"7.3 s\") of a picture",
        "STAGE|TIME"},
@@ -119,7 +147,9 @@ int sb_command_render(int argc, char **argv) {
   options.view = view != NULL ? view : "section";
   options.dark = dark;
   options.at = at;
-  if (sb_render_view(options.view) == NULL) {
+  SbStudyKind study = SB_STUDY_COUNT;
+  bool is_study = sb_study_from_name(&study, options.view);
+  if (!is_study && sb_render_view(options.view) == NULL) {
     sb_cli_fail("--view: there is no view \"%s\" (see sealbench list views)", options.view);
     goto done;
   }
@@ -127,6 +157,15 @@ int sb_command_render(int argc, char **argv) {
     goto done;
   }
   bool film = g_str_has_suffix(output, ".mp4");
+  if (is_study && film) {
+    sb_cli_fail("--view %s is a study, which does not move: write a .png, .svg or .pdf",
+                options.view);
+    goto done;
+  }
+  if (is_study && at != NULL) {
+    sb_cli_fail("--at: a study has no time");
+    goto done;
+  }
   if (film && at != NULL) {
     sb_cli_fail("--at: a film shows the whole cycle");
     goto done;
@@ -150,6 +189,10 @@ int sb_command_render(int argc, char **argv) {
   }
   document = sb_cli_open(&model, argv[1], settings);
   if (document == NULL) {
+    goto done;
+  }
+  if (is_study) {
+    code = render_study(study, document, &model, &options, output, quiet);
     goto done;
   }
   // What is drawn decides what is computed, not what the scene would show by itself.

@@ -100,6 +100,25 @@ static bool on_cancelled(void *data) {
   return sb_cli_interrupted(NULL);
 }
 
+// The studies of a bit mask, in order; returns the worst exit code. An interrupt ends with those
+// that are done.
+static int make_studies(SbStudy *out, size_t *count, const SbModel *model, unsigned mask,
+                        bool quiet) {
+  int code = SB_EXIT_DONE;
+  for (int i = 0; i < SB_STUDY_COUNT; i++) {
+    if ((mask & (1u << i)) == 0) {
+      continue;
+    }
+    int made = sb_cli_study(&out[*count], (SbStudyKind)i, model, quiet);
+    *count += made == SB_EXIT_DONE || made == SB_EXIT_NOT_CONVERGED ? 1 : 0;
+    code = made != SB_EXIT_DONE ? made : code;
+    if (made == SB_EXIT_INTERRUPTED) {
+      break;
+    }
+  }
+  return code;
+}
+
 int sb_command_run(int argc, char **argv) {
   char *folder = NULL;
   char *json_target = NULL;
@@ -107,7 +126,7 @@ int sb_command_run(int argc, char **argv) {
   gboolean quiet = FALSE;
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &folder,
-       "Folder for results.json, cycle.csv and profiles.csv", "DIR"},
+       "Folder for results.json, cycle.csv, profiles.csv and the studies' tables", "DIR"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, "Overrides a parameter", "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &json_target, "JSON to a file or - ", "FILE|-"},
       {"quiet", 0, 0, G_OPTION_ARG_NONE, &quiet, "No progress, no table", NULL},
@@ -117,6 +136,7 @@ int sb_command_run(int argc, char **argv) {
   SbModel model;
   SbDocument *document = NULL;
   SbRun *run = NULL;
+  SbStudy *studies = NULL;
   if (!sb_cli_parse(&argc, &argv, entries, 1, 1, NULL)) {
     goto done;
   }
@@ -151,10 +171,20 @@ int sb_command_run(int argc, char **argv) {
     goto done;
   }
   char *sha256 = sb_document_sha256(document);
-  SbResultsInfo info = {argv[1], sha256, status == SB_ERROR_CANCELLED};
+  size_t study_count = 0;
+  if (status != SB_ERROR_CANCELLED && plan.studies != 0) {
+    studies = g_new(SbStudy, SB_STUDY_COUNT);
+    int studied = make_studies(studies, &study_count, &model, plan.studies, quiet);
+    code = studied != SB_EXIT_DONE ? studied : code;
+  }
+  SbResultsInfo info = {.scene = argv[1],
+                        .sha256 = sha256,
+                        .partial = status == SB_ERROR_CANCELLED || code == SB_EXIT_INTERRUPTED,
+                        .studies = studies,
+                        .study_count = study_count};
   char *json = sb_results_run(run, &info);
   int written = SB_EXIT_DONE;
-  if (folder != NULL && !sb_results_folder_write(folder, run, json, &error)) {
+  if (folder != NULL && !sb_results_folder_write(folder, run, json, studies, study_count, &error)) {
     written = sb_cli_error(error);
   }
   if (json_target != NULL && written == SB_EXIT_DONE) {
@@ -169,6 +199,7 @@ int sb_command_run(int argc, char **argv) {
   g_free(json);
   g_free(sha256);
 done:
+  g_free(studies);
   sb_run_destroy(run);
   sb_document_free(document);
   g_strfreev(settings);

@@ -76,6 +76,14 @@ static char *views_json(void) {
     sb_json_string(&json, "label", views[i].label);
     sb_json_number(&json, "width_px", views[i].width);
     sb_json_number(&json, "height_px", views[i].height);
+    sb_json_bool(&json, "film", true);
+    sb_json_object_end(&json);
+  }
+  for (int i = 0; i < SB_STUDY_COUNT; i++) {
+    sb_json_object(&json, NULL);
+    sb_json_string(&json, "name", sb_study_name((SbStudyKind)i));
+    sb_json_string(&json, "label", sb_study_title((SbStudyKind)i));
+    sb_json_bool(&json, "film", false);
     sb_json_object_end(&json);
   }
   sb_json_array_end(&json);
@@ -87,6 +95,10 @@ static void list_views(void) {
   const SbRenderView *views = sb_render_views(&count);
   for (size_t i = 0; i < count; i++) {
     printf("%-12s %s\n", views[i].name, views[i].label);
+  }
+  printf("Studies (pictures only; output.studies has run write them as tables)\n");
+  for (int i = 0; i < SB_STUDY_COUNT; i++) {
+    printf("%-12s %s\n", sb_study_name((SbStudyKind)i), sb_study_help((SbStudyKind)i));
   }
 }
 

@@ -127,3 +127,16 @@ void sb_json_numbers(SbJson *json, const char *key, const double *values, size_t
   }
   g_string_append_c(json->text, ']');
 }
+
+void sb_json_warnings(SbJson *json, const SbWarnings *warnings) {
+  sb_json_array(json, "warnings");
+  for (size_t i = 0; i < warnings->count; i++) {
+    const SbWarning *warning = &warnings->item[i];
+    sb_json_object(json, NULL);
+    sb_json_string(json, "code", warning->code);
+    sb_json_string(json, "text", warning->text);
+    sb_json_string(json, "parameter", warning->parameter[0] != '\0' ? warning->parameter : NULL);
+    sb_json_object_end(json);
+  }
+  sb_json_array_end(json);
+}

@@ -2,6 +2,8 @@
 // number, the same bytes in every locale. Two spaces of indentation; arrays of numbers on one line.
 #pragma once
 
+#include "engine/status.h"
+
 #include <glib.h>
 #include <stdbool.h>
 
@@ -30,3 +32,6 @@ void sb_json_string(SbJson *json, const char *key, const char *value);
 
 // An array of `count` numbers on one line.
 void sb_json_numbers(SbJson *json, const char *key, const double *values, size_t count);
+
+// The array "warnings": code, text, parameter (null without one).
+void sb_json_warnings(SbJson *json, const SbWarnings *warnings);

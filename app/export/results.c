@@ -3,22 +3,10 @@
 #include "engine/film/regime.h"
 
 #include "app/export/json.h"
+#include "app/export/studies.h"
 
 #include <math.h>
 #include <string.h>
-
-static void put_warnings(SbJson *json, const SbWarnings *warnings) {
-  sb_json_array(json, "warnings");
-  for (size_t i = 0; i < warnings->count; i++) {
-    const SbWarning *warning = &warnings->item[i];
-    sb_json_object(json, NULL);
-    sb_json_string(json, "code", warning->code);
-    sb_json_string(json, "text", warning->text);
-    sb_json_string(json, "parameter", warning->parameter[0] != '\0' ? warning->parameter : NULL);
-    sb_json_object_end(json);
-  }
-  sb_json_array_end(json);
-}
 
 // ---- run ----
 
@@ -168,7 +156,14 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
     put_seal(&json, sb_seal_name(i), &summary->seal[i]);
   }
   sb_json_object_end(&json);
-  put_warnings(&json, &summary->warnings);
+  sb_json_warnings(&json, &summary->warnings);
+  if (info->study_count > 0) {
+    sb_json_array(&json, "studies");
+    for (size_t i = 0; i < info->study_count; i++) {
+      sb_json_study(&json, &info->studies[i]);
+    }
+    sb_json_array_end(&json);
+  }
   put_run_solver(&json, summary);
   sb_json_object_end(&json);
   return sb_json_finish(&json);
@@ -197,7 +192,7 @@ char *sb_results_film(const SbFilm *film) {
   sb_json_string(&json, "regime", film->regime);
   sb_json_number(&json, "expected_model_error", film->expected_error);
   sb_json_bool(&json, "valid", film->valid);
-  put_warnings(&json, &film->warnings);
+  sb_json_warnings(&json, &film->warnings);
   const SbFilmSolverInfo *solver = &film->solver;
   sb_json_object(&json, "solver");
   sb_json_bool(&json, "converged", solver->converged);
@@ -286,7 +281,7 @@ char *sb_results_fit(const SbFit *fit, const char *seal, double pressure,
   sb_json_number(&json, "pressure_peak_Pa", fit->pressure_peak);
   sb_json_bool(&json, "touches", fit->touches);
   sb_json_bool(&json, "valid", fit->valid);
-  put_warnings(&json, &fit->warnings);
+  sb_json_warnings(&json, &fit->warnings);
   sb_json_object(&json, "solver");
   sb_json_bool(&json, "converged", fit->solver.converged);
   sb_json_count(&json, "unknowns", fit->solver.unknowns);

@@ -6,14 +6,17 @@
 #include "engine/elastic/rubber_time.h"
 #include "engine/film/film.h"
 #include "engine/sealbench.h"
+#include "engine/study/study.h"
 
 #include <glib.h>
 
 // What a run's document needs beyond the run.
 typedef struct {
-  const char *scene;  // path or title
-  const char *sha256; // of the parameters
-  bool partial;       // interrupted
+  const char *scene;      // path or title
+  const char *sha256;     // of the parameters
+  bool partial;           // interrupted
+  const SbStudy *studies; // `study_count` of them, what output.studies asked for
+  size_t study_count;
 } SbResultsInfo;
 
 // All of these return a text owned by the caller. Numbers that do not exist are null.

@@ -1,9 +1,10 @@
-// Writes the three files under temporary names, seals them all, then renames.
+// Writes the files under temporary names, seals them all, then renames.
 #include "app/export/results_files.h"
 
 #include "app/document/atomic.h"
 #include "app/document/issue.h"
 #include "app/export/csv.h"
+#include "app/export/studies.h"
 
 #include <errno.h>
 #include <glib/gstdio.h>
@@ -39,35 +40,55 @@ bool sb_results_folder_check(const char *folder, GError **error) {
   return good;
 }
 
+enum { RUN_FILES = 3, FILES = RUN_FILES + 2 * SB_STUDY_COUNT };
+
+// Name of file `index` in the folder; owned by the caller.
+static char *file_name(int index, const SbStudy *studies) {
+  static const char *const names[RUN_FILES] = {"results.json", "cycle.csv", "profiles.csv"};
+  if (index < RUN_FILES) {
+    return g_strdup(names[index]);
+  }
+  const SbStudy *study = &studies[(index - RUN_FILES) / 2];
+  return g_strdup_printf("study-%s%s.csv", sb_study_name(study->kind),
+                         (index - RUN_FILES) % 2 == 0 ? "" : "-table");
+}
+
+static void put_file(FILE *stream, int index, const SbRun *run, const char *json,
+                     const SbStudy *studies) {
+  if (index == 0) {
+    fputs(json, stream);
+  } else if (index == 1) {
+    sb_csv_cycle(stream, run);
+  } else if (index == 2) {
+    sb_csv_profiles(stream, run);
+  } else if ((index - RUN_FILES) % 2 == 0) {
+    sb_csv_study(stream, &studies[(index - RUN_FILES) / 2]);
+  } else {
+    sb_csv_study_table(stream, &studies[(index - RUN_FILES) / 2]);
+  }
+}
+
 bool sb_results_folder_write(const char *folder, const SbRun *run, const char *json,
-                             GError **error) {
+                             const SbStudy *studies, size_t count, GError **error) {
   if (g_mkdir_with_parents(folder, 0777) != 0) {
     return fail(error, folder, errno);
   }
-  static const char *const names[] = {"results.json", "cycle.csv", "profiles.csv"};
-  enum { COUNT = G_N_ELEMENTS(names) };
-  SbAtomicFile files[COUNT] = {0};
+  int total = RUN_FILES + 2 * (int)MIN(count, SB_STUDY_COUNT);
+  SbAtomicFile files[FILES] = {0};
   bool good = true;
-  for (int i = 0; i < COUNT && good; i++) {
-    char *path = g_build_filename(folder, names[i], NULL);
+  for (int i = 0; i < total && good; i++) {
+    g_autofree char *name = file_name(i, studies);
+    g_autofree char *path = g_build_filename(folder, name, NULL);
     good = sb_atomic_file_begin(&files[i], path, error);
-    g_free(path);
-    if (!good) {
-      break;
+    if (good) {
+      put_file(files[i].stream, i, run, json, studies);
+      good = sb_atomic_file_seal(&files[i], error);
     }
-    if (i == 0) {
-      fputs(json, files[i].stream);
-    } else if (i == 1) {
-      sb_csv_cycle(files[i].stream, run);
-    } else {
-      sb_csv_profiles(files[i].stream, run);
-    }
-    good = sb_atomic_file_seal(&files[i], error);
   }
-  for (int i = 0; i < COUNT && good; i++) {
+  for (int i = 0; i < total && good; i++) {
     good = sb_atomic_file_commit(&files[i], error);
   }
-  for (int i = 0; i < COUNT; i++) {
+  for (int i = 0; i < total; i++) {
     sb_atomic_file_abort(&files[i]);
   }
   return good;

@@ -1,0 +1,507 @@
+// The panels of a study. Each curve is named at its end: the names stand in a gutter on the right,
+// moved apart where they would collide, with a leader in the curve's own colour and dash; a curve
+// that ends earlier (its model has no answer further on) is named where it ends. What was solved is
+// solid, differing in lightness; laws and literature are dashed grey; single values are ringed
+// dots. The range follows what was solved: a closed form that leaves it is clipped.
+#include "app/chart/study.h"
+#include "app/chart/axis.h"
+#include "app/chart/format.h"
+#include "app/chart/label.h"
+#include "app/document/unit.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#define NOTE_LINE 16.0
+#define TITLE     46.0 // above a plot: its quantity and unit
+#define FOOT      44.0 // below it: marks and the abscissa
+
+enum { NAMES = SB_STUDY_PANELS * SB_STUDY_SERIES };
+
+// ---------------------------------------------------------------------------------------------------
+// Layout
+
+// Panels in a row: as many as keep them between portrait and banner.
+static int choose_columns(size_t count, double width, double height) {
+  int best = 1;
+  double best_miss = INFINITY;
+  for (int columns = 1; columns <= (int)count; columns++) {
+    int rows = ((int)count + columns - 1) / columns;
+    double ratio = (width / columns) / (height / rows);
+    // An empty place in the grid is worse than an odd shape.
+    double miss = fabs(log(ratio / 1.45)) + 0.4 * (columns * rows - (int)count);
+    if (miss < best_miss) {
+      best_miss = miss;
+      best = columns;
+    }
+  }
+  return best;
+}
+
+void sb_study_layout(SbStudyLayout *out, SbRect rect, const SbStudy *study) {
+  *out = (SbStudyLayout){0};
+  size_t lines = study->note_count + (study->validity[0] ? 1 : 0);
+  double notes = lines > 0 ? NOTE_LINE * (double)lines + 4 : 0;
+  double table = sb_study_table_height(study);
+  double gap = 16;
+  // Without panels the table has it all; with them it leaves them half.
+  double room = rect.height - notes - (notes > 0 ? 10 : 0);
+  if (study->panel_count > 0) {
+    table = fmin(table, 0.55 * room);
+  }
+  double charts = fmax(room - table - (table > 0 ? gap : 0), 40);
+  double y = rect.y;
+  if (study->panel_count > 0) {
+    int columns = choose_columns(study->panel_count, rect.width, charts);
+    int rows = ((int)study->panel_count + columns - 1) / columns;
+    double width = floor((rect.width - gap * (columns - 1)) / columns);
+    double height = floor((charts - gap * (rows - 1)) / rows);
+    for (int i = 0; i < (int)study->panel_count; i++) {
+      out->panel[i] = (SbRect){rect.x + (width + gap) * (i % columns),
+                               y + (height + gap) * (i / columns), width, height};
+    }
+    y += charts + gap;
+  }
+  out->table = (SbRect){rect.x, y, rect.width, table};
+  out->notes = (SbRect){rect.x, rect.y + rect.height - notes, rect.width, notes};
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Styles
+
+typedef struct {
+  SbRole role;
+  double width;
+  const SbDash *dash;
+} Look;
+
+// Index of a series among those of its style, counted over all panels by name.
+static int style_index(const SbStudy *study, const SbStudySeries *series) {
+  const char *seen[NAMES];
+  int count = 0;
+  for (size_t p = 0; p < study->panel_count; p++) {
+    for (size_t s = 0; s < study->panel[p].series_count; s++) {
+      const SbStudySeries *other = &study->panel[p].series[s];
+      if (other->style != series->style) {
+        continue;
+      }
+      int known = 0;
+      while (known < count && strcmp(seen[known], other->name) != 0) {
+        known++;
+      }
+      if (strcmp(other->name, series->name) == 0) {
+        return known;
+      }
+      if (known == count) {
+        seen[count++] = other->name;
+      }
+    }
+  }
+  return 0;
+}
+
+static Look series_look(const SbStudy *study, const SbStudySeries *series) {
+  static const SbRole solved[] = {SB_ROLE_INK, SB_ROLE_VIOLET, SB_ROLE_TEAL, SB_ROLE_FLUID};
+  static const SbDash *const dashes[] = {&sb_dash_reference, &sb_dash_pinned, &sb_dash_dimension,
+                                         &sb_dash_centre, &sb_dash_dose};
+  int index = style_index(study, series);
+  if (series->style == SB_STUDY_REFERENCE) {
+    return (Look){index % 2 == 0 ? SB_ROLE_SECOND : SB_ROLE_PINNED, 1.6,
+                  dashes[index % (int)G_N_ELEMENTS(dashes)]};
+  }
+  if (series->style == SB_STUDY_DOTS) {
+    return (Look){index % 2 == 0 ? SB_ROLE_INK : SB_ROLE_VIOLET, 1.6, NULL};
+  }
+  return (Look){solved[index % (int)G_N_ELEMENTS(solved)],
+                index == 0 ? SB_LINE_ACTIVE : SB_LINE_SEAL,
+                index < (int)G_N_ELEMENTS(solved) ? NULL : &sb_dash_pinned};
+}
+
+// ---------------------------------------------------------------------------------------------------
+// One panel
+
+typedef struct {
+  SbCanvas *canvas;
+  const SbStudy *study;
+  const SbStudyPanel *panel;
+  SbLabels *labels;
+  SbRect plot;
+  SbScale x, y;
+  double x_unit, y_unit; // shown per SI
+} Plot;
+
+static double unit_of(const SbStudyAxis *axis) {
+  return sb_quantity_to_shown(1, axis->si, axis->unit);
+}
+
+static bool usable(const Plot *plot, double x, double y) {
+  return isfinite(x) && isfinite(y) && (x > 0 || !plot->study->x.logarithmic) &&
+         (y > 0 || !plot->panel->y.logarithmic);
+}
+
+typedef struct {
+  double lo, hi;
+} Span;
+
+static void span_add(Span *span, double value) {
+  span->lo = fmin(span->lo, value);
+  span->hi = fmax(span->hi, value);
+}
+
+// Ranges in shown units. A reference may widen the range of the rest by a third and no more.
+static void set_scales(Plot *plot) {
+  Span x = {INFINITY, -INFINITY}, y = x, all = x;
+  for (size_t s = 0; s < plot->panel->series_count; s++) {
+    const SbStudySeries *series = &plot->panel->series[s];
+    for (size_t i = 0; i < series->count; i++) {
+      if (isfinite(series->x[i])) {
+        span_add(&x, series->x[i] * plot->x_unit);
+      }
+      if (usable(plot, series->x[i], series->y[i])) {
+        span_add(&all, series->y[i] * plot->y_unit);
+        if (series->style != SB_STUDY_REFERENCE) {
+          span_add(&y, series->y[i] * plot->y_unit);
+        }
+      }
+    }
+  }
+  bool log_y = plot->panel->y.logarithmic;
+  if (!(y.hi >= y.lo)) {
+    y = all;
+  } else if (log_y) {
+    y.hi = fmin(all.hi, y.hi * 10);
+    y.lo = fmax(all.lo, y.lo / 10);
+  } else {
+    double more = 0.35 * fmax(y.hi - y.lo, fabs(y.hi) * 0.1);
+    y.hi = fmin(all.hi, y.hi + more);
+    y.lo = fmax(all.lo, y.lo - more);
+  }
+  if (!(y.hi >= y.lo)) {
+    y = log_y ? (Span){0.1, 10} : (Span){0, 1};
+  }
+  if (log_y) {
+    double room = fmax(0.06 * log10(y.hi / y.lo), 0.08);
+    y.lo /= pow(10, room);
+    y.hi *= pow(10, room);
+  } else {
+    if (y.lo > 0 && y.lo < 0.55 * y.hi) {
+      y.lo = 0;
+    }
+    if (!(y.hi > y.lo)) {
+      double half = fmax(fabs(y.hi), 1e-12) * 0.5;
+      y.hi += half;
+      y.lo -= half;
+    }
+    y.hi += 0.04 * (y.hi - y.lo);
+    sb_axis_round_out(&y.lo, &y.hi, 5);
+  }
+  if (!(x.hi > x.lo)) {
+    x = (Span){0, 1};
+  }
+  SbRect r = plot->plot;
+  plot->x = (SbScale){x.lo, x.hi, r.x, r.x + r.width, plot->study->x.logarithmic};
+  plot->y = (SbScale){y.lo, y.hi, r.y + r.height, r.y, log_y};
+}
+
+// "10" to a small power as digits, else as 10 with an exponent.
+static void tick_text(char *out, const SbTicks *ticks, double value, bool logarithmic) {
+  if (!logarithmic || ticks->step > 0) {
+    sb_format_fixed(out, value, ticks->decimals);
+  } else if (value >= 0.999e-3 && value < 1.001e4) {
+    sb_format_digits(out, value, 1);
+  } else {
+    int exponent = (int)floor(log10(value) + 1e-9);
+    double mantissa = value / pow(10, exponent);
+    char power[SB_FORMAT_MAX];
+    sb_format_power(power, exponent);
+    if (mantissa < 1.5) {
+      g_strlcpy(out, power, SB_FORMAT_MAX);
+    } else {
+      g_snprintf(out, SB_FORMAT_MAX, "%.0f\xc2\xb7%s", mantissa, power);
+    }
+  }
+}
+
+static void make_ticks(SbTicks *out, const SbScale *scale, double room) {
+  if (scale->logarithmic) {
+    sb_axis_log_ticks(out, scale->lo, scale->hi);
+  } else {
+    sb_axis_ticks(out, scale->lo, scale->hi, (int)CLAMP(room / 60, 3, 7));
+  }
+}
+
+static void draw_axes(Plot *plot) {
+  SbCanvas *c = plot->canvas;
+  SbRect r = plot->plot;
+  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  double bottom = r.y + r.height;
+  char text[SB_FORMAT_MAX];
+  SbTicks ticks;
+  make_ticks(&ticks, &plot->y, r.height * 1.4);
+  for (int i = 0; i < ticks.count; i++) {
+    double y = sb_axis_at(&plot->y, ticks.value[i]);
+    sb_canvas_hairline(c, r.x, y, r.x + r.width, y, sb_canvas_role(c, SB_ROLE_GRID));
+    tick_text(text, &ticks, ticks.value[i], plot->y.logarithmic);
+    sb_canvas_text(c, text, &label, r.x - 8, y + 4.3, SB_RIGHT);
+  }
+  sb_canvas_hairline(c, r.x, bottom, r.x + r.width, bottom, sb_canvas_role(c, SB_ROLE_AXIS));
+  make_ticks(&ticks, &plot->x, r.width);
+  for (int i = 0; i < ticks.count; i++) {
+    double x = sb_axis_at(&plot->x, ticks.value[i]);
+    sb_canvas_hairline(c, x, bottom, x, bottom + 5, sb_canvas_role(c, SB_ROLE_AXIS));
+    tick_text(text, &ticks, ticks.value[i], plot->x.logarithmic);
+    sb_canvas_text(c, text, &label, x, bottom + 18, SB_MIDDLE);
+  }
+  const SbStudyAxis *axis = &plot->study->x;
+  g_autofree char *title =
+      g_strdup_printf("%s%s%s", axis->quantity, axis->unit[0] ? " / " : "", axis->unit);
+  sb_canvas_text(c, title, &label, r.x + r.width, bottom + 35, SB_RIGHT);
+}
+
+static void draw_marks(Plot *plot) {
+  SbCanvas *c = plot->canvas;
+  SbRect r = plot->plot;
+  SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+  for (size_t i = 0; i < plot->study->mark_count; i++) {
+    const SbStudyMark *mark = &plot->study->mark[i];
+    double value = mark->x * plot->x_unit;
+    double slack = 1e-9 * fabs(plot->x.hi);
+    if (!(value >= plot->x.lo - slack && value <= plot->x.hi + slack)) {
+      continue;
+    }
+    double x = floor(sb_axis_at(&plot->x, value)) + 0.5;
+    sb_canvas_pen(c, 1, &sb_dash_dimension);
+    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_AXIS), 1);
+    cairo_move_to(c->cr, x, r.y - 4);
+    cairo_line_to(c->cr, x, r.y + r.height);
+    cairo_stroke(c->cr);
+    SbPlace at;
+    const SbPlace places[] = {{x + 5, r.y + 5, SB_LEFT},
+                              {x - 5, r.y + 5, SB_RIGHT},
+                              {x + 5, r.y + r.height - 7, SB_LEFT},
+                              {x - 5, r.y + r.height - 7, SB_RIGHT}};
+    if (sb_labels_place(plot->labels, c, mark->text, &style, places, 4, &at)) {
+      sb_canvas_text_halo(c, mark->text, &style, at.x, at.y, at.align);
+    }
+  }
+}
+
+// Pixels of a series, gaps kept as points that are not finite. Owned by the caller (g_free).
+static SbPoint *series_points(const Plot *plot, const SbStudySeries *series) {
+  SbPoint *out = g_new(SbPoint, series->count + 1);
+  for (size_t i = 0; i < series->count; i++) {
+    bool good = usable(plot, series->x[i], series->y[i]);
+    out[i].x = good ? sb_axis_at(&plot->x, series->x[i] * plot->x_unit) : NAN;
+    out[i].y = good ? sb_axis_at(&plot->y, series->y[i] * plot->y_unit) : NAN;
+  }
+  return out;
+}
+
+static bool inside(const Plot *plot, SbPoint p) {
+  return isfinite(p.x) && isfinite(p.y) && p.y >= plot->plot.y - 3 &&
+         p.y <= plot->plot.y + plot->plot.height + 3;
+}
+
+static void set_pen(SbCanvas *c, const Look *look) {
+  sb_canvas_pen(c, look->width, look->dash);
+  sb_canvas_color(c, sb_canvas_role(c, look->role), 1);
+}
+
+static void draw_series(Plot *plot, const SbStudySeries *series, const SbPoint *points) {
+  SbCanvas *c = plot->canvas;
+  Look look = series_look(plot->study, series);
+  if (series->style == SB_STUDY_DOTS) {
+    for (size_t i = 0; i < series->count; i++) {
+      if (inside(plot, points[i])) {
+        sb_canvas_ringed_dot(c, points[i].x, points[i].y, sb_canvas_role(c, look.role));
+      }
+    }
+    return;
+  }
+  SbRect r = plot->plot;
+  cairo_save(c->cr);
+  cairo_rectangle(c->cr, r.x - 2, r.y - 2, r.width + 4, r.height + 4);
+  cairo_clip(c->cr);
+  set_pen(c, &look);
+  // A stroke of its own for each part between gaps.
+  size_t from = 0;
+  for (size_t i = 0; i <= series->count; i++) {
+    if (i == series->count || !isfinite(points[i].x + points[i].y)) {
+      if (i - from > 1) {
+        sb_canvas_polyline(c, points + from, i - from);
+        sb_labels_avoid(plot->labels, points + from, i - from, 1);
+      } else if (i > from) {
+        sb_canvas_dot(c, points[from].x, points[from].y, 2, sb_canvas_role(c, look.role));
+        set_pen(c, &look);
+      }
+      from = i + 1;
+    }
+  }
+  cairo_restore(c->cr);
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Names of the curves
+
+typedef struct {
+  const SbStudySeries *series;
+  SbPoint end;
+  double y; // of the name
+} Name;
+
+static int by_height(const void *a, const void *b) {
+  double d = ((const Name *)a)->end.y - ((const Name *)b)->end.y;
+  return d < 0 ? -1 : d > 0;
+}
+
+// Moves names apart: each run of touching names is centred on what it names.
+static void spread(Name *name, int count, double top, double bottom, double line) {
+  qsort(name, (size_t)count, sizeof *name, by_height);
+  for (int i = 0; i < count; i++) {
+    name[i].y = name[i].end.y;
+  }
+  for (int round = 0; round < 60; round++) {
+    for (int i = 1; i < count; i++) {
+      double lack = line - (name[i].y - name[i - 1].y);
+      if (lack > 0) {
+        name[i].y += lack / 2;
+        name[i - 1].y -= lack / 2;
+      }
+    }
+    for (int i = 0; i < count; i++) {
+      name[i].y = CLAMP(name[i].y, top + line * i, fmax(top, bottom - line * (count - 1 - i)));
+    }
+  }
+}
+
+static void draw_gutter(Plot *plot, Name *name, int count, double width) {
+  SbCanvas *c = plot->canvas;
+  SbRect r = plot->plot;
+  SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
+  spread(name, count, r.y - 4, r.y + r.height, 14);
+  double x = r.x + r.width + 20;
+  for (int i = 0; i < count; i++) {
+    Look look = series_look(plot->study, name[i].series);
+    sb_canvas_color(c, sb_canvas_role(c, look.role), 1);
+    sb_canvas_pen(c, 1, look.dash);
+    cairo_move_to(c->cr, name[i].end.x + 4, name[i].end.y);
+    cairo_line_to(c->cr, x - 4, name[i].y);
+    cairo_stroke(c->cr);
+    sb_canvas_text_fit(c, name[i].series->name, &style, x, name[i].y + 4.3, width - 22);
+  }
+}
+
+static void name_series(Plot *plot, SbPoint **points, double gutter) {
+  SbCanvas *c = plot->canvas;
+  SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
+  Name name[SB_STUDY_SERIES];
+  int count = 0;
+  double far = plot->plot.x + 0.86 * plot->plot.width;
+  for (size_t s = 0; s < plot->panel->series_count; s++) {
+    const SbStudySeries *series = &plot->panel->series[s];
+    size_t last = series->count;
+    while (last > 0 && !inside(plot, points[s][last - 1])) {
+      last--;
+    }
+    if (last == 0) {
+      continue;
+    }
+    SbPoint end = points[s][last - 1];
+    if (end.x >= far) {
+      name[count++] = (Name){series, end, end.y};
+      continue;
+    }
+    SbPlace at;
+    const SbPlace places[] = {{end.x + 7, end.y + 4, SB_LEFT},   {end.x + 5, end.y - 7, SB_LEFT},
+                              {end.x + 5, end.y + 15, SB_LEFT},  {end.x, end.y - 9, SB_MIDDLE},
+                              {end.x - 6, end.y - 6, SB_RIGHT},  {end.x - 6, end.y + 14, SB_RIGHT},
+                              {end.x + 14, end.y - 20, SB_LEFT}, {end.x + 14, end.y + 28, SB_LEFT}};
+    if (sb_labels_place(plot->labels, c, series->name, &style, places, G_N_ELEMENTS(places), &at)) {
+      sb_labels_draw(plot->labels, c, series->name, &style, &at);
+    }
+  }
+  draw_gutter(plot, name, count, gutter);
+}
+
+static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t index) {
+  const SbStudyPanel *panel = &study->panel[index];
+  sb_canvas_panel(c, rect);
+  SbTextStyle title = sb_canvas_style(c, SB_TYPE_PANEL_WINDOW, 700, SB_ROLE_INK);
+  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
+  double pad = SB_GRID_PADDING;
+  char *first = g_utf8_strup(panel->y.quantity, 1);
+  const char *rest = g_utf8_next_char(panel->y.quantity);
+  g_autofree char *text = g_strdup_printf("%s%s%s%s%s", first, rest, panel->y.unit[0] ? " / " : "",
+                                          panel->y.unit, panel->y.logarithmic ? ", log scale" : "");
+  g_free(first);
+  sb_canvas_text_fit(c, text, &title, rect.x + pad, rect.y + 28, rect.width - 2 * pad);
+
+  double gutter = 40;
+  for (size_t s = 0; s < panel->series_count; s++) {
+    gutter = fmax(gutter, sb_canvas_text_width(c, panel->series[s].name, &label) + 24);
+  }
+  gutter = fmin(gutter, 0.4 * rect.width);
+  SbLabels *labels = g_new(SbLabels, 1);
+  Plot plot = {
+      .canvas = c,
+      .study = study,
+      .panel = panel,
+      .labels = labels,
+      .plot = {rect.x + pad + 36, rect.y + TITLE, rect.width - 2 * pad - 30 - gutter,
+               fmax(rect.height - TITLE - FOOT, 20)},
+      .x_unit = unit_of(&study->x),
+      .y_unit = unit_of(&panel->y),
+  };
+  SbRect r = plot.plot;
+  sb_labels_init(labels, (SbRect){r.x - 2, r.y - 10, r.width + 14, r.height + 10});
+  set_scales(&plot);
+  draw_axes(&plot);
+  SbPoint *points[SB_STUDY_SERIES];
+  for (size_t s = 0; s < panel->series_count; s++) {
+    points[s] = series_points(&plot, &panel->series[s]);
+  }
+  // What was solved lies over what it is compared with.
+  static const SbStudyStyle order[] = {SB_STUDY_REFERENCE, SB_STUDY_CURVE, SB_STUDY_DOTS};
+  for (size_t k = 0; k < G_N_ELEMENTS(order); k++) {
+    for (size_t s = panel->series_count; s-- > 0;) {
+      if (panel->series[s].style == order[k]) {
+        draw_series(&plot, &panel->series[s], points[s]);
+      }
+    }
+  }
+  draw_marks(&plot);
+  name_series(&plot, points, gutter);
+  for (size_t s = 0; s < panel->series_count; s++) {
+    g_free(points[s]);
+  }
+  g_free(labels);
+}
+
+// ---------------------------------------------------------------------------------------------------
+// The whole
+
+void sb_study_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbStudy *study) {
+  SbCanvas canvas;
+  SbCanvas *c = &canvas;
+  sb_canvas_init(c, cr, theme);
+  SbStudyLayout layout;
+  sb_study_layout(&layout, rect, study);
+  for (size_t i = 0; i < study->panel_count; i++) {
+    draw_panel(c, layout.panel[i], study, i);
+  }
+  if (layout.table.height > 0) {
+    sb_study_table_draw(c, layout.table, study);
+  }
+  SbTextStyle plain = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_SECOND);
+  double y = layout.notes.y + 12, x = rect.x;
+  for (size_t i = 0; i < study->note_count; i++, y += NOTE_LINE) {
+    sb_canvas_text_fit(c, study->note[i], &plain, x, y, rect.width);
+  }
+  if (study->validity[0] != '\0') {
+    double used = sb_canvas_text(c, "Valid", &bold, x, y, SB_LEFT) + 8;
+    sb_canvas_text_fit(c, study->validity, &plain, x + used, y, rect.width - used);
+  }
+  sb_canvas_finish(c);
+}

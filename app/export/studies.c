@@ -1,0 +1,279 @@
+// Pages and tables of studies.
+#include "app/export/studies.h"
+
+#include "app/chart/page.h"
+#include "app/chart/study.h"
+#include "app/export/still.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+// ---- page ----
+
+void sb_study_page_size(double *width, double *height, const SbStudy *study) {
+  *width = study->column_count > 6 || study->panel_count > 2 ? 1600 : 1280;
+  double charts = study->panel_count == 0 ? 0 : study->panel_count > 3 ? 640 : 400;
+  double table = sb_study_table_height(study);
+  double notes = 16.0 * (double)(study->note_count + 1) + 14;
+  *height = fmax(ceil(SB_PAGE_HEADER + charts + 16 + table + notes + SB_PAGE_FOOTER + 8), 480);
+}
+
+static void errors_text(char *out, size_t size, const SbStudy *study) {
+  if (study->error > 0) {
+    g_snprintf(out, size,
+               "at most %.2g\xc2\xa0%% in what was solved  (discretisation, not the choice of "
+               "model)",
+               100 * study->error);
+  } else {
+    g_strlcpy(out, "closed forms: rounding only  (not the choice of model)", size);
+  }
+}
+
+void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const SbStudyPage *page) {
+  const SbTheme *theme = sb_theme(page->dark);
+  double width, height;
+  sb_study_page_size(&width, &height, study);
+  double scale = fmin(rect.width / width, rect.height / height);
+  if (scale < 0.8) {
+    scale = fmin(0.8, fmin(rect.width / 560, rect.height / 420));
+  }
+  scale = fmax(scale, 0.02);
+  SbRect whole = {0, 0, rect.width / scale, rect.height / scale};
+  cairo_save(cr);
+  cairo_translate(cr, rect.x, rect.y);
+  cairo_scale(cr, scale, scale);
+  SbColor ground = theme->role[SB_ROLE_BACKGROUND];
+  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
+  cairo_rectangle(cr, 0, 0, whole.width, whole.height);
+  cairo_fill(cr);
+
+  // The header and its state are those of every page; the title is the study's and the scene's.
+  g_autofree char *title =
+      g_strdup_printf("%s%s%s", sb_study_title(study->kind), page->title ? "  \xc2\xb7  " : "",
+                      page->title ? page->title : "");
+  SbChartData data = {.title = title, .subtitle = page->subtitle, .stale = page->stale};
+  data.run.model = page->model;
+  data.run.state = SB_CHART_DONE;
+  data.failure = study->complete ? NULL : "incomplete: a solver did not converge at every point";
+  sb_page_header_draw(cr, whole, theme, &data, SB_CHART_WHOLE);
+  double footer = sb_page_footer_height(whole);
+  SbRect body = {SB_GRID_MARGIN, SB_PAGE_HEADER, whole.width - 2 * SB_GRID_MARGIN,
+                 whole.height - SB_PAGE_HEADER - footer - 8};
+  sb_study_draw(cr, body, theme, study);
+
+  char errors[160], version[64];
+  errors_text(errors, sizeof errors, study);
+  g_snprintf(version, sizeof version, "Sealbench %s", sb_version());
+  if (page->hash != NULL && page->hash[0] != '\0') {
+    size_t used = strlen(version);
+    g_snprintf(version + used, sizeof version - used, "  \xc2\xb7  scene %.8s", page->hash);
+  }
+  SbPageFoot foot = {study->models, errors, version, &study->warnings};
+  sb_page_foot_draw(cr, whole, theme, &foot);
+  cairo_restore(cr);
+}
+
+typedef struct {
+  const SbStudy *study;
+  const SbStudyPage *page;
+} Drawing;
+
+static void draw(cairo_t *cr, double width, double height, void *user) {
+  const Drawing *drawing = user;
+  sb_study_page_draw(cr, (SbRect){0, 0, width, height}, drawing->study, drawing->page);
+}
+
+bool sb_study_still(const SbStudy *study, const SbStudyPage *page, const char *path,
+                    GError **error) {
+  char errors[160];
+  errors_text(errors, sizeof errors, study);
+  g_autoptr(GString) comment = g_string_new(NULL);
+  g_string_append_printf(comment, "Models: %s\nError estimates: %s\nValid: %s", study->models,
+                         errors, study->validity);
+  if (page->stale != NULL) {
+    g_string_append_printf(comment, "\nStale: %s", page->stale);
+  }
+  for (size_t i = 0; i < study->note_count; i++) {
+    g_string_append_printf(comment, "\nNote: %s", study->note[i]);
+  }
+  for (size_t i = 0; i < study->warnings.count; i++) {
+    g_string_append_printf(comment, "\nWarning: %s", study->warnings.item[i].text);
+  }
+  Drawing drawing = {study, page};
+  SbStill still = {.width = page->width,
+                   .height = page->height,
+                   .scale = page->scale,
+                   .title = sb_study_title(study->kind),
+                   .scene = page->scene,
+                   .hash = page->hash,
+                   .comment = comment->str,
+                   .draw = draw,
+                   .user = &drawing};
+  if (!(still.width > 0)) {
+    sb_study_page_size(&still.width, &still.height, study);
+  }
+  return sb_still_write(&still, path, error);
+}
+
+// ---- tables ----
+
+static void put_number(FILE *stream, double value) {
+  char digits[SB_NUMBER_SIZE];
+  if (isfinite(value)) {
+    fputs(sb_number_format(digits, value), stream);
+  }
+}
+
+// A text as one field; quoted if it needs to be.
+static void put_text(FILE *stream, const char *text) {
+  bool quote = strpbrk(text, ",\"\n") != NULL;
+  if (quote) {
+    fputc('"', stream);
+  }
+  for (const char *c = text; *c != '\0'; c++) {
+    if (*c == '"') {
+      fputc('"', stream);
+    }
+    fputc(*c, stream);
+  }
+  if (quote) {
+    fputc('"', stream);
+  }
+}
+
+void sb_csv_study(FILE *stream, const SbStudy *study) {
+  g_autofree char *abscissa = g_strdup_printf("%s [%s]", study->x.quantity, study->x.si);
+  fputs("panel,unit,series,", stream);
+  put_text(stream, abscissa);
+  fputs(",value\n", stream);
+  for (size_t p = 0; p < study->panel_count; p++) {
+    const SbStudyPanel *panel = &study->panel[p];
+    for (size_t s = 0; s < panel->series_count; s++) {
+      const SbStudySeries *series = &panel->series[s];
+      for (size_t i = 0; i < series->count && ferror(stream) == 0; i++) {
+        if (!isfinite(series->y[i])) {
+          continue;
+        }
+        put_text(stream, panel->y.quantity);
+        fputc(',', stream);
+        put_text(stream, panel->y.si);
+        fputc(',', stream);
+        put_text(stream, series->name);
+        fputc(',', stream);
+        put_number(stream, series->x[i]);
+        fputc(',', stream);
+        put_number(stream, series->y[i]);
+        fputc('\n', stream);
+      }
+    }
+  }
+}
+
+void sb_csv_study_table(FILE *stream, const SbStudy *study) {
+  put_text(stream, study->row_heading);
+  fputs(",unit of the row", stream);
+  for (size_t k = 0; k < study->column_count; k++) {
+    g_autofree char *name = g_strdup_printf("%s [%s]", study->column[k].name, study->column[k].si);
+    fputc(',', stream);
+    put_text(stream, name);
+  }
+  fputc('\n', stream);
+  for (size_t r = 0; r < study->row_count && ferror(stream) == 0; r++) {
+    const SbStudyRow *row = &study->row[r];
+    put_text(stream, row->name);
+    fputc(',', stream);
+    put_text(stream, row->si);
+    for (size_t k = 0; k < study->column_count; k++) {
+      fputc(',', stream);
+      put_number(stream, row->value[k]);
+    }
+    fputc('\n', stream);
+  }
+}
+
+// ---- JSON ----
+
+static void put_axis(SbJson *json, const char *key, const SbStudyAxis *axis) {
+  sb_json_object(json, key);
+  sb_json_string(json, "quantity", axis->quantity);
+  sb_json_string(json, "unit", axis->si);
+  sb_json_bool(json, "logarithmic", axis->logarithmic);
+  sb_json_object_end(json);
+}
+
+static void put_panels(SbJson *json, const SbStudy *study) {
+  static const char *const styles[] = {"curve", "reference", "dots"};
+  sb_json_array(json, "panels");
+  for (size_t p = 0; p < study->panel_count; p++) {
+    const SbStudyPanel *panel = &study->panel[p];
+    sb_json_object(json, NULL);
+    put_axis(json, "y", &panel->y);
+    sb_json_array(json, "series");
+    for (size_t s = 0; s < panel->series_count; s++) {
+      const SbStudySeries *series = &panel->series[s];
+      sb_json_object(json, NULL);
+      sb_json_string(json, "name", series->name);
+      sb_json_string(json, "style", styles[series->style]);
+      sb_json_numbers(json, "x", series->x, series->count);
+      sb_json_numbers(json, "y", series->y, series->count);
+      sb_json_object_end(json);
+    }
+    sb_json_array_end(json);
+    sb_json_object_end(json);
+  }
+  sb_json_array_end(json);
+}
+
+static void put_table(SbJson *json, const SbStudy *study) {
+  sb_json_object(json, "table");
+  sb_json_string(json, "heading", study->row_heading);
+  sb_json_array(json, "columns");
+  for (size_t k = 0; k < study->column_count; k++) {
+    sb_json_object(json, NULL);
+    sb_json_string(json, "name", study->column[k].name);
+    sb_json_string(json, "unit", study->column[k].si);
+    sb_json_object_end(json);
+  }
+  sb_json_array_end(json);
+  sb_json_array(json, "rows");
+  for (size_t r = 0; r < study->row_count; r++) {
+    const SbStudyRow *row = &study->row[r];
+    sb_json_object(json, NULL);
+    sb_json_string(json, "name", row->name);
+    sb_json_string(json, "unit", row->si[0] != '\0' ? row->si : NULL);
+    sb_json_numbers(json, "values", row->value, study->column_count);
+    sb_json_object_end(json);
+  }
+  sb_json_array_end(json);
+  sb_json_object_end(json);
+}
+
+void sb_json_study(SbJson *json, const SbStudy *study) {
+  sb_json_object(json, NULL);
+  sb_json_string(json, "name", sb_study_name(study->kind));
+  sb_json_string(json, "title", sb_study_title(study->kind));
+  sb_json_string(json, "models", study->models);
+  sb_json_string(json, "validity", study->validity);
+  sb_json_number(json, "error_estimate", study->error);
+  sb_json_bool(json, "complete", study->complete);
+  sb_json_count(json, "solves", study->solves);
+  put_axis(json, "x", &study->x);
+  put_panels(json, study);
+  put_table(json, study);
+  sb_json_array(json, "marks");
+  for (size_t i = 0; i < study->mark_count; i++) {
+    sb_json_object(json, NULL);
+    sb_json_number(json, "x", study->mark[i].x);
+    sb_json_string(json, "text", study->mark[i].text);
+    sb_json_object_end(json);
+  }
+  sb_json_array_end(json);
+  sb_json_array(json, "notes");
+  for (size_t i = 0; i < study->note_count; i++) {
+    sb_json_string(json, NULL, study->note[i]);
+  }
+  sb_json_array_end(json);
+  sb_json_warnings(json, &study->warnings);
+  sb_json_object_end(json);
+}

@@ -1,0 +1,193 @@
+// The table of studies and the pieces that they are made of.
+#include "engine/study/study.h"
+
+#include "engine/study/study_private.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct {
+  const char *name, *title, *help;
+  SbStatus (*make)(SbStudy *out, const SbModel *model, const SbStudyHooks *hooks, SbReport *report);
+  double (*cost)(const SbModel *model);
+} Entry;
+
+static const Entry entries[SB_STUDY_COUNT] = {
+#define SB_STUDY_ENTRY(code, function, name, title, help)                                          \
+  [code] = {name, title, help, sb_study_##function, sb_study_##function##_cost},
+    SB_STUDY_LIST(SB_STUDY_ENTRY)
+#undef SB_STUDY_ENTRY
+};
+
+static const Entry *find(SbStudyKind kind) {
+  return (unsigned)kind < SB_STUDY_COUNT ? &entries[kind] : NULL;
+}
+
+const char *sb_study_name(SbStudyKind kind) {
+  const Entry *entry = find(kind);
+  return entry != NULL ? entry->name : NULL;
+}
+
+const char *sb_study_title(SbStudyKind kind) {
+  const Entry *entry = find(kind);
+  return entry != NULL ? entry->title : NULL;
+}
+
+const char *sb_study_help(SbStudyKind kind) {
+  const Entry *entry = find(kind);
+  return entry != NULL ? entry->help : NULL;
+}
+
+bool sb_study_from_name(SbStudyKind *out, const char *name) {
+  for (int i = 0; i < SB_STUDY_COUNT; i++) {
+    if (strcmp(entries[i].name, name) == 0) {
+      *out = (SbStudyKind)i;
+      return true;
+    }
+  }
+  return false;
+}
+
+double sb_study_cost(SbStudyKind kind, const SbModel *model) {
+  const Entry *entry = find(kind);
+  return entry != NULL ? entry->cost(model) : 0;
+}
+
+SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
+                       const SbStudyHooks *hooks, SbReport *report) {
+  const Entry *entry = find(kind);
+  memset(out, 0, sizeof *out);
+  if (entry == NULL) {
+    return sb_fail(report, SB_ERROR_INPUT, "there is no study %d", (int)kind);
+  }
+  out->kind = kind;
+  out->complete = true;
+  SbStatus status = sb_study_step(hooks, 0, report);
+  if (status == SB_OK) {
+    status = entry->make(out, model, hooks, report);
+  }
+  if (status == SB_OK) {
+    status = sb_study_step(hooks, 1, report);
+  }
+  return status;
+}
+
+// ---- building blocks ----
+
+// Index for one more; the last one again when all are taken (a test holds that no study needs it).
+static size_t next(size_t *count, size_t capacity) {
+  return *count < capacity ? (*count)++ : capacity - 1;
+}
+
+void sb_study_axis(SbStudyAxis *out, const char *quantity, const char *si, const char *unit,
+                   bool logarithmic) {
+  snprintf(out->quantity, sizeof out->quantity, "%s", quantity);
+  snprintf(out->si, sizeof out->si, "%s", si);
+  snprintf(out->unit, sizeof out->unit, "%s", unit);
+  out->logarithmic = logarithmic;
+}
+
+SbStudyPanel *sb_study_panel(SbStudy *out, const char *quantity, const char *si, const char *unit,
+                             bool logarithmic) {
+  SbStudyPanel *panel = &out->panel[next(&out->panel_count, SB_STUDY_PANELS)];
+  sb_study_axis(&panel->y, quantity, si, unit, logarithmic);
+  return panel;
+}
+
+SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const char *format, ...) {
+  SbStudySeries *series = &panel->series[next(&panel->series_count, SB_STUDY_SERIES)];
+  series->style = style;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(series->name, sizeof series->name, format, arguments);
+  va_end(arguments);
+  return series;
+}
+
+void sb_study_column(SbStudy *out, const char *name, const char *si, const char *unit) {
+  SbStudyColumn *column = &out->column[next(&out->column_count, SB_STUDY_COLUMNS)];
+  snprintf(column->name, sizeof column->name, "%s", name);
+  snprintf(column->si, sizeof column->si, "%s", si);
+  snprintf(column->unit, sizeof column->unit, "%s", unit);
+}
+
+SbStudyRow *sb_study_row(SbStudy *out, const char *si, const char *unit, const char *format, ...) {
+  SbStudyRow *row = &out->row[next(&out->row_count, SB_STUDY_ROWS)];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(row->name, sizeof row->name, format, arguments);
+  va_end(arguments);
+  snprintf(row->si, sizeof row->si, "%s", si != NULL ? si : "");
+  snprintf(row->unit, sizeof row->unit, "%s", si != NULL ? unit : "");
+  for (size_t i = 0; i < SB_STUDY_COLUMNS; i++) {
+    row->value[i] = NAN;
+  }
+  return row;
+}
+
+void sb_study_point(SbStudySeries *series, double x, double y) {
+  if (series->count < SB_STUDY_POINTS) {
+    series->x[series->count] = x;
+    series->y[series->count++] = y;
+  }
+}
+
+void sb_study_mark(SbStudy *out, double x, const char *format, ...) {
+  SbStudyMark *mark = &out->mark[next(&out->mark_count, SB_STUDY_MARKS)];
+  mark->x = x;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(mark->text, sizeof mark->text, format, arguments);
+  va_end(arguments);
+}
+
+void sb_study_note(SbStudy *out, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(out->note[next(&out->note_count, SB_STUDY_NOTES)], sizeof out->note[0], format,
+            arguments);
+  va_end(arguments);
+}
+
+SbStatus sb_study_step(const SbStudyHooks *hooks, double fraction, SbReport *report) {
+  if (hooks != NULL && hooks->progress != NULL) {
+    hooks->progress(hooks->data, fraction);
+  }
+  if (hooks != NULL && hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
+    return sb_fail(report, SB_ERROR_CANCELLED, "the study was cancelled");
+  }
+  return sb_succeed(report);
+}
+
+SbStatus sb_study_fit(SbStudy *out, SbFit *fit, const SbFitProblem *problem,
+                      const SbStudyHooks *hooks, SbReport *report) {
+  SbFitProblem copy = *problem;
+  if (hooks != NULL) {
+    copy.cancel = hooks->cancelled;
+    copy.cancel_data = hooks->data;
+  }
+  SbReport local = {0};
+  SbStatus status = sb_fit_solve(fit, &copy, &local);
+  bool solver =
+      copy.model == SB_FIT_RING || copy.model == SB_FIT_DISC || copy.model == SB_FIT_DISC_THESIS;
+  out->solves += solver ? 1 : 0;
+  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    if (report != NULL) {
+      *report = local;
+    }
+    return status;
+  }
+  if (status != SB_OK) {
+    fit->load = fit->load_per_length = fit->pressure_peak = fit->contact_width = NAN;
+    char code[48];
+    snprintf(code, sizeof code, "study-gap-%s", sb_fit_model_name(copy.model));
+    sb_warn(&out->warnings, code, local.parameter, "%s has no value at some points: %s",
+            sb_fit_model_name(copy.model), local.text);
+    out->complete = out->complete && status != SB_ERROR_NOT_CONVERGED;
+  } else if (solver) {
+    out->error = fmax(out->error, fit->solver.error_estimate.load);
+  }
+  return sb_succeed(report);
+}

@@ -1,0 +1,189 @@
+// Pictures and tables of studies: golden pictures with partners that must fail, the CSV and the
+// layout.
+#include "tests/app/picture.h"
+
+#include "app/chart/study.h"
+#include "app/export/studies.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+// A study of known shape: three curves that end apart, a gap, dots, logarithmic and linear panels,
+// a mark, a table. `factor` scales one curve.
+static SbStudy *synthetic(double factor) {
+  SbStudy *study = g_new0(SbStudy, 1);
+  study->kind = SB_STUDY_SQUEEZE;
+  study->complete = true;
+  study->x = (SbStudyAxis){"sliding speed", "m/s", "mm/s", true};
+  study->panel_count = 2;
+  study->panel[0].y = (SbStudyAxis){"film", "m", "nm", true};
+  study->panel[1].y = (SbStudyAxis){"load", "N", "N", false};
+  static const struct {
+    const char *name;
+    SbStudyStyle style;
+    double scale, power;
+  } curves[] = {{"solved", SB_STUDY_CURVE, 1, 0.6},
+                {"half as strong", SB_STUDY_CURVE, 0.5, 0.6},
+                {"a law", SB_STUDY_REFERENCE, 1.1, 0.65},
+                {"measured", SB_STUDY_DOTS, 1.05, 0.6}};
+  for (size_t p = 0; p < 2; p++) {
+    study->panel[p].series_count = G_N_ELEMENTS(curves);
+    for (size_t s = 0; s < G_N_ELEMENTS(curves); s++) {
+      SbStudySeries *series = &study->panel[p].series[s];
+      g_strlcpy(series->name, curves[s].name, sizeof series->name);
+      series->style = curves[s].style;
+      series->count = curves[s].style == SB_STUDY_DOTS ? 5 : 41;
+      for (size_t i = 0; i < series->count; i++) {
+        double t = (double)i / (double)(series->count - 1);
+        double speed = 1e-4 * pow(1e3, t);
+        double y = curves[s].scale * pow(speed / 1e-3, curves[s].power) * (s == 0 ? factor : 1);
+        series->x[i] = speed;
+        series->y[i] = p == 0 ? 5e-9 * y : 3 + y;
+      }
+    }
+  }
+  // The law ends early and has a hole.
+  for (size_t i = 28; i < 41; i++) {
+    study->panel[1].series[2].y[i] = NAN;
+  }
+  study->panel[1].series[2].y[10] = NAN;
+  study->mark_count = 1;
+  study->mark[0] = (SbStudyMark){1e-3, "test"};
+  g_strlcpy(study->row_heading, "case", sizeof study->row_heading);
+  study->column_count = 3;
+  study->column[0] = (SbStudyColumn){"load", "N", "N"};
+  study->column[1] = (SbStudyColumn){"load against ring", "1", "%"};
+  study->column[2] = (SbStudyColumn){"contact width of the whole ring", "m", "mm"};
+  study->row_count = 3;
+  study->row[0] = (SbStudyRow){"first", "", "", {12.395, 0.0831, 0.8886e-3}};
+  study->row[1] = (SbStudyRow){"second", "", "", {-4.37, -0.2, NAN}};
+  study->row[2] = (SbStudyRow){"U*", "1", "", {1.57994e-7, 0, 3.2e7}};
+  g_strlcpy(study->models, "solved, a law", sizeof study->models);
+  g_strlcpy(study->validity, "everywhere that it was drawn", sizeof study->validity);
+  study->error = 1.2e-3;
+  study->note_count = 1;
+  g_strlcpy(study->note[0], "A note on what the numbers say.", sizeof study->note[0]);
+  sb_warn(&study->warnings, "test", "", "the law is used outside its range");
+  return study;
+}
+
+static cairo_surface_t *draw(const SbStudy *study, int width, int height, bool dark) {
+  cairo_surface_t *surface = picture_new(width, height, 1);
+  cairo_t *cr = cairo_create(surface);
+  SbStudyPage page = {
+      .title = "Synthetic", .subtitle = "a.scene", .hash = "0123456789abcdef", .dark = dark};
+  sb_study_page_draw(cr, (SbRect){0, 0, width, height}, study, &page);
+  cairo_destroy(cr);
+  return surface;
+}
+
+static void test_pictures(void) {
+  SbStudy *study = synthetic(1), *wrong = synthetic(1.02);
+  for (int dark = 0; dark < 2; dark++) {
+    const char *name = dark ? "study-dark" : "study";
+    cairo_surface_t *good = draw(study, 1280, 720, dark), *bad = draw(wrong, 1280, 720, dark);
+    picture_check(good, name);
+    g_assert_true(picture_rejects(bad, name));
+    cairo_surface_destroy(good);
+    cairo_surface_destroy(bad);
+  }
+  g_free(wrong);
+  // Small and without anything at all: no crash, still a picture.
+  cairo_surface_t *small = draw(study, 320, 240, false);
+  g_assert_cmpint(cairo_surface_status(small), ==, CAIRO_STATUS_SUCCESS);
+  picture_show(small, "study-small");
+  cairo_surface_destroy(small);
+  memset(study, 0, sizeof *study);
+  cairo_surface_t *empty = draw(study, 640, 480, true);
+  g_assert_cmpint(cairo_surface_status(empty), ==, CAIRO_STATUS_SUCCESS);
+  cairo_surface_destroy(empty);
+  g_free(study);
+}
+
+// The text for eyes that cannot see: digits, signs, powers, units.
+static void test_text(void) {
+  SbStudy *study = synthetic(1);
+  g_autofree char *text = sb_study_text(study);
+  g_assert_nonnull(strstr(text, "case\tload / N\tload against ring / %"));
+  g_assert_nonnull(strstr(text, "first\t12.4\t+8.31\t0.889\n"));
+  g_assert_nonnull(strstr(text, "second\t\xe2\x88\x92"
+                                "4.37\t\xe2\x88\x92"
+                                "20.0\t\xe2\x80\x93\n"));
+  g_assert_nonnull(strstr(text, "1.58\xc2\xb7"
+                                "10\xe2\x81\xbb\xe2\x81\xb7"));
+  g_free(study);
+}
+
+static char *written(void (*put)(FILE *, const SbStudy *), const SbStudy *study) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *stream = open_memstream(&text, &size);
+  put(stream, study);
+  fclose(stream);
+  return text;
+}
+
+static void test_tables(void) {
+  SbStudy *study = synthetic(1);
+  char *csv = written(sb_csv_study, study);
+  g_assert_true(g_str_has_prefix(csv, "panel,unit,series,sliding speed [m/s],value\n"
+                                      "film,m,solved,0.0001,"));
+  g_auto(GStrv) lines = g_strsplit(csv, "\n", -1);
+  // Two panels of 3 x 41 + 5 points, less 14 gaps, and the heading.
+  g_assert_cmpuint(g_strv_length(lines), ==, 2 * (3 * 41 + 5) - 14 + 1 + 1);
+  g_assert_null(strstr(csv, "nan"));
+  free(csv);
+  csv = written(sb_csv_study_table, study);
+  g_assert_cmpstr(csv, ==,
+                  "case,unit of the row,load [N],load against ring [1],contact width of the whole "
+                  "ring [m]\n"
+                  "first,,12.395,0.0831,0.0008886\n"
+                  "second,,-4.37,-0.2,\n"
+                  "U*,1,1.57994e-07,0,32000000\n");
+  free(csv);
+  g_free(study);
+}
+
+// Nothing of a page lies over anything else, whatever the number of panels.
+static void test_layout(void) {
+  SbStudy *study = synthetic(1);
+  for (size_t panels = 0; panels <= SB_STUDY_PANELS; panels++) {
+    for (int wide = 0; wide < 2; wide++) {
+      study->panel_count = panels;
+      SbRect rect = {10, 20, wide ? 1500 : 500, wide ? 500 : 900};
+      SbStudyLayout layout;
+      sb_study_layout(&layout, rect, study);
+      SbRect parts[SB_STUDY_PANELS + 2];
+      size_t count = 0;
+      for (size_t i = 0; i < panels; i++) {
+        parts[count++] = layout.panel[i];
+      }
+      parts[count++] = layout.table;
+      parts[count++] = layout.notes;
+      for (size_t i = 0; i < count; i++) {
+        g_assert_cmpfloat(parts[i].x, >=, rect.x);
+        g_assert_cmpfloat(parts[i].y, >=, rect.y);
+        g_assert_cmpfloat(parts[i].x + parts[i].width, <=, rect.x + rect.width + 1e-9);
+        g_assert_cmpfloat(parts[i].y + parts[i].height, <=, rect.y + rect.height + 1e-9);
+        for (size_t k = 0; k < i; k++) {
+          bool apart = parts[i].x >= parts[k].x + parts[k].width ||
+                       parts[k].x >= parts[i].x + parts[i].width ||
+                       parts[i].y >= parts[k].y + parts[k].height ||
+                       parts[k].y >= parts[i].y + parts[i].height;
+          g_assert_true(apart);
+        }
+      }
+    }
+  }
+  g_free(study);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/study/pictures", test_pictures);
+  g_test_add_func("/study/text", test_text);
+  g_test_add_func("/study/tables", test_tables);
+  g_test_add_func("/study/layout", test_layout);
+  return g_test_run();
+}
