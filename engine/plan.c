@@ -119,6 +119,7 @@ void sb_plan_make(SbPlan *out, const SbModel *model) {
   *out = (SbPlan){0};
   if (model->motion == SB_MODEL_MOTION_RIG) {
     plan_rig(out, model);
+    plan_studies(out, model);
     return;
   }
   plan_fit(out, model);
