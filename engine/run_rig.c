@@ -99,14 +99,13 @@ static void compare_contact(SbRun *run) {
     return;
   }
   double share = sb_gt_area_share(model->gt_product, integrals.F2);
-  out->contact_coefficient = sb_rig_contact_coefficient(
-      model->rig.load, ring->inner_diameter + ring->section_diameter, ring->radius,
-      ring->reduced_modulus, share, model->shear_strength, model->load_coefficient);
-  // (mu - m) falls as 1/sqrt(W).
-  double adhesive = out->contact_coefficient - model->load_coefficient;
-  double wanted = model->rig.coefficient - model->load_coefficient;
-  if (wanted > 0) {
-    out->contact_load = model->rig.load * adhesive * adhesive / (wanted * wanted);
+  out->contact_coefficient =
+      sb_rig_contact_coefficient(model->rig.load, ring->inner_diameter + ring->section_diameter,
+                                 ring->radius, ring->reduced_modulus, share, model->shear_strength);
+  // It falls as 1/sqrt(W).
+  if (model->rig.coefficient > 0) {
+    double ratio = out->contact_coefficient / model->rig.coefficient;
+    out->contact_load = model->rig.load * ratio * ratio;
   }
 }
 

@@ -6,6 +6,8 @@
 #include "app/chart/format.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/profiles.h"
+#include "app/chart/rig.h"
+#include "app/chart/signal.h"
 #include "ui/canvas_area.h"
 #include "ui/picture.h"
 #include "ui/style.h"
@@ -47,15 +49,16 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
   SbColor ground = theme->role[SB_ROLE_PANEL];
   cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
   cairo_paint(cr);
+  bool rig = sb_chart_is_rig(&data->run);
   switch (view->kind) {
   case SB_CHART_VIEW_LOOP:
-    sb_hysteresis_draw(cr, rect, theme, data, SB_CHART_COMPACT);
+    (rig ? sb_signal_draw : sb_hysteresis_draw)(cr, rect, theme, data, SB_CHART_COMPACT);
     break;
   case SB_CHART_VIEW_PRESSURE:
-    sb_profiles_pressure_draw(cr, rect, theme, data, SB_CHART_COMPACT);
+    (rig ? sb_rig_scale_draw : sb_profiles_pressure_draw)(cr, rect, theme, data, SB_CHART_COMPACT);
     break;
   case SB_CHART_VIEW_FILM:
-    sb_profiles_film_draw(cr, rect, theme, data, SB_CHART_COMPACT);
+    (rig ? sb_rig_reasons_draw : sb_profiles_film_draw)(cr, rect, theme, data, SB_CHART_COMPACT);
     break;
   }
 }
@@ -67,6 +70,25 @@ static void describe_loop(SbSession *session, GString *text) {
   char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
   if (data->run.count == 0) {
     g_string_append(text, "No run yet.");
+    return;
+  }
+  if (sb_chart_is_rig(&data->run)) {
+    const SbSummary *ended = data->run.summary;
+    if (ended != NULL && ended->rig.found) {
+      g_string_append_printf(
+          text, "Sliding plate: break-away %s, static coefficient %s, ",
+          sb_format_text(a, SB_QUANTITY_FORCE, ended->force_breakaway, 0),
+          sb_format_text(b, SB_QUANTITY_NUMBER, ended->rig.of.static_coefficient, 0));
+      g_string_append_printf(
+          text, "dynamic %s from %zu peaks, ",
+          sb_format_text(a, SB_QUANTITY_NUMBER, ended->rig.of.dynamic_coefficient, 0),
+          ended->rig.of.peaks);
+      g_string_append_printf(
+          text, "of the mean force %s, thesis 0.51 measured and 0.4 predicted, ",
+          sb_format_text(a, SB_QUANTITY_NUMBER, ended->rig.of.mean_coefficient, 0));
+    }
+    g_autofree char *now = sb_session_where(session);
+    g_string_append_printf(text, "now %s.", now);
     return;
   }
   const SbStageMark *marks = sb_trace_marks(data->run.trace);
@@ -120,12 +142,18 @@ static void describe_contacts(SbSession *session, SbChartViewKind kind, GString 
 static gboolean describe(gpointer data) {
   View *view = data;
   g_autoptr(GString) text = g_string_new(NULL);
+  const SbChartRun *run = &sb_session_chart(view->session)->run;
+  const char *name = kinds[view->kind].name;
   if (view->kind == SB_CHART_VIEW_LOOP) {
     describe_loop(view->session, text);
+  } else if (sb_chart_is_rig(run)) {
+    name = view->kind == SB_CHART_VIEW_PRESSURE ? "Friction over load" : "Why they differ";
+    g_autofree char *reasons = sb_rig_reasons_text(run);
+    g_string_append(text, reasons);
   } else {
     describe_contacts(view->session, view->kind, text);
   }
-  sb_style_name(view->area, kinds[view->kind].name, text->str);
+  sb_style_name(view->area, name, text->str);
   view->describe = 0;
   return G_SOURCE_REMOVE;
 }
@@ -152,8 +180,12 @@ char *sb_chart_view_table(SbSession *session) {
 
 static gboolean scrub(View *view, double x, double y, double reach) {
   size_t frame = 0;
-  if (!sb_hysteresis_hit(&frame, whole(view->area), sb_session_chart(view->session),
-                         SB_CHART_COMPACT, x, y, reach)) {
+  const SbChartData *data = sb_session_chart(view->session);
+  gboolean hit =
+      sb_chart_is_rig(&data->run)
+          ? sb_signal_hit(&frame, whole(view->area), data, SB_CHART_COMPACT, x, y)
+          : sb_hysteresis_hit(&frame, whole(view->area), data, SB_CHART_COMPACT, x, y, reach);
+  if (!hit) {
     return FALSE;
   }
   sb_session_play(view->session, FALSE);

@@ -5,7 +5,7 @@
 // moves it.
 #include "ui/section_view.h"
 
-#include "app/chart/theme.h"
+#include "app/chart/rig.h"
 #include "app/section/draw_cairo.h"
 #include "app/section/gl_renderer.h"
 #include "app/section/section.h"
@@ -186,13 +186,19 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   SbColor ground = theme->role[SB_ROLE_PANEL];
   cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
   cairo_paint(cr);
+  const SbChartData *data = sb_session_chart(view->session);
+  if (sb_chart_is_rig(&data->run)) {
+    // No valve to cut: the plate itself.
+    SbRect rect = {MARGIN, 14, fmax(area_width - 2 * MARGIN, 1), fmax(area_height - 28, 1)};
+    sb_rig_plate_draw(cr, rect, theme, data, SB_CHART_COMPACT);
+    return;
+  }
   const SbFrame *frame = prepare(view);
   if (frame == NULL) {
     return;
   }
   double width = area_width - 2 * MARGIN;
   double height = area_height;
-  const SbChartData *data = sb_session_chart(view->session);
   gboolean ran = sb_session_run(view->session) != NULL;
   // A wide picture has the forces in its own column.
   double top = 14;
@@ -238,9 +244,11 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
 static gboolean describe(gpointer data) {
   View *view = data;
   g_autofree char *where = sb_session_where(view->session);
-  g_autofree char *text = where[0] != '\0'
-                              ? g_strdup_printf("Axial section of the valve, %s", where)
-                              : g_strdup("Axial section of the valve at rest");
+  const char *what = sb_chart_is_rig(&sb_session_chart(view->session)->run)
+                         ? "Sliding plate on its rings"
+                         : "Axial section of the valve";
+  g_autofree char *text = where[0] != '\0' ? g_strdup_printf("%s, %s", what, where)
+                                           : g_strdup("Axial section of the valve at rest");
   sb_style_name(view->area, "Section", text);
   view->describe = 0;
   return G_SOURCE_REMOVE;

@@ -518,7 +518,7 @@ char *sb_session_where(SbSession *session) {
     return g_strdup("");
   }
   // On the frame of an event its letter; in between the two letters.
-  const char *stage = sb_chart_span(frame->stage);
+  const char *stage = sb_chart_span(&session->chart.run, frame->stage);
   const SbStageMark *marks = sb_trace_marks(session->shown->trace);
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
     if (marks[i].reached && marks[i].frame == session->playhead.frame) {

@@ -46,7 +46,9 @@ static void refresh_models(Bar *bar) {
   g_autofree char *surface = choice_name(SB_P_MODELS_SURFACE, (int)model->surface);
   g_autofree char *motion = choice_name(SB_P_MODELS_MOTION, (int)model->motion);
   g_autofree char *text =
-      g_strdup_printf("fit %s, film %s, surface %s, motion %s", fit, film, surface, motion);
+      model->motion == SB_MODEL_MOTION_RIG
+          ? g_strdup_printf("motion %s", motion)
+          : g_strdup_printf("fit %s, film %s, surface %s, motion %s", fit, film, surface, motion);
   gtk_label_set_text(GTK_LABEL(bar->models), text);
 }
 

@@ -165,6 +165,20 @@ double sb_canvas_text_fit(SbCanvas *canvas, const char *text, const SbTextStyle 
   return natural;
 }
 
+double sb_canvas_paragraph(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
+                           double y, double width) {
+  shape(canvas, text, style);
+  pango_layout_set_width(canvas->layout, (int)(fmax(width, 40) * PANGO_SCALE));
+  pango_layout_set_wrap(canvas->layout, PANGO_WRAP_WORD_CHAR);
+  sb_canvas_color(canvas, style->color, alpha_of(style));
+  cairo_move_to(canvas->cr, x, y);
+  pango_cairo_show_layout(canvas->cr, canvas->layout);
+  cairo_new_path(canvas->cr);
+  PangoRectangle logical;
+  pango_layout_get_extents(canvas->layout, NULL, &logical);
+  return logical.height / (double)PANGO_SCALE;
+}
+
 void sb_canvas_rounded(SbCanvas *canvas, SbRect rect, double radius) {
   cairo_t *cr = canvas->cr;
   double x0 = rect.x, y0 = rect.y, x1 = rect.x + rect.width, y1 = rect.y + rect.height;

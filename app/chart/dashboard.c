@@ -5,6 +5,7 @@
 #include "app/chart/hysteresis.h"
 #include "app/chart/page.h"
 #include "app/chart/profiles.h"
+#include "app/chart/rig.h"
 #include "app/chart/timeline.h"
 
 #include <math.h>
@@ -52,6 +53,20 @@ void sb_dashboard_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   cairo_fill(cr);
 
   sb_page_header_draw(cr, at.page, theme, data, flags);
+  if (sb_chart_is_rig(&data->run)) {
+    // No valve to cut: the signal takes the section's place, the plate the lower panels'.
+    SbRect lower = at.pressure;
+    lower.width = at.film.x + at.film.width - lower.x;
+    SbRect upper = at.loop;
+    upper.x = section ? at.section.x : at.loop.x;
+    upper.width = at.loop.x + at.loop.width - upper.x;
+    sb_rig_page_draw(cr, upper, theme, data, flags);
+    sb_rig_plate_draw(cr, lower, theme, data, flags);
+    sb_timeline_draw(cr, at.timeline, theme, data, flags);
+    sb_page_footer_draw(cr, at.page, theme, data, flags);
+    cairo_restore(cr);
+    return;
+  }
   if (section) {
     SbCanvas canvas;
     sb_canvas_init(&canvas, cr, theme);

@@ -16,12 +16,32 @@ const SbFrame *sb_chart_frame(const SbChartData *data) {
                                                                                           : NULL;
 }
 
+size_t sb_chart_nearest(const SbChartRun *run, double time) {
+  size_t lo = 0, hi = run->count - 1;
+  while (lo < hi) {
+    size_t mid = lo + (hi - lo) / 2;
+    if (run->frames[mid].time < time) {
+      lo = mid + 1;
+    } else {
+      hi = mid;
+    }
+  }
+  return lo > 0 && time - run->frames[lo - 1].time < run->frames[lo].time - time ? lo - 1 : lo;
+}
+
+bool sb_chart_is_rig(const SbChartRun *run) {
+  return run && run->model && run->model->motion == SB_MODEL_MOTION_RIG;
+}
+
 bool sb_chart_complete(const SbChartData *data) {
   return data->run.state == SB_CHART_DONE && data->run.trace &&
          sb_trace_frames(data->run.trace) >= data->run.count;
 }
 
 const char *sb_chart_phase(const SbChartRun *run, int stage) {
+  if (sb_chart_is_rig(run)) {
+    return stage == SB_STAGE_A ? "force builds up" : "sticks and slips";
+  }
   // Whether the inner seal touches at all is the run's own business: look at its frames.
   bool inner = true, outer = true;
   if (run->trace && stage >= 0 && stage < SB_STAGE_COUNT) {
@@ -55,7 +75,10 @@ const char *sb_chart_phase(const SbChartRun *run, int stage) {
   }
 }
 
-const char *sb_chart_span(int stage) {
+const char *sb_chart_span(const SbChartRun *run, int stage) {
+  if (sb_chart_is_rig(run) && stage == SB_STAGE_B) {
+    return "B";
+  }
   static const char *const spans[SB_STAGE_COUNT] = {"A\xe2\x80\x93"
                                                     "B",
                                                     "B\xe2\x80\x93"
@@ -118,10 +141,23 @@ char *sb_chart_summary(const SbChartData *data) {
 
   // The instant.
   double force_error = sb_chart_error_force(run), film_error = sb_chart_error_film(run);
-  g_string_append_printf(out, "Stage %s, %s:", sb_chart_span(f->stage),
+  g_string_append_printf(out, "Stage %s, %s:", sb_chart_span(run, f->stage),
                          sb_chart_phase(run, f->stage));
   say(out, "", SB_QUANTITY_TIME, f->time, 0);
   say(out, ", displacement", SB_QUANTITY_LENGTH, f->displacement, 0);
+  if (sb_chart_is_rig(run)) {
+    say(out, ", force in the thread", SB_QUANTITY_FORCE, f->force, force_error);
+    g_string_append(out, ".");
+    if (run->summary && run->summary->rig.found && sb_chart_complete(data)) {
+      const SbRigCoefficients *of = &run->summary->rig.of;
+      say(out, " Static coefficient", SB_QUANTITY_NUMBER, of->static_coefficient, 0);
+      say(out, ", dynamic", SB_QUANTITY_NUMBER, of->dynamic_coefficient, 0);
+      say(out, " (mean of the peaks), of the mean force", SB_QUANTITY_NUMBER, of->mean_coefficient,
+          0);
+      g_string_append(out, "; the thesis measured 0.51 and predicted 0.4.");
+    }
+    return g_string_free(out, FALSE);
+  }
   say(out, ", force on the stem", SB_QUANTITY_FORCE, f->force, force_error);
   say(out, ", pressure force", SB_QUANTITY_FORCE, f->pressure_force, 0);
   g_string_append(out, ".");

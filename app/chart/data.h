@@ -62,14 +62,21 @@ enum {
 // (an engine's defect: the views then show the run without *now*).
 const SbFrame *sb_chart_frame(const SbChartData *data);
 
+// Frame nearest to a time [s]; the run must have frames.
+size_t sb_chart_nearest(const SbChartRun *run, double time);
+
+// Whether the run (NULL: no) is of the sliding-plate rig rather than of a valve.
+bool sb_chart_is_rig(const SbChartRun *run);
+
 // The whole run is readable: done, and the trace has caught up.
 bool sb_chart_complete(const SbChartData *data);
 
 // What happens after stage `stage` until the next: "both seals slide".
 const char *sb_chart_phase(const SbChartRun *run, int stage);
 
-// "B-C" with an en dash: the stage a frame is in and the next.
-const char *sb_chart_span(int stage);
+// "B-C" with an en dash: the stage a frame is in and the next; "B" where none follows. `run` may be
+// NULL: a valve.
+const char *sb_chart_span(const SbChartRun *run, int stage);
 
 // Fills a view of a run that the caller keeps. The trace is the caller's; the summary is read only
 // once the run has ended.

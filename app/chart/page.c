@@ -23,7 +23,9 @@ static void append_choice(GString *out, const char *label, SbParamId id, int ind
 void sb_page_models_text(char *out, size_t size, const SbChartRun *run) {
   g_autoptr(GString) text = g_string_new(NULL);
   const SbModel *m = run->model;
-  if (m) {
+  if (m && m->motion == SB_MODEL_MOTION_RIG) {
+    append_choice(text, "motion", SB_P_MODELS_MOTION, (int)m->motion);
+  } else if (m) {
     append_choice(text, "fit", SB_P_MODELS_FIT, m->fit);
     append_choice(text, "film", SB_P_MODELS_FILM, (int)m->film);
     append_choice(text, "surface", SB_P_MODELS_SURFACE, (int)m->surface);
@@ -39,6 +41,12 @@ void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run) {
     return;
   }
   char pressure[SB_FORMAT_MAX], speed[SB_FORMAT_MAX], map[64];
+  if (m->motion == SB_MODEL_MOTION_RIG) {
+    g_snprintf(out, size, "load %s" DOT "thread %s" DOT "%.4g samples a second",
+               sb_format_given(pressure, SB_QUANTITY_FORCE, m->rig.load),
+               sb_format_given(speed, SB_QUANTITY_SPEED, m->rig.speed), m->rig.rate);
+    return;
+  }
   sb_format_given(pressure, SB_QUANTITY_PRESSURE, m->canister_pressure);
   if (m->drive != SB_MODEL_DRIVE_MACHINE) {
     // A speed belongs to the machine only.
@@ -168,7 +176,9 @@ void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   if (frame) {
     SbFormatted f;
     sb_format(&f, SB_QUANTITY_FORCE, frame->force, sb_chart_error_force(&data->run));
-    double x = readout(c, right, y, f.number, f.unit, "00.0", "force on the stem", SB_ROLE_INK);
+    double x = readout(c, right, y, f.number, f.unit, "00.0",
+                       sb_chart_is_rig(&data->run) ? "force in the thread" : "force on the stem",
+                       SB_ROLE_INK);
     // Place and time get a fixed number of decimals: digits that come and go distract.
     char number[SB_FORMAT_MAX];
     sb_format_fixed(number, frame->displacement * 1e3, 2);
@@ -177,7 +187,7 @@ void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
     sb_format_fixed(number, frame->time, duration < 1 ? 4 : duration < 200 ? 2 : 1);
     x = readout(c, x - 42, y, number, "s", "00.00", "time", SB_ROLE_INK);
     double x_time = x - 42;
-    free_right = readout(c, x_time, y, sb_chart_span(frame->stage), "",
+    free_right = readout(c, x_time, y, sb_chart_span(&data->run, frame->stage), "",
                          "B\xe2\x80\x93"
                          "C",
                          sb_chart_phase(&data->run, frame->stage), SB_ROLE_NOW);

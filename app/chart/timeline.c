@@ -17,8 +17,8 @@ static double duration_of(const SbChartData *data) {
   if (whole && run->summary->duration > 0) {
     return fmax(known, run->summary->duration);
   }
-  double expected = 0;
-  if (m && m->speed > 0 && m->stiffness > 0) {
+  double expected = sb_chart_is_rig(run) ? m->rig.duration : 0;
+  if (expected == 0 && m && m->speed > 0 && m->stiffness > 0) {
     expected = 2 * (m->stroke + m->reversal_force / m->stiffness) / m->speed;
   }
   double longest = fmax(known, expected);
@@ -35,20 +35,7 @@ bool sb_timeline_hit(size_t *frame, SbRect rect, const SbChartData *data, double
     return false;
   }
   SbScale scale = sb_timeline_scale(rect, data);
-  double time = sb_axis_value(&scale, x);
-  size_t lo = 0, hi = run->count - 1;
-  while (lo < hi) {
-    size_t mid = lo + (hi - lo) / 2;
-    if (run->frames[mid].time < time) {
-      lo = mid + 1;
-    } else {
-      hi = mid;
-    }
-  }
-  if (lo > 0 && time - run->frames[lo - 1].time < run->frames[lo].time - time) {
-    lo--;
-  }
-  *frame = lo;
+  *frame = sb_chart_nearest(run, sb_axis_value(&scale, x));
   return true;
 }
 
@@ -156,7 +143,7 @@ static void draw_events(View *v) {
     }
   }
   double end = now > right - 20 ? fmin(right, now - 8) : right;
-  if (sb_chart_complete(v->data) && taken < end - 12) {
+  if (sb_chart_complete(v->data) && !sb_chart_is_rig(&v->data->run) && taken < end - 12) {
     sb_canvas_text(c, "A", &letter, end, v->top - 7, SB_RIGHT);
   }
 }
@@ -294,7 +281,7 @@ void sb_timeline_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCh
   draw_axis(&v);
   if (any) {
     double stroke = sb_trace_range(data->run.trace).displacement_max;
-    if (data->run.model) {
+    if (data->run.model && !sb_chart_is_rig(&data->run)) {
       stroke = fmax(stroke, data->run.model->stroke);
     }
     v.s = (SbScale){0, stroke > 0 ? stroke : 1, v.bottom - 4, v.top + 6, false};

@@ -11,6 +11,7 @@ enum { POINTS_MAX = 60000 };
 
 struct SbTrace {
   GArray *points; // SbTracePoint
+  GArray *peaks;  // SbTracePoint
   size_t consumed;
   double time_scale, displacement_scale, force_scale; // gap in each
   SbTraceRange range;
@@ -22,6 +23,14 @@ struct SbTrace {
 SbTrace *sb_trace_create(const SbModel *model) {
   SbTrace *trace = g_new0(SbTrace, 1);
   trace->points = g_array_sized_new(FALSE, FALSE, sizeof(SbTracePoint), 4096);
+  trace->peaks = g_array_new(FALSE, FALSE, sizeof(SbTracePoint));
+  if (model && model->motion == SB_MODEL_MOTION_RIG) {
+    const SbRig *rig = &model->rig;
+    trace->displacement_scale = rig->speed * rig->duration / 4000;
+    trace->force_scale = rig->load / 4000;
+    trace->time_scale = rig->duration / 4000;
+    return trace;
+  }
   double stroke = model && model->stroke > 0 ? model->stroke : 6.6e-3;
   double force = model ? fmax(model->reversal_force, model->pressure_force) : 35;
   double speed = model && model->speed > 0 ? model->speed : 0.333e-3;
@@ -34,6 +43,7 @@ SbTrace *sb_trace_create(const SbModel *model) {
 void sb_trace_destroy(SbTrace *trace) {
   if (trace) {
     g_array_unref(trace->points);
+    g_array_unref(trace->peaks);
     g_free(trace);
   }
 }
@@ -103,7 +113,11 @@ bool sb_trace_extend(SbTrace *trace, const SbFrame *frames, size_t count, size_t
   for (size_t i = trace->consumed; i < end; i++) {
     const SbFrame *frame = &frames[i];
     widen(&trace->range, frame, i == 0);
-    bool event = i == 0 || frame->on_event;
+    bool event = i == 0 || frame->on_event || frame->peak != 0;
+    if (frame->peak != 0 && trace->peaks->len < SB_TRACE_PEAKS_MAX) {
+      SbTracePoint peak = {frame->time, frame->displacement, frame->force, i};
+      g_array_append_val(trace->peaks, peak);
+    }
     if (i == 0) {
       mark(trace, SB_STAGE_A, frame, 0);
     } else if (frame->stage != trace->last.stage) {
@@ -138,6 +152,11 @@ bool sb_trace_extend(SbTrace *trace, const SbFrame *frames, size_t count, size_t
 const SbTracePoint *sb_trace_points(const SbTrace *trace, size_t *count) {
   *count = trace->points->len;
   return (const SbTracePoint *)(const void *)trace->points->data;
+}
+
+const SbTracePoint *sb_trace_peaks(const SbTrace *trace, size_t *count) {
+  *count = trace->peaks->len;
+  return (const SbTracePoint *)(const void *)trace->peaks->data;
 }
 
 size_t sb_trace_frames(const SbTrace *trace) {

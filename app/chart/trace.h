@@ -43,5 +43,10 @@ SbTraceRange sb_trace_range(const SbTrace *trace);
 // Events met so far, by the contract's definition (just before the event).
 const SbStageMark *sb_trace_marks(const SbTrace *trace);
 
+// Peaks of a rig's force met so far, the first peak first, at most SB_TRACE_PEAKS_MAX; borrowed
+// until the next extend.
+enum { SB_TRACE_PEAKS_MAX = 20000 };
+const SbTracePoint *sb_trace_peaks(const SbTrace *trace, size_t *count);
+
 // Index of the last point at or before a frame; 0 without points.
 size_t sb_trace_find(const SbTrace *trace, size_t frame);

@@ -111,7 +111,7 @@ int sb_command_render(int argc, char **argv) {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output,
        "Picture (.png, .svg, .pdf) or film (.mp4) to write", "OUT"},
       {"view", 0, 0, G_OPTION_ARG_FILENAME, &view,
-       "section (default), hysteresis, profiles, dashboard or a study (sealbench list views)",
+       "section (default), hysteresis, profiles, dashboard, rig or a study (sealbench list views)",
        "VIEW"},
       {"size", 0, 0, G_OPTION_ARG_FILENAME, &size, "Size in pixels", "WxH"},
       {"at", 0, 0, G_OPTION_ARG_FILENAME, &at, "Stage (A to F) or time (\"7.3 s\") of a picture",

@@ -8,6 +8,8 @@
 #include "app/chart/hysteresis.h"
 #include "app/chart/page.h"
 #include "app/chart/profiles.h"
+#include "app/chart/rig.h"
+#include "app/chart/signal.h"
 #include "app/export/still.h"
 
 #include <math.h>
@@ -18,6 +20,7 @@ static const SbRenderView views[] = {
     {"hysteresis", "Force and displacement", 960, 720, false},
     {"profiles", "Contact pressure and film", 1440, 520, false},
     {"dashboard", "Dashboard", 1920, 1080, true},
+    {"rig", "Thread force and coefficients", 1440, 720, false},
 };
 
 const SbRenderView *sb_render_views(size_t *count) {
@@ -32,6 +35,15 @@ const SbRenderView *sb_render_view(const char *name) {
     }
   }
   return NULL;
+}
+
+bool sb_render_view_fits(const SbRenderView *view, const SbRun *run, GError **error) {
+  if (strcmp(view->name, "rig") == 0 && sb_run_model(run)->motion != SB_MODEL_MOTION_RIG) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "the view \"rig\" is for the sliding plate (models.motion = rig)");
+    return false;
+  }
+  return true;
 }
 
 void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
@@ -61,7 +73,16 @@ void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChar
   SbRect body = {SB_GRID_MARGIN, SB_PAGE_HEADER, page.width - 2 * SB_GRID_MARGIN,
                  page.height - SB_PAGE_HEADER - footer - 8};
   flags |= SB_CHART_PANEL;
-  if (strcmp(view->name, "hysteresis") == 0) {
+  bool rig = sb_chart_is_rig(&data->run);
+  if (strcmp(view->name, "rig") == 0) {
+    sb_rig_page_draw(cr, body, theme, data, flags);
+  } else if (strcmp(view->name, "hysteresis") == 0 && rig) {
+    sb_signal_draw(cr, body, theme, data, flags);
+  } else if (strcmp(view->name, "profiles") == 0 && rig) {
+    sb_rig_figures_draw(cr, body, theme, data, flags);
+  } else if (strcmp(view->name, "section") == 0 && rig) {
+    sb_rig_plate_draw(cr, body, theme, data, flags);
+  } else if (strcmp(view->name, "hysteresis") == 0) {
     sb_hysteresis_draw(cr, body, theme, data, flags);
   } else if (strcmp(view->name, "profiles") == 0) {
     sb_profiles_draw(cr, body, theme, data, flags);
@@ -83,19 +104,6 @@ void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChar
 // ---------------------------------------------------------------------------------------------------
 // Stills
 
-static size_t nearest_frame(const SbFrame *frames, size_t count, double time) {
-  size_t lo = 0, hi = count - 1;
-  while (lo < hi) {
-    size_t mid = lo + (hi - lo) / 2;
-    if (frames[mid].time < time) {
-      lo = mid + 1;
-    } else {
-      hi = mid;
-    }
-  }
-  return lo > 0 && time - frames[lo - 1].time < frames[lo].time - time ? lo - 1 : lo;
-}
-
 bool sb_render_frame_at(size_t *frame, const SbRun *run, const char *at, GError **error) {
   size_t count;
   const SbFrame *frames = sb_run_frames(run, &count);
@@ -104,10 +112,11 @@ bool sb_render_frame_at(size_t *frame, const SbRun *run, const char *at, GError 
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the run has no frame to show");
     return false;
   }
+  const SbChartRun shown = {.frames = frames, .count = count};
   if (!at || !at[0]) {
     const SbStageMark *b = &summary->stage[SB_STAGE_B], *c = &summary->stage[SB_STAGE_C];
-    *frame = b->reached && c->reached ? nearest_frame(frames, count, 0.5 * (b->time + c->time))
-                                      : count - 1;
+    *frame =
+        b->reached && c->reached ? sb_chart_nearest(&shown, 0.5 * (b->time + c->time)) : count - 1;
     return true;
   }
   for (int s = 0; s < SB_STAGE_COUNT; s++) {
@@ -134,7 +143,7 @@ bool sb_render_frame_at(size_t *frame, const SbRun *run, const char *at, GError 
                 "the run has no time %s (allowed 0 to %s s)", at, sb_format_digits(most, last, 4));
     return false;
   }
-  *frame = nearest_frame(frames, count, time);
+  *frame = sb_chart_nearest(&shown, time);
   return true;
 }
 
@@ -164,7 +173,8 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
     return false;
   }
   size_t frame;
-  if (!sb_render_frame_at(&frame, run, options->at, error)) {
+  if (!sb_render_view_fits(view, run, error) ||
+      !sb_render_frame_at(&frame, run, options->at, error)) {
     return false;
   }
 
@@ -195,7 +205,8 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
   for (size_t i = 0; i < summary->warnings.count; i++) {
     g_string_append_printf(comment, "\nWarning: %s", summary->warnings.item[i].text);
   }
-  bool whole = !options->at && strcmp(view->name, "hysteresis") == 0;
+  bool whole =
+      !options->at && (strcmp(view->name, "hysteresis") == 0 || strcmp(view->name, "rig") == 0);
   Page page = {view, options, sb_theme(options->dark), &data, whole ? SB_CHART_WHOLE : 0};
   SbStill still = {.width = options->width > 0 ? options->width : view->width,
                    .height = options->height > 0 ? options->height : view->height,

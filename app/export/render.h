@@ -37,6 +37,9 @@ typedef struct {
   void *section_data;
 } SbRenderOptions;
 
+// Whether a run has what a view shows; false with SB_APP_ERROR_INPUT if not.
+bool sb_render_view_fits(const SbRenderView *view, const SbRun *run, GError **error);
+
 // Draws one page of the view: ground, header, the view, footer. For films call it once per frame on
 // an image surface. `data` may be of a run that is still going.
 void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,

@@ -69,6 +69,9 @@ bool sb_render_movie(const SbRun *run, const SbRenderOptions *options, const SbR
   if (film.view == NULL) {
     return fail(error, SB_APP_ERROR_INPUT, "there is no such view");
   }
+  if (!sb_render_view_fits(film.view, run, error)) {
+    return false;
+  }
   if (film.view->section && options->section == NULL) {
     return fail(error, SB_APP_ERROR_INPUT, "the section cannot be drawn here");
   }

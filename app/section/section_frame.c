@@ -84,7 +84,7 @@ static void draw_title(SbSection *section, double x, double y) {
     sb_draw_text(list, x, y + 34, 12, 400, SB_ALIGN_LEFT, palette->second, text);
     return;
   }
-  const char *span = sb_chart_span(frame->stage);
+  const char *span = sb_chart_span(NULL, frame->stage);
   sb_draw_text(list, x, y + 20, 26, 700, SB_ALIGN_LEFT, palette->now, span);
   double width = sb_text_width(section->text, span, 26, 700);
   static const char *const phase[SB_STAGE_COUNT] = {

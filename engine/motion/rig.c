@@ -72,12 +72,12 @@ SbStatus sb_rig_run(const SbRig *rig, SbRigEach each, void *user, SbMotionEvent 
 }
 
 double sb_rig_contact_coefficient(double load, double diameter, double radius,
-                                  double reduced_modulus, double area_share, double shear_strength,
-                                  double load_coefficient) {
+                                  double reduced_modulus, double area_share,
+                                  double shear_strength) {
   double length = M_PI * diameter;
   double width = 2.0 * sb_hertz_half_width(load / SB_RIG_RINGS / length, radius, reduced_modulus);
   double area = area_share * SB_RIG_RINGS * length * width;
-  return shear_strength * area / load + load_coefficient;
+  return shear_strength * area / load;
 }
 
 SbStatus sb_rig_coefficients(SbRigCoefficients *out, const double *force, size_t count, double rate,

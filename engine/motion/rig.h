@@ -60,12 +60,10 @@ SbStatus sb_rig_coefficients(SbRigCoefficients *out, const double *force, size_t
                              double load, double prominence, size_t *peak, size_t peak_max,
                              SbReport *report);
 
-// Sliding friction over load that the valve's own surface model gives under a load on flat rings
-// like these: tau_0 A_a/W + m with the real area at lambda = 0 and the width of a Hertz line
-// contact around each ring, w = W/(4 pi D_m), b = sqrt(8 w R/(pi E')) (thesis 5.14, 6.33
-// corrected). A_a grows with the root of the load only, so that the value falls as 1/sqrt(W): a
-// coefficient does not carry over from one load to another. SI units; `diameter` is the rings' mean
-// diameter.
+// tau_0 A_a/W as thesis table 7.8 predicts its coefficient (5.14 without m), but under a load on
+// flat rings like these: real area at lambda = 0 and the width of a Hertz line contact around each
+// ring, w = W/(4 pi D_m), b = sqrt(8 w R/(pi E')) (6.33 corrected). A_a grows with the root of the
+// load only, so that the value falls as 1/sqrt(W): it does not carry over from one load to another.
+// SI units; `diameter` is the rings' mean diameter.
 double sb_rig_contact_coefficient(double load, double diameter, double radius,
-                                  double reduced_modulus, double area_share, double shear_strength,
-                                  double load_coefficient);
+                                  double reduced_modulus, double area_share, double shear_strength);
