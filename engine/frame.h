@@ -64,11 +64,12 @@ typedef struct {
   double pressure_force; // pushes the stem out [N]
   double
       stop_force; // of the end stop, positive pushes the stem out; of the rest stop, negative [N]
-  double spring_force; // of a return spring, pushes the stem out [N]
-  uint8_t stage;       // SbStage of the last event passed
-  uint8_t chamber;     // SbChamber
-  uint8_t on_event;    // 1 if this frame sits exactly on an event, just before it
-  uint8_t peak;        // of a rig's force: 1 the first peak, 2 a following one, else 0
+  double chamber_pressure; // in the dose chamber [Pa]
+  double spring_force;     // of a return spring, pushes the stem out [N]
+  uint8_t stage;           // SbStage of the last event passed
+  uint8_t chamber;         // SbChamber
+  uint8_t on_event;        // 1 if this frame sits exactly on an event, just before it
+  uint8_t peak;            // of a rig's force: 1 the first peak, 2 a following one, else 0
   SbSealFrame seal[SB_SEAL_COUNT];
 } SbFrame;
 

@@ -8,6 +8,7 @@
 #include "engine/model.h"
 
 #include "engine/elastic/reduced_modulus.h"
+#include "engine/motion/chamber.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -130,6 +131,7 @@ static bool compile_quasi_static(const SbModel *model, SbProblems *problems) {
   } uses[] = {
       {"drive.kind", model->drive != SB_MODEL_DRIVE_MACHINE},
       {"drive.cycles", model->cycles > 1},
+      {"canister.pressure_map", model->pressure_map == SB_MAP_PORTS},
       {"friction.dwell_gain", model->dwell_gain > 0},
       {"friction.stribeck_speed", model->stribeck_speed > 0},
       {"friction.tangential_stiffness", model->tangential_stiffness > 0},
@@ -194,6 +196,32 @@ static bool compile_study(const SbModel *model, SbProblems *problems) {
   return good;
 }
 
+// Metered volume and doses; with ports there must be a chamber.
+static bool compile_dose(SbModel *model, const SbParams *params, SbProblems *problems) {
+  const SbValveShape *shape = &model->shape;
+  model->metered_volume = sb_chamber_metered_volume(&(SbDoseGeometry){
+      .bore = model->bore_diameter,
+      .land = model->stem_diameter,
+      .floor = model->bore_diameter - 2 * model->radial_space,
+      .spacing = shape->seal_spacing,
+      .groove = model->axial_width,
+      .recess_depth = shape->chamber_depth,
+      .recess_length = shape->chamber_length,
+      .rings = {{model->seal[SB_OUTER].section_diameter, model->seal[SB_OUTER].inner_diameter},
+                {model->seal[SB_INNER].section_diameter, model->seal[SB_INNER].inner_diameter}},
+  });
+  model->doses = sb_chamber_doses(model->metered_volume, sb_params_get(params, SB_P_CANISTER_FILL),
+                                  sb_params_get(params, SB_P_CANISTER_RESIDUE));
+  if (model->pressure_map == SB_MAP_PORTS && !(model->metered_volume > 0)) {
+    add_problem(problems, "stem.seal_spacing", NAN, NAN,
+                "leaves no dose chamber between the seals (%.3g µl), which "
+                "canister.pressure_map = ports needs",
+                model->metered_volume * 1e9);
+    return false;
+  }
+  return true;
+}
+
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems) {
   if (problems != NULL) {
     problems->count = 0;
@@ -239,7 +267,14 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
       .stop_restitution = sb_params_get(params, SB_P_HOUSING_STOP_RESTITUTION),
       .spring_stiffness = sb_params_get(params, SB_P_STEM_SPRING_STIFFNESS),
       .spring_preload = sb_params_get(params, SB_P_STEM_SPRING_PRELOAD),
+      .chamber_at_once = sb_params_get(params, SB_P_CHAMBER_FLOW) != 0,
+      .discharge_coefficient = sb_params_get(params, SB_P_CHAMBER_DISCHARGE_COEFFICIENT),
+      .chamber_stiffness = sb_params_get(params, SB_P_CHAMBER_STIFFNESS),
+      .vent_on_return = sb_params_get(params, SB_P_BORE_VENT_WAY) != 0,
+      .refill_travel = sb_params_get(params, SB_P_BORE_REFILL_TRAVEL),
+      .refill_area = sb_params_get(params, SB_P_BORE_REFILL_AREA),
       .tolerance = sb_params_get(params, SB_P_OUTPUT_TOLERANCE),
+      .motion_tolerance = sb_params_get(params, SB_P_OUTPUT_MOTION_TOLERANCE),
       .actuations = (int)sb_params_get(params, SB_P_OUTPUT_ACTUATIONS),
       .frames = (int)sb_params_get(params, SB_P_OUTPUT_FRAMES),
       .fit = (int)sb_params_get(params, SB_P_MODELS_FIT),
@@ -304,6 +339,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   for (int i = 0; good && i < SB_SEAL_COUNT; i++) {
     good = compile_seal(&model, i, params, problems) && good;
   }
+  good = good && compile_dose(&model, params, problems);
   if (!good) {
     return SB_ERROR_INPUT;
   }
@@ -345,7 +381,8 @@ void sb_model_gland(SbGland *out, const SbModel *model, const SbParams *params, 
 
 SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber) {
   double canister = model->canister_pressure;
-  bool vented_at_rest = model->pressure_map == SB_MAP_CHAMBER_VENTED;
+  // With ports the pressure lies between: vented stands for none, closed for all of it.
+  bool vented_at_rest = model->pressure_map != SB_MAP_CHAMBER_FILLED;
   double in_chamber = chamber == SB_CHAMBER_AT_REST && vented_at_rest ? 0 : canister;
   if (seal == SB_INNER) {
     return (SbSealPressure){canister, in_chamber};

@@ -31,7 +31,11 @@ typedef struct {
   SbProblem item[SB_PROBLEMS_MAX];
 } SbProblems;
 
-typedef enum { SB_MAP_CHAMBER_FILLED, SB_MAP_CHAMBER_VENTED } SbPressureMap;
+typedef enum {
+  SB_MAP_CHAMBER_FILLED,
+  SB_MAP_CHAMBER_VENTED,
+  SB_MAP_PORTS // the chamber's pressure is a state
+} SbPressureMap;
 typedef enum {
   SB_MODEL_FILM_THESIS,
   SB_MODEL_FILM_KARASZKIEWICZ,
@@ -71,8 +75,9 @@ typedef struct {
   double gland_fill;       // ring volume over groove volume
 } SbSealModel;
 
-// Sizes that only the drawing of the section needs; the thesis gives none of them, and no result
-// depends on them. All in m; the catalogue says what each is.
+// Sizes that the drawing of the section needs beside the rest; the thesis gives none of them. The
+// metered volume comes from some, and with ports the chamber's pressure. All in m; the catalogue
+// says what each is.
 typedef struct {
   double entry_diameter, entry_length, land_length, vent_position, vent_diameter; // housing
   double seal_spacing, nose_length, chamber_depth, chamber_length, shoulder_length,
@@ -94,8 +99,14 @@ typedef struct {
   double housing_modulus, housing_poisson_ratio;
   double canister_pressure; // gauge [Pa]
   SbPressureMap pressure_map;
-  double pressure_force; // p pi D_p^2/4, pushes the stem out [N]
-  double stem_mass;      // [kg]
+  double metered_volume;                           // of the dose chamber between the two seals [m3]
+  long doses;                                      // whole ones in the canister
+  bool chamber_at_once;                            // ports pass pressure in one step
+  double discharge_coefficient, chamber_stiffness; // [1], [Pa]
+  bool vent_on_return;
+  double refill_travel, refill_area; // of the by-pass at rest [m], [m2]
+  double pressure_force;             // p pi D_p^2/4, pushes the stem out [N]
+  double stem_mass;                  // [kg]
   double viscosity, pressure_viscosity, density;
   double gt_product, sigma, sigma_over_beta, hamaker_constant;
   double shear_strength, load_coefficient, static_ratio;
@@ -110,6 +121,7 @@ typedef struct {
   double stop_stiffness, stop_restitution;
   double spring_stiffness, spring_preload; // return spring
   double tolerance;
+  double motion_tolerance; // of the steps of a motion without closed form
   int frames;
   int actuations; // over which leakage is summed
   int fit;        // index among the choices of models.fit = SbFitModel

@@ -46,6 +46,7 @@ static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *seg
       .force = sb_cycle_force(cycle, X, s),
       .pressure_force = run->model.pressure_force,
       .stop_force = stop_force,
+      .chamber_pressure = sb_model_seal_pressure(&run->model, SB_OUTER, segment->chamber).left,
       .stage = (uint8_t)segment->stage,
       .chamber = (uint8_t)segment->chamber,
   };

@@ -8,7 +8,8 @@ enum {
   SB_RUN_MOTIONS = 3, // sliding in, sliding out, at rest
   SB_RUN_REST = 2,
   SB_RUN_PROFILE_SLOTS = SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
-  SB_RUN_EVENT_FRAMES = 2 * SB_CYCLE_SEGMENTS_MAX // room for frames that sit on events
+  // Room for frames that sit on events, and for those of a motion that outlasts its drive.
+  SB_RUN_EVENT_FRAMES = 2 * SB_CYCLE_SEGMENTS_MAX + 800
 };
 
 typedef struct {

@@ -4,7 +4,8 @@
 //
 // Bands: squeeze 8 to 20 % for a reciprocating ring, inner stretch at most 5 %, gland fill 60 to
 // 85 % are the usual recommendations of O-ring makers' handbooks. A return force of at least 2 N,
-// an eighth of the pressure force of the thesis valve, is this program's own.
+// an eighth of the pressure force of the thesis valve, is this program's own. Metering volumes of
+// 25 to 100 µl are those of thesis section 1.7.
 #include "ui/derived_panel.h"
 
 #include "app/chart/format.h"
@@ -34,6 +35,13 @@ static const Item items[] = {
      "Least of pressure force minus friction on the way back, from the run. Below zero the valve "
      "sticks; this program asks for 2 N.",
      SB_QUANTITY_FORCE, -2, 8, 2, INFINITY},
+    {"Metered volume", "small", "large",
+     "Room of the dose chamber between the two rings that neither stem nor rubber fills. Usual: 25 "
+     "to 100 µl.",
+     SB_QUANTITY_VOLUME, 0, 150e-9, 25e-9, 100e-9},
+    {"Doses", "few", "many",
+     "Whole doses in the canister (canister.fill less canister.residue). Usual: 60 to 200.",
+     SB_QUANTITY_NUMBER, 0, 300, 60, 200},
 };
 enum { ITEMS = G_N_ELEMENTS(items) };
 
@@ -126,6 +134,8 @@ static void refresh(Panel *panel) {
   // The stem must have come back for a return force to be known.
   gboolean returned = summary != NULL && summary->stage[SB_STAGE_E].reached;
   show(panel, 3, returned ? summary->force_return_min : NAN);
+  show(panel, 4, model != NULL ? model->metered_volume : NAN);
+  show(panel, 5, model != NULL ? (double)model->doses : NAN);
   gtk_label_set_text(GTK_LABEL(panel->note), old && run != NULL ? "last good run" : "outer seal");
 }
 

@@ -14,7 +14,7 @@ void sb_csv_cycle(FILE *stream, const SbRun *run) {
         "friction_inner [N],friction_outer [N],platen [m],stop_force [N],spring_force [N],"
         "stage,on_event,"
         "load_inner [N],load_outer [N],film_central_inner [m],film_central_outer [m],"
-        "land_fraction_inner [1],land_fraction_outer [1]",
+        "land_fraction_inner [1],land_fraction_outer [1],chamber_pressure [Pa]",
         stream);
   // Of the rig's force: 1 the first peak, 2 one that follows.
   bool rig = sb_run_model(run)->motion == SB_MODEL_MOTION_RIG;
@@ -33,8 +33,9 @@ void sb_csv_cycle(FILE *stream, const SbRun *run) {
       put(stream, before[k], ',');
     }
     fprintf(stream, "%s,%d,", sb_stage_name((SbStage)frame->stage), frame->on_event);
-    const double after[] = {inner->load,         outer->load,          inner->film_central,
-                            outer->film_central, inner->land_fraction, outer->land_fraction};
+    const double after[] = {
+        inner->load,          outer->load,          inner->film_central,    outer->film_central,
+        inner->land_fraction, outer->land_fraction, frame->chamber_pressure};
     const size_t last = sizeof after / sizeof after[0] - 1;
     for (size_t k = 0; k <= last; k++) {
       put(stream, after[k], k < last || rig ? ',' : '\n');

@@ -156,6 +156,10 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
     put_seal(&json, sb_seal_name(i), &summary->seal[i]);
   }
   sb_json_object_end(&json);
+  sb_json_object(&json, "dose");
+  sb_json_number(&json, "metered_volume_m3", model->metered_volume);
+  sb_json_count(&json, "doses", (guint64)MAX(model->doses, 0));
+  sb_json_object_end(&json);
   sb_json_warnings(&json, &summary->warnings);
   if (info->study_count > 0) {
     sb_json_array(&json, "studies");

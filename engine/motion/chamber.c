@@ -97,14 +97,47 @@ double sb_chamber_rate(const SbDoseChamber *c, double pressure) {
   return m->stiffness / m->volume * flow;
 }
 
-bool sb_chamber_settled(const SbDoseChamber *c, double pressure) {
-  double most = 0.0;
+double sb_chamber_rest_pressure(const SbDoseChamber *c, double pressure) {
+  double low = INFINITY, high = -INFINITY;
   for (size_t i = 0; i < c->model->ports; i++) {
-    if (c->open[i] && isfinite(c->model->port[i].area)) {
-      most = fmax(most, fabs(c->model->port[i].pressure - pressure));
+    const SbChamberPort *p = &c->model->port[i];
+    if (c->open[i] && isinf(p->area)) {
+      return pressure;
+    }
+    if (c->open[i]) {
+      low = fmin(low, p->pressure);
+      high = fmax(high, p->pressure);
     }
   }
-  return most <= 1e-9 * fmax(c->model->canister, 1e3);
+  if (!(high >= low)) {
+    return pressure;
+  }
+  // The flow falls as the pressure rises.
+  for (int i = 0; i < 200 && high > low; i++) {
+    double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) {
+      break;
+    }
+    if (sb_chamber_rate(c, middle) > 0.0) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return high;
+}
+
+bool sb_chamber_settled(const SbDoseChamber *c, double pressure) {
+  double most = 0.0, in = 0.0, out = 0.0;
+  for (size_t i = 0; i < c->model->ports; i++) {
+    if (c->open[i] && isfinite(c->model->port[i].area)) {
+      double drop = c->model->port[i].pressure - pressure;
+      most = fmax(most, fabs(drop));
+      *(drop > 0.0 ? &in : &out) += c->model->port[i].area * sqrt(fabs(drop));
+    }
+  }
+  // Nothing flows, or as much comes in as goes out.
+  return most <= 1e-9 * fmax(c->model->canister, 1e3) || fabs(in - out) <= 1e-9 * (in + out);
 }
 
 SbDoseState sb_chamber_state(const SbDoseChamber *c) {
@@ -159,14 +192,19 @@ SbStatus sb_chamber_reading(SbChamberModel *m, int reading, double canister, dou
   return sb_chamber_check(m, report);
 }
 
-double sb_chamber_metered_volume(double bore, double stem, double spacing,
-                                 double section_diameter) {
-  // Half of each ring's section lies between the centres; by Pappus, at its mean radius plus the
-  // half disc's lever (which is axial, so that the mean radius is the ring's own).
-  double annulus = pi / 4.0 * (bore - stem) * (bore + stem) * spacing;
-  double mean = 0.5 * bore - 0.5 * section_diameter;
-  double rings = 2.0 * pi * mean * (pi / 4.0) * section_diameter * section_diameter;
-  return annulus - rings;
+static double annulus(double outer, double inner) {
+  return pi / 4.0 * (outer - inner) * (outer + inner);
+}
+
+double sb_chamber_metered_volume(const SbDoseGeometry *g) {
+  double volume = annulus(g->bore, g->land) * g->spacing + annulus(g->land, g->floor) * g->groove +
+                  annulus(g->land, g->land - 2.0 * g->recess_depth) * g->recess_length;
+  // Half of each ring, by Pappus.
+  for (int i = 0; i < 2; i++) {
+    double d = g->rings[i].section;
+    volume -= 0.5 * pi * (g->rings[i].inner + d) * pi / 4.0 * d * d;
+  }
+  return volume;
 }
 
 long sb_chamber_doses(double metered_volume, double liquid, double left) {

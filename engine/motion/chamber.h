@@ -56,6 +56,10 @@ void sb_chamber_start(SbDoseChamber *chamber, const SbChamberModel *model, doubl
 // The stem crosses the edge at position x in direction +1 or -1.
 void sb_chamber_cross(SbDoseChamber *chamber, double x, int direction, double *pressure);
 
+// Pressure at which the flows through the open ports of a stem at rest balance; with none open, or
+// ports of infinite area, the pressure given.
+double sb_chamber_rest_pressure(const SbDoseChamber *chamber, double pressure);
+
 // dp/dt [Pa/s], and whether nothing flows any more (to 1e-9 of the canister's pressure).
 double sb_chamber_rate(const SbDoseChamber *chamber, double pressure);
 bool sb_chamber_settled(const SbDoseChamber *chamber, double pressure);
@@ -80,9 +84,20 @@ SbStatus sb_chamber_reading(SbChamberModel *model, int reading, double canister,
                             double release, double area, double volume, double stiffness,
                             double density, SbReport *report);
 
-// Volume [m3] enclosed between two rings of section diameter d a distance `spacing` apart (centre
-// to centre) on a stem of diameter `stem` in a bore: the annulus less the rings' inner halves.
-double sb_chamber_metered_volume(double bore, double stem, double spacing, double section_diameter);
+// What bounds the dose chamber, all in m.
+typedef struct {
+  double bore, land, floor;           // diameters: bore, stem's land, groove floors
+  double spacing, groove;             // between the grooves' middles; width of a groove
+  double recess_depth, recess_length; // cut into the stem's land between them
+  struct {
+    double section, inner; // free diameters; rubber keeps its volume
+  } rings[2];
+} SbDoseGeometry;
+
+// Volume [m3] between the middles of the two grooves that neither stem nor rubber fills: annulus,
+// recess and the inner halves of both grooves, less the inner half of each ring. Exact for rings
+// that lie symmetrically in their grooves. May be negative if the rings overfill it.
+double sb_chamber_metered_volume(const SbDoseGeometry *geometry);
 
 // Whole doses in a fill of `liquid` m3 until `left` m3 can no longer be drawn.
 long sb_chamber_doses(double metered_volume, double liquid, double left);

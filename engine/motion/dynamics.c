@@ -41,6 +41,7 @@ static double damping_for(double mass, double stiffness, double restitution) {
 static void anchor(SbDynamics *s, double t) {
   double x, v, d[SB_DYNAMICS_CONTACTS], extra[SB_DYNAMICS_EXTRAS];
   SbDynamicsEnergy energy;
+  s->force_peak = sb_motion_force_peak(s, s->force_peak);
   sb_motion_state_at(s, t, &x, &v, d, extra);
   sb_motion_energy_at(s, t, x, v, d, &energy);
   s->energy = energy;
@@ -350,17 +351,18 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
     s->since[i] = -m->start_dwell;
     s->slipped[i] = -1.0;
   }
-  s->system = (SbRadauSystem){.n = 2 + m->contacts + m->extras,
+  size_t patches = sb_motion_patches(m);
+  s->system = (SbRadauSystem){.n = 2 + patches + m->extras,
                               .powers = POWER_COUNT,
                               .rates = sb_motion_numerical_rates,
                               .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9};
   s->system.floor[0] = 1e-3;
   s->system.floor[1] = 1e-3;
-  for (size_t i = 0; i < m->contacts; i++) {
+  for (size_t i = 0; i < patches; i++) {
     s->system.floor[2 + i] = 1e-5;
   }
   for (size_t i = 0; i < m->extras; i++) {
-    s->system.floor[2 + m->contacts + i] = m->extra_scale[i];
+    s->system.floor[2 + patches + i] = m->extra_scale[i];
   }
   s->kinetic_start = 0.5 * m->mass * s->v * s->v;
   s->stored_start = sb_motion_stored_energy(s, 0.0, s->x, s->d);
@@ -505,6 +507,10 @@ bool sb_dynamics_at_rest(const SbDynamics *s) {
   }
   sb_dynamics_sample(s, &sample, NULL);
   return s->held || fabs(sample.speed) < 1e-12;
+}
+
+double sb_dynamics_force_peak(const SbDynamics *s) {
+  return s->force_peak;
 }
 
 SbDynamicsCounters sb_dynamics_counters(const SbDynamics *s) {

@@ -62,6 +62,7 @@ typedef struct {
   double force;
   double level[SB_DYNAMICS_CONTACTS];
   bool constant; // neither changes before the next edge is crossed, nor do the extra states
+  bool settled;  // the extra states do not change while the stem does not move
 } SbDynamicsLoads;
 
 typedef struct {
@@ -172,6 +173,7 @@ typedef struct {
   SbDrivePiece piece;
   SbDynamicsEnergy energy;
   double stored_start, kinetic_start;
+  double force_peak; // of the drive, up to the anchor [N]
   bool ready, linear, held;
   // The patch started the segment clearly faster than rest_speed: falling below it is coming to
   // rest.
@@ -213,6 +215,9 @@ void sb_dynamics_sample(const SbDynamics *dynamics, SbDynamicsSample *sample,
 // Present time, and whether the drive has ended and the stem rests: nothing more can happen.
 double sb_dynamics_time(const SbDynamics *dynamics);
 bool sb_dynamics_at_rest(const SbDynamics *dynamics);
+
+// Largest force of the drive up to the last event [N], between samples too.
+double sb_dynamics_force_peak(const SbDynamics *dynamics);
 
 // What the run cost so far.
 SbDynamicsCounters sb_dynamics_counters(const SbDynamics *dynamics);

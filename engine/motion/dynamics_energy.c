@@ -122,8 +122,9 @@ void sb_motion_state_at(const SbDynamics *s, double t, double *x, double *v, dou
                  NULL);
   *x = s->held ? s->x : z[0];
   *v = s->held ? 0.0 : z[1];
-  memcpy(d, z + 2, m->contacts * sizeof *d);
-  memcpy(extra, z + 2 + m->contacts, m->extras * sizeof *extra);
+  size_t patches = sb_motion_patches(m);
+  memcpy(d, z + 2, patches * sizeof *d);
+  memcpy(extra, z + 2 + patches, m->extras * sizeof *extra);
 }
 
 void sb_motion_energy_at(const SbDynamics *s, double t, double x, double v, const double *d,

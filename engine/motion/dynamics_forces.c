@@ -386,20 +386,24 @@ void sb_motion_anchor_copy(SbDynamics *at, const SbDynamics *s, double t, const 
   at->t = t;
   at->x = z[0];
   at->v = z[1];
-  for (size_t i = 0; i < s->model->contacts; i++) {
+  size_t patches = sb_motion_patches(s->model);
+  for (size_t i = 0; i < patches; i++) {
     at->d[i] = z[2 + i];
   }
-  sb_motion_loads_at(s, z[0], z + 2 + s->model->contacts, &at->loads);
+  sb_motion_loads_at(s, z[0], z + 2 + patches, &at->loads);
 }
 
-bool sb_motion_event_value(const SbDynamics *at, int event, double *value, double *grain) {
-  Linear l = {0};
-  sb_motion_linear_forces(at, &l);
+void sb_motion_anchor_forces(const SbDynamics *at, Linear *l) {
+  sb_motion_linear_forces(at, l);
   if (at->held) {
-    l.f0 = sb_motion_demand(at, at->t, at->x, at->d, &at->loads);
+    l->f0 = sb_motion_demand(at, at->t, at->x, at->d, &at->loads);
   }
+}
+
+bool sb_motion_event_value(const SbDynamics *at, int event, const Linear *l, double *value,
+                           double *grain) {
   SbGauge g;
-  if (!sb_motion_event_gauge(at, event, &l, &g)) {
+  if (!sb_motion_event_gauge(at, event, l, &g)) {
     return false;
   }
   *value = g.constant + g.of_v * at->v + g.relax;
@@ -416,7 +420,8 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
   const SbDynamics *s = user;
   const SbDynamicsModel *m = s->model;
   double x = z[0], v = s->held ? 0.0 : z[1];
-  const double *extra = z + 2 + m->contacts;
+  size_t patches = sb_motion_patches(m);
+  const double *extra = z + 2 + patches;
   SbDynamicsLoads loads;
   sb_motion_loads_at(s, x, extra, &loads);
   for (size_t i = 0; i < POWER_COUNT; i++) {
@@ -445,8 +450,11 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
   // Contacts: what the stem feels, and how the patch's spring follows.
   for (size_t i = 0; i < m->contacts; i++) {
     const SbDynamicsContact *c = &m->contact[i];
-    double on_stem = sb_motion_contact_force(s, i, x, v, z[2 + i], loads.level[i]);
-    dz[2 + i] = 0.0;
+    double deflection = patches > 0 ? z[2 + i] : 0.0;
+    double on_stem = sb_motion_contact_force(s, i, x, v, deflection, loads.level[i]);
+    if (patches > 0) {
+      dz[2 + i] = 0.0;
+    }
     if (s->state[i] == SB_CONTACT_OFF) {
       continue;
     }
@@ -468,7 +476,7 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
   dz[0] = v;
   dz[1] = s->held ? 0.0 : force / m->mass;
   if (m->extras > 0) {
-    double *rates = dz + 2 + m->contacts;
+    double *rates = dz + 2 + patches;
     for (size_t i = 0; i < m->extras; i++) {
       rates[i] = 0.0;
     }

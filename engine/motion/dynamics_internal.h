@@ -47,6 +47,16 @@ static inline bool is_rigid(const SbDynamicsModel *m, size_t i) {
   return m->contact[i].stiffness > 1e300;
 }
 
+// Deflections among the states of the numerical path: none if every contact is rigid.
+static inline size_t sb_motion_patches(const SbDynamicsModel *m) {
+  for (size_t i = 0; i < m->contacts; i++) {
+    if (!is_rigid(m, i)) {
+      return m->contacts;
+    }
+  }
+  return 0;
+}
+
 static inline double sb_motion_rest_speed(const SbDynamicsModel *m) {
   return m->rest_speed > 0.0 ? m->rest_speed : 1e-9;
 }
@@ -105,8 +115,12 @@ bool sb_motion_event_gauge(const SbDynamics *s, int event, const Linear *linear,
 // Numerical path: a copy of the state anchored at z (x, v, deflections, extra states) at time t.
 void sb_motion_anchor_copy(SbDynamics *at, const SbDynamics *s, double t, const double *z);
 
+// Linear forces at an anchor for sb_motion_event_value; for a held stem what it must bear.
+void sb_motion_anchor_forces(const SbDynamics *at, Linear *linear);
+
 // The gauge's value at an anchor, and a size below which its sign means nothing; false as above.
-bool sb_motion_event_value(const SbDynamics *at, int event, double *value, double *grain);
+bool sb_motion_event_value(const SbDynamics *at, int event, const Linear *linear, double *value,
+                           double *grain);
 
 // Rates and integrands at z; `user` is the SbDynamics.
 void sb_motion_numerical_rates(double *dz, double *power, double t, const double *z, void *user);
@@ -120,6 +134,9 @@ SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report);
 // Position, speed, deflections and extra states at time t of the present segment.
 void sb_motion_state_at(const SbDynamics *s, double t, double *x, double *v, double *d,
                         double *extra);
+
+// Largest force of the drive over the present segment [N], no less than `known`.
+double sb_motion_force_peak(const SbDynamics *s, double known);
 
 // Energy in seals, stops, return spring and drive [J].
 double sb_motion_stored_energy(const SbDynamics *s, double t, double x, const double *d);

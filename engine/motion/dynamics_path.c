@@ -8,7 +8,9 @@
 static const double horizon_max = 1e6;
 
 static bool has_closed_form(const SbDynamics *s) {
-  if (!s->loads.constant || s->piece.curved) {
+  // Loads that vary with the place only do not vary for a stem held at rest.
+  bool still = s->held && (s->model->extras == 0 || s->loads.settled);
+  if (!(s->loads.constant || still) || s->piece.curved) {
     return false;
   }
   for (size_t i = 0; i < s->model->contacts; i++) {
@@ -61,30 +63,46 @@ typedef struct {
 
 static void values_at(const SbDynamics *s, double t, const double *z, Values *out) {
   SbDynamics at;
+  Linear linear;
   sb_motion_anchor_copy(&at, s, t, z);
+  sb_motion_anchor_forces(&at, &linear);
   for (int event = 0; event < EVENT_COUNT; event++) {
-    out->live[event] = sb_motion_event_value(&at, event, &out->value[event], &out->grain[event]);
+    out->live[event] =
+        sb_motion_event_value(&at, event, &linear, &out->value[event], &out->grain[event]);
   }
 }
 
 static double one_value(const SbDynamics *s, int event, double t, const double *z) {
   SbDynamics at;
   double value = 0.0, grain;
+  Linear linear;
   sb_motion_anchor_copy(&at, s, t, z);
-  return sb_motion_event_value(&at, event, &value, &grain) ? value : 1.0;
+  sb_motion_anchor_forces(&at, &linear);
+  return sb_motion_event_value(&at, event, &linear, &value, &grain) ? value : 1.0;
 }
 
 // Where `event` turns negative between two fractions of a step, on its dense output.
+//
+// Regula falsi (Illinois), every third time bisection, so that the bracket always shrinks.
 static double dense_root(const SbDynamics *s, const SbRadauStep *step, int event, double low,
-                         double high) {
+                         double high, double value_low, double value_high) {
   double z[SB_RADAU_MAX];
-  for (int i = 0; i < 48; i++) {
-    double theta = 0.5 * (low + high);
+  int side = 0;
+  for (int i = 0; i < 60 && high - low > 1e-14; i++) {
+    double share = i % 3 == 2 || !(value_low > 0.0) ? 0.5 : value_low / (value_low - value_high);
+    double theta = low + (high - low) * fmin(fmax(share, 1e-9), 1.0 - 1e-9);
     sb_radau_dense(step, &s->system, theta, z, NULL);
-    if (one_value(s, event, step->t + theta * step->h, z) < 0.0) {
+    double value = one_value(s, event, step->t + theta * step->h, z);
+    if (value < 0.0) {
       high = theta;
+      value_high = value;
+      value_low *= side < 0 ? 0.5 : 1.0;
+      side = -1;
     } else {
       low = theta;
+      value_low = value;
+      value_high *= side > 0 ? 0.5 : 1.0;
+      side = 1;
     }
   }
   return high;
@@ -156,7 +174,8 @@ static bool cut_at_event(SbDynamics *s, SbReport *report) {
             !(armed || after.value[event] < -after.grain[event])) {
           continue;
         }
-        double at = dense_root(s, step, event, low, high);
+        double at = dense_root(s, step, event, low, high,
+                               before.live[event] ? before.value[event] : 0.0, after.value[event]);
         if (at < best) {
           best = at;
           found = event;
@@ -192,8 +211,9 @@ static double first_step(const SbDynamics *s) {
 static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
   const SbDynamicsModel *m = s->model;
   double z[SB_RADAU_MAX] = {s->x, s->v};
-  memcpy(z + 2, s->d, m->contacts * sizeof *z);
-  memcpy(z + 2 + m->contacts, s->extra, m->extras * sizeof *z);
+  size_t patches = sb_motion_patches(m);
+  memcpy(z + 2, s->d, patches * sizeof *z);
+  memcpy(z + 2 + patches, s->extra, m->extras * sizeof *z);
   double left = fmin(s->piece.until - s->t, horizon_max);
   double h = s->h > 0.0 ? s->h : first_step(s);
   if (s->piece.curved) {
@@ -253,4 +273,52 @@ SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report) {
     return SB_OK;
   }
   return numerical_path(s, report);
+}
+
+// Force of the drive at time t of the segment.
+static double push_at(const SbDynamics *s, double t) {
+  double x, v, d[SB_DYNAMICS_CONTACTS], extra[SB_DYNAMICS_EXTRAS];
+  sb_motion_state_at(s, t, &x, &v, d, extra);
+  return sb_motion_drive_force(s, t, x, v);
+}
+
+double sb_motion_force_peak(const SbDynamics *s, double known) {
+  const SbDynamicsModel *m = s->model;
+  if (m->drive.kind == SB_DRIVE_NONE || !s->push.on || !s->ready) {
+    return known;
+  }
+  double first = sb_motion_drive_force(s, s->t, s->x, s->v);
+  double peak = fmax(known, fmax(first, push_at(s, s->t_end)));
+  if (s->held || m->drive.quantity == SB_DRIVE_OF_FORCE) {
+    return peak; // straight in time, or given
+  }
+  if (!s->linear) {
+    // Steps are short against whatever swings: their ends and middles.
+    for (int i = 0; i < 2; i++) {
+      for (int part = 1; part <= 2; part++) {
+        peak = fmax(peak, push_at(s, s->step[i].t + 0.5 * part * s->step[i].h));
+      }
+    }
+    return peak;
+  }
+  // The first time at which the force stops rising; later swings of a stem that rings are lower,
+  // or the end of the segment is higher. Nothing to gain far below the peak: the force can rise by
+  // no more than its swing.
+  double y, rate, k = m->drive_stiffness, c = m->drive_damping;
+  sb_motion_drive_at(s, s->t, &y, &rate);
+  Linear l;
+  sb_motion_linear_forces(s, &l);
+  double a = (l.f0 - l.c * s->v) / m->mass;
+  double slope = k * (rate - s->v) - c * a;
+  double swing = k * hypot(s->motion.z0, s->motion.w0 / fmax(s->motion.omega0, 1e-300));
+  if (!(slope > 0.0) || first + 2.0 * swing + k * fabs(s->motion.trend1 - rate) < peak) {
+    return peak;
+  }
+  SbGauge rising = {.constant = k * rate - c * l.f0 / m->mass,
+                    .rate = -c * l.f1 / m->mass,
+                    .of_x = c * l.k / m->mass,
+                    .of_v = c * l.c / m->mass - k};
+  bool found;
+  double at = sb_gauge_first(&rising, &s->motion, s->t_end - s->t, &found);
+  return found ? fmax(peak, push_at(s, fmin(s->t + at, s->t_end))) : peak;
 }

@@ -174,10 +174,32 @@ static void test_valve(void) {
 }
 
 static void test_volume(void) {
-  // 50 ul from spacing: the annulus less two half rings.
-  double v = sb_chamber_metered_volume(6e-3, 4e-3, 4e-3, 1e-3);
-  double annulus = G_PI / 4.0 * 20e-6 * 4e-3, rings = 2.0 * G_PI * 2.5e-3 * G_PI / 4.0 * 1e-6;
-  ASSERT_NEAR(v, annulus - rings, 1e-18);
+  // The same solid of revolution by adding up slices: clearance, recess, half grooves, half rings
+  // as half tori about their own mean radius.
+  SbDoseGeometry g = {.bore = 6e-3,
+                      .land = 5.8e-3,
+                      .floor = 3.28e-3,
+                      .spacing = 6.2e-3,
+                      .groove = 2e-3,
+                      .recess_depth = 0.85e-3,
+                      .recess_length = 2.9e-3,
+                      .rings = {{1.61e-3, 2.84e-3}, {1.5e-3, 2.84e-3}}};
+  double sum = 0.0, h = g.spacing / 62000.0;
+  for (int i = 0; i < 62000; i++) {
+    double x = (i + 0.5) * h, inner = g.land;
+    if (x < 0.5 * g.groove || x > g.spacing - 0.5 * g.groove) {
+      inner = g.floor;
+    } else if (fabs(x - 0.5 * g.spacing) < 0.5 * g.recess_length) {
+      inner = g.land - 2.0 * g.recess_depth;
+    }
+    sum += G_PI / 4.0 * (g.bore * g.bore - inner * inner) * h;
+    for (int ring = 0; ring < 2; ring++) {
+      double d = g.rings[ring].section, from = ring == 0 ? x : g.spacing - x;
+      double half = from < 0.5 * d ? sqrt(0.25 * d * d - from * from) : 0.0;
+      sum -= G_PI * (g.rings[ring].inner + d) * 2.0 * half * h;
+    }
+  }
+  ASSERT_NEAR(sb_chamber_metered_volume(&g), sum, 1e-5 * sum);
   g_assert_cmpint(sb_chamber_doses(50e-9, 10e-6, 0.0), ==, 200);
   g_assert_cmpint(sb_chamber_doses(50e-9, 10e-6, 1e-6), ==, 180);
   g_assert_cmpint(sb_chamber_doses(0.0, 10e-6, 1e-6), ==, 0);

@@ -1,0 +1,53 @@
+// What the files of a run with inertia share: the valve as a mechanism (run_valve.c), what drives
+// it (run_drive.c), and its frames and figures (run_dynamic.c). Private to this folder.
+#pragma once
+
+#include "engine/motion/chamber.h"
+#include "engine/motion/dynamics.h"
+#include "engine/run_private.h"
+
+enum { SB_REST_STOP = 0, SB_END_STOP = 1 };
+
+// The valve as the motion sees it; the user of the callbacks of SbDynamicsModel.
+typedef struct {
+  SbRun *run;
+  SbChamber chamber;  // passed on the way
+  bool touches;       // the inner seal seals at all
+  double edge_open;   // stem displacement behind which the chamber opens on the way in
+  double edge_closed; // and closes on the way out
+  bool varies[SB_DYNAMICS_EDGES + 1]; // regions in which the land's edge lies under the contact
+  double edge[SB_DYNAMICS_EDGES];     // those of the mechanism
+  bool ports;                         // the chamber's pressure is a state, extra[0]
+  SbChamberModel chamber_model;
+  SbDoseChamber dose;
+} SbValve;
+
+// Makes the mechanism. The valve must outlive `out`. SB_ERROR_INFEASIBLE if ports contradict each
+// other.
+SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbReport *report);
+
+// Contact, load and film of a seal for a frame; `pressure` is the chamber's [Pa], used with ports.
+void sb_valve_fill_seal(SbSealFrame *out, const SbValve *valve, int seal, int direction,
+                        bool moving, double s, double pressure);
+
+// Chamber pressure [Pa] in a frame, given the mechanism's extra state.
+double sb_valve_chamber_pressure(const SbValve *valve, const double *extra);
+
+// The sliding state of a seal that stands for the present chamber and direction.
+const SbSliding *sb_valve_state(const SbValve *valve, int seal, int direction, double pressure);
+
+// Sets what drives the mechanism, and where it starts.
+void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run);
+
+// Time of the whole drive; frames are evenly spaced over it [s].
+double sb_drive_duration(const SbRun *run);
+
+// Whether the run ends with the drive, without waiting for rest.
+bool sb_drive_ends_run(const SbRun *run);
+
+// When the drive has turned: from then on a reverse slip is the return, before it a rebound [s].
+double sb_drive_turn(const SbRun *run);
+
+// Corner `index` of the drive: where the platen turns or the finger's force bends, so that a frame
+// sits on every extreme whatever the frames' spacing. INFINITY behind the last.
+double sb_drive_corner(const SbRun *run, int index);
