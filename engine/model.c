@@ -288,6 +288,11 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
               .squeeze_min = sb_params_get(params, SB_P_STUDY_SQUEEZE_MIN),
               .squeeze_max = sb_params_get(params, SB_P_STUDY_SQUEEZE_MAX),
           },
+      .look = {.field = (int)sb_params_get(params, SB_P_OUTPUT_FIELD),
+               .insets = (int)sb_params_get(params, SB_P_OUTPUT_INSETS),
+               .full = sb_params_get(params, SB_P_OUTPUT_SECTION) > 0,
+               .undeformed = sb_params_get(params, SB_P_OUTPUT_UNDEFORMED) > 0,
+               .field_max = sb_params_get(params, SB_P_OUTPUT_FIELD_MAX)},
       .shape =
           {
               .entry_diameter = sb_params_get(params, SB_P_BORE_ENTRY_DIAMETER),

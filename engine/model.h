@@ -89,6 +89,15 @@ typedef struct {
   double squeeze_min, squeeze_max; // of the free section
 } SbStudyRange;
 
+// How the section is shown when nobody says otherwise; no result depends on it.
+typedef struct {
+  int field;        // index among the choices of output.field = SbField
+  int insets;       // 0 of the outer seal, 1 of the inner one, 2 none
+  bool full;        // both halves
+  bool undeformed;  // the rings' outline before fitting
+  double field_max; // end of the colours of stresses [Pa]; 0: the range of the run
+} SbSectionLook;
+
 typedef struct {
   SbSealModel seal[SB_SEAL_COUNT];
   SbRubber rubber;                  // how storage changes it
@@ -132,6 +141,7 @@ typedef struct {
   double rig_prominence; // fall of the force that makes a peak [N]
   unsigned views;        // bit mask of SbView
   unsigned studies;      // bit mask, 1 << SbStudyKind
+  SbSectionLook look;    // for the drawing only
   double stem_diameter;  // D_p, also the stem's land [m]
   SbValveShape shape;    // for the drawing only
   SbStudyRange study;

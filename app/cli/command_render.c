@@ -1,4 +1,4 @@
-// sealbench render: a view of a scene as a picture or a film.
+// sealbench render: a view of a scene as a picture, a film or a sequence of pictures.
 #include "app/cli/cli.h"
 #include "app/export/render_movie.h"
 #include "app/export/studies.h"
@@ -7,19 +7,165 @@
 #include <stdlib.h>
 #include <string.h>
 
-// "1280x720".
+// The options as they were given; texts are owned.
+typedef struct {
+  char *output, *view, *size, *at, *fps, *duration, *speed, *from, *to, *backend;
+  char *field, *field_max, *insets, *zoom;
+  char **settings;
+  gboolean dark, quiet, full, undeformed;
+} Options;
+
+// What they mean.
+typedef struct {
+  SbRenderOptions how;
+  SbRenderMovie movie;
+  SbSectionZoom zoom;
+  SbGlBackend backend;
+  bool film, sequence, is_study;
+  SbStudyKind study;
+} Request;
+
+static void options_clear(Options *options) {
+  char *const texts[] = {options->output, options->view,   options->size, options->at,
+                         options->fps,    options->speed,  options->from, options->duration,
+                         options->to,     options->field,  options->zoom, options->field_max,
+                         options->insets, options->backend};
+  for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
+    g_free(texts[i]);
+  }
+  g_strfreev(options->settings);
+}
+
+// "1280x720", or a size with a name.
 static bool parse_size(double *width, double *height, const char *text) {
+  size_t count;
+  const SbRenderSize *sizes = sb_render_sizes(&count);
+  for (size_t i = 0; i < count; i++) {
+    if (g_ascii_strcasecmp(text, sizes[i].name) == 0) {
+      *width = sizes[i].width;
+      *height = sizes[i].height;
+      return true;
+    }
+  }
   char *end = NULL;
   long w = strtol(text, &end, 10);
   bool good = end != text && *end == 'x' && g_ascii_isdigit(end[1]);
   long h = good ? strtol(end + 1, &end, 10) : 0;
   if (!good || *end != '\0' || w < 1 || h < 1 || w > 100000 || h > 100000) {
-    sb_cli_fail("--size: \"%s\" is not WIDTHxHEIGHT", text);
+    sb_cli_fail("--size: \"%s\" is not WIDTHxHEIGHT, 720p, 1080p, 4k or report", text);
     return false;
   }
   *width = (double)w;
   *height = (double)h;
   return true;
+}
+
+// The film's own options.
+static bool parse_film(Request *request, const Options *options) {
+  SbRenderMovie *movie = &request->movie;
+  bool moves = request->film || request->sequence;
+  if (moves && options->at != NULL) {
+    sb_cli_fail("--at: a film shows the whole cycle (--from and --to choose a part)");
+    return false;
+  }
+  if (!moves && (options->fps != NULL || options->duration != NULL || options->speed != NULL ||
+                 options->from != NULL || options->to != NULL)) {
+    sb_cli_fail("--fps, --duration, --speed, --from and --to are for films (.mp4) and sequences");
+    return false;
+  }
+  if (options->duration != NULL && options->speed != NULL) {
+    sb_cli_fail("--duration and --speed exclude each other");
+    return false;
+  }
+  movie->fps = 30;
+  movie->duration = 10;
+  movie->speed = 1;
+  if (!sb_cli_quantity(&movie->fps, "--fps", options->fps, false, "1", "") ||
+      !sb_cli_quantity(&movie->duration, "--duration", options->duration, false, "s", "s") ||
+      !sb_cli_quantity(&movie->speed, "--speed", options->speed, false, "1", "")) {
+    return false;
+  }
+  if (!(movie->fps > 0 && movie->duration > 0 && movie->speed > 0)) {
+    sb_cli_fail("--fps, --duration and --speed must be positive");
+    return false;
+  }
+  if (options->speed == NULL) {
+    movie->speed = 0;
+  }
+  movie->from = options->from;
+  movie->to = options->to;
+  return true;
+}
+
+static bool parse(Request *request, const Options *options) {
+  SbRenderOptions *how = &request->how;
+  if (options->output == NULL) {
+    sb_cli_fail("-o is missing: the picture or film to write");
+    return false;
+  }
+  how->view = options->view != NULL ? options->view : "section";
+  how->dark = options->dark;
+  how->at = options->at;
+  request->is_study = sb_study_from_name(&request->study, how->view);
+  if (!request->is_study && sb_render_view(how->view) == NULL) {
+    sb_cli_fail("--view: there is no view \"%s\" (see sealbench list views)", how->view);
+    return false;
+  }
+  if (options->size != NULL && !parse_size(&how->width, &how->height, options->size)) {
+    return false;
+  }
+  request->film = g_str_has_suffix(options->output, ".mp4");
+  request->sequence = sb_render_is_sequence(options->output);
+  if (request->is_study && (request->film || request->sequence)) {
+    sb_cli_fail("--view %s is a study, which does not move: write a .png, .svg or .pdf", how->view);
+    return false;
+  }
+  if (request->is_study && options->at != NULL) {
+    sb_cli_fail("--at: a study has no time");
+    return false;
+  }
+  if (!parse_film(request, options)) {
+    return false;
+  }
+  if (options->zoom != NULL) {
+    bool inner = strcmp(options->zoom, "inner") == 0;
+    if (!inner && strcmp(options->zoom, "outer") != 0) {
+      sb_cli_fail("--zoom: \"%s\" is no seal (allowed outer, inner)", options->zoom);
+      return false;
+    }
+    request->zoom = inner ? SB_SECTION_ZOOM_INNER : SB_SECTION_ZOOM_OUTER;
+  }
+  int backend = options->backend != NULL ? sb_gl_backend_find(options->backend) : SB_GL_AUTO;
+  if (backend < 0) {
+    sb_cli_fail("--backend: there is no back end \"%s\" (allowed osmesa, egl)", options->backend);
+    return false;
+  }
+  request->backend = (SbGlBackend)backend;
+  return true;
+}
+
+// --set, and behind it the options that are short for a key. Free with g_strfreev().
+static char **all_settings(const Options *options) {
+  GPtrArray *all = g_ptr_array_new();
+  for (char **p = options->settings; p != NULL && *p != NULL; p++) {
+    g_ptr_array_add(all, g_strdup(*p));
+  }
+  const struct {
+    const char *key, *value;
+  } keys[] = {
+      {"output.field", options->field},
+      {"output.field_max", options->field_max},
+      {"output.insets", options->insets},
+      {"output.section", options->full ? "full" : NULL},
+      {"output.undeformed", options->undeformed ? "shown" : NULL},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(keys); i++) {
+    if (keys[i].value != NULL) {
+      g_ptr_array_add(all, g_strdup_printf("%s=%s", keys[i].key, keys[i].value));
+    }
+  }
+  g_ptr_array_add(all, NULL);
+  return (char **)g_ptr_array_free(all, FALSE);
 }
 
 static void on_progress(void *data, double fraction, size_t frames) {
@@ -34,21 +180,43 @@ static void on_picture(void *data, size_t done, size_t total) {
   sb_progress_update(data, (double)done / (double)total);
 }
 
-// The film, with its own progress.
-static int render_film(const SbRun *run, const SbRenderOptions *options, double fps,
-                       double duration, const char *output, bool quiet) {
+// Runs what the view needs. An engine's status; `*run` may hold a partial run.
+static SbStatus compute(SbRun **run, SbModel *model, const char *view, bool quiet,
+                        SbReport *report) {
+  // What is drawn decides what is computed, not what the scene would show by itself.
+  int index = sb_param_choice(sb_param(SB_P_OUTPUT_VIEWS), view, strlen(view));
+  model->views = index >= 0 ? 1u << index : model->views;
+  SbPlan plan;
+  sb_plan_make(&plan, model);
+  SbProgress progress;
+  sb_progress_start(&progress, "computing ", quiet);
+  SbStatus status = sb_run_create(run, model, &plan, report);
+  if (status == SB_OK) {
+    sb_cli_catch_interrupts();
+    SbRunHooks hooks = {on_progress, on_cancelled, &progress};
+    status = sb_run_execute(*run, &hooks, report);
+    sb_progress_end(&progress);
+  }
+  return status;
+}
+
+// The film or sequence, with its own progress.
+static int render_film(const SbRun *run, Request *request, const char *output, bool quiet) {
   SbProgress progress;
   sb_progress_start(&progress, "drawing ", quiet);
-  SbRenderMovie movie = {fps, duration, {on_picture, on_cancelled, &progress}};
+  request->movie.hooks = (SbMovieHooks){on_picture, on_cancelled, &progress};
   SbMovieResult result = {0};
   GError *error = NULL;
-  bool good = sb_render_movie(run, options, &movie, output, &result, &error);
+  bool good = request->sequence
+                  ? sb_render_sequence(run, &request->how, &request->movie, output, &result, &error)
+                  : sb_render_movie(run, &request->how, &request->movie, output, &result, &error);
   sb_progress_end(&progress);
-  if (!good) {
-    return sb_cli_error(error);
-  }
-  if (!quiet && result.wall_s > 0) {
-    double read_back = sb_section_painter_read_back(options->section_data);
+  if (!quiet && result.wall_s > 0 && request->sequence) {
+    fprintf(stderr, "sealbench: %zu pictures in %.1f s (%.0f a second); engine %.2f s before\n",
+            result.frames, result.wall_s, (double)result.frames / result.wall_s,
+            sb_run_summary(run)->wall_s);
+  } else if (good && !quiet && result.wall_s > 0) {
+    double read_back = sb_section_painter_read_back(request->how.section_data);
     fprintf(stderr,
             "sealbench: %zu pictures in %.1f s (%.0f a second): drawing %.1f s, of it %.1f s "
             "waiting for GL and reading back; beside it colours %.1f s and encoding %.1f s; engine "
@@ -56,7 +224,7 @@ static int render_film(const SbRun *run, const SbRenderOptions *options, double 
             result.frames, result.wall_s, (double)result.frames / result.wall_s, result.draw_s,
             read_back, result.convert_s, result.encode_s, sb_run_summary(run)->wall_s);
   }
-  return SB_EXIT_DONE;
+  return good ? SB_EXIT_DONE : sb_cli_error(error);
 }
 
 // "piston.valve . thesis-cycle.scene", for the line below the title. Owned by the caller.
@@ -96,166 +264,119 @@ static int render_study(SbStudyKind kind, SbDocument *document, const SbModel *m
   return code;
 }
 
-int sb_command_render(int argc, char **argv) {
-  char *output = NULL;
-  char *view = NULL;
-  char *size = NULL;
-  char *at = NULL;
-  char *fps_text = NULL;
-  char *duration_text = NULL;
-  char *backend_text = NULL;
-  char **settings = NULL;
-  gboolean dark = FALSE;
-  gboolean quiet = FALSE;
-  const GOptionEntry entries[] = {
-      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output,
-       "Picture (.png, .svg, .pdf) or film (.mp4) to write", "OUT"},
-      {"view", 0, 0, G_OPTION_ARG_FILENAME, &view,
-       "section (default), hysteresis, profiles, dashboard, rig or a study (sealbench list views)",
-       "VIEW"},
-      {"size", 0, 0, G_OPTION_ARG_FILENAME, &size, "Size in pixels", "WxH"},
-      {"at", 0, 0, G_OPTION_ARG_FILENAME, &at, "Stage (A to F) or time (\"7.3 s\") of a picture",
-       "STAGE|TIME"},
-      {"fps", 0, 0, G_OPTION_ARG_FILENAME, &fps_text, "Pictures per second of a film, 30", "N"},
-      {"duration", 0, 0, G_OPTION_ARG_FILENAME, &duration_text,
-       "Time in which a film shows the whole cycle, 10 s", "S"},
-      {"backend", 0, 0, G_OPTION_ARG_FILENAME, &backend_text,
-       "What draws the section: osmesa or egl; else the first that works", "NAME"},
-      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, "Overrides a parameter", "KEY=VALUE"},
-      {"dark", 0, 0, G_OPTION_ARG_NONE, &dark, "Dark theme", NULL},
-      {"quiet", 0, 0, G_OPTION_ARG_NONE, &quiet, "No progress", NULL},
-      {0},
-  };
-  int code = SB_EXIT_INPUT;
-  SbModel model;
-  SbDocument *document = NULL;
-  SbRun *run = NULL;
-  SbSectionPainter *painter = NULL;
-  double fps = 30;
-  double duration = 10;
-  char *sha256 = NULL;
-  char *scene = NULL;
-  char *subtitle = NULL;
-  SbRenderOptions options = {.dark = dark};
-  if (!sb_cli_parse(&argc, &argv, entries, 1, 1, NULL)) {
-    goto done;
-  }
-  if (output == NULL) {
-    sb_cli_fail("-o is missing: the picture or film to write");
-    goto done;
-  }
-  options.view = view != NULL ? view : "section";
-  options.dark = dark;
-  options.at = at;
-  SbStudyKind study = SB_STUDY_COUNT;
-  bool is_study = sb_study_from_name(&study, options.view);
-  if (!is_study && sb_render_view(options.view) == NULL) {
-    sb_cli_fail("--view: there is no view \"%s\" (see sealbench list views)", options.view);
-    goto done;
-  }
-  if (size != NULL && !parse_size(&options.width, &options.height, size)) {
-    goto done;
-  }
-  bool film = g_str_has_suffix(output, ".mp4");
-  if (is_study && film) {
-    sb_cli_fail("--view %s is a study, which does not move: write a .png, .svg or .pdf",
-                options.view);
-    goto done;
-  }
-  if (is_study && at != NULL) {
-    sb_cli_fail("--at: a study has no time");
-    goto done;
-  }
-  if (film && at != NULL) {
-    sb_cli_fail("--at: a film shows the whole cycle");
-    goto done;
-  }
-  if (!film && (fps_text != NULL || duration_text != NULL)) {
-    sb_cli_fail("--fps and --duration are for films (.mp4)");
-    goto done;
-  }
-  if (!sb_cli_quantity(&fps, "--fps", fps_text, false, "1", "") ||
-      !sb_cli_quantity(&duration, "--duration", duration_text, false, "s", "s")) {
-    goto done;
-  }
-  if (!(fps > 0 && duration > 0)) {
-    sb_cli_fail("--fps and --duration must be positive");
-    goto done;
-  }
-  int backend = backend_text != NULL ? sb_gl_backend_find(backend_text) : SB_GL_AUTO;
-  if (backend < 0) {
-    sb_cli_fail("--backend: there is no back end \"%s\" (allowed osmesa, egl)", backend_text);
-    goto done;
-  }
-  document = sb_cli_open(&model, argv[1], settings);
-  if (document == NULL) {
-    goto done;
-  }
-  if (is_study) {
-    code = render_study(study, document, &model, &options, output, quiet);
-    goto done;
-  }
-  // What is drawn decides what is computed, not what the scene would show by itself.
-  int index = sb_param_choice(sb_param(SB_P_OUTPUT_VIEWS), options.view, strlen(options.view));
-  model.views = index >= 0 ? 1u << index : model.views;
-
-  SbPlan plan;
-  SbReport report = {0};
-  sb_plan_make(&plan, &model);
-  SbStatus status = sb_run_create(&run, &model, &plan, &report);
-  SbProgress progress;
-  sb_progress_start(&progress, "computing ", quiet);
-  if (status == SB_OK) {
-    sb_cli_catch_interrupts();
-    SbRunHooks hooks = {on_progress, on_cancelled, &progress};
-    status = sb_run_execute(run, &hooks, &report);
-    sb_progress_end(&progress);
-  }
-  code = sb_cli_status(status, &report);
-  if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
-    goto done;
-  }
+// Draws the finished run; an exit code.
+static int render(const SbRun *run, const SbDocument *document, Request *request,
+                  const Options *options) {
   // Vectors need no GL, and views without a section do not either.
+  const char *output = options->output;
   bool vector = g_str_has_suffix(output, ".svg") || g_str_has_suffix(output, ".pdf");
-  bool use_gl = !vector && sb_render_view(options.view)->section;
-  status = sb_section_painter_create(&painter, use_gl, (SbGlBackend)backend, &report);
+  bool use_gl = !vector && sb_render_view(request->how.view)->section;
+  SbSectionPainter *painter = NULL;
+  SbReport report = {0};
+  SbStatus status = sb_section_painter_create(&painter, use_gl, request->backend, &report);
   if (status != SB_OK) {
-    code = sb_cli_status(status, &report);
-    goto done;
+    return sb_cli_status(status, &report);
   }
-  if (use_gl && !quiet) {
+  if (use_gl && !options->quiet) {
     fprintf(stderr, "sealbench: section by %s\n", sb_section_painter_reason(painter));
   }
-  sha256 = sb_document_sha256(document);
-  scene = sb_document_to_flat_text(document);
-  options.title = sb_document_title(document);
-  subtitle = file_names(document);
-  options.subtitle = subtitle;
-  options.hash = sha256;
-  options.scene = scene;
-  options.section = sb_section_painter_draw;
-  options.section_data = painter;
+  SbSectionStyle style = sb_section_style_of(sb_run_model(run));
+  style.zoom = request->zoom;
+  sb_section_painter_style(painter, &style);
+  char *sha256 = sb_document_sha256(document);
+  char *scene = sb_document_to_flat_text(document);
+  char *subtitle = file_names(document);
+  SbRenderOptions *how = &request->how;
+  how->title = sb_document_title(document);
+  how->subtitle = subtitle;
+  how->hash = sha256;
+  how->scene = scene;
+  how->section = sb_section_painter_draw;
+  how->section_data = painter;
+  int code = SB_EXIT_DONE;
   GError *error = NULL;
-  if (film) {
-    int drawn = render_film(run, &options, fps, duration, output, quiet);
-    code = drawn != SB_EXIT_DONE ? drawn : code;
-  } else if (!sb_render_still(run, &options, output, &error)) {
+  if (request->film || request->sequence) {
+    code = render_film(run, request, output, options->quiet);
+  } else if (!sb_render_still(run, how, output, &error)) {
     code = sb_cli_error(error);
   }
-done:
   sb_section_painter_destroy(painter);
-  sb_run_destroy(run);
-  sb_document_free(document);
-  g_strfreev(settings);
   g_free(sha256);
   g_free(subtitle);
   g_free(scene);
-  g_free(output);
-  g_free(view);
-  g_free(size);
-  g_free(at);
-  g_free(fps_text);
-  g_free(duration_text);
-  g_free(backend_text);
+  return code;
+}
+
+int sb_command_render(int argc, char **argv) {
+  Options options = {0};
+  const GOptionEntry entries[] = {
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output,
+       "Picture (.png, .svg, .pdf), film (.mp4) or sequence (frames/%04d.png or a folder)", "OUT"},
+      {"view", 0, 0, G_OPTION_ARG_FILENAME, &options.view,
+       "section (default), hysteresis, profiles, dashboard, rig or a study (sealbench list views)",
+       "VIEW"},
+      {"size", 0, 0, G_OPTION_ARG_FILENAME, &options.size,
+       "Size in pixels, or 720p, 1080p, 4k, report (1600x1200)", "WxH"},
+      {"at", 0, 0, G_OPTION_ARG_FILENAME, &options.at,
+       "Stage (A to F) or time (\"7.3 s\") of a picture", "STAGE|TIME"},
+      {"fps", 0, 0, G_OPTION_ARG_FILENAME, &options.fps, "Pictures per second of a film, 30", "N"},
+      {"duration", 0, 0, G_OPTION_ARG_FILENAME, &options.duration,
+       "Time in which a film shows the whole cycle, 10 s", "S"},
+      {"speed", 0, 0, G_OPTION_ARG_FILENAME, &options.speed,
+       "In place of the duration: how many times faster than real", "FACTOR"},
+      {"from", 0, 0, G_OPTION_ARG_FILENAME, &options.from, "Where a film starts", "STAGE|TIME"},
+      {"to", 0, 0, G_OPTION_ARG_FILENAME, &options.to, "Where a film ends", "STAGE|TIME"},
+      {"backend", 0, 0, G_OPTION_ARG_FILENAME, &options.backend,
+       "What draws the section: osmesa or egl; else the first that works", "NAME"},
+      {"field", 0, 0, G_OPTION_ARG_FILENAME, &options.field,
+       "Colours of solved rings: von-mises, hydrostatic-pressure, shear, contact-pressure or "
+       "displacement (output.field)",
+       "NAME"},
+      {"field-max", 0, 0, G_OPTION_ARG_FILENAME, &options.field_max,
+       "Stress at the end of the colours; else the range of the run (output.field_max)", "STRESS"},
+      {"insets", 0, 0, G_OPTION_ARG_FILENAME, &options.insets,
+       "Whose contact is enlarged: outer, inner or none (output.insets)", "SEAL"},
+      {"zoom", 0, 0, G_OPTION_ARG_FILENAME, &options.zoom,
+       "One seal's surroundings only: outer or inner", "SEAL"},
+      {"full", 0, 0, G_OPTION_ARG_NONE, &options.full,
+       "Both halves of the section (output.section)", NULL},
+      {"undeformed", 0, 0, G_OPTION_ARG_NONE, &options.undeformed,
+       "The rings' outline before fitting, dashed (output.undeformed)", NULL},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, "Overrides a parameter",
+       "KEY=VALUE"},
+      {"dark", 0, 0, G_OPTION_ARG_NONE, &options.dark, "Dark theme", NULL},
+      {"quiet", 0, 0, G_OPTION_ARG_NONE, &options.quiet, "No progress", NULL},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  Request request = {0};
+  SbModel model;
+  SbDocument *document = NULL;
+  SbRun *run = NULL;
+  if (!sb_cli_parse(&argc, &argv, entries, 1, 1, NULL) || !parse(&request, &options)) {
+    goto done;
+  }
+  char **settings = all_settings(&options);
+  document = sb_cli_open(&model, argv[1], settings);
+  g_strfreev(settings);
+  if (document == NULL) {
+    goto done;
+  }
+  if (request.is_study) {
+    code =
+        render_study(request.study, document, &model, &request.how, options.output, options.quiet);
+    goto done;
+  }
+  SbReport report = {0};
+  SbStatus status = compute(&run, &model, request.how.view, options.quiet, &report);
+  code = sb_cli_status(status, &report);
+  if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+    int drawn = render(run, document, &request, &options);
+    code = drawn != SB_EXIT_DONE ? drawn : code;
+  }
+done:
+  sb_run_destroy(run);
+  sb_document_free(document);
+  options_clear(&options);
   return code;
 }

@@ -28,6 +28,18 @@ const SbRenderView *sb_render_views(size_t *count) {
   return views;
 }
 
+static const SbRenderSize sizes[] = {
+    {"720p", "720p, 1280 \xc3\x97 720", 1280, 720},
+    {"1080p", "1080p, 1920 \xc3\x97 1080", 1920, 1080},
+    {"4k", "4K, 3840 \xc3\x97 2160", 3840, 2160},
+    {"report", "Report, 1600 \xc3\x97 1200", 1600, 1200},
+};
+
+const SbRenderSize *sb_render_sizes(size_t *count) {
+  *count = G_N_ELEMENTS(sizes);
+  return sizes;
+}
+
 const SbRenderView *sb_render_view(const char *name) {
   for (size_t i = 0; i < G_N_ELEMENTS(views); i++) {
     if (strcmp(views[i].name, name) == 0) {

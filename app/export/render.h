@@ -20,6 +20,16 @@ const SbRenderView *sb_render_views(size_t *count);
 // A row by name; NULL if there is none.
 const SbRenderView *sb_render_view(const char *name);
 
+// Sizes with a name.
+typedef struct {
+  const char *name;  // "1080p"
+  const char *label; // "Full HD, 1920 × 1080"
+  int width, height; // pixels
+} SbRenderSize;
+
+// The table, `*count` rows; static.
+const SbRenderSize *sb_render_sizes(size_t *count);
+
 // What a picture takes beside the run. Pointers are borrowed; zero is a good default everywhere but
 // `view`.
 typedef struct {

@@ -1,18 +1,22 @@
-// A finished run as a film: the whole cycle of any view in a given time, H.264 in MP4.
+// A finished run as a film, H.264 in MP4, or as a sequence of PNG files.
 #pragma once
 
-#include "app/export/movie.h"
-#include "app/export/render.h"
-
-typedef struct {
-  double fps;      // pictures per second; 0 counts as 30
-  double duration; // of the film, in which the whole cycle is shown [s]; 0 counts as 10
-  SbMovieHooks hooks;
-} SbRenderMovie;
+#include "app/export/film.h"
 
 // Renders `run` into the MP4 file `path`; sizes default to the view's own, `at`, `scale` and
-// `scene` of the options are not used. SB_APP_ERROR_INPUT (unknown view, size, rate, no frames),
-// SB_APP_ERROR_IO (an earlier file is intact), SB_APP_ERROR_CANCELLED (a playable part is there,
-// flagged partial, if result->frames > 0). `result` may be NULL.
+// `scene` of the options are not used. SB_APP_ERROR_INPUT (unknown view, size, rate, range, no
+// frames), SB_APP_ERROR_IO (an earlier file is intact), SB_APP_ERROR_CANCELLED (a playable part is
+// there, flagged partial, if result->frames > 0). `result` may be NULL.
 bool sb_render_movie(const SbRun *run, const SbRenderOptions *options, const SbRenderMovie *movie,
                      const char *path, SbMovieResult *result, GError **error);
+
+// Whether `path` names a sequence: one number field such as %04d and the ending .png, or a folder
+// (an existing one, or a name that ends with a slash), in which frame-%04d.png is meant.
+bool sb_render_is_sequence(const char *path);
+
+// Renders the pictures of a film, counted from 1, into files named by `path` (see above), each
+// complete with the scene in it; a missing folder is made. Errors as for a film; pictures done
+// before a failure or cancelling stay, result->frames of them.
+bool sb_render_sequence(const SbRun *run, const SbRenderOptions *options,
+                        const SbRenderMovie *movie, const char *path, SbMovieResult *result,
+                        GError **error);

@@ -220,3 +220,22 @@ void sb_draw_arrow(SbDrawList *list, double x0, double y0, double x1, double y1,
   };
   sb_draw_fill(list, points, 4, colour);
 }
+
+void sb_draw_reflect(SbDrawList *list, size_t first, double y) {
+  size_t end = list->item_count;
+  for (size_t i = first; i < end; i++) {
+    if (list->item[i].kind == SB_DRAW_TEXT) {
+      continue;
+    }
+    SbDrawItem *item = add_item(list, list->item[i].kind, list->item[i].colour);
+    *item = list->item[i]; // scalars are shared
+    size_t from = item->first;
+    size_t count = item->count;
+    item->first = list->point_count;
+    SbDrawPoint *to = add_points(list, count);
+    for (size_t k = 0; k < count; k++) {
+      SbDrawPoint point = list->point[from + k];
+      to[k] = (SbDrawPoint){point.x, (float)(2 * y) - point.y};
+    }
+  }
+}

@@ -139,6 +139,10 @@ SbDrawItem *sb_draw_mesh(SbDrawList *list, const SbDrawPoint *points, const floa
 SbDrawItem *sb_draw_text(SbDrawList *list, double x, double y, double size, int weight,
                          SbDrawAlign align, SbDrawColour colour, const char *text);
 
+// Adds the mirror image, about the horizontal line at `y`, of all items from number `first` on that
+// hold no text. Hatches keep their direction: the parts are the same ones.
+void sb_draw_reflect(SbDrawList *list, size_t first, double y);
+
 // An arrow from (x0, y0) to its point (x1, y1): a shaft and a head of length x width.
 void sb_draw_arrow(SbDrawList *list, double x0, double y0, double x1, double y1, double line,
                    double head_length, double head_width, SbDrawColour colour);

@@ -76,6 +76,17 @@ double sb_section_painter_read_back(const SbSectionPainter *painter) {
   return 1e-6 * (double)painter->read_back;
 }
 
+SbSectionStyle sb_section_style_of(const SbModel *model) {
+  const SbSectionLook *look = &model->look;
+  enum { OF_INNER = 1, NONE = 2 };
+  return (SbSectionStyle){.inset_seal = look->insets == OF_INNER ? SB_INNER : SB_OUTER,
+                          .hide_insets = look->insets == NONE,
+                          .full = look->full,
+                          .undeformed = look->undeformed,
+                          .field = (SbField)look->field,
+                          .field_max = look->field_max};
+}
+
 void sb_section_painter_style(SbSectionPainter *painter, const SbSectionStyle *style) {
   painter->style = *style;
 }
@@ -176,6 +187,10 @@ void sb_section_painter_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
       .hide_labels = painter->style.hide_labels,
       .inset_seal = painter->style.inset_seal,
       .zoom = painter->style.zoom,
+      .full = painter->style.full,
+      .field = painter->style.field,
+      .field_max = painter->style.field_max,
+      .undeformed = painter->style.undeformed,
   };
   sb_section_draw(painter->section, &painter->list, &view, &instant);
   cairo_surface_type_t type = cairo_surface_get_type(cairo_get_target(cr));

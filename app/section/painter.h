@@ -13,7 +13,13 @@ typedef struct {
   int inset_seal; // SB_OUTER or SB_INNER
   SbSectionZoom zoom;
   bool hide_insets, hide_forces, hide_labels;
+  bool full, undeformed; // as in SbSectionView
+  SbField field;
+  double field_max; // [Pa], 0: automatic
 } SbSectionStyle;
+
+// What a scene says about it.
+SbSectionStyle sb_section_style_of(const SbModel *model);
 
 // A painter for this thread. With `use_gl` it opens a context (SB_ERROR_IO if an explicitly asked
 // back end does not work; with SB_GL_AUTO it falls back to cairo and says so in its reason).

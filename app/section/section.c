@@ -83,8 +83,9 @@ void sb_section_limits_add_run(SbSectionLimits *limits, const SbRun *run) {
 }
 
 const char *sb_section_field_name(SbField field) {
-  static const char *const names[SB_FIELD_COUNT] = {
-      "von Mises stress", "mean pressure", "shear stress", "surface pressure", "displacement"};
+  static const char *const names[SB_FIELD_COUNT] = {"von Mises stress", "hydrostatic pressure",
+                                                    "shear stress", "contact pressure",
+                                                    "displacement"};
   return names[field];
 }
 
@@ -164,9 +165,14 @@ void sb_section_field_limits(const SbSection *section, SbField field, double *le
                              double *greatest) {
   *least = section->limits.field_min[field];
   *greatest = section->limits.field_max[field];
+  double given = section->view->field_max;
+  if (given > 0 && field != SB_FIELD_DISPLACEMENT) {
+    *least = fmin(*least, 0);
+    *greatest = given;
+  }
   if (field == SB_FIELD_SHEAR) {
     // Signed: the map's middle is zero.
-    *greatest = fmax(*greatest, -*least);
+    *greatest = given > 0 ? given : fmax(*greatest, -*least);
     *least = -*greatest;
   }
 }
@@ -181,13 +187,53 @@ static double drawn_height(const SbSection *section, int seal, double x, double 
   return fmin(y, sb_valve_bore_at(valve, x + sb_section_origin(section, seal)) - valve->floor);
 }
 
+// Pressure lives on the surface: a band along the outline on a plain body. Quads from the outline
+// towards the middle, BAND px wide.
+static void draw_surface_field(SbSection *section, int seal, const SbSealShape *shape, double ax,
+                               double bx, double ay, double by, double least, double greatest) {
+  const double BAND = 7;
+  const SbPalette *palette = section->palette;
+  size_t n = shape->outline;
+  SbDrawPoint *edge = section->scratch;
+  SbDrawPoint *quad = section->scratch + n;
+  float *scalar = section->scratch_scalar;
+  SbDrawPoint middle = {0};
+  for (size_t i = 0; i < n; i++) {
+    int node = shape->outline_node[i];
+    double x = shape->place[2 * node];
+    double y = drawn_height(section, seal, x, shape->place[2 * node + 1]);
+    edge[i] = (SbDrawPoint){(float)(ax + bx * x), (float)(ay + by * y)};
+    middle.x += edge[i].x / (float)n;
+    middle.y += edge[i].y / (float)n;
+  }
+  sb_draw_fill(section->list, edge, n, sb_draw_mix(palette->panel, palette->seal[seal], 0.12))
+      ->feather = false;
+  for (size_t i = 0; i < n; i++) {
+    size_t next = (i + 1) % n;
+    SbDrawPoint in[2];
+    for (int k = 0; k < 2; k++) {
+      SbDrawPoint p = edge[k == 0 ? i : next];
+      double length = hypot((double)(middle.x - p.x), (double)(middle.y - p.y));
+      float share = (float)fmin(BAND / fmax(length, 1), 0.5);
+      in[k] = (SbDrawPoint){p.x + share * (middle.x - p.x), p.y + share * (middle.y - p.y)};
+    }
+    const SbDrawPoint corner[6] = {edge[i], edge[next], in[1], edge[i], in[1], in[0]};
+    float a = shape->field[SB_FIELD_CONTACT][shape->outline_node[i]];
+    float b = shape->field[SB_FIELD_CONTACT][shape->outline_node[next]];
+    const float value[6] = {a, b, b, a, b, a};
+    memcpy(quad + 6 * i, corner, sizeof corner);
+    memcpy(scalar + 6 * i, value, sizeof value);
+  }
+  sb_draw_mesh(section->list, quad, scalar, 6 * n, &palette->field, least, greatest);
+}
+
 // Field of a solved ring in its deformed triangles with lines of equal value, then its outline.
 static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *shape, double ax,
                              double bx, double ay, double by) {
   const SbPalette *palette = section->palette;
   SbField field = section->view->field;
   size_t corners = 3 * shape->triangles;
-  size_t most = MAX(corners, shape->outline);
+  size_t most = MAX(corners, 7 * shape->outline);
   if (most > section->scratch_size) {
     section->scratch_size = most;
     section->scratch = g_renew(SbDrawPoint, section->scratch, most);
@@ -195,6 +241,12 @@ static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *sh
   }
   SbDrawPoint *point = section->scratch;
   float *scalar = section->scratch_scalar;
+  double least, greatest;
+  sb_section_field_limits(section, field, &least, &greatest);
+  bool sign = field == SB_FIELD_SHEAR;
+  if (field == SB_FIELD_CONTACT) {
+    draw_surface_field(section, seal, shape, ax, bx, ay, by, least, greatest);
+  }
   for (size_t i = 0; i < corners; i++) {
     int node = shape->triangle[i];
     double x = shape->place[2 * node];
@@ -202,15 +254,14 @@ static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *sh
     point[i] = (SbDrawPoint){(float)(ax + bx * x), (float)(ay + by * y)};
     scalar[i] = shape->field[field][node];
   }
-  double least, greatest;
-  sb_section_field_limits(section, field, &least, &greatest);
-  bool sign = field == SB_FIELD_SHEAR;
-  SbDrawItem *item = sb_draw_mesh(section->list, point, scalar, corners,
-                                  sign ? &palette->diverging : &palette->field, least, greatest);
-  item->isolines = ISOLINES;
-  item->width = 0.6f;
-  item->line_colour = palette->ink;
-  item->line_colour.a = 0.16f;
+  if (field != SB_FIELD_CONTACT) {
+    SbDrawItem *item = sb_draw_mesh(section->list, point, scalar, corners,
+                                    sign ? &palette->diverging : &palette->field, least, greatest);
+    item->isolines = ISOLINES;
+    item->width = 0.6f;
+    item->line_colour = palette->ink;
+    item->line_colour.a = 0.16f;
+  }
   if (section->view->mesh) {
     SbDrawColour line = palette->outline;
     line.a = 0.35f;
@@ -227,7 +278,26 @@ static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *sh
   sb_draw_stroke(section->list, point, shape->outline, 1.8, palette->outline)->closed = true;
 }
 
-void sb_section_draw_ring(SbSection *section, int seal, double ax, double bx, double ay,
+// The section of the free ring, where it lies when nothing holds it: its axis is the valve's, so
+// that it cuts into groove floor and bore by stretch and squeeze.
+static void draw_undeformed(SbSection *section, int seal, double ax, double bx, double ay,
+                            double by) {
+  const SbSealModel *model = &section->model.seal[seal];
+  enum { POINTS = 72 };
+  SbDrawPoint point[POINTS];
+  double radius = model->section_diameter / 2;
+  double middle = model->inner_diameter / 2 + radius - section->valve.floor;
+  for (int i = 0; i < POINTS; i++) {
+    double angle = 2 * G_PI * i / POINTS;
+    point[i] = (SbDrawPoint){(float)(ax + bx * radius * cos(angle)),
+                             (float)(ay + by * (middle + radius * sin(angle)))};
+  }
+  SbDrawItem *item = sb_draw_stroke(section->list, point, POINTS, 1.2, section->palette->ink);
+  item->closed = true;
+  item->dash = SB_DASH_REFERENCE;
+}
+
+static void draw_deformed(SbSection *section, int seal, double ax, double bx, double ay,
                           double by) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
@@ -244,6 +314,14 @@ void sb_section_draw_ring(SbSection *section, int seal, double ax, double bx, do
   SbDrawColour fill = sb_draw_mix(palette->panel, palette->seal[seal], palette->dark ? 0.42 : 0.34);
   sb_draw_fill(list, points, shape->count, fill)->feather = false;
   sb_draw_stroke(list, points, shape->count, 1.8, palette->outline)->closed = true;
+}
+
+void sb_section_draw_ring(SbSection *section, int seal, double ax, double bx, double ay,
+                          double by) {
+  draw_deformed(section, seal, ax, bx, ay, by);
+  if (section->view->undeformed) {
+    draw_undeformed(section, seal, ax, bx, ay, by);
+  }
 }
 
 // Fluid behind everything: tinted by pressure, changing at the sealing contacts.
@@ -329,12 +407,17 @@ static void draw_stem(SbSection *section) {
   sb_draw_stroke(section->list, pixel, outline->count, 1.8, section->palette->outline);
 }
 
+static bool shows_both_halves(const SbSectionView *view) {
+  return view->full && view->zoom == SB_SECTION_WHOLE;
+}
+
 void sb_section_draw_strip(SbSection *section) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
   const SbFrame *frame = section->instant->frame;
   sb_draw_clip(list, &section->strip);
   draw_fluid(section);
+  size_t first = list->item_count;
   SbSectionFrameMap map = {section->x0, section->y0, section->scale, (double)section->strip.y - 20};
   sb_section_draw_housing(section, &map);
   draw_stem(section);
@@ -353,6 +436,9 @@ void sb_section_draw_strip(SbSection *section) {
       SbDrawPoint b = sb_section_at(section, right, bore);
       sb_draw_line(list, a.x, a.y, b.x, b.y, 4, palette->seal[i]);
     }
+  }
+  if (shows_both_halves(section->view)) {
+    sb_draw_reflect(list, first, section->y0);
   }
   if (section->view->zoom == SB_SECTION_WHOLE) {
     double y = section->y0 - 0.5;
@@ -411,7 +497,7 @@ static void lay_out(SbSection *section, Layout *layout) {
   double left = MIN(valve->nose - model->stroke, valve->face);
   double right = valve->end + RIGHT_ROOM * model->bore_diameter;
   double scale = (strip_width - left_room) / (right - left);
-  double radius = TOP * model->bore_diameter;
+  double radius = TOP * model->bore_diameter * (view->full ? 2 : 1);
   // A low picture gives the insets at least 130 px of the strip's height, then none. A high narrow
   // one stacks them, and what it cannot use stays free below.
   double titles = layout->column ? 22 : 82, gap = 30;
@@ -435,7 +521,7 @@ static void lay_out(SbSection *section, Layout *layout) {
                                 (float)(radius * scale)};
   double used = (right - left) * scale + left_room;
   section->x0 = margin + (strip_width - used) / 2 + left_room - left * scale;
-  section->y0 = bottom;
+  section->y0 = view->full ? bottom - radius * scale / 2 : bottom;
 }
 
 void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *view,

@@ -36,8 +36,11 @@ typedef struct {
   bool hide_insets, hide_forces, hide_labels;
   int inset_seal; // SB_OUTER or SB_INNER
   SbSectionZoom zoom;
-  SbField field; // shown on solved rings
-  bool mesh;     // their elements' edges too
+  bool full;        // both halves; not when zoomed
+  SbField field;    // shown on solved rings
+  double field_max; // end of its colours [Pa], 0: the limits'; not for displacement
+  bool undeformed;  // the rings' outline before fitting, dashed
+  bool mesh;        // the elements' edges of solved rings
 } SbSectionView;
 
 // The instant to draw; everything borrowed. profile and ring may hold NULL; without a solved shape

@@ -9,6 +9,11 @@
 
 static const double PX_PER_NEWTON = 3.4;
 
+// The valve's axis in a whole picture, the lower end of a zoomed one [px].
+static double axis_of(const SbSection *section) {
+  return fmin((double)section->strip.y + (double)section->strip.height, section->y0);
+}
+
 static SbSectionLabel label_style(SbDrawColour colour, int weight, SbDrawAlign align,
                                   const SbDrawColour *plate) {
   return (SbSectionLabel){12, weight, align, colour, plate};
@@ -183,7 +188,7 @@ static void draw_stem_forces(SbSection *section) {
   SbDrawList *list = section->list;
   const SbFrame *frame = section->instant->frame;
   const SbDrawRect *strip = &section->strip;
-  double axis = strip->y + strip->height;
+  double axis = axis_of(section);
   double y = axis - fmin(40, 0.45 * section->valve.rod * section->scale);
   char text[80], value[SB_SECTION_NUMBER];
 
@@ -207,7 +212,8 @@ static void draw_stem_forces(SbSection *section) {
   }
   snprintf(text, sizeof text, "drive %s", sb_section_force(value, force));
   SbSectionLabel style = {14, 700, SB_ALIGN_RIGHT, palette->ink, &palette->stem};
-  sb_section_label(section, right, y - 18, &style, text);
+  bool above = y - 34 > (double)sb_section_at(section, 0, section->valve.rod).y;
+  sb_section_label(section, right, above ? y - 18 : axis + 18, &style, text);
 
   if (fabs(frame->stop_force) >= 0.05) {
     double shown = PX_PER_NEWTON * frame->stop_force;
@@ -224,7 +230,7 @@ static void draw_stem_forces(SbSection *section) {
 static void draw_motion(SbSection *section) {
   const SbPalette *palette = section->palette;
   const SbFrame *frame = section->instant->frame;
-  double axis = section->strip.y + section->strip.height;
+  double axis = axis_of(section);
   double middle = sb_section_at(section, section->valve.chamber - frame->displacement, 0).x;
   SbSectionLabel bold = label_style(palette->ink, 600, SB_ALIGN_CENTRE, &palette->stem);
   const double at[2][2] = {{middle, axis - 52}, {middle + 60, axis - 52}};
@@ -336,8 +342,9 @@ static void draw_scales(SbSection *section) {
       section->instant->ring[SB_OUTER] == NULL || section->instant->ring[SB_INNER] == NULL;
   const char *const whole = section->view->zoom == SB_SECTION_WHOLE ? "axis of the valve; " : "";
   char caption[160];
-  snprintf(caption, sizeof caption, "%sto scale in both directions%s", whole,
-           schematic ? "; rings: schematic shape, contact width and area true" : "");
+  snprintf(caption, sizeof caption, "%sto scale in both directions%s%s", whole,
+           schematic ? "; rings: schematic shape, contact width and area true" : "",
+           section->view->undeformed ? "; dashed: rings before fitting" : "");
   if (section->strip.x + sb_text_width(section->text, caption, 11, 400) + 12 < x) {
     sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_ALIGN_LEFT, palette->second, caption);
   } else if (schematic) {

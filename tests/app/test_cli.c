@@ -596,6 +596,16 @@ static void test_render(void) {
       {{"-o", "x.mp4", "--fps", "0"}, 1},
       {{"-o", "x.mp4", "--duration", "3"}, 1},
       {{"-o", "x.mp4", "--backend", "vulkan"}, 1},
+      {{"-o", "x.mp4", "--speed", "0"}, 1},
+      {{"-o", "x.mp4", "--speed", "2", "--duration", "3 s"}, 1},
+      {{"-o", "x.mp4", "--from", "C", "--to", "B"}, 1},
+      {{"-o", "x.mp4", "--from", "Q"}, 1},
+      {{"-o", "x.png", "--from", "B"}, 1},
+      {{"-o", "x.png", "--size", "8k"}, 1},
+      {{"-o", "x.png", "--field", "heat"}, 1},
+      {{"-o", "x.png", "--insets", "both"}, 1},
+      {{"-o", "x.png", "--zoom", "stem"}, 1},
+      {{"-o", "%d/x.png"}, 1},
       {{"--view", "section"}, 1},
       {{"-o", "/no/such/x.mp4"}, 3},
       {{"-o", "/no/such/x.png"}, 3},
@@ -669,6 +679,99 @@ static void test_film_file(void) {
   g_free(path);
 }
 
+static gint by_name(gconstpointer a, gconstpointer b) {
+  return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+// Names in a folder, sorted, in one line.
+static char *listing(const char *path) {
+  GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
+  GDir *dir = g_dir_open(path, 0, NULL);
+  g_assert_nonnull(dir);
+  for (const char *name; (name = g_dir_read_name(dir)) != NULL;) {
+    g_ptr_array_add(names, g_strdup(name));
+  }
+  g_dir_close(dir);
+  g_ptr_array_sort(names, by_name);
+  g_ptr_array_add(names, NULL);
+  char *line = g_strjoinv(" ", (char **)names->pdata);
+  g_ptr_array_unref(names);
+  return line;
+}
+
+static void remove_pictures(const char *path) {
+  char *line = listing(path);
+  char **names = g_strsplit(line, " ", 0);
+  for (char **name = names; *name != NULL; name++) {
+    char *file = g_build_filename(path, *name, NULL);
+    g_unlink(file);
+    g_free(file);
+  }
+  g_strfreev(names);
+  g_free(line);
+  g_rmdir(path);
+}
+
+// A sequence: as many files as range, speed and rate make, each with the scene and its look; a
+// folder gets names of its own; Ctrl-C keeps what was finished.
+static void test_sequence(void) {
+  char *pictures = g_build_filename(folder, "frames", NULL);
+  char *pattern = g_build_filename(pictures, "p%03d.png", NULL);
+  // B to C lasts 9.9 s of the run: 4.97 s at twice the speed, five pictures at one a second.
+  Result result = RUN("render", scene, "-o", pattern, "--quiet", "--size", "320x180", "--fps", "1",
+                      "--from", "B", "--to", "C", "--speed", "2", "--field", "shear", "--full");
+  g_assert_cmpstr(result.err, ==, "");
+  g_assert_cmpint(result.code, ==, 0);
+  clear(&result);
+  char *names = listing(pictures);
+  g_assert_cmpstr(names, ==, "p001.png p002.png p003.png p004.png p005.png");
+  g_free(names);
+  // Any of them is a scene again, which remembers the look.
+  char *third = g_build_filename(pictures, "p003.png", NULL);
+  result = RUN("plan", third, "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  clear(&result);
+  char *again = g_build_filename(folder, "again.png", NULL);
+  result = RUN("render", third, "-o", again, "--quiet", "--size", "320x180", "--at", "C");
+  g_assert_cmpint(result.code, ==, 0);
+  clear(&result);
+  // That picture holds the scene again, with the options of the first.
+  char *restored = g_build_filename(folder, "restored.json", NULL);
+  result = RUN("run", again, "--json", restored, "--quiet");
+  g_assert_cmpint(result.code, ==, 0);
+  clear(&result);
+  result = RUN("run", scene, "--json", "-", "--quiet", "--set", "output.field=shear", "--set",
+               "output.section=full");
+  char *from_picture = contents(folder, "restored.json");
+  JsonNode *one = parse(from_picture);
+  JsonNode *two = parse(result.out);
+  g_assert_cmpstr(json_node_get_string(at(one, "parameters_sha256")), ==,
+                  json_node_get_string(at(two, "parameters_sha256")));
+  json_node_unref(one);
+  json_node_unref(two);
+  g_free(from_picture);
+  clear(&result);
+  g_unlink(restored);
+  g_free(restored);
+  g_unlink(again);
+  g_free(again);
+  g_free(third);
+  remove_pictures(pictures);
+
+  g_assert_cmpint(g_mkdir(pictures, 0777), ==, 0);
+  const char *const argv[] = {program,   "render",     scene,  "-o",    pictures, "--size",
+                              "320x180", "--duration", "20 s", "--fps", "30",     NULL};
+  g_assert_cmpint(interrupted_run(argv, "drawing 10"), ==, 130);
+  names = listing(pictures);
+  g_assert_true(g_str_has_prefix(names, "frame-0001.png frame-0002.png "));
+  g_assert_null(strstr(names, "frame-0600.png"));
+  g_assert_null(strstr(names, "tmp"));
+  g_free(names);
+  remove_pictures(pictures);
+  g_free(pattern);
+  g_free(pictures);
+}
+
 static void test_interrupt(void) {
   char *out = g_build_filename(folder, "part", NULL);
   const char *const argv[] = {program, "run", scene, "-o", out, "--set", "output.frames=1000000",
@@ -706,6 +809,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/io-errors", test_io_errors);
   g_test_add_func("/cli/render", test_render);
   g_test_add_func("/cli/film-file", test_film_file);
+  g_test_add_func("/cli/sequence", test_sequence);
   g_test_add_func("/cli/interrupt", test_interrupt);
   int result = g_test_run();
   g_rmdir(folder);
