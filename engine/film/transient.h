@@ -1,0 +1,70 @@
+// Transient film: start, stop and reversal of a sliding seal with given speed and load histories.
+//
+//   dm/dt + d/dx (u m/2 - h^3/(12 eta) dp/dx) = 0,   int (p - ambient) dx = W(t)
+//
+// with the gap h of film.h (half-plane and parabola, or a fitted body's compliance), m = h where
+// the film is full and p > rupture pressure, m < h and p = rupture pressure in a cavity: mass is
+// kept everywhere (Jakobsson, Floberg and Olsson; Elrod, J. Lubrication Technology 103, 1981). The
+// fluid in a cavity moves at u/2, as in the full film. Liquid stands around the contact from the
+// ends of the mesh on; what has left the contact as a thin layer comes back as a starved inlet
+// after a reversal until the liquid has followed.
+//
+// Space: finite volumes on a mesh refined at both edges of the contact that breathes with the
+// Hertz contact of W(t), second order; pressure by straight lines, the elastic kernel exact for
+// these. Time: BDF2 with steps chosen from its own error, Newton's method with the cavity's
+// complementarity as an active set. Range: isoviscous (Barus' and Eyring's options are refused),
+// flooded surroundings, M >= 1; the pressure must stay that of one contact.
+#pragma once
+
+#include "engine/film/film.h"
+
+typedef struct {
+  SbFilmProblem film; // sizes, load and speed at the start; tolerance of the film history
+  double speed_scale; // greatest |speed| to come [m/s]: lays the mesh
+  double rest_film;   // 0: start in the steady state of film.speed; else at rest, the contact
+                      // parted by this film [m] and the surroundings full
+} SbFilmTransientProblem;
+
+// Counters and checks since the start.
+typedef struct {
+  double time;        // [s]
+  double speed, load; // present values
+  size_t unknowns;    // of each Newton step
+  size_t steps;       // accepted
+  size_t rejected;    // steps
+  size_t newton_iterations;
+  size_t factorisations;
+  double load_error; // largest |integral of p - W| / W of any step
+  double mass_error; // largest |d/dt content + outflow| of any step over the flow scale
+  double error_time; // estimate, relative, of the film in the contact by the time steps
+  double error_mesh; // the same by the mesh: against the spectral steady film at speed_scale
+} SbFilmTransientInfo;
+
+typedef struct SbFilmTransient SbFilmTransient;
+
+// A solver in its initial state in *out, owned by the caller. SB_ERROR_RANGE / SB_ERROR_INPUT for
+// what film.h refuses and for options that the transient film does not know;
+// SB_ERROR_NOT_CONVERGED if there is no initial film. About 0.1 s.
+SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientProblem *problem,
+                                  SbReport *report);
+
+// Takes NULL.
+void sb_film_transient_destroy(SbFilmTransient *transient);
+
+// Advances by `dt` > 0 [s], speed and load going evenly from their present values to the given
+// ones, in as many steps as the tolerance needs. SB_ERROR_NOT_CONVERGED: the state stands at the
+// last good time (see info). SB_ERROR_RANGE: nothing done. SB_ERROR_CANCELLED by the problem's
+// callback.
+SbStatus sb_film_transient_step(SbFilmTransient *transient, double dt, double speed, double load,
+                                SbReport *report);
+
+// The same in `count` even steps without error control, for studies of the order.
+SbStatus sb_film_transient_fixed(SbFilmTransient *transient, double dt, size_t count, double speed,
+                                 double load, SbReport *report);
+
+// The present film in SI and in the seal's frame; film_flux is the film where the pressure is
+// greatest, flow that through x = 0, `solver` counts since the start.
+void sb_film_transient_result(SbFilm *out, const SbFilmTransient *transient);
+
+// Counters and checks.
+SbFilmTransientInfo sb_film_transient_info(const SbFilmTransient *transient);

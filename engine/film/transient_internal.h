@@ -1,0 +1,91 @@
+// Inside of the transient film (private to engine/film): mesh, state, and one implicit step.
+#pragma once
+
+#include "engine/film/scale.h"
+#include "engine/film/transient.h"
+
+enum { SB_TRANSIENT_NODES_MAX = 700 };
+
+// Everything is scaled by the steady problem's b, p_H and b^2/R; time stays in seconds. Nodes are
+// at x = middle + half X, in units of b.
+typedef struct {
+  double time;
+  double speed; // v = u/(2 b) [1/s]
+  double load;  // pi/2 at the start's load
+  double half, middle;
+  double H0;
+  double P[SB_TRANSIENT_NODES_MAX];     // above the rupture pressure
+  double H[SB_TRANSIENT_NODES_MAX];     // gap
+  double void_[SB_TRANSIENT_NODES_MAX]; // H less the fluid's height m
+  bool cavity[SB_TRANSIENT_NODES_MAX];  // active set
+} SbTransientState;
+
+// A step: content' = c0 content + old, and the mesh's velocity.
+typedef struct {
+  double c0;
+  const double *old; // [nodes] combination of earlier contents; NULL when steady
+  double half_rate, middle_rate;
+} SbTransientStep;
+
+typedef struct {
+  int iterations, factorisations;
+  double mass_error, load_error;
+} SbTransientTrace;
+
+struct SbFilmTransient {
+  SbFilmTransientProblem problem;
+  SbFilmScale scale;
+  int nodes;
+  double layer; // width of the layers at the edges
+  double X[SB_TRANSIENT_NODES_MAX];
+  double volume[SB_TRANSIENT_NODES_MAX];      // length of a node's cell
+  double weight[SB_TRANSIENT_NODES_MAX];      // of the load
+  bool limited[SB_TRANSIENT_NODES_MAX];       // transport through face i, i + 1 is kept monotonic
+  bool beside_cavity[SB_TRANSIENT_NODES_MAX]; // the same, by the cavity when a step begins
+  double diffusion;                           // kappa = film^2 p_H / (12 eta b^2) [1/s]
+  double flow;                                // scale of v m
+  double inlet, outlet;                       // left and right ambient pressure above the rupture's
+  double *kernel;                             // [nodes][nodes]
+  double *known;                              // [nodes] ambient pressures to infinity
+  double *matrix;
+  double *right;
+  int *pivot;
+  double row_scale[SB_TRANSIENT_NODES_MAX];
+  bool factored; // `matrix` holds the factors for this step size and cavity
+  double factored_c0;
+  bool factored_cavity[SB_TRANSIENT_NODES_MAX];
+  SbTransientState now, next, before;
+  double content[3][SB_TRANSIENT_NODES_MAX]; // half m at the last three times, newest first
+  double content_time[3], content_half[3], content_middle[3];
+  int known_times;
+  double steady_error, transport; // parts of error_mesh
+  double step;                    // next step to try [s]
+  SbFilmTransientInfo info;
+};
+
+// Mesh and kernel for films up to `rest`; the arrays stand.
+void sb_transient_mesh(SbFilmTransient *t, double rest);
+
+// Error that the limited transport makes in the contact's fluid, relative, per second.
+double sb_transient_smear(const SbFilmTransient *t, const SbTransientState *s);
+
+// Fluid height of a node.
+double sb_transient_height(const SbTransientState *s, int i);
+
+// Elastic gap of the state's pressure at all nodes.
+void sb_transient_gap(double *out, const SbFilmTransient *t, const SbTransientState *s);
+
+// Places the contact of a load: half-width and middle over b.
+SbStatus sb_transient_place(double *half, double *middle, const SbFilmTransient *t, double load,
+                            SbReport *report);
+
+// Flow v m - kappa H^3 P' through the face between i and i + 1, relative to the wall's frame.
+double sb_transient_flow(const SbFilmTransient *t, const SbTransientState *s, int face);
+
+// Newton's method for one implicit step (or the steady state, old = NULL) from the guess in `s`,
+// whose H may disagree with its P.
+SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTransientState *s,
+                             const SbTransientStep *step);
+
+// Contact at rest with the film `rest` (scaled) between the surfaces.
+SbStatus sb_transient_rest(SbFilmTransient *t, SbTransientState *s, double rest);

@@ -1,0 +1,611 @@
+// Mesh, kernel and the implicit step of the transient film; equations in transient.h.
+//
+// Node values stand for cells between the midpoints. Fluid goes through a face by quadratic
+// upwind interpolation in the layers, which are resolved, and with van Albada's limited slope
+// where the mesh is wider than they are or the upwind node lies in a cavity, so that fronts stay
+// monotonic. Unknown of a node is its pressure or its void, whichever is not zero.
+#include "engine/film/transient_internal.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+#include "engine/film/layers.h"
+#include "engine/numeric/legendre.h"
+
+// ---------------------------------------------------------------- mesh
+
+// f'' = ln|y|.
+static double second_integral(double y) {
+  return y == 0.0 ? 0.0 : 0.5 * y * y * (log(fabs(y)) - 1.5);
+}
+
+static double first_integral(double y) {
+  return y == 0.0 ? 0.0 : y * (log(fabs(y)) - 1.0);
+}
+
+// Integral of the straight line from 1 at `top` to 0 at `foot`, times ln|X - s|.
+static double half_hat(double X, double top, double foot, const double *node, const double *weight,
+                       int points) {
+  const double h = fabs(foot - top);
+  const double middle = 0.5 * (foot + top);
+  if (fabs(X - middle) > 4.0 * h) {
+    double sum = 0.0;
+    for (int q = 0; q < points; q++) {
+      sum += weight[q] * 0.5 * (1.0 - node[q]) *
+             log(fabs(X - (middle + 0.5 * (foot - top) * node[q])));
+    }
+    return 0.5 * h * sum;
+  }
+  const double side = foot > top ? 1.0 : -1.0;
+  return side * first_integral(X - top) +
+         (second_integral(X - foot) - second_integral(X - top)) / h;
+}
+
+static double third_integral(double y) {
+  return y == 0.0 ? 0.0 : y * y * y / 6.0 * (log(fabs(y)) - 11.0 / 6.0);
+}
+
+// Integral of the parabola (s - a)(b - s)/2 times ln|X - s|.
+static double bubble(double X, double a, double b, const double *node, const double *weight,
+                     int points) {
+  const double h = b - a;
+  const double middle = 0.5 * (a + b);
+  if (fabs(X - middle) > 4.0 * h) {
+    double sum = 0.0;
+    for (int q = 0; q < points; q++) {
+      sum += weight[q] * (1.0 - node[q] * node[q]) * log(fabs(X - middle - 0.5 * h * node[q]));
+    }
+    return h * h * h / 16.0 * sum;
+  }
+  return 0.5 * h * (second_integral(X - a) + second_integral(X - b)) - third_integral(X - a) +
+         third_integral(X - b);
+}
+
+// Second difference of the pressure at node j: factors of j - 1, j, j + 1.
+static void second_difference(double out[3], const SbFilmTransient *t, int j) {
+  const double left = t->X[j] - t->X[j - 1];
+  const double right = t->X[j + 1] - t->X[j];
+  out[0] = 2.0 / (left * (left + right));
+  out[2] = 2.0 / (right * (left + right));
+  out[1] = -out[0] - out[2];
+}
+
+static void build_kernel(SbFilmTransient *t) {
+  enum { POINTS = 6 };
+  double node[POINTS];
+  double weight[POINTS];
+  sb_legendre_gauss(node, weight, POINTS);
+  const int n = t->nodes;
+  for (int i = 0; i < n; i++) {
+    double *row = t->kernel + (size_t)i * (size_t)n;
+    memset(row, 0, (size_t)n * sizeof *row);
+    for (int j = 0; j + 1 < n; j++) {
+      row[j] -= half_hat(t->X[i], t->X[j], t->X[j + 1], node, weight, POINTS) / M_PI;
+      row[j + 1] -= half_hat(t->X[i], t->X[j + 1], t->X[j], node, weight, POINTS) / M_PI;
+      // The bend between the nodes: p = line - p'' (s - a)(b - s)/2, p'' the ends' mean.
+      const double bend = bubble(t->X[i], t->X[j], t->X[j + 1], node, weight, POINTS) / M_PI;
+      for (int k = j; k <= j + 1; k++) {
+        if (k > 0 && k + 1 < n) {
+          double d[3];
+          second_difference(d, t, k);
+          for (int m = 0; m < 3; m++) {
+            row[k - 1 + m] += 0.5 * bend * d[m];
+          }
+        }
+      }
+    }
+    t->known[i] = t->inlet / M_PI * first_integral(t->X[i] - t->X[0]) -
+                  t->outlet / M_PI * first_integral(t->X[i] - t->X[n - 1]) +
+                  (t->inlet - t->outlet) / M_PI * log(2.0) * t->X[i];
+  }
+}
+
+// Half of the mesh from the middle outward, mirrored: spacing a share of the distance to the edge.
+void sb_transient_mesh(SbFilmTransient *t, double rest) {
+  const SbLayers layers = {.lambda = t->scale.lambda, .starvation = 1.0};
+  const double width = fmin(sb_layers_width(&layers), 2.0);
+  const double fine = cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
+  const double share = 0.15 * fine;
+  const double finest = 0.5 * width;
+  const double reach = fmax(fmax(4.0, 60.0 * width), 6.0 * sqrt(2.0 * rest));
+  double X[SB_TRANSIENT_NODES_MAX / 2];
+  int n = 0;
+  X[n++] = 0.0;
+  while (X[n - 1] < 1.0 + reach && n < SB_TRANSIENT_NODES_MAX / 2 - 1) {
+    double step = 0.0;
+    for (int pass = 0; pass < 3; pass++) {
+      const double at = X[n - 1] + 0.5 * step;
+      const double d = hypot(finest, at - 1.0);
+      step = share * d / (at < 1.0 ? hypot(1.0, share * d / (0.03 * fine)) : 1.0);
+    }
+    X[n] = X[n - 1] + step;
+    n++;
+  }
+  t->nodes = 2 * n - 1;
+  t->layer = width;
+  for (int i = 0; i < n; i++) {
+    t->X[n - 1 + i] = X[i];
+    t->X[n - 1 - i] = -X[i];
+  }
+  for (int i = 0; i < t->nodes; i++) {
+    const double left = i > 0 ? t->X[i] - t->X[i - 1] : 0.0;
+    const double right = i + 1 < t->nodes ? t->X[i + 1] - t->X[i] : 0.0;
+    t->volume[i] = t->weight[i] = 0.5 * (left + right);
+    t->limited[i] = right > width && fabs(t->X[i]) < 1.0;
+  }
+  for (int j = 0; j + 1 < t->nodes; j++) {
+    const double h = t->X[j + 1] - t->X[j];
+    for (int k = j; k <= j + 1; k++) {
+      if (k > 0 && k + 1 < t->nodes) {
+        double d[3];
+        second_difference(d, t, k);
+        for (int m = 0; m < 3; m++) {
+          t->weight[k - 1 + m] -= 0.5 * h * h * h / 12.0 * d[m];
+        }
+      }
+    }
+  }
+  build_kernel(t);
+}
+
+// ---------------------------------------------------------------- equations
+
+double sb_transient_height(const SbTransientState *s, int i) {
+  return s->H[i] - s->void_[i];
+}
+
+void sb_transient_gap(double *out, const SbFilmTransient *t, const SbTransientState *s) {
+  for (int i = 0; i < t->nodes; i++) {
+    const double x = s->middle + s->half * t->X[i];
+    out[i] = s->H0 + 0.5 * x * x + s->half * t->known[i];
+  }
+  cblas_dgemv(CblasRowMajor, CblasNoTrans, t->nodes, t->nodes, s->half, t->kernel, t->nodes, s->P,
+              1, 1.0, out, 1);
+}
+
+SbStatus sb_transient_place(double *half, double *middle, const SbFilmTransient *t, double load,
+                            SbReport *report) {
+  (void)t;
+  *half = sqrt(load / (0.5 * M_PI));
+  *middle = 0.0;
+  return sb_succeed(report);
+}
+
+// Fluid height at the face between i and i + 1 for a transport to the side of `velocity`; the
+// derivatives go to nodes first .. first + 2.
+typedef struct {
+  double value;
+  int first;
+  double by[3];
+} Face;
+
+static Face face_height(const SbFilmTransient *t, const SbTransientState *s, int i,
+                        double velocity) {
+  const double at = 0.5 * (t->X[i] + t->X[i + 1]);
+  const bool forward = velocity >= 0.0;
+  const int C = forward ? i : i + 1;
+  const int D = forward ? i + 1 : i;
+  const int U = forward ? i - 1 : i + 2;
+  Face f = {0};
+  if (U < 0 || U >= t->nodes) {
+    f.first = forward ? i : i - 1;
+    f.by[C - f.first] = 0.5;
+    f.by[D - f.first] = 0.5;
+    f.value = 0.5 * (sb_transient_height(s, C) + sb_transient_height(s, D));
+    return f;
+  }
+  f.first = forward ? i - 1 : i;
+  const double u = t->X[U], c = t->X[C], d = t->X[D];
+  const double m_u = sb_transient_height(s, U);
+  const double m_c = sb_transient_height(s, C);
+  const double m_d = sb_transient_height(s, D);
+  if (!t->limited[i] && !t->beside_cavity[i]) {
+    f.by[U - f.first] = (at - c) * (at - d) / ((u - c) * (u - d));
+    f.by[C - f.first] = (at - u) * (at - d) / ((c - u) * (c - d));
+    f.by[D - f.first] = (at - u) * (at - c) / ((d - u) * (d - c));
+    f.value = f.by[U - f.first] * m_u + f.by[C - f.first] * m_c + f.by[D - f.first] * m_d;
+    return f;
+  }
+  // Van Albada's mean of the two slopes, smooth where both vanish.
+  const double a = (m_c - m_u) / (c - u);
+  const double b = (m_d - m_c) / (d - c);
+  const double e = 1e-3 * m_c / (d - c);
+  const double sum = a * a + b * b + 2.0 * e * e;
+  const double slope = ((a * a + e * e) * b + (b * b + e * e) * a) / sum;
+  const double by_a = (2.0 * a * b + b * b + e * e - 2.0 * a * slope) / sum;
+  const double by_b = (2.0 * a * b + a * a + e * e - 2.0 * b * slope) / sum;
+  f.value = m_c + slope * (at - c);
+  f.by[U - f.first] = -by_a / (c - u) * (at - c);
+  f.by[C - f.first] = 1.0 + (by_a / (c - u) - by_b / (d - c)) * (at - c);
+  f.by[D - f.first] = by_b / (d - c) * (at - c);
+  return f;
+}
+
+// Gap and pressure gradient at a face from `count` nodes beginning at `first`: the two beside it,
+// or four by a cubic in the full film.
+typedef struct {
+  int first, count;
+  double value[4], slope[4];
+} Stencil;
+
+static Stencil stencil(const SbFilmTransient *t, int face) {
+  Stencil out = {.first = face, .count = 2};
+  const double at = 0.5 * (t->X[face] + t->X[face + 1]);
+  if (face > 0 && face + 2 < t->nodes && !t->beside_cavity[face - 1] && !t->beside_cavity[face] &&
+      !t->beside_cavity[face + 1]) {
+    out.first = face - 1;
+    out.count = 4;
+  }
+  for (int k = 0; k < out.count; k++) {
+    const double own = t->X[out.first + k];
+    out.value[k] = 1.0;
+    out.slope[k] = 0.0;
+    for (int m = 0; m < out.count; m++) {
+      if (m == k) {
+        continue;
+      }
+      const double other = t->X[out.first + m];
+      out.slope[k] = (out.slope[k] * (at - other) + out.value[k]) / (own - other);
+      out.value[k] *= (at - other) / (own - other);
+    }
+  }
+  return out;
+}
+
+double sb_transient_flow(const SbFilmTransient *t, const SbTransientState *s, int i) {
+  const Face f = face_height(t, s, i, s->speed);
+  const double H = 0.5 * (s->H[i] + s->H[i + 1]);
+  return s->speed * f.value -
+         t->diffusion * H * H * H * (s->P[i + 1] - s->P[i]) / (s->half * (t->X[i + 1] - t->X[i]));
+}
+
+double sb_transient_smear(const SbFilmTransient *t, const SbTransientState *s) {
+  // Divergence of the difference between the limited and the central transport.
+  double before = 0.0;
+  double sum = 0.0;
+  double whole = 0.0;
+  for (int i = 1; i + 1 < t->nodes; i++) {
+    if (fabs(t->X[i]) >= 1.0) {
+      continue;
+    }
+    const Face f = face_height(t, s, i, s->speed);
+    const double mean = 0.5 * (sb_transient_height(s, i) + sb_transient_height(s, i + 1));
+    const double difference = t->limited[i] ? s->speed * (f.value - mean) : 0.0;
+    sum += fabs(difference - before) / s->half;
+    whole += t->volume[i] * sb_transient_height(s, i);
+    before = difference;
+  }
+  return sum / whole;
+}
+
+enum { BAND = 5 }; // derivatives of a row go to nodes i - 2 .. i + 2
+
+// A node's equation: residual and its derivatives to fluid heights, gaps and pressures.
+typedef struct {
+  double residual;
+  double by_m[BAND], by_H[BAND], by_P[BAND];
+} Row;
+
+static void add_face(Row *row, const SbFilmTransient *t, const SbTransientState *s,
+                     const SbTransientStep *step, int i, int face, double sign) {
+  const double at = 0.5 * (t->X[face] + t->X[face + 1]);
+  const double velocity = s->speed - step->half_rate * at - step->middle_rate;
+  const Face f = face_height(t, s, face, velocity);
+  row->residual += sign * velocity * f.value;
+  for (int k = 0; k < 3; k++) {
+    const int place = f.first + k - i + 2;
+    if (f.by[k] != 0.0) {
+      row->by_m[place] += sign * velocity * f.by[k];
+    }
+  }
+  const Stencil local = stencil(t, face);
+  const double g = t->diffusion / s->half;
+  double H = 0.0;
+  double slope = 0.0;
+  for (int k = 0; k < local.count; k++) {
+    H += local.value[k] * s->H[local.first + k];
+    slope += local.slope[k] * s->P[local.first + k];
+  }
+  row->residual -= sign * g * H * H * H * slope;
+  for (int k = 0; k < local.count; k++) {
+    const int place = local.first + k - i + 2;
+    row->by_H[place] -= sign * 3.0 * g * H * H * slope * local.value[k];
+    row->by_P[place] -= sign * g * H * H * H * local.slope[k];
+  }
+}
+
+static Row equation(const SbFilmTransient *t, const SbTransientState *s,
+                    const SbTransientStep *step, int i) {
+  Row row = {0};
+  row.residual = t->volume[i] * step->c0 * s->half * sb_transient_height(s, i);
+  if (step->old != NULL) {
+    row.residual += t->volume[i] * step->old[i];
+  }
+  row.by_m[2] += t->volume[i] * step->c0 * s->half;
+  add_face(&row, t, s, step, i, i, 1.0);
+  add_face(&row, t, s, step, i, i - 1, -1.0);
+  return row;
+}
+
+static double load_of(const SbFilmTransient *t, const SbTransientState *s) {
+  double sum = 0.0;
+  for (int i = 0; i < t->nodes; i++) {
+    sum += t->weight[i] * s->P[i];
+  }
+  const double left = s->middle + s->half * t->X[0];
+  const double right = s->middle + s->half * t->X[t->nodes - 1];
+  return s->half * sum + t->inlet * left - t->outlet * right;
+}
+
+// Fills the right-hand side and, if `whole`, the matrix for the present active set; H is linearised
+// about. Rows are divided by the scale that they had with the matrix.
+static void assemble(SbFilmTransient *t, const SbTransientState *s, const SbTransientStep *step,
+                     const double *elastic, bool whole) {
+  const int n = t->nodes;
+  const size_t order = (size_t)n - 1;
+  for (int i = 1; i + 1 < n; i++) {
+    Row row = equation(t, s, step, i);
+    double right = row.residual;
+    double by_H0 = 0.0;
+    double scale = 0.0;
+    double *out = t->matrix + (size_t)(i - 1) * order;
+    if (whole) {
+      memset(out, 0, order * sizeof *out);
+    }
+    for (int k = 0; k < BAND; k++) {
+      const int j = i + k - 2;
+      if (j < 0 || j >= n) {
+        continue;
+      }
+      const double by_gap = row.by_m[k] + row.by_H[k];
+      right += by_gap * (elastic[j] - s->H[j]);
+      by_H0 += by_gap;
+      scale = fmax(scale, fmax(fabs(by_gap), fabs(row.by_P[k])));
+      if (whole && by_gap != 0.0) {
+        cblas_daxpy(n - 2, s->half * by_gap, t->kernel + (size_t)j * (size_t)n + 1, 1, out, 1);
+      }
+    }
+    if (!whole) {
+      t->right[i - 1] = right / t->row_scale[i];
+      continue;
+    }
+    for (int k = 0; k < BAND; k++) {
+      const int j = i + k - 2;
+      if (j >= 1 && j + 1 < n) {
+        out[j - 1] += row.by_P[k];
+      }
+    }
+    // A node in a cavity has its void for an unknown.
+    for (int j = 1; j + 1 < n; j++) {
+      if (s->cavity[j]) {
+        const int k = j - i + 2;
+        out[j - 1] = k >= 0 && k < BAND ? -row.by_m[k] : 0.0;
+      }
+    }
+    out[order - 1] = by_H0;
+    for (size_t j = 0; j < order; j++) {
+      out[j] /= scale;
+    }
+    t->right[i - 1] = right / scale;
+    t->row_scale[i] = scale;
+  }
+  t->right[order - 1] = load_of(t, s) - s->load;
+  if (whole) {
+    double *out = t->matrix + (order - 1) * order;
+    for (int j = 1; j + 1 < n; j++) {
+      out[j - 1] = s->cavity[j] ? 0.0 : s->half * t->weight[j];
+    }
+    out[order - 1] = 0.0;
+  }
+}
+
+// Whether the last factors may serve again: the same cavity and nearly the same step.
+static bool factors_serve(const SbFilmTransient *t, const SbTransientState *s,
+                          const SbTransientStep *step) {
+  return t->factored && step->c0 > 0.0 && fabs(log(step->c0 / t->factored_c0)) < 0.3 &&
+         memcmp(t->factored_cavity, s->cavity, (size_t)t->nodes * sizeof(bool)) == 0;
+}
+
+// Largest error of the balance of mass between the contact's left edge and any node up to its right
+// one, over the larger of the flow's scale and the present flows. The surroundings hold so much
+// more liquid that rounding hides theirs.
+static double mass_error(const SbFilmTransient *t, const SbTransientState *s,
+                         const SbTransientStep *step) {
+  double sum = 0.0;
+  double largest = 0.0;
+  double flow = t->flow;
+  for (int i = 1; i + 1 < t->nodes; i++) {
+    if (fabs(t->X[i]) < 1.0 + t->layer) {
+      sum += equation(t, s, step, i).residual;
+      largest = fmax(largest, fabs(sum));
+      flow = fmax(flow, fabs(sb_transient_flow(t, s, i)));
+    }
+  }
+  return largest / flow;
+}
+
+// Switches nodes whose pressure or void has the wrong sign; returns their number.
+static int switch_nodes(const SbFilmTransient *t, SbTransientState *s) {
+  int count = 0;
+  for (int i = 1; i + 1 < t->nodes; i++) {
+    if (s->cavity[i] && s->void_[i] < 0.0) {
+      s->cavity[i] = false;
+      s->void_[i] = 0.0;
+      count++;
+    } else if (!s->cavity[i] && s->P[i] < 0.0) {
+      s->cavity[i] = true;
+      s->P[i] = 0.0;
+      count++;
+    }
+  }
+  return count;
+}
+
+SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTransientState *s,
+                             const SbTransientStep *step) {
+  enum { ITERATIONS_MAX = 30 };
+  const int n = t->nodes;
+  const int order = n - 1;
+  double elastic[SB_TRANSIENT_NODES_MAX];
+  *trace = (SbTransientTrace){.mass_error = INFINITY, .load_error = INFINITY};
+  s->P[0] = t->inlet;
+  s->P[n - 1] = t->outlet;
+  bool done = false;
+  bool fresh = !factors_serve(t, s, step);
+  bool settled = false;
+  double before_largest = INFINITY;
+  double before_mass = INFINITY;
+  for (int iteration = 0; iteration < ITERATIONS_MAX && !done; iteration++) {
+    // The scheme follows the cavity at first only: with the active set it could go in circles.
+    for (int i = 0; iteration < 3 && i + 1 < n; i++) {
+      t->beside_cavity[i] = s->cavity[i] || s->cavity[i + 1];
+    }
+    // The gap of the pressure, unless the two agree to the rounding of deflections of size one: H
+    // itself then carries more digits of a thin film.
+    sb_transient_gap(elastic, t, s);
+    double apart = 0.0;
+    double deepest = 1.0;
+    for (int i = 0; i < n; i++) {
+      apart = fmax(apart, fabs(elastic[i] - s->H[i]));
+      deepest = fmax(deepest, fabs(s->H[i]));
+    }
+    const bool agree = apart < 1e-13 * deepest;
+    if (agree) {
+      memcpy(elastic, s->H, (size_t)n * sizeof *elastic);
+    }
+    if (settled && agree) {
+      const double mass = mass_error(t, s, step);
+      done = mass < 1e-12 || (mass < 1e-10 && mass > 0.1 * before_mass) || before_largest < 1e-13;
+      if (done) {
+        break;
+      }
+      before_mass = mass;
+    }
+    assemble(t, s, step, elastic, fresh);
+    if (fresh) {
+      t->factored =
+          LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, t->matrix, order, t->pivot) == 0;
+      t->factored_c0 = step->c0;
+      memcpy(t->factored_cavity, s->cavity, (size_t)n * sizeof(bool));
+      trace->factorisations++;
+    }
+    if (!t->factored || LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', order, 1, t->matrix, order,
+                                            t->pivot, t->right, order) != 0) {
+      return SB_ERROR_NOT_CONVERGED;
+    }
+    trace->iterations++;
+    // New gap by the linear elastic relation; no film may shrink below a fifth at once.
+    const double old_H0 = s->H0;
+    double *wanted = elastic; // reused
+    double change[SB_TRANSIENT_NODES_MAX] = {0};
+    for (int i = 1; i + 1 < n; i++) {
+      change[i] = s->cavity[i] ? 0.0 : -t->right[i - 1];
+    }
+    cblas_dgemv(CblasRowMajor, CblasNoTrans, n, n, s->half, t->kernel, n, change, 1, 1.0, wanted,
+                1);
+    double factor = 1.0;
+    for (int i = 0; i < n; i++) {
+      wanted[i] -= t->right[order - 1];
+      if (!isfinite(wanted[i])) {
+        return SB_ERROR_NOT_CONVERGED;
+      }
+      if (wanted[i] < 0.2 * s->H[i]) {
+        factor = fmin(factor, 0.8 * s->H[i] / (s->H[i] - wanted[i]));
+      }
+    }
+    double largest = 0.0;
+    for (int i = 0; i < n; i++) {
+      const double before = sb_transient_height(s, i);
+      s->H[i] += factor * (wanted[i] - s->H[i]);
+      s->P[i] += factor * change[i];
+      if (i > 0 && i + 1 < n && s->cavity[i]) {
+        s->void_[i] -= factor * t->right[i - 1];
+      }
+      const double after = sb_transient_height(s, i);
+      largest = fmax(largest, fabs(after - before) / fmax(fabs(after), 1e-300));
+    }
+    s->H0 = old_H0 - factor * t->right[order - 1];
+    const int switched = switch_nodes(t, s);
+    settled = factor == 1.0 && switched == 0 && largest < 1e-4;
+    fresh = switched > 0 || factor < 1.0 || largest > 0.1 * before_largest || largest > 0.05;
+    before_largest = largest;
+  }
+  if (!done) {
+    t->factored = false;
+    return SB_ERROR_NOT_CONVERGED;
+  }
+  trace->mass_error = mass_error(t, s, step);
+  for (int i = 0; i < n; i++) {
+    if (!(s->H[i] > 0.0)) {
+      return SB_ERROR_NOT_CONVERGED;
+    }
+  }
+  trace->load_error = fabs(load_of(t, s) - s->load) / s->load;
+  return SB_OK;
+}
+
+SbStatus sb_transient_rest(SbFilmTransient *t, SbTransientState *s, double rest) {
+  enum { ITERATIONS_MAX = 30 };
+  const int n = t->nodes;
+  const size_t order = (size_t)n - 1;
+  for (int i = 0; i < n; i++) {
+    s->cavity[i] = fabs(t->X[i]) >= 1.0; // here: apart
+    s->P[i] = i == 0 ? t->inlet : i == n - 1 ? t->outlet : t->X[i] < 0.0 ? t->inlet : t->outlet;
+    s->void_[i] = 0.0;
+  }
+  s->H0 = 0.0;
+  for (int iteration = 0; iteration < ITERATIONS_MAX; iteration++) {
+    for (int i = 1; i + 1 < n; i++) {
+      double *out = t->matrix + (size_t)(i - 1) * order;
+      memset(out, 0, order * sizeof *out);
+      if (s->cavity[i]) {
+        out[i - 1] = 1.0;
+        t->right[i - 1] = 0.0;
+        s->P[i] = t->X[i] < 0.0 ? t->inlet : t->outlet;
+        continue;
+      }
+      cblas_daxpy(n - 2, s->half, t->kernel + (size_t)i * (size_t)n + 1, 1, out, 1);
+      out[order - 1] = 1.0;
+    }
+    sb_transient_gap(s->H, t, s);
+    for (int i = 1; i + 1 < n; i++) {
+      t->right[i - 1] = s->cavity[i] ? 0.0 : s->H[i] - rest;
+    }
+    double *out = t->matrix + (order - 1) * order;
+    for (int j = 1; j + 1 < n; j++) {
+      out[j - 1] = s->half * t->weight[j];
+    }
+    out[order - 1] = 0.0;
+    t->right[order - 1] = load_of(t, s) - s->load;
+    const int rows = (int)order;
+    if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, rows, rows, t->matrix, rows, t->pivot) != 0 ||
+        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', rows, 1, t->matrix, rows, t->pivot, t->right,
+                            rows) != 0) {
+      return SB_ERROR_NOT_CONVERGED;
+    }
+    for (int i = 1; i + 1 < n; i++) {
+      s->P[i] -= t->right[i - 1];
+    }
+    s->H0 -= t->right[order - 1];
+    sb_transient_gap(s->H, t, s);
+    int switched = 0;
+    for (int i = 1; i + 1 < n; i++) {
+      const double ambient = t->X[i] < 0.0 ? t->inlet : t->outlet;
+      if (s->cavity[i] && s->H[i] < rest * (1.0 - 1e-9)) {
+        s->cavity[i] = false;
+        switched++;
+      } else if (!s->cavity[i] && s->P[i] < fmin(t->inlet, t->outlet) - 1e-12) {
+        s->cavity[i] = true;
+        s->P[i] = ambient;
+        switched++;
+      }
+    }
+    if (switched == 0) {
+      memset(s->cavity, 0, sizeof s->cavity);
+      return SB_OK;
+    }
+  }
+  return SB_ERROR_NOT_CONVERGED;
+}

@@ -1,0 +1,302 @@
+// Transient film: steady limits against the spectral solver, squeezing and transport against
+// closed forms, balances at every step, order in time, independence of the steps asked for.
+#include "engine/film/transient.h"
+
+#include <glib.h>
+#include <math.h>
+
+// The inhaler's seal at Moes' M; steady at the speed that gives it.
+static SbFilmTransientProblem seal(double M) {
+  SbFilmTransientProblem p = {0};
+  sb_film_problem_init(&p.film);
+  p.film.radius = 0.805e-3;
+  p.film.modulus = 6.5725e6;
+  p.film.viscosity = 0.211e-3;
+  p.film.load = 850.2;
+  const double ER = p.film.modulus * p.film.radius;
+  const double W = p.film.load / ER;
+  p.film.speed = W * W / (M * M) * ER / p.film.viscosity;
+  p.speed_scale = p.film.speed;
+  return p;
+}
+
+static double half_width(const SbFilmTransientProblem *p) {
+  return sqrt(8.0 * p->film.load * p->film.radius / (G_PI * p->film.modulus));
+}
+
+static SbFilmTransient *begin(const SbFilmTransientProblem *p) {
+  SbFilmTransient *t = NULL;
+  SbReport report = {0};
+  SbStatus status = sb_film_transient_create(&t, p, &report);
+  g_assert_cmpstr(status == SB_OK ? "" : report.text, ==, "");
+  return t;
+}
+
+static void step(SbFilmTransient *t, double dt, double speed, double load) {
+  SbReport report = {0};
+  SbStatus status = sb_film_transient_step(t, dt, speed, load, &report);
+  g_assert_cmpstr(status == SB_OK ? "" : report.text, ==, "");
+}
+
+// Films of the finite volumes at constant speed are those of the spectral solver, at every M and
+// with pressure at either end.
+static void test_steady(void) {
+  const double M[] = {30.0, 1000.0, 44000.0, 44000.0, 44000.0};
+  SbFilm *film = g_new(SbFilm, 1);
+  SbFilm *steady = g_new(SbFilm, 1);
+  for (int i = 0; i < 5; i++) {
+    SbFilmTransientProblem p = seal(M[i]);
+    p.film.pressure_left = i == 3 ? 0.4e6 : 0.0;
+    p.film.pressure_right = i == 4 ? 0.4e6 : 0.0;
+    SbFilmTransient *t = begin(&p);
+    step(t, 0.5 * half_width(&p) / p.film.speed, p.film.speed, p.film.load);
+    sb_film_transient_result(film, t);
+    g_assert_cmpint(sb_film_solve(steady, &p.film, NULL, NULL), ==, SB_OK);
+    const SbFilmTransientInfo info = sb_film_transient_info(t);
+    const double least = fabs(film->film_min / steady->film_min - 1.0);
+    const double central = fabs(film->film_central / steady->film_central - 1.0);
+    g_assert_cmpfloat(least, <, 1.5e-3);
+    g_assert_cmpfloat(central, <, 5e-4);
+    g_assert_cmpfloat(fmax(least, central), <, 3.0 * (info.error_mesh + info.error_time));
+    sb_film_transient_destroy(t);
+  }
+  g_free(film);
+  g_free(steady);
+}
+
+// Flow through x from a profile: u h/2 - h^3 p'/(12 eta), by straight lines.
+static double profile_flow(const SbFilm *f, double x, double speed, double viscosity) {
+  size_t i = 1;
+  while (f->x[i] < x) {
+    i++;
+  }
+  const double s = (x - f->x[i - 1]) / (f->x[i] - f->x[i - 1]);
+  const double h = f->film[i - 1] + s * (f->film[i] - f->film[i - 1]);
+  const double slope = (f->pressure[i] - f->pressure[i - 1]) / (f->x[i] - f->x[i - 1]);
+  return 0.5 * speed * h - h * h * h * slope / (12.0 * viscosity);
+}
+
+// Film between two places from a profile.
+static double profile_content(const SbFilm *f, double from, double to) {
+  double sum = 0.0;
+  for (size_t i = 1; i < f->points; i++) {
+    const double a = fmax(f->x[i - 1], from), b = fmin(f->x[i], to);
+    if (b > a) {
+      const double rate = (f->film[i] - f->film[i - 1]) / (f->x[i] - f->x[i - 1]);
+      sum += (b - a) * (f->film[i - 1] + rate * (0.5 * (a + b) - f->x[i - 1]));
+    }
+  }
+  return sum;
+}
+
+// Where the film is thinnest within 0.9 b.
+static double neck(const SbFilm *f, double b) {
+  size_t at = f->points / 2;
+  for (size_t i = 0; i < f->points; i++) {
+    at = fabs(f->x[i]) < 0.9 * b && f->film[i] < f->film[at] ? i : at;
+  }
+  return f->x[at];
+}
+
+// Slides, stops, waits, and slides back: load and mass at every step, mass once more from the
+// profiles alone, and the neck that the stop squeezed at the trailing edge crosses the contact at
+// half the sliding speed.
+static void test_reversal(void) {
+  SbFilmTransientProblem p = seal(20000.0);
+  const double b = half_width(&p), U = p.film.speed;
+  const double transit = 4.0 * b / U;
+  SbFilmTransient *t = begin(&p);
+  SbFilm *film = g_new(SbFilm, 1);
+  step(t, 0.2 * transit, 0.0, p.film.load);
+  step(t, 0.3 * transit, 0.0, p.film.load);
+  sb_film_transient_result(film, t);
+  // Squeezed at both edges, trapped between them.
+  g_assert_cmpfloat(film->film_min, <, 0.4 * film->film_central);
+  step(t, 0.02 * transit, -U, p.film.load);
+  step(t, 0.25 * transit, -U, p.film.load);
+
+  sb_film_transient_result(film, t);
+  const double place = neck(film, b);
+  const double from = place - 0.2 * b, to = 0.8 * b; // the neck leaves this window
+  double content = profile_content(film, from, to);
+  double change = 0.0, through = 0.0, largest = 0.0;
+  for (int i = 0; i < 15; i++) {
+    const double dt = 0.02 * transit;
+    const double left = profile_flow(film, from, -U, p.film.viscosity);
+    const double right = profile_flow(film, to, -U, p.film.viscosity);
+    step(t, dt, -U, p.film.load);
+    sb_film_transient_result(film, t);
+    const double now = profile_content(film, from, to);
+    const double new_left = profile_flow(film, from, -U, p.film.viscosity);
+    const double new_right = profile_flow(film, to, -U, p.film.viscosity);
+    change += now - content;
+    through += 0.5 * dt * (left + new_left - right - new_right);
+    largest = fmax(largest, fabs(change));
+    content = now;
+  }
+  const double moved = neck(film, b) - place;
+  g_assert_cmpfloat(largest, >, 0.02 * content);
+  g_assert_cmpfloat(fabs(change - through), <, 0.05 * largest);
+  g_assert_cmpfloat(fabs(moved / (-0.5 * U * 0.3 * transit) - 1.0), <, 0.05);
+
+  step(t, 2.5 * transit, -U, p.film.load);
+  sb_film_transient_result(film, t);
+  SbFilm *steady = g_new(SbFilm, 1);
+  p.film.speed = -U;
+  g_assert_cmpint(sb_film_solve(steady, &p.film, NULL, NULL), ==, SB_OK);
+  g_assert_cmpfloat_with_epsilon(film->film_min / steady->film_min, 1.0, 3e-3);
+  g_assert_cmpfloat_with_epsilon(film->film_central / steady->film_central, 1.0, 3e-3);
+  const SbFilmTransientInfo info = sb_film_transient_info(t);
+  g_assert_cmpfloat(info.load_error, <, 1e-10);
+  g_assert_cmpfloat(info.mass_error, <, 1e-10);
+  g_test_message("%zu steps, %zu Newton steps", info.steps, info.newton_iterations);
+  g_assert_cmpuint(info.steps, <, 600);
+  sb_film_transient_destroy(t);
+  g_free(film);
+  g_free(steady);
+}
+
+// Second order in time, observed on film and shear at the end of a slow-down under growing load.
+static void test_order(void) {
+  SbFilm *film = g_new(SbFilm, 1);
+  double value[4][2];
+  for (int level = 0; level < 4; level++) {
+    SbFilmTransientProblem p = seal(50.0);
+    const double transit = 4.0 * half_width(&p) / p.film.speed;
+    SbFilmTransient *t = begin(&p);
+    g_assert_cmpint(sb_film_transient_fixed(t, 0.4 * transit, (size_t)20 << level,
+                                            0.4 * p.film.speed, 1.1 * p.film.load, NULL),
+                    ==, SB_OK);
+    sb_film_transient_result(film, t);
+    value[level][0] = film->film_central;
+    value[level][1] = film->friction_couette;
+    sb_film_transient_destroy(t);
+  }
+  for (int k = 0; k < 2; k++) {
+    const double coarse = fabs(value[1][k] - value[0][k]);
+    const double middle = fabs(value[2][k] - value[1][k]);
+    const double fine = fabs(value[3][k] - value[2][k]);
+    g_test_message("order %.2f %.2f", log2(coarse / middle), log2(middle / fine));
+    g_assert_cmpfloat(log2(middle / fine), >, 1.7);
+    g_assert_cmpfloat(fine / value[3][k], <, 1e-3);
+  }
+  g_free(film);
+}
+
+// The history does not hang on the steps that the caller asks for.
+static void test_steps(void) {
+  SbFilm *film = g_new(SbFilm, 1);
+  double central[2], least[2], error = 0.0;
+  for (int k = 0; k < 2; k++) {
+    SbFilmTransientProblem p = seal(1000.0);
+    const double transit = 4.0 * half_width(&p) / p.film.speed;
+    SbFilmTransient *t = begin(&p);
+    const int steps = k == 0 ? 3 : 50;
+    for (int i = 1; i <= steps; i++) {
+      const double s = (double)i / steps;
+      step(t, 0.5 * transit / steps, p.film.speed * (1.0 - s), p.film.load * (1.0 + 0.05 * s));
+    }
+    sb_film_transient_result(film, t);
+    central[k] = film->film_central;
+    least[k] = film->film_min;
+    error = sb_film_transient_info(t).error_time;
+    sb_film_transient_destroy(t);
+  }
+  g_assert_cmpfloat(fabs(central[1] / central[0] - 1.0), <, 1e-3);
+  g_assert_cmpfloat(fabs(central[1] / central[0] - 1.0), <, 3.0 * error);
+  g_assert_cmpfloat(fabs(least[1] / least[0] - 1.0), <, 0.03);
+  g_free(film);
+}
+
+// A stiff cylinder falls through a thick film: W = 3 sqrt(2) pi eta R^1.5 (-dh/dt)/h^1.5, so that
+// h^-1/2 grows evenly (Reynolds' equation of the parabola without cavity, integrated).
+static void test_squeeze(void) {
+  SbFilmTransientProblem p = {0};
+  sb_film_problem_init(&p.film);
+  p.film.radius = 1e-3;
+  p.film.modulus = 1e9;
+  p.film.viscosity = 1.0;
+  p.film.load = 100.0;
+  p.speed_scale = 1e-5;
+  const double b = half_width(&p);
+  p.rest_film = 1000.0 * b * b / p.film.radius;
+  const double rate =
+      p.film.load / (6.0 * sqrt(2.0) * G_PI * p.film.viscosity * pow(p.film.radius, 1.5));
+  const double unit = 1.0 / sqrt(p.rest_film) / rate;
+  SbFilmTransient *t = begin(&p);
+  SbFilm *film = g_new(SbFilm, 1);
+  step(t, 0.3 * unit, 0.0, p.film.load);
+  sb_film_transient_result(film, t);
+  const double before = 1.0 / sqrt(film->film_min);
+  step(t, 0.5 * unit, 0.0, p.film.load);
+  sb_film_transient_result(film, t);
+  g_assert_cmpfloat(film->film_min, <, 0.5 * p.rest_film);
+  g_assert_cmpfloat_with_epsilon((1.0 / sqrt(film->film_min) - before) / (0.5 * unit * rate), 1.0,
+                                 5e-3);
+  sb_film_transient_destroy(t);
+  g_free(film);
+}
+
+// From rest under a trapped layer the film comes in at half the sliding speed and ends steady.
+static void test_start(void) {
+  SbFilmTransientProblem p = seal(20000.0);
+  const double U = p.film.speed;
+  const double transit = 4.0 * half_width(&p) / U;
+  SbFilm *film = g_new(SbFilm, 1);
+  SbFilm *steady = g_new(SbFilm, 1);
+  g_assert_cmpint(sb_film_solve(steady, &p.film, NULL, NULL), ==, SB_OK);
+  p.film.speed = 0.0;
+  p.rest_film = 0.1 * steady->film_central;
+  SbFilmTransient *t = begin(&p);
+  step(t, 0.01 * transit, U, p.film.load);
+  step(t, 0.34 * transit, U, p.film.load);
+  sb_film_transient_result(film, t);
+  g_assert_cmpfloat_with_epsilon(film->film_central / p.rest_film, 1.0, 0.02);
+  step(t, 0.3 * transit, U, p.film.load);
+  sb_film_transient_result(film, t);
+  g_assert_cmpfloat_with_epsilon(film->film_central / steady->film_central, 1.0, 0.02);
+  step(t, 1.0 * transit, U, p.film.load);
+  sb_film_transient_result(film, t);
+  g_assert_cmpfloat_with_epsilon(film->film_min / steady->film_min, 1.0, 2e-3);
+  g_assert_cmpfloat_with_epsilon(film->film_central / steady->film_central, 1.0, 2e-3);
+  sb_film_transient_destroy(t);
+  g_free(film);
+  g_free(steady);
+}
+
+// What it cannot solve is refused.
+static void test_refused(void) {
+  SbFilmTransient *t = NULL;
+  SbFilmTransientProblem p = seal(1000.0);
+  p.film.pressure_viscosity = 1e-9;
+  g_assert_cmpint(sb_film_transient_create(&t, &p, NULL), ==, SB_ERROR_INPUT);
+  p = seal(1000.0);
+  p.speed_scale = 0.5 * p.film.speed;
+  g_assert_cmpint(sb_film_transient_create(&t, &p, NULL), ==, SB_ERROR_RANGE);
+  p = seal(1000.0);
+  p.film.speed = 0.0;
+  g_assert_cmpint(sb_film_transient_create(&t, &p, NULL), ==, SB_ERROR_RANGE);
+  p = seal(1000.0);
+  p.film.speed = p.speed_scale = p.film.speed * 4e6;
+  g_assert_cmpint(sb_film_transient_create(&t, &p, NULL), ==, SB_ERROR_RANGE);
+  p = seal(1000.0);
+  t = begin(&p);
+  g_assert_cmpint(sb_film_transient_step(t, 1.0, 2.0 * p.film.speed, p.film.load, NULL), ==,
+                  SB_ERROR_RANGE);
+  g_assert_cmpint(sb_film_transient_step(t, -1.0, p.film.speed, p.film.load, NULL), ==,
+                  SB_ERROR_RANGE);
+  g_assert_cmpint(sb_film_transient_step(t, 1.0, NAN, p.film.load, NULL), ==, SB_ERROR_RANGE);
+  sb_film_transient_destroy(t);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/film-transient/steady", test_steady);
+  g_test_add_func("/film-transient/reversal", test_reversal);
+  g_test_add_func("/film-transient/order", test_order);
+  g_test_add_func("/film-transient/steps", test_steps);
+  g_test_add_func("/film-transient/squeeze", test_squeeze);
+  g_test_add_func("/film-transient/start", test_start);
+  g_test_add_func("/film-transient/refused", test_refused);
+  return g_test_run();
+}
