@@ -5,6 +5,7 @@
 // alone. End pressures: see sb_film_dry_pressure and reference/ehl.md, "Unequal end pressures".
 #include "engine/film/film.h"
 
+#include "engine/film/mixed.h"
 #include "engine/film/reynolds.h"
 #include "engine/film/scale.h"
 
@@ -56,12 +57,36 @@ SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
 void sb_film_solver_destroy(SbFilmSolver *solver) {
   if (solver != NULL) {
     sb_reynolds_finish(solver);
+    sb_mixed_destroy(solver->mixed);
     free(solver);
   }
 }
 
 void sb_film_solver_forget(SbFilmSolver *solver) {
   solver->last.ready = false;
+  if (solver->mixed != NULL) {
+    solver->mixed->last.ready = false;
+  }
+}
+
+// Asperities or adhesion take the mixed solver.
+static bool mixed(const SbFilmProblem *problem) {
+  return problem->surface != SB_ROUGH_NONE || problem->hamaker > 0.0;
+}
+
+// The coupled solver, with asperities or without.
+static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                              SbFilmSolver *solver, SbReport *report) {
+  if (!mixed(problem)) {
+    return sb_reynolds_solve(out, problem, scale, solver, report);
+  }
+  if (solver->mixed == NULL) {
+    solver->mixed = sb_mixed_create();
+    if (solver->mixed == NULL) {
+      return sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
+    }
+  }
+  return sb_mixed_solve(out, problem, scale, solver->mixed, report);
 }
 
 // Ranges wide enough for every seal and narrow enough that nothing overflows.
@@ -85,6 +110,12 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
       {"Eyring stress", "", "Pa", problem->eyring_stress, 0.0, 1e12},
       {"inlet film", "", "m", problem->inlet_film, 0.0, 1.0},
       {"rupture pressure", "", "Pa", problem->rupture_pressure, -1e6, 1e9},
+      {"asperity product", "surface.gt_product", "", problem->gt_product, 0.0, 100.0},
+      {"sigma", "surface.sigma", "m", problem->sigma, 0.0, 1.0},
+      {"sigma/beta", "surface.sigma_over_beta", "", problem->sigma_over_beta, 0.0, 1e3},
+      {"Hamaker constant", "surface.hamaker_constant", "J", problem->hamaker, 0.0, 1e-17},
+      {"shear strength", "friction.shear_strength", "Pa", problem->shear_strength, 0.0, 1e12},
+      {"load coefficient", "friction.load_coefficient", "", problem->load_coefficient, 0.0, 100.0},
   };
   if ((int)problem->model < 0 || problem->model >= SB_FILM_MODEL_COUNT) {
     return sb_fail(report, SB_ERROR_INPUT, "there is no film model number %d", (int)problem->model);
@@ -96,6 +127,15 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
                                "film: %s %g %s is outside %g ... %g", range[i].name, range[i].value,
                                range[i].unit, range[i].min, range[i].max);
     }
+  }
+  if ((int)problem->surface < 0 || problem->surface >= SB_ROUGH_COUNT) {
+    return sb_fail(report, SB_ERROR_INPUT, "there is no surface model number %d",
+                   (int)problem->surface);
+  }
+  if (mixed(problem) && problem->model != SB_FILM_REYNOLDS) {
+    return sb_fail(report, SB_ERROR_INPUT,
+                   "film: asperities and adhesion need the model reynolds, not %s",
+                   sb_film_model_name(problem->model));
   }
   return SB_OK;
 }
@@ -186,7 +226,7 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
                              "pi they open the contact",
                              fabs(scale.inlet - scale.outlet));
   }
-  if (scale.U <= 0.0) {
+  if (scale.U <= 0.0 && !(mixed(problem) && problem->surface != SB_ROUGH_NONE)) {
     status = sb_film_solve_dry(out, problem, &scale, report);
   } else {
     switch (problem->model) {
@@ -202,7 +242,7 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
         status = sb_film_solver_create(&own, report);
       }
       if (status == SB_OK) {
-        status = sb_reynolds_solve(out, problem, &scale, memory != NULL ? memory : own, report);
+        status = solve_coupled(out, problem, &scale, memory != NULL ? memory : own, report);
       }
       sb_film_solver_destroy(own);
       break;

@@ -20,6 +20,7 @@
 #pragma once
 
 #include "engine/status.h"
+#include "engine/surface/rough_law.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -60,6 +61,16 @@ typedef struct {
   double eyring_stress;      // tau_0 [Pa] of Eyring's shear thinning
   double inlet_film;         // layer [m] that the moving wall brings; 0 floods the inlet
   double rupture_pressure;   // gauge [Pa] at which the film breaks, a vapour pressure for instance
+
+  // Asperities inside the same solve (mixed.h), off by default: the surface model, its figures and
+  // what friction takes. The film, the pressure and the profile are then those of the total.
+  SbRoughModel surface;    // rough_law.h
+  double gt_product;       // zeta beta sigma
+  double sigma;            // combined standard deviation of heights [m]
+  double sigma_over_beta;  // sigma over the asperities' tip radius
+  double hamaker;          // A_H [J] of van der Waals' pull across the open gap; 0 = off
+  double shear_strength;   // tau_0 [Pa] of the real contact
+  double load_coefficient; // m on the asperities' load
 
   // Dry pressure of the inverse model: `dry_count` pairs, x increasing; borrowed during the call.
   const double *dry_x;        // [m]
@@ -103,6 +114,13 @@ typedef struct {
   double
       friction_couette; // integral of eta speed / h over the full film [N/m], signed as the speed
   double friction_poiseuille; // integral of (h/2) dp/dx over the full film [N/m]
+  double friction_cavity;     // of the broken film, see mixed.c [N/m]
+  double friction_boundary;   // tau_0 real area + m asperity load [N/m], signed as the speed
+  double asperity_load;       // integral of the asperities' pressure [N/m]
+  double asperity_share;      // of the net load
+  double real_area;           // integral of the real contact's share over x [m]
+  double real_area_share;     // real contact over nominal at the axis
+  double film_ratio;          // film_central / sigma; 0 without roughness
   double moes_M;              // W / sqrt(2 U)
   double moes_U;              // U = eta |speed| / (2 E' R)
   double moes_W;              // W = load / (E' R)
@@ -115,9 +133,10 @@ typedef struct {
 
   // Profile, x increasing, dense in the inlet and outlet layers; at least 400 points.
   size_t points;
-  double x[SB_FILM_POINTS];        // [m]
-  double pressure[SB_FILM_POINTS]; // gauge [Pa]
-  double film[SB_FILM_POINTS];     // gap between the surfaces [m]
+  double x[SB_FILM_POINTS];                 // [m]
+  double pressure[SB_FILM_POINTS];          // gauge [Pa]
+  double film[SB_FILM_POINTS];              // gap between the surfaces [m]
+  double asperity_pressure[SB_FILM_POINTS]; // [Pa], a part of `pressure`; 0 without roughness
 } SbFilm;
 
 // Workspace of the film solver and its last solution: later solves start from it and allocate

@@ -48,6 +48,7 @@ struct SbFilmSolver {
   double *column; // derivative to the free end
   double *gaps;   // at all targets
   int *pivot;
+  struct SbMixedSolver *mixed; // film with asperities, NULL until one is asked for (mixed.h)
 
   // The last solution, for warm starts.
   struct {

@@ -1,0 +1,602 @@
+// Film and asperities together: levels of degree, error estimate, results. Equations in mixed.h.
+//
+// A cold solve starts from Hertz's pressure under the dry gap, opened by the film of the layers
+// (layers.c) and by the asperities, on elements of degree 4; degrees 6 and 8 follow from it, and
+// the change between two levels estimates the error. Where Newton's method does not take the start,
+// the dry rough contact is solved first and the speed is raised from there.
+//
+// Friction from the solved split, per length of seal: over the real area A_a (share times length)
+// tau_0 A_a + m W_a, W_a what the asperities carry (thesis eq. 5.14); over the rest, eta u / h of
+// Couette and (h/2) p' of Poiseuille in the full film (eq. 5.16); in the cavity the liquid covers
+// the part theta = flux film / h of the length, in full-height streamers that the wall shears:
+// theta eta u / h. Validity: mean-gap Reynolds without flow factors (isotropic roughness; factors
+// are near 1 above h = 2 sigma), half-plane, and the ranges of the rough law.
+#include "engine/film/mixed.h"
+
+#include "engine/numeric/legendre.h"
+#include "engine/surface/van_der_waals.h"
+
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static const int level_degree[] = {4, 6, 8};
+enum { LEVELS = sizeof level_degree / sizeof level_degree[0] };
+
+static double seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+SbMixedSolver *sb_mixed_create(void) {
+  SbMixedSolver *solver = calloc(1, sizeof *solver);
+  if (solver == NULL) {
+    return NULL;
+  }
+  size_t order = SB_MIXED_NODES_MAX + 2;
+  solver->matrix = malloc(order * order * sizeof(double));
+  solver->right = malloc(order * sizeof(double));
+  solver->pivot = malloc(order * sizeof(int));
+  for (int i = 0; i < 2; i++) {
+    solver->mesh[i].kernel = malloc(order * order * sizeof(double));
+  }
+  if (solver->matrix == NULL || solver->right == NULL || solver->pivot == NULL ||
+      solver->mesh[0].kernel == NULL || solver->mesh[1].kernel == NULL) {
+    sb_mixed_destroy(solver);
+    return NULL;
+  }
+  return solver;
+}
+
+void sb_mixed_destroy(SbMixedSolver *solver) {
+  if (solver != NULL) {
+    free(solver->matrix);
+    free(solver->right);
+    free(solver->pivot);
+    free(solver->mesh[0].kernel);
+    free(solver->mesh[1].kernel);
+    free(solver);
+  }
+}
+
+// ---------------------------------------------------------------- starts
+
+// Flux film of a rough contact: inside, the fluid carries what Hertz's pressure has above p_a(h);
+// at the mouth, where the two meet, its slope is the largest that Reynolds allows, (4/27) lambda /
+// h^2 (as in Blok's inverse film). Blended with the smooth film. `mouth` is where they meet.
+static double flux_guess(double *mouth, const SbMixedCase *c) {
+  double smooth = c->lambda > 0 ? sb_layers_flux(&c->layers) : 0;
+  *mouth = 1;
+  if (c->law == NULL || !(c->lambda > 0)) {
+    return smooth;
+  }
+  SbRoughPoint at;
+  sb_rough_law_at(&at, c->law, sb_rough_law_of_pressure(c->law, 0.999999 * c->pressure));
+  double low = log(at.gap / c->film), high = low + 40;
+  for (int i = 0; i < 50; i++) {
+    double middle = 0.5 * (low + high);
+    double h = exp(middle);
+    sb_rough_law_at(&at, c->law, sb_rough_law_of_gap(c->law, h * c->film));
+    double p = fmin(at.pressure / c->pressure, 1);
+    if (4.0 / 27 * c->lambda * p > h * h * sqrt(1 - p * p)) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  double flux = hypot(exp(low), smooth);
+  sb_rough_law_at(&at, c->law, sb_rough_law_of_gap(c->law, flux * c->film));
+  double p = fmin(at.pressure / c->pressure, 1);
+  *mouth = sqrt(1 - p * p);
+  return flux;
+}
+
+void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c) {
+  const SbMixedMesh *mesh = &solver->mesh[which];
+  SbMixedState *state = &solver->state[which];
+  const SbMixedRule *rule = sb_mixed_rule(solver, mesh->degree);
+  double film =
+      fmin(c->flux, isfinite(c->supply) && c->lambda > 0 ? c->supply / c->lambda : c->flux);
+  double width = sb_layers_width(&c->layers);
+  double floor = 0.02;
+  bool at_rest = !(c->lambda > 0) && isfinite(c->supply);
+  for (int i = 0; i < mesh->nodes; i++) {
+    double X = mesh->x[i];
+    double q = sb_film_dry_pressure(X, c->layers.inlet, c->layers.outlet);
+    double dry = sb_film_dry_gap(X);
+    double inside = fmin(fmax(X, -1), 1);
+    double step = asin(inside) / M_PI;
+    double ambient = c->layers.inlet * (0.5 - step) + c->layers.outlet * (0.5 + step);
+    double fluid = film > 0 ? film * (1 + 1.2 * exp(-fabs(X + 1) / width)) : 0;
+    double rough = 0;
+    if (c->law != NULL) {
+      SbRoughPoint at;
+      sb_rough_law_at(&at, c->law,
+                      sb_rough_law_of_pressure(c->law, fmax(q - ambient, floor) * c->pressure));
+      rough = at.gap / c->film;
+    }
+    double lift = pow(pow(fluid, 6) + pow(rough, 6), 1 / 6.0);
+    state->q[i] = q;
+    state->t[i] = fmax(sb_mixed_of_gap(c, lift + dry), -3);
+  }
+  // Flow: by the film, and by the end pressures through the gap (Poiseuille).
+  double resistance = 0;
+  for (int i = 1; i < mesh->nodes; i++) {
+    SbMixedPoint at;
+    sb_mixed_point(&at, c, 0.5 * (state->t[i] + state->t[i - 1]));
+    resistance += (mesh->x[i] - mesh->x[i - 1]) / (at.h * at.h * at.h);
+  }
+  state->kappa = isfinite(c->supply)
+                     ? c->supply
+                     : c->lambda * film + (c->layers.inlet - c->layers.outlet) / resistance;
+  // Film pressure that the guess leaves, for the slopes; H0 follows from the first step.
+  double p[SB_MIXED_NODES_MAX];
+  for (int i = 0; i < mesh->nodes; i++) {
+    SbMixedPoint at;
+    sb_mixed_point(&at, c, state->t[i]);
+    p[i] = state->q[i] - at.solid;
+    state->broken[i] = at_rest || (c->layers.outlet <= 0 && c->lambda > 0 &&
+                                   mesh->x[i] > c->mouth && c->lambda * at.h > state->kappa);
+  }
+  for (int e = 0; e < mesh->elements; e++) {
+    double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
+    for (int k = e > 0 ? 1 : 0; k <= rule->degree; k++) {
+      double sum = 0;
+      for (int j = 0; j <= rule->degree; j++) {
+        sum += rule->slope[k][j] * p[e * rule->degree + j];
+      }
+      state->s[e * rule->degree + k] = at_rest ? 0 : sum / half;
+    }
+  }
+  state->H0 = 0;
+}
+
+void sb_mixed_resample(SbMixedSolver *solver, int from, int to) {
+  const SbMixedMesh *a = &solver->mesh[from];
+  const SbMixedMesh *b = &solver->mesh[to];
+  const SbMixedState *old = &solver->state[from];
+  SbMixedState *new = &solver->state[to];
+  const SbMixedRule *rule = sb_mixed_rule(solver, a->degree);
+  for (int i = 0; i < b->nodes; i++) {
+    double X = b->x[i], r;
+    int e = sb_mixed_locate(a, X, &r);
+    new->q[i] = sb_mixed_value(a, rule, old->q, e, r);
+    new->t[i] = sb_mixed_value(a, rule, old->t, e, r);
+    new->s[i] = sb_mixed_value(a, rule, old->s, e, r);
+    // Overshoot of the polynomials is cut to the range of the nodes beside.
+    int k = 0;
+    while (k < a->degree - 1 && r > rule->node[k + 1]) {
+      k++;
+    }
+    int n = e * a->degree + k;
+    double low = fmin(old->t[n], old->t[n + 1]), high = fmax(old->t[n], old->t[n + 1]);
+    double margin = 0.3 * (high - low);
+    new->t[i] = fmin(fmax(new->t[i], low - margin), high + margin);
+    new->broken[i] = old->broken[n];
+  }
+  new->H0 = old->H0;
+  new->kappa = old->kappa;
+}
+
+// ---------------------------------------------------------------- reading
+
+// What is read off a solution, scaled.
+typedef struct {
+  double film_min, film_central, film_flux, position_min, position_rupture;
+  double pressure_max;
+  double couette, poiseuille, cavity; // integrals of (1 - share)/h, (1 - share) h p'/2, theta/h
+  double real_area, asperity_load, central_share;
+  double load_error, flux_error;
+  bool ruptured, reformed;
+} Reading;
+
+static void add_interval(Reading *out, const SbMixedSolver *solver, const SbMixedState *state,
+                         const SbMixedCase *c, const SbMixedRule *rule, int e, double half, int j) {
+  int i = e * rule->degree + j;
+  double full[SB_MIXED_DEGREE_MAX + 1], film[SB_MIXED_DEGREE_MAX + 1];
+  memcpy(full, rule->step[j], sizeof full);
+  memcpy(film, full, sizeof film);
+  if (state->broken[i]) {
+    memset(film, 0, sizeof film);
+  } else if (state->broken[i + 1]) {
+    sb_mixed_partial(film, rule, j,
+                     sb_mixed_film_end(&solver->mesh[state - solver->state], rule, state->s, e, j));
+  }
+  for (int k = 0; k <= rule->degree; k++) {
+    int n = e * rule->degree + k;
+    const SbMixedPoint *at = &solver->point[n];
+    double w = half * full[k], wet = half * film[k];
+    double open = 1 - at->share;
+    double shear = 1 / at->h;
+    double p = state->q[n] - at->solid;
+    if (c->barus > 0 || c->eyring > 0) {
+      double barus = exp(-c->barus * (p + c->rupture));
+      double x = c->eyring / (barus * at->h);
+      shear = (x > 0 ? asinh(x) / x : 1) / (barus * at->h);
+    }
+    out->couette += wet * open * shear;
+    out->poiseuille += wet * open * 0.5 * at->h * state->s[n];
+    if (c->lambda > 0) {
+      double theta = fmin(state->kappa / c->lambda / at->h, 1);
+      out->cavity += (w - wet) * open * fmax(theta, 0) * shear;
+    }
+    out->real_area += w * at->share;
+    out->asperity_load += w * at->asperity;
+  }
+}
+
+static void read(Reading *out, SbMixedSolver *solver, int which, const SbMixedCase *c) {
+  const SbMixedMesh *mesh = &solver->mesh[which];
+  const SbMixedState *state = &solver->state[which];
+  const SbMixedRule *rule = sb_mixed_rule(solver, mesh->degree);
+  memset(out, 0, sizeof *out);
+  out->film_min = INFINITY;
+  out->position_rupture = mesh->edge[mesh->elements];
+  double load =
+      -0.5 * M_PI + mesh->inlet * mesh->edge[0] - mesh->outlet * mesh->edge[mesh->elements];
+  for (int i = 0; i < mesh->nodes; i++) {
+    sb_mixed_point(&solver->point[i], c, state->t[i]);
+    load += mesh->load[i] * state->q[i];
+  }
+  out->load_error = fabs(load) / (0.5 * M_PI);
+  out->film_flux = c->lambda > 0 ? state->kappa / c->lambda : 0;
+  double r;
+  int axis = sb_mixed_locate(mesh, 0, &r);
+  SbMixedPoint at;
+  sb_mixed_point(&at, c, sb_mixed_value(mesh, rule, state->t, axis, r));
+  out->film_central = at.h;
+  out->central_share = at.share;
+
+  int thinnest = 0, highest = 0;
+  double p_before = 0;
+  for (int e = 0; e < mesh->elements; e++) {
+    double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
+    for (int j = 0; j < rule->degree; j++) {
+      int i = e * rule->degree + j;
+      add_interval(out, solver, state, c, rule, e, half, j);
+      if (!out->ruptured && !state->broken[i] && state->broken[i + 1] && c->lambda > 0) {
+        double end = sb_mixed_film_end(mesh, rule, state->s, e, j);
+        out->position_rupture = 0.5 * (mesh->edge[e] + mesh->edge[e + 1]) + half * end;
+        out->ruptured = true;
+      }
+      out->reformed |= out->ruptured && state->broken[i] && !state->broken[i + 1];
+      thinnest = solver->point[i].h < solver->point[thinnest].h ? i : thinnest;
+      highest = state->q[i] > state->q[highest] ? i : highest;
+      // The flux that the profile carries, by the integrated equation.
+      if (!state->broken[i] && !state->broken[i + 1]) {
+        double p = state->q[i] - solver->point[i].solid;
+        double next = state->q[i + 1] - solver->point[i + 1].solid;
+        double sum = 0;
+        for (int k = 0; k <= rule->degree; k++) {
+          sum += half * rule->step[j][k] * state->s[e * rule->degree + k];
+        }
+        p_before = fmax(p_before, fabs(next - p - sum));
+      }
+    }
+  }
+  out->flux_error = p_before;
+  // Least gap and largest pressure inside the elements about the best nodes: parabola search.
+  out->film_min = solver->point[thinnest].h;
+  out->position_min = mesh->x[thinnest];
+  out->pressure_max = state->q[highest];
+  for (int which_one = 0; which_one < 2; which_one++) {
+    double X = mesh->x[which_one == 0 ? thinnest : highest];
+    double low = X, high = X;
+    int n = which_one == 0 ? thinnest : highest;
+    low = mesh->x[n > 0 ? n - 1 : 0];
+    high = mesh->x[n < mesh->nodes - 1 ? n + 1 : n];
+    const double *field = which_one == 0 ? state->t : state->q;
+    double sign = which_one == 0 ? 1 : -1;
+    static const double RATIO = 0.6180339887498949;
+    for (int k = 0; k < 40; k++) {
+      double x1 = high - RATIO * (high - low), x2 = low + RATIO * (high - low);
+      double r1, r2;
+      int e1 = sb_mixed_locate(mesh, x1, &r1), e2 = sb_mixed_locate(mesh, x2, &r2);
+      if (sign * sb_mixed_value(mesh, rule, field, e1, r1) <
+          sign * sb_mixed_value(mesh, rule, field, e2, r2)) {
+        high = x2;
+      } else {
+        low = x1;
+      }
+    }
+    X = 0.5 * (low + high);
+    int e = sb_mixed_locate(mesh, X, &r);
+    double value = sb_mixed_value(mesh, rule, field, e, r);
+    if (which_one == 0) {
+      sb_mixed_point(&at, c, value);
+      if (at.h < out->film_min) {
+        out->film_min = at.h;
+        out->position_min = X;
+      }
+    } else {
+      out->pressure_max = fmax(out->pressure_max, value);
+    }
+  }
+}
+
+static void profile(SbFilm *out, SbMixedSolver *solver, int which, const SbMixedCase *c,
+                    const SbFilmScale *scale, bool forward) {
+  const SbMixedMesh *mesh = &solver->mesh[which];
+  const SbMixedState *state = &solver->state[which];
+  const SbMixedRule *rule = sb_mixed_rule(solver, mesh->degree);
+  int per = (SB_FILM_POINTS - 1) / mesh->elements;
+  size_t n = 0;
+  for (int e = 0; e < mesh->elements; e++) {
+    double middle = 0.5 * (mesh->edge[e] + mesh->edge[e + 1]);
+    double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
+    for (int k = e > 0 ? 1 : 0; k <= per; k++) {
+      double r = -1 + 2.0 * k / per;
+      SbMixedPoint at;
+      sb_mixed_point(&at, c, sb_mixed_value(mesh, rule, state->t, e, r));
+      double q = sb_mixed_value(mesh, rule, state->q, e, r);
+      out->x[n] = (middle + half * r) * scale->half_width;
+      out->pressure[n] = (q + c->rupture) * scale->pressure;
+      out->film[n] = at.h * scale->film;
+      out->asperity_pressure[n] = at.asperity * scale->pressure;
+      n++;
+    }
+  }
+  out->points = n;
+  for (size_t i = 0, j = n - 1; !forward && i <= j; i++, j--) {
+    double *const column[] = {out->x, out->pressure, out->film, out->asperity_pressure};
+    for (size_t k = 0; k < sizeof column / sizeof column[0]; k++) {
+      double value = column[k][i];
+      column[k][i] = column[k][j];
+      column[k][j] = value;
+    }
+    out->x[i] = -out->x[i];
+    if (i != j) {
+      out->x[j] = -out->x[j];
+    }
+  }
+}
+
+// ---------------------------------------------------------------- solving
+
+static SbStatus attempt(SbMixedSolver *solver, int which, const SbMixedCase *c,
+                        SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+  SbMixedTrace trace;
+  SbStatus status = sb_mixed_newton(&trace, solver, which, c, problem);
+  info->newton_iterations += trace.iterations;
+  info->residual = trace.step;
+  return status;
+}
+
+// Adds `times` the difference of two states to a third: a straight line through them.
+static void extrapolate(SbMixedState *out, const SbMixedState *now, const SbMixedState *before,
+                        int nodes, double times) {
+  *out = *now;
+  for (int i = 0; i < nodes; i++) {
+    out->q[i] += times * (now->q[i] - before->q[i]);
+    out->t[i] += times * (now->t[i] - before->t[i]);
+  }
+  out->H0 += times * (now->H0 - before->H0);
+}
+
+// Lambda from where a cold start succeeded down to that of the case, on the mesh of the case. The
+// slopes scale with lambda, the flux film is extrapolated by its logarithm.
+static SbStatus descend(SbMixedSolver *solver, const SbMixedCase *c, double from,
+                        SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+  enum { STEPS_MAX = 60 };
+  SbMixedState *state = &solver->state[0];
+  SbMixedState *now = &solver->saved[0], *before = &solver->saved[1];
+  *now = *state;
+  double at = log(from), last = NAN;
+  double step = log(4.0);
+  for (int i = 0; i < STEPS_MAX && at > log(c->lambda); i++) {
+    double next = fmax(at - step, log(c->lambda));
+    if (next - log(c->lambda) < 0.1 * step) {
+      next = log(c->lambda);
+    }
+    SbMixedCase part = *c;
+    part.lambda = exp(next);
+    double ratio = exp(next - at);
+    double times = isfinite(last) ? (next - at) / (at - last) : 0;
+    extrapolate(state, now, before, solver->mesh[0].nodes, times);
+    double grow = isfinite(last) && now->kappa > 0 && before->kappa > 0
+                      ? pow(now->kappa / before->kappa * exp(last - at), times)
+                      : 1;
+    state->kappa = now->kappa * ratio * grow;
+    info->continuation_steps++;
+    SbStatus status = attempt(solver, 0, &part, info, problem);
+    if (status == SB_ERROR_CANCELLED) {
+      return status;
+    }
+    if (status == SB_OK) {
+      *before = *now;
+      *now = *state;
+      last = at;
+      at = next;
+      step = fmin(1.5 * step, log(30.0));
+    } else {
+      *state = *now;
+      step *= 0.35;
+      if (step < 1e-3) {
+        return SB_ERROR_NOT_CONVERGED;
+      }
+    }
+  }
+  return at > log(c->lambda) ? SB_ERROR_NOT_CONVERGED : SB_OK;
+}
+
+static SbStatus start(SbMixedSolver *solver, int *which, const SbMixedCase *c,
+                      SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+  enum { TRIALS = 12 };
+  const SbMixedRule *rule = sb_mixed_rule(solver, level_degree[0]);
+  *which = 0;
+  if (!sb_mixed_mesh(&solver->mesh[0], rule, c, 1)) {
+    return SB_ERROR_NOT_CONVERGED;
+  }
+  info->continuation_steps = 1;
+  SbMixedCase trial = *c;
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  for (int i = 0; i < TRIALS; i++) {
+    sb_mixed_guess(solver, 0, &trial);
+    status = attempt(solver, 0, &trial, info, problem);
+    if (status != SB_ERROR_NOT_CONVERGED || !(c->lambda > 0)) {
+      break;
+    }
+    trial.lambda *= 8;
+    trial.layers.lambda = trial.lambda;
+    trial.flux = flux_guess(&trial.mouth, &trial);
+  }
+  if (status == SB_OK && trial.lambda > c->lambda) {
+    status = descend(solver, c, trial.lambda, info, problem);
+  }
+  return status;
+}
+
+// Where the models behind the solution end.
+static void warn(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale) {
+  if (scale->half_width > problem->radius) {
+    out->valid = false;
+    sb_warn(&out->warnings, "film-contact-wide", "seal.modulus",
+            "the contact's half-width is %.2g of the radius: no parabola on a half-plane",
+            scale->half_width / problem->radius);
+  }
+  if (problem->surface == SB_ROUGH_GREENWOOD_TRIPP && out->real_area_share > 0.3) {
+    out->valid = false;
+    sb_warn(&out->warnings, "real-area-large", "surface.gt_product",
+            "asperities touch on %.0f %% of the area: Greenwood and Tripp's asperities are no "
+            "longer independent; compare Persson's",
+            100 * out->real_area_share);
+  }
+  if (problem->speed != 0 && problem->surface != SB_ROUGH_NONE && out->film_ratio < 0.5 &&
+      out->asperity_share < 0.99) {
+    sb_warn(&out->warnings, "film-flow-factors", "surface.sigma",
+            "the mean gap is %.2g of the roughness: the flow between touching asperities is taken "
+            "without flow factors or percolation",
+            out->film_ratio);
+  }
+}
+
+SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                        SbMixedSolver *solver, SbReport *report) {
+  double begin = seconds();
+  SbFilmSolverInfo *info = &out->solver;
+  SbMixedCase c = {
+      .lambda = scale->lambda,
+      .supply = problem->inlet_film > 0 && problem->speed != 0
+                    ? scale->lambda * 2 * problem->inlet_film / scale->film
+                    : INFINITY,
+      .rupture = problem->rupture_pressure / scale->pressure,
+      .barus = problem->pressure_viscosity * scale->pressure,
+      .film = scale->film,
+      .pressure = scale->pressure,
+      .hamaker = problem->hamaker / (6 * M_PI * scale->pressure * pow(scale->film, 3)),
+      .cutoff = SB_VDW_CUTOFF / scale->film,
+      .layers = {.lambda = scale->lambda,
+                 .inlet = scale->inlet,
+                 .outlet = fmax(scale->outlet, 0),
+                 .starvation = 1,
+                 .meniscus = -INFINITY,
+                 .end = scale->outlet > 0 ? SB_LAYERS_FULL : SB_LAYERS_RUPTURE},
+  };
+  if (problem->eyring_stress > 0) {
+    c.eyring = problem->viscosity * fabs(problem->speed) / (problem->eyring_stress * scale->film);
+  }
+  if (problem->surface != SB_ROUGH_NONE) {
+    SbRoughSurface surface = {.model = problem->surface,
+                              .product = problem->gt_product,
+                              .sigma = problem->sigma,
+                              .sigma_over_beta = problem->sigma_over_beta,
+                              .modulus = problem->modulus};
+    if (!solver->law_ready || memcmp(&solver->law.surface, &surface, sizeof surface) != 0) {
+      solver->law_ready = false;
+      SbStatus made = sb_rough_law_init(&solver->law, &surface, report);
+      if (made != SB_OK) {
+        return made;
+      }
+      solver->law_ready = true;
+    }
+    c.law = &solver->law;
+  }
+  c.smooth_gap = 0.01 * sb_layers_flux(&c.layers);
+  c.cut = INFINITY;
+  if (!(c.lambda > 0) && c.layers.inlet == c.layers.outlet) {
+    // No flow at all: the film pressure is the one around the contact.
+    c.rest = c.layers.inlet;
+    c.supply = 0;
+  }
+  c.flux = flux_guess(&c.mouth, &c);
+
+  if (c.layers.inlet < 0) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE,
+                   "film: the inlet's pressure is below the rupture pressure: no liquid there");
+  }
+
+  Reading reading[LEVELS];
+  int which = 0;
+  int levels = 0;
+  SbStatus status = start(solver, &which, &c, info, problem);
+  if (status == SB_OK) {
+    read(&reading[0], solver, which, &c);
+    levels = 1;
+  }
+  for (int level = 1; level < LEVELS && status == SB_OK; level++) {
+    int to = 1 - which;
+    c.cut = reading[level - 1].ruptured ? reading[level - 1].position_rupture : INFINITY;
+    if (!sb_mixed_mesh(&solver->mesh[to], sb_mixed_rule(solver, level_degree[level]), &c, 1)) {
+      break;
+    }
+    sb_mixed_resample(solver, which, to);
+    status = attempt(solver, to, &c, info, problem);
+    if (status != SB_OK) {
+      break;
+    }
+    which = to;
+    read(&reading[level], solver, which, &c);
+    levels = level + 1;
+    const Reading *a = &reading[level], *b = &reading[level - 1];
+    info->error_film_min = fabs(a->film_min / b->film_min - 1);
+    info->error_film_central = fabs(a->film_central / b->film_central - 1);
+    info->error_film_flux = b->film_flux != 0 ? fabs(a->film_flux / b->film_flux - 1) : 0;
+    if (fmax(info->error_film_min, info->error_film_central) < 0.1 * problem->tolerance) {
+      break;
+    }
+  }
+  if (levels == 0) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "film: Newton's method stopped, step %.2g",
+                   info->residual);
+  }
+  const Reading *r = &reading[levels - 1];
+  double sign = problem->speed >= 0 ? 1 : -1;
+  out->film_min = r->film_min * scale->film;
+  out->film_central = r->film_central * scale->film;
+  out->film_flux = r->film_flux * scale->film;
+  out->flow = 0.5 * problem->speed * out->film_flux;
+  out->pressure_max = (r->pressure_max + c.rupture) * scale->pressure;
+  out->position_film_min = sign * r->position_min * scale->half_width;
+  out->position_rupture = sign * r->position_rupture * scale->half_width;
+  out->ruptured = r->ruptured;
+  double shear = problem->viscosity * problem->speed * scale->half_width / scale->film;
+  out->friction_couette = shear * r->couette;
+  out->friction_cavity = shear * r->cavity;
+  out->friction_poiseuille = sign * r->poiseuille * scale->film * scale->pressure;
+  out->asperity_load = r->asperity_load * scale->half_width * scale->pressure;
+  out->asperity_share = out->asperity_load / problem->load;
+  out->real_area = r->real_area * scale->half_width;
+  out->real_area_share = r->central_share;
+  out->film_ratio = c.law != NULL ? out->film_central / problem->sigma : 0;
+  out->friction_boundary = sign * (problem->shear_strength * out->real_area +
+                                   problem->load_coefficient * out->asperity_load);
+  info->load_error = r->load_error;
+  info->flux_error = r->flux_error;
+  info->unknowns = (size_t)solver->mesh[which].nodes + 2;
+  if (status == SB_OK &&
+      !(fmax(info->error_film_min, info->error_film_central) <= problem->tolerance)) {
+    status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                     "film: estimated error %.2g, above the tolerance, on the finest mesh",
+                     fmax(info->error_film_min, info->error_film_central));
+  } else if (status != SB_OK) {
+    sb_fail(report, status, "film: Newton's method stopped at a step of %.2g", info->residual);
+  }
+  info->converged = status == SB_OK;
+  warn(out, problem, scale);
+  info->wall_s = seconds() - begin;
+  profile(out, solver, which, &c, scale, problem->speed >= 0);
+  return status == SB_OK ? sb_succeed(report) : status;
+}

@@ -1,0 +1,152 @@
+// Inside of the mixed-film solver (private to engine/film): film and asperities in one Newton.
+//
+// The unknown is the total pressure q on the half-plane. At every node
+//
+//   q = p + p_a(h) - p_v(h)           p film, p_a asperities, p_v van der Waals' pull
+//   h = H0 + X^2/2 - (1/pi) integral q ln|X - X'| dX'
+//   h^3 m p' = lambda h - kappa       where the film is full; kappa / lambda is the flux film
+//   p >= 0, and no more pressure than the flux brings, where it is broken: then q = p_a - p_v
+//
+// scaled as in scale.h, in the flow frame with x from the axis. h is written h(t), p_a(t) with the
+// parameter t of the rough law, and t and the slope s = p' are iterated beside q and made
+// consistent by Newton's method itself: everything that it linearises is then gentle from a film
+// ten times the roughness to full contact. Elements are polynomials on Lobatto nodes; Reynolds'
+// equation is integrated from node to node (collocation of Lobatto IIIA's kind); each node is in
+// the full film or in the cavity by complementarity, and the step into the cavity ends where the
+// film ends, so that the rupture is not tied to nodes.
+#pragma once
+
+#include "engine/film/layers.h"
+#include "engine/film/scale.h"
+#include "engine/surface/rough_law.h"
+
+enum {
+  SB_MIXED_DEGREE_MAX = 8,
+  SB_MIXED_ELEMENTS_MAX = 100,
+  SB_MIXED_NODES_MAX = 440,
+};
+
+// Tables of one degree on [-1, 1].
+typedef struct {
+  int degree;
+  double node[SB_MIXED_DEGREE_MAX + 1];
+  double bary[SB_MIXED_DEGREE_MAX + 1];
+  double project[SB_MIXED_DEGREE_MAX + 1][SB_MIXED_DEGREE_MAX + 1]; // [Legendre mode][basis]
+  double slope[SB_MIXED_DEGREE_MAX + 1][SB_MIXED_DEGREE_MAX + 1];   // [node][basis]
+  // Integral of a basis function from node j to node j + 1.
+  double step[SB_MIXED_DEGREE_MAX][SB_MIXED_DEGREE_MAX + 1];
+} SbMixedRule;
+
+typedef struct {
+  int elements, nodes, degree;
+  double edge[SB_MIXED_ELEMENTS_MAX + 1];
+  double x[SB_MIXED_NODES_MAX];
+  double inlet, outlet;             // far pressures
+  double known[SB_MIXED_NODES_MAX]; // gap of the far pressures, tilt removed as in hp.c
+  double load[SB_MIXED_NODES_MAX];  // integral of the basis
+  double *kernel;                   // [nodes][nodes] gap of a nodal pressure
+} SbMixedMesh;
+
+typedef struct {
+  double q[SB_MIXED_NODES_MAX]; // total pressure
+  double t[SB_MIXED_NODES_MAX]; // parameter of the gap
+  double s[SB_MIXED_NODES_MAX]; // slope of the film pressure
+  bool broken[SB_MIXED_NODES_MAX];
+  double H0, kappa;
+} SbMixedState;
+
+// What is solved.
+typedef struct {
+  SbLayers layers;       // lambda and end pressures; places the mesh
+  double lambda;         // 0 at rest
+  double supply;         // kappa of a starved inlet; infinite when flooded
+  double rest;           // film pressure of broken nodes: 0, or that around a contact at rest
+  double rupture;        // rupture pressure; the solver's pressures are above it
+  double barus, eyring;  // as in SbReynoldsCase
+  const SbRoughLaw *law; // NULL: smooth
+  double smooth_gap;     // unit of t without a law
+  double film, pressure; // scales of the law
+  double hamaker;        // A_H / (6 pi h^3) with h, p scaled; 0 = off
+  double cutoff;         // scaled
+  double flux, mouth;    // guesses of the flux film and of where the film's pressure begins
+  double cut;            // an element ends there, at the rupture; infinite if not known
+} SbMixedCase;
+
+// Everything at a node.
+typedef struct {
+  double h, h_t;   // gap and its slope to t
+  double solid;    // p_a - p_v
+  double solid_t;  // slope to t
+  double asperity; // p_a
+  double share;    // real area
+} SbMixedPoint;
+
+// Storage of a solver.
+typedef struct SbMixedSolver {
+  SbMixedRule rule[SB_MIXED_DEGREE_MAX + 1];
+  SbMixedMesh mesh[2];
+  SbMixedState state[2];
+  SbMixedState saved[2]; // of a continuation
+  SbMixedPoint point[SB_MIXED_NODES_MAX];
+  double gap[SB_MIXED_NODES_MAX];
+  double *matrix, *right;
+  int *pivot;
+  SbRoughLaw law;
+  bool law_ready;
+  struct {
+    bool ready;
+    int which;
+    SbMixedCase problem;
+  } last;
+} SbMixedSolver;
+
+// A solver's storage, NULL when out of memory; destroy takes NULL.
+SbMixedSolver *sb_mixed_create(void);
+void sb_mixed_destroy(SbMixedSolver *solver);
+
+// Rule of a degree, made on first use.
+const SbMixedRule *sb_mixed_rule(SbMixedSolver *solver, int degree);
+
+// Lays out elements by the layers and the roughness and builds the kernel; `fineness` divides the
+// sizes (1 usual). False if the mesh does not fit.
+bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase *c,
+                   double fineness);
+
+// Element that holds X, and the coordinate there.
+int sb_mixed_locate(const SbMixedMesh *mesh, double X, double *r);
+
+// Value at r of element e of a nodal field.
+double sb_mixed_value(const SbMixedMesh *mesh, const SbMixedRule *rule, const double *field, int e,
+                      double r);
+
+// Gap and solid pressures at t.
+void sb_mixed_point(SbMixedPoint *out, const SbMixedCase *c, double t);
+
+// Parameter of a gap.
+double sb_mixed_of_gap(const SbMixedCase *c, double gap);
+
+// A cold start, and a start from another mesh's state.
+void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c);
+void sb_mixed_resample(SbMixedSolver *solver, int from, int to);
+
+// What Newton's method did.
+typedef struct {
+  int iterations;
+  double step; // last relative change of gap and pressure
+} SbMixedTrace;
+
+// Newton's method on mesh and state `which`. SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED.
+SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
+                         const SbMixedCase *c, const SbFilmProblem *callback);
+
+// Where the film of the sub-interval j of element e ends: the root of the slope, as a coordinate in
+// it, or its end.
+double sb_mixed_film_end(const SbMixedMesh *mesh, const SbMixedRule *rule, const double *s, int e,
+                         int j);
+
+// Integral of a basis function from node j to r.
+void sb_mixed_partial(double *weight, const SbMixedRule *rule, int j, double r);
+
+// The mixed solution of `problem`, speed zero included.
+SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                        SbMixedSolver *solver, SbReport *report);

@@ -1,0 +1,302 @@
+// Elements and elastic kernel of the mixed-film solver.
+//
+// Element sizes grow with the distance from the contact's two edges, where the layers of the film
+// (lambda^0.4, layers.h) or the tail of the asperities (sigma^(2/3): the dry gap opens with the
+// power 3/2) sit. The gap of a polynomial pressure under the logarithmic kernel is exact: with z
+// the target's coordinate in the element, integral of P_k(r) ln|z - r| = 2/(2k+1) (Q_(k+1) -
+// Q_(k-1))(z), Legendre functions of the second kind (as hp.c; here for all z, by their downward
+// recurrence away from the element). Far pressures and their tilt: reference/ehl.md as in hp.c.
+#include "engine/film/mixed.h"
+
+#include "engine/numeric/legendre.h"
+
+#include <math.h>
+#include <string.h>
+
+const SbMixedRule *sb_mixed_rule(SbMixedSolver *solver, int degree) {
+  SbMixedRule *rule = &solver->rule[degree];
+  if (rule->degree == degree) {
+    return rule;
+  }
+  rule->degree = degree;
+  sb_legendre_lobatto(rule->node, degree);
+  sb_barycentric_weights(rule->bary, rule->node, degree + 1);
+  double gauss[SB_MIXED_DEGREE_MAX + 1], weight[SB_MIXED_DEGREE_MAX + 1];
+  int points = degree + 1;
+  sb_legendre_gauss(gauss, weight, points);
+  memset(rule->project, 0, sizeof rule->project);
+  for (int g = 0; g < points; g++) {
+    double basis[SB_MIXED_DEGREE_MAX + 1], mode[SB_MIXED_DEGREE_MAX + 1];
+    sb_barycentric_basis(basis, gauss[g], rule->node, rule->bary, degree + 1);
+    sb_legendre_values(mode, gauss[g], degree);
+    for (int k = 0; k <= degree; k++) {
+      for (int j = 0; j <= degree; j++) {
+        rule->project[k][j] += 0.5 * (2 * k + 1) * weight[g] * mode[k] * basis[j];
+      }
+    }
+  }
+  for (int i = 0; i <= degree; i++) {
+    sb_barycentric_slope(rule->slope[i], rule->node[i], rule->node, rule->bary, degree + 1);
+  }
+  for (int j = 0; j < degree; j++) {
+    sb_mixed_partial(rule->step[j], rule, j, rule->node[j + 1]);
+  }
+  return rule;
+}
+
+void sb_mixed_partial(double *weight, const SbMixedRule *rule, int j, double r) {
+  double gauss[SB_MIXED_DEGREE_MAX], w[SB_MIXED_DEGREE_MAX];
+  int points = rule->degree / 2 + 1;
+  sb_legendre_gauss(gauss, w, points);
+  double from = rule->node[j];
+  memset(weight, 0, (size_t)(rule->degree + 1) * sizeof *weight);
+  for (int g = 0; g < points; g++) {
+    double basis[SB_MIXED_DEGREE_MAX + 1];
+    sb_barycentric_basis(basis, from + 0.5 * (r - from) * (1 + gauss[g]), rule->node, rule->bary,
+                         rule->degree + 1);
+    for (int k = 0; k <= rule->degree; k++) {
+      weight[k] += 0.5 * (r - from) * w[g] * basis[k];
+    }
+  }
+}
+
+// out[k] = integral over [-1, 1] of P_k(r) ln|z - r|, k = 0 .. n.
+static void moments(double *out, double z, int n) {
+  double plus = log(fmax(fabs(z + 1), 1e-40));
+  double minus = log(fmax(fabs(z - 1), 1e-40));
+  out[0] = (z + 1) * plus - (z - 1) * minus - 2;
+  double Q[SB_MIXED_DEGREE_MAX + 44];
+  Q[0] = 0.5 * (plus - minus);
+  if (fabs(z) < 1.2) {
+    Q[1] = z * Q[0] - 1;
+    for (int k = 1; k <= n; k++) {
+      Q[k + 1] = ((2 * k + 1) * z * Q[k] - k * Q[k - 1]) / (k + 1);
+    }
+  } else {
+    // Downwards from far enough that the start is forgotten (rho^-2 each step), then scaled; Q_0
+    // by its series where the logarithms cancel.
+    double a = fabs(z);
+    double rho = a + sqrt(a * a - 1);
+    int extra = (int)(18 / log(rho)) + 2;
+    int top = n + 1 + (extra < 40 ? extra : 40);
+    Q[top + 1] = 0;
+    Q[top] = 1e-200;
+    for (int k = top; k >= 1; k--) {
+      Q[k - 1] = ((2 * k + 1) * z * Q[k] - (k + 1) * Q[k + 1]) / k;
+    }
+    double zero = a > 30 ? (1 + (1 / 3.0 + (0.2 + 1 / (7 * z * z)) / (z * z)) / (z * z)) / z
+                         : 0.5 * (plus - minus);
+    double scale = zero / Q[0];
+    for (int k = 0; k <= n + 1; k++) {
+      Q[k] *= scale;
+    }
+  }
+  for (int k = 1; k <= n; k++) {
+    out[k] = 2.0 / (2 * k + 1) * (Q[k + 1] - Q[k - 1]);
+  }
+}
+
+// x (ln|x| - 1): the gap of a constant pressure on a half-line, up to tilt and constant.
+static double half_line(double x) {
+  return x == 0 ? 0 : x * (log(fabs(x)) - 1);
+}
+
+static void build_kernel(SbMixedMesh *mesh, const SbMixedRule *rule) {
+  int degree = rule->degree;
+  int nodes = mesh->nodes;
+  memset(mesh->load, 0, (size_t)nodes * sizeof(double));
+  for (int e = 0; e < mesh->elements; e++) {
+    double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
+    for (int j = 0; j <= degree; j++) {
+      mesh->load[e * degree + j] += 2 * half * rule->project[0][j];
+    }
+  }
+  double in = mesh->inlet / M_PI, out = mesh->outlet / M_PI;
+  for (int i = 0; i < nodes; i++) {
+    double *row = mesh->kernel + (size_t)i * (size_t)nodes;
+    double X = mesh->x[i];
+    memset(row, 0, (size_t)nodes * sizeof *row);
+    for (int e = 0; e < mesh->elements; e++) {
+      double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
+      double z = (X - 0.5 * (mesh->edge[e] + mesh->edge[e + 1])) / half;
+      double moment[SB_MIXED_DEGREE_MAX + 1];
+      moments(moment, z, degree);
+      moment[0] += 2 * log(half);
+      for (int j = 0; j <= degree; j++) {
+        double sum = 0;
+        for (int k = 0; k <= degree; k++) {
+          sum += moment[k] * rule->project[k][j];
+        }
+        row[e * degree + j] -= half * sum / M_PI;
+      }
+    }
+    mesh->known[i] = in * half_line(X - mesh->edge[0]) -
+                     out * half_line(X - mesh->edge[mesh->elements]) + (in - out) * M_LN2 * X;
+  }
+}
+
+// X > 1 where the dry gap reaches `gap`.
+static double dry_reach(double gap) {
+  double low = 1, high = 2;
+  while (sb_film_dry_gap(high) < gap) {
+    high *= 2;
+  }
+  for (int i = 0; i < 60; i++) {
+    double middle = 0.5 * (low + high);
+    if (sb_film_dry_gap(middle) < gap) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return high;
+}
+
+// Width of what has to be resolved at the edges: of the film's layer, or of the asperities' tail.
+static double edge_width(const SbMixedCase *c, double layer) {
+  double width = c->lambda > 0 ? layer : 0;
+  if (c->law != NULL) {
+    double sigma = c->law->surface.sigma / c->film;
+    // Where the asperities' pressure at the flux film is a small part q of Hertz's, the mouth of
+    // the film lies q^2/2 inside the edge.
+    double tail = 0.5 * fmin(pow(sigma, 2.0 / 3), sqrt(2 * sigma));
+    width = fmax(width, c->lambda > 0 ? fmin(tail, 1 - c->mouth) : tail);
+  }
+  return width;
+}
+
+bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase *c,
+                   double fineness) {
+  static const double GROWTH = 0.75;
+  const SbLayers *l = &c->layers;
+  double thin = sb_layers_width(l);
+  double unit = sqrt(1.44 + 0.52 * c->lambda); // length of the rigid wedge
+  bool thick = c->lambda > 0 && thin > 1;
+  double feature[2] = {-1, 1};
+  double width[2];
+  width[0] = fmin(edge_width(c, thick ? 0.6 * unit : thin), unit);
+  // The flux needs the inlet's layer, the least film the outlet's, which is finer.
+  width[1] = fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin), unit);
+  if (thick) {
+    feature[0] = -0.6 * unit;
+    feature[1] = 0.7 * unit;
+  }
+
+  // Reach: the film's pressure falls like (4/3) lambda / X^3, the asperities' with the gap.
+  double tail = 1.5;
+  if (c->law != NULL) {
+    double least = 1e-13 * c->pressure;
+    double t = sb_rough_law_of_pressure(c->law, least);
+    SbRoughPoint end;
+    sb_rough_law_at(&end, c->law, t);
+    tail = dry_reach(end.gap / c->film);
+  }
+  double film_reach = fmax(3, sqrt(c->lambda * 4e6));
+  double left = fmax(tail, c->lambda > 0 ? film_reach : tail);
+  double right = fmax(tail, feature[1] + 3 * width[1]);
+  if (thick) {
+    right = fmax(right, 2 * unit);
+  }
+  if (c->layers.outlet > 0) {
+    right = fmax(right, film_reach);
+  }
+  if (!(c->lambda > 0) && c->layers.inlet != c->layers.outlet) {
+    left = right = fmax(left, 3);
+  }
+
+  // Sizes: march out from each feature and in to the middle between them, then scale each part
+  // so that it ends on its mark.
+  double grow = GROWTH / fineness;
+  const double from[4] = {feature[0], feature[0], feature[1], feature[1]};
+  double middle = 0.5 * (feature[0] + feature[1]);
+  const double to[4] = {-left, middle, middle, right};
+  double places[4][SB_MIXED_ELEMENTS_MAX];
+  int count[4];
+  for (int part = 0; part < 4; part++) {
+    double w = width[part / 2];
+    double distance = fabs(to[part] - from[part]);
+    // ln(1 + d/w) grows by about `grow` per element, the first of size w grow.
+    double total = log1p(distance / w);
+    int n = (int)ceil(total / log1p(grow));
+    n = n < 1 ? 1 : n;
+    if (n >= SB_MIXED_ELEMENTS_MAX) {
+      return false;
+    }
+    count[part] = n;
+    for (int i = 1; i <= n; i++) {
+      double d = i == n ? distance : w * expm1(total * i / n);
+      places[part][i - 1] = to[part] > from[part] ? from[part] + d : from[part] - d;
+    }
+  }
+  int elements = count[0] + count[1] + count[2] + count[3];
+  int nodes = elements * rule->degree + 1;
+  if (elements > SB_MIXED_ELEMENTS_MAX || nodes > SB_MIXED_NODES_MAX) {
+    return false;
+  }
+  int n = 0;
+  for (int i = count[0] - 1; i >= 0; i--) {
+    mesh->edge[n++] = places[0][i];
+  }
+  mesh->edge[n++] = feature[0];
+  for (int i = 0; i < count[1]; i++) {
+    mesh->edge[n++] = places[1][i];
+  }
+  for (int i = count[2] - 2; i >= 0; i--) {
+    mesh->edge[n++] = places[2][i];
+  }
+  mesh->edge[n++] = feature[1];
+  for (int i = 0; i < count[3]; i++) {
+    mesh->edge[n++] = places[3][i];
+  }
+  if (isfinite(c->cut)) {
+    // The edge nearest to the rupture moves there.
+    int nearest = 1;
+    for (int e = 1; e < elements; e++) {
+      if (fabs(mesh->edge[e] - c->cut) < fabs(mesh->edge[nearest] - c->cut)) {
+        nearest = e;
+      }
+    }
+    if (elements > 2 && c->cut > mesh->edge[nearest - 1] && c->cut < mesh->edge[nearest + 1]) {
+      mesh->edge[nearest] = c->cut;
+    }
+  }
+  mesh->elements = elements;
+  mesh->nodes = nodes;
+  mesh->degree = rule->degree;
+  mesh->inlet = c->layers.inlet;
+  mesh->outlet = c->layers.outlet;
+  for (int e = 0; e < elements; e++) {
+    double a = mesh->edge[e], b = mesh->edge[e + 1];
+    for (int k = 0; k <= rule->degree; k++) {
+      mesh->x[e * rule->degree + k] = 0.5 * (a + b) + 0.5 * (b - a) * rule->node[k];
+    }
+  }
+  build_kernel(mesh, rule);
+  return true;
+}
+
+int sb_mixed_locate(const SbMixedMesh *mesh, double X, double *r) {
+  int low = 0, high = mesh->elements;
+  while (high - low > 1) {
+    int middle = (low + high) / 2;
+    if (X >= mesh->edge[middle]) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  double a = mesh->edge[low], b = mesh->edge[low + 1];
+  *r = fmin(fmax((2 * X - a - b) / (b - a), -1), 1);
+  return low;
+}
+
+double sb_mixed_value(const SbMixedMesh *mesh, const SbMixedRule *rule, const double *field, int e,
+                      double r) {
+  double basis[SB_MIXED_DEGREE_MAX + 1];
+  sb_barycentric_basis(basis, r, rule->node, rule->bary, rule->degree + 1);
+  double sum = 0;
+  for (int k = 0; k <= rule->degree; k++) {
+    sum += basis[k] * field[e * mesh->degree + k];
+  }
+  return sum;
+}

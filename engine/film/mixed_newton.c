@@ -1,0 +1,338 @@
+// Newton's method of the mixed-film solver; equations in mixed.h.
+//
+// Unknowns of the linear system are the total pressures, H0 and kappa; gap, parameter, slope and
+// film pressure follow from them at each node:
+//
+//   dh = K dq + dH0 + r          r: what the linear elastic equation still lacks
+//   dp = dq + k dh               k = -(dp_a/dt) / (dh/dt), the asperities' stiffness
+//   G ds = -(rho + (dG/dh s - lambda) dh + dG/dp s dp + dkappa)     G = h^3 m
+//
+// so that every step leaves the elastic equation, load and flux linear. The rows are Reynolds'
+// equation from node to node, or p = 0 in the cavity, the end pressures and the load. A step is
+// shortened only where the gap would fall by more than the rough law's parameter can follow.
+#include "engine/film/mixed.h"
+
+#include "engine/surface/van_der_waals.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+enum { ITERATIONS_MAX = 40 };
+
+// Scaled gaps far below this are closed for all that double precision tells.
+static const double GAP_FLOOR = 1e-11;
+
+void sb_mixed_point(SbMixedPoint *out, const SbMixedCase *c, double t) {
+  if (c->law != NULL) {
+    SbRoughPoint p;
+    sb_rough_law_at(&p, c->law, t);
+    *out = (SbMixedPoint){.h = p.gap / c->film,
+                          .h_t = p.gap_slope / c->film,
+                          .asperity = p.pressure / c->pressure,
+                          .solid = p.pressure / c->pressure,
+                          .solid_t = p.pressure_slope / c->pressure,
+                          .share = p.share};
+    if (c->hamaker > 0) {
+      double h = fmax(out->h, c->cutoff);
+      double pull = c->hamaker / (h * h * h);
+      double by_h = out->h > c->cutoff ? -3 * pull / h : 0;
+      out->solid -= (1 - p.share) * pull;
+      out->solid_t -= (1 - p.share) * by_h * out->h_t - p.share_slope * pull;
+    }
+    return;
+  }
+  // Smooth: linear above t = 1, falling exponentially to nothing below.
+  double unit = c->smooth_gap;
+  out->h = t >= 1 ? unit * t : unit * exp(t - 1);
+  out->h_t = t >= 1 ? unit : out->h;
+  out->asperity = out->solid = out->solid_t = out->share = 0;
+  if (c->hamaker > 0) {
+    double h = fmax(out->h, c->cutoff);
+    out->solid = -c->hamaker / (h * h * h);
+    out->solid_t = out->h > c->cutoff ? -3 * out->solid / h * out->h_t : 0;
+  }
+}
+
+double sb_mixed_of_gap(const SbMixedCase *c, double gap) {
+  if (c->law != NULL) {
+    return sb_rough_law_of_gap(c->law, gap * c->film);
+  }
+  double t = gap / c->smooth_gap;
+  return t >= 1 ? t : 1 + log(t);
+}
+
+// Mobility factor and its derivatives, as in newton.c.
+static void mobility(double *m, double *m_h, double *m_p, const SbMixedCase *c, double h,
+                     double p) {
+  *m = 1;
+  *m_h = *m_p = 0;
+  double barus = c->barus > 0 ? exp(-c->barus * (p + c->rupture)) : 1;
+  if (c->eyring > 0) {
+    double shear = c->eyring / (barus * h);
+    double root = sqrt(1 + shear * shear);
+    *m = barus * root;
+    *m_h = -barus * shear * shear / (root * h);
+    *m_p = c->barus * barus * (shear * shear / root - root);
+  } else if (c->barus > 0) {
+    *m = barus;
+    *m_p = -c->barus * barus;
+  }
+}
+
+double sb_mixed_film_end(const SbMixedMesh *mesh, const SbMixedRule *rule, const double *s, int e,
+                         int j) {
+  int i = e * rule->degree + j;
+  double low = rule->node[j], high = rule->node[j + 1];
+  if (!(s[i] < 0)) {
+    return low;
+  }
+  if (!(s[i + 1] > 0)) {
+    return high;
+  }
+  for (int k = 0; k < 30; k++) {
+    double middle = 0.5 * (low + high);
+    if (sb_mixed_value(mesh, rule, s, e, middle) < 0) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+// One Newton step's data at the nodes.
+typedef struct {
+  double p[SB_MIXED_NODES_MAX], k[SB_MIXED_NODES_MAX], r[SB_MIXED_NODES_MAX];
+  // ds = s0 + s_h dh + s_p dp + s_kappa dkappa
+  double s0[SB_MIXED_NODES_MAX], s_h[SB_MIXED_NODES_MAX], s_p[SB_MIXED_NODES_MAX];
+  double s_kappa[SB_MIXED_NODES_MAX];
+  double step[SB_MIXED_NODES_MAX]; // p[i+1] - p[i] - integral of s
+} Local;
+
+static void elastic_gaps(double *out, const SbMixedMesh *mesh, const SbMixedState *state) {
+  for (int i = 0; i < mesh->nodes; i++) {
+    out[i] = state->H0 + 0.5 * mesh->x[i] * mesh->x[i] + mesh->known[i];
+  }
+  cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->nodes, mesh->nodes, 1.0, mesh->kernel, mesh->nodes,
+              state->q, 1, 1.0, out, 1);
+}
+
+static void localise(Local *l, SbMixedSolver *solver, const SbMixedMesh *mesh,
+                     const SbMixedState *state, const SbMixedCase *c) {
+  for (int i = 0; i < mesh->nodes; i++) {
+    SbMixedPoint *at = &solver->point[i];
+    sb_mixed_point(at, c, state->t[i]);
+    l->p[i] = state->q[i] - at->solid;
+    l->k[i] = -at->solid_t / at->h_t;
+    l->r[i] = solver->gap[i] - at->h;
+    double m, m_h, m_p;
+    mobility(&m, &m_h, &m_p, c, at->h, l->p[i]);
+    double h = at->h, s = state->s[i];
+    double G = h * h * h * m;
+    l->s0[i] = -s + (c->lambda * h - state->kappa) / G;
+    l->s_h[i] = (c->lambda - (3 * h * h * m + h * h * h * m_h) * s) / G;
+    l->s_p[i] = -h * h * h * m_p * s / G;
+    l->s_kappa[i] = -1 / G;
+  }
+}
+
+// What Reynolds' equation lacks from node to node.
+static void residuals(Local *l, const SbMixedMesh *mesh, const SbMixedRule *rule,
+                      const SbMixedState *state) {
+  for (int e = 0; e < mesh->elements; e++) {
+    double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
+    for (int j = 0; j < rule->degree; j++) {
+      int i = e * rule->degree + j;
+      double sum = 0;
+      for (int k = 0; k <= rule->degree; k++) {
+        sum += rule->step[j][k] * state->s[e * rule->degree + k];
+      }
+      l->step[i] = l->p[i + 1] - l->p[i] - half * sum;
+    }
+  }
+}
+
+// Chooses between full film and cavity at every node.
+static void choose(const Local *l, const SbMixedMesh *mesh, const SbMixedRule *rule,
+                   SbMixedState *state, const SbMixedPoint *point, bool flooded, double doubt) {
+  // Against the flow, as the end of the film depends on what lies behind.
+  state->broken[mesh->nodes - 1] = state->broken[mesh->nodes - 2];
+  for (int i = mesh->nodes - 2; i >= 0; i--) {
+    double residual = l->step[i];
+    if (state->broken[i + 1] && state->s[i] < 0 && state->s[i + 1] > 0) {
+      int e = i / rule->degree, j = i % rule->degree;
+      double end = sb_mixed_film_end(mesh, rule, state->s, e, j);
+      double weight[SB_MIXED_DEGREE_MAX + 1];
+      sb_mixed_partial(weight, rule, j, end);
+      double sum = 0;
+      for (int k = 0; k <= rule->degree; k++) {
+        sum += weight[k] * state->s[e * rule->degree + k];
+      }
+      residual = -l->p[i] - 0.5 * (mesh->edge[e + 1] - mesh->edge[e]) * sum;
+    }
+    // Changed only where the last step leaves no doubt about the sign.
+    double sign = l->p[i] + residual;
+    bool broken = fabs(sign) < doubt * point[i].asperity ? state->broken[i] : sign < 0;
+    broken = broken && !(i == 0 && flooded);
+    state->broken[i] = broken;
+  }
+}
+
+// Adds coefficient times dh (and dp) of node n to a row.
+static void add_node(double *row, double *constant, const SbMixedMesh *mesh, const Local *l, int n,
+                     double by_h, double by_p) {
+  double gap = by_h + by_p * l->k[n];
+  if (gap != 0) {
+    cblas_daxpy(mesh->nodes, gap, mesh->kernel + (size_t)n * (size_t)mesh->nodes, 1, row, 1);
+  }
+  row[n] += by_p;
+  row[mesh->nodes] += gap; // H0
+  *constant += gap * l->r[n];
+}
+
+static void assemble(double *matrix, double *right, const SbMixedMesh *mesh,
+                     const SbMixedRule *rule, const SbMixedState *state, const SbMixedCase *c,
+                     const Local *l) {
+  int nodes = mesh->nodes;
+  int order = nodes + 2;
+  int d = rule->degree;
+  memset(matrix, 0, (size_t)order * (size_t)order * sizeof *matrix);
+
+  // Inlet: its pressure, or the flux supplied.
+  double *row = matrix;
+  if (isfinite(c->supply)) {
+    row[nodes + 1] = 1;
+    right[0] = c->supply - state->kappa;
+  } else {
+    double constant = 0;
+    add_node(row, &constant, mesh, l, 0, 0, 1);
+    right[0] = c->layers.inlet - l->p[0] - constant;
+  }
+  // Steps.
+  for (int i = 0; i < nodes - 1; i++) {
+    row = matrix + (size_t)(i + 1) * (size_t)order;
+    double constant = 0;
+    if (state->broken[i]) {
+      add_node(row, &constant, mesh, l, i, 0, 1);
+      right[i + 1] = c->rest - l->p[i] - constant;
+      continue;
+    }
+    int e = i / d, j = i % d;
+    double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
+    double weight[SB_MIXED_DEGREE_MAX + 1];
+    memcpy(weight, rule->step[j], sizeof weight);
+    if (state->broken[i + 1]) {
+      sb_mixed_partial(weight, rule, j, sb_mixed_film_end(mesh, rule, state->s, e, j));
+    }
+    double residual = l->p[i + 1] - l->p[i];
+    for (int k = 0; k <= d; k++) {
+      int n = e * d + k;
+      double w = half * weight[k];
+      residual -= w * (state->s[n] + l->s0[n]);
+      double by_p = -w * l->s_p[n] + (k == j + 1 ? 1 : k == j ? -1 : 0);
+      add_node(row, &constant, mesh, l, n, -w * l->s_h[n], by_p);
+      row[nodes + 1] -= w * l->s_kappa[n];
+    }
+    right[i + 1] = -residual - constant;
+  }
+  // Outlet.
+  row = matrix + (size_t)nodes * (size_t)order;
+  double constant = 0;
+  add_node(row, &constant, mesh, l, nodes - 1, 0, 1);
+  right[nodes] = c->layers.outlet - l->p[nodes - 1] - constant;
+  // Load above the ambient step.
+  row = matrix + (size_t)(nodes + 1) * (size_t)order;
+  memcpy(row, mesh->load, (size_t)nodes * sizeof *row);
+  double sum =
+      -0.5 * M_PI + mesh->inlet * mesh->edge[0] - mesh->outlet * mesh->edge[mesh->elements];
+  for (int j = 0; j < nodes; j++) {
+    sum += mesh->load[j] * state->q[j];
+  }
+  right[nodes + 1] = -sum;
+
+  // Rows of one size each.
+  for (int i = 0; i < order; i++) {
+    row = matrix + (size_t)i * (size_t)order;
+    double largest = fabs(row[cblas_idamax(nodes + 1, row, 1)]);
+    if (largest > 0) { // the last column has a size of its own
+      cblas_dscal(order, 1 / largest, row, 1);
+      right[i] /= largest;
+    }
+  }
+}
+
+SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
+                         const SbMixedCase *c, const SbFilmProblem *callback) {
+  SbMixedMesh *mesh = &solver->mesh[which];
+  SbMixedState *state = &solver->state[which];
+  const SbMixedRule *rule = sb_mixed_rule(solver, mesh->degree);
+  int nodes = mesh->nodes;
+  int order = nodes + 2;
+  Local local;
+  double before = INFINITY;
+  *trace = (SbMixedTrace){.step = INFINITY};
+  for (int iteration = 0; iteration < ITERATIONS_MAX; iteration++) {
+    if (callback->cancelled != NULL && callback->cancelled(callback->cancelled_data)) {
+      return SB_ERROR_CANCELLED;
+    }
+    elastic_gaps(solver->gap, mesh, state);
+    localise(&local, solver, mesh, state, c);
+    residuals(&local, mesh, rule, state);
+    if (c->lambda > 0 && before < 0.3) {
+      choose(&local, mesh, rule, state, solver->point, !isfinite(c->supply), before);
+    }
+    assemble(solver->matrix, solver->right, mesh, rule, state, c, &local);
+    if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, solver->matrix, order, solver->pivot) !=
+            0 ||
+        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', order, 1, solver->matrix, order, solver->pivot,
+                            solver->right, order) != 0) {
+      return SB_ERROR_NOT_CONVERGED;
+    }
+    trace->iterations++;
+    const double *dq = solver->right;
+    double dH0 = dq[nodes], dkappa = dq[nodes + 1];
+
+    // Changes of the gap, in `gap`, and how far they may go.
+    for (int i = 0; i < nodes; i++) {
+      solver->gap[i] = dH0 + local.r[i];
+    }
+    cblas_dgemv(CblasRowMajor, CblasNoTrans, nodes, nodes, 1.0, mesh->kernel, nodes, dq, 1, 1.0,
+                solver->gap, 1);
+    // An opening gap takes its change as it is, a closing one by the parameter, which it cannot
+    // outrun: so neither overshoots on the exponential between film and contact.
+    double largest = 0, least = INFINITY;
+    bool cut = false;
+    for (int i = 0; i < nodes; i++) {
+      const SbMixedPoint *at = &solver->point[i];
+      double dh = solver->gap[i];
+      double dt = dh / at->h_t;
+      if (!isfinite(dt)) {
+        return SB_ERROR_NOT_CONVERGED;
+      }
+      double dp = dq[i] + local.k[i] * dh;
+      state->s[i] +=
+          local.s0[i] + local.s_h[i] * dh + local.s_p[i] * dp + local.s_kappa[i] * dkappa;
+      double down = fmax(1.5, 0.8 * state->t[i]);
+      cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > GAP_FLOOR);
+      state->t[i] = dt > 0.5 ? sb_mixed_of_gap(c, at->h + dh) : state->t[i] + fmax(dt, -down);
+      state->q[i] += dq[i];
+      largest = fmax(largest, fmax(fabs(dh) / (at->h + GAP_FLOOR), fabs(dq[i])));
+      least = fmin(least, at->h);
+    }
+    state->H0 += dH0;
+    state->kappa += dkappa;
+    trace->step = largest;
+
+    // Steps shrink quadratically; what is left at last is rounding: deflections of size one
+    // against the gap.
+    double rounding = 1e-14 / (least + GAP_FLOOR);
+    bool stalled = largest < 100 * rounding && largest > 0.2 * before;
+    if (!cut && (largest < fmax(1e-8, rounding) || stalled)) {
+      return SB_OK;
+    }
+    before = largest;
+  }
+  return SB_ERROR_NOT_CONVERGED;
+}
