@@ -222,6 +222,73 @@ static bool compile_dose(SbModel *model, const SbParams *params, SbProblems *pro
   return true;
 }
 
+// Parts and joints. The stem's mass, where it is given, is shared by its three parts as theirs are
+// to each other; otherwise it is their sum.
+static bool compile_parts(SbModel *model, const SbParams *params, SbProblems *problems) {
+  static const SbParamId mass[SB_VALVE_GROUND] = {
+      SB_P_PART_HOUSING_MASS,     SB_P_PART_STEM_CENTRE_MASS, SB_P_PART_STEM_TOP_MASS,
+      SB_P_PART_STEM_BOTTOM_MASS, SB_P_PART_INNER_SEAL_MASS,  SB_P_PART_OUTER_SEAL_MASS,
+      SB_P_PART_BLOCK_MASS};
+  static const SbParamId joint[SB_VALVE_JOINTS] = {
+      SB_P_JOINT_HOUSING_GROUND, SB_P_JOINT_CENTRE_TOP,   SB_P_JOINT_BOTTOM_CENTRE,
+      SB_P_JOINT_INNER_CENTRE,   SB_P_JOINT_OUTER_CENTRE, SB_P_JOINT_BLOCK_BOTTOM,
+      SB_P_JOINT_BLOCK_GROUND};
+  SbValvePart *part = model->parts.part;
+  bool good = true;
+  for (int i = 0; i < SB_VALVE_GROUND; i++) {
+    // The catalogue has mass, axial and transverse moment in a row.
+    part[i] = (SbValvePart){sb_params_get(params, mass[i]), sb_params_get(params, mass[i] + 1),
+                            sb_params_get(params, mass[i] + 2)};
+    if (part[i].axial > 2 * part[i].transverse * 1.001) {
+      add_problem(problems, sb_param(mass[i] + 1)->key, NAN, 2 * part[i].transverse,
+                  "no body has an axial moment of inertia above twice its transverse one");
+      good = false;
+    }
+  }
+  for (int i = 0; i < SB_VALVE_JOINTS; i++) {
+    model->parts.joint[i] = (int)sb_params_get(params, joint[i]);
+  }
+  double sum = part[SB_VALVE_STEM_CENTRE].mass + part[SB_VALVE_STEM_TOP].mass +
+               part[SB_VALVE_STEM_BOTTOM].mass;
+  double share = 1;
+  if (params->given[SB_P_STEM_MASS]) {
+    share = model->stem_mass / sum;
+  } else {
+    model->stem_mass = sum;
+  }
+  for (int i = SB_VALVE_STEM_CENTRE; i <= SB_VALVE_STEM_BOTTOM; i++) {
+    part[i].mass *= share;
+    part[i].axial *= share;
+    part[i].transverse *= share;
+  }
+  model->moving_mass = model->stem_mass + part[SB_VALVE_INNER_SEAL].mass +
+                       part[SB_VALVE_OUTER_SEAL].mass + part[SB_VALVE_BLOCK].mass;
+  if (!good || model->motion != SB_MODEL_MOTION_BODIES) {
+    return good;
+  }
+
+  // What the joints leave free must be the stroke, once.
+  SbAssembly assembly;
+  SbMobility mobility;
+  SbReport report = {0};
+  const double axis[3] = {1, 0, 0};
+  double moving;
+  SbStatus status = sb_assembly_valve(&assembly, &model->parts, &report);
+  status = status != SB_OK ? status : sb_assembly_mobility(&mobility, &assembly, 1, &report);
+  status = status != SB_OK
+               ? status
+               : sb_assembly_effective_mass(&moving, &assembly, SB_VALVE_BLOCK, axis, &report);
+  if (status != SB_OK) {
+    int changed = SB_VALVE_BLOCK_GROUND;
+    for (int i = SB_VALVE_JOINTS - 1; i >= 0; i--) {
+      changed = model->parts.joint[i] != (int)sb_param(joint[i])->fallback ? i : changed;
+    }
+    add_problem(problems, sb_param(joint[changed])->key, NAN, NAN, "%s", report.text);
+    return false;
+  }
+  return true;
+}
+
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems) {
   if (problems != NULL) {
     problems->count = 0;
@@ -344,6 +411,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   for (int i = 0; good && i < SB_SEAL_COUNT; i++) {
     good = compile_seal(&model, i, params, problems) && good;
   }
+  good = compile_parts(&model, params, problems) && good;
   good = good && compile_dose(&model, params, problems);
   if (!good) {
     return SB_ERROR_INPUT;

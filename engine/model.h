@@ -5,6 +5,7 @@
 
 #include "engine/elastic/gland.h"
 #include "engine/elastic/rubber_time.h"
+#include "engine/motion/bodies.h"
 #include "engine/motion/rig.h"
 #include "engine/params.h"
 #include "engine/status.h"
@@ -46,7 +47,8 @@ typedef enum { SB_MODEL_SURFACE_GREENWOOD_TRIPP, SB_MODEL_SURFACE_PERSSON } SbMo
 typedef enum {
   SB_MODEL_MOTION_QUASI_STATIC,
   SB_MODEL_MOTION_DYNAMIC,
-  SB_MODEL_MOTION_RIG // the sliding plate of thesis 3.3 instead of the valve
+  SB_MODEL_MOTION_RIG,   // the sliding plate of thesis 3.3 instead of the valve
+  SB_MODEL_MOTION_BODIES // as DYNAMIC, by the constrained parts and with their joints' reactions
 } SbModelMotion;
 
 typedef enum {
@@ -115,7 +117,9 @@ typedef struct {
   bool vent_on_return;
   double refill_travel, refill_area; // of the by-pass at rest [m], [m2]
   double pressure_force;             // p pi D_p^2/4, pushes the stem out [N]
-  double stem_mass;                  // [kg]
+  double stem_mass;                  // of its three parts [kg]
+  SbValveParts parts;                // the stem's share stem_mass
+  double moving_mass;                // stem, seals and block [kg]
   double viscosity, pressure_viscosity, density;
   double gt_product, sigma, sigma_over_beta, hamaker_constant;
   double shear_strength, load_coefficient, static_ratio;

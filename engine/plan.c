@@ -81,6 +81,18 @@ static void plan_film(SbPlan *plan, const SbModel *model) {
   }
 }
 
+static void plan_bodies(SbPlan *plan, const SbModel *model) {
+  plan->bodies = model->motion == SB_MODEL_MOTION_BODIES;
+  if (plan->bodies) {
+    add(plan->field, &plan->field_count, "joint reactions", "constrained bodies",
+        2e-3 + model->frames * 1e-7, 0, "models.motion = bodies asks for them, %d joints",
+        SB_VALVE_JOINTS);
+  } else {
+    add(plan->skipped, &plan->skipped_count, "joint reactions", "", 0, 0,
+        "nobody asks for them: one coordinate gives the same motion");
+  }
+}
+
 static void plan_rig(SbPlan *plan, const SbModel *model) {
   size_t samples = sb_rig_samples(&model->rig);
   add(plan->field, &plan->field_count, "thread force and plate", "rig",
@@ -132,6 +144,7 @@ void sb_plan_make(SbPlan *out, const SbModel *model) {
   sb_param_choice_name(sb_param(SB_P_MODELS_MOTION), (int)model->motion, motion, sizeof motion);
   add(out->field, &out->field_count, "force and displacement", motion, model->frames * cost_frame,
       0, "figures of the cycle, %d frames", model->frames);
+  plan_bodies(out, model);
 
   // Profiles over x, for whoever draws them.
   char who[80];

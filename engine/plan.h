@@ -22,6 +22,7 @@ typedef struct {
   bool section_fields; // interior fields at drawn frames
   bool reynolds;       // the film is solved
   bool ring;           // the ring is solved
+  bool bodies;         // the parts' accelerations and the joints' reactions are solved
   unsigned studies;    // bit mask, 1 << SbStudyKind: computed beside the cycle
 } SbPlan;
 

@@ -58,6 +58,7 @@ void sb_run_destroy(SbRun *run) {
     free(run->shape[i].floats);
     free(run->shape[i].integers);
   }
+  sb_run_bodies_destroy(run->bodies);
   free(run->frames);
   free(run);
 }

@@ -54,6 +54,26 @@ typedef struct {
       profile_evaluations;
 } SbCounters;
 
+// What a joint bears over the run, on the first part it names; compare bodies.h.
+typedef struct {
+  char name[2 * SB_BODY_NAME + 8]; // "stem centre, stem top"
+  char kind[16];
+  double axial_min, axial_max; // force along the stroke [N]
+  double transverse_max;       // [N]
+  double torque_max;           // [N m]
+} SbJointSummary;
+
+// The constrained parts of a run with models.motion = bodies.
+typedef struct {
+  int gruebler, constraints, freedom;
+  char text[256];
+  double moving_mass;        // that the stroke sees, from the multipliers' solution [kg]
+  double acceleration_error; // largest difference of a part's acceleration from the stroke's,
+                             // relative to all forces over the mass
+  size_t joints;             // 0: not asked for
+  SbJointSummary joint[SB_VALVE_JOINTS];
+} SbBodiesSummary;
+
 typedef struct {
   SbStatus status;
   double force_peak, force_breakaway, force_return_min;
@@ -64,6 +84,7 @@ typedef struct {
   double duration;          // [s]
   SbStageMark stage[SB_STAGE_COUNT];
   SbSealSummary seal[SB_SEAL_COUNT];
+  SbBodiesSummary bodies;
   SbEnergy energy;
   SbRigSummary rig; // motion RIG
   SbWarnings warnings;
@@ -87,6 +108,10 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // Frames published so far, oldest first; borrowed, valid until sb_run_destroy(). Any thread.
 const SbFrame *sb_run_frames(const SbRun *run, size_t *count);
+
+// Reactions of the joints at a published frame, as many as the summary has joints, in the order of
+// thesis table 4.3; NULL if nobody asked. Borrowed; any thread.
+const SbReaction *sb_run_reactions(const SbRun *run, size_t frame);
 
 // Number of frames a complete run will have at most (for progress). Any thread.
 size_t sb_run_capacity(const SbRun *run);

@@ -65,7 +65,7 @@ static double free_return_time(const SbRun *run) {
   double least =
       sb_cycle_least_return(&run->cycle, model->stroke, SB_CHAMBER_OPEN) + model->spring_preload;
   double force = fmax(least, 1e-3 * (model->pressure_force + 1e-3));
-  return 1.5 * sqrt(2 * model->stroke * model->stem_mass / force);
+  return 1.5 * sqrt(2 * model->stroke * model->moving_mass / force);
 }
 
 double sb_drive_duration(const SbRun *run) {

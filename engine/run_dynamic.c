@@ -63,6 +63,9 @@ static SbFrame *add_frame(Recorder *r) {
       .stage = (uint8_t)r->stage,
       .chamber = (uint8_t)r->valve->chamber,
   };
+  if (r->run->bodies != NULL) {
+    sb_run_bodies_frame(r->run, r->count - 1, &sample);
+  }
   bool moving = sample.speed != 0;
   int direction = moving ? (sample.speed > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT) : r->direction;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
@@ -232,7 +235,8 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   SbDynamicsModel model;
   SbValve valve;
-  SbStatus status = sb_valve_set_up(&model, &valve, run, report);
+  SbStatus status = run->plan.bodies ? sb_run_bodies_create(run, report) : SB_OK;
+  status = status != SB_OK ? status : sb_valve_set_up(&model, &valve, run, report);
   if (status != SB_OK) {
     return status;
   }

@@ -36,6 +36,16 @@ double sb_valve_chamber_pressure(const SbValve *valve, const double *extra);
 // The sliding state of a seal that stands for the present chamber and direction.
 const SbSliding *sb_valve_state(const SbValve *valve, int seal, int direction, double pressure);
 
+// The constrained parts (run_bodies.c). Assembles them, counts their freedom, finds how each joint
+// answers to each load, and makes room for the frames' reactions.
+SbStatus sb_run_bodies_create(SbRun *run, SbReport *report);
+
+// Mass that the stroke sees [kg], by the multipliers' solution.
+double sb_run_bodies_mass(const SbRunBodies *bodies);
+
+// Reactions of the joints for the frame at `index`; adds to the summary.
+void sb_run_bodies_frame(SbRun *run, size_t index, const SbDynamicsSample *sample);
+
 // Sets what drives the mechanism, and where it starts.
 void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run);
 

@@ -34,6 +34,10 @@ typedef struct {
   int *integers;
 } SbRunShape;
 
+// The constrained parts of a run that asks for them (run_bodies.c).
+typedef struct SbRunBodies SbRunBodies;
+void sb_run_bodies_destroy(SbRunBodies *bodies);
+
 struct SbRun {
   SbModel model;
   SbPlan plan;
@@ -44,6 +48,7 @@ struct SbRun {
   SbRunShape shape[SB_RUN_SHAPES];
   uint32_t shape_slot[SB_RUN_SHAPES]; // where a state's shape is: equal states share one
   double before_frames;               // share of the work that lies before the first frame
+  SbRunBodies *bodies;                // NULL: the reduced form is enough
   SbFrame *frames;
   size_t capacity;
   atomic_size_t published;

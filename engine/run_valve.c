@@ -188,7 +188,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   const SbCycle *cycle = &run->cycle;
   *valve = (SbValve){.run = run, .ports = model->pressure_map == SB_MAP_PORTS};
   *out = (SbDynamicsModel){
-      .mass = model->stem_mass,
+      .mass = run->bodies != NULL ? sb_run_bodies_mass(run->bodies) : model->moving_mass,
       .spring_preload = model->spring_preload,
       .spring_stiffness = model->spring_stiffness,
       .contacts = SB_SEAL_COUNT,

@@ -3,6 +3,8 @@
 
 #include "app/document/number.h"
 
+#include <glib.h>
+
 static void put(FILE *stream, double value, char end) {
   char digits[SB_NUMBER_SIZE];
   fputs(sb_number_format(digits, value), stream);
@@ -16,6 +18,17 @@ void sb_csv_cycle(FILE *stream, const SbRun *run) {
         "load_inner [N],load_outer [N],film_central_inner [m],film_central_outer [m],"
         "land_fraction_inner [1],land_fraction_outer [1],chamber_pressure [Pa]",
         stream);
+  // Axial force of each joint on the first part it names.
+  const SbBodiesSummary *bodies = &sb_run_summary(run)->bodies;
+  for (size_t i = 0; i < bodies->joints; i++) {
+    // "stem centre, stem top" becomes reaction_stem_centre_stem_top.
+    g_auto(GStrv) words = g_strsplit_set(bodies->joint[i].name, ", ", -1);
+    fputs(",reaction", stream);
+    for (char **word = words; *word != NULL; word++) {
+      fprintf(stream, "%s%s", **word != '\0' ? "_" : "", *word);
+    }
+    fputs(" [N]", stream);
+  }
   // Of the rig's force: 1 the first peak, 2 one that follows.
   bool rig = sb_run_model(run)->motion == SB_MODEL_MOTION_RIG;
   fputs(rig ? ",peak\n" : "\n", stream);
@@ -38,7 +51,11 @@ void sb_csv_cycle(FILE *stream, const SbRun *run) {
         inner->land_fraction, outer->land_fraction, frame->chamber_pressure};
     const size_t last = sizeof after / sizeof after[0] - 1;
     for (size_t k = 0; k <= last; k++) {
-      put(stream, after[k], k < last || rig ? ',' : '\n');
+      put(stream, after[k], k < last || rig || bodies->joints > 0 ? ',' : '\n');
+    }
+    const SbReaction *reaction = sb_run_reactions(run, i);
+    for (size_t k = 0; k < bodies->joints; k++) {
+      put(stream, reaction[k].force[0], k + 1 < bodies->joints ? ',' : '\n');
     }
     if (rig) {
       fprintf(stream, "%d\n", frame->peak);

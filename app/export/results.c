@@ -104,6 +104,46 @@ static void put_rig(SbJson *json, const SbModel *model, const SbRigSummary *rig)
   sb_json_object_end(json);
 }
 
+static void put_bodies(SbJson *json, const SbRun *run) {
+  const SbBodiesSummary *bodies = &sb_run_summary(run)->bodies;
+  const SbModel *model = sb_run_model(run);
+  if (bodies->joints == 0) {
+    return;
+  }
+  sb_json_object(json, "bodies");
+  sb_json_number(json, "gruebler", bodies->gruebler);
+  sb_json_number(json, "constraints", bodies->constraints);
+  sb_json_number(json, "degrees_of_freedom", bodies->freedom);
+  sb_json_string(json, "text", bodies->text);
+  sb_json_number(json, "moving_mass_kg", bodies->moving_mass);
+  sb_json_number(json, "acceleration_error", bodies->acceleration_error);
+  sb_json_array(json, "parts");
+  for (int i = 0; i < SB_VALVE_GROUND; i++) {
+    const SbValvePart *part = &model->parts.part[i];
+    sb_json_object(json, NULL);
+    sb_json_string(json, "name", sb_valve_part_name(i));
+    sb_json_number(json, "mass_kg", part->mass);
+    sb_json_number(json, "inertia_axial_kg_m2", part->axial);
+    sb_json_number(json, "inertia_transverse_kg_m2", part->transverse);
+    sb_json_object_end(json);
+  }
+  sb_json_array_end(json);
+  sb_json_array(json, "joints");
+  for (size_t i = 0; i < bodies->joints; i++) {
+    const SbJointSummary *joint = &bodies->joint[i];
+    sb_json_object(json, NULL);
+    sb_json_string(json, "name", joint->name);
+    sb_json_string(json, "kind", joint->kind);
+    sb_json_number(json, "force_axial_min_N", joint->axial_min);
+    sb_json_number(json, "force_axial_max_N", joint->axial_max);
+    sb_json_number(json, "force_transverse_max_N", joint->transverse_max);
+    sb_json_number(json, "torque_max_Nm", joint->torque_max);
+    sb_json_object_end(json);
+  }
+  sb_json_array_end(json);
+  sb_json_object_end(json);
+}
+
 static void put_run_solver(SbJson *json, const SbSummary *summary) {
   sb_json_object(json, "solver");
   sb_json_bool(json, "converged", summary->converged);
@@ -156,6 +196,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
     put_seal(&json, sb_seal_name(i), &summary->seal[i]);
   }
   sb_json_object_end(&json);
+  put_bodies(&json, run);
   sb_json_object(&json, "dose");
   sb_json_number(&json, "metered_volume_m3", model->metered_volume);
   sb_json_count(&json, "doses", (guint64)MAX(model->doses, 0));

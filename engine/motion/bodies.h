@@ -102,7 +102,7 @@ SbStatus sb_assembly_step(SbAssembly *assembly, double time, double h,
 // of the masses. SB_ERROR_NOT_CONVERGED if the parts are too far from an assembled state.
 SbStatus sb_assembly_settle(SbAssembly *assembly, SbReport *report);
 
-// Indices of the thesis' valve in sb_assembly_thesis_valve.
+// The valve's parts, and their indices in sb_assembly_valve.
 enum {
   SB_VALVE_HOUSING,
   SB_VALVE_STEM_CENTRE,
@@ -115,7 +115,36 @@ enum {
   SB_VALVE_BODIES,
 };
 
-// Eight parts with the masses and moments of table 4.1 and the joints of table 4.3 in its order,
-// axis along x (in-stroke > 0), everything on the axis. Where the parts sit along it is not given
-// there: ours, without effect on axial loads.
-SbStatus sb_assembly_thesis_valve(SbAssembly *assembly, SbReport *report);
+// The joints of thesis table 4.3 in its order.
+enum {
+  SB_VALVE_HOUSING_GROUND,
+  SB_VALVE_CENTRE_TOP,
+  SB_VALVE_BOTTOM_CENTRE,
+  SB_VALVE_INNER_CENTRE,
+  SB_VALVE_OUTER_CENTRE,
+  SB_VALVE_BLOCK_BOTTOM,
+  SB_VALVE_BLOCK_GROUND,
+  SB_VALVE_JOINTS,
+};
+enum { SB_JOINT_NONE = SB_JOINT_REVOLUTE + 1 }; // beside SbJointKind: left out
+
+// Mass [kg] and moments of inertia about the valve's axis and across it through the centre [kg m2].
+typedef struct {
+  double mass, axial, transverse;
+} SbValvePart;
+
+typedef struct {
+  SbValvePart part[SB_VALVE_GROUND]; // all but the ground
+  int joint[SB_VALVE_JOINTS];        // SbJointKind or SB_JOINT_NONE
+} SbValveParts;
+
+// Eight parts (thesis table 4.1) and the joints between them, axis along x (in-stroke > 0),
+// everything on the axis. Where the parts sit along it is not given there: ours, without effect on
+// axial loads.
+SbStatus sb_assembly_valve(SbAssembly *assembly, const SbValveParts *parts, SbReport *report);
+
+// "stem top"; borrowed.
+const char *sb_valve_part_name(int part);
+
+// "fixed", "translational", "revolute"; borrowed.
+const char *sb_joint_kind_name(SbJointKind kind);

@@ -90,47 +90,49 @@ SbStatus sb_assembly_step(SbAssembly *a, double time, double h,
   return sb_assembly_settle(a, report);
 }
 
-SbStatus sb_assembly_thesis_valve(SbAssembly *a, SbReport *report) {
-  // Table 4.1 (mass, then moments as printed) and our place along the axis. The stem parts have
-  // their axial moment in Izz, the seals in Ixx; the axis is x here, so the stems' come first.
-  static const struct {
-    const char *name;
-    double mass, inertia[3], x;
-  } part[] = {
-      {"valve housing", 1.25e-2, {4.16015e-7, 3.80506e-7, 3.67929e-7}, 0.0},
-      {"stem centre", 1.12e-3, {2.27e-9, 2.43e-8, 2.43e-8}, 0.0},
-      {"stem top", 1.47e-3, {6.45e-9, 1.15e-8, 1.15e-8}, 10e-3},
-      {"stem bottom", 1.14e-3, {3.45e-9, 1.93e-8, 1.93e-8}, -12e-3},
-      {"inner seal", 3.23e-6, {1.90e-11, 1.00e-11, 1.00e-11}, 3e-3},
-      {"outer seal", 3.23e-6, {1.90e-11, 1.00e-11, 1.00e-11}, -3e-3},
-      {"actuating block", 1.0e-10, {1.0e-16, 1.0e-16, 1.0e-16}, -20e-3},
-  };
+static const struct {
+  const char *name;
+  double x; // of the centre [m]
+} valve_parts[SB_VALVE_GROUND] = {{"valve housing", 0.0},     {"stem centre", 0.0},
+                                  {"stem top", 10e-3},        {"stem bottom", -12e-3},
+                                  {"inner seal", 3e-3},       {"outer seal", -3e-3},
+                                  {"actuating block", -20e-3}};
+
+const char *sb_valve_part_name(int part) {
+  return part == SB_VALVE_GROUND ? "ground" : valve_parts[part].name;
+}
+
+SbStatus sb_assembly_valve(SbAssembly *a, const SbValveParts *parts, SbReport *report) {
   static const struct {
     size_t i, j;
-    SbJointKind kind;
     double x;
-  } joint[] = {
-      {SB_VALVE_HOUSING, SB_VALVE_GROUND, SB_JOINT_FIXED, 0.0},
-      {SB_VALVE_STEM_CENTRE, SB_VALVE_STEM_TOP, SB_JOINT_FIXED, 5e-3},
-      {SB_VALVE_STEM_BOTTOM, SB_VALVE_STEM_CENTRE, SB_JOINT_FIXED, -6e-3},
-      {SB_VALVE_INNER_SEAL, SB_VALVE_STEM_CENTRE, SB_JOINT_FIXED, 3e-3},
-      {SB_VALVE_OUTER_SEAL, SB_VALVE_STEM_CENTRE, SB_JOINT_FIXED, -3e-3},
-      {SB_VALVE_BLOCK, SB_VALVE_STEM_BOTTOM, SB_JOINT_FIXED, -19e-3},
-      {SB_VALVE_BLOCK, SB_VALVE_GROUND, SB_JOINT_TRANSLATIONAL, -20e-3},
+  } joint[SB_VALVE_JOINTS] = {
+      {SB_VALVE_HOUSING, SB_VALVE_GROUND, 0.0},
+      {SB_VALVE_STEM_CENTRE, SB_VALVE_STEM_TOP, 5e-3},
+      {SB_VALVE_STEM_BOTTOM, SB_VALVE_STEM_CENTRE, -6e-3},
+      {SB_VALVE_INNER_SEAL, SB_VALVE_STEM_CENTRE, 3e-3},
+      {SB_VALVE_OUTER_SEAL, SB_VALVE_STEM_CENTRE, -3e-3},
+      {SB_VALVE_BLOCK, SB_VALVE_STEM_BOTTOM, -19e-3},
+      {SB_VALVE_BLOCK, SB_VALVE_GROUND, -20e-3},
   };
   const double axis[3] = {1.0, 0.0, 0.0};
   *a = (SbAssembly){0};
   SbStatus status = SB_OK;
-  for (size_t i = 0; i < sizeof part / sizeof *part && status == SB_OK; i++) {
-    double at[3] = {part[i].x, 0.0, 0.0};
-    status = sb_assembly_add(a, NULL, part[i].name, part[i].mass, part[i].inertia, at, report);
+  for (int i = 0; i < SB_VALVE_GROUND && status == SB_OK; i++) {
+    const SbValvePart *part = &parts->part[i];
+    double at[3] = {valve_parts[i].x, 0.0, 0.0};
+    double inertia[3] = {part->axial, part->transverse, part->transverse};
+    status = sb_assembly_add(a, NULL, valve_parts[i].name, part->mass, inertia, at, report);
   }
   if (status == SB_OK) {
     status = sb_assembly_add_ground(a, NULL, report);
   }
-  for (size_t i = 0; i < sizeof joint / sizeof *joint && status == SB_OK; i++) {
+  for (int i = 0; i < SB_VALVE_JOINTS && status == SB_OK; i++) {
     double at[3] = {joint[i].x, 0.0, 0.0};
-    status = sb_assembly_join(a, NULL, joint[i].kind, joint[i].i, joint[i].j, at, axis, report);
+    if (parts->joint[i] != SB_JOINT_NONE) {
+      status = sb_assembly_join(a, NULL, (SbJointKind)parts->joint[i], joint[i].i, joint[i].j, at,
+                                axis, report);
+    }
   }
   return status;
 }

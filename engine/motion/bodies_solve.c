@@ -176,7 +176,7 @@ static size_t independent_rows(double basis[ROWS][COLUMNS], bool *repeated, cons
   return rank;
 }
 
-static const char *kind_name(SbJointKind kind) {
+const char *sb_joint_kind_name(SbJointKind kind) {
   return kind == SB_JOINT_FIXED           ? "fixed"
          : kind == SB_JOINT_TRANSLATIONAL ? "translational"
                                           : "revolute";
@@ -231,7 +231,7 @@ SbStatus sb_assembly_mobility(SbMobility *m, const SbAssembly *a, int expected, 
     const SbJoint *joint = &a->joint[c.joint[r]];
     snprintf(m->text + used, sizeof m->text - used,
              "; over-constrained: %d condition%s repeated, first by the %s joint of '%s' and '%s'",
-             m->redundant, m->redundant == 1 ? " is" : "s are", kind_name(joint->kind),
+             m->redundant, m->redundant == 1 ? " is" : "s are", sb_joint_kind_name(joint->kind),
              a->body[joint->i].name, a->body[joint->j].name);
     return sb_fail(report, SB_ERROR_INFEASIBLE, "%s", m->text);
   }

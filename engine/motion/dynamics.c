@@ -346,6 +346,14 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
     s->push.on = s->push.on || s->piece.value > s->x;
   }
   reload(s);
+  // A stem pressed onto a rigid stop rests on it from the start.
+  for (size_t i = 0; i < m->stops; i++) {
+    const SbDynamicsStop *p = &m->stop[i];
+    s->touch[i].on =
+        s->touch[i].on || (p->stiffness > 1e300 && s->x == p->position && s->v == 0.0 &&
+                           p->side * sb_motion_demand(s, 0.0, s->x, s->d, &s->loads) > 0.0);
+  }
+  update_held(s);
   for (size_t i = 0; i < m->contacts; i++) {
     s->fresh[i] = false;
     s->since[i] = -m->start_dwell;
