@@ -42,7 +42,7 @@ typedef enum {
       SB_FILM_MODEL_COUNT
 } SbFilmModel;
 
-enum { SB_FILM_POINTS = 1800 }; // capacity of a profile
+enum { SB_FILM_POINTS = 5200 }; // capacity of a profile
 
 // What to solve. Start from sb_film_problem_init(): every option off.
 typedef struct {
@@ -76,6 +76,8 @@ typedef struct {
   const double *dry_x;        // [m]
   const double *dry_pressure; // [Pa]
   size_t dry_count;
+
+  size_t profile_points; // of the coupled solver's profile, about; 0: as many as serve its accuracy
 
   // Polled between Newton steps; true stops the solve with SB_ERROR_CANCELLED. May be NULL.
   bool (*cancelled)(void *data);
@@ -131,7 +133,9 @@ typedef struct {
   SbWarnings warnings;
   SbFilmSolverInfo solver;
 
-  // Profile, x increasing, dense in the inlet and outlet layers; at least 400 points.
+  // Profile, x increasing, dense in the inlet and outlet layers; at least 400 points unless fewer
+  // were asked for. Central differences of the coupled solver's give its flux to 1e-4 of the larger
+  // of film and flux film.
   size_t points;
   double x[SB_FILM_POINTS];                 // [m]
   double pressure[SB_FILM_POINTS];          // gauge [Pa]

@@ -73,6 +73,7 @@ typedef struct {
 // ends of the elements. The known parts hold what does not depend on the nodal pressures.
 typedef struct {
   int count;
+  int steps[2]; // of the layout that made it (layers.h)
   SbHpElement element[SB_HP_ELEMENTS_MAX];
   int dofs, rows, targets;
   double inlet_pressure, outlet_pressure; // constant pressure beyond the two ends of the mesh

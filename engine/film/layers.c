@@ -11,6 +11,7 @@
 #include "engine/film/scale.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 // Shapes of the layers: distance from the edge over the layer's width, pressure over lambda^0.2,
 // film over the flux film (in the inlet: its excess over the dry gap).
@@ -36,7 +37,7 @@ enum {
 };
 
 // Films thicker than this layer width start from the rigid wedge and have its mesh.
-static const double THICK = 1.0;
+static const double THICK = 0.86;
 static const double RUPTURE_ANGLE = 0.44355; // thesis eq. 6.19
 
 static double interpolate(double z, const double *node, const double *value, int count) {
@@ -72,7 +73,7 @@ double sb_layers_width(const SbLayers *l) {
 
 // A flux below what the outlet's own slope would carry narrows its layer as starving does, to the
 // inlet's width.
-static double outlet_width(const SbLayers *l) {
+double sb_layers_outlet_width(const SbLayers *l) {
   return pow(l->lambda, 0.4) * pow(fmax(inlet_slope(l), outlet_slope(l)), -1.2) * starved(l);
 }
 
@@ -89,7 +90,7 @@ double sb_layers_flux(const SbLayers *l) {
 
 // Distance from the axis to the rupture, well enough to place the mesh.
 static double rupture_guess(const SbLayers *l) {
-  double width = outlet_width(l);
+  double width = sb_layers_outlet_width(l);
   double elastic = 1.0 + 0.16406 * width - 0.25 * fmin(width, 0.3) * width;
   if (sb_layers_width(l) <= THICK) {
     return elastic;
@@ -107,7 +108,7 @@ static double flooded_outlet(const SbLayers *l) {
 
 // Edge of the contact that the outlet layer's shape belongs to.
 static double outlet_edge(const SbLayers *l) {
-  return l->end == SB_LAYERS_FULL ? flooded_outlet(l) + 0.17 * outlet_width(l) : 1.0;
+  return l->end == SB_LAYERS_FULL ? flooded_outlet(l) + 0.17 * sb_layers_outlet_width(l) : 1.0;
 }
 
 // The flooded outlet beyond `from`: elements of growing size, then the infinite one.
@@ -115,12 +116,12 @@ static bool add_outlet(SbHpMesh *mesh, double from, double unit, int degree, boo
   static const double step[] = {0.0, 0.4, 1.5, 4.0};
   for (int i = 1; i < 4; i++) {
     if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, from + unit * step[i - 1], from + unit * step[i], 0.0,
-                        degree, apart && i == 1)) {
+                        degree + 4, apart && i == 1)) {
       return false;
     }
   }
   double begin = from + 4.0 * unit;
-  return sb_hp_mesh_add(mesh, SB_HP_OUTLET, begin, 0.0, begin - 4.5 * unit, degree, false);
+  return sb_hp_mesh_add(mesh, SB_HP_OUTLET, begin, 0.0, begin - 4.5 * unit, degree + 4, false);
 }
 
 // A film that begins at a meniscus: five elements from there to `last`, evenly in asinh z.
@@ -161,14 +162,23 @@ static bool thick_mesh(SbHpMesh *mesh, const SbLayers *l) {
   return true;
 }
 
+static const double MIDDLE = 0.6; // theta where growing steps end
+
+// Steps in theta from a layer at `begin` to MIDDLE, those asked for if there are any.
+static int inner_steps(SbHpMesh *mesh, const SbLayers *l, int side, double begin) {
+  static const double GROWTH = 4.0;
+  int steps = begin < MIDDLE ? (int)ceil(log(MIDDLE / begin) / log(GROWTH)) : 0;
+  mesh->steps[side] = l->steps[side] >= 0 ? l->steps[side] : steps;
+  // Followed too far, elements would be too wide or needlessly narrow.
+  return abs(mesh->steps[side] - steps) <= 1 ? mesh->steps[side] : -1;
+}
+
 // Elements that follow the two layers.
 static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
   static const double inlet_step[] = {-4.0, -1.0, 1.5, 4.0};
   static const double outlet_step[] = {-8.0, -2.5, -0.8, -0.1};
-  static const double GROWTH = 5.0;
-  static const double MIDDLE = 0.6; // theta where the growth stops
   double in = sb_layers_width(l);
-  double out = outlet_width(l);
+  double out = sb_layers_outlet_width(l);
   double left[4], right[5];
   int lefts = 0;
   for (int i = 0; i < 4; i++) {
@@ -186,7 +196,7 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
   double edge = full ? flooded_outlet(l) : 1.0;
   for (int i = 0; i < (full ? 3 : 4); i++) {
     double x = edge + out * outlet_step[i];
-    if (x > left[lefts - 1] + 0.6 * fmax(in, out) && x > -0.3) {
+    if (x > left[lefts - 1] + 0.6 * fmax(in, out) && x > (i == 0 ? 0.05 : -0.3)) {
       right[rights++] = x;
     }
   }
@@ -213,11 +223,16 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
   double end = acos(right[0]);
   double theta[SB_HP_ELEMENTS_MAX];
   int thetas = 0;
-  int steps = begin < MIDDLE ? (int)ceil(log(MIDDLE / begin) / log(GROWTH)) : 0;
+  int steps = inner_steps(mesh, l, 0, begin);
+  int steps_right = inner_steps(mesh, l, 1, end);
+  if (steps < 0 || steps_right < 0 || (begin < MIDDLE) != (steps > 0) ||
+      (end < MIDDLE) != (steps_right > 0)) {
+    return false;
+  }
   for (int i = 0; i <= steps; i++) {
     theta[thetas++] = begin * pow(MIDDLE / begin, steps > 0 ? (double)i / steps : 0.0);
   }
-  steps = end < MIDDLE ? (int)ceil(log(MIDDLE / end) / log(GROWTH)) : 0;
+  steps = steps_right;
   for (int i = steps; i >= 0; i--) {
     theta[thetas++] = M_PI - end * pow(MIDDLE / end, steps > 0 ? (double)i / steps : 0.0);
   }
@@ -225,7 +240,10 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
   double x0 = left[lefts - 1];
   for (int i = 1; i < thetas; i++) {
     double x1 = i == thetas - 1 ? right[0] : -cos(theta[i]);
-    if (!sb_hp_mesh_add(mesh, map, x0, x1, 0.0, l->degree + 2, false)) {
+    // The widest element lies over the middle; more degrees keep the film between its points.
+    int degree = l->degree + (theta[i] - theta[i - 1] > 0.8 ? 6 : 4);
+    if (!sb_hp_mesh_add(mesh, map, x0, x1, 0.0,
+                        degree < SB_HP_DEGREE_MAX ? degree : SB_HP_DEGREE_MAX, false)) {
       return false;
     }
     x0 = x1;
@@ -245,11 +263,12 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
 
 bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *l) {
   sb_hp_mesh_begin(mesh, l->inlet, l->outlet);
+  mesh->steps[0] = mesh->steps[1] = -1;
   bool thick = sb_layers_width(l) > THICK && !isfinite(l->meniscus);
   bool fits = thick ? thick_mesh(mesh, l) : thin_mesh(mesh, l);
   if (fits && l->end == SB_LAYERS_REFORM) {
-    double unit =
-        sb_layers_width(l) > THICK ? 0.3 * sqrt(1.44 + 0.52 * l->lambda) : outlet_width(l);
+    double unit = sb_layers_width(l) > THICK ? 0.3 * sqrt(1.44 + 0.52 * l->lambda)
+                                             : sb_layers_outlet_width(l);
     unit = 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0);
     fits = add_outlet(mesh, l->reform, unit, l->degree, true);
   }
@@ -259,8 +278,7 @@ bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *l) {
   return fits;
 }
 
-// Dry gap with the bend that unequal end pressures add outside the contact.
-static double dry_gap(const SbLayers *l, double X) {
+double sb_layers_dry_gap(const SbLayers *l, double X) {
   double a = fabs(X);
   if (a <= 1.0) {
     return 0.0;
@@ -272,7 +290,7 @@ static double dry_gap(const SbLayers *l, double X) {
 // Pressure and film of the joined layers at X.
 static void layer_shape(double *pressure, double *film, const SbLayers *l, double flux, double X) {
   double in = sb_layers_width(l);
-  double out = outlet_width(l);
+  double out = sb_layers_outlet_width(l);
   double inside = fmin(fmax(X, -1.0), 1.0);
   double step = asin(inside) / M_PI;
   double ends = l->inlet * (0.5 - step) + l->outlet * (0.5 + step);
@@ -282,14 +300,14 @@ static void layer_shape(double *pressure, double *film, const SbLayers *l, doubl
                : z < -100.0 ? 0.53 / (z * z)
                             : interpolate(z, inlet_z, inlet_p, INLET_COUNT);
     *pressure = ends + sqrt(in) * p * sqrt(0.5 * (1.0 - X));
-    *film = dry_gap(l, X) + flux * interpolate(z, inlet_z, inlet_h, INLET_COUNT);
+    *film = sb_layers_dry_gap(l, X) + flux * interpolate(z, inlet_z, inlet_h, INLET_COUNT);
   } else {
     double z = (X - outlet_edge(l)) / out;
     double p = z < -10.0 ? sqrt(-2.0 * z) : interpolate(z, outlet_z, outlet_p, OUTLET_COUNT);
     *pressure = ends + sqrt(out) * p * sqrt(0.5 * (1.0 + fmin(X, 1.0)));
     *film = flux * interpolate(z, outlet_z, outlet_h, OUTLET_COUNT);
     if (z > 0.16406) {
-      *film += dry_gap(l, X);
+      *film += sb_layers_dry_gap(l, X);
     }
   }
 }
@@ -358,7 +376,7 @@ static double gap_beyond(const SbLayers *l, double X) {
     double x = X - rupture_guess(l) + end;
     return 0.5 * (x * x - end * end);
   }
-  return dry_gap(l, X);
+  return sb_layers_dry_gap(l, X);
 }
 
 double sb_layers_gain(const SbLayers *l, double flux, double X) {

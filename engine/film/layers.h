@@ -20,6 +20,7 @@ typedef struct {
   double reform;        // where it forms again
   SbLayersEnd end;
   int degree;
+  int steps[2]; // elements between a layer and the middle, -1 to choose them
 } SbLayers;
 
 // Flux film (h where dp/dx = 0) of a flooded contact, scaled, to a few per cent.
@@ -27,6 +28,12 @@ double sb_layers_flux(const SbLayers *layers);
 
 // Width of the inlet layer, about lambda^0.4.
 double sb_layers_width(const SbLayers *layers);
+
+// Width of the outlet layer, at most that of the inlet.
+double sb_layers_outlet_width(const SbLayers *layers);
+
+// Dry gap of Hertz's contact, with the bend that unequal end pressures add outside it.
+double sb_layers_dry_gap(const SbLayers *layers, double X);
 
 // Builds the mesh. Returns false if it does not fit.
 bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *layers);

@@ -85,9 +85,8 @@ static double local(const SbHpMesh *mesh, const double *operators, const double 
   return sum;
 }
 
-// Mobility factor m and its derivatives to film and pressure.
-static void mobility(double *m, double *m_film, double *m_pressure, const SbReynoldsCase *problem,
-                     double film, double pressure) {
+void sb_reynolds_mobility(double *m, double *m_film, double *m_pressure,
+                          const SbReynoldsCase *problem, double film, double pressure) {
   *m = 1.0;
   *m_film = 0.0;
   *m_pressure = 0.0;
@@ -172,7 +171,7 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
     double slope = local(mesh, mesh->slope, mesh->slope_known, state->nodal, i);
     double pressure = local(mesh, mesh->value, mesh->value_known, state->nodal, i);
     double m, m_film, m_pressure;
-    mobility(&m, &m_film, &m_pressure, problem, H, pressure);
+    sb_reynolds_mobility(&m, &m_film, &m_pressure, problem, H, pressure);
     double G = H * H * H * m / lambda;
     double by_film = (3.0 * H * H * m + H * H * H * m_film) / lambda * slope - 1.0;
     double by_pressure = H * H * H * m_pressure / lambda * slope;

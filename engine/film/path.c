@@ -51,10 +51,15 @@ static bool same_elements(const SbHpMesh *a, const SbHpMesh *b) {
   return true;
 }
 
-// Carries a solution to another case: the film scales with the flux that the layers let expect.
+// Carries a solution to another case: the film scales with the flux that the layers let expect. A
+// mesh of as many elements takes it along with its layers, another by place.
 static void carry_scaled(SbFilmSolver *solver, int from, int to, const SbReynoldsCase *old,
                          const SbReynoldsCase *new) {
-  sb_reynolds_carry(solver, from, to);
+  if (same_elements(&solver->mesh[from], &solver->mesh[to])) {
+    sb_reynolds_carry(solver, from, to);
+  } else {
+    sb_reynolds_resample(solver, from, to);
+  }
   double scale = sb_layers_flux(&new->layers) / sb_layers_flux(&old->layers);
   SbReynoldsState *state = &solver->state[to];
   state->flux *= scale;
@@ -187,12 +192,14 @@ SbStatus sb_reynolds_follow(SbFilmSolver *solver, int *which, const SbReynoldsCa
     return SB_ERROR_NOT_CONVERGED;
   }
   int to = 1 - *which;
-  if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &c->layers) ||
-      !same_elements(&solver->mesh[*which], &solver->mesh[to])) {
+  // The old number of elements, so that the layers carry the solution along.
+  SbReynoldsCase next = *c;
+  next.layers.steps[0] = solver->mesh[*which].steps[0];
+  next.layers.steps[1] = solver->mesh[*which].steps[1];
+  if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
     return SB_ERROR_NOT_CONVERGED;
   }
   carry_scaled(solver, *which, to, old, c);
-  SbReynoldsCase next = *c;
   SbStatus status = iterate(solver, to, &next, true, tolerance, info, problem);
   if (status == SB_OK && c->layers.end == SB_LAYERS_FULL && least_pressure(solver, to, c) < -1e-9) {
     status = SB_ERROR_NOT_CONVERGED; // a cavity opens: start anew

@@ -1,5 +1,5 @@
-// What is read off a solution of the coupled film solver: films, places, friction, profile, and the
-// transfer to another degree. Everything is interpolated at the solver's own order: the pressure
+// What is read off a solution of the coupled film solver: films, places, friction, and the transfer
+// to another degree. Everything is interpolated at the solver's own order: the pressure
 // by its nodal polynomials, the gap through the collocation points and ends of an element.
 #include "engine/film/reynolds.h"
 
@@ -56,8 +56,7 @@ void sb_reynolds_carry(SbFilmSolver *solver, int from, int to) {
   new->flux = old->flux;
 }
 
-// r of position X in element e.
-static double coordinate(const SbHpElement *e, double X) {
+double sb_reynolds_coordinate(const SbHpElement *e, double X) {
   switch (e->map) {
   case SB_HP_AFFINE:
     return (X - e->m) / e->h;
@@ -96,9 +95,10 @@ void sb_reynolds_resample(SbFilmSolver *solver, int from, int to) {
       r = far ? 0.5 * (r + t->node[k == 0 ? 1 : k - 1]) : r;
       double X = sb_hp_position(f, r);
       const SbHpElement *e = &a->element[find_element(a, X)];
-      double value = X > a->right_end && e->map != SB_HP_OUTLET
-                         ? 0.0
-                         : sb_hp_pressure(a, &solver->tables, e, old->nodal, coordinate(e, X));
+      double value =
+          X > a->right_end && e->map != SB_HP_OUTLET
+              ? 0.0
+              : sb_hp_pressure(a, &solver->tables, e, old->nodal, sb_reynolds_coordinate(e, X));
       bool touching = f->map == SB_HP_INLET ? k == f->degree : k == 0;
       if (infinite && !touching) {
         double s = f->map == SB_HP_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
@@ -110,7 +110,7 @@ void sb_reynolds_resample(SbFilmSolver *solver, int from, int to) {
   for (int i = 0; i < b->targets; i++) {
     int k = find_element(a, b->x[i]);
     const SbHpElement *e = &a->element[k];
-    double r = coordinate(e, b->x[i]);
+    double r = sb_reynolds_coordinate(e, b->x[i]);
     new->gap[i] = sb_hp_gap(a, &solver->tables, k, old->gap, fmin(r, 1.1));
   }
   new->H0 = old->H0;
@@ -209,10 +209,10 @@ void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
 
   // Film at the axis.
   int axis = find_element(mesh, -state->shift);
-  double at_axis = coordinate(&mesh->element[axis], -state->shift);
+  double at_axis = sb_reynolds_coordinate(&mesh->element[axis], -state->shift);
   out->film_central = sb_hp_gap(mesh, &solver->tables, axis, state->gap, at_axis);
-  if (sb_layers_width(&problem->layers) < 0.08) {
-    // Thin films there hang on small differences of large deflections between the collocation
+  if (sb_layers_width(&problem->layers) < 0.3) {
+    // Flat films there hang on small differences of large deflections between the collocation
     // points; Reynolds' equation gives them from the slope of the pressure, with far less noise.
     out->film_central = reynolds_film(solver, which, problem, axis, at_axis, out->film_central);
   }
@@ -286,64 +286,5 @@ void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
       }
     }
     out->position_rupture = mesh->element[last].x1 + state->shift;
-  }
-}
-
-void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
-                         const SbReynoldsCase *problem, const SbFilmScale *scale, bool forward) {
-  const SbHpMesh *mesh = &solver->mesh[which];
-  const SbReynoldsState *state = &solver->state[which];
-  // Two thirds of the points go to the elements alike, a third to the contact's inside by its
-  // angle.
-  double angle = 0.0;
-  for (int i = 0; i < mesh->count; i++) {
-    angle += mesh->element[i].map == SB_HP_COSINE ? mesh->element[i].h : 0.0;
-  }
-  int alike = (SB_FILM_POINTS - 8) * (angle > 0.0 ? 2 : 3) / 3 / mesh->count;
-  // The inlet is followed until the load left out is below 1e-6 of the whole, at least three
-  // half-widths.
-  double reach = fmax(3.0, sqrt(2.0 / 3.0 * problem->layers.lambda / (0.5 * M_PI * 1e-6)));
-  size_t n = 0;
-  for (int i = 0; i < mesh->count; i++) {
-    const SbHpElement *e = &mesh->element[i];
-    double begin = -1.0;
-    double end = 1.0;
-    if (e->map == SB_HP_INLET) {
-      begin = coordinate(e, -1.0 - reach);
-    } else if (e->map == SB_HP_OUTLET) {
-      end = coordinate(e, 1.0 + reach);
-    }
-    size_t per = (size_t)alike;
-    if (e->map == SB_HP_COSINE) {
-      per += (size_t)((SB_FILM_POINTS / 3 - 8) * e->h / angle);
-    }
-    bool joined = i > 0 && !e->apart;
-    for (size_t k = joined ? 1 : 0; k <= per; k++) {
-      // Denser at the ends of the element, as its polynomials are; even in the angle inside.
-      double even = -1.0 + 2.0 * (double)k / (double)per;
-      double s = even;
-      double r = begin + (end - begin) * 0.5 * (1.0 + s);
-      double X = sb_hp_position(e, r);
-      double P = sb_hp_pressure(mesh, &solver->tables, e, state->nodal, r) + problem->rupture;
-      out->x[n] = (X + state->shift) * scale->half_width;
-      out->pressure[n] = P * scale->pressure;
-      out->film[n] = sb_hp_gap(mesh, &solver->tables, i, state->gap, r) * scale->film;
-      n++;
-    }
-  }
-  out->points = n;
-  if (!forward) {
-    for (size_t i = 0; i < n; i++) {
-      out->x[i] = -out->x[i];
-    }
-    for (size_t i = 0, j = n - 1; i < j; i++, j--) {
-      double x = out->x[i], pressure = out->pressure[i], film = out->film[i];
-      out->x[i] = out->x[j];
-      out->pressure[i] = out->pressure[j];
-      out->film[i] = out->film[j];
-      out->x[j] = x;
-      out->pressure[j] = pressure;
-      out->film[j] = film;
-    }
   }
 }

@@ -48,7 +48,8 @@ static void estimate(SbFilmSolverInfo *info, const SbReynoldsReading *reading, i
   if (levels > 2) {
     differences(before, &reading[levels - 2], &reading[levels - 3]);
   }
-  double middle = fmax(fmax(last[1], last[2]), 0.01 * last[0]);
+  double middle =
+      fmax(fmax(last[1], last[2]), (sb_layers_width(layers) < 0.5 ? 0.01 : 0.1) * last[0]);
   double largest[3] = {fmax(last[0], middle), middle, middle};
   double middle_before = fmax(before[1], before[2]);
   double previous[3] = {fmax(before[0], middle_before), middle_before, middle_before};
@@ -77,7 +78,8 @@ static SbReynoldsCase scaled_case(const SbFilmProblem *problem, const SbFilmScal
                  .starvation = 1.0,
                  .meniscus = -INFINITY,
                  .end = outlet > 0.0 ? SB_LAYERS_FULL : SB_LAYERS_RUPTURE,
-                 .degree = level_degree[0]},
+                 .degree = level_degree[0],
+                 .steps = {-1, -1}},
   };
   if (problem->eyring_stress > 0.0) {
     c.eyring = problem->viscosity * fabs(problem->speed) / (problem->eyring_stress * scale->film);
@@ -242,6 +244,6 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
                      fmax(info->error_film_min, info->error_film_central));
   }
   info->wall_s = seconds() - begin;
-  sb_reynolds_profile(out, solver, which, &c, scale, problem->speed >= 0.0);
+  sb_reynolds_profile(out, solver, which, &c, scale, problem);
   return status;
 }

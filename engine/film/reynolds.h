@@ -80,9 +80,19 @@ void sb_reynolds_resample(SbFilmSolver *solver, int from, int to);
 void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
                       const SbReynoldsCase *problem);
 
-// Profile of a solution into `out`, in SI and in the seal's frame.
+// Coordinate r of position X in element e.
+double sb_reynolds_coordinate(const SbHpElement *e, double X);
+
+// Mobility factor m of the pressure flow (Barus, Eyring; 1 without them) and its derivatives to
+// film and pressure.
+void sb_reynolds_mobility(double *m, double *m_film, double *m_pressure,
+                          const SbReynoldsCase *problem, double film, double pressure);
+
+// Profile of a solution into `out`, in SI and in the seal's frame, with the points that `wanted`
+// asks for (profile.c).
 void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
-                         const SbReynoldsCase *problem, const SbFilmScale *scale, bool forward);
+                         const SbReynoldsCase *problem, const SbFilmScale *scale,
+                         const SbFilmProblem *wanted);
 
 // A solution of the lowest degree in mesh/state *which, from nothing: directly, or by continuation
 // from an easier case, with the cavity or the meniscus that the case needs. `problem->layers` is

@@ -114,6 +114,7 @@ void sb_sliding_film_problem(SbFilmProblem *out, const SbModel *model, int seal,
   out->pressure_left = pressure.left;
   out->pressure_right = pressure.right;
   out->tolerance = model->tolerance;
+  out->profile_points = 1500; // drawn and written, not differentiated
 }
 
 static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
