@@ -33,23 +33,13 @@ static void SB_PRINTF(5, 6) add_problem(SbProblems *problems, const char *key, d
   va_end(arguments);
 }
 
-// One seal's own quantities. Returns false (with problems added) where they make no sense.
-static bool compile_seal(SbModel *model, int index, const SbParams *params, SbProblems *problems) {
+bool sb_model_size_seal(SbModel *model, int index, SbProblems *problems) {
   SbSealModel *seal = &model->seal[index];
   bool outer = index == SB_OUTER;
   SbParamId diameter_id =
       outer ? SB_P_SEAL_OUTER_SECTION_DIAMETER : SB_P_SEAL_INNER_SECTION_DIAMETER;
   SbParamId inner_id = outer ? SB_P_SEAL_OUTER_INNER_DIAMETER : SB_P_SEAL_INNER_INNER_DIAMETER;
-  // The new ring, and what storage makes of it.
-  seal->stored = (SbRubberStorage){
-      .section_diameter = sb_params_get(params, diameter_id),
-      .inner_diameter = sb_params_get(params, inner_id),
-      .modulus = sb_params_get(params, outer ? SB_P_SEAL_OUTER_MODULUS : SB_P_SEAL_INNER_MODULUS),
-      .radial_space = model->radial_space,
-      .storage_time = sb_params_get(params, SB_P_STORAGE_TIME),
-      .temperature = sb_params_get(params, SB_P_STORAGE_TEMPERATURE),
-      .recovery_time = sb_params_get(params, SB_P_STORAGE_RECOVERY_TIME),
-  };
+  seal->stored.radial_space = model->radial_space;
   SbReport report = {0};
   if (sb_rubber_state(&seal->storage, &model->rubber, &seal->stored, NULL, &report) != SB_OK) {
     add_problem(problems, report.parameter, NAN, NAN, "%s", report.text);
@@ -58,9 +48,6 @@ static bool compile_seal(SbModel *model, int index, const SbParams *params, SbPr
   seal->section_diameter = seal->storage.section_diameter;
   seal->inner_diameter = seal->storage.inner_diameter;
   seal->modulus = seal->storage.modulus;
-  seal->poisson_ratio =
-      sb_params_get(params, outer ? SB_P_SEAL_OUTER_POISSON_RATIO : SB_P_SEAL_INNER_POISSON_RATIO);
-
   double nu = seal->poisson_ratio;
   seal->reduced_modulus =
       sb_reduced_modulus(seal->modulus, nu, model->housing_modulus, model->housing_poisson_ratio);
@@ -93,6 +80,27 @@ static bool compile_seal(SbModel *model, int index, const SbParams *params, SbPr
     good = false;
   }
   return good;
+}
+
+// One seal's own quantities. Returns false (with problems added) where they make no sense.
+static bool compile_seal(SbModel *model, int index, const SbParams *params, SbProblems *problems) {
+  SbSealModel *seal = &model->seal[index];
+  // The key of the seal's own, which takes the common one's value where it is not given.
+#define OWN(name)                                                                                  \
+  sb_params_get(params, index == SB_OUTER ? SB_P_SEAL_OUTER_##name : SB_P_SEAL_INNER_##name)
+  seal->stored = (SbRubberStorage){
+      .section_diameter = OWN(SECTION_DIAMETER),
+      .inner_diameter = OWN(INNER_DIAMETER),
+      .modulus = OWN(MODULUS),
+      .storage_time = sb_params_get(params, SB_P_STORAGE_TIME),
+      .temperature = sb_params_get(params, SB_P_STORAGE_TEMPERATURE),
+      .recovery_time = sb_params_get(params, SB_P_STORAGE_RECOVERY_TIME),
+  };
+  seal->section_diameter_tolerance = OWN(SECTION_DIAMETER_TOLERANCE);
+  seal->inner_diameter_tolerance = OWN(INNER_DIAMETER_TOLERANCE);
+  seal->poisson_ratio = OWN(POISSON_RATIO);
+#undef OWN
+  return sb_model_size_seal(model, index, problems);
 }
 
 static SbRubber read_rubber(const SbParams *params, double fluid_density) {
@@ -184,6 +192,9 @@ static bool compile_study(const SbModel *model, SbProblems *problems) {
     double min, max;
   } ranges[] = {
       {"study.squeeze_max", model->study.squeeze_min, model->study.squeeze_max},
+      {"study.speed_max", model->study.speed_min, model->study.speed_max},
+      {"study.load_max", model->study.load_min, model->study.load_max},
+      {"study.time_max", model->study.time_min, model->study.time_max},
   };
   bool good = true;
   for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
@@ -297,6 +308,10 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
       .radial_space = sb_params_get(params, SB_P_GLAND_RADIAL_SPACE),
       .axial_width = sb_params_get(params, SB_P_GLAND_AXIAL_WIDTH),
       .bore_diameter = sb_params_get(params, SB_P_BORE_DIAMETER),
+      .radial_space_tolerance = sb_params_get(params, SB_P_GLAND_RADIAL_SPACE_TOLERANCE),
+      .axial_width_tolerance = sb_params_get(params, SB_P_GLAND_AXIAL_WIDTH_TOLERANCE),
+      .bore_diameter_tolerance = sb_params_get(params, SB_P_BORE_DIAMETER_TOLERANCE),
+      .stem_diameter_tolerance = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER_TOLERANCE),
       .land_edge = sb_params_get(params, SB_P_BORE_LAND_EDGE),
       .housing_modulus = sb_params_get(params, SB_P_HOUSING_MODULUS),
       .housing_poisson_ratio = sb_params_get(params, SB_P_HOUSING_POISSON_RATIO),
@@ -354,6 +369,12 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
           {
               .squeeze_min = sb_params_get(params, SB_P_STUDY_SQUEEZE_MIN),
               .squeeze_max = sb_params_get(params, SB_P_STUDY_SQUEEZE_MAX),
+              .speed_min = sb_params_get(params, SB_P_STUDY_SPEED_MIN),
+              .speed_max = sb_params_get(params, SB_P_STUDY_SPEED_MAX),
+              .load_min = sb_params_get(params, SB_P_STUDY_LOAD_MIN),
+              .load_max = sb_params_get(params, SB_P_STUDY_LOAD_MAX),
+              .time_min = sb_params_get(params, SB_P_STUDY_TIME_MIN),
+              .time_max = sb_params_get(params, SB_P_STUDY_TIME_MAX),
           },
       .look = {.field = (int)sb_params_get(params, SB_P_OUTPUT_FIELD),
                .insets = (int)sb_params_get(params, SB_P_OUTPUT_INSETS),
@@ -427,26 +448,21 @@ void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings) {
   }
 }
 
-void sb_model_gland(SbGland *out, const SbModel *model, const SbParams *params, int seal) {
+void sb_model_gland(SbGland *out, const SbModel *model, int seal) {
   const SbSealModel *ring = &model->seal[seal];
-  const bool outer = seal == SB_OUTER;
   *out = (SbGland){
       .section_diameter = ring->stored.section_diameter,
-      .section_diameter_tolerance =
-          sb_params_get(params, outer ? SB_P_SEAL_OUTER_SECTION_DIAMETER_TOLERANCE
-                                      : SB_P_SEAL_INNER_SECTION_DIAMETER_TOLERANCE),
+      .section_diameter_tolerance = ring->section_diameter_tolerance,
       .inner_diameter = ring->stored.inner_diameter,
-      .inner_diameter_tolerance =
-          sb_params_get(params, outer ? SB_P_SEAL_OUTER_INNER_DIAMETER_TOLERANCE
-                                      : SB_P_SEAL_INNER_INNER_DIAMETER_TOLERANCE),
+      .inner_diameter_tolerance = ring->inner_diameter_tolerance,
       .radial_space = model->radial_space,
-      .radial_space_tolerance = sb_params_get(params, SB_P_GLAND_RADIAL_SPACE_TOLERANCE),
+      .radial_space_tolerance = model->radial_space_tolerance,
       .axial_width = model->axial_width,
-      .axial_width_tolerance = sb_params_get(params, SB_P_GLAND_AXIAL_WIDTH_TOLERANCE),
+      .axial_width_tolerance = model->axial_width_tolerance,
       .bore_diameter = model->bore_diameter,
-      .bore_diameter_tolerance = sb_params_get(params, SB_P_BORE_DIAMETER_TOLERANCE),
+      .bore_diameter_tolerance = model->bore_diameter_tolerance,
       .land_diameter = model->stem_diameter,
-      .land_diameter_tolerance = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER_TOLERANCE),
+      .land_diameter_tolerance = model->stem_diameter_tolerance,
       .poisson_ratio = ring->poisson_ratio,
       .volume_swell = ring->storage.volume_swell,
   };

@@ -61,20 +61,21 @@ typedef enum {
 // One ring and what follows from its size and its gland alone. Sizes and modulus are those after
 // storage; the new ring's are in `stored`.
 typedef struct {
-  SbRubberStorage stored;  // the new ring and what it went through
-  SbRubberState storage;   // what that made of it
-  double section_diameter; // d, free [m]
-  double inner_diameter;   // free [m]
-  double modulus;          // E [Pa]
-  double poisson_ratio;    // nu
-  double reduced_modulus;  // E' of thesis equation 5.8: 2/E' = sum (1 - nu^2)/E [Pa]
-  double radius;           // R_x = d/2 [m]
-  double squeeze;          // (d - g)/d
-  double stretch_mean;     // of the mean diameter, (D_fitted - D_free)/D_free
-  double stretch_inner;    // of the inner diameter
-  double section_fitted;   // section diameter after stretch, d (1 - nu stretch_mean) [m]
-  double interference;     // section_fitted - g [m]
-  double gland_fill;       // ring volume over groove volume
+  SbRubberStorage stored; // the new ring and what it went through
+  SbRubberState storage;  // what that made of it
+  double section_diameter_tolerance, inner_diameter_tolerance; // half-widths [m]
+  double section_diameter;                                     // d, free [m]
+  double inner_diameter;                                       // free [m]
+  double modulus;                                              // E [Pa]
+  double poisson_ratio;                                        // nu
+  double reduced_modulus; // E' of thesis equation 5.8: 2/E' = sum (1 - nu^2)/E [Pa]
+  double radius;          // R_x = d/2 [m]
+  double squeeze;         // (d - g)/d
+  double stretch_mean;    // of the mean diameter, (D_fitted - D_free)/D_free
+  double stretch_inner;   // of the inner diameter
+  double section_fitted;  // section diameter after stretch, d (1 - nu stretch_mean) [m]
+  double interference;    // section_fitted - g [m]
+  double gland_fill;      // ring volume over groove volume
 } SbSealModel;
 
 // Sizes that the drawing of the section needs beside the rest; the thesis gives none of them. The
@@ -89,6 +90,9 @@ typedef struct {
 // Ranges that studies cover.
 typedef struct {
   double squeeze_min, squeeze_max; // of the free section
+  double speed_min, speed_max;     // sliding [m/s]
+  double load_min, load_max;       // net, per length [N/m]
+  double time_min, time_max;       // in storage [s]
 } SbStudyRange;
 
 // How the section is shown when nobody says otherwise; no result depends on it.
@@ -105,8 +109,10 @@ typedef struct {
   SbRubber rubber;                  // how storage changes it
   double radial_space, axial_width; // g, b [m]
   double bore_diameter;             // D [m]
-  double bore_circumference;        // pi D: the friction area's length [m]
-  double land_edge;                 // stem displacement at C [m]
+  double radial_space_tolerance, axial_width_tolerance, bore_diameter_tolerance,
+      stem_diameter_tolerance; // half-widths [m]
+  double bore_circumference;   // pi D: the friction area's length [m]
+  double land_edge;            // stem displacement at C [m]
   double housing_modulus, housing_poisson_ratio;
   double canister_pressure; // gauge [Pa]
   SbPressureMap pressure_map;
@@ -168,9 +174,13 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
 // Adds what the storage of the rings has to say about its validity.
 void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings);
 
-// The gland of a seal with the tolerances of the parameters it was compiled from, for
-// sb_gland_readouts: sizes as stored.
-void sb_model_gland(SbGland *out, const SbModel *model, const SbParams *params, int seal);
+// Works out a seal afresh from its `stored` ring, its Poisson's ratio and the gland, for studies
+// that change one of them in a copy of a model. False (with problems added; may be NULL) where they
+// make no sense.
+bool sb_model_size_seal(SbModel *model, int seal, SbProblems *problems);
+
+// The gland of a seal with its tolerances, for sb_gland_readouts: sizes as stored.
+void sb_model_gland(SbGland *out, const SbModel *model, int seal);
 
 // Pressures on the two sides of a seal [Pa gauge]: canister side (left, x < 0) and ambient side
 // (right).

@@ -105,6 +105,13 @@ static Look series_look(const SbStudy *study, const SbStudySeries *series) {
   static const SbRole solved[] = {SB_ROLE_INK, SB_ROLE_VIOLET, SB_ROLE_TEAL, SB_ROLE_FLUID};
   static const SbDash *const dashes[] = {&sb_dash_reference, &sb_dash_pinned, &sb_dash_dimension,
                                          &sb_dash_centre, &sb_dash_dose};
+  // A seal has its own colour everywhere.
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    g_autofree char *name = g_strdup_printf("%s seal", sb_seal_name(seal));
+    if (strcmp(series->name, name) == 0) {
+      return (Look){seal == SB_OUTER ? SB_ROLE_OUTER : SB_ROLE_INNER, SB_LINE_SEAL, NULL};
+    }
+  }
   int index = style_index(study, series);
   if (series->style == SB_STUDY_REFERENCE) {
     return (Look){index % 2 == 0 ? SB_ROLE_SECOND : SB_ROLE_PINNED, 1.6,
@@ -172,6 +179,8 @@ static void set_scales(Plot *plot) {
   } else if (log_y) {
     y.hi = fmin(all.hi, y.hi * 10);
     y.lo = fmax(all.lo, y.lo / 10);
+    // Twelve decades are enough for any eye.
+    y.lo = fmax(y.lo, y.hi * 1e-12);
   } else {
     double more = 0.35 * fmax(y.hi - y.lo, fabs(y.hi) * 0.1);
     y.hi = fmin(all.hi, y.hi + more);
@@ -392,11 +401,12 @@ static void draw_gutter(Plot *plot, Name *name, int count, double width) {
   }
 }
 
-static void name_series(Plot *plot, SbPoint **points, double gutter) {
+// Returns the number of curves that can be seen.
+static int name_series(Plot *plot, SbPoint **points, double gutter) {
   SbCanvas *c = plot->canvas;
   SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
   Name name[SB_STUDY_SERIES];
-  int count = 0;
+  int count = 0, named = 0;
   double far = plot->plot.x + 0.86 * plot->plot.width;
   for (size_t s = 0; s < plot->panel->series_count; s++) {
     const SbStudySeries *series = &plot->panel->series[s];
@@ -407,6 +417,7 @@ static void name_series(Plot *plot, SbPoint **points, double gutter) {
     if (last == 0) {
       continue;
     }
+    named++;
     SbPoint end = points[s][last - 1];
     if (end.x >= far) {
       name[count++] = (Name){series, end, end.y};
@@ -422,6 +433,7 @@ static void name_series(Plot *plot, SbPoint **points, double gutter) {
     }
   }
   draw_gutter(plot, name, count, gutter);
+  return named;
 }
 
 static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t index) {
@@ -471,7 +483,10 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
     }
   }
   draw_marks(&plot);
-  name_series(&plot, points, gutter);
+  if (name_series(&plot, points, gutter) == 0) {
+    SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
+    sb_canvas_text_halo(c, panel->empty, &note, r.x + r.width / 2, r.y + r.height / 2, SB_MIDDLE);
+  }
   for (size_t s = 0; s < panel->series_count; s++) {
     g_free(points[s]);
   }

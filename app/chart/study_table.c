@@ -26,14 +26,14 @@ static void cell_text(char *out, const SbStudyColumn *column, const SbStudyRow *
   if (size > 0 && (size < 1e-4 || size >= 1e6)) {
     int exponent = (int)floor(log10(size) + 1e-12);
     char mantissa[SB_FORMAT_MAX], power[SB_FORMAT_MAX];
-    sb_format_digits(mantissa, shown / pow(10, exponent), 3);
+    sb_format_digits(mantissa, shown / pow(10, exponent), column->digits);
     sb_format_power(power, exponent);
     g_snprintf(out, SB_FORMAT_MAX, "%s\xc2\xb7%s", mantissa, power);
     return;
   }
   bool difference = strstr(column->name, "against") != NULL;
   char digits[SB_FORMAT_MAX];
-  sb_format_digits(digits, shown, 3);
+  sb_format_digits(digits, shown, column->digits);
   g_snprintf(out, SB_FORMAT_MAX, "%s%s", difference && shown > 0 ? "+" : "", digits);
 }
 

@@ -156,11 +156,10 @@ int sb_command_fit(int argc, char **argv) {
   sb_model_warn_storage(&model, &fit->warnings);
 
   // Design read-outs of the gland.
-  const SbParams params = sb_document_params(document);
   SbGland gland;
   SbGlandReadout readouts[SB_GLAND_COUNT];
   SbReport gland_report = {0};
-  sb_model_gland(&gland, &model, &params, index);
+  sb_model_gland(&gland, &model, index);
   if (sb_gland_readouts(readouts, &gland, &gland_report) != SB_OK) {
     sb_cli_fail("%s: %s", gland_report.parameter, gland_report.text);
     code = SB_EXIT_INPUT;

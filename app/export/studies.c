@@ -21,10 +21,11 @@ void sb_study_page_size(double *width, double *height, const SbStudy *study) {
 
 static void errors_text(char *out, size_t size, const SbStudy *study) {
   if (study->error > 0) {
-    g_snprintf(out, size,
-               "at most %.2g\xc2\xa0%% in what was solved  (discretisation, not the choice of "
-               "model)",
-               100 * study->error);
+    g_snprintf(
+        out, size,
+        "at most %.2g\xc2\xa0%% of a film or of the largest load solved  (discretisation, not "
+        "the choice of model)",
+        100 * study->error);
   } else {
     g_strlcpy(out, "closed forms: rounding only  (not the choice of model)", size);
   }

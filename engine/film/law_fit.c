@@ -52,6 +52,8 @@ static SbStatus solve_grid(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSo
       double u = (double)i / (double)(range->U_count - 1);
       double U = range->U_min * pow(range->U_max / range->U_min, u);
       SbFilmProblem problem = contact(U, W, range->tolerance);
+      problem.cancelled = range->cancelled;
+      problem.cancelled_data = range->data;
       status = sb_film_solve(film, &problem, memory, report);
       double h = range->film == SB_FILM_LAW_MIN       ? film->film_min
                  : range->film == SB_FILM_LAW_CENTRAL ? film->film_central
@@ -60,6 +62,10 @@ static SbStatus solve_grid(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSo
       out->W[out->count] = W;
       out->H[out->count] = h / problem.radius;
       out->count += status == SB_OK ? 1 : 0;
+      if (range->progress != NULL) {
+        range->progress(range->data,
+                        (double)out->count / (double)(range->U_count * range->W_count));
+      }
     }
   }
   free(film);

@@ -18,6 +18,10 @@ typedef struct {
   double W_min, W_max;
   size_t U_count, W_count; // at least 2 each, at most SB_FILM_LAW_POINTS together
   double tolerance;        // of every solve
+  // Asked and told after every solve; both may be NULL.
+  bool (*cancelled)(void *data);
+  void (*progress)(void *data, double fraction);
+  void *data;
 } SbFilmLawRange;
 
 // The law and how well it holds. Plain data.
@@ -34,6 +38,7 @@ typedef struct {
 } SbFilmLaw;
 
 // Solves the grid and fits the law. `memory` may be NULL. SB_ERROR_RANGE for an empty or too large
-// grid, SB_ERROR_NOT_CONVERGED if any solve fails, SB_ERROR_MEMORY.
+// grid, SB_ERROR_NOT_CONVERGED if any solve fails, SB_ERROR_CANCELLED,
+// SB_ERROR_MEMORY.
 SbStatus sb_film_law_fit(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSolver *memory,
                          SbReport *report);

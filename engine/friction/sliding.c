@@ -45,6 +45,10 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
   }
 }
 
+void sb_sliding_memory_forget(SbSlidingMemory *memory) {
+  memory->fitted = false;
+}
+
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory) {
   return &memory->fit;
 }
@@ -213,7 +217,8 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
             "the fluid alone carries the %s seal: no film law applies", sb_seal_name(seal));
   } else if (speed != 0) {
     SbStatus film_status =
-        solve_film(out, model, seal, pressure, speed, memory, counts, warnings, report);
+        solve_film(out, model, seal, pressure, speed, memory, counts, warnings,
+                   status == SB_OK ? report : NULL); // the first failure is the one to tell
     if (film_status != SB_OK) {
       status = film_status;
     }

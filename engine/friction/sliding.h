@@ -40,6 +40,9 @@ typedef struct SbSlidingMemory SbSlidingMemory;
 SbStatus sb_sliding_memory_create(SbSlidingMemory **out, SbReport *report);
 void sb_sliding_memory_destroy(SbSlidingMemory *memory);
 
+// Forgets the last fitment, because something else than its pressure has changed; keeps the memory.
+void sb_sliding_memory_forget(SbSlidingMemory *memory);
+
 // What the last evaluation solved, for profiles; borrowed, overwritten by the next call.
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory);
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);

@@ -68,6 +68,9 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   if (status == SB_OK) {
     status = entry->make(out, model, hooks, report);
   }
+  if (out->load_largest > 0) {
+    out->error = fmax(out->error, out->load_error / out->load_largest);
+  }
   if (status == SB_OK) {
     status = sb_study_step(hooks, 1, report);
   }
@@ -93,6 +96,7 @@ SbStudyPanel *sb_study_panel(SbStudy *out, const char *quantity, const char *si,
                              bool logarithmic) {
   SbStudyPanel *panel = &out->panel[next(&out->panel_count, SB_STUDY_PANELS)];
   sb_study_axis(&panel->y, quantity, si, unit, logarithmic);
+  snprintf(panel->empty, sizeof panel->empty, "no value in this range");
   return panel;
 }
 
@@ -106,11 +110,13 @@ SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const ch
   return series;
 }
 
-void sb_study_column(SbStudy *out, const char *name, const char *si, const char *unit) {
+SbStudyColumn *sb_study_column(SbStudy *out, const char *name, const char *si, const char *unit) {
   SbStudyColumn *column = &out->column[next(&out->column_count, SB_STUDY_COLUMNS)];
   snprintf(column->name, sizeof column->name, "%s", name);
   snprintf(column->si, sizeof column->si, "%s", si);
   snprintf(column->unit, sizeof column->unit, "%s", unit);
+  column->digits = 3;
+  return column;
 }
 
 SbStudyRow *sb_study_row(SbStudy *out, const char *si, const char *unit, const char *format, ...) {
@@ -161,6 +167,11 @@ SbStatus sb_study_step(const SbStudyHooks *hooks, double fraction, SbReport *rep
   return sb_succeed(report);
 }
 
+static void add_load_error(SbStudy *out, const SbFit *fit) {
+  out->load_error = fmax(out->load_error, fit->solver.error_estimate.load * fit->load);
+  out->load_largest = fmax(out->load_largest, fit->load);
+}
+
 SbStatus sb_study_fit(SbStudy *out, SbFit *fit, const SbFitProblem *problem,
                       const SbStudyHooks *hooks, SbReport *report) {
   SbFitProblem copy = *problem;
@@ -187,7 +198,47 @@ SbStatus sb_study_fit(SbStudy *out, SbFit *fit, const SbFitProblem *problem,
             sb_fit_model_name(copy.model), local.text);
     out->complete = out->complete && status != SB_ERROR_NOT_CONVERGED;
   } else if (solver) {
-    out->error = fmax(out->error, fit->solver.error_estimate.load);
+    add_load_error(out, fit);
+  }
+  return sb_succeed(report);
+}
+
+SbStatus sb_study_sliding(SbStudy *out, SbSliding *state, const SbModel *model, int seal,
+                          SbSealPressure pressure, double speed, SbSlidingMemory *memory,
+                          SbReport *report) {
+  SbSlidingCounts counts = {0};
+  SbReport local = {0};
+  SbStatus status =
+      sb_sliding_solve(state, model, seal, pressure, speed, memory, &counts, NULL, &local);
+  out->solves += counts.disc_solves + counts.ring_solves + counts.reynolds_solves;
+  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    if (report != NULL) {
+      *report = local;
+    }
+    return status;
+  }
+  if (status != SB_OK) {
+    *state = (SbSliding){.load = NAN,
+                         .load_per_length = NAN,
+                         .load_net = NAN,
+                         .contact_right = NAN,
+                         .film_min = NAN,
+                         .film_central = NAN,
+                         .boundary_area = NAN,
+                         .boundary_load = NAN,
+                         .viscous = NAN,
+                         .friction_static = NAN};
+    sb_warn(&out->warnings, "study-gap-sliding", local.parameter, "some points have no value: %s",
+            local.text);
+    out->complete = out->complete && status != SB_ERROR_NOT_CONVERGED;
+    return sb_succeed(report);
+  }
+  const SbFit *fit = sb_sliding_fit(memory);
+  if (counts.disc_solves + counts.ring_solves > 0) {
+    add_load_error(out, fit);
+  }
+  if (isfinite(state->film_error)) {
+    out->error = fmax(out->error, state->film_error);
   }
   return sb_succeed(report);
 }

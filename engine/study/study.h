@@ -13,7 +13,13 @@
   X(SB_STUDY_SQUEEZE, squeeze, "squeeze", "Load over squeeze",                                     \
     "load, peak and width of every fitment model over the squeeze, beside the solved ring")        \
   X(SB_STUDY_MODELS, models, "models", "Fitment models side by side",                              \
-    "thesis, linear disc and finite-strain ring: loads, peaks, widths, sensitivities, friction")
+    "thesis, linear disc and finite-strain ring: loads, peaks, widths, sensitivities, friction")   \
+  X(SB_STUDY_FILM_LAW, film_law, "film-law", "Film law from our own solutions",                    \
+    "h/R = k U^b W^a regressed over a range, with residuals, beside eq. 7.5, 7.6 and the limit")   \
+  X(SB_STUDY_STORAGE, storage, "storage", "Storage time",                                          \
+    "load, friction, squeeze and modulus against storage time: relaxation, set, swell")            \
+  X(SB_STUDY_LEAK, leak, "leak", "Leak over squeeze",                                              \
+    "leak at rest and leakage per stroke over the squeeze: where too little squeeze leaks")
 
 typedef enum {
 #define SB_STUDY_ENUM(code, function, name, title, help) code,
@@ -55,6 +61,7 @@ typedef struct {
 
 typedef struct {
   SbStudyAxis y;
+  char empty[64]; // what it means if no curve has a value
   size_t series_count;
   SbStudySeries series[SB_STUDY_SERIES];
 } SbStudyPanel;
@@ -68,6 +75,7 @@ typedef struct {
 typedef struct {
   char name[40];
   char si[16], unit[16];
+  int digits; // significant ones shown
 } SbStudyColumn;
 
 // A row's own unit, if it has one, stands for those of the columns. NaN: no value.
@@ -91,7 +99,11 @@ typedef struct {
   SbStudyRow row[SB_STUDY_ROWS];
   char models[160];   // what made it: "ring, disc, lindley"
   char validity[200]; // where it holds
-  double error;       // largest relative error estimate of what was solved; 0: closed forms alone
+  // Largest error estimate of what was solved: of a film relative to itself, of a load relative to
+  // the largest load, because a ring that barely touches has none to speak of. 0: closed forms
+  // alone.
+  double error;
+  double load_error, load_largest; // [N], what it is made from
   size_t note_count;
   char note[SB_STUDY_NOTES][200]; // what the numbers say, definitions, sources
   SbWarnings warnings;

@@ -12,7 +12,6 @@
 // and F the load (audit, table of section 1): "by shear strength". With the load coefficient m on
 // the total load, which the 5 N and 8 N of the cycle need, it is larger by m: "with m". Measured:
 // 0.51.
-#include "engine/friction/sliding.h"
 #include "engine/study/study_private.h"
 #include "engine/surface/greenwood_tripp.h"
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/elastic/fit.h"
+#include "engine/friction/sliding.h"
 #include "engine/study/study.h"
 
 #define SB_STUDY_DECLARE(code, function, name, title, help)                                        \
@@ -26,7 +27,7 @@ SbStudyPanel *sb_study_panel(SbStudy *out, const char *quantity, const char *si,
                              bool logarithmic);
 SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const char *format, ...)
     SB_PRINTF(3, 4);
-void sb_study_column(SbStudy *out, const char *name, const char *si, const char *unit);
+SbStudyColumn *sb_study_column(SbStudy *out, const char *name, const char *si, const char *unit);
 
 // A row of the columns' units (`si` NULL) or of its own; all values NaN at first.
 SbStudyRow *sb_study_row(SbStudy *out, const char *si, const char *unit, const char *format, ...)
@@ -48,3 +49,9 @@ SbStatus sb_study_step(const SbStudyHooks *hooks, double fraction, SbReport *rep
 // purpose and says where.
 SbStatus sb_study_fit(SbStudy *out, SbFit *fit, const SbFitProblem *problem,
                       const SbStudyHooks *hooks, SbReport *report);
+
+// Solves a sliding state for a study, likewise: what does not converge leaves *state without
+// figures (NaN) and warns. The state's own warnings are not merged.
+SbStatus sb_study_sliding(SbStudy *out, SbSliding *state, const SbModel *model, int seal,
+                          SbSealPressure pressure, double speed, SbSlidingMemory *memory,
+                          SbReport *report);

@@ -7,7 +7,6 @@
 // Lindley, Green and English, Hertz and Karaszkiewicz know no stretch, so a second ring without
 // stretch (its inner diameter the floor's) shows how much of a difference that is: a ring stretched
 // by 15 % flattens and does not touch at all below some 7 % of squeeze.
-#include "engine/friction/sliding.h"
 #include "engine/study/study_private.h"
 
 #include <math.h>
