@@ -161,6 +161,8 @@ static SbRingNewton newton_options(const SbRing *ring) {
   SbRingNewton newton = {
       .iterations_max = ring->options.iterations_max,
       .step_least = ring->options.step_least,
+      .stumbles_max = 4,
+      .walks = true,
       .correction_max = 0.15,
       .poll = ring->options.poll,
       .poll_data = ring->options.poll_data,
@@ -255,10 +257,11 @@ static void guess(SbRing *ring, const SbRingSetting *s, double share) {
 }
 
 // A pressure difference with nothing to lean on: push the ring against its wall.
-static SbStatus lean(SbRing *ring, const SbRingSetting *s, SbReport *report) {
+static SbStatus lean(SbRing *ring, const SbRingSetting *s, bool *leaned, SbReport *report) {
   SbRingContact *contact = ring->contact;
   double difference = s->pressure_left - s->pressure_right;
   bool rubs = s->use_traction;
+  *leaned = false;
   for (int k = 0; k < SB_RING_SURFACES; k++) {
     rubs = rubs || s->friction[k] > 0.0;
   }
@@ -299,6 +302,7 @@ static SbStatus lean(SbRing *ring, const SbRingSetting *s, SbReport *report) {
   // Sunk in by a little more than it takes, so that the wall contact starts with some width.
   double sunk = fmin(0.06, fmax(0.003, 0.05 * fabs(difference)));
   double shift = difference > 0.0 ? least + sunk : -least - sunk;
+  *leaned = true;
   for (int i = 0; i < ring->mesh->nodes; i++) {
     ring->fem->u[2 * i + 1] += shift;
   }
@@ -310,6 +314,31 @@ static SbStatus lean(SbRing *ring, const SbRingSetting *s, SbReport *report) {
     touch[difference > 0.0 ? SB_RING_WALL_LEFT : SB_RING_WALL_RIGHT].held = false;
   }
   return SB_OK;
+}
+
+// To another setting, leaning first where that is wanted. If pushing the ring to its wall was too
+// rough, it is followed there instead.
+static SbStatus press(SbRing *ring, const SbRingSetting *target, SbReport *report) {
+  SbRingNewton newton = newton_options(ring);
+  bool leaned;
+  sb_ring_fem_save(ring->fem, 2);
+  sb_ring_contact_save(ring->contact, 1);
+  SbStatus status = lean(ring, target, &leaned, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  int steps = ring->count.steps;
+  newton.walks = !leaned;
+  status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
+  if (leaned && status == SB_ERROR_NOT_CONVERGED) {
+    if (ring->count.steps == steps) {
+      sb_ring_fem_restore(ring->fem, 2);
+      sb_ring_contact_restore(ring->contact, 1);
+    }
+    newton.walks = true;
+    status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
+  }
+  return status;
 }
 
 // Fits the ring without fluid and friction, then brings on the fluid.
@@ -350,10 +379,7 @@ static SbStatus fit_and_press(SbRing *ring, const SbRingSetting *smooth, SbRepor
   }
   ring->count.steps = ring->count.steps > 0 ? ring->count.steps : 1;
   if (smooth->pressure_left != 0.0 || smooth->pressure_right != 0.0) {
-    status = lean(ring, smooth, report);
-    if (status == SB_OK) {
-      status = sb_ring_advance(ring->contact, smooth, &newton, &ring->count, report);
-    }
+    status = press(ring, smooth, report);
   }
   return status;
 }
@@ -397,7 +423,7 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
   SbRingOptions *o = &ring->options;
   o->element_size = o->element_size > 0.0 ? fmin(0.1, fmax(0.004, o->element_size)) : SIZE_DEFAULT;
   o->iterations_max = o->iterations_max > 0 ? o->iterations_max : 24;
-  o->step_least = o->step_least > 0.0 ? o->step_least : 1.0 / 16.0;
+  o->step_least = o->step_least > 0.0 ? o->step_least : 1.0 / 64.0;
   double d = body->section_diameter;
   ring->length = d;
   ring->stress = body->modulus / (2.0 * (1.0 + body->poisson_ratio));
@@ -449,10 +475,7 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
     status = sb_ring_advance(ring->contact, &even, &newton, &ring->count, report);
   }
   if (status == SB_OK) {
-    status = lean(ring, &target, report);
-  }
-  if (status == SB_OK) {
-    status = sb_ring_advance(ring->contact, &target, &newton, &ring->count, report);
+    status = press(ring, &target, report);
   }
   ring->load = status == SB_OK ? *load : load_of(ring, &ring->contact->now);
   return status;

@@ -54,7 +54,7 @@ typedef struct {
   double element_size;      // side of the contact's elements over section diameter [0.05]
   bool fit_mesh;            // after the first solution, remesh with nodes at the contact edges
   int iterations_max;       // Newton iterations per load step [24]
-  double step_least;        // least share of a load step before it is given up [1/16]
+  double step_least;        // least share of a load step before it is given up [1/64]
   bool (*poll)(void *data); // returns true to cancel; called every Newton iteration
   void *poll_data;
 } SbRingOptions;

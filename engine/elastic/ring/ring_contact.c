@@ -19,10 +19,14 @@
 // left sticking after this many changes, and what exceeds the law is reported.
 enum { FLIPS_MAX = 5 };
 
-// The same can happen to an end node of a contact under fluid with friction, which jumps by mu p
-// when the node is caught. After being caught so often it stays as long as the surface pushes at
-// all, even if slightly less than the fluid would.
-enum { CATCHES_MAX = 4 };
+// An end node of a contact can have no state with friction at all: pulled when held, whether it
+// sticks or slides, and inside the surface when let go. (Under fluid it jumps by mu p when caught.)
+// After being caught so often it is held without friction, which always has a solution; its
+// friction is taken up again in the next step, and what is missing is reported.
+enum { CATCHES_MAX = 3 };
+
+// Share of the edge's rounding that a held node may move along it in one iteration.
+static const double EDGE_SHARE = 0.5;
 
 static const double GAUSS_X[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};
 static const double GAUSS_W[3] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
@@ -44,11 +48,12 @@ SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *r
   contact->fluid = calloc(2 * n, sizeof(double));
   contact->pressed = calloc(2 * n, sizeof(double));
   contact->anchor = calloc(2 * n, sizeof(double));
-  contact->saved = calloc(n * SB_RING_SURFACES, sizeof(bool));
-  contact->saved_slip = calloc(n * SB_RING_SURFACES, sizeof(signed char));
+  for (int place = 0; place < 2; place++) {
+    contact->saved[place] = calloc(n * SB_RING_SURFACES, sizeof(SbRingTouch));
+  }
   if (contact->touch == NULL || contact->closed == NULL || contact->share == NULL ||
       contact->weight == NULL || contact->fluid == NULL || contact->pressed == NULL ||
-      contact->anchor == NULL || contact->saved == NULL || contact->saved_slip == NULL) {
+      contact->anchor == NULL || contact->saved[0] == NULL || contact->saved[1] == NULL) {
     sb_ring_contact_destroy(contact);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's contact");
   }
@@ -65,8 +70,9 @@ void sb_ring_contact_destroy(SbRingContact *contact) {
     free(contact->fluid);
     free(contact->pressed);
     free(contact->anchor);
-    free(contact->saved);
-    free(contact->saved_slip);
+    for (int place = 0; place < 2; place++) {
+      free(contact->saved[place]);
+    }
     free(contact);
   }
 }
@@ -173,7 +179,8 @@ static const SbRingTouch *held_touch(const SbRingContact *contact, int i, int s)
   return touch->held ? touch : NULL;
 }
 
-// Unit normal (into the free side) and tangent of a surface at a place.
+// Unit normal (into the free side) and tangent of a surface at a place; `curvature` is the normal's
+// turn towards the tangent per axial length.
 static void frame(const SbRingContact *contact, SbRingSurface surface, const double x[2],
                   double n[2], double t[2], double *gap, double *curvature) {
   double g[2];
@@ -185,7 +192,7 @@ static void frame(const SbRingContact *contact, SbRingSurface surface, const dou
   bool along_z = surface == SB_RING_BORE || surface == SB_RING_FLOOR;
   t[0] = along_z ? (surface == SB_RING_BORE ? -n[1] * n[0] / fabs(n[0]) : 0.0) : 1.0;
   t[1] = along_z ? fabs(n[0]) : 0.0;
-  *curvature /= length;
+  *curvature /= length * length;
 }
 
 // Brings the fluid's force on one node of an open side into the balance. What presses a held node
@@ -195,7 +202,7 @@ static void load_node(SbRingContact *contact, const int at[3], int a, const doub
                       double k[2][3][2]) {
   SbRingFem *fem = contact->fem;
   int node = fem->mesh->loop[at[a]], held = 0;
-  double n[2] = {0.0, 0.0}, t[2], gap, curvature, x[2];
+  double n[2] = {0.0, 0.0}, t[2] = {0.0, 0.0}, gap, curvature = 0.0, x[2];
   node_place(contact, at[a], x);
   for (int s = 0; s < SB_RING_SURFACES; s++) {
     if (contact->touch[SB_RING_SURFACES * at[a] + s].held) {
@@ -217,6 +224,10 @@ static void load_node(SbRingContact *contact, const int at[3], int a, const doub
     contact->pressed[2 * at[a] + i] += force[i] - acting;
     contact->share[2 * at[a] + i] += force[i] - acting;
     fem->residual[2 * node + i] -= acting;
+    if (held == 1 && curvature != 0.0) {
+      double along = t[0] * force[0] + t[1] * force[1], across = n[0] * force[0] + n[1] * force[1];
+      sb_ring_fem_add(fem, node, i, node, 1, curvature * (t[i] * across + n[i] * along));
+    }
     for (int b = 0; b < 3; b++) {
       for (int j = 0; j < 2; j++) {
         double value = p[i][0] * k[0][b][j] + p[i][1] * k[1][b][j];
@@ -350,7 +361,7 @@ double sb_ring_contact_apply(SbRingContact *contact) {
       double friction = contact->now.friction[s];
       if (s == SB_RING_BORE && contact->now.use_traction) {
         condition->drive = contact->now.traction * contact->weight[i];
-      } else if (friction > 0.0 && touch->slip == 0) {
+      } else if (friction > 0.0 && !touch->smooth && touch->slip == 0) {
         condition->gap[1] = -slipped(contact, (SbRingSurface)s, i, x, t);
         bool corner = false;
         for (int other = s + 1; other < SB_RING_SURFACES; other++) {
@@ -361,7 +372,7 @@ double sb_ring_contact_apply(SbRingContact *contact) {
           break;
         }
       } else {
-        condition->mix = -touch->slip * friction;
+        condition->mix = touch->smooth ? 0.0 : -touch->slip * friction;
       }
     }
   }
@@ -403,7 +414,8 @@ static double slip_fault(const SbRingContact *contact, SbRingSurface surface, in
   const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + surface];
   double friction = contact->now.friction[surface];
   *state = touch->slip;
-  if (!touch->held || friction <= 0.0 || (surface == SB_RING_BORE && contact->now.use_traction)) {
+  bool given = surface == SB_RING_BORE && contact->now.use_traction;
+  if (!touch->held || touch->smooth || friction <= 0.0 || given) {
     return 0.0;
   }
   double tiny = 1e-11 * contact->force_scale;
@@ -441,6 +453,7 @@ static int update_slip(SbRingContact *contact, bool gentle) {
       }
       if (fault > 0.0 && !gentle) {
         flip(touch, state);
+        contact->unsteady = SB_RING_SURFACES * i + s;
         changes++;
       } else if (fault > most) {
         most = fault;
@@ -451,19 +464,23 @@ static int update_slip(SbRingContact *contact, bool gentle) {
   }
   if (worst >= 0) {
     flip(&contact->touch[worst], worst_state);
+    contact->unsteady = worst;
     changes++;
   }
   return changes;
 }
 
-// Slip state of a node that is being caught: friction against its motion in this step.
+// Slip state of a node that is being caught: friction against its motion in this step. A node that
+// comes back, since the surface would have had to pull it in that state, tries the others in turn.
 static signed char caught_slip(const SbRingContact *contact, SbRingSurface surface, int i,
                                const double x[2], const double t[2]) {
   if (contact->now.friction[surface] <= 0.0) {
     return 0;
   }
   double moved = slipped(contact, surface, i, x, t);
-  return moved > 1e-9 ? -1 : moved < -1e-9 ? 1 : 0;
+  signed char state = moved > 1e-9 ? -1 : moved < -1e-9 ? 1 : 0;
+  int turn = contact->touch[SB_RING_SURFACES * i + surface].catches % 3;
+  return turn < 2 ? (signed char)(state * (1 - turn)) : (signed char)(-state);
 }
 
 int sb_ring_contact_update(SbRingContact *contact, bool gentle) {
@@ -486,10 +503,8 @@ int sb_ring_contact_update(SbRingContact *contact, bool gentle) {
       double n[2], t[2], gap, curvature;
       frame(contact, (SbRingSurface)s, x, n, t, &gap, &curvature);
       // The fluid would push this node off the surface, along n, by its share.
-      double excess = touch->force;
-      if (touch->catches < CATCHES_MAX) {
-        excess -= n[0] * contact->share[2 * i] + n[1] * contact->share[2 * i + 1];
-      }
+      double excess =
+          touch->force - n[0] * contact->share[2 * i] - n[1] * contact->share[2 * i + 1];
       if (!touch->held && gap < deepest) {
         worst_catch = at;
         deepest = gentle ? gap : deepest;
@@ -501,14 +516,17 @@ int sb_ring_contact_update(SbRingContact *contact, bool gentle) {
       }
       if (!gentle) {
         touch->held = !touch->held;
-        touch->catches += touch->held ? 1 : 0;
         touch->slip = touch->held ? caught_slip(contact, (SbRingSurface)s, i, x, t) : 0;
+        contact->unsteady = at;
+        touch->smooth = touch->catches >= CATCHES_MAX;
+        touch->catches += touch->held ? 1 : 0;
         changes++;
       }
     }
   }
   if (gentle && worst_release >= 0) {
     contact->touch[worst_release].held = false;
+    contact->unsteady = worst_release;
     changes++;
   }
   if (gentle && worst_catch >= 0) {
@@ -518,28 +536,69 @@ int sb_ring_contact_update(SbRingContact *contact, bool gentle) {
     node_place(contact, i, x);
     frame(contact, s, x, n, t, &gap, &curvature);
     contact->touch[worst_catch].held = true;
-    contact->touch[worst_catch].catches++;
+    contact->unsteady = worst_catch;
     contact->touch[worst_catch].slip = caught_slip(contact, s, i, x, t);
+    contact->touch[worst_catch].smooth = contact->touch[worst_catch].catches >= CATCHES_MAX;
+    contact->touch[worst_catch].catches++;
     changes++;
   }
   // Friction follows once the contact is steady: both at once chase each other.
   return changes > 0 ? changes : update_slip(contact, gentle);
 }
 
+double sb_ring_contact_limit(const SbRingContact *contact) {
+  const SbRingFem *fem = contact->fem;
+  double step = 1.0;
+  for (int i = 0; i < contact->count; i++) {
+    if (contact->touch[SB_RING_SURFACES * i + SB_RING_BORE].held) {
+      double x[2], g[2], before, after;
+      node_place(contact, i, x);
+      sb_ring_gap(&contact->now, SB_RING_BORE, x, g, &before);
+      double move = fem->du[2 * fem->mesh->loop[i] + 1];
+      x[1] += move;
+      sb_ring_gap(&contact->now, SB_RING_BORE, x, g, &after);
+      if (before != 0.0 || after != 0.0) {
+        step = fmin(step, EDGE_SHARE * contact->now.edge_length / fmax(fabs(move), 1e-30));
+      }
+    }
+  }
+  return step;
+}
+
+const char *sb_ring_surface_name(SbRingSurface surface) {
+  switch (surface) {
+  case SB_RING_BORE:
+    return "bore";
+  case SB_RING_FLOOR:
+    return "groove floor";
+  case SB_RING_WALL_RIGHT:
+    return "right groove wall";
+  case SB_RING_WALL_LEFT:
+    return "left groove wall";
+  case SB_RING_SURFACES:
+    break;
+  }
+  return "";
+}
+
 void sb_ring_contact_begin(SbRingContact *contact) {
+  contact->unsteady = -1;
   for (int i = 0; i < SB_RING_SURFACES * contact->count; i++) {
     contact->touch[i].flips = contact->touch[i].catches = 0;
+    contact->touch[i].smooth = false;
   }
 }
 
-// Sum of what exceeds Coulomb's law at sticking nodes.
+// Sum of what exceeds Coulomb's law at sticking nodes and of the friction that is left out.
 static double slip_excess(const SbRingContact *contact) {
   double sum = 0.0;
   for (int i = 0; i < SB_RING_SURFACES * contact->count; i++) {
     const SbRingTouch *touch = &contact->touch[i];
     double friction = contact->now.friction[i % SB_RING_SURFACES];
     bool given = i % SB_RING_SURFACES == SB_RING_BORE && contact->now.use_traction;
-    if (touch->held && touch->slip == 0 && friction > 0.0 && !given) {
+    if (touch->held && touch->smooth && friction > 0.0 && !given) {
+      sum += friction * touch->force;
+    } else if (touch->held && touch->slip == 0 && friction > 0.0 && !given) {
       sum += fmax(0.0, fabs(touch->tangent) - friction * touch->force);
     }
   }
@@ -582,16 +641,12 @@ void sb_ring_contact_total(const SbRingContact *contact, SbRingSurface surface, 
   }
 }
 
-void sb_ring_contact_save(SbRingContact *contact) {
-  for (int i = 0; i < SB_RING_SURFACES * contact->count; i++) {
-    contact->saved[i] = contact->touch[i].held;
-    contact->saved_slip[i] = contact->touch[i].slip;
-  }
+void sb_ring_contact_save(SbRingContact *contact, int place) {
+  memcpy(contact->saved[place], contact->touch,
+         sizeof(SbRingTouch) * SB_RING_SURFACES * (size_t)contact->count);
 }
 
-void sb_ring_contact_restore(SbRingContact *contact) {
-  for (int i = 0; i < SB_RING_SURFACES * contact->count; i++) {
-    contact->touch[i].held = contact->saved[i];
-    contact->touch[i].slip = contact->saved_slip[i];
-  }
+void sb_ring_contact_restore(SbRingContact *contact, int place) {
+  memcpy(contact->touch, contact->saved[place],
+         sizeof(SbRingTouch) * SB_RING_SURFACES * (size_t)contact->count);
 }

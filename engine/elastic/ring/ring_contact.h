@@ -34,6 +34,7 @@ typedef struct {
 // One boundary node against one surface.
 typedef struct {
   bool held;
+  bool smooth;           // its friction is left out in this solve
   signed char slip;      // 0 sticks; +-1 slides with the friction force on the ring along +-t
   unsigned char flips;   // changes of the slip state in this solve
   unsigned char catches; // times this node was caught in this solve
@@ -44,19 +45,19 @@ typedef struct {
 typedef struct {
   SbRingFem *fem; // borrowed
   SbRingSetting now;
-  int count;          // boundary nodes
-  SbRingTouch *touch; // [count][SB_RING_SURFACES]
-  bool *closed;       // [count / 2] boundary sides closed by contact
-  double *share;      // [2 count] force of the fluid that held nodes must exceed
-  double *pressed;    // [2 count] the part of it from open sides
-  double *weight;     // [count] current area of the boundary nodes
-  double *fluid;      // [2 count] fluid force on the open sides' nodes
-  double *anchor;     // [2 count] place at the start of the step, for sticking
-  double slide_start; // slide at the start of the step
-  bool *saved;        // for sb_ring_contact_save
-  signed char *saved_slip;
-  double slip_excess; // sum of what exceeds Coulomb's law at nodes that could not settle
-  double force_scale; // for tolerances
+  int count;             // boundary nodes
+  SbRingTouch *touch;    // [count][SB_RING_SURFACES]
+  bool *closed;          // [count / 2] boundary sides closed by contact
+  double *share;         // [2 count] force of the fluid that held nodes must exceed
+  double *pressed;       // [2 count] the part of it from open sides
+  double *weight;        // [count] current area of the boundary nodes
+  double *fluid;         // [2 count] fluid force on the open sides' nodes
+  double *anchor;        // [2 count] place at the start of the step, for sticking
+  double slide_start;    // slide at the start of the step
+  SbRingTouch *saved[2]; // for sb_ring_contact_save
+  double slip_excess;    // departure from Coulomb's law at nodes that could not settle
+  double force_scale;    // for tolerances
+  int unsteady;          // touch that last changed, -1: none since the solve began
 } SbRingContact;
 
 SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report);
@@ -76,9 +77,16 @@ void sb_ring_contact_begin(SbRingContact *contact);
 // largest penetration or gap of a held node.
 double sb_ring_contact_apply(SbRingContact *contact);
 
+// After the solve: the share of the correction that held nodes may take where the surface is
+// curved, since the linear model ends there.
+double sb_ring_contact_limit(const SbRingContact *contact);
+
 // After the solve and the step: new held set and slip states from the linear model's reactions.
 // Returns how many changed. With `gentle` only the worst offender of each kind changes.
 int sb_ring_contact_update(SbRingContact *contact, bool gentle);
+
+// The name of a surface, for messages.
+const char *sb_ring_surface_name(SbRingSurface surface);
 
 // At convergence: forces of all touches from the residual.
 void sb_ring_contact_forces(SbRingContact *contact);
@@ -86,5 +94,7 @@ void sb_ring_contact_forces(SbRingContact *contact);
 // Sum of a surface's force on the ring, (r, z).
 void sb_ring_contact_total(const SbRingContact *contact, SbRingSurface surface, double force[2]);
 
-void sb_ring_contact_save(SbRingContact *contact);
-void sb_ring_contact_restore(SbRingContact *contact);
+// Two places for the touches: 0 is the load stepper's, 1 the one before a walk in
+// viscous steps.
+void sb_ring_contact_save(SbRingContact *contact, int place);
+void sb_ring_contact_restore(SbRingContact *contact, int place);

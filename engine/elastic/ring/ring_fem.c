@@ -75,6 +75,8 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->inner = calloc(SB_RING_INNER * m, sizeof(double));
   fem->saved[0] = calloc(2 * n + SB_RING_INNER * m, sizeof(double));
   fem->saved[1] = calloc(2 * n + SB_RING_INNER * m, sizeof(double));
+  fem->saved[2] = calloc(2 * n + SB_RING_INNER * m, sizeof(double));
+  fem->mass = calloc(n, sizeof(double));
   fem->residual = calloc(2 * n, sizeof(double));
   fem->rhs = calloc(2 * n, sizeof(double));
   fem->du = calloc(2 * n, sizeof(double));
@@ -84,10 +86,10 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->condensed = calloc(CONDENSED_SIZE * m, sizeof(double));
   fem->work_int = malloc(sizeof(int) * 2 * n);
   fem->work = malloc(sizeof(double) * 10 * n);
-  if (fem->u == NULL || fem->saved[0] == NULL || fem->saved[1] == NULL || fem->inner == NULL ||
-      fem->residual == NULL || fem->rhs == NULL || fem->du == NULL || fem->condition == NULL ||
-      fem->raw_place == NULL || fem->gauss == NULL || fem->condensed == NULL ||
-      fem->work_int == NULL || fem->work == NULL) {
+  if (fem->u == NULL || fem->saved[0] == NULL || fem->saved[1] == NULL || fem->saved[2] == NULL ||
+      fem->mass == NULL || fem->inner == NULL || fem->residual == NULL || fem->rhs == NULL ||
+      fem->du == NULL || fem->condition == NULL || fem->raw_place == NULL || fem->gauss == NULL ||
+      fem->condensed == NULL || fem->work_int == NULL || fem->work == NULL) {
     sb_ring_fem_destroy(fem);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's elements");
   }
@@ -97,6 +99,10 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
                           &fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q)])) {
         sb_ring_fem_destroy(fem);
         return sb_fail(report, SB_ERROR_RANGE, "the ring's mesh crosses the axis or is inverted");
+      }
+      for (int a = 0; a < NODES; a++) {
+        fem->mass[mesh->tri[6 * e + a]] +=
+            fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q) + 3 * SHAPES] / NODES;
       }
     }
   }
@@ -114,10 +120,11 @@ void sb_ring_fem_destroy(SbRingFem *fem) {
     return;
   }
   sb_ring_sparse_finish(fem);
-  void *owned[] = {fem->u,         fem->saved[0],  fem->saved[1],  fem->inner,     fem->residual,
-                   fem->rhs,       fem->du,        fem->condition, fem->raw_place, fem->gauss,
-                   fem->condensed, fem->row_start, fem->column,    fem->value,     fem->raw,
-                   fem->scatter,   fem->diagonal,  fem->work_int,  fem->work};
+  void *owned[] = {fem->u,         fem->saved[0], fem->saved[1],  fem->inner,     fem->residual,
+                   fem->saved[2],  fem->mass,     fem->rhs,       fem->du,        fem->condition,
+                   fem->raw_place, fem->gauss,    fem->condensed, fem->row_start, fem->column,
+                   fem->value,     fem->raw,      fem->scatter,   fem->diagonal,  fem->work_int,
+                   fem->work};
   for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
     free(owned[i]);
   }
@@ -323,8 +330,14 @@ bool sb_ring_fem_assemble(SbRingFem *fem) {
   }
   double stiffness = fem->axial_spring + fem->axial_damping;
   for (int i = 0; i < mesh->nodes && stiffness > 0.0; i++) {
-    fem->residual[2 * i + 1] += fem->axial_spring * (fem->u[2 * i + 1] - fem->saved[1][2 * i + 1]);
+    double drift = fem->u[2 * i + 1] - fem->saved[1][2 * i + 1] - fem->axial_rest;
+    fem->residual[2 * i + 1] += fem->axial_spring * drift;
     fem->value[fem->row_start[2 * i + 1] + fem->diagonal[i] + 1] += stiffness;
+  }
+  for (int i = 0; i < 2 * mesh->nodes && fem->viscosity > 0.0; i++) {
+    double resistance = fem->viscosity * fem->mass[i / 2];
+    fem->residual[i] += resistance * (fem->u[i] - fem->saved[1][i]);
+    fem->value[fem->row_start[i] + fem->diagonal[i / 2] + i % 2] += resistance;
   }
   return true;
 }

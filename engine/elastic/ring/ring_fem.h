@@ -20,8 +20,8 @@ typedef struct {
 // What holds at one node: the rows of its two equations are replaced accordingly.
 // count 0: free, the residual vanishes. count 1: n . du = gap, and along t the residual vanishes
 // with a share `mix` of the normal reaction: (t + mix n) . R = drive. count 2: both `direction`
-// rows hold: direction[k] . du = gap[k]. `curve` is added to the tangential row's own (z, z) entry
-// per unit of normal reaction's r component (a curved surface turns its tangent).
+// rows hold: direction[k] . du = gap[k]. `curve` is the turn of the normal towards the tangent per
+// axial length (a curved surface): dn/dz = curve t, dt/dz = -curve n.
 typedef struct {
   int count;
   double direction[2][2];
@@ -35,11 +35,14 @@ struct SbRingFem {
   bool axisymmetric;
   SbRingMaterial material;
   double axial_spring;  // stiffness per node against axial drift, 0 = none
+  double axial_rest;    // mean drift since the saved state 1 at which the spring is slack
   double axial_damping; // the same against axial motion in one iteration only
+  double viscosity;     // resistance per reference volume to motion since the saved state 1
 
   double *u;        // [2 nodes] displacement
   double *inner;    // [5 elements] bubble (r, z), pressure (3 terms)
-  double *saved[2]; // room for two saved states
+  double *saved[3]; // room for three saved states
+  double *mass;     // [nodes] reference volume lumped at the nodes
 
   double *residual;           // [2 nodes] condensed internal minus external force
   double *du;                 // [2 nodes] last solution
@@ -94,7 +97,8 @@ void sb_ring_fem_advance(SbRingFem *fem, double step);
 // Largest residual over the rows that the conditions leave free.
 double sb_ring_fem_free_residual(const SbRingFem *fem);
 
-// Two places for a state: 0 is Newton's own, 1 the load stepper's.
+// Three places for a state: 0 is Newton's own, 1 the load stepper's, 2 the state before a walk in
+// viscous steps.
 void sb_ring_fem_save(SbRingFem *fem, int place);
 void sb_ring_fem_restore(SbRingFem *fem, int place);
 

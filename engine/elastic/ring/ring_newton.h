@@ -1,4 +1,4 @@
-// Newton's method with the contact's active set, and load steps that adapt to it.
+// Newton's method with the contact's active set, and load steps that adapt to it (ring_advance.c).
 //
 // Internal to the ring.
 #pragma once
@@ -18,6 +18,8 @@ typedef struct {
 typedef struct {
   int iterations_max;    // per load step
   double step_least;     // smallest share of a load step before giving up
+  int stumbles_max;      // much shortened corrections before giving up, 0: no limit
+  bool walks;            // whether load steps may follow the ring in viscous steps
   double correction_max; // largest nodal correction of one iteration (length)
   SbRingPoll poll;
   void *poll_data;
@@ -27,7 +29,8 @@ typedef struct {
 SbStatus sb_ring_newton(SbRingContact *contact, const SbRingNewton *options, SbRingCount *count,
                         SbReport *report);
 
-// Moves from the present converged setting to `target`, in as many steps as it takes. On failure
-// the last converged setting and state remain.
+// Moves from the present converged setting to `target`, in as many steps as it takes. Where the
+// next equilibrium is not near, the ring is followed there in viscous steps. On failure the last
+// converged setting and state remain, and the report says where equilibrium ended.
 SbStatus sb_ring_advance(SbRingContact *contact, const SbRingSetting *target,
                          const SbRingNewton *options, SbRingCount *count, SbReport *report);

@@ -140,6 +140,7 @@ int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *she
     return 0;
   }
   int n = 0, count = ring->contact->count;
+  double before = -HUGE_VAL;
   for (int i = patch.first - 1; i <= patch.last + 1; i++) {
     double at[2], p = 0.0, t = 0.0;
     if (i < patch.first || i > patch.last) {
@@ -151,6 +152,10 @@ int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *she
       // A held node beyond the end that its neighbours tell is only a tail of the mesh.
       double margin = 1e-6 * (patch.place[1] - patch.place[0]);
       if (at[1] < patch.place[0] + margin || at[1] > patch.place[1] - margin) {
+        continue;
+      }
+      // Where the surface lets go within the contact it may fold: its open part is passed over.
+      if (at[1] <= before) {
         continue;
       }
       const SbRingTouch *touch =
@@ -166,6 +171,7 @@ int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *she
       }
     }
     n++;
+    before = at[1];
   }
   return n;
 }

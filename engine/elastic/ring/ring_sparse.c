@@ -152,7 +152,8 @@ static void apply_condition(SbRingFem *fem, int node, int raw_at) {
     row[fixed][k] = 0.0;
     row[1 - fixed][k] = balance;
   }
-  row[1 - fixed][diagonal + 1] += c->curve * r0;
+  row[1 - fixed][diagonal + 1] +=
+      c->curve * (c->mix * (t[0] * r0 + t[1] * r1) - (n[0] * r0 + n[1] * r1));
   row[fixed][diagonal] = scale * n[0];
   row[fixed][diagonal + 1] = scale * n[1];
   rhs[fixed] = scale * c->gap[0];
