@@ -24,7 +24,7 @@ void sb_compliance_modes(const SbSurfaceCompliance *c, double x, double *value, 
   const double half = 0.5 * (c->right - c->left);
   const double z = (x - 0.5 * (c->left + c->right)) / half;
   const double t = fmin(fmax(z, -1.0), 1.0);
-  const double factor = z == t ? 1.0 / half : 0.0;
+  const double factor = fabs(z - t) < 1e-12 ? 1.0 / half : 0.0;
   value[0] = 1.0;
   double u = 1.0; // U_{k-1}
   double u_before = 0.0;
@@ -42,15 +42,45 @@ void sb_compliance_modes(const SbSurfaceCompliance *c, double x, double *value, 
   }
 }
 
+// int T_0 = z, int T_1 = z^2/2, int T_k = T_{k+1}/(2 (k + 1)) - T_{k-1}/(2 (k - 1)).
+static void antiderivatives(double *out, int modes, double z) {
+  double t[SB_COMPLIANCE_MODES + 1] = {1.0, z};
+  for (int k = 2; k <= modes; k++) {
+    t[k] = 2.0 * z * t[k - 1] - t[k - 2];
+  }
+  for (int k = 0; k < modes; k++) {
+    out[k] = k == 0 ? z : k == 1 ? 0.5 * z * z : 0.5 * (t[k + 1] / (k + 1) - t[k - 1] / (k - 1));
+  }
+}
+
+void sb_compliance_integrals(const SbSurfaceCompliance *c, double from, double to, double *out) {
+  const double half = 0.5 * (c->right - c->left);
+  const double middle = 0.5 * (c->left + c->right);
+  double before[SB_COMPLIANCE_MODES];
+  double after[SB_COMPLIANCE_MODES];
+  antiderivatives(before, c->modes, fmin(fmax((from - middle) / half, -1.0), 1.0));
+  antiderivatives(after, c->modes, fmin(fmax((to - middle) / half, -1.0), 1.0));
+  for (int k = 0; k < c->modes; k++) {
+    out[k] = half * (after[k] - before[k]);
+  }
+}
+
 double sb_compliance_gap(const SbSurfaceCompliance *c, double x, double *slope) {
   double value[SB_COMPLIANCE_MODES];
   double derivative[SB_COMPLIANCE_MODES];
-  sb_compliance_modes(c, x, value, derivative);
+  const double inside = fmin(fmax(x, c->left), c->right);
+  sb_compliance_modes(c, inside, value, derivative);
   double sum = 0.0;
   double sum_slope = 0.0;
   for (int k = 0; k < c->modes; k++) {
     sum += c->gap[k] * value[k];
     sum_slope += c->gap[k] * derivative[k];
+  }
+  const double rest = x - inside;
+  const double bend = sum_slope / (inside - 0.5 * (c->left + c->right));
+  if (rest != 0.0) {
+    sum += rest * (sum_slope + 0.5 * bend * rest);
+    sum_slope += bend * rest;
   }
   if (slope != NULL) {
     *slope = sum_slope;
@@ -182,18 +212,10 @@ typedef struct {
 // Integrals of T_l(z) over [from, to] times `factor`, added to `out`.
 static void add_constant(double *out, const SbSurfaceCompliance *c, double from, double to,
                          double factor) {
-  double node[QUADRATURE];
-  double weight[QUADRATURE];
-  if (factor == 0.0 || !(to > from)) {
-    return;
-  }
-  sb_legendre_gauss(node, weight, QUADRATURE);
-  for (int q = 0; q < QUADRATURE; q++) {
-    double value[SB_COMPLIANCE_MODES];
-    sb_compliance_modes(c, 0.5 * (from + to) + 0.5 * (to - from) * node[q], value, NULL);
-    for (int l = 0; l < c->modes; l++) {
-      out[l] += factor * 0.5 * (to - from) * weight[q] * value[l];
-    }
+  double integral[SB_COMPLIANCE_MODES];
+  sb_compliance_integrals(c, from, to, integral);
+  for (int l = 0; l < c->modes; l++) {
+    out[l] += factor * integral[l];
   }
 }
 

@@ -59,7 +59,7 @@ SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const 
                              const double *p, double pressure_left, double pressure_right,
                              SbReport *report);
 
-// g(x), d g/dx; outside the window the value at its end, slope 0.
+// g(x) and its slope; outside the window the parabola about its centre that goes on from its end.
 double sb_compliance_gap(const SbSurfaceCompliance *c, double x, double *slope);
 
 // Displacement by S and its slope at x of a pressure with the moments m_l = int p T_l(z) ds
@@ -70,6 +70,9 @@ double sb_compliance_smooth(const SbSurfaceCompliance *c, double x, const double
 // T_k(z(x)) and their derivatives d/dx for k < modes; outside the window as at its end, slope 0.
 // `slope` may be NULL.
 void sb_compliance_modes(const SbSurfaceCompliance *c, double x, double *value, double *slope);
+
+// Integrals of T_k(z(x)) dx over [from, to], clipped to the window, for k < modes [m].
+void sb_compliance_integrals(const SbSurfaceCompliance *c, double from, double to, double *out);
 
 // A dry frictionless contact: p = ambient step + sqrt(1 - z^2) sum a_k U_k(z), z over the contact.
 typedef struct {

@@ -157,6 +157,7 @@ SbFilmScale sb_film_scale(const SbFilmProblem *problem) {
   s.inlet = ((forward ? problem->pressure_left : problem->pressure_right) - rupture) / s.pressure;
   s.outlet = ((forward ? problem->pressure_right : problem->pressure_left) - rupture) / s.pressure;
   s.kappa = 1.0 - (s.inlet - s.outlet) / M_PI;
+  s.kappa_outlet = 2.0 - s.kappa;
   return s;
 }
 
@@ -220,14 +221,27 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
   }
   SbFilmScale scale = sb_film_scale(problem);
   sb_film_begin(out, problem, &scale);
-  if (scale.kappa <= 0.02 || scale.kappa >= 1.98) {
+  const bool fitted = problem->compliance != NULL && problem->model == SB_FILM_REYNOLDS;
+  SbDryContact dry;
+  if (fitted) {
+    status = sb_film_scale_fitted(&scale, &dry, problem, report);
+    if (status != SB_OK) {
+      return status;
+    }
+  }
+  if (scale.kappa <= 0.02 || scale.kappa_outlet <= 0.02) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "canister.pressure",
                              "film: the end pressures differ by %.3g of the Hertz pressure; near "
                              "pi they open the contact",
                              fabs(scale.inlet - scale.outlet));
   }
   if (scale.U <= 0.0 && !(mixed(problem) && problem->surface != SB_ROUGH_NONE)) {
-    status = sb_film_solve_dry(out, problem, &scale, report);
+    if (fitted) {
+      sb_film_rest_fitted(out, problem, &dry);
+      status = sb_succeed(report);
+    } else {
+      status = sb_film_solve_dry(out, problem, &scale, report);
+    }
   } else {
     switch (problem->model) {
     case SB_FILM_KARASZKIEWICZ:

@@ -19,6 +19,7 @@
 // the inlet is on the left. Pressures are gauge. SI units throughout, per metre of circumference.
 #pragma once
 
+#include "engine/elastic/compliance.h"
 #include "engine/status.h"
 #include "engine/surface/rough_law.h"
 
@@ -72,6 +73,11 @@ typedef struct {
   double shear_strength;   // tau_0 [Pa] of the real contact
   double load_coefficient; // m on the asperities' load
 
+  // Surface of a fitted body in place of the half-plane and the parabola, for the reynolds model
+  // and its dry contact; the others ignore it. NULL for none; borrowed during the call. Radius and
+  // modulus then only name the regime.
+  const SbSurfaceCompliance *compliance;
+
   // Dry pressure of the inverse model: `dry_count` pairs, x increasing; borrowed during the call.
   const double *dry_x;        // [m]
   const double *dry_pressure; // [Pa]
@@ -103,7 +109,7 @@ typedef struct {
 typedef struct {
   SbFilmModel model;
   double film_min;          // [m]
-  double film_central;      // film at x = 0 [m]
+  double film_central;      // film at x = 0, or in the middle of a fitted body's contact [m]
   double film_flux;         // flow / (speed/2) [m]
   double flow;              // [m^2/s], signed as the speed
   double pressure_max;      // [Pa], gauge

@@ -53,13 +53,27 @@ static double interpolate(double z, const double *node, const double *value, int
   return value[count - 1];
 }
 
+// A fitted body's dry pressure over Hertz's.
+static double bowed(const SbLayers *l, double X) {
+  double sum = 1.0;
+  double u = 1.0; // U_k
+  double before = 0.0;
+  for (int k = 0; k < SB_COMPLIANCE_PRESSURES; k++) {
+    sum += l->bow[k] * u;
+    double next = 2.0 * X * u - before;
+    before = u;
+    u = next;
+  }
+  return sum;
+}
+
 // Slope factors of the dry pressure at the inlet and outlet edges.
 static double inlet_slope(const SbLayers *l) {
-  return 1.0 - (l->inlet - l->outlet) / M_PI;
+  return bowed(l, -1.0) - (l->inlet - l->outlet) / M_PI;
 }
 
 static double outlet_slope(const SbLayers *l) {
-  return 1.0 + (l->inlet - l->outlet) / M_PI;
+  return bowed(l, 1.0) + (l->inlet - l->outlet) / M_PI;
 }
 
 // Starving thins the layers: film^2 slope / width^0.5 ~ lambda.
@@ -284,7 +298,8 @@ double sb_layers_dry_gap(const SbLayers *l, double X) {
     return 0.0;
   }
   double bend = (l->inlet - l->outlet) / M_PI * (a * acosh(a) - sqrt((a - 1.0) * (a + 1.0)));
-  return fmax(sb_film_dry_gap(X) + (X < 0.0 ? -bend : bend), 0.0);
+  double edge = bowed(l, X < 0.0 ? -1.0 : 1.0);
+  return fmax(edge * sb_film_dry_gap(X) + (X < 0.0 ? -bend : bend), 0.0);
 }
 
 // Pressure and film of the joined layers at X.
@@ -299,12 +314,12 @@ static void layer_shape(double *pressure, double *film, const SbLayers *l, doubl
     double p = z > 10.0     ? sqrt(2.0 * z)
                : z < -100.0 ? 0.53 / (z * z)
                             : interpolate(z, inlet_z, inlet_p, INLET_COUNT);
-    *pressure = ends + sqrt(in) * p * sqrt(0.5 * (1.0 - X));
+    *pressure = ends + sqrt(in) * p * sqrt(0.5 * (1.0 - X)) * bowed(l, inside);
     *film = sb_layers_dry_gap(l, X) + flux * interpolate(z, inlet_z, inlet_h, INLET_COUNT);
   } else {
     double z = (X - outlet_edge(l)) / out;
     double p = z < -10.0 ? sqrt(-2.0 * z) : interpolate(z, outlet_z, outlet_p, OUTLET_COUNT);
-    *pressure = ends + sqrt(out) * p * sqrt(0.5 * (1.0 + fmin(X, 1.0)));
+    *pressure = ends + sqrt(out) * p * sqrt(0.5 * (1.0 + fmin(X, 1.0))) * bowed(l, inside);
     *film = flux * interpolate(z, outlet_z, outlet_h, OUTLET_COUNT);
     if (z > 0.16406) {
       *film += sb_layers_dry_gap(l, X);
@@ -329,7 +344,8 @@ void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, co
                      SbHpTables *tables, const SbLayers *l) {
   bool thick = sb_layers_width(l) > THICK;
   *flux = thick ? 1.225748 * rigid_film(l) : sb_layers_flux(l);
-  *shift = thick ? tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l)) - rupture_guess(l) : 0.0;
+  *shift =
+      l->middle + (thick ? tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l)) - rupture_guess(l) : 0.0);
   for (int i = 0; i < mesh->count; i++) {
     const SbHpElement *e = &mesh->element[i];
     const SbHpTable *t = sb_hp_table(tables, e->degree);
@@ -346,7 +362,7 @@ void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, co
       double X = sb_hp_position(e, r);
       double pressure, film;
       if (thick) {
-        pressure = rigid_pressure(l, X + *shift) + (X < 0.0 ? l->inlet : l->outlet);
+        pressure = rigid_pressure(l, X + *shift - l->middle) + (X < 0.0 ? l->inlet : l->outlet);
       } else {
         layer_shape(&pressure, &film, l, *flux, X);
       }
@@ -362,7 +378,8 @@ void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, co
     double X = mesh->x[i];
     double pressure;
     if (thick) {
-      gap[i] = rigid_film(l) + 0.5 * (X + *shift) * (X + *shift);
+      double x = X + *shift - l->middle;
+      gap[i] = rigid_film(l) + 0.5 * x * x;
     } else {
       layer_shape(&pressure, &gap[i], l, *flux, X);
     }

@@ -2,6 +2,7 @@
 // to engine/film). Everything is scaled and in the flow frame: inlet left, X = x / b.
 #pragma once
 
+#include "engine/elastic/compliance.h"
 #include "engine/film/hp.h"
 
 // How the film ends.
@@ -21,6 +22,10 @@ typedef struct {
   SbLayersEnd end;
   int degree;
   int steps[2]; // elements between a layer and the middle, -1 to choose them
+  // Of a fitted body (scale.h), zero on a half-plane: middle of the contact, rest of its dry
+  // pressure.
+  double middle;
+  double bow[SB_COMPLIANCE_PRESSURES];
 } SbLayers;
 
 // Flux film (h where dp/dx = 0) of a flooded contact, scaled, to a few per cent.

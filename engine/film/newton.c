@@ -30,11 +30,13 @@ bool sb_reynolds_init(SbFilmSolver *solver) {
   solver->matrix = malloc(order * order * sizeof(double));
   solver->right = malloc(order * sizeof(double));
   solver->column = malloc(order * sizeof(double));
-  solver->gaps = malloc((order + SB_HP_ELEMENTS_MAX) * sizeof(double));
+  size_t targets = order + SB_HP_ELEMENTS_MAX;
+  solver->gaps = malloc(2 * targets * sizeof(double)); // and their derivatives to the shift
+  solver->kernel = malloc(targets * SB_HP_DOFS_MAX * sizeof(double));
   solver->pivot = malloc(order * sizeof(int));
   bool done = sb_hp_mesh_init(&solver->mesh[0]) && sb_hp_mesh_init(&solver->mesh[1]) &&
               solver->matrix != NULL && solver->right != NULL && solver->column != NULL &&
-              solver->gaps != NULL && solver->pivot != NULL;
+              solver->gaps != NULL && solver->kernel != NULL && solver->pivot != NULL;
   if (done) {
     // Touches the pages and LAPACK's own buffers once, so that no solve pays for them.
     enum { TRIAL = 64 };
@@ -60,17 +62,31 @@ void sb_reynolds_finish(SbFilmSolver *solver) {
   free(solver->right);
   free(solver->column);
   free(solver->gaps);
+  free(solver->kernel);
   free(solver->pivot);
 }
 
-// Gap from the pressure at all targets.
-static void elastic_gaps(double *out, const SbHpMesh *mesh, const SbReynoldsState *state) {
+// Gap from the pressure at all targets into solver->gaps, with its derivatives to the nodal
+// pressures (returned, borrowed) and to the shift behind the gaps.
+static const double *elastic_gaps(SbFilmSolver *solver, const SbHpMesh *mesh,
+                                  const SbReynoldsState *state, const SbReynoldsCase *problem) {
+  double *out = solver->gaps;
+  double *slope = out + mesh->targets;
+  if (problem->body.compliance != NULL) {
+    sb_reynolds_fitted(solver->kernel, out, slope, mesh, state, problem);
+    for (int i = 0; i < mesh->targets; i++) {
+      out[i] += state->H0;
+    }
+    return solver->kernel;
+  }
   for (int i = 0; i < mesh->targets; i++) {
     double x = mesh->x[i] + state->shift;
     out[i] = state->H0 + 0.5 * x * x + mesh->gap_known[i];
+    slope[i] = x;
   }
   cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->targets, mesh->dofs, 1.0, mesh->gap, mesh->dofs,
               state->nodal, 1, 1.0, out, 1);
+  return mesh->gap;
 }
 
 // Local pressure or its slope at row i.
@@ -152,12 +168,14 @@ static double larger(double largest, double value) {
 }
 
 // Residuals into `right` and, if `matrix` is given, the Jacobian without the free end's column.
-// Returns the largest scaled residual. A gap guess is linearised about when `independent`.
-static double assemble(double *right, double *matrix, const double *gaps, const SbHpMesh *mesh,
-                       const SbReynoldsState *state, const SbReynoldsCase *problem,
-                       const Layout *layout, bool independent) {
+// `gaps` and `kernel` are those of elastic_gaps. Returns the largest scaled residual. A gap guess
+// is linearised about when `independent`.
+static double assemble(double *right, double *matrix, const double *gaps, const double *kernel,
+                       const SbHpMesh *mesh, const SbReynoldsState *state,
+                       const SbReynoldsCase *problem, const Layout *layout, bool independent) {
   int dofs = mesh->dofs;
   size_t order = (size_t)layout->order;
+  const double *gap_slope = gaps + mesh->targets;
   double lambda = problem->layers.lambda;
   double largest = 0.0;
   if (matrix != NULL) {
@@ -183,7 +201,7 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
       continue;
     }
     double *row = matrix + (size_t)i * order;
-    const double *gap = mesh->gap + (size_t)i * (size_t)dofs;
+    const double *gap = kernel + (size_t)i * (size_t)dofs;
     for (int j = 0; j < dofs; j++) {
       row[j] = scale * by_film * gap[j];
     }
@@ -194,7 +212,7 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
     }
     row[dofs] = scale * by_film;
     if (layout->shift >= 0) {
-      row[layout->shift] = scale * by_film * (mesh->x[i] + state->shift);
+      row[layout->shift] = scale * by_film * gap_slope[i];
     }
     if (layout->flux >= 0) {
       row[layout->flux] = scale;
@@ -215,10 +233,10 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
       matrix[(size_t)next * order + (size_t)node] = 1.0;
       double *row = matrix + (size_t)(next + 1) * order;
       for (int j = 0; j < dofs; j++) {
-        row[j] = scale * mesh->gap[(size_t)target * (size_t)dofs + (size_t)j];
+        row[j] = scale * kernel[(size_t)target * (size_t)dofs + (size_t)j];
       }
       row[dofs] = scale;
-      row[layout->shift] = scale * (mesh->x[target] + state->shift);
+      row[layout->shift] = scale * gap_slope[target];
       if (layout->flux >= 0) {
         row[layout->flux] = -scale;
       }
@@ -282,8 +300,8 @@ static bool difference_column(SbFilmSolver *solver, int which, SbReynoldsCase *p
   if (!move_free_end(solver, which, problem, place + step)) {
     return false;
   }
-  elastic_gaps(solver->gaps, mesh, state);
-  assemble(solver->column, NULL, solver->gaps, mesh, state, problem, layout, false);
+  const double *kernel = elastic_gaps(solver, mesh, state, problem);
+  assemble(solver->column, NULL, solver->gaps, kernel, mesh, state, problem, layout, false);
   if (!move_free_end(solver, which, problem, place)) {
     return false;
   }
@@ -315,8 +333,9 @@ SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int wh
       return SB_ERROR_CANCELLED;
     }
     bool first = independent && iteration == 0;
-    elastic_gaps(solver->gaps, mesh, state);
-    trace->residual = assemble(right, matrix, solver->gaps, mesh, state, problem, &layout, first);
+    const double *kernel = elastic_gaps(solver, mesh, state, problem);
+    trace->residual =
+        assemble(right, matrix, solver->gaps, kernel, mesh, state, problem, &layout, first);
     if (!isfinite(trace->residual)) {
       return SB_ERROR_NOT_CONVERGED;
     }
@@ -369,7 +388,7 @@ SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int wh
           return SB_ERROR_NOT_CONVERGED;
         }
       }
-      elastic_gaps(solver->gaps, mesh, state);
+      elastic_gaps(solver, mesh, state, problem);
       for (int i = 0; !first && !thin && i < mesh->rows; i++) {
         thin = solver->gaps[i] < 0.1 * state->gap[i];
       }

@@ -185,7 +185,8 @@ SbStatus sb_reynolds_follow(SbFilmSolver *solver, int *which, const SbReynoldsCa
                             const SbReynoldsCase *c, double tolerance, SbFilmSolverInfo *info,
                             const SbFilmProblem *problem) {
   // Far from the old case a cold start is as good.
-  if (has_free_end(old) || has_free_end(c) || old->layers.end != c->layers.end ||
+  if (old->body.compliance != NULL || c->body.compliance != NULL || has_free_end(old) ||
+      has_free_end(c) || old->layers.end != c->layers.end ||
       fabs(log(c->layers.lambda / old->layers.lambda)) > 1.5 ||
       fabs(c->layers.inlet - old->layers.inlet) > 0.2 ||
       fabs(c->layers.outlet - old->layers.outlet) > 0.2) {

@@ -207,9 +207,10 @@ void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
   memset(out, 0, sizeof *out);
   out->film_flux = state->flux;
 
-  // Film at the axis.
-  int axis = find_element(mesh, -state->shift);
-  double at_axis = sb_reynolds_coordinate(&mesh->element[axis], -state->shift);
+  // Film at the axis, or in the middle of a fitted body's dry contact.
+  double middle = problem->layers.middle - state->shift;
+  int axis = find_element(mesh, middle);
+  double at_axis = sb_reynolds_coordinate(&mesh->element[axis], middle);
   out->film_central = sb_hp_gap(mesh, &solver->tables, axis, state->gap, at_axis);
   if (sb_layers_width(&problem->layers) < 0.3) {
     // Flat films there hang on small differences of large deflections between the collocation
@@ -277,7 +278,7 @@ void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
   }
 
   // End of the film: the rupture, or the end of the contact.
-  out->position_rupture = 1.0;
+  out->position_rupture = 1.0 + problem->layers.middle;
   if (problem->layers.end != SB_LAYERS_FULL) {
     int last = mesh->count - 1;
     for (int i = 1; i < mesh->count; i++) {

@@ -72,7 +72,12 @@ static SbReynoldsCase scaled_case(const SbFilmProblem *problem, const SbFilmScal
   SbReynoldsCase c = {
       .rupture = problem->rupture_pressure / scale->pressure,
       .barus = problem->pressure_viscosity * scale->pressure,
+      .body = {.compliance = problem->compliance,
+               .side = problem->speed >= 0.0 ? 1.0 : -1.0,
+               .half_width = scale->half_width,
+               .film = scale->film},
       .layers = {.lambda = scale->lambda,
+                 .middle = scale->middle,
                  .inlet = scale->inlet,
                  .outlet = outlet,
                  .starvation = 1.0,
@@ -81,6 +86,7 @@ static SbReynoldsCase scaled_case(const SbFilmProblem *problem, const SbFilmScal
                  .degree = level_degree[0],
                  .steps = {-1, -1}},
   };
+  memcpy(c.layers.bow, scale->bow, sizeof c.layers.bow);
   if (problem->eyring_stress > 0.0) {
     c.eyring = problem->viscosity * fabs(problem->speed) / (problem->eyring_stress * scale->film);
   }
@@ -180,7 +186,7 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
             "the outlet's pressure is below the rupture pressure: it is taken to stay at that "
             "pressure behind the contact");
   }
-  if (scale->half_width > problem->radius) {
+  if (problem->compliance == NULL && scale->half_width > problem->radius) {
     out->valid = false;
     sb_warn(&out->warnings, "film-contact-wide", "seal.modulus",
             "the contact's half-width is %.2g of the radius: no parabola on a half-plane",

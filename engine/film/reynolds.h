@@ -13,8 +13,16 @@ typedef struct {
   double H0, shift, flux;
 } SbReynoldsState;
 
+// A fitted body in place of the half-plane, in SI with the scales that make it one.
+typedef struct {
+  const SbSurfaceCompliance *compliance; // NULL: none
+  double side;                           // seal's x over the flow frame's, 1 or -1
+  double half_width, film;               // scales b and of the film
+} SbReynoldsBody;
+
 // The scaled problem in the flow frame.
 typedef struct {
+  SbReynoldsBody body;
   SbLayers layers;
   bool hold;      // a free end stays where it is
   double rupture; // rupture pressure: all pressures of the solver are above it
@@ -47,6 +55,7 @@ struct SbFilmSolver {
   double *right;
   double *column; // derivative to the free end
   double *gaps;   // at all targets
+  double *kernel; // [targets][dofs] of a fitted body: the half-plane's and the smooth part
   int *pivot;
   struct SbMixedSolver *mixed; // film with asperities, NULL until one is asked for (mixed.h)
 
@@ -69,6 +78,12 @@ void sb_reynolds_finish(SbFilmSolver *solver);
 SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int which,
                             SbReynoldsCase *problem, bool independent, double tolerance,
                             const SbFilmProblem *callback);
+
+// Kernel of a fitted body with the axis at the state's shift, into `kernel` ([targets][dofs]), and
+// the gap that it gives at all targets: the undeformed one and the deflection by the state's
+// pressure, without H0. `slope` takes the derivatives to the shift.
+void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpMesh *mesh,
+                        const SbReynoldsState *state, const SbReynoldsCase *problem);
 
 // Carries a solution from mesh/state `from` to `to`, which has the same elements in other degrees.
 void sb_reynolds_carry(SbFilmSolver *solver, int from, int to);

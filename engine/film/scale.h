@@ -16,10 +16,24 @@ typedef struct {
   double inlet;      // scaled gauge pressure at the inlet
   double outlet;     // scaled gauge pressure at the outlet
   double kappa; // slope factor of the dry pressure at the inlet edge, 1 - (inlet - outlet) / pi
+  double kappa_outlet; // and at the outlet edge, 1 + (inlet - outlet) / pi
+  // A fitted body's contact: its middle over b in the flow frame, and the rest of its dry pressure
+  // over Hertz's, p_dry = ends + sqrt(1 - X^2) (1 + sum bow[k] U_k(X)). All zero on a half-plane.
+  double middle;
+  double bow[SB_COMPLIANCE_PRESSURES];
 } SbFilmScale;
 
 // Scales of `problem`, which must have been checked.
 SbFilmScale sb_film_scale(const SbFilmProblem *problem);
+
+// Solves the dry contact of `problem->compliance` and gives the scales its half-width, middle and
+// edge slopes: b is half its width, p_H = 2 w/(pi b), film 4 p_H b/E'. SB_ERROR_INPUT if the moduli
+// differ, and what sb_dry_contact returns.
+SbStatus sb_film_scale_fitted(SbFilmScale *scale, SbDryContact *dry, const SbFilmProblem *problem,
+                              SbReport *report);
+
+// Dry contact at rest of a fitted body.
+void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryContact *dry);
 
 // Scaled dry pressure in the flow frame (inlet at X = -1), with end pressures: Hertz's plus the
 // transition of the end pressures with the tilt removed so that the contact stays |X| < 1.

@@ -1,0 +1,175 @@
+// Film on a fitted body: scales of its dry contact, and its kernel on the solver's mesh.
+//
+// The body's gap and smooth compliance (elastic/compliance.h) are polynomials in the seal's x, the
+// film's mesh stands in the flow frame with the axis at the shift c: x = side b (X + c). The smooth
+// part acts through as many moments of the pressure as it has polynomials, so that it costs two
+// thin products; b and p_H are those of a Hertz contact of the dry contact's width and load, so
+// that the layers sit at its edges.
+#include "engine/film/reynolds.h"
+
+#include <cblas.h>
+#include <math.h>
+#include <string.h>
+
+SbStatus sb_film_scale_fitted(SbFilmScale *scale, SbDryContact *dry, const SbFilmProblem *problem,
+                              SbReport *report) {
+  const SbSurfaceCompliance *c = problem->compliance;
+  if (!(fabs(c->modulus / problem->modulus - 1.0) < 1e-6)) {
+    return sb_fail(report, SB_ERROR_INPUT,
+                   "film: reduced modulus %g Pa, but the fitted surface has %g Pa",
+                   problem->modulus, c->modulus);
+  }
+  SbStatus status = sb_dry_contact(dry, c, problem->load, problem->pressure_left,
+                                   problem->pressure_right, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  const bool forward = problem->speed >= 0.0;
+  const double half = 0.5 * (dry->right - dry->left);
+  const double old = scale->pressure;
+  scale->half_width = half;
+  scale->pressure = 2.0 * problem->load / (M_PI * half);
+  scale->film = 4.0 * scale->pressure * half / problem->modulus;
+  scale->lambda = 6.0 * problem->viscosity * fabs(problem->speed) * half /
+                  (scale->film * scale->film * scale->pressure);
+  scale->inlet *= old / scale->pressure;
+  scale->outlet *= old / scale->pressure;
+  scale->middle = (forward ? 0.5 : -0.5) * (dry->left + dry->right) / half;
+  memset(scale->bow, 0, sizeof scale->bow);
+  for (int k = 0; k < dry->count; k++) {
+    scale->bow[k] = (forward || k % 2 == 0 ? 1.0 : -1.0) * dry->a[k] / scale->pressure;
+  }
+  scale->bow[0] -= 1.0;
+  scale->kappa = (forward ? dry->edge_left : dry->edge_right) / scale->pressure;
+  scale->kappa_outlet = (forward ? dry->edge_right : dry->edge_left) / scale->pressure;
+  return SB_OK;
+}
+
+void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryContact *dry) {
+  enum { POINTS = 801 };
+  const SbSurfaceCompliance *c = problem->compliance;
+  const double half = 0.5 * (dry->right - dry->left);
+  const double from = fmax(c->left, dry->left - half);
+  const double to = fmin(c->right, dry->right + half);
+  out->pressure_max = dry->peak;
+  out->position_rupture = dry->right;
+  out->points = POINTS;
+  for (int i = 0; i < POINTS; i++) {
+    out->x[i] = from + (to - from) * i / (POINTS - 1);
+    out->pressure[i] = sb_dry_contact_pressure(dry, out->x[i]);
+    out->film[i] = sb_dry_contact_gap(dry, c, out->x[i]);
+  }
+  out->solver.converged = true;
+  out->solver.residual = dry->residual;
+}
+
+enum { MODES = SB_COMPLIANCE_MODES, TARGETS_MAX = SB_HP_DOFS_MAX + SB_HP_ELEMENTS_MAX + 4 };
+
+// Moments of every nodal basis, and of the state's pressure with its derivative to the shift.
+typedef struct {
+  double basis[MODES][SB_HP_DOFS_MAX];
+  double state[MODES];
+  double state_slope[MODES];
+} Moments;
+
+static void add_element(Moments *out, const SbHpElement *e, const SbReynoldsState *state,
+                        const SbReynoldsBody *body) {
+  const double unit = body->side * body->half_width;
+  for (int q = 0; q < SB_HP_QUAD; q++) {
+    const double at = e->fine_x[q];
+    const double X = e->map == SB_HP_INLET    ? e->A - e->B / (at * at)
+                     : e->map == SB_HP_OUTLET ? e->A + e->B / (at * at)
+                                              : at;
+    double value[MODES];
+    double slope[MODES];
+    sb_compliance_modes(body->compliance, unit * (X + state->shift), value, slope);
+    double pressure = e->fine_wb[q][e->degree + 1];
+    for (int j = 0; j <= e->degree; j++) {
+      pressure += e->fine_wb[q][j] * state->nodal[e->first_dof + j];
+    }
+    for (int k = 0; k < body->compliance->modes; k++) {
+      for (int j = 0; j <= e->degree; j++) {
+        out->basis[k][e->first_dof + j] += e->fine_wb[q][j] * value[k];
+      }
+      out->state[k] += pressure * value[k];
+      out->state_slope[k] += pressure * slope[k] * unit;
+    }
+  }
+}
+
+// The ambient pressures up to the ends of the mesh, less the lower one everywhere.
+static void add_ambient(Moments *out, const SbHpMesh *mesh, const SbReynoldsState *state,
+                        const SbReynoldsBody *body) {
+  const SbSurfaceCompliance *c = body->compliance;
+  const double unit = body->side * body->half_width;
+  const double low = fmin(mesh->inlet_pressure, mesh->outlet_pressure);
+  const double left = unit * (mesh->left_end + state->shift);
+  const double right = unit * (mesh->right_end + state->shift);
+  double before[MODES], after[MODES], whole[MODES];
+  sb_compliance_integrals(c, unit > 0.0 ? c->left : left, unit > 0.0 ? left : c->right, before);
+  sb_compliance_integrals(c, unit > 0.0 ? right : c->left, unit > 0.0 ? c->right : right, after);
+  sb_compliance_integrals(c, c->left, c->right, whole);
+  double at_left[MODES], at_right[MODES];
+  sb_compliance_modes(c, left, at_left, NULL);
+  sb_compliance_modes(c, right, at_right, NULL);
+  for (int k = 0; k < c->modes; k++) {
+    out->state[k] +=
+        (mesh->inlet_pressure * before[k] + mesh->outlet_pressure * after[k] - low * whole[k]) /
+        body->half_width;
+    out->state_slope[k] += mesh->inlet_pressure * at_left[k] - mesh->outlet_pressure * at_right[k];
+  }
+}
+
+void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpMesh *mesh,
+                        const SbReynoldsState *state, const SbReynoldsCase *problem) {
+  const SbReynoldsBody *body = &problem->body;
+  const SbSurfaceCompliance *c = body->compliance;
+  const double unit = body->side * body->half_width;
+  const int modes = c->modes;
+  // p_H b over the film's scale.
+  const double factor = 0.25 * c->modulus;
+  Moments m;
+  memset(&m, 0, sizeof m);
+  for (int i = 0; i < mesh->count; i++) {
+    add_element(&m, &mesh->element[i], state, body);
+  }
+  add_ambient(&m, mesh, state, body);
+
+  // S times the moments: of the basis, of the pressure, of its derivative.
+  double basis[MODES][SB_HP_DOFS_MAX];
+  double of_state[MODES] = {0};
+  double of_slope[MODES] = {0};
+  cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes, mesh->dofs, modes, factor,
+              &c->smooth[0][0], MODES, &m.basis[0][0], SB_HP_DOFS_MAX, 0.0, &basis[0][0],
+              SB_HP_DOFS_MAX);
+  for (int k = 0; k < modes; k++) {
+    for (int l = 0; l < modes; l++) {
+      of_state[k] += factor * c->smooth[k][l] * m.state[l];
+      of_slope[k] += factor * c->smooth[k][l] * m.state_slope[l];
+    }
+  }
+
+  // The tilt of unequal ambient pressures belongs to the window, the mesh gave it to |X| < 1.
+  const double window = 0.5 * (c->right - c->left) / body->half_width;
+  const double tilt = -(mesh->inlet_pressure - mesh->outlet_pressure) / M_PI * log(window);
+  double value[TARGETS_MAX][MODES];
+  for (int i = 0; i < mesh->targets; i++) {
+    double derivative[MODES];
+    const double x = unit * (mesh->x[i] + state->shift);
+    sb_compliance_modes(c, x, value[i], derivative);
+    double gap_slope;
+    double sum = sb_compliance_gap(c, x, &gap_slope) / body->film;
+    double sum_slope = gap_slope / body->film * unit;
+    for (int k = 0; k < modes; k++) {
+      sum += value[i][k] * of_state[k];
+      sum_slope += derivative[k] * unit * of_state[k] + value[i][k] * of_slope[k];
+    }
+    gaps[i] = sum + mesh->gap_known[i] + tilt * mesh->x[i];
+    slope[i] = sum_slope;
+  }
+  cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->targets, mesh->dofs, 1.0, mesh->gap, mesh->dofs,
+              state->nodal, 1, 1.0, gaps, 1);
+  memcpy(kernel, mesh->gap, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *kernel);
+  cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, mesh->targets, mesh->dofs, modes, 1.0,
+              &value[0][0], MODES, &basis[0][0], SB_HP_DOFS_MAX, 1.0, kernel, mesh->dofs);
+}
