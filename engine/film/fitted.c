@@ -135,14 +135,16 @@ void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpM
   }
   add_ambient(&m, mesh, state, body);
 
-  // S times the moments: of the basis, of the pressure, of its derivative.
+  // S times the moments, without the constant that H0 takes up anyway: it would only cost digits of
+  // thin films. Of the basis, of the pressure, of its derivative.
   double basis[MODES][SB_HP_DOFS_MAX];
   double of_state[MODES] = {0};
   double of_slope[MODES] = {0};
-  cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes, mesh->dofs, modes, factor,
-              &c->smooth[0][0], MODES, &m.basis[0][0], SB_HP_DOFS_MAX, 0.0, &basis[0][0],
+  memset(basis[0], 0, sizeof basis[0]);
+  cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, mesh->dofs, modes, factor,
+              &c->smooth[1][0], MODES, &m.basis[0][0], SB_HP_DOFS_MAX, 0.0, &basis[1][0],
               SB_HP_DOFS_MAX);
-  for (int k = 0; k < modes; k++) {
+  for (int k = 1; k < modes; k++) {
     for (int l = 0; l < modes; l++) {
       of_state[k] += factor * c->smooth[k][l] * m.state[l];
       of_slope[k] += factor * c->smooth[k][l] * m.state_slope[l];

@@ -61,11 +61,12 @@ static SbStatus solve_steady(SbFilm *steady, SbFilmTransient *t, SbTransientStat
     s->void_[i] = 0.0;
     s->P[i] = (X < 0.0 ? t->inlet : t->outlet);
     s->H[i] = flux + sb_film_dry_gap(X);
-    if (sample(&film, &pressure, steady, X * t->scale.half_width)) {
+    const double x = (s->middle + s->half * X) * t->scale.half_width;
+    if (sample(&film, &pressure, steady, x)) {
       s->P[i] = fmax((pressure - rupture) / t->scale.pressure, 0.0);
       s->H[i] = film / t->scale.film;
     }
-    const bool beyond = (X - steady->position_rupture / t->scale.half_width) * end > 0.0;
+    const bool beyond = (x - steady->position_rupture) * end > 0.0;
     if (steady->ruptured && beyond && i > 0 && i + 1 < t->nodes && s->P[i] <= 0.0) {
       s->cavity[i] = true;
       s->P[i] = 0.0;
@@ -136,11 +137,13 @@ static bool allocate(SbFilmTransient *t) {
   const size_t n = SB_TRANSIENT_NODES_MAX;
   t->kernel = malloc(n * n * sizeof(double));
   t->known = malloc(n * sizeof(double));
+  t->present = malloc(n * n * sizeof(double));
+  t->present_known = malloc(n * sizeof(double));
   t->matrix = malloc(n * n * sizeof(double));
   t->right = malloc(n * sizeof(double));
   t->pivot = malloc(n * sizeof(int));
-  return t->kernel != NULL && t->known != NULL && t->matrix != NULL && t->right != NULL &&
-         t->pivot != NULL;
+  return t->kernel != NULL && t->known != NULL && t->present != NULL && t->present_known != NULL &&
+         t->matrix != NULL && t->right != NULL && t->pivot != NULL;
 }
 
 static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
@@ -181,6 +184,10 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
     return sb_fail(report, SB_ERROR_MEMORY, "transient film: out of memory");
   }
   t->problem = *problem;
+  if (problem->film.compliance != NULL) {
+    t->compliance = *problem->film.compliance;
+    t->problem.film.compliance = &t->compliance;
+  }
   SbFilmProblem largest = problem->film;
   largest.speed = sign * problem->speed_scale;
   status = sb_film_solve(steady, &largest, NULL, report);
@@ -190,6 +197,12 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
   }
   if (status == SB_OK) {
     t->scale = sb_film_scale(&largest);
+    SbDryContact dry;
+    if (problem->film.compliance != NULL) {
+      status = sb_film_scale_fitted(&t->scale, &dry, &largest, report);
+    }
+  }
+  if (status == SB_OK) {
     const double rupture = problem->film.rupture_pressure;
     t->inlet = (problem->film.pressure_left - rupture) / t->scale.pressure;
     t->outlet = (problem->film.pressure_right - rupture) / t->scale.pressure;
@@ -198,6 +211,7 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
     t->flow = 0.5 * problem->speed_scale / t->scale.half_width * steady->film_flux / t->scale.film;
     t->now.load = 0.5 * M_PI;
     t->now.half = 1.0;
+    t->now.middle = sign * t->scale.middle;
     sb_transient_mesh(t, problem->rest_film / t->scale.film);
     status = solve_steady(steady, t, &t->now, largest.speed, report);
   }
@@ -236,6 +250,8 @@ void sb_film_transient_destroy(SbFilmTransient *t) {
   if (t != NULL) {
     free(t->kernel);
     free(t->known);
+    free(t->present);
+    free(t->present_known);
     free(t->matrix);
     free(t->right);
     free(t->pivot);
@@ -457,7 +473,7 @@ void sb_film_transient_result(SbFilm *out, const SbFilmTransient *t) {
   double place;
   out->film_min = least_film(&place, t, s) * t->scale.film;
   out->position_film_min = (s->middle + s->half * place) * unit;
-  const double axis = -s->middle / s->half;
+  const double axis = t->compliance.modes > 0 ? 0.0 : -s->middle / s->half;
   out->film_central = film_at(t, s, axis) * t->scale.film;
   int at_axis = 1;
   int highest = 0;

@@ -45,8 +45,12 @@ struct SbFilmTransient {
   double diffusion;                           // kappa = film^2 p_H / (12 eta b^2) [1/s]
   double flow;                                // scale of v m
   double inlet, outlet;                       // left and right ambient pressure above the rupture's
-  double *kernel;                             // [nodes][nodes]
-  double *known;                              // [nodes] ambient pressures to infinity
+  double *kernel;                             // [nodes][nodes] of the half-plane at half = 1
+  double *present;       // [nodes][nodes] kernel at present_half, present_middle
+  double *present_known; // [nodes] undeformed gap and known pressures there
+  double present_half, present_middle;
+  SbSurfaceCompliance compliance; // modes = 0: half-plane and parabola
+  double *known;                  // [nodes] ambient pressures to infinity
   double *matrix;
   double *right;
   int *pivot;
@@ -74,6 +78,9 @@ double sb_transient_height(const SbTransientState *s, int i);
 
 // Elastic gap of the state's pressure at all nodes.
 void sb_transient_gap(double *out, const SbFilmTransient *t, const SbTransientState *s);
+
+// Brings `present` to a place of the contact.
+void sb_transient_present(SbFilmTransient *t, double half, double middle);
 
 // Places the contact of a load: half-width and middle over b.
 SbStatus sb_transient_place(double *half, double *middle, const SbFilmTransient *t, double load,

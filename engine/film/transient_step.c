@@ -1,4 +1,4 @@
-// Mesh, kernel and the implicit step of the transient film; equations in transient.h.
+// The implicit step of the transient film; equations in transient.h.
 //
 // Node values stand for cells between the midpoints. Fluid goes through a face by quadratic
 // upwind interpolation in the layers, which are resolved, and with van Albada's limited slope
@@ -11,166 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "engine/film/layers.h"
-#include "engine/numeric/legendre.h"
-
-// ---------------------------------------------------------------- mesh
-
-// f'' = ln|y|.
-static double second_integral(double y) {
-  return y == 0.0 ? 0.0 : 0.5 * y * y * (log(fabs(y)) - 1.5);
-}
-
-static double first_integral(double y) {
-  return y == 0.0 ? 0.0 : y * (log(fabs(y)) - 1.0);
-}
-
-// Integral of the straight line from 1 at `top` to 0 at `foot`, times ln|X - s|.
-static double half_hat(double X, double top, double foot, const double *node, const double *weight,
-                       int points) {
-  const double h = fabs(foot - top);
-  const double middle = 0.5 * (foot + top);
-  if (fabs(X - middle) > 4.0 * h) {
-    double sum = 0.0;
-    for (int q = 0; q < points; q++) {
-      sum += weight[q] * 0.5 * (1.0 - node[q]) *
-             log(fabs(X - (middle + 0.5 * (foot - top) * node[q])));
-    }
-    return 0.5 * h * sum;
-  }
-  const double side = foot > top ? 1.0 : -1.0;
-  return side * first_integral(X - top) +
-         (second_integral(X - foot) - second_integral(X - top)) / h;
-}
-
-static double third_integral(double y) {
-  return y == 0.0 ? 0.0 : y * y * y / 6.0 * (log(fabs(y)) - 11.0 / 6.0);
-}
-
-// Integral of the parabola (s - a)(b - s)/2 times ln|X - s|.
-static double bubble(double X, double a, double b, const double *node, const double *weight,
-                     int points) {
-  const double h = b - a;
-  const double middle = 0.5 * (a + b);
-  if (fabs(X - middle) > 4.0 * h) {
-    double sum = 0.0;
-    for (int q = 0; q < points; q++) {
-      sum += weight[q] * (1.0 - node[q] * node[q]) * log(fabs(X - middle - 0.5 * h * node[q]));
-    }
-    return h * h * h / 16.0 * sum;
-  }
-  return 0.5 * h * (second_integral(X - a) + second_integral(X - b)) - third_integral(X - a) +
-         third_integral(X - b);
-}
-
-// Second difference of the pressure at node j: factors of j - 1, j, j + 1.
-static void second_difference(double out[3], const SbFilmTransient *t, int j) {
-  const double left = t->X[j] - t->X[j - 1];
-  const double right = t->X[j + 1] - t->X[j];
-  out[0] = 2.0 / (left * (left + right));
-  out[2] = 2.0 / (right * (left + right));
-  out[1] = -out[0] - out[2];
-}
-
-static void build_kernel(SbFilmTransient *t) {
-  enum { POINTS = 6 };
-  double node[POINTS];
-  double weight[POINTS];
-  sb_legendre_gauss(node, weight, POINTS);
-  const int n = t->nodes;
-  for (int i = 0; i < n; i++) {
-    double *row = t->kernel + (size_t)i * (size_t)n;
-    memset(row, 0, (size_t)n * sizeof *row);
-    for (int j = 0; j + 1 < n; j++) {
-      row[j] -= half_hat(t->X[i], t->X[j], t->X[j + 1], node, weight, POINTS) / M_PI;
-      row[j + 1] -= half_hat(t->X[i], t->X[j + 1], t->X[j], node, weight, POINTS) / M_PI;
-      // The bend between the nodes: p = line - p'' (s - a)(b - s)/2, p'' the ends' mean.
-      const double bend = bubble(t->X[i], t->X[j], t->X[j + 1], node, weight, POINTS) / M_PI;
-      for (int k = j; k <= j + 1; k++) {
-        if (k > 0 && k + 1 < n) {
-          double d[3];
-          second_difference(d, t, k);
-          for (int m = 0; m < 3; m++) {
-            row[k - 1 + m] += 0.5 * bend * d[m];
-          }
-        }
-      }
-    }
-    t->known[i] = t->inlet / M_PI * first_integral(t->X[i] - t->X[0]) -
-                  t->outlet / M_PI * first_integral(t->X[i] - t->X[n - 1]) +
-                  (t->inlet - t->outlet) / M_PI * log(2.0) * t->X[i];
-  }
-}
-
-// Half of the mesh from the middle outward, mirrored: spacing a share of the distance to the edge.
-void sb_transient_mesh(SbFilmTransient *t, double rest) {
-  const SbLayers layers = {.lambda = t->scale.lambda, .starvation = 1.0};
-  const double width = fmin(sb_layers_width(&layers), 2.0);
-  const double fine = cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
-  const double share = 0.15 * fine;
-  const double finest = 0.5 * width;
-  const double reach = fmax(fmax(4.0, 60.0 * width), 6.0 * sqrt(2.0 * rest));
-  double X[SB_TRANSIENT_NODES_MAX / 2];
-  int n = 0;
-  X[n++] = 0.0;
-  while (X[n - 1] < 1.0 + reach && n < SB_TRANSIENT_NODES_MAX / 2 - 1) {
-    double step = 0.0;
-    for (int pass = 0; pass < 3; pass++) {
-      const double at = X[n - 1] + 0.5 * step;
-      const double d = hypot(finest, at - 1.0);
-      step = share * d / (at < 1.0 ? hypot(1.0, share * d / (0.03 * fine)) : 1.0);
-    }
-    X[n] = X[n - 1] + step;
-    n++;
-  }
-  t->nodes = 2 * n - 1;
-  t->layer = width;
-  for (int i = 0; i < n; i++) {
-    t->X[n - 1 + i] = X[i];
-    t->X[n - 1 - i] = -X[i];
-  }
-  for (int i = 0; i < t->nodes; i++) {
-    const double left = i > 0 ? t->X[i] - t->X[i - 1] : 0.0;
-    const double right = i + 1 < t->nodes ? t->X[i + 1] - t->X[i] : 0.0;
-    t->volume[i] = t->weight[i] = 0.5 * (left + right);
-    t->limited[i] = right > width && fabs(t->X[i]) < 1.0;
-  }
-  for (int j = 0; j + 1 < t->nodes; j++) {
-    const double h = t->X[j + 1] - t->X[j];
-    for (int k = j; k <= j + 1; k++) {
-      if (k > 0 && k + 1 < t->nodes) {
-        double d[3];
-        second_difference(d, t, k);
-        for (int m = 0; m < 3; m++) {
-          t->weight[k - 1 + m] -= 0.5 * h * h * h / 12.0 * d[m];
-        }
-      }
-    }
-  }
-  build_kernel(t);
-}
-
-// ---------------------------------------------------------------- equations
-
 double sb_transient_height(const SbTransientState *s, int i) {
   return s->H[i] - s->void_[i];
-}
-
-void sb_transient_gap(double *out, const SbFilmTransient *t, const SbTransientState *s) {
-  for (int i = 0; i < t->nodes; i++) {
-    const double x = s->middle + s->half * t->X[i];
-    out[i] = s->H0 + 0.5 * x * x + s->half * t->known[i];
-  }
-  cblas_dgemv(CblasRowMajor, CblasNoTrans, t->nodes, t->nodes, s->half, t->kernel, t->nodes, s->P,
-              1, 1.0, out, 1);
-}
-
-SbStatus sb_transient_place(double *half, double *middle, const SbFilmTransient *t, double load,
-                            SbReport *report) {
-  (void)t;
-  *half = sqrt(load / (0.5 * M_PI));
-  *middle = 0.0;
-  return sb_succeed(report);
 }
 
 // Fluid height at the face between i and i + 1 for a transport to the side of `velocity`; the
@@ -364,7 +206,7 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const SbTran
       by_H0 += by_gap;
       scale = fmax(scale, fmax(fabs(by_gap), fabs(row.by_P[k])));
       if (whole && by_gap != 0.0) {
-        cblas_daxpy(n - 2, s->half * by_gap, t->kernel + (size_t)j * (size_t)n + 1, 1, out, 1);
+        cblas_daxpy(n - 2, by_gap, t->present + (size_t)j * (size_t)n + 1, 1, out, 1);
       }
     }
     if (!whole) {
@@ -449,6 +291,7 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
   const int n = t->nodes;
   const int order = n - 1;
   double elastic[SB_TRANSIENT_NODES_MAX];
+  sb_transient_present(t, s->half, s->middle);
   *trace = (SbTransientTrace){.mass_error = INFINITY, .load_error = INFINITY};
   s->P[0] = t->inlet;
   s->P[n - 1] = t->outlet;
@@ -503,8 +346,7 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
     for (int i = 1; i + 1 < n; i++) {
       change[i] = s->cavity[i] ? 0.0 : -t->right[i - 1];
     }
-    cblas_dgemv(CblasRowMajor, CblasNoTrans, n, n, s->half, t->kernel, n, change, 1, 1.0, wanted,
-                1);
+    cblas_dgemv(CblasRowMajor, CblasNoTrans, n, n, 1.0, t->present, n, change, 1, 1.0, wanted, 1);
     double factor = 1.0;
     for (int i = 0; i < n; i++) {
       wanted[i] -= t->right[order - 1];
@@ -550,6 +392,8 @@ SbStatus sb_transient_rest(SbFilmTransient *t, SbTransientState *s, double rest)
   enum { ITERATIONS_MAX = 30 };
   const int n = t->nodes;
   const size_t order = (size_t)n - 1;
+  sb_transient_present(t, s->half, s->middle);
+  t->factored = false;
   for (int i = 0; i < n; i++) {
     s->cavity[i] = fabs(t->X[i]) >= 1.0; // here: apart
     s->P[i] = i == 0 ? t->inlet : i == n - 1 ? t->outlet : t->X[i] < 0.0 ? t->inlet : t->outlet;
@@ -566,7 +410,7 @@ SbStatus sb_transient_rest(SbFilmTransient *t, SbTransientState *s, double rest)
         s->P[i] = t->X[i] < 0.0 ? t->inlet : t->outlet;
         continue;
       }
-      cblas_daxpy(n - 2, s->half, t->kernel + (size_t)i * (size_t)n + 1, 1, out, 1);
+      cblas_daxpy(n - 2, 1.0, t->present + (size_t)i * (size_t)n + 1, 1, out, 1);
       out[order - 1] = 1.0;
     }
     sb_transient_gap(s->H, t, s);

@@ -1,0 +1,200 @@
+// Film on a fitted body: the half-plane as a special case, the disc's compliance against another
+// discretisation of the same equations, symmetry, the limit of thin films.
+#include <glib.h>
+#include <math.h>
+
+#include "engine/elastic/compliance.h"
+#include "engine/elastic/disc.h"
+#include "engine/film/transient.h"
+
+static const double RADIUS = 0.75e-3, YOUNG = 2.5e6, NU = 0.49;
+
+static SbFilmProblem seal(double M, double load) {
+  SbFilmProblem p;
+  sb_film_problem_init(&p);
+  p.radius = RADIUS;
+  p.modulus = 2.0 * YOUNG / (1.0 - NU * NU);
+  p.viscosity = 0.211e-3;
+  p.load = load;
+  const double ER = p.modulus * p.radius;
+  p.speed = load * load / (ER * M * M) / p.viscosity;
+  if (p.speed > 100.0) {
+    p.viscosity *= p.speed / 100.0;
+    p.speed = 100.0;
+  }
+  return p;
+}
+
+static SbSurfaceCompliance disc_surface(void) {
+  SbSurfaceCompliance c;
+  g_assert_cmpint(sb_compliance_disc(&c, RADIUS, YOUNG, NU, 0.75 * RADIUS, NULL), ==, SB_OK);
+  return c;
+}
+
+static void solve(SbFilm *out, const SbFilmProblem *p) {
+  SbReport report = {0};
+  SbStatus status = sb_film_solve(out, p, NULL, &report);
+  g_assert_cmpstr(status == SB_OK ? "" : report.text, ==, "");
+  g_assert_true(out->solver.converged);
+}
+
+// A parabola without smooth part gives the half-plane's film to rounding, as fast.
+static void test_half_plane(void) {
+  const double M[] = {2.0, 20.0, 1000.0, 44000.0};
+  SbFilm *plain = g_new(SbFilm, 1);
+  SbFilm *fitted = g_new(SbFilm, 1);
+  for (int i = 0; i < 4; i++) {
+    SbFilmProblem p = seal(M[i], 200.0);
+    solve(plain, &p);
+    double x[30], gap[30];
+    for (int k = 0; k < 30; k++) {
+      x[k] = -0.8 * RADIUS * cos(G_PI * (k + 0.5) / 30);
+      gap[k] = 0.5 * x[k] * x[k] / RADIUS;
+    }
+    SbSurfaceCompliance c;
+    g_assert_cmpint(
+        sb_compliance_fit(&c, 10, -0.8 * RADIUS, 0.8 * RADIUS, p.modulus, 30, x, gap, NULL, NULL),
+        ==, SB_OK);
+    p.compliance = &c;
+    solve(fitted, &p);
+    g_assert_cmpfloat_with_epsilon(fitted->film_min / plain->film_min, 1.0, 1e-8);
+    g_assert_cmpfloat_with_epsilon(fitted->film_central / plain->film_central, 1.0, 1e-8);
+    g_assert_cmpfloat_with_epsilon(fitted->friction_couette / plain->friction_couette, 1.0, 1e-8);
+    g_assert_cmpint(fitted->solver.newton_iterations, <=, plain->solver.newton_iterations);
+    g_assert_cmpfloat(fitted->solver.load_error, <, 1e-10);
+  }
+  g_free(plain);
+  g_free(fitted);
+}
+
+// The disc's film by spectral elements with a free rupture, and by finite volumes with
+// complementarity and a dense kernel.
+static void test_disc(void) {
+  const double M[] = {20.0, 1000.0, 44000.0, 44000.0, 1000.0};
+  SbFilm *film = g_new(SbFilm, 1);
+  SbFilm *other = g_new(SbFilm, 1);
+  const SbSurfaceCompliance c = disc_surface();
+  for (int i = 0; i < 5; i++) {
+    SbFilmTransientProblem t = {.film = seal(M[i], 300.0)};
+    t.film.compliance = &c;
+    t.film.pressure_left = i == 3 ? 0.1e6 : 0.0;
+    t.film.pressure_right = i == 4 ? 0.1e6 : 0.0;
+    t.film.tolerance = 3e-4;
+    t.speed_scale = t.film.speed;
+    solve(film, &t.film);
+    SbFilmTransient *transient = NULL;
+    g_assert_cmpint(sb_film_transient_create(&transient, &t, NULL), ==, SB_OK);
+    sb_film_transient_result(other, transient);
+    g_assert_cmpfloat_with_epsilon(other->film_min / film->film_min, 1.0, 1e-3);
+    g_assert_cmpfloat_with_epsilon(other->film_central / film->film_central, 1.0, 2e-4);
+    g_assert_cmpfloat_with_epsilon(other->pressure_max / film->pressure_max, 1.0, 1e-4);
+    g_assert_cmpfloat(film->solver.load_error, <, 1e-10);
+    // The film presses on the contact of the dry disc.
+    SbDryContact dry;
+    g_assert_cmpint(
+        sb_dry_contact(&dry, &c, t.film.load, t.film.pressure_left, t.film.pressure_right, NULL),
+        ==, SB_OK);
+    if (i >= 2) {
+      g_assert_cmpfloat_with_epsilon(film->pressure_max / dry.peak, 1.0, 2e-3);
+    }
+    // A disc's compliance takes some 10 % off the half-plane's film at this load.
+    t.film.compliance = NULL;
+    solve(other, &t.film);
+    g_assert_cmpfloat(film->film_central / other->film_central, <, 0.95);
+    sb_film_transient_destroy(transient);
+  }
+  g_free(film);
+  g_free(other);
+}
+
+// Sliding the other way under mirrored pressures mirrors the film.
+static void test_mirror(void) {
+  const SbSurfaceCompliance c = disc_surface();
+  SbFilm *one = g_new(SbFilm, 1);
+  SbFilm *two = g_new(SbFilm, 1);
+  SbFilmProblem p = seal(5000.0, 250.0);
+  p.compliance = &c;
+  p.pressure_left = 0.08e6;
+  solve(one, &p);
+  p.speed = -p.speed;
+  p.pressure_right = p.pressure_left;
+  p.pressure_left = 0.0;
+  solve(two, &p);
+  g_assert_cmpfloat_with_epsilon(two->film_min / one->film_min, 1.0, 1e-7);
+  g_assert_cmpfloat_with_epsilon(two->position_film_min / one->position_film_min, -1.0, 1e-7);
+  g_assert_cmpfloat_with_epsilon(two->friction_couette / one->friction_couette, -1.0, 1e-7);
+  g_free(one);
+  g_free(two);
+}
+
+// Thin films hang on the edges and their slopes only: a gap matched to the dry pressure gives the
+// same film without the smooth part; thick films do not forgive that.
+static void test_matched(void) {
+  const SbSurfaceCompliance c = disc_surface();
+  SbFilm *film = g_new(SbFilm, 1);
+  SbFilm *other = g_new(SbFilm, 1);
+  const double M[] = {20.0, 44000.0};
+  double distance[2];
+  for (int i = 0; i < 2; i++) {
+    SbFilmProblem p = seal(M[i], 300.0);
+    p.compliance = &c;
+    solve(film, &p);
+    SbDryContact dry;
+    g_assert_cmpint(sb_dry_contact(&dry, &c, p.load, 0.0, 0.0, NULL), ==, SB_OK);
+    double x[201], pressure[201];
+    for (int k = 0; k < 201; k++) {
+      x[k] = dry.left + 0.5 * (dry.right - dry.left) * (1.0 - cos(G_PI * k / 200));
+      pressure[k] = sb_dry_contact_pressure(&dry, x[k]);
+    }
+    SbSurfaceCompliance matched = c;
+    for (int k = 0; k < c.modes; k++) {
+      for (int l = 0; l < c.modes; l++) {
+        matched.smooth[k][l] = 0.0;
+      }
+    }
+    g_assert_cmpint(sb_compliance_match(&matched, 8, 201, x, pressure, 0.0, 0.0, NULL), ==, SB_OK);
+    p.compliance = &matched;
+    solve(other, &p);
+    distance[i] = fabs(other->film_central / film->film_central - 1.0);
+  }
+  g_assert_cmpfloat(distance[1], <, 1e-3);
+  g_assert_cmpfloat(distance[0], >, distance[1]);
+  g_free(film);
+  g_free(other);
+}
+
+// At rest the dry contact comes out; another modulus than the surface's is refused.
+static void test_edges(void) {
+  const SbSurfaceCompliance c = disc_surface();
+  SbFilm *film = g_new(SbFilm, 1);
+  SbFilmProblem p = seal(1000.0, 250.0);
+  p.compliance = &c;
+  p.speed = 0.0;
+  solve(film, &p);
+  double load = 0.0;
+  for (size_t i = 1; i < film->points; i++) {
+    load += 0.5 * (film->pressure[i] + film->pressure[i - 1]) * (film->x[i] - film->x[i - 1]);
+    g_assert_cmpfloat(film->film[i], >=, 0.0);
+  }
+  g_assert_cmpfloat_with_epsilon(load / p.load, 1.0, 1e-3);
+  g_assert_cmpfloat(film->film_min, ==, 0.0);
+  p = seal(1000.0, 250.0);
+  p.compliance = &c;
+  p.modulus *= 1.01;
+  g_assert_cmpint(sb_film_solve(film, &p, NULL, NULL), ==, SB_ERROR_INPUT);
+  p = seal(1000.0, 3000.0); // wider than the window
+  p.compliance = &c;
+  g_assert_cmpint(sb_film_solve(film, &p, NULL, NULL), !=, SB_OK);
+  g_assert_false(film->solver.converged);
+  g_free(film);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/film-fitted/half-plane", test_half_plane);
+  g_test_add_func("/film-fitted/disc", test_disc);
+  g_test_add_func("/film-fitted/mirror", test_mirror);
+  g_test_add_func("/film-fitted/matched", test_matched);
+  g_test_add_func("/film-fitted/edges", test_edges);
+  return g_test_run();
+}
