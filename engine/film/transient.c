@@ -149,9 +149,10 @@ static bool allocate(SbFilmTransient *t) {
 static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
   const SbFilmProblem *film = &problem->film;
   if (film->model != SB_FILM_REYNOLDS || film->pressure_viscosity != 0.0 ||
-      film->eyring_stress != 0.0 || film->inlet_film != 0.0) {
+      film->eyring_stress != 0.0 || film->inlet_film != 0.0 || film->surface != SB_ROUGH_NONE ||
+      film->hamaker != 0.0) {
     return sb_fail(report, SB_ERROR_INPUT,
-                   "transient film: only the isoviscous, flooded reynolds model");
+                   "transient film: only the isoviscous, flooded, smooth reynolds model");
   }
   if (!(problem->speed_scale >= fabs(film->speed) && problem->speed_scale > 0.0)) {
     return sb_fail_parameter(report, SB_ERROR_RANGE, "drive.speed",
