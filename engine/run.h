@@ -120,7 +120,7 @@ size_t sb_run_capacity(const SbRun *run);
 const SbContactProfile *sb_run_profile(const SbRun *run, uint32_t index);
 
 // No shape has an index as large as this.
-enum { SB_RUN_SHAPES_MAX = 64 };
+enum { SB_RUN_SHAPES_MAX = 96 };
 
 // Solved ring shape `index`, NULL if there is none; borrowed. Any thread, for an index found in a
 // published frame.

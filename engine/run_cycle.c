@@ -21,9 +21,8 @@ static void fill_seal(SbSealFrame *out, const SbRun *run, int seal, const SbCycl
     out->friction_boundary = stuck_friction;
     if (stuck_friction != 0) {
       // A stuck ring keeps the shear of the friction that holds it.
-      out->shape =
-          sb_run_shape_index(run, seal, chamber, stuck_friction > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT,
-                             (double)out->land_fraction);
+      out->shape = sb_run_shape_index(run, seal, chamber,
+                                      stuck_friction > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT, s);
     }
     return;
   }

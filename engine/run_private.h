@@ -18,7 +18,7 @@ typedef struct {
 } SbRunProfile;
 
 enum {
-  SB_RUN_EDGES = 8, // places of the land's edge under the inner seal
+  SB_RUN_EDGES = 24, // places of the land's edge over the inner seal
   SB_RUN_SHAPE_FREE = SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
   SB_RUN_SHAPE_EDGE = SB_RUN_SHAPE_FREE + 1,
   SB_RUN_SEAL_SHAPES = SB_RUN_SHAPE_EDGE + SB_RUN_EDGES,
@@ -47,8 +47,10 @@ struct SbRun {
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
   SbRunShape shape[SB_RUN_SHAPES];
   uint32_t shape_slot[SB_RUN_SHAPES]; // where a state's shape is: equal states share one
-  double before_frames;               // share of the work that lies before the first frame
-  SbRunBodies *bodies;                // NULL: the reduced form is enough
+  double edge_begin, edge_end; // of the land's edge in the inner seal's frame, where it shapes
+                               // that ring [m]; equal: nowhere
+  double before_frames;        // share of the work that lies before the first frame
+  SbRunBodies *bodies;         // NULL: the reduced form is enough
   SbFrame *frames;
   size_t capacity;
   atomic_size_t published;
@@ -63,9 +65,9 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
 SbStatus sb_run_solve_shapes(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // Shape of a seal in a frame: by its chamber, its motion (SB_CYCLE_IN, SB_CYCLE_OUT, SB_RUN_REST)
-// and the share of its contact on the land. UINT32_MAX if none was solved.
-uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion,
-                            double land_share);
+// and, of the inner one, the stem's displacement s [m], which moves it over the land's edge.
+// UINT32_MAX if none was solved.
+uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion, double s);
 
 // Where the profile of a state is kept; `motion` is SB_CYCLE_IN, SB_CYCLE_OUT or SB_RUN_REST.
 uint32_t sb_run_profile_slot(int seal, SbChamber chamber, int motion);

@@ -2,10 +2,18 @@
 //
 // One equilibrium for each seal, pressure difference and way of sliding: fitted and pressed first,
 // then dragged by the seal's own friction as a uniform shear on the bore contact, held by Coulomb
-// friction on floor and wall. A few more for the inner ring while the land's edge passes under it,
-// and its free shape. Frames only refer to them, so that a film of any length costs the same. Where
-// the drag is more than the ring can bear without rolling, the last equilibrium on the way is kept
-// and the share it bears is told.
+// friction on floor and wall. Where the drag is more than the ring can bear without rolling, the
+// last equilibrium on the way is kept and the share it bears is told.
+//
+// A row of them for the inner ring while the land's edge and the chamfer beside it pass over it,
+// until the free ring clears the chamfer. Friction on floor and bore holds the ring where it is
+// against the chamfer's push; neither stroke's drag is in it, so that one row serves both. A frame
+// takes the last one whose land reaches at least as far over the ring as the frame's own: the drawn
+// ring never stands in the housing, and the gap that this leaves is at most the chamfer's rise over
+// one place of the row. That the chamfer still presses the ring when its contact has left the land
+// is drawn, but has no part in the cycle's forces.
+//
+// Frames only refer to shapes, so that a film of any length costs the same.
 #include "engine/elastic/ring/ring.h"
 #include "engine/run_private.h"
 
@@ -15,6 +23,9 @@
 // Friction of rubber on the plastic of groove floor and wall, for the drawing only.
 static const double floor_friction = 0.3;
 static const double wall_friction = 0.1;
+// Of the row over the land's edge: less on the floor lets the chamfer push the ring to its wall.
+static const double edge_floor_friction = 0.5;
+static const double edge_bore_friction = 0.2;
 
 typedef struct {
   const SbRunHooks *hooks;
@@ -29,16 +40,31 @@ static uint32_t slot(int seal, int index) {
   return (uint32_t)(seal * SB_RUN_SEAL_SHAPES + index);
 }
 
-uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion,
-                            double land_share) {
+// The last place of the land's edge that is not beyond s; -1 before the first. SB_RUN_EDGES: the
+// ring is free.
+static int edge_of(const SbRun *run, double s) {
+  double begin = run->edge_begin;
+  double end = run->edge_end;
+  double edge = begin + s - run->model.land_edge;
+  if (!(end > begin) || edge < begin) {
+    return -1;
+  }
+  return edge >= end ? SB_RUN_EDGES : (int)((edge - begin) / (end - begin) * SB_RUN_EDGES);
+}
+
+uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion, double s) {
   if (!run->plan.section_fields) {
     return UINT32_MAX;
   }
   int index = (int)chamber * SB_RUN_MOTIONS + motion;
-  if (land_share <= 0) {
-    index = SB_RUN_SHAPE_FREE;
-  } else if (land_share < 1) {
-    index = SB_RUN_SHAPE_EDGE + (int)((1 - land_share) * SB_RUN_EDGES);
+  int edge = seal == SB_INNER ? edge_of(run, s) : -1;
+  // A place without a solution takes the one before.
+  while (edge >= 0 && edge < SB_RUN_EDGES &&
+         run->shape[slot(seal, SB_RUN_SHAPE_EDGE + edge)].view.nodes == 0) {
+    edge--;
+  }
+  if (edge >= 0) {
+    index = edge < SB_RUN_EDGES ? SB_RUN_SHAPE_EDGE + edge : SB_RUN_SHAPE_FREE;
   }
   uint32_t found = run->shape_slot[slot(seal, index)];
   return found < SB_RUN_SHAPES && run->shape[found].view.nodes > 0 ? found : UINT32_MAX;
@@ -186,43 +212,68 @@ static SbStatus solve_dragged(SbRun *run, int seal, SbChamber chamber, Poll *hoo
   return SB_OK;
 }
 
-// The inner ring while the edge passes from the left end of its contact to the right one, and off
-// the land.
-static SbStatus solve_edge(SbRun *run, Poll *hooks, SbReport *report) {
+// The free ring. Returns in *end where the land's edge is when the chamfer just clears it.
+static SbStatus solve_free(SbRun *run, Poll *hooks, double *end, SbReport *report) {
   const SbModel *model = &run->model;
   SbRingBody body = ring_body(model, SB_INNER);
-  SbRingLoad load = ring_load(model, sb_model_seal_pressure(model, SB_INNER, SB_CHAMBER_AT_REST));
+  SbRingLoad load = ring_load(model, (SbSealPressure){0});
   SbRingOptions options = {.poll = poll, .poll_data = hooks};
+  load.bore_radius += model->seal[SB_INNER].section_diameter;
   SbRing *ring = NULL;
   SbStatus status = sb_ring_create(&ring, &body, &load, &options, report);
   run->summary.counters.ring_solves++;
-  SbRingResult fitted;
+  uint32_t index = slot(SB_INNER, SB_RUN_SHAPE_FREE);
   if (status == SB_OK) {
-    sb_ring_result(ring, &fitted);
+    status = keep(run, index, ring, load.floor_radius, 1, report);
   }
-  for (int i = 0; i < SB_RUN_EDGES && status == SB_OK; i++) {
+  sb_ring_destroy(ring);
+  if (status != SB_OK) {
+    return status;
+  }
+  const double *place = run->shape[index].real;
+  *end = -HUGE_VAL;
+  for (size_t i = 0; i < run->shape[index].view.nodes; i++) {
+    double height = place[2 * i + 1] - model->radial_space;
+    if (height > 0) {
+      double rise = height / tan(load.chamfer_angle);
+      *end = fmax(*end, place[2 * i] + rise + load.edge_length / 2);
+    }
+  }
+  return SB_OK;
+}
+
+// The inner ring while the edge passes from the left end of its contact until it is free.
+static SbStatus solve_edge(SbRun *run, Poll *hooks, SbReport *report) {
+  const SbModel *model = &run->model;
+  double begin = run->cycle.states.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].contact_left;
+  double end;
+  SbStatus status = solve_free(run, hooks, &end, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  SbRingBody body = ring_body(model, SB_INNER);
+  SbRingLoad load = ring_load(model, sb_model_seal_pressure(model, SB_INNER, SB_CHAMBER_AT_REST));
+  load.friction_floor = edge_floor_friction;
+  load.friction_bore = edge_bore_friction;
+  SbRingOptions options = {.poll = poll, .poll_data = hooks};
+  SbRing *ring = NULL;
+  status = sb_ring_create(&ring, &body, &load, &options, report);
+  run->summary.counters.ring_solves++;
+  for (int i = 0; i < SB_RUN_EDGES && status == SB_OK && end > begin; i++) {
+    SbRingLoad from = *sb_ring_load(ring);
     SbRingLoad edged = load;
-    double t = (i + 0.5) / SB_RUN_EDGES;
-    edged.land_left = fitted.contact_left + t * (fitted.contact_right - fitted.contact_left);
+    edged.land_left = begin + (double)i / SB_RUN_EDGES * (end - begin);
     double share;
-    status = step(run, ring, &load, &edged, &share, report);
-    if (status == SB_OK) {
+    status = step(run, ring, &from, &edged, &share, report);
+    if (status == SB_OK && share > 0.999) {
       status = keep(run, slot(SB_INNER, SB_RUN_SHAPE_EDGE + i), ring, load.floor_radius, 1, report);
     }
   }
   sb_ring_destroy(ring);
-  ring = NULL;
-  if (status != SB_OK) {
-    return status;
+  if (status == SB_OK && end > begin) {
+    run->edge_begin = begin;
+    run->edge_end = end;
   }
-  load.bore_radius += model->seal[SB_INNER].section_diameter;
-  load.pressure_left = load.pressure_right = 0;
-  status = sb_ring_create(&ring, &body, &load, &options, report);
-  run->summary.counters.ring_solves++;
-  if (status == SB_OK) {
-    status = keep(run, slot(SB_INNER, SB_RUN_SHAPE_FREE), ring, load.floor_radius, 1, report);
-  }
-  sb_ring_destroy(ring);
   return status;
 }
 

@@ -229,8 +229,7 @@ void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber
     double c = 1 - 2 * (1 - width_share);
     out->pressure_peak = state->pressure_peak * sqrt(fmax(1 - c * c, 0));
   }
-  out->shape =
-      sb_run_shape_index(run, seal, chamber, moving ? direction : SB_RUN_REST, width_share);
+  out->shape = sb_run_shape_index(run, seal, chamber, moving ? direction : SB_RUN_REST, s);
   if (moving && width_share > 0) {
     out->film_min = state->film_min;
     out->film_central = state->film_central;

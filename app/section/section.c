@@ -155,8 +155,8 @@ static void shape_rings(SbSection *section) {
     // Bars and labels follow the contact that is drawn.
     const SbSealShape *solved = section->instant->ring[i];
     if (solved != NULL) {
-      section->ring[i].contact_left = solved->contact_left;
-      section->ring[i].contact_right = solved->contact_right;
+      section->ring[i].contact_left = fmax(solved->contact_left, edge);
+      section->ring[i].contact_right = fmax(solved->contact_right, edge);
     }
   }
 }
@@ -177,16 +177,6 @@ void sb_section_field_limits(const SbSection *section, SbField field, double *le
   }
 }
 
-// Height of a node above the groove floor as drawn: the passage over the land edge is solved for a
-// few places of the edge only; in between nothing may stand in the housing.
-static double drawn_height(const SbSection *section, int seal, double x, double y) {
-  if (section->instant->frame->seal[seal].land_fraction >= 1.0f) {
-    return y;
-  }
-  const SbValve *valve = &section->valve;
-  return fmin(y, sb_valve_bore_at(valve, x + sb_section_origin(section, seal)) - valve->floor);
-}
-
 // Pressure lives on the surface: a band along the outline on a plain body. Quads from the outline
 // towards the middle, BAND px wide.
 static void draw_surface_field(SbSection *section, int seal, const SbSealShape *shape, double ax,
@@ -201,7 +191,7 @@ static void draw_surface_field(SbSection *section, int seal, const SbSealShape *
   for (size_t i = 0; i < n; i++) {
     int node = shape->outline_node[i];
     double x = shape->place[2 * node];
-    double y = drawn_height(section, seal, x, shape->place[2 * node + 1]);
+    double y = shape->place[2 * node + 1];
     edge[i] = (SbDrawPoint){(float)(ax + bx * x), (float)(ay + by * y)};
     middle.x += edge[i].x / (float)n;
     middle.y += edge[i].y / (float)n;
@@ -250,7 +240,7 @@ static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *sh
   for (size_t i = 0; i < corners; i++) {
     int node = shape->triangle[i];
     double x = shape->place[2 * node];
-    double y = drawn_height(section, seal, x, shape->place[2 * node + 1]);
+    double y = shape->place[2 * node + 1];
     point[i] = (SbDrawPoint){(float)(ax + bx * x), (float)(ay + by * y)};
     scalar[i] = shape->field[field][node];
   }
@@ -272,7 +262,7 @@ static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *sh
   for (size_t i = 0; i < shape->outline; i++) {
     int node = shape->outline_node[i];
     double x = shape->place[2 * node];
-    double y = drawn_height(section, seal, x, shape->place[2 * node + 1]);
+    double y = shape->place[2 * node + 1];
     point[i] = (SbDrawPoint){(float)(ax + bx * x), (float)(ay + by * y)};
   }
   sb_draw_stroke(section->list, point, shape->outline, 1.8, palette->outline)->closed = true;

@@ -137,6 +137,11 @@ static void draw_land_edge(SbSection *section) {
   }
 }
 
+// A solved ring off the land that the chamfer beside it still presses.
+static bool on_chamfer(const SbSealShape *shape) {
+  return shape != NULL && shape->contact_right > shape->contact_left;
+}
+
 // The names under the rings, and "no contact" where the engine says so.
 static void draw_seal_names(SbSection *section) {
   const SbPalette *palette = section->palette;
@@ -145,7 +150,10 @@ static void draw_seal_names(SbSection *section) {
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const SbSealFrame *seal = &section->instant->frame->seal[i];
     char text[64];
-    snprintf(text, sizeof text, "%s%s", name[i], seal->land_fraction > 0 ? "" : ", no contact");
+    snprintf(text, sizeof text, "%s%s", name[i],
+             seal->land_fraction > 0                 ? ""
+             : on_chamfer(section->instant->ring[i]) ? ", on the chamfer only"
+                                                     : ", no contact");
     SbDrawPoint below = sb_section_at(section, sb_section_origin(section, i), section->valve.floor);
     SbSectionLabel style = label_style(palette->seal[i], 600, SB_ALIGN_CENTRE, &palette->stem);
     const double at[2][2] = {{below.x, below.y + 21}, {below.x, below.y + 38}};
@@ -259,7 +267,8 @@ static void draw_dose_path(SbSection *section) {
   const SbPalette *palette = section->palette;
   const SbFrame *frame = section->instant->frame;
   const SbValve *valve = &section->valve;
-  if (frame->chamber != SB_CHAMBER_OPEN || frame->seal[SB_INNER].land_fraction > 0) {
+  if (frame->chamber != SB_CHAMBER_OPEN || frame->seal[SB_INNER].land_fraction > 0 ||
+      on_chamfer(section->instant->ring[SB_INNER])) {
     return;
   }
   double g = section->model.radial_space;

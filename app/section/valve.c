@@ -7,10 +7,14 @@
 #include <math.h>
 
 // Proportions that are not worth a parameter, relative to the radial space (1.36 mm in the thesis
-// valve): broken land edge, flank of the dose chamber, chamfers.
-static const double EDGE_LENGTH = 0.044, EDGE_RISE = 0.015;
+// valve): flank of the dose chamber, chamfers.
 static const double CHAMFER = 0.08;
 static const double FLANK_SLOPE = 0.33;
+
+// The lead-in beside the land is the one that solved rings are pressed against (chamfer and edge of
+// SB_RING_LOAD_INIT): its slope sets in smoothly over the edge's length, as t^2 (3 - 2 t).
+static const double LEAD_ANGLE = 0.5, EDGE_LENGTH = 5e-5; // [rad], [m]
+enum { EDGE_POINTS = 6 };
 
 static void add(SbValveOutline *outline, double x, double y) {
   if (outline->count < SB_VALVE_POINTS_MAX) {
@@ -41,8 +45,9 @@ static void make_housing(SbValve *valve, const SbModel *model, double top) {
   mouth = at_most(valve, mouth, 0.8 * top + 0.2 * valve->bore);
   double chamfer = CHAMFER * g;
   double rise = mouth - valve->bore;
-  double lead = 1.18 * (rise - EDGE_RISE * g);
-  double entry = at_least(valve, shape->entry_length, lead + EDGE_LENGTH * g + 2 * chamfer);
+  double slope = tan(LEAD_ANGLE);
+  double lead = rise / slope + EDGE_LENGTH / 2;
+  double entry = at_least(valve, shape->entry_length, lead + 2 * chamfer);
   valve->face = -entry;
 
   SbValveOutline *outline = &valve->housing;
@@ -50,9 +55,12 @@ static void make_housing(SbValve *valve, const SbModel *model, double top) {
   add(outline, -entry, top);
   add(outline, -entry, mouth + chamfer);
   add(outline, -entry + chamfer, mouth);
-  add(outline, -EDGE_LENGTH * g - lead, mouth);
-  add(outline, -EDGE_LENGTH * g, valve->bore + EDGE_RISE * g);
-  add(outline, 0, valve->bore);
+  add(outline, -lead, mouth);
+  for (int i = EDGE_POINTS; i >= 0; i--) {
+    double t = (double)i / EDGE_POINTS;
+    double opening = EDGE_LENGTH * t * t * t * (1 - t / 2);
+    add(outline, -EDGE_LENGTH * t, valve->bore + slope * opening);
+  }
   add(outline, valve->end - chamfer, valve->bore);
   add(outline, valve->end, valve->bore + chamfer);
   add(outline, valve->end, top);
