@@ -13,22 +13,17 @@
 typedef struct {
   SbSession *session; // owned reference: the dialog may outlive its window's interest
   GtkWidget *dialog, *form, *view, *format, *size, *width, *height, *theme, *at, *at_label;
-  GtkWidget *film_box, *film_label, *fps, *duration, *path, *choose, *result, *progress;
+  GtkWidget *range_label, *range_box, *from, *to;
+  GtkWidget *film_box, *film_label, *fps, *pace, *duration, *duration_unit, *speed, *speed_unit;
+  GtkWidget *section_label, *section_box, *halves, *insets, *undeformed;
+  GtkWidget *field_label, *field_box, *field, *field_max;
+  GtkWidget *path, *choose, *result, *progress;
   GtkWidget *cancel, *export;
   SbExportJob *job;
   guint poll;
   guint later;     // source of what the user asked for, 0 if none is due
   gboolean sizing; // the preset writes the numbers, not the user
 } Dialog;
-
-// Presets beside the view's own size.
-static const struct {
-  const char *name;
-  int width, height;
-} presets[] = {{"1280 × 720", 1280, 720},
-               {"1920 × 1080", 1920, 1080},
-               {"3840 × 2160", 3840, 2160},
-               {"1600 × 1200", 1600, 1200}};
 
 static const char *format_of(Dialog *dialog) {
   return gtk_combo_box_get_active_id(GTK_COMBO_BOX(dialog->format));
@@ -38,20 +33,41 @@ static const SbRenderView *view_of(Dialog *dialog) {
   return sb_render_view(gtk_combo_box_get_active_id(GTK_COMBO_BOX(dialog->view)));
 }
 
+static gboolean is_sequence(Dialog *dialog) {
+  return g_strcmp0(format_of(dialog), "sequence") == 0;
+}
+
 static gboolean is_film(Dialog *dialog) {
-  return g_strcmp0(format_of(dialog), "mp4") == 0;
+  return g_strcmp0(format_of(dialog), "mp4") == 0 || is_sequence(dialog);
+}
+
+static gboolean by_speed(Dialog *dialog) {
+  return g_strcmp0(gtk_combo_box_get_active_id(GTK_COMBO_BOX(dialog->pace)), "speed") == 0;
+}
+
+// The run has rings with fields to show.
+static gboolean has_fields(Dialog *dialog) {
+  const SbRun *run = sb_session_run(dialog->session);
+  return run != NULL && sb_run_plan(run)->section_fields;
 }
 
 // The form
 // -----------------------------------------------------------------------------------------
 
-// Gives the file name the ending of the format.
+// Gives the file name the ending of the format; a sequence a number too.
 static void follow_format(Dialog *dialog) {
   const char *text = gtk_entry_get_text(GTK_ENTRY(dialog->path));
   const char *slash = strrchr(text, G_DIR_SEPARATOR);
   const char *dot = strrchr(text, '.');
   gsize stem = dot != NULL && (slash == NULL || dot > slash) ? (gsize)(dot - text) : strlen(text);
-  g_autofree char *path = g_strdup_printf("%.*s.%s", (int)stem, text, format_of(dialog));
+  static const char number[] = "-%04d";
+  gsize tail = strlen(number);
+  if (stem > tail && strncmp(text + stem - tail, number, tail) == 0) {
+    stem -= tail;
+  }
+  g_autofree char *path =
+      g_strdup_printf("%.*s%s.%s", (int)stem, text, is_sequence(dialog) ? number : "",
+                      is_sequence(dialog) ? "png" : format_of(dialog));
   if (strcmp(path, text) != 0) {
     gtk_entry_set_text(GTK_ENTRY(dialog->path), path);
   }
@@ -60,34 +76,85 @@ static void follow_format(Dialog *dialog) {
 static void on_size(GtkComboBox *combo, Dialog *dialog) {
   int active = gtk_combo_box_get_active(combo);
   const SbRenderView *view = view_of(dialog);
-  if (active < 0 || view == NULL || active > (int)G_N_ELEMENTS(presets)) {
+  size_t count = 0;
+  const SbRenderSize *sizes = sb_render_sizes(&count);
+  if (active < 0 || view == NULL || active > (int)count) {
     return;
   }
   dialog->sizing = TRUE;
   gtk_spin_button_set_value(GTK_SPIN_BUTTON(dialog->width),
-                            active == 0 ? view->width : presets[active - 1].width);
+                            active == 0 ? view->width : sizes[active - 1].width);
   gtk_spin_button_set_value(GTK_SPIN_BUTTON(dialog->height),
-                            active == 0 ? view->height : presets[active - 1].height);
+                            active == 0 ? view->height : sizes[active - 1].height);
   dialog->sizing = FALSE;
 }
 
 static void on_number(GtkSpinButton *spin, Dialog *dialog) {
   if (!dialog->sizing) {
-    gtk_combo_box_set_active(GTK_COMBO_BOX(dialog->size), (int)G_N_ELEMENTS(presets) + 1);
+    size_t count = 0;
+    sb_render_sizes(&count);
+    gtk_combo_box_set_active(GTK_COMBO_BOX(dialog->size), (int)count + 1);
+  }
+}
+
+// Shows the rows that view and format need.
+static void show_rows(Dialog *dialog) {
+  gboolean film = is_film(dialog);
+  const SbRenderView *view = view_of(dialog);
+  gboolean section = view != NULL && view->section;
+  const struct {
+    GtkWidget *widget;
+    gboolean shown;
+  } rows[] = {
+      {dialog->film_box, film},
+      {dialog->film_label, film},
+      {dialog->range_box, film},
+      {dialog->range_label, film},
+      {dialog->at, !film},
+      {dialog->at_label, !film},
+      {dialog->section_box, section},
+      {dialog->section_label, section},
+      {dialog->field_box, section && has_fields(dialog)},
+      {dialog->field_label, section && has_fields(dialog)},
+      {dialog->duration, !by_speed(dialog)},
+      {dialog->duration_unit, !by_speed(dialog)},
+      {dialog->speed, by_speed(dialog)},
+      {dialog->speed_unit, by_speed(dialog)},
+  };
+  for (guint i = 0; i < G_N_ELEMENTS(rows); i++) {
+    gtk_widget_set_visible(rows[i].widget, rows[i].shown);
   }
 }
 
 static void on_view(GtkComboBox *combo, Dialog *dialog) {
   on_size(GTK_COMBO_BOX(dialog->size), dialog);
+  show_rows(dialog);
 }
 
 static void on_format(GtkComboBox *combo, Dialog *dialog) {
-  gboolean film = is_film(dialog);
-  gtk_widget_set_visible(dialog->film_box, film);
-  gtk_widget_set_visible(dialog->film_label, film);
-  gtk_widget_set_visible(dialog->at, !film);
-  gtk_widget_set_visible(dialog->at_label, !film);
+  show_rows(dialog);
   follow_format(dialog);
+}
+
+// Zero is a word: the range of the run.
+static gboolean on_range_output(GtkSpinButton *spin, gpointer data) {
+  if (gtk_spin_button_get_value(spin) > 0) {
+    return FALSE;
+  }
+  gtk_entry_set_text(GTK_ENTRY(spin), "auto");
+  return TRUE;
+}
+
+static int on_range_input(GtkSpinButton *spin, double *value, gpointer data) {
+  if (strcmp(gtk_entry_get_text(GTK_ENTRY(spin)), "auto") != 0) {
+    return FALSE;
+  }
+  *value = 0;
+  return TRUE;
+}
+
+static void on_pace(GtkComboBox *combo, Dialog *dialog) {
+  show_rows(dialog);
 }
 
 static gboolean choose(gpointer data) {
@@ -141,6 +208,10 @@ static gboolean on_poll(gpointer data) {
   Dialog *dialog = data;
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(dialog->progress),
                                 sb_export_job_progress(dialog->job));
+  double left = sb_export_job_left(dialog->job);
+  g_autofree char *text = left >= 0 ? g_strdup_printf("%.0f s left", left) : g_strdup("");
+  gtk_progress_bar_set_text(GTK_PROGRESS_BAR(dialog->progress), text);
+  gtk_progress_bar_set_show_text(GTK_PROGRESS_BAR(dialog->progress), left >= 0);
   return G_SOURCE_CONTINUE;
 }
 
@@ -163,8 +234,10 @@ static void on_done(void *data) {
   set_busy(dialog, FALSE);
 }
 
-// Asks before a file is replaced.
-static gboolean may_replace(Dialog *dialog, const char *path) {
+// Asks before a file is replaced; of a sequence, before its first picture is.
+static gboolean may_replace(Dialog *dialog, const char *pattern) {
+  g_auto(GStrv) parts = g_strsplit(pattern, "%04d", 2);
+  g_autofree char *path = is_sequence(dialog) ? g_strjoinv("0001", parts) : g_strdup(pattern);
   if (!g_file_test(path, G_FILE_TEST_EXISTS)) {
     return TRUE;
   }
@@ -188,6 +261,24 @@ static char *instant_of(Dialog *dialog) {
   }
   char number[G_ASCII_DTOSTR_BUF_SIZE];
   return g_strdup_printf("%s s", g_ascii_dtostr(number, sizeof number, frame->time));
+}
+
+// An end of the range: a stage's letter, or NULL for the run's own end.
+static char *end_of_range(Dialog *dialog, GtkWidget *combo) {
+  const char *id = gtk_combo_box_get_active_id(GTK_COMBO_BOX(combo));
+  return id == NULL || id[0] == '\0' ? NULL : g_strdup(id);
+}
+
+static SbSectionStyle style_of(Dialog *dialog) {
+  const char *insets = gtk_combo_box_get_active_id(GTK_COMBO_BOX(dialog->insets));
+  const char *halves = gtk_combo_box_get_active_id(GTK_COMBO_BOX(dialog->halves));
+  return (SbSectionStyle){
+      .inset_seal = g_strcmp0(insets, "inner") == 0 ? SB_INNER : SB_OUTER,
+      .hide_insets = g_strcmp0(insets, "none") == 0,
+      .full = g_strcmp0(halves, "full") == 0,
+      .undeformed = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(dialog->undeformed)),
+      .field = (SbField)MAX(gtk_combo_box_get_active(GTK_COMBO_BOX(dialog->field)), 0),
+      .field_max = 1e6 * gtk_spin_button_get_value(GTK_SPIN_BUTTON(dialog->field_max))};
 }
 
 static gboolean start(gpointer data) {
@@ -216,7 +307,11 @@ static gboolean start(gpointer data) {
       .width = gtk_spin_button_get_value(GTK_SPIN_BUTTON(dialog->width)),
       .height = gtk_spin_button_get_value(GTK_SPIN_BUTTON(dialog->height)),
       .dark = g_strcmp0(gtk_combo_box_get_active_id(GTK_COMBO_BOX(dialog->theme)), "dark") == 0,
+      .style = style_of(dialog),
       .at = instant_of(dialog),
+      .from = end_of_range(dialog, dialog->from),
+      .to = end_of_range(dialog, dialog->to),
+      .speed = by_speed(dialog) ? gtk_spin_button_get_value(GTK_SPIN_BUTTON(dialog->speed)) : 0,
       .fps = gtk_spin_button_get_value_as_int(GTK_SPIN_BUTTON(dialog->fps)),
       .duration = gtk_spin_button_get_value(GTK_SPIN_BUTTON(dialog->duration)),
       .title = g_strdup(sb_document_title(document)),
@@ -254,6 +349,24 @@ static void on_destroy(GtkWidget *widget, Dialog *dialog) {
 // Opening
 // ------------------------------------------------------------------------------------------
 
+// The section as the scene wants it.
+static void fill_section(Dialog *dialog) {
+  for (int i = 0; i < SB_FIELD_COUNT; i++) {
+    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->field),
+                                   sb_section_field_name((SbField)i));
+  }
+  const SbRun *run = sb_session_run(dialog->session);
+  SbSectionStyle style = run != NULL ? sb_section_style_of(sb_run_model(run)) : (SbSectionStyle){0};
+  gtk_combo_box_set_active(GTK_COMBO_BOX(dialog->field), (int)style.field);
+  gtk_spin_button_set_value(GTK_SPIN_BUTTON(dialog->field_max), 1e-6 * style.field_max);
+  gtk_combo_box_set_active_id(GTK_COMBO_BOX(dialog->halves), style.full ? "full" : "half");
+  gtk_combo_box_set_active_id(GTK_COMBO_BOX(dialog->insets), style.hide_insets ? "none"
+                                                             : style.inset_seal == SB_INNER
+                                                                 ? "inner"
+                                                                 : "outer");
+  gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(dialog->undeformed), style.undeformed);
+}
+
 static void fill(Dialog *dialog) {
   size_t count = 0;
   const SbRenderView *views = sb_render_views(&count);
@@ -261,17 +374,22 @@ static void fill(Dialog *dialog) {
     gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->view), views[i].name, views[i].label);
   }
   gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), "As made");
-  for (guint i = 0; i < G_N_ELEMENTS(presets); i++) {
-    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), presets[i].name);
+  const SbRenderSize *sizes = sb_render_sizes(&count);
+  for (size_t i = 0; i < count; i++) {
+    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), sizes[i].label);
   }
   gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), "Own size");
   gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->at), "now", "At the playhead");
+  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->from), "", "The start");
+  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->to), "", "the end");
   const SbSummary *summary = sb_session_summary(dialog->session);
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
     if (summary != NULL && summary->stage[i].reached) {
       const char *name = sb_stage_name((SbStage)i);
       g_autofree char *text = g_strdup_printf("Stage %s", name);
       gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->at), name, text);
+      gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->from), name, text);
+      gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->to), name, text);
     }
   }
 
@@ -288,6 +406,10 @@ static void fill(Dialog *dialog) {
   gtk_combo_box_set_active_id(GTK_COMBO_BOX(dialog->view), "dashboard");
   gtk_combo_box_set_active(GTK_COMBO_BOX(dialog->size), 0);
   gtk_combo_box_set_active_id(GTK_COMBO_BOX(dialog->at), "now");
+  gtk_combo_box_set_active(GTK_COMBO_BOX(dialog->from), 0);
+  gtk_combo_box_set_active(GTK_COMBO_BOX(dialog->to), 0);
+  gtk_combo_box_set_active(GTK_COMBO_BOX(dialog->pace), 0);
+  fill_section(dialog);
   gtk_combo_box_set_active_id(GTK_COMBO_BOX(dialog->theme), sb_style_is_dark() ? "dark" : "light");
   gtk_combo_box_set_active_id(GTK_COMBO_BOX(dialog->format), "png");
 }
@@ -312,8 +434,25 @@ void sb_export_dialog_open(GtkWindow *parent, SbSession *session) {
       {"at_label", &dialog->at_label},
       {"film_box", &dialog->film_box},
       {"film_label", &dialog->film_label},
+      {"range_label", &dialog->range_label},
+      {"range_box", &dialog->range_box},
+      {"from", &dialog->from},
+      {"to", &dialog->to},
       {"fps", &dialog->fps},
+      {"pace", &dialog->pace},
       {"duration", &dialog->duration},
+      {"duration_unit", &dialog->duration_unit},
+      {"speed", &dialog->speed},
+      {"speed_unit", &dialog->speed_unit},
+      {"section_label", &dialog->section_label},
+      {"section_box", &dialog->section_box},
+      {"halves", &dialog->halves},
+      {"insets", &dialog->insets},
+      {"undeformed", &dialog->undeformed},
+      {"field_label", &dialog->field_label},
+      {"field_box", &dialog->field_box},
+      {"field", &dialog->field},
+      {"field_max", &dialog->field_max},
       {"path", &dialog->path},
       {"choose", &dialog->choose},
       {"result", &dialog->result},
@@ -331,6 +470,9 @@ void sb_export_dialog_open(GtkWindow *parent, SbSession *session) {
   g_signal_connect(dialog->size, "changed", G_CALLBACK(on_size), dialog);
   g_signal_connect(dialog->view, "changed", G_CALLBACK(on_view), dialog);
   g_signal_connect(dialog->format, "changed", G_CALLBACK(on_format), dialog);
+  g_signal_connect(dialog->field_max, "output", G_CALLBACK(on_range_output), NULL);
+  g_signal_connect(dialog->field_max, "input", G_CALLBACK(on_range_input), NULL);
+  g_signal_connect(dialog->pace, "changed", G_CALLBACK(on_pace), dialog);
   g_signal_connect(dialog->width, "value-changed", G_CALLBACK(on_number), dialog);
   g_signal_connect(dialog->height, "value-changed", G_CALLBACK(on_number), dialog);
   g_signal_connect(dialog->choose, "clicked", G_CALLBACK(on_choose), dialog);

@@ -2,18 +2,22 @@
 #pragma once
 
 #include "app/run/runner.h"
+#include "app/section/painter.h"
 
 #include <glib.h>
 
 // What to make. Texts are owned by whoever holds the struct.
 typedef struct {
-  char *path;           // .png, .svg, .pdf, or .mp4 for a film
+  char *path;           // .png, .svg, .pdf, .mp4 for a film, or the pattern of a sequence
   char *view;           // name in sb_render_views()
   double width, height; // pixels
   gboolean dark;
-  char *at;        // of a picture: "C" or "7.27 s"
-  int fps;         // of a film
-  double duration; // of a film: the whole cycle in this time [s]
+  SbSectionStyle style; // of views that show the section
+  char *at;             // of a picture: "C" or "7.27 s"
+  int fps;              // of a film
+  double duration;      // of a film: the whole range in this time [s]
+  double speed;         // or, if above 0, seconds of the run per second of film
+  char *from, *to;      // of a film: "B" or "2 s"; NULL: the start or end
   char *title, *subtitle, *hash, *scene;
 } SbExportRequest;
 
@@ -28,6 +32,9 @@ SbExportJob *sb_export_job_start(SbRunHandle *handle, SbExportRequest *request,
 
 // Share done, 0 to 1; a picture goes from 0 to 1 at once.
 double sb_export_job_progress(SbExportJob *job);
+
+// Seconds it will still take at the pace so far; negative as long as that cannot be said.
+double sb_export_job_left(SbExportJob *job);
 
 // Asks it to end; returns at once. A film keeps the pictures done so far, playable.
 void sb_export_job_cancel(SbExportJob *job);

@@ -35,6 +35,7 @@ typedef struct {
   size_t limits_frames; // frames that the limits have seen
   SbDrawList list;
   SbText *text;
+  int look_field, look_insets; // of the scene that the toolbar followed last
   double zoom, pan_x, pan_y;
   double press_x, press_y;
   SbGlContext *context;   // NULL where no GL works
@@ -206,6 +207,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   // A little more than the section itself, so that no letter is cut.
   SbRect picture = {MARGIN - EDGE, top - EDGE, fmax(width, 1) + 2 * EDGE,
                     fmax(height - top - bottom - 8, 1) + 2 * EDGE};
+  const SbSectionLook *look = &sb_run_model(view->run)->look;
   const char *inset = gtk_combo_box_get_active_id(GTK_COMBO_BOX(view->inset_combo));
   SbSectionView how = {
       .width = picture.width * view->zoom,
@@ -219,6 +221,9 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
       .inset_seal = g_strcmp0(inset, "inner") == 0 ? SB_INNER : SB_OUTER,
       .field = (SbField)MAX(gtk_combo_box_get_active(GTK_COMBO_BOX(view->field_combo)), 0),
       .mesh = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->mesh)),
+      .full = look->full,
+      .undeformed = look->undeformed,
+      .field_max = look->field_max,
   };
   SbSectionInstant instant = {.frame = frame};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
@@ -265,7 +270,22 @@ static void on_change(View *view) {
   }
 }
 
+// What the scene says about field and insets, when it says something new; after that the toolbar is
+// free.
+static void follow_look(View *view) {
+  const SbModel *model = sb_session_model(view->session);
+  if (model == NULL ||
+      (model->look.field == view->look_field && model->look.insets == view->look_insets)) {
+    return;
+  }
+  view->look_field = model->look.field;
+  view->look_insets = model->look.insets;
+  gtk_combo_box_set_active(GTK_COMBO_BOX(view->field_combo), model->look.field);
+  gtk_combo_box_set_active(GTK_COMBO_BOX(view->inset_combo), model->look.insets);
+}
+
 static void on_run_changed(View *view) {
+  follow_look(view);
   gtk_widget_set_visible(view->empty, sb_session_state(view->session) == SB_SESSION_EMPTY);
   // Only rings solved by finite elements have a field and a mesh to show.
   const SbRun *run = sb_session_run(view->session);

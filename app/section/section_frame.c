@@ -26,6 +26,16 @@ static double legend(SbSection *section, double x, double y, double width, const
   double unit_step = pow(10, floor(log10(target)));
   double m = target / unit_step;
   double step = unit_step * (m >= 5 ? 5 : m >= 2 ? 2 : 1);
+  // Signed numbers on a short bar need a coarser step.
+  char widest[SB_SECTION_NUMBER];
+  for (int tries = 0; tries < 3; tries++) {
+    sb_section_fixed(widest, min < 0 ? min : max, step >= 1 ? 0 : (int)ceil(-log10(step) - 1e-9));
+    if (sb_text_width(section->text, widest, 11, 400) + 6 < step / (max - min) * width) {
+      break;
+    }
+    double digit = step / pow(10, floor(log10(step) + 1e-9));
+    step *= digit > 1.5 && digit < 3 ? 2.5 : 2;
+  }
   for (double v = ceil(min / step - 1e-9) * step; v <= max * (1 + 1e-9); v += step) {
     double tick = x + (v - min) / (max - min) * width;
     sb_draw_line(list, tick, y1 + 1, tick, y1 + 5, 1, palette->axis);
@@ -119,8 +129,11 @@ void sb_section_draw_legends(SbSection *section, double x, double y, double widt
   double fluid_full = SB_PALETTE_FLUID_FULL * 1e-6;
   if (!column) {
     // A row right of the title, as far as there is room.
-    double right = view->width - x, each = MIN(width, 200);
-    double left = x + 260;
+    double right = view->width - x, left = x + 260;
+    double each = MIN(width, 200);
+    if (ring) {
+      each = MIN(each, MAX((right - left - 24) / 2, 120));
+    }
     if (right - each >= left) {
       legend(section, right - each, y + 8, each, "fluid pressure", "MPa, gauge", &palette->fluid, 0,
              fluid_full);

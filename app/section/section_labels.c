@@ -220,8 +220,14 @@ static void draw_stem_forces(SbSection *section) {
   }
   snprintf(text, sizeof text, "drive %s", sb_section_force(value, force));
   SbSectionLabel style = {14, 700, SB_ALIGN_RIGHT, palette->ink, &palette->stem};
+  // Above the arrow; behind its point where that would be off a thin rod.
   bool above = y - 34 > (double)sb_section_at(section, 0, section->valve.rod).y;
-  sb_section_label(section, right, above ? y - 18 : axis + 18, &style, text);
+  if (above || fabs(frame->stop_force) >= 0.05) {
+    sb_section_label(section, right, y - 18, &style, text);
+  } else {
+    double point = fabs(force) >= 0.05 ? right - PX_PER_NEWTON * fabs(force) - 8 : right;
+    sb_section_label(section, point, y + 5, &style, text);
+  }
 
   if (fabs(frame->stop_force) >= 0.05) {
     double shown = PX_PER_NEWTON * frame->stop_force;

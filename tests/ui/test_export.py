@@ -53,6 +53,24 @@ def a_film(folder):
     assert probe.stdout.strip() == "h264,320,yuv420p,20", probe.stdout
 
 
+def a_sequence(folder):
+    path = os.path.join(folder, "cycle.png")
+    with App(scene(folder)) as app:
+        open_dialog(app, path, "Pictures of a film, PNG", "Axial section")
+        app.spin("Width", 320)
+        app.spin("Height", 180)
+        app.spin("Frames per second", 10)
+        app.choose("From", "Stage B")
+        app.choose("To", "Stage C")
+        app.choose("Pace", "at a speed of")
+        app.spin("Speed", 20)
+        app.act(export_button(app), "click")
+        # B to C lasts 9.9 s: half a second of film.
+        wait("the result", lambda: app.label(r"^5 pictures are written"))
+    names = sorted(name for name in os.listdir(folder) if name.startswith("cycle-"))
+    assert names == [f"cycle-{i:04d}.png" for i in range(1, 6)], names
+
+
 def a_cancelled_film(folder):
     path = os.path.join(folder, "cycle.mp4")
     with App(scene(folder)) as app:
@@ -83,4 +101,4 @@ def a_place_that_cannot_be_written(folder):
 
 
 if __name__ == "__main__":
-    main(a_picture, a_film, a_cancelled_film, a_place_that_cannot_be_written)
+    main(a_picture, a_film, a_sequence, a_cancelled_film, a_place_that_cannot_be_written)
