@@ -12,6 +12,7 @@
 #include "ui/canvas_area.h"
 #include "ui/force_balance.h"
 #include "ui/picture.h"
+#include "ui/section_gl.h"
 #include "ui/style.h"
 
 #include <math.h>
@@ -27,6 +28,7 @@ enum {
 
 typedef struct {
   SbSession *session;
+  GtkWidget *gl; // over the picture where the window's own GL draws it
   GtkWidget *box, *area, *field_combo, *inset_combo, *forces, *labels, *mesh, *empty;
   SbSection *section; // of `run`'s model, or of the resting valve
   const SbRun *run;   // what `section` was made for; never read through
@@ -138,19 +140,51 @@ static const SbFrame *prepare(View *view) {
 
 // By GL ------------------------------------------------------------------------------------------
 
-// Fields inside rings are smooth by GL; cairo would draw facets. The context has no window: OSMesa
-// or EGL, so that it works the same on every display.
-static void open_gl(View *view) {
+// Fields inside rings are smooth by GL; cairo would draw facets. Where the window's own GL does not
+// draw, a context without a window does: OSMesa or EGL, so that it works on every display.
+static void on_gl_decided(void *data) {
+  View *view = data;
+  if (sb_section_gl_works(view->gl)) {
+    g_printerr("sealbench: section by %s\n", sb_section_gl_reason(view->gl));
+    return;
+  }
   SbReport report = {0};
   if (sb_gl_context_create(&view->context, SB_GL_AUTO, &report) == SB_OK &&
       sb_gl_renderer_create(&view->renderer, view->context, &report) != SB_OK) {
     g_clear_pointer(&view->context, sb_gl_context_destroy);
   }
-  if (view->renderer == NULL) {
-    g_info("section by cairo: %s", report.text);
-  } else {
-    g_info("section by GL: %s", sb_gl_context_reason(view->context));
+  g_printerr("sealbench: section by %s; %s\n",
+             view->renderer != NULL ? sb_gl_context_reason(view->context) : report.text,
+             sb_section_gl_reason(view->gl));
+}
+
+// Where the section's picture is in the area. A wide one has the forces in its own column; it is a
+// little more than the section itself, so that no letter is cut.
+static SbRect picture_rect(View *view, double area_width, double area_height) {
+  const double top = 14;
+  double width = area_width - 2 * MARGIN;
+  gboolean balance = sb_session_run(view->session) != NULL && width < WIDE;
+  double bottom = balance ? SB_FORCE_BALANCE_HEIGHT : 8;
+  return (SbRect){MARGIN - EDGE, top - EDGE, fmax(width, 1) + 2 * EDGE,
+                  fmax(area_height - top - bottom - 8, 1) + 2 * EDGE};
+}
+
+// The window's GL draws the picture unless it is zoomed and moved.
+static gboolean by_window(View *view) {
+  return view->zoom <= 1 && sb_section_gl_works(view->gl);
+}
+
+static gboolean on_place(GtkOverlay *overlay, GtkWidget *child, GdkRectangle *place, View *view) {
+  if (child != view->gl) {
+    return FALSE;
   }
+  SbRect rect = picture_rect(view, gtk_widget_get_allocated_width(GTK_WIDGET(overlay)),
+                             gtk_widget_get_allocated_height(GTK_WIDGET(overlay)));
+  // As large as the picture, but out of sight while something else draws it.
+  gboolean shown = by_window(view);
+  *place = (GdkRectangle){(int)rect.x, (int)rect.y, shown ? (int)ceil(rect.width) : 1,
+                          shown ? (int)ceil(rect.height) : 1};
+  return TRUE;
 }
 
 // Draws the list at the picture's place; false if GL cannot.
@@ -201,12 +235,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   double width = area_width - 2 * MARGIN;
   double height = area_height;
   gboolean ran = sb_session_run(view->session) != NULL;
-  // A wide picture has the forces in its own column.
-  double top = 14;
-  double bottom = ran && width < WIDE ? SB_FORCE_BALANCE_HEIGHT : 8;
-  // A little more than the section itself, so that no letter is cut.
-  SbRect picture = {MARGIN - EDGE, top - EDGE, fmax(width, 1) + 2 * EDGE,
-                    fmax(height - top - bottom - 8, 1) + 2 * EDGE};
+  SbRect picture = picture_rect(view, area_width, area_height);
   const SbSectionLook *look = &sb_run_model(view->run)->look;
   const char *inset = gtk_combo_box_get_active_id(GTK_COMBO_BOX(view->inset_combo));
   SbSectionView how = {
@@ -235,13 +264,15 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   cairo_rectangle(cr, 0, 0, area_width, picture.y + picture.height + 4);
   cairo_clip(cr);
   gboolean field = instant.ring[SB_OUTER] != NULL || instant.ring[SB_INNER] != NULL;
-  if (!field || view->zoom > 1 || !draw_by_gl(view, cr, &picture)) {
+  if (by_window(view)) {
+    gtk_gl_area_queue_render(GTK_GL_AREA(view->gl));
+  } else if (!field || view->zoom > 1 || !draw_by_gl(view, cr, &picture)) {
     cairo_translate(cr, picture.x - view->pan_x, picture.y - view->pan_y);
     sb_draw_list_to_cairo(&view->list, view->text, cr);
   }
   cairo_restore(cr);
   if (ran && width < WIDE) {
-    SbRect balance = {MARGIN, height - bottom, width, bottom};
+    SbRect balance = {MARGIN, height - SB_FORCE_BALANCE_HEIGHT, width, SB_FORCE_BALANCE_HEIGHT};
     sb_force_balance_draw(cr, balance, theme, data);
   }
 }
@@ -286,6 +317,7 @@ static void follow_look(View *view) {
 
 static void on_run_changed(View *view) {
   follow_look(view);
+  gtk_widget_queue_resize(view->gl);
   gtk_widget_set_visible(view->empty, sb_session_state(view->session) == SB_SESSION_EMPTY);
   // Only rings solved by finite elements have a field and a mesh to show.
   const SbRun *run = sb_session_run(view->session);
@@ -320,6 +352,7 @@ static void zoom_at(View *view, double factor, double x, double y) {
   view->pan_x = (view->pan_x + x) * zoom / view->zoom - x;
   view->pan_y = (view->pan_y + y) * zoom / view->zoom - y;
   view->zoom = zoom;
+  gtk_widget_queue_resize(view->gl);
   clamp_pan(view);
   redraw(view);
 }
@@ -342,6 +375,21 @@ static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, View *view) 
     gdk_event_get_scroll_deltas((GdkEvent *)event, &dx, &dy);
   }
   zoom_at(view, pow(1.2, -dy), event->x, event->y);
+  return GDK_EVENT_STOP;
+}
+
+// On the window's GL, which lies over the area.
+static gboolean on_gl_scroll(GtkWidget *widget, GdkEventScroll *event, View *view) {
+  int x = 0;
+  int y = 0;
+  gtk_widget_translate_coordinates(widget, view->area, 0, 0, &x, &y);
+  event->x += x;
+  event->y += y;
+  return on_scroll(view->area, event, view);
+}
+
+static gboolean on_gl_press(GtkWidget *widget, GdkEventButton *event, View *view) {
+  gtk_widget_grab_focus(view->area);
   return GDK_EVENT_STOP;
 }
 
@@ -474,7 +522,6 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   view->zoom = 1;
   view->text = sb_text_create();
   sb_draw_list_init(&view->list);
-  open_gl(view);
   view->box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
   g_object_set_data_full(G_OBJECT(view->box), "view", view, view_free);
   gtk_box_pack_start(GTK_BOX(view->box), make_toolbar(view), FALSE, FALSE, 0);
@@ -488,6 +535,13 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_IMAGE);
   GtkWidget *overlay = gtk_overlay_new();
   gtk_container_add(GTK_CONTAINER(overlay), view->area);
+  view->gl = sb_section_gl_new(&view->list, on_gl_decided, view);
+  gtk_widget_add_events(view->gl, GDK_BUTTON_PRESS_MASK | GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK);
+  sb_style_name(view->gl, "Section picture", NULL);
+  gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->gl);
+  g_signal_connect(overlay, "get-child-position", G_CALLBACK(on_place), view);
+  g_signal_connect(view->gl, "scroll-event", G_CALLBACK(on_gl_scroll), view);
+  g_signal_connect(view->gl, "button-press-event", G_CALLBACK(on_gl_press), view);
   view->empty = make_empty();
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->empty);
   gtk_box_pack_start(GTK_BOX(view->box), overlay, TRUE, TRUE, 0);
