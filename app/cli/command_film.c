@@ -12,7 +12,7 @@
 #include <stddef.h>
 #include <string.h>
 
-static void print_table(const SbFilm *film) {
+static void print_table(const SbFilm *film, const SbFilmProblem *problem) {
   printf("Film by %s\n", sb_film_model_name(film->model));
   sb_cli_figure("Film, least", film->film_min, "m", "nm");
   sb_cli_figure("Film, central", film->film_central, "m", "nm");
@@ -24,6 +24,18 @@ static void print_table(const SbFilm *film) {
   sb_cli_figure("Hertz pressure", film->hertz_pressure, "Pa", "MPa");
   sb_cli_figure("Friction, Couette", film->friction_couette, "N/m", "N/m");
   sb_cli_figure("Friction, Poiseuille", film->friction_poiseuille, "N/m", "N/m");
+  if (problem->surface != SB_ROUGH_NONE) {
+    sb_cli_line("Asperities", sb_rough_model_name(problem->surface));
+    sb_cli_figure("Central film over roughness", film->film_ratio, "1", "");
+    sb_cli_figure("Load on asperities, share", film->asperity_share, "1", "");
+    sb_cli_figure("Real contact at the axis, share", film->real_area_share, "1", "");
+    sb_cli_figure("Friction, boundary", film->friction_boundary, "N/m", "N/m");
+    sb_cli_figure("Friction, broken film", film->friction_cavity, "N/m", "N/m");
+    sb_cli_figure("Coefficient of friction",
+                  fabs(film->friction_boundary + film->friction_couette + film->friction_cavity) /
+                      problem->load,
+                  "1", "");
+  }
   sb_cli_figure("Moes' M", film->moes_M, "1", "");
   sb_cli_line("Regime", film->regime);
   sb_cli_figure("Error estimate, least film", film->solver.error_film_min, "1", "");
@@ -92,6 +104,8 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem)
   for (size_t i = 0; i < G_N_ELEMENTS(models); i++) {
     SbFilmProblem same = *problem;
     same.model = models[i];
+    same.surface = SB_ROUGH_NONE; // smooth, all of them
+    same.hamaker = 0;
     SbReport report = {0};
     if (sb_film_solve(other, &same, NULL, &report) == SB_OK) {
       printf("  %-26s %9.4g nm %9.4g nm%s\n", sb_film_model_name(models[i]),
@@ -178,6 +192,18 @@ static const Quantity quantities[] = {
      offsetof(SbFilmProblem, inlet_film)},
     {"rupture-pressure", false, "Pa", "MPa", "Gauge pressure at which the film breaks (reynolds)",
      offsetof(SbFilmProblem, rupture_pressure)},
+    {"gt-product", false, "1", "", "Asperity product (--surface), 0.1289",
+     offsetof(SbFilmProblem, gt_product)},
+    {"sigma", false, "m", "um", "Height deviation (--surface), 1 um",
+     offsetof(SbFilmProblem, sigma)},
+    {"sigma-over-beta", false, "1", "", "Height deviation over tip radius (--surface), 0.1",
+     offsetof(SbFilmProblem, sigma_over_beta)},
+    {"hamaker", false, "J", "J", "Hamaker constant; else no adhesion (reynolds)",
+     offsetof(SbFilmProblem, hamaker)},
+    {"shear-strength", false, "Pa", "MPa", "Of the real contact (--surface), 3.5 MPa",
+     offsetof(SbFilmProblem, shear_strength)},
+    {"load-coefficient", false, "1", "", "On the asperities' load (--surface), 0.19",
+     offsetof(SbFilmProblem, load_coefficient)},
 };
 enum { QUANTITIES = G_N_ELEMENTS(quantities) };
 
@@ -212,6 +238,41 @@ static bool choose_model(SbFilmProblem *problem, const char *name) {
   return false;
 }
 
+// The surface and the catalogue's figures for what is not given; false with a message. Figures of a
+// surface without one are an error, as they would be ignored.
+static bool choose_surface(SbFilmProblem *problem, const char *name, char *const *texts) {
+  if (name != NULL && !sb_rough_model_from_name(&problem->surface, name)) {
+    sb_cli_fail("--surface: there is no surface \"%s\" (allowed none, greenwood-tripp, persson)",
+                name);
+    return false;
+  }
+  static const struct {
+    size_t offset;
+    SbParamId id;
+  } figure[] = {
+      {offsetof(SbFilmProblem, gt_product), SB_P_SURFACE_GT_PRODUCT},
+      {offsetof(SbFilmProblem, sigma), SB_P_SURFACE_SIGMA},
+      {offsetof(SbFilmProblem, sigma_over_beta), SB_P_SURFACE_SIGMA_OVER_BETA},
+      {offsetof(SbFilmProblem, shear_strength), SB_P_FRICTION_SHEAR_STRENGTH},
+      {offsetof(SbFilmProblem, load_coefficient), SB_P_FRICTION_LOAD_COEFFICIENT},
+  };
+  for (size_t f = 0; f < G_N_ELEMENTS(figure); f++) {
+    for (int i = 0; i < QUANTITIES; i++) {
+      if (quantities[i].offset != figure[f].offset) {
+        continue;
+      }
+      if (problem->surface == SB_ROUGH_NONE && texts[i] != NULL) {
+        sb_cli_fail("--%s: needs --surface greenwood-tripp or persson", quantities[i].name);
+        return false;
+      }
+      if (problem->surface != SB_ROUGH_NONE && texts[i] == NULL) {
+        *(double *)(void *)((char *)problem + figure[f].offset) = sb_param(figure[f].id)->fallback;
+      }
+    }
+  }
+  return true;
+}
+
 // Solves, and writes or prints what came out; an exit code.
 static int solve_and_show(const SbFilmProblem *problem, const char *target) {
   SbFilm *film = g_new0(SbFilm, 1);
@@ -228,7 +289,7 @@ static int solve_and_show(const SbFilmProblem *problem, const char *target) {
       written = sb_cli_emit(json, target);
       g_free(json);
     } else {
-      print_table(film);
+      print_table(film, problem);
       print_other_models(film, problem);
     }
     code = written != SB_EXIT_DONE ? written : code;
@@ -240,11 +301,14 @@ static int solve_and_show(const SbFilmProblem *problem, const char *target) {
 int sb_command_film(int argc, char **argv) {
   char *texts[QUANTITIES] = {NULL};
   char *name = NULL;
+  char *surface = NULL;
   char *dry = NULL;
   char *target = NULL;
   const GOptionEntry others[] = {
       {"model", 0, 0, G_OPTION_ARG_FILENAME, &name,
        "reynolds (default), or another of sealbench list models", "NAME"},
+      {"surface", 0, 0, G_OPTION_ARG_FILENAME, &surface,
+       "Asperities in the same solve: none (default), greenwood-tripp, persson (reynolds)", "NAME"},
       {"dry-pressure", 0, 0, G_OPTION_ARG_FILENAME, &dry,
        "Table x [m], p [Pa] for the model inverse", "FILE.csv"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
@@ -263,7 +327,8 @@ int sb_command_film(int argc, char **argv) {
   sb_film_problem_init(&problem);
   problem.cancelled = on_cancelled;
   if (!sb_cli_parse(&argc, &argv, entries, 0, 0, SB_TIMING_NOTE) ||
-      !read_quantities(&problem, texts) || (name != NULL && !choose_model(&problem, name))) {
+      !read_quantities(&problem, texts) || (name != NULL && !choose_model(&problem, name)) ||
+      !choose_surface(&problem, surface, texts)) {
     goto done;
   }
   if ((problem.model == SB_FILM_INVERSE) != (dry != NULL)) {
@@ -285,6 +350,7 @@ done:
     g_free(texts[i]);
   }
   g_free(name);
+  g_free(surface);
   g_free(dry);
   g_free(target);
   return code;

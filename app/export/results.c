@@ -233,6 +233,13 @@ char *sb_results_film(const SbFilm *film) {
   sb_json_number(&json, "hertz_pressure_Pa", film->hertz_pressure);
   sb_json_number(&json, "friction_couette_N_per_m", film->friction_couette);
   sb_json_number(&json, "friction_poiseuille_N_per_m", film->friction_poiseuille);
+  sb_json_number(&json, "friction_cavity_N_per_m", film->friction_cavity);
+  sb_json_number(&json, "friction_boundary_N_per_m", film->friction_boundary);
+  sb_json_number(&json, "asperity_load_N_per_m", film->asperity_load);
+  sb_json_number(&json, "asperity_load_share", film->asperity_share);
+  sb_json_number(&json, "real_area_m", film->real_area);
+  sb_json_number(&json, "real_area_share", film->real_area_share);
+  sb_json_number(&json, "film_ratio", film->film_ratio);
   sb_json_number(&json, "moes_M", film->moes_M);
   sb_json_string(&json, "regime", film->regime);
   sb_json_number(&json, "expected_model_error", film->expected_error);
@@ -258,6 +265,7 @@ char *sb_results_film(const SbFilm *film) {
   sb_json_numbers(&json, "x_m", film->x, film->points);
   sb_json_numbers(&json, "pressure_Pa", film->pressure, film->points);
   sb_json_numbers(&json, "film_m", film->film, film->points);
+  sb_json_numbers(&json, "asperity_pressure_Pa", film->asperity_pressure, film->points);
   sb_json_object_end(&json);
   sb_json_object_end(&json);
   return sb_json_finish(&json);

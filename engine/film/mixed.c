@@ -22,8 +22,8 @@
 #include <string.h>
 #include <time.h>
 
-static const int level_degree[] = {4, 6, 8};
-enum { LEVELS = sizeof level_degree / sizeof level_degree[0] };
+static const int degree[] = {4, 6, 8};
+enum { DEGREES = sizeof degree / sizeof degree[0], LEVELS = DEGREES + 1 };
 
 static double seconds(void) {
   struct timespec now;
@@ -181,179 +181,6 @@ void sb_mixed_resample(SbMixedSolver *solver, int from, int to) {
   new->kappa = old->kappa;
 }
 
-// ---------------------------------------------------------------- reading
-
-// What is read off a solution, scaled.
-typedef struct {
-  double film_min, film_central, film_flux, position_min, position_rupture;
-  double pressure_max;
-  double couette, poiseuille, cavity; // integrals of (1 - share)/h, (1 - share) h p'/2, theta/h
-  double real_area, asperity_load, central_share;
-  double load_error, flux_error;
-  bool ruptured, reformed;
-} Reading;
-
-static void add_interval(Reading *out, const SbMixedSolver *solver, const SbMixedState *state,
-                         const SbMixedCase *c, const SbMixedRule *rule, int e, double half, int j) {
-  int i = e * rule->degree + j;
-  double full[SB_MIXED_DEGREE_MAX + 1], film[SB_MIXED_DEGREE_MAX + 1];
-  memcpy(full, rule->step[j], sizeof full);
-  memcpy(film, full, sizeof film);
-  if (state->broken[i]) {
-    memset(film, 0, sizeof film);
-  } else if (state->broken[i + 1]) {
-    sb_mixed_partial(film, rule, j,
-                     sb_mixed_film_end(&solver->mesh[state - solver->state], rule, state->s, e, j));
-  }
-  for (int k = 0; k <= rule->degree; k++) {
-    int n = e * rule->degree + k;
-    const SbMixedPoint *at = &solver->point[n];
-    double w = half * full[k], wet = half * film[k];
-    double open = 1 - at->share;
-    double shear = 1 / at->h;
-    double p = state->q[n] - at->solid;
-    if (c->barus > 0 || c->eyring > 0) {
-      double barus = exp(-c->barus * (p + c->rupture));
-      double x = c->eyring / (barus * at->h);
-      shear = (x > 0 ? asinh(x) / x : 1) / (barus * at->h);
-    }
-    out->couette += wet * open * shear;
-    out->poiseuille += wet * open * 0.5 * at->h * state->s[n];
-    if (c->lambda > 0) {
-      double theta = fmin(state->kappa / c->lambda / at->h, 1);
-      out->cavity += (w - wet) * open * fmax(theta, 0) * shear;
-    }
-    out->real_area += w * at->share;
-    out->asperity_load += w * at->asperity;
-  }
-}
-
-static void read(Reading *out, SbMixedSolver *solver, int which, const SbMixedCase *c) {
-  const SbMixedMesh *mesh = &solver->mesh[which];
-  const SbMixedState *state = &solver->state[which];
-  const SbMixedRule *rule = sb_mixed_rule(solver, mesh->degree);
-  memset(out, 0, sizeof *out);
-  out->film_min = INFINITY;
-  out->position_rupture = mesh->edge[mesh->elements];
-  double load =
-      -0.5 * M_PI + mesh->inlet * mesh->edge[0] - mesh->outlet * mesh->edge[mesh->elements];
-  for (int i = 0; i < mesh->nodes; i++) {
-    sb_mixed_point(&solver->point[i], c, state->t[i]);
-    load += mesh->load[i] * state->q[i];
-  }
-  out->load_error = fabs(load) / (0.5 * M_PI);
-  out->film_flux = c->lambda > 0 ? state->kappa / c->lambda : 0;
-  double r;
-  int axis = sb_mixed_locate(mesh, 0, &r);
-  SbMixedPoint at;
-  sb_mixed_point(&at, c, sb_mixed_value(mesh, rule, state->t, axis, r));
-  out->film_central = at.h;
-  out->central_share = at.share;
-
-  int thinnest = 0, highest = 0;
-  double p_before = 0;
-  for (int e = 0; e < mesh->elements; e++) {
-    double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
-    for (int j = 0; j < rule->degree; j++) {
-      int i = e * rule->degree + j;
-      add_interval(out, solver, state, c, rule, e, half, j);
-      if (!out->ruptured && !state->broken[i] && state->broken[i + 1] && c->lambda > 0) {
-        double end = sb_mixed_film_end(mesh, rule, state->s, e, j);
-        out->position_rupture = 0.5 * (mesh->edge[e] + mesh->edge[e + 1]) + half * end;
-        out->ruptured = true;
-      }
-      out->reformed |= out->ruptured && state->broken[i] && !state->broken[i + 1];
-      thinnest = solver->point[i].h < solver->point[thinnest].h ? i : thinnest;
-      highest = state->q[i] > state->q[highest] ? i : highest;
-      // The flux that the profile carries, by the integrated equation.
-      if (!state->broken[i] && !state->broken[i + 1]) {
-        double p = state->q[i] - solver->point[i].solid;
-        double next = state->q[i + 1] - solver->point[i + 1].solid;
-        double sum = 0;
-        for (int k = 0; k <= rule->degree; k++) {
-          sum += half * rule->step[j][k] * state->s[e * rule->degree + k];
-        }
-        p_before = fmax(p_before, fabs(next - p - sum));
-      }
-    }
-  }
-  out->flux_error = p_before;
-  // Least gap and largest pressure inside the elements about the best nodes: parabola search.
-  out->film_min = solver->point[thinnest].h;
-  out->position_min = mesh->x[thinnest];
-  out->pressure_max = state->q[highest];
-  for (int which_one = 0; which_one < 2; which_one++) {
-    double X = mesh->x[which_one == 0 ? thinnest : highest];
-    double low = X, high = X;
-    int n = which_one == 0 ? thinnest : highest;
-    low = mesh->x[n > 0 ? n - 1 : 0];
-    high = mesh->x[n < mesh->nodes - 1 ? n + 1 : n];
-    const double *field = which_one == 0 ? state->t : state->q;
-    double sign = which_one == 0 ? 1 : -1;
-    static const double RATIO = 0.6180339887498949;
-    for (int k = 0; k < 40; k++) {
-      double x1 = high - RATIO * (high - low), x2 = low + RATIO * (high - low);
-      double r1, r2;
-      int e1 = sb_mixed_locate(mesh, x1, &r1), e2 = sb_mixed_locate(mesh, x2, &r2);
-      if (sign * sb_mixed_value(mesh, rule, field, e1, r1) <
-          sign * sb_mixed_value(mesh, rule, field, e2, r2)) {
-        high = x2;
-      } else {
-        low = x1;
-      }
-    }
-    X = 0.5 * (low + high);
-    int e = sb_mixed_locate(mesh, X, &r);
-    double value = sb_mixed_value(mesh, rule, field, e, r);
-    if (which_one == 0) {
-      sb_mixed_point(&at, c, value);
-      if (at.h < out->film_min) {
-        out->film_min = at.h;
-        out->position_min = X;
-      }
-    } else {
-      out->pressure_max = fmax(out->pressure_max, value);
-    }
-  }
-}
-
-static void profile(SbFilm *out, SbMixedSolver *solver, int which, const SbMixedCase *c,
-                    const SbFilmScale *scale, bool forward) {
-  const SbMixedMesh *mesh = &solver->mesh[which];
-  const SbMixedState *state = &solver->state[which];
-  const SbMixedRule *rule = sb_mixed_rule(solver, mesh->degree);
-  int per = (SB_FILM_POINTS - 1) / mesh->elements;
-  size_t n = 0;
-  for (int e = 0; e < mesh->elements; e++) {
-    double middle = 0.5 * (mesh->edge[e] + mesh->edge[e + 1]);
-    double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
-    for (int k = e > 0 ? 1 : 0; k <= per; k++) {
-      double r = -1 + 2.0 * k / per;
-      SbMixedPoint at;
-      sb_mixed_point(&at, c, sb_mixed_value(mesh, rule, state->t, e, r));
-      double q = sb_mixed_value(mesh, rule, state->q, e, r);
-      out->x[n] = (middle + half * r) * scale->half_width;
-      out->pressure[n] = (q + c->rupture) * scale->pressure;
-      out->film[n] = at.h * scale->film;
-      out->asperity_pressure[n] = at.asperity * scale->pressure;
-      n++;
-    }
-  }
-  out->points = n;
-  for (size_t i = 0, j = n - 1; !forward && i <= j; i++, j--) {
-    double *const column[] = {out->x, out->pressure, out->film, out->asperity_pressure};
-    for (size_t k = 0; k < sizeof column / sizeof column[0]; k++) {
-      double value = column[k][i];
-      column[k][i] = column[k][j];
-      column[k][j] = value;
-    }
-    out->x[i] = -out->x[i];
-    if (i != j) {
-      out->x[j] = -out->x[j];
-    }
-  }
-}
-
 // ---------------------------------------------------------------- solving
 
 static SbStatus attempt(SbMixedSolver *solver, int which, const SbMixedCase *c,
@@ -425,7 +252,7 @@ static SbStatus descend(SbMixedSolver *solver, const SbMixedCase *c, double from
 static SbStatus start(SbMixedSolver *solver, int *which, const SbMixedCase *c,
                       SbFilmSolverInfo *info, const SbFilmProblem *problem) {
   enum { TRIALS = 12 };
-  const SbMixedRule *rule = sb_mixed_rule(solver, level_degree[0]);
+  const SbMixedRule *rule = sb_mixed_rule(solver, degree[0]);
   *which = 0;
   if (!sb_mixed_mesh(&solver->mesh[0], rule, c, 1)) {
     return SB_ERROR_NOT_CONVERGED;
@@ -447,6 +274,49 @@ static SbStatus start(SbMixedSolver *solver, int *which, const SbMixedCase *c,
     status = descend(solver, c, trial.lambda, info, problem);
   }
   return status;
+}
+
+// Follows the layers, then raises the degree until the error meets the tolerance. The last change
+// times a rate estimates the error left: inside the contact a level's own error is some hundredth
+// of its change; the least film, beside the kink that the rupture leaves, improves more slowly.
+static SbStatus refine(SbMixedReading *reading, int *levels, int *which, SbMixedSolver *solver,
+                       SbMixedCase *c, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+  static const double RATE = 0.02, RATE_LEAST = 0.05, RATE_FLOW = 0.02;
+  info->error_film_min = info->error_film_central = info->error_film_flux = 1;
+  bool follow = sb_mixed_fronts(c, solver, *which, &reading[0]);
+  for (int k = follow ? 0 : 1; k < DEGREES; k++) {
+    int to = 1 - *which;
+    const SbMixedRule *rule = sb_mixed_rule(solver, degree[k]);
+    if (!sb_mixed_mesh(&solver->mesh[to], rule, c, 1)) {
+      break;
+    }
+    sb_mixed_resample(solver, *which, to);
+    SbStatus status = attempt(solver, to, c, info, problem);
+    if (status != SB_OK) {
+      return status;
+    }
+    *which = to;
+    SbMixedReading *now = &reading[*levels];
+    const SbMixedReading *before = now - 1;
+    sb_mixed_read(now, solver, to, c);
+    sb_mixed_fronts(c, solver, to, now);
+    ++*levels;
+    double rounding = 1e-15 / fmin(now->film_min + SB_MIXED_CLOSED, 1) + 3e-9;
+    // A closed gap has no relative error; a flow that still moves, moves the films with it.
+    double least = fmax(now->film_min, SB_MIXED_CLOSED);
+    double central = fmax(now->film_central, SB_MIXED_CLOSED);
+    double flow = before->film_flux != 0 ? fabs(now->film_flux / before->film_flux - 1) : 0;
+    double base = rounding + RATE_FLOW * flow;
+    info->error_film_min = RATE_LEAST * fabs(now->film_min - before->film_min) / least + base;
+    info->error_film_central =
+        RATE * fabs(now->film_central - before->film_central) / central + base;
+    info->error_film_flux = RATE_LEAST * flow + rounding;
+    double worst = fmax(info->error_film_min, info->error_film_central);
+    if (degree[k] > degree[0] && worst < 0.1 * problem->tolerance) {
+      break;
+    }
+  }
+  return SB_OK;
 }
 
 // Where the models behind the solution end.
@@ -515,54 +385,36 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
     c.law = &solver->law;
   }
   c.smooth_gap = 0.01 * sb_layers_flux(&c.layers);
-  c.cut = INFINITY;
   if (!(c.lambda > 0) && c.layers.inlet == c.layers.outlet) {
     // No flow at all: the film pressure is the one around the contact.
     c.rest = c.layers.inlet;
     c.supply = 0;
   }
   c.flux = flux_guess(&c.mouth, &c);
+  c.front[0].X = c.front[1].X = INFINITY;
 
   if (c.layers.inlet < 0) {
     return sb_fail(report, SB_ERROR_INFEASIBLE,
                    "film: the inlet's pressure is below the rupture pressure: no liquid there");
   }
 
-  Reading reading[LEVELS];
+  SbMixedReading reading[LEVELS];
   int which = 0;
   int levels = 0;
   SbStatus status = start(solver, &which, &c, info, problem);
   if (status == SB_OK) {
-    read(&reading[0], solver, which, &c);
+    sb_mixed_read(&reading[0], solver, which, &c);
     levels = 1;
+    status = refine(reading, &levels, &which, solver, &c, info, problem);
   }
-  for (int level = 1; level < LEVELS && status == SB_OK; level++) {
-    int to = 1 - which;
-    c.cut = reading[level - 1].ruptured ? reading[level - 1].position_rupture : INFINITY;
-    if (!sb_mixed_mesh(&solver->mesh[to], sb_mixed_rule(solver, level_degree[level]), &c, 1)) {
-      break;
-    }
-    sb_mixed_resample(solver, which, to);
-    status = attempt(solver, to, &c, info, problem);
-    if (status != SB_OK) {
-      break;
-    }
-    which = to;
-    read(&reading[level], solver, which, &c);
-    levels = level + 1;
-    const Reading *a = &reading[level], *b = &reading[level - 1];
-    info->error_film_min = fabs(a->film_min / b->film_min - 1);
-    info->error_film_central = fabs(a->film_central / b->film_central - 1);
-    info->error_film_flux = b->film_flux != 0 ? fabs(a->film_flux / b->film_flux - 1) : 0;
-    if (fmax(info->error_film_min, info->error_film_central) < 0.1 * problem->tolerance) {
-      break;
-    }
+  if (status == SB_ERROR_CANCELLED) {
+    return sb_fail(report, status, "film: cancelled");
   }
   if (levels == 0) {
-    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "film: Newton's method stopped, step %.2g",
-                   info->residual);
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                   "film: Newton's method stopped at a step of %.2g", info->residual);
   }
-  const Reading *r = &reading[levels - 1];
+  const SbMixedReading *r = &reading[levels - 1];
   double sign = problem->speed >= 0 ? 1 : -1;
   out->film_min = r->film_min * scale->film;
   out->film_central = r->film_central * scale->film;
@@ -597,6 +449,6 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
   info->converged = status == SB_OK;
   warn(out, problem, scale);
   info->wall_s = seconds() - begin;
-  profile(out, solver, which, &c, scale, problem->speed >= 0);
+  sb_mixed_profile(out, solver, which, &c, scale, problem->speed >= 0);
   return status == SB_OK ? sb_succeed(report) : status;
 }

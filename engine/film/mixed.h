@@ -26,6 +26,9 @@ enum {
   SB_MIXED_NODES_MAX = 440,
 };
 
+// Scaled gaps below this are closed for all that double precision tells.
+#define SB_MIXED_CLOSED 1e-11
+
 // Tables of one degree on [-1, 1].
 typedef struct {
   int degree;
@@ -69,7 +72,9 @@ typedef struct {
   double hamaker;        // A_H / (6 pi h^3) with h, p scaled; 0 = off
   double cutoff;         // scaled
   double flux, mouth;    // guesses of the flux film and of where the film's pressure begins
-  double cut;            // an element ends there, at the rupture; infinite if not known
+  struct {
+    double X, width; // of the layers at the film's two mouths; width 0: none
+  } front[2];
 } SbMixedCase;
 
 // Everything at a node.
@@ -146,6 +151,28 @@ double sb_mixed_film_end(const SbMixedMesh *mesh, const SbMixedRule *rule, const
 
 // Integral of a basis function from node j to r.
 void sb_mixed_partial(double *weight, const SbMixedRule *rule, int j, double r);
+
+// What is read off a solution, scaled.
+typedef struct {
+  double film_min, film_central, film_flux, position_min, position_rupture;
+  double pressure_max;
+  double couette, poiseuille, cavity; // integrals of (1 - share)/h, (1 - share) h p'/2, theta/h
+  double real_area, asperity_load, central_share;
+  double load_error, flux_error;
+  bool ruptured, reformed;
+} SbMixedReading;
+
+// Reads a converged state.
+void sb_mixed_read(SbMixedReading *out, SbMixedSolver *solver, int which, const SbMixedCase *c);
+
+// Where the film takes the load over from the asperities and hands it back, and how sharply, into
+// c->front for the next mesh; false if neither is sharp enough to need elements of its own.
+bool sb_mixed_fronts(SbMixedCase *c, const SbMixedSolver *solver, int which,
+                     const SbMixedReading *reading);
+
+// Profile in SI and the seal's frame.
+void sb_mixed_profile(SbFilm *out, SbMixedSolver *solver, int which, const SbMixedCase *c,
+                      const SbFilmScale *scale, bool forward);
 
 // The mixed solution of `problem`, speed zero included.
 SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,

@@ -165,6 +165,45 @@ static double edge_width(const SbMixedCase *c, double layer) {
   return width;
 }
 
+// A place about which elements shrink to `width`.
+typedef struct {
+  double X, width;
+} Feature;
+
+// Adds a feature unless those before resolve it, in order of X.
+static int add_feature(Feature *feature, int count, double X, double width, double reach) {
+  if (!(fabs(X) < reach)) {
+    return count;
+  }
+  int at = 0;
+  for (int i = 0; i < count; i++) {
+    if (fabs(X - feature[i].X) < 0.1 * width) {
+      feature[i].width = fmin(feature[i].width, width);
+      return count;
+    }
+    at += feature[i].X < X;
+  }
+  for (int i = count; i > at; i--) {
+    feature[i] = feature[i - 1];
+  }
+  feature[at] = (Feature){X, width};
+  return count + 1;
+}
+
+// Places of element ends from feature `f` to X, growing with the distance. Returns how many.
+static int march(double *edge, int room, const Feature *f, double to, double grow) {
+  double distance = fabs(to - f->X);
+  // ln(1 + d/w) grows evenly: the first element has about w times `grow`.
+  double total = log1p(distance / f->width);
+  int n = (int)ceil(total / log1p(grow) - 1e-9);
+  n = n < 1 ? 1 : n;
+  for (int i = 1; i <= n && i <= room; i++) {
+    double d = i == n ? distance : f->width * expm1(total * i / n);
+    edge[i - 1] = to > f->X ? f->X + d : f->X - d;
+  }
+  return n;
+}
+
 bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase *c,
                    double fineness) {
   static const double GROWTH = 0.75;
@@ -172,96 +211,72 @@ bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase
   double thin = sb_layers_width(l);
   double unit = sqrt(1.44 + 0.52 * c->lambda); // length of the rigid wedge
   bool thick = c->lambda > 0 && thin > 1;
-  double feature[2] = {-1, 1};
-  double width[2];
-  width[0] = fmin(edge_width(c, thick ? 0.6 * unit : thin), unit);
-  // The flux needs the inlet's layer, the least film the outlet's, which is finer.
-  width[1] = fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin), unit);
-  if (thick) {
-    feature[0] = -0.6 * unit;
-    feature[1] = 0.7 * unit;
-  }
 
   // Reach: the film's pressure falls like (4/3) lambda / X^3, the asperities' with the gap.
   double tail = 1.5;
   if (c->law != NULL) {
-    double least = 1e-13 * c->pressure;
-    double t = sb_rough_law_of_pressure(c->law, least);
     SbRoughPoint end;
-    sb_rough_law_at(&end, c->law, t);
+    sb_rough_law_at(&end, c->law, sb_rough_law_of_pressure(c->law, 1e-13 * c->pressure));
     tail = dry_reach(end.gap / c->film);
   }
   double film_reach = fmax(3, sqrt(c->lambda * 4e6));
-  double left = fmax(tail, c->lambda > 0 ? film_reach : tail);
-  double right = fmax(tail, feature[1] + 3 * width[1]);
-  if (thick) {
-    right = fmax(right, 2 * unit);
-  }
-  if (c->layers.outlet > 0) {
-    right = fmax(right, film_reach);
-  }
+
+  // The edges: the flux needs the inlet's layer, the least film the outlet's, which is finer.
+  Feature feature[6] = {
+      {thick ? -0.6 * unit : -1, fmin(edge_width(c, thick ? 0.6 * unit : thin), unit)},
+      {thick ? 0.7 * unit : 1, fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin), unit)}};
+  int features = 2;
+  double left = c->lambda > 0 ? fmax(tail, film_reach) : tail;
+  double right = fmax(tail, feature[1].X + 3 * feature[1].width);
+  right = thick ? fmax(right, 2 * unit) : right;
+  right = c->layers.outlet > 0 ? fmax(right, film_reach) : right;
   if (!(c->lambda > 0) && c->layers.inlet != c->layers.outlet) {
-    left = right = fmax(left, 3);
+    left = right = fmax(fmax(left, right), 3);
+  }
+  if (!thick) {
+    features = add_feature(feature, features, 0, 0.4, left); // no coarser in the middle
+  }
+  // The mouths of a film between asperities, where it hands the load over.
+  for (int i = 0; i < 2; i++) {
+    features = add_feature(feature, features, c->front[i].X, c->front[i].width, 0.98 * left);
   }
 
-  // Sizes: march out from each feature and in to the middle between them, then scale each part
-  // so that it ends on its mark.
+  // From every feature halfway to its neighbours.
   double grow = GROWTH / fineness;
-  const double from[4] = {feature[0], feature[0], feature[1], feature[1]};
-  double middle = 0.5 * (feature[0] + feature[1]);
-  const double to[4] = {-left, middle, middle, right};
-  double places[4][SB_MIXED_ELEMENTS_MAX];
-  int count[4];
-  for (int part = 0; part < 4; part++) {
-    double w = width[part / 2];
-    double distance = fabs(to[part] - from[part]);
-    // ln(1 + d/w) grows by about `grow` per element, the first of size w grow.
-    double total = log1p(distance / w);
-    int n = (int)ceil(total / log1p(grow));
-    n = n < 1 ? 1 : n;
-    if (n >= SB_MIXED_ELEMENTS_MAX) {
+  int n = 0;
+  double piece[SB_MIXED_ELEMENTS_MAX];
+  mesh->edge[n++] = -left;
+  for (int f = 0; f < features; f++) {
+    const Feature *here = &feature[f];
+    double from = mesh->edge[n - 1];
+    int count = march(piece, SB_MIXED_ELEMENTS_MAX, here, from, grow);
+    if (n + count >= SB_MIXED_ELEMENTS_MAX) {
       return false;
     }
-    count[part] = n;
-    for (int i = 1; i <= n; i++) {
-      double d = i == n ? distance : w * expm1(total * i / n);
-      places[part][i - 1] = to[part] > from[part] ? from[part] + d : from[part] - d;
+    for (int i = count - 2; i >= 0; i--) {
+      mesh->edge[n++] = piece[i];
+    }
+    mesh->edge[n++] = here->X;
+    double to = right;
+    if (f < features - 1) {
+      const Feature *next = &feature[f + 1];
+      to = 0.5 * (here->X + next->X + next->width - here->width);
+      double margin = 0.05 * (next->X - here->X);
+      to = fmin(fmax(to, here->X + margin), next->X - margin);
+    }
+    count = march(&mesh->edge[n], SB_MIXED_ELEMENTS_MAX - n, here, to, grow);
+    n += count;
+    if (n > SB_MIXED_ELEMENTS_MAX) {
+      return false;
     }
   }
-  int elements = count[0] + count[1] + count[2] + count[3];
+  int elements = n - 1;
   int nodes = elements * rule->degree + 1;
-  if (elements > SB_MIXED_ELEMENTS_MAX || nodes > SB_MIXED_NODES_MAX) {
+  if (nodes > SB_MIXED_NODES_MAX) {
     return false;
   }
-  int n = 0;
-  for (int i = count[0] - 1; i >= 0; i--) {
-    mesh->edge[n++] = places[0][i];
-  }
-  mesh->edge[n++] = feature[0];
-  for (int i = 0; i < count[1]; i++) {
-    mesh->edge[n++] = places[1][i];
-  }
-  for (int i = count[2] - 2; i >= 0; i--) {
-    mesh->edge[n++] = places[2][i];
-  }
-  mesh->edge[n++] = feature[1];
-  for (int i = 0; i < count[3]; i++) {
-    mesh->edge[n++] = places[3][i];
-  }
-  if (isfinite(c->cut)) {
-    // The edge nearest to the rupture moves there.
-    int nearest = 1;
-    for (int e = 1; e < elements; e++) {
-      if (fabs(mesh->edge[e] - c->cut) < fabs(mesh->edge[nearest] - c->cut)) {
-        nearest = e;
-      }
-    }
-    if (elements > 2 && c->cut > mesh->edge[nearest - 1] && c->cut < mesh->edge[nearest + 1]) {
-      mesh->edge[nearest] = c->cut;
-    }
-  }
-  mesh->elements = elements;
   mesh->nodes = nodes;
+  mesh->elements = elements;
   mesh->degree = rule->degree;
   mesh->inlet = c->layers.inlet;
   mesh->outlet = c->layers.outlet;

@@ -21,9 +21,6 @@
 
 enum { ITERATIONS_MAX = 40 };
 
-// Scaled gaps far below this are closed for all that double precision tells.
-static const double GAP_FLOOR = 1e-11;
-
 void sb_mixed_point(SbMixedPoint *out, const SbMixedCase *c, double t) {
   if (c->law != NULL) {
     SbRoughPoint p;
@@ -154,9 +151,10 @@ static void residuals(Local *l, const SbMixedMesh *mesh, const SbMixedRule *rule
   }
 }
 
-// Chooses between full film and cavity at every node.
-static void choose(const Local *l, const SbMixedMesh *mesh, const SbMixedRule *rule,
-                   SbMixedState *state, const SbMixedPoint *point, bool flooded, double doubt) {
+// Chooses between full film and cavity at every node; how many changed.
+static int choose(const Local *l, const SbMixedMesh *mesh, const SbMixedRule *rule,
+                  SbMixedState *state, const SbMixedPoint *point, bool flooded, double doubt) {
+  int changed = 0;
   // Against the flow, as the end of the film depends on what lies behind.
   state->broken[mesh->nodes - 1] = state->broken[mesh->nodes - 2];
   for (int i = mesh->nodes - 2; i >= 0; i--) {
@@ -176,8 +174,10 @@ static void choose(const Local *l, const SbMixedMesh *mesh, const SbMixedRule *r
     double sign = l->p[i] + residual;
     bool broken = fabs(sign) < doubt * point[i].asperity ? state->broken[i] : sign < 0;
     broken = broken && !(i == 0 && flooded);
+    changed += broken != state->broken[i];
     state->broken[i] = broken;
   }
+  return changed;
 }
 
 // Adds coefficient times dh (and dp) of node n to a row.
@@ -272,6 +272,7 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
   int order = nodes + 2;
   Local local;
   double before = INFINITY;
+  int settled = 0;
   *trace = (SbMixedTrace){.step = INFINITY};
   for (int iteration = 0; iteration < ITERATIONS_MAX; iteration++) {
     if (callback->cancelled != NULL && callback->cancelled(callback->cancelled_data)) {
@@ -280,8 +281,14 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
     elastic_gaps(solver->gap, mesh, state);
     localise(&local, solver, mesh, state, c);
     residuals(&local, mesh, rule, state);
+    int changed = 0;
     if (c->lambda > 0 && before < 0.3) {
-      choose(&local, mesh, rule, state, solver->point, !isfinite(c->supply), before);
+      changed = choose(&local, mesh, rule, state, solver->point, !isfinite(c->supply), before);
+    }
+    // Converged where no node wants to change sides either; one at the very end of the film may go
+    // to and fro without any effect.
+    if (settled > 0 && (changed == 0 || settled > 6)) {
+      return SB_OK;
     }
     assemble(solver->matrix, solver->right, mesh, rule, state, c, &local);
     if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, solver->matrix, order, solver->pivot) !=
@@ -315,10 +322,10 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
       state->s[i] +=
           local.s0[i] + local.s_h[i] * dh + local.s_p[i] * dp + local.s_kappa[i] * dkappa;
       double down = fmax(1.5, 0.8 * state->t[i]);
-      cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > GAP_FLOOR);
+      cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > SB_MIXED_CLOSED);
       state->t[i] = dt > 0.5 ? sb_mixed_of_gap(c, at->h + dh) : state->t[i] + fmax(dt, -down);
       state->q[i] += dq[i];
-      largest = fmax(largest, fmax(fabs(dh) / (at->h + GAP_FLOOR), fabs(dq[i])));
+      largest = fmax(largest, fmax(fabs(dh) / (at->h + SB_MIXED_CLOSED), fabs(dq[i])));
       least = fmin(least, at->h);
     }
     state->H0 += dH0;
@@ -327,10 +334,10 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
 
     // Steps shrink quadratically; what is left at last is rounding: deflections of size one
     // against the gap.
-    double rounding = 1e-14 / (least + GAP_FLOOR);
+    double rounding = 1e-14 / (least + SB_MIXED_CLOSED);
     bool stalled = largest < 100 * rounding && largest > 0.2 * before;
     if (!cut && (largest < fmax(1e-8, rounding) || stalled)) {
-      return SB_OK;
+      settled++;
     }
     before = largest;
   }

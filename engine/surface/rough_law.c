@@ -30,15 +30,15 @@ bool sb_rough_model_from_name(SbRoughModel *out, const char *name) {
 // ---------------------------------------------------------------- Greenwood and Tripp
 
 // ln F_n(lambda) for n = 1, 3/2, 2, 5/2: trapezoidal sums after t = e^u (greenwood_tripp.c). The
-// step of 1/9 leaves below 1e-11 for lambda > -8.
+// peak of width 1/|lambda| in u takes two steps at lambda = -8: error below 1e-11.
 static void log_integrals(double out[4], double lambda) {
-  const double h = 1.0 / 9;
+  const double h = 1.0 / 14;
   const double log_root_two_pi = 0.91893853320467274178;
   double peak = (-lambda + sqrt(lambda * lambda + 11)) / 2;
   double top = 2.75 * log(peak) - lambda * peak - peak * peak / 2;
   double u_peak = log(peak);
   double sum[4] = {0};
-  for (int i = -150; i < 90; i++) {
+  for (int i = -240; i < 140; i++) {
     double u = u_peak + i * h;
     double t = exp(u);
     double root = sqrt(t);
@@ -63,17 +63,19 @@ static void table_greenwood_tripp(SbRoughLaw *law) {
   law->count = 201;
   double square = s->product * s->product;
   double pressure = log(8 * M_SQRT2 / 15 * M_PI * square * sqrt(s->sigma_over_beta));
-  double share = log(M_PI * M_PI * square);
+  double area = log(M_PI * M_PI * square);
   for (int i = 0; i < law->count; i++) {
     double t = law->begin + law->step * i;
-    double log_F[4], log_gap[4];
+    double log_F[4], log_closed[4];
     log_integrals(log_F, t);
-    log_integrals(log_gap, -t); // h/sigma = F_1(-t)
-    law->gap[i] = log_gap[0];
-    law->gap_slope[i] = exp(log(0.5 * erfc(-t / M_SQRT2)) - log_gap[0]);
+    // h/sigma = t Phi + phi, or F_1(-t) where that cancels.
+    double share = 0.5 * erfc(-t / M_SQRT2);
+    log_integrals(log_closed, fabs(t));
+    law->gap[i] = t > 0 ? log(t * share + exp(-t * t / 2) / sqrt(2 * M_PI)) : log_closed[0];
+    law->gap_slope[i] = exp(log(share) - law->gap[i]);
     law->pressure[i] = pressure + log_F[3];
     law->pressure_slope[i] = -2.5 * exp(log_F[1] - log_F[3]);
-    law->share[i] = share + log_F[2];
+    law->share[i] = area + log_F[2];
     law->share_slope[i] = -2 * exp(log_F[0] - log_F[2]);
   }
 }

@@ -1,0 +1,534 @@
+// Film and asperities in one solve: the smooth and the dry limit, the Stribeck curve between them,
+// near full contact, what an outside program recomputes from the profile, and the rough laws.
+#include "engine/film/film.h"
+#include "engine/film/stribeck.h"
+#include "engine/surface/greenwood_tripp.h"
+#include "engine/surface/persson.h"
+#include "engine/surface/van_der_waals.h"
+
+#include <glib.h>
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static SbFilmSolver *solver;
+static SbFilm film, other;
+
+// The outer seal of the thesis valve.
+static SbFilmProblem seal(double speed, SbRoughModel surface) {
+  SbFilmProblem problem;
+  sb_film_problem_init(&problem);
+  problem.load = 850.2;
+  problem.radius = 0.805e-3;
+  problem.modulus = 6.5725e6;
+  problem.viscosity = 0.211e-3;
+  problem.speed = speed;
+  problem.surface = surface;
+  problem.gt_product = 0.1289;
+  problem.sigma = 1e-6;
+  problem.sigma_over_beta = 0.1;
+  problem.shear_strength = 3.5e6;
+  problem.load_coefficient = 0.19;
+  return problem;
+}
+
+static SbStatus solve(SbFilm *out, const SbFilmProblem *problem) {
+  SbReport report;
+  sb_film_solver_forget(solver);
+  SbStatus status = sb_film_solve(out, problem, solver, &report);
+  if (status != SB_OK) {
+    g_test_message("speed %g: %s", problem->speed, report.text);
+  }
+  return status;
+}
+
+static void close_to(const char *what, double got, double want, double relative) {
+  if (!(fabs(got - want) <= relative * fabs(want))) {
+    g_test_message("%s: got %.9g, want %.9g within %g", what, got, want, relative);
+    g_test_fail();
+  }
+}
+
+// ---------------------------------------------------------------- the laws
+
+// Mean gap of the undeformed planes' distance, by its closed form.
+static double average_gap(double sigma, double lambda) {
+  return sigma *
+         (lambda * 0.5 * erfc(-lambda / G_SQRT2) + exp(-lambda * lambda / 2) / sqrt(2 * G_PI));
+}
+
+static void test_laws(void) {
+  SbRoughSurface surface = {SB_ROUGH_GREENWOOD_TRIPP, 0.1289, 1e-6, 0.1, 6.5725e6};
+  SbRoughLaw law;
+  g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
+  // Against the integrals themselves, off the table's nodes.
+  for (double lambda = -4.03; lambda < 9; lambda += 0.37) {
+    SbGtIntegrals F;
+    sb_gt_integrals(&F, lambda, NULL);
+    double h = average_gap(1e-6, lambda);
+    SbRoughPoint at;
+    sb_rough_law_at(&at, &law, sb_rough_law_of_gap(&law, h));
+    close_to("gap", at.gap, h, 1e-9);
+    close_to("pressure", at.pressure, sb_gt_pressure(0.1289, 0.1, 6.5725e6, F.F5_2), 2e-6);
+    close_to("share", at.share, sb_gt_area_share(0.1289, F.F2), 2e-6);
+    double t = sb_rough_law_of_pressure(&law, at.pressure);
+    SbRoughPoint back;
+    sb_rough_law_at(&back, &law, t);
+    close_to("back from the pressure", back.gap, h, 1e-6);
+  }
+  // Persson's against the direct integral, and slopes against differences.
+  surface.model = SB_ROUGH_PERSSON;
+  g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
+  SbSpectrum spectrum;
+  sb_spectrum_from_asperities(&spectrum, 1e-6, 0.1, 0.1289, NULL);
+  for (double p = 1e2; p < 3e6; p *= 3) {
+    SbRoughPoint at, next;
+    double t = sb_rough_law_of_pressure(&law, p);
+    sb_rough_law_at(&at, &law, t);
+    if (at.gap < 1e-13) {
+      break; // closed, and the direct integral's own Simpson rule has no digits left
+    }
+    close_to("Persson's gap", at.gap, sb_persson_separation(&spectrum, spectrum.q0, 6.5725e6, p),
+             2e-4);
+    close_to("Persson's share", at.share,
+             sb_persson_area_share(&spectrum, spectrum.q1, 6.5725e6, p), 1e-5);
+    sb_rough_law_at(&next, &law, t + 1e-5);
+    close_to("slope of the gap", (next.gap - at.gap) / 1e-5, at.gap_slope, 1e-3);
+    close_to("slope of the pressure", (next.pressure - at.pressure) / 1e-5, at.pressure_slope,
+             1e-3);
+  }
+}
+
+// ---------------------------------------------------------------- limits
+
+// A surface that is smooth because its heights or its asperities vanish has the smooth film, by
+// another solver with another discretisation.
+static void test_smooth_limit(void) {
+  static const struct {
+    double sigma, product, speed, left, right, viscosity;
+  } point[] = {
+      {1e-13, 0.1289, 1e-2, 0, 0, 0.211e-3},
+      {1e-13, 0.1289, 1e-4, 0, 0, 0.211e-3},
+      {1e-6, 1e-8, 1e-2, 0, 0, 0.211e-3},
+      {1e-6, 1e-8, 10, 0, 0, 0.211e-3},
+      {1e-12, 0.1289, 1, 0, 0, 0.1},
+      {1e-12, 0.1289, 10, 0, 0, 10},
+      {1e-13, 0.1289, -1e-2, 3e5, 0, 0.211e-3},
+      {1e-13, 0.1289, 1e-2, 3e5, 0, 0.211e-3},
+      {1e-13, 0.1289, 1e-2, 2e5, 4e5, 0.211e-3},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(point); i++) {
+    SbFilmProblem problem = seal(point[i].speed, SB_ROUGH_GREENWOOD_TRIPP);
+    problem.sigma = point[i].sigma;
+    problem.gt_product = point[i].product;
+    problem.pressure_left = point[i].left;
+    problem.pressure_right = point[i].right;
+    problem.viscosity = point[i].viscosity;
+    g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+    problem.surface = SB_ROUGH_NONE;
+    g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
+    g_test_message("smooth limit %zu: min %.3g central %.3g flux %.3g", i,
+                   film.film_min / other.film_min - 1, film.film_central / other.film_central - 1,
+                   film.film_flux / other.film_flux - 1);
+    close_to("least film", film.film_min, other.film_min, 5e-4);
+    close_to("central film", film.film_central, other.film_central, 5e-4);
+    close_to("flux film", film.film_flux, other.film_flux, 5e-4);
+    close_to("pressure", film.pressure_max, other.pressure_max, 5e-4);
+    close_to("Couette", film.friction_couette, other.friction_couette, 5e-3);
+    g_assert_cmpfloat(film.asperity_share, <, 1e-6);
+    g_assert_cmpfloat(film.solver.load_error, <, 1e-10);
+  }
+}
+
+// Dry rough contact by an independent method: uniform cells of constant pressure on the half-plane
+// (closed-form kernel), collocated at their middles, Newton's method on the asperity separations,
+// integrals taken directly. Returns central gap; *peak the largest pressure.
+static double dry_by_cells(double *peak, const SbFilmProblem *problem, int cells, double half) {
+  int order = cells + 1;
+  double dx = 2 * half / cells;
+  double *kernel = g_new(double, cells), *A = g_new(double, order *order);
+  double *right = g_new(double, order), *lambda = g_new(double, cells), *p = g_new(double, cells);
+  lapack_int *pivot = g_new(lapack_int, order);
+  for (int k = 0; k < cells; k++) {
+    double a = (k - 0.5) * dx, b = (k + 0.5) * dx;
+    double integral = b * (log(fabs(b)) - 1) - a * (log(fabs(a)) - 1);
+    kernel[k] = -4 / (G_PI * problem->modulus) * integral;
+  }
+  double b =
+      problem->radius * sqrt(8 * problem->load / (G_PI * problem->modulus * problem->radius));
+  double H0 = 0;
+  for (int i = 0; i < cells; i++) {
+    double x = -half + (i + 0.5) * dx;
+    lambda[i] = fabs(x) < b ? -1 : 3;
+  }
+  for (int pass = 0; pass < 200; pass++) {
+    memset(A, 0, (size_t)order * (size_t)order * sizeof *A);
+    double load = 0;
+    double *by = g_new(double, cells);
+    for (int i = 0; i < cells; i++) {
+      SbGtIntegrals F, above;
+      sb_gt_integrals(&F, lambda[i], NULL);
+      sb_gt_integrals(&above, lambda[i] + 1e-6, NULL);
+      p[i] =
+          sb_gt_pressure(problem->gt_product, problem->sigma_over_beta, problem->modulus, F.F5_2);
+      by[i] = (sb_gt_pressure(problem->gt_product, problem->sigma_over_beta, problem->modulus,
+                              above.F5_2) -
+               p[i]) /
+              1e-6;
+      load += p[i] * dx;
+    }
+    double worst = 0;
+    for (int i = 0; i < cells; i++) {
+      double x = -half + (i + 0.5) * dx;
+      double gap = H0 + x * x / (2 * problem->radius);
+      for (int j = 0; j < cells; j++) {
+        gap += kernel[abs(i - j)] * p[j];
+        A[i + j * order] = kernel[abs(i - j)] * by[j];
+      }
+      A[i + i * order] -= problem->sigma * 0.5 * erfc(-lambda[i] / G_SQRT2);
+      A[i + cells * order] = 1;
+      right[i] = average_gap(problem->sigma, lambda[i]) - gap;
+      A[cells + i * order] = by[i] * dx;
+    }
+    right[cells] = problem->load - load;
+    g_assert_cmpint(LAPACKE_dgesv(LAPACK_COL_MAJOR, order, 1, A, order, pivot, right, order), ==,
+                    0);
+    for (int i = 0; i < cells; i++) {
+      worst = fmax(worst, fabs(right[i]));
+      lambda[i] = CLAMP(lambda[i] + CLAMP(right[i], -0.7, 0.7), -9, 36);
+    }
+    H0 += right[cells];
+    g_free(by);
+    if (worst < 1e-9) {
+      break;
+    }
+    g_assert_cmpint(pass, <, 199);
+  }
+  *peak = 0;
+  for (int i = 0; i < cells; i++) {
+    *peak = fmax(*peak, p[i]);
+  }
+  double central = average_gap(problem->sigma, lambda[cells / 2]);
+  g_free(kernel);
+  g_free(A);
+  g_free(right);
+  g_free(lambda);
+  g_free(p);
+  g_free(pivot);
+  return central;
+}
+
+static void test_dry_contact(void) {
+  static const struct {
+    double sigma, product, ratio;
+  } surface[] = {{1e-5, 0.1289, 0.1}, {4e-6, 0.3, 0.1}, {2e-5, 0.1289, 1}};
+  for (size_t i = 0; i < G_N_ELEMENTS(surface); i++) {
+    SbFilmProblem problem = seal(0, SB_ROUGH_GREENWOOD_TRIPP);
+    problem.sigma = surface[i].sigma;
+    problem.gt_product = surface[i].product;
+    problem.sigma_over_beta = surface[i].ratio;
+    g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+    g_assert_cmpfloat(film.solver.load_error, <, 1e-10);
+    close_to("asperities' share at rest", film.asperity_share, 1, 1e-9);
+    double peak[2];
+    double half = 1.5 * film.hertz_half_width;
+    double coarse = dry_by_cells(&peak[0], &problem, 75, half);
+    double fine = dry_by_cells(&peak[1], &problem, 225, half);
+    double error[2] = {fabs(coarse / film.film_central - 1), fabs(fine / film.film_central - 1)};
+    g_test_message("dry contact %zu: cells off by %.2g and %.2g, order %.2f", i, error[0], error[1],
+                   log(error[0] / error[1]) / log(3));
+    close_to("central gap", fine, film.film_central, 5e-4);
+    close_to("largest pressure", peak[1], film.pressure_max, 5e-4);
+    g_assert_cmpfloat(error[1], <, 0.35 * error[0]); // it is the cells that are off
+    // At rest means no friction of a film, and boundary friction by its law.
+    g_assert_cmpfloat(film.friction_couette, ==, 0);
+    close_to("boundary friction", film.friction_boundary,
+             problem.shear_strength * film.real_area + problem.load_coefficient * problem.load,
+             1e-9);
+  }
+}
+
+// Largest change of ln(coefficient) from one point to the next.
+static double largest_step(const SbStribeckPoint *curve, int points) {
+  double largest = 0;
+  for (int i = 1; i < points; i++) {
+    largest = fmax(largest, fabs(log(curve[i].coefficient / curve[i - 1].coefficient)));
+  }
+  return largest;
+}
+
+// From rest to the full film nothing jumps, and every point carries its load.
+static void test_stribeck(void) {
+  enum { POINTS = 97 };
+  static SbStribeckPoint curve[POINTS];
+  int models = g_test_slow() ? SB_ROUGH_PERSSON : SB_ROUGH_GREENWOOD_TRIPP;
+  for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= models; model++) {
+    SbFilmProblem problem = seal(0, (SbRoughModel)model);
+    problem.sigma = 1e-7;
+    problem.viscosity = 0.01;
+    double step[2];
+    for (int pass = 0; pass < 2; pass++) {
+      int points = g_test_slow() ? (pass == 0 ? 49 : 97) : (pass == 0 ? 25 : 49);
+      g_assert_cmpint(sb_film_stribeck(curve, (size_t)points, &problem, 1e-8, 30, solver, NULL), ==,
+                      SB_OK);
+      g_assert_cmpfloat(curve[0].film_ratio, <, 0.01);
+      g_assert_cmpfloat(curve[points - 1].film_ratio, >, 10);
+      for (int i = 0; i < points; i++) {
+        g_assert_true(curve[i].converged);
+        g_assert_cmpfloat(curve[i].load_error, <, 1e-10);
+        if (i > 0) {
+          // The film grows, nowhere faster than the speed to the power 0.8 (a smooth one: 0.6).
+          double times = log(curve[i].speed / curve[i - 1].speed);
+          double film_step = log(curve[i].film_ratio / curve[i - 1].film_ratio);
+          g_assert_cmpfloat(film_step, >=, 0);
+          g_assert_cmpfloat(film_step, <, 0.8 * times);
+          g_assert_cmpfloat(curve[i].asperity_share, <=, curve[i - 1].asperity_share + 1e-9);
+        }
+      }
+      step[pass] = largest_step(curve, points);
+    }
+    // The steepest part, where the last asperities part, is steep but no jump: half the spacing
+    // halves the largest step.
+    g_test_message("model %d: largest steps %.3g, %.3g", model, step[0], step[1]);
+    g_assert_cmpfloat(step[1], <, 0.62 * step[0]);
+    g_assert_cmpfloat(step[1], <, 1.5);
+    // The slow end is the dry contact, the fast end the smooth film.
+    problem.speed = 0;
+    g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+    g_assert_cmpfloat(curve[0].asperity_share, >, 0.4);
+    problem.speed = 30;
+    problem.surface = SB_ROUGH_NONE;
+    g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+    close_to("film, fast and smooth", curve[g_test_slow() ? 96 : 48].film_central,
+             film.film_central, 0.02);
+  }
+}
+
+// At 99 % real contact, cold, either model, from rest to where the film begins to lift.
+static void test_full_contact(void) {
+  for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
+    for (double speed = 0; speed < 2e-5; speed = speed == 0 ? 1e-7 : speed * 10) {
+      SbFilmProblem problem = seal(speed, (SbRoughModel)model);
+      problem.load = 2000;
+      problem.gt_product = model == SB_ROUGH_PERSSON ? 0.1289 : 0.2;
+      problem.sigma_over_beta = model == SB_ROUGH_PERSSON ? 0.05 : 0.01;
+      g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+      if (speed < 1e-7) {
+        g_assert_cmpfloat(film.real_area_share, >, 0.99);
+      }
+      g_assert_cmpfloat(film.solver.load_error, <, 1e-10);
+      g_assert_cmpfloat(film.film_min, >, 0);
+    }
+  }
+}
+
+// ---------------------------------------------------------------- outside recomputation
+
+// Deflection of the profile's total pressure, piecewise linear, integrated exactly at x.
+static double deflection(const SbFilm *f, const double *p, double x, double modulus) {
+  double sum = 0;
+  for (size_t i = 0; i + 1 < f->points; i++) {
+    double a = f->x[i] - x, b = f->x[i + 1] - x;
+    double slope = (p[i + 1] - p[i]) / (b - a);
+    double base = p[i] - slope * a;
+    double la = a != 0 ? log(fabs(a)) : 0, lb = b != 0 ? log(fabs(b)) : 0;
+    sum += base * (b * (lb - 1) - a * (la - 1)) +
+           slope * (b * b * (0.5 * lb - 0.25) - a * a * (0.5 * la - 0.25));
+  }
+  return -4 / (G_PI * modulus) * sum;
+}
+
+static void test_profile(void) {
+  static const double speeds[] = {1e-4, -1e-2, 1};
+  for (size_t k = 0; k < G_N_ELEMENTS(speeds); k++) {
+    for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
+      SbFilmProblem problem = seal(speeds[k], (SbRoughModel)model);
+      problem.sigma = 3e-7;
+      g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+      g_assert_cmpuint(film.points, >=, 400);
+      // Load and the asperities' part of it, by trapezoids.
+      double load = 0, asperities = 0;
+      for (size_t i = 0; i + 1 < film.points; i++) {
+        double dx = film.x[i + 1] - film.x[i];
+        g_assert_cmpfloat(dx, >, 0);
+        load += 0.5 * dx * (film.pressure[i] + film.pressure[i + 1]);
+        asperities += 0.5 * dx * (film.asperity_pressure[i] + film.asperity_pressure[i + 1]);
+      }
+      close_to("load", load, problem.load, 1e-4);
+      close_to("asperities' load", asperities, film.asperity_load, 1e-3);
+      // Film equation: gap less parabola less deflection is constant over the contact.
+      double shift = 0;
+      double worst = 0;
+      double b = film.hertz_half_width;
+      for (size_t i = 0; i < film.points; i += 7) {
+        double x = film.x[i];
+        if (fabs(x) > 1.5 * b) {
+          continue;
+        }
+        double rest = film.film[i] - x * x / (2 * problem.radius) -
+                      deflection(&film, film.pressure, x, problem.modulus);
+        shift = shift == 0 ? rest : shift;
+        worst = fmax(worst, fabs(rest - shift));
+      }
+      g_assert_cmpfloat(worst, <, 1e-5 * b * b / problem.radius);
+      // Reynolds' flux from the film pressure = total - asperities, where the film is full.
+      double off = 0;
+      for (size_t i = 2; i + 2 < film.points; i++) {
+        double p[3], x[3];
+        for (int j = 0; j < 3; j++) {
+          p[j] = film.pressure[i + (size_t)j - 1] - film.asperity_pressure[i + (size_t)j - 1];
+          x[j] = film.x[i + (size_t)j - 1];
+        }
+        double a = x[1] - x[0], c = x[2] - x[1];
+        double h = film.film[i];
+        bool beyond =
+            problem.speed > 0 ? x[2] > film.position_rupture : x[0] < film.position_rupture;
+        if (beyond || p[1] < 0.05 * film.pressure_max || h > 3 * film.film_flux ||
+            fabs(a / c - 1) > 1e-6) {
+          continue;
+        }
+        double slope = (p[2] - p[0]) / (a + c);
+        double flux = h - h * h * h * slope / (6 * problem.viscosity * problem.speed);
+        off = fmax(off, fabs(flux / film.film_flux - 1));
+      }
+      g_test_message("speed %g model %d: flux off by %.2g, film equation by %.2g", speeds[k], model,
+                     off, worst / (b * b / problem.radius));
+      g_assert_cmpfloat(off, <, 2e-3);
+      // The asperities' pressure is the law's at the film shown.
+      SbRoughSurface surface = {(SbRoughModel)model, problem.gt_product, problem.sigma,
+                                problem.sigma_over_beta, problem.modulus};
+      SbRoughLaw law;
+      sb_rough_law_init(&law, &surface, NULL);
+      for (size_t i = 0; i < film.points; i += 50) {
+        SbRoughPoint at;
+        sb_rough_law_at(&at, &law, sb_rough_law_of_gap(&law, film.film[i]));
+        if (at.pressure > 1e-6 * film.pressure_max) {
+          close_to("law", film.asperity_pressure[i], at.pressure, 1e-6);
+        }
+      }
+    }
+  }
+}
+
+// The error estimate against a solution at a much finer tolerance.
+static void test_estimate(void) {
+  double ratio[64];
+  int count = 0;
+  for (double speed = 1e-7; speed < 20; speed *= g_test_slow() ? 6 : 216) {
+    for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
+      SbFilmProblem problem = seal(speed, (SbRoughModel)model);
+      g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+      problem.tolerance = 1e-8;
+      SbStatus status = solve(&other, &problem);
+      g_assert_true(status == SB_OK || status == SB_ERROR_NOT_CONVERGED);
+      double off[2] = {fabs(film.film_min / other.film_min - 1),
+                       fabs(film.film_central / other.film_central - 1)};
+      double estimate[2] = {film.solver.error_film_min, film.solver.error_film_central};
+      for (int k = 0; k < 2; k++) {
+        g_test_message("speed %.2g model %d %s: estimate %.2g, true %.2g", speed, model,
+                       k == 0 ? "least" : "central", estimate[k], off[k]);
+        g_assert_cmpfloat(off[k], <=, 3 * estimate[k]);
+        if (off[k] > 0) { // not the same mesh
+          ratio[count++] = estimate[k] / off[k];
+        }
+      }
+    }
+  }
+  for (int i = 0; i < count; i++) { // the median
+    int below = 0;
+    for (int j = 0; j < count; j++) {
+      below += ratio[j] < ratio[i] || (ratio[j] == ratio[i] && j < i);
+    }
+    if (below == count / 2) {
+      g_test_message("median of estimate over true: %.3g", ratio[i]);
+      g_assert_cmpfloat(ratio[i], <=, 10);
+    }
+  }
+}
+
+// ---------------------------------------------------------------- ends, adhesion, refusals
+
+static void test_ends(void) {
+  // Either direction with the pressures mirrored is the same contact; at rest the end pressures'
+  // flow through the gap is what slow sliding tends to.
+  static const double left[] = {5.5e5, 0, 3e5}, right[] = {0, 5.5e5, 5.5e5};
+  for (int i = 0; i < 3; i++) {
+    for (double speed = 1e-7; speed < 2; speed *= 100) {
+      SbFilmProblem problem = seal(speed, SB_ROUGH_GREENWOOD_TRIPP);
+      problem.pressure_left = left[i];
+      problem.pressure_right = right[i];
+      g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+      g_assert_cmpfloat(film.solver.load_error, <, 1e-10);
+      problem.pressure_left = right[i];
+      problem.pressure_right = left[i];
+      problem.speed = -speed;
+      g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
+      close_to("mirrored film", other.film_min, film.film_min, 1e-9);
+      close_to("mirrored place", -other.position_film_min, film.position_film_min, 1e-6);
+      g_assert_cmpfloat(film.friction_boundary * other.friction_boundary, <, 0);
+      if (speed < 1e-6) {
+        problem.speed = 0;
+        g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
+        close_to("rest", other.film_central, film.film_central, 3e-3);
+      }
+    }
+  }
+}
+
+static void test_adhesion(void) {
+  // Across an open rough gap the pull is small and thins the film; without asperities a film of
+  // tens of nanometres feels A/(6 pi h^3) as that much more load on the film.
+  SbFilmProblem problem = seal(0.1, SB_ROUGH_GREENWOOD_TRIPP);
+  g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+  problem.hamaker = 1.35e-19;
+  g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
+  g_assert_cmpfloat(other.film_central, <, film.film_central);
+  g_assert_cmpfloat(other.film_central, >, 0.99 * film.film_central);
+  problem.surface = SB_ROUGH_NONE;
+  problem.hamaker = 0;
+  g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+  problem.hamaker = 1.35e-19;
+  g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
+  g_assert_cmpfloat(other.film_central, <, film.film_central);
+  // The contact's total pressure stays Hertz's; the pull adds to what the film bears there.
+  double pull = sb_vdw_attraction(problem.hamaker, other.film_central);
+  double thinner = 1 - other.film_central / film.film_central;
+  g_test_message("pull %.3g Pa of %.3g, film thinner by %.3g", pull, film.pressure_max, thinner);
+  g_assert_cmpfloat(thinner, <, 5 * pull / film.pressure_max);
+}
+
+static void test_refusals(void) {
+  SbReport report;
+  SbFilmProblem problem = seal(1e-3, SB_ROUGH_PERSSON);
+  problem.gt_product = 0.01;
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpstr(report.parameter, ==, "surface.gt_product");
+  problem = seal(1e-3, SB_ROUGH_GREENWOOD_TRIPP);
+  problem.sigma = 0;
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_ERROR_RANGE);
+  problem = seal(1e-3, SB_ROUGH_GREENWOOD_TRIPP);
+  problem.model = SB_FILM_THESIS;
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_ERROR_INPUT);
+  SbStribeckPoint point[2];
+  problem = seal(1e-3, SB_ROUGH_NONE);
+  g_assert_cmpint(sb_film_stribeck(point, 2, &problem, 1e-3, 1, NULL, &report), ==, SB_ERROR_INPUT);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  sb_film_solver_create(&solver, NULL);
+  g_test_add_func("/film/mixed/laws", test_laws);
+  g_test_add_func("/film/mixed/smooth-limit", test_smooth_limit);
+  g_test_add_func("/film/mixed/dry-contact", test_dry_contact);
+  g_test_add_func("/film/mixed/stribeck", test_stribeck);
+  g_test_add_func("/film/mixed/full-contact", test_full_contact);
+  g_test_add_func("/film/mixed/profile", test_profile);
+  g_test_add_func("/film/mixed/estimate", test_estimate);
+  g_test_add_func("/film/mixed/ends", test_ends);
+  g_test_add_func("/film/mixed/adhesion", test_adhesion);
+  g_test_add_func("/film/mixed/refusals", test_refusals);
+  int failed = g_test_run();
+  sb_film_solver_destroy(solver);
+  return failed;
+}
