@@ -14,6 +14,7 @@
 #include <string.h>
 
 enum { WIDTH = 1216, HEIGHT = 568, SAMPLES = 201 };
+enum { AROUND = 40, RINGS = 5, NODES = 1 + AROUND * RINGS, TRIANGLES = AROUND * (2 * RINGS - 1) };
 
 // An instant made by hand, so that the golden pictures depend on the drawing alone.
 typedef struct {
@@ -22,6 +23,11 @@ typedef struct {
   double x[SB_SEAL_COUNT][SAMPLES], pressure[SB_SEAL_COUNT][SAMPLES];
   double film[SB_SEAL_COUNT][SAMPLES], asperities[SB_SEAL_COUNT][SAMPLES];
   SbContactProfile profile[SB_SEAL_COUNT];
+  // A ring's mesh by hand: a fan of rings about the section's middle.
+  double place[2 * NODES];
+  float field[SB_FIELD_COUNT][NODES];
+  int triangle[3 * TRIANGLES], outline[AROUND];
+  SbSealShape shape;
 } Scene;
 
 static void set_seal(Scene *scene, int i, double half, double peak, double left, double right,
@@ -63,21 +69,89 @@ static void make_scene(Scene *scene, double displacement, double half) {
   set_seal(scene, SB_INNER, 0.3e-3, 0.7e6, 0.55e6, 0.55e6, 1e-9, open ? 0 : 4.9, open ? 0 : 1);
 }
 
+// An ellipse that fills the radial space, its fields smooth in the place.
+static void make_shape(Scene *scene, double half_width) {
+  double half_height = scene->model.radial_space / 2;
+  for (int i = 0; i < NODES; i++) {
+    double r = i == 0 ? 0 : (double)((i - 1) / AROUND + 1) / RINGS;
+    double angle = i == 0 ? 0 : 2 * G_PI * ((i - 1) % AROUND) / AROUND;
+    double x = r * cos(angle), y = r * sin(angle);
+    scene->place[2 * i] = half_width * x;
+    scene->place[2 * i + 1] = half_height * (1 + y);
+    scene->field[SB_FIELD_VON_MISES][i] = (float)(1e6 * (1 - r * r + 0.3 * y * y));
+    scene->field[SB_FIELD_HYDROSTATIC][i] = (float)(1e6 * y * y);
+    scene->field[SB_FIELD_SHEAR][i] = (float)(4e5 * x * y);
+    scene->field[SB_FIELD_CONTACT][i] = (float)(r > 0.99 ? 1e6 * y * y : 0);
+    scene->field[SB_FIELD_DISPLACEMENT][i] = (float)(2e-4 * r);
+  }
+  int n = 0;
+  for (int a = 0; a < AROUND; a++) {
+    int b = (a + 1) % AROUND;
+    int corner[3] = {0, 1 + a, 1 + b};
+    memcpy(scene->triangle + n, corner, sizeof corner);
+    n += 3;
+    for (int k = 1; k < RINGS; k++) {
+      int in = 1 + (k - 1) * AROUND, out = in + AROUND;
+      int pair[6] = {in + a, out + a, out + b, in + a, out + b, in + b};
+      memcpy(scene->triangle + n, pair, sizeof pair);
+      n += 6;
+    }
+    scene->outline[a] = 1 + (RINGS - 1) * AROUND + a;
+  }
+  scene->shape = (SbSealShape){.nodes = NODES,
+                               .triangles = TRIANGLES,
+                               .outline = AROUND,
+                               .place = scene->place,
+                               .triangle = scene->triangle,
+                               .outline_node = scene->outline,
+                               .contact_left = -0.37e-3,
+                               .contact_right = 0.37e-3};
+  for (int f = 0; f < SB_FIELD_COUNT; f++) {
+    scene->shape.field[f] = scene->field[f];
+  }
+}
+
+// What a golden picture shows.
+typedef struct {
+  const char *name;
+  double displacement;
+  bool dark;
+  SbSectionZoom zoom;
+  bool full, undeformed, solved;
+  SbField field;
+} Golden;
+
+static void draw_list_as(SbDrawList *list, const Scene *scene, const Golden *how);
+
 static void draw_list(SbDrawList *list, const Scene *scene, bool dark, SbSectionZoom zoom) {
+  Golden how = {.dark = dark, .zoom = zoom};
+  draw_list_as(list, scene, &how);
+}
+
+static void draw_list_as(SbDrawList *list, const Scene *scene, const Golden *how) {
   SbSectionLimits limits = {.inner_contact_left = -0.3e-3,
                             .pressure_max = 1.2e6,
                             .film_max = 1e-9,
                             .contact_left = {-0.4e-3, -0.3e-3},
                             .contact_right = {0.4e-3, 0.3e-3}};
+  if (how->solved) {
+    sb_section_limits_add_shape(&limits, &scene->shape);
+  }
   SbSection *section = sb_section_create(&scene->model, &limits);
   SbSectionView view = {.width = WIDTH,
                         .height = HEIGHT,
                         .margin = 20,
-                        .dark = dark,
+                        .dark = how->dark,
                         .inset_seal = SB_OUTER,
-                        .zoom = zoom};
+                        .zoom = how->zoom,
+                        .full = how->full,
+                        .undeformed = how->undeformed,
+                        .field = how->field};
   SbSectionInstant instant = {.frame = &scene->frame,
                               .profile = {&scene->profile[0], &scene->profile[1]}};
+  if (how->solved) {
+    instant.ring[SB_OUTER] = instant.ring[SB_INNER] = &scene->shape;
+  }
   sb_section_draw(section, list, &view, &instant);
   sb_section_destroy(section);
 }
@@ -129,18 +203,27 @@ static void test_backends(void) {
   sb_draw_list_finish(&list);
 }
 
-typedef struct {
-  const char *name;
-  double displacement;
-  bool dark;
-  SbSectionZoom zoom;
-} Golden;
-
 static const Golden goldens[] = {
-    {"section", 2.15e-3, false, SB_SECTION_WHOLE},
-    {"section-dark", 2.15e-3, true, SB_SECTION_WHOLE},
-    {"section-open-dark", 5.5e-3, true, SB_SECTION_WHOLE},
-    {"section-zoom", 2.15e-3, false, SB_SECTION_ZOOM_OUTER},
+    {.name = "section", .displacement = 2.15e-3},
+    {.name = "section-dark", .displacement = 2.15e-3, .dark = true},
+    {.name = "section-open-dark", .displacement = 5.5e-3, .dark = true},
+    {.name = "section-zoom", .displacement = 2.15e-3, .zoom = SB_SECTION_ZOOM_OUTER},
+    {.name = "section-zoom-dark",
+     .displacement = 2.15e-3,
+     .dark = true,
+     .zoom = SB_SECTION_ZOOM_OUTER,
+     .solved = true,
+     .field = SB_FIELD_SHEAR},
+    {.name = "section-full",
+     .displacement = 2.15e-3,
+     .full = true,
+     .undeformed = true,
+     .solved = true},
+    {.name = "section-pressure",
+     .displacement = 2.15e-3,
+     .zoom = SB_SECTION_ZOOM_OUTER,
+     .solved = true,
+     .field = SB_FIELD_CONTACT},
 };
 
 static void test_golden(void) {
@@ -150,14 +233,16 @@ static void test_golden(void) {
   for (size_t i = 0; i < G_N_ELEMENTS(goldens); i++) {
     const Golden *golden = &goldens[i];
     make_scene(&scene, golden->displacement, 0.37e-3);
-    draw_list(&list, &scene, golden->dark, golden->zoom);
+    make_shape(&scene, 0.86e-3);
+    draw_list_as(&list, &scene, golden);
     cairo_surface_t *picture = render(SB_GL_AUTO, &list, 1);
     g_assert_nonnull(picture);
     picture_check(picture, golden->name);
     cairo_surface_destroy(picture);
     // A contact wider by a hundredth of a millimetre.
     make_scene(&scene, golden->displacement, 0.375e-3);
-    draw_list(&list, &scene, golden->dark, golden->zoom);
+    make_shape(&scene, 0.87e-3);
+    draw_list_as(&list, &scene, golden);
     picture = render(SB_GL_AUTO, &list, 1);
     g_assert_true(picture_rejects(picture, golden->name));
     cairo_surface_destroy(picture);

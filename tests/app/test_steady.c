@@ -1,0 +1,91 @@
+// Ten thousand pictures of a run, drawn as a film draws them, take no more memory than a thousand:
+// what is allocated (malloc's own count) and what is resident stay. Quick runs look at fewer
+// pictures. The address sanitizer holds freed memory back, so there only the drawing is exercised.
+#include "app/export/film.h"
+#include "app/section/painter.h"
+#include "tests/sanitized.h"
+
+#include <malloc.h>
+#include <stdio.h>
+
+enum { WIDTH = 320, HEIGHT = 180 };
+
+// Resident memory [bytes].
+static size_t resident(void) {
+  char *text = NULL;
+  long total = 0;
+  long pages = 0;
+  g_assert_true(g_file_get_contents("/proc/self/statm", &text, NULL, NULL));
+  g_assert_cmpint(sscanf(text, "%ld %ld", &total, &pages), ==, 2);
+  g_free(text);
+  return (size_t)pages * 4096;
+}
+
+static SbRun *compute(void) {
+  SbParams params;
+  sb_params_init(&params);
+  SbReport report = {0};
+  sb_params_set(&params, SB_P_OUTPUT_VIEWS, SB_VIEW_SECTION, &report);
+  SbModel model;
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  SbPlan plan;
+  sb_plan_make(&plan, &model);
+  SbRun *run;
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_OK);
+  return run;
+}
+
+static void test_section(void) {
+  SbRun *run = compute();
+  SbReport report = {0};
+  SbSectionPainter *painter;
+  g_assert_cmpint(sb_section_painter_create(&painter, true, SB_GL_AUTO, &report), ==, SB_OK);
+  SbRenderOptions options = {.view = "section",
+                             .width = WIDTH,
+                             .height = HEIGHT,
+                             .section = sb_section_painter_draw,
+                             .section_data = painter};
+  const size_t settled = g_test_slow() ? 1000 : 200;
+  const size_t pictures = g_test_slow() ? 10000 : 500;
+  // Back and forth over the run: the film is one sweep of a tenth of the pictures.
+  SbRenderMovie movie = {.fps = 100, .duration = (double)pictures / 1000};
+  SbFilm *film;
+  GError *error = NULL;
+  g_assert_true(sb_film_open(&film, run, &options, &movie, &error));
+  g_assert_cmpuint(sb_film_pictures(film), ==, pictures / 10);
+  cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, WIDTH, HEIGHT);
+  size_t allocated = 0;
+  size_t in_memory = 0;
+  gint64 begin = g_get_monotonic_time();
+  for (size_t i = 0; i < pictures; i++) {
+    cairo_t *cr = cairo_create(surface);
+    sb_film_draw(film, i % (pictures / 10), cr);
+    g_assert_cmpint(cairo_status(cr), ==, CAIRO_STATUS_SUCCESS);
+    cairo_destroy(cr);
+    if (i + 1 == settled) {
+      allocated = mallinfo2().uordblks;
+      in_memory = resident();
+    }
+  }
+  double taken = 1e-6 * (double)(g_get_monotonic_time() - begin);
+  size_t more = mallinfo2().uordblks;
+  size_t larger = resident();
+  g_test_message("%.0f pictures a second; allocated %zu kB, then %zu kB; resident %zu, then %zu kB",
+                 (double)pictures / taken, allocated / 1024, more / 1024, in_memory / 1024,
+                 larger / 1024);
+  if (!SB_SANITIZED) {
+    g_assert_cmpuint(more, <, allocated + 256 * 1024);
+    g_assert_cmpuint(larger, <, in_memory + 4 * 1024 * 1024);
+  }
+  cairo_surface_destroy(surface);
+  sb_film_close(film);
+  sb_section_painter_destroy(painter);
+  sb_run_destroy(run);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/steady/section", test_section);
+  return g_test_run();
+}
