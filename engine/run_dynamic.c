@@ -225,9 +225,9 @@ static SbStatus estimate_error(SbRun *run, const Recorder *fine, const SbDynamic
   for (int stage = 0; stage < SB_STAGE_COUNT; stage++) {
     *force = fmax(*force, relative(fine->force[stage], coarse.force[stage], fine->force_peak));
   }
-  *force *= share;
-  *work = share * fmax(relative(energy->drive, other.drive, energy->largest),
-                       relative(energy->friction, other.friction, energy->largest));
+  *force = fmax(share * *force, 1e-12);
+  *work = fmax(1e-12, share * fmax(relative(energy->drive, other.drive, energy->largest),
+                                   relative(energy->friction, other.friction, energy->largest)));
   return SB_OK;
 }
 

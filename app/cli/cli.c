@@ -152,6 +152,9 @@ SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings) {
     document = NULL;
   }
   g_ptr_array_unref(issues);
+  for (guint i = 0; document != NULL && i < sb_document_notes(document)->len; i++) {
+    fprintf(stderr, "sealbench: note: %s\n", (const char *)sb_document_notes(document)->pdata[i]);
+  }
   return document;
 }
 

@@ -1,4 +1,5 @@
 // Documents: values in layers, problems collected, edits undone. Writing is document_write.c.
+#include "app/document/document_parts.h"
 #include "app/document/document_private.h"
 #include "app/document/reader.h"
 #include "app/export/still.h"
@@ -15,6 +16,7 @@ SbDocument *sb_document_new(void) {
   document->entries = sb_reader_scan(document->text, strlen(document->text), "", none);
   g_ptr_array_unref(none);
   document->edits = g_array_new(FALSE, FALSE, sizeof(Edit));
+  document->notes = g_ptr_array_new_with_free_func(g_free);
   sb_params_init(&document->base);
   sb_params_init(&document->own);
   sb_params_init(&document->saved);
@@ -32,6 +34,7 @@ void sb_document_free(SbDocument *document) {
   g_free(document->text);
   g_ptr_array_unref(document->entries);
   g_array_unref(document->edits);
+  g_ptr_array_unref(document->notes);
   g_free(document);
 }
 
@@ -101,7 +104,7 @@ static bool is_group(const char *group) {
 
 // Moves the values of a scanned file into `params`.
 static void read_values(SbParams *params, const GPtrArray *entries, const char *shown,
-                        GPtrArray *issues) {
+                        const char *directory, GPtrArray *issues, GPtrArray *notes) {
   bool known_group = true;
   for (guint i = 0; i < entries->len; i++) {
     const SbEntry *entry = entries->pdata[i];
@@ -116,7 +119,7 @@ static void read_values(SbParams *params, const GPtrArray *entries, const char *
       }
       continue;
     }
-    if (!known_group) {
+    if (!known_group || sb_parts_is_shape_key(entry->group, entry->name)) {
       continue;
     }
     char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
@@ -140,6 +143,7 @@ static void read_values(SbParams *params, const GPtrArray *entries, const char *
     }
     g_free(key);
   }
+  sb_parts_read(params, entries, shown, directory, issues, notes);
 }
 
 // Checks group [sealbench] and finds the kind. False if this is no document at all.
@@ -216,7 +220,9 @@ static void read_valve(SbDocument *document, const char *directory, const char *
     sb_issues_add(issues, document->valve_path, 0, "sealbench.kind", "valve",
                   "a scene needs a valve here");
   }
-  read_values(&document->base, entries, document->valve_path, issues);
+  char *beside = g_path_get_dirname(document->valve_path);
+  read_values(&document->base, entries, document->valve_path, beside, issues, document->notes);
+  g_free(beside);
   g_ptr_array_unref(entries);
   g_free(text);
 }
@@ -258,7 +264,7 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   } else if (meta_value(entries, "valve") != NULL) {
     sb_issues_add(issues, name, 0, "sealbench.valve", NULL, "only a scene names a valve");
   }
-  read_values(&document->own, entries, name, issues);
+  read_values(&document->own, entries, name, directory, issues, document->notes);
   document->saved = document->own;
   sb_document_refresh_title(document);
   if (issues->len == before) {
@@ -305,6 +311,10 @@ SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
 }
 
 // ---- Asking ----
+
+const GPtrArray *sb_document_notes(const SbDocument *document) {
+  return document->notes;
+}
 
 SbDocumentKind sb_document_kind(const SbDocument *document) {
   return document->kind;

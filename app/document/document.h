@@ -46,6 +46,10 @@ const char *sb_document_path(const SbDocument *document);
 // Path of a scene's valve file, or NULL; borrowed.
 const char *sb_document_valve_path(const SbDocument *document);
 
+// Remarks that are no problems: where a part's shape says otherwise than a value given. Borrowed,
+// of const char *.
+const GPtrArray *sb_document_notes(const SbDocument *document);
+
 // Name for titles: the `title` of group [sealbench], else the file's name, else "Untitled";
 // borrowed until the next load or save.
 const char *sb_document_title(const SbDocument *document);

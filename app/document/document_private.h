@@ -22,6 +22,7 @@ struct SbDocument {
   SbParams base;      // what the valve gives (scenes)
   SbParams own;       // what the document gives
   SbParams saved;     // what its file gives
+  GPtrArray *notes;   // of char *, what shapes say against given values
   GArray *edits;      // Edit
   guint done;         // edits before this one are in force
   bool mergeable;     // the last edit may swallow the next one of its key

@@ -305,19 +305,21 @@ SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *p, double density, Sb
 
 // ---- diameters ----
 
-// Largest radius of the outline at x, or -1.
-static double outer_at(const SbProfile *p, double x) {
-  double best = -1.0;
+// Least and largest radius of the outline at x; high -1 if there is none.
+static void radii_at(const SbProfile *p, double x, double *low, double *high) {
+  *low = INFINITY;
+  *high = -1.0;
   size_t n = pieces_of(p);
   for (size_t i = 0; i < n; i++) {
     Piece s;
     piece_at(&s, p, i);
     if (!s.arc) {
-      double low = fmin(s.x0, s.x1), high = fmax(s.x0, s.x1);
-      if (x >= low && x <= high) {
-        double f = high > low ? (x - s.x0) / (s.x1 - s.x0) : 0.0;
-        best = fmax(best, s.r0 + f * (s.r1 - s.r0));
-        best = high > low ? best : fmax(best, s.r1);
+      double left = fmin(s.x0, s.x1), right = fmax(s.x0, s.x1);
+      if (x >= left && x <= right) {
+        double f = right > left ? (x - s.x0) / (s.x1 - s.x0) : 0.0;
+        double r = s.r0 + f * (s.r1 - s.r0), other = right > left ? r : s.r1;
+        *low = fmin(*low, fmin(r, other));
+        *high = fmax(*high, fmax(r, other));
       }
       continue;
     }
@@ -325,24 +327,38 @@ static double outer_at(const SbProfile *p, double x) {
     if (fabs(c) <= 1.0) {
       for (int side = -1; side <= 1; side += 2) {
         if (on_arc(&s, side * acos(c), 0.0, &f)) {
-          best = fmax(best, s.cr + side * s.radius * sqrt(1.0 - c * c));
+          double r = s.cr + side * s.radius * sqrt(1.0 - c * c);
+          *low = fmin(*low, r);
+          *high = fmax(*high, r);
         }
       }
     }
   }
-  return best;
-}
-
-static void look_at(const SbProfile *p, double x, double *low, double *high) {
-  double r = outer_at(p, x);
-  if (r >= 0.0) {
-    *low = fmin(*low, r);
-    *high = fmax(*high, r);
+  // Solid down to the axis, which the outline does not follow.
+  bool by_axis = p->point[0].r == 0.0 && p->point[p->count - 1].r == 0.0;
+  double a = p->point[0].x, b = p->point[p->count - 1].x;
+  if (by_axis && x >= fmin(a, b) && x <= fmax(a, b)) {
+    *low = 0.0;
   }
 }
 
-SbStatus sb_profile_diameters(double *smallest, double *largest, const SbProfile *p, double x0,
-                              double x1, SbReport *report) {
+// What the stretch has: least and largest outer radius, least inner one.
+typedef struct {
+  double low, high, hole;
+} Radii;
+
+static void look_at(const SbProfile *p, double x, Radii *radii) {
+  double low, high;
+  radii_at(p, x, &low, &high);
+  if (high >= 0.0) {
+    radii->low = fmin(radii->low, high);
+    radii->high = fmax(radii->high, high);
+    radii->hole = fmin(radii->hole, low);
+  }
+}
+
+static SbStatus look_along(Radii *radii, const SbProfile *p, double x0, double x1,
+                           SbReport *report) {
   SbStatus status = sb_profile_check(p, report);
   if (status != SB_OK) {
     return status;
@@ -350,12 +366,13 @@ SbStatus sb_profile_diameters(double *smallest, double *largest, const SbProfile
   if (!(x1 > x0)) {
     return sb_fail(report, SB_ERROR_RANGE, "the stretch must have a length");
   }
-  // The outer surface turns only at ends, points and the tops and bottoms of arcs; walls across
-  // the axis are looked at from both sides.
-  double low = INFINITY, high = -1.0, side = 1e-10 * (x1 - x0);
+  // The surfaces turn only at ends, points and the tops and bottoms of arcs; walls across the axis
+  // are looked at from both sides.
+  *radii = (Radii){INFINITY, -1.0, INFINITY};
+  double side = 1e-10 * (x1 - x0);
   size_t n = pieces_of(p);
-  look_at(p, x0 + side, &low, &high);
-  look_at(p, x1 - side, &low, &high);
+  look_at(p, x0 + side, radii);
+  look_at(p, x1 - side, radii);
   for (size_t i = 0; i < n; i++) {
     Piece s;
     piece_at(&s, p, i);
@@ -364,15 +381,34 @@ SbStatus sb_profile_diameters(double *smallest, double *largest, const SbProfile
       for (int way = -1; way <= 1; way += 2) {
         double x = at[k] + way * side;
         if (x > x0 && x < x1) {
-          look_at(p, x, &low, &high);
+          look_at(p, x, radii);
         }
       }
     }
   }
-  if (high < 0.0) {
+  if (radii->high < 0.0) {
     return sb_fail(report, SB_ERROR_RANGE, "the part does not reach %g .. %g m", x0, x1);
   }
-  *smallest = 2.0 * low;
-  *largest = 2.0 * high;
   return sb_succeed(report);
+}
+
+SbStatus sb_profile_diameters(double *smallest, double *largest, const SbProfile *p, double x0,
+                              double x1, SbReport *report) {
+  Radii radii;
+  SbStatus status = look_along(&radii, p, x0, x1, report);
+  if (status == SB_OK) {
+    *smallest = 2.0 * radii.low;
+    *largest = 2.0 * radii.high;
+  }
+  return status;
+}
+
+SbStatus sb_profile_bore(double *diameter, const SbProfile *p, double x0, double x1,
+                         SbReport *report) {
+  Radii radii;
+  SbStatus status = look_along(&radii, p, x0, x1, report);
+  if (status == SB_OK) {
+    *diameter = 2.0 * radii.hole;
+  }
+  return status;
 }

@@ -46,6 +46,11 @@ SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *profile, double densi
 SbStatus sb_profile_diameters(double *smallest, double *largest, const SbProfile *profile,
                               double x0, double x1, SbReport *report);
 
+// Smallest diameter of the hole along the axis between x0 and x1; the innermost surface counts, 0
+// where the part is solid. SB_ERROR_RANGE if the part has nothing there.
+SbStatus sb_profile_bore(double *diameter, const SbProfile *profile, double x0, double x1,
+                         SbReport *report);
+
 // Properties of the body inside a closed mesh: vertices[3 n], triangles[3 m] of vertex indices,
 // counter-clockwise seen from outside. Allocates and frees scratch of the order of the mesh.
 // Triangles that share a vertex are not tested for crossing each other.
