@@ -10,6 +10,7 @@
 // Surfaces are rigid and smooth; friction is Coulomb or a given shear. No time dependence here.
 #pragma once
 
+#include "engine/elastic/compliance.h"
 #include "engine/status.h"
 
 #include <stdbool.h>
@@ -130,6 +131,20 @@ int sb_ring_compliance_size(const SbRing *ring, int margin);
 // SB_ERROR_NOT_CONVERGED, SB_ERROR_MEMORY.
 SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, double *c,
                             SbReport *report);
+
+// The bore's surface as film solvers take it (engine/elastic/compliance.h): the half-plane with the
+// squeezed rubber's own modulus, a smooth rest that is exact for the discrete ring, and the gap
+// whose dry contact has the present pressure, over a window of 1.4 contact widths. Loads are per
+// length of the bore's circumference. To first order about the present state, frictionless along
+// the bore. Errors: SB_ERROR_INFEASIBLE without contact or where the surface turns away within the
+// window.
+SbStatus sb_ring_surface(SbRing *ring, SbSurfaceCompliance *out, SbReport *report);
+
+// Foretells the result at a nearby load (radii, walls, pressures) by one linear step from the
+// present equilibrium, contacts as they are; costs one factorisation. Wrong to second order in the
+// change, and to first order once contacts open or close by whole nodes. The ring stays as it is.
+// Errors: SB_ERROR_NOT_CONVERGED for a change that turns the mesh inside out.
+SbStatus sb_ring_predict(SbRing *ring, const SbRingLoad *load, SbRingResult *out, SbReport *report);
 
 // Relative errors by comparing two meshes.
 typedef struct {

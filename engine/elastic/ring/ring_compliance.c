@@ -5,8 +5,13 @@
 // node gives its column. Exact for the discrete ring to first order in the change of pressure, as
 // long as no other contact opens or closes; along the bore the nodes are free (frictionless), as
 // under a film. The columns belong to nodal forces: a pressure p acts with the forces area_j p_j.
-// Leaves out the split into half-plane kernel and smooth rest that films much thinner than the mesh
-// need.
+// For films much thinner than the mesh the same factor gives the split into the half-plane's
+// logarithm and a smooth rest: the surface's answer to the pressures sqrt(1 - z^2) U_l(z) over a
+// window, which the mesh resolves, less the half-plane's, which is closed (Johnson, Contact
+// Mechanics, 2.7), is a sum of Chebyshev polynomials in the pressure's place and in the answer's.
+// The half-plane's modulus is the squeezed rubber's own, from the shortest of these waves; that it
+// varies a little along the contact is left to the smooth part.
+#include "engine/elastic/compliance.h"
 #include "engine/elastic/ring/ring_private.h"
 
 #include <math.h>
@@ -83,23 +88,19 @@ static void add_follower(SbRing *ring) {
   }
 }
 
-SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, double *c,
-                            SbReport *report) {
-  int first = 0, count = surface_nodes(ring, margin < 0 ? 0 : margin, &first);
-  if (count == 0) {
-    return sb_fail(report, SB_ERROR_INFEASIBLE, "the ring does not touch the bore");
-  }
+// Tangent of the present state with the bore's nodes set free, factorised.
+static SbStatus factorise(SbRing *ring, void **factor, SbReport *report) {
   SbRingFem *fem = ring->fem;
   SbRingContact *contact = ring->contact;
   int loop = contact->count;
+  *factor = NULL;
   fem->axial_damping = 0.0;
   if (!sb_ring_fem_assemble(fem)) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's state is not an equilibrium");
   }
   sb_ring_contact_apply(contact);
   add_follower(ring);
-
-  // Free the bore's nodes; a node that a wall holds as well keeps the wall.
+  // A node that a wall holds as well keeps the wall.
   for (int i = 0; i < loop; i++) {
     SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i];
     if (!touch[SB_RING_BORE].held) {
@@ -114,8 +115,28 @@ SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, d
       condition->direction[1][0] = 1.0;
     }
   }
+  return sb_ring_fem_factor(fem, factor, report);
+}
+
+// Leaves the object as it was: forces and shares of the present state.
+static void settle(SbRing *ring) {
+  if (sb_ring_fem_assemble(ring->fem)) {
+    sb_ring_contact_apply(ring->contact);
+    sb_ring_contact_forces(ring->contact);
+  }
+}
+
+SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, double *c,
+                            SbReport *report) {
+  int first = 0, count = surface_nodes(ring, margin < 0 ? 0 : margin, &first);
+  if (count == 0) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE, "the ring does not touch the bore");
+  }
+  SbRingFem *fem = ring->fem;
+  SbRingContact *contact = ring->contact;
+  int loop = contact->count;
   void *factor = NULL;
-  SbStatus status = sb_ring_fem_factor(fem, &factor, report);
+  SbStatus status = factorise(ring, &factor, report);
   for (int j = 0; status == SB_OK && j < count; j++) {
     int place = (first + j + loop) % loop;
     int node = fem->mesh->loop[place];
@@ -132,10 +153,301 @@ SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, d
     }
   }
   sb_ring_fem_free_factor(&factor);
-  // Leave the object as it was: forces and shares of the present state.
+  settle(ring);
+  return status == SB_OK ? sb_succeed(report) : status;
+}
+
+// Waves of pressure that are tried, and those that tell the half-plane's modulus; share of the
+// contact's width that the window reaches beyond it; order of the dry pressure's fit.
+enum { WAVES = 10, WAVE_SHORT = 5, DRY_ORDER = 8, PROFILE_MAX = 2048 };
+static const double REACH = 0.2;
+
+// Sum of relative errors of width, left end and peak above which the gap is refused.
+static const double DRY_MOST = 0.1;
+
+// One boundary side: places and displacements of its three nodes.
+typedef struct {
+  double r[3], z[3], dr[3], dz[3];
+} Side;
+
+static void side_of(const SbRing *ring, int side, Side *out) {
+  const SbRingFem *fem = ring->fem;
+  int loop = ring->contact->count;
+  for (int a = 0; a < 3; a++) {
+    int node = fem->mesh->loop[((2 * side + a) % loop + loop) % loop];
+    out->r[a] = fem->mesh->x[2 * node] + fem->u[2 * node];
+    out->z[a] = fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1];
+    out->dr[a] = fem->du[2 * node];
+    out->dz[a] = fem->du[2 * node + 1];
+  }
+}
+
+static double blend(const double v[3], double xi) {
+  return 0.5 * xi * (xi - 1.0) * v[0] + (1.0 - xi * xi) * v[1] + 0.5 * xi * (xi + 1.0) * v[2];
+}
+
+static double blend_slope(const double v[3], double xi) {
+  return (xi - 0.5) * v[0] - 2.0 * xi * v[1] + (xi + 0.5) * v[2];
+}
+
+// The upper side that lies over the axial place z, from the bore's contact outwards; xi is the
+// place on it. False beyond the surface's turn.
+static bool find_side(const SbRing *ring, const SbRingPatch *patch, double z, int *side,
+                      double *xi) {
+  int middle = (patch->first + patch->last) / 4;
+  Side s;
+  side_of(ring, middle, &s);
+  int step = z > s.z[1] ? 1 : -1;
+  for (int k = 0; k < ring->contact->count / 4; k++) {
+    side_of(ring, middle + k * step, &s);
+    if (!(s.z[2] > s.z[0])) {
+      return false;
+    }
+    if (z >= s.z[0] && z <= s.z[2]) {
+      *side = middle + k * step;
+      *xi = 2.0 * (z - s.z[0]) / (s.z[2] - s.z[0]) - 1.0;
+      for (int i = 0; i < 8; i++) {
+        *xi -= (blend(s.z, *xi) - z) / blend_slope(s.z, *xi);
+      }
+      return true;
+    }
+  }
+  return false;
+}
+
+// Loads the window with the inward pressure sqrt(1 - z^2) U_l(z), per length of the bore's
+// circumference so that the answer stays symmetric.
+static void load_wave(SbRing *ring, const SbRingPatch *patch, double middle, double half, int l) {
+  static const double XI[4] = {-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
+                               0.861136311594052575};
+  static const double WEIGHT[4] = {0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
+                                   0.347854845137453857};
+  SbRingFem *fem = ring->fem;
+  int loop = ring->contact->count, from = 0, to = 0;
+  double xi, turn = fem->axisymmetric ? 2.0 * M_PI * ring->contact->now.bore : 1.0;
+  memset(fem->rhs, 0, sizeof(double) * 2 * (size_t)fem->mesh->nodes);
+  find_side(ring, patch, middle - half, &from, &xi);
+  find_side(ring, patch, middle + half, &to, &xi);
+  for (int side = from; side <= to; side++) {
+    Side s;
+    side_of(ring, side, &s);
+    // In the angle of z = -cos(theta), where the wave is smooth up to the window's ends.
+    double a = acos(fmin(1.0, fmax(-1.0, -(s.z[0] - middle) / half)));
+    double b = acos(fmin(1.0, fmax(-1.0, -(s.z[2] - middle) / half)));
+    for (int q = 0; q < 4; q++) {
+      double theta = 0.5 * (a + b) + 0.5 * (b - a) * XI[q];
+      double z = middle - half * cos(theta);
+      double at = 2.0 * (z - s.z[0]) / (s.z[2] - s.z[0]) - 1.0;
+      for (int i = 0; i < 8; i++) {
+        at -= (blend(s.z, at) - z) / blend_slope(s.z, at);
+      }
+      // U_l(-cos theta) sin(theta) = sin((l + 1)(pi - theta)).
+      double pressure = sin((l + 1) * (M_PI - theta));
+      double force = 0.5 * (b - a) * WEIGHT[q] * half * sin(theta) * pressure * turn;
+      double n[3] = {0.5 * at * (at - 1.0), 1.0 - at * at, 0.5 * at * (at + 1.0)};
+      for (int k = 0; k < 3; k++) {
+        fem->rhs[2 * fem->mesh->loop[((2 * side + k) % loop + loop) % loop]] -= n[k] * force;
+      }
+    }
+  }
+}
+
+// Inward displacement of the surface at fixed axial places, and its slope dr/dz there.
+static void read_wave(const SbRing *ring, const SbRingPatch *patch, double middle, double half,
+                      double *value, double *slope) {
+  for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
+    double z = middle - half * cos(M_PI * (i + 0.5) / SB_COMPLIANCE_MODES), xi;
+    int side;
+    value[i] = slope[i] = 0.0;
+    if (find_side(ring, patch, z, &side, &xi)) {
+      Side s;
+      side_of(ring, side, &s);
+      slope[i] = blend_slope(s.r, xi) / blend_slope(s.z, xi);
+      value[i] = slope[i] * blend(s.dz, xi) - blend(s.dr, xi);
+    }
+  }
+}
+
+// -int ln|x - s| of wave l over the window at Chebyshev's points; lengths in metres.
+static void half_plane(double half, int l, double *value) {
+  for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
+    double theta = M_PI - M_PI * (i + 0.5) / SB_COMPLIANCE_MODES;
+    double upper = cos((l + 2) * theta) / (l + 2);
+    value[i] = l == 0 ? 0.5 * M_PI * (M_LN2 - log(half) - upper)
+                      : 0.5 * M_PI * (cos(l * theta) / l - upper);
+    value[i] *= half;
+  }
+}
+
+// A ring that nothing holds axially drifts by any amount under a lopsided pressure, and its free
+// surface beside the contact with it. What of that an answer holds is taken out: as much drift as
+// leaves the least beside the half-plane's answer.
+static void remove_drift(const SbSurfaceCompliance *c, double half,
+                         double answer[WAVES][SB_COMPLIANCE_MODES], const double *slope) {
+  double compliance = 4.0 / (M_PI * c->modulus);
+  for (int l = 0; l < WAVES; l++) {
+    double plane[SB_COMPLIANCE_MODES], up = 0.0, down = 1e-30;
+    half_plane(half, l, plane);
+    for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
+      up += (answer[l][i] - compliance * plane[i]) * slope[i];
+      down += slope[i] * slope[i];
+    }
+    for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
+      answer[l][i] -= up / down * slope[i];
+    }
+  }
+}
+
+// Chebyshev coefficients of the smooth part from the answers, less the half-plane's.
+static void smooth_part(SbSurfaceCompliance *out, double half,
+                        double answer[WAVES][SB_COMPLIANCE_MODES]) {
+  enum { N = SB_COMPLIANCE_MODES };
+  double compliance = 4.0 / (M_PI * out->modulus), s[WAVES][WAVES + 2] = {{0.0}};
+  for (int l = WAVES - 1; l >= 0; l--) {
+    double plane[N];
+    half_plane(half, l, plane);
+    for (int k = 0; k < WAVES; k++) {
+      double v = 0.0;
+      for (int i = 0; i < N; i++) {
+        double theta = M_PI - M_PI * (i + 0.5) / N;
+        v += (k == 0 ? 1.0 : 2.0) / N * cos(k * theta) * (answer[l][i] - compliance * plane[i]);
+      }
+      s[k][l] = (4.0 * v / (M_PI * half) + s[k][l + 2]) / (l == 0 ? 2.0 : 1.0);
+    }
+  }
+  out->modes = N;
+  for (int k = 0; k < WAVES; k++) {
+    for (int l = 0; l < WAVES; l++) {
+      out->smooth[k][l] = 0.5 * (s[k][l] + s[l][k]);
+    }
+  }
+}
+
+// The gap whose dry contact has the ring's pressure. Nodal pressures are too rough for many
+// polynomials and ring and half-plane are too different for few: the order is taken that gives the
+// ring's own width and peak best.
+static SbStatus dry_gap(const SbRing *ring, SbSurfaceCompliance *c, SbReport *report) {
+  double x[PROFILE_MAX], p[PROFILE_MAX], load = 0.0;
+  int n = sb_ring_profile(ring, x, p, NULL, PROFILE_MAX);
+  if (n > PROFILE_MAX) {
+    return sb_fail(report, SB_ERROR_MEMORY, "the ring's profile is too long");
+  }
+  SbRingResult result;
+  sb_ring_result(ring, &result);
+  double left = ring->contact->now.pressure_left * ring->stress;
+  double right = ring->contact->now.pressure_right * ring->stress;
+  double low = fmin(left, right), width = x[n - 1] - x[0], best = INFINITY;
+  for (int i = 1; i < n; i++) {
+    load += 0.5 * (p[i] + p[i - 1]) * (x[i] - x[i - 1]);
+  }
+  load += left * x[0] - right * x[n - 1];
+  for (int i = 0; i < n; i++) {
+    p[i] -= low;
+  }
+  SbSurfaceCompliance kept = *c;
+  SbStatus last = SB_ERROR_NOT_CONVERGED;
+  for (int order = 1; order <= DRY_ORDER; order++) {
+    SbSurfaceCompliance trial = *c;
+    SbDryContact dry;
+    SbStatus status =
+        sb_compliance_match(&trial, order, (size_t)n, x, p, left - low, right - low, report);
+    if (status == SB_OK) {
+      status = sb_dry_contact(&dry, &trial, load, left, right, report);
+    }
+    if (status == SB_OK) {
+      double off = fabs((dry.right - dry.left) / width - 1.0) + fabs(dry.left - x[0]) / width +
+                   fabs(dry.peak / result.pressure_peak - 1.0);
+      if (off < best) {
+        best = off;
+        kept = trial;
+      }
+      last = SB_OK;
+    }
+  }
+  *c = kept;
+  return last == SB_OK && best < DRY_MOST
+             ? sb_succeed(report)
+             : sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                       "no smooth gap gives the ring's contact pressure");
+}
+
+SbStatus sb_ring_surface(SbRing *ring, SbSurfaceCompliance *out, SbReport *report) {
+  *out = (SbSurfaceCompliance){0};
+  SbRingPatch patch;
+  if (!sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE, "the ring does not touch the bore");
+  }
+  double middle = 0.5 * (patch.place[0] + patch.place[1]);
+  double half = (0.5 + REACH) * (patch.place[1] - patch.place[0]), xi;
+  int side;
+  if (!find_side(ring, &patch, middle - half, &side, &xi) ||
+      !find_side(ring, &patch, middle + half, &side, &xi)) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE,
+                   "the ring's surface turns away too near to the bore contact");
+  }
+  void *factor = NULL;
+  SbStatus status = factorise(ring, &factor, report);
+  double answer[WAVES][SB_COMPLIANCE_MODES], slope[SB_COMPLIANCE_MODES];
+  double unit = ring->length / ring->stress; // of displacement per pressure
+  double length = half * ring->length, up = 0.0, down = 0.0;
+  for (int l = 0; l < WAVES && status == SB_OK; l++) {
+    load_wave(ring, &patch, middle, half, l);
+    status = sb_ring_fem_apply_factor(ring->fem, factor, report);
+    read_wave(ring, &patch, middle, half, answer[l], slope);
+    double plane[SB_COMPLIANCE_MODES];
+    half_plane(length, l, plane);
+    for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
+      answer[l][i] *= unit;
+      bool counts = l >= WAVE_SHORT && l % 2 == 0;
+      up += counts ? answer[l][i] * plane[i] : 0.0;
+      down += counts ? plane[i] * plane[i] : 0.0;
+    }
+  }
+  sb_ring_fem_free_factor(&factor);
+  settle(ring);
+  if (status != SB_OK) {
+    return status;
+  }
+  out->left = (middle - half) * ring->length;
+  out->right = (middle + half) * ring->length;
+  out->modulus = 4.0 * down / (M_PI * up);
+  if (ring->fem->axial_spring > 0.0) {
+    remove_drift(out, length, answer, slope);
+  }
+  smooth_part(out, length, answer);
+
+  return dry_gap(ring, out, report);
+}
+
+SbStatus sb_ring_predict(SbRing *ring, const SbRingLoad *load, SbRingResult *out,
+                         SbReport *report) {
+  SbRingContact *contact = ring->contact;
+  SbRingFem *fem = ring->fem;
+  SbRingSetting now = contact->now;
+  sb_ring_fem_save(fem, 1);
+  sb_ring_contact_save(contact, 0);
+  fem->axial_damping = 0.0;
+  contact->now = sb_ring_setting(ring, load);
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
   if (sb_ring_fem_assemble(fem)) {
     sb_ring_contact_apply(contact);
-    sb_ring_contact_forces(contact);
+    status = sb_ring_fem_solve(fem, report);
   }
-  return status == SB_OK ? sb_succeed(report) : status;
+  if (status == SB_OK) {
+    sb_ring_fem_advance(fem, 1.0);
+    status = SB_ERROR_NOT_CONVERGED;
+    if (sb_ring_fem_assemble(fem)) {
+      sb_ring_contact_apply(contact);
+      sb_ring_contact_forces(contact);
+      sb_ring_result(ring, out);
+      status = SB_OK;
+    }
+  }
+  contact->now = now;
+  sb_ring_fem_restore(fem, 1);
+  sb_ring_contact_restore(contact, 0);
+  settle(ring);
+  return status == SB_OK ? sb_succeed(report)
+                         : sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                                   "the change is too large to foretell the ring's load");
 }
