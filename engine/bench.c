@@ -1,9 +1,11 @@
 // The bench's cases; see bench.h. Reference films: an independent hp-collocation solver, relative
 // error 1e-6 (Swift-Stieber, flooded, half-plane). Reference discs and rings: spectral disc and an
-// independent finite-strain finite element program, to the digits given.
+// independent finite-strain finite element program, to the digits given; the pressed ring has no
+// other program's answer, but this one's on meshes of 8000 to 10000 unknowns, which agree to 3e-4.
 #include "engine/bench.h"
 
 #include "engine/elastic/fit.h"
+#include "engine/elastic/ring/ring.h"
 #include "engine/film/film.h"
 #include "engine/film/wedge.h"
 #include "engine/model.h"
@@ -16,11 +18,11 @@
 #include <string.h>
 #include <time.h>
 
-typedef enum { ASPERITY, WEDGE, FILM, DISC, RING, CYCLE } Kind;
+typedef enum { ASPERITY, WEDGE, FILM, DISC, RING, RING_STEP, CYCLE } Kind;
 
 typedef struct {
   Kind kind;
-  double parameter; // M of a film, squeeze of a disc, motion of a cycle
+  double parameter; // M of a film, squeeze of a disc, pressure of a ring [Pa], motion of a cycle
   double tolerance;
   double expected[3]; // films: H* minimum, centre, flux; fits: load per length or load
 } Case;
@@ -45,8 +47,10 @@ static const Case cases[] = {
     {DISC, 0.02, 1e-3, {27.20480692135, 0, 0}},
     {DISC, 0.04, 1e-3, {62.94421156184, 0, 0}},
     {DISC, 0.10, 1e-3, {199.5995305575, 0, 0}},
-    {RING, 0.1553, 1e-2, {4.772, 0, 0}},
-    {RING, 0.1553, 1e-3, {4.772, 0, 0}},
+    {RING, 0, 1e-2, {4.772, 0, 0}},
+    {RING, 0, 1e-3, {4.772, 0, 0}},
+    {RING, 0.55e6, 1e-3, {13.493, 0, 0}},
+    {RING_STEP, 0.29e6, 0, {0, 0, 0}},
     {CYCLE, SB_MODEL_MOTION_QUASI_STATIC, 0, {0, 0, 0}},
     {CYCLE, SB_MODEL_MOTION_DYNAMIC, 0, {0, 0, 0}},
 };
@@ -116,19 +120,18 @@ static SbStatus run_film(SbBenchCase *out, const Case *c, SbReport *report) {
   return status;
 }
 
-static SbStatus run_fit(SbBenchCase *out, const Case *c, SbReport *report) {
+static SbStatus run_disc(SbBenchCase *out, const Case *c, SbReport *report) {
   SbFit *fit = malloc(sizeof *fit);
   if (fit == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a fit");
   }
-  bool ring = c->kind == RING;
   double d = 1.61e-3;
   double D = 6e-3;
-  double g = ring ? 1.36e-3 : d * (1 - c->parameter);
+  double g = d * (1 - c->parameter);
   SbFitProblem problem = {
-      .model = ring ? SB_FIT_RING : SB_FIT_DISC,
+      .model = SB_FIT_DISC,
       .section_diameter = d,
-      .inner_diameter = ring ? 2.84e-3 : D - g - d, // a disc of no stretch
+      .inner_diameter = D - g - d, // no stretch
       .modulus = 2.5e6,
       .poisson_ratio = 0.49,
       .radial_space = g,
@@ -137,13 +140,81 @@ static SbStatus run_fit(SbBenchCase *out, const Case *c, SbReport *report) {
       .tolerance = c->tolerance,
   };
   SbStatus status = sb_fit_solve(fit, &problem, report);
-  out->error = relative(ring ? fit->load : fit->load_per_length, c->expected[0]);
+  out->error = relative(fit->load_per_length, c->expected[0]);
   out->unknowns = fit->solver.unknowns;
   out->iterations = fit->solver.newton_iterations;
   out->error_estimate = fit->solver.error_estimate.load;
   snprintf(out->name, sizeof out->name, "squeeze %.4g %%, tolerance %g", 100 * c->parameter,
            c->tolerance);
   free(fit);
+  return status;
+}
+
+// The thesis valve's ring, 15.5 % squeezed, against its groove's wall if pressed.
+static SbRingBody ring_body(void) {
+  return (SbRingBody){.section_diameter = 1.61e-3,
+                      .inner_diameter = 2.84e-3,
+                      .modulus = 2.5e6,
+                      .poisson_ratio = 0.49};
+}
+
+static SbRingLoad ring_load(double pressure) {
+  SbRingLoad load = SB_RING_LOAD_INIT;
+  load.floor_radius = 1.64e-3;
+  load.bore_radius = 3e-3;
+  load.pressure_left = pressure;
+  load.wall_right = pressure > 0 ? 1e-3 : HUGE_VAL;
+  return load;
+}
+
+static SbStatus run_ring(SbBenchCase *out, const Case *c, SbReport *report) {
+  SbRingBody body = ring_body();
+  SbRingLoad load = ring_load(c->parameter);
+  SbRingResult result = {0};
+  SbRingError error;
+  SbWarnings warnings = {0};
+  SbStatus status =
+      sb_ring_fit(NULL, &result, &error, &body, &load, c->tolerance, NULL, &warnings, report);
+  out->error = relative(result.bore_force, c->expected[0]);
+  out->unknowns = (size_t)result.unknowns;
+  out->iterations = (size_t)result.newton_iterations;
+  out->error_estimate = error.load;
+  snprintf(out->name, sizeof out->name, "%.2f MPa, tolerance %g, %d load step%s",
+           1e-6 * c->parameter, c->tolerance, result.load_steps, result.load_steps == 1 ? "" : "s");
+  return status;
+}
+
+// Steps of a cycle from one equilibrium to the next: bore and pressure move, friction on all
+// surfaces. The time is one step's; the error is that of its axial balance.
+static SbStatus run_ring_step(SbBenchCase *out, const Case *c, SbReport *report) {
+  enum { STEPS = 10 };
+  SbRingBody body = ring_body();
+  SbRingLoad load = ring_load(c->parameter);
+  load.wall_left = -1e-3;
+  load.friction_bore = load.friction_floor = load.friction_wall = 0.2;
+  SbRingOptions options = {.fit_mesh = true};
+  SbRing *ring = NULL;
+  SbStatus status = sb_ring_create(&ring, &body, &load, &options, report);
+  SbRingResult before = {0};
+  SbRingResult after = {0};
+  if (status == SB_OK) {
+    sb_ring_result(ring, &before);
+  }
+  double start = now();
+  for (int i = 0; i < STEPS && status == SB_OK; i++) {
+    load.bore_position += 1e-5;
+    load.pressure_left *= 1.01;
+    status = sb_ring_step(ring, &load, report);
+  }
+  out->wall_s = (now() - start) / STEPS;
+  if (status == SB_OK) {
+    sb_ring_result(ring, &after);
+  }
+  sb_ring_destroy(ring);
+  out->error = after.axial_imbalance;
+  out->unknowns = (size_t)after.unknowns;
+  out->iterations = (size_t)(after.newton_iterations - before.newton_iterations) / STEPS;
+  snprintf(out->name, sizeof out->name, "balance after a warm step of 10 um, friction 0.2");
   return status;
 }
 
@@ -183,8 +254,11 @@ static SbStatus run_once(SbBenchCase *out, const Case *c, SbReport *report) {
   case FILM:
     return run_film(out, c, report);
   case DISC:
+    return run_disc(out, c, report);
   case RING:
-    return run_fit(out, c, report);
+    return run_ring(out, c, report);
+  case RING_STEP:
+    return run_ring_step(out, c, report);
   case CYCLE:
     break;
   }
@@ -208,6 +282,7 @@ static const char *solver_name(const Case *c) {
   case DISC:
     return "disc";
   case RING:
+  case RING_STEP:
     return "ring";
   case CYCLE:
     break;
@@ -230,8 +305,10 @@ SbStatus sb_bench_run(SbBenchCase *out, size_t index, int repeats, const SbBench
   int n = repeats < 1 ? 1 : repeats > REPEATS_MAX ? REPEATS_MAX : repeats;
   for (int i = 0; i < n; i++) {
     double start = now();
+    out->wall_s = 0;
     run_once(out, c, NULL);
-    wall[i] = now() - start;
+    // A case that times a part of itself has said so.
+    wall[i] = out->wall_s > 0 ? out->wall_s : now() - start;
   }
   qsort(wall, (size_t)n, sizeof *wall, compare);
   out->wall_s = wall[n / 2];

@@ -101,25 +101,36 @@ static void test_stretched(void) {
   sb_ring_destroy(ring);
 }
 
-// Mesh convergence of the load on meshes fitted to the contact, against the finest.
+// Mesh convergence on meshes fitted to the contact, against the finest: the load to 0.1 % on the
+// coarsest, of observed order 1.8 in the element's size (edges fall unevenly between nodes, which
+// is why single ratios vary from 1.5 to 3).
 static void test_convergence(void) {
   SbRingLoad load = groove();
   SbRingResult r;
-  static const double SIZE[] = {0.08, 0.04, 0.01};
-  double force[3], peak[3];
-  for (int i = 0; i < 3; i++) {
+  static const double SIZE[] = {0.08, 0.04, 0.02, 0.007};
+  enum { N = sizeof SIZE / sizeof SIZE[0] };
+  double force[N], peak[N], width[N], off[N];
+  for (int i = 0; i < N; i++) {
     SbRing *ring = fitted(&BODY, &load, SIZE[i], &r);
     force[i] = r.bore_force;
     peak[i] = r.pressure_peak;
-    g_test_message("size %.3f: %d unknowns, %.6f N, %.5g Pa", SIZE[i], r.unknowns, force[i],
-                   peak[i]);
+    width[i] = r.contact_right - r.contact_left;
+    g_test_message("size %.3f: %d unknowns, %.6f N, %.5g Pa, %.5g mm", SIZE[i], r.unknowns,
+                   force[i], peak[i], 1e3 * width[i]);
     sb_ring_destroy(ring);
   }
-  double coarse = fabs(force[0] / force[2] - 1.0), fine = fabs(force[1] / force[2] - 1.0);
-  g_assert_cmpfloat(coarse, <, 2e-3);
-  g_assert_cmpfloat(fine, <, 4e-4);
-  g_assert_cmpfloat(fabs(peak[0] / peak[2] - 1.0), <, 1e-2);
-  g_assert_cmpfloat(fabs(peak[1] / peak[2] - 1.0), <, 3e-3);
+  for (int i = 0; i < N - 1; i++) {
+    off[i] = fabs(force[i] / force[N - 1] - 1.0);
+    g_assert_cmpfloat(fabs(peak[i] / peak[N - 1] - 1.0), <, 4e-3);
+    g_assert_cmpfloat(fabs(width[i] / width[N - 1] - 1.0), <, 8e-3);
+  }
+  g_assert_cmpfloat(off[0], <, 1e-3);
+  g_assert_cmpfloat(off[2], <, 1e-4);
+  double order = log(off[0] / off[2]) / log(SIZE[0] / SIZE[2]);
+  g_test_message("order of the load %.2f", order);
+  g_assert_cmpfloat(order, >, 1.5);
+  g_assert_cmpfloat(fabs(peak[2] / peak[N - 1] - 1.0), <, 5e-4);
+  g_assert_cmpfloat(fabs(width[2] / width[N - 1] - 1.0), <, 3e-3);
 }
 
 // Pressure against the groove wall: the wall carries exactly the pressure on the open annulus
