@@ -59,7 +59,7 @@ static void asperity_pressure(const SbModel *model, int seal, const double *film
 }
 
 // Pressure and film over one contact, from what the seal's memory has just solved. With a solved
-// film it is the solver's own profile, or the fitment's pressure where that solved one; with a
+// film it is the solver's own profile, on the fitted body where the fitment gives one; with a
 // closed form it is the fitment's pressure, the central film held uniform (the law knows no shape)
 // and the dry gap outside.
 static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, const SbSliding *state,
@@ -81,8 +81,8 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
   double low = fmin(pressure.left, pressure.right);
   double left = pressure.left - low;
   double right = pressure.right - low;
-  if (solved && own_pressure) {
-    // The film's coordinate is scaled from its half-plane contact to the fitted one.
+  if (solved && own_pressure && !state->film_fitted) {
+    // No film on the fitted body: the half-plane's is scaled from its contact to the fitted one.
     double middle = (fit->contact_left + fit->contact_right) / 2;
     double stretch = fit->contact_width / 2 / film->hertz_half_width;
     n = film->points;
@@ -131,7 +131,9 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
       .pressure = p,
       .film = h,
       .asperity_pressure = data + 3 * capacity,
-      .model = solved && !own_pressure ? "reynolds" : sb_fit_model_name((SbFitModel)run->model.fit),
+      .model = solved && (!own_pressure || state->film_fitted)
+                   ? "reynolds"
+                   : sb_fit_model_name((SbFitModel)run->model.fit),
   };
   run->summary.counters.profile_evaluations++;
   return SB_OK;

@@ -1,9 +1,11 @@
 // Joins fitment, film, surface and friction for one seal; see sliding.h for the equations.
 //
-// The film's load is the net one: the fluid on either side carries its own step, so a contact from
-// l to r under the total load W leaves W - p_left (0 - l) - p_right (r - 0) to the film (contract,
-// "Load"). What it leaves out: the asperities do not take load off the film here (they carry 1 to
-// 14 % of it, audit 10), and the closed forms know no inlet starvation.
+// With a fitment model that gives a pressure of its own the solved film lies on this body: its
+// edges, its pressure, its compliance; the half-plane's film stands beside it. The film's load is
+// the net one: the fluid on either side carries its own step, so a contact from l to r under the
+// total load W leaves W - p_left (0 - l) - p_right (r - 0) to the film (contract, "Load"). What it
+// leaves out: the asperities do not take load off the film here (they carry 1 to 14 % of it, audit
+// 10), and the closed forms know no inlet starvation.
 #include "engine/friction/sliding.h"
 
 #include "engine/surface/greenwood_tripp.h"
@@ -14,7 +16,9 @@
 
 struct SbSlidingMemory {
   SbFit fit;
-  SbFilm film;
+  SbFilm film;        // of the half-plane, or of a law
+  SbFilm fitted_film; // of the fitted body
+  bool fitted_last;   // which of them the last evaluation gave
   SbFilmSolver *solver;
   bool fitted;
   double fitted_pressure; // difference for which `fit` stands
@@ -54,7 +58,7 @@ const SbFit *sb_sliding_fit(const SbSlidingMemory *memory) {
 }
 
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory) {
-  return &memory->film;
+  return memory->fitted_last ? &memory->fitted_film : &memory->film;
 }
 
 static SbFilmModel film_model(SbModelFilm film) {
@@ -121,6 +125,70 @@ void sb_sliding_film_problem(SbFilmProblem *out, const SbModel *model, int seal,
   out->profile_points = 1500; // drawn and written, not differentiated
 }
 
+SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit *fit,
+                            const SbModel *model, int seal, SbSealPressure pressure,
+                            SbReport *report) {
+  // Coefficients of the pressure: a disc's is smooth, finite elements' is not.
+  const int order = fit->model == SB_FIT_DISC ? 8 : 5;
+  bool own =
+      fit->model == SB_FIT_DISC || fit->model == SB_FIT_DISC_THESIS || fit->model == SB_FIT_RING;
+  if (!own || fit->profile_count < 12) {
+    return sb_fail(report, SB_ERROR_INPUT, "the fitment model gives no pressure of a body");
+  }
+  const SbSealModel *ring = &model->seal[seal];
+  double radius = 0.5 * fit->section_diameter_fitted;
+  double middle = 0.5 * (fit->contact_left + fit->contact_right);
+  // The disc's middle is the contact's: pressure against the wall moves both.
+  double reach = 0.7 * fit->contact_width;
+  SbStatus status = sb_compliance_disc(out, radius, ring->modulus, ring->poisson_ratio,
+                                       fmin(reach, 0.9 * radius), report);
+  if (status != SB_OK) {
+    return status;
+  }
+  out->left += middle;
+  out->right += middle;
+  out->modulus = ring->reduced_modulus;
+  double low = fmin(pressure.left, pressure.right);
+  double left = pressure.left - low;
+  double right = pressure.right - low;
+  *load = fit->load_per_length + left * fit->contact_left - right * fit->contact_right;
+  return sb_compliance_match(out, order, fit->profile_count, fit->profile_x, fit->profile_p,
+                             pressure.left, pressure.right, report);
+}
+
+// The film on the fitted body in place of the half-plane's; false where there is none or it fails.
+static bool solve_fitted(SbSliding *out, const SbFilmProblem *plane, const SbModel *model, int seal,
+                         SbSealPressure pressure, SbSlidingMemory *memory, SbSlidingCounts *counts,
+                         SbWarnings *warnings) {
+  if (memory->fit.model != SB_FIT_DISC && memory->fit.model != SB_FIT_RING) {
+    return false;
+  }
+  SbReport report = {0};
+  SbSurfaceCompliance surface;
+  SbFilmProblem problem = *plane;
+  problem.compliance = &surface;
+  SbStatus status =
+      sb_sliding_surface(&surface, &problem.load, &memory->fit, model, seal, pressure, &report);
+  if (status == SB_OK) {
+    status = sb_film_solve(&memory->fitted_film, &problem, memory->solver, &report);
+    counts->film_evaluations++;
+    counts->reynolds_solves++;
+    counts->newton_iterations += (size_t)memory->fitted_film.solver.newton_iterations;
+  }
+  if (status != SB_OK) {
+    sb_warn(warnings, "film-half-plane", "models.fit",
+            "no film on the fitted %s seal (%s): it is the half-plane's", sb_seal_name(seal),
+            report.text);
+    return false;
+  }
+  out->film_fitted = true;
+  out->film_min = memory->fitted_film.film_min;
+  out->film_central = memory->fitted_film.film_central;
+  out->film_error = fmax(memory->fitted_film.solver.error_film_min,
+                         memory->fitted_film.solver.error_film_central);
+  return true;
+}
+
 static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
                            double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                            SbWarnings *warnings, SbReport *report) {
@@ -141,7 +209,14 @@ static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSea
   }
   out->film_min = memory->film.film_min;
   out->film_central = memory->film.film_central;
-  sb_warnings_merge(warnings, &memory->film.warnings);
+  const SbFilm *best = &memory->film;
+  memory->fitted_last = false;
+  if (problem.model == SB_FILM_REYNOLDS && status == SB_OK &&
+      solve_fitted(out, &problem, model, seal, pressure, memory, counts, warnings)) {
+    best = &memory->fitted_film;
+    memory->fitted_last = true;
+  }
+  sb_warnings_merge(warnings, &best->warnings);
   return status;
 }
 

@@ -22,7 +22,8 @@ typedef struct {
   double load_net;               // per length, above the ambient step: what the film carries [N/m]
   double pressure_peak;          // [Pa]
   double film_min, film_central; // [m]; 0 at rest
-  double film_reynolds;          // central, of the solved film; NaN if not solved
+  double film_reynolds;          // central, solved on the half-plane; NaN if not solved
+  bool film_fitted;              // film_min and film_central are solved on the fitted body
   double film_error;             // relative error estimate of the solved film; NaN if closed form
   double lambda;                 // film_central / sigma
   double area_share;             // A_a / A
@@ -59,6 +60,16 @@ typedef struct {
 SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
                           double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                           SbWarnings *warnings, SbReport *report);
+
+// Surface of a fitted body for the film: the disc's compliance on the section (for the ring's
+// film it stands in for its own), and the gap whose dry contact has the pressure of `fit`. For
+// fitment models with an elastic body (disc, ring); thin films hang on
+// the edges and slopes of this pressure, the smooth part matters by the film over the contact's
+// flattening. *load is the net load that goes with it [N/m]. SB_ERROR_INPUT for the others and
+// where the contact is too wide.
+SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit *fit,
+                            const SbModel *model, int seal, SbSealPressure pressure,
+                            SbReport *report);
 
 // The fitment problem of a seal by the model's own choice, at a pressure difference (positive on
 // the left).

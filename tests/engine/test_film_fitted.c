@@ -6,6 +6,7 @@
 #include "engine/elastic/compliance.h"
 #include "engine/elastic/disc.h"
 #include "engine/film/transient.h"
+#include "engine/friction/sliding.h"
 
 static const double RADIUS = 0.75e-3, YOUNG = 2.5e6, NU = 0.49;
 
@@ -189,6 +190,48 @@ static void test_edges(void) {
   g_free(film);
 }
 
+// In a run the film lies on the fitted disc: its dry contact is the fitment's, and the half-plane's
+// film stays beside it for comparison.
+static void test_run(void) {
+  SbParams params;
+  sb_params_init(&params);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, SB_FIT_DISC, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, NULL), ==,
+                  SB_OK);
+  SbModel model;
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  SbSlidingMemory *memory = NULL;
+  g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
+  for (int chamber = 0; chamber < 3; chamber++) {
+    const SbSealPressure pressure = sb_model_seal_pressure(&model, SB_OUTER, (SbChamber)chamber);
+    SbSliding state;
+    SbSlidingCounts counts = {0};
+    SbWarnings warnings = {0};
+    g_assert_cmpint(sb_sliding_solve(&state, &model, SB_OUTER, pressure, model.speed, memory,
+                                     &counts, &warnings, NULL),
+                    ==, SB_OK);
+    g_assert_true(state.film_fitted);
+    g_assert_cmpuint(counts.reynolds_solves, ==, 2);
+    g_assert_cmpfloat(fabs(state.film_central / state.film_reynolds - 1.0), >, 0.01);
+    g_assert_cmpfloat(fabs(state.film_central / state.film_reynolds - 1.0), <, 0.3);
+    const SbFit *fit = sb_sliding_fit(memory);
+    SbSurfaceCompliance c;
+    double load;
+    g_assert_cmpint(sb_sliding_surface(&c, &load, fit, &model, SB_OUTER, pressure, NULL), ==,
+                    SB_OK);
+    SbDryContact dry;
+    g_assert_cmpint(sb_dry_contact(&dry, &c, load, pressure.left, pressure.right, NULL), ==, SB_OK);
+    g_assert_cmpfloat_with_epsilon(dry.left / fit->contact_left, 1.0, 1e-3);
+    g_assert_cmpfloat_with_epsilon(dry.right / fit->contact_right, 1.0, 1e-3);
+    const double low = fmin(pressure.left, pressure.right);
+    g_assert_cmpfloat_with_epsilon((dry.peak - low) / fit->pressure_peak, 1.0, 1e-3);
+    // The film's own pressure is the fitment's but for the layers.
+    g_assert_cmpfloat_with_epsilon(
+        (sb_sliding_film(memory)->pressure_max - low) / fit->pressure_peak, 1.0, 2e-3);
+  }
+  sb_sliding_memory_destroy(memory);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/film-fitted/half-plane", test_half_plane);
@@ -196,5 +239,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/film-fitted/mirror", test_mirror);
   g_test_add_func("/film-fitted/matched", test_matched);
   g_test_add_func("/film-fitted/edges", test_edges);
+  g_test_add_func("/film-fitted/run", test_run);
   return g_test_run();
 }
