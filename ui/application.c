@@ -77,6 +77,7 @@ static void set_accels(GtkApplication *application) {
       {"win.next-error", {"F8"}},
       {"win.run-or-stop", {"<Primary>r"}},
       {"win.export", {"<Primary>e"}},
+      {"win.studies", {"<Primary>t"}},
       {"win.pin", {"<Primary>p"}},
       {"win.zoom-in", {"<Primary>plus", "<Primary>equal"}},
       {"win.zoom-out", {"<Primary>minus"}},

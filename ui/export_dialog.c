@@ -234,22 +234,25 @@ static void on_done(void *data) {
   set_busy(dialog, FALSE);
 }
 
-// Asks before a file is replaced; of a sequence, before its first picture is.
-static gboolean may_replace(Dialog *dialog, const char *pattern) {
-  g_auto(GStrv) parts = g_strsplit(pattern, "%04d", 2);
-  g_autofree char *path = is_sequence(dialog) ? g_strjoinv("0001", parts) : g_strdup(pattern);
+gboolean sb_export_may_replace(GtkWindow *parent, const char *path) {
   if (!g_file_test(path, G_FILE_TEST_EXISTS)) {
     return TRUE;
   }
   g_autofree char *name = g_filename_display_basename(path);
-  GtkWidget *question = gtk_message_dialog_new(
-      GTK_WINDOW(dialog->dialog), GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT,
-      GTK_MESSAGE_QUESTION, GTK_BUTTONS_NONE, "Replace “%s”?", name);
+  GtkWidget *question =
+      gtk_message_dialog_new(parent, GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT,
+                             GTK_MESSAGE_QUESTION, GTK_BUTTONS_NONE, "Replace “%s”?", name);
   gtk_dialog_add_buttons(GTK_DIALOG(question), "_Keep", GTK_RESPONSE_CANCEL, "_Replace",
                          GTK_RESPONSE_ACCEPT, NULL);
   int answer = gtk_dialog_run(GTK_DIALOG(question));
   gtk_widget_destroy(question);
   return answer == GTK_RESPONSE_ACCEPT;
+}
+
+// The file to ask about; of a sequence its first picture.
+static char *first_file(Dialog *dialog, const char *pattern) {
+  g_auto(GStrv) parts = g_strsplit(pattern, "%04d", 2);
+  return is_sequence(dialog) ? g_strjoinv("0001", parts) : g_strdup(pattern);
 }
 
 // The instant: a stage's letter, or the playhead's time.
@@ -291,7 +294,8 @@ static gboolean start(gpointer data) {
     say(dialog, "The run has not ended yet.", "sb-error");
     return G_SOURCE_REMOVE;
   }
-  if (!g_path_is_absolute(path) || !may_replace(dialog, path)) {
+  g_autofree char *first = first_file(dialog, path);
+  if (!g_path_is_absolute(path) || !sb_export_may_replace(GTK_WINDOW(dialog->dialog), first)) {
     sb_run_handle_unref(handle);
     if (!g_path_is_absolute(path)) {
       say(dialog, "The file needs its folder: an absolute path.", "sb-error");

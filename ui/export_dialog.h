@@ -8,3 +8,6 @@
 // Opens it over `parent`; it destroys itself. Does nothing while no complete or partial run is
 // shown.
 void sb_export_dialog_open(GtkWindow *parent, SbSession *session);
+
+// Asks before a file is replaced; true if there is none or the answer is yes.
+gboolean sb_export_may_replace(GtkWindow *parent, const char *path);

@@ -11,6 +11,7 @@
 #include "ui/section_view.h"
 #include "ui/session.h"
 #include "ui/status_bar.h"
+#include "ui/study_window.h"
 #include "ui/style.h"
 #include "ui/timeline_view.h"
 #include "ui/window_files.h"
@@ -325,6 +326,10 @@ static void on_export(GSimpleAction *action, GVariant *parameter, gpointer data)
   sb_export_dialog_open(GTK_WINDOW(data), SB_WINDOW(data)->session);
 }
 
+static void on_studies(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_study_window_open(GTK_WINDOW(data), SB_WINDOW(data)->session);
+}
+
 static void on_strip_button(GtkButton *button, SbWindow *window) {
   if (window->strip_id >= 0) {
     int id = window->strip_id;
@@ -451,6 +456,7 @@ static void sb_window_init(SbWindow *window) {
       {.name = "zoom-out", .activate = on_zoom_out},
       {.name = "zoom-fit", .activate = on_zoom_fit},
       {.name = "export", .activate = on_export},
+      {.name = "studies", .activate = on_studies},
       {.name = "copy-table", .activate = on_copy_table},
       {.name = "pin", .state = "false", .change_state = on_pin},
       {.name = "auto-run", .state = "true", .change_state = on_auto_run},

@@ -19,7 +19,9 @@
   X(SB_STUDY_STORAGE, storage, "storage", "Storage time",                                          \
     "load, friction, squeeze and modulus against storage time: relaxation, set, swell")            \
   X(SB_STUDY_LEAK, leak, "leak", "Leak over squeeze",                                              \
-    "leak at rest and leakage per stroke over the squeeze: where too little squeeze leaks")
+    "leak at rest and leakage per stroke over the squeeze: where too little squeeze leaks")        \
+  X(SB_STUDY_STRIBECK, stribeck, "stribeck", "Stribeck curve",                                     \
+    "friction, the asperities' share and the film over the speed, solved together")
 
 typedef enum {
 #define SB_STUDY_ENUM(code, function, name, title, help) code,

@@ -655,6 +655,63 @@ static int interrupted_run(const char *const *argv, const char *word) {
 }
 
 // Film: whole with its pictures, or partial but under its name after Ctrl-C.
+// Studies: pictures without a run, tables and JSON where the scene asks, films refused.
+static void test_studies(void) {
+  char *picture = g_build_filename(folder, "storage.svg", NULL);
+  char *film = g_build_filename(folder, "storage.mp4", NULL);
+  char *tables = g_build_filename(folder, "studied", NULL);
+  Result result = RUN("render", scene, "-o", film, "--view", "storage");
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "--view storage is a study, which does not move"));
+  clear(&result);
+  result = RUN("render", scene, "-o", picture, "--view", "storage", "--at", "C");
+  g_assert_cmpint(result.code, ==, 1);
+  clear(&result);
+  result = RUN("render", scene, "-o", picture, "--view", "storage", "--quiet");
+  g_assert_cmpint(result.code, ==, 0);
+  g_assert_cmpstr(result.err, ==, "");
+  clear(&result);
+  char *text = NULL;
+  g_assert_true(g_file_get_contents(picture, &text, NULL, NULL));
+  g_assert_nonnull(strstr(text, "<svg"));
+  g_free(text);
+  result = RUN("list", "views");
+  g_assert_nonnull(strstr(result.out, "\nstorage "));
+  clear(&result);
+
+  // Only what is asked for is computed and planned.
+  result = RUN("plan", scene, "--set", "output.studies=storage");
+  g_assert_nonnull(strstr(result.out, "study storage"));
+  g_assert_null(strstr(result.out, "study squeeze"));
+  clear(&result);
+  result = RUN("run", scene, "--json", "-", "--quiet");
+  JsonNode *root = parse(result.out);
+  g_assert_false(json_object_has_member(json_node_get_object(root), "studies"));
+  json_node_unref(root);
+  clear(&result);
+  result =
+      RUN("run", scene, "--set", "output.studies=storage", "-o", tables, "--json", "-", "--quiet");
+  g_assert_cmpint(result.code, ==, 0);
+  root = parse(result.out);
+  has_keys(root, "studies.0.name studies.0.x.quantity studies.0.panels.0.series.0.y "
+                 "studies.0.table.columns.0.unit studies.0.table.rows.0.values studies.0.warnings");
+  g_assert_cmpstr(json_node_get_string(at(root, "studies.0.name")), ==, "storage");
+  json_node_unref(root);
+  clear(&result);
+  static const char *const names[] = {"results.json", "cycle.csv", "profiles.csv",
+                                      "study-storage.csv", "study-storage-table.csv"};
+  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+    char *path = g_build_filename(tables, names[i], NULL);
+    g_assert_cmpint(g_remove(path), ==, 0);
+    g_free(path);
+  }
+  g_assert_cmpint(g_rmdir(tables), ==, 0);
+  g_assert_cmpint(g_remove(picture), ==, 0);
+  g_free(picture);
+  g_free(film);
+  g_free(tables);
+}
+
 static void test_film_file(void) {
   char *path = g_build_filename(folder, "film.mp4", NULL);
   Result result = RUN("render", scene, "-o", path, "--view", "hysteresis", "--quiet", "--size",
@@ -808,6 +865,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/results-and-locale", test_results_and_locale);
   g_test_add_func("/cli/io-errors", test_io_errors);
   g_test_add_func("/cli/render", test_render);
+  g_test_add_func("/cli/studies", test_studies);
   g_test_add_func("/cli/film-file", test_film_file);
   g_test_add_func("/cli/sequence", test_sequence);
   g_test_add_func("/cli/interrupt", test_interrupt);

@@ -1,6 +1,7 @@
 // Studies: their numbers against closed forms and reference figures, their bounds, progress and
 // cancel.
 #include "engine/elastic/fit.h"
+#include "engine/film/film.h"
 #include "engine/study/study.h"
 
 #include <glib.h>
@@ -193,6 +194,48 @@ static void test_storage(void) {
   g_free(study);
 }
 
+// The Stribeck curve: from asperities to the film without a jump; a point solved anew by itself.
+static void test_stribeck(void) {
+  SbModel model = thesis_model(1e-3);
+  model.film = SB_MODEL_FILM_THESIS;
+  model.study.speed_min = 1e-3;
+  model.study.speed_max = 50;
+  SbStudy *study = make(SB_STUDY_STRIBECK, &model);
+  const char *name = "Greenwood & Tripp";
+  const SbStudySeries *friction = series(study, "coefficient of friction", name);
+  const SbStudySeries *share = series(study, "load that asperities bear", name);
+  const SbStudySeries *film = series(study, "central film over roughness", name);
+  for (size_t i = 1; i < film->count; i++) {
+    g_assert_cmpfloat(film->y[i], >, film->y[i - 1]);
+    g_assert_cmpfloat(share->y[i], <, share->y[i - 1]);
+    // No jump: a step of the grid is a factor of 1.3 in speed.
+    g_assert_cmpfloat(fabs(log(friction->y[i] / friction->y[i - 1])), <, 0.35);
+  }
+  g_assert_cmpfloat(share->y[0], >, 0.5);
+  g_assert_cmpfloat(share->y[share->count - 1], <, 0.05);
+  // Karaszkiewicz' load (14.781 N on pi 4.45 mm) less the fluid's half step over the width.
+  size_t at = film->count / 2;
+  SbFilmProblem problem;
+  sb_film_problem_init(&problem);
+  problem.load = 14.781 / (M_PI * 4.45e-3) - 0.55e6 / 2 * 0.9567e-3;
+  problem.speed = film->x[at];
+  problem.radius = 0.805e-3;
+  problem.modulus = 6.5725e6;
+  problem.viscosity = 0.211e-3;
+  problem.surface = SB_ROUGH_GREENWOOD_TRIPP;
+  problem.gt_product = 0.1289;
+  problem.sigma = 1e-6;
+  problem.sigma_over_beta = 0.1;
+  problem.shear_strength = 3.5e6;
+  problem.load_coefficient = 0.19;
+  SbFilm *own = g_new(SbFilm, 1);
+  g_assert_cmpint(sb_film_solve(own, &problem, NULL, NULL), ==, SB_OK);
+  NEAR(film->y[at], own->film_central / 1e-6, 2e-3);
+  NEAR(share->y[at], own->asperity_share, 2e-3);
+  g_free(own);
+  g_free(study);
+}
+
 // Where the leak begins: the closing pressure, and no leak above it.
 static void test_leak(void) {
   SbModel model = thesis_model(1e-2);
@@ -278,6 +321,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/study/models", test_models);
   g_test_add_func("/study/film-law", test_film_law);
   g_test_add_func("/study/storage", test_storage);
+  g_test_add_func("/study/stribeck", test_stribeck);
   g_test_add_func("/study/hooks", test_hooks);
   g_test_add_func("/study/range", test_range);
   if (g_test_slow()) {

@@ -1,0 +1,309 @@
+// Studies of the present document. Choosing one computes it on a thread of its own; the earlier
+// picture stays until then. A change of values does not start anything (a study may take seconds):
+// it marks the picture as stale and offers to compute again. What is drawn is the very page that an
+// export writes.
+#include "ui/study_window.h"
+
+#include "app/chart/study.h"
+#include "app/export/studies.h"
+#include "ui/export_dialog.h"
+#include "ui/picture.h"
+#include "ui/preferences.h"
+#include "ui/study_job.h"
+#include "ui/style.h"
+
+typedef struct {
+  SbSession *session; // owned reference
+  GtkWidget *window, *kind, *again, *stop, *progress, *message, *area, *path, *export, *copy, *help;
+  SbPicture *picture;
+  SbStudyJob *job;
+  guint poll, later; // sources, 0 if none
+  SbStudyKind asked; // what the job computes
+  SbModel asked_model;
+  char *asked_hash, *asked_scene;
+  SbStudy *study; // shown; NULL until the first is done
+  SbModel model;  // it belongs to this
+  char *hash, *scene;
+} Studies;
+
+static SbStudyKind chosen(Studies *studies) {
+  return (SbStudyKind)MAX(gtk_combo_box_get_active(GTK_COMBO_BOX(studies->kind)), 0);
+}
+
+static gboolean is_stale(Studies *studies) {
+  if (studies->study == NULL) {
+    return FALSE;
+  }
+  g_autofree char *now = sb_document_sha256(sb_session_document(studies->session));
+  return sb_session_model(studies->session) == NULL || g_strcmp0(now, studies->hash) != 0;
+}
+
+static const char *const STALE = "of earlier values";
+
+static SbStudyPage make_page(Studies *studies, gboolean stale) {
+  return (SbStudyPage){.model = &studies->model,
+                       .title = sb_document_title(sb_session_document(studies->session)),
+                       .hash = studies->hash,
+                       .scene = studies->scene,
+                       .stale = stale ? STALE : NULL,
+                       .dark = sb_style_is_dark()};
+}
+
+static void draw(cairo_t *cr, double width, double height, void *data) {
+  Studies *studies = data;
+  SbRect rect = {0, 0, width, height};
+  if (studies->study != NULL) {
+    SbStudyPage page = make_page(studies, is_stale(studies));
+    sb_study_page_draw(cr, rect, studies->study, &page);
+    return;
+  }
+  const SbTheme *theme = sb_theme(sb_style_is_dark());
+  SbColor ground = theme->role[SB_ROLE_BACKGROUND];
+  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
+  cairo_paint(cr);
+}
+
+// State to widgets -------------------------------------------------------------------------------
+
+static void say(Studies *studies, const char *text, const char *style) {
+  GtkStyleContext *context = gtk_widget_get_style_context(studies->message);
+  gtk_style_context_remove_class(context, "sb-warn");
+  gtk_style_context_remove_class(context, "sb-error");
+  gtk_style_context_remove_class(context, "sb-pass");
+  if (style != NULL) {
+    gtk_style_context_add_class(context, style);
+  }
+  gtk_label_set_text(GTK_LABEL(studies->message), text);
+}
+
+static void refresh(Studies *studies) {
+  gboolean busy = studies->job != NULL;
+  gboolean possible = sb_session_model(studies->session) != NULL;
+  gtk_widget_set_visible(studies->stop, busy);
+  gtk_widget_set_visible(studies->progress, busy);
+  gtk_widget_set_visible(studies->again, !busy);
+  gtk_widget_set_sensitive(studies->again, possible);
+  gtk_widget_set_sensitive(studies->export, !busy && studies->study != NULL);
+  gtk_widget_set_sensitive(studies->copy, studies->study != NULL);
+  gtk_label_set_text(GTK_LABEL(studies->help), sb_study_help(chosen(studies)));
+  AtkObject *accessible = gtk_widget_get_accessible(studies->area);
+  g_autofree char *text =
+      studies->study != NULL ? sb_study_text(studies->study) : g_strdup("No study yet.");
+  atk_object_set_description(accessible, text);
+  sb_picture_change(studies->picture, 0);
+}
+
+// Values have changed, or the study is done: does what is shown still belong to them?
+static void judge(Studies *studies) {
+  if (studies->job == NULL && studies->study != NULL) {
+    if (sb_session_model(studies->session) == NULL) {
+      say(studies, "The values do not go together now; the study shown is of earlier ones.",
+          "sb-warn");
+    } else if (is_stale(studies)) {
+      say(studies, "Values have changed: the study shown is of earlier ones.", "sb-warn");
+    } else if (!studies->study->complete) {
+      say(studies, "A solver did not converge at every point; those are left out.", "sb-error");
+    } else {
+      say(studies, "", NULL);
+    }
+  }
+  refresh(studies);
+}
+
+// The job ----------------------------------------------------------------------------------------
+
+static gboolean on_poll(gpointer data) {
+  Studies *studies = data;
+  gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(studies->progress),
+                                sb_study_job_progress(studies->job));
+  return G_SOURCE_CONTINUE;
+}
+
+static void end_job(Studies *studies) {
+  if (studies->poll != 0) {
+    g_source_remove(studies->poll);
+    studies->poll = 0;
+  }
+  g_clear_pointer(&studies->job, sb_study_job_free);
+}
+
+static void follow_kind(Studies *studies) {
+  g_autofree char *folder = sb_preferences_string("export-folder", g_get_home_dir());
+  g_autofree char *name = g_strdup_printf("study-%s.png", sb_study_name(chosen(studies)));
+  g_autofree char *path = g_build_filename(folder, name, NULL);
+  gtk_entry_set_text(GTK_ENTRY(studies->path), path);
+}
+
+static void on_done(void *data) {
+  Studies *studies = data;
+  const char *why = NULL;
+  SbStudy *study = sb_study_job_take(studies->job, &why);
+  g_autofree char *text = g_strdup_printf("No study: %s.", why != NULL ? why : "");
+  end_job(studies);
+  if (study != NULL) {
+    g_free(studies->study);
+    g_free(studies->hash);
+    g_free(studies->scene);
+    studies->study = study;
+    studies->model = studies->asked_model;
+    studies->hash = g_steal_pointer(&studies->asked_hash);
+    studies->scene = g_steal_pointer(&studies->asked_scene);
+    judge(studies);
+  } else {
+    refresh(studies);
+    say(studies, text, "sb-warn");
+  }
+}
+
+static void compute(Studies *studies) {
+  const SbModel *model = sb_session_model(studies->session);
+  end_job(studies);
+  if (model == NULL) {
+    say(studies, "The values do not go together: mend them first.", "sb-error");
+    refresh(studies);
+    return;
+  }
+  const SbDocument *document = sb_session_document(studies->session);
+  studies->asked = chosen(studies);
+  studies->asked_model = *model;
+  g_free(studies->asked_hash);
+  g_free(studies->asked_scene);
+  studies->asked_hash = sb_document_sha256(document);
+  studies->asked_scene = sb_document_to_flat_text(document);
+  g_autofree char *text = g_strdup_printf("Computing: %s", sb_study_title(studies->asked));
+  say(studies, text, NULL);
+  gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(studies->progress), 0);
+  studies->job = sb_study_job_start(studies->asked, model, on_done, studies);
+  studies->poll = g_timeout_add(50, on_poll, studies);
+  refresh(studies);
+}
+
+// Actions ----------------------------------------------------------------------------------------
+
+static void on_kind(GtkComboBox *combo, Studies *studies) {
+  follow_kind(studies);
+  compute(studies);
+}
+
+static void on_again(GtkButton *button, Studies *studies) {
+  compute(studies);
+}
+
+static void on_stop(GtkButton *button, Studies *studies) {
+  if (studies->job != NULL) {
+    sb_study_job_cancel(studies->job);
+  }
+}
+
+static void on_copy(GtkButton *button, Studies *studies) {
+  g_autofree char *text = sb_study_text(studies->study);
+  gtk_clipboard_set_text(gtk_clipboard_get(GDK_SELECTION_CLIPBOARD), text, -1);
+}
+
+static gboolean export_page(gpointer data) {
+  Studies *studies = data;
+  studies->later = 0;
+  const char *path = gtk_entry_get_text(GTK_ENTRY(studies->path));
+  if (studies->study == NULL || studies->job != NULL) {
+    return G_SOURCE_REMOVE;
+  }
+  if (!g_path_is_absolute(path)) {
+    say(studies, "The file needs its folder: an absolute path.", "sb-error");
+    return G_SOURCE_REMOVE;
+  }
+  if (!sb_export_may_replace(GTK_WINDOW(studies->window), path)) {
+    return G_SOURCE_REMOVE;
+  }
+  g_autofree char *folder = g_path_get_dirname(path);
+  sb_preferences_set_string("export-folder", folder);
+  SbStudyPage page = make_page(studies, is_stale(studies));
+  g_autoptr(GError) error = NULL;
+  g_autofree char *name = g_filename_display_basename(path);
+  g_autofree char *text = NULL;
+  if (sb_study_still(studies->study, &page, path, &error)) {
+    text = g_strdup_printf("%s is written.", name);
+    say(studies, text, "sb-pass");
+  } else {
+    text = g_strdup_printf("Nothing was written: %s.", error->message);
+    say(studies, text, "sb-error");
+  }
+  return G_SOURCE_REMOVE;
+}
+
+// The question runs a loop of its own, which must not start inside a call from a screen reader.
+static void on_export(GtkButton *button, Studies *studies) {
+  if (studies->later == 0) {
+    studies->later = g_idle_add(export_page, studies);
+  }
+}
+
+// Life -------------------------------------------------------------------------------------------
+
+static void on_destroy(GtkWidget *widget, Studies *studies) {
+  end_job(studies);
+  if (studies->later != 0) {
+    g_source_remove(studies->later);
+  }
+  g_signal_handlers_disconnect_by_data(studies->session, studies);
+  g_object_unref(studies->session);
+  g_free(studies->asked_hash);
+  g_free(studies->asked_scene);
+  g_free(studies->study);
+  g_free(studies->hash);
+  g_free(studies->scene);
+  g_free(studies);
+}
+
+// The study that the scene asks for, else the first.
+static int first_kind(SbSession *session) {
+  const SbModel *model = sb_session_model(session);
+  for (int i = 0; model != NULL && i < SB_STUDY_COUNT; i++) {
+    if ((model->studies & (1u << i)) != 0) {
+      return i;
+    }
+  }
+  return 0;
+}
+
+void sb_study_window_open(GtkWindow *parent, SbSession *session) {
+  Studies *studies = g_new0(Studies, 1);
+  studies->session = g_object_ref(session);
+  g_autoptr(GtkBuilder) builder = gtk_builder_new_from_resource("/org/sealbench/ui/study.ui");
+  const struct {
+    const char *id;
+    GtkWidget **widget;
+  } parts[] = {
+      {"window", &studies->window},     {"kind", &studies->kind},
+      {"again", &studies->again},       {"stop", &studies->stop},
+      {"progress", &studies->progress}, {"message", &studies->message},
+      {"area", &studies->area},         {"path", &studies->path},
+      {"export", &studies->export},     {"copy", &studies->copy},
+      {"help", &studies->help},
+  };
+  for (guint i = 0; i < G_N_ELEMENTS(parts); i++) {
+    *parts[i].widget = GTK_WIDGET(gtk_builder_get_object(builder, parts[i].id));
+  }
+  gtk_window_set_transient_for(GTK_WINDOW(studies->window), parent);
+  gtk_window_set_destroy_with_parent(GTK_WINDOW(studies->window), TRUE);
+  for (int i = 0; i < SB_STUDY_COUNT; i++) {
+    gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(studies->kind), sb_study_name((SbStudyKind)i),
+                              sb_study_title((SbStudyKind)i));
+  }
+  gtk_combo_box_set_active(GTK_COMBO_BOX(studies->kind), first_kind(session));
+  sb_style_class(studies->window, "sb-window");
+  sb_style_class(studies->area, "sb-canvas");
+  gtk_widget_set_can_focus(studies->area, TRUE);
+  sb_style_name(studies->area, "Study", NULL);
+  atk_object_set_role(gtk_widget_get_accessible(studies->area), ATK_ROLE_CHART);
+  studies->picture = sb_picture_attach(studies->area, draw, studies);
+  follow_kind(studies);
+  g_signal_connect(studies->kind, "changed", G_CALLBACK(on_kind), studies);
+  g_signal_connect(studies->again, "clicked", G_CALLBACK(on_again), studies);
+  g_signal_connect(studies->stop, "clicked", G_CALLBACK(on_stop), studies);
+  g_signal_connect(studies->copy, "clicked", G_CALLBACK(on_copy), studies);
+  g_signal_connect(studies->export, "clicked", G_CALLBACK(on_export), studies);
+  g_signal_connect(studies->window, "destroy", G_CALLBACK(on_destroy), studies);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(judge), studies);
+  compute(studies);
+  gtk_window_present(GTK_WINDOW(studies->window));
+}
