@@ -2,10 +2,10 @@
 // force from the run. Each has a bar with the recommended band, a word and a sign, so that colour
 // is not alone.
 //
-// Bands: squeeze 8 to 20 % for a reciprocating ring, inner stretch at most 5 %, gland fill 60 to
-// 85 % are the usual recommendations of O-ring makers' handbooks. A return force of at least 2 N,
-// an eighth of the pressure force of the thesis valve, is this program's own. Metering volumes of
-// 25 to 100 µl are those of thesis section 1.7.
+// Bands of squeeze, stretch and fill are those of the gland's read-outs (engine/elastic/gland.h,
+// with their sources), of which gland_panel.c shows all. A return force of at least 2 N, an eighth
+// of the pressure force of the thesis valve, is this program's own. Metering volumes of 25 to 100
+// µl are those of thesis section 1.7.
 #include "ui/derived_panel.h"
 
 #include "app/chart/format.h"
@@ -19,41 +19,69 @@ typedef struct {
   SbQuantity quantity;
   double axis_lo, axis_hi; // ends of the bar
   double lo, hi;           // recommended band
+  int gland;               // SbGlandQuantity whose band it is, or NO_GLAND
 } Item;
 
+enum { NO_GLAND = -1 };
+
 static const Item items[] = {
-    {"Squeeze", "low", "high",
-     "Share of the free section by which the groove squeezes the ring. Recommended for a "
-     "reciprocating ring: 8 to 20 %.",
-     SB_QUANTITY_FRACTION, 0, 0.35, 0.08, 0.20},
-    {"Stretch, inner", "low", "high",
-     "Stretch of the inner diameter onto the groove floor. Recommended: at most 5 %.",
-     SB_QUANTITY_FRACTION, 0, 0.25, 0, 0.05},
-    {"Gland fill", "low", "high", "Section area over groove area. Recommended: 60 to 85 %.",
-     SB_QUANTITY_FRACTION, 0.3, 1.1, 0.60, 0.85},
+    {"Squeeze", "low", "high", "Share of the free section by which the groove squeezes the ring.",
+     SB_QUANTITY_FRACTION, 0, 0.35, 0, 0, SB_GLAND_SQUEEZE},
+    {"Stretch, inner", "low", "high", "Stretch of the inner diameter onto the groove floor.",
+     SB_QUANTITY_FRACTION, 0, 0.25, 0, 0, SB_GLAND_STRETCH_INNER},
+    {"Gland fill", "low", "high", "Volume of the ring over that of its groove.",
+     SB_QUANTITY_FRACTION, 0.3, 1.1, 0, 0, SB_GLAND_FILL},
     {"Return force", "low", "high",
      "Least of pressure force minus friction on the way back, from the run. Below zero the valve "
      "sticks; this program asks for 2 N.",
-     SB_QUANTITY_FORCE, -2, 8, 2, INFINITY},
+     SB_QUANTITY_FORCE, -2, 8, 2, INFINITY, NO_GLAND},
     {"Metered volume", "small", "large",
      "Room of the dose chamber between the two rings that neither stem nor rubber fills. Usual: 25 "
      "to 100 µl.",
-     SB_QUANTITY_VOLUME, 0, 150e-9, 25e-9, 100e-9},
+     SB_QUANTITY_VOLUME, 0, 150e-9, 25e-9, 100e-9, NO_GLAND},
     {"Doses", "few", "many",
      "Whole doses in the canister (canister.fill less canister.residue). Usual: 60 to 200.",
-     SB_QUANTITY_NUMBER, 0, 300, 60, 200},
+     SB_QUANTITY_NUMBER, 0, 300, 60, 200, NO_GLAND},
 };
 enum { ITEMS = G_N_ELEMENTS(items) };
 
 typedef struct {
   SbSession *session;
   GtkWidget *note;
-  GtkWidget *value[ITEMS], *bar[ITEMS], *icon[ITEMS], *verdict[ITEMS];
-  double shown[ITEMS]; // NAN: not known
+  GtkWidget *name[ITEMS], *value[ITEMS], *bar[ITEMS], *icon[ITEMS], *verdict[ITEMS];
+  double shown[ITEMS];         // NAN: not known
+  double lo[ITEMS], hi[ITEMS]; // bands in force
 } Panel;
 
-static SbColor verdict_color(const SbTheme *theme, const Item *item, double value) {
-  return theme->role[value < item->lo || value > item->hi ? SB_ROLE_WARN : SB_ROLE_PASS];
+// A gland's band does not depend on its sizes: any gland tells it.
+static void set_bands(Panel *panel) {
+  const SbGland any = {.section_diameter = 1,
+                       .inner_diameter = 2,
+                       .radial_space = 0.9,
+                       .axial_width = 1.5,
+                       .bore_diameter = 4,
+                       .land_diameter = 3.9};
+  SbGlandReadout readout[SB_GLAND_COUNT];
+  sb_gland_readouts(readout, &any, NULL);
+  for (int i = 0; i < ITEMS; i++) {
+    const Item *item = &items[i];
+    bool own = item->gland == NO_GLAND;
+    panel->lo[i] = own ? item->lo : readout[item->gland].band_low;
+    panel->hi[i] = own ? item->hi : readout[item->gland].band_high;
+    if (!own) {
+      g_autofree char *tip = g_strdup_printf("%s %s", item->tip, readout[item->gland].source);
+      gtk_widget_set_tooltip_text(panel->bar[i], tip);
+      gtk_widget_set_tooltip_text(panel->name[i], tip);
+    }
+  }
+}
+
+static bool within(const Panel *panel, int index, double value) {
+  return value >= panel->lo[index] && value <= panel->hi[index];
+}
+
+static SbColor verdict_color(const SbTheme *theme, const Panel *panel, int index, double value) {
+  return theme->role[!within(panel, index, value) ? SB_ROLE_WARN : SB_ROLE_PASS];
 }
 
 static gboolean on_draw(GtkWidget *widget, cairo_t *cr, Panel *panel) {
@@ -70,8 +98,8 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, Panel *panel) {
   cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
   cairo_rectangle(cr, 0, y, width, 6);
   cairo_fill(cr);
-  double from = (fmax(item->lo, item->axis_lo) - item->axis_lo) * scale;
-  double to = (fmin(item->hi, item->axis_hi) - item->axis_lo) * scale;
+  double from = (fmax(panel->lo[index], item->axis_lo) - item->axis_lo) * scale;
+  double to = (fmin(panel->hi[index], item->axis_hi) - item->axis_lo) * scale;
   SbColor band = theme->role[SB_ROLE_PASS];
   cairo_set_source_rgba(cr, band.r, band.g, band.b, 0.55);
   cairo_rectangle(cr, from, y, to - from, 6);
@@ -80,7 +108,7 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, Panel *panel) {
   if (!isnan(value)) {
     double x = (fmin(fmax(value, item->axis_lo), item->axis_hi) - item->axis_lo) * scale;
     x = fmin(fmax(floor(x), 1), width - 2);
-    SbColor mark = verdict_color(theme, item, value);
+    SbColor mark = verdict_color(theme, panel, index, value);
     cairo_set_source_rgb(cr, mark.r, mark.g, mark.b);
     cairo_rectangle(cr, x - 1, y - 5, 3, 16);
     cairo_fill(cr);
@@ -101,8 +129,8 @@ static void show(Panel *panel, int index, double value) {
   char text[SB_FORMAT_MAX] = "–";
   if (!isnan(value)) {
     sb_format_text(text, item->quantity, value, 0);
-    gboolean good = value >= item->lo && value <= item->hi;
-    word = good ? "pass" : value < item->lo ? item->low : item->high;
+    gboolean good = within(panel, index, value);
+    word = good ? "pass" : value < panel->lo[index] ? item->low : item->high;
     gtk_style_context_add_class(style, good ? "sb-pass" : "sb-warn");
     gtk_style_context_add_class(icon_style, good ? "sb-pass" : "sb-warn");
     gtk_image_set_from_icon_name(GTK_IMAGE(panel->icon[index]),
@@ -162,7 +190,7 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
   panel->note = label_new("", "sb-note", 1);
   gtk_grid_attach(GTK_GRID(grid), panel->note, 1, 0, 4, 1);
   for (int i = 0; i < ITEMS; i++) {
-    GtkWidget *name = label_new(items[i].name, "sb-derived-name", 0);
+    GtkWidget *name = panel->name[i] = label_new(items[i].name, "sb-derived-name", 0);
     gtk_widget_set_hexpand(name, TRUE);
     gtk_widget_set_tooltip_text(name, items[i].tip);
     panel->value[i] = label_new("", "sb-derived-value", 1);
@@ -184,6 +212,7 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
   g_signal_connect(grid, "destroy", G_CALLBACK(on_destroy), panel);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), panel);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), panel);
+  set_bands(panel);
   refresh(panel);
   gtk_widget_show_all(grid);
   return grid;

@@ -6,6 +6,7 @@
 #include "ui/columns.h"
 #include "ui/derived_panel.h"
 #include "ui/export_dialog.h"
+#include "ui/gland_panel.h"
 #include "ui/param_panel.h"
 #include "ui/preferences.h"
 #include "ui/section_view.h"
@@ -476,6 +477,8 @@ static void sb_window_init(SbWindow *window) {
   window->panel = sb_param_panel_new(window->session);
   gtk_box_pack_start(GTK_BOX(window->left_column), window->panel, TRUE, TRUE, 0);
   gtk_box_pack_start(GTK_BOX(window->left_column), sb_derived_panel_new(window->session), FALSE,
+                     FALSE, 0);
+  gtk_box_pack_start(GTK_BOX(window->left_column), sb_gland_panel_new(window->session), FALSE,
                      FALSE, 0);
   window->section = sb_section_view_new(window->session);
   gtk_box_pack_start(GTK_BOX(window->centre_column), window->section, TRUE, TRUE, 0);

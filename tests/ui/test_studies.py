@@ -1,5 +1,6 @@
 """The window of studies: computed beside the window, marked when values change, cancelled, written."""
 import os
+import re
 
 from harness import App, main, scene, wait
 
@@ -39,5 +40,17 @@ def a_study_can_be_cancelled(folder):
         app.check_latency("a study is computed")
 
 
+def glands_of_both_seals(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        app.unfold("Glands, both seals")
+        app.find("label", re.compile(r"^Squeeze outer 15\.5\s% inner 15\.5\s% tight, customary 15 to 25"))
+        app.find("label", re.compile(r"^Extrusion gap outer 0\.206\smm .* above, customary 0\.05 to 0\.13"))
+        # A smaller inner ring only; without its tolerances nothing is tight.
+        app.unfold("Inner seal only")
+        app.edit("Inner seal: Section diameter", "1.5 mm")
+        app.find("label", re.compile(r"^Squeeze outer 15\.5\s% inner 9\.33\s% below"))
+
+
 if __name__ == "__main__":
-    main(a_study_of_the_document, a_study_can_be_cancelled)
+    main(a_study_of_the_document, a_study_can_be_cancelled, glands_of_both_seals)
