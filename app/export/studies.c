@@ -20,7 +20,7 @@ void sb_study_page_size(double *width, double *height, const SbStudy *study) {
 }
 
 static void errors_text(char *out, size_t size, const SbStudy *study) {
-  if (study->error > 0) {
+  if (study->error > 1e-9) { // below it is rounding
     g_snprintf(
         out, size,
         "at most %.2g\xc2\xa0%% of a film or of the largest load solved  (discretisation, not "
@@ -50,9 +50,10 @@ void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const Sb
   cairo_fill(cr);
 
   // The header and its state are those of every page; the title is the study's and the scene's.
+  const char *name = sb_study_title(study->kind);
+  const char *scene = page->title != NULL && strcmp(page->title, name) != 0 ? page->title : "";
   g_autofree char *title =
-      g_strdup_printf("%s%s%s", sb_study_title(study->kind), page->title ? "  \xc2\xb7  " : "",
-                      page->title ? page->title : "");
+      g_strdup_printf("%s%s%s", name, scene[0] != '\0' ? "  \xc2\xb7  " : "", scene);
   SbChartData data = {.title = title, .subtitle = page->subtitle, .stale = page->stale};
   data.run.model = page->model;
   data.run.state = SB_CHART_DONE;

@@ -21,7 +21,9 @@
   X(SB_STUDY_LEAK, leak, "leak", "Leak over squeeze",                                              \
     "leak at rest and leakage per stroke over the squeeze: where too little squeeze leaks")        \
   X(SB_STUDY_STRIBECK, stribeck, "stribeck", "Stribeck curve",                                     \
-    "friction, the asperities' share and the film over the speed, solved together")
+    "friction, the asperities' share and the film over the speed, solved together")                \
+  X(SB_STUDY_TOLERANCE, tolerance, "tolerance", "Tolerances",                                      \
+    "loads, break-away and return force over the tolerances of the sizes: worst case and RSS")
 
 typedef enum {
 #define SB_STUDY_ENUM(code, function, name, title, help) code,

@@ -48,11 +48,14 @@ static SbStatus solve(SbStudy *out, SbStribeckPoint *points, const SbModel *mode
     }
     return status;
   }
+  // The scene's own surface is the subject; gaps of the other are a warning.
+  bool own =
+      (model->surface == SB_MODEL_SURFACE_PERSSON) == (models[which].model == SB_ROUGH_PERSSON);
   if (status != SB_OK) {
     // This surface model has no answer at all: the other may.
     sb_warn(&out->warnings, "study-gap-surface", local.parameter, "%s: %s", models[which].name,
             local.text);
-    out->complete = out->complete && status != SB_ERROR_NOT_CONVERGED;
+    out->complete = out->complete && (status != SB_ERROR_NOT_CONVERGED || !own);
     for (int i = 0; i < POINTS; i++) {
       points[i].converged = false;
     }
@@ -61,7 +64,7 @@ static SbStatus solve(SbStudy *out, SbStribeckPoint *points, const SbModel *mode
   for (int i = 0; i < POINTS; i++) {
     out->solves++;
     if (!points[i].converged) {
-      out->complete = false;
+      out->complete = out->complete && !own;
       sb_warn(&out->warnings, "study-gap-stribeck", "study.speed_min",
               "%s: the mixed film did not converge at %.3g mm/s and perhaps elsewhere",
               models[which].name, points[i].speed * 1e3);

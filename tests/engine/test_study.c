@@ -236,6 +236,35 @@ static void test_stribeck(void) {
   g_free(study);
 }
 
+// Tolerances of the thesis valve by Karaszkiewicz: table 7.3's loads at d -+ 0.02 mm, table 7.2's
+// at ID -+ 0.02 mm, the pressure on the stem's land.
+static void test_tolerance(void) {
+  SbModel model = thesis_model(1e-3);
+  SbStudy *study = make(SB_STUDY_TOLERANCE, &model);
+  const char *load = "load of the outer seal", *force = "break-away force";
+  NEAR(cell(study, load, "nominal"), 14.781, 1e-4);
+  NEAR(cell(study, load, "by d, outer"), (15.861 - 13.733) / 2, 1e-3);
+  NEAR(cell(study, load, "by ID, outer"), (14.847 - 14.714) / 2, 2e-2);
+  g_assert_cmpfloat(cell(study, load, "by d, inner"), ==, 0);
+  NEAR(cell(study, force, "by stem"), 0.55e6 * M_PI / 2 * 5.794e-3 * 0.02e-3, 1e-6);
+  g_assert_cmpfloat(cell(study, "least return force", "by g"), >, 0);
+  for (size_t r = 0; r < study->row_count; r++) {
+    const double *v = study->row[r].value;
+    double squares = 0, sum = 0;
+    for (int i = 5; i < 12; i++) {
+      squares += v[i] * v[i];
+      sum += fabs(v[i]);
+    }
+    NEAR(v[4] - v[0], sqrt(squares), 1e-9);
+    NEAR(v[0] - v[3], sqrt(squares), 1e-9);
+    // The corner, solved anew, is the sum of the parts but for curvature.
+    NEAR(v[2] - v[1], 2 * sum, 0.03);
+    g_assert_cmpfloat(v[1], <, v[3]);
+    g_assert_cmpfloat(v[2], >, v[4]);
+  }
+  g_free(study);
+}
+
 // Where the leak begins: the closing pressure, and no leak above it.
 static void test_leak(void) {
   SbModel model = thesis_model(1e-2);
@@ -322,6 +351,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/study/film-law", test_film_law);
   g_test_add_func("/study/storage", test_storage);
   g_test_add_func("/study/stribeck", test_stribeck);
+  g_test_add_func("/study/tolerance", test_tolerance);
   g_test_add_func("/study/hooks", test_hooks);
   g_test_add_func("/study/range", test_range);
   if (g_test_slow()) {
