@@ -117,7 +117,8 @@ static double rupture_guess(const SbLayers *l) {
 // Place of the least film before a flooded outlet, read off our own solutions: at rest the layer
 // lies on the edge, higher outlet pressure pushes it out.
 static double flooded_outlet(const SbLayers *l) {
-  return 1.0 + 0.4 * pow(l->lambda, 0.4) * exp(0.98 * (l->outlet - l->inlet));
+  double step = l->outlet - l->inlet;
+  return 1.0 + 0.4 * pow(l->lambda, 0.4) * exp(0.98 * step + 0.05 * step * fmax(step - 1.35, 0.0));
 }
 
 // Edge of the contact that the outlet layer's shape belongs to.

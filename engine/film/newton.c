@@ -347,6 +347,9 @@ SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int wh
     }
     before_residual = trace->residual;
     if (iteration == ITERATIONS_MAX) {
+      if (trace->residual <= 10.0 * tolerance) {
+        break;
+      }
       return SB_ERROR_NOT_CONVERGED;
     }
     if (layout.free_end >= 0) {

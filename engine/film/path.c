@@ -9,6 +9,10 @@
 
 #include <math.h>
 
+// Pressure below the rupture pressure that counts as tension: less is the lowest degree's error in
+// the far inlet.
+static const double TENSION = -1e-6;
+
 // Adds what a call of Newton's method did to the totals.
 static void account(SbFilmSolverInfo *info, const SbReynoldsTrace *trace) {
   info->newton_iterations += trace->iterations;
@@ -51,12 +55,50 @@ static bool same_elements(const SbHpMesh *a, const SbHpMesh *b) {
   return true;
 }
 
+// Asks for as many elements as a mesh has.
+static void keep_steps(SbLayers *layers, const SbHpMesh *mesh) {
+  layers->steps[0] = mesh->steps[0];
+  layers->steps[1] = mesh->steps[1];
+}
+
+// Adds what the dry contact's pressure changes by when the end pressures do, which leaves its gap
+// as it was; infinite elements hold theirs relative to the end pressure.
+static void add_dry_change(SbFilmSolver *solver, int which, const SbLayers *old,
+                           const SbLayers *new) {
+  const SbHpMesh *mesh = &solver->mesh[which];
+  if (old->inlet == new->inlet && old->outlet == new->outlet) {
+    return;
+  }
+  int last = -1;
+  for (int i = 0; i < mesh->count; i++) {
+    const SbHpElement *e = &mesh->element[i];
+    bool before_outlet = i + 1 < mesh->count && mesh->element[i + 1].map == SB_HP_OUTLET;
+    if (e->map == SB_HP_INLET || e->map == SB_HP_OUTLET) {
+      last = e->first_dof + e->degree;
+      continue;
+    }
+    const SbHpTable *t = sb_hp_table(&solver->tables, e->degree);
+    for (int k = 0; k <= e->degree; k++) {
+      // Joints are shared: each once, and those of infinite elements are theirs.
+      int node = e->first_dof + k;
+      if (node <= last || (before_outlet && k == e->degree)) {
+        continue;
+      }
+      double X = sb_hp_position(e, t->node[k]);
+      solver->state[which].nodal[node] += sb_film_dry_pressure(X, new->inlet, new->outlet) -
+                                          sb_film_dry_pressure(X, old->inlet, old->outlet);
+    }
+    last = e->first_dof + e->degree;
+  }
+}
+
 // Carries a solution to another case: the film scales with the flux that the layers let expect. A
 // mesh of as many elements takes it along with its layers, another by place.
 static void carry_scaled(SbFilmSolver *solver, int from, int to, const SbReynoldsCase *old,
                          const SbReynoldsCase *new) {
   if (same_elements(&solver->mesh[from], &solver->mesh[to])) {
     sb_reynolds_carry(solver, from, to);
+    add_dry_change(solver, to, &old->layers, &new->layers);
   } else {
     sb_reynolds_resample(solver, from, to);
   }
@@ -69,8 +111,9 @@ static void carry_scaled(SbFilmSolver *solver, int from, int to, const SbReynold
 }
 
 // Ways to a case: from small end pressures, no options and M = 20 if the film is thick, or from no
-// inlet pressure and no options at the same M.
-typedef enum { WAY_THIN, WAY_SAME, WAYS } Way;
+// inlet pressure and no options at the same M, or from an outlet pressure that keeps a thick film
+// full.
+typedef enum { WAY_THIN, WAY_SAME, WAY_FULL, WAYS } Way;
 
 // The case a fraction t of a way.
 static SbReynoldsCase between(const SbReynoldsCase *target, Way way, double t) {
@@ -81,6 +124,10 @@ static SbReynoldsCase between(const SbReynoldsCase *target, Way way, double t) {
   c.eyring *= t;
   if (way == WAY_SAME) {
     c.layers.inlet *= t;
+    return c;
+  }
+  if (way == WAY_FULL) {
+    c.layers.outlet += (1.0 - t) * fmax(2.2 + c.layers.inlet - c.layers.outlet, 0.0);
     return c;
   }
   if (c.layers.lambda > EASY_LAMBDA) {
@@ -107,12 +154,15 @@ static SbStatus go(SbFilmSolver *solver, int *which, const SbReynoldsCase *targe
     SbReynoldsCase next = between(target, way, t);
     int to = 1 - *which;
     SbStatus tried = SB_ERROR_NOT_CONVERGED;
-    if (sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
-      if (same_elements(&solver->mesh[*which], &solver->mesh[to])) {
-        carry_scaled(solver, *which, to, &c, &next);
-      } else {
-        sb_reynolds_resample(solver, *which, to);
-      }
+    // As many elements as before, if they fit, so that the layers carry the solution along.
+    keep_steps(&next.layers, &solver->mesh[*which]);
+    bool fits = sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers);
+    if (!fits) {
+      next.layers.steps[0] = next.layers.steps[1] = -1;
+      fits = sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers);
+    }
+    if (fits) {
+      carry_scaled(solver, *which, to, &c, &next);
       tried = iterate(solver, to, &next, true, tolerance, info, problem);
     }
     if (tried == SB_ERROR_CANCELLED) {
@@ -142,6 +192,9 @@ static SbStatus continuation(SbFilmSolver *solver, int *which, const SbReynoldsC
                              const SbFilmProblem *problem) {
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   for (int way = 0; way < WAYS && status == SB_ERROR_NOT_CONVERGED; way++) {
+    if (way == WAY_FULL && target->layers.end != SB_LAYERS_FULL) {
+      break;
+    }
     status = go(solver, which, target, (Way)way, tolerance, info, problem);
   }
   return status;
@@ -195,14 +248,14 @@ SbStatus sb_reynolds_follow(SbFilmSolver *solver, int *which, const SbReynoldsCa
   int to = 1 - *which;
   // The old number of elements, so that the layers carry the solution along.
   SbReynoldsCase next = *c;
-  next.layers.steps[0] = solver->mesh[*which].steps[0];
-  next.layers.steps[1] = solver->mesh[*which].steps[1];
+  keep_steps(&next.layers, &solver->mesh[*which]);
   if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
     return SB_ERROR_NOT_CONVERGED;
   }
   carry_scaled(solver, *which, to, old, c);
   SbStatus status = iterate(solver, to, &next, true, tolerance, info, problem);
-  if (status == SB_OK && c->layers.end == SB_LAYERS_FULL && least_pressure(solver, to, c) < -1e-9) {
+  if (status == SB_OK && c->layers.end == SB_LAYERS_FULL &&
+      least_pressure(solver, to, c) < TENSION) {
     status = SB_ERROR_NOT_CONVERGED; // a cavity opens: start anew
   }
   if (status == SB_OK) {
@@ -388,7 +441,7 @@ SbStatus sb_reynolds_start(bool *flooded, SbFilmSolver *solver, int *which, SbRe
   }
   // A flooded outlet that would tear the liquid gets a cavity.
   if (c->layers.end == SB_LAYERS_FULL &&
-      (status != SB_OK || least_pressure(solver, *which, c) < -1e-9)) {
+      (status != SB_OK || least_pressure(solver, *which, c) < TENSION)) {
     status = open_cavity(solver, which, c, tolerance, info, problem);
   }
   if (status == SB_OK && isfinite(flux)) {

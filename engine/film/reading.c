@@ -84,6 +84,11 @@ void sb_reynolds_resample(SbFilmSolver *solver, int from, int to) {
   const SbHpMesh *b = &solver->mesh[to];
   const SbReynoldsState *old = &solver->state[from];
   SbReynoldsState *new = &solver->state[to];
+  // New end pressures change the dry contact's pressure, unless a cavity holds one of them off.
+  bool whole = true;
+  for (int i = 0; i < b->count; i++) {
+    whole = whole && !b->element[i].apart;
+  }
   for (int i = 0; i < b->count; i++) {
     const SbHpElement *f = &b->element[i];
     const SbHpTable *t = sb_hp_table(&solver->tables, f->degree);
@@ -99,6 +104,9 @@ void sb_reynolds_resample(SbFilmSolver *solver, int from, int to) {
           X > a->right_end && e->map != SB_HP_OUTLET
               ? 0.0
               : sb_hp_pressure(a, &solver->tables, e, old->nodal, sb_reynolds_coordinate(e, X));
+      value += whole ? sb_film_dry_pressure(X, b->inlet_pressure, b->outlet_pressure) -
+                           sb_film_dry_pressure(X, a->inlet_pressure, a->outlet_pressure)
+                     : 0.0;
       bool touching = f->map == SB_HP_INLET ? k == f->degree : k == 0;
       if (infinite && !touching) {
         double s = f->map == SB_HP_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);

@@ -62,7 +62,10 @@ static void estimate(SbFilmSolverInfo *info, const SbReynoldsReading *reading, i
   }
   info->error_film_min =
       fmax(estimates[0], LEFT[flooded ? 1 : 0][levels - 1] * (thin ? 1.0 : 0.02));
-  info->error_film_central = estimates[1];
+  // Between the rigid and the elastic regime levels agree on the centre by chance, too.
+  bool transition = sb_layers_width(layers) > 0.5 && thin;
+  info->error_film_central =
+      fmax(estimates[1], transition ? 0.1 * LEFT[flooded ? 1 : 0][levels - 1] : 0.0);
   info->error_film_flux = estimates[2];
 }
 
@@ -127,6 +130,7 @@ static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFil
                       SbReynoldsCase *c, double supply, SbFilmSolverInfo *info,
                       const SbFilmProblem *problem, SbReport *report) {
   static const double RESIDUAL = 1e-11;
+  const SbReynoldsCase cold = *c;
   *which = 0;
   *levels = 0;
   int least = problem->tolerance >= 5e-3 ? LEVELS_LEAST - 1 : LEVELS_LEAST;
@@ -136,6 +140,12 @@ static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFil
         level == 0
             ? sb_reynolds_start(&flooded, solver, which, c, supply, RESIDUAL, info, problem)
             : sb_reynolds_refine(solver, which, c, level_degree[level], RESIDUAL, info, problem);
+    if (level > 0 && status == SB_ERROR_NOT_CONVERGED) {
+      // The level below may be too coarse a guess: this one from nothing.
+      *c = cold;
+      c->layers.degree = level_degree[level];
+      status = sb_reynolds_start(&flooded, solver, which, c, supply, RESIDUAL, info, problem);
+    }
     if (status == SB_ERROR_INFEASIBLE) {
       return sb_fail(report, status,
                      "film: a starved inlet together with a cavity before a flooded outlet");
@@ -165,6 +175,13 @@ static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFil
   return SB_OK;
 }
 
+// Outlet's pressure over the inlet's in the units of the rigid wedge, h_min^2 p / (6 U eta
+// sqrt(2 R h_min)): beyond pi/16 it drives the film back (wedge.h).
+static double rigid_step(const SbLayers *layers) {
+  double film = 4.894968 * layers->lambda / (6.0 * M_PI);
+  return pow(film, 1.5) / (sqrt(2.0) * layers->lambda) * (layers->outlet - layers->inlet);
+}
+
 SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                            SbFilmSolver *solver, SbReport *report) {
   double begin = seconds();
@@ -180,6 +197,12 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
                    "film: M = %.3g: the film is below 1e-11 of b^2/R and lost in rounding; use the "
                    "asymptotic model",
                    scale->M);
+  }
+  if (scale->M < 0.1 && fabs(rigid_step(&c.layers)) > 4.0) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "canister.pressure",
+                             "film: M = %.3g: end pressures that differ by %.3g times what a "
+                             "rigid wedge bears drive the fluid through so thick a film",
+                             scale->M, fabs(rigid_step(&c.layers)) / (M_PI / 16.0));
   }
   if (scale->outlet < 0.0) {
     sb_warn(&out->warnings, "film-outlet-vapour", "",

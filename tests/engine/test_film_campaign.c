@@ -1,0 +1,220 @@
+// Random contacts over the whole admitted box, and a box of M and end pressures: every one is
+// solved or refused with a reason, and what is solved holds: mass, load, few Newton steps, the
+// estimate against a solve of a hundredth of the tolerance, the mirrored contact.
+//
+// test-engine-film-campaign [COUNT [SEED]]: COUNT contacts of each kind, 30 in the tests.
+#include "engine/film/film.h"
+
+#include <glib.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static SbFilmSolver *solver;
+static SbFilm film, other;
+static int count = 30;
+static guint32 seed = 1;
+
+typedef struct {
+  int solved, refused, failed, most_steps;
+} Tally;
+
+static double between(GRand *random, double low, double high) {
+  return g_rand_double_range(random, low, high);
+}
+
+static double decades(GRand *random, double low, double high) {
+  return exp(between(random, log(low), log(high)));
+}
+
+static void complain(Tally *tally, const SbFilmProblem *p, const char *what, double value) {
+  tally->failed++;
+  g_test_message("%s %g: M %.17g, load %.17g speed %.17g radius %.17g modulus %.17g viscosity "
+                 "%.17g left %.17g right %.17g inlet film %.17g",
+                 what, value, film.moes_M, p->load, p->speed, p->radius, p->modulus, p->viscosity,
+                 p->pressure_left, p->pressure_right, p->inlet_film);
+  g_test_fail();
+}
+
+static double hertz_of(const SbFilmProblem *p) {
+  double W = p->load / (p->modulus * p->radius);
+  return 0.25 * p->modulus * sqrt(8.0 * W / G_PI);
+}
+
+// Solves and checks one contact; `thorough` compares with a finer solve and the mirror image.
+static void one(Tally *tally, const SbFilmProblem *p, bool thorough) {
+  SbReport report;
+  sb_film_solver_forget(solver);
+  SbStatus status = sb_film_solve(&film, p, solver, &report);
+  if (status == SB_ERROR_RANGE || status == SB_ERROR_INFEASIBLE) {
+    tally->refused++;
+    g_assert_cmpint((int)strlen(report.text), >, 20);
+    return;
+  }
+  if (status != SB_OK) {
+    g_test_message("%s", report.text);
+    complain(tally, p, "status", (double)status);
+    return;
+  }
+  tally->solved++;
+  const SbFilmSolverInfo *info = &film.solver;
+  if (p->speed == 0.0) {
+    g_assert_cmpfloat(film.film_min, ==, 0.0);
+    return;
+  }
+  // Never wrong: mass and load to rounding, positive films, each continuation step short.
+  double rounding = fmax(1e-10, 10.0 * 2.3e-16 / fmin(1.0, pow(film.lambda, 0.6)));
+  // End pressures bend and thin the film: deflections are larger against it.
+  double ends = (p->pressure_left + p->pressure_right) / film.hertz_pressure;
+  rounding *= 1.0 + 2.0 * ends;
+  if (film.starved) {
+    rounding *= 100.0; // a film of a hundredth
+  }
+  if (!(info->flux_error <= rounding)) {
+    complain(tally, p, "flux error", info->flux_error);
+  }
+  if (!(info->load_error <= 1e-10)) {
+    complain(tally, p, "load error", info->load_error);
+  }
+  if (!(film.film_min > 0.0 && film.film_min <= film.film_central * (1.0 + 1e-9) &&
+        film.film_flux > 0.0 && isfinite(film.friction_couette) &&
+        isfinite(film.friction_poiseuille))) {
+    complain(tally, p, "films", film.film_min);
+  }
+  if (info->newton_iterations > 10 * info->continuation_steps) {
+    complain(tally, p, "Newton steps", info->newton_iterations);
+  }
+  tally->most_steps = MAX(tally->most_steps, info->newton_iterations);
+  bool below = false;
+  for (int i = 0; i < (int)film.warnings.count; i++) {
+    below = below || strcmp(film.warnings.item[i].code, "film-below-continuum") == 0;
+  }
+  if (film.film_min < 1e-10 && !below) {
+    complain(tally, p, "unflagged film", film.film_min);
+  }
+  if (!thorough) {
+    return;
+  }
+  SbFilmProblem fine = *p;
+  fine.tolerance = 1e-5;
+  sb_film_solver_forget(solver);
+  if (sb_film_solve(&other, &fine, solver, &report) == SB_OK) {
+    double error = fabs(film.film_min / other.film_min - 1.0);
+    if (error > 3.0 * info->error_film_min + other.solver.error_film_min) {
+      complain(tally, p, "error of the minimum over its estimate", error / info->error_film_min);
+    }
+    error = fabs(film.film_central / other.film_central - 1.0);
+    if (error > 3.0 * info->error_film_central + other.solver.error_film_central) {
+      complain(tally, p, "error of the centre over its estimate", error / info->error_film_central);
+    }
+  }
+  SbFilmProblem mirror = *p;
+  mirror.speed = -p->speed;
+  mirror.pressure_left = p->pressure_right;
+  mirror.pressure_right = p->pressure_left;
+  sb_film_solver_forget(solver);
+  status = sb_film_solve(&other, &mirror, solver, &report);
+  if (status != SB_OK || fabs(other.film_min / film.film_min - 1.0) > 1e-12) {
+    complain(tally, p, "mirror", other.film_min / film.film_min);
+  }
+}
+
+static void finish(const Tally *tally) {
+  g_test_message("%d solved, %d refused, %d complaints, at most %d Newton steps in a solve",
+                 tally->solved, tally->refused, tally->failed, tally->most_steps);
+}
+
+// M from 0.1 to 1e6 with pressure on none, left, right, both, up to two Hertz pressures.
+static void test_box_of_M(void) {
+  GRand *random = g_rand_new_with_seed(seed);
+  Tally tally = {0};
+  for (int i = 0; i < count; i++) {
+    SbFilmProblem p;
+    sb_film_problem_init(&p);
+    double M = decades(random, 0.1, 1e6);
+    p.modulus = 1e7;
+    p.radius = 1e-3;
+    p.load = 10.0;
+    p.viscosity = decades(random, 1e-6, 10.0);
+    p.speed = (g_rand_boolean(random) ? 1.0 : -1.0) * 2.0 * 0.5 * (1e-3 / M) * (1e-3 / M) * 1e4 /
+              p.viscosity;
+    double left = between(random, 0.0, 2.0), right = between(random, 0.0, 2.0);
+    int ends = i % 4;
+    p.pressure_left = ends & 1 ? left * hertz_of(&p) : 0.0;
+    p.pressure_right =
+        ends == 3  ? p.pressure_left + between(random, -1.0, 1.0) * fmin(left, right) * hertz_of(&p)
+        : ends & 2 ? right * hertz_of(&p)
+                   : 0.0;
+    if (fabs(p.speed) > 1e4) {
+      p.viscosity *= fabs(p.speed) / 1e4;
+      p.speed = copysign(1e4, p.speed);
+    }
+    one(&tally, &p, i % 3 == 0);
+  }
+  finish(&tally);
+  g_rand_free(random);
+}
+
+// The hard box: E, viscosity, load, speed and pressures over all their decades.
+static void test_box_of_sizes(void) {
+  GRand *random = g_rand_new_with_seed(seed + 1);
+  Tally tally = {0};
+  for (int i = 0; i < count; i++) {
+    SbFilmProblem p;
+    sb_film_problem_init(&p);
+    p.modulus = decades(random, 1e5, 1e10);
+    p.viscosity = decades(random, 1e-6, 10.0);
+    p.load = decades(random, 1e-3, 1e6);
+    p.radius = decades(random, 1e-4, 1e-2);
+    p.speed = i % 10 == 0 ? 0.0 : decades(random, 1e-6, 10.0);
+    p.speed *= g_rand_boolean(random) ? 1.0 : -1.0;
+    double most = fmin(2e6, 1.5 * hertz_of(&p));
+    p.pressure_left = i % 3 == 1 ? between(random, 0.0, most) : 0.0;
+    p.pressure_right = i % 5 == 1 ? p.pressure_left : i % 4 == 1 ? between(random, 0.0, most) : 0.0;
+    one(&tally, &p, i % 3 == 0);
+  }
+  finish(&tally);
+  g_rand_free(random);
+}
+
+// Starved to between a hundredth and the whole of the flooded flux.
+static void test_starved(void) {
+  GRand *random = g_rand_new_with_seed(seed + 2);
+  Tally tally = {0};
+  for (int i = 0; i < count / 2; i++) {
+    SbFilmProblem p;
+    sb_film_problem_init(&p);
+    double M = decades(random, 3.0, 1e6);
+    p.modulus = 1e7;
+    p.radius = 1e-3;
+    p.load = 10.0;
+    p.viscosity = 1e-3;
+    p.speed = (i % 2 ? 1.0 : -1.0) * (1e-3 / M) * (1e-3 / M) * 1e7;
+    sb_film_solver_forget(solver);
+    g_assert_cmpint(sb_film_solve(&film, &p, solver, NULL), ==, SB_OK);
+    p.inlet_film = 0.5 * film.film_flux * decades(random, 0.01, 1.0);
+    one(&tally, &p, i % 6 == 0);
+    if (film.starved && fabs(film.film_flux / (2.0 * p.inlet_film) - 1.0) > 1e-6) {
+      complain(&tally, &p, "supply", film.film_flux / (2.0 * p.inlet_film));
+    }
+  }
+  finish(&tally);
+  g_rand_free(random);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  if (argc > 1) {
+    count = atoi(argv[1]);
+  }
+  if (argc > 2) {
+    seed = (guint32)atoi(argv[2]);
+  }
+  g_assert_cmpint(sb_film_solver_create(&solver, NULL), ==, SB_OK);
+  g_test_add_func("/film/campaign/M", test_box_of_M);
+  g_test_add_func("/film/campaign/sizes", test_box_of_sizes);
+  g_test_add_func("/film/campaign/starved", test_starved);
+  int failed = g_test_run();
+  sb_film_solver_destroy(solver);
+  return failed;
+}
