@@ -361,6 +361,8 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
       .frames = (int)sb_params_get(params, SB_P_OUTPUT_FRAMES),
       .fit = (int)sb_params_get(params, SB_P_MODELS_FIT),
       .film = (SbModelFilm)sb_params_get(params, SB_P_MODELS_FILM),
+      .film_history = sb_params_get(params, SB_P_MODELS_FILM_TIME) != 0,
+      .rest_film = sb_params_get(params, SB_P_FLUID_REST_FILM),
       .surface = (SbModelSurface)sb_params_get(params, SB_P_MODELS_SURFACE),
       .motion = (SbModelMotion)sb_params_get(params, SB_P_MODELS_MOTION),
       .views = (unsigned)sb_params_get(params, SB_P_OUTPUT_VIEWS),

@@ -145,6 +145,8 @@ typedef struct {
   int actuations; // over which leakage is summed
   int fit;        // index among the choices of models.fit = SbFitModel
   SbModelFilm film;
+  bool film_history; // films of frames are solved in time
+  double rest_film;  // before the first stroke [m]
   SbModelSurface surface;
   SbModelMotion motion;
   SbRig rig;             // motion RIG

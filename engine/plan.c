@@ -18,6 +18,7 @@ static const double cost_closed_form = 2e-6;
 static const double cost_disc = 3e-3;
 static const double cost_ring = 250e-3;
 static const double cost_reynolds = 5e-3;
+static const double cost_film_step = 6e-3; // of a frame, with the smaller steps inside
 static const double cost_frame = 3e-7;
 
 // Sliding states of a cycle: the outer seal in three chamber states, the inner in two, both ways.
@@ -78,6 +79,16 @@ static void plan_film(SbPlan *plan, const SbModel *model) {
   if (!plan->reynolds) {
     add(plan->skipped, &plan->skipped_count, "reynolds film", "", 0, 0,
         "models.film = %s meets what the friction needs", name);
+  }
+  plan->film_history = plan->reynolds && model->film_history;
+  if (plan->film_history) {
+    add(plan->field, &plan->field_count, "film history", "finite volumes",
+        SB_SEAL_COUNT * model->frames * cost_film_step, 0.03,
+        "models.film_time = transient; friction keeps to the steady film");
+  } else {
+    add(plan->skipped, &plan->skipped_count, "film history", "", 0, 0, "%s",
+        model->film_history ? "models.film has no history, only reynolds"
+                            : "models.film_time = steady: every frame has the film of its speed");
   }
 }
 

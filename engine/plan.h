@@ -21,6 +21,7 @@ typedef struct {
   bool profiles;       // contact pressure and film over x are kept
   bool section_fields; // interior fields at drawn frames
   bool reynolds;       // the film is solved
+  bool film_history;   // and its history over the frames
   bool ring;           // the ring is solved
   bool bodies;         // the parts' accelerations and the joints' reactions are solved
   unsigned studies;    // bit mask, 1 << SbStudyKind: computed beside the cycle

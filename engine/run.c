@@ -64,6 +64,10 @@ void sb_run_destroy(SbRun *run) {
 }
 
 void sb_run_publish(SbRun *run, size_t count) {
+  if (run->hold) {
+    run->held = count;
+    return;
+  }
   atomic_store_explicit(&run->published, count, memory_order_release);
 }
 
@@ -104,10 +108,20 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
     status = sb_run_solve_shapes(run, hooks, report);
   }
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+    run->hold = run->plan.film_history;
     bool inertia = run->model.motion != SB_MODEL_MOTION_QUASI_STATIC;
     SbStatus motion = inertia ? sb_run_dynamic(run, hooks, status == SB_OK ? report : NULL)
                               : sb_run_quasi_static(run, hooks, status == SB_OK ? report : NULL);
     status = motion != SB_OK ? motion : status;
+    if (run->hold) {
+      run->hold = false;
+      if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+        SbStatus history =
+            sb_run_film_history(run, run->held, hooks, status == SB_OK ? report : NULL);
+        status = history != SB_OK ? history : status;
+      }
+      sb_run_publish(run, run->held);
+    }
     sb_run_summarise_seals(run);
     summary->leakage_carried = run->model.actuations * summary->seal[SB_OUTER].leakage_per_stroke;
     summary->leakage_net = run->model.actuations * summary->leakage_per_cycle;
@@ -125,9 +139,11 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   double start = now();
   SbSummary *summary = &run->summary;
-  *summary = (SbSummary){.error_film = NAN, .force_breakaway = NAN};
+  *summary = (SbSummary){.error_film = NAN, .error_film_history = NAN, .force_breakaway = NAN};
   sb_run_publish(run, 0);
   run->before_frames = 0;
+  run->hold = false;
+  run->held = 0;
   SbStatus status = run->model.motion == SB_MODEL_MOTION_RIG ? sb_run_rig(run, hooks, report)
                                                              : execute_valve(run, hooks, report);
   summary->frames = atomic_load_explicit(&run->published, memory_order_relaxed);

@@ -52,6 +52,7 @@ typedef struct {
 typedef struct {
   size_t reynolds_solves, ring_solves, disc_solves, fit_solves, field_evaluations,
       profile_evaluations;
+  size_t film_steps; // of the films' history, all seals
 } SbCounters;
 
 // What a joint bears over the run, on the first part it names; compare bodies.h.
@@ -91,7 +92,7 @@ typedef struct {
   bool converged;
   size_t frames, steps, rejected_steps, newton_iterations;
   double wall_s;
-  double error_force, error_energy, error_film,
+  double error_force, error_energy, error_film, error_film_history,
       error_load; // relative estimates; NaN: does not apply
   SbCounters counters;
 } SbSummary;

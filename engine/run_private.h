@@ -12,6 +12,13 @@ enum {
   SB_RUN_EVENT_FRAMES = 2 * SB_CYCLE_SEGMENTS_MAX + 800
 };
 
+// Surface of a seal's fitted body for the film, of one chamber state.
+typedef struct {
+  bool known;
+  double load; // net, that goes with it [N/m]
+  SbSurfaceCompliance compliance;
+} SbRunSurface;
+
 typedef struct {
   SbContactProfile view;
   double *data; // x, pressure, film, asperity pressure
@@ -45,6 +52,7 @@ struct SbRun {
   SbSummary summary;
   SbSlidingMemory *memory[SB_SEAL_COUNT];
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
+  SbRunSurface surface[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS];
   SbRunShape shape[SB_RUN_SHAPES];
   uint32_t shape_slot[SB_RUN_SHAPES]; // where a state's shape is: equal states share one
   double edge_begin, edge_end; // of the land's edge in the inner seal's frame, where it shapes
@@ -53,6 +61,8 @@ struct SbRun {
   SbRunBodies *bodies;         // NULL: the reduced form is enough
   SbFrame *frames;
   size_t capacity;
+  bool hold;   // frames wait for their films' history before they are published
+  size_t held; // how many do
   atomic_size_t published;
 };
 
@@ -84,6 +94,10 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // The sliding-plate rig in place of the valve (run_rig.c).
 SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Films of the first `count` frames, which nobody else may see yet, by the transient film
+// (run_film.c). A seal whose film fails keeps the steady one, with a warning.
+SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, SbReport *report);
 
 // Figures of each seal at the middle of B-C (run_seals.c).
 void sb_run_summarise_seals(SbRun *run);

@@ -179,6 +179,12 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
         } else if (status != SB_OK) {
           return status;
         }
+        SbRunSurface *surface = &run->surface[seal][chamber];
+        if (state->film_fitted && run->plan.film_history) {
+          surface->known = sb_sliding_surface(&surface->compliance, &surface->load,
+                                              sb_sliding_fit(run->memory[seal]), &run->model, seal,
+                                              pressure, NULL) == SB_OK;
+        }
         summary->error_load = fmax(summary->error_load,
                                    sb_sliding_fit(run->memory[seal])->solver.error_estimate.load);
         if (!isnan(state->film_error)) {

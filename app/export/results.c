@@ -156,11 +156,13 @@ static void put_run_solver(SbJson *json, const SbSummary *summary) {
   sb_json_number(json, "force", summary->error_force);
   sb_json_number(json, "energy", summary->error_energy);
   sb_json_number(json, "film", summary->error_film);
+  sb_json_number(json, "film_history", summary->error_film_history);
   sb_json_number(json, "load", summary->error_load);
   sb_json_object_end(json);
   const SbCounters *counters = &summary->counters;
   sb_json_object(json, "counters");
   sb_json_count(json, "reynolds_solves", counters->reynolds_solves);
+  sb_json_count(json, "film_steps", counters->film_steps);
   sb_json_count(json, "ring_solves", counters->ring_solves);
   sb_json_count(json, "disc_solves", counters->disc_solves);
   sb_json_count(json, "fit_solves", counters->fit_solves);
@@ -183,6 +185,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   sb_json_object(&json, "models");
   put_choice(&json, "fit", SB_P_MODELS_FIT, model->fit);
   put_choice(&json, "film", SB_P_MODELS_FILM, (int)model->film);
+  put_choice(&json, "film_time", SB_P_MODELS_FILM_TIME, model->film_history);
   put_choice(&json, "surface", SB_P_MODELS_SURFACE, (int)model->surface);
   sb_json_string(&json, "friction", "boundary-viscous-static");
   put_choice(&json, "motion", SB_P_MODELS_MOTION, (int)model->motion);

@@ -41,6 +41,7 @@ struct SbFilmTransient {
   double volume[SB_TRANSIENT_NODES_MAX];      // length of a node's cell
   double weight[SB_TRANSIENT_NODES_MAX];      // of the load
   bool limited[SB_TRANSIENT_NODES_MAX];       // transport through face i, i + 1 is kept monotonic
+  bool steep[SB_TRANSIENT_NODES_MAX];         // the same, where a front stands when a step begins
   bool beside_cavity[SB_TRANSIENT_NODES_MAX]; // the same, by the cavity when a step begins
   double diffusion;                           // kappa = film^2 p_H / (12 eta b^2) [1/s]
   double flow;                                // scale of v m

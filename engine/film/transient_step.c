@@ -43,7 +43,7 @@ static Face face_height(const SbFilmTransient *t, const SbTransientState *s, int
   const double m_u = sb_transient_height(s, U);
   const double m_c = sb_transient_height(s, C);
   const double m_d = sb_transient_height(s, D);
-  if (!t->limited[i] && !t->beside_cavity[i]) {
+  if (!t->limited[i] && !t->steep[i] && !t->beside_cavity[i]) {
     f.by[U - f.first] = (at - c) * (at - d) / ((u - c) * (u - d));
     f.by[C - f.first] = (at - u) * (at - d) / ((c - u) * (c - d));
     f.by[D - f.first] = (at - u) * (at - c) / ((d - u) * (d - c));
@@ -285,6 +285,21 @@ static int switch_nodes(const SbFilmTransient *t, SbTransientState *s) {
   return count;
 }
 
+// A front that quadratic interpolation would undershoot, down to no film at all: steeper than the
+// gap of a dry contact or of the parabola on this mesh.
+static bool is_steep(const SbFilmTransient *t, const SbTransientState *s, int face) {
+  if (face < 1 || face + 2 >= t->nodes) {
+    return false;
+  }
+  double least = INFINITY;
+  double most = 0.0;
+  for (int i = face - 1; i <= face + 2; i++) {
+    least = fmin(least, sb_transient_height(s, i));
+    most = fmax(most, sb_transient_height(s, i));
+  }
+  return most > 2.5 * least;
+}
+
 SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTransientState *s,
                              const SbTransientStep *step) {
   enum { ITERATIONS_MAX = 30 };
@@ -304,6 +319,7 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
     // The scheme follows the cavity at first only: with the active set it could go in circles.
     for (int i = 0; iteration < 3 && i + 1 < n; i++) {
       t->beside_cavity[i] = s->cavity[i] || s->cavity[i + 1];
+      t->steep[i] = is_steep(t, s, i);
     }
     // The gap of the pressure, unless the two agree to the rounding of deflections of size one: H
     // itself then carries more digits of a thin film.
@@ -320,7 +336,7 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
     }
     if (settled && agree) {
       const double mass = mass_error(t, s, step);
-      done = mass < 1e-12 || (mass < 1e-10 && mass > 0.1 * before_mass) || before_largest < 1e-13;
+      done = mass < 1e-11 || (mass < 1e-10 && mass > 0.1 * before_mass) || before_largest < 1e-13;
       if (done) {
         break;
       }

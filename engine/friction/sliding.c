@@ -130,8 +130,7 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
                             SbReport *report) {
   // Coefficients of the pressure: a disc's is smooth, finite elements' is not.
   const int order = fit->model == SB_FIT_DISC ? 8 : 5;
-  bool own =
-      fit->model == SB_FIT_DISC || fit->model == SB_FIT_DISC_THESIS || fit->model == SB_FIT_RING;
+  bool own = fit->model == SB_FIT_DISC || fit->model == SB_FIT_RING;
   if (!own || fit->profile_count < 12) {
     return sb_fail(report, SB_ERROR_INPUT, "the fitment model gives no pressure of a body");
   }

@@ -53,6 +53,7 @@ static void keeps_plan(const char *path) {
     const SbCounters *counters = &sb_run_summary(run)->counters;
     g_assert_cmpint(plan->profiles, ==, counters->profile_evaluations > 0);
     g_assert_cmpint(plan->reynolds, ==, counters->reynolds_solves > 0);
+    g_assert_cmpint(plan->film_history, ==, counters->film_steps > 0);
     g_assert_cmpint(plan->ring, ==, counters->ring_solves > 0);
     g_assert_cmpint(plan->section_fields, ==, counters->field_evaluations > 0);
     if (views[i] == SB_VIEW_HYSTERESIS) {
