@@ -1,6 +1,8 @@
 // Hands a film's pictures to the movie writer.
 #include "app/export/render_movie.h"
 
+#include <string.h>
+
 static SbStatus draw(void *data, size_t picture, uint8_t *pixels, size_t stride, SbReport *report) {
   SbFilm *film = data;
   int width;
@@ -42,7 +44,8 @@ bool sb_render_movie(const SbRun *run, const SbRenderOptions *options, const SbR
   SbAppError code = status == SB_ERROR_CANCELLED                           ? SB_APP_ERROR_CANCELLED
                     : status == SB_ERROR_RANGE || status == SB_ERROR_INPUT ? SB_APP_ERROR_INPUT
                                                                            : SB_APP_ERROR_IO;
-  g_set_error_literal(error, SB_APP_ERROR, code,
-                      report.text[0] != '\0' ? report.text : sb_status_text(status));
+  const char *text = report.text[0] != '\0' ? report.text : sb_status_text(status);
+  bool named = code != SB_APP_ERROR_IO || strstr(text, path) != NULL;
+  g_set_error(error, SB_APP_ERROR, code, "%s%s%s", named ? "" : path, named ? "" : ": ", text);
   return false;
 }

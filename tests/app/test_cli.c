@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -829,6 +830,59 @@ static void test_sequence(void) {
   g_free(pictures);
 }
 
+// A small disk that runs full: exit 3, one line that says so, an earlier file as it was, and of a
+// sequence only whole pictures.
+static void test_full_disk(void) {
+  char *disk = g_build_filename(folder, "disk", NULL);
+  g_mkdir(disk, 0700);
+  if (mount("none", disk, "tmpfs", 0, "size=192k") != 0) {
+    g_test_skip("mounting a tmpfs is not permitted here");
+    g_rmdir(disk);
+    g_free(disk);
+    return;
+  }
+  char *film = g_build_filename(disk, "film.mp4", NULL);
+  g_assert_true(g_file_set_contents(film, "earlier", -1, NULL));
+  const char *const outputs[] = {film, disk};
+  for (size_t i = 0; i < G_N_ELEMENTS(outputs); i++) {
+    Result result = RUN("render", scene, "-o", outputs[i], "--view", "dashboard", "--quiet",
+                        "--size", "960x540", "--fps", "10", "--duration", "6 s");
+    char *earlier = contents(disk, "film.mp4");
+    char *names = listing(disk);
+    bool whole = true;
+    for (int k = 1; i == 1 && strstr(names, "frame-") != NULL && k < 60; k++) {
+      char *name = g_strdup_printf("frame-%04d.png", k);
+      if (strstr(names, name) != NULL) {
+        char *bytes = NULL;
+        gsize length = 0;
+        char *path = g_build_filename(disk, name, NULL);
+        g_file_get_contents(path, &bytes, &length, NULL);
+        whole = whole && length > 20 && memcmp(bytes + length - 8, "IEND", 4) == 0;
+        g_free(path);
+        g_free(bytes);
+      }
+      g_free(name);
+    }
+    if (i == G_N_ELEMENTS(outputs) - 1) {
+      umount(disk);
+    }
+    g_assert_cmpint(result.code, ==, 3);
+    g_assert_true(strstr(result.err, "disk is full") != NULL ||
+                  strstr(result.err, "No space left") != NULL);
+    g_assert_nonnull(strstr(result.err, disk));
+    g_assert_cmpstr(strchr(result.err, '\n'), ==, "\n");
+    g_assert_cmpstr(earlier, ==, "earlier");
+    g_assert_true(whole);
+    g_assert_null(strstr(names, "tmp"));
+    clear(&result);
+    g_free(earlier);
+    g_free(names);
+  }
+  g_rmdir(disk);
+  g_free(film);
+  g_free(disk);
+}
+
 static void test_interrupt(void) {
   char *out = g_build_filename(folder, "part", NULL);
   const char *const argv[] = {program, "run", scene, "-o", out, "--set", "output.frames=1000000",
@@ -868,6 +922,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/studies", test_studies);
   g_test_add_func("/cli/film-file", test_film_file);
   g_test_add_func("/cli/sequence", test_sequence);
+  g_test_add_func("/cli/full-disk", test_full_disk);
   g_test_add_func("/cli/interrupt", test_interrupt);
   int result = g_test_run();
   g_rmdir(folder);
