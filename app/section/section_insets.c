@@ -327,6 +327,11 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     const char *why = frame->film_central > 0 ? "no film profile in this run"
                                               : "at rest: no film, the surfaces touch";
     sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->ink, why);
+    if (frame->film_central <= 0) {
+      snprintf(text, sizeof text, "asperities carry the load, \xcf\x83 %s %s",
+               sb_section_significant(value, section->model.sigma * 1e6), "\xc2\xb5m");
+      sb_draw_text(list, x, (bore + low) / 2 + 18, 11, 400, centre, palette->second, text);
+    }
   } else {
     char least[SB_SECTION_NUMBER];
     sb_section_film(value, frame->film_central);

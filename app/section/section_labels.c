@@ -303,7 +303,8 @@ static void draw_dose_path(SbSection *section) {
       {fmax(mouth_left + 0.1 * g, behind + 0.15 * g), valve->land + 0.02 * g},
       {fmax(mouth_left, behind) + 0.46 * g, valve->land - 0.4 * depth},
   };
-  SbDrawPoint curve[(KNOTS - 1) * STEPS + 1];
+  enum { COUNT = (KNOTS - 1) * STEPS + 1 };
+  SbValvePoint way[COUNT];
   size_t count = 0;
   for (int i = 0; i < KNOTS - 1; i++) {
     SbValvePoint a = knot[MAX(i - 1, 0)], b = knot[i], c = knot[i + 1];
@@ -312,9 +313,27 @@ static void draw_dose_path(SbSection *section) {
       double t = (double)j / STEPS;
       double wa = -t * (1 - t) * (1 - t) / 2, wb = 1 - 2.5 * t * t + 1.5 * t * t * t;
       double wc = t * (1 + t * (4 - 3 * t)) / 2, wd = -t * t * (1 - t) / 2;
-      curve[count++] = sb_section_at(section, wa * a.x + wb * b.x + wc * c.x + wd * d.x,
-                                     wa * a.y + wb * b.y + wc * c.y + wd * d.y);
+      way[count++] = (SbValvePoint){wa * a.x + wb * b.x + wc * c.x + wd * d.x,
+                                    wa * a.y + wb * b.y + wc * c.y + wd * d.y};
     }
+  }
+  // Smoothed, and kept clear of ring and housing.
+  for (int round = 0; round < 6; round++) {
+    double before = way[0].y;
+    for (size_t i = 1; i + 1 < count; i++) {
+      double smooth = (before + 2 * way[i].y + way[i + 1].y) / 4;
+      before = way[i].y;
+      double off = (way[i].x - ring) / radius;
+      double low = valve->floor + radius * (1 + sqrt(fmax(1 - off * off, 0)));
+      low = fabs(off) < 1 ? low : -HUGE_VAL;
+      double high = sb_valve_bore_at(valve, way[i].x);
+      double clear = fmin(0.06 * g, (high - low) / 2);
+      way[i].y = fmin(fmax(smooth, low + clear), high - clear);
+    }
+  }
+  SbDrawPoint curve[COUNT];
+  for (size_t i = 0; i < count; i++) {
+    curve[i] = sb_section_at(section, way[i].x, way[i].y);
   }
   sb_draw_clip(section->list, &section->strip);
   sb_draw_stroke(section->list, curve, count - 3, 2.2, palette->fluid_line)->dash = SB_DASH_DOSE;
