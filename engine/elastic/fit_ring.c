@@ -8,7 +8,6 @@
 #include "engine/elastic/fit_models.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "engine/elastic/ring/ring.h"
 
@@ -44,8 +43,7 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   }
   for (size_t i = 0; i < warnings.count; i++) {
     const SbWarning *w = &warnings.item[i];
-    const bool loose = strcmp(w->code, "ring-no-contact") == 0;
-    sb_warn(&out->warnings, loose ? "no-contact" : w->code, w->parameter, "%s", w->text);
+    sb_warn(&out->warnings, w->code, w->parameter, "%s", w->text);
   }
   const double width = result.axial_right - result.axial_left;
   if (width > in->gland_width) {

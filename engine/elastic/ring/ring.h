@@ -76,7 +76,7 @@ typedef struct {
   double volume_change;                     // relative to the free ring
   double penetration;                       // largest over the boundary nodes, m
   double pressure_least;                    // least nodal contact pressure above the fluid's, Pa
-  double friction_excess; // N beyond Coulomb's law at nodes that could not settle, 0
+  double friction_excess; // N of departure from Coulomb's law at nodes that cannot settle, 0
   double axial_imbalance; // sum of all axial forces over the largest one
   int unknowns, newton_iterations, load_steps, rejected_steps;
 } SbRingResult;
@@ -154,7 +154,7 @@ typedef struct {
 // One fitment to a tolerance: solves on a coarse and on a finer mesh with nodes at the contact
 // edges, and estimates the error of load, peak and width from the two. `out` may be NULL if only
 // the figures are wanted. tolerance is relative on the load, 1e-5 .. 1e-1. Warnings:
-// "ring-no-contact" (loads are then 0), "ring-tolerance" if the estimate stays above the tolerance.
+// "no-contact" (loads are then 0), "ring-tolerance" if the estimate stays above the tolerance.
 SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, SbRingError *error, const SbRingBody *body,
                      const SbRingLoad *load, double tolerance, const SbRingOptions *options,
                      SbWarnings *warnings, SbReport *report);

@@ -22,7 +22,7 @@ static const double VISCOSITY = 30.0, VISCOSITY_LEAST = 0.3, VISCOSITY_MOST = 3e
 enum { VISCOUS_STEPS = 50, DROPS_MAX = 4, WALKS_MAX = 3 };
 
 // Newton iterations after which a load step is given up at its next failure.
-enum { ITERATIONS_MOST = 600 };
+enum { ITERATIONS_MOST = 1000 };
 
 // A motion beyond which the ring counts as gone: section diameters, radians.
 static const double GONE = 1.5, ROLLED = 2.0;

@@ -8,7 +8,9 @@
 
 #include <math.h>
 
-enum { GENTLE_AFTER = 14, RECENTRES_MAX = 6 };
+enum { GENTLE_AFTER = 14, RECENTRES_MAX = 6, MORE = 10 };
+
+static const double NEARLY = 1e-2;
 
 static const double DET_SHARE = 0.35, DAMPING = 10.0;
 static const double RESIDUAL_TOLERANCE = 1e-10, GAP_TOLERANCE = 1e-11, DRIFT_FORCE = 1e-13;
@@ -125,7 +127,10 @@ SbStatus sb_ring_newton(SbRingContact *contact, const SbRingNewton *options, SbR
     slack = false;
     stumbles += step < STUMBLE ? 1 : 0;
     bool hopeless = options->stumbles_max > 0 && stumbles > options->stumbles_max;
-    if (it >= options->iterations_max || hopeless || !isfinite(residual)) {
+    // A steady contact near its balance may take a little longer.
+    bool near = changes == 0 && residual < NEARLY && it < options->iterations_max + MORE;
+    bool spent = it >= options->iterations_max && !near;
+    if (spent || hopeless || !isfinite(residual)) {
       fail(contact, residual, changes, it, report);
       if (report != NULL) {
         report->residual = residual;
