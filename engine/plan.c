@@ -18,7 +18,8 @@ static const double cost_closed_form = 2e-6;
 static const double cost_disc = 3e-3;
 static const double cost_ring = 250e-3;
 static const double cost_reynolds = 5e-3;
-static const double cost_film_step = 6e-3; // of a frame, with the smaller steps inside
+static const double cost_film_history = 2.0; // of a seal: fronts crossing the contact set its steps
+static const double cost_film_step = 2e-3;   // of a frame besides
 static const double cost_frame = 3e-7;
 
 // Sliding states of a cycle: the outer seal in three chamber states, the inner in two, both ways.
@@ -83,7 +84,7 @@ static void plan_film(SbPlan *plan, const SbModel *model) {
   plan->film_history = plan->reynolds && model->film_history;
   if (plan->film_history) {
     add(plan->field, &plan->field_count, "film history", "finite volumes",
-        SB_SEAL_COUNT * model->frames * cost_film_step, 0.03,
+        SB_SEAL_COUNT * (cost_film_history + model->frames * cost_film_step), 0.03,
         "models.film_time = transient; friction keeps to the steady film");
   } else {
     add(plan->skipped, &plan->skipped_count, "film history", "", 0, 0, "%s",
