@@ -23,7 +23,7 @@ enum { POINTS = 39, RING_POINTS = 20, FINE = 9 };
 
 double sb_study_leak_cost(const SbModel *model) {
   double film = model->film == SB_MODEL_FILM_REYNOLDS ? SB_STUDY_COST_FILM : 1e-6;
-  return (2 * (RING_POINTS + FINE) + 11) * SB_STUDY_COST_RING + POINTS * SB_STUDY_COST_DISC +
+  return 2 * (2 * (RING_POINTS + FINE) + 11) * SB_STUDY_COST_RING + POINTS * SB_STUDY_COST_DISC +
          5 * POINTS * film;
 }
 
@@ -44,6 +44,13 @@ static SbStatus solve(SbStudy *out, Figures *figures, const SbModel *scene, SbFi
   sb_sliding_memory_forget(memory);
   // Finer than the roughness theory deserves; a ring that barely touches is costly.
   model.tolerance = fmax(model.tolerance, fit == SB_FIT_RING ? 1e-2 : 1e-3);
+  // A ring that does not touch by itself lets the fluid past before any pressure could press it on.
+  SbSliding free;
+  SbStatus touch =
+      sb_study_sliding(out, &free, &model, SB_OUTER, (SbSealPressure){0, 0}, 0, memory, report);
+  if (touch != SB_OK || !(free.contact_right > free.contact_left)) {
+    return touch;
+  }
   // At rest first: where the film has no solution the contact still has one.
   SbSliding state, moving = {0};
   SbStatus status = sb_study_sliding(out, &state, &model, SB_OUTER, pressure, 0, memory, report);
@@ -345,12 +352,13 @@ SbStatus sb_study_leak(SbStudy *out, const SbModel *model, const SbStudyHooks *h
   }
   double design = model->seal[SB_OUTER].squeeze;
   sb_study_mark(out, design, "as designed, %.1f %%", 100 * design);
+  bool own = model->fit != SB_FIT_DISC && model->fit != SB_FIT_RING;
   snprintf(out->models, sizeof out->models,
-           "fit %s, disc, ring; percolation by Persson's contact; film as the scene's",
-           sb_fit_model_name((SbFitModel)model->fit));
+           "fit %s%sdisc, ring; percolation by Persson's contact; film as the scene's",
+           own ? sb_fit_model_name((SbFitModel)model->fit) : "", own ? ", " : "");
   snprintf(out->validity, sizeof out->validity,
            "mean contact pressure, liquid without vapour; gaps below 3 "
-           "\xcf\x83; no figure where the ring does not touch");
+           "\xcf\x83; no figure where the ring does not touch by itself");
   sb_study_note(out,
                 "Roughness %.3g \xc2\xb5m; channels close at %.3g MPa of solid pressure. Stroke "
                 "%.3g mm at %.4g mm/s. Karaszkiewicz holds from 7 to 25 %%.",
