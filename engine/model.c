@@ -400,6 +400,14 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   };
   model.rubber = read_rubber(params, model.density);
   model.rig = read_rig(&model, params);
+  model.life_actuations = (int)sb_params_get(params, SB_P_LIFE_ACTUATIONS);
+  int shown = (int)sb_params_get(params, SB_P_LIFE_SHOWN);
+  model.life_shown = shown > 0 ? shown : model.life_actuations;
+  model.running_in = (SbRunningIn){
+      .start = sb_params_get(params, SB_P_LIFE_ROUGHNESS_NEW),
+      .end = sb_params_get(params, SB_P_LIFE_ROUGHNESS_RUN_IN),
+      .actuations = sb_params_get(params, SB_P_LIFE_RUNNING_IN),
+  };
   model.rig_prominence = sb_params_get(params, SB_P_RIG_PROMINENCE);
   model.bore_circumference = M_PI * model.bore_diameter;
   double pressure_diameter = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER);
@@ -422,6 +430,23 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   good = compile_study(&model, problems) && good;
   if (model.motion == SB_MODEL_MOTION_QUASI_STATIC) {
     good = compile_quasi_static(&model, problems) && good;
+  }
+  if (model.life_shown > model.life_actuations) {
+    add_problem(problems, "life.shown", 0, model.life_actuations,
+                "is beyond the life's last actuation (life.actuations %d)", model.life_actuations);
+    good = false;
+  }
+  if (model.life_actuations > 1 &&
+      (model.motion == SB_MODEL_MOTION_RIG || model.motion == SB_MODEL_MOTION_BODIES)) {
+    add_problem(problems, "life.actuations", NAN, 1,
+                "needs models.motion = quasi-static or dynamic");
+    good = false;
+  }
+  if (model.life_actuations > 1) {
+    // The scene's surface is the reference; the run starts with the new valve's.
+    model.gt_product *= model.running_in.start;
+    model.sigma *= model.running_in.start;
+    model.sigma_over_beta *= model.running_in.start;
   }
   // As many samples as there may be frames.
   const double samples = model.rig.duration * model.rig.rate;

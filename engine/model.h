@@ -6,6 +6,7 @@
 #include "engine/elastic/gland.h"
 #include "engine/elastic/rubber_time.h"
 #include "engine/motion/bodies.h"
+#include "engine/motion/life.h"
 #include "engine/motion/rig.h"
 #include "engine/params.h"
 #include "engine/status.h"
@@ -55,8 +56,20 @@ typedef enum {
   SB_MODEL_DRIVE_MACHINE,
   SB_MODEL_DRIVE_HAND,
   SB_MODEL_DRIVE_FREE_RETURN,
-  SB_MODEL_DRIVE_SINUSOID
+  SB_MODEL_DRIVE_SINUSOID,
+  SB_MODEL_DRIVE_RAMP,
+  SB_MODEL_DRIVE_MEASURED
 } SbDriveChoice;
+
+// A measured series for drive MEASURED, straight lines between its rows. Kept in the model itself,
+// so that a copy needs nothing else.
+enum { SB_MODEL_SERIES_MAX = 4096 };
+typedef struct {
+  SbDriveQuantity quantity;
+  size_t count;                      // 0: none
+  double time[SB_MODEL_SERIES_MAX];  // [s], increasing from 0
+  double value[SB_MODEL_SERIES_MAX]; // [m] or [N]
+} SbModelSeries;
 
 // One ring and what follows from its size and its gland alone. Sizes and modulus are those after
 // storage; the new ring's are in `stored`.
@@ -133,6 +146,7 @@ typedef struct {
   SbDriveChoice drive;
   double peak_force, rise_time, hold_time; // hand
   double amplitude, frequency;             // sinusoid
+  SbModelSeries measured;                  // measured; filled by whoever read it
   int cycles;
   double damping_ratio; // of machine and seal shear
   double rest;          // before the first stroke [s]
@@ -149,13 +163,16 @@ typedef struct {
   double rest_film;  // before the first stroke [m]
   SbModelSurface surface;
   SbModelMotion motion;
-  SbRig rig;             // motion RIG
-  double rig_prominence; // fall of the force that makes a peak [N]
-  unsigned views;        // bit mask of SbView
-  unsigned studies;      // bit mask, 1 << SbStudyKind
-  SbSectionLook look;    // for the drawing only
-  double stem_diameter;  // D_p, also the stem's land [m]
-  SbValveShape shape;    // for the drawing only
+  int life_actuations;    // computed one after the other; 1: the first alone
+  int life_shown;         // whose frames follow the first's, from 1
+  SbRunningIn running_in; // factor on the roughness
+  SbRig rig;              // motion RIG
+  double rig_prominence;  // fall of the force that makes a peak [N]
+  unsigned views;         // bit mask of SbView
+  unsigned studies;       // bit mask, 1 << SbStudyKind
+  SbSectionLook look;     // for the drawing only
+  double stem_diameter;   // D_p, also the stem's land [m]
+  SbValveShape shape;     // for the drawing only
   SbStudyRange study;
 } SbModel;
 

@@ -158,6 +158,15 @@ void sb_plan_make(SbPlan *out, const SbModel *model) {
       0, "figures of the cycle, %d frames", model->frames);
   plan_bodies(out, model);
 
+  if (model->life_actuations > 1) {
+    double each = model->motion == SB_MODEL_MOTION_QUASI_STATIC ? 1e-4 : 5e-3;
+    add(out->field, &out->field_count, "life", motion, model->life_actuations * each, 0,
+        "%d actuations while the roughness runs in; fitment and film are the first's",
+        model->life_actuations);
+  } else {
+    add(out->skipped, &out->skipped_count, "life", "", 0, 0, "life.actuations = 1");
+  }
+
   // Profiles over x, for whoever draws them.
   char who[80];
   unsigned drawn = SB_VIEW_PROFILES | SB_VIEW_SECTION | SB_VIEW_DASHBOARD;

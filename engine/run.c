@@ -17,6 +17,15 @@ static double now(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+// Frames of one actuation, or two if a life shows a second one; or the rig's samples.
+static size_t frames_at_most(const SbModel *model) {
+  if (model->motion == SB_MODEL_MOTION_RIG) {
+    return sb_rig_samples(&model->rig);
+  }
+  size_t one = (size_t)model->frames + SB_RUN_EVENT_FRAMES + 2 * (size_t)model->cycles;
+  return model->life_actuations > 1 && model->life_shown > 1 ? 2 * one : one;
+}
+
 SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, SbReport *report) {
   *out = NULL;
   SbRun *run = calloc(1, sizeof *run);
@@ -25,16 +34,16 @@ SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, Sb
   }
   run->model = *model;
   run->plan = *plan;
-  run->capacity = model->motion == SB_MODEL_MOTION_RIG
-                      ? sb_rig_samples(&model->rig)
-                      : (size_t)model->frames + SB_RUN_EVENT_FRAMES + 2 * (size_t)model->cycles;
+  run->capacity = frames_at_most(model);
+  bool lives = model->life_actuations > 1;
+  run->life = lives ? calloc((size_t)model->life_actuations, sizeof *run->life) : NULL;
   // Left untouched until used: a run that is cancelled early never pays for the rest.
   run->frames = malloc(run->capacity * sizeof *run->frames);
   SbStatus status = SB_OK;
   for (int i = 0; i < SB_SEAL_COUNT && status == SB_OK; i++) {
     status = sb_sliding_memory_create(&run->memory[i], report);
   }
-  if (run->frames == NULL || status != SB_OK) {
+  if (run->frames == NULL || (lives && run->life == NULL) || status != SB_OK) {
     sb_run_destroy(run);
     return sb_fail_parameter(report, SB_ERROR_MEMORY, "output.frames", "no memory for %d frames",
                              model->frames);
@@ -59,6 +68,7 @@ void sb_run_destroy(SbRun *run) {
     free(run->shape[i].integers);
   }
   sb_run_bodies_destroy(run->bodies);
+  free(run->life);
   free(run->frames);
   free(run);
 }
@@ -83,8 +93,9 @@ void sb_run_progress(const SbRun *run, const SbRunHooks *hooks, double fraction,
     return;
   }
   double share = run->before_frames;
-  hooks->progress(hooks->data, frames == 0 ? share * fraction : share + (1 - share) * fraction,
-                  frames);
+  hooks->progress(
+      hooks->data,
+      frames == 0 ? share * fraction : share + (1 - share - run->after_frames) * fraction, frames);
 }
 
 bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report) {
@@ -101,6 +112,7 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
   sb_model_warn_storage(&run->model, &summary->warnings);
   // Solved rings take seconds, everything else before the frames milliseconds.
   run->before_frames = run->plan.section_fields ? 0.95 : run->plan.ring ? 0.9 : 0;
+  run->after_frames = run->life != NULL ? 0.9 * (1 - run->before_frames) : 0;
 
   // A film that did not converge leaves its best state: the cycle is still worth having, flagged.
   SbStatus status = sb_run_solve_states(run, hooks, report);
@@ -128,7 +140,12 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
     if (summary->stage[SB_STAGE_B].reached) {
       summary->force_breakaway = summary->stage[SB_STAGE_B].force;
     }
-    if (!summary->returns && status != SB_ERROR_CANCELLED) {
+    if (status == SB_OK && run->life != NULL) {
+      status = sb_run_rest_of_life(run, hooks, report);
+    }
+    // A ramp is held to the end: nothing lets the stem go.
+    if (!summary->returns && run->model.drive != SB_MODEL_DRIVE_RAMP &&
+        status != SB_ERROR_CANCELLED) {
       sb_warn(&summary->warnings, "no-return", "surface.gt_product",
               "the stem does not return: least return force %.3g N", summary->force_return_min);
     }
@@ -141,7 +158,7 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   *summary = (SbSummary){.error_film = NAN, .error_film_history = NAN, .force_breakaway = NAN};
   sb_run_publish(run, 0);
-  run->before_frames = 0;
+  run->before_frames = run->after_frames = 0;
   run->hold = false;
   run->held = 0;
   SbStatus status = run->model.motion == SB_MODEL_MOTION_RIG ? sb_run_rig(run, hooks, report)
@@ -173,6 +190,11 @@ const SbContactProfile *sb_run_profile(const SbRun *run, uint32_t index) {
 
 const SbSealShape *sb_run_shape(const SbRun *run, uint32_t index) {
   return index < SB_RUN_SHAPES && run->shape[index].view.nodes > 0 ? &run->shape[index].view : NULL;
+}
+
+const SbLifeActuation *sb_run_life(const SbRun *run, size_t *count) {
+  *count = run->life != NULL ? (size_t)run->summary.life.done : 0;
+  return run->life;
 }
 
 const SbSummary *sb_run_summary(const SbRun *run) {

@@ -88,6 +88,7 @@ typedef struct {
   SbBodiesSummary bodies;
   SbEnergy energy;
   SbRigSummary rig; // motion RIG
+  SbLife life;      // done = 0: no life was asked for
   SbWarnings warnings;
   bool converged;
   size_t frames, steps, rejected_steps, newton_iterations;
@@ -126,6 +127,10 @@ enum { SB_RUN_SHAPES_MAX = 96 };
 // Solved ring shape `index`, NULL if there is none; borrowed. Any thread, for an index found in a
 // published frame.
 const SbSealShape *sb_run_shape(const SbRun *run, uint32_t index);
+
+// What each actuation of a life yielded, oldest first; *count is 0 without a life. Only after
+// sb_run_execute() returned; borrowed.
+const SbLifeActuation *sb_run_life(const SbRun *run, size_t *count);
 
 // Only after sb_run_execute() returned; borrowed.
 const SbSummary *sb_run_summary(const SbRun *run);

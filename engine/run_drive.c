@@ -55,7 +55,33 @@ void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run) {
     out->drive_bonded = true;
     out->start_position = model->stroke / 2;
     break;
+  case SB_MODEL_DRIVE_RAMP:
+    drive->kind = SB_DRIVE_RAMP;
+    drive->quantity = SB_DRIVE_OF_FORCE;
+    drive->end = model->peak_force;
+    drive->rate = model->peak_force / model->rise_time;
+    break;
+  case SB_MODEL_DRIVE_MEASURED:
+    // A displacement moves the machine's platen, a force pushes the stem itself.
+    drive->kind = SB_DRIVE_TABLE;
+    drive->quantity = model->measured.quantity;
+    drive->time = model->measured.time;
+    drive->value = model->measured.value;
+    drive->count = model->measured.count;
+    if (drive->quantity == SB_DRIVE_OF_POSITION) {
+      set_machine(out, model);
+    }
+    break;
   }
+}
+
+// Row of the greatest value of a measured series.
+static size_t highest_row(const SbModelSeries *series) {
+  size_t best = 0;
+  for (size_t i = 1; i < series->count; i++) {
+    best = series->value[i] > series->value[best] ? i : best;
+  }
+  return best;
 }
 
 // A stem that pressure and spring alone push back: the time of the whole way under the least net
@@ -78,6 +104,10 @@ double sb_drive_duration(const SbRun *run) {
            (model->cycles - 1) * model->rise_time;
   case SB_MODEL_DRIVE_SINUSOID:
     return model->cycles / model->frequency;
+  case SB_MODEL_DRIVE_RAMP:
+    return model->rise_time + model->hold_time;
+  case SB_MODEL_DRIVE_MEASURED:
+    return model->measured.count > 0 ? model->measured.time[model->measured.count - 1] : 0;
   case SB_MODEL_DRIVE_FREE_RETURN:
     break;
   }
@@ -85,7 +115,9 @@ double sb_drive_duration(const SbRun *run) {
 }
 
 bool sb_drive_ends_run(const SbRun *run) {
-  return run->model.drive == SB_MODEL_DRIVE_SINUSOID;
+  SbDriveChoice drive = run->model.drive;
+  return drive == SB_MODEL_DRIVE_SINUSOID || drive == SB_MODEL_DRIVE_RAMP ||
+         drive == SB_MODEL_DRIVE_MEASURED;
 }
 
 double sb_drive_turn(const SbRun *run) {
@@ -97,6 +129,10 @@ double sb_drive_turn(const SbRun *run) {
     return model->rise_time + model->hold_time;
   case SB_MODEL_DRIVE_SINUSOID:
     return 0.25 / model->frequency;
+  case SB_MODEL_DRIVE_RAMP:
+    return model->rise_time + model->hold_time;
+  case SB_MODEL_DRIVE_MEASURED:
+    return model->measured.count > 0 ? model->measured.time[highest_row(&model->measured)] : 0;
   case SB_MODEL_DRIVE_FREE_RETURN:
     break;
   }
@@ -111,6 +147,12 @@ double sb_drive_corner(const SbRun *run, int index) {
   if (model->drive == SB_MODEL_DRIVE_HAND && index < 2 * model->cycles) {
     double period = 3 * model->rise_time + model->hold_time;
     return index / 2 * period + model->rise_time + index % 2 * model->hold_time;
+  }
+  if (model->drive == SB_MODEL_DRIVE_RAMP && index == 0) {
+    return model->rise_time;
+  }
+  if (model->drive == SB_MODEL_DRIVE_MEASURED && index == 0) {
+    return sb_drive_turn(run);
   }
   return INFINITY;
 }

@@ -59,6 +59,8 @@ struct SbRun {
                                // that ring [m]; equal: nowhere
   double before_frames;        // share of the work that lies before the first frame
   SbRunBodies *bodies;         // NULL: the reduced form is enough
+  double after_frames;         // and behind the last: the rest of a life
+  SbLifeActuation *life;       // [model.life_actuations], NULL without a life
   SbFrame *frames;
   size_t capacity;
   bool hold;   // frames wait for their films' history before they are published
@@ -91,6 +93,12 @@ void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber
 // inertia (run_dynamic.c).
 SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Makes the surface `factor` times as rough in the run's model and its solved sliding states.
+SbStatus sb_run_resurface(SbRun *run, double factor, SbReport *report);
+
+// The actuations after the first, once that one has run (run_life.c).
+SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // The sliding-plate rig in place of the valve (run_rig.c).
 SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report);

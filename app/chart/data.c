@@ -110,6 +110,7 @@ void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace,
   out->model = sb_run_model(run);
   bool ended = state != SB_CHART_RUNNING && state != SB_CHART_EMPTY;
   out->summary = ended ? sb_run_summary(run) : NULL;
+  out->life = ended ? sb_run_life(run, &out->life_count) : NULL;
 }
 
 static void say(GString *out, const char *label, SbQuantity quantity, double value, double error) {
@@ -182,6 +183,16 @@ char *sb_chart_summary(const SbChartData *data) {
     g_string_append(out, ".");
   }
 
+  if (run->life_count > 1 && sb_chart_complete(data)) {
+    const SbLifeActuation *last = &run->life[run->life_count - 1];
+    g_string_append_printf(out, " Life of %zu actuations:", run->life_count);
+    say(out, " break-away", SB_QUANTITY_FORCE, run->life[0].force_breakaway, force_error);
+    say(out, " to", SB_QUANTITY_FORCE, last->force_breakaway, force_error);
+    say(out, ", least return", SB_QUANTITY_FORCE, run->life[0].force_return, force_error);
+    say(out, " to", SB_QUANTITY_FORCE, last->force_return, force_error);
+    say(out, ", leakage carried out", SB_QUANTITY_VOLUME, run->summary->life.carried, 0);
+    g_string_append(out, ".");
+  }
   // The whole loop.
   if (run->summary && sb_chart_complete(data)) {
     say(out, " Break-away", SB_QUANTITY_FORCE, run->summary->force_breakaway, force_error);

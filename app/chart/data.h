@@ -16,11 +16,13 @@ typedef enum {
 // One run as charts see it. All pointers are borrowed.
 typedef struct {
   SbChartState state;
-  const SbFrame *frames;    // `count` of them may be read
-  size_t count;             //
-  const SbTrace *trace;     // of the same frames; may lag behind count
-  const SbModel *model;     // may be NULL
-  const SbSummary *summary; // NULL until the run has ended
+  const SbFrame *frames;       // `count` of them may be read
+  size_t count;                //
+  const SbTrace *trace;        // of the same frames; may lag behind count
+  const SbModel *model;        // may be NULL
+  const SbSummary *summary;    // NULL until the run has ended
+  const SbLifeActuation *life; // of `life_count` actuations; likewise
+  size_t life_count;
   // Contact profile of a frame's seal by its index; NULL function or NULL answer: none was kept.
   const SbContactProfile *(*profile)(const void *source, uint32_t index);
   // Solved shape of a frame's ring, likewise.

@@ -146,6 +146,14 @@ static void draw_titles(SbHysteresisView *v, SbRect rect) {
   sb_canvas_text_fit(c, "Force and displacement", &title, in.x, in.y + 14, in.width);
   if (!compact) {
     const char *note = "";
+    char several[64] = "";
+    const SbModel *m = v->data->run.model;
+    if (m && m->life_actuations > 1) {
+      g_snprintf(several, sizeof several, "actuations 1 and %d of %d, stages of the first",
+                 m->life_shown, m->life_actuations);
+    } else if (m && m->cycles > 1) {
+      g_snprintf(several, sizeof several, "%d cycles, stages of the first", m->cycles);
+    }
     switch (v->data->run.state) {
     case SB_CHART_RUNNING:
       note = v->data->earlier ? "being computed; faint: the earlier run" : "being computed";
@@ -157,7 +165,9 @@ static void draw_titles(SbHysteresisView *v, SbRect rect) {
       note = "up to the last good state";
       break;
     case SB_CHART_DONE:
-      note = v->flags & SB_CHART_WHOLE ? "one actuation, A to F" : "thick line: played so far";
+      note = several[0]                  ? several
+             : v->flags & SB_CHART_WHOLE ? "one actuation, A to F"
+                                         : "thick line: played so far";
       break;
     default:
       break;

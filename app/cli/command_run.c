@@ -26,6 +26,23 @@ static void print_seal(const char *name, const SbSealSummary *seal) {
   sb_cli_figure("Closed at a pressure of", seal->closing_pressure, "Pa", "MPa");
 }
 
+static void print_life(const SbRun *run) {
+  const SbLife *life = &sb_run_summary(run)->life;
+  size_t count;
+  const SbLifeActuation *each = sb_run_life(run, &count);
+  printf("Life of %ld actuations\n", life->done);
+  sb_cli_figure("Roughness, last over given", each[count - 1].roughness, "1", "");
+  sb_cli_figure("Break-away force, last", each[count - 1].force_breakaway, "N", "N");
+  sb_cli_figure("Return force, last", each[count - 1].force_return, "N", "N");
+  sb_cli_figure("  least of all", life->return_least, "N", "N");
+  sb_cli_figure("Film over roughness, last", each[count - 1].lambda, "1", "");
+  sb_cli_figure("Leakage, carried out", life->carried, "m3", "nl");
+  sb_cli_figure("  net", life->leakage, "m3", "nl");
+  char *failures = g_strdup_printf("%ld", life->failures);
+  sb_cli_line("Without return", failures);
+  g_free(failures);
+}
+
 static void print_rig(const SbRun *run) {
   const SbRigSummary *rig = &sb_run_summary(run)->rig;
   const SbRigCoefficients *of = &rig->of;
@@ -87,6 +104,9 @@ static void print_table(const SbDocument *document, const SbRun *run) {
     sb_cli_line(label, text);
     g_free(text);
   }
+  if (summary->life.done > 0) {
+    print_life(run);
+  }
   print_seal("Outer", &summary->seal[SB_OUTER]);
   print_seal("Inner", &summary->seal[SB_INNER]);
   print_solver(summary);
@@ -126,7 +146,7 @@ int sb_command_run(int argc, char **argv) {
   gboolean quiet = FALSE;
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &folder,
-       "Folder for results.json, cycle.csv, profiles.csv and the studies' tables", "DIR"},
+       "Folder for results.json, cycle.csv, profiles.csv, and life or study tables", "DIR"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, "Overrides a parameter", "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &json_target, "JSON to a file or - ", "FILE|-"},
       {"quiet", 0, 0, G_OPTION_ARG_NONE, &quiet, "No progress, no table", NULL},

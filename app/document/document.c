@@ -2,6 +2,7 @@
 #include "app/document/document_parts.h"
 #include "app/document/document_private.h"
 #include "app/document/reader.h"
+#include "app/document/series.h"
 #include "app/export/still.h"
 
 #include <math.h>
@@ -31,6 +32,9 @@ void sb_document_free(SbDocument *document) {
   g_free(document->title);
   g_free(document->valve_path);
   g_free(document->valve_name);
+  g_free(document->series_name);
+  g_free(document->series_path);
+  g_free(document->series);
   g_free(document->text);
   g_ptr_array_unref(document->entries);
   g_array_unref(document->edits);
@@ -124,7 +128,9 @@ static void read_values(SbParams *params, const GPtrArray *entries, const char *
     }
     char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
     int id = sb_param_find(key);
-    if (id < 0) {
+    if (strcmp(key, SB_SERIES_KEY) == 0) {
+      // A file's name, no value: read_series.
+    } else if (id < 0) {
       const char *near = issues->len < SB_ISSUES_MAX ? nearest_key(key) : NULL;
       sb_issues_add(issues, shown, entry->line, key, NULL, "unknown key%s%s%s",
                     near != NULL ? ", do you mean " : "", near != NULL ? near : "",
@@ -227,6 +233,23 @@ static void read_valve(SbDocument *document, const char *directory, const char *
   g_free(text);
 }
 
+// Reads the measured series that [drive] file names, if it does.
+static void read_series(SbDocument *document, const GPtrArray *entries, const char *directory,
+                        GPtrArray *issues) {
+  for (guint i = 0; i < entries->len; i++) {
+    const SbEntry *entry = entries->pdata[i];
+    if (entry->name != NULL && strcmp(entry->group, "drive") == 0 &&
+        strcmp(entry->name, "file") == 0) {
+      document->series_name = g_strdup(entry->value);
+      document->series_path = g_path_is_absolute(entry->value) || directory == NULL
+                                  ? g_strdup(entry->value)
+                                  : g_build_filename(directory, entry->value, NULL);
+      document->series = g_new(SbModelSeries, 1);
+      sb_series_read(document->series, document->series_path, issues);
+    }
+  }
+}
+
 void sb_document_refresh_title(SbDocument *document) {
   g_free(document->title);
   const char *title = meta_value(document->entries, "title");
@@ -265,6 +288,7 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
     sb_issues_add(issues, name, 0, "sealbench.valve", NULL, "only a scene names a valve");
   }
   read_values(&document->own, entries, name, directory, issues, document->notes);
+  read_series(document, entries, directory, issues);
   document->saved = document->own;
   sb_document_refresh_title(document);
   if (issues->len == before) {
@@ -381,6 +405,14 @@ bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *is
   SbParams params = sb_document_params(document);
   SbProblems problems;
   if (sb_model_compile(out, &params, &problems) == SB_OK) {
+    if (document->series != NULL) {
+      out->measured = *document->series;
+    }
+    if (out->drive == SB_MODEL_DRIVE_MEASURED && out->measured.count == 0) {
+      sb_issues_add(issues, document->path, 0, SB_SERIES_KEY, "a CSV file",
+                    "drive.kind = measured needs the file of a measured series");
+      return false;
+    }
     return true;
   }
   for (size_t i = 0; i < problems.count; i++) {
@@ -412,6 +444,14 @@ char *sb_document_sha256(const SbDocument *document) {
     char digits[SB_NUMBER_SIZE];
     sb_number_format(digits, sb_params_get(&params, (SbParamId)i));
     char *line = g_strdup_printf("%s=%s\n", sb_param((SbParamId)i)->key, digits);
+    g_checksum_update(sum, (const guchar *)line, -1);
+    g_free(line);
+  }
+  for (size_t i = 0; document->series != NULL && i < document->series->count; i++) {
+    char digits[2][SB_NUMBER_SIZE];
+    sb_number_format(digits[0], document->series->time[i]);
+    sb_number_format(digits[1], document->series->value[i]);
+    char *line = g_strdup_printf("%s,%s\n", digits[0], digits[1]);
     g_checksum_update(sum, (const guchar *)line, -1);
     g_free(line);
   }

@@ -30,15 +30,15 @@ static char *relative_path(const char *target, const char *directory) {
   return g_string_free(path, FALSE);
 }
 
-// What a scene at `path` must call its valve; NULL if nothing changes. Owned by the caller.
-static char *moved_valve(const SbDocument *document, const char *path) {
-  bool moves =
-      document->valve_path != NULL && path != NULL && !g_path_is_absolute(document->valve_name);
-  if (!moves) {
+// What a document at `path` must call a file that it names `name` and finds at `target`; NULL if
+// nothing changes. Owned by the caller.
+static char *moved_name(const SbDocument *document, const char *target, const char *old_name,
+                        const char *path) {
+  if (target == NULL || path == NULL || g_path_is_absolute(old_name)) {
     return NULL;
   }
   char *directory = g_path_get_dirname(path);
-  char *name = relative_path(document->valve_path, directory);
+  char *name = relative_path(target, directory);
   char *before = document->path != NULL ? g_path_get_dirname(document->path) : g_strdup(".");
   char *same = relative_path(directory, before);
   if (*same == '\0') {
@@ -48,6 +48,14 @@ static char *moved_valve(const SbDocument *document, const char *path) {
   g_free(before);
   g_free(directory);
   return name;
+}
+
+static char *moved_valve(const SbDocument *document, const char *path) {
+  return moved_name(document, document->valve_path, document->valve_name, path);
+}
+
+static char *moved_series(const SbDocument *document, const char *path) {
+  return moved_name(document, document->series_path, document->series_name, path);
 }
 
 // Splits a catalogue key at its last dot; both owned by the caller.
@@ -72,6 +80,11 @@ char *sb_document_to_text(const SbDocument *document, const char *path) {
   char *valve = moved_valve(document, path);
   if (valve != NULL) {
     SbChange change = {g_strdup(SB_META_GROUP), g_strdup("valve"), valve};
+    g_array_append_val(changes, change);
+  }
+  char *series = moved_series(document, path);
+  if (series != NULL) {
+    SbChange change = {g_strdup("drive"), g_strdup("file"), series};
     g_array_append_val(changes, change);
   }
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
@@ -122,6 +135,10 @@ char *sb_document_to_flat_text(const SbDocument *document) {
     size_t length = (size_t)(strrchr(key, '.') - key);
     if (g_hash_table_add(seen, g_strndup(key, length))) {
       append_group(text, &params, key, length);
+      if (document->series_path != NULL && length == 5 && strncmp(key, "drive", 5) == 0) {
+        g_autofree char *whole = g_canonicalize_filename(document->series_path, NULL);
+        g_string_append_printf(text, "file = %s\n", whole);
+      }
     }
   }
   g_hash_table_unref(seen);
@@ -142,6 +159,15 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
     char *directory = g_path_get_dirname(path);
     g_free(document->valve_path);
     document->valve_path = g_build_filename(directory, valve, NULL);
+    g_free(directory);
+  }
+  char *series = moved_series(document, path);
+  if (series != NULL) {
+    g_free(document->series_name);
+    document->series_name = series;
+    char *directory = g_path_get_dirname(path);
+    g_free(document->series_path);
+    document->series_path = g_build_filename(directory, series, NULL);
     g_free(directory);
   }
   g_free(document->text);

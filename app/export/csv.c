@@ -63,6 +63,33 @@ void sb_csv_cycle(FILE *stream, const SbRun *run) {
   }
 }
 
+void sb_csv_life(FILE *stream, const SbRun *run) {
+  fputs("actuation,roughness [1],force_peak [N],force_breakaway [N],force_return "
+        "[N],returns,lambda [1],leakage [m3],"
+        "leakage_carried [m3],leakage_sum [m3],leakage_carried_sum [m3]\n",
+        stream);
+  size_t count;
+  const SbLifeActuation *each = sb_run_life(run, &count);
+  double net = 0;
+  double carried = 0;
+  for (size_t i = 0; i < count && ferror(stream) == 0; i++) {
+    const SbLifeActuation *one = &each[i];
+    net += one->leakage;
+    carried += one->carried;
+    fprintf(stream, "%zu,", i + 1);
+    put(stream, one->roughness, ',');
+    put(stream, one->force_peak, ',');
+    put(stream, one->force_breakaway, ',');
+    put(stream, one->force_return, ',');
+    fprintf(stream, "%d,", one->returns);
+    put(stream, one->lambda, ',');
+    put(stream, one->leakage, ',');
+    put(stream, one->carried, ',');
+    put(stream, net, ',');
+    put(stream, carried, '\n');
+  }
+}
+
 void sb_csv_profiles(FILE *stream, const SbRun *run) {
   fputs("frame,seal,x [m],pressure [Pa],film [m],asperity_pressure [Pa]\n", stream);
   size_t count = 0;

@@ -9,6 +9,10 @@
 // One row per frame: time, displacement, velocity, force, ...
 void sb_csv_cycle(FILE *stream, const SbRun *run);
 
+// One row per actuation of a life: roughness, forces, leakage and its sum; the heading alone
+// without a life.
+void sb_csv_life(FILE *stream, const SbRun *run);
+
 // Contact profiles: frame, seal, x, pressure, film, asperity pressure. A seal's profile is written
 // for the first frame that has it and again whenever it changes; it holds until then.
 void sb_csv_profiles(FILE *stream, const SbRun *run);

@@ -6,6 +6,7 @@
 
 #include "app/chart/format.h"
 #include "app/chart/hysteresis.h"
+#include "app/chart/life.h"
 #include "app/chart/page.h"
 #include "app/chart/profiles.h"
 #include "app/chart/rig.h"
@@ -21,6 +22,7 @@ static const SbRenderView views[] = {
     {"profiles", "Contact pressure and film", 1440, 520, false},
     {"dashboard", "Dashboard", 1920, 1080, true},
     {"rig", "Thread force and coefficients", 1440, 720, false},
+    {"life", "Life over its actuations", 1440, 620, false},
 };
 
 const SbRenderView *sb_render_views(size_t *count) {
@@ -55,6 +57,11 @@ bool sb_render_view_fits(const SbRenderView *view, const SbRun *run, GError **er
                 "the view \"rig\" is for the sliding plate (models.motion = rig)");
     return false;
   }
+  if (strcmp(view->name, "life") == 0 && sb_run_summary(run)->life.done == 0) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "the view \"life\" needs more than one actuation (life.actuations)");
+    return false;
+  }
   return true;
 }
 
@@ -86,7 +93,9 @@ void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChar
                  page.height - SB_PAGE_HEADER - footer - 8};
   flags |= SB_CHART_PANEL;
   bool rig = sb_chart_is_rig(&data->run);
-  if (strcmp(view->name, "rig") == 0) {
+  if (strcmp(view->name, "life") == 0) {
+    sb_life_draw(cr, body, theme, data);
+  } else if (strcmp(view->name, "rig") == 0) {
     sb_rig_page_draw(cr, body, theme, data, flags);
   } else if (strcmp(view->name, "hysteresis") == 0 && rig) {
     sb_signal_draw(cr, body, theme, data, flags);
@@ -217,8 +226,8 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
   for (size_t i = 0; i < summary->warnings.count; i++) {
     g_string_append_printf(comment, "\nWarning: %s", summary->warnings.item[i].text);
   }
-  bool whole =
-      !options->at && (strcmp(view->name, "hysteresis") == 0 || strcmp(view->name, "rig") == 0);
+  bool whole = !options->at && (strcmp(view->name, "hysteresis") == 0 ||
+                                strcmp(view->name, "rig") == 0 || strcmp(view->name, "life") == 0);
   Page page = {view, options, sb_theme(options->dark), &data, whole ? SB_CHART_WHOLE : 0};
   SbStill still = {.width = options->width > 0 ? options->width : view->width,
                    .height = options->height > 0 ? options->height : view->height,

@@ -144,6 +144,49 @@ static void put_bodies(SbJson *json, const SbRun *run) {
   sb_json_object_end(json);
 }
 
+static void put_life(SbJson *json, const SbRun *run) {
+  const SbLife *life = &sb_run_summary(run)->life;
+  size_t count;
+  const SbLifeActuation *each = sb_run_life(run, &count);
+  const SbLifeActuation *last = count > 0 ? &each[count - 1] : NULL;
+  sb_json_object(json, "life");
+  sb_json_count(json, "actuations", (guint64)life->done);
+  sb_json_number(json, "roughness_last", last != NULL ? last->roughness : NAN);
+  sb_json_number(json, "force_peak_first_N", life->peak_first);
+  sb_json_number(json, "force_peak_last_N", life->peak_last);
+  sb_json_number(json, "force_breakaway_first_N", last != NULL ? each[0].force_breakaway : NAN);
+  sb_json_number(json, "force_breakaway_last_N", last != NULL ? last->force_breakaway : NAN);
+  sb_json_number(json, "force_return_least_N", life->return_least);
+  sb_json_number(json, "force_return_last_N", last != NULL ? last->force_return : NAN);
+  sb_json_number(json, "lambda_first", last != NULL ? each[0].lambda : NAN);
+  sb_json_number(json, "lambda_last", last != NULL ? last->lambda : NAN);
+  sb_json_number(json, "leakage_net_m3", life->leakage);
+  sb_json_number(json, "leakage_carried_m3", life->carried);
+  sb_json_count(json, "failures", (guint64)life->failures);
+  sb_json_count(json, "first_failure", (guint64)life->first_failure);
+  const struct {
+    const char *key;
+    size_t offset;
+  } columns[] = {{"roughness", offsetof(SbLifeActuation, roughness)},
+                 {"force_peak_N", offsetof(SbLifeActuation, force_peak)},
+                 {"force_breakaway_N", offsetof(SbLifeActuation, force_breakaway)},
+                 {"force_return_N", offsetof(SbLifeActuation, force_return)},
+                 {"lambda", offsetof(SbLifeActuation, lambda)},
+                 {"leakage_m3", offsetof(SbLifeActuation, leakage)},
+                 {"leakage_carried_m3", offsetof(SbLifeActuation, carried)}};
+  double *values = g_new(double, MAX(count, 1));
+  sb_json_object(json, "by_actuation");
+  for (size_t k = 0; k < G_N_ELEMENTS(columns); k++) {
+    for (size_t i = 0; i < count; i++) {
+      values[i] = *(const double *)((const char *)&each[i] + columns[k].offset);
+    }
+    sb_json_numbers(json, columns[k].key, values, count);
+  }
+  sb_json_object_end(json);
+  g_free(values);
+  sb_json_object_end(json);
+}
+
 static void put_run_solver(SbJson *json, const SbSummary *summary) {
   sb_json_object(json, "solver");
   sb_json_bool(json, "converged", summary->converged);
@@ -193,6 +236,9 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   put_cycle(&json, summary);
   if (model->motion == SB_MODEL_MOTION_RIG) {
     put_rig(&json, model, &summary->rig);
+  }
+  if (summary->life.done > 0) {
+    put_life(&json, run);
   }
   sb_json_object(&json, "seals");
   for (int i = 0; i < SB_SEAL_COUNT; i++) {

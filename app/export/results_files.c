@@ -40,11 +40,12 @@ bool sb_results_folder_check(const char *folder, GError **error) {
   return good;
 }
 
-enum { RUN_FILES = 3, FILES = RUN_FILES + 2 * SB_STUDY_COUNT };
+enum { RUN_FILES = 4, LIFE = 3, FILES = RUN_FILES + 2 * SB_STUDY_COUNT };
 
 // Name of file `index` in the folder; owned by the caller.
 static char *file_name(int index, const SbStudy *studies) {
-  static const char *const names[RUN_FILES] = {"results.json", "cycle.csv", "profiles.csv"};
+  static const char *const names[RUN_FILES] = {"results.json", "cycle.csv", "profiles.csv",
+                                               "life.csv"};
   if (index < RUN_FILES) {
     return g_strdup(names[index]);
   }
@@ -61,6 +62,8 @@ static void put_file(FILE *stream, int index, const SbRun *run, const char *json
     sb_csv_cycle(stream, run);
   } else if (index == 2) {
     sb_csv_profiles(stream, run);
+  } else if (index == LIFE) {
+    sb_csv_life(stream, run);
   } else if ((index - RUN_FILES) % 2 == 0) {
     sb_csv_study(stream, &studies[(index - RUN_FILES) / 2]);
   } else {
@@ -76,7 +79,11 @@ bool sb_results_folder_write(const char *folder, const SbRun *run, const char *j
   int total = RUN_FILES + 2 * (int)MIN(count, SB_STUDY_COUNT);
   SbAtomicFile files[FILES] = {0};
   bool good = true;
+  bool lived = sb_run_summary(run)->life.done > 0;
   for (int i = 0; i < total && good; i++) {
+    if (i == LIFE && !lived) {
+      continue;
+    }
     g_autofree char *name = file_name(i, studies);
     g_autofree char *path = g_build_filename(folder, name, NULL);
     good = sb_atomic_file_begin(&files[i], path, error);
@@ -86,7 +93,7 @@ bool sb_results_folder_write(const char *folder, const SbRun *run, const char *j
     }
   }
   for (int i = 0; i < total && good; i++) {
-    good = sb_atomic_file_commit(&files[i], error);
+    good = (i == LIFE && !lived) || sb_atomic_file_commit(&files[i], error);
   }
   for (int i = 0; i < total; i++) {
     sb_atomic_file_abort(&files[i]);

@@ -257,6 +257,33 @@ static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *mod
   return SB_OK;
 }
 
+// What the surfaces make of a contact whose load, width and film are known: real area, friction.
+static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, double speed,
+                              SbWarnings *warnings, SbReport *report) {
+  double area = (out->contact_right - out->contact_left) * model->bore_circumference;
+  double rest_share;
+  out->lambda = out->film_central / model->sigma;
+  SbStatus status = real_area(out, &rest_share, model, seal, warnings, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  out->boundary_area = model->shear_strength * out->area_share * area;
+  out->boundary_load = model->load_coefficient * out->load;
+  if (speed != 0 && out->film_central > 0) {
+    double shear = fmin(model->viscosity * fabs(speed) / out->film_central, model->shear_strength);
+    out->viscous = shear * (1 - out->area_share) * area;
+  }
+  out->friction_static =
+      model->static_ratio * (model->shear_strength * rest_share * area + out->boundary_load);
+  return SB_OK;
+}
+
+SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, double speed,
+                              SbWarnings *warnings, SbReport *report) {
+  return state->touches ? rough_contact(state, model, seal, speed, warnings, report)
+                        : sb_succeed(report);
+}
+
 SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
                           double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                           SbWarnings *warnings, SbReport *report) {
@@ -301,22 +328,10 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
     }
   }
 
-  // Rough contact and friction.
-  double area = fit->contact_width * model->bore_circumference;
-  double rest_share;
-  out->lambda = out->film_central / model->sigma;
-  SbStatus area_status = real_area(out, &rest_share, model, seal, warnings, report);
+  SbStatus area_status = rough_contact(out, model, seal, speed, warnings, report);
   if (area_status != SB_OK) {
     return area_status;
   }
-  out->boundary_area = model->shear_strength * out->area_share * area;
-  out->boundary_load = model->load_coefficient * out->load;
-  if (speed != 0 && out->film_central > 0) {
-    double shear = fmin(model->viscosity * fabs(speed) / out->film_central, model->shear_strength);
-    out->viscous = shear * (1 - out->area_share) * area;
-  }
-  out->friction_static =
-      model->static_ratio * (model->shear_strength * rest_share * area + out->boundary_load);
 
   // Regime and validity.
   if (speed != 0 && out->film_central > 0) {

@@ -71,6 +71,11 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
                             const SbModel *model, int seal, SbSealPressure pressure,
                             SbReport *report);
 
+// Gives a solved state the surface of `model` (roughness, shear strength): neither fitment nor film
+// depend on it, so that nothing is solved again.
+SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, double speed,
+                              SbWarnings *warnings, SbReport *report);
+
 // The fitment problem of a seal by the model's own choice, at a pressure difference (positive on
 // the left).
 void sb_sliding_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure);

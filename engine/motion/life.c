@@ -7,6 +7,13 @@ double sb_life_roughness(const SbRunningIn *law, long n) {
   return law->end + (law->start - law->end) * exp(-(double)n / law->actuations);
 }
 
+// Kahan's sum: `lost` is what rounding took from it.
+static void add_to(double *sum, double *lost, double value) {
+  double add = value - *lost, next = *sum + add;
+  *lost = (next - *sum) - add;
+  *sum = next;
+}
+
 SbStatus sb_life_run(SbLife *life, SbLifeActuation *each, const SbRunningIn *law, long count,
                      SbStatus (*actuate)(SbLifeActuation *out, long n, double roughness, void *user,
                                          SbReport *report),
@@ -17,7 +24,7 @@ SbStatus sb_life_run(SbLife *life, SbLifeActuation *each, const SbRunningIn *law
     return sb_fail(report, SB_ERROR_RANGE,
                    "a life needs at least one actuation and a running-in above 0");
   }
-  double lost = 0.0; // rounding of the sum (Kahan)
+  double lost[2] = {0.0, 0.0}; // rounding of the sums
   for (long n = 0; n < count; n++) {
     if (cancelled != NULL && cancelled(user)) {
       return sb_fail(report, SB_ERROR_CANCELLED, "cancelled after %ld actuations", n);
@@ -27,9 +34,9 @@ SbStatus sb_life_run(SbLife *life, SbLifeActuation *each, const SbRunningIn *law
     if (status != SB_OK) {
       return status;
     }
-    double add = one.leakage - lost, sum = life->leakage + add;
-    lost = (sum - life->leakage) - add;
-    life->leakage = sum;
+    one.roughness = sb_life_roughness(law, n);
+    add_to(&life->leakage, &lost[0], one.leakage);
+    add_to(&life->carried, &lost[1], one.carried);
     if (n == 0) {
       life->leakage_first = one.leakage;
       life->peak_first = one.force_peak;

@@ -16,15 +16,20 @@ typedef struct {
 
 // What one actuation yields.
 typedef struct {
-  double leakage;      // m3
-  double force_peak;   // N
-  double force_return; // least, N
+  double roughness;       // as sb_life_roughness gives it; filled by sb_life_run
+  double lambda;          // film over roughness
+  double leakage;         // net, m3
+  double carried;         // out under the film on the way in, m3
+  double force_peak;      // N
+  double force_breakaway; // at the first slip, N; NaN if there was none
+  double force_return;    // least, N
   bool returns;
 } SbLifeActuation;
 
 typedef struct {
   long done;      // actuations computed
   double leakage; // sum, m3
+  double carried; // sum, m3
   double leakage_first, leakage_last;
   double peak_first, peak_last;
   double return_least; // over the life, N

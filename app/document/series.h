@@ -1,0 +1,22 @@
+// Measured series from CSV files: time against displacement or force, to drive a valve with.
+//
+// The first line that is not a comment (#) names two columns with their units, "time [s]" and
+// "displacement [mm]" or "force [N]"; each further line has one number for each, separated by
+// comma, semicolon or tab. Numbers have a point as decimal mark whatever the locale. Time counts
+// from the first row and must increase. What lies between the rows is for the engine (straight
+// lines).
+#pragma once
+
+#include "app/document/issue.h"
+#include "engine/model.h"
+
+enum { SB_SERIES_BYTES_MAX = 1 << 20 };
+
+// Reads `path` into *out. False with one issue (file, line, column, allowed range) if it is not
+// such a series, larger than SB_SERIES_BYTES_MAX or longer than SB_MODEL_SERIES_MAX rows; *out is
+// then empty.
+bool sb_series_read(SbModelSeries *out, const char *path, GPtrArray *issues);
+
+// The same from memory; `name` stands for the file in messages.
+bool sb_series_parse(SbModelSeries *out, const char *text, size_t length, const char *name,
+                     GPtrArray *issues);

@@ -1,0 +1,138 @@
+// Measured series: read, refused with file, line and column, and followed by the engine.
+#include "app/document/document.h"
+#include "app/document/series.h"
+
+#include "engine/sealbench.h"
+
+#include <glib/gstdio.h>
+#include <locale.h>
+#include <math.h>
+#include <string.h>
+
+#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
+
+static SbModelSeries series;
+
+static void test_read(void) {
+  const char text[] =
+      "\xef\xbb\xbf# a comment\r\n time [ms] ; force [kN]\r\n\r\n100; 0\r\n 350 ;1.25e-3\r\n";
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_assert_true(sb_series_parse(&series, text, strlen(text), "x.csv", issues));
+  g_assert_cmpuint(series.count, ==, 2);
+  g_assert_cmpint(series.quantity, ==, SB_DRIVE_OF_FORCE);
+  g_assert_cmpfloat(series.time[0], ==, 0); // counts from the first row
+  ASSERT_NEAR(series.time[1], 0.25, 1e-15);
+  ASSERT_NEAR(series.value[1], 1.25, 1e-15);
+}
+
+// One complaint each, which names file, line and column.
+static void test_refused(void) {
+  static const struct {
+    const char *text, *said;
+  } cases[] = {
+      {"", "x.csv: has too few rows for a series"},
+      {"time [s],force [N]\n0,0\n1,1,5,1\n", "x.csv: line 3: \"1,1,5,1\" has not two columns"},
+      {"0,0\n1,1\n",
+       "x.csv: line 1: column 1 (time): \"0\" is not a heading with a unit (allowed time [s])"},
+      {"time [N],force [N]\n0,0\n1,1\n", "x.csv: line 1: column 1 (time): \"N\" is no unit for it"},
+      {"time [s],speed [m/s]\n0,0\n1,1\n",
+       "x.csv: line 1: column 2: \"speed\" is an unknown quantity"},
+      {"time [s],force [N]\n0,0\n1,zwei\n", "x.csv: line 3: column 2: \"zwei\" is not a number"},
+      {"time [s],force [N]\n0,0\n1,inf\n", "x.csv: line 3: column 2: \"inf\" is not a number"},
+      {"time [s],force [N]\n0,0\n0,1\n",
+       "x.csv: line 3: column 1 (time): \"0\" does not come after"},
+      {"time [s],displacement [m]\n0,0\n1,3\n",
+       "x.csv: line 3: column 2: \"3\" is out of range (allowed at most 200 mm either way)"},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_assert_false(sb_series_parse(&series, cases[i].text, strlen(cases[i].text), "x.csv", issues));
+    g_assert_cmpuint(issues->len, ==, 1);
+    g_autofree char *line = sb_issue_line(issues->pdata[0]);
+    if (!g_str_has_prefix(line, cases[i].said)) {
+      g_error("%s instead of %s", line, cases[i].said);
+    }
+  }
+  // Too long.
+  GString *text = g_string_new("time [s],force [N]\n");
+  for (int i = 0; i <= SB_MODEL_SERIES_MAX; i++) {
+    g_string_append_printf(text, "%d,1\n", i);
+  }
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_assert_false(sb_series_parse(&series, text->str, text->len, "x.csv", issues));
+  g_string_free(text, TRUE);
+}
+
+// The platen is where straight lines between the rows put it.
+static void test_followed(void) {
+  g_autofree char *path =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "scenes", "measured-drive.scene", NULL);
+  g_autofree char *csv =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "series", "press.csv", NULL);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) document = sb_document_load(path, issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  g_autofree SbModel *model = g_new(SbModel, 1);
+  g_assert_true(sb_document_compile(document, model, issues));
+  g_assert_true(sb_series_read(&series, csv, issues));
+  SbPlan plan;
+  sb_plan_make(&plan, model);
+  SbRun *run = NULL;
+  SbReport report = {0};
+  g_assert_cmpint(sb_run_create(&run, model, &plan, &report), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_OK);
+  size_t count, row = 0;
+  const SbFrame *frame = sb_run_frames(run, &count);
+  for (size_t i = 0; i < count; i++) {
+    while (row + 2 < series.count && series.time[row + 1] < frame[i].time) {
+      row++;
+    }
+    double t = (frame[i].time - series.time[row]) / (series.time[row + 1] - series.time[row]);
+    double x = series.value[row] + t * (series.value[row + 1] - series.value[row]);
+    if (frame[i].force > 0 && !frame[i].on_event) {
+      ASSERT_NEAR(frame[i].platen, x, 1e-9);
+    }
+  }
+  g_assert_true(sb_run_summary(run)->stage[SB_STAGE_D].reached);
+  g_assert_true(sb_run_summary(run)->returns);
+  sb_run_destroy(run);
+}
+
+// A scene that moves keeps its series; a missing one is one complaint about the key's file.
+static void test_document(void) {
+  g_autofree char *path =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "scenes", "measured-drive.scene", NULL);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) document = sb_document_load(path, issues);
+  g_autofree char *before = sb_document_sha256(document);
+  g_autofree char *folder = g_dir_make_tmp("sealbench-XXXXXX", NULL);
+  g_autofree char *moved = g_build_filename(folder, "moved.scene", NULL);
+  g_assert_true(sb_document_save(document, moved, NULL));
+  g_autoptr(SbDocument) again = sb_document_load(moved, issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  g_autofree char *after = sb_document_sha256(again);
+  g_assert_cmpstr(before, ==, after);
+  // The text that stands alone restores it too.
+  g_autofree char *flat = sb_document_to_flat_text(again);
+  g_autoptr(SbDocument) alone = sb_document_parse(flat, strlen(flat), "flat", "/", issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  g_autofree char *hash = sb_document_sha256(alone);
+  g_assert_cmpstr(before, ==, hash);
+  const char broken[] = "[sealbench]\nformat = 1\nkind = valve\n[drive]\nkind = measured\n"
+                        "file = /no/such.csv\n[models]\nmotion = dynamic\n";
+  g_autoptr(SbDocument) none = sb_document_parse(broken, strlen(broken), "x.valve", NULL, issues);
+  g_assert_cmpuint(issues->len, ==, 1);
+  g_autofree char *line = sb_issue_line(issues->pdata[0]);
+  g_assert_nonnull(strstr(line, "/no/such.csv"));
+  g_remove(moved);
+  g_rmdir(folder);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/series/read", test_read);
+  g_test_add_func("/series/refused", test_refused);
+  g_test_add_func("/series/followed", test_followed);
+  g_test_add_func("/series/document", test_document);
+  return g_test_run();
+}

@@ -1,0 +1,177 @@
+// A life as a run: each actuation is what a scene with that roughness gives by itself.
+#include "engine/sealbench.h"
+
+#include <glib.h>
+#include <math.h>
+
+#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
+
+typedef struct {
+  SbParamId id;
+  double value;
+} Change;
+
+static SbRun *run_with(const Change *changes, int count) {
+  SbParams params;
+  sb_params_init(&params);
+  for (int i = 0; i < count; i++) {
+    g_assert_cmpint(sb_params_set(&params, changes[i].id, changes[i].value, NULL), ==, SB_OK);
+  }
+  SbModel model;
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  SbPlan plan;
+  sb_plan_make(&plan, &model);
+  SbRun *run = NULL;
+  SbReport report = {0};
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_OK);
+  return run;
+}
+
+// Actuation n of a life against one cycle at its roughness, given through surface.* alone.
+static void compare(int motion, int n) {
+  const Change life[] = {{SB_P_MODELS_MOTION, motion},
+                         {SB_P_LIFE_ACTUATIONS, 7},
+                         {SB_P_LIFE_ROUGHNESS_NEW, 1.1},
+                         {SB_P_LIFE_ROUGHNESS_RUN_IN, 0.8},
+                         {SB_P_LIFE_RUNNING_IN, 3},
+                         {SB_P_OUTPUT_FRAMES, 200},
+                         {SB_P_LIFE_SHOWN, n}};
+  SbRun *run = run_with(life, G_N_ELEMENTS(life));
+  size_t count;
+  const SbLifeActuation *each = sb_run_life(run, &count);
+  g_assert_cmpuint(count, ==, 7);
+  double r = 0.8 + 0.3 * exp(-(n - 1) / 3.0);
+  ASSERT_NEAR(each[n - 1].roughness, r, 1e-14);
+  const Change one[] = {{SB_P_MODELS_MOTION, motion},
+                        {SB_P_OUTPUT_FRAMES, 200},
+                        {SB_P_SURFACE_GT_PRODUCT, 0.1289 * r},
+                        {SB_P_SURFACE_SIGMA, 1e-6 * r},
+                        {SB_P_SURFACE_SIGMA_OVER_BETA, 0.1 * r}};
+  SbRun *alone = run_with(one, G_N_ELEMENTS(one));
+  const SbSummary *s = sb_run_summary(alone);
+  ASSERT_NEAR(each[n - 1].force_breakaway, s->force_breakaway, 1e-9);
+  ASSERT_NEAR(each[n - 1].force_return, s->force_return_min, 1e-9);
+  ASSERT_NEAR(each[n - 1].force_peak, s->force_peak, 1e-9);
+  ASSERT_NEAR(each[n - 1].lambda, s->seal[SB_OUTER].lambda, 1e-12);
+  g_assert_cmpint(each[n - 1].returns, ==, s->returns);
+  // Its frames follow those of the first.
+  size_t total, own;
+  const SbFrame *frame = sb_run_frames(run, &total), *single = sb_run_frames(alone, &own);
+  size_t first = n > 1 ? total - own : 0;
+  double start = n > 1 ? frame[first - 1].time : 0;
+  for (size_t i = 0; i < own; i++) {
+    // The dynamic path is stepped to a tolerance: rounding in the roughness moves its steps.
+    ASSERT_NEAR(frame[first + i].force, single[i].force,
+                motion == SB_MODEL_MOTION_DYNAMIC ? 1e-6 : 1e-9);
+    ASSERT_NEAR(frame[first + i].displacement, single[i].displacement, 1e-12);
+    ASSERT_NEAR(frame[first + i].time, start + single[i].time, 1e-9);
+    g_assert_true(first + i == 0 || frame[first + i].time >= frame[first + i - 1].time);
+  }
+  g_assert_cmpfloat(sb_run_summary(run)->energy.closure, <, 1e-6);
+  sb_run_destroy(alone);
+  sb_run_destroy(run);
+}
+
+static void test_actuations(void) {
+  compare(SB_MODEL_MOTION_QUASI_STATIC, 1);
+  compare(SB_MODEL_MOTION_QUASI_STATIC, 4);
+  compare(SB_MODEL_MOTION_DYNAMIC, 7);
+}
+
+// Without running-in every actuation is the first, and leakage is a product.
+static void test_no_running_in(void) {
+  const Change life[] = {{SB_P_LIFE_ACTUATIONS, 50},
+                         {SB_P_LIFE_ROUGHNESS_RUN_IN, 1},
+                         {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}};
+  SbRun *run = run_with(life, G_N_ELEMENTS(life));
+  const SbSummary *s = sb_run_summary(run);
+  size_t count;
+  const SbLifeActuation *each = sb_run_life(run, &count);
+  for (size_t i = 1; i < count; i++) {
+    ASSERT_NEAR(each[i].force_return, each[0].force_return, 1e-12);
+  }
+  ASSERT_NEAR(s->life.leakage / s->leakage_per_cycle, 50, 1e-9);
+  ASSERT_NEAR(s->life.carried / s->seal[SB_OUTER].leakage_per_stroke, 50, 1e-9);
+  g_assert_cmpfloat(s->leakage_per_cycle, >, 0);
+  // Ten states solve a film, whatever the number of actuations.
+  g_assert_cmpuint(s->counters.reynolds_solves, ==, 10);
+  sb_run_destroy(run);
+}
+
+// A rough new valve sticks at first and comes free as it runs in: told with its number.
+static void test_failures(void) {
+  const Change life[] = {{SB_P_LIFE_ACTUATIONS, 60},
+                         {SB_P_LIFE_ROUGHNESS_NEW, 1.3},
+                         {SB_P_LIFE_ROUGHNESS_RUN_IN, 0.7},
+                         {SB_P_LIFE_RUNNING_IN, 20}};
+  SbRun *run = run_with(life, G_N_ELEMENTS(life));
+  const SbSummary *s = sb_run_summary(run);
+  size_t count;
+  const SbLifeActuation *each = sb_run_life(run, &count);
+  long failures = 0;
+  for (size_t i = 0; i < count; i++) {
+    failures += !each[i].returns;
+    g_assert_true(i == 0 || each[i].force_return > each[i - 1].force_return);
+  }
+  g_assert_cmpint(s->life.failures, ==, failures);
+  g_assert_cmpint(failures, >, 0);
+  g_assert_cmpint(failures, <, 60);
+  g_assert_cmpint(s->life.first_failure, ==, 1);
+  bool told = false;
+  for (size_t i = 0; i < s->warnings.count; i++) {
+    told = told || g_str_equal(s->warnings.item[i].code, "life-no-return");
+  }
+  g_assert_true(told);
+  sb_run_destroy(run);
+}
+
+// A cancel keeps what was done.
+static bool after_a_while(void *data) {
+  int *asked = data;
+  return ++*asked > 400;
+}
+
+static void test_cancel(void) {
+  SbParams params;
+  sb_params_init(&params);
+  sb_params_set(&params, SB_P_LIFE_ACTUATIONS, 100000, NULL);
+  SbModel model;
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  SbPlan plan;
+  sb_plan_make(&plan, &model);
+  SbRun *run = NULL;
+  SbReport report = {0};
+  int asked = 0;
+  SbRunHooks hooks = {NULL, after_a_while, &asked};
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, &hooks, &report), ==, SB_ERROR_CANCELLED);
+  size_t count;
+  sb_run_life(run, &count);
+  g_assert_cmpuint(count, >, 10);
+  g_assert_cmpuint(count, <, 400);
+  sb_run_destroy(run);
+}
+
+// Stick-slip between frames does not hide the film that a stroke drags.
+static void test_leakage_of_motion(void) {
+  const Change film[] = {{SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}};
+  const Change inertia[] = {{SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS},
+                            {SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC}};
+  SbRun *slow = run_with(film, 1), *fast = run_with(inertia, 2);
+  double a = sb_run_summary(slow)->leakage_per_cycle, b = sb_run_summary(fast)->leakage_per_cycle;
+  g_test_message("quasi-static %.4g m3, with inertia %.4g m3", a, b);
+  ASSERT_NEAR(b / a, 1, 0.02);
+  sb_run_destroy(slow);
+  sb_run_destroy(fast);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/life/actuations", test_actuations);
+  g_test_add_func("/life/no-running-in", test_no_running_in);
+  g_test_add_func("/life/failures", test_failures);
+  g_test_add_func("/life/cancel", test_cancel);
+  g_test_add_func("/life/leakage-of-motion", test_leakage_of_motion);
+  return g_test_run();
+}
