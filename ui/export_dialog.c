@@ -321,6 +321,7 @@ static gboolean start(gpointer data) {
       .title = g_strdup(sb_document_title(document)),
       .hash = sb_document_sha256(document),
       .scene = sb_document_to_flat_text(document),
+      .stale = sb_session_stale_text(dialog->session),
   };
   say(dialog, "Exporting…", "sb-pass");
   gtk_style_context_remove_class(gtk_widget_get_style_context(dialog->result), "sb-pass");
@@ -374,7 +375,11 @@ static void fill_section(Dialog *dialog) {
 static void fill(Dialog *dialog) {
   size_t count = 0;
   const SbRenderView *views = sb_render_views(&count);
+  const SbRun *run = sb_session_run(dialog->session);
   for (size_t i = 0; i < count; i++) {
+    if (run != NULL && !sb_render_view_fits(&views[i], run, NULL)) {
+      continue;
+    }
     gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->view), views[i].name, views[i].label);
   }
   gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), "As made");

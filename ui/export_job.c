@@ -22,9 +22,9 @@ struct SbExportJob {
 };
 
 void sb_export_request_clear(SbExportRequest *request) {
-  char **texts[] = {&request->path,  &request->view,     &request->at,
-                    &request->title, &request->subtitle, &request->hash,
-                    &request->scene, &request->from,     &request->to};
+  char **texts[] = {&request->path,     &request->view, &request->at,    &request->title,
+                    &request->subtitle, &request->hash, &request->scene, &request->from,
+                    &request->to,       &request->stale};
   for (guint i = 0; i < G_N_ELEMENTS(texts); i++) {
     g_clear_pointer(texts[i], g_free);
   }
@@ -79,6 +79,7 @@ static void make(SbExportJob *job, SbSectionPainter *painter) {
       .subtitle = request->subtitle,
       .hash = request->hash,
       .scene = request->scene,
+      .stale = request->stale,
       .section = sb_section_painter_draw,
       .section_data = painter,
   };

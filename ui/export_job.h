@@ -8,6 +8,7 @@
 
 // What to make. Texts are owned by whoever holds the struct.
 typedef struct {
+  char *stale;          // why the run no longer fits the values, NULL if it does
   char *path;           // .png, .svg, .pdf, .mp4 for a film, or the pattern of a sequence
   char *view;           // name in sb_render_views()
   double width, height; // pixels

@@ -119,6 +119,10 @@ const char *sb_session_pinned_name(SbSession *session);
 // (-1 if several do) and `*value` the shown run's value [SI].
 gboolean sb_session_is_stale(SbSession *session, int *id, double *value);
 
+// The same as a sentence for pictures: "stale: this run is with modulus 2.5 MPa"; NULL if the shown
+// run is of the present values. Owned by the caller (g_free).
+char *sb_session_stale_text(SbSession *session);
+
 // All that views of app/chart are given. Borrowed; its pointers hold until the next signal.
 const SbChartData *sb_session_chart(SbSession *session);
 

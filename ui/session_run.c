@@ -256,7 +256,7 @@ static void start_now(SbSession *session) {
   slot(&session->fresh, NULL);
   g_clear_pointer(&session->failure, g_free);
   // The window shows everything: the views of the scene do not limit it.
-  SbModel model = session->model;
+  SbModel model = *session->model;
   model.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION;
   session->asked = sb_document_params(session->document);
   session->started = g_get_monotonic_time();
@@ -379,6 +379,20 @@ gboolean sb_session_is_stale(SbSession *session, int *id, double *value) {
     }
   }
   return found > 0;
+}
+
+char *sb_session_stale_text(SbSession *session) {
+  int id = -1;
+  double value = 0;
+  if (!sb_session_is_stale(session, &id, &value)) {
+    return NULL;
+  }
+  if (id < 0) {
+    return g_strdup("stale: values have changed since this run");
+  }
+  g_autofree char *label = g_utf8_strdown(sb_param((SbParamId)id)->label, -1);
+  g_autofree char *shown = sb_param_format((SbParamId)id, value);
+  return g_strdup_printf("stale: this run is with %s %s", label, shown);
 }
 
 static char *pin_name(SbSession *session) {

@@ -89,11 +89,17 @@ gboolean sb_window_files_may_discard(SbWindowFiles *files) {
   return answer == GTK_RESPONSE_NO;
 }
 
-static void add_filters(GtkFileChooser *chooser) {
+// A picture that this program drew opens as its scene, but nothing is saved as one.
+static void add_filters(GtkFileChooser *chooser, gboolean to_open) {
   static const struct {
     const char *name, *patterns[3];
-  } filters[] = {{"Valves and scenes", {"*.valve", "*.scene"}}, {"All files", {"*"}}};
+  } filters[] = {{"Valves and scenes", {"*.valve", "*.scene"}},
+                 {"Valves, scenes and pictures of them", {"*.valve", "*.scene", "*.png"}},
+                 {"All files", {"*"}}};
   for (guint i = 0; i < G_N_ELEMENTS(filters); i++) {
+    if (i < 2 && (i == 1) != to_open) {
+      continue;
+    }
     GtkFileFilter *filter = gtk_file_filter_new();
     gtk_file_filter_set_name(filter, filters[i].name);
     for (int k = 0; k < 3 && filters[i].patterns[k] != NULL; k++) {
@@ -111,7 +117,7 @@ static void ask_open(SbWindowFiles *files) {
       "Open a valve or scene", files->window, GTK_FILE_CHOOSER_ACTION_OPEN, "_Cancel",
       GTK_RESPONSE_CANCEL, "_Open", GTK_RESPONSE_ACCEPT, NULL);
   gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_ACCEPT);
-  add_filters(GTK_FILE_CHOOSER(dialog));
+  add_filters(GTK_FILE_CHOOSER(dialog), TRUE);
   g_autofree char *folder = sb_preferences_string("folder", NULL);
   if (folder != NULL) {
     gtk_file_chooser_set_current_folder(GTK_FILE_CHOOSER(dialog), folder);
@@ -146,7 +152,7 @@ static char *ask_name(SbWindowFiles *files) {
   GtkFileChooser *chooser = GTK_FILE_CHOOSER(dialog);
   gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_ACCEPT);
   gtk_file_chooser_set_do_overwrite_confirmation(chooser, TRUE);
-  add_filters(chooser);
+  add_filters(chooser, FALSE);
   const char *path = sb_document_path(document);
   if (path != NULL) {
     gtk_file_chooser_set_filename(chooser, path);

@@ -207,7 +207,12 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
     if (isfinite(sum->energy.loop) && sum->energy.loop > 0) {
       sb_format_text(value, SB_QUANTITY_ENERGY, sum->energy.loop,
                      isfinite(sum->error_energy) ? sum->error_energy : 0);
-      g_snprintf(text, sizeof text, "loss per cycle %s", value);
+      int cycles = run->model ? run->model->cycles : 1;
+      if (cycles > 1) {
+        g_snprintf(text, sizeof text, "loss of %d cycles %s", cycles, value);
+      } else {
+        g_snprintf(text, sizeof text, "loss per cycle %s", value);
+      }
       double y = sb_axis_at(&v->at.y, reference > 0 ? reference : 0.5 * v->at.y.hi);
       label_curve(v, text, SB_ROLE_SECOND,
                   (SbPlace[]){{zero + 12, y + 18, SB_LEFT},
