@@ -364,6 +364,10 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
       .film_history = sb_params_get(params, SB_P_MODELS_FILM_TIME) != 0,
       .rest_film = sb_params_get(params, SB_P_FLUID_REST_FILM),
       .surface = (SbModelSurface)sb_params_get(params, SB_P_MODELS_SURFACE),
+      .asperities = (SbModelAsperities)sb_params_get(params, SB_P_MODELS_ASPERITIES),
+      .hamaker = sb_params_get(params, SB_P_MODELS_ADHESION) > 0
+                     ? sb_params_get(params, SB_P_SURFACE_HAMAKER_CONSTANT)
+                     : 0,
       .motion = (SbModelMotion)sb_params_get(params, SB_P_MODELS_MOTION),
       .views = (unsigned)sb_params_get(params, SB_P_OUTPUT_VIEWS),
       .studies = (unsigned)sb_params_get(params, SB_P_OUTPUT_STUDIES),

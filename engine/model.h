@@ -46,6 +46,10 @@ typedef enum {
 } SbModelFilm;
 typedef enum { SB_MODEL_SURFACE_GREENWOOD_TRIPP, SB_MODEL_SURFACE_PERSSON } SbModelSurface;
 typedef enum {
+  SB_MODEL_ASPERITIES_BESIDE, // at the smooth film, taking no load off it
+  SB_MODEL_ASPERITIES_COUPLED // in the film's own solve
+} SbModelAsperities;
+typedef enum {
   SB_MODEL_MOTION_QUASI_STATIC,
   SB_MODEL_MOTION_DYNAMIC,
   SB_MODEL_MOTION_RIG,   // the sliding plate of thesis 3.3 instead of the valve
@@ -162,6 +166,8 @@ typedef struct {
   bool film_history; // films of frames are solved in time
   double rest_film;  // before the first stroke [m]
   SbModelSurface surface;
+  SbModelAsperities asperities;
+  double hamaker; // [J]; 0 without adhesion
   SbModelMotion motion;
   int life_actuations;    // computed one after the other; 1: the first alone
   int life_shown;         // whose frames follow the first's, from 1

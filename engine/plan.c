@@ -20,6 +20,7 @@ static const double cost_ring = 250e-3;
 static const double cost_reynolds = 5e-3;
 static const double cost_film_history = 2.0; // of a seal: fronts crossing the contact set its steps
 static const double cost_film_step = 2e-3;   // of a frame besides
+static const double cost_mixed = 2e-2;       // two of them, sliding and at rest
 static const double cost_frame = 3e-7;
 
 // Sliding states of a cycle: the outer seal in three chamber states, the inner in two, both ways.
@@ -70,8 +71,15 @@ static void plan_fit(SbPlan *plan, const SbModel *model) {
 }
 
 static void plan_film(SbPlan *plan, const SbModel *model) {
-  plan->reynolds = model->film == SB_MODEL_FILM_REYNOLDS;
   char name[32];
+  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
+    plan->reynolds = true;
+    add(plan->field, &plan->field_count, "film", "reynolds with asperities",
+        FILM_STATES * cost_mixed, model->tolerance,
+        "models.asperities = coupled: film and asperities share the load");
+    return;
+  }
+  plan->reynolds = model->film == SB_MODEL_FILM_REYNOLDS;
   sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model->film, name, sizeof name);
   add(plan->field, &plan->field_count, "film", name,
       FILM_STATES * (plan->reynolds ? cost_reynolds : cost_closed_form),

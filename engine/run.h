@@ -34,6 +34,8 @@ typedef struct {
   double film_karaszkiewicz, film_thesis, film_asymptotic,
       film_reynolds; // central; NaN: not computed
   double lambda;
+  double real_area_share; // real contact over the contact's area
+  double asperity_share;  // of the net load, on the asperities; NaN unless coupled
   double friction_boundary, friction_viscous, friction_static, coefficient_of_friction;
   double leakage_per_stroke; // [m3], thesis equation 5.20
   double leakage_static; // through the contact at rest [m3/s], leak/percolation.h; NaN: no surface

@@ -81,7 +81,11 @@ static void summarise_seal(SbRun *run, int seal) {
       .film_karaszkiewicz = film_by(run, seal, state, SB_FILM_KARASZKIEWICZ),
       .film_thesis = film_by(run, seal, state, SB_FILM_THESIS),
       .film_asymptotic = film_by(run, seal, state, SB_FILM_ASYMPTOTIC),
-      .film_reynolds = state->film_reynolds,
+      .film_reynolds = run->model.asperities == SB_MODEL_ASPERITIES_COUPLED
+                           ? film_by(run, seal, state, SB_FILM_REYNOLDS)
+                           : state->film_reynolds,
+      .real_area_share = state->area_share,
+      .asperity_share = state->asperity_share,
       .lambda = state->lambda,
       .friction_boundary = state->boundary_area + state->boundary_load,
       .friction_viscous = state->viscous,

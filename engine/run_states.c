@@ -66,7 +66,8 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
                              SbRunProfile *profile, SbReport *report) {
   const SbFit *fit = sb_sliding_fit(run->memory[seal]);
   const SbFilm *film = sb_sliding_film(run->memory[seal]);
-  bool solved = run->model.film == SB_MODEL_FILM_REYNOLDS && state->film_central > 0;
+  bool coupled = run->model.asperities == SB_MODEL_ASPERITIES_COUPLED;
+  bool solved = (coupled || run->model.film == SB_MODEL_FILM_REYNOLDS) && state->film_central > 0;
   bool own_pressure = run->model.fit == SB_FIT_DISC || run->model.fit == SB_FIT_DISC_THESIS ||
                       run->model.fit == SB_FIT_RING;
   size_t capacity = solved ? film->points : (size_t)PROFILE_POINTS;
@@ -120,7 +121,9 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
       h[n++] = state->film_central + scale * sb_film_dry_gap(xi);
     }
   }
-  if (state->touches && run->model.surface == SB_MODEL_SURFACE_GREENWOOD_TRIPP) {
+  if (solved && coupled) {
+    memcpy(data + 3 * capacity, film->asperity_pressure, n * sizeof *data);
+  } else if (state->touches && run->model.surface == SB_MODEL_SURFACE_GREENWOOD_TRIPP) {
     asperity_pressure(&run->model, seal, h, data + 3 * capacity, n);
   }
   free(profile->data);

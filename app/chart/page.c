@@ -29,6 +29,9 @@ void sb_page_models_text(char *out, size_t size, const SbChartRun *run) {
     append_choice(text, "fit", SB_P_MODELS_FIT, m->fit);
     append_choice(text, "film", SB_P_MODELS_FILM, (int)m->film);
     append_choice(text, "surface", SB_P_MODELS_SURFACE, (int)m->surface);
+    if (m->asperities == SB_MODEL_ASPERITIES_COUPLED) {
+      append_choice(text, "asperities", SB_P_MODELS_ASPERITIES, (int)m->asperities);
+    }
     append_choice(text, "motion", SB_P_MODELS_MOTION, (int)m->motion);
   }
   g_strlcpy(out, text->str, size);

@@ -73,6 +73,8 @@ static void put_seal(SbJson *json, const char *name, const SbSealSummary *seal) 
   sb_json_object_end(json);
   sb_json_number(json, "lambda", seal->lambda);
   sb_json_string(json, "regime", isnan(seal->lambda) ? NULL : sb_regime_of_lambda(seal->lambda));
+  sb_json_number(json, "real_area_share", seal->real_area_share);
+  sb_json_number(json, "asperity_load_share", seal->asperity_share);
   sb_json_number(json, "friction_boundary_N", seal->friction_boundary);
   sb_json_number(json, "friction_viscous_N", seal->friction_viscous);
   sb_json_number(json, "friction_static_N", seal->friction_static);
@@ -230,6 +232,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   put_choice(&json, "film", SB_P_MODELS_FILM, (int)model->film);
   put_choice(&json, "film_time", SB_P_MODELS_FILM_TIME, model->film_history);
   put_choice(&json, "surface", SB_P_MODELS_SURFACE, (int)model->surface);
+  put_choice(&json, "asperities", SB_P_MODELS_ASPERITIES, (int)model->asperities);
   sb_json_string(&json, "friction", "boundary-viscous-static");
   put_choice(&json, "motion", SB_P_MODELS_MOTION, (int)model->motion);
   sb_json_object_end(&json);

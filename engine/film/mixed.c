@@ -94,6 +94,11 @@ static double flux_guess(double *mouth, const SbMixedCase *c) {
   return flux;
 }
 
+double sb_mixed_ends(const SbMixedCase *c, double X) {
+  double step = asin(fmin(fmax(X, -1), 1)) / M_PI;
+  return c->layers.inlet * (0.5 - step) + c->layers.outlet * (0.5 + step);
+}
+
 void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c) {
   const SbMixedMesh *mesh = &solver->mesh[which];
   SbMixedState *state = &solver->state[which];
@@ -102,14 +107,11 @@ void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c) {
       fmin(c->flux, isfinite(c->supply) && c->lambda > 0 ? c->supply / c->lambda : c->flux);
   double width = sb_layers_width(&c->layers);
   double floor = 0.02;
-  bool at_rest = !(c->lambda > 0) && isfinite(c->supply);
   for (int i = 0; i < mesh->nodes; i++) {
     double X = mesh->x[i];
     double q = sb_film_dry_pressure(X, c->layers.inlet, c->layers.outlet);
     double dry = sb_film_dry_gap(X);
-    double inside = fmin(fmax(X, -1), 1);
-    double step = asin(inside) / M_PI;
-    double ambient = c->layers.inlet * (0.5 - step) + c->layers.outlet * (0.5 + step);
+    double ambient = sb_mixed_ends(c, X);
     double fluid = film > 0 ? film * (1 + 1.2 * exp(-fabs(X + 1) / width)) : 0;
     double rough = 0;
     if (c->law != NULL) {
@@ -138,8 +140,8 @@ void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c) {
     SbMixedPoint at;
     sb_mixed_point(&at, c, state->t[i]);
     p[i] = state->q[i] - at.solid;
-    state->broken[i] = at_rest || (c->layers.outlet <= 0 && c->lambda > 0 &&
-                                   mesh->x[i] > c->mouth && c->lambda * at.h > state->kappa);
+    state->broken[i] = c->sealed || (c->layers.outlet <= 0 && c->lambda > 0 &&
+                                     mesh->x[i] > c->mouth && c->lambda * at.h > state->kappa);
   }
   for (int e = 0; e < mesh->elements; e++) {
     double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
@@ -148,7 +150,7 @@ void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c) {
       for (int j = 0; j <= rule->degree; j++) {
         sum += rule->slope[k][j] * p[e * rule->degree + j];
       }
-      state->s[e * rule->degree + k] = at_rest ? 0 : sum / half;
+      state->s[e * rule->degree + k] = c->sealed ? 0 : sum / half;
     }
   }
   state->H0 = 0;
@@ -319,6 +321,20 @@ static SbStatus refine(SbMixedReading *reading, int *levels, int *which, SbMixed
   return SB_OK;
 }
 
+// All levels from a cold start.
+static SbStatus climb(SbMixedReading *reading, int *levels, int *which, SbMixedSolver *solver,
+                      SbMixedCase *c, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+  *levels = 0;
+  c->front[0].X = c->front[1].X = INFINITY;
+  SbStatus status = start(solver, which, c, info, problem);
+  if (status != SB_OK) {
+    return status;
+  }
+  sb_mixed_read(&reading[0], solver, *which, c);
+  *levels = 1;
+  return refine(reading, levels, which, solver, c, info, problem);
+}
+
 // Where the models behind the solution end.
 static void warn(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale) {
   if (scale->half_width > problem->radius) {
@@ -386,12 +402,10 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
   }
   c.smooth_gap = 0.01 * sb_layers_flux(&c.layers);
   if (!(c.lambda > 0) && c.layers.inlet == c.layers.outlet) {
-    // No flow at all: the film pressure is the one around the contact.
-    c.rest = c.layers.inlet;
+    c.sealed = true; // no flow at all
     c.supply = 0;
   }
   c.flux = flux_guess(&c.mouth, &c);
-  c.front[0].X = c.front[1].X = INFINITY;
 
   if (c.layers.inlet < 0) {
     return sb_fail(report, SB_ERROR_INFEASIBLE,
@@ -399,13 +413,17 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
   }
 
   SbMixedReading reading[LEVELS];
-  int which = 0;
-  int levels = 0;
-  SbStatus status = start(solver, &which, &c, info, problem);
-  if (status == SB_OK) {
-    sb_mixed_read(&reading[0], solver, which, &c);
-    levels = 1;
-    status = refine(reading, &levels, &which, solver, &c, info, problem);
+  int which, levels;
+  SbStatus status = climb(reading, &levels, &which, solver, &c, info, problem);
+  if (status == SB_ERROR_NOT_CONVERGED && !(c.lambda > 0) && !c.sealed) {
+    // Closed beyond what the flow at rest can be told from.
+    c.sealed = true;
+    c.supply = 0;
+    status = climb(reading, &levels, &which, solver, &c, info, problem);
+    sb_warn(
+        &out->warnings, "film-rest-sealed", "surface.sigma",
+        "at rest the gap is closed: no flow passes, and the fluid's pressure between the ends is "
+        "taken as in the smooth dry contact");
   }
   if (status == SB_ERROR_CANCELLED) {
     return sb_fail(report, status, "film: cancelled");

@@ -63,7 +63,7 @@ typedef struct {
   SbLayers layers;       // lambda and end pressures; places the mesh
   double lambda;         // 0 at rest
   double supply;         // kappa of a starved inlet; infinite when flooded
-  double rest;           // film pressure of broken nodes: 0, or that around a contact at rest
+  bool sealed;           // at rest without flow: film pressure by sb_mixed_ends(), all nodes broken
   double rupture;        // rupture pressure; the solver's pressures are above it
   double barus, eyring;  // as in SbReynoldsCase
   const SbRoughLaw *law; // NULL: smooth
@@ -123,6 +123,9 @@ int sb_mixed_locate(const SbMixedMesh *mesh, double X, double *r);
 // Value at r of element e of a nodal field.
 double sb_mixed_value(const SbMixedMesh *mesh, const SbMixedRule *rule, const double *field, int e,
                       double r);
+
+// End pressures joined as in the dry smooth contact (reference/ehl.md), at X.
+double sb_mixed_ends(const SbMixedCase *c, double X);
 
 // Gap and solid pressures at t.
 void sb_mixed_point(SbMixedPoint *out, const SbMixedCase *c, double t);

@@ -216,7 +216,7 @@ static void assemble(double *matrix, double *right, const SbMixedMesh *mesh,
     double constant = 0;
     if (state->broken[i]) {
       add_node(row, &constant, mesh, l, i, 0, 1);
-      right[i + 1] = c->rest - l->p[i] - constant;
+      right[i + 1] = (c->sealed ? sb_mixed_ends(c, mesh->x[i]) : 0) - l->p[i] - constant;
       continue;
     }
     int e = i / d, j = i % d;

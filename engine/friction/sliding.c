@@ -4,8 +4,9 @@
 // edges, its pressure, its compliance; the half-plane's film stands beside it. The film's load is
 // the net one: the fluid on either side carries its own step, so a contact from l to r under the
 // total load W leaves W - p_left (0 - l) - p_right (r - 0) to the film (contract, "Load"). What it
-// leaves out: the asperities do not take load off the film here (they carry 1 to 14 % of it, audit
-// 10), and the closed forms know no inlet starvation.
+// leaves out: beside the film, asperities do not take load off it (they carry 1 to 14 % of it at
+// its least, audit 10; coupled they share it, on the half-plane always); the closed forms know no
+// inlet starvation.
 #include "engine/friction/sliding.h"
 
 #include "engine/surface/greenwood_tripp.h"
@@ -19,6 +20,10 @@ struct SbSlidingMemory {
   SbFilm film;        // of the half-plane, or of a law
   SbFilm fitted_film; // of the fitted body
   bool fitted_last;   // which of them the last evaluation gave
+  SbFilm rest;        // dry rough contact, coupled asperities only
+  double rest_load;
+  SbSealPressure rest_pressure;
+  bool rested;
   SbFilmSolver *solver;
   bool fitted;
   double fitted_pressure; // difference for which `fit` stands
@@ -219,6 +224,83 @@ static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSea
   return status;
 }
 
+// The film problem with asperities in it.
+static void coupled_problem(SbFilmProblem *out, const SbModel *model, int seal,
+                            SbSealPressure pressure, double load_net, double speed) {
+  sb_sliding_film_problem(out, model, seal, pressure, load_net, speed);
+  out->surface =
+      model->surface == SB_MODEL_SURFACE_PERSSON ? SB_ROUGH_PERSSON : SB_ROUGH_GREENWOOD_TRIPP;
+  out->gt_product = model->gt_product;
+  out->sigma = model->sigma;
+  out->sigma_over_beta = model->sigma_over_beta;
+  out->hamaker = model->hamaker;
+  out->shear_strength = model->shear_strength;
+  out->load_coefficient = model->load_coefficient;
+}
+
+static SbStatus solve_one(SbFilm *film, const SbFilmProblem *problem, SbSlidingMemory *memory,
+                          SbSlidingCounts *counts, SbReport *report) {
+  SbStatus status = sb_film_solve(film, problem, memory->solver, report);
+  counts->film_evaluations++;
+  counts->reynolds_solves++;
+  counts->newton_iterations += (size_t)film->solver.newton_iterations;
+  return status;
+}
+
+// Film, rough contact and friction from one solution each, sliding and at rest.
+static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
+                              SbSealPressure pressure, double speed, SbSlidingMemory *memory,
+                              SbSlidingCounts *counts, SbWarnings *warnings, SbReport *report) {
+  SbFilmProblem problem;
+  SbStatus worst = SB_OK;
+  bool same = memory->rested && memory->rest_load == out->load_net &&
+              memory->rest_pressure.left == pressure.left &&
+              memory->rest_pressure.right == pressure.right;
+  if (!same) {
+    coupled_problem(&problem, model, seal, pressure, out->load_net, 0);
+    SbStatus status = solve_one(&memory->rest, &problem, memory, counts, report);
+    if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
+      return status;
+    }
+    worst = status;
+    memory->rested = status == SB_OK;
+    memory->rest_load = out->load_net;
+    memory->rest_pressure = pressure;
+  }
+  memory->fitted_last = false;
+  if (speed != 0) {
+    coupled_problem(&problem, model, seal, pressure, out->load_net, speed);
+    SbStatus status =
+        solve_one(&memory->film, &problem, memory, counts, worst == SB_OK ? report : NULL);
+    if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
+      return status;
+    }
+    worst = status != SB_OK ? status : worst;
+  } else {
+    memory->film = memory->rest;
+  }
+  const SbFilm *film = &memory->film;
+  sb_warnings_merge(warnings, &film->warnings);
+  // Lengths of the half-plane's contact over the fitted one's; forces over its circumference.
+  double area = (out->contact_right - out->contact_left) * model->bore_circumference;
+  double width = 2 * film->hertz_half_width;
+  double circumference = out->load / out->load_per_length;
+  out->film_min = film->film_min;
+  out->film_central = film->film_central;
+  out->film_error = fmax(film->solver.error_film_min, film->solver.error_film_central);
+  out->lambda = film->film_ratio;
+  out->area_share = fmin(film->real_area / width, 1);
+  out->asperity_share = film->asperity_share;
+  out->boundary_area = model->shear_strength * out->area_share * area;
+  out->boundary_load = model->load_coefficient * film->asperity_load * circumference;
+  out->viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
+  const SbFilm *rest = &memory->rest;
+  out->friction_static =
+      model->static_ratio * (model->shear_strength * fmin(rest->real_area / width, 1) * area +
+                             model->load_coefficient * rest->asperity_load * circumference);
+  return worst;
+}
+
 // Share of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
 // film, Persson's on the net pressure that the solids must carry.
 static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *model, int seal,
@@ -287,7 +369,7 @@ SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, 
 SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
                           double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                           SbWarnings *warnings, SbReport *report) {
-  *out = (SbSliding){.film_reynolds = NAN, .film_error = NAN};
+  *out = (SbSliding){.film_reynolds = NAN, .film_error = NAN, .asperity_share = NAN};
   sb_succeed(report);
 
   // Fitment. The fit takes the difference; the common part only shifts the fluid's level.
@@ -311,6 +393,12 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
                      fit->model != SB_FIT_GREEN_ENGLISH;
   double fluid = fabs(pressure.left - pressure.right) * fit->contact_width / 2;
   out->load_net = fit->load_per_length - (holds_fluid ? fluid : 0);
+
+  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0) {
+    SbStatus coupled = solve_coupled(out, model, seal, pressure, speed, memory, counts, warnings,
+                                     status == SB_OK ? report : NULL);
+    return coupled != SB_OK ? coupled : status;
+  }
 
   // Film, only when sliding.
   if (speed != 0 && out->load_net <= 0) {

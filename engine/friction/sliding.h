@@ -6,6 +6,11 @@
 //   min(eta |u|/h, tau_0) static    F_s = ratio (tau_0 A_a(0) + m W)   break-away from rest, where
 //   the film has gone
 //
+// With models.asperities = coupled the film is solved with the asperities in it (film/mixed.h), and
+// what the solution says takes the place of these: A_a its real area (mean over the half-plane's
+// contact, on A), m on the asperities' load alone, the viscous part from the gap that is open, and
+// at rest the dry rough contact, m W on the whole net load.
+//
 // A = contact width x pi D (bore), for every fitment model. The real share A_a/A comes from
 // Greenwood and Tripp at lambda = h_central/sigma. tau_0 is both the boundary shear strength and
 // the Eyring limit.
@@ -27,6 +32,7 @@ typedef struct {
   double film_error;             // relative error estimate of the solved film; NaN if closed form
   double lambda;                 // film_central / sigma
   double area_share;             // A_a / A
+  double asperity_share;         // of the net load, on the asperities; NaN unless coupled
   double boundary_area;          // tau_0 A_a, the part of F_b in proportion to the width [N]
   double boundary_load;          // m W, the part in proportion to the load [N]
   double viscous;                // [N]

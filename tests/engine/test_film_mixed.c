@@ -2,6 +2,7 @@
 // near full contact, what an outside program recomputes from the profile, and the rough laws.
 #include "engine/film/film.h"
 #include "engine/film/stribeck.h"
+#include "engine/friction/sliding.h"
 #include "engine/surface/greenwood_tripp.h"
 #include "engine/surface/persson.h"
 #include "engine/surface/van_der_waals.h"
@@ -498,6 +499,55 @@ static void test_adhesion(void) {
   g_assert_cmpfloat(thinner, <, 5 * pull / film.pressure_max);
 }
 
+// A seal's sliding state with the asperities coupled: its friction is that of the solved split.
+static void test_sliding(void) {
+  SbParams params;
+  sb_params_init(&params);
+  SbModel model;
+  sb_params_set(&params, SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED, NULL);
+  sb_params_set(&params, SB_P_SURFACE_SIGMA, 2e-7, NULL);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  SbSlidingMemory *memory = NULL;
+  SbSlidingCounts counts = {0};
+  SbWarnings warnings = {0};
+  SbSliding state;
+  sb_sliding_memory_create(&memory, NULL);
+  SbSealPressure pressure = {5.5e5, 0};
+  g_assert_cmpint(
+      sb_sliding_solve(&state, &model, SB_OUTER, pressure, 1e-2, memory, &counts, &warnings, NULL),
+      ==, SB_OK);
+  const SbFilm *solved = sb_sliding_film(memory);
+  g_assert_cmpfloat(solved->asperity_share, >, 0.05);
+  g_assert_cmpfloat(solved->asperity_share, <, 0.95);
+  double area = (state.contact_right - state.contact_left) * model.bore_circumference;
+  double share = solved->real_area / (2 * solved->hertz_half_width);
+  close_to("real area", state.boundary_area, model.shear_strength * share * area, 1e-12);
+  close_to("asperities' load", state.boundary_load,
+           model.load_coefficient * solved->asperity_share * state.load_net * state.load /
+               state.load_per_length,
+           1e-9);
+  // Breaking away takes the dry contact, so more than sliding over the film.
+  g_assert_cmpfloat(state.friction_static, >, sb_sliding_friction(&state));
+  // Faster: more film, less friction at the boundary.
+  SbSliding faster;
+  g_assert_cmpint(
+      sb_sliding_solve(&faster, &model, SB_OUTER, pressure, 1, memory, &counts, &warnings, NULL),
+      ==, SB_OK);
+  g_assert_cmpfloat(faster.film_central, >, state.film_central);
+  g_assert_cmpfloat(faster.boundary_area, <, state.boundary_area);
+  close_to("the same break-away", faster.friction_static, state.friction_static, 1e-12);
+  // Adhesion reaches the run where it is asked for.
+  sb_params_set(&params, SB_P_MODELS_ADHESION, 1, NULL);
+  sb_params_set(&params, SB_P_SURFACE_HAMAKER_CONSTANT, 1e-18, NULL);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  SbSliding pulled;
+  g_assert_cmpint(
+      sb_sliding_solve(&pulled, &model, SB_OUTER, pressure, 1e-2, memory, &counts, &warnings, NULL),
+      ==, SB_OK);
+  g_assert_cmpfloat(pulled.film_central, <, state.film_central);
+  sb_sliding_memory_destroy(memory);
+}
+
 static void test_refusals(void) {
   SbReport report;
   SbFilmProblem problem = seal(1e-3, SB_ROUGH_PERSSON);
@@ -527,6 +577,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/mixed/estimate", test_estimate);
   g_test_add_func("/film/mixed/ends", test_ends);
   g_test_add_func("/film/mixed/adhesion", test_adhesion);
+  g_test_add_func("/film/mixed/sliding", test_sliding);
   g_test_add_func("/film/mixed/refusals", test_refusals);
   int failed = g_test_run();
   sb_film_solver_destroy(solver);
