@@ -64,9 +64,6 @@ void sb_film_solver_destroy(SbFilmSolver *solver) {
 
 void sb_film_solver_forget(SbFilmSolver *solver) {
   solver->last.ready = false;
-  if (solver->mixed != NULL) {
-    solver->mixed->last.ready = false;
-  }
 }
 
 // Asperities or adhesion take the mixed solver.

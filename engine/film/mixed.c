@@ -73,6 +73,7 @@ static double flux_guess(double *mouth, const SbMixedCase *c) {
   if (c->law == NULL || !(c->lambda > 0)) {
     return smooth;
   }
+  double slope = 1 - (c->layers.inlet - c->layers.outlet) / M_PI;
   SbRoughPoint at;
   sb_rough_law_at(&at, c->law, sb_rough_law_of_pressure(c->law, 0.999999 * c->pressure));
   double low = log(at.gap / c->film), high = low + 40;
@@ -81,7 +82,7 @@ static double flux_guess(double *mouth, const SbMixedCase *c) {
     double h = exp(middle);
     sb_rough_law_at(&at, c->law, sb_rough_law_of_gap(c->law, h * c->film));
     double p = fmin(at.pressure / c->pressure, 1);
-    if (4.0 / 27 * c->lambda * p > h * h * sqrt(1 - p * p)) {
+    if (4.0 / 27 * c->lambda * p > h * h * slope * sqrt(1 - p * p)) {
       low = middle;
     } else {
       high = middle;
@@ -321,12 +322,60 @@ static SbStatus refine(SbMixedReading *reading, int *levels, int *which, SbMixed
   return SB_OK;
 }
 
+// Less film at the inlet than the contact would take: from the flooded solution by steps of the
+// flow, on a mesh laid out for the last of them.
+static SbStatus starve(SbMixedSolver *solver, int *which, SbMixedCase *c, double supply,
+                       SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+  enum { STEPS_MAX = 60 };
+  double flow = solver->state[*which].kappa;
+  if (supply >= flow) {
+    return SB_OK; // flooded after all
+  }
+  c->layers.starvation = supply / flow;
+  int to = 1 - *which;
+  if (!sb_mixed_mesh(&solver->mesh[to], sb_mixed_rule(solver, degree[0]), c, 1)) {
+    return SB_ERROR_NOT_CONVERGED;
+  }
+  sb_mixed_resample(solver, *which, to);
+  *which = to;
+  solver->saved[0] = solver->state[to];
+  double step = log(1.3);
+  for (int i = 0; i < STEPS_MAX && flow > supply; i++) {
+    double next = fmax(flow * exp(-step), supply);
+    c->supply = next;
+    solver->state[to].kappa = next;
+    info->continuation_steps++;
+    SbStatus status = attempt(solver, to, c, info, problem);
+    if (status == SB_ERROR_CANCELLED) {
+      return status;
+    }
+    if (status == SB_OK) {
+      solver->saved[0] = solver->state[to];
+      flow = next;
+      step *= 1.5;
+    } else {
+      solver->state[to] = solver->saved[0];
+      step *= 0.35;
+      if (step < 1e-6) {
+        break;
+      }
+    }
+  }
+  return flow > supply ? SB_ERROR_NOT_CONVERGED : SB_OK;
+}
+
 // All levels from a cold start.
 static SbStatus climb(SbMixedReading *reading, int *levels, int *which, SbMixedSolver *solver,
                       SbMixedCase *c, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
   *levels = 0;
   c->front[0].X = c->front[1].X = INFINITY;
+  double supply = c->supply;
+  bool starving = isfinite(supply) && !c->sealed;
+  c->supply = starving ? INFINITY : supply;
   SbStatus status = start(solver, which, c, info, problem);
+  if (status == SB_OK && starving) {
+    status = starve(solver, which, c, supply, info, problem);
+  }
   if (status != SB_OK) {
     return status;
   }
@@ -442,6 +491,7 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
   out->position_film_min = sign * r->position_min * scale->half_width;
   out->position_rupture = sign * r->position_rupture * scale->half_width;
   out->ruptured = r->ruptured;
+  out->starved = isfinite(c.supply) && !c.sealed;
   double shear = problem->viscosity * problem->speed * scale->half_width / scale->film;
   out->friction_couette = shear * r->couette;
   out->friction_cavity = shear * r->cavity;

@@ -98,11 +98,6 @@ typedef struct SbMixedSolver {
   int *pivot;
   SbRoughLaw law;
   bool law_ready;
-  struct {
-    bool ready;
-    int which;
-    SbMixedCase problem;
-  } last;
 } SbMixedSolver;
 
 // A solver's storage, NULL when out of memory; destroy takes NULL.

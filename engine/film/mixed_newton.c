@@ -339,6 +339,12 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
     if (!cut && (largest < fmax(1e-8, rounding) || stalled)) {
       settled++;
     }
+    // A start that is none shows soon: a good one is below 1 after five steps. Only a meniscus
+    // takes its time to find its node.
+    bool hopeless = (iteration > 7 && largest > 3) || (iteration > 20 && largest > 0.1);
+    if (c->lambda > 0 && !isfinite(c->supply) && hopeless) {
+      return SB_ERROR_NOT_CONVERGED;
+    }
     before = largest;
   }
   return SB_ERROR_NOT_CONVERGED;

@@ -477,6 +477,29 @@ static void test_ends(void) {
   }
 }
 
+// A starved inlet: the contact passes what the wall brings, and the smooth limit is the film that
+// the smooth solver finds with its own meniscus.
+static void test_starved(void) {
+  SbFilmProblem problem = seal(1e-2, SB_ROUGH_GREENWOOD_TRIPP);
+  problem.inlet_film = 1e-8; // of 12.8 nm that the flooded contact takes
+  g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+  g_assert_true(film.starved);
+  close_to("flux film", film.film_flux, 2 * problem.inlet_film, 1e-9);
+  g_assert_cmpfloat(film.solver.load_error, <, 1e-10);
+  problem.sigma = 1e-12;
+  problem.inlet_film = 2e-9;
+  g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+  problem.surface = SB_ROUGH_NONE;
+  g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
+  close_to("least film", film.film_min, other.film_min, 5e-4);
+  close_to("central film", film.film_central, other.film_central, 5e-4);
+  // More than it takes: flooded.
+  problem = seal(1e-2, SB_ROUGH_GREENWOOD_TRIPP);
+  problem.inlet_film = 1e-6;
+  g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+  g_assert_false(film.starved);
+}
+
 static void test_adhesion(void) {
   // Across an open rough gap the pull is small and thins the film; without asperities a film of
   // tens of nanometres feels A/(6 pi h^3) as that much more load on the film.
@@ -576,6 +599,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/mixed/profile", test_profile);
   g_test_add_func("/film/mixed/estimate", test_estimate);
   g_test_add_func("/film/mixed/ends", test_ends);
+  g_test_add_func("/film/mixed/starved", test_starved);
   g_test_add_func("/film/mixed/adhesion", test_adhesion);
   g_test_add_func("/film/mixed/sliding", test_sliding);
   g_test_add_func("/film/mixed/refusals", test_refusals);
