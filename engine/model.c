@@ -319,7 +319,12 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
       .pressure_map = (SbPressureMap)sb_params_get(params, SB_P_CANISTER_PRESSURE_MAP),
       .stem_mass = sb_params_get(params, SB_P_STEM_MASS),
       .viscosity = sb_params_get(params, SB_P_FLUID_VISCOSITY),
-      .pressure_viscosity = sb_params_get(params, SB_P_FLUID_PRESSURE_VISCOSITY),
+      .pressure_viscosity = sb_params_get(params, SB_P_MODELS_VISCOSITY) > 0
+                                ? sb_params_get(params, SB_P_FLUID_PRESSURE_VISCOSITY)
+                                : 0,
+      .eyring_stress = sb_params_get(params, SB_P_FLUID_EYRING_STRESS),
+      .rupture_pressure = sb_params_get(params, SB_P_FLUID_RUPTURE_PRESSURE),
+      .inlet_carried = sb_params_get(params, SB_P_MODELS_INLET) > 0,
       .density = sb_params_get(params, SB_P_FLUID_DENSITY),
       .gt_product = sb_params_get(params, SB_P_SURFACE_GT_PRODUCT),
       .sigma = sb_params_get(params, SB_P_SURFACE_SIGMA),

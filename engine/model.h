@@ -143,7 +143,11 @@ typedef struct {
   double stem_mass;                  // of its three parts [kg]
   SbValveParts parts;                // the stem's share stem_mass
   double moving_mass;                // stem, seals and block [kg]
-  double viscosity, pressure_viscosity, density;
+  double viscosity, density;
+  double pressure_viscosity; // Barus' coefficient [1/Pa], 0 for a constant viscosity
+  double eyring_stress;      // [Pa], 0 for a Newtonian fluid
+  double rupture_pressure;   // gauge [Pa]
+  bool inlet_carried;        // the return runs on what the in-stroke left on the bore
   double gt_product, sigma, sigma_over_beta, hamaker_constant;
   double shear_strength, load_coefficient, static_ratio;
   double speed, stroke, reversal_force, stiffness;

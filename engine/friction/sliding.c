@@ -126,6 +126,11 @@ void sb_sliding_film_problem(SbFilmProblem *out, const SbModel *model, int seal,
   out->viscosity = model->viscosity;
   out->pressure_left = pressure.left;
   out->pressure_right = pressure.right;
+  out->pressure_viscosity = model->pressure_viscosity;
+  out->eyring_stress = model->eyring_stress;
+  // A fluid beside the seal that is below its vapour pressure has boiled away: the film then
+  // breaks at the pressure around it.
+  out->rupture_pressure = fmin(model->rupture_pressure, fmin(pressure.left, pressure.right));
   out->tolerance = model->tolerance;
   out->profile_points = 1500; // drawn and written, not differentiated
 }
@@ -193,12 +198,51 @@ static bool solve_fitted(SbSliding *out, const SbFilmProblem *plane, const SbMod
   return true;
 }
 
+// Layer that the return stroke finds on the bore: what the in-stroke carried through the contact,
+// flow over the wall's speed, at the drive's speed and the same pressures. 0 floods the inlet.
+static SbStatus carried_layer(double *layer, const SbFilmProblem *back, const SbModel *model,
+                              SbSlidingMemory *memory, SbSlidingCounts *counts, SbReport *report) {
+  SbFilmProblem in = *back;
+  in.speed = model->speed;
+  in.inlet_film = 0;
+  SbStatus status = sb_film_solve(&memory->film, &in, memory->solver, report);
+  counts->film_evaluations++;
+  counts->reynolds_solves++;
+  counts->newton_iterations += (size_t)memory->film.solver.newton_iterations;
+  *layer = status == SB_OK ? fabs(memory->film.flow / in.speed) : 0;
+  return status;
+}
+
+// What a run's options cannot reach, told once.
+static void option_warnings(SbWarnings *warnings, const SbModel *model, int seal,
+                            const SbFilmProblem *problem) {
+  bool asked = model->pressure_viscosity > 0 || model->eyring_stress > 0 ||
+               model->rupture_pressure != 0 || model->inlet_carried;
+  if (asked && problem->model != SB_FILM_REYNOLDS) {
+    sb_warn(warnings, "film-options", "models.film",
+            "pressure viscosity, Eyring stress, rupture pressure and a carried inlet act on the "
+            "solved film only (models.film = reynolds), not on a power law");
+  } else if (problem->rupture_pressure < model->rupture_pressure) {
+    sb_warn(warnings, "rupture-ambient", "fluid.rupture_pressure",
+            "the film of the %s seal breaks at the %.3g MPa around it: the rupture pressure of "
+            "%.3g MPa is higher",
+            sb_seal_name(seal), 1e-6 * problem->rupture_pressure, 1e-6 * model->rupture_pressure);
+  }
+}
+
 static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
                            double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                            SbWarnings *warnings, SbReport *report) {
   SbFilmProblem problem;
   sb_sliding_film_problem(&problem, model, seal, pressure, out->load_net, speed);
   problem.model = film_model(model->film);
+  option_warnings(warnings, model, seal, &problem);
+  if (model->inlet_carried && speed < 0 && problem.model == SB_FILM_REYNOLDS) {
+    SbStatus carried = carried_layer(&problem.inlet_film, &problem, model, memory, counts, report);
+    if (carried != SB_OK) {
+      return carried;
+    }
+  }
   SbStatus status = sb_film_solve(&memory->film, &problem, memory->solver, report);
   counts->film_evaluations++;
   if (problem.model == SB_FILM_REYNOLDS) {

@@ -1,0 +1,152 @@
+// Options of the film that a scene can ask for, seen through a sliding seal: each off changes
+// nothing, each on moves the film the way its equation says, and where it cannot act it is told.
+#include "engine/friction/sliding.h"
+#include "engine/sealbench.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+  SbParamId id;
+  double value;
+} Setting;
+
+static SbModel model_with(const Setting *setting, size_t count) {
+  SbParams params;
+  sb_params_init(&params);
+  sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, NULL);
+  for (size_t i = 0; i < count; i++) {
+    g_assert_cmpint(sb_params_set(&params, setting[i].id, setting[i].value, NULL), ==, SB_OK);
+  }
+  SbModel model;
+  SbProblems problems;
+  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_OK);
+  return model;
+}
+
+// The outer seal between `pressure`s at `speed`; its film in *film.
+static void solve(SbFilm *film, const SbModel *model, SbSealPressure pressure, double speed,
+                  SbWarnings *warnings) {
+  SbSlidingMemory *memory = NULL;
+  SbSliding state;
+  SbSlidingCounts counts = {0};
+  *warnings = (SbWarnings){0};
+  g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
+  g_assert_cmpint(
+      sb_sliding_solve(&state, model, SB_OUTER, pressure, speed, memory, &counts, warnings, NULL),
+      ==, SB_OK);
+  *film = *sb_sliding_film(memory);
+  sb_sliding_memory_destroy(memory);
+}
+
+static bool has(const SbWarnings *warnings, const char *code) {
+  for (size_t i = 0; i < warnings->count; i++) {
+    if (strcmp(warnings->item[i].code, code) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static const SbSealPressure PRESSED = {.left = 0.55e6, .right = 0}, BOTH = {0.55e6, 0.55e6};
+static SbFilm plain, changed;
+static SbWarnings warnings;
+
+// Barus: the coefficient alone does nothing, the choice does; the film of a soft contact follows
+// the inlet's viscosity, so alpha p of 0.2 lifts it by less than exp(0.2)^0.6.
+static void test_barus(void) {
+  const Setting off[] = {{SB_P_FLUID_PRESSURE_VISCOSITY, 3.6e-7}};
+  const Setting on[] = {{SB_P_FLUID_PRESSURE_VISCOSITY, 3.6e-7}, {SB_P_MODELS_VISCOSITY, 1}};
+  SbModel model = model_with(NULL, 0);
+  solve(&plain, &model, PRESSED, model.speed, &warnings);
+  model = model_with(off, G_N_ELEMENTS(off));
+  solve(&changed, &model, PRESSED, model.speed, &warnings);
+  g_assert_cmpfloat(changed.film_central, ==, plain.film_central);
+  model = model_with(on, G_N_ELEMENTS(on));
+  solve(&changed, &model, PRESSED, model.speed, &warnings);
+  double rise = changed.film_flux / plain.film_flux;
+  g_assert_cmpfloat(rise, >, 1.05);
+  g_assert_cmpfloat(rise, <, exp(0.6 * 3.6e-7 * 1.41e6));
+}
+
+// Eyring: where the stress of the film is far below the limit nothing moves, near it drag falls.
+static void test_eyring(void) {
+  const Setting high[] = {{SB_P_FLUID_EYRING_STRESS, 1e9}};
+  const Setting low[] = {{SB_P_FLUID_EYRING_STRESS, 20}};
+  SbModel model = model_with(NULL, 0);
+  solve(&plain, &model, PRESSED, model.speed, &warnings);
+  model = model_with(high, 1);
+  solve(&changed, &model, PRESSED, model.speed, &warnings);
+  g_assert_cmpfloat(fabs(changed.friction_couette / plain.friction_couette - 1), <, 1e-6);
+  model = model_with(low, 1);
+  solve(&changed, &model, PRESSED, model.speed, &warnings);
+  g_assert_cmpfloat(changed.friction_couette, <, 0.95 * plain.friction_couette);
+}
+
+// Rupture: between two fluids at the canister's pressure nothing breaks above gauge 0. With a
+// vapour pressure as high as theirs the film is that of a seal without pressure, which breaks. A
+// vapour pressure above the surroundings is cut there and told.
+static void test_rupture(void) {
+  const Setting vapour[] = {{SB_P_FLUID_RUPTURE_PRESSURE, 0.55e6}};
+  SbModel model = model_with(NULL, 0);
+  solve(&plain, &model, BOTH, model.speed, &warnings);
+  g_assert_false(plain.ruptured);
+  SbFilm ambient;
+  const SbSealPressure none = {0, 0};
+  solve(&ambient, &model, none, model.speed, &warnings);
+  g_assert_true(ambient.ruptured);
+  model = model_with(vapour, 1);
+  solve(&changed, &model, BOTH, model.speed, &warnings);
+  g_assert_false(has(&warnings, "rupture-ambient"));
+  g_assert_true(changed.ruptured);
+  g_assert_cmpfloat(fabs(changed.film_min / ambient.film_min - 1), <, 2e-3);
+  g_assert_cmpfloat(fabs(changed.position_rupture / ambient.position_rupture - 1), <, 1e-3);
+  g_assert_cmpfloat(fabs(plain.film_min / ambient.film_min - 1), >, 1e-2);
+  model = model_with(NULL, 0);
+  solve(&ambient, &model, PRESSED, model.speed, &warnings);
+  model = model_with(vapour, 1);
+  solve(&changed, &model, PRESSED, model.speed, &warnings);
+  g_assert_true(has(&warnings, "rupture-ambient"));
+  g_assert_cmpfloat(changed.film_min, ==, ambient.film_min);
+}
+
+// Carried: a return ten times as fast asks for 10^0.6 of the layer that the in-stroke left; it runs
+// starved, and carries back just that layer. At the in-stroke's own speed the layer suffices.
+static void test_carried(void) {
+  const Setting on[] = {{SB_P_MODELS_INLET, 1}};
+  const SbSealPressure none = {0, 0};
+  SbModel model = model_with(on, 1);
+  SbFilm in;
+  solve(&in, &model, none, model.speed, &warnings);
+  solve(&changed, &model, none, -10 * model.speed, &warnings);
+  double layer = in.flow / model.speed;
+  g_assert_true(changed.starved);
+  g_assert_cmpfloat(fabs(changed.flow / (-10 * model.speed) / layer - 1), <, 1e-6);
+  SbModel flooded = model_with(NULL, 0);
+  solve(&plain, &flooded, none, -10 * model.speed, &warnings);
+  g_assert_cmpfloat(changed.film_central, <, 0.5 * plain.film_central);
+  solve(&changed, &model, none, -model.speed, &warnings);
+  g_assert_cmpfloat(fabs(changed.film_central / in.film_central - 1), <, 2e-3);
+}
+
+// A power law has none of this: the run says so.
+static void test_told(void) {
+  const Setting on[] = {{SB_P_MODELS_FILM, SB_MODEL_FILM_THESIS}, {SB_P_MODELS_VISCOSITY, 1}};
+  SbModel model = model_with(on, G_N_ELEMENTS(on));
+  solve(&plain, &model, PRESSED, model.speed, &warnings);
+  g_assert_true(has(&warnings, "film-options"));
+  model = model_with(on, 1);
+  solve(&plain, &model, PRESSED, model.speed, &warnings);
+  g_assert_false(has(&warnings, "film-options"));
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/film-run-options/barus", test_barus);
+  g_test_add_func("/film-run-options/eyring", test_eyring);
+  g_test_add_func("/film-run-options/rupture", test_rupture);
+  g_test_add_func("/film-run-options/carried", test_carried);
+  g_test_add_func("/film-run-options/told", test_told);
+  return g_test_run();
+}
