@@ -412,6 +412,12 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
       }
       s->ready = true;
       s->counters.segments++;
+      if (s->counters.segments > 4 * most) {
+        return sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                       "too many steps at %.9g s (%ld): the motion is too quick for its duration, "
+                       "as with a very stiff machine and a slow stroke",
+                       s->t, s->counters.segments);
+      }
     }
     if (time < s->t_end) {
       s->now = time;

@@ -93,7 +93,7 @@ typedef struct {
   double start_dwell;                 // s of rest before the start
   double tolerance;                   // relative, of the numerical path, <= 1e-5; 0: 1e-9
   double rest_speed; // m/s below which a slowing contact rests, a rigid stop keeps; 0: 1e-9
-  long max_events;   // 0: 1e6
+  long max_events;   // 0: 1e6; four times as many steps
 } SbDynamicsModel;
 
 typedef enum {

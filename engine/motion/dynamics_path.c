@@ -7,6 +7,9 @@
 // A rest of this length [s] is looked at again; it costs one segment.
 static const double horizon_max = 1e6;
 
+// Force to which the tolerance of the numerical path refers where springs are stiff [N].
+static const double force_size = 400.0;
+
 static bool has_closed_form(const SbDynamics *s) {
   // Loads that vary with the place only do not vary for a stem held at rest.
   bool still = s->held && (s->model->extras == 0 || s->loads.settled);
@@ -214,6 +217,13 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
   size_t patches = sb_motion_patches(m);
   memcpy(z + 2, s->d, patches * sizeof *z);
   memcpy(z + 2 + patches, s->extra, m->extras * sizeof *z);
+  // An error in place is one in force, and in energy, by the springs that act.
+  Linear acting;
+  sb_motion_linear_forces(s, &acting);
+  s->system.ceiling[0] = acting.k > 0.0 ? force_size / acting.k : 0.0;
+  for (size_t i = 0; i < patches; i++) {
+    s->system.ceiling[2 + i] = is_rigid(m, i) ? 0.0 : force_size / m->contact[i].stiffness;
+  }
   double left = fmin(s->piece.until - s->t, horizon_max);
   double h = s->h > 0.0 ? s->h : first_step(s);
   if (s->piece.curved) {

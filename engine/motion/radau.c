@@ -74,7 +74,8 @@ static void back_substitute(const Factors *f, double *b) {
 }
 
 static double scale(const SbRadauSystem *s, size_t i, double value) {
-  return s->tolerance * (fabs(value) + s->floor[i]);
+  double size = fabs(value) + s->floor[i];
+  return s->tolerance * (s->ceiling[i] > 0.0 ? fmin(size, s->ceiling[i]) : size);
 }
 
 // Forward differences of the rates; `base` are the rates at z.

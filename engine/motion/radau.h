@@ -18,8 +18,9 @@ typedef struct {
   size_t n, powers;
   SbRadauRates rates;
   void *user;
-  double tolerance;           // relative
-  double floor[SB_RADAU_MAX]; // absolute size per component below which errors are scaled by this
+  double tolerance;             // relative
+  double floor[SB_RADAU_MAX];   // absolute size per component below which errors are scaled by this
+  double ceiling[SB_RADAU_MAX]; // absolute size above which they are; 0: none
 } SbRadauSystem;
 
 // One step, enough for dense output.
