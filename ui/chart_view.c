@@ -5,6 +5,7 @@
 
 #include "app/chart/format.h"
 #include "app/chart/hysteresis.h"
+#include "app/chart/life.h"
 #include "app/chart/profiles.h"
 #include "app/chart/rig.h"
 #include "app/chart/signal.h"
@@ -27,10 +28,45 @@ static const struct {
   int least_height, height;
   int interval; // between drawings while something moves [ms]
 } kinds[] = {
-    {"Force and displacement", 190, 260, 50},
-    {"Contact pressure", 132, 178, 80},
-    {"Film thickness", 132, 178, 80},
+    {"Force and displacement", 190, 260, 50}, {"Contact pressure", 132, 178, 80},
+    {"Film thickness", 132, 178, 80},         {"Life", 176, 230, 1000},
+    {"Why they differ", 176, 176, 1000},
 };
+
+// Model of the run shown; before the first run, of the values.
+static const SbModel *model_of(SbSession *session) {
+  const SbModel *model = sb_session_chart(session)->run.model;
+  return model != NULL ? model : sb_session_model(session);
+}
+
+static gboolean applies(const View *view) {
+  const SbModel *model = model_of(view->session);
+  gboolean rig = model != NULL && model->motion == SB_MODEL_MOTION_RIG;
+  switch (view->kind) {
+  case SB_CHART_VIEW_FILM:
+    return !rig;
+  case SB_CHART_VIEW_LIFE:
+    return !rig && model != NULL && model->life_actuations > 1;
+  case SB_CHART_VIEW_REASONS:
+    return rig;
+  default:
+    return TRUE;
+  }
+}
+
+// A life is known when its run has ended; until then that of the earlier run stays, dimmed.
+static void draw_life(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data) {
+  if (data->run.life_count > 0 || data->earlier == NULL) {
+    sb_life_draw(cr, rect, theme, data);
+    return;
+  }
+  SbChartData earlier = *data;
+  earlier.run = *data->earlier;
+  cairo_push_group(cr);
+  sb_life_draw(cr, rect, theme, &earlier);
+  cairo_pop_group_to_source(cr);
+  cairo_paint_with_alpha(cr, 0.45);
+}
 
 // The widget less the column's padding.
 static SbRect inside(double width, double height) {
@@ -58,7 +94,13 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
     (rig ? sb_rig_scale_draw : sb_profiles_pressure_draw)(cr, rect, theme, data, SB_CHART_COMPACT);
     break;
   case SB_CHART_VIEW_FILM:
-    (rig ? sb_rig_reasons_draw : sb_profiles_film_draw)(cr, rect, theme, data, SB_CHART_COMPACT);
+    sb_profiles_film_draw(cr, rect, theme, data, SB_CHART_COMPACT);
+    break;
+  case SB_CHART_VIEW_LIFE:
+    draw_life(cr, rect, theme, data);
+    break;
+  case SB_CHART_VIEW_REASONS:
+    sb_rig_reasons_draw(cr, rect, theme, data, SB_CHART_COMPACT);
     break;
   }
 }
@@ -139,6 +181,23 @@ static void describe_contacts(SbSession *session, SbChartViewKind kind, GString 
   }
 }
 
+static void describe_life(SbSession *session, GString *text) {
+  const SbChartRun *run = &sb_session_chart(session)->run;
+  if (run->life_count == 0) {
+    g_string_append(text, "Known when the run has ended.");
+    return;
+  }
+  char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
+  const SbLifeActuation *first = &run->life[0], *last = &run->life[run->life_count - 1];
+  g_string_append_printf(text, "%zu actuations: break-away %s at first and %s at last, ",
+                         run->life_count,
+                         sb_format_text(a, SB_QUANTITY_FORCE, first->force_breakaway, 0),
+                         sb_format_text(b, SB_QUANTITY_FORCE, last->force_breakaway, 0));
+  g_string_append_printf(text, "least return force %s and %s.",
+                         sb_format_text(a, SB_QUANTITY_FORCE, first->force_return, 0),
+                         sb_format_text(b, SB_QUANTITY_FORCE, last->force_return, 0));
+}
+
 static gboolean describe(gpointer data) {
   View *view = data;
   g_autoptr(GString) text = g_string_new(NULL);
@@ -146,8 +205,10 @@ static gboolean describe(gpointer data) {
   const char *name = kinds[view->kind].name;
   if (view->kind == SB_CHART_VIEW_LOOP) {
     describe_loop(view->session, text);
-  } else if (sb_chart_is_rig(run)) {
-    name = view->kind == SB_CHART_VIEW_PRESSURE ? "Friction over load" : "Why they differ";
+  } else if (view->kind == SB_CHART_VIEW_LIFE) {
+    describe_life(view->session, text);
+  } else if (view->kind == SB_CHART_VIEW_REASONS || sb_chart_is_rig(run)) {
+    name = view->kind == SB_CHART_VIEW_PRESSURE ? "Friction over load" : name;
     g_autofree char *reasons = sb_rig_reasons_text(run);
     g_string_append(text, reasons);
   } else {
@@ -212,6 +273,7 @@ static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) 
 // Life -------------------------------------------------------------------------------------------
 
 static void on_change(View *view) {
+  gtk_widget_set_visible(view->area, applies(view));
   sb_picture_change(view->picture,
                     sb_session_wants_ticks(view->session) ? kinds[view->kind].interval : 0);
   // Screen readers need no more than a few sentences a second.
@@ -246,7 +308,8 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_change), view);
   g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_change), view);
   g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(on_change), view);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_change), view);
   describe(view);
-  gtk_widget_show(view->area);
+  gtk_widget_set_visible(view->area, applies(view));
   return view->area;
 }

@@ -5,8 +5,15 @@
 
 #include <gtk/gtk.h>
 
-typedef enum { SB_CHART_VIEW_LOOP, SB_CHART_VIEW_PRESSURE, SB_CHART_VIEW_FILM } SbChartViewKind;
+typedef enum {
+  SB_CHART_VIEW_LOOP,     // of the sliding-plate rig: the thread's force over time
+  SB_CHART_VIEW_PRESSURE, // of the rig: its coefficients
+  SB_CHART_VIEW_FILM,     // not of the rig
+  SB_CHART_VIEW_LIFE,     // only where a scene has more than one actuation
+  SB_CHART_VIEW_REASONS   // only of the rig
+} SbChartViewKind;
 
+// A chart; it hides itself while the session's run has nothing of its kind.
 GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind);
 
 // The chart's numbers as tab-separated text with a heading line. Owned by the caller.

@@ -47,7 +47,7 @@ enum { ITEMS = G_N_ELEMENTS(items) };
 
 typedef struct {
   SbSession *session;
-  GtkWidget *note;
+  GtkWidget *grid, *note;
   GtkWidget *name[ITEMS], *value[ITEMS], *bar[ITEMS], *icon[ITEMS], *verdict[ITEMS];
   double shown[ITEMS];         // NAN: not known
   double lo[ITEMS], hi[ITEMS]; // bands in force
@@ -155,6 +155,8 @@ static void refresh(Panel *panel) {
   if (model == NULL && run != NULL) {
     model = sb_run_model(run);
   }
+  // A plate on its rings has no glands, return or doses.
+  gtk_widget_set_visible(panel->grid, model == NULL || model->motion != SB_MODEL_MOTION_RIG);
   const SbSealModel *seal = model != NULL ? &model->seal[SB_OUTER] : NULL;
   show(panel, 0, seal != NULL ? seal->squeeze : NAN);
   show(panel, 1, seal != NULL ? seal->stretch_inner : NAN);
@@ -181,7 +183,7 @@ static GtkWidget *label_new(const char *text, const char *style, float align) {
 GtkWidget *sb_derived_panel_new(SbSession *session) {
   Panel *panel = g_new0(Panel, 1);
   panel->session = session;
-  GtkWidget *grid = gtk_grid_new();
+  GtkWidget *grid = panel->grid = gtk_grid_new();
   gtk_grid_set_row_spacing(GTK_GRID(grid), 6);
   gtk_grid_set_column_spacing(GTK_GRID(grid), 10);
   sb_style_class(grid, "sb-derived");
@@ -213,7 +215,7 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), panel);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), panel);
   set_bands(panel);
-  refresh(panel);
   gtk_widget_show_all(grid);
+  refresh(panel);
   return grid;
 }

@@ -34,6 +34,7 @@ enum { ROWS = G_N_ELEMENTS(rows), CELLS = 4 }; // name over band, outer, inner, 
 
 typedef struct {
   SbSession *session;
+  GtkWidget *expander;
   GtkWidget *cell[ROWS][CELLS];
 } Panel;
 
@@ -132,6 +133,8 @@ static void refresh(Panel *panel) {
   const SbModel *model = sb_session_model(panel->session);
   SbGlandReadout all[SB_SEAL_COUNT][SB_GLAND_COUNT];
   gboolean swollen = FALSE;
+  // The rings of the sliding-plate rig lie in no gland.
+  gtk_widget_set_visible(panel->expander, model == NULL || model->motion != SB_MODEL_MOTION_RIG);
   for (int seal = 0; model != NULL && seal < SB_SEAL_COUNT; seal++) {
     SbGland gland;
     sb_model_gland(&gland, model, seal);
@@ -194,7 +197,7 @@ GtkWidget *sb_gland_panel_new(SbSession *session) {
       gtk_grid_attach(GTK_GRID(grid), cell, i, row + 1, 1, 1);
     }
   }
-  GtkWidget *expander = gtk_expander_new("Glands, both seals");
+  GtkWidget *expander = panel->expander = gtk_expander_new("Glands, both seals");
   sb_style_name(expander, "Glands, both seals", NULL);
   sb_style_class(expander, "sb-derived");
   sb_style_class(expander, "sb-panel");
@@ -204,6 +207,5 @@ GtkWidget *sb_gland_panel_new(SbSession *session) {
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), panel);
   refresh(panel);
   gtk_widget_show(grid);
-  gtk_widget_show(expander);
   return expander;
 }

@@ -180,10 +180,10 @@ static gboolean on_place(GtkOverlay *overlay, GtkWidget *child, GdkRectangle *pl
   }
   SbRect rect = picture_rect(view, gtk_widget_get_allocated_width(GTK_WIDGET(overlay)),
                              gtk_widget_get_allocated_height(GTK_WIDGET(overlay)));
-  // As large as the picture, but out of sight while something else draws it.
-  gboolean shown = by_window(view);
-  *place = (GdkRectangle){(int)rect.x, (int)rect.y, shown ? (int)ceil(rect.width) : 1,
-                          shown ? (int)ceil(rect.height) : 1};
+  // As large as the picture, but beyond the corner while something else draws it.
+  *place = by_window(view) ? (GdkRectangle){(int)rect.x, (int)rect.y, (int)ceil(rect.width),
+                                            (int)ceil(rect.height)}
+                           : (GdkRectangle){-1, -1, 1, 1};
   return TRUE;
 }
 

@@ -147,6 +147,7 @@ static void finish(SbSession *session) {
   double share = playhead_share(session);
   session->ticket = 0;
   fresh->chart.summary = sb_run_summary(fresh->run);
+  fresh->chart.life = sb_run_life(fresh->run, &fresh->chart.life_count);
   g_clear_pointer(&session->failure, g_free);
   if (status == SB_OK) {
     session->state = SB_SESSION_DONE;

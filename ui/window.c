@@ -482,15 +482,17 @@ static void sb_window_init(SbWindow *window) {
                      FALSE, 0);
   window->section = sb_section_view_new(window->session);
   gtk_box_pack_start(GTK_BOX(window->centre_column), window->section, TRUE, TRUE, 0);
-  for (int kind = SB_CHART_VIEW_LOOP; kind <= SB_CHART_VIEW_FILM; kind++) {
+  for (int kind = SB_CHART_VIEW_LOOP; kind <= SB_CHART_VIEW_REASONS; kind++) {
+    // Those of the valve's cycle at the right, what belongs to a kind of scene under the section.
+    bool below = kind >= SB_CHART_VIEW_LIFE;
+    GtkBox *column = GTK_BOX(below ? window->centre_column : window->right_column);
+    GtkWidget *chart = sb_chart_view_new(window->session, (SbChartViewKind)kind);
     if (kind > SB_CHART_VIEW_LOOP) {
       GtkWidget *line = gtk_separator_new(GTK_ORIENTATION_HORIZONTAL);
-      gtk_widget_show(line);
-      gtk_box_pack_start(GTK_BOX(window->right_column), line, FALSE, FALSE, 0);
+      g_object_bind_property(chart, "visible", line, "visible", G_BINDING_SYNC_CREATE);
+      gtk_box_pack_start(column, line, FALSE, FALSE, 0);
     }
-    gtk_box_pack_start(GTK_BOX(window->right_column),
-                       sb_chart_view_new(window->session, (SbChartViewKind)kind),
-                       kind == SB_CHART_VIEW_LOOP, TRUE, 0);
+    gtk_box_pack_start(column, chart, kind == SB_CHART_VIEW_LOOP, TRUE, 0);
   }
   gtk_box_pack_start(GTK_BOX(window->bottom), sb_timeline_view_new(window->session), FALSE, FALSE,
                      0);
