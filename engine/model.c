@@ -451,6 +451,13 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
                 "needs models.motion = quasi-static or dynamic");
     good = false;
   }
+  // Running-in changes the surface, and with it a film that shares its load with asperities.
+  if (model.life_actuations > 1 && model.asperities == SB_MODEL_ASPERITIES_COUPLED) {
+    add_problem(problems, "models.asperities", NAN, NAN,
+                "coupled: a life of %d actuations keeps its film and needs beside",
+                model.life_actuations);
+    good = false;
+  }
   if (model.life_actuations > 1) {
     // The scene's surface is the reference; the run starts with the new valve's.
     model.gt_product *= model.running_in.start;

@@ -314,6 +314,12 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
   memory->fitted_last = false;
   if (speed != 0) {
     coupled_problem(&problem, model, seal, pressure, out->load_net, speed);
+    option_warnings(warnings, model, seal, &problem);
+    if (model->inlet_carried) {
+      sb_warn(warnings, "inlet-flooded", "models.inlet",
+              "with coupled asperities the inlet is flooded both ways: what a rough contact leaves "
+              "on the bore is not known");
+    }
     SbStatus status =
         solve_one(&memory->film, &problem, memory, counts, worst == SB_OK ? report : NULL);
     if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {

@@ -130,6 +130,25 @@ static void test_carried(void) {
   g_assert_cmpfloat(fabs(changed.film_central / in.film_central - 1), <, 2e-3);
 }
 
+// Coupled asperities are solved in a flooded inlet, and a life keeps its film: both are told.
+static void test_coupled(void) {
+  const Setting on[] = {{SB_P_MODELS_ASPERITIES, 1}, {SB_P_MODELS_INLET, 1}};
+  SbModel model = model_with(on, 1);
+  solve(&plain, &model, PRESSED, model.speed, &warnings);
+  g_assert_false(has(&warnings, "inlet-flooded"));
+  model = model_with(on, 2);
+  solve(&plain, &model, PRESSED, model.speed, &warnings);
+  g_assert_true(has(&warnings, "inlet-flooded"));
+  SbParams params;
+  sb_params_init(&params);
+  sb_params_set(&params, SB_P_MODELS_ASPERITIES, 1, NULL);
+  sb_params_set(&params, SB_P_LIFE_ACTUATIONS, 2, NULL);
+  SbProblems problems;
+  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpuint(problems.count, ==, 1);
+  g_assert_cmpstr(problems.item[0].key, ==, "models.asperities");
+}
+
 // A power law has none of this: the run says so.
 static void test_told(void) {
   const Setting on[] = {{SB_P_MODELS_FILM, SB_MODEL_FILM_THESIS}, {SB_P_MODELS_VISCOSITY, 1}};
@@ -147,6 +166,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film-run-options/eyring", test_eyring);
   g_test_add_func("/film-run-options/rupture", test_rupture);
   g_test_add_func("/film-run-options/carried", test_carried);
+  g_test_add_func("/film-run-options/coupled", test_coupled);
   g_test_add_func("/film-run-options/told", test_told);
   return g_test_run();
 }
