@@ -199,7 +199,8 @@ static double relative(double a, double b, double scale) {
 
 // The same motion at ten times the tolerance. With errors in proportion to the power 5/6 of the
 // tolerance (order 5 in the step, order 6 locally) the difference is 5.8 times the error of the
-// fine motion; a half of it is told, three times as much as that.
+// fine motion; a half of it is told, three times as much as that, and never less than the
+// tolerance: the coarse motion may be right by chance.
 static SbStatus estimate_error(SbRun *run, const Recorder *fine, const SbDynamicsEnergy *energy,
                                double *force, double *work, const SbRunHooks *hooks,
                                SbReport *report) {
@@ -225,9 +226,10 @@ static SbStatus estimate_error(SbRun *run, const Recorder *fine, const SbDynamic
   for (int stage = 0; stage < SB_STAGE_COUNT; stage++) {
     *force = fmax(*force, relative(fine->force[stage], coarse.force[stage], fine->force_peak));
   }
-  *force = fmax(share * *force, 1e-12);
-  *work = fmax(1e-12, share * fmax(relative(energy->drive, other.drive, energy->largest),
-                                   relative(energy->friction, other.friction, energy->largest)));
+  *force = fmax(share * *force, run->model.motion_tolerance);
+  *work = fmax(run->model.motion_tolerance,
+               share * fmax(relative(energy->drive, other.drive, energy->largest),
+                            relative(energy->friction, other.friction, energy->largest)));
   return SB_OK;
 }
 

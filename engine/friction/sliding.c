@@ -24,7 +24,7 @@ struct SbSlidingMemory {
   double rest_load;
   SbSealPressure rest_pressure;
   bool rested;
-  SbFilmSolver *solver;
+  SbFilmSolver *solver; // NULL until a film is solved: laws need none
   bool fitted;
   double fitted_pressure; // difference for which `fit` stands
   int fitted_seal;
@@ -39,12 +39,7 @@ SbStatus sb_sliding_memory_create(SbSlidingMemory **out, SbReport *report) {
   if (*out == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a seal's workspace");
   }
-  SbStatus status = sb_film_solver_create(&(*out)->solver, report);
-  if (status != SB_OK) {
-    free(*out);
-    *out = NULL;
-  }
-  return status;
+  return sb_succeed(report);
 }
 
 void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
@@ -52,6 +47,17 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
     sb_film_solver_destroy(memory->solver);
     free(memory);
   }
+}
+
+static SbStatus film_solve(SbFilm *out, const SbFilmProblem *problem, SbSlidingMemory *memory,
+                           SbReport *report) {
+  if (problem->model == SB_FILM_REYNOLDS && memory->solver == NULL) {
+    SbStatus status = sb_film_solver_create(&memory->solver, report);
+    if (status != SB_OK) {
+      return status;
+    }
+  }
+  return sb_film_solve(out, problem, memory->solver, report);
 }
 
 void sb_sliding_memory_forget(SbSlidingMemory *memory) {
@@ -179,7 +185,7 @@ static bool solve_fitted(SbSliding *out, const SbFilmProblem *plane, const SbMod
   SbStatus status =
       sb_sliding_surface(&surface, &problem.load, &memory->fit, model, seal, pressure, &report);
   if (status == SB_OK) {
-    status = sb_film_solve(&memory->fitted_film, &problem, memory->solver, &report);
+    status = film_solve(&memory->fitted_film, &problem, memory, &report);
     counts->film_evaluations++;
     counts->reynolds_solves++;
     counts->newton_iterations += (size_t)memory->fitted_film.solver.newton_iterations;
@@ -205,7 +211,7 @@ static SbStatus carried_layer(double *layer, const SbFilmProblem *back, const Sb
   SbFilmProblem in = *back;
   in.speed = model->speed;
   in.inlet_film = 0;
-  SbStatus status = sb_film_solve(&memory->film, &in, memory->solver, report);
+  SbStatus status = film_solve(&memory->film, &in, memory, report);
   counts->film_evaluations++;
   counts->reynolds_solves++;
   counts->newton_iterations += (size_t)memory->film.solver.newton_iterations;
@@ -243,7 +249,7 @@ static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSea
       return carried;
     }
   }
-  SbStatus status = sb_film_solve(&memory->film, &problem, memory->solver, report);
+  SbStatus status = film_solve(&memory->film, &problem, memory, report);
   counts->film_evaluations++;
   if (problem.model == SB_FILM_REYNOLDS) {
     counts->reynolds_solves++;
@@ -284,7 +290,7 @@ static void coupled_problem(SbFilmProblem *out, const SbModel *model, int seal,
 
 static SbStatus solve_one(SbFilm *film, const SbFilmProblem *problem, SbSlidingMemory *memory,
                           SbSlidingCounts *counts, SbReport *report) {
-  SbStatus status = sb_film_solve(film, problem, memory->solver, report);
+  SbStatus status = film_solve(film, problem, memory, report);
   counts->film_evaluations++;
   counts->reynolds_solves++;
   counts->newton_iterations += (size_t)film->solver.newton_iterations;

@@ -159,7 +159,7 @@ static bool end_on_event(SbDynamics *s, SbRadauStep *step, int event, double the
 
 // Looks for the earliest event in the two steps; cuts them there.
 static bool cut_at_event(SbDynamics *s, SbReport *report) {
-  enum { PARTS = 4 };
+  enum { PARTS = 2 };
   Values before, after;
   double z[SB_RADAU_MAX];
   values_at(s, s->step[0].t, s->step[0].z0, &before);

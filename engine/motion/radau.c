@@ -1,5 +1,6 @@
 // See radau.h. The unknowns are the stage rates k_i = f(t + c_i h, z + h sum_j a_ij k_j), found by
-// a simplified Newton iteration with a differenced Jacobian: at most 30 unknowns, dense LU.
+// a simplified Newton iteration with a differenced Jacobian: at most 30 unknowns, dense LU. The
+// halves of a pair start from the rates of the whole step, between its nodes.
 #include "engine/motion/radau.h"
 
 #include <float.h>
@@ -97,29 +98,42 @@ static void jacobian(double j[N][N], double *base, const SbRadauSystem *s, doubl
   counters->evaluations += (long)s->n + 1;
 }
 
-static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const double *z, double h,
-                  double j[N][N], const double *base, SbRadauCounters *counters) {
-  Factors f = {.size = S * s->n};
+// Rates of a solved step at a fraction theta of it: the parabola through its stages.
+static void rates_at(double *k, const SbRadauStep *step, size_t n, double theta) {
+  double weight[S];
+  for (int i = 0; i < S; i++) {
+    double p = node[(i + 1) % S], q = node[(i + 2) % S];
+    weight[i] = (theta - p) * (theta - q) / ((node[i] - p) * (node[i] - q));
+  }
+  for (size_t i = 0; i < n; i++) {
+    k[i] = weight[0] * step->k[0][i] + weight[1] * step->k[1][i] + weight[2] * step->k[2][i];
+  }
+}
+
+// I - h A (x) J, factorised.
+static bool prepare(Factors *f, size_t n, double h, double j[N][N], SbRadauCounters *counters) {
+  f->size = S * n;
   for (size_t a = 0; a < S; a++) {
-    for (size_t b = 0; b < S; b++) {
-      for (size_t r = 0; r < s->n; r++) {
-        for (size_t c = 0; c < s->n; c++) {
-          double one = a == b && r == c ? 1.0 : 0.0;
-          f.m[a * s->n + r][b * s->n + c] = one - h * butcher[a][b] * j[r][c];
+    for (size_t r = 0; r < n; r++) {
+      for (size_t b = 0; b < S; b++) {
+        double factor = h * butcher[a][b];
+        for (size_t c = 0; c < n; c++) {
+          f->m[a * n + r][b * n + c] = -factor * j[r][c];
         }
       }
+      f->m[a * n + r][a * n + r] += 1.0;
     }
   }
   counters->factorisations++;
-  if (!factorise(&f)) {
-    return false;
-  }
+  return factorise(f);
+}
+
+// The stage rates in `step` are where the iteration starts; `f` is prepared for h.
+static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const double *z, double h,
+                  const Factors *f, SbRadauCounters *counters) {
   step->t = t;
   step->h = h;
   memcpy(step->z0, z, s->n * sizeof *z);
-  for (size_t a = 0; a < S; a++) {
-    memcpy(step->k[a], base, s->n * sizeof *base);
-  }
   double previous = INFINITY;
   for (int iteration = 0; iteration < 12; iteration++) {
     double residual[UNKNOWNS];
@@ -138,7 +152,7 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
     }
     counters->evaluations += S;
     counters->newton_iterations++;
-    back_substitute(&f, residual);
+    back_substitute(f, residual);
     double size = 0.0;
     bool rounding = true;
     for (size_t a = 0; a < S; a++) {
@@ -170,11 +184,19 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
   return false;
 }
 
+static void start_with(SbRadauStep *step, const double *rates, size_t n) {
+  for (size_t a = 0; a < S; a++) {
+    memcpy(step->k[a], rates, n * sizeof *rates);
+  }
+}
+
 bool sb_radau_step(SbRadauStep *step, const SbRadauSystem *system, double t, const double *z,
                    double h, SbRadauCounters *counters) {
   double j[N][N], base[N];
   jacobian(j, base, system, t, z, counters);
-  return solve(step, system, t, z, h, j, base, counters);
+  start_with(step, base, system->n);
+  Factors f;
+  return prepare(&f, system->n, h, j, counters) && solve(step, system, t, z, h, &f, counters);
 }
 
 bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local, const SbRadauSystem *system,
@@ -182,15 +204,20 @@ bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local, const SbRa
   double j[N][N], base[N];
   SbRadauStep whole;
   jacobian(j, base, system, t, z, counters);
-  if (!solve(&whole, system, t, z, h, j, base, counters) ||
-      !solve(&pair[0], system, t, z, 0.5 * h, j, base, counters)) {
+  start_with(&whole, base, system->n);
+  Factors f;
+  if (!prepare(&f, system->n, h, j, counters) || !solve(&whole, system, t, z, h, &f, counters) ||
+      !prepare(&f, system->n, 0.5 * h, j, counters)) {
     return false;
   }
-  double power[SB_RADAU_POWERS];
-  system->rates(base, power, t + 0.5 * h, pair[0].z1, system->user);
-  counters->evaluations++;
-  if (!solve(&pair[1], system, t + 0.5 * h, pair[0].z1, 0.5 * h, j, base, counters)) {
-    return false;
+  for (int half = 0; half < 2; half++) {
+    for (int a = 0; a < S; a++) {
+      rates_at(pair[half].k[a], &whole, system->n, 0.5 * (half + node[a]));
+    }
+    double from = t + 0.5 * half * h;
+    if (!solve(&pair[half], system, from, half > 0 ? pair[0].z1 : z, 0.5 * h, &f, counters)) {
+      return false;
+    }
   }
   *error = 0.0;
   for (size_t i = 0; i < system->n; i++) {
