@@ -19,7 +19,7 @@ typedef struct {
   size_t frames;        // how many pictures
   const char *preset;   // libx264's; NULL: "veryfast"
   int quality;          // constant rate factor, 1 (best) to 51; 0: 18
-  int threads;          // of the encoder; 0: one per processor, up to 4
+  int threads;          // of the encoder; 0: one, which keeps up with the drawing
   bool bit_exact;       // the same bytes on every run (for tests); needs threads = 1
   const char *title;    // metadata; may be NULL
   const char *comment;  // metadata, such as models and errors; may be NULL
