@@ -7,6 +7,7 @@
 #include "engine/elastic/rubber_time.h"
 #include "engine/motion/bodies.h"
 #include "engine/motion/life.h"
+#include "engine/motion/outline.h"
 #include "engine/motion/rig.h"
 #include "engine/params.h"
 #include "engine/status.h"
@@ -104,6 +105,16 @@ typedef struct {
       rod_diameter; // stem
 } SbValveShape;
 
+// Half-sections of the parts whose shape a document gives, as it gives them; for the drawing only.
+// The housing has an x axis of its own, the three parts of the stem share one; both point out of
+// the canister.
+typedef struct {
+  SbOutline part[SB_VALVE_STEM_BOTTOM + 1]; // by the valve's parts; count 0: no shape
+  bool housing, stem;                       // the sizes below are known: it can be drawn
+  double land_edge, bore;                   // where the bore land begins [m], its radius
+  double groove_left[SB_SEAL_COUNT], groove_right[SB_SEAL_COUNT], floor, land; // walls, radii
+} SbValveOutlines;
+
 // Ranges that studies cover.
 typedef struct {
   double squeeze_min, squeeze_max; // of the free section
@@ -173,16 +184,17 @@ typedef struct {
   SbModelAsperities asperities;
   double hamaker; // [J]; 0 without adhesion
   SbModelMotion motion;
-  int life_actuations;    // computed one after the other; 1: the first alone
-  int life_shown;         // whose frames follow the first's, from 1
-  SbRunningIn running_in; // factor on the roughness
-  SbRig rig;              // motion RIG
-  double rig_prominence;  // fall of the force that makes a peak [N]
-  unsigned views;         // bit mask of SbView
-  unsigned studies;       // bit mask, 1 << SbStudyKind
-  SbSectionLook look;     // for the drawing only
-  double stem_diameter;   // D_p, also the stem's land [m]
-  SbValveShape shape;     // for the drawing only
+  int life_actuations;      // computed one after the other; 1: the first alone
+  int life_shown;           // whose frames follow the first's, from 1
+  SbRunningIn running_in;   // factor on the roughness
+  SbRig rig;                // motion RIG
+  double rig_prominence;    // fall of the force that makes a peak [N]
+  unsigned views;           // bit mask of SbView
+  unsigned studies;         // bit mask, 1 << SbStudyKind
+  SbSectionLook look;       // for the drawing only
+  double stem_diameter;     // D_p, also the stem's land [m]
+  SbValveShape shape;       // for the drawing only
+  SbValveOutlines outlines; // filled by whoever read the shapes, none otherwise
   SbStudyRange study;
 } SbModel;
 

@@ -343,58 +343,127 @@ static void draw_fluid(SbSection *section) {
   }
 }
 
-static void hatch(SbDrawItem *item, SbDrawColour colour, double lean, double offset) {
-  item->hatch = (SbDrawHatch){colour, 11.0f, 0.7f, (float)lean, (float)offset};
-  item->feather = false;
+SbSectionFrameMap sb_section_frame_map(double x0, double y0, double scale, const SbDrawRect *rect) {
+  enum { BEYOND = 20 };
+  double left = (double)rect->x - BEYOND, top = (double)rect->y - BEYOND;
+  return (SbSectionFrameMap){x0,
+                             y0,
+                             scale,
+                             left,
+                             top,
+                             left + (double)rect->width + 2 * BEYOND,
+                             top + (double)rect->height + 2 * BEYOND};
 }
 
-// Fills and outlines one run of points of the housing, cut off above the picture.
-static void draw_housing_part(SbSection *section, const SbSectionFrameMap *map,
-                              const SbValvePoint *points, size_t count) {
-  SbDrawPoint pixel[SB_VALVE_POINTS_MAX + 2];
+// Points that clipping a solid against four edges can make.
+enum { CLIPPED_MAX = SB_VALVE_POINTS_MAX + 16 };
+
+// Keeps what of a polygon lies on one side of a pixel's column (or row). Returns the new count.
+static size_t clip(SbDrawPoint *points, size_t count, bool row, double limit, double side) {
+  SbDrawPoint from[CLIPPED_MAX];
+  size_t n = 0;
+  memcpy(from, points, count * sizeof *from);
   for (size_t i = 0; i < count; i++) {
-    pixel[i] = (SbDrawPoint){(float)(map->x0 + points[i].x * map->scale),
-                             (float)(map->y0 - points[i].y * map->scale)};
-    pixel[i].y = MAX(pixel[i].y, (float)map->top);
+    SbDrawPoint a = from[i], b = from[(i + 1) % count];
+    double da = side * ((double)(row ? a.y : a.x) - limit);
+    double db = side * ((double)(row ? b.y : b.x) - limit);
+    if (da >= 0 && n < CLIPPED_MAX) {
+      points[n++] = a;
+    }
+    if ((da >= 0) != (db >= 0) && n < CLIPPED_MAX) {
+      float f = (float)(da / (da - db));
+      points[n++] = (SbDrawPoint){a.x + f * (b.x - a.x), a.y + f * (b.y - a.y)};
+    }
   }
-  SbDrawItem *item = sb_draw_fill(section->list, pixel, count, section->palette->housing);
-  hatch(item, section->palette->housing_hatch, 1, map->x0 + map->y0);
-  sb_draw_stroke(section->list, pixel, count, 1.8, section->palette->outline);
+  return n;
+}
+
+// Fills and outlines one solid shifted by dx. Edges on the axis are no edges.
+static void draw_solid(SbSection *section, const SbSectionFrameMap *map, const SbValveSolid *solid,
+                       double dx, const SbDrawHatch *lines) {
+  SbDrawPoint pixel[CLIPPED_MAX];
+  size_t n = solid->count;
+  for (size_t i = 0; i < n; i++) {
+    const SbValvePoint *at = &solid->point[i];
+    pixel[i] = (SbDrawPoint){(float)(map->x0 + (at->x - dx) * map->scale),
+                             (float)(map->y0 - at->y * map->scale)};
+  }
+  n = clip(pixel, n, false, map->left, 1);
+  n = clip(pixel, n, false, map->right, -1);
+  n = clip(pixel, n, true, map->top, 1);
+  n = clip(pixel, n, true, map->bottom, -1);
+  if (n < 3) {
+    return;
+  }
+  const SbPalette *palette = section->palette;
+  SbDrawItem *item =
+      sb_draw_fill(section->list, pixel, n, solid->moves ? palette->stem : palette->housing);
+  item->hatch = *lines;
+  item->feather = false;
+  float axis = (float)map->y0;
+  size_t start = 0;
+  bool closed = true;
+  for (size_t i = 0; i < n; i++) {
+    if (pixel[i].y == axis && pixel[(i + 1) % n].y == axis) {
+      start = (i + 1) % n;
+      closed = false;
+    }
+  }
+  SbDrawPoint line[CLIPPED_MAX];
+  for (size_t i = 0; i < n; i++) {
+    line[i] = pixel[(start + i) % n];
+  }
+  sb_draw_stroke(section->list, line, n, 1.8, palette->outline)->closed = closed;
+}
+
+static SbDrawHatch hatch(SbDrawColour colour, double lean, double offset) {
+  return (SbDrawHatch){colour, 11.0f, 0.7f, (float)lean, (float)offset};
+}
+
+// Above a housing of known shape nothing is known: no fluid, no wall.
+static void draw_outside(SbSection *section, const SbSectionFrameMap *map) {
+  const SbOutlineSurface *surface = &section->valve.housing;
+  SbDrawPoint pixel[2 * SB_OUTLINE_MAX + 2];
+  size_t n = 0;
+  for (size_t i = 0; i < surface->count; i++) {
+    for (int side = 0; side < 2; side++) {
+      double high = side == 0 ? surface->high_left[i] : surface->high_right[i];
+      if (high >= 0) {
+        float y = MAX((float)(map->y0 - high * map->scale), (float)map->top);
+        pixel[n++] = (SbDrawPoint){(float)(map->x0 + surface->x[i] * map->scale), y};
+      }
+    }
+  }
+  if (n > 1) {
+    pixel[n] = (SbDrawPoint){pixel[n - 1].x, (float)map->top};
+    pixel[n + 1] = (SbDrawPoint){pixel[0].x, (float)map->top};
+    sb_draw_fill(section->list, pixel, n + 2, section->palette->panel)->feather = false;
+  }
 }
 
 void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map) {
   const SbValve *valve = &section->valve;
-  const SbValveOutline *outline = &valve->housing;
-  double top = outline->point[0].y;
-  if (valve->vent_right <= valve->vent_left) {
-    draw_housing_part(section, map, outline->point, outline->count);
-    return;
+  if (valve->shaped_housing) {
+    draw_outside(section, map);
   }
-  // The vent cuts the housing in two; the last three points lie right of it.
-  SbValvePoint part[SB_VALVE_POINTS_MAX];
-  size_t split = outline->count - 3;
-  memcpy(part, outline->point, split * sizeof *part);
-  part[split] = (SbValvePoint){valve->vent_left, valve->bore};
-  part[split + 1] = (SbValvePoint){valve->vent_left, top};
-  draw_housing_part(section, map, part, split + 2);
-  part[0] = (SbValvePoint){valve->vent_right, top};
-  part[1] = (SbValvePoint){valve->vent_right, valve->bore};
-  memcpy(part + 2, outline->point + split, 3 * sizeof *part);
-  draw_housing_part(section, map, part, 5);
+  SbDrawHatch lines = hatch(section->palette->housing_hatch, 1, map->x0 + map->y0);
+  for (size_t i = 0; i < valve->solid_count; i++) {
+    if (!valve->solid[i].moves) {
+      draw_solid(section, map, &valve->solid[i], 0, &lines);
+    }
+  }
 }
 
-static void draw_stem(SbSection *section) {
-  const SbValveOutline *outline = &section->valve.stem;
+static void draw_stem(SbSection *section, const SbSectionFrameMap *map) {
+  const SbValve *valve = &section->valve;
   double s = sb_section_displacement(section);
-  SbDrawPoint pixel[SB_VALVE_POINTS_MAX];
-  for (size_t i = 0; i < outline->count; i++) {
-    pixel[i] = sb_section_at(section, outline->point[i].x - s, outline->point[i].y);
-    pixel[i].x = MIN(pixel[i].x, section->strip.x + section->strip.width + 20);
-    pixel[i].y = MIN(pixel[i].y, section->strip.y + section->strip.height + 20);
+  SbDrawHatch lines =
+      hatch(section->palette->stem_hatch, -1, section->x0 - s * section->scale - section->y0);
+  for (size_t i = 0; i < valve->solid_count; i++) {
+    if (valve->solid[i].moves) {
+      draw_solid(section, map, &valve->solid[i], s, &lines);
+    }
   }
-  SbDrawItem *item = sb_draw_fill(section->list, pixel, outline->count, section->palette->stem);
-  hatch(item, section->palette->stem_hatch, -1, section->x0 - s * section->scale - section->y0);
-  sb_draw_stroke(section->list, pixel, outline->count, 1.8, section->palette->outline);
 }
 
 static bool shows_both_halves(const SbSectionView *view) {
@@ -408,9 +477,10 @@ void sb_section_draw_strip(SbSection *section) {
   sb_draw_clip(list, &section->strip);
   draw_fluid(section);
   size_t first = list->item_count;
-  SbSectionFrameMap map = {section->x0, section->y0, section->scale, (double)section->strip.y - 20};
+  const SbDrawRect *strip = &section->strip;
+  SbSectionFrameMap map = sb_section_frame_map(section->x0, section->y0, section->scale, strip);
   sb_section_draw_housing(section, &map);
-  draw_stem(section);
+  draw_stem(section, &map);
 
   // Rings, and the contact bars over exactly the engine's contact.
   double bore = section->valve.bore;

@@ -87,9 +87,9 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
   sb_draw_rect(list, middle, rect->y, rect->x + rect->width - middle, rect->height,
                sb_palette_fluid(palette, frame->pressure_right))
       ->feather = false;
-  SbSectionFrameMap map = {inset_x(inset, -sb_section_origin(section, seal)),
-                           bore + section->valve.bore * inset->scale, inset->scale,
-                           (double)rect->y - 20};
+  SbSectionFrameMap map =
+      sb_section_frame_map(inset_x(inset, -sb_section_origin(section, seal)),
+                           bore + section->valve.bore * inset->scale, inset->scale, rect);
   sb_section_draw_housing(section, &map);
   sb_section_draw_ring(section, seal, inset_x(inset, 0), inset->scale,
                        bore + section->model.radial_space * inset->scale, -inset->scale);

@@ -290,13 +290,13 @@ static void draw_dose_path(SbSection *section) {
   double above = fmin(sb_valve_bore_at(valve, beside), top + 0.1 * g);
   double behind = ring + 1.25 * radius;
   double roof = fmin(sb_valve_bore_at(valve, behind), top + 0.1 * g);
-  double mouth_left = valve->stem.point[7].x - s;
+  double mouth_left = valve->chamber_left - s;
   double depth = valve->land - valve->chamber_floor;
   enum { KNOTS = 7, STEPS = 12 };
   // Knots of the way, from left to right; in between a Catmull-Rom curve.
   const SbValvePoint knot[KNOTS] = {
       {fmin(valve->face, ring) - 1.75 * g, valve->bore + 0.62 * g},
-      {fmin(valve->face, ring) - 0.45 * g, valve->housing.point[2].y - 0.02 * g},
+      {fmin(valve->face, ring) - 0.45 * g, valve->mouth - 0.02 * g},
       {ring, over},
       {beside, fmin((shoulder + above) / 2, above)},
       {behind, (valve->land + roof) / 2},

@@ -62,11 +62,14 @@ void sb_section_draw_leader(SbSection *section, const SbDrawRect *pressure, cons
 void sb_section_draw_insets(SbSection *section, const SbDrawRect *pressure, const SbDrawRect *film);
 void sb_section_draw_legends(SbSection *section, double x, double y, double width);
 
-// Where the housing's frame lies in a picture: pixel of its origin, pixels per metre, and the pixel
-// above which nothing shows.
+// Where the housing's frame lies in a picture: pixel of its origin, pixels per metre, and the
+// pixels beyond which nothing shows.
 typedef struct {
-  double x0, y0, scale, top;
+  double x0, y0, scale, left, top, right, bottom;
 } SbSectionFrameMap;
+
+// The map for a picture that shows `rect`.
+SbSectionFrameMap sb_section_frame_map(double x0, double y0, double scale, const SbDrawRect *rect);
 
 void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map);
 

@@ -1,7 +1,7 @@
-// Outlines of housing and stem from the model. What is drawn: bore land with a broken edge and a
+// Outlines of housing and stem from the model. Without profiles: bore land with a broken edge and a
 // lead-in to the mouth, chamfered housing ends, stem nose with a chamfer, two rectangular grooves,
-// the dose chamber with sloped flanks, the shoulder, the rod. Left out: fillets, the split of the
-// stem into its three parts, the crimp.
+// the dose chamber with sloped flanks, the shoulder, the rod. Left out there: fillets, the split of
+// the stem into its three parts, the crimp.
 #include "app/section/valve.h"
 
 #include <math.h>
@@ -16,9 +16,31 @@ static const double FLANK_SLOPE = 0.33;
 static const double LEAD_ANGLE = 0.5, EDGE_LENGTH = 5e-5; // [rad], [m]
 enum { EDGE_POINTS = 6 };
 
-static void add(SbValveOutline *outline, double x, double y) {
-  if (outline->count < SB_VALVE_POINTS_MAX) {
-    outline->point[outline->count++] = (SbValvePoint){x, y};
+static void add(SbValveSolid *solid, double x, double y) {
+  if (solid->count < SB_VALVE_POINTS_MAX) {
+    solid->point[solid->count++] = (SbValvePoint){x, y};
+  }
+}
+
+static SbValveSolid *new_solid(SbValve *valve, bool moves) {
+  SbValveSolid *solid = &valve->solid[valve->solid_count++];
+  solid->moves = moves;
+  solid->count = 0;
+  return solid;
+}
+
+// The part of `from` left (side -1) or right (side 1) of x; what is cut off leaves a straight edge.
+static void cut(SbValveSolid *to, const SbValveSolid *from, double x, int side) {
+  to->count = 0;
+  for (size_t i = 0; i < from->count; i++) {
+    SbValvePoint a = from->point[i], b = from->point[(i + 1) % from->count];
+    bool a_in = side * (a.x - x) >= 0, b_in = side * (b.x - x) >= 0;
+    if (a_in) {
+      add(to, a.x, a.y);
+    }
+    if (a_in != b_in) {
+      add(to, x, a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x));
+    }
   }
 }
 
@@ -38,6 +60,30 @@ static double at_most(SbValve *valve, double value, double most) {
   return most;
 }
 
+static void make_vent(SbValve *valve, const SbValveShape *shape) {
+  if (shape->vent_diameter > 0 && shape->vent_position + shape->vent_diameter < valve->end) {
+    valve->vent_left = shape->vent_position - shape->vent_diameter / 2;
+    valve->vent_right = shape->vent_position + shape->vent_diameter / 2;
+  }
+}
+
+// The housing's surfaces, and its solid cut in two by the vent.
+static void finish_housing(SbValve *valve) {
+  SbValveSolid *whole = &valve->solid[0];
+  SbOutline outline = {.count = whole->count};
+  for (size_t i = 0; i < whole->count; i++) {
+    outline.point[i] = (SbOutlinePoint){whole->point[i].x, whole->point[i].y};
+  }
+  sb_outline_surface(&valve->housing, &outline);
+  if (valve->vent_right > valve->vent_left) {
+    SbValveSolid left, *right = new_solid(valve, false);
+    cut(right, whole, valve->vent_right, 1);
+    cut(&left, whole, valve->vent_left, -1);
+    left.moves = false;
+    *whole = left;
+  }
+}
+
 static void make_housing(SbValve *valve, const SbModel *model, double top) {
   const SbValveShape *shape = &model->shape;
   double g = model->radial_space;
@@ -49,21 +95,21 @@ static void make_housing(SbValve *valve, const SbModel *model, double top) {
   double lead = rise / slope + EDGE_LENGTH / 2;
   double entry = at_least(valve, shape->entry_length, lead + 2 * chamfer);
   valve->face = -entry;
+  valve->mouth = mouth;
 
-  SbValveOutline *outline = &valve->housing;
-  outline->count = 0;
-  add(outline, -entry, top);
-  add(outline, -entry, mouth + chamfer);
-  add(outline, -entry + chamfer, mouth);
-  add(outline, -lead, mouth);
+  SbValveSolid *solid = new_solid(valve, false);
+  add(solid, -entry, top);
+  add(solid, -entry, mouth + chamfer);
+  add(solid, -entry + chamfer, mouth);
+  add(solid, -lead, mouth);
   for (int i = EDGE_POINTS; i >= 0; i--) {
     double t = (double)i / EDGE_POINTS;
     double opening = EDGE_LENGTH * t * t * t * (1 - t / 2);
-    add(outline, -EDGE_LENGTH * t, valve->bore + slope * opening);
+    add(solid, -EDGE_LENGTH * t, valve->bore + slope * opening);
   }
-  add(outline, valve->end - chamfer, valve->bore);
-  add(outline, valve->end, valve->bore + chamfer);
-  add(outline, valve->end, top);
+  add(solid, valve->end - chamfer, valve->bore);
+  add(solid, valve->end, valve->bore + chamfer);
+  add(solid, valve->end, top);
 }
 
 static void make_stem(SbValve *valve, const SbModel *model) {
@@ -80,32 +126,147 @@ static void make_stem(SbValve *valve, const SbModel *model) {
   double shoulder_chamfer = fmin(0.22 * g, 0.5 * shape->shoulder_length);
   valve->nose = valve->groove_left[SB_INNER] - shape->nose_length;
   valve->chamber = (valve->groove_left[SB_OUTER] + valve->groove_right[SB_INNER]) / 2;
+  valve->chamber_left = valve->chamber - chamber / 2;
   valve->chamber_floor = land - depth;
-  valve->shoulder = shoulder;
   valve->rod = rod;
 
-  SbValveOutline *outline = &valve->stem;
-  outline->count = 0;
-  add(outline, valve->nose, 0);
-  add(outline, valve->nose, land - 1.22 * chamfer);
-  add(outline, valve->nose + chamfer, land);
-  add(outline, valve->groove_left[SB_INNER], land);
-  add(outline, valve->groove_left[SB_INNER], valve->floor);
-  add(outline, valve->groove_right[SB_INNER], valve->floor);
-  add(outline, valve->groove_right[SB_INNER], land);
-  add(outline, valve->chamber - chamber / 2, land);
-  add(outline, valve->chamber - chamber / 2 + flank, land - depth);
-  add(outline, valve->chamber + chamber / 2 - flank, land - depth);
-  add(outline, valve->chamber + chamber / 2, land);
-  add(outline, valve->groove_left[SB_OUTER], land);
-  add(outline, valve->groove_left[SB_OUTER], valve->floor);
-  add(outline, valve->groove_right[SB_OUTER], valve->floor);
-  add(outline, valve->groove_right[SB_OUTER], land);
-  add(outline, shoulder - shoulder_chamfer, land);
-  add(outline, shoulder, land - shoulder_chamfer);
-  add(outline, shoulder, rod);
-  add(outline, valve->end + 40 * model->bore_diameter, rod);
-  add(outline, valve->end + 40 * model->bore_diameter, 0);
+  double far = valve->end + 40 * model->bore_diameter;
+  SbValveSolid *solid = new_solid(valve, true);
+  add(solid, far, 0);
+  add(solid, far, rod);
+  add(solid, shoulder, rod);
+  add(solid, shoulder, land - shoulder_chamfer);
+  add(solid, shoulder - shoulder_chamfer, land);
+  add(solid, valve->groove_right[SB_OUTER], land);
+  add(solid, valve->groove_right[SB_OUTER], valve->floor);
+  add(solid, valve->groove_left[SB_OUTER], valve->floor);
+  add(solid, valve->groove_left[SB_OUTER], land);
+  add(solid, valve->chamber + chamber / 2, land);
+  add(solid, valve->chamber + chamber / 2 - flank, land - depth);
+  add(solid, valve->chamber_left + flank, land - depth);
+  add(solid, valve->chamber_left, land);
+  add(solid, valve->groove_right[SB_INNER], land);
+  add(solid, valve->groove_right[SB_INNER], valve->floor);
+  add(solid, valve->groove_left[SB_INNER], valve->floor);
+  add(solid, valve->groove_left[SB_INNER], land);
+  add(solid, valve->nose + chamfer, land);
+  add(solid, valve->nose, land - 1.22 * chamfer);
+  add(solid, valve->nose, 0);
+}
+
+// ---- Parts with a shape of their own ----
+
+// A piecewise straight map of a coordinate; slope 1 beyond its knots.
+typedef struct {
+  size_t count;
+  double from[4], to[4];
+} Map;
+
+static double map_to(const Map *map, double value) {
+  if (value <= map->from[0]) {
+    return map->to[0] + value - map->from[0];
+  }
+  size_t i = 1;
+  while (i < map->count && value > map->from[i]) {
+    i++;
+  }
+  if (i == map->count) {
+    return map->to[i - 1] + value - map->from[i - 1];
+  }
+  double share = (value - map->from[i - 1]) / (map->from[i] - map->from[i - 1]);
+  return map->to[i - 1] + share * (map->to[i] - map->to[i - 1]);
+}
+
+// Whether the map does more than to shift.
+static bool map_stretches(const Map *map) {
+  double shift = map->to[0] - map->from[0];
+  double size = fabs(map->from[map->count - 1] - map->from[0]);
+  for (size_t i = 1; i < map->count; i++) {
+    if (fabs(map->to[i] - map->from[i] - shift) > 1e-6 * size) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static void add_outline(SbValveSolid *solid, const SbOutline *outline, const Map *x, const Map *r) {
+  for (size_t i = 0; i < outline->count; i++) {
+    add(solid, map_to(x, outline->point[i].x), map_to(r, outline->point[i].r));
+  }
+}
+
+static void shape_housing(SbValve *valve, const SbModel *model) {
+  const SbValveOutlines *given = &model->outlines;
+  Map x = {1, {given->land_edge}, {0}};
+  Map r = {2, {0, given->bore}, {0, valve->bore}};
+  valve->adjusted = valve->adjusted || map_stretches(&r);
+  add_outline(new_solid(valve, false), &given->part[SB_VALVE_HOUSING], &x, &r);
+  valve->shaped_housing = true;
+  const SbValveSolid *solid = &valve->solid[0];
+  valve->face = HUGE_VAL;
+  valve->end = -HUGE_VAL;
+  for (size_t i = 0; i < solid->count; i++) {
+    valve->face = fmin(valve->face, solid->point[i].x);
+    valve->end = fmax(valve->end, solid->point[i].x);
+  }
+  // The mouth is as wide as the hole is half way from the face to the land.
+  SbOutlineSurface surface;
+  double low, high;
+  sb_outline_surface(&surface, &given->part[SB_VALVE_HOUSING]);
+  bool found = sb_outline_radii(&low, &high, &surface, given->land_edge + valve->face / 2);
+  valve->mouth = found ? map_to(&r, low) : valve->bore;
+}
+
+static void shape_stem(SbValve *valve, const SbModel *model) {
+  const SbValveOutlines *given = &model->outlines;
+  Map x = {4,
+           {given->groove_left[SB_INNER], given->groove_right[SB_INNER],
+            given->groove_left[SB_OUTER], given->groove_right[SB_OUTER]},
+           {valve->groove_left[SB_INNER], valve->groove_right[SB_INNER],
+            valve->groove_left[SB_OUTER], valve->groove_right[SB_OUTER]}};
+  Map r = {3, {0, given->floor, given->land}, {0, valve->floor, valve->land}};
+  valve->adjusted = valve->adjusted || map_stretches(&x) || map_stretches(&r);
+  double far = -HUGE_VAL;
+  valve->nose = HUGE_VAL;
+  for (int part = SB_VALVE_STEM_CENTRE; part <= SB_VALVE_STEM_BOTTOM; part++) {
+    const SbOutline *outline = &given->part[part];
+    if (outline->count > 0) {
+      add_outline(new_solid(valve, true), outline, &x, &r);
+    }
+    for (size_t i = 0; i < outline->count; i++) {
+      valve->nose = fmin(valve->nose, map_to(&x, outline->point[i].x));
+      far = fmax(far, outline->point[i].x);
+    }
+  }
+  // The recess between the grooves, for labels and the dose path; the rod behind the outer one.
+  SbOutlineSurface surface;
+  enum { SAMPLES = 200 };
+  double low, high;
+  double left = given->groove_right[SB_INNER], right = given->groove_left[SB_OUTER];
+  double deepest = given->land;
+  sb_outline_surface(&surface, &given->part[SB_VALVE_STEM_CENTRE]);
+  for (int pass = 0; pass < 2; pass++) {
+    for (int i = 0; i <= SAMPLES; i++) {
+      double at = left + (right - left) * i / SAMPLES;
+      if (!sb_outline_radii(&low, &high, &surface, at)) {
+        continue;
+      }
+      deepest = fmin(deepest, high);
+      if (pass == 1 && high < given->land - 0.05 * (given->land - deepest)) {
+        valve->chamber_left = map_to(&x, at);
+        break;
+      }
+    }
+  }
+  valve->chamber = (valve->groove_left[SB_OUTER] + valve->groove_right[SB_INNER]) / 2;
+  valve->chamber_floor = map_to(&r, deepest);
+  double behind = (given->groove_right[SB_OUTER] + far) / 2;
+  for (int part = SB_VALVE_STEM_CENTRE; part <= SB_VALVE_STEM_BOTTOM; part++) {
+    sb_outline_surface(&surface, &given->part[part]);
+    if (sb_outline_radii(&low, &high, &surface, behind)) {
+      valve->rod = map_to(&r, high);
+    }
+  }
 }
 
 void sb_valve_make(SbValve *valve, const SbModel *model, double inner_contact_left, double top) {
@@ -134,25 +295,24 @@ void sb_valve_make(SbValve *valve, const SbModel *model, double inner_contact_le
 
   // The land holds the outer seal at rest.
   valve->end = at_least(valve, shape->land_length, valve->groove_right[SB_OUTER] + 0.2 * b);
-  if (shape->vent_diameter > 0 && shape->vent_position + shape->vent_diameter < valve->end) {
-    valve->vent_left = shape->vent_position - shape->vent_diameter / 2;
-    valve->vent_right = shape->vent_position + shape->vent_diameter / 2;
+  if (model->outlines.housing) {
+    shape_housing(valve, model);
+  } else {
+    make_housing(valve, model, top);
   }
-  make_housing(valve, model, top);
+  make_vent(valve, &model->shape);
+  finish_housing(valve);
+  // Where a profile gives the stem it replaces the one made of parameters, of which it keeps what
+  // it does not say.
+  size_t stem = valve->solid_count;
   make_stem(valve, model);
+  if (model->outlines.stem) {
+    valve->solid_count = stem;
+    shape_stem(valve, model);
+  }
 }
 
 double sb_valve_bore_at(const SbValve *valve, double x) {
-  const SbValveOutline *outline = &valve->housing;
-  if (x < valve->face || x > valve->end) {
-    return HUGE_VAL;
-  }
-  for (size_t i = 1; i + 2 < outline->count; i++) {
-    SbValvePoint a = outline->point[i];
-    SbValvePoint b = outline->point[i + 1];
-    if (x >= a.x && x <= b.x && b.x > a.x) {
-      return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
-    }
-  }
-  return valve->bore;
+  double low, high;
+  return sb_outline_radii(&low, &high, &valve->housing, x) ? low : HUGE_VAL;
 }

@@ -1,6 +1,11 @@
 // The valve's outlines to scale: housing with bore land, mouth and vent, stem with grooves and dose
 // chamber. Lengths in m.
 //
+// Parts whose shape the model's outlines give are drawn by it: the housing with the beginning of
+// its bore land at the land edge, the stem with its grooves where the seals sit. Where the sizes in
+// force differ from the profile's (a scene overrides them) it is stretched onto them piecewise:
+// radially at bore or groove floor and land, axially at the grooves' walls.
+//
 // Axes: x axial, canister on the left; y radial from the axis. The housing's frame has the land
 // edge at x = 0, the land on its right. The stem's frame lies on the housing's at displacement 0: a
 // point of the stem sits at x - s. The origin of a seal's frame (the contract's x = 0) moves with
@@ -15,28 +20,34 @@ typedef struct {
   double x, y;
 } SbValvePoint;
 
-enum { SB_VALVE_POINTS_MAX = 24 };
+enum { SB_VALVE_POINTS_MAX = SB_OUTLINE_MAX + 8, SB_VALVE_SOLIDS_MAX = 5 };
 
+// A part as it is filled: counter-clockwise (x to the right, y up), closed by its first point,
+// y >= 0.
 typedef struct {
+  bool moves; // with the stem, whose frame it is in; otherwise in the housing's
   size_t count;
   SbValvePoint point[SB_VALVE_POINTS_MAX];
-} SbValveOutline;
+} SbValveSolid;
 
 typedef struct {
   double bore, floor, land;     // radii: bore, groove floor, stem's land [m]
+  double mouth;                 // radius of the housing's mouth at its face
   double face, end;             // housing's ends [m], face < 0 < end
   double vent_left, vent_right; // equal: no vent
-  SbValveOutline housing;       // its lower edge, from the face's top to the end's top
-  SbValveOutline stem;          // its upper edge, from the nose on the axis to the rod's end
-  double nose;                  // x of the nose's face, stem's frame
-  double chamber;               // x of the chamber's middle, stem's frame
-  double chamber_floor;         // radius
-  double shoulder;              // x where the land behind the outer groove ends, stem's frame
-  double rod;                   // radius of the rod
+  size_t solid_count;           // of the housing (two where the vent cuts it), then of the stem
+  SbValveSolid solid[SB_VALVE_SOLIDS_MAX];
+  SbOutlineSurface housing; // its surfaces by x, as if there were no vent
+  bool shaped_housing;      // by a profile: what lies outside of it is not known
+  double nose;              // x of the nose's face, stem's frame
+  double chamber;           // x of the chamber's middle, stem's frame
+  double chamber_left;      // x where its recess begins
+  double chamber_floor;     // radius
+  double rod;               // radius of the rod
   double groove_left[SB_SEAL_COUNT], groove_right[SB_SEAL_COUNT]; // stem's frame
   double origin[SB_SEAL_COUNT];       // origin of the seal's frame, stem's frame
   double section_area[SB_SEAL_COUNT]; // of the fitted ring, volume kept: A/(1 + stretch) [m2]
-  bool adjusted;                      // some drawing size had to give way
+  bool adjusted; // some drawing size had to give way, or a profile was stretched
 } SbValve;
 
 // Builds the outlines. inner_contact_left: left end of the inner seal's contact in its own frame
