@@ -233,6 +233,23 @@ static SbStatus estimate_error(SbRun *run, const Recorder *fine, const SbDynamic
   return SB_OK;
 }
 
+void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
+                        const SbDynamicsCounters *counters) {
+  summary->energy = (SbEnergy){
+      .external = energy->drive + energy->pressure,
+      .external_max = energy->largest,
+      .friction = energy->friction + energy->viscous,
+      .stored = energy->stored,
+      .seal = energy->seal + energy->machine,
+      .kinetic = energy->kinetic,
+      .stop = energy->stop,
+      .loop = energy->drive - energy->machine,
+      .closure = energy->closure,
+  };
+  summary->steps = (size_t)(counters->segments + counters->steps);
+  summary->rejected_steps = (size_t)counters->rejected;
+}
+
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   SbDynamicsModel model;
@@ -260,19 +277,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   summary->force_peak = recorder.force_peak;
   summary->returns = status == SB_OK && fabs(last->displacement) < 1e-6 * run->model.stroke;
   summary->leakage_per_cycle = recorder.leak;
-  summary->energy = (SbEnergy){
-      .external = energy.drive + energy.pressure,
-      .external_max = energy.largest,
-      .friction = energy.friction + energy.viscous,
-      .stored = energy.stored,
-      .seal = energy.seal + energy.machine,
-      .kinetic = energy.kinetic,
-      .stop = energy.stop,
-      .loop = energy.drive - energy.machine,
-      .closure = energy.closure,
-  };
-  summary->steps = (size_t)(counters.segments + counters.steps);
-  summary->rejected_steps = (size_t)counters.rejected;
+  sb_run_fill_motion(summary, &energy, &counters);
   summary->newton_iterations += (size_t)counters.newton_iterations;
   // Closed form throughout: rounding only.
   double force = 1e-12;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/motion/cycle.h"
+#include "engine/motion/dynamics.h"
 #include "engine/run.h"
 
 enum {
@@ -93,6 +94,10 @@ void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber
 // inertia (run_dynamic.c).
 SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Energies and counts of a motion with inertia into the summary (run_dynamic.c).
+void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
+                        const SbDynamicsCounters *counters);
 
 // Makes the surface `factor` times as rough in the run's model and its solved sliding states.
 SbStatus sb_run_resurface(SbRun *run, double factor, SbReport *report);

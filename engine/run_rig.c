@@ -154,19 +154,7 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     summary->force_breakaway = summary->stage[SB_STAGE_B].force;
   }
   summary->duration = rig->duration;
-  summary->energy = (SbEnergy){
-      .external = energy.drive + energy.pressure,
-      .external_max = energy.largest,
-      .friction = energy.friction + energy.viscous,
-      .stored = energy.stored,
-      .seal = energy.seal + energy.machine,
-      .kinetic = energy.kinetic,
-      .stop = energy.stop,
-      .loop = energy.drive - energy.machine,
-      .closure = energy.closure,
-  };
-  summary->steps = (size_t)(counters.segments + counters.steps);
-  summary->rejected_steps = (size_t)counters.rejected;
+  sb_run_fill_motion(summary, &energy, &counters);
   // Between two samples the thread is wound up by speed / rate: the highest sample misses the peak
   // by less than that times the stiffness, on average by half of it.
   summary->error_force = summary->force_peak > 0 ? 0.5 * rig->thread_stiffness * rig->speed /

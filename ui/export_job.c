@@ -3,20 +3,15 @@
 #include "ui/export_job.h"
 
 #include "app/export/render_movie.h"
+#include "ui/worker.h"
 
 #include <string.h>
 
 struct SbExportJob {
+  SbWorker worker;
   SbRunHandle *handle; // owned reference
   SbExportRequest request;
-  GThread *thread;
-  void (*done)(void *data);
-  void *data;
-  GMutex lock;   // guards `source`
-  guint source;  // posted by the thread as its last act
-  int cancel;    // atomic
-  int per_mille; // atomic: progress
-  gint64 begin;  // [us]
+  gint64 begin; // [us]
   char *result;
   gboolean good;
 };
@@ -34,12 +29,12 @@ void sb_export_request_clear(SbExportRequest *request) {
 
 static void on_film_progress(void *user, size_t done, size_t total) {
   SbExportJob *job = user;
-  g_atomic_int_set(&job->per_mille, (int)(1000 * done / MAX(total, 1)));
+  sb_worker_tell(&job->worker, (double)done / (double)MAX(total, 1));
 }
 
 static bool film_cancelled(void *user) {
   SbExportJob *job = user;
-  return g_atomic_int_get(&job->cancel) != 0;
+  return sb_worker_cancelled(&job->worker);
 }
 
 // "x.mp4 is partial, 3 of 40 frames" and the like, from what a film's writer said.
@@ -104,22 +99,13 @@ static void make(SbExportJob *job, SbSectionPainter *painter) {
     job->result = job->good ? g_strdup_printf("%s is written.", name)
                             : g_strdup_printf("Nothing was written: %s.", error->message);
   }
-  g_atomic_int_set(&job->per_mille, 1000);
+  sb_worker_tell(&job->worker, 1);
 }
 
 // Thread -----------------------------------------------------------------------------------------
 
-static gboolean post(gpointer data) {
-  SbExportJob *job = data;
-  g_mutex_lock(&job->lock);
-  job->source = 0;
-  g_mutex_unlock(&job->lock);
-  job->done(job->data);
-  return G_SOURCE_REMOVE;
-}
-
-static gpointer work(gpointer data) {
-  SbExportJob *job = data;
+static void work(void *owner) {
+  SbExportJob *job = owner;
   SbSectionPainter *painter = NULL;
   SbReport report = {0};
   if (sb_section_painter_create(&painter, true, SB_GL_AUTO, &report) != SB_OK) {
@@ -128,10 +114,6 @@ static gpointer work(gpointer data) {
     make(job, painter);
   }
   sb_section_painter_destroy(painter);
-  g_mutex_lock(&job->lock);
-  job->source = g_idle_add(post, job);
-  g_mutex_unlock(&job->lock);
-  return NULL;
 }
 
 SbExportJob *sb_export_job_start(SbRunHandle *handle, SbExportRequest *request,
@@ -140,16 +122,13 @@ SbExportJob *sb_export_job_start(SbRunHandle *handle, SbExportRequest *request,
   job->handle = handle;
   job->request = *request;
   memset(request, 0, sizeof *request);
-  job->done = done;
-  job->data = data;
-  g_mutex_init(&job->lock);
   job->begin = g_get_monotonic_time();
-  job->thread = g_thread_new("export", work, job);
+  sb_worker_start(&job->worker, "export", work, job, done, data);
   return job;
 }
 
 double sb_export_job_progress(SbExportJob *job) {
-  return g_atomic_int_get(&job->per_mille) / 1000.0;
+  return sb_worker_progress(&job->worker);
 }
 
 double sb_export_job_left(SbExportJob *job) {
@@ -159,7 +138,7 @@ double sb_export_job_left(SbExportJob *job) {
 }
 
 void sb_export_job_cancel(SbExportJob *job) {
-  g_atomic_int_set(&job->cancel, 1);
+  sb_worker_cancel(&job->worker);
 }
 
 const char *sb_export_job_result(SbExportJob *job, gboolean *good) {
@@ -171,12 +150,7 @@ void sb_export_job_free(SbExportJob *job) {
   if (job == NULL) {
     return;
   }
-  sb_export_job_cancel(job);
-  g_thread_join(job->thread);
-  if (job->source != 0) {
-    g_source_remove(job->source);
-  }
-  g_mutex_clear(&job->lock);
+  sb_worker_finish(&job->worker);
   sb_run_handle_unref(job->handle);
   sb_export_request_clear(&job->request);
   g_free(job->result);

@@ -167,6 +167,24 @@ static double state_chip(SbCanvas *c, const char *text, SbRole ink, SbRole groun
   return box.width;
 }
 
+SbPage sb_page_begin(cairo_t *cr, SbRect rect, double width, double height, const SbTheme *theme) {
+  double scale = fmin(rect.width / width, rect.height / height);
+  if (scale < 0.8) {
+    scale = fmin(0.8, fmin(rect.width / 560, rect.height / 420));
+  }
+  scale = fmax(scale, 0.02);
+  SbRect whole = {0, 0, rect.width / scale, rect.height / scale};
+  cairo_save(cr);
+  cairo_translate(cr, rect.x, rect.y);
+  cairo_scale(cr, scale, scale);
+  SbColor ground = theme->role[SB_ROLE_BACKGROUND];
+  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
+  cairo_rectangle(cr, 0, 0, whole.width, whole.height);
+  cairo_fill(cr);
+  double left = whole.height - SB_PAGE_HEADER - sb_page_footer_height(whole) - 8;
+  return (SbPage){whole, {SB_GRID_MARGIN, SB_PAGE_HEADER, whole.width - 2 * SB_GRID_MARGIN, left}};
+}
+
 void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                          unsigned flags) {
   SbCanvas canvas;

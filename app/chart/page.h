@@ -9,6 +9,16 @@
 #define SB_PAGE_HEADER 88.0
 #define SB_PAGE_FOOTER 56.0
 
+// A page begun: its whole and the body between header and footer, in the page's own units.
+typedef struct {
+  SbRect whole, body;
+} SbPage;
+
+// Saves the context, moves and scales it so that a page that likes `width` x `height` fills `rect`,
+// and paints the ground. A small page is not shrunk below what is still readable; then the body is
+// less than it likes. The caller restores the context.
+SbPage sb_page_begin(cairo_t *cr, SbRect rect, double width, double height, const SbTheme *theme);
+
 // Height of the footer on this page: a narrow one gives the warnings a line of their own.
 double sb_page_footer_height(SbRect rect);
 

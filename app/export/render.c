@@ -71,26 +71,11 @@ void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChar
     sb_dashboard_draw(cr, rect, theme, data, flags, section, user);
     return;
   }
-  double scale = fmin(rect.width / view->width, rect.height / view->height);
-  if (scale < 0.8) {
-    scale = fmin(0.8, fmin(rect.width / 560, rect.height / 420));
-  }
-  scale = fmax(scale, 0.02);
-  SbRect page = {0, 0, rect.width / scale, rect.height / scale};
-  cairo_save(cr);
-  cairo_translate(cr, rect.x, rect.y);
-  cairo_scale(cr, scale, scale);
-  SbColor ground = theme->role[SB_ROLE_BACKGROUND];
-  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
-  cairo_rectangle(cr, 0, 0, page.width, page.height);
-  cairo_fill(cr);
-
+  SbPage frame = sb_page_begin(cr, rect, view->width, view->height, theme);
+  SbRect page = frame.whole, body = frame.body;
   // A narrow page has no room for read-outs beside its title; the view's own labels say the same.
   unsigned header = page.width < 1000 ? flags | SB_CHART_WHOLE : flags;
   sb_page_header_draw(cr, page, theme, data, header);
-  double footer = sb_page_footer_height(page);
-  SbRect body = {SB_GRID_MARGIN, SB_PAGE_HEADER, page.width - 2 * SB_GRID_MARGIN,
-                 page.height - SB_PAGE_HEADER - footer - 8};
   flags |= SB_CHART_PANEL;
   bool rig = sb_chart_is_rig(&data->run);
   if (strcmp(view->name, "life") == 0) {

@@ -35,19 +35,7 @@ void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const Sb
   const SbTheme *theme = sb_theme(page->dark);
   double width, height;
   sb_study_page_size(&width, &height, study);
-  double scale = fmin(rect.width / width, rect.height / height);
-  if (scale < 0.8) {
-    scale = fmin(0.8, fmin(rect.width / 560, rect.height / 420));
-  }
-  scale = fmax(scale, 0.02);
-  SbRect whole = {0, 0, rect.width / scale, rect.height / scale};
-  cairo_save(cr);
-  cairo_translate(cr, rect.x, rect.y);
-  cairo_scale(cr, scale, scale);
-  SbColor ground = theme->role[SB_ROLE_BACKGROUND];
-  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
-  cairo_rectangle(cr, 0, 0, whole.width, whole.height);
-  cairo_fill(cr);
+  SbPage frame = sb_page_begin(cr, rect, width, height, theme);
 
   // The header and its state are those of every page; the title is the study's and the scene's.
   const char *name = sb_study_title(study->kind);
@@ -58,11 +46,8 @@ void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const Sb
   data.run.model = page->model;
   data.run.state = SB_CHART_DONE;
   data.failure = study->complete ? NULL : "incomplete: a solver did not converge at every point";
-  sb_page_header_draw(cr, whole, theme, &data, SB_CHART_WHOLE);
-  double footer = sb_page_footer_height(whole);
-  SbRect body = {SB_GRID_MARGIN, SB_PAGE_HEADER, whole.width - 2 * SB_GRID_MARGIN,
-                 whole.height - SB_PAGE_HEADER - footer - 8};
-  sb_study_draw(cr, body, theme, study);
+  sb_page_header_draw(cr, frame.whole, theme, &data, SB_CHART_WHOLE);
+  sb_study_draw(cr, frame.body, theme, study);
 
   char errors[160], version[64];
   errors_text(errors, sizeof errors, study);
@@ -72,7 +57,7 @@ void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const Sb
     g_snprintf(version + used, sizeof version - used, "  \xc2\xb7  scene %.8s", page->hash);
   }
   SbPageFoot foot = {study->models, errors, version, &study->warnings};
-  sb_page_foot_draw(cr, whole, theme, &foot);
+  sb_page_foot_draw(cr, frame.whole, theme, &foot);
   cairo_restore(cr);
 }
 

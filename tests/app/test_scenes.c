@@ -4,6 +4,8 @@
 
 #include "engine/sealbench.h"
 
+#include "tests/executed.h"
+
 #include <math.h>
 
 typedef void SceneTest(const char *path);
@@ -19,13 +21,7 @@ static SbRun *run_scene(const char *path, int frames_factor, unsigned views) {
   if (views != 0) {
     model.views = views;
   }
-  SbPlan plan;
-  sb_plan_make(&plan, &model);
-  SbRun *run = NULL;
-  SbReport report = {0};
-  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
-  g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_OK);
-  return run;
+  return executed_run(&model);
 }
 
 // A scene with inertia at another tolerance of its steps; NULL for others.
@@ -38,13 +34,7 @@ static SbRun *run_tolerance(const char *path, double tolerance) {
     return NULL;
   }
   model.motion_tolerance = tolerance;
-  SbPlan plan;
-  sb_plan_make(&plan, &model);
-  SbRun *run = NULL;
-  SbReport report = {0};
-  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
-  g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_OK);
-  return run;
+  return executed_run(&model);
 }
 
 // At least one actuation: the stem leaves its rest and the machine or hand turns it; or one pull.

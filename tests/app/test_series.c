@@ -4,6 +4,8 @@
 
 #include "engine/sealbench.h"
 
+#include "tests/executed.h"
+
 #include <glib/gstdio.h>
 #include <locale.h>
 #include <math.h>
@@ -75,12 +77,7 @@ static void test_followed(void) {
   g_autofree SbModel *model = g_new(SbModel, 1);
   g_assert_true(sb_document_compile(document, model, issues));
   g_assert_true(sb_series_read(&series, csv, issues));
-  SbPlan plan;
-  sb_plan_make(&plan, model);
-  SbRun *run = NULL;
-  SbReport report = {0};
-  g_assert_cmpint(sb_run_create(&run, model, &plan, &report), ==, SB_OK);
-  g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_OK);
+  SbRun *run = executed_run(model);
   size_t count, row = 0;
   const SbFrame *frame = sb_run_frames(run, &count);
   for (size_t i = 0; i < count; i++) {

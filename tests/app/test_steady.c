@@ -3,6 +3,7 @@
 // pictures. The address sanitizer holds freed memory back, so there only the drawing is exercised.
 #include "app/export/film.h"
 #include "app/section/painter.h"
+#include "tests/executed.h"
 #include "tests/sanitized.h"
 
 #include <malloc.h>
@@ -28,12 +29,7 @@ static SbRun *compute(void) {
   sb_params_set(&params, SB_P_OUTPUT_VIEWS, SB_VIEW_SECTION, &report);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
-  SbPlan plan;
-  sb_plan_make(&plan, &model);
-  SbRun *run;
-  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
-  g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_OK);
-  return run;
+  return executed_run(&model);
 }
 
 static void test_section(void) {

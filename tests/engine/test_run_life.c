@@ -1,6 +1,8 @@
 // A life as a run: each actuation is what a scene with that roughness gives by itself.
 #include "engine/sealbench.h"
 
+#include "tests/executed.h"
+
 #include <glib.h>
 #include <math.h>
 
@@ -19,13 +21,7 @@ static SbRun *run_with(const Change *changes, int count) {
   }
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
-  SbPlan plan;
-  sb_plan_make(&plan, &model);
-  SbRun *run = NULL;
-  SbReport report = {0};
-  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
-  g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_OK);
-  return run;
+  return executed_run(&model);
 }
 
 // Actuation n of a life against one cycle at its roughness, given through surface.* alone.

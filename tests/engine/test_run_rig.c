@@ -2,6 +2,8 @@
 // signal that they hold, taken here by another way.
 #include "engine/sealbench.h"
 
+#include "tests/executed.h"
+
 #include <glib.h>
 #include <math.h>
 
@@ -24,13 +26,7 @@ static SbRun *pull(const double changes[][2], int count) {
   }
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
-  SbPlan plan;
-  sb_plan_make(&plan, &model);
-  SbRun *run = NULL;
-  SbReport report = {0};
-  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
-  g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_OK);
-  return run;
+  return executed_run(&model);
 }
 
 static void test_coefficients(void) {

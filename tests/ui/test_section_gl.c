@@ -6,6 +6,8 @@
 #include "tests/app/picture.h"
 #include "ui/section_gl.h"
 
+#include "tests/executed.h"
+
 enum { WIDTH = 900, HEIGHT = 600 };
 
 // The section of the default valve in the middle of its cycle.
@@ -17,11 +19,7 @@ static void fill(SbDrawList *list, bool dark) {
   sb_params_set(&params, SB_P_OUTPUT_FRAMES, 20, &report);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
-  SbPlan plan;
-  sb_plan_make(&plan, &model);
-  SbRun *run;
-  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
-  g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_OK);
+  SbRun *run = executed_run(&model);
   size_t count;
   const SbFrame *frames = sb_run_frames(run, &count);
   SbSectionLimits limits;
