@@ -283,12 +283,12 @@ static bool compile_parts(SbModel *model, const SbParams *params, SbProblems *pr
   SbMobility mobility;
   SbReport report = {0};
   const double axis[3] = {1, 0, 0};
-  double moving;
+  SbAssemblyTangent tangent;
   SbStatus status = sb_assembly_valve(&assembly, &model->parts, &report);
   status = status != SB_OK ? status : sb_assembly_mobility(&mobility, &assembly, 1, &report);
   status = status != SB_OK
                ? status
-               : sb_assembly_effective_mass(&moving, &assembly, SB_VALVE_BLOCK, axis, &report);
+               : sb_assembly_tangent(&tangent, &assembly, SB_VALVE_STEM_CENTRE, axis, &report);
   if (status != SB_OK) {
     int changed = SB_VALVE_BLOCK_GROUND;
     for (int i = SB_VALVE_JOINTS - 1; i >= 0; i--) {

@@ -105,7 +105,7 @@ static void plan_bodies(SbPlan *plan, const SbModel *model) {
   plan->bodies = model->motion == SB_MODEL_MOTION_BODIES;
   if (plan->bodies) {
     add(plan->field, &plan->field_count, "joint reactions", "constrained bodies",
-        2e-3 + model->frames * 1e-7, 0, "models.motion = bodies asks for them, %d joints",
+        0.15 + model->frames * 2e-4, 0, "models.motion = bodies asks for them, %d joints",
         SB_VALVE_JOINTS);
   } else {
     add(plan->skipped, &plan->skipped_count, "joint reactions", "", 0, 0,

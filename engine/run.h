@@ -70,9 +70,10 @@ typedef struct {
 typedef struct {
   int gruebler, constraints, freedom;
   char text[256];
-  double moving_mass;        // that the stroke sees, from the multipliers' solution [kg]
+  double moving_mass;        // that the stroke sees, by the joints' conditions [kg]
   double acceleration_error; // largest difference of a part's acceleration from the stroke's,
                              // relative to all forces over the mass
+  double joint_error;        // most that a step of the motion left a joint violated [m]
   size_t joints;             // 0: not asked for
   SbJointSummary joint[SB_VALVE_JOINTS];
 } SbBodiesSummary;

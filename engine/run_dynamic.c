@@ -29,6 +29,8 @@ typedef struct {
   double turn;                  // time after which a reverse slip is the return [s]
   double force_peak, leak, leak_from;
   double last_event;
+  SbStatus status; // of the frames' reactions
+  SbReport *report;
 } Recorder;
 
 // Film dragged along since the last call, at the film of the present state.
@@ -63,8 +65,8 @@ static SbFrame *add_frame(Recorder *r) {
       .stage = (uint8_t)r->stage,
       .chamber = (uint8_t)r->valve->chamber,
   };
-  if (r->run->bodies != NULL) {
-    sb_run_bodies_frame(r->run, r->count - 1, &sample);
+  if (r->run->bodies != NULL && r->status == SB_OK) {
+    r->status = sb_run_bodies_frame(r->run, r->count - 1, &sample, r->report);
   }
   bool moving = sample.speed != 0;
   int direction = moving ? (sample.speed > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT) : r->direction;
@@ -146,6 +148,7 @@ static SbStatus run_motion(Recorder *r, SbDynamics *motion, const SbDynamicsMode
     return status;
   }
   r->motion = motion;
+  r->report = report;
   r->leak_from = model->start_position;
   r->turn = sb_drive_turn(run);
   sb_dynamics_listen(motion, valve_event, r);
@@ -177,6 +180,7 @@ static SbStatus run_motion(Recorder *r, SbDynamics *motion, const SbDynamicsMode
     time = fmin(turn, even);
     status = sb_dynamics_advance(motion, time, report);
     add_frame(r);
+    status = status != SB_OK ? status : r->status;
     if (r->count % 64 == 0 || !r->frames) {
       if (r->frames) {
         sb_run_publish(run, r->count);
@@ -254,6 +258,8 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   SbDynamicsModel model;
   SbValve valve;
+  sb_run_bodies_destroy(run->bodies);
+  run->bodies = NULL;
   SbStatus status = run->plan.bodies ? sb_run_bodies_create(run, report) : SB_OK;
   status = status != SB_OK ? status : sb_valve_set_up(&model, &valve, run, report);
   if (status != SB_OK) {

@@ -36,15 +36,21 @@ double sb_valve_chamber_pressure(const SbValve *valve, const double *extra);
 // The sliding state of a seal that stands for the present chamber and direction.
 const SbSliding *sb_valve_state(const SbValve *valve, int seal, int direction, double pressure);
 
-// The constrained parts (run_bodies.c). Assembles them, counts their freedom, finds how each joint
-// answers to each load, and makes room for the frames' reactions.
+// The constrained parts (run_bodies.c). Assembles them, counts their freedom, and makes room for
+// the frames' reactions.
 SbStatus sb_run_bodies_create(SbRun *run, SbReport *report);
 
-// Mass that the stroke sees [kg], by the multipliers' solution.
+// Mass that the stroke sees as assembled [kg].
 double sb_run_bodies_mass(const SbRunBodies *bodies);
 
-// Reactions of the joints for the frame at `index`; adds to the summary.
-void sb_run_bodies_frame(SbRun *run, size_t index, const SbDynamicsSample *sample);
+// Moves the parts to displacement x [m] with the stem at speed v [m/s]; the mass and the levers
+// there. SB_ERROR_INFEASIBLE where the parts do not move as one.
+SbStatus sb_run_bodies_parts(SbDynamicsParts *out, SbRun *run, double x, double v,
+                             SbReport *report);
+
+// Reactions of the joints for the frame at `index`; adds to the summary. Moves the parts there.
+SbStatus sb_run_bodies_frame(SbRun *run, size_t index, const SbDynamicsSample *sample,
+                             SbReport *report);
 
 // Sets what drives the mechanism, and where it starts.
 void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run);

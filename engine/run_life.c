@@ -72,7 +72,9 @@ static void show(Lived *lived) {
     run->frames[at + i].time += start;
     run->frames[at + i].on_event = 0; // stage marks are the first actuation's
   }
-  sb_run_publish(run, at + count < run->capacity ? at + count : run->capacity);
+  count = at + count < run->capacity ? count : run->capacity - at;
+  sb_run_bodies_show(run, at, lived->one, count);
+  sb_run_publish(run, at + count);
 }
 
 static SbStatus actuate(SbLifeActuation *out, long n, double roughness, void *user,
@@ -86,6 +88,8 @@ static SbStatus actuate(SbLifeActuation *out, long n, double roughness, void *us
   // The first actuation's fitment and film with this one's surface.
   one->model = run->model;
   one->cycle = run->cycle;
+  // Reactions are for frames, and only those of the actuation shown are kept.
+  one->plan.bodies = run->plan.bodies && n + 1 == run->model.life_shown;
   one->summary = (SbSummary){.error_film = NAN, .force_breakaway = NAN};
   sb_run_publish(one, 0);
   SbStatus status = sb_run_resurface(one, roughness / run->model.running_in.start, report);

@@ -46,6 +46,9 @@ typedef struct {
 typedef struct SbRunBodies SbRunBodies;
 void sb_run_bodies_destroy(SbRunBodies *bodies);
 
+// The reactions of the first `count` frames of another run for this one's frames from `at` on.
+void sb_run_bodies_show(SbRun *run, size_t at, const SbRun *from, size_t count);
+
 struct SbRun {
   SbModel model;
   SbPlan plan;

@@ -183,6 +183,12 @@ static void warn_flow(SbRun *run, const SbValve *valve) {
   }
 }
 
+static SbStatus valve_parts(SbDynamicsParts *parts, double x, double v, void *user,
+                            SbReport *report) {
+  const SbValve *valve = user;
+  return sb_run_bodies_parts(parts, valve->run, x, v, report);
+}
+
 SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbReport *report) {
   const SbModel *model = &run->model;
   const SbCycle *cycle = &run->cycle;
@@ -195,6 +201,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
       .stops = 2,
       .loads = valve_loads,
       .cross = valve_cross,
+      .parts = run->bodies != NULL ? valve_parts : NULL,
       .user = valve,
       .start_dwell = model->rest,
       .tolerance = model->motion_tolerance,

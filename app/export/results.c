@@ -119,6 +119,7 @@ static void put_bodies(SbJson *json, const SbRun *run) {
   sb_json_string(json, "text", bodies->text);
   sb_json_number(json, "moving_mass_kg", bodies->moving_mass);
   sb_json_number(json, "acceleration_error", bodies->acceleration_error);
+  sb_json_number(json, "joint_error_m", bodies->joint_error);
   sb_json_array(json, "parts");
   for (int i = 0; i < SB_VALVE_GROUND; i++) {
     const SbValvePart *part = &model->parts.part[i];

@@ -7,7 +7,8 @@
 //   [ M  J' ] [ a  ]   [ applied - gyroscopic ]
 //   [ J  0  ] [ -l ] = [ -(dJ/dt) velocity    ]
 //
-// J has 6 rows for a fixed joint, 5 for a translational or revolute one. Gruebler's count
+// J has 6 rows for a fixed joint, 5 for a translational or revolute one, 4 for a cylindrical, 3 for
+// a spherical one. Gruebler's count
 // 6 (n - 1) - sum of constraints is compared with the rank of J: conditions that repeat each other
 // or a part that nothing holds are named. SI units, ground frame. Leaves out: flexible parts,
 // clearance, friction inside joints (apply it as a force).
@@ -28,7 +29,14 @@ typedef struct {
   double force[3], torque[3];  // applied at the centre of mass, N, N m
 } SbBody;
 
-typedef enum { SB_JOINT_FIXED, SB_JOINT_TRANSLATIONAL, SB_JOINT_REVOLUTE } SbJointKind;
+// Conditions: 6, 5, 5, 3, 4.
+typedef enum {
+  SB_JOINT_FIXED,
+  SB_JOINT_TRANSLATIONAL,
+  SB_JOINT_REVOLUTE,
+  SB_JOINT_SPHERICAL = 4, // a point in common, any turn
+  SB_JOINT_CYLINDRICAL,   // slides along the axis and turns about it
+} SbJointKind;
 
 // Joint between bodies i and j. `point` and `axis` are given in the ground frame as assembled.
 typedef struct {
@@ -86,11 +94,31 @@ SbStatus sb_assembly_mobility(SbMobility *mobility, const SbAssembly *assembly, 
 // each other (reactions are then not unique).
 SbStatus sb_assembly_forces(SbAssemblyForces *forces, const SbAssembly *assembly, SbReport *report);
 
-// Mass that a push along the single degree of freedom sees at a body's centre moving along `axis`
-// [kg]: what a one-coordinate model (dynamics.h) needs. SB_ERROR_INFEASIBLE unless freedom is 1 and
-// that body moves along the axis.
-SbStatus sb_assembly_effective_mass(double *mass, const SbAssembly *assembly, size_t body,
-                                    const double axis[3], SbReport *report);
+// Motion along the single degree of freedom: velocity of every centre [m/s] and spin [rad/s] per
+// 1 m/s of one body's centre along an axis, and the mass that a push there sees [kg].
+typedef struct {
+  size_t body;
+  double axis[3]; // unit
+  double velocity[SB_BODIES_MAX][3], spin[SB_BODIES_MAX][3];
+  double mass; // sum of m velocity^2 + spin . I spin
+} SbAssemblyTangent;
+
+// Null vector of the joints' Jacobian at the present positions, from its QR factorisation.
+// SB_ERROR_INFEASIBLE, with Gruebler's count, unless freedom is 1, nothing repeats and `body` moves
+// along `axis`.
+SbStatus sb_assembly_tangent(SbAssemblyTangent *tangent, const SbAssembly *assembly, size_t body,
+                             const double axis[3], SbReport *report);
+
+// Moves all parts along their freedom until the tangent's body is `distance` [m] further along the
+// axis, onto the joints by Newton's method, and sets all speeds to those of `speed` [m/s] there.
+// `tangent` is that of the present place and becomes that of the new one. *error (may be NULL) is
+// what the joints were violated by before they were brought back [m]. Errors as above, and
+// SB_ERROR_NOT_CONVERGED if the parts cannot get there; they may then have moved.
+SbStatus sb_assembly_slide(SbAssembly *assembly, SbAssemblyTangent *tangent, double distance,
+                           double speed, double *error, SbReport *report);
+
+// Power of the applied forces per 1 m/s of the tangent's motion: the generalised force [N].
+double sb_assembly_generalised_force(const SbAssembly *assembly, const SbAssemblyTangent *tangent);
 
 // Advances by h with the classical Runge-Kutta method (order 4), the applied forces held or set
 // anew at each stage by `apply` (may be NULL), and brings positions back onto the joints.
@@ -126,7 +154,7 @@ enum {
   SB_VALVE_BLOCK_GROUND,
   SB_VALVE_JOINTS,
 };
-enum { SB_JOINT_NONE = SB_JOINT_REVOLUTE + 1 }; // beside SbJointKind: left out
+enum { SB_JOINT_NONE = SB_JOINT_REVOLUTE + 1 }; // no SbJointKind: left out
 
 // Mass [kg] and moments of inertia about the valve's axis and across it through the centre [kg m2].
 typedef struct {

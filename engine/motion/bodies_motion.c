@@ -1,5 +1,5 @@
 // Time stepping of an assembly and the thesis' valve. See bodies.h.
-#include "engine/motion/bodies.h"
+#include "engine/motion/bodies_internal.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,7 +17,7 @@ static SbStatus rates_of(Rates *out, SbAssembly *a, double time,
     sb_assembly_clear_forces(a);
     apply(a, time, user);
   }
-  SbStatus status = sb_assembly_forces(&forces, a, report);
+  SbStatus status = sb_bodies_forces(&forces, a, report);
   if (status != SB_OK) {
     return status;
   }
@@ -63,7 +63,9 @@ SbStatus sb_assembly_step(SbAssembly *a, double time, double h,
                           SbReport *report) {
   SbAssembly start = *a;
   Rates k1, k2, k3, k4, mean;
-  SbStatus status = rates_of(&k1, a, time, apply, user, report);
+  SbMobility mobility;
+  SbStatus status = sb_assembly_mobility(&mobility, a, -1, report);
+  status = status != SB_OK ? status : rates_of(&k1, a, time, apply, user, report);
   if (status == SB_OK) {
     move(a, &start, &k1, 0.5 * h);
     status = rates_of(&k2, a, time + 0.5 * h, apply, user, report);

@@ -328,6 +328,7 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
     return status;
   }
   *s = (SbDynamics){.model = m, .x = m->start_position, .v = m->start_speed, .event = EVENT_NONE};
+  s->parts = (SbDynamicsParts){m->mass, 1.0, 1.0, 1.0, {1.0, 1.0, 1.0, 1.0}};
   memcpy(s->extra, m->extra_start, sizeof s->extra);
   // An edge exactly under the stem counts as crossed.
   while (s->region < m->edges && m->edge[s->region] <= s->x) {
@@ -405,7 +406,11 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
       if (s->push.on && sb_motion_finger_gone(s)) {
         switch_drive(s);
       }
-      SbStatus status = sb_motion_find_path(s, report);
+      SbStatus status = SB_OK;
+      if (s->model->parts != NULL) {
+        status = s->model->parts(&s->parts, s->x, s->v, s->model->user, report);
+      }
+      status = status != SB_OK ? status : sb_motion_find_path(s, report);
       if (status != SB_OK) {
         s->now = s->t;
         return status;
@@ -467,7 +472,8 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
   out->drive_force = sb_motion_drive_force(s, t, x, v);
   out->loads_force = loads.force;
   out->spring_force = -m->spring_preload - m->spring_stiffness * x;
-  double total = out->drive_force + out->loads_force + out->spring_force - m->damping * v;
+  double total = s->parts.drive * out->drive_force +
+                 s->parts.loads * (out->loads_force + out->spring_force - m->damping * v);
   double holding = 0.0, rigid_stop = 0.0;
   for (size_t i = 0; i < m->contacts; i++) {
     out->contact[i] = s->state[i];
@@ -477,7 +483,7 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
     }
     out->viscous[i] = -m->contact[i].viscous * v;
     out->friction[i] = sb_motion_contact_force(s, i, x, v, d[i], loads.level[i]) + out->viscous[i];
-    total += out->friction[i];
+    total += s->parts.contact[i] * out->friction[i];
     if (is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK) {
       holding += sb_motion_holding_level(s, i, loads.level[i], t);
     }
@@ -488,7 +494,7 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
       continue;
     }
     out->stop_force[i] = sb_motion_stop_force(s, i, t, x, v);
-    total -= m->stop[i].side * out->stop_force[i];
+    total -= s->parts.stop * m->stop[i].side * out->stop_force[i];
   }
   // What holds a stem at rest: a rigid stop first, else the rigid contacts by their strength.
   if (s->held && rigid_stop != 0.0) {
@@ -506,7 +512,7 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
     }
     total = 0.0;
   }
-  out->acceleration = total / m->mass;
+  out->acceleration = total / s->parts.mass;
   memcpy(out->extra, extra, sizeof extra);
 }
 

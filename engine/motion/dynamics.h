@@ -65,6 +65,13 @@ typedef struct {
   bool settled;  // the extra states do not change while the stem does not move
 } SbDynamicsLoads;
 
+// How the parts of a mechanism follow the one coordinate: the mass it sees [kg] and, by virtual
+// work, what 1 N counts where it acts. Parts that move as one: levers of 1 to rounding, which is
+// what the laws here mean by travel and speed.
+typedef struct {
+  double mass, drive, loads, stop, contact[SB_DYNAMICS_CONTACTS];
+} SbDynamicsParts;
+
 typedef struct {
   double mass;                             // kg, > 0
   double damping;                          // N s/m, of the stem against ground
@@ -83,6 +90,8 @@ typedef struct {
   double extra_start[SB_DYNAMICS_EXTRAS], extra_scale[SB_DYNAMICS_EXTRAS]; // scale > 0
   // Sliding friction over level at a speed >= 0 (replaces the Stribeck curve); NULL: none.
   double (*speed_factor)(size_t contact, double speed, void *user);
+  // The parts at (x, v), asked for at the start of every segment; NULL: one mass.
+  SbStatus (*parts)(SbDynamicsParts *parts, double x, double v, void *user, SbReport *report);
   void *user;
   SbDrive drive;
   // N/m, N s/m. A force drive has no stiffness; its push falls by drive_damping times the speed, as
@@ -167,6 +176,7 @@ typedef struct {
   bool fresh[SB_DYNAMICS_CONTACTS]; // newly loaded: sticks up to the sliding level only
   size_t region;
   SbDynamicsLoads loads;
+  SbDynamicsParts parts;
   SbDynamicsTouch touch[SB_DYNAMICS_STOPS], push;
   double stop_damping[SB_DYNAMICS_STOPS];
   SbDriveState drive;

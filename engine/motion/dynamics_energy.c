@@ -154,7 +154,7 @@ void sb_motion_energy_at(const SbDynamics *s, double t, double x, double v, cons
     e->stop += relic_loss(&s->touch[i], m->stop[i].stiffness, s->stop_damping[i], s->t, t);
   }
   e->machine += relic_loss(&s->push, m->drive_stiffness, m->drive_damping, s->t, t);
-  e->kinetic = 0.5 * m->mass * v * v - s->kinetic_start;
+  e->kinetic = 0.5 * s->parts.mass * v * v - s->kinetic_start;
   e->stored = sb_motion_stored_energy(s, t, x, d) - s->stored_start;
   double external = e->drive + e->pressure;
   e->largest = fmax(e->largest, fabs(external));

@@ -88,16 +88,18 @@ void sb_motion_loads_at(const SbDynamics *s, double x, const double *extra,
 double sb_motion_demand(const SbDynamics *s, double t, double x, const double *deflection,
                         const SbDynamicsLoads *loads) {
   const SbDynamicsModel *m = s->model;
-  double sum = loads->force - m->spring_preload - m->spring_stiffness * x +
-               sb_motion_drive_force(s, t, x, 0.0);
+  const SbDynamicsParts *parts = &s->parts;
+  double sum = parts->loads * (loads->force - m->spring_preload - m->spring_stiffness * x) +
+               parts->drive * sb_motion_drive_force(s, t, x, 0.0);
   for (size_t i = 0; i < m->stops; i++) {
     if (s->touch[i].on && m->stop[i].stiffness < 1e300) {
-      sum -= m->stop[i].stiffness * (x - m->stop[i].position);
+      sum -= parts->stop * m->stop[i].stiffness * (x - m->stop[i].position);
     }
   }
   for (size_t i = 0; i < m->contacts; i++) {
     if (!is_rigid(m, i)) {
-      sum += sb_motion_contact_force(s, i, x, 0.0, deflection[i], loads->level[i]);
+      sum +=
+          parts->contact[i] * sb_motion_contact_force(s, i, x, 0.0, deflection[i], loads->level[i]);
     }
   }
   return sum;
@@ -116,32 +118,36 @@ double sb_motion_stop_force(const SbDynamics *s, size_t i, double t, double x, d
   return p->stiffness * p->side * (x - p->position) + s->stop_damping[i] * p->side * v;
 }
 
+// Adds f0 + f1 tau - k (x - x0) - c v, acting where `lever` is that part's travel per x.
+static void act(Linear *l, double lever, double f0, double f1, double k, double c) {
+  l->f0 += lever * f0;
+  l->f1 += lever * f1;
+  l->k += lever * k;
+  l->c += lever * c;
+}
+
 void sb_motion_linear_forces(const SbDynamics *s, Linear *l) {
   const SbDynamicsModel *m = s->model;
-  *l = (Linear){.f0 = s->loads.force - m->spring_preload - m->spring_stiffness * s->x,
-                .k = m->spring_stiffness,
-                .c = m->damping,
-                .size = fabs(s->loads.force) + fabs(m->spring_preload)};
+  const SbDynamicsParts *parts = &s->parts;
+  *l = (Linear){.size = fabs(s->loads.force) + fabs(m->spring_preload)};
+  act(l, parts->loads, s->loads.force - m->spring_preload - m->spring_stiffness * s->x, 0.0,
+      m->spring_stiffness, m->damping);
   if (s->push.on && m->drive.kind != SB_DRIVE_NONE) {
     double value, rate;
     sb_motion_drive_at(s, s->t, &value, &rate);
-    l->c += m->drive_damping;
+    double k = m->drive_stiffness, c = m->drive_damping;
     if (m->drive.quantity == SB_DRIVE_OF_FORCE) {
-      l->f0 += value;
-      l->f1 += rate;
+      act(l, parts->drive, value, rate, 0.0, c);
       l->size += fabs(value);
     } else {
-      l->k += m->drive_stiffness;
-      l->f0 += m->drive_stiffness * (value - s->x) + m->drive_damping * rate;
-      l->f1 += m->drive_stiffness * rate;
-      l->size += m->drive_stiffness * (fabs(value) + fabs(rate * s->t) + fabs(s->x));
+      act(l, parts->drive, k * (value - s->x) + c * rate, k * rate, k, c);
+      l->size += k * (fabs(value) + fabs(rate * s->t) + fabs(s->x));
     }
   }
   for (size_t i = 0; i < m->stops; i++) {
     if (s->touch[i].on && m->stop[i].stiffness < 1e300) {
-      l->k += m->stop[i].stiffness;
-      l->c += s->stop_damping[i];
-      l->f0 -= m->stop[i].stiffness * (s->x - m->stop[i].position);
+      double k = m->stop[i].stiffness;
+      act(l, parts->stop, -k * (s->x - m->stop[i].position), 0.0, k, s->stop_damping[i]);
       l->size += m->stop[i].stiffness * (fabs(s->x) + fabs(m->stop[i].position));
     }
   }
@@ -150,14 +156,13 @@ void sb_motion_linear_forces(const SbDynamics *s, Linear *l) {
     if (s->state[i] == SB_CONTACT_OFF) {
       continue;
     }
-    l->c += c->viscous;
+    double lever = parts->contact[i];
+    act(l, lever, 0.0, 0.0, 0.0, c->viscous);
     if (s->state[i] == SB_CONTACT_SLIP) {
-      l->f0 -= s->sign[i] * s->loads.level[i];
+      l->f0 -= lever * s->sign[i] * s->loads.level[i];
       l->size += s->loads.level[i];
     } else if (!is_rigid(m, i)) {
-      l->k += c->stiffness;
-      l->c += c->damping;
-      l->f0 -= c->stiffness * s->d[i];
+      act(l, lever, -c->stiffness * s->d[i], 0.0, c->stiffness, c->damping);
       l->size += c->stiffness * fabs(s->d[i]);
     }
   }
@@ -427,12 +432,14 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
   for (size_t i = 0; i < POWER_COUNT; i++) {
     power[i] = 0.0;
   }
-  double force = loads.force - m->spring_preload - m->spring_stiffness * x - m->damping * v;
+  const SbDynamicsParts *parts = &s->parts;
+  double force =
+      parts->loads * (loads.force - m->spring_preload - m->spring_stiffness * x - m->damping * v);
   power[POWER_PRESSURE] = loads.force * v;
   power[POWER_VISCOUS] = m->damping * v * v;
   // Drive.
   double push = sb_motion_drive_force(s, t, x, v), value, rate;
-  force += push;
+  force += parts->drive * push;
   sb_motion_drive_at(s, t, &value, &rate);
   if (m->drive.quantity == SB_DRIVE_OF_FORCE) {
     power[POWER_DRIVE] = push * v;
@@ -443,7 +450,7 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
   // Stops.
   for (size_t i = 0; i < m->stops; i++) {
     if (s->touch[i].on && m->stop[i].stiffness < 1e300) {
-      force -= m->stop[i].side * sb_motion_stop_force(s, i, t, x, v);
+      force -= parts->stop * m->stop[i].side * sb_motion_stop_force(s, i, t, x, v);
       power[POWER_STOP] += s->stop_damping[i] * v * v;
     }
   }
@@ -459,7 +466,7 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
       continue;
     }
     power[POWER_VISCOUS] += c->viscous * v * v;
-    force += on_stem - c->viscous * v;
+    force += parts->contact[i] * (on_stem - c->viscous * v);
     if (is_rigid(m, i)) {
       power[POWER_FRICTION] -= on_stem * v;
     } else if (s->state[i] == SB_CONTACT_STUCK) {
@@ -474,7 +481,7 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
     }
   }
   dz[0] = v;
-  dz[1] = s->held ? 0.0 : force / m->mass;
+  dz[1] = s->held ? 0.0 : force / parts->mass;
   if (m->extras > 0) {
     double *rates = dz + 2 + patches;
     for (size_t i = 0; i < m->extras; i++) {

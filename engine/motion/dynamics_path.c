@@ -30,7 +30,7 @@ static void closed_path(SbDynamics *s) {
   if (s->held) {
     sb_oscillator_hold(&s->motion, s->x);
   } else {
-    sb_oscillator_init(&s->motion, s->model->mass, l.c, l.k, l.f0, l.f1, s->x, s->v);
+    sb_oscillator_init(&s->motion, s->parts.mass, l.c, l.k, l.f0, l.f1, s->x, s->v);
   }
   double horizon = fmin(s->piece.until - s->t, horizon_max);
   s->t_end = isfinite(s->piece.until) && horizon < horizon_max ? s->piece.until : s->t + horizon;
@@ -43,7 +43,7 @@ static void closed_path(SbDynamics *s) {
     }
     // The time itself is rounded, and with it whatever changes fast. Not so the edges: crossing one
     // puts the stem on it.
-    double v = s->held ? 0.0 : s->v, a = s->held ? 0.0 : (l.f0 - l.c * v) / s->model->mass;
+    double v = s->held ? 0.0 : s->v, a = s->held ? 0.0 : (l.f0 - l.c * v) / s->parts.mass;
     if (event != EVENT_EDGE_UP && event != EVENT_EDGE_DOWN) {
       gauge.noise += s->t * (fabs(gauge.rate) + fabs(gauge.of_x * v) + fabs(gauge.of_v * a) +
                              fabs(gauge.relax * gauge.relax_rate));
@@ -207,7 +207,7 @@ static bool cut_at_event(SbDynamics *s, SbReport *report) {
 static double first_step(const SbDynamics *s) {
   Linear l;
   sb_motion_linear_forces(s, &l);
-  double rate = fmax(sqrt(l.k / s->model->mass), l.c / s->model->mass);
+  double rate = fmax(sqrt(l.k / s->parts.mass), l.c / s->parts.mass);
   return rate > 0.0 ? 0.05 / rate : 1e-5;
 }
 
@@ -318,16 +318,16 @@ double sb_motion_force_peak(const SbDynamics *s, double known) {
   sb_motion_drive_at(s, s->t, &y, &rate);
   Linear l;
   sb_motion_linear_forces(s, &l);
-  double a = (l.f0 - l.c * s->v) / m->mass;
+  double a = (l.f0 - l.c * s->v) / s->parts.mass;
   double slope = k * (rate - s->v) - c * a;
   double swing = k * hypot(s->motion.z0, s->motion.w0 / fmax(s->motion.omega0, 1e-300));
   if (!(slope > 0.0) || first + 2.0 * swing + k * fabs(s->motion.trend1 - rate) < peak) {
     return peak;
   }
-  SbGauge rising = {.constant = k * rate - c * l.f0 / m->mass,
-                    .rate = -c * l.f1 / m->mass,
-                    .of_x = c * l.k / m->mass,
-                    .of_v = c * l.c / m->mass - k};
+  SbGauge rising = {.constant = k * rate - c * l.f0 / s->parts.mass,
+                    .rate = -c * l.f1 / s->parts.mass,
+                    .of_x = c * l.k / s->parts.mass,
+                    .of_v = c * l.c / s->parts.mass - k};
   bool found;
   double at = sb_gauge_first(&rising, &s->motion, s->t_end - s->t, &found);
   return found ? fmax(peak, push_at(s, fmin(s->t + at, s->t_end))) : peak;
