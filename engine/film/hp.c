@@ -6,7 +6,9 @@
 // infinite ends, where p falls like s^4 and faster. Near a target the logarithm is split into
 // ln|z - r|, z being the target's own (complex) coordinate, and a smooth remainder. The first part
 // is exact for polynomials: integral of P_k(r) ln(z - r) = 2/(2k+1) (Q_{k+1} - Q_{k-1})(z) with the
-// Legendre functions of the second kind; the remainder and distant targets take Gauss rules.
+// Legendre functions of the second kind; the remainder and targets at a middling distance take a
+// Gauss rule, distant ones the expansion about the element's middle c, half its length h,
+// ln|X - X'| = ln|X - c| - sum ((X' - c)/h)^m z^-m / m with z = (X - c)/h.
 //
 // Left out: anything but the half-plane; unequal far pressures are given the tilt of
 // reference/ehl.md (the dry contact stays |x| < b).
@@ -26,13 +28,15 @@ enum {
 };
 
 // Half the sum of the distances to -1 and 1 is (rho + 1/rho)/2 on Bernstein's ellipse rho: closer
-// than NEAR (rho = 2) the split kernel is used, beyond FAR (rho = 6) the coarse rule suffices.
+// than NEAR (rho = 2) the split kernel is used. Beyond FAR half-lengths from the middle the
+// expansion holds 16 digits with at most SB_HP_MULTIPOLES terms, -ln z of them each.
 static const double NEAR = 1.25;
-static const double FAR = 3.1;
+static const double FAR = 3.0;
+static const double INVERSE_PI = 0.31830988618379067;
+static const double DIGITS = 37.0; // ln of what is left out, negative
 
 void sb_hp_tables_init(SbHpTables *tables) {
   sb_legendre_gauss(tables->fine, tables->fine_weight, SB_HP_QUAD);
-  sb_legendre_gauss(tables->far, tables->far_weight, SB_HP_QUAD_FAR);
   for (int q = 0; q < SB_HP_QUAD; q++) {
     sb_legendre_values(tables->fine_legendre[q], tables->fine[q], SB_HP_PROJECT);
   }
@@ -57,9 +61,6 @@ const SbHpTable *sb_hp_table(SbHpTables *tables, int degree) {
   }
   for (int q = 0; q < SB_HP_QUAD; q++) {
     sb_barycentric_basis(t->fine[q], tables->fine[q], t->node, t->bary, count);
-  }
-  for (int q = 0; q < SB_HP_QUAD_FAR; q++) {
-    sb_barycentric_basis(t->far[q], tables->far[q], t->node, t->bary, count);
   }
   // Points of the gap: both ends and the Gauss points, or one end and one more Gauss point.
   t->gap_node[0][0] = -1.0;
@@ -176,6 +177,25 @@ static void moments_complex(double *out, double real, double imaginary, int n) {
 
 // ---------------------------------------------------------------- elements
 
+// Moments about the middle of a finite element.
+static void expand(SbHpElement *e) {
+  int columns = e->degree + 2;
+  e->middle = 0.5 * (e->x0 + e->x1);
+  e->half = 0.5 * (e->x1 - e->x0);
+  memset(e->multipole, 0, sizeof e->multipole);
+  for (int q = 0; q < SB_HP_QUAD; q++) {
+    double x = (e->fine_x[q] - e->middle) / e->half;
+    double power = 1.0;
+    for (int m = 0; m < SB_HP_MULTIPOLES; m++) {
+      power *= x;
+      double times = -power / (m + 1);
+      for (int j = 0; j < columns; j++) {
+        e->multipole[m][j] += times * e->fine_wb[q][j];
+      }
+    }
+  }
+}
+
 // Everything about an element that its integrals need, for every target alike.
 static void prepare(SbHpElement *e, SbHpTables *tables) {
   const SbHpTable *t = sb_hp_table(tables, e->degree);
@@ -206,15 +226,8 @@ static void prepare(SbHpElement *e, SbHpTables *tables) {
       }
     }
   }
-  for (int q = 0; q < SB_HP_QUAD_FAR; q++) {
-    double r = tables->far[q];
-    double scale = tables->far_weight[q] * sb_hp_stretch(e, r);
-    double f = factor(e, r);
-    for (int k = 0; k <= e->degree; k++) {
-      e->far_wb[q][k] = scale * f * t->far[q][k];
-    }
-    e->far_wb[q][e->degree + 1] = scale * known_part(e, t->far[q], r);
-    e->far_x[q] = is_infinite(e) ? inverse_coordinate(e, r) : sb_hp_position(e, r);
+  if (!is_infinite(e)) {
+    expand(e);
   }
   if (is_infinite(e)) {
     // Integral with ln s, the distance from the infinite end.
@@ -242,6 +255,23 @@ static void add_moments(double *row, const SbHpElement *e, const double *moment,
 static void row_finite(double *row, const SbHpElement *e, const double *fine, double X,
                        double angle) {
   int columns = e->degree + 2;
+  double z = fabs(X - e->middle) / e->half;
+  if (z > FAR) {
+    double value = log(z * e->half);
+    double inverse = e->half / (X - e->middle);
+    for (int j = 0; j < columns; j++) {
+      row[j] += value * e->integral[j];
+    }
+    int terms = (int)(DIGITS / log(z)) + 1;
+    double power = 1.0;
+    for (int m = 0; m < terms && m < SB_HP_MULTIPOLES; m++) {
+      power *= inverse;
+      for (int j = 0; j < columns; j++) {
+        row[j] += power * e->multipole[m][j];
+      }
+    }
+    return;
+  }
   // The target's own coordinate, complex outside |X| <= 1 on the cosine map.
   double imaginary = 0.0;
   double real;
@@ -256,15 +286,6 @@ static void row_finite(double *row, const SbHpElement *e, const double *fine, do
   double distance = imaginary == 0.0
                         ? fmax(1.0, fabs(real))
                         : 0.5 * (hypot(real - 1.0, imaginary) + hypot(real + 1.0, imaginary));
-  if (distance > FAR) {
-    for (int q = 0; q < SB_HP_QUAD_FAR; q++) {
-      double value = log(fabs(X - e->far_x[q]));
-      for (int j = 0; j < columns; j++) {
-        row[j] += value * e->far_wb[q][j];
-      }
-    }
-    return;
-  }
   if (distance > NEAR) {
     for (int q = 0; q < SB_HP_QUAD; q++) {
       double value = log(fabs(X - e->fine_x[q]));
@@ -532,9 +553,9 @@ void sb_hp_mesh_build(SbHpMesh *mesh, SbHpTables *tables) {
         row_finite(row, e, tables->fine, X, angle);
       }
       for (int j = 0; j <= e->degree; j++) {
-        gap[e->first_dof + j] -= row[j] / M_PI;
+        gap[e->first_dof + j] -= INVERSE_PI * row[j];
       }
-      known -= row[e->degree + 1] / M_PI;
+      known -= INVERSE_PI * row[e->degree + 1];
     }
     known += in * half_line(X - mesh->left_end) - out * half_line(X - mesh->right_end);
     mesh->gap_known[i] = known + (in - out) * log(2.0) * X;

@@ -11,10 +11,10 @@
 enum {
   SB_HP_DEGREE_MAX = 18,
   SB_HP_ELEMENTS_MAX = 40,
-  SB_HP_DOFS_MAX = 420, // nodal pressures
-  SB_HP_EXTRA = 4,      // room for the unknowns beside the pressures
-  SB_HP_QUAD = 24,      // points of the fine rule for smooth remainders
-  SB_HP_QUAD_FAR = 14,  // and of the coarse rule for distant targets
+  SB_HP_DOFS_MAX = 420,  // nodal pressures
+  SB_HP_EXTRA = 4,       // room for the unknowns beside the pressures
+  SB_HP_QUAD = 24,       // points of the fine rule for smooth remainders
+  SB_HP_MULTIPOLES = 34, // terms of the expansion for distant targets
   SB_HP_PROJECT = SB_HP_DEGREE_MAX + 12
 };
 
@@ -37,7 +37,6 @@ typedef struct {
   double value[2][SB_HP_DEGREE_MAX + 1][SB_HP_DEGREE_MAX + 1]; // [rule][point][node]
   double slope[2][SB_HP_DEGREE_MAX + 1][SB_HP_DEGREE_MAX + 1];
   double fine[SB_HP_QUAD][SB_HP_DEGREE_MAX + 1]; // basis at the fine rule
-  double far[SB_HP_QUAD_FAR][SB_HP_DEGREE_MAX + 1];
   // Points from which the gap is interpolated: the collocation points and the finite ends.
   // [0] finite elements, [1] inlet, [2] outlet; degree + 2 points each.
   double gap_node[3][SB_HP_DEGREE_MAX + 2];
@@ -63,8 +62,9 @@ typedef struct {
   double project[SB_HP_PROJECT + 1][SB_HP_DEGREE_MAX + 2];
   double fine_x[SB_HP_QUAD];
   double fine_wb[SB_HP_QUAD][SB_HP_DEGREE_MAX + 2];
-  double far_x[SB_HP_QUAD_FAR];
-  double far_wb[SB_HP_QUAD_FAR][SB_HP_DEGREE_MAX + 2];
+  // Of finite elements: integrals with -((X - middle) / half)^(m + 1) / (m + 1).
+  double middle, half;
+  double multipole[SB_HP_MULTIPOLES][SB_HP_DEGREE_MAX + 2];
   double integral[SB_HP_DEGREE_MAX + 2]; // of the pressure (less the far pressure) over X
   double log_s[SB_HP_DEGREE_MAX + 2];    // integral with ln s, infinite elements
 } SbHpElement;
@@ -94,7 +94,6 @@ typedef struct {
 // Everything that outlives a solve: rules and tables of the degrees in use.
 typedef struct {
   double fine[SB_HP_QUAD], fine_weight[SB_HP_QUAD];
-  double far[SB_HP_QUAD_FAR], far_weight[SB_HP_QUAD_FAR];
   double fine_legendre[SB_HP_QUAD][SB_HP_PROJECT + 1];
   SbHpTable table[SB_HP_DEGREE_MAX + 1];
 } SbHpTables;

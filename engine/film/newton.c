@@ -24,6 +24,9 @@ enum {
   ITERATIONS_MAX = 10,
 };
 
+// A step that leaves less than this of the residual lets the next one take the same factors.
+static const double REUSE = 0.02;
+
 bool sb_reynolds_init(SbFilmSolver *solver) {
   sb_hp_tables_init(&solver->tables);
   size_t order = ORDER_MAX;
@@ -324,6 +327,7 @@ SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int wh
   double *matrix = solver->matrix;
   double *right = solver->right;
   double before_residual = INFINITY;
+  bool factored = false; // `matrix` holds the factors of an earlier step
   // Rounding of deflections of size one against the film: no residual is smaller. A fitted body's
   // have more terms.
   tolerance = fmax(tolerance, (problem->body.compliance != NULL ? 8e-16 : 1.1e-16) / state->flux);
@@ -336,7 +340,7 @@ SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int wh
     bool first = independent && iteration == 0;
     const double *kernel = elastic_gaps(solver, mesh, state, problem);
     trace->residual =
-        assemble(right, matrix, solver->gaps, kernel, mesh, state, problem, &layout, first);
+        assemble(right, NULL, solver->gaps, kernel, mesh, state, problem, &layout, first);
     if (!isfinite(trace->residual)) {
       return SB_ERROR_NOT_CONVERGED;
     }
@@ -345,6 +349,8 @@ SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int wh
     if (!first && (trace->residual <= tolerance || stalled)) {
       break;
     }
+    // Close to the solution the last factors serve again: each step then gains what they gained.
+    factored = factored && trace->residual < REUSE * before_residual;
     before_residual = trace->residual;
     if (iteration == ITERATIONS_MAX) {
       if (trace->residual <= 10.0 * tolerance) {
@@ -352,17 +358,23 @@ SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int wh
       }
       return SB_ERROR_NOT_CONVERGED;
     }
-    if (layout.free_end >= 0) {
-      if (!difference_column(solver, which, problem, &layout)) {
+    if (!factored) {
+      assemble(right, matrix, solver->gaps, kernel, mesh, state, problem, &layout, first);
+      if (layout.free_end >= 0) {
+        if (!difference_column(solver, which, problem, &layout)) {
+          return SB_ERROR_NOT_CONVERGED;
+        }
+        for (int i = 0; i < order; i++) {
+          matrix[(size_t)i * (size_t)order + (size_t)layout.free_end] = solver->column[i];
+        }
+      }
+      if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, matrix, order, solver->pivot) != 0) {
         return SB_ERROR_NOT_CONVERGED;
       }
-      for (int i = 0; i < order; i++) {
-        matrix[(size_t)i * (size_t)order + (size_t)layout.free_end] = solver->column[i];
-      }
+      factored = true;
     }
     // The rows of our matrix are LAPACK's columns: solve with the transpose.
-    if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, matrix, order, solver->pivot) != 0 ||
-        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', order, 1, matrix, order, solver->pivot, right,
+    if (LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', order, 1, matrix, order, solver->pivot, right,
                             order) != 0) {
       return SB_ERROR_NOT_CONVERGED;
     }

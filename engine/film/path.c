@@ -96,13 +96,13 @@ static void add_dry_change(SbFilmSolver *solver, int which, const SbLayers *old,
 // mesh of as many elements takes it along with its layers, another by place.
 static void carry_scaled(SbFilmSolver *solver, int from, int to, const SbReynoldsCase *old,
                          const SbReynoldsCase *new) {
-  if (same_elements(&solver->mesh[from], &solver->mesh[to])) {
-    sb_reynolds_carry(solver, from, to);
-    add_dry_change(solver, to, &old->layers, &new->layers);
-  } else {
-    sb_reynolds_resample(solver, from, to);
-  }
   double scale = sb_layers_flux(&new->layers) / sb_layers_flux(&old->layers);
+  if (same_elements(&solver->mesh[from], &solver->mesh[to])) {
+    sb_reynolds_carry(solver, from, to, &old->layers, &new->layers, scale);
+    add_dry_change(solver, to, &old->layers, &new->layers);
+    return;
+  }
+  sb_reynolds_resample(solver, from, to);
   SbReynoldsState *state = &solver->state[to];
   state->flux *= scale;
   for (int k = 0; k < solver->mesh[to].targets; k++) {
@@ -216,7 +216,7 @@ SbStatus sb_reynolds_refine(SbFilmSolver *solver, int *which, SbReynoldsCase *c,
   if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
     return SB_ERROR_NOT_CONVERGED;
   }
-  sb_reynolds_carry(solver, *which, to);
+  sb_reynolds_carry(solver, *which, to, &c->layers, &next.layers, 1.0);
   double flux = solver->state[to].flux;
   next.hold = has_free_end(&next);
   SbStatus status = iterate(solver, to, &next, true, tolerance, info, problem);
@@ -297,7 +297,7 @@ static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbReynoldsCase *ta
         sb_layers_fill_reformed(solver->state[to].nodal, solver->state[to].gap, &solver->mesh[to],
                                 &solver->tables, &next.layers, flux);
       } else {
-        sb_reynolds_carry(solver, *which, to);
+        sb_reynolds_carry(solver, *which, to, &c.layers, &next.layers, 1.0);
       }
       next.hold = true;
       tried = iterate(solver, to, &next, true, tolerance, info, problem);
@@ -340,7 +340,7 @@ static SbStatus hold_meniscus(SbFilmSolver *solver, int *which, SbReynoldsCase *
     return SB_ERROR_NOT_CONVERGED;
   }
   if (same_elements(&solver->mesh[*which], &solver->mesh[to])) {
-    sb_reynolds_carry(solver, *which, to);
+    sb_reynolds_carry(solver, *which, to, &c->layers, &next.layers, 1.0);
   } else {
     sb_reynolds_resample(solver, *which, to);
   }

@@ -22,20 +22,27 @@ static double nodal_polynomial(SbHpTables *tables, const SbHpElement *e, const d
   return sum;
 }
 
-void sb_reynolds_carry(SbFilmSolver *solver, int from, int to) {
+void sb_reynolds_carry(SbFilmSolver *solver, int from, int to, const SbLayers *before,
+                       const SbLayers *after, double scale) {
   const SbHpMesh *a = &solver->mesh[from];
   const SbHpMesh *b = &solver->mesh[to];
   const SbReynoldsState *old = &solver->state[from];
   SbReynoldsState *new = &solver->state[to];
+  // Towards infinity the gap grows by decades and has no polynomial: its excess over the dry one.
+  double *excess = solver->gaps;
+  for (int i = 0; i < a->targets; i++) {
+    excess[i] = old->gap[i] - sb_layers_dry_gap(before, a->x[i]);
+  }
   for (int i = 0; i < b->count; i++) {
     const SbHpElement *e = &a->element[i];
     const SbHpElement *f = &b->element[i];
     const SbHpTable *t = sb_hp_table(&solver->tables, f->degree);
+    bool infinite = f->map == SB_HP_INLET || f->map == SB_HP_OUTLET;
     int touching = f->map == SB_HP_INLET ? f->degree : f->map == SB_HP_OUTLET ? 0 : -1;
     for (int k = 0; k <= f->degree; k++) {
       double r = t->node[k];
       double value;
-      if (f->map == SB_HP_INLET || f->map == SB_HP_OUTLET) {
+      if (infinite) {
         value = nodal_polynomial(&solver->tables, e, old->nodal, e->far_pressure, r) +
                 (k == touching ? f->far_pressure : 0.0);
       } else {
@@ -45,7 +52,9 @@ void sb_reynolds_carry(SbFilmSolver *solver, int from, int to) {
     }
     for (int k = 0; k < f->points; k++) {
       double r = t->gauss[f->points - f->degree][k];
-      new->gap[f->first_row + k] = sb_hp_gap(a, &solver->tables, i, old->gap, r);
+      double *gap = &new->gap[f->first_row + k];
+      *gap = scale * sb_hp_gap(a, &solver->tables, i, infinite ? excess : old->gap, r);
+      *gap += infinite ? sb_layers_dry_gap(after, sb_hp_position(f, r)) : 0.0;
     }
   }
   for (int i = b->rows; i < b->targets; i++) {
@@ -53,7 +62,7 @@ void sb_reynolds_carry(SbFilmSolver *solver, int from, int to) {
   }
   new->H0 = old->H0;
   new->shift = old->shift;
-  new->flux = old->flux;
+  new->flux = scale * old->flux;
 }
 
 double sb_reynolds_coordinate(const SbHpElement *e, double X) {

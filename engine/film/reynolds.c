@@ -14,6 +14,10 @@
 static const int level_degree[] = {4, 6, 8, 10, 12, 14};
 enum { LEVELS = sizeof level_degree / sizeof level_degree[0], LEVELS_LEAST = 3 };
 
+// Scaled residual where Newton's method ends, on a level that may be the last and on those before.
+static const double RESIDUAL = 1e-11;
+static const double LEVEL_RESIDUAL[LEVELS_LEAST - 1] = {1e-7, 1e-9};
+
 static double seconds(void) {
   struct timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
@@ -129,22 +133,22 @@ static double rounding(const SbReynoldsReading *r) {
 static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFilmSolver *solver,
                       SbReynoldsCase *c, double supply, SbFilmSolverInfo *info,
                       const SbFilmProblem *problem, SbReport *report) {
-  static const double RESIDUAL = 1e-11;
   const SbReynoldsCase cold = *c;
   *which = 0;
   *levels = 0;
   int least = problem->tolerance >= 5e-3 ? LEVELS_LEAST - 1 : LEVELS_LEAST;
   for (int level = 0; level < LEVELS; level++) {
     bool flooded = true;
+    double residual = level + 1 < least ? LEVEL_RESIDUAL[level] : RESIDUAL;
     SbStatus status =
         level == 0
-            ? sb_reynolds_start(&flooded, solver, which, c, supply, RESIDUAL, info, problem)
-            : sb_reynolds_refine(solver, which, c, level_degree[level], RESIDUAL, info, problem);
+            ? sb_reynolds_start(&flooded, solver, which, c, supply, residual, info, problem)
+            : sb_reynolds_refine(solver, which, c, level_degree[level], residual, info, problem);
     if (level > 0 && status == SB_ERROR_NOT_CONVERGED) {
       // The level below may be too coarse a guess: this one from nothing.
       *c = cold;
       c->layers.degree = level_degree[level];
-      status = sb_reynolds_start(&flooded, solver, which, c, supply, RESIDUAL, info, problem);
+      status = sb_reynolds_start(&flooded, solver, which, c, supply, residual, info, problem);
     }
     if (status == SB_ERROR_INFEASIBLE) {
       return sb_fail(report, status,

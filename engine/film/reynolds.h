@@ -85,8 +85,10 @@ SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int wh
 void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpMesh *mesh,
                         const SbReynoldsState *state, const SbReynoldsCase *problem);
 
-// Carries a solution from mesh/state `from` to `to`, which has the same elements in other degrees.
-void sb_reynolds_carry(SbFilmSolver *solver, int from, int to);
+// Carries a solution from mesh/state `from` to `to`, which has the same elements in other degrees
+// or moved with the layers, `before` to `after`. The film is multiplied by `scale`.
+void sb_reynolds_carry(SbFilmSolver *solver, int from, int to, const SbLayers *before,
+                       const SbLayers *after, double scale);
 
 // The same to a mesh of other elements, by place.
 void sb_reynolds_resample(SbFilmSolver *solver, int from, int to);
