@@ -33,43 +33,60 @@ static void differences(double out[3], const SbReynoldsReading *fine,
 }
 
 // Estimate of the errors of the last level: its change from the level below times the rate at which
-// changes shrink. Centre and flux film go together and the minimum follows the outlet layer; a
-// single film may agree by chance, so none is trusted far below its companion.
+// changes shrink. Two levels can agree by chance, so none is trusted below a third of what a level
+// is found to leave in the film over M from 0.1 to 1e6 and end pressures up to 1.5 p_H (the table;
+// found against the last level). The minimum follows the outlet layer, worst where a flooded outlet
+// meets a thick film; inside, centre and flux film go together.
 static void estimate(SbFilmSolverInfo *info, const SbReynoldsReading *reading, int levels,
                      const SbLayers *layers, double noise) {
-  // Two levels can agree on the minimum by chance: it is not trusted below a third of what a level
-  // is found to leave in it over the range of M, with an empty and with a flooded outlet.
-  static const double LEFT[2][LEVELS] = {{3e-5, 6e-6, 3.3e-7, 1.5e-8, 1e-9, 1e-9},
-                                         {1.3e-4, 1.8e-5, 1.65e-6, 6.5e-7, 5e-8, 5e-9}};
-
+  // Left in the minimum by layers of width below 0.025, up to 0.065, up to 0.3, above, with an
+  // empty and a flooded outlet; in the centre by layers below 0.025, up to 0.4 without and with
+  // pressure at the ends (these from 0.065 on), above.
+  static const double MIN[2][4][LEVELS] = {{{3e-5, 6e-6, 3.3e-7, 2e-8, 2e-9, 1e-9},
+                                            {3e-5, 6e-6, 3.3e-7, 2.5e-8, 2e-9, 1e-9},
+                                            {6e-5, 7e-6, 3.3e-7, 3.5e-8, 2e-9, 1e-9},
+                                            {6e-5, 7e-6, 3.3e-7, 3.5e-8, 2e-9, 1e-9}},
+                                           {{1.3e-4, 8e-6, 6e-7, 6e-8, 4e-9, 2e-9},
+                                            {3e-4, 1e-5, 1.2e-6, 3e-7, 2e-8, 4e-9},
+                                            {1e-3, 8e-5, 1.3e-5, 1.7e-6, 1.2e-7, 1e-8},
+                                            {5e-3, 1.7e-3, 1.1e-4, 5e-5, 5e-6, 5e-7}}};
+  static const double CENTRE[4][LEVELS] = {{4e-7, 3.3e-8, 4e-10, 2e-10, 5e-11, 5e-11},
+                                           {1e-5, 1e-7, 1.2e-8, 5e-8, 1e-10, 1e-10},
+                                           {1e-5, 1e-7, 4.5e-8, 5e-8, 1e-9, 1e-10},
+                                           {1e-5, 5e-7, 8e-8, 1.5e-8, 1e-8, 2e-9}};
+  double width = sb_layers_width(layers);
   bool flooded = layers->end != SB_LAYERS_RUPTURE;
   bool plain = !flooded && layers->inlet == 0.0 && !isfinite(layers->meniscus);
-  bool thin = !plain || sb_layers_width(layers) < 0.8;
-  // Rate that is believed at best.
-  double slowest = plain ? 0.1 : 0.18;
+  bool rigid = plain && width > 0.95;
   double last[3], before[3] = {0};
   differences(last, &reading[levels - 1], &reading[levels - 2]);
   if (levels > 2) {
     differences(before, &reading[levels - 2], &reading[levels - 3]);
   }
-  double middle =
-      fmax(fmax(last[1], last[2]), (sb_layers_width(layers) < 0.5 ? 0.01 : 0.1) * last[0]);
-  double largest[3] = {fmax(last[0], middle), middle, middle};
-  double middle_before = fmax(before[1], before[2]);
-  double previous[3] = {fmax(before[0], middle_before), middle_before, middle_before};
+  double inside = fmax(last[1], last[2]);
+  double inside_before = fmax(before[1], before[2]);
+  double largest[3] = {fmax(last[0], inside), inside, inside};
+  double previous[3] = {fmax(before[0], inside_before), inside_before, inside_before};
   double estimates[3];
   for (int i = 0; i < 3; i++) {
-    double rate = levels > 2 ? largest[i] / fmax(previous[i], 1e-300) : 0.4;
-    rate = fmin(fmax(rate, slowest), 1.0);
-    // The same for the inside, where the fourth level leaves up to 1.5e-7 at M near 25.
-    estimates[i] = fmax(rate * largest[i], levels == 4 ? 5e-8 : 0.0) + noise;
+    double first = rigid ? 0.1 : i == 0 && flooded && width < 0.065 ? 0.05 : 0.2;
+    double rate = levels > 2 ? largest[i] / fmax(previous[i], 1e-300) : first;
+    double slowest = fmin(first, 0.1);
+    if (rigid) {
+      slowest = 0.03;
+    } else if (i == 0 && !plain) {
+      slowest = !flooded ? 0.07 : width < 0.065 ? (levels > 2 ? 0.12 : first) : 0.25;
+    }
+    estimates[i] = fmin(fmax(rate, slowest), 1.0) * largest[i] + noise; // not faster than that
   }
-  info->error_film_min =
-      fmax(estimates[0], LEFT[flooded ? 1 : 0][levels - 1] * (thin ? 1.0 : 0.02));
-  // Between the rigid and the elastic regime levels agree on the centre by chance, too.
-  bool transition = sb_layers_width(layers) > 0.5 && thin;
-  info->error_film_central =
-      fmax(estimates[1], transition ? 0.1 * LEFT[flooded ? 1 : 0][levels - 1] : 0.0);
+  if (!rigid) {
+    int band = width < 0.025 ? 0 : width < 0.065 ? 1 : width < 0.3 ? 2 : 3;
+    int centre = width < 0.025 ? 0 : width >= 0.4 ? 3 : plain || width < 0.065 ? 1 : 2;
+    estimates[0] = fmax(estimates[0], MIN[flooded ? 1 : 0][band][levels - 1]);
+    estimates[1] = fmax(estimates[1], CENTRE[centre][levels - 1]);
+  }
+  info->error_film_min = estimates[0];
+  info->error_film_central = estimates[1];
   info->error_film_flux = estimates[2];
 }
 
@@ -126,7 +143,7 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
 
 // Rounding in the films, relative: deflections of size one against the film.
 static double rounding(const SbReynoldsReading *r) {
-  return 1e-15 / fmin(1.0, r->film_min);
+  return 3e-16 / fmin(1.0, r->film_min);
 }
 
 // Climbs the levels from a cold start. *levels is 0 when nothing was found.
