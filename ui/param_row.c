@@ -335,7 +335,8 @@ void sb_param_row_refresh(SbParamRow *row) {
   }
   gtk_label_set_text(GTK_LABEL(row->error), error != NULL ? error : "");
   gtk_widget_set_visible(row->error, error != NULL);
-  gboolean own = sb_document_gives(document, row->id);
+  gboolean own =
+      sb_document_gives(document, row->id) && sb_document_shape_source(document, row->id) == NULL;
   gtk_widget_set_visible(row->reset, own || error != NULL);
   g_autofree char *fallback = sb_param_format(row->id, param->fallback);
   g_autofree char *tip = param->parent >= 0 ? g_strdup("As for both seals")

@@ -193,6 +193,11 @@ const char *sb_session_lock(SbSession *session, SbParamId id) {
       sb_document_value(document, SB_P_MODELS_FIT) < 4) {
     return "Locked: closed forms have no discretisation error";
   }
+  const char *shape = sb_document_shape_source(document, id);
+  if (shape != NULL) {
+    g_autofree char *text = g_strdup_printf("Locked: follows from %s in this file", shape);
+    return g_intern_string(text); // a few short ones
+  }
   return NULL;
 }
 

@@ -18,6 +18,7 @@ SbDocument *sb_document_new(void) {
   g_ptr_array_unref(none);
   document->edits = g_array_new(FALSE, FALSE, sizeof(Edit));
   document->notes = g_ptr_array_new_with_free_func(g_free);
+  document->shapes = sb_shapes_new();
   sb_params_init(&document->base);
   sb_params_init(&document->own);
   sb_params_init(&document->saved);
@@ -39,6 +40,7 @@ void sb_document_free(SbDocument *document) {
   g_ptr_array_unref(document->entries);
   g_array_unref(document->edits);
   g_ptr_array_unref(document->notes);
+  sb_shapes_free(document->shapes);
   g_free(document);
 }
 
@@ -106,9 +108,10 @@ static bool is_group(const char *group) {
   return false;
 }
 
-// Moves the values of a scanned file into `params`.
-static void read_values(SbParams *params, const GPtrArray *entries, const char *shown,
-                        const char *directory, GPtrArray *issues, GPtrArray *notes) {
+// Moves the values of a scanned file into `params`, which lie upon `base` (NULL: on nothing).
+static void read_values(SbDocument *document, SbParams *params, const SbParams *base,
+                        const GPtrArray *entries, const char *shown, const char *directory,
+                        GPtrArray *issues) {
   bool known_group = true;
   for (guint i = 0; i < entries->len; i++) {
     const SbEntry *entry = entries->pdata[i];
@@ -149,7 +152,7 @@ static void read_values(SbParams *params, const GPtrArray *entries, const char *
     }
     g_free(key);
   }
-  sb_parts_read(params, entries, shown, directory, issues, notes);
+  sb_parts_read(document->shapes, params, base, entries, shown, directory, issues, document->notes);
 }
 
 // Checks group [sealbench] and finds the kind. False if this is no document at all.
@@ -227,7 +230,7 @@ static void read_valve(SbDocument *document, const char *directory, const char *
                   "a scene needs a valve here");
   }
   char *beside = g_path_get_dirname(document->valve_path);
-  read_values(&document->base, entries, document->valve_path, beside, issues, document->notes);
+  read_values(document, &document->base, NULL, entries, document->valve_path, beside, issues);
   g_free(beside);
   g_ptr_array_unref(entries);
   g_free(text);
@@ -264,6 +267,24 @@ void sb_document_refresh_title(SbDocument *document) {
   }
 }
 
+// Tells where a value in force is not what a shape under it makes.
+static void note_override(SbDocument *document, SbParamId id, const char *shown) {
+  const SbShapeSize *size = sb_shapes_size(document->shapes, id);
+  double value = sb_document_value(document, id);
+  if (size == NULL || fabs(value - size->value) <= SB_SHAPE_ROUNDING * fabs(value)) {
+    return;
+  }
+  const SbParam *param = sb_param(id);
+  char *says = sb_quantity_format(value, param->si, param->unit);
+  char other[SB_NUMBER_SIZE];
+  sb_number_round(other, sb_quantity_to_shown(size->value, param->si, param->unit), 5);
+  g_ptr_array_add(document->notes,
+                  g_strdup_printf("%s: %s = %s is in force; %s makes it %s %s, and the section "
+                                  "stretches the shape",
+                                  shown, param->key, says, size->source, other, param->unit));
+  g_free(says);
+}
+
 SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
                               const char *directory, GPtrArray *issues) {
   guint before = issues->len;
@@ -287,7 +308,13 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   } else if (meta_value(entries, "valve") != NULL) {
     sb_issues_add(issues, name, 0, "sealbench.valve", NULL, "only a scene names a valve");
   }
-  read_values(&document->own, entries, name, directory, issues, document->notes);
+  read_values(document, &document->own, kind == SB_DOCUMENT_SCENE ? &document->base : NULL, entries,
+              name, directory, issues);
+  for (guint i = 0; i < document->shapes->sizes->len; i++) {
+    const SbShapeSize *size = document->shapes->sizes->pdata[i];
+    note_override(document, size->id, name);
+  }
+  sb_shapes_settle(document->shapes, name, document->notes);
   read_series(document, entries, directory, issues);
   document->saved = document->own;
   sb_document_refresh_title(document);
@@ -338,6 +365,12 @@ SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
 
 const GPtrArray *sb_document_notes(const SbDocument *document) {
   return document->notes;
+}
+
+const char *sb_document_shape_source(const SbDocument *document, SbParamId id) {
+  const SbShapeSize *size = sb_shapes_size(document->shapes, id);
+  bool own = size != NULL && (document->kind == SB_DOCUMENT_VALVE || !size->in_valve);
+  return own ? size->source : NULL;
 }
 
 SbDocumentKind sb_document_kind(const SbDocument *document) {
@@ -408,6 +441,7 @@ bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *is
     if (document->series != NULL) {
       out->measured = *document->series;
     }
+    out->outlines = document->shapes->outlines;
     if (out->drive == SB_MODEL_DRIVE_MEASURED && out->measured.count == 0) {
       sb_issues_add(issues, document->path, 0, SB_SERIES_KEY, "a CSV file",
                     "drive.kind = measured needs the file of a measured series");
@@ -549,6 +583,7 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
     g_error_free(error);
   } else {
     good = sb_document_set_value(document, (SbParamId)id, value, false, NULL);
+    note_override(document, (SbParamId)id, "--set");
   }
   g_free(key);
   return good;

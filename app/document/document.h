@@ -46,9 +46,13 @@ const char *sb_document_path(const SbDocument *document);
 // Path of a scene's valve file, or NULL; borrowed.
 const char *sb_document_valve_path(const SbDocument *document);
 
-// Remarks that are no problems: where a part's shape says otherwise than a value given. Borrowed,
-// of const char *.
+// Remarks that are no problems: where a part's shape says otherwise than a value in force.
+// Borrowed, of const char *.
 const GPtrArray *sb_document_notes(const SbDocument *document);
+
+// The shape that a size follows from by the document's own file, as "the bore of [part.housing]":
+// it is mended there. NULL for all else; borrowed.
+const char *sb_document_shape_source(const SbDocument *document, SbParamId id);
 
 // Name for titles: the `title` of group [sealbench], else the file's name, else "Untitled";
 // borrowed until the next load or save.

@@ -6,14 +6,19 @@
 //   density = 1410 kg/m3
 //   profile = mm 14,0 14,2.9 8,2.9 8,1.64 6,1.64 6,2.9 0,2.9 0,0
 //   land = 8 mm .. 14 mm
-//   groove = 6 mm .. 8 mm
+//   inner_groove = 6 mm .. 8 mm
 //
 // A profile is a unit and points x,r counter-clockwise in the (x, r) plane, x along the axis; a
 // third number is the bulge of the arc to the next point (tan of a quarter of its angle, > 0 to the
 // left). It closes by repeating its first point, or by the axis where it starts and ends. A mesh is
 // `stl = FILE` beside the document with `unit = mm` and, unless it is x, `axis = y` or `z`.
-// `land` gives stem.pressure_diameter, `groove` gland.radial_space (with the bore), `bore`
-// bore.diameter. Keys that are given win; a note tells where the shape says otherwise.
+// Stretches of a profile, x pointing out of the canister:
+//   bore (housing)               bore.diameter; with the land's ends and the mouth beside it
+//   land                         stem.pressure_diameter
+//   groove                       gland.radial_space (with the bore)
+//   inner_groove, outer_groove   the same, wall to wall: gland.axial_width too, and both together
+//                                stem.seal_spacing and the recess of the dose chamber between them
+// A recess of any form counts as the rectangular one of its depth and volume.
 #include "app/document/document_parts.h"
 
 #include "app/document/stl.h"
@@ -24,8 +29,45 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const shape_keys[] = {"profile", "stl",    "unit", "axis", "density",
-                                         "land",    "groove", "bore", NULL};
+static const char *const shape_keys[] = {"density",      "profile",      "stl",  "unit",
+                                         "axis",         "bore",         "land", "groove",
+                                         "inner_groove", "outer_groove", NULL};
+
+// How far a drawn arc may lie from the true one [m]: a fifth of a pixel at 800 pixels per mm.
+static const double SAGITTA = 0.25e-6;
+
+SbShapes *sb_shapes_new(void) {
+  SbShapes *shapes = g_new0(SbShapes, 1);
+  shapes->sizes = g_ptr_array_new();
+  return shapes;
+}
+
+void sb_shapes_free(SbShapes *shapes) {
+  if (shapes == NULL) {
+    return;
+  }
+  for (guint i = 0; i < shapes->sizes->len; i++) {
+    SbShapeSize *size = shapes->sizes->pdata[i];
+    g_free(size->source);
+    g_free(size);
+  }
+  g_ptr_array_unref(shapes->sizes);
+  for (size_t i = 0; i < G_N_ELEMENTS(shapes->text); i++) {
+    g_free(shapes->text[i]);
+  }
+  g_free(shapes);
+}
+
+const SbShapeSize *sb_shapes_size(const SbShapes *shapes, SbParamId id) {
+  const SbShapeSize *found = NULL;
+  for (guint i = 0; i < shapes->sizes->len; i++) {
+    const SbShapeSize *size = shapes->sizes->pdata[i];
+    if (size->id == id && (found == NULL || !size->in_valve)) {
+      found = size;
+    }
+  }
+  return found;
+}
 
 bool sb_parts_is_shape_key(const char *group, const char *name) {
   return g_str_has_prefix(group, "part.") && g_strv_contains(shape_keys, name);
@@ -35,7 +77,11 @@ bool sb_parts_is_shape_key(const char *group, const char *name) {
 typedef struct {
   const GPtrArray *entries;
   const char *group, *shown;
-  GPtrArray *issues;
+  GPtrArray *issues, *notes;
+  int index; // of the valve's parts
+  SbShapes *shapes;
+  SbParams *params;
+  const SbParams *base;
 } Part;
 
 static const SbEntry *find(const Part *part, const char *name) {
@@ -130,28 +176,70 @@ static SbProfilePoint *read_points(const Part *part, const char *text, size_t *c
   return points;
 }
 
-// Sets `id` to what the shape says unless it is given; then only compares.
-static void derive(SbParams *params, SbParamId id, double value, const Part *part,
-                   const char *source, GPtrArray *notes) {
+// Sets `id` to what the shape says, if that is within its range.
+static void set(const Part *part, SbParamId id, double value, const char *source) {
   const SbParam *param = sb_param(id);
-  if (params->given[id]) {
-    double given = params->value[id];
-    if (fabs(given - value) > 1e-3 * fabs(given)) {
-      g_autofree char *says = sb_quantity_format(given, param->si, param->unit);
-      char other[SB_NUMBER_SIZE];
-      sb_number_round(other, sb_quantity_to_shown(value, param->si, param->unit), 5);
-      g_ptr_array_add(notes, g_strdup_printf("%s: %s = %s is in force; the %s of [%s] makes %s %s",
-                                             part->shown, param->key, says, source, part->group,
-                                             other, param->unit));
-    }
-    return;
-  }
   SbReport report = {0};
-  if (sb_params_set(params, id, value, &report) != SB_OK) {
+  if (sb_params_set(part->params, id, value, &report) != SB_OK) {
     g_autofree char *range = sb_param_range(id);
     complain(part, source, range, "makes a %s of %.5g %s, out of range", param->key,
              sb_quantity_to_shown(value, param->si, param->unit), param->unit);
   }
+}
+
+static bool differs(const Part *part, SbParamId id, double value) {
+  double given = part->params->value[id];
+  return fabs(given - value) > SB_SHAPE_ROUNDING * fabs(given);
+}
+
+// A mass or moment: a given one may be weighed, or the part made of more than its shape.
+static void derive_mass(const Part *part, SbParamId id, double value, const char *source) {
+  const SbParam *param = sb_param(id);
+  if (!part->params->given[id]) {
+    set(part, id, value, source);
+  } else if (differs(part, id, value)) {
+    g_autofree char *says = sb_quantity_format(part->params->value[id], param->si, param->unit);
+    char other[SB_NUMBER_SIZE];
+    sb_number_round(other, sb_quantity_to_shown(value, param->si, param->unit), 5);
+    g_ptr_array_add(part->notes,
+                    g_strdup_printf("%s: %s = %s is in force; the %s of [%s] makes %s %s",
+                                    part->shown, param->key, says, source, part->group, other,
+                                    param->unit));
+  }
+}
+
+// A size: the shape has the last word.
+static void derive_size(const Part *part, SbParamId id, double value, const char *source) {
+  const SbParam *param = sb_param(id);
+  if (!part->params->given[id]) {
+    set(part, id, value, source);
+  } else if (differs(part, id, value)) {
+    const SbEntry *typed = NULL;
+    for (guint i = 0; i < part->entries->len; i++) {
+      const SbEntry *entry = part->entries->pdata[i];
+      size_t length = entry->name != NULL ? strlen(entry->group) : 0;
+      if (length > 0 && strncmp(param->key, entry->group, length) == 0 &&
+          param->key[length] == '.' && strcmp(param->key + length + 1, entry->name) == 0) {
+        typed = entry;
+      }
+    }
+    g_autofree char *says = sb_quantity_format(part->params->value[id], param->si, param->unit);
+    char other[SB_NUMBER_SIZE];
+    sb_number_round(other, sb_quantity_to_shown(value, param->si, param->unit), 5);
+    sb_issues_add(part->issues, part->shown, typed != NULL ? typed->line : 0, param->key, NULL,
+                  "is %s, but the %s of [%s] makes it %s %s: the shape has the last word, leave "
+                  "the key out or mend one of them",
+                  says, source, part->group, other, param->unit);
+    return;
+  }
+  const SbShapeSize *known = sb_shapes_size(part->shapes, id);
+  if (known != NULL && known->in_valve == (part->base == NULL)) {
+    return; // two grooves, one gland
+  }
+  SbShapeSize *size = g_new(SbShapeSize, 1);
+  *size = (SbShapeSize){id, value, part->base == NULL,
+                        g_strdup_printf("the %s of [%s]", source, part->group)};
+  g_ptr_array_add(part->shapes->sizes, size);
 }
 
 // "3 mm .. 5 mm" of a profile. False if absent or wrong.
@@ -170,33 +258,134 @@ static bool read_stretch(const Part *part, const char *name, double *from, doubl
   return !isnan(*to);
 }
 
-static void derive_diameters(SbParams *params, const Part *part, const SbProfile *profile,
-                             GPtrArray *notes) {
-  double from;
-  double to;
-  double least;
-  double most;
+// Value in force for what is derived next.
+static double in_force(const Part *part, SbParamId id) {
+  bool own = part->params->given[id] || part->base == NULL;
+  return own ? part->params->value[id] : part->base->value[id];
+}
+
+// The bore land about the stretch, the mouth ahead of it, and where both lie.
+static void derive_land(const Part *part, double diameter, double from) {
+  SbShapes *shapes = part->shapes;
+  const SbOutline *outline = &shapes->outlines.part[part->index];
+  SbOutlineSurface *s = g_new(SbOutlineSurface, 1);
+  sb_outline_surface(s, outline);
+  // To the left as long as the hole is no wider.
+  double wider = diameter / 2 * (1 + 1e-4);
+  size_t k = 0;
+  while (k + 2 < s->count && s->x[k + 1] <= from) {
+    k++;
+  }
+  while (k > 0 && s->low_left[k] <= wider && s->low_right[k - 1] <= wider) {
+    k--;
+  }
+  double edge = s->x[k], face = s->x[0], end = s->x[s->count - 1];
+  double low, high;
+  shapes->outlines.land_edge = edge;
+  shapes->outlines.bore = diameter / 2;
+  shapes->has_bore = true;
+  derive_size(part, SB_P_BORE_LAND_LENGTH, end - edge, "bore");
+  if (edge > face && sb_outline_radii(&low, &high, s, face + (edge - face) / 4)) {
+    derive_size(part, SB_P_BORE_ENTRY_LENGTH, edge - face, "bore");
+    derive_size(part, SB_P_BORE_ENTRY_DIAMETER, 2 * low, "bore");
+  }
+  g_free(s);
+}
+
+// One groove, wall to wall.
+static void derive_groove(const Part *part, const SbProfile *profile, int seal, const char *name) {
+  double from, to, least, most;
   SbReport report = {0};
+  if (!read_stretch(part, name, &from, &to)) {
+    return;
+  }
+  if (sb_profile_diameters(&least, &most, profile, from, to, &report) != SB_OK) {
+    complain(part, name, NULL, "%s", report.text);
+    return;
+  }
+  derive_size(part, SB_P_GLAND_RADIAL_SPACE, (in_force(part, SB_P_BORE_DIAMETER) - least) / 2,
+              name);
+  derive_size(part, SB_P_GLAND_AXIAL_WIDTH, to - from, name);
+  SbValveOutlines *outlines = &part->shapes->outlines;
+  outlines->groove_left[seal] = from;
+  outlines->groove_right[seal] = to;
+  outlines->floor = least / 2;
+  part->shapes->has_groove[seal] = true;
+}
+
+// What lies between the two grooves of one part.
+static void derive_chamber(const Part *part) {
+  SbValveOutlines *outlines = &part->shapes->outlines;
+  double left = outlines->groove_right[SB_INNER], right = outlines->groove_left[SB_OUTER];
+  if (!(right > left)) {
+    complain(part, "inner_groove", NULL,
+             "must lie before the outer_groove: x points out of the canister");
+    return;
+  }
+  SbOutlineSurface *s = g_new(SbOutlineSurface, 1);
+  sb_outline_surface(s, &outlines->part[part->index]);
+  double deepest = outlines->land, low, high;
+  for (size_t i = 0; i + 1 < s->count; i++) {
+    double from = MAX(s->x[i], left), to = MIN(s->x[i + 1], right);
+    double side = 1e-9 * (to - from);
+    if (to > from && sb_outline_radii(&low, &high, s, from + side)) {
+      deepest = MIN(deepest, high);
+    }
+    if (to > from && sb_outline_radii(&low, &high, s, to - side)) {
+      deepest = MIN(deepest, high);
+    }
+  }
+  double land = outlines->land, area = G_PI * (land * land - deepest * deepest);
+  double room = sb_outline_room(s, land, left, right);
+  g_free(s);
+  derive_size(part, SB_P_STEM_SEAL_SPACING,
+              outlines->groove_right[SB_OUTER] - outlines->groove_right[SB_INNER], "outer_groove");
+  derive_size(part, SB_P_STEM_CHAMBER_DEPTH, land - deepest, "profile");
+  if (area > 0) {
+    derive_size(part, SB_P_STEM_CHAMBER_LENGTH, room / area, "profile");
+  }
+}
+
+static void derive_sizes(const Part *part, const SbProfile *profile) {
+  double from, to, least, most;
+  SbReport report = {0};
+  bool stem = part->index >= SB_VALVE_STEM_CENTRE && part->index <= SB_VALVE_STEM_BOTTOM;
   if (read_stretch(part, "bore", &from, &to)) {
     if (sb_profile_bore(&least, profile, from, to, &report) == SB_OK) {
-      derive(params, SB_P_BORE_DIAMETER, least, part, "bore", notes);
+      derive_size(part, SB_P_BORE_DIAMETER, least, "bore");
+      if (part->index == SB_VALVE_HOUSING) {
+        derive_land(part, least, from);
+      }
     } else {
       complain(part, "bore", NULL, "%s", report.text);
     }
   }
   if (read_stretch(part, "land", &from, &to)) {
     if (sb_profile_diameters(&least, &most, profile, from, to, &report) == SB_OK) {
-      derive(params, SB_P_STEM_PRESSURE_DIAMETER, most, part, "land", notes);
+      derive_size(part, SB_P_STEM_PRESSURE_DIAMETER, most, "land");
+      part->shapes->outlines.land = most / 2;
     } else {
       complain(part, "land", NULL, "%s", report.text);
     }
   }
   if (read_stretch(part, "groove", &from, &to)) {
     if (sb_profile_diameters(&least, &most, profile, from, to, &report) == SB_OK) {
-      double bore = sb_params_get(params, SB_P_BORE_DIAMETER);
-      derive(params, SB_P_GLAND_RADIAL_SPACE, (bore - least) / 2, part, "groove", notes);
+      double bore = in_force(part, SB_P_BORE_DIAMETER);
+      derive_size(part, SB_P_GLAND_RADIAL_SPACE, (bore - least) / 2, "groove");
     } else {
       complain(part, "groove", NULL, "%s", report.text);
+    }
+  }
+  if (stem) {
+    derive_groove(part, profile, SB_INNER, "inner_groove");
+    derive_groove(part, profile, SB_OUTER, "outer_groove");
+    SbShapes *shapes = part->shapes;
+    if (find(part, "inner_groove") != NULL && find(part, "outer_groove") != NULL &&
+        shapes->has_groove[SB_INNER] && shapes->has_groove[SB_OUTER]) {
+      if (shapes->outlines.land == 0) {
+        shapes->outlines.land = in_force(part, SB_P_STEM_PRESSURE_DIAMETER) / 2;
+      }
+      derive_chamber(part);
     }
   }
 }
@@ -238,8 +427,46 @@ static bool solve_mesh(SbSolid *solid, const Part *part, const char *file, const
   return status == SB_OK;
 }
 
-static void read_part(SbParams *params, const Part *part, SbParamId mass, const char *directory,
-                      GPtrArray *notes) {
+// The shape's keys as lines that stand alone.
+static void keep_text(const Part *part, const char *directory) {
+  GString *text = g_string_new(NULL);
+  for (int i = 0; shape_keys[i] != NULL; i++) {
+    const SbEntry *entry = find(part, shape_keys[i]);
+    if (entry != NULL && strcmp(shape_keys[i], "stl") == 0) {
+      g_autofree char *path = g_canonicalize_filename(entry->value, directory);
+      g_string_append_printf(text, "stl = %s\n", path);
+    } else if (entry != NULL) {
+      g_string_append_printf(text, "%s = %s\n", shape_keys[i], entry->value);
+    }
+  }
+  g_free(part->shapes->text[part->index]);
+  part->shapes->text[part->index] = g_string_free(text, FALSE);
+}
+
+// A half-profile: its solid, its outline for the drawing and its sizes. False with an issue.
+static bool solve_profile(SbSolid *solid, const Part *part, const char *text, double density) {
+  SbProfile shape = {0};
+  SbProfilePoint *points = read_points(part, text, &shape.count, &shape.closed);
+  if (points == NULL) {
+    return false;
+  }
+  shape.point = points;
+  SbReport report = {0};
+  bool good = sb_solid_revolve(solid, &shape, density, &report) == SB_OK;
+  if (good && part->index <= SB_VALVE_STEM_BOTTOM) {
+    good = sb_outline_of_profile(&part->shapes->outlines.part[part->index], &shape, SAGITTA,
+                                 &report) == SB_OK;
+  }
+  if (good) {
+    derive_sizes(part, &shape);
+  } else {
+    complain(part, "profile", NULL, "%s", report.text);
+  }
+  g_free(points);
+  return good;
+}
+
+static void read_part(const Part *part, SbParamId mass, const char *directory) {
   const SbEntry *profile = find(part, "profile");
   const SbEntry *stl = find(part, "stl");
   if (profile == NULL && stl == NULL) {
@@ -265,25 +492,9 @@ static void read_part(SbParams *params, const Part *part, SbParamId mass, const 
   }
   SbSolid solid;
   int axis = 0;
-  if (profile != NULL) {
-    SbProfile shape = {0};
-    SbProfilePoint *points = read_points(part, profile->value, &shape.count, &shape.closed);
-    if (points == NULL) {
-      return;
-    }
-    shape.point = points;
-    SbReport report = {0};
-    bool good = sb_solid_revolve(&solid, &shape, density, &report) == SB_OK;
-    if (good) {
-      derive_diameters(params, part, &shape, notes);
-    } else {
-      complain(part, "profile", NULL, "%s", report.text);
-    }
-    g_free(points);
-    if (!good) {
-      return;
-    }
-  } else if (!solve_mesh(&solid, part, stl->value, directory, density, &axis)) {
+  bool good = profile != NULL ? solve_profile(&solid, part, profile->value, density)
+                              : solve_mesh(&solid, part, stl->value, directory, density, &axis);
+  if (!good) {
     return;
   }
   const char *source = profile != NULL ? "profile" : "stl";
@@ -291,20 +502,43 @@ static void read_part(SbParams *params, const Part *part, SbParamId mass, const 
                    solid.inertia[(axis + 2) % 3][(axis + 2) % 3]) /
                   2;
   // Mass, axial and transverse moment follow each other in the catalogue.
-  derive(params, mass, solid.mass, part, source, notes);
-  derive(params, mass + 1, solid.inertia[axis][axis], part, source, notes);
-  derive(params, mass + 2, across, part, source, notes);
+  derive_mass(part, mass, solid.mass, source);
+  derive_mass(part, mass + 1, solid.inertia[axis][axis], source);
+  derive_mass(part, mass + 2, across, source);
+  if (part->index <= SB_VALVE_STEM_BOTTOM) {
+    keep_text(part, directory);
+  }
 }
 
-void sb_parts_read(SbParams *params, const GPtrArray *entries, const char *shown,
-                   const char *directory, GPtrArray *issues, GPtrArray *notes) {
+void sb_shapes_settle(SbShapes *shapes, const char *shown, GPtrArray *notes) {
+  SbValveOutlines *outlines = &shapes->outlines;
+  outlines->housing = shapes->has_bore && outlines->part[SB_VALVE_HOUSING].count > 0;
+  outlines->stem = shapes->has_groove[SB_INNER] && shapes->has_groove[SB_OUTER] &&
+                   outlines->part[SB_VALVE_STEM_CENTRE].count > 0;
+  static const char *const needs[] = {"a bore", "an inner_groove and an outer_groove"};
+  for (int i = 0; i < 2; i++) {
+    int part = i == 0 ? SB_VALVE_HOUSING : SB_VALVE_STEM_CENTRE;
+    bool drawn = i == 0 ? outlines->housing : outlines->stem;
+    if (outlines->part[part].count > 0 && !drawn) {
+      g_ptr_array_add(notes,
+                      g_strdup_printf("%s: the section does not draw the shape of [part.%s], "
+                                      "which needs %s to be put in its place",
+                                      shown, i == 0 ? "housing" : "stem_centre", needs[i]));
+    }
+  }
+}
+
+void sb_parts_read(SbShapes *shapes, SbParams *params, const SbParams *base,
+                   const GPtrArray *entries, const char *shown, const char *directory,
+                   GPtrArray *issues, GPtrArray *notes) {
   // Every part has a mass in the catalogue. The housing comes first: its bore measures the grooves.
+  int index = 0;
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     const char *key = sb_param((SbParamId)id)->key;
     if (g_str_has_prefix(key, "part.") && g_str_has_suffix(key, ".mass")) {
       g_autofree char *group = g_strndup(key, strlen(key) - strlen(".mass"));
-      Part part = {entries, group, shown, issues};
-      read_part(params, &part, (SbParamId)id, directory, notes);
+      Part part = {entries, group, shown, issues, notes, index++, shapes, params, base};
+      read_part(&part, (SbParamId)id, directory);
     }
   }
   // The stem's three parts together against stem.mass.

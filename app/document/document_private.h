@@ -1,6 +1,8 @@
 // Inside of a document, shared by document.c (reading, values) and document_write.c (files).
 #pragma once
 
+#include "app/document/document_parts.h"
+
 #include "app/document/document.h"
 
 #define SB_META_GROUP "sealbench"
@@ -28,6 +30,7 @@ struct SbDocument {
   SbParams base;         // what the valve gives (scenes)
   SbParams own;          // what the document gives
   SbParams saved;        // what its file gives
+  SbShapes *shapes;      // of the parts
   GPtrArray *notes;      // of char *, what shapes say against given values
   GArray *edits;         // Edit
   guint done;            // edits before this one are in force

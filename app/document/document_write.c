@@ -4,6 +4,7 @@
 #include "app/document/reader.h"
 #include "app/document/writer.h"
 
+#include <math.h>
 #include <string.h>
 
 // Path of `target` as seen from `directory`. Owned by the caller.
@@ -109,8 +110,10 @@ static void append_group(GString *text, const SbParams *params, const char *grou
   bool heading = false;
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
-    // Overrides that nobody gave follow their parents and need no line.
-    bool needed = params->given[i] || param->parent < 0;
+    // Overrides that nobody gave follow their parents and need no line; the stem's mass follows its
+    // parts'.
+    bool follows = param->parent >= 0 || i == SB_P_STEM_MASS;
+    bool needed = params->given[i] || !follows;
     const char *dot = strrchr(param->key, '.');
     if (needed && (size_t)(dot - param->key) == length && strncmp(param->key, group, length) == 0) {
       if (!heading) {
@@ -120,6 +123,28 @@ static void append_group(GString *text, const SbParams *params, const char *grou
       char *value = sb_param_format((SbParamId)i, params->value[i]);
       g_string_append_printf(text, "%s = %s\n", dot + 1, value);
       g_free(value);
+    }
+  }
+}
+
+// Appends a part's shape to its group, unless a size that is in force differs from it: beside a
+// shape in one file that would be an error, and the numbers are what counts.
+static void append_shape(GString *text, const SbDocument *document, const char *group,
+                         size_t length) {
+  static const char *const names[] = {"part.housing", "part.stem_centre", "part.stem_top",
+                                      "part.stem_bottom"};
+  const SbShapes *shapes = document->shapes;
+  for (guint i = 0; i < shapes->sizes->len; i++) {
+    SbParamId id = ((const SbShapeSize *)shapes->sizes->pdata[i])->id;
+    double shape = sb_shapes_size(shapes, id)->value, value = sb_document_value(document, id);
+    if (fabs(shape - value) > SB_SHAPE_ROUNDING * fabs(value)) {
+      return;
+    }
+  }
+  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+    if (shapes->text[i] != NULL && strlen(names[i]) == length &&
+        strncmp(group, names[i], length) == 0) {
+      g_string_append(text, shapes->text[i]);
     }
   }
 }
@@ -135,6 +160,7 @@ char *sb_document_to_flat_text(const SbDocument *document) {
     size_t length = (size_t)(strrchr(key, '.') - key);
     if (g_hash_table_add(seen, g_strndup(key, length))) {
       append_group(text, &params, key, length);
+      append_shape(text, document, key, length);
       if (document->series_path != NULL && length == 5 && strncmp(key, "drive", 5) == 0) {
         g_autofree char *whole = g_canonicalize_filename(document->series_path, NULL);
         g_string_append_printf(text, "file = %s\n", whole);

@@ -209,11 +209,11 @@ static void shape_housing(SbValve *valve, const SbModel *model) {
     valve->face = fmin(valve->face, solid->point[i].x);
     valve->end = fmax(valve->end, solid->point[i].x);
   }
-  // The mouth is as wide as the hole is half way from the face to the land.
+  // The mouth is as wide as the hole is a quarter of the way from the face to the land.
   SbOutlineSurface surface;
   double low, high;
   sb_outline_surface(&surface, &given->part[SB_VALVE_HOUSING]);
-  bool found = sb_outline_radii(&low, &high, &surface, given->land_edge + valve->face / 2);
+  bool found = sb_outline_radii(&low, &high, &surface, given->land_edge + 0.75 * valve->face);
   valve->mouth = found ? map_to(&r, low) : valve->bore;
 }
 

@@ -73,32 +73,67 @@ static void test_diameters(void) {
   g_autofree char *body = g_strconcat(housing, stem, NULL);
   g_autoptr(SbDocument) document = parse(body, issues);
   g_assert_cmpuint(issues->len, ==, 0);
-  g_assert_cmpuint(sb_document_notes(document)->len, ==, 0);
+  // One groove does not tell where the stem sits: it is not drawn, and a note says so.
+  g_assert_cmpuint(sb_document_notes(document)->len, ==, 1);
   SbModel model;
   g_assert_true(sb_document_compile(document, &model, issues));
+  g_assert_true(model.outlines.housing && !model.outlines.stem);
   assert_relative(model.bore_diameter, 6.1e-3, 1e-12);
   assert_relative(model.stem_diameter, 5.8e-3, 1e-12);
   assert_relative(model.radial_space, 1.4e-3, 1e-12);
   assert_relative(model.pressure_force, 0.55e6 * G_PI / 4 * 5.8e-3 * 5.8e-3, 1e-12);
 }
 
-// What is given wins, and a note says so; agreement is silent.
+// In one file the shape has the last word: a key that says otherwise is an error naming file,
+// group, key and both values. A key that agrees is silent, and so is a mass beside it.
 static void test_clash(void) {
+  static const struct {
+    const char *keys, *key, *text;
+  } cases[] = {
+      {"[bore]\ndiameter = 6.1 mm\n[gland]\nradial_space = 1.4 mm\n[stem]\nmass = 3 g\n", NULL,
+       NULL},
+      {"[bore]\ndiameter = 6 mm\n", "bore.diameter",
+       "is 6 mm, but the bore of [part.housing] makes it 6.1 mm"},
+      {"[gland]\nradial_space = 1.36 mm\n", "gland.radial_space",
+       "is 1.36 mm, but the groove of [part.stem_centre] makes it 1.4 mm"},
+      {"[stem]\npressure_diameter = 5.794 mm\n", "stem.pressure_diameter",
+       "is 5.794 mm, but the land of [part.stem_centre] makes it 5.8 mm"},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autofree char *body = g_strconcat(housing, stem, cases[i].keys, NULL);
+    g_autoptr(SbDocument) document = parse(body, issues);
+    if (cases[i].key == NULL) {
+      g_assert_cmpuint(issues->len, ==, 0);
+      g_assert_cmpfloat(sb_document_value(document, SB_P_BORE_DIAMETER), ==, 6.1e-3);
+      g_assert_nonnull(sb_document_shape_source(document, SB_P_BORE_DIAMETER));
+      g_assert_null(sb_document_shape_source(document, SB_P_STEM_MASS));
+      SbModel model;
+      g_assert_true(sb_document_compile(document, &model, issues));
+      g_assert_cmpfloat_with_epsilon(model.stem_mass, 3e-3, 1e-15);
+      continue;
+    }
+    g_assert_cmpuint(issues->len, >=, 1);
+    const SbIssue *issue = issues->pdata[0];
+    g_assert_cmpstr(issue->file, ==, "test.valve");
+    g_assert_cmpstr(issue->key, ==, cases[i].key);
+    g_assert_cmpint(issue->line, >, 0);
+    g_test_message("%s", issue->text);
+    g_assert_nonnull(strstr(issue->text, cases[i].text));
+  }
+}
+
+// A mass beside a shape is in force, and a note tells.
+static void test_weighed(void) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_autofree char *body =
-      g_strconcat(housing, stem, "[bore]\ndiameter = 6 mm\n", "[gland]\nradial_space = 1.35 mm\n",
-                  "[stem]\nmass = 3 g\n", NULL);
+  g_autofree char *body = g_strconcat(stem, "mass = 2 g\n", NULL);
   g_autoptr(SbDocument) document = parse(body, issues);
   g_assert_cmpuint(issues->len, ==, 0);
+  g_assert_cmpfloat(sb_document_value(document, SB_P_PART_STEM_CENTRE_MASS), ==, 2e-3);
   const GPtrArray *notes = sb_document_notes(document);
-  g_assert_cmpuint(notes->len, ==, 1);
-  g_assert_cmpstr(notes->pdata[0], ==,
-                  "test.valve: bore.diameter = 6 mm is in force; the bore of [part.housing] makes "
-                  "6.1 mm");
-  g_assert_cmpfloat(sb_document_value(document, SB_P_BORE_DIAMETER), ==, 6e-3);
-  SbModel model;
-  g_assert_true(sb_document_compile(document, &model, issues));
-  g_assert_cmpfloat_with_epsilon(model.stem_mass, 3e-3, 1e-15);
+  g_assert_cmpuint(notes->len, ==, 2);
+  g_assert_nonnull(strstr(notes->pdata[0], "part.stem_centre.mass = 2 g is in force; the profile"));
+  g_assert_nonnull(strstr(notes->pdata[1], "the section does not draw"));
 }
 
 // A cube of 2 mm written as STL in a folder: mass to the rounding of its floats.
@@ -180,6 +215,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/parts/solids", test_solids);
   g_test_add_func("/parts/diameters", test_diameters);
   g_test_add_func("/parts/clash", test_clash);
+  g_test_add_func("/parts/weighed", test_weighed);
   g_test_add_func("/parts/mesh", test_mesh);
   g_test_add_func("/parts/refused", test_refused);
   return g_test_run();
