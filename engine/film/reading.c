@@ -194,6 +194,11 @@ static double minimum(double *place, SbFilmSolver *solver, int which, int elemen
   return least;
 }
 
+// Thin enough that the film in the contact's middle is flat.
+static bool flat_film(const SbReynoldsCase *problem) {
+  return sb_layers_width(&problem->layers) < 0.3;
+}
+
 // Film at r of an element that carries the flux under the pressure's slope there, by fixed-point
 // steps from `film`; the Poiseuille part is small where this is used.
 static double reynolds_film(SbFilmSolver *solver, int which, const SbReynoldsCase *problem,
@@ -217,6 +222,50 @@ static double reynolds_film(SbFilmSolver *solver, int which, const SbReynoldsCas
   return film;
 }
 
+// Root mean square of the film's relative change over an element, from the other mesh to `which`;
+// 0 for an infinite one. Flat films go by Reynolds' equation, as the central film does.
+static double element_change(SbFilmSolver *solver, int which, const SbReynoldsCase *problem,
+                             int element, bool flat) {
+  enum { SAMPLES = 9 };
+  const SbHpElement *e = &solver->mesh[which].element[element];
+  if (e->map == SB_HP_INLET || e->map == SB_HP_OUTLET) {
+    return 0.0;
+  }
+  double sum = 0.0;
+  for (int i = 0; i < SAMPLES; i++) {
+    double r = 0.24 * (i - SAMPLES / 2);
+    double film[2];
+    for (int k = 0; k < 2; k++) {
+      int mesh = k == 0 ? which : 1 - which;
+      film[k] = sampled(solver, mesh, element, false, r);
+      film[k] = flat ? reynolds_film(solver, mesh, problem, element, r, film[k]) : film[k];
+    }
+    sum += (film[0] / film[1] - 1.0) * (film[0] / film[1] - 1.0);
+  }
+  return sqrt(sum / SAMPLES);
+}
+
+void sb_reynolds_change(double change[3], SbFilmSolver *solver, int which,
+                        const SbReynoldsCase *problem, const SbReynoldsReading *fine,
+                        const SbReynoldsReading *coarse, bool paired) {
+  change[0] = fabs(fine->film_min / coarse->film_min - 1.0);
+  change[1] = fabs(fine->film_central / coarse->film_central - 1.0);
+  change[2] = fabs(fine->film_flux / coarse->film_flux - 1.0);
+  const SbHpMesh *mesh = &solver->mesh[which];
+  if (!paired || mesh->count != solver->mesh[1 - which].count) {
+    return;
+  }
+  double shift = solver->state[which].shift;
+  int thinnest = find_element(mesh, fine->position_min - shift);
+  change[0] = 0.0;
+  for (int i = thinnest > 0 ? thinnest - 1 : 0; i <= thinnest + 1 && i < mesh->count; i++) {
+    change[0] = fmax(change[0], element_change(solver, which, problem, i, false));
+  }
+  change[1] =
+      element_change(solver, which, problem, find_element(mesh, problem->layers.middle - shift),
+                     flat_film(problem));
+}
+
 void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
                       const SbReynoldsCase *problem) {
   const SbHpMesh *mesh = &solver->mesh[which];
@@ -229,7 +278,7 @@ void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
   int axis = find_element(mesh, middle);
   double at_axis = sb_reynolds_coordinate(&mesh->element[axis], middle);
   out->film_central = sb_hp_gap(mesh, &solver->tables, axis, state->gap, at_axis);
-  if (sb_layers_width(&problem->layers) < 0.3) {
+  if (flat_film(problem)) {
     // Flat films there hang on small differences of large deflections between the collocation
     // points; Reynolds' equation gives them from the slope of the pressure, with far less noise.
     out->film_central = reynolds_film(solver, which, problem, axis, at_axis, out->film_central);

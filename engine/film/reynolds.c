@@ -24,66 +24,25 @@ static double seconds(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-// Relative change of the films from one level to the next: minimum, centre, flux.
-static void differences(double out[3], const SbReynoldsReading *fine,
-                        const SbReynoldsReading *coarse) {
-  out[0] = fabs(fine->film_min - coarse->film_min) / fine->film_min;
-  out[1] = fabs(fine->film_central - coarse->film_central) / fine->film_central;
-  out[2] = fabs(fine->film_flux - coarse->film_flux) / fine->film_flux;
-}
-
 // Estimate of the errors of the last level: its change from the level below times the rate at which
-// changes shrink. Two levels can agree by chance, so none is trusted below a third of what a level
-// is found to leave in the film over M from 0.1 to 1e6 and end pressures up to 1.5 p_H (the table;
-// found against the last level). The minimum follows the outlet layer, worst where a flooded outlet
-// meets a thick film; inside, centre and flux film go together.
-static void estimate(SbFilmSolverInfo *info, const SbReynoldsReading *reading, int levels,
-                     const SbLayers *layers, double noise) {
-  // Left in the minimum by layers of width below 0.025, up to 0.065, up to 0.3, above, with an
-  // empty and a flooded outlet; in the centre by layers below 0.025, up to 0.4 without and with
-  // pressure at the ends (these from 0.065 on), above.
-  static const double MIN[2][4][LEVELS] = {{{3e-5, 6e-6, 3.3e-7, 2e-8, 2e-9, 1e-9},
-                                            {3e-5, 6e-6, 3.3e-7, 2.5e-8, 2e-9, 1e-9},
-                                            {6e-5, 7e-6, 3.3e-7, 3.5e-8, 2e-9, 1e-9},
-                                            {6e-5, 7e-6, 3.3e-7, 3.5e-8, 2e-9, 1e-9}},
-                                           {{1.3e-4, 8e-6, 6e-7, 6e-8, 4e-9, 2e-9},
-                                            {3e-4, 1e-5, 1.2e-6, 3e-7, 2e-8, 4e-9},
-                                            {1e-3, 8e-5, 1.3e-5, 1.7e-6, 1.2e-7, 1e-8},
-                                            {5e-3, 1.7e-3, 1.1e-4, 5e-5, 5e-6, 5e-7}}};
-  static const double CENTRE[4][LEVELS] = {{4e-7, 3.3e-8, 4e-10, 2e-10, 5e-11, 5e-11},
-                                           {1e-5, 1e-7, 1.2e-8, 5e-8, 1e-10, 1e-10},
-                                           {1e-5, 1e-7, 4.5e-8, 5e-8, 1e-9, 1e-10},
-                                           {1e-5, 5e-7, 8e-8, 1.5e-8, 1e-8, 2e-9}};
-  double width = sb_layers_width(layers);
-  bool flooded = layers->end != SB_LAYERS_RUPTURE;
-  bool plain = !flooded && layers->inlet == 0.0 && !isfinite(layers->meniscus);
-  bool rigid = plain && width > 0.95;
-  double last[3], before[3] = {0};
-  differences(last, &reading[levels - 1], &reading[levels - 2]);
-  if (levels > 2) {
-    differences(before, &reading[levels - 2], &reading[levels - 3]);
-  }
-  double inside = fmax(last[1], last[2]);
-  double inside_before = fmax(before[1], before[2]);
-  double largest[3] = {fmax(last[0], inside), inside, inside};
-  double previous[3] = {fmax(before[0], inside_before), inside_before, inside_before};
+// changes shrink, which is not believed to be better than what was found over the range of M and
+// end pressures. Changes are those of the films' surroundings (sb_reynolds_change). The flux hangs
+// on the inlet alone; the centre has its error and its own; the minimum both and the outlet's.
+static void estimate(SbFilmSolverInfo *info, double change[LEVELS][3], int levels, double noise) {
+  static const double SLOWEST[LEVELS] = {1.0, 0.13, 0.06, 0.1, 0.1, 0.1};
+  // Half of what a level leaves at its best, whatever the changes say: at last the kernel's and
+  // Newton's own digits.
+  static const double FINEST[LEVELS] = {1.0, 2e-8, 1.5e-10, 1e-10, 1e-10, 1e-10};
+  double *c = change[levels - 1];
+  c[2] = fmax(c[2], 0.05 * c[1]);
+  c[1] = fmax(c[1], c[2]);
+  c[0] = fmax(c[0], c[1]);
   double estimates[3];
   for (int i = 0; i < 3; i++) {
-    double first = rigid ? 0.1 : i == 0 && flooded && width < 0.065 ? 0.05 : 0.2;
-    double rate = levels > 2 ? largest[i] / fmax(previous[i], 1e-300) : first;
-    double slowest = fmin(first, 0.1);
-    if (rigid) {
-      slowest = 0.03;
-    } else if (i == 0 && !plain) {
-      slowest = !flooded ? 0.07 : width < 0.065 ? (levels > 2 ? 0.12 : first) : 0.25;
-    }
-    estimates[i] = fmin(fmax(rate, slowest), 1.0) * largest[i] + noise; // not faster than that
-  }
-  if (!rigid) {
-    int band = width < 0.025 ? 0 : width < 0.065 ? 1 : width < 0.3 ? 2 : 3;
-    int centre = width < 0.025 ? 0 : width >= 0.4 ? 3 : plain || width < 0.065 ? 1 : 2;
-    estimates[0] = fmax(estimates[0], MIN[flooded ? 1 : 0][band][levels - 1]);
-    estimates[1] = fmax(estimates[1], CENTRE[centre][levels - 1]);
+    double last = change[levels - 1][i];
+    double rate = levels > 2 ? last / fmax(change[levels - 2][i], 1e-300) : 0.0;
+    estimates[i] = fmin(fmax(rate, SLOWEST[levels - 1]), 1.0) * last + noise;
+    estimates[i] = fmax(estimates[i], FINEST[levels - 1]);
   }
   info->error_film_min = estimates[0];
   info->error_film_central = estimates[1];
@@ -151,6 +110,7 @@ static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFil
                       SbReynoldsCase *c, double supply, SbFilmSolverInfo *info,
                       const SbFilmProblem *problem, SbReport *report) {
   const SbReynoldsCase cold = *c;
+  double change[LEVELS][3] = {{0}};
   *which = 0;
   *levels = 0;
   int least = problem->tolerance >= 5e-3 ? LEVELS_LEAST - 1 : LEVELS_LEAST;
@@ -161,7 +121,8 @@ static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFil
         level == 0
             ? sb_reynolds_start(&flooded, solver, which, c, supply, residual, info, problem)
             : sb_reynolds_refine(solver, which, c, level_degree[level], residual, info, problem);
-    if (level > 0 && status == SB_ERROR_NOT_CONVERGED) {
+    bool anew = level > 0 && status == SB_ERROR_NOT_CONVERGED;
+    if (anew) {
       // The level below may be too coarse a guess: this one from nothing.
       *c = cold;
       c->layers.degree = level_degree[level];
@@ -186,7 +147,9 @@ static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFil
     sb_reynolds_read(&reading[level], solver, *which, c);
     *levels = level + 1;
     if (*levels >= 2) {
-      estimate(info, reading, *levels, &c->layers, rounding(&reading[level]) + info->residual);
+      sb_reynolds_change(change[level], solver, *which, c, &reading[level], &reading[level - 1],
+                         !anew);
+      estimate(info, change, *levels, rounding(&reading[level]) + info->residual);
     }
     double worst = fmax(info->error_film_min, info->error_film_central);
     if (*levels >= least && worst <= 0.1 * problem->tolerance) {

@@ -97,6 +97,14 @@ void sb_reynolds_resample(SbFilmSolver *solver, int from, int to);
 void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
                       const SbReynoldsCase *problem);
 
+// Relative changes of minimum, centre and flux film from one level of degree to the next, whose
+// readings are `coarse` and `fine`. If `paired`, mesh and state `which` and the other one hold the
+// two on the same elements: the first two are then root mean squares over the elements about the
+// minimum and about the centre, as single values may agree by chance.
+void sb_reynolds_change(double change[3], SbFilmSolver *solver, int which,
+                        const SbReynoldsCase *problem, const SbReynoldsReading *fine,
+                        const SbReynoldsReading *coarse, bool paired);
+
 // Coordinate r of position X in element e.
 double sb_reynolds_coordinate(const SbHpElement *e, double X);
 
