@@ -34,6 +34,7 @@ SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, Sb
   }
   run->model = *model;
   run->plan = *plan;
+  run->speed = model->speed;
   run->capacity = frames_at_most(model);
   bool lives = model->life_actuations > 1;
   run->life = lives ? calloc((size_t)model->life_actuations, sizeof *run->life) : NULL;
@@ -115,7 +116,7 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
   run->after_frames = run->life != NULL ? 0.9 * (1 - run->before_frames) : 0;
 
   // A film that did not converge leaves its best state: the cycle is still worth having, flagged.
-  SbStatus status = sb_run_solve_states(run, hooks, report);
+  SbStatus status = sb_run_solve_states_at_speed(run, hooks, report);
   if (status == SB_OK && run->plan.section_fields) {
     status = sb_run_solve_shapes(run, hooks, report);
   }
@@ -142,6 +143,14 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
     }
     if (status == SB_OK && run->life != NULL) {
       status = sb_run_rest_of_life(run, hooks, report);
+    }
+    // At rest because nothing moved it.
+    bool stays = !summary->stage[SB_STAGE_B].reached && !summary->stage[SB_STAGE_D].reached &&
+                 run->model.drive != SB_MODEL_DRIVE_FREE_RETURN &&
+                 run->model.drive != SB_MODEL_DRIVE_SINUSOID;
+    if (status == SB_OK && stays) {
+      sb_warn(&summary->warnings, "no-slip", "friction.static_ratio",
+              "the stem never slips: the drive's %.3g N are not enough", summary->force_peak);
     }
     // A ramp is held to the end: nothing lets the stem go.
     if (!summary->returns && run->model.drive != SB_MODEL_DRIVE_RAMP &&

@@ -134,6 +134,17 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   sb_cycle_energy(&run->cycle, &summary->energy);
   summary->returns = run->cycle.returns;
   summary->force_return_min = run->cycle.force_return_min;
+  // Here the stem keeps its film where it stops (motion/cycle.h). Held at the stop for longer it
+  // would not.
+  if (summary->returns && summary->stage[SB_STAGE_D].reached) {
+    double held = sb_cycle_least_return(&run->cycle, run->model.stroke, SB_CHAMBER_OPEN, true);
+    if (held < 0) {
+      sb_warn(&summary->warnings, "static-hold", "friction.static_ratio",
+              "the stem returns because it keeps its film at the stop; after a rest there static "
+              "friction would exceed the pressure force by %.3g N (models.motion = dynamic)",
+              -held);
+    }
+  }
   summary->force_peak = 0;
   for (size_t i = 0; i < run->cycle.count; i++) {
     const SbCycleSegment *segment = &run->cycle.segment[i];

@@ -25,20 +25,31 @@ typedef struct {
   SbStage stage; // last passed
   bool passed[SB_STAGE_COUNT];
   double force[SB_STAGE_COUNT]; // at the stages
-  int direction;                // of the last sliding
-  double turn;                  // time after which a reverse slip is the return [s]
-  double force_peak, leak, leak_from;
+  double time[SB_STAGE_COUNT], place[SB_STAGE_COUNT];
+  int direction; // of the last sliding
+  double turn;   // time after which a reverse slip is the return [s]
+  double force_peak, leak, leak_from, leak_since;
+  bool slips; // some contact has slid
   double last_event;
   SbStatus status; // of the frames' reactions
   SbReport *report;
 } Recorder;
 
-// Film dragged along since the last call, at the film of the present state.
-static void leak(Recorder *r, double x, double pressure) {
+// Film at a speed over that of the states, by the law's exponent about it.
+static double film_at(const SbRun *run, double speed) {
+  return run->film_exponent > 0 ? pow(fabs(speed) / run->speed, run->film_exponent) : 1;
+}
+
+// Film dragged along since the last call, at the film of the present state and of the mean speed.
+static void leak(Recorder *r, double time, double x, double pressure) {
   int direction = x > r->leak_from ? SB_CYCLE_IN : SB_CYCLE_OUT;
   const SbSliding *outer = sb_valve_state(r->valve, SB_OUTER, direction, pressure);
-  r->leak += sb_leak_stroke(r->run->model.bore_diameter, outer->film_central, x - r->leak_from);
+  double way = x - r->leak_from;
+  double speed = time > r->leak_since ? way / (time - r->leak_since) : r->run->speed;
+  double film = outer->film_central * film_at(r->run, speed);
+  r->leak += sb_leak_stroke(r->run->model.bore_diameter, film, way);
   r->leak_from = x;
+  r->leak_since = time;
 }
 
 // Adds a frame of the motion as it is now.
@@ -46,7 +57,7 @@ static SbFrame *add_frame(Recorder *r) {
   SbDynamicsSample sample;
   sb_dynamics_sample(r->motion, &sample, NULL);
   double pressure = sb_valve_chamber_pressure(r->valve, sample.extra);
-  leak(r, sample.position, pressure);
+  leak(r, sample.time, sample.position, pressure);
   r->force_peak = fmax(r->force_peak, sample.drive_force);
   if (!r->frames || r->count == r->run->capacity) {
     return NULL;
@@ -73,6 +84,10 @@ static SbFrame *add_frame(Recorder *r) {
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     sb_valve_fill_seal(&out->seal[seal], r->valve, seal, direction, moving, sample.position,
                        pressure);
+    double film = film_at(r->run, sample.speed);
+    out->seal[seal].film_min *= film;
+    out->seal[seal].film_central *= film;
+    out->seal[seal].lambda *= film;
     out->seal[seal].friction = -sample.friction[seal];
     out->seal[seal].friction_viscous = -sample.viscous[seal];
     out->seal[seal].friction_boundary = sample.viscous[seal] - sample.friction[seal];
@@ -86,6 +101,8 @@ static void mark(Recorder *r, SbStage stage, const SbMotionEvent *event) {
     return;
   }
   r->passed[stage] = true;
+  r->time[stage] = event->time;
+  r->place[stage] = event->position;
   r->force[stage] = event->drive_force;
   SbFrame *frame = add_frame(r);
   if (frame != NULL) {
@@ -96,6 +113,18 @@ static void mark(Recorder *r, SbStage stage, const SbMotionEvent *event) {
   r->stage = stage;
 }
 
+// Whether any seal rubs here.
+static bool rubs(const Recorder *r) {
+  SbDynamicsSample sample;
+  sb_dynamics_sample(r->motion, &sample, NULL);
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    if (sample.contact[seal] != SB_CONTACT_OFF) {
+      return true;
+    }
+  }
+  return false;
+}
+
 static void valve_event(const SbMotionEvent *event, void *user) {
   Recorder *r = user;
   SbValve *valve = r->valve;
@@ -103,6 +132,7 @@ static void valve_event(const SbMotionEvent *event, void *user) {
   r->force_peak = fmax(r->force_peak, event->drive_force);
   switch (event->kind) {
   case SB_MOTION_SLIP:
+    r->slips = true;
     if (event->sign > 0 && r->stage == SB_STAGE_A) {
       mark(r, SB_STAGE_B, event);
     } else if (event->sign < 0 && event->time >= r->turn) {
@@ -113,7 +143,7 @@ static void valve_event(const SbMotionEvent *event, void *user) {
   case SB_MOTION_EDGE: {
     SbDynamicsSample sample;
     sb_dynamics_sample(r->motion, &sample, NULL);
-    leak(r, sample.position, sb_valve_chamber_pressure(valve, sample.extra));
+    leak(r, sample.time, sample.position, sb_valve_chamber_pressure(valve, sample.extra));
     double edge = valve->edge[event->index];
     if (valve->touches && edge == r->run->model.land_edge && event->sign > 0 &&
         r->stage == SB_STAGE_B) {
@@ -127,6 +157,14 @@ static void valve_event(const SbMotionEvent *event, void *user) {
   case SB_MOTION_TOUCH_STOP:
     if (event->index == SB_END_STOP) {
       mark(r, SB_STAGE_D, event);
+    }
+    break;
+  case SB_MOTION_LEAVE_STOP:
+    // Without friction nothing slips: the stem starts where it leaves its stop.
+    if (!rubs(r) && event->index == SB_REST_STOP && r->stage == SB_STAGE_A) {
+      mark(r, SB_STAGE_B, event);
+    } else if (!rubs(r) && event->index == SB_END_STOP && event->time >= r->turn) {
+      mark(r, SB_STAGE_E, event);
     }
     break;
   default:
@@ -254,6 +292,35 @@ void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
   summary->rejected_steps = (size_t)counters->rejected;
 }
 
+SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRunHooks *hooks,
+                              SbReport *report) {
+  static const struct {
+    SbStage from, to;
+  } way[] = {{SB_STAGE_B, SB_STAGE_C}, {SB_STAGE_B, SB_STAGE_D}, {SB_STAGE_E, SB_STAGE_F}};
+  SbDynamics motion;
+  SbDynamicsModel model;
+  SbValve valve;
+  SbWarnings kept = run->summary.warnings;
+  Recorder recorder = {.run = run, .valve = &valve};
+  *speed = 0;
+  SbStatus status = sb_valve_set_up(&model, &valve, run, report);
+  run->summary.warnings = kept;
+  if (status == SB_OK) {
+    status = run_motion(&recorder, &motion, &model, hooks, report);
+  }
+  *slips = recorder.slips;
+  for (int i = 0; i < 3 && *speed == 0; i++) {
+    double time = recorder.time[way[i].to] - recorder.time[way[i].from];
+    if (recorder.passed[way[i].from] && recorder.passed[way[i].to] && time > 0) {
+      *speed = fabs(recorder.place[way[i].to] - recorder.place[way[i].from]) / time;
+    }
+  }
+  if (*speed == 0 && *slips && run->model.drive == SB_MODEL_DRIVE_SINUSOID) {
+    *speed = 4 * run->model.amplitude * run->model.frequency;
+  }
+  return status;
+}
+
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   SbDynamicsModel model;
@@ -266,7 +333,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     return status;
   }
   summary->force_return_min =
-      sb_cycle_least_return(&run->cycle, run->model.stroke, SB_CHAMBER_OPEN) +
+      sb_cycle_least_return(&run->cycle, run->model.stroke, SB_CHAMBER_OPEN, true) +
       run->model.spring_preload;
   SbDynamics motion = {0};
   Recorder recorder = {.run = run, .valve = &valve, .frames = true};

@@ -35,7 +35,7 @@ SbStatus sb_run_resurface(SbRun *run, double factor, SbReport *report) {
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
       for (int direction = 0; direction < SB_CYCLE_DIRECTIONS; direction++) {
-        double speed = direction == SB_CYCLE_IN ? run->model.speed : -run->model.speed;
+        double speed = direction == SB_CYCLE_IN ? run->speed : -run->speed;
         SbStatus status =
             sb_sliding_resurface(&run->cycle.states.state[seal][chamber][direction], &run->model,
                                  seal, speed, &run->summary.warnings, report);
@@ -90,6 +90,8 @@ static SbStatus actuate(SbLifeActuation *out, long n, double roughness, void *us
   one->cycle = run->cycle;
   // Reactions are for frames, and only those of the actuation shown are kept.
   one->plan.bodies = run->plan.bodies && n + 1 == run->model.life_shown;
+  one->speed = run->speed;
+  one->film_exponent = run->film_exponent;
   one->summary = (SbSummary){.error_film = NAN, .force_breakaway = NAN};
   sb_run_publish(one, 0);
   SbStatus status = sb_run_resurface(one, roughness / run->model.running_in.start, report);

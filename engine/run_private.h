@@ -53,6 +53,8 @@ struct SbRun {
   SbModel model;
   SbPlan plan;
   SbCycle cycle; // its states serve every motion model
+  double speed;  // sliding speed that the states stand for [m/s]: the machine's, or the stem's own
+  double film_exponent; // of the film's speed law about it; 0: every frame slides at that speed
   SbSummary summary;
   SbSlidingMemory *memory[SB_SEAL_COUNT];
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
@@ -101,6 +103,17 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 // Energies and counts of a motion with inertia into the summary (run_dynamic.c).
 void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
                         const SbDynamicsCounters *counters);
+
+// Solves the sliding states, at the speed of the machine or, where something else drives the stem,
+// at the stem's own mean speed from B to C, which follows from them: repeated until they agree
+// (run_speed.c).
+SbStatus sb_run_solve_states_at_speed(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Mean speed of the stem from B to C [m/s], or from B to D, or from E to F, whichever it passes
+// first, by the present sliding states; of a sinusoid that passes none, its own. 0 if there is
+// none. *slips tells whether the stem slides at all (run_dynamic.c).
+SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRunHooks *hooks,
+                              SbReport *report);
 
 // Makes the surface `factor` times as rough in the run's model and its solved sliding states.
 SbStatus sb_run_resurface(SbRun *run, double factor, SbReport *report);

@@ -12,8 +12,7 @@ static double film_by(const SbRun *run, int seal, const SbSliding *state, SbFilm
   double central = NAN;
   if (film != NULL && state->touches && state->load_net > 0) {
     SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, SB_CHAMBER_AT_REST);
-    sb_sliding_film_problem(&problem, &run->model, seal, pressure, state->load_net,
-                            run->model.speed);
+    sb_sliding_film_problem(&problem, &run->model, seal, pressure, state->load_net, run->speed);
     problem.model = film_model;
     if (sb_film_solve(film, &problem, NULL, NULL) == SB_OK) {
       central = film->film_central;

@@ -155,6 +155,9 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   summary->error_film = NAN;
   summary->error_load = 0;
   run->cycle.states.model = &run->model;
+  // A carried inlet is left by an in-stroke at the model's speed.
+  SbModel model = run->model;
+  model.speed = run->speed;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
       SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, (SbChamber)chamber);
@@ -169,14 +172,12 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
         if (motion == SB_RUN_REST && !run->plan.profiles) {
           continue;
         }
-        double speed = motion == SB_CYCLE_IN   ? run->model.speed
-                       : motion == SB_RUN_REST ? 0
-                                               : -run->model.speed;
+        double speed = motion == SB_CYCLE_IN ? run->speed : motion == SB_RUN_REST ? 0 : -run->speed;
         SbSliding rest;
         SbSliding *state =
             motion == SB_RUN_REST ? &rest : &run->cycle.states.state[seal][chamber][motion];
-        SbStatus status = sb_sliding_solve(state, &run->model, seal, pressure, speed,
-                                           run->memory[seal], &counts, &summary->warnings, report);
+        SbStatus status = sb_sliding_solve(state, &model, seal, pressure, speed, run->memory[seal],
+                                           &counts, &summary->warnings, report);
         if (status == SB_ERROR_NOT_CONVERGED) {
           worst = status;
         } else if (status != SB_OK) {

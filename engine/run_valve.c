@@ -215,7 +215,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
         .dwell_time = model->dwell_time,
         .stribeck_speed = model->stribeck_speed,
         .stribeck_exponent = 1,
-        .viscous = state->viscous / model->speed,
+        .viscous = state->viscous / run->speed,
         .stiffness = INFINITY,
     };
     if (model->tangential_stiffness > 0) {

@@ -375,11 +375,12 @@ static void slide(Planner *p) {
   }
 }
 
-// Least F_p - f over the way back from `s`.
-double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber) {
-  double least =
-      cycle->states.model->pressure_force - static_limit(cycle, chamber, SB_CYCLE_OUT, s);
-  least = fmin(least, balance_force(cycle, chamber, SB_CYCLE_OUT, s));
+double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, bool rested) {
+  double least = balance_force(cycle, chamber, SB_CYCLE_OUT, s);
+  if (rested) {
+    least = fmin(least, cycle->states.model->pressure_force -
+                            static_limit(cycle, chamber, SB_CYCLE_OUT, s));
+  }
   if (chamber == SB_CHAMBER_OPEN) {
     chamber = SB_CHAMBER_CLOSED;
   }
@@ -436,8 +437,9 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
 
   cycle->stem_final = p.s;
   cycle->returns = p.s == 0;
-  cycle->force_return_min =
-      s_return > 0 ? sb_cycle_least_return(cycle, s_return, chamber_return) : model->pressure_force;
+  cycle->force_return_min = s_return > 0
+                                ? sb_cycle_least_return(cycle, s_return, chamber_return, false)
+                                : model->pressure_force;
   if (p.full) {
     return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "drive.stiffness",
                              "the cycle does not end within %d events", SB_CYCLE_SEGMENTS_MAX);

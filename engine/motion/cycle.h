@@ -99,8 +99,9 @@ double sb_cycle_static_friction(const SbCycle *cycle, int seal, SbChamber chambe
 // meets it on the way out (chamber closed).
 double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction);
 
-// Least F_p - f over the way back from displacement s, whatever moves the stem.
-double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber);
+// Least F_p - f over the way back from displacement s, whatever moves the stem; `rested`: against
+// the static friction at s.
+double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, bool rested);
 
 // Energy of the whole cycle, every term by its own quadrature; fills all fields but kinetic (0).
 void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out);

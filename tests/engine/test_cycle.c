@@ -150,6 +150,31 @@ static void test_thesis_cycle(void) {
   sb_run_destroy(run);
 }
 
+// The least return force is that of the frames from E to A, however much more holds the stem at
+// rest; that a rest at the stop would hold it is told.
+static void test_return_of_frames(void) {
+  Setting sticky = {SB_P_FRICTION_STATIC_RATIO, 2.5};
+  SbRun *run = run_cycle(&sticky, 1);
+  const SbSummary *summary = sb_run_summary(run);
+  size_t count;
+  const SbFrame *frames = sb_run_frames(run, &count);
+  double least = INFINITY;
+  for (size_t i = summary->stage[SB_STAGE_E].frame; i < count; i++) {
+    if (frames[i].velocity < 0) {
+      double friction = frames[i].seal[SB_INNER].friction + frames[i].seal[SB_OUTER].friction;
+      least = fmin(least, frames[i].pressure_force - fabs(friction));
+    }
+  }
+  g_assert_true(summary->returns);
+  g_assert_cmpfloat(fabs(summary->force_return_min - least), <, 1e-9);
+  bool told = false;
+  for (size_t i = 0; i < summary->warnings.count; i++) {
+    told = told || g_str_equal(summary->warnings.item[i].code, "static-hold");
+  }
+  g_assert_true(told);
+  sb_run_destroy(run);
+}
+
 // Section 7.6: +30 % roughness nearly or fully stops the return, -30 % eases it.
 static void test_roughness(void) {
   Setting rough = {SB_P_SURFACE_GT_PRODUCT, 1.3 * 0.1289};
@@ -353,6 +378,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cycle/hand-acceptance", test_hand_acceptance);
   g_test_add_func("/cycle/thesis", test_thesis_cycle);
   g_test_add_func("/cycle/roughness", test_roughness);
+  g_test_add_func("/cycle/return-of-frames", test_return_of_frames);
   g_test_add_func("/cycle/frames", test_frames);
   g_test_add_func("/cycle/hard-cases", test_hard_cases);
   g_test_add_func("/cycle/no-contact", test_no_contact);

@@ -584,6 +584,83 @@ static void test_refused(void) {
   g_assert_cmpstr(problems.item[0].key, ==, "drive.kind");
 }
 
+static bool warned(const SbRun *run, const char *code) {
+  const SbWarnings *list = &sb_run_summary(run)->warnings;
+  for (size_t i = 0; i < list->count; i++) {
+    if (g_str_equal(list->item[i].code, code)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Without friction the stem slips where it leaves its stops, at the pressure's force; a finger that
+// cannot move it says so.
+static void test_first_slip(void) {
+  Setting smooth[] = {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
+                      {SB_P_FRICTION_SHEAR_STRENGTH, 0},
+                      {SB_P_FRICTION_LOAD_COEFFICIENT, 0}};
+  SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, smooth, 3);
+  const SbSummary *summary = sb_run_summary(run);
+  for (int stage = SB_STAGE_A; stage < SB_STAGE_COUNT; stage++) {
+    g_assert_true(summary->stage[stage].reached);
+  }
+  double pressure = sb_run_model(run)->pressure_force;
+  g_assert_cmpfloat(fabs(summary->stage[SB_STAGE_B].force / pressure - 1), <, 1e-9);
+  g_assert_cmpfloat(fabs(summary->stage[SB_STAGE_E].force / pressure - 1), <, 1e-6);
+  g_assert_false(warned(run, "no-slip"));
+  sb_run_destroy(run);
+  Setting weak[] = {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND}, {SB_P_DRIVE_PEAK_FORCE, 28}};
+  run = run_with(SB_MODEL_MOTION_DYNAMIC, weak, 2);
+  g_assert_false(sb_run_summary(run)->stage[SB_STAGE_B].reached);
+  g_assert_true(warned(run, "no-slip"));
+  sb_run_destroy(run);
+}
+
+// A finger has no speed of its own: the films are those at which the stem slides, whatever
+// drive.speed says, each frame's at its own speed, and the work of friction follows.
+static void test_own_speed(void) {
+  Setting slow[] = {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND}, {SB_P_DRIVE_SPEED, 1e-6}};
+  Setting quick[] = {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND}, {SB_P_DRIVE_SPEED, 1}};
+  SbRun *a = run_with(SB_MODEL_MOTION_DYNAMIC, slow, 2);
+  SbRun *b = run_with(SB_MODEL_MOTION_DYNAMIC, quick, 2);
+  const SbSummary *summary = sb_run_summary(a);
+  const SbStageMark *B = &summary->stage[SB_STAGE_B], *C = &summary->stage[SB_STAGE_C];
+  double speed = (C->displacement - B->displacement) / (C->time - B->time);
+  g_assert_cmpfloat(speed, >, 0.1);
+  const SbModel *model = sb_run_model(a);
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    const SbSealSummary *own = &summary->seal[seal];
+    const SbSealModel *ring = &model->seal[seal];
+    // Thesis equation 7.5 at half the sliding speed, and the net load: the fluid's share, pressure
+    // difference times half the width, is off.
+    double fluid = seal == SB_OUTER ? 0.55e6 * own->contact_width / 2 : 0;
+    double U = model->viscosity * speed / 2 / (ring->reduced_modulus * ring->radius);
+    double W = (own->load_per_length - fluid) / (ring->reduced_modulus * ring->radius);
+    double film = 1.492 * pow(U, 0.5434) * pow(W, -0.2893) * ring->radius;
+    g_assert_cmpfloat(fabs(own->film_central / film - 1), <, 0.01);
+    g_assert_cmpfloat(fabs(own->film_central / sb_run_summary(b)->seal[seal].film_central - 1), <,
+                      0.02);
+    size_t count;
+    const SbFrame *frames = sb_run_frames(a, &count);
+    size_t seen = 0;
+    for (size_t i = 0; i < count; i++) {
+      const SbSealFrame *at = &frames[i].seal[seal];
+      if (at->film_central > 0 && frames[i].stage == SB_STAGE_B) {
+        double expected = film * pow(fabs(frames[i].velocity) / speed, 0.5434);
+        g_assert_cmpfloat(fabs(at->film_central / expected - 1), <, 0.01);
+        g_assert_cmpfloat(fabs(at->lambda / (at->film_central / model->sigma) - 1), <, 1e-9);
+        seen++;
+      }
+    }
+    g_assert_cmpuint(seen, >, 0);
+  }
+  g_assert_cmpfloat(fabs(summary->energy.friction / sb_run_summary(b)->energy.friction - 1), <,
+                    0.01);
+  sb_run_destroy(a);
+  sb_run_destroy(b);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-dynamic/against-quasi-static", test_against_quasi_static);
@@ -598,6 +675,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-dynamic/friction-keys", test_friction_keys);
   g_test_add_func("/run-dynamic/hard", test_hard);
   g_test_add_func("/run-dynamic/tolerance", test_tolerance);
+  g_test_add_func("/run-dynamic/own-speed", test_own_speed);
+  g_test_add_func("/run-dynamic/first-slip", test_first_slip);
   if (g_test_slow()) {
     // Alone on the machine: where others keep it busy a time says nothing.
     g_test_add_func("/run-dynamic/time", test_time);
