@@ -54,6 +54,7 @@ static SbStatus enter(Way *way, int chamber, const SbRunHooks *hooks, SbReport *
   if (state->film_fitted && surface->known) {
     problem.film.compliance = &surface->compliance;
     problem.film.load = surface->load;
+    problem.film.modulus = surface->compliance.modulus;
   }
   if (hooks != NULL) {
     problem.film.cancelled = hooks->cancelled;

@@ -187,7 +187,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
         if (state->film_fitted && run->plan.film_history) {
           surface->known = sb_sliding_surface(&surface->compliance, &surface->load,
                                               sb_sliding_fit(run->memory[seal]), &run->model, seal,
-                                              pressure, NULL) == SB_OK;
+                                              pressure, NULL, NULL) == SB_OK;
         }
         summary->error_load = fmax(summary->error_load,
                                    sb_sliding_fit(run->memory[seal])->solver.error_estimate.load);

@@ -77,10 +77,11 @@ double sb_compliance_gap(const SbSurfaceCompliance *c, double x, double *slope) 
     sum_slope += c->gap[k] * derivative[k];
   }
   const double rest = x - inside;
-  const double bend = sum_slope / (inside - 0.5 * (c->left + c->right));
   if (rest != 0.0) {
-    sum += rest * (sum_slope + 0.5 * bend * rest);
-    sum_slope += bend * rest;
+    const double start = c->beyond[rest > 0.0 ? 1 : 0];
+    const double bend = start / (inside - 0.5 * (c->left + c->right));
+    sum += rest * (start + 0.5 * bend * rest);
+    sum_slope = start + bend * rest;
   }
   if (slope != NULL) {
     *slope = sum_slope;
@@ -172,6 +173,8 @@ SbStatus sb_compliance_fit(SbSurfaceCompliance *out, int modes, double left, dou
       }
     }
   }
+  sb_compliance_gap(&c, left, &c.beyond[0]);
+  sb_compliance_gap(&c, right, &c.beyond[1]);
   *out = c;
   return sb_succeed(report);
 }
@@ -567,6 +570,13 @@ SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const 
       sum += value[i] * cos(k * (M_PI - M_PI * (i + 0.5) / c->modes));
     }
     c->gap[k] = (k == 0 ? 1.0 : 2.0) / c->modes * sum;
+  }
+  // Beyond the window S has no slope: the gap goes on with that of both.
+  for (int end = 0; end < 2; end++) {
+    double slope;
+    sb_compliance_gap(c, end == 0 ? c->left : c->right, &c->beyond[end]);
+    sb_compliance_smooth(c, end == 0 ? c->left : c->right, moment, &slope);
+    c->beyond[end] += slope;
   }
   return sb_succeed(report);
 }

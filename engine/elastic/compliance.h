@@ -32,6 +32,7 @@ typedef struct {
   double left, right;              // window [m], x in the seal's frame
   double modulus;                  // reduced, E' of the half-plane's part [Pa]
   double gap[SB_COMPLIANCE_MODES]; // g(x) = sum gap[k] T_k(z), up to a constant [m]
+  double beyond[2];                // slope with which the gap goes on beyond its left, right end
   // S(x, s) = sum smooth[k][l] T_k(z(x)) T_l(z(s)) [1/Pa], symmetric in k and l.
   double smooth[SB_COMPLIANCE_MODES][SB_COMPLIANCE_MODES];
 } SbSurfaceCompliance;
@@ -59,7 +60,8 @@ SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const 
                              const double *p, double pressure_left, double pressure_right,
                              SbReport *report);
 
-// g(x) and its slope; outside the window the parabola about its centre that goes on from its end.
+// g(x) and its slope; outside the window, where S acts no more, the parabola about its centre that
+// goes on from its end with the slope `beyond`.
 double sb_compliance_gap(const SbSurfaceCompliance *c, double x, double *slope);
 
 // Displacement by S and its slope at x of a pressure with the moments m_l = int p T_l(z) ds

@@ -14,6 +14,7 @@
 // 0.
 #pragma once
 
+#include "engine/elastic/compliance.h"
 #include "engine/status.h"
 
 // enumerator, name on the command line and in files
@@ -54,6 +55,7 @@ typedef struct {
   double gland_width;      // axial [m]
   double pressure;         // pressure difference [Pa]; positive on the left (x < 0)
   double tolerance;        // relative, wanted of load, peak and width; 0: 1e-3
+  bool surface_wanted;     // by the film: gives `surface` too
   bool (*cancel)(void *);  // polled by models that can last; true stops. May be NULL
   void *cancel_data;
 } SbFitProblem;
@@ -97,12 +99,15 @@ typedef struct {
   size_t profile_count;
   double profile_x[SB_FIT_PROFILE_MAX];
   double profile_p[SB_FIT_PROFILE_MAX];
+  // Surface of the fitted body for films, pressure on its side; modes 0 where the model has none of
+  // its own. The ring's, by static condensation of its equilibrium; only where `surface_wanted`.
+  SbSurfaceCompliance surface;
 } SbFit;
 
 // Solves the problem. SB_ERROR_RANGE or SB_ERROR_INPUT with the catalogue key
 // (seal.section_diameter, gland.radial_space, bore.diameter ...) for input that is not physical;
 // SB_ERROR_INFEASIBLE if the groove floor would have no diameter or the model has no solution
 // there; SB_ERROR_NOT_CONVERGED leaves the last good state in `out` with solver.converged false. A
-// ring that does not touch is valid: SB_OK, load 0, warning "no-contact". `out` is about 25 kB,
+// ring that does not touch is valid: SB_OK, load 0, warning "no-contact". `out` is about 30 kB,
 // owned by the caller, and holds no pointers. `report` may be NULL.
 SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report);

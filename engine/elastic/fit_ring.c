@@ -70,6 +70,10 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
     const int points =
         sb_ring_profile(ring, out->profile_x, out->profile_p, NULL, SB_FIT_PROFILE_MAX);
     out->profile_count = points < SB_FIT_PROFILE_MAX ? (size_t)points : SB_FIT_PROFILE_MAX;
+    // Without one the film has to do with another model's, and says so.
+    if (in->surface_wanted && sb_ring_surface(ring, &out->surface, NULL) != SB_OK) {
+      out->surface.modes = 0;
+    }
   }
   sb_ring_destroy(ring);
   return sb_succeed(report);

@@ -67,15 +67,14 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
                           double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                           SbWarnings *warnings, SbReport *report);
 
-// Surface of a fitted body for the film: the disc's compliance on the section (for the ring's
-// film it stands in for its own), and the gap whose dry contact has the pressure of `fit`. For
-// fitment models with an elastic body (disc, ring); thin films hang on
-// the edges and slopes of this pressure, the smooth part matters by the film over the contact's
-// flattening. *load is the net load that goes with it [N/m]. SB_ERROR_INPUT for the others and
-// where the contact is too wide.
+// Surface of a fitted body for the film: the ring's own by static condensation (ring.h), with its
+// own modulus, or the disc's, and the gap whose dry contact has the pressure of `fit`. Where the
+// ring has none the disc's compliance stands in for it, with the warning "film-disc-surface".
+// *load is the net load that goes with it [N/m]. `warnings` may be NULL. SB_ERROR_INPUT for the
+// other fitment models and where the contact is too wide.
 SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit *fit,
                             const SbModel *model, int seal, SbSealPressure pressure,
-                            SbReport *report);
+                            SbWarnings *warnings, SbReport *report);
 
 // Gives a solved state the surface of `model` (roughness, shear strength): neither fitment nor film
 // depend on it, so that nothing is solved again.

@@ -30,6 +30,27 @@ bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch
 // Contact pressure at a loop node (element solver's units), from the excess over the fluid's.
 double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface);
 
+enum { SB_RING_PRESSURE_TERMS = 8 };
+
+// A contact's pressure as a smooth curve with the load of the nodal forces (ring_pressure.c).
+typedef struct {
+  double place[2], end_pressure[2]; // in the order of the loop, as of a patch
+  int terms;
+  double a[SB_RING_PRESSURE_TERMS];
+} SbRingPressure;
+
+// Recovers the pressure of a surface's contact; false where no smooth curve fits it.
+bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch,
+                     SbRingPressure *out);
+
+// The same for a patch that sb_ring_patch has found, whose places of the ends are replaced by the
+// recovered ones. False where they stay as they are.
+bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
+                  SbRingPressure *pressure);
+
+// Its value at a share (0 .. 1) of the way from the first to the last end.
+double sb_ring_pressure_at(const SbRingPressure *pressure, double share);
+
 // Replaces the mesh by one fitted to the present contacts and solves on it; the state before is
 // kept if that fails.
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);

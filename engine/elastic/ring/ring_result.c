@@ -1,13 +1,18 @@
 // What the ring tells: forces, contact ends, pressure profile, volume, checks of its own balance.
 //
-// Nodal pressures are the nodal contact forces over the nodes' areas, so they are never negative
-// and their sum is the load. An end of a contact lies between the last held and the first open
+// Ends and profile of a contact are those of the smooth curve that its nodal forces recover
+// (ring_pressure.c), the peak is a parabola through the nodes around it. Where no curve fits, nodal
+// pressures are the nodal contact forces over the nodes' areas, so they are never negative and
+// their sum is the load, and an end of a contact lies between the last held and the first open
 // node, where the gap, which opens with the 3/2 power of the distance, extrapolates to zero; the
 // pressure there is the fluid's.
 #include "engine/elastic/ring/ring_private.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+// Points of a smooth profile.
+enum { PROFILE_POINTS = 321 };
 
 static bool held(const SbRing *ring, int i, SbRingSurface surface) {
   int count = ring->contact->count;
@@ -134,24 +139,22 @@ double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface) {
   return patch.end_pressure[nearer_last ? 1 : 0] + fmax(0.0, touch->force - share) / weight;
 }
 
-int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *shear, int capacity) {
-  SbRingPatch patch;
-  if (!sb_ring_patch(ring, SB_RING_BORE, &patch)) {
-    return 0;
-  }
+// Nodal pressures as they are, for a contact that no smooth curve fits.
+static int nodal_profile(const SbRing *ring, const SbRingPatch *patch, double *x, double *pressure,
+                         double *shear, int capacity) {
   int n = 0, count = ring->contact->count;
   double before = -HUGE_VAL;
-  for (int i = patch.first - 1; i <= patch.last + 1; i++) {
+  for (int i = patch->first - 1; i <= patch->last + 1; i++) {
     double at[2], p = 0.0, t = 0.0;
-    if (i < patch.first || i > patch.last) {
-      int end = i < patch.first ? 0 : 1;
-      at[1] = patch.place[end];
-      p = patch.end_pressure[end];
+    if (i < patch->first || i > patch->last) {
+      int end = i < patch->first ? 0 : 1;
+      at[1] = patch->place[end];
+      p = patch->end_pressure[end];
     } else {
       place_of(ring, i, at);
       // A held node beyond the end that its neighbours tell is only a tail of the mesh.
-      double margin = 1e-6 * (patch.place[1] - patch.place[0]);
-      if (at[1] < patch.place[0] + margin || at[1] > patch.place[1] - margin) {
+      double margin = 1e-6 * (patch->place[1] - patch->place[0]);
+      if (at[1] < patch->place[0] + margin || at[1] > patch->place[1] - margin) {
         continue;
       }
       // Where the surface lets go within the contact it may fold: its open part is passed over.
@@ -174,6 +177,51 @@ int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *she
     before = at[1];
   }
   return n;
+}
+
+// Nodal shear at an axial place, by straight lines between the mid-sides, whose nodal value is the
+// accurate one; level beyond the outermost.
+static double shear_at(const SbRing *ring, const SbRingPatch *patch, double z) {
+  int count = ring->contact->count;
+  double before = 0.0, value = 0.0;
+  bool any = false;
+  for (int i = patch->first + (patch->first + 1) % 2; i <= patch->last; i += 2) {
+    double at[2];
+    place_of(ring, i, at);
+    const SbRingTouch *touch =
+        &ring->contact->touch[SB_RING_SURFACES * ((i + count) % count) + SB_RING_BORE];
+    double here = touch->tangent / ring->contact->weight[(i + count) % count];
+    if (z <= at[1]) {
+      return any ? value + (z - before) / (at[1] - before) * (here - value) : here;
+    }
+    before = at[1];
+    value = here;
+    any = true;
+  }
+  return value;
+}
+
+int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *shear, int capacity) {
+  SbRingPatch patch;
+  SbRingPressure smooth;
+  if (!sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+    return 0;
+  }
+  if (!sb_ring_ends(ring, SB_RING_BORE, &patch, &smooth)) {
+    return nodal_profile(ring, &patch, x, pressure, shear, capacity);
+  }
+  for (int i = 0; i < PROFILE_POINTS && i < capacity; i++) {
+    // Dense at both ends, where the pressure rises with the root of the distance.
+    bool last = i == PROFILE_POINTS - 1;
+    double share = last ? 1.0 : 0.5 * (1.0 - cos(M_PI * i / (PROFILE_POINTS - 1)));
+    double at = patch.place[0] + share * (patch.place[1] - patch.place[0]);
+    x[i] = at * ring->length;
+    pressure[i] = sb_ring_pressure_at(&smooth, share) * ring->stress;
+    if (shear != NULL) {
+      shear[i] = shear_at(ring, &patch, at) * ring->stress;
+    }
+  }
+  return PROFILE_POINTS;
 }
 
 // Greatest nodal pressure, refined by a parabola through the nodes around it.
@@ -231,15 +279,12 @@ static void find_peak(const SbRing *ring, const SbRingPatch *patch, double *peak
 
 // Normal force that the fluid still carries in the balance on sides that are only partly within the
 // contact; that part belongs to the closed contact.
-static double end_share(const SbRing *ring, SbRingSurface surface) {
-  SbRingPatch patch;
-  if (!sb_ring_patch(ring, surface, &patch)) {
-    return 0.0;
-  }
+static double end_share(const SbRing *ring, const SbRingPatch *patch) {
   int sides = ring->contact->count / 2;
-  double low = fmin(patch.place[0], patch.place[1]), high = fmax(patch.place[0], patch.place[1]);
+  double low = fmin(patch->place[0], patch->place[1]),
+         high = fmax(patch->place[0], patch->place[1]);
   double turn = ring->body.plane_strain ? 1.0 : 2.0 * M_PI, sum = 0.0;
-  for (int side = (patch.first - 2) / 2; side <= patch.last / 2; side++) {
+  for (int side = (patch->first - 2) / 2; side <= patch->last / 2; side++) {
     if (ring->contact->closed[(side + sides) % sides]) {
       continue;
     }
@@ -247,9 +292,9 @@ static double end_share(const SbRing *ring, SbRingSurface surface) {
     place_of(ring, 2 * side, a);
     place_of(ring, 2 * side + 2, b);
     double overlap = fmin(high, fmax(a[1], b[1])) - fmax(low, fmin(a[1], b[1]));
-    int end = 4 * side + 2 > patch.first + patch.last ? 1 : 0;
+    int end = 4 * side + 2 > patch->first + patch->last ? 1 : 0;
     double radius = ring->body.plane_strain ? 1.0 : 0.5 * (a[0] + b[0]);
-    sum += fmax(0.0, overlap) * patch.end_pressure[end] * radius * turn;
+    sum += fmax(0.0, overlap) * patch->end_pressure[end] * radius * turn;
   }
   return sum;
 }
@@ -264,8 +309,18 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   for (int s = 0; s < SB_RING_SURFACES; s++) {
     sb_ring_contact_total(contact, (SbRingSurface)s, force[s]);
   }
+  SbRingPatch patch[SB_RING_SURFACES];
+  bool touches[SB_RING_SURFACES];
+  SbRingPressure smooth;
+  for (int s = 0; s < SB_RING_SURFACES; s++) {
+    touches[s] = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
+    if (touches[s]) {
+      sb_ring_ends(ring, (SbRingSurface)s, &patch[s], &smooth);
+    }
+  }
   for (int s = SB_RING_BORE; s <= SB_RING_FLOOR; s++) {
-    force[s][0] += (s == SB_RING_BORE ? -1.0 : 1.0) * end_share(ring, (SbRingSurface)s);
+    double share = touches[s] ? end_share(ring, &patch[s]) : 0.0;
+    force[s][0] += s == SB_RING_BORE ? -share : share;
   }
   out->bore_force = 0.0 - force[SB_RING_BORE][0] * f; // not -0
   out->bore_drag = force[SB_RING_BORE][1] * f;
@@ -276,23 +331,23 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   out->wall_left_force = force[SB_RING_WALL_LEFT][1] * f;
   out->wall_left_drag = force[SB_RING_WALL_LEFT][0] * f;
 
-  SbRingPatch patch;
-  out->touching = sb_ring_patch(ring, SB_RING_BORE, &patch);
+  out->touching = touches[SB_RING_BORE];
   if (out->touching) {
-    out->contact_left = patch.place[0] * l;
-    out->contact_right = patch.place[1] * l;
+    const SbRingPatch *bore = &patch[SB_RING_BORE];
+    out->contact_left = bore->place[0] * l;
+    out->contact_right = bore->place[1] * l;
     double peak, place;
-    find_peak(ring, &patch, &peak, &place);
+    find_peak(ring, bore, &peak, &place);
     out->pressure_peak = peak * ring->stress;
     out->position_peak = place * l;
   }
-  if (sb_ring_patch(ring, SB_RING_FLOOR, &patch)) {
-    out->floor_left = patch.place[1] * l;
-    out->floor_right = patch.place[0] * l;
+  if (touches[SB_RING_FLOOR]) {
+    out->floor_left = patch[SB_RING_FLOOR].place[1] * l;
+    out->floor_right = patch[SB_RING_FLOOR].place[0] * l;
   }
-  if (sb_ring_patch(ring, SB_RING_WALL_RIGHT, &patch)) {
-    out->wall_inner = patch.place[1] * l;
-    out->wall_outer = patch.place[0] * l;
+  if (touches[SB_RING_WALL_RIGHT]) {
+    out->wall_inner = patch[SB_RING_WALL_RIGHT].place[1] * l;
+    out->wall_outer = patch[SB_RING_WALL_RIGHT].place[0] * l;
   }
 
   // Extents, penetration, least excess pressure.
