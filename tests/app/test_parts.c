@@ -199,7 +199,7 @@ static void test_refused(void) {
     g_autofree char *body =
         g_strconcat("[part.stem_top]\n", cases[i].keys,
                     i + 1 < G_N_ELEMENTS(cases) ? "density = 1 g/ml\n" : "", NULL);
-    g_autoptr(SbDocument) document = parse(body, issues);
+    sb_document_free(parse(body, issues));
     g_assert_cmpuint(issues->len, ==, 1);
     const SbIssue *issue = issues->pdata[0];
     g_autofree char *key = g_strconcat("part.stem_top.", cases[i].key, NULL);
