@@ -14,7 +14,18 @@
 #include "engine/elastic/disc_system.h"
 #include "engine/numeric/legendre.h"
 
-enum { QUADRATURE = 48, ORDER_MAX = SB_COMPLIANCE_PRESSURES + 2 };
+enum { QUADRATURE = 48, GAP_POINTS = 16, ORDER_MAX = SB_COMPLIANCE_PRESSURES + 2 };
+
+// Gauss' rules of moments and of gaps, made once for a contact.
+typedef struct {
+  double node[QUADRATURE], weight[QUADRATURE];
+  double gap_node[GAP_POINTS], gap_weight[GAP_POINTS];
+} Rules;
+
+static void make_rules(Rules *r) {
+  sb_legendre_gauss(r->node, r->weight, QUADRATURE);
+  sb_legendre_gauss(r->gap_node, r->gap_weight, GAP_POINTS);
+}
 
 static double compliance_of(const SbSurfaceCompliance *c) {
   return 4.0 / (M_PI * c->modulus);
@@ -222,27 +233,31 @@ static void add_constant(double *out, const SbSurfaceCompliance *c, double from,
   }
 }
 
-static void moments_of(Moments *out, const SbSurfaceCompliance *c, double left, double right,
-                       int count, double p_left, double p_right) {
-  double node[QUADRATURE];
-  double weight[QUADRATURE];
-  sb_legendre_gauss(node, weight, QUADRATURE);
+static void moments_of(Moments *out, const Rules *rules, const SbSurfaceCompliance *c, double left,
+                       double right, int count, double p_left, double p_right) {
   memset(out, 0, sizeof *out);
   const double middle = 0.5 * (left + right);
   const double half = 0.5 * (right - left);
   for (int q = 0; q < QUADRATURE; q++) {
     // z = -cos(theta): everything is smooth in theta.
-    const double theta = 0.5 * M_PI * (1.0 + node[q]);
-    const double w = 0.5 * M_PI * weight[q] * half * sin(theta);
+    const double theta = 0.5 * M_PI * (1.0 + rules->node[q]);
+    const double w = 0.5 * M_PI * rules->weight[q] * half * sin(theta);
     double value[SB_COMPLIANCE_MODES];
     sb_compliance_modes(c, middle - half * cos(theta), value, NULL);
     const double step = theta / M_PI; // 1/2 + asin(z)/pi
     for (int l = 0; l < c->modes; l++) {
       out->known[l] += w * (p_left * (1.0 - step) + p_right * step) * value[l];
-      for (int k = 0; k < count; k++) {
-        // sqrt(1 - z^2) U_k(z) = sin((k + 1) (pi - theta)).
-        out->basis[k][l] += w * sin((k + 1) * (M_PI - theta)) * value[l];
+    }
+    // sqrt(1 - z^2) U_k(z) = sin((k + 1) (pi - theta)), by its recurrence.
+    double basis = w * sin(theta);
+    double before = 0.0;
+    for (int k = 0; k < count; k++) {
+      for (int l = 0; l < c->modes; l++) {
+        out->basis[k][l] += basis * value[l];
       }
+      const double next = -2.0 * cos(theta) * basis - before;
+      before = basis;
+      basis = next;
     }
   }
   add_constant(out->known, c, c->left, left, p_left);
@@ -256,26 +271,41 @@ typedef struct {
   double known[ORDER_MAX];
 } Equations;
 
-static void equations(Equations *out, const SbSurfaceCompliance *c, double left, double right,
-                      int count, double load, double p_left, double p_right, double unit) {
+static void equations(Equations *out, const Rules *rules, const SbSurfaceCompliance *c, double left,
+                      double right, int count, double load, double p_left, double p_right,
+                      double unit) {
   const double C = compliance_of(c);
   const double half = 0.5 * (right - left);
   const double middle = 0.5 * (left + right);
   const double window = 0.5 * (c->right - c->left);
   const double low = fmin(p_left, p_right);
   Moments m;
-  moments_of(&m, c, left, right, count, p_left - low, p_right - low);
+  moments_of(&m, rules, c, left, right, count, p_left - low, p_right - low);
   for (int i = 0; i <= count; i++) {
     const double angle = M_PI * (i + 0.5) / (count + 1);
     const double x = middle + half * cos(angle);
     double slope;
     sb_compliance_gap(c, x, &slope);
     slope += C * (p_left - p_right) * log(half / window);
-    double smooth;
-    sb_compliance_smooth(c, x, m.known, &smooth);
-    out->known[i] = (slope + smooth) / (C * M_PI * unit);
+    // Slope of the smooth part at x by the moments.
+    double by_moment[SB_COMPLIANCE_MODES] = {0};
+    double value[SB_COMPLIANCE_MODES];
+    double derivative[SB_COMPLIANCE_MODES];
+    sb_compliance_modes(c, x, value, derivative);
+    for (int k = 0; k < c->modes; k++) {
+      for (int l = 0; l < c->modes; l++) {
+        by_moment[l] += derivative[k] * c->smooth[k][l];
+      }
+    }
+    for (int l = 0; l < c->modes; l++) {
+      slope += by_moment[l] * m.known[l];
+    }
+    out->known[i] = slope / (C * M_PI * unit);
     for (int k = 0; k < count; k++) {
-      sb_compliance_smooth(c, x, m.basis[k], &smooth);
+      double smooth = 0.0;
+      for (int l = 0; l < c->modes; l++) {
+        smooth += by_moment[l] * m.basis[k][l];
+      }
       out->matrix[i][k] = -cos((k + 1) * angle) + smooth / (C * M_PI);
     }
   }
@@ -323,8 +353,41 @@ static bool first_edges(double *left, double *right, const SbSurfaceCompliance *
   return true;
 }
 
+// Gap beyond an edge: the integral of its slope from there.
+static double gap_outside(const SbDryContact *d, const Rules *rules, const SbSurfaceCompliance *c,
+                          double x) {
+  const double C = compliance_of(c);
+  const double half = 0.5 * (d->right - d->left);
+  const double middle = 0.5 * (d->left + d->right);
+  const double window = 0.5 * (c->right - c->left);
+  const double edge = x < d->left ? d->left : d->right;
+  double sum = 0.0;
+  for (int q = 0; q < GAP_POINTS; q++) {
+    // From the edge, where the slope starts like a square root: s = edge + t^2 (x - edge).
+    const double t = 0.5 * (1.0 + rules->gap_node[q]);
+    const double s = edge + t * t * (x - edge);
+    const double z = (s - middle) / half;
+    const double root = sqrt((fabs(z) - 1.0) * (fabs(z) + 1.0));
+    const double small = z < 0.0 ? z + root : z - root;
+    double slope;
+    sb_compliance_gap(c, s, &slope);
+    double smooth;
+    sb_compliance_smooth(c, s, d->moment, &smooth);
+    slope +=
+        smooth + C * (d->pressure_left - d->pressure_right) * (log(half / window) + acosh(fabs(z)));
+    double power = 1.0;
+    for (int k = 0; k < d->count; k++) {
+      power *= small;
+      slope -= C * M_PI * d->a[k] * power;
+    }
+    sum += 0.5 * rules->gap_weight[q] * 2.0 * t * (x - edge) * slope;
+  }
+  return sum;
+}
+
 // No tension inside, no penetration outside.
-static SbStatus check_signs(SbDryContact *d, const SbSurfaceCompliance *c, SbReport *report) {
+static SbStatus check_signs(SbDryContact *d, const Rules *rules, const SbSurfaceCompliance *c,
+                            SbReport *report) {
   enum { SAMPLES = 200 };
   const double low = fmin(d->pressure_left, d->pressure_right);
   d->peak = fmax(d->pressure_left, d->pressure_right);
@@ -338,8 +401,8 @@ static SbStatus check_signs(SbDryContact *d, const SbSurfaceCompliance *c, SbRep
   }
   const double limit = 1e-7 * (d->right - d->left);
   for (int i = 1; i <= 16; i++) {
-    if (sb_dry_contact_gap(d, c, d->left - (d->left - c->left) * i / 16.0) < -limit ||
-        sb_dry_contact_gap(d, c, d->right + (c->right - d->right) * i / 16.0) < -limit) {
+    if (gap_outside(d, rules, c, d->left - (d->left - c->left) * i / 16.0) < -limit ||
+        gap_outside(d, rules, c, d->right + (c->right - d->right) * i / 16.0) < -limit) {
       return sb_fail(report, SB_ERROR_INFEASIBLE,
                      "dry contact: the surface touches outside the contact");
     }
@@ -360,6 +423,8 @@ SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double 
                     .load = load,
                     .count = COUNT,
                     .residual = INFINITY};
+  Rules rules;
+  make_rules(&rules);
   const double unit = 2.0 * load / (M_PI * 0.5 * (right - left));
   double a[SB_COMPLIANCE_PRESSURES] = {1.0};
   const double width = c->right - c->left;
@@ -368,7 +433,7 @@ SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double 
     enum { ORDER = COUNT + 2 };
     Equations here, there[2];
     const double step = 1e-5 * (right - left);
-    equations(&here, c, left, right, COUNT, load, pressure_left, pressure_right, unit);
+    equations(&here, &rules, c, left, right, COUNT, load, pressure_left, pressure_right, unit);
     double matrix[ORDER * ORDER];
     double b[ORDER];
     d.residual = 0.0;
@@ -387,7 +452,7 @@ SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double 
     for (int edge = 0; edge < 2; edge++) {
       for (int side = 0; side < 2; side++) {
         const double move = side == 0 ? -step : step;
-        equations(&there[side], c, left + (edge == 0 ? move : 0.0),
+        equations(&there[side], &rules, c, left + (edge == 0 ? move : 0.0),
                   right + (edge == 1 ? move : 0.0), COUNT, load, pressure_left, pressure_right,
                   unit);
       }
@@ -422,7 +487,7 @@ SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double 
   d.right = right;
   const double low = fmin(pressure_left, pressure_right);
   Moments m;
-  moments_of(&m, c, left, right, COUNT, pressure_left - low, pressure_right - low);
+  moments_of(&m, &rules, c, left, right, COUNT, pressure_left - low, pressure_right - low);
   memcpy(d.moment, m.known, sizeof d.moment);
   for (int k = 0; k < COUNT; k++) {
     d.a[k] = a[k] * unit;
@@ -435,7 +500,7 @@ SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double 
   if (!(d.residual < 1e-9)) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "dry contact: residual %.2g", d.residual);
   }
-  return check_signs(out, c, report);
+  return check_signs(out, &rules, c, report);
 }
 
 double sb_dry_contact_pressure(const SbDryContact *d, double x) {
@@ -459,37 +524,9 @@ double sb_dry_contact_gap(const SbDryContact *d, const SbSurfaceCompliance *c, d
   if (x >= d->left && x <= d->right) {
     return 0.0;
   }
-  enum { POINTS = 16 };
-  double node[POINTS];
-  double weight[POINTS];
-  sb_legendre_gauss(node, weight, POINTS);
-  const double C = compliance_of(c);
-  const double half = 0.5 * (d->right - d->left);
-  const double middle = 0.5 * (d->left + d->right);
-  const double window = 0.5 * (c->right - c->left);
-  const double edge = x < d->left ? d->left : d->right;
-  double sum = 0.0;
-  for (int q = 0; q < POINTS; q++) {
-    // From the edge, where the slope starts like a square root: s = edge + t^2 (x - edge).
-    const double t = 0.5 * (1.0 + node[q]);
-    const double s = edge + t * t * (x - edge);
-    const double z = (s - middle) / half;
-    const double root = sqrt((fabs(z) - 1.0) * (fabs(z) + 1.0));
-    const double small = z < 0.0 ? z + root : z - root;
-    double slope;
-    sb_compliance_gap(c, s, &slope);
-    double smooth;
-    sb_compliance_smooth(c, s, d->moment, &smooth);
-    slope +=
-        smooth + C * (d->pressure_left - d->pressure_right) * (log(half / window) + acosh(fabs(z)));
-    double power = 1.0;
-    for (int k = 0; k < d->count; k++) {
-      power *= small;
-      slope -= C * M_PI * d->a[k] * power;
-    }
-    sum += 0.5 * weight[q] * 2.0 * t * (x - edge) * slope;
-  }
-  return sum;
+  Rules rules;
+  sb_legendre_gauss(rules.gap_node, rules.gap_weight, GAP_POINTS);
+  return gap_outside(d, &rules, c, x);
 }
 
 SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const double *x,
@@ -535,7 +572,9 @@ SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const 
     return sb_fail(report, SB_ERROR_INPUT, "compliance: a pressure that cannot be matched");
   }
   Moments split;
-  moments_of(&split, c, left, right, order, p_left, p_right);
+  Rules rules;
+  make_rules(&rules);
+  moments_of(&split, &rules, c, left, right, order, p_left, p_right);
   double moment[SB_COMPLIANCE_MODES];
   memcpy(moment, split.known, sizeof moment);
   for (int k = 0; k < order; k++) {

@@ -298,7 +298,10 @@ static SbStatus advance(double *error, SbFilmTransient *t, double h, double spee
   s->time = t->now.time + h;
   s->speed = speed;
   s->load = load;
-  SbStatus status = sb_transient_place(&s->half, &s->middle, t, load, NULL);
+  SbStatus status = SB_OK;
+  if (load != t->now.load) { // else the contact stays where it is
+    status = sb_transient_place(&s->half, &s->middle, t, load, NULL);
+  }
   if (status != SB_OK) {
     return status;
   }
