@@ -14,6 +14,10 @@
 
 static void print_table(const SbFilm *film, const SbFilmProblem *problem) {
   printf("Film by %s\n", sb_film_model_name(film->model));
+  if (!film->solver.converged && film->points == 0) {
+    sb_cli_line("Converged", "NO, nothing found");
+    return;
+  }
   sb_cli_figure("Film, least", film->film_min, "m", "nm");
   sb_cli_figure("Film, central", film->film_central, "m", "nm");
   sb_cli_figure("Film, of the flow", film->film_flux, "m", "nm");

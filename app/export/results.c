@@ -1,9 +1,9 @@
 // The contract's JSON documents.
 #include "app/export/results.h"
-#include "engine/film/regime.h"
 
 #include "app/export/json.h"
 #include "app/export/studies.h"
+#include "engine/film/regime.h"
 
 #include <math.h>
 #include <string.h>
@@ -270,29 +270,31 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
 // ---- film and fit ----
 
 char *sb_results_film(const SbFilm *film) {
+  // A solver that found nothing has no figures; what describes the problem stays.
+  const bool none = !film->solver.converged && film->points == 0;
   SbJson json;
   sb_json_init(&json);
   sb_json_object(&json, NULL);
   sb_json_string(&json, "model", sb_film_model_name(film->model));
-  sb_json_number(&json, "film_min_m", film->film_min);
-  sb_json_number(&json, "film_central_m", film->film_central);
-  sb_json_number(&json, "film_flux_m", film->film_flux);
-  sb_json_number(&json, "pressure_max_Pa", film->pressure_max);
-  sb_json_number(&json, "position_film_min_m", film->position_film_min);
-  sb_json_number(&json, "position_rupture_m", film->position_rupture);
+  sb_json_number(&json, "film_min_m", none ? NAN : film->film_min);
+  sb_json_number(&json, "film_central_m", none ? NAN : film->film_central);
+  sb_json_number(&json, "film_flux_m", none ? NAN : film->film_flux);
+  sb_json_number(&json, "pressure_max_Pa", none ? NAN : film->pressure_max);
+  sb_json_number(&json, "position_film_min_m", none ? NAN : film->position_film_min);
+  sb_json_number(&json, "position_rupture_m", none ? NAN : film->position_rupture);
   sb_json_bool(&json, "ruptured", film->ruptured);
   sb_json_bool(&json, "starved", film->starved);
   sb_json_number(&json, "hertz_half_width_m", film->hertz_half_width);
   sb_json_number(&json, "hertz_pressure_Pa", film->hertz_pressure);
-  sb_json_number(&json, "friction_couette_N_per_m", film->friction_couette);
-  sb_json_number(&json, "friction_poiseuille_N_per_m", film->friction_poiseuille);
-  sb_json_number(&json, "friction_cavity_N_per_m", film->friction_cavity);
-  sb_json_number(&json, "friction_boundary_N_per_m", film->friction_boundary);
-  sb_json_number(&json, "asperity_load_N_per_m", film->asperity_load);
-  sb_json_number(&json, "asperity_load_share", film->asperity_share);
-  sb_json_number(&json, "real_area_m", film->real_area);
-  sb_json_number(&json, "real_area_share", film->real_area_share);
-  sb_json_number(&json, "film_ratio", film->film_ratio);
+  sb_json_number(&json, "friction_couette_N_per_m", none ? NAN : film->friction_couette);
+  sb_json_number(&json, "friction_poiseuille_N_per_m", none ? NAN : film->friction_poiseuille);
+  sb_json_number(&json, "friction_cavity_N_per_m", none ? NAN : film->friction_cavity);
+  sb_json_number(&json, "friction_boundary_N_per_m", none ? NAN : film->friction_boundary);
+  sb_json_number(&json, "asperity_load_N_per_m", none ? NAN : film->asperity_load);
+  sb_json_number(&json, "asperity_load_share", none ? NAN : film->asperity_share);
+  sb_json_number(&json, "real_area_m", none ? NAN : film->real_area);
+  sb_json_number(&json, "real_area_share", none ? NAN : film->real_area_share);
+  sb_json_number(&json, "film_ratio", none ? NAN : film->film_ratio);
   sb_json_number(&json, "moes_M", film->moes_M);
   sb_json_string(&json, "regime", film->regime);
   sb_json_number(&json, "expected_model_error", film->expected_error);
@@ -306,12 +308,12 @@ char *sb_results_film(const SbFilm *film) {
   sb_json_count(&json, "continuation_steps", (guint64)MAX(solver->continuation_steps, 0));
   sb_json_number(&json, "residual", solver->residual);
   sb_json_object(&json, "error_estimate");
-  sb_json_number(&json, "film_min", solver->error_film_min);
-  sb_json_number(&json, "film_central", solver->error_film_central);
-  sb_json_number(&json, "film_flux", solver->error_film_flux);
+  sb_json_number(&json, "film_min", none ? NAN : solver->error_film_min);
+  sb_json_number(&json, "film_central", none ? NAN : solver->error_film_central);
+  sb_json_number(&json, "film_flux", none ? NAN : solver->error_film_flux);
   sb_json_object_end(&json);
-  sb_json_number(&json, "load_error", solver->load_error);
-  sb_json_number(&json, "flux_error", solver->flux_error);
+  sb_json_number(&json, "load_error", none ? NAN : solver->load_error);
+  sb_json_number(&json, "flux_error", none ? NAN : solver->flux_error);
   sb_json_number(&json, "wall_s", solver->wall_s);
   sb_json_object_end(&json);
   sb_json_object(&json, "profile");

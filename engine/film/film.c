@@ -102,8 +102,7 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
       {"pressure left", "canister.pressure", "Pa", problem->pressure_left, 0.0, 1e10},
       {"pressure right", "canister.pressure", "Pa", problem->pressure_right, 0.0, 1e10},
       {"tolerance", "", "", problem->tolerance, 1e-8, 0.1},
-      {"pressure viscosity", "fluid.pressure_viscosity", "1/Pa", problem->pressure_viscosity, 0.0,
-       1e-5},
+      {"pressure viscosity", "", "1/Pa", problem->pressure_viscosity, 0.0, 1e-5},
       {"Eyring stress", "", "Pa", problem->eyring_stress, 0.0, 1e12},
       {"inlet film", "", "m", problem->inlet_film, 0.0, 1.0},
       {"rupture pressure", "", "Pa", problem->rupture_pressure, -1e6, 1e9},
@@ -207,6 +206,16 @@ void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale 
 }
 
 void sb_film_warn_common(SbFilm *out, const SbFilmProblem *problem) {
+  // The circle departs from its parabola by (x/R)^2/4, and the film builds up over sqrt(2 R h).
+  if (problem->compliance == NULL && problem->speed != 0.0 &&
+      out->film_min > SB_FILM_THICK * problem->radius) {
+    out->valid = false;
+    sb_warn(
+        &out->warnings, "film-thick", "fluid.viscosity",
+        "minimum film %.3g mm is %.2g of the radius: no parabola stands for the cylinder so far "
+        "away",
+        out->film_min * 1e3, out->film_min / problem->radius);
+  }
   if (problem->speed != 0.0 && out->film_min < 2e-9) {
     sb_warn(&out->warnings, "film-below-continuum", "drive.speed",
             "minimum film %.3g nm is thinner than the continuum limit of about 2 nm: formal result",
@@ -273,7 +282,10 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
       break; // refused by check()
     }
   }
-  if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+  if (status == SB_ERROR_NOT_CONVERGED) {
+    out->valid = false;
+  }
+  if (status == SB_OK || (status == SB_ERROR_NOT_CONVERGED && out->points > 0)) {
     sb_film_warn_common(out, problem);
   }
   return status;

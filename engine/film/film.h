@@ -45,6 +45,10 @@ typedef enum {
 
 enum { SB_FILM_POINTS = 5200 }; // capacity of a profile
 
+// Least film over radius from which on the parabola misses the cylinder by more than some 5 % of
+// the film; a warning says so.
+#define SB_FILM_THICK 0.1
+
 // What to solve. Start from sb_film_problem_init(): every option off.
 typedef struct {
   SbFilmModel model;
@@ -167,7 +171,8 @@ void sb_film_problem_init(SbFilmProblem *problem);
 
 // Solves `problem` with its model. `memory` may be NULL (then a workspace lives for the call only).
 // SB_ERROR_RANGE / SB_ERROR_INPUT: nothing solved, *out is zero. SB_ERROR_NOT_CONVERGED: *out holds
-// the best state found, solver.converged is false. SB_ERROR_CANCELLED, SB_ERROR_MEMORY.
+// the best state found, solver.converged is false; without points if there is none, and the films
+// and pressures are then 0. SB_ERROR_CANCELLED, SB_ERROR_MEMORY.
 SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *memory,
                        SbReport *report);
 

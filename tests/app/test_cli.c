@@ -340,6 +340,21 @@ static void test_film_options(void) {
   clear(&flooded);
   clear(&starved);
 
+  // End pressures that all but open the contact: solved, or said with no figures but the problem's.
+  Result open = RUN(CONTACT, "--pressure-left", "3.2 MPa", "--json", "-");
+  one = parse(open.out);
+  if (open.code == 0) {
+    g_assert_cmpfloat(number(one, "film_min_m"), >, 0.0);
+  } else {
+    g_assert_cmpint(open.code, ==, 2);
+    g_assert_true(json_node_is_null(at(one, "film_min_m")));
+    g_assert_true(json_node_is_null(at(one, "solver.error_estimate.film_min")));
+    g_assert_false(json_node_get_boolean(at(one, "valid")));
+    g_assert_cmpfloat(number(one, "hertz_pressure_Pa"), >, 0.0);
+  }
+  json_node_unref(one);
+  clear(&open);
+
   // The inverse model reads its table; a table that is none gives one line.
   char *path = g_build_filename(folder, "dry.csv", NULL);
   GString *table = g_string_new("x,p\n# smooth\n");

@@ -4,6 +4,7 @@
 
 #include <glib.h>
 #include <math.h>
+#include <string.h>
 
 #define assert_close(value, expected, relative)                                                    \
   g_assert_cmpfloat(fabs((value) - (expected)), <=, (relative)*fabs(expected))
@@ -74,6 +75,28 @@ static void test_limits(void) {
   g_assert_false(fit.touches);
   g_assert_cmpuint(fit.warnings.count, ==, 1);
   g_assert_cmpstr(fit.warnings.item[0].code, ==, "no-contact");
+
+  // Nor does pressure press it on: the fluid goes past.
+  in.pressure = 0.55e6;
+  g_assert_cmpint(sb_fit_solve(&fit, &in, &report), ==, SB_OK);
+  g_assert_cmpfloat(fit.load, ==, 0.0);
+  g_assert_false(fit.touches);
+  g_assert_cmpuint(fit.warnings.count, ==, 1);
+  g_assert_cmpstr(fit.warnings.item[0].code, ==, "no-contact");
+  g_assert_nonnull(strstr(fit.warnings.item[0].text, "lets the fluid past"));
+
+  // One that touches by a hair seals, and the pressure adds to its load.
+  in = thesis(SB_FIT_RING);
+  in.bore_diameter += 2.0 * 0.13e-3; // squeeze after the stretch: none on the shrunk circle
+  in.radial_space += 0.13e-3;
+  in.tolerance = 1e-2;
+  g_assert_cmpint(sb_fit_solve(&fit, &in, &report), ==, SB_OK);
+  g_assert_true(fit.touches);
+  const double alone = fit.load;
+  in.pressure = 0.55e6;
+  g_assert_cmpint(sb_fit_solve(&fit, &in, &report), ==, SB_OK);
+  g_assert_true(fit.touches);
+  g_assert_cmpfloat(fit.load, >, alone + 0.5 * in.pressure * fit.contact_width * fit.circumference);
 
   // A groove too narrow for the squeezed section is said, not solved.
   in = thesis(SB_FIT_RING);

@@ -96,6 +96,11 @@ static void test_films(void) {
        SB_FILM_REYNOLDS,
        {850, 1, 1e6, 2e-4, 0, 0, 0},
        {850, 1, E, 2e-4, 0, 0, 0}},
+      // 4.895 eta (u/2) R / W is 0.12 and 0.08 of the radius.
+      {"film-thick",
+       SB_FILM_REYNOLDS,
+       {1e-3, 1, 1e8, 4.9e-5, 0, 0, 0},
+       {1e-3, 1, 1e8, 3.3e-5, 0, 0, 0}},
       {"film-outlet-vapour",
        SB_FILM_REYNOLDS,
        {850, 1, E, 2e-4, 5e5, 0, 1e5},

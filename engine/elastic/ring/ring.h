@@ -154,7 +154,8 @@ typedef struct {
 // One fitment to a tolerance: solves on a coarse and on a finer mesh with nodes at the contact
 // edges, and estimates the error of load, peak and width from the two. `out` may be NULL if only
 // the figures are wanted. tolerance is relative on the load, 1e-5 .. 1e-1. Warnings:
-// "no-contact" (loads are then 0), "ring-tolerance" if the estimate stays above the tolerance.
+// "no-contact" (loads are then 0; also for a ring under pressure that does not touch without it:
+// the fluid goes past it), "ring-tolerance" if the estimate stays above the tolerance.
 SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, SbRingError *error, const SbRingBody *body,
                      const SbRingLoad *load, double tolerance, const SbRingOptions *options,
                      SbWarnings *warnings, SbReport *report);
