@@ -3,7 +3,7 @@
 #include "ui/preferences.h"
 
 // Widths of the look in its window of 1600 px, and the least that still reads well.
-enum { LOOK_WINDOW = 1600, LOOK_LEFT = 346, LOOK_RIGHT = 424, LEAST_LEFT = 292, LEAST_RIGHT = 300 };
+enum { LOOK_WINDOW = 1600, LOOK_LEFT = 346, LOOK_RIGHT = 424, LEAST_LEFT = 330, LEAST_RIGHT = 300 };
 
 typedef struct {
   GtkPaned *columns, *views;

@@ -29,7 +29,7 @@ enum {
 typedef struct {
   SbSession *session;
   GtkWidget *gl; // over the picture where the window's own GL draws it
-  GtkWidget *box, *area, *field_combo, *inset_combo, *forces, *labels, *mesh, *empty;
+  GtkWidget *box, *area, *field_combo, *inset_combo, *forces, *labels, *mesh, *empty, *toggles;
   SbSection *section; // of `run`'s model, or of the resting valve
   const SbRun *run;   // what `section` was made for; never read through
   const SbRun *rest;  // owned: the resting valve
@@ -322,6 +322,12 @@ static void on_run_changed(View *view) {
   // Only rings solved by finite elements have a field and a mesh to show.
   const SbRun *run = sb_session_run(view->session);
   gboolean solved = run != NULL && sb_run_plan(run)->section_fields;
+  // The rig's picture has neither fields nor insets, and its forces and names always.
+  const SbModel *model = sb_session_model(view->session);
+  gboolean rig = model != NULL && model->motion == SB_MODEL_MOTION_RIG;
+  gtk_widget_set_visible(view->field_combo, !rig);
+  gtk_widget_set_visible(view->inset_combo, !rig);
+  gtk_widget_set_visible(view->toggles, !rig);
   gtk_widget_set_sensitive(view->field_combo, solved);
   gtk_widget_set_sensitive(view->mesh, solved);
   gtk_widget_set_tooltip_text(view->mesh,
@@ -488,6 +494,7 @@ static GtkWidget *make_toolbar(View *view) {
       toggle_new(view, "Labels", "Names and values of the parts", TRUE, GTK_BOX(toggles));
   view->mesh = toggle_new(view, "Mesh", "Elements of solved rings", FALSE, GTK_BOX(toggles));
   gtk_box_pack_start(GTK_BOX(bar), toggles, FALSE, FALSE, 0);
+  view->toggles = toggles;
 
   GtkWidget *zooms = linked_box();
   icon_button("zoom-out-symbolic", "Zoom out", "win.zoom-out", GTK_BOX(zooms));

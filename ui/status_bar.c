@@ -102,7 +102,8 @@ static void refresh_warnings(Bar *bar, const SbSummary *summary) {
 
 static void refresh_where(Bar *bar) {
   g_autofree char *where = sb_session_where(bar->session);
-  set_text(bar->where, where[0] != '\0' ? where : "nothing has run");
+  bool running = sb_session_state(bar->session) == SB_SESSION_RUNNING;
+  set_text(bar->where, where[0] != '\0' ? where : running ? "running" : "nothing has run");
   GtkStyleContext *style = gtk_widget_get_style_context(bar->where);
   if (where[0] != '\0') {
     gtk_style_context_add_class(style, "sb-now");

@@ -128,6 +128,8 @@ static Look series_look(const SbStudy *study, const SbStudySeries *series) {
 // ---------------------------------------------------------------------------------------------------
 // One panel
 
+enum { NARROW = 300 }; // below it curves are named in the plot, not beside it
+
 typedef struct {
   SbCanvas *canvas;
   const SbStudy *study;
@@ -256,11 +258,17 @@ static void draw_axes(Plot *plot) {
   }
   sb_canvas_hairline(c, r.x, bottom, r.x + r.width, bottom, sb_canvas_role(c, SB_ROLE_AXIS));
   make_ticks(&ticks, &plot->x, r.width);
+  // Of numbers that would touch only some are written.
+  double free_from = -INFINITY;
   for (int i = 0; i < ticks.count; i++) {
     double x = sb_axis_at(&plot->x, ticks.value[i]);
     sb_canvas_hairline(c, x, bottom, x, bottom + 5, sb_canvas_role(c, SB_ROLE_AXIS));
     tick_text(text, &ticks, ticks.value[i], plot->x.logarithmic);
-    sb_canvas_text(c, text, &label, x, bottom + 18, SB_MIDDLE);
+    double half = sb_canvas_text_width(c, text, &label) / 2;
+    if (x - half >= free_from) {
+      sb_canvas_text(c, text, &label, x, bottom + 18, SB_MIDDLE);
+      free_from = x + half + 6;
+    }
   }
   const SbStudyAxis *axis = &plot->study->x;
   g_autofree char *title =
@@ -401,7 +409,7 @@ static void draw_gutter(Plot *plot, Name *name, int count, double width) {
   }
 }
 
-// Returns the number of curves that can be seen.
+// Returns the number of curves that can be seen. Without a gutter all names go into the plot.
 static int name_series(Plot *plot, SbPoint **points, double gutter) {
   SbCanvas *c = plot->canvas;
   SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
@@ -419,7 +427,7 @@ static int name_series(Plot *plot, SbPoint **points, double gutter) {
     }
     named++;
     SbPoint end = points[s][last - 1];
-    if (end.x >= far) {
+    if (end.x >= far && gutter > 0) {
       name[count++] = (Name){series, end, end.y};
       continue;
     }
@@ -427,12 +435,15 @@ static int name_series(Plot *plot, SbPoint **points, double gutter) {
     const SbPlace places[] = {{end.x + 7, end.y + 4, SB_LEFT},   {end.x + 5, end.y - 7, SB_LEFT},
                               {end.x + 5, end.y + 15, SB_LEFT},  {end.x, end.y - 9, SB_MIDDLE},
                               {end.x - 6, end.y - 6, SB_RIGHT},  {end.x - 6, end.y + 14, SB_RIGHT},
-                              {end.x + 14, end.y - 20, SB_LEFT}, {end.x + 14, end.y + 28, SB_LEFT}};
+                              {end.x + 14, end.y - 20, SB_LEFT}, {end.x + 14, end.y + 28, SB_LEFT},
+                              {end.x, end.y - 22, SB_RIGHT},     {end.x, end.y + 30, SB_RIGHT}};
     if (sb_labels_place(plot->labels, c, series->name, &style, places, G_N_ELEMENTS(places), &at)) {
       sb_labels_draw(plot->labels, c, series->name, &style, &at);
     }
   }
-  draw_gutter(plot, name, count, gutter);
+  if (count > 0) {
+    draw_gutter(plot, name, count, gutter);
+  }
   return named;
 }
 
@@ -441,16 +452,20 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
   sb_canvas_panel(c, rect);
   SbTextStyle title = sb_canvas_style(c, SB_TYPE_PANEL_WINDOW, 700, SB_ROLE_INK);
   SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
-  double pad = SB_GRID_PADDING;
+  bool narrow = rect.width < NARROW;
+  double pad = narrow ? 12 : SB_GRID_PADDING;
   char *first = g_utf8_strup(panel->y.quantity, 1);
   const char *rest = g_utf8_next_char(panel->y.quantity);
   g_autofree char *text = g_strdup_printf("%s%s%s%s%s", first, rest, panel->y.unit[0] ? " / " : "",
                                           panel->y.unit, panel->y.logarithmic ? ", log scale" : "");
   g_free(first);
+  if (sb_canvas_text_width(c, text, &title) > rect.width - 2 * pad) {
+    title = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
+  }
   sb_canvas_text_fit(c, text, &title, rect.x + pad, rect.y + 28, rect.width - 2 * pad);
 
-  double gutter = 40;
-  for (size_t s = 0; s < panel->series_count; s++) {
+  double gutter = narrow ? 0 : 40;
+  for (size_t s = 0; !narrow && s < panel->series_count; s++) {
     gutter = fmax(gutter, sb_canvas_text_width(c, panel->series[s].name, &label) + 24);
   }
   gutter = fmin(gutter, 0.4 * rect.width);

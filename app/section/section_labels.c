@@ -78,6 +78,11 @@ static void draw_regions(SbSection *section) {
   // The chamber, in the fluid between the stem's lands.
   SbDrawPoint chamber = sb_section_at(section, valve->chamber - sb_section_displacement(section),
                                       (valve->chamber_floor + valve->land) / 2);
+  // Where the recess is shallow under a wide annulus the names stand in the middle of both.
+  double floor = (double)sb_section_at(section, 0, valve->chamber_floor).y;
+  if ((double)chamber.y + 21 > floor) {
+    chamber.y = (float)((floor + (double)sb_section_at(section, 0, valve->bore).y) / 2 - 5);
+  }
   char value[SB_SECTION_NUMBER];
   sb_section_megapascal(value, frame->seal[SB_INNER].pressure_right);
   double depth = (valve->bore - valve->chamber_floor) * section->scale;
