@@ -528,6 +528,30 @@ void sb_shapes_settle(SbShapes *shapes, const char *shown, GPtrArray *notes) {
   }
 }
 
+// The stem's three parts together against stem.mass, whichever of them this document gives; what it
+// does not give is its valve's.
+static void tell_stem_mass(const SbParams *params, const SbParams *base, const char *shown,
+                           GPtrArray *notes) {
+  const SbParamId id[] = {SB_P_STEM_MASS, SB_P_PART_STEM_CENTRE_MASS, SB_P_PART_STEM_TOP_MASS,
+                          SB_P_PART_STEM_BOTTOM_MASS};
+  double mass[G_N_ELEMENTS(id)];
+  bool own = false;
+  for (size_t i = 0; i < G_N_ELEMENTS(id); i++) {
+    const SbParams *source = params->given[id[i]] || base == NULL ? params : base;
+    if (!source->given[id[i]]) {
+      return;
+    }
+    own = own || source == params;
+    mass[i] = source->value[id[i]];
+  }
+  double sum = mass[1] + mass[2] + mass[3];
+  if (own && fabs(mass[0] - sum) > 1e-3 * mass[0]) {
+    g_ptr_array_add(notes, g_strdup_printf("%s: stem.mass = %.5g g is in force; the stem's parts "
+                                           "make %.5g g and share it in proportion",
+                                           shown, 1e3 * mass[0], 1e3 * sum));
+  }
+}
+
 void sb_parts_read(SbShapes *shapes, SbParams *params, const SbParams *base,
                    const GPtrArray *entries, const char *shown, const char *directory,
                    GPtrArray *issues, GPtrArray *notes) {
@@ -541,19 +565,5 @@ void sb_parts_read(SbShapes *shapes, SbParams *params, const SbParams *base,
       read_part(&part, (SbParamId)id, directory);
     }
   }
-  // The stem's three parts together against stem.mass.
-  const SbParamId stem[] = {SB_P_PART_STEM_CENTRE_MASS, SB_P_PART_STEM_TOP_MASS,
-                            SB_P_PART_STEM_BOTTOM_MASS};
-  double sum = 0;
-  bool given = params->given[SB_P_STEM_MASS];
-  for (size_t i = 0; i < G_N_ELEMENTS(stem); i++) {
-    sum += params->value[stem[i]];
-    given = given && params->given[stem[i]];
-  }
-  double mass = params->value[SB_P_STEM_MASS];
-  if (given && fabs(mass - sum) > 1e-3 * mass) {
-    g_ptr_array_add(notes, g_strdup_printf("%s: stem.mass = %.5g g is in force; the stem's parts "
-                                           "make %.5g g and share it in proportion",
-                                           shown, 1e3 * mass, 1e3 * sum));
-  }
+  tell_stem_mass(params, base, shown, notes);
 }

@@ -136,6 +136,35 @@ static void test_weighed(void) {
   g_assert_nonnull(strstr(notes->pdata[1], "the section does not draw"));
 }
 
+// The stem's mass of the valve under a scene shares out that of the scene's shape: a note tells.
+static void test_weighed_below(void) {
+  g_autofree char *folder = g_dir_make_tmp("sealbench-parts-XXXXXX", NULL);
+  g_autofree char *valve = g_build_filename(folder, "a.valve", NULL);
+  g_autofree char *scene = g_build_filename(folder, "a.scene", NULL);
+  static const char weighed[] = "[sealbench]\nformat = 1\nkind = valve\n[stem]\nmass = 3.73 g\n"
+                                "[part.stem_centre]\nmass = 1.12 g\n[part.stem_top]\n"
+                                "mass = 1.47 g\n[part.stem_bottom]\nmass = 1.14 g\n";
+  static const char shaped[] = "[sealbench]\nformat = 1\nkind = scene\nvalve = a.valve\n"
+                               "[part.stem_centre]\ndensity = 1000 kg/m3\n"
+                               "profile = mm 10,0 10,2 0,2 0,0\n";
+  g_assert_true(g_file_set_contents(valve, weighed, -1, NULL));
+  g_assert_true(g_file_set_contents(scene, shaped, -1, NULL));
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) document = sb_document_load(scene, issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  const GPtrArray *notes = sb_document_notes(document);
+  bool told = false;
+  for (guint i = 0; i < notes->len; i++) {
+    // 1000 kg/m3 pi (2 mm)^2 10 mm = 0.12566 g beside 1.47 and 1.14 g.
+    told = told || strstr(notes->pdata[i], "stem.mass = 3.73 g is in force; the stem's parts make "
+                                           "2.7357 g") != NULL;
+  }
+  g_assert_true(told);
+  g_remove(scene);
+  g_remove(valve);
+  g_rmdir(folder);
+}
+
 // A cube of 2 mm written as STL in a folder: mass to the rounding of its floats.
 static void test_mesh(void) {
   g_autofree char *folder = g_dir_make_tmp("sealbench-parts-XXXXXX", NULL);
@@ -216,6 +245,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/parts/diameters", test_diameters);
   g_test_add_func("/parts/clash", test_clash);
   g_test_add_func("/parts/weighed", test_weighed);
+  g_test_add_func("/parts/weighed-below", test_weighed_below);
   g_test_add_func("/parts/mesh", test_mesh);
   g_test_add_func("/parts/refused", test_refused);
   return g_test_run();
