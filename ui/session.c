@@ -79,6 +79,35 @@ gboolean sb_session_open(SbSession *session, const char *path, GPtrArray *issues
   return TRUE;
 }
 
+gboolean sb_session_restore(SbSession *session, const char *path, const char *text,
+                            GPtrArray *issues) {
+  g_autoptr(SbDocument) document =
+      path != NULL ? sb_document_load(path, issues) : sb_document_new();
+  g_autofree char *folder = path != NULL ? g_path_get_dirname(path) : NULL;
+  g_autoptr(SbDocument) changed_one = NULL;
+  if (document != NULL) {
+    const char *name = path != NULL ? path : "the unsaved changes";
+    changed_one = sb_document_parse(text, strlen(text), name, folder, issues);
+  }
+  if (changed_one == NULL) {
+    return FALSE;
+  }
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    SbParamId id = (SbParamId)i;
+    double value = sb_document_value(changed_one, id);
+    bool given = sb_document_gives(document, id);
+    if (sb_document_gives(changed_one, id)) {
+      if (!given || sb_document_value(document, id) != value) {
+        sb_document_set_value(document, id, value, false, NULL);
+      }
+    } else if (given) {
+      sb_document_unset(document, id);
+    }
+  }
+  replace_document(session, g_steal_pointer(&document));
+  return TRUE;
+}
+
 gboolean sb_session_save(SbSession *session, const char *path, GError **error) {
   const char *target = path != NULL ? path : sb_document_path(session->document);
   if (!sb_document_save(session->document, target, error)) {

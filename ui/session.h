@@ -38,6 +38,12 @@ const SbDocument *sb_session_document(SbSession *session);
 // SbIssue) says why; issues of a file that opened all the same are added as well.
 gboolean sb_session_open(SbSession *session, const char *path, GPtrArray *issues);
 
+// Opens `path` (NULL: an empty valve) and makes the changes that `text`, the same document with
+// changes, has against it: they are to be saved and can be undone. False with issues if either
+// cannot be read; the session stays as it is.
+gboolean sb_session_restore(SbSession *session, const char *path, const char *text,
+                            GPtrArray *issues);
+
 // Writes the document to `path` (NULL: where it came from).
 gboolean sb_session_save(SbSession *session, const char *path, GError **error);
 

@@ -1,6 +1,7 @@
 // One window: puts the parts together, turns the session's state into the header, the strip and the
 // sensitivity of actions, and asks before changes are lost.
 #include "ui/window.h"
+#include "ui/autosave.h"
 
 #include "ui/chart_view.h"
 #include "ui/columns.h"
@@ -30,6 +31,7 @@ struct _SbWindow {
   GtkWidget *panel; // SbParamPanel
   GtkWidget *section;
   SbWindowFiles *files;
+  SbAutosave *autosave;
   guint tick;
   int strip_id;       // parameter that the strip's button mends, or -1
   double strip_value; // and the value it sets [SI]
@@ -400,6 +402,7 @@ static gboolean on_delete(GtkWidget *widget, GdkEvent *event, gpointer data) {
 
 static void dispose(GObject *object) {
   SbWindow *window = SB_WINDOW(object);
+  g_clear_pointer(&window->autosave, sb_autosave_free);
   g_clear_pointer(&window->files, sb_window_files_free);
   G_OBJECT_CLASS(sb_window_parent_class)->dispose(object);
 }
@@ -499,6 +502,7 @@ static void sb_window_init(SbWindow *window) {
   gtk_box_pack_start(GTK_BOX(window->bottom), sb_status_bar_new(window->session), FALSE, FALSE, 0);
   window->files = sb_window_files_new_for(GTK_WINDOW(window), window->session,
                                           GTK_MENU_BUTTON(window->recent_button));
+  window->autosave = sb_autosave_new(window->session, GTK_WINDOW(window));
   g_autoptr(GtkBuilder) builder = gtk_builder_new_from_resource("/org/sealbench/ui/shortcuts.ui");
   gtk_application_window_set_help_overlay(
       GTK_APPLICATION_WINDOW(window),

@@ -507,6 +507,7 @@ static void read_part(const Part *part, SbParamId mass, const char *directory) {
   derive_mass(part, mass + 2, across, source);
   if (part->index <= SB_VALVE_STEM_BOTTOM) {
     keep_text(part, directory);
+    part->shapes->mesh[part->index] = stl != NULL;
   }
 }
 
@@ -515,6 +516,16 @@ void sb_shapes_settle(SbShapes *shapes, const char *shown, GPtrArray *notes) {
   outlines->housing = shapes->has_bore && outlines->part[SB_VALVE_HOUSING].count > 0;
   outlines->stem = shapes->has_groove[SB_INNER] && shapes->has_groove[SB_OUTER] &&
                    outlines->part[SB_VALVE_STEM_CENTRE].count > 0;
+  static const char *const parts[] = {"housing", "stem_centre", "stem_top", "stem_bottom"};
+  for (size_t i = 0; i < G_N_ELEMENTS(parts); i++) {
+    if (shapes->mesh[i]) {
+      // A mesh need not be a body of revolution, and facets are no diameters.
+      g_ptr_array_add(notes,
+                      g_strdup_printf("%s: the mesh of [part.%s] gives mass and moments only; "
+                                      "the section draws a profile, not a mesh",
+                                      shown, parts[i]));
+    }
+  }
   static const char *const needs[] = {"a bore", "an inner_groove and an outer_groove"};
   for (int i = 0; i < 2; i++) {
     int part = i == 0 ? SB_VALVE_HOUSING : SB_VALVE_STEM_CENTRE;

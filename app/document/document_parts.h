@@ -23,6 +23,7 @@ typedef struct {
 typedef struct {
   SbValveOutlines outlines;                 // for the drawing
   bool has_bore, has_groove[SB_SEAL_COUNT]; // which of the outlines' sizes are known
+  bool mesh[SB_VALVE_STEM_BOTTOM + 1];      // the part is a mesh, whose section nothing draws
   char *text[SB_VALVE_STEM_BOTTOM + 1];     // a part's shape keys as lines of a file, or NULL
   GPtrArray *sizes;                         // of SbShapeSize
 } SbShapes;

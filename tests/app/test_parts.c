@@ -195,6 +195,10 @@ static void test_mesh(void) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(SbDocument) document = sb_document_load(valve, issues);
   g_assert_cmpuint(issues->len, ==, 0);
+  // Its section is not drawn, and a note says so.
+  const GPtrArray *notes = sb_document_notes(document);
+  g_assert_cmpuint(notes->len, ==, 1);
+  g_assert_nonnull(strstr(notes->pdata[0], "the mesh of [part.stem_top] gives mass and moments"));
   double m = 8e-6;
   assert_relative(sb_document_value(document, SB_P_PART_STEM_TOP_MASS), m, 1e-10);
   assert_relative(sb_document_value(document, SB_P_PART_STEM_TOP_INERTIA_AXIAL), m * 8e-6 / 12,

@@ -114,7 +114,7 @@ def broken_files_are_told_in_one_dialog(folder):
 def search_finds_parameters(folder):
     with App(scene(folder)) as app:
         box = app.find("text", "Search parameters")
-        box.queryEditableText().setTextContents("roughness")
+        box.queryEditableText().setTextContents("no such thing")
         wait("nothing found", lambda: app.label(r"No parameter matches"))
         box.queryEditableText().setTextContents("viscos")
         wait("the viscosity", lambda: app.has("text", "Viscosity"))
@@ -123,8 +123,48 @@ def search_finds_parameters(folder):
         wait("everything back", lambda: app.has("text", "Section diameter"))
 
 
+def unsaved_changes_survive_a_crash(folder):
+    path = scene(folder)
+    with open(path) as file:
+        before = file.read()
+    data = os.path.join(folder, "data")
+    unsaved = os.path.join(data, "sealbench", "unsaved")
+    place = {"XDG_DATA_HOME": data}
+    with App(path, env=place) as app:
+        wait("the first run", app.run_done)
+        assert not os.path.exists(unsaved)
+        app.edit("Section diameter", "1650 um")
+        app.edit("Radial space", "1.4 mm")
+        # Undone in the end: nothing is left to lose.
+        app.press("push button", "Undo")
+        app.press("push button", "Undo")
+        wait("nothing kept", lambda: not os.path.exists(unsaved) or not os.listdir(unsaved))
+        app.edit("Section diameter", "1650 um")
+        wait("the kept changes", lambda: os.listdir(unsaved))
+        app.process.kill()
+        app.process.wait(10)
+    with open(path) as file:
+        assert file.read() == before
+    # Later: asked again at the next start, nothing changed.
+    with App(env=place) as app:
+        app.press("push button", "Later")
+        wait("the window", lambda: app.has("push button", "Run"))
+        assert app.value("Section diameter") == "1.61 mm"
+    with App(env=place) as app:
+        app.press("push button", "Restore")
+        wait("the value", lambda: app.value("Section diameter") == "1.65 mm")
+        wait("edited", lambda: app.label(r"edited"))
+        wait("the scene's title", lambda: app.label(r"thesis-cycle\.scene"))
+        app.key("ctrl+s")
+        wait("saved", lambda: not app.label(r"edited"))
+        wait("nothing kept", lambda: not os.listdir(unsaved))
+    with open(path) as file:
+        assert "section_diameter = 1.65 mm" in file.read()
+
+
 if __name__ == "__main__":
     main(edit_with_a_unit_changes_the_breakaway_force, bad_values_stay_in_their_field,
          values_that_do_not_go_together_are_told_at_their_field, undo_and_redo,
-         saved_values_come_back, closing_asks_about_changes,
+         saved_values_come_back,
+         unsaved_changes_survive_a_crash, closing_asks_about_changes,
          broken_files_are_told_in_one_dialog, search_finds_parameters)
