@@ -303,8 +303,7 @@ double sb_layers_dry_gap(const SbLayers *l, double X) {
   return fmax(edge * sb_film_dry_gap(X) + (X < 0.0 ? -bend : bend), 0.0);
 }
 
-// Pressure and film of the joined layers at X.
-static void layer_shape(double *pressure, double *film, const SbLayers *l, double flux, double X) {
+void sb_layers_shape(double *pressure, double *film, const SbLayers *l, double flux, double X) {
   double in = sb_layers_width(l);
   double out = sb_layers_outlet_width(l);
   double inside = fmin(fmax(X, -1.0), 1.0);
@@ -365,7 +364,7 @@ void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, co
       if (thick) {
         pressure = rigid_pressure(l, X + *shift - l->middle) + (X < 0.0 ? l->inlet : l->outlet);
       } else {
-        layer_shape(&pressure, &film, l, *flux, X);
+        sb_layers_shape(&pressure, &film, l, *flux, X);
       }
       double s = inlet ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
       bool touching = (inlet && k == e->degree) || (outlet && k == 0);
@@ -382,7 +381,7 @@ void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, co
       double x = X + *shift - l->middle;
       gap[i] = rigid_film(l) + 0.5 * x * x;
     } else {
-      layer_shape(&pressure, &gap[i], l, *flux, X);
+      sb_layers_shape(&pressure, &gap[i], l, *flux, X);
     }
   }
 }

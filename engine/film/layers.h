@@ -43,6 +43,9 @@ double sb_layers_dry_gap(const SbLayers *layers, double X);
 // Builds the mesh. Returns false if it does not fit.
 bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *layers);
 
+// Pressure and film of the joined layers of a thin film at X.
+void sb_layers_shape(double *pressure, double *film, const SbLayers *layers, double flux, double X);
+
 // Fills nodal pressures, gaps at all targets, and the shift and flux of a cold start.
 void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, const SbHpMesh *mesh,
                      SbHpTables *tables, const SbLayers *layers);

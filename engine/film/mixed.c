@@ -108,12 +108,20 @@ void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c) {
       fmin(c->flux, isfinite(c->supply) && c->lambda > 0 ? c->supply / c->lambda : c->flux);
   double width = sb_layers_width(&c->layers);
   double floor = 0.02;
+  // A film hardly thickened by asperities has the smooth one's layers.
+  bool layered = c->lambda > 0 && width < 0.8 && !isfinite(c->supply) &&
+                 film < 1.2 * sb_layers_flux(&c->layers);
   for (int i = 0; i < mesh->nodes; i++) {
     double X = mesh->x[i];
     double q = sb_film_dry_pressure(X, c->layers.inlet, c->layers.outlet);
     double dry = sb_film_dry_gap(X);
     double ambient = sb_mixed_ends(c, X);
     double fluid = film > 0 ? film * (1 + 1.2 * exp(-fabs(X + 1) / width)) : 0;
+    if (layered) {
+      double h;
+      sb_layers_shape(&q, &h, &c->layers, film, X);
+      fluid = fmax(h - dry, 0.5 * film);
+    }
     double rough = 0;
     if (c->law != NULL) {
       SbRoughPoint at;

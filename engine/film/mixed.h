@@ -24,6 +24,7 @@ enum {
   SB_MIXED_DEGREE_MAX = 8,
   SB_MIXED_ELEMENTS_MAX = 100,
   SB_MIXED_NODES_MAX = 440,
+  SB_MIXED_DOWN = SB_MIXED_DEGREE_MAX + 44, // terms of a downward recurrence
 };
 
 // Scaled gaps below this are closed for all that double precision tells.
@@ -38,6 +39,7 @@ typedef struct {
   double slope[SB_MIXED_DEGREE_MAX + 1][SB_MIXED_DEGREE_MAX + 1];   // [node][basis]
   // Integral of a basis function from node j to node j + 1.
   double step[SB_MIXED_DEGREE_MAX][SB_MIXED_DEGREE_MAX + 1];
+  double down[SB_MIXED_DOWN][2]; // (2 k + 1) / k and (k + 1) / k
 } SbMixedRule;
 
 typedef struct {

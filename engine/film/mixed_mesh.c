@@ -38,6 +38,10 @@ const SbMixedRule *sb_mixed_rule(SbMixedSolver *solver, int degree) {
   for (int i = 0; i <= degree; i++) {
     sb_barycentric_slope(rule->slope[i], rule->node[i], rule->node, rule->bary, degree + 1);
   }
+  for (int k = 1; k < SB_MIXED_DOWN; k++) {
+    rule->down[k][0] = (2.0 * k + 1) / k;
+    rule->down[k][1] = (k + 1.0) / k;
+  }
   for (int j = 0; j < degree; j++) {
     sb_mixed_partial(rule->step[j], rule, j, rule->node[j + 1]);
   }
@@ -61,11 +65,11 @@ void sb_mixed_partial(double *weight, const SbMixedRule *rule, int j, double r) 
 }
 
 // out[k] = integral over [-1, 1] of P_k(r) ln|z - r|, k = 0 .. n.
-static void moments(double *out, double z, int n) {
+static void moments(double *out, const SbMixedRule *rule, double z, int n) {
   double plus = log(fmax(fabs(z + 1), 1e-40));
   double minus = log(fmax(fabs(z - 1), 1e-40));
   out[0] = (z + 1) * plus - (z - 1) * minus - 2;
-  double Q[SB_MIXED_DEGREE_MAX + 44];
+  double Q[SB_MIXED_DOWN];
   Q[0] = 0.5 * (plus - minus);
   if (fabs(z) < 1.2) {
     Q[1] = z * Q[0] - 1;
@@ -82,7 +86,7 @@ static void moments(double *out, double z, int n) {
     Q[top + 1] = 0;
     Q[top] = 1e-200;
     for (int k = top; k >= 1; k--) {
-      Q[k - 1] = ((2 * k + 1) * z * Q[k] - (k + 1) * Q[k + 1]) / k;
+      Q[k - 1] = rule->down[k][0] * z * Q[k] - rule->down[k][1] * Q[k + 1];
     }
     double zero = a > 30 ? (1 + (1 / 3.0 + (0.2 + 1 / (7 * z * z)) / (z * z)) / (z * z)) / z
                          : 0.5 * (plus - minus);
@@ -120,7 +124,7 @@ static void build_kernel(SbMixedMesh *mesh, const SbMixedRule *rule) {
       double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
       double z = (X - 0.5 * (mesh->edge[e] + mesh->edge[e + 1])) / half;
       double moment[SB_MIXED_DEGREE_MAX + 1];
-      moments(moment, z, degree);
+      moments(moment, rule, z, degree);
       moment[0] += 2 * log(half);
       for (int j = 0; j <= degree; j++) {
         double sum = 0;

@@ -21,6 +21,10 @@
 
 enum { ITERATIONS_MAX = 40 };
 
+// A step this much shorter than the last lets the next one take the same factors.
+static const double REUSE = 0.1;
+static const double CLOSE = 0.03;
+
 void sb_mixed_point(SbMixedPoint *out, const SbMixedCase *c, double t) {
   if (c->law != NULL) {
     SbRoughPoint p;
@@ -180,30 +184,44 @@ static int choose(const Local *l, const SbMixedMesh *mesh, const SbMixedRule *ru
   return changed;
 }
 
-// Adds coefficient times dh (and dp) of node n to a row.
+// Adds coefficient times dh (and dp) of node n to a row (NULL: to the constant only).
 static void add_node(double *row, double *constant, const SbMixedMesh *mesh, const Local *l, int n,
                      double by_h, double by_p) {
   double gap = by_h + by_p * l->k[n];
+  *constant += gap * l->r[n];
+  if (row == NULL) {
+    return;
+  }
   if (gap != 0) {
     cblas_daxpy(mesh->nodes, gap, mesh->kernel + (size_t)n * (size_t)mesh->nodes, 1, row, 1);
   }
   row[n] += by_p;
   row[mesh->nodes] += gap; // H0
-  *constant += gap * l->r[n];
 }
 
-static void assemble(double *matrix, double *right, const SbMixedMesh *mesh,
+// Row i of the matrix, NULL without one.
+static double *row_of(double *matrix, int order, int i) {
+  return matrix != NULL ? matrix + (size_t)i * (size_t)order : NULL;
+}
+
+// Right-hand side and, if `matrix` is not NULL, the matrix, whose rows get one size each; without
+// it the right-hand side is for the matrix of an earlier call.
+static void assemble(double *matrix, double *right, double *row_scale, const SbMixedMesh *mesh,
                      const SbMixedRule *rule, const SbMixedState *state, const SbMixedCase *c,
                      const Local *l) {
   int nodes = mesh->nodes;
   int order = nodes + 2;
   int d = rule->degree;
-  memset(matrix, 0, (size_t)order * (size_t)order * sizeof *matrix);
+  if (matrix != NULL) {
+    memset(matrix, 0, (size_t)order * (size_t)order * sizeof *matrix);
+  }
 
   // Inlet: its pressure, or the flux supplied.
   double *row = matrix;
   if (isfinite(c->supply)) {
-    row[nodes + 1] = 1;
+    if (row != NULL) {
+      row[nodes + 1] = 1;
+    }
     right[0] = c->supply - state->kappa;
   } else {
     double constant = 0;
@@ -212,7 +230,7 @@ static void assemble(double *matrix, double *right, const SbMixedMesh *mesh,
   }
   // Steps.
   for (int i = 0; i < nodes - 1; i++) {
-    row = matrix + (size_t)(i + 1) * (size_t)order;
+    row = row_of(matrix, order, i + 1);
     double constant = 0;
     if (state->broken[i]) {
       add_node(row, &constant, mesh, l, i, 0, 1);
@@ -233,18 +251,22 @@ static void assemble(double *matrix, double *right, const SbMixedMesh *mesh,
       residual -= w * (state->s[n] + l->s0[n]);
       double by_p = -w * l->s_p[n] + (k == j + 1 ? 1 : k == j ? -1 : 0);
       add_node(row, &constant, mesh, l, n, -w * l->s_h[n], by_p);
-      row[nodes + 1] -= w * l->s_kappa[n];
+      if (row != NULL) {
+        row[nodes + 1] -= w * l->s_kappa[n];
+      }
     }
     right[i + 1] = -residual - constant;
   }
   // Outlet.
-  row = matrix + (size_t)nodes * (size_t)order;
+  row = row_of(matrix, order, nodes);
   double constant = 0;
   add_node(row, &constant, mesh, l, nodes - 1, 0, 1);
   right[nodes] = c->layers.outlet - l->p[nodes - 1] - constant;
   // Load above the ambient step.
-  row = matrix + (size_t)(nodes + 1) * (size_t)order;
-  memcpy(row, mesh->load, (size_t)nodes * sizeof *row);
+  row = row_of(matrix, order, nodes + 1);
+  if (row != NULL) {
+    memcpy(row, mesh->load, (size_t)nodes * sizeof *row);
+  }
   double sum =
       -0.5 * M_PI + mesh->inlet * mesh->edge[0] - mesh->outlet * mesh->edge[mesh->elements];
   for (int j = 0; j < nodes; j++) {
@@ -252,14 +274,14 @@ static void assemble(double *matrix, double *right, const SbMixedMesh *mesh,
   }
   right[nodes + 1] = -sum;
 
-  // Rows of one size each.
   for (int i = 0; i < order; i++) {
-    row = matrix + (size_t)i * (size_t)order;
-    double largest = fabs(row[cblas_idamax(nodes + 1, row, 1)]);
-    if (largest > 0) { // the last column has a size of its own
-      cblas_dscal(order, 1 / largest, row, 1);
-      right[i] /= largest;
+    if (matrix != NULL) {
+      row = row_of(matrix, order, i);
+      double largest = fabs(row[cblas_idamax(nodes + 1, row, 1)]);
+      row_scale[i] = largest > 0 ? 1 / largest : 1; // the last column has a size of its own
+      cblas_dscal(order, row_scale[i], row, 1);
     }
+    right[i] *= row_scale[i];
   }
 }
 
@@ -273,6 +295,8 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
   Local local;
   double before = INFINITY;
   int settled = 0;
+  bool factored = false; // the matrix holds factors that may serve again
+  double row_scale[SB_MIXED_NODES_MAX + 2];
   *trace = (SbMixedTrace){.step = INFINITY};
   for (int iteration = 0; iteration < ITERATIONS_MAX; iteration++) {
     if (callback->cancelled != NULL && callback->cancelled(callback->cancelled_data)) {
@@ -290,9 +314,11 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
     if (settled > 0 && (changed == 0 || settled > 6)) {
       return SB_OK;
     }
-    assemble(solver->matrix, solver->right, mesh, rule, state, c, &local);
-    if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, solver->matrix, order, solver->pivot) !=
-            0 ||
+    factored = factored && changed == 0;
+    assemble(factored ? NULL : solver->matrix, solver->right, row_scale, mesh, rule, state, c,
+             &local);
+    if ((!factored && LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, solver->matrix, order,
+                                          solver->pivot) != 0) ||
         LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', order, 1, solver->matrix, order, solver->pivot,
                             solver->right, order) != 0) {
       return SB_ERROR_NOT_CONVERGED;
@@ -345,6 +371,8 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
     if (c->lambda > 0 && !isfinite(c->supply) && hopeless) {
       return SB_ERROR_NOT_CONVERGED;
     }
+    // Close to the solution each step with the same factors gains what the last one gained.
+    factored = !cut && largest < REUSE * before && largest < CLOSE;
     before = largest;
   }
   return SB_ERROR_NOT_CONVERGED;

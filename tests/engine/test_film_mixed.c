@@ -142,6 +142,23 @@ static void test_smooth_limit(void) {
   }
 }
 
+// A film as thick as the roughness starts from the smooth one's layers: directly and in a few
+// steps, whichever end has pressure. (Without them: 22 steps of continuation and 204 of Newton's
+// method.)
+static void test_direct_start(void) {
+  static const double ends[][2] = {{0, 0}, {0.55e6, 0}, {0, 0.55e6}, {0.55e6, 0.55e6}};
+  for (size_t i = 0; i < G_N_ELEMENTS(ends); i++) {
+    SbFilmProblem problem = seal(1, SB_ROUGH_GREENWOOD_TRIPP);
+    problem.sigma = 1e-7;
+    problem.pressure_left = ends[i][0];
+    problem.pressure_right = ends[i][1];
+    g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+    g_assert_cmpfloat(film.film_ratio, <, 2);
+    g_assert_cmpint(film.solver.continuation_steps, ==, 1);
+    g_assert_cmpint(film.solver.newton_iterations, <=, 25);
+  }
+}
+
 // Dry rough contact by an independent method: uniform cells of constant pressure on the half-plane
 // (closed-form kernel), collocated at their middles, Newton's method on the asperity separations,
 // integrals taken directly. Returns central gap; *peak the largest pressure.
@@ -591,6 +608,7 @@ static void test_refusals(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   sb_film_solver_create(&solver, NULL);
+  g_test_add_func("/film/mixed/direct-start", test_direct_start);
   g_test_add_func("/film/mixed/laws", test_laws);
   g_test_add_func("/film/mixed/smooth-limit", test_smooth_limit);
   g_test_add_func("/film/mixed/dry-contact", test_dry_contact);
