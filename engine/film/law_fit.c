@@ -61,6 +61,10 @@ static SbStatus solve_grid(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSo
       out->U[out->count] = U;
       out->W[out->count] = W;
       out->H[out->count] = h / problem.radius;
+      const SbFilmSolverInfo *info = &film->solver;
+      out->error = fmax(out->error, range->film == SB_FILM_LAW_MIN       ? info->error_film_min
+                                    : range->film == SB_FILM_LAW_CENTRAL ? info->error_film_central
+                                                                         : info->error_film_flux);
       out->count += status == SB_OK ? 1 : 0;
       if (range->progress != NULL) {
         range->progress(range->data,

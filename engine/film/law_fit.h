@@ -31,6 +31,7 @@ typedef struct {
   // residuals are the law's lack of fit, not noise: the intervals describe this range only.
   double k_confidence, a_confidence, b_confidence;
   double rms_residual, largest_residual; // relative
+  double error; // largest estimate of the solves' own error in the film, relative
   size_t count;
   double U[SB_FILM_LAW_POINTS], W[SB_FILM_LAW_POINTS];
   double H[SB_FILM_LAW_POINTS];        // h / R solved

@@ -202,6 +202,17 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
   // A supplied layer moves with the wall at the full speed, the flux film with half of it.
   double supply = problem->inlet_film > 0.0 ? 2.0 * problem->inlet_film / scale->film : INFINITY;
 
+  if (isfinite(supply)) {
+    SbLayers starved = c.layers;
+    starved.starvation = fmin(1.0, supply / sb_layers_flux(&c.layers));
+    if (sb_layers_width(&starved) < 7e-8) {
+      return sb_fail(report, SB_ERROR_RANGE,
+                     "film: M = %.3g: so little film is supplied that its inlet layer is %.2g of "
+                     "the half-width and lost in rounding",
+                     scale->M, sb_layers_width(&starved));
+    }
+  }
+
   SbReynoldsReading reading[LEVELS];
   int levels = 0;
   int which = 0;

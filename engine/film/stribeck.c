@@ -48,6 +48,7 @@ SbStatus sb_film_stribeck(SbStribeckPoint *out, size_t count, const SbFilmProble
         .asperity_share = film->asperity_share,
         .real_area_share = film->real_area_share,
         .load_error = film->solver.load_error,
+        .error = fmax(film->solver.error_film_min, film->solver.error_film_central),
         .converged = true,
     };
   }

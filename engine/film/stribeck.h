@@ -15,6 +15,7 @@ typedef struct {
   double asperity_share;  // of the net load
   double real_area_share; // at the axis
   double load_error;      // |integral of the total pressure - load| / load
+  double error;           // estimate of the films' own error, relative
   bool converged;
 } SbStribeckPoint;
 

@@ -165,8 +165,8 @@ static SbStatus regress(SbStudy *out, SbFilmLaw *fits, const SbModel *model, con
     };
     status = sb_film_law_fit(&fits[f], &grid, NULL, report);
     out->solves += fits[f].count;
+    out->error = fmax(out->error, fits[f].error);
   }
-  out->error = model->tolerance;
   return status;
 }
 

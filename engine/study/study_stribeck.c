@@ -155,6 +155,7 @@ SbStatus sb_study_stribeck(SbStudy *out, const SbModel *model, const SbStudyHook
     SbStudySeries *h = sb_study_series(film, SB_STUDY_CURVE, "%s", models[m].name);
     for (int i = 0; status == SB_OK && i < POINTS; i++) {
       bool good = own[i].converged;
+      out->error = fmax(out->error, good ? own[i].error : 0);
       sb_study_point(f, own[i].speed, good ? own[i].coefficient : NAN);
       sb_study_point(s, own[i].speed, good ? own[i].asperity_share : NAN);
       sb_study_point(h, own[i].speed, good ? own[i].film_ratio : NAN);
@@ -169,7 +170,6 @@ SbStatus sb_study_stribeck(SbStudy *out, const SbModel *model, const SbStudyHook
   }
   if (status == SB_OK) {
     put_rows(out, points);
-    out->error = fmax(out->error, model->tolerance); // what the solver aims at
     SbStudySeries *limit = sb_study_series(film, SB_STUDY_REFERENCE, "film = roughness");
     sb_study_point(limit, model->study.speed_min, 1);
     sb_study_point(limit, model->study.speed_max, 1);

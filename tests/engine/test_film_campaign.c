@@ -202,6 +202,26 @@ static void test_starved(void) {
   g_rand_free(random);
 }
 
+// So little film is supplied that its layer, 6e-8 of the half-width, is lost in rounding: refused,
+// where a supply four times as large is solved.
+static void test_starved_to_rounding(void) {
+  SbFilmProblem p;
+  sb_film_problem_init(&p);
+  p.modulus = 1e7;
+  p.radius = 1e-3;
+  p.load = 10.0;
+  p.viscosity = 1e-3;
+  p.speed = 1.4321658003391277e-11;
+  p.inlet_film = 1.45e-15;
+  SbReport report;
+  sb_film_solver_forget(solver);
+  g_assert_cmpint(sb_film_solve(&film, &p, solver, &report), ==, SB_ERROR_RANGE);
+  g_assert_nonnull(strstr(report.text, "rounding"));
+  p.inlet_film *= 4.0;
+  g_assert_cmpint(sb_film_solve(&film, &p, solver, &report), ==, SB_OK);
+  g_assert_true(film.starved);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   if (argc > 1) {
@@ -214,6 +234,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/campaign/M", test_box_of_M);
   g_test_add_func("/film/campaign/sizes", test_box_of_sizes);
   g_test_add_func("/film/campaign/starved", test_starved);
+  g_test_add_func("/film/campaign/starved-to-rounding", test_starved_to_rounding);
   int failed = g_test_run();
   sb_film_solver_destroy(solver);
   return failed;

@@ -147,6 +147,9 @@ static void test_film_law(void) {
   NEAR(cell(study, "ours, central", "k"), 3.77334, 5e-3);
   NEAR(cell(study, "ours, least", "k"), 3.00434, 5e-3);
   g_assert_cmpfloat(cell(study, "ours, central", "residual, largest"), <, 1e-3);
+  // The error is what the solves say of themselves, not what they aimed at (1e-3).
+  g_assert_cmpfloat(study->error, >, 1e-7);
+  g_assert_cmpfloat(study->error, <, 1e-5);
   // The thesis' law is some 4 times too thick at 1 um/s: the exponent makes it.
   const SbStudySeries *law = series(study, "law over the solved film", "thesis, eq. 7.5");
   double U = 0.211e-3 * 0.5e-6 / (6.5725e6 * 0.805e-3),
@@ -230,6 +233,9 @@ static void test_stribeck(void) {
   problem.load_coefficient = 0.19;
   SbFilm *own = g_new(SbFilm, 1);
   g_assert_cmpint(sb_film_solve(own, &problem, NULL, NULL), ==, SB_OK);
+  g_assert_cmpfloat(study->error, >=,
+                    fmax(own->solver.error_film_min, own->solver.error_film_central) * 0.5);
+  g_assert_cmpfloat(study->error, <, 0.9e-3); // said, not aimed at
   NEAR(film->y[at], own->film_central / 1e-6, 2e-3);
   NEAR(share->y[at], own->asperity_share, 2e-3);
   g_free(own);
