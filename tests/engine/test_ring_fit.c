@@ -5,6 +5,7 @@
 #include <glib.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static int by_size(const void *a, const void *b) {
   double p = *(const double *)a, q = *(const double *)b;
@@ -91,9 +92,59 @@ static void test_no_contact(void) {
   g_assert_cmpstr(warnings.item[0].code, ==, "no-contact");
 }
 
+// A stretched ring that flattens away from the bore, and that 0.55 MPa holds on it once something
+// has closed the gap: the load of that state falls ever faster with the squeeze to the fold where
+// it ends, each in a moderate number of iterations; beyond, it is refused with the radial space up
+// to which the fluid is held.
+static void test_open(void) {
+  static const double SQUEEZE[] = {0.06, 0.05, 0.04, 0.035, 0.03, 0.028};
+  enum { N = sizeof SQUEEZE / sizeof SQUEEZE[0] };
+  const SbRingBody body = {.section_diameter = 1.61e-3,
+                           .inner_diameter = 2.84e-3,
+                           .modulus = 2.5e6,
+                           .poisson_ratio = 0.49};
+  const SbRingOptions options = {.element_size = 0.03, .fit_mesh = true};
+  SbRingLoad load = SB_RING_LOAD_INIT;
+  load.floor_radius = 1.64e-3;
+  load.wall_right = 1e-3;
+  load.pressure_left = 0.55e6;
+  double before = HUGE_VAL, steepest = 0.0;
+  SbRingResult r;
+  SbReport report = {0};
+  SbRing *ring = NULL;
+  for (int i = 0; i < N; i++) {
+    load.bore_radius = load.floor_radius + (1.0 - SQUEEZE[i]) * body.section_diameter;
+    g_assert_cmpint(sb_ring_create(&ring, &body, &load, &options, &report), ==, SB_OK);
+    sb_ring_result(ring, &r);
+    sb_ring_destroy(ring);
+    g_test_message("squeeze %.3f: %.4f N, %d iterations", SQUEEZE[i], r.bore_force,
+                   r.newton_iterations);
+    g_assert_cmpfloat(r.bore_force, <, before);
+    g_assert_cmpfloat(r.bore_force, >, 0.0);
+    g_assert_cmpint(r.newton_iterations, <, 200);
+    if (i > 0) {
+      double slope = (before - r.bore_force) / (SQUEEZE[i - 1] - SQUEEZE[i]);
+      g_assert_cmpfloat(slope, >, 0.95 * steepest);
+      steepest = fmax(steepest, slope);
+    }
+    before = r.bore_force;
+  }
+  load.bore_radius = load.floor_radius + 0.98 * body.section_diameter;
+  g_assert_cmpint(sb_ring_create(&ring, &body, &load, &options, &report), ==, SB_ERROR_INFEASIBLE);
+  g_test_message("%s", report.text);
+  g_assert_null(ring);
+  g_assert_cmpstr(report.parameter, ==, "gland.radial_space");
+  const char *held = strstr(report.text, "up to a radial space of ");
+  g_assert_nonnull(held);
+  double space = g_ascii_strtod(held + strlen("up to a radial space of "), NULL);
+  g_assert_cmpfloat(space, >, 1.54);
+  g_assert_cmpfloat(space, <, 1.578);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/ring-fit/honest", test_honest);
   g_test_add_func("/ring-fit/no-contact", test_no_contact);
+  g_test_add_func("/ring-fit/open", test_open);
   return g_test_run();
 }

@@ -84,8 +84,8 @@ typedef struct {
 // Fits the free ring into its groove: stretched over the floor, squeezed by the bore, then pressed
 // by the fluid. Owned; free with sb_ring_destroy. Errors: SB_ERROR_RANGE or SB_ERROR_INFEASIBLE
 // with the catalogue key (bore smaller than the groove floor, overfilled groove, nothing that holds
-// the ring against the pressure), SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED, SB_ERROR_MEMORY; *out
-// is then NULL. Friction acts from the fitted state on, not during fitting.
+// the ring against the pressure, the fluid passes it), SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED,
+// SB_ERROR_MEMORY; *out is then NULL. Friction acts from the fitted state on, not during fitting.
 SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *load,
                         const SbRingOptions *options, SbReport *report);
 void sb_ring_destroy(SbRing *ring);

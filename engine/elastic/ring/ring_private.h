@@ -55,4 +55,15 @@ double sb_ring_pressure_at(const SbRingPressure *pressure, double share);
 // kept if that fails.
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
 
+// Newton's method as the ring's options want it.
+SbRingNewton sb_ring_newton_options(const SbRing *ring);
+
+// Fits the ring anew without friction at a setting, fluid last, on its present mesh. Errors as
+// sb_ring_create.
+SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingSetting *smooth, SbReport *report);
+
+// From the present state to another setting, leaning on the wall first where the fluid wants it.
+SbStatus sb_ring_press(SbRing *ring, const SbRingSetting *target, SbReport *report);
+
+// The element solver's setting of a load.
 SbRingSetting sb_ring_setting(const SbRing *ring, const SbRingLoad *load);
