@@ -341,6 +341,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
       .peak_force = sb_params_get(params, SB_P_DRIVE_PEAK_FORCE),
       .rise_time = sb_params_get(params, SB_P_DRIVE_RISE_TIME),
       .hold_time = sb_params_get(params, SB_P_DRIVE_HOLD_TIME),
+      .finger_damping = sb_params_get(params, SB_P_DRIVE_FINGER_DAMPING),
       .amplitude = sb_params_get(params, SB_P_DRIVE_AMPLITUDE),
       .frequency = sb_params_get(params, SB_P_DRIVE_FREQUENCY),
       .cycles = (int)sb_params_get(params, SB_P_DRIVE_CYCLES),

@@ -164,6 +164,7 @@ typedef struct {
   double speed, stroke, reversal_force, stiffness;
   SbDriveChoice drive;
   double peak_force, rise_time, hold_time; // hand
+  double finger_damping;                   // hand, ramp [N s/m]
   double amplitude, frequency;             // sinusoid
   SbModelSeries measured;                  // measured; filled by whoever read it
   int cycles;

@@ -40,6 +40,7 @@ void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run) {
     drive->rise = drive->fall = model->rise_time;
     drive->hold = model->hold_time;
     drive->pause = model->rise_time;
+    out->drive_damping = model->finger_damping;
     break;
   case SB_MODEL_DRIVE_FREE_RETURN:
     drive->kind = SB_DRIVE_NONE;
@@ -60,6 +61,7 @@ void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run) {
     drive->quantity = SB_DRIVE_OF_FORCE;
     drive->end = model->peak_force;
     drive->rate = model->peak_force / model->rise_time;
+    out->drive_damping = model->finger_damping;
     break;
   case SB_MODEL_DRIVE_MEASURED:
     // A displacement moves the machine's platen, a force pushes the stem itself.

@@ -617,6 +617,36 @@ static void test_first_slip(void) {
   sb_run_destroy(run);
 }
 
+// A finger that gives way moves the stem at the speed at which its force, the pressure's and the
+// seals' balance, after the 37 us that mass over damping take: c v = F(t) - F_p - f.
+static void test_finger(void) {
+  const double damping = 100;
+  Setting settings[] = {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
+                        {SB_P_DRIVE_FINGER_DAMPING, damping},
+                        {SB_P_OUTPUT_FRAMES, 4000}};
+  SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, settings, G_N_ELEMENTS(settings));
+  const SbModel *model = sb_run_model(run);
+  size_t count, seen = 0;
+  const SbFrame *frames = sb_run_frames(run, &count);
+  double slip = sb_run_summary(run)->stage[SB_STAGE_B].time;
+  for (size_t i = 0; i < count; i++) {
+    const SbFrame *f = &frames[i];
+    if (f->stage != SB_STAGE_B || f->time < slip + 1e-3 || f->on_event) {
+      continue;
+    }
+    double finger = model->peak_force * f->time / model->rise_time;
+    double rubs = f->seal[SB_INNER].friction + f->seal[SB_OUTER].friction;
+    double speed = (finger - model->pressure_force - rubs) / damping;
+    // Ramp and mass: v lags by m/c of its rate, 1.1 m/s2.
+    g_assert_cmpfloat(fabs(f->velocity - speed), <, 2e-3 * speed + 5e-5);
+    g_assert_cmpfloat(fabs(f->force - (finger - damping * f->velocity)), <, 1e-9 * finger);
+    seen++;
+  }
+  g_assert_cmpuint(seen, >, 50);
+  g_assert_true(sb_run_summary(run)->returns);
+  sb_run_destroy(run);
+}
+
 // A finger has no speed of its own: the films are those at which the stem slides, whatever
 // drive.speed says, each frame's at its own speed, and the work of friction follows.
 static void test_own_speed(void) {
@@ -677,6 +707,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-dynamic/tolerance", test_tolerance);
   g_test_add_func("/run-dynamic/own-speed", test_own_speed);
   g_test_add_func("/run-dynamic/first-slip", test_first_slip);
+  g_test_add_func("/run-dynamic/finger", test_finger);
   if (g_test_slow()) {
     // Alone on the machine: where others keep it busy a time says nothing.
     g_test_add_func("/run-dynamic/time", test_time);
