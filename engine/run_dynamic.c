@@ -355,7 +355,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   // Closed form throughout: rounding only.
   double force = 1e-12;
   double work = 1e-12;
-  if (status == SB_OK && counters.steps > 0) {
+  if (status == SB_OK && counters.steps > 0 && !run->follows) {
     status = estimate_error(run, &recorder, &energy, &force, &work, hooks, report);
   }
   summary->error_force = fmax(summary->error_load, force);

@@ -137,6 +137,7 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   if (status != SB_OK) {
     return status;
   }
+  lived.one->follows = true;
   // Frames refer to the shapes of the first actuation: lent, not owned.
   memcpy(lived.one->shape, run->shape, sizeof run->shape);
   memcpy(lived.one->shape_slot, run->shape_slot, sizeof run->shape_slot);

@@ -65,6 +65,7 @@ struct SbRun {
                                // that ring [m]; equal: nowhere
   double before_frames;        // share of the work that lies before the first frame
   SbRunBodies *bodies;         // NULL: the reduced form is enough
+  bool follows;                // a later actuation of a life: the first one's errors stand for all
   double after_frames;         // and behind the last: the rest of a life
   SbLifeActuation *life;       // [model.life_actuations], NULL without a life
   SbFrame *frames;
