@@ -3,6 +3,8 @@
 #include "engine/motion/dynamics_internal.h"
 
 #include <math.h>
+#include <stddef.h>
+#include <string.h>
 
 void sb_motion_drive_at(const SbDynamics *s, double t, double *value, double *rate) {
   if (s->piece.curved) {
@@ -387,7 +389,8 @@ bool sb_motion_event_gauge(const SbDynamics *s, int event, const Linear *l, SbGa
 // ---- the numerical path ----
 
 void sb_motion_anchor_copy(SbDynamics *at, const SbDynamics *s, double t, const double *z) {
-  *at = *s;
+  // All but the steps, which are large and not asked for.
+  memcpy(at, s, offsetof(SbDynamics, step));
   at->t = t;
   at->x = z[0];
   at->v = z[1];

