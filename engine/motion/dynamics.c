@@ -366,7 +366,7 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
                               .rates = sb_motion_numerical_rates,
                               .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9};
   s->system.floor[0] = 1e-3;
-  s->system.floor[1] = 1e-3;
+  s->system.floor[1] = 1e-3; // at least; see dynamics_path.c
   for (size_t i = 0; i < patches; i++) {
     s->system.floor[2 + i] = 1e-5;
   }
@@ -400,6 +400,7 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
     return sb_fail(report, SB_ERROR_RANGE, "the motion cannot go back from %g s to %g s", s->now,
                    time);
   }
+  s->asked = time;
   for (;;) {
     if (!s->ready) {
       sb_drive_piece(&s->piece, &s->drive, &s->model->drive, s->t);
@@ -439,7 +440,15 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
       }
     }
     if (event != EVENT_NONE) {
+      bool rested = s->held;
       apply(s, event);
+      if (rested && !s->held && (event == EVENT_RIGID_UP || event == EVENT_RIGID_DOWN)) {
+        SbStatus status = sb_motion_repeat(s, event == EVENT_RIGID_UP ? 1 : -1, report);
+        s->now = s->t;
+        if (status != SB_OK) {
+          return status;
+        }
+      }
       if (event != EVENT_BREAK && (s->counters.events > most || piles_up(s))) {
         return sb_fail(report, SB_ERROR_NOT_CONVERGED, "%s at %.9g s (%ld events)",
                        s->counters.events > most ? "too many events" : "events pile up", s->t,

@@ -20,7 +20,8 @@
 // massless stop or platen that is left behind relaxes by its own damper and can be met again.
 //
 // Method. Between events the motion is linear in almost all models: closed form (oscillator.h),
-// events found by bounds, resting costs nothing. Velocity-dependent sliding, position-dependent
+// events found by bounds, resting costs nothing, nor does stick-slip
+// that repeats itself. Velocity-dependent sliding, position-dependent
 // loads and sinusoids go through Radau IIA with error control and events located by re-stepping.
 // Each energy term is integrated by itself; their balance is a result, not a construction. Nothing
 // is allocated. Leaves out: rotation and tilt of the stem, wave motion in the parts, a speed law
@@ -153,6 +154,7 @@ typedef struct {
 
 typedef struct {
   long events, segments, steps, rejected, newton_iterations, evaluations;
+  long repeated;      // cycles of stick-slip that were not stepped through: equal to the one before
   double local_error; // sum of the numerical path's local errors of position, over |x| + 1 mm
 } SbDynamicsCounters;
 
@@ -161,6 +163,15 @@ typedef struct {
   bool on;
   double relic, since; // deflection left when it was last left, and when
 } SbDynamicsTouch;
+
+// Where rigid contacts last broke away.
+typedef struct {
+  int direction; // 0: not yet
+  size_t region;
+  long events, segments;
+  double t, x, stretch, piece; // stretch of the drive's spring [m]; start of its piece [s]
+  SbDynamicsEnergy energy;
+} SbDynamicsBreak;
 
 // Working state; on the caller's memory, no pointers owned. Fields are private.
 typedef struct {
@@ -182,6 +193,8 @@ typedef struct {
   SbDriveState drive;
   SbDrivePiece piece;
   SbDynamicsEnergy energy;
+  SbDynamicsBreak broke;
+  double asked; // time that is being advanced to
   double stored_start, kinetic_start;
   double force_peak; // of the drive, up to the anchor [N]
   bool ready, linear, held;
@@ -210,7 +223,8 @@ SbStatus sb_dynamics_init(SbDynamics *dynamics, const SbDynamicsModel *model, Sb
 // Where a stem pressed by `force` (+x) rests on a stop: its position plus the elastic give.
 double sb_dynamics_rest_position(const SbDynamicsStop *stop, double force);
 
-// Reports every event as it happens; NULL to stop.
+// Reports every event as it happens, save those of cycles passed over (counters.repeated); NULL to
+// stop.
 void sb_dynamics_listen(SbDynamics *dynamics,
                         void (*listener)(const SbMotionEvent *event, void *user), void *user);
 

@@ -131,6 +131,10 @@ void sb_motion_loads_at(const SbDynamics *s, double x, const double *extra, SbDy
 // Finds the motion from the anchor and the event that ends it (s->t_end, s->event).
 SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report);
 
+// After rigid contacts broke away at the anchor: goes on by whole cycles of stick-slip if they are
+// equal (dynamics_repeat.c). SB_ERROR_NOT_CONVERGED if too many unequal ones lie ahead.
+SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report);
+
 // Position, speed, deflections and extra states at time t of the present segment.
 void sb_motion_state_at(const SbDynamics *s, double t, double *x, double *v, double *d,
                         double *extra);

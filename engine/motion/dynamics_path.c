@@ -1,6 +1,7 @@
 // Motion between two events of dynamics.h, and where the next one is.
 #include "engine/motion/dynamics_internal.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -9,6 +10,12 @@ static const double horizon_max = 1e6;
 
 // Force to which the tolerance of the numerical path refers where springs are stiff [N].
 static const double force_size = 400.0;
+
+// Speed to which it refers at least [m/s].
+static const double speed_size = 1e-3;
+
+// Stiffness over mass [1/s2] above which rounding outdoes the tolerance: 1e5 rad/s.
+static const double stiff_square = 1e10;
 
 static bool has_closed_form(const SbDynamics *s) {
   // Loads that vary with the place only do not vary for a stem held at rest.
@@ -221,6 +228,18 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
   Linear acting;
   sb_motion_linear_forces(s, &acting);
   s->system.ceiling[0] = acting.k > 0.0 ? force_size / acting.k : 0.0;
+  // A very stiff drive turns the rounding of its own place into acceleration and speed: less than
+  // that cannot be asked for.
+  double square = acting.k / s->parts.mass, grain = 0.0;
+  if (square > stiff_square && s->push.on && m->drive.quantity == SB_DRIVE_OF_POSITION) {
+    double place, rate;
+    sb_motion_drive_at(s, s->t, &place, &rate);
+    grain = DBL_EPSILON * (fabs(place) + fabs(rate * s->t)) * square;
+  }
+  double speed = grain / sqrt(fmax(square, 1.0));
+  s->system.grain[0] = 8.0 * speed;
+  s->system.grain[1] = 8.0 * grain;
+  s->system.floor[1] = fmax(speed_size, 10.0 * speed / s->system.tolerance);
   for (size_t i = 0; i < patches; i++) {
     s->system.ceiling[2 + i] = is_rigid(m, i) ? 0.0 : force_size / m->contact[i].stiffness;
   }

@@ -160,7 +160,8 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
         double change = residual[a * s->n + i];
         step->k[a][i] += change;
         size = fmax(size, fabs(h * change) / scale(s, i, z[i]));
-        rounding = rounding && fabs(change) <= 64.0 * DBL_EPSILON * fabs(step->k[a][i]);
+        rounding =
+            rounding && fabs(change) <= 64.0 * DBL_EPSILON * fabs(step->k[a][i]) + s->grain[i];
       }
     }
     if (!isfinite(size)) {

@@ -466,6 +466,7 @@ static void test_hard(void) {
         {SB_P_DRIVE_DAMPING_RATIO, 0},
         {SB_P_DRIVE_FREQUENCY, 200}},
        false},
+      {"machine of 5e9 N/m", {{SB_P_DRIVE_STIFFNESS, 5e9}}, true},
       {"presses of a millisecond",
        {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
         {SB_P_DRIVE_RISE_TIME, 1e-3},
