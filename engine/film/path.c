@@ -219,7 +219,10 @@ SbStatus sb_reynolds_refine(SbFilmSolver *solver, int *which, SbReynoldsCase *c,
   SbReynoldsCase next = *c;
   next.layers.degree = degree;
   int to = 1 - *which;
-  if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
+  // The elements that the solution has, which a continuation may have brought from another case.
+  keep_steps(&next.layers, &solver->mesh[*which]);
+  if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers) ||
+      !same_elements(&solver->mesh[*which], &solver->mesh[to])) {
     return SB_ERROR_NOT_CONVERGED;
   }
   sb_reynolds_carry(solver, *which, to, &c->layers, &next.layers, 1.0);

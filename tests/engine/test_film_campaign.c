@@ -222,6 +222,29 @@ static void test_starved_to_rounding(void) {
   g_assert_true(film.starved);
 }
 
+// A contact that continuation reaches on another number of elements than its own mesh would have:
+// the levels keep them, few steps suffice, and what the solver did before does not show.
+static void test_kept_elements(void) {
+  SbFilmProblem p;
+  sb_film_problem_init(&p);
+  p.modulus = 1e7;
+  p.radius = 1e-3;
+  p.load = 10.0;
+  p.viscosity = 3.4907142162813742;
+  p.speed = 3.1699421633600248e-10;
+  p.pressure_right = 251131.46527606199;
+  double first = 0.0;
+  for (int i = 0; i < 3; i++) {
+    p.tolerance = i == 1 ? 1e-5 : 1e-3;
+    sb_film_solver_forget(solver);
+    g_assert_cmpint(sb_film_solve(&film, &p, solver, NULL), ==, SB_OK);
+    g_assert_cmpint(film.solver.newton_iterations, <=, 60);
+    g_assert_cmpint(film.solver.newton_iterations, <=, 10 * film.solver.continuation_steps);
+    first = i == 0 ? film.film_min : first;
+  }
+  g_assert_cmpfloat(film.film_min, ==, first);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   if (argc > 1) {
@@ -235,6 +258,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/campaign/sizes", test_box_of_sizes);
   g_test_add_func("/film/campaign/starved", test_starved);
   g_test_add_func("/film/campaign/starved-to-rounding", test_starved_to_rounding);
+  g_test_add_func("/film/campaign/kept-elements", test_kept_elements);
   int failed = g_test_run();
   sb_film_solver_destroy(solver);
   return failed;
