@@ -209,7 +209,7 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
   if (isfinite(supply)) {
     SbLayers starved = c.layers;
     starved.starvation = fmin(1.0, supply / sb_layers_flux(&c.layers));
-    if (sb_layers_width(&starved) < 7e-8) {
+    if (sb_layers_width(&starved) < 1e-7) {
       return sb_fail(report, SB_ERROR_RANGE,
                      "film: M = %.3g: so little film is supplied that its inlet layer is %.2g of "
                      "the half-width and lost in rounding",
