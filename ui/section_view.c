@@ -29,7 +29,8 @@ enum {
 typedef struct {
   SbSession *session;
   GtkWidget *gl; // over the picture where the window's own GL draws it
-  GtkWidget *box, *area, *field_combo, *inset_combo, *forces, *labels, *mesh, *empty, *toggles;
+  GtkWidget *box, *area, *field_combo, *inset_combo, *forces, *labels, *mesh, *empty, *toggles,
+      *heading;
   SbSection *section; // of `run`'s model, or of the resting valve
   const SbRun *run;   // what `section` was made for; never read through
   const SbRun *rest;  // owned: the resting valve
@@ -325,6 +326,7 @@ static void on_run_changed(View *view) {
   // The rig's picture has neither fields nor insets, and its forces and names always.
   const SbModel *model = sb_session_model(view->session);
   gboolean rig = model != NULL && model->motion == SB_MODEL_MOTION_RIG;
+  gtk_label_set_text(GTK_LABEL(view->heading), rig ? "Rig" : "Section");
   gtk_widget_set_visible(view->field_combo, !rig);
   gtk_widget_set_visible(view->inset_combo, !rig);
   gtk_widget_set_visible(view->toggles, !rig);
@@ -467,6 +469,7 @@ static GtkWidget *make_toolbar(View *view) {
   GtkWidget *heading = gtk_label_new("Section");
   sb_style_class(heading, "sb-heading");
   gtk_widget_set_margin_end(heading, 4);
+  view->heading = heading;
   gtk_box_pack_start(GTK_BOX(bar), heading, FALSE, FALSE, 0);
 
   view->field_combo = gtk_combo_box_text_new();
