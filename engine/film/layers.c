@@ -209,13 +209,16 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
   int rights = 0;
   bool full = l->end == SB_LAYERS_FULL;
   double edge = full ? flooded_outlet(l) : 1.0;
+  double last = full ? edge : rupture_guess(l);
   for (int i = 0; i < (full ? 3 : 4); i++) {
     double x = edge + out * outlet_step[i];
-    if (x > left[lefts - 1] + 0.6 * fmax(in, out) && x > (i == 0 ? 0.05 : -0.3)) {
+    // A starved film near M = 1 breaks before the last of them.
+    if (x > left[lefts - 1] + 0.6 * fmax(in, out) && x > (i == 0 ? 0.05 : -0.3) &&
+        x < last - 0.1 * out) {
       right[rights++] = x;
     }
   }
-  right[rights++] = full ? edge : rupture_guess(l);
+  right[rights++] = last;
 
   // Inlet and its layer: higher degree, as the flux there is a small difference.
   if (isfinite(l->meniscus)) {

@@ -250,6 +250,19 @@ static void test_starved(void) {
              0.01);
     close_to("its peak", film.pressure_max, film.hertz_pressure, 1e-3);
   }
+  // Between the rigid and the elastic regime the film breaks before the outlet layer's last steps.
+  for (double M = 0.9; M < 3.0; M += 0.23) {
+    SbFilmProblem problem = contact(M, 0.0, 0.0);
+    g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+    double flooded = film.film_flux;
+    static const double supply[] = {0.9, 0.5, 0.02};
+    for (size_t i = 0; i < G_N_ELEMENTS(supply); i++) {
+      problem.inlet_film = 0.5 * supply[i] * flooded;
+      g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+      close_to("flux", film.film_flux, supply[i] * flooded, 1e-6);
+      g_assert_cmpfloat(film.solver.load_error, <=, 1e-10);
+    }
+  }
 }
 
 // Barus and Eyring: Reynolds' equation with their viscosity holds along the profile, both fade in
