@@ -240,16 +240,21 @@ double sb_ring_pressure_at(const SbRingPressure *p, double share) {
   return sum + p->end_pressure[0] * (1.0 - t / M_PI) + p->end_pressure[1] * t / M_PI;
 }
 
-// Whether the curve nowhere falls below the lower of the two pressures that it starts from.
+// Whether the curve rises from both ends and nowhere falls below the lower of their pressures.
 static bool presses(const SbRingPressure *p) {
-  enum { SAMPLES = 96 };
-  double least = HUGE_VAL, most = 0.0;
-  for (int i = 0; i <= SAMPLES; i++) {
-    double value = sb_ring_pressure_at(p, 0.5 * (1.0 - cos(M_PI * i / SAMPLES)));
-    least = fmin(least, value);
-    most = fmax(most, value);
+  enum { SAMPLES = 320 }; // those of the profile
+  double slope[2] = {(p->end_pressure[1] - p->end_pressure[0]) / M_PI,
+                     (p->end_pressure[0] - p->end_pressure[1]) / M_PI};
+  for (int k = 0; k < p->terms; k++) {
+    slope[0] += (k + 1) * p->a[k];
+    slope[1] += (k % 2 == 0 ? 1.0 : -1.0) * (k + 1) * p->a[k];
   }
-  return most > 0.0 && least >= fmin(p->end_pressure[0], p->end_pressure[1]) - 1e-9 * most;
+  double low = fmin(p->end_pressure[0], p->end_pressure[1]);
+  bool good = slope[0] >= 0.0 && slope[1] >= 0.0;
+  for (int i = 0; i <= SAMPLES && good; i++) {
+    good = sb_ring_pressure_at(p, 0.5 * (1.0 - cos(M_PI * i / SAMPLES))) >= low;
+  }
+  return good;
 }
 
 bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch,
