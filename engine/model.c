@@ -390,7 +390,10 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
           },
       .look = {.field = (int)sb_params_get(params, SB_P_OUTPUT_FIELD),
                .insets = (int)sb_params_get(params, SB_P_OUTPUT_INSETS),
-               .full = sb_params_get(params, SB_P_OUTPUT_SECTION) > 0,
+               .full = sb_params_get(params, SB_P_OUTPUT_SECTION) == 1,
+               .cutaway = sb_params_get(params, SB_P_OUTPUT_SECTION) == 2,
+               .azimuth = sb_params_get(params, SB_P_OUTPUT_AZIMUTH),
+               .elevation = sb_params_get(params, SB_P_OUTPUT_ELEVATION),
                .undeformed = sb_params_get(params, SB_P_OUTPUT_UNDEFORMED) > 0,
                .field_max = sb_params_get(params, SB_P_OUTPUT_FIELD_MAX)},
       .shape =

@@ -125,11 +125,13 @@ typedef struct {
 
 // How the section is shown when nobody says otherwise; no result depends on it.
 typedef struct {
-  int field;        // index among the choices of output.field = SbField
-  int insets;       // 0 of the outer seal, 1 of the inner one, 2 none
-  bool full;        // both halves
-  bool undeformed;  // the rings' outline before fitting
-  double field_max; // end of the colours of stresses [Pa]; 0: the range of the run
+  int field;                 // index among the choices of output.field = SbField
+  int insets;                // 0 of the outer seal, 1 of the inner one, 2 none
+  bool full;                 // both halves
+  bool cutaway;              // in three dimensions, a quarter cut away
+  double azimuth, elevation; // of the cutaway's camera [rad]
+  bool undeformed;           // the rings' outline before fitting
+  double field_max;          // end of the colours of stresses [Pa]; 0: the range of the run
 } SbSectionLook;
 
 typedef struct {

@@ -102,6 +102,7 @@ static void show_rows(Dialog *dialog) {
   gboolean film = is_film(dialog);
   const SbRenderView *view = view_of(dialog);
   gboolean section = view != NULL && view->section;
+  gboolean cutaway = view != NULL && strcmp(view->name, "cutaway") == 0;
   const struct {
     GtkWidget *widget;
     gboolean shown;
@@ -113,6 +114,8 @@ static void show_rows(Dialog *dialog) {
       {dialog->at, !film},
       {dialog->at_label, !film},
       {dialog->section_box, section},
+      {dialog->halves, !cutaway},
+      {dialog->insets, !cutaway},
       {dialog->section_label, section},
       {dialog->field_box, section && has_fields(dialog)},
       {dialog->field_label, section && has_fields(dialog)},
@@ -275,7 +278,13 @@ static char *end_of_range(Dialog *dialog, GtkWidget *combo) {
 static SbSectionStyle style_of(Dialog *dialog) {
   const char *insets = gtk_combo_box_get_active_id(GTK_COMBO_BOX(dialog->insets));
   const char *halves = gtk_combo_box_get_active_id(GTK_COMBO_BOX(dialog->halves));
+  double azimuth, elevation; // as the window shows it
+  sb_session_camera(dialog->session, &azimuth, &elevation);
   return (SbSectionStyle){
+      .cutaway =
+          g_strcmp0(halves, "cutaway") == 0 || g_strcmp0(view_of(dialog)->name, "cutaway") == 0,
+      .azimuth = azimuth,
+      .elevation = elevation,
       .inset_seal = g_strcmp0(insets, "inner") == 0 ? SB_INNER : SB_OUTER,
       .hide_insets = g_strcmp0(insets, "none") == 0,
       .full = g_strcmp0(halves, "full") == 0,
@@ -364,7 +373,9 @@ static void fill_section(Dialog *dialog) {
   SbSectionStyle style = run != NULL ? sb_section_style_of(sb_run_model(run)) : (SbSectionStyle){0};
   gtk_combo_box_set_active(GTK_COMBO_BOX(dialog->field), (int)style.field);
   gtk_spin_button_set_value(GTK_SPIN_BUTTON(dialog->field_max), 1e-6 * style.field_max);
-  gtk_combo_box_set_active_id(GTK_COMBO_BOX(dialog->halves), style.full ? "full" : "half");
+  gtk_combo_box_set_active_id(GTK_COMBO_BOX(dialog->halves), style.cutaway ? "cutaway"
+                                                             : style.full  ? "full"
+                                                                           : "half");
   gtk_combo_box_set_active_id(GTK_COMBO_BOX(dialog->insets), style.hide_insets ? "none"
                                                              : style.inset_seal == SB_INNER
                                                                  ? "inner"

@@ -31,6 +31,7 @@ typedef struct {
   GtkWidget *gl; // over the picture where the window's own GL draws it
   GtkWidget *box, *area, *field_combo, *inset_combo, *forces, *labels, *mesh, *empty, *toggles,
       *heading;
+  GtkWidget *cutaway;
   SbSection *section; // of `run`'s model, or of the resting valve
   const SbRun *run;   // what `section` was made for; never read through
   const SbRun *rest;  // owned: the resting valve
@@ -38,9 +39,10 @@ typedef struct {
   size_t limits_frames; // frames that the limits have seen
   SbDrawList list;
   SbText *text;
-  int look_field, look_insets; // of the scene that the toolbar followed last
+  SbSectionLook look; // of the scene that the toolbar followed last
   double zoom, pan_x, pan_y;
   double press_x, press_y;
+  double press_azimuth, press_elevation;
   SbGlContext *context;   // NULL where no GL works
   SbGlRenderer *renderer; // likewise
   cairo_surface_t *read;  // GL's picture
@@ -150,9 +152,13 @@ static void on_gl_decided(void *data) {
     return;
   }
   SbReport report = {0};
+  gdk_gl_context_clear_current();
   if (sb_gl_context_create(&view->context, SB_GL_AUTO, &report) == SB_OK &&
       sb_gl_renderer_create(&view->renderer, view->context, &report) != SB_OK) {
     g_clear_pointer(&view->context, sb_gl_context_destroy);
+  }
+  if (view->context != NULL) {
+    sb_gl_context_release(view->context);
   }
   g_printerr("sealbench: section by %s; %s\n",
              view->renderer != NULL ? sb_gl_context_reason(view->context) : report.text,
@@ -170,9 +176,14 @@ static SbRect picture_rect(View *view, double area_width, double area_height) {
                   fmax(area_height - top - bottom - 8, 1) + 2 * EDGE};
 }
 
-// The window's GL draws the picture unless it is zoomed and moved.
+static gboolean is_cutaway(View *view) {
+  return gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->cutaway));
+}
+
+// The window's GL draws the picture unless it is zoomed and moved; a cutaway is zoomed by its
+// camera.
 static gboolean by_window(View *view) {
-  return view->zoom <= 1 && sb_section_gl_works(view->gl);
+  return (view->zoom <= 1 || is_cutaway(view)) && sb_section_gl_works(view->gl);
 }
 
 static gboolean on_place(GtkOverlay *overlay, GtkWidget *child, GdkRectangle *place, View *view) {
@@ -193,8 +204,13 @@ static gboolean draw_by_gl(View *view, cairo_t *cr, const SbRect *rect) {
   int scale = gtk_widget_get_scale_factor(view->area);
   int width = (int)ceil(rect->width) * scale;
   int height = (int)ceil(rect->height) * scale;
-  if (view->renderer == NULL || !sb_gl_context_make_current(view->context) ||
-      sb_gl_renderer_draw(view->renderer, &view->list, width, height, scale, NULL) != SB_OK) {
+  // GDK may have a context of its own in mind, and has to make it current again after this.
+  gdk_gl_context_clear_current();
+  if (view->renderer == NULL || !sb_gl_context_make_current(view->context)) {
+    return FALSE;
+  }
+  if (sb_gl_renderer_draw(view->renderer, &view->list, width, height, scale, NULL) != SB_OK) {
+    sb_gl_context_release(view->context);
     return FALSE;
   }
   if (view->read == NULL || cairo_image_surface_get_width(view->read) != width ||
@@ -205,6 +221,7 @@ static gboolean draw_by_gl(View *view, cairo_t *cr, const SbRect *rect) {
   cairo_surface_flush(view->read);
   sb_gl_renderer_read(view->renderer, cairo_image_surface_get_data(view->read),
                       (size_t)cairo_image_surface_get_stride(view->read));
+  sb_gl_context_release(view->context);
   cairo_surface_mark_dirty(view->read);
   cairo_surface_set_device_scale(view->read, scale, scale);
   cairo_set_source_surface(cr, view->read, rect->x, rect->y);
@@ -239,9 +256,11 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   SbRect picture = picture_rect(view, area_width, area_height);
   const SbSectionLook *look = &sb_run_model(view->run)->look;
   const char *inset = gtk_combo_box_get_active_id(GTK_COMBO_BOX(view->inset_combo));
+  gboolean cutaway = is_cutaway(view);
+  double enlarged = cutaway ? 1 : view->zoom;
   SbSectionView how = {
-      .width = picture.width * view->zoom,
-      .height = picture.height * view->zoom,
+      .width = picture.width * enlarged,
+      .height = picture.height * enlarged,
       .margin = EDGE,
       .dark = sb_style_is_dark(),
       .read_outs = ran,
@@ -252,6 +271,8 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
       .field = (SbField)MAX(gtk_combo_box_get_active(GTK_COMBO_BOX(view->field_combo)), 0),
       .mesh = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->mesh)),
       .full = look->full,
+      .cutaway = cutaway,
+      .magnify = view->zoom,
       .undeformed = look->undeformed,
       .field_max = look->field_max,
   };
@@ -260,6 +281,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
     instant.profile[i] = sb_run_profile(view->run, frame->seal[i].profile);
     instant.ring[i] = sb_run_shape(view->run, frame->seal[i].shape);
   }
+  sb_session_camera(view->session, &how.azimuth, &how.elevation);
   sb_section_draw(view->section, &view->list, &how, &instant);
   cairo_save(cr);
   cairo_rectangle(cr, 0, 0, area_width, picture.y + picture.height + 4);
@@ -267,8 +289,9 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   gboolean field = instant.ring[SB_OUTER] != NULL || instant.ring[SB_INNER] != NULL;
   if (by_window(view)) {
     gtk_gl_area_queue_render(GTK_GL_AREA(view->gl));
-  } else if (!field || view->zoom > 1 || !draw_by_gl(view, cr, &picture)) {
-    cairo_translate(cr, picture.x - view->pan_x, picture.y - view->pan_y);
+  } else if ((!field && !cutaway) || enlarged > 1 || !draw_by_gl(view, cr, &picture)) {
+    cairo_translate(cr, picture.x - (cutaway ? 0 : view->pan_x),
+                    picture.y - (cutaway ? 0 : view->pan_y));
     sb_draw_list_to_cairo(&view->list, view->text, cr);
   }
   cairo_restore(cr);
@@ -281,11 +304,16 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
 static gboolean describe(gpointer data) {
   View *view = data;
   g_autofree char *where = sb_session_where(view->session);
+  double azimuth, elevation;
+  sb_session_camera(view->session, &azimuth, &elevation);
+  g_autofree char *cutaway = g_strdup_printf("Cutaway of the valve, azimuth %.0f°, elevation %.0f°",
+                                             azimuth * 180 / G_PI, elevation * 180 / G_PI);
   const char *what = sb_chart_is_rig(&sb_session_chart(view->session)->run)
                          ? "Sliding plate on its rings"
-                         : "Axial section of the valve";
+                     : is_cutaway(view) ? cutaway
+                                        : "Axial section of the valve";
   g_autofree char *text = where[0] != '\0' ? g_strdup_printf("%s, %s", what, where)
-                                           : g_strdup("Axial section of the valve at rest");
+                                           : g_strdup_printf("%s at rest", what);
   sb_style_name(view->area, "Section", text);
   view->describe = 0;
   return G_SOURCE_REMOVE;
@@ -306,14 +334,22 @@ static void on_change(View *view) {
 // free.
 static void follow_look(View *view) {
   const SbModel *model = sb_session_model(view->session);
-  if (model == NULL ||
-      (model->look.field == view->look_field && model->look.insets == view->look_insets)) {
+  if (model == NULL) {
     return;
   }
-  view->look_field = model->look.field;
-  view->look_insets = model->look.insets;
-  gtk_combo_box_set_active(GTK_COMBO_BOX(view->field_combo), model->look.field);
-  gtk_combo_box_set_active(GTK_COMBO_BOX(view->inset_combo), model->look.insets);
+  const SbSectionLook *look = &model->look;
+  SbSectionLook before = view->look;
+  view->look = *look;
+  if (look->field != before.field || look->insets != before.insets) {
+    gtk_combo_box_set_active(GTK_COMBO_BOX(view->field_combo), look->field);
+    gtk_combo_box_set_active(GTK_COMBO_BOX(view->inset_combo), look->insets);
+  }
+  if (look->azimuth != before.azimuth || look->elevation != before.elevation) {
+    sb_session_set_camera(view->session, look->azimuth, look->elevation);
+  }
+  if (look->cutaway != before.cutaway) {
+    gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(view->cutaway), look->cutaway);
+  }
 }
 
 static void on_run_changed(View *view) {
@@ -372,6 +408,28 @@ void sb_section_view_zoom(GtkWidget *widget, int direction) {
           gtk_widget_get_allocated_height(view->area) * 0.75);
 }
 
+// The camera moves by angles from where it was; it goes round the valve, but not over it.
+static void turn(View *view, double azimuth, double elevation) {
+  sb_session_set_camera(view->session, remainder(azimuth, 2 * G_PI),
+                        fmin(fmax(elevation, -G_PI / 2), G_PI / 2));
+  on_change(view);
+}
+
+void sb_section_view_toggle_cutaway(GtkWidget *widget) {
+  View *view = g_object_get_data(G_OBJECT(widget), "view");
+  gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(view->cutaway), !is_cutaway(view));
+}
+
+void sb_section_view_turn(GtkWidget *widget, int right, int up) {
+  View *view = g_object_get_data(G_OBJECT(widget), "view");
+  const double step = 5 * G_PI / 180;
+  double azimuth, elevation;
+  sb_session_camera(view->session, &azimuth, &elevation);
+  if (is_cutaway(view)) {
+    turn(view, azimuth + right * step, elevation + up * step);
+  }
+}
+
 static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, View *view) {
   double dx = 0;
   double dy = 0;
@@ -396,19 +454,30 @@ static gboolean on_gl_scroll(GtkWidget *widget, GdkEventScroll *event, View *vie
   return on_scroll(view->area, event, view);
 }
 
-static gboolean on_gl_press(GtkWidget *widget, GdkEventButton *event, View *view) {
-  gtk_widget_grab_focus(view->area);
-  return GDK_EVENT_STOP;
-}
-
 static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
-  gtk_widget_grab_focus(widget);
+  gtk_widget_grab_focus(view->area);
+  if (is_cutaway(view)) {
+    if (event->type == GDK_2BUTTON_PRESS) {
+      turn(view, view->look.azimuth, view->look.elevation);
+    }
+    view->press_x = event->x;
+    view->press_y = event->y;
+    sb_session_camera(view->session, &view->press_azimuth, &view->press_elevation);
+    return GDK_EVENT_STOP;
+  }
   view->press_x = event->x + view->pan_x;
   view->press_y = event->y + view->pan_y;
   return GDK_EVENT_STOP;
 }
 
 static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
+  if (is_cutaway(view)) {
+    // The valve follows the hand: half a turn over 500 pixels.
+    const double rate = G_PI / 500;
+    turn(view, view->press_azimuth - rate * (event->x - view->press_x),
+         view->press_elevation + rate * (event->y - view->press_y));
+    return GDK_EVENT_STOP;
+  }
   view->pan_x = view->press_x - event->x;
   view->pan_y = view->press_y - event->y;
   clamp_pan(view);
@@ -428,6 +497,10 @@ static void on_destroy(GtkWidget *widget, View *view) {
 
 static void view_free(gpointer data) {
   View *view = data;
+  if (view->renderer != NULL) {
+    gdk_gl_context_clear_current();
+    sb_gl_context_make_current(view->context);
+  }
   sb_gl_renderer_destroy(view->renderer);
   sb_gl_context_destroy(view->context);
   g_clear_pointer(&view->read, cairo_surface_destroy);
@@ -446,6 +519,14 @@ static GtkWidget *toggle_new(View *view, const char *label, const char *tip, gbo
   g_signal_connect_swapped(toggle, "toggled", G_CALLBACK(on_change), view);
   gtk_box_pack_start(box, toggle, FALSE, FALSE, 0);
   return toggle;
+}
+
+// Insets belong to the section. The zoom starts anew: it means another thing.
+static void on_cutaway(View *view) {
+  gtk_widget_set_sensitive(view->inset_combo, !is_cutaway(view));
+  view->zoom = 1;
+  view->pan_x = view->pan_y = 0;
+  gtk_widget_queue_resize(view->gl);
 }
 
 static GtkWidget *icon_button(const char *icon, const char *name, const char *action, GtkBox *box) {
@@ -495,6 +576,11 @@ static GtkWidget *make_toolbar(View *view) {
   view->forces = toggle_new(view, "Forces", "Force arrows", TRUE, GTK_BOX(toggles));
   view->labels =
       toggle_new(view, "Labels", "Names and values of the parts", TRUE, GTK_BOX(toggles));
+  view->cutaway = toggle_new(view, "Cutaway",
+                             "The valve in three dimensions, a quarter cut away (Ctrl+D). Drag or "
+                             "Alt+arrows turn it, a double click turns it back",
+                             FALSE, GTK_BOX(toggles));
+  g_signal_connect_swapped(view->cutaway, "toggled", G_CALLBACK(on_cutaway), view);
   view->mesh = toggle_new(view, "Mesh", "Elements of solved rings", FALSE, GTK_BOX(toggles));
   gtk_box_pack_start(GTK_BOX(bar), toggles, FALSE, FALSE, 0);
   view->toggles = toggles;
@@ -546,12 +632,14 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   GtkWidget *overlay = gtk_overlay_new();
   gtk_container_add(GTK_CONTAINER(overlay), view->area);
   view->gl = sb_section_gl_new(&view->list, on_gl_decided, view);
-  gtk_widget_add_events(view->gl, GDK_BUTTON_PRESS_MASK | GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK);
+  gtk_widget_add_events(view->gl, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |
+                                      GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK);
   sb_style_name(view->gl, "Section picture", NULL);
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->gl);
   g_signal_connect(overlay, "get-child-position", G_CALLBACK(on_place), view);
   g_signal_connect(view->gl, "scroll-event", G_CALLBACK(on_gl_scroll), view);
-  g_signal_connect(view->gl, "button-press-event", G_CALLBACK(on_gl_press), view);
+  g_signal_connect(view->gl, "button-press-event", G_CALLBACK(on_press), view);
+  g_signal_connect(view->gl, "motion-notify-event", G_CALLBACK(on_motion), view);
   view->empty = make_empty();
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->empty);
   gtk_box_pack_start(GTK_BOX(view->box), overlay, TRUE, TRUE, 0);

@@ -10,3 +10,9 @@ GtkWidget *sb_section_view_new(SbSession *session);
 
 // Zoom by one step (positive: in), or back to the whole valve (0).
 void sb_section_view_zoom(GtkWidget *view, int direction);
+
+// Shows the cutaway in place of the section, or the section again.
+void sb_section_view_toggle_cutaway(GtkWidget *view);
+
+// Turns the cutaway's camera by steps to the right and up. Nothing while the section shows.
+void sb_section_view_turn(GtkWidget *view, int right, int up);

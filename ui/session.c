@@ -121,6 +121,16 @@ void sb_session_reset(SbSession *session) {
   replace_document(session, sb_document_new());
 }
 
+void sb_session_set_camera(SbSession *session, double azimuth, double elevation) {
+  session->azimuth = azimuth;
+  session->elevation = elevation;
+}
+
+void sb_session_camera(SbSession *session, double *azimuth, double *elevation) {
+  *azimuth = session->azimuth;
+  *elevation = session->elevation;
+}
+
 gboolean sb_session_is_modified(SbSession *session) {
   return sb_document_is_modified(session->document);
 }

@@ -52,6 +52,10 @@ void sb_session_reset(SbSession *session);
 
 gboolean sb_session_is_modified(SbSession *session);
 
+// Where the cutaway is seen from in this window [rad]; the scene's own at first. No signal.
+void sb_session_set_camera(SbSession *session, double azimuth, double elevation);
+void sb_session_camera(SbSession *session, double *azimuth, double *elevation);
+
 // Edits a value by text. A text that cannot be taken stays as the field's error, and the value in
 // force stays as it was.
 gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text);

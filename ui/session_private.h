@@ -40,6 +40,8 @@ struct _SbSession {
   guint debounce; // source of the delayed start
   gint64 started; // [us]
 
+  double azimuth, elevation; // of the cutaway's camera [rad]
+
   SbPlayhead playhead;
   SbChartData chart; // what views are given
   char *hash;

@@ -316,6 +316,26 @@ static void on_zoom_out(GSimpleAction *action, GVariant *parameter, gpointer dat
   sb_section_view_zoom(SB_WINDOW(data)->section, -1);
 }
 
+static void on_cutaway(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_section_view_toggle_cutaway(SB_WINDOW(data)->section);
+}
+
+static void on_turn_left(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_section_view_turn(SB_WINDOW(data)->section, -1, 0);
+}
+
+static void on_turn_right(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_section_view_turn(SB_WINDOW(data)->section, 1, 0);
+}
+
+static void on_turn_up(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_section_view_turn(SB_WINDOW(data)->section, 0, 1);
+}
+
+static void on_turn_down(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_section_view_turn(SB_WINDOW(data)->section, 0, -1);
+}
+
 static void on_zoom_fit(GSimpleAction *action, GVariant *parameter, gpointer data) {
   sb_section_view_zoom(SB_WINDOW(data)->section, 0);
 }
@@ -459,6 +479,11 @@ static void sb_window_init(SbWindow *window) {
       {.name = "zoom-in", .activate = on_zoom_in},
       {.name = "zoom-out", .activate = on_zoom_out},
       {.name = "zoom-fit", .activate = on_zoom_fit},
+      {.name = "cutaway", .activate = on_cutaway},
+      {.name = "turn-left", .activate = on_turn_left},
+      {.name = "turn-right", .activate = on_turn_right},
+      {.name = "turn-up", .activate = on_turn_up},
+      {.name = "turn-down", .activate = on_turn_down},
       {.name = "export", .activate = on_export},
       {.name = "studies", .activate = on_studies},
       {.name = "copy-table", .activate = on_copy_table},

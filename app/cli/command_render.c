@@ -10,7 +10,7 @@
 // The options as they were given; texts are owned.
 typedef struct {
   char *output, *view, *size, *at, *fps, *duration, *speed, *from, *to, *backend;
-  char *field, *field_max, *insets, *zoom;
+  char *field, *field_max, *insets, *zoom, *azimuth, *elevation;
   char **settings;
   gboolean dark, quiet, full, undeformed;
 } Options;
@@ -26,10 +26,10 @@ typedef struct {
 } Request;
 
 static void options_clear(Options *options) {
-  char *const texts[] = {options->output, options->view,   options->size, options->at,
-                         options->fps,    options->speed,  options->from, options->duration,
-                         options->to,     options->field,  options->zoom, options->field_max,
-                         options->insets, options->backend};
+  char *const texts[] = {options->output, options->view,    options->size,    options->at,
+                         options->fps,    options->speed,   options->from,    options->duration,
+                         options->to,     options->field,   options->zoom,    options->field_max,
+                         options->insets, options->backend, options->azimuth, options->elevation};
   for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
     g_free(texts[i]);
   }
@@ -156,6 +156,8 @@ static char **all_settings(const Options *options) {
       {"output.field", options->field},
       {"output.field_max", options->field_max},
       {"output.insets", options->insets},
+      {"output.azimuth", options->azimuth},
+      {"output.elevation", options->elevation},
       {"output.section", options->full ? "full" : NULL},
       {"output.undeformed", options->undeformed ? "shown" : NULL},
   };
@@ -184,7 +186,8 @@ static void on_picture(void *data, size_t done, size_t total) {
 static SbStatus compute(SbRun **run, SbModel *model, const char *view, bool quiet,
                         SbReport *report) {
   // What is drawn decides what is computed, not what the scene would show by itself.
-  int index = sb_param_choice(sb_param(SB_P_OUTPUT_VIEWS), view, strlen(view));
+  const char *needs = strcmp(view, "cutaway") == 0 ? "section" : view;
+  int index = sb_param_choice(sb_param(SB_P_OUTPUT_VIEWS), needs, strlen(needs));
   model->views = index >= 0 ? 1u << index : model->views;
   SbPlan plan;
   sb_plan_make(&plan, model);
@@ -282,6 +285,7 @@ static int render(const SbRun *run, const SbDocument *document, Request *request
   }
   SbSectionStyle style = sb_section_style_of(sb_run_model(run));
   style.zoom = request->zoom;
+  style.cutaway = style.cutaway || strcmp(request->how.view, "cutaway") == 0;
   sb_section_painter_style(painter, &style);
   char *sha256 = sb_document_sha256(document);
   char *scene = sb_document_to_flat_text(document);
@@ -313,7 +317,9 @@ int sb_command_render(int argc, char **argv) {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output,
        "Picture (.png, .svg, .pdf), film (.mp4) or sequence (frames/%04d.png or a folder)", "OUT"},
       {"view", 0, 0, G_OPTION_ARG_FILENAME, &options.view,
-       "section (default), hysteresis, profiles, dashboard, rig or a study (sealbench list views)",
+       "section (default), cutaway, hysteresis, profiles, dashboard, rig, life or a study "
+       "(sealbench "
+       "list views)",
        "VIEW"},
       {"size", 0, 0, G_OPTION_ARG_FILENAME, &options.size,
        "Size in pixels, or 720p, 1080p, 4k, report (1600x1200)", "WxH"},
@@ -338,6 +344,10 @@ int sb_command_render(int argc, char **argv) {
        "Whose contact is enlarged: outer, inner or none (output.insets)", "SEAL"},
       {"zoom", 0, 0, G_OPTION_ARG_FILENAME, &options.zoom,
        "One seal's surroundings only: outer or inner", "SEAL"},
+      {"azimuth", 0, 0, G_OPTION_ARG_FILENAME, &options.azimuth,
+       "Where the cutaway is seen from, about the vertical: \"-30°\" (output.azimuth)", "ANGLE"},
+      {"elevation", 0, 0, G_OPTION_ARG_FILENAME, &options.elevation,
+       "Where the cutaway is seen from, above the horizontal (output.elevation)", "ANGLE"},
       {"full", 0, 0, G_OPTION_ARG_NONE, &options.full,
        "Both halves of the section (output.section)", NULL},
       {"undeformed", 0, 0, G_OPTION_ARG_NONE, &options.undeformed,

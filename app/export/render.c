@@ -18,6 +18,7 @@
 
 static const SbRenderView views[] = {
     {"section", "Axial section", 1280, 720, true},
+    {"cutaway", "Cutaway in three dimensions", 1280, 720, true},
     {"hysteresis", "Force and displacement", 960, 720, false},
     {"profiles", "Contact pressure and film", 1440, 520, false},
     {"dashboard", "Dashboard", 1920, 1080, true},
@@ -55,6 +56,11 @@ bool sb_render_view_fits(const SbRenderView *view, const SbRun *run, GError **er
   if (strcmp(view->name, "rig") == 0 && sb_run_model(run)->motion != SB_MODEL_MOTION_RIG) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "the view \"rig\" is for the sliding plate (models.motion = rig)");
+    return false;
+  }
+  if (strcmp(view->name, "cutaway") == 0 && sb_run_model(run)->motion == SB_MODEL_MOTION_RIG) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "the view \"cutaway\" is for a valve, not for the sliding plate");
     return false;
   }
   if (strcmp(view->name, "life") == 0 && sb_run_summary(run)->life.done == 0) {
@@ -174,7 +180,8 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "there is no view \"%s\"", options->view);
     return false;
   }
-  if (strcmp(view->name, "section") == 0 && !options->section) {
+  bool cutaway = strcmp(view->name, "cutaway") == 0;
+  if ((cutaway || strcmp(view->name, "section") == 0) && !options->section) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the section cannot be drawn here");
     return false;
   }

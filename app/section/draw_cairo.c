@@ -6,6 +6,7 @@
 #include <glib.h>
 #include <math.h>
 #include <pango/pangocairo.h>
+#include <string.h>
 
 static void set_colour(cairo_t *cr, SbDrawColour colour) {
   cairo_set_source_rgba(cr, (double)colour.r, (double)colour.g, (double)colour.b, (double)colour.a);
@@ -27,15 +28,18 @@ static void trace(cairo_t *cr, const SbDrawPoint *points, size_t count, bool clo
 static void draw_hatch(cairo_t *cr, const SbDrawHatch *hatch) {
   double x0, y0, x1, y1;
   cairo_clip_extents(cr, &x0, &y0, &x1, &y1);
-  double lean = (double)hatch->lean;
-  double step = (double)hatch->pitch * sqrt(2);
-  // x + lean y = c; c runs over the corners' range.
-  double low = x0 + fmin(lean * y0, lean * y1);
-  double high = x1 + fmax(lean * y0, lean * y1);
-  double first = (double)hatch->offset + ceil((low - (double)hatch->offset) / step) * step;
-  for (double c = first; c <= high; c += step) {
-    cairo_move_to(cr, c - lean * y0, y0);
-    cairo_line_to(cr, c - lean * y1, y1);
+  double nx = (double)hatch->across_x, ny = (double)hatch->across_y;
+  double step = (double)hatch->pitch;
+  // Across the lines and along them over the range of the corners.
+  double middle = nx * (x0 + x1) / 2 + ny * (y0 + y1) / 2;
+  double along = -ny * (x0 + x1) / 2 + nx * (y0 + y1) / 2;
+  double half = (fabs(nx) * (x1 - x0) + fabs(ny) * (y1 - y0)) / 2;
+  double reach = (fabs(ny) * (x1 - x0) + fabs(nx) * (y1 - y0)) / 2;
+  double offset = (double)hatch->offset;
+  double first = offset + ceil((middle - half - offset) / step) * step;
+  for (double c = first; c <= middle + half; c += step) {
+    cairo_move_to(cr, nx * c - ny * (along - reach), ny * c + nx * (along - reach));
+    cairo_line_to(cr, nx * c - ny * (along + reach), ny * c + nx * (along + reach));
   }
   cairo_set_dash(cr, NULL, 0, 0);
   cairo_set_line_width(cr, (double)hatch->width);
@@ -116,7 +120,7 @@ static void draw_isolines(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint
 static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *points,
                       const float *scalars) {
   // Two triangles on one rectangle are a legend: a gradient along x.
-  if (item->count == 6) {
+  if (item->count == 6 && !item->shaded) {
     cairo_pattern_t *gradient =
         cairo_pattern_create_linear((double)points[0].x, 0.0, (double)points[1].x, 0.0);
     for (int i = 0; i <= 32; i++) {
@@ -134,8 +138,20 @@ static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *po
   cairo_set_dash(cr, NULL, 0, 0);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   for (size_t i = 0; i + 2 < item->count; i += 3) {
-    set_colour(cr, map_colour(item, (scalars[i] + scalars[i + 1] + scalars[i + 2]) / 3.0f));
-    trace(cr, points + i, 3, true);
+    // Two triangles of a shaded cell are one quadrilateral.
+    bool pair = item->shaded && i + 5 < item->count &&
+                memcmp(points + i, points + i + 3, sizeof *points) == 0 &&
+                memcmp(points + i + 2, points + i + 4, sizeof *points) == 0;
+    float mean = (scalars[i] + scalars[i + 1] + scalars[i + 2]) / 3.0f;
+    if (pair) {
+      const SbDrawPoint corner[4] = {points[i], points[i + 1], points[i + 2], points[i + 5]};
+      mean = 0.75f * mean + 0.25f * scalars[i + 5];
+      trace(cr, corner, 4, true);
+      i += 3;
+    } else {
+      trace(cr, points + i, 3, true);
+    }
+    set_colour(cr, map_colour(item, mean));
     cairo_fill_preserve(cr);
     cairo_stroke(cr);
   }

@@ -17,6 +17,16 @@ SbDrawColour sb_draw_mix(SbDrawColour a, SbDrawColour b, double t) {
                         a.a + (b.a - a.a) * u};
 }
 
+SbDrawHatch sb_draw_hatch(SbDrawColour colour, double pitch, double width, double lean,
+                          double offset) {
+  return (SbDrawHatch){colour,
+                       (float)pitch,
+                       (float)width,
+                       (float)M_SQRT1_2,
+                       (float)(lean * M_SQRT1_2),
+                       (float)(offset * M_SQRT1_2)};
+}
+
 const float *sb_draw_dash_pattern(SbDrawDash dash) {
   static const float pattern[SB_DASH_COUNT][4] = {
       [SB_DASH_SOLID] = {1, 0, 1, 0},     [SB_DASH_PINNED] = {7, 3, 7, 3},

@@ -36,12 +36,16 @@ typedef enum {
   SB_DRAW_TEXT
 } SbDrawKind;
 
-// 45-degree hatch over a fill. The lines are x + lean * y = offset + n * pitch * sqrt(2); lean is
-// +1 or -1. width 0: no hatch.
+// Hatch over a fill. The lines are x * across_x + y * across_y = offset + n * pitch, where across
+// is a unit vector. width 0: no hatch.
 typedef struct {
   SbDrawColour colour;
-  float pitch, width, lean, offset;
+  float pitch, width, across_x, across_y, offset;
 } SbDrawHatch;
+
+// Lines of 45 degrees: x + lean * y = offset + n * pitch * sqrt(2); lean is +1 or -1.
+SbDrawHatch sb_draw_hatch(SbDrawColour colour, double pitch, double width, double lean,
+                          double offset);
 
 typedef enum {
   SB_DASH_SOLID,
@@ -83,6 +87,7 @@ typedef struct {
   size_t first_scalar;
   const SbDrawMap *map;
   float map_min, map_max;
+  bool shaded;    // vertices take the map's colour, and colours run straight between them
   float isolines; // how many steps the map's range has for lines of equal value, 0 for none
   SbDrawColour line_colour;
   // Text: anchored at the baseline.

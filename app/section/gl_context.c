@@ -106,6 +106,12 @@ bool sb_gl_context_make_current(SbGlContext *context) {
   return context->table == NULL || context->table->make_current(context->state);
 }
 
+void sb_gl_context_release(SbGlContext *context) {
+  if (context->table != NULL) {
+    context->table->release(context->state);
+  }
+}
+
 const SbGlApi *sb_gl_context_api(const SbGlContext *context) {
   return &context->api;
 }

@@ -30,6 +30,10 @@ void sb_gl_context_destroy(SbGlContext *context);
 // Makes it current on this thread again (nothing to do for a wrapped one).
 bool sb_gl_context_make_current(SbGlContext *context);
 
+// Leaves this thread without a context (nothing to do for a wrapped one). Where a toolkit has GL of
+// its own on the thread this has to follow each use: Mesa's libraries share what is current.
+void sb_gl_context_release(SbGlContext *context);
+
 // The functions; borrowed.
 const SbGlApi *sb_gl_context_api(const SbGlContext *context);
 

@@ -36,6 +36,11 @@ static bool egl_make_current(void *data) {
          state->make(state->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state->context) != EGL_FALSE;
 }
 
+static void egl_release(void *data) {
+  Egl *state = data;
+  state->make(state->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
 static void egl_close(void *data) {
   Egl *state = data;
   // The display stays initialised: it is one per process and others may use it.
@@ -99,5 +104,5 @@ static SbStatus egl_open(void **out, SbReport *report) {
   return sb_succeed(report);
 }
 
-const SbGlBackendTable sb_gl_egl_table = {"egl", egl_open, egl_close, egl_make_current,
-                                          egl_get_proc};
+const SbGlBackendTable sb_gl_egl_table = {"egl",       egl_open,    egl_close, egl_make_current,
+                                          egl_release, egl_get_proc};

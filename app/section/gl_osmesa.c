@@ -54,6 +54,11 @@ static void osmesa_close(void *data) {
   g_free(state);
 }
 
+static void osmesa_release(void *data) {
+  OsMesa *state = data;
+  state->make_current(NULL, NULL, 0, 0, 0);
+}
+
 static void *osmesa_get_proc(void *data, const char *name) {
   OsMesa *state = data;
   AnyFunction function = state->get_proc_address(name);
@@ -98,5 +103,5 @@ static SbStatus osmesa_open(void **out, SbReport *report) {
   return sb_succeed(report);
 }
 
-const SbGlBackendTable sb_gl_osmesa_table = {"osmesa", osmesa_open, osmesa_close,
-                                             osmesa_make_current, osmesa_get_proc};
+const SbGlBackendTable sb_gl_osmesa_table = {
+    "osmesa", osmesa_open, osmesa_close, osmesa_make_current, osmesa_release, osmesa_get_proc};

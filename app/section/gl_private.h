@@ -9,7 +9,8 @@ typedef struct {
   SbStatus (*open)(void **state, SbReport *report);
   void (*close)(void *state);
   bool (*make_current)(void *state);
-  SbGlGetProc get_proc; // called with the state
+  void (*release)(void *state); // leaves the thread without a context
+  SbGlGetProc get_proc;         // called with the state
 } SbGlBackendTable;
 
 extern const SbGlBackendTable sb_gl_osmesa_table;

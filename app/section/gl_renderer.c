@@ -254,7 +254,7 @@ static bool build(SbGlRenderer *renderer, const SbDrawList *list, double scale) 
       sb_mesh_stroke(mesh, item, points, scale);
       break;
     case SB_DRAW_MESH:
-      batch = begin_batch(renderer, PROGRAM_FIELD, item);
+      batch = begin_batch(renderer, item->shaded ? PROGRAM_FLAT : PROGRAM_FIELD, item);
       sb_mesh_field(mesh, item, points, list->scalar + item->first_scalar, scale);
       break;
     case SB_DRAW_TEXT:

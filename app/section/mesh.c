@@ -206,7 +206,7 @@ void sb_mesh_fill(SbMesh *mesh, const SbDrawItem *item, const SbDrawPoint *point
     float offset = hatch->offset * (float)scale;
     for (size_t i = first; i < mesh->count; i++) {
       SbMeshVertex *v = &mesh->vertex[i];
-      v->extra[0] = (v->x + hatch->lean * v->y - offset) / sqrtf(2.0f);
+      v->extra[0] = hatch->across_x * v->x + hatch->across_y * v->y - offset;
     }
   }
 }
@@ -294,8 +294,15 @@ void sb_mesh_field(SbMesh *mesh, const SbDrawItem *item, const SbDrawPoint *poin
   SbMeshVertex *v = add(mesh, item->count);
   for (size_t i = 0; i < item->count; i++) {
     SbDrawPoint p = {(float)((double)points[i].x * scale), (float)((double)points[i].y * scale)};
-    v[i] = solid(p, white);
-    v[i].extra[0] = (scalars[i] - item->map_min) / range;
+    float t = (scalars[i] - item->map_min) / range;
+    if (item->shaded) {
+      uint8_t colour[4];
+      premultiply(colour, item->map->entry[(int)(255.0f * fminf(fmaxf(t, 0.0f), 1.0f) + 0.5f)]);
+      v[i] = solid(p, colour);
+    } else {
+      v[i] = solid(p, white);
+      v[i].extra[0] = t;
+    }
   }
 }
 

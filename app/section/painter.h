@@ -13,7 +13,8 @@ typedef struct {
   int inset_seal; // SB_OUTER or SB_INNER
   SbSectionZoom zoom;
   bool hide_insets, hide_forces, hide_labels;
-  bool full, undeformed; // as in SbSectionView
+  bool full, undeformed, cutaway; // as in SbSectionView
+  double azimuth, elevation;      // of the cutaway's camera [rad]
   SbField field;
   double field_max; // [Pa], 0: automatic
 } SbSectionStyle;

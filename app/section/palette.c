@@ -10,6 +10,18 @@ static SbDrawColour convert(SbColor color) {
   return (SbDrawColour){(float)color.r, (float)color.g, (float)color.b, 1.0f};
 }
 
+// A body's surface from its shadow over its own colour at two thirds to its highlight.
+static void make_shade(SbDrawMap *map, SbDrawColour body, bool dark) {
+  const SbDrawColour black = {0.03f, 0.04f, 0.06f, 1.0f}, white = {1.0f, 1.0f, 1.0f, 1.0f};
+  SbDrawColour shadow = sb_draw_mix(body, black, dark ? 0.62 : 0.58);
+  SbDrawColour light = sb_draw_mix(body, white, dark ? 0.36 : 0.75);
+  for (int i = 0; i < 256; i++) {
+    double t = i / 255.0;
+    map->entry[i] =
+        t < 2.0 / 3 ? sb_draw_mix(shadow, body, 1.5 * t) : sb_draw_mix(body, light, 3 * t - 2);
+  }
+}
+
 static void make_palette(SbPalette *palette, bool dark) {
   const SbTheme *theme = sb_theme(dark);
   const SbColor *role = theme->role;
@@ -35,7 +47,14 @@ static void make_palette(SbPalette *palette, bool dark) {
   };
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     palette->seal[i] = convert(sb_theme_seal(theme, i));
+    make_shade(&palette->seal_shade[i],
+               sb_draw_mix(palette->panel, palette->seal[i], dark ? 0.62 : 0.66), dark);
   }
+  // Darker than the cut faces, which stand out so.
+  make_shade(&palette->housing_shade,
+             sb_draw_mix(palette->housing, palette->outline, dark ? 0.16 : 0.20), dark);
+  make_shade(&palette->stem_shade, sb_draw_mix(palette->stem, palette->outline, dark ? 0.22 : 0.24),
+             dark);
   for (int i = 0; i < 256; i++) {
     palette->field.entry[i] = convert(sb_theme_field(theme, i / 255.0));
     palette->diverging.entry[i] = convert(sb_theme_diverging(theme, 2 * i / 255.0 - 1));

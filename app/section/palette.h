@@ -1,5 +1,5 @@
-// The section's colours: the theme's roles as the display list wants them, and its two maps (a
-// field in a seal, the fluid by pressure) as tables.
+// The section's colours: the theme's roles as the display list wants them, and its maps (a
+// field in a seal, the fluid by pressure, surfaces by brightness) as tables.
 #pragma once
 
 #include "app/section/draw_list.h"
@@ -16,6 +16,8 @@ typedef struct {
   SbDrawMap field;     // stress in a seal
   SbDrawMap diverging; // a signed field, -1 to 1
   SbDrawMap fluid;     // pressure from 0 to 0.7 MPa
+  // Surfaces of parts in three dimensions by brightness, 0 to 1.
+  SbDrawMap housing_shade, stem_shade, seal_shade[SB_SEAL_COUNT];
 } SbPalette;
 
 enum { SB_PALETTE_LIGHT, SB_PALETTE_DARK, SB_PALETTE_COUNT };

@@ -1,5 +1,7 @@
 // The section's layout, its rings and its parts in order, back to front. Labels of the strip are in
-// section_labels.c, the insets in section_insets.c, the legends in section_frame.c.
+// section_labels.c, the insets in section_insets.c, the legends in section_frame.c, rings in
+// section_ring.c, the valve in three dimensions in cutaway.c.
+#include "app/section/cutaway.h"
 #include "app/section/section_private.h"
 
 #include <glib.h>
@@ -7,10 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ISOLINES = 12 }; // over the range of a field
-
-// Radius drawn above the bore, and room beside the valve [m per m of bore diameter].
-static const double TOP = 0.79, RIGHT_ROOM = 0.26;
+// Room beside the valve [m per m of bore diameter].
+static const double RIGHT_ROOM = 0.26;
 
 SbSection *sb_section_create(const SbModel *model, const SbSectionLimits *limits) {
   SbSection *section = g_new0(SbSection, 1);
@@ -28,6 +28,7 @@ void sb_section_destroy(SbSection *section) {
   sb_text_destroy(section->text);
   g_free(section->scratch);
   g_free(section->scratch_scalar);
+  sb_cutaway_destroy(section->cutaway);
   g_free(section);
 }
 
@@ -161,159 +162,6 @@ static void shape_rings(SbSection *section) {
   }
 }
 
-void sb_section_field_limits(const SbSection *section, SbField field, double *least,
-                             double *greatest) {
-  *least = section->limits.field_min[field];
-  *greatest = section->limits.field_max[field];
-  double given = section->view->field_max;
-  if (given > 0 && field != SB_FIELD_DISPLACEMENT) {
-    *least = fmin(*least, 0);
-    *greatest = given;
-  }
-  if (field == SB_FIELD_SHEAR) {
-    // Signed: the map's middle is zero.
-    *greatest = given > 0 ? given : fmax(*greatest, -*least);
-    *least = -*greatest;
-  }
-}
-
-// Pressure lives on the surface: a band along the outline on a plain body. Quads from the outline
-// towards the middle, BAND px wide.
-static void draw_surface_field(SbSection *section, int seal, const SbSealShape *shape, double ax,
-                               double bx, double ay, double by, double least, double greatest) {
-  const double BAND = 7;
-  const SbPalette *palette = section->palette;
-  size_t n = shape->outline;
-  SbDrawPoint *edge = section->scratch;
-  SbDrawPoint *quad = section->scratch + n;
-  float *scalar = section->scratch_scalar;
-  SbDrawPoint middle = {0};
-  for (size_t i = 0; i < n; i++) {
-    int node = shape->outline_node[i];
-    double x = shape->place[2 * node];
-    double y = shape->place[2 * node + 1];
-    edge[i] = (SbDrawPoint){(float)(ax + bx * x), (float)(ay + by * y)};
-    middle.x += edge[i].x / (float)n;
-    middle.y += edge[i].y / (float)n;
-  }
-  sb_draw_fill(section->list, edge, n, sb_draw_mix(palette->panel, palette->seal[seal], 0.12))
-      ->feather = false;
-  for (size_t i = 0; i < n; i++) {
-    size_t next = (i + 1) % n;
-    SbDrawPoint in[2];
-    for (int k = 0; k < 2; k++) {
-      SbDrawPoint p = edge[k == 0 ? i : next];
-      double length = hypot((double)(middle.x - p.x), (double)(middle.y - p.y));
-      float share = (float)fmin(BAND / fmax(length, 1), 0.5);
-      in[k] = (SbDrawPoint){p.x + share * (middle.x - p.x), p.y + share * (middle.y - p.y)};
-    }
-    const SbDrawPoint corner[6] = {edge[i], edge[next], in[1], edge[i], in[1], in[0]};
-    float a = shape->field[SB_FIELD_CONTACT][shape->outline_node[i]];
-    float b = shape->field[SB_FIELD_CONTACT][shape->outline_node[next]];
-    const float value[6] = {a, b, b, a, b, a};
-    memcpy(quad + 6 * i, corner, sizeof corner);
-    memcpy(scalar + 6 * i, value, sizeof value);
-  }
-  sb_draw_mesh(section->list, quad, scalar, 6 * n, &palette->field, least, greatest);
-}
-
-// Field of a solved ring in its deformed triangles with lines of equal value, then its outline.
-static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *shape, double ax,
-                             double bx, double ay, double by) {
-  const SbPalette *palette = section->palette;
-  SbField field = section->view->field;
-  size_t corners = 3 * shape->triangles;
-  size_t most = MAX(corners, 7 * shape->outline);
-  if (most > section->scratch_size) {
-    section->scratch_size = most;
-    section->scratch = g_renew(SbDrawPoint, section->scratch, most);
-    section->scratch_scalar = g_renew(float, section->scratch_scalar, most);
-  }
-  SbDrawPoint *point = section->scratch;
-  float *scalar = section->scratch_scalar;
-  double least, greatest;
-  sb_section_field_limits(section, field, &least, &greatest);
-  bool sign = field == SB_FIELD_SHEAR;
-  if (field == SB_FIELD_CONTACT) {
-    draw_surface_field(section, seal, shape, ax, bx, ay, by, least, greatest);
-  }
-  for (size_t i = 0; i < corners; i++) {
-    int node = shape->triangle[i];
-    double x = shape->place[2 * node];
-    double y = shape->place[2 * node + 1];
-    point[i] = (SbDrawPoint){(float)(ax + bx * x), (float)(ay + by * y)};
-    scalar[i] = shape->field[field][node];
-  }
-  if (field != SB_FIELD_CONTACT) {
-    SbDrawItem *item = sb_draw_mesh(section->list, point, scalar, corners,
-                                    sign ? &palette->diverging : &palette->field, least, greatest);
-    item->isolines = ISOLINES;
-    item->width = 0.6f;
-    item->line_colour = palette->ink;
-    item->line_colour.a = 0.16f;
-  }
-  if (section->view->mesh) {
-    SbDrawColour line = palette->outline;
-    line.a = 0.35f;
-    for (size_t i = 0; i < corners; i += 3) {
-      sb_draw_stroke(section->list, point + i, 3, 0.6, line)->closed = true;
-    }
-  }
-  for (size_t i = 0; i < shape->outline; i++) {
-    int node = shape->outline_node[i];
-    double x = shape->place[2 * node];
-    double y = shape->place[2 * node + 1];
-    point[i] = (SbDrawPoint){(float)(ax + bx * x), (float)(ay + by * y)};
-  }
-  sb_draw_stroke(section->list, point, shape->outline, 1.8, palette->outline)->closed = true;
-}
-
-// The section of the free ring, where it lies when nothing holds it: its axis is the valve's, so
-// that it cuts into groove floor and bore by stretch and squeeze.
-static void draw_undeformed(SbSection *section, int seal, double ax, double bx, double ay,
-                            double by) {
-  const SbSealModel *model = &section->model.seal[seal];
-  enum { POINTS = 72 };
-  SbDrawPoint point[POINTS];
-  double radius = model->section_diameter / 2;
-  double middle = model->inner_diameter / 2 + radius - section->valve.floor;
-  for (int i = 0; i < POINTS; i++) {
-    double angle = 2 * G_PI * i / POINTS;
-    point[i] = (SbDrawPoint){(float)(ax + bx * radius * cos(angle)),
-                             (float)(ay + by * (middle + radius * sin(angle)))};
-  }
-  SbDrawItem *item = sb_draw_stroke(section->list, point, POINTS, 1.2, section->palette->ink);
-  item->closed = true;
-  item->dash = SB_DASH_REFERENCE;
-}
-
-static void draw_deformed(SbSection *section, int seal, double ax, double bx, double ay,
-                          double by) {
-  const SbPalette *palette = section->palette;
-  SbDrawList *list = section->list;
-  const SbSealShape *solved = section->instant->ring[seal];
-  if (solved != NULL) {
-    draw_solved_ring(section, seal, solved, ax, bx, ay, by);
-    return;
-  }
-  const SbRingShape *shape = &section->ring[seal];
-  SbDrawPoint points[SB_RING_POINTS];
-  for (size_t i = 0; i < shape->count; i++) {
-    points[i] = (SbDrawPoint){(float)(ax + bx * shape->x[i]), (float)(ay + by * shape->y[i])};
-  }
-  SbDrawColour fill = sb_draw_mix(palette->panel, palette->seal[seal], palette->dark ? 0.42 : 0.34);
-  sb_draw_fill(list, points, shape->count, fill)->feather = false;
-  sb_draw_stroke(list, points, shape->count, 1.8, palette->outline)->closed = true;
-}
-
-void sb_section_draw_ring(SbSection *section, int seal, double ax, double bx, double ay,
-                          double by) {
-  draw_deformed(section, seal, ax, bx, ay, by);
-  if (section->view->undeformed) {
-    draw_undeformed(section, seal, ax, bx, ay, by);
-  }
-}
-
 // Fluid behind everything: tinted by pressure, changing at the sealing contacts.
 static void draw_fluid(SbSection *section) {
   const SbFrame *frame = section->instant->frame;
@@ -417,7 +265,7 @@ static void draw_solid(SbSection *section, const SbSectionFrameMap *map, const S
 }
 
 static SbDrawHatch hatch(SbDrawColour colour, double lean, double offset) {
-  return (SbDrawHatch){colour, 11.0f, 0.7f, (float)lean, (float)offset};
+  return sb_draw_hatch(colour, SB_HATCH_PITCH, SB_HATCH_WIDTH, lean, offset);
 }
 
 // Above a housing of known shape nothing is known: no fluid, no wall.
@@ -470,6 +318,10 @@ static bool shows_both_halves(const SbSectionView *view) {
   return view->full && view->zoom == SB_SECTION_WHOLE;
 }
 
+const SbCutaway *sb_section_cutaway(const SbSection *section) {
+  return section->cutaway;
+}
+
 void sb_section_draw_strip(SbSection *section) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
@@ -487,7 +339,8 @@ void sb_section_draw_strip(SbSection *section) {
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     SbDrawPoint origin =
         sb_section_at(section, sb_section_origin(section, i), section->valve.floor);
-    sb_section_draw_ring(section, i, origin.x, section->scale, origin.y, -section->scale);
+    const SbSectionPlane plane = {origin.x, section->scale, 0, origin.y, 0, -section->scale};
+    sb_section_draw_ring(section, i, &plane);
     const SbRingShape *ring = &section->ring[i];
     if (frame->seal[i].land_fraction > 0 && ring->contact_right > ring->contact_left) {
       double left = sb_section_origin(section, i) + ring->contact_left;
@@ -520,6 +373,16 @@ typedef struct {
 static const double COLUMN_LEAST = 860, LEGENDS = 232, COLUMN_GAP = 48, SCALE_ROW = 34,
                     STACK_GAP = 46;
 
+// The cutaway has the panel for itself.
+static void lay_out_cutaway(SbSection *section, const Layout *layout, double bottom) {
+  const SbSectionView *view = section->view;
+  double left = layout->margin + (layout->column ? LEGENDS + COLUMN_GAP / 2 : 0);
+  double top = layout->top + (layout->column ? 0 : 66);
+  section->strip =
+      (SbDrawRect){(float)left, (float)top, (float)fmax(view->width - layout->margin - left, 1),
+                   (float)fmax(bottom - top, 1)};
+}
+
 // One seal's surroundings, from below the groove floor to above the land.
 static void lay_out_zoom(SbSection *section, const Layout *layout, double bottom) {
   const SbSectionView *view = section->view;
@@ -546,6 +409,10 @@ static void lay_out(SbSection *section, Layout *layout) {
   layout->column = view->width - 2 * margin >= COLUMN_LEAST;
   layout->legend_width = layout->column ? LEGENDS : MIN(LEGENDS, view->width / 2 - margin - 12);
   double bottom = view->height - margin - SCALE_ROW + 8;
+  if (view->cutaway) {
+    lay_out_cutaway(section, layout, bottom);
+    return;
+  }
   if (view->zoom != SB_SECTION_WHOLE) {
     lay_out_zoom(section, layout, bottom);
     return;
@@ -557,7 +424,7 @@ static void lay_out(SbSection *section, Layout *layout) {
   double left = MIN(valve->nose - model->stroke, valve->face);
   double right = valve->end + RIGHT_ROOM * model->bore_diameter;
   double scale = (strip_width - left_room) / (right - left);
-  double radius = TOP * model->bore_diameter * (view->full ? 2 : 1);
+  double radius = SB_SECTION_TOP * model->bore_diameter * (view->full ? 2 : 1);
   // A low picture gives the insets at least 130 px of the strip's height, then none. A high narrow
   // one stacks them, and what it cannot use stays free below.
   double titles = layout->column ? 22 : 82, gap = 30;
@@ -596,6 +463,15 @@ void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *
   Layout layout = {0};
   lay_out(section, &layout);
   shape_rings(section);
+  if (view->cutaway) {
+    if (section->cutaway == NULL) {
+      section->cutaway = sb_cutaway_create(&section->model, section->limits.inner_contact_left);
+    }
+    sb_cutaway_draw(section->cutaway, section);
+    sb_section_draw_legends(section, layout.margin, layout.top, layout.legend_width);
+    section->list = NULL;
+    return;
+  }
   sb_section_draw_strip(section);
   double x = layout.margin + (layout.column ? layout.legend_width + COLUMN_GAP : 0);
   double gap = 24;

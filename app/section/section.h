@@ -3,7 +3,8 @@
 // Canister on the left, axis at the bottom, housing at rest. The valve strip is to scale in both
 // directions; the two insets zoom onto one seal's contact (pressure over the bore; film on a scale
 // of nanometres with the exaggeration written on it). Without a ring mesh the rings are the
-// schematic shapes of ring_shape.h and say so.
+// schematic shapes of ring_shape.h and say so. In place of the strip it shows the valve in three
+// dimensions (cutaway.h).
 #pragma once
 
 #include "app/section/draw_list.h"
@@ -36,11 +37,14 @@ typedef struct {
   bool hide_insets, hide_forces, hide_labels;
   int inset_seal; // SB_OUTER or SB_INNER
   SbSectionZoom zoom;
-  bool full;        // both halves; not when zoomed
-  SbField field;    // shown on solved rings
-  double field_max; // end of its colours [Pa], 0: the limits'; not for displacement
-  bool undeformed;  // the rings' outline before fitting, dashed
-  bool mesh;        // the elements' edges of solved rings
+  bool full;    // both halves; not when zoomed
+  bool cutaway; // in three dimensions with a quarter cut away; neither zoomed nor with insets
+  double azimuth, elevation; // of its camera, see sb_orbit() [rad]
+  double magnify;            // of the cutaway, 0 counts as 1
+  SbField field;             // shown on solved rings
+  double field_max;          // end of its colours [Pa], 0: the limits'; not for displacement
+  bool undeformed;           // the rings' outline before fitting, dashed
+  bool mesh;                 // the elements' edges of solved rings
 } SbSectionView;
 
 // The instant to draw; everything borrowed. profile and ring may hold NULL; without a solved shape

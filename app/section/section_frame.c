@@ -89,7 +89,8 @@ static void draw_title(SbSection *section, double x, double y) {
   char text[160], time[SB_SECTION_NUMBER];
   sb_section_fixed(time, frame->time, 2);
   if (!section->view->read_outs) {
-    sb_draw_text(list, x, y + 14, SB_TYPE_PANEL, 700, SB_ALIGN_LEFT, palette->ink, "Axial section");
+    sb_draw_text(list, x, y + 14, SB_TYPE_PANEL, 700, SB_ALIGN_LEFT, palette->ink,
+                 section->view->cutaway ? "Cutaway" : "Axial section");
     snprintf(text, sizeof text, "stem and seals at %s s, housing at rest", time);
     sb_draw_text(list, x, y + 34, 12, 400, SB_ALIGN_LEFT, palette->second, text);
     return;
@@ -123,7 +124,7 @@ void sb_section_draw_legends(SbSection *section, double x, double y, double widt
   most *= sb_section_field_scale(view->field);
   const SbDrawMap *map = view->field == SB_FIELD_SHEAR ? &palette->diverging : &palette->field;
   bool column = view->width - 2 * x >= 860;
-  bool zoom = view->zoom != SB_SECTION_WHOLE;
+  bool zoom = view->cutaway || view->zoom != SB_SECTION_WHOLE;
   double low = zoom ? view->height - x : (double)section->strip.y - 10;
   draw_title(section, x, y);
   double fluid_full = SB_PALETTE_FLUID_FULL * 1e-6;

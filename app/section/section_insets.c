@@ -64,7 +64,8 @@ static void frame_inset(SbSection *section, const Inset *inset, int seal) {
 static void hatch_rect(SbSection *section, double x, double y, double width, double height) {
   SbDrawItem *item = sb_draw_rect(section->list, x, y, width, height, section->palette->housing);
   item->feather = false;
-  item->hatch = (SbDrawHatch){section->palette->housing_hatch, 11.0f, 0.7f, 1.0f, 0.0f};
+  item->hatch =
+      sb_draw_hatch(section->palette->housing_hatch, SB_HATCH_PITCH, SB_HATCH_WIDTH, 1, 0);
 }
 
 static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
@@ -91,8 +92,10 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
       sb_section_frame_map(inset_x(inset, -sb_section_origin(section, seal)),
                            bore + section->valve.bore * inset->scale, inset->scale, rect);
   sb_section_draw_housing(section, &map);
-  sb_section_draw_ring(section, seal, inset_x(inset, 0), inset->scale,
-                       bore + section->model.radial_space * inset->scale, -inset->scale);
+  const SbSectionPlane plane = {
+      inset_x(inset, 0), inset->scale, 0, bore + section->model.radial_space * inset->scale, 0,
+      -inset->scale};
+  sb_section_draw_ring(section, seal, &plane);
 
   // Pressure rises from the bore line into the housing.
   double px = (bore - rect->y - 34) / fmax(section->limits.pressure_max, 1);

@@ -7,6 +7,12 @@
 
 enum { SB_SECTION_PLACED_MAX = 64 };
 
+// Of the parts [px].
+#define SB_HATCH_PITCH 11.0
+#define SB_HATCH_WIDTH 0.7
+
+typedef struct SbCutaway SbCutaway;
+
 struct SbSection {
   SbModel model;
   SbSectionLimits limits;
@@ -16,6 +22,7 @@ struct SbSection {
   size_t scratch_size; // of a mesh's corners
   SbDrawPoint *scratch;
   float *scratch_scalar;
+  SbCutaway *cutaway; // NULL before the first
   // The drawing in hand.
   SbDrawList *list;
   const SbSectionView *view;
@@ -55,6 +62,9 @@ bool sb_section_label_fits(SbSection *section, double x, double y, const SbSecti
 // Reserves a rectangle.
 void sb_section_reserve(SbSection *section, double x, double y, double width, double height);
 
+// Radius drawn above the axis [m per m of bore diameter].
+#define SB_SECTION_TOP 0.79
+
 // Parts of the picture.
 void sb_section_draw_strip(SbSection *section);
 void sb_section_draw_strip_labels(SbSection *section);
@@ -77,8 +87,15 @@ void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map);
 void sb_section_field_limits(const SbSection *section, SbField field, double *least,
                              double *greatest);
 
-// Fill of seal i's ring from its outline mapped by x -> ax + bx x, y -> ay + by y, and its outline.
-void sb_section_draw_ring(SbSection *section, int seal, double ax, double bx, double ay, double by);
+// A plane of the picture: point (x, y) [m] lies at pixel x0 + xx x + xy y, y0 + yx x + yy y.
+typedef struct {
+  double x0, xx, xy, y0, yx, yy;
+} SbSectionPlane;
+
+SbDrawPoint sb_section_plane_at(const SbSectionPlane *plane, double x, double y);
+
+// Seal i's ring, its own frame in `plane`.
+void sb_section_draw_ring(SbSection *section, int seal, const SbSectionPlane *plane);
 
 // Numbers as the look wants them: three digits (two below ten for forces), true minus, thin-space
 // thousands, "0" for zero; with the unit. The buffer holds at least SB_SECTION_NUMBER bytes.

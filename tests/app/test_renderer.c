@@ -117,8 +117,9 @@ typedef struct {
   double displacement;
   bool dark;
   SbSectionZoom zoom;
-  bool full, undeformed, solved;
+  bool full, undeformed, solved, cutaway;
   SbField field;
+  double turned; // of the cutaway's camera [rad]
 } Golden;
 
 static void draw_list_as(SbDrawList *list, const Scene *scene, const Golden *how);
@@ -146,6 +147,9 @@ static void draw_list_as(SbDrawList *list, const Scene *scene, const Golden *how
                         .zoom = how->zoom,
                         .full = how->full,
                         .undeformed = how->undeformed,
+                        .cutaway = how->cutaway,
+                        .azimuth = (how->dark ? 0.6 : -0.52) + how->turned,
+                        .elevation = 0.35,
                         .field = how->field};
   SbSectionInstant instant = {.frame = &scene->frame,
                               .profile = {&scene->profile[0], &scene->profile[1]}};
@@ -183,9 +187,12 @@ static void test_backends(void) {
   make_scene(&scene, 2.15e-3, 0.37e-3);
   SbDrawList list;
   sb_draw_list_init(&list);
-  for (int i = 0; i < 3; i++) {
-    draw_list(&list, &scene, i == 1, i == 2 ? SB_SECTION_ZOOM_OUTER : SB_SECTION_WHOLE);
-    double scale = i == 1 ? 1.5 : 1;
+  for (int i = 0; i < 5; i++) {
+    Golden how = {.dark = i == 1 || i == 4,
+                  .zoom = i == 2 ? SB_SECTION_ZOOM_OUTER : SB_SECTION_WHOLE,
+                  .cutaway = i >= 3};
+    draw_list_as(&list, &scene, &how);
+    double scale = i == 1 || i == 4 ? 1.5 : 1;
     cairo_surface_t *osmesa = render(SB_GL_OSMESA, &list, scale);
     cairo_surface_t *egl = render(SB_GL_EGL, &list, scale);
     if (osmesa == NULL || egl == NULL) {
@@ -224,6 +231,19 @@ static const Golden goldens[] = {
      .zoom = SB_SECTION_ZOOM_OUTER,
      .solved = true,
      .field = SB_FIELD_CONTACT},
+    {.name = "section-pressure-dark",
+     .displacement = 2.15e-3,
+     .dark = true,
+     .zoom = SB_SECTION_ZOOM_OUTER,
+     .solved = true,
+     .field = SB_FIELD_CONTACT},
+    {.name = "section-full-dark",
+     .displacement = 5.5e-3,
+     .dark = true,
+     .full = true,
+     .solved = true},
+    {.name = "cutaway", .displacement = 2.15e-3, .solved = true, .cutaway = true},
+    {.name = "cutaway-dark", .displacement = 5.5e-3, .dark = true, .cutaway = true},
 };
 
 static void test_golden(void) {
@@ -239,10 +259,12 @@ static void test_golden(void) {
     g_assert_nonnull(picture);
     picture_check(picture, golden->name);
     cairo_surface_destroy(picture);
-    // A contact wider by a hundredth of a millimetre.
+    // A contact wider by a hundredth of a millimetre, and a camera half a degree beside.
     make_scene(&scene, golden->displacement, 0.375e-3);
     make_shape(&scene, 0.87e-3);
-    draw_list_as(&list, &scene, golden);
+    Golden beside = *golden;
+    beside.turned = 0.009;
+    draw_list_as(&list, &scene, &beside);
     picture = render(SB_GL_AUTO, &list, 1);
     g_assert_true(picture_rejects(picture, golden->name));
     cairo_surface_destroy(picture);

@@ -1,0 +1,547 @@
+// The cutaway: outlines of the section's own parts turned about the axis (revolve.h), painted back
+// to front as shaded cells and edges, and the cut faces as the section paints them. The projection
+// is parallel, so that lengths along one direction keep their scale.
+//
+// The fluid is a tint on the cut faces only. A housing without
+// a shape of its own ends where the section is cut off above, and its rod ends somewhere; the vent
+// is drawn on the upper face, though the section shows it as a gap. Labels stand above and below
+// the valve, each with a line to its part.
+#include "app/section/cutaway.h"
+
+#include "app/section/section_private.h"
+
+#include <glib.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  RING_POINTS = 72,                    // at most, of a ring's turned outline
+  CONTOUR_MAX = 2 * SB_OUTLINE_MAX + 4 // of a part on a cut face
+};
+
+// [m per m of bore diameter]: rod beyond the housing at full stroke, chamfer outside.
+static const double ROD = 0.3, CHAMFER = 0.05;
+
+static const double EDGE_WIDTH = 1.3, FACE_WIDTH = 1.8;
+// Of the tint from this gauge pressure [Pa] on; what has none is clear.
+static const double FLUID_OPACITY = 0.72, FLUID_FULL = 0.2e6;
+
+struct SbCutaway {
+  SbRevolve revolve;
+  SbValve valve; // whole: the section's has its housing cut in two by the vent
+  // Rings of this instant in the housing's frame, counterclockwise.
+  size_t ring_count[SB_SEAL_COUNT];
+  SbValvePoint ring[SB_SEAL_COUNT][RING_POINTS];
+  double top, bottom;     // of the valve in the picture at any stroke [px]
+  GArray *point, *scalar; // of cells on their way to the list
+};
+
+// A housing without a shape of its own ends at a cylinder with broken edges.
+static void finish_housing(SbValveSolid *housing, double radius, double chamfer) {
+  SbValveSolid plain = *housing;
+  housing->count = 0;
+  for (size_t i = 0; i < plain.count; i++) {
+    SbValvePoint p = plain.point[i];
+    if (p.y < radius) {
+      housing->point[housing->count++] = p;
+    }
+  }
+  SbValvePoint first = plain.point[0], last = plain.point[plain.count - 1];
+  const SbValvePoint end[4] = {{last.x, radius - chamfer},
+                               {last.x - chamfer, radius},
+                               {first.x + chamfer, radius},
+                               {first.x, radius - chamfer}};
+  memcpy(housing->point + housing->count, end, sizeof end);
+  housing->count += 4;
+}
+
+SbCutaway *sb_cutaway_create(const SbModel *model, double inner_contact_left) {
+  SbCutaway *cutaway = g_new0(SbCutaway, 1);
+  sb_revolve_init(&cutaway->revolve);
+  cutaway->point = g_array_new(FALSE, FALSE, sizeof(SbDrawPoint));
+  cutaway->scalar = g_array_new(FALSE, FALSE, sizeof(float));
+  SbModel *whole = g_new(SbModel, 1);
+  *whole = *model;
+  whole->shape.vent_diameter = 0;
+  double bore = model->bore_diameter;
+  double radius = fmax(SB_SECTION_TOP * bore, model->shape.entry_diameter / 2 + 0.12 * bore);
+  SbValve *valve = &cutaway->valve;
+  sb_valve_make(valve, whole, inner_contact_left, radius);
+  g_free(whole);
+  if (!valve->shaped_housing) {
+    finish_housing(&valve->solid[0], radius, CHAMFER * bore);
+  }
+  // The rod that goes on and on ends here.
+  double end = valve->end + model->stroke + ROD * bore;
+  for (size_t i = 0; i < valve->solid_count && !model->outlines.stem; i++) {
+    SbValveSolid *solid = &valve->solid[i];
+    for (size_t k = 0; solid->moves && k < solid->count; k++) {
+      solid->point[k].x = fmin(solid->point[k].x, end);
+    }
+  }
+  return cutaway;
+}
+
+void sb_cutaway_destroy(SbCutaway *cutaway) {
+  if (cutaway == NULL) {
+    return;
+  }
+  sb_revolve_finish(&cutaway->revolve);
+  g_array_free(cutaway->point, TRUE);
+  g_array_free(cutaway->scalar, TRUE);
+  g_free(cutaway);
+}
+
+const SbRevolve *sb_cutaway_revolve(const SbCutaway *cutaway) {
+  return &cutaway->revolve;
+}
+
+// Outlines ---------------------------------------------------------------------------------------
+
+// A solid's points where they are now. Returns the count.
+static size_t outline_solid(const SbValveSolid *solid, double displacement, SbValvePoint *out) {
+  double shift = solid->moves ? displacement : 0;
+  for (size_t i = 0; i < solid->count; i++) {
+    out[i] = (SbValvePoint){solid->point[i].x - shift, solid->point[i].y};
+  }
+  return solid->count;
+}
+
+static void outline_ring(SbCutaway *cutaway, const SbSection *section, int seal) {
+  double x0 = sb_section_origin(section, seal), y0 = section->valve.floor;
+  const SbSealShape *solved = section->instant->ring[seal];
+  const SbRingShape *shape = &section->ring[seal];
+  size_t all = solved != NULL ? solved->outline : shape->count;
+  size_t count = MIN(all, (size_t)RING_POINTS);
+  SbValvePoint *out = cutaway->ring[seal];
+  double twice = 0;
+  for (size_t i = 0; i < count; i++) {
+    size_t from = i * all / count;
+    if (solved != NULL) {
+      size_t node = (size_t)solved->outline_node[from];
+      out[i] = (SbValvePoint){x0 + solved->place[2 * node], y0 + solved->place[2 * node + 1]};
+    } else {
+      out[i] = (SbValvePoint){x0 + shape->x[from], y0 + shape->y[from]};
+    }
+    if (i > 0) {
+      twice += (out[i - 1].x - x0) * (out[i].y - y0) - (out[i].x - x0) * (out[i - 1].y - y0);
+    }
+  }
+  for (size_t i = 0; twice < 0 && i < count / 2; i++) {
+    SbValvePoint swap = out[i];
+    out[i] = out[count - 1 - i];
+    out[count - 1 - i] = swap;
+  }
+  cutaway->ring_count[seal] = count;
+}
+
+// The largest picture of housing and stem at every stroke that the strip holds, in its middle.
+static void place_camera(SbCutaway *cutaway, const SbSection *section, const SbOrbit *orbit,
+                         double *scale, double *x0, double *y0) {
+  const SbValve *valve = &cutaway->valve;
+  const SbDrawRect *strip = &section->strip;
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  const double *axis[2] = {orbit->right, orbit->up};
+  for (size_t k = 0; k < valve->solid_count; k++) {
+    const SbValveSolid *solid = &valve->solid[k];
+    double stroke = solid->moves ? section->model.stroke : 0;
+    for (size_t j = 0; j < solid->count; j++) {
+      SbValvePoint p = solid->point[j];
+      for (int i = 0; i < 2; i++) {
+        double reach = p.y * hypot(axis[i][1], axis[i][2]);
+        double at_rest = axis[i][0] * p.x, pressed = axis[i][0] * (p.x - stroke);
+        low[i] = fmin(low[i], fmin(at_rest, pressed) - reach);
+        high[i] = fmax(high[i], fmax(at_rest, pressed) + reach);
+      }
+    }
+  }
+  double labels = section->view->hide_labels ? 0 : 26;
+  double width = (double)strip->width - 12, height = (double)strip->height - 12 - 2 * labels;
+  *scale = fmax(fmin(width / (high[0] - low[0]), height / (high[1] - low[1])), 1);
+  *scale *= section->view->magnify > 0 ? section->view->magnify : 1;
+  *x0 = (double)(strip->x + strip->width / 2) - *scale * (low[0] + high[0]) / 2;
+  *y0 = (double)(strip->y + strip->height / 2) + *scale * (low[1] + high[1]) / 2;
+  cutaway->top = *y0 - *scale * high[1];
+  cutaway->bottom = *y0 - *scale * low[1];
+}
+
+// Surfaces and edges -----------------------------------------------------------------------------
+
+static void flush_cells(SbCutaway *cutaway, SbSection *section, SbRevolveBody solid) {
+  const SbPalette *palette = section->palette;
+  const SbDrawMap *const map[SB_REVOLVE_COUNT] = {
+      [SB_REVOLVE_HOUSING] = &palette->housing_shade,
+      [SB_REVOLVE_STEM] = &palette->stem_shade,
+      [SB_REVOLVE_OUTER] = &palette->seal_shade[SB_OUTER],
+      [SB_REVOLVE_INNER] = &palette->seal_shade[SB_INNER],
+  };
+  if (cutaway->point->len > 0) {
+    sb_draw_mesh(section->list, (const SbDrawPoint *)(const void *)cutaway->point->data,
+                 (const float *)(const void *)cutaway->scalar->data, cutaway->point->len,
+                 map[solid], 0, 1)
+        ->shaded = true;
+  }
+  g_array_set_size(cutaway->point, 0);
+  g_array_set_size(cutaway->scalar, 0);
+}
+
+static void paint_cells(SbCutaway *cutaway, SbSection *section, const SbRevolveStep *step) {
+  static const int corner[6] = {0, 1, 2, 0, 2, 3};
+  SbRevolveBody solid = SB_REVOLVE_HOUSING;
+  for (size_t i = 0; i < step->count; i++) {
+    const SbRevolveCell *cell =
+        &g_array_index(cutaway->revolve.cell, SbRevolveCell, step->first + i);
+    if (cell->solid != solid) {
+      flush_cells(cutaway, section, solid);
+      solid = cell->solid;
+    }
+    for (int k = 0; k < 6; k++) {
+      SbDrawPoint point = {cell->x[corner[k]], cell->y[corner[k]]};
+      g_array_append_val(cutaway->point, point);
+      g_array_append_val(cutaway->scalar, cell->shade[corner[k]]);
+    }
+  }
+  flush_cells(cutaway, section, solid);
+}
+
+static void paint_edges(SbCutaway *cutaway, SbSection *section, const SbRevolveStep *step) {
+  for (size_t i = 0; i < step->count; i++) {
+    const SbRevolveEdge *edge =
+        &g_array_index(cutaway->revolve.edge, SbRevolveEdge, step->first + i);
+    float x = (float)(EDGE_WIDTH / 2) * edge->out_x, y = (float)(EDGE_WIDTH / 2) * edge->out_y;
+    sb_draw_line(section->list, edge->x[0] + x, edge->y[0] + y, edge->x[1] + x, edge->y[1] + y,
+                 EDGE_WIDTH, section->palette->outline);
+  }
+}
+
+// Cut faces --------------------------------------------------------------------------------------
+
+// The plane of a cut face, (z, r) of the housing's frame.
+static SbSectionPlane plane_of(const SbRevolve *revolve, int face) {
+  double angle = sb_revolve_face_angle(face);
+  const double *right = revolve->orbit.right, *up = revolve->orbit.up;
+  double c = cos(angle), s = sin(angle);
+  return (SbSectionPlane){
+      revolve->x0, revolve->scale * right[0], revolve->scale * (right[1] * c + right[2] * s),
+      revolve->y0, -revolve->scale * up[0],   -revolve->scale * (up[1] * c + up[2] * s)};
+}
+
+// The section's hatch, lying in the face: lines z - lean r = start + n pitch sqrt(2).
+static void hatch_on(SbDrawItem *item, const SbSectionPlane *plane, double scale,
+                     SbDrawColour colour, double lean, double start) {
+  item->feather = false;
+  double det = plane->xx * plane->yy - plane->xy * plane->yx;
+  if (fabs(det) < 0.02 * scale * scale) {
+    return; // seen along the face
+  }
+  // Gradient over the picture of the distance across the lines, in pixels of the face's own scale.
+  double gx = scale * M_SQRT1_2 * (plane->yy + lean * plane->yx) / det;
+  double gy = scale * M_SQRT1_2 * (-plane->xy - lean * plane->xx) / det;
+  double steep = hypot(gx, gy);
+  double nx = gx / steep, ny = gy / steep;
+  double offset = scale * M_SQRT1_2 * start / steep + nx * plane->x0 + ny * plane->y0;
+  item->hatch = (SbDrawHatch){
+      colour,       (float)(SB_HATCH_PITCH / steep), (float)SB_HATCH_WIDTH, (float)nx, (float)ny,
+      (float)offset};
+}
+
+// Contour of the housing's inside with both ends on the axis, from `left` to `right`.
+static size_t inside(const SbValve *valve, double left, double right, SbValvePoint *out) {
+  const SbOutlineSurface *surface = &valve->housing;
+  const double beside = 1e-9 * (right - left);
+  size_t n = 0;
+  out[n++] = (SbValvePoint){left, 0};
+  out[n++] = (SbValvePoint){left, sb_valve_bore_at(valve, left + beside)};
+  for (size_t i = 0; i < surface->count; i++) {
+    if (surface->x[i] > left + beside && surface->x[i] < right - beside) {
+      out[n++] = (SbValvePoint){surface->x[i], surface->low_left[i]};
+      out[n++] = (SbValvePoint){surface->x[i], surface->low_right[i]};
+    }
+  }
+  out[n++] = (SbValvePoint){right, sb_valve_bore_at(valve, right - beside)};
+  out[n++] = (SbValvePoint){right, 0};
+  for (size_t i = 0; i < n; i++) {
+    out[i].y = isfinite(out[i].y) ? fmax(out[i].y, 0) : 0;
+  }
+  return n;
+}
+
+static size_t map_points(const SbSectionPlane *plane, const SbValvePoint *points, size_t count,
+                         SbDrawPoint *out) {
+  for (size_t i = 0; i < count; i++) {
+    out[i] = sb_section_plane_at(plane, points[i].x, points[i].y);
+  }
+  return count;
+}
+
+// Fluid in the housing by pressure, changing at the sealing contacts as in the section.
+static void paint_fluid(const SbCutaway *cutaway, SbSection *section, const SbSectionPlane *plane) {
+  const SbValve *valve = &cutaway->valve;
+  const SbFrame *frame = section->instant->frame;
+  double edge[4] = {valve->face, 0, 0, valve->end};
+  const int seals[2] = {SB_INNER, SB_OUTER};
+  for (int i = 0; i < 2; i++) {
+    const SbSealFrame *seal = &frame->seal[seals[i]];
+    double split =
+        sb_section_origin(section, seals[i]) + (seal->contact_left + seal->contact_right) / 2;
+    edge[i + 1] = CLAMP(split, edge[i], valve->end);
+  }
+  const double pressure[3] = {frame->seal[SB_INNER].pressure_left,
+                              frame->seal[SB_OUTER].pressure_left,
+                              frame->seal[SB_OUTER].pressure_right};
+  for (int i = 0; i < 3; i++) {
+    SbValvePoint contour[CONTOUR_MAX];
+    SbDrawPoint pixel[CONTOUR_MAX];
+    if (edge[i + 1] <= edge[i]) {
+      continue;
+    }
+    size_t count = inside(valve, edge[i], edge[i + 1], contour);
+    SbDrawColour colour = sb_palette_fluid(section->palette, pressure[i]);
+    colour.a = (float)(FLUID_OPACITY * sqrt(CLAMP(pressure[i] / FLUID_FULL, 0, 1)));
+    sb_draw_fill(section->list, pixel, map_points(plane, contour, count, pixel), colour);
+  }
+}
+
+// The port on the upper face, as the section shows it.
+static void paint_vent(SbSection *section, const SbCutaway *cutaway, const SbSectionPlane *plane) {
+  const SbValve *valve = &section->valve;
+  double low, high;
+  if (valve->vent_right <= valve->vent_left ||
+      !sb_outline_radii(&low, &high, &cutaway->valve.housing,
+                        (valve->vent_left + valve->vent_right) / 2)) {
+    return;
+  }
+  const SbValvePoint corner[4] = {{valve->vent_left, low},
+                                  {valve->vent_right, low},
+                                  {valve->vent_right, high},
+                                  {valve->vent_left, high}};
+  SbDrawPoint pixel[4];
+  map_points(plane, corner, 4, pixel);
+  double ambient = (double)section->instant->frame->seal[SB_OUTER].pressure_right;
+  sb_draw_fill(section->list, pixel, 4, sb_palette_fluid(section->palette, ambient))->feather =
+      false;
+  const SbDrawPoint side[2][2] = {{pixel[0], pixel[3]}, {pixel[1], pixel[2]}};
+  for (int i = 0; i < 2; i++) {
+    sb_draw_stroke(section->list, side[i], 2, FACE_WIDTH, section->palette->outline);
+  }
+}
+
+static void paint_face(SbCutaway *cutaway, SbSection *section, int face) {
+  const SbPalette *palette = section->palette;
+  SbDrawList *list = section->list;
+  SbSectionPlane plane = plane_of(&cutaway->revolve, face);
+  double scale = cutaway->revolve.scale;
+  paint_fluid(cutaway, section, &plane);
+
+  double s = sb_section_displacement(section);
+  for (size_t i = 0; i < cutaway->valve.solid_count; i++) {
+    const SbValveSolid *solid = &cutaway->valve.solid[i];
+    SbValvePoint point[SB_VALVE_POINTS_MAX];
+    SbDrawPoint pixel[SB_VALVE_POINTS_MAX];
+    size_t count = map_points(&plane, point, outline_solid(solid, s, point), pixel);
+    SbDrawItem *item =
+        sb_draw_fill(list, pixel, count, solid->moves ? palette->stem : palette->housing);
+    hatch_on(item, &plane, scale, solid->moves ? palette->stem_hatch : palette->housing_hatch,
+             solid->moves ? -1 : 1, solid->moves ? -s : 0);
+    sb_draw_stroke(list, pixel, count, FACE_WIDTH, palette->outline)->closed = true;
+    if (face == 0 && !solid->moves) {
+      paint_vent(section, cutaway, &plane);
+    }
+  }
+
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    // The ring's own frame in this plane.
+    SbDrawPoint origin =
+        sb_section_plane_at(&plane, sb_section_origin(section, i), section->valve.floor);
+    SbSectionPlane own = plane;
+    own.x0 = (double)origin.x;
+    own.y0 = (double)origin.y;
+    sb_section_draw_ring(section, i, &own);
+    const SbRingShape *ring = &section->ring[i];
+    if (section->instant->frame->seal[i].land_fraction > 0 &&
+        ring->contact_right > ring->contact_left) {
+      double height = section->valve.bore - section->valve.floor;
+      SbDrawPoint a = sb_section_plane_at(&own, ring->contact_left, height);
+      SbDrawPoint b = sb_section_plane_at(&own, ring->contact_right, height);
+      sb_draw_line(list, a.x, a.y, b.x, b.y, 4, palette->seal[i]);
+    }
+  }
+}
+
+// Labels -----------------------------------------------------------------------------------------
+
+typedef struct {
+  char text[96];
+  SbDrawColour colour;
+  SbDrawPoint at; // what it names
+  double x, half; // middle and half width
+} Callout;
+
+enum { CALLOUTS_MAX = 6, PASSES = 40 };
+
+static void name_point(Callout *callouts, size_t *count, SbDrawPoint at, SbDrawColour colour,
+                       const char *text) {
+  Callout *callout = &callouts[(*count)++];
+  *callout = (Callout){.colour = colour, .at = at, .x = (double)at.x};
+  g_strlcpy(callout->text, text, sizeof callout->text);
+}
+
+static int from_left(const void *a, const void *b) {
+  const Callout *x = a, *y = b;
+  return (x->at.x > y->at.x) - (x->at.x < y->at.x);
+}
+
+// One row of labels in the order of their points, each as near to its own as the others let it, and
+// a line from each. A row that is too long is left out.
+static void draw_row(const SbCutaway *cutaway, SbSection *section, Callout *callouts, size_t count,
+                     bool above) {
+  const SbDrawRect *strip = &section->strip;
+  const double gap = 14;
+  double left = (double)strip->x, right = (double)(strip->x + strip->width), total = 0;
+  for (size_t i = 0; i < count; i++) {
+    callouts[i].half = sb_text_width(section->text, callouts[i].text, 12, 600) / 2;
+    total += 2 * callouts[i].half + gap;
+  }
+  if (total > right - left) {
+    return;
+  }
+  qsort(callouts, count, sizeof *callouts, from_left);
+  for (int pass = 0; pass < PASSES; pass++) {
+    for (size_t i = 0; i < count; i++) {
+      Callout *one = &callouts[i], *two = one + 1;
+      one->x = CLAMP(one->x, left + one->half, right - one->half);
+      if (i + 1 < count && two->x - one->x < one->half + two->half + gap) {
+        double apart = (one->half + two->half + gap - (two->x - one->x)) / 2;
+        one->x -= apart;
+        two->x += apart;
+      }
+    }
+  }
+  double y = above ? fmax((double)strip->y + 14, cutaway->top - 24)
+                   : fmin((double)(strip->y + strip->height) - 6, cutaway->bottom + 30);
+  double from = above ? y + 5 : y - 14;
+  for (size_t i = 0; i < count; i++) {
+    const Callout *it = &callouts[i];
+    sb_draw_line(section->list, it->x, from, it->at.x, it->at.y, 1, it->colour);
+    sb_draw_disc(section->list, it->at.x, it->at.y, 3.2, section->palette->panel);
+    sb_draw_disc(section->list, it->at.x, it->at.y, 2.2, it->colour);
+    sb_draw_text(section->list, it->x, y, 12, 600, SB_ALIGN_CENTRE, it->colour, it->text);
+  }
+}
+
+// Names of what the cut faces show, while the camera looks into the open quarter.
+static void paint_labels(SbCutaway *cutaway, SbSection *section) {
+  const SbPalette *palette = section->palette;
+  const SbValve *valve = &section->valve;
+  const SbFrame *frame = section->instant->frame;
+  const double *toward = cutaway->revolve.orbit.toward;
+  bool looks_in = toward[1] > 0.3 && fabs(toward[2]) < 1.1 * toward[1];
+  if (!looks_in || section->view->magnify > 1) {
+    return;
+  }
+  SbSectionPlane upper = plane_of(&cutaway->revolve, 0), lower = plane_of(&cutaway->revolve, 1);
+  Callout row[CALLOUTS_MAX];
+  size_t count = 0;
+  double s = frame->displacement;
+  char text[96], value[SB_SECTION_NUMBER];
+  static const char *const name[SB_SEAL_COUNT] = {
+      [SB_OUTER] = "Outer seal", [SB_INNER] = "Inner seal"};
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    bool free = frame->seal[i].land_fraction <= 0;
+    snprintf(text, sizeof text, "%s%s", name[i], free ? ", off the land" : "");
+    double x = sb_section_origin(section, i);
+    name_point(row, &count, sb_section_plane_at(&upper, x, (valve->floor + valve->bore) / 2),
+               palette->seal[i], text);
+  }
+  double end = valve->vent_right > valve->vent_left ? valve->vent_left : valve->end;
+  double place = fmax(end - 0.15 * section->model.bore_diameter, valve->face / 2);
+  double low, high;
+  if (sb_outline_radii(&low, &high, &cutaway->valve.housing, place)) {
+    name_point(row, &count, sb_section_plane_at(&upper, place, (low + high) / 2), palette->ink,
+               "Housing");
+  }
+  snprintf(text, sizeof text, "Chamber %s",
+           sb_section_megapascal(value, (double)frame->seal[SB_INNER].pressure_right));
+  double middle = (valve->chamber_floor + valve->land) / 2;
+  name_point(row, &count, sb_section_plane_at(&upper, valve->chamber - s, middle),
+             palette->fluid_line, text);
+  snprintf(text, sizeof text, "Canister %s",
+           sb_section_megapascal(value, (double)frame->seal[SB_INNER].pressure_left));
+  double mouth = 0.9 * valve->face;
+  double hole = sb_valve_bore_at(valve, mouth);
+  if (isfinite(hole)) {
+    name_point(row, &count, sb_section_plane_at(&upper, mouth, (hole + valve->land) / 2),
+               palette->fluid_line, text);
+  }
+  draw_row(cutaway, section, row, count, true);
+
+  count = 0;
+  name_point(row, &count,
+             sb_section_plane_at(&lower, valve->chamber - s, 0.5 * valve->chamber_floor),
+             palette->ink, "Stem");
+  draw_row(cutaway, section, row, count, false);
+}
+
+// Below the picture: what it is.
+static void paint_caption(SbSection *section) {
+  const SbSectionView *view = section->view;
+  double y = (double)(section->strip.y + section->strip.height) + 22;
+  bool schematic =
+      section->instant->ring[SB_OUTER] == NULL || section->instant->ring[SB_INNER] == NULL;
+  char azimuth[SB_SECTION_NUMBER], elevation[SB_SECTION_NUMBER], caption[200];
+  const char *const parts[3] = {"a quarter cut away, parallel projection",
+                                schematic ? "; rings: schematic shape" : "",
+                                view->undeformed ? "; dashed: rings before fitting" : ""};
+  snprintf(caption, sizeof caption, "%s%s%s; azimuth %s\xc2\xb0, elevation %s\xc2\xb0", parts[0],
+           parts[1], parts[2], sb_section_fixed(azimuth, view->azimuth * 180 / G_PI, 0),
+           sb_section_fixed(elevation, view->elevation * 180 / G_PI, 0));
+  if (sb_text_width(section->text, caption, 11, 400) > (double)section->strip.width) {
+    snprintf(caption, sizeof caption, "%s", schematic ? "rings: schematic shape" : parts[0]);
+  }
+  sb_draw_text(section->list, section->strip.x, y, 11, 400, SB_ALIGN_LEFT, section->palette->second,
+               caption);
+}
+
+void sb_cutaway_draw(SbCutaway *cutaway, SbSection *section) {
+  SbRevolve *revolve = &cutaway->revolve;
+  SbOrbit orbit = sb_orbit(section->view->azimuth, section->view->elevation);
+  double scale, x0, y0;
+  place_camera(cutaway, section, &orbit, &scale, &x0, &y0);
+  sb_revolve_begin(revolve, &orbit, scale, x0, y0);
+  for (size_t i = 0; i < cutaway->valve.solid_count; i++) {
+    const SbValveSolid *solid = &cutaway->valve.solid[i];
+    SbValvePoint point[SB_VALVE_POINTS_MAX];
+    size_t count = outline_solid(solid, sb_section_displacement(section), point);
+    sb_revolve_add(revolve, solid->moves ? SB_REVOLVE_STEM : SB_REVOLVE_HOUSING, point, count,
+                   false);
+  }
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    outline_ring(cutaway, section, i);
+    sb_revolve_add(revolve, i == SB_OUTER ? SB_REVOLVE_OUTER : SB_REVOLVE_INNER, cutaway->ring[i],
+                   cutaway->ring_count[i], true);
+  }
+  sb_revolve_build(revolve);
+
+  sb_draw_clip(section->list, &section->strip);
+  for (size_t i = 0; i < revolve->step->len; i++) {
+    const SbRevolveStep *step = &g_array_index(revolve->step, SbRevolveStep, i);
+    switch (step->kind) {
+    case SB_REVOLVE_CELLS:
+      paint_cells(cutaway, section, step);
+      break;
+    case SB_REVOLVE_EDGES:
+      paint_edges(cutaway, section, step);
+      break;
+    case SB_REVOLVE_FACE:
+      paint_face(cutaway, section, (int)step->first);
+      break;
+    }
+  }
+  sb_draw_clip(section->list, NULL);
+  if (!section->view->hide_labels) {
+    paint_labels(cutaway, section);
+  }
+  paint_caption(section);
+}
