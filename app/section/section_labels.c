@@ -147,6 +147,23 @@ static bool on_chamfer(const SbSealShape *shape) {
   return shape != NULL && shape->contact_right > shape->contact_left;
 }
 
+// What the land edge's dimension takes, so that labels keep off it.
+static void reserve_land_edge(SbSection *section) {
+  const SbFrame *frame = section->instant->frame;
+  double bore = section->valve.bore, way = section->model.land_edge - frame->displacement;
+  SbDrawPoint edge = sb_section_at(section, 0, bore);
+  double low = (double)section->strip.y + 33, height = (double)edge.y - 4 - low;
+  if (height < 8) {
+    return;
+  }
+  sb_section_reserve(section, (double)edge.x - 2, low, 4, height);
+  if (way > 0 && frame->seal[SB_INNER].land_fraction > 0) {
+    double contact = (double)sb_section_at(section, way, bore).x;
+    sb_section_reserve(section, contact - 2, low, 4, height);
+    sb_section_reserve(section, (double)edge.x, low + 4, fmax(contact - (double)edge.x, 0), 8);
+  }
+}
+
 // The names under the rings, and "no contact" where the engine says so.
 static void draw_seal_names(SbSection *section) {
   const SbPalette *palette = section->palette;
@@ -161,8 +178,10 @@ static void draw_seal_names(SbSection *section) {
                                                      : ", no contact");
     SbDrawPoint below = sb_section_at(section, sb_section_origin(section, i), section->valve.floor);
     SbSectionLabel style = label_style(palette->seal[i], 600, SB_ALIGN_CENTRE, &palette->stem);
-    const double at[2][2] = {{below.x, below.y + 21}, {below.x, below.y + 38}};
-    place(section, at, 2, &style, text);
+    // In both halves there is room over the lower ring too.
+    double mirrored = 2 * section->y0 - (double)below.y - 12;
+    const double at[3][2] = {{below.x, below.y + 21}, {below.x, below.y + 38}, {below.x, mirrored}};
+    place(section, at, section->view->full ? 3 : 2, &style, text);
   }
 }
 
@@ -186,12 +205,10 @@ static void draw_friction(SbSection *section) {
     char text[80], value[SB_SECTION_NUMBER];
     snprintf(text, sizeof text, "friction %s", sb_section_force(value, fabs(seal->friction)));
     SbSectionLabel style = label_style(palette->seal[i], 600, SB_ALIGN_CENTRE, &palette->housing);
-    const double place_at[5][2] = {{at.x, y - 10},
-                                   {at.x + 30, y - 10},
-                                   {at.x + 50, y - 10},
-                                   {at.x - 50, y - 10},
-                                   {at.x, y - 27}};
-    place(section, place_at, 5, &style, text);
+    const double place_at[7][2] = {{at.x, y - 10},      {at.x + 30, y - 10}, {at.x + 50, y - 10},
+                                   {at.x - 50, y - 10}, {at.x, y - 27},      {at.x + 60, y - 27},
+                                   {at.x + 76, y - 10}};
+    place(section, place_at, 7, &style, text);
   }
 }
 
@@ -435,6 +452,9 @@ void sb_section_draw_strip_labels(SbSection *section) {
   // In the order of their right to stay.
   if (forces && whole) {
     draw_stem_forces(section);
+  }
+  if (labels && whole) {
+    reserve_land_edge(section);
   }
   if (forces) {
     draw_friction(section);
