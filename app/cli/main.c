@@ -1,9 +1,9 @@
 // sealbench: the command line. Finds the command and hands over.
 #include "app/cli/cli.h"
 
-#include <cblas.h>
+#include "app/run/process.h"
+
 #include <errno.h>
-#include <gsl/gsl_errno.h>
 #include <locale.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,10 +47,7 @@ static void print_help(FILE *stream) {
 }
 
 int main(int argc, char **argv) {
-  // One thread per solve keeps results repeatable.
-  openblas_set_num_threads(1);
-  // A special function outside its domain must not end the program; the engine checks results.
-  gsl_set_error_handler_off();
+  sb_process_set_up();
   int code = SB_EXIT_INPUT;
   const SbCommand *command = commands;
   while (argc > 1 && command->name != NULL && strcmp(command->name, argv[1]) != 0) {
