@@ -6,16 +6,13 @@
 // pressure is drawn only if the profile has one.
 #include "app/chart/profiles.h"
 #include "app/chart/axis.h"
+#include "app/chart/contact_curve.h"
 #include "app/chart/format.h"
 #include "app/chart/label.h"
-
-#include "engine/film/film.h"
 
 #include <glib.h>
 #include <math.h>
 #include <string.h>
-
-enum { SCHEMATIC_POINTS = 97 };
 
 // One of the four small charts.
 typedef struct {
@@ -29,98 +26,6 @@ typedef struct {
   bool *band_named;        // the band below the continuum limit has its label
   SbColor color;
 } Small;
-
-// The contact's curve in SI.
-typedef struct {
-  size_t count;
-  double *x, *pressure, *film, *asperity; // one block, owned through x
-  bool asperities;                        // any share of the pressure is known to be theirs
-  const char *model;                      // who made it; NULL: schematic
-} Curve;
-
-static bool touches(const SbSealFrame *seal) {
-  return seal && seal->contact_right > seal->contact_left && seal->load > 0;
-}
-
-static void schematic(Curve *out, const SbSealFrame *seal, const SbModel *model, int index) {
-  out->count = SCHEMATIC_POINTS;
-  double half = 0.5 * (seal->contact_right - seal->contact_left);
-  double middle = 0.5 * (seal->contact_right + seal->contact_left);
-  double radius = model ? model->seal[index].radius : 0.8e-3;
-  for (int i = 0; i < SCHEMATIC_POINTS; i++) {
-    double xi = -1.6 + 3.2 * i / (SCHEMATIC_POINTS - 1);
-    double inside = fmax(1 - xi * xi, 0),
-           side = xi < 0 ? sb_seal_step_left(seal) : sb_seal_step_right(seal);
-    out->x[i] = middle + xi * half;
-    out->pressure[i] = fabs(xi) < 1 ? fmax(seal->pressure_peak * sqrt(inside), side) : side;
-    out->film[i] = seal->film_central > 0
-                       ? seal->film_central + half * half / fmax(radius, 1e-6) * sb_film_dry_gap(xi)
-                       : 0;
-  }
-}
-
-static void curve_init(Curve *out, const Small *s) {
-  const SbChartRun *run = &s->data->run;
-  const SbContactProfile *kept = run->profile ? run->profile(run->source, s->seal->profile) : NULL;
-  size_t capacity = kept && kept->count > 1 ? kept->count : SCHEMATIC_POINTS;
-  out->x = g_new0(double, 4 * capacity);
-  out->pressure = out->x + capacity;
-  out->film = out->x + 2 * capacity;
-  out->asperity = out->x + 3 * capacity;
-  out->asperities = false;
-  out->model = NULL;
-  if (kept && kept->count > 1) {
-    out->count = kept->count;
-    out->model = kept->model;
-    memcpy(out->x, kept->x, kept->count * sizeof(double));
-    memcpy(out->pressure, kept->pressure, kept->count * sizeof(double));
-    memcpy(out->film, kept->film, kept->count * sizeof(double));
-    for (size_t i = 0; kept->asperity_pressure && i < kept->count; i++) {
-      out->asperity[i] = kept->asperity_pressure[i];
-      out->asperities = out->asperities || out->asperity[i] > 0;
-    }
-  } else {
-    schematic(out, s->seal, run->model, s->index);
-  }
-}
-
-static void curve_finish(Curve *curve) {
-  g_free(curve->x);
-}
-
-// Moves the ends of the part to draw outwards to where the pressure has come down to the fluid's: a
-// solved film spreads a little beyond the dry contact that the frame's width tells.
-static void extend_ends(const Curve *curve, const SbSealFrame *seal, double *left, double *right) {
-  double slack = 2e-3 * seal->pressure_peak;
-  for (size_t i = curve->count; i-- > 0;) {
-    if (curve->x[i] < *left) {
-      if (curve->pressure[i] <= sb_seal_step_left(seal) + slack) {
-        break;
-      }
-      *left = curve->x[i];
-    }
-  }
-  for (size_t i = 0; i < curve->count; i++) {
-    if (curve->x[i] > *right) {
-      if (curve->pressure[i] <= sb_seal_step_right(seal) + slack) {
-        break;
-      }
-      *right = curve->x[i];
-    }
-  }
-}
-
-// Linear interpolation in a curve.
-static double curve_at(const Curve *curve, const double *value, double x) {
-  for (size_t i = 1; i < curve->count; i++) {
-    if (curve->x[i] >= x) {
-      double d = curve->x[i] - curve->x[i - 1];
-      double t = d > 0 ? (x - curve->x[i - 1]) / d : 1;
-      return value[i - 1] + CLAMP(t, 0, 1) * (value[i] - value[i - 1]);
-    }
-  }
-  return curve->count > 0 ? value[curve->count - 1] : 0;
-}
 
 // ---------------------------------------------------------------------------------------------------
 // Shared scales
@@ -235,7 +140,7 @@ static void shared_format(char *out, const Small *s, double value, double other,
 }
 
 // The asperities' share of the pressure: a dashed line under the curve, named once.
-static void asperity_share(Small *s, const Curve *curve, double left, double right) {
+static void asperity_share(Small *s, const SbContactCurve *curve, double left, double right) {
   SbCanvas *c = s->canvas;
   SbPoint *p = g_new(SbPoint, curve->count + 1);
   size_t n = 0, top = 0;
@@ -327,7 +232,7 @@ static void pressure_chart(Small *s) {
   const SbSealFrame *seal = s->seal;
   double bottom = s->plot.y + s->plot.height;
   const double far = 1;
-  if (!touches(seal)) {
+  if (!sb_contact_touches(seal)) {
     double side = seal ? fmax(sb_seal_step_left(seal), sb_seal_step_right(seal)) : 0;
     fluid_ground(s, -far, far, side);
     fluid_label(s, -far, far, side);
@@ -339,10 +244,10 @@ static void pressure_chart(Small *s) {
     return;
   }
   double left = seal->contact_left, right = seal->contact_right;
-  Curve curve;
-  curve_init(&curve, s);
+  SbContactCurve curve;
+  sb_contact_curve_init(&curve, &s->data->run, s->seal, s->index);
   if (curve.model && seal->land_fraction > 0.999F) {
-    extend_ends(&curve, seal, &left, &right);
+    sb_contact_curve_extend(&curve, seal, &left, &right);
   }
   fluid_ground(s, -far, left, sb_seal_step_left(seal));
   fluid_ground(s, right, far, sb_seal_step_right(seal));
@@ -352,7 +257,7 @@ static void pressure_chart(Small *s) {
   size_t n = 0;
   double peak = 0, peak_x = 0.5 * (left + right);
   p[n++] = (SbPoint){sb_axis_at(&s->x, left * 1e3),
-                     sb_axis_at(&s->y, curve_at(&curve, curve.pressure, left) * 1e-6)};
+                     sb_axis_at(&s->y, sb_contact_curve_at(&curve, curve.pressure, left) * 1e-6)};
   for (size_t i = 0; i < curve.count; i++) {
     if (curve.x[i] > left && curve.x[i] < right) {
       p[n++] = (SbPoint){sb_axis_at(&s->x, curve.x[i] * 1e3),
@@ -364,7 +269,7 @@ static void pressure_chart(Small *s) {
     }
   }
   p[n++] = (SbPoint){sb_axis_at(&s->x, right * 1e3),
-                     sb_axis_at(&s->y, curve_at(&curve, curve.pressure, right) * 1e-6)};
+                     sb_axis_at(&s->y, sb_contact_curve_at(&curve, curve.pressure, right) * 1e-6)};
   cairo_new_path(c->cr);
   sb_canvas_path(c, p, n);
   cairo_line_to(c->cr, p[n - 1].x, bottom);
@@ -381,7 +286,7 @@ static void pressure_chart(Small *s) {
   // Peak, width, fluid.
   const SbFrame *frame = sb_chart_frame(s->data);
   const SbSealFrame *other = &frame->seal[s->index == SB_OUTER ? SB_INNER : SB_OUTER];
-  other = touches(other) ? other : NULL;
+  other = sb_contact_touches(other) ? other : NULL;
   char value[SB_FORMAT_MAX], text[96];
   if (peak > 0) {
     double x = sb_axis_at(&s->x, peak_x * 1e3), y = sb_axis_at(&s->y, peak * 1e-6);
@@ -429,7 +334,7 @@ static void pressure_chart(Small *s) {
                             {middle, bottom - 26, SB_MIDDLE}},
                 3);
   }
-  curve_finish(&curve);
+  sb_contact_curve_finish(&curve);
 }
 
 static void film_chart(Small *s) {
@@ -453,10 +358,10 @@ static void film_chart(Small *s) {
     cairo_stroke(cr);
     sb_labels_avoid(s->labels, line, 2, 1);
   }
-  bool slides = touches(seal) && seal->film_central > 0;
-  Curve curve = {0};
+  bool slides = sb_contact_touches(seal) && seal->film_central > 0;
+  SbContactCurve curve = {0};
   if (slides) {
-    curve_init(&curve, s);
+    sb_contact_curve_init(&curve, &s->data->run, s->seal, s->index);
     SbPoint *p = g_new(SbPoint, curve.count + 1);
     size_t n = 0;
     double from = seal->land_fraction < 0.999F ? seal->contact_left : -1;
@@ -504,7 +409,9 @@ static void film_chart(Small *s) {
   } else {
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
     double x = left_px + 0.5 * s->plot.width, y = s->plot.y + 0.62 * s->plot.height;
-    const char *words = !seal ? "no run yet" : !touches(seal) ? "no contact" : "at rest: no film";
+    const char *words = !seal                       ? "no run yet"
+                        : !sb_contact_touches(seal) ? "no contact"
+                                                    : "at rest: no film";
     small_label(s, words, &note, (SbPlace[]){{x, y, SB_MIDDLE}, {x, y - 20, SB_MIDDLE}}, 2);
   }
 
@@ -512,8 +419,9 @@ static void film_chart(Small *s) {
     sb_format_given(value, SB_QUANTITY_FILM, sigma);
     g_snprintf(text, sizeof text, "roughness \xcf\x83 %s", value);
     SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
-    double x = touches(seal) ? sb_axis_at(&s->x, 0.5e3 * (seal->contact_left + seal->contact_right))
-                             : left_px + 0.5 * s->plot.width;
+    double x = sb_contact_touches(seal)
+                   ? sb_axis_at(&s->x, 0.5e3 * (seal->contact_left + seal->contact_right))
+                   : left_px + 0.5 * s->plot.width;
     small_label(s, text, &style,
                 (SbPlace[]){{x, sigma_y + 15, SB_MIDDLE},
                             {x, sigma_y - 6, SB_MIDDLE},
@@ -533,7 +441,7 @@ static void film_chart(Small *s) {
                                              {left_px + 6, y, SB_LEFT}},
                                  4);
   }
-  curve_finish(&curve);
+  sb_contact_curve_finish(&curve);
 }
 
 // A band where a film is thinner than a few molecules.
@@ -555,7 +463,7 @@ static const char *curve_model(const SbChartData *data, const SbFrame *frame, bo
   const char *model = NULL;
   bool any = false;
   for (int i = 0; frame && i < SB_SEAL_COUNT; i++) {
-    if (touches(&frame->seal[i]) && (!film || frame->seal[i].film_central > 0)) {
+    if (sb_contact_touches(&frame->seal[i]) && (!film || frame->seal[i].film_central > 0)) {
       const SbContactProfile *kept =
           data->run.profile ? data->run.profile(data->run.source, frame->seal[i].profile) : NULL;
       any = true;
