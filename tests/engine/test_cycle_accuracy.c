@@ -157,6 +157,17 @@ static void test_half_step(void) {
   sb_run_destroy(fine);
 }
 
+// With solved rings and the film on their own surfaces. The pressed ring's finest mesh is in both;
+// the other's differ.
+static void test_half_step_rings(void) {
+  SbRun *coarse = run_cycle(SB_FIT_RING, 400, 1e-3, SB_VIEW_PROFILES);
+  SbRun *fine = run_cycle(SB_FIT_RING, 800, 1e-4, SB_VIEW_PROFILES);
+  g_test_message("400 frames with rings and films: %.1f s", sb_run_summary(coarse)->wall_s);
+  compare(sb_run_summary(coarse), sb_run_summary(fine));
+  sb_run_destroy(coarse);
+  sb_run_destroy(fine);
+}
+
 // ---------------------------------------------------------------- the ring's drag
 
 // Mean axial-radial shear over the section, by its triangles.
@@ -213,6 +224,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cycle-accuracy/allocations", test_allocations);
   g_test_add_func("/cycle-accuracy/half-step", test_half_step);
   if (g_test_slow()) {
+    g_test_add_func("/cycle-accuracy/half-step-rings", test_half_step_rings);
     g_test_add_func("/cycle-accuracy/drag", test_drag);
   }
   return g_test_run();
