@@ -10,7 +10,7 @@
 // speed, a chamber that fills) it is solved step by step to output.motion_tolerance, and the same
 // motion at ten times that tolerance tells the error: with break-away in the cycle a sum of local
 // errors says little. Radau IIA is of order 5 in its step, so that errors fall about in proportion
-// to the tolerance (tested: test_run_dynamic.c).
+// to the tolerance (tested: test_run_limits.c).
 #include "engine/run_dynamic.h"
 #include "engine/leak/stroke.h"
 
