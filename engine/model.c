@@ -99,6 +99,7 @@ static bool compile_seal(SbModel *model, int index, const SbParams *params, SbPr
   seal->section_diameter_tolerance = OWN(SECTION_DIAMETER_TOLERANCE);
   seal->inner_diameter_tolerance = OWN(INNER_DIAMETER_TOLERANCE);
   seal->poisson_ratio = OWN(POISSON_RATIO);
+  seal->mooney_share = OWN(MOONEY_SHARE);
 #undef OWN
   return sb_model_size_seal(model, index, problems);
 }

@@ -86,6 +86,7 @@ typedef struct {
   double inner_diameter;                                       // free [m]
   double modulus;                                              // E [Pa]
   double poisson_ratio;                                        // nu
+  double mooney_share;    // c2/(c1 + c2) of the ring model's energy
   double reduced_modulus; // E' of thesis equation 5.8: 2/E' = sum (1 - nu^2)/E [Pa]
   double radius;          // R_x = d/2 [m]
   double squeeze;         // (d - g)/d

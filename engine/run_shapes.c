@@ -136,6 +136,7 @@ static SbRingBody ring_body(const SbModel *model, int seal) {
       .inner_diameter = s->inner_diameter,
       .modulus = s->modulus,
       .poisson_ratio = s->poisson_ratio,
+      .mooney_share = s->mooney_share,
   };
 }
 

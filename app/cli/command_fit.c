@@ -20,6 +20,15 @@ static void print_table(const SbFit *fit, const char *seal) {
   sb_cli_figure("Load", fit->load, "N", "N");
   sb_cli_figure("Load per length", fit->load_per_length, "N/m", "N/m");
   sb_cli_figure("Peak pressure", fit->pressure_peak, "Pa", "MPa");
+  if (fit->model == SB_FIT_RING) {
+    sb_cli_figure("Load on the groove floor", fit->ring.floor_load, "N", "N");
+    sb_cli_figure("Load on the groove wall", fit->ring.wall_load, "N", "N");
+    char text[96];
+    snprintf(text, sizeof text, "%zu unknowns, %zu load steps (%zu halved), %zu Newton iterations",
+             fit->solver.unknowns, fit->ring.load_steps, fit->ring.rejected_steps,
+             fit->solver.newton_iterations);
+    sb_cli_line("Solver", text);
+  }
   sb_cli_figure("Error estimate, load", fit->solver.error_estimate.load, "1", "");
   sb_cli_figure("Time", fit->solver.wall_s, "s", "ms");
   if (!fit->solver.converged) {

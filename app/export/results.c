@@ -401,6 +401,17 @@ char *sb_results_fit(const SbFit *fit, const char *seal, double pressure,
   sb_json_object_end(&json);
   sb_json_number(&json, "wall_s", fit->solver.wall_s);
   sb_json_object_end(&json);
+  if (fit->model == SB_FIT_RING) {
+    sb_json_object(&json, "ring");
+    sb_json_number(&json, "floor_load_N", fit->ring.floor_load);
+    sb_json_number(&json, "wall_load_N", fit->ring.wall_load);
+    sb_json_number(&json, "radial_thickness_m", fit->ring.thickness);
+    sb_json_number(&json, "volume_change", fit->ring.volume_change);
+    sb_json_number(&json, "axial_imbalance", fit->ring.axial_imbalance);
+    sb_json_count(&json, "load_steps", fit->ring.load_steps);
+    sb_json_count(&json, "rejected_steps", fit->ring.rejected_steps);
+    sb_json_object_end(&json);
+  }
   sb_json_object(&json, "profile");
   sb_json_numbers(&json, "x_m", fit->profile_x, fit->profile_count);
   sb_json_numbers(&json, "pressure_Pa", fit->profile_p, fit->profile_count);

@@ -117,6 +117,10 @@ static SbStatus check(const SbFitProblem *in, SbReport *report) {
     return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.poisson_ratio",
                              "Poisson's ratio %g is not in [0, 0.5)", in->poisson_ratio);
   }
+  if (!(in->mooney_share >= 0.0 && in->mooney_share <= 0.5)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.mooney_share",
+                             "Mooney share %g is not in [0, 0.5]", in->mooney_share);
+  }
   if (!(in->housing_modulus >= 0.0)) {
     return sb_fail_parameter(report, SB_ERROR_RANGE, "housing.modulus",
                              "modulus of the housing %g Pa is negative", in->housing_modulus);

@@ -48,6 +48,7 @@ typedef struct {
   double inner_diameter;   // ID, free [m]
   double modulus;          // E of the rubber [Pa]
   double poisson_ratio;    // nu of the rubber [-]
+  double mooney_share;     // c2/(c1 + c2) of the rubber, 0: neo-Hookean [-]; the ring's alone
   double housing_modulus;  // E of bore and stem [Pa]; 0 or infinite: rigid
   double housing_poisson;  // nu of bore and stem [-]
   double radial_space;     // g [m]
@@ -85,6 +86,15 @@ typedef struct {
   bool touches;                   // false: no contact, width and load are 0
   bool valid;                     // inside the validity of the model (see warnings if not)
   SbWarnings warnings;
+  // What the finite-element ring knows beside; zero for other models.
+  struct {
+    double floor_load;      // on the groove floor [N]
+    double wall_load;       // on the groove wall that the fluid presses it on [N], axial
+    double thickness;       // radial extent of the fitted section [m]
+    double volume_change;   // of the whole ring, relative to the free one
+    double axial_imbalance; // sum of all axial forces over the largest force
+    size_t load_steps, rejected_steps;
+  } ring;
   struct {
     bool converged;
     size_t unknowns;

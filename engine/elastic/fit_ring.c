@@ -18,6 +18,7 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
       .inner_diameter = in->inner_diameter,
       .modulus = in->modulus,
       .poisson_ratio = in->poisson_ratio,
+      .mooney_share = in->mooney_share,
   };
   SbRingLoad load = SB_RING_LOAD_INIT;
   load.bore_radius = 0.5 * in->bore_diameter;
@@ -64,6 +65,13 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   out->solver.converged = true;
   out->solver.unknowns = (size_t)result.unknowns;
   out->solver.newton_iterations = (size_t)result.newton_iterations;
+  out->ring.floor_load = result.floor_force;
+  out->ring.wall_load = fmax(result.wall_left_force, result.wall_right_force);
+  out->ring.thickness = result.thickness;
+  out->ring.volume_change = result.volume_change;
+  out->ring.axial_imbalance = result.axial_imbalance;
+  out->ring.load_steps = (size_t)result.load_steps;
+  out->ring.rejected_steps = (size_t)result.rejected_steps;
   if (result.touching) {
     out->contact_left = result.contact_left;
     out->contact_right = result.contact_right;

@@ -94,6 +94,7 @@ void sb_sliding_fit_problem(SbFitProblem *out, const SbModel *model, int seal, d
       .inner_diameter = ring->inner_diameter,
       .modulus = ring->modulus,
       .poisson_ratio = ring->poisson_ratio,
+      .mooney_share = ring->mooney_share,
       .housing_modulus = model->housing_modulus,
       .housing_poisson = model->housing_poisson_ratio,
       .radial_space = model->radial_space,

@@ -64,6 +64,55 @@ static void test_pressure(void) {
   assert_close(left.profile_p[0], 0.29e6, 1e-3);
 }
 
+// What the ring tells beside its contact: the floor's load and, stretched only, that load and the
+// thickness, against independent finite elements; the wall carries the pressure on the annulus.
+static void test_readouts(void) {
+  SbFitProblem in = thesis(SB_FIT_RING);
+  SbFit fit;
+  g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+  assert_close(fit.ring.floor_load, 4.446, 1e-3);
+  g_assert_cmpfloat(fit.ring.wall_load, ==, 0.0);
+  g_assert_cmpuint(fit.ring.load_steps, >, 0);
+  in.pressure = 0.55e6;
+  in.tolerance = 1e-2;
+  g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+  double area = G_PI * (9e-6 - 1.64e-3 * 1.64e-3);
+  assert_close(fit.ring.wall_load, in.pressure * area, 1e-8);
+  g_assert_cmpfloat(fit.ring.axial_imbalance, <, 1e-8);
+  g_assert_cmpfloat(fit.ring.volume_change, <, 0.0);
+  in = thesis(SB_FIT_RING);
+  in.bore_diameter += 0.6e-3;
+  in.radial_space += 0.3e-3;
+  g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+  g_assert_false(fit.touches);
+  assert_close(fit.ring.floor_load, 1.657, 2e-3);
+  assert_close(fit.ring.thickness, 1.5e-3, 1e-3);
+}
+
+// Mooney and Rivlin's second invariant equals the first in plane strain without change of volume:
+// there the share changes nothing (the rest is 1/D and 1 - 2 nu); in the stretched ring it does.
+static void test_mooney(void) {
+  double load[2][2];
+  for (int wide = 0; wide < 2; wide++) {
+    for (int share = 0; share < 2; share++) {
+      SbFitProblem in = thesis(SB_FIT_RING);
+      in.poisson_ratio = 0.4999;
+      in.mooney_share = 0.4 * share;
+      if (wide) {
+        in.inner_diameter = 0.45;
+        in.bore_diameter = in.inner_diameter + in.section_diameter + in.radial_space;
+      }
+      SbFit fit;
+      g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+      load[wide][share] = fit.load;
+    }
+  }
+  g_test_message("Mooney: ring %.4f %.4f, straight %.3f %.3f N", load[0][0], load[0][1], load[1][0],
+                 load[1][1]);
+  assert_close(load[1][1], load[1][0], 1e-3);
+  g_assert_cmpfloat(fabs(load[0][1] / load[0][0] - 1.0), >, 5e-3);
+}
+
 static void test_limits(void) {
   SbFitProblem in = thesis(SB_FIT_RING);
   in.section_diameter = 1.30e-3;
@@ -151,6 +200,8 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/fit/ring/reference", test_reference);
   g_test_add_func("/fit/ring/pressure", test_pressure);
+  g_test_add_func("/fit/ring/readouts", test_readouts);
+  g_test_add_func("/fit/ring/mooney", test_mooney);
   g_test_add_func("/fit/ring/limits", test_limits);
   g_test_add_func("/fit/ring/cancel", test_cancel);
   g_test_add_func("/fit/side-by-side", test_side_by_side);
