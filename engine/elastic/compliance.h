@@ -60,6 +60,9 @@ SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const 
                              const double *p, double pressure_left, double pressure_right,
                              SbReport *report);
 
+// C = 4/(pi E') of the half-plane's part [1/Pa].
+double sb_compliance_half_plane(const SbSurfaceCompliance *c);
+
 // g(x) and its slope; outside the window, where S acts no more, the parabola about its centre that
 // goes on from its end with the slope `beyond`.
 double sb_compliance_gap(const SbSurfaceCompliance *c, double x, double *slope);

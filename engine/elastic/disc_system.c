@@ -4,28 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-// ---- rules
+#include "engine/numeric/eliminate.h"
+#include "engine/numeric/legendre.h"
 
-// Gauss-Legendre points on [0, 1] by Newton on the polynomial.
-static void gauss(double *x, double *w, int n) {
-  for (int i = 0; i < n; i++) {
-    double t = cos(M_PI * (i + 0.75) / (n + 0.5));
-    double slope = 1.0;
-    for (int step = 0; step < 20; step++) {
-      double p0 = 1.0;
-      double p1 = t;
-      for (int k = 2; k <= n; k++) {
-        double p2 = ((2 * k - 1) * t * p1 - (k - 1) * p0) / k;
-        p0 = p1;
-        p1 = p2;
-      }
-      slope = n * (p0 - t * p1) / (1.0 - t * t);
-      t -= p1 / slope;
-    }
-    x[i] = 0.5 * (1.0 + t);
-    w[i] = 1.0 / ((1.0 - t * t) * slope * slope);
-  }
-}
+// ---- rules
 
 // Integral over [0, pi] of |cos e - cos f| cos(k f) df, the kink applied to T_k/sqrt(1 - tau^2).
 static double kink_moment(int k, double e) {
@@ -40,7 +22,11 @@ static double kink_moment(int k, double e) {
 
 void sb_disc_system_points(SbDiscSystem *system, size_t n) {
   system->n = n;
-  gauss(system->gauss_x, system->gauss_w, SB_DISC_GAUSS);
+  sb_legendre_gauss(system->gauss_x, system->gauss_w, SB_DISC_GAUSS);
+  for (int i = 0; i < SB_DISC_GAUSS; i++) {
+    system->gauss_x[i] = 0.5 * (1.0 + system->gauss_x[i]);
+    system->gauss_w[i] *= 0.5;
+  }
   // cos(k eta) at all points.
   double cosine[SB_DISC_POINTS_MAX][SB_DISC_POINTS_MAX];
   double eta[SB_DISC_POINTS_MAX];
@@ -75,50 +61,6 @@ void sb_disc_system_points(SbDiscSystem *system, size_t n) {
       }
     }
   }
-}
-
-bool sb_disc_eliminate(double *a, double *b, size_t n) {
-  for (size_t k = 0; k < n; k++) {
-    // Largest entry of the column to the diagonal.
-    size_t best = k;
-    for (size_t i = k + 1; i < n; i++) {
-      if (fabs(a[i + k * n]) > fabs(a[best + k * n])) {
-        best = i;
-      }
-    }
-    if (!(fabs(a[best + k * n]) > 0.0)) {
-      return false;
-    }
-    if (best != k) {
-      for (size_t j = k; j < n; j++) {
-        const double t = a[k + j * n];
-        a[k + j * n] = a[best + j * n];
-        a[best + j * n] = t;
-      }
-      const double t = b[k];
-      b[k] = b[best];
-      b[best] = t;
-    }
-    // Eliminate below; the factors replace the column.
-    const double inverse = 1.0 / a[k + k * n];
-    for (size_t i = k + 1; i < n; i++) {
-      a[i + k * n] *= inverse;
-      b[i] -= a[i + k * n] * b[k];
-    }
-    for (size_t j = k + 1; j < n; j++) {
-      const double top = a[k + j * n];
-      for (size_t i = k + 1; i < n; i++) {
-        a[i + j * n] -= a[i + k * n] * top;
-      }
-    }
-  }
-  for (size_t k = n; k-- > 0;) {
-    b[k] /= a[k + k * n];
-    for (size_t i = 0; i < k; i++) {
-      b[i] -= a[i + k * n] * b[k];
-    }
-  }
-  return true;
 }
 
 // ---- directions
@@ -276,7 +218,7 @@ bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double residual[3]
     s->solution[2 * n] = balance;
   }
 
-  if (!sb_disc_eliminate(s->matrix, s->solution, rows)) {
+  if (!sb_eliminate(s->matrix, s->solution, rows)) {
     return false;
   }
 

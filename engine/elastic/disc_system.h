@@ -41,11 +41,6 @@ typedef struct {
   double matrix[SB_DISC_ROWS_MAX * SB_DISC_ROWS_MAX]; // by columns
 } SbDiscSystem;
 
-// Solves a x = b in place by Gaussian elimination with row exchanges: `a` is n x n by columns and
-// is lost, b becomes x; false if singular. For systems of some dozens of rows, where a threaded
-// library costs more than the work.
-bool sb_disc_eliminate(double *a, double *b, size_t n);
-
 // Prepares the rule with n points (2 to SB_DISC_POINTS_MAX).
 void sb_disc_system_points(SbDiscSystem *system, size_t n);
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "engine/elastic/disc_kernel.h"
-#include "engine/elastic/disc_system.h"
+#include "engine/numeric/eliminate.h"
 
 enum { MAX = SB_DISC_THESIS_NODES };
 
@@ -101,7 +101,7 @@ static bool solve_set(Work *w, size_t loaded, double pressure) {
     memcpy(&w->matrix[j * loaded], &w->influence[j * w->count], loaded * sizeof(double));
     w->pressure[j] = w->wanted[j] - w->fluid[j];
   }
-  return sb_disc_eliminate(w->matrix, w->pressure, loaded);
+  return sb_eliminate(w->matrix, w->pressure, loaded);
 }
 
 // Gap left at a node that carries no pressure, positive if open.

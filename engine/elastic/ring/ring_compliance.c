@@ -289,7 +289,7 @@ static void half_plane(double half, int l, double *value) {
 // leaves the least beside the half-plane's answer.
 static void remove_drift(const SbSurfaceCompliance *c, double half,
                          double answer[WAVES][SB_COMPLIANCE_MODES], const double *slope) {
-  double compliance = 4.0 / (M_PI * c->modulus);
+  double compliance = sb_compliance_half_plane(c);
   for (int l = 0; l < WAVES; l++) {
     double plane[SB_COMPLIANCE_MODES], up = 0.0, down = 1e-30;
     half_plane(half, l, plane);
@@ -307,7 +307,7 @@ static void remove_drift(const SbSurfaceCompliance *c, double half,
 static void smooth_part(SbSurfaceCompliance *out, double half,
                         double answer[WAVES][SB_COMPLIANCE_MODES]) {
   enum { N = SB_COMPLIANCE_MODES };
-  double compliance = 4.0 / (M_PI * out->modulus), s[WAVES][WAVES + 2] = {{0.0}};
+  double compliance = sb_compliance_half_plane(out), s[WAVES][WAVES + 2] = {{0.0}};
   for (int l = WAVES - 1; l >= 0; l--) {
     double plane[N];
     half_plane(half, l, plane);

@@ -1,4 +1,5 @@
-// Rigid surfaces around the ring, unilateral contact with Coulomb friction, and fluid pressure.
+// Rigid surfaces around the ring (ring_groove.c), unilateral contact (ring_contact.c) with Coulomb
+// friction (ring_friction.c), and fluid pressure (ring_fluid.c).
 //
 // Internal to the ring; all quantities in the element solver's units. A boundary node that is held
 // by a surface lies on it exactly and may only be pushed; the fluid loads every side of the
@@ -67,6 +68,36 @@ void sb_ring_contact_destroy(SbRingContact *contact);
 double sb_ring_gap(const SbRingSetting *setting, SbRingSurface surface, const double x[2],
                    double gradient[2], double *curvature);
 
+// Unit normal (into the free side) and tangent of a surface at a place, the gap along the normal;
+// `curvature` is the normal's turn towards the tangent per axial length.
+void sb_ring_frame(const SbRingSetting *setting, SbRingSurface surface, const double x[2],
+                   double n[2], double t[2], double *gap, double *curvature);
+
+// The name of a surface, for messages.
+const char *sb_ring_surface_name(SbRingSurface surface);
+
+// Deformed place (r, z) of a boundary node.
+void sb_ring_contact_place(const SbRingContact *contact, int i, double x[2]);
+
+// Adds the fluid to residual and tangent; renews `closed`, `weight`, `share`, `pressed`, `fluid`.
+void sb_ring_contact_load_fluid(SbRingContact *contact);
+
+// Whether a node is held by a surface with Coulomb friction of its own.
+bool sb_ring_contact_rubs(const SbRingContact *contact, int i, SbRingSurface surface);
+
+// Relative motion of a boundary node at `x` along t since the start of the step.
+double sb_ring_contact_slipped(const SbRingContact *contact, SbRingSurface surface, int i,
+                               const double x[2], const double t[2]);
+
+// The first slip state of a node that a surface has just caught.
+void sb_ring_contact_begin_friction(SbRingContact *contact, int i, SbRingSurface surface);
+
+// Renews stick and slip, with `gentle` only at the worst fault; returns how many changed.
+int sb_ring_contact_update_slip(SbRingContact *contact, bool gentle);
+
+// Sum of what exceeds Coulomb's law at sticking nodes and of the friction that is left out.
+double sb_ring_contact_slip_excess(const SbRingContact *contact);
+
 // Marks every node that is on or inside a surface as held.
 void sb_ring_contact_detect(SbRingContact *contact);
 
@@ -84,9 +115,6 @@ double sb_ring_contact_limit(const SbRingContact *contact);
 // After the solve and the step: new held set and slip states from the linear model's reactions.
 // Returns how many changed. With `gentle` only the worst offender of each kind changes.
 int sb_ring_contact_update(SbRingContact *contact, bool gentle);
-
-// The name of a surface, for messages.
-const char *sb_ring_surface_name(SbRingSurface surface);
 
 // At convergence: forces of all touches from the residual.
 void sb_ring_contact_forces(SbRingContact *contact);

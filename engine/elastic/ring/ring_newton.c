@@ -30,9 +30,8 @@ static bool leans(const SbRingContact *contact) {
       return true;
     }
     for (int s = 0; s < SB_RING_SURFACES; s++) {
-      bool given = s == SB_RING_BORE && contact->now.use_traction;
-      if (touch[s].held && !touch[s].smooth && touch[s].slip == 0 &&
-          contact->now.friction[s] > 0.0 && !given) {
+      if (!touch[s].smooth && touch[s].slip == 0 &&
+          sb_ring_contact_rubs(contact, i, (SbRingSurface)s)) {
         return true;
       }
     }

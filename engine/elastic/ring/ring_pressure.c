@@ -16,8 +16,8 @@
 // f_i. Leaves out contacts in several parts and
 // pressures with a corner in them (a land's edge under the contact): there the fit is not good
 // enough and says so.
-#include "engine/elastic/disc_system.h"
 #include "engine/elastic/ring/ring_private.h"
+#include "engine/numeric/eliminate.h"
 
 #include <math.h>
 #include <string.h>
@@ -161,7 +161,7 @@ static double solve(Fit *fit, const double end[2], double *residual) {
     normal[terms * order + k] = normal[k * order + terms] = total[k];
   }
   b[terms] = load;
-  if (!sb_disc_eliminate(normal, b, (size_t)order)) {
+  if (!sb_eliminate(normal, b, (size_t)order)) {
     return -1.0;
   }
   memcpy(fit->a, b, sizeof fit->a[0] * (size_t)terms);
