@@ -89,11 +89,10 @@ static void add_follower(SbRing *ring) {
 }
 
 // Tangent of the present state with the bore's nodes set free, factorised.
-static SbStatus factorise(SbRing *ring, void **factor, SbReport *report) {
+static SbStatus factorise(SbRing *ring, SbReport *report) {
   SbRingFem *fem = ring->fem;
   SbRingContact *contact = ring->contact;
   int loop = contact->count;
-  *factor = NULL;
   fem->axial_damping = 0.0;
   if (!sb_ring_fem_assemble(fem)) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's state is not an equilibrium");
@@ -115,7 +114,7 @@ static SbStatus factorise(SbRing *ring, void **factor, SbReport *report) {
       condition->direction[1][0] = 1.0;
     }
   }
-  return sb_ring_fem_factor(fem, factor, report);
+  return sb_ring_fem_factor(fem, report);
 }
 
 // Leaves the object as it was: forces and shares of the present state.
@@ -135,8 +134,7 @@ SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, d
   SbRingFem *fem = ring->fem;
   SbRingContact *contact = ring->contact;
   int loop = contact->count;
-  void *factor = NULL;
-  SbStatus status = factorise(ring, &factor, report);
+  SbStatus status = factorise(ring, report);
   for (int j = 0; status == SB_OK && j < count; j++) {
     int place = (first + j + loop) % loop;
     int node = fem->mesh->loop[place];
@@ -146,13 +144,12 @@ SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, d
     // A unit inward force.
     memset(fem->rhs, 0, sizeof(double) * 2 * (size_t)fem->mesh->nodes);
     fem->rhs[2 * node] = -1.0;
-    status = sb_ring_fem_apply_factor(fem, factor, report);
+    status = sb_ring_fem_apply_factor(fem, report);
     for (int i = 0; i < count; i++) {
       int other = fem->mesh->loop[(first + i + loop) % loop];
       c[i * count + j] = -fem->du[2 * other] * ring->length / ring->force;
     }
   }
-  sb_ring_fem_free_factor(&factor);
   settle(ring);
   return status == SB_OK ? sb_succeed(report) : status;
 }
@@ -378,14 +375,13 @@ static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
     return sb_fail(report, SB_ERROR_INFEASIBLE,
                    "the ring's surface turns away too near to the bore contact");
   }
-  void *factor = NULL;
-  SbStatus status = factorise(ring, &factor, report);
+  SbStatus status = factorise(ring, report);
   double answer[WAVES][SB_COMPLIANCE_MODES], slope[SB_COMPLIANCE_MODES];
   double unit = ring->length / ring->stress; // of displacement per pressure
   double length = half * ring->length, up = 0.0, down = 0.0;
   for (int l = 0; l < WAVES && status == SB_OK; l++) {
     load_wave(ring, &patch, middle, half, l);
-    status = sb_ring_fem_apply_factor(ring->fem, factor, report);
+    status = sb_ring_fem_apply_factor(ring->fem, report);
     read_wave(ring, &patch, middle, half, answer[l], slope);
     double plane[SB_COMPLIANCE_MODES];
     half_plane(length, l, plane);
@@ -396,7 +392,6 @@ static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
       down += counts ? plane[i] * plane[i] : 0.0;
     }
   }
-  sb_ring_fem_free_factor(&factor);
   settle(ring);
   if (status != SB_OK) {
     return status;

@@ -84,12 +84,11 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->raw_place = calloc(n, sizeof(int));
   fem->gauss = malloc(sizeof(double) * POINT_SIZE * SB_RING_FEM_POINTS * m);
   fem->condensed = calloc(CONDENSED_SIZE * m, sizeof(double));
-  fem->work_int = malloc(sizeof(int) * 2 * n);
-  fem->work = malloc(sizeof(double) * 10 * n);
+  fem->work_int = malloc(sizeof(int) * n);
   if (fem->u == NULL || fem->saved[0] == NULL || fem->saved[1] == NULL || fem->saved[2] == NULL ||
       fem->mass == NULL || fem->inner == NULL || fem->residual == NULL || fem->rhs == NULL ||
       fem->du == NULL || fem->condition == NULL || fem->raw_place == NULL || fem->gauss == NULL ||
-      fem->condensed == NULL || fem->work_int == NULL || fem->work == NULL) {
+      fem->condensed == NULL || fem->work_int == NULL) {
     sb_ring_fem_destroy(fem);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's elements");
   }
@@ -123,8 +122,7 @@ void sb_ring_fem_destroy(SbRingFem *fem) {
   void *owned[] = {fem->u,         fem->saved[0], fem->saved[1],  fem->inner,     fem->residual,
                    fem->saved[2],  fem->mass,     fem->rhs,       fem->du,        fem->condition,
                    fem->raw_place, fem->gauss,    fem->condensed, fem->row_start, fem->column,
-                   fem->value,     fem->raw,      fem->scatter,   fem->diagonal,  fem->work_int,
-                   fem->work};
+                   fem->value,     fem->raw,      fem->scatter,   fem->diagonal,  fem->work_int};
   for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
     free(owned[i]);
   }

@@ -30,6 +30,7 @@ typedef struct {
 } SbRingCondition;
 
 typedef struct SbRingFem SbRingFem;
+typedef struct SbRingFactor SbRingFactor;
 struct SbRingFem {
   const SbRingMesh *mesh; // borrowed
   bool axisymmetric;
@@ -50,17 +51,14 @@ struct SbRingFem {
 
   double residual_inner; // largest residual of an element's own equations
   double det_min;        // least det F at the last assembly
-  int factorizations;
 
   // Private: quadrature data, condensation, sparse rows, factor.
   double *gauss, *condensed;
   int *row_start, *column, *scatter, *diagonal;
   double *value, *raw, *rhs;
   int *raw_place;
-  void *symbolic;
-  double control[20], info[90]; // UMFPACK
-  int *work_int;
-  double *work;
+  SbRingFactor *factor;
+  int *work_int; // [nodes] scratch
 };
 
 // Owned, free with sb_ring_fem_destroy; keeps `mesh` borrowed. The state is zero.
@@ -83,10 +81,9 @@ void sb_ring_fem_add(SbRingFem *fem, int a, int i, int b, int j, double k);
 SbStatus sb_ring_fem_solve(SbRingFem *fem, SbReport *report);
 
 // The same in parts, for several right-hand sides: replaces the conditioned rows (rhs = -residual
-// and gaps), factorises; solves du for the present rhs; frees the factor (NULL is fine).
-SbStatus sb_ring_fem_factor(SbRingFem *fem, void **factor, SbReport *report);
-SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, void *factor, SbReport *report);
-void sb_ring_fem_free_factor(void **factor);
+// and gaps) and factorises; solves du for the present rhs. SB_ERROR_NOT_CONVERGED if singular.
+SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report);
+SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, SbReport *report);
 
 // The force R + K du that a conditioned node receives after the step, by the linear model.
 void sb_ring_fem_reaction(const SbRingFem *fem, int node, double force[2]);

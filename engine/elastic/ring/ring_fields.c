@@ -49,7 +49,7 @@ static void stresses(const SbRing *ring, const SbRingFields *out) {
     }
   }
   // Number of elements at each node: the element list is short enough to count again.
-  int *visits = ring->fem->work_int; // scratch of the solver, 2 per node
+  int *visits = ring->fem->work_int; // scratch, one per node
   memset(visits, 0, sizeof(int) * (size_t)mesh->nodes);
   for (int i = 0; i < 6 * mesh->elements; i++) {
     visits[mesh->tri[i]]++;

@@ -1,15 +1,28 @@
 // The ring's sparse equations: pattern, conditions of nodes, factorisation.
 //
-// Rows are stored by node pairs and handed to UMFPACK as its transpose; the symbolic analysis is
-// done once per mesh, so a Newton iteration costs one numeric factorisation. A condition replaces
-// the two rows of its node (Dirichlet along a normal, balance with friction along the tangent); the
-// raw rows are kept, since their residual is the reaction.
+// Rows are stored by node pairs and handed to KLU (Davis and Palamadai Natarajan 2010) as the
+// transpose. Ordering is found once per mesh and pivots with the first matrix; later ones are
+// factorised along the same pivots, without allocation, in less than half the time that a
+// multifrontal code takes with so few unknowns. Each solution's residual is checked, and the pivots
+// are chosen anew where they no longer serve. A condition replaces the two rows of its node
+// (Dirichlet along a normal, balance with friction along the tangent); the raw rows are kept, since
+// their residual is the reaction.
 #include "engine/elastic/ring/ring_fem.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <suitesparse/umfpack.h>
+#include <suitesparse/klu.h>
+
+// Largest residual of a solution, relative to the terms it is the sum of, that pivots may leave.
+static const double RESIDUAL_MOST = 1e-11;
+
+// What KLU holds for one matrix. `numeric` NULL: no pivots yet.
+struct SbRingFactor {
+  klu_common common;
+  klu_symbolic *symbolic;
+  klu_numeric *numeric;
+};
 
 static int compare_int(const void *a, const void *b) {
   int p = *(const int *)a, q = *(const int *)b;
@@ -92,13 +105,16 @@ SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
     const int *hit = bsearch(&i, row, (size_t)fill[i], sizeof(int), compare_int);
     fem->diagonal[i] = hit == NULL ? 0 : 2 * (int)(hit - row);
   }
-  umfpack_di_defaults(fem->control);
-  fem->control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-  fem->control[UMFPACK_IRSTEP] = 0;
+  SbRingFactor *factor = fem->factor = calloc(1, sizeof *fem->factor);
+  if (factor == NULL) {
+    goto done;
+  }
+  klu_defaults(&factor->common);
+  factor->common.btf = 0;   // the pattern is that of one connected body
+  factor->common.scale = 0; // conditions are scaled to their rows
   memset(fem->value, 0, sizeof(double) * (size_t)at);
-  int code = umfpack_di_symbolic(2 * nodes, 2 * nodes, fem->row_start, fem->column, NULL,
-                                 &fem->symbolic, fem->control, fem->info);
-  status = code == UMFPACK_OK ? SB_OK : SB_ERROR_MEMORY;
+  factor->symbolic = klu_analyze(2 * nodes, fem->row_start, fem->column, &factor->common);
+  status = factor->symbolic != NULL ? SB_OK : SB_ERROR_MEMORY;
 done:
   free(start);
   free(list);
@@ -107,8 +123,12 @@ done:
 }
 
 void sb_ring_sparse_finish(SbRingFem *fem) {
-  if (fem->symbolic != NULL) {
-    umfpack_di_free_symbolic(&fem->symbolic);
+  SbRingFactor *factor = fem->factor;
+  if (factor != NULL) {
+    klu_free_numeric(&factor->numeric, &factor->common);
+    klu_free_symbolic(&factor->symbolic, &factor->common);
+    free(factor);
+    fem->factor = NULL;
   }
 }
 
@@ -136,10 +156,13 @@ static void apply_condition(SbRingFem *fem, int node, int raw_at) {
   double *rhs = &fem->rhs[2 * node];
   if (c->count == 2) {
     memset(row[0], 0, sizeof(double) * 2 * (size_t)width);
+    // Either takes the row of its larger component, so that no pivot vanishes.
+    bool swap = fabs(c->direction[0][0]) < fabs(c->direction[0][1]);
     for (int k = 0; k < 2; k++) {
-      row[k][diagonal] = scale * c->direction[k][0];
-      row[k][diagonal + 1] = scale * c->direction[k][1];
-      rhs[k] = scale * c->gap[k];
+      int to = swap ? 1 - k : k;
+      row[to][diagonal] = scale * c->direction[k][0];
+      row[to][diagonal + 1] = scale * c->direction[k][1];
+      rhs[to] = scale * c->gap[k];
     }
     return;
   }
@@ -160,7 +183,23 @@ static void apply_condition(SbRingFem *fem, int node, int raw_at) {
   rhs[1 - fixed] = c->drive - (w0 * r0 + w1 * r1);
 }
 
-SbStatus sb_ring_fem_factor(SbRingFem *fem, void **factor, SbReport *report) {
+// Factorises with new pivots.
+static SbStatus choose_pivots(SbRingFem *fem, SbReport *report) {
+  SbRingFactor *factor = fem->factor;
+  klu_free_numeric(&factor->numeric, &factor->common);
+  factor->numeric =
+      klu_factor(fem->row_start, fem->column, fem->value, factor->symbolic, &factor->common);
+  if (factor->numeric != NULL && factor->common.status == KLU_OK) {
+    return SB_OK;
+  }
+  klu_free_numeric(&factor->numeric, &factor->common);
+  return factor->common.status == KLU_OUT_OF_MEMORY
+             ? sb_fail(report, SB_ERROR_MEMORY, "no memory to factorise the ring's matrix")
+             : sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's stiffness is singular");
+}
+
+SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report) {
+  SbRingFactor *factor = fem->factor;
   int nodes = fem->mesh->nodes, raw_at = 0;
   for (int i = 0; i < 2 * nodes; i++) {
     fem->rhs[i] = -fem->residual[i];
@@ -171,41 +210,55 @@ SbStatus sb_ring_fem_factor(SbRingFem *fem, void **factor, SbReport *report) {
       raw_at += 2 * (fem->row_start[2 * i + 1] - fem->row_start[2 * i]);
     }
   }
-  *factor = NULL;
-  int code = umfpack_di_numeric(fem->row_start, fem->column, fem->value, fem->symbolic, factor,
-                                fem->control, fem->info);
-  fem->factorizations++;
-  if (code == UMFPACK_ERROR_out_of_memory) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory to factorise the ring's matrix");
-  }
-  return code == UMFPACK_OK ? SB_OK
-                            : sb_fail(report, SB_ERROR_NOT_CONVERGED,
-                                      "the ring's stiffness is singular (UMFPACK %d)", code);
+  bool good =
+      factor->numeric != NULL && klu_refactor(fem->row_start, fem->column, fem->value,
+                                              factor->symbolic, factor->numeric, &factor->common);
+  return good ? SB_OK : choose_pivots(fem, report);
 }
 
-SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, void *factor, SbReport *report) {
-  int code = umfpack_di_wsolve(UMFPACK_At, fem->row_start, fem->column, fem->value, fem->du,
-                               fem->rhs, factor, fem->control, fem->info, fem->work_int, fem->work);
-  for (int i = 0; code == UMFPACK_OK && i < 2 * fem->mesh->nodes; i++) {
-    code = isfinite(fem->du[i]) ? UMFPACK_OK : UMFPACK_WARNING_singular_matrix;
+// Solves for du with the present factors; the largest residual over the largest sum of its terms'
+// sizes, infinite where the solution is not finite.
+static double solve(SbRingFem *fem) {
+  SbRingFactor *factor = fem->factor;
+  int n = 2 * fem->mesh->nodes;
+  memcpy(fem->du, fem->rhs, sizeof(double) * (size_t)n);
+  if (!klu_tsolve(factor->symbolic, factor->numeric, n, 1, fem->du, &factor->common)) {
+    return INFINITY;
   }
-  return code == UMFPACK_OK ? SB_OK
-                            : sb_fail(report, SB_ERROR_NOT_CONVERGED,
-                                      "the ring's stiffness is singular (UMFPACK %d)", code);
+  double most = 0.0, scale = 0.0;
+  for (int i = 0; i < n; i++) {
+    double sum = -fem->rhs[i], size = fabs(sum);
+    for (int k = fem->row_start[i]; k < fem->row_start[i + 1]; k++) {
+      double term = fem->value[k] * fem->du[fem->column[k]];
+      sum += term;
+      size += fabs(term);
+    }
+    if (!isfinite(sum)) {
+      return INFINITY;
+    }
+    most = fmax(most, fabs(sum));
+    scale = fmax(scale, size);
+  }
+  return scale > 0.0 ? most / scale : 0.0;
 }
 
-void sb_ring_fem_free_factor(void **factor) {
-  umfpack_di_free_numeric(factor);
+SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, SbReport *report) {
+  double residual = solve(fem);
+  if (!(residual <= RESIDUAL_MOST)) {
+    SbStatus status = choose_pivots(fem, report);
+    if (status != SB_OK) {
+      return status;
+    }
+    residual = solve(fem);
+  }
+  return isfinite(residual)
+             ? SB_OK
+             : sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's stiffness is singular");
 }
 
 SbStatus sb_ring_fem_solve(SbRingFem *fem, SbReport *report) {
-  void *factor = NULL;
-  SbStatus status = sb_ring_fem_factor(fem, &factor, report);
-  if (status == SB_OK) {
-    status = sb_ring_fem_apply_factor(fem, factor, report);
-  }
-  sb_ring_fem_free_factor(&factor);
-  return status;
+  SbStatus status = sb_ring_fem_factor(fem, report);
+  return status == SB_OK ? sb_ring_fem_apply_factor(fem, report) : status;
 }
 
 void sb_ring_fem_reaction(const SbRingFem *fem, int node, double force[2]) {
