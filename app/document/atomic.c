@@ -53,6 +53,10 @@ bool sb_atomic_file_begin(SbAtomicFile *out, const char *path, GError **error) {
     *out = (SbAtomicFile){g_strdup(path), NULL, direct};
     return true;
   }
+  // Renaming would replace what its owner has write-protected.
+  if (access(path, F_OK) == 0 && access(path, W_OK) != 0) {
+    return fail(error, path, errno);
+  }
   char *directory = g_path_get_dirname(path);
   char *name = g_path_get_basename(path);
   char *prefix = g_strdup_printf(".%s.part-", name);

@@ -26,6 +26,7 @@ char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t
   }
   struct stat info;
   char *text = NULL;
+  size_t room = 0;
   if (fstat(fd, &info) != 0) {
     sb_issues_add(issues, shown, 0, NULL, NULL, "%s", g_strerror(errno));
   } else if (S_ISDIR(info.st_mode)) {
@@ -35,12 +36,17 @@ char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t
   } else if ((guint64)info.st_size > bytes_max) {
     add_too_large(issues, shown, bytes_max, (double)info.st_size);
   } else {
-    text = g_malloc(bytes_max + 2);
+    room = (size_t)info.st_size + 2;
+    text = g_malloc(room);
   }
   // One byte more than allowed shows that the file has grown meanwhile.
   size_t count = 0;
   while (text != NULL && count <= bytes_max) {
-    ssize_t got = read(fd, text + count, bytes_max + 1 - count);
+    if (count + 1 == room) {
+      room = MIN(2 * room, bytes_max + 2);
+      text = g_realloc(text, room);
+    }
+    ssize_t got = read(fd, text + count, room - 1 - count);
     if (got < 0 && errno == EINTR) {
       continue;
     }

@@ -1,16 +1,16 @@
 // See stl.h.
 #include "app/document/stl.h"
 
+#include "app/document/reader.h"
 #include "app/document/unit.h"
 
-#include <glib/gstdio.h>
 #include <math.h>
 #include <string.h>
 
 enum { HEADER = 84, RECORD = 50 };
 
 // A text facet takes up to about 300 bytes; 512 leaves room for long numbers.
-static const gsize length_max = (gsize)SB_STL_TRIANGLES_MAX * 512;
+static const size_t length_max = (size_t)SB_STL_TRIANGLES_MAX * 512;
 
 typedef struct {
   SbStl *out;
@@ -250,26 +250,19 @@ gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *un
 }
 
 gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **error) {
-  GStatBuf info;
   *out = (SbStl){0};
-  if (g_stat(path, &info) != 0) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s: cannot be read", path);
-    return FALSE;
+  GPtrArray *issues = sb_issues_new();
+  gsize length = 0;
+  char *data = sb_reader_load(&length, path, path, length_max, issues);
+  gboolean ok = FALSE;
+  if (data != NULL) {
+    ok = sb_stl_parse(out, data, length, unit, path, error);
+  } else {
+    char *line = sb_issue_line(issues->pdata[0]);
+    g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_IO, line);
+    g_free(line);
   }
-  if ((guint64)info.st_size > length_max) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: larger than any mesh allowed here",
-                path);
-    return FALSE;
-  }
-  char *data;
-  gsize length;
-  GError *cause = NULL;
-  if (!g_file_get_contents(path, &data, &length, &cause)) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s", cause->message);
-    g_error_free(cause);
-    return FALSE;
-  }
-  gboolean ok = sb_stl_parse(out, data, length, unit, path, error);
+  g_ptr_array_unref(issues);
   g_free(data);
   return ok;
 }

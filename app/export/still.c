@@ -6,6 +6,7 @@
 #include "app/export/still.h"
 
 #include "app/document/atomic.h"
+#include "app/document/reader.h"
 #include "engine/sealbench.h"
 
 #include <cairo-pdf.h>
@@ -298,7 +299,42 @@ bool sb_still_write(const SbStill *still, const char *path, GError **error) {
 // ---------------------------------------------------------------------------------------------------
 // Reading back
 
-static char *find_scene(FILE *stream, GError **error) {
+// What of the file is still to be read.
+typedef struct {
+  const guchar *at;
+  size_t left;
+} PngBytes;
+
+static void png_take_bytes(png_structp png, png_bytep data, png_size_t length) {
+  PngBytes *bytes = png_get_io_ptr(png);
+  if (length > bytes->left) {
+    png_error(png, "it ends too early");
+  }
+  memcpy(data, bytes->at, length);
+  bytes->at += length;
+  bytes->left -= length;
+}
+
+// Whether every chunk before the pixels is as long as it says: libpng takes memory for that, up to
+// gigabytes, before it looks for the bytes.
+static bool chunks_are_whole(const guchar *data, size_t length) {
+  enum { SIGNATURE = 8, FRAME = 12 };
+  for (size_t at = SIGNATURE; at + FRAME <= length && memcmp(data + at + 4, "IDAT", 4) != 0;) {
+    size_t chunk = (size_t)data[at] << 24 | (size_t)data[at + 1] << 16 | (size_t)data[at + 2] << 8 |
+                   data[at + 3];
+    if (chunk > length - at - FRAME) {
+      return false;
+    }
+    at += chunk + FRAME;
+  }
+  return true;
+}
+
+char *sb_still_find_scene(const void *data, size_t length, GError **error) {
+  if (!chunks_are_whole(data, length)) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "not a readable PNG: it is cut off");
+    return NULL;
+  }
   PngFailure failure = {.text = ""};
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, png_failed, png_warned);
   png_infop info = png ? png_create_info_struct(png) : NULL;
@@ -312,7 +348,8 @@ static char *find_scene(FILE *stream, GError **error) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "not a readable PNG: %s", failure.text);
     return NULL;
   }
-  png_init_io(png, stream);
+  PngBytes bytes = {data, length};
+  png_set_read_fn(png, &bytes, png_take_bytes);
   png_set_chunk_malloc_max(png, 4000000);
   png_read_info(png, info);
   png_textp text = NULL;
@@ -332,16 +369,22 @@ static char *find_scene(FILE *stream, GError **error) {
 }
 
 char *sb_still_read_scene(const char *path, GError **error) {
-  FILE *stream = fopen(path, "rb");
-  if (!stream) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s: %s", path, g_strerror(errno));
-    return NULL;
+  GPtrArray *issues = sb_issues_new();
+  size_t length = 0;
+  char *data = sb_reader_load(&length, path, path, SB_STILL_BYTES_MAX, issues);
+  char *found = NULL;
+  if (data == NULL) {
+    char *line = sb_issue_line(issues->pdata[0]);
+    g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_IO, line);
+    g_free(line);
+  } else {
+    GError *reason = NULL;
+    found = sb_still_find_scene(data, length, &reason);
+    if (found == NULL) {
+      g_propagate_prefixed_error(error, reason, "%s: ", path);
+    }
   }
-  GError *reason = NULL;
-  char *found = find_scene(stream, &reason);
-  fclose(stream);
-  if (!found) {
-    g_propagate_prefixed_error(error, reason, "%s: ", path);
-  }
+  g_ptr_array_unref(issues);
+  g_free(data);
   return found;
 }

@@ -1,11 +1,14 @@
 // Documents: shipped files hold what the catalogue says, edits undo, saving changes nothing else.
+#include "app/document/atomic.h"
 #include "app/document/document.h"
+#include "app/document/unit.h"
 #include "app/export/still.h"
 
 #include <glib/gstdio.h>
 #include <math.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 static char *asset(const char *name) {
@@ -332,6 +335,40 @@ static void test_picture(void) {
   remove_folder(folder);
 }
 
+// A write-protected file is not replaced, though its folder would allow it. Root may write
+// anything: a child that is not root tries.
+static void test_protected(void) {
+  char *folder = temporary_folder();
+  char *path = g_build_filename(folder, "kept.valve", NULL);
+  g_assert_true(g_file_set_contents(path, "kept", -1, NULL));
+  g_assert_cmpint(chmod(path, 0444), ==, 0);
+  g_assert_cmpint(chmod(folder, 0777), ==, 0);
+  pid_t child = fork();
+  if (child == 0) {
+    const unsigned nobody = 65534;
+    if (geteuid() == 0 && (setgid(nobody) != 0 || setuid(nobody) != 0)) {
+      _exit(77);
+    }
+    GError *error = NULL;
+    bool written = sb_atomic_write(path, "new", 3, &error);
+    _exit(!written && g_error_matches(error, SB_APP_ERROR, SB_APP_ERROR_IO) ? 0 : 1);
+  }
+  int status = 0;
+  g_assert_true(child > 0 && waitpid(child, &status, 0) == child);
+  g_assert_true(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 77) {
+    g_test_skip("root cannot become another user here");
+  } else {
+    g_assert_cmpint(WEXITSTATUS(status), ==, 0);
+    char *text = NULL;
+    g_assert_true(g_file_get_contents(path, &text, NULL, NULL));
+    g_assert_cmpstr(text, ==, "kept");
+    g_free(text);
+  }
+  g_free(path);
+  remove_folder(folder);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/document/piston", test_piston);
@@ -341,5 +378,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/document/save", test_save);
   g_test_add_func("/document/moved-scene", test_moved_scene);
   g_test_add_func("/document/picture", test_picture);
+  g_test_add_func("/document/protected", test_protected);
   return g_test_run();
 }

@@ -7,6 +7,7 @@
 #include <glib/gstdio.h>
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
 
 // Corners of a box of 2 x 3 x 5, twelve triangles seen from outside.
 static const double corner[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0},
@@ -79,7 +80,8 @@ static void test_forms(void) {
   weigh(&stl, 0.0254);
   sb_stl_clear(&stl);
   // From a file.
-  char *path = g_build_filename(g_get_tmp_dir(), "sealbench-box.stl", NULL);
+  char *folder = g_dir_make_tmp("sealbench-stl-XXXXXX", NULL);
+  char *path = g_build_filename(folder, "box.stl", NULL);
   g_assert_true(g_file_set_contents(path, (char *)binary->data, (gssize)binary->len, NULL));
   g_assert_true(sb_stl_read(&stl, path, "mm", &error));
   weigh(&stl, 1e-3);
@@ -88,7 +90,19 @@ static void test_forms(void) {
   g_assert_false(sb_stl_read(&stl, path, "mm", &error));
   g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_IO);
   g_clear_error(&error);
+  // Neither waited for nor read without end.
+  g_assert_cmpint(mkfifo(path, 0600), ==, 0);
+  const char *const none[] = {path, "/dev/zero", folder};
+  for (size_t i = 0; i < G_N_ELEMENTS(none); i++) {
+    g_assert_false(sb_stl_read(&stl, none[i], "mm", &error));
+    g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_IO);
+    g_assert_nonnull(strstr(error->message, none[i]));
+    g_clear_error(&error);
+  }
+  g_unlink(path);
+  g_rmdir(folder);
   g_free(path);
+  g_free(folder);
   g_byte_array_unref(binary);
   g_string_free(text, TRUE);
   sb_stl_clear(NULL);

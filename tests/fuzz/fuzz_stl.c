@@ -1,0 +1,41 @@
+// What any bytes must survive as an STL file: either a mesh of finite corners whose triangles point
+// at them, which the engine weighs or refuses, or one complaint and nothing.
+#include "app/document/stl.h"
+
+#include "app/document/unit.h"
+#include "engine/motion/solid.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  SbStl stl;
+  GError *error = NULL;
+  if (!sb_stl_parse(&stl, (const char *)data, size, "mm", "fuzz", &error)) {
+    g_assert_true(error->domain == SB_APP_ERROR);
+    g_assert_true(stl.vertices == NULL && stl.triangles == NULL);
+    g_error_free(error);
+    return 0;
+  }
+  g_assert_true(error == NULL && stl.triangle_count > 0);
+  for (gsize i = 0; i < 3 * stl.vertex_count; i++) {
+    g_assert_true(isfinite(stl.vertices[i]));
+  }
+  for (gsize i = 0; i < 3 * stl.triangle_count; i++) {
+    g_assert_cmpuint(stl.triangles[i], <, stl.vertex_count);
+  }
+  SbSolid solid;
+  SbReport report = {0};
+  SbStatus status = sb_solid_mesh(&solid, stl.vertices, stl.vertex_count, stl.triangles,
+                                  stl.triangle_count, 1000, &report);
+  if (status == SB_OK) {
+    g_assert_true(isfinite(solid.mass) && solid.mass > 0);
+  } else {
+    g_assert_true(report.text[0] != '\0');
+  }
+  sb_stl_clear(&stl);
+  return 0;
+}
