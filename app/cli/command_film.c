@@ -211,13 +211,35 @@ static const Quantity quantities[] = {
 };
 enum { QUANTITIES = G_N_ELEMENTS(quantities) };
 
+// False with a message if a value is beyond what the engine takes.
+static bool in_range(const char *option, const Quantity *q, double value) {
+  size_t count;
+  const SbFilmRange *range = sb_film_ranges(&count);
+  while (count > 0 && range->offset != q->offset) {
+    range++;
+    count--;
+  }
+  if (count == 0 || (value >= range->min && value <= range->max)) {
+    return true;
+  }
+  char *given = sb_quantity_format(value, q->si, q->shown);
+  char *min = sb_quantity_format(range->min, q->si, q->shown);
+  char *max = sb_quantity_format(range->max, q->si, q->shown);
+  sb_cli_fail("%s: %s is out of range (allowed %s to %s)", option, given, min, max);
+  g_free(given);
+  g_free(min);
+  g_free(max);
+  return false;
+}
+
 // Reads every quantity given; false with a message.
 static bool read_quantities(SbFilmProblem *problem, char *const *texts) {
   for (int i = 0; i < QUANTITIES; i++) {
     const Quantity *q = &quantities[i];
     double value = 0;
     char *option = g_strconcat("--", q->name, NULL);
-    bool good = sb_cli_quantity(&value, option, texts[i], q->required, q->si, q->shown);
+    bool good = sb_cli_quantity(&value, option, texts[i], q->required, q->si, q->shown) &&
+                (texts[i] == NULL || in_range(option, q, value));
     g_free(option);
     if (!good) {
       return false;

@@ -151,6 +151,15 @@ int sb_command_fit(int argc, char **argv) {
       (name != NULL && !choose_model(&problem, name))) {
     goto done;
   }
+  const SbParam *allowed = sb_param(SB_P_CANISTER_PRESSURE);
+  if (!(problem.pressure >= allowed->min && problem.pressure <= allowed->max)) {
+    char *given = sb_param_format(SB_P_CANISTER_PRESSURE, problem.pressure);
+    char *range = sb_param_range(SB_P_CANISTER_PRESSURE);
+    sb_cli_fail("--pressure: %s is out of range (allowed %s)", given, range);
+    g_free(given);
+    g_free(range);
+    goto done;
+  }
   if (!(problem.tolerance >= 1e-8 && problem.tolerance <= 0.1)) {
     sb_cli_fail("--tolerance: out of range (allowed 1e-8 to 0.1)");
     goto done;

@@ -116,6 +116,14 @@ static bool parse(Request *request, const Options *options) {
   }
   request->film = g_str_has_suffix(options->output, ".mp4");
   request->sequence = sb_render_is_sequence(options->output);
+  char *lower = g_ascii_strdown(options->output, -1);
+  bool still = g_str_has_suffix(lower, ".png") || g_str_has_suffix(lower, ".svg") ||
+               g_str_has_suffix(lower, ".pdf");
+  g_free(lower);
+  if (!still && !request->film && !request->sequence) {
+    sb_cli_fail("-o: %s: the ending must be .png, .svg, .pdf or .mp4", options->output);
+    return false;
+  }
   if (request->is_study && (request->film || request->sequence)) {
     sb_cli_fail("--view %s is a study, which does not move: write a .png, .svg or .pdf", how->view);
     return false;

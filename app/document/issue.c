@@ -57,7 +57,7 @@ char *sb_issue_line(const SbIssue *issue) {
     if (dot != NULL) {
       g_string_append_printf(line, "[%.*s] %s: ", (int)(dot - issue->key), issue->key, dot + 1);
     } else {
-      g_string_append_printf(line, "[%s]: ", issue->key);
+      g_string_append_printf(line, "%s: ", issue->key);
     }
   } else if (issue->file != NULL && issue->line > 0) {
     g_string_append_printf(line, "line %d: ", issue->line);

@@ -10,6 +10,7 @@
 #include "engine/film/scale.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -86,42 +87,47 @@ static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const S
   return sb_mixed_solve(out, problem, scale, solver->mixed, report);
 }
 
-// Ranges wide enough for every seal and narrow enough that nothing overflows.
+#define RANGE(member) offsetof(SbFilmProblem, member)
+// Wide enough for every seal and narrow enough that nothing overflows.
+static const SbFilmRange ranges[] = {
+    {"load", "", "N/m", RANGE(load), 1e-6, 1e9},
+    {"speed", "drive.speed", "m/s", RANGE(speed), -1e4, 1e4},
+    {"radius", "seal.section_diameter", "m", RANGE(radius), 1e-7, 1e3},
+    {"reduced modulus", "seal.modulus", "Pa", RANGE(modulus), 1.0, 1e13},
+    {"viscosity", "fluid.viscosity", "Pa.s", RANGE(viscosity), 1e-9, 1e6},
+    {"pressure left", "canister.pressure", "Pa", RANGE(pressure_left), 0.0, 1e10},
+    {"pressure right", "canister.pressure", "Pa", RANGE(pressure_right), 0.0, 1e10},
+    {"tolerance", "", "", RANGE(tolerance), 1e-8, 0.1},
+    {"pressure viscosity", "", "1/Pa", RANGE(pressure_viscosity), 0.0, 1e-5},
+    {"Eyring stress", "", "Pa", RANGE(eyring_stress), 0.0, 1e12},
+    {"inlet film", "", "m", RANGE(inlet_film), 0.0, 1.0},
+    {"rupture pressure", "", "Pa", RANGE(rupture_pressure), -1e6, 1e9},
+    {"asperity product", "surface.gt_product", "", RANGE(gt_product), 0.0, 100.0},
+    {"sigma", "surface.sigma", "m", RANGE(sigma), 0.0, 1.0},
+    {"sigma/beta", "surface.sigma_over_beta", "", RANGE(sigma_over_beta), 0.0, 1e3},
+    {"Hamaker constant", "surface.hamaker_constant", "J", RANGE(hamaker), 0.0, 1e-17},
+    {"shear strength", "friction.shear_strength", "Pa", RANGE(shear_strength), 0.0, 1e12},
+    {"load coefficient", "friction.load_coefficient", "", RANGE(load_coefficient), 0.0, 100.0},
+};
+#undef RANGE
+
+const SbFilmRange *sb_film_ranges(size_t *count) {
+  *count = sizeof ranges / sizeof ranges[0];
+  return ranges;
+}
+
 static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
-  const struct {
-    const char *name;
-    const char *key;
-    const char *unit;
-    double value, min, max;
-  } range[] = {
-      {"load", "", "N/m", problem->load, 1e-6, 1e9},
-      {"speed", "drive.speed", "m/s", fabs(problem->speed), 0.0, 1e4},
-      {"radius", "seal.section_diameter", "m", problem->radius, 1e-7, 1e3},
-      {"reduced modulus", "seal.modulus", "Pa", problem->modulus, 1.0, 1e13},
-      {"viscosity", "fluid.viscosity", "Pa s", problem->viscosity, 1e-9, 1e6},
-      {"pressure left", "canister.pressure", "Pa", problem->pressure_left, 0.0, 1e10},
-      {"pressure right", "canister.pressure", "Pa", problem->pressure_right, 0.0, 1e10},
-      {"tolerance", "", "", problem->tolerance, 1e-8, 0.1},
-      {"pressure viscosity", "", "1/Pa", problem->pressure_viscosity, 0.0, 1e-5},
-      {"Eyring stress", "", "Pa", problem->eyring_stress, 0.0, 1e12},
-      {"inlet film", "", "m", problem->inlet_film, 0.0, 1.0},
-      {"rupture pressure", "", "Pa", problem->rupture_pressure, -1e6, 1e9},
-      {"asperity product", "surface.gt_product", "", problem->gt_product, 0.0, 100.0},
-      {"sigma", "surface.sigma", "m", problem->sigma, 0.0, 1.0},
-      {"sigma/beta", "surface.sigma_over_beta", "", problem->sigma_over_beta, 0.0, 1e3},
-      {"Hamaker constant", "surface.hamaker_constant", "J", problem->hamaker, 0.0, 1e-17},
-      {"shear strength", "friction.shear_strength", "Pa", problem->shear_strength, 0.0, 1e12},
-      {"load coefficient", "friction.load_coefficient", "", problem->load_coefficient, 0.0, 100.0},
-  };
   if ((int)problem->model < 0 || problem->model >= SB_FILM_MODEL_COUNT) {
     return sb_fail(report, SB_ERROR_INPUT, "there is no film model number %d", (int)problem->model);
   }
-  for (size_t i = 0; i < sizeof range / sizeof range[0]; i++) {
+  for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
+    const SbFilmRange *r = &ranges[i];
+    double value = *(const double *)(const void *)((const char *)problem + r->offset);
     // The comparison is written so that a NaN fails it.
-    if (!(range[i].value >= range[i].min && range[i].value <= range[i].max)) {
-      return sb_fail_parameter(report, SB_ERROR_RANGE, range[i].key,
-                               "film: %s %g %s is outside %g ... %g", range[i].name, range[i].value,
-                               range[i].unit, range[i].min, range[i].max);
+    if (!(value >= r->min && value <= r->max)) {
+      return sb_fail_parameter(report, SB_ERROR_RANGE, r->key,
+                               "film: %s %g %s is outside %g ... %g", r->name, value, r->unit,
+                               r->min, r->max);
     }
   }
   if ((int)problem->surface < 0 || problem->surface >= SB_ROUGH_COUNT) {

@@ -166,6 +166,18 @@ void sb_film_solver_destroy(SbFilmSolver *solver);
 // Forgets the last solution, so that the next solve is cold; keeps the memory.
 void sb_film_solver_forget(SbFilmSolver *solver);
 
+// What sb_film_solve() takes for one double of a problem, in SI.
+typedef struct {
+  const char *name; // "reduced modulus"
+  const char *key;  // of the catalogue, "" if it has none
+  const char *unit;
+  size_t offset; // of the double in SbFilmProblem
+  double min, max;
+} SbFilmRange;
+
+// All of them, *count.
+const SbFilmRange *sb_film_ranges(size_t *count);
+
 // Every option off, tolerance 1e-3, model reynolds, no pressures; sizes are zero and must be set.
 void sb_film_problem_init(SbFilmProblem *problem);
 

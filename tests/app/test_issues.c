@@ -1,6 +1,8 @@
 // Broken input: each case gives exactly the one clear line that the user needs, and nothing hangs.
 #include "app/document/document.h"
 
+#include "tests/pace.h"
+
 #include <fcntl.h>
 #include <glib/gstdio.h>
 #include <string.h>
@@ -182,9 +184,9 @@ static void test_files(void) {
   int fd = open(path, O_WRONLY | O_CREAT, 0600);
   g_assert_cmpint(ftruncate(fd, 1 << 30), ==, 0);
   close(fd);
-  gint64 start = g_get_monotonic_time();
+  double start = pace_clock();
   expect(path, "is too large (1024.0 MiB) (allowed at most 1 MiB)");
-  g_assert_cmpint(g_get_monotonic_time() - start, <, 200000);
+  g_assert_cmpfloat(pace_clock() - start, <, 0.2);
   g_unlink(path);
   g_free(path);
 
@@ -225,9 +227,11 @@ static void test_flood(void) {
     g_string_append_printf(text, "k%d = 1\n", i);
   }
   GPtrArray *issues = sb_issues_new();
-  gint64 start = g_get_monotonic_time();
+  double start = pace_clock();
   SbDocument *document = sb_document_parse(text->str, text->len, "x.valve", NULL, issues);
-  g_assert_cmpint(g_get_monotonic_time() - start, <, 5000000);
+  double took = pace_clock() - start;
+  g_test_message("%.3f s", took);
+  g_assert_cmpfloat(took, <, SB_SANITIZED ? 30 : 5);
   g_assert_cmpuint(issues->len, ==, SB_ISSUES_MAX + 1);
   SbIssue *last = issues->pdata[SB_ISSUES_MAX];
   g_assert_true(g_str_has_prefix(last->text, "and "));
@@ -244,7 +248,7 @@ static void test_options(void) {
       {"seal.modulus", "--set: \"seal.modulus\" is not KEY=VALUE"},
       {"=3", "--set: \"=3\" is not KEY=VALUE"},
       {"seal.moduls=3MPa", "--set: [seal] moduls: unknown key, do you mean seal.modulus?"},
-      {"modulus=3MPa", "--set: [modulus]: unknown key"},
+      {"modulus=3MPa", "--set: modulus: unknown key"},
       {"seal.modulus=3", "--set: [seal] modulus: \"3\" has no unit, write for example \"3 MPa\" "
                          "(allowed 0.1 to 10000 MPa)"},
       {"seal.modulus=\xff", "--set: \"seal.modulus=?\" is not KEY=VALUE"},
