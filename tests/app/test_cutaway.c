@@ -1,13 +1,12 @@
 // Bodies turned for the cutaway: their volumes against Pappus, the order of painting against the
 // nearest surface found pixel by pixel, and that drawing on and on neither grows nor takes long.
 #include "app/section/cutaway.h"
-#include "tests/sanitized.h"
+#include "tests/pace.h"
 
 #include <glib.h>
 #include <malloc.h>
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 enum { AROUND = 60, BODIES = 5 };
 
@@ -207,12 +206,6 @@ static void test_order(void) {
   sb_revolve_finish(&revolve);
 }
 
-static double processor_time(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 // A turning camera over a moving stem: after one turn nothing is allocated any more, and a picture
 // is listed well within a thirtieth of a second.
 static void test_steady(void) {
@@ -243,9 +236,9 @@ static void test_steady(void) {
                           .hide_labels = true,
                           .azimuth = phase,
                           .elevation = sin(phase)};
-    double before = processor_time();
+    double before = pace_clock();
     sb_section_draw(section, &list, &view, &instant);
-    least = fmin(least, processor_time() - before);
+    least = fmin(least, pace_clock() - before);
     if (i == TURN) {
       allocated = mallinfo2().uordblks;
     }

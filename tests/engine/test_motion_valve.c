@@ -2,11 +2,10 @@
 // time.
 #include "engine/motion/dynamics.h"
 
-#include "tests/sanitized.h"
+#include "tests/pace.h"
 
 #include <glib.h>
 #include <math.h>
-#include <time.h>
 
 enum { INNER, OUTER };
 
@@ -102,6 +101,12 @@ static SbDynamicsCounters run(const SbDynamicsModel *m, double until, int frames
   return sb_dynamics_counters(&s);
 }
 
+static void run_again(void *data) {
+  SbDynamicsSample sample;
+  SbDynamicsEnergy energy;
+  run(data, 45.0, 400, NULL, &sample, &energy);
+}
+
 static void test_cycle(void) {
   Valve valve = {14.5, 5.0, 8.0, false};
   SbDynamicsModel m = valve_model(&valve);
@@ -121,15 +126,8 @@ static void test_cycle(void) {
   g_assert_true(sample.drive_force == 0.0);
   g_assert_cmpfloat(stages.slip, >, 14.5 + 8.0);
   g_assert_cmpfloat(stages.slip, <, 14.5 + 13.0 * 1.1 + 0.1);
-  // Time of the whole cycle, of the processor and the least of some: others may keep it busy.
-  double least = INFINITY;
-  for (int i = 0; i < 21; i++) {
-    clock_t start = clock();
-    run(&m, 45.0, 400, NULL, &sample, &energy);
-    least = fmin(least, 1e3 * (double)(clock() - start) / CLOCKS_PER_SEC);
-  }
-  g_test_message("a cycle of 400 frames takes %.3f ms", least);
-  g_assert_cmpfloat(least, <, SB_SANITIZED ? 400.0 : 20.0);
+  PaceTime time = pace_time(run_again, &m, 20);
+  pace_limit("the motion of 400 frames", &time, 20e-3);
 }
 
 // ---- hard cases ----

@@ -2,9 +2,7 @@
 // below their estimates, and the time a cycle takes.
 #include "tests/engine/motion_run.h"
 
-#include "tests/sanitized.h"
-
-#include <time.h>
+#include "tests/pace.h"
 
 // ---- hard cases ----
 
@@ -143,19 +141,14 @@ static void test_tolerance(void) {
   }
 }
 
-// A whole cycle with closed-form seals, its error estimate included. Time of the processor, so that
-// a busy machine does not count.
+// A whole cycle with closed-form seals, its error estimate included.
+static void make_cycle(void *data) {
+  sb_run_destroy(run_with(SB_MODEL_MOTION_DYNAMIC, NULL, 0));
+}
+
 static void test_time(void) {
-  double least = INFINITY;
-  // The least of many, for what shares the machine slows some of them.
-  for (int i = 0; i < 60 && (i < 5 || least > 0.018); i++) {
-    clock_t start = clock();
-    SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, NULL, 0);
-    least = fmin(least, (double)(clock() - start) / CLOCKS_PER_SEC);
-    sb_run_destroy(run);
-  }
-  g_test_message("a dynamic cycle takes %.1f ms", 1e3 * least);
-  g_assert_cmpfloat(least, <, SB_SANITIZED ? 0.4 : 0.020);
+  PaceTime time = pace_time(make_cycle, NULL, 60);
+  pace_limit("a dynamic cycle", &time, 20e-3);
 }
 
 int main(int argc, char **argv) {

@@ -179,6 +179,19 @@ class App:
                         "org.gtk.Actions.Activate", name, "[]", "{}"], check=True,
                        stdout=subprocess.DEVNULL)
 
+    def _queued(self):
+        """Seconds that the thread of the main loop has waited for a processor."""
+        try:
+            with open("/proc/%d/task/%d/schedstat" % (self.process.pid, self.process.pid)) as file:
+                return 1e-9 * int(file.read().split()[1])
+        except OSError:  # a kernel that does not tell
+            return 0.0
+
+    def reset_latency(self):
+        """Starts the program's probe of its main loop anew."""
+        self.gaction("reset-latency")
+        self.queued_before, self.reset_at = self._queued(), time.monotonic()
+
     def latency(self):
         """What the program's own probe of its main loop has measured."""
         if os.path.exists(self.latency_path):
@@ -194,7 +207,10 @@ class App:
         """At most 50 ms at the 99th percentile and 200 ms ever. Where others keep the processors busy,
         only the window's own share of the waiting can be judged."""
         latency = self.latency()
-        busy = os.getloadavg()[0] > (os.cpu_count() or 1)
+        # The load is an average over a minute; how long the loop's thread stood in the queue for a
+        # processor meanwhile says it at once.
+        queued, seconds = self._queued() - self.queued_before, time.monotonic() - self.reset_at
+        busy = os.getloadavg()[0] > (os.cpu_count() or 1) or queued > 0.02 * seconds
         print("# main loop blocked while %s: %.1f ms at the 99th percentile, %.1f ms at most (own "
               "work %.1f and %.1f ms); load %.1f" % (
                   what, latency["p99_ms"], latency["max_ms"], latency["own_p99_ms"],
