@@ -16,6 +16,9 @@
 
 #include <math.h>
 
+// Instants at which a motion without frames halts: for a cancel, no more.
+enum { WITHOUT_FRAMES = 9 };
+
 typedef struct {
   SbRun *run;
   SbValve *valve;
@@ -27,9 +30,12 @@ typedef struct {
   double force[SB_STAGE_COUNT]; // at the stages
   double time[SB_STAGE_COUNT], place[SB_STAGE_COUNT];
   int direction; // of the last sliding
+  bool stopped;  // the stem touches the end stop
   double turn;   // time after which a reverse slip is the return [s]
   double force_peak, leak, leak_from, leak_since;
-  bool slips; // some contact has slid
+  double carried; // film dragged along, whichever way
+  double home;    // time at which the stem is back on its rest stop, 0: not yet
+  bool slips;     // some contact has slid
   double last_event;
   SbStatus status; // of the frames' reactions
   SbReport *report;
@@ -47,7 +53,9 @@ static void leak(Recorder *r, double time, double x, double pressure) {
   double way = x - r->leak_from;
   double speed = time > r->leak_since ? way / (time - r->leak_since) : r->run->speed;
   double film = outer->film_central * film_at(r->run, speed);
-  r->leak += sb_leak_stroke(r->run->model.bore_diameter, film, way);
+  double volume = sb_leak_stroke(r->run->model.bore_diameter, film, way);
+  r->leak += volume;
+  r->carried += fabs(volume);
   r->leak_from = x;
   r->leak_since = time;
 }
@@ -135,7 +143,7 @@ static void valve_event(const SbMotionEvent *event, void *user) {
     r->slips = true;
     if (event->sign > 0 && r->stage == SB_STAGE_A) {
       mark(r, SB_STAGE_B, event);
-    } else if (event->sign < 0 && event->time >= r->turn) {
+    } else if (event->sign < 0 && event->time >= r->turn && !r->stopped) {
       mark(r, SB_STAGE_E, event);
     }
     r->direction = event->sign > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT;
@@ -149,22 +157,31 @@ static void valve_event(const SbMotionEvent *event, void *user) {
         r->stage == SB_STAGE_B) {
       mark(r, SB_STAGE_C, event);
     } else if (valve->touches && edge == valve->edge_closed && event->sign < 0 &&
-               valve->chamber != SB_CHAMBER_AT_REST) {
+               event->time >= r->turn && valve->chamber != SB_CHAMBER_AT_REST) {
+      // A rebound that passes the edge on the way in is no return.
       mark(r, SB_STAGE_F, event);
     }
     break;
   }
   case SB_MOTION_TOUCH_STOP:
     if (event->index == SB_END_STOP) {
+      r->stopped = true;
       mark(r, SB_STAGE_D, event);
+    } else if (r->passed[SB_STAGE_E] && r->home == 0) {
+      r->home = event->time;
     }
     break;
   case SB_MOTION_LEAVE_STOP:
-    // Without friction nothing slips: the stem starts where it leaves its stop.
-    if (!rubs(r) && event->index == SB_REST_STOP && r->stage == SB_STAGE_A) {
+    if (event->index == SB_END_STOP) {
+      // While the stop unloads it takes the stem back with it by a micrometre or two; the stem's
+      // own way back begins here.
+      r->stopped = false;
+      if (event->time >= r->turn) {
+        mark(r, SB_STAGE_E, event);
+      }
+    } else if (!rubs(r) && r->stage == SB_STAGE_A) {
+      // Without friction nothing slips: the stem starts where it leaves its stop.
       mark(r, SB_STAGE_B, event);
-    } else if (!rubs(r) && event->index == SB_END_STOP && event->time >= r->turn) {
-      mark(r, SB_STAGE_E, event);
     }
     break;
   default:
@@ -192,6 +209,9 @@ static SbStatus run_motion(Recorder *r, SbDynamics *motion, const SbDynamicsMode
   sb_dynamics_listen(motion, valve_event, r);
   double drive = sb_drive_duration(run);
   size_t total = (size_t)run->model.frames;
+  if (!r->frames) {
+    total = WITHOUT_FRAMES;
+  }
   double step = drive / (double)(total - 1);
   int corner = 0;
   size_t next = 1;
@@ -315,6 +335,9 @@ SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRu
       *speed = fabs(recorder.place[way[i].to] - recorder.place[way[i].from]) / time;
     }
   }
+  if (*speed == 0 && recorder.home > recorder.time[SB_STAGE_E]) {
+    *speed = recorder.place[SB_STAGE_E] / (recorder.home - recorder.time[SB_STAGE_E]);
+  }
   if (*speed == 0 && *slips && run->model.drive == SB_MODEL_DRIVE_SINUSOID) {
     *speed = 4 * run->model.amplitude * run->model.frequency;
   }
@@ -335,6 +358,12 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   summary->force_return_min =
       sb_cycle_least_return(&run->cycle, run->model.stroke, SB_CHAMBER_OPEN, true) +
       run->model.spring_preload;
+  if (run->model.stribeck_speed > 0) {
+    // Slow sliding rubs nearly as rest does, on both seals.
+    summary->force_return_min = fmin(
+        summary->force_return_min,
+        sb_cycle_least_return(&run->cycle, 0, SB_CHAMBER_CLOSED, true) + run->model.spring_preload);
+  }
   SbDynamics motion = {0};
   Recorder recorder = {.run = run, .valve = &valve, .frames = true};
   status = run_motion(&recorder, &motion, &model, hooks, report);
@@ -349,7 +378,8 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   summary->duration = last->time;
   summary->force_peak = recorder.force_peak;
   summary->returns = status == SB_OK && fabs(last->displacement) < 1e-6 * run->model.stroke;
-  summary->leakage_per_cycle = recorder.leak;
+  // Films alike on both ways leave nothing but rounding.
+  summary->leakage_per_cycle = fabs(recorder.leak) > 1e-12 * recorder.carried ? recorder.leak : 0;
   sb_run_fill_motion(summary, &energy, &counters);
   summary->newton_iterations += (size_t)counters.newton_iterations;
   // Closed form throughout: rounding only.

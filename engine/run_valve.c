@@ -253,10 +253,13 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
     }
     warn_flow(run, valve);
   }
+  // Nothing varies with the place where the inner seal does not rub.
+  bool rubs = level_of(cycle, SB_INNER, SB_CHAMBER_AT_REST, 0) > 0 ||
+              level_of(cycle, SB_INNER, SB_CHAMBER_CLOSED, 0) > 0;
   for (size_t region = 0; region <= out->edges; region++) {
     double low = region > 0 ? out->edge[region - 1] : -INFINITY;
     double high = region < out->edges ? out->edge[region] : INFINITY;
-    valve->varies[region] = valve->touches && low >= model->land_edge && high <= far;
+    valve->varies[region] = valve->touches && rubs && low >= model->land_edge && high <= far;
     if (region < out->edges) {
       valve->edge[region] = high;
     }

@@ -18,7 +18,9 @@ void sb_motion_drive_at(const SbDynamics *s, double t, double *value, double *ra
 double sb_motion_touch_relic(const SbDynamicsTouch *touch, double stiffness, double damping,
                              double t, double *fading) {
   *fading = damping > 0.0 ? stiffness / damping : 0.0;
-  return touch->relic != 0.0 ? touch->relic * exp(-*fading * (t - touch->since)) : 0.0;
+  double faded = *fading * (t - touch->since);
+  // exp(-746) is 0, but slow to find.
+  return touch->relic != 0.0 && faded < 746.0 ? touch->relic * exp(-faded) : 0.0;
 }
 
 double sb_motion_drive_force(const SbDynamics *s, double t, double x, double v) {

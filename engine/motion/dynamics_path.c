@@ -211,10 +211,15 @@ static bool cut_at_event(SbDynamics *s, SbReport *report) {
   return true;
 }
 
-static double first_step(const SbDynamics *s) {
+// Rate [1/s] at which the stem swings or settles.
+static double quickest_rate(const SbDynamics *s) {
   Linear l;
   sb_motion_linear_forces(s, &l);
-  double rate = fmax(sqrt(l.k / s->parts.mass), l.c / s->parts.mass);
+  return fmax(sqrt(l.k / s->parts.mass), l.c / s->parts.mass);
+}
+
+static double first_step(const SbDynamics *s) {
+  double rate = quickest_rate(s);
   return rate > 0.0 ? 0.05 / rate : 1e-5;
 }
 
@@ -237,8 +242,7 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
     grain = DBL_EPSILON * (fabs(place) + fabs(rate * s->t)) * square;
   }
   double speed = grain / sqrt(fmax(square, 1.0));
-  s->system.grain[0] = 8.0 * speed;
-  s->system.grain[1] = 8.0 * grain;
+  double quickest = quickest_rate(s);
   s->system.floor[1] = fmax(speed_size, 10.0 * speed / s->system.tolerance);
   for (size_t i = 0; i < patches; i++) {
     s->system.ceiling[2 + i] = is_rigid(m, i) ? 0.0 : force_size / m->contact[i].stiffness;
@@ -256,6 +260,10 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
     if (s->t + h <= s->t) {
       break;
     }
+    // A step that is long against the relaxation damps that rounding, too.
+    double damped = fmax(1.0, h * quickest);
+    s->system.grain[0] = 8.0 * speed / damped;
+    s->system.grain[1] = 8.0 * grain / damped;
     if (!sb_radau_pair(s->step, &error, local, &s->system, s->t, z, h, &s->radau)) {
       h *= 0.25;
       s->counters.rejected++;

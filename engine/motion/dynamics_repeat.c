@@ -13,7 +13,7 @@
 #include <math.h>
 
 // Cycles that are worth passing over: fewer are stepped through, and told to the listener.
-static const double worth = 100.0;
+static const double worth = 10.0;
 
 // Break-aways since `was` that can be told ahead: a slip and a rest of all contacts, nothing else.
 static bool comparable(const SbDynamics *s, const SbDynamicsBreak *was) {

@@ -94,8 +94,6 @@ static void decayed(const SbOscillator *o, double tau, double *s, double *c) {
 
 // The transient, its rate, and how far it has come from z0 without cancellation.
 static void transient_at(const SbOscillator *o, double tau, double *z, double *w, double *travel) {
-  double s, c;
-  decayed(o, tau, &s, &c);
   if (o->apart) {
     // The two exponentials apart: no cancellation in c - beta s for a strongly damped mass.
     double slow = o->c_slow * exp(-o->slow * tau), fast = o->c_fast * exp(-o->fast * tau);
@@ -104,6 +102,8 @@ static void transient_at(const SbOscillator *o, double tau, double *z, double *w
     *travel = o->c_slow * expm1(-o->slow * tau) + o->c_fast * expm1(-o->fast * tau);
     return;
   }
+  double s, c;
+  decayed(o, tau, &s, &c);
   *z = o->z0 * (c + o->beta * s) + o->w0 * s;
   *w = o->w0 * (c - o->beta * s) - o->z0 * o->omega0 * o->omega0 * s;
   double near = o->omega0 * tau;
@@ -117,30 +117,41 @@ static void transient_at(const SbOscillator *o, double tau, double *z, double *w
   }
 }
 
-void sb_oscillator_at(const SbOscillator *o, double tau, double *travel, double *v, double *a) {
-  double uu = 0.0, vv = 0.0, aa = 0.0;
+// The state at one time: what a gauge, its rounding and its bounds all ask for.
+typedef struct {
+  double tau, travel, v, a;
+  double z, w; // transient and its rate; 0 without a spring
+} State;
+
+static State state_at(const SbOscillator *o, double tau) {
+  State s = {.tau = tau};
   if (o->kind == SB_OSCILLATOR_DRIFT) {
     double p[PHI_MAX + 1];
     phi(-o->damping * tau / o->mass, p);
     double g0 = o->f0 / o->mass, g1 = o->f1 / o->mass;
-    vv = o->v0 * p[0] + tau * (g0 * p[1] + tau * g1 * p[2]);
-    uu = tau * (o->v0 * p[1] + tau * (g0 * p[2] + tau * g1 * p[3]));
-    aa = g0 + g1 * tau - o->damping * vv / o->mass;
+    s.v = o->v0 * p[0] + tau * (g0 * p[1] + tau * g1 * p[2]);
+    s.travel = tau * (o->v0 * p[1] + tau * (g0 * p[2] + tau * g1 * p[3]));
+    s.a = g0 + g1 * tau - o->damping * s.v / o->mass;
   } else if (o->kind != SB_OSCILLATOR_HELD) {
-    double z, w;
-    transient_at(o, tau, &z, &w, &uu);
-    uu = tau > 0.0 ? uu + o->trend1 * tau : 0.0;
-    vv = tau > 0.0 ? o->trend1 + w : o->v0;
-    aa = -2.0 * o->beta * w - o->omega0 * o->omega0 * z;
+    double moved;
+    transient_at(o, tau, &s.z, &s.w, &moved);
+    s.travel = tau > 0.0 ? moved + o->trend1 * tau : 0.0;
+    s.v = tau > 0.0 ? o->trend1 + s.w : o->v0;
+    s.a = -2.0 * o->beta * s.w - o->omega0 * o->omega0 * s.z;
   }
+  return s;
+}
+
+void sb_oscillator_at(const SbOscillator *o, double tau, double *travel, double *v, double *a) {
+  State s = state_at(o, tau);
   if (travel != NULL) {
-    *travel = uu;
+    *travel = s.travel;
   }
   if (v != NULL) {
-    *v = vv;
+    *v = s.v;
   }
   if (a != NULL) {
-    *a = aa;
+    *a = s.a;
   }
 }
 
@@ -228,20 +239,25 @@ double sb_oscillator_integral_v2(const SbOscillator *o, double tau) {
   return o->trend1 * (o->trend1 * tau + 2.0 * moved) + square;
 }
 
-double sb_gauge_at(const SbGauge *g, const SbOscillator *o, double tau, double *rate) {
-  double travel, v, a;
-  sb_oscillator_at(o, tau, &travel, &v, &a);
-  double value = g->constant + g->rate * tau + g->of_x * travel + g->of_v * v;
-  double slope = g->rate + g->of_x * v + g->of_v * a;
+static double value_at(const SbGauge *g, const State *s, double *rate) {
+  double value = g->constant + g->rate * s->tau + g->of_x * s->travel + g->of_v * s->v;
+  *rate = g->rate + g->of_x * s->v + g->of_v * s->a;
   if (g->relax != 0.0) {
-    double e = g->relax * exp(-g->relax_rate * tau);
+    double e = g->relax * exp(-g->relax_rate * s->tau);
     value += e;
-    slope -= g->relax_rate * e;
+    *rate -= g->relax_rate * e;
   }
   if (g->log_gain != 0.0) {
-    value += g->log_gain * log1p((g->log_start + tau) / g->log_time);
-    slope += g->log_gain / (g->log_time + g->log_start + tau);
+    value += g->log_gain * log1p((g->log_start + s->tau) / g->log_time);
+    *rate += g->log_gain / (g->log_time + g->log_start + s->tau);
   }
+  return value;
+}
+
+double sb_gauge_at(const SbGauge *g, const SbOscillator *o, double tau, double *rate) {
+  State s = state_at(o, tau);
+  double slope;
+  double value = value_at(g, &s, &slope);
   if (rate != NULL) {
     *rate = slope;
   }
@@ -249,33 +265,31 @@ double sb_gauge_at(const SbGauge *g, const SbOscillator *o, double tau, double *
 }
 
 // Size below which a value of g is rounding.
-static double grain(const SbGauge *g, const SbOscillator *o, double tau) {
-  double travel, v;
-  sb_oscillator_at(o, tau, &travel, &v, NULL);
-  double size = g->noise + fabs(g->constant) + fabs(g->rate * tau) + fabs(g->relax) +
-                fabs(g->of_x * travel) + fabs(g->of_v) * (fabs(v) + fabs(o->v0) + fabs(o->w0));
-  if (o->omega0 * tau >= 1e-3) {
+static double grain(const SbGauge *g, const SbOscillator *o, const State *s) {
+  double size = g->noise + fabs(g->constant) + fabs(g->rate * s->tau) + fabs(g->relax) +
+                fabs(g->of_x * s->travel) +
+                fabs(g->of_v) * (fabs(s->v) + fabs(o->v0) + fabs(o->w0));
+  if (o->omega0 * s->tau >= 1e-3) {
     size += fabs(g->of_x * o->z0);
   }
   return 4.0 * DBL_EPSILON * size;
 }
 
-// Bounds over [tau, tau + window]: |g''|, and how far the fading parts can pull g below its trend.
-static void bounds(const SbGauge *g, const SbOscillator *o, double tau, double window,
+// Bounds over `window` from the state on: |g''|, and how far the fading parts can pull g below its
+// trend.
+static void bounds(const SbGauge *g, const SbOscillator *o, const State *at, double window,
                    double *curvature, double *swing) {
+  double tau = at->tau;
   double px = fabs(g->of_x), pv = fabs(g->of_v);
   *curvature = 0.0;
   *swing = 0.0;
   if (o->kind == SB_OSCILLATOR_DRIFT) {
-    double a, gamma = o->damping / o->mass, jerk0 = o->f1 / o->mass;
-    sb_oscillator_at(o, tau, NULL, NULL, &a);
+    double a = at->a, gamma = o->damping / o->mass, jerk0 = o->f1 / o->mass;
     // a' = f1/m - gamma a fades; a grows at most by its integral, and not at all without a ramp.
     double jerk = fabs(jerk0 - gamma * a);
     double reach = gamma * window > 1.0 ? 1.0 / gamma : window;
     *curvature = px * (fabs(a) + (jerk0 != 0.0 ? jerk * reach : 0.0)) + pv * jerk;
   } else if (o->kind != SB_OSCILLATOR_HELD) {
-    double z, w, moved;
-    transient_at(o, tau, &z, &w, &moved);
     if (o->apart) {
       double s = fabs(o->c_slow) * exp(-o->slow * tau), f = fabs(o->c_fast) * exp(-o->fast * tau);
       *curvature =
@@ -283,7 +297,7 @@ static void bounds(const SbGauge *g, const SbOscillator *o, double tau, double w
       *swing = s * (px + pv * o->slow) + f * (px + pv * o->fast);
     } else {
       // The transient's energy never grows: |z'| <= size, |z| <= size/omega0 from here on.
-      double size = hypot(o->omega0 * z, w), b = 2.0 * o->beta;
+      double size = hypot(o->omega0 * at->z, at->w), b = 2.0 * o->beta;
       double second = (b + o->omega0) * size;
       *curvature = px * second + pv * (b * second + o->omega0 * o->omega0 * size);
       *swing = (px / o->omega0 + pv) * size;
@@ -295,8 +309,8 @@ static void bounds(const SbGauge *g, const SbOscillator *o, double tau, double w
     *swing += g->relax < 0.0 ? e : 0.0;
   }
   if (g->log_gain != 0.0) {
-    double at = g->log_time + g->log_start + tau;
-    *curvature += g->log_gain / (at * at);
+    double since = g->log_time + g->log_start + tau;
+    *curvature += g->log_gain / (since * since);
   }
 }
 
@@ -343,8 +357,9 @@ static double polish(const SbGauge *g, const SbOscillator *o, double tau, double
 
 double sb_gauge_first(const SbGauge *g, const SbOscillator *o, double horizon, bool *found) {
   double tau = 0.0, rate;
-  double value = sb_gauge_at(g, o, 0.0, &rate);
-  double tiny = grain(g, o, 0.0);
+  State at = state_at(o, 0.0);
+  double value = value_at(g, &at, &rate);
+  double tiny = grain(g, o, &at);
   *found = false;
   // Already past it: something jumped.
   if (value < -64.0 * tiny) {
@@ -354,7 +369,7 @@ double sb_gauge_first(const SbGauge *g, const SbOscillator *o, double horizon, b
   // At the limit from the start: look which way it goes.
   if (value <= tiny) {
     double curvature, swing;
-    bounds(g, o, 0.0, horizon, &curvature, &swing);
+    bounds(g, o, &at, horizon, &curvature, &swing);
     double lift = fabs(curvature) > 0.0 ? 2.0 * fabs(rate) / curvature : horizon;
     if (rate > 0.0 && rate * lift > 16.0 * tiny) {
       // Rising: nothing can happen before curvature has bent it back.
@@ -370,8 +385,9 @@ double sb_gauge_first(const SbGauge *g, const SbOscillator *o, double horizon, b
       }
       for (step = fmax(step, 1e-300);; step *= 4.0) {
         tau = fmin(step, horizon);
-        value = sb_gauge_at(g, o, tau, &rate);
-        tiny = grain(g, o, tau);
+        at = state_at(o, tau);
+        value = value_at(g, &at, &rate);
+        tiny = grain(g, o, &at);
         if (value > 16.0 * tiny || tau >= horizon) {
           break;
         }
@@ -384,8 +400,9 @@ double sb_gauge_first(const SbGauge *g, const SbOscillator *o, double horizon, b
   }
   double window = horizon;
   for (int i = 0; i < 200000 && tau < horizon; i++) {
-    value = sb_gauge_at(g, o, tau, &rate);
-    tiny = grain(g, o, tau);
+    at = state_at(o, tau);
+    value = value_at(g, &at, &rate);
+    tiny = grain(g, o, &at);
     if (value <= tiny) {
       if (rate < 0.0) {
         *found = true;
@@ -398,7 +415,7 @@ double sb_gauge_first(const SbGauge *g, const SbOscillator *o, double horizon, b
       value = tiny;
     }
     double curvature, swing;
-    bounds(g, o, tau, window, &curvature, &swing);
+    bounds(g, o, &at, window, &curvature, &swing);
     double clear = trend_clear(g, o, tau, swing);
     if (clear > tau * (1.0 + 4.0 * DBL_EPSILON)) {
       tau = fmin(clear, horizon);

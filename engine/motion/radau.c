@@ -18,10 +18,14 @@ static const double butcher[S][S] = {
     {(16.0 - ROOT6) / 36.0, (16.0 + ROOT6) / 36.0, 1.0 / 9.0},
 };
 
+// Newton's iteration ends below this share of the tolerance.
+static const double enough = 1e-3;
+
+// LU factors with row exchanges; the diagonal of U as its inverse.
 typedef struct {
   size_t size;
-  double m[UNKNOWNS][UNKNOWNS];
-  int row[UNKNOWNS];
+  double m[UNKNOWNS][UNKNOWNS], inverse[UNKNOWNS];
+  size_t row[UNKNOWNS];
 } Factors;
 
 static bool factorise(Factors *f) {
@@ -32,7 +36,7 @@ static bool factorise(Factors *f) {
         best = r;
       }
     }
-    f->row[c] = (int)best;
+    f->row[c] = best;
     if (f->m[best][c] == 0.0 || !isfinite(f->m[best][c])) {
       return false;
     }
@@ -43,8 +47,9 @@ static bool factorise(Factors *f) {
         f->m[best][k] = swap;
       }
     }
+    f->inverse[c] = 1.0 / f->m[c][c];
     for (size_t r = c + 1; r < f->size; r++) {
-      double factor = f->m[r][c] /= f->m[c][c];
+      double factor = f->m[r][c] *= f->inverse[c];
       if (factor != 0.0) {
         for (size_t k = c + 1; k < f->size; k++) {
           f->m[r][k] -= factor * f->m[c][k];
@@ -70,7 +75,7 @@ static void back_substitute(const Factors *f, double *b) {
     for (size_t k = r + 1; k < f->size; k++) {
       b[r] -= f->m[r][k] * b[k];
     }
-    b[r] /= f->m[r][r];
+    b[r] *= f->inverse[r];
   }
 }
 
@@ -128,9 +133,11 @@ static bool prepare(Factors *f, size_t n, double h, double j[N][N], SbRadauCount
   return factorise(f);
 }
 
-// The stage rates in `step` are where the iteration starts; `f` is prepared for h.
+// The stage rates in `step` are where the iteration starts; `f` is prepared for h. The powers are
+// taken one update before the rates: only if they are `wanted` must that update be small, else what
+// is left after it.
 static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const double *z, double h,
-                  const Factors *f, SbRadauCounters *counters) {
+                  const Factors *f, bool wanted, SbRadauCounters *counters) {
   step->t = t;
   step->h = h;
   memcpy(step->z0, z, s->n * sizeof *z);
@@ -140,10 +147,8 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
     for (size_t a = 0; a < S; a++) {
       double at[N], dz[N];
       for (size_t i = 0; i < s->n; i++) {
-        at[i] = z[i];
-        for (size_t b = 0; b < S; b++) {
-          at[i] += h * butcher[a][b] * step->k[b][i];
-        }
+        at[i] = z[i] + h * (butcher[a][0] * step->k[0][i] + butcher[a][1] * step->k[1][i] +
+                            butcher[a][2] * step->k[2][i]);
       }
       s->rates(dz, step->q[a], t + node[a] * h, at, s->user);
       for (size_t i = 0; i < s->n; i++) {
@@ -167,8 +172,9 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
     if (!isfinite(size)) {
       return false;
     }
-    // The powers were taken one update earlier: ask for a small update, so that they are as good.
-    if (size < 1e-3 || rounding) {
+    // The iteration contracts steadily: the next update would be smaller by as much as this one.
+    double left = iteration > 0 ? size * (size / previous) : size;
+    if ((wanted ? size : left) < enough || rounding) {
       for (size_t i = 0; i < s->n; i++) {
         step->z1[i] = z[i];
         for (size_t b = 0; b < S; b++) {
@@ -197,7 +203,7 @@ bool sb_radau_step(SbRadauStep *step, const SbRadauSystem *system, double t, con
   jacobian(j, base, system, t, z, counters);
   start_with(step, base, system->n);
   Factors f;
-  return prepare(&f, system->n, h, j, counters) && solve(step, system, t, z, h, &f, counters);
+  return prepare(&f, system->n, h, j, counters) && solve(step, system, t, z, h, &f, true, counters);
 }
 
 bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local, const SbRadauSystem *system,
@@ -207,7 +213,8 @@ bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local, const SbRa
   jacobian(j, base, system, t, z, counters);
   start_with(&whole, base, system->n);
   Factors f;
-  if (!prepare(&f, system->n, h, j, counters) || !solve(&whole, system, t, z, h, &f, counters) ||
+  if (!prepare(&f, system->n, h, j, counters) ||
+      !solve(&whole, system, t, z, h, &f, false, counters) ||
       !prepare(&f, system->n, 0.5 * h, j, counters)) {
     return false;
   }
@@ -216,7 +223,7 @@ bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local, const SbRa
       rates_at(pair[half].k[a], &whole, system->n, 0.5 * (half + node[a]));
     }
     double from = t + 0.5 * half * h;
-    if (!solve(&pair[half], system, from, half > 0 ? pair[0].z1 : z, 0.5 * h, &f, counters)) {
+    if (!solve(&pair[half], system, from, half > 0 ? pair[0].z1 : z, 0.5 * h, &f, true, counters)) {
       return false;
     }
   }

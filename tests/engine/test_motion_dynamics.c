@@ -173,8 +173,8 @@ static void test_stiff(void) {
   go(&once, &m, NULL);
   advance(&once, 0.05);
   go(&often, &m, NULL);
-  for (int i = 1; i <= 500; i++) {
-    advance(&often, i * 1e-4);
+  for (int i = 1; i <= 2500; i++) {
+    advance(&often, i * 2e-5);
   }
   SbDynamicsCounters c = sb_dynamics_counters(&once), d = sb_dynamics_counters(&often);
   sb_dynamics_sample(&once, &a, &e);

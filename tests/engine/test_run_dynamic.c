@@ -28,6 +28,10 @@ static void test_against_quasi_static(void) {
                     1e-9);
   g_assert_cmpfloat(fabs(a->stage[SB_STAGE_F].displacement - b->stage[SB_STAGE_F].displacement), <,
                     1e-9);
+  // Both start back from the stop at the same force, once it is unloaded.
+  g_assert_cmpfloat(fabs(a->stage[SB_STAGE_E].displacement - b->stage[SB_STAGE_E].displacement), <,
+                    1e-8);
+  g_assert_cmpfloat(fabs(a->stage[SB_STAGE_E].force - b->stage[SB_STAGE_E].force), <, 0.04);
   g_assert_cmpfloat(fabs(a->energy.loop / b->energy.loop - 1), <, 2e-3);
   g_assert_cmpfloat(fabs(a->force_breakaway / b->force_breakaway - 1), <, 1e-3);
   sb_run_destroy(slow);
@@ -81,6 +85,31 @@ static void test_drives(void) {
     g_assert_cmpfloat(summary->duration, >, 0);
     sb_run_destroy(run);
   }
+}
+
+// A stem flung back over the land's edge by a hard stop has not returned: the stages keep their
+// order.
+static void test_rebound(void) {
+  const Setting fling[] = {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
+                           {SB_P_DRIVE_PEAK_FORCE, 210},
+                           {SB_P_DRIVE_RISE_TIME, 2.16e-3},
+                           {SB_P_HOUSING_STOP_RESTITUTION, 0.9}};
+  SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, fling, G_N_ELEMENTS(fling));
+  const SbSummary *summary = sb_run_summary(run);
+  for (int stage = SB_STAGE_B; stage < SB_STAGE_COUNT; stage++) {
+    g_assert_true(summary->stage[stage].reached);
+    g_assert_cmpfloat(summary->stage[stage].time, >, summary->stage[stage - 1].time);
+  }
+  size_t count;
+  const SbFrame *frames = sb_run_frames(run, &count);
+  double least = INFINITY;
+  for (size_t i = 0; i < count; i++) {
+    bool before = frames[i].time > summary->stage[SB_STAGE_D].time &&
+                  frames[i].time < summary->stage[SB_STAGE_E].time;
+    least = before ? fmin(least, frames[i].displacement) : least;
+  }
+  g_assert_cmpfloat(least, <, 6.5e-3);
+  sb_run_destroy(run);
 }
 
 static void test_no_return(void) {
@@ -286,6 +315,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-dynamic/against-quasi-static", test_against_quasi_static);
   g_test_add_func("/run-dynamic/stick-slip", test_stick_slip);
   g_test_add_func("/run-dynamic/drives", test_drives);
+  g_test_add_func("/run-dynamic/rebound", test_rebound);
   g_test_add_func("/run-dynamic/no-return", test_no_return);
   g_test_add_func("/run-dynamic/stuck", test_stuck);
   g_test_add_func("/run-dynamic/friction-keys", test_friction_keys);
