@@ -445,6 +445,14 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   if (model.motion == SB_MODEL_MOTION_QUASI_STATIC) {
     good = compile_quasi_static(&model, problems) && good;
   }
+  if (model.motion != SB_MODEL_MOTION_QUASI_STATIC && model.stribeck_speed > 0 &&
+      model.tangential_stiffness > 0 && !(model.damping_ratio > 0)) {
+    add_problem(
+        problems, "drive.damping_ratio", 1e-3, 2,
+        "must be above 0 where friction that depends on speed (friction.stribeck_speed) acts "
+        "through an elastic seal (friction.tangential_stiffness)");
+    good = false;
+  }
   if (model.life_shown > model.life_actuations) {
     add_problem(problems, "life.shown", 0, model.life_actuations,
                 "is beyond the life's last actuation (life.actuations %d)", model.life_actuations);

@@ -192,7 +192,8 @@ static void test_friction_keys(void) {
   assert_near(force[0] / force[1], (1 + (ratio - 1) * exp(-1)) / (1 + (ratio - 1) * exp(-2)), 1e-3);
 }
 
-// What only inertia can do is refused without it, by name.
+// What only inertia can do is refused without it, by name; and a speed law through an undamped
+// seal.
 static void test_refused(void) {
   SbParams params;
   sb_params_init(&params);
@@ -201,6 +202,15 @@ static void test_refused(void) {
   SbProblems problems;
   g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpstr(problems.item[0].key, ==, "drive.kind");
+  sb_params_init(&params);
+  problems.count = 0;
+  sb_params_set(&params, SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC, NULL);
+  sb_params_set(&params, SB_P_FRICTION_STRIBECK_SPEED, 1e-3, NULL);
+  sb_params_set(&params, SB_P_FRICTION_TANGENTIAL_STIFFNESS, 1e4, NULL);
+  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_OK);
+  sb_params_set(&params, SB_P_DRIVE_DAMPING_RATIO, 0, NULL);
+  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpstr(problems.item[0].key, ==, "drive.damping_ratio");
 }
 
 static bool warned(const SbRun *run, const char *code) {
