@@ -26,7 +26,7 @@ void sb_dashboard_layout(SbDashboardLayout *out, SbRect rect, bool with_section)
   const double margin = SB_GRID_MARGIN, gutter = SB_GRID_GUTTER;
   out->scale = scale;
   out->page = (SbRect){0, 0, w, h};
-  double timeline_top = h - 160;
+  double timeline_top = h - 104 - sb_page_footer_height(out->page);
   double profiles = fmin(fmax(floor(h * 240 / NOMINAL_HEIGHT), 200), 300);
   double profiles_top = timeline_top - 16 - profiles, top = SB_PAGE_HEADER;
   double height = profiles_top - 16 - top;

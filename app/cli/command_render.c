@@ -21,7 +21,7 @@ typedef struct {
   SbRenderMovie movie;
   SbSectionZoom zoom;
   SbGlBackend backend;
-  bool film, sequence, is_study;
+  bool film, sequence, vector, is_study;
   SbStudyKind study;
 } Request;
 
@@ -34,6 +34,12 @@ static void options_clear(Options *options) {
     g_free(texts[i]);
   }
   g_strfreev(options->settings);
+}
+
+// In capitals or not, as in the writers.
+static bool ends_in(const char *path, const char *ending) {
+  size_t length = strlen(path), tail = strlen(ending);
+  return length >= tail && g_ascii_strcasecmp(path + length - tail, ending) == 0;
 }
 
 // "1280x720", or a size with a name.
@@ -114,12 +120,10 @@ static bool parse(Request *request, const Options *options) {
   if (options->size != NULL && !parse_size(&how->width, &how->height, options->size)) {
     return false;
   }
-  request->film = g_str_has_suffix(options->output, ".mp4");
+  request->film = ends_in(options->output, ".mp4");
   request->sequence = sb_render_is_sequence(options->output);
-  char *lower = g_ascii_strdown(options->output, -1);
-  bool still = g_str_has_suffix(lower, ".png") || g_str_has_suffix(lower, ".svg") ||
-               g_str_has_suffix(lower, ".pdf");
-  g_free(lower);
+  request->vector = ends_in(options->output, ".svg") || ends_in(options->output, ".pdf");
+  bool still = request->vector || ends_in(options->output, ".png");
   if (!still && !request->film && !request->sequence) {
     sb_cli_fail("-o: %s: the ending must be .png, .svg, .pdf or .mp4", options->output);
     return false;
@@ -280,8 +284,7 @@ static int render(const SbRun *run, const SbDocument *document, Request *request
                   const Options *options) {
   // Vectors need no GL, and views without a section do not either.
   const char *output = options->output;
-  bool vector = g_str_has_suffix(output, ".svg") || g_str_has_suffix(output, ".pdf");
-  bool use_gl = !vector && sb_render_view(request->how.view)->section;
+  bool use_gl = !request->vector && sb_render_view(request->how.view)->section;
   SbSectionPainter *painter = NULL;
   SbReport report = {0};
   SbStatus status = sb_section_painter_create(&painter, use_gl, request->backend, &report);

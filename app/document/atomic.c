@@ -20,6 +20,21 @@ static bool fail(GError **error, const char *path, int code) {
   return false;
 }
 
+// Whether a process is over: no number, or dead and only not waited for yet.
+static bool is_over(pid_t pid) {
+  if (kill(pid, 0) != 0) {
+    return errno == ESRCH;
+  }
+  char *path = g_strdup_printf("/proc/%ld/stat", (long)pid);
+  char *text = NULL;
+  // The state follows the command's name, which is in brackets.
+  const char *state = g_file_get_contents(path, &text, NULL, NULL) ? strrchr(text, ')') : NULL;
+  bool over = state != NULL && (g_str_has_prefix(state, ") Z") || g_str_has_prefix(state, ") X"));
+  g_free(text);
+  g_free(path);
+  return over;
+}
+
 // Removes temporaries of `prefix` (".NAME.part-") whose process does not live any more.
 static void remove_stale(const char *directory, const char *prefix) {
   GDir *dir = g_dir_open(directory, 0, NULL);
@@ -33,7 +48,7 @@ static void remove_stale(const char *directory, const char *prefix) {
     }
     char *end = NULL;
     long pid = strtol(name + strlen(prefix), &end, 10);
-    if (*end == '\0' && pid > 1 && kill((pid_t)pid, 0) != 0 && errno == ESRCH) {
+    if (*end == '\0' && pid > 1 && is_over((pid_t)pid)) {
       char *stale = g_build_filename(directory, name, NULL);
       g_unlink(stale);
       g_free(stale);

@@ -192,6 +192,10 @@ SbStatus sb_movie_write(const char *path, const SbMovieOptions *given, SbMovieDr
   if (!sb_atomic_file_begin(&file, path, &error)) {
     return take_error(error, report);
   }
+  if (file.temporary == NULL) {
+    sb_atomic_file_abort(&file);
+    return sb_fail(report, SB_ERROR_IO, "%s: a film needs a file, not a device or pipe", path);
+  }
   Pipe line = {.stride = 4 * (size_t)options.width};
   status = sb_movie_encoder_open(&line.encoder, file.temporary, &options, report);
   for (int i = 0; i < ROW && status == SB_OK; i++) {

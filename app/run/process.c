@@ -4,8 +4,11 @@
 #include <cblas.h>
 #include <gsl/gsl_errno.h>
 #include <malloc.h>
+#include <signal.h>
 
 void sb_process_set_up(void) {
+  // A limit on the size of files is a failed write like any other, not the program's end.
+  signal(SIGXFSZ, SIG_IGN);
   // One thread for a solve: repeatable results, and the other cores are the drawing's.
   openblas_set_num_threads(1);
   // A special function outside its domain must not end the program; the engine checks results.

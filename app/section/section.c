@@ -36,6 +36,8 @@ void sb_section_limits_of_frames(SbSectionLimits *limits, const SbFrame *frames,
   *limits = (SbSectionLimits){0};
   bool inner_found = false;
   for (size_t i = 0; i < count; i++) {
+    limits->force_max =
+        fmax(limits->force_max, fmax(fabs(frames[i].force), frames[i].pressure_force));
     for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
       const SbSealFrame *at = &frames[i].seal[seal];
       limits->pressure_max = fmax(limits->pressure_max, at->pressure_peak);

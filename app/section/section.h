@@ -19,6 +19,7 @@ typedef struct {
   double inner_contact_left; // of the inner seal when it reaches the land edge [m]
   double pressure_max;       // largest contact pressure, for the inset's scale [Pa]
   double film_max;           // largest central film, for the inset's scale [m]
+  double force_max;          // largest of drive and canister, for the bars' scale [N]
   double contact_left[SB_SEAL_COUNT], contact_right[SB_SEAL_COUNT]; // outermost, for the inset [m]
   double field_min[SB_FIELD_COUNT], field_max[SB_FIELD_COUNT]; // of the solved rings, for the map
 } SbSectionLimits;

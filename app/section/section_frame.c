@@ -65,18 +65,17 @@ static void force_bars(SbSection *section, double x, double y, double width) {
       {"outer friction", frame->seal[SB_OUTER].friction, palette->seal[SB_OUTER]},
   };
   double zero = x + 106;
-  double px = (x + width - 44 - zero) / 36.0;
+  double px = (x + width - 44 - zero) / fmax(section->limits.force_max, 36);
   for (int i = 0; i < 4; i++) {
     double base = y + 19 + 17 * i;
     char text[SB_SECTION_NUMBER];
     sb_draw_text(list, x, base, 11, 400, SB_ALIGN_LEFT, palette->second, row[i].name);
     double length = fabs(row[i].force) * px;
     if (length > 0.5) {
-      sb_draw_rect(list, zero, base - 8, fmin(length, x + width - zero), 8, row[i].colour);
+      sb_draw_rect(list, zero, base - 8, length, 8, row[i].colour);
     }
     sb_section_fixed(text, row[i].force, 1);
-    sb_draw_text(list, zero + fmin(length, x + width - zero - 40) + 6, base, 11, 600, SB_ALIGN_LEFT,
-                 palette->ink, text);
+    sb_draw_text(list, zero + length + 6, base, 11, 600, SB_ALIGN_LEFT, palette->ink, text);
   }
   sb_draw_line(list, zero - 0.5, y + 8, zero - 0.5, y + 8 + 17 * 4, 1, palette->axis);
 }

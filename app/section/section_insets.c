@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { CURVE_MAX = 600 };
+enum { CURVE_MAX = 2000 };
 
 typedef struct {
   SbDrawRect rect;
@@ -22,9 +22,12 @@ static double inset_x(const Inset *inset, double x) {
 }
 
 // Thins a profile to the pixels of an inset: runs of samples, ends kept. Returns the point count.
+// Points are as far apart as makes a curve that rises and falls twice fit into CURVE_MAX.
 static size_t curve(const Inset *inset, const SbContactProfile *profile, const double *value,
                     double base, double px, double low, SbDrawPoint *points) {
   size_t count = 0;
+  double way = (double)inset->rect.width + 4 * (double)inset->rect.height + 300;
+  double step = fmax(0.6, way / (CURVE_MAX - 2));
   for (size_t i = 0; i < profile->count; i++) {
     double x = inset_x(inset, profile->x[i]);
     if (x < inset->rect.x - 60 || x > inset->rect.x + inset->rect.width + 60) {
@@ -33,7 +36,7 @@ static size_t curve(const Inset *inset, const SbContactProfile *profile, const d
     double y = MIN(base - value[i] * px, low);
     if (count > 0 && i + 1 < profile->count) {
       double dx = x - points[count - 1].x, dy = y - points[count - 1].y;
-      if (dx * dx + dy * dy < 0.36) {
+      if (dx * dx + dy * dy < step * step) {
         continue;
       }
     }
@@ -178,13 +181,17 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
     sb_section_label(section, CLAMP(peak_x, rect->x + 50, rect->x + rect->width - 50),
                      bore - peak_pressure * px - 9, &peak,
                      sb_section_megapascal(value, peak_pressure));
+    // The dimension stands on the contact that is drawn. The curve over it is the undragged one's.
     double y = bore + 17;
     SbDrawColour line = palette->ink;
+    double width = sb_section_contact_text(section, seal, text, sizeof text);
+    if (sb_section_dragged(section, seal)) {
+      left_px = inset_x(inset, section->instant->ring[seal]->contact_left);
+      right_px = left_px + width * inset->scale;
+    }
     sb_draw_line(list, left_px, y - 5, left_px, y + 5, 1.2, line);
     sb_draw_line(list, right_px, y - 5, right_px, y + 5, 1.2, line);
     sb_draw_line(list, left_px, y, right_px, y, 1.2, line);
-    snprintf(text, sizeof text, "contact %s",
-             sb_section_millimetre(value, frame->contact_right - frame->contact_left));
     SbSectionLabel style = {11, 600, SB_ALIGN_CENTRE, palette->ink, &palette->panel};
     bool inside = right_px - left_px > sb_text_width(section->text, text, 11, 600) + 30;
     sb_section_label(section, (left_px + right_px) / 2, inside ? y + 4 : y + 20, &style, text);

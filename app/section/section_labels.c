@@ -124,6 +124,26 @@ static void draw_land_edge(SbSection *section) {
   if (bottom < low + 8) {
     return;
   }
+  // As many of its words as there is room for; lines without a name would say nothing.
+  SbSectionLabel letter = label_style(palette->ink, 700, SB_ALIGN_LEFT, &palette->housing);
+  SbSectionLabel plain = label_style(palette->ink, 400, SB_ALIGN_LEFT, &palette->housing);
+  const char *const words[3] = {text, "land edge", ""};
+  char whole[140];
+  size_t chosen = 0;
+  while (chosen < G_N_ELEMENTS(words)) {
+    snprintf(whole, sizeof whole, "C  %s", words[chosen]);
+    if (sb_section_label_fits(section, edge.x + 1, y, &plain, whole, &section->strip)) {
+      break;
+    }
+    chosen++;
+  }
+  if (chosen == G_N_ELEMENTS(words)) {
+    return;
+  }
+  double width = sb_section_label(section, edge.x + 1, y, &letter, "C");
+  if (words[chosen][0] != '\0') {
+    sb_section_label(section, edge.x + 1 + width + 7, y, &plain, words[chosen]);
+  }
   sb_draw_line(list, edge.x, bottom, edge.x, low, 1, palette->second)->dash = SB_DASH_DIMENSION;
   if (ahead && inner->land_fraction > 0) {
     double contact = sb_section_at(section, way, bore).x;
@@ -131,14 +151,6 @@ static void draw_land_edge(SbSection *section) {
     if (contact - edge.x > 12) {
       sb_draw_arrow(list, contact, low + 8, edge.x + 1, low + 8, 1.2, 8, 6, palette->second);
     }
-  }
-  SbSectionLabel letter = label_style(palette->ink, 700, SB_ALIGN_LEFT, &palette->housing);
-  SbSectionLabel plain = label_style(palette->ink, 400, SB_ALIGN_LEFT, &palette->housing);
-  char whole[140];
-  snprintf(whole, sizeof whole, "C  %s", text);
-  if (sb_section_label_fits(section, edge.x + 1, y, &plain, whole, &section->strip)) {
-    double width = sb_section_label(section, edge.x + 1, y, &letter, "C");
-    sb_section_label(section, edge.x + 1 + width + 7, y, &plain, text);
   }
 }
 
@@ -269,9 +281,12 @@ static void draw_motion(SbSection *section) {
   double axis = axis_of(section);
   double middle = sb_section_at(section, section->valve.chamber - frame->displacement, 0).x;
   SbSectionLabel bold = label_style(palette->ink, 600, SB_ALIGN_CENTRE, &palette->stem);
-  const double at[2][2] = {{middle, axis - 52}, {middle + 60, axis - 52}};
+  // Below the chamber, or beside it where it is deep.
+  double beside = middle + section->model.shape.chamber_length / 2 * section->scale + 30;
+  bool deep = axis - 52 < (double)sb_section_at(section, 0, section->valve.chamber_floor).y + 16;
+  const double at[2][2] = {{deep ? beside : middle, axis - 52}, {middle + 60, axis - 52}};
   if (axis - 52 > (double)sb_section_at(section, 0, section->valve.floor).y + 16) {
-    place(section, at, 2, &bold, "Stem");
+    place(section, at, deep ? 1 : 2, &bold, "Stem");
   }
   double speed = fabs(frame->velocity) * 1e3;
   if (speed < 1e-9) {
@@ -340,6 +355,7 @@ static void draw_dose_path(SbSection *section) {
     }
   }
   // Smoothed, and kept clear of ring and housing.
+  double least = HUGE_VAL;
   for (int round = 0; round < 6; round++) {
     double before = way[0].y;
     for (size_t i = 1; i + 1 < count; i++) {
@@ -350,8 +366,13 @@ static void draw_dose_path(SbSection *section) {
       low = fabs(off) < 1 ? low : -HUGE_VAL;
       double high = sb_valve_bore_at(valve, way[i].x);
       double clear = fmin(0.06 * g, (high - low) / 2);
+      least = fmin(least, high - low);
       way[i].y = fmin(fmax(smooth, low + clear), high - clear);
     }
+  }
+  // A free ring of schematic shape may still stand in the land edge's way: no path to draw there.
+  if (least * section->scale < 4) {
+    return;
   }
   SbDrawPoint curve[COUNT];
   for (size_t i = 0; i < count; i++) {
@@ -397,15 +418,22 @@ static void draw_scales(SbSection *section) {
   bool schematic =
       section->instant->ring[SB_OUTER] == NULL || section->instant->ring[SB_INNER] == NULL;
   const char *const whole = section->view->zoom == SB_SECTION_WHOLE ? "axis of the valve; " : "";
-  char caption[160];
-  snprintf(caption, sizeof caption, "%sto scale in both directions%s%s", whole,
+  SbSectionZoom zoom = section->view->zoom;
+  bool dragged = (zoom != SB_SECTION_ZOOM_INNER && sb_section_dragged(section, SB_OUTER)) ||
+                 (zoom != SB_SECTION_ZOOM_OUTER && sb_section_dragged(section, SB_INNER));
+  char caption[240];
+  snprintf(caption, sizeof caption, "%sto scale in both directions%s%s%s", whole,
            schematic ? "; rings: schematic shape, contact width and area true" : "",
+           dragged ? "; rings dragged by friction, pressure and film undragged" : "",
            section->view->undeformed ? "; dashed: rings before fitting" : "");
   if (section->strip.x + sb_text_width(section->text, caption, 11, 400) + 12 < x) {
     sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_ALIGN_LEFT, palette->second, caption);
   } else if (schematic) {
     sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_ALIGN_LEFT, palette->second,
                  "rings: schematic shape");
+  } else if (dragged) {
+    sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_ALIGN_LEFT, palette->second,
+                 "rings dragged by friction");
   }
 }
 
@@ -425,10 +453,10 @@ static void draw_zoom(SbSection *section) {
     sb_draw_line(list, a.x, y - 5, a.x, y + 5, 1.2, palette->ink);
     sb_draw_line(list, b.x, y - 5, b.x, y + 5, 1.2, palette->ink);
     sb_draw_line(list, a.x, y, b.x, y, 1.2, palette->ink);
-    snprintf(text, sizeof text, "contact %s",
-             sb_section_millimetre(value, seal->contact_right - seal->contact_left));
+    sb_section_contact_text(section, i, text, sizeof text);
     SbSectionLabel style = label_style(palette->ink, 600, SB_ALIGN_CENTRE, &palette->panel);
-    sb_section_label(section, (double)(a.x + b.x) / 2, y + 4, &style, text);
+    bool inside = sb_text_width(section->text, text, 12, 600) + 30 < (double)(b.x - a.x);
+    sb_section_label(section, (double)(a.x + b.x) / 2, inside ? y + 4 : y + 22, &style, text);
   }
   // In the groove's corners, beside the ring.
   double s = section->instant->frame->displacement;

@@ -278,7 +278,7 @@ static void test_sequence(void) {
   names = listing(pictures);
   g_assert_true(g_str_has_prefix(names, "frame-0001.png frame-0002.png "));
   g_assert_null(strstr(names, "frame-0600.png"));
-  g_assert_null(strstr(names, "tmp"));
+  g_assert_null(strstr(names, ".part-"));
   g_free(names);
   remove_pictures(pictures);
   g_free(pattern);
@@ -328,7 +328,7 @@ static void test_full_disk(void) {
     g_assert_cmpstr(strchr(result.err, '\n'), ==, "\n");
     g_assert_cmpstr(earlier, ==, "earlier");
     g_assert_true(whole);
-    g_assert_null(strstr(names, "tmp"));
+    g_assert_null(strstr(names, ".part-"));
     cli_clear(&result);
     g_free(earlier);
     g_free(names);

@@ -246,8 +246,10 @@ static void test_kill(void) {
     g_usleep(10000);
   }
   g_usleep(100000);
+  // Not waited for until the next film is done: a dead process that still has its number.
   kill(child, SIGKILL);
-  waitpid(child, NULL, 0);
+  siginfo_t dead;
+  waitid(P_PID, (id_t)child, &dead, WEXITED | WNOWAIT);
   g_assert_cmpuint(entries(), ==, before + 1);
   char *text = NULL;
   g_assert_true(g_file_get_contents(path, &text, NULL, NULL));
@@ -256,6 +258,7 @@ static void test_kill(void) {
   Painter painter = {.width = 64, .height = 48, .colour = 0xFF0000};
   SbReport report = {0};
   g_assert_cmpint(write_film(path, &painter, 3, NULL, &report), ==, SB_OK);
+  waitpid(child, NULL, 0);
   g_assert_cmpuint(entries(), ==, before);
   g_free(path);
 }
@@ -295,6 +298,10 @@ static void test_full_disk(void) {
 static void test_sizes(void) {
   char *path = in_directory("size.mp4");
   SbReport report = {0};
+  // A device is no place for a film, whose index is moved to the front at the end.
+  Painter plain = {.width = 64, .height = 48, .colour = 0xFF0000};
+  g_assert_cmpint(write_film("/dev/null", &plain, 3, NULL, &report), ==, SB_ERROR_IO);
+  g_assert_nonnull(strstr(report.text, "/dev/null: a film needs a file"));
   Painter smallest = {.width = 16, .height = 16, .colour = 0xFF0000};
   g_assert_cmpint(write_film(path, &smallest, 3, NULL, &report), ==, SB_OK);
   Painter tiny = {.width = 15, .height = 200, .colour = 0xFF0000};

@@ -16,7 +16,8 @@ typedef struct {
   SbSection *section;
   SbDrawList list;
   SbSectionView view;
-  bool ring; // the finite-element ring as the fitment
+  bool ring;   // the finite-element ring as the fitment
+  bool solved; // films by Reynolds' equation
 } Fixture;
 
 static void fixture_open(Fixture *f) {
@@ -27,6 +28,9 @@ static void fixture_open(Fixture *f) {
   sb_params_set(&params, SB_P_OUTPUT_FRAMES, 150, &report);
   if (f->ring) {
     sb_params_set(&params, SB_P_MODELS_FIT, SB_FIT_RING, &report);
+  }
+  if (f->solved) {
+    sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, &report);
   }
   g_assert_cmpint(sb_model_compile(&f->model, &params, NULL), ==, SB_OK);
   SbPlan plan;
@@ -51,6 +55,7 @@ static void draw(Fixture *f, size_t index) {
   SbSectionInstant instant = {.frame = &f->frames[index]};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     instant.profile[i] = sb_run_profile(f->run, f->frames[index].seal[i].profile);
+    instant.ring[i] = sb_run_shape(f->run, f->frames[index].seal[i].shape);
   }
   sb_section_draw(f->section, &f->list, &f->view, &instant);
 }
@@ -139,6 +144,38 @@ static void test_contact_bar(void) {
   fixture_close(&f);
 }
 
+static bool shows(const SbDrawList *list, const char *text) {
+  for (size_t i = 0; i < list->item_count; i++) {
+    if (list->item[i].kind == SB_DRAW_TEXT &&
+        strstr(list->text + list->item[i].first, text) != NULL) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// A ring that its friction drags is drawn so; its contact and the one of the pressure are told
+// apart.
+static void check_dragged(Fixture *f) {
+  const SbSummary *summary = sb_run_summary(f->run);
+  size_t k = (summary->stage[SB_STAGE_B].frame + summary->stage[SB_STAGE_C].frame) / 2;
+  const SbSealFrame *seal = &f->frames[k].seal[SB_OUTER];
+  const SbSealShape *ring = sb_run_shape(f->run, seal->shape);
+  g_assert_nonnull(ring);
+  char text[80];
+  g_snprintf(text, sizeof text, "contact %.2f mm, undragged %.2f mm",
+             1e3 * (ring->contact_right - ring->contact_left),
+             1e3 * (seal->contact_right - seal->contact_left));
+  for (int zoom = 0; zoom < 2; zoom++) {
+    f->view.zoom = zoom ? SB_SECTION_ZOOM_OUTER : SB_SECTION_WHOLE;
+    draw(f, k);
+    g_assert_true(shows(&f->list, text));
+    g_assert_true(shows(&f->list, "rings dragged by friction"));
+    draw(f, 0);
+    g_assert_false(shows(&f->list, "dragged"));
+  }
+}
+
 // With the finite-element ring the drawn outline is the ring's own: it touches the bore over the
 // contact that the run reports, stays inside the walls and keeps its volume of
 // revolution within what the rubber's compressibility (K = 42 MPa, 1.2 MPa at most) allows.
@@ -208,6 +245,41 @@ static void test_ring_mesh(void) {
   g_assert_cmpuint(partial, >, 5);
   g_assert_cmpuint(whole, >=, 2);
   g_assert_cmpuint(other, >, 10);
+  check_dragged(&f);
+  fixture_close(&f);
+}
+
+// The insets' curves reach over the whole contact, however large the insets are.
+static void test_inset_curves(void) {
+  Fixture f = {.solved = true};
+  fixture_open(&f);
+  const SbSummary *summary = sb_run_summary(f.run);
+  size_t k = (summary->stage[SB_STAGE_B].frame + summary->stage[SB_STAGE_C].frame) / 2;
+  static const double sizes[][2] = {{1216, 568}, {700, 1200}, {1600, 2400}};
+  for (size_t s = 0; s < G_N_ELEMENTS(sizes); s++) {
+    f.view.width = sizes[s][0];
+    f.view.height = sizes[s][1];
+    draw(&f, k);
+    size_t curves = 0;
+    for (size_t i = 0; i < f.list.item_count; i++) {
+      const SbDrawItem *item = &f.list.item[i];
+      if (item->kind != SB_DRAW_STROKE || item->width != 2.4f) {
+        continue;
+      }
+      const SbDrawPoint *point = f.list.point + item->first;
+      const SbDrawRect *inset = &f.list.clip[item->clip];
+      double left = HUGE_VAL, right = -HUGE_VAL;
+      for (size_t j = 0; j < item->count; j++) {
+        left = fmin(left, (double)point[j].x);
+        right = fmax(right, (double)point[j].x);
+      }
+      // Both show at most 1.9 widths of the widest contact, which this one is.
+      double least = (double)inset->width / 1.9;
+      g_assert_cmpfloat(right - left, >, 0.99 * least);
+      curves++;
+    }
+    g_assert_cmpuint(curves, ==, 2);
+  }
   fixture_close(&f);
 }
 
@@ -233,16 +305,6 @@ static void test_ring_extremes(void) {
   SbRingShape ring;
   sb_ring_shape_make(&ring, &narrow, -0.2e-3, 0.2e-3, 1);
   g_assert_false(ring.area_conserved);
-}
-
-static bool shows(const SbDrawList *list, const char *text) {
-  for (size_t i = 0; i < list->item_count; i++) {
-    if (list->item[i].kind == SB_DRAW_TEXT &&
-        strstr(list->text + list->item[i].first, text) != NULL) {
-      return true;
-    }
-  }
-  return false;
 }
 
 // Labels state the frame's numbers, and what is schematic is called so.
@@ -285,6 +347,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/section/ring-invariants", test_ring_invariants);
   g_test_add_func("/section/contact-bar", test_contact_bar);
   g_test_add_func("/section/ring-mesh", test_ring_mesh);
+  g_test_add_func("/section/inset-curves", test_inset_curves);
   g_test_add_func("/section/ring-extremes", test_ring_extremes);
   g_test_add_func("/section/labels", test_labels);
   g_test_add_func("/section/no-growth", test_no_growth);
