@@ -10,6 +10,10 @@
 
 static const double SIZE_DEFAULT = 0.05, SQUEEZE_MOST = 0.6;
 
+// Arc of a bore contact, in section diameters, below which its elements shrink with it, and the
+// least share of their size that is left.
+static const double WIDE = 0.3, NARROW_LEAST = 0.12;
+
 static SbStatus check_body(const SbRingBody *body, SbReport *report) {
   if (!(body->section_diameter > 0.0) || !isfinite(body->section_diameter)) {
     return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.section_diameter",
@@ -334,7 +338,10 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
   for (int s = 0; s < SB_RING_SURFACES; s++) {
     touches[s] = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
     if (touches[s]) {
-      plan_patch(&plan, &patch[s], element_size, 0.3 * element_size);
+      // A narrow bore contact has as many elements as one of WIDE: its load is what is wanted.
+      double wide = s == SB_RING_BORE ? 0.5 * (patch[s].angle[1] - patch[s].angle[0]) / WIDE : 1.0;
+      double size = element_size * fmin(1.0, fmax(NARROW_LEAST, wide));
+      plan_patch(&plan, &patch[s], size, 0.3 * size);
     }
   }
   SbStatus status = build(&fresh, &plan, report);

@@ -22,6 +22,15 @@ static double load_floor(const SbRingBody *body, const SbRingLoad *load) {
   return 2e-4 + 2e-3 * fmax(load->pressure_left, load->pressure_right) / body->modulus;
 }
 
+// Where the fluid bears much of the load, the place of the contact's ends shifts more of it.
+static double fluid_floor(const SbRingResult *result, const SbRingBody *body,
+                          const SbRingLoad *load) {
+  double pressure = fmax(load->pressure_left, load->pressure_right);
+  double around = body->plane_strain ? 1.0 : 2.0 * M_PI * load->bore_radius;
+  double fluid = pressure * around * (result->contact_right - result->contact_left);
+  return 2e-4 + 1e-3 * fmin(1.0, fluid / result->bore_force);
+}
+
 static double change(double fine, double coarse) {
   return fine != 0.0 ? fabs(coarse / fine - 1.0) : 0.0;
 }
@@ -105,6 +114,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, SbRingError *error, con
             alone ? "" : " and lets the fluid past", 1e3 * result->thickness,
             1e3 * (load->bore_radius - load->floor_radius));
   } else {
+    floor_load = fmax(floor_load, fluid_floor(result, body, load));
     for (int i = 0; status == SB_OK && i < REFINEMENTS; i++) {
       coarse = *result;
       status = sb_ring_refit(ring, size, report);
