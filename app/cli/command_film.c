@@ -307,6 +307,7 @@ static int solve_and_show(const SbFilmProblem *problem, const char *target) {
   double wall_s = 0;
   SbStatus status = sb_timing_median(&wall_s, solve, &job);
   film->solver.wall_s = wall_s;
+  job.report.parameter[0] = '\0'; // the catalogue's key and range are a seal's, not this command's
   int code = sb_cli_status(status, &job.report);
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int written = SB_EXIT_DONE;

@@ -139,11 +139,6 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
                    "film: asperities and adhesion need the model reynolds, not %s",
                    sb_film_model_name(problem->model));
   }
-  if (mixed(problem) && problem->compliance != NULL) {
-    return sb_fail(report, SB_ERROR_INPUT,
-                   "film: asperities and adhesion are solved on the half-plane, not on a fitted "
-                   "body's compliance");
-  }
   return SB_OK;
 }
 

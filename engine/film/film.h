@@ -43,7 +43,7 @@ typedef enum {
       SB_FILM_MODEL_COUNT
 } SbFilmModel;
 
-enum { SB_FILM_POINTS = 5200 }; // capacity of a profile
+enum { SB_FILM_POINTS = 6200 }; // capacity of a profile
 
 // Least film over radius from which on the parabola misses the cylinder by more than some 5 % of
 // the film; a warning says so.
@@ -99,7 +99,7 @@ typedef struct {
   bool converged;
   size_t unknowns;
   int newton_iterations;     // over all continuation steps
-  int continuation_steps;    // 1 for a direct solve
+  int continuation_steps;    // solves by Newton's method: ways to the start, then levels of degree
   double residual;           // scaled, largest over all equations, at the end
   double error_film_min;     // relative, discretisation and iteration
   double error_film_central; // relative

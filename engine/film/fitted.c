@@ -1,11 +1,15 @@
-// Film on a fitted body: scales of its dry contact, and its kernel on the solver's mesh.
+// Film on a fitted body: scales of its dry contact, and its kernel on the solvers' meshes.
 //
 // The body's gap and smooth compliance (elastic/compliance.h) are polynomials in the seal's x, the
 // film's mesh stands in the flow frame with the axis at the shift c: x = side b (X + c). The smooth
 // part acts through as many moments of the pressure as it has polynomials, so that it costs two
 // thin products; b and p_H are those of a Hertz contact of the dry contact's width and load, so
-// that the layers sit at its edges.
+// that the layers sit at its edges. The smooth film's shift is an unknown, the mixed film's mesh
+// stands still over the dry contact.
+#include "engine/film/mixed.h"
 #include "engine/film/reynolds.h"
+
+#include "engine/numeric/legendre.h"
 
 #include <cblas.h>
 #include <math.h>
@@ -45,6 +49,13 @@ SbStatus sb_film_scale_fitted(SbFilmScale *scale, SbDryContact *dry, const SbFil
   return SB_OK;
 }
 
+SbFilmBody sb_film_body(const SbFilmProblem *problem, const SbFilmScale *scale) {
+  return (SbFilmBody){.compliance = problem->compliance,
+                      .side = problem->speed >= 0.0 ? 1.0 : -1.0,
+                      .half_width = scale->half_width,
+                      .film = scale->film};
+}
+
 void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryContact *dry) {
   enum { POINTS = 801 };
   const SbSurfaceCompliance *c = problem->compliance;
@@ -73,7 +84,7 @@ typedef struct {
 } Moments;
 
 static void add_element(Moments *out, const SbHpElement *e, const SbReynoldsState *state,
-                        const SbReynoldsBody *body) {
+                        const SbFilmBody *body) {
   const double unit = body->side * body->half_width;
   for (int q = 0; q < SB_HP_QUAD; q++) {
     const double at = e->fine_x[q];
@@ -97,14 +108,15 @@ static void add_element(Moments *out, const SbHpElement *e, const SbReynoldsStat
   }
 }
 
-// The ambient pressures up to the ends of the mesh, less the lower one everywhere.
-static void add_ambient(Moments *out, const SbHpMesh *mesh, const SbReynoldsState *state,
-                        const SbReynoldsBody *body) {
+// The ambient pressures up to the ends of the mesh, `begin` and `end` from the axis, less the lower
+// one everywhere; `slope` takes the derivatives to the shift.
+static void add_ambient(double *out, double *slope, const SbFilmBody *body, double inlet,
+                        double outlet, double begin, double end) {
   const SbSurfaceCompliance *c = body->compliance;
   const double unit = body->side * body->half_width;
-  const double low = fmin(mesh->inlet_pressure, mesh->outlet_pressure);
-  const double left = unit * (mesh->left_end + state->shift);
-  const double right = unit * (mesh->right_end + state->shift);
+  const double low = fmin(inlet, outlet);
+  const double left = unit * begin;
+  const double right = unit * end;
   double before[MODES], after[MODES], whole[MODES];
   sb_compliance_integrals(c, unit > 0.0 ? c->left : left, unit > 0.0 ? left : c->right, before);
   sb_compliance_integrals(c, unit > 0.0 ? right : c->left, unit > 0.0 ? c->right : right, after);
@@ -113,16 +125,21 @@ static void add_ambient(Moments *out, const SbHpMesh *mesh, const SbReynoldsStat
   sb_compliance_modes(c, left, at_left, NULL);
   sb_compliance_modes(c, right, at_right, NULL);
   for (int k = 0; k < c->modes; k++) {
-    out->state[k] +=
-        (mesh->inlet_pressure * before[k] + mesh->outlet_pressure * after[k] - low * whole[k]) /
-        body->half_width;
-    out->state_slope[k] += mesh->inlet_pressure * at_left[k] - mesh->outlet_pressure * at_right[k];
+    out[k] += (inlet * before[k] + outlet * after[k] - low * whole[k]) / body->half_width;
+    slope[k] += inlet * at_left[k] - outlet * at_right[k];
   }
+}
+
+// The tilt of unequal ambient pressures belongs to the window, a mesh gives it to |X| < 1: what is
+// to be added to the gap, over X.
+static double window_tilt(const SbFilmBody *body, double inlet, double outlet) {
+  const SbSurfaceCompliance *c = body->compliance;
+  return -(inlet - outlet) / M_PI * log(0.5 * (c->right - c->left) / body->half_width);
 }
 
 void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpMesh *mesh,
                         const SbReynoldsState *state, const SbReynoldsCase *problem) {
-  const SbReynoldsBody *body = &problem->body;
+  const SbFilmBody *body = &problem->body;
   const SbSurfaceCompliance *c = body->compliance;
   const double unit = body->side * body->half_width;
   const int modes = c->modes;
@@ -133,7 +150,8 @@ void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpM
   for (int i = 0; i < mesh->count; i++) {
     add_element(&m, &mesh->element[i], state, body);
   }
-  add_ambient(&m, mesh, state, body);
+  add_ambient(m.state, m.state_slope, body, mesh->inlet_pressure, mesh->outlet_pressure,
+              mesh->left_end + state->shift, mesh->right_end + state->shift);
 
   // S times the moments, without the constant that H0 takes up anyway: it would only cost digits of
   // thin films. Of the basis, of the pressure, of its derivative.
@@ -151,9 +169,7 @@ void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpM
     }
   }
 
-  // The tilt of unequal ambient pressures belongs to the window, the mesh gave it to |X| < 1.
-  const double window = 0.5 * (c->right - c->left) / body->half_width;
-  const double tilt = -(mesh->inlet_pressure - mesh->outlet_pressure) / M_PI * log(window);
+  const double tilt = window_tilt(body, mesh->inlet_pressure, mesh->outlet_pressure);
   double value[TARGETS_MAX][MODES];
   for (int i = 0; i < mesh->targets; i++) {
     double derivative[MODES];
@@ -174,4 +190,63 @@ void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpM
   memcpy(kernel, mesh->gap, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *kernel);
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, mesh->targets, mesh->dofs, modes, 1.0,
               &value[0][0], MODES, &basis[0][0], SB_HP_DOFS_MAX, 1.0, kernel, mesh->dofs);
+}
+
+void sb_mixed_fitted(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase *c) {
+  const SbFilmBody *body = &c->body;
+  const SbSurfaceCompliance *surface = body->compliance;
+  const double unit = body->side * body->half_width;
+  const double factor = 0.25 * surface->modulus; // p_H b over the film's scale
+  const int modes = surface->modes;
+  const int nodes = mesh->nodes;
+
+  // Moments of every nodal basis over the window, and of the ambient pressures.
+  double gauss[SB_HP_QUAD], weight[SB_HP_QUAD];
+  sb_legendre_gauss(gauss, weight, SB_HP_QUAD);
+  double moment[MODES][SB_MIXED_NODES_MAX];
+  double ambient[MODES] = {0}, unused[MODES] = {0};
+  memset(moment, 0, sizeof moment);
+  const double ends[] = {surface->left / unit - mesh->shift, surface->right / unit - mesh->shift};
+  for (int e = 0; e < mesh->elements; e++) {
+    const double middle = 0.5 * (mesh->edge[e] + mesh->edge[e + 1]);
+    const double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
+    const double from = fmax((fmin(ends[0], ends[1]) - middle) / half, -1.0);
+    const double to = fmin((fmax(ends[0], ends[1]) - middle) / half, 1.0);
+    for (int q = 0; q < SB_HP_QUAD && to > from; q++) {
+      const double r = 0.5 * (from + to) + 0.5 * (to - from) * gauss[q];
+      const double w = 0.5 * (to - from) * half * weight[q];
+      double mode[MODES], value[SB_MIXED_DEGREE_MAX + 1];
+      sb_compliance_modes(surface, unit * (middle + half * r + mesh->shift), mode, NULL);
+      sb_barycentric_basis(value, r, rule->node, rule->bary, rule->degree + 1);
+      for (int k = 0; k < modes; k++) {
+        for (int j = 0; j <= rule->degree; j++) {
+          moment[k][e * rule->degree + j] += w * value[j] * mode[k];
+        }
+      }
+    }
+  }
+  add_ambient(ambient, unused, body, mesh->inlet, mesh->outlet, mesh->edge[0] + mesh->shift,
+              mesh->edge[mesh->elements] + mesh->shift);
+
+  // S times them without its constant, as for the smooth film.
+  double by_node[MODES][SB_MIXED_NODES_MAX];
+  double of_ambient[MODES] = {0};
+  memset(by_node[0], 0, sizeof by_node[0]);
+  cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, nodes, modes, factor,
+              &surface->smooth[1][0], MODES, &moment[0][0], SB_MIXED_NODES_MAX, 0.0, &by_node[1][0],
+              SB_MIXED_NODES_MAX);
+  for (int k = 1; k < modes; k++) {
+    of_ambient[k] = factor * cblas_ddot(modes, surface->smooth[k], 1, ambient, 1);
+  }
+
+  const double tilt = window_tilt(body, mesh->inlet, mesh->outlet);
+  for (int i = 0; i < nodes; i++) {
+    const double x = unit * (mesh->x[i] + mesh->shift);
+    double mode[MODES], slope;
+    sb_compliance_modes(surface, x, mode, NULL);
+    mesh->known[i] += sb_compliance_gap(surface, x, &slope) / body->film + tilt * mesh->x[i] +
+                      cblas_ddot(modes, mode, 1, of_ambient, 1);
+    cblas_dgemv(CblasRowMajor, CblasTrans, modes, nodes, 1.0, &by_node[0][0], SB_MIXED_NODES_MAX,
+                mode, 1, 1.0, mesh->kernel + (size_t)i * (size_t)nodes, 1);
+  }
 }

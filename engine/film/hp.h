@@ -74,6 +74,7 @@ typedef struct {
 typedef struct {
   int count;
   int steps[2]; // of the layout that made it (layers.h)
+  int outlet;   // first element of a flooded outlet, if the last is infinite
   SbHpElement element[SB_HP_ELEMENTS_MAX];
   int dofs, rows, targets;
   double inlet_pressure, outlet_pressure; // constant pressure beyond the two ends of the mesh

@@ -12,6 +12,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 // Shapes of the layers: distance from the edge over the layer's width, pressure over lambda^0.2,
 // film over the flux film (in the inlet: its excess over the dry gap).
@@ -67,11 +68,11 @@ static double bowed(const SbLayers *l, double X) {
   return sum;
 }
 
-// Slope factors of the dry pressure at the inlet and outlet edges.
-static double inlet_slope(const SbLayers *l) {
+double sb_layers_inlet_slope(const SbLayers *l) {
   return bowed(l, -1.0) - (l->inlet - l->outlet) / M_PI;
 }
 
+// The same at the outlet edge.
 static double outlet_slope(const SbLayers *l) {
   return bowed(l, 1.0) + (l->inlet - l->outlet) / M_PI;
 }
@@ -82,13 +83,14 @@ static double starved(const SbLayers *l) {
 }
 
 double sb_layers_width(const SbLayers *l) {
-  return pow(l->lambda, 0.4) * pow(inlet_slope(l), -1.2) * starved(l);
+  return pow(l->lambda, 0.4) * pow(sb_layers_inlet_slope(l), -1.2) * starved(l);
 }
 
 // A flux below what the outlet's own slope would carry narrows its layer as starving does, to the
 // inlet's width.
 double sb_layers_outlet_width(const SbLayers *l) {
-  return pow(l->lambda, 0.4) * pow(fmax(inlet_slope(l), outlet_slope(l)), -1.2) * starved(l);
+  return pow(l->lambda, 0.4) * pow(fmax(sb_layers_inlet_slope(l), outlet_slope(l)), -1.2) *
+         starved(l);
 }
 
 // Minimum film of the rigid wedge: h_min = 4.894968 R U / W.
@@ -97,7 +99,7 @@ static double rigid_film(const SbLayers *l) {
 }
 
 double sb_layers_flux(const SbLayers *l) {
-  double elastic = 0.44582 * pow(l->lambda, 0.6) * pow(inlet_slope(l), -0.8);
+  double elastic = 0.44582 * pow(l->lambda, 0.6) * pow(sb_layers_inlet_slope(l), -0.8);
   double rigid = 1.225748 * rigid_film(l);
   return pow(pow(elastic, 1.4) + pow(rigid, 1.4), 1.0 / 1.4);
 }
@@ -114,11 +116,21 @@ static double rupture_guess(const SbLayers *l) {
   return 1.0 / sqrt(1.0 / (elastic * elastic) + 1.0 / (rigid * rigid));
 }
 
-// Place of the least film before a flooded outlet, read off our own solutions: at rest the layer
-// lies on the edge, higher outlet pressure pushes it out.
+// Place of the least film before a flooded outlet, read off our own solutions (M from 1.3 to 1e6,
+// pressures up to 2.9 p_H apart): at rest the layer lies on the edge, higher outlet pressure pushes
+// it out, thick films less.
 static double flooded_outlet(const SbLayers *l) {
-  double step = l->outlet - l->inlet;
-  return 1.0 + 0.4 * pow(l->lambda, 0.4) * exp(0.98 * step + 0.05 * step * fmax(step - 1.35, 0.0));
+  double s = -log(outlet_slope(l));
+  double thin = exp(-0.916 + 1.25 * s + 0.972 * (1.0 - exp(-1.8 * s)));
+  double slowing = cbrt(1.0 + pow(0.8 * thin, 3.0));
+  return 1.0 + thin * pow(l->lambda, 0.4) / (1.0 + slowing * pow(l->lambda, 0.32));
+}
+
+// Length over which the gap opens behind a flooded outlet: the flux film against the dry gap.
+static double opening(const SbLayers *l) {
+  double film = pow(sb_layers_inlet_slope(l), -0.8);
+  return fmax(sb_layers_outlet_width(l),
+              pow(l->lambda, 0.4) * pow(film / outlet_slope(l), 2.0 / 3.0));
 }
 
 // Edge of the contact that the outlet layer's shape belongs to.
@@ -126,17 +138,21 @@ static double outlet_edge(const SbLayers *l) {
   return l->end == SB_LAYERS_FULL ? flooded_outlet(l) + 0.17 * sb_layers_outlet_width(l) : 1.0;
 }
 
-// The flooded outlet beyond `from`: elements of growing size, then the infinite one.
-static bool add_outlet(SbHpMesh *mesh, double from, double unit, int degree, bool apart) {
+// The flooded outlet beyond `from`: elements of growing size up to `reach`, then the infinite one.
+static bool add_outlet(SbHpMesh *mesh, double from, double unit, double reach, int degree,
+                       bool apart) {
   static const double step[] = {0.0, 0.4, 1.5, 4.0};
-  for (int i = 1; i < 4; i++) {
-    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, from + unit * step[i - 1], from + unit * step[i], 0.0,
-                        degree + 4, apart && i == 1)) {
+  mesh->outlet = mesh->count;
+  double begin = from;
+  for (int i = 1; i < 4 || begin - from < reach; i++) {
+    double end = i < 4 ? from + unit * step[i] : from + 2.5 * (begin - from);
+    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, begin, end, 0.0, degree + 4, apart && i == 1)) {
       return false;
     }
+    begin = end;
   }
-  double begin = from + 4.0 * unit;
-  return sb_hp_mesh_add(mesh, SB_HP_OUTLET, begin, 0.0, begin - 4.5 * unit, degree + 4, false);
+  return sb_hp_mesh_add(mesh, SB_HP_OUTLET, begin, 0.0, begin - 1.125 * (begin - from), degree + 4,
+                        false);
 }
 
 // A film that begins at a meniscus: five elements from there to `last`, evenly in asinh z.
@@ -172,7 +188,7 @@ static bool thick_mesh(SbHpMesh *mesh, const SbLayers *l) {
     }
   }
   if (l->end == SB_LAYERS_FULL) {
-    return add_outlet(mesh, end, 0.5 * unit, l->degree, false);
+    return add_outlet(mesh, end, 0.5 * unit, 0.0, l->degree, false);
   }
   return true;
 }
@@ -194,7 +210,8 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
   static const double outlet_step[] = {-8.0, -2.5, -0.8, -0.1};
   double in = sb_layers_width(l);
   double out = sb_layers_outlet_width(l);
-  double left[4], right[5];
+  enum { RIGHTS_MAX = 8 };
+  double left[4], right[RIGHTS_MAX];
   int lefts = 0;
   for (int i = 0; i < 4; i++) {
     double x = -1.0 + in * inlet_step[i];
@@ -219,6 +236,13 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
     }
   }
   right[rights++] = last;
+  // A layer pushed out of the dry contact: elements back into it, each twice as far from the edge.
+  while (full && right[0] > 1.0 - out && rights < RIGHTS_MAX) {
+    double x = fmax(edge - 2.2 * (edge - right[0]), 0.5 * (left[lefts - 1] + right[0]));
+    memmove(&right[1], &right[0], (size_t)rights * sizeof right[0]);
+    right[0] = x;
+    rights++;
+  }
 
   // Inlet and its layer: higher degree, as the flux there is a small difference.
   if (isfinite(l->meniscus)) {
@@ -274,7 +298,7 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
     }
   }
   if (l->end == SB_LAYERS_FULL) {
-    return add_outlet(mesh, right[rights - 1], out, l->degree, false);
+    return add_outlet(mesh, right[rights - 1], out, 2.0 * opening(l), l->degree, false);
   }
   return true;
 }
@@ -288,12 +312,19 @@ bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *l) {
     double unit = sb_layers_width(l) > THICK ? 0.3 * sqrt(1.44 + 0.52 * l->lambda)
                                              : sb_layers_outlet_width(l);
     unit = 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0);
-    fits = add_outlet(mesh, l->reform, unit, l->degree, true);
+    fits = add_outlet(mesh, l->reform, unit, 0.0, l->degree, true);
   }
   if (fits) {
     sb_hp_mesh_build(mesh, tables);
   }
   return fits;
+}
+
+double sb_layers_dry_pressure(const SbLayers *l, double X) {
+  double inside = fmin(fmax(X, -1.0), 1.0);
+  double step = asin(inside) / M_PI;
+  return sqrt((1.0 - inside) * (1.0 + inside)) * bowed(l, inside) + l->inlet * (0.5 - step) +
+         l->outlet * (0.5 + step);
 }
 
 double sb_layers_dry_gap(const SbLayers *l, double X) {

@@ -37,6 +37,12 @@ double sb_layers_width(const SbLayers *layers);
 // Width of the outlet layer, at most that of the inlet.
 double sb_layers_outlet_width(const SbLayers *layers);
 
+// Slope factor of the dry pressure at the inlet edge: 1 for Hertz's.
+double sb_layers_inlet_slope(const SbLayers *layers);
+
+// Pressure of the dry contact at X, the end pressures outside it.
+double sb_layers_dry_pressure(const SbLayers *layers, double X);
+
 // Dry gap of Hertz's contact, with the bend that unequal end pressures add outside it.
 double sb_layers_dry_gap(const SbLayers *layers, double X);
 

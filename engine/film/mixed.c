@@ -10,7 +10,7 @@
 // Couette and (h/2) p' of Poiseuille in the full film (eq. 5.16); in the cavity the liquid covers
 // the part theta = flux film / h of the length, in full-height streamers that the wall shears:
 // theta eta u / h. Validity: mean-gap Reynolds without flow factors (isotropic roughness; factors
-// are near 1 above h = 2 sigma), half-plane, and the ranges of the rough law.
+// are near 1 above h = 2 sigma), and the ranges of the rough law.
 #include "engine/film/mixed.h"
 
 #include "engine/numeric/legendre.h"
@@ -73,7 +73,7 @@ static double flux_guess(double *mouth, const SbMixedCase *c) {
   if (c->law == NULL || !(c->lambda > 0)) {
     return smooth;
   }
-  double slope = 1 - (c->layers.inlet - c->layers.outlet) / M_PI;
+  double slope = sb_layers_inlet_slope(&c->layers);
   SbRoughPoint at;
   sb_rough_law_at(&at, c->law, sb_rough_law_of_pressure(c->law, 0.999999 * c->pressure));
   double low = log(at.gap / c->film), high = low + 40;
@@ -113,7 +113,7 @@ void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c) {
                  film < 1.2 * sb_layers_flux(&c->layers);
   for (int i = 0; i < mesh->nodes; i++) {
     double X = mesh->x[i];
-    double q = sb_film_dry_pressure(X, c->layers.inlet, c->layers.outlet);
+    double q = sb_layers_dry_pressure(&c->layers, X);
     double dry = sb_film_dry_gap(X);
     double ambient = sb_mixed_ends(c, X);
     double fluid = film > 0 ? film * (1 + 1.2 * exp(-fabs(X + 1) / width)) : 0;
@@ -199,6 +199,7 @@ static SbStatus attempt(SbMixedSolver *solver, int which, const SbMixedCase *c,
   SbMixedTrace trace;
   SbStatus status = sb_mixed_newton(&trace, solver, which, c, problem);
   info->newton_iterations += trace.iterations;
+  info->continuation_steps++;
   info->residual = trace.step;
   return status;
 }
@@ -238,7 +239,6 @@ static SbStatus descend(SbMixedSolver *solver, const SbMixedCase *c, double from
                       ? pow(now->kappa / before->kappa * exp(last - at), times)
                       : 1;
     state->kappa = now->kappa * ratio * grow;
-    info->continuation_steps++;
     SbStatus status = attempt(solver, 0, &part, info, problem);
     if (status == SB_ERROR_CANCELLED) {
       return status;
@@ -268,7 +268,6 @@ static SbStatus start(SbMixedSolver *solver, int *which, const SbMixedCase *c,
   if (!sb_mixed_mesh(&solver->mesh[0], rule, c, 1)) {
     return SB_ERROR_NOT_CONVERGED;
   }
-  info->continuation_steps = 1;
   SbMixedCase trial = *c;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   for (int i = 0; i < TRIALS; i++) {
@@ -352,7 +351,6 @@ static SbStatus starve(SbMixedSolver *solver, int *which, SbMixedCase *c, double
     double next = fmax(flow * exp(-step), supply);
     c->supply = next;
     solver->state[to].kappa = next;
-    info->continuation_steps++;
     SbStatus status = attempt(solver, to, c, info, problem);
     if (status == SB_ERROR_CANCELLED) {
       return status;
@@ -394,7 +392,7 @@ static SbStatus climb(SbMixedReading *reading, int *levels, int *which, SbMixedS
 
 // Where the models behind the solution end.
 static void warn(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale) {
-  if (scale->half_width > problem->radius) {
+  if (problem->compliance == NULL && scale->half_width > problem->radius) {
     out->valid = false;
     sb_warn(&out->warnings, "film-contact-wide", "seal.modulus",
             "the contact's half-width is %.2g of the radius: no parabola on a half-plane",
@@ -425,22 +423,21 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
       .supply = problem->inlet_film > 0 && problem->speed != 0
                     ? scale->lambda * 2 * problem->inlet_film / scale->film
                     : INFINITY,
-      .rupture = problem->rupture_pressure / scale->pressure,
-      .barus = problem->pressure_viscosity * scale->pressure,
+      .fluid = sb_film_fluid(problem, scale->pressure, scale->film),
       .film = scale->film,
       .pressure = scale->pressure,
       .hamaker = problem->hamaker / (6 * M_PI * scale->pressure * pow(scale->film, 3)),
       .cutoff = SB_VDW_CUTOFF / scale->film,
+      .body = sb_film_body(problem, scale),
       .layers = {.lambda = scale->lambda,
                  .inlet = scale->inlet,
                  .outlet = fmax(scale->outlet, 0),
+                 .middle = scale->middle,
                  .starvation = 1,
                  .meniscus = -INFINITY,
                  .end = scale->outlet > 0 ? SB_LAYERS_FULL : SB_LAYERS_RUPTURE},
   };
-  if (problem->eyring_stress > 0) {
-    c.eyring = problem->viscosity * fabs(problem->speed) / (problem->eyring_stress * scale->film);
-  }
+  memcpy(c.layers.bow, scale->bow, sizeof c.layers.bow);
   if (problem->surface != SB_ROUGH_NONE) {
     SbRoughSurface surface = {.model = problem->surface,
                               .product = problem->gt_product,
@@ -495,9 +492,9 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
   out->film_central = r->film_central * scale->film;
   out->film_flux = r->film_flux * scale->film;
   out->flow = 0.5 * problem->speed * out->film_flux;
-  out->pressure_max = (r->pressure_max + c.rupture) * scale->pressure;
-  out->position_film_min = sign * r->position_min * scale->half_width;
-  out->position_rupture = sign * r->position_rupture * scale->half_width;
+  out->pressure_max = (r->pressure_max + c.fluid.rupture) * scale->pressure;
+  out->position_film_min = sign * (r->position_min + scale->middle) * scale->half_width;
+  out->position_rupture = sign * (r->position_rupture + scale->middle) * scale->half_width;
   out->ruptured = r->ruptured;
   out->starved = isfinite(c.supply) && !c.sealed;
   double shear = problem->viscosity * problem->speed * scale->half_width / scale->film;

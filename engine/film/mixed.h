@@ -1,21 +1,22 @@
 // Inside of the mixed-film solver (private to engine/film): film and asperities in one Newton.
 //
-// The unknown is the total pressure q on the half-plane. At every node
+// The unknown is the total pressure q on the half-plane or a fitted body. At every node
 //
 //   q = p + p_a(h) - p_v(h)           p film, p_a asperities, p_v van der Waals' pull
-//   h = H0 + X^2/2 - (1/pi) integral q ln|X - X'| dX'
+//   h = H0 + X^2/2 - (1/pi) integral q ln|X - X'| dX'      (fitted.c adds a fitted body's own)
 //   h^3 m p' = lambda h - kappa       where the film is full; kappa / lambda is the flux film
 //   p >= 0, and no more pressure than the flux brings, where it is broken: then q = p_a - p_v
 //
-// scaled as in scale.h, in the flow frame with x from the axis. h is written h(t), p_a(t) with the
-// parameter t of the rough law, and t and the slope s = p' are iterated beside q and made
-// consistent by Newton's method itself: everything that it linearises is then gentle from a film
-// ten times the roughness to full contact. Elements are polynomials on Lobatto nodes; Reynolds'
-// equation is integrated from node to node (collocation of Lobatto IIIA's kind); each node is in
-// the full film or in the cavity by complementarity, and the step into the cavity ends where the
-// film ends, so that the rupture is not tied to nodes.
+// scaled as in scale.h, in the flow frame with X from the middle of the dry contact. h is written
+// h(t), p_a(t) with the parameter t of the rough law, and t and the slope s = p' are iterated
+// beside q and made consistent by Newton's method itself: everything that it linearises is then
+// gentle from a film ten times the roughness to full contact. Elements are polynomials on Lobatto
+// nodes; Reynolds' equation is integrated from node to node (collocation of Lobatto IIIA's kind);
+// each node is in the full film or in the cavity by complementarity, and the step into the cavity
+// ends where the film ends, so that the rupture is not tied to nodes.
 #pragma once
 
+#include "engine/film/fluid.h"
 #include "engine/film/layers.h"
 #include "engine/film/scale.h"
 #include "engine/surface/rough_law.h"
@@ -47,7 +48,8 @@ typedef struct {
   double edge[SB_MIXED_ELEMENTS_MAX + 1];
   double x[SB_MIXED_NODES_MAX];
   double inlet, outlet;             // far pressures
-  double known[SB_MIXED_NODES_MAX]; // gap of the far pressures, tilt removed as in hp.c
+  double shift;                     // X + shift is counted from the axis
+  double known[SB_MIXED_NODES_MAX]; // undeformed gap and that of the far pressures, tilt as in hp.c
   double load[SB_MIXED_NODES_MAX];  // integral of the basis
   double *kernel;                   // [nodes][nodes] gap of a nodal pressure
 } SbMixedMesh;
@@ -62,12 +64,12 @@ typedef struct {
 
 // What is solved.
 typedef struct {
-  SbLayers layers;       // lambda and end pressures; places the mesh
-  double lambda;         // 0 at rest
-  double supply;         // kappa of a starved inlet; infinite when flooded
-  bool sealed;           // at rest without flow: film pressure by sb_mixed_ends(), all nodes broken
-  double rupture;        // rupture pressure; the solver's pressures are above it
-  double barus, eyring;  // as in SbReynoldsCase
+  SbFilmBody body;
+  SbLayers layers; // lambda and end pressures; places the mesh
+  double lambda;   // 0 at rest
+  double supply;   // kappa of a starved inlet; infinite when flooded
+  bool sealed;     // at rest without flow: film pressure by sb_mixed_ends(), all nodes broken
+  SbFilmFluid fluid;
   const SbRoughLaw *law; // NULL: smooth
   double smooth_gap;     // unit of t without a law
   double film, pressure; // scales of the law
@@ -113,6 +115,13 @@ const SbMixedRule *sb_mixed_rule(SbMixedSolver *solver, int degree);
 // sizes (1 usual). False if the mesh does not fit.
 bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase *c,
                    double fineness);
+
+// Gives a new mesh the body of the case: its undeformed gap and smooth compliance in place of the
+// parabola's (fitted.c).
+void sb_mixed_fitted(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase *c);
+
+// Load above the ambient step that the nodal pressures q make, less its target pi/2.
+double sb_mixed_load(const SbMixedMesh *mesh, const double *q);
 
 // Element that holds X, and the coordinate there.
 int sb_mixed_locate(const SbMixedMesh *mesh, double X, double *r);

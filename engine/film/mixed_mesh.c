@@ -5,7 +5,8 @@
 // power 3/2) sit. The gap of a polynomial pressure under the logarithmic kernel is exact: with z
 // the target's coordinate in the element, integral of P_k(r) ln|z - r| = 2/(2k+1) (Q_(k+1) -
 // Q_(k-1))(z), Legendre functions of the second kind (as hp.c; here for all z, by their downward
-// recurrence away from the element). Far pressures and their tilt: reference/ehl.md as in hp.c.
+// recurrence away from the element). Far pressures and their tilt: reference/ehl.md as in hp.c. A
+// fitted body's share of kernel and gap: fitted.c.
 #include "engine/film/mixed.h"
 
 #include "engine/numeric/legendre.h"
@@ -137,6 +138,15 @@ static void build_kernel(SbMixedMesh *mesh, const SbMixedRule *rule) {
     mesh->known[i] = in * half_line(X - mesh->edge[0]) -
                      out * half_line(X - mesh->edge[mesh->elements]) + (in - out) * M_LN2 * X;
   }
+}
+
+double sb_mixed_load(const SbMixedMesh *mesh, const double *q) {
+  double sum = -0.5 * M_PI + mesh->inlet * (mesh->edge[0] + mesh->shift) -
+               mesh->outlet * (mesh->edge[mesh->elements] + mesh->shift);
+  for (int i = 0; i < mesh->nodes; i++) {
+    sum += mesh->load[i] * q[i];
+  }
+  return sum;
 }
 
 // X > 1 where the dry gap reaches `gap`.
@@ -290,7 +300,15 @@ bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase
       mesh->x[e * rule->degree + k] = 0.5 * (a + b) + 0.5 * (b - a) * rule->node[k];
     }
   }
+  mesh->shift = l->middle;
   build_kernel(mesh, rule);
+  if (c->body.compliance != NULL) {
+    sb_mixed_fitted(mesh, rule, c);
+  } else {
+    for (int i = 0; i < nodes; i++) {
+      mesh->known[i] += 0.5 * mesh->x[i] * mesh->x[i];
+    }
+  }
   return true;
 }
 

@@ -64,24 +64,6 @@ double sb_mixed_of_gap(const SbMixedCase *c, double gap) {
   return t >= 1 ? t : 1 + log(t);
 }
 
-// Mobility factor and its derivatives, as in newton.c.
-static void mobility(double *m, double *m_h, double *m_p, const SbMixedCase *c, double h,
-                     double p) {
-  *m = 1;
-  *m_h = *m_p = 0;
-  double barus = c->barus > 0 ? exp(-c->barus * (p + c->rupture)) : 1;
-  if (c->eyring > 0) {
-    double shear = c->eyring / (barus * h);
-    double root = sqrt(1 + shear * shear);
-    *m = barus * root;
-    *m_h = -barus * shear * shear / (root * h);
-    *m_p = c->barus * barus * (shear * shear / root - root);
-  } else if (c->barus > 0) {
-    *m = barus;
-    *m_p = -c->barus * barus;
-  }
-}
-
 double sb_mixed_film_end(const SbMixedMesh *mesh, const SbMixedRule *rule, const double *s, int e,
                          int j) {
   int i = e * rule->degree + j;
@@ -114,7 +96,7 @@ typedef struct {
 
 static void elastic_gaps(double *out, const SbMixedMesh *mesh, const SbMixedState *state) {
   for (int i = 0; i < mesh->nodes; i++) {
-    out[i] = state->H0 + 0.5 * mesh->x[i] * mesh->x[i] + mesh->known[i];
+    out[i] = state->H0 + mesh->known[i];
   }
   cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->nodes, mesh->nodes, 1.0, mesh->kernel, mesh->nodes,
               state->q, 1, 1.0, out, 1);
@@ -129,7 +111,7 @@ static void localise(Local *l, SbMixedSolver *solver, const SbMixedMesh *mesh,
     l->k[i] = -at->solid_t / at->h_t;
     l->r[i] = solver->gap[i] - at->h;
     double m, m_h, m_p;
-    mobility(&m, &m_h, &m_p, c, at->h, l->p[i]);
+    sb_film_mobility(&m, &m_h, &m_p, &c->fluid, at->h, l->p[i]);
     double h = at->h, s = state->s[i];
     double G = h * h * h * m;
     l->s0[i] = -s + (c->lambda * h - state->kappa) / G;
@@ -267,12 +249,7 @@ static void assemble(double *matrix, double *right, double *row_scale, const SbM
   if (row != NULL) {
     memcpy(row, mesh->load, (size_t)nodes * sizeof *row);
   }
-  double sum =
-      -0.5 * M_PI + mesh->inlet * mesh->edge[0] - mesh->outlet * mesh->edge[mesh->elements];
-  for (int j = 0; j < nodes; j++) {
-    sum += mesh->load[j] * state->q[j];
-  }
-  right[nodes + 1] = -sum;
+  right[nodes + 1] = -sb_mixed_load(mesh, state->q);
 
   for (int i = 0; i < order; i++) {
     if (matrix != NULL) {

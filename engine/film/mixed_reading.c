@@ -24,13 +24,7 @@ static void add_interval(SbMixedReading *out, const SbMixedSolver *solver,
     const SbMixedPoint *at = &solver->point[n];
     double w = half * full[k], wet = half * film[k];
     double open = 1 - at->share;
-    double shear = 1 / at->h;
-    double p = state->q[n] - at->solid;
-    if (c->barus > 0 || c->eyring > 0) {
-      double barus = exp(-c->barus * (p + c->rupture));
-      double x = c->eyring / (barus * at->h);
-      shear = (x > 0 ? asinh(x) / x : 1) / (barus * at->h);
-    }
+    double shear = sb_film_shear(&c->fluid, at->h, state->q[n] - at->solid);
     out->couette += wet * open * shear;
     out->poiseuille += wet * open * 0.5 * at->h * state->s[n];
     if (c->lambda > 0) {
@@ -49,13 +43,10 @@ void sb_mixed_read(SbMixedReading *out, SbMixedSolver *solver, int which, const 
   memset(out, 0, sizeof *out);
   out->film_min = INFINITY;
   out->position_rupture = mesh->edge[mesh->elements];
-  double load =
-      -0.5 * M_PI + mesh->inlet * mesh->edge[0] - mesh->outlet * mesh->edge[mesh->elements];
   for (int i = 0; i < mesh->nodes; i++) {
     sb_mixed_point(&solver->point[i], c, state->t[i]);
-    load += mesh->load[i] * state->q[i];
   }
-  out->load_error = fabs(load) / (0.5 * M_PI);
+  out->load_error = fabs(sb_mixed_load(mesh, state->q)) / (0.5 * M_PI);
   out->film_flux = c->lambda > 0 ? state->kappa / c->lambda : 0;
   double r;
   int axis = sb_mixed_locate(mesh, 0, &r);
@@ -146,8 +137,8 @@ void sb_mixed_profile(SbFilm *out, SbMixedSolver *solver, int which, const SbMix
       SbMixedPoint at;
       sb_mixed_point(&at, c, sb_mixed_value(mesh, rule, state->t, e, r));
       double q = sb_mixed_value(mesh, rule, state->q, e, r);
-      out->x[n] = (middle + half * r) * scale->half_width;
-      out->pressure[n] = (q + c->rupture) * scale->pressure;
+      out->x[n] = (middle + half * r + mesh->shift) * scale->half_width;
+      out->pressure[n] = (q + c->fluid.rupture) * scale->pressure;
       out->film[n] = at.h * scale->film;
       out->asperity_pressure[n] = at.asperity * scale->pressure;
       n++;

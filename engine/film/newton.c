@@ -4,9 +4,8 @@
 // film H* being an unknown, with H = H0 + (X + c)^2 / 2 - (1/pi) integral P ln|X - X'| dX', the
 // load integral P = pi/2, and Swift-Stieber's end p = 0, H = H* (that is p' = 0). The mesh is fixed
 // in X and the axis moves by c: the rupture point is free and the kernel constant, so that the
-// whole system is smooth and Newton's method converges quadratically without a contact search. m =
-// exp(-alpha p) sqrt(1 + (tau/tau_0)^2) holds Barus' viscosity and Eyring's thinning of the
-// pressure flow under a dominant shear (Ehret, Dowson and Taylor 1998); m = 1 without them.
+// whole system is smooth and Newton's method converges quadratically without a contact search. m
+// holds Barus' viscosity and Eyring's thinning (fluid.h) and is 1 without them.
 //
 // A film that begins at a meniscus or forms again behind a cavity has one more free end, which
 // moves the mesh; its column of the Jacobian is a difference quotient.
@@ -104,24 +103,6 @@ static double local(const SbHpMesh *mesh, const double *operators, const double 
   return sum;
 }
 
-void sb_reynolds_mobility(double *m, double *m_film, double *m_pressure,
-                          const SbReynoldsCase *problem, double film, double pressure) {
-  *m = 1.0;
-  *m_film = 0.0;
-  *m_pressure = 0.0;
-  double barus = exp(-problem->barus * (pressure + problem->rupture));
-  if (problem->eyring > 0.0) {
-    double shear = problem->eyring / (barus * film);
-    double root = sqrt(1.0 + shear * shear);
-    *m = barus * root;
-    *m_film = -barus * shear * shear / (root * film);
-    *m_pressure = problem->barus * barus * (shear * shear / root - root);
-  } else if (problem->barus > 0.0) {
-    *m = barus;
-    *m_pressure = -problem->barus * barus;
-  }
-}
-
 // Where the conditions beside the collocation rows act.
 typedef struct {
   bool rupture;              // p = 0 and H = H* at the end of element `last`
@@ -192,7 +173,7 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
     double slope = local(mesh, mesh->slope, mesh->slope_known, state->nodal, i);
     double pressure = local(mesh, mesh->value, mesh->value_known, state->nodal, i);
     double m, m_film, m_pressure;
-    sb_reynolds_mobility(&m, &m_film, &m_pressure, problem, H, pressure);
+    sb_film_mobility(&m, &m_film, &m_pressure, &problem->fluid, H, pressure);
     double G = H * H * H * m / lambda;
     double by_film = (3.0 * H * H * m + H * H * H * m_film) / lambda * slope - 1.0;
     double by_pressure = H * H * H * m_pressure / lambda * slope;

@@ -126,8 +126,8 @@ static SbReynoldsCase between(const SbReynoldsCase *target, Way way, double t) {
   static const double EASY_LAMBDA = 0.0093; // M = 20
   static const double EASY_PRESSURE = 0.3;
   SbReynoldsCase c = *target;
-  c.barus *= t;
-  c.eyring *= t;
+  c.fluid.barus *= t;
+  c.fluid.eyring *= t;
   if (way == WAY_SAME) {
     c.layers.inlet *= t;
     return c;

@@ -29,7 +29,7 @@ typedef struct {
 } Spread;
 
 // Ratios of the geometric grids outside and inside of a layer, and its length without growth.
-static const double RATIO_OUTSIDE = 0.0065;
+static const double RATIO_OUTSIDE = 0.0058;
 static const double RATIO_INSIDE = 0.0125;
 static const double CORE_INLET = 1.2;
 static const double CORE_OUTLET = 0.4;
@@ -72,8 +72,7 @@ static Spread spread_points(const SbHpMesh *mesh, const SbLayers *layers, double
                             double limit) {
   static const double INSIDE_MOST = 2600.0;
   const SbHpElement *last = &mesh->element[mesh->count - 1];
-  // A flooded outlet is three elements and an infinite one; the film's end lies before them.
-  double edge = last->map == SB_HP_OUTLET ? mesh->element[mesh->count - 4].x0 : last->x1;
+  double edge = last->map == SB_HP_OUTLET ? mesh->element[mesh->outlet].x0 : last->x1;
   double width = sb_layers_width(layers);
   Spread s = {
       .inlet = -1.0,
@@ -132,7 +131,7 @@ static double reynolds_slope(SbFilmSolver *solver, int which, const SbReynoldsCa
   double film = gap_at(solver, which, problem, element, excess, r);
   double pressure = sb_hp_pressure(mesh, &solver->tables, e, state->nodal, r);
   double m, by_film, by_pressure;
-  sb_reynolds_mobility(&m, &by_film, &by_pressure, problem, film, pressure);
+  sb_film_mobility(&m, &by_film, &by_pressure, &problem->fluid, film, pressure);
   return problem->layers.lambda * (film - state->flux) / (film * film * film * m) *
          sb_hp_stretch(e, r);
 }
@@ -290,10 +289,22 @@ static double flat_film(const SbReynoldsCase *problem, double flux, double press
   double film = flux;
   for (int i = 0; i < 8; i++) {
     double m, by_film, by_pressure;
-    sb_reynolds_mobility(&m, &by_film, &by_pressure, problem, film, pressure);
+    sb_film_mobility(&m, &by_film, &by_pressure, &problem->fluid, film, pressure);
     film = flux + film * film * film * m * slope / problem->layers.lambda;
   }
   return film;
+}
+
+// How far a liquid end at `ambient` is followed. Beyond X the pressure gains (4/3) lambda / X^3:
+// the load left out shall be below 1e-6 of the whole and, in a profile to be recomputed from, the
+// friction below some 2e-3 (its remainder goes with lambda^(1/4) / X), as long as steps of the
+// pressure show beside the ambient one.
+static double reach_of(double lambda, double ambient, bool drawn) {
+  const double least = 3.0, digits = 1e-11, step = 0.02;
+  double load = sqrt(2.0 / 3.0 * lambda / (0.5 * M_PI * 1e-6));
+  double friction = 600.0 * pow(lambda, 0.25);
+  double shown = cbrt(4.0 / 3.0 * lambda * step / (digits * fmax(ambient, 1e-12)));
+  return fmax(fmax(least, load), drawn ? 0.0 : fmin(friction, shown));
 }
 
 // From the flow frame, inlet left, to the seal's.
@@ -319,12 +330,14 @@ void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
   enum { LEAST = 4 }; // intervals of an element
   const SbHpMesh *mesh = &solver->mesh[which];
   const SbReynoldsState *state = &solver->state[which];
-  // The inlet is followed until the load left out is below 1e-6 of the whole, at least three
-  // half-widths.
-  double reach = fmax(3.0, sqrt(2.0 / 3.0 * problem->layers.lambda / (0.5 * M_PI * 1e-6)));
-  double begin = mesh->element[0].map == SB_HP_INLET ? -1.0 - reach : mesh->element[0].x0;
   const SbHpElement *last = &mesh->element[mesh->count - 1];
-  double end = last->map == SB_HP_OUTLET ? 1.0 + reach : last->x1;
+  bool drawn = wanted->profile_points > 0;
+  double lambda = problem->layers.lambda;
+  double begin = mesh->element[0].map == SB_HP_INLET
+                     ? -1.0 - reach_of(lambda, problem->layers.inlet, drawn)
+                     : mesh->element[0].x0;
+  double end =
+      last->map == SB_HP_OUTLET ? 1.0 + reach_of(lambda, problem->layers.outlet, drawn) : last->x1;
   double room = SB_FILM_POINTS - (LEAST + 2) * PIECES_MAX;
   double limit = wanted->profile_points > 0 ? (double)wanted->profile_points : room;
   Spread spread = spread_points(mesh, &problem->layers, begin, end, fmin(limit, room));
@@ -368,7 +381,7 @@ void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
                                             slope / fmax(sb_hp_stretch(e, r), 1e-300))
                                 : gap_at(solver, which, problem, piece->element, excess, r);
       out->x[n] = (X + state->shift) * scale->half_width;
-      out->pressure[n] = (P + problem->rupture) * scale->pressure;
+      out->pressure[n] = (P + problem->fluid.rupture) * scale->pressure;
       out->film[n] = film * scale->film;
       n++;
     }

@@ -213,10 +213,9 @@ static double reynolds_film(SbFilmSolver *solver, int which, const SbReynoldsCas
                   sb_hp_pressure(mesh, &solver->tables, e, state->nodal, before)) /
                  (sb_hp_position(e, after) - sb_hp_position(e, before));
   double pressure = sb_hp_pressure(mesh, &solver->tables, e, state->nodal, r);
-  double barus = exp(-problem->barus * (pressure + problem->rupture));
   for (int i = 0; i < 20; i++) {
-    double shear = problem->eyring / (barus * film);
-    double m = barus * sqrt(1.0 + shear * shear);
+    double m, by_film, by_pressure;
+    sb_film_mobility(&m, &by_film, &by_pressure, &problem->fluid, film, pressure);
     film = state->flux + film * film * film * m * slope / problem->layers.lambda;
   }
   return film;
@@ -317,12 +316,10 @@ void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
       highest = i;
     }
     // Friction and flux by the rule of the collocation points.
-    double barus = exp(-problem->barus * (P + problem->rupture));
-    double shear = problem->eyring / (barus * H);
-    double thinning = shear > 0.0 ? asinh(shear) / shear : 1.0;
-    out->couette += mesh->weight[i] * thinning / (barus * H);
+    out->couette += mesh->weight[i] * sb_film_shear(&problem->fluid, H, P);
     out->poiseuille += mesh->weight[i] * 0.5 * H * P_slope;
-    double m = barus * (shear > 0.0 ? sqrt(1.0 + shear * shear) : 1.0);
+    double m, by_film, by_pressure;
+    sb_film_mobility(&m, &by_film, &by_pressure, &problem->fluid, H, P);
     double flux = H - H * H * H * m / problem->layers.lambda * P_slope;
     out->flux_error = fmax(out->flux_error, fabs(flux - state->flux) / fmax(H, state->flux));
   }

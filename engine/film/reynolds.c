@@ -28,8 +28,7 @@ static double seconds(void) {
 // changes shrink, which is not believed to be better than what was found over the range of M and
 // end pressures. Changes are those of the films' surroundings (sb_reynolds_change). The flux hangs
 // on the inlet alone; the centre has its error and its own; the minimum both and the outlet's.
-static void estimate(SbFilmSolverInfo *info, double change[LEVELS][3], int levels,
-                     const SbLayers *layers, double noise) {
+static void estimate(SbFilmSolverInfo *info, double change[LEVELS][3], int levels, double noise) {
   static const double SLOWEST[LEVELS] = {1.0, 0.13, 0.06, 0.1, 0.1, 0.1};
   // Half of what a level leaves at its best, whatever the changes say: at last the kernel's and
   // Newton's own digits.
@@ -38,14 +37,11 @@ static void estimate(SbFilmSolverInfo *info, double change[LEVELS][3], int level
   c[2] = fmax(c[2], 0.05 * c[1]);
   c[1] = fmax(c[1], c[2]);
   c[0] = fmax(c[0], c[1]);
-  // Slower where a flooded outlet presses on a film that is not thin.
-  bool pressed = layers->end == SB_LAYERS_FULL && sb_layers_width(layers) > 0.05;
   double estimates[3];
   for (int i = 0; i < 3; i++) {
     double last = change[levels - 1][i];
     double rate = levels > 2 ? last / fmax(change[levels - 2][i], 1e-300) : 0.0;
-    double slowest = fmax(SLOWEST[levels - 1], i == 0 && pressed ? 0.2 : 0.0);
-    estimates[i] = fmin(fmax(rate, slowest), 1.0) * last + noise;
+    estimates[i] = fmin(fmax(rate, SLOWEST[levels - 1]), 1.0) * last + noise;
     estimates[i] = fmax(estimates[i], FINEST[levels - 1]);
   }
   info->error_film_min = estimates[0];
@@ -57,12 +53,8 @@ static void estimate(SbFilmSolverInfo *info, double change[LEVELS][3], int level
 static SbReynoldsCase scaled_case(const SbFilmProblem *problem, const SbFilmScale *scale) {
   double outlet = scale->outlet > 1e-9 ? scale->outlet : 0.0;
   SbReynoldsCase c = {
-      .rupture = problem->rupture_pressure / scale->pressure,
-      .barus = problem->pressure_viscosity * scale->pressure,
-      .body = {.compliance = problem->compliance,
-               .side = problem->speed >= 0.0 ? 1.0 : -1.0,
-               .half_width = scale->half_width,
-               .film = scale->film},
+      .fluid = sb_film_fluid(problem, scale->pressure, scale->film),
+      .body = sb_film_body(problem, scale),
       .layers = {.lambda = scale->lambda,
                  .middle = scale->middle,
                  .inlet = scale->inlet,
@@ -74,9 +66,6 @@ static SbReynoldsCase scaled_case(const SbFilmProblem *problem, const SbFilmScal
                  .steps = {-1, -1}},
   };
   memcpy(c.layers.bow, scale->bow, sizeof c.layers.bow);
-  if (problem->eyring_stress > 0.0) {
-    c.eyring = problem->viscosity * fabs(problem->speed) / (problem->eyring_stress * scale->film);
-  }
   return c;
 }
 
@@ -88,7 +77,7 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   out->film_central = r->film_central * scale->film;
   out->film_flux = r->film_flux * scale->film;
   out->flow = 0.5 * problem->speed * out->film_flux;
-  out->pressure_max = (r->pressure_max + c->rupture) * scale->pressure;
+  out->pressure_max = (r->pressure_max + c->fluid.rupture) * scale->pressure;
   out->position_film_min = sign * r->position_min * scale->half_width;
   out->position_rupture = sign * r->position_rupture * scale->half_width;
   out->ruptured = c->layers.end != SB_LAYERS_FULL;
@@ -153,7 +142,7 @@ static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFil
     if (*levels >= 2) {
       sb_reynolds_change(change[level], solver, *which, c, &reading[level], &reading[level - 1],
                          !anew);
-      estimate(info, change, *levels, &c->layers, rounding(&reading[level]) + info->residual);
+      estimate(info, change, *levels, rounding(&reading[level]) + info->residual);
     }
     double worst = fmax(info->error_film_min, info->error_film_central);
     if (*levels >= least && worst <= 0.1 * problem->tolerance) {

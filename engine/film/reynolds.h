@@ -2,6 +2,7 @@
 // and what is read off a solution.
 #pragma once
 
+#include "engine/film/fluid.h"
 #include "engine/film/hp.h"
 #include "engine/film/layers.h"
 #include "engine/film/scale.h"
@@ -13,21 +14,12 @@ typedef struct {
   double H0, shift, flux;
 } SbReynoldsState;
 
-// A fitted body in place of the half-plane, in SI with the scales that make it one.
-typedef struct {
-  const SbSurfaceCompliance *compliance; // NULL: none
-  double side;                           // seal's x over the flow frame's, 1 or -1
-  double half_width, film;               // scales b and of the film
-} SbReynoldsBody;
-
 // The scaled problem in the flow frame.
 typedef struct {
-  SbReynoldsBody body;
+  SbFilmBody body;
   SbLayers layers;
-  bool hold;      // a free end stays where it is
-  double rupture; // rupture pressure: all pressures of the solver are above it
-  double barus;   // alpha p_H
-  double eyring;  // eta |speed| / (tau_0 b^2 / R): shear stress over Eyring's at unit film; 0 = off
+  bool hold; // a free end stays where it is
+  SbFilmFluid fluid;
 } SbReynoldsCase;
 
 // What Newton's method did.
@@ -107,11 +99,6 @@ void sb_reynolds_change(double change[3], SbFilmSolver *solver, int which,
 
 // Coordinate r of position X in element e.
 double sb_reynolds_coordinate(const SbHpElement *e, double X);
-
-// Mobility factor m of the pressure flow (Barus, Eyring; 1 without them) and its derivatives to
-// film and pressure.
-void sb_reynolds_mobility(double *m, double *m_film, double *m_pressure,
-                          const SbReynoldsCase *problem, double film, double pressure);
 
 // Profile of a solution into `out`, in SI and in the seal's frame, with the points that `wanted`
 // asks for (profile.c).

@@ -23,6 +23,13 @@ typedef struct {
   double bow[SB_COMPLIANCE_PRESSURES];
 } SbFilmScale;
 
+// A fitted body in place of the half-plane, in SI with the scales that make it one.
+typedef struct {
+  const SbSurfaceCompliance *compliance; // NULL: none
+  double side;                           // seal's x over the flow frame's, 1 or -1
+  double half_width, film;               // scales b and of the film
+} SbFilmBody;
+
 // Scales of `problem`, which must have been checked.
 SbFilmScale sb_film_scale(const SbFilmProblem *problem);
 
@@ -31,6 +38,9 @@ SbFilmScale sb_film_scale(const SbFilmProblem *problem);
 // differ, and what sb_dry_contact returns.
 SbStatus sb_film_scale_fitted(SbFilmScale *scale, SbDryContact *dry, const SbFilmProblem *problem,
                               SbReport *report);
+
+// Body of `problem` in those scales; without a compliance if it is the half-plane.
+SbFilmBody sb_film_body(const SbFilmProblem *problem, const SbFilmScale *scale);
 
 // Dry contact at rest of a fitted body.
 void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryContact *dry);

@@ -5,8 +5,7 @@
 // the net one: the fluid on either side carries its own step, so a contact from l to r under the
 // total load W leaves W - p_left (0 - l) - p_right (r - 0) to the film (contract, "Load"). What it
 // leaves out: beside the film, asperities do not take load off it (they carry 1 to 14 % of it at
-// its least, audit 10; coupled they share it, on the half-plane always); the closed forms know no
-// inlet starvation.
+// its least, audit 10; coupled they share it); the closed forms know no inlet starvation.
 #include "engine/friction/sliding.h"
 
 #include "engine/surface/greenwood_tripp.h"
@@ -21,6 +20,7 @@ struct SbSlidingMemory {
   SbFilm fitted_film; // of the fitted body
   bool fitted_last;   // which of them the last evaluation gave
   SbFilm rest;        // dry rough contact, coupled asperities only
+  bool rest_fitted;   // on the fitted body
   double rest_load;
   SbSealPressure rest_pressure;
   bool rested;
@@ -62,6 +62,7 @@ static SbStatus film_solve(SbFilm *out, const SbFilmProblem *problem, SbSlidingM
 
 void sb_sliding_memory_forget(SbSlidingMemory *memory) {
   memory->fitted = false;
+  memory->rested = false;
 }
 
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory) {
@@ -112,7 +113,8 @@ static SbStatus solve_fit(SbSlidingMemory *memory, const SbModel *model, int sea
   }
   SbFitProblem problem;
   sb_sliding_fit_problem(&problem, model, seal, pressure);
-  problem.surface_wanted = model->film == SB_MODEL_FILM_REYNOLDS;
+  problem.surface_wanted =
+      model->film == SB_MODEL_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   SbStatus status = sb_fit_solve(&memory->fit, &problem, report);
   counts->fit_solves++;
   counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
@@ -202,8 +204,17 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
   return match_fit(out, *load, fit, left, right, report);
 }
 
+static SbStatus solve_counted(SbFilm *film, const SbFilmProblem *problem, SbSlidingMemory *memory,
+                              SbSlidingCounts *counts, SbReport *report) {
+  SbStatus status = film_solve(film, problem, memory, report);
+  counts->film_evaluations++;
+  counts->reynolds_solves++;
+  counts->newton_iterations += (size_t)film->solver.newton_iterations;
+  return status;
+}
+
 // The film on the fitted body in place of the half-plane's; false where there is none or it fails.
-static bool solve_fitted(SbSliding *out, const SbFilmProblem *plane, const SbModel *model, int seal,
+static bool solve_fitted(SbFilm *film, const SbFilmProblem *plane, const SbModel *model, int seal,
                          SbSealPressure pressure, SbSlidingMemory *memory, SbSlidingCounts *counts,
                          SbWarnings *warnings) {
   if (memory->fit.model != SB_FIT_DISC && memory->fit.model != SB_FIT_RING) {
@@ -217,31 +228,30 @@ static bool solve_fitted(SbSliding *out, const SbFilmProblem *plane, const SbMod
                                        warnings, &report);
   if (status == SB_OK) {
     problem.modulus = surface.modulus;
-    status = film_solve(&memory->fitted_film, &problem, memory, &report);
-    counts->film_evaluations++;
-    counts->reynolds_solves++;
-    counts->newton_iterations += (size_t)memory->fitted_film.solver.newton_iterations;
+    status = solve_counted(film, &problem, memory, counts, &report);
   }
   if (status != SB_OK) {
     sb_warn(warnings, "film-half-plane", "models.fit",
             "no film on the fitted %s seal (%s): it is the half-plane's", sb_seal_name(seal),
             report.text);
-    return false;
   }
-  out->film_fitted = true;
-  out->film_min = memory->fitted_film.film_min;
-  out->film_central = memory->fitted_film.film_central;
-  out->film_error = fmax(memory->fitted_film.solver.error_film_min,
-                         memory->fitted_film.solver.error_film_central);
-  if (memory->fit.model == SB_FIT_RING) {
+  return status == SB_OK;
+}
+
+// A seal's film figures are those of `film`, solved on the half-plane or on the fitted body.
+static void take_film(SbSliding *out, const SbFilm *film, bool fitted, const SbFit *fit) {
+  out->film_fitted = fitted;
+  out->film_min = film->film_min;
+  out->film_central = film->film_central;
+  out->film_error = fmax(film->solver.error_film_min, film->solver.error_film_central);
+  if (fitted && fit->model == SB_FIT_RING) {
     // A thin film goes with the power -0.8 of the strength of the pressure's root at its inlet,
     // which goes with peak over root of width but hangs on few nodes of the ring's mesh: measured,
     // it is out by up to five times their relative errors.
-    out->film_error += 0.8 * 5 *
-                       (memory->fit.solver.error_estimate.pressure_peak +
-                        0.5 * memory->fit.solver.error_estimate.contact_width);
+    out->film_error +=
+        0.8 * 5 *
+        (fit->solver.error_estimate.pressure_peak + 0.5 * fit->solver.error_estimate.contact_width);
   }
-  return true;
 }
 
 // Layer that the return stroke finds on the bore: what the in-stroke carried through the contact,
@@ -251,10 +261,7 @@ static SbStatus carried_layer(double *layer, const SbFilmProblem *back, const Sb
   SbFilmProblem in = *back;
   in.speed = model->speed;
   in.inlet_film = 0;
-  SbStatus status = film_solve(&memory->film, &in, memory, report);
-  counts->film_evaluations++;
-  counts->reynolds_solves++;
-  counts->newton_iterations += (size_t)memory->film.solver.newton_iterations;
+  SbStatus status = solve_counted(&memory->film, &in, memory, counts, report);
   *layer = status == SB_OK ? fabs(memory->film.flow / in.speed) : 0;
   return status;
 }
@@ -306,8 +313,10 @@ static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSea
   const SbFilm *best = &memory->film;
   memory->fitted_last = false;
   if (problem.model == SB_FILM_REYNOLDS && status == SB_OK &&
-      solve_fitted(out, &problem, model, seal, pressure, memory, counts, warnings)) {
+      solve_fitted(&memory->fitted_film, &problem, model, seal, pressure, memory, counts,
+                   warnings)) {
     best = &memory->fitted_film;
+    take_film(out, best, true, &memory->fit);
     memory->fitted_last = true;
   }
   sb_warnings_merge(warnings, &best->warnings);
@@ -328,13 +337,13 @@ static void coupled_problem(SbFilmProblem *out, const SbModel *model, int seal,
   out->load_coefficient = model->load_coefficient;
 }
 
-static SbStatus solve_one(SbFilm *film, const SbFilmProblem *problem, SbSlidingMemory *memory,
-                          SbSlidingCounts *counts, SbReport *report) {
-  SbStatus status = film_solve(film, problem, memory, report);
-  counts->film_evaluations++;
-  counts->reynolds_solves++;
-  counts->newton_iterations += (size_t)film->solver.newton_iterations;
-  return status;
+// Solves it on the fitted body, or on the half-plane where that cannot be.
+static SbStatus solve_rough(SbFilm *film, bool *fitted, const SbFilmProblem *plane,
+                            const SbModel *model, int seal, SbSealPressure pressure,
+                            SbSlidingMemory *memory, SbSlidingCounts *counts, SbWarnings *warnings,
+                            SbReport *report) {
+  *fitted = solve_fitted(film, plane, model, seal, pressure, memory, counts, warnings);
+  return *fitted ? SB_OK : solve_counted(film, plane, memory, counts, report);
 }
 
 // Film, rough contact and friction from one solution each, sliding and at rest.
@@ -348,7 +357,8 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
               memory->rest_pressure.right == pressure.right;
   if (!same) {
     coupled_problem(&problem, model, seal, pressure, out->load_net, 0);
-    SbStatus status = solve_one(&memory->rest, &problem, memory, counts, report);
+    SbStatus status = solve_rough(&memory->rest, &memory->rest_fitted, &problem, model, seal,
+                                  pressure, memory, counts, warnings, report);
     if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
       return status;
     }
@@ -358,6 +368,7 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
     memory->rest_pressure = pressure;
   }
   memory->fitted_last = false;
+  bool fitted = memory->rest_fitted;
   if (speed != 0) {
     coupled_problem(&problem, model, seal, pressure, out->load_net, speed);
     option_warnings(warnings, model, seal, &problem);
@@ -366,8 +377,8 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
               "with coupled asperities the inlet is flooded both ways: what a rough contact leaves "
               "on the bore is not known");
     }
-    SbStatus status =
-        solve_one(&memory->film, &problem, memory, counts, worst == SB_OK ? report : NULL);
+    SbStatus status = solve_rough(&memory->film, &fitted, &problem, model, seal, pressure, memory,
+                                  counts, warnings, worst == SB_OK ? report : NULL);
     if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
       return status;
     }
@@ -379,11 +390,11 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
   sb_warnings_merge(warnings, &film->warnings);
   // Lengths of the half-plane's contact over the fitted one's; forces over its circumference.
   double area = (out->contact_right - out->contact_left) * model->bore_circumference;
-  double width = 2 * film->hertz_half_width;
+  double fit_width = out->contact_right - out->contact_left;
+  double width = fitted ? fit_width : 2 * film->hertz_half_width;
+  double rest_width = memory->rest_fitted ? fit_width : 2 * memory->rest.hertz_half_width;
   double circumference = out->load / out->load_per_length;
-  out->film_min = film->film_min;
-  out->film_central = film->film_central;
-  out->film_error = fmax(film->solver.error_film_min, film->solver.error_film_central);
+  take_film(out, film, fitted, &memory->fit);
   out->lambda = film->film_ratio;
   out->area_share = fmin(film->real_area / width, 1);
   out->asperity_share = film->asperity_share;
@@ -392,7 +403,7 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
   out->viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
   const SbFilm *rest = &memory->rest;
   out->friction_static =
-      model->static_ratio * (model->shear_strength * fmin(rest->real_area / width, 1) * area +
+      model->static_ratio * (model->shear_strength * fmin(rest->real_area / rest_width, 1) * area +
                              model->load_coefficient * rest->asperity_load * circumference);
   return worst;
 }

@@ -1,14 +1,13 @@
 // A seal's steady sliding state: fitment, film, rough contact and the friction that follows, at one
 // pressure and one sliding velocity, by the models that the scene chose.
 //
-//   boundary  F_b = tau_0 A_a + m W          thesis equation 5.14, A_a = A (real share), m on the
-//   TOTAL load viscous   F_v = tau (A - A_a)            thesis equations 5.15 and 5.16, tau =
-//   min(eta |u|/h, tau_0) static    F_s = ratio (tau_0 A_a(0) + m W)   break-away from rest, where
-//   the film has gone
+//   boundary  F_b = tau_0 A_a + m W    thesis eq. 5.14, A_a = A (real share), m on the TOTAL load
+//   viscous   F_v = tau (A - A_a)      thesis eq. 5.15 and 5.16, tau = min(eta |u|/h, tau_0)
+//   static    F_s = ratio (tau_0 A_a(0) + m W)     break-away from rest, where the film has gone
 //
 // With models.asperities = coupled the film is solved with the asperities in it (film/mixed.h), and
-// what the solution says takes the place of these: A_a its real area (mean over the half-plane's
-// contact, on A), m on the asperities' load alone, the viscous part from the gap that is open, and
+// what the solution says takes the place of these: A_a its real area (mean over the contact
+// solved, on A), m on the asperities' load alone, the viscous part from the gap that is open, and
 // at rest the dry rough contact, m W on the whole net load.
 //
 // A = contact width x pi D (bore), for every fitment model. The real share A_a/A comes from

@@ -245,6 +245,28 @@ static void test_kept_elements(void) {
   g_assert_cmpfloat(film.film_min, ==, first);
 }
 
+// Outlet pressure that pushes the film far out of the dry contact, near to where it opens it.
+static void test_pressed(void) {
+  static const double M[] = {1.4, 2.27, 5.14, 30.0, 267.0, 1e4, 3e5};
+  static const double step[] = {1.96, 2.3, 2.6};
+  Tally tally = {0};
+  for (size_t i = 0; i < G_N_ELEMENTS(M); i++) {
+    for (size_t k = 0; k < G_N_ELEMENTS(step); k++) {
+      SbFilmProblem p;
+      sb_film_problem_init(&p);
+      p.modulus = 1e7;
+      p.radius = 1e-3;
+      p.load = 10.0;
+      p.viscosity = 1e-3;
+      p.speed = (1e-3 / M[i]) * (1e-3 / M[i]) * 1e7;
+      p.pressure_right = step[k] * hertz_of(&p);
+      one(&tally, &p, true);
+    }
+  }
+  finish(&tally);
+  g_assert_cmpint(tally.solved, ==, (int)(G_N_ELEMENTS(M) * G_N_ELEMENTS(step)));
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   if (argc > 1) {
@@ -259,6 +281,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/campaign/starved", test_starved);
   g_test_add_func("/film/campaign/starved-to-rounding", test_starved_to_rounding);
   g_test_add_func("/film/campaign/kept-elements", test_kept_elements);
+  g_test_add_func("/film/campaign/pressed", test_pressed);
   int failed = g_test_run();
   sb_film_solver_destroy(solver);
   return failed;

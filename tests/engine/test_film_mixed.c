@@ -154,7 +154,7 @@ static void test_direct_start(void) {
     problem.pressure_right = ends[i][1];
     g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
     g_assert_cmpfloat(film.film_ratio, <, 2);
-    g_assert_cmpint(film.solver.continuation_steps, ==, 1);
+    g_assert_cmpint(film.solver.continuation_steps, <=, 4); // the start and three levels
     g_assert_cmpint(film.solver.newton_iterations, <=, 25);
   }
 }
@@ -437,6 +437,7 @@ static void test_estimate(void) {
     for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
       SbFilmProblem problem = seal(speed, (SbRoughModel)model);
       g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+      g_assert_cmpint(film.solver.newton_iterations, <=, 10 * film.solver.continuation_steps);
       problem.tolerance = 1e-8;
       SbStatus status = solve(&other, &problem);
       g_assert_true(status == SB_OK || status == SB_ERROR_NOT_CONVERGED);

@@ -1,0 +1,324 @@
+// Film and asperities on a fitted body: the half-plane as a special case, the smooth and the dry
+// limit on the disc's compliance by other methods, symmetry, and a run's seals.
+#include "engine/elastic/compliance.h"
+#include "engine/film/film.h"
+#include "engine/friction/sliding.h"
+#include "engine/surface/greenwood_tripp.h"
+
+#include <glib.h>
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+static const double RADIUS = 0.805e-3, YOUNG = 2.5e6, NU = 0.49;
+static SbFilmSolver *solver;
+static SbFilm film, other;
+
+static SbFilmProblem seal(double speed) {
+  SbFilmProblem problem;
+  sb_film_problem_init(&problem);
+  problem.load = 300;
+  problem.radius = RADIUS;
+  problem.modulus = 2 * YOUNG / (1 - NU * NU);
+  problem.viscosity = 0.211e-3;
+  problem.speed = speed;
+  problem.surface = SB_ROUGH_GREENWOOD_TRIPP;
+  problem.gt_product = 0.1289;
+  problem.sigma = 1e-7;
+  problem.sigma_over_beta = 0.1;
+  problem.shear_strength = 3.5e6;
+  problem.load_coefficient = 0.19;
+  return problem;
+}
+
+static SbSurfaceCompliance disc(void) {
+  SbSurfaceCompliance c;
+  g_assert_cmpint(sb_compliance_disc(&c, RADIUS, YOUNG, NU, 0.75 * RADIUS, NULL), ==, SB_OK);
+  return c;
+}
+
+static void solve(SbFilm *out, const SbFilmProblem *problem) {
+  SbReport report = {0};
+  sb_film_solver_forget(solver);
+  SbStatus status = sb_film_solve(out, problem, solver, &report);
+  g_assert_cmpstr(status == SB_OK ? "" : report.text, ==, "");
+  g_assert_true(out->solver.converged);
+  g_assert_cmpfloat(out->solver.load_error, <, 1e-10);
+}
+
+static void close_to(const char *what, double got, double want, double relative) {
+  if (!(fabs(got - want) <= relative * fabs(want))) {
+    g_test_message("%s: got %.9g, want %.9g within %g", what, got, want, relative);
+    g_test_fail();
+  }
+}
+
+// A parabola without smooth part is the half-plane, at rest and sliding, with pressures beside it.
+static void test_half_plane(void) {
+  static const struct {
+    double speed, left, right;
+  } point[] = {{0, 0, 0}, {1e-2, 0, 0}, {-0.3, 0, 0}, {1e-2, 2e5, 0}, {1, 1e5, 3e5}};
+  for (size_t i = 0; i < G_N_ELEMENTS(point); i++) {
+    SbFilmProblem problem = seal(point[i].speed);
+    problem.pressure_left = point[i].left;
+    problem.pressure_right = point[i].right;
+    solve(&other, &problem);
+    double x[30], gap[30];
+    for (int k = 0; k < 30; k++) {
+      x[k] = -0.8 * RADIUS * cos(G_PI * (k + 0.5) / 30);
+      gap[k] = 0.5 * x[k] * x[k] / RADIUS;
+    }
+    SbSurfaceCompliance c;
+    g_assert_cmpint(sb_compliance_fit(&c, 10, -0.8 * RADIUS, 0.8 * RADIUS, problem.modulus, 30, x,
+                                      gap, NULL, NULL),
+                    ==, SB_OK);
+    // The tilt that unequal pressures take out is the window's, here that of the half-plane's
+    // contact.
+    if (problem.pressure_left != problem.pressure_right) {
+      const double b = other.hertz_half_width;
+      for (int k = 0; k < 30; k++) {
+        gap[k] += 4 / (G_PI * problem.modulus) * (problem.pressure_left - problem.pressure_right) *
+                  log(0.8 * RADIUS / b) * x[k];
+      }
+      g_assert_cmpint(sb_compliance_fit(&c, 10, -0.8 * RADIUS, 0.8 * RADIUS, problem.modulus, 30, x,
+                                        gap, NULL, NULL),
+                      ==, SB_OK);
+    }
+    problem.compliance = &c;
+    solve(&film, &problem);
+    close_to("least film", film.film_min, other.film_min, 1e-6);
+    close_to("central film", film.film_central, other.film_central, 1e-6);
+    close_to("asperities' load", film.asperity_load, other.asperity_load, 1e-6);
+    close_to("real area", film.real_area, other.real_area, 1e-6);
+    close_to("largest pressure", film.pressure_max, other.pressure_max, 1e-6);
+  }
+}
+
+// Vanishing roughness leaves the disc's smooth film, which another solver finds.
+static void test_smooth_limit(void) {
+  const SbSurfaceCompliance c = disc();
+  static const double speed[] = {1e-2, -1, 10};
+  for (size_t i = 0; i < G_N_ELEMENTS(speed); i++) {
+    SbFilmProblem problem = seal(speed[i]);
+    problem.compliance = &c;
+    problem.sigma = 1e-13;
+    problem.pressure_left = i == 1 ? 1e5 : 0;
+    solve(&film, &problem);
+    problem.surface = SB_ROUGH_NONE;
+    solve(&other, &problem);
+    g_test_message("speed %g: least %.2g, central %.2g, place %.2g", speed[i],
+                   film.film_min / other.film_min - 1, film.film_central / other.film_central - 1,
+                   film.position_film_min / other.position_film_min - 1);
+    close_to("least film", film.film_min, other.film_min, 5e-4);
+    close_to("central film", film.film_central, other.film_central, 5e-4);
+    close_to("largest pressure", film.pressure_max, other.pressure_max, 5e-4);
+    close_to("place of the least film", film.position_film_min, other.position_film_min, 1e-3);
+    close_to("Couette", film.friction_couette, other.friction_couette, 5e-3);
+    g_assert_cmpfloat(film.asperity_share, <, 1e-6);
+    // Not the half-plane's.
+    problem.compliance = NULL;
+    solve(&other, &problem);
+    g_assert_cmpfloat(film.film_central / other.film_central, <, 0.97);
+  }
+}
+
+static double average_gap(double sigma, double lambda) {
+  return sigma *
+         (lambda * 0.5 * erfc(-lambda / G_SQRT2) + exp(-lambda * lambda / 2) / sqrt(2 * G_PI));
+}
+
+static double asperities(const SbFilmProblem *p, double lambda) {
+  SbGtIntegrals F;
+  sb_gt_integrals(&F, lambda, NULL);
+  return sb_gt_pressure(p->gt_product, p->sigma_over_beta, p->modulus, F.F5_2);
+}
+
+// Dry rough contact by uniform cells of constant pressure: the half-plane's closed kernel and the
+// smooth part at the middles, Newton's method on the asperities' separations. Returns the central
+// gap; *peak is the largest pressure.
+static double dry_by_cells(double *peak, const SbFilmProblem *problem, int cells, double half) {
+  const SbSurfaceCompliance *c = problem->compliance;
+  const int order = cells + 1;
+  const double dx = 2 * half / cells;
+  double *kernel = g_new(double, cells *cells), *A = g_new(double, order *order);
+  double *right = g_new(double, order), *lambda = g_new(double, cells), *p = g_new(double, cells);
+  double *gap = g_new(double, cells), *mode = g_new(double, cells *SB_COMPLIANCE_MODES);
+  lapack_int *pivot = g_new(lapack_int, order);
+  for (int i = 0; i < cells; i++) {
+    const double x = -half + (i + 0.5) * dx;
+    sb_compliance_modes(c, x, mode + i * SB_COMPLIANCE_MODES, NULL);
+    gap[i] = sb_compliance_gap(c, x, NULL);
+    lambda[i] = fabs(x) < half / 1.5 ? -1 : 3;
+  }
+  for (int i = 0; i < cells; i++) {
+    for (int j = 0; j < cells; j++) {
+      const double a = (abs(i - j) - 0.5) * dx, b = (abs(i - j) + 0.5) * dx;
+      double sum =
+          -4 / (G_PI * c->modulus) * (b * (log(fabs(b)) - 1) - a * (log(fabs(a)) - 1)) / dx;
+      for (int k = 0; k < c->modes; k++) {
+        for (int l = 0; l < c->modes; l++) {
+          sum += c->smooth[k][l] * mode[i * SB_COMPLIANCE_MODES + k] *
+                 mode[j * SB_COMPLIANCE_MODES + l];
+        }
+      }
+      kernel[i * cells + j] = sum * dx;
+    }
+  }
+  double H0 = 0, worst = INFINITY;
+  for (int pass = 0; pass < 200 && worst > 1e-9; pass++) {
+    memset(A, 0, (size_t)order * (size_t)order * sizeof *A);
+    right[cells] = problem->load;
+    for (int i = 0; i < cells; i++) {
+      p[i] = asperities(problem, lambda[i]);
+      const double by = (asperities(problem, lambda[i] + 1e-6) - p[i]) / 1e-6;
+      for (int k = 0; k < cells; k++) {
+        A[k + i * order] = kernel[k * cells + i] * by;
+      }
+      A[i + i * order] -= problem->sigma * 0.5 * erfc(-lambda[i] / G_SQRT2);
+      A[i + cells * order] = 1;
+      A[cells + i * order] = by * dx;
+      right[cells] -= p[i] * dx;
+    }
+    for (int i = 0; i < cells; i++) {
+      right[i] = average_gap(problem->sigma, lambda[i]) - H0 - gap[i];
+      for (int j = 0; j < cells; j++) {
+        right[i] -= kernel[i * cells + j] * p[j];
+      }
+    }
+    g_assert_cmpint(LAPACKE_dgesv(LAPACK_COL_MAJOR, order, 1, A, order, pivot, right, order), ==,
+                    0);
+    worst = 0;
+    for (int i = 0; i < cells; i++) {
+      worst = fmax(worst, fabs(right[i]));
+      lambda[i] = CLAMP(lambda[i] + CLAMP(right[i], -0.7, 0.7), -9, 36);
+    }
+    H0 += right[cells];
+  }
+  g_assert_cmpfloat(worst, <, 1e-9);
+  *peak = 0;
+  for (int i = 0; i < cells; i++) {
+    *peak = fmax(*peak, p[i]);
+  }
+  const double central = average_gap(problem->sigma, lambda[cells / 2]);
+  g_free(kernel);
+  g_free(A);
+  g_free(right);
+  g_free(lambda);
+  g_free(p);
+  g_free(gap);
+  g_free(mode);
+  g_free(pivot);
+  return central;
+}
+
+// At rest: the rough disc's contact, by cells on the same compliance.
+static void test_dry_contact(void) {
+  const SbSurfaceCompliance c = disc();
+  SbFilmProblem problem = seal(0);
+  problem.compliance = &c;
+  problem.sigma = 1e-5;
+  solve(&film, &problem);
+  close_to("asperities' share at rest", film.asperity_share, 1, 1e-9);
+  SbDryContact dry;
+  g_assert_cmpint(sb_dry_contact(&dry, &c, problem.load, 0, 0, NULL), ==, SB_OK);
+  double peak[2];
+  const double half = 1.5 * dry.right;
+  const double coarse = dry_by_cells(&peak[0], &problem, 75, half);
+  const double fine = dry_by_cells(&peak[1], &problem, 225, half);
+  const double error[2] = {fabs(coarse / film.film_central - 1),
+                           fabs(fine / film.film_central - 1)};
+  g_test_message("cells off by %.2g and %.2g, order %.2f", error[0], error[1],
+                 log(error[0] / error[1]) / log(3));
+  close_to("central gap", fine, film.film_central, 5e-4);
+  close_to("largest pressure", peak[1], film.pressure_max, 5e-4);
+  g_assert_cmpfloat(error[1], <, 0.35 * error[0]);
+}
+
+// Sliding the other way under mirrored pressures mirrors a mixed film.
+static void test_mirror(void) {
+  const SbSurfaceCompliance c = disc();
+  SbFilmProblem problem = seal(2e-2);
+  problem.compliance = &c;
+  problem.pressure_left = 0.08e6;
+  solve(&film, &problem);
+  g_assert_cmpfloat(film.asperity_share, >, 0.05);
+  g_assert_cmpfloat(film.asperity_share, <, 0.95);
+  problem.speed = -problem.speed;
+  problem.pressure_right = problem.pressure_left;
+  problem.pressure_left = 0;
+  solve(&other, &problem);
+  close_to("least film", other.film_min, film.film_min, 1e-7);
+  close_to("its place", other.position_film_min, -film.position_film_min, 1e-7);
+  close_to("asperities' load", other.asperity_load, film.asperity_load, 1e-7);
+  close_to("boundary friction", other.friction_boundary, -film.friction_boundary, 1e-7);
+  close_to("first point", other.x[0], -film.x[film.points - 1], 1e-12);
+}
+
+// A run with coupled asperities and a solved fitment has its film on the fitted body, at every
+// pressure: the total pressure there is the fitment's but for the roughness.
+static void run_seal(int fit_model) {
+  SbParams params;
+  sb_params_init(&params);
+  sb_params_set(&params, SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED, NULL);
+  sb_params_set(&params, SB_P_MODELS_FIT, fit_model, NULL);
+  sb_params_set(&params, SB_P_SURFACE_SIGMA, 2e-7, NULL);
+  SbModel model;
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  SbSlidingMemory *memory = NULL;
+  g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
+  for (int seal_side = 0; seal_side < SB_SEAL_COUNT; seal_side++) {
+    const SbSealPressure pressure = sb_model_seal_pressure(&model, seal_side, SB_CHAMBER_AT_REST);
+    SbSliding state;
+    SbSlidingCounts counts = {0};
+    SbWarnings warnings = {0};
+    g_assert_cmpint(sb_sliding_solve(&state, &model, seal_side, pressure, -1e-2, memory, &counts,
+                                     &warnings, NULL),
+                    ==, SB_OK);
+    g_assert_true(state.film_fitted);
+    g_assert_cmpuint(counts.reynolds_solves, ==, 2); // sliding and at rest
+    const SbFilm *solved = sb_sliding_film(memory);
+    const SbFit *fit = sb_sliding_fit(memory);
+    const double low = fmin(pressure.left, pressure.right);
+    close_to("largest pressure", solved->pressure_max - low, fit->pressure_peak, 0.02);
+    g_assert_cmpfloat(state.asperity_share, >, 0.05);
+    g_assert_cmpfloat(state.asperity_share, <, 1);
+    g_assert_cmpfloat(state.area_share, <, 1);
+    g_assert_cmpfloat(state.friction_static, >, sb_sliding_friction(&state));
+    // The half-plane's film is another, but of the same size.
+    SbFilmProblem plane;
+    sb_sliding_film_problem(&plane, &model, seal_side, pressure, state.load_net, -1e-2);
+    plane.surface = SB_ROUGH_GREENWOOD_TRIPP;
+    plane.gt_product = model.gt_product;
+    plane.sigma = model.sigma;
+    plane.sigma_over_beta = model.sigma_over_beta;
+    solve(&other, &plane);
+    const double ratio = state.film_central / other.film_central;
+    g_test_message("%s seal: %.4g nm, on the half-plane %.4g nm", sb_seal_name(seal_side),
+                   1e9 * state.film_central, 1e9 * other.film_central);
+    g_assert_cmpfloat(fabs(ratio - 1), >, 1e-3);
+    g_assert_cmpfloat(fabs(ratio - 1), <, 0.3);
+  }
+  sb_sliding_memory_destroy(memory);
+}
+
+static void test_run_disc(void) {
+  run_seal(SB_FIT_DISC);
+}
+
+static void test_run_ring(void) {
+  run_seal(SB_FIT_RING);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  sb_film_solver_create(&solver, NULL);
+  g_test_add_func("/film/mixed-fitted/half-plane", test_half_plane);
+  g_test_add_func("/film/mixed-fitted/smooth-limit", test_smooth_limit);
+  g_test_add_func("/film/mixed-fitted/dry-contact", test_dry_contact);
+  g_test_add_func("/film/mixed-fitted/mirror", test_mirror);
+  g_test_add_func("/film/mixed-fitted/run-disc", test_run_disc);
+  g_test_add_func("/film/mixed-fitted/run-ring", test_run_ring);
+  int failed = g_test_run();
+  sb_film_solver_destroy(solver);
+  return failed;
+}
