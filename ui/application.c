@@ -78,6 +78,7 @@ static void set_accels(GtkApplication *application) {
       {"win.run-or-stop", {"<Primary>r"}},
       {"win.export", {"<Primary>e"}},
       {"win.studies", {"<Primary>t"}},
+      {"win.close", {"<Primary>w"}},
       {"win.pin", {"<Primary>p"}},
       {"win.zoom-in", {"<Primary>plus", "<Primary>equal"}},
       {"win.zoom-out", {"<Primary>minus"}},

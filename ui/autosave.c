@@ -5,6 +5,7 @@
 
 #include "app/document/atomic.h"
 
+#include <glib/gi18n.h>
 #include <glib/gstdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -102,16 +103,17 @@ static gboolean offer_file(SbAutosave *autosave, const char *file) {
   }
   *end = '\0';
   const char *path = content[2] != '\0' ? content + 2 : NULL;
-  g_autofree char *name = path != NULL ? g_filename_display_basename(path) : g_strdup("Untitled");
+  g_autofree char *name =
+      path != NULL ? g_filename_display_basename(path) : g_strdup(_("Untitled"));
   GtkWidget *dialog = gtk_message_dialog_new(
       autosave->window, GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT, GTK_MESSAGE_QUESTION,
-      GTK_BUTTONS_NONE, "Restore the unsaved changes of “%s”?", name);
-  gtk_message_dialog_format_secondary_text(GTK_MESSAGE_DIALOG(dialog),
-                                           "Sealbench ended before they were saved. Restored, they "
-                                           "wait to be saved; the file stays as it "
-                                           "is until then.");
-  gtk_dialog_add_buttons(GTK_DIALOG(dialog), "_Discard", GTK_RESPONSE_NO, "_Later",
-                         GTK_RESPONSE_CANCEL, "_Restore", GTK_RESPONSE_YES, NULL);
+      GTK_BUTTONS_NONE, _("Restore the unsaved changes of “%s”?"), name);
+  gtk_message_dialog_format_secondary_text(
+      GTK_MESSAGE_DIALOG(dialog), _("Sealbench ended before they were saved. Restored, they "
+                                    "wait to be saved; the file stays as it "
+                                    "is until then."));
+  gtk_dialog_add_buttons(GTK_DIALOG(dialog), _("_Discard"), GTK_RESPONSE_NO, _("_Later"),
+                         GTK_RESPONSE_CANCEL, _("_Restore"), GTK_RESPONSE_YES, NULL);
   gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_YES);
   int answer = gtk_dialog_run(GTK_DIALOG(dialog));
   gtk_widget_destroy(dialog);
@@ -125,7 +127,7 @@ static gboolean offer_file(SbAutosave *autosave, const char *file) {
       write_now(autosave);
       g_unlink(file);
     } else {
-      tell(autosave->window, "The changes could not be restored.", issues);
+      tell(autosave->window, _("The changes could not be restored."), issues);
     }
     g_ptr_array_unref(issues);
   }

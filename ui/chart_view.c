@@ -13,6 +13,7 @@
 #include "ui/picture.h"
 #include "ui/style.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 
 typedef struct {
@@ -28,9 +29,9 @@ static const struct {
   int least_height, height;
   int interval; // between drawings while something moves [ms]
 } kinds[] = {
-    {"Force and displacement", 190, 260, 50}, {"Contact pressure", 132, 178, 80},
-    {"Film thickness", 132, 178, 80},         {"Life", 176, 230, 1000},
-    {"Why they differ", 176, 176, 1000},
+    {N_("Force and displacement"), 190, 260, 50}, {N_("Contact pressure"), 132, 178, 80},
+    {N_("Film thickness"), 132, 178, 80},         {N_("Life"), 176, 230, 1000},
+    {N_("Why they differ"), 176, 176, 1000},
 };
 
 // Model of the run shown; before the first run, of the values.
@@ -111,72 +112,72 @@ static void describe_loop(SbSession *session, GString *text) {
   const SbChartData *data = sb_session_chart(session);
   char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
   if (data->run.count == 0) {
-    g_string_append(text, "No run yet.");
+    g_string_append(text, _("No run yet."));
     return;
   }
   if (sb_chart_is_rig(&data->run)) {
     const SbSummary *ended = data->run.summary;
     if (ended != NULL && ended->rig.found) {
       g_string_append_printf(
-          text, "Sliding plate: break-away %s, static coefficient %s, ",
+          text, _("Sliding plate: break-away %s, static coefficient %s, "),
           sb_format_text(a, SB_QUANTITY_FORCE, ended->force_breakaway, 0),
           sb_format_text(b, SB_QUANTITY_NUMBER, ended->rig.of.static_coefficient, 0));
       g_string_append_printf(
-          text, "dynamic %s from %zu peaks, ",
+          text, _("dynamic %s from %zu peaks, "),
           sb_format_text(a, SB_QUANTITY_NUMBER, ended->rig.of.dynamic_coefficient, 0),
           ended->rig.of.peaks);
       g_string_append_printf(
-          text, "of the mean force %s, thesis 0.51 measured and 0.4 predicted, ",
+          text, _("of the mean force %s, thesis 0.51 measured and 0.4 predicted, "),
           sb_format_text(a, SB_QUANTITY_NUMBER, ended->rig.of.mean_coefficient, 0));
     }
     g_autofree char *now = sb_session_where(session);
-    g_string_append_printf(text, "now %s.", now);
+    g_string_append_printf(text, _("now %s."), now);
     return;
   }
   const SbStageMark *marks = sb_trace_marks(data->run.trace);
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
     if (marks[i].reached) {
-      g_string_append_printf(text, "%s %s at %s, ", sb_stage_name((SbStage)i),
+      g_string_append_printf(text, _("%s %s at %s, "), sb_stage_name((SbStage)i),
                              sb_format_text(a, SB_QUANTITY_FORCE, marks[i].force, 0),
                              sb_format_text(b, SB_QUANTITY_LENGTH, marks[i].displacement, 0));
     }
   }
   const SbSummary *summary = data->run.summary;
   if (summary != NULL) {
-    g_string_append_printf(text, "break-away %s, ",
+    g_string_append_printf(text, _("break-away %s, "),
                            sb_format_text(a, SB_QUANTITY_FORCE, summary->force_breakaway, 0));
-    g_string_append_printf(text, "least return force %s, ",
+    g_string_append_printf(text, _("least return force %s, "),
                            sb_format_text(a, SB_QUANTITY_FORCE, summary->force_return_min, 0));
-    g_string_append_printf(text, "loss per cycle %s, ",
+    g_string_append_printf(text, _("loss per cycle %s, "),
                            sb_format_text(a, SB_QUANTITY_ENERGY, summary->energy.loop, 0));
   }
   g_autofree char *where = sb_session_where(session);
-  g_string_append_printf(text, "now %s.", where);
+  g_string_append_printf(text, _("now %s."), where);
 }
 
 static void describe_contacts(SbSession *session, SbChartViewKind kind, GString *text) {
   const SbFrame *frame = sb_session_frame(session);
   char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
   if (frame == NULL) {
-    g_string_append(text, "No run yet.");
+    g_string_append(text, _("No run yet."));
     return;
   }
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const SbSealFrame *seal = &frame->seal[i];
+    const char *name = i == SB_OUTER ? _("Outer seal") : _("Inner seal");
     double width = seal->contact_right - seal->contact_left;
     if (width <= 0 || seal->land_fraction <= 0) {
-      g_string_append_printf(text, "%s seal: no contact. ", i == SB_OUTER ? "Outer" : "Inner");
+      g_string_append_printf(text, _("%s: no contact. "), name);
     } else if (kind == SB_CHART_VIEW_PRESSURE) {
-      g_string_append_printf(text, "%s seal: peak %s over %s. ", i == SB_OUTER ? "Outer" : "Inner",
+      g_string_append_printf(text, _("%s: peak %s over %s. "), name,
                              sb_format_text(a, SB_QUANTITY_PRESSURE, seal->pressure_peak, 0),
                              sb_format_text(b, SB_QUANTITY_LENGTH, width, 0));
     } else if (seal->film_central > 0) {
-      g_string_append_printf(text, "%s seal: centre %s, least %s. ",
-                             i == SB_OUTER ? "Outer" : "Inner",
+      g_string_append_printf(text, _("%s: centre %s, least %s. "), name,
                              sb_format_text(a, SB_QUANTITY_FILM, seal->film_central, 0),
                              sb_format_text(b, SB_QUANTITY_FILM, seal->film_min, 0));
     } else {
-      g_string_append_printf(text, "%s seal: at rest. ", i == SB_OUTER ? "Outer" : "Inner");
+      g_string_append_printf(text, _("%s: at rest. "), name);
     }
   }
 }
@@ -184,16 +185,16 @@ static void describe_contacts(SbSession *session, SbChartViewKind kind, GString 
 static void describe_life(SbSession *session, GString *text) {
   const SbChartRun *run = &sb_session_chart(session)->run;
   if (run->life_count == 0) {
-    g_string_append(text, "Known when the run has ended.");
+    g_string_append(text, _("Known when the run has ended."));
     return;
   }
   char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
   const SbLifeActuation *first = &run->life[0], *last = &run->life[run->life_count - 1];
-  g_string_append_printf(text, "%zu actuations: break-away %s at first and %s at last, ",
+  g_string_append_printf(text, _("%zu actuations: break-away %s at first and %s at last, "),
                          run->life_count,
                          sb_format_text(a, SB_QUANTITY_FORCE, first->force_breakaway, 0),
                          sb_format_text(b, SB_QUANTITY_FORCE, last->force_breakaway, 0));
-  g_string_append_printf(text, "least return force %s and %s.",
+  g_string_append_printf(text, _("least return force %s and %s."),
                          sb_format_text(a, SB_QUANTITY_FORCE, first->force_return, 0),
                          sb_format_text(b, SB_QUANTITY_FORCE, last->force_return, 0));
 }
@@ -202,13 +203,13 @@ static gboolean describe(gpointer data) {
   View *view = data;
   g_autoptr(GString) text = g_string_new(NULL);
   const SbChartRun *run = &sb_session_chart(view->session)->run;
-  const char *name = kinds[view->kind].name;
+  const char *name = _(kinds[view->kind].name);
   if (view->kind == SB_CHART_VIEW_LOOP) {
     describe_loop(view->session, text);
   } else if (view->kind == SB_CHART_VIEW_LIFE) {
     describe_life(view->session, text);
   } else if (view->kind == SB_CHART_VIEW_REASONS || sb_chart_is_rig(run)) {
-    name = view->kind == SB_CHART_VIEW_PRESSURE ? "Friction over load" : name;
+    name = view->kind == SB_CHART_VIEW_PRESSURE ? _("Friction over load") : name;
     g_autofree char *reasons = sb_rig_reasons_text(run);
     g_string_append(text, reasons);
   } else {

@@ -3,23 +3,23 @@
 #include "ui/preferences.h"
 
 // Widths of the look in its window of 1600 px, and the least that still reads well.
-enum { LOOK_WINDOW = 1600, LOOK_LEFT = 346, LOOK_RIGHT = 424, LEAST_LEFT = 330, LEAST_RIGHT = 300 };
+enum { LOOK_WINDOW = 1600, LOOK_LEFT = 346, LOOK_RIGHT = 424, LEAST_LEFT = 316, LEAST_RIGHT = 284 };
 
 typedef struct {
   GtkPaned *columns, *views;
-  gboolean placed; // once the first size is known
+  int width; // of the window that the borders were placed for
 } Columns;
 
 static int scaled(int width, int look, int least) {
   return CLAMP(width * look / LOOK_WINDOW, least, look);
 }
 
-// The first allocation: the remembered widths, or the look's share of this window.
+// A new width: the widths that a hand has given, or the look's share of this window.
 static void on_allocate(GtkPaned *paned, GdkRectangle *allocation, Columns *columns) {
-  if (columns->placed || allocation->width < 200) {
+  if (columns->width == allocation->width || allocation->width < 200) {
     return;
   }
-  columns->placed = TRUE;
+  columns->width = allocation->width;
   int left = sb_preferences_int("left-column", 0);
   int right = sb_preferences_int("right-column", 0);
   if (left < LEAST_LEFT || left > allocation->width / 2) {

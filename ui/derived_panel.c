@@ -12,6 +12,7 @@
 #include "app/chart/theme.h"
 #include "ui/style.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 
 typedef struct {
@@ -25,22 +26,26 @@ typedef struct {
 enum { NO_GLAND = -1 };
 
 static const Item items[] = {
-    {"Squeeze", "low", "high", "Share of the free section by which the groove squeezes the ring.",
-     SB_QUANTITY_FRACTION, 0, 0.35, 0, 0, SB_GLAND_SQUEEZE},
-    {"Stretch, inner", "low", "high", "Stretch of the inner diameter onto the groove floor.",
-     SB_QUANTITY_FRACTION, 0, 0.25, 0, 0, SB_GLAND_STRETCH_INNER},
-    {"Gland fill", "low", "high", "Volume of the ring over that of its groove.",
+    {N_("Squeeze"), N_("low"), N_("high"),
+     N_("Share of the free section by which the groove squeezes the ring."), SB_QUANTITY_FRACTION,
+     0, 0.35, 0, 0, SB_GLAND_SQUEEZE},
+    {N_("Stretch, inner"), N_("low"), N_("high"),
+     N_("Stretch of the inner diameter onto the groove floor."), SB_QUANTITY_FRACTION, 0, 0.25, 0,
+     0, SB_GLAND_STRETCH_INNER},
+    {N_("Gland fill"), N_("low"), N_("high"), N_("Volume of the ring over that of its groove."),
      SB_QUANTITY_FRACTION, 0.3, 1.1, 0, 0, SB_GLAND_FILL},
-    {"Return force", "low", "high",
-     "Least of pressure force minus friction on the way back, from the run. Below zero the valve "
-     "sticks; this program asks for 2 N.",
+    {N_("Return force"), N_("low"), N_("high"),
+     N_("Least of pressure force minus friction on the way back, from the run. Below zero the "
+        "valve "
+        "sticks; this program asks for 2 N."),
      SB_QUANTITY_FORCE, -2, 8, 2, INFINITY, NO_GLAND},
-    {"Metered volume", "small", "large",
-     "Room of the dose chamber between the two rings that neither stem nor rubber fills. Usual: 25 "
-     "to 100 µl.",
+    {N_("Metered volume"), N_("small"), N_("large"),
+     N_("Room of the dose chamber between the two rings that neither stem nor rubber fills. Usual: "
+        "25 "
+        "to 100 µl."),
      SB_QUANTITY_VOLUME, 0, 150e-9, 25e-9, 100e-9, NO_GLAND},
-    {"Doses", "few", "many",
-     "Whole doses in the canister (canister.fill less canister.residue). Usual: 60 to 200.",
+    {N_("Doses"), N_("few"), N_("many"),
+     N_("Whole doses in the canister (canister.fill less canister.residue). Usual: 60 to 200."),
      SB_QUANTITY_NUMBER, 0, 300, 60, 200, NO_GLAND},
 };
 enum { ITEMS = G_N_ELEMENTS(items) };
@@ -69,7 +74,7 @@ static void set_bands(Panel *panel) {
     panel->lo[i] = own ? item->lo : readout[item->gland].band_low;
     panel->hi[i] = own ? item->hi : readout[item->gland].band_high;
     if (!own) {
-      g_autofree char *tip = g_strdup_printf("%s %s", item->tip, readout[item->gland].source);
+      g_autofree char *tip = g_strdup_printf("%s %s", _(item->tip), readout[item->gland].source);
       gtk_widget_set_tooltip_text(panel->bar[i], tip);
       gtk_widget_set_tooltip_text(panel->name[i], tip);
     }
@@ -130,7 +135,7 @@ static void show(Panel *panel, int index, double value) {
   if (!isnan(value)) {
     sb_format_text(text, item->quantity, value, 0);
     gboolean good = within(panel, index, value);
-    word = good ? "pass" : value < panel->lo[index] ? item->low : item->high;
+    word = good ? _("pass") : value < panel->lo[index] ? _(item->low) : _(item->high);
     gtk_style_context_add_class(style, good ? "sb-pass" : "sb-warn");
     gtk_style_context_add_class(icon_style, good ? "sb-pass" : "sb-warn");
     gtk_image_set_from_icon_name(GTK_IMAGE(panel->icon[index]),
@@ -141,8 +146,8 @@ static void show(Panel *panel, int index, double value) {
   }
   gtk_label_set_text(GTK_LABEL(panel->value[index]), text);
   gtk_label_set_text(GTK_LABEL(panel->verdict[index]), word);
-  g_autofree char *spoken = g_strdup_printf("%s %s %s", item->name, text, word);
-  sb_style_name(panel->value[index], spoken, item->tip);
+  g_autofree char *spoken = g_strdup_printf("%s %s %s", _(item->name), text, word);
+  sb_style_name(panel->value[index], spoken, _(item->tip));
   gtk_widget_queue_draw(panel->bar[index]);
 }
 
@@ -166,7 +171,8 @@ static void refresh(Panel *panel) {
   show(panel, 3, returned ? summary->force_return_min : NAN);
   show(panel, 4, model != NULL ? model->metered_volume : NAN);
   show(panel, 5, model != NULL ? (double)model->doses : NAN);
-  gtk_label_set_text(GTK_LABEL(panel->note), old && run != NULL ? "last good run" : "outer seal");
+  gtk_label_set_text(GTK_LABEL(panel->note),
+                     old && run != NULL ? _("last good run") : _("outer seal"));
 }
 
 static void on_destroy(GtkWidget *widget, Panel *panel) {
@@ -188,17 +194,17 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
   gtk_grid_set_column_spacing(GTK_GRID(grid), 10);
   sb_style_class(grid, "sb-derived");
   sb_style_class(grid, "sb-panel");
-  gtk_grid_attach(GTK_GRID(grid), label_new("Derived", "sb-title", 0), 0, 0, 1, 1);
+  gtk_grid_attach(GTK_GRID(grid), label_new(_("Derived"), "sb-title", 0), 0, 0, 1, 1);
   panel->note = label_new("", "sb-note", 1);
   gtk_grid_attach(GTK_GRID(grid), panel->note, 1, 0, 4, 1);
   for (int i = 0; i < ITEMS; i++) {
-    GtkWidget *name = panel->name[i] = label_new(items[i].name, "sb-derived-name", 0);
+    GtkWidget *name = panel->name[i] = label_new(_(items[i].name), "sb-derived-name", 0);
     gtk_widget_set_hexpand(name, TRUE);
-    gtk_widget_set_tooltip_text(name, items[i].tip);
+    gtk_widget_set_tooltip_text(name, _(items[i].tip));
     panel->value[i] = label_new("", "sb-derived-value", 1);
     panel->bar[i] = gtk_drawing_area_new();
     gtk_widget_set_size_request(panel->bar[i], 80, 18);
-    gtk_widget_set_tooltip_text(panel->bar[i], items[i].tip);
+    gtk_widget_set_tooltip_text(panel->bar[i], _(items[i].tip));
     g_object_set_data(G_OBJECT(panel->bar[i]), "index", GINT_TO_POINTER(i));
     g_signal_connect(panel->bar[i], "draw", G_CALLBACK(on_draw), panel);
     panel->icon[i] = gtk_image_new();

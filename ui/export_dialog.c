@@ -7,7 +7,9 @@
 #include "ui/export_job.h"
 #include "ui/preferences.h"
 #include "ui/style.h"
+#include "ui/words.h"
 
+#include <glib/gi18n.h>
 #include <string.h>
 
 typedef struct {
@@ -144,12 +146,12 @@ static gboolean on_range_output(GtkSpinButton *spin, gpointer data) {
   if (gtk_spin_button_get_value(spin) > 0) {
     return FALSE;
   }
-  gtk_entry_set_text(GTK_ENTRY(spin), "auto");
+  gtk_entry_set_text(GTK_ENTRY(spin), _("auto"));
   return TRUE;
 }
 
 static int on_range_input(GtkSpinButton *spin, double *value, gpointer data) {
-  if (strcmp(gtk_entry_get_text(GTK_ENTRY(spin)), "auto") != 0) {
+  if (strcmp(gtk_entry_get_text(GTK_ENTRY(spin)), _("auto")) != 0) {
     return FALSE;
   }
   *value = 0;
@@ -163,8 +165,9 @@ static void on_pace(GtkComboBox *combo, Dialog *dialog) {
 static gboolean choose(gpointer data) {
   Dialog *dialog = data;
   dialog->later = 0;
-  GtkFileChooserNative *chooser = gtk_file_chooser_native_new(
-      "Export to", GTK_WINDOW(dialog->dialog), GTK_FILE_CHOOSER_ACTION_SAVE, "_Choose", "_Cancel");
+  GtkFileChooserNative *chooser =
+      gtk_file_chooser_native_new(_("Export to"), GTK_WINDOW(dialog->dialog),
+                                  GTK_FILE_CHOOSER_ACTION_SAVE, _("_Choose"), _("_Cancel"));
   gtk_file_chooser_set_filename(GTK_FILE_CHOOSER(chooser),
                                 gtk_entry_get_text(GTK_ENTRY(dialog->path)));
   g_autofree char *name = g_path_get_basename(gtk_entry_get_text(GTK_ENTRY(dialog->path)));
@@ -204,7 +207,7 @@ static void set_busy(Dialog *dialog, gboolean busy) {
   gtk_widget_set_sensitive(dialog->form, !busy);
   gtk_widget_set_sensitive(dialog->export, !busy);
   gtk_widget_set_visible(dialog->progress, busy);
-  gtk_button_set_label(GTK_BUTTON(dialog->cancel), busy ? "Cancel" : "Close");
+  gtk_button_set_label(GTK_BUTTON(dialog->cancel), busy ? _("Cancel") : _("Close"));
 }
 
 static gboolean on_poll(gpointer data) {
@@ -212,7 +215,7 @@ static gboolean on_poll(gpointer data) {
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(dialog->progress),
                                 sb_export_job_progress(dialog->job));
   double left = sb_export_job_left(dialog->job);
-  g_autofree char *text = left >= 0 ? g_strdup_printf("%.0f s left", left) : g_strdup("");
+  g_autofree char *text = left >= 0 ? g_strdup_printf(_("%.0f s left"), left) : g_strdup("");
   gtk_progress_bar_set_text(GTK_PROGRESS_BAR(dialog->progress), text);
   gtk_progress_bar_set_show_text(GTK_PROGRESS_BAR(dialog->progress), left >= 0);
   return G_SOURCE_CONTINUE;
@@ -244,8 +247,8 @@ gboolean sb_export_may_replace(GtkWindow *parent, const char *path) {
   g_autofree char *name = g_filename_display_basename(path);
   GtkWidget *question =
       gtk_message_dialog_new(parent, GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT,
-                             GTK_MESSAGE_QUESTION, GTK_BUTTONS_NONE, "Replace “%s”?", name);
-  gtk_dialog_add_buttons(GTK_DIALOG(question), "_Keep", GTK_RESPONSE_CANCEL, "_Replace",
+                             GTK_MESSAGE_QUESTION, GTK_BUTTONS_NONE, _("Replace “%s”?"), name);
+  gtk_dialog_add_buttons(GTK_DIALOG(question), _("_Keep"), GTK_RESPONSE_CANCEL, _("_Replace"),
                          GTK_RESPONSE_ACCEPT, NULL);
   int answer = gtk_dialog_run(GTK_DIALOG(question));
   gtk_widget_destroy(question);
@@ -300,14 +303,14 @@ static gboolean start(gpointer data) {
   const char *path = gtk_entry_get_text(GTK_ENTRY(dialog->path));
   SbRunHandle *handle = sb_session_handle(dialog->session);
   if (handle == NULL) {
-    say(dialog, "The run has not ended yet.", "sb-error");
+    say(dialog, _("The run has not ended yet."), "sb-error");
     return G_SOURCE_REMOVE;
   }
   g_autofree char *first = first_file(dialog, path);
   if (!g_path_is_absolute(path) || !sb_export_may_replace(GTK_WINDOW(dialog->dialog), first)) {
     sb_run_handle_unref(handle);
     if (!g_path_is_absolute(path)) {
-      say(dialog, "The file needs its folder: an absolute path.", "sb-error");
+      say(dialog, _("The file needs its folder: an absolute path."), "sb-error");
     }
     return G_SOURCE_REMOVE;
   }
@@ -332,7 +335,7 @@ static gboolean start(gpointer data) {
       .scene = sb_document_to_flat_text(document),
       .stale = sb_session_stale_text(dialog->session),
   };
-  say(dialog, "Exporting…", "sb-pass");
+  say(dialog, _("Exporting…"), "sb-pass");
   gtk_style_context_remove_class(gtk_widget_get_style_context(dialog->result), "sb-pass");
   set_busy(dialog, TRUE);
   dialog->job = sb_export_job_start(handle, &request, on_done, dialog);
@@ -367,7 +370,7 @@ static void on_destroy(GtkWidget *widget, Dialog *dialog) {
 static void fill_section(Dialog *dialog) {
   for (int i = 0; i < SB_FIELD_COUNT; i++) {
     gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->field),
-                                   sb_section_field_name((SbField)i));
+                                   sb_words(sb_section_field_name((SbField)i)));
   }
   const SbRun *run = sb_session_run(dialog->session);
   SbSectionStyle style = run != NULL ? sb_section_style_of(sb_run_model(run)) : (SbSectionStyle){0};
@@ -391,22 +394,23 @@ static void fill(Dialog *dialog) {
     if (run != NULL && !sb_render_view_fits(&views[i], run, NULL)) {
       continue;
     }
-    gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->view), views[i].name, views[i].label);
+    gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->view), views[i].name,
+                              sb_words(views[i].label));
   }
-  gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), "As made");
+  gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), _("As made"));
   const SbRenderSize *sizes = sb_render_sizes(&count);
   for (size_t i = 0; i < count; i++) {
-    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), sizes[i].label);
+    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), sb_words(sizes[i].label));
   }
-  gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), "Own size");
-  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->at), "now", "At the playhead");
-  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->from), "", "The start");
-  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->to), "", "the end");
+  gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), _("Own size"));
+  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->at), "now", _("At the playhead"));
+  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->from), "", _("The start"));
+  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->to), "", _("the end"));
   const SbSummary *summary = sb_session_summary(dialog->session);
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
     if (summary != NULL && summary->stage[i].reached) {
       const char *name = sb_stage_name((SbStage)i);
-      g_autofree char *text = g_strdup_printf("Stage %s", name);
+      g_autofree char *text = g_strdup_printf(_("Stage %s"), name);
       gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->at), name, text);
       gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->from), name, text);
       gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->to), name, text);

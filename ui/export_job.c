@@ -5,6 +5,7 @@
 #include "app/export/render_movie.h"
 #include "ui/worker.h"
 
+#include <glib/gi18n.h>
 #include <string.h>
 
 struct SbExportJob {
@@ -44,19 +45,20 @@ static void tell_film(SbExportJob *job, bool good, const SbMovieResult *result, 
   bool cancelled = error != NULL && error->code == SB_APP_ERROR_CANCELLED;
   job->good = good;
   if (good && sequence) {
-    job->result = g_strdup_printf("%zu pictures are written.", result->frames);
+    job->result = g_strdup_printf(_("%zu pictures are written."), result->frames);
   } else if (good) {
-    job->result = g_strdup_printf("%s is written: %zu frames.", name, result->frames);
+    job->result = g_strdup_printf(_("%s is written: %zu frames."), name, result->frames);
   } else if (sequence && result->frames > 0) {
-    job->result = g_strdup_printf("%s: %zu pictures are written%s%s.",
-                                  cancelled ? "Cancelled" : "Stopped", result->frames,
-                                  cancelled ? "" : ", then ", cancelled ? "" : error->message);
+    job->result = cancelled
+                      ? g_strdup_printf(_("Cancelled: %zu pictures are written."), result->frames)
+                      : g_strdup_printf(_("Stopped: %zu pictures are written, then %s."),
+                                        result->frames, error->message);
   } else if (cancelled && result->frames > 0) {
-    job->result = g_strdup_printf("Cancelled: %s is partial, %zu frames.", name, result->frames);
+    job->result = g_strdup_printf(_("Cancelled: %s is partial, %zu frames."), name, result->frames);
   } else if (cancelled) {
-    job->result = g_strdup("Cancelled: nothing was written.");
+    job->result = g_strdup(_("Cancelled: nothing was written."));
   } else {
-    job->result = g_strdup_printf("Nothing was written: %s.", error->message);
+    job->result = g_strdup_printf(_("Nothing was written: %s."), error->message);
   }
 }
 
@@ -96,8 +98,8 @@ static void make(SbExportJob *job, SbSectionPainter *painter) {
   } else {
     job->good = sb_render_still(run, &options, request->path, &error);
     g_autofree char *name = g_filename_display_basename(request->path);
-    job->result = job->good ? g_strdup_printf("%s is written.", name)
-                            : g_strdup_printf("Nothing was written: %s.", error->message);
+    job->result = job->good ? g_strdup_printf(_("%s is written."), name)
+                            : g_strdup_printf(_("Nothing was written: %s."), error->message);
   }
   sb_worker_tell(&job->worker, 1);
 }
@@ -109,7 +111,7 @@ static void work(void *owner) {
   SbSectionPainter *painter = NULL;
   SbReport report = {0};
   if (sb_section_painter_create(&painter, true, SB_GL_AUTO, &report) != SB_OK) {
-    job->result = g_strdup_printf("Nothing was written: %s.", report.text);
+    job->result = g_strdup_printf(_("Nothing was written: %s."), report.text);
   } else {
     make(job, painter);
   }

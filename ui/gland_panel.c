@@ -7,7 +7,9 @@
 
 #include "app/chart/format.h"
 #include "ui/style.h"
+#include "ui/words.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -17,18 +19,18 @@ static const struct {
   SbQuantity format;
   gboolean swell; // only while a ring has swollen
 } rows[] = {
-    {SB_GLAND_SQUEEZE, "Squeeze", SB_QUANTITY_FRACTION, FALSE},
-    {SB_GLAND_SQUEEZE_FITTED, "Squeeze, stretched", SB_QUANTITY_FRACTION, FALSE},
-    {SB_GLAND_INTERFERENCE, "Interference", SB_QUANTITY_LENGTH, FALSE},
-    {SB_GLAND_STRETCH_INNER, "Stretch, inner", SB_QUANTITY_FRACTION, FALSE},
-    {SB_GLAND_STRETCH_MEAN, "Stretch, mean", SB_QUANTITY_FRACTION, FALSE},
-    {SB_GLAND_SECTION_FITTED, "Section, stretched", SB_QUANTITY_LENGTH, FALSE},
-    {SB_GLAND_FILL, "Gland fill", SB_QUANTITY_FRACTION, FALSE},
-    {SB_GLAND_EXTRUSION_GAP, "Extrusion gap", SB_QUANTITY_LENGTH, FALSE},
-    {SB_GLAND_SWELL, "Swell by volume", SB_QUANTITY_FRACTION, TRUE},
-    {SB_GLAND_SQUEEZE_SWOLLEN, "Squeeze, swollen", SB_QUANTITY_FRACTION, TRUE},
-    {SB_GLAND_SECTION_SWOLLEN, "Section, swollen", SB_QUANTITY_LENGTH, TRUE},
-    {SB_GLAND_FILL_SWOLLEN, "Gland fill, swollen", SB_QUANTITY_FRACTION, TRUE},
+    {SB_GLAND_SQUEEZE, N_("Squeeze"), SB_QUANTITY_FRACTION, FALSE},
+    {SB_GLAND_SQUEEZE_FITTED, N_("Squeeze, stretched"), SB_QUANTITY_FRACTION, FALSE},
+    {SB_GLAND_INTERFERENCE, N_("Interference"), SB_QUANTITY_LENGTH, FALSE},
+    {SB_GLAND_STRETCH_INNER, N_("Stretch, inner"), SB_QUANTITY_FRACTION, FALSE},
+    {SB_GLAND_STRETCH_MEAN, N_("Stretch, mean"), SB_QUANTITY_FRACTION, FALSE},
+    {SB_GLAND_SECTION_FITTED, N_("Section, stretched"), SB_QUANTITY_LENGTH, FALSE},
+    {SB_GLAND_FILL, N_("Gland fill"), SB_QUANTITY_FRACTION, FALSE},
+    {SB_GLAND_EXTRUSION_GAP, N_("Extrusion gap"), SB_QUANTITY_LENGTH, FALSE},
+    {SB_GLAND_SWELL, N_("Swell by volume"), SB_QUANTITY_FRACTION, TRUE},
+    {SB_GLAND_SQUEEZE_SWOLLEN, N_("Squeeze, swollen"), SB_QUANTITY_FRACTION, TRUE},
+    {SB_GLAND_SECTION_SWOLLEN, N_("Section, swollen"), SB_QUANTITY_LENGTH, TRUE},
+    {SB_GLAND_FILL_SWOLLEN, N_("Gland fill, swollen"), SB_QUANTITY_FRACTION, TRUE},
 };
 enum { ROWS = G_N_ELEMENTS(rows), CELLS = 4 }; // name over band, outer, inner, word
 
@@ -56,10 +58,10 @@ static char *band_text(SbQuantity format, const SbGlandReadout *readout) {
     if (unit != NULL && g_str_has_suffix(high, unit)) {
       *unit = '\0';
     }
-    return g_strdup_printf("%s to %s", low, high);
+    return g_strdup_printf(_("%s to %s"), low, high);
   }
-  return has_high  ? g_strdup_printf("at most %s", high)
-         : has_low ? g_strdup_printf("at least %s", low)
+  return has_high  ? g_strdup_printf(_("at most %s"), high)
+         : has_low ? g_strdup_printf(_("at least %s"), low)
                    : g_strdup("");
 }
 
@@ -71,9 +73,10 @@ static char *tip_text(SbQuantity format, SbGlandReadout readout[SB_SEAL_COUNT]) 
     g_autofree char *high = number(format, r->worst_high);
     g_autofree char *rss_low = number(format, r->rss_low);
     g_autofree char *rss_high = number(format, r->rss_high);
-    g_string_append_printf(text, "%s%s seal: worst case %s to %s, root sum of squares %s to %s.",
-                           seal > 0 ? "\n" : "", seal == SB_OUTER ? "Outer" : "Inner", low, high,
-                           rss_low, rss_high);
+    g_string_append_printf(text, "%s", seal > 0 ? "\n" : "");
+    g_string_append_printf(text, _("%s: worst case %s to %s, root sum of squares %s to %s."),
+                           seal == SB_OUTER ? _("Outer seal") : _("Inner seal"), low, high, rss_low,
+                           rss_high);
   }
   if (readout[SB_OUTER].source[0] != '\0') {
     g_string_append_printf(text, "\n%s", readout[SB_OUTER].source);
@@ -104,28 +107,28 @@ static void show_row(Panel *panel, int row, SbGlandReadout readout[SB_SEAL_COUNT
     gboolean outside = readout[seal].band == SB_BAND_BELOW || readout[seal].band == SB_BAND_ABOVE;
     set_class(cell[1 + seal], outside ? "sb-warn" : NULL);
     if (outside && word[0] == '\0') {
-      word = sb_band_text(readout[seal].band);
+      word = sb_words(sb_band_text(readout[seal].band));
     }
   }
   // Inside as sized, but not over the whole of the tolerances.
   for (int seal = 0; seal < SB_SEAL_COUNT && word[0] == '\0' && banded; seal++) {
     if (readout[seal].band_worst != SB_BAND_WITHIN) {
-      word = "tight";
+      word = _("tight");
     }
   }
-  const char *verdict = !banded ? "" : word[0] != '\0' ? word : "within";
+  const char *verdict = !banded ? "" : word[0] != '\0' ? word : _("within");
   gtk_label_set_text(GTK_LABEL(cell[3]), verdict);
   set_class(cell[3], !banded ? NULL : word[0] != '\0' ? "sb-warn" : "sb-pass");
   g_autofree char *name = band[0] != '\0'
-                              ? g_strdup_printf("%s\n<small>%s</small>", rows[row].name, band)
-                              : g_strdup(rows[row].name);
+                              ? g_strdup_printf("%s\n<small>%s</small>", _(rows[row].name), band)
+                              : g_strdup(_(rows[row].name));
   gtk_label_set_markup(GTK_LABEL(cell[0]), name);
   for (int i = 0; i < CELLS; i++) {
     gtk_widget_set_tooltip_text(cell[i], tip);
   }
   g_autofree char *spoken =
-      g_strdup_printf("%s outer %s inner %s %s, customary %s", rows[row].name, value[SB_OUTER],
-                      value[SB_INNER], verdict, band[0] != '\0' ? band : "any");
+      g_strdup_printf(_("%s outer %s inner %s %s, customary %s"), _(rows[row].name),
+                      value[SB_OUTER], value[SB_INNER], verdict, band[0] != '\0' ? band : _("any"));
   sb_style_name(cell[1], spoken, tip);
 }
 
@@ -179,14 +182,16 @@ GtkWidget *sb_gland_panel_new(SbSession *session) {
   GtkWidget *grid = gtk_grid_new();
   gtk_grid_set_row_spacing(GTK_GRID(grid), 4);
   gtk_grid_set_column_spacing(GTK_GRID(grid), 10);
-  static const char *const heads[CELLS] = {"", "outer", "inner", ""};
+  static const char *const heads[CELLS] = {"", N_("outer"), N_("inner"), ""};
   for (int i = 0; i < CELLS; i++) {
-    gtk_grid_attach(GTK_GRID(grid), label_new(heads[i], "sb-note", i == 0 || i == 3 ? 0 : 1), i, 0,
-                    1, 1);
+    gtk_grid_attach(
+        GTK_GRID(grid),
+        label_new(heads[i][0] != '\0' ? _(heads[i]) : "", "sb-note", i == 0 || i == 3 ? 0 : 1), i,
+        0, 1, 1);
   }
   for (int row = 0; row < ROWS; row++) {
     for (int i = 0; i < CELLS; i++) {
-      GtkWidget *cell = label_new(i == 0 ? rows[row].name : "",
+      GtkWidget *cell = label_new(i == 0 ? _(rows[row].name) : "",
                                   i == 0   ? "sb-derived-name"
                                   : i == 3 ? "sb-verdict"
                                            : "sb-derived-value",
@@ -197,8 +202,8 @@ GtkWidget *sb_gland_panel_new(SbSession *session) {
       gtk_grid_attach(GTK_GRID(grid), cell, i, row + 1, 1, 1);
     }
   }
-  GtkWidget *expander = panel->expander = gtk_expander_new("Glands, both seals");
-  sb_style_name(expander, "Glands, both seals", NULL);
+  GtkWidget *expander = panel->expander = gtk_expander_new(_("Glands, both seals"));
+  sb_style_name(expander, _("Glands, both seals"), NULL);
   sb_style_class(expander, "sb-derived");
   sb_style_class(expander, "sb-panel");
   gtk_container_add(GTK_CONTAINER(expander), grid);

@@ -6,6 +6,7 @@
 #include "ui/param_row.h"
 #include "ui/style.h"
 
+#include <glib/gi18n.h>
 #include <string.h>
 
 typedef struct {
@@ -32,15 +33,28 @@ static const struct {
   const char *prefix, *title, *note;
   gboolean unfolded;
 } headings[] = {
-    {"seal.outer.", "Outer seal only", NULL, FALSE},
-    {"seal.inner.", "Inner seal only", NULL, FALSE},
-    {"seal.", "Seals", "both", TRUE},
-    {"gland.", "Gland", NULL, TRUE},
-    {"canister.", "Canister", NULL, TRUE},
-    {"surface.", "Surface", NULL, TRUE},
-    {"drive.", "Drive", NULL, TRUE},
-    {"bore.", "Bore", NULL, FALSE},
-    {"models.", "Models", NULL, TRUE},
+    {"seal.outer.", N_("Outer seal only"), NULL, FALSE},
+    {"seal.inner.", N_("Inner seal only"), NULL, FALSE},
+    {"seal.", N_("Seals"), N_("both"), TRUE},
+    {"gland.", N_("Gland"), NULL, TRUE},
+    {"canister.", N_("Canister"), NULL, TRUE},
+    {"surface.", N_("Surface"), NULL, TRUE},
+    {"drive.", N_("Drive"), NULL, TRUE},
+    {"bore.", N_("Bore"), NULL, FALSE},
+    {"models.", N_("Models"), NULL, TRUE},
+    {"chamber.", N_("Chamber"), NULL, FALSE},
+    {"fluid.", N_("Fluid"), NULL, FALSE},
+    {"friction.", N_("Friction"), NULL, FALSE},
+    {"housing.", N_("Housing"), NULL, FALSE},
+    {"joint.", N_("Joint"), NULL, FALSE},
+    {"life.", N_("Life"), NULL, FALSE},
+    {"output.", N_("Output"), NULL, FALSE},
+    {"part.", N_("Part"), NULL, FALSE},
+    {"rig.", N_("Rig"), NULL, FALSE},
+    {"rubber.", N_("Rubber"), NULL, FALSE},
+    {"stem.", N_("Stem"), NULL, FALSE},
+    {"storage.", N_("Storage"), NULL, FALSE},
+    {"study.", N_("Study"), NULL, FALSE},
 };
 
 static int heading_of(const char *key) {
@@ -57,7 +71,7 @@ static int group_for(SbParamPanel *panel, GHashTable *by_title, const char *key)
   int heading = heading_of(key);
   g_autofree char *title = NULL;
   if (heading >= 0) {
-    title = g_strdup(headings[heading].title);
+    title = g_strdup(_(headings[heading].title));
   } else {
     title = g_strndup(key, strcspn(key, "."));
     title[0] = g_ascii_toupper(title[0]);
@@ -73,7 +87,8 @@ static int group_for(SbParamPanel *panel, GHashTable *by_title, const char *key)
   GtkWidget *name = gtk_label_new(title);
   gtk_label_set_xalign(GTK_LABEL(name), 0);
   gtk_box_pack_start(GTK_BOX(caption), name, TRUE, TRUE, 0);
-  group.note = gtk_label_new(heading >= 0 ? headings[heading].note : NULL);
+  group.note = gtk_label_new(
+      heading >= 0 && headings[heading].note != NULL ? _(headings[heading].note) : NULL);
   sb_style_class(group.note, "sb-group-note");
   gtk_box_pack_end(GTK_BOX(caption), group.note, FALSE, FALSE, 0);
   group.expander = gtk_expander_new(NULL);
@@ -115,7 +130,8 @@ static void refresh(SbParamPanel *panel) {
       }
     }
     if (override) {
-      g_autofree char *note = own > 0 ? g_strdup_printf("%d differ", own) : g_strdup("as both");
+      g_autofree char *note =
+          own > 0 ? g_strdup_printf(_("%d differ"), own) : g_strdup(_("as both"));
       gtk_label_set_text(GTK_LABEL(group->note), note);
     }
   }
@@ -219,11 +235,10 @@ static void sb_param_panel_init(SbParamPanel *panel) {
   sb_style_class(GTK_WIDGET(panel), "sb-panel");
 
   panel->search = gtk_search_entry_new();
-  g_autofree char *hint = g_strdup_printf("Search %d parameters", SB_PARAM_COUNT);
+  g_autofree char *hint = g_strdup_printf(_("Search %d parameters"), SB_PARAM_COUNT);
   gtk_entry_set_placeholder_text(GTK_ENTRY(panel->search), hint);
-  sb_style_name(panel->search, "Search parameters",
-                "Shows the parameters whose name, key, symbol "
-                "or help holds the text");
+  sb_style_name(panel->search, _("Search parameters"),
+                _("Shows the parameters whose name, key, symbol or help holds the text"));
   g_object_set(panel->search, "margin-start", 20, "margin-end", 20, "margin-top", 10,
                "margin-bottom", 6, NULL);
   g_signal_connect(panel->search, "search-changed", G_CALLBACK(on_search), panel);
@@ -232,7 +247,7 @@ static void sb_param_panel_init(SbParamPanel *panel) {
 
   panel->list = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
   g_object_set(panel->list, "margin-start", 18, "margin-end", 16, "margin-bottom", 12, NULL);
-  panel->nothing = gtk_label_new("No parameter matches.");
+  panel->nothing = gtk_label_new(_("No parameter matches."));
   sb_style_class(panel->nothing, "sb-note");
   gtk_widget_set_margin_top(panel->nothing, 24);
   gtk_widget_set_no_show_all(panel->nothing, TRUE);

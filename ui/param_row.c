@@ -5,7 +5,9 @@
 #include "ui/param_row.h"
 
 #include "ui/style.h"
+#include "ui/words.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -151,13 +153,13 @@ static GtkWidget *label_new(const char *text, const char *style, float align) {
 // Which ring an override belongs to, for accessible names: two fields may share a label.
 static const char *owner(const SbParam *param) {
   if (g_str_has_prefix(param->key, "seal.outer.")) {
-    return "Outer seal: ";
+    return _("Outer seal: ");
   }
   if (g_str_has_prefix(param->key, "seal.inner.")) {
-    return "Inner seal: ";
+    return _("Inner seal: ");
   }
   if (g_str_has_prefix(param->key, "housing.")) {
-    return "Housing: ";
+    return _("Housing: ");
   }
   return "";
 }
@@ -223,7 +225,7 @@ GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fiel
   const SbParam *param = sb_param(id);
   row->session = session;
   row->id = id;
-  g_autofree char *name = g_strconcat(owner(param), param->label, NULL);
+  g_autofree char *name = g_strconcat(owner(param), sb_words(param->label), NULL);
   g_autofree char *range = sb_param_range(id);
   sb_style_class(GTK_WIDGET(row), "sb-row");
 
@@ -231,7 +233,7 @@ GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fiel
   GtkWidget *line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
   GtkWidget *texts = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
   gtk_widget_set_valign(texts, GTK_ALIGN_CENTER);
-  row->label = label_new(param->label, "sb-row-label", 0);
+  row->label = label_new(sb_words(param->label), "sb-row-label", 0);
   gtk_label_set_ellipsize(GTK_LABEL(row->label), PANGO_ELLIPSIZE_END);
   gtk_box_pack_start(GTK_BOX(texts), row->label, FALSE, FALSE, 0);
   if (param->kind == SB_PARAM_REAL || param->kind == SB_PARAM_INT) {
@@ -242,7 +244,7 @@ GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fiel
   gtk_box_pack_start(GTK_BOX(line), texts, TRUE, TRUE, 0);
 
   row->reset = gtk_button_new_from_icon_name("edit-clear-symbolic", GTK_ICON_SIZE_MENU);
-  g_autofree char *reset_name = g_strdup_printf("Reset %s", name);
+  g_autofree char *reset_name = g_strdup_printf(_("Reset %s"), name);
   sb_style_name(row->reset, reset_name, NULL);
   sb_style_class(row->reset, "sb-reset");
   gtk_widget_set_valign(row->reset, GTK_ALIGN_CENTER);
@@ -275,17 +277,21 @@ GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fiel
   return GTK_WIDGET(row);
 }
 
-// Help, key, source and tag; or why the field is locked.
-static void refresh_tooltip(SbParamRow *row, const char *lock) {
+// Help, key, source and tag; why the field is locked, or what a shape says against it.
+static void refresh_tooltip(SbParamRow *row, const char *lock, const char *note) {
   const SbParam *param = sb_param(row->id);
   g_autofree char *fallback = sb_param_format(row->id, param->fallback);
-  g_autofree char *text = g_markup_printf_escaped(
-      "%s%s%s.\n<small>%s, default %s (%s: %s)</small>", lock != NULL ? lock : "",
-      lock != NULL ? ".\n" : "", param->help, param->key, fallback, param->tag, param->source);
+  g_autofree char *text =
+      g_markup_printf_escaped(_("%s%s%s.\n<small>%s, default %s (%s: %s)</small>"),
+                              lock != NULL   ? lock
+                              : note != NULL ? note
+                                             : "",
+                              lock != NULL || note != NULL ? ".\n" : "", param->help, param->key,
+                              fallback, param->tag, param->source);
   gtk_widget_set_tooltip_markup(GTK_WIDGET(row), text);
 }
 
-static void refresh_entry(SbParamRow *row, const char *lock) {
+static void refresh_entry(SbParamRow *row, const char *lock, const char *note) {
   GtkEntry *entry = GTK_ENTRY(row->field);
   const char *error = sb_session_error(row->session, row->id);
   const char *rejected = sb_session_rejected(row->session, row->id);
@@ -309,7 +315,10 @@ static void refresh_entry(SbParamRow *row, const char *lock) {
   } else {
     gtk_style_context_remove_class(style, GTK_STYLE_CLASS_ERROR);
     gtk_entry_set_icon_from_icon_name(entry, GTK_ENTRY_ICON_PRIMARY,
-                                      lock != NULL ? "changes-prevent-symbolic" : NULL);
+                                      lock != NULL   ? "changes-prevent-symbolic"
+                                      : note != NULL ? "dialog-information-symbolic"
+                                                     : NULL);
+    gtk_entry_set_icon_tooltip_text(entry, GTK_ENTRY_ICON_PRIMARY, lock != NULL ? lock : note);
   }
 }
 
@@ -318,6 +327,7 @@ void sb_param_row_refresh(SbParamRow *row) {
   const SbDocument *document = sb_session_document(row->session);
   const char *error = sb_session_error(row->session, row->id);
   const char *lock = sb_session_lock(row->session, row->id);
+  g_autofree char *note = sb_document_shape_note(document, row->id);
   row->refreshing = TRUE;
   if (param->kind == SB_PARAM_CHOICE) {
     g_autofree char *text = sb_document_text(document, row->id);
@@ -328,7 +338,7 @@ void sb_param_row_refresh(SbParamRow *row) {
       gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(row->flags[i]), (mask >> i & 1u) != 0);
     }
   } else {
-    refresh_entry(row, lock);
+    refresh_entry(row, lock, note);
   }
   if (row->field != NULL) {
     gtk_widget_set_sensitive(row->field, lock == NULL);
@@ -339,12 +349,12 @@ void sb_param_row_refresh(SbParamRow *row) {
       sb_document_gives(document, row->id) && sb_document_shape_source(document, row->id) == NULL;
   gtk_widget_set_visible(row->reset, own || error != NULL);
   g_autofree char *fallback = sb_param_format(row->id, param->fallback);
-  g_autofree char *tip = param->parent >= 0 ? g_strdup("As for both seals")
+  g_autofree char *tip = param->parent >= 0 ? g_strdup(_("As for both seals"))
                          : sb_document_kind(document) == SB_DOCUMENT_SCENE
-                             ? g_strdup("Back to the value of the valve")
-                             : g_strdup_printf("Back to the default, %s", fallback);
+                             ? g_strdup(_("Back to the value of the valve"))
+                             : g_strdup_printf(_("Back to the default, %s"), fallback);
   gtk_widget_set_tooltip_text(row->reset, tip);
-  refresh_tooltip(row, lock);
+  refresh_tooltip(row, lock, note);
   row->refreshing = FALSE;
 }
 
@@ -359,9 +369,9 @@ static gboolean contains(const char *text, const char *needle) {
 
 gboolean sb_param_row_matches(SbParamRow *row, const char *needle) {
   const SbParam *param = sb_param(row->id);
-  return contains(param->label, needle) || contains(param->key, needle) ||
-         contains(param->symbol, needle) || contains(param->help, needle) ||
-         contains(owner(param), needle);
+  return contains(param->label, needle) || contains(sb_words(param->label), needle) ||
+         contains(param->key, needle) || contains(param->symbol, needle) ||
+         contains(param->help, needle) || contains(owner(param), needle);
 }
 
 void sb_param_row_focus(SbParamRow *row) {

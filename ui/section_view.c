@@ -1,8 +1,6 @@
 // The section of the valve at the playhead. The picture is the display list of app/section, drawn
-// by GL (read back into the window's picture) where rings have fields, else by cairo. Before the
-// first run it is a section at rest, from a run of the closed forms with two frames that takes a
-// fraction of a millisecond. Zooming keeps the size of text and lines and enlarges the valve; drag
-// moves it.
+// by GL (read back into the window's picture) where rings have fields, else by cairo. Zooming keeps
+// the size of text and lines and enlarges the valve; drag moves it.
 #include "ui/section_view.h"
 
 #include "app/chart/rig.h"
@@ -13,17 +11,19 @@
 #include "ui/force_balance.h"
 #include "ui/picture.h"
 #include "ui/section_gl.h"
+#include "ui/section_source.h"
 #include "ui/style.h"
+#include "ui/words.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
 enum {
-  INTERVAL = 33,       // between drawings while something moves [ms]
-  LIMIT_SAMPLES = 400, // frames read per update for the scales
-  EDGE = 4,            // of the picture beyond the section [px]
-  MARGIN = 16,         // beside the picture [px]
-  WIDE = 860           // from here the section has a column for legends and forces [px]
+  INTERVAL = 33, // between drawings while something moves [ms]
+  EDGE = 4,      // of the picture beyond the section [px]
+  MARGIN = 16,   // beside the picture [px]
+  WIDE = 860     // from here the section has a column for legends and forces [px]
 };
 
 typedef struct {
@@ -32,11 +32,7 @@ typedef struct {
   GtkWidget *box, *area, *field_combo, *inset_combo, *forces, *labels, *mesh, *empty, *toggles,
       *heading;
   GtkWidget *cutaway;
-  SbSection *section; // of `run`'s model, or of the resting valve
-  const SbRun *run;   // what `section` was made for; never read through
-  const SbRun *rest;  // owned: the resting valve
-  SbSectionLimits limits;
-  size_t limits_frames; // frames that the limits have seen
+  SbSectionSource *source;
   SbDrawList list;
   SbText *text;
   SbSectionLook look; // of the scene that the toolbar followed last
@@ -49,97 +45,6 @@ typedef struct {
   SbPicture *picture;
   guint describe; // source that renews the description, 0 if none is due
 } View;
-
-// The resting valve ------------------------------------------------------------------------------
-
-// Whatever the models of the scene are, closed forms do for a picture at rest.
-static SbRun *make_rest(const SbModel *model) {
-  SbModel quick = *model;
-  quick.fit = 0;
-  quick.film = SB_MODEL_FILM_THESIS;
-  quick.motion = SB_MODEL_MOTION_QUASI_STATIC;
-  quick.frames = 2;
-  quick.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION;
-  SbPlan plan;
-  sb_plan_make(&plan, &quick);
-  SbRun *run = NULL;
-  SbReport report = {0};
-  if (sb_run_create(&run, &quick, &plan, &report) != SB_OK) {
-    return NULL;
-  }
-  sb_run_execute(run, NULL, &report);
-  size_t count = 0;
-  sb_run_frames(run, &count);
-  if (count == 0) {
-    sb_run_destroy(run);
-    return NULL;
-  }
-  return run;
-}
-
-static void drop_rest(View *view) {
-  sb_run_destroy((SbRun *)(guintptr)view->rest);
-  view->rest = NULL;
-}
-
-// Scales -----------------------------------------------------------------------------------------
-
-// Widens the limits by frames that have come since, reading at most LIMIT_SAMPLES of them. True if
-// they grew.
-static gboolean widen_limits(View *view, const SbFrame *frames, size_t count) {
-  SbSectionLimits *limits = &view->limits;
-  SbSectionLimits before = *limits;
-  size_t stride = MAX((count - view->limits_frames) / LIMIT_SAMPLES, 1);
-  for (size_t i = view->limits_frames; i < count; i += stride) {
-    const SbFrame *frame = &frames[i];
-    for (int k = 0; k < SB_SEAL_COUNT; k++) {
-      const SbSealFrame *seal = &frame->seal[k];
-      limits->pressure_max = fmax(limits->pressure_max, seal->pressure_peak);
-      limits->film_max = fmax(limits->film_max, seal->film_central);
-      limits->contact_left[k] = fmin(limits->contact_left[k], seal->contact_left);
-      limits->contact_right[k] = fmax(limits->contact_right[k], seal->contact_right);
-    }
-    const SbSealFrame *inner = &frame->seal[SB_INNER];
-    if (frame->stage <= SB_STAGE_B && inner->land_fraction >= 1 &&
-        inner->contact_right > inner->contact_left) {
-      limits->inner_contact_left = inner->contact_left;
-    }
-  }
-  view->limits_frames = count;
-  return memcmp(&before, limits, sizeof before) != 0;
-}
-
-// Makes the section fit what is shown. Returns the frame to draw, or NULL.
-static const SbFrame *prepare(View *view) {
-  const SbRun *run = sb_session_run(view->session);
-  const SbFrame *frame = sb_session_frame(view->session);
-  size_t count = 0;
-  const SbFrame *frames = sb_session_frames(view->session, &count);
-  if (run == NULL || frame == NULL) {
-    const SbModel *model = sb_session_model(view->session);
-    if (view->rest == NULL && model != NULL) {
-      view->rest = make_rest(model);
-    }
-    run = view->rest;
-    if (run == NULL) {
-      return NULL;
-    }
-    frames = sb_run_frames(run, &count);
-    frame = frames;
-  }
-  gboolean other = run != view->run;
-  if (other) {
-    view->limits = (SbSectionLimits){0};
-    sb_section_limits_add_run(&view->limits, run);
-    view->limits_frames = 0;
-    view->run = run;
-  }
-  if (widen_limits(view, frames, count) || other || view->section == NULL) {
-    sb_section_destroy(view->section);
-    view->section = sb_section_create(sb_run_model(run), &view->limits);
-  }
-  return frame;
-}
 
 // By GL ------------------------------------------------------------------------------------------
 
@@ -246,15 +151,15 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
     sb_rig_plate_draw(cr, rect, theme, data, SB_CHART_COMPACT);
     return;
   }
-  const SbFrame *frame = prepare(view);
-  if (frame == NULL) {
+  SbSectionSourceNow now;
+  if (!sb_section_source_now(view->source, &now)) {
     return;
   }
   double width = area_width - 2 * MARGIN;
   double height = area_height;
   gboolean ran = sb_session_run(view->session) != NULL;
   SbRect picture = picture_rect(view, area_width, area_height);
-  const SbSectionLook *look = &sb_run_model(view->run)->look;
+  const SbSectionLook *look = &sb_run_model(now.run)->look;
   const char *inset = gtk_combo_box_get_active_id(GTK_COMBO_BOX(view->inset_combo));
   gboolean cutaway = is_cutaway(view);
   double enlarged = cutaway ? 1 : view->zoom;
@@ -276,13 +181,13 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
       .undeformed = look->undeformed,
       .field_max = look->field_max,
   };
-  SbSectionInstant instant = {.frame = frame};
+  SbSectionInstant instant = {.frame = now.frame};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    instant.profile[i] = sb_run_profile(view->run, frame->seal[i].profile);
-    instant.ring[i] = sb_run_shape(view->run, frame->seal[i].shape);
+    instant.profile[i] = sb_run_profile(now.run, now.frame->seal[i].profile);
+    instant.ring[i] = sb_run_shape(now.run, now.frame->seal[i].shape);
   }
   sb_session_camera(view->session, &how.azimuth, &how.elevation);
-  sb_section_draw(view->section, &view->list, &how, &instant);
+  sb_section_draw(now.section, &view->list, &how, &instant);
   cairo_save(cr);
   cairo_rectangle(cr, 0, 0, area_width, picture.y + picture.height + 4);
   cairo_clip(cr);
@@ -306,15 +211,16 @@ static gboolean describe(gpointer data) {
   g_autofree char *where = sb_session_where(view->session);
   double azimuth, elevation;
   sb_session_camera(view->session, &azimuth, &elevation);
-  g_autofree char *cutaway = g_strdup_printf("Cutaway of the valve, azimuth %.0f°, elevation %.0f°",
-                                             azimuth * 180 / G_PI, elevation * 180 / G_PI);
+  g_autofree char *cutaway =
+      g_strdup_printf(_("Cutaway of the valve, azimuth %.0f°, elevation %.0f°"),
+                      azimuth * 180 / G_PI, elevation * 180 / G_PI);
   const char *what = sb_chart_is_rig(&sb_session_chart(view->session)->run)
-                         ? "Sliding plate on its rings"
+                         ? _("Sliding plate on its rings")
                      : is_cutaway(view) ? cutaway
-                                        : "Axial section of the valve";
+                                        : _("Axial section of the valve");
   g_autofree char *text = where[0] != '\0' ? g_strdup_printf("%s, %s", what, where)
-                                           : g_strdup_printf("%s at rest", what);
-  sb_style_name(view->area, "Section", text);
+                                           : g_strdup_printf(_("%s at rest"), what);
+  sb_style_name(view->area, _("Section"), text);
   view->describe = 0;
   return G_SOURCE_REMOVE;
 }
@@ -352,7 +258,7 @@ static void follow_look(View *view) {
   }
 }
 
-static void on_run_changed(View *view) {
+static void show_state(View *view) {
   follow_look(view);
   gtk_widget_queue_resize(view->gl);
   gtk_widget_set_visible(view->empty, sb_session_state(view->session) == SB_SESSION_EMPTY);
@@ -362,23 +268,27 @@ static void on_run_changed(View *view) {
   // The rig's picture has neither fields nor insets, and its forces and names always.
   const SbModel *model = sb_session_model(view->session);
   gboolean rig = model != NULL && model->motion == SB_MODEL_MOTION_RIG;
-  gtk_label_set_text(GTK_LABEL(view->heading), rig ? "Rig" : "Section");
+  gtk_label_set_text(GTK_LABEL(view->heading), rig ? _("Rig") : _("Section"));
   gtk_widget_set_visible(view->field_combo, !rig);
   gtk_widget_set_visible(view->inset_combo, !rig);
   gtk_widget_set_visible(view->toggles, !rig);
   gtk_widget_set_sensitive(view->field_combo, solved);
   gtk_widget_set_sensitive(view->mesh, solved);
-  gtk_widget_set_tooltip_text(view->mesh,
-                              solved ? "Elements of solved rings" : "Needs the fitment model ring");
+  gtk_widget_set_tooltip_text(view->mesh, solved ? _("Elements of solved rings")
+                                                 : _("Needs the fitment model ring"));
   on_change(view);
+}
+
+static void on_run_changed(View *view) {
+  sb_section_source_forget(view->source);
+  show_state(view);
 }
 
 static void on_params_changed(View *view) {
   if (sb_session_run(view->session) == NULL) {
-    drop_rest(view);
-    view->run = NULL;
+    sb_section_source_forget(view->source);
   }
-  on_run_changed(view);
+  show_state(view);
 }
 
 // Zoom and pan -----------------------------------------------------------------------------------
@@ -504,10 +414,9 @@ static void view_free(gpointer data) {
   sb_gl_renderer_destroy(view->renderer);
   sb_gl_context_destroy(view->context);
   g_clear_pointer(&view->read, cairo_surface_destroy);
-  sb_section_destroy(view->section);
   sb_draw_list_finish(&view->list);
   sb_text_destroy(view->text);
-  drop_rest(view);
+  sb_section_source_free(view->source);
   g_free(view);
 }
 
@@ -547,7 +456,7 @@ static GtkWidget *linked_box(void) {
 static GtkWidget *make_toolbar(View *view) {
   GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
   sb_style_class(bar, "sb-toolbar");
-  GtkWidget *heading = gtk_label_new("Section");
+  GtkWidget *heading = gtk_label_new(_("Section"));
   sb_style_class(heading, "sb-heading");
   gtk_widget_set_margin_end(heading, 4);
   view->heading = heading;
@@ -556,41 +465,50 @@ static GtkWidget *make_toolbar(View *view) {
   view->field_combo = gtk_combo_box_text_new();
   for (int i = 0; i < SB_FIELD_COUNT; i++) {
     gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(view->field_combo),
-                                   sb_section_field_name((SbField)i));
+                                   sb_words(sb_section_field_name((SbField)i)));
   }
   gtk_combo_box_set_active(GTK_COMBO_BOX(view->field_combo), 0);
-  sb_style_name(view->field_combo, "Field", "What the colours of solved rings show");
+  sb_style_name(view->field_combo, _("Field"), _("What the colours of solved rings show"));
   g_signal_connect_swapped(view->field_combo, "changed", G_CALLBACK(on_change), view);
   gtk_box_pack_start(GTK_BOX(bar), view->field_combo, FALSE, FALSE, 0);
 
   view->inset_combo = gtk_combo_box_text_new();
-  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "outer", "Insets: outer seal");
-  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "inner", "Insets: inner seal");
-  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "none", "No insets");
+  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "outer",
+                            _("Insets: outer seal"));
+  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "inner",
+                            _("Insets: inner seal"));
+  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "none", _("No insets"));
   gtk_combo_box_set_active(GTK_COMBO_BOX(view->inset_combo), 0);
-  sb_style_name(view->inset_combo, "Insets", "Which seal's contact the insets enlarge");
+  sb_style_name(view->inset_combo, _("Insets"), _("Which seal's contact the insets enlarge"));
   g_signal_connect_swapped(view->inset_combo, "changed", G_CALLBACK(on_change), view);
   gtk_box_pack_start(GTK_BOX(bar), view->inset_combo, FALSE, FALSE, 0);
 
   GtkWidget *toggles = linked_box();
-  view->forces = toggle_new(view, "Forces", "Force arrows", TRUE, GTK_BOX(toggles));
+  view->forces = toggle_new(view, _("Forces"), _("Force arrows"), TRUE, GTK_BOX(toggles));
   view->labels =
-      toggle_new(view, "Labels", "Names and values of the parts", TRUE, GTK_BOX(toggles));
-  view->cutaway = toggle_new(view, "Cutaway",
-                             "The valve in three dimensions, a quarter cut away (Ctrl+D). Drag or "
-                             "Alt+arrows turn it, a double click turns it back",
-                             FALSE, GTK_BOX(toggles));
+      toggle_new(view, _("Labels"), _("Names and values of the parts"), TRUE, GTK_BOX(toggles));
+  view->cutaway =
+      toggle_new(view, _("Cutaway"),
+                 _("The valve in three dimensions, a quarter cut away (Ctrl+D). Drag or "
+                   "Alt+arrows turn it, a double click turns it back"),
+                 FALSE, GTK_BOX(toggles));
   g_signal_connect_swapped(view->cutaway, "toggled", G_CALLBACK(on_cutaway), view);
-  view->mesh = toggle_new(view, "Mesh", "Elements of solved rings", FALSE, GTK_BOX(toggles));
+  view->mesh = toggle_new(view, _("Mesh"), _("Elements of solved rings"), FALSE, GTK_BOX(toggles));
   gtk_box_pack_start(GTK_BOX(bar), toggles, FALSE, FALSE, 0);
   view->toggles = toggles;
 
   GtkWidget *zooms = linked_box();
-  icon_button("zoom-out-symbolic", "Zoom out", "win.zoom-out", GTK_BOX(zooms));
-  icon_button("zoom-fit-best-symbolic", "Whole valve", "win.zoom-fit", GTK_BOX(zooms));
-  icon_button("zoom-in-symbolic", "Zoom in", "win.zoom-in", GTK_BOX(zooms));
+  icon_button("zoom-out-symbolic", _("Zoom out"), "win.zoom-out", GTK_BOX(zooms));
+  icon_button("zoom-fit-best-symbolic", _("Whole valve"), "win.zoom-fit", GTK_BOX(zooms));
+  icon_button("zoom-in-symbolic", _("Zoom in"), "win.zoom-in", GTK_BOX(zooms));
   gtk_box_pack_end(GTK_BOX(bar), zooms, FALSE, FALSE, 0);
-  return bar;
+
+  // In a narrow window the toolbar scrolls, so that it does not decide how narrow that can be.
+  GtkWidget *scroller = gtk_scrolled_window_new(NULL, NULL);
+  gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_AUTOMATIC,
+                                 GTK_POLICY_NEVER);
+  gtk_container_add(GTK_CONTAINER(scroller), bar);
+  return scroller;
 }
 
 // Over the picture while nothing has run: one sentence, one button.
@@ -601,8 +519,8 @@ static GtkWidget *make_empty(void) {
   gtk_widget_set_valign(box, GTK_ALIGN_START);
   gtk_widget_set_margin_top(box, 170);
   gtk_container_add(GTK_CONTAINER(box),
-                    gtk_label_new("Run the cycle to see forces, contacts and film."));
-  GtkWidget *button = gtk_button_new_with_label("Run the cycle");
+                    gtk_label_new(_("Run the cycle to see forces, contacts and film.")));
+  GtkWidget *button = gtk_button_new_with_label(_("Run the cycle"));
   gtk_actionable_set_action_name(GTK_ACTIONABLE(button), "win.run-or-stop");
   gtk_widget_set_halign(button, GTK_ALIGN_CENTER);
   sb_style_class(button, "suggested-action");
@@ -615,6 +533,7 @@ static GtkWidget *make_empty(void) {
 GtkWidget *sb_section_view_new(SbSession *session) {
   View *view = g_new0(View, 1);
   view->session = session;
+  view->source = sb_section_source_new(session);
   view->zoom = 1;
   view->text = sb_text_create();
   sb_draw_list_init(&view->list);
@@ -622,7 +541,7 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   g_object_set_data_full(G_OBJECT(view->box), "view", view, view_free);
   gtk_box_pack_start(GTK_BOX(view->box), make_toolbar(view), FALSE, FALSE, 0);
 
-  view->area = sb_canvas_area_new(400, 400, 240, 320);
+  view->area = sb_canvas_area_new(380, 400, 240, 320);
   view->picture = sb_picture_attach(view->area, draw, view);
   sb_style_class(view->area, "sb-canvas");
   gtk_widget_set_can_focus(view->area, TRUE);
@@ -634,7 +553,7 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   view->gl = sb_section_gl_new(&view->list, on_gl_decided, view);
   gtk_widget_add_events(view->gl, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |
                                       GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK);
-  sb_style_name(view->gl, "Section picture", NULL);
+  sb_style_name(view->gl, _("Section picture"), NULL);
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->gl);
   g_signal_connect(overlay, "get-child-position", G_CALLBACK(on_place), view);
   g_signal_connect(view->gl, "scroll-event", G_CALLBACK(on_gl_scroll), view);

@@ -5,6 +5,7 @@
 
 #include "ui/session_private.h"
 
+#include <glib/gi18n.h>
 #include <string.h>
 
 static guint signals[SB_SIGNAL_COUNT];
@@ -14,7 +15,7 @@ G_DEFINE_TYPE(SbSession, sb_session, G_TYPE_OBJECT)
 // "9 m is out of range" -> "9 m is out of range."
 static char *sentence(const char *text, const char *allowed) {
   g_autofree char *copy =
-      allowed != NULL ? g_strdup_printf("%s (allowed: %s)", text, allowed) : g_strdup(text);
+      allowed != NULL ? g_strdup_printf(_("%s (allowed: %s)"), text, allowed) : g_strdup(text);
   gsize length = strlen(copy);
   if (length > 0) {
     copy[0] = g_ascii_toupper(copy[0]);
@@ -86,7 +87,7 @@ gboolean sb_session_restore(SbSession *session, const char *path, const char *te
   g_autofree char *folder = path != NULL ? g_path_get_dirname(path) : NULL;
   g_autoptr(SbDocument) changed_one = NULL;
   if (document != NULL) {
-    const char *name = path != NULL ? path : "the unsaved changes";
+    const char *name = path != NULL ? path : _("the unsaved changes");
     changed_one = sb_document_parse(text, strlen(text), name, folder, issues);
   }
   if (changed_one == NULL) {
@@ -226,15 +227,15 @@ const char *sb_session_lock(SbSession *session, SbParamId id) {
   int motion = (int)sb_document_value(document, SB_P_MODELS_MOTION);
   int film = (int)sb_document_value(document, SB_P_MODELS_FILM);
   if (id == SB_P_STEM_MASS && motion == SB_MODEL_MOTION_QUASI_STATIC) {
-    return "Locked: the quasi-static motion has no inertia";
+    return _("Locked: the quasi-static motion has no inertia");
   }
   if (id == SB_P_OUTPUT_TOLERANCE && film != SB_MODEL_FILM_REYNOLDS &&
       sb_document_value(document, SB_P_MODELS_FIT) < 4) {
-    return "Locked: closed forms have no discretisation error";
+    return _("Locked: closed forms have no discretisation error");
   }
   const char *shape = sb_document_shape_source(document, id);
   if (shape != NULL) {
-    g_autofree char *text = g_strdup_printf("Locked: follows from %s in this file", shape);
+    g_autofree char *text = g_strdup_printf(_("Locked: follows from %s in this file"), shape);
     return g_intern_string(text); // a few short ones
   }
   return NULL;

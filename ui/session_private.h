@@ -1,4 +1,5 @@
-// The inside of a session, shared by session.c (document) and session_run.c (runs, playhead).
+// The inside of a session, shared by session.c (document), session_run.c (runs) and
+// session_playhead.c (playhead).
 #pragma once
 
 #include "ui/playhead.h"
@@ -51,6 +52,9 @@ void sb_session_emit(SbSession *session, SbSessionSignal signal);
 
 // After each change of values: asks for a run soon.
 void sb_session_values_changed(SbSession *session);
+
+// Tells the views and listeners that the playhead, or whether it plays, is another.
+void sb_session_playhead_changed(SbSession *session);
 
 // Forgets runs and the playhead (another document).
 void sb_session_clear_runs(SbSession *session);

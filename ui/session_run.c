@@ -1,4 +1,4 @@
-// Runs and the playhead of a session. An edit starts a run 150 ms later; a newer edit cancels it
+// Runs of a session. An edit starts a run 150 ms later; a newer edit cancels it
 // and starts again with the newest values. The new run replaces the shown one when it is complete,
 // or once it has lasted long enough to be watched while it grows; the run before then stays behind
 // it, paler, until the new one is complete, and comes back if the new one fails.
@@ -6,6 +6,7 @@
 
 #include "app/chart/format.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -68,7 +69,7 @@ static void run_changed(SbSession *session) {
   sb_session_emit(session, SB_SIGNAL_RUN);
 }
 
-static void playhead_changed(SbSession *session) {
+void sb_session_playhead_changed(SbSession *session) {
   session->chart.playhead = session->playhead.frame;
   session->chart.playing = session->playhead.playing;
   sb_session_emit(session, SB_SIGNAL_PLAYHEAD);
@@ -125,17 +126,18 @@ static void set_failure(SbSession *session, SbStatus status, const SbReport *rep
     g_string_append_c(text, '.');
   }
   if (report->residual > 0) {
-    g_string_append_printf(text, " Residual %.1e after %d iterations.", report->residual,
+    g_string_append_printf(text, _(" Residual %.1e after %d iterations."), report->residual,
                            report->iteration);
   }
   if (report->parameter[0] != '\0') {
-    g_string_append_printf(text, " Look at %s.", report->parameter);
+    g_string_append_printf(text, _(" Look at %s."), report->parameter);
   }
   if (count > 0) {
-    g_string_append_printf(text, " Pictures show its last good state, up to %.2f s of the cycle.",
+    g_string_append_printf(text,
+                           _(" Pictures show its last good state, up to %.2f s of the cycle."),
                            frames[count - 1].time);
   } else if (session->shown != NULL) {
-    g_string_append(text, " Pictures show the run before.");
+    g_string_append(text, _(" Pictures show the run before."));
   }
   g_free(session->failure);
   session->failure = g_string_free(g_steal_pointer(&text), FALSE);
@@ -178,7 +180,7 @@ static void finish(SbSession *session) {
   carry_playhead(session, share);
   run_changed(session);
   sb_session_emit(session, SB_SIGNAL_FRAMES);
-  playhead_changed(session);
+  sb_session_playhead_changed(session);
 }
 
 // The runner has something new.
@@ -191,7 +193,7 @@ static void look(SbSession *session) {
   if (sb_run_handle_run(handle) == NULL) {
     if (sb_run_handle_is_done(handle)) {
       session->failure =
-          g_strdup_printf("The run could not start: %s.", sb_run_handle_report(handle)->text);
+          g_strdup_printf(_("The run could not start: %s."), sb_run_handle_report(handle)->text);
       session->ticket = 0;
       session->state = SB_SESSION_FAILED;
       run_changed(session);
@@ -417,81 +419,7 @@ const char *sb_session_pinned_name(SbSession *session) {
   return session->pinned_name;
 }
 
-// Playhead ---------------------------------------------------------------------------------------
-
-size_t sb_session_playhead(SbSession *session) {
-  return session->playhead.frame;
-}
-
-const SbFrame *sb_session_frame(SbSession *session) {
-  return sb_chart_frame(&session->chart);
-}
-
-void sb_session_set_playhead(SbSession *session, size_t frame) {
-  size_t count = 0;
-  const SbFrame *frames = sb_session_frames(session, &count);
-  if (count == 0) {
-    return;
-  }
-  session->playhead.frame = MIN(frame, count - 1);
-  session->playhead.time = frames[session->playhead.frame].time;
-  session->playhead.follows = session->playhead.frame + 1 == count;
-  playhead_changed(session);
-}
-
-size_t sb_session_frame_at(SbSession *session, double time) {
-  size_t count = 0;
-  const SbFrame *frames = sb_session_frames(session, &count);
-  return count > 0 ? sb_playhead_nearest(frames, count, time) : 0;
-}
-
-void sb_session_step(SbSession *session, int frames) {
-  gint64 frame = (gint64)session->playhead.frame + frames;
-  sb_session_play(session, FALSE);
-  sb_session_set_playhead(session, (size_t)MAX(frame, 0));
-}
-
-void sb_session_step_event(SbSession *session, int direction) {
-  size_t count = 0;
-  sb_session_frames(session, &count);
-  if (session->shown == NULL || count == 0) {
-    return;
-  }
-  size_t frame = sb_playhead_event(&session->playhead, sb_trace_marks(session->shown->trace), count,
-                                   direction);
-  sb_session_play(session, FALSE);
-  sb_session_set_playhead(session, frame);
-}
-
-gboolean sb_session_is_playing(SbSession *session) {
-  return session->playhead.playing;
-}
-
-void sb_session_play(SbSession *session, gboolean on) {
-  if (on == session->playhead.playing) {
-    return;
-  }
-  size_t count = 0;
-  const SbFrame *frames = sb_session_frames(session, &count);
-  sb_playhead_play(&session->playhead, frames, count, on);
-  playhead_changed(session);
-}
-
-gboolean sb_session_loops(SbSession *session) {
-  return session->playhead.loops;
-}
-
-void sb_session_set_loops(SbSession *session, gboolean on) {
-  session->playhead.loops = on;
-}
-
-double sb_session_play_duration(SbSession *session) {
-  return session->playhead.duration;
-}
-
-void sb_session_set_play_duration(SbSession *session, double seconds) {
-  session->playhead.duration = seconds;
-}
+// Ticks -------------------------------------------------------------------------------------------
 
 void sb_session_tick(SbSession *session, gint64 now) {
   gboolean more = FALSE;
@@ -518,32 +446,13 @@ void sb_session_tick(SbSession *session, gint64 now) {
   size_t count = 0;
   const SbFrame *frames = sb_session_frames(session, &count);
   if (sb_playhead_tick(&session->playhead, frames, count, now) || more) {
-    playhead_changed(session);
+    sb_session_playhead_changed(session);
   }
 }
 
 gboolean sb_session_wants_ticks(SbSession *session) {
   return session->ticket != 0 || session->playhead.playing ||
          (session->shown != NULL && !sb_shown_run_complete(session->shown));
-}
-
-char *sb_session_where(SbSession *session) {
-  const SbFrame *frame = sb_session_frame(session);
-  if (frame == NULL) {
-    return g_strdup("");
-  }
-  // On the frame of an event its letter; in between the two letters.
-  const char *stage = sb_chart_span(&session->chart.run, frame->stage);
-  const SbStageMark *marks = sb_trace_marks(session->shown->trace);
-  for (int i = 0; i < SB_STAGE_COUNT; i++) {
-    if (marks[i].reached && marks[i].frame == session->playhead.frame) {
-      stage = sb_stage_name((SbStage)i);
-    }
-  }
-  char displacement[SB_FORMAT_MAX], force[SB_FORMAT_MAX];
-  sb_format_text(displacement, SB_QUANTITY_LENGTH, frame->displacement, 0);
-  sb_format_text(force, SB_QUANTITY_FORCE, frame->force, 0);
-  return g_strdup_printf("stage %s, %s, %s", stage, displacement, force);
 }
 
 // Life -------------------------------------------------------------------------------------------
@@ -572,7 +481,7 @@ void sb_session_clear_runs(SbSession *session) {
   sb_runner_cancel(session->runner);
   drop_runs(session);
   run_changed(session);
-  playhead_changed(session);
+  sb_session_playhead_changed(session);
 }
 
 void sb_session_init_runs(SbSession *session) {

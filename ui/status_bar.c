@@ -5,6 +5,7 @@
 #include "app/chart/format.h"
 #include "ui/style.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 
 typedef struct {
@@ -27,7 +28,7 @@ static char *choice_name(SbParamId id, int index) {
 
 static void append_error(GString *text, const char *name, double error) {
   if (isfinite(error) && error > 0 && error < 1e-5) {
-    g_string_append_printf(text, "%s%s below 0.001 %%", text->len > 0 ? ", " : "", name);
+    g_string_append_printf(text, _("%s%s below 0.001 %%"), text->len > 0 ? ", " : "", name);
   } else if (isfinite(error) && error > 0.1) {
     g_string_append_printf(text, "%s%s %.0f %%", text->len > 0 ? ", " : "", name, 100 * error);
   } else if (isfinite(error) && error > 0) {
@@ -45,24 +46,20 @@ static void refresh_models(Bar *bar) {
   g_autofree char *film = choice_name(SB_P_MODELS_FILM, (int)model->film);
   g_autofree char *surface = choice_name(SB_P_MODELS_SURFACE, (int)model->surface);
   g_autofree char *motion = choice_name(SB_P_MODELS_MOTION, (int)model->motion);
-  g_autofree char *text =
-      model->motion == SB_MODEL_MOTION_RIG
-          ? g_strdup_printf("motion %s", motion)
-          : g_strdup_printf("fit %s, film %s, surface %s, motion %s", fit, film, surface, motion);
+  g_autofree char *text = model->motion == SB_MODEL_MOTION_RIG
+                              ? g_strdup_printf(_("motion %s"), motion)
+                              : g_strdup_printf(_("fit %s, film %s, surface %s, motion %s"), fit,
+                                                film, surface, motion);
   gtk_label_set_text(GTK_LABEL(bar->models), text);
 }
 
-static GtkWidget *warning_row(const SbWarning *warning) {
+// An icon and a text in Pango markup.
+static void add_row(Bar *bar, const char *icon_name, const char *style, const char *text) {
   GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
-  GtkWidget *icon = gtk_image_new_from_icon_name("dialog-warning-symbolic", GTK_ICON_SIZE_MENU);
+  GtkWidget *icon = gtk_image_new_from_icon_name(icon_name, GTK_ICON_SIZE_MENU);
   gtk_widget_set_valign(icon, GTK_ALIGN_START);
-  sb_style_class(icon, "sb-warn");
+  sb_style_class(icon, style);
   gtk_box_pack_start(GTK_BOX(box), icon, FALSE, FALSE, 0);
-  g_autofree char *text =
-      warning->parameter[0] != '\0'
-          ? g_markup_printf_escaped("%s\n<small>%s, %s</small>", warning->text, warning->code,
-                                    warning->parameter)
-          : g_markup_printf_escaped("%s\n<small>%s</small>", warning->text, warning->code);
   GtkWidget *label = gtk_label_new(NULL);
   gtk_label_set_markup(GTK_LABEL(label), text);
   gtk_label_set_xalign(GTK_LABEL(label), 0);
@@ -71,7 +68,16 @@ static GtkWidget *warning_row(const SbWarning *warning) {
   gtk_label_set_selectable(GTK_LABEL(label), TRUE);
   gtk_widget_set_can_focus(label, FALSE);
   gtk_box_pack_start(GTK_BOX(box), label, TRUE, TRUE, 0);
-  return box;
+  gtk_container_add(GTK_CONTAINER(bar->list), box);
+}
+
+static void add_warning(Bar *bar, const SbWarning *warning) {
+  g_autofree char *text =
+      warning->parameter[0] != '\0'
+          ? g_markup_printf_escaped("%s\n<small>%s, %s</small>", warning->text, warning->code,
+                                    warning->parameter)
+          : g_markup_printf_escaped("%s\n<small>%s</small>", warning->text, warning->code);
+  add_row(bar, "dialog-warning-symbolic", "sb-warn", text);
 }
 
 static void refresh_warnings(Bar *bar, const SbSummary *summary) {
@@ -82,12 +88,19 @@ static void refresh_warnings(Bar *bar, const SbSummary *summary) {
   g_list_free(rows);
   size_t count = summary != NULL ? summary->warnings.count + summary->warnings.dropped : 0;
   for (size_t i = 0; summary != NULL && i < summary->warnings.count; i++) {
-    gtk_container_add(GTK_CONTAINER(bar->list), warning_row(&summary->warnings.item[i]));
+    add_warning(bar, &summary->warnings.item[i]);
+  }
+  // What shapes in the files said against given values when the document was opened.
+  const GPtrArray *notes = sb_document_notes(sb_session_document(bar->session));
+  for (guint i = 0; i < notes->len; i++) {
+    g_autofree char *text = g_markup_escape_text(notes->pdata[i], -1);
+    add_row(bar, "dialog-information-symbolic", "sb-quiet", text);
   }
   gtk_widget_show_all(bar->list);
-  g_autofree char *text = count == 0
-                              ? g_strdup("No warnings")
-                              : g_strdup_printf("%zu warning%s", count, count == 1 ? "" : "s");
+  g_autofree char *text =
+      count > 0        ? g_strdup_printf(ngettext("%zu warning", "%zu warnings", count), count)
+      : notes->len > 0 ? g_strdup_printf(ngettext("%u note", "%u notes", notes->len), notes->len)
+                       : g_strdup(_("No warnings"));
   gtk_label_set_text(GTK_LABEL(bar->count), text);
   GtkStyleContext *style = gtk_widget_get_style_context(bar->count);
   if (count > 0) {
@@ -95,15 +108,15 @@ static void refresh_warnings(Bar *bar, const SbSummary *summary) {
   } else {
     gtk_style_context_remove_class(style, "sb-warn");
   }
-  sb_style_name(bar->warnings, text, "Opens the list of warnings of the shown run");
+  sb_style_name(bar->warnings, text, _("Opens the list of warnings of the shown run"));
   gtk_widget_set_visible(bar->warnings, summary != NULL);
-  gtk_widget_set_sensitive(bar->warnings, count > 0);
+  gtk_widget_set_sensitive(bar->warnings, count > 0 || notes->len > 0);
 }
 
 static void refresh_where(Bar *bar) {
   g_autofree char *where = sb_session_where(bar->session);
   bool running = sb_session_state(bar->session) == SB_SESSION_RUNNING;
-  set_text(bar->where, where[0] != '\0' ? where : running ? "running" : "nothing has run");
+  set_text(bar->where, where[0] != '\0' ? where : running ? _("running") : _("nothing has run"));
   GtkStyleContext *style = gtk_widget_get_style_context(bar->where);
   if (where[0] != '\0') {
     gtk_style_context_add_class(style, "sb-now");
@@ -118,11 +131,11 @@ static void refresh_frames(Bar *bar) {
   const SbSummary *summary = sb_session_summary(bar->session);
   g_autofree char *text = NULL;
   if (summary != NULL && summary->wall_s < 0.0995) {
-    text = g_strdup_printf("%zu frames in %.2g ms", summary->frames, 1e3 * summary->wall_s);
+    text = g_strdup_printf(_("%zu frames in %.2g ms"), summary->frames, 1e3 * summary->wall_s);
   } else if (summary != NULL) {
-    text = g_strdup_printf("%zu frames in %.2f s", summary->frames, summary->wall_s);
+    text = g_strdup_printf(_("%zu frames in %.2f s"), summary->frames, summary->wall_s);
   } else {
-    text = g_strdup_printf("%zu frames", count);
+    text = g_strdup_printf(_("%zu frames"), count);
   }
   set_text(bar->run, text);
   refresh_where(bar);
@@ -151,9 +164,9 @@ static void refresh(Bar *bar) {
   refresh_warnings(bar, summary);
   g_autoptr(GString) error = g_string_new(NULL);
   if (summary != NULL) {
-    append_error(error, "force", summary->error_force);
-    append_error(error, "load", summary->error_load);
-    append_error(error, "film", summary->error_film);
+    append_error(error, _("force"), summary->error_force);
+    append_error(error, _("load"), summary->error_load);
+    append_error(error, _("film"), summary->error_film);
   }
   gtk_label_set_text(GTK_LABEL(bar->error), error->len > 0 ? error->str : "–");
   const char *pinned = sb_session_pinned_name(bar->session);
@@ -196,14 +209,14 @@ GtkWidget *sb_status_bar_new(SbSession *session) {
   g_object_set_data_full(G_OBJECT(widget), "bar", bar, g_free);
   sb_style_class(widget, "sb-status");
   atk_object_set_role(gtk_widget_get_accessible(widget), ATK_ROLE_STATUSBAR);
-  sb_style_name(widget, "Status", NULL);
+  sb_style_name(widget, _("Status"), NULL);
 
   bar->where = add_label(box, "", NULL);
   gtk_label_set_width_chars(GTK_LABEL(bar->where), 26);
   gtk_label_set_xalign(GTK_LABEL(bar->where), 0);
-  bar->models = add_pair(box, "Models", "Models");
-  bar->run = add_pair(box, "Run", "Run");
-  bar->error = add_pair(box, "Error estimate", "Error estimate");
+  bar->models = add_pair(box, _("Models"), _("Models"));
+  bar->run = add_pair(box, C_("status", "Run"), C_("status", "Run"));
+  bar->error = add_pair(box, _("Error estimate"), _("Error estimate"));
 
   bar->warnings = gtk_menu_button_new();
   bar->count = gtk_label_new("");
@@ -217,7 +230,7 @@ GtkWidget *sb_status_bar_new(SbSession *session) {
   gtk_box_pack_end(box, bar->warnings, FALSE, FALSE, 0);
   bar->pinned = gtk_label_new("");
   gtk_box_pack_end(box, bar->pinned, FALSE, FALSE, 0);
-  bar->pinned_key = gtk_label_new("Pinned");
+  bar->pinned_key = gtk_label_new(_("Pinned"));
   sb_style_class(bar->pinned_key, "sb-key");
   gtk_box_pack_end(box, bar->pinned_key, FALSE, FALSE, 0);
   gtk_widget_show_all(widget);

@@ -11,6 +11,9 @@
 #include "ui/preferences.h"
 #include "ui/study_job.h"
 #include "ui/style.h"
+#include "ui/words.h"
+
+#include <glib/gi18n.h>
 
 typedef struct {
   SbSession *session; // owned reference
@@ -85,10 +88,10 @@ static void refresh(Studies *studies) {
   gtk_widget_set_sensitive(studies->again, possible);
   gtk_widget_set_sensitive(studies->export, !busy && studies->study != NULL);
   gtk_widget_set_sensitive(studies->copy, studies->study != NULL);
-  gtk_label_set_text(GTK_LABEL(studies->help), sb_study_help(chosen(studies)));
+  gtk_label_set_text(GTK_LABEL(studies->help), sb_words(sb_study_help(chosen(studies))));
   AtkObject *accessible = gtk_widget_get_accessible(studies->area);
   g_autofree char *text =
-      studies->study != NULL ? sb_study_text(studies->study) : g_strdup("No study yet.");
+      studies->study != NULL ? sb_study_text(studies->study) : g_strdup(_("No study yet."));
   atk_object_set_description(accessible, text);
   sb_picture_change(studies->picture, 0);
 }
@@ -97,12 +100,12 @@ static void refresh(Studies *studies) {
 static void judge(Studies *studies) {
   if (studies->job == NULL && studies->study != NULL) {
     if (sb_session_model(studies->session) == NULL) {
-      say(studies, "The values do not go together now; the study shown is of earlier ones.",
+      say(studies, _("The values do not go together now; the study shown is of earlier ones."),
           "sb-warn");
     } else if (is_stale(studies)) {
-      say(studies, "Values have changed: the study shown is of earlier ones.", "sb-warn");
+      say(studies, _("Values have changed: the study shown is of earlier ones."), "sb-warn");
     } else if (!studies->study->complete) {
-      say(studies, "A solver did not converge at every point; those are left out.", "sb-error");
+      say(studies, _("A solver did not converge at every point; those are left out."), "sb-error");
     } else {
       say(studies, "", NULL);
     }
@@ -138,7 +141,7 @@ static void on_done(void *data) {
   Studies *studies = data;
   const char *why = NULL;
   SbStudy *study = sb_study_job_take(studies->job, &why);
-  g_autofree char *text = g_strdup_printf("No study: %s.", why != NULL ? why : "");
+  g_autofree char *text = g_strdup_printf(_("No study: %s."), why != NULL ? why : "");
   end_job(studies);
   if (study != NULL) {
     g_free(studies->study);
@@ -159,7 +162,7 @@ static void compute(Studies *studies) {
   const SbModel *model = sb_session_model(studies->session);
   end_job(studies);
   if (model == NULL) {
-    say(studies, "The values do not go together: mend them first.", "sb-error");
+    say(studies, _("The values do not go together: mend them first."), "sb-error");
     refresh(studies);
     return;
   }
@@ -170,7 +173,8 @@ static void compute(Studies *studies) {
   g_free(studies->asked_scene);
   studies->asked_hash = sb_document_sha256(document);
   studies->asked_scene = sb_document_to_flat_text(document);
-  g_autofree char *text = g_strdup_printf("Computing: %s", sb_study_title(studies->asked));
+  g_autofree char *text =
+      g_strdup_printf(_("Computing: %s"), sb_words(sb_study_title(studies->asked)));
   say(studies, text, NULL);
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(studies->progress), 0);
   studies->job = sb_study_job_start(studies->asked, model, on_done, studies);
@@ -195,6 +199,15 @@ static void on_stop(GtkButton *button, Studies *studies) {
   }
 }
 
+static gboolean on_key(GtkWidget *widget, GdkEventKey *event, Studies *studies) {
+  gboolean control = (event->state & gtk_accelerator_get_default_mod_mask()) == GDK_CONTROL_MASK;
+  if (event->keyval == GDK_KEY_Escape || (control && event->keyval == GDK_KEY_w)) {
+    gtk_window_close(GTK_WINDOW(widget));
+    return GDK_EVENT_STOP;
+  }
+  return GDK_EVENT_PROPAGATE;
+}
+
 static void on_copy(GtkButton *button, Studies *studies) {
   g_autofree char *text = sb_study_text(studies->study);
   gtk_clipboard_set_text(gtk_clipboard_get(GDK_SELECTION_CLIPBOARD), text, -1);
@@ -208,7 +221,7 @@ static gboolean export_page(gpointer data) {
     return G_SOURCE_REMOVE;
   }
   if (!g_path_is_absolute(path)) {
-    say(studies, "The file needs its folder: an absolute path.", "sb-error");
+    say(studies, _("The file needs its folder: an absolute path."), "sb-error");
     return G_SOURCE_REMOVE;
   }
   if (!sb_export_may_replace(GTK_WINDOW(studies->window), path)) {
@@ -221,10 +234,10 @@ static gboolean export_page(gpointer data) {
   g_autofree char *name = g_filename_display_basename(path);
   g_autofree char *text = NULL;
   if (sb_study_still(studies->study, &page, path, &error)) {
-    text = g_strdup_printf("%s is written.", name);
+    text = g_strdup_printf(_("%s is written."), name);
     say(studies, text, "sb-pass");
   } else {
-    text = g_strdup_printf("Nothing was written: %s.", error->message);
+    text = g_strdup_printf(_("Nothing was written: %s."), error->message);
     say(studies, text, "sb-error");
   }
   return G_SOURCE_REMOVE;
@@ -287,13 +300,13 @@ void sb_study_window_open(GtkWindow *parent, SbSession *session) {
   gtk_window_set_destroy_with_parent(GTK_WINDOW(studies->window), TRUE);
   for (int i = 0; i < SB_STUDY_COUNT; i++) {
     gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(studies->kind), sb_study_name((SbStudyKind)i),
-                              sb_study_title((SbStudyKind)i));
+                              sb_words(sb_study_title((SbStudyKind)i)));
   }
   gtk_combo_box_set_active(GTK_COMBO_BOX(studies->kind), first_kind(session));
   sb_style_class(studies->window, "sb-window");
   sb_style_class(studies->area, "sb-canvas");
   gtk_widget_set_can_focus(studies->area, TRUE);
-  sb_style_name(studies->area, "Study", NULL);
+  sb_style_name(studies->area, _("Study"), NULL);
   atk_object_set_role(gtk_widget_get_accessible(studies->area), ATK_ROLE_CHART);
   studies->picture = sb_picture_attach(studies->area, draw, studies);
   follow_kind(studies);
@@ -302,6 +315,7 @@ void sb_study_window_open(GtkWindow *parent, SbSession *session) {
   g_signal_connect(studies->stop, "clicked", G_CALLBACK(on_stop), studies);
   g_signal_connect(studies->copy, "clicked", G_CALLBACK(on_copy), studies);
   g_signal_connect(studies->export, "clicked", G_CALLBACK(on_export), studies);
+  g_signal_connect(studies->window, "key-press-event", G_CALLBACK(on_key), studies);
   g_signal_connect(studies->window, "destroy", G_CALLBACK(on_destroy), studies);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(judge), studies);
   compute(studies);

@@ -8,6 +8,7 @@
 #include "ui/picture.h"
 #include "ui/style.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 
 typedef struct {
@@ -99,11 +100,11 @@ static void refresh_speeds(View *view) {
   for (guint i = 0; i < G_N_ELEMENTS(durations); i++) {
     g_autofree char *text = NULL;
     if (durations[i] == 0) {
-      text = g_strdup("× 1, real time");
+      text = g_strdup(_("× 1, real time"));
     } else if (cycle > 0) {
-      text = g_strdup_printf("× %.3g, cycle in %d s", cycle / durations[i], durations[i]);
+      text = g_strdup_printf(_("× %.3g, cycle in %d s"), cycle / durations[i], durations[i]);
     } else {
-      text = g_strdup_printf("cycle in %d s", durations[i]);
+      text = g_strdup_printf(_("cycle in %d s"), durations[i]);
     }
     gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(view->speed), text);
   }
@@ -133,15 +134,15 @@ static void show_playing(View *view, gboolean playing) {
                                playing ? "media-playback-pause-symbolic"
                                        : "media-playback-start-symbolic",
                                GTK_ICON_SIZE_BUTTON);
-  sb_style_name(view->play, playing ? "Pause" : "Play", NULL);
-  gtk_widget_set_tooltip_text(view->play, playing ? "Pause (Space)" : "Play (Space)");
+  sb_style_name(view->play, playing ? _("Pause") : _("Play"), NULL);
+  gtk_widget_set_tooltip_text(view->play, playing ? _("Pause (Space)") : _("Play (Space)"));
   view->playing = playing;
 }
 
 static gboolean describe(gpointer data) {
   View *view = data;
   g_autofree char *where = sb_session_where(view->session);
-  sb_style_name(view->area, "Timeline", where[0] != '\0' ? where : "No run yet");
+  sb_style_name(view->area, _("Timeline"), where[0] != '\0' ? where : _("No run yet"));
   view->describe = 0;
   return G_SOURCE_REMOVE;
 }
@@ -182,16 +183,16 @@ static GtkWidget *make_controls(View *view) {
   GtkWidget *linked = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
   sb_style_class(linked, "linked");
   gtk_container_add(GTK_CONTAINER(linked),
-                    action_button("media-skip-backward-symbolic", "Previous event",
-                                  "Previous event (Ctrl+Left)", "win.previous-event"));
+                    action_button("media-skip-backward-symbolic", _("Previous event"),
+                                  _("Previous event (Ctrl+Left)"), "win.previous-event"));
   view->play = gtk_button_new();
   view->play_icon = gtk_image_new();
   gtk_container_add(GTK_CONTAINER(view->play), view->play_icon);
   g_signal_connect(view->play, "clicked", G_CALLBACK(on_play), view);
   gtk_container_add(GTK_CONTAINER(linked), view->play);
   gtk_container_add(GTK_CONTAINER(linked),
-                    action_button("media-skip-forward-symbolic", "Next event",
-                                  "Next event (Ctrl+Right)", "win.next-event"));
+                    action_button("media-skip-forward-symbolic", _("Next event"),
+                                  _("Next event (Ctrl+Right)"), "win.next-event"));
   gtk_container_add(GTK_CONTAINER(row), linked);
 
   view->loop = gtk_toggle_button_new();
@@ -199,8 +200,8 @@ static GtkWidget *make_controls(View *view) {
       GTK_CONTAINER(view->loop),
       gtk_image_new_from_icon_name("media-playlist-repeat-symbolic", GTK_ICON_SIZE_BUTTON));
   gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(view->loop), sb_session_loops(view->session));
-  gtk_widget_set_tooltip_text(view->loop, "Start again at the end");
-  sb_style_name(view->loop, "Loop", NULL);
+  gtk_widget_set_tooltip_text(view->loop, _("Start again at the end"));
+  sb_style_name(view->loop, _("Loop"), NULL);
   g_signal_connect(view->loop, "toggled", G_CALLBACK(on_loop), view);
   gtk_container_add(GTK_CONTAINER(row), view->loop);
 
@@ -208,15 +209,15 @@ static GtkWidget *make_controls(View *view) {
   gtk_container_add(GTK_CONTAINER(pin),
                     gtk_image_new_from_icon_name("view-pin-symbolic", GTK_ICON_SIZE_BUTTON));
   gtk_actionable_set_action_name(GTK_ACTIONABLE(pin), "win.pin");
-  gtk_widget_set_tooltip_text(pin, "Keep this run to compare the next ones with (Ctrl+P)");
-  sb_style_name(pin, "Pin this run", NULL);
+  gtk_widget_set_tooltip_text(pin, _("Keep this run to compare the next ones with (Ctrl+P)"));
+  sb_style_name(pin, _("Pin this run"), NULL);
   gtk_container_add(GTK_CONTAINER(row), pin);
 
   row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
   gtk_container_add(GTK_CONTAINER(rows), row);
-  gtk_container_add(GTK_CONTAINER(row), gtk_label_new("Speed"));
+  gtk_container_add(GTK_CONTAINER(row), gtk_label_new(_("Speed")));
   view->speed = gtk_combo_box_text_new();
-  sb_style_name(view->speed, "Speed", "How fast the cycle plays");
+  sb_style_name(view->speed, _("Speed"), _("How fast the cycle plays"));
   g_signal_connect(view->speed, "changed", G_CALLBACK(on_speed), view);
   gtk_container_add(GTK_CONTAINER(row), view->speed);
   return rows;

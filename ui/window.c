@@ -17,7 +17,9 @@
 #include "ui/style.h"
 #include "ui/timeline_view.h"
 #include "ui/window_files.h"
+#include "ui/words.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -67,9 +69,9 @@ static void set_enabled(SbWindow *window, const char *name, gboolean enabled) {
 static void refresh_titles(SbWindow *window) {
   const SbDocument *document = sb_session_document(window->session);
   const char *path = sb_document_path(document);
-  g_autofree char *file = path != NULL ? g_path_get_basename(path) : g_strdup("not saved yet");
+  g_autofree char *file = path != NULL ? g_path_get_basename(path) : g_strdup(_("not saved yet"));
   g_autofree char *subtitle =
-      g_strconcat(file, sb_session_is_modified(window->session) ? ", edited" : "", NULL);
+      g_strconcat(file, sb_session_is_modified(window->session) ? _(", edited") : "", NULL);
   g_autofree char *title =
       g_strdup_printf("%s (%s) – Sealbench", sb_document_title(document), subtitle);
   gtk_window_set_title(GTK_WINDOW(window), title);
@@ -115,43 +117,43 @@ static void refresh_strip(SbWindow *window) {
       old = value;
     }
     g_autofree char *shown = sb_param_format((SbParamId)wrong, old);
-    g_autofree char *label = g_utf8_strdown(param->label, -1);
+    g_autofree char *label = sb_words_inside(param->label);
     const char *what = sb_session_rejected(session, (SbParamId)wrong) == NULL
-                           ? "does not go with the other values"
+                           ? _("does not go with the other values")
                        : strstr(sb_session_error(session, (SbParamId)wrong), "out of range") != NULL
-                           ? "is out of range"
-                           : "cannot be read";
+                           ? _("is out of range")
+                           : _("cannot be read");
     g_autofree char *text =
-        g_strdup_printf(run != NULL ? "%s %s. Pictures show the last good run, %s %s."
-                                    : "%s %s. Nothing has run yet; %s %s would do.",
-                        param->label, what, label, shown);
-    g_autofree char *button = g_strdup_printf("Set %s", shown);
+        g_strdup_printf(run != NULL ? _("%s %s. Pictures show the last good run, %s %s.")
+                                    : _("%s %s. Nothing has run yet; %s %s would do."),
+                        sb_words(param->label), what, label, shown);
+    g_autofree char *button = g_strdup_printf(_("Set %s"), shown);
     window->strip_id = wrong;
     window->strip_value = old;
     set_strip(window, "warn", text, button);
   } else if (failure != NULL) {
-    set_strip(window, "error", failure, "Run again");
+    set_strip(window, "error", failure, _("Run again"));
   } else if (sb_session_state(session) == SB_SESSION_PARTIAL) {
     size_t count = 0;
     const SbFrame *frames = sb_session_frames(session, &count);
     g_autofree char *text =
         count > 0
-            ? g_strdup_printf("Cancelled after %.1f s of the cycle: the pictures are partial.",
+            ? g_strdup_printf(_("Cancelled after %.1f s of the cycle: the pictures are partial."),
                               frames[count - 1].time)
-            : g_strdup("Cancelled before the first frame.");
-    set_strip(window, "warn", text, "Run again");
+            : g_strdup(_("Cancelled before the first frame."));
+    set_strip(window, "warn", text, _("Run again"));
   } else if (sb_session_state(session) != SB_SESSION_RUNNING &&
              sb_session_is_stale(session, &differs, &value)) {
     g_autofree char *text = NULL;
     if (differs >= 0) {
-      g_autofree char *label = g_utf8_strdown(sb_param((SbParamId)differs)->label, -1);
+      g_autofree char *label = sb_words_inside(sb_param((SbParamId)differs)->label);
       g_autofree char *shown = sb_param_format((SbParamId)differs, value);
-      text =
-          g_strdup_printf("Values have changed. Pictures show the run with %s %s.", label, shown);
+      text = g_strdup_printf(_("Values have changed. Pictures show the run with %s %s."), label,
+                             shown);
     } else {
-      text = g_strdup("Values have changed. Pictures show an earlier run.");
+      text = g_strdup(_("Values have changed. Pictures show an earlier run."));
     }
-    set_strip(window, "warn", text, "Run");
+    set_strip(window, "warn", text, _("Run"));
   } else {
     set_strip(window, "warn", NULL, NULL);
   }
@@ -166,23 +168,25 @@ static void refresh_run_state(SbWindow *window) {
   const char *style = NULL;
   const char *icon = NULL;
   if (running) {
-    text = g_strdup_printf("Running %.0f %%", 100 * sb_session_progress(session));
+    text = g_strdup_printf(_("Running %.0f %%"), 100 * sb_session_progress(session));
   } else if (errors > 0) {
-    text = g_strdup_printf("%s%d value%s to fix",
-                           sb_session_run(session) != NULL ? "Last good run, " : "", errors,
-                           errors == 1 ? "" : "s");
+    text = g_strdup_printf(
+        sb_session_run(session) != NULL
+            ? ngettext("Last good run, %d value to fix", "Last good run, %d values to fix", errors)
+            : ngettext("%d value to fix", "%d values to fix", errors),
+        errors);
     style = "sb-warn";
     icon = "dialog-warning-symbolic";
   } else if (state == SB_SESSION_FAILED) {
-    text = g_strdup("Run failed");
+    text = g_strdup(_("Run failed"));
     style = "sb-error";
     icon = "dialog-error-symbolic";
   } else if (state == SB_SESSION_PARTIAL) {
-    text = g_strdup("Partial run");
+    text = g_strdup(_("Partial run"));
     style = "sb-warn";
     icon = "dialog-warning-symbolic";
   } else if (sb_session_is_stale(session, NULL, NULL)) {
-    text = g_strdup("Earlier run");
+    text = g_strdup(_("Earlier run"));
     style = "sb-warn";
     icon = "dialog-warning-symbolic";
   }
@@ -208,11 +212,11 @@ static void refresh_run_state(SbWindow *window) {
                                running ? "media-playback-stop-symbolic"
                                        : "media-playback-start-symbolic",
                                GTK_ICON_SIZE_BUTTON);
-  gtk_label_set_text(GTK_LABEL(window->run_label), running ? "Stop" : "Run");
-  sb_style_name(window->run_button, running ? "Stop" : "Run", NULL);
+  gtk_label_set_text(GTK_LABEL(window->run_label), running ? _("Stop") : _("Run"));
+  sb_style_name(window->run_button, running ? _("Stop") : _("Run"), NULL);
   gtk_widget_set_tooltip_text(window->run_button,
-                              running ? "Stop the run, keeping what is done (Ctrl+R)"
-                                      : "Run the cycle with these values (Ctrl+R)");
+                              running ? _("Stop the run, keeping what is done (Ctrl+R)")
+                                      : _("Run the cycle with these values (Ctrl+R)"));
   set_enabled(window, "run-or-stop", running || (sb_session_model(session) != NULL && errors == 0));
 }
 
@@ -227,6 +231,10 @@ static void refresh(SbWindow *window) {
   set_enabled(window, "next-event", sb_session_run(window->session) != NULL);
   set_enabled(window, "export", sb_session_summary(window->session) != NULL);
   set_enabled(window, "pin", sb_session_summary(window->session) != NULL);
+  // Another document has let the pinned run go.
+  GAction *pin = g_action_map_lookup_action(G_ACTION_MAP(window), "pin");
+  g_simple_action_set_state(G_SIMPLE_ACTION(pin),
+                            g_variant_new_boolean(sb_session_pinned_name(window->session) != NULL));
   ensure_tick(window);
 }
 
@@ -234,7 +242,7 @@ static void refresh(SbWindow *window) {
 static void on_frames(SbWindow *window) {
   if (sb_session_state(window->session) == SB_SESSION_RUNNING) {
     double progress = sb_session_progress(window->session);
-    g_autofree char *text = g_strdup_printf("Running %.0f %%", 100 * progress);
+    g_autofree char *text = g_strdup_printf(_("Running %.0f %%"), 100 * progress);
     if (strcmp(gtk_label_get_text(GTK_LABEL(window->run_state_label)), text) != 0) {
       gtk_label_set_text(GTK_LABEL(window->run_state_label), text);
       gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(window->run_progress), progress);
@@ -283,8 +291,7 @@ static void on_next_event(GSimpleAction *action, GVariant *parameter, gpointer d
 }
 
 static void on_pin(GSimpleAction *action, GVariant *state, gpointer data) {
-  sb_session_pin(SB_WINDOW(data)->session, g_variant_get_boolean(state));
-  g_simple_action_set_state(action, state);
+  sb_session_pin(SB_WINDOW(data)->session, g_variant_get_boolean(state)); // refresh() follows
 }
 
 static void on_auto_run(GSimpleAction *action, GVariant *state, gpointer data) {
@@ -351,6 +358,11 @@ static void on_export(GSimpleAction *action, GVariant *parameter, gpointer data)
 
 static void on_studies(GSimpleAction *action, GVariant *parameter, gpointer data) {
   sb_study_window_open(GTK_WINDOW(data), SB_WINDOW(data)->session);
+}
+
+// Asks about unsaved changes on the way.
+static void on_close(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  gtk_window_close(GTK_WINDOW(data));
 }
 
 static void on_strip_button(GtkButton *button, SbWindow *window) {
@@ -486,6 +498,7 @@ static void sb_window_init(SbWindow *window) {
       {.name = "turn-down", .activate = on_turn_down},
       {.name = "export", .activate = on_export},
       {.name = "studies", .activate = on_studies},
+      {.name = "close", .activate = on_close},
       {.name = "copy-table", .activate = on_copy_table},
       {.name = "pin", .state = "false", .change_state = on_pin},
       {.name = "auto-run", .state = "true", .change_state = on_auto_run},

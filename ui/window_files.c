@@ -6,6 +6,7 @@
 
 #include "ui/preferences.h"
 
+#include <glib/gi18n.h>
 #include <string.h>
 
 struct SbWindowFiles {
@@ -35,7 +36,9 @@ static char *lines_of(const GPtrArray *issues) {
     g_string_append_printf(text, "%s%s", i > 0 ? "\n" : "", line);
   }
   if (issues->len > LINES_MAX) {
-    g_string_append_printf(text, "\nand %u more", issues->len - LINES_MAX);
+    g_string_append_printf(text,
+                           ngettext("\nand %u more", "\nand %u more", issues->len - LINES_MAX),
+                           issues->len - LINES_MAX);
   }
   return g_string_free(text, FALSE);
 }
@@ -43,8 +46,8 @@ static char *lines_of(const GPtrArray *issues) {
 static void load(SbWindowFiles *files, GFile *file) {
   g_autofree char *path = g_file_get_path(file);
   if (path == NULL) {
-    tell(files, GTK_MESSAGE_ERROR, "This file cannot be opened.",
-         "Only files on this computer can be opened.");
+    tell(files, GTK_MESSAGE_ERROR, _("This file cannot be opened."),
+         _("Only files on this computer can be opened."));
     return;
   }
   g_autofree char *name = g_path_get_basename(path);
@@ -53,8 +56,8 @@ static void load(SbWindowFiles *files, GFile *file) {
   gboolean opened = sb_session_open(files->session, path, issues);
   if (issues->len > 0) {
     g_autofree char *title =
-        g_strdup_printf(opened ? "%s has problems. Values with a problem keep their defaults."
-                               : "%s cannot be opened.",
+        g_strdup_printf(opened ? _("%s has problems. Values with a problem keep their defaults.")
+                               : _("%s cannot be opened."),
                         shown);
     g_autofree char *text = lines_of(issues);
     tell(files, opened ? GTK_MESSAGE_WARNING : GTK_MESSAGE_ERROR, title, text);
@@ -74,12 +77,12 @@ gboolean sb_window_files_may_discard(SbWindowFiles *files) {
   }
   GtkWidget *dialog =
       gtk_message_dialog_new(files->window, GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT,
-                             GTK_MESSAGE_QUESTION, GTK_BUTTONS_NONE, "Save the changes to “%s”?",
+                             GTK_MESSAGE_QUESTION, GTK_BUTTONS_NONE, _("Save the changes to “%s”?"),
                              sb_document_title(sb_session_document(files->session)));
   gtk_message_dialog_format_secondary_text(GTK_MESSAGE_DIALOG(dialog),
-                                           "They are lost if you do not save them.");
-  gtk_dialog_add_buttons(GTK_DIALOG(dialog), "Close _without Saving", GTK_RESPONSE_NO, "_Cancel",
-                         GTK_RESPONSE_CANCEL, "_Save", GTK_RESPONSE_YES, NULL);
+                                           _("They are lost if you do not save them."));
+  gtk_dialog_add_buttons(GTK_DIALOG(dialog), _("Close _without Saving"), GTK_RESPONSE_NO,
+                         _("_Cancel"), GTK_RESPONSE_CANCEL, _("_Save"), GTK_RESPONSE_YES, NULL);
   gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_YES);
   int answer = gtk_dialog_run(GTK_DIALOG(dialog));
   gtk_widget_destroy(dialog);
@@ -93,15 +96,15 @@ gboolean sb_window_files_may_discard(SbWindowFiles *files) {
 static void add_filters(GtkFileChooser *chooser, gboolean to_open) {
   static const struct {
     const char *name, *patterns[3];
-  } filters[] = {{"Valves and scenes", {"*.valve", "*.scene"}},
-                 {"Valves, scenes and pictures of them", {"*.valve", "*.scene", "*.png"}},
-                 {"All files", {"*"}}};
+  } filters[] = {{N_("Valves and scenes"), {"*.valve", "*.scene"}},
+                 {N_("Valves, scenes and pictures of them"), {"*.valve", "*.scene", "*.png"}},
+                 {N_("All files"), {"*"}}};
   for (guint i = 0; i < G_N_ELEMENTS(filters); i++) {
     if (i < 2 && (i == 1) != to_open) {
       continue;
     }
     GtkFileFilter *filter = gtk_file_filter_new();
-    gtk_file_filter_set_name(filter, filters[i].name);
+    gtk_file_filter_set_name(filter, _(filters[i].name));
     for (int k = 0; k < 3 && filters[i].patterns[k] != NULL; k++) {
       gtk_file_filter_add_pattern(filter, filters[i].patterns[k]);
     }
@@ -114,8 +117,8 @@ static void ask_open(SbWindowFiles *files) {
     return;
   }
   GtkWidget *dialog = gtk_file_chooser_dialog_new(
-      "Open a valve or scene", files->window, GTK_FILE_CHOOSER_ACTION_OPEN, "_Cancel",
-      GTK_RESPONSE_CANCEL, "_Open", GTK_RESPONSE_ACCEPT, NULL);
+      _("Open a valve or scene"), files->window, GTK_FILE_CHOOSER_ACTION_OPEN, _("_Cancel"),
+      GTK_RESPONSE_CANCEL, _("_Open"), GTK_RESPONSE_ACCEPT, NULL);
   gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_ACCEPT);
   add_filters(GTK_FILE_CHOOSER(dialog), TRUE);
   g_autofree char *folder = sb_preferences_string("folder", NULL);
@@ -146,9 +149,9 @@ static void make_new(SbWindowFiles *files) {
 static char *ask_name(SbWindowFiles *files) {
   const SbDocument *document = sb_session_document(files->session);
   gboolean scene = sb_document_kind(document) == SB_DOCUMENT_SCENE;
-  GtkWidget *dialog =
-      gtk_file_chooser_dialog_new("Save as", files->window, GTK_FILE_CHOOSER_ACTION_SAVE, "_Cancel",
-                                  GTK_RESPONSE_CANCEL, "_Save", GTK_RESPONSE_ACCEPT, NULL);
+  GtkWidget *dialog = gtk_file_chooser_dialog_new(
+      _("Save as"), files->window, GTK_FILE_CHOOSER_ACTION_SAVE, _("_Cancel"), GTK_RESPONSE_CANCEL,
+      _("_Save"), GTK_RESPONSE_ACCEPT, NULL);
   GtkFileChooser *chooser = GTK_FILE_CHOOSER(dialog);
   gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_ACCEPT);
   gtk_file_chooser_set_do_overwrite_confirmation(chooser, TRUE);
@@ -177,7 +180,7 @@ static gboolean save(SbWindowFiles *files, gboolean as) {
   }
   g_autoptr(GError) error = NULL;
   if (!sb_session_save(files->session, name, &error)) {
-    tell(files, GTK_MESSAGE_ERROR, "The file was not saved.", error->message);
+    tell(files, GTK_MESSAGE_ERROR, _("The file was not saved."), error->message);
     return FALSE;
   }
   if (name != NULL) {

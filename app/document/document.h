@@ -54,6 +54,11 @@ const GPtrArray *sb_document_notes(const SbDocument *document);
 // it is mended there. NULL for all else; borrowed.
 const char *sb_document_shape_source(const SbDocument *document, SbParamId id);
 
+// "bore.diameter = 6.1 mm is in force; the bore of [part.housing] makes it 6 mm, ...": how a value
+// in force differs from the size of a part's shape below it. NULL where it does not, or where no
+// shape gives that size. Owned by the caller.
+char *sb_document_shape_note(const SbDocument *document, SbParamId id);
+
 // Name for titles: the `title` of group [sealbench], else the file's name, else "Untitled";
 // borrowed until the next load or save.
 const char *sb_document_title(const SbDocument *document);

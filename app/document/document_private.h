@@ -1,4 +1,5 @@
-// Inside of a document, shared by document.c (reading, values) and document_write.c (files).
+// Inside of a document, shared by document.c (reading, values), document_edit.c (edits)
+// and document_write.c (files).
 #pragma once
 
 #include "app/document/document_parts.h"
@@ -40,3 +41,10 @@ struct SbDocument {
 
 // Sets the title anew from the text or the path.
 void sb_document_refresh_title(SbDocument *document);
+
+// The catalogue's key that looks most like `key`; NULL if none does. Borrowed.
+const char *sb_document_nearest_key(const char *key);
+
+// Adds to the notes that a value in force is not what a shape makes it; `shown` names who says so.
+// Nothing where they agree.
+void sb_document_note_override(SbDocument *document, SbParamId id, const char *shown);

@@ -415,6 +415,25 @@ bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error)
   return true;
 }
 
+// An end of a range. Where a round number of SI is none in the unit that people read (3.2e9 s are
+// 37037.03703703704 days), three digits of it, rounded into the range.
+static char *range_end(const SbParam *param, double value, bool lower) {
+  char *exact = sb_quantity_format(value, param->si, param->unit);
+  size_t digits = 0;
+  for (const char *c = exact; *c != '\0' && *c != ' ' && *c != 'e'; c++) {
+    digits += g_ascii_isdigit(*c);
+  }
+  double shown = sb_quantity_to_shown(value, param->si, param->unit);
+  if (digits <= 10 || !isfinite(shown) || shown == 0) {
+    return exact;
+  }
+  g_free(exact);
+  double step = pow(10, floor(log10(fabs(shown))) - 2);
+  char text[SB_NUMBER_SIZE];
+  sb_number_round(text, (lower ? ceil(shown / step) : floor(shown / step)) * step, 3);
+  return g_strdup_printf("%s %s", text, param->unit);
+}
+
 char *sb_param_range(SbParamId id) {
   const SbParam *param = sb_param(id);
   if (param->kind == SB_PARAM_CHOICE || param->kind == SB_PARAM_FLAGS) {
@@ -423,10 +442,15 @@ char *sb_param_range(SbParamId id) {
     g_strfreev(names);
     return list;
   }
-  enum { DIGITS = 12 };
-  char min[SB_NUMBER_SIZE], max[SB_NUMBER_SIZE];
-  sb_number_round(min, sb_quantity_to_shown(param->min, param->si, param->unit), DIGITS);
-  sb_number_round(max, sb_quantity_to_shown(param->max, param->si, param->unit), DIGITS);
-  const char *space = param->unit[0] != '\0' ? " " : "";
-  return g_strdup_printf("%s to %s%s%s", min, max, space, param->unit);
+  bool real = param->kind == SB_PARAM_REAL;
+  char *min = range_end(param, param->min, true);
+  char *max = real ? range_end(param, param->max, false) : sb_param_format(id, param->max);
+  char *space = param->unit[0] != '\0' ? strchr(min, ' ') : NULL;
+  if (space != NULL && g_str_has_suffix(max, space)) {
+    *space = '\0';
+  }
+  char *range = g_strdup_printf("%s to %s", min, max);
+  g_free(min);
+  g_free(max);
+  return range;
 }

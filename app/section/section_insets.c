@@ -48,12 +48,17 @@ static size_t curve(const Inset *inset, const SbContactProfile *profile, const d
   return count;
 }
 
-static void inset_title(SbSection *section, const Inset *inset, int seal, const char *what) {
+// The seal's name and what is shown of it, in brief where the frame is too narrow for all of it.
+static void inset_title(SbSection *section, const Inset *inset, int seal, const char *what,
+                        const char *brief) {
   const SbPalette *palette = section->palette;
   const char *const name = seal == SB_OUTER ? "Outer seal" : "Inner seal";
   double y = inset->rect.y - 9;
   sb_draw_text(section->list, inset->rect.x, y, 13, 700, SB_ALIGN_LEFT, palette->ink, name);
   double width = sb_text_width(section->text, name, 13, 700);
+  if (width + sb_text_width(section->text, what, 13, 400) > inset->rect.width) {
+    what = brief;
+  }
   sb_draw_text(section->list, inset->rect.x + width, y, 13, 400, SB_ALIGN_LEFT, palette->ink, what);
 }
 
@@ -201,7 +206,7 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
                      "off the land: no contact");
   }
   frame_inset(section, inset, seal);
-  inset_title(section, inset, seal, ", contact pressure on the bore");
+  inset_title(section, inset, seal, ", contact pressure on the bore", ", pressure");
 }
 
 // Least round number (1, 2, 3, 4, 5, 6, 8 times a power of ten) that is not below v.
@@ -378,7 +383,7 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     }
   }
   frame_inset(section, inset, seal);
-  inset_title(section, inset, seal, ", film under the contact");
+  inset_title(section, inset, seal, ", film under the contact", ", film");
 }
 
 // The part of a seal that both insets show.

@@ -158,6 +158,10 @@ static void test_params(void) {
   text = sb_param_range(SB_P_SEAL_SECTION_DIAMETER);
   g_assert_cmpstr(text, ==, "0.2 to 20 mm");
   g_free(text);
+  // 3.2e9 s in days: rounded into the range.
+  text = sb_param_range(SB_P_STORAGE_TIME);
+  g_assert_cmpstr(text, ==, "0 to 37000 day");
+  g_free(text);
   text = sb_param_range(SB_P_OUTPUT_FRAMES);
   g_assert_cmpstr(text, ==, "2 to 20000000");
   g_free(text);

@@ -1,0 +1,153 @@
+// Edits of a document: values set by text, by number and by --set, and the list of edits that undo
+// and redo walk along. Only the document's own layer changes; what lies below stays.
+#include "app/document/document_private.h"
+
+#include <string.h>
+
+// Puts one side of an edit in force.
+static void apply(SbDocument *document, const Edit *edit, int side) {
+  document->own.given[edit->id] = edit->given[side];
+  document->own.value[edit->id] = edit->value[side];
+  document->serial++;
+}
+
+// Records a change of one key and makes it.
+static void edit_key(SbDocument *document, SbParamId id, bool given, double value, bool merge) {
+  SbParams *own = &document->own;
+  if (own->given[id] == given && own->value[id] == value) {
+    return;
+  }
+  g_array_set_size(document->edits, document->done);
+  Edit *last =
+      document->done > 0 ? &g_array_index(document->edits, Edit, document->done - 1) : NULL;
+  if (merge && document->mergeable && last != NULL && last->id == id) {
+    last->given[1] = given;
+    last->value[1] = value;
+  } else {
+    Edit edit = {id, {own->given[id], given}, {own->value[id], value}};
+    g_array_append_val(document->edits, edit);
+    document->done++;
+  }
+  document->mergeable = merge;
+  Edit made = g_array_index(document->edits, Edit, document->done - 1);
+  apply(document, &made, 1);
+}
+
+// Adds the allowed range to a message.
+static bool fail_with_range(GError **error, SbParamId id, const char *message) {
+  char *range = sb_param_range(id);
+  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s (allowed %s)", message, range);
+  g_free(range);
+  return false;
+}
+
+bool sb_document_set(SbDocument *document, SbParamId id, const char *text, GError **error) {
+  GError *inner = NULL;
+  double value = 0;
+  if (!sb_param_parse(&value, id, text, &inner)) {
+    fail_with_range(error, id, inner->message);
+    g_error_free(inner);
+    return false;
+  }
+  return sb_document_set_value(document, id, value, false, error);
+}
+
+bool sb_document_set_value(SbDocument *document, SbParamId id, double value, bool merge,
+                           GError **error) {
+  SbParams trial = document->own;
+  SbReport report = {0};
+  if (sb_params_set(&trial, id, value, &report) != SB_OK) {
+    char *shown = sb_param_format(id, value);
+    char *message = g_strdup_printf("%s is out of range", shown);
+    fail_with_range(error, id, report.status == SB_ERROR_RANGE ? message : report.text);
+    g_free(message);
+    g_free(shown);
+    return false;
+  }
+  edit_key(document, id, true, value, merge);
+  return true;
+}
+
+bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray *issues) {
+  const char *equal = strchr(option, '=');
+  if (!g_utf8_validate(option, -1, NULL) || equal == NULL || equal == option) {
+    sb_issues_add(issues, "--set", 0, NULL, NULL, "\"%.60s\" is not KEY=VALUE", option);
+    return false;
+  }
+  char *key = g_strstrip(g_strndup(option, (size_t)(equal - option)));
+  int id = sb_param_find(key);
+  double value = 0;
+  GError *error = NULL;
+  bool good = false;
+  if (id < 0) {
+    const char *near = issues->len < SB_ISSUES_MAX ? sb_document_nearest_key(key) : NULL;
+    sb_issues_add(issues, "--set", 0, key, NULL, "unknown key%s%s%s",
+                  near != NULL ? ", do you mean " : "", near != NULL ? near : "",
+                  near != NULL ? "?" : "");
+  } else if (!sb_param_parse(&value, (SbParamId)id, equal + 1, &error)) {
+    char *range = sb_param_range((SbParamId)id);
+    sb_issues_add(issues, "--set", 0, key, range, "%s", error->message);
+    g_free(range);
+    g_error_free(error);
+  } else {
+    good = sb_document_set_value(document, (SbParamId)id, value, false, NULL);
+    sb_document_note_override(document, (SbParamId)id, "--set");
+  }
+  g_free(key);
+  return good;
+}
+
+void sb_document_unset(SbDocument *document, SbParamId id) {
+  edit_key(document, id, false, sb_param(id)->fallback, false);
+}
+
+bool sb_document_gives(const SbDocument *document, SbParamId id) {
+  return document->own.given[id];
+}
+
+bool sb_document_differs(const SbDocument *document, SbParamId id) {
+  bool given = document->own.given[id];
+  return given != document->saved.given[id] ||
+         (given && document->own.value[id] != document->saved.value[id]);
+}
+
+bool sb_document_is_modified(const SbDocument *document) {
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    if (sb_document_differs(document, (SbParamId)i)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+int sb_document_undo(SbDocument *document) {
+  if (!sb_document_can_undo(document)) {
+    return -1;
+  }
+  Edit edit = g_array_index(document->edits, Edit, --document->done);
+  document->mergeable = false;
+  apply(document, &edit, 0);
+  return (int)edit.id;
+}
+
+int sb_document_redo(SbDocument *document) {
+  if (!sb_document_can_redo(document)) {
+    return -1;
+  }
+  Edit edit = g_array_index(document->edits, Edit, document->done++);
+  document->mergeable = false;
+  apply(document, &edit, 1);
+  return (int)edit.id;
+}
+
+bool sb_document_can_undo(const SbDocument *document) {
+  return document->done > 0;
+}
+
+bool sb_document_can_redo(const SbDocument *document) {
+  return document->done < document->edits->len;
+}
+
+unsigned sb_document_serial(const SbDocument *document) {
+  return document->serial;
+}

@@ -1,0 +1,100 @@
+// The playhead of a session: which frame is shown, how it plays and steps, and what stands there in
+// words. What moves it while a run grows is in session_run.c.
+#include "ui/session_private.h"
+
+#include "app/chart/format.h"
+
+#include <glib/gi18n.h>
+
+size_t sb_session_playhead(SbSession *session) {
+  return session->playhead.frame;
+}
+
+const SbFrame *sb_session_frame(SbSession *session) {
+  return sb_chart_frame(&session->chart);
+}
+
+void sb_session_set_playhead(SbSession *session, size_t frame) {
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  if (count == 0) {
+    return;
+  }
+  session->playhead.frame = MIN(frame, count - 1);
+  session->playhead.time = frames[session->playhead.frame].time;
+  session->playhead.follows = session->playhead.frame + 1 == count;
+  sb_session_playhead_changed(session);
+}
+
+size_t sb_session_frame_at(SbSession *session, double time) {
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  return count > 0 ? sb_playhead_nearest(frames, count, time) : 0;
+}
+
+void sb_session_step(SbSession *session, int frames) {
+  gint64 frame = (gint64)session->playhead.frame + frames;
+  sb_session_play(session, FALSE);
+  sb_session_set_playhead(session, (size_t)MAX(frame, 0));
+}
+
+void sb_session_step_event(SbSession *session, int direction) {
+  size_t count = 0;
+  sb_session_frames(session, &count);
+  if (session->shown == NULL || count == 0) {
+    return;
+  }
+  size_t frame = sb_playhead_event(&session->playhead, sb_trace_marks(session->shown->trace), count,
+                                   direction);
+  sb_session_play(session, FALSE);
+  sb_session_set_playhead(session, frame);
+}
+
+gboolean sb_session_is_playing(SbSession *session) {
+  return session->playhead.playing;
+}
+
+void sb_session_play(SbSession *session, gboolean on) {
+  if (on == session->playhead.playing) {
+    return;
+  }
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  sb_playhead_play(&session->playhead, frames, count, on);
+  sb_session_playhead_changed(session);
+}
+
+gboolean sb_session_loops(SbSession *session) {
+  return session->playhead.loops;
+}
+
+void sb_session_set_loops(SbSession *session, gboolean on) {
+  session->playhead.loops = on;
+}
+
+double sb_session_play_duration(SbSession *session) {
+  return session->playhead.duration;
+}
+
+void sb_session_set_play_duration(SbSession *session, double seconds) {
+  session->playhead.duration = seconds;
+}
+
+char *sb_session_where(SbSession *session) {
+  const SbFrame *frame = sb_session_frame(session);
+  if (frame == NULL) {
+    return g_strdup("");
+  }
+  // On the frame of an event its letter; in between the two letters.
+  const char *stage = sb_chart_span(&session->chart.run, frame->stage);
+  const SbStageMark *marks = sb_trace_marks(session->shown->trace);
+  for (int i = 0; i < SB_STAGE_COUNT; i++) {
+    if (marks[i].reached && marks[i].frame == session->playhead.frame) {
+      stage = sb_stage_name((SbStage)i);
+    }
+  }
+  char displacement[SB_FORMAT_MAX], force[SB_FORMAT_MAX];
+  sb_format_text(displacement, SB_QUANTITY_LENGTH, frame->displacement, 0);
+  sb_format_text(force, SB_QUANTITY_FORCE, frame->force, 0);
+  return g_strdup_printf(_("stage %s, %s, %s"), stage, displacement, force);
+}

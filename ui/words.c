@@ -1,0 +1,54 @@
+// Words of the lower layers in the user's language. Labels of parameters are read for translation
+// from engine/params.def itself (po/meson.build); the others, which are few, are listed here,
+// because the engine knows nothing of translations.
+#include "ui/words.h"
+
+#include <glib/gi18n.h>
+
+// For xgettext only.
+G_GNUC_UNUSED static const char *const listed[] = {
+    // engine/elastic/gland.c
+    N_("below"),
+    N_("within"),
+    N_("above"),
+    // engine/study/study.h
+    N_("Load over squeeze"),
+    N_("load, peak and width of every fitment model over the squeeze, beside the solved ring"),
+    N_("Fitment models side by side"),
+    N_("thesis, linear disc and finite-strain ring: loads, peaks, widths, sensitivities, friction"),
+    N_("Film law from our own solutions"),
+    N_("h/R = k U^b W^a regressed over a range, with residuals, beside eq. 7.5, 7.6 and the limit"),
+    N_("Storage time"),
+    N_("load, friction, squeeze and modulus against storage time: relaxation, set, swell"),
+    N_("Leak over squeeze"),
+    N_("leak at rest and leakage per stroke over the squeeze: where too little squeeze leaks"),
+    N_("Stribeck curve"),
+    N_("friction, the asperities' share and the film over the speed, solved together"),
+    N_("Tolerances"),
+    N_("loads, break-away and return force over the tolerances of the sizes: worst case and RSS"),
+    // app/section/section.c
+    N_("von Mises stress"),
+    N_("hydrostatic pressure"),
+    N_("shear stress"),
+    N_("contact pressure"),
+    N_("displacement"),
+    // app/export/render.c
+    N_("Axial section"),
+    N_("Cutaway in three dimensions"),
+    N_("Force and displacement"),
+    N_("Contact pressure and film"),
+    N_("Dashboard"),
+    N_("Thread force and coefficients"),
+    N_("Life over its actuations"),
+    N_("Report, 1600 \xc3\x97 1200"),
+};
+
+const char *sb_words(const char *text) {
+  // The empty text stands for a catalogue's header.
+  return text != NULL && text[0] != '\0' ? _(text) : "";
+}
+
+char *sb_words_inside(const char *label) {
+  const char *translated = sb_words(label);
+  return translated == label ? g_utf8_strdown(label, -1) : g_strdup(translated);
+}
