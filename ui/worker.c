@@ -1,6 +1,8 @@
 // See worker.h.
 #include "ui/worker.h"
 
+#include "app/run/process.h"
+
 static gboolean post(gpointer data) {
   SbWorker *worker = data;
   g_mutex_lock(&worker->lock);
@@ -12,6 +14,7 @@ static gboolean post(gpointer data) {
 
 static gpointer run(gpointer data) {
   SbWorker *worker = data;
+  sb_process_work_behind();
   worker->work(worker->owner);
   g_mutex_lock(&worker->lock);
   worker->source = g_idle_add(post, worker);

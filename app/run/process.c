@@ -5,6 +5,7 @@
 #include <gsl/gsl_errno.h>
 #include <malloc.h>
 #include <signal.h>
+#include <sys/resource.h>
 
 void sb_process_set_up(void) {
   // A limit on the size of files is a failed write like any other, not the program's end.
@@ -17,4 +18,10 @@ void sb_process_set_up(void) {
   // back to the system each time, which costs a fifth of a run with rings.
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 32 << 20);
+}
+
+void sb_process_work_behind(void) {
+  // On Linux a nice value belongs to the thread, and 0 names the calling one. Refused or not there:
+  // no harm, only less fluent.
+  (void)setpriority(PRIO_PROCESS, 0, getpriority(PRIO_PROCESS, 0) + 5);
 }

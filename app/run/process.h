@@ -3,3 +3,7 @@
 
 // Settings of the libraries below the engine. Once, first thing in main().
 void sb_process_set_up(void);
+
+// Gives the calling thread a lower priority for the rest of its life, so that where processors are
+// short the thread that answers the user goes first. For threads that compute behind a window.
+void sb_process_work_behind(void);

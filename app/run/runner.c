@@ -2,6 +2,8 @@
 // to which everything is void, so that a late cancel can never hit the next request.
 #include "app/run/runner.h"
 
+#include "app/run/process.h"
+
 #include <locale.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -140,6 +142,7 @@ static void compute(SbRunner *runner, const SbModel *model, unsigned ticket) {
 
 static void *work(void *data) {
   SbRunner *runner = data;
+  sb_process_work_behind();
   // Messages and numbers read the same whatever the program's locale.
   locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
   if (plain != (locale_t)0) {

@@ -38,6 +38,38 @@ def wait(what, question, timeout=TIMEOUT):
     raise AssertionError("waited %.0f s for: %s (%r)" % (timeout, what, last))
 
 
+def machine_busy():
+    """Processor time that the whole machine has used so far [s]."""
+    with open("/proc/stat") as file:
+        user, nice, system, _idle, _wait, irq, softirq, steal = map(int, file.readline().split()[1:9])
+    return (user + nice + system + irq + softirq + steal) / os.sysconf("SC_CLK_TCK")
+
+
+def session_busy():
+    """Processor time of the living processes of this test's session [s]: program, display, bus."""
+    ticks = 0
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open("/proc/%s/stat" % pid) as file:
+                fields = file.read().rpartition(")")[2].split()
+        except OSError:  # it has ended
+            continue
+        if int(fields[3]) == os.getsid(0):
+            ticks += int(fields[11]) + int(fields[12])
+    return ticks / os.sysconf("SC_CLK_TCK")
+
+
+def slowness():
+    """How many times longer this machine takes than one on which the limits are meant (at least 1):
+    processor time of a fixed piece of work, the least of five, against 15 ms."""
+    times = []
+    for _ in range(5):
+        start = time.process_time()
+        sum(i * i for i in range(400000))
+        times.append(time.process_time() - start)
+    return max(1.0, min(times) / 0.015)
+
+
 class App:
     SENSITIVE = pyatspi.STATE_SENSITIVE
 
@@ -179,19 +211,6 @@ class App:
                         "org.gtk.Actions.Activate", name, "[]", "{}"], check=True,
                        stdout=subprocess.DEVNULL)
 
-    def _queued(self):
-        """Seconds that the thread of the main loop has waited for a processor."""
-        try:
-            with open("/proc/%d/task/%d/schedstat" % (self.process.pid, self.process.pid)) as file:
-                return 1e-9 * int(file.read().split()[1])
-        except OSError:  # a kernel that does not tell
-            return 0.0
-
-    def reset_latency(self):
-        """Starts the program's probe of its main loop anew."""
-        self.gaction("reset-latency")
-        self.queued_before, self.reset_at = self._queued(), time.monotonic()
-
     def latency(self):
         """What the program's own probe of its main loop has measured."""
         if os.path.exists(self.latency_path):
@@ -203,22 +222,27 @@ class App:
                 return json.load(file)
         return wait("the latency file", read)
 
+    def watch_latency(self):
+        """Measures from here; check_latency() judges."""
+        self.gaction("reset-latency")
+        self.since = (time.monotonic(), machine_busy(), session_busy())
+
     def check_latency(self, what):
-        """At most 50 ms at the 99th percentile and 200 ms ever. Where others keep the processors busy,
-        only the window's own share of the waiting can be judged."""
+        """At most 50 ms at the 99th percentile and 200 ms ever. Where others than this test keep the
+        processors busy, only the window's own share of the waiting can be judged; on a machine
+        slower than that of the limits, the limits are as much longer."""
         latency = self.latency()
-        # The load is an average over a minute; how long the loop's thread stood in the queue for a
-        # processor meanwhile says it at once.
-        queued, seconds = self._queued() - self.queued_before, time.monotonic() - self.reset_at
-        busy = os.getloadavg()[0] > (os.cpu_count() or 1) or queued > 0.02 * seconds
+        start, machine, session = self.since
+        others = (machine_busy() - machine - (session_busy() - session)) / (time.monotonic() - start)
+        slow = slowness()
+        own = "own_" if others > 0.1 else ""
         print("# main loop blocked while %s: %.1f ms at the 99th percentile, %.1f ms at most (own "
-              "work %.1f and %.1f ms); load %.1f" % (
+              "work %.1f and %.1f ms); others use %.2f processors, machine %.2f times as slow" % (
                   what, latency["p99_ms"], latency["max_ms"], latency["own_p99_ms"],
-                  latency["own_max_ms"], os.getloadavg()[0]))
-        own = "own_" if busy else ""
+                  latency["own_max_ms"], others, slow))
         assert latency["samples"] > 50, latency
-        assert latency[own + "p99_ms"] <= 50, latency
-        assert latency[own + "max_ms"] <= 200, latency
+        assert latency[own + "p99_ms"] <= 50 * slow, latency
+        assert latency[own + "max_ms"] <= 200 * slow, latency
 
     def loop_text(self):
         return self.find("chart", "Force and displacement").description or ""

@@ -76,7 +76,7 @@ def a_cancelled_film(folder):
     with App(scene(folder)) as app:
         open_dialog(app, path, "Film, MP4", "Dashboard")
         app.spin("Duration", 600)
-        app.reset_latency()
+        app.watch_latency()
         app.act(export_button(app), "click")
         bar = app.find("progress bar", "Progress of the export")
         wait("progress", lambda: bar.queryValue().currentValue > 0)

@@ -16,7 +16,7 @@ def a_long_run_grows_and_can_be_cancelled(folder):
         field = app.field("Frames")
         button = app.find("push button", "Run")
         count = app.label_node(r"^\d+ frames")
-        app.reset_latency()
+        app.watch_latency()
         field.queryEditableText().setTextContents("2000000")
         app.act(field, "activate")
         # The run takes a few seconds: ask only what it takes to see it grow.
@@ -39,7 +39,7 @@ def a_long_run_ends_by_itself(folder):
     with App(scene(folder, film="thesis")) as app:
         wait("the first run", app.run_done)
         app.unfold("Output")
-        app.reset_latency()
+        app.watch_latency()
         app.edit("Frames", "2000000")
         count = app.label_node(r"^\d+ frames")
         wait("the last frame", lambda: frames_in(app, count) >= 2000000)

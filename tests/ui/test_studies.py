@@ -32,7 +32,7 @@ def a_study_of_the_document(folder):
 def a_study_can_be_cancelled(folder):
     with App(scene(folder)) as app:
         open_studies(app)
-        app.reset_latency()
+        app.watch_latency()
         app.choose("Study", "Leak over squeeze")
         app.press("push button", "Cancel")
         wait("the end", lambda: app.label(r"^No study: the study was cancelled"))
