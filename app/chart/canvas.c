@@ -315,15 +315,3 @@ void sb_canvas_ringed_dot(SbCanvas *canvas, double x, double y, SbColor ring) {
   sb_canvas_dot(canvas, x, y, 5.0, ring);
   sb_canvas_dot(canvas, x, y, 3.4, sb_canvas_role(canvas, SB_ROLE_PANEL));
 }
-
-void sb_canvas_dimension(SbCanvas *canvas, double x0, double x1, double y, double bar) {
-  cairo_t *cr = canvas->cr;
-  cairo_new_path(cr);
-  cairo_move_to(cr, x0, y - bar);
-  cairo_line_to(cr, x0, y + bar);
-  cairo_move_to(cr, x1, y - bar);
-  cairo_line_to(cr, x1, y + bar);
-  cairo_move_to(cr, x0, y);
-  cairo_line_to(cr, x1, y);
-  cairo_stroke(cr);
-}

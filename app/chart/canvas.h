@@ -94,6 +94,3 @@ void sb_canvas_arrowhead(SbCanvas *canvas, double x, double y, double dx, double
 // A ringed dot: 3.4 px in the panel colour inside a ring of `ring`.
 void sb_canvas_ringed_dot(SbCanvas *canvas, double x, double y, SbColor ring);
 void sb_canvas_dot(SbCanvas *canvas, double x, double y, double radius, SbColor color);
-
-// A horizontal dimension line with end bars.
-void sb_canvas_dimension(SbCanvas *canvas, double x0, double x1, double y, double bar);

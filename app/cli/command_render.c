@@ -132,6 +132,10 @@ static bool parse(Request *request, const Options *options) {
     sb_cli_fail("--view %s is a study, which does not move: write a .png, .svg or .pdf", how->view);
     return false;
   }
+  if (options->at != NULL && options->at[0] == '\0') {
+    sb_cli_fail("--at: neither a stage (A to F) nor a time");
+    return false;
+  }
   if (request->is_study && options->at != NULL) {
     sb_cli_fail("--at: a study has no time");
     return false;

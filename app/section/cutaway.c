@@ -2,10 +2,10 @@
 // to front as shaded cells and edges, and the cut faces as the section paints them. The projection
 // is parallel, so that lengths along one direction keep their scale.
 //
-// The fluid is a tint on the cut faces only. A housing without
-// a shape of its own ends where the section is cut off above, and its rod ends somewhere; the vent
-// is drawn on the upper face, though the section shows it as a gap. Labels stand above and below
-// the valve, each with a line to its part.
+// The fluid is a tint on the cut faces only. A housing without a shape of its own ends where the
+// section is cut off above, and its rod ends somewhere; the vent is drawn on the upper face, though
+// the section shows it as a gap. Labels stand above and below the valve, each with a line to its
+// part.
 #include "app/section/cutaway.h"
 
 #include "app/section/section_private.h"
@@ -92,10 +92,6 @@ void sb_cutaway_destroy(SbCutaway *cutaway) {
   g_array_free(cutaway->point, TRUE);
   g_array_free(cutaway->scalar, TRUE);
   g_free(cutaway);
-}
-
-const SbRevolve *sb_cutaway_revolve(const SbCutaway *cutaway) {
-  return &cutaway->revolve;
 }
 
 // Outlines ---------------------------------------------------------------------------------------

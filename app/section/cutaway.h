@@ -14,9 +14,6 @@ SbCutaway *sb_cutaway_create(const SbModel *model, double inner_contact_left);
 // NULL is allowed.
 void sb_cutaway_destroy(SbCutaway *cutaway);
 
-// What the last picture was painted from, for checks; borrowed.
-const SbRevolve *sb_cutaway_revolve(const SbCutaway *cutaway);
-
 // Draws the section's instant as its view asks; rings must have their shapes. In sb_section_draw().
 void sb_cutaway_draw(SbCutaway *cutaway, SbSection *section);
 

@@ -65,7 +65,7 @@ static void draw_stroke(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *
   trace(cr, points, item->count, item->closed);
   cairo_set_line_width(cr, (double)item->width);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_line_cap(cr, item->round_caps ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
   if (item->dash == SB_DASH_SOLID) {
     cairo_set_dash(cr, NULL, 0, 0);
   } else {
@@ -171,15 +171,6 @@ static void draw_text(cairo_t *cr, const SbDrawItem *item, const char *string, S
     x -= width;
   }
   cairo_move_to(cr, x, (double)item->y - baseline);
-  if (item->halo > 0.0f) {
-    pango_cairo_layout_path(cr, layout);
-    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-    cairo_set_dash(cr, NULL, 0, 0);
-    cairo_set_line_width(cr, 2 * (double)item->halo);
-    set_colour(cr, item->halo_colour);
-    cairo_stroke(cr);
-    cairo_move_to(cr, x, (double)item->y - baseline);
-  }
   set_colour(cr, item->colour);
   // Pixels: outlines, since cairo puts cached glyphs on whole pixels. SVG and PDF: text.
   if (cairo_surface_get_type(cairo_get_target(cr)) == CAIRO_SURFACE_TYPE_IMAGE) {

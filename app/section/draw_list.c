@@ -6,11 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-SbDrawColour sb_draw_colour(uint32_t rgb, double alpha) {
-  return (SbDrawColour){(float)(rgb >> 16 & 255) / 255.0f, (float)(rgb >> 8 & 255) / 255.0f,
-                        (float)(rgb & 255) / 255.0f, (float)alpha};
-}
-
 SbDrawColour sb_draw_mix(SbDrawColour a, SbDrawColour b, double t) {
   float u = (float)t;
   return (SbDrawColour){a.r + (b.r - a.r) * u, a.g + (b.g - a.g) * u, a.b + (b.b - a.b) * u,

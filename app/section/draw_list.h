@@ -8,15 +8,11 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
 
 // Straight (not premultiplied) sRGB, each 0 to 1.
 typedef struct {
   float r, g, b, a;
 } SbDrawColour;
-
-// From 0xRRGGBB and an opacity.
-SbDrawColour sb_draw_colour(uint32_t rgb, double alpha);
 
 // `a` where t = 0, `b` where t = 1; opacity too.
 SbDrawColour sb_draw_mix(SbDrawColour a, SbDrawColour b, double t);
@@ -79,7 +75,6 @@ typedef struct {
   float width;
   SbDrawDash dash;
   bool closed;
-  bool round_caps;
   // Fill.
   SbDrawHatch hatch;
   bool feather; // edges get analytic coverage; false where an outline follows
@@ -94,8 +89,6 @@ typedef struct {
   float x, y, size;
   int weight;
   SbDrawAlign align;
-  float halo; // width of an outline in `halo_colour`, 0 for none
-  SbDrawColour halo_colour;
 } SbDrawItem;
 
 typedef struct {

@@ -89,10 +89,8 @@ static bool allot(SbGlAtlas *atlas, int width, int height, int *u, int *v) {
   return true;
 }
 
-bool sb_gl_atlas_line(SbGlAtlas *atlas, const char *text, double size, int weight, double halo,
-                      SbGlLine *line) {
-  g_string_printf(atlas->key, "%d %d %d %s", (int)lround(64 * size), weight, (int)lround(16 * halo),
-                  text);
+bool sb_gl_atlas_line(SbGlAtlas *atlas, const char *text, double size, int weight, SbGlLine *line) {
+  g_string_printf(atlas->key, "%d %d %s", (int)lround(64 * size), weight, text);
   const SbGlLine *known = g_hash_table_lookup(atlas->lines, atlas->key->str);
   if (known != NULL) {
     *line = *known;
@@ -102,7 +100,7 @@ bool sb_gl_atlas_line(SbGlAtlas *atlas, const char *text, double size, int weigh
   PangoLayout *layout = sb_text_layout(atlas->text, text, size, weight, &baseline, &advance);
   PangoRectangle ink;
   pango_layout_get_pixel_extents(layout, &ink, NULL);
-  int margin = 2 + (int)ceil(halo);
+  const int margin = 2;
   // Ink relative to the anchor at the baseline's left end. Shelves keep a common height per size.
   int left = ink.x - margin;
   int ascent = MAX((int)ceil(size * 1.05), (int)ceil(baseline) - ink.y) + margin;
@@ -119,16 +117,9 @@ bool sb_gl_atlas_line(SbGlAtlas *atlas, const char *text, double size, int weigh
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, made.width, made.height);
     cairo_t *cr = cairo_create(surface);
     cairo_move_to(cr, -left, ascent - baseline);
-    if (halo > 0) {
-      pango_cairo_layout_path(cr, layout);
-      cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
-      cairo_set_line_width(cr, 2 * halo);
-      cairo_stroke(cr);
-    } else {
-      // Outlines instead of cairo's glyph cache, which would put each glyph on a whole pixel.
-      pango_cairo_layout_path(cr, layout);
-      cairo_fill(cr);
-    }
+    // Outlines instead of cairo's glyph cache, which would put each glyph on a whole pixel.
+    pango_cairo_layout_path(cr, layout);
+    cairo_fill(cr);
     cairo_destroy(cr);
     cairo_surface_flush(surface);
     const SbGlApi *gl = atlas->gl;

@@ -18,10 +18,9 @@ typedef struct {
 SbGlAtlas *sb_gl_atlas_create(const SbGlApi *gl);
 void sb_gl_atlas_destroy(SbGlAtlas *atlas);
 
-// Finds or draws a line; size in device pixels, halo too (0: none). False if the atlas is full:
+// Finds or draws a line; size in device pixels. False if the atlas is full:
 // then sb_gl_atlas_clear() and start the picture again.
-bool sb_gl_atlas_line(SbGlAtlas *atlas, const char *text, double size, int weight, double halo,
-                      SbGlLine *line);
+bool sb_gl_atlas_line(SbGlAtlas *atlas, const char *text, double size, int weight, SbGlLine *line);
 
 // Empties the atlas; doubled if `grow`.
 void sb_gl_atlas_clear(SbGlAtlas *atlas, bool grow);

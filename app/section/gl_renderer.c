@@ -212,24 +212,20 @@ static Batch *begin_batch(SbGlRenderer *renderer, ProgramId program, const SbDra
 // Quads of a line of text. False if the atlas is full.
 static bool add_text(SbGlRenderer *renderer, const SbDrawItem *item, const char *text,
                      double scale) {
-  double size = (double)item->size * scale;
-  for (int pass = item->halo > 0.0f ? 0 : 1; pass < 2; pass++) {
-    SbGlLine line;
-    double halo = pass == 0 ? (double)item->halo * scale : 0;
-    if (!sb_gl_atlas_line(renderer->atlas, text, size, item->weight, halo, &line)) {
-      return false;
-    }
-    double x = (double)item->x * scale;
-    if (item->align == SB_ALIGN_CENTRE) {
-      x -= line.advance / 2;
-    } else if (item->align == SB_ALIGN_RIGHT) {
-      x -= line.advance;
-    }
-    if (line.width > 0) {
-      sb_mesh_glyphs(&renderer->mesh, round(x) + line.left,
-                     round((double)item->y * scale) - line.ascent, line.width, line.height, line.u,
-                     line.v, pass == 0 ? item->halo_colour : item->colour);
-    }
+  SbGlLine line;
+  if (!sb_gl_atlas_line(renderer->atlas, text, (double)item->size * scale, item->weight, &line)) {
+    return false;
+  }
+  double x = (double)item->x * scale;
+  if (item->align == SB_ALIGN_CENTRE) {
+    x -= line.advance / 2;
+  } else if (item->align == SB_ALIGN_RIGHT) {
+    x -= line.advance;
+  }
+  if (line.width > 0) {
+    sb_mesh_glyphs(&renderer->mesh, round(x) + line.left,
+                   round((double)item->y * scale) - line.ascent, line.width, line.height, line.u,
+                   line.v, item->colour);
   }
   return true;
 }

@@ -7,6 +7,8 @@
 
 #include "app/section/draw_list.h"
 
+#include <stdint.h>
+
 typedef struct {
   float x, y;
   uint8_t colour[4]; // premultiplied

@@ -27,14 +27,10 @@ static void make_palette(SbPalette *palette, bool dark) {
   const SbColor *role = theme->role;
   *palette = (SbPalette){
       .dark = dark,
-      .background = convert(role[SB_ROLE_BACKGROUND]),
       .panel = convert(role[SB_ROLE_PANEL]),
-      .hairline = convert(role[SB_ROLE_HAIRLINE]),
-      .grid = convert(role[SB_ROLE_GRID]),
       .axis = convert(role[SB_ROLE_AXIS]),
       .ink = convert(role[SB_ROLE_INK]),
       .second = convert(role[SB_ROLE_SECOND]),
-      .third = convert(role[SB_ROLE_THIRD]),
       .fluid_line = convert(role[SB_ROLE_FLUID]),
       .now = convert(role[SB_ROLE_NOW]),
       .housing = convert(role[SB_ROLE_HOUSING]),
@@ -42,8 +38,6 @@ static void make_palette(SbPalette *palette, bool dark) {
       .stem = convert(role[SB_ROLE_STEM]),
       .stem_hatch = convert(role[SB_ROLE_STEM_HATCH]),
       .outline = convert(role[SB_ROLE_OUTLINE]),
-      .warn = convert(role[SB_ROLE_WARN]),
-      .error = convert(role[SB_ROLE_ERROR]),
   };
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     palette->seal[i] = convert(sb_theme_seal(theme, i));

@@ -7,12 +7,11 @@
 
 typedef struct {
   bool dark;
-  SbDrawColour background, panel, hairline, grid, axis;
-  SbDrawColour ink, second, third;
+  SbDrawColour panel, axis;
+  SbDrawColour ink, second;
   SbDrawColour seal[SB_SEAL_COUNT];
   SbDrawColour fluid_line, now;
   SbDrawColour housing, housing_hatch, stem, stem_hatch, outline;
-  SbDrawColour warn, error;
   SbDrawMap field;     // stress in a seal
   SbDrawMap diverging; // a signed field, -1 to 1
   SbDrawMap fluid;     // pressure from 0 to 0.7 MPa

@@ -1,42 +1,17 @@
 // Numbers and labels of the section: formatting without locale, places that do not collide.
 #include "app/section/section_private.h"
 
+#include "app/chart/format.h"
+
 #include <glib.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define MINUS "\xe2\x88\x92"
-#define THIN  "\xe2\x80\x89"
+_Static_assert(SB_SECTION_NUMBER >= SB_FORMAT_MAX + 8, "room for a number and its unit");
 
 const char *sb_section_fixed(char *buffer, double value, int decimals) {
-  if (!isfinite(value)) {
-    g_strlcpy(buffer, "\xe2\x80\x93", SB_SECTION_NUMBER);
-    return buffer;
-  }
-  char format[8];
-  char digits[48];
-  snprintf(format, sizeof format, "%%.%df", decimals);
-  g_ascii_formatd(digits, sizeof digits, format, fabs(value));
-  bool zero = strspn(digits, "0.") == strlen(digits);
-  if (zero) {
-    g_strlcpy(buffer, "0", SB_SECTION_NUMBER);
-    return buffer;
-  }
-  // Thousands of five and more digits.
-  size_t whole = strcspn(digits, ".");
-  buffer[0] = '\0';
-  if (value < 0) {
-    g_strlcat(buffer, MINUS, SB_SECTION_NUMBER);
-  }
-  for (size_t i = 0; i < strlen(digits); i++) {
-    if (whole > 4 && i > 0 && i < whole && (whole - i) % 3 == 0) {
-      g_strlcat(buffer, THIN, SB_SECTION_NUMBER);
-    }
-    const char one[2] = {digits[i], '\0'};
-    g_strlcat(buffer, one, SB_SECTION_NUMBER);
-  }
-  return buffer;
+  return sb_format_fixed(buffer, value, decimals);
 }
 
 const char *sb_section_two_digits(char *buffer, double value) {
@@ -82,7 +57,7 @@ const char *sb_section_millimetre(char *buffer, double metres) {
 }
 
 const char *sb_section_film(char *buffer, double metres) {
-  bool micro = metres >= 1e-6;
+  bool micro = metres >= 0.9995e-6;
   double value = metres * (micro ? 1e6 : 1e9);
   int decimals = value >= 100 ? 0 : value >= 10 ? 1 : value >= 0.1 ? 2 : 3;
   sb_section_fixed(buffer, value, decimals);
