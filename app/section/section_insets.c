@@ -199,7 +199,9 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
     sb_draw_line(list, left_px, y, right_px, y, 1.2, line);
     SbSectionLabel style = {11, 600, SB_ALIGN_CENTRE, palette->ink, &palette->panel};
     bool inside = right_px - left_px > sb_text_width(section->text, text, 11, 600) + 30;
-    sb_section_label(section, (left_px + right_px) / 2, inside ? y + 4 : y + 20, &style, text);
+    sb_section_label(section, (left_px + right_px) / 2,
+                     inside ? y + 4 : fmin(y + 20, (double)(rect->y + rect->height) - 6), &style,
+                     text);
   } else {
     SbSectionLabel style = {12, 600, SB_ALIGN_CENTRE, palette->seal[seal], &palette->panel};
     sb_section_label(section, rect->x + rect->width / 2, rect->y + 24, &style,

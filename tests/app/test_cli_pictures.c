@@ -44,6 +44,7 @@ static void test_render(void) {
       {{"-o", "x.png", "--size", "12"}, 1},
       {{"-o", "x.png", "--size", "1x1"}, 1},
       {{"-o", "x.png", "--at", "Q"}, 1},
+      {{"-o", "x.png", "--at", ""}, 1},
       {{"-o", "x.png", "--at", "900 s"}, 1},
       {{"-o", "x.png", "--fps", "30"}, 1},
       {{"-o", "x.mp4", "--at", "C"}, 1},
