@@ -350,6 +350,29 @@ static void test_plan(void) {
   sb_run_destroy(run);
 }
 
+// A jump at first slip ends where the machine, relaxed by it, is in balance with kinetic friction:
+// its length times the stiffness is what the force falls by, and the force is the one that the slow
+// stroke goes on with, whatever the stiffness.
+static void test_jump(void) {
+  static const double stiffness[] = {2e3, 2e4, 1e5, 1e7};
+  for (size_t i = 0; i < G_N_ELEMENTS(stiffness); i++) {
+    Setting machine = {SB_P_DRIVE_STIFFNESS, stiffness[i]};
+    SbRun *run = run_cycle(&machine, 1);
+    size_t count;
+    const SbFrame *frames = sb_run_frames(run, &count);
+    const SbStageMark *mark = &sb_run_summary(run)->stage[SB_STAGE_B];
+    g_assert_true(mark->reached && mark->frame + 2 < count);
+    const SbFrame *before = &frames[mark->frame], *after = before + 1;
+    double fall = before->force - after->force;
+    g_assert_cmpfloat(fall, >, 0.1);
+    g_assert_cmpfloat_with_epsilon(after->displacement - before->displacement, fall / stiffness[i],
+                                   1e-6 * fall / stiffness[i]);
+    g_assert_cmpfloat_with_epsilon(after[1].force, after->force, 1e-6 * after->force);
+    g_assert_cmpfloat_with_epsilon(force_at(run, 2e-3, true), after->force, 1e-6 * after->force);
+    sb_run_destroy(run);
+  }
+}
+
 static void make_cycle(void *data) {
   sb_run_destroy(run_cycle(NULL, 0));
 }
@@ -373,6 +396,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cycle/leakage", test_leakage);
   g_test_add_func("/cycle/static-leak", test_static_leak);
   g_test_add_func("/cycle/plan", test_plan);
+  g_test_add_func("/cycle/jump", test_jump);
   g_test_add_func("/cycle/speed", test_speed);
   return g_test_run();
 }

@@ -66,8 +66,12 @@ static void test_mobility(void) {
                   SB_ERROR_RANGE);
   g_assert_cmpint(sb_assembly_add(&loose, NULL, "none", 0.0, inertia, at, &report), ==,
                   SB_ERROR_RANGE);
-  g_assert_cmpint(sb_assembly_join(&loose, NULL, SB_JOINT_FIXED, 1, 1, at, x_axis, &report), ==,
-                  SB_ERROR_INPUT);
+  const size_t pairs[][2] = {{1, 1}, {1, loose.bodies}, {loose.bodies, 1}};
+  for (size_t i = 0; i < G_N_ELEMENTS(pairs); i++) {
+    g_assert_cmpint(sb_assembly_join(&loose, NULL, SB_JOINT_FIXED, pairs[i][0], pairs[i][1], at,
+                                     x_axis, &report),
+                    ==, SB_ERROR_INPUT);
+  }
 }
 
 static void gravity(SbAssembly *a, double time, void *user) {
