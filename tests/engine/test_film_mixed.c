@@ -604,6 +604,13 @@ static void test_refusals(void) {
   SbStribeckPoint point[2];
   problem = seal(1e-3, SB_ROUGH_NONE);
   g_assert_cmpint(sb_film_stribeck(point, 2, &problem, 1e-3, 1, NULL, &report), ==, SB_ERROR_INPUT);
+  problem = seal(1e-3, SB_ROUGH_GREENWOOD_TRIPP);
+  static const double speeds[][2] = {{0, 1}, {-1e-3, 1}, {1, 1e-3}, {1, 1}, {NAN, 1}, {1e-3, NAN}};
+  for (size_t i = 0; i < G_N_ELEMENTS(speeds); i++) {
+    g_assert_cmpint(sb_film_stribeck(point, 2, &problem, speeds[i][0], speeds[i][1], NULL, &report),
+                    ==, SB_ERROR_RANGE);
+  }
+  g_assert_cmpint(sb_film_stribeck(point, 1, &problem, 1e-3, 1, NULL, &report), ==, SB_ERROR_RANGE);
 }
 
 int main(int argc, char **argv) {

@@ -297,6 +297,55 @@ static void test_fields(void) {
   sb_ring_destroy(ring);
 }
 
+// A thin ring stretched onto a wide shaft is in simple tension but for the little that the shaft
+// presses: von Mises' stress is neo-Hooke's mu J^(-5/3) (lambda^2 - J/lambda) of the stretch, and
+// three times the mean stress, which a fluid all around lowers by its pressure; K (J - 1) is that
+// mean stress.
+static void test_tension(void) {
+  SbRingBody body = {
+      .section_diameter = 1e-3, .inner_diameter = 200e-3, .modulus = 2.5e6, .poisson_ratio = 0.49};
+  SbRingLoad load = SB_RING_LOAD_INIT;
+  load.floor_radius = 1.05 * 100e-3;
+  load.bore_radius = 120e-3;
+  const double fluid = 0.2e6;
+  load.pressure_left = load.pressure_right = fluid;
+  SbRingResult r;
+  SbRing *ring = fitted(&body, &load, 0.1, &r);
+  int nodes, triangles, outline;
+  sb_ring_sizes(ring, &nodes, &triangles, &outline);
+  SbRingFields fields = {
+      .place = g_new(double, 2 * nodes),
+      .displacement = g_new(double, 2 * nodes),
+      .mises = g_new(double, nodes),
+      .hydrostatic = g_new(double, nodes),
+      .shear = g_new(double, nodes),
+  };
+  sb_ring_fields(ring, &fields);
+  double mu = body.modulus / (2 * (1 + body.poisson_ratio));
+  double bulk = body.modulus / (3 * (1 - 2 * body.poisson_ratio));
+  double tension = 0, mises = 0, hydrostatic = 0, shear = 0;
+  for (int i = 0; i < nodes; i++) {
+    double now = fields.place[2 * i + 1];
+    double lambda = now / (now - fields.displacement[2 * i + 1]);
+    double J = 1 + fields.hydrostatic[i] / bulk;
+    tension += mu * pow(J, -5.0 / 3) * (lambda * lambda - J / lambda) / nodes;
+    mises += fields.mises[i] / nodes;
+    hydrostatic += (fields.hydrostatic[i] + fluid) / nodes;
+    shear += fields.shear[i] / nodes;
+  }
+  g_test_message("tension %.5g, von Mises %.5g, 3 x mean %.5g, shear %.2g MPa", 1e-6 * tension,
+                 1e-6 * mises, 3e-6 * hydrostatic, 1e-6 * shear);
+  near(mises, tension, 0.02);
+  near(3 * hydrostatic, tension, 0.04);
+  g_assert_cmpfloat(fabs(shear), <, 0.01 * tension);
+  void *owned[] = {fields.place, fields.displacement, fields.mises, fields.hydrostatic,
+                   fields.shear};
+  for (size_t i = 0; i < G_N_ELEMENTS(owned); i++) {
+    g_free(owned[i]);
+  }
+  sb_ring_destroy(ring);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/ring/plane", test_plane);
@@ -308,5 +357,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/ring/refused", test_refused);
   g_test_add_func("/ring/cancel", test_cancel);
   g_test_add_func("/ring/fields", test_fields);
+  g_test_add_func("/ring/tension", test_tension);
   return g_test_run();
 }
