@@ -330,6 +330,8 @@ static void test_plan(void) {
   Setting profiles = {SB_P_OUTPUT_VIEWS, SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES};
   SbRun *run = run_cycle(&loop, 1);
   const SbSummary *summary = sb_run_summary(run);
+  g_assert_cmpfloat(summary->wall_s, >, 0);
+  g_assert_cmpfloat(summary->wall_s, <, 10);
   g_assert_cmpuint(summary->counters.field_evaluations, ==, 0);
   g_assert_cmpuint(summary->counters.reynolds_solves, ==, 0);
   g_assert_cmpuint(summary->counters.profile_evaluations, ==, 0);
@@ -344,6 +346,15 @@ static void test_plan(void) {
   // Audit section 1: asperities bear 160 kPa sqrt(sigma/beta) in contact, here with 0.1.
   g_assert_cmpfloat_with_epsilon(profile->asperity_pressure[profile->count / 2], 160e3 * sqrt(0.1),
                                  1e3);
+  // Nowhere below the fluid on its side: outer seals have it on the left, ambient on the right.
+  size_t last = profile->count - 1;
+  g_assert_cmpfloat(profile->pressure[0], >, 0.5e6);
+  g_assert_cmpfloat(profile->pressure[last], ==, 0);
+  double middle = (profile->x[0] + profile->x[last]) / 2;
+  for (size_t i = 0; i < profile->count; i++) {
+    double fluid = profile->pressure[profile->x[i] < middle ? 0 : last];
+    g_assert_cmpfloat(profile->pressure[i], >=, fluid);
+  }
   for (size_t i = 1; i < profile->count; i++) {
     g_assert_cmpfloat(profile->x[i], >=, profile->x[i - 1]);
   }

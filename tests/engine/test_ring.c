@@ -335,7 +335,7 @@ static void test_tension(void) {
   }
   g_test_message("tension %.5g, von Mises %.5g, 3 x mean %.5g, shear %.2g MPa", 1e-6 * tension,
                  1e-6 * mises, 3e-6 * hydrostatic, 1e-6 * shear);
-  near(mises, tension, 0.02);
+  near(mises, tension, 0.005);
   near(3 * hydrostatic, tension, 0.04);
   g_assert_cmpfloat(fabs(shear), <, 0.01 * tension);
   void *owned[] = {fields.place, fields.displacement, fields.mises, fields.hydrostatic,
