@@ -360,6 +360,20 @@ static void on_studies(GSimpleAction *action, GVariant *parameter, gpointer data
   sb_study_window_open(GTK_WINDOW(data), SB_WINDOW(data)->session);
 }
 
+// GTK does not give back all of an overview of shortcuts: one serves all windows, made when it is
+// first asked for.
+static void on_shortcuts(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  static GtkWidget *overview;
+  if (overview == NULL) {
+    g_autoptr(GtkBuilder) builder = gtk_builder_new_from_resource("/org/sealbench/ui/shortcuts.ui");
+    overview = GTK_WIDGET(gtk_builder_get_object(builder, "help_overlay"));
+    g_object_add_weak_pointer(G_OBJECT(overview), (gpointer *)&overview);
+    g_signal_connect(overview, "delete-event", G_CALLBACK(gtk_widget_hide_on_delete), NULL);
+  }
+  gtk_window_set_transient_for(GTK_WINDOW(overview), GTK_WINDOW(data));
+  gtk_window_present(GTK_WINDOW(overview));
+}
+
 // Asks about unsaved changes on the way.
 static void on_close(GSimpleAction *action, GVariant *parameter, gpointer data) {
   gtk_window_close(GTK_WINDOW(data));
@@ -499,6 +513,7 @@ static void sb_window_init(SbWindow *window) {
       {.name = "export", .activate = on_export},
       {.name = "studies", .activate = on_studies},
       {.name = "close", .activate = on_close},
+      {.name = "show-help-overlay", .activate = on_shortcuts},
       {.name = "copy-table", .activate = on_copy_table},
       {.name = "pin", .state = "false", .change_state = on_pin},
       {.name = "auto-run", .state = "true", .change_state = on_auto_run},
@@ -541,10 +556,6 @@ static void sb_window_init(SbWindow *window) {
   window->files = sb_window_files_new_for(GTK_WINDOW(window), window->session,
                                           GTK_MENU_BUTTON(window->recent_button));
   window->autosave = sb_autosave_new(window->session, GTK_WINDOW(window));
-  g_autoptr(GtkBuilder) builder = gtk_builder_new_from_resource("/org/sealbench/ui/shortcuts.ui");
-  gtk_application_window_set_help_overlay(
-      GTK_APPLICATION_WINDOW(window),
-      GTK_SHORTCUTS_WINDOW(gtk_builder_get_object(builder, "help_overlay")));
 
   g_signal_connect(window->strip_button, "clicked", G_CALLBACK(on_strip_button), window);
   g_signal_connect(window, "key-press-event", G_CALLBACK(on_key), NULL);

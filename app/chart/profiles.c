@@ -431,7 +431,9 @@ static void film_chart(Small *s) {
                             {left_px + 4, sigma_y + 15, SB_LEFT}},
                 4);
   }
-  if (s->y.lo < SB_CONTINUUM_LIMIT && !*s->band_named) {
+  // A name needs a band that can be seen: a film well above it leaves a sliver at the bottom.
+  double band = bottom - sb_axis_at(&s->y, SB_CONTINUUM_LIMIT);
+  if (band >= 8 && !*s->band_named) {
     SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_WARN);
     double y = fmin(sb_axis_at(&s->y, SB_CONTINUUM_LIMIT) + 13, bottom - 5);
     // Once is enough: both charts share the scale. Over a curve only if there is no other way.
