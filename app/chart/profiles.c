@@ -159,8 +159,9 @@ static void asperity_share(Small *s, const SbContactCurve *curve, double left, d
     sb_labels_avoid(s->labels, p, n, 1);
     SbTextStyle style = {SB_TYPE_NOTE, 400, s->color, 1};
     // Low over the axis the curve's foot and the width's figure are in the way: beside it there.
-    bool low = p[top].y > s->plot.y + s->plot.height - 24;
-    const SbPlace places[] = {{p[n - 1].x + 8, p[top].y, SB_LEFT},
+    double bottom = s->plot.y + s->plot.height;
+    bool low = p[top].y > bottom - 24;
+    const SbPlace places[] = {{p[n - 1].x + 8, fmin(p[top].y, bottom - 7), SB_LEFT},
                               {p[top].x, p[top].y - 6, SB_MIDDLE},
                               {p[top].x, p[top].y + 14, SB_MIDDLE},
                               {p[n - 1].x + 8, p[top].y, SB_LEFT}};
