@@ -72,6 +72,49 @@ static void test_honest(void) {
   }
 }
 
+// Contacts of a twentieth and a fifth of the section, and one that the fluid widens: the profile is
+// the smooth one that has the load, and the estimate holds against a finer mesh.
+static void test_narrow(void) {
+  static const struct {
+    double squeeze, stretch, poisson, pressure;
+  } CASE[] = {{0.02, 0.03, 0.4999, 0.0}, {0.1, 0.155, 0.49, 0.0}, {0.12, 0.18, 0.49, 0.13e6}};
+  for (size_t i = 0; i < G_N_ELEMENTS(CASE); i++) {
+    SbRingBody body = {.section_diameter = 1.61e-3,
+                       .inner_diameter = 2.84e-3,
+                       .modulus = 2.5e6,
+                       .poisson_ratio = CASE[i].poisson};
+    SbRingLoad load = SB_RING_LOAD_INIT;
+    load.floor_radius = 1.42e-3 * (1.0 + CASE[i].stretch);
+    load.bore_radius = load.floor_radius + 1.61e-3 * (1.0 - CASE[i].squeeze);
+    load.wall_right = 1e-3;
+    load.pressure_left = CASE[i].pressure;
+    SbRing *ring = NULL;
+    SbRingResult r, fine;
+    SbRingError error;
+    SbReport report = {0};
+    SbWarnings warnings = {0};
+    g_assert_cmpint(sb_ring_fit(&ring, &r, &error, &body, &load, 1e-3, NULL, &warnings, &report),
+                    ==, SB_OK);
+    g_assert_cmpuint(warnings.count, ==, 0);
+    double x[512], p[512], sum = 0.0;
+    int n = sb_ring_profile(ring, x, p, NULL, 512);
+    for (int k = 1; k < n; k++) {
+      sum += 0.5 * (p[k] + p[k - 1]) * (x[k] - x[k - 1]);
+    }
+    sb_ring_destroy(ring);
+    double whole = 2.0 * G_PI * load.bore_radius * sum;
+    g_assert_cmpfloat(fabs(whole / r.bore_force - 1.0), <, 1e-3);
+    SbRingOptions options = {.element_size = 0.012, .fit_mesh = true};
+    g_assert_cmpint(sb_ring_create(&ring, &body, &load, &options, &report), ==, SB_OK);
+    sb_ring_result(ring, &fine);
+    sb_ring_destroy(ring);
+    double off = fabs(r.bore_force / fine.bore_force - 1.0);
+    g_test_message("%.4f N, profile %+.1e, error %.1e (%.1e)", r.bore_force,
+                   whole / r.bore_force - 1.0, off, error.load);
+    g_assert_cmpfloat(off, <=, 3.0 * error.load);
+  }
+}
+
 static void test_no_contact(void) {
   SbRingBody body = {.section_diameter = 1.61e-3,
                      .inner_diameter = 2.84e-3,
@@ -144,6 +187,7 @@ static void test_open(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/ring-fit/honest", test_honest);
+  g_test_add_func("/ring-fit/narrow", test_narrow);
   g_test_add_func("/ring-fit/no-contact", test_no_contact);
   g_test_add_func("/ring-fit/open", test_open);
   return g_test_run();

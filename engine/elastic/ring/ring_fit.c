@@ -5,7 +5,8 @@
 // estimate is a share of the last change, but never below a floor measured against much finer
 // meshes over squeeze 10-40 %, pressure 0-2 MPa at E = 2.5 MPa (tests/engine/test_ring_fit.c): the
 // contact ends cost least where nothing presses on them, and under pressure the load moves with the
-// place of its end, in proportion to p/E.
+// place of its end, in proportion to p/E or, with little squeeze, to the share of the load that the
+// fluid bears.
 #include "engine/elastic/ring/ring_private.h"
 
 #include <math.h>
