@@ -43,7 +43,7 @@ typedef enum {
       SB_FILM_MODEL_COUNT
 } SbFilmModel;
 
-enum { SB_FILM_POINTS = 6200 }; // capacity of a profile
+enum { SB_FILM_POINTS = 7800 }; // capacity of a profile
 
 // Least film over radius from which on the parabola misses the cylinder by more than some 5 % of
 // the film; a warning says so.

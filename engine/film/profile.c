@@ -156,7 +156,7 @@ static void fill_piece(Piece *out, SbFilmSolver *solver, int which, const SbReyn
 static int cut_pieces(Piece *out, SbFilmSolver *solver, int which, const SbReynoldsCase *problem,
                       const double *excess, double begin, double end) {
   // Films this flat keep their polynomial: see the head of the file.
-  static const double FLAT = 0.02;
+  static const double FLAT = 0.03;
   static const double GROWTH = 4.0;
   const SbHpMesh *mesh = &solver->mesh[which];
   const SbReynoldsState *state = &solver->state[which];
