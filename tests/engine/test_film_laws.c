@@ -149,6 +149,8 @@ static void test_inverse(void) {
   g_assert_cmpuint(film.points, >=, 400);
   g_assert_true(film.valid);
   g_assert_cmpuint(film.warnings.count, ==, 0);
+  g_assert_true(film.ruptured);
+  close_to(film.position_rupture, b, 1e-12);
   for (size_t i = 1; i + 1 < film.points; i++) {
     double X = film.x[i] / b;
     if (fabs(X) > 0.95) {

@@ -24,6 +24,47 @@ static void test_catalogue(void) {
   g_assert_cmpint(sb_param_find("no.such"), ==, -1);
 }
 
+// A choice's name leads back to its number, and no name stands twice in a list.
+static void test_choices(void) {
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    int count = sb_param_choice_count(param);
+    g_assert_true((count > 0) == (param->choices != NULL));
+    for (int k = 0; k < count; k++) {
+      char name[64];
+      sb_param_choice_name(param, k, name, sizeof name);
+      g_assert_cmpint(sb_param_choice(param, name, strlen(name)), ==, k);
+    }
+    g_assert_cmpint(sb_param_choice(param, "no such", 7), ==, -1);
+  }
+}
+
+// A life of some actuations is of motions that can repeat, others are refused by its key.
+static void test_life_motions(void) {
+  static const struct {
+    SbModelMotion motion;
+    bool allowed;
+  } cases[] = {{SB_MODEL_MOTION_QUASI_STATIC, true},
+               {SB_MODEL_MOTION_DYNAMIC, true},
+               {SB_MODEL_MOTION_RIG, false},
+               {SB_MODEL_MOTION_BODIES, false}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    SbParams params;
+    sb_params_init(&params);
+    sb_params_set(&params, SB_P_MODELS_MOTION, cases[i].motion, NULL);
+    sb_params_set(&params, SB_P_LIFE_ACTUATIONS, 3, NULL);
+    SbModel model;
+    SbProblems problems;
+    bool good = sb_model_compile(&model, &params, &problems) == SB_OK;
+    g_assert_true(good == cases[i].allowed);
+    bool named = false;
+    for (size_t k = 0; !good && k < problems.count; k++) {
+      named = named || strcmp(problems.item[k].key, "life.actuations") == 0;
+    }
+    g_assert_true(named == !good);
+  }
+}
+
 static void test_overrides(void) {
   SbParams params;
   sb_params_init(&params);
@@ -161,6 +202,8 @@ static void test_gland(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/model/catalogue", test_catalogue);
+  g_test_add_func("/model/choices", test_choices);
+  g_test_add_func("/model/life-motions", test_life_motions);
   g_test_add_func("/model/overrides", test_overrides);
   g_test_add_func("/model/derived", test_derived);
   g_test_add_func("/model/problems", test_problems);
