@@ -31,6 +31,11 @@ static void test_bodies(void) {
   g_assert_cmpuint(bodies->joints, ==, SB_VALVE_JOINTS);
   g_assert_cmpfloat(bodies->acceleration_error, <, 1e-12);
   assert_near(bodies->moving_mass, 3.73e-3 + 6.46e-6 + 1e-10, 1e-15);
+  double least[SB_VALVE_JOINTS], most[SB_VALVE_JOINTS];
+  for (int k = 0; k < SB_VALVE_JOINTS; k++) {
+    least[k] = INFINITY;
+    most[k] = -INFINITY;
+  }
   for (size_t i = 0; i < count; i++) {
     const SbReaction *joint = sb_run_reactions(full_form, i);
     const SbFrame *f = &b[i];
@@ -55,7 +60,13 @@ static void test_bodies(void) {
     for (int k = 0; k < SB_VALVE_JOINTS; k++) {
       assert_near(hypot(joint[k].force[1], joint[k].force[2]), 0, 1e-12);
       assert_near(hypot(joint[k].torque[1], joint[k].torque[2]), 0, 1e-12);
+      least[k] = fmin(least[k], joint[k].force[0]);
+      most[k] = fmax(most[k], joint[k].force[0]);
     }
+  }
+  for (int k = 0; k < SB_VALVE_JOINTS; k++) {
+    g_assert_cmpfloat(bodies->joint[k].axial_min, ==, least[k]);
+    g_assert_cmpfloat(bodies->joint[k].axial_max, ==, most[k]);
   }
   sb_run_destroy(reduced);
   sb_run_destroy(full_form);
