@@ -108,6 +108,21 @@ static void test_dry(void) {
   g_assert_cmpstr(film.warnings.item[0].code, ==, "film-zero-speed");
 }
 
+// The gap beside a dry Hertz contact against its integral of sqrt(X^2 - 1), with X = 1 + w^2.
+static void test_dry_gap(void) {
+  g_assert_cmpfloat(sb_film_dry_gap(0.5), ==, 0);
+  for (double t = 1e-9; t < 30; t *= 3) {
+    enum { PANELS = 400 };
+    double h = sqrt(t) / PANELS, sum = 0;
+    for (int i = 0; i <= PANELS; i++) {
+      double w = i * h;
+      sum += (i == 0 || i == PANELS ? 1 : i % 2 == 1 ? 4 : 2) * 2 * w * w * sqrt(2 + w * w);
+    }
+    close_to(sb_film_dry_gap(1 + t), sum * h / 3, 1e-6);
+    g_assert_cmpfloat(sb_film_dry_gap(-1 - t), ==, sb_film_dry_gap(1 + t));
+  }
+}
+
 static void test_refusals(void) {
   SbFilm film;
   SbReport report;
@@ -181,6 +196,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/laws/rigid", test_rigid);
   g_test_add_func("/film/laws/direction", test_direction);
   g_test_add_func("/film/laws/dry", test_dry);
+  g_test_add_func("/film/laws/dry-gap", test_dry_gap);
   g_test_add_func("/film/laws/refusals", test_refusals);
   g_test_add_func("/film/laws/inverse", test_inverse);
   return g_test_run();
