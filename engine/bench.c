@@ -108,14 +108,27 @@ static SbStatus run_film(SbBenchCase *out, const Case *c, SbReport *report) {
   problem.tolerance = c->tolerance;
   SbStatus status = sb_film_solve(film, &problem, NULL, report);
   double unit = R * sqrt(2 * U);
-  out->error = fmax(relative(film->film_min / unit, c->expected[0]),
-                    fmax(relative(film->film_central / unit, c->expected[1]),
-                         relative(film->film_flux / unit, c->expected[2])));
+  double figure[3] = {film->film_min / unit, film->film_central / unit, film->film_flux / unit};
+  out->wall_s = film->solver.wall_s;
   out->unknowns = film->solver.unknowns;
   out->iterations = (size_t)film->solver.newton_iterations;
   out->error_estimate = fmax(film->solver.error_film_min,
                              fmax(film->solver.error_film_central, film->solver.error_film_flux));
   snprintf(out->name, sizeof out->name, "M = %g, tolerance %g", c->parameter, c->tolerance);
+  // Errors are smaller than those of the reference: where the finest solution agrees with it, that
+  // is what the others are measured by. No error is known of a solution on the finest mesh itself.
+  const double reference_error = 1e-6;
+  if (status == SB_OK && report != NULL) {
+    problem.tolerance = 1e-8;
+    bool finest = sb_film_solve(film, &problem, NULL, NULL) == SB_OK;
+    double best[3] = {film->film_min / unit, film->film_central / unit, film->film_flux / unit};
+    out->error = 0;
+    for (int i = 0; i < 3; i++) {
+      bool agrees = finest && relative(best[i], c->expected[i]) < reference_error;
+      out->error = fmax(out->error, relative(figure[i], agrees ? best[i] : c->expected[i]));
+    }
+    out->error = out->error > 0 ? out->error : NAN;
+  }
   free(film);
   return status;
 }
@@ -296,7 +309,8 @@ SbStatus sb_bench_run(SbBenchCase *out, size_t index, int repeats, const SbBench
   const Case *c = &cases[index];
   *out = (SbBenchCase){.error = NAN, .error_estimate = NAN, .order = NAN};
   snprintf(out->solver, sizeof out->solver, "%s", solver_name(c));
-  SbStatus status = run_once(out, c, report);
+  SbReport first = {0};
+  SbStatus status = run_once(out, c, report != NULL ? report : &first);
   if (status != SB_OK) {
     out->error = NAN;
     return status;
@@ -313,10 +327,11 @@ SbStatus sb_bench_run(SbBenchCase *out, size_t index, int repeats, const SbBench
   qsort(wall, (size_t)n, sizeof *wall, compare);
   out->wall_s = wall[n / 2];
 
-  // Order between two meshes of one case.
+  // Order between two meshes of one case, where the digits of the ring's reference show one.
+  const double resolved = c->kind == RING ? 1e-4 : 0;
   if (previous != NULL && index > 0 && cases[index - 1].kind == c->kind &&
       cases[index - 1].parameter == c->parameter && out->unknowns != previous->unknowns &&
-      out->error > 0 && previous->error > 0) {
+      out->error > resolved && previous->error > resolved) {
     out->order = -log(out->error / previous->error) /
                  log((double)out->unknowns / (double)previous->unknowns);
   }

@@ -12,7 +12,7 @@ typedef struct {
   size_t unknowns;       // 0 for a closed form
   size_t iterations;     // Newton or other; 0 for a closed form
   double wall_s;         // median of the repeats after one warm-up
-  double error;          // relative, against the known answer
+  double error;          // relative, against the known answer; NaN if that is no better
   double error_estimate; // what the solver itself said; NaN if it says nothing
   double order; // observed against the case before: -d ln(error)/d ln(unknowns); NaN if none
 } SbBenchCase;

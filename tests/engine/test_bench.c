@@ -24,7 +24,15 @@ static void test_cases(void) {
                      : strcmp(out.solver, "ring") == 0   ? 1e-2
                      : strcmp(out.solver, "disc") == 0   ? 1e-2
                                                          : 1e-6;
-    g_assert_cmpfloat(out.error, <, allowed);
+    // A film solved on the finest mesh has no error to show.
+    bool finest = strcmp(out.solver, "reynolds") == 0 && out.error_estimate < 1e-8;
+    g_assert_true(out.error < allowed || (isnan(out.error) && finest));
+    // Honest as far as the ring's reference has digits, and an order that is one.
+    double digits = strcmp(out.solver, "ring") == 0 ? 1e-4 : 1e-15;
+    if (isfinite(out.error_estimate) && isfinite(out.error)) {
+      g_assert_cmpfloat(out.error, <=, 3 * out.error_estimate + digits);
+    }
+    g_assert_true(isnan(out.order) || out.order > 1);
     before = out;
   }
 }
