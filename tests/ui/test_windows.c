@@ -7,7 +7,7 @@
 #include <glib/gstdio.h>
 #include <malloc.h>
 
-enum { ROUNDS = 12, WARM_UP = 4 };
+enum { ROUNDS = 8, WARM_UP = 3 };
 
 static const char *const scenes[] = {"thesis-cycle", "quick-look", "sliding-plate",
                                      "part-profiles"};

@@ -1,0 +1,121 @@
+// A session under a fast hand: values change while runs go, some of them out of range or not going
+// together, runs are stopped, the playhead moves, undo and redo walk back and forth. In the end the
+// shown run is that of the values in force. Needs no display.
+#include "ui/session.h"
+
+#include <math.h>
+
+// The main loop and the frame clock for a while.
+static void turn(SbSession *session, int milliseconds) {
+  gint64 end = g_get_monotonic_time() + milliseconds * 1000;
+  while (g_get_monotonic_time() < end) {
+    while (g_main_context_iteration(NULL, FALSE)) {
+    }
+    sb_session_tick(session, g_get_monotonic_time());
+    g_usleep(1000);
+  }
+}
+
+static gboolean settled(SbSession *session) {
+  return sb_session_state(session) == SB_SESSION_DONE && !sb_session_wants_ticks(session) &&
+         !sb_session_is_stale(session, NULL, NULL);
+}
+
+// Until the newest run is done and shown.
+static void settle(SbSession *session) {
+  for (int i = 0; i < 3000 && !settled(session); i++) {
+    turn(session, 10);
+  }
+  g_assert_true(settled(session));
+}
+
+static void test_fast_edits(void) {
+  g_autoptr(SbSession) session = sb_session_new();
+  GRand *random = g_rand_new_with_seed(7);
+  sb_session_edit(session, SB_P_MODELS_FILM, "thesis");
+  sb_session_edit(session, SB_P_OUTPUT_FRAMES, "50000"); // so that most edits meet a run
+  for (int i = 0; i < 400; i++) {
+    size_t count = 0;
+    sb_session_frames(session, &count);
+    switch (g_rand_int_range(random, 0, 12)) {
+    case 0:
+      sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, "9 m");
+      break;
+    case 1: // Alone a good value, but no valve with it.
+      sb_session_edit(session, SB_P_BORE_DIAMETER, "2 mm");
+      break;
+    case 2:
+      sb_session_undo(session);
+      break;
+    case 3:
+      sb_session_redo(session);
+      break;
+    case 4:
+      sb_session_start(session);
+      break;
+    case 5:
+      sb_session_stop(session);
+      break;
+    case 6:
+      sb_session_set_playhead(session, count > 0 ? g_rand_int(random) % count : 0);
+      sb_session_step_event(session, 1);
+      break;
+    case 7:
+      sb_session_play(session, TRUE);
+      sb_session_pin(session, sb_session_pinned_name(session) == NULL);
+      break;
+    default:
+      sb_session_edit_value(session, SB_P_SEAL_SECTION_DIAMETER,
+                            g_rand_double_range(random, 1.5e-3, 1.75e-3));
+    }
+    // Mostly faster than the delay that edits wait for, at times slower.
+    turn(session, i % 10 == 9 ? 200 : 2);
+    const SbChartData *chart = sb_session_chart(session);
+    sb_session_frames(session, &count);
+    g_assert_true(count == 0 || chart->playhead < count);
+    g_free(sb_session_where(session));
+    g_free(sb_session_stale_text(session));
+  }
+  g_rand_free(random);
+
+  sb_session_play(session, FALSE);
+  sb_session_unset(session, SB_P_BORE_DIAMETER);
+  g_assert_true(sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, "1.63 mm"));
+  g_assert_cmpint(sb_session_error_count(session), ==, 0);
+  settle(session);
+  double shown = sb_run_model(sb_session_run(session))->seal[SB_OUTER].section_diameter;
+  g_assert_cmpfloat(fabs(shown - 1.63e-3), <, 1e-12);
+}
+
+// A pinned run stays with its document only.
+static void test_another_document_forgets(void) {
+  g_autoptr(SbSession) session = sb_session_new();
+  sb_session_start(session);
+  settle(session);
+  sb_session_pin(session, TRUE);
+  g_assert_nonnull(sb_session_pinned_name(session));
+  sb_session_reset(session);
+  g_assert_null(sb_session_pinned_name(session));
+  g_assert_null(sb_session_run(session));
+}
+
+// Given up in the middle of a run.
+static void test_gone_while_running(void) {
+  for (int i = 0; i < 20; i++) {
+    SbSession *session = sb_session_new();
+    sb_session_edit(session, SB_P_OUTPUT_FRAMES, "200000");
+    sb_session_start(session);
+    turn(session, i);
+    g_object_unref(session);
+    while (g_main_context_iteration(NULL, FALSE)) {
+    }
+  }
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/session/fast-edits", test_fast_edits);
+  g_test_add_func("/session/another-document-forgets", test_another_document_forgets);
+  g_test_add_func("/session/gone-while-running", test_gone_while_running);
+  return g_test_run();
+}
