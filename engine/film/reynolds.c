@@ -244,6 +244,13 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
   // The tolerance decides, whether or not the last level was reached.
   const SbReynoldsReading *r = &reading[levels - 1];
   fill(out, problem, scale, &c, r);
+  if (isfinite(supply) && !out->starved) {
+    // Flooded but for a trifle, see starve() in path.c.
+    double excess = fmax(1.0 - supply / r->film_flux, 0.0);
+    info->error_film_min += excess;
+    info->error_film_central += excess;
+    info->error_film_flux += excess;
+  }
   info->unknowns = (size_t)solver->mesh[which].dofs + 3;
   info->converged = fmax(info->error_film_min, info->error_film_central) <= problem->tolerance;
   if (info->converged) {

@@ -267,6 +267,28 @@ static void test_pressed(void) {
   g_assert_cmpint(tally.solved, ==, (int)(G_N_ELEMENTS(M) * G_N_ELEMENTS(step)));
 }
 
+// A supply of just what the contact takes floods it; a little less is told by the error estimate.
+static void test_just_flooded(void) {
+  static const double share[] = {1.0, 1.0 - 1e-6, 1.0 - 1e-5};
+  SbFilmProblem p;
+  sb_film_problem_init(&p);
+  p.modulus = 6.5725e6;
+  p.radius = 0.805e-3;
+  p.load = 850.2;
+  p.viscosity = 0.211e-3;
+  p.speed = 1e-2;
+  sb_film_solver_forget(solver);
+  g_assert_cmpint(sb_film_solve(&other, &p, solver, NULL), ==, SB_OK);
+  for (size_t i = 0; i < G_N_ELEMENTS(share); i++) {
+    p.inlet_film = 0.5 * share[i] * other.film_flux;
+    sb_film_solver_forget(solver);
+    g_assert_cmpint(sb_film_solve(&film, &p, solver, NULL), ==, SB_OK);
+    double error = fabs(film.film_flux / (share[i] * other.film_flux) - 1.0);
+    g_assert_cmpfloat(error, <=, 2.0 * film.solver.error_film_flux);
+    g_assert_cmpfloat(film.solver.error_film_min, <, 2e-5);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   if (argc > 1) {
@@ -282,6 +304,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/campaign/starved-to-rounding", test_starved_to_rounding);
   g_test_add_func("/film/campaign/kept-elements", test_kept_elements);
   g_test_add_func("/film/campaign/pressed", test_pressed);
+  g_test_add_func("/film/campaign/just-flooded", test_just_flooded);
   int failed = g_test_run();
   sb_film_solver_destroy(solver);
   return failed;
