@@ -24,6 +24,9 @@ D, INNER, E, NU, FLOOR, BORE = 1.61, 2.84, 2.5, 0.49, 1.64, 3.00
 AROUND, DEPTH, CORE = 8, 6, 0.45  # segments per quarter of the core's outline, layers, core's half side
 CLUSTER = 0.65  # how much the segments gather under the contacts
 PENALTY = 1e4  # MPa/mm
+# CalculiX turns the section into a wedge of 2 degrees, in which a straight element of a rigid ring is
+# a chord: moved outwards so that its middle stands at the ring's radius.
+CHORD = 1 / math.cos(math.radians(1))
 
 
 def section():
@@ -135,9 +138,9 @@ def write(path):
     for name in ('FLOOR', 'BORE'):
         out += ['*CONTACT PAIR, INTERACTION=SMOOTH, TYPE=SURFACE TO SURFACE', f'S{name}, M{name}']
     out += ['*BOUNDARY', 'MIDDLE, 2, 2', 'NFLOOR, 2, 2', 'NBORE, 2, 2']
-    for bore_move in (0.0, BORE - start['bore']):
-        out += ['*STEP, NLGEOM, INC=500', '*STATIC', '0.2, 1, 1e-5, 0.5', '*BOUNDARY',
-                f'NFLOOR, 1, 1, {FLOOR - start["floor"]:.10g}', f'NBORE, 1, 1, {bore_move:.10g}',
+    for bore_move in (0.0, CHORD * BORE - start['bore']):
+        out += ['*STEP, NLGEOM, INC=500', '*STATIC', '0.1, 1, 1e-5, 0.5', '*BOUNDARY',
+                f'NFLOOR, 1, 1, {CHORD * FLOOR - start["floor"]:.10g}', f'NBORE, 1, 1, {bore_move:.10g}',
                 '*NODE PRINT, NSET=NBORE, TOTALS=ONLY, FREQUENCY=1000', 'RF',
                 '*NODE PRINT, NSET=NFLOOR, TOTALS=ONLY, FREQUENCY=1000', 'RF', '*END STEP']
     with open(path, 'w') as file:
