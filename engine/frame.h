@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-// Events of the cycle; definitions in the command line's contract (README).
+// Events of the cycle; README, Definitions.
 typedef enum {
   SB_STAGE_A,
   SB_STAGE_B,
@@ -106,7 +106,6 @@ typedef struct {
   const int *outline_node;            // [outline] in order, closed by the first
   double contact_left, contact_right; // bore contact [m]; equal if there is none
   double load;                        // on the bore [N]
-  double drag_share;                  // share of the seal's friction that this equilibrium bears
 } SbSealShape;
 
 // Energy of the cycle, each term accumulated by itself [J].

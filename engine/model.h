@@ -233,7 +233,7 @@ typedef struct {
   double left, right;
 } SbSealPressure;
 
-// Where in the cycle the chamber and so the seals' pressures change (thesis/device.md, table 2).
+// Where in the cycle the chamber and so the seals' pressures change (docs/thesis.md).
 typedef enum {
   SB_CHAMBER_AT_REST, // A to C: as filled or vented before
   SB_CHAMBER_OPEN,    // C to F: open to the canister, the inner seal out of contact

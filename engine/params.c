@@ -85,11 +85,6 @@ SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *r
   return SB_OK;
 }
 
-void sb_params_unset(SbParams *params, SbParamId id) {
-  params->value[id] = table[id].fallback;
-  params->given[id] = false;
-}
-
 int sb_param_choice(const SbParam *param, const char *name, size_t length) {
   const char *start = param->choices;
   for (int i = 0; start != NULL; i++) {

@@ -63,13 +63,9 @@ void sb_params_init(SbParams *params);
 // default.
 double sb_params_get(const SbParams *params, SbParamId id);
 
-// Sets a value after checking kind and range; on failure nothing changes and the report names the
-// key and the range (in the parameter's display unit if `to_display` is 1/SI scale known to the
-// caller; the engine itself prints SI).
+// Sets a value [SI] after checking kind and range. SB_ERROR_INPUT (not a number, not whole) or
+// SB_ERROR_RANGE; then nothing changes and the report names the key and the range in SI.
 SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *report);
-
-// Back to the default (or to the parent's value).
-void sb_params_unset(SbParams *params, SbParamId id);
 
 // Index of `name` (length `length`) among the choices of a parameter, or -1.
 int sb_param_choice(const SbParam *param, const char *name, size_t length);

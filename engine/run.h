@@ -27,7 +27,7 @@ typedef struct {
   size_t frame;                     // index of the frame that sits on it
 } SbStageMark;
 
-// One seal's figures of the contract: at the middle of B-C, friction_static at B.
+// One seal's figures: at the middle of B-C, friction_static at B.
 typedef struct {
   double contact_width, contact_left, contact_right, load, load_per_length, pressure_peak;
   double film_min, film_central;

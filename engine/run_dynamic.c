@@ -33,10 +33,9 @@ typedef struct {
   bool stopped;  // the stem touches the end stop
   double turn;   // time after which a reverse slip is the return [s]
   double force_peak, leak, leak_from, leak_since;
-  double carried; // film dragged along, whichever way
-  double home;    // time at which the stem is back on its rest stop, 0: not yet
-  bool slips;     // some contact has slid
-  double last_event;
+  double carried;  // film dragged along, whichever way
+  double home;     // time at which the stem is back on its rest stop, 0: not yet
+  bool slips;      // some contact has slid
   SbStatus status; // of the frames' reactions
   SbReport *report;
 } Recorder;
@@ -136,7 +135,6 @@ static bool rubs(const Recorder *r) {
 static void valve_event(const SbMotionEvent *event, void *user) {
   Recorder *r = user;
   SbValve *valve = r->valve;
-  r->last_event = event->time;
   r->force_peak = fmax(r->force_peak, event->drive_force);
   switch (event->kind) {
   case SB_MOTION_SLIP:

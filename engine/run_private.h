@@ -6,7 +6,6 @@
 #include "engine/run.h"
 
 enum {
-  SB_RUN_MOTIONS = 3, // sliding in, sliding out, at rest
   SB_RUN_REST = 2,
   SB_RUN_PROFILE_SLOTS = SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
   // Room for frames that sit on events, and for those of a motion that outlasts its drive.
@@ -26,7 +25,6 @@ typedef struct {
 } SbRunProfile;
 
 enum {
-  SB_RUN_EDGES = 24, // places of the land's edge over the inner seal
   SB_RUN_SHAPE_FREE = SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
   SB_RUN_SHAPE_EDGE = SB_RUN_SHAPE_FREE + 1,
   SB_RUN_SEAL_SHAPES = SB_RUN_SHAPE_EDGE + SB_RUN_EDGES,

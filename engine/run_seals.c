@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static double film_by(const SbRun *run, int seal, const SbSliding *state, SbFilmModel film_model) {
+static double film_by(SbRun *run, int seal, const SbSliding *state, SbFilmModel film_model) {
   SbFilmProblem problem;
   SbFilm *film = calloc(1, sizeof *film);
   double central = NAN;
@@ -14,6 +14,7 @@ static double film_by(const SbRun *run, int seal, const SbSliding *state, SbFilm
     SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, SB_CHAMBER_AT_REST);
     sb_sliding_film_problem(&problem, &run->model, seal, pressure, state->load_net, run->speed);
     problem.model = film_model;
+    run->summary.counters.reynolds_solves += film_model == SB_FILM_REYNOLDS;
     if (sb_film_solve(film, &problem, NULL, NULL) == SB_OK) {
       central = film->film_central;
     }

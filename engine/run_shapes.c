@@ -72,7 +72,7 @@ uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int m
 
 // Copies the present state of a ring into a slot.
 static SbStatus keep(SbRun *run, uint32_t index, const SbRing *ring, double floor_radius,
-                     double drag_share, SbReport *report) {
+                     SbReport *report) {
   int nodes;
   int triangles;
   int outline;
@@ -120,7 +120,6 @@ static SbStatus keep(SbRun *run, uint32_t index, const SbRing *ring, double floo
       .contact_left = result.touching ? result.contact_left : 0,
       .contact_right = result.touching ? result.contact_right : 0,
       .load = result.bore_force,
-      .drag_share = drag_share,
   };
   for (int f = 0; f < SB_FIELD_COUNT; f++) {
     shape->view.field[f] = shape->floats + (size_t)f * n;
@@ -203,7 +202,7 @@ static SbStatus solve_dragged(SbRun *run, int seal, SbChamber chamber, Poll *hoo
     }
     if (status == SB_OK) {
       status = keep(run, slot(seal, (int)chamber * SB_RUN_MOTIONS + order[i]), ring,
-                    load.floor_radius, share, report);
+                    load.floor_radius, report);
     }
     sb_ring_destroy(ring);
     if (status != SB_OK) {
@@ -225,7 +224,7 @@ static SbStatus solve_free(SbRun *run, Poll *hooks, double *end, SbReport *repor
   run->summary.counters.ring_solves++;
   uint32_t index = slot(SB_INNER, SB_RUN_SHAPE_FREE);
   if (status == SB_OK) {
-    status = keep(run, index, ring, load.floor_radius, 1, report);
+    status = keep(run, index, ring, load.floor_radius, report);
   }
   sb_ring_destroy(ring);
   if (status != SB_OK) {
@@ -267,7 +266,7 @@ static SbStatus solve_edge(SbRun *run, Poll *hooks, SbReport *report) {
     double share;
     status = step(run, ring, &from, &edged, &share, report);
     if (status == SB_OK && share > 0.999) {
-      status = keep(run, slot(SB_INNER, SB_RUN_SHAPE_EDGE + i), ring, load.floor_radius, 1, report);
+      status = keep(run, slot(SB_INNER, SB_RUN_SHAPE_EDGE + i), ring, load.floor_radius, report);
     }
   }
   sb_ring_destroy(ring);

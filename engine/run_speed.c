@@ -9,8 +9,8 @@
 // with the thesis' closed forms.
 //
 // Around that speed a frame's film follows its own speed by the law's exponent (equations 7.5, 7.6;
-// 0.6 for solved films, audit 1), and the viscous force is linear in the speed. Left out: that the
-// boundary share, too, falls a little where the stem is faster than there.
+// 0.6 for solved films, docs/thesis.md, 3), and the viscous force is linear in the speed. Left out:
+// that the boundary share, too, falls a little where the stem is faster than there.
 #include "engine/run_private.h"
 
 #include <math.h>

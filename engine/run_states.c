@@ -206,11 +206,12 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
       }
     }
   }
-  summary->counters.fit_solves = counts.fit_solves;
-  summary->counters.disc_solves = counts.disc_solves;
-  summary->counters.ring_solves = counts.ring_solves;
-  summary->counters.reynolds_solves = counts.reynolds_solves;
-  summary->newton_iterations = counts.newton_iterations;
+  // Added up over the rounds of a run that looks for its own speed.
+  summary->counters.fit_solves += counts.fit_solves;
+  summary->counters.disc_solves += counts.disc_solves;
+  summary->counters.ring_solves += counts.ring_solves;
+  summary->counters.reynolds_solves += counts.reynolds_solves;
+  summary->newton_iterations += counts.newton_iterations;
   return worst;
 }
 

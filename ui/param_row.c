@@ -358,10 +358,6 @@ void sb_param_row_refresh(SbParamRow *row) {
   row->refreshing = FALSE;
 }
 
-SbParamId sb_param_row_id(SbParamRow *row) {
-  return row->id;
-}
-
 static gboolean contains(const char *text, const char *needle) {
   g_autofree char *folded = g_utf8_casefold(text, -1);
   return strstr(folded, needle) != NULL;

@@ -13,8 +13,6 @@ G_DECLARE_FINAL_TYPE(SbParamRow, sb_param_row, SB, PARAM_ROW, GtkBox)
 // get one width.
 GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fields);
 
-SbParamId sb_param_row_id(SbParamRow *row);
-
 // Shows the value in force, the error, and what may be edited.
 void sb_param_row_refresh(SbParamRow *row);
 

@@ -105,7 +105,6 @@ void sb_session_start(SbSession *session);
 void sb_session_stop(SbSession *session);
 
 // Whether edits start runs by themselves.
-gboolean sb_session_auto_run(SbSession *session);
 void sb_session_set_auto_run(SbSession *session, gboolean on);
 
 // The shown run and how many of its frames are there; NULL if nothing is shown. Borrowed until the
@@ -140,18 +139,13 @@ const SbChartData *sb_session_chart(SbSession *session);
 // did.
 const char *sb_session_failure(SbSession *session);
 
-// The playhead
-// ---------------------------------------------------------------------------------------
+// The playhead -----------------------------------------------------------------------------------
 
-// Index of the shown frame; 0 if there are none.
-size_t sb_session_playhead(SbSession *session);
+// Shows a frame by its index, or the last one.
 void sb_session_set_playhead(SbSession *session, size_t frame);
 
 // The shown frame, or NULL.
 const SbFrame *sb_session_frame(SbSession *session);
-
-// Frame nearest to a time [s] of the shown run.
-size_t sb_session_frame_at(SbSession *session, double time);
 
 // Moves by frames, or to the next or previous event.
 void sb_session_step(SbSession *session, int frames);
@@ -163,7 +157,6 @@ gboolean sb_session_loops(SbSession *session);
 void sb_session_set_loops(SbSession *session, gboolean on);
 
 // How long one cycle takes to play [s].
-double sb_session_play_duration(SbSession *session);
 void sb_session_set_play_duration(SbSession *session, double seconds);
 
 // To be called once per drawn frame with the frame clock's time [us]: takes over what the runner

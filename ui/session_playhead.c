@@ -6,10 +6,6 @@
 
 #include <glib/gi18n.h>
 
-size_t sb_session_playhead(SbSession *session) {
-  return session->playhead.frame;
-}
-
 const SbFrame *sb_session_frame(SbSession *session) {
   return sb_chart_frame(&session->chart);
 }
@@ -24,12 +20,6 @@ void sb_session_set_playhead(SbSession *session, size_t frame) {
   session->playhead.time = frames[session->playhead.frame].time;
   session->playhead.follows = session->playhead.frame + 1 == count;
   sb_session_playhead_changed(session);
-}
-
-size_t sb_session_frame_at(SbSession *session, double time) {
-  size_t count = 0;
-  const SbFrame *frames = sb_session_frames(session, &count);
-  return count > 0 ? sb_playhead_nearest(frames, count, time) : 0;
 }
 
 void sb_session_step(SbSession *session, int frames) {
@@ -70,10 +60,6 @@ gboolean sb_session_loops(SbSession *session) {
 
 void sb_session_set_loops(SbSession *session, gboolean on) {
   session->playhead.loops = on;
-}
-
-double sb_session_play_duration(SbSession *session) {
-  return session->playhead.duration;
 }
 
 void sb_session_set_play_duration(SbSession *session, double seconds) {

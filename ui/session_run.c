@@ -313,10 +313,6 @@ void sb_session_stop(SbSession *session) {
   }
 }
 
-gboolean sb_session_auto_run(SbSession *session) {
-  return session->auto_run;
-}
-
 void sb_session_set_auto_run(SbSession *session, gboolean on) {
   session->auto_run = on;
   if (on) {

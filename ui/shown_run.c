@@ -65,7 +65,3 @@ bool sb_shown_run_complete(const SbShownRun *shown) {
   sb_run_frames(shown->run, &published);
   return sb_trace_frames(shown->trace) >= published;
 }
-
-const SbSummary *sb_shown_run_summary(const SbShownRun *shown) {
-  return sb_run_handle_is_done(shown->handle) ? sb_run_summary(shown->run) : NULL;
-}

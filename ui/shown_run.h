@@ -25,8 +25,5 @@ void sb_shown_run_unref(SbShownRun *shown); // takes NULL
 // Reads frames that were published since; at most `limit` of them. True if there were any.
 bool sb_shown_run_update(SbShownRun *shown, size_t limit);
 
-// The summary once the run has ended, else NULL. Borrowed.
-const SbSummary *sb_shown_run_summary(const SbShownRun *shown);
-
 // True if the trace has caught up with the frames.
 bool sb_shown_run_complete(const SbShownRun *shown);

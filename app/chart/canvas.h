@@ -1,5 +1,5 @@
 // Drawing on a cairo context in the look's terms: text by pango, thinned polylines, arrowheads,
-// dots, dimension lines, panels. One SbCanvas serves one drawing call.
+// dots, panels. One SbCanvas serves one drawing call.
 #pragma once
 
 #include "app/chart/theme.h"
@@ -72,9 +72,6 @@ double sb_canvas_paragraph(SbCanvas *canvas, const char *text, const SbTextStyle
 // Background of a panel: rounded, hairline.
 void sb_canvas_panel(SbCanvas *canvas, SbRect rect);
 void sb_canvas_rounded(SbCanvas *canvas, SbRect rect, double radius);
-
-// Text box of `label` size is `height` above the baseline by this factor of the type size.
-#define SB_CAP_HEIGHT 0.727
 
 // Horizontal or vertical line of one logical pixel, on the pixel grid.
 void sb_canvas_hairline(SbCanvas *canvas, double x0, double y0, double x1, double y1,

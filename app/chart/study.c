@@ -118,7 +118,7 @@ static Look series_look(const SbStudy *study, const SbStudySeries *series) {
                   dashes[index % (int)G_N_ELEMENTS(dashes)]};
   }
   if (series->style == SB_STUDY_DOTS) {
-    return (Look){index % 2 == 0 ? SB_ROLE_INK : SB_ROLE_VIOLET, 1.6, NULL};
+    return (Look){solved[index % (int)G_N_ELEMENTS(solved)], 1.6, NULL};
   }
   return (Look){solved[index % (int)G_N_ELEMENTS(solved)],
                 index == 0 ? SB_LINE_ACTIVE : SB_LINE_SEAL,

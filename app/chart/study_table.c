@@ -31,6 +31,10 @@ static void cell_text(char *out, const SbStudyColumn *column, const SbStudyRow *
     g_snprintf(out, SB_FORMAT_MAX, "%s\xc2\xb7%s", mantissa, power);
     return;
   }
+  if (column->digits == 0) {
+    sb_format_fixed(out, shown, 0);
+    return;
+  }
   bool difference = strstr(column->name, "against") != NULL;
   char digits[SB_FORMAT_MAX];
   sb_format_digits(digits, shown, column->digits);

@@ -54,7 +54,6 @@ typedef struct {
 #define SB_TYPE_NOTE         11.0
 
 // Grid.
-#define SB_GRID_UNIT    8.0
 #define SB_GRID_MARGIN  32.0
 #define SB_GRID_PADDING 20.0
 #define SB_GRID_GUTTER  24.0
@@ -67,7 +66,6 @@ typedef struct {
 #define SB_LINE_FRAME   1.4
 #define SB_LINE_FUTURE  1.6
 #define SB_LINE_PINNED  1.4
-#define SB_LINE_GRID    1.0
 
 // Opacity of the part of a curve that is still to be played, and of an earlier run while a new one
 // is being computed.

@@ -40,7 +40,7 @@ typedef struct {
 
 SbTraceRange sb_trace_range(const SbTrace *trace);
 
-// Events met so far, by the contract's definition (just before the event).
+// Events met so far, just before each event.
 const SbStageMark *sb_trace_marks(const SbTrace *trace);
 
 // Peaks of a rig's force met so far, the first peak first, at most SB_TRACE_PEAKS_MAX; borrowed

@@ -1,5 +1,6 @@
 // sealbench bench: error against time for every solver, by the engine's cases with known answers.
 #include "app/cli/cli.h"
+#include "app/export/bench_page.h"
 #include "app/export/json.h"
 
 #include "engine/bench.h"
@@ -73,12 +74,34 @@ static int run_cases(SbBenchCase *cases, size_t count, size_t *done, int repeats
   return code;
 }
 
+// bench.json and its picture. Returns an exit code.
+static int write_folder(const char *folder, const char *json, const SbBenchCase *cases,
+                        size_t count) {
+  if (g_mkdir_with_parents(folder, 0777) != 0) {
+    sb_cli_fail("%s: %s", folder, g_strerror(errno));
+    return SB_EXIT_IO;
+  }
+  g_autofree char *path = g_build_filename(folder, "bench.json", NULL);
+  int code = sb_cli_emit(json, path);
+  if (code != SB_EXIT_DONE) {
+    return code;
+  }
+  g_autofree char *picture = g_build_filename(folder, "bench.png", NULL);
+  g_autoptr(GError) error = NULL;
+  if (!sb_bench_still(cases, count, picture, &error)) {
+    sb_cli_fail("%s", error->message);
+    return SB_EXIT_IO;
+  }
+  return SB_EXIT_DONE;
+}
+
 int sb_command_bench(int argc, char **argv) {
   char *folder = NULL;
   char *target = NULL;
   gboolean quick = FALSE;
   const GOptionEntry entries[] = {
-      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &folder, "Folder for bench.json", "DIR"},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &folder, "Folder for bench.json and bench.png",
+       "DIR"},
       {"quick", 0, 0, G_OPTION_ARG_NONE, &quick, "Times each case once, without progress", NULL},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
       {0},
@@ -93,15 +116,7 @@ int sb_command_bench(int argc, char **argv) {
     sb_cli_catch_interrupts();
     code = run_cases(cases, count, &done, repeats, quick);
     char *json = to_json(cases, done);
-    int written = SB_EXIT_DONE;
-    if (folder != NULL && g_mkdir_with_parents(folder, 0777) != 0) {
-      sb_cli_fail("%s: %s", folder, g_strerror(errno));
-      written = SB_EXIT_IO;
-    } else if (folder != NULL) {
-      char *path = g_build_filename(folder, "bench.json", NULL);
-      written = sb_cli_emit(json, path);
-      g_free(path);
-    }
+    int written = folder != NULL ? write_folder(folder, json, cases, done) : SB_EXIT_DONE;
     if (written == SB_EXIT_DONE && target != NULL) {
       written = sb_cli_emit(json, target);
     } else if (written == SB_EXIT_DONE) {

@@ -57,11 +57,10 @@ static void list_models(void) {
       g_free(range);
     }
   }
-  printf("%-16s ", "film --model");
+  printf("Of the command film (--model)\n");
   for (int i = 0; i < SB_FILM_MODEL_COUNT; i++) {
-    printf("%s%s", i > 0 ? ", " : "", sb_film_model_name((SbFilmModel)i));
+    printf("%-16s %s\n", sb_film_model_name((SbFilmModel)i), sb_film_model_help((SbFilmModel)i));
   }
-  printf("\n");
 }
 
 static char *views_json(void) {
@@ -139,15 +138,35 @@ done:
 
 // ---- plan ----
 
+// "below 1 ms", "15 ms", "12 s".
+static void cost_text(char *text, size_t size, double seconds) {
+  char digits[SB_NUMBER_SIZE];
+  if (seconds < 1e-3) {
+    g_strlcpy(text, "below 1 ms", size);
+  } else if (seconds < 1) {
+    g_snprintf(text, size, "%s ms", sb_number_round(digits, 1e3 * seconds, 2));
+  } else {
+    g_snprintf(text, size, "%s s", sb_number_round(digits, seconds, 2));
+  }
+}
+
 static void print_plan(const SbPlan *plan) {
+  char cost[40];
+  double total = 0;
   printf("Computed\n");
   for (size_t i = 0; i < plan->field_count; i++) {
     const SbPlanItem *item = &plan->field[i];
-    char cost[SB_NUMBER_SIZE];
     char error[SB_NUMBER_SIZE];
-    printf("  %s by %s: %s (about %s s, error %s)\n", item->name, item->model, item->reason,
-           sb_number_round(cost, item->cost_s, 2), sb_number_round(error, item->error, 2));
+    cost_text(cost, sizeof cost, item->cost_s);
+    printf("  %s by %s: %s (%s", item->name, item->model, item->reason, cost);
+    if (item->error > 0) {
+      printf(", error about %s %%", sb_number_round(error, 100 * item->error, 2));
+    }
+    printf(")\n");
+    total += item->cost_s;
   }
+  cost_text(cost, sizeof cost, total);
+  printf("  together %s on one core, within a factor of two or three\n", cost);
   printf("Skipped\n");
   for (size_t i = 0; i < plan->skipped_count; i++) {
     printf("  %s: %s\n", plan->skipped[i].name, plan->skipped[i].reason);

@@ -1,4 +1,4 @@
-// How long a solve takes: the contract's median of 20 after one warm-up, within a time budget.
+// How long a solve takes: the median of 20 after one warm-up, within a time budget.
 #pragma once
 
 #include "engine/status.h"

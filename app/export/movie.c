@@ -69,7 +69,6 @@ static SbStatus draw_all(Pipe *line, size_t frames, SbMovieDraw draw, void *draw
     if (hooks != NULL && hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
       return sb_fail(report, SB_ERROR_CANCELLED, "cancelled after %zu of %zu pictures", i, frames);
     }
-    double begin = seconds();
     pthread_mutex_lock(&line->lock);
     while (line->drawn - line->encoded == ROW && line->status == SB_OK) {
       pthread_cond_wait(&line->changed, &line->lock);
@@ -79,11 +78,9 @@ static SbStatus draw_all(Pipe *line, size_t frames, SbMovieDraw draw, void *draw
     if (!good) {
       return SB_OK; // the encoder's own failure is reported by the caller
     }
-    double middle = seconds();
+    double begin = seconds();
     SbStatus status = draw(draw_data, i, line->picture[i % ROW], line->stride, report);
-    double end = seconds();
-    result->wait_s += middle - begin;
-    result->draw_s += end - middle;
+    result->draw_s += seconds() - begin;
     if (status != SB_OK) {
       return status;
     }

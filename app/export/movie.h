@@ -39,10 +39,10 @@ typedef struct {
 
 // What became of it, and where the time went.
 typedef struct {
-  size_t frames;                 // in the file
-  bool partial;                  // cancelled before the last one
-  double wall_s, draw_s, wait_s; // this thread: all, drawing, waiting for the encoder
-  double convert_s, encode_s;    // the encoder's thread
+  size_t frames;              // in the file
+  bool partial;               // cancelled before the last one
+  double wall_s, draw_s;      // this thread: all of it, drawing
+  double convert_s, encode_s; // the encoder's thread
 } SbMovieResult;
 
 // Writes the film. SB_OK; SB_ERROR_CANCELLED (a partial file is there if result->frames > 0);

@@ -1,4 +1,4 @@
-// The contract's JSON documents.
+// The results' JSON documents; see the header.
 #include "app/export/results.h"
 
 #include "app/export/json.h"
@@ -508,14 +508,13 @@ char *sb_results_params(void) {
 }
 
 char *sb_results_models(void) {
-  static const SbParamId ids[] = {SB_P_MODELS_FIT, SB_P_MODELS_FILM, SB_P_MODELS_SURFACE,
-                                  SB_P_MODELS_MOTION};
   SbJson json;
   sb_json_init(&json);
   sb_json_array(&json, NULL);
-  for (size_t i = 0; i < G_N_ELEMENTS(ids); i++) {
-    const SbParam *param = sb_param(ids[i]);
-    for (int k = 0; k < sb_param_choice_count(param); k++) {
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    for (int k = 0; g_str_has_prefix(param->key, "models.") && k < sb_param_choice_count(param);
+         k++) {
       char name[64];
       sb_param_choice_name(param, k, name, sizeof name);
       sb_json_object(&json, NULL);

@@ -1,4 +1,4 @@
-// Results as JSON documents, keys and units as the contract of the command line says.
+// Results as JSON documents, with stable keys, the unit in each.
 #pragma once
 
 #include "engine/elastic/fit.h"

@@ -8,7 +8,7 @@
 //
 // Axes: x axial, canister on the left; y radial from the axis. The housing's frame has the land
 // edge at x = 0, the land on its right. The stem's frame lies on the housing's at displacement 0: a
-// point of the stem sits at x - s. The origin of a seal's frame (the contract's x = 0) moves with
+// point of the stem sits at x - s. The origin of a seal's frame (x = 0) moves with
 // the stem. Sizes that no result depends on come from the drawing's own parameters; where those
 // contradict each other or the gland (a spacing shorter than a groove...) they are stretched to the
 // next size that can be drawn, and `adjusted` says so.

@@ -11,7 +11,7 @@
 // acts per horizontally projected width and the surface moves vertically onto the flat ("vertical",
 // depends on nu only through 1 - nu^2), or both are radial ("radial", Hertz and Michell). The gap
 // is the circle's exactly. Against finite strain at 15.5 % squeeze: load -11 % and -1.4 %, width -9
-// % and +5 %, peak -5 % and -7 % (reference/ring.md).
+// % and +5 %, peak -5 % and -7 % (docs/verification.md).
 //
 // Fluid acts normally on the open arcs up to the contact edges of the undeformed circle. The disc
 // leans on the wall, which touches it before the pressure comes, and slides frictionless. It leaves

@@ -11,7 +11,7 @@
 // C = 2 (1 - nu^2)/(pi E), kappa = 3 - 4 nu, e1 = (kappa - 1)/(kappa + 1), e2 = 1/(kappa + 1): the
 // sum of Michell's series for a disc under boundary tractions. Net force and couple are dropped, so
 // only sums over forces in equilibrium mean anything, up to a rigid motion. Two opposite vertical
-// forces give the "vertical" kernel of reference/ring.md, two opposite radial ones Hertz and
+// forces give the "vertical" kernel of docs/verification.md, two opposite radial ones Hertz and
 // Michell's.
 //
 // In Cartesian components the singular part is C (m.n) L, and with x = R sin t

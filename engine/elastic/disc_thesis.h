@@ -8,7 +8,7 @@
 // one added (6.73), met here as a complementarity problem and not by relaxation. Canister pressure
 // acts as horizontal force pairs on both flanks outside the contact (6.4.2), p R dbeta per arc. The
 // thesis leaves open how exactly; this reading is the one that fits its nine cases best
-// (reference/ring.md): loads within 2 %, peaks within 1 %, width within a node.
+// (docs/verification.md): loads within 2 %, peaks within 1 %, width within a node.
 //
 // The width is printed by the thesis as d sin(n + 1/2 deg) with the free d: quantised to 0.023 mm.
 // It leaves out the groove wall, that fluid acts normally, and finite strain; against a

@@ -1,5 +1,5 @@
 // One entrance to the contact models: checks the problem, derives the sizes that all models share
-// (definitions of the contract), calls the model and fills the common result; see the header.
+// (README, Definitions), calls the model and fills the common result; see the header.
 #include "engine/elastic/fit.h"
 
 #include <math.h>

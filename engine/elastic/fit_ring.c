@@ -4,7 +4,7 @@
 // The ring starts in the middle of its groove, so that the wall stands half the gland's width from
 // the section's centre, on the side of the lower pressure; without pressure it touches no wall. The
 // other wall is left out: a section wider than the groove is only warned about. Frictionless and
-// rigid walls, as the contract's `fit` wants; load is the bore's, over the bore's circumference.
+// rigid walls, as everywhere in `sealbench fit`; load is the bore's, over the bore's circumference.
 #include "engine/elastic/fit_models.h"
 
 #include <math.h>

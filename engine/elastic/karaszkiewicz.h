@@ -4,7 +4,7 @@
 //   cwl   = d {(2 eps + 0.13) + [0.39/(1 - eps) - (2 eps + 0.13)/2] [1 - exp(-4.6 p/E)]}    (5.2)
 //   sigma = (pi/6)(2 eps + 0.13) E + nu/(1 - nu) p                           mean pressure (5.4)
 //   w     = sigma cwl           load per length   (5.6 unpressurised, 5.7 pressurised)
-//   F     = w pi (ID + d)       load; the thesis' printed second factor pi is a slip (audit)
+//   F     = w pi (ID + d)       load; the thesis' printed second factor pi is a slip
 //   peak  = (4/pi) sigma        elliptic (Hertz) profile of that width and load
 //
 // Regression to experiments of Karaszkiewicz (1979-1990): squeeze 0.07 to 0.25. It leaves out the

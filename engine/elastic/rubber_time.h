@@ -1,18 +1,15 @@
 // How storage changes the rubber: stress relaxation, set, temperature and swell, as functions of
 // time that change the ring's sizes and modulus by themselves.
 //
-//   Relaxation   E(t)/E_0 = 1 - sum g_i (1 - exp(-t/(a_T tau_i)))          Prony series, constant
-//   strain Shift        log10 a_T = -C1 (T - T_r)/(C2 + T - T_r)                 Williams, Landel,
-//   Ferry (1955)
-//                ln a_T = (Q/R)(1/T - 1/T_r)                              Arrhenius
+//   Relaxation   E(t)/E_0 = 1 - sum g_i (1 - exp(-t/(a_T tau_i)))    Prony series, held strain
+//   Shift        log10 a_T = -C1 (T - T_r)/(C2 + T - T_r)             Williams, Landel, Ferry 1955
+//                ln a_T = (Q/R)(1/T - 1/T_r)                          Arrhenius
 //   Temperature  E ~ T/T_r (entropy elasticity), sizes x (1 + alpha (T - T_r))
-//   Network      f = exp(-k t), k by Arrhenius: the original network that is left (Tobolsky, two
-//                networks); what broke forms anew, unstrained in the squeezed shape, in the share
-//                beta
-//   Set          of the squeeze, after release: beta (1 - f)/(f + beta (1 - f)) for good, and of
-//   the
+//   Network      f = exp(-k t) of the original is left, k by Arrhenius (Tobolsky, two networks);
+//                the share beta of what broke forms anew, unstrained in the squeezed shape
+//   Set          of the squeeze, after release: beta (1 - f)/(f + beta (1 - f)) for good; of the
 //                rest what the Prony elements have not recovered yet
-//   Uptake       M/M_inf = 1 - sum 4/a_n^2 exp(-a_n^2 D t/R^2), J_0(a_n) = 0   Fick, round section
+//   Uptake       M/M_inf = 1 - sum 4/a_n^2 exp(-a_n^2 D t/R^2), J_0(a_n) = 0: Fick, round section
 //                (Crank, The Mathematics of Diffusion, 5.23)
 //   Swell        volume v = m rho_rubber/rho_fluid (additive), length (1 + v)^(1/3) - 1; modulus
 //                (1 + v)^(-1/3) (ideal network) or a given ratio at equilibrium
@@ -21,7 +18,7 @@
 // remaining network's share and the relaxation multiply the modulus, because a squeeze that is held
 // is a constant strain. Times and temperature are constants of the storage; SI units and kelvin.
 // Constants are the caller's: the thesis gives none but table 2.2 (mass after 24 h), and its text's
-// 8 % length does not agree with its 17 % mass (4.8 %; audit 2.22). Left out: swelling stress and
+// 8 % length does not agree with its 17 % mass (docs/thesis.md, 15). Left out: swelling stress and
 // slower uptake between walls, diffusion that depends on concentration, desorption, oxidation from
 // the surface.
 #pragma once

@@ -1,8 +1,8 @@
 // Film models: checks of the problem, scales, and the choice of the model.
 //
 // Scales after Hertz (line contact): b = R sqrt(8 W / pi), p_H = 2 w / (pi b), film b^2 / R (thesis
-// eq. 6.33-6.44 with the factor 8 of the audit). With them the isoviscous problem depends on lambda
-// alone. End pressures: see sb_film_dry_pressure and reference/ehl.md, "Unequal end pressures".
+// eq. 6.33-6.44 with the factor 8 of docs/thesis.md, 6). With them the isoviscous problem depends
+// on lambda alone. End pressures: see sb_film_dry_pressure and docs/verification.md.
 #include "engine/film/film.h"
 
 #include "engine/film/mixed.h"

@@ -11,7 +11,7 @@
 // ln|X - X'| = ln|X - c| - sum ((X' - c)/h)^m z^-m / m with z = (X - c)/h.
 //
 // Left out: anything but the half-plane; unequal far pressures are given the tilt of
-// reference/ehl.md (the dry contact stays |x| < b).
+// docs/verification.md (the dry contact stays |x| < b).
 #include "engine/film/hp.h"
 
 #include "engine/numeric/legendre.h"

@@ -3,7 +3,7 @@
 //
 // Reynolds' equation p' h^3 = 12 eta u_m (h - h*) is a cubic for h where p' is known. A film that
 // passes the steepest point of the inlet, p'' = 0, must have there h_a^2 = 4 eta u_m / p'_max,
-// hence h* = 2 h_a / 3 (reference/ehl.md). Upstream the larger root is taken, downstream the
+// hence h* = 2 h_a / 3. Upstream the larger root is taken, downstream the
 // smaller. SI.
 //
 // Validity: lambda below 1e-5 (error under 1 %); -10 % at 1e-2, 4 % from 1e-3 to 3e-5. The pressure
@@ -221,7 +221,7 @@ SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const 
                 "the table of the dry pressure is coarse: films are uncertain by %.2g %%",
                 100.0 * change);
       }
-      // Errors against full solutions for smooth pressures, reference/ehl.md.
+      // Errors against full solutions for smooth pressures, docs/verification.md.
       double lambda = scale->lambda;
       out->expected_error = lambda < 1e-5 ? 0.01 : lambda < 1e-3 ? 0.04 : lambda < 1e-2 ? 0.1 : 1.0;
       if (lambda > 1e-2) {

@@ -1,9 +1,9 @@
 // Closed-form films, and the dry contact at zero speed.
 //
-//   karaszkiewicz  H = 4.4 U^0.65 W^-0.21       thesis eq. 7.6 (= 5.5), the film of a fitted O-ring
-//   thesis         H = 1.492 U^0.5434 W^-0.2893 thesis eq. 7.5, central film of Tables 7.9, 7.10
-//   asymptotic     h_min = 3.00434 R U^0.6 W^-0.2, h_flux = 3.77334 R U^0.6 W^-0.2
-//                  exact as M grows (reference/ehl.md), with the end pressures' factor kappa^-0.8
+//   karaszkiewicz  H = 4.4 U^0.65 W^-0.21        thesis eq. 7.6 (= 5.5): a fitted O-ring
+//   thesis         H = 1.492 U^0.5434 W^-0.2893  thesis eq. 7.5, central film of tables 7.9, 7.10
+//   asymptotic     h_min = 3.00434 R U^0.6 W^-0.2, h_flux = 3.77334 R U^0.6 W^-0.2, exact as M
+//                  grows (docs/verification.md), with the end pressures' factor kappa^-0.8
 //   moes           blend of that limit and the rigid wedge's, for every M
 //
 // The two power laws know one film only, reported as minimum, central and flux film alike. The

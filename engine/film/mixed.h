@@ -130,7 +130,7 @@ int sb_mixed_locate(const SbMixedMesh *mesh, double X, double *r);
 double sb_mixed_value(const SbMixedMesh *mesh, const SbMixedRule *rule, const double *field, int e,
                       double r);
 
-// End pressures joined as in the dry smooth contact (reference/ehl.md), at X.
+// End pressures joined as in the dry smooth contact (docs/verification.md), at X.
 double sb_mixed_ends(const SbMixedCase *c, double X);
 
 // Gap and solid pressures at t.
@@ -168,7 +168,7 @@ typedef struct {
   double couette, poiseuille, cavity; // integrals of (1 - share)/h, (1 - share) h p'/2, theta/h
   double real_area, asperity_load, central_share;
   double load_error, flux_error;
-  bool ruptured, reformed;
+  bool ruptured;
 } SbMixedReading;
 
 // Reads a converged state.

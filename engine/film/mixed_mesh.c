@@ -5,8 +5,8 @@
 // power 3/2) sit. The gap of a polynomial pressure under the logarithmic kernel is exact: with z
 // the target's coordinate in the element, integral of P_k(r) ln|z - r| = 2/(2k+1) (Q_(k+1) -
 // Q_(k-1))(z), Legendre functions of the second kind (as hp.c; here for all z, by their downward
-// recurrence away from the element). Far pressures and their tilt: reference/ehl.md as in hp.c. A
-// fitted body's share of kernel and gap: fitted.c.
+// recurrence away from the element). Far pressures and their tilt: docs/verification.md as in hp.c.
+// A fitted body's share of kernel and gap: fitted.c.
 #include "engine/film/mixed.h"
 
 #include "engine/numeric/legendre.h"

@@ -67,7 +67,6 @@ void sb_mixed_read(SbMixedReading *out, SbMixedSolver *solver, int which, const 
         out->position_rupture = 0.5 * (mesh->edge[e] + mesh->edge[e + 1]) + half * end;
         out->ruptured = true;
       }
-      out->reformed |= out->ruptured && state->broken[i] && !state->broken[i + 1];
       thinnest = solver->point[i].h < solver->point[thinnest].h ? i : thinnest;
       highest = state->q[i] > state->q[highest] ? i : highest;
       // The flux that the profile carries, by the integrated equation.

@@ -1,7 +1,7 @@
 // Rigid, isoviscous film between a parabola and a plane: the analytical solution of Reynolds'
 // equation.
 //
-// Source: thesis section 6.1 (equations 6.11 to 6.25 as corrected in the audit); Martin (1916),
+// Source: thesis section 6.1 (equations 6.11 to 6.25 signs as in docs/thesis.md, 7); Martin (1916),
 // Purday. With h = h0 + x^2/(2R) = h0 sec^2(t), tan t = x/sqrt(2 R h0), U = u1 + u2 (one surface
 // sliding: U = u) and P* = h0^2 p/(6 U eta sqrt(2 R h0)):
 //

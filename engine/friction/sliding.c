@@ -3,9 +3,9 @@
 // With a fitment model that gives a pressure of its own the solved film lies on this body: its
 // edges, its pressure, its compliance; the half-plane's film stands beside it. The film's load is
 // the net one: the fluid on either side carries its own step, so a contact from l to r under the
-// total load W leaves W - p_left (0 - l) - p_right (r - 0) to the film (contract, "Load"). What it
-// leaves out: beside the film, asperities do not take load off it (they carry 1 to 14 % of it at
-// its least, audit 10; coupled they share it); the closed forms know no inlet starvation.
+// total load W leaves W - p_left (0 - l) - p_right (r - 0) to the film (README, Definitions). What
+// it leaves out: beside the film, asperities do not take load off it (they carry 1 to 14 % of it at
+// its least, docs/thesis.md, 10; coupled they share it); the closed forms know no inlet starvation.
 #include "engine/friction/sliding.h"
 
 #include "engine/surface/greenwood_tripp.h"
@@ -207,7 +207,6 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
 static SbStatus solve_counted(SbFilm *film, const SbFilmProblem *problem, SbSlidingMemory *memory,
                               SbSlidingCounts *counts, SbReport *report) {
   SbStatus status = film_solve(film, problem, memory, report);
-  counts->film_evaluations++;
   counts->reynolds_solves++;
   counts->newton_iterations += (size_t)film->solver.newton_iterations;
   return status;
@@ -297,7 +296,6 @@ static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSea
     }
   }
   SbStatus status = film_solve(&memory->film, &problem, memory, report);
-  counts->film_evaluations++;
   if (problem.model == SB_FILM_REYNOLDS) {
     counts->reynolds_solves++;
     counts->newton_iterations += (size_t)memory->film.solver.newton_iterations;

@@ -55,7 +55,7 @@ const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
 
 // Counts of what was computed; added to, never reset.
 typedef struct {
-  size_t fit_solves, disc_solves, ring_solves, film_evaluations, reynolds_solves, newton_iterations;
+  size_t fit_solves, disc_solves, ring_solves, reynolds_solves, newton_iterations;
 } SbSlidingCounts;
 
 // Evaluates `seal` of `model` between `pressure`, sliding at `speed` (> 0: bore moves to +x, the

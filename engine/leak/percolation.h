@@ -6,8 +6,9 @@
 // it, through a constriction of lateral size 2 pi/q_c and height u_c. All of the pressure drops
 // there, and there is one per square, so that
 //
-//   Q = (u_c^3/(12 eta)) dp L_y/L_x          (liquid, laminar; L_y round the bore, L_x the
-//   contact's width)
+//   Q = (u_c^3/(12 eta)) dp L_y/L_x
+//
+// for a laminar liquid, L_y round the bore, L_x the contact's width.
 //
 // A contact that stays above the threshold to the shortest wave does not leak by this mechanism
 // (0). The rate is steep near the threshold: `sensitivity` is d ln Q/d ln p there, so that the user

@@ -8,10 +8,9 @@
 //   [ J  0  ] [ -l ] = [ -(dJ/dt) velocity    ]
 //
 // J has 6 rows for a fixed joint, 5 for a translational or revolute one, 4 for a cylindrical, 3 for
-// a spherical one. Gruebler's count
-// 6 (n - 1) - sum of constraints is compared with the rank of J: conditions that repeat each other
-// or a part that nothing holds are named. SI units, ground frame. Leaves out: flexible parts,
-// clearance, friction inside joints (apply it as a force).
+// a spherical one. Gruebler's count 6 (n - 1) - sum of constraints is compared with the rank of J:
+// conditions that repeat each other or a part that nothing holds are named. SI units, ground frame.
+// Leaves out: flexible parts, clearance, friction inside joints (apply it as a force).
 #pragma once
 
 #include "engine/status.h"

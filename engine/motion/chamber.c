@@ -27,26 +27,6 @@ SbStatus sb_chamber_check(const SbChamberModel *m, SbReport *report) {
   return sb_succeed(report);
 }
 
-size_t sb_chamber_edges(const SbChamberModel *m, double *edges) {
-  size_t n = 0;
-  for (size_t i = 0; i < 2 * m->ports; i++) {
-    double x = i % 2 ? m->port[i / 2].high : m->port[i / 2].low;
-    size_t at = 0;
-    while (at < n && edges[at] < x) {
-      at++;
-    }
-    if (!isfinite(x) || (at < n && edges[at] == x)) {
-      continue;
-    }
-    for (size_t k = n; k > at; k--) {
-      edges[k] = edges[k - 1];
-    }
-    edges[at] = x;
-    n++;
-  }
-  return n;
-}
-
 static void equalise(const SbDoseChamber *c, double *pressure) {
   for (size_t i = 0; i < c->model->ports; i++) {
     if (c->open[i] && isinf(c->model->port[i].area)) {
@@ -138,58 +118,6 @@ bool sb_chamber_settled(const SbDoseChamber *c, double pressure) {
   }
   // Nothing flows, or as much comes in as goes out.
   return most <= 1e-9 * fmax(c->model->canister, 1e3) || fabs(in - out) <= 1e-9 * (in + out);
-}
-
-SbDoseState sb_chamber_state(const SbDoseChamber *c) {
-  SbDoseState state = SB_DOSE_CLOSED;
-  for (size_t i = 0; i < c->model->ports; i++) {
-    if (c->open[i]) {
-      if (c->model->port[i].pressure < c->model->canister) {
-        return SB_DOSE_VENTING;
-      }
-      state = SB_DOSE_FILLING;
-    }
-  }
-  return state;
-}
-
-void sb_chamber_differences(const SbChamberModel *m, double pressure, bool inner_touches,
-                            double *inner, double *outer) {
-  *inner = inner_touches ? m->canister - pressure : 0.0;
-  *outer = pressure;
-}
-
-double sb_chamber_stem_force(const SbChamberModel *m, double pressure, double inner_area,
-                             double outer_area) {
-  return -((m->canister - pressure) * inner_area + pressure * outer_area);
-}
-
-SbStatus sb_chamber_reading(SbChamberModel *m, int reading, double canister, double open_at,
-                            double release, double area, double volume, double stiffness,
-                            double density, SbReport *report) {
-  if (reading != 1 && reading != 2) {
-    return sb_fail_parameter(report, SB_ERROR_INPUT, "canister.pressure_map",
-                             "there are readings 1 and 2, not %d", reading);
-  }
-  if (!(release > 0.0) || !(open_at > release)) {
-    return sb_fail(report, SB_ERROR_RANGE,
-                   "the dose must be released between rest and where the chamber opens");
-  }
-  SbChamberPort fill = {open_at, INFINITY, SB_PORT_BOTH_WAYS, canister, area};
-  *m = (SbChamberModel){.canister = canister,
-                        .volume = volume,
-                        .stiffness = stiffness,
-                        .density = density,
-                        .ports = 2,
-                        .port = {fill}};
-  if (reading == 1) {
-    m->port[1] = (SbChamberPort){-INFINITY, release, SB_PORT_BOTH_WAYS, 0.0, area};
-  } else {
-    m->ports = 3;
-    m->port[1] = (SbChamberPort){0.5 * release, release, SB_PORT_ON_RETURN, 0.0, area};
-    m->port[2] = (SbChamberPort){-INFINITY, 0.5 * release, SB_PORT_BOTH_WAYS, canister, area};
-  }
-  return sb_chamber_check(m, report);
 }
 
 static double annulus(double outer, double inner) {

@@ -5,14 +5,14 @@
 // liquid flows as through an orifice, Q = CdA sqrt(2 dp / rho), and the pressure follows
 // p' = (B/V) sum Q, B the stiffness of liquid, rings and walls together. An infinite area equalises
 // in one step. Then the seals see canister - chamber (inner) and chamber - outside (outer), and the
-// thesis' two readings (device.md, table of pressure differences) are two sets of ports, not two
-// tables. SI units, gauge pressures, stem position > 0 into the canister. Leaves out: boiling in
-// the chamber and the aerosol (B stands for both), heat, the seals' own leakage (see leak/).
+// thesis' two readings (docs/thesis.md) are two sets of ports, not two tables. SI units, gauge
+// pressures, stem position > 0 into the canister. Leaves out: boiling in the chamber and the
+// aerosol (B stands for both), heat, the seals' own leakage (see leak/).
 #pragma once
 
 #include "engine/status.h"
 
-enum { SB_CHAMBER_PORTS = 4, SB_CHAMBER_EDGES = 2 * SB_CHAMBER_PORTS };
+enum { SB_CHAMBER_PORTS = 4 };
 
 typedef enum {
   SB_PORT_BOTH_WAYS, // open whenever the stem is in the stretch
@@ -35,8 +35,6 @@ typedef struct {
   SbChamberPort port[SB_CHAMBER_PORTS];
 } SbChamberModel;
 
-typedef enum { SB_DOSE_CLOSED, SB_DOSE_FILLING, SB_DOSE_VENTING } SbDoseState;
-
 typedef struct {
   const SbChamberModel *model; // borrowed
   bool open[SB_CHAMBER_PORTS];
@@ -44,10 +42,6 @@ typedef struct {
 
 // Refuses what makes no sense.
 SbStatus sb_chamber_check(const SbChamberModel *model, SbReport *report);
-
-// Positions at which ports open or close, increasing, without doubles: the events to declare to the
-// motion (dynamics.h). Returns how many; edges[SB_CHAMBER_EDGES].
-size_t sb_chamber_edges(const SbChamberModel *model, double *edges);
 
 // Ports for a stem at rest at x; `pressure` is equalised through ports of infinite area.
 void sb_chamber_start(SbDoseChamber *chamber, const SbChamberModel *model, double x,
@@ -63,26 +57,6 @@ double sb_chamber_rest_pressure(const SbDoseChamber *chamber, double pressure);
 // dp/dt [Pa/s], and whether nothing flows any more (to 1e-9 of the canister's pressure).
 double sb_chamber_rate(const SbDoseChamber *chamber, double pressure);
 bool sb_chamber_settled(const SbDoseChamber *chamber, double pressure);
-
-// Closed, or open to something at canister pressure (filling) or below (venting).
-SbDoseState sb_chamber_state(const SbDoseChamber *chamber);
-
-// Pressure differences over the seals, canister side less outside [Pa]; a seal out of contact
-// has none.
-void sb_chamber_differences(const SbChamberModel *model, double pressure, bool inner_touches,
-                            double *inner, double *outer);
-
-// Net pressure force on the stem [N], < 0 (outwards), for seals on lands of these areas [m2].
-double sb_chamber_stem_force(const SbChamberModel *model, double pressure, double inner_area,
-                             double outer_area);
-
-// The two readings of device.md. `open_at`: the inner seal leaves the land; `release`: stem
-// position at which the dose leaves on the return (< open_at). Reading 1: vented whenever the stem
-// is below `release`. Reading 2: vented on the return between `release` / 2 and `release`, refilled
-// through a rest port below that. area applies to all ports.
-SbStatus sb_chamber_reading(SbChamberModel *model, int reading, double canister, double open_at,
-                            double release, double area, double volume, double stiffness,
-                            double density, SbReport *report);
 
 // What bounds the dose chamber, all in m.
 typedef struct {

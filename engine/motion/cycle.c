@@ -435,7 +435,6 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
     slide(&p);
   }
 
-  cycle->stem_final = p.s;
   cycle->returns = p.s == 0;
   cycle->force_return_min = s_return > 0
                                 ? sb_cycle_least_return(cycle, s_return, chamber_return, false)

@@ -2,8 +2,7 @@
 //
 // The platen moves at constant speed, against the end stop up to the reversal force, and back;
 // machine and stem are coupled by a spring k that pushes but does not pull. At every instant the
-// forces on the stem balance (thesis section 5.2; inertia is nil at 20 mm/min, equations.md chapter
-// 4):
+// forces on the stem balance (thesis section 5.2; inertia is nil at 20 mm/min):
 //
 //   in-stroke  k (X - s) = F_p + f(s)      return  k (X - s) = F_p - f(s) >= 0
 //
@@ -57,7 +56,6 @@ typedef struct {
   size_t count;
   SbCycleSegment segment[SB_CYCLE_SEGMENTS_MAX];
   double platen_top;       // X at reversal [m]
-  double stem_final;       // s at the end [m]
   bool returns;            // the stem comes to rest at s = 0 by canister pressure alone
   double force_return_min; // least F_p - f on the way from E to A, whether the stem gets there or
                            // not [N]

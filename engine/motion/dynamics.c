@@ -525,10 +525,6 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
   memcpy(out->extra, extra, sizeof extra);
 }
 
-double sb_dynamics_time(const SbDynamics *s) {
-  return s->now;
-}
-
 bool sb_dynamics_at_rest(const SbDynamics *s) {
   SbDynamicsSample sample;
   if (!s->ready || !s->linear || s->event != EVENT_BREAK || !sb_drive_done(&s->drive)) {

@@ -16,16 +16,16 @@
 //
 // Stops. Spring and damper in one direction, the damper from the restitution of a free impact that
 // ends when the force does (Schwager and Poeschel 2007); stiffness INFINITY is an impact law, at
-// rest once a rebound would stay below 1 pm. A
-// massless stop or platen that is left behind relaxes by its own damper and can be met again.
+// rest once a rebound would stay below 1 pm. A massless stop or platen that is left behind relaxes
+// by its own damper and can be met again.
 //
 // Method. Between events the motion is linear in almost all models: closed form (oscillator.h),
-// events found by bounds, resting costs nothing, nor does stick-slip
-// that repeats itself. Velocity-dependent sliding, position-dependent
-// loads and sinusoids go through Radau IIA with error control and events located by re-stepping.
-// Each energy term is integrated by itself; their balance is a result, not a construction. Nothing
-// is allocated. Leaves out: rotation and tilt of the stem, wave motion in the parts, a speed law
-// evaluated at the patch (it uses the stem's speed).
+// events found by bounds, resting costs nothing, nor does stick-slip that repeats itself.
+// Velocity-dependent sliding, position-dependent loads and sinusoids go through Radau IIA with
+// error control and events located by re-stepping. Each energy term is integrated by itself; their
+// balance is a result, not a construction. Nothing is allocated. Leaves out: rotation and tilt of
+// the stem, wave motion in the parts, a speed law evaluated at the patch (it uses the stem's
+// speed).
 #pragma once
 
 #include "engine/motion/drive.h"
@@ -236,8 +236,7 @@ SbStatus sb_dynamics_advance(SbDynamics *dynamics, double time, SbReport *report
 void sb_dynamics_sample(const SbDynamics *dynamics, SbDynamicsSample *sample,
                         SbDynamicsEnergy *energy);
 
-// Present time, and whether the drive has ended and the stem rests: nothing more can happen.
-double sb_dynamics_time(const SbDynamics *dynamics);
+// Whether the drive has ended and the stem rests: nothing more can happen.
 bool sb_dynamics_at_rest(const SbDynamics *dynamics);
 
 // Largest force of the drive up to the last event [N], between samples too.

@@ -38,10 +38,8 @@ SbStatus sb_life_run(SbLife *life, SbLifeActuation *each, const SbRunningIn *law
     add_to(&life->leakage, &lost[0], one.leakage);
     add_to(&life->carried, &lost[1], one.carried);
     if (n == 0) {
-      life->leakage_first = one.leakage;
       life->peak_first = one.force_peak;
     }
-    life->leakage_last = one.leakage;
     life->peak_last = one.force_peak;
     life->return_least = fmin(life->return_least, one.force_return);
     if (!one.returns) {

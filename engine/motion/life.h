@@ -30,7 +30,6 @@ typedef struct {
   long done;      // actuations computed
   double leakage; // sum, m3
   double carried; // sum, m3
-  double leakage_first, leakage_last;
   double peak_first, peak_last;
   double return_least; // over the life, N
   long failures;       // actuations without return

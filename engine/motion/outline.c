@@ -53,15 +53,6 @@ SbStatus sb_outline_of_profile(SbOutline *out, const SbProfile *p, double sagitt
   return sb_succeed(report);
 }
 
-double sb_outline_area(const SbOutline *outline) {
-  double twice = 0.0;
-  for (size_t i = 0; i < outline->count; i++) {
-    const SbOutlinePoint *a = &outline->point[i], *b = &outline->point[(i + 1) % outline->count];
-    twice += a->x * b->r - b->x * a->r;
-  }
-  return 0.5 * twice;
-}
-
 static int ascending(const void *a, const void *b) {
   double x = *(const double *)a, y = *(const double *)b;
   return (x > y) - (x < y);

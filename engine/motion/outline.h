@@ -23,9 +23,6 @@ typedef struct {
 SbStatus sb_outline_of_profile(SbOutline *out, const SbProfile *profile, double sagitta,
                                SbReport *report);
 
-// Area that the outline encloses [m2], > 0 if it is counter-clockwise.
-double sb_outline_area(const SbOutline *outline);
-
 // Inner and outer surface by x: between x[i] and x[i + 1] both are straight, from `right` of i to
 // `left` of i + 1. Where the part is solid the inner one is 0.
 typedef struct {

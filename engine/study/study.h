@@ -79,7 +79,7 @@ typedef struct {
 typedef struct {
   char name[40];
   char si[16], unit[16];
-  int digits; // significant ones shown
+  int digits; // significant ones shown, 0 for a count
 } SbStudyColumn;
 
 // A row's own unit, if it has one, stands for those of the columns. NaN: no value.

@@ -6,7 +6,7 @@
 // over the range study.speed_* and study.load_* of the outer seal, on a grid even in ln U and ln W
 // (film/law_fit.h: least squares of the logarithms, 95 % confidence by Student's t; the residuals
 // are the law's lack of fit, not noise). What the thesis' exponent 0.5434 is: a mesh that is too
-// coarse at low speed (audit 2.3); solved in the mesh it is 0.6.
+// coarse at low speed (docs/thesis.md, 3); solved in the mesh it is 0.6.
 #include "engine/film/film.h"
 #include "engine/film/law_fit.h"
 #include "engine/study/study_private.h"
@@ -32,7 +32,7 @@ static const Law given[] = {
 enum { GIVEN = sizeof given / sizeof given[0], DRAWN = 3 };
 
 double sb_study_film_law_cost(const SbModel *model) {
-  return (FITS * SPEEDS * LOADS + 2) * SB_STUDY_COST_FILM;
+  return (FITS * SPEEDS * LOADS + 2) * SB_COST_FILM;
 }
 
 // A seal's scales: U and W per speed and load, and the length of h/R.

@@ -22,8 +22,8 @@ enum { POINTS = 39, RING_POINTS = 20, FINE = 9 };
 #define OPEN_GAP 3.0
 
 double sb_study_leak_cost(const SbModel *model) {
-  double film = model->film == SB_MODEL_FILM_REYNOLDS ? SB_STUDY_COST_FILM : 1e-6;
-  return 2 * (2 * (RING_POINTS + FINE) + 11) * SB_STUDY_COST_RING + POINTS * SB_STUDY_COST_DISC +
+  double film = sb_cost_film(model->film);
+  return 2 * (2 * (RING_POINTS + FINE) + 11) * SB_COST_RING + POINTS * SB_COST_DISC +
          5 * POINTS * film;
 }
 
@@ -143,7 +143,7 @@ static int choose_lines(Line *line, const SbModel *model) {
 }
 
 static double line_cost(const Line *line) {
-  return line->fit == SB_FIT_RING ? RING_POINTS * SB_STUDY_COST_RING : POINTS * SB_STUDY_COST_DISC;
+  return line->fit == SB_FIT_RING ? RING_POINTS * SB_COST_RING : POINTS * SB_COST_DISC;
 }
 
 static void line_name(char *name, size_t size, const Line *line, const SbModel *model) {

@@ -9,7 +9,7 @@
 //
 // Coefficient of friction. Table 7.8's predicted 0.4 (0.388 by its own figures) is the share of the
 // shear strength alone at rest, tau_0 pi^2 (zeta beta sigma)^2 F_2(0) A / F with A = width x pi D
-// and F the load (audit, table of section 1): "by shear strength". With the load coefficient m on
+// and F the load (docs/thesis.md): "by shear strength". With the load coefficient m on
 // the total load, which the 5 N and 8 N of the cycle need, it is larger by m: "with m". Measured:
 // 0.51.
 #include "engine/study/study_private.h"
@@ -57,7 +57,7 @@ static const Figures printed[CASES] = {
 };
 
 double sb_study_models_cost(const SbModel *model) {
-  return 10 * (2 * SB_STUDY_COST_RING + 2 * SB_STUDY_COST_DISC);
+  return 10 * (2 * SB_COST_RING + 2 * SB_COST_DISC);
 }
 
 static bool near(double a, double b) {

@@ -1,6 +1,7 @@
 // What the studies share: building blocks that stay inside the bounds of SbStudy.
 #pragma once
 
+#include "engine/cost.h"
 #include "engine/elastic/fit.h"
 #include "engine/friction/sliding.h"
 #include "engine/study/study.h"
@@ -11,11 +12,6 @@
   double sb_study_##function##_cost(const SbModel *model);
 SB_STUDY_LIST(SB_STUDY_DECLARE)
 #undef SB_STUDY_DECLARE
-
-// Typical seconds of one solve, as in the plan.
-#define SB_STUDY_COST_DISC 3e-3
-#define SB_STUDY_COST_RING 0.15
-#define SB_STUDY_COST_FILM 5e-3
 
 // Names a quantity; `unit` is the one shown.
 void sb_study_axis(SbStudyAxis *out, const char *quantity, const char *si, const char *unit,

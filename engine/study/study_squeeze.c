@@ -37,7 +37,7 @@ static const double table_squeeze[] = {0.10, 0.20, 0.30, 0.40};
 enum { TABLE = sizeof table_squeeze / sizeof table_squeeze[0], FIGURES = 3 };
 
 double sb_study_squeeze_cost(const SbModel *model) {
-  return 41 * SB_STUDY_COST_RING + 80 * SB_STUDY_COST_DISC;
+  return 41 * SB_COST_RING + 80 * SB_COST_DISC;
 }
 
 // Figures of one model at one squeeze.
@@ -89,8 +89,8 @@ SbStatus sb_study_squeeze(SbStudy *out, const SbModel *model, const SbStudyHooks
         sb_study_series(peak, models[m].style, "%s", models[m].name),
         sb_study_series(width, models[m].style, "%s", models[m].name),
     };
-    double cost = models[m].model == SB_FIT_RING      ? SB_STUDY_COST_RING
-                  : models[m].style == SB_STUDY_CURVE ? SB_STUDY_COST_DISC
+    double cost = models[m].model == SB_FIT_RING      ? SB_COST_RING
+                  : models[m].style == SB_STUDY_CURVE ? SB_COST_DISC
                                                       : 0;
     for (int i = 0; status == SB_OK && i < models[m].points; i++) {
       double s = lo + (hi - lo) * i / (models[m].points - 1);

@@ -14,10 +14,8 @@
 enum { POINTS = 33, ROWS_MAX = 8, FIGURES = 4 };
 
 double sb_study_storage_cost(const SbModel *model) {
-  double fit = model->fit == SB_FIT_RING                                       ? SB_STUDY_COST_RING
-               : model->fit == SB_FIT_DISC || model->fit == SB_FIT_DISC_THESIS ? SB_STUDY_COST_DISC
-                                                                               : 1e-6;
-  double film = model->film == SB_MODEL_FILM_REYNOLDS ? SB_STUDY_COST_FILM : 1e-6;
+  double fit = sb_cost_fit((SbFitModel)model->fit);
+  double film = sb_cost_film(model->film);
   return (POINTS + ROWS_MAX) * SB_SEAL_COUNT * (fit + film);
 }
 

@@ -4,9 +4,9 @@
 // The outer seal's net load at its pressures of B-C without its end pressures, both surface models
 // beside each other: Greenwood and Tripp (whose real area the default shear strength was set with)
 // and Persson (whose real area is much larger for a soft seal, so that the same shear strength
-// gives too much friction; audit 10). The load coefficient m acts on the asperities' load here,
-// where the cycle takes the total. The cycle's own friction, film and roughness not knowing of each
-// other, is drawn as a reference.
+// gives too much friction; docs/thesis.md, 10). The load coefficient m acts on the asperities' load
+// here, where the cycle takes the total. The cycle's own friction, film and roughness not knowing
+// of each other, is drawn as a reference.
 #include "engine/film/stribeck.h"
 #include "engine/study/study_private.h"
 
@@ -22,7 +22,7 @@ static const struct {
 } models[MODELS] = {{"Greenwood & Tripp", SB_ROUGH_GREENWOOD_TRIPP}, {"Persson", SB_ROUGH_PERSSON}};
 
 double sb_study_stribeck_cost(const SbModel *model) {
-  return MODELS * POINTS * 0.012;
+  return MODELS * POINTS * SB_COST_FILM_MIXED;
 }
 
 static SbStatus solve(SbStudy *out, SbStribeckPoint *points, const SbModel *model, int which,

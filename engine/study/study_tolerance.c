@@ -38,11 +38,9 @@ static const struct {
                       {"least return force", true}};
 
 double sb_study_tolerance_cost(const SbModel *model) {
-  double fit = model->fit == SB_FIT_RING                                       ? SB_STUDY_COST_RING
-               : model->fit == SB_FIT_DISC || model->fit == SB_FIT_DISC_THESIS ? SB_STUDY_COST_DISC
-                                                                               : 1e-6;
-  double film = model->film == SB_MODEL_FILM_REYNOLDS ? SB_STUDY_COST_FILM : 1e-6;
-  return (2 * STEPS * SIZES + 1 + 2 * FIGURES) * (5 * fit + 10 * film + 1e-3);
+  double fit = sb_cost_fit((SbFitModel)model->fit);
+  double film = sb_cost_film(model->film);
+  return (2 * STEPS * SIZES + 1 + 2 * FIGURES) * (2 * fit + 10 * film + SB_COST_ACTUATION);
 }
 
 static double tolerance_of(const SbModel *model, int size) {

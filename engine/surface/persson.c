@@ -68,11 +68,6 @@ double sb_spectrum_slope2(const SbSpectrum *s, double q) {
   return s->amplitude * moment(s->hurst, 2, s->q0, q);
 }
 
-double sb_spectrum_height2_above(const SbSpectrum *s, double q) {
-  q = fmin(fmax(q, s->q0), s->q1);
-  return s->amplitude * moment(s->hurst, 0, q, s->q1);
-}
-
 double sb_persson_area_share(const SbSpectrum *s, double q, double modulus, double pressure) {
   double slope2 = sb_spectrum_slope2(s, q);
   if (slope2 <= 0) {

@@ -31,10 +31,8 @@ typedef struct {
 SbStatus sb_spectrum_from_asperities(SbSpectrum *out, double sigma, double sigma_over_beta,
                                      double product, SbReport *report);
 
-// Mean-square slope of the components up to wave number q, and mean-square height of those above q
-// [m2].
+// Mean-square slope of the components up to wave number q [1/m].
 double sb_spectrum_slope2(const SbSpectrum *spectrum, double q);
-double sb_spectrum_height2_above(const SbSpectrum *spectrum, double q);
 
 // Real over nominal contact at pressure p [Pa] seen at wave number q; `modulus` is E' with 2/E' =
 // sum.

@@ -1,11 +1,11 @@
 // Van der Waals attraction between two flat walls, with a stated cut-off and sign.
 //
-// Source: Israelachvili; thesis equation 5.17 with the sign mended (audit, 11): the walls pull each
-// other with p = A_H/(6 pi h^3) per unit area, which ADDS to the load that film and asperities
-// carry. The law holds between the contact distance D0 = 0.165 nm (Israelachvili's cut-off; closer,
-// the bodies touch and the pull is held at its value there) and some 5 nm (beyond, retardation
-// weakens it further). Between rough surfaces it acts only over the area that is really that close:
-// multiply by that share.
+// Source: Israelachvili; thesis equation 5.17 with the sign mended (docs/thesis.md, 7): the walls
+// pull each other with p = A_H/(6 pi h^3) per unit area, which ADDS to the load that film and
+// asperities carry. The law holds between the contact distance D0 = 0.165 nm (Israelachvili's
+// cut-off; closer, the bodies touch and the pull is held at its value there) and some 5 nm (beyond,
+// retardation weakens it further). Between rough surfaces it acts only over the area that is really
+// that close: multiply by that share.
 #pragma once
 
 // Cut-off distance [m].

@@ -226,7 +226,7 @@ static void test_save(void) {
                   "[seal.outer]\nmodulus = 2.6 MPa\npoisson_ratio = 0.47\n");
   g_free(out);
 
-  // GLib reads it as the key file that the contract promises.
+  // GLib reads it as a key file.
   GKeyFile *keys = g_key_file_new();
   g_assert_true(g_key_file_load_from_file(keys, path, G_KEY_FILE_KEEP_COMMENTS, &error));
   g_assert_no_error(error);

@@ -8,7 +8,7 @@
 #include "engine/elastic/disc.h"
 
 // A parabola without smooth part is Hertz's contact, with end pressures the transition of
-// reference/ehl.md.
+// docs/verification.md.
 static void test_hertz(void) {
   const double radius = 0.8e-3, modulus = 6.5e6, load = 400.0;
   const double reach = 1.2e-3;

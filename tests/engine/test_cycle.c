@@ -1,12 +1,13 @@
 // The cycle A to F against a hand calculation from the printed equations, and on its hard cases.
-#include "engine/sealbench.h"
-
+#include "engine/cost.h"
 #include "engine/leak/stroke.h"
+#include "engine/sealbench.h"
 
 #include "tests/pace.h"
 
 #include <glib.h>
 #include <math.h>
+#include <string.h>
 
 typedef struct {
   int id;
@@ -324,6 +325,40 @@ static void test_static_leak(void) {
   sb_run_destroy(run);
 }
 
+// The predicted cost is the sum of what is asked for: it follows the counts of solves.
+static double planned(const SbRun *run, const char *field) {
+  const SbPlan *plan = sb_run_plan(run);
+  for (size_t i = 0; i < plan->field_count; i++) {
+    if (strcmp(plan->field[i].name, field) == 0) {
+      return plan->field[i].cost_s;
+    }
+  }
+  return 0;
+}
+
+// What a run solves is what its plan reckoned with, also where it goes round for its own speed.
+static void test_plan_counts(void) {
+  Setting disc[] = {{SB_P_MODELS_FIT, SB_FIT_DISC}, {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}};
+  SbRun *run = run_cycle(disc, 2);
+  const SbCounters *counters = &sb_run_summary(run)->counters;
+  g_assert_cmpuint(counters->disc_solves, ==, 2);
+  g_assert_cmpuint(counters->reynolds_solves, ==, 20); // half-plane and disc
+  g_assert_cmpfloat(planned(run, "contact load and width"), ==, 2 * SB_COST_DISC);
+  g_assert_cmpfloat(planned(run, "film"), ==, 10 * (SB_COST_FILM + SB_COST_FILM_FITTED));
+  sb_run_destroy(run);
+
+  Setting hand[] = {{SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC},
+                    {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
+                    {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}};
+  run = run_cycle(hand, 3);
+  counters = &sb_run_summary(run)->counters;
+  g_assert_cmpuint(counters->fit_solves, >=, 2);
+  g_assert_cmpuint(counters->reynolds_solves, >=, 20); // two rounds at least
+  g_assert_cmpfloat(fabs(planned(run, "film") / SB_COST_FILM - (double)counters->reynolds_solves),
+                    <=, 20);
+  sb_run_destroy(run);
+}
+
 // Which fields a scene computes follows from its views.
 static void test_plan(void) {
   Setting loop = {SB_P_OUTPUT_VIEWS, SB_VIEW_HYSTERESIS};
@@ -343,7 +378,7 @@ static void test_plan(void) {
   const SbContactProfile *profile = sb_run_profile(run, frames[count / 4].seal[SB_OUTER].profile);
   g_assert_nonnull(profile);
   g_assert_cmpuint(profile->count, >, 100);
-  // Audit section 1: asperities bear 160 kPa sqrt(sigma/beta) in contact, here with 0.1.
+  // docs/thesis.md, 10: asperities bear 160 kPa sqrt(sigma/beta) in contact, here with 0.1.
   g_assert_cmpfloat_with_epsilon(profile->asperity_pressure[profile->count / 2], 160e3 * sqrt(0.1),
                                  1e3);
   // Nowhere below the fluid on its side: outer seals have it on the left, ambient on the right.
@@ -408,6 +443,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cycle/static-leak", test_static_leak);
   g_test_add_func("/cycle/plan", test_plan);
   g_test_add_func("/cycle/jump", test_jump);
+  g_test_add_func("/cycle/plan-counts", test_plan_counts);
   g_test_add_func("/cycle/speed", test_speed);
   return g_test_run();
 }

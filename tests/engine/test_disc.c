@@ -1,6 +1,6 @@
-// The linear disc against independent figures (reference/ring.md, a spectral solver and the thesis'
-// tables), Hertz's limit, equilibrium and the unilateral conditions; its order, its error estimate
-// and its time.
+// The linear disc against independent figures (docs/verification.md, a spectral solver and the
+// thesis' tables), Hertz's limit, equilibrium and the unilateral conditions; its order, its error
+// estimate and its time.
 #include "engine/elastic/disc.h"
 #include "engine/elastic/disc_kernel.h"
 #include "engine/elastic/disc_thesis.h"
@@ -54,8 +54,8 @@ static SbDisc solve(const SbDiscProblem *problem) {
 
 // ---- kernels
 
-// The general boundary kernel gives the two closed forms of reference/ring.md, which were derived
-// apart from it.
+// The general boundary kernel gives the two closed forms of docs/verification.md, which were
+// derived apart from it.
 static void test_kernels(void) {
   const SbDiscKernel k = sb_disc_kernel(0.3);
   for (double phi = -1.2; phi < 1.2; phi += 0.37) {
@@ -447,7 +447,7 @@ static SbFitProblem thesis(SbFitModel model) {
 }
 
 // The nine cases of the thesis (tables 7.2-7.4 and the loads of 7.9), "current analysis": 2.5 % in
-// load, 2 % in peak, 0.03 mm in width (issue 6).
+// load, 2 % in peak, 0.03 mm in width.
 static void test_thesis_cases(void) {
   const struct {
     double id_mm, d_mm, p_mpa, load, peak_kpa, half_angle;
@@ -497,7 +497,7 @@ static void test_thesis_cases(void) {
 }
 
 static void test_fit_disc(void) {
-  // Zero stretch: the free section is squeezed, the figures of reference/ring.md.
+  // Zero stretch: the free section is squeezed, the figures of docs/verification.md.
   SbFitProblem in = thesis(SB_FIT_DISC);
   in.inner_diameter = 4.64e-3 - 1.61e-3;
   SbFit fit;

@@ -92,7 +92,7 @@ static void test_profile(void) {
   g_assert_cmpfloat(fit.profile_x[fit.profile_count - 1], ==, fit.contact_right);
 }
 
-// Sizes by the definitions of the contract (device.md, equations.md).
+// Sizes by the README's definitions.
 static void test_sizes(void) {
   SbFitProblem in = thesis(SB_FIT_KARASZKIEWICZ);
   SbFit fit;
@@ -110,7 +110,7 @@ static void test_sizes(void) {
 }
 
 static void test_hertz(void) {
-  // 6.33 with the factor 8: 0.515 mm and 1.05 MPa at 850.2 N/m (audit 2.20).
+  // 6.33 with the factor 8: 0.515 mm and 1.05 MPa at 850.2 N/m (docs/thesis.md, 6).
   SbHertz h;
   g_assert_cmpint(
       sb_hertz_from_load(&h, 850.2, 0.805e-3, 6.5725e6, 2.5e6 / (1 - 0.49 * 0.49), NULL, NULL), ==,
@@ -147,7 +147,7 @@ static void test_hertz(void) {
   }
 }
 
-// Figures of equations.md for the thesis' ring: 4.34 N with D = 4.45 mm, widths 0.618 and 0.600 mm
+// Figures by hand for the thesis' ring: 4.34 N with D = 4.45 mm, widths 0.618 and 0.600 mm
 // (2.10, 2.11), Kuran 2.5 x = 0.625 mm, and the identity 2.9.
 static void test_lindley(void) {
   SbFit fit[SB_LINDLEY_COUNT];

@@ -22,7 +22,7 @@ static SbFitProblem thesis(SbFitModel model) {
   };
 }
 
-// reference/ring.md: 4.772 N, 253.1 N/m at the bore, 0.552 mm, 0.585 MPa; 0.5 % in load, 1 % in
+// docs/verification.md: 4.772 N, 253.1 N/m at the bore, 0.552 mm, 0.585 MPa; 0.5 % in load, 1 % in
 // peak.
 static void test_reference(void) {
   const SbFitProblem in = thesis(SB_FIT_RING);

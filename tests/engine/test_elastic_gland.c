@@ -27,7 +27,7 @@ static void test_thesis_valve(void) {
   const SbGland gland = thesis();
   SbGlandReadout out[SB_GLAND_COUNT];
   g_assert_cmpint(sb_gland_readouts(out, &gland, NULL), ==, SB_OK);
-  // device.md, equations.md.
+  // docs/thesis.md.
   assert_close(out[SB_GLAND_STRETCH_INNER].nominal, 0.155, 1e-3);
   assert_close(out[SB_GLAND_STRETCH_MEAN].nominal, 0.0427, 1e-3);
   assert_close(out[SB_GLAND_SQUEEZE].nominal, 0.1553, 1e-3);

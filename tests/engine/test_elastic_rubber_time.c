@@ -210,7 +210,7 @@ static void test_uptake(void) {
   }
 }
 
-// Table 2.2 and audit 2.22: nitrile's 17 % by mass are 15 % by volume and 4.8 % in length.
+// Table 2.2 and docs/thesis.md, 15: nitrile's 17 % by mass are 15 % by volume and 4.8 % in length.
 static void test_swell(void) {
   const double ratio[] = {1.01, 1.17, 1.12, 1.14, 1.0, 1.01, 1.01};
   for (size_t i = 0; i < G_N_ELEMENTS(ratio); i++) {

@@ -21,7 +21,7 @@ static void test_thin(void) {
   g_assert_cmpfloat(law.largest_residual, <, 1e-4);
 }
 
-// The thesis' U and W: exponent 0.601 where its unconverged data gave 0.5434 (audit 2.3);
+// The thesis' U and W: exponent 0.601 where its unconverged data gave 0.5434 (docs/thesis.md, 3);
 // M falls to 100 there, which bends the law by some 0.3 %.
 static void test_thesis_range(void) {
   SbFilmLawRange range = {

@@ -90,8 +90,8 @@ static double deflection(const SbFilm *f, double x) {
   return -4.0 / (G_PI * MODULUS) * sum;
 }
 
-// The same for the constant pressures beyond the profile, with the tilt of reference/ehl.md: far
-// from the contact h' is 4 (p_left - p_right) / (pi E') ln(2 |x| / b), so that the dry contact
+// The same for the constant pressures beyond the profile, with the tilt of docs/verification.md:
+// far from the contact h' is 4 (p_left - p_right) / (pi E') ln(2 |x| / b), so that the dry contact
 // stays |x| < b.
 static double far_deflection(const SbFilm *f, const SbFilmProblem *problem, double x) {
   double b = f->hertz_half_width;

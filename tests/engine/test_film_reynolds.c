@@ -1,5 +1,5 @@
-// The coupled film solver against independent figures (reference/ehl.md), exact limits, symmetry,
-// conservation, its own error estimate, and a recomputation from nothing but the profile.
+// The coupled film solver against independent figures (docs/verification.md), exact limits,
+// symmetry, conservation, its own error estimate, and a recomputation from nothing but the profile.
 #include "engine/film/film.h"
 
 #include <glib.h>
@@ -115,7 +115,7 @@ static void test_order(void) {
   }
 }
 
-// Limits of reference/ehl.md: the rigid wedge as M -> 0, the exact power laws as M -> infinity.
+// Limits of docs/verification.md: the rigid wedge as M -> 0, the exact power laws as M -> infinity.
 static void test_limits(void) {
   SbFilmProblem problem = contact(1e-3, 0.0, 0.0);
   solve(&film, &problem);

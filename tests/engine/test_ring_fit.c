@@ -60,7 +60,7 @@ static void test_honest(void) {
         g_assert_cmpfloat(truth[k], <=, 3.0 * estimate[k]);
         ratio[k][cases] = estimate[k] / fmax(truth[k], 1e-12);
       }
-      // The contract's tolerance of 1e-3 on the load, with the estimate's own margin.
+      // The tolerance asked for is 1e-3 of the load; the estimate has a margin of its own.
       g_assert_cmpfloat(truth[0], <, 2.5e-3);
       cases++;
     }

@@ -59,7 +59,7 @@ static void test_fit_column(void) {
   }
 }
 
-// Table 7.12 and the slip that explains it (audit 2.1, 2.2): its Karaszkiewicz column is
+// Table 7.12 and the slip that explains it (docs/thesis.md, 1 and 2): its Karaszkiewicz column is
 // equation 7.6 at 1000/60 times the stated speed, its current column equation 7.5 with u for u/2
 // and F/(pi 6 mm).
 static void test_velocity_slip(void) {

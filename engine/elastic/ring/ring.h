@@ -6,7 +6,7 @@
 // are per metre. Pressures are gauge.
 //
 // Material: W = c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3) + K/2 (J - 1)^2 with 2 (c1 + c2) = mu =
-// E / (2 (1 + nu)), K = E / (3 (1 - 2 nu)); c2 = 0 is the contract's neo-Hookean energy.
+// E / (2 (1 + nu)), K = E / (3 (1 - 2 nu)); c2 = 0 is the neo-Hookean energy.
 // Surfaces are rigid and smooth; friction is Coulomb or a given shear. No time dependence here.
 #pragma once
 

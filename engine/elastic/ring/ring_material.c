@@ -1,6 +1,6 @@
 // Mooney-Rivlin energy c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3) + p (J - 1), differentiated in
 // the invariants a, D, f of a gradient without out-of-plane shear (see the header). c2 = 0 is the
-// neo-Hookean energy of the contract, mu/2 = c1. Hyperelastic, isotropic; no rate, no damage.
+// neo-Hookean energy, mu/2 = c1. Hyperelastic, isotropic; no rate, no damage.
 #include "engine/elastic/ring/ring_material.h"
 
 #include <math.h>

@@ -10,12 +10,11 @@
 // is fitted to them: least squares of (f_i - int N_i p dA)^2 / area_i with the total force held
 // exactly, linear in a_k, and Gauss-Newton's method on both ends, which the residual tells about
 // ten times more sharply than the gaps of single nodes do. The number of terms is the one of the
-// least generalised cross-validation (Golub, Heath and Wahba 1979). The
-// outermost held node takes no part but in the total: its force is that of an end that the mesh
-// cannot place. On sides that the fluid still bears in the balance only the excess over it is in
-// f_i. Leaves out contacts in several parts and
-// pressures with a corner in them (a land's edge under the contact): there the fit is not good
-// enough and says so.
+// least generalised cross-validation (Golub, Heath and Wahba 1979). The outermost held node takes
+// no part but in the total: its force is that of an end that the mesh cannot place. On sides that
+// the fluid still bears in the balance only the excess over it is in f_i. Leaves out contacts in
+// several parts and pressures with a corner in them (a land's edge under the contact): there the
+// fit is not good enough and says so.
 #include "engine/elastic/ring/ring_private.h"
 #include "engine/numeric/eliminate.h"
 
