@@ -253,6 +253,7 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
     h = fmin(h, s->piece.step);
   }
   s->system.user = s;
+  bool again = false;
   for (int attempt = 0; attempt < 80; attempt++) {
     double error, local[SB_RADAU_MAX];
     bool last = h >= left;
@@ -275,8 +276,6 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
       s->counters.rejected++;
       continue;
     }
-    s->counters.steps++;
-    s->counters.local_error += local[0] / (fabs(s->x) + s->system.floor[0]);
     // A step that had to be shortened is not lengthened at once.
     s->h = h * (attempt > 0 ? fmin(factor, 1.0) : factor);
     s->middle = s->step[0].t + s->step[0].h;
@@ -288,6 +287,18 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
     if (!cut_at_event(s, report)) {
       return SB_ERROR_NOT_CONVERGED;
     }
+    // Loads have a corner on an edge. A step that reaches far over one has seen mostly what lies
+    // behind, and its error says nothing of the way to it: again, no longer than that way.
+    double way = s->t_end - s->t;
+    if ((s->event == EVENT_EDGE_UP || s->event == EVENT_EDGE_DOWN) && !again && way < 0.9 * h &&
+        way > 1e-6 * h) {
+      again = true;
+      h = 1.02 * way;
+      s->counters.rejected++;
+      continue;
+    }
+    s->counters.steps++;
+    s->counters.local_error += local[0] / (fabs(s->x) + s->system.floor[0]);
     s->middle = s->step[0].t + s->step[0].h;
     if (s->event != EVENT_BREAK) {
       // What follows may be much quicker.
@@ -319,6 +330,30 @@ static double push_at(const SbDynamics *s, double t) {
   return sb_motion_drive_force(s, t, x, v);
 }
 
+// Largest force inside a step, no less than `peak`: its place is the vertex of the parabola through
+// three points of the dense output, and again about it; its value is found by stepping there, as
+// accurate as the solution. Steps are short against whatever swings.
+static double step_peak(const SbDynamics *s, const SbRadauStep *step, double peak) {
+  double t = step->t, theta = 0.5, span = 0.5;
+  for (int i = 0; i < 3; i++) {
+    double low = push_at(s, t + (theta - span) * step->h), f = push_at(s, t + theta * step->h),
+           high = push_at(s, t + (theta + span) * step->h);
+    double bend = low - 2.0 * f + high, slope = 0.5 * (high - low);
+    if (!(bend < 0.0 && fabs(slope) < -bend) ||
+        f - 0.5 * slope * slope / bend - 0.1 * bend < peak) {
+      return peak; // greatest at an end, or too low
+    }
+    theta += slope / -bend * span;
+    span = 0.25 * fmin(span, fmin(theta, 1.0 - theta));
+  }
+  SbRadauStep there;
+  SbRadauCounters counters = {0};
+  double h = theta * step->h;
+  return sb_radau_step(&there, &s->system, t, step->z0, h, &counters)
+             ? fmax(peak, sb_motion_drive_force(s, t + h, there.z1[0], there.z1[1]))
+             : peak;
+}
+
 double sb_motion_force_peak(const SbDynamics *s, double known) {
   const SbDynamicsModel *m = s->model;
   if (m->drive.kind == SB_DRIVE_NONE || !s->push.on || !s->ready) {
@@ -326,17 +361,15 @@ double sb_motion_force_peak(const SbDynamics *s, double known) {
   }
   double first = sb_motion_drive_force(s, s->t, s->x, s->v);
   double peak = fmax(known, fmax(first, push_at(s, s->t_end)));
-  if (s->held || m->drive.quantity == SB_DRIVE_OF_FORCE) {
-    return peak; // straight in time, or given
-  }
   if (!s->linear) {
-    // Steps are short against whatever swings: their ends and middles.
+    peak = fmax(peak, push_at(s, s->middle));
     for (int i = 0; i < 2; i++) {
-      for (int part = 1; part <= 2; part++) {
-        peak = fmax(peak, push_at(s, s->step[i].t + 0.5 * part * s->step[i].h));
-      }
+      peak = s->step[i].h > 0.0 ? step_peak(s, &s->step[i], peak) : peak;
     }
     return peak;
+  }
+  if (s->held || m->drive.quantity == SB_DRIVE_OF_FORCE) {
+    return peak; // straight in time, or given
   }
   // The first time at which the force stops rising; later swings of a stem that rings are lower,
   // or the end of the segment is higher. Nothing to gain far below the peak: the force can rise by
