@@ -33,10 +33,11 @@ typedef struct {
   bool stopped;  // the stem touches the end stop
   double turn;   // time after which a reverse slip is the return [s]
   double force_peak, leak, leak_from, leak_since;
-  double carried;  // film dragged along, whichever way
-  double home;     // time at which the stem is back on its rest stop, 0: not yet
-  bool slips;      // some contact has slid
-  SbStatus status; // of the frames' reactions
+  double return_least; // least force that pushed the stem out while it slid back [N]
+  double carried;      // film dragged along, whichever way
+  double home;         // time at which the stem is back on its rest stop, 0: not yet
+  bool slips;          // some contact has slid
+  SbStatus status;     // of the frames' reactions
   SbReport *report;
 } Recorder;
 
@@ -132,9 +133,26 @@ static bool rubs(const Recorder *r) {
   return false;
 }
 
+// Pressure and spring less friction of a stem that slides back. Events see the greatest speeds of a
+// return that nothing holds: at the land's edge and at the rest stop.
+static void note_return(Recorder *r) {
+  SbDynamicsSample sample;
+  sb_dynamics_sample(r->motion, &sample, NULL);
+  double force = -sample.loads_force - sample.spring_force;
+  bool slides = sample.speed < 0;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    slides = slides && sample.contact[seal] != SB_CONTACT_STUCK;
+    force -= sample.friction[seal];
+  }
+  r->return_least = slides ? fmin(r->return_least, force) : r->return_least;
+}
+
 static void valve_event(const SbMotionEvent *event, void *user) {
   Recorder *r = user;
   SbValve *valve = r->valve;
+  if (r->passed[SB_STAGE_E] && event->speed < 0) {
+    note_return(r);
+  }
   r->force_peak = fmax(r->force_peak, event->drive_force);
   switch (event->kind) {
   case SB_MOTION_SLIP:
@@ -203,6 +221,7 @@ static SbStatus run_motion(Recorder *r, SbDynamics *motion, const SbDynamicsMode
   r->motion = motion;
   r->report = report;
   r->leak_from = model->start_position;
+  r->return_least = INFINITY;
   r->turn = sb_drive_turn(run);
   sb_dynamics_listen(motion, valve_event, r);
   double drive = sb_drive_duration(run);
@@ -285,6 +304,10 @@ static SbStatus estimate_error(SbRun *run, const Recorder *fine, const SbDynamic
   *force = relative(fine->force_peak, coarse.force_peak, fine->force_peak);
   for (int stage = 0; stage < SB_STAGE_COUNT; stage++) {
     *force = fmax(*force, relative(fine->force[stage], coarse.force[stage], fine->force_peak));
+  }
+  if (isfinite(fine->return_least) && isfinite(coarse.return_least)) {
+    *force = fmax(*force, relative(fine->return_least, coarse.return_least,
+                                   fmax(fine->force_peak, run->model.pressure_force)));
   }
   *force = fmax(share * *force, run->model.motion_tolerance);
   *work = fmax(run->model.motion_tolerance,
@@ -375,6 +398,8 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbFrame *last = &run->frames[recorder.count - 1];
   summary->duration = last->time;
   summary->force_peak = recorder.force_peak;
+  // What a fast return's viscous friction takes, beyond that at the films' speed.
+  summary->force_return_min = fmin(summary->force_return_min, recorder.return_least);
   summary->returns = status == SB_OK && fabs(last->displacement) < 1e-6 * run->model.stroke;
   // Films alike on both ways leave nothing but rounding.
   summary->leakage_per_cycle = fabs(recorder.leak) > 1e-12 * recorder.carried ? recorder.leak : 0;
