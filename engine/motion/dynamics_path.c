@@ -14,6 +14,9 @@ static const double force_size = 400.0;
 // Speed to which it refers at least [m/s].
 static const double speed_size = 1e-3;
 
+// Way beyond an edge of the loads that a step may look at [m].
+static const double overshoot_max = 1e-6;
+
 // Stiffness over mass [1/s2] above which rounding outdoes the tolerance: 1e5 rad/s.
 static const double stiff_square = 1e10;
 
@@ -284,14 +287,16 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
     if (last && isfinite(s->piece.until)) {
       s->t_end = s->piece.until;
     }
+    double far = s->step[1].z1[0];
     if (!cut_at_event(s, report)) {
       return SB_ERROR_NOT_CONVERGED;
     }
     // Loads have a corner on an edge. A step that reaches far over one has seen mostly what lies
     // behind, and its error says nothing of the way to it: again, no longer than that way.
     double way = s->t_end - s->t;
-    if ((s->event == EVENT_EDGE_UP || s->event == EVENT_EDGE_DOWN) && !again && way < 0.9 * h &&
-        way > 1e-6 * h) {
+    bool edge = s->event == EVENT_EDGE_UP || s->event == EVENT_EDGE_DOWN;
+    if (edge && !again && way < 0.9 * h &&
+        fabs(far - m->edge[s->region - (s->event == EVENT_EDGE_DOWN)]) > overshoot_max) {
       again = true;
       h = 1.02 * way;
       s->counters.rejected++;
