@@ -22,6 +22,9 @@ static double legend(SbSection *section, double x, double y, double width, const
   sb_draw_mesh(list, corner, scalar, 6, map, 0, 1);
   const SbDrawPoint frame[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
   sb_draw_stroke(list, frame, 4, 1, palette->axis)->closed = true;
+  if (!(max > min)) { // one value everywhere, or none known
+    return 62;
+  }
   double target = (max - min) / 3;
   double unit_step = pow(10, floor(log10(target)));
   double m = target / unit_step;

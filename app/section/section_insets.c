@@ -341,13 +341,23 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->seal[seal],
                  "off the land: no film");
   } else if (!film) {
-    const char *why = frame->film_central > 0 ? "no film profile in this run"
-                                              : "at rest: no film, the surfaces touch";
+    // In a narrow inset in the middle, and its first words only.
+    bool rest = frame->film_central <= 0;
+    const char *why = rest ? "at rest: no film, the surfaces touch" : "no film profile in this run";
+    if (sb_text_width(section->text, why, 12, 600) > rect->width - 16) {
+      why = rest ? "at rest: no film" : "no film profile";
+    }
+    double half = sb_text_width(section->text, why, 12, 600) / 2 + 8;
+    x = CLAMP(x, rect->x + half, rect->x + rect->width - half);
     sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->ink, why);
-    if (frame->film_central <= 0) {
+    if (rest) {
       snprintf(text, sizeof text, "asperities carry the load, \xcf\x83 %s %s",
                sb_section_significant(value, section->model.sigma * 1e6), "\xc2\xb5m");
-      sb_draw_text(list, x, (bore + low) / 2 + 18, 11, 400, centre, palette->second, text);
+      half = sb_text_width(section->text, text, 11, 400) / 2 + 8;
+      if (2 * half < rect->width) {
+        x = CLAMP(x, rect->x + half, rect->x + rect->width - half);
+        sb_draw_text(list, x, (bore + low) / 2 + 18, 11, 400, centre, palette->second, text);
+      }
     }
   } else {
     char least[SB_SECTION_NUMBER];

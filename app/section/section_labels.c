@@ -254,14 +254,12 @@ static void draw_stem_forces(SbSection *section) {
   }
   snprintf(text, sizeof text, "drive %s", sb_section_force(value, force));
   SbSectionLabel style = {14, 700, SB_ALIGN_RIGHT, palette->ink, &palette->stem};
-  // Above the arrow; behind its point where that would be off a thin rod.
+  // Above the arrow; behind its point where that would be off a thin rod, or not at all: the
+  // read-outs have it too.
   bool above = y - 34 > (double)sb_section_at(section, 0, section->valve.rod).y;
-  if (above || fabs(frame->stop_force) >= 0.05) {
-    sb_section_label(section, right, y - 18, &style, text);
-  } else {
-    double point = fabs(force) >= 0.05 ? right - PX_PER_NEWTON * fabs(force) - 8 : right;
-    sb_section_label(section, point, y + 5, &style, text);
-  }
+  double point = fabs(force) >= 0.05 ? right - PX_PER_NEWTON * fabs(force) - 8 : right;
+  const double at[2][2] = {{right, y - 18}, {point, y + 5}};
+  place(section, at + !above, 1 + above, &style, text);
 
   if (fabs(frame->stop_force) >= 0.05) {
     double shown = PX_PER_NEWTON * frame->stop_force;
@@ -270,7 +268,9 @@ static void draw_stem_forces(SbSection *section) {
     sb_draw_arrow(list, from, stop_y, from + shown, stop_y, 3, 11, 10, palette->second);
     snprintf(text, sizeof text, "stop %s", sb_section_force(value, frame->stop_force));
     SbSectionLabel small = label_style(palette->second, 600, SB_ALIGN_RIGHT, &palette->stem);
-    sb_section_label(section, MIN(from, from + shown) - 8, stop_y + 4, &small, text);
+    // In a small picture it gives way: the balance below the section has it too.
+    const double behind[1][2] = {{MIN(from, from + shown) - 8, stop_y + 4}};
+    place(section, behind, 1, &small, text);
   }
 }
 
