@@ -41,6 +41,19 @@ static double hertz_of(const SbFilmProblem *p) {
   return 0.25 * p->modulus * sqrt(8.0 * W / G_PI);
 }
 
+// A contact of W = 1e-3 at Moes' M under the viscosity [Pa s]: u = 2 U E' R / eta, U = (W / M)^2
+// / 2.
+static SbFilmProblem contact(double M, double viscosity) {
+  SbFilmProblem p;
+  sb_film_problem_init(&p);
+  p.modulus = 1e7;
+  p.radius = 1e-3;
+  p.load = 10.0;
+  p.viscosity = viscosity;
+  p.speed = (1e-3 / M) * (1e-3 / M) * p.modulus * p.radius / viscosity;
+  return p;
+}
+
 // Solves and checks one contact; `thorough` compares with a finer solve and the mirror image.
 static void one(Tally *tally, const SbFilmProblem *p, bool thorough) {
   SbReport report;
@@ -129,15 +142,9 @@ static void test_box_of_M(void) {
   GRand *random = g_rand_new_with_seed(seed);
   Tally tally = {0};
   for (int i = 0; i < count; i++) {
-    SbFilmProblem p;
-    sb_film_problem_init(&p);
     double M = decades(random, 0.1, 1e6);
-    p.modulus = 1e7;
-    p.radius = 1e-3;
-    p.load = 10.0;
-    p.viscosity = decades(random, 1e-6, 10.0);
-    p.speed = (g_rand_boolean(random) ? 1.0 : -1.0) * 2.0 * 0.5 * (1e-3 / M) * (1e-3 / M) * 1e4 /
-              p.viscosity;
+    SbFilmProblem p = contact(M, decades(random, 1e-6, 10.0));
+    p.speed = g_rand_boolean(random) ? p.speed : -p.speed;
     double left = between(random, 0.0, 2.0), right = between(random, 0.0, 2.0);
     int ends = i % 4;
     p.pressure_left = ends & 1 ? left * hertz_of(&p) : 0.0;
@@ -182,14 +189,8 @@ static void test_starved(void) {
   GRand *random = g_rand_new_with_seed(seed + 2);
   Tally tally = {0};
   for (int i = 0; i < count / 2; i++) {
-    SbFilmProblem p;
-    sb_film_problem_init(&p);
-    double M = decades(random, 3.0, 1e6);
-    p.modulus = 1e7;
-    p.radius = 1e-3;
-    p.load = 10.0;
-    p.viscosity = 1e-3;
-    p.speed = (i % 2 ? 1.0 : -1.0) * (1e-3 / M) * (1e-3 / M) * 1e7;
+    SbFilmProblem p = contact(decades(random, 3.0, 1e6), 1e-3);
+    p.speed = i % 2 ? p.speed : -p.speed;
     sb_film_solver_forget(solver);
     g_assert_cmpint(sb_film_solve(&film, &p, solver, NULL), ==, SB_OK);
     p.inlet_film = 0.5 * film.film_flux * decades(random, 0.01, 1.0);
@@ -205,13 +206,8 @@ static void test_starved(void) {
 // So little film is supplied that its layer, 6e-8 of the half-width, is lost in rounding: refused,
 // where a supply four times as large is solved.
 static void test_starved_to_rounding(void) {
-  SbFilmProblem p;
-  sb_film_problem_init(&p);
-  p.modulus = 1e7;
-  p.radius = 1e-3;
-  p.load = 10.0;
-  p.viscosity = 1e-3;
-  p.speed = 1.4321658003391277e-11;
+  SbFilmProblem p = contact(1.0, 1e-3);
+  p.speed = 1.4321658003391277e-11; // M = 8.4e5
   p.inlet_film = 1.45e-15;
   SbReport report;
   sb_film_solver_forget(solver);
@@ -225,13 +221,8 @@ static void test_starved_to_rounding(void) {
 // A contact that continuation reaches on another number of elements than its own mesh would have:
 // the levels keep them, few steps suffice, and what the solver did before does not show.
 static void test_kept_elements(void) {
-  SbFilmProblem p;
-  sb_film_problem_init(&p);
-  p.modulus = 1e7;
-  p.radius = 1e-3;
-  p.load = 10.0;
-  p.viscosity = 3.4907142162813742;
-  p.speed = 3.1699421633600248e-10;
+  SbFilmProblem p = contact(1.0, 3.4907142162813742);
+  p.speed = 3.1699421633600248e-10; // M = 3.0e3
   p.pressure_right = 251131.46527606199;
   double first = 0.0;
   for (int i = 0; i < 3; i++) {
@@ -252,13 +243,7 @@ static void test_pressed(void) {
   Tally tally = {0};
   for (size_t i = 0; i < G_N_ELEMENTS(M); i++) {
     for (size_t k = 0; k < G_N_ELEMENTS(step); k++) {
-      SbFilmProblem p;
-      sb_film_problem_init(&p);
-      p.modulus = 1e7;
-      p.radius = 1e-3;
-      p.load = 10.0;
-      p.viscosity = 1e-3;
-      p.speed = (1e-3 / M[i]) * (1e-3 / M[i]) * 1e7;
+      SbFilmProblem p = contact(M[i], 1e-3);
       p.pressure_right = step[k] * hertz_of(&p);
       one(&tally, &p, true);
     }

@@ -6,9 +6,9 @@
 #include "engine/surface/greenwood_tripp.h"
 #include "engine/surface/persson.h"
 #include "engine/surface/van_der_waals.h"
+#include "tests/engine/rough_cells.h"
 
 #include <glib.h>
-#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,20 +44,7 @@ static SbStatus solve(SbFilm *out, const SbFilmProblem *problem) {
   return status;
 }
 
-static void close_to(const char *what, double got, double want, double relative) {
-  if (!(fabs(got - want) <= relative * fabs(want))) {
-    g_test_message("%s: got %.9g, want %.9g within %g", what, got, want, relative);
-    g_test_fail();
-  }
-}
-
 // ---------------------------------------------------------------- the laws
-
-// Mean gap of the undeformed planes' distance, by its closed form.
-static double average_gap(double sigma, double lambda) {
-  return sigma *
-         (lambda * 0.5 * erfc(-lambda / G_SQRT2) + exp(-lambda * lambda / 2) / sqrt(2 * G_PI));
-}
 
 static void test_laws(void) {
   SbRoughSurface surface = {SB_ROUGH_GREENWOOD_TRIPP, 0.1289, 1e-6, 0.1, 6.5725e6};
@@ -159,84 +146,6 @@ static void test_direct_start(void) {
   }
 }
 
-// Dry rough contact by an independent method: uniform cells of constant pressure on the half-plane
-// (closed-form kernel), collocated at their middles, Newton's method on the asperity separations,
-// integrals taken directly. Returns central gap; *peak the largest pressure.
-static double dry_by_cells(double *peak, const SbFilmProblem *problem, int cells, double half) {
-  int order = cells + 1;
-  double dx = 2 * half / cells;
-  double *kernel = g_new(double, cells), *A = g_new(double, order *order);
-  double *right = g_new(double, order), *lambda = g_new(double, cells), *p = g_new(double, cells);
-  lapack_int *pivot = g_new(lapack_int, order);
-  for (int k = 0; k < cells; k++) {
-    double a = (k - 0.5) * dx, b = (k + 0.5) * dx;
-    double integral = b * (log(fabs(b)) - 1) - a * (log(fabs(a)) - 1);
-    kernel[k] = -4 / (G_PI * problem->modulus) * integral;
-  }
-  double b =
-      problem->radius * sqrt(8 * problem->load / (G_PI * problem->modulus * problem->radius));
-  double H0 = 0;
-  for (int i = 0; i < cells; i++) {
-    double x = -half + (i + 0.5) * dx;
-    lambda[i] = fabs(x) < b ? -1 : 3;
-  }
-  for (int pass = 0; pass < 200; pass++) {
-    memset(A, 0, (size_t)order * (size_t)order * sizeof *A);
-    double load = 0;
-    double *by = g_new(double, cells);
-    for (int i = 0; i < cells; i++) {
-      SbGtIntegrals F, above;
-      sb_gt_integrals(&F, lambda[i], NULL);
-      sb_gt_integrals(&above, lambda[i] + 1e-6, NULL);
-      p[i] =
-          sb_gt_pressure(problem->gt_product, problem->sigma_over_beta, problem->modulus, F.F5_2);
-      by[i] = (sb_gt_pressure(problem->gt_product, problem->sigma_over_beta, problem->modulus,
-                              above.F5_2) -
-               p[i]) /
-              1e-6;
-      load += p[i] * dx;
-    }
-    double worst = 0;
-    for (int i = 0; i < cells; i++) {
-      double x = -half + (i + 0.5) * dx;
-      double gap = H0 + x * x / (2 * problem->radius);
-      for (int j = 0; j < cells; j++) {
-        gap += kernel[abs(i - j)] * p[j];
-        A[i + j * order] = kernel[abs(i - j)] * by[j];
-      }
-      A[i + i * order] -= problem->sigma * 0.5 * erfc(-lambda[i] / G_SQRT2);
-      A[i + cells * order] = 1;
-      right[i] = average_gap(problem->sigma, lambda[i]) - gap;
-      A[cells + i * order] = by[i] * dx;
-    }
-    right[cells] = problem->load - load;
-    g_assert_cmpint(LAPACKE_dgesv(LAPACK_COL_MAJOR, order, 1, A, order, pivot, right, order), ==,
-                    0);
-    for (int i = 0; i < cells; i++) {
-      worst = fmax(worst, fabs(right[i]));
-      lambda[i] = CLAMP(lambda[i] + CLAMP(right[i], -0.7, 0.7), -9, 36);
-    }
-    H0 += right[cells];
-    g_free(by);
-    if (worst < 1e-9) {
-      break;
-    }
-    g_assert_cmpint(pass, <, 199);
-  }
-  *peak = 0;
-  for (int i = 0; i < cells; i++) {
-    *peak = fmax(*peak, p[i]);
-  }
-  double central = average_gap(problem->sigma, lambda[cells / 2]);
-  g_free(kernel);
-  g_free(A);
-  g_free(right);
-  g_free(lambda);
-  g_free(p);
-  g_free(pivot);
-  return central;
-}
-
 static void test_dry_contact(void) {
   static const struct {
     double sigma, product, ratio;
@@ -248,17 +157,7 @@ static void test_dry_contact(void) {
     problem.sigma_over_beta = surface[i].ratio;
     g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
     g_assert_cmpfloat(film.solver.load_error, <, 1e-10);
-    close_to("asperities' share at rest", film.asperity_share, 1, 1e-9);
-    double peak[2];
-    double half = 1.5 * film.hertz_half_width;
-    double coarse = dry_by_cells(&peak[0], &problem, 75, half);
-    double fine = dry_by_cells(&peak[1], &problem, 225, half);
-    double error[2] = {fabs(coarse / film.film_central - 1), fabs(fine / film.film_central - 1)};
-    g_test_message("dry contact %zu: cells off by %.2g and %.2g, order %.2f", i, error[0], error[1],
-                   log(error[0] / error[1]) / log(3));
-    close_to("central gap", fine, film.film_central, 5e-4);
-    close_to("largest pressure", peak[1], film.pressure_max, 5e-4);
-    g_assert_cmpfloat(error[1], <, 0.35 * error[0]); // it is the cells that are off
+    check_dry_contact(&film, &problem, film.hertz_half_width);
     // At rest means no friction of a film, and boundary friction by its law.
     g_assert_cmpfloat(film.friction_couette, ==, 0);
     close_to("boundary friction", film.friction_boundary,

@@ -249,24 +249,38 @@ static void test_cancel(void) {
   g_assert_null(ring);
 }
 
+// All of a ring's fields; fields_free() them.
+static SbRingFields fields_of(SbRing *ring, int *nodes, int *triangles, int *outline) {
+  sb_ring_sizes(ring, nodes, triangles, outline);
+  SbRingFields fields = {
+      .place = g_new(double, 2 * *nodes),
+      .displacement = g_new(double, 2 * *nodes),
+      .mises = g_new(double, *nodes),
+      .hydrostatic = g_new(double, *nodes),
+      .shear = g_new(double, *nodes),
+      .contact = g_new(double, *nodes),
+      .triangle = g_new(int, 3 * *triangles),
+      .outline = g_new(int, *outline),
+  };
+  sb_ring_fields(ring, &fields);
+  return fields;
+}
+
+static void fields_free(const SbRingFields *fields) {
+  void *owned[] = {fields->place, fields->displacement, fields->mises,    fields->hydrostatic,
+                   fields->shear, fields->contact,      fields->triangle, fields->outline};
+  for (size_t i = 0; i < G_N_ELEMENTS(owned); i++) {
+    g_free(owned[i]);
+  }
+}
+
 // Drawing data: sizes agree, the outline lies on the triangles' boundary, stresses are finite.
 static void test_fields(void) {
   SbRingLoad load = groove();
   SbRingResult r;
   SbRing *ring = fitted(&BODY, &load, 0.05, &r);
   int nodes, triangles, outline;
-  sb_ring_sizes(ring, &nodes, &triangles, &outline);
-  SbRingFields fields = {
-      .place = g_new(double, 2 * nodes),
-      .displacement = g_new(double, 2 * nodes),
-      .mises = g_new(double, nodes),
-      .hydrostatic = g_new(double, nodes),
-      .shear = g_new(double, nodes),
-      .contact = g_new(double, nodes),
-      .triangle = g_new(int, 3 * triangles),
-      .outline = g_new(int, outline),
-  };
-  sb_ring_fields(ring, &fields);
+  SbRingFields fields = fields_of(ring, &nodes, &triangles, &outline);
   double inside = 0.0, around = 0.0, most = 0.0;
   for (int i = 0; i < triangles; i++) {
     const double *a = &fields.place[2 * fields.triangle[3 * i]];
@@ -289,11 +303,7 @@ static void test_fields(void) {
     g_assert_true(isfinite(fields.mises[i]) && isfinite(fields.hydrostatic[i]));
     g_assert_cmpfloat(fields.mises[i], >=, 0.0);
   }
-  void *owned[] = {fields.place, fields.displacement, fields.mises,    fields.hydrostatic,
-                   fields.shear, fields.contact,      fields.triangle, fields.outline};
-  for (size_t i = 0; i < G_N_ELEMENTS(owned); i++) {
-    g_free(owned[i]);
-  }
+  fields_free(&fields);
   sb_ring_destroy(ring);
 }
 
@@ -312,15 +322,7 @@ static void test_tension(void) {
   SbRingResult r;
   SbRing *ring = fitted(&body, &load, 0.1, &r);
   int nodes, triangles, outline;
-  sb_ring_sizes(ring, &nodes, &triangles, &outline);
-  SbRingFields fields = {
-      .place = g_new(double, 2 * nodes),
-      .displacement = g_new(double, 2 * nodes),
-      .mises = g_new(double, nodes),
-      .hydrostatic = g_new(double, nodes),
-      .shear = g_new(double, nodes),
-  };
-  sb_ring_fields(ring, &fields);
+  SbRingFields fields = fields_of(ring, &nodes, &triangles, &outline);
   double mu = body.modulus / (2 * (1 + body.poisson_ratio));
   double bulk = body.modulus / (3 * (1 - 2 * body.poisson_ratio));
   double tension = 0, mises = 0, hydrostatic = 0, shear = 0;
@@ -338,11 +340,7 @@ static void test_tension(void) {
   near(mises, tension, 0.005);
   near(3 * hydrostatic, tension, 0.04);
   g_assert_cmpfloat(fabs(shear), <, 0.01 * tension);
-  void *owned[] = {fields.place, fields.displacement, fields.mises, fields.hydrostatic,
-                   fields.shear};
-  for (size_t i = 0; i < G_N_ELEMENTS(owned); i++) {
-    g_free(owned[i]);
-  }
+  fields_free(&fields);
   sb_ring_destroy(ring);
 }
 
