@@ -218,10 +218,10 @@ class App:
         self.since = (time.monotonic(), machine_busy())
 
     def check_latency(self, what):
-        """At most 50 ms at the 99th percentile and 200 ms ever. Where more than half the
-        processors are at work on average (the display server and this script take their part)
-        waiting is for the scheduler to answer, and only the window's own part of it is judged; on a machine slower than that of the limits,
-        the limits are as much longer."""
+        """At most 50 ms at the 99th percentile and 200 ms ever. Where more than half of the processors
+        are at work on average (the display server and this script take their part) waiting is for the
+        scheduler to answer, and only the window's own part of it is judged; on a machine slower than
+        that of the limits, the limits are as much longer."""
         latency = self.latency()
         start, before = self.since
         load = (machine_busy() - before) / (time.monotonic() - start) / os.cpu_count()
