@@ -1,5 +1,4 @@
-// Colour arithmetic. OKLab after Ottosson (2020), contrast after WCAG 2.1, dichromacy after
-// Machado, Oliveira and Fernandes (2009), table 1, severity 1, in linear light. All values are
+// Colour arithmetic. OKLab after Ottosson (2020), contrast after WCAG 2.1. All values are
 // dimensionless. Leaves out chromatic adaptation: sRGB with D65 throughout.
 #include "app/chart/color.h"
 
@@ -71,11 +70,6 @@ SbColor sb_color_oklch(double lightness, double chroma, double hue_degrees) {
   return (SbColor){clamp01(out.r), clamp01(out.g), clamp01(out.b)};
 }
 
-double sb_color_distance(SbColor a, SbColor b) {
-  SbOklab p = sb_color_to_oklab(a), q = sb_color_to_oklab(b);
-  return sqrt((p.l - q.l) * (p.l - q.l) + (p.a - q.a) * (p.a - q.a) + (p.b - q.b) * (p.b - q.b));
-}
-
 static double luminance(SbColor c) {
   return 0.2126 * to_linear(c.r) + 0.7152 * to_linear(c.g) + 0.0722 * to_linear(c.b);
 }
@@ -83,29 +77,4 @@ static double luminance(SbColor c) {
 double sb_color_contrast(SbColor a, SbColor b) {
   double p = luminance(a), q = luminance(b);
   return (fmax(p, q) + 0.05) / (fmin(p, q) + 0.05);
-}
-
-SbColor sb_color_over(SbColor over, double alpha, SbColor ground) {
-  return (SbColor){ground.r + alpha * (over.r - ground.r), ground.g + alpha * (over.g - ground.g),
-                   ground.b + alpha * (over.b - ground.b)};
-}
-
-SbColor sb_color_simulate(SbColor color, SbVision vision) {
-  static const double matrix[3][3][3] = {
-      {{0.152286, 1.052583, -0.204868},
-       {0.114503, 0.786281, 0.099216},
-       {-0.003882, -0.048116, 1.051998}},
-      {{0.367322, 0.860646, -0.227968},
-       {0.280085, 0.672501, 0.047413},
-       {-0.011820, 0.042940, 0.968881}},
-      {{1.255528, -0.076749, -0.178779},
-       {-0.078411, 0.930809, 0.147602},
-       {0.004733, 0.691367, 0.303900}},
-  };
-  double in[3] = {to_linear(color.r), to_linear(color.g), to_linear(color.b)}, out[3];
-  for (int i = 0; i < 3; i++) {
-    const double *row = matrix[vision][i];
-    out[i] = to_gamma(clamp01(row[0] * in[0] + row[1] * in[1] + row[2] * in[2]));
-  }
-  return (SbColor){out[0], out[1], out[2]};
 }

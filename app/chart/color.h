@@ -1,4 +1,4 @@
-// Colours: OKLCh to sRGB with a gamut clip, distances, contrast, and simulated colour blindness.
+// Colours: OKLCh to sRGB with a gamut clip, and contrast.
 #pragma once
 
 // Gamma-encoded sRGB, 0 to 1, opaque.
@@ -11,8 +11,6 @@ typedef struct {
   double l, a, b;
 } SbOklab;
 
-typedef enum { SB_VISION_PROTAN, SB_VISION_DEUTAN, SB_VISION_TRITAN } SbVision;
-
 // 0xRRGGBB.
 SbColor sb_color_hex(unsigned rgb);
 
@@ -24,14 +22,5 @@ SbColor sb_color_from_oklab(SbOklab lab);
 // hue until the colour fits, so that lightness keeps its order.
 SbColor sb_color_oklch(double lightness, double chroma, double hue_degrees);
 
-// Euclidean distance in OKLab.
-double sb_color_distance(SbColor a, SbColor b);
-
 // WCAG 2 contrast ratio, 1 to 21.
 double sb_color_contrast(SbColor a, SbColor b);
-
-// `over` with opacity `alpha` on `ground`, blended as cairo does, in gamma-encoded values.
-SbColor sb_color_over(SbColor over, double alpha, SbColor ground);
-
-// As a dichromat sees it (Machado, Oliveira, Fernandes 2009, severity 1), clipped to the gamut.
-SbColor sb_color_simulate(SbColor color, SbVision vision);

@@ -84,10 +84,6 @@ const char *sb_chart_span(const SbChartRun *run, int stage);
 // once the run has ended.
 void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace, SbChartState state);
 
-// What the charts show at the playhead, in sentences, for people who do not see them and for
-// tests. Owned by the caller (g_free).
-char *sb_chart_summary(const SbChartData *data);
-
 // Relative error to quote for forces and films: the run's estimate, or 0 when unknown.
 double sb_chart_error_force(const SbChartRun *run);
 double sb_chart_error_film(const SbChartRun *run);

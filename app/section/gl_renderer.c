@@ -189,10 +189,6 @@ void sb_gl_renderer_destroy(SbGlRenderer *renderer) {
   g_free(renderer);
 }
 
-int sb_gl_renderer_size_max(const SbGlRenderer *renderer) {
-  return renderer->size_max;
-}
-
 // Starts or continues a batch for what is about to be added to the mesh.
 static Batch *begin_batch(SbGlRenderer *renderer, ProgramId program, const SbDrawItem *item) {
   Batch *last = renderer->batch_count > 0 ? &renderer->batch[renderer->batch_count - 1] : NULL;

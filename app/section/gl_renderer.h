@@ -33,6 +33,3 @@ void sb_gl_renderer_read(SbGlRenderer *renderer, uint8_t *pixels, size_t stride)
 // Draws a list into the framebuffer that is bound now (a window's, with its origin at the bottom).
 void sb_gl_renderer_draw_bound(SbGlRenderer *renderer, const SbDrawList *list, int width,
                                int height, double scale);
-
-// Largest width and height.
-int sb_gl_renderer_size_max(const SbGlRenderer *renderer);

@@ -13,7 +13,7 @@
 // leaves the surface flat. S acts on the window only.
 //
 // Source: Johnson, Contact Mechanics, sections 2.7 and 5.6 (half-plane and finite bodies); the
-// disc's rest is closed (disc_field.h). It leaves out whatever is not linear about the fitted
+// disc's rest is closed. It leaves out whatever is not linear about the fitted
 // state: small changes of pressure against the dry contact's, as under a thin film.
 #pragma once
 

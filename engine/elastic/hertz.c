@@ -9,14 +9,6 @@ double sb_hertz_half_width(double load_per_length, double radius, double reduced
                                : 0.0;
 }
 
-double sb_hertz_pressure(const SbHertz *hertz, double x) {
-  if (!(hertz->half_width > 0.0) || !(fabs(x) < hertz->half_width)) {
-    return 0.0;
-  }
-  double t = x / hertz->half_width;
-  return hertz->pressure_peak * sqrt((1.0 - t) * (1.0 + t));
-}
-
 static bool positive(double value) {
   return isfinite(value) && value > 0.0;
 }
@@ -51,24 +43,6 @@ static void warn_width(SbWarnings *warnings, double b, double radius) {
             "contact half-width is %.2g of the radius: Hertz theory wants it small (below %g)",
             b / radius, SB_HERTZ_WIDTH_MAX);
   }
-}
-
-SbStatus sb_hertz_from_load(SbHertz *out, double load_per_length, double radius,
-                            double reduced_modulus, double disc_modulus, SbWarnings *warnings,
-                            SbReport *report) {
-  *out = (SbHertz){0};
-  SbStatus status = check(radius, reduced_modulus, disc_modulus, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  if (!(isfinite(load_per_length) && load_per_length >= 0.0)) {
-    return sb_fail(report, SB_ERROR_RANGE, "load %g N/m is negative or not finite",
-                   load_per_length);
-  }
-  fill(out, sb_hertz_half_width(load_per_length, radius, reduced_modulus), radius, reduced_modulus,
-       disc_modulus);
-  warn_width(warnings, out->half_width, radius);
-  return sb_succeed(report);
 }
 
 SbStatus sb_hertz_from_approach(SbHertz *out, double approach, double radius,

@@ -28,16 +28,6 @@ typedef struct {
 // all positive; 0 for no load.
 double sb_hertz_half_width(double load_per_length, double radius, double reduced_modulus);
 
-// Hertz pressure [Pa] at distance x [m] from the centre; 0 outside.
-double sb_hertz_pressure(const SbHertz *hertz, double x);
-
-// A disc of radius R under load w between flats. `reduced_modulus` is E' of disc and flat (sets the
-// width), `disc_modulus` E/(1 - nu^2) of the disc alone (sets the approach). SB_ERROR_RANGE unless
-// radius and moduli are positive and the load is not negative. Warns "hertz-width".
-SbStatus sb_hertz_from_load(SbHertz *out, double load_per_length, double radius,
-                            double reduced_modulus, double disc_modulus, SbWarnings *warnings,
-                            SbReport *report);
-
 // The same for a given total approach of the flats [m]: 0 or less gives no contact ("no-contact").
 // An approach that would make the contact as wide as the disc is SB_ERROR_INFEASIBLE.
 SbStatus sb_hertz_from_approach(SbHertz *out, double approach, double radius,

@@ -244,13 +244,3 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
       out->compression_set * fmax(0.0, out->section_diameter - storage->radial_space);
   return sb_succeed(report);
 }
-
-// ---- table 2.2
-
-const SbRubberSwellEntry *sb_rubber_swell_entry(size_t index) {
-  static const SbRubberSwellEntry entries[] = {
-      {"LDP", 1.01},        {"nitrile", 1.17}, {"black buna", 1.12}, {"white buna", 1.14},
-      {"chlorobutyl", 1.0}, {"butyl", 1.01},   {"neoprene", 1.01},
-  };
-  return index < sizeof entries / sizeof entries[0] ? &entries[index] : NULL;
-}

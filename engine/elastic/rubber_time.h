@@ -93,11 +93,3 @@ double sb_rubber_uptake(double fourier);
 // in the same unit as `tau`): internal strains follow their own relaxation with zero stress.
 double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t terms, double hold,
                                   double recovery);
-
-// Table 2.2 of the thesis (US 5190029): mass after 24 h in liquid HFC-134a over dry mass. `name` of
-// entry `index`, NULL beyond the last.
-typedef struct {
-  const char *name;
-  double mass_ratio;
-} SbRubberSwellEntry;
-const SbRubberSwellEntry *sb_rubber_swell_entry(size_t index);

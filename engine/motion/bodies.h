@@ -116,15 +116,6 @@ SbStatus sb_assembly_tangent(SbAssemblyTangent *tangent, const SbAssembly *assem
 SbStatus sb_assembly_slide(SbAssembly *assembly, SbAssemblyTangent *tangent, double distance,
                            double speed, double *error, SbReport *report);
 
-// Power of the applied forces per 1 m/s of the tangent's motion: the generalised force [N].
-double sb_assembly_generalised_force(const SbAssembly *assembly, const SbAssemblyTangent *tangent);
-
-// Advances by h with the classical Runge-Kutta method (order 4), the applied forces held or set
-// anew at each stage by `apply` (may be NULL), and brings positions back onto the joints.
-SbStatus sb_assembly_step(SbAssembly *assembly, double time, double h,
-                          void (*apply)(SbAssembly *assembly, double time, void *user), void *user,
-                          SbReport *report);
-
 // Brings positions and velocities onto the joints' conditions by the smallest change in the sense
 // of the masses. SB_ERROR_NOT_CONVERGED if the parts are too far from an assembled state.
 SbStatus sb_assembly_settle(SbAssembly *assembly, SbReport *report);

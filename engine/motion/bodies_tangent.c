@@ -133,11 +133,3 @@ SbStatus sb_assembly_slide(SbAssembly *a, SbAssemblyTangent *t, double distance,
   return sb_fail(report, SB_ERROR_NOT_CONVERGED, "'%s' cannot move %.9g m along its axis",
                  a->body[t->body].name, distance);
 }
-
-double sb_assembly_generalised_force(const SbAssembly *a, const SbAssemblyTangent *t) {
-  double sum = 0.0;
-  for (size_t b = 0; b < a->bodies; b++) {
-    sum += dot(a->body[b].force, t->velocity[b]) + dot(a->body[b].torque, t->spin[b]);
-  }
-  return sum;
-}

@@ -317,11 +317,6 @@ static void apply(SbDynamics *s, int event) {
 
 // ---- public ----
 
-double sb_dynamics_rest_position(const SbDynamicsStop *stop, double force) {
-  bool pressed = stop->side * force > 0.0 && stop->stiffness < 1e300;
-  return stop->position + (pressed ? force / stop->stiffness : 0.0);
-}
-
 SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *report) {
   SbStatus status = sb_dynamics_check(m, report);
   if (status != SB_OK) {

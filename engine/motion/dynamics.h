@@ -220,9 +220,6 @@ SbStatus sb_dynamics_check(const SbDynamicsModel *model, SbReport *report);
 // State at time 0. The model is borrowed for the life of the state.
 SbStatus sb_dynamics_init(SbDynamics *dynamics, const SbDynamicsModel *model, SbReport *report);
 
-// Where a stem pressed by `force` (+x) rests on a stop: its position plus the elastic give.
-double sb_dynamics_rest_position(const SbDynamicsStop *stop, double force);
-
 // Reports every event as it happens, save those of cycles passed over (counters.repeated); NULL to
 // stop.
 void sb_dynamics_listen(SbDynamics *dynamics,

@@ -298,7 +298,6 @@ static void test_hostile(void) {
     const SbRect rect = {0, 0, 300, 300};
     sb_hysteresis_hit(&frame, rect, &data, 0, 100, 100, 1000);
     sb_timeline_hit(&frame, rect, &data, 100);
-    g_free(sb_chart_summary(&data));
     sb_trace_destroy(trace);
   }
   g_rand_free(rand);

@@ -133,34 +133,6 @@ static void test_timeline_hit(void) {
   synthetic_clear(&run);
 }
 
-// The charts in words.
-static void test_summary(void) {
-  Synthetic run;
-  synthetic_init(&run, 1250, 1);
-  SbChartData data;
-  synthetic_data(&data, &run, 7.27);
-  g_autofree char *text = sb_chart_summary(&data);
-  g_test_message("%s", text);
-  g_assert_true(g_utf8_validate(text, -1, NULL));
-  static const char *const parts[] = {("Stage B\xe2\x80\x93"
-                                       "C, both seals slide: "),
-                                      "force on the stem 27.4\xc2\xa0N",
-                                      "Outer seal: friction 8.0\xc2\xa0N",
-                                      "film 0.82\xc2\xa0nm",
-                                      "Break-away 28.7\xc2\xa0N, least return 1.6\xc2\xa0N",
-                                      "the stem returns."};
-  for (size_t i = 0; i < G_N_ELEMENTS(parts); i++) {
-    g_assert_nonnull(strstr(text, parts[i]));
-  }
-  synthetic_data(&data, &run, 15);
-  g_autofree char *open = sb_chart_summary(&data);
-  g_assert_nonnull(strstr(open, "Inner seal: no contact."));
-  data = (SbChartData){0};
-  g_autofree char *none = sb_chart_summary(&data);
-  g_assert_cmpstr(none, ==, "No run yet.");
-  synthetic_clear(&run);
-}
-
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/trace/events", test_events);
@@ -168,6 +140,5 @@ int main(int argc, char **argv) {
   g_test_add_func("/trace/bounded", test_bounded);
   g_test_add_func("/trace/hit", test_hit);
   g_test_add_func("/trace/timeline-hit", test_timeline_hit);
-  g_test_add_func("/chart/summary", test_summary);
   return g_test_run();
 }

@@ -3,6 +3,7 @@
 #include "engine/model.h"
 #include "engine/motion/bodies.h"
 #include "engine/motion/dynamics.h"
+#include "tests/engine/assembly_step.h"
 
 #include <glib.h>
 #include <gsl/gsl_sf_ellint.h>
@@ -108,7 +109,7 @@ static void test_pendulum(void) {
     sb_assembly_join(&a, NULL, SB_JOINT_REVOLUTE, rod, ground, origin, z_axis, &report);
     g_assert_cmpstr(report.text, ==, "");
     for (int i = 0; i < n; i++) {
-      sb_assembly_step(&a, 0.0, period / n, gravity, NULL, &report);
+      assembly_step(&a, 0.0, period / n, gravity, NULL, &report);
       g_assert_cmpstr(report.text, ==, "");
     }
     double error = hypot(b->position[0] - arm * sin(angle), b->position[1] + arm * cos(angle));
@@ -122,7 +123,7 @@ static void test_pendulum(void) {
     previous = error;
     // A quarter on the reaction: at any state F = m (a_c + g).
     for (int i = 0; i < n / 4; i++) {
-      sb_assembly_step(&a, 0.0, period / n, gravity, NULL, &report);
+      assembly_step(&a, 0.0, period / n, gravity, NULL, &report);
     }
     SbAssemblyForces f;
     sb_assembly_clear_forces(&a);
@@ -153,7 +154,7 @@ static void test_free_spin(void) {
   double momentum = inertia[1] * 5.0;
   bool tumbled = false;
   for (int i = 0; i < 8000; i++) {
-    sb_assembly_step(&a, 0.0, 1e-3, NULL, NULL, &report);
+    assembly_step(&a, 0.0, 1e-3, NULL, NULL, &report);
     tumbled = tumbled || fabs(b->orientation[1]) > 0.3 || fabs(b->orientation[3]) > 0.3;
   }
   g_assert_cmpstr(report.text, ==, "");
@@ -305,7 +306,7 @@ static void test_valve_motion(void) {
     double h = 2e-3 / n, travel;
     worst = 0.0;
     for (int i = 0; i < n; i++) {
-      sb_assembly_step(&a, i * h, h, valve_push, NULL, &report);
+      assembly_step(&a, i * h, h, valve_push, NULL, &report);
       g_assert_cmpstr(report.text, ==, "");
       sb_oscillator_at(&o, (i + 1) * h, &travel, NULL, NULL);
       worst = fmax(worst, fabs(a.body[SB_VALVE_STEM_TOP].position[0] - 10e-3 - travel));

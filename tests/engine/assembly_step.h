@@ -1,0 +1,98 @@
+// Constrained bodies stepped in all their coordinates, to hold the reduced form against.
+#pragma once
+
+#include "engine/motion/bodies_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+  double position[SB_BODIES_MAX][3], orientation[SB_BODIES_MAX][4];
+  double velocity[SB_BODIES_MAX][3], spin[SB_BODIES_MAX][3];
+} BodyRates;
+
+static inline SbStatus rates_of(BodyRates *out, SbAssembly *a, double time,
+                                void (*apply)(SbAssembly *, double, void *), void *user,
+                                SbReport *report) {
+  SbAssemblyForces forces;
+  if (apply != NULL) {
+    sb_assembly_clear_forces(a);
+    apply(a, time, user);
+  }
+  SbStatus status = sb_bodies_forces(&forces, a, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  for (size_t b = 0; b < a->bodies; b++) {
+    const SbBody *body = &a->body[b];
+    const double *q = body->orientation, *w = body->spin;
+    memcpy(out->position[b], body->velocity, sizeof out->position[b]);
+    memcpy(out->velocity[b], forces.acceleration[b], sizeof out->velocity[b]);
+    memcpy(out->spin[b], forces.spin_rate[b], sizeof out->spin[b]);
+    out->orientation[b][0] = -0.5 * (w[0] * q[1] + w[1] * q[2] + w[2] * q[3]);
+    out->orientation[b][1] = 0.5 * (w[0] * q[0] + w[1] * q[3] - w[2] * q[2]);
+    out->orientation[b][2] = 0.5 * (w[1] * q[0] + w[2] * q[1] - w[0] * q[3]);
+    out->orientation[b][3] = 0.5 * (w[2] * q[0] + w[0] * q[2] - w[1] * q[1]);
+  }
+  return SB_OK;
+}
+
+static inline void move_bodies(SbAssembly *a, const SbAssembly *from, const BodyRates *rates,
+                               double h) {
+  for (size_t b = 0; b < a->bodies; b++) {
+    SbBody *to = &a->body[b];
+    const SbBody *was = &from->body[b];
+    if (to->ground) {
+      continue;
+    }
+    double size = 0.0;
+    for (int k = 0; k < 3; k++) {
+      to->position[k] = was->position[k] + h * rates->position[b][k];
+      to->velocity[k] = was->velocity[k] + h * rates->velocity[b][k];
+      to->spin[k] = was->spin[k] + h * rates->spin[b][k];
+    }
+    for (int k = 0; k < 4; k++) {
+      to->orientation[k] = was->orientation[k] + h * rates->orientation[b][k];
+      size += to->orientation[k] * to->orientation[k];
+    }
+    for (int k = 0; k < 4; k++) {
+      to->orientation[k] /= sqrt(size);
+    }
+  }
+}
+
+// Advances by h with the classical Runge-Kutta method (order 4), the applied forces held or set
+// anew at each stage by `apply` (may be NULL), and brings positions back onto the joints.
+static inline SbStatus assembly_step(SbAssembly *a, double time, double h,
+                                     void (*apply)(SbAssembly *assembly, double time, void *user),
+                                     void *user, SbReport *report) {
+  SbAssembly start = *a;
+  BodyRates k1, k2, k3, k4, mean;
+  SbMobility mobility;
+  SbStatus status = sb_assembly_mobility(&mobility, a, -1, report);
+  status = status != SB_OK ? status : rates_of(&k1, a, time, apply, user, report);
+  if (status == SB_OK) {
+    move_bodies(a, &start, &k1, 0.5 * h);
+    status = rates_of(&k2, a, time + 0.5 * h, apply, user, report);
+  }
+  if (status == SB_OK) {
+    move_bodies(a, &start, &k2, 0.5 * h);
+    status = rates_of(&k3, a, time + 0.5 * h, apply, user, report);
+  }
+  if (status == SB_OK) {
+    move_bodies(a, &start, &k3, h);
+    status = rates_of(&k4, a, time + h, apply, user, report);
+  }
+  if (status != SB_OK) {
+    *a = start;
+    return status;
+  }
+  const double *p1 = &k1.position[0][0], *p2 = &k2.position[0][0];
+  const double *p3 = &k3.position[0][0], *p4 = &k4.position[0][0];
+  double *p = &mean.position[0][0];
+  for (size_t i = 0; i < sizeof mean / sizeof *p; i++) {
+    p[i] = (p1[i] + 2.0 * (p2[i] + p3[i]) + p4[i]) / 6.0;
+  }
+  move_bodies(a, &start, &mean, h);
+  return sb_assembly_settle(a, report);
+}
