@@ -6,8 +6,8 @@
 #include <glib/gi18n.h>
 #include <locale.h>
 
-// The folder of the translations: where the program was installed to, or, while it runs from where
-// it was built, the build's own.
+// The folder of the translations: beside the program as it was installed, wherever that was moved
+// to, or, while it runs from where it was built, the build's own.
 static char *locale_folder(void) {
   g_autofree char *program = g_file_read_link("/proc/self/exe", NULL);
   g_autofree char *in = g_path_get_dirname(program != NULL ? program : "/");
@@ -16,7 +16,7 @@ static char *locale_folder(void) {
     return built;
   }
   g_free(built);
-  return g_strdup(SB_LOCALE_DIR);
+  return g_build_filename(in, SB_LOCALE_FROM_PROGRAM, NULL);
 }
 
 int main(int argc, char **argv) {

@@ -6,6 +6,8 @@
 
 #include "ui/preferences.h"
 
+#include "app/document/shipped.h"
+
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -248,6 +250,33 @@ static void on_recent(GtkRecentChooser *chooser, SbWindowFiles *files) {
   }
 }
 
+static void on_example(GtkMenuItem *item, SbWindowFiles *files) {
+  g_autoptr(GFile) file = g_file_new_for_path(g_object_get_data(G_OBJECT(item), "sb-path"));
+  sb_window_files_open(files, file);
+}
+
+// The scenes that ship, by their titles.
+static GtkWidget *examples_item(SbWindowFiles *files) {
+  GtkWidget *item = gtk_menu_item_new_with_mnemonic(_("E_xamples")), *menu = gtk_menu_new();
+  g_autoptr(GPtrArray) scenes = sb_shipped_scenes();
+  for (guint i = 0; i < scenes->len; i++) {
+    const char *path = g_ptr_array_index(scenes, i);
+    g_autoptr(GKeyFile) keys = g_key_file_new();
+    g_key_file_load_from_file(keys, path, G_KEY_FILE_NONE, NULL);
+    g_autofree char *title = g_key_file_get_string(keys, "sealbench", "title", NULL);
+    g_autofree char *name = g_path_get_basename(path);
+    GtkWidget *each = gtk_menu_item_new_with_label(title != NULL ? title : name);
+    gtk_widget_set_tooltip_text(each, name);
+    g_object_set_data_full(G_OBJECT(each), "sb-path", g_strdup(path), g_free);
+    g_signal_connect(each, "activate", G_CALLBACK(on_example), files);
+    gtk_menu_shell_append(GTK_MENU_SHELL(menu), each);
+  }
+  gtk_menu_item_set_submenu(GTK_MENU_ITEM(item), menu);
+  gtk_widget_set_sensitive(item, scenes->len > 0);
+  gtk_widget_show_all(item);
+  return item;
+}
+
 static GtkWidget *recent_menu(SbWindowFiles *files) {
   GtkWidget *menu = gtk_recent_chooser_menu_new_for_manager(gtk_recent_manager_get_default());
   GtkRecentFilter *filter = gtk_recent_filter_new();
@@ -258,6 +287,8 @@ static GtkWidget *recent_menu(SbWindowFiles *files) {
   gtk_recent_chooser_set_local_only(GTK_RECENT_CHOOSER(menu), TRUE);
   gtk_recent_chooser_set_limit(GTK_RECENT_CHOOSER(menu), 10);
   g_signal_connect(menu, "item-activated", G_CALLBACK(on_recent), files);
+  // Recent files come and go behind it.
+  gtk_menu_shell_prepend(GTK_MENU_SHELL(menu), examples_item(files));
   return menu;
 }
 

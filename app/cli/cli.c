@@ -2,6 +2,7 @@
 #include "app/cli/cli.h"
 
 #include "app/document/atomic.h"
+#include "app/document/shipped.h"
 
 #include <errno.h>
 #include <math.h>
@@ -138,7 +139,10 @@ bool sb_cli_quantity(double *out, const char *option, const char *text, bool req
 
 SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings) {
   GPtrArray *issues = sb_issues_new();
-  SbDocument *document = sb_document_load(path, issues);
+  // A name that is no file here may be one that ships: "thesis-cycle".
+  char *shipped = g_file_test(path, G_FILE_TEST_EXISTS) ? NULL : sb_shipped_find(path);
+  SbDocument *document = sb_document_load(shipped != NULL ? shipped : path, issues);
+  g_free(shipped);
   for (char **setting = settings; document != NULL && setting != NULL && *setting != NULL;
        setting++) {
     sb_document_set_option(document, *setting, issues);

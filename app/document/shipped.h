@@ -1,0 +1,16 @@
+// The valves and scenes that ship with the program, found from where the program lies: installed
+// (../share/sealbench) or in its build folder (the sources' assets). Nothing is compiled in, so an
+// installation may be moved.
+#pragma once
+
+#include <glib.h>
+
+// Folder that holds valves/, scenes/ and series/; NULL if there is none. Owned by the caller.
+char *sb_shipped_folder(void);
+
+// Path of what ships as `name`, with or without its ending ("thesis-cycle", "piston.valve"); NULL
+// if nothing does, or if `name` holds a folder. Owned by the caller.
+char *sb_shipped_find(const char *name);
+
+// Paths of all scenes that ship, sorted by name. Owned by the caller; never NULL.
+GPtrArray *sb_shipped_scenes(void);
