@@ -2,26 +2,17 @@
 // dots, panels. One SbCanvas serves one drawing call.
 #pragma once
 
+#include "app/chart/geometry.h"
 #include "app/chart/theme.h"
 
 #include <pango/pangocairo.h>
 #include <stddef.h>
 
 typedef struct {
-  double x, y, width, height;
-} SbRect;
-
-typedef struct {
-  double x, y;
-} SbPoint;
-
-typedef struct {
   cairo_t *cr;
   const SbTheme *theme;
   PangoLayout *layout; // owned, reused for every text
 } SbCanvas;
-
-typedef enum { SB_LEFT, SB_MIDDLE, SB_RIGHT } SbAlign;
 
 typedef struct {
   double size;   // [px]

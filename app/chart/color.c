@@ -18,7 +18,8 @@ static double clamp01(double c) {
 }
 
 SbColor sb_color_hex(unsigned rgb) {
-  return (SbColor){((rgb >> 16) & 0xff) / 255.0, ((rgb >> 8) & 0xff) / 255.0, (rgb & 0xff) / 255.0};
+  return (SbColor){((rgb >> 16) & 0xff) / 255.0, ((rgb >> 8) & 0xff) / 255.0, (rgb & 0xff) / 255.0,
+                   1};
 }
 
 SbOklab sb_color_to_oklab(SbColor color) {
@@ -40,7 +41,7 @@ SbColor sb_color_from_oklab(SbOklab lab) {
   s = s * s * s;
   return (SbColor){to_gamma(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
                    to_gamma(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
-                   to_gamma(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+                   to_gamma(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s), 1};
 }
 
 static bool in_gamut(SbColor c) {
@@ -67,7 +68,12 @@ SbColor sb_color_oklch(double lightness, double chroma, double hue_degrees) {
     }
     out = sb_color_from_oklab((SbOklab){lightness, low * ca, low * sa});
   }
-  return (SbColor){clamp01(out.r), clamp01(out.g), clamp01(out.b)};
+  return (SbColor){clamp01(out.r), clamp01(out.g), clamp01(out.b), 1};
+}
+
+SbColor sb_color_mix(SbColor a, SbColor b, double t) {
+  return (SbColor){a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t,
+                   a.a + (b.a - a.a) * t};
 }
 
 static double luminance(SbColor c) {

@@ -60,7 +60,7 @@ static void finish_housing(SbValveSolid *housing, double radius, double chamfer)
 SbCutaway *sb_cutaway_create(const SbModel *model, double inner_contact_left) {
   SbCutaway *cutaway = g_new0(SbCutaway, 1);
   sb_revolve_init(&cutaway->revolve);
-  cutaway->point = g_array_new(FALSE, FALSE, sizeof(SbDrawPoint));
+  cutaway->point = g_array_new(FALSE, FALSE, sizeof(SbPoint));
   cutaway->scalar = g_array_new(FALSE, FALSE, sizeof(float));
   SbModel *whole = g_new(SbModel, 1);
   *whole = *model;
@@ -137,7 +137,7 @@ static void outline_ring(SbCutaway *cutaway, const SbSection *section, int seal)
 static void place_camera(SbCutaway *cutaway, const SbSection *section, const SbOrbit *orbit,
                          double *scale, double *x0, double *y0) {
   const SbValve *valve = &cutaway->valve;
-  const SbDrawRect *strip = &section->strip;
+  const SbRect *strip = &section->strip;
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   const double *axis[2] = {orbit->right, orbit->up};
   for (size_t k = 0; k < valve->solid_count; k++) {
@@ -174,7 +174,7 @@ static void flush_cells(SbCutaway *cutaway, SbSection *section, SbRevolveBody so
       [SB_REVOLVE_INNER] = &palette->seal_shade[SB_INNER],
   };
   if (cutaway->point->len > 0) {
-    sb_draw_mesh(section->list, (const SbDrawPoint *)(const void *)cutaway->point->data,
+    sb_draw_mesh(section->list, (const SbPoint *)(const void *)cutaway->point->data,
                  (const float *)(const void *)cutaway->scalar->data, cutaway->point->len,
                  map[solid], 0, 1)
         ->shaded = true;
@@ -194,7 +194,7 @@ static void paint_cells(SbCutaway *cutaway, SbSection *section, const SbRevolveS
       solid = cell->solid;
     }
     for (int k = 0; k < 6; k++) {
-      SbDrawPoint point = {cell->x[corner[k]], cell->y[corner[k]]};
+      SbPoint point = {cell->x[corner[k]], cell->y[corner[k]]};
       g_array_append_val(cutaway->point, point);
       g_array_append_val(cutaway->scalar, cell->shade[corner[k]]);
     }
@@ -206,7 +206,7 @@ static void paint_edges(SbCutaway *cutaway, SbSection *section, const SbRevolveS
   for (size_t i = 0; i < step->count; i++) {
     const SbRevolveEdge *edge =
         &g_array_index(cutaway->revolve.edge, SbRevolveEdge, step->first + i);
-    float x = (float)(EDGE_WIDTH / 2) * edge->out_x, y = (float)(EDGE_WIDTH / 2) * edge->out_y;
+    float x = (EDGE_WIDTH / 2) * edge->out_x, y = (EDGE_WIDTH / 2) * edge->out_y;
     sb_draw_line(section->list, edge->x[0] + x, edge->y[0] + y, edge->x[1] + x, edge->y[1] + y,
                  EDGE_WIDTH, section->palette->outline);
   }
@@ -225,8 +225,8 @@ static SbSectionPlane plane_of(const SbRevolve *revolve, int face) {
 }
 
 // The section's hatch, lying in the face: lines z - lean r = start + n pitch sqrt(2).
-static void hatch_on(SbDrawItem *item, const SbSectionPlane *plane, double scale,
-                     SbDrawColour colour, double lean, double start) {
+static void hatch_on(SbDrawItem *item, const SbSectionPlane *plane, double scale, SbColor colour,
+                     double lean, double start) {
   item->feather = false;
   double det = plane->xx * plane->yy - plane->xy * plane->yx;
   if (fabs(det) < 0.02 * scale * scale) {
@@ -238,9 +238,7 @@ static void hatch_on(SbDrawItem *item, const SbSectionPlane *plane, double scale
   double steep = hypot(gx, gy);
   double nx = gx / steep, ny = gy / steep;
   double offset = scale * M_SQRT1_2 * start / steep + nx * plane->x0 + ny * plane->y0;
-  item->hatch = (SbDrawHatch){
-      colour,       (float)(SB_HATCH_PITCH / steep), (float)SB_HATCH_WIDTH, (float)nx, (float)ny,
-      (float)offset};
+  item->hatch = (SbDrawHatch){colour, (SB_HATCH_PITCH / steep), SB_HATCH_WIDTH, nx, ny, offset};
 }
 
 // Contour of the housing's inside with both ends on the axis, from `left` to `right`.
@@ -265,7 +263,7 @@ static size_t inside(const SbValve *valve, double left, double right, SbValvePoi
 }
 
 static size_t map_points(const SbSectionPlane *plane, const SbValvePoint *points, size_t count,
-                         SbDrawPoint *out) {
+                         SbPoint *out) {
   for (size_t i = 0; i < count; i++) {
     out[i] = sb_section_plane_at(plane, points[i].x, points[i].y);
   }
@@ -289,13 +287,13 @@ static void paint_fluid(const SbCutaway *cutaway, SbSection *section, const SbSe
                               frame->seal[SB_OUTER].pressure_right};
   for (int i = 0; i < 3; i++) {
     SbValvePoint contour[CONTOUR_MAX];
-    SbDrawPoint pixel[CONTOUR_MAX];
+    SbPoint pixel[CONTOUR_MAX];
     if (edge[i + 1] <= edge[i]) {
       continue;
     }
     size_t count = inside(valve, edge[i], edge[i + 1], contour);
-    SbDrawColour colour = sb_palette_fluid(section->palette, pressure[i]);
-    colour.a = (float)(FLUID_OPACITY * sqrt(CLAMP(pressure[i] / FLUID_FULL, 0, 1)));
+    SbColor colour = sb_palette_fluid(section->palette, pressure[i]);
+    colour.a = (FLUID_OPACITY * sqrt(CLAMP(pressure[i] / FLUID_FULL, 0, 1)));
     sb_draw_fill(section->list, pixel, map_points(plane, contour, count, pixel), colour);
   }
 }
@@ -313,12 +311,12 @@ static void paint_vent(SbSection *section, const SbCutaway *cutaway, const SbSec
                                   {valve->vent_right, low},
                                   {valve->vent_right, high},
                                   {valve->vent_left, high}};
-  SbDrawPoint pixel[4];
+  SbPoint pixel[4];
   map_points(plane, corner, 4, pixel);
   double ambient = (double)section->instant->frame->seal[SB_OUTER].pressure_right;
   sb_draw_fill(section->list, pixel, 4, sb_palette_fluid(section->palette, ambient))->feather =
       false;
-  const SbDrawPoint side[2][2] = {{pixel[0], pixel[3]}, {pixel[1], pixel[2]}};
+  const SbPoint side[2][2] = {{pixel[0], pixel[3]}, {pixel[1], pixel[2]}};
   for (int i = 0; i < 2; i++) {
     sb_draw_stroke(section->list, side[i], 2, FACE_WIDTH, section->palette->outline);
   }
@@ -335,7 +333,7 @@ static void paint_face(SbCutaway *cutaway, SbSection *section, int face) {
   for (size_t i = 0; i < cutaway->valve.solid_count; i++) {
     const SbValveSolid *solid = &cutaway->valve.solid[i];
     SbValvePoint point[SB_VALVE_POINTS_MAX];
-    SbDrawPoint pixel[SB_VALVE_POINTS_MAX];
+    SbPoint pixel[SB_VALVE_POINTS_MAX];
     size_t count = map_points(&plane, point, outline_solid(solid, s, point), pixel);
     SbDrawItem *item =
         sb_draw_fill(list, pixel, count, solid->moves ? palette->stem : palette->housing);
@@ -349,7 +347,7 @@ static void paint_face(SbCutaway *cutaway, SbSection *section, int face) {
 
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     // The ring's own frame in this plane.
-    SbDrawPoint origin =
+    SbPoint origin =
         sb_section_plane_at(&plane, sb_section_origin(section, i), section->valve.floor);
     SbSectionPlane own = plane;
     own.x0 = (double)origin.x;
@@ -359,8 +357,8 @@ static void paint_face(SbCutaway *cutaway, SbSection *section, int face) {
     if (section->instant->frame->seal[i].land_fraction > 0 &&
         ring->contact_right > ring->contact_left) {
       double height = section->valve.bore - section->valve.floor;
-      SbDrawPoint a = sb_section_plane_at(&own, ring->contact_left, height);
-      SbDrawPoint b = sb_section_plane_at(&own, ring->contact_right, height);
+      SbPoint a = sb_section_plane_at(&own, ring->contact_left, height);
+      SbPoint b = sb_section_plane_at(&own, ring->contact_right, height);
       sb_draw_line(list, a.x, a.y, b.x, b.y, 4, palette->seal[i]);
     }
   }
@@ -370,14 +368,14 @@ static void paint_face(SbCutaway *cutaway, SbSection *section, int face) {
 
 typedef struct {
   char text[96];
-  SbDrawColour colour;
-  SbDrawPoint at; // what it names
+  SbColor colour;
+  SbPoint at;     // what it names
   double x, half; // middle and half width
 } Callout;
 
 enum { CALLOUTS_MAX = 6, PASSES = 40 };
 
-static void name_point(Callout *callouts, size_t *count, SbDrawPoint at, SbDrawColour colour,
+static void name_point(Callout *callouts, size_t *count, SbPoint at, SbColor colour,
                        const char *text) {
   Callout *callout = &callouts[(*count)++];
   *callout = (Callout){.colour = colour, .at = at, .x = (double)at.x};
@@ -393,7 +391,7 @@ static int from_left(const void *a, const void *b) {
 // a line from each. A row that is too long is left out.
 static void draw_row(const SbCutaway *cutaway, SbSection *section, Callout *callouts, size_t count,
                      bool above) {
-  const SbDrawRect *strip = &section->strip;
+  const SbRect *strip = &section->strip;
   const double gap = 14;
   double left = (double)strip->x, right = (double)(strip->x + strip->width), total = 0;
   for (size_t i = 0; i < count; i++) {
@@ -423,7 +421,7 @@ static void draw_row(const SbCutaway *cutaway, SbSection *section, Callout *call
     sb_draw_line(section->list, it->x, from, it->at.x, it->at.y, 1, it->colour);
     sb_draw_disc(section->list, it->at.x, it->at.y, 3.2, section->palette->panel);
     sb_draw_disc(section->list, it->at.x, it->at.y, 2.2, it->colour);
-    sb_draw_text(section->list, it->x, y, 12, 600, SB_ALIGN_CENTRE, it->colour, it->text);
+    sb_draw_text(section->list, it->x, y, 12, 600, SB_MIDDLE, it->colour, it->text);
   }
 }
 
@@ -496,7 +494,7 @@ static void paint_caption(SbSection *section) {
   if (sb_text_width(section->text, caption, 11, 400) > (double)section->strip.width) {
     snprintf(caption, sizeof caption, "%s", schematic ? "rings: schematic shape" : parts[0]);
   }
-  sb_draw_text(section->list, section->strip.x, y, 11, 400, SB_ALIGN_LEFT, section->palette->second,
+  sb_draw_text(section->list, section->strip.x, y, 11, 400, SB_LEFT, section->palette->second,
                caption);
 }
 

@@ -8,16 +8,16 @@
 #include <pango/pangocairo.h>
 #include <string.h>
 
-static void set_colour(cairo_t *cr, SbDrawColour colour) {
-  cairo_set_source_rgba(cr, (double)colour.r, (double)colour.g, (double)colour.b, (double)colour.a);
+static void set_colour(cairo_t *cr, SbColor colour) {
+  cairo_set_source_rgba(cr, colour.r, colour.g, colour.b, colour.a);
 }
 
-static void trace(cairo_t *cr, const SbDrawPoint *points, size_t count, bool closed) {
+static void trace(cairo_t *cr, const SbPoint *points, size_t count, bool closed) {
   for (size_t i = 0; i < count; i++) {
     if (i == 0) {
-      cairo_move_to(cr, (double)points[i].x, (double)points[i].y);
+      cairo_move_to(cr, points[i].x, points[i].y);
     } else {
-      cairo_line_to(cr, (double)points[i].x, (double)points[i].y);
+      cairo_line_to(cr, points[i].x, points[i].y);
     }
   }
   if (closed) {
@@ -28,29 +28,29 @@ static void trace(cairo_t *cr, const SbDrawPoint *points, size_t count, bool clo
 static void draw_hatch(cairo_t *cr, const SbDrawHatch *hatch) {
   double x0, y0, x1, y1;
   cairo_clip_extents(cr, &x0, &y0, &x1, &y1);
-  double nx = (double)hatch->across_x, ny = (double)hatch->across_y;
-  double step = (double)hatch->pitch;
+  double nx = hatch->across_x, ny = hatch->across_y;
+  double step = hatch->pitch;
   // Across the lines and along them over the range of the corners.
   double middle = nx * (x0 + x1) / 2 + ny * (y0 + y1) / 2;
   double along = -ny * (x0 + x1) / 2 + nx * (y0 + y1) / 2;
   double half = (fabs(nx) * (x1 - x0) + fabs(ny) * (y1 - y0)) / 2;
   double reach = (fabs(ny) * (x1 - x0) + fabs(nx) * (y1 - y0)) / 2;
-  double offset = (double)hatch->offset;
+  double offset = hatch->offset;
   double first = offset + ceil((middle - half - offset) / step) * step;
   for (double c = first; c <= middle + half; c += step) {
     cairo_move_to(cr, nx * c - ny * (along - reach), ny * c + nx * (along - reach));
     cairo_line_to(cr, nx * c - ny * (along + reach), ny * c + nx * (along + reach));
   }
   cairo_set_dash(cr, NULL, 0, 0);
-  cairo_set_line_width(cr, (double)hatch->width);
+  cairo_set_line_width(cr, hatch->width);
   set_colour(cr, hatch->colour);
   cairo_stroke(cr);
 }
 
-static void draw_fill(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *points) {
+static void draw_fill(cairo_t *cr, const SbDrawItem *item, const SbPoint *points) {
   trace(cr, points, item->count, true);
   set_colour(cr, item->colour);
-  if (item->hatch.width <= 0.0f) {
+  if (item->hatch.width <= 0) {
     cairo_fill(cr);
     return;
   }
@@ -61,36 +61,30 @@ static void draw_fill(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *po
   cairo_restore(cr);
 }
 
-static void draw_stroke(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *points) {
+static void draw_stroke(cairo_t *cr, const SbDrawItem *item, const SbPoint *points) {
   trace(cr, points, item->count, item->closed);
-  cairo_set_line_width(cr, (double)item->width);
+  cairo_set_line_width(cr, item->width);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
-  if (item->dash == SB_DASH_SOLID) {
-    cairo_set_dash(cr, NULL, 0, 0);
-  } else {
-    const float *pattern = sb_draw_dash_pattern(item->dash);
-    const double dashes[4] = {(double)pattern[0], (double)pattern[1], (double)pattern[2],
-                              (double)pattern[3]};
-    cairo_set_dash(cr, dashes, 4, 0);
-  }
+  cairo_set_dash(cr, item->dash != NULL ? item->dash->length : NULL,
+                 item->dash != NULL ? item->dash->count : 0, 0);
   set_colour(cr, item->colour);
   cairo_stroke(cr);
 }
 
-static SbDrawColour map_colour(const SbDrawItem *item, float scalar) {
+static SbColor map_colour(const SbDrawItem *item, float scalar) {
   float t = (scalar - item->map_min) / fmaxf(item->map_max - item->map_min, 1e-30f);
-  return item->map->entry[(int)(255.0f * CLAMP(t, 0.0f, 1.0f) + 0.5f)];
+  return item->map->entry[(int)(255.0f * CLAMP(t, 0, 1.0f) + 0.5f)];
 }
 
 // Lines of equal value: in each triangle the segment between the two sides that a level crosses.
-static void draw_isolines(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *points,
+static void draw_isolines(cairo_t *cr, const SbDrawItem *item, const SbPoint *points,
                           const float *scalars) {
-  double range = (double)(item->map_max - item->map_min) / (double)item->isolines;
+  double range = (item->map_max - item->map_min) / item->isolines;
   for (size_t i = 0; i + 2 < item->count && range > 0; i += 3) {
     double v[3];
     for (int k = 0; k < 3; k++) {
-      v[k] = (double)(scalars[i + (size_t)k] - item->map_min) / range;
+      v[k] = (scalars[i + (size_t)k] - item->map_min) / range;
     }
     double low = fmin(v[0], fmin(v[1], v[2])), high = fmax(v[0], fmax(v[1], v[2]));
     for (double level = ceil(low); level < high; level += 1) {
@@ -100,9 +94,9 @@ static void draw_isolines(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint
         if ((a < level) == (b < level)) {
           continue;
         }
-        SbDrawPoint p = points[i + (size_t)k], q = points[i + (size_t)((k + 1) % 3)];
+        SbPoint p = points[i + (size_t)k], q = points[i + (size_t)((k + 1) % 3)];
         double t = (level - a) / (b - a);
-        double x = (double)p.x + t * (double)(q.x - p.x), y = (double)p.y + t * (double)(q.y - p.y);
+        double x = p.x + t * (q.x - p.x), y = p.y + t * (q.y - p.y);
         if (begun) {
           cairo_line_to(cr, x, y);
         } else {
@@ -112,23 +106,22 @@ static void draw_isolines(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint
       }
     }
   }
-  cairo_set_line_width(cr, (double)item->width);
+  cairo_set_line_width(cr, item->width);
   set_colour(cr, item->line_colour);
   cairo_stroke(cr);
 }
 
-static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *points,
+static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbPoint *points,
                       const float *scalars) {
   // Two triangles on one rectangle are a legend: a gradient along x.
   if (item->count == 6 && !item->shaded) {
-    cairo_pattern_t *gradient =
-        cairo_pattern_create_linear((double)points[0].x, 0.0, (double)points[1].x, 0.0);
+    cairo_pattern_t *gradient = cairo_pattern_create_linear(points[0].x, 0.0, points[1].x, 0.0);
     for (int i = 0; i <= 32; i++) {
-      SbDrawColour c = map_colour(item, scalars[0] + (scalars[1] - scalars[0]) * (float)i / 32.0f);
-      cairo_pattern_add_color_stop_rgb(gradient, i / 32.0, (double)c.r, (double)c.g, (double)c.b);
+      SbColor c = map_colour(item, scalars[0] + (scalars[1] - scalars[0]) * (float)i / 32.0f);
+      cairo_pattern_add_color_stop_rgb(gradient, i / 32.0, c.r, c.g, c.b);
     }
-    cairo_rectangle(cr, (double)points[0].x, (double)points[0].y,
-                    (double)(points[2].x - points[0].x), (double)(points[2].y - points[0].y));
+    cairo_rectangle(cr, points[0].x, points[0].y, (points[2].x - points[0].x),
+                    (points[2].y - points[0].y));
     cairo_set_source(cr, gradient);
     cairo_fill(cr);
     cairo_pattern_destroy(gradient);
@@ -144,7 +137,7 @@ static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *po
                 memcmp(points + i + 2, points + i + 4, sizeof *points) == 0;
     float mean = (scalars[i] + scalars[i + 1] + scalars[i + 2]) / 3.0f;
     if (pair) {
-      const SbDrawPoint corner[4] = {points[i], points[i + 1], points[i + 2], points[i + 5]};
+      const SbPoint corner[4] = {points[i], points[i + 1], points[i + 2], points[i + 5]};
       mean = 0.75f * mean + 0.25f * scalars[i + 5];
       trace(cr, corner, 4, true);
       i += 3;
@@ -155,22 +148,21 @@ static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbDrawPoint *po
     cairo_fill_preserve(cr);
     cairo_stroke(cr);
   }
-  if (item->isolines > 0.0f) {
+  if (item->isolines > 0) {
     draw_isolines(cr, item, points, scalars);
   }
 }
 
 static void draw_text(cairo_t *cr, const SbDrawItem *item, const char *string, SbText *text) {
   double baseline, width;
-  PangoLayout *layout =
-      sb_text_layout(text, string, (double)item->size, item->weight, &baseline, &width);
-  double x = (double)item->x;
-  if (item->align == SB_ALIGN_CENTRE) {
+  PangoLayout *layout = sb_text_layout(text, string, item->size, item->weight, &baseline, &width);
+  double x = item->x;
+  if (item->align == SB_MIDDLE) {
     x -= width / 2;
-  } else if (item->align == SB_ALIGN_RIGHT) {
+  } else if (item->align == SB_RIGHT) {
     x -= width;
   }
-  cairo_move_to(cr, x, (double)item->y - baseline);
+  cairo_move_to(cr, x, item->y - baseline);
   set_colour(cr, item->colour);
   // Pixels: outlines, since cairo puts cached glyphs on whole pixels. SVG and PDF: text.
   if (cairo_surface_get_type(cairo_get_target(cr)) == CAIRO_SURFACE_TYPE_IMAGE) {
@@ -183,20 +175,19 @@ static void draw_text(cairo_t *cr, const SbDrawItem *item, const char *string, S
 
 void sb_draw_list_to_cairo(const SbDrawList *list, SbText *text, cairo_t *cr) {
   cairo_save(cr);
-  cairo_rectangle(cr, 0, 0, (double)list->width, (double)list->height);
+  cairo_rectangle(cr, 0, 0, list->width, list->height);
   set_colour(cr, list->background);
   cairo_fill(cr);
   for (size_t i = 0; i < list->item_count; i++) {
     const SbDrawItem *item = &list->item[i];
-    const SbDrawRect *clip = &list->clip[item->clip];
+    const SbRect *clip = &list->clip[item->clip];
     bool clipped = item->clip != 0;
     if (clipped) {
       cairo_save(cr);
-      cairo_rectangle(cr, (double)clip->x, (double)clip->y, (double)clip->width,
-                      (double)clip->height);
+      cairo_rectangle(cr, clip->x, clip->y, clip->width, clip->height);
       cairo_clip(cr);
     }
-    const SbDrawPoint *points = list->point + item->first;
+    const SbPoint *points = list->point + item->first;
     switch (item->kind) {
     case SB_DRAW_FILL:
       draw_fill(cr, item, points);

@@ -6,29 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-SbDrawColour sb_draw_mix(SbDrawColour a, SbDrawColour b, double t) {
-  float u = (float)t;
-  return (SbDrawColour){a.r + (b.r - a.r) * u, a.g + (b.g - a.g) * u, a.b + (b.b - a.b) * u,
-                        a.a + (b.a - a.a) * u};
-}
-
-SbDrawHatch sb_draw_hatch(SbDrawColour colour, double pitch, double width, double lean,
-                          double offset) {
-  return (SbDrawHatch){colour,
-                       (float)pitch,
-                       (float)width,
-                       (float)M_SQRT1_2,
-                       (float)(lean * M_SQRT1_2),
-                       (float)(offset * M_SQRT1_2)};
-}
-
-const float *sb_draw_dash_pattern(SbDrawDash dash) {
-  static const float pattern[SB_DASH_COUNT][4] = {
-      [SB_DASH_SOLID] = {1, 0, 1, 0},     [SB_DASH_PINNED] = {7, 3, 7, 3},
-      [SB_DASH_REFERENCE] = {5, 4, 5, 4}, [SB_DASH_DIMENSION] = {3, 3, 3, 3},
-      [SB_DASH_CENTRE] = {14, 3, 2, 3},   [SB_DASH_DOSE] = {8, 4, 8, 4},
-  };
-  return pattern[dash];
+SbDrawHatch sb_draw_hatch(SbColor colour, double pitch, double width, double lean, double offset) {
+  return (SbDrawHatch){colour, pitch, width, M_SQRT1_2, (lean * M_SQRT1_2), (offset * M_SQRT1_2)};
 }
 
 void sb_draw_list_init(SbDrawList *list) {
@@ -53,42 +32,42 @@ static void *reserve(void *array, size_t *capacity, size_t count, size_t more, s
   return g_realloc_n(array, *capacity, size);
 }
 
-static int add_clip(SbDrawList *list, SbDrawRect rect) {
+static int add_clip(SbDrawList *list, SbRect rect) {
   list->clip = reserve(list->clip, &list->clip_capacity, list->clip_count, 1, sizeof *list->clip);
   list->clip[list->clip_count] = rect;
   return (int)list->clip_count++;
 }
 
-void sb_draw_list_clear(SbDrawList *list, double width, double height, SbDrawColour background) {
-  list->width = (float)width;
-  list->height = (float)height;
+void sb_draw_list_clear(SbDrawList *list, double width, double height, SbColor background) {
+  list->width = width;
+  list->height = height;
   list->background = background;
   list->item_count = list->point_count = list->scalar_count = 0;
   list->text_count = list->clip_count = 0;
-  list->current_clip = add_clip(list, (SbDrawRect){0, 0, list->width, list->height});
+  list->current_clip = add_clip(list, (SbRect){0, 0, list->width, list->height});
 }
 
-void sb_draw_clip(SbDrawList *list, const SbDrawRect *rect) {
+void sb_draw_clip(SbDrawList *list, const SbRect *rect) {
   list->current_clip = rect == NULL ? 0 : add_clip(list, *rect);
 }
 
-static SbDrawItem *add_item(SbDrawList *list, SbDrawKind kind, SbDrawColour colour) {
+static SbDrawItem *add_item(SbDrawList *list, SbDrawKind kind, SbColor colour) {
   list->item = reserve(list->item, &list->item_capacity, list->item_count, 1, sizeof *list->item);
   SbDrawItem *item = &list->item[list->item_count++];
   *item = (SbDrawItem){.kind = kind, .colour = colour, .clip = list->current_clip};
   return item;
 }
 
-static SbDrawPoint *add_points(SbDrawList *list, size_t count) {
+static SbPoint *add_points(SbDrawList *list, size_t count) {
   list->point =
       reserve(list->point, &list->point_capacity, list->point_count, count, sizeof *list->point);
-  SbDrawPoint *points = list->point + list->point_count;
+  SbPoint *points = list->point + list->point_count;
   list->point_count += count;
   return points;
 }
 
-static SbDrawItem *add_shape(SbDrawList *list, SbDrawKind kind, const SbDrawPoint *points,
-                             size_t count, SbDrawColour colour) {
+static SbDrawItem *add_shape(SbDrawList *list, SbDrawKind kind, const SbPoint *points, size_t count,
+                             SbColor colour) {
   SbDrawItem *item = add_item(list, kind, colour);
   item->first = list->point_count;
   item->count = count;
@@ -96,24 +75,23 @@ static SbDrawItem *add_shape(SbDrawList *list, SbDrawKind kind, const SbDrawPoin
   return item;
 }
 
-SbDrawItem *sb_draw_fill(SbDrawList *list, const SbDrawPoint *points, size_t count,
-                         SbDrawColour colour) {
+SbDrawItem *sb_draw_fill(SbDrawList *list, const SbPoint *points, size_t count, SbColor colour) {
   SbDrawItem *item = add_shape(list, SB_DRAW_FILL, points, count, colour);
   item->feather = true;
   return item;
 }
 
 SbDrawItem *sb_draw_rect(SbDrawList *list, double x, double y, double width, double height,
-                         SbDrawColour colour) {
-  float x0 = (float)x, y0 = (float)y, x1 = (float)(x + width), y1 = (float)(y + height);
-  const SbDrawPoint points[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+                         SbColor colour) {
+  double x0 = x, y0 = y, x1 = (x + width), y1 = (y + height);
+  const SbPoint points[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
   return sb_draw_fill(list, points, 4, colour);
 }
 
 enum { CORNER = 6 };
 
 // A rectangle with four quarter circles of CORNER + 1 points each.
-static void round_points(SbDrawPoint points[4 * (CORNER + 1)], double x, double y, double width,
+static void round_points(SbPoint points[4 * (CORNER + 1)], double x, double y, double width,
                          double height, double radius) {
   double r = MIN(radius, MIN(width, height) / 2);
   const double cx[4] = {x + width - r, x + r, x + r, x + width - r};
@@ -122,67 +100,66 @@ static void round_points(SbDrawPoint points[4 * (CORNER + 1)], double x, double 
     for (int i = 0; i <= CORNER; i++) {
       double angle = M_PI / 2 * (corner + (double)i / CORNER);
       points[corner * (CORNER + 1) + i] =
-          (SbDrawPoint){(float)(cx[corner] + r * cos(angle)), (float)(cy[corner] + r * sin(angle))};
+          (SbPoint){(cx[corner] + r * cos(angle)), (cy[corner] + r * sin(angle))};
     }
   }
 }
 
 SbDrawItem *sb_draw_round_rect(SbDrawList *list, double x, double y, double width, double height,
-                               double radius, SbDrawColour colour) {
-  SbDrawPoint points[4 * (CORNER + 1)];
+                               double radius, SbColor colour) {
+  SbPoint points[4 * (CORNER + 1)];
   round_points(points, x, y, width, height, radius);
   return sb_draw_fill(list, points, G_N_ELEMENTS(points), colour);
 }
 
-SbDrawItem *sb_draw_disc(SbDrawList *list, double x, double y, double radius, SbDrawColour colour) {
+SbDrawItem *sb_draw_disc(SbDrawList *list, double x, double y, double radius, SbColor colour) {
   enum { SIDES = 24 };
-  SbDrawPoint points[SIDES];
+  SbPoint points[SIDES];
   for (int i = 0; i < SIDES; i++) {
     double angle = 2 * M_PI * i / SIDES;
-    points[i] = (SbDrawPoint){(float)(x + radius * cos(angle)), (float)(y + radius * sin(angle))};
+    points[i] = (SbPoint){(x + radius * cos(angle)), (y + radius * sin(angle))};
   }
   return sb_draw_fill(list, points, SIDES, colour);
 }
 
-SbDrawItem *sb_draw_stroke(SbDrawList *list, const SbDrawPoint *points, size_t count, double width,
-                           SbDrawColour colour) {
+SbDrawItem *sb_draw_stroke(SbDrawList *list, const SbPoint *points, size_t count, double width,
+                           SbColor colour) {
   SbDrawItem *item = add_shape(list, SB_DRAW_STROKE, points, count, colour);
-  item->width = (float)width;
+  item->width = width;
   return item;
 }
 
 SbDrawItem *sb_draw_line(SbDrawList *list, double x0, double y0, double x1, double y1, double width,
-                         SbDrawColour colour) {
-  const SbDrawPoint points[2] = {{(float)x0, (float)y0}, {(float)x1, (float)y1}};
+                         SbColor colour) {
+  const SbPoint points[2] = {{x0, y0}, {x1, y1}};
   return sb_draw_stroke(list, points, 2, width, colour);
 }
 
 SbDrawItem *sb_draw_round_frame(SbDrawList *list, double x, double y, double width, double height,
-                                double radius, double line, SbDrawColour colour) {
-  SbDrawPoint points[4 * (CORNER + 1)];
+                                double radius, double line, SbColor colour) {
+  SbPoint points[4 * (CORNER + 1)];
   round_points(points, x, y, width, height, radius);
   SbDrawItem *item = sb_draw_stroke(list, points, G_N_ELEMENTS(points), line, colour);
   item->closed = true;
   return item;
 }
 
-SbDrawItem *sb_draw_mesh(SbDrawList *list, const SbDrawPoint *points, const float *scalars,
+SbDrawItem *sb_draw_mesh(SbDrawList *list, const SbPoint *points, const float *scalars,
                          size_t count, const SbDrawMap *map, double min, double max) {
-  SbDrawItem *item =
-      add_shape(list, SB_DRAW_MESH, points, count, (SbDrawColour){1.0f, 1.0f, 1.0f, 1.0f});
+  SbDrawItem *item = add_shape(list, SB_DRAW_MESH, points, count, (SbColor){1.0, 1.0, 1.0, 1.0});
   list->scalar = reserve(list->scalar, &list->scalar_capacity, list->scalar_count, count,
                          sizeof *list->scalar);
   memcpy(list->scalar + list->scalar_count, scalars, count * sizeof *scalars);
   item->first_scalar = list->scalar_count;
   list->scalar_count += count;
   item->map = map;
-  item->map_min = (float)min;
-  item->map_max = (float)max;
+  item->map_min = min;
+  item->map_max = max;
   return item;
 }
 
 SbDrawItem *sb_draw_text(SbDrawList *list, double x, double y, double size, int weight,
-                         SbDrawAlign align, SbDrawColour colour, const char *text) {
+                         SbAlign align, SbColor colour, const char *text) {
   SbDrawItem *item = add_item(list, SB_DRAW_TEXT, colour);
   size_t length = MIN(strlen(text), (size_t)SB_DRAW_TEXT_MAX);
   while (length > 0 && ((unsigned char)text[length] & 0xC0) == 0x80) {
@@ -195,16 +172,16 @@ SbDrawItem *sb_draw_text(SbDrawList *list, double x, double y, double size, int 
   item->first = list->text_count;
   item->count = length;
   list->text_count += length + 1;
-  item->x = (float)x;
-  item->y = (float)y;
-  item->size = (float)size;
+  item->x = x;
+  item->y = y;
+  item->size = size;
   item->weight = weight;
   item->align = align;
   return item;
 }
 
 void sb_draw_arrow(SbDrawList *list, double x0, double y0, double x1, double y1, double line,
-                   double head_length, double head_width, SbDrawColour colour) {
+                   double head_length, double head_width, SbColor colour) {
   double length = hypot(x1 - x0, y1 - y0);
   if (length < 1e-6) {
     return;
@@ -217,11 +194,11 @@ void sb_draw_arrow(SbDrawList *list, double x0, double y0, double x1, double y1,
   if (length > notch) {
     sb_draw_line(list, x0, y0, x1 - ux * (notch - 0.5), y1 - uy * (notch - 0.5), line, colour);
   }
-  const SbDrawPoint points[4] = {
-      {(float)x1, (float)y1},
-      {(float)(x1 - ux * head - uy * wide), (float)(y1 - uy * head + ux * wide)},
-      {(float)(x1 - ux * notch), (float)(y1 - uy * notch)},
-      {(float)(x1 - ux * head + uy * wide), (float)(y1 - uy * head - ux * wide)},
+  const SbPoint points[4] = {
+      {x1, y1},
+      {(x1 - ux * head - uy * wide), (y1 - uy * head + ux * wide)},
+      {(x1 - ux * notch), (y1 - uy * notch)},
+      {(x1 - ux * head + uy * wide), (y1 - uy * head - ux * wide)},
   };
   sb_draw_fill(list, points, 4, colour);
 }
@@ -237,10 +214,10 @@ void sb_draw_reflect(SbDrawList *list, size_t first, double y) {
     size_t from = item->first;
     size_t count = item->count;
     item->first = list->point_count;
-    SbDrawPoint *to = add_points(list, count);
+    SbPoint *to = add_points(list, count);
     for (size_t k = 0; k < count; k++) {
-      SbDrawPoint point = list->point[from + k];
-      to[k] = (SbDrawPoint){point.x, (float)(2 * y) - point.y};
+      SbPoint point = list->point[from + k];
+      to[k] = (SbPoint){point.x, (2 * y) - point.y};
     }
   }
 }

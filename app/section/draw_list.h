@@ -6,24 +6,11 @@
 // refilling allocates nothing.
 #pragma once
 
+#include "app/chart/geometry.h"
+#include "app/chart/theme.h"
+
 #include <stdbool.h>
 #include <stddef.h>
-
-// Straight (not premultiplied) sRGB, each 0 to 1.
-typedef struct {
-  float r, g, b, a;
-} SbDrawColour;
-
-// `a` where t = 0, `b` where t = 1; opacity too.
-SbDrawColour sb_draw_mix(SbDrawColour a, SbDrawColour b, double t);
-
-typedef struct {
-  float x, y;
-} SbDrawPoint;
-
-typedef struct {
-  float x, y, width, height;
-} SbDrawRect;
 
 typedef enum {
   SB_DRAW_FILL,   // simple polygon
@@ -35,45 +22,29 @@ typedef enum {
 // Hatch over a fill. The lines are x * across_x + y * across_y = offset + n * pitch, where across
 // is a unit vector. width 0: no hatch.
 typedef struct {
-  SbDrawColour colour;
-  float pitch, width, across_x, across_y, offset;
+  SbColor colour;
+  double pitch, width, across_x, across_y, offset;
 } SbDrawHatch;
 
 // Lines of 45 degrees: x + lean * y = offset + n * pitch * sqrt(2); lean is +1 or -1.
-SbDrawHatch sb_draw_hatch(SbDrawColour colour, double pitch, double width, double lean,
-                          double offset);
-
-typedef enum {
-  SB_DASH_SOLID,
-  SB_DASH_PINNED,    // 7-3
-  SB_DASH_REFERENCE, // 5-4
-  SB_DASH_DIMENSION, // 3-3
-  SB_DASH_CENTRE,    // 14-3-2-3
-  SB_DASH_DOSE,      // 8-4
-  SB_DASH_COUNT
-} SbDrawDash;
-
-// On and off lengths in pixels, always four (a two-part pattern is repeated); borrowed.
-const float *sb_draw_dash_pattern(SbDrawDash dash);
+SbDrawHatch sb_draw_hatch(SbColor colour, double pitch, double width, double lean, double offset);
 
 // A colour map of 256 entries; the caller keeps it alive and unchanged as long as lists refer to
 // it.
 typedef struct {
-  SbDrawColour entry[256];
+  SbColor entry[256];
 } SbDrawMap;
-
-typedef enum { SB_ALIGN_LEFT, SB_ALIGN_CENTRE, SB_ALIGN_RIGHT } SbDrawAlign;
 
 enum { SB_DRAW_TEXT_MAX = 160 };
 
 typedef struct {
   SbDrawKind kind;
-  SbDrawColour colour;
+  SbColor colour;
   int clip;            // index into SbDrawList.clip
   size_t first, count; // points (fill, stroke, mesh) or bytes (text, without the final zero)
   // Stroke.
-  float width;
-  SbDrawDash dash;
+  double width;
+  const SbDash *dash; // NULL: solid
   bool closed;
   // Fill.
   SbDrawHatch hatch;
@@ -81,29 +52,29 @@ typedef struct {
   // Mesh: `count` vertices, three per triangle, with scalars from `first_scalar`.
   size_t first_scalar;
   const SbDrawMap *map;
-  float map_min, map_max;
-  bool shaded;    // vertices take the map's colour, and colours run straight between them
-  float isolines; // how many steps the map's range has for lines of equal value, 0 for none
-  SbDrawColour line_colour;
+  double map_min, map_max;
+  bool shaded;     // vertices take the map's colour, and colours run straight between them
+  double isolines; // how many steps the map's range has for lines of equal value, 0 for none
+  SbColor line_colour;
   // Text: anchored at the baseline.
-  float x, y, size;
+  double x, y, size;
   int weight;
-  SbDrawAlign align;
+  SbAlign align;
 } SbDrawItem;
 
 typedef struct {
-  float width, height; // of the picture, logical pixels
-  SbDrawColour background;
+  double width, height; // of the picture, logical pixels
+  SbColor background;
   size_t item_count, item_capacity;
   SbDrawItem *item;
   size_t point_count, point_capacity;
-  SbDrawPoint *point;
+  SbPoint *point;
   size_t scalar_count, scalar_capacity;
   float *scalar;
   size_t text_count, text_capacity;
   char *text;
   size_t clip_count, clip_capacity;
-  SbDrawRect *clip; // clip[0] is the whole picture
+  SbRect *clip; // clip[0] is the whole picture
   int current_clip;
 } SbDrawList;
 
@@ -111,31 +82,30 @@ void sb_draw_list_init(SbDrawList *list);
 void sb_draw_list_finish(SbDrawList *list);
 
 // Empties the list and starts a picture of this size.
-void sb_draw_list_clear(SbDrawList *list, double width, double height, SbDrawColour background);
+void sb_draw_list_clear(SbDrawList *list, double width, double height, SbColor background);
 
 // Items added from now on show only inside this rectangle (NULL: the whole picture). Clips do not
 // nest.
-void sb_draw_clip(SbDrawList *list, const SbDrawRect *rect);
+void sb_draw_clip(SbDrawList *list, const SbRect *rect);
 
 // Each of these adds one item and returns it; the pointer holds until the next addition. Points
 // are copied.
-SbDrawItem *sb_draw_fill(SbDrawList *list, const SbDrawPoint *points, size_t count,
-                         SbDrawColour colour);
+SbDrawItem *sb_draw_fill(SbDrawList *list, const SbPoint *points, size_t count, SbColor colour);
 SbDrawItem *sb_draw_rect(SbDrawList *list, double x, double y, double width, double height,
-                         SbDrawColour colour);
+                         SbColor colour);
 SbDrawItem *sb_draw_round_rect(SbDrawList *list, double x, double y, double width, double height,
-                               double radius, SbDrawColour colour);
-SbDrawItem *sb_draw_disc(SbDrawList *list, double x, double y, double radius, SbDrawColour colour);
-SbDrawItem *sb_draw_stroke(SbDrawList *list, const SbDrawPoint *points, size_t count, double width,
-                           SbDrawColour colour);
+                               double radius, SbColor colour);
+SbDrawItem *sb_draw_disc(SbDrawList *list, double x, double y, double radius, SbColor colour);
+SbDrawItem *sb_draw_stroke(SbDrawList *list, const SbPoint *points, size_t count, double width,
+                           SbColor colour);
 SbDrawItem *sb_draw_line(SbDrawList *list, double x0, double y0, double x1, double y1, double width,
-                         SbDrawColour colour);
+                         SbColor colour);
 SbDrawItem *sb_draw_round_frame(SbDrawList *list, double x, double y, double width, double height,
-                                double radius, double line, SbDrawColour colour);
-SbDrawItem *sb_draw_mesh(SbDrawList *list, const SbDrawPoint *points, const float *scalars,
+                                double radius, double line, SbColor colour);
+SbDrawItem *sb_draw_mesh(SbDrawList *list, const SbPoint *points, const float *scalars,
                          size_t count, const SbDrawMap *map, double min, double max);
 SbDrawItem *sb_draw_text(SbDrawList *list, double x, double y, double size, int weight,
-                         SbDrawAlign align, SbDrawColour colour, const char *text);
+                         SbAlign align, SbColor colour, const char *text);
 
 // Adds the mirror image, about the horizontal line at `y`, of all items from number `first` on that
 // hold no text. Hatches keep their direction: the parts are the same ones.
@@ -143,4 +113,4 @@ void sb_draw_reflect(SbDrawList *list, size_t first, double y);
 
 // An arrow from (x0, y0) to its point (x1, y1): a shaft and a head of length x width.
 void sb_draw_arrow(SbDrawList *list, double x0, double y0, double x1, double y1, double line,
-                   double head_length, double head_width, SbDrawColour colour);
+                   double head_length, double head_width, SbColor colour);

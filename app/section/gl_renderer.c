@@ -213,9 +213,9 @@ static bool add_text(SbGlRenderer *renderer, const SbDrawItem *item, const char 
     return false;
   }
   double x = (double)item->x * scale;
-  if (item->align == SB_ALIGN_CENTRE) {
+  if (item->align == SB_MIDDLE) {
     x -= line.advance / 2;
-  } else if (item->align == SB_ALIGN_RIGHT) {
+  } else if (item->align == SB_RIGHT) {
     x -= line.advance;
   }
   if (line.width > 0) {
@@ -233,7 +233,7 @@ static bool build(SbGlRenderer *renderer, const SbDrawList *list, double scale) 
   renderer->batch_count = 0;
   for (size_t i = 0; i < list->item_count; i++) {
     const SbDrawItem *item = &list->item[i];
-    const SbDrawPoint *points = list->point != NULL ? list->point + item->first : NULL;
+    const SbPoint *points = list->point != NULL ? list->point + item->first : NULL;
     Batch *batch = NULL;
     switch (item->kind) {
     case SB_DRAW_FILL:
@@ -241,8 +241,7 @@ static bool build(SbGlRenderer *renderer, const SbDrawList *list, double scale) 
       sb_mesh_fill(mesh, item, points, scale);
       break;
     case SB_DRAW_STROKE:
-      batch =
-          begin_batch(renderer, item->dash == SB_DASH_SOLID ? PROGRAM_FLAT : PROGRAM_DASH, item);
+      batch = begin_batch(renderer, item->dash == NULL ? PROGRAM_FLAT : PROGRAM_DASH, item);
       sb_mesh_stroke(mesh, item, points, scale);
       break;
     case SB_DRAW_MESH:
@@ -298,14 +297,18 @@ static void set_parameters(SbGlRenderer *renderer, const Batch *batch, const Pro
   const SbDrawItem *item = batch->item;
   float s = (float)scale;
   if (batch->program == PROGRAM_DASH) {
-    const float *pattern = sb_draw_dash_pattern(item->dash);
-    gl->Uniform4f(program->pattern, s * pattern[0], s * pattern[1], s * pattern[2], s * pattern[3]);
+    // The shader wants four lengths: a pattern of two is repeated.
+    float length[4];
+    for (int i = 0; i < 4; i++) {
+      length[i] = (float)(scale * item->dash->length[i % item->dash->count]);
+    }
+    gl->Uniform4f(program->pattern, length[0], length[1], length[2], length[3]);
   } else if (batch->program == PROGRAM_HATCH) {
-    SbDrawColour c = item->hatch.colour;
+    SbColor c = item->hatch.colour;
     gl->Uniform4f(program->line_colour, c.r * c.a, c.g * c.a, c.b * c.a, c.a);
     gl->Uniform2f(program->line, s * item->hatch.pitch, s * item->hatch.width / 2.0f);
   } else if (batch->program == PROGRAM_FIELD) {
-    SbDrawColour c = item->line_colour;
+    SbColor c = item->line_colour;
     gl->Uniform1f(program->levels, item->isolines);
     gl->Uniform4f(program->line_colour, c.r, c.g, c.b, c.a);
     gl->Uniform2f(program->line, 0.0f, s * item->width / 2.0f);
@@ -335,7 +338,7 @@ static void draw(SbGlRenderer *renderer, const SbDrawList *list, int width, int 
   gl->Disable(GL_DEPTH_TEST);
   gl->Disable(GL_CULL_FACE);
   gl->Disable(GL_SCISSOR_TEST);
-  SbDrawColour ground = list->background;
+  SbColor ground = list->background;
   gl->ClearColor(ground.r, ground.g, ground.b, 1.0f);
   gl->Clear(GL_COLOR_BUFFER_BIT);
   gl->Enable(GL_BLEND);
@@ -362,7 +365,7 @@ static void draw(SbGlRenderer *renderer, const SbDrawList *list, int width, int 
       gl->UseProgram(program->id);
       current = batch->program;
     }
-    const SbDrawRect *clip = &list->clip[batch->clip];
+    const SbRect *clip = &list->clip[batch->clip];
     int x0 = (int)lround((double)clip->x * scale);
     int y0 = (int)lround((double)clip->y * scale);
     int x1 = (int)lround((double)(clip->x + clip->width) * scale);

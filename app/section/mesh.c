@@ -5,7 +5,7 @@
 #include <math.h>
 
 // Half width of a fill: no line is as wide.
-static const float WIDE = 1e6f;
+static const double WIDE = 1e6;
 
 void sb_mesh_init(SbMesh *mesh) {
   *mesh = (SbMesh){0};
@@ -28,7 +28,7 @@ static SbMeshVertex *add(SbMesh *mesh, size_t count) {
   return vertex;
 }
 
-static SbDrawPoint *work_space(SbMesh *mesh, size_t count) {
+static SbPoint *work_space(SbMesh *mesh, size_t count) {
   if (count > mesh->work_capacity) {
     mesh->work_capacity = MAX(2 * mesh->work_capacity, MAX(count, (size_t)256));
     mesh->work = g_realloc_n(mesh->work, mesh->work_capacity, sizeof *mesh->work);
@@ -37,70 +37,69 @@ static SbDrawPoint *work_space(SbMesh *mesh, size_t count) {
   return mesh->work;
 }
 
-static void premultiply(uint8_t out[4], SbDrawColour c) {
-  out[0] = (uint8_t)(255.0f * c.r * c.a + 0.5f);
-  out[1] = (uint8_t)(255.0f * c.g * c.a + 0.5f);
-  out[2] = (uint8_t)(255.0f * c.b * c.a + 0.5f);
-  out[3] = (uint8_t)(255.0f * c.a + 0.5f);
+static void premultiply(uint8_t out[4], SbColor c) {
+  out[0] = (uint8_t)(255.0 * c.r * c.a + 0.5);
+  out[1] = (uint8_t)(255.0 * c.g * c.a + 0.5);
+  out[2] = (uint8_t)(255.0 * c.b * c.a + 0.5);
+  out[3] = (uint8_t)(255.0 * c.a + 0.5);
 }
 
-static SbMeshVertex solid(SbDrawPoint point, const uint8_t colour[4]) {
+static SbMeshVertex solid(SbPoint point, const uint8_t colour[4]) {
   return (SbMeshVertex){point.x,
                         point.y,
                         {colour[0], colour[1], colour[2], colour[3]},
-                        {0.0f, WIDE, WIDE, 2.0f * WIDE}};
+                        {0.0, WIDE, WIDE, 2.0 * WIDE}};
 }
 
 // Scaled points without repeated ones. Returns how many are left.
-static size_t copy_scaled(SbDrawPoint *out, const SbDrawPoint *points, size_t count, double scale,
+static size_t copy_scaled(SbPoint *out, const SbPoint *points, size_t count, double scale,
                           bool closed) {
   size_t kept = 0;
   for (size_t i = 0; i < count; i++) {
-    SbDrawPoint p = {(float)((double)points[i].x * scale), (float)((double)points[i].y * scale)};
-    if (kept > 0 && fabsf(p.x - out[kept - 1].x) + fabsf(p.y - out[kept - 1].y) < 1e-3f) {
+    SbPoint p = {(points[i].x * scale), (points[i].y * scale)};
+    if (kept > 0 && fabs(p.x - out[kept - 1].x) + fabs(p.y - out[kept - 1].y) < 1e-3) {
       continue;
     }
     out[kept++] = p;
   }
   while (closed && kept > 1 &&
-         fabsf(out[0].x - out[kept - 1].x) + fabsf(out[0].y - out[kept - 1].y) < 1e-3f) {
+         fabs(out[0].x - out[kept - 1].x) + fabs(out[0].y - out[kept - 1].y) < 1e-3) {
     kept--;
   }
   return kept;
 }
 
-static float cross(SbDrawPoint a, SbDrawPoint b, SbDrawPoint c) {
+static double cross(SbPoint a, SbPoint b, SbPoint c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-static float signed_area(const SbDrawPoint *p, size_t n) {
-  float twice = 0.0f;
+static double signed_area(const SbPoint *p, size_t n) {
+  double twice = 0.0;
   for (size_t i = 0, j = n - 1; i < n; j = i++) {
     twice += p[j].x * p[i].y - p[i].x * p[j].y;
   }
-  return twice / 2.0f;
+  return twice / 2.0;
 }
 
-static bool inside(SbDrawPoint p, SbDrawPoint a, SbDrawPoint b, SbDrawPoint c) {
-  return cross(a, b, p) >= 0.0f && cross(b, c, p) >= 0.0f && cross(c, a, p) >= 0.0f;
+static bool inside(SbPoint p, SbPoint a, SbPoint b, SbPoint c) {
+  return cross(a, b, p) >= 0.0 && cross(b, c, p) >= 0.0 && cross(c, a, p) >= 0.0;
 }
 
 // Is b, between a and c, an ear of the ring of links? Only reflex corners can lie in it.
-static bool is_ear(const SbDrawPoint *p, const int *next, const int *previous, int b) {
+static bool is_ear(const SbPoint *p, const int *next, const int *previous, int b) {
   int a = previous[b], c = next[b];
-  if (cross(p[a], p[b], p[c]) <= 0.0f) {
+  if (cross(p[a], p[b], p[c]) <= 0.0) {
     return false;
   }
   for (int i = next[c]; i != a; i = next[i]) {
-    if (cross(p[previous[i]], p[i], p[next[i]]) <= 0.0f && inside(p[i], p[a], p[b], p[c])) {
+    if (cross(p[previous[i]], p[i], p[next[i]]) <= 0.0 && inside(p[i], p[a], p[b], p[c])) {
       return false;
     }
   }
   return true;
 }
 
-static void triangle(SbMesh *mesh, SbDrawPoint a, SbDrawPoint b, SbDrawPoint c,
-                     const uint8_t colour[4]) {
+static void triangle(SbMesh *mesh, SbPoint a, SbPoint b, SbPoint c, const uint8_t colour[4]) {
   SbMeshVertex *v = add(mesh, 3);
   v[0] = solid(a, colour);
   v[1] = solid(b, colour);
@@ -108,10 +107,10 @@ static void triangle(SbMesh *mesh, SbDrawPoint a, SbDrawPoint b, SbDrawPoint c,
 }
 
 // Triangulates a simple polygon with positive area in mesh->work.
-static void clip_ears(SbMesh *mesh, const SbDrawPoint *p, int n, const uint8_t colour[4]) {
+static void clip_ears(SbMesh *mesh, const SbPoint *p, int n, const uint8_t colour[4]) {
   bool convex = true;
   for (int i = 0; i < n && convex; i++) {
-    convex = cross(p[i], p[(i + 1) % n], p[(i + 2) % n]) >= 0.0f;
+    convex = cross(p[i], p[(i + 1) % n], p[(i + 2) % n]) >= 0.0;
   }
   if (convex) {
     for (int i = 1; i + 1 < n; i++) {
@@ -146,29 +145,29 @@ static void clip_ears(SbMesh *mesh, const SbDrawPoint *p, int n, const uint8_t c
 }
 
 // Mitre at a corner with edge directions d0, d1 (unit): offset by 1 to the left of the path.
-static SbDrawPoint mitre(SbDrawPoint d0, SbDrawPoint d1, float limit) {
-  SbDrawPoint n = {-(d0.y + d1.y), d0.x + d1.x};
-  float dot = 1.0f + d0.x * d1.x + d0.y * d1.y; // |n|^2 = 2 dot
-  float length = 1.0f / fmaxf(dot, 2.0f / (limit * limit));
-  return (SbDrawPoint){n.x * length, n.y * length};
+static SbPoint mitre(SbPoint d0, SbPoint d1, double limit) {
+  SbPoint n = {-(d0.y + d1.y), d0.x + d1.x};
+  double dot = 1.0 + d0.x * d1.x + d0.y * d1.y; // |n|^2 = 2 dot
+  double length = 1.0 / fmax(dot, 2.0 / (limit * limit));
+  return (SbPoint){n.x * length, n.y * length};
 }
 
-static SbDrawPoint direction(SbDrawPoint a, SbDrawPoint b) {
-  float dx = b.x - a.x, dy = b.y - a.y;
-  float length = fmaxf(sqrtf(dx * dx + dy * dy), 1e-9f);
-  return (SbDrawPoint){dx / length, dy / length};
+static SbPoint direction(SbPoint a, SbPoint b) {
+  double dx = b.x - a.x, dy = b.y - a.y;
+  double length = fmax(sqrt(dx * dx + dy * dy), 1e-9);
+  return (SbPoint){dx / length, dy / length};
 }
 
-void sb_mesh_fill(SbMesh *mesh, const SbDrawItem *item, const SbDrawPoint *points, double scale) {
-  SbDrawPoint *p = work_space(mesh, 2 * item->count);
+void sb_mesh_fill(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points, double scale) {
+  SbPoint *p = work_space(mesh, 2 * item->count);
   size_t n = copy_scaled(p, points, item->count, scale, true);
   if (n < 3) {
     return;
   }
-  float area = signed_area(p, n);
-  if (area < 0.0f) {
+  double area = signed_area(p, n);
+  if (area < 0.0) {
     for (size_t i = 0; i < n / 2; i++) {
-      SbDrawPoint swap = p[i];
+      SbPoint swap = p[i];
       p[i] = p[n - 1 - i];
       p[n - 1 - i] = swap;
     }
@@ -179,17 +178,17 @@ void sb_mesh_fill(SbMesh *mesh, const SbDrawItem *item, const SbDrawPoint *point
   if (item->feather) {
     // With positive area (y down) the inside is on the left of the path in the mitre's sense.
     static const uint8_t none[4] = {0, 0, 0, 0};
-    SbDrawPoint *inner = p + n;
+    SbPoint *inner = p + n;
     for (size_t i = 0; i < n; i++) {
-      SbDrawPoint before = p[(i + n - 1) % n], after = p[(i + 1) % n];
-      SbDrawPoint m = mitre(direction(before, p[i]), direction(p[i], after), 3.0f);
-      inner[i] = (SbDrawPoint){p[i].x + 0.5f * m.x, p[i].y + 0.5f * m.y};
+      SbPoint before = p[(i + n - 1) % n], after = p[(i + 1) % n];
+      SbPoint m = mitre(direction(before, p[i]), direction(p[i], after), 3.0);
+      inner[i] = (SbPoint){p[i].x + 0.5 * m.x, p[i].y + 0.5 * m.y};
     }
     clip_ears(mesh, inner, (int)n, colour);
     for (size_t i = 0; i < n; i++) {
       size_t j = (i + 1) % n;
-      SbDrawPoint outer_i = {2.0f * p[i].x - inner[i].x, 2.0f * p[i].y - inner[i].y};
-      SbDrawPoint outer_j = {2.0f * p[j].x - inner[j].x, 2.0f * p[j].y - inner[j].y};
+      SbPoint outer_i = {2.0 * p[i].x - inner[i].x, 2.0 * p[i].y - inner[i].y};
+      SbPoint outer_j = {2.0 * p[j].x - inner[j].x, 2.0 * p[j].y - inner[j].y};
       SbMeshVertex *v = add(mesh, 6);
       v[0] = solid(inner[i], colour);
       v[1] = solid(outer_i, none);
@@ -201,9 +200,9 @@ void sb_mesh_fill(SbMesh *mesh, const SbDrawItem *item, const SbDrawPoint *point
   } else {
     clip_ears(mesh, p, (int)n, colour);
   }
-  if (item->hatch.width > 0.0f) {
+  if (item->hatch.width > 0.0) {
     const SbDrawHatch *hatch = &item->hatch;
-    float offset = hatch->offset * (float)scale;
+    double offset = hatch->offset * (double)scale;
     for (size_t i = first; i < mesh->count; i++) {
       SbMeshVertex *v = &mesh->vertex[i];
       v->extra[0] = hatch->across_x * v->x + hatch->across_y * v->y - offset;
@@ -212,34 +211,34 @@ void sb_mesh_fill(SbMesh *mesh, const SbDrawItem *item, const SbDrawPoint *point
 }
 
 // The strip of a whole line, a quad per segment; ends reach a pixel further for their soft edge.
-static void strip(SbMesh *mesh, const SbDrawPoint *p, size_t n, bool closed, float half,
+static void strip(SbMesh *mesh, const SbPoint *p, size_t n, bool closed, double half,
                   const uint8_t colour[4]) {
-  float reach = half + 1.0f;
-  float total = 0.0f;
+  double reach = half + 1.0;
+  double total = 0.0;
   size_t segments = closed ? n : n - 1;
   for (size_t i = 0; i < segments; i++) {
-    SbDrawPoint a = p[i], b = p[(i + 1) % n];
-    total += sqrtf((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+    SbPoint a = p[i], b = p[(i + 1) % n];
+    total += sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
   }
-  float along = 0.0f;
+  double along = 0.0;
   for (size_t i = 0; i < segments; i++) {
-    SbDrawPoint a = p[i], b = p[(i + 1) % n];
-    SbDrawPoint d = direction(a, b);
-    float length = sqrtf((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+    SbPoint a = p[i], b = p[(i + 1) % n];
+    SbPoint d = direction(a, b);
+    double length = sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
     bool starts = !closed && i == 0, ends = !closed && i + 1 == segments;
-    SbDrawPoint square = {-d.y, d.x};
-    SbDrawPoint ma = starts ? square : mitre(direction(p[(i + n - 1) % n], a), d, 2.5f);
-    SbDrawPoint mb = ends ? square : mitre(d, direction(b, p[(i + 2) % n]), 2.5f);
-    float from = along, to = along + length;
+    SbPoint square = {-d.y, d.x};
+    SbPoint ma = starts ? square : mitre(direction(p[(i + n - 1) % n], a), d, 2.5);
+    SbPoint mb = ends ? square : mitre(d, direction(b, p[(i + 2) % n]), 2.5);
+    double from = along, to = along + length;
     if (starts) {
-      a = (SbDrawPoint){a.x - d.x, a.y - d.y};
-      from -= 1.0f;
+      a = (SbPoint){a.x - d.x, a.y - d.y};
+      from -= 1.0;
     }
     if (ends) {
-      b = (SbDrawPoint){b.x + d.x, b.y + d.y};
-      to += 1.0f;
+      b = (SbPoint){b.x + d.x, b.y + d.y};
+      to += 1.0;
     }
-    float lead = closed ? WIDE : 0.0f, size = closed ? 2.0f * WIDE + total : total;
+    double lead = closed ? WIDE : 0.0, size = closed ? 2.0 * WIDE + total : total;
     const SbMeshVertex corner[4] = {
         {a.x + reach * ma.x,
          a.y + reach * ma.y,
@@ -269,35 +268,35 @@ static void strip(SbMesh *mesh, const SbDrawPoint *p, size_t n, bool closed, flo
   }
 }
 
-void sb_mesh_stroke(SbMesh *mesh, const SbDrawItem *item, const SbDrawPoint *points, double scale) {
-  SbDrawPoint *p = work_space(mesh, item->count);
+void sb_mesh_stroke(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points, double scale) {
+  SbPoint *p = work_space(mesh, item->count);
   size_t n = copy_scaled(p, points, item->count, scale, item->closed);
   if (n < 2) {
     return;
   }
-  SbDrawColour colour = item->colour;
-  float half = item->width * (float)scale / 2.0f;
-  if (half < 0.5f) {
+  SbColor colour = item->colour;
+  double half = item->width * (double)scale / 2.0;
+  if (half < 0.5) {
     // Thinner than a pixel: a pixel wide, fainter.
-    colour.a *= 2.0f * half;
-    half = 0.5f;
+    colour.a *= 2.0 * half;
+    half = 0.5;
   }
   uint8_t ink[4];
   premultiply(ink, colour);
   strip(mesh, p, n, item->closed && n > 2, half, ink);
 }
 
-void sb_mesh_field(SbMesh *mesh, const SbDrawItem *item, const SbDrawPoint *points,
+void sb_mesh_field(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points,
                    const float *scalars, double scale) {
   static const uint8_t white[4] = {255, 255, 255, 255};
-  float range = fmaxf(item->map_max - item->map_min, 1e-30f);
+  double range = fmax(item->map_max - item->map_min, 1e-30);
   SbMeshVertex *v = add(mesh, item->count);
   for (size_t i = 0; i < item->count; i++) {
-    SbDrawPoint p = {(float)((double)points[i].x * scale), (float)((double)points[i].y * scale)};
-    float t = (scalars[i] - item->map_min) / range;
+    SbPoint p = {(points[i].x * scale), (points[i].y * scale)};
+    double t = (scalars[i] - item->map_min) / range;
     if (item->shaded) {
       uint8_t colour[4];
-      premultiply(colour, item->map->entry[(int)(255.0f * fminf(fmaxf(t, 0.0f), 1.0f) + 0.5f)]);
+      premultiply(colour, item->map->entry[(int)(255.0 * fmin(fmax(t, 0.0), 1.0) + 0.5)]);
       v[i] = solid(p, colour);
     } else {
       v[i] = solid(p, white);
@@ -307,16 +306,15 @@ void sb_mesh_field(SbMesh *mesh, const SbDrawItem *item, const SbDrawPoint *poin
 }
 
 void sb_mesh_glyphs(SbMesh *mesh, double x, double y, double width, double height, double u,
-                    double v, SbDrawColour colour) {
+                    double v, SbColor colour) {
   uint8_t ink[4];
   premultiply(ink, colour);
   const double at[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
   SbMeshVertex *vertex = add(mesh, 6);
   for (int i = 0; i < 6; i++) {
-    vertex[i] =
-        (SbMeshVertex){(float)(x + at[i][0] * width),
-                       (float)(y + at[i][1] * height),
-                       {ink[0], ink[1], ink[2], ink[3]},
-                       {(float)(u + at[i][0] * width), (float)(v + at[i][1] * height), 0.0f, 0.0f}};
+    vertex[i] = (SbMeshVertex){(x + at[i][0] * width),
+                               (y + at[i][1] * height),
+                               {ink[0], ink[1], ink[2], ink[3]},
+                               {(u + at[i][0] * width), (v + at[i][1] * height), 0.0, 0.0}};
   }
 }

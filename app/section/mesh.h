@@ -20,7 +20,7 @@ typedef struct {
   SbMeshVertex *vertex;
   // Work space.
   size_t work_capacity;
-  SbDrawPoint *work;
+  SbPoint *work;
   int *link;
 } SbMesh;
 
@@ -28,11 +28,11 @@ void sb_mesh_init(SbMesh *mesh);
 void sb_mesh_finish(SbMesh *mesh);
 
 // Appends triangles; `scale` is device pixels per logical pixel.
-void sb_mesh_fill(SbMesh *mesh, const SbDrawItem *item, const SbDrawPoint *points, double scale);
-void sb_mesh_stroke(SbMesh *mesh, const SbDrawItem *item, const SbDrawPoint *points, double scale);
-void sb_mesh_field(SbMesh *mesh, const SbDrawItem *item, const SbDrawPoint *points,
+void sb_mesh_fill(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points, double scale);
+void sb_mesh_stroke(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points, double scale);
+void sb_mesh_field(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points,
                    const float *scalars, double scale);
 
 // A rectangle of an atlas, device pixels.
 void sb_mesh_glyphs(SbMesh *mesh, double x, double y, double width, double height, double u,
-                    double v, SbDrawColour colour);
+                    double v, SbColor colour);

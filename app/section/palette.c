@@ -2,23 +2,17 @@
 // tables of 256.
 #include "app/section/palette.h"
 
-#include "app/chart/theme.h"
-
 #include <glib.h>
 
-static SbDrawColour convert(SbColor color) {
-  return (SbDrawColour){(float)color.r, (float)color.g, (float)color.b, 1.0f};
-}
-
 // A body's surface from its shadow over its own colour at two thirds to its highlight.
-static void make_shade(SbDrawMap *map, SbDrawColour body, bool dark) {
-  const SbDrawColour black = {0.03f, 0.04f, 0.06f, 1.0f}, white = {1.0f, 1.0f, 1.0f, 1.0f};
-  SbDrawColour shadow = sb_draw_mix(body, black, dark ? 0.62 : 0.58);
-  SbDrawColour light = sb_draw_mix(body, white, dark ? 0.36 : 0.75);
+static void make_shade(SbDrawMap *map, SbColor body, bool dark) {
+  const SbColor black = {0.03, 0.04, 0.06, 1.0}, white = {1.0, 1.0, 1.0, 1.0};
+  SbColor shadow = sb_color_mix(body, black, dark ? 0.62 : 0.58);
+  SbColor light = sb_color_mix(body, white, dark ? 0.36 : 0.75);
   for (int i = 0; i < 256; i++) {
     double t = i / 255.0;
     map->entry[i] =
-        t < 2.0 / 3 ? sb_draw_mix(shadow, body, 1.5 * t) : sb_draw_mix(body, light, 3 * t - 2);
+        t < 2.0 / 3 ? sb_color_mix(shadow, body, 1.5 * t) : sb_color_mix(body, light, 3 * t - 2);
   }
 }
 
@@ -27,32 +21,32 @@ static void make_palette(SbPalette *palette, bool dark) {
   const SbColor *role = theme->role;
   *palette = (SbPalette){
       .dark = dark,
-      .panel = convert(role[SB_ROLE_PANEL]),
-      .axis = convert(role[SB_ROLE_AXIS]),
-      .ink = convert(role[SB_ROLE_INK]),
-      .second = convert(role[SB_ROLE_SECOND]),
-      .fluid_line = convert(role[SB_ROLE_FLUID]),
-      .now = convert(role[SB_ROLE_NOW]),
-      .housing = convert(role[SB_ROLE_HOUSING]),
-      .housing_hatch = convert(role[SB_ROLE_HOUSING_HATCH]),
-      .stem = convert(role[SB_ROLE_STEM]),
-      .stem_hatch = convert(role[SB_ROLE_STEM_HATCH]),
-      .outline = convert(role[SB_ROLE_OUTLINE]),
+      .panel = role[SB_ROLE_PANEL],
+      .axis = role[SB_ROLE_AXIS],
+      .ink = role[SB_ROLE_INK],
+      .second = role[SB_ROLE_SECOND],
+      .fluid_line = role[SB_ROLE_FLUID],
+      .now = role[SB_ROLE_NOW],
+      .housing = role[SB_ROLE_HOUSING],
+      .housing_hatch = role[SB_ROLE_HOUSING_HATCH],
+      .stem = role[SB_ROLE_STEM],
+      .stem_hatch = role[SB_ROLE_STEM_HATCH],
+      .outline = role[SB_ROLE_OUTLINE],
   };
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    palette->seal[i] = convert(sb_theme_seal(theme, i));
+    palette->seal[i] = sb_theme_seal(theme, i);
     make_shade(&palette->seal_shade[i],
-               sb_draw_mix(palette->panel, palette->seal[i], dark ? 0.62 : 0.66), dark);
+               sb_color_mix(palette->panel, palette->seal[i], dark ? 0.62 : 0.66), dark);
   }
   // Darker than the cut faces, which stand out so.
   make_shade(&palette->housing_shade,
-             sb_draw_mix(palette->housing, palette->outline, dark ? 0.16 : 0.20), dark);
-  make_shade(&palette->stem_shade, sb_draw_mix(palette->stem, palette->outline, dark ? 0.22 : 0.24),
-             dark);
+             sb_color_mix(palette->housing, palette->outline, dark ? 0.16 : 0.20), dark);
+  make_shade(&palette->stem_shade,
+             sb_color_mix(palette->stem, palette->outline, dark ? 0.22 : 0.24), dark);
   for (int i = 0; i < 256; i++) {
-    palette->field.entry[i] = convert(sb_theme_field(theme, i / 255.0));
-    palette->diverging.entry[i] = convert(sb_theme_diverging(theme, 2 * i / 255.0 - 1));
-    palette->fluid.entry[i] = convert(sb_theme_fluid(theme, SB_PALETTE_FLUID_FULL * i / 255.0));
+    palette->field.entry[i] = sb_theme_field(theme, i / 255.0);
+    palette->diverging.entry[i] = sb_theme_diverging(theme, 2 * i / 255.0 - 1);
+    palette->fluid.entry[i] = sb_theme_fluid(theme, SB_PALETTE_FLUID_FULL * i / 255.0);
   }
 }
 
@@ -67,7 +61,7 @@ const SbPalette *sb_palette(bool dark) {
   return &palette[dark ? SB_PALETTE_DARK : SB_PALETTE_LIGHT];
 }
 
-SbDrawColour sb_palette_fluid(const SbPalette *palette, double p) {
+SbColor sb_palette_fluid(const SbPalette *palette, double p) {
   double t = CLAMP(p / SB_PALETTE_FLUID_FULL, 0.0, 1.0);
   return palette->fluid.entry[(int)(255 * t + 0.5)];
 }

@@ -7,11 +7,11 @@
 
 typedef struct {
   bool dark;
-  SbDrawColour panel, axis;
-  SbDrawColour ink, second;
-  SbDrawColour seal[SB_SEAL_COUNT];
-  SbDrawColour fluid_line, now;
-  SbDrawColour housing, housing_hatch, stem, stem_hatch, outline;
+  SbColor panel, axis;
+  SbColor ink, second;
+  SbColor seal[SB_SEAL_COUNT];
+  SbColor fluid_line, now;
+  SbColor housing, housing_hatch, stem, stem_hatch, outline;
   SbDrawMap field;     // stress in a seal
   SbDrawMap diverging; // a signed field, -1 to 1
   SbDrawMap fluid;     // pressure from 0 to 0.7 MPa
@@ -28,4 +28,4 @@ enum { SB_PALETTE_LIGHT, SB_PALETTE_DARK, SB_PALETTE_COUNT };
 const SbPalette *sb_palette(bool dark);
 
 // Colour of fluid at gauge pressure p [Pa]; beyond the map's ends their colours.
-SbDrawColour sb_palette_fluid(const SbPalette *palette, double p);
+SbColor sb_palette_fluid(const SbPalette *palette, double p);

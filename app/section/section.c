@@ -100,9 +100,8 @@ double sb_section_field_scale(SbField field) {
   return field == SB_FIELD_DISPLACEMENT ? 1e3 : 1e-6;
 }
 
-SbDrawPoint sb_section_at(const SbSection *section, double x, double y) {
-  return (SbDrawPoint){(float)(section->x0 + x * section->scale),
-                       (float)(section->y0 - y * section->scale)};
+SbPoint sb_section_at(const SbSection *section, double x, double y) {
+  return (SbPoint){(section->x0 + x * section->scale), (section->y0 - y * section->scale)};
 }
 
 double sb_section_displacement(const SbSection *section) {
@@ -167,7 +166,7 @@ static void shape_rings(SbSection *section) {
 // Fluid behind everything: tinted by pressure, changing at the sealing contacts.
 static void draw_fluid(SbSection *section) {
   const SbFrame *frame = section->instant->frame;
-  const SbDrawRect *strip = &section->strip;
+  const SbRect *strip = &section->strip;
   const SbSealFrame *inner = &frame->seal[SB_INNER];
   const SbSealFrame *outer = &frame->seal[SB_OUTER];
   double split_inner = sb_section_at(section,
@@ -193,7 +192,7 @@ static void draw_fluid(SbSection *section) {
   }
 }
 
-SbSectionFrameMap sb_section_frame_map(double x0, double y0, double scale, const SbDrawRect *rect) {
+SbSectionFrameMap sb_section_frame_map(double x0, double y0, double scale, const SbRect *rect) {
   enum { BEYOND = 20 };
   double left = (double)rect->x - BEYOND, top = (double)rect->y - BEYOND;
   return (SbSectionFrameMap){x0,
@@ -209,20 +208,20 @@ SbSectionFrameMap sb_section_frame_map(double x0, double y0, double scale, const
 enum { CLIPPED_MAX = SB_VALVE_POINTS_MAX + 16 };
 
 // Keeps what of a polygon lies on one side of a pixel's column (or row). Returns the new count.
-static size_t clip(SbDrawPoint *points, size_t count, bool row, double limit, double side) {
-  SbDrawPoint from[CLIPPED_MAX];
+static size_t clip(SbPoint *points, size_t count, bool row, double limit, double side) {
+  SbPoint from[CLIPPED_MAX];
   size_t n = 0;
   memcpy(from, points, count * sizeof *from);
   for (size_t i = 0; i < count; i++) {
-    SbDrawPoint a = from[i], b = from[(i + 1) % count];
+    SbPoint a = from[i], b = from[(i + 1) % count];
     double da = side * ((double)(row ? a.y : a.x) - limit);
     double db = side * ((double)(row ? b.y : b.x) - limit);
     if (da >= 0 && n < CLIPPED_MAX) {
       points[n++] = a;
     }
     if ((da >= 0) != (db >= 0) && n < CLIPPED_MAX) {
-      float f = (float)(da / (da - db));
-      points[n++] = (SbDrawPoint){a.x + f * (b.x - a.x), a.y + f * (b.y - a.y)};
+      float f = (da / (da - db));
+      points[n++] = (SbPoint){a.x + f * (b.x - a.x), a.y + f * (b.y - a.y)};
     }
   }
   return n;
@@ -231,12 +230,11 @@ static size_t clip(SbDrawPoint *points, size_t count, bool row, double limit, do
 // Fills and outlines one solid shifted by dx. Edges on the axis are no edges.
 static void draw_solid(SbSection *section, const SbSectionFrameMap *map, const SbValveSolid *solid,
                        double dx, const SbDrawHatch *lines) {
-  SbDrawPoint pixel[CLIPPED_MAX];
+  SbPoint pixel[CLIPPED_MAX];
   size_t n = solid->count;
   for (size_t i = 0; i < n; i++) {
     const SbValvePoint *at = &solid->point[i];
-    pixel[i] = (SbDrawPoint){(float)(map->x0 + (at->x - dx) * map->scale),
-                             (float)(map->y0 - at->y * map->scale)};
+    pixel[i] = (SbPoint){(map->x0 + (at->x - dx) * map->scale), (map->y0 - at->y * map->scale)};
   }
   n = clip(pixel, n, false, map->left, 1);
   n = clip(pixel, n, false, map->right, -1);
@@ -250,7 +248,7 @@ static void draw_solid(SbSection *section, const SbSectionFrameMap *map, const S
       sb_draw_fill(section->list, pixel, n, solid->moves ? palette->stem : palette->housing);
   item->hatch = *lines;
   item->feather = false;
-  float axis = (float)map->y0;
+  float axis = map->y0;
   size_t start = 0;
   bool closed = true;
   for (size_t i = 0; i < n; i++) {
@@ -259,34 +257,34 @@ static void draw_solid(SbSection *section, const SbSectionFrameMap *map, const S
       closed = false;
     }
   }
-  SbDrawPoint line[CLIPPED_MAX];
+  SbPoint line[CLIPPED_MAX];
   for (size_t i = 0; i < n; i++) {
     line[i] = pixel[(start + i) % n];
   }
   sb_draw_stroke(section->list, line, n, 1.8, palette->outline)->closed = closed;
 }
 
-static SbDrawHatch hatch(SbDrawColour colour, double lean, double offset) {
+static SbDrawHatch hatch(SbColor colour, double lean, double offset) {
   return sb_draw_hatch(colour, SB_HATCH_PITCH, SB_HATCH_WIDTH, lean, offset);
 }
 
 // Above a housing of known shape nothing is known: no fluid, no wall.
 static void draw_outside(SbSection *section, const SbSectionFrameMap *map) {
   const SbOutlineSurface *surface = &section->valve.housing;
-  SbDrawPoint pixel[2 * SB_OUTLINE_MAX + 2];
+  SbPoint pixel[2 * SB_OUTLINE_MAX + 2];
   size_t n = 0;
   for (size_t i = 0; i < surface->count; i++) {
     for (int side = 0; side < 2; side++) {
       double high = side == 0 ? surface->high_left[i] : surface->high_right[i];
       if (high >= 0) {
-        float y = MAX((float)(map->y0 - high * map->scale), (float)map->top);
-        pixel[n++] = (SbDrawPoint){(float)(map->x0 + surface->x[i] * map->scale), y};
+        float y = MAX((map->y0 - high * map->scale), map->top);
+        pixel[n++] = (SbPoint){(map->x0 + surface->x[i] * map->scale), y};
       }
     }
   }
   if (n > 1) {
-    pixel[n] = (SbDrawPoint){pixel[n - 1].x, (float)map->top};
-    pixel[n + 1] = (SbDrawPoint){pixel[0].x, (float)map->top};
+    pixel[n] = (SbPoint){pixel[n - 1].x, map->top};
+    pixel[n + 1] = (SbPoint){pixel[0].x, map->top};
     sb_draw_fill(section->list, pixel, n + 2, section->palette->panel)->feather = false;
   }
 }
@@ -331,7 +329,7 @@ void sb_section_draw_strip(SbSection *section) {
   sb_draw_clip(list, &section->strip);
   draw_fluid(section);
   size_t first = list->item_count;
-  const SbDrawRect *strip = &section->strip;
+  const SbRect *strip = &section->strip;
   SbSectionFrameMap map = sb_section_frame_map(section->x0, section->y0, section->scale, strip);
   sb_section_draw_housing(section, &map);
   draw_stem(section, &map);
@@ -339,16 +337,15 @@ void sb_section_draw_strip(SbSection *section) {
   // Rings, and the contact bars over exactly the engine's contact.
   double bore = section->valve.bore;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    SbDrawPoint origin =
-        sb_section_at(section, sb_section_origin(section, i), section->valve.floor);
+    SbPoint origin = sb_section_at(section, sb_section_origin(section, i), section->valve.floor);
     const SbSectionPlane plane = {origin.x, section->scale, 0, origin.y, 0, -section->scale};
     sb_section_draw_ring(section, i, &plane);
     const SbRingShape *ring = &section->ring[i];
     if (frame->seal[i].land_fraction > 0 && ring->contact_right > ring->contact_left) {
       double left = sb_section_origin(section, i) + ring->contact_left;
       double right = sb_section_origin(section, i) + ring->contact_right;
-      SbDrawPoint a = sb_section_at(section, left, bore);
-      SbDrawPoint b = sb_section_at(section, right, bore);
+      SbPoint a = sb_section_at(section, left, bore);
+      SbPoint b = sb_section_at(section, right, bore);
       sb_draw_line(list, a.x, a.y, b.x, b.y, 4, palette->seal[i]);
     }
   }
@@ -359,7 +356,7 @@ void sb_section_draw_strip(SbSection *section) {
     double y = section->y0 - 0.5;
     sb_draw_line(list, section->strip.x, y, section->strip.x + section->strip.width, y, 1,
                  palette->outline)
-        ->dash = SB_DASH_CENTRE;
+        ->dash = &sb_dash_centre;
   }
   sb_draw_clip(list, NULL);
 }
@@ -381,8 +378,7 @@ static void lay_out_cutaway(SbSection *section, const Layout *layout, double bot
   double left = layout->margin + (layout->column ? LEGENDS + COLUMN_GAP / 2 : 0);
   double top = layout->top + (layout->column ? 0 : 66);
   section->strip =
-      (SbDrawRect){(float)left, (float)top, (float)fmax(view->width - layout->margin - left, 1),
-                   (float)fmax(bottom - top, 1)};
+      (SbRect){left, top, fmax(view->width - layout->margin - left, 1), fmax(bottom - top, 1)};
 }
 
 // One seal's surroundings, from below the groove floor to above the land.
@@ -393,7 +389,7 @@ static void lay_out_zoom(SbSection *section, const Layout *layout, double bottom
   double left = layout->margin + (layout->column ? LEGENDS + COLUMN_GAP : 0);
   double top = layout->top + (layout->column ? 0 : 66);
   double width = view->width - layout->margin - left, tall = bottom - top;
-  section->strip = (SbDrawRect){(float)left, (float)top, (float)width, (float)tall};
+  section->strip = (SbRect){left, top, width, tall};
   double g = section->model.radial_space;
   section->scale = MIN(width / (2.6 * g), tall / (1.85 * g));
   double centre = valve->origin[seal] - sb_section_displacement(section);
@@ -446,8 +442,7 @@ static void lay_out(SbSection *section, Layout *layout) {
   }
   layout->inset_top = layout->top + titles;
   section->scale = scale;
-  section->strip = (SbDrawRect){(float)margin, (float)(bottom - radius * scale), (float)strip_width,
-                                (float)(radius * scale)};
+  section->strip = (SbRect){margin, (bottom - radius * scale), strip_width, (radius * scale)};
   double used = (right - left) * scale + left_room;
   section->x0 = margin + (strip_width - used) / 2 + left_room - left * scale;
   section->y0 = view->full ? bottom - radius * scale / 2 : bottom;
@@ -479,13 +474,12 @@ void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *
   double gap = 24;
   double width = view->width - layout.margin - x;
   double each = layout.stacked ? width : (width - gap) / 2;
-  SbDrawRect pressure = {(float)x, (float)layout.inset_top, (float)each,
-                         (float)layout.inset_height};
-  SbDrawRect film = pressure;
+  SbRect pressure = {x, layout.inset_top, each, layout.inset_height};
+  SbRect film = pressure;
   if (layout.stacked) {
-    film.y += (float)(layout.inset_height + STACK_GAP);
+    film.y += (layout.inset_height + STACK_GAP);
   } else {
-    film.x += (float)(each + gap);
+    film.x += (each + gap);
   }
   // The leader goes below the labels, which keep off it.
   if (layout.insets) {

@@ -13,14 +13,14 @@ static double legend(SbSection *section, double x, double y, double width, const
                      const char *unit, const SbDrawMap *map, double min, double max) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
-  sb_draw_text(list, x, y, 12, 600, SB_ALIGN_LEFT, palette->ink, name);
+  sb_draw_text(list, x, y, 12, 600, SB_LEFT, palette->ink, name);
   double name_width = sb_text_width(section->text, name, 12, 600);
-  sb_draw_text(list, x + name_width + 7, y, 12, 400, SB_ALIGN_LEFT, palette->second, unit);
-  float x0 = (float)x, x1 = (float)(x + width), y0 = (float)(y + 9), y1 = (float)(y + 21);
-  const SbDrawPoint corner[6] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y0}, {x1, y1}, {x0, y1}};
-  const float scalar[6] = {0.0f, 1.0f, 1.0f, 0.0f, 1.0f, 0.0f};
+  sb_draw_text(list, x + name_width + 7, y, 12, 400, SB_LEFT, palette->second, unit);
+  float x0 = x, x1 = (x + width), y0 = (y + 9), y1 = (y + 21);
+  const SbPoint corner[6] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y0}, {x1, y1}, {x0, y1}};
+  const float scalar[6] = {0.0, 1.0, 1.0, 0.0, 1.0, 0.0};
   sb_draw_mesh(list, corner, scalar, 6, map, 0, 1);
-  const SbDrawPoint frame[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+  const SbPoint frame[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
   sb_draw_stroke(list, frame, 4, 1, palette->axis)->closed = true;
   if (!(max > min)) { // one value everywhere, or none known
     return 62;
@@ -44,7 +44,7 @@ static double legend(SbSection *section, double x, double y, double width, const
     sb_draw_line(list, tick, y1 + 1, tick, y1 + 5, 1, palette->axis);
     char text[SB_SECTION_NUMBER];
     sb_section_fixed(text, v, step >= 1 ? 0 : (int)ceil(-log10(step) - 1e-9));
-    sb_draw_text(list, tick, y1 + 17, 11, 400, SB_ALIGN_CENTRE, palette->second, text);
+    sb_draw_text(list, tick, y1 + 17, 11, 400, SB_MIDDLE, palette->second, text);
   }
   return 62;
 }
@@ -54,13 +54,13 @@ static void force_bars(SbSection *section, double x, double y, double width) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
   const SbFrame *frame = section->instant->frame;
-  sb_draw_text(list, x, y, 12, 600, SB_ALIGN_LEFT, palette->ink, "forces on the stem");
+  sb_draw_text(list, x, y, 12, 600, SB_LEFT, palette->ink, "forces on the stem");
   sb_draw_text(list, x + sb_text_width(section->text, "forces on the stem", 12, 600) + 7, y, 12,
-               400, SB_ALIGN_LEFT, palette->second, "N");
+               400, SB_LEFT, palette->second, "N");
   const struct {
     const char *name;
     double force;
-    SbDrawColour colour;
+    SbColor colour;
   } row[4] = {
       {"drive", frame->force, palette->ink},
       {"pressure", frame->pressure_force, palette->fluid_line},
@@ -72,13 +72,13 @@ static void force_bars(SbSection *section, double x, double y, double width) {
   for (int i = 0; i < 4; i++) {
     double base = y + 19 + 17 * i;
     char text[SB_SECTION_NUMBER];
-    sb_draw_text(list, x, base, 11, 400, SB_ALIGN_LEFT, palette->second, row[i].name);
+    sb_draw_text(list, x, base, 11, 400, SB_LEFT, palette->second, row[i].name);
     double length = fabs(row[i].force) * px;
     if (length > 0.5) {
       sb_draw_rect(list, zero, base - 8, length, 8, row[i].colour);
     }
     sb_section_fixed(text, row[i].force, 1);
-    sb_draw_text(list, zero + length + 6, base, 11, 600, SB_ALIGN_LEFT, palette->ink, text);
+    sb_draw_text(list, zero + length + 6, base, 11, 600, SB_LEFT, palette->ink, text);
   }
   sb_draw_line(list, zero - 0.5, y + 8, zero - 0.5, y + 8 + 17 * 4, 1, palette->axis);
 }
@@ -91,27 +91,27 @@ static void draw_title(SbSection *section, double x, double y) {
   char text[160], time[SB_SECTION_NUMBER];
   sb_section_fixed(time, frame->time, 2);
   if (!section->view->read_outs) {
-    sb_draw_text(list, x, y + 14, SB_TYPE_PANEL, 700, SB_ALIGN_LEFT, palette->ink,
+    sb_draw_text(list, x, y + 14, SB_TYPE_PANEL, 700, SB_LEFT, palette->ink,
                  section->view->cutaway ? "Cutaway" : "Axial section");
     snprintf(text, sizeof text, "stem and seals at %s s, housing at rest", time);
-    sb_draw_text(list, x, y + 34, 12, 400, SB_ALIGN_LEFT, palette->second, text);
+    sb_draw_text(list, x, y + 34, 12, 400, SB_LEFT, palette->second, text);
     return;
   }
   const char *span = sb_chart_span(NULL, frame->stage);
-  sb_draw_text(list, x, y + 20, 26, 700, SB_ALIGN_LEFT, palette->now, span);
+  sb_draw_text(list, x, y + 20, 26, 700, SB_LEFT, palette->now, span);
   double width = sb_text_width(section->text, span, 26, 700);
   static const char *const phase[SB_STAGE_COUNT] = {
       [SB_STAGE_A] = "force builds up",      [SB_STAGE_B] = "both seals slide",
       [SB_STAGE_C] = "chamber open",         [SB_STAGE_D] = "at the stop",
       [SB_STAGE_E] = "return, chamber open", [SB_STAGE_F] = "both seals slide back",
   };
-  sb_draw_text(list, x + width + 10, y + 20, 13, 600, SB_ALIGN_LEFT, palette->now,
+  sb_draw_text(list, x + width + 10, y + 20, 13, 600, SB_LEFT, palette->now,
                phase[MIN(frame->stage, SB_STAGE_COUNT - 1)]);
   char stroke[SB_SECTION_NUMBER], force[SB_SECTION_NUMBER];
   snprintf(text, sizeof text, "%s s    %s    %s", time,
            sb_section_millimetre(stroke, frame->displacement),
            sb_section_force(force, frame->force));
-  sb_draw_text(list, x, y + 42, 13, 600, SB_ALIGN_LEFT, palette->ink, text);
+  sb_draw_text(list, x, y + 42, 13, 600, SB_LEFT, palette->ink, text);
 }
 
 void sb_section_draw_legends(SbSection *section, double x, double y, double width) {

@@ -13,7 +13,7 @@
 enum { CURVE_MAX = 2000 };
 
 typedef struct {
-  SbDrawRect rect;
+  SbRect rect;
   double centre, scale; // seal's x in the middle [m], px per m
 } Inset;
 
@@ -24,7 +24,7 @@ static double inset_x(const Inset *inset, double x) {
 // Thins a profile to the pixels of an inset: runs of samples, ends kept. Returns the point count.
 // Points are as far apart as makes a curve that rises and falls twice fit into CURVE_MAX.
 static size_t curve(const Inset *inset, const SbContactProfile *profile, const double *value,
-                    double base, double px, double low, SbDrawPoint *points) {
+                    double base, double px, double low, SbPoint *points) {
   size_t count = 0;
   double way = (double)inset->rect.width + 4 * (double)inset->rect.height + 300;
   double step = fmax(0.6, way / (CURVE_MAX - 2));
@@ -43,7 +43,7 @@ static size_t curve(const Inset *inset, const SbContactProfile *profile, const d
     if (count == CURVE_MAX) {
       break;
     }
-    points[count++] = (SbDrawPoint){(float)x, (float)y};
+    points[count++] = (SbPoint){x, y};
   }
   return count;
 }
@@ -54,16 +54,16 @@ static void inset_title(SbSection *section, const Inset *inset, int seal, const 
   const SbPalette *palette = section->palette;
   const char *const name = seal == SB_OUTER ? "Outer seal" : "Inner seal";
   double y = inset->rect.y - 9;
-  sb_draw_text(section->list, inset->rect.x, y, 13, 700, SB_ALIGN_LEFT, palette->ink, name);
+  sb_draw_text(section->list, inset->rect.x, y, 13, 700, SB_LEFT, palette->ink, name);
   double width = sb_text_width(section->text, name, 13, 700);
   if (width + sb_text_width(section->text, what, 13, 400) > inset->rect.width) {
     what = brief;
   }
-  sb_draw_text(section->list, inset->rect.x + width, y, 13, 400, SB_ALIGN_LEFT, palette->ink, what);
+  sb_draw_text(section->list, inset->rect.x + width, y, 13, 400, SB_LEFT, palette->ink, what);
 }
 
 static void frame_inset(SbSection *section, const Inset *inset, int seal) {
-  const SbDrawRect *rect = &inset->rect;
+  const SbRect *rect = &inset->rect;
   sb_draw_clip(section->list, NULL);
   sb_draw_round_frame(section->list, rect->x + 0.5, rect->y + 0.5, rect->width - 1,
                       rect->height - 1, 4, 1.4, section->palette->seal[seal]);
@@ -79,7 +79,7 @@ static void hatch_rect(SbSection *section, double x, double y, double width, dou
 static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
-  const SbDrawRect *rect = &inset->rect;
+  const SbRect *rect = &inset->rect;
   const SbSealFrame *frame = &section->instant->frame->seal[seal];
   const SbContactProfile *profile = section->instant->profile[seal];
   bool contact = frame->land_fraction > 0 && frame->contact_right > frame->contact_left;
@@ -110,11 +110,11 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
   double left_px = inset_x(inset, frame->contact_left);
   double right_px = inset_x(inset, frame->contact_right);
   if (profile != NULL && profile->count > 1 && contact) {
-    SbDrawPoint points[CURVE_MAX + 2];
+    SbPoint points[CURVE_MAX + 2];
     size_t count = curve(inset, profile, profile->pressure, bore, px, bore, points + 1);
     // Outside the contact as far as the pressure is the fluid's it is drawn in the fluid's colour;
     // a film's inlet belongs to the seal.
-    SbDrawPoint *first = points + 1;
+    SbPoint *first = points + 1;
     double near = 0.01 * section->limits.pressure_max * px;
     double left_y = bore - (double)frame->pressure_left * px;
     double right_y = bore - (double)frame->pressure_right * px;
@@ -127,13 +127,13 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
            fabs((double)first[end - 2].y - right_y) < near) {
       end--;
     }
-    SbDrawPoint *from = first + begin;
+    SbPoint *from = first + begin;
     size_t inside = end - begin;
-    SbDrawPoint before = *(from - 1), after = first[end];
-    from[-1] = (SbDrawPoint){from[0].x, (float)bore};
-    first[end] = (SbDrawPoint){from[inside - 1].x, (float)bore};
-    SbDrawColour fill = palette->seal[seal];
-    fill.a = 0.3f;
+    SbPoint before = *(from - 1), after = first[end];
+    from[-1] = (SbPoint){from[0].x, bore};
+    first[end] = (SbPoint){from[inside - 1].x, bore};
+    SbColor fill = palette->seal[seal];
+    fill.a = 0.3;
     sb_draw_fill(list, from - 1, inside + 2, fill)->feather = false;
     from[-1] = before;
     first[end] = after;
@@ -148,14 +148,14 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
     if (height < 1) {
       continue;
     }
-    SbDrawColour wash = palette->fluid_line;
-    wash.a = 0.16f;
+    SbColor wash = palette->fluid_line;
+    wash.a = 0.16;
     sb_draw_rect(list, side[i][0], bore - height, side[i][1] - side[i][0], height, wash)->feather =
         false;
     sb_draw_line(list, side[i][0], bore - height, side[i][1], bore - height, 2,
                  palette->fluid_line);
     snprintf(text, sizeof text, "fluid %s", sb_section_megapascal(value, side[i][2]));
-    SbSectionLabel style = {11, 600, i == 0 ? SB_ALIGN_LEFT : SB_ALIGN_RIGHT, palette->fluid_line,
+    SbSectionLabel style = {11, 600, i == 0 ? SB_LEFT : SB_RIGHT, palette->fluid_line,
                             &palette->housing};
     double x = i == 0 ? rect->x + 8 : rect->x + rect->width - 8;
     if (sb_text_width(section->text, text, 11, 600) + 14 < side[i][1] - side[i][0]) {
@@ -182,13 +182,13 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
         peak_pressure = best;
       }
     }
-    SbSectionLabel peak = {13, 700, SB_ALIGN_CENTRE, palette->seal[seal], &palette->housing};
+    SbSectionLabel peak = {13, 700, SB_MIDDLE, palette->seal[seal], &palette->housing};
     sb_section_label(section, CLAMP(peak_x, rect->x + 50, rect->x + rect->width - 50),
                      bore - peak_pressure * px - 9, &peak,
                      sb_section_megapascal(value, peak_pressure));
     // The dimension stands on the contact that is drawn. The curve over it is the undragged one's.
     double y = bore + 17;
-    SbDrawColour line = palette->ink;
+    SbColor line = palette->ink;
     double width = sb_section_contact_text(section, seal, text, sizeof text);
     if (sb_section_dragged(section, seal)) {
       left_px = inset_x(inset, section->instant->ring[seal]->contact_left);
@@ -197,13 +197,13 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
     sb_draw_line(list, left_px, y - 5, left_px, y + 5, 1.2, line);
     sb_draw_line(list, right_px, y - 5, right_px, y + 5, 1.2, line);
     sb_draw_line(list, left_px, y, right_px, y, 1.2, line);
-    SbSectionLabel style = {11, 600, SB_ALIGN_CENTRE, palette->ink, &palette->panel};
+    SbSectionLabel style = {11, 600, SB_MIDDLE, palette->ink, &palette->panel};
     bool inside = right_px - left_px > sb_text_width(section->text, text, 11, 600) + 30;
     sb_section_label(section, (left_px + right_px) / 2,
                      inside ? y + 4 : fmin(y + 20, (double)(rect->y + rect->height) - 6), &style,
                      text);
   } else {
-    SbSectionLabel style = {12, 600, SB_ALIGN_CENTRE, palette->seal[seal], &palette->panel};
+    SbSectionLabel style = {12, 600, SB_MIDDLE, palette->seal[seal], &palette->panel};
     sb_section_label(section, rect->x + rect->width / 2, rect->y + 24, &style,
                      "off the land: no contact");
   }
@@ -241,7 +241,7 @@ static double asperity_share(const SbContactProfile *profile, const SbSealFrame 
 static void draw_film(SbSection *section, const Inset *inset, int seal) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
-  const SbDrawRect *rect = &inset->rect;
+  const SbRect *rect = &inset->rect;
   const SbFrame *whole = section->instant->frame;
   const SbSealFrame *frame = &whole->seal[seal];
   const SbContactProfile *profile = section->instant->profile[seal];
@@ -275,17 +275,17 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
   bool film = contact && profile != NULL && profile->count > 1 && frame->film_central > 0;
   double body_top = low;
   if (film) {
-    SbDrawPoint points[CURVE_MAX + 2];
+    SbPoint points[CURVE_MAX + 2];
     size_t count = curve(inset, profile, profile->film, bore, -px, low + 40, points);
     if (count > 1) {
       // A solved film ends where it ruptures; beyond, the gap opens by micrometres: a vertical
       // here.
-      SbDrawPoint last = points[count - 1];
-      bool rupture = (double)last.y < low && last.x < (float)right;
-      points[count] = (SbDrawPoint){last.x, (float)(low + 40)};
-      points[count + 1] = (SbDrawPoint){points[0].x, (float)(low + 40)};
+      SbPoint last = points[count - 1];
+      bool rupture = (double)last.y < low && last.x < right;
+      points[count] = (SbPoint){last.x, (low + 40)};
+      points[count + 1] = (SbPoint){points[0].x, (low + 40)};
       sb_draw_fill(list, points, count + 2,
-                   sb_draw_mix(palette->panel, palette->seal[seal], palette->dark ? 0.24 : 0.22))
+                   sb_color_mix(palette->panel, palette->seal[seal], palette->dark ? 0.24 : 0.22))
           ->feather = false;
       sb_draw_stroke(list, points, rupture ? count + 1 : count, 2.4, palette->seal[seal]);
       if (rupture) {
@@ -297,7 +297,7 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
   } else if (contact) {
     double left_px = inset_x(inset, frame->contact_left);
     sb_draw_rect(list, left_px, bore, split - left_px, low - bore,
-                 sb_draw_mix(palette->panel, palette->seal[seal], palette->dark ? 0.24 : 0.22))
+                 sb_color_mix(palette->panel, palette->seal[seal], palette->dark ? 0.24 : 0.22))
         ->feather = false;
     body_top = bore;
   }
@@ -311,8 +311,7 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     double shown = full / 2 * i * (micro ? 1e6 : 1e9);
     sb_section_significant(value, shown);
     snprintf(text, sizeof text, "%s %s", value, micro ? "\xc2\xb5m" : "nm");
-    sb_draw_text(list, right - 23, i == 0 ? y + 13 : y + 4, 11, 400, SB_ALIGN_RIGHT, palette->ink,
-                 text);
+    sb_draw_text(list, right - 23, i == 0 ? y + 13 : y + 4, 11, 400, SB_RIGHT, palette->ink, text);
   }
   if (film) {
     sb_draw_line(list, right - 14, bore, right - 14, bore + full * px, 1.2, palette->ink);
@@ -320,7 +319,7 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
 
   // What the bore does in the seal's frame.
   double ground = rect->y + (bore - rect->y) / 2;
-  SbSectionLabel small = {11, 400, SB_ALIGN_LEFT, palette->ink, &palette->housing};
+  SbSectionLabel small = {11, 400, SB_LEFT, palette->ink, &palette->housing};
   if (fabs(whole->velocity) > 0) {
     bool out = whole->velocity < 0;
     sb_draw_arrow(list, rect->x + (out ? 58 : 14), ground, rect->x + (out ? 14 : 58), ground, 1.4,
@@ -336,7 +335,7 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
   bool in_body = low - body_top > 66 || low - body_top > body_top - bore;
   double y = in_body ? MAX(body_top, bore) + 24 : bore + 22;
   double floor = in_body ? low : body_top;
-  SbDrawAlign centre = SB_ALIGN_CENTRE;
+  SbAlign centre = SB_MIDDLE;
   if (!contact) {
     sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->seal[seal],
                  "off the land: no film");
@@ -399,7 +398,7 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
 }
 
 // The part of a seal that both insets show.
-static Inset inset_of(const SbSection *section, const SbDrawRect *rect) {
+static Inset inset_of(const SbSection *section, const SbRect *rect) {
   int seal = section->view->inset_seal;
   const SbSectionLimits *limits = &section->limits;
   double left = limits->contact_left[seal], right = limits->contact_right[seal];
@@ -408,14 +407,13 @@ static Inset inset_of(const SbSection *section, const SbDrawRect *rect) {
 }
 
 // From both insets to a box round the contact in the strip.
-void sb_section_draw_leader(SbSection *section, const SbDrawRect *pressure,
-                            const SbDrawRect *film) {
+void sb_section_draw_leader(SbSection *section, const SbRect *pressure, const SbRect *film) {
   int seal = section->view->inset_seal;
   Inset inset = inset_of(section, pressure);
-  SbDrawColour colour = section->palette->seal[seal];
+  SbColor colour = section->palette->seal[seal];
   double origin = sb_section_origin(section, seal);
   double half = (double)pressure->width / 2 / inset.scale;
-  SbDrawPoint middle = sb_section_at(section, origin + inset.centre, section->valve.bore);
+  SbPoint middle = sb_section_at(section, origin + inset.centre, section->valve.bore);
   double width = 2 * half * section->scale;
   double height = 0.26 * (double)pressure->height / inset.scale * section->scale;
   double above = MIN(8, 0.5 * height);
@@ -430,10 +428,7 @@ void sb_section_draw_leader(SbSection *section, const SbDrawRect *pressure,
   double from = (double)(pressure->x + pressure->width / 2);
   double to = (double)(film->x + film->width / 2);
   double drop = box_left + 7;
-  const SbDrawPoint bracket[4] = {{(float)from, (float)bottom},
-                                  {(float)from, (float)elbow},
-                                  {(float)to, (float)elbow},
-                                  {(float)to, (float)bottom}};
+  const SbPoint bracket[4] = {{from, bottom}, {from, elbow}, {to, elbow}, {to, bottom}};
   if (stacked) {
     from = to;
     sb_draw_stroke(section->list, bracket + 2, 2, 1.2, colour);
@@ -447,8 +442,7 @@ void sb_section_draw_leader(SbSection *section, const SbDrawRect *pressure,
   sb_section_reserve(section, drop - 2, elbow, 4, box_top - elbow);
 }
 
-void sb_section_draw_insets(SbSection *section, const SbDrawRect *pressure,
-                            const SbDrawRect *film) {
+void sb_section_draw_insets(SbSection *section, const SbRect *pressure, const SbRect *film) {
   int seal = section->view->inset_seal;
   Inset inset = inset_of(section, pressure);
   draw_pressure(section, &inset, seal);

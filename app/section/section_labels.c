@@ -14,8 +14,7 @@ static double axis_of(const SbSection *section) {
   return fmin((double)section->strip.y + (double)section->strip.height, section->y0);
 }
 
-static SbSectionLabel label_style(SbDrawColour colour, int weight, SbDrawAlign align,
-                                  const SbDrawColour *plate) {
+static SbSectionLabel label_style(SbColor colour, int weight, SbAlign align, const SbColor *plate) {
   return (SbSectionLabel){12, weight, align, colour, plate};
 }
 
@@ -36,8 +35,8 @@ static void name_and_pressure(SbSection *section, double x, double y, const char
                               double pressure, bool below) {
   const SbPalette *palette = section->palette;
   char value[SB_SECTION_NUMBER];
-  SbSectionLabel bold = label_style(palette->ink, 600, SB_ALIGN_LEFT, NULL);
-  SbSectionLabel plain = label_style(palette->ink, 400, SB_ALIGN_LEFT, NULL);
+  SbSectionLabel bold = label_style(palette->ink, 600, SB_LEFT, NULL);
+  SbSectionLabel plain = label_style(palette->ink, 400, SB_LEFT, NULL);
   sb_section_megapascal(value, pressure);
   const double at[1][2] = {{x, y}};
   if (!place(section, at, 1, &bold, name)) {
@@ -54,7 +53,7 @@ static void draw_regions(SbSection *section) {
   const SbPalette *palette = section->palette;
   const SbFrame *frame = section->instant->frame;
   const SbValve *valve = &section->valve;
-  const SbDrawRect *strip = &section->strip;
+  const SbRect *strip = &section->strip;
   double top = (double)strip->y + 22;
   name_and_pressure(section, (double)strip->x + 12, top, "Canister",
                     (double)frame->seal[SB_INNER].pressure_left, false);
@@ -65,10 +64,10 @@ static void draw_regions(SbSection *section) {
   bool has_vent = valve->vent_right > valve->vent_left;
   double vent = (double)sb_section_at(section, valve->vent_left, 0).x;
   double vent_end = (double)sb_section_at(section, valve->vent_right, 0).x;
-  SbSectionLabel style = label_style(palette->ink, 600, SB_ALIGN_RIGHT, &palette->housing);
+  SbSectionLabel style = label_style(palette->ink, 600, SB_RIGHT, &palette->housing);
   const double housing[1][2] = {{has_vent ? vent - 12 : end - 50, top}};
   place(section, housing, 1, &style, "Housing");
-  SbSectionLabel small = label_style(palette->second, 400, SB_ALIGN_LEFT, &palette->housing);
+  SbSectionLabel small = label_style(palette->second, 400, SB_LEFT, &palette->housing);
   double room = end - vent_end - 16;
   if (has_vent && sb_text_width(section->text, "vent", 12, 400) < room) {
     const double at[1][2] = {{vent_end + 10, top}};
@@ -76,18 +75,18 @@ static void draw_regions(SbSection *section) {
   }
 
   // The chamber, in the fluid between the stem's lands.
-  SbDrawPoint chamber = sb_section_at(section, valve->chamber - sb_section_displacement(section),
-                                      (valve->chamber_floor + valve->land) / 2);
+  SbPoint chamber = sb_section_at(section, valve->chamber - sb_section_displacement(section),
+                                  (valve->chamber_floor + valve->land) / 2);
   // Where the recess is shallow under a wide annulus the names stand in the middle of both.
   double floor = (double)sb_section_at(section, 0, valve->chamber_floor).y;
   if ((double)chamber.y + 21 > floor) {
-    chamber.y = (float)((floor + (double)sb_section_at(section, 0, valve->bore).y) / 2 - 5);
+    chamber.y = ((floor + (double)sb_section_at(section, 0, valve->bore).y) / 2 - 5);
   }
   char value[SB_SECTION_NUMBER];
   sb_section_megapascal(value, frame->seal[SB_INNER].pressure_right);
   double depth = (valve->bore - valve->chamber_floor) * section->scale;
-  SbSectionLabel bold = label_style(palette->ink, 600, SB_ALIGN_CENTRE, NULL);
-  SbSectionLabel plain = label_style(palette->ink, 400, SB_ALIGN_CENTRE, NULL);
+  SbSectionLabel bold = label_style(palette->ink, 600, SB_MIDDLE, NULL);
+  SbSectionLabel plain = label_style(palette->ink, 400, SB_MIDDLE, NULL);
   double length = section->model.shape.chamber_length * section->scale;
   if (length > 1.3 * sb_text_width(section->text, "Chamber", 12, 600)) {
     const double high[1][2] = {{(double)chamber.x, (double)chamber.y + 1}};
@@ -107,7 +106,7 @@ static void draw_land_edge(SbSection *section) {
   const SbFrame *frame = section->instant->frame;
   const SbSealFrame *inner = &frame->seal[SB_INNER];
   double bore = section->valve.bore;
-  SbDrawPoint edge = sb_section_at(section, 0, bore);
+  SbPoint edge = sb_section_at(section, 0, bore);
   double way = section->model.land_edge - frame->displacement;
   double y = section->strip.y + 22;
   char text[128], length[SB_SECTION_NUMBER];
@@ -125,8 +124,8 @@ static void draw_land_edge(SbSection *section) {
     return;
   }
   // As many of its words as there is room for; lines without a name would say nothing.
-  SbSectionLabel letter = label_style(palette->ink, 700, SB_ALIGN_LEFT, &palette->housing);
-  SbSectionLabel plain = label_style(palette->ink, 400, SB_ALIGN_LEFT, &palette->housing);
+  SbSectionLabel letter = label_style(palette->ink, 700, SB_LEFT, &palette->housing);
+  SbSectionLabel plain = label_style(palette->ink, 400, SB_LEFT, &palette->housing);
   const char *const words[3] = {text, "land edge", ""};
   char whole[140];
   size_t chosen = 0;
@@ -144,10 +143,11 @@ static void draw_land_edge(SbSection *section) {
   if (words[chosen][0] != '\0') {
     sb_section_label(section, edge.x + 1 + width + 7, y, &plain, words[chosen]);
   }
-  sb_draw_line(list, edge.x, bottom, edge.x, low, 1, palette->second)->dash = SB_DASH_DIMENSION;
+  sb_draw_line(list, edge.x, bottom, edge.x, low, 1, palette->second)->dash = &sb_dash_dimension;
   if (ahead && inner->land_fraction > 0) {
     double contact = sb_section_at(section, way, bore).x;
-    sb_draw_line(list, contact, bottom, contact, low, 1, palette->second)->dash = SB_DASH_DIMENSION;
+    sb_draw_line(list, contact, bottom, contact, low, 1, palette->second)->dash =
+        &sb_dash_dimension;
     if (contact - edge.x > 12) {
       sb_draw_arrow(list, contact, low + 8, edge.x + 1, low + 8, 1.2, 8, 6, palette->second);
     }
@@ -163,7 +163,7 @@ static bool on_chamfer(const SbSealShape *shape) {
 static void reserve_land_edge(SbSection *section) {
   const SbFrame *frame = section->instant->frame;
   double bore = section->valve.bore, way = section->model.land_edge - frame->displacement;
-  SbDrawPoint edge = sb_section_at(section, 0, bore);
+  SbPoint edge = sb_section_at(section, 0, bore);
   double low = (double)section->strip.y + 33, height = (double)edge.y - 4 - low;
   if (height < 8) {
     return;
@@ -188,8 +188,8 @@ static void draw_seal_names(SbSection *section) {
              seal->land_fraction > 0                 ? ""
              : on_chamfer(section->instant->ring[i]) ? ", on the chamfer only"
                                                      : ", no contact");
-    SbDrawPoint below = sb_section_at(section, sb_section_origin(section, i), section->valve.floor);
-    SbSectionLabel style = label_style(palette->seal[i], 600, SB_ALIGN_CENTRE, &palette->stem);
+    SbPoint below = sb_section_at(section, sb_section_origin(section, i), section->valve.floor);
+    SbSectionLabel style = label_style(palette->seal[i], 600, SB_MIDDLE, &palette->stem);
     // In both halves there is room over the lower ring too.
     double mirrored = 2 * section->y0 - (double)below.y - 12;
     const double at[3][2] = {{below.x, below.y + 21}, {below.x, below.y + 38}, {below.x, mirrored}};
@@ -209,14 +209,14 @@ static void draw_friction(SbSection *section) {
     // Friction on the stem; the arrow stands just above the contact.
     double middle = sb_section_origin(section, i) +
                     (section->ring[i].contact_left + section->ring[i].contact_right) / 2;
-    SbDrawPoint at = sb_section_at(section, middle, section->valve.bore);
+    SbPoint at = sb_section_at(section, middle, section->valve.bore);
     double y = at.y - 14;
     sb_draw_arrow(section->list, at.x - length / 2, y, at.x + length / 2, y, 3, 11, 10,
                   palette->seal[i]);
     sb_section_reserve(section, at.x - fabs(length) / 2, y - 5, fabs(length), 10);
     char text[80], value[SB_SECTION_NUMBER];
     snprintf(text, sizeof text, "friction %s", sb_section_force(value, fabs(seal->friction)));
-    SbSectionLabel style = label_style(palette->seal[i], 600, SB_ALIGN_CENTRE, &palette->housing);
+    SbSectionLabel style = label_style(palette->seal[i], 600, SB_MIDDLE, &palette->housing);
     const double place_at[7][2] = {{at.x, y - 10},      {at.x + 30, y - 10}, {at.x + 50, y - 10},
                                    {at.x - 50, y - 10}, {at.x, y - 27},      {at.x + 60, y - 27},
                                    {at.x + 76, y - 10}};
@@ -229,7 +229,7 @@ static void draw_stem_forces(SbSection *section) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
   const SbFrame *frame = section->instant->frame;
-  const SbDrawRect *strip = &section->strip;
+  const SbRect *strip = &section->strip;
   double axis = axis_of(section);
   double y = axis - fmin(40, 0.45 * section->valve.rod * section->scale);
   char text[80], value[SB_SECTION_NUMBER];
@@ -239,7 +239,7 @@ static void draw_stem_forces(SbSection *section) {
   if (length > 2) {
     sb_draw_arrow(list, nose - length, y, nose - 1.5, y, 5, 15, 16, palette->fluid_line);
     snprintf(text, sizeof text, "pressure %s", sb_section_force(value, frame->pressure_force));
-    SbSectionLabel style = {13, 700, SB_ALIGN_LEFT, palette->fluid_line, &palette->stem};
+    SbSectionLabel style = {13, 700, SB_LEFT, palette->fluid_line, &palette->stem};
     sb_section_label(section, nose + 10, y + 5, &style, text);
     sb_section_reserve(section, nose - length, y - 8, length, 16);
   }
@@ -253,7 +253,7 @@ static void draw_stem_forces(SbSection *section) {
     sb_section_reserve(section, right - shown, y - 11, shown, 22);
   }
   snprintf(text, sizeof text, "drive %s", sb_section_force(value, force));
-  SbSectionLabel style = {14, 700, SB_ALIGN_RIGHT, palette->ink, &palette->stem};
+  SbSectionLabel style = {14, 700, SB_RIGHT, palette->ink, &palette->stem};
   // Above the arrow; behind its point where that would be off a thin rod, or not at all: the
   // read-outs have it too.
   bool above = y - 34 > (double)sb_section_at(section, 0, section->valve.rod).y;
@@ -267,7 +267,7 @@ static void draw_stem_forces(SbSection *section) {
     double stop_y = axis - 15;
     sb_draw_arrow(list, from, stop_y, from + shown, stop_y, 3, 11, 10, palette->second);
     snprintf(text, sizeof text, "stop %s", sb_section_force(value, frame->stop_force));
-    SbSectionLabel small = label_style(palette->second, 600, SB_ALIGN_RIGHT, &palette->stem);
+    SbSectionLabel small = label_style(palette->second, 600, SB_RIGHT, &palette->stem);
     // In a small picture it gives way: the balance below the section has it too.
     const double behind[1][2] = {{MIN(from, from + shown) - 8, stop_y + 4}};
     place(section, behind, 1, &small, text);
@@ -280,7 +280,7 @@ static void draw_motion(SbSection *section) {
   const SbFrame *frame = section->instant->frame;
   double axis = axis_of(section);
   double middle = sb_section_at(section, section->valve.chamber - frame->displacement, 0).x;
-  SbSectionLabel bold = label_style(palette->ink, 600, SB_ALIGN_CENTRE, &palette->stem);
+  SbSectionLabel bold = label_style(palette->ink, 600, SB_MIDDLE, &palette->stem);
   // Below the chamber, or beside it where it is deep.
   double beside = middle + section->model.shape.chamber_length / 2 * section->scale + 30;
   bool deep = axis - 52 < (double)sb_section_at(section, 0, section->valve.chamber_floor).y + 16;
@@ -295,7 +295,7 @@ static void draw_motion(SbSection *section) {
   char text[80], value[SB_SECTION_NUMBER];
   sb_section_fixed(value, speed, speed >= 100 ? 0 : speed >= 10 ? 1 : speed >= 1 ? 2 : 3);
   snprintf(text, sizeof text, "%s mm/s", value);
-  SbSectionLabel plain = label_style(palette->second, 400, SB_ALIGN_LEFT, &palette->stem);
+  SbSectionLabel plain = label_style(palette->second, 400, SB_LEFT, &palette->stem);
   double from = middle - 34, to = middle + 34;
   const double left[1][2] = {{to + 10, axis - 15}};
   if (place(section, left, 1, &plain, text)) {
@@ -374,17 +374,17 @@ static void draw_dose_path(SbSection *section) {
   if (least * section->scale < 4) {
     return;
   }
-  SbDrawPoint curve[COUNT];
+  SbPoint curve[COUNT];
   for (size_t i = 0; i < count; i++) {
     curve[i] = sb_section_at(section, way[i].x, way[i].y);
   }
   sb_draw_clip(section->list, &section->strip);
-  sb_draw_stroke(section->list, curve, count - 3, 2.2, palette->fluid_line)->dash = SB_DASH_DOSE;
+  sb_draw_stroke(section->list, curve, count - 3, 2.2, palette->fluid_line)->dash = &sb_dash_dose;
   sb_draw_arrow(section->list, curve[count - 4].x, curve[count - 4].y, curve[count - 1].x,
                 curve[count - 1].y, 2.2, 11, 9, palette->fluid_line);
   sb_draw_clip(section->list, NULL);
-  SbDrawPoint start = curve[0];
-  SbSectionLabel style = label_style(palette->fluid_line, 600, SB_ALIGN_LEFT, NULL);
+  SbPoint start = curve[0];
+  SbSectionLabel style = label_style(palette->fluid_line, 600, SB_LEFT, NULL);
   const double at[3][2] = {
       {start.x, start.y - 9}, {start.x, start.y + 20}, {section->strip.x + 12, start.y + 20}};
   place(section, at, 3, &style, "dose path open");
@@ -407,11 +407,11 @@ static void draw_scales(SbSection *section) {
   char text[80], value[SB_SECTION_NUMBER];
   snprintf(text, sizeof text, "%s mm",
            sb_section_fixed(value, length, length >= 1 ? 0 : (int)ceil(-log10(unit))));
-  sb_draw_text(list, right - bar - 8, y + 4, 11, 400, SB_ALIGN_RIGHT, palette->second, text);
+  sb_draw_text(list, right - bar - 8, y + 4, 11, 400, SB_RIGHT, palette->second, text);
   double x = right - bar - 8 - sb_text_width(section->text, text, 11, 400) - 24;
   if (!section->view->hide_forces && section->view->zoom == SB_SECTION_WHOLE) {
     sb_draw_arrow(list, x, y, x - 10 * PX_PER_NEWTON, y, 3, 9, 9, palette->ink);
-    sb_draw_text(list, x - 10 * PX_PER_NEWTON - 8, y + 4, 11, 400, SB_ALIGN_RIGHT, palette->second,
+    sb_draw_text(list, x - 10 * PX_PER_NEWTON - 8, y + 4, 11, 400, SB_RIGHT, palette->second,
                  "10 N");
     x -= 10 * PX_PER_NEWTON + 44;
   }
@@ -427,12 +427,12 @@ static void draw_scales(SbSection *section) {
            dragged ? "; rings dragged by friction, pressure and film undragged" : "",
            section->view->undeformed ? "; dashed: rings before fitting" : "");
   if (section->strip.x + sb_text_width(section->text, caption, 11, 400) + 12 < x) {
-    sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_ALIGN_LEFT, palette->second, caption);
+    sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_LEFT, palette->second, caption);
   } else if (schematic) {
-    sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_ALIGN_LEFT, palette->second,
+    sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_LEFT, palette->second,
                  "rings: schematic shape");
   } else if (dragged) {
-    sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_ALIGN_LEFT, palette->second,
+    sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_LEFT, palette->second,
                  "rings dragged by friction");
   }
 }
@@ -447,14 +447,14 @@ static void draw_zoom(SbSection *section) {
   double origin = sb_section_origin(section, i);
   char text[96], value[SB_SECTION_NUMBER];
   if (seal->land_fraction > 0) {
-    SbDrawPoint a = sb_section_at(section, origin + section->ring[i].contact_left, valve->bore);
-    SbDrawPoint b = sb_section_at(section, origin + section->ring[i].contact_right, valve->bore);
+    SbPoint a = sb_section_at(section, origin + section->ring[i].contact_left, valve->bore);
+    SbPoint b = sb_section_at(section, origin + section->ring[i].contact_right, valve->bore);
     double y = (double)a.y + 17;
     sb_draw_line(list, a.x, y - 5, a.x, y + 5, 1.2, palette->ink);
     sb_draw_line(list, b.x, y - 5, b.x, y + 5, 1.2, palette->ink);
     sb_draw_line(list, a.x, y, b.x, y, 1.2, palette->ink);
     sb_section_contact_text(section, i, text, sizeof text);
-    SbSectionLabel style = label_style(palette->ink, 600, SB_ALIGN_CENTRE, &palette->panel);
+    SbSectionLabel style = label_style(palette->ink, 600, SB_MIDDLE, &palette->panel);
     bool inside = sb_text_width(section->text, text, 12, 600) + 30 < (double)(b.x - a.x);
     sb_section_label(section, (double)(a.x + b.x) / 2, inside ? y + 4 : y + 22, &style, text);
   }
@@ -466,8 +466,8 @@ static void draw_zoom(SbSection *section) {
   const double pressure[2] = {seal->pressure_left, seal->pressure_right};
   for (int side = 0; side < 2; side++) {
     // Beyond the wall, on the stem, pointing into the corner.
-    SbSectionLabel style = label_style(palette->fluid_line, 600,
-                                       side == 0 ? SB_ALIGN_RIGHT : SB_ALIGN_LEFT, &palette->stem);
+    SbSectionLabel style =
+        label_style(palette->fluid_line, 600, side == 0 ? SB_RIGHT : SB_LEFT, &palette->stem);
     snprintf(text, sizeof text, "fluid %s", sb_section_megapascal(value, pressure[side]));
     double x = wall[side] + (side == 0 ? -20 : 20);
     sb_section_label(section, x, y, &style, text);

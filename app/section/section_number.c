@@ -64,31 +64,27 @@ const char *sb_section_film(char *buffer, double metres) {
   return with_unit(buffer, micro ? " \xc2\xb5m" : " nm");
 }
 
-static SbDrawRect label_rect(SbSection *section, double x, double y, const SbSectionLabel *style,
-                             const char *string) {
+static SbRect label_rect(SbSection *section, double x, double y, const SbSectionLabel *style,
+                         const char *string) {
   double width = sb_text_width(section->text, string, style->size, style->weight);
-  double left = style->align == SB_ALIGN_LEFT     ? x
-                : style->align == SB_ALIGN_CENTRE ? x - width / 2
-                                                  : x - width;
-  return (SbDrawRect){(float)(left - 3), (float)(y - style->size * 0.92 - 1), (float)(width + 6),
-                      (float)(style->size * 1.22 + 2)};
+  double left = style->align == SB_LEFT ? x : style->align == SB_MIDDLE ? x - width / 2 : x - width;
+  return (SbRect){(left - 3), (y - style->size * 0.92 - 1), (width + 6), (style->size * 1.22 + 2)};
 }
 
-static bool overlap(const SbDrawRect *a, const SbDrawRect *b) {
+static bool overlap(const SbRect *a, const SbRect *b) {
   return a->x < b->x + b->width && b->x < a->x + a->width && a->y < b->y + b->height &&
          b->y < a->y + a->height;
 }
 
 void sb_section_reserve(SbSection *section, double x, double y, double width, double height) {
   if (section->placed_count < SB_SECTION_PLACED_MAX) {
-    section->placed[section->placed_count++] =
-        (SbDrawRect){(float)x, (float)y, (float)width, (float)height};
+    section->placed[section->placed_count++] = (SbRect){x, y, width, height};
   }
 }
 
 bool sb_section_label_fits(SbSection *section, double x, double y, const SbSectionLabel *style,
-                           const char *string, const SbDrawRect *within) {
-  SbDrawRect rect = label_rect(section, x, y, style, string);
+                           const char *string, const SbRect *within) {
+  SbRect rect = label_rect(section, x, y, style, string);
   if (within != NULL && (rect.x < within->x || rect.y < within->y ||
                          rect.x + rect.width > within->x + within->width ||
                          rect.y + rect.height > within->y + within->height)) {
@@ -104,7 +100,7 @@ bool sb_section_label_fits(SbSection *section, double x, double y, const SbSecti
 
 double sb_section_label(SbSection *section, double x, double y, const SbSectionLabel *style,
                         const char *string) {
-  SbDrawRect rect = label_rect(section, x, y, style, string);
+  SbRect rect = label_rect(section, x, y, style, string);
   if (style->plate != NULL) {
     sb_draw_round_rect(section->list, rect.x, rect.y, rect.width, rect.height, 2, *style->plate);
   }

@@ -20,7 +20,7 @@ struct SbSection {
   SbText *text;
   SbRingShape ring[SB_SEAL_COUNT];
   size_t scratch_size; // of a mesh's corners
-  SbDrawPoint *scratch;
+  SbPoint *scratch;
   float *scratch_scalar;
   SbCutaway *cutaway; // NULL before the first
   // The drawing in hand.
@@ -28,14 +28,14 @@ struct SbSection {
   const SbSectionView *view;
   const SbSectionInstant *instant;
   const SbPalette *palette;
-  SbDrawRect strip;
+  SbRect strip;
   double scale, x0, y0; // px per m, px of the housing frame's origin (land edge, axis)
   size_t placed_count;
-  SbDrawRect placed[SB_SECTION_PLACED_MAX]; // labels that later ones must not cover
+  SbRect placed[SB_SECTION_PLACED_MAX]; // labels that later ones must not cover
 };
 
 // Pixel of a point of the housing's frame.
-SbDrawPoint sb_section_at(const SbSection *section, double x, double y);
+SbPoint sb_section_at(const SbSection *section, double x, double y);
 
 // Stem displacement of the instant [m].
 double sb_section_displacement(const SbSection *section);
@@ -46,9 +46,9 @@ double sb_section_origin(const SbSection *section, int seal);
 typedef struct {
   double size;
   int weight;
-  SbDrawAlign align;
-  SbDrawColour colour;
-  const SbDrawColour *plate; // ground of the body below, or NULL
+  SbAlign align;
+  SbColor colour;
+  const SbColor *plate; // ground of the body below, or NULL
 } SbSectionLabel;
 
 // Draws a label with its plate at the baseline and reserves its place. Returns its width.
@@ -57,7 +57,7 @@ double sb_section_label(SbSection *section, double x, double y, const SbSectionL
 
 // Whether a label at this place would cover one that is there or leave the rectangle `within`.
 bool sb_section_label_fits(SbSection *section, double x, double y, const SbSectionLabel *style,
-                           const char *string, const SbDrawRect *within);
+                           const char *string, const SbRect *within);
 
 // Reserves a rectangle.
 void sb_section_reserve(SbSection *section, double x, double y, double width, double height);
@@ -68,8 +68,8 @@ void sb_section_reserve(SbSection *section, double x, double y, double width, do
 // Parts of the picture.
 void sb_section_draw_strip(SbSection *section);
 void sb_section_draw_strip_labels(SbSection *section);
-void sb_section_draw_leader(SbSection *section, const SbDrawRect *pressure, const SbDrawRect *film);
-void sb_section_draw_insets(SbSection *section, const SbDrawRect *pressure, const SbDrawRect *film);
+void sb_section_draw_leader(SbSection *section, const SbRect *pressure, const SbRect *film);
+void sb_section_draw_insets(SbSection *section, const SbRect *pressure, const SbRect *film);
 void sb_section_draw_legends(SbSection *section, double x, double y, double width);
 
 // Where the housing's frame lies in a picture: pixel of its origin, pixels per metre, and the
@@ -79,7 +79,7 @@ typedef struct {
 } SbSectionFrameMap;
 
 // The map for a picture that shows `rect`.
-SbSectionFrameMap sb_section_frame_map(double x0, double y0, double scale, const SbDrawRect *rect);
+SbSectionFrameMap sb_section_frame_map(double x0, double y0, double scale, const SbRect *rect);
 
 void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map);
 
@@ -92,7 +92,7 @@ typedef struct {
   double x0, xx, xy, y0, yx, yy;
 } SbSectionPlane;
 
-SbDrawPoint sb_section_plane_at(const SbSectionPlane *plane, double x, double y);
+SbPoint sb_section_plane_at(const SbSectionPlane *plane, double x, double y);
 
 // Whether the drawn ring is a solved one whose contact its friction has moved off the frame's,
 // which is that of the frictionless fitment: by more than a fiftieth of its width.

@@ -9,9 +9,9 @@
 
 enum { ISOLINES = 12 }; // over the range of a field
 
-SbDrawPoint sb_section_plane_at(const SbSectionPlane *plane, double x, double y) {
-  return (SbDrawPoint){(float)(plane->x0 + plane->xx * x + plane->xy * y),
-                       (float)(plane->y0 + plane->yx * x + plane->yy * y)};
+SbPoint sb_section_plane_at(const SbSectionPlane *plane, double x, double y) {
+  return (SbPoint){(plane->x0 + plane->xx * x + plane->xy * y),
+                   (plane->y0 + plane->yx * x + plane->yy * y)};
 }
 
 void sb_section_field_limits(const SbSection *section, SbField field, double *least,
@@ -63,30 +63,30 @@ static void draw_surface_field(SbSection *section, int seal, const SbSealShape *
   const double BAND = 7;
   const SbPalette *palette = section->palette;
   size_t n = shape->outline;
-  SbDrawPoint *edge = section->scratch;
-  SbDrawPoint *quad = section->scratch + n;
+  SbPoint *edge = section->scratch;
+  SbPoint *quad = section->scratch + n;
   float *scalar = section->scratch_scalar;
-  SbDrawPoint middle = {0};
+  SbPoint middle = {0};
   for (size_t i = 0; i < n; i++) {
     int node = shape->outline_node[i];
     double x = shape->place[2 * node];
     double y = shape->place[2 * node + 1];
     edge[i] = sb_section_plane_at(plane, x, y);
-    middle.x += edge[i].x / (float)n;
-    middle.y += edge[i].y / (float)n;
+    middle.x += edge[i].x / n;
+    middle.y += edge[i].y / n;
   }
-  sb_draw_fill(section->list, edge, n, sb_draw_mix(palette->panel, palette->seal[seal], 0.12))
+  sb_draw_fill(section->list, edge, n, sb_color_mix(palette->panel, palette->seal[seal], 0.12))
       ->feather = false;
   for (size_t i = 0; i < n; i++) {
     size_t next = (i + 1) % n;
-    SbDrawPoint in[2];
+    SbPoint in[2];
     for (int k = 0; k < 2; k++) {
-      SbDrawPoint p = edge[k == 0 ? i : next];
+      SbPoint p = edge[k == 0 ? i : next];
       double length = hypot((double)(middle.x - p.x), (double)(middle.y - p.y));
-      float share = (float)fmin(BAND / fmax(length, 1), 0.5);
-      in[k] = (SbDrawPoint){p.x + share * (middle.x - p.x), p.y + share * (middle.y - p.y)};
+      float share = fmin(BAND / fmax(length, 1), 0.5);
+      in[k] = (SbPoint){p.x + share * (middle.x - p.x), p.y + share * (middle.y - p.y)};
     }
-    const SbDrawPoint corner[6] = {edge[i], edge[next], in[1], edge[i], in[1], in[0]};
+    const SbPoint corner[6] = {edge[i], edge[next], in[1], edge[i], in[1], in[0]};
     float a = shape->field[SB_FIELD_CONTACT][shape->outline_node[i]];
     float b = shape->field[SB_FIELD_CONTACT][shape->outline_node[next]];
     const float value[6] = {a, b, b, a, b, a};
@@ -105,10 +105,10 @@ static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *sh
   size_t most = MAX(corners, 7 * shape->outline);
   if (most > section->scratch_size) {
     section->scratch_size = most;
-    section->scratch = g_renew(SbDrawPoint, section->scratch, most);
+    section->scratch = g_renew(SbPoint, section->scratch, most);
     section->scratch_scalar = g_renew(float, section->scratch_scalar, most);
   }
-  SbDrawPoint *point = section->scratch;
+  SbPoint *point = section->scratch;
   float *scalar = section->scratch_scalar;
   double least, greatest;
   sb_section_field_limits(section, field, &least, &greatest);
@@ -127,13 +127,13 @@ static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *sh
     SbDrawItem *item = sb_draw_mesh(section->list, point, scalar, corners,
                                     sign ? &palette->diverging : &palette->field, least, greatest);
     item->isolines = ISOLINES;
-    item->width = 0.6f;
+    item->width = 0.6;
     item->line_colour = palette->ink;
-    item->line_colour.a = 0.16f;
+    item->line_colour.a = 0.16;
   }
   if (section->view->mesh) {
-    SbDrawColour line = palette->outline;
-    line.a = 0.35f;
+    SbColor line = palette->outline;
+    line.a = 0.35;
     for (size_t i = 0; i < corners; i += 3) {
       sb_draw_stroke(section->list, point + i, 3, 0.6, line)->closed = true;
     }
@@ -152,7 +152,7 @@ static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *sh
 static void draw_undeformed(SbSection *section, int seal, const SbSectionPlane *plane) {
   const SbSealModel *model = &section->model.seal[seal];
   enum { POINTS = 72 };
-  SbDrawPoint point[POINTS];
+  SbPoint point[POINTS];
   double radius = model->section_diameter / 2;
   double middle = model->inner_diameter / 2 + radius - section->valve.floor;
   for (int i = 0; i < POINTS; i++) {
@@ -161,7 +161,7 @@ static void draw_undeformed(SbSection *section, int seal, const SbSectionPlane *
   }
   SbDrawItem *item = sb_draw_stroke(section->list, point, POINTS, 1.2, section->palette->ink);
   item->closed = true;
-  item->dash = SB_DASH_REFERENCE;
+  item->dash = &sb_dash_reference;
 }
 
 static void draw_deformed(SbSection *section, int seal, const SbSectionPlane *plane) {
@@ -173,11 +173,11 @@ static void draw_deformed(SbSection *section, int seal, const SbSectionPlane *pl
     return;
   }
   const SbRingShape *shape = &section->ring[seal];
-  SbDrawPoint points[SB_RING_POINTS];
+  SbPoint points[SB_RING_POINTS];
   for (size_t i = 0; i < shape->count; i++) {
     points[i] = sb_section_plane_at(plane, shape->x[i], shape->y[i]);
   }
-  SbDrawColour fill = sb_draw_mix(palette->panel, palette->seal[seal], palette->dark ? 0.42 : 0.34);
+  SbColor fill = sb_color_mix(palette->panel, palette->seal[seal], palette->dark ? 0.42 : 0.34);
   sb_draw_fill(list, points, shape->count, fill)->feather = false;
   sb_draw_stroke(list, points, shape->count, 1.8, palette->outline)->closed = true;
 }

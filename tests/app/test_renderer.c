@@ -352,12 +352,12 @@ static void test_steady(void) {
   long before = 0;
   gint64 start = g_get_monotonic_time();
   for (int i = 0; i < rounds; i++) {
-    sb_draw_list_clear(&list, 320, 180, (SbDrawColour){1.0f, 1.0f, 1.0f, 1.0f});
+    sb_draw_list_clear(&list, 320, 180, (SbColor){1.0f, 1.0f, 1.0f, 1.0f});
     for (int j = 0; j < 20; j++) {
       char text[64];
       g_snprintf(text, sizeof text, "%d.%03d N", i, 37 * j);
-      sb_draw_text(&list, 10 + 3 * j, 8 * j + 10, 12, 600, SB_ALIGN_LEFT,
-                   (SbDrawColour){0.0f, 0.0f, 0.0f, 1.0f}, text);
+      sb_draw_text(&list, 10 + 3 * j, 8 * j + 10, 12, 600, SB_LEFT,
+                   (SbColor){0.0f, 0.0f, 0.0f, 1.0f}, text);
     }
     g_assert_cmpint(sb_gl_renderer_draw(renderer, &list, 320, 180, 1, &report), ==, SB_OK);
     if (i == rounds / 2) {
@@ -385,7 +385,7 @@ static void test_refusals(void) {
   g_assert_cmpint(sb_gl_renderer_create(&renderer, context, &report), ==, SB_OK);
   SbDrawList list;
   sb_draw_list_init(&list);
-  sb_draw_list_clear(&list, 10, 10, (SbDrawColour){0.0f, 0.0f, 0.0f, 1.0f});
+  sb_draw_list_clear(&list, 10, 10, (SbColor){0.0f, 0.0f, 0.0f, 1.0f});
   g_assert_cmpint(sb_gl_renderer_draw(renderer, &list, 1 << 20, 10, 1, &report), ==,
                   SB_ERROR_RANGE);
   g_assert_cmpint(sb_gl_renderer_draw(renderer, &list, 0, 10, 1, &report), ==, SB_ERROR_RANGE);

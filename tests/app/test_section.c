@@ -122,9 +122,9 @@ static void test_contact_bar(void) {
     double bore = y0 - valve->bore * scale;
     for (size_t i = 0; i < f.list.item_count; i++) {
       const SbDrawItem *item = &f.list.item[i];
-      const SbDrawPoint *point = f.list.point + item->first;
-      if (item->kind != SB_DRAW_STROKE || item->width != 4.0f || item->count != 2 ||
-          fabs((double)point[0].y - bore) > 0.01) {
+      const SbPoint *point = f.list.point + item->first;
+      if (item->kind != SB_DRAW_STROKE || item->width != 4.0 || item->count != 2 ||
+          fabs(point[0].y - bore) > 0.01) {
         continue;
       }
       double middle = (double)(point[0].x + point[1].x) / 2;
@@ -192,7 +192,7 @@ static void test_ring_mesh(void) {
     for (int i = 0; i < SB_SEAL_COUNT; i++) {
       const SbSealFrame *seal = &f.frames[k].seal[i];
       const SbSealShape *ring = sb_run_shape(f.run, seal->shape);
-      bool on_land = seal->land_fraction >= 1.0f;
+      bool on_land = seal->land_fraction >= 1.0;
       if ((on_land && k % 10 != 0) || ring == NULL) {
         continue;
       }
@@ -205,7 +205,7 @@ static void test_ring_mesh(void) {
         // Nowhere in the housing, on the way over the land's edge and its chamfer neither.
         double place = x + valve->origin[i] - f.frames[k].displacement;
         g_assert_cmpfloat(y, <=, sb_valve_bore_at(valve, place) - valve->floor + 0.02 * pixel);
-        if (seal->land_fraction < 1.0f && place < 0) {
+        if (seal->land_fraction < 1.0 && place < 0) {
           continue; // the contact on the land is right of the edge
         }
         if (y >= f.model.radial_space - 0.05 * pixel) {
@@ -220,7 +220,7 @@ static void test_ring_mesh(void) {
                                        pixel);
         g_assert_cmpfloat_with_epsilon(least, seal->contact_left, 2 * pixel);
         whole++;
-      } else if (seal->land_fraction > 0.3f && seal->land_fraction < 1.0f) {
+      } else if (seal->land_fraction > 0.3 && seal->land_fraction < 1.0) {
         // The edge has taken the left of the contact, the right end stays within a pixel.
         g_assert_cmpfloat_with_epsilon(most, seal->contact_right, pixel);
         partial++;
@@ -263,18 +263,18 @@ static void test_inset_curves(void) {
     size_t curves = 0;
     for (size_t i = 0; i < f.list.item_count; i++) {
       const SbDrawItem *item = &f.list.item[i];
-      if (item->kind != SB_DRAW_STROKE || item->width != 2.4f) {
+      if (item->kind != SB_DRAW_STROKE || item->width != 2.4) {
         continue;
       }
-      const SbDrawPoint *point = f.list.point + item->first;
-      const SbDrawRect *inset = &f.list.clip[item->clip];
+      const SbPoint *point = f.list.point + item->first;
+      const SbRect *inset = &f.list.clip[item->clip];
       double left = HUGE_VAL, right = -HUGE_VAL;
       for (size_t j = 0; j < item->count; j++) {
-        left = fmin(left, (double)point[j].x);
-        right = fmax(right, (double)point[j].x);
+        left = fmin(left, point[j].x);
+        right = fmax(right, point[j].x);
       }
       // Both show at most 1.9 widths of the widest contact, which this one is.
-      double least = (double)inset->width / 1.9;
+      double least = inset->width / 1.9;
       g_assert_cmpfloat(right - left, >, 0.99 * least);
       curves++;
     }

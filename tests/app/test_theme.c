@@ -19,11 +19,6 @@ static double distance_of(SbColor a, SbColor b) {
   return sqrt((p.l - q.l) * (p.l - q.l) + (p.a - q.a) * (p.a - q.a) + (p.b - q.b) * (p.b - q.b));
 }
 
-static SbColor over_ground(SbColor over, double alpha, SbColor ground) {
-  return (SbColor){ground.r + alpha * (over.r - ground.r), ground.g + alpha * (over.g - ground.g),
-                   ground.b + alpha * (over.b - ground.b)};
-}
-
 // Protan, deutan and tritan vision: Machado, Oliveira and Fernandes (2009), table 1, severity 1, in
 // linear light.
 enum { PROTAN, TRITAN = 2 };
@@ -45,7 +40,7 @@ static SbColor simulate(SbColor color, int vision) {
     const double *row = matrix[vision][i];
     out[i] = to_gamma(row[0] * in[0] + row[1] * in[1] + row[2] * in[2]);
   }
-  return (SbColor){out[0], out[1], out[2]};
+  return (SbColor){out[0], out[1], out[2], 1};
 }
 
 static void test_text_contrast(void) {
@@ -86,7 +81,7 @@ static void test_text_contrast(void) {
       g_assert_cmpfloat(sb_color_contrast(readable, fluid), >=, 4.5);
     }
     for (int seal = 0; seal < 2; seal++) {
-      SbColor fill = over_ground(sb_theme_seal(t, seal), t->curve_fill, t->role[SB_ROLE_PANEL]);
+      SbColor fill = sb_color_mix(t->role[SB_ROLE_PANEL], sb_theme_seal(t, seal), t->curve_fill);
       g_assert_cmpfloat(sb_color_contrast(t->role[SB_ROLE_INK], fill), >=, 4.5);
     }
   }
@@ -105,7 +100,7 @@ static void test_curve_contrast(void) {
         g_test_fail();
       }
     }
-    SbColor future = over_ground(t->role[SB_ROLE_INK], SB_OPACITY_FUTURE, t->role[SB_ROLE_PANEL]);
+    SbColor future = sb_color_mix(t->role[SB_ROLE_PANEL], t->role[SB_ROLE_INK], SB_OPACITY_FUTURE);
     g_assert_cmpfloat(sb_color_contrast(future, t->role[SB_ROLE_PANEL]), >=, 3);
   }
 }
