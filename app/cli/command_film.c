@@ -67,13 +67,13 @@ static bool read_dry_pressure(const char *path, GArray *x, GArray *p) {
     if (*c == '\0' || *c == '#') {
       continue;
     }
-    char *end = NULL;
     double value[2];
     bool good = true;
     for (int k = 0; k < 2 && good; k++) {
-      value[k] = g_ascii_strtod(c, &end);
-      good = end != c && isfinite(value[k]);
-      c = end + strspn(end, ",; \t");
+      size_t number = sb_number_read(&value[k], c);
+      size_t gap = strspn(c + number, ",; \t");
+      good = number > 0 && (gap > 0 || c[number] == '\0');
+      c += number + gap;
     }
     if (good && *c == '\0') {
       double before = x->len > 0 ? g_array_index(x, double, x->len - 1) : -INFINITY;

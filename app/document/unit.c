@@ -130,41 +130,6 @@ static double apply_scale(double number, double scale) {
   return number * scale;
 }
 
-// The extent of a decimal number at the start of `text`: its length, and where its exponent starts
-// (the end if it has none). 0 if there is no number.
-static size_t scan_number(const char *text, size_t *exponent_at) {
-  const char *c = text;
-  if (*c == '+' || *c == '-') {
-    c++;
-  }
-  int digits = 0;
-  for (; g_ascii_isdigit(*c); c++) {
-    digits++;
-  }
-  if (*c == '.') {
-    for (c++; g_ascii_isdigit(*c); c++) {
-      digits++;
-    }
-  }
-  if (digits == 0) {
-    return 0;
-  }
-  *exponent_at = (size_t)(c - text);
-  if (*c == 'e' || *c == 'E') {
-    const char *e = c + 1;
-    if (*e == '+' || *e == '-') {
-      e++;
-    }
-    if (g_ascii_isdigit(*e)) {
-      while (g_ascii_isdigit(*e)) {
-        e++;
-      }
-      c = e;
-    }
-  }
-  return (size_t)(c - text);
-}
-
 // The number at text[0..length) times 10^power, rounded once.
 static double read_decimal(const char *text, size_t exponent_at, size_t length, int power) {
   long exponent = 0;
@@ -193,15 +158,14 @@ static bool fail(GError **error, const char *format, ...) {
 
 bool sb_quantity_parse(double *out, const char *text, const char *si, const char *shown,
                        GError **error) {
-  enum { LENGTH_MAX = 200 };
   bool plain = strcmp(si, "1") == 0;
-  if (strlen(text) > LENGTH_MAX) {
+  if (strlen(text) > SB_NUMBER_LENGTH_MAX) {
     return fail(error, "\"%.20s...\" is too long for a value", text);
   }
   char *copy = g_strstrip(g_strdup(text));
   bool good = false;
   size_t exponent_at = 0;
-  size_t length = scan_number(copy, &exponent_at);
+  size_t length = sb_number_scan(copy, &exponent_at);
   if (length == 0) {
     const char *word = copy + (*copy == '-' || *copy == '+');
     bool infinite =
