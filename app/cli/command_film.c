@@ -251,16 +251,16 @@ static bool read_quantities(SbFilmProblem *problem, char *const *texts) {
   return true;
 }
 
+static const char *model_name(int i) {
+  return sb_film_model_name((SbFilmModel)i);
+}
+
 static bool choose_model(SbFilmProblem *problem, const char *name) {
   if (sb_film_model_from_name(&problem->model, name)) {
     return true;
   }
-  GString *names = g_string_new(NULL);
-  for (int i = 0; i < SB_FILM_MODEL_COUNT; i++) {
-    g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", sb_film_model_name((SbFilmModel)i));
-  }
-  sb_cli_fail("--model: there is no film model \"%s\" (allowed %s)", name, names->str);
-  g_string_free(names, TRUE);
+  g_autofree char *names = sb_cli_names(model_name, SB_FILM_MODEL_COUNT);
+  sb_cli_unknown("--model: there is no film model", name, names, NULL);
   return false;
 }
 
@@ -268,8 +268,7 @@ static bool choose_model(SbFilmProblem *problem, const char *name) {
 // surface without one are an error, as they would be ignored.
 static bool choose_surface(SbFilmProblem *problem, const char *name, char *const *texts) {
   if (name != NULL && !sb_rough_model_from_name(&problem->surface, name)) {
-    sb_cli_fail("--surface: there is no surface \"%s\" (allowed none, greenwood-tripp, persson)",
-                name);
+    sb_cli_unknown("--surface: there is no surface", name, "none|greenwood-tripp|persson", NULL);
     return false;
   }
   static const struct {

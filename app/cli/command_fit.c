@@ -94,12 +94,12 @@ static bool choose_model(SbFitProblem *problem, const char *name) {
     GString *names = g_string_new(NULL);
     for (int i = 0; i < SB_FIT_MODEL_COUNT; i++) {
       const char *model = sb_fit_model_name((SbFitModel)i);
-      g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", model);
+      g_string_append_printf(names, "%s%s", i > 0 ? "|" : "", model);
       for (int k = 1; sb_fit_variant_name((SbFitModel)i, k) != NULL; k++) {
-        g_string_append_printf(names, ", %s:%s", model, sb_fit_variant_name((SbFitModel)i, k));
+        g_string_append_printf(names, "|%s:%s", model, sb_fit_variant_name((SbFitModel)i, k));
       }
     }
-    sb_cli_fail("--model: there is no fitment model \"%s\" (allowed %s)", name, names->str);
+    sb_cli_unknown("--model: there is no fitment model", name, names->str, NULL);
     g_string_free(names, TRUE);
   }
   return good;
@@ -119,7 +119,7 @@ int sb_command_fit(int argc, char **argv) {
       {"model", 0, 0, G_OPTION_ARG_FILENAME, &name, "Model, or MODEL:VARIANT; else the file's",
        "NAME"},
       {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &tolerance, "Relative error wanted", "T"},
-      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, "Overrides a parameter", "KEY=VALUE"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
       {0},
   };
@@ -139,7 +139,11 @@ int sb_command_fit(int argc, char **argv) {
     index++;
   }
   if (index == SB_SEAL_COUNT) {
-    sb_cli_fail("--seal: %s (allowed outer, inner)", seal == NULL ? "is missing" : "unknown seal");
+    if (seal == NULL) {
+      sb_cli_fail("--seal: is missing (allowed outer, inner)");
+    } else {
+      sb_cli_unknown("--seal: unknown seal", seal, "outer|inner", NULL);
+    }
     goto done;
   }
   SbFitProblem problem;

@@ -147,7 +147,7 @@ int sb_command_run(int argc, char **argv) {
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &folder,
        "Folder for results.json, cycle.csv, profiles.csv, and life or study tables", "DIR"},
-      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, "Overrides a parameter", "KEY=VALUE"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &json_target, "JSON to a file or - ", "FILE|-"},
       {"quiet", 0, 0, G_OPTION_ARG_NONE, &quiet, "No progress, no table", NULL},
       {0},
@@ -163,6 +163,11 @@ int sb_command_run(int argc, char **argv) {
   document = sb_cli_open(&model, argv[1], settings);
   if (document == NULL) {
     goto done;
+  }
+  if (!quiet && sb_document_kind(document) == SB_DOCUMENT_VALVE &&
+      sb_document_path(document) != NULL) {
+    fprintf(stderr, "sealbench: note: %s is a valve, no scene: its default cycle is run\n",
+            argv[1]);
   }
   // A folder that cannot be is told before the work, not after it.
   GError *error = NULL;

@@ -6,7 +6,6 @@
 #include "app/export/still.h"
 
 #include "app/document/atomic.h"
-#include "app/document/reader.h"
 #include "engine/sealbench.h"
 
 #include <cairo-pdf.h>
@@ -386,26 +385,5 @@ char *sb_still_find_scene(const void *data, size_t length, GError **error) {
   if (!found) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "this PNG holds no scene");
   }
-  return found;
-}
-
-char *sb_still_read_scene(const char *path, GError **error) {
-  GPtrArray *issues = sb_issues_new();
-  size_t length = 0;
-  char *data = sb_reader_load(&length, path, path, SB_STILL_BYTES_MAX, issues);
-  char *found = NULL;
-  if (data == NULL) {
-    char *line = sb_issue_line(issues->pdata[0]);
-    g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_IO, line);
-    g_free(line);
-  } else {
-    GError *reason = NULL;
-    found = sb_still_find_scene(data, length, &reason);
-    if (found == NULL) {
-      g_propagate_prefixed_error(error, reason, "%s: ", path);
-    }
-  }
-  g_ptr_array_unref(issues);
-  g_free(data);
   return found;
 }
