@@ -3,6 +3,7 @@
 
 #include "app/document/atomic.h"
 #include "app/document/nearest.h"
+#include "app/run/process.h"
 
 #include <errno.h>
 #include <math.h>
@@ -204,6 +205,20 @@ SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings) {
     fprintf(stderr, "sealbench: note: %s\n", (const char *)sb_document_notes(document)->pdata[i]);
   }
   return document;
+}
+
+bool sb_cli_has_memory(const SbModel *model) {
+  // Closed forms and the quasi-static cycle solve nothing dense.
+  bool dense = model == NULL || model->motion != SB_MODEL_MOTION_QUASI_STATIC ||
+               model->asperities == SB_MODEL_ASPERITIES_COUPLED ||
+               (model->film != SB_MODEL_FILM_THESIS && model->film != SB_MODEL_FILM_KARASZKIEWICZ);
+  if (dense && !sb_process_has_memory()) {
+    sb_cli_fail(
+        "there is not enough memory for the solvers: they need 140 MB of address space more "
+        "(see ulimit -v)");
+    return false;
+  }
+  return true;
 }
 
 // ---- Output ----

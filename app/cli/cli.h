@@ -66,6 +66,10 @@ bool sb_cli_quantity(double *out, const char *option, const char *text, bool req
 // every problem and returns NULL if there is any. Owned by the caller.
 SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings);
 
+// Whether there is memory for the dense solvers of a run of `model` (NULL: of anything), told
+// before the work; prints what is missing.
+bool sb_cli_has_memory(const SbModel *model);
+
 // Writes `json` to standard output ("-") or a file, whole or not at all; returns an exit code.
 int sb_cli_emit(const char *json, const char *target);
 

@@ -365,6 +365,10 @@ int sb_command_film(int argc, char **argv) {
   if (dry != NULL && !read_dry_pressure(dry, x, p)) {
     goto done;
   }
+  if (!sb_cli_has_memory(NULL)) {
+    code = SB_EXIT_IO;
+    goto done;
+  }
   problem.dry_x = (const double *)(void *)x->data;
   problem.dry_pressure = (const double *)(void *)p->data;
   problem.dry_count = x->len;

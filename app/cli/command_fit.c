@@ -124,13 +124,13 @@ int sb_command_fit(int argc, char **argv) {
       {0},
   };
   int code = SB_EXIT_INPUT;
-  SbModel model;
+  g_autofree SbModel *model = g_new(SbModel, 1);
   SbDocument *document = NULL;
   SbFit *fit = NULL;
   if (!sb_cli_parse(&argc, &argv, entries, 1, 1, SB_TIMING_NOTE)) {
     goto done;
   }
-  document = sb_cli_open(&model, argv[1], settings);
+  document = sb_cli_open(model, argv[1], settings);
   if (document == NULL) {
     goto done;
   }
@@ -147,7 +147,7 @@ int sb_command_fit(int argc, char **argv) {
     goto done;
   }
   SbFitProblem problem;
-  sb_sliding_fit_problem(&problem, &model, index, 0);
+  sb_sliding_fit_problem(&problem, model, index, 0);
   problem.cancel = on_cancel;
   problem.tolerance = 1e-3;
   if (!sb_cli_quantity(&problem.pressure, "--pressure", pressure, false, "Pa", "MPa") ||
@@ -175,13 +175,13 @@ int sb_command_fit(int argc, char **argv) {
   SbStatus status = sb_timing_median(&wall_s, solve, &job);
   fit->solver.wall_s = wall_s;
   code = sb_cli_status(status, &job.report);
-  sb_model_warn_storage(&model, &fit->warnings);
+  sb_model_warn_storage(model, &fit->warnings);
 
   // Design read-outs of the gland.
   SbGland gland;
   SbGlandReadout readouts[SB_GLAND_COUNT];
   SbReport gland_report = {0};
-  sb_model_gland(&gland, &model, index);
+  sb_model_gland(&gland, model, index);
   if (sb_gland_readouts(readouts, &gland, &gland_report) != SB_OK) {
     sb_cli_fail("%s: %s", gland_report.parameter, gland_report.text);
     code = SB_EXIT_INPUT;
@@ -191,7 +191,7 @@ int sb_command_fit(int argc, char **argv) {
     int written = SB_EXIT_DONE;
     if (target != NULL) {
       char *json =
-          sb_results_fit(fit, seal, problem.pressure, readouts, &model.seal[index].storage);
+          sb_results_fit(fit, seal, problem.pressure, readouts, &model->seal[index].storage);
       written = sb_cli_emit(json, target);
       g_free(json);
     } else {

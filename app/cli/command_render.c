@@ -382,25 +382,29 @@ int sb_command_render(int argc, char **argv) {
   };
   int code = SB_EXIT_INPUT;
   Request request = {0};
-  SbModel model;
+  g_autofree SbModel *model = g_new(SbModel, 1);
   SbDocument *document = NULL;
   SbRun *run = NULL;
   if (!sb_cli_parse(&argc, &argv, entries, 1, 1, NULL) || !parse(&request, &options)) {
     goto done;
   }
   char **settings = all_settings(&options);
-  document = sb_cli_open(&model, argv[1], settings);
+  document = sb_cli_open(model, argv[1], settings);
   g_strfreev(settings);
   if (document == NULL) {
     goto done;
   }
+  if (!sb_cli_has_memory(request.is_study ? NULL : model)) {
+    code = SB_EXIT_IO;
+    goto done;
+  }
   if (request.is_study) {
     code =
-        render_study(request.study, document, &model, &request.how, options.output, options.quiet);
+        render_study(request.study, document, model, &request.how, options.output, options.quiet);
     goto done;
   }
   SbReport report = {0};
-  SbStatus status = compute(&run, &model, request.how.view, options.quiet, &report);
+  SbStatus status = compute(&run, model, request.how.view, options.quiet, &report);
   code = sb_cli_status(status, &report);
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int drawn = render(run, document, &request, &options);

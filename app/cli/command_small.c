@@ -19,8 +19,8 @@ int sb_command_check(int argc, char **argv) {
   }
   int code = SB_EXIT_DONE;
   for (int i = 1; i < argc; i++) {
-    SbModel model;
-    SbDocument *document = sb_cli_open(&model, argv[i], NULL);
+    g_autofree SbModel *model = g_new(SbModel, 1);
+    SbDocument *document = sb_cli_open(model, argv[i], NULL);
     if (document == NULL) {
       code = SB_EXIT_INPUT;
       continue;
@@ -187,14 +187,14 @@ int sb_command_plan(int argc, char **argv) {
       {0},
   };
   int code = SB_EXIT_INPUT;
-  SbModel model;
+  g_autofree SbModel *model = g_new(SbModel, 1);
   SbDocument *document = NULL;
   if (sb_cli_parse(&argc, &argv, entries, 1, 1, NULL)) {
-    document = sb_cli_open(&model, argv[1], settings);
+    document = sb_cli_open(model, argv[1], settings);
   }
   if (document != NULL) {
     SbPlan plan;
-    sb_plan_make(&plan, &model);
+    sb_plan_make(&plan, model);
     code = SB_EXIT_DONE;
     if (target != NULL) {
       char *json = sb_results_plan(&plan);

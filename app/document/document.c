@@ -289,8 +289,8 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   sb_document_refresh_title(document);
   document->name = g_strdup(name);
   if (issues->len == before) {
-    SbModel model;
-    sb_document_compile(document, &model, issues);
+    g_autofree SbModel *model = g_new(SbModel, 1);
+    sb_document_compile(document, model, issues);
   }
   return document;
 }

@@ -1,6 +1,7 @@
 // What the program takes from people: words mistyped, values as they are written, standard input,
 // and a machine with little memory.
 #include "tests/app/cli_fixture.h"
+#include "tests/sanitized.h"
 
 #include <fcntl.h>
 #include <string.h>
@@ -159,6 +160,80 @@ static void test_valve(void) {
   cli_clear(&result);
 }
 
+// ---- Little memory ----
+
+static rlim_t most; // [B], of what the setup limits
+
+static void limit_memory(gpointer data) {
+  setrlimit(RLIMIT_AS, &(struct rlimit){most, most});
+  alarm(30); // instead of for ever
+}
+
+static void limit_stack(gpointer data) {
+  setrlimit(RLIMIT_STACK, &(struct rlimit){256 << 10, 256 << 10});
+  alarm(60);
+}
+
+// Without a word in the environment on the threads of OpenBLAS.
+static char **plain_environment(void) {
+  return g_environ_unsetenv(g_get_environ(), "OPENBLAS_NUM_THREADS");
+}
+
+// Whatever the address space, the program ends: it answers, or says what is missing.
+static void test_memory(void) {
+#if SB_SANITIZED
+  g_test_skip("sanitizers take the address space");
+#else
+  char **environment = plain_environment();
+  const char *const version[] = {"--version", NULL};
+  const char *const film[] = {"film",
+                              "--load=850N/m",
+                              "--speed=10mm/s",
+                              "--radius=0.8mm",
+                              "--modulus=6MPa",
+                              "--viscosity=0.2mPa.s",
+                              NULL};
+  g_autofree char *folder = g_path_get_dirname(cli.scene);
+  g_autofree char *scene = g_build_filename(folder, "quick-look.scene", NULL);
+  const char *const run[] = {"run", scene, "--quiet", NULL};
+  int refused = 0, solved = 0;
+  for (most = (rlim_t)260000 << 10; most <= (rlim_t)500000 << 10; most += (rlim_t)40000 << 10) {
+    CliResult result = cli_run(version, environment, limit_memory);
+    g_assert_cmpint(result.code, ==, 0);
+    g_assert_true(g_str_has_prefix(result.out, "sealbench "));
+    g_assert_cmpstr(result.err, ==, "");
+    cli_clear(&result);
+    result = cli_run(run, environment, limit_memory);
+    g_assert_cmpint(result.code, ==, 0);
+    cli_clear(&result);
+    result = cli_run(film, environment, limit_memory);
+    refused += result.code == 3;
+    solved += result.code == 0;
+    g_assert_true(result.code == 0 || strstr(result.err, "not enough memory") != NULL);
+    cli_clear(&result);
+  }
+  g_assert_cmpint(refused, >, 0);
+  g_assert_cmpint(solved, >, 0);
+  g_assert_cmpint(refused + solved, ==, 7);
+  g_strfreev(environment);
+#endif
+}
+
+// A scene of closed forms runs on a small stack.
+static void test_stack(void) {
+#if SB_SANITIZED
+  g_test_skip("sanitizers widen the stack's frames");
+#else
+  g_autofree char *folder = g_path_get_dirname(cli.scene);
+  g_autofree char *scene = g_build_filename(folder, "quick-look.scene", NULL);
+  const char *const run[] = {"run", scene, "--quiet", NULL};
+  CliResult result = cli_run(run, NULL, limit_stack);
+  g_assert_cmpstr(result.err, ==, "");
+  g_assert_cmpint(result.code, ==, 0);
+  cli_clear(&result);
+#endif
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -167,6 +242,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-input/percent", test_percent);
   g_test_add_func("/cli-input/standard-input", test_standard_input);
   g_test_add_func("/cli-input/valve", test_valve);
+  g_test_add_func("/cli-input/memory", test_memory);
+  g_test_add_func("/cli-input/stack", test_stack);
   int result = g_test_run();
   cli_tear_down();
   return result;
