@@ -429,7 +429,12 @@ bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *is
   const char *shown = document->path != NULL ? document->path : document->name;
   SbParams params = sb_document_params(document);
   SbProblems problems;
-  if (sb_model_compile(out, &params, &problems) == SB_OK) {
+  SbStatus status = sb_model_compile(out, &params, &problems);
+  if (status == SB_ERROR_MEMORY) {
+    sb_issues_add(issues, shown, 0, NULL, NULL, "%s", sb_status_text(status));
+    return false;
+  }
+  if (status == SB_OK) {
     if (document->series != NULL) {
       out->measured = *document->series;
     }
