@@ -13,6 +13,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 const char *sb_seal_name(int seal) {
   return seal == SB_OUTER ? "outer" : "inner";
@@ -301,200 +302,205 @@ static bool compile_parts(SbModel *model, const SbParams *params, SbProblems *pr
   return true;
 }
 
-SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems) {
+static SbStatus compile(SbModel *model, const SbParams *params, SbProblems *problems) {
   if (problems != NULL) {
     problems->count = 0;
   }
-  SbModel model = {
-      .radial_space = sb_params_get(params, SB_P_GLAND_RADIAL_SPACE),
-      .axial_width = sb_params_get(params, SB_P_GLAND_AXIAL_WIDTH),
-      .bore_diameter = sb_params_get(params, SB_P_BORE_DIAMETER),
-      .radial_space_tolerance = sb_params_get(params, SB_P_GLAND_RADIAL_SPACE_TOLERANCE),
-      .axial_width_tolerance = sb_params_get(params, SB_P_GLAND_AXIAL_WIDTH_TOLERANCE),
-      .bore_diameter_tolerance = sb_params_get(params, SB_P_BORE_DIAMETER_TOLERANCE),
-      .stem_diameter_tolerance = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER_TOLERANCE),
-      .land_edge = sb_params_get(params, SB_P_BORE_LAND_EDGE),
-      .housing_modulus = sb_params_get(params, SB_P_HOUSING_MODULUS),
-      .housing_poisson_ratio = sb_params_get(params, SB_P_HOUSING_POISSON_RATIO),
-      .canister_pressure = sb_params_get(params, SB_P_CANISTER_PRESSURE),
-      .pressure_map = (SbPressureMap)sb_params_get(params, SB_P_CANISTER_PRESSURE_MAP),
-      .stem_mass = sb_params_get(params, SB_P_STEM_MASS),
-      .viscosity = sb_params_get(params, SB_P_FLUID_VISCOSITY),
-      .pressure_viscosity = sb_params_get(params, SB_P_MODELS_VISCOSITY) > 0
-                                ? sb_params_get(params, SB_P_FLUID_PRESSURE_VISCOSITY)
-                                : 0,
-      .eyring_stress = sb_params_get(params, SB_P_FLUID_EYRING_STRESS),
-      .rupture_pressure = sb_params_get(params, SB_P_FLUID_RUPTURE_PRESSURE),
-      .inlet_carried = sb_params_get(params, SB_P_MODELS_INLET) > 0,
-      .density = sb_params_get(params, SB_P_FLUID_DENSITY),
-      .gt_product = sb_params_get(params, SB_P_SURFACE_GT_PRODUCT),
-      .sigma = sb_params_get(params, SB_P_SURFACE_SIGMA),
-      .sigma_over_beta = sb_params_get(params, SB_P_SURFACE_SIGMA_OVER_BETA),
-      .hamaker_constant = sb_params_get(params, SB_P_SURFACE_HAMAKER_CONSTANT),
-      .shear_strength = sb_params_get(params, SB_P_FRICTION_SHEAR_STRENGTH),
-      .load_coefficient = sb_params_get(params, SB_P_FRICTION_LOAD_COEFFICIENT),
-      .static_ratio = sb_params_get(params, SB_P_FRICTION_STATIC_RATIO),
-      .speed = sb_params_get(params, SB_P_DRIVE_SPEED),
-      .stroke = sb_params_get(params, SB_P_DRIVE_STROKE),
-      .reversal_force = sb_params_get(params, SB_P_DRIVE_REVERSAL_FORCE),
-      .stiffness = sb_params_get(params, SB_P_DRIVE_STIFFNESS),
-      .drive = (SbDriveChoice)sb_params_get(params, SB_P_DRIVE_KIND),
-      .peak_force = sb_params_get(params, SB_P_DRIVE_PEAK_FORCE),
-      .rise_time = sb_params_get(params, SB_P_DRIVE_RISE_TIME),
-      .hold_time = sb_params_get(params, SB_P_DRIVE_HOLD_TIME),
-      .finger_damping = sb_params_get(params, SB_P_DRIVE_FINGER_DAMPING),
-      .amplitude = sb_params_get(params, SB_P_DRIVE_AMPLITUDE),
-      .frequency = sb_params_get(params, SB_P_DRIVE_FREQUENCY),
-      .cycles = (int)sb_params_get(params, SB_P_DRIVE_CYCLES),
-      .damping_ratio = sb_params_get(params, SB_P_DRIVE_DAMPING_RATIO),
-      .rest = sb_params_get(params, SB_P_DRIVE_REST),
-      .dwell_gain = sb_params_get(params, SB_P_FRICTION_DWELL_GAIN),
-      .dwell_time = sb_params_get(params, SB_P_FRICTION_DWELL_TIME),
-      .stribeck_speed = sb_params_get(params, SB_P_FRICTION_STRIBECK_SPEED),
-      .tangential_stiffness = sb_params_get(params, SB_P_FRICTION_TANGENTIAL_STIFFNESS),
-      .stop_stiffness = sb_params_get(params, SB_P_HOUSING_STOP_STIFFNESS),
-      .stop_restitution = sb_params_get(params, SB_P_HOUSING_STOP_RESTITUTION),
-      .spring_stiffness = sb_params_get(params, SB_P_STEM_SPRING_STIFFNESS),
-      .spring_preload = sb_params_get(params, SB_P_STEM_SPRING_PRELOAD),
-      .chamber_at_once = sb_params_get(params, SB_P_CHAMBER_FLOW) != 0,
-      .discharge_coefficient = sb_params_get(params, SB_P_CHAMBER_DISCHARGE_COEFFICIENT),
-      .chamber_stiffness = sb_params_get(params, SB_P_CHAMBER_STIFFNESS),
-      .vent_on_return = sb_params_get(params, SB_P_BORE_VENT_WAY) != 0,
-      .refill_travel = sb_params_get(params, SB_P_BORE_REFILL_TRAVEL),
-      .refill_area = sb_params_get(params, SB_P_BORE_REFILL_AREA),
-      .tolerance = sb_params_get(params, SB_P_OUTPUT_TOLERANCE),
-      .motion_tolerance = sb_params_get(params, SB_P_OUTPUT_MOTION_TOLERANCE),
-      .actuations = (int)sb_params_get(params, SB_P_OUTPUT_ACTUATIONS),
-      .frames = (int)sb_params_get(params, SB_P_OUTPUT_FRAMES),
-      .fit = (int)sb_params_get(params, SB_P_MODELS_FIT),
-      .film = (SbModelFilm)sb_params_get(params, SB_P_MODELS_FILM),
-      .film_history = sb_params_get(params, SB_P_MODELS_FILM_TIME) != 0,
-      .rest_film = sb_params_get(params, SB_P_FLUID_REST_FILM),
-      .surface = (SbModelSurface)sb_params_get(params, SB_P_MODELS_SURFACE),
-      .asperities = (SbModelAsperities)sb_params_get(params, SB_P_MODELS_ASPERITIES),
-      .hamaker = sb_params_get(params, SB_P_MODELS_ADHESION) > 0
-                     ? sb_params_get(params, SB_P_SURFACE_HAMAKER_CONSTANT)
-                     : 0,
-      .motion = (SbModelMotion)sb_params_get(params, SB_P_MODELS_MOTION),
-      .views = (unsigned)sb_params_get(params, SB_P_OUTPUT_VIEWS),
-      .studies = (unsigned)sb_params_get(params, SB_P_OUTPUT_STUDIES),
-      .study =
-          {
-              .squeeze_min = sb_params_get(params, SB_P_STUDY_SQUEEZE_MIN),
-              .squeeze_max = sb_params_get(params, SB_P_STUDY_SQUEEZE_MAX),
-              .speed_min = sb_params_get(params, SB_P_STUDY_SPEED_MIN),
-              .speed_max = sb_params_get(params, SB_P_STUDY_SPEED_MAX),
-              .load_min = sb_params_get(params, SB_P_STUDY_LOAD_MIN),
-              .load_max = sb_params_get(params, SB_P_STUDY_LOAD_MAX),
-              .time_min = sb_params_get(params, SB_P_STUDY_TIME_MIN),
-              .time_max = sb_params_get(params, SB_P_STUDY_TIME_MAX),
-          },
-      .look = {.field = (int)sb_params_get(params, SB_P_OUTPUT_FIELD),
-               .insets = (int)sb_params_get(params, SB_P_OUTPUT_INSETS),
-               .full = sb_params_get(params, SB_P_OUTPUT_SECTION) == 1,
-               .cutaway = sb_params_get(params, SB_P_OUTPUT_SECTION) == 2,
-               .azimuth = sb_params_get(params, SB_P_OUTPUT_AZIMUTH),
-               .elevation = sb_params_get(params, SB_P_OUTPUT_ELEVATION),
-               .undeformed = sb_params_get(params, SB_P_OUTPUT_UNDEFORMED) > 0,
-               .field_max = sb_params_get(params, SB_P_OUTPUT_FIELD_MAX)},
-      .shape =
-          {
-              .entry_diameter = sb_params_get(params, SB_P_BORE_ENTRY_DIAMETER),
-              .entry_length = sb_params_get(params, SB_P_BORE_ENTRY_LENGTH),
-              .land_length = sb_params_get(params, SB_P_BORE_LAND_LENGTH),
-              .vent_position = sb_params_get(params, SB_P_BORE_VENT_POSITION),
-              .vent_diameter = sb_params_get(params, SB_P_BORE_VENT_DIAMETER),
-              .seal_spacing = sb_params_get(params, SB_P_STEM_SEAL_SPACING),
-              .nose_length = sb_params_get(params, SB_P_STEM_NOSE_LENGTH),
-              .chamber_depth = sb_params_get(params, SB_P_STEM_CHAMBER_DEPTH),
-              .chamber_length = sb_params_get(params, SB_P_STEM_CHAMBER_LENGTH),
-              .shoulder_length = sb_params_get(params, SB_P_STEM_SHOULDER_LENGTH),
-              .rod_diameter = sb_params_get(params, SB_P_STEM_ROD_DIAMETER),
-          },
-  };
-  model.rubber = read_rubber(params, model.density);
-  model.rig = read_rig(&model, params);
-  model.life_actuations = (int)sb_params_get(params, SB_P_LIFE_ACTUATIONS);
+  model->radial_space = sb_params_get(params, SB_P_GLAND_RADIAL_SPACE);
+  model->axial_width = sb_params_get(params, SB_P_GLAND_AXIAL_WIDTH);
+  model->bore_diameter = sb_params_get(params, SB_P_BORE_DIAMETER);
+  model->radial_space_tolerance = sb_params_get(params, SB_P_GLAND_RADIAL_SPACE_TOLERANCE);
+  model->axial_width_tolerance = sb_params_get(params, SB_P_GLAND_AXIAL_WIDTH_TOLERANCE);
+  model->bore_diameter_tolerance = sb_params_get(params, SB_P_BORE_DIAMETER_TOLERANCE);
+  model->stem_diameter_tolerance = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER_TOLERANCE);
+  model->land_edge = sb_params_get(params, SB_P_BORE_LAND_EDGE);
+  model->housing_modulus = sb_params_get(params, SB_P_HOUSING_MODULUS);
+  model->housing_poisson_ratio = sb_params_get(params, SB_P_HOUSING_POISSON_RATIO);
+  model->canister_pressure = sb_params_get(params, SB_P_CANISTER_PRESSURE);
+  model->pressure_map = (SbPressureMap)sb_params_get(params, SB_P_CANISTER_PRESSURE_MAP);
+  model->stem_mass = sb_params_get(params, SB_P_STEM_MASS);
+  model->viscosity = sb_params_get(params, SB_P_FLUID_VISCOSITY);
+  model->pressure_viscosity = sb_params_get(params, SB_P_MODELS_VISCOSITY) > 0
+                                  ? sb_params_get(params, SB_P_FLUID_PRESSURE_VISCOSITY)
+                                  : 0;
+  model->eyring_stress = sb_params_get(params, SB_P_FLUID_EYRING_STRESS);
+  model->rupture_pressure = sb_params_get(params, SB_P_FLUID_RUPTURE_PRESSURE);
+  model->inlet_carried = sb_params_get(params, SB_P_MODELS_INLET) > 0;
+  model->density = sb_params_get(params, SB_P_FLUID_DENSITY);
+  model->gt_product = sb_params_get(params, SB_P_SURFACE_GT_PRODUCT);
+  model->sigma = sb_params_get(params, SB_P_SURFACE_SIGMA);
+  model->sigma_over_beta = sb_params_get(params, SB_P_SURFACE_SIGMA_OVER_BETA);
+  model->hamaker_constant = sb_params_get(params, SB_P_SURFACE_HAMAKER_CONSTANT);
+  model->shear_strength = sb_params_get(params, SB_P_FRICTION_SHEAR_STRENGTH);
+  model->load_coefficient = sb_params_get(params, SB_P_FRICTION_LOAD_COEFFICIENT);
+  model->static_ratio = sb_params_get(params, SB_P_FRICTION_STATIC_RATIO);
+  model->speed = sb_params_get(params, SB_P_DRIVE_SPEED);
+  model->stroke = sb_params_get(params, SB_P_DRIVE_STROKE);
+  model->reversal_force = sb_params_get(params, SB_P_DRIVE_REVERSAL_FORCE);
+  model->stiffness = sb_params_get(params, SB_P_DRIVE_STIFFNESS);
+  model->drive = (SbDriveChoice)sb_params_get(params, SB_P_DRIVE_KIND);
+  model->peak_force = sb_params_get(params, SB_P_DRIVE_PEAK_FORCE);
+  model->rise_time = sb_params_get(params, SB_P_DRIVE_RISE_TIME);
+  model->hold_time = sb_params_get(params, SB_P_DRIVE_HOLD_TIME);
+  model->finger_damping = sb_params_get(params, SB_P_DRIVE_FINGER_DAMPING);
+  model->amplitude = sb_params_get(params, SB_P_DRIVE_AMPLITUDE);
+  model->frequency = sb_params_get(params, SB_P_DRIVE_FREQUENCY);
+  model->cycles = (int)sb_params_get(params, SB_P_DRIVE_CYCLES);
+  model->damping_ratio = sb_params_get(params, SB_P_DRIVE_DAMPING_RATIO);
+  model->rest = sb_params_get(params, SB_P_DRIVE_REST);
+  model->dwell_gain = sb_params_get(params, SB_P_FRICTION_DWELL_GAIN);
+  model->dwell_time = sb_params_get(params, SB_P_FRICTION_DWELL_TIME);
+  model->stribeck_speed = sb_params_get(params, SB_P_FRICTION_STRIBECK_SPEED);
+  model->tangential_stiffness = sb_params_get(params, SB_P_FRICTION_TANGENTIAL_STIFFNESS);
+  model->stop_stiffness = sb_params_get(params, SB_P_HOUSING_STOP_STIFFNESS);
+  model->stop_restitution = sb_params_get(params, SB_P_HOUSING_STOP_RESTITUTION);
+  model->spring_stiffness = sb_params_get(params, SB_P_STEM_SPRING_STIFFNESS);
+  model->spring_preload = sb_params_get(params, SB_P_STEM_SPRING_PRELOAD);
+  model->chamber_at_once = sb_params_get(params, SB_P_CHAMBER_FLOW) != 0;
+  model->discharge_coefficient = sb_params_get(params, SB_P_CHAMBER_DISCHARGE_COEFFICIENT);
+  model->chamber_stiffness = sb_params_get(params, SB_P_CHAMBER_STIFFNESS);
+  model->vent_on_return = sb_params_get(params, SB_P_BORE_VENT_WAY) != 0;
+  model->refill_travel = sb_params_get(params, SB_P_BORE_REFILL_TRAVEL);
+  model->refill_area = sb_params_get(params, SB_P_BORE_REFILL_AREA);
+  model->tolerance = sb_params_get(params, SB_P_OUTPUT_TOLERANCE);
+  model->motion_tolerance = sb_params_get(params, SB_P_OUTPUT_MOTION_TOLERANCE);
+  model->actuations = (int)sb_params_get(params, SB_P_OUTPUT_ACTUATIONS);
+  model->frames = (int)sb_params_get(params, SB_P_OUTPUT_FRAMES);
+  model->fit = (int)sb_params_get(params, SB_P_MODELS_FIT);
+  model->film = (SbModelFilm)sb_params_get(params, SB_P_MODELS_FILM);
+  model->film_history = sb_params_get(params, SB_P_MODELS_FILM_TIME) != 0;
+  model->rest_film = sb_params_get(params, SB_P_FLUID_REST_FILM);
+  model->surface = (SbModelSurface)sb_params_get(params, SB_P_MODELS_SURFACE);
+  model->asperities = (SbModelAsperities)sb_params_get(params, SB_P_MODELS_ASPERITIES);
+  model->hamaker = sb_params_get(params, SB_P_MODELS_ADHESION) > 0
+                       ? sb_params_get(params, SB_P_SURFACE_HAMAKER_CONSTANT)
+                       : 0;
+  model->motion = (SbModelMotion)sb_params_get(params, SB_P_MODELS_MOTION);
+  model->views = (unsigned)sb_params_get(params, SB_P_OUTPUT_VIEWS);
+  model->studies = (unsigned)sb_params_get(params, SB_P_OUTPUT_STUDIES);
+  model->study.squeeze_min = sb_params_get(params, SB_P_STUDY_SQUEEZE_MIN);
+  model->study.squeeze_max = sb_params_get(params, SB_P_STUDY_SQUEEZE_MAX);
+  model->study.speed_min = sb_params_get(params, SB_P_STUDY_SPEED_MIN);
+  model->study.speed_max = sb_params_get(params, SB_P_STUDY_SPEED_MAX);
+  model->study.load_min = sb_params_get(params, SB_P_STUDY_LOAD_MIN);
+  model->study.load_max = sb_params_get(params, SB_P_STUDY_LOAD_MAX);
+  model->study.time_min = sb_params_get(params, SB_P_STUDY_TIME_MIN);
+  model->study.time_max = sb_params_get(params, SB_P_STUDY_TIME_MAX);
+  model->look.field = (int)sb_params_get(params, SB_P_OUTPUT_FIELD);
+  model->look.insets = (int)sb_params_get(params, SB_P_OUTPUT_INSETS);
+  model->look.full = sb_params_get(params, SB_P_OUTPUT_SECTION) == 1;
+  model->look.cutaway = sb_params_get(params, SB_P_OUTPUT_SECTION) == 2;
+  model->look.azimuth = sb_params_get(params, SB_P_OUTPUT_AZIMUTH);
+  model->look.elevation = sb_params_get(params, SB_P_OUTPUT_ELEVATION);
+  model->look.undeformed = sb_params_get(params, SB_P_OUTPUT_UNDEFORMED) > 0;
+  model->look.field_max = sb_params_get(params, SB_P_OUTPUT_FIELD_MAX);
+  model->shape.entry_diameter = sb_params_get(params, SB_P_BORE_ENTRY_DIAMETER);
+  model->shape.entry_length = sb_params_get(params, SB_P_BORE_ENTRY_LENGTH);
+  model->shape.land_length = sb_params_get(params, SB_P_BORE_LAND_LENGTH);
+  model->shape.vent_position = sb_params_get(params, SB_P_BORE_VENT_POSITION);
+  model->shape.vent_diameter = sb_params_get(params, SB_P_BORE_VENT_DIAMETER);
+  model->shape.seal_spacing = sb_params_get(params, SB_P_STEM_SEAL_SPACING);
+  model->shape.nose_length = sb_params_get(params, SB_P_STEM_NOSE_LENGTH);
+  model->shape.chamber_depth = sb_params_get(params, SB_P_STEM_CHAMBER_DEPTH);
+  model->shape.chamber_length = sb_params_get(params, SB_P_STEM_CHAMBER_LENGTH);
+  model->shape.shoulder_length = sb_params_get(params, SB_P_STEM_SHOULDER_LENGTH);
+  model->shape.rod_diameter = sb_params_get(params, SB_P_STEM_ROD_DIAMETER);
+  model->rubber = read_rubber(params, model->density);
+  model->rig = read_rig(model, params);
+  model->life_actuations = (int)sb_params_get(params, SB_P_LIFE_ACTUATIONS);
   int shown = (int)sb_params_get(params, SB_P_LIFE_SHOWN);
-  model.life_shown = shown > 0 ? shown : model.life_actuations;
-  model.running_in = (SbRunningIn){
+  model->life_shown = shown > 0 ? shown : model->life_actuations;
+  model->running_in = (SbRunningIn){
       .start = sb_params_get(params, SB_P_LIFE_ROUGHNESS_NEW),
       .end = sb_params_get(params, SB_P_LIFE_ROUGHNESS_RUN_IN),
       .actuations = sb_params_get(params, SB_P_LIFE_RUNNING_IN),
   };
-  model.rig_prominence = sb_params_get(params, SB_P_RIG_PROMINENCE);
-  model.bore_circumference = M_PI * model.bore_diameter;
+  model->rig_prominence = sb_params_get(params, SB_P_RIG_PROMINENCE);
+  model->bore_circumference = M_PI * model->bore_diameter;
   double pressure_diameter = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER);
-  model.stem_diameter = pressure_diameter;
-  model.pressure_force = model.canister_pressure * M_PI / 4 * pressure_diameter * pressure_diameter;
+  model->stem_diameter = pressure_diameter;
+  model->pressure_force =
+      model->canister_pressure * M_PI / 4 * pressure_diameter * pressure_diameter;
 
   // The stem must fit into the bore and the groove must leave a core.
   bool good = true;
-  if (pressure_diameter > model.bore_diameter) {
+  if (pressure_diameter > model->bore_diameter) {
     add_problem(problems, "bore.diameter", pressure_diameter, NAN,
                 "the bore is smaller than the stem (stem.pressure_diameter %.4g mm)",
                 pressure_diameter * 1e3);
     good = false;
   }
-  if (2 * model.radial_space >= model.bore_diameter) {
-    add_problem(problems, "gland.radial_space", NAN, model.bore_diameter / 2,
+  if (2 * model->radial_space >= model->bore_diameter) {
+    add_problem(problems, "gland.radial_space", NAN, model->bore_diameter / 2,
                 "the groove leaves no stem: twice the radial space exceeds the bore diameter");
     good = false;
   }
-  good = compile_study(&model, problems) && good;
-  if (model.motion == SB_MODEL_MOTION_QUASI_STATIC) {
-    good = compile_quasi_static(&model, problems) && good;
+  good = compile_study(model, problems) && good;
+  if (model->motion == SB_MODEL_MOTION_QUASI_STATIC) {
+    good = compile_quasi_static(model, problems) && good;
   }
-  if (model.motion != SB_MODEL_MOTION_QUASI_STATIC && model.stribeck_speed > 0 &&
-      model.tangential_stiffness > 0 && !(model.damping_ratio > 0)) {
+  if (model->motion != SB_MODEL_MOTION_QUASI_STATIC && model->stribeck_speed > 0 &&
+      model->tangential_stiffness > 0 && !(model->damping_ratio > 0)) {
     add_problem(
         problems, "drive.damping_ratio", 1e-3, 2,
         "must be above 0 where friction that depends on speed (friction.stribeck_speed) acts "
         "through an elastic seal (friction.tangential_stiffness)");
     good = false;
   }
-  if (model.life_shown > model.life_actuations) {
-    add_problem(problems, "life.shown", 0, model.life_actuations,
-                "is beyond the life's last actuation (life.actuations %d)", model.life_actuations);
+  if (model->life_shown > model->life_actuations) {
+    add_problem(problems, "life.shown", 0, model->life_actuations,
+                "is beyond the life's last actuation (life.actuations %d)", model->life_actuations);
     good = false;
   }
-  if (model.life_actuations > 1 &&
-      (model.motion == SB_MODEL_MOTION_RIG || model.motion == SB_MODEL_MOTION_BODIES)) {
+  if (model->life_actuations > 1 &&
+      (model->motion == SB_MODEL_MOTION_RIG || model->motion == SB_MODEL_MOTION_BODIES)) {
     add_problem(problems, "life.actuations", NAN, 1,
                 "needs models.motion = quasi-static or dynamic");
     good = false;
   }
   // Running-in changes the surface, and with it a film that shares its load with asperities.
-  if (model.life_actuations > 1 && model.asperities == SB_MODEL_ASPERITIES_COUPLED) {
+  if (model->life_actuations > 1 && model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
     add_problem(problems, "models.asperities", NAN, NAN,
                 "coupled: a life of %d actuations keeps its film and needs beside",
-                model.life_actuations);
+                model->life_actuations);
     good = false;
   }
-  if (model.life_actuations > 1) {
+  if (model->life_actuations > 1) {
     // The scene's surface is the reference; the run starts with the new valve's.
-    model.gt_product *= model.running_in.start;
-    model.sigma *= model.running_in.start;
-    model.sigma_over_beta *= model.running_in.start;
+    model->gt_product *= model->running_in.start;
+    model->sigma *= model->running_in.start;
+    model->sigma_over_beta *= model->running_in.start;
   }
   // As many samples as there may be frames.
-  const double samples = model.rig.duration * model.rig.rate;
-  if (model.motion == SB_MODEL_MOTION_RIG && !(samples >= 2 && samples <= 2e7)) {
-    add_problem(problems, "rig.duration", 2 / model.rig.rate, 2e7 / model.rig.rate,
+  const double samples = model->rig.duration * model->rig.rate;
+  if (model->motion == SB_MODEL_MOTION_RIG && !(samples >= 2 && samples <= 2e7)) {
+    add_problem(problems, "rig.duration", 2 / model->rig.rate, 2e7 / model->rig.rate,
                 "makes %.3g samples at %.4g Hz, not between 2 and 20 million", samples,
-                model.rig.rate);
+                model->rig.rate);
     good = false;
   }
   for (int i = 0; good && i < SB_SEAL_COUNT; i++) {
-    good = compile_seal(&model, i, params, problems) && good;
+    good = compile_seal(model, i, params, problems) && good;
   }
-  good = compile_parts(&model, params, problems) && good;
-  good = good && compile_dose(&model, params, problems);
+  good = compile_parts(model, params, problems) && good;
+  good = good && compile_dose(model, params, problems);
   if (!good) {
     return SB_ERROR_INPUT;
   }
-  *out = model;
   return SB_OK;
+}
+
+SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems) {
+  SbModel *model = calloc(1, sizeof *model); // too large for a small stack
+  if (model == NULL) {
+    return SB_ERROR_MEMORY;
+  }
+  SbStatus status = compile(model, params, problems);
+  if (status == SB_OK) {
+    *out = *model;
+  }
+  free(model);
+  return status;
 }
 
 void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings) {

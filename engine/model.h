@@ -211,7 +211,8 @@ typedef enum {
   SB_VIEW_LIFE = 1 << 5
 } SbView;
 
-// Compiles parameters. On SB_OK the model is complete. Otherwise SB_ERROR_INPUT, and `problems`
+// Compiles parameters. On SB_OK the model is complete. Otherwise *out is as it was: SB_ERROR_MEMORY
+// (`problems` is not looked at then), or SB_ERROR_INPUT, and `problems`
 // (may be NULL) lists every combination that makes no sense: bore smaller than the stem, no room
 // for the ring...
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems);

@@ -259,12 +259,12 @@ static void start_now(SbSession *session) {
   slot(&session->fresh, NULL);
   g_clear_pointer(&session->failure, g_free);
   // The window shows everything: the views of the scene do not limit it.
-  SbModel model = *session->model;
-  model.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION;
+  g_autofree SbModel *model = g_memdup2(session->model, sizeof *model);
+  model->views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION;
   session->asked = sb_document_params(session->document);
   session->started = g_get_monotonic_time();
   session->state = SB_SESSION_RUNNING;
-  session->ticket = sb_runner_submit(session->runner, &model);
+  session->ticket = sb_runner_submit(session->runner, model);
   run_changed(session);
 }
 

@@ -3,6 +3,8 @@
 
 #include "app/document/atomic.h"
 #include "app/document/shipped.h"
+#include "app/document/nearest.h"
+#include "app/run/process.h"
 
 #include <errno.h>
 #include <math.h>
@@ -13,6 +15,19 @@
 #include <unistd.h>
 
 // ---- Options and messages ----
+
+// GLib names an unknown option; the one most like it among those of the command.
+static char *option_hint(const char *message, const GOptionEntry *entries) {
+  const char *start = strstr(message, "--");
+  g_autofree char *word = g_strdup(start != NULL ? start + 2 : "");
+  word[strcspn(word, "= ")] = '\0';
+  SbNearest nearest = sb_nearest(word);
+  sb_nearest_try(&nearest, "help");
+  for (; entries != NULL && entries->long_name != NULL; entries++) {
+    sb_nearest_try(&nearest, entries->long_name);
+  }
+  return nearest.best != NULL ? g_strdup_printf(", do you mean --%s?", nearest.best) : g_strdup("");
+}
 
 bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int operands_min,
                   int operands_max, const char *notes) {
@@ -26,14 +41,28 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
   GOptionContext *context = g_option_context_new(command->usage);
   g_option_context_set_summary(context, command->help);
   g_option_context_set_description(context, notes);
+  // GLib's own --help prints by the locale, which the program never sets: "?" for "°".
+  gboolean help = FALSE;
+  const GOptionEntry own[] = {
+      {"help", 'h', 0, G_OPTION_ARG_NONE, &help, "Shows this", NULL},
+      {0},
+  };
+  g_option_context_set_help_enabled(context, FALSE);
+  g_option_context_add_main_entries(context, own, NULL);
   if (entries != NULL) {
     g_option_context_add_main_entries(context, entries, NULL);
   }
   GError *error = NULL;
   bool good = g_option_context_parse(context, argc, argv, &error);
   if (!good) {
-    sb_cli_fail("%s (see sealbench %s --help)", error->message, command->name);
+    bool unknown = g_error_matches(error, G_OPTION_ERROR, G_OPTION_ERROR_UNKNOWN_OPTION);
+    g_autofree char *hint = unknown ? option_hint(error->message, entries) : g_strdup("");
+    sb_cli_fail("%s%s (see sealbench %s --help)", error->message, hint, command->name);
     g_error_free(error);
+  }
+  if (good && help) {
+    g_autofree char *text = g_option_context_get_help(context, TRUE, NULL);
+    exit(sb_cli_emit(text, "-"));
   }
   // A "--" that separates operands stays in argv.
   if (good && *argc > 1 && strcmp((*argv)[1], "--") == 0) {
@@ -65,6 +94,26 @@ int sb_cli_fail(const char *format, ...) {
   print_line(text);
   g_free(text);
   return SB_EXIT_INPUT;
+}
+
+int sb_cli_unknown(const char *what, const char *word, const char *names, const char *see) {
+  SbNearest nearest = sb_nearest(word);
+  sb_nearest_try_list(&nearest, names);
+  g_autofree char *hint = sb_nearest_hint(&nearest);
+  if (see != NULL) {
+    return sb_cli_fail("%s \"%s\"%s (%s)", what, word, hint, see);
+  }
+  g_auto(GStrv) each = g_strsplit(names, "|", 0);
+  g_autofree char *allowed = g_strjoinv(", ", each);
+  return sb_cli_fail("%s \"%s\"%s (allowed %s)", what, word, hint, allowed);
+}
+
+char *sb_cli_names(const char *(*name)(int), int count) {
+  GString *names = g_string_new(NULL);
+  for (int i = 0; i < count; i++) {
+    g_string_append_printf(names, "%s%s", i > 0 ? "|" : "", name(i));
+  }
+  return g_string_free(names, FALSE);
 }
 
 int sb_cli_error(GError *error) {
@@ -160,6 +209,20 @@ SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings) {
     fprintf(stderr, "sealbench: note: %s\n", (const char *)sb_document_notes(document)->pdata[i]);
   }
   return document;
+}
+
+bool sb_cli_has_memory(const SbModel *model) {
+  // Closed forms and the quasi-static cycle solve nothing dense.
+  bool dense = model == NULL || model->motion != SB_MODEL_MOTION_QUASI_STATIC ||
+               model->asperities == SB_MODEL_ASPERITIES_COUPLED ||
+               (model->film != SB_MODEL_FILM_THESIS && model->film != SB_MODEL_FILM_KARASZKIEWICZ);
+  if (dense && !sb_process_has_memory()) {
+    sb_cli_fail(
+        "there is not enough memory for the solvers: they need 140 MB of address space more "
+        "(see ulimit -v)");
+    return false;
+  }
+  return true;
 }
 
 // ---- Output ----

@@ -35,11 +35,22 @@ const SbCommand *sb_commands(void);
 bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int operands_min,
                   int operands_max, const char *notes);
 
+// Help of --set, the same for every command.
+#define SB_CLI_SET_HELP                                                                            \
+  "Overrides a parameter; a percentage with a sign, +5% or -5%, changes its value in force"
+
 // "sealbench: ..." on standard error; returns SB_EXIT_INPUT.
 int sb_cli_fail(const char *format, ...) G_GNUC_PRINTF(1, 2);
 
 // Prints and frees an error; returns its exit code.
 int sb_cli_error(GError *error);
+
+// Says `what` ("--view: there is no view") of a mistyped word, the one most like it in the list
+// `names` ("first|second"), and behind that `see`, or where NULL, the list; SB_EXIT_INPUT.
+int sb_cli_unknown(const char *what, const char *word, const char *names, const char *see);
+
+// Such a list of names counted from 0, each by a call. Owned by the caller.
+char *sb_cli_names(const char *(*name)(int), int count);
 
 // Exit code of an engine's status, with its message printed unless it is SB_OK.
 int sb_cli_status(SbStatus status, const SbReport *report);
@@ -51,9 +62,13 @@ void sb_cli_issues(const GPtrArray *issues);
 bool sb_cli_quantity(double *out, const char *option, const char *text, bool required,
                      const char *si, const char *shown);
 
-// Opens a valve or scene, applies KEY=VALUE settings and compiles; prints every problem and returns
-// NULL if there is any. Owned by the caller.
+// Opens a valve or scene ("-": standard input), applies KEY=VALUE settings and compiles; prints
+// every problem and returns NULL if there is any. Owned by the caller.
 SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings);
+
+// Whether there is memory for the dense solvers of a run of `model` (NULL: of anything), told
+// before the work; prints what is missing.
+bool sb_cli_has_memory(const SbModel *model);
 
 // Writes `json` to standard output ("-") or a file, whole or not at all; returns an exit code.
 int sb_cli_emit(const char *json, const char *target);

@@ -107,8 +107,11 @@ int sb_command_bench(int argc, char **argv) {
       {0},
   };
   int code = SB_EXIT_INPUT;
-  if (sb_cli_parse(&argc, &argv, entries, 0, 0,
-                   "Times are the median of 20 cold solves after a warm-up.")) {
+  bool parsed = sb_cli_parse(&argc, &argv, entries, 0, 0,
+                             "Times are the median of 20 cold solves after a warm-up.");
+  if (parsed && !sb_cli_has_memory(NULL)) {
+    code = SB_EXIT_IO;
+  } else if (parsed) {
     const int repeats = quick ? 1 : 20;
     size_t count = sb_bench_count();
     SbBenchCase *cases = g_new0(SbBenchCase, count);

@@ -67,13 +67,13 @@ static bool read_dry_pressure(const char *path, GArray *x, GArray *p) {
     if (*c == '\0' || *c == '#') {
       continue;
     }
-    char *end = NULL;
     double value[2];
     bool good = true;
     for (int k = 0; k < 2 && good; k++) {
-      value[k] = g_ascii_strtod(c, &end);
-      good = end != c && isfinite(value[k]);
-      c = end + strspn(end, ",; \t");
+      size_t number = sb_number_read(&value[k], c);
+      size_t gap = strspn(c + number, ",; \t");
+      good = number > 0 && (gap > 0 || c[number] == '\0');
+      c += number + gap;
     }
     if (good && *c == '\0') {
       double before = x->len > 0 ? g_array_index(x, double, x->len - 1) : -INFINITY;
@@ -251,16 +251,16 @@ static bool read_quantities(SbFilmProblem *problem, char *const *texts) {
   return true;
 }
 
+static const char *model_name(int i) {
+  return sb_film_model_name((SbFilmModel)i);
+}
+
 static bool choose_model(SbFilmProblem *problem, const char *name) {
   if (sb_film_model_from_name(&problem->model, name)) {
     return true;
   }
-  GString *names = g_string_new(NULL);
-  for (int i = 0; i < SB_FILM_MODEL_COUNT; i++) {
-    g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", sb_film_model_name((SbFilmModel)i));
-  }
-  sb_cli_fail("--model: there is no film model \"%s\" (allowed %s)", name, names->str);
-  g_string_free(names, TRUE);
+  g_autofree char *names = sb_cli_names(model_name, SB_FILM_MODEL_COUNT);
+  sb_cli_unknown("--model: there is no film model", name, names, NULL);
   return false;
 }
 
@@ -268,8 +268,7 @@ static bool choose_model(SbFilmProblem *problem, const char *name) {
 // surface without one are an error, as they would be ignored.
 static bool choose_surface(SbFilmProblem *problem, const char *name, char *const *texts) {
   if (name != NULL && !sb_rough_model_from_name(&problem->surface, name)) {
-    sb_cli_fail("--surface: there is no surface \"%s\" (allowed none, greenwood-tripp, persson)",
-                name);
+    sb_cli_unknown("--surface: there is no surface", name, "none|greenwood-tripp|persson", NULL);
     return false;
   }
   static const struct {
@@ -364,6 +363,10 @@ int sb_command_film(int argc, char **argv) {
     goto done;
   }
   if (dry != NULL && !read_dry_pressure(dry, x, p)) {
+    goto done;
+  }
+  if (!sb_cli_has_memory(NULL)) {
+    code = SB_EXIT_IO;
     goto done;
   }
   problem.dry_x = (const double *)(void *)x->data;

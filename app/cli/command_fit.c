@@ -94,12 +94,12 @@ static bool choose_model(SbFitProblem *problem, const char *name) {
     GString *names = g_string_new(NULL);
     for (int i = 0; i < SB_FIT_MODEL_COUNT; i++) {
       const char *model = sb_fit_model_name((SbFitModel)i);
-      g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", model);
+      g_string_append_printf(names, "%s%s", i > 0 ? "|" : "", model);
       for (int k = 1; sb_fit_variant_name((SbFitModel)i, k) != NULL; k++) {
-        g_string_append_printf(names, ", %s:%s", model, sb_fit_variant_name((SbFitModel)i, k));
+        g_string_append_printf(names, "|%s:%s", model, sb_fit_variant_name((SbFitModel)i, k));
       }
     }
-    sb_cli_fail("--model: there is no fitment model \"%s\" (allowed %s)", name, names->str);
+    sb_cli_unknown("--model: there is no fitment model", name, names->str, NULL);
     g_string_free(names, TRUE);
   }
   return good;
@@ -119,18 +119,18 @@ int sb_command_fit(int argc, char **argv) {
       {"model", 0, 0, G_OPTION_ARG_FILENAME, &name, "Model, or MODEL:VARIANT; else the file's",
        "NAME"},
       {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &tolerance, "Relative error wanted", "T"},
-      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, "Overrides a parameter", "KEY=VALUE"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
       {0},
   };
   int code = SB_EXIT_INPUT;
-  SbModel model;
+  g_autofree SbModel *model = g_new(SbModel, 1);
   SbDocument *document = NULL;
   SbFit *fit = NULL;
   if (!sb_cli_parse(&argc, &argv, entries, 1, 1, SB_TIMING_NOTE)) {
     goto done;
   }
-  document = sb_cli_open(&model, argv[1], settings);
+  document = sb_cli_open(model, argv[1], settings);
   if (document == NULL) {
     goto done;
   }
@@ -139,11 +139,15 @@ int sb_command_fit(int argc, char **argv) {
     index++;
   }
   if (index == SB_SEAL_COUNT) {
-    sb_cli_fail("--seal: %s (allowed outer, inner)", seal == NULL ? "is missing" : "unknown seal");
+    if (seal == NULL) {
+      sb_cli_fail("--seal: is missing (allowed outer, inner)");
+    } else {
+      sb_cli_unknown("--seal: unknown seal", seal, "outer|inner", NULL);
+    }
     goto done;
   }
   SbFitProblem problem;
-  sb_sliding_fit_problem(&problem, &model, index, 0);
+  sb_sliding_fit_problem(&problem, model, index, 0);
   problem.cancel = on_cancel;
   problem.tolerance = 1e-3;
   if (!sb_cli_quantity(&problem.pressure, "--pressure", pressure, false, "Pa", "MPa") ||
@@ -171,13 +175,13 @@ int sb_command_fit(int argc, char **argv) {
   SbStatus status = sb_timing_median(&wall_s, solve, &job);
   fit->solver.wall_s = wall_s;
   code = sb_cli_status(status, &job.report);
-  sb_model_warn_storage(&model, &fit->warnings);
+  sb_model_warn_storage(model, &fit->warnings);
 
   // Design read-outs of the gland.
   SbGland gland;
   SbGlandReadout readouts[SB_GLAND_COUNT];
   SbReport gland_report = {0};
-  sb_model_gland(&gland, &model, index);
+  sb_model_gland(&gland, model, index);
   if (sb_gland_readouts(readouts, &gland, &gland_report) != SB_OK) {
     sb_cli_fail("%s: %s", gland_report.parameter, gland_report.text);
     code = SB_EXIT_INPUT;
@@ -187,7 +191,7 @@ int sb_command_fit(int argc, char **argv) {
     int written = SB_EXIT_DONE;
     if (target != NULL) {
       char *json =
-          sb_results_fit(fit, seal, problem.pressure, readouts, &model.seal[index].storage);
+          sb_results_fit(fit, seal, problem.pressure, readouts, &model->seal[index].storage);
       written = sb_cli_emit(json, target);
       g_free(json);
     } else {

@@ -114,7 +114,15 @@ static bool parse(Request *request, const Options *options) {
   how->at = options->at;
   request->is_study = sb_study_from_name(&request->study, how->view);
   if (!request->is_study && sb_render_view(how->view) == NULL) {
-    sb_cli_fail("--view: there is no view \"%s\" (see sealbench list views)", how->view);
+    size_t count;
+    const SbRenderView *views = sb_render_views(&count);
+    GString *names = g_string_new(views[0].name);
+    for (size_t i = 1; i < count + SB_STUDY_COUNT; i++) {
+      g_string_append_printf(names, "|%s",
+                             i < count ? views[i].name : sb_study_name((SbStudyKind)(i - count)));
+    }
+    sb_cli_unknown("--view: there is no view", how->view, names->str, "see sealbench list views");
+    g_string_free(names, TRUE);
     return false;
   }
   if (options->size != NULL && !parse_size(&how->width, &how->height, options->size)) {
@@ -146,14 +154,14 @@ static bool parse(Request *request, const Options *options) {
   if (options->zoom != NULL) {
     bool inner = strcmp(options->zoom, "inner") == 0;
     if (!inner && strcmp(options->zoom, "outer") != 0) {
-      sb_cli_fail("--zoom: \"%s\" is no seal (allowed outer, inner)", options->zoom);
+      sb_cli_unknown("--zoom: there is no seal", options->zoom, "outer|inner", NULL);
       return false;
     }
     request->zoom = inner ? SB_SECTION_ZOOM_INNER : SB_SECTION_ZOOM_OUTER;
   }
   int backend = options->backend != NULL ? sb_gl_backend_find(options->backend) : SB_GL_AUTO;
   if (backend < 0) {
-    sb_cli_fail("--backend: there is no back end \"%s\" (allowed osmesa, egl)", options->backend);
+    sb_cli_unknown("--backend: there is no back end", options->backend, "osmesa|egl", NULL);
     return false;
   }
   request->backend = (SbGlBackend)backend;
@@ -367,33 +375,36 @@ int sb_command_render(int argc, char **argv) {
        "Both halves of the section (output.section)", NULL},
       {"undeformed", 0, 0, G_OPTION_ARG_NONE, &options.undeformed,
        "The rings' outline before fitting, dashed (output.undeformed)", NULL},
-      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, "Overrides a parameter",
-       "KEY=VALUE"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"dark", 0, 0, G_OPTION_ARG_NONE, &options.dark, "Dark theme", NULL},
       {"quiet", 0, 0, G_OPTION_ARG_NONE, &options.quiet, "No progress", NULL},
       {0},
   };
   int code = SB_EXIT_INPUT;
   Request request = {0};
-  SbModel model;
+  g_autofree SbModel *model = g_new(SbModel, 1);
   SbDocument *document = NULL;
   SbRun *run = NULL;
   if (!sb_cli_parse(&argc, &argv, entries, 1, 1, NULL) || !parse(&request, &options)) {
     goto done;
   }
   char **settings = all_settings(&options);
-  document = sb_cli_open(&model, argv[1], settings);
+  document = sb_cli_open(model, argv[1], settings);
   g_strfreev(settings);
   if (document == NULL) {
     goto done;
   }
+  if (!sb_cli_has_memory(request.is_study ? NULL : model)) {
+    code = SB_EXIT_IO;
+    goto done;
+  }
   if (request.is_study) {
     code =
-        render_study(request.study, document, &model, &request.how, options.output, options.quiet);
+        render_study(request.study, document, model, &request.how, options.output, options.quiet);
     goto done;
   }
   SbReport report = {0};
-  SbStatus status = compute(&run, &model, request.how.view, options.quiet, &report);
+  SbStatus status = compute(&run, model, request.how.view, options.quiet, &report);
   code = sb_cli_status(status, &report);
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int drawn = render(run, document, &request, &options);

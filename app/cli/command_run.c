@@ -147,22 +147,27 @@ int sb_command_run(int argc, char **argv) {
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &folder,
        "Folder for results.json, cycle.csv, profiles.csv, and life or study tables", "DIR"},
-      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, "Overrides a parameter", "KEY=VALUE"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &json_target, "JSON to a file or - ", "FILE|-"},
       {"quiet", 0, 0, G_OPTION_ARG_NONE, &quiet, "No progress, no table", NULL},
       {0},
   };
   int code = SB_EXIT_INPUT;
-  SbModel model;
+  g_autofree SbModel *model = g_new(SbModel, 1);
   SbDocument *document = NULL;
   SbRun *run = NULL;
   SbStudy *studies = NULL;
   if (!sb_cli_parse(&argc, &argv, entries, 1, 1, NULL)) {
     goto done;
   }
-  document = sb_cli_open(&model, argv[1], settings);
+  document = sb_cli_open(model, argv[1], settings);
   if (document == NULL) {
     goto done;
+  }
+  if (!quiet && sb_document_kind(document) == SB_DOCUMENT_VALVE &&
+      sb_document_path(document) != NULL) {
+    fprintf(stderr, "sealbench: note: %s is a valve, no scene: its default cycle is run\n",
+            argv[1]);
   }
   // A folder that cannot be is told before the work, not after it.
   GError *error = NULL;
@@ -172,8 +177,12 @@ int sb_command_run(int argc, char **argv) {
   }
   SbPlan plan;
   SbReport report = {0};
-  sb_plan_make(&plan, &model);
-  SbStatus status = sb_run_create(&run, &model, &plan, &report);
+  sb_plan_make(&plan, model);
+  if (!sb_cli_has_memory(plan.studies == 0 ? model : NULL)) {
+    code = SB_EXIT_IO;
+    goto done;
+  }
+  SbStatus status = sb_run_create(&run, model, &plan, &report);
   if (status != SB_OK) {
     code = sb_cli_status(status, &report);
     goto done;
@@ -194,7 +203,7 @@ int sb_command_run(int argc, char **argv) {
   size_t study_count = 0;
   if (status != SB_ERROR_CANCELLED && plan.studies != 0) {
     studies = g_new(SbStudy, SB_STUDY_COUNT);
-    int studied = make_studies(studies, &study_count, &model, plan.studies, quiet);
+    int studied = make_studies(studies, &study_count, model, plan.studies, quiet);
     code = studied != SB_EXIT_DONE ? studied : code;
   }
   SbResultsInfo info = {.scene = argv[1],

@@ -13,20 +13,25 @@
 #include <unistd.h>
 
 int sb_command_check(int argc, char **argv) {
-  if (!sb_cli_parse(&argc, &argv, NULL, 1, 1, NULL)) {
+  enum { FILES_MAX = 10000 };
+  if (!sb_cli_parse(&argc, &argv, NULL, 1, FILES_MAX, NULL)) {
     return SB_EXIT_INPUT;
   }
-  SbModel model;
-  SbDocument *document = sb_cli_open(&model, argv[1], NULL);
-  if (document == NULL) {
-    return SB_EXIT_INPUT;
+  int code = SB_EXIT_DONE;
+  for (int i = 1; i < argc; i++) {
+    g_autofree SbModel *model = g_new(SbModel, 1);
+    SbDocument *document = sb_cli_open(model, argv[i], NULL);
+    if (document == NULL) {
+      code = SB_EXIT_INPUT;
+      continue;
+    }
+    const char *kind = sb_document_kind(document) == SB_DOCUMENT_SCENE ? "scene" : "valve";
+    char *shown = sb_printable(argv[i], strlen(argv[i]));
+    printf("%s: a %s without problems\n", shown, kind);
+    g_free(shown);
+    sb_document_free(document);
   }
-  const char *kind = sb_document_kind(document) == SB_DOCUMENT_SCENE ? "scene" : "valve";
-  char *shown = sb_printable(argv[1], strlen(argv[1]));
-  printf("%s: a %s without problems\n", shown, kind);
-  g_free(shown);
-  sb_document_free(document);
-  return SB_EXIT_DONE;
+  return code;
 }
 
 // ---- list ----
@@ -116,7 +121,7 @@ int sb_command_list(int argc, char **argv) {
   bool params = strcmp(what, "params") == 0;
   bool models = strcmp(what, "models") == 0;
   if (!params && !models && strcmp(what, "views") != 0) {
-    sb_cli_fail("there is no list \"%s\" (allowed params, models, views)", what);
+    sb_cli_unknown("there is no list", what, "params|models|views", NULL);
     goto done;
   }
   code = SB_EXIT_DONE;
@@ -177,19 +182,19 @@ int sb_command_plan(int argc, char **argv) {
   char *target = NULL;
   char **settings = NULL;
   const GOptionEntry entries[] = {
-      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, "Overrides a parameter", "KEY=VALUE"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
       {0},
   };
   int code = SB_EXIT_INPUT;
-  SbModel model;
+  g_autofree SbModel *model = g_new(SbModel, 1);
   SbDocument *document = NULL;
   if (sb_cli_parse(&argc, &argv, entries, 1, 1, NULL)) {
-    document = sb_cli_open(&model, argv[1], settings);
+    document = sb_cli_open(model, argv[1], settings);
   }
   if (document != NULL) {
     SbPlan plan;
-    sb_plan_make(&plan, &model);
+    sb_plan_make(&plan, model);
     code = SB_EXIT_DONE;
     if (target != NULL) {
       char *json = sb_results_plan(&plan);

@@ -12,7 +12,7 @@ static const SbCommand commands[] = {
     {"run", "FILE.scene", "Computes a scene's cycle", sb_command_run},
     {"render", "FILE.scene -o OUT.{mp4,png,svg,pdf}", "Draws a view of a scene", sb_command_render},
     {"plan", "FILE.scene", "Says what a scene would compute, and why", sb_command_plan},
-    {"check", "FILE", "Reports every problem of a valve or scene file", sb_command_check},
+    {"check", "FILE...", "Reports every problem of valve or scene files", sb_command_check},
     {"fit", "FILE.valve --seal NAME", "Fits one seal into its gland", sb_command_fit},
     {"film", "--load W --speed U --radius R --modulus E --viscosity ETA",
      "Computes the film of a sliding line contact", sb_command_film},
@@ -41,6 +41,7 @@ static void print_help(FILE *stream) {
   }
   fputs("  sealbench --version | --help | COMMAND --help\n\n"
         "Values carry units: --load 850.2N/m, --set seal.section_diameter=1.63mm.\n"
+        "--set KEY=+5% changes the value in force by a percentage. FILE - is standard input.\n"
         "Exit codes: 0 done, 1 bad input, 2 not converged, 3 input/output failed, "
         "130 interrupted.\n",
         stream);
@@ -62,7 +63,12 @@ int main(int argc, char **argv) {
     printf("sealbench %s\n", sb_version());
     code = SB_EXIT_DONE;
   } else if (command->name == NULL) {
-    sb_cli_fail("there is no command \"%s\" (see sealbench --help)", argv[1]);
+    GString *names = g_string_new("--help|--version");
+    for (command = commands; command->name != NULL; command++) {
+      g_string_append_printf(names, "|%s", command->name);
+    }
+    sb_cli_unknown("there is no command", argv[1], names->str, "see sealbench --help");
+    g_string_free(names, TRUE);
   } else {
     code = command->main(argc - 1, argv + 1);
   }

@@ -2,12 +2,14 @@
 // is document_write.c.
 #include "app/document/document_parts.h"
 #include "app/document/document_private.h"
+#include "app/document/nearest.h"
 #include "app/document/reader.h"
 #include "app/document/series.h"
 #include "app/export/still.h"
 
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 SbDocument *sb_document_new(void) {
   SbDocument *document = g_new0(SbDocument, 1);
@@ -31,6 +33,7 @@ void sb_document_free(SbDocument *document) {
     return;
   }
   g_free(document->path);
+  g_free(document->name);
   g_free(document->title);
   g_free(document->valve_path);
   g_free(document->valve_name);
@@ -59,53 +62,32 @@ static const char *meta_value(const GPtrArray *entries, const char *name) {
   return NULL;
 }
 
-// Number of single-character edits between two short names, for "did you mean".
-static int distance(const char *a, const char *b) {
-  enum { LENGTH_MAX = 40 };
-  int row[LENGTH_MAX + 1];
-  int n = (int)strlen(b);
-  if (n > LENGTH_MAX || strlen(a) > LENGTH_MAX) {
-    return LENGTH_MAX;
+char *sb_document_key_hint(const char *key) {
+  SbNearest nearest = sb_nearest(key);
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    sb_nearest_try(&nearest, sb_param((SbParamId)i)->key);
   }
-  for (int j = 0; j <= n; j++) {
-    row[j] = j;
-  }
-  for (int i = 1; a[i - 1] != '\0'; i++) {
-    int diagonal = row[0];
-    row[0] = i;
-    for (int j = 1; j <= n; j++) {
-      int above = row[j];
-      int cost = diagonal + (a[i - 1] != b[j - 1]);
-      row[j] = MIN(MIN(above, row[j - 1]) + 1, cost);
-      diagonal = above;
-    }
-  }
-  return row[n];
+  return sb_nearest_hint(&nearest);
 }
 
-// The catalogue key most like `key`, or NULL.
-const char *sb_document_nearest_key(const char *key) {
-  const char *best = NULL;
-  int least = 4;
-  for (int i = 0; i < SB_PARAM_COUNT; i++) {
-    int d = distance(key, sb_param((SbParamId)i)->key);
-    if (d < least) {
-      least = d;
-      best = sb_param((SbParamId)i)->key;
-    }
-  }
-  return best;
+static char *group_of(SbParamId id) {
+  const char *key = sb_param(id)->key;
+  return g_strndup(key, (gsize)(strrchr(key, '.') - key));
 }
 
-static bool is_group(const char *group) {
-  size_t length = strlen(group);
+// Whether any key stands in `group`; else an issue.
+static bool check_group(const SbEntry *entry, const char *shown, GPtrArray *issues) {
+  SbNearest nearest = sb_nearest(entry->group);
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
-    const char *key = sb_param((SbParamId)i)->key;
-    const char *dot = strrchr(key, '.');
-    if ((size_t)(dot - key) == length && strncmp(key, group, length) == 0) {
+    g_autofree char *group = group_of((SbParamId)i);
+    if (strcmp(group, entry->group) == 0) {
       return true;
     }
+    sb_nearest_try(&nearest, g_intern_string(group));
   }
+  g_autofree char *hint = sb_nearest_hint(&nearest);
+  sb_issues_add(issues, shown, entry->line, NULL, NULL, "unknown group [%.60s]%s", entry->group,
+                hint);
   return false;
 }
 
@@ -120,11 +102,7 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
       continue;
     }
     if (entry->name == NULL) {
-      known_group = is_group(entry->group);
-      if (!known_group) {
-        sb_issues_add(issues, shown, entry->line, NULL, NULL, "unknown group [%.60s]",
-                      entry->group);
-      }
+      known_group = check_group(entry, shown, issues);
       continue;
     }
     if (!known_group || sb_parts_is_shape_key(entry->group, entry->name)) {
@@ -135,10 +113,9 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
     if (strcmp(key, SB_SERIES_KEY) == 0) {
       // A file's name, no value: read_series.
     } else if (id < 0) {
-      const char *near = issues->len < SB_ISSUES_MAX ? sb_document_nearest_key(key) : NULL;
-      sb_issues_add(issues, shown, entry->line, key, NULL, "unknown key%s%s%s",
-                    near != NULL ? ", do you mean " : "", near != NULL ? near : "",
-                    near != NULL ? "?" : "");
+      g_autofree char *hint = issues->len < SB_ISSUES_MAX ? sb_document_key_hint(key) : NULL;
+      sb_issues_add(issues, shown, entry->line, key, NULL, "unknown key%s",
+                    hint != NULL ? hint : "");
     } else {
       GError *error = NULL;
       double value = 0;
@@ -310,41 +287,46 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   read_series(document, entries, directory, issues);
   document->saved = document->own;
   sb_document_refresh_title(document);
+  document->name = g_strdup(name);
   if (issues->len == before) {
-    SbModel model;
-    document->path = g_strdup(name);
-    sb_document_compile(document, &model, issues);
-    g_clear_pointer(&document->path, g_free);
+    g_autofree SbModel *model = g_new(SbModel, 1);
+    sb_document_compile(document, model, issues);
   }
   return document;
 }
 
 // A picture that this program wrote holds its scene.
-static SbDocument *load_picture(const char *path, GPtrArray *issues) {
+static SbDocument *parse_picture(const char *data, size_t length, const char *name,
+                                 GPtrArray *issues) {
   GError *error = NULL;
-  char *text = sb_still_read_scene(path, &error);
+  char *text = sb_still_find_scene(data, length, &error);
   if (text == NULL) {
-    sb_issues_add(issues, NULL, 0, NULL, NULL, "%s", error->message);
+    sb_issues_add(issues, name, 0, NULL, NULL, "%s", error->message);
     g_error_free(error);
     return NULL;
   }
-  SbDocument *document = sb_document_parse(text, strlen(text), path, NULL, issues);
+  SbDocument *document = sb_document_parse(text, strlen(text), name, NULL, issues);
   g_free(text);
   return document;
 }
 
 SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
-  if (g_str_has_suffix(path, ".png") && g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
-    return load_picture(path, issues);
-  }
-  size_t length = 0;
-  char *text = sb_reader_load(&length, path, path, SB_DOCUMENT_BYTES_MAX, issues);
+  bool stream = strcmp(path, "-") == 0;
+  const char *name = stream ? "standard input" : path;
+  size_t length = 0, tail = strlen(path);
+  bool picture = tail >= 4 && g_ascii_strcasecmp(path + tail - 4, ".png") == 0;
+  size_t most = picture ? SB_STILL_BYTES_MAX : SB_DOCUMENT_BYTES_MAX;
+  char *text = stream ? sb_reader_load_stream(&length, STDIN_FILENO, name, most, issues)
+                      : sb_reader_load(&length, path, name, most, issues);
   if (text == NULL) {
     return NULL;
   }
-  char *directory = g_path_get_dirname(path);
-  SbDocument *document = sb_document_parse(text, length, path, directory, issues);
-  if (document != NULL) {
+  static const char signature[] = "\x89PNG";
+  picture = picture || (length > 4 && memcmp(text, signature, 4) == 0);
+  char *directory = stream ? NULL : g_path_get_dirname(path);
+  SbDocument *document = picture ? parse_picture(text, length, name, issues)
+                                 : sb_document_parse(text, length, name, directory, issues);
+  if (document != NULL && !picture && !stream) {
     document->path = g_strdup(path);
     sb_document_refresh_title(document);
   }
@@ -444,15 +426,21 @@ static char *problem_range(const SbProblem *problem, const SbParam *param) {
 }
 
 bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues) {
+  const char *shown = document->path != NULL ? document->path : document->name;
   SbParams params = sb_document_params(document);
   SbProblems problems;
-  if (sb_model_compile(out, &params, &problems) == SB_OK) {
+  SbStatus status = sb_model_compile(out, &params, &problems);
+  if (status == SB_ERROR_MEMORY) {
+    sb_issues_add(issues, shown, 0, NULL, NULL, "%s", sb_status_text(status));
+    return false;
+  }
+  if (status == SB_OK) {
     if (document->series != NULL) {
       out->measured = *document->series;
     }
     out->outlines = document->shapes->outlines;
     if (out->drive == SB_MODEL_DRIVE_MEASURED && out->measured.count == 0) {
-      sb_issues_add(issues, document->path, 0, SB_SERIES_KEY, "a CSV file",
+      sb_issues_add(issues, shown, 0, SB_SERIES_KEY, "a CSV file",
                     "drive.kind = measured needs the file of a measured series");
       return false;
     }
@@ -462,7 +450,7 @@ bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *is
     const SbProblem *problem = &problems.item[i];
     int id = sb_param_find(problem->key);
     if (id < 0) {
-      sb_issues_add(issues, document->path, 0, problem->key, NULL, "%s", problem->text);
+      sb_issues_add(issues, shown, 0, problem->key, NULL, "%s", problem->text);
       continue;
     }
     // The line to mend: the override's own, else its parent's; in this file, else in the valve's.
@@ -473,8 +461,8 @@ bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *is
     }
     bool in_valve = !document->own.given[id] && document->base.given[id];
     char *range = problem_range(problem, param);
-    sb_issues_add(issues, in_valve ? document->valve_path : document->path, 0, param->key, range,
-                  "%s", problem->text);
+    sb_issues_add(issues, in_valve ? document->valve_path : shown, 0, param->key, range, "%s",
+                  problem->text);
     g_free(range);
   }
   return false;

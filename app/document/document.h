@@ -25,8 +25,9 @@ SbDocument *sb_document_new(void);
 // key with a problem keeps its default. NULL if nothing could be made of it; then `issues` has at
 // least one. With an empty `issues` afterwards the document is sound: its model compiles. Refuses
 // what is not a regular file, larger than SB_DOCUMENT_BYTES_MAX, not UTF-8, or binary, without
-// reading it. A .png that this program wrote gives the scene it was drawn from, as a valve with all
-// its values and without a path.
+// reading it. "-" is standard input: the document then has no path and looks for other files in the
+// current folder. A PNG that this program wrote gives the scene it was drawn from, as a valve with
+// all its values and without a path.
 SbDocument *sb_document_load(const char *path, GPtrArray *issues);
 
 // The same from memory; `name` stands in messages, `directory` is where a scene looks for its valve
@@ -88,7 +89,8 @@ bool sb_document_set(SbDocument *document, SbParamId id, const char *text, GErro
 bool sb_document_set_value(SbDocument *document, SbParamId id, double value, bool merge,
                            GError **error);
 
-// "KEY=VALUE" of --set. Issues name the file "--set".
+// "KEY=VALUE" of --set; a percentage with a sign ("+5 %") changes the value in force by that much.
+// Issues name the file "--set".
 bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray *issues);
 
 // Removes the document's own value: the valve's or the default is in force again. Undoable.

@@ -68,6 +68,43 @@ bool sb_document_set_value(SbDocument *document, SbParamId id, double value, boo
   return true;
 }
 
+// The factor of "+5 %" or "-0.5%": a percentage with a sign. False for any other text.
+static bool is_change(double *factor, const char *text) {
+  double percent;
+  g_autofree char *copy = g_strstrip(g_strdup(text));
+  size_t length = *copy == '+' || *copy == '-' ? sb_number_read(&percent, copy) : 0;
+  if (length == 0 || strcmp(g_strchug(copy + length), "%") != 0) {
+    return false;
+  }
+  *factor = 1 + percent / 100;
+  return true;
+}
+
+// A value with unit, or a change of the value in force.
+static bool read_value(double *out, const SbDocument *document, SbParamId id, const char *text,
+                       GError **error) {
+  const SbParam *param = sb_param(id);
+  double factor;
+  if (param->kind != SB_PARAM_REAL || !is_change(&factor, text)) {
+    return sb_param_parse(out, id, text, error);
+  }
+  double before = sb_document_value(document, id), after = factor * before;
+  if (before == 0 || sb_quantity_is_point(param->unit)) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s",
+                before == 0 ? "is 0, which no percentage changes"
+                            : "is a temperature, of which a percentage means nothing");
+    return false;
+  }
+  if (!(after >= param->min && after <= param->max)) {
+    g_autofree char *shown = sb_param_format(id, after);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s makes it %s, out of range", text,
+                shown);
+    return false;
+  }
+  *out = after;
+  return true;
+}
+
 bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray *issues) {
   const char *equal = strchr(option, '=');
   if (!g_utf8_validate(option, -1, NULL) || equal == NULL || equal == option) {
@@ -80,11 +117,9 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
   GError *error = NULL;
   bool good = false;
   if (id < 0) {
-    const char *near = issues->len < SB_ISSUES_MAX ? sb_document_nearest_key(key) : NULL;
-    sb_issues_add(issues, "--set", 0, key, NULL, "unknown key%s%s%s",
-                  near != NULL ? ", do you mean " : "", near != NULL ? near : "",
-                  near != NULL ? "?" : "");
-  } else if (!sb_param_parse(&value, (SbParamId)id, equal + 1, &error)) {
+    g_autofree char *hint = issues->len < SB_ISSUES_MAX ? sb_document_key_hint(key) : NULL;
+    sb_issues_add(issues, "--set", 0, key, NULL, "unknown key%s", hint != NULL ? hint : "");
+  } else if (!read_value(&value, document, (SbParamId)id, equal + 1, &error)) {
     char *range = sb_param_range((SbParamId)id);
     sb_issues_add(issues, "--set", 0, key, range, "%s", error->message);
     g_free(range);

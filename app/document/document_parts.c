@@ -152,9 +152,7 @@ static SbProfilePoint *read_points(const Part *part, const char *text, size_t *c
     double value[3] = {0};
     bool good = parts == 2 || parts == 3;
     for (guint k = 0; good && k < parts; k++) {
-      char *end = NULL;
-      value[k] = g_ascii_strtod(numbers[k], &end);
-      good = *numbers[k] != '\0' && *end == '\0' && isfinite(value[k]);
+      good = sb_number_parse(&value[k], numbers[k]);
     }
     if (!good || *count == SB_PROFILE_MAX) {
       complain(part, "profile", form,
@@ -430,10 +428,12 @@ static bool solve_mesh(SbSolid *solid, const Part *part, const char *file, const
 // The shape's keys as lines that stand alone.
 static void keep_text(const Part *part, const char *directory) {
   GString *text = g_string_new(NULL);
+  // A mesh lies beside the document, whose folder may be relative.
+  g_autofree char *folder = g_canonicalize_filename(directory != NULL ? directory : ".", NULL);
   for (int i = 0; shape_keys[i] != NULL; i++) {
     const SbEntry *entry = find(part, shape_keys[i]);
     if (entry != NULL && strcmp(shape_keys[i], "stl") == 0) {
-      g_autofree char *path = g_canonicalize_filename(entry->value, directory);
+      g_autofree char *path = g_canonicalize_filename(entry->value, folder);
       g_string_append_printf(text, "stl = %s\n", path);
     } else if (entry != NULL) {
       g_string_append_printf(text, "%s = %s\n", shape_keys[i], entry->value);

@@ -20,6 +20,7 @@ typedef struct {
 struct SbDocument {
   SbDocumentKind kind;
   char *path;            // NULL before the first save
+  char *name;            // stands for it in messages then
   char *title;           //
   char *valve_path;      // scenes: path to open, else NULL
   char *valve_name;      // scenes: as the file has it
@@ -42,8 +43,9 @@ struct SbDocument {
 // Sets the title anew from the text or the path.
 void sb_document_refresh_title(SbDocument *document);
 
-// The catalogue's key that looks most like `key`; NULL if none does. Borrowed.
-const char *sb_document_nearest_key(const char *key);
+// ", do you mean KEY?" of the catalogue's key most like `key`, or an empty text. Owned by the
+// caller.
+char *sb_document_key_hint(const char *key);
 
 // Adds to the notes that a value in force is not what a shape makes it; `shown` names who says so.
 // Nothing where they agree.

@@ -8,6 +8,63 @@
 #include <stdlib.h>
 #include <string.h>
 
+size_t sb_number_scan(const char *text, size_t *exponent_at) {
+  const char *c = text + (*text == '+' || *text == '-');
+  const char *first = c;
+  while (g_ascii_isdigit(*c)) {
+    c++;
+  }
+  bool digits = c > first;
+  if (*c == '.') {
+    digits = digits || g_ascii_isdigit(c[1]);
+    for (c++; g_ascii_isdigit(*c); c++) {
+    }
+  }
+  if (!digits) {
+    return 0;
+  }
+  if (exponent_at != NULL) {
+    *exponent_at = (size_t)(c - text);
+  }
+  if (*c == 'e' || *c == 'E') {
+    const char *e = c + 1 + (c[1] == '+' || c[1] == '-');
+    if (g_ascii_isdigit(*e)) {
+      while (g_ascii_isdigit(*e)) {
+        e++;
+      }
+      c = e;
+    }
+  }
+  return (size_t)(c - text);
+}
+
+size_t sb_number_read(double *out, const char *text) {
+  size_t length = sb_number_scan(text, NULL);
+  if (length == 0 || length > SB_NUMBER_LENGTH_MAX) {
+    return 0;
+  }
+  // Only these characters: strtod would go on into "0x10".
+  char digits[SB_NUMBER_LENGTH_MAX + 1];
+  memcpy(digits, text, length);
+  digits[length] = '\0';
+  double value = g_ascii_strtod(digits, NULL);
+  if (!isfinite(value)) {
+    return 0;
+  }
+  *out = value;
+  return length;
+}
+
+bool sb_number_parse(double *out, const char *text) {
+  double value;
+  size_t length = sb_number_read(&value, text);
+  if (length == 0 || text[length] != '\0') {
+    return false;
+  }
+  *out = value;
+  return true;
+}
+
 // Splits "d.ddde[+-]xx" into digits without trailing zeros and the decimal exponent.
 static int split(char digits[SB_NUMBER_SIZE], const char *scientific) {
   int count = 0;

@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <glib.h>
+#include <poll.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -16,19 +17,56 @@ static void add_too_large(GPtrArray *issues, const char *shown, size_t bytes_max
   g_free(allowed);
 }
 
+static char *add_errno(GPtrArray *issues, const char *shown) {
+  sb_issues_add(issues, shown, 0, NULL, NULL, "%s", g_strerror(errno));
+  return NULL;
+}
+
+char *sb_reader_load_stream(size_t *length, int fd, const char *shown, size_t bytes_max,
+                            GPtrArray *issues) {
+  struct stat info;
+  bool file = fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
+  size_t room = file && (guint64)info.st_size <= bytes_max ? (size_t)info.st_size + 2 : 4096;
+  size_t count = 0;
+  char *text = g_malloc(room);
+  // One byte more than allowed shows that there is more.
+  while (count <= bytes_max) {
+    if (count + 1 == room) {
+      room = MIN(2 * room, bytes_max + 2);
+      text = g_realloc(text, room);
+    }
+    ssize_t got = read(fd, text + count, room - 1 - count);
+    if (got < 0 && errno == EAGAIN) {
+      poll(&(struct pollfd){.fd = fd, .events = POLLIN}, 1, -1);
+    } else if (got < 0 && errno != EINTR) {
+      g_free(text);
+      return add_errno(issues, shown);
+    } else if (got == 0) {
+      break;
+    }
+    count += got > 0 ? (size_t)got : 0;
+  }
+  if (count > bytes_max) {
+    add_too_large(issues, shown, bytes_max, (double)count);
+    g_free(text);
+    return NULL;
+  }
+  text[count] = '\0';
+  *length = count;
+  return text;
+}
+
 char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t bytes_max,
                      GPtrArray *issues) {
   // Not to hang on a pipe, nor to read what is too large anyway.
   int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (fd < 0) {
-    sb_issues_add(issues, shown, 0, NULL, NULL, "%s", g_strerror(errno));
-    return NULL;
-  }
   struct stat info;
   char *text = NULL;
-  size_t room = 0;
+  if (fd < 0) {
+    return add_errno(issues, shown);
+  }
   if (fstat(fd, &info) != 0) {
-    sb_issues_add(issues, shown, 0, NULL, NULL, "%s", g_strerror(errno));
+    add_errno(issues, shown);
   } else if (S_ISDIR(info.st_mode)) {
     sb_issues_add(issues, shown, 0, NULL, NULL, "is a folder, not a file");
   } else if (!S_ISREG(info.st_mode)) {
@@ -36,36 +74,7 @@ char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t
   } else if ((guint64)info.st_size > bytes_max) {
     add_too_large(issues, shown, bytes_max, (double)info.st_size);
   } else {
-    room = (size_t)info.st_size + 2;
-    text = g_malloc(room);
-  }
-  // One byte more than allowed shows that the file has grown meanwhile.
-  size_t count = 0;
-  while (text != NULL && count <= bytes_max) {
-    if (count + 1 == room) {
-      room = MIN(2 * room, bytes_max + 2);
-      text = g_realloc(text, room);
-    }
-    ssize_t got = read(fd, text + count, room - 1 - count);
-    if (got < 0 && errno == EINTR) {
-      continue;
-    }
-    if (got < 0) {
-      sb_issues_add(issues, shown, 0, NULL, NULL, "%s", g_strerror(errno));
-      g_clear_pointer(&text, g_free);
-    }
-    if (got <= 0) {
-      break;
-    }
-    count += (size_t)got;
-  }
-  if (text != NULL && count > bytes_max) {
-    add_too_large(issues, shown, bytes_max, (double)count);
-    g_clear_pointer(&text, g_free);
-  }
-  if (text != NULL) {
-    text[count] = '\0';
-    *length = count;
+    text = sb_reader_load_stream(length, fd, shown, bytes_max, issues);
   }
   close(fd);
   return text;

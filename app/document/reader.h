@@ -19,6 +19,10 @@ typedef struct {
 char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t bytes_max,
                      GPtrArray *issues);
 
+// The same from an open descriptor of any kind to its end; it stays open.
+char *sb_reader_load_stream(size_t *length, int fd, const char *shown, size_t bytes_max,
+                            GPtrArray *issues);
+
 // All groups and keys of `text` in order. Lines that are none, text that is not UTF-8, duplicate
 // keys and groups become issues under the name `shown`; a duplicate is left out. Owned by the
 // caller (g_ptr_array_unref frees the entries).

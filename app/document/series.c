@@ -73,13 +73,11 @@ static bool read_row(Reader *r, char **cells) {
   const char *const allowed[COLUMNS] = {"0 to 1e6 s", force ? "at most 1e5 N either way"
                                                             : "at most 200 mm either way"};
   for (int i = 0; i < COLUMNS; i++) {
-    char *rest;
-    g_strstrip(cells[i]);
-    value[i] = g_ascii_strtod(cells[i], &rest) * r->scale[i];
-    if (cells[i][0] == '\0' || *rest != '\0' || !isfinite(value[i])) {
+    if (!sb_number_parse(&value[i], g_strstrip(cells[i]))) {
       return fail(r, i, NULL, cells[i], "is not a number");
     }
-    if (fabs(value[i]) > limit[i]) {
+    value[i] *= r->scale[i];
+    if (!(fabs(value[i]) <= limit[i])) {
       return fail(r, i, allowed[i], cells[i], "is out of range");
     }
   }

@@ -12,52 +12,121 @@ enum { HEADER = 84, RECORD = 50 };
 // A text facet takes up to about 300 bytes; 512 leaves room for long numbers.
 static const size_t length_max = (size_t)SB_STL_TRIANGLES_MAX * 512;
 
+// Corners as they are read, nine numbers a triangle [m].
 typedef struct {
-  SbStl *out;
-  GArray *vertices, *triangles;
-  GHashTable *index; // corner -> its number + 1
+  GArray *corners;
   double scale;
 } Builder;
 
-typedef struct {
-  double x[3];
-} Corner;
-
-static guint corner_hash(gconstpointer key) {
-  guint64 bits[3], hash = 1469598103934665603u;
-  memcpy(bits, key, sizeof bits);
-  for (int i = 0; i < 3; i++) {
-    hash = (hash ^ bits[i] ^ bits[i] >> 29) * 1099511628211u;
-  }
-  return (guint)(hash ^ hash >> 32);
-}
-
-static gboolean corner_equal(gconstpointer a, gconstpointer b) {
-  return memcmp(a, b, sizeof(Corner)) == 0;
-}
-
-static unsigned vertex_of(Builder *b, const double *x) {
-  Corner corner;
-  for (int k = 0; k < 3; k++) {
-    corner.x[k] = x[k] * b->scale + 0.0; // no negative zero
-  }
-  gpointer found = g_hash_table_lookup(b->index, &corner);
-  if (found != NULL) {
-    return GPOINTER_TO_UINT(found) - 1;
-  }
-  unsigned number = b->vertices->len / 3;
-  g_array_append_vals(b->vertices, corner.x, 3);
-  g_hash_table_insert(b->index, g_memdup2(&corner, sizeof corner), GUINT_TO_POINTER(number + 1));
-  return number;
-}
-
 static void add_triangle(Builder *b, const double corner[9]) {
-  unsigned v[3] = {vertex_of(b, corner), vertex_of(b, corner + 3), vertex_of(b, corner + 6)};
-  if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
-    b->out->dropped++;
-    return;
+  double scaled[9];
+  for (int k = 0; k < 9; k++) {
+    scaled[k] = b->scale * corner[k];
   }
-  g_array_append_vals(b->triangles, v, 3);
+  g_array_append_vals(b->corners, scaled, 9);
+}
+
+// ---- welding ----
+
+// Part of the box's diagonal within which corners are one: what six digits of text leave open.
+static const double WELD = 1e-5;
+
+// Part of the largest coordinate, for a part far from its origin: two units of single precision.
+static const double WELD_SINGLE = 0x1p-22;
+
+// Cells of a grid, hashed: a bucket heads a chain of the vertices in its cells.
+typedef struct {
+  unsigned *head, *next; // vertex + 1, 0 ends
+  guint64 mask;
+  double cell;
+} Grid;
+
+static unsigned *bucket(const Grid *grid, const gint64 at[3]) {
+  guint64 hash = 0;
+  for (int k = 0; k < 3; k++) {
+    hash = (hash ^ (guint64)at[k]) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 32;
+  }
+  return &grid->head[hash & grid->mask];
+}
+
+// The first vertex within `tolerance` of `x` along every axis, or `count`. The first, so that equal
+// corners are always the same vertex.
+static unsigned nearest(const Grid *grid, const double *vertices, unsigned count, const double *x,
+                        double tolerance) {
+  gint64 low[3], high[3], at[3];
+  for (int k = 0; k < 3; k++) {
+    low[k] = (gint64)floor((x[k] - tolerance) / grid->cell);
+    high[k] = (gint64)floor((x[k] + tolerance) / grid->cell);
+  }
+  unsigned best = count;
+  for (at[0] = low[0]; at[0] <= high[0]; at[0]++) {
+    for (at[1] = low[1]; at[1] <= high[1]; at[1]++) {
+      for (at[2] = low[2]; at[2] <= high[2]; at[2]++) {
+        for (unsigned v = *bucket(grid, at); v != 0; v = grid->next[v - 1]) {
+          const double *y = vertices + 3 * (size_t)(v - 1);
+          if (v - 1 < best && fabs(y[0] - x[0]) <= tolerance && fabs(y[1] - x[1]) <= tolerance &&
+              fabs(y[2] - x[2]) <= tolerance) {
+            best = v - 1;
+          }
+        }
+      }
+    }
+  }
+  return best;
+}
+
+static double weld_tolerance(const double *corners, gsize count) {
+  double diagonal = 0.0, largest = 0.0;
+  for (int k = 0; k < 3; k++) {
+    double low = INFINITY, high = -INFINITY;
+    for (gsize i = 0; i < count; i++) {
+      low = fmin(low, corners[3 * i + (gsize)k]);
+      high = fmax(high, corners[3 * i + (gsize)k]);
+    }
+    diagonal = hypot(diagonal, high - low);
+    largest = fmax(largest, fmax(fabs(low), fabs(high)));
+  }
+  return fmax(WELD * diagonal, WELD_SINGLE * largest);
+}
+
+// Corners closer than the tolerance become one vertex, triangles that lose a corner by that are
+// dropped. Vertices are further apart than the tolerance, so that a cell of four holds few, and the
+// time grows with the count alone.
+static void weld(SbStl *out, const double *corners, gsize triangles, double tolerance) {
+  gsize count = 3 * triangles;
+  gsize buckets = 2;
+  while (buckets < 2 * count) {
+    buckets *= 2;
+  }
+  Grid grid = {g_new0(unsigned, buckets), g_new(unsigned, count), buckets - 1,
+               tolerance > 0.0 ? 4.0 * tolerance : 1.0};
+  out->vertices = g_new(double, 3 * count);
+  out->triangles = g_new(unsigned, count);
+  for (gsize t = 0; t < triangles; t++) {
+    unsigned v[3];
+    for (gsize k = 0; k < 3; k++) {
+      const double *x = corners + 9 * t + 3 * k;
+      v[k] = nearest(&grid, out->vertices, (unsigned)out->vertex_count, x, tolerance);
+      if (v[k] == out->vertex_count) {
+        gint64 at[3];
+        for (int j = 0; j < 3; j++) {
+          at[j] = (gint64)floor(x[j] / grid.cell);
+        }
+        unsigned *head = bucket(&grid, at);
+        grid.next[v[k]] = *head;
+        *head = v[k] + 1;
+        memcpy(out->vertices + 3 * out->vertex_count++, x, 3 * sizeof *x);
+      }
+    }
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
+      out->dropped++;
+    } else {
+      memcpy(out->triangles + 3 * out->triangle_count++, v, sizeof v);
+    }
+  }
+  g_free(grid.head);
+  g_free(grid.next);
 }
 
 // ---- binary ----
@@ -95,21 +164,20 @@ typedef struct {
   int line;
 } Text;
 
-// Next word into `word`, cut at its size; FALSE at the end.
-static gboolean next_word(Text *t, char *word, gsize size) {
+// Next word into `word`, cut at its size; its whole length, 0 at the end.
+static gsize next_word(Text *t, char *word, gsize size) {
   while (t->at < t->end && g_ascii_isspace(*t->at)) {
     t->line += *t->at == '\n';
     t->at++;
   }
-  gsize n = 0;
+  const char *start = t->at;
   while (t->at < t->end && !g_ascii_isspace(*t->at)) {
-    if (n + 1 < size) {
-      word[n++] = *t->at;
-    }
     t->at++;
   }
-  word[n] = '\0';
-  return n > 0;
+  gsize length = (gsize)(t->at - start), kept = MIN(length, size - 1);
+  memcpy(word, start, kept);
+  word[kept] = '\0';
+  return length;
 }
 
 static void skip_line(Text *t) {
@@ -120,7 +188,7 @@ static void skip_line(Text *t) {
 
 static gboolean expect(Text *t, const char *wanted, const char *name, GError **error) {
   char word[64];
-  if (!next_word(t, word, sizeof word) || g_ascii_strcasecmp(word, wanted) != 0) {
+  if (next_word(t, word, sizeof word) == 0 || g_ascii_strcasecmp(word, wanted) != 0) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s:%d: '%s' expected, not '%s'", name,
                 t->line, wanted, word);
     return FALSE;
@@ -130,12 +198,12 @@ static gboolean expect(Text *t, const char *wanted, const char *name, GError **e
 
 static gboolean numbers(Text *t, double *out, const char *name, GError **error) {
   for (int k = 0; k < 3; k++) {
-    char word[64], *rest;
-    gboolean some = next_word(t, word, sizeof word);
-    out[k] = some ? g_ascii_strtod(word, &rest) : NAN;
-    if (!some || *rest != '\0' || !isfinite(out[k])) {
-      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s:%d: a number expected, not '%s'",
-                  name, t->line, word);
+    char word[SB_NUMBER_LENGTH_MAX + 1];
+    gsize length = next_word(t, word, sizeof word);
+    if (length >= sizeof word || !sb_number_parse(&out[k], word)) {
+      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                  "%s:%d: a number expected, not '%.40s'%s", name, t->line, word,
+                  length >= sizeof word ? "... (too long)" : "");
       return FALSE;
     }
   }
@@ -166,7 +234,7 @@ static gboolean read_text(Builder *b, const char *data, gsize length, const char
   char word[64];
   gboolean inside = FALSE;
   gsize count = 0;
-  while (next_word(&t, word, sizeof word)) {
+  while (next_word(&t, word, sizeof word) > 0) {
     if (!inside && g_ascii_strcasecmp(word, "solid") == 0) {
       skip_line(&t); // its name
       inside = TRUE;
@@ -226,23 +294,24 @@ gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *un
                 SB_STL_TRIANGLES_MAX);
     return FALSE;
   }
-  Builder b = {.out = out,
-               .vertices = g_array_new(FALSE, FALSE, sizeof(double)),
-               .triangles = g_array_new(FALSE, FALSE, sizeof(unsigned)),
-               .index = g_hash_table_new_full(corner_hash, corner_equal, g_free, NULL),
-               .scale = scale};
+  Builder b = {g_array_new(FALSE, FALSE, sizeof(double)), scale};
   out->text = text;
   gboolean ok =
       binary ? read_binary(&b, data, count, name, error) : read_text(&b, data, length, name, error);
-  if (ok && b.triangles->len == 0) {
+  const double *corners = (const double *)(const void *)b.corners->data;
+  double tolerance = weld_tolerance(corners, b.corners->len / 3);
+  if (ok && b.corners->len > 0 && !isfinite(tolerance)) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: has corners too far out", name);
+    ok = FALSE;
+  }
+  if (ok) {
+    weld(out, corners, b.corners->len / 9, tolerance);
+  }
+  if (ok && out->triangle_count == 0) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: no triangles", name);
     ok = FALSE;
   }
-  g_hash_table_unref(b.index);
-  out->vertex_count = b.vertices->len / 3;
-  out->triangle_count = b.triangles->len / 3;
-  out->vertices = (double *)(void *)g_array_free(b.vertices, FALSE);
-  out->triangles = (unsigned *)(void *)g_array_free(b.triangles, FALSE);
+  g_array_unref(b.corners);
   if (!ok) {
     sb_stl_clear(out);
   }

@@ -1,7 +1,9 @@
 // Triangle meshes from STL files, binary or text, for the mass of a part (engine/motion/solid.h).
 //
-// The format knows no unit: the reader asks for one. Corners with the same coordinates become one
-// vertex, since STL repeats them; triangles that lose a corner by that are left out and counted.
+// The format knows no unit: the reader asks for one. STL repeats its corners, and rounds each time:
+// corners that differ by at most 1e-5 of the diagonal of the part's box along every axis (or by two
+// units of single precision, far from the origin) become one vertex, the first of them; triangles
+// that lose a corner by that are left out and counted. Volume and moments change by as much.
 // Files are bounded in size, text is read independently of locale, and a file that is not STL, is
 // cut short or holds anything but finite numbers is refused with the place.
 #pragma once

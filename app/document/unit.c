@@ -5,6 +5,7 @@
 #include "app/document/unit.h"
 
 #include "app/document/issue.h"
+#include "app/document/nearest.h"
 
 #include <locale.h>
 #include <math.h>
@@ -20,6 +21,7 @@ typedef enum { SCALE_OK, SCALE_UNKNOWN, SCALE_WRONG, SCALE_NO_DATABASE } ScaleSt
 typedef struct {
   ScaleStatus status;
   double scale; // SI value of one unit
+  double zero;  // SI value of none: other than 0 for points of a scale of temperature only
 } Scale;
 
 static GMutex lock;
@@ -50,10 +52,10 @@ static Scale ask(const char *unit, const char *si) {
     ut_set_error_message_handler(ut_ignore);
     units = ut_read_xml(NULL);
     if (units == NULL) {
-      return (Scale){SCALE_NO_DATABASE, 0};
+      return (Scale){SCALE_NO_DATABASE, 0, 0};
     }
   }
-  Scale result = {SCALE_UNKNOWN, 0};
+  Scale result = {SCALE_UNKNOWN, 0, 0};
   ut_unit *from = ut_parse(units, unit, UT_UTF8);
   ut_unit *to = ut_parse(units, si, UT_UTF8);
   if (from != NULL && to != NULL) {
@@ -62,12 +64,15 @@ static Scale ask(const char *unit, const char *si) {
       converter = ut_get_converter(from, to);
     }
     result.status = SCALE_WRONG;
-    // Only units that are a plain multiple: no offsets, no logarithms, no reciprocal conversion.
-    if (converter != NULL && cv_convert_double(converter, 0) == 0) {
-      double one = cv_convert_double(converter, 1);
-      double two = cv_convert_double(converter, 2);
-      if (isfinite(one) && one > 0 && fabs(two - 2 * one) <= 1e-12 * two) {
-        result = (Scale){SCALE_OK, one};
+    // Only units that are a plain multiple, and scales of temperature: no logarithms, no reciprocal
+    // conversion.
+    if (converter != NULL) {
+      double zero = cv_convert_double(converter, 0);
+      double one = cv_convert_double(converter, 1) - zero;
+      double two = cv_convert_double(converter, 2) - zero;
+      bool linear = isfinite(one) && one > 0 && fabs(two - 2 * one) <= 1e-12 * (two + fabs(zero));
+      if (linear && (zero == 0 || strcmp(si, "K") == 0)) {
+        result = (Scale){SCALE_OK, zero != 0 && fabs(one - 1) < 1e-12 ? 1 : one, zero};
       }
     }
     cv_free(converter);
@@ -81,9 +86,11 @@ static Scale find_scale(const char *unit, const char *si) {
   enum { REMEMBERED_MAX = 512, UNIT_LENGTH_MAX = 40 };
   if (*unit == '\0') {
     unit = "1";
+  } else if (strcmp(unit, "deg") == 0) {
+    unit = "degree"; // which udunits knows by that name and as a sign only
   }
   if (strlen(unit) > UNIT_LENGTH_MAX || !unit_is_plain(strcmp(unit, "1") == 0 ? "" : unit)) {
-    return (Scale){SCALE_UNKNOWN, 0};
+    return (Scale){SCALE_UNKNOWN, 0, 0};
   }
   static GHashTable *remembered = NULL;
   char *pair = g_strdup_printf("%s|%s", unit, si);
@@ -114,55 +121,24 @@ static Scale find_scale(const char *unit, const char *si) {
   return scale;
 }
 
-// True and the exponent k if `scale` is 10^k.
-static bool is_power_of_ten(double scale, int *power) {
-  int k = (int)lround(log10(scale));
+// True and the exponent k if a unit is 10^k of the SI unit.
+static bool is_power_of_ten(Scale scale, int *power) {
+  int k = (int)lround(log10(scale.scale));
   *power = k;
-  return fabs(scale - pow(10, k)) <= 1e-13 * scale;
+  return scale.zero == 0 && fabs(scale.scale - pow(10, k)) <= 1e-13 * scale.scale;
+}
+
+bool sb_quantity_is_point(const char *shown) {
+  return strcmp(shown, "°C") == 0;
 }
 
 // number x scale, the scale taken as a division where its inverse is whole: 20 mm/min is 20/60000.
-static double apply_scale(double number, double scale) {
-  double inverse = 1 / scale;
+static double apply_scale(double number, Scale scale) {
+  double inverse = 1 / scale.scale;
   if (inverse > 1 && inverse < 1e15 && fabs(inverse - round(inverse)) <= 1e-12 * inverse) {
-    return number / round(inverse);
+    return number / round(inverse) + scale.zero;
   }
-  return number * scale;
-}
-
-// The extent of a decimal number at the start of `text`: its length, and where its exponent starts
-// (the end if it has none). 0 if there is no number.
-static size_t scan_number(const char *text, size_t *exponent_at) {
-  const char *c = text;
-  if (*c == '+' || *c == '-') {
-    c++;
-  }
-  int digits = 0;
-  for (; g_ascii_isdigit(*c); c++) {
-    digits++;
-  }
-  if (*c == '.') {
-    for (c++; g_ascii_isdigit(*c); c++) {
-      digits++;
-    }
-  }
-  if (digits == 0) {
-    return 0;
-  }
-  *exponent_at = (size_t)(c - text);
-  if (*c == 'e' || *c == 'E') {
-    const char *e = c + 1;
-    if (*e == '+' || *e == '-') {
-      e++;
-    }
-    if (g_ascii_isdigit(*e)) {
-      while (g_ascii_isdigit(*e)) {
-        e++;
-      }
-      c = e;
-    }
-  }
-  return (size_t)(c - text);
+  return number * scale.scale + scale.zero;
 }
 
 // The number at text[0..length) times 10^power, rounded once.
@@ -193,15 +169,14 @@ static bool fail(GError **error, const char *format, ...) {
 
 bool sb_quantity_parse(double *out, const char *text, const char *si, const char *shown,
                        GError **error) {
-  enum { LENGTH_MAX = 200 };
   bool plain = strcmp(si, "1") == 0;
-  if (strlen(text) > LENGTH_MAX) {
+  if (strlen(text) > SB_NUMBER_LENGTH_MAX) {
     return fail(error, "\"%.20s...\" is too long for a value", text);
   }
   char *copy = g_strstrip(g_strdup(text));
   bool good = false;
   size_t exponent_at = 0;
-  size_t length = scan_number(copy, &exponent_at);
+  size_t length = sb_number_scan(copy, &exponent_at);
   if (length == 0) {
     const char *word = copy + (*copy == '-' || *copy == '+');
     bool infinite =
@@ -241,6 +216,10 @@ bool sb_quantity_parse(double *out, const char *text, const char *si, const char
     fail(error, "the units database of udunits-2 is missing");
     goto done;
   }
+  if (scale.status == SCALE_OK && scale.zero != 0 && !sb_quantity_is_point(shown)) {
+    fail(error, "\"%s\" is a point of a scale, this is a difference, expected K", unit);
+    goto done;
+  }
   if (scale.status != SCALE_OK) {
     const char *what =
         scale.status == SCALE_UNKNOWN ? "is not a unit" : "is a unit of another kind";
@@ -252,9 +231,9 @@ bool sb_quantity_parse(double *out, const char *text, const char *si, const char
     goto done;
   }
   int power = 0;
-  double value = is_power_of_ten(scale.scale, &power)
+  double value = is_power_of_ten(scale, &power)
                      ? read_decimal(copy, exponent_at, length, power)
-                     : apply_scale(read_decimal(copy, exponent_at, length, 0), scale.scale);
+                     : apply_scale(read_decimal(copy, exponent_at, length, 0), scale);
   if (!isfinite(value)) {
     fail(error, "\"%s\" is not a finite number", copy);
     goto done;
@@ -271,6 +250,7 @@ double sb_quantity_to_shown(double value, const char *si, const char *shown) {
   if (scale.status != SCALE_OK) {
     return value;
   }
+  value -= scale.zero;
   double inverse = 1 / scale.scale;
   if (inverse > 1 && fabs(inverse - round(inverse)) <= 1e-12 * inverse) {
     return value * round(inverse);
@@ -284,16 +264,16 @@ double sb_quantity_from_shown(double number, const char *si, const char *shown) 
     return number;
   }
   int power = 0;
-  if (is_power_of_ten(scale.scale, &power)) {
+  if (is_power_of_ten(scale, &power)) {
     char digits[SB_NUMBER_SIZE];
     return g_ascii_strtod(sb_number_format_shifted(digits, number, -power), NULL);
   }
-  return apply_scale(number, scale.scale);
+  return apply_scale(number, scale);
 }
 
 // Fewest digits of value / scale that come back as `value`; false if no 17 digits do.
-static bool format_scaled(char text[SB_NUMBER_SIZE], double value, double scale) {
-  double near = value / scale;
+static bool format_scaled(char text[SB_NUMBER_SIZE], double value, Scale scale) {
+  double near = (value - scale.zero) / scale.scale;
   for (int digits = 1; digits <= 17; digits++) {
     sb_number_round(text, near, digits);
     if (apply_scale(g_ascii_strtod(text, NULL), scale) == value) {
@@ -318,9 +298,9 @@ char *sb_quantity_format(double value, const char *si, const char *shown) {
   if (!isfinite(value) || scale.status != SCALE_OK) {
     sb_number_format(text, value);
     shown = si;
-  } else if (is_power_of_ten(scale.scale, &power)) {
+  } else if (is_power_of_ten(scale, &power)) {
     sb_number_format_shifted(text, value, power);
-  } else if (!format_scaled(text, value, scale.scale)) {
+  } else if (!format_scaled(text, value, scale)) {
     sb_number_format(text, value);
     shown = si;
   }
@@ -352,6 +332,13 @@ char *sb_param_format(SbParamId id, double value) {
   return g_string_free(list, FALSE);
 }
 
+static bool fail_name(GError **error, const SbParam *param, const char *name) {
+  SbNearest nearest = sb_nearest(name);
+  sb_nearest_try_list(&nearest, param->choices);
+  g_autofree char *hint = sb_nearest_hint(&nearest);
+  return fail(error, "\"%.60s\" is not one of the names%s", name, hint);
+}
+
 // Bit mask of a list "hysteresis;profiles".
 static bool parse_flags(double *out, const SbParam *param, const char *text, GError **error) {
   unsigned mask = 0;
@@ -364,7 +351,7 @@ static bool parse_flags(double *out, const SbParam *param, const char *text, GEr
     }
     int index = sb_param_choice(param, *name, strlen(*name));
     if (index < 0) {
-      good = fail(error, "\"%.60s\" is not one of the names", *name);
+      good = fail_name(error, param, *name);
     } else {
       mask |= 1u << index;
     }
@@ -385,7 +372,7 @@ bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error)
   if (param->kind == SB_PARAM_CHOICE) {
     char *name = g_strstrip(g_strdup(text));
     int index = sb_param_choice(param, name, strlen(name));
-    bool good = index >= 0 || fail(error, "\"%.60s\" is not one of the names", name);
+    bool good = index >= 0 || fail_name(error, param, name);
     g_free(name);
     if (good) {
       *out = index;

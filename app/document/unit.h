@@ -2,8 +2,9 @@
 //
 // "1.61mm", "1.61 mm", "0.211mPa.s", "20 mm/min", "2.8 1/GPa" and "1 µm" are read by udunits-2; a
 // value whose unit is a power of ten of the SI unit is scaled in decimal, so that "1.61 mm" is
-// exactly the double 1.61e-3. A bare number is an error unless the quantity has no unit. No locale
-// plays a role. Safe to call from any thread.
+// exactly the double 1.61e-3. A bare number is an error unless the quantity has no unit. A quantity
+// that people read in °C is a point of the scale of temperature and takes °C, degC, K and the like;
+// one in K is a difference. No locale plays a role. Safe to call from any thread.
 #pragma once
 
 #include "app/document/number.h"
@@ -27,6 +28,9 @@ GQuark sb_app_error_quark(void);
 // expected unit; *out is untouched then.
 bool sb_quantity_parse(double *out, const char *text, const char *si, const char *shown,
                        GError **error);
+
+// Whether the unit that people read makes a quantity a point of a scale, not a difference.
+bool sb_quantity_is_point(const char *shown);
 
 // `value` [SI] in unit `shown` with the fewest digits that read back to the same double; the number
 // alone if `shown` is empty. Falls back to the SI unit where `shown` cannot express the value

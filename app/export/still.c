@@ -6,7 +6,6 @@
 #include "app/export/still.h"
 
 #include "app/document/atomic.h"
-#include "app/document/reader.h"
 #include "engine/sealbench.h"
 
 #include <cairo-pdf.h>
@@ -315,23 +314,43 @@ static void png_take_bytes(png_structp png, png_bytep data, png_size_t length) {
   bytes->left -= length;
 }
 
-// Whether every chunk before the pixels is as long as it says: libpng takes memory for that, up to
-// gigabytes, before it looks for the bytes.
-static bool chunks_are_whole(const guchar *data, size_t length) {
+// A picture of the same head and, of its other chunks before the pixels, only the first text under
+// our key: libpng would unpack any number of others, each up to its limit. NULL if a chunk is
+// longer than the file: libpng takes memory for that, up to gigabytes, before it looks for the
+// bytes.
+static GByteArray *keep_scene_chunk(const guchar *data, size_t length) {
   enum { SIGNATURE = 8, FRAME = 12 };
-  for (size_t at = SIGNATURE; at + FRAME <= length && memcmp(data + at + 4, "IDAT", 4) != 0;) {
+  GByteArray *kept = g_byte_array_new();
+  g_byte_array_append(kept, data, (guint)MIN(length, SIGNATURE));
+  bool found = false;
+  for (size_t at = SIGNATURE; at + FRAME <= length;) {
+    const guchar *name = data + at + 4;
     size_t chunk = (size_t)data[at] << 24 | (size_t)data[at + 1] << 16 | (size_t)data[at + 2] << 8 |
                    data[at + 3];
+    if (memcmp(name, "IDAT", 4) == 0) {
+      g_byte_array_append(kept, data + at, FRAME - 4); // where libpng stops
+      break;
+    }
     if (chunk > length - at - FRAME) {
-      return false;
+      g_byte_array_unref(kept);
+      return NULL;
+    }
+    bool text = memcmp(name, "iTXt", 4) == 0 || memcmp(name, "tEXt", 4) == 0 ||
+                memcmp(name, "zTXt", 4) == 0;
+    bool ours = text && !found && chunk >= sizeof SCENE_KEY &&
+                memcmp(name + 4, SCENE_KEY, sizeof SCENE_KEY) == 0;
+    if (ours || memcmp(name, "IHDR", 4) == 0 || memcmp(name, "PLTE", 4) == 0) {
+      found = found || ours;
+      g_byte_array_append(kept, data + at, (guint)(chunk + FRAME));
     }
     at += chunk + FRAME;
   }
-  return true;
+  return kept;
 }
 
 char *sb_still_find_scene(const void *data, size_t length, GError **error) {
-  if (!chunks_are_whole(data, length)) {
+  GByteArray *kept = keep_scene_chunk(data, length);
+  if (kept == NULL) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "not a readable PNG: it is cut off");
     return NULL;
   }
@@ -340,15 +359,17 @@ char *sb_still_find_scene(const void *data, size_t length, GError **error) {
   png_infop info = png ? png_create_info_struct(png) : NULL;
   if (!info) {
     png_destroy_read_struct(&png, NULL, NULL);
+    g_byte_array_unref(kept);
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "no memory for the picture");
     return NULL;
   }
   if (setjmp(failure.back)) {
     png_destroy_read_struct(&png, &info, NULL);
+    g_byte_array_unref(kept);
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "not a readable PNG: %s", failure.text);
     return NULL;
   }
-  PngBytes bytes = {data, length};
+  PngBytes bytes = {kept->data, kept->len};
   png_set_read_fn(png, &bytes, png_take_bytes);
   png_set_chunk_malloc_max(png, 4000000);
   png_read_info(png, info);
@@ -356,35 +377,13 @@ char *sb_still_find_scene(const void *data, size_t length, GError **error) {
   int count = 0;
   char *found = NULL;
   png_get_text(png, info, &text, &count);
-  for (int i = 0; i < count && !found; i++) {
-    if (strcmp(text[i].key, SCENE_KEY) == 0 && text[i].text) {
-      found = g_strdup(text[i].text);
-    }
+  if (count > 0 && text[0].text) {
+    found = g_strdup(text[0].text);
   }
   png_destroy_read_struct(&png, &info, NULL);
+  g_byte_array_unref(kept);
   if (!found) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "this PNG holds no scene");
   }
-  return found;
-}
-
-char *sb_still_read_scene(const char *path, GError **error) {
-  GPtrArray *issues = sb_issues_new();
-  size_t length = 0;
-  char *data = sb_reader_load(&length, path, path, SB_STILL_BYTES_MAX, issues);
-  char *found = NULL;
-  if (data == NULL) {
-    char *line = sb_issue_line(issues->pdata[0]);
-    g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_IO, line);
-    g_free(line);
-  } else {
-    GError *reason = NULL;
-    found = sb_still_find_scene(data, length, &reason);
-    if (found == NULL) {
-      g_propagate_prefixed_error(error, reason, "%s: ", path);
-    }
-  }
-  g_ptr_array_unref(issues);
-  g_free(data);
   return found;
 }

@@ -26,10 +26,9 @@ typedef struct {
 // earlier file under that name stays intact then.
 bool sb_still_write(const SbStill *still, const char *path, GError **error);
 
-// The scene's text in a PNG that sb_still_write() made, of at most SB_STILL_BYTES_MAX; owned by the
-// caller. NULL with an error if there is none.
+// Largest PNG that is looked into.
 #define SB_STILL_BYTES_MAX ((size_t)256 << 20)
-char *sb_still_read_scene(const char *path, GError **error);
 
-// The same from memory.
+// The scene's text in a PNG that sb_still_write() made; owned by the caller. NULL with an error if
+// there is none.
 char *sb_still_find_scene(const void *data, size_t length, GError **error);

@@ -29,8 +29,9 @@ struct SbRunner {
   pthread_mutex_t mutex; // guards what follows
   pthread_cond_t wake;
   bool quit;
-  bool waiting; // the mailbox is full
-  SbModel model;
+  bool waiting;        // the mailbox is full
+  SbModel model;       // asked for
+  SbModel computed;    // of the thread alone
   unsigned ticket;     // last one given out
   unsigned finished;   // last one that ended or was dropped
   SbRunHandle *latest; // one reference
@@ -148,6 +149,7 @@ static void *work(void *data) {
   if (plain != (locale_t)0) {
     uselocale(plain);
   }
+  SbModel *model = &runner->computed;
   pthread_mutex_lock(&runner->mutex);
   while (!runner->quit) {
     if (!runner->waiting) {
@@ -155,10 +157,10 @@ static void *work(void *data) {
       continue;
     }
     runner->waiting = false;
-    SbModel model = runner->model;
+    *model = runner->model;
     unsigned ticket = runner->ticket;
     pthread_mutex_unlock(&runner->mutex);
-    compute(runner, &model, ticket);
+    compute(runner, model, ticket);
     pthread_mutex_lock(&runner->mutex);
     runner->finished = ticket;
     pthread_mutex_unlock(&runner->mutex);

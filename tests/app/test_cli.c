@@ -298,9 +298,14 @@ static void test_film_options(void) {
   g_assert_cmpstr(result.err, ==, "");
   g_assert_cmpint(result.code, ==, 0);
   cli_clear(&result);
-  static const char *const bad[] = {
-      "",        "x,p\n0,1\n", "0,1\n0,2\n1,1\n", "0 1\n1 nan\n2 3\n", "0,1,2\n1,2,3\n2,3,4\n",
-      "\xff\xfe"};
+  static const char *const bad[] = {"",
+                                    "x,p\n0,1\n",
+                                    "0,1\n0,2\n1,1\n",
+                                    "0 1\n1 nan\n2 3\n",
+                                    "0,1,2\n1,2,3\n2,3,4\n",
+                                    "0,1\n0x1,2\n2,1\n",
+                                    "0,1\n1-2\n2,1\n",
+                                    "\xff\xfe"};
   for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
     g_assert_true(g_file_set_contents(path, bad[i], -1, NULL));
     result = CLI(CONTACT, "--model", "inverse", "--dry-pressure", path);

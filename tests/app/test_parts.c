@@ -203,6 +203,17 @@ static void test_mesh(void) {
   assert_relative(sb_document_value(document, SB_P_PART_STEM_TOP_MASS), m, 1e-10);
   assert_relative(sb_document_value(document, SB_P_PART_STEM_TOP_INERTIA_AXIAL), m * 8e-6 / 12,
                   1e-10);
+  // By a relative path: the same, and the text of the whole stands alone anywhere.
+  g_autofree char *before = g_get_current_dir();
+  g_assert_cmpint(g_chdir(folder), ==, 0);
+  g_autoptr(GPtrArray) none = sb_issues_new();
+  SbDocument *near = sb_document_load("a.valve", none);
+  g_assert_cmpuint(none->len, ==, 0);
+  g_autofree char *flat = sb_document_to_flat_text(near);
+  g_assert_cmpint(g_chdir(before), ==, 0);
+  g_autofree char *line = g_strdup_printf("stl = %s\n", mesh);
+  g_assert_nonnull(strstr(flat, line));
+  sb_document_free(near);
   g_remove(mesh);
   g_remove(valve);
   g_rmdir(folder);
@@ -220,6 +231,7 @@ static void test_refused(void) {
       {"profile = mm 0,1 5,1 0,1\n", "profile", ""},
       {"profile = 0,1 5,1 5,2\n", "profile", "starts with the unit"},
       {"profile = mm 0,1 5;1 5,2\n", "profile", "point 2"},
+      {"profile = mm 0,1 0x5,1 5,2\n", "profile", "point 2"},
       {"profile = mm 10,0 10,2 0,2 0,0\nland = 20 mm .. 30 mm\n", "land", "does not reach"},
       {"profile = mm 10,0 10,2 0,2 0,0\nland = 20 mm\n", "land", "no stretch"},
       {"stl = nowhere.stl\nunit = mm\n", "stl", "nowhere.stl"},

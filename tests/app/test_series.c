@@ -40,6 +40,7 @@ static void test_refused(void) {
       {"time [s],speed [m/s]\n0,0\n1,1\n",
        "x.csv: line 1: column 2: \"speed\" is an unknown quantity"},
       {"time [s],force [N]\n0,0\n1,zwei\n", "x.csv: line 3: column 2: \"zwei\" is not a number"},
+      {"time [s],force [N]\n0,0\n1,0x10\n", "x.csv: line 3: column 2: \"0x10\" is not a number"},
       {"time [s],force [N]\n0,0\n1,inf\n", "x.csv: line 3: column 2: \"inf\" is not a number"},
       {"time [s],force [N]\n0,0\n0,1\n",
        "x.csv: line 3: column 1 (time): \"0\" does not come after"},

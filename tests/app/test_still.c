@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <gio/gio.h>
 #include <glib.h>
 #include <glib/gstdio.h>
 #include <math.h>
@@ -54,6 +55,13 @@ static void assert_written(bool good, GError *error) {
   g_assert_true(good);
 }
 
+static char *read_scene(const char *path, GError **error) {
+  g_autofree char *data = NULL;
+  gsize length = 0;
+  g_assert_true(g_file_get_contents(path, &data, &length, NULL));
+  return sb_still_find_scene(data, length, error);
+}
+
 static void test_png(void) {
   g_autofree char *path = path_of("loop.png");
   GError *error = NULL;
@@ -67,7 +75,7 @@ static void test_png(void) {
   g_assert_cmpint(cairo_image_surface_get_height(back), ==, 960);
   cairo_surface_destroy(back);
   // The scene comes back byte for byte.
-  g_autofree char *text = sb_still_read_scene(path, &error);
+  g_autofree char *text = read_scene(path, &error);
   g_assert_no_error(error);
   g_assert_cmpstr(text, ==, scene);
   // The same run gives the same bytes.
@@ -184,9 +192,61 @@ static void test_bad_requests(void) {
   g_clear_error(&error);
   g_autofree char *path = path_of("plain.png");
   g_assert_true(g_file_set_contents(path, "not a png", -1, NULL));
-  g_assert_null(sb_still_read_scene(path, &error));
+  g_assert_null(read_scene(path, &error));
   g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
   g_clear_error(&error);
+}
+
+// The check sum of a chunk's name and data.
+static guint32 crc(const guint8 *data, size_t size) {
+  guint32 sum = 0xffffffffu;
+  for (size_t i = 0; i < size; i++) {
+    sum ^= data[i];
+    for (int k = 0; k < 8; k++) {
+      sum = sum >> 1 ^ (sum & 1 ? 0xedb88320u : 0);
+    }
+  }
+  return ~sum;
+}
+
+// A picture whose other chunks unpack to gigabytes costs no more than the file: they are not read.
+static void test_bombs(void) {
+  g_autofree char *path = path_of("bomb.png");
+  SbRenderOptions options = options_for("hysteresis");
+  GError *error = NULL;
+  assert_written(sb_render_still(run, &options, path, &error), error);
+  g_autofree char *picture = NULL;
+  gsize length = 0;
+  g_assert_true(g_file_get_contents(path, &picture, &length, NULL));
+  // zTXt, key "a", of 3.9 MB of zeros, below libpng's limit for one chunk; 900 of them.
+  enum { ZEROS = 3900000, BOMBS = 900, HEAD = 33 };
+  g_autoptr(GZlibCompressor) deflate = g_zlib_compressor_new(G_ZLIB_COMPRESSOR_FORMAT_ZLIB, 9);
+  g_autofree guint8 *zeros = g_malloc0(ZEROS);
+  guint8 chunk[8192] = "....zTXta\0";
+  gsize read = 0, packed = 0;
+  g_assert_cmpint(g_converter_convert(G_CONVERTER(deflate), zeros, ZEROS, chunk + 11,
+                                      sizeof chunk - 15, G_CONVERTER_INPUT_AT_END, &read, &packed,
+                                      NULL),
+                  ==, G_CONVERTER_FINISHED);
+  gsize size = packed + 3;
+  guint32 words[2] = {GUINT32_TO_BE((guint32)size), GUINT32_TO_BE(crc(chunk + 4, size + 4))};
+  memcpy(chunk, &words[0], 4);
+  memcpy(chunk + 8 + size, &words[1], 4);
+  GByteArray *bytes = g_byte_array_new();
+  g_byte_array_append(bytes, (guint8 *)picture, HEAD);
+  for (int i = 0; i < BOMBS; i++) {
+    g_byte_array_append(bytes, chunk, (guint)(size + 12));
+  }
+  g_byte_array_append(bytes, (guint8 *)picture + HEAD, (guint)(length - HEAD));
+  struct rusage before, after;
+  getrusage(RUSAGE_SELF, &before);
+  g_autofree char *text = sb_still_find_scene(bytes->data, bytes->len, &error);
+  getrusage(RUSAGE_SELF, &after);
+  g_assert_no_error(error);
+  g_assert_cmpstr(text, ==, scene);
+  g_assert_cmpint(after.ru_maxrss - before.ru_maxrss, <, 100 << 10);
+  g_assert_cmpint(after.ru_utime.tv_sec - before.ru_utime.tv_sec, <=, 1);
+  g_byte_array_unref(bytes);
 }
 
 // A stale run says so on the page and in the file.
@@ -246,6 +306,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/still/vector", test_vector);
   g_test_add_func("/still/disk-full", test_disk_full);
   g_test_add_func("/still/bad-requests", test_bad_requests);
+  g_test_add_func("/still/bombs", test_bombs);
   g_test_add_func("/still/stale", test_stale);
   g_test_add_func("/still/instants", test_instants);
   g_test_add_func("/still/sizes", test_sizes);

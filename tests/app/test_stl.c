@@ -162,10 +162,111 @@ static void test_dropped(void) {
   g_string_free(text, TRUE);
 }
 
+// Corners that the writer rounded each in its own way are one vertex, wherever the part lies; what
+// is further apart than the tolerance stays apart.
+static void test_rounded(void) {
+  GRand *random = g_rand_new_with_seed(8);
+  for (int far = 0; far < 2; far++) {
+    for (int round = 0; round < 20; round++) {
+      GString *s = g_string_new("solid\n");
+      double away = far ? 2000.0 : 0.0, width = far ? 1e-4 : 2e-5;
+      for (int f = 0; f < 12; f++) {
+        g_string_append(s, "facet normal 0 0 0 outer loop\n");
+        for (int k = 0; k < 3; k++) {
+          const double *c = corner[face[f][k]];
+          g_string_append(s, "vertex");
+          for (int j = 0; j < 3; j++) {
+            char digits[G_ASCII_DTOSTR_BUF_SIZE];
+            double x = c[j] + away + width * g_rand_double_range(random, -0.5, 0.5);
+            g_string_append_printf(s, " %s", g_ascii_dtostr(digits, sizeof digits, x));
+          }
+          g_string_append_c(s, '\n');
+        }
+        g_string_append(s, "endloop endfacet\n");
+      }
+      g_string_append(s, "endsolid\n");
+      SbStl stl;
+      GError *error = NULL;
+      g_assert_true(sb_stl_parse(&stl, s->str, s->len, "mm", "box.stl", &error));
+      g_assert_cmpuint(stl.vertex_count, ==, 8);
+      g_assert_cmpuint(stl.triangle_count, ==, 12);
+      SbSolid solid;
+      SbReport report = {0};
+      SbStatus status = sb_solid_mesh(&solid, stl.vertices, 8, stl.triangles, 12, 1000.0, &report);
+      g_assert_cmpstr(report.text, ==, "");
+      g_assert_cmpint(status, ==, SB_OK);
+      // Each of six faces moves by at most the rounding: relative, over sides of 2, 3 and 5.
+      g_assert_cmpfloat_with_epsilon(solid.volume / 30e-9, 1,
+                                     width * (1 / 2.0 + 1 / 3.0 + 1 / 5.0));
+      sb_stl_clear(&stl);
+      g_string_free(s, TRUE);
+    }
+  }
+  g_rand_free(random);
+}
+
+// The numbers are decimal, whole and bounded, however long they are.
+static void test_numbers(void) {
+  GString *text = text_box();
+  // 70 characters, of which the exponent is the last: 50, or 5 as the other corners have it.
+  g_string_replace(text, " 5\n",
+                   " 50.00000000000000000000000000000000000000000000000000000000000000e-1\n", 0);
+  SbStl stl;
+  GError *error = NULL;
+  g_assert_true(sb_stl_parse(&stl, text->str, text->len, "mm", "box.stl", &error));
+  weigh(&stl, 1e-3);
+  sb_stl_clear(&stl);
+  g_string_replace(text, "e-1\n",
+                   "0000000000000000000000000000000000000000000000000000000000000000"
+                   "00000000000000000000000000000000000000000000000000000000000000"
+                   "00000000000000e-1\n",
+                   0);
+  refuse(text->str, text->len, "mm", "too long");
+  g_string_free(text, TRUE);
+  static const char *const none[] = {"0x1", "0X1p2", "1e",  "1e+",  "nan",
+                                     "inf", ".",     "1,5", "1e999"};
+  for (size_t i = 0; i < G_N_ELEMENTS(none); i++) {
+    char *wrong = g_strdup_printf("solid x\n facet normal 0 0 %s outer loop", none[i]);
+    refuse(wrong, strlen(wrong), "mm", "a number expected");
+    g_free(wrong);
+  }
+}
+
+// The largest file that is taken, all of whose corners are new or all nearly one, ends in time.
+static void test_time(void) {
+  enum { TRIANGLES = 300000 };
+  for (int kind = 0; kind < 2; kind++) {
+    GByteArray *a = g_byte_array_sized_new(84 + 50 * TRIANGLES);
+    g_byte_array_set_size(a, 84 + 50 * TRIANGLES);
+    memset(a->data, 0, a->len);
+    guint32 n = GUINT32_TO_LE(TRIANGLES);
+    memcpy(a->data + 80, &n, 4);
+    for (guint32 i = 0; i < 9 * TRIANGLES; i++) {
+      // Anywhere in a cube, or in a cell of it beside one far corner.
+      guint32 mixed = (i + 1) * 2654435761u;
+      float x = (float)(mixed >> 8) * 0x1p-24f * (kind == 0 ? 1.0f : 6e-5f);
+      x = i == 0 ? 1.0f : x;
+      memcpy(a->data + 84 + 50 * (i / 9) + 12 + 4 * (i % 9), &x, 4);
+    }
+    SbStl stl;
+    GTimer *timer = g_timer_new();
+    g_assert_true(sb_stl_parse(&stl, (char *)a->data, a->len, "mm", "many.stl", NULL));
+    g_test_message("%u triangles: %zu vertices in %.2f s", TRIANGLES, stl.vertex_count,
+                   g_timer_elapsed(timer, NULL));
+    g_assert_cmpfloat(g_timer_elapsed(timer, NULL), <, 20);
+    g_timer_destroy(timer);
+    sb_stl_clear(&stl);
+    g_byte_array_unref(a);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/document/stl/forms", test_forms);
   g_test_add_func("/document/stl/refused", test_refused);
   g_test_add_func("/document/stl/dropped", test_dropped);
+  g_test_add_func("/document/stl/rounded", test_rounded);
+  g_test_add_func("/document/stl/numbers", test_numbers);
+  g_test_add_func("/document/stl/time", test_time);
   return g_test_run();
 }

@@ -46,6 +46,9 @@ static void test_parse(void) {
       {"0.49", "1", 0.49},
       {".5", "1", 0.5},
       {"12 %", "1", 0.12},
+      {"30 deg", "rad", 30 * G_PI / 180},
+      {"-30°", "rad", -30 * G_PI / 180},
+      {"5 K", "K", 5},
       {"-3", "1", -3},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
@@ -78,7 +81,7 @@ static void test_refused(void) {
       {"1 lg(re 1 mm)", "m", "mm", "is not a unit"},
       {"1.61 mm # nominal", "m", "mm", "line of its own"},
       {"0.3 mm", "1", "", "this value has none"},
-      {"20 degC", "K", "K", "another kind"},
+      {"20 degC", "K", "K", "a difference"},
       {"1 1/m", "m", "mm", "another kind"},
       {"1 \x1b[31mmm", "m", "mm", "is not a unit"},
   };
@@ -143,6 +146,34 @@ static void test_round_trip(void) {
     }
   }
   g_rand_free(random);
+}
+
+// Points of the scale of temperature take °C, degC and K; differences K alone.
+static void test_temperatures(void) {
+  static const char *const same[] = {"20 °C", "20degC", "293.15 K", "+20.0 celsius", "68 degF"};
+  double value = 0;
+  for (size_t i = 0; i < G_N_ELEMENTS(same); i++) {
+    g_assert_true(sb_param_parse(&value, SB_P_STORAGE_TEMPERATURE, same[i], NULL));
+    g_assert_cmpfloat_with_epsilon(value, 293.15, 1e-12 * 293.15);
+  }
+  static const char *const none[] = {"20", "20 C", "20 °C/m", "20 %", "-300 °C"};
+  for (size_t i = 0; i < G_N_ELEMENTS(none); i++) {
+    g_assert_false(sb_param_parse(&value, SB_P_STORAGE_TEMPERATURE, none[i], NULL));
+  }
+  g_assert_true(sb_param_parse(&value, SB_P_RUBBER_WLF_C2, "20 K", NULL));
+  g_assert_cmpfloat(value, ==, 20);
+  GError *error = NULL;
+  g_assert_false(sb_param_parse(&value, SB_P_RUBBER_WLF_C2, "20 °C", &error));
+  g_assert_nonnull(strstr(error->message, "difference"));
+  g_clear_error(&error);
+  for (double t = 150; t <= 450; t += 0.37) {
+    char *text = sb_param_format(SB_P_STORAGE_TEMPERATURE, t);
+    g_assert_true(sb_param_parse(&value, SB_P_STORAGE_TEMPERATURE, text, NULL));
+    g_assert_cmpfloat(value, ==, t);
+    g_free(text);
+  }
+  g_assert_cmpfloat(sb_quantity_to_shown(293.15, "K", "°C"), ==, 20);
+  g_assert_cmpfloat(sb_quantity_from_shown(20, "K", "°C"), ==, 293.15);
 }
 
 static void test_params(void) {
@@ -214,6 +245,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/units/refused", test_refused);
   g_test_add_func("/units/format", test_format);
   g_test_add_func("/units/round-trip", test_round_trip);
+  g_test_add_func("/units/temperatures", test_temperatures);
   g_test_add_func("/units/params", test_params);
   g_test_add_func("/units/numbers", test_numbers);
   // Last: it changes the process' locale.
