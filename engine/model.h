@@ -5,6 +5,7 @@
 
 #include "engine/elastic/gland.h"
 #include "engine/elastic/rubber_time.h"
+#include "engine/limits.h"
 #include "engine/motion/bodies.h"
 #include "engine/motion/life.h"
 #include "engine/motion/outline.h"
@@ -200,6 +201,7 @@ typedef struct {
   SbValveShape shape;       // for the drawing only
   SbValveOutlines outlines; // filled by whoever read the shapes, none otherwise
   SbStudyRange study;
+  SbLimits limits; // filled by whoever read them, none otherwise
 } SbModel;
 
 typedef enum {
