@@ -218,6 +218,9 @@ typedef enum {
 // for the ring...
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems);
 
+// Geometry that is possible and hardly meant, with the key to change and the range that would do.
+void sb_model_remarks(const SbModel *model, SbProblems *out);
+
 // Adds what the storage of the rings has to say about its validity.
 void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings);
 

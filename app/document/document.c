@@ -59,9 +59,8 @@ static const char *meta_value(const GPtrArray *entries, const char *name) {
   return NULL;
 }
 
-// Number of single-character edits between two short names, for "did you mean".
-static int distance(const char *a, const char *b) {
-  enum { LENGTH_MAX = 40 };
+int sb_document_distance(const char *a, const char *b) {
+  enum { LENGTH_MAX = 64 };
   int row[LENGTH_MAX + 1];
   int n = (int)strlen(b);
   if (n > LENGTH_MAX || strlen(a) > LENGTH_MAX) {
@@ -88,7 +87,7 @@ const char *sb_document_nearest_key(const char *key) {
   const char *best = NULL;
   int least = 4;
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
-    int d = distance(key, sb_param((SbParamId)i)->key);
+    int d = sb_document_distance(key, sb_param((SbParamId)i)->key);
     if (d < least) {
       least = d;
       best = sb_param((SbParamId)i)->key;
@@ -120,14 +119,15 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
       continue;
     }
     if (entry->name == NULL) {
-      known_group = is_group(entry->group);
+      known_group = is_group(entry->group) || strcmp(entry->group, SB_LIMITS_GROUP) == 0;
       if (!known_group) {
         sb_issues_add(issues, shown, entry->line, NULL, NULL, "unknown group [%.60s]",
                       entry->group);
       }
       continue;
     }
-    if (!known_group || sb_parts_is_shape_key(entry->group, entry->name)) {
+    if (!known_group || strcmp(entry->group, SB_LIMITS_GROUP) == 0 ||
+        sb_parts_is_shape_key(entry->group, entry->name)) {
       continue;
     }
     char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
@@ -153,6 +153,7 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
     }
     g_free(key);
   }
+  sb_document_read_limits(&document->limits, entries, shown, issues);
   sb_parts_read(document->shapes, params, base, entries, shown, directory, issues, document->notes);
 }
 
@@ -443,23 +444,11 @@ static char *problem_range(const SbProblem *problem, const SbParam *param) {
   return NULL;
 }
 
-bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues) {
-  SbParams params = sb_document_params(document);
-  SbProblems problems;
-  if (sb_model_compile(out, &params, &problems) == SB_OK) {
-    if (document->series != NULL) {
-      out->measured = *document->series;
-    }
-    out->outlines = document->shapes->outlines;
-    if (out->drive == SB_MODEL_DRIVE_MEASURED && out->measured.count == 0) {
-      sb_issues_add(issues, document->path, 0, SB_SERIES_KEY, "a CSV file",
-                    "drive.kind = measured needs the file of a measured series");
-      return false;
-    }
-    return true;
-  }
-  for (size_t i = 0; i < problems.count; i++) {
-    const SbProblem *problem = &problems.item[i];
+// Each problem as an issue at the line to mend.
+static void add_problems(const SbDocument *document, const SbParams *params,
+                         const SbProblems *problems, GPtrArray *issues) {
+  for (size_t i = 0; i < problems->count; i++) {
+    const SbProblem *problem = &problems->item[i];
     int id = sb_param_find(problem->key);
     if (id < 0) {
       sb_issues_add(issues, document->path, 0, problem->key, NULL, "%s", problem->text);
@@ -467,7 +456,7 @@ bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *is
     }
     // The line to mend: the override's own, else its parent's; in this file, else in the valve's.
     const SbParam *param = sb_param((SbParamId)id);
-    if (!params.given[id] && param->parent >= 0) {
+    if (!params->given[id] && param->parent >= 0) {
       id = param->parent;
       param = sb_param((SbParamId)id);
     }
@@ -477,7 +466,33 @@ bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *is
                   "%s", problem->text);
     g_free(range);
   }
+}
+
+bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues) {
+  SbParams params = sb_document_params(document);
+  SbProblems problems;
+  if (sb_model_compile(out, &params, &problems) == SB_OK) {
+    if (document->series != NULL) {
+      out->measured = *document->series;
+    }
+    out->outlines = document->shapes->outlines;
+    out->limits = document->limits;
+    if (out->drive == SB_MODEL_DRIVE_MEASURED && out->measured.count == 0) {
+      sb_issues_add(issues, document->path, 0, SB_SERIES_KEY, "a CSV file",
+                    "drive.kind = measured needs the file of a measured series");
+      return false;
+    }
+    return true;
+  }
+  add_problems(document, &params, &problems, issues);
   return false;
+}
+
+void sb_document_remarks(const SbDocument *document, const SbModel *model, GPtrArray *issues) {
+  SbParams params = sb_document_params(document);
+  SbProblems problems;
+  sb_model_remarks(model, &problems);
+  add_problems(document, &params, &problems, issues);
 }
 
 char *sb_document_sha256(const SbDocument *document) {

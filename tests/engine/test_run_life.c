@@ -28,8 +28,8 @@ static SbRun *run_with(const Change *changes, int count) {
 static void compare(int motion, int n) {
   const Change life[] = {{SB_P_MODELS_MOTION, motion},
                          {SB_P_LIFE_ACTUATIONS, 7},
-                         {SB_P_LIFE_ROUGHNESS_NEW, 1.1},
-                         {SB_P_LIFE_ROUGHNESS_RUN_IN, 0.8},
+                         {SB_P_LIFE_ROUGHNESS_NEW, 1},
+                         {SB_P_LIFE_ROUGHNESS_RUN_IN, 0.7},
                          {SB_P_LIFE_RUNNING_IN, 3},
                          {SB_P_OUTPUT_FRAMES, 200},
                          {SB_P_LIFE_SHOWN, n}};
@@ -37,7 +37,7 @@ static void compare(int motion, int n) {
   size_t count;
   const SbLifeActuation *each = sb_run_life(run, &count);
   g_assert_cmpuint(count, ==, 7);
-  double r = 0.8 + 0.3 * exp(-(n - 1) / 3.0);
+  double r = 0.7 + 0.3 * exp(-(n - 1) / 3.0);
   ASSERT_NEAR(each[n - 1].roughness, r, 1e-14);
   const Change one[] = {{SB_P_MODELS_MOTION, motion},
                         {SB_P_OUTPUT_FRAMES, 200},
