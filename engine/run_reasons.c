@@ -79,7 +79,8 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
     if (isnan(of->load)) {
       continue; // the run ended before
     }
-    seal_reason(summary, seal, "film*", "the fluid alone carries the seal: no film law applies");
+    seal_reason(summary, seal, "film*",
+                "the fluid opens the contact or carries it alone: no film law applies");
     seal_reason(summary, seal, "lambda", "there is no film");
     seal_reason(summary, seal, "real_area_share", "there is no film to tell it");
     seal_reason(summary, seal, "friction*", "there is no film to tell it");

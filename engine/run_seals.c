@@ -37,7 +37,7 @@ static bool presses(const SbRun *run, int seal) {
   for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
     bool needed = seal == SB_OUTER || chamber != SB_CHAMBER_OPEN;
     const SbSliding *state = &run->cycle.states.state[seal][chamber][SB_CYCLE_IN];
-    if (needed && (!state->touches || state->load_net <= 0)) {
+    if (needed && (!state->touches || state->load_net <= 0 || state->opened)) {
       return false;
     }
   }

@@ -234,8 +234,8 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
         } else if (motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state))) {
           char text[160];
           snprintf(text, sizeof text,
-                   "the fluid alone carries the %s seal (its contact pressure does not exceed the "
-                   "fluid's): no law gives film and friction",
+                   "the fluid opens the contact of the %s seal or carries it alone: no law gives "
+                   "film and friction",
                    sb_seal_name(seal));
           sb_run_lacks_motion(run, text);
         }

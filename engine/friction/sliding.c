@@ -13,6 +13,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct SbSlidingMemory {
   SbFit fit;
@@ -497,6 +498,23 @@ SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, 
                         : sb_succeed(report);
 }
 
+// A film that cannot be, because the fluid opens the contact, is a result, not a failure. Otherwise
+// passes on the report.
+static SbStatus opened_by_fluid(SbSliding *out, SbStatus status, const SbReport *own, int seal,
+                                SbWarnings *warnings, SbReport *report) {
+  if (status != SB_ERROR_INFEASIBLE || strcmp(own->parameter, "canister.pressure") != 0) {
+    if (status != SB_OK && report != NULL) {
+      *report = *own;
+    }
+    return status;
+  }
+  out->opened = true;
+  sb_warn(warnings, "film-opened", "canister.pressure",
+          "the fluid's pressure opens the contact of the %s seal: no film lies in it",
+          sb_seal_name(seal));
+  return SB_OK;
+}
+
 SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
                           double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                           SbWarnings *warnings, SbReport *report) {
@@ -549,9 +567,12 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
   double fluid = fabs(pressure.left - pressure.right) * fit->contact_width / 2;
   out->load_net = fit->load_per_length - (holds_fluid ? fluid : 0);
 
+  SbReport own = {0};
+  SbReport *first = status == SB_OK ? report : NULL; // the first failure is told
   if (model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0) {
-    SbStatus coupled = solve_coupled(out, model, seal, pressure, speed, memory, counts, warnings,
-                                     status == SB_OK ? report : NULL);
+    SbStatus coupled =
+        solve_coupled(out, model, seal, pressure, speed, memory, counts, warnings, &own);
+    coupled = opened_by_fluid(out, coupled, &own, seal, warnings, first);
     return coupled != SB_OK ? coupled : status;
   }
 
@@ -559,11 +580,12 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
   if (speed == 0) {
     out->film_min = out->film_central = 0;
   } else if (out->load_net <= 0) {
+    out->opened = true;
     sb_warn(warnings, "film-no-net-load", "canister.pressure",
             "the fluid alone carries the %s seal: no film law applies", sb_seal_name(seal));
   } else {
-    SbStatus film = solve_film(out, model, seal, pressure, speed, memory, counts, warnings,
-                               status == SB_OK ? report : NULL); // the first failure is told
+    SbStatus film = solve_film(out, model, seal, pressure, speed, memory, counts, warnings, &own);
+    film = opened_by_fluid(out, film, &own, seal, warnings, first);
     if (film != SB_OK && film != SB_ERROR_NOT_CONVERGED) {
       return film;
     }

@@ -25,6 +25,7 @@
 
 typedef struct {
   bool touches;
+  bool opened; // by the fluid: the rubber does not press, or the film's ends differ too much
   double contact_left, contact_right; // seal's frame [m]
   double load, load_per_length;       // total, fluid's share included [N], [N/m]
   double load_net;               // per length, above the ambient step: what the film carries [N/m]
