@@ -435,6 +435,14 @@ static SbStatus compile(SbModel *model, const SbParams *params, SbProblems *prob
                 "the groove leaves no stem: twice the radial space exceeds the bore diameter");
     good = false;
   }
+  double floor = model->bore_diameter - 2 * model->radial_space;
+  if (floor > 0 && pressure_diameter <= floor) {
+    add_problem(problems, "stem.pressure_diameter", floor, model->bore_diameter,
+                "the stem's land lies below the floor of its groove (%.4g mm): nothing holds the "
+                "ring",
+                floor * 1e3);
+    good = false;
+  }
   good = compile_study(model, problems) && good;
   if (model->motion == SB_MODEL_MOTION_QUASI_STATIC) {
     good = compile_quasi_static(model, problems) && good;
@@ -501,6 +509,19 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   }
   free(model);
   return status;
+}
+
+void sb_model_remarks(const SbModel *model, SbProblems *out) {
+  out->count = 0;
+  // Where the vent lies between the contacts, their widths left out (run_valve.c has them).
+  double hole = model->shape.vent_diameter;
+  double nearest = model->land_edge - model->stroke - hole / 2;
+  double furthest = model->land_edge + model->shape.seal_spacing + hole / 2;
+  if (model->pressure_map == SB_MAP_PORTS && hole > 0 &&
+      (model->shape.vent_position <= nearest || model->shape.vent_position >= furthest)) {
+    add_problem(out, "bore.vent_position", fmax(nearest, 0), furthest,
+                "the dose chamber never reaches the vent between rest and stop: it does not empty");
+  }
 }
 
 void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings) {

@@ -5,6 +5,7 @@
 
 #include "engine/elastic/gland.h"
 #include "engine/elastic/rubber_time.h"
+#include "engine/limits.h"
 #include "engine/motion/bodies.h"
 #include "engine/motion/life.h"
 #include "engine/motion/outline.h"
@@ -200,6 +201,7 @@ typedef struct {
   SbValveShape shape;       // for the drawing only
   SbValveOutlines outlines; // filled by whoever read the shapes, none otherwise
   SbStudyRange study;
+  SbLimits limits; // filled by whoever read them, none otherwise
 } SbModel;
 
 typedef enum {
@@ -216,6 +218,9 @@ typedef enum {
 // (may be NULL) lists every combination that makes no sense: bore smaller than the stem, no room
 // for the ring...
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems);
+
+// Geometry that is possible and hardly meant, with the key to change and the range that would do.
+void sb_model_remarks(const SbModel *model, SbProblems *out);
 
 // Adds what the storage of the rings has to say about its validity.
 void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings);

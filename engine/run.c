@@ -5,9 +5,11 @@
 // do not depend on the number of frames. Frames live in one array allocated at creation; the count
 // is published with release order after each frame is complete, which is what lets another thread
 // read while this one writes.
+#include "engine/figures.h"
 #include "engine/run_private.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -107,6 +109,44 @@ bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report) {
   return false;
 }
 
+SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+  static const char *const names[] = {"quasi-static", "dynamic", "rig", "bodies"};
+  SbSummary *summary = &run->summary;
+  if (run->lacks[0] != '\0') {
+    sb_run_clear_motion(run, run->lacks);
+    return SB_OK;
+  }
+  SbReport own = {0};
+  bool inertia = run->model.motion != SB_MODEL_MOTION_QUASI_STATIC;
+  SbStatus status =
+      inertia ? sb_run_dynamic(run, hooks, &own) : sb_run_quasi_static(run, hooks, &own);
+  summary->returned = summary->returns;
+  // The balance of energies is a check of the motion: open, it is not solved.
+  double open = fmax(1e-6, run->model.motion_tolerance);
+  if (status == SB_OK && summary->energy.closure > open) {
+    status = sb_fail(&own, SB_ERROR_NOT_CONVERGED, "the energies' balance is open by %.2g",
+                     summary->energy.closure);
+  }
+  size_t count = run->hold ? run->held : atomic_load(&run->published);
+  const SbFrame *last = &run->frames[count > 0 ? count - 1 : 0];
+  if (status == SB_ERROR_NOT_CONVERGED && count > 0) {
+    SbReport cause = own;
+    sb_fail_parameter(&own, status, cause.parameter,
+                      "motion (%s), both seals, stage %s, stem at %.4g mm, %.4g s: %.110s; kept: "
+                      "the seals, the frames and stages before",
+                      names[run->model.motion], sb_stage_name((SbStage)last->stage),
+                      1e3 * last->displacement, last->time, cause.text);
+  }
+  if (status != SB_OK) {
+    sb_run_clear_motion(run,
+                        status == SB_ERROR_CANCELLED ? "the run was stopped before" : own.text);
+  }
+  if (status != SB_OK && report != NULL) {
+    *report = own;
+  }
+  return status;
+}
+
 // The valve's actuation: sliding states, shapes to draw, then the motion.
 static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
@@ -122,9 +162,7 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
   }
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     run->hold = run->plan.film_history;
-    bool inertia = run->model.motion != SB_MODEL_MOTION_QUASI_STATIC;
-    SbStatus motion = inertia ? sb_run_dynamic(run, hooks, status == SB_OK ? report : NULL)
-                              : sb_run_quasi_static(run, hooks, status == SB_OK ? report : NULL);
+    SbStatus motion = sb_run_move(run, hooks, status == SB_OK ? report : NULL);
     status = motion != SB_OK ? motion : status;
     if (run->hold) {
       run->hold = false;
@@ -138,23 +176,24 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
     sb_run_summarise_seals(run);
     summary->leakage_carried = run->model.actuations * summary->seal[SB_OUTER].leakage_per_stroke;
     summary->leakage_net = run->model.actuations * summary->leakage_per_cycle;
+    summary->dose_mass = run->model.metered_volume * run->model.density;
     if (summary->stage[SB_STAGE_B].reached) {
       summary->force_breakaway = summary->stage[SB_STAGE_B].force;
     }
-    if (status == SB_OK && run->life != NULL) {
+    bool moved = run->lacks[0] == '\0';
+    if (status == SB_OK && run->life != NULL && moved) {
       status = sb_run_rest_of_life(run, hooks, report);
     }
     // At rest because nothing moved it.
     bool stays = !summary->stage[SB_STAGE_B].reached && !summary->stage[SB_STAGE_D].reached &&
                  run->model.drive != SB_MODEL_DRIVE_FREE_RETURN &&
                  run->model.drive != SB_MODEL_DRIVE_SINUSOID;
-    if (status == SB_OK && stays) {
+    if (status == SB_OK && moved && stays) {
       sb_warn(&summary->warnings, "no-slip", "friction.static_ratio",
               "the stem never slips: the drive's %.3g N are not enough", summary->force_peak);
     }
     // A ramp is held to the end: nothing lets the stem go.
-    if (!summary->returns && run->model.drive != SB_MODEL_DRIVE_RAMP &&
-        status != SB_ERROR_CANCELLED) {
+    if (summary->returned == 0 && run->model.drive != SB_MODEL_DRIVE_RAMP) {
       sb_warn(&summary->warnings, "no-return", "surface.gt_product",
               "the stem does not return: least return force %.3g N", summary->force_return_min);
     }
@@ -165,13 +204,19 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   double start = now();
   SbSummary *summary = &run->summary;
-  *summary = (SbSummary){.error_film = NAN, .error_film_history = NAN, .force_breakaway = NAN};
+  *summary = (SbSummary){0};
+  sb_figures_clear(summary);
+  run->lacks[0] = '\0';
   sb_run_publish(run, 0);
   run->before_frames = run->after_frames = 0;
   run->hold = false;
   run->held = 0;
+  SbReport local = {0};
+  report = report != NULL ? report : &local;
   SbStatus status = run->model.motion == SB_MODEL_MOTION_RIG ? sb_run_rig(run, hooks, report)
                                                              : execute_valve(run, hooks, report);
+  sb_run_give_reasons(run, status, report);
+  sb_verdict_fill(summary, &run->model);
   summary->frames = atomic_load_explicit(&run->published, memory_order_relaxed);
   if (hooks != NULL && hooks->progress != NULL && status == SB_OK) {
     hooks->progress(hooks->data, 1, summary->frames);

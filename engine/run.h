@@ -23,12 +23,25 @@ typedef struct {
 
 typedef struct {
   bool reached;
-  double time, displacement, force; // just before the event
+  double time, displacement, force; // just before the event; NaN: not reached
   size_t frame;                     // index of the frame that sits on it
 } SbStageMark;
 
-// One seal's figures: at the middle of B-C, friction_static at B.
+// Whether anything can pass a seal at rest under its pressures.
+typedef enum {
+  SB_LEAK_NOT_COMPUTED,
+  SB_LEAK_CLOSED,
+  SB_LEAK_PERCOLATING, // through channels between the asperities, leak/percolation.h
+  SB_LEAK_OPEN         // no contact, or none that the rubber presses: no leak law holds
+} SbLeakState;
+
+// "not-computed", "closed", "percolating", "open"; borrowed.
+const char *sb_leak_state_name(SbLeakState state);
+
+// One seal's figures: at the middle of B-C, friction_static at B. NaN: not computed.
 typedef struct {
+  SbLeakState leak_state;
+  double squeeze, stretch_inner, gland_fill;
   double contact_width, contact_left, contact_right, load, load_per_length, pressure_peak;
   double film_min, film_central;
   double film_karaszkiewicz, film_thesis, film_asymptotic,
@@ -38,9 +51,9 @@ typedef struct {
   double asperity_share;  // of the net load, on the asperities; NaN unless coupled
   double friction_boundary, friction_viscous, friction_static, coefficient_of_friction;
   double leakage_per_stroke; // [m3], thesis equation 5.20
-  double leakage_static; // through the contact at rest [m3/s], leak/percolation.h; NaN: no surface
-  double closing_pressure; // solid contact pressure above which that leak is nil [Pa]
-  double leak_sensitivity; // d ln(leak)/d ln(contact pressure); 0 while closed
+  double leakage_static;     // through the contact at rest [m3/s], leak/percolation.h
+  double closing_pressure;   // solid contact pressure above which that leak is nil [Pa]
+  double leak_sensitivity;   // d ln(leak)/d ln(contact pressure); 0 while closed
 } SbSealSummary;
 
 // What the sliding-plate rig reports (motion/rig.h).
@@ -78,10 +91,40 @@ typedef struct {
   SbJointSummary joint[SB_VALVE_JOINTS];
 } SbBodiesSummary;
 
+// One figure for each row of figures.def, the seals' twice.
+#define SB_FIGURE(...)      +1
+#define SB_SEAL_FIGURE(...) +SB_SEAL_COUNT
+enum {
+  SB_FIGURE_COUNT =
+#include "engine/figures.def"
+};
+#undef SB_FIGURE
+#undef SB_SEAL_FIGURE
+
+// Why figures were not computed (engine/figures.h): 0 for no reason, else text[of - 1].
+enum { SB_REASONS_MAX = 40 };
+typedef struct {
+  size_t count;
+  char text[SB_REASONS_MAX][256];
+  unsigned char of[SB_FIGURE_COUNT];
+} SbReasons;
+
+typedef enum { SB_ANSWER_UNKNOWN, SB_ANSWER_NO, SB_ANSWER_YES } SbAnswer;
+
+// One question of the verdict: the answer, and the figure that decides it.
+typedef struct {
+  SbAnswer ok;
+  int figure;          // index, -1: none
+  double value, limit; // NaN: none
+  char reason[256];    // one sentence; empty where there is nothing to say
+} SbVerdict;
+
 typedef struct {
   SbStatus status;
   double force_peak, force_breakaway, force_return_min;
   bool returns;
+  double returned;          // the same as a figure: 1, 0, or NaN where the motion was not computed
+  double dose_mass;         // of the metered volume, as liquid [kg]
   double leakage_per_cycle; // outer seal, out minus in [m3]
   double leakage_carried;   // by the outer seal's out-strokes of all actuations, as table 7.13 [m3]
   double leakage_net;       // of all actuations, out minus in [m3]
@@ -93,6 +136,8 @@ typedef struct {
   SbRigSummary rig; // motion RIG
   SbLife life;      // done = 0: no life was asked for
   SbWarnings warnings;
+  SbReasons reasons;
+  SbVerdict verdict[SB_VERDICT_COUNT];
   bool converged;
   size_t frames, steps, rejected_steps, newton_iterations;
   double wall_s;

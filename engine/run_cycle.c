@@ -151,7 +151,7 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     summary->force_peak =
         fmax(summary->force_peak, sb_cycle_force(&run->cycle, segment->platen1, segment->stem1));
   }
-  summary->leakage_per_cycle = cycle_leakage(run);
+  summary->leakage_per_cycle = sb_run_cycle_leakage(summary, cycle_leakage(run), summary->returns);
   summary->steps = run->cycle.count;
   summary->error_force = summary->error_load;
   summary->error_energy = fmax(summary->energy.closure, summary->error_load);

@@ -12,6 +12,8 @@
 // errors says little. Radau IIA is of order 5 in its step, so that errors fall about in proportion
 // to the tolerance (tested: test_run_limits.c).
 #include "engine/run_dynamic.h"
+
+#include "engine/figures.h"
 #include "engine/leak/stroke.h"
 
 #include <math.h>
@@ -402,16 +404,28 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   summary->force_return_min = fmin(summary->force_return_min, recorder.return_least);
   summary->returns = status == SB_OK && fabs(last->displacement) < 1e-6 * run->model.stroke;
   // Films alike on both ways leave nothing but rounding.
-  summary->leakage_per_cycle = fabs(recorder.leak) > 1e-12 * recorder.carried ? recorder.leak : 0;
+  double net = fabs(recorder.leak) <= 1e-12 * recorder.carried ? 0 : recorder.leak;
+  bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * run->model.stroke;
+  summary->leakage_per_cycle = sb_run_cycle_leakage(summary, net, back);
   sb_run_fill_motion(summary, &energy, &counters);
   summary->newton_iterations += (size_t)counters.newton_iterations;
   // Closed form throughout: rounding only.
   double force = 1e-12;
   double work = 1e-12;
   if (status == SB_OK && counters.steps > 0 && !run->follows) {
-    status = estimate_error(run, &recorder, &energy, &force, &work, hooks, report);
+    SbReport own = {0};
+    SbStatus estimate = estimate_error(run, &recorder, &energy, &force, &work, hooks, &own);
+    if (estimate == SB_ERROR_NOT_CONVERGED) {
+      // The motion itself stands.
+      force = work = NAN;
+      sb_reason(summary, "solver.error_estimate.*", "the coarser motion failed: %s", own.text);
+      sb_warn(&summary->warnings, "motion-error-unknown", "output.motion_tolerance",
+              "the motion's error is not known: %s", own.text);
+    } else if (estimate != SB_OK) {
+      status = sb_fail(report, estimate, "%s", own.text);
+    }
   }
-  summary->error_force = fmax(summary->error_load, force);
-  summary->error_energy = fmax(fmax(summary->error_load, work), energy.closure);
+  summary->error_force = isnan(force) ? NAN : fmax(summary->error_load, force);
+  summary->error_energy = isnan(work) ? NAN : fmax(fmax(summary->error_load, work), energy.closure);
   return status;
 }

@@ -5,11 +5,12 @@
 // A stretch is as long as the seal's whole contact lies on the land between the same pressures; the
 // next begins with the film that was there, evened out. The first begins with fluid.rest_film. The
 // load is the stretch's own; friction and the figures of a seal keep to the steady film, which is
-// what the motion was solved with. Left out: the land's edge under the contact and the step of the
-// pressures themselves.
+// what the motion was solved with. From where a film fails its frames have none. Left out: the
+// land's edge under the contact and the step of the pressures themselves.
 #include <math.h>
 #include <stdlib.h>
 
+#include "engine/figures.h"
 #include "engine/film/transient.h"
 #include "engine/run_private.h"
 
@@ -22,6 +23,7 @@ typedef struct {
   int chamber;           // of the stretch
   double central;        // last film [m], what the next stretch begins with
   SbFilm *result;
+  size_t frame; // that the way has come to
 } Way;
 
 static bool whole_contact(const SbFrame *frame, int seal) {
@@ -73,6 +75,7 @@ static SbStatus replay(Way *way, size_t count, const SbRunHooks *hooks, SbReport
   SbRun *run = way->run;
   for (size_t i = 0; i < count; i++) {
     SbFrame *frame = &run->frames[i];
+    way->frame = i;
     const double dt = i > 0 ? frame->time - run->frames[i - 1].time : 0;
     if (!whole_contact(frame, way->seal) ||
         (way->film != NULL && way->chamber != (int)frame->chamber)) {
@@ -110,6 +113,7 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
   if (result == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a film");
   }
+  double error = 0;
   run->summary.error_film_history = 0;
   for (int seal = 0; seal < SB_SEAL_COUNT && worst != SB_ERROR_CANCELLED; seal++) {
     Way way = {.run = run, .seal = seal, .central = run->model.rest_film, .result = result};
@@ -125,14 +129,25 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
     if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
       worst = sb_fail(report, status, "%s", own.text);
     } else if (status != SB_OK) {
-      sb_warn(&run->summary.warnings, "film-history", "models.film_time",
-              "the %s seal's film is the steady one from some frame on: %s", sb_seal_name(seal),
-              own.text);
+      SbFrame *at = &run->frames[way.frame];
+      SbReport whole;
+      sb_fail(&whole, status,
+              "film in time, %s seal, stage %s, stem at %.4g mm, %.4g s: %.100s; kept: the films "
+              "before, the motion",
+              sb_seal_name(seal), sb_stage_name((SbStage)at->stage), 1e3 * at->displacement,
+              at->time, own.text);
+      sb_warn(&run->summary.warnings, "film-history", "models.film_time", "%s", whole.text);
+      for (; at < run->frames + count; at++) {
+        at->seal[seal].film_min = at->seal[seal].film_central = at->seal[seal].lambda = NAN;
+      }
+      error = NAN;
+      sb_reason(&run->summary, "solver.error_estimate.film_history", "%s", whole.text);
       if (status == SB_ERROR_NOT_CONVERGED && worst == SB_OK) {
-        worst = sb_fail(report, status, "%s", own.text);
+        worst = sb_fail(report, status, "%s", whole.text);
       }
     }
   }
   free(result);
+  run->summary.error_film_history = isnan(error) ? NAN : run->summary.error_film_history;
   return worst;
 }

@@ -3,9 +3,10 @@
 // Roughness runs in (motion/life.h): the asperity product and the height deviation are scaled
 // together, tip radius and density of the asperities held (zeta beta sigma and sigma both go with
 // sigma). Fitment and film know no roughness, so the first actuation's are reused and only the
-// rough contact is evaluated anew. The frames of one later actuation follow those of the first, as
-// if nothing lay between. Leaves out: wear of the section, storage and loss of propellant between
-// actuations, what the film's thickness owes to roughness.
+// rough contact is evaluated anew. A stem that stays in ends the life. The frames of one later
+// actuation follow those of the first, as if nothing lay between. Leaves out: wear of the section,
+// storage and loss of propellant between actuations, what the film's thickness owes to roughness.
+#include "engine/figures.h"
 #include "engine/leak/stroke.h"
 #include "engine/run_private.h"
 
@@ -92,15 +93,19 @@ static SbStatus actuate(SbLifeActuation *out, long n, double roughness, void *us
   one->plan.bodies = run->plan.bodies && n + 1 == run->model.life_shown;
   one->speed = run->speed;
   one->film_exponent = run->film_exponent;
-  one->summary = (SbSummary){.error_film = NAN, .force_breakaway = NAN};
+  one->summary = (SbSummary){0};
+  sb_figures_clear(&one->summary);
   sb_run_publish(one, 0);
   SbStatus status = sb_run_resurface(one, roughness / run->model.running_in.start, report);
   SbRunHooks quiet = {NULL, lived->hooks != NULL ? lived->hooks->cancelled : NULL,
                       lived->hooks != NULL ? lived->hooks->data : NULL};
+  SbReport own = {0};
   if (status == SB_OK) {
-    status = run->model.motion == SB_MODEL_MOTION_QUASI_STATIC
-                 ? sb_run_quasi_static(one, &quiet, report)
-                 : sb_run_dynamic(one, &quiet, report);
+    status = sb_run_move(one, &quiet, &own);
+    if (status != SB_OK) {
+      return sb_fail_parameter(report, status, own.parameter, "actuation %ld: %.230s", n + 1,
+                               own.text);
+    }
   }
   if (status != SB_OK) {
     return status;
@@ -146,10 +151,10 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
                        cancelled, &lived, report);
   memset(lived.one->shape, 0, sizeof lived.one->shape);
   sb_run_destroy(lived.one);
-  if (life->failures > 0) {
+  if (life->failure > 0) {
     sb_warn(&run->summary.warnings, "life-no-return", "surface.gt_product",
-            "%ld of %ld actuations do not return by themselves, the first of them number %ld",
-            life->failures, life->done, life->first_failure);
+            "the life ends at actuation %ld of %d: its stem does not return", life->failure,
+            run->model.life_actuations);
   }
   return status;
 }

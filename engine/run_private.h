@@ -61,6 +61,7 @@ struct SbRun {
   uint32_t shape_slot[SB_RUN_SHAPES]; // where a state's shape is: equal states share one
   double edge_begin, edge_end; // of the land's edge in the inner seal's frame, where it shapes
                                // that ring [m]; equal: nowhere
+  char lacks[256];             // why there can be no motion, empty: nothing is missing
   double before_frames;        // share of the work that lies before the first frame
   SbRunBodies *bodies;         // NULL: the reduced form is enough
   bool follows;                // a later actuation of a life: the first one's errors stand for all
@@ -94,6 +95,10 @@ uint32_t sb_run_profile_slot(int seal, SbChamber chamber, int motion);
 void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber chamber,
                          int direction, bool moving, double s);
 
+// The motion by the model's choice, if there is all that it needs. One that ends early keeps its
+// frames and the stages it reached; the report says where it ended (run.c).
+SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
 // Frames, stages, energy and leakage of the quasi-static cycle (run_cycle.c) and of the motion with
 // inertia (run_dynamic.c).
 SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *report);
@@ -124,8 +129,21 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
 SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // Films of the first `count` frames, which nobody else may see yet, by the transient film
-// (run_film.c). A seal whose film fails keeps the steady one, with a warning.
+// (run_film.c). From where a seal's film fails its frames have none (NaN), with a warning.
 SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, SbReport *report);
+
+// Notes why there can be no motion; the first reason stays (run_reasons.c).
+void sb_run_lacks_motion(SbRun *run, const char *why);
+
+// Takes back what only a whole motion tells, of one that ended early (run_reasons.c).
+void sb_run_clear_motion(SbRun *run, const char *why);
+
+// The net leak of a stem that came back to where it began; else NaN, with the reason.
+double sb_run_cycle_leakage(SbSummary *summary, double carried, bool back);
+
+// Gives the figures that are missing by the choice of models or by what happened their reasons
+// (run_reasons.c). The last step of a run.
+void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report);
 
 // Figures of each seal at the middle of B-C (run_seals.c).
 void sb_run_summarise_seals(SbRun *run);

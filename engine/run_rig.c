@@ -109,26 +109,10 @@ static void compare_contact(SbRun *run) {
   }
 }
 
-static SbSealSummary no_seal_summary(void) {
-  SbSealSummary out;
-  double *value = (double *)&out;
-  for (size_t i = 0; i < sizeof out / sizeof *value; i++) {
-    value[i] = NAN;
-  }
-  return out;
-}
-_Static_assert(sizeof(SbSealSummary) % sizeof(double) == 0, "a seal's summary is doubles only");
-
 SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   const SbRig *rig = &run->model.rig;
   run->before_frames = 1; // all frames appear at once
-  for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    summary->seal[i] = no_seal_summary();
-  }
-  summary->force_return_min = summary->leakage_per_cycle = NAN;
-  summary->leakage_carried = summary->leakage_net = NAN;
-  summary->error_load = NAN;
   Record r = {.run = run, .hooks = hooks, .force = malloc(run->capacity * sizeof(double))};
   if (r.force == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the force");

@@ -63,7 +63,7 @@ SbStatus sb_run_solve_states_at_speed(SbRun *run, const SbRunHooks *hooks, SbRep
   for (int round = 0; own && round < ROUNDS; round++) {
     double speed;
     bool slips;
-    if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
+    if ((status != SB_OK && status != SB_ERROR_NOT_CONVERGED) || run->lacks[0] != '\0') {
       return status;
     }
     // What goes wrong with the motion is told by the run itself.

@@ -1,9 +1,11 @@
 // Sliding states and contact profiles of a run: each steady state is solved once and shared by all
 // frames.
+#include "engine/figures.h"
 #include "engine/run_private.h"
 #include "engine/surface/greenwood_tripp.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,7 +53,7 @@ static void asperity_pressure(const SbModel *model, int seal, const double *film
       pressure = sb_gt_integrals(&integrals, lambda, NULL) == SB_OK
                      ? sb_gt_pressure(model->gt_product, model->sigma_over_beta,
                                       model->seal[seal].reduced_modulus, integrals.F5_2)
-                     : 0;
+                     : NAN;
       last = lambda;
     }
     out[i] = pressure;
@@ -68,6 +70,7 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
   const SbFilm *film = sb_sliding_film(run->memory[seal]);
   bool coupled = run->model.asperities == SB_MODEL_ASPERITIES_COUPLED;
   bool solved = (coupled || run->model.film == SB_MODEL_FILM_REYNOLDS) && state->film_central > 0;
+  bool fitted = state->touches && isfinite(state->load);
   bool own_pressure = run->model.fit == SB_FIT_DISC || run->model.fit == SB_FIT_DISC_THESIS ||
                       run->model.fit == SB_FIT_RING;
   size_t capacity = solved ? film->points : (size_t)PROFILE_POINTS;
@@ -99,7 +102,7 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
     for (size_t i = 0; i < n; i++) {
       p[i] = film->pressure[i] - low;
     }
-  } else if (state->touches) {
+  } else if (fitted) {
     double a = fit->contact_width / 2;
     double middle = (fit->contact_left + fit->contact_right) / 2;
     double scale = a * a / run->model.seal[seal].radius;
@@ -123,7 +126,7 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
   }
   if (solved && coupled) {
     memcpy(data + 3 * capacity, film->asperity_pressure, n * sizeof *data);
-  } else if (state->touches && run->model.surface == SB_MODEL_SURFACE_GREENWOOD_TRIPP) {
+  } else if (fitted && run->model.surface == SB_MODEL_SURFACE_GREENWOOD_TRIPP) {
     asperity_pressure(&run->model, seal, h, data + 3 * capacity, n);
   }
   free(profile->data);
@@ -148,12 +151,50 @@ static bool state_needed(int seal, SbChamber chamber) {
   return seal == SB_OUTER || chamber != SB_CHAMBER_OPEN;
 }
 
+// Names what failed and where: solver, seal, stages, place; and what there is all the same. Figures
+// that need it say so, too.
+static void tell_failure(SbRun *run, int seal, int chamber, int motion, const SbSliding *state,
+                         SbSealPressure pressure, SbReport *report) {
+  static const char *const stages[] = {"A to C", "C to F", "F to A"};
+  static const char *const ways[] = {"in-stroke", "return", "at rest"};
+  const SbModel *model = &run->model;
+  bool fitted = isfinite(state->load);
+  char solver[64], place[96], cause[128];
+  snprintf(cause, sizeof cause, "%.127s",
+           strncmp(report->text, "film: ", 6) == 0 ? report->text + 6 : report->text);
+  if (fitted) {
+    bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+    snprintf(solver, sizeof solver, "film (%s)", coupled ? "with asperities" : "reynolds");
+    snprintf(place, sizeof place, "x %.3g to %.3g mm", 1e3 * state->contact_left,
+             1e3 * state->contact_right);
+  } else {
+    snprintf(solver, sizeof solver, "fitment (%s)", sb_fit_model_name((SbFitModel)model->fit));
+    snprintf(place, sizeof place, "%.4g MPa", 1e-6 * (pressure.left - pressure.right));
+  }
+  SbReport whole = *report;
+  sb_fail_parameter(&whole, report->status, report->parameter,
+                    "%s, %s seal, stages %s, %s, %s: %s; kept: %s", solver, sb_seal_name(seal),
+                    stages[chamber], ways[motion], place, cause,
+                    fitted ? "its fitment, the other states" : "the other states");
+  sb_warn(&run->summary.warnings, "not-converged", report->parameter, "%s", whole.text);
+  if (motion != SB_RUN_REST) {
+    sb_run_lacks_motion(run, whole.text);
+  }
+  if (chamber == SB_CHAMBER_AT_REST && motion == SB_CYCLE_IN) {
+    char pattern[32];
+    snprintf(pattern, sizeof pattern, "seals.%s.*", sb_seal_name(seal));
+    sb_reason(&run->summary, pattern, "%s", whole.text);
+  }
+  *report = whole;
+}
+
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   SbSlidingCounts counts = {0};
   SbStatus worst = SB_OK;
   summary->error_film = NAN;
   summary->error_load = 0;
+  run->lacks[0] = '\0';
   run->cycle.states.model = &run->model;
   // A carried inlet is left by an in-stroke at the model's speed.
   SbModel model = run->model;
@@ -176,12 +217,27 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
         SbSliding rest;
         SbSliding *state =
             motion == SB_RUN_REST ? &rest : &run->cycle.states.state[seal][chamber][motion];
+        SbReport own = {0};
         SbStatus status = sb_sliding_solve(state, &model, seal, pressure, speed, run->memory[seal],
-                                           &counts, &summary->warnings, report);
+                                           &counts, &summary->warnings, &own);
+        if (status == SB_ERROR_NOT_CONVERGED) {
+          tell_failure(run, seal, chamber, motion, state, pressure, &own);
+        }
+        bool fatal = status != SB_OK && status != SB_ERROR_NOT_CONVERGED;
+        if (report != NULL && (fatal || (status != SB_OK && worst == SB_OK))) {
+          *report = own; // of failures to converge the first is told
+        }
         if (status == SB_ERROR_NOT_CONVERGED) {
           worst = status;
         } else if (status != SB_OK) {
           return status;
+        } else if (motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state))) {
+          char text[160];
+          snprintf(text, sizeof text,
+                   "the fluid opens the contact of the %s seal or carries it alone: no law gives "
+                   "film and friction",
+                   sb_seal_name(seal));
+          sb_run_lacks_motion(run, text);
         }
         SbRunSurface *surface = &run->surface[seal][chamber];
         if (state->film_fitted && run->plan.film_history) {
@@ -189,8 +245,10 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
                                               sb_sliding_fit(run->memory[seal]), &run->model, seal,
                                               pressure, NULL, NULL) == SB_OK;
         }
-        summary->error_load = fmax(summary->error_load,
-                                   sb_sliding_fit(run->memory[seal])->solver.error_estimate.load);
+        if (isfinite(state->load)) {
+          summary->error_load = fmax(summary->error_load,
+                                     sb_sliding_fit(run->memory[seal])->solver.error_estimate.load);
+        }
         if (!isnan(state->film_error)) {
           summary->error_film =
               fmax(isnan(summary->error_film) ? 0 : summary->error_film, state->film_error);

@@ -128,7 +128,14 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
   double low = edge + inner->contact_right - inner->contact_left - shape->vent_position - hole / 2;
   double high = edge - inner->contact_left + shape->seal_spacing + outer->contact_left -
                 shape->vent_position + hole / 2;
-  if (hole > 0 && high > low && high > 0) {
+  bool vents = hole > 0 && high > low && high > 0 && low < model->stroke;
+  if (hole > 0 && !vents) {
+    sb_warn(&valve->run->summary.warnings, "ports-no-vent", "bore.vent_position",
+            "the dose chamber never reaches the vent: it would at a stem of %.3g to %.3g mm, which "
+            "moves from 0 to %.3g mm",
+            1e3 * low, 1e3 * high, 1e3 * model->stroke);
+  }
+  if (vents) {
     chamber->port[chamber->ports++] =
         (SbChamberPort){low, high, model->vent_on_return ? SB_PORT_ON_RETURN : SB_PORT_BOTH_WAYS, 0,
                         at_once ? INFINITY : coefficient * M_PI / 4 * hole * hole};

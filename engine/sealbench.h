@@ -1,6 +1,7 @@
 // Everything of the engine that app/ uses, by one include.
 #pragma once
 
+#include "engine/figures.h"
 #include "engine/frame.h"
 #include "engine/model.h"
 #include "engine/params.h"

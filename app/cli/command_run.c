@@ -6,24 +6,59 @@
 #include <math.h>
 #include <string.h>
 
-static void print_seal(const char *name, const SbSealSummary *seal) {
-  printf("%s seal, middle of B-C\n", name);
-  sb_cli_figure("Contact width", seal->contact_width, "m", "mm");
-  sb_cli_figure("Load", seal->load, "N", "N");
-  sb_cli_figure("Peak pressure", seal->pressure_peak, "Pa", "MPa");
-  sb_cli_figure("Film, least", seal->film_min, "m", "nm");
-  sb_cli_figure("Film, central", seal->film_central, "m", "nm");
-  sb_cli_figure("  by Karaszkiewicz, eq. 7.6", seal->film_karaszkiewicz, "m", "nm");
-  sb_cli_figure("  by the thesis, eq. 7.5", seal->film_thesis, "m", "nm");
-  sb_cli_figure("  by Reynolds, solved", seal->film_reynolds, "m", "nm");
-  sb_cli_figure("Film over roughness", seal->lambda, "1", "");
-  sb_cli_figure("Friction, boundary", seal->friction_boundary, "N", "N");
-  sb_cli_figure("Friction, viscous", seal->friction_viscous, "N", "N");
-  sb_cli_figure("Friction, static", seal->friction_static, "N", "N");
-  sb_cli_figure("Coefficient of friction", seal->coefficient_of_friction, "1", "");
-  sb_cli_figure("Leakage per stroke", seal->leakage_per_stroke, "m3", "nl");
-  sb_cli_figure("Leak at rest", seal->leakage_static, "m3/s", "nl/s");
-  sb_cli_figure("Closed at a pressure of", seal->closing_pressure, "Pa", "MPa");
+// A line of the table: the figure at `path`, or a dash and the reason.
+static void print_figure(const SbSummary *summary, const char *label, const char *path) {
+  int index = sb_figure_find(path);
+  const SbFigure *figure = sb_figure(index);
+  const char *reason = sb_figure_reason(summary, index);
+  if (reason != NULL) {
+    g_autofree char *dash = g_strdup_printf("- (%s)", reason);
+    sb_cli_line(label, dash);
+  } else {
+    sb_cli_figure(label, sb_figure_value(summary, index), figure->si, figure->shown);
+  }
+}
+
+static void print_seal(const SbSummary *summary, int seal) {
+  static const struct {
+    const char *label, *name;
+  } lines[] = {{"Contact width", "contact_width_m"},
+               {"Load", "load_N"},
+               {"Peak pressure", "pressure_peak_Pa"},
+               {"Film, least", "film_min_m"},
+               {"Film, central", "film_central_m"},
+               {"  by Karaszkiewicz, eq. 7.6", "film_by_model.karaszkiewicz"},
+               {"  by the thesis, eq. 7.5", "film_by_model.thesis"},
+               {"  by Reynolds, solved", "film_by_model.reynolds"},
+               {"Film over roughness", "lambda"},
+               {"Friction, boundary", "friction_boundary_N"},
+               {"Friction, viscous", "friction_viscous_N"},
+               {"Friction, static", "friction_static_N"},
+               {"Coefficient of friction", "coefficient_of_friction"},
+               {"Leakage per stroke", "leakage_per_stroke_m3"},
+               {"Leak at rest", "leakage_static_m3_per_s"},
+               {"Closed at a pressure of", "closing_pressure_Pa"}};
+  printf("%s seal, middle of B-C\n", seal == SB_OUTER ? "Outer" : "Inner");
+  for (size_t i = 0; i < G_N_ELEMENTS(lines); i++) {
+    g_autofree char *path = g_strdup_printf("seals.%s.%s", sb_seal_name(seal), lines[i].name);
+    print_figure(summary, lines[i].label, path);
+  }
+  sb_cli_line("Leak path", sb_leak_state_name(summary->seal[seal].leak_state));
+}
+
+// The questions that have an answer.
+static void print_verdict(const SbSummary *summary) {
+  printf("Verdict\n");
+  for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
+    const SbVerdict *verdict = &summary->verdict[kind];
+    if (verdict->figure >= 0) {
+      static const char *const answers[] = {"-", "NO", "yes"};
+      g_autofree char *text =
+          g_strdup_printf("%s%s%s%s", answers[verdict->ok], verdict->reason[0] != '\0' ? " (" : "",
+                          verdict->reason, verdict->reason[0] != '\0' ? ")" : "");
+      sb_cli_line(sb_verdict_name((SbVerdictKind)kind), text);
+    }
+  }
 }
 
 static void print_life(const SbRun *run) {
@@ -38,9 +73,9 @@ static void print_life(const SbRun *run) {
   sb_cli_figure("Film over roughness, last", each[count - 1].lambda, "1", "");
   sb_cli_figure("Leakage, carried out", life->carried, "m3", "nl");
   sb_cli_figure("  net", life->leakage, "m3", "nl");
-  char *failures = g_strdup_printf("%ld", life->failures);
-  sb_cli_line("Without return", failures);
-  g_free(failures);
+  if (life->failure > 0) {
+    printf("  the stem does not return from actuation %ld: none after it\n", life->failure);
+  }
 }
 
 static void print_rig(const SbRun *run) {
@@ -75,22 +110,27 @@ static void print_table(const SbDocument *document, const SbRun *run) {
   printf("%s\n", sb_document_title(document));
   if (sb_run_model(run)->motion == SB_MODEL_MOTION_RIG) {
     print_rig(run);
-    sb_cli_figure("Energy of the pull", summary->energy.loop, "J", "mJ");
-    sb_cli_figure("Energy closure", summary->energy.closure, "1", "");
-    sb_cli_figure("Duration", summary->duration, "s", "s");
+    print_figure(summary, "Energy of the pull", "cycle.energy_loss_J");
+    print_figure(summary, "Energy closure", "cycle.energy_closure");
+    print_figure(summary, "Duration", "cycle.duration_s");
     print_solver(summary);
     return;
   }
-  sb_cli_figure("Peak force", summary->force_peak, "N", "N");
-  sb_cli_figure("Break-away force", summary->force_breakaway, "N", "N");
-  sb_cli_figure("Least return force", summary->force_return_min, "N", "N");
-  sb_cli_line("Stem returns", summary->returns ? "yes" : "no");
-  sb_cli_figure("Energy of the loop", summary->energy.loop, "J", "mJ");
-  sb_cli_figure("Energy closure", summary->energy.closure, "1", "");
-  sb_cli_figure("Leakage per cycle", summary->leakage_per_cycle, "m3", "nl");
-  sb_cli_figure("  carried out, all actuations", summary->leakage_carried, "m3", "nl");
-  sb_cli_figure("  net, all actuations", summary->leakage_net, "m3", "nl");
-  sb_cli_figure("Duration", summary->duration, "s", "s");
+  print_figure(summary, "Peak force", "cycle.force_peak_N");
+  print_figure(summary, "Break-away force", "cycle.force_breakaway_N");
+  print_figure(summary, "Least return force", "cycle.force_return_min_N");
+  if (isnan(summary->returned)) {
+    print_figure(summary, "Stem returns", "cycle.returns");
+  } else {
+    sb_cli_line("Stem returns", summary->returns ? "yes" : "no");
+  }
+  print_figure(summary, "Energy of the loop", "cycle.energy_loss_J");
+  print_figure(summary, "Energy closure", "cycle.energy_closure");
+  print_figure(summary, "Leakage per cycle", "cycle.leakage_per_cycle_m3");
+  print_figure(summary, "  carried out, all actuations", "cycle.leakage_carried_all_actuations_m3");
+  print_figure(summary, "  net, all actuations", "cycle.leakage_net_all_actuations_m3");
+  print_figure(summary, "Dose", "cycle.dose_mass_kg");
+  print_figure(summary, "Duration", "cycle.duration_s");
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
     const SbStageMark *mark = &summary->stage[i];
     char digits[3][SB_NUMBER_SIZE];
@@ -107,8 +147,9 @@ static void print_table(const SbDocument *document, const SbRun *run) {
   if (summary->life.done > 0) {
     print_life(run);
   }
-  print_seal("Outer", &summary->seal[SB_OUTER]);
-  print_seal("Inner", &summary->seal[SB_INNER]);
+  print_seal(summary, SB_OUTER);
+  print_seal(summary, SB_INNER);
+  print_verdict(summary);
   print_solver(summary);
 }
 

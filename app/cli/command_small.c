@@ -27,7 +27,15 @@ int sb_command_check(int argc, char **argv) {
     }
     const char *kind = sb_document_kind(document) == SB_DOCUMENT_SCENE ? "scene" : "valve";
     char *shown = sb_printable(argv[i], strlen(argv[i]));
-    printf("%s: a %s without problems\n", shown, kind);
+    GPtrArray *remarks = sb_issues_new();
+    sb_document_remarks(document, model, remarks);
+    for (guint k = 0; k < remarks->len; k++) {
+      g_autofree char *line = sb_issue_line(remarks->pdata[k]);
+      g_autofree char *printable = sb_printable(line, strlen(line));
+      printf("warning: %s\n", printable);
+    }
+    printf("%s: a %s without %s\n", shown, kind, remarks->len > 0 ? "errors" : "problems");
+    g_ptr_array_unref(remarks);
     g_free(shown);
     sb_document_free(document);
   }

@@ -102,10 +102,12 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
       continue;
     }
     if (entry->name == NULL) {
-      known_group = check_group(entry, shown, issues);
+      known_group =
+          strcmp(entry->group, SB_LIMITS_GROUP) == 0 || check_group(entry, shown, issues);
       continue;
     }
-    if (!known_group || sb_parts_is_shape_key(entry->group, entry->name)) {
+    if (!known_group || strcmp(entry->group, SB_LIMITS_GROUP) == 0 ||
+        sb_parts_is_shape_key(entry->group, entry->name)) {
       continue;
     }
     char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
@@ -130,6 +132,7 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
     }
     g_free(key);
   }
+  sb_document_read_limits(&document->limits, entries, shown, issues);
   sb_parts_read(document->shapes, params, base, entries, shown, directory, issues, document->notes);
 }
 
@@ -425,10 +428,35 @@ static char *problem_range(const SbProblem *problem, const SbParam *param) {
   return NULL;
 }
 
-bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues) {
+// Each problem as an issue at the line to mend.
+static void add_problems(const SbDocument *document, const SbParams *params,
+                         const SbProblems *problems, GPtrArray *issues) {
   const char *shown = document->path != NULL ? document->path : document->name;
+  for (size_t i = 0; i < problems->count; i++) {
+    const SbProblem *problem = &problems->item[i];
+    int id = sb_param_find(problem->key);
+    if (id < 0) {
+      sb_issues_add(issues, shown, 0, problem->key, NULL, "%s", problem->text);
+      continue;
+    }
+    // The line to mend: the override's own, else its parent's; in this file, else in the valve's.
+    const SbParam *param = sb_param((SbParamId)id);
+    if (!params->given[id] && param->parent >= 0) {
+      id = param->parent;
+      param = sb_param((SbParamId)id);
+    }
+    bool in_valve = !document->own.given[id] && document->base.given[id];
+    char *range = problem_range(problem, param);
+    sb_issues_add(issues, in_valve ? document->valve_path : shown, 0, param->key, range, "%s",
+                  problem->text);
+    g_free(range);
+  }
+}
+
+bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues) {
   SbParams params = sb_document_params(document);
   SbProblems problems;
+  const char *shown = document->path != NULL ? document->path : document->name;
   SbStatus status = sb_model_compile(out, &params, &problems);
   if (status == SB_ERROR_MEMORY) {
     sb_issues_add(issues, shown, 0, NULL, NULL, "%s", sb_status_text(status));
@@ -439,6 +467,7 @@ bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *is
       out->measured = *document->series;
     }
     out->outlines = document->shapes->outlines;
+    out->limits = document->limits;
     if (out->drive == SB_MODEL_DRIVE_MEASURED && out->measured.count == 0) {
       sb_issues_add(issues, shown, 0, SB_SERIES_KEY, "a CSV file",
                     "drive.kind = measured needs the file of a measured series");
@@ -446,26 +475,15 @@ bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *is
     }
     return true;
   }
-  for (size_t i = 0; i < problems.count; i++) {
-    const SbProblem *problem = &problems.item[i];
-    int id = sb_param_find(problem->key);
-    if (id < 0) {
-      sb_issues_add(issues, shown, 0, problem->key, NULL, "%s", problem->text);
-      continue;
-    }
-    // The line to mend: the override's own, else its parent's; in this file, else in the valve's.
-    const SbParam *param = sb_param((SbParamId)id);
-    if (!params.given[id] && param->parent >= 0) {
-      id = param->parent;
-      param = sb_param((SbParamId)id);
-    }
-    bool in_valve = !document->own.given[id] && document->base.given[id];
-    char *range = problem_range(problem, param);
-    sb_issues_add(issues, in_valve ? document->valve_path : shown, 0, param->key, range, "%s",
-                  problem->text);
-    g_free(range);
-  }
+  add_problems(document, &params, &problems, issues);
   return false;
+}
+
+void sb_document_remarks(const SbDocument *document, const SbModel *model, GPtrArray *issues) {
+  SbParams params = sb_document_params(document);
+  SbProblems problems;
+  sb_model_remarks(model, &problems);
+  add_problems(document, &params, &problems, issues);
 }
 
 char *sb_document_sha256(const SbDocument *document) {

@@ -77,6 +77,10 @@ char *sb_document_text(const SbDocument *document, SbParamId id);
 // together.
 bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues);
 
+// Adds what is possible in a compiled document's geometry and hardly meant, as compile() does for
+// what is not possible.
+void sb_document_remarks(const SbDocument *document, const SbModel *model, GPtrArray *issues);
+
 // SHA-256 (hex) over the canonical text of all values in force. Owned by the caller.
 char *sb_document_sha256(const SbDocument *document);
 

@@ -5,8 +5,10 @@
 #include "app/document/document_parts.h"
 
 #include "app/document/document.h"
+#include "engine/figures.h"
 
-#define SB_META_GROUP "sealbench"
+#define SB_META_GROUP   "sealbench"
+#define SB_LIMITS_GROUP "limits"
 
 // The one key that names a file and no value.
 #define SB_SERIES_KEY "drive.file"
@@ -32,6 +34,7 @@ struct SbDocument {
   SbParams base;         // what the valve gives (scenes)
   SbParams own;          // what the document gives
   SbParams saved;        // what its file gives
+  SbLimits limits;       // on figures: the valve's, and its own in their place
   SbShapes *shapes;      // of the parts
   GPtrArray *notes;      // of char *, what shapes say against given values
   GArray *edits;         // Edit
@@ -46,6 +49,14 @@ void sb_document_refresh_title(SbDocument *document);
 // ", do you mean KEY?" of the catalogue's key most like `key`, or an empty text. Owned by the
 // caller.
 char *sb_document_key_hint(const char *key);
+
+// Adds the [limits] of a scanned file; later ones take the place of earlier ones
+// (document_limits.c).
+void sb_document_read_limits(SbLimits *limits, const GPtrArray *entries, const char *shown,
+                             GPtrArray *issues);
+
+// Appends them as a group; nothing where there are none.
+void sb_document_append_limits(GString *text, const SbLimits *limits);
 
 // Adds to the notes that a value in force is not what a shape makes it; `shown` names who says so.
 // Nothing where they agree.

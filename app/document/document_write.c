@@ -168,6 +168,7 @@ char *sb_document_to_flat_text(const SbDocument *document) {
     }
   }
   g_hash_table_unref(seen);
+  sb_document_append_limits(text, &document->limits);
   return g_string_free(text, FALSE);
 }
 

@@ -2,6 +2,7 @@
 #include "app/document/issue.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <string.h>
 
 static void issue_free(gpointer data) {
@@ -53,7 +54,9 @@ char *sb_issue_line(const SbIssue *issue) {
     g_string_append_printf(line, "%s: ", issue->file);
   }
   if (issue->key != NULL) {
-    const char *dot = strrchr(issue->key, '.');
+    // Names in [limits] have dots of their own.
+    bool limit = g_str_has_prefix(issue->key, "limits.");
+    const char *dot = limit ? strchr(issue->key, '.') : strrchr(issue->key, '.');
     if (dot != NULL) {
       g_string_append_printf(line, "[%.*s] %s: ", (int)(dot - issue->key), issue->key, dot + 1);
     } else {

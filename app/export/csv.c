@@ -4,10 +4,12 @@
 #include "app/document/number.h"
 
 #include <glib.h>
+#include <math.h>
 
 static void put(FILE *stream, double value, char end) {
   char digits[SB_NUMBER_SIZE];
-  fputs(sb_number_format(digits, value), stream);
+  // What was not computed is empty.
+  fputs(isnan(value) ? "" : sb_number_format(digits, value), stream);
   fputc(end, stream);
 }
 

@@ -107,6 +107,12 @@ void sb_json_bool(SbJson *json, const char *key, bool value) {
   g_string_append(json->text, value ? "true" : "false");
 }
 
+void sb_json_answer(SbJson *json, const char *key, SbAnswer value) {
+  static const char *const names[] = {"null", "false", "true"};
+  begin(json, key);
+  g_string_append(json->text, names[value]);
+}
+
 void sb_json_string(SbJson *json, const char *key, const char *value) {
   begin(json, key);
   if (value != NULL) {

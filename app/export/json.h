@@ -2,7 +2,7 @@
 // number, the same bytes in every locale. Two spaces of indentation; arrays of numbers on one line.
 #pragma once
 
-#include "engine/status.h"
+#include "engine/run.h"
 
 #include <glib.h>
 #include <stdbool.h>
@@ -26,6 +26,7 @@ void sb_json_array_end(SbJson *json);
 void sb_json_number(SbJson *json, const char *key, double value);
 void sb_json_count(SbJson *json, const char *key, guint64 value);
 void sb_json_bool(SbJson *json, const char *key, bool value);
+void sb_json_answer(SbJson *json, const char *key, SbAnswer value); // null where unknown
 
 // NULL becomes null; what is not UTF-8 is replaced.
 void sb_json_string(SbJson *json, const char *key, const char *value);

@@ -16,93 +16,121 @@ static void put_choice(SbJson *json, const char *key, SbParamId id, int index) {
   sb_json_string(json, key, name);
 }
 
-static void put_stages(SbJson *json, const SbSummary *summary) {
-  sb_json_object(json, "stages");
-  for (int i = 0; i < SB_STAGE_COUNT; i++) {
-    const SbStageMark *mark = &summary->stage[i];
-    sb_json_object(json, sb_stage_name((SbStage)i));
-    sb_json_number(json, "time_s", mark->reached ? mark->time : NAN);
-    sb_json_number(json, "displacement_m", mark->reached ? mark->displacement : NAN);
-    sb_json_number(json, "force_N", mark->reached ? mark->force : NAN);
+// The catalogue's figures whose paths begin with `scope`, as objects; inside the scope's own
+// object.
+static void put_figures(SbJson *json, const SbSummary *summary, const char *scope) {
+  char open[64] = ""; // path of the objects open below the scope, each with its dot
+  for (int i = 0; i <= SB_FIGURE_COUNT; i++) {
+    const char *path = i < SB_FIGURE_COUNT ? sb_figure(i)->path : "";
+    if (*path != '\0' && !g_str_has_prefix(path, scope)) {
+      continue;
+    }
+    const char *rest = *path != '\0' ? path + strlen(scope) : "";
+    while (*open != '\0' && !g_str_has_prefix(rest, open)) {
+      sb_json_object_end(json);
+      open[strlen(open) - 1] = '\0';
+      char *dot = strrchr(open, '.');
+      *(dot != NULL ? dot + 1 : open) = '\0';
+    }
+    const char *name = rest + strlen(open);
+    for (const char *dot = strchr(name, '.'); dot != NULL; dot = strchr(name, '.')) {
+      g_autofree char *object = g_strndup(name, (gsize)(dot - name));
+      sb_json_object(json, object);
+      g_strlcpy(open, rest, (gsize)(dot - rest) + 2);
+      name = dot + 1;
+    }
+    if (strcmp(path, "cycle.returns") == 0) {
+      sb_json_answer(json, name,
+                     isnan(summary->returned) ? SB_ANSWER_UNKNOWN
+                     : summary->returned > 0  ? SB_ANSWER_YES
+                                              : SB_ANSWER_NO);
+    } else if (i < SB_FIGURE_COUNT) {
+      sb_json_number(json, name, sb_figure_value(summary, i));
+    }
+  }
+}
+
+static void put_verdict(SbJson *json, const SbSummary *summary) {
+  sb_json_object(json, "verdict");
+  for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
+    const SbVerdict *verdict = &summary->verdict[kind];
+    sb_json_object(json, sb_verdict_name((SbVerdictKind)kind));
+    sb_json_answer(json, "ok", verdict->ok);
+    sb_json_string(json, "reason", verdict->reason[0] != '\0' ? verdict->reason : NULL);
+    sb_json_string(json, "figure", verdict->figure >= 0 ? sb_figure(verdict->figure)->path : NULL);
+    sb_json_number(json, "value", verdict->value);
+    sb_json_number(json, "limit", verdict->limit);
+    sb_json_string(json, "case", NULL);
     sb_json_object_end(json);
   }
   sb_json_object_end(json);
 }
 
-static void put_cycle(SbJson *json, const SbSummary *summary) {
-  sb_json_object(json, "cycle");
-  sb_json_number(json, "force_peak_N", summary->force_peak);
-  sb_json_number(json, "force_breakaway_N", summary->force_breakaway);
-  sb_json_number(json, "force_return_min_N", summary->force_return_min);
-  sb_json_bool(json, "returns", summary->returns);
-  sb_json_number(json, "energy_loss_J", summary->energy.loop);
-  sb_json_number(json, "energy_closure", summary->energy.closure);
-  sb_json_number(json, "leakage_per_cycle_m3", summary->leakage_per_cycle);
-  sb_json_number(json, "leakage_carried_all_actuations_m3", summary->leakage_carried);
-  sb_json_number(json, "leakage_net_all_actuations_m3", summary->leakage_net);
-  sb_json_number(json, "duration_s", summary->duration);
-  put_stages(json, summary);
-  const SbEnergy *energy = &summary->energy;
-  sb_json_object(json, "energy");
-  sb_json_number(json, "external_J", energy->external);
-  sb_json_number(json, "external_max_J", energy->external_max);
-  sb_json_number(json, "friction_J", energy->friction);
-  sb_json_number(json, "stored_J", energy->stored);
-  sb_json_number(json, "seal_J", energy->seal);
-  sb_json_number(json, "kinetic_J", energy->kinetic);
-  sb_json_number(json, "stop_J", energy->stop);
-  sb_json_object_end(json);
+static void put_seal(SbJson *json, const SbSummary *summary, int seal) {
+  const SbSealSummary *of = &summary->seal[seal];
+  g_autofree char *scope = g_strdup_printf("seals.%s.", sb_seal_name(seal));
+  sb_json_object(json, sb_seal_name(seal));
+  put_figures(json, summary, scope);
+  sb_json_string(json, "regime", isnan(of->lambda) ? NULL : sb_regime_of_lambda(of->lambda));
+  sb_json_string(json, "leak_state", sb_leak_state_name(of->leak_state));
   sb_json_object_end(json);
 }
 
-static void put_seal(SbJson *json, const char *name, const SbSealSummary *seal) {
-  sb_json_object(json, name);
-  sb_json_number(json, "contact_width_m", seal->contact_width);
-  sb_json_number(json, "contact_left_m", seal->contact_left);
-  sb_json_number(json, "contact_right_m", seal->contact_right);
-  sb_json_number(json, "load_N", seal->load);
-  sb_json_number(json, "load_N_per_m", seal->load_per_length);
-  sb_json_number(json, "pressure_peak_Pa", seal->pressure_peak);
-  sb_json_number(json, "film_min_m", seal->film_min);
-  sb_json_number(json, "film_central_m", seal->film_central);
-  sb_json_object(json, "film_by_model");
-  sb_json_number(json, "karaszkiewicz", seal->film_karaszkiewicz);
-  sb_json_number(json, "thesis", seal->film_thesis);
-  sb_json_number(json, "asymptotic", seal->film_asymptotic);
-  sb_json_number(json, "reynolds", seal->film_reynolds);
-  sb_json_object_end(json);
-  sb_json_number(json, "lambda", seal->lambda);
-  sb_json_string(json, "regime", isnan(seal->lambda) ? NULL : sb_regime_of_lambda(seal->lambda));
-  sb_json_number(json, "real_area_share", seal->real_area_share);
-  sb_json_number(json, "asperity_load_share", seal->asperity_share);
-  sb_json_number(json, "friction_boundary_N", seal->friction_boundary);
-  sb_json_number(json, "friction_viscous_N", seal->friction_viscous);
-  sb_json_number(json, "friction_static_N", seal->friction_static);
-  sb_json_number(json, "coefficient_of_friction", seal->coefficient_of_friction);
-  sb_json_number(json, "leakage_per_stroke_m3", seal->leakage_per_stroke);
-  sb_json_number(json, "leakage_static_m3_per_s", seal->leakage_static);
-  sb_json_number(json, "closing_pressure_Pa", seal->closing_pressure);
-  sb_json_number(json, "leak_sensitivity", seal->leak_sensitivity);
-  sb_json_object_end(json);
+// Numbers beside the catalogue's figures, by key.
+typedef struct {
+  const char *key;
+  double value;
+} Named;
+
+enum { NAMED_MAX = 16 };
+
+static void put_named(SbJson *json, const Named *rows, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    sb_json_number(json, rows[i].key, rows[i].value);
+  }
 }
 
-static void put_rig(SbJson *json, const SbModel *model, const SbRigSummary *rig) {
-  const SbRigCoefficients *of = &rig->of;
+static void put_named_reasons(SbJson *json, const char *scope, const Named *rows, size_t count,
+                              const char *reason) {
+  for (size_t i = 0; i < count; i++) {
+    if (!isfinite(rows[i].value)) {
+      g_autofree char *path = g_strdup_printf("%s.%s", scope, rows[i].key);
+      sb_json_string(json, path, reason);
+    }
+  }
+}
+
+static size_t rig_rows(Named out[NAMED_MAX], const SbRun *run) {
+  const SbRigSummary *rig = &sb_run_summary(run)->rig;
+  const SbModel *model = sb_run_model(run);
+  SbRigCoefficients of = rig->of;
+  if (!rig->found) {
+    of.static_coefficient = of.dynamic_coefficient = of.mean_coefficient = NAN;
+    of.first_peak = of.first_time = NAN;
+  }
+  const Named rows[] = {{"load_N", model->rig.load},
+                        {"sampling_rate_Hz", model->rig.rate},
+                        {"coefficient_sliding", model->rig.coefficient},
+                        {"coefficient_static", of.static_coefficient},
+                        {"coefficient_dynamic", of.dynamic_coefficient},
+                        {"coefficient_mean", of.mean_coefficient},
+                        {"first_peak_N", of.first_peak},
+                        {"first_peak_s", of.first_time},
+                        {"coefficient_measured", SB_RIG_MEASURED_DYNAMIC},
+                        {"coefficient_predicted", SB_RIG_PREDICTED_DYNAMIC},
+                        {"coefficient_contact_model", rig->contact_coefficient},
+                        {"load_of_sliding_coefficient_N", rig->contact_load}};
+  memcpy(out, rows, sizeof rows);
+  return G_N_ELEMENTS(rows);
+}
+
+static void put_rig(SbJson *json, const SbRun *run) {
+  const SbRigSummary *rig = &sb_run_summary(run)->rig;
+  Named rows[NAMED_MAX];
   sb_json_object(json, "rig");
-  sb_json_number(json, "load_N", model->rig.load);
-  sb_json_number(json, "sampling_rate_Hz", model->rig.rate);
-  sb_json_number(json, "coefficient_sliding", model->rig.coefficient);
-  sb_json_number(json, "coefficient_static", rig->found ? of->static_coefficient : NAN);
-  sb_json_number(json, "coefficient_dynamic", rig->found ? of->dynamic_coefficient : NAN);
-  sb_json_number(json, "coefficient_mean", rig->found ? of->mean_coefficient : NAN);
-  sb_json_number(json, "first_peak_N", rig->found ? of->first_peak : NAN);
-  sb_json_number(json, "first_peak_s", rig->found ? of->first_time : NAN);
-  sb_json_count(json, "following_peaks", rig->found ? of->peaks : 0);
-  sb_json_bool(json, "stick_slip", rig->found && of->stick_slip);
-  sb_json_number(json, "coefficient_measured", SB_RIG_MEASURED_DYNAMIC);
-  sb_json_number(json, "coefficient_predicted", SB_RIG_PREDICTED_DYNAMIC);
-  sb_json_number(json, "coefficient_contact_model", rig->contact_coefficient);
-  sb_json_number(json, "load_of_sliding_coefficient_N", rig->contact_load);
+  put_named(json, rows, rig_rows(rows, run));
+  sb_json_count(json, "following_peaks", rig->found ? rig->of.peaks : 0);
+  sb_json_bool(json, "stick_slip", rig->found && rig->of.stick_slip);
   sb_json_object_end(json);
 }
 
@@ -147,26 +175,40 @@ static void put_bodies(SbJson *json, const SbRun *run) {
   sb_json_object_end(json);
 }
 
+// What is "last" stands for the whole life: NaN for one that ended before its time.
+static size_t life_rows(Named out[NAMED_MAX], const SbRun *run) {
+  const SbLife *life = &sb_run_summary(run)->life;
+  size_t count;
+  const SbLifeActuation *each = sb_run_life(run, &count);
+  SbLifeActuation last = each[count - 1];
+  if (life->done < sb_run_model(run)->life_actuations) {
+    last.roughness = last.force_breakaway = last.force_return = last.lambda = NAN;
+  }
+  const Named rows[] = {{"roughness_last", last.roughness},
+                        {"force_peak_first_N", life->peak_first},
+                        {"force_peak_last_N", life->peak_last},
+                        {"force_breakaway_first_N", each[0].force_breakaway},
+                        {"force_breakaway_last_N", last.force_breakaway},
+                        {"force_return_least_N", life->return_least},
+                        {"force_return_last_N", last.force_return},
+                        {"lambda_first", each[0].lambda},
+                        {"lambda_last", last.lambda},
+                        {"leakage_net_m3", life->leakage},
+                        {"leakage_carried_m3", life->carried}};
+  memcpy(out, rows, sizeof rows);
+  return G_N_ELEMENTS(rows);
+}
+
 static void put_life(SbJson *json, const SbRun *run) {
   const SbLife *life = &sb_run_summary(run)->life;
   size_t count;
   const SbLifeActuation *each = sb_run_life(run, &count);
-  const SbLifeActuation *last = count > 0 ? &each[count - 1] : NULL;
+  Named rows[NAMED_MAX];
   sb_json_object(json, "life");
   sb_json_count(json, "actuations", (guint64)life->done);
-  sb_json_number(json, "roughness_last", last != NULL ? last->roughness : NAN);
-  sb_json_number(json, "force_peak_first_N", life->peak_first);
-  sb_json_number(json, "force_peak_last_N", life->peak_last);
-  sb_json_number(json, "force_breakaway_first_N", last != NULL ? each[0].force_breakaway : NAN);
-  sb_json_number(json, "force_breakaway_last_N", last != NULL ? last->force_breakaway : NAN);
-  sb_json_number(json, "force_return_least_N", life->return_least);
-  sb_json_number(json, "force_return_last_N", last != NULL ? last->force_return : NAN);
-  sb_json_number(json, "lambda_first", last != NULL ? each[0].lambda : NAN);
-  sb_json_number(json, "lambda_last", last != NULL ? last->lambda : NAN);
-  sb_json_number(json, "leakage_net_m3", life->leakage);
-  sb_json_number(json, "leakage_carried_m3", life->carried);
-  sb_json_count(json, "failures", (guint64)life->failures);
-  sb_json_count(json, "first_failure", (guint64)life->first_failure);
+  put_named(json, rows, life_rows(rows, run));
+  sb_json_count(json, "failures", life->failure > 0);
+  sb_json_count(json, "first_failure", (guint64)life->failure);
   const struct {
     const char *key;
     size_t offset;
@@ -190,6 +232,39 @@ static void put_life(SbJson *json, const SbRun *run) {
   sb_json_object_end(json);
 }
 
+// Why what is null above is so, by path.
+static void put_reasons(SbJson *json, const SbRun *run) {
+  const SbSummary *summary = sb_run_summary(run);
+  Named rows[NAMED_MAX];
+  sb_json_object(json, "reasons");
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    const char *reason = sb_figure_reason(summary, i);
+    const char *path = sb_figure(i)->path;
+    if (reason != NULL) {
+      sb_json_string(json, path, reason);
+    }
+    if (reason != NULL && g_str_has_suffix(path, ".lambda")) {
+      g_autofree char *regime =
+          g_strdup_printf("%.*s.regime", (int)(strrchr(path, '.') - path), path);
+      sb_json_string(json, regime, reason);
+    }
+  }
+  if (sb_run_model(run)->motion == SB_MODEL_MOTION_RIG) {
+    put_named_reasons(json, "rig", rows, rig_rows(rows, run),
+                      "the force has no peak: the plate did not break away, or slid smoothly");
+  }
+  if (summary->life.done > 0) {
+    g_autofree char *reason =
+        summary->life.failure > 0
+            ? g_strdup_printf("the life ends at actuation %ld: its stem does not return",
+                              summary->life.failure)
+            : g_strdup_printf("the life was not computed beyond actuation %ld", summary->life.done);
+    put_named_reasons(json, "life", rows, life_rows(rows, run), reason);
+    sb_json_string(json, "life.by_actuation", "null where an actuation does not slip or return");
+  }
+  sb_json_object_end(json);
+}
+
 static void put_run_solver(SbJson *json, const SbSummary *summary) {
   sb_json_object(json, "solver");
   sb_json_bool(json, "converged", summary->converged);
@@ -198,13 +273,7 @@ static void put_run_solver(SbJson *json, const SbSummary *summary) {
   sb_json_count(json, "rejected_steps", summary->rejected_steps);
   sb_json_count(json, "newton_iterations", summary->newton_iterations);
   sb_json_number(json, "wall_s", summary->wall_s);
-  sb_json_object(json, "error_estimate");
-  sb_json_number(json, "force", summary->error_force);
-  sb_json_number(json, "energy", summary->error_energy);
-  sb_json_number(json, "film", summary->error_film);
-  sb_json_number(json, "film_history", summary->error_film_history);
-  sb_json_number(json, "load", summary->error_load);
-  sb_json_object_end(json);
+  put_figures(json, summary, "solver.");
   const SbCounters *counters = &summary->counters;
   sb_json_object(json, "counters");
   sb_json_count(json, "reynolds_solves", counters->reynolds_solves);
@@ -237,16 +306,19 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   sb_json_string(&json, "friction", "boundary-viscous-static");
   put_choice(&json, "motion", SB_P_MODELS_MOTION, (int)model->motion);
   sb_json_object_end(&json);
-  put_cycle(&json, summary);
+  sb_json_object(&json, "cycle");
+  put_figures(&json, summary, "cycle.");
+  put_verdict(&json, summary);
+  sb_json_object_end(&json);
   if (model->motion == SB_MODEL_MOTION_RIG) {
-    put_rig(&json, model, &summary->rig);
+    put_rig(&json, run);
   }
   if (summary->life.done > 0) {
     put_life(&json, run);
   }
   sb_json_object(&json, "seals");
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    put_seal(&json, sb_seal_name(i), &summary->seal[i]);
+    put_seal(&json, summary, i);
   }
   sb_json_object_end(&json);
   put_bodies(&json, run);
@@ -255,6 +327,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   sb_json_count(&json, "doses", (guint64)MAX(model->doses, 0));
   sb_json_object_end(&json);
   sb_json_warnings(&json, &summary->warnings);
+  put_reasons(&json, run);
   if (info->study_count > 0) {
     sb_json_array(&json, "studies");
     for (size_t i = 0; i < info->study_count; i++) {

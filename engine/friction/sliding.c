@@ -13,6 +13,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct SbSlidingMemory {
   SbFit fit;
@@ -237,8 +238,19 @@ static bool solve_fitted(SbFilm *film, const SbFilmProblem *plane, const SbModel
   return status == SB_OK;
 }
 
-// A seal's film figures are those of `film`, solved on the half-plane or on the fitted body.
-static void take_film(SbSliding *out, const SbFilm *film, bool fitted, const SbFit *fit) {
+// A solver that stopped before its first solution has no figures; one that stopped above the
+// tolerance has those of its last, with their error.
+static bool has_film(const SbFilm *film, SbStatus status) {
+  return status == SB_OK || (status == SB_ERROR_NOT_CONVERGED && film->points > 0);
+}
+
+// A seal's film figures are those of `film`, solved on the half-plane or on the fitted body; NaN
+// stays where it has none.
+static void take_film(SbSliding *out, const SbFilm *film, SbStatus status, bool fitted,
+                      const SbFit *fit) {
+  if (!has_film(film, status)) {
+    return;
+  }
   out->film_fitted = fitted;
   out->film_min = film->film_min;
   out->film_central = film->film_central;
@@ -295,26 +307,27 @@ static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSea
       return carried;
     }
   }
+  memory->fitted_last = false;
   SbStatus status = film_solve(&memory->film, &problem, memory, report);
   if (problem.model == SB_FILM_REYNOLDS) {
     counts->reynolds_solves++;
     counts->newton_iterations += (size_t)memory->film.solver.newton_iterations;
-    out->film_reynolds = memory->film.film_central;
-    out->film_error =
-        fmax(memory->film.solver.error_film_min, memory->film.solver.error_film_central);
   }
   if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
     return status;
   }
-  out->film_min = memory->film.film_min;
-  out->film_central = memory->film.film_central;
   const SbFilm *best = &memory->film;
-  memory->fitted_last = false;
+  take_film(out, best, status, false, &memory->fit);
+  if (problem.model == SB_FILM_REYNOLDS) {
+    out->film_reynolds = out->film_central;
+  } else {
+    out->film_error = NAN;
+  }
   if (problem.model == SB_FILM_REYNOLDS && status == SB_OK &&
       solve_fitted(&memory->fitted_film, &problem, model, seal, pressure, memory, counts,
                    warnings)) {
     best = &memory->fitted_film;
-    take_film(out, best, true, &memory->fit);
+    take_film(out, best, SB_OK, true, &memory->fit);
     memory->fitted_last = true;
   }
   sb_warnings_merge(warnings, &best->warnings);
@@ -349,7 +362,7 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
                               SbSealPressure pressure, double speed, SbSlidingMemory *memory,
                               SbSlidingCounts *counts, SbWarnings *warnings, SbReport *report) {
   SbFilmProblem problem;
-  SbStatus worst = SB_OK;
+  SbStatus worst = SB_OK, last = SB_OK;
   bool same = memory->rested && memory->rest_load == out->load_net &&
               memory->rest_pressure.left == pressure.left &&
               memory->rest_pressure.right == pressure.right;
@@ -360,7 +373,7 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
     if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
       return status;
     }
-    worst = status;
+    worst = last = status;
     memory->rested = status == SB_OK;
     memory->rest_load = out->load_net;
     memory->rest_pressure = pressure;
@@ -381,6 +394,7 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
       return status;
     }
     worst = status != SB_OK ? status : worst;
+    last = status;
   } else {
     memory->film = memory->rest;
   }
@@ -392,17 +406,21 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
   double width = fitted ? fit_width : 2 * film->hertz_half_width;
   double rest_width = memory->rest_fitted ? fit_width : 2 * memory->rest.hertz_half_width;
   double circumference = out->load / out->load_per_length;
-  take_film(out, film, fitted, &memory->fit);
-  out->lambda = film->film_ratio;
-  out->area_share = fmin(film->real_area / width, 1);
-  out->asperity_share = film->asperity_share;
-  out->boundary_area = model->shear_strength * out->area_share * area;
-  out->boundary_load = model->load_coefficient * film->asperity_load * circumference;
-  out->viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
+  take_film(out, film, last, fitted, &memory->fit);
+  if (has_film(film, last)) {
+    out->lambda = film->film_ratio;
+    out->area_share = fmin(film->real_area / width, 1);
+    out->asperity_share = film->asperity_share;
+    out->boundary_area = model->shear_strength * out->area_share * area;
+    out->boundary_load = model->load_coefficient * film->asperity_load * circumference;
+    out->viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
+  }
   const SbFilm *rest = &memory->rest;
-  out->friction_static =
-      model->static_ratio * (model->shear_strength * fmin(rest->real_area / rest_width, 1) * area +
-                             model->load_coefficient * rest->asperity_load * circumference);
+  if (memory->rested || rest->points > 0) {
+    out->friction_static = model->static_ratio *
+                           (model->shear_strength * fmin(rest->real_area / rest_width, 1) * area +
+                            model->load_coefficient * rest->asperity_load * circumference);
+  }
   return worst;
 }
 
@@ -428,12 +446,18 @@ static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *mod
         100 * out->area_share);
     return SB_OK;
   }
-  SbGtIntegrals sliding;
-  SbGtIntegrals rest;
-  sb_gt_integrals(&sliding, out->lambda, NULL);
-  sb_gt_integrals(&rest, 0, NULL);
-  out->area_share = sb_gt_area_share(model->gt_product, sliding.F2);
-  *rest_share = sb_gt_area_share(model->gt_product, rest.F2);
+  SbGtIntegrals integrals;
+  SbStatus status = sb_gt_integrals(&integrals, 0, report);
+  *rest_share = sb_gt_area_share(model->gt_product, integrals.F2);
+  // Without a film there is no real contact under it either.
+  out->area_share = NAN;
+  if (status == SB_OK && !isnan(out->lambda)) {
+    status = sb_gt_integrals(&integrals, out->lambda, report);
+    out->area_share = sb_gt_area_share(model->gt_product, integrals.F2);
+  }
+  if (status != SB_OK) {
+    return status;
+  }
   if (out->area_share > 0.3) {
     sb_warn(
         warnings, "real-area-large", "surface.gt_product",
@@ -456,8 +480,11 @@ static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, do
   }
   out->boundary_area = model->shear_strength * out->area_share * area;
   out->boundary_load = model->load_coefficient * out->load;
-  if (speed != 0 && out->film_central > 0) {
-    double shear = fmin(model->viscosity * fabs(speed) / out->film_central, model->shear_strength);
+  out->viscous = 0;
+  if (speed != 0) {
+    // fmin() would take a film that was not computed for the greatest shear.
+    double shear = model->viscosity * fabs(speed) / out->film_central;
+    shear = shear > model->shear_strength ? model->shear_strength : shear;
     out->viscous = shear * (1 - out->area_share) * area;
   }
   out->friction_static =
@@ -471,11 +498,44 @@ SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, 
                         : sb_succeed(report);
 }
 
+// A film that cannot be, because the fluid opens the contact, is a result, not a failure. Otherwise
+// passes on the report.
+static SbStatus opened_by_fluid(SbSliding *out, SbStatus status, const SbReport *own, int seal,
+                                SbWarnings *warnings, SbReport *report) {
+  if (status != SB_ERROR_INFEASIBLE || strcmp(own->parameter, "canister.pressure") != 0) {
+    if (status != SB_OK && report != NULL) {
+      *report = *own;
+    }
+    return status;
+  }
+  out->opened = true;
+  sb_warn(warnings, "film-opened", "canister.pressure",
+          "the fluid's pressure opens the contact of the %s seal: no film lies in it",
+          sb_seal_name(seal));
+  return SB_OK;
+}
+
 SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
                           double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                           SbWarnings *warnings, SbReport *report) {
-  *out = (SbSliding){.film_reynolds = NAN, .film_error = NAN, .asperity_share = NAN};
   sb_succeed(report);
+  *out = (SbSliding){.contact_left = NAN,
+                     .contact_right = NAN,
+                     .load = NAN,
+                     .load_per_length = NAN,
+                     .load_net = NAN,
+                     .pressure_peak = NAN,
+                     .film_min = NAN,
+                     .film_central = NAN,
+                     .film_reynolds = NAN,
+                     .film_error = NAN,
+                     .lambda = NAN,
+                     .area_share = NAN,
+                     .asperity_share = NAN,
+                     .boundary_area = NAN,
+                     .boundary_load = NAN,
+                     .viscous = NAN,
+                     .friction_static = NAN};
 
   // Fitment. The fit takes the difference; the common part only shifts the fluid's level.
   SbStatus status = solve_fit(memory, model, seal, pressure.left - pressure.right, counts, report);
@@ -484,10 +544,18 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
   }
   const SbFit *fit = &memory->fit;
   sb_warnings_merge(warnings, &fit->warnings);
-  if (!fit->touches) {
+  // One that stopped above the tolerance counts, with its error; else it holds another load's.
+  bool close = fit->solver.error_estimate.load > 0 && fit->solver.error_estimate.load < 1;
+  out->touches = fit->touches || status != SB_OK;
+  if (status != SB_OK && !(fit->touches && close)) {
     return status;
   }
-  out->touches = true;
+  if (!fit->touches) {
+    out->contact_left = out->contact_right = 0;
+    out->load = out->load_per_length = out->load_net = out->pressure_peak = 0;
+    out->boundary_area = out->boundary_load = out->viscous = out->friction_static = 0;
+    return status;
+  }
   out->contact_left = fit->contact_left;
   out->contact_right = fit->contact_right;
   out->load = fit->load;
@@ -499,29 +567,33 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
   double fluid = fabs(pressure.left - pressure.right) * fit->contact_width / 2;
   out->load_net = fit->load_per_length - (holds_fluid ? fluid : 0);
 
+  SbReport own = {0};
+  SbReport *first = status == SB_OK ? report : NULL; // the first failure is told
   if (model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0) {
-    SbStatus coupled = solve_coupled(out, model, seal, pressure, speed, memory, counts, warnings,
-                                     status == SB_OK ? report : NULL);
+    SbStatus coupled =
+        solve_coupled(out, model, seal, pressure, speed, memory, counts, warnings, &own);
+    coupled = opened_by_fluid(out, coupled, &own, seal, warnings, first);
     return coupled != SB_OK ? coupled : status;
   }
 
   // Film, only when sliding.
-  if (speed != 0 && out->load_net <= 0) {
+  if (speed == 0) {
+    out->film_min = out->film_central = 0;
+  } else if (out->load_net <= 0) {
+    out->opened = true;
     sb_warn(warnings, "film-no-net-load", "canister.pressure",
             "the fluid alone carries the %s seal: no film law applies", sb_seal_name(seal));
-  } else if (speed != 0) {
-    SbStatus film_status =
-        solve_film(out, model, seal, pressure, speed, memory, counts, warnings,
-                   status == SB_OK ? report : NULL); // the first failure is the one to tell
-    if (film_status != SB_OK) {
-      status = film_status;
+  } else {
+    SbStatus film = solve_film(out, model, seal, pressure, speed, memory, counts, warnings, &own);
+    film = opened_by_fluid(out, film, &own, seal, warnings, first);
+    if (film != SB_OK && film != SB_ERROR_NOT_CONVERGED) {
+      return film;
     }
-    if (film_status != SB_OK && film_status != SB_ERROR_NOT_CONVERGED) {
-      return status;
-    }
+    status = film != SB_OK ? film : status;
   }
 
-  SbStatus area_status = rough_contact(out, model, seal, speed, warnings, report);
+  SbStatus area_status =
+      rough_contact(out, model, seal, speed, warnings, status == SB_OK ? report : NULL);
   if (area_status != SB_OK) {
     return area_status;
   }

@@ -13,6 +13,10 @@
 // A = contact width x pi D (bore), for every fitment model. The real share A_a/A comes from
 // Greenwood and Tripp at lambda = h_central/sigma. tau_0 is both the boundary shear strength and
 // the Eyring limit.
+//
+// What was not computed is NaN: all of a fitment that failed; the film and what follows from it
+// where the film failed, where the fluid alone carries the seal, or where there is no contact.
+// Without contact, width, load and friction are 0.
 #pragma once
 
 #include "engine/elastic/fit.h"
@@ -21,11 +25,12 @@
 
 typedef struct {
   bool touches;
+  bool opened; // by the fluid: the rubber does not press, or the film's ends differ too much
   double contact_left, contact_right; // seal's frame [m]
   double load, load_per_length;       // total, fluid's share included [N], [N/m]
   double load_net;               // per length, above the ambient step: what the film carries [N/m]
   double pressure_peak;          // [Pa]
-  double film_min, film_central; // [m]; 0 at rest
+  double film_min, film_central; // [m]; 0 at rest, NaN without contact
   double film_reynolds;          // central, solved on the half-plane; NaN if not solved
   bool film_fitted;              // film_min and film_central are solved on the fitted body
   double film_error;             // relative error estimate of the solved film; NaN if closed form
@@ -60,8 +65,8 @@ typedef struct {
 
 // Evaluates `seal` of `model` between `pressure`, sliding at `speed` (> 0: bore moves to +x, the
 // in-stroke; 0: at rest). The fitment is reused from the last call when the pressure has not
-// changed. A ring that does not touch gives zeros and touches = false. SB_ERROR_NOT_CONVERGED with
-// the best state.
+// changed. A ring that does not touch has touches = false. SB_ERROR_NOT_CONVERGED with what was
+// computed, the rest NaN; the report names solver and cause.
 SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
                           double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                           SbWarnings *warnings, SbReport *report);

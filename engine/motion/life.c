@@ -25,7 +25,7 @@ SbStatus sb_life_run(SbLife *life, SbLifeActuation *each, const SbRunningIn *law
                    "a life needs at least one actuation and a running-in above 0");
   }
   double lost[2] = {0.0, 0.0}; // rounding of the sums
-  for (long n = 0; n < count; n++) {
+  for (long n = 0; n < count && life->failure == 0; n++) {
     if (cancelled != NULL && cancelled(user)) {
       return sb_fail(report, SB_ERROR_CANCELLED, "cancelled after %ld actuations", n);
     }
@@ -42,14 +42,14 @@ SbStatus sb_life_run(SbLife *life, SbLifeActuation *each, const SbRunningIn *law
     }
     life->peak_last = one.force_peak;
     life->return_least = fmin(life->return_least, one.force_return);
-    if (!one.returns) {
-      life->failures++;
-      life->first_failure = life->first_failure == 0 ? n + 1 : life->first_failure;
-    }
+    life->failure = one.returns ? 0 : n + 1;
     if (each != NULL) {
       each[n] = one;
     }
     life->done = n + 1;
+  }
+  if (life->done < count) {
+    life->leakage = life->carried = life->peak_last = NAN;
   }
   return sb_succeed(report);
 }

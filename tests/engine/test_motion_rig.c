@@ -153,7 +153,7 @@ static bool stop_at_once(void *user) {
 }
 
 static void test_life(void) {
-  Valve v = {14.5, 13.0, 1.71e-9};
+  Valve v = {14.5, 11.0, 1.71e-9};
   SbRunningIn law = {1.3, 0.9, 60.0};
   ASSERT_NEAR(sb_life_roughness(&law, 0), 1.3, 1e-15);
   ASSERT_NEAR(sb_life_roughness(&law, 60), 0.9 + 0.4 * exp(-1.0), 1e-15);
@@ -162,14 +162,19 @@ static void test_life(void) {
   SbReport report = {0};
   g_assert_cmpint(sb_life_run(&life, each, &law, 400, actuate, NULL, &v, &report), ==, SB_OK);
   ASSERT_NEAR(life.leakage, 400.0 * each[0].leakage, 1e-15 * life.leakage);
-  ASSERT_NEAR(life.return_least, 14.5 - 13.0 * 1.3, 1e-9);
-  g_assert_cmpint(life.first_failure, ==, 1);
-  // Fails until the roughness is below 14.5/13.
-  g_assert_cmpint(life.failures, ==, (long)ceil(60.0 * log(0.4 / (14.5 / 13.0 - 0.9))));
-  for (long n = 0; n < 400; n++) {
-    g_assert_true(each[n].returns == (n >= life.failures));
-  }
+  ASSERT_NEAR(life.return_least, 14.5 - 11.0 * 1.3, 1e-9);
+  g_assert_cmpint(life.failure, ==, 0);
+  g_assert_cmpint(life.done, ==, 400);
   g_assert_cmpfloat(life.peak_last, <, life.peak_first);
+  // Roughened, the stem stays in once the roughness is above 14.5/11: the life ends there.
+  SbRunningIn rising = {0.9, 1.5, 60.0};
+  g_assert_cmpint(sb_life_run(&life, each, &rising, 400, actuate, NULL, &v, &report), ==, SB_OK);
+  g_assert_cmpint(life.failure, ==, 1 + (long)ceil(60.0 * log(0.6 / (1.5 - 14.5 / 11.0))));
+  g_assert_cmpint(life.done, ==, life.failure);
+  for (long n = 0; n < life.done; n++) {
+    g_assert_true(each[n].returns == (n + 1 < life.failure));
+  }
+  g_assert_true(isnan(life.leakage) && isnan(life.carried) && isnan(life.peak_last));
   g_assert_cmpint(sb_life_run(&life, NULL, &law, 5, actuate, stop_at_once, &v, &report), ==,
                   SB_ERROR_CANCELLED);
   g_assert_cmpint(life.done, ==, 0);
