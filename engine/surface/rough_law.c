@@ -3,7 +3,7 @@
 // Greenwood and Tripp's integrals are taken as in greenwood_tripp.c but with F_1 and F_3/2 beside
 // them, which are the slopes: F_n' = -n F_(n-1), (F_1(-t))' = Phi(t). For Persson the outer
 // integral over wave number runs over the panels of persson.c; the inner one depends on one number
-// only, a = w p / E*, and is tabled: G(a) = integral_a^inf [0.45 + 1.65 erf(x/2)^2] exp(-x^2)/x dx.
+// only, a = w p / E*, and is tabled: G(a) = integral_a^inf [0.45 + 1.65 erf(x)^2] exp(-x^2)/x dx.
 #include "engine/surface/rough_law.h"
 
 #include "engine/surface/persson.h"
@@ -91,7 +91,7 @@ typedef struct {
 } InnerTable;
 
 static double inner_integrand(double a) {
-  double e = erf(0.5 * a);
+  double e = erf(a);
   return (0.45 + 1.65 * e * e) * exp(-a * a); // times d ln a
 }
 

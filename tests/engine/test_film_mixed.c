@@ -88,6 +88,31 @@ static void test_laws(void) {
   }
 }
 
+// ---------------------------------------------------------------- references
+
+// Independent finite volumes with complementarity, Richardson over three grids; printed digits.
+static void test_reference(void) {
+  static const struct {
+    SbRoughModel model;
+    double sigma, speed, film_min, share; // least film [nm]
+  } point[] = {
+      {SB_ROUGH_GREENWOOD_TRIPP, 1e-6, 8, 331.99, 0.0597},
+      {SB_ROUGH_GREENWOOD_TRIPP, 1e-6, 0.1, 54.119, 0.3237},
+      {SB_ROUGH_GREENWOOD_TRIPP, 1e-6, 1e-4, 4.0700, 0.8729},
+      {SB_ROUGH_PERSSON, 2e-7, 0.1, 33.68, 0.1178},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(point); i++) {
+    SbFilmProblem problem = seal(point[i].speed, point[i].model);
+    problem.sigma = point[i].sigma;
+    problem.modulus = 6.5725154e6;
+    g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+    g_test_message("reference %zu: least film %.6g nm, asperity share %.6g", i, film.film_min * 1e9,
+                   film.asperity_share);
+    close_to("least film", film.film_min * 1e9, point[i].film_min, 2e-4);
+    g_assert_cmpfloat(fabs(film.asperity_share - point[i].share), <, 1e-4);
+  }
+}
+
 // ---------------------------------------------------------------- limits
 
 // A surface that is smooth because its heights or its asperities vanish has the smooth film, by
@@ -517,6 +542,7 @@ int main(int argc, char **argv) {
   sb_film_solver_create(&solver, NULL);
   g_test_add_func("/film/mixed/direct-start", test_direct_start);
   g_test_add_func("/film/mixed/laws", test_laws);
+  g_test_add_func("/film/mixed/reference", test_reference);
   g_test_add_func("/film/mixed/smooth-limit", test_smooth_limit);
   g_test_add_func("/film/mixed/dry-contact", test_dry_contact);
   g_test_add_func("/film/mixed/stribeck", test_stribeck);
