@@ -14,7 +14,6 @@
 #include "engine/film/mixed.h"
 
 #include "engine/numeric/legendre.h"
-#include "engine/surface/van_der_waals.h"
 
 #include <lapacke.h>
 #include <math.h>
@@ -414,6 +413,22 @@ static void warn(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   }
 }
 
+SbStatus sb_mixed_law(const SbRoughLaw **law, SbMixedSolver *solver, const SbFilmProblem *problem,
+                      SbReport *report) {
+  SbRoughSurface surface = {.model = problem->surface,
+                            .product = problem->gt_product,
+                            .sigma = problem->sigma,
+                            .sigma_over_beta = problem->sigma_over_beta,
+                            .modulus = problem->modulus};
+  *law = &solver->law;
+  if (solver->law_ready && memcmp(&solver->law.surface, &surface, sizeof surface) == 0) {
+    return SB_OK;
+  }
+  SbStatus status = sb_rough_law_init(&solver->law, &surface, report);
+  solver->law_ready = status == SB_OK;
+  return status;
+}
+
 SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                         SbMixedSolver *solver, SbReport *report) {
   double begin = seconds();
@@ -426,8 +441,7 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
       .fluid = sb_film_fluid(problem, scale->pressure, scale->film),
       .film = scale->film,
       .pressure = scale->pressure,
-      .hamaker = problem->hamaker / (6 * M_PI * scale->pressure * pow(scale->film, 3)),
-      .cutoff = SB_VDW_CUTOFF / scale->film,
+      .hamaker = problem->hamaker,
       .body = sb_film_body(problem, scale),
       .layers = {.lambda = scale->lambda,
                  .inlet = scale->inlet,
@@ -439,20 +453,10 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
   };
   memcpy(c.layers.bow, scale->bow, sizeof c.layers.bow);
   if (problem->surface != SB_ROUGH_NONE) {
-    SbRoughSurface surface = {.model = problem->surface,
-                              .product = problem->gt_product,
-                              .sigma = problem->sigma,
-                              .sigma_over_beta = problem->sigma_over_beta,
-                              .modulus = problem->modulus};
-    if (!solver->law_ready || memcmp(&solver->law.surface, &surface, sizeof surface) != 0) {
-      solver->law_ready = false;
-      SbStatus made = sb_rough_law_init(&solver->law, &surface, report);
-      if (made != SB_OK) {
-        return made;
-      }
-      solver->law_ready = true;
+    SbStatus made = sb_mixed_law(&c.law, solver, problem, report);
+    if (made != SB_OK) {
+      return made;
     }
-    c.law = &solver->law;
   }
   c.smooth_gap = 0.01 * sb_layers_flux(&c.layers);
   if (!(c.lambda > 0) && c.layers.inlet == c.layers.outlet) {

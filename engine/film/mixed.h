@@ -73,8 +73,7 @@ typedef struct {
   const SbRoughLaw *law; // NULL: smooth
   double smooth_gap;     // unit of t without a law
   double film, pressure; // scales of the law
-  double hamaker;        // A_H / (6 pi h^3) with h, p scaled; 0 = off
-  double cutoff;         // scaled
+  double hamaker;        // A_H [J]; 0 = off
   double flux, mouth;    // guesses of the flux film and of where the film's pressure begins
   struct {
     double X, width; // of the layers at the film's two mouths; width 0: none
@@ -142,6 +141,10 @@ double sb_mixed_of_gap(const SbMixedCase *c, double gap);
 // A cold start, and a start from another mesh's state.
 void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c);
 void sb_mixed_resample(SbMixedSolver *solver, int from, int to);
+
+// The problem's rough law in *law, from the solver's storage.
+SbStatus sb_mixed_law(const SbRoughLaw **law, SbMixedSolver *solver, const SbFilmProblem *problem,
+                      SbReport *report);
 
 // What Newton's method did.
 typedef struct {

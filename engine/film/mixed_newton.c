@@ -12,8 +12,6 @@
 // shortened only where the gap would fall by more than the rough law's parameter can follow.
 #include "engine/film/mixed.h"
 
-#include "engine/surface/van_der_waals.h"
-
 #include <cblas.h>
 #include <lapacke.h>
 #include <math.h>
@@ -26,34 +24,24 @@ static const double REUSE = 0.1;
 static const double CLOSE = 0.03;
 
 void sb_mixed_point(SbMixedPoint *out, const SbMixedCase *c, double t) {
+  SbRoughPoint p = {0};
   if (c->law != NULL) {
-    SbRoughPoint p;
     sb_rough_law_at(&p, c->law, t);
-    *out = (SbMixedPoint){.h = p.gap / c->film,
-                          .h_t = p.gap_slope / c->film,
-                          .asperity = p.pressure / c->pressure,
-                          .solid = p.pressure / c->pressure,
-                          .solid_t = p.pressure_slope / c->pressure,
-                          .share = p.share};
-    if (c->hamaker > 0) {
-      double h = fmax(out->h, c->cutoff);
-      double pull = c->hamaker / (h * h * h);
-      double by_h = out->h > c->cutoff ? -3 * pull / h : 0;
-      out->solid -= (1 - p.share) * pull;
-      out->solid_t -= (1 - p.share) * by_h * out->h_t - p.share_slope * pull;
-    }
-    return;
+  } else { // smooth: linear above t = 1, falling exponentially to nothing below
+    double unit = c->smooth_gap * c->film;
+    p.gap = t >= 1 ? unit * t : unit * exp(t - 1);
+    p.gap_slope = t >= 1 ? unit : p.gap;
   }
-  // Smooth: linear above t = 1, falling exponentially to nothing below.
-  double unit = c->smooth_gap;
-  out->h = t >= 1 ? unit * t : unit * exp(t - 1);
-  out->h_t = t >= 1 ? unit : out->h;
-  out->asperity = out->solid = out->solid_t = out->share = 0;
+  double pull = 0, pull_slope = 0;
   if (c->hamaker > 0) {
-    double h = fmax(out->h, c->cutoff);
-    out->solid = -c->hamaker / (h * h * h);
-    out->solid_t = out->h > c->cutoff ? -3 * out->solid / h * out->h_t : 0;
+    pull = sb_rough_pull(&pull_slope, &p, c->hamaker);
   }
+  *out = (SbMixedPoint){.h = p.gap / c->film,
+                        .h_t = p.gap_slope / c->film,
+                        .asperity = p.pressure / c->pressure,
+                        .solid = (p.pressure - pull) / c->pressure,
+                        .solid_t = (p.pressure_slope - pull_slope) / c->pressure,
+                        .share = p.share};
 }
 
 double sb_mixed_of_gap(const SbMixedCase *c, double gap) {
@@ -324,7 +312,8 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
       double dp = dq[i] + local.k[i] * dh;
       state->s[i] +=
           local.s0[i] + local.s_h[i] * dh + local.s_p[i] * dp + local.s_kappa[i] * dkappa;
-      double down = fmax(1.5, 0.8 * state->t[i]);
+      // With pull the solids' pressure can have a near-plateau, half a unit of t wide.
+      double down = fmax(c->hamaker > 0 ? 0.3 : 1.5, 0.8 * state->t[i]);
       cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > SB_MIXED_CLOSED);
       state->t[i] = dt > 0.5 ? sb_mixed_of_gap(c, at->h + dh) : state->t[i] + fmax(dt, -down);
       state->q[i] += dq[i];

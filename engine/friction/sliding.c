@@ -280,6 +280,11 @@ static void option_warnings(SbWarnings *warnings, const SbModel *model, int seal
             "%.3g MPa is higher",
             sb_seal_name(seal), 1e-6 * problem->rupture_pressure, 1e-6 * model->rupture_pressure);
   }
+  if (model->hamaker > 0 && model->asperities != SB_MODEL_ASPERITIES_COUPLED) {
+    sb_warn(warnings, "adhesion-beside", "models.adhesion",
+            "adhesion acts in the solve of film and asperities together only (models.asperities = "
+            "coupled): left out here");
+  }
 }
 
 static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,

@@ -7,6 +7,7 @@
 #include "engine/surface/rough_law.h"
 
 #include "engine/surface/persson.h"
+#include "engine/surface/van_der_waals.h"
 
 #include <math.h>
 #include <string.h>
@@ -302,4 +303,45 @@ double sb_rough_law_of_gap(const SbRoughLaw *law, double gap) {
 
 double sb_rough_law_of_pressure(const SbRoughLaw *law, double pressure) {
   return invert(law, law->pressure, law->pressure_slope, log(pressure / law->surface.modulus), -1);
+}
+
+// ---------------------------------------------------------------- adhesion
+
+double sb_rough_pull(double *slope, const SbRoughPoint *at, double hamaker) {
+  double open = 1 - at->share;
+  if (open <= 0) {
+    *slope = 0;
+    return 0;
+  }
+  double gap = at->gap / open;
+  double gap_slope = (at->gap_slope + gap * at->share_slope) / open;
+  double pull = sb_vdw_attraction(hamaker, gap);
+  *slope = open * sb_vdw_slope(hamaker, gap) * gap_slope - at->share_slope * pull;
+  return open * pull;
+}
+
+double sb_rough_snap_in(const SbRoughLaw *law, const SbSnapContact *c) {
+  static const double GROWTH = 10;
+  // Least slope that lets half a wave of the contact grow, and that from which h^3 s^3 suffices.
+  double held = c->modulus * M_PI / (4 * c->width);
+  double passage = 2 * c->width / fabs(c->speed);
+  double grown = cbrt(GROWTH * 12 * c->viscosity * 27 / 64 * c->modulus * c->modulus / passage);
+  // Without asperities s = A_H/(2 pi h^4) outside the cut-off; they only ever take from it.
+  double alone = c->hamaker / (2 * M_PI);
+  double top = fmin(pow(alone / held, 0.25), cbrt(alone / grown));
+  top = top > SB_VDW_CUTOFF ? top : 0;
+  if (law == NULL || top == 0) {
+    return top;
+  }
+  SbRoughPoint at;
+  for (double t = sb_rough_law_of_gap(law, top); t > law->begin; t -= 0.25 * law->step) {
+    sb_rough_law_at(&at, law, t);
+    double pull_slope;
+    sb_rough_pull(&pull_slope, &at, c->hamaker);
+    double s = (at.pressure_slope - pull_slope) / at.gap_slope;
+    if (s > held && at.gap * s > grown) {
+      return at.gap;
+    }
+  }
+  return 0;
 }
