@@ -259,7 +259,8 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
   int order = nodes + 2;
   Local local;
   double before = INFINITY;
-  int settled = 0;
+  int settled = 0;       // small steps so far
+  bool small = false;    // the last one
   bool factored = false; // the matrix holds factors that may serve again
   double row_scale[SB_MIXED_NODES_MAX + 2];
   *trace = (SbMixedTrace){.step = INFINITY};
@@ -274,9 +275,9 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
     if (c->lambda > 0 && before < 0.3) {
       changed = choose(&local, mesh, rule, state, solver->point, !isfinite(c->supply), before);
     }
-    // Converged where no node wants to change sides either; one at the very end of the film may go
-    // to and fro without any effect.
-    if (settled > 0 && (changed == 0 || settled > 6)) {
+    // Converged where no node wants to change sides after a last step that was small; one at the
+    // very end of the film may go to and fro without any effect.
+    if (small && (changed == 0 || settled > 6)) {
       return SB_OK;
     }
     factored = factored && changed == 0;
@@ -328,9 +329,8 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
     // against the gap.
     double rounding = 1e-14 / (least + SB_MIXED_CLOSED);
     bool stalled = largest < 100 * rounding && largest > 0.2 * before;
-    if (!cut && (largest < fmax(1e-8, rounding) || stalled)) {
-      settled++;
-    }
+    small = !cut && (largest < fmax(1e-8, rounding) || stalled);
+    settled += small ? 1 : 0;
     // A start that is none shows soon: a good one is below 1 after five steps. Only a meniscus
     // takes its time to find its node.
     bool hopeless = (iteration > 7 && largest > 3) || (iteration > 20 && largest > 0.1);
