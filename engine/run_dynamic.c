@@ -411,7 +411,8 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   if (status == SB_OK && counters.steps > 0 && !run->follows) {
     status = estimate_error(run, &recorder, &energy, &force, &work, hooks, report);
   }
-  summary->error_force = fmax(summary->error_load, force);
-  summary->error_energy = fmax(fmax(summary->error_load, work), energy.closure);
+  double states = summary->error_load + sb_run_error_friction(run);
+  summary->error_force = fmax(states, force);
+  summary->error_energy = fmax(fmax(states, work), energy.closure);
   return status;
 }

@@ -105,6 +105,7 @@ typedef struct {
   double error_film_min;     // relative, discretisation and iteration
   double error_film_central; // relative
   double error_film_flux;    // relative
+  double error_contact;      // relative, of the real area and the asperities' load; 0 without
   double load_error;         // |integral of p - load| / load
   double flux_error;         // largest |flux(x) / flux - 1| over the full film
   double wall_s;             // time of the solve, cold or warm, without any output

@@ -290,7 +290,7 @@ static SbStatus start(SbMixedSolver *solver, int *which, const SbMixedCase *c,
 // of its change; the least film, beside the kink that the rupture leaves, improves more slowly.
 static SbStatus refine(SbMixedReading *reading, int *levels, int *which, SbMixedSolver *solver,
                        SbMixedCase *c, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
-  static const double RATE = 0.02, RATE_LEAST = 0.05, RATE_FLOW = 0.02;
+  static const double RATE = 0.02, RATE_LEAST = 0.03, RATE_FLOW = 0.015;
   info->error_film_min = info->error_film_central = info->error_film_flux = 1;
   bool follow = sb_mixed_fronts(c, solver, *which, &reading[0]);
   for (int k = follow ? 0 : 1; k < DEGREES; k++) {
@@ -320,6 +320,13 @@ static SbStatus refine(SbMixedReading *reading, int *levels, int *which, SbMixed
     info->error_film_central =
         RATE * fabs(now->film_central - before->film_central) / central + base;
     info->error_film_flux = RATE_LEAST * flow + rounding;
+    info->error_contact =
+        base + (c->law == NULL
+                    ? 0
+                    : (RATE_LEAST * fabs(now->real_area - before->real_area) + now->area_error) /
+                              now->real_area +
+                          RATE_LEAST * fabs(now->asperity_load - before->asperity_load) /
+                              now->asperity_load);
     double worst = fmax(info->error_film_min, info->error_film_central);
     if (degree[k] > degree[0] && worst < 0.1 * problem->tolerance) {
       break;

@@ -170,6 +170,7 @@ typedef struct {
   double pressure_max;
   double couette, poiseuille, cavity; // integrals of (1 - share)/h, (1 - share) h p'/2, theta/h
   double real_area, asperity_load, central_share;
+  double area_error; // of the real area where the share reaches its limit of 1 between two nodes
   double load_error, flux_error;
   bool ruptured;
 } SbMixedReading;

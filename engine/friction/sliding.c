@@ -408,6 +408,10 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
   out->friction_static =
       model->static_ratio * (model->shear_strength * fmin(rest->real_area / rest_width, 1) * area +
                              model->load_coefficient * rest->asperity_load * circumference);
+  out->friction_error =
+      fmax(film->solver.error_contact * (out->boundary_area + out->boundary_load) +
+               out->film_error * out->viscous,
+           rest->solver.error_contact * out->friction_static);
   return worst;
 }
 
@@ -464,6 +468,14 @@ static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, do
   if (speed != 0 && out->film_central > 0) {
     double shear = fmin(model->viscosity * fabs(speed) / out->film_central, model->shear_strength);
     out->viscous = shear * (1 - out->area_share) * area;
+    if (out->film_error > 0) {
+      SbGtIntegrals thinner;
+      sb_gt_integrals(&thinner, out->lambda * (1 - out->film_error), NULL);
+      double share = sb_gt_area_share(model->gt_product, thinner.F2) - out->area_share;
+      bool persson = model->surface == SB_MODEL_SURFACE_PERSSON;
+      out->friction_error = out->film_error * out->viscous +
+                            (persson ? 0 : model->shear_strength * fabs(share) * area);
+    }
   }
   out->friction_static =
       model->static_ratio * (model->shear_strength * rest_share * area + out->boundary_load);

@@ -5,6 +5,7 @@
 // test_run_limits.c, test_run_rig.c.)
 #include "engine/elastic/fit.h"
 #include "engine/film/film.h"
+#include "engine/sealbench.h"
 
 #include <glib.h>
 #include <math.h>
@@ -187,10 +188,80 @@ static void test_disc_thesis(void) {
   }
 }
 
+// ---------------------------------------------------------------- a cycle with solved films
+
+static SbRun *run_cycle(int asperities, double sigma, double speed, double tolerance) {
+  SbParams params;
+  sb_params_init(&params);
+  const struct {
+    SbParamId id;
+    double value;
+  } setting[] = {{SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS},
+                 {SB_P_MODELS_ASPERITIES, asperities},
+                 {SB_P_SURFACE_SIGMA, sigma},
+                 {SB_P_DRIVE_SPEED, speed},
+                 {SB_P_OUTPUT_TOLERANCE, tolerance}};
+  for (size_t i = 0; i < G_N_ELEMENTS(setting); i++) {
+    g_assert_cmpint(sb_params_set(&params, setting[i].id, setting[i].value, NULL), ==, SB_OK);
+  }
+  SbModel model;
+  SbPlan plan;
+  SbRun *run = NULL;
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  sb_plan_make(&plan, &model);
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, NULL), ==, SB_OK);
+  return run;
+}
+
+// Forces and works by closed-form loads hang on the films alone: their estimates hold.
+static void test_cycle(void) {
+  static Tally tally[] = {{.name = "force"}, {.name = "energy"}, {.name = "film"}};
+  for (int asperities = 0; asperities < 2; asperities++) {
+    for (int k = 0; k < 4; k++) {
+      double sigma = k % 2 == 0 ? 1e-6 : 1e-7, speed = k / 2 == 0 ? 1e-3 : 0.3;
+      SbRun *fine = run_cycle(asperities, sigma, speed, 1e-6);
+      const SbSummary *a = sb_run_summary(fine);
+      static const double tolerances[] = {1e-2, 1e-3};
+      for (size_t t = 0; t < G_N_ELEMENTS(tolerances); t++) {
+        SbRun *run = run_cycle(asperities, sigma, speed, tolerances[t]);
+        const SbSummary *b = sb_run_summary(run);
+        double force = fabs(b->force_peak - a->force_peak);
+        force = fmax(force, fabs(b->force_breakaway - a->force_breakaway));
+        force = fmax(force, fabs(b->force_return_min - a->force_return_min));
+        for (int stage = SB_STAGE_B; stage < SB_STAGE_COUNT; stage++) {
+          force = fmax(force, fabs(b->stage[stage].force - a->stage[stage].force));
+        }
+        double work = fmax(fabs(b->energy.loop - a->energy.loop),
+                           fabs(b->energy.friction - a->energy.friction));
+        double film_error = 0;
+        for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+          film_error = fmax(film_error, fabs(b->seal[seal].film_min / a->seal[seal].film_min - 1));
+          film_error =
+              fmax(film_error, fabs(b->seal[seal].film_central / a->seal[seal].film_central - 1));
+        }
+        char where[90];
+        g_snprintf(where, sizeof where, "%s, sigma %g, %g m/s, tolerance %g",
+                   asperities ? "coupled" : "beside", sigma, speed, tolerances[t]);
+        double left = 3 * a->error_film;
+        g_test_message("%s: force %.1e (%.1e) work %.1e (%.1e) film %.1e (%.1e)", where,
+                       force / a->force_peak, b->error_force, work / a->energy.external_max,
+                       b->error_energy, film_error, b->error_film);
+        hold(&tally[0], where, force / a->force_peak, b->error_force, 1e-12);
+        hold(&tally[1], where, work / a->energy.external_max, b->error_energy, 1e-12);
+        hold(&tally[2], where, film_error, b->error_film, left);
+        sb_run_destroy(run);
+      }
+      sb_run_destroy(fine);
+    }
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/estimates/mixed", test_mixed);
   g_test_add_func("/estimates/inverse", test_inverse);
   g_test_add_func("/estimates/disc-thesis", test_disc_thesis);
+  g_test_add_func("/estimates/cycle", test_cycle);
   return g_test_run();
 }
