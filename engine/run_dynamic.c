@@ -425,7 +425,8 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
       status = sb_fail(report, estimate, "%s", own.text);
     }
   }
-  summary->error_force = isnan(force) ? NAN : fmax(summary->error_load, force);
-  summary->error_energy = isnan(work) ? NAN : fmax(fmax(summary->error_load, work), energy.closure);
+  double states = summary->error_load + sb_run_error_friction(run);
+  summary->error_force = isnan(force) ? NAN : fmax(states, force);
+  summary->error_energy = isnan(work) ? NAN : fmax(fmax(states, work), energy.closure);
   return status;
 }

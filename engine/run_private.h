@@ -54,6 +54,7 @@ struct SbRun {
   double speed;  // sliding speed that the states stand for [m/s]: the machine's, or the stem's own
   double film_exponent; // of the film's speed law about it; 0: every frame slides at that speed
   SbSummary summary;
+  double friction_error; // of any state by its films [N]
   SbSlidingMemory *memory[SB_SEAL_COUNT];
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
   SbRunSurface surface[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS];
@@ -153,6 +154,9 @@ void sb_run_publish(SbRun *run, size_t count);
 
 // Remembers the first time a stage is reached.
 void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t index);
+
+// What the films' error leaves in the cycle's forces, over the largest of them; both seals.
+double sb_run_error_friction(const SbRun *run);
 
 // Tells how far the run is: `fraction` of the work before the frames, or of the frames once there
 // are any.

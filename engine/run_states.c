@@ -188,6 +188,11 @@ static void tell_failure(SbRun *run, int seal, int chamber, int motion, const Sb
   *report = whole;
 }
 
+double sb_run_error_friction(const SbRun *run) {
+  double peak = run->summary.force_peak;
+  return peak > 0 ? SB_SEAL_COUNT * run->friction_error / peak : 0;
+}
+
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   SbSlidingCounts counts = {0};
@@ -195,6 +200,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   summary->error_film = NAN;
   summary->error_load = 0;
   run->lacks[0] = '\0';
+  run->friction_error = 0;
   run->cycle.states.model = &run->model;
   // A carried inlet is left by an in-stroke at the model's speed.
   SbModel model = run->model;
@@ -249,6 +255,8 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
           summary->error_load = fmax(summary->error_load,
                                      sb_sliding_fit(run->memory[seal])->solver.error_estimate.load);
         }
+        // fmax() leaves out what was not computed.
+        run->friction_error = fmax(run->friction_error, state->friction_error);
         if (!isnan(state->film_error)) {
           summary->error_film =
               fmax(isnan(summary->error_film) ? 0 : summary->error_film, state->film_error);

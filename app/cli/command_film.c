@@ -99,8 +99,10 @@ static bool read_dry_pressure(const char *path, GArray *x, GArray *p) {
 }
 
 // The same contact by every closed form and by the solver, so that their differences are seen at
-// once; and why a printed table of the thesis differs.
-static void print_other_models(const SbFilm *film, const SbFilmProblem *problem) {
+// once; and why a printed table of the thesis differs. `alpha` and `hamaker` are the options given,
+// or the catalogue's.
+static void print_other_models(const SbFilm *film, const SbFilmProblem *problem, double alpha,
+                               double hamaker) {
   static const SbFilmModel models[] = {SB_FILM_REYNOLDS,      SB_FILM_ASYMPTOTIC, SB_FILM_MOES,
                                        SB_FILM_KARASZKIEWICZ, SB_FILM_THESIS,     SB_FILM_RIGID};
   SbFilm *other = g_new0(SbFilm, 1);
@@ -122,24 +124,21 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem)
   g_free(other);
   double entrainment = fabs(problem->speed) / 2;
   if (entrainment > 0) {
-    SbChartPoint chart =
-        sb_regime_chart(problem->load, entrainment, problem->radius, problem->modulus,
-                        problem->viscosity, sb_param(SB_P_FLUID_PRESSURE_VISCOSITY)->fallback);
-    printf("Greenwood's chart (alpha 2.8/GPa): g_E %.4g, g_V %.4g, %s\n", chart.g_E, chart.g_V,
-           sb_regime_name(chart.regime));
+    SbChartPoint chart = sb_regime_chart(problem->load, entrainment, problem->radius,
+                                         problem->modulus, problem->viscosity, alpha);
+    printf("Greenwood's chart (alpha %.4g/GPa): g_E %.4g, g_V %.4g, %s\n", alpha * 1e9, chart.g_E,
+           chart.g_V, sb_regime_name(chart.regime));
   }
   // Equations 5.9 and 5.17 at this film: the drag of a plane taper from central to least film over
-  // the Hertz width, and the attraction across the least film with the thesis' Hamaker constant.
+  // the Hertz width, and the attraction across the least film.
   if (film->film_min > 0) {
     double taper = sb_taper_factor(fmax(film->film_central / film->film_min, 1));
     sb_cli_figure("Friction, tapered film (5.9)",
                   problem->viscosity * fabs(problem->speed) / film->film_min * taper * 2 *
                       film->hertz_half_width,
                   "N/m", "N/m");
-    sb_cli_figure(
-        "Van der Waals pull (5.17)",
-        sb_vdw_attraction(sb_param(SB_P_SURFACE_HAMAKER_CONSTANT)->fallback, film->film_min), "Pa",
-        "MPa");
+    sb_cli_figure("Van der Waals pull (5.17)", sb_vdw_attraction(hamaker, film->film_min), "Pa",
+                  "MPa");
   }
   if (film->model == SB_FILM_KARASZKIEWICZ || film->model == SB_FILM_THESIS) {
     puts("Note: the laws take the entrainment speed, half the sliding speed. Tables 7.5 and 7.12 "
@@ -298,8 +297,19 @@ static bool choose_surface(SbFilmProblem *problem, const char *name, char *const
   return true;
 }
 
+// The value at `offset` of the problem where its option was given, the catalogue's otherwise.
+static double given_or(const SbFilmProblem *problem, size_t offset, char *const *texts,
+                       SbParamId id) {
+  for (int i = 0; i < QUANTITIES; i++) {
+    if (quantities[i].offset == offset && texts[i] != NULL) {
+      return *(const double *)(const void *)((const char *)problem + offset);
+    }
+  }
+  return sb_param(id)->fallback;
+}
+
 // Solves, and writes or prints what came out; an exit code.
-static int solve_and_show(const SbFilmProblem *problem, const char *target) {
+static int solve_and_show(const SbFilmProblem *problem, char *const *texts, const char *target) {
   SbFilm *film = g_new0(SbFilm, 1);
   Solve job = {film, problem, {0}};
   sb_cli_catch_interrupts();
@@ -316,7 +326,11 @@ static int solve_and_show(const SbFilmProblem *problem, const char *target) {
       g_free(json);
     } else {
       print_table(film, problem);
-      print_other_models(film, problem);
+      print_other_models(film, problem,
+                         given_or(problem, offsetof(SbFilmProblem, pressure_viscosity), texts,
+                                  SB_P_FLUID_PRESSURE_VISCOSITY),
+                         given_or(problem, offsetof(SbFilmProblem, hamaker), texts,
+                                  SB_P_SURFACE_HAMAKER_CONSTANT));
     }
     code = written != SB_EXIT_DONE ? written : code;
   }
@@ -372,7 +386,7 @@ int sb_command_film(int argc, char **argv) {
   problem.dry_x = (const double *)(void *)x->data;
   problem.dry_pressure = (const double *)(void *)p->data;
   problem.dry_count = x->len;
-  code = solve_and_show(&problem, target);
+  code = solve_and_show(&problem, texts, target);
 done:
   g_array_unref(x);
   g_array_unref(p);

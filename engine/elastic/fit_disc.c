@@ -91,13 +91,13 @@ SbStatus sb_fit_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report
   }
 
   // The nodes' error in load and peak is first order in their distance, twice the difference; the
-  // edge is known to half a node.
+  // edge is known to half a node, which leaves its square where the difference happens to vanish.
   const double half_node = 0.5 * degree * cos(asin(disc.contact_width / in->section_diameter)) *
                            in->section_diameter / disc.contact_width;
   out->solver.error_estimate.load =
-      2.0 * fabs(fine.load_per_length / disc.load_per_length - 1.0) + 1e-6;
+      2.0 * fabs(fine.load_per_length / disc.load_per_length - 1.0) + 0.25 * half_node * half_node;
   out->solver.error_estimate.pressure_peak =
-      2.0 * fabs(fine.pressure_peak / disc.pressure_peak - 1.0) + 1e-6;
+      2.0 * fabs(fine.pressure_peak / disc.pressure_peak - 1.0) + 0.25 * half_node * half_node;
   out->solver.error_estimate.contact_width =
       fmax(half_node, 2.0 * fabs(fine.contact_width / disc.contact_width - 1.0));
 

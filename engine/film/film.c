@@ -8,6 +8,7 @@
 #include "engine/film/mixed.h"
 #include "engine/film/reynolds.h"
 #include "engine/film/scale.h"
+#include "engine/surface/van_der_waals.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -72,7 +73,31 @@ static bool mixed(const SbFilmProblem *problem) {
   return problem->surface != SB_ROUGH_NONE || problem->hamaker > 0.0;
 }
 
-// The coupled solver, with asperities or without.
+// Gap below which the pull closes the film.
+static double snap_gap(const SbRoughLaw *law, const SbFilmProblem *problem,
+                       const SbFilmScale *scale) {
+  const SbSnapContact contact = {.hamaker = problem->hamaker,
+                                 .modulus = problem->modulus,
+                                 .width = 2 * scale->half_width,
+                                 .viscosity = problem->viscosity,
+                                 .speed = problem->speed};
+  return sb_rough_snap_in(law, &contact);
+}
+
+// Says that *out is the film without the pull, where with it there is boundary lubrication.
+static void snap_in(SbFilm *out, const SbFilmProblem *problem, double closed) {
+  out->valid = false;
+  strcpy(out->regime, "boundary");
+  sb_warn(
+      &out->warnings, "film-snap-in", "surface.hamaker_constant",
+      "adhesion closes gaps below %.3g nm (film without it %.3g nm): boundary lubrication, work "
+      "of adhesion %.2g J/m2; the figures are those without adhesion",
+      closed * 1e9, out->film_min * 1e9,
+      problem->hamaker / (12 * M_PI * SB_VDW_CUTOFF * SB_VDW_CUTOFF));
+}
+
+// The coupled solver, with asperities or without. A pull that would close the film (rough_law.h) is
+// told beforehand: the film without it, and a warning.
 static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                               SbFilmSolver *solver, SbReport *report) {
   if (!mixed(problem)) {
@@ -84,7 +109,42 @@ static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const S
       return sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
     }
   }
-  return sb_mixed_solve(out, problem, scale, solver->mixed, report);
+  double closed = 0;
+  if (problem->hamaker > 0.0) {
+    const SbRoughLaw *law = NULL;
+    if (problem->surface != SB_ROUGH_NONE) {
+      SbStatus made = sb_mixed_law(&law, solver->mixed, problem, report);
+      if (made != SB_OK) {
+        return made;
+      }
+    }
+    closed = snap_gap(law, problem, scale);
+  }
+  if (!(closed > 0)) {
+    return sb_mixed_solve(out, problem, scale, solver->mixed, report);
+  }
+  SbFilmProblem without = *problem;
+  without.hamaker = 0;
+  SbStatus status = solve_coupled(out, &without, scale, solver, report);
+  double wall_s = out->solver.wall_s;
+  if (status != SB_OK) {
+    return status;
+  }
+  if (out->film_min > closed) { // thick enough, unless the pull itself draws it down there
+    sb_film_begin(out, problem, scale);
+    status = sb_mixed_solve(out, problem, scale, solver->mixed, report);
+    wall_s += out->solver.wall_s;
+    if (status == SB_OK ? out->film_min > closed : status != SB_ERROR_NOT_CONVERGED) {
+      out->solver.wall_s = wall_s;
+      return status;
+    }
+    sb_film_begin(out, &without, scale);
+    status = solve_coupled(out, &without, scale, solver, report);
+    wall_s += out->solver.wall_s;
+  }
+  snap_in(out, problem, closed);
+  out->solver.wall_s = wall_s;
+  return status;
 }
 
 #define RANGE(member) offsetof(SbFilmProblem, member)
@@ -254,6 +314,9 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
       status = sb_succeed(report);
     } else {
       status = sb_film_solve_dry(out, problem, &scale, report);
+    }
+    if (status == SB_OK && mixed(problem)) { // no film at all between smooth surfaces at rest
+      snap_in(out, problem, snap_gap(NULL, problem, &scale));
     }
   } else {
     switch (problem->model) {

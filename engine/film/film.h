@@ -73,7 +73,8 @@ typedef struct {
   double gt_product;       // zeta beta sigma
   double sigma;            // combined standard deviation of heights [m]
   double sigma_over_beta;  // sigma over the asperities' tip radius
-  double hamaker;          // A_H [J] of van der Waals' pull across the open gap; 0 = off
+  double hamaker;          // A_H [J] of van der Waals' pull across the open gap; 0 = off. Where the
+                           // pull closes the film: the film without it, "film-snap-in"
   double shear_strength;   // tau_0 [Pa] of the real contact
   double load_coefficient; // m on the asperities' load
 
@@ -104,6 +105,7 @@ typedef struct {
   double error_film_min;     // relative, discretisation and iteration
   double error_film_central; // relative
   double error_film_flux;    // relative
+  double error_contact;      // relative, of the real area and the asperities' load; 0 without
   double load_error;         // |integral of p - load| / load
   double flux_error;         // largest |flux(x) / flux - 1| over the full film
   double wall_s;             // time of the solve, cold or warm, without any output
@@ -138,8 +140,8 @@ typedef struct {
   double moes_W;              // W = load / (E' R)
   double lambda;              // 3 pi^2 U / (4 W^2) = (3 pi^2 / 8) / M^2
   double expected_error;      // relative error of the model itself in the flux film, 0 = exact
-  char regime[48];            // "dry", "isoviscous-rigid", "transition", "isoviscous-elastic"
-  bool valid;                 // false: outside the model's range, see warnings
+  char regime[48]; // "dry", "isoviscous-rigid", "transition", "isoviscous-elastic", "boundary"
+  bool valid;      // false: outside the model's range, see warnings
   SbWarnings warnings;
   SbFilmSolverInfo solver;
 

@@ -14,7 +14,6 @@
 #include "engine/film/mixed.h"
 
 #include "engine/numeric/legendre.h"
-#include "engine/surface/van_der_waals.h"
 
 #include <lapacke.h>
 #include <math.h>
@@ -291,7 +290,7 @@ static SbStatus start(SbMixedSolver *solver, int *which, const SbMixedCase *c,
 // of its change; the least film, beside the kink that the rupture leaves, improves more slowly.
 static SbStatus refine(SbMixedReading *reading, int *levels, int *which, SbMixedSolver *solver,
                        SbMixedCase *c, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
-  static const double RATE = 0.02, RATE_LEAST = 0.05, RATE_FLOW = 0.02;
+  static const double RATE = 0.02, RATE_LEAST = 0.03, RATE_FLOW = 0.015;
   info->error_film_min = info->error_film_central = info->error_film_flux = 1;
   bool follow = sb_mixed_fronts(c, solver, *which, &reading[0]);
   for (int k = follow ? 0 : 1; k < DEGREES; k++) {
@@ -321,6 +320,13 @@ static SbStatus refine(SbMixedReading *reading, int *levels, int *which, SbMixed
     info->error_film_central =
         RATE * fabs(now->film_central - before->film_central) / central + base;
     info->error_film_flux = RATE_LEAST * flow + rounding;
+    info->error_contact =
+        base + (c->law == NULL
+                    ? 0
+                    : (RATE_LEAST * fabs(now->real_area - before->real_area) + now->area_error) /
+                              now->real_area +
+                          RATE_LEAST * fabs(now->asperity_load - before->asperity_load) /
+                              now->asperity_load);
     double worst = fmax(info->error_film_min, info->error_film_central);
     if (degree[k] > degree[0] && worst < 0.1 * problem->tolerance) {
       break;
@@ -414,6 +420,22 @@ static void warn(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   }
 }
 
+SbStatus sb_mixed_law(const SbRoughLaw **law, SbMixedSolver *solver, const SbFilmProblem *problem,
+                      SbReport *report) {
+  SbRoughSurface surface = {.model = problem->surface,
+                            .product = problem->gt_product,
+                            .sigma = problem->sigma,
+                            .sigma_over_beta = problem->sigma_over_beta,
+                            .modulus = problem->modulus};
+  *law = &solver->law;
+  if (solver->law_ready && memcmp(&solver->law.surface, &surface, sizeof surface) == 0) {
+    return SB_OK;
+  }
+  SbStatus status = sb_rough_law_init(&solver->law, &surface, report);
+  solver->law_ready = status == SB_OK;
+  return status;
+}
+
 SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                         SbMixedSolver *solver, SbReport *report) {
   double begin = seconds();
@@ -426,8 +448,7 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
       .fluid = sb_film_fluid(problem, scale->pressure, scale->film),
       .film = scale->film,
       .pressure = scale->pressure,
-      .hamaker = problem->hamaker / (6 * M_PI * scale->pressure * pow(scale->film, 3)),
-      .cutoff = SB_VDW_CUTOFF / scale->film,
+      .hamaker = problem->hamaker,
       .body = sb_film_body(problem, scale),
       .layers = {.lambda = scale->lambda,
                  .inlet = scale->inlet,
@@ -439,20 +460,10 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
   };
   memcpy(c.layers.bow, scale->bow, sizeof c.layers.bow);
   if (problem->surface != SB_ROUGH_NONE) {
-    SbRoughSurface surface = {.model = problem->surface,
-                              .product = problem->gt_product,
-                              .sigma = problem->sigma,
-                              .sigma_over_beta = problem->sigma_over_beta,
-                              .modulus = problem->modulus};
-    if (!solver->law_ready || memcmp(&solver->law.surface, &surface, sizeof surface) != 0) {
-      solver->law_ready = false;
-      SbStatus made = sb_rough_law_init(&solver->law, &surface, report);
-      if (made != SB_OK) {
-        return made;
-      }
-      solver->law_ready = true;
+    SbStatus made = sb_mixed_law(&c.law, solver, problem, report);
+    if (made != SB_OK) {
+      return made;
     }
-    c.law = &solver->law;
   }
   c.smooth_gap = 0.01 * sb_layers_flux(&c.layers);
   if (!(c.lambda > 0) && c.layers.inlet == c.layers.outlet) {

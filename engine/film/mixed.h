@@ -73,8 +73,7 @@ typedef struct {
   const SbRoughLaw *law; // NULL: smooth
   double smooth_gap;     // unit of t without a law
   double film, pressure; // scales of the law
-  double hamaker;        // A_H / (6 pi h^3) with h, p scaled; 0 = off
-  double cutoff;         // scaled
+  double hamaker;        // A_H [J]; 0 = off
   double flux, mouth;    // guesses of the flux film and of where the film's pressure begins
   struct {
     double X, width; // of the layers at the film's two mouths; width 0: none
@@ -143,6 +142,10 @@ double sb_mixed_of_gap(const SbMixedCase *c, double gap);
 void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c);
 void sb_mixed_resample(SbMixedSolver *solver, int from, int to);
 
+// The problem's rough law in *law, from the solver's storage.
+SbStatus sb_mixed_law(const SbRoughLaw **law, SbMixedSolver *solver, const SbFilmProblem *problem,
+                      SbReport *report);
+
 // What Newton's method did.
 typedef struct {
   int iterations;
@@ -167,6 +170,7 @@ typedef struct {
   double pressure_max;
   double couette, poiseuille, cavity; // integrals of (1 - share)/h, (1 - share) h p'/2, theta/h
   double real_area, asperity_load, central_share;
+  double area_error; // of the real area where the share reaches its limit of 1 between two nodes
   double load_error, flux_error;
   bool ruptured;
 } SbMixedReading;

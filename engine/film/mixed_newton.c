@@ -12,8 +12,6 @@
 // shortened only where the gap would fall by more than the rough law's parameter can follow.
 #include "engine/film/mixed.h"
 
-#include "engine/surface/van_der_waals.h"
-
 #include <cblas.h>
 #include <lapacke.h>
 #include <math.h>
@@ -26,34 +24,24 @@ static const double REUSE = 0.1;
 static const double CLOSE = 0.03;
 
 void sb_mixed_point(SbMixedPoint *out, const SbMixedCase *c, double t) {
+  SbRoughPoint p = {0};
   if (c->law != NULL) {
-    SbRoughPoint p;
     sb_rough_law_at(&p, c->law, t);
-    *out = (SbMixedPoint){.h = p.gap / c->film,
-                          .h_t = p.gap_slope / c->film,
-                          .asperity = p.pressure / c->pressure,
-                          .solid = p.pressure / c->pressure,
-                          .solid_t = p.pressure_slope / c->pressure,
-                          .share = p.share};
-    if (c->hamaker > 0) {
-      double h = fmax(out->h, c->cutoff);
-      double pull = c->hamaker / (h * h * h);
-      double by_h = out->h > c->cutoff ? -3 * pull / h : 0;
-      out->solid -= (1 - p.share) * pull;
-      out->solid_t -= (1 - p.share) * by_h * out->h_t - p.share_slope * pull;
-    }
-    return;
+  } else { // smooth: linear above t = 1, falling exponentially to nothing below
+    double unit = c->smooth_gap * c->film;
+    p.gap = t >= 1 ? unit * t : unit * exp(t - 1);
+    p.gap_slope = t >= 1 ? unit : p.gap;
   }
-  // Smooth: linear above t = 1, falling exponentially to nothing below.
-  double unit = c->smooth_gap;
-  out->h = t >= 1 ? unit * t : unit * exp(t - 1);
-  out->h_t = t >= 1 ? unit : out->h;
-  out->asperity = out->solid = out->solid_t = out->share = 0;
+  double pull = 0, pull_slope = 0;
   if (c->hamaker > 0) {
-    double h = fmax(out->h, c->cutoff);
-    out->solid = -c->hamaker / (h * h * h);
-    out->solid_t = out->h > c->cutoff ? -3 * out->solid / h * out->h_t : 0;
+    pull = sb_rough_pull(&pull_slope, &p, c->hamaker);
   }
+  *out = (SbMixedPoint){.h = p.gap / c->film,
+                        .h_t = p.gap_slope / c->film,
+                        .asperity = p.pressure / c->pressure,
+                        .solid = (p.pressure - pull) / c->pressure,
+                        .solid_t = (p.pressure_slope - pull_slope) / c->pressure,
+                        .share = p.share};
 }
 
 double sb_mixed_of_gap(const SbMixedCase *c, double gap) {
@@ -271,7 +259,8 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
   int order = nodes + 2;
   Local local;
   double before = INFINITY;
-  int settled = 0;
+  int settled = 0;       // small steps so far
+  bool small = false;    // the last one
   bool factored = false; // the matrix holds factors that may serve again
   double row_scale[SB_MIXED_NODES_MAX + 2];
   *trace = (SbMixedTrace){.step = INFINITY};
@@ -286,9 +275,9 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
     if (c->lambda > 0 && before < 0.3) {
       changed = choose(&local, mesh, rule, state, solver->point, !isfinite(c->supply), before);
     }
-    // Converged where no node wants to change sides either; one at the very end of the film may go
-    // to and fro without any effect.
-    if (settled > 0 && (changed == 0 || settled > 6)) {
+    // Converged where no node wants to change sides after a last step that was small; one at the
+    // very end of the film may go to and fro without any effect.
+    if (small && (changed == 0 || settled > 6)) {
       return SB_OK;
     }
     factored = factored && changed == 0;
@@ -324,7 +313,8 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
       double dp = dq[i] + local.k[i] * dh;
       state->s[i] +=
           local.s0[i] + local.s_h[i] * dh + local.s_p[i] * dp + local.s_kappa[i] * dkappa;
-      double down = fmax(1.5, 0.8 * state->t[i]);
+      // With pull the solids' pressure can have a near-plateau, half a unit of t wide.
+      double down = fmax(c->hamaker > 0 ? 0.3 : 1.5, 0.8 * state->t[i]);
       cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > SB_MIXED_CLOSED);
       state->t[i] = dt > 0.5 ? sb_mixed_of_gap(c, at->h + dh) : state->t[i] + fmax(dt, -down);
       state->q[i] += dq[i];
@@ -339,9 +329,8 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
     // against the gap.
     double rounding = 1e-14 / (least + SB_MIXED_CLOSED);
     bool stalled = largest < 100 * rounding && largest > 0.2 * before;
-    if (!cut && (largest < fmax(1e-8, rounding) || stalled)) {
-      settled++;
-    }
+    small = !cut && (largest < fmax(1e-8, rounding) || stalled);
+    settled += small ? 1 : 0;
     // A start that is none shows soon: a good one is below 1 after five steps. Only a meniscus
     // takes its time to find its node.
     bool hopeless = (iteration > 7 && largest > 3) || (iteration > 20 && largest > 0.1);

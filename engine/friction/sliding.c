@@ -292,6 +292,11 @@ static void option_warnings(SbWarnings *warnings, const SbModel *model, int seal
             "%.3g MPa is higher",
             sb_seal_name(seal), 1e-6 * problem->rupture_pressure, 1e-6 * model->rupture_pressure);
   }
+  if (model->hamaker > 0 && model->asperities != SB_MODEL_ASPERITIES_COUPLED) {
+    sb_warn(warnings, "adhesion-beside", "models.adhesion",
+            "adhesion acts in the solve of film and asperities together only (models.asperities = "
+            "coupled): left out here");
+  }
 }
 
 static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
@@ -421,6 +426,10 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
                            (model->shear_strength * fmin(rest->real_area / rest_width, 1) * area +
                             model->load_coefficient * rest->asperity_load * circumference);
   }
+  out->friction_error =
+      fmax(film->solver.error_contact * (out->boundary_area + out->boundary_load) +
+               out->film_error * out->viscous,
+           rest->solver.error_contact * out->friction_static);
   return worst;
 }
 
@@ -486,6 +495,14 @@ static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, do
     double shear = model->viscosity * fabs(speed) / out->film_central;
     shear = shear > model->shear_strength ? model->shear_strength : shear;
     out->viscous = shear * (1 - out->area_share) * area;
+    if (out->film_error > 0) {
+      SbGtIntegrals thinner;
+      sb_gt_integrals(&thinner, out->lambda * (1 - out->film_error), NULL);
+      double share = sb_gt_area_share(model->gt_product, thinner.F2) - out->area_share;
+      bool persson = model->surface == SB_MODEL_SURFACE_PERSSON;
+      out->friction_error = out->film_error * out->viscous +
+                            (persson ? 0 : model->shear_strength * fabs(share) * area);
+    }
   }
   out->friction_static =
       model->static_ratio * (model->shear_strength * rest_share * area + out->boundary_load);

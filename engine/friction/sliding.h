@@ -41,6 +41,7 @@ typedef struct {
   double boundary_load;          // m W, the part in proportion to the load [N]
   double viscous;                // [N]
   double friction_static;        // [N]
+  double friction_error;         // of either friction by the solved film's error [N]
 } SbSliding;
 
 // Kinetic friction of a whole contact [N].

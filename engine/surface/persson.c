@@ -76,7 +76,7 @@ double sb_persson_area_share(const SbSpectrum *s, double q, double modulus, doub
   return erf(M_SQRT2 * pressure / (modulus / 2 * sqrt(slope2)));
 }
 
-// Inner integral over p' from p to infinity of [gamma + 3 (1 - gamma) erf(w p'/(2 E*))^2] exp(-(w
+// Inner integral over p' from p to infinity of [gamma + 3 (1 - gamma) erf(w p'/E*)^2] exp(-(w
 // p'/E*)^2)/p'. With t = (w p'/E*)^2 the first part is E1(t)/2; the second is small where the first
 // is not and is summed over ln t by Simpson's rule, 48 intervals to where exp(-t) is nothing.
 static double inner_integral(double a) {
@@ -94,7 +94,7 @@ static double inner_integral(double a) {
   double sum = 0;
   for (int i = 0; i <= N; i++) {
     double t = exp(u0 + i * h);
-    double P = gsl_sf_erf(sqrt(t) / 2);
+    double P = gsl_sf_erf(sqrt(t));
     double weight = i == 0 || i == N ? 1 : i % 2 == 1 ? 4 : 2;
     sum += weight * P * P * exp(-t);
   }

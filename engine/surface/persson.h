@@ -7,6 +7,9 @@
 // between q0 and q1, H = 0.8.
 //
 //   A(q)/A0 = erf(sqrt 2 p/(E* h'(q))),  h'(q)^2 = 2 pi int_q0^q k^3 C dk,  1/E* = sum (1 - nu^2)/E
+//   u(p) = sqrt(pi) int q^2 C w dq int_p [gamma + 3 (1 - gamma) P^2] exp(-(w p'/E*)^2) dp'/p'
+//   P = erf(w p'/E*),  w = (pi int k^3 C dk)^(-1/2): area and separation share one P, and the work
+//   int p |du| of closing the gap is the elastic energy at full contact, (pi/2) E* int q^2 C dq
 //
 // The spectrum follows from the three figures Greenwood and Tripp use, by Nayak's moments of a
 // random surface (McCool 1986): tip radius beta = 3 sqrt(pi/m4)/8, density zeta = m4/(6 pi sqrt 3

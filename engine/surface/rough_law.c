@@ -3,10 +3,11 @@
 // Greenwood and Tripp's integrals are taken as in greenwood_tripp.c but with F_1 and F_3/2 beside
 // them, which are the slopes: F_n' = -n F_(n-1), (F_1(-t))' = Phi(t). For Persson the outer
 // integral over wave number runs over the panels of persson.c; the inner one depends on one number
-// only, a = w p / E*, and is tabled: G(a) = integral_a^inf [0.45 + 1.65 erf(x/2)^2] exp(-x^2)/x dx.
+// only, a = w p / E*, and is tabled: G(a) = integral_a^inf [0.45 + 1.65 erf(x)^2] exp(-x^2)/x dx.
 #include "engine/surface/rough_law.h"
 
 #include "engine/surface/persson.h"
+#include "engine/surface/van_der_waals.h"
 
 #include <math.h>
 #include <string.h>
@@ -91,7 +92,7 @@ typedef struct {
 } InnerTable;
 
 static double inner_integrand(double a) {
-  double e = erf(0.5 * a);
+  double e = erf(a);
   return (0.45 + 1.65 * e * e) * exp(-a * a); // times d ln a
 }
 
@@ -302,4 +303,45 @@ double sb_rough_law_of_gap(const SbRoughLaw *law, double gap) {
 
 double sb_rough_law_of_pressure(const SbRoughLaw *law, double pressure) {
   return invert(law, law->pressure, law->pressure_slope, log(pressure / law->surface.modulus), -1);
+}
+
+// ---------------------------------------------------------------- adhesion
+
+double sb_rough_pull(double *slope, const SbRoughPoint *at, double hamaker) {
+  double open = 1 - at->share;
+  if (open <= 0) {
+    *slope = 0;
+    return 0;
+  }
+  double gap = at->gap / open;
+  double gap_slope = (at->gap_slope + gap * at->share_slope) / open;
+  double pull = sb_vdw_attraction(hamaker, gap);
+  *slope = open * sb_vdw_slope(hamaker, gap) * gap_slope - at->share_slope * pull;
+  return open * pull;
+}
+
+double sb_rough_snap_in(const SbRoughLaw *law, const SbSnapContact *c) {
+  static const double GROWTH = 10;
+  // Least slope that lets half a wave of the contact grow, and that from which h^3 s^3 suffices.
+  double held = c->modulus * M_PI / (4 * c->width);
+  double passage = 2 * c->width / fabs(c->speed);
+  double grown = cbrt(GROWTH * 12 * c->viscosity * 27 / 64 * c->modulus * c->modulus / passage);
+  // Without asperities s = A_H/(2 pi h^4) outside the cut-off; they only ever take from it.
+  double alone = c->hamaker / (2 * M_PI);
+  double top = fmin(pow(alone / held, 0.25), cbrt(alone / grown));
+  top = top > SB_VDW_CUTOFF ? top : 0;
+  if (law == NULL || top == 0) {
+    return top;
+  }
+  SbRoughPoint at;
+  for (double t = sb_rough_law_of_gap(law, top); t > law->begin; t -= 0.25 * law->step) {
+    sb_rough_law_at(&at, law, t);
+    double pull_slope;
+    sb_rough_pull(&pull_slope, &at, c->hamaker);
+    double s = (at.pressure_slope - pull_slope) / at.gap_slope;
+    if (s > held && at.gap * s > grown) {
+      return at.gap;
+    }
+  }
+  return 0;
 }

@@ -70,6 +70,30 @@ void sb_rough_law_at(SbRoughPoint *out, const SbRoughLaw *law, double t);
 double sb_rough_law_of_gap(const SbRoughLaw *law, double gap);
 double sb_rough_law_of_pressure(const SbRoughLaw *law, double pressure);
 
+// Van der Waals' pull [Pa] at a point of the law and its slope to t: A_H/(6 pi d^3) over the part
+// of the area that is open, across the gap that is open there, d = h/(1 - share).
+double sb_rough_pull(double *slope, const SbRoughPoint *at, double hamaker);
+
+// A lubricated contact that pull may close.
+typedef struct {
+  double hamaker;   // [J]
+  double modulus;   // E' [Pa]
+  double width;     // 2 b [m]
+  double viscosity; // [Pa s]
+  double speed;     // sliding, [m/s]; 0 at rest
+} SbSnapContact;
+
+// Largest mean gap [m] at which pull closes a film on `law` (NULL: smooth surfaces), 0 if none.
+//
+// Where asperities less pull give way as the gap opens, s = d(p_a - p_v)/dh > 0, the film equation
+// is one of negative diffusion (spinodal) for waves k that the half-plane does not hold, E' k/4 <
+// s. The fastest, k = 8 s/(3 E'), grows at (h^3/12 eta) (64/27) s^3/E'^2. Such a gap is inside the
+// window where half a wave fits the contact and the growth over the passage at u/2 exceeds e^10, as
+// in the e^N rule of boundary layers: below it disturbances leave the contact before they matter.
+// Measured on smooth films, A_H = 1e-20 to 1e-18 J: the steady equation keeps its solution to N of
+// some 100 and has none from some 600.
+double sb_rough_snap_in(const SbRoughLaw *law, const SbSnapContact *contact);
+
 // Name on the command line ("none", "greenwood-tripp", "persson"); borrowed, never NULL.
 const char *sb_rough_model_name(SbRoughModel model);
 

@@ -4,8 +4,8 @@
 // pull each other with p = A_H/(6 pi h^3) per unit area, which ADDS to the load that film and
 // asperities carry. The law holds between the contact distance D0 = 0.165 nm (Israelachvili's
 // cut-off; closer, the bodies touch and the pull is held at its value there) and some 5 nm (beyond,
-// retardation weakens it further). Between rough surfaces it acts only over the area that is really
-// that close: multiply by that share.
+// retardation weakens it further). Between rough surfaces it acts over the open part of the area
+// and across the gap that is open there (sb_rough_pull).
 #pragma once
 
 // Cut-off distance [m].

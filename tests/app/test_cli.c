@@ -266,6 +266,20 @@ static void test_film_options(void) {
   cli_clear(&flooded);
   cli_clear(&starved);
 
+  // The table's chart and pull take the options given: both are proportional to them.
+  double chart[2], pull[2];
+  for (int i = 0; i < 2; i++) {
+    CliResult table = CLI(CONTACT, "--pressure-viscosity", i == 0 ? "1/GPa" : "3/GPa", "--hamaker",
+                          i == 0 ? "1e-21J" : "3e-21J");
+    g_assert_cmpint(table.code, ==, 0);
+    g_assert_nonnull(strstr(table.out, i == 0 ? "alpha 1/GPa" : "alpha 3/GPa"));
+    chart[i] = g_ascii_strtod(strstr(table.out, "g_V ") + 4, NULL);
+    pull[i] = g_ascii_strtod(strstr(table.out, "pull (5.17)") + 11, NULL);
+    cli_clear(&table);
+  }
+  g_assert_cmpfloat_with_epsilon(chart[1] / chart[0], 3, 2e-3);
+  g_assert_cmpfloat_with_epsilon(pull[1] / pull[0], 3, 2e-3);
+
   // End pressures that all but open the contact: solved, or said with no figures but the problem's.
   CliResult open = CLI(CONTACT, "--pressure-left", "3.2 MPa", "--json", "-");
   one = cli_parse(open.out);

@@ -1,6 +1,7 @@
 // Persson's contact and the static leak: limits, moments, monotony, convergence.
 #include "engine/leak/percolation.h"
 #include "engine/surface/persson.h"
+#include "engine/surface/rough_law.h"
 
 #include <glib.h>
 #include <math.h>
@@ -65,6 +66,43 @@ static void test_separation(void) {
   g_assert_cmpfloat_with_epsilon(u0 / s.sigma, 0.45, 0.1);
   g_assert_cmpfloat(fabs((u2 - u3) / (u1 - u2) - 1), <, 0.15);
   g_assert_cmpfloat(sb_persson_separation(&s, s.q0, modulus, 1e8), <, 1e-12);
+}
+
+// Work of closing the gap, integral of p |du| from apart to closed, over the elastic energy at full
+// contact, (pi/2) E* integral of q^2 C dq: 1, as both area and separation follow from one
+// probability of contact. By the direct integral (its inner Simpson rule: 1e-4) and by the film
+// solver's table.
+static void test_energy(void) {
+  static const double figures[][3] = {{1e-6, 0.1, 0.1289}, {2e-7, 0.02, 0.06}, {4e-6, 0.3, 0.5}};
+  for (size_t k = 0; k < G_N_ELEMENTS(figures); k++) {
+    const double *f = figures[k];
+    SbSpectrum s;
+    g_assert_cmpint(sb_spectrum_from_asperities(&s, f[0], f[1], f[2], NULL), ==, SB_OK);
+    double power = 1 - 2 * s.hurst;
+    double full =
+        M_PI / 2 * modulus / 2 * s.amplitude * (pow(s.q1, power) - pow(s.q0, power)) / power;
+    SbRoughSurface surface = {SB_ROUGH_PERSSON, f[2], f[0], f[1], modulus};
+    SbRoughLaw law;
+    g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
+    // Trapezoids over ln p, from 1e-7 of the pressure that closes the shortest waves.
+    enum { STEPS = 1500 };
+    double work[2] = {0, 0}, before[2] = {0, 0}, p_before = 0;
+    for (int i = 0; i <= STEPS; i++) {
+      double p = 1e-7 * modulus * s.slope * exp(18.0 * i / STEPS);
+      SbRoughPoint at;
+      sb_rough_law_at(&at, &law, sb_rough_law_of_pressure(&law, p));
+      double u[2] = {sb_persson_separation(&s, s.q0, modulus, p), at.gap};
+      for (int m = 0; m < 2; m++) {
+        work[m] += i > 0 ? 0.5 * (p + p_before) * (before[m] - u[m]) : 0;
+        before[m] = u[m];
+      }
+      p_before = p;
+    }
+    g_test_message("work over energy: %.6f directly, %.6f by the table", work[0] / full,
+                   work[1] / full);
+    g_assert_cmpfloat_with_epsilon(work[0] / full, 1, 2e-4);
+    g_assert_cmpfloat_with_epsilon(work[1] / full, 1, 2e-4);
+  }
 }
 
 // No pressure at all: far apart, but a number.
@@ -139,6 +177,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/persson/moments", test_moments);
   g_test_add_func("/persson/area", test_area);
   g_test_add_func("/persson/separation", test_separation);
+  g_test_add_func("/persson/energy", test_energy);
   g_test_add_func("/persson/no-pressure", test_no_pressure);
   g_test_add_func("/persson/leak", test_leak);
   g_test_add_func("/persson/refused", test_refused);
