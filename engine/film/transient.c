@@ -12,7 +12,8 @@
 #include "engine/film/transient_internal.h"
 
 enum { MESH_STEPS = 20 }; // that a mesh is laid for
-static const double COARSER = 2.0, GROWTH = 1.5;
+static const double COARSER = 2.0, GROWTH = 2.0;
+static const double LAG = 8.0; // of the cells, over the wall's way in a step
 
 static bool cancelled(const SbFilmTransient *t) {
   const SbFilmProblem *p = &t->problem.film;
@@ -138,6 +139,7 @@ static void remember(SbFilmTransient *t) {
     t->content_time[k] = t->content_time[k - 1];
     t->content_half[k] = t->content_half[k - 1];
     t->content_middle[k] = t->content_middle[k - 1];
+    t->content_travel[k] = t->content_travel[k - 1];
   }
   for (int i = 0; i < t->nodes; i++) {
     t->content[0][i] = sb_transient_content(t, &t->now, i);
@@ -145,6 +147,7 @@ static void remember(SbFilmTransient *t) {
   t->content_time[0] = t->now.time;
   t->content_half[0] = t->now.half;
   t->content_middle[0] = t->now.middle;
+  t->content_travel[0] = t->travel;
   t->known_times += t->known_times < SB_TRANSIENT_TIMES;
 }
 
@@ -342,6 +345,11 @@ static void weights(double *c, double *e, double *share, double h, const double 
   *share = own / c[0] / (own / c[0] + own * ago[count + 1]);
 }
 
+// Travel of the wall, over the half-width, in a step to `speed`; speeds go evenly.
+static double way_of(const SbFilmTransient *t, double h, double speed) {
+  return 0.5 * h * (t->now.speed + speed) / t->now.half;
+}
+
 // One implicit step of length h to the given speed and load, from `now` to `next`; *error is the
 // step's own, the largest of any cell in the contact by its content, infinite while unknown.
 static SbStatus advance(double *error, SbFilmTransient *t, double h, double speed, double load) {
@@ -379,19 +387,29 @@ static SbStatus advance(double *error, SbFilmTransient *t, double h, double spee
     }
   }
   s->H0 += ratio * (s->H0 - t->before.H0);
-  double *old = t->scratch[0];
-  double *guess = t->scratch[1];
+  double *old = t->scratch[0], *guess = t->scratch[1], *content = t->scratch[5];
   memset(old, 0, sizeof t->scratch[0]);
   memset(guess, 0, sizeof t->scratch[1]);
-  SbTransientStep step = {
-      .c0 = c[0], .old = old, .half_rate = c[0] * s->half, .middle_rate = c[0] * s->middle};
+  const double way = way_of(t, h, speed);
+  SbTransientStep step = {.c0 = c[0],
+                          .lag = LAG * fabs(way) + 1e-300,
+                          .old = old,
+                          .half_rate = c[0] * s->half,
+                          .middle_rate = c[0] * s->middle};
   for (int k = 0; k < t->known_times; k++) {
+    sb_transient_depart(content, t, t->content[k], t->travel + way - t->content_travel[k],
+                        step.lag);
     for (int i = 0; i < t->nodes; i++) {
-      old[i] += k < count ? c[k + 1] * t->content[k][i] : 0.0;
-      guess[i] += e[k] * t->content[k][i];
+      old[i] += k < count ? c[k + 1] * content[i] : 0.0;
+      guess[i] += e[k] * content[i];
     }
     step.half_rate += k < count ? c[k + 1] * t->content_half[k] : 0.0;
     step.middle_rate += k < count ? c[k + 1] * t->content_middle[k] : 0.0;
+  }
+  for (int i = 0; i < t->nodes; i++) {
+    if (fabs(t->X[i]) < 1.0 && !s->cavity[i]) {
+      s->H[i] = fmax(guess[i] / (s->half * t->volume[i]), 0.3 * s->H[i]);
+    }
   }
   SbTransientTrace trace;
   status = sb_transient_newton(&trace, t, s, &step);
@@ -413,7 +431,7 @@ static SbStatus advance(double *error, SbFilmTransient *t, double h, double spee
 }
 
 static void accept(SbFilmTransient *t) {
-  t->travel += (t->next.time - t->now.time) * t->next.speed / t->next.half;
+  t->travel += way_of(t, t->next.time - t->now.time, t->next.speed);
   t->mesh_steps++;
   t->before = t->now;
   t->now = t->next;
@@ -455,9 +473,10 @@ static SbStatus step_level(SbFilmTransient *t, double dt, double v1, double load
     h = h >= rest ? rest : h > 0.5 * rest ? 0.5 * rest : h;
     const double share = (t->now.time + h - begin) / dt;
     const double speed = v0 + share * (v1 - v0);
-    const double way = t->travel + h * speed / t->now.half;
-    if (t->mesh_steps >= MESH_STEPS || way < t->span[0] || way > t->span[1]) {
-      sb_transient_adapt(t, fmin(fmax(MESH_STEPS * h * speed / t->now.half, -0.3), 0.3));
+    const double way = way_of(t, h, speed);
+    if (t->mesh_steps >= MESH_STEPS || t->travel + way < t->span[0] ||
+        t->travel + way > t->span[1]) {
+      sb_transient_adapt(t, fmin(fmax(MESH_STEPS * way, -0.1), 0.1));
     }
     double error;
     SbStatus status = advance(&error, t, h, speed, load0 + share * (load1 - load0));

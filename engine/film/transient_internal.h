@@ -6,8 +6,8 @@
 
 enum {
   SB_TRANSIENT_NODES_MAX = 1000,
-  SB_TRANSIENT_TIMES = 4, // contents remembered
-  SB_TRANSIENT_ROWS = 4   // scratch
+  SB_TRANSIENT_TIMES = 3, // contents remembered
+  SB_TRANSIENT_ROWS = 6   // scratch
 };
 
 // Everything is scaled by the steady problem's b, p_H and b^2/R; time stays in seconds. Nodes are
@@ -24,9 +24,12 @@ typedef struct {
   bool cavity[SB_TRANSIENT_NODES_MAX];  // active set
 } SbTransientState;
 
-// A step: content' = c0 content + old, and the mesh's velocity.
+// A step: content' = c0 content + old, and the mesh's velocity. The cells' contents are followed
+// with the wall in the contact's inside and stand at its edges: their faces move at v/(1 + lag/(1 -
+// X^2)), so that X + lag atanh X goes on as the wall does.
 typedef struct {
   double c0;
+  double lag;
   const double *old; // [nodes] combination of earlier contents; NULL when steady
   double half_rate, middle_rate;
 } SbTransientStep;
@@ -74,7 +77,7 @@ struct SbFilmTransient {
   SbTransientState now, next, before;
   double content[SB_TRANSIENT_TIMES][SB_TRANSIENT_NODES_MAX]; // of the cells, newest first
   double content_time[SB_TRANSIENT_TIMES], content_half[SB_TRANSIENT_TIMES],
-      content_middle[SB_TRANSIENT_TIMES];
+      content_middle[SB_TRANSIENT_TIMES], content_travel[SB_TRANSIENT_TIMES];
   int known_times;
   // Of the least and the central film: error of the steady one at speed_scale against the spectral
   // one, and difference of the resolutions.
@@ -91,6 +94,10 @@ void sb_transient_mesh(SbFilmTransient *t, double rest);
 // Lays the mesh anew where the film of `now` asks for it, fine enough for what the wall carries
 // over the next `travel` (in X), and brings the states and contents to it.
 void sb_transient_adapt(SbFilmTransient *t, double travel);
+
+// Contents at an earlier time of the cells that have moved by `travel` since.
+void sb_transient_depart(double *out, SbFilmTransient *t, const double *content, double travel,
+                         double lag);
 
 // Content of the cell of node i, by its half-width.
 double sb_transient_content(const SbFilmTransient *t, const SbTransientState *s, int i);

@@ -219,20 +219,18 @@ static void want(SbFilmTransient *t) {
   }
 }
 
-// Value at x of the polynomial through the points from - 1 .. from + 2, or of the line from .. from
-// + 1.
-static double interpolate(const double *at, const double *value, int from, bool line, double x) {
+// Value at x of the polynomial through `count` points about the interval `from`, from + 1.
+static double interpolate(const double *at, const double *value, int from, int count, double x) {
   double sum = 0.0;
-  const int first = line ? from : from - 1;
-  const int last = line ? from + 1 : from + 2;
-  for (int j = first; j <= last; j++) {
-    double basis = value[j];
-    for (int k = first; k <= last; k++) {
+  const int first = from + 1 - count / 2;
+  for (int j = first; j < first + count; j++) {
+    double basis = value[j] - value[from];
+    for (int k = first; k < first + count; k++) {
       basis *= k == j ? 1.0 : (x - at[k]) / (at[j] - at[k]);
     }
     sum += basis;
   }
-  return sum;
+  return value[from] + sum;
 }
 
 // Brings node values from the mesh `X` to the new one.
@@ -243,10 +241,10 @@ static void carry_state(SbFilmTransient *t, SbTransientState *s, const double *X
     while (j + 2 < n && X[j + 1] <= t->X[i]) {
       j++;
     }
-    const bool line = j < 1 || j + 2 >= n || t->beside_cavity[j] || t->steep[j];
-    s->P[i] = interpolate(X, old->P, j, line, t->X[i]);
-    s->H[i] = interpolate(X, old->H, j, line, t->X[i]);
-    s->void_[i] = interpolate(X, old->void_, j, true, t->X[i]);
+    const int count = j < 1 || j + 2 >= n || t->beside_cavity[j] || t->steep[j] ? 2 : 4;
+    s->P[i] = interpolate(X, old->P, j, count, t->X[i]);
+    s->H[i] = interpolate(X, old->H, j, count, t->X[i]);
+    s->void_[i] = interpolate(X, old->void_, j, 2, t->X[i]);
     s->cavity[i] = old->cavity[2.0 * t->X[i] < X[j] + X[j + 1] ? j : j + 1];
     s->P[i] = s->cavity[i] ? 0.0 : fmax(s->P[i], 0.0);
     s->void_[i] = s->cavity[i] ? s->void_[i] : 0.0;
@@ -262,11 +260,42 @@ static void faces(double *out, const double *X, int n) {
   out[n] = X[n - 1];
 }
 
+// Contents of cells with the n + 1 faces `to` from those of the cells with the faces `from`, by
+// their integral from the middle, where the films are thin.
+static void carry_content(double *out, SbFilmTransient *t, const double *to, int cells,
+                          const double *from, const double *content, int n) {
+  double *whole = t->scratch[3];
+  int middle = 0;
+  while (middle < n && from[middle] < 0.0) {
+    middle++;
+  }
+  whole[middle] = 0.0;
+  for (int i = middle; i < n; i++) {
+    whole[i + 1] = whole[i] + content[i];
+  }
+  for (int i = middle; i > 0; i--) {
+    whole[i - 1] = whole[i] - content[i - 1];
+  }
+  double before = whole[0];
+  for (int i = 0, j = 0; i < cells; i++) {
+    while (j + 1 < n && from[j + 1] <= to[i + 1]) {
+      j++;
+    }
+    int count = j < 2 || j + 3 > n ? 2 : 6;
+    for (int k = j - 2; k <= j + 1 && count > 2; k++) {
+      count = t->beside_cavity[k] || t->steep[k] ? 2 : count;
+    }
+    const double value = interpolate(from, whole, j, count, to[i + 1]);
+    out[i] = value - before;
+    before = value;
+  }
+}
+
 void sb_transient_adapt(SbFilmTransient *t, double travel) {
   t->mesh_steps = 0;
-  t->travel = 0.0;
-  t->span[0] = fmin(travel, 0.0) - 0.2 * fabs(travel);
-  t->span[1] = fmax(travel, 0.0) + 0.2 * fabs(travel);
+  const double margin = 0.2 * fabs(travel);
+  t->span[0] = fmin(travel, 0.0) - margin;
+  t->span[1] = fmax(travel, 0.0) + margin;
   want(t);
   double *X = t->scratch[0];
   const int n = t->nodes;
@@ -275,44 +304,52 @@ void sb_transient_adapt(SbFilmTransient *t, double travel) {
   for (int i = 0; i + 1 < n && serves; i++) {
     serves = t->X[i + 1] - t->X[i] < 1.2 * spacing(t, 0.5 * (t->X[i] + t->X[i + 1]));
   }
+  t->span[0] += t->travel;
+  t->span[1] += t->travel;
   if (serves) {
     return;
   }
-  double *old = t->scratch[1], *from = t->scratch[2], *whole = t->scratch[3];
+  double *old = t->scratch[1], *from = t->scratch[2], *to = t->scratch[4];
   memcpy(old, t->X, (size_t)n * sizeof *old);
   memcpy(t->X, X, (size_t)laid * sizeof *X);
   t->nodes = laid;
   carry_state(t, &t->now, old, n, &t->next);
   carry_state(t, &t->before, old, n, &t->next);
-  // Contents by the integral from the middle, where the films are thin.
   faces(from, old, n);
-  int middle = 0;
-  while (middle < n && from[middle] < 0.0) {
-    middle++;
-  }
+  faces(to, t->X, laid);
   for (int k = 0; k < t->known_times; k++) {
-    double *content = t->content[k];
-    whole[middle] = 0.0;
-    for (int i = middle; i < n; i++) {
-      whole[i + 1] = whole[i] + content[i];
-    }
-    for (int i = middle; i > 0; i--) {
-      whole[i - 1] = whole[i] - content[i - 1];
-    }
-    double before = whole[0];
-    for (int i = 0, j = 0; i < t->nodes; i++) {
-      const double at = i + 1 < t->nodes ? 0.5 * (t->X[i] + t->X[i + 1]) : t->X[i];
-      while (j + 1 < n && from[j + 1] <= at) {
-        j++;
-      }
-      const bool line = j < 1 || j + 2 > n || t->beside_cavity[j] || t->beside_cavity[j - 1] ||
-                        t->steep[j] || t->steep[j - 1];
-      const double value = interpolate(from, whole, j, line, at);
-      content[i] = value - before;
-      before = value;
-    }
+    memcpy(old, t->content[k], (size_t)n * sizeof *old);
+    carry_content(t->content[k], t, to, laid, from, old, n);
   }
   complete(t);
+}
+
+void sb_transient_depart(double *out, SbFilmTransient *t, const double *content, double travel,
+                         double lag) {
+  double *from = t->scratch[2], *to = t->scratch[4];
+  const int n = t->nodes;
+  faces(from, t->X, n);
+  for (int i = 0; i <= n; i++) {
+    to[i] = from[i];
+    if (fabs(from[i]) < 1.0 - 1e-12 && travel != 0.0) {
+      // Bisection of X + lag atanh X, which grows.
+      const double aim = from[i] + lag * atanh(from[i]) - travel;
+      double low = travel > 0.0 ? -1.0 : from[i], high = travel > 0.0 ? from[i] : 1.0;
+      double X = from[i];
+      for (int k = 0; k < 60 && high - low > 1e-15; k++) {
+        const double wrong = X + lag * atanh(X) - aim;
+        *(wrong > 0.0 ? &high : &low) = X;
+        const double next = X - wrong / (1.0 + lag / (1.0 - X * X));
+        const bool close = fabs(next - X) < 1e-15;
+        X = next > low && next < high ? next : 0.5 * (low + high);
+        if (close) {
+          break;
+        }
+      }
+      to[i] = X;
+    }
+  }
+  carry_content(out, t, to, n, from, content, n);
 }
 
 // Smooth part of a fitted body on the nodes, added to `present` and its known gap: moments of the

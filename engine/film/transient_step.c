@@ -129,7 +129,10 @@ typedef struct {
 static void add_face(Row *row, const SbFilmTransient *t, const SbTransientState *s,
                      const SbTransientStep *step, int i, int face, double sign) {
   const double at = 0.5 * (t->X[face] + t->X[face + 1]);
-  const double velocity = s->speed - step->half_rate * at - step->middle_rate;
+  double velocity = s->speed - step->half_rate * at - step->middle_rate;
+  if (step->old != NULL && fabs(at) < 1.0) {
+    velocity -= s->speed / (1.0 + step->lag / (1.0 - at * at));
+  }
   const Face f = face_height(t, s, face, velocity);
   row->residual += sign * velocity * f.value;
   for (int k = 0; k < 3; k++) {
