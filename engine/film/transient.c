@@ -11,9 +11,9 @@
 
 #include "engine/film/transient_internal.h"
 
-enum { MESH_STEPS = 20 }; // that a mesh is laid for
+enum { MESH_STEPS = 10 }; // that a mesh is laid for
 static const double COARSER = 2.0, GROWTH = 2.0;
-static const double LAG = 8.0; // of the cells, over the wall's way in a step
+// of the cells, over the wall's way in a step
 
 static bool cancelled(const SbFilmTransient *t) {
   const SbFilmProblem *p = &t->problem.film;
@@ -392,7 +392,7 @@ static SbStatus advance(double *error, SbFilmTransient *t, double h, double spee
   memset(guess, 0, sizeof t->scratch[1]);
   const double way = way_of(t, h, speed);
   SbTransientStep step = {.c0 = c[0],
-                          .lag = LAG * fabs(way) + 1e-300,
+                          .lag = fmax(8.0 * fabs(way), 8.0 * t->layer),
                           .old = old,
                           .half_rate = c[0] * s->half,
                           .middle_rate = c[0] * s->middle};
@@ -421,8 +421,7 @@ static SbStatus advance(double *error, SbFilmTransient *t, double h, double spee
   *error = isfinite(share) ? 0.0 : INFINITY;
   for (int i = 0; i < t->nodes && isfinite(share); i++) {
     if (fabs(t->X[i]) < 1.0) {
-      const double content = sb_transient_content(t, s, i);
-      *error = fmax(*error, share * fabs(content / guess[i] - 1.0));
+      *error = fmax(*error, share * fabs(sb_transient_content(t, s, i) / guess[i] - 1.0));
     }
   }
   t->info.load_error = fmax(t->info.load_error, trace.load_error);
@@ -437,8 +436,7 @@ static void accept(SbFilmTransient *t) {
   t->now = t->next;
   remember(t);
   t->info.steps++;
-  t->info.unknowns =
-      t->info.unknowns > (size_t)t->nodes - 1 ? t->info.unknowns : (size_t)t->nodes - 1;
+  t->info.unknowns = (size_t)t->nodes;
   t->info.time = t->now.time;
   t->info.speed = 2.0 * t->now.speed * t->scale.half_width;
   t->info.load = t->now.load / (0.5 * M_PI) * t->problem.film.load;

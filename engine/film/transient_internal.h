@@ -25,8 +25,8 @@ typedef struct {
 } SbTransientState;
 
 // A step: content' = c0 content + old, and the mesh's velocity. The cells' contents are followed
-// with the wall in the contact's inside and stand at its edges: their faces move at v/(1 + lag/(1 -
-// X^2)), so that X + lag atanh X goes on as the wall does.
+// with the wall in the contact's inside and stand at its edges: their faces move at v g, g = q^2/(1
+// + q^2), q = (1 - X^2)/lag.
 typedef struct {
   double c0;
   double lag;

@@ -204,7 +204,7 @@ void sb_transient_mesh(SbFilmTransient *t, double rest) {
 
 // Spacings by the film's bends: a share of the length over which its height curves by its own.
 static void want(SbFilmTransient *t) {
-  const double share = 0.1 * t->fineness;
+  const double share = 0.25 * t->fineness;
   const double least = 0.01 * t->layer * t->fineness;
   for (int i = 0; i < t->nodes; i++) {
     t->wanted[i] = INFINITY;
@@ -260,34 +260,48 @@ static void faces(double *out, const double *X, int n) {
   out[n] = X[n - 1];
 }
 
-// Contents of cells with the n + 1 faces `to` from those of the cells with the faces `from`, by
-// their integral from the middle, where the films are thin.
-static void carry_content(double *out, SbFilmTransient *t, const double *to, int cells,
-                          const double *from, const double *content, int n) {
-  double *whole = t->scratch[3];
-  int middle = 0;
-  while (middle < n && from[middle] < 0.0) {
-    middle++;
+// Content between the face j and x beyond it, by the polynomial through `count` sums of contents.
+static double partial_content(const double *face, const double *content, int j, int count,
+                              double x) {
+  enum { COUNT_MAX = 6 };
+  double sum[COUNT_MAX];
+  const int own = count / 2 - 1;
+  const double *at = face + j - own;
+  sum[own] = 0.0;
+  for (int k = own + 1; k < count; k++) {
+    sum[k] = sum[k - 1] + content[j - own + k - 1];
   }
-  whole[middle] = 0.0;
-  for (int i = middle; i < n; i++) {
-    whole[i + 1] = whole[i] + content[i];
+  for (int k = own; k > 0; k--) {
+    sum[k - 1] = sum[k] - content[j - own + k - 1];
   }
-  for (int i = middle; i > 0; i--) {
-    whole[i - 1] = whole[i] - content[i - 1];
-  }
-  double before = whole[0];
-  for (int i = 0, j = 0; i < cells; i++) {
-    while (j + 1 < n && from[j + 1] <= to[i + 1]) {
-      j++;
+  double out = 0.0;
+  for (int m = 0; m < count; m++) {
+    double basis = sum[m];
+    for (int k = 0; k < count; k++) {
+      basis *= k == m ? 1.0 : (x - at[k]) / (at[m] - at[k]);
     }
-    int count = j < 2 || j + 3 > n ? 2 : 6;
+    out += basis;
+  }
+  return out;
+}
+
+// Contents of cells with the faces `to` from those of the n cells with the faces `from`, by their
+// integral; cells that stand keep theirs to the last digit.
+static void carry_content(double *out, const SbFilmTransient *t, const double *to, int cells,
+                          const double *from, const double *content, int n) {
+  double before = 0.0;
+  for (int i = 0, j = 0; i < cells; i++) {
+    double whole = 0.0;
+    while (j < n && from[j + 1] <= to[i + 1]) {
+      whole += content[j++];
+    }
+    int count = j == n ? 0 : j < 2 || j + 3 > n ? 2 : 6;
     for (int k = j - 2; k <= j + 1 && count > 2; k++) {
       count = t->beside_cavity[k] || t->steep[k] ? 2 : count;
     }
-    const double value = interpolate(from, whole, j, count, to[i + 1]);
-    out[i] = value - before;
-    before = value;
+    const double part = count > 0 ? partial_content(from, content, j, count, to[i + 1]) : 0.0;
+    out[i] = whole + part - before;
+    before = part;
   }
 }
 
@@ -324,6 +338,11 @@ void sb_transient_adapt(SbFilmTransient *t, double travel) {
   complete(t);
 }
 
+// Goes on as the wall does where the faces move: dX over their share of its speed, integrated.
+static double stretched(double X, double lag) {
+  return X + 0.5 * lag * lag * (X / (1.0 - X * X) + atanh(X));
+}
+
 void sb_transient_depart(double *out, SbFilmTransient *t, const double *content, double travel,
                          double lag) {
   double *from = t->scratch[2], *to = t->scratch[4];
@@ -332,19 +351,18 @@ void sb_transient_depart(double *out, SbFilmTransient *t, const double *content,
   for (int i = 0; i <= n; i++) {
     to[i] = from[i];
     if (fabs(from[i]) < 1.0 - 1e-12 && travel != 0.0) {
-      // Bisection of X + lag atanh X, which grows.
-      const double aim = from[i] + lag * atanh(from[i]) - travel;
+      const double aim = stretched(from[i], lag) - travel;
       double low = travel > 0.0 ? -1.0 : from[i], high = travel > 0.0 ? from[i] : 1.0;
       double X = from[i];
       for (int k = 0; k < 60 && high - low > 1e-15; k++) {
-        const double wrong = X + lag * atanh(X) - aim;
+        const double wrong = stretched(X, lag) - aim;
+        const double inside = lag / (1.0 - X * X);
         *(wrong > 0.0 ? &high : &low) = X;
-        const double next = X - wrong / (1.0 + lag / (1.0 - X * X));
-        const bool close = fabs(next - X) < 1e-15;
-        X = next > low && next < high ? next : 0.5 * (low + high);
-        if (close) {
+        const double next = X - wrong / (1.0 + inside * inside);
+        if (fabs(next - X) < 1e-15) {
           break;
         }
+        X = next > low && next < high ? next : 0.5 * (low + high);
       }
       to[i] = X;
     }

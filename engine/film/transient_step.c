@@ -131,7 +131,8 @@ static void add_face(Row *row, const SbFilmTransient *t, const SbTransientState 
   const double at = 0.5 * (t->X[face] + t->X[face + 1]);
   double velocity = s->speed - step->half_rate * at - step->middle_rate;
   if (step->old != NULL && fabs(at) < 1.0) {
-    velocity -= s->speed / (1.0 + step->lag / (1.0 - at * at));
+    const double inside = (1.0 - at * at) / step->lag;
+    velocity -= s->speed * inside * inside / (1.0 + inside * inside);
   }
   const Face f = face_height(t, s, face, velocity);
   row->residual += sign * velocity * f.value;
