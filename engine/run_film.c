@@ -38,7 +38,7 @@ static void leave(Way *way) {
     summary->counters.film_steps += info.steps;
     summary->newton_iterations += info.newton_iterations;
     summary->error_film_history =
-        fmax(summary->error_film_history, info.error_mesh + info.error_time);
+        fmax(summary->error_film_history, info.error_film_central);
   }
   sb_film_transient_destroy(way->film);
   way->film = NULL;

@@ -2,9 +2,11 @@
 #include "app/cli/cli.h"
 #include "app/cli/timing.h"
 #include "app/document/reader.h"
+#include "app/document/series.h"
 #include "app/export/results.h"
 
 #include "engine/film/regime.h"
+#include "engine/film/transient.h"
 #include "engine/film/wedge.h"
 #include "engine/surface/van_der_waals.h"
 
@@ -231,13 +233,14 @@ static bool in_range(const char *option, const Quantity *q, double value) {
   return false;
 }
 
-// Reads every quantity given; false with a message.
+// Reads every quantity given; false with a message. A speed already there needs no option.
 static bool read_quantities(SbFilmProblem *problem, char *const *texts) {
   for (int i = 0; i < QUANTITIES; i++) {
     const Quantity *q = &quantities[i];
     double value = 0;
     char *option = g_strconcat("--", q->name, NULL);
-    bool good = sb_cli_quantity(&value, option, texts[i], q->required, q->si, q->shown) &&
+    const bool known = q->offset == offsetof(SbFilmProblem, speed) && problem->speed != 0;
+    bool good = sb_cli_quantity(&value, option, texts[i], q->required && !known, q->si, q->shown) &&
                 (texts[i] == NULL || in_range(option, q, value));
     g_free(option);
     if (!good) {
@@ -308,8 +311,66 @@ static double given_or(const SbFilmProblem *problem, size_t offset, char *const 
   return sb_param(id)->fallback;
 }
 
-// Solves, and writes or prints what came out; an exit code.
-static int solve_and_show(const SbFilmProblem *problem, char *const *texts, const char *target) {
+// Reads the series of speeds, the first of which is the problem's; false with a message.
+static bool read_history(SbModelSeries *series, SbFilmProblem *problem, const char *path,
+                         const char *speed) {
+  if (speed != NULL) {
+    sb_cli_fail("--speed: the speeds are those of --history");
+    return false;
+  }
+  GPtrArray *issues = sb_issues_new();
+  bool good = sb_series_read_speed(series, path, issues);
+  if (good && series->value[0] == 0) {
+    sb_issues_add(issues, path, 0, "speed", NULL, "begins at rest, where no steady film is");
+    good = false;
+  }
+  sb_cli_issues(issues);
+  g_ptr_array_unref(issues);
+  problem->speed = good ? series->value[0] : 0;
+  return good;
+}
+
+// The film at every row of the series; rows behind a failure stay unknown.
+static SbStatus follow(SbResultsHistory *out, const SbFilmProblem *problem,
+                       const SbModelSeries *series, SbReport *report) {
+  SbFilmTransientProblem transient = {.film = *problem};
+  for (size_t i = 0; i < series->count; i++) {
+    transient.speed_scale = fmax(transient.speed_scale, fabs(series->value[i]));
+    out->film_min[i] = out->film_central[i] = out->error_min[i] = out->error_central[i] = NAN;
+  }
+  SbFilmTransient *solver = NULL;
+  SbFilm *film = g_new0(SbFilm, 1);
+  SbStatus status = sb_film_transient_create(&solver, &transient, report);
+  for (size_t i = 0; i < series->count && status == SB_OK; i++) {
+    if (i > 0) {
+      status = sb_film_transient_step(solver, series->time[i] - series->time[i - 1],
+                                      series->value[i], problem->load, report);
+    }
+    if (status == SB_OK) {
+      sb_film_transient_result(film, solver);
+      out->film_min[i] = film->film_min;
+      out->film_central[i] = film->film_central;
+      out->error_min[i] = film->solver.error_film_min;
+      out->error_central[i] = film->solver.error_film_central;
+    }
+  }
+  g_free(film);
+  sb_film_transient_destroy(solver);
+  return status;
+}
+
+static void print_history(const SbResultsHistory *h) {
+  puts("Film by time                        least    central  error estimates");
+  for (size_t i = 0; i < h->count; i++) {
+    printf("  %12.6g s           %9.4g nm %9.4g nm  %.2g, %.2g\n", h->time[i], h->film_min[i] * 1e9,
+           h->film_central[i] * 1e9, h->error_min[i], h->error_central[i]);
+  }
+}
+
+// Solves, and writes or prints what came out, with the history through `series` unless that is
+// NULL; an exit code.
+static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
+                          const SbModelSeries *series, const char *target) {
   SbFilm *film = g_new0(SbFilm, 1);
   Solve job = {film, problem, {0}};
   sb_cli_catch_interrupts();
@@ -318,14 +379,33 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts, cons
   film->solver.wall_s = wall_s;
   job.report.parameter[0] = '\0'; // the catalogue's key and range are a seal's, not this command's
   int code = sb_cli_status(status, &job.report);
+  const size_t rows = series != NULL ? series->count : 0;
+  double *values = g_new(double, 4 * rows + 1);
+  SbResultsHistory history = {.count = rows,
+                              .time = series != NULL ? series->time : NULL,
+                              .film_min = values,
+                              .film_central = values + rows,
+                              .error_min = values + 2 * rows,
+                              .error_central = values + 3 * rows};
+  if (status == SB_OK && series != NULL) {
+    SbReport own = {0};
+    status = follow(&history, problem, series, &own);
+    own.parameter[0] = '\0';
+    code = sb_cli_status(status, &own);
+  } else {
+    series = NULL;
+  }
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int written = SB_EXIT_DONE;
     if (target != NULL) {
-      char *json = sb_results_film(film);
+      char *json = sb_results_film(film, series != NULL ? &history : NULL);
       written = sb_cli_emit(json, target);
       g_free(json);
     } else {
       print_table(film, problem);
+      if (series != NULL) {
+        print_history(&history);
+      }
       print_other_models(film, problem,
                          given_or(problem, offsetof(SbFilmProblem, pressure_viscosity), texts,
                                   SB_P_FLUID_PRESSURE_VISCOSITY),
@@ -334,6 +414,7 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts, cons
     }
     code = written != SB_EXIT_DONE ? written : code;
   }
+  g_free(values);
   g_free(film);
   return code;
 }
@@ -343,6 +424,7 @@ int sb_command_film(int argc, char **argv) {
   char *name = NULL;
   char *surface = NULL;
   char *dry = NULL;
+  char *path = NULL;
   char *target = NULL;
   const GOptionEntry others[] = {
       {"model", 0, 0, G_OPTION_ARG_FILENAME, &name,
@@ -351,6 +433,9 @@ int sb_command_film(int argc, char **argv) {
        "Asperities in the same solve: none (default), greenwood-tripp, persson (reynolds)", "NAME"},
       {"dry-pressure", 0, 0, G_OPTION_ARG_FILENAME, &dry,
        "Table x [m], p [Pa] for the model inverse", "FILE.csv"},
+      {"history", 0, 0, G_OPTION_ARG_FILENAME, &path,
+       "Table time [s], speed [m/s] to follow the film through, in place of --speed (reynolds)",
+       "FILE.csv"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
   };
   enum { OTHERS = G_N_ELEMENTS(others) };
@@ -363,10 +448,12 @@ int sb_command_film(int argc, char **argv) {
   int code = SB_EXIT_INPUT;
   GArray *x = g_array_new(FALSE, FALSE, sizeof(double));
   GArray *p = g_array_new(FALSE, FALSE, sizeof(double));
+  SbModelSeries *series = g_new0(SbModelSeries, 1);
   SbFilmProblem problem;
   sb_film_problem_init(&problem);
   problem.cancelled = on_cancelled;
   if (!sb_cli_parse(&argc, &argv, entries, 0, 0, SB_TIMING_NOTE) ||
+      (path != NULL && !read_history(series, &problem, path, texts[1])) ||
       !read_quantities(&problem, texts) || (name != NULL && !choose_model(&problem, name)) ||
       !choose_surface(&problem, surface, texts)) {
     goto done;
@@ -386,7 +473,7 @@ int sb_command_film(int argc, char **argv) {
   problem.dry_x = (const double *)(void *)x->data;
   problem.dry_pressure = (const double *)(void *)p->data;
   problem.dry_count = x->len;
-  code = solve_and_show(&problem, texts, target);
+  code = solve_and_show(&problem, texts, path != NULL ? series : NULL, target);
 done:
   g_array_unref(x);
   g_array_unref(p);
@@ -396,6 +483,8 @@ done:
   g_free(name);
   g_free(surface);
   g_free(dry);
+  g_free(path);
+  g_free(series);
   g_free(target);
   return code;
 }

@@ -13,12 +13,13 @@ typedef struct {
   const char *name;
   GPtrArray *issues;
   int line;
+  bool speed;            // in the second column, in place of a drive's quantity
   double scale[COLUMNS]; // to SI
   SbModelSeries *out;
 } Reader;
 
 // Ranges of the columns [SI].
-static const double time_max = 1e6, displacement_max = 0.2, force_max = 1e5;
+static const double time_max = 1e6, displacement_max = 0.2, force_max = 1e5, speed_max = 100;
 
 // One issue: `"text" what`, or `what` alone. Always false.
 static bool fail(Reader *r, int column, const char *allowed, const char *text, const char *what) {
@@ -37,8 +38,11 @@ static bool read_heading(Reader *r, int column, char *cell) {
   char *open = strchr(cell, '[');
   char *close = open != NULL ? strchr(open, ']') : NULL;
   if (open == NULL || close == NULL || close[1] != '\0') {
-    return fail(r, column, column == 0 ? "time [s]" : "displacement [mm] or force [N]", cell,
-                "is not a heading with a unit");
+    return fail(r, column,
+                column == 0 ? "time [s]"
+                : r->speed  ? "speed [m/s]"
+                            : "displacement [mm] or force [N]",
+                cell, "is not a heading with a unit");
   }
   char *unit = g_strndup(open + 1, (gsize)(close - open - 1));
   *open = '\0';
@@ -46,6 +50,8 @@ static bool read_heading(Reader *r, int column, char *cell) {
   const char *si = NULL;
   if (column == 0 && strcmp(cell, "time") == 0) {
     si = "s";
+  } else if (column == 1 && r->speed) {
+    si = strcmp(cell, "speed") == 0 ? "m/s" : NULL;
   } else if (column == 1 && strcmp(cell, "displacement") == 0) {
     si = "m";
     r->out->quantity = SB_DRIVE_OF_POSITION;
@@ -57,7 +63,11 @@ static bool read_heading(Reader *r, int column, char *cell) {
   bool good =
       si != NULL && sb_quantity_parse(&r->scale[column], one, si, si, NULL) && r->scale[column] > 0;
   if (si == NULL) {
-    fail(r, column, column == 0 ? "time" : "displacement, force", cell, "is an unknown quantity");
+    fail(r, column,
+         column == 0 ? "time"
+         : r->speed  ? "speed"
+                     : "displacement, force",
+         cell, "is an unknown quantity");
   } else if (!good) {
     fail(r, column, si, unit, "is no unit for it");
   }
@@ -68,10 +78,13 @@ static bool read_heading(Reader *r, int column, char *cell) {
 
 static bool read_row(Reader *r, char **cells) {
   double value[COLUMNS];
-  const bool force = r->out->quantity == SB_DRIVE_OF_FORCE;
-  const double limit[COLUMNS] = {time_max, force ? force_max : displacement_max};
-  const char *const allowed[COLUMNS] = {"0 to 1e6 s", force ? "at most 1e5 N either way"
-                                                            : "at most 200 mm either way"};
+  const bool force = !r->speed && r->out->quantity == SB_DRIVE_OF_FORCE;
+  const double limit[COLUMNS] = {time_max, r->speed ? speed_max
+                                           : force  ? force_max
+                                                    : displacement_max};
+  const char *const allowed[COLUMNS] = {"0 to 1e6 s", r->speed ? "at most 100 m/s either way"
+                                                      : force  ? "at most 1e5 N either way"
+                                                               : "at most 200 mm either way"};
   for (int i = 0; i < COLUMNS; i++) {
     if (!sb_number_parse(&value[i], g_strstrip(cells[i]))) {
       return fail(r, i, NULL, cells[i], "is not a number");
@@ -126,10 +139,10 @@ static bool read_lines(Reader *r, char **lines) {
   return true;
 }
 
-bool sb_series_parse(SbModelSeries *out, const char *text, size_t length, const char *name,
-                     GPtrArray *issues) {
+static bool parse(SbModelSeries *out, bool speed, const char *text, size_t length, const char *name,
+                  GPtrArray *issues) {
   out->count = 0;
-  Reader r = {.name = name, .issues = issues, .out = out};
+  Reader r = {.name = name, .issues = issues, .speed = speed, .out = out};
   if (memchr(text, '\0', length) != NULL || !g_utf8_validate(text, (gssize)length, NULL)) {
     return fail(&r, -1, NULL, NULL, "is not UTF-8 text");
   }
@@ -147,11 +160,24 @@ bool sb_series_parse(SbModelSeries *out, const char *text, size_t length, const 
   return good;
 }
 
-bool sb_series_read(SbModelSeries *out, const char *path, GPtrArray *issues) {
+bool sb_series_parse(SbModelSeries *out, const char *text, size_t length, const char *name,
+                     GPtrArray *issues) {
+  return parse(out, false, text, length, name, issues);
+}
+
+static bool read_file(SbModelSeries *out, bool speed, const char *path, GPtrArray *issues) {
   size_t length = 0;
   out->count = 0;
   char *text = sb_reader_load(&length, path, path, SB_SERIES_BYTES_MAX, issues);
-  bool good = text != NULL && sb_series_parse(out, text, length, path, issues);
+  bool good = text != NULL && parse(out, speed, text, length, path, issues);
   g_free(text);
   return good;
+}
+
+bool sb_series_read(SbModelSeries *out, const char *path, GPtrArray *issues) {
+  return read_file(out, false, path, issues);
+}
+
+bool sb_series_read_speed(SbModelSeries *out, const char *path, GPtrArray *issues) {
+  return read_file(out, true, path, issues);
 }

@@ -342,7 +342,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
 
 // ---- film and fit ----
 
-char *sb_results_film(const SbFilm *film) {
+char *sb_results_film(const SbFilm *film, const SbResultsHistory *history) {
   // A solver that found nothing has no figures; what describes the problem stays.
   const bool none = !film->solver.converged && film->points == 0;
   SbJson json;
@@ -395,6 +395,17 @@ char *sb_results_film(const SbFilm *film) {
   sb_json_numbers(&json, "film_m", film->film, film->points);
   sb_json_numbers(&json, "asperity_pressure_Pa", film->asperity_pressure, film->points);
   sb_json_object_end(&json);
+  if (history != NULL) {
+    sb_json_object(&json, "history");
+    sb_json_numbers(&json, "time_s", history->time, history->count);
+    sb_json_numbers(&json, "film_min_m", history->film_min, history->count);
+    sb_json_numbers(&json, "film_central_m", history->film_central, history->count);
+    sb_json_object(&json, "error_estimate");
+    sb_json_numbers(&json, "film_min", history->error_min, history->count);
+    sb_json_numbers(&json, "film_central", history->error_central, history->count);
+    sb_json_object_end(&json);
+    sb_json_object_end(&json);
+  }
   sb_json_object_end(&json);
   return sb_json_finish(&json);
 }

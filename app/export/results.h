@@ -19,9 +19,17 @@ typedef struct {
   size_t study_count;
 } SbResultsInfo;
 
+// A film through a series of speeds, one value a row; NAN where it was not reached.
+typedef struct {
+  size_t count;
+  const double *time;                // [s]
+  double *film_min, *film_central;   // [m]
+  double *error_min, *error_central; // estimates, relative
+} SbResultsHistory;
+
 // All of these return a text owned by the caller. Numbers that do not exist are null.
 char *sb_results_run(const SbRun *run, const SbResultsInfo *info);
-char *sb_results_film(const SbFilm *film);
+char *sb_results_film(const SbFilm *film, const SbResultsHistory *history); // NULL: none
 char *sb_results_fit(const SbFit *fit, const char *seal, double pressure,
                      const SbGlandReadout *gland, const SbRubberState *storage);
 char *sb_results_plan(const SbPlan *plan);
