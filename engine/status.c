@@ -16,14 +16,13 @@ const char *sb_status_text(SbStatus status) {
 }
 
 SB_PRINTF(4, 0)
-static SbStatus fail_v(SbReport *report, SbStatus status, const char *parameter, const char *format,
-                       va_list arguments) {
+static void fail_v(SbReport *report, SbStatus status, const char *parameter, const char *format,
+                   va_list arguments) {
   if (report != NULL) {
     report->status = status;
     vsnprintf(report->text, sizeof report->text, format, arguments);
     snprintf(report->parameter, sizeof report->parameter, "%s", parameter);
   }
-  return status;
 }
 
 SbStatus sb_fail(SbReport *report, SbStatus status, const char *format, ...) {

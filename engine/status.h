@@ -14,6 +14,24 @@
 #define SB_PRINTF(format_index, first)
 #endif
 
+// The compiler warns where a result is dropped: of one function (SB_CHECKED before its
+// declaration), or of every function that returns a type (SB_CHECKED_TYPE in its definition, after
+// SB_EXTENSION: gcc knows that attribute of a type only in C2x's form). Where a result is dropped
+// on purpose a (void) cast says so.
+#if defined(__clang__)
+#define SB_EXTENSION
+#define SB_CHECKED      __attribute__((warn_unused_result))
+#define SB_CHECKED_TYPE __attribute__((warn_unused_result))
+#elif defined(__GNUC__)
+#define SB_EXTENSION    __extension__
+#define SB_CHECKED      __attribute__((warn_unused_result))
+#define SB_CHECKED_TYPE [[nodiscard]]
+#else
+#define SB_EXTENSION
+#define SB_CHECKED
+#define SB_CHECKED_TYPE
+#endif
+
 // code, one-line text
 #define SB_STATUS_LIST(X)                                                                          \
   X(SB_OK, "done")                                                                                 \
@@ -25,7 +43,7 @@
   X(SB_ERROR_MEMORY, "out of memory")                                                              \
   X(SB_ERROR_IO, "input or output failed")
 
-typedef enum {
+SB_EXTENSION typedef enum SB_CHECKED_TYPE {
 #define SB_STATUS_ENUM(code, text) code,
   SB_STATUS_LIST(SB_STATUS_ENUM)
 #undef SB_STATUS_ENUM

@@ -18,5 +18,5 @@ enum { SB_SERIES_BYTES_MAX = 1 << 20 };
 bool sb_series_read(SbModelSeries *out, const char *path, GPtrArray *issues);
 
 // The same from memory; `name` stands for the file in messages.
-bool sb_series_parse(SbModelSeries *out, const char *text, size_t length, const char *name,
-                     GPtrArray *issues);
+SB_CHECKED bool sb_series_parse(SbModelSeries *out, const char *text, size_t length,
+                                const char *name, GPtrArray *issues);

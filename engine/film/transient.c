@@ -228,7 +228,7 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
       t->now.speed = 0.0;
       status = sb_transient_rest(t, &t->now, problem->rest_film / t->scale.film);
       if (status != SB_OK) {
-        sb_fail(report, status, "transient film: no dry contact to start from");
+        status = sb_fail(report, status, "transient film: no dry contact to start from");
       }
     } else if (problem->film.speed != largest.speed) {
       status = solve_steady(steady, t, &t->now, problem->film.speed, report);
@@ -454,7 +454,8 @@ SbStatus sb_film_transient_fixed(SbFilmTransient *t, double dt, size_t count, do
     if (status == SB_OK) {
       accept(t, error);
     } else {
-      sb_fail(report, status, "transient film: step %zu of %zu does not converge", k, count);
+      status =
+          sb_fail(report, status, "transient film: step %zu of %zu does not converge", k, count);
     }
   }
   return status;

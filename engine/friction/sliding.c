@@ -430,8 +430,14 @@ static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *mod
   }
   SbGtIntegrals sliding;
   SbGtIntegrals rest;
-  sb_gt_integrals(&sliding, out->lambda, NULL);
-  sb_gt_integrals(&rest, 0, NULL);
+  SbStatus status = sb_gt_integrals(&sliding, out->lambda, NULL);
+  if (status == SB_OK) {
+    status = sb_gt_integrals(&rest, 0, NULL);
+  }
+  if (status != SB_OK) {
+    return sb_fail(report, status, "no asperity contact of the %s seal at λ = %g",
+                   sb_seal_name(seal), out->lambda);
+  }
   out->area_share = sb_gt_area_share(model->gt_product, sliding.F2);
   *rest_share = sb_gt_area_share(model->gt_product, rest.F2);
   if (out->area_share > 0.3) {
@@ -448,7 +454,7 @@ static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *mod
 static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, double speed,
                               SbWarnings *warnings, SbReport *report) {
   double area = (out->contact_right - out->contact_left) * model->bore_circumference;
-  double rest_share;
+  double rest_share = NAN;
   out->lambda = out->film_central / model->sigma;
   SbStatus status = real_area(out, &rest_share, model, seal, warnings, report);
   if (status != SB_OK) {
@@ -475,7 +481,7 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
                           double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                           SbWarnings *warnings, SbReport *report) {
   *out = (SbSliding){.film_reynolds = NAN, .film_error = NAN, .asperity_share = NAN};
-  sb_succeed(report);
+  (void)sb_succeed(report);
 
   // Fitment. The fit takes the difference; the common part only shifts the fluid's level.
   SbStatus status = solve_fit(memory, model, seal, pressure.left - pressure.right, counts, report);

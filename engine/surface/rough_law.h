@@ -74,4 +74,4 @@ double sb_rough_law_of_pressure(const SbRoughLaw *law, double pressure);
 const char *sb_rough_model_name(SbRoughModel model);
 
 // The model of that name; false if there is none.
-bool sb_rough_model_from_name(SbRoughModel *out, const char *name);
+SB_CHECKED bool sb_rough_model_from_name(SbRoughModel *out, const char *name);
