@@ -24,12 +24,12 @@ static void SB_PRINTF(5, 6) add_problem(SbProblems *problems, const char *key, d
     return;
   }
   SbProblem *problem = &problems->item[problems->count++];
-  snprintf(problem->key, sizeof problem->key, "%s", key);
+  sb_text(problem->key, sizeof problem->key, "%s", key);
   problem->min = min;
   problem->max = max;
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(problem->text, sizeof problem->text, format, arguments);
+  sb_text_v(problem->text, sizeof problem->text, format, arguments);
   va_end(arguments);
 }
 

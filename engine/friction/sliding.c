@@ -471,15 +471,22 @@ static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, do
   return SB_OK;
 }
 
-SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, double speed,
-                              SbWarnings *warnings, SbReport *report) {
-  return state->touches ? rough_contact(state, model, seal, speed, warnings, report)
-                        : sb_succeed(report);
+static const char *about(int seal) {
+  return seal == SB_OUTER ? "outer seal" : "inner seal";
 }
 
-SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                          double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
-                          SbWarnings *warnings, SbReport *report) {
+SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, double speed,
+                              SbWarnings *warnings, SbReport *report) {
+  sb_warn_about(warnings, about(seal));
+  SbStatus status = state->touches ? rough_contact(state, model, seal, speed, warnings, report)
+                                   : sb_succeed(report);
+  sb_warn_about(warnings, NULL);
+  return status;
+}
+
+static SbStatus solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
+                      double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
+                      SbWarnings *warnings, SbReport *report) {
   *out = (SbSliding){.film_reynolds = NAN, .film_error = NAN, .asperity_share = NAN};
   (void)sb_succeed(report);
 
@@ -540,5 +547,14 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
               out->lambda, sb_seal_name(seal));
     }
   }
+  return status;
+}
+
+SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
+                          double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
+                          SbWarnings *warnings, SbReport *report) {
+  sb_warn_about(warnings, about(seal));
+  SbStatus status = solve(out, model, seal, pressure, speed, memory, counts, warnings, report);
+  sb_warn_about(warnings, NULL);
   return status;
 }
