@@ -347,7 +347,9 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/section/ring-invariants", test_ring_invariants);
   g_test_add_func("/section/contact-bar", test_contact_bar);
-  g_test_add_func("/section/ring-mesh", test_ring_mesh);
+  if (g_test_slow()) {
+    g_test_add_func("/section/ring-mesh", test_ring_mesh);
+  }
   g_test_add_func("/section/inset-curves", test_inset_curves);
   g_test_add_func("/section/ring-extremes", test_ring_extremes);
   g_test_add_func("/section/labels", test_labels);
