@@ -235,11 +235,14 @@ static SbStatus run_ring_step(SbBenchCase *out, const Case *c, SbReport *report)
 static SbStatus run_cycle(SbBenchCase *out, const Case *c, SbReport *report) {
   SbParams params;
   sb_params_init(&params);
-  sb_params_set(&params, SB_P_MODELS_MOTION, c->parameter, NULL);
   SbModel model;
   SbPlan plan;
   SbRun *run = NULL;
-  SbStatus status = sb_model_compile(&model, &params, NULL);
+  SbStatus status = sb_params_set(&params, SB_P_MODELS_MOTION, c->parameter, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  status = sb_model_compile(&model, &params, NULL);
   if (status != SB_OK) {
     return sb_fail(report, status, "the default valve does not compile");
   }
@@ -317,10 +320,10 @@ SbStatus sb_bench_run(SbBenchCase *out, size_t index, int repeats, const SbBench
   }
   double wall[REPEATS_MAX];
   int n = repeats < 1 ? 1 : repeats > REPEATS_MAX ? REPEATS_MAX : repeats;
-  for (int i = 0; i < n; i++) {
+  for (int i = 0; i < n && status == SB_OK; i++) {
     double start = now();
     out->wall_s = 0;
-    run_once(out, c, NULL);
+    status = run_once(out, c, report);
     // A case that times a part of itself has said so.
     wall[i] = out->wall_s > 0 ? out->wall_s : now() - start;
   }

@@ -106,6 +106,7 @@ typedef struct {
   const int *outline_node;            // [outline] in order, closed by the first
   double contact_left, contact_right; // bore contact [m]; equal if there is none
   double load;                        // on the bore [N]
+  double drag;                        // friction of the bore on the ring, in-stroke > 0 [N]
 } SbSealShape;
 
 // Energy of the cycle, each term accumulated by itself [J].

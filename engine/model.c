@@ -25,12 +25,12 @@ static void SB_PRINTF(5, 6) add_problem(SbProblems *problems, const char *key, d
     return;
   }
   SbProblem *problem = &problems->item[problems->count++];
-  snprintf(problem->key, sizeof problem->key, "%s", key);
+  sb_text(problem->key, sizeof problem->key, "%s", key);
   problem->min = min;
   problem->max = max;
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(problem->text, sizeof problem->text, format, arguments);
+  sb_text_v(problem->text, sizeof problem->text, format, arguments);
   va_end(arguments);
 }
 
@@ -527,7 +527,8 @@ void sb_model_remarks(const SbModel *model, SbProblems *out) {
 void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings) {
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     SbRubberState ignored;
-    sb_rubber_state(&ignored, &model->rubber, &model->seal[i].stored, warnings, NULL);
+    // Its constants were checked when the model was compiled: only the warnings are of interest.
+    (void)sb_rubber_state(&ignored, &model->rubber, &model->seal[i].stored, warnings, NULL);
   }
 }
 

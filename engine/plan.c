@@ -11,6 +11,7 @@
 #include "engine/elastic/fit.h"
 #include "engine/study/study.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -25,17 +26,15 @@ enum { OWN_SPEED_ROUNDS = 3 };
 static void SB_PRINTF(7, 8)
     add(SbPlanItem *items, size_t *count, const char *name, const char *model, double cost,
         double error, const char *format, ...) {
-  if (*count == SB_PLAN_ITEMS_MAX) {
-    return;
-  }
+  assert(*count < SB_PLAN_ITEMS_MAX);
   SbPlanItem *item = &items[(*count)++];
-  snprintf(item->name, sizeof item->name, "%s", name);
-  snprintf(item->model, sizeof item->model, "%s", model);
+  sb_text(item->name, sizeof item->name, "%s", name);
+  sb_text(item->model, sizeof item->model, "%s", model);
   item->cost_s = cost;
   item->error = error;
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(item->reason, sizeof item->reason, format, arguments);
+  sb_text_v(item->reason, sizeof item->reason, format, arguments);
   va_end(arguments);
 }
 
@@ -205,7 +204,7 @@ static void plan_studies(SbPlan *plan, const SbModel *model) {
     const char *name = sb_study_name((SbStudyKind)i);
     if ((model->studies & (1u << i)) != 0) {
       char item[40];
-      snprintf(item, sizeof item, "study %s", name);
+      sb_text(item, sizeof item, "study %s", name);
       add(plan->field, &plan->field_count, item, "several", sb_study_cost((SbStudyKind)i, model),
           model->tolerance, "output.studies asks for it");
     } else if (used < sizeof others) {

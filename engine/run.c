@@ -103,7 +103,7 @@ void sb_run_progress(const SbRun *run, const SbRunHooks *hooks, double fraction,
 
 bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report) {
   if (hooks != NULL && hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
-    sb_fail(report, SB_ERROR_CANCELLED, "cancelled");
+    (void)sb_fail(report, SB_ERROR_CANCELLED, "cancelled");
     return true;
   }
   return false;

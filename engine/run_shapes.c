@@ -3,7 +3,7 @@
 // One equilibrium for each seal, pressure difference and way of sliding: fitted and pressed first,
 // then dragged by the seal's own friction as a uniform shear on the bore contact, held by Coulomb
 // friction on floor and wall. Where the drag is more than the ring can bear without rolling, the
-// last equilibrium on the way is kept and the share it bears is told.
+// last equilibrium on the way is kept and the part of the force that it bears is told.
 //
 // A row of them for the inner ring while the land's edge and the chamfer beside it pass over it,
 // until the free ring clears the chamfer. Friction on floor and bore holds the ring where it is
@@ -23,6 +23,8 @@
 // Friction of rubber on the plastic of groove floor and wall, for the drawing only.
 static const double floor_friction = 0.3;
 static const double wall_friction = 0.1;
+// Of the force that the drawn ring bears, over its friction, before it is told.
+static const double drag_tolerance = 0.02;
 // Of the row over the land's edge: less on the floor lets the chamfer push the ring to its wall.
 static const double edge_floor_friction = 0.5;
 static const double edge_bore_friction = 0.2;
@@ -120,6 +122,7 @@ static SbStatus keep(SbRun *run, uint32_t index, const SbRing *ring, double floo
       .contact_left = result.touching ? result.contact_left : 0,
       .contact_right = result.touching ? result.contact_right : 0,
       .load = result.bore_force,
+      .drag = result.bore_drag,
   };
   for (int f = 0; f < SB_FIELD_COUNT; f++) {
     shape->view.field[f] = shape->floats + (size_t)f * n;
@@ -151,20 +154,36 @@ static SbRingLoad ring_load(const SbModel *model, SbSealPressure pressure) {
   return load;
 }
 
-// A step, or as much of it as has an equilibrium; *share is how far it went.
-static SbStatus step(SbRun *run, SbRing *ring, const SbRingLoad *from, const SbRingLoad *to,
-                     double *share, SbReport *report) {
+// A step, or as much of it as has an equilibrium; *whole tells which.
+static SbStatus step(SbRun *run, SbRing *ring, const SbRingLoad *to, bool *whole,
+                     SbReport *report) {
   SbStatus status = sb_ring_step(ring, to, report);
   run->summary.counters.ring_solves++;
-  *share = 1;
-  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
-    return status;
+  *whole = status == SB_OK;
+  return status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY ? status : SB_OK;
+}
+
+// Drags the ring by a force [N, in-stroke > 0], as an even shear over the contact, whose area grows
+// with it: halfway first, then by the area that both states point to. *borne is the force that acts
+// on the ring then over the one wanted; below 1 where the equilibrium ends on the way.
+static SbStatus drag(SbRun *run, SbRing *ring, double force, double *borne, SbReport *report) {
+  double turn = run->model.bore_circumference;
+  SbRingResult at;
+  sb_ring_result(ring, &at);
+  SbRingLoad load = *sb_ring_load(ring);
+  load.use_bore_traction = true;
+  double first = at.contact_right - at.contact_left, area = turn * first;
+  bool whole = area > 0;
+  SbStatus status = SB_OK;
+  for (int i = 0; i < 2 && whole && status == SB_OK; i++) {
+    load.bore_traction = (i == 0 ? 0.5 : 1) * force / area;
+    status = step(run, ring, &load, &whole, report);
+    sb_ring_result(ring, &at);
+    // The area is that of half the force: as much again for the other half.
+    area = turn * (2 * (at.contact_right - at.contact_left) - first);
   }
-  if (status != SB_OK) {
-    double whole = to->bore_traction - from->bore_traction;
-    *share = whole != 0 ? (sb_ring_load(ring)->bore_traction - from->bore_traction) / whole : 0;
-  }
-  return SB_OK;
+  *borne = force != 0 ? at.bore_drag / force : 1;
+  return status;
 }
 
 // At rest, dragged by the in-stroke, dragged by the return, for one seal and chamber state.
@@ -185,19 +204,17 @@ static SbStatus solve_dragged(SbRun *run, int seal, SbChamber chamber, Poll *hoo
     if (status != SB_OK) {
       return status;
     }
-    double share = 1;
     if (order[i] != SB_RUN_REST) {
       const SbSliding *state = &run->cycle.states.state[seal][chamber][order[i]];
-      double width = state->contact_right - state->contact_left;
-      SbRingLoad dragged = load;
-      dragged.use_bore_traction = true;
-      dragged.bore_traction = (order[i] == SB_CYCLE_IN ? 1 : -1) * sb_sliding_friction(state) /
-                              (model->bore_circumference * width);
-      status = step(run, ring, &load, &dragged, &share, report);
-      if (share < 0.999) {
+      double borne;
+      status = drag(run, ring, (order[i] == SB_CYCLE_IN ? 1 : -1) * sb_sliding_friction(state),
+                    &borne, report);
+      if (status == SB_OK && !(fabs(borne - 1) <= drag_tolerance)) {
+        sb_warn_about(&run->summary.warnings, sb_seal_name(seal));
         sb_warn(&run->summary.warnings, "ring-drag", "friction.shear_strength",
-                "the %s ring bears %.0f %% of its friction before it rolls: drawn there",
-                sb_seal_name(seal), 100 * share);
+                "the drawn %s ring bears %.0f %% of its friction force, then rolls",
+                sb_seal_name(seal), 100 * borne);
+        sb_warn_about(&run->summary.warnings, NULL);
       }
     }
     if (status == SB_OK) {
@@ -260,12 +277,11 @@ static SbStatus solve_edge(SbRun *run, Poll *hooks, SbReport *report) {
   status = sb_ring_create(&ring, &body, &load, &options, report);
   run->summary.counters.ring_solves++;
   for (int i = 0; i < SB_RUN_EDGES && status == SB_OK && end > begin; i++) {
-    SbRingLoad from = *sb_ring_load(ring);
     SbRingLoad edged = load;
     edged.land_left = begin + (double)i / SB_RUN_EDGES * (end - begin);
-    double share;
-    status = step(run, ring, &from, &edged, &share, report);
-    if (status == SB_OK && share > 0.999) {
+    bool whole;
+    status = step(run, ring, &edged, &whole, report);
+    if (status == SB_OK && whole) {
       status = keep(run, slot(SB_INNER, SB_RUN_SHAPE_EDGE + i), ring, load.floor_radius, report);
     }
   }

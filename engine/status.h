@@ -5,6 +5,7 @@
 // validity carries SbWarnings.
 #pragma once
 
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -12,6 +13,24 @@
 #define SB_PRINTF(format_index, first) __attribute__((format(printf, format_index, first)))
 #else
 #define SB_PRINTF(format_index, first)
+#endif
+
+// The compiler warns where a result is dropped: of one function (SB_CHECKED before its
+// declaration), or of every function that returns a type (SB_CHECKED_TYPE in its definition, after
+// SB_EXTENSION: gcc knows that attribute of a type only in C2x's form). Where a result is dropped
+// on purpose a (void) cast says so.
+#if defined(__clang__)
+#define SB_EXTENSION
+#define SB_CHECKED      __attribute__((warn_unused_result))
+#define SB_CHECKED_TYPE __attribute__((warn_unused_result))
+#elif defined(__GNUC__)
+#define SB_EXTENSION    __extension__
+#define SB_CHECKED      __attribute__((warn_unused_result))
+#define SB_CHECKED_TYPE [[nodiscard]]
+#else
+#define SB_EXTENSION
+#define SB_CHECKED
+#define SB_CHECKED_TYPE
 #endif
 
 // code, one-line text
@@ -25,7 +44,7 @@
   X(SB_ERROR_MEMORY, "out of memory")                                                              \
   X(SB_ERROR_IO, "input or output failed")
 
-typedef enum {
+SB_EXTENSION typedef enum SB_CHECKED_TYPE {
 #define SB_STATUS_ENUM(code, text) code,
   SB_STATUS_LIST(SB_STATUS_ENUM)
 #undef SB_STATUS_ENUM
@@ -51,29 +70,41 @@ SbStatus sb_fail(SbReport *report, SbStatus status, const char *format, ...) SB_
 SbStatus sb_fail_parameter(SbReport *report, SbStatus status, const char *parameter,
                            const char *format, ...) SB_PRINTF(4, 5);
 
+// Formats a text into `size` bytes; what does not fit ends in "…", between two characters.
+void sb_text(char *out, size_t size, const char *format, ...) SB_PRINTF(3, 4);
+void sb_text_v(char *out, size_t size, const char *format, va_list arguments) SB_PRINTF(3, 0);
+
 // Clears the report (if any) and returns SB_OK.
 SbStatus sb_succeed(SbReport *report);
 
 enum { SB_WARNINGS_MAX = 48 };
 
-// One validity warning: a stable code ("film-below-continuum"), a sentence, and the catalogue key
-// of the parameter that a user would change (may be empty).
+// One validity warning: a stable code ("film-below-continuum"), a sentence, the catalogue key of
+// the parameter that a user would change (may be empty), and what it is about ("inner seal"; may be
+// empty), which the sentence names.
 typedef struct {
   char code[48];
   char text[200];
   char parameter[64];
+  char subject[16];
 } SbWarning;
 
-// A bounded list without duplicates (same code and parameter). `dropped` counts what did not fit.
+// A bounded list without duplicates (same code, parameter and subject). `dropped` counts what did
+// not fit. While `subject` is set (borrowed), what is added without one is about it.
 typedef struct {
+  const char *subject;
   size_t count;
   size_t dropped;
   SbWarning item[SB_WARNINGS_MAX];
 } SbWarnings;
 
-// Adds a warning unless one with the same code and parameter is there; `list` may be NULL.
+// Adds a warning unless one with the same code, parameter and subject is there; `list` may be NULL.
 void sb_warn(SbWarnings *list, const char *code, const char *parameter, const char *format, ...)
     SB_PRINTF(4, 5);
+
+// What the warnings added from now on are about (NULL: nothing of which there are several); `list`
+// may be NULL.
+void sb_warn_about(SbWarnings *list, const char *subject);
 
 // Adds all of `from` to `list`.
 void sb_warnings_merge(SbWarnings *list, const SbWarnings *from);

@@ -67,7 +67,9 @@ static void set_bands(Panel *panel) {
                        .bore_diameter = 4,
                        .land_diameter = 3.9};
   SbGlandReadout readout[SB_GLAND_COUNT];
-  sb_gland_readouts(readout, &any, NULL);
+  if (sb_gland_readouts(readout, &any, NULL) != SB_OK) {
+    g_assert_not_reached();
+  }
   for (int i = 0; i < ITEMS; i++) {
     const Item *item = &items[i];
     bool own = item->gland == NO_GLAND;

@@ -99,7 +99,8 @@ gboolean sb_session_restore(SbSession *session, const char *path, const char *te
     bool given = sb_document_gives(document, id);
     if (sb_document_gives(changed_one, id)) {
       if (!given || sb_document_value(document, id) != value) {
-        sb_document_set_value(document, id, value, false, NULL);
+        // A value of one document is one of the other's.
+        g_warn_if_fail(sb_document_set_value(document, id, value, false, NULL));
       }
     } else if (given) {
       sb_document_unset(document, id);

@@ -10,6 +10,7 @@ void sb_labels_init(SbLabels *labels, SbRect bounds) {
   labels->bounds = bounds;
   labels->box_count = 0;
   labels->line_count = 0;
+  labels->full = false;
   labels->crossing_max = INFINITY;
 }
 
@@ -20,7 +21,8 @@ double sb_rect_overlap(SbRect a, SbRect b) {
 }
 
 void sb_labels_block(SbLabels *labels, SbRect box) {
-  if (labels->box_count < SB_LABELS_MAX) {
+  labels->full = labels->box_count == SB_LABELS_MAX;
+  if (!labels->full) {
     labels->box[labels->box_count++] = box;
   }
 }
@@ -111,7 +113,7 @@ bool sb_labels_place_box(SbLabels *labels, double width, double size, const SbPl
       *out = place[i];
     }
   }
-  if (!isfinite(best) || labels->box_count == SB_LABELS_MAX) {
+  if (!isfinite(best) || labels->full || labels->box_count == SB_LABELS_MAX) {
     return false;
   }
   sb_labels_block(labels, best_box);

@@ -11,6 +11,7 @@ typedef struct {
   SbRect bounds; // labels stay inside
   int box_count;
   SbRect box[SB_LABELS_MAX]; // taken
+  bool full;                 // more was to be taken than fits: nothing is placed any more
   double crossing;     // of the label placed last: 0 if it stands on nothing and needs no halo
   double crossing_max; // places that cover more of a curve [px] are refused; INFINITY at first
   int line_count;

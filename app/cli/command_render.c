@@ -136,6 +136,10 @@ static bool parse(Request *request, const Options *options) {
     sb_cli_fail("-o: %s: the ending must be .png, .svg, .pdf or .mp4", options->output);
     return false;
   }
+  if (request->film && sb_movie_missing() != NULL) {
+    sb_cli_fail("-o: %s: %s", options->output, sb_movie_missing());
+    return false;
+  }
   if (request->is_study && (request->film || request->sequence)) {
     sb_cli_fail("--view %s is a study, which does not move: write a .png, .svg or .pdf", how->view);
     return false;

@@ -299,6 +299,7 @@ int sb_command_open(int argc, char **argv) {
   }
   g_free(folder);
   execvp("sealbench-gtk", arguments);
-  sb_cli_fail("the window's program sealbench-gtk cannot be started: %s", g_strerror(errno));
+  sb_cli_fail("the window's program sealbench-gtk cannot be started: %s%s", g_strerror(errno),
+              SB_GUI_BUILT ? "" : " (this build of Sealbench has no window: Meson's option `gui`)");
   return SB_EXIT_IO;
 }

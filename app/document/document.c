@@ -121,13 +121,14 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
     } else {
       GError *error = NULL;
       double value = 0;
-      if (sb_param_parse(&value, (SbParamId)id, entry->value, &error)) {
-        sb_params_set(params, (SbParamId)id, value, NULL);
-      } else {
+      SbReport report;
+      if (!sb_param_parse(&value, (SbParamId)id, entry->value, &error)) {
         char *range = sb_param_range((SbParamId)id);
         sb_issues_add(issues, shown, entry->line, key, range, "%s", error->message);
         g_free(range);
         g_error_free(error);
+      } else if (sb_params_set(params, (SbParamId)id, value, &report) != SB_OK) {
+        sb_issues_add(issues, shown, entry->line, key, NULL, "%s", report.text);
       }
     }
     g_free(key);

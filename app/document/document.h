@@ -86,12 +86,13 @@ char *sb_document_sha256(const SbDocument *document);
 
 // Sets a parameter from text ("1.63 mm", "reynolds", "400"); an undoable edit. On failure
 // SB_APP_ERROR_INPUT, nothing changes, and the message ends with the allowed range.
-bool sb_document_set(SbDocument *document, SbParamId id, const char *text, GError **error);
+SB_CHECKED bool sb_document_set(SbDocument *document, SbParamId id, const char *text,
+                                GError **error);
 
 // The same from an SI value. With `merge`, an edit of the same key right after another becomes one
 // undo step (a drag).
-bool sb_document_set_value(SbDocument *document, SbParamId id, double value, bool merge,
-                           GError **error);
+SB_CHECKED bool sb_document_set_value(SbDocument *document, SbParamId id, double value, bool merge,
+                                      GError **error);
 
 // "KEY=VALUE" of --set; a percentage with a sign ("+5 %") changes the value in force by that much.
 // Issues name the file "--set".
@@ -128,4 +129,4 @@ char *sb_document_to_flat_text(const SbDocument *document);
 // Writes the file by way of a temporary one in the same folder and a rename; afterwards nothing
 // differs and `path` is the document's. On failure SB_APP_ERROR_IO and an earlier file is intact. A
 // scene saved elsewhere keeps its valve by a new relative path.
-bool sb_document_save(SbDocument *document, const char *path, GError **error);
+SB_CHECKED bool sb_document_save(SbDocument *document, const char *path, GError **error);

@@ -18,8 +18,8 @@ enum { SB_SERIES_BYTES_MAX = 1 << 20 };
 bool sb_series_read(SbModelSeries *out, const char *path, GPtrArray *issues);
 
 // The same for "speed [m/s]" in the second column; quantity is left as it is.
-bool sb_series_read_speed(SbModelSeries *out, const char *path, GPtrArray *issues);
+SB_CHECKED bool sb_series_read_speed(SbModelSeries *out, const char *path, GPtrArray *issues);
 
 // The first from memory; `name` stands for the file in messages.
-bool sb_series_parse(SbModelSeries *out, const char *text, size_t length, const char *name,
-                     GPtrArray *issues);
+SB_CHECKED bool sb_series_parse(SbModelSeries *out, const char *text, size_t length,
+                                const char *name, GPtrArray *issues);

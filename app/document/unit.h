@@ -26,8 +26,8 @@ GQuark sb_app_error_quark(void);
 // Reads `text` as a quantity of the dimension of `si` ("m", "Pa.s", "1"). `shown` is the unit that
 // error messages propose. Returns false with SB_APP_ERROR_INPUT and one sentence that names the
 // expected unit; *out is untouched then.
-bool sb_quantity_parse(double *out, const char *text, const char *si, const char *shown,
-                       GError **error);
+SB_CHECKED bool sb_quantity_parse(double *out, const char *text, const char *si, const char *shown,
+                                  GError **error);
 
 // Whether the unit that people read makes a quantity a point of a scale, not a difference.
 bool sb_quantity_is_point(const char *shown);
@@ -47,7 +47,7 @@ char *sb_param_format(SbParamId id, double value);
 
 // Text of a catalogue value, checked for kind, unit and range. On failure the sentence does not
 // repeat the key or the range.
-bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error);
+SB_CHECKED bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error);
 
 // Allowed range of a parameter for people: "0.2 to 20 mm", "thesis or reynolds". Owned by the
 // caller.

@@ -52,5 +52,8 @@ SbStatus sb_movie_write(const char *path, const SbMovieOptions *options, SbMovie
                         void *draw_data, const SbMovieHooks *hooks, SbMovieResult *result,
                         SbReport *report);
 
+// NULL, or the sentence that says why this build writes no movies; borrowed.
+const char *sb_movie_missing(void);
+
 // round(duration * fps), at least 1.
 size_t sb_movie_frames(double duration, int fps_num, int fps_den);

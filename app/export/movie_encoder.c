@@ -81,6 +81,10 @@ static SbStatus set_up_codec(SbMovieEncoder *encoder, const SbMovieOptions *opti
   return SB_OK;
 }
 
+const char *sb_movie_missing(void) {
+  return NULL;
+}
+
 SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
                                const SbMovieOptions *options, SbReport *report) {
   *out = NULL;

@@ -56,7 +56,10 @@ static bool write_all(SbFilm *film, const SbRenderOptions *options, const SbMovi
   size_t at;
   int digits;
   const char *rest;
-  field_of(pattern, &at, &digits, &rest);
+  if (!field_of(pattern, &at, &digits, &rest)) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s has no number field", pattern);
+    return false;
+  }
   size_t total = sb_film_pictures(film);
   int width;
   int height;

@@ -4,6 +4,8 @@
 
 #include <GL/glcorearb.h>
 
+#include "engine/status.h"
+
 #include <stdbool.h>
 
 // pointer type's middle part, name
@@ -77,4 +79,5 @@ typedef struct {
 typedef void *(*SbGlGetProc)(void *data, const char *name);
 
 // Fills the table. False, with *missing naming the first function not found, if one is missing.
-bool sb_gl_api_load(SbGlApi *api, SbGlGetProc get_proc, void *data, const char **missing);
+SB_CHECKED bool sb_gl_api_load(SbGlApi *api, SbGlGetProc get_proc, void *data,
+                               const char **missing);

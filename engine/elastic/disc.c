@@ -341,7 +341,9 @@ static double solve_pressure(SbDiscSystem *s, double target, Progress *at) {
     double ignored[3];
     s->pressure = done;
     const double *edges = at->has_wet ? at->wet : &at->dry;
-    sb_disc_system_solve(s, unpack(edges, at->has_wet ? 3 : 1), ignored);
+    if (!sb_disc_system_solve(s, unpack(edges, at->has_wet ? 3 : 1), ignored)) {
+      return -1.0;
+    }
   }
   return done;
 }

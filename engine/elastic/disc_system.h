@@ -47,7 +47,7 @@ void sb_disc_system_points(SbDiscSystem *system, size_t n);
 // Solves for given edges; false if the matrix is singular or the edges leave (-1, 1).
 // residual[0..2]: F at the left and right edge and at the wall's, over the mean of |F|; zero when
 // all edges are smooth.
-bool sb_disc_system_solve(SbDiscSystem *system, SbDiscEdges edges, double residual[3]);
+SB_CHECKED bool sb_disc_system_solve(SbDiscSystem *system, SbDiscEdges edges, double residual[3]);
 
 // Direction of the contact force per unit projected length at a point of the bore contact (vertical
 // or radial, inward), and of the measured displacement.

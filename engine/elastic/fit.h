@@ -38,7 +38,7 @@ typedef enum {
 const char *sb_fit_model_name(SbFitModel model);
 
 // Finds a model by name; false (and nothing written) if there is none.
-bool sb_fit_model_from_name(SbFitModel *out, const char *name);
+SB_CHECKED bool sb_fit_model_from_name(SbFitModel *out, const char *name);
 
 // What to solve. Zero-initialise, then fill; every size and modulus in SI.
 typedef struct {

@@ -201,4 +201,4 @@ const char *sb_film_model_name(SbFilmModel model);
 const char *sb_film_model_help(SbFilmModel model);
 
 // The model of that name; false if there is none.
-bool sb_film_model_from_name(SbFilmModel *out, const char *name);
+SB_CHECKED bool sb_film_model_from_name(SbFilmModel *out, const char *name);

@@ -5,6 +5,8 @@
 // points. The gap's integral with the logarithmic kernel is taken exactly for these polynomials.
 #pragma once
 
+#include "engine/status.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -104,13 +106,13 @@ void sb_hp_tables_init(SbHpTables *tables);
 const SbHpTable *sb_hp_table(SbHpTables *tables, int degree);
 
 // Storage of a mesh: false when out of memory. Finish takes a zeroed mesh.
-bool sb_hp_mesh_init(SbHpMesh *mesh);
+SB_CHECKED bool sb_hp_mesh_init(SbHpMesh *mesh);
 void sb_hp_mesh_finish(SbHpMesh *mesh);
 
 // Empties the mesh and adds elements from left to right. Returns false when the mesh is full.
 void sb_hp_mesh_begin(SbHpMesh *mesh, double inlet_pressure, double outlet_pressure);
-bool sb_hp_mesh_add(SbHpMesh *mesh, SbHpMap map, double x0, double x1, double A, int degree,
-                    bool apart);
+SB_CHECKED bool sb_hp_mesh_add(SbHpMesh *mesh, SbHpMap map, double x0, double x1, double A,
+                               int degree, bool apart);
 
 // Numbers the unknowns and builds every operator.
 void sb_hp_mesh_build(SbHpMesh *mesh, SbHpTables *tables);

@@ -47,7 +47,7 @@ double sb_layers_dry_pressure(const SbLayers *layers, double X);
 double sb_layers_dry_gap(const SbLayers *layers, double X);
 
 // Builds the mesh. Returns false if it does not fit.
-bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *layers);
+SB_CHECKED bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *layers);
 
 // Pressure and film of the joined layers of a thin film at X.
 void sb_layers_shape(double *pressure, double *film, const SbLayers *layers, double flux, double X);

@@ -528,7 +528,8 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
                      "film: estimated error %.2g, above the tolerance, on the finest mesh",
                      fmax(info->error_film_min, info->error_film_central));
   } else if (status != SB_OK) {
-    sb_fail(report, status, "film: Newton's method stopped at a step of %.2g", info->residual);
+    (void)sb_fail(report, status, "film: Newton's method stopped at a step of %.2g",
+                  info->residual);
   }
   info->converged = status == SB_OK;
   warn(out, problem, scale);

@@ -112,8 +112,8 @@ const SbMixedRule *sb_mixed_rule(SbMixedSolver *solver, int degree);
 
 // Lays out elements by the layers and the roughness and builds the kernel; `fineness` divides the
 // sizes (1 usual). False if the mesh does not fit.
-bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase *c,
-                   double fineness);
+SB_CHECKED bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase *c,
+                              double fineness);
 
 // Gives a new mesh the body of the case: its undeformed gap and smooth compliance in place of the
 // parabola's (fitted.c).

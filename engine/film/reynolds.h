@@ -62,7 +62,7 @@ struct SbFilmSolver {
 };
 
 // Storage; false when out of memory.
-bool sb_reynolds_init(SbFilmSolver *solver);
+SB_CHECKED bool sb_reynolds_init(SbFilmSolver *solver);
 void sb_reynolds_finish(SbFilmSolver *solver);
 
 // Newton's method on mesh/state `which`. `independent`: state.gap is a guess of its own, to be made

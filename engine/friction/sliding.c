@@ -456,16 +456,19 @@ static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *mod
     return SB_OK;
   }
   SbGtIntegrals integrals;
-  SbStatus status = sb_gt_integrals(&integrals, 0, report);
-  *rest_share = sb_gt_area_share(model->gt_product, integrals.F2);
+  SbStatus status = sb_gt_integrals(&integrals, 0, NULL);
+  if (status == SB_OK) {
+    *rest_share = sb_gt_area_share(model->gt_product, integrals.F2);
+  }
   // Without a film there is no real contact under it either.
   out->area_share = NAN;
   if (status == SB_OK && !isnan(out->lambda)) {
-    status = sb_gt_integrals(&integrals, out->lambda, report);
-    out->area_share = sb_gt_area_share(model->gt_product, integrals.F2);
+    status = sb_gt_integrals(&integrals, out->lambda, NULL);
+    out->area_share = status == SB_OK ? sb_gt_area_share(model->gt_product, integrals.F2) : NAN;
   }
   if (status != SB_OK) {
-    return status;
+    return sb_fail(report, status, "no asperity contact of the %s seal at λ = %g",
+                   sb_seal_name(seal), out->lambda);
   }
   if (out->area_share > 0.3) {
     sb_warn(
@@ -481,7 +484,7 @@ static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *mod
 static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, double speed,
                               SbWarnings *warnings, SbReport *report) {
   double area = (out->contact_right - out->contact_left) * model->bore_circumference;
-  double rest_share;
+  double rest_share = NAN;
   out->lambda = out->film_central / model->sigma;
   SbStatus status = real_area(out, &rest_share, model, seal, warnings, report);
   if (status != SB_OK) {
@@ -509,10 +512,8 @@ static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, do
   return SB_OK;
 }
 
-SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, double speed,
-                              SbWarnings *warnings, SbReport *report) {
-  return state->touches ? rough_contact(state, model, seal, speed, warnings, report)
-                        : sb_succeed(report);
+static const char *about(int seal) {
+  return seal == SB_OUTER ? "outer seal" : "inner seal";
 }
 
 // A film that cannot be, because the fluid opens the contact, is a result, not a failure. Otherwise
@@ -532,10 +533,19 @@ static SbStatus opened_by_fluid(SbSliding *out, SbStatus status, const SbReport 
   return SB_OK;
 }
 
-SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                          double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
-                          SbWarnings *warnings, SbReport *report) {
-  sb_succeed(report);
+SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, double speed,
+                              SbWarnings *warnings, SbReport *report) {
+  sb_warn_about(warnings, about(seal));
+  SbStatus status = state->touches ? rough_contact(state, model, seal, speed, warnings, report)
+                                   : sb_succeed(report);
+  sb_warn_about(warnings, NULL);
+  return status;
+}
+
+static SbStatus solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
+                      double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
+                      SbWarnings *warnings, SbReport *report) {
+  (void)sb_succeed(report);
   *out = (SbSliding){.contact_left = NAN,
                      .contact_right = NAN,
                      .load = NAN,
@@ -623,5 +633,14 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
               out->lambda, sb_seal_name(seal));
     }
   }
+  return status;
+}
+
+SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
+                          double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
+                          SbWarnings *warnings, SbReport *report) {
+  sb_warn_about(warnings, about(seal));
+  SbStatus status = solve(out, model, seal, pressure, speed, memory, counts, warnings, report);
+  sb_warn_about(warnings, NULL);
   return status;
 }

@@ -197,7 +197,7 @@ static bool cut_at_event(SbDynamics *s, SbReport *report) {
       if (found != EVENT_NONE) {
         bool reached;
         if (!end_on_event(s, step, found, best, &reached)) {
-          sb_fail(report, SB_ERROR_NOT_CONVERGED, "no step to the event at %.9g s", step->t);
+          (void)sb_fail(report, SB_ERROR_NOT_CONVERGED, "no step to the event at %.9g s", step->t);
           return false;
         }
         if (half == 0) {

@@ -35,7 +35,8 @@ typedef struct {
 void sb_outline_surface(SbOutlineSurface *out, const SbOutline *outline);
 
 // Radii of both surfaces at x [m]. False beside the part.
-bool sb_outline_radii(double *low, double *high, const SbOutlineSurface *surface, double x);
+SB_CHECKED bool sb_outline_radii(double *low, double *high, const SbOutlineSurface *surface,
+                                 double x);
 
 // Volume between the outer surface and the cylinder of radius `radius` from x0 to x1, where the
 // surface lies inside it [m3].

@@ -6,6 +6,8 @@
 // out: mass matrices, systems larger than SB_RADAU_MAX.
 #pragma once
 
+#include "engine/status.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -37,13 +39,14 @@ typedef struct {
 } SbRadauCounters;
 
 // From (t, z) over h > 0. False if Newton's iteration did not converge (take a smaller h).
-bool sb_radau_step(SbRadauStep *step, const SbRadauSystem *system, double t, const double *z,
-                   double h, SbRadauCounters *counters);
+SB_CHECKED bool sb_radau_step(SbRadauStep *step, const SbRadauSystem *system, double t,
+                              const double *z, double h, SbRadauCounters *counters);
 
 // Two steps of h/2 and, against one of h, the scaled error of the pair (accept below 1). The pair
 // is more accurate than that by about 31. False as above.
-bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local, const SbRadauSystem *system,
-                   double t, const double *z, double h, SbRadauCounters *counters);
+SB_CHECKED bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local,
+                              const SbRadauSystem *system, double t, const double *z, double h,
+                              SbRadauCounters *counters);
 
 // State z[n] at t + theta h, 0 <= theta <= 1, and the quadratures over (t, t + theta h); either may
 // be NULL.

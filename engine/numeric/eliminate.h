@@ -1,9 +1,11 @@
 // Small dense linear systems.
 #pragma once
 
+#include "engine/status.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
 // Solves a x = b in place: `a` is n x n by columns and is lost, b becomes x; false if singular. For
 // systems of some dozens of rows, where a threaded library costs more than the work.
-bool sb_eliminate(double *a, double *b, size_t n);
+SB_CHECKED bool sb_eliminate(double *a, double *b, size_t n);

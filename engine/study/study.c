@@ -3,9 +3,9 @@
 
 #include "engine/study/study_private.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 typedef struct {
@@ -79,16 +79,17 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
 
 // ---- building blocks ----
 
-// Index for one more; the last one again when all are taken (a test holds that no study needs it).
+// Index for one more. A study that asks for more than its struct holds is wrong.
 static size_t next(size_t *count, size_t capacity) {
+  assert(*count < capacity);
   return *count < capacity ? (*count)++ : capacity - 1;
 }
 
 void sb_study_axis(SbStudyAxis *out, const char *quantity, const char *si, const char *unit,
                    bool logarithmic) {
-  snprintf(out->quantity, sizeof out->quantity, "%s", quantity);
-  snprintf(out->si, sizeof out->si, "%s", si);
-  snprintf(out->unit, sizeof out->unit, "%s", unit);
+  sb_text(out->quantity, sizeof out->quantity, "%s", quantity);
+  sb_text(out->si, sizeof out->si, "%s", si);
+  sb_text(out->unit, sizeof out->unit, "%s", unit);
   out->logarithmic = logarithmic;
 }
 
@@ -96,7 +97,7 @@ SbStudyPanel *sb_study_panel(SbStudy *out, const char *quantity, const char *si,
                              bool logarithmic) {
   SbStudyPanel *panel = &out->panel[next(&out->panel_count, SB_STUDY_PANELS)];
   sb_study_axis(&panel->y, quantity, si, unit, logarithmic);
-  snprintf(panel->empty, sizeof panel->empty, "no value in this range");
+  sb_text(panel->empty, sizeof panel->empty, "no value in this range");
   return panel;
 }
 
@@ -105,16 +106,16 @@ SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const ch
   series->style = style;
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(series->name, sizeof series->name, format, arguments);
+  sb_text_v(series->name, sizeof series->name, format, arguments);
   va_end(arguments);
   return series;
 }
 
 SbStudyColumn *sb_study_column(SbStudy *out, const char *name, const char *si, const char *unit) {
   SbStudyColumn *column = &out->column[next(&out->column_count, SB_STUDY_COLUMNS)];
-  snprintf(column->name, sizeof column->name, "%s", name);
-  snprintf(column->si, sizeof column->si, "%s", si);
-  snprintf(column->unit, sizeof column->unit, "%s", unit);
+  sb_text(column->name, sizeof column->name, "%s", name);
+  sb_text(column->si, sizeof column->si, "%s", si);
+  sb_text(column->unit, sizeof column->unit, "%s", unit);
   column->digits = 3;
   return column;
 }
@@ -123,10 +124,10 @@ SbStudyRow *sb_study_row(SbStudy *out, const char *si, const char *unit, const c
   SbStudyRow *row = &out->row[next(&out->row_count, SB_STUDY_ROWS)];
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(row->name, sizeof row->name, format, arguments);
+  sb_text_v(row->name, sizeof row->name, format, arguments);
   va_end(arguments);
-  snprintf(row->si, sizeof row->si, "%s", si != NULL ? si : "");
-  snprintf(row->unit, sizeof row->unit, "%s", si != NULL ? unit : "");
+  sb_text(row->si, sizeof row->si, "%s", si != NULL ? si : "");
+  sb_text(row->unit, sizeof row->unit, "%s", si != NULL ? unit : "");
   for (size_t i = 0; i < SB_STUDY_COLUMNS; i++) {
     row->value[i] = NAN;
   }
@@ -134,10 +135,9 @@ SbStudyRow *sb_study_row(SbStudy *out, const char *si, const char *unit, const c
 }
 
 void sb_study_point(SbStudySeries *series, double x, double y) {
-  if (series->count < SB_STUDY_POINTS) {
-    series->x[series->count] = x;
-    series->y[series->count++] = y;
-  }
+  size_t at = next(&series->count, SB_STUDY_POINTS);
+  series->x[at] = x;
+  series->y[at] = y;
 }
 
 void sb_study_mark(SbStudy *out, double x, const char *format, ...) {
@@ -145,14 +145,14 @@ void sb_study_mark(SbStudy *out, double x, const char *format, ...) {
   mark->x = x;
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(mark->text, sizeof mark->text, format, arguments);
+  sb_text_v(mark->text, sizeof mark->text, format, arguments);
   va_end(arguments);
 }
 
 void sb_study_note(SbStudy *out, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(out->note[next(&out->note_count, SB_STUDY_NOTES)], sizeof out->note[0], format,
+  sb_text_v(out->note[next(&out->note_count, SB_STUDY_NOTES)], sizeof out->note[0], format,
             arguments);
   va_end(arguments);
 }
@@ -193,7 +193,7 @@ SbStatus sb_study_fit(SbStudy *out, SbFit *fit, const SbFitProblem *problem,
   if (status != SB_OK) {
     fit->load = fit->load_per_length = fit->pressure_peak = fit->contact_width = NAN;
     char code[48];
-    snprintf(code, sizeof code, "study-gap-%s", sb_fit_model_name(copy.model));
+    sb_text(code, sizeof code, "study-gap-%s", sb_fit_model_name(copy.model));
     sb_warn(&out->warnings, code, local.parameter, "%s has no value at some points: %s",
             sb_fit_model_name(copy.model), local.text);
     out->complete = out->complete && status != SB_ERROR_NOT_CONVERGED;

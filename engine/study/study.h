@@ -130,7 +130,7 @@ const char *sb_study_title(SbStudyKind kind);
 const char *sb_study_help(SbStudyKind kind);
 
 // Finds a study by name; false (and nothing written) if there is none.
-bool sb_study_from_name(SbStudyKind *out, const char *name);
+SB_CHECKED bool sb_study_from_name(SbStudyKind *out, const char *name);
 
 // Predicted seconds on one core, for the plan.
 double sb_study_cost(SbStudyKind kind, const SbModel *model);

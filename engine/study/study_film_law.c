@@ -12,7 +12,6 @@
 #include "engine/study/study_private.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { SPEEDS = 14, LOADS = 5, CURVE = 41, FITS = 2 };
@@ -172,7 +171,7 @@ static SbStatus regress(SbStudy *out, SbFilmLaw *fits, const SbModel *model, con
 
 static void table(SbStudy *out, const Law laws[], const SbFilmLaw *fits, const Scale *scale,
                   double speed, double load, const SbFilm *film) {
-  snprintf(out->row_heading, sizeof out->row_heading, "h/R = k U^\xce\xb2 W^\xce\xb1");
+  sb_text(out->row_heading, sizeof out->row_heading, "h/R = k U^\xce\xb2 W^\xce\xb1");
   sb_study_column(out, "k", "1", "")->digits = 4;
   sb_study_column(out, "\xc2\xb1 of k", "1", "%");
   sb_study_column(out, "\xce\xb2 of U", "1", "")->digits = 4;
@@ -230,13 +229,13 @@ SbStatus sb_study_film_law(SbStudy *out, const SbModel *model, const SbStudyHook
     if (model->speed >= range->speed_min && model->speed <= range->speed_max) {
       sb_study_mark(out, model->speed, "drive");
     }
-    snprintf(out->models, sizeof out->models,
-             "reynolds, half-plane, smooth, isoviscous; thesis eq. 7.5; Karaszkiewicz eq. 7.6; "
-             "exact limit");
-    snprintf(out->validity, sizeof out->validity,
-             "our law: U %.2g to %.2g, W %.3g to %.3g only; the limit: thin films (M above 100)",
-             range->speed_min * scale.U_per_speed, range->speed_max * scale.U_per_speed,
-             range->load_min * scale.W_per_load, range->load_max * scale.W_per_load);
+    sb_text(out->models, sizeof out->models,
+            "reynolds, half-plane, smooth, isoviscous; thesis eq. 7.5; Karaszkiewicz eq. 7.6; "
+            "exact limit");
+    sb_text(out->validity, sizeof out->validity,
+            "our law: U %.2g to %.2g, W %.3g to %.3g only; the limit: thin films (M above 100)",
+            range->speed_min * scale.U_per_speed, range->speed_max * scale.U_per_speed,
+            range->load_min * scale.W_per_load, range->load_max * scale.W_per_load);
     sb_study_note(out,
                   "U = \xce\xb7 (u/2)/(E' R), W = w/(E' R); R %.4g mm, E' %.4g MPa, \xce\xb7 %.4g "
                   "mPa s. \xc2\xb1: 95 %% confidence in this range. Curves at %.0f N/m.",

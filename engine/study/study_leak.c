@@ -13,7 +13,6 @@
 #include "engine/study/study_private.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { POINTS = 39, RING_POINTS = 20, FINE = 9 };
@@ -147,8 +146,8 @@ static double line_cost(const Line *line) {
 }
 
 static void line_name(char *name, size_t size, const Line *line, const SbModel *model) {
-  snprintf(name, size, "%s, %.2g MPa", sb_fit_model_name(line->fit),
-           line->share * model->canister_pressure * 1e-6);
+  sb_text(name, size, "%s, %.2g MPa", sb_fit_model_name(line->fit),
+          line->share * model->canister_pressure * 1e-6);
 }
 
 // Everything that one study of the leak needs at hand.
@@ -226,7 +225,7 @@ static SbStatus draw(const Leak *leak, double closing, SbReport *report) {
       sb_study_panel(out, "pressure of the rubber on the bore", "Pa", "MPa", false);
   SbStudyPanel *rest = sb_study_panel(out, "leak at rest", "m3/s", "\xc2\xb5l/h", true);
   SbStudyPanel *stroke = sb_study_panel(out, "carried out per stroke", "m3", "nl", false);
-  snprintf(rest->empty, sizeof rest->empty, "no leak: every contact is closed");
+  sb_text(rest->empty, sizeof rest->empty, "no leak: every contact is closed");
   double lo = leak->model->study.squeeze_min, hi = leak->model->study.squeeze_max;
   double total = 0, done = 0;
   for (int m = 0; m < leak->count; m++) {
@@ -279,7 +278,7 @@ static SbStatus table(const Leak *leak, SbReport *report) {
               {0.05, 0.1}, {0.07, 0.1}, {0.075, 0.1}, {0.10, 0.1}, {design, 0.1}};
   enum { ROWS = sizeof rows / sizeof rows[0] };
   SbStudy *out = leak->out;
-  snprintf(out->row_heading, sizeof out->row_heading, "squeeze, pressure");
+  sb_text(out->row_heading, sizeof out->row_heading, "squeeze, pressure");
   for (int m = 0; m < leak->count; m++) {
     if (leak->line[m].share < 1) {
       continue;
@@ -288,7 +287,7 @@ static SbStatus table(const Leak *leak, SbReport *report) {
     static const char *const unit[][2] = {{"Pa", "MPa"}, {"m3/s", "\xc2\xb5l/h"}, {"m3", "nl"}};
     for (int q = 0; q < 3; q++) {
       char text[40];
-      snprintf(text, sizeof text, "%s %s", quantity[q], sb_fit_model_name(leak->line[m].fit));
+      sb_text(text, sizeof text, "%s %s", quantity[q], sb_fit_model_name(leak->line[m].fit));
       sb_study_column(out, text, unit[q][0], unit[q][1]);
     }
   }
@@ -353,12 +352,12 @@ SbStatus sb_study_leak(SbStudy *out, const SbModel *model, const SbStudyHooks *h
   double design = model->seal[SB_OUTER].squeeze;
   sb_study_mark(out, design, "as designed, %.1f %%", 100 * design);
   bool own = model->fit != SB_FIT_DISC && model->fit != SB_FIT_RING;
-  snprintf(out->models, sizeof out->models,
-           "fit %s%sdisc, ring; percolation by Persson's contact; film as the scene's",
-           own ? sb_fit_model_name((SbFitModel)model->fit) : "", own ? ", " : "");
-  snprintf(out->validity, sizeof out->validity,
-           "mean contact pressure, liquid without vapour; gaps below 3 "
-           "\xcf\x83; no figure where the ring does not touch by itself");
+  sb_text(out->models, sizeof out->models,
+          "fit %s%sdisc, ring; percolation by Persson's contact; film as the scene's",
+          own ? sb_fit_model_name((SbFitModel)model->fit) : "", own ? ", " : "");
+  sb_text(out->validity, sizeof out->validity,
+          "mean contact pressure, liquid without vapour; gaps below 3 "
+          "\xcf\x83; no figure where the ring does not touch by itself");
   sb_study_note(out,
                 "Roughness %.3g \xc2\xb5m; channels close at %.3g MPa of solid pressure. Stroke "
                 "%.3g mm at %.4g mm/s. Karaszkiewicz holds from 7 to 25 %%.",

@@ -16,7 +16,6 @@
 #include "engine/surface/greenwood_tripp.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { THESIS, DISC_THESIS, DISC, RING, KARASZKIEWICZ, MODELS, TABLE_MODELS = 4 };
@@ -119,11 +118,11 @@ static void put_table(SbStudy *out, const SbModel *model, Figures all[][CASES],
   for (int q = 0; q < 3; q++) {
     for (int m = 0; m < TABLE_MODELS; m++) {
       char name[40];
-      snprintf(name, sizeof name, "%s %s", quantities[q], names[m]);
+      sb_text(name, sizeof name, "%s %s", quantities[q], names[m]);
       sb_study_column(out, name, units[q][0], units[q][1]);
     }
   }
-  snprintf(out->row_heading, sizeof out->row_heading, "case");
+  sb_text(out->row_heading, sizeof out->row_heading, "case");
   for (int c = 0; c < CASES; c++) {
     Figures row[TABLE_MODELS];
     char name[64];
@@ -133,11 +132,11 @@ static void put_table(SbStudy *out, const SbModel *model, Figures all[][CASES],
     SbFitProblem problem;
     make_problem(&problem, model, c);
     if (c < PRESSURES) {
-      snprintf(name, sizeof name, "%.2f MPa", pressures[c] * 1e-6);
+      sb_text(name, sizeof name, "%.2f MPa", pressures[c] * 1e-6);
     } else if (steps[c - PRESSURES].section != 0) {
-      snprintf(name, sizeof name, "d %.2f mm", problem.section_diameter * 1e3);
+      sb_text(name, sizeof name, "d %.2f mm", problem.section_diameter * 1e3);
     } else {
-      snprintf(name, sizeof name, "ID %.2f mm", problem.inner_diameter * 1e3);
+      sb_text(name, sizeof name, "ID %.2f mm", problem.inner_diameter * 1e3);
     }
     put_row(out, row, name);
   }
@@ -237,11 +236,11 @@ SbStatus sb_study_models(SbStudy *out, const SbModel *model, const SbStudyHooks 
   }
   sb_study_mark(out, model->canister_pressure, "canister");
   put_table(out, model, all, central);
-  snprintf(out->models, sizeof out->models, "disc-thesis, disc, ring, Karaszkiewicz%s",
-           is_thesis(model) ? "; printed: thesis tables 7.2 to 7.4, 7.8, 7.9" : "");
-  snprintf(out->validity, sizeof out->validity,
-           "disc-thesis: pressure on both flanks; disc: linear strain; ring: neo-Hookean, pressure "
-           "from the canister against the groove wall");
+  sb_text(out->models, sizeof out->models, "disc-thesis, disc, ring, Karaszkiewicz%s",
+          is_thesis(model) ? "; printed: thesis tables 7.2 to 7.4, 7.8, 7.9" : "");
+  sb_text(out->validity, sizeof out->validity,
+          "disc-thesis: pressure on both flanks; disc: linear strain; ring: neo-Hookean, pressure "
+          "from the canister against the groove wall");
   sb_study_note(out,
                 "Friction by shear strength: real area at rest x shear strength over the "
                 "load, as table 7.8; with m: the load coefficient %.3g added.",

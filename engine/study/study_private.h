@@ -17,8 +17,8 @@ SB_STUDY_LIST(SB_STUDY_DECLARE)
 void sb_study_axis(SbStudyAxis *out, const char *quantity, const char *si, const char *unit,
                    bool logarithmic);
 
-// Adds a panel, a series, a table's column or row; borrowed from `out`. They never fail: beyond
-// the bounds the last one is handed out again.
+// Adds a panel, a series, a table's column or row; borrowed from `out`. They never
+// fail: no study asks for more than SbStudy holds.
 SbStudyPanel *sb_study_panel(SbStudy *out, const char *quantity, const char *si, const char *unit,
                              bool logarithmic);
 SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const char *format, ...)
@@ -29,7 +29,7 @@ SbStudyColumn *sb_study_column(SbStudy *out, const char *name, const char *si, c
 SbStudyRow *sb_study_row(SbStudy *out, const char *si, const char *unit, const char *format, ...)
     SB_PRINTF(4, 5);
 
-// Appends a point; a full series takes no more.
+// Appends a point.
 void sb_study_point(SbStudySeries *series, double x, double y);
 
 void sb_study_mark(SbStudy *out, double x, const char *format, ...) SB_PRINTF(3, 4);

@@ -10,7 +10,6 @@
 #include "engine/study/study_private.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { RING, RING_UNSTRETCHED, DISC, DISC_THESIS, LINDLEY, GREEN, HERTZ, KARASZKIEWICZ, MODELS };
@@ -119,7 +118,7 @@ SbStatus sb_study_squeeze(SbStudy *out, const SbModel *model, const SbStudyHooks
     return status;
   }
 
-  snprintf(out->row_heading, sizeof out->row_heading, "as designed, %.1f %%", 100 * design);
+  sb_text(out->row_heading, sizeof out->row_heading, "as designed, %.1f %%", 100 * design);
   sb_study_column(out, "load", "N", "N");
   sb_study_column(out, "load against ring", "1", "%");
   sb_study_column(out, "peak", "Pa", "MPa");
@@ -128,7 +127,7 @@ SbStatus sb_study_squeeze(SbStudy *out, const SbModel *model, const SbStudyHooks
   sb_study_column(out, "width against ring", "1", "%");
   for (int k = 0; k < TABLE; k++) {
     char name[40];
-    snprintf(name, sizeof name, "load against ring at %.0f %%", 100 * table_squeeze[k]);
+    sb_text(name, sizeof name, "load against ring at %.0f %%", 100 * table_squeeze[k]);
     sb_study_column(out, name, "1", "%");
   }
   for (int m = 0; m < MODELS; m++) {
@@ -144,12 +143,12 @@ SbStatus sb_study_squeeze(SbStudy *out, const SbModel *model, const SbStudyHooks
       row->value[6 + k] = difference(at_table[m][k].load, at_table[RING][k].load);
     }
   }
-  snprintf(out->models, sizeof out->models,
-           "ring, disc, disc-thesis, Lindley (eq. 2.8, 2.10), Green & English (radial), Hertz, "
-           "Karaszkiewicz");
-  snprintf(out->validity, sizeof out->validity,
-           "Lindley to 25 %%, Green & English to 32 %%, Karaszkiewicz 7 to 25 %%, discs: linear "
-           "strain, an estimate beyond 10 %%; ring: neo-Hookean");
+  sb_text(out->models, sizeof out->models,
+          "ring, disc, disc-thesis, Lindley (eq. 2.8, 2.10), Green & English (radial), Hertz, "
+          "Karaszkiewicz");
+  sb_text(out->validity, sizeof out->validity,
+          "Lindley to 25 %%, Green & English to 32 %%, Karaszkiewicz 7 to 25 %%, discs: linear "
+          "strain, an estimate beyond 10 %%; ring: neo-Hookean");
   sb_study_note(out,
                 "No pressure, walls or friction. The bore moves, the groove floor stays: the "
                 "stretch is the scene's (%.1f %% inner).",

@@ -8,7 +8,6 @@
 #include "engine/study/study_private.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { POINTS = 33, ROWS_MAX = 8, FIGURES = 4 };
@@ -93,7 +92,7 @@ static SbStatus table(SbStudy *out, SbModel *model, double scene_time, SbSliding
                {"1 year", 365 * 86400.0},
                {"3 years", 3 * 365 * 86400.0}};
   enum { TIMES = sizeof times / sizeof times[0] };
-  snprintf(out->row_heading, sizeof out->row_heading, "stored for");
+  sb_text(out->row_heading, sizeof out->row_heading, "stored for");
   sb_study_column(out, "load, outer seal", "N", "N");
   sb_study_column(out, "load, inner seal", "N", "N");
   sb_study_column(out, "friction, outer seal", "N", "N");
@@ -152,12 +151,12 @@ SbStatus sb_study_storage(SbStudy *out, const SbModel *model, const SbStudyHooks
   }
   char film[32];
   sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model->film, film, sizeof film);
-  snprintf(out->models, sizeof out->models, "fit %s, film %s; rubber: %d Prony terms, %s",
-           sb_fit_model_name((SbFitModel)model->fit), film, (int)model->rubber.terms,
-           model->rubber.swell_mass > 0 ? "Fickian swell" : "no swell");
-  snprintf(out->validity, sizeof out->validity,
-           "relaxation to ten times its longest time; swell below 50 %% by volume; the constants "
-           "are the scene's, the thesis gives but table 2.2");
+  sb_text(out->models, sizeof out->models, "fit %s, film %s; rubber: %d Prony terms, %s",
+          sb_fit_model_name((SbFitModel)model->fit), film, (int)model->rubber.terms,
+          model->rubber.swell_mass > 0 ? "Fickian swell" : "no swell");
+  sb_text(out->validity, sizeof out->validity,
+          "relaxation to ten times its longest time; swell below 50 %% by volume; the constants "
+          "are the scene's, the thesis gives but table 2.2");
   sb_study_note(out,
                 "%.1f K. Sliding at %.4g mm/s, pressures of B to C; the ring of each time is "
                 "fitted afresh.",

@@ -11,7 +11,6 @@
 #include "engine/study/study_private.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { POINTS = 41, MODELS = 2 };
@@ -111,7 +110,7 @@ static SbStatus net_load(SbStudy *out, double *load, const SbModel *model, SbRep
 
 // A row every so many points.
 static void put_rows(SbStudy *out, const SbStribeckPoint *points) {
-  snprintf(out->row_heading, sizeof out->row_heading, "Greenwood & Tripp at");
+  sb_text(out->row_heading, sizeof out->row_heading, "Greenwood & Tripp at");
   sb_study_column(out, "central film", "m", "nm");
   sb_study_column(out, "least film", "m", "nm");
   sb_study_column(out, "film over roughness", "1", "");
@@ -176,11 +175,11 @@ SbStatus sb_study_stribeck(SbStudy *out, const SbModel *model, const SbStudyHook
     if (model->speed >= model->study.speed_min && model->speed <= model->study.speed_max) {
       sb_study_mark(out, model->speed, "drive");
     }
-    snprintf(out->models, sizeof out->models,
-             "mixed film: reynolds with Greenwood & Tripp or Persson in one solve, half-plane");
-    snprintf(out->validity, sizeof out->validity,
-             "isoviscous, no end pressures; Greenwood & Tripp: small real area; the shear strength "
-             "was set with Greenwood & Tripp's");
+    sb_text(out->models, sizeof out->models,
+            "mixed film: reynolds with Greenwood & Tripp or Persson in one solve, half-plane");
+    sb_text(out->validity, sizeof out->validity,
+            "isoviscous, no end pressures; Greenwood & Tripp: small real area; the shear strength "
+            "was set with Greenwood & Tripp's");
     sb_study_note(out,
                   "Net load %.0f N/m, roughness %.3g \xc2\xb5m, shear strength %.3g MPa, m %.3g on "
                   "the asperities' load (the cycle: on the total).",

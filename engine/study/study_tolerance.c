@@ -11,7 +11,6 @@
 #include "engine/study/study_private.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { SIZES = 7, STEPS = 2, FIGURES = 4 }; // STEPS on either side
@@ -170,7 +169,7 @@ static SbStatus fill(SbStudy *out, Grid *grid, const SbModel *model, const SbStu
 
 static SbStatus table(SbStudy *out, const Grid *grid, const SbModel *model,
                       const SbStudyHooks *hooks, SbReport *report) {
-  snprintf(out->row_heading, sizeof out->row_heading, "figure");
+  sb_text(out->row_heading, sizeof out->row_heading, "figure");
   sb_study_column(out, "nominal", "N", "N");
   sb_study_column(out, "worst case, least", "N", "N");
   sb_study_column(out, "worst case, most", "N", "N");
@@ -245,11 +244,11 @@ SbStatus sb_study_tolerance(SbStudy *out, const SbModel *scene, const SbStudyHoo
   }
   char film[32];
   sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model.film, film, sizeof film);
-  snprintf(out->models, sizeof out->models, "fit %s, film %s, quasi-static cycle of the machine",
-           sb_fit_model_name((SbFitModel)model.fit), film);
-  snprintf(out->validity, sizeof out->validity,
-           "worst case: where every figure rises or falls with every size; root sum of squares: "
-           "independent sizes, linear");
+  sb_text(out->models, sizeof out->models, "fit %s, film %s, quasi-static cycle of the machine",
+          sb_fit_model_name((SbFitModel)model.fit), film);
+  sb_text(out->validity, sizeof out->validity,
+          "worst case: where every figure rises or falls with every size; root sum of squares: "
+          "independent sizes, linear");
   sb_study_note(out,
                 "Half-widths: d %.3g and %.3g mm, ID %.3g and %.3g mm (outer, inner), g %.3g mm, "
                 "D %.3g mm, stem %.3g mm. \"by\": half the difference between the band's ends.",

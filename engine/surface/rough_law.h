@@ -98,4 +98,4 @@ double sb_rough_snap_in(const SbRoughLaw *law, const SbSnapContact *contact);
 const char *sb_rough_model_name(SbRoughModel model);
 
 // The model of that name; false if there is none.
-bool sb_rough_model_from_name(SbRoughModel *out, const char *name);
+SB_CHECKED bool sb_rough_model_from_name(SbRoughModel *out, const char *name);

@@ -506,7 +506,9 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/usage", test_usage);
   g_test_add_func("/cli/bad-input", test_bad_input);
   g_test_add_func("/cli/json/run", test_json_run);
-  g_test_add_func("/cli/json/plan", test_plan_matches);
+  if (g_test_slow()) {
+    g_test_add_func("/cli/json/plan", test_plan_matches);
+  }
   g_test_add_func("/cli/json/fit", test_json_fit);
   g_test_add_func("/cli/json/film", test_json_film);
   g_test_add_func("/cli/film-options", test_film_options);

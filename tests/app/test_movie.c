@@ -239,7 +239,7 @@ static void test_kill(void) {
   pid_t child = fork();
   if (child == 0) {
     Painter painter = {.width = 320, .height = 240, .noise = true, .delay_us = 2000};
-    write_film(path, &painter, 100000, NULL, NULL);
+    g_assert_cmpint(write_film(path, &painter, 100000, NULL, NULL), ==, SB_OK);
     _exit(1);
   }
   for (int i = 0; i < 500 && entries() == before; i++) {

@@ -11,7 +11,7 @@
 static SbModel model_with(int frames) {
   SbParams params;
   sb_params_init(&params);
-  sb_params_set(&params, SB_P_OUTPUT_FRAMES, frames, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_FRAMES, frames, NULL), ==, SB_OK);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   return model;

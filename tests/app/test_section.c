@@ -24,13 +24,14 @@ static void fixture_open(Fixture *f) {
   SbParams params;
   sb_params_init(&params);
   SbReport report = {0};
-  sb_params_set(&params, SB_P_OUTPUT_VIEWS, SB_VIEW_SECTION, &report);
-  sb_params_set(&params, SB_P_OUTPUT_FRAMES, 150, &report);
+  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_VIEWS, SB_VIEW_SECTION, &report), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_FRAMES, 150, &report), ==, SB_OK);
   if (f->ring) {
-    sb_params_set(&params, SB_P_MODELS_FIT, SB_FIT_RING, &report);
+    g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, SB_FIT_RING, &report), ==, SB_OK);
   }
   if (f->solved) {
-    sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, &report);
+    g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, &report), ==,
+                    SB_OK);
   }
   g_assert_cmpint(sb_model_compile(&f->model, &params, NULL), ==, SB_OK);
   SbPlan plan;
@@ -346,7 +347,9 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/section/ring-invariants", test_ring_invariants);
   g_test_add_func("/section/contact-bar", test_contact_bar);
-  g_test_add_func("/section/ring-mesh", test_ring_mesh);
+  if (g_test_slow()) {
+    g_test_add_func("/section/ring-mesh", test_ring_mesh);
+  }
   g_test_add_func("/section/inset-curves", test_inset_curves);
   g_test_add_func("/section/ring-extremes", test_ring_extremes);
   g_test_add_func("/section/labels", test_labels);

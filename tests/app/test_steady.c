@@ -34,7 +34,7 @@ static SbRun *compute(void) {
   SbParams params;
   sb_params_init(&params);
   SbReport report = {0};
-  sb_params_set(&params, SB_P_OUTPUT_VIEWS, SB_VIEW_SECTION, &report);
+  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_VIEWS, SB_VIEW_SECTION, &report), ==, SB_OK);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   return executed_run(&model);

@@ -56,8 +56,9 @@ static void weigh(const SbStl *stl, double unit) {
   SbReport report = {0};
   g_assert_cmpuint(stl->vertex_count, ==, 8);
   g_assert_cmpuint(stl->triangle_count, ==, 12);
-  sb_solid_mesh(&solid, stl->vertices, stl->vertex_count, stl->triangles, stl->triangle_count,
-                1000.0, &report);
+  g_assert_cmpint(sb_solid_mesh(&solid, stl->vertices, stl->vertex_count, stl->triangles,
+                                stl->triangle_count, 1000.0, &report),
+                  ==, SB_OK);
   g_assert_cmpstr(report.text, ==, "");
   double volume = 30.0 * unit * unit * unit;
   g_assert_cmpfloat_with_epsilon(solid.volume, volume, 1e-12 * volume);

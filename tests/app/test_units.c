@@ -8,7 +8,7 @@
 static double parsed(const char *text, const char *si, const char *shown) {
   GError *error = NULL;
   double value = -1;
-  sb_quantity_parse(&value, text, si, shown, &error);
+  g_assert_true(sb_quantity_parse(&value, text, si, shown, &error));
   g_assert_no_error(error);
   return value;
 }
@@ -135,7 +135,7 @@ static void test_round_trip(void) {
       char *text = sb_param_format((SbParamId)id, value);
       double back = 0;
       GError *error = NULL;
-      sb_param_parse(&back, (SbParamId)id, text, &error);
+      g_assert_true(sb_param_parse(&back, (SbParamId)id, text, &error));
       g_assert_no_error(error);
       g_assert_cmpfloat(back, ==, value);
       // The panel's way: number and unit apart.

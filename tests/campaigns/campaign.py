@@ -83,12 +83,12 @@ class Campaign:
             self.say(result.stdout[-8000:])
         return result.returncode == 0
 
-    def configure(self, build, *options, compiler='gcc'):
+    def configure(self, build, *options, **environment):
         """Sets up a build folder of the campaign's own, unless it is there."""
         name = os.path.basename(build)
         return os.path.exists(build + '/build.ninja') or self.run(
             ['meson', 'setup', build, SOURCE, *options], f'{name}: set up with {" ".join(options)}',
-            env={**os.environ, 'CC': compiler})
+            env={**os.environ, **environment})
 
     def ninja(self, build, *targets):
         return self.run(['ninja', '-C', build, *targets], f'{os.path.basename(build)}: built')

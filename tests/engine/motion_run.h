@@ -17,7 +17,7 @@ static inline SbRun *run_with(SbModelMotion motion, const Setting *settings, siz
   SbParams params;
   sb_params_init(&params);
   SbReport report = {0};
-  sb_params_set(&params, SB_P_MODELS_MOTION, motion, &report);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_MOTION, motion, &report), ==, SB_OK);
   for (size_t i = 0; i < count; i++) {
     g_assert_cmpint(sb_params_set(&params, (SbParamId)settings[i].id, settings[i].value, &report),
                     ==, SB_OK);

@@ -95,7 +95,7 @@ static void test_pressures(void) {
 // R h0).
 static void test_classical(void) {
   SbWedge out;
-  sb_wedge_solve(&out, &problem, NULL);
+  g_assert_cmpint(sb_wedge_solve(&out, &problem, NULL), ==, SB_OK);
   g_assert_cmpfloat_with_epsilon(out.rupture_angle * 180 / M_PI, 25.41, 0.005);
   double unit = problem.viscosity * problem.speed / 2 * problem.radius / problem.film_min;
   g_assert_cmpfloat_with_epsilon(out.load / unit, 4.894968, 1e-6);

@@ -10,6 +10,7 @@
 #include <glib.h>
 #include <math.h>
 #include <stdatomic.h>
+#include <string.h>
 
 // ---------------------------------------------------------------- allocations
 
@@ -192,7 +193,7 @@ static void test_drag(void) {
   const SbSummary *summary = sb_run_summary(run);
   size_t count;
   const SbFrame *frames = sb_run_frames(run, &count);
-  double in = NAN, out = NAN, rest = NAN;
+  double in = NAN, out = NAN, rest = NAN, borne[2] = {NAN, NAN};
   for (size_t i = 0; i < count; i++) {
     const SbFrame *f = &frames[i];
     const SbSealShape *shape = sb_run_shape(run, f->seal[SB_OUTER].shape);
@@ -204,12 +205,24 @@ static void test_drag(void) {
     } else if (moving && time > summary->stage[SB_STAGE_B].time &&
                time < summary->stage[SB_STAGE_C].time && isnan(in)) {
       in = mean_shear(shape);
+      borne[0] = shape->drag / f->seal[SB_OUTER].friction;
     } else if (moving && time > summary->stage[SB_STAGE_E].time) {
       out = mean_shear(shape); // the last
+      borne[1] = shape->drag / f->seal[SB_OUTER].friction;
     }
   }
   g_test_message("mean shear at rest %.4g, in %.4g, out %.4g Pa", rest, in, out);
   g_assert_cmpfloat(in * out, <, 0);
+  // The drawn ring bears the frame's friction, or a warning says how much of it.
+  bool told = false;
+  for (size_t i = 0; i < summary->warnings.count; i++) {
+    const SbWarning *warning = &summary->warnings.item[i];
+    told = told || (strcmp(warning->code, "ring-drag") == 0 && strstr(warning->text, "outer"));
+  }
+  for (int k = 0; k < 2; k++) {
+    g_test_message("the drawn ring bears %.4f of the friction%s", borne[k], told ? ", told" : "");
+    g_assert_true(fabs(fabs(borne[k]) - 1) < 0.02 || (told && fabs(borne[k]) < 0.98));
+  }
   g_assert_cmpfloat(fabs(in), >, 1e3);
   g_assert_cmpfloat(fabs(out), >, 1e3);
   sb_run_destroy(run);

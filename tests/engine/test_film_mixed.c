@@ -53,7 +53,7 @@ static void test_laws(void) {
   // Against the integrals themselves, off the table's nodes.
   for (double lambda = -4.03; lambda < 9; lambda += 0.37) {
     SbGtIntegrals F;
-    sb_gt_integrals(&F, lambda, NULL);
+    g_assert_cmpint(sb_gt_integrals(&F, lambda, NULL), ==, SB_OK);
     double h = average_gap(1e-6, lambda);
     SbRoughPoint at;
     sb_rough_law_at(&at, &law, sb_rough_law_of_gap(&law, h));
@@ -69,7 +69,7 @@ static void test_laws(void) {
   surface.model = SB_ROUGH_PERSSON;
   g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
   SbSpectrum spectrum;
-  sb_spectrum_from_asperities(&spectrum, 1e-6, 0.1, 0.1289, NULL);
+  g_assert_cmpint(sb_spectrum_from_asperities(&spectrum, 1e-6, 0.1, 0.1289, NULL), ==, SB_OK);
   for (double p = 1e2; p < 3e6; p *= 3) {
     SbRoughPoint at, next;
     double t = sb_rough_law_of_pressure(&law, p);
@@ -341,7 +341,7 @@ static void test_profile(void) {
       SbRoughSurface surface = {(SbRoughModel)model, problem.gt_product, problem.sigma,
                                 problem.sigma_over_beta, problem.modulus};
       SbRoughLaw law;
-      sb_rough_law_init(&law, &surface, NULL);
+      g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
       for (size_t i = 0; i < film.points; i += 50) {
         SbRoughPoint at;
         sb_rough_law_at(&at, &law, sb_rough_law_of_gap(&law, film.film[i]));
@@ -560,14 +560,15 @@ static void test_sliding(void) {
   SbParams params;
   sb_params_init(&params);
   SbModel model;
-  sb_params_set(&params, SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED, NULL);
-  sb_params_set(&params, SB_P_SURFACE_SIGMA, 2e-7, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED, NULL),
+                  ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_SURFACE_SIGMA, 2e-7, NULL), ==, SB_OK);
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   SbSlidingMemory *memory = NULL;
   SbSlidingCounts counts = {0};
   SbWarnings warnings = {0};
   SbSliding state;
-  sb_sliding_memory_create(&memory, NULL);
+  g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
   SbSealPressure pressure = {5.5e5, 0};
   g_assert_cmpint(
       sb_sliding_solve(&state, &model, SB_OUTER, pressure, 1e-2, memory, &counts, &warnings, NULL),
@@ -593,8 +594,8 @@ static void test_sliding(void) {
   g_assert_cmpfloat(faster.boundary_area, <, state.boundary_area);
   close_to("the same break-away", faster.friction_static, state.friction_static, 1e-12);
   // Adhesion reaches the run where it is asked for.
-  sb_params_set(&params, SB_P_MODELS_ADHESION, 1, NULL);
-  sb_params_set(&params, SB_P_SURFACE_HAMAKER_CONSTANT, 1e-18, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_ADHESION, 1, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_SURFACE_HAMAKER_CONSTANT, 1e-18, NULL), ==, SB_OK);
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   SbSliding pulled;
   g_assert_cmpint(
@@ -630,7 +631,7 @@ static void test_refusals(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
-  sb_film_solver_create(&solver, NULL);
+  g_assert_cmpint(sb_film_solver_create(&solver, NULL), ==, SB_OK);
   g_test_add_func("/film/mixed/direct-start", test_direct_start);
   g_test_add_func("/film/mixed/laws", test_laws);
   g_test_add_func("/film/mixed/reference", test_reference);

@@ -150,9 +150,10 @@ static void test_mirror(void) {
 static void run_seal(int fit_model) {
   SbParams params;
   sb_params_init(&params);
-  sb_params_set(&params, SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED, NULL);
-  sb_params_set(&params, SB_P_MODELS_FIT, fit_model, NULL);
-  sb_params_set(&params, SB_P_SURFACE_SIGMA, 2e-7, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED, NULL),
+                  ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, fit_model, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_SURFACE_SIGMA, 2e-7, NULL), ==, SB_OK);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   SbSlidingMemory *memory = NULL;
@@ -202,7 +203,7 @@ static void test_run_ring(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
-  sb_film_solver_create(&solver, NULL);
+  g_assert_cmpint(sb_film_solver_create(&solver, NULL), ==, SB_OK);
   g_test_add_func("/film/mixed-fitted/half-plane", test_half_plane);
   g_test_add_func("/film/mixed-fitted/smooth-limit", test_smooth_limit);
   g_test_add_func("/film/mixed-fitted/dry-contact", test_dry_contact);

@@ -339,7 +339,7 @@ static void test_hard(void) {
           problem.speed = speed;
           SbStatus status = solve(&film, &problem);
           problem.model = SB_FILM_MOES;
-          sb_film_solve(&other, &problem, solver, NULL);
+          g_assert_cmpint(sb_film_solve(&other, &problem, solver, NULL), ==, SB_OK);
           if (status == SB_OK) {
             solved++;
             close_to("blend, flux", other.film_flux, film.film_flux, 0.02);

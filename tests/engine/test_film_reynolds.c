@@ -227,7 +227,9 @@ static void test_honest(gconstpointer data) {
     problem.pressure_left = ends->left * unit * fmod(0.21 + 0.382 * turn, 1.0);
     problem.pressure_right = ends->right * unit * fmod(0.87 + 0.618 * turn, 1.0);
     problem.tolerance = 1e-8;
-    sb_film_solve(&other, &problem, NULL, NULL);
+    // Where so little is not reached, what is left counts below.
+    SbStatus reached = sb_film_solve(&other, &problem, NULL, NULL);
+    g_assert_true(reached == SB_OK || reached == SB_ERROR_NOT_CONVERGED);
     static const double tolerances[] = {1e-2, 1e-3, 1e-4};
     for (size_t t = 0; t < G_N_ELEMENTS(tolerances); t++) {
       problem.tolerance = tolerances[t];

@@ -15,7 +15,8 @@ typedef struct {
 static SbModel model_with(const Setting *setting, size_t count) {
   SbParams params;
   sb_params_init(&params);
-  sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, NULL), ==,
+                  SB_OK);
   for (size_t i = 0; i < count; i++) {
     g_assert_cmpint(sb_params_set(&params, setting[i].id, setting[i].value, NULL), ==, SB_OK);
   }
@@ -141,8 +142,8 @@ static void test_coupled(void) {
   g_assert_true(has(&warnings, "inlet-flooded"));
   SbParams params;
   sb_params_init(&params);
-  sb_params_set(&params, SB_P_MODELS_ASPERITIES, 1, NULL);
-  sb_params_set(&params, SB_P_LIFE_ACTUATIONS, 2, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_ASPERITIES, 1, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_LIFE_ACTUATIONS, 2, NULL), ==, SB_OK);
   SbProblems problems;
   g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpuint(problems.count, ==, 1);

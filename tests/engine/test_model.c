@@ -51,8 +51,8 @@ static void test_life_motions(void) {
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     SbParams params;
     sb_params_init(&params);
-    sb_params_set(&params, SB_P_MODELS_MOTION, cases[i].motion, NULL);
-    sb_params_set(&params, SB_P_LIFE_ACTUATIONS, 3, NULL);
+    g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_MOTION, cases[i].motion, NULL), ==, SB_OK);
+    g_assert_cmpint(sb_params_set(&params, SB_P_LIFE_ACTUATIONS, 3, NULL), ==, SB_OK);
     SbModel model;
     SbProblems problems;
     bool good = sb_model_compile(&model, &params, &problems) == SB_OK;
@@ -115,7 +115,7 @@ static void test_pressure_maps(void) {
   SbParams params;
   sb_params_init(&params);
   SbModel model;
-  sb_model_compile(&model, &params, NULL);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   SbSealPressure outer = sb_model_seal_pressure(&model, SB_OUTER, SB_CHAMBER_AT_REST);
   SbSealPressure inner = sb_model_seal_pressure(&model, SB_INNER, SB_CHAMBER_AT_REST);
   g_assert_cmpfloat(outer.left - outer.right, ==, 0.55e6);

@@ -38,8 +38,9 @@ static void test_mobility(void) {
   // A second guide repeats what the first fixes.
   const double at[3] = {5e-3, 0.0, 0.0};
   SbAssembly over = a;
-  sb_assembly_join(&over, NULL, SB_JOINT_TRANSLATIONAL, SB_VALVE_STEM_TOP, SB_VALVE_GROUND, at,
-                   x_axis, &report);
+  g_assert_cmpint(sb_assembly_join(&over, NULL, SB_JOINT_TRANSLATIONAL, SB_VALVE_STEM_TOP,
+                                   SB_VALVE_GROUND, at, x_axis, &report),
+                  ==, SB_OK);
   g_assert_cmpint(sb_assembly_mobility(&m, &over, 1, &report), ==, SB_ERROR_INFEASIBLE);
   g_assert_cmpint(m.gruebler, ==, -4);
   g_assert_cmpint(m.redundant, ==, 5);
@@ -57,7 +58,8 @@ static void test_mobility(void) {
   // A forgotten part is named.
   SbAssembly loose = a;
   const double inertia[3] = {1e-9, 1e-9, 1e-9};
-  sb_assembly_add(&loose, NULL, "loose pin", 1e-3, inertia, at, &report);
+  g_assert_cmpint(sb_assembly_add(&loose, NULL, "loose pin", 1e-3, inertia, at, &report), ==,
+                  SB_OK);
   g_assert_cmpint(sb_assembly_mobility(&m, &loose, 1, &report), ==, SB_ERROR_INFEASIBLE);
   g_assert_cmpint(m.freedom, ==, 7);
   g_assert_nonnull(strstr(report.text, "'loose pin'"));
@@ -97,8 +99,8 @@ static void test_pendulum(void) {
     const double origin[3] = {0};
     // Hangs along -y at angle 0; x axis of the rod along its length.
     double at[3] = {arm, 0.0, 0.0};
-    sb_assembly_add_ground(&a, &ground, &report);
-    sb_assembly_add(&a, &rod, "rod", mass, inertia, at, &report);
+    g_assert_cmpint(sb_assembly_add_ground(&a, &ground, &report), ==, SB_OK);
+    g_assert_cmpint(sb_assembly_add(&a, &rod, "rod", mass, inertia, at, &report), ==, SB_OK);
     // Turned by angle - 90 degrees about z.
     double turn = angle - G_PI_2;
     SbBody *b = &a.body[rod];
@@ -106,10 +108,12 @@ static void test_pendulum(void) {
     b->orientation[3] = sin(0.5 * turn);
     b->position[0] = arm * sin(angle);
     b->position[1] = -arm * cos(angle);
-    sb_assembly_join(&a, NULL, SB_JOINT_REVOLUTE, rod, ground, origin, z_axis, &report);
+    g_assert_cmpint(
+        sb_assembly_join(&a, NULL, SB_JOINT_REVOLUTE, rod, ground, origin, z_axis, &report), ==,
+        SB_OK);
     g_assert_cmpstr(report.text, ==, "");
     for (int i = 0; i < n; i++) {
-      assembly_step(&a, 0.0, period / n, gravity, NULL, &report);
+      g_assert_cmpint(assembly_step(&a, 0.0, period / n, gravity, NULL, &report), ==, SB_OK);
       g_assert_cmpstr(report.text, ==, "");
     }
     double error = hypot(b->position[0] - arm * sin(angle), b->position[1] + arm * cos(angle));
@@ -123,7 +127,7 @@ static void test_pendulum(void) {
     previous = error;
     // A quarter on the reaction: at any state F = m (a_c + g).
     for (int i = 0; i < n / 4; i++) {
-      assembly_step(&a, 0.0, period / n, gravity, NULL, &report);
+      g_assert_cmpint(assembly_step(&a, 0.0, period / n, gravity, NULL, &report), ==, SB_OK);
     }
     SbAssemblyForces f;
     sb_assembly_clear_forces(&a);
@@ -146,15 +150,15 @@ static void test_free_spin(void) {
   SbReport report = {0};
   const double inertia[3] = {1.0e-3, 2.0e-3, 2.5e-3}, at[3] = {0};
   size_t body;
-  sb_assembly_add_ground(&a, NULL, &report);
-  sb_assembly_add(&a, &body, "body", 1.0, inertia, at, &report);
+  g_assert_cmpint(sb_assembly_add_ground(&a, NULL, &report), ==, SB_OK);
+  g_assert_cmpint(sb_assembly_add(&a, &body, "body", 1.0, inertia, at, &report), ==, SB_OK);
   SbBody *b = &a.body[body];
   double spin[3] = {0.01, 5.0, 0.02};
   memcpy(b->spin, spin, sizeof spin);
   double momentum = inertia[1] * 5.0;
   bool tumbled = false;
   for (int i = 0; i < 8000; i++) {
-    assembly_step(&a, 0.0, 1e-3, NULL, NULL, &report);
+    g_assert_cmpint(assembly_step(&a, 0.0, 1e-3, NULL, NULL, &report), ==, SB_OK);
     tumbled = tumbled || fabs(b->orientation[1]) > 0.3 || fabs(b->orientation[3]) > 0.3;
   }
   g_assert_cmpstr(report.text, ==, "");
@@ -190,9 +194,11 @@ static void test_slider(void) {
   double slope = 0.4;
   const double axis[3] = {cos(slope), sin(slope), 0.0};
   size_t ground, block;
-  sb_assembly_add_ground(&a, &ground, &report);
-  sb_assembly_add(&a, &block, "block", 0.7, inertia, at, &report);
-  sb_assembly_join(&a, NULL, SB_JOINT_TRANSLATIONAL, block, ground, point, axis, &report);
+  g_assert_cmpint(sb_assembly_add_ground(&a, &ground, &report), ==, SB_OK);
+  g_assert_cmpint(sb_assembly_add(&a, &block, "block", 0.7, inertia, at, &report), ==, SB_OK);
+  g_assert_cmpint(
+      sb_assembly_join(&a, NULL, SB_JOINT_TRANSLATIONAL, block, ground, point, axis, &report), ==,
+      SB_OK);
   gravity(&a, 0.0, NULL);
   SbAssemblyForces f;
   g_assert_cmpint(sb_assembly_forces(&f, &a, &report), ==, SB_OK);
@@ -298,15 +304,16 @@ static void test_valve_motion(void) {
   SbAssemblyTangent tangent;
   double previous = 0.0, worst = 0.0;
   for (int n = 250; n <= 1000; n *= 2) {
-    thesis_valve(&a, &report);
-    sb_assembly_tangent(&tangent, &a, SB_VALVE_STEM_CENTRE, x_axis, &report);
+    g_assert_cmpint(thesis_valve(&a, &report), ==, SB_OK);
+    g_assert_cmpint(sb_assembly_tangent(&tangent, &a, SB_VALVE_STEM_CENTRE, x_axis, &report), ==,
+                    SB_OK);
     SbOscillator o;
     sb_oscillator_init(&o, tangent.mass, 5.0, 1e5, 1e5 * 2.8e-4 + 5.0 * 0.02 - 27.5, 1e5 * 0.02,
                        0.0, 0.0);
     double h = 2e-3 / n, travel;
     worst = 0.0;
     for (int i = 0; i < n; i++) {
-      assembly_step(&a, i * h, h, valve_push, NULL, &report);
+      g_assert_cmpint(assembly_step(&a, i * h, h, valve_push, NULL, &report), ==, SB_OK);
       g_assert_cmpstr(report.text, ==, "");
       sb_oscillator_at(&o, (i + 1) * h, &travel, NULL, NULL);
       worst = fmax(worst, fabs(a.body[SB_VALVE_STEM_TOP].position[0] - 10e-3 - travel));

@@ -30,7 +30,7 @@ static void advance(SbDynamics *s, double t, SbDynamicsSample *sample, SbDynamic
 
 static void start(SbDynamics *s, const SbDynamicsModel *m) {
   SbReport report = {0};
-  sb_dynamics_init(s, m, &report);
+  g_assert_cmpint(sb_dynamics_init(s, m, &report), ==, SB_OK);
   g_assert_cmpstr(report.text, ==, "");
 }
 

@@ -82,26 +82,33 @@ static void slider_crank(SbAssembly *a, double q, double speed, bool flat) {
   double crank_at_[3] = {0.5 * pin[0], 0.5 * pin[1], 0.0};
   double rod_at[3] = {0.5 * (pin[0] + end[0]), 0.5 * pin[1], 0.0};
   *a = (SbAssembly){0};
-  sb_assembly_add_ground(a, NULL, &report);
-  sb_assembly_add(a, NULL, "crank", crank_mass, crank, crank_at_, &report);
-  sb_assembly_add(a, NULL, "rod", rod_mass, rod, rod_at, &report);
-  sb_assembly_add(a, NULL, "slider", slider_mass, small, end, &report);
+  g_assert_cmpint(sb_assembly_add_ground(a, NULL, &report), ==, SB_OK);
+  g_assert_cmpint(sb_assembly_add(a, NULL, "crank", crank_mass, crank, crank_at_, &report), ==,
+                  SB_OK);
+  g_assert_cmpint(sb_assembly_add(a, NULL, "rod", rod_mass, rod, rod_at, &report), ==, SB_OK);
+  g_assert_cmpint(sb_assembly_add(a, NULL, "slider", slider_mass, small, end, &report), ==, SB_OK);
   a->body[CRANK].orientation[0] = cos(0.5 * q);
   a->body[CRANK].orientation[3] = sin(0.5 * q);
   a->body[ROD].orientation[0] = cos(0.5 * c.phi);
   a->body[ROD].orientation[3] = -sin(0.5 * c.phi);
-  sb_assembly_join(a, NULL, SB_JOINT_REVOLUTE, CRANK, GROUND, origin, z_axis, &report);
-  sb_assembly_join(a, NULL, flat ? SB_JOINT_REVOLUTE : SB_JOINT_SPHERICAL, ROD, CRANK, pin, z_axis,
-                   &report);
-  sb_assembly_join(a, NULL, flat ? SB_JOINT_REVOLUTE : SB_JOINT_CYLINDRICAL, ROD, SLIDER, end,
-                   z_axis, &report);
-  sb_assembly_join(a, NULL, SB_JOINT_TRANSLATIONAL, SLIDER, GROUND, end, x_axis, &report);
+  g_assert_cmpint(
+      sb_assembly_join(a, NULL, SB_JOINT_REVOLUTE, CRANK, GROUND, origin, z_axis, &report), ==,
+      SB_OK);
+  g_assert_cmpint(sb_assembly_join(a, NULL, flat ? SB_JOINT_REVOLUTE : SB_JOINT_SPHERICAL, ROD,
+                                   CRANK, pin, z_axis, &report),
+                  ==, SB_OK);
+  g_assert_cmpint(sb_assembly_join(a, NULL, flat ? SB_JOINT_REVOLUTE : SB_JOINT_CYLINDRICAL, ROD,
+                                   SLIDER, end, z_axis, &report),
+                  ==, SB_OK);
+  g_assert_cmpint(
+      sb_assembly_join(a, NULL, SB_JOINT_TRANSLATIONAL, SLIDER, GROUND, end, x_axis, &report), ==,
+      SB_OK);
   g_assert_cmpstr(report.text, ==, "");
   // Speeds of the motion that the joints leave.
   SbAssemblyTangent t;
   if (!flat) {
     g_assert_cmpint(sb_assembly_tangent(&t, a, SLIDER, x_axis, &report), ==, SB_OK);
-    sb_assembly_slide(a, &t, 0.0, c.slider1 * speed, NULL, &report);
+    g_assert_cmpint(sb_assembly_slide(a, &t, 0.0, c.slider1 * speed, NULL, &report), ==, SB_OK);
   }
 }
 
@@ -149,7 +156,8 @@ static void test_slider_crank(void) {
     SbReport report = {0};
     slider_crank(&a, start, speed, false);
     for (int i = 0; i < n; i++) {
-      assembly_step(&a, i * until / n, until / n, crank_loads, NULL, &report);
+      g_assert_cmpint(assembly_step(&a, i * until / n, until / n, crank_loads, NULL, &report),
+                      ==, SB_OK);
       g_assert_cmpstr(report.text, ==, "");
       open = fmax(open, drift(&a));
     }
@@ -329,7 +337,7 @@ static void test_cycle(void) {
       fine = fine > 50 ? fine : 50;
       for (int i = 0; i < fine + coarse; i++) {
         double h = i < fine ? ringing / fine : (span - ringing) / coarse;
-        assembly_step(&a, time, h, part_loads, &loads, &report);
+        g_assert_cmpint(assembly_step(&a, time, h, part_loads, &loads, &report), ==, SB_OK);
         g_assert_cmpstr(report.text, ==, "");
         time = i + 1 == fine ? s.t + ringing : time + h;
         stepped++;
@@ -347,7 +355,8 @@ static void test_cycle(void) {
       place = fmax(place, fabs(a.body[SB_VALVE_HOUSING].position[0]));
       force = fmax(force, s.push.on ? 1e5 * fabs(block - x) : 0.0);
       furthest = fmax(furthest, x);
-      sb_assembly_tangent(&t, &a, SB_VALVE_STEM_CENTRE, x_axis, &report);
+      g_assert_cmpint(sb_assembly_tangent(&t, &a, SB_VALVE_STEM_CENTRE, x_axis, &report), ==,
+                      SB_OK);
     }
     g_assert_cmpint(sb_dynamics_advance(&s, until, &report), ==, SB_OK);
   }

@@ -141,7 +141,7 @@ static void test_leak(void) {
   SbPercolation out;
   SbReport report = {0};
   p.contact_pressure = 1;
-  sb_percolation_solve(&out, &p, &report);
+  g_assert_cmpint(sb_percolation_solve(&out, &p, &report), ==, SB_OK);
   double closing = out.closing_pressure;
   for (double share = 0.02; share < 1; share += 0.02) {
     p.contact_pressure = share * closing;
@@ -156,7 +156,7 @@ static void test_leak(void) {
     before = out.leak_rate;
   }
   p.contact_pressure = 1.001 * closing;
-  sb_percolation_solve(&out, &p, &report);
+  g_assert_cmpint(sb_percolation_solve(&out, &p, &report), ==, SB_OK);
   g_assert_false(out.percolates);
   g_assert_cmpfloat(out.leak_rate, ==, 0);
   g_assert_cmpfloat(out.real_share, >, SB_PERCOLATION_THRESHOLD);

@@ -64,7 +64,7 @@ static void test_steps(void) {
   load.land_right = 0.6e-3;
   for (int i = 0; i < 4; i++) {
     load.land_right -= 0.2e-3;
-    sb_ring_step(ring, &load, &report);
+    g_assert_cmpint(sb_ring_step(ring, &load, &report), ==, SB_OK);
   }
   g_assert_cmpint(calls, ==, 0);
   sb_ring_destroy(ring);

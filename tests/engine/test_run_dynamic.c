@@ -197,18 +197,19 @@ static void test_friction_keys(void) {
 static void test_refused(void) {
   SbParams params;
   sb_params_init(&params);
-  sb_params_set(&params, SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND, NULL), ==, SB_OK);
   SbModel model;
   SbProblems problems;
   g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpstr(problems.item[0].key, ==, "drive.kind");
   sb_params_init(&params);
   problems.count = 0;
-  sb_params_set(&params, SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC, NULL);
-  sb_params_set(&params, SB_P_FRICTION_STRIBECK_SPEED, 1e-3, NULL);
-  sb_params_set(&params, SB_P_FRICTION_TANGENTIAL_STIFFNESS, 1e4, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC, NULL), ==,
+                  SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_FRICTION_STRIBECK_SPEED, 1e-3, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_FRICTION_TANGENTIAL_STIFFNESS, 1e4, NULL), ==, SB_OK);
   g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_OK);
-  sb_params_set(&params, SB_P_DRIVE_DAMPING_RATIO, 0, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_DRIVE_DAMPING_RATIO, 0, NULL), ==, SB_OK);
   g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpstr(problems.item[0].key, ==, "drive.damping_ratio");
 }

@@ -133,7 +133,7 @@ static bool after_a_while(void *data) {
 static void test_cancel(void) {
   SbParams params;
   sb_params_init(&params);
-  sb_params_set(&params, SB_P_LIFE_ACTUATIONS, 100000, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_LIFE_ACTUATIONS, 100000, NULL), ==, SB_OK);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   SbPlan plan;

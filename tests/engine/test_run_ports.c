@@ -103,9 +103,11 @@ static void test_through_flow(void) {
   sb_params_init(&params);
   SbReport report = {0};
   settings[4].value = 1;
-  sb_params_set(&params, SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC, NULL), ==,
+                  SB_OK);
   for (size_t i = 0; i < G_N_ELEMENTS(settings); i++) {
-    sb_params_set(&params, (SbParamId)settings[i].id, settings[i].value, NULL);
+    g_assert_cmpint(sb_params_set(&params, (SbParamId)settings[i].id, settings[i].value, NULL), ==,
+                    SB_OK);
   }
   SbModel model;
   SbPlan plan;

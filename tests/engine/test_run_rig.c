@@ -124,9 +124,9 @@ static void test_no_peak(void) {
 static void test_range(void) {
   SbParams params;
   sb_params_init(&params);
-  sb_params_set(&params, SB_P_MODELS_MOTION, SB_MODEL_MOTION_RIG, NULL);
-  sb_params_set(&params, SB_P_RIG_RATE, 1e6, NULL);
-  sb_params_set(&params, SB_P_RIG_DURATION, 1e4, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_MOTION, SB_MODEL_MOTION_RIG, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_RIG_RATE, 1e6, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_RIG_DURATION, 1e4, NULL), ==, SB_OK);
   SbModel model;
   SbProblems problems;
   g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);

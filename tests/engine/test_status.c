@@ -30,9 +30,56 @@ static void test_warnings(void) {
   g_assert_cmpuint(list.dropped, ==, SB_WARNINGS_MAX + 2);
 }
 
+// What is true of both seals is said of both, and each sentence names its own.
+static void test_subjects(void) {
+  SbWarnings list = {0}, of_fit = {0};
+  sb_warn(&of_fit, "squeeze-large", "seal.section_diameter", "squeeze 41 %%");
+  static const char *const seals[] = {"outer seal", "inner seal"};
+  for (int i = 0; i < 2; i++) {
+    for (int again = 0; again < 2; again++) {
+      sb_warn_about(&list, seals[i]);
+      sb_warnings_merge(&list, &of_fit);
+      sb_warn(&list, "boundary-regime", "surface.sigma", "λ = 0.3 at the %s", seals[i]);
+      sb_warn_about(&list, NULL);
+    }
+  }
+  sb_warn(&list, "squeeze-large", "seal.section_diameter", "of no seal");
+  g_assert_cmpuint(list.count, ==, 5);
+  g_assert_cmpstr(list.item[0].text, ==, "outer seal: squeeze 41 %");
+  g_assert_cmpstr(list.item[1].text, ==, "λ = 0.3 at the outer seal");
+  g_assert_cmpstr(list.item[2].text, ==, "inner seal: squeeze 41 %");
+  g_assert_cmpstr(list.item[3].text, ==, "λ = 0.3 at the inner seal");
+  // A merge keeps what each is about, and counts what was lost before.
+  SbWarnings all = {0};
+  list.dropped = 3;
+  sb_warnings_merge(&all, &list);
+  g_assert_cmpuint(all.count, ==, 5);
+  g_assert_cmpuint(all.dropped, ==, 3);
+  sb_warnings_merge(NULL, &list);
+}
+
+// A text that does not fit shows it, and ends between two characters.
+static void test_cut(void) {
+  char text[16];
+  sb_text(text, sizeof text, "%s", "fifteen letters");
+  g_assert_cmpstr(text, ==, "fifteen letters");
+  sb_text(text, sizeof text, "%s", "sixteen letters!");
+  g_assert_cmpstr(text, ==, "sixteen lett…");
+  sb_text(text, sizeof text, "%s", "ten letterμμμμμμ");
+  g_assert_cmpstr(text, ==, "ten letterμ…");
+  g_assert_true(g_utf8_validate(text, -1, NULL));
+  SbReport report;
+  char *words = g_strnfill(400, 'w');
+  g_assert_cmpint(sb_fail(&report, SB_ERROR_INPUT, "%s", words), ==, SB_ERROR_INPUT);
+  g_assert_true(g_str_has_suffix(report.text, "…"));
+  g_free(words);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/status/report", test_report);
   g_test_add_func("/status/warnings", test_warnings);
+  g_test_add_func("/status/subjects", test_subjects);
+  g_test_add_func("/status/cut", test_cut);
   return g_test_run();
 }

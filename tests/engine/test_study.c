@@ -164,8 +164,8 @@ static void test_film_law(void) {
 static void test_storage(void) {
   SbParams params;
   sb_params_init(&params);
-  sb_params_set(&params, SB_P_RUBBER_RELAXATION_SHARE_1, 0.3, NULL);
-  sb_params_set(&params, SB_P_RUBBER_RELAXATION_TIME_1, 86400, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_RUBBER_RELAXATION_SHARE_1, 0.3, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_RUBBER_RELAXATION_TIME_1, 86400, NULL), ==, SB_OK);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   SbModel before = model;
@@ -186,7 +186,7 @@ static void test_storage(void) {
 
   // Swell of 17 % by mass: 0.17 x 1090/1226 by volume, squeeze from the swollen section.
   sb_params_init(&params);
-  sb_params_set(&params, SB_P_RUBBER_SWELL_MASS, 0.17, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_RUBBER_SWELL_MASS, 0.17, NULL), ==, SB_OK);
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   study = make(SB_STUDY_STORAGE, &model);
   double d = 1.61e-3 * cbrt(1 + 0.17 * 1090 / 1226);
@@ -344,8 +344,8 @@ static void test_range(void) {
   SbModel model;
   SbProblems problems;
   sb_params_init(&params);
-  sb_params_set(&params, SB_P_STUDY_SQUEEZE_MIN, 0.3, NULL);
-  sb_params_set(&params, SB_P_STUDY_SQUEEZE_MAX, 0.2, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_STUDY_SQUEEZE_MIN, 0.3, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_STUDY_SQUEEZE_MAX, 0.2, NULL), ==, SB_OK);
   g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpstr(problems.item[0].key, ==, "study.squeeze_max");
 }

@@ -18,7 +18,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   }
   if (document != NULL && issues->len == 0) {
     // An edit, then out and in again.
-    sb_document_set(document, SB_P_SEAL_OUTER_MODULUS, "2.25 MPa", NULL);
+    g_assert_true(sb_document_set(document, SB_P_SEAL_OUTER_MODULUS, "2.25 MPa", NULL));
     sb_document_unset(document, SB_P_GLAND_RADIAL_SPACE);
     char *text = sb_document_to_text(document, NULL);
     SbDocument *again = sb_document_parse(text, strlen(text), "fuzz", NULL, issues);

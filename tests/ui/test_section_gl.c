@@ -15,8 +15,8 @@ static void fill(SbDrawList *list, bool dark) {
   SbParams params;
   sb_params_init(&params);
   SbReport report = {0};
-  sb_params_set(&params, SB_P_OUTPUT_VIEWS, SB_VIEW_SECTION, &report);
-  sb_params_set(&params, SB_P_OUTPUT_FRAMES, 20, &report);
+  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_VIEWS, SB_VIEW_SECTION, &report), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_FRAMES, 20, &report), ==, SB_OK);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   SbRun *run = executed_run(&model);

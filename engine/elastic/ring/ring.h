@@ -13,6 +13,7 @@
 #include "engine/elastic/compliance.h"
 #include "engine/status.h"
 
+#include <math.h>
 #include <stdbool.h>
 
 typedef struct SbRing SbRing;

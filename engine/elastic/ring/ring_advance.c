@@ -166,8 +166,8 @@ static void explain(const SbRingContact *contact, double done, SbReport *report)
     return;
   }
   SbReport reason = *report;
-  sb_fail(report, SB_ERROR_NOT_CONVERGED, "equilibrium lost at %.3g of the step: %.160s", done,
-          reason.text);
+  (void)sb_fail(report, SB_ERROR_NOT_CONVERGED, "equilibrium lost at %.3g of the step: %.160s",
+                done, reason.text);
   report->residual = reason.residual;
   report->iteration = reason.iteration;
 }

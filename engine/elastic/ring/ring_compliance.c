@@ -217,19 +217,17 @@ static bool find_side(const SbRing *ring, const SbRingPatch *patch, double z, in
   return false;
 }
 
-// Loads the window with the inward pressure sqrt(1 - z^2) U_l(z), per length of the bore's
-// circumference so that the answer stays symmetric.
-static void load_wave(SbRing *ring, const SbRingPatch *patch, double middle, double half, int l) {
+// Loads the window, from one side of the surface to another, with the inward pressure sqrt(1 - z^2)
+// U_l(z), per length of the bore's circumference so that the answer stays symmetric.
+static void load_wave(SbRing *ring, int from, int to, double middle, double half, int l) {
   static const double XI[4] = {-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
                                0.861136311594052575};
   static const double WEIGHT[4] = {0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
                                    0.347854845137453857};
   SbRingFem *fem = ring->fem;
-  int loop = ring->contact->count, from = 0, to = 0;
-  double xi, turn = fem->axisymmetric ? 2.0 * M_PI * ring->contact->now.bore : 1.0;
+  int loop = ring->contact->count;
+  double turn = fem->axisymmetric ? 2.0 * M_PI * ring->contact->now.bore : 1.0;
   memset(fem->rhs, 0, sizeof(double) * 2 * (size_t)fem->mesh->nodes);
-  find_side(ring, patch, middle - half, &from, &xi);
-  find_side(ring, patch, middle + half, &to, &xi);
   for (int side = from; side <= to; side++) {
     Side s;
     side_of(ring, side, &s);
@@ -350,13 +348,14 @@ static SbStatus dry_gap(const SbRing *ring, SbRingPatch *patch, SbSurfaceComplia
   load += ends[0] * left - ends[1] * (left + width);
   for (int order = smooth.terms; order >= ORDER_LEAST; order--) {
     SbDryContact dry;
-    SbStatus status = sb_compliance_match(c, order, PROFILE, x, p, ends[0], ends[1], report);
-    if (status == SB_OK) {
-      status = sb_dry_contact(&dry, c, load, ends[0], ends[1], report);
+    // An order that gives no contact is as unfit as one that gives another: the next is lower.
+    if (sb_compliance_match(c, order, PROFILE, x, p, ends[0], ends[1], report) != SB_OK ||
+        sb_dry_contact(&dry, c, load, ends[0], ends[1], report) != SB_OK) {
+      continue;
     }
     double off = fabs(dry.left - left) / width + fabs(dry.right - left - width) / width +
                  fabs(dry.peak / peak - 1.0);
-    if (status == SB_OK && off < DRY_MOST) {
+    if (off < DRY_MOST) {
       return sb_succeed(report);
     }
   }
@@ -369,9 +368,9 @@ static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
   *out = (SbSurfaceCompliance){0};
   double middle = 0.5 * (patch.place[0] + patch.place[1]);
   double half = (0.5 + reach) * (patch.place[1] - patch.place[0]), xi;
-  int side;
-  if (!find_side(ring, &patch, middle - half, &side, &xi) ||
-      !find_side(ring, &patch, middle + half, &side, &xi)) {
+  int from, to;
+  if (!find_side(ring, &patch, middle - half, &from, &xi) ||
+      !find_side(ring, &patch, middle + half, &to, &xi)) {
     return sb_fail(report, SB_ERROR_INFEASIBLE,
                    "the ring's surface turns away too near to the bore contact");
   }
@@ -380,7 +379,7 @@ static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
   double unit = ring->length / ring->stress; // of displacement per pressure
   double length = half * ring->length, up = 0.0, down = 0.0;
   for (int l = 0; l < WAVES && status == SB_OK; l++) {
-    load_wave(ring, &patch, middle, half, l);
+    load_wave(ring, from, to, middle, half, l);
     status = sb_ring_fem_apply_factor(ring->fem, report);
     read_wave(ring, &patch, middle, half, answer[l], slope);
     double plane[SB_COMPLIANCE_MODES];

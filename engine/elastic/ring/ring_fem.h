@@ -72,7 +72,7 @@ void sb_ring_sparse_finish(SbRingFem *fem);
 
 // Residual and condensed tangent of the elements at the current state (external terms are added by
 // the caller afterwards). False if some point is turned inside out (det F <= 0).
-bool sb_ring_fem_assemble(SbRingFem *fem);
+SB_CHECKED bool sb_ring_fem_assemble(SbRingFem *fem);
 
 // Adds to the tangent entry of (row node a, component i; column node b, component j).
 void sb_ring_fem_add(SbRingFem *fem, int a, int i, int b, int j, double k);

@@ -65,20 +65,20 @@ static bool recentre(SbRingFem *fem, double force_scale) {
 static void fail(const SbRingContact *contact, double residual, int changes, int iterations,
                  SbReport *report) {
   if (contact->unsteady < 0 || changes == 0) {
-    sb_fail(report, SB_ERROR_NOT_CONVERGED,
-            "no balance of forces (residual %.2g) after %d iterations", residual, iterations);
+    (void)sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                  "no balance of forces (residual %.2g) after %d iterations", residual, iterations);
     return;
   }
   const SbRingFem *fem = contact->fem;
   int node = fem->mesh->loop[contact->unsteady / SB_RING_SURFACES];
   SbRingSurface surface = (SbRingSurface)(contact->unsteady % SB_RING_SURFACES);
   bool wall = surface == SB_RING_WALL_RIGHT || surface == SB_RING_WALL_LEFT;
-  sb_fail(report, SB_ERROR_NOT_CONVERGED,
-          "the contact at the %s does not settle %.2f section diameters %s (residual %.2g)",
-          sb_ring_surface_name(surface),
-          wall ? fem->mesh->x[2 * node] + fem->u[2 * node] - contact->now.floor
-               : fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1],
-          wall ? "above the floor" : "from its middle", residual);
+  (void)sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                "the contact at the %s does not settle %.2f section diameters %s (residual %.2g)",
+                sb_ring_surface_name(surface),
+                wall ? fem->mesh->x[2 * node] + fem->u[2 * node] - contact->now.floor
+                     : fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1],
+                wall ? "above the floor" : "from its middle", residual);
 }
 
 SbStatus sb_ring_newton(SbRingContact *contact, const SbRingNewton *options, SbRingCount *count,

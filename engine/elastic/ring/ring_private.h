@@ -25,7 +25,7 @@ typedef struct {
 } SbRingPatch;
 
 // Finds a surface's contact; false if it does not touch.
-bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch);
+SB_CHECKED bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch);
 
 // Contact pressure at a loop node (element solver's units), from the excess over the fluid's.
 double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface);
@@ -40,8 +40,8 @@ typedef struct {
 } SbRingPressure;
 
 // Recovers the pressure of a surface's contact; false where no smooth curve fits it.
-bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch,
-                     SbRingPressure *out);
+SB_CHECKED bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch,
+                                SbRingPressure *out);
 
 // The same for a patch that sb_ring_patch has found, whose places of the ends are replaced by the
 // recovered ones. False where they stay as they are.

@@ -8,6 +8,7 @@
 // pressure there is the fluid's.
 #include "engine/elastic/ring/ring_private.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -133,7 +134,10 @@ double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface) {
   double length = hypot(n[0], n[1]);
   double share = (n[0] * contact->share[2 * i] + n[1] * contact->share[2 * i + 1]) / length;
   SbRingPatch patch;
-  sb_ring_patch(ring, surface, &patch);
+  if (!sb_ring_patch(ring, surface, &patch)) {
+    assert(!"a held node belongs to a contact");
+    return 0.0;
+  }
   int past = (i - patch.first + count) % count;
   bool nearer_last = 2 * past > patch.last - patch.first;
   return patch.end_pressure[nearer_last ? 1 : 0] + fmax(0.0, touch->force - share) / weight;

@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+"""Every header compiles alone, twice, by the flags of its layer, and so does a variable of each type
+that it gives an initialiser for (SbRingLoad, SB_RING_LOAD_INIT); a dropped status does not pass.
+
+headers.py BUILD SOURCE, TAP on standard output.
+"""
+import concurrent.futures
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+
+build, source = sys.argv[1:]
+layers = ('engine', 'app', 'ui')
+
+# How a layer is compiled: compiler, places of headers and definitions of any of its files.
+commands = {}
+with open(build + '/compile_commands.json', encoding='utf-8') as database:
+    for entry in json.load(database):
+        words = shlex.split(entry['command'])
+        path = os.path.relpath(os.path.join(entry['directory'], entry['file']), source)
+        layer = path.split(os.sep)[0]
+        if layer in layers and layer not in commands:
+            first = next(i for i, word in enumerate(words) if word.startswith('-'))
+            commands[layer] = words[:first] + [
+                word for word in words if word.startswith(('-I', '-isystem', '-D', '-std', '-pthread'))]
+            folder = entry['directory']
+
+
+def compiles(layer, text, *options):
+    """What the compiler says, empty if nothing."""
+    return subprocess.run(
+        [*commands[layer], '-Wall', '-Wextra', '-Wno-unused-parameter', '-Wpedantic', '-Werror',
+         *options, '-fsyntax-only', '-x', 'c', '-'],
+        input=text, capture_output=True, text=True, cwd=folder, check=False).stderr
+
+
+def alone(header):
+    layer = header.split(os.sep)[0]
+    # GObject's macros do not pass -Wpedantic.
+    options = ['-Wno-pedantic'] if layer == 'ui' else []
+    with open(os.path.join(source, header), encoding='utf-8') as file:
+        names = re.findall(r'^#define SB_(\w+)_INIT\b', file.read(), re.M)
+    used = ''.join(f'Sb{name.title().replace("_", "")} v{name} = SB_{name}_INIT;\n' for name in names)
+    return compiles(layer, f'#include "{header}"\n#include "{header}"\nint used;\n{used}', *options)
+
+
+headers = sorted(os.path.relpath(os.path.join(where, name), source)
+                 for layer in commands for where, _, names in os.walk(os.path.join(source, layer))
+                 for name in names if name.endswith('.h'))
+with concurrent.futures.ThreadPoolExecutor(2) as pool:
+    results = [(header + ' stands alone', said == '', said)
+               for header, said in zip(headers, pool.map(alone, headers))]
+
+DROPS = '#include "engine/status.h"\nSbStatus f(void);\nvoid g(void);\nvoid g(void) {\n  %s;\n}\n'
+said = compiles('engine', DROPS % 'f()')
+results.append(('a dropped status is refused', 'unused-result' in said, said))
+said = compiles('engine', DROPS % '(void)f()')
+results.append(('a status dropped on purpose is not', said == '', said))
+
+print(f'1..{len(results)}')
+for number, (text, good, said) in enumerate(results, 1):
+    print(f'{"ok" if good else "not ok"} {number} {text}')
+    if not good:
+        print('\n'.join('# ' + line for line in said.splitlines()[:8]))
+sys.exit(not all(good for _, good, _ in results))
