@@ -31,7 +31,7 @@ typedef struct {
   GtkWidget *gl; // over the picture where the window's own GL draws it
   GtkWidget *box, *area, *field_combo, *inset_combo, *forces, *labels, *mesh, *empty, *toggles,
       *heading;
-  GtkWidget *cutaway;
+  GtkWidget *cutaway, *rest;
   SbSectionSource *source;
   SbDrawList list;
   SbText *text;
@@ -218,8 +218,11 @@ static gboolean describe(gpointer data) {
                          ? _("Sliding plate on its rings")
                      : is_cutaway(view) ? cutaway
                                         : _("Axial section of the valve");
-  g_autofree char *text = where[0] != '\0' ? g_strdup_printf("%s, %s", what, where)
-                                           : g_strdup_printf(_("%s at rest"), what);
+  g_autofree char *at = where[0] != '\0' ? g_strdup_printf("%s, %s", what, where)
+                                         : g_strdup_printf(_("%s at rest, by closed forms"), what);
+  g_autofree char *former = sb_session_former_text(view->session);
+  g_autofree char *of = former != NULL ? g_strdup_printf(_(" Of the %s."), former) : NULL;
+  g_autofree char *text = g_strconcat(at, ".", of, NULL);
   sb_style_name(view->area, _("Section"), text);
   view->describe = 0;
   return G_SOURCE_REMOVE;
@@ -262,6 +265,11 @@ static void show_state(View *view) {
   follow_look(view);
   gtk_widget_queue_resize(view->gl);
   gtk_widget_set_visible(view->empty, sb_session_state(view->session) == SB_SESSION_EMPTY);
+  gtk_widget_set_visible(view->rest, sb_session_state(view->session) == SB_SESSION_RUNNING &&
+                                         sb_session_run(view->session) == NULL);
+  gboolean former = sb_session_shows_former(view->session);
+  sb_style_former(view->area, former);
+  sb_style_former(view->gl, former);
   // Only rings solved by finite elements have a field and a mesh to show.
   const SbRun *run = sb_session_run(view->session);
   gboolean solved = run != NULL && sb_run_plan(run)->section_fields;
@@ -561,6 +569,17 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   g_signal_connect(view->gl, "motion-notify-event", G_CALLBACK(on_motion), view);
   view->empty = make_empty();
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->empty);
+  // Whatever models are being run, the valve at rest is drawn by closed forms.
+  view->rest =
+      gtk_label_new(_("Being computed. Until its first frame: the valve at rest, by closed "
+                      "forms."));
+  sb_style_class(view->rest, "sb-empty");
+  gtk_label_set_line_wrap(GTK_LABEL(view->rest), TRUE);
+  gtk_widget_set_halign(view->rest, GTK_ALIGN_CENTER);
+  gtk_widget_set_valign(view->rest, GTK_ALIGN_START);
+  gtk_widget_set_margin_top(view->rest, 70);
+  gtk_widget_set_no_show_all(view->rest, TRUE);
+  gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->rest);
   gtk_box_pack_start(GTK_BOX(view->box), overlay, TRUE, TRUE, 0);
 
   g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_scroll), view);

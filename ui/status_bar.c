@@ -50,6 +50,10 @@ static void refresh_models(Bar *bar) {
                               ? g_strdup_printf(_("motion %s"), motion)
                               : g_strdup_printf(_("fit %s, film %s, surface %s, motion %s"), fit,
                                                 film, surface, motion);
+  if (run == NULL && sb_session_state(bar->session) == SB_SESSION_RUNNING) {
+    g_autofree char *computed = g_steal_pointer(&text);
+    text = g_strdup_printf(_("being computed: %s"), computed);
+  }
   gtk_label_set_text(GTK_LABEL(bar->models), text);
 }
 

@@ -109,6 +109,7 @@ static void refresh_strip(SbWindow *window) {
   int wrong = sb_session_first_error(session);
   int differs = -1;
   double value = 0;
+  g_autofree char *former = sb_session_former_text(session);
   window->strip_id = -1;
   if (wrong >= 0) {
     const SbParam *param = sb_param((SbParamId)wrong);
@@ -132,28 +133,24 @@ static void refresh_strip(SbWindow *window) {
     window->strip_value = old;
     set_strip(window, "warn", text, button);
   } else if (failure != NULL) {
-    set_strip(window, "error", failure, _("Run again"));
-  } else if (sb_session_state(session) == SB_SESSION_PARTIAL) {
+    g_autofree char *text = former != NULL
+                                ? g_strdup_printf(_("%s Pictures show the %s."), failure, former)
+                                : g_strdup(failure);
+    set_strip(window, "error", text, _("Run again"));
+  } else if (sb_session_state(session) == SB_SESSION_PARTIAL && former == NULL) {
     size_t count = 0;
     const SbFrame *frames = sb_session_frames(session, &count);
     g_autofree char *text =
-        count > 0
-            ? g_strdup_printf(_("Cancelled after %.1f s of the cycle: the pictures are partial."),
-                              frames[count - 1].time)
-            : g_strdup(_("Cancelled before the first frame."));
+        g_strdup_printf(_("Cancelled after %.1f s of the cycle: the pictures are partial."),
+                        count > 0 ? frames[count - 1].time : 0);
     set_strip(window, "warn", text, _("Run again"));
-  } else if (sb_session_state(session) != SB_SESSION_RUNNING &&
-             sb_session_is_stale(session, &differs, &value)) {
-    g_autofree char *text = NULL;
-    if (differs >= 0) {
-      g_autofree char *label = sb_words_inside(sb_param((SbParamId)differs)->label);
-      g_autofree char *shown = sb_param_format((SbParamId)differs, value);
-      text = g_strdup_printf(_("Values have changed. Pictures show the run with %s %s."), label,
-                             shown);
-    } else {
-      text = g_strdup(_("Values have changed. Pictures show an earlier run."));
-    }
-    set_strip(window, "warn", text, _("Run"));
+  } else if (former != NULL) {
+    gboolean running = sb_session_state(session) == SB_SESSION_RUNNING;
+    g_autofree char *text =
+        g_strdup_printf(running ? _("Until the first new frame the pictures show the %s.")
+                                : _("Values have changed. Pictures show the %s."),
+                        former);
+    set_strip(window, "warn", text, running ? NULL : _("Run"));
   } else {
     set_strip(window, "warn", NULL, NULL);
   }
@@ -181,12 +178,12 @@ static void refresh_run_state(SbWindow *window) {
     text = g_strdup(_("Run failed"));
     style = "sb-error";
     icon = "dialog-error-symbolic";
-  } else if (state == SB_SESSION_PARTIAL) {
-    text = g_strdup(_("Partial run"));
+  } else if (sb_session_shows_former(session)) {
+    text = g_strdup(_("Earlier run"));
     style = "sb-warn";
     icon = "dialog-warning-symbolic";
-  } else if (sb_session_is_stale(session, NULL, NULL)) {
-    text = g_strdup(_("Earlier run"));
+  } else if (state == SB_SESSION_PARTIAL) {
+    text = g_strdup(_("Partial run"));
     style = "sb-warn";
     icon = "dialog-warning-symbolic";
   }
