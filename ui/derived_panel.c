@@ -82,12 +82,12 @@ static void set_bands(Panel *panel) {
   }
 }
 
-static bool within(const Panel *panel, int index, double value) {
-  return value >= panel->lo[index] && value <= panel->hi[index];
+static SbBand band_of(const Panel *panel, int index, double value) {
+  return sb_band_of(value, panel->lo[index], panel->hi[index]);
 }
 
 static SbColor verdict_color(const SbTheme *theme, const Panel *panel, int index, double value) {
-  return theme->role[!within(panel, index, value) ? SB_ROLE_WARN : SB_ROLE_PASS];
+  return theme->role[band_of(panel, index, value) == SB_BAND_WITHIN ? SB_ROLE_PASS : SB_ROLE_WARN];
 }
 
 static gboolean on_draw(GtkWidget *widget, cairo_t *cr, Panel *panel) {
@@ -135,8 +135,9 @@ static void show(Panel *panel, int index, double value) {
   char text[SB_FORMAT_MAX] = "–";
   if (!isnan(value)) {
     sb_format_text(text, item->quantity, value, 0);
-    gboolean good = within(panel, index, value);
-    word = good ? _("pass") : value < panel->lo[index] ? _(item->low) : _(item->high);
+    SbBand band = band_of(panel, index, value);
+    gboolean good = band == SB_BAND_WITHIN;
+    word = good ? _("pass") : band == SB_BAND_BELOW ? _(item->low) : _(item->high);
     gtk_style_context_add_class(style, good ? "sb-pass" : "sb-warn");
     gtk_style_context_add_class(icon_style, good ? "sb-pass" : "sb-warn");
     gtk_image_set_from_icon_name(GTK_IMAGE(panel->icon[index]),
