@@ -20,10 +20,12 @@
 #include <string.h>
 
 enum {
-  INTERVAL = 33, // between drawings while something moves [ms]
-  EDGE = 4,      // of the picture beyond the section [px]
-  MARGIN = 16,   // beside the picture [px]
-  WIDE = 860     // from here the section has a column for legends and forces [px]
+  INTERVAL = 33,     // between drawings while something moves [ms]
+  EDGE = 4,          // of the picture beyond the section [px]
+  MARGIN = 16,       // beside the picture [px]
+  LOW = 480,         // below it a picture is too low for insets beside a section of
+  LEAST_STRIP = 200, // this height [px]
+  WIDE = 860         // from here the section has a column for legends and forces [px]
 };
 
 typedef struct {
@@ -187,6 +189,13 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
     instant.ring[i] = sb_run_shape(now.run, now.frame->seal[i].shape);
   }
   sb_session_camera(view->session, &how.azimuth, &how.elevation);
+  // In a low picture the insets give way to the section, which then takes both its halves.
+  if (!cutaway && picture.height < LOW &&
+      sb_section_strip_height(now.section, &how, &instant) < LEAST_STRIP) {
+    how.hide_insets = TRUE;
+    how.full =
+        how.full || 2 * sb_section_strip_height(now.section, &how, &instant) < picture.height - 140;
+  }
   sb_section_draw(now.section, &view->list, &how, &instant);
   cairo_save(cr);
   cairo_rectangle(cr, 0, 0, area_width, picture.y + picture.height + 4);
@@ -277,13 +286,10 @@ static void show_state(View *view) {
   const SbModel *model = sb_session_model(view->session);
   gboolean rig = model != NULL && model->motion == SB_MODEL_MOTION_RIG;
   gtk_label_set_text(GTK_LABEL(view->heading), rig ? _("Rig") : _("Section"));
-  gtk_widget_set_visible(view->field_combo, !rig);
   gtk_widget_set_visible(view->inset_combo, !rig);
   gtk_widget_set_visible(view->toggles, !rig);
-  gtk_widget_set_sensitive(view->field_combo, solved);
-  gtk_widget_set_sensitive(view->mesh, solved);
-  gtk_widget_set_tooltip_text(view->mesh, solved ? _("Elements of solved rings")
-                                                 : _("Needs the fitment model ring"));
+  gtk_widget_set_visible(view->field_combo, solved && !rig);
+  gtk_widget_set_visible(view->mesh, solved);
   on_change(view);
 }
 
@@ -461,6 +467,14 @@ static GtkWidget *linked_box(void) {
   return box;
 }
 
+// Lets a combo box be narrower than its longest item.
+static void shrink(GtkWidget *combo) {
+  g_autoptr(GList) cells = gtk_cell_layout_get_cells(GTK_CELL_LAYOUT(combo));
+  if (cells != NULL) {
+    g_object_set(cells->data, "ellipsize", PANGO_ELLIPSIZE_END, "width-chars", 9, NULL);
+  }
+}
+
 static GtkWidget *make_toolbar(View *view) {
   GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
   sb_style_class(bar, "sb-toolbar");
@@ -476,9 +490,11 @@ static GtkWidget *make_toolbar(View *view) {
                                    sb_words(sb_section_field_name((SbField)i)));
   }
   gtk_combo_box_set_active(GTK_COMBO_BOX(view->field_combo), 0);
+  shrink(view->field_combo);
+  gtk_widget_set_no_show_all(view->field_combo, TRUE);
   sb_style_name(view->field_combo, _("Field"), _("What the colours of solved rings show"));
   g_signal_connect_swapped(view->field_combo, "changed", G_CALLBACK(on_change), view);
-  gtk_box_pack_start(GTK_BOX(bar), view->field_combo, FALSE, FALSE, 0);
+  gtk_box_pack_start(GTK_BOX(bar), view->field_combo, FALSE, TRUE, 0);
 
   view->inset_combo = gtk_combo_box_text_new();
   gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "outer",
@@ -487,9 +503,10 @@ static GtkWidget *make_toolbar(View *view) {
                             _("Insets: inner seal"));
   gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "none", _("No insets"));
   gtk_combo_box_set_active(GTK_COMBO_BOX(view->inset_combo), 0);
+  shrink(view->inset_combo);
   sb_style_name(view->inset_combo, _("Insets"), _("Which seal's contact the insets enlarge"));
   g_signal_connect_swapped(view->inset_combo, "changed", G_CALLBACK(on_change), view);
-  gtk_box_pack_start(GTK_BOX(bar), view->inset_combo, FALSE, FALSE, 0);
+  gtk_box_pack_start(GTK_BOX(bar), view->inset_combo, FALSE, TRUE, 0);
 
   GtkWidget *toggles = linked_box();
   view->forces = toggle_new(view, _("Forces"), _("Force arrows"), TRUE, GTK_BOX(toggles));
@@ -502,6 +519,7 @@ static GtkWidget *make_toolbar(View *view) {
                  FALSE, GTK_BOX(toggles));
   g_signal_connect_swapped(view->cutaway, "toggled", G_CALLBACK(on_cutaway), view);
   view->mesh = toggle_new(view, _("Mesh"), _("Elements of solved rings"), FALSE, GTK_BOX(toggles));
+  gtk_widget_set_no_show_all(view->mesh, TRUE);
   gtk_box_pack_start(GTK_BOX(bar), toggles, FALSE, FALSE, 0);
   view->toggles = toggles;
 

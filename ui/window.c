@@ -101,7 +101,23 @@ static void set_strip(SbWindow *window, const char *kind, const char *text, cons
   }
 }
 
-// What is wrong with the values or the run, and the one button that mends it.
+// What the displayed run found of the valve that nobody may miss, in full sentences; NULL if
+// nothing.
+static char *findings_text(const SbSummary *summary) {
+  g_autoptr(GString) text = g_string_new(NULL);
+  for (size_t i = 0; summary != NULL && i < summary->warnings.count; i++) {
+    const SbWarning *warning = &summary->warnings.item[i];
+    if (sb_warning_is_serious(warning->code)) {
+      gsize start = text->len + (text->len > 0 ? 1 : 0);
+      g_string_append_printf(text, "%s%s.", text->len > 0 ? " " : "", warning->text);
+      text->str[start] = g_ascii_toupper(text->str[start]);
+    }
+  }
+  return text->len > 0 ? g_string_free(g_steal_pointer(&text), FALSE) : NULL;
+}
+
+// What is wrong with the values or the run and the one button that mends it, or else what the run
+// found.
 static void refresh_strip(SbWindow *window) {
   SbSession *session = window->session;
   const char *failure = sb_session_failure(session);
@@ -152,7 +168,8 @@ static void refresh_strip(SbWindow *window) {
                         former);
     set_strip(window, "warn", text, running ? NULL : _("Run"));
   } else {
-    set_strip(window, "warn", NULL, NULL);
+    g_autofree char *findings = findings_text(sb_session_summary(session));
+    set_strip(window, "warn", findings, NULL);
   }
 }
 
@@ -526,7 +543,15 @@ static void sb_window_init(SbWindow *window) {
   }
 
   // The parts.
-  sb_columns_attach(GTK_PANED(window->columns), GTK_PANED(window->views));
+  GtkWidget *charts = gtk_toggle_button_new();
+  gtk_container_add(GTK_CONTAINER(charts),
+                    gtk_image_new_from_icon_name("view-dual-symbolic", GTK_ICON_SIZE_BUTTON));
+  gtk_widget_show_all(charts);
+  gtk_widget_set_visible(charts, FALSE);
+  gtk_widget_set_tooltip_text(charts, _("Charts beside the section"));
+  sb_style_name(charts, _("Charts"), NULL);
+  gtk_header_bar_pack_end(GTK_HEADER_BAR(window->header), charts);
+  sb_columns_attach(GTK_PANED(window->columns), GTK_PANED(window->views), charts);
   window->panel = sb_param_panel_new(window->session);
   gtk_box_pack_start(GTK_BOX(window->left_column), window->panel, TRUE, TRUE, 0);
   gtk_box_pack_start(GTK_BOX(window->left_column), sb_derived_panel_new(window->session), FALSE,
