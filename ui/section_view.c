@@ -290,6 +290,8 @@ static void show_state(View *view) {
   gtk_widget_set_visible(view->toggles, !rig);
   gtk_widget_set_visible(view->field_combo, solved && !rig);
   gtk_widget_set_visible(view->mesh, solved);
+  // What those two need the heading gives, so that the toolbar is not cut.
+  gtk_widget_set_visible(view->heading, rig || !solved);
   on_change(view);
 }
 

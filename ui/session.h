@@ -24,7 +24,7 @@ typedef enum {
   SB_SESSION_DONE,    // the shown run is complete and belongs to the values
   SB_SESSION_PARTIAL, // the shown run was cancelled: its frames so far stand. A run cancelled
                       // before its first frame leaves the shown run, and its state, as they are
-  SB_SESSION_FAILED // the last run failed; the last good state is shown
+  SB_SESSION_FAILED   // the last run failed; the last good state is shown
 } SbSessionState;
 
 // An untitled valve with all defaults, nothing run.
