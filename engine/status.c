@@ -121,6 +121,19 @@ static void add_text(SbWarnings *list, const char *code, const char *parameter, 
   va_end(arguments);
 }
 
+bool sb_warning_is_serious(const char *code) {
+  static const char *const serious[] = {
+      "no-return",   "life-no-return", "no-slip",          "static-hold", "no-contact",
+      "static-leak", "ring-drag",      "ring-groove-full", "ring-shape",
+  };
+  for (size_t i = 0; i < sizeof serious / sizeof *serious; i++) {
+    if (strcmp(code, serious[i]) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 void sb_warnings_merge(SbWarnings *list, const SbWarnings *from) {
   for (size_t i = 0; list != NULL && i < from->count; i++) {
     const SbWarning *w = &from->item[i];

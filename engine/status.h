@@ -106,5 +106,10 @@ void sb_warn(SbWarnings *list, const char *code, const char *parameter, const ch
 // may be NULL.
 void sb_warn_about(SbWarnings *list, const char *subject);
 
+// Whether a warning of this code tells a defect of the valve itself, or a picture or model that
+// leaves out what it should show, rather than how far a figure can be trusted: such a finding is
+// shown in words wherever results are, never as one of a number of warnings.
+bool sb_warning_is_serious(const char *code);
+
 // Adds all of `from` to `list`.
 void sb_warnings_merge(SbWarnings *list, const SbWarnings *from);

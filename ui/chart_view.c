@@ -215,6 +215,10 @@ static gboolean describe(gpointer data) {
   } else {
     describe_contacts(view->session, view->kind, text);
   }
+  g_autofree char *former = sb_session_former_text(view->session);
+  if (former != NULL) {
+    g_string_append_printf(text, _(" Of the %s."), former);
+  }
   sb_style_name(view->area, name, text->str);
   view->describe = 0;
   return G_SOURCE_REMOVE;
@@ -275,6 +279,7 @@ static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) 
 
 static void on_change(View *view) {
   gtk_widget_set_visible(view->area, applies(view));
+  sb_style_former(view->area, sb_session_shows_former(view->session));
   sb_picture_change(view->picture,
                     sb_session_wants_ticks(view->session) ? kinds[view->kind].interval : 0);
   // Screen readers need no more than a few sentences a second.

@@ -5,13 +5,38 @@
 // Widths of the look in its window of 1600 px, and the least that still reads well.
 enum { LOOK_WINDOW = 1600, LOOK_LEFT = 346, LOOK_RIGHT = 424, LEAST_LEFT = 316, LEAST_RIGHT = 284 };
 
+// Below it three columns leave the section less than their own widths.
+enum { THREE_COLUMNS = 1150 };
+
 typedef struct {
   GtkPaned *columns, *views;
-  int width; // of the window that the borders were placed for
+  GtkWidget *charts; // toggle of the right column
+  int width;         // of the window that the borders were placed for
+  guint later;       // source that shows or hides the right column, 0 if none is due
 } Columns;
 
 static int scaled(int width, int look, int least) {
   return CLAMP(width * look / LOOK_WINDOW, least, look);
+}
+
+// Not inside an allocation: the column leaves or joins the layout.
+static gboolean on_later(gpointer data) {
+  Columns *columns = data;
+  columns->later = 0;
+  gboolean narrow = columns->width < THREE_COLUMNS;
+  if (gtk_widget_get_visible(columns->charts) != narrow) {
+    gtk_widget_set_visible(columns->charts, narrow);
+    gtk_widget_set_visible(gtk_paned_get_child2(columns->views), !narrow);
+  }
+  return G_SOURCE_REMOVE;
+}
+
+static void columns_free(gpointer data) {
+  Columns *columns = data;
+  if (columns->later != 0) {
+    g_source_remove(columns->later);
+  }
+  g_free(columns);
 }
 
 // A new width: the widths that a hand has given, or the look's share of this window.
@@ -20,6 +45,9 @@ static void on_allocate(GtkPaned *paned, GdkRectangle *allocation, Columns *colu
     return;
   }
   columns->width = allocation->width;
+  if (columns->later == 0) {
+    columns->later = g_idle_add(on_later, columns);
+  }
   int left = sb_preferences_int("left-column", 0);
   int right = sb_preferences_int("right-column", 0);
   if (left < LEAST_LEFT || left > allocation->width / 2) {
@@ -29,7 +57,7 @@ static void on_allocate(GtkPaned *paned, GdkRectangle *allocation, Columns *colu
     right = scaled(allocation->width, LOOK_RIGHT, LEAST_RIGHT);
   }
   gtk_paned_set_position(columns->columns, left);
-  gtk_paned_set_position(columns->views, allocation->width - left - right - 2);
+  gtk_paned_set_position(columns->views, MAX(allocation->width - left - right - 2, 1));
 }
 
 // Only what a hand moved is remembered.
@@ -40,11 +68,14 @@ static gboolean on_release(GtkPaned *paned, GdkEventButton *event, Columns *colu
   return GDK_EVENT_PROPAGATE;
 }
 
-void sb_columns_attach(GtkPaned *columns, GtkPaned *views) {
+void sb_columns_attach(GtkPaned *columns, GtkPaned *views, GtkWidget *charts) {
   Columns *self = g_new0(Columns, 1);
   self->columns = columns;
   self->views = views;
-  g_object_set_data_full(G_OBJECT(columns), "columns", self, g_free);
+  self->charts = charts;
+  g_object_set_data_full(G_OBJECT(columns), "columns", self, columns_free);
+  g_object_bind_property(gtk_paned_get_child2(views), "visible", charts, "active",
+                         G_BINDING_BIDIRECTIONAL | G_BINDING_SYNC_CREATE);
   gtk_widget_set_size_request(gtk_paned_get_child1(columns), LEAST_LEFT, -1);
   gtk_widget_set_size_request(gtk_paned_get_child2(views), LEAST_RIGHT, -1);
   g_signal_connect(columns, "size-allocate", G_CALLBACK(on_allocate), self);

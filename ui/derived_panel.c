@@ -1,6 +1,7 @@
-// What follows from the values: squeeze, stretch and gland fill at once from the model, the return
-// force from the run. Each has a bar with the recommended band, a word and a sign, so that colour
-// is not alone.
+// What follows from the values of the displayed run: squeeze, stretch and gland fill from its
+// model, the return force from its result, so that all are of one run; before the first run those
+// of the values at once. (gland_panel.c follows the values.) Each has a bar with the recommended
+// band, a word and a sign, so that colour is not alone.
 //
 // Bands of squeeze, stretch and fill are those of the gland's read-outs (engine/elastic/gland.h,
 // with their sources), of which gland_panel.c shows all. A return force of at least 2 N, an eighth
@@ -83,12 +84,12 @@ static void set_bands(Panel *panel) {
   }
 }
 
-static bool within(const Panel *panel, int index, double value) {
-  return value >= panel->lo[index] && value <= panel->hi[index];
+static SbBand band_of(const Panel *panel, int index, double value) {
+  return sb_band_of(value, panel->lo[index], panel->hi[index]);
 }
 
 static SbColor verdict_color(const SbTheme *theme, const Panel *panel, int index, double value) {
-  return theme->role[!within(panel, index, value) ? SB_ROLE_WARN : SB_ROLE_PASS];
+  return theme->role[band_of(panel, index, value) == SB_BAND_WITHIN ? SB_ROLE_PASS : SB_ROLE_WARN];
 }
 
 static gboolean on_draw(GtkWidget *widget, cairo_t *cr, Panel *panel) {
@@ -136,8 +137,9 @@ static void show(Panel *panel, int index, double value) {
   char text[SB_FORMAT_MAX] = "–";
   if (!isnan(value)) {
     sb_format_text(text, item->quantity, value, 0);
-    gboolean good = within(panel, index, value);
-    word = good ? _("pass") : value < panel->lo[index] ? _(item->low) : _(item->high);
+    SbBand band = band_of(panel, index, value);
+    gboolean good = band == SB_BAND_WITHIN;
+    word = good ? _("pass") : band == SB_BAND_BELOW ? _(item->low) : _(item->high);
     gtk_style_context_add_class(style, good ? "sb-pass" : "sb-warn");
     gtk_style_context_add_class(icon_style, good ? "sb-pass" : "sb-warn");
     gtk_image_set_from_icon_name(GTK_IMAGE(panel->icon[index]),
@@ -153,28 +155,30 @@ static void show(Panel *panel, int index, double value) {
   gtk_widget_queue_draw(panel->bar[index]);
 }
 
-// Sizes come from the present values; while those do not go together, from the shown run.
 static void refresh(Panel *panel) {
-  const SbModel *model = sb_session_model(panel->session);
   const SbRun *run = sb_session_run(panel->session);
-  const SbSummary *summary = sb_session_summary(panel->session);
-  gboolean old = model == NULL || sb_session_error_count(panel->session) > 0;
-  if (model == NULL && run != NULL) {
-    model = sb_run_model(run);
-  }
+  const SbModel *model = run != NULL ? sb_run_model(run) : sb_session_model(panel->session);
+  const SbChartRun *shown = &sb_session_chart(panel->session)->run;
+  const SbSummary *summary = shown->state == SB_CHART_DONE ? shown->summary : NULL;
+  g_autofree char *former = sb_session_former_text(panel->session);
   // A plate on its rings has no glands, return or doses.
   gtk_widget_set_visible(panel->grid, model == NULL || model->motion != SB_MODEL_MOTION_RIG);
   const SbSealModel *seal = model != NULL ? &model->seal[SB_OUTER] : NULL;
   show(panel, 0, seal != NULL ? seal->squeeze : NAN);
   show(panel, 1, seal != NULL ? seal->stretch_inner : NAN);
   show(panel, 2, seal != NULL ? seal->gland_fill : NAN);
-  // The stem must have come back for a return force to be known.
+  // The stem must have come back, and all the way, for a return force to be known.
   gboolean returned = summary != NULL && summary->stage[SB_STAGE_E].reached;
   show(panel, 3, returned ? summary->force_return_min : NAN);
   show(panel, 4, model != NULL ? model->metered_volume : NAN);
   show(panel, 5, model != NULL ? (double)model->doses : NAN);
-  gtk_label_set_text(GTK_LABEL(panel->note),
-                     old && run != NULL ? _("last good run") : _("outer seal"));
+  gtk_label_set_text(GTK_LABEL(panel->note), former != NULL ? former : _("outer seal"));
+  gtk_widget_set_tooltip_text(panel->note, former);
+  for (int i = 0; i < ITEMS; i++) {
+    sb_style_former(panel->value[i], former != NULL);
+    sb_style_former(panel->bar[i], former != NULL);
+    sb_style_former(panel->verdict[i], former != NULL);
+  }
 }
 
 static void on_destroy(GtkWidget *widget, Panel *panel) {
@@ -198,6 +202,8 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
   sb_style_class(grid, "sb-panel");
   gtk_grid_attach(GTK_GRID(grid), label_new(_("Derived"), "sb-title", 0), 0, 0, 1, 1);
   panel->note = label_new("", "sb-note", 1);
+  gtk_label_set_ellipsize(GTK_LABEL(panel->note), PANGO_ELLIPSIZE_MIDDLE);
+  gtk_label_set_max_width_chars(GTK_LABEL(panel->note), 24);
   gtk_grid_attach(GTK_GRID(grid), panel->note, 1, 0, 4, 1);
   for (int i = 0; i < ITEMS; i++) {
     GtkWidget *name = panel->name[i] = label_new(_(items[i].name), "sb-derived-name", 0);

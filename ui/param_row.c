@@ -59,9 +59,8 @@ static void step(SbParamRow *row, double count) {
     double shown = sb_quantity_to_shown(value, param->si, param->unit);
     double scale = fabs(shown) > 0 ? fabs(shown)
                                    : sb_quantity_to_shown(param->max, param->si, param->unit) / 10;
-    double size = pow(10, floor(log10(scale * 0.0101)));
-    shown = (round(shown / size) + count) * size;
-    value = sb_quantity_from_shown(shown, param->si, param->unit);
+    int power = (int)floor(log10(scale * 0.0101));
+    value = sb_quantity_step(value, param->si, param->unit, power, count);
   }
   value = fmin(fmax(value, param->min), param->max);
   sb_session_edit_value(row->session, row->id, value);

@@ -30,21 +30,74 @@ size_t sb_playhead_nearest(const SbFrame *frames, size_t count, double time) {
   return lo;
 }
 
-size_t sb_playhead_event(const SbPlayhead *playhead, const SbStageMark *marks, size_t count,
+size_t sb_playhead_event(const SbPlayhead *playhead, const SbTrace *trace, size_t count,
                          int direction) {
   size_t best = direction > 0 ? (count > 0 ? count - 1 : 0) : 0;
-  for (int stage = 0; stage < SB_STAGE_COUNT; stage++) {
-    size_t frame = marks[stage].frame;
-    if (!marks[stage].reached || frame >= count) {
-      continue;
-    }
+  size_t events = 0;
+  const SbTraceEvent *event = sb_trace_events(trace, &events);
+  for (size_t i = 0; i < events; i++) {
+    size_t frame = event[i].mark.frame;
     if (direction > 0 && frame > playhead->frame && frame < best) {
       best = frame;
-    } else if (direction < 0 && frame < playhead->frame && frame > best) {
+    } else if (direction < 0 && frame < playhead->frame && frame > best && frame < count) {
       best = frame;
     }
   }
   return best;
+}
+
+void sb_playhead_remember(SbPlayhead *playhead, const SbTrace *trace, const SbFrame *frames,
+                          size_t count) {
+  if (playhead->waits || count == 0 || playhead->frame >= count) {
+    return;
+  }
+  // An event's own frame counts to its stage here.
+  size_t events = 0;
+  const SbTraceEvent *event = sb_trace_events(trace, &events);
+  size_t i = 0;
+  while (i + 1 < events && event[i + 1].mark.frame <= playhead->frame) {
+    i++;
+  }
+  double now = frames[playhead->frame].time, end = frames[count - 1].time;
+  double from = events > 0 ? event[i].mark.time : 0;
+  double to = i + 1 < events ? event[i + 1].mark.time : end;
+  playhead->place = (SbPlayheadPlace){.stage = events > 0 ? event[i].stage : SB_STAGE_A,
+                                      .cycle = events > 0 ? event[i].cycle : 0,
+                                      .share = to > from ? fmin((now - from) / (to - from), 1) : 0,
+                                      .time = now - from,
+                                      .whole = end > 0 ? now / end : 0};
+}
+
+void sb_playhead_return(SbPlayhead *playhead, const SbTrace *trace, const SbFrame *frames,
+                        size_t count, gboolean complete) {
+  playhead->waits = FALSE;
+  if (count == 0) {
+    playhead->frame = 0;
+    return;
+  }
+  const SbPlayheadPlace *place = &playhead->place;
+  size_t frame = count - 1;
+  if (!playhead->follows) {
+    const SbStageMark *mark = sb_trace_mark(trace, place->stage, place->cycle);
+    size_t last = sb_trace_stage_end(trace, place->stage, place->cycle, count);
+    double end = frames[count - 1].time;
+    double time = INFINITY;
+    if (mark != NULL && (complete || last + 1 < count)) {
+      time = mark->time + place->share * (frames[last].time - mark->time);
+    } else if (mark != NULL) {
+      time = mark->time + place->time; // how long the stage lasts here is not known yet
+    } else if (complete) {
+      time = place->whole * end;
+    }
+    playhead->waits = time > end && !complete;
+    if (mark != NULL && place->share == 0) {
+      frame = MIN(mark->frame, count - 1); // several frames may have an event's time
+    } else if (time < end) {
+      frame = sb_playhead_nearest(frames, count, time);
+    }
+  }
+  playhead->frame = frame;
+  playhead->time = frames[frame].time;
 }
 
 void sb_playhead_play(SbPlayhead *playhead, const SbFrame *frames, size_t count, gboolean on) {
@@ -52,6 +105,7 @@ void sb_playhead_play(SbPlayhead *playhead, const SbFrame *frames, size_t count,
   playhead->last = 0;
   if (playhead->playing) {
     playhead->follows = FALSE;
+    playhead->waits = FALSE;
     if (playhead->frame + 1 >= count) {
       playhead->frame = 0;
     }

@@ -20,10 +20,12 @@
 #include <string.h>
 
 enum {
-  INTERVAL = 33, // between drawings while something moves [ms]
-  EDGE = 4,      // of the picture beyond the section [px]
-  MARGIN = 16,   // beside the picture [px]
-  WIDE = 860     // from here the section has a column for legends and forces [px]
+  INTERVAL = 33,     // between drawings while something moves [ms]
+  EDGE = 4,          // of the picture beyond the section [px]
+  MARGIN = 16,       // beside the picture [px]
+  LOW = 480,         // below it a picture is too low for insets beside a section of
+  LEAST_STRIP = 200, // this height [px]
+  WIDE = 860         // from here the section has a column for legends and forces [px]
 };
 
 typedef struct {
@@ -31,7 +33,7 @@ typedef struct {
   GtkWidget *gl; // over the picture where the window's own GL draws it
   GtkWidget *box, *area, *field_combo, *inset_combo, *forces, *labels, *mesh, *empty, *toggles,
       *heading;
-  GtkWidget *cutaway;
+  GtkWidget *cutaway, *rest;
   SbSectionSource *source;
   SbDrawList list;
   SbText *text;
@@ -187,6 +189,13 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
     instant.ring[i] = sb_run_shape(now.run, now.frame->seal[i].shape);
   }
   sb_session_camera(view->session, &how.azimuth, &how.elevation);
+  // In a low picture the insets give way to the section, which then takes both its halves.
+  if (!cutaway && picture.height < LOW &&
+      sb_section_strip_height(now.section, &how, &instant) < LEAST_STRIP) {
+    how.hide_insets = TRUE;
+    how.full =
+        how.full || 2 * sb_section_strip_height(now.section, &how, &instant) < picture.height - 140;
+  }
   sb_section_draw(now.section, &view->list, &how, &instant);
   cairo_save(cr);
   cairo_rectangle(cr, 0, 0, area_width, picture.y + picture.height + 4);
@@ -218,8 +227,11 @@ static gboolean describe(gpointer data) {
                          ? _("Sliding plate on its rings")
                      : is_cutaway(view) ? cutaway
                                         : _("Axial section of the valve");
-  g_autofree char *text = where[0] != '\0' ? g_strdup_printf("%s, %s", what, where)
-                                           : g_strdup_printf(_("%s at rest"), what);
+  g_autofree char *at = where[0] != '\0' ? g_strdup_printf("%s, %s", what, where)
+                                         : g_strdup_printf(_("%s at rest, by closed forms"), what);
+  g_autofree char *former = sb_session_former_text(view->session);
+  g_autofree char *of = former != NULL ? g_strdup_printf(_(" Of the %s."), former) : NULL;
+  g_autofree char *text = g_strconcat(at, ".", of, NULL);
   sb_style_name(view->area, _("Section"), text);
   view->describe = 0;
   return G_SOURCE_REMOVE;
@@ -262,6 +274,11 @@ static void show_state(View *view) {
   follow_look(view);
   gtk_widget_queue_resize(view->gl);
   gtk_widget_set_visible(view->empty, sb_session_state(view->session) == SB_SESSION_EMPTY);
+  gtk_widget_set_visible(view->rest, sb_session_state(view->session) == SB_SESSION_RUNNING &&
+                                         sb_session_run(view->session) == NULL);
+  gboolean former = sb_session_shows_former(view->session);
+  sb_style_former(view->area, former);
+  sb_style_former(view->gl, former);
   // Only rings solved by finite elements have a field and a mesh to show.
   const SbRun *run = sb_session_run(view->session);
   gboolean solved = run != NULL && sb_run_plan(run)->section_fields;
@@ -269,13 +286,12 @@ static void show_state(View *view) {
   const SbModel *model = sb_session_model(view->session);
   gboolean rig = model != NULL && model->motion == SB_MODEL_MOTION_RIG;
   gtk_label_set_text(GTK_LABEL(view->heading), rig ? _("Rig") : _("Section"));
-  gtk_widget_set_visible(view->field_combo, !rig);
   gtk_widget_set_visible(view->inset_combo, !rig);
   gtk_widget_set_visible(view->toggles, !rig);
-  gtk_widget_set_sensitive(view->field_combo, solved);
-  gtk_widget_set_sensitive(view->mesh, solved);
-  gtk_widget_set_tooltip_text(view->mesh, solved ? _("Elements of solved rings")
-                                                 : _("Needs the fitment model ring"));
+  gtk_widget_set_visible(view->field_combo, solved && !rig);
+  gtk_widget_set_visible(view->mesh, solved);
+  // What those two need the heading gives, so that the toolbar is not cut.
+  gtk_widget_set_visible(view->heading, rig || !solved);
   on_change(view);
 }
 
@@ -453,6 +469,14 @@ static GtkWidget *linked_box(void) {
   return box;
 }
 
+// Lets a combo box be narrower than its longest item.
+static void shrink(GtkWidget *combo) {
+  g_autoptr(GList) cells = gtk_cell_layout_get_cells(GTK_CELL_LAYOUT(combo));
+  if (cells != NULL) {
+    g_object_set(cells->data, "ellipsize", PANGO_ELLIPSIZE_END, "width-chars", 9, NULL);
+  }
+}
+
 static GtkWidget *make_toolbar(View *view) {
   GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
   sb_style_class(bar, "sb-toolbar");
@@ -468,9 +492,11 @@ static GtkWidget *make_toolbar(View *view) {
                                    sb_words(sb_section_field_name((SbField)i)));
   }
   gtk_combo_box_set_active(GTK_COMBO_BOX(view->field_combo), 0);
+  shrink(view->field_combo);
+  gtk_widget_set_no_show_all(view->field_combo, TRUE);
   sb_style_name(view->field_combo, _("Field"), _("What the colours of solved rings show"));
   g_signal_connect_swapped(view->field_combo, "changed", G_CALLBACK(on_change), view);
-  gtk_box_pack_start(GTK_BOX(bar), view->field_combo, FALSE, FALSE, 0);
+  gtk_box_pack_start(GTK_BOX(bar), view->field_combo, FALSE, TRUE, 0);
 
   view->inset_combo = gtk_combo_box_text_new();
   gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "outer",
@@ -479,9 +505,10 @@ static GtkWidget *make_toolbar(View *view) {
                             _("Insets: inner seal"));
   gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "none", _("No insets"));
   gtk_combo_box_set_active(GTK_COMBO_BOX(view->inset_combo), 0);
+  shrink(view->inset_combo);
   sb_style_name(view->inset_combo, _("Insets"), _("Which seal's contact the insets enlarge"));
   g_signal_connect_swapped(view->inset_combo, "changed", G_CALLBACK(on_change), view);
-  gtk_box_pack_start(GTK_BOX(bar), view->inset_combo, FALSE, FALSE, 0);
+  gtk_box_pack_start(GTK_BOX(bar), view->inset_combo, FALSE, TRUE, 0);
 
   GtkWidget *toggles = linked_box();
   view->forces = toggle_new(view, _("Forces"), _("Force arrows"), TRUE, GTK_BOX(toggles));
@@ -494,6 +521,7 @@ static GtkWidget *make_toolbar(View *view) {
                  FALSE, GTK_BOX(toggles));
   g_signal_connect_swapped(view->cutaway, "toggled", G_CALLBACK(on_cutaway), view);
   view->mesh = toggle_new(view, _("Mesh"), _("Elements of solved rings"), FALSE, GTK_BOX(toggles));
+  gtk_widget_set_no_show_all(view->mesh, TRUE);
   gtk_box_pack_start(GTK_BOX(bar), toggles, FALSE, FALSE, 0);
   view->toggles = toggles;
 
@@ -561,6 +589,17 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   g_signal_connect(view->gl, "motion-notify-event", G_CALLBACK(on_motion), view);
   view->empty = make_empty();
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->empty);
+  // Whatever models are being run, the valve at rest is drawn by closed forms.
+  view->rest =
+      gtk_label_new(_("Being computed. Until its first frame: the valve at rest, by closed "
+                      "forms."));
+  sb_style_class(view->rest, "sb-empty");
+  gtk_label_set_line_wrap(GTK_LABEL(view->rest), TRUE);
+  gtk_widget_set_halign(view->rest, GTK_ALIGN_CENTER);
+  gtk_widget_set_valign(view->rest, GTK_ALIGN_START);
+  gtk_widget_set_margin_top(view->rest, 70);
+  gtk_widget_set_no_show_all(view->rest, TRUE);
+  gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->rest);
   gtk_box_pack_start(GTK_BOX(view->box), overlay, TRUE, TRUE, 0);
 
   g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_scroll), view);

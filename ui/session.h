@@ -22,7 +22,8 @@ typedef enum {
   SB_SESSION_EMPTY,   // nothing has run
   SB_SESSION_RUNNING, // a run is under way (or about to start)
   SB_SESSION_DONE,    // the shown run is complete and belongs to the values
-  SB_SESSION_PARTIAL, // the shown run was cancelled: its frames so far stand
+  SB_SESSION_PARTIAL, // the shown run was cancelled: its frames so far stand. A run cancelled
+                      // before its first frame leaves the shown run, and its state, as they are
   SB_SESSION_FAILED   // the last run failed; the last good state is shown
 } SbSessionState;
 
@@ -127,6 +128,11 @@ const char *sb_session_pinned_name(SbSession *session);
 // True if the shown run is not of the present values; then `*id` is a parameter in which it differs
 // (-1 if several do) and `*value` the shown run's value [SI].
 gboolean sb_session_is_stale(SbSession *session, int *id, double *value);
+
+// True while the pictures are of former values and no run is about to replace them: views then show
+// them paler. The text names that run, "run with modulus 2.5 MPa" (g_free), and is NULL otherwise.
+gboolean sb_session_shows_former(SbSession *session);
+char *sb_session_former_text(SbSession *session);
 
 // The same as a sentence for pictures: "stale: this run is with modulus 2.5 MPa"; NULL if the shown
 // run is of the present values. Owned by the caller (g_free).

@@ -19,6 +19,7 @@ void sb_session_set_playhead(SbSession *session, size_t frame) {
   session->playhead.frame = MIN(frame, count - 1);
   session->playhead.time = frames[session->playhead.frame].time;
   session->playhead.follows = session->playhead.frame + 1 == count;
+  session->playhead.waits = FALSE;
   sb_session_playhead_changed(session);
 }
 
@@ -34,8 +35,7 @@ void sb_session_step_event(SbSession *session, int direction) {
   if (session->shown == NULL || count == 0) {
     return;
   }
-  size_t frame = sb_playhead_event(&session->playhead, sb_trace_marks(session->shown->trace), count,
-                                   direction);
+  size_t frame = sb_playhead_event(&session->playhead, session->shown->trace, count, direction);
   sb_session_play(session, FALSE);
   sb_session_set_playhead(session, frame);
 }
@@ -73,14 +73,19 @@ char *sb_session_where(SbSession *session) {
   }
   // On the frame of an event its letter; in between the two letters.
   const char *stage = sb_chart_span(&session->chart.run, frame->stage);
-  const SbStageMark *marks = sb_trace_marks(session->shown->trace);
-  for (int i = 0; i < SB_STAGE_COUNT; i++) {
-    if (marks[i].reached && marks[i].frame == session->playhead.frame) {
-      stage = sb_stage_name((SbStage)i);
+  size_t events = 0;
+  const SbTraceEvent *event = sb_trace_events(session->shown->trace, &events);
+  int cycle = 0;
+  for (size_t i = 0; i < events && event[i].mark.frame <= session->playhead.frame; i++) {
+    cycle = event[i].cycle;
+    if (event[i].mark.frame == session->playhead.frame) {
+      stage = sb_stage_name(event[i].stage);
     }
   }
-  char displacement[SB_FORMAT_MAX], force[SB_FORMAT_MAX];
+  char displacement[SB_FORMAT_MAX], force[SB_FORMAT_MAX], name[SB_FORMAT_MAX];
   sb_format_text(displacement, SB_QUANTITY_LENGTH, frame->displacement, 0);
   sb_format_text(force, SB_QUANTITY_FORCE, frame->force, 0);
-  return g_strdup_printf(_("stage %s, %s, %s"), stage, displacement, force);
+  sb_chart_cycle_name(name, &session->chart.run, cycle);
+  g_autofree char *where = g_strdup_printf(_("stage %s, %s, %s"), stage, displacement, force);
+  return name[0] != '\0' ? g_strdup_printf("%s, %s", where, name) : g_steal_pointer(&where);
 }

@@ -38,8 +38,9 @@ struct _SbSession {
   SbSessionState state;
   char *failure;
   gboolean auto_run;
-  guint debounce; // source of the delayed start
-  gint64 started; // [us]
+  guint debounce;  // source of the delayed start
+  gboolean former; // the displayed run is of former values, and stays
+  gint64 started;  // [us]
 
   double azimuth, elevation; // of the cutaway's camera [rad]
 

@@ -5,6 +5,7 @@
 #include "ui/session_private.h"
 
 #include "app/chart/format.h"
+#include "ui/words.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -27,19 +28,29 @@ static SbShownRun **slot(SbShownRun **slot, SbShownRun *value) {
 
 // What views see ---------------------------------------------------------------------------------
 
-static SbChartState chart_state(SbSessionState state) {
-  switch (state) {
-  case SB_SESSION_RUNNING:
-    return SB_CHART_RUNNING;
-  case SB_SESSION_PARTIAL:
-    return SB_CHART_PARTIAL;
-  case SB_SESSION_FAILED:
-    return SB_CHART_FAILED;
-  case SB_SESSION_DONE:
-    return SB_CHART_DONE;
+// What the displayed run is; whether it is of the present values is another question.
+static SbSessionState displayed_state(const SbSession *session) {
+  switch (session->shown != NULL ? session->shown->chart.state : SB_CHART_EMPTY) {
+  case SB_CHART_RUNNING:
+  case SB_CHART_PARTIAL:
+    return SB_SESSION_PARTIAL;
+  case SB_CHART_FAILED:
+    return SB_SESSION_FAILED;
+  case SB_CHART_DONE:
+    return SB_SESSION_DONE;
   default:
-    return SB_CHART_EMPTY;
+    return SB_SESSION_EMPTY;
   }
+}
+
+// Whether the displayed run is of former values and nothing is about to replace it: an edit that a
+// short run answers at once does not make the pictures flicker.
+static gboolean shows_former(SbSession *session) {
+  if (session->shown == NULL || session->debounce != 0 ||
+      (session->ticket != 0 && g_get_monotonic_time() - session->started <= WATCH_US)) {
+    return FALSE;
+  }
+  return sb_session_is_stale(session, NULL, NULL);
 }
 
 static void refresh_chart(SbSession *session) {
@@ -47,9 +58,10 @@ static void refresh_chart(SbSession *session) {
   memset(chart, 0, sizeof *chart);
   if (session->shown != NULL) {
     chart->run = session->shown->chart;
-    // The run before is complete, whatever becomes of the new one.
-    chart->run.state =
-        session->shown == session->fresh ? chart_state(session->state) : SB_CHART_DONE;
+  } else if (session->ticket != 0) {
+    // Nothing to show before the first frame; the axes are those of the values.
+    chart->run.state = SB_CHART_RUNNING;
+    chart->run.model = sb_session_model(session);
   }
   chart->earlier = session->earlier != NULL ? &session->earlier->chart : NULL;
   chart->pinned = session->pinned != NULL ? &session->pinned->chart : NULL;
@@ -65,6 +77,7 @@ static void refresh_chart(SbSession *session) {
 static void run_changed(SbSession *session) {
   g_free(session->hash);
   session->hash = sb_document_sha256(session->document);
+  session->former = shows_former(session);
   refresh_chart(session);
   sb_session_emit(session, SB_SIGNAL_RUN);
 }
@@ -81,36 +94,29 @@ const SbChartData *sb_session_chart(SbSession *session) {
 
 // Showing ----------------------------------------------------------------------------------------
 
-// Puts the fresh run in front; what was shown before stays behind it.
-static void show_fresh(SbSession *session) {
+// Displays the fresh run, which has frames; the run before stays behind it until it is complete.
+// The playhead keeps its place.
+static void display_fresh(SbSession *session) {
   if (session->shown == session->fresh) {
     return;
+  }
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  if (session->shown != NULL) {
+    sb_playhead_remember(&session->playhead, session->shown->trace, frames, count);
   }
   slot(&session->earlier, session->shown);
   slot(&session->shown, session->fresh);
 }
 
-// Keeps the playhead at the same share of the cycle when another run is shown.
-static void carry_playhead(SbSession *session, double share) {
+static void place_playhead(SbSession *session) {
   size_t count = 0;
   const SbFrame *frames = sb_session_frames(session, &count);
-  if (count == 0) {
-    session->playhead.frame = 0;
-  } else if (session->playhead.follows) {
-    session->playhead.frame = count - 1;
-  } else {
-    session->playhead.frame = sb_playhead_nearest(frames, count, share * frames[count - 1].time);
-    session->playhead.time = frames[session->playhead.frame].time;
-  }
-}
-
-static double playhead_share(SbSession *session) {
-  size_t count = 0;
-  const SbFrame *frames = sb_session_frames(session, &count);
-  if (count == 0 || session->playhead.frame >= count || frames[count - 1].time <= 0) {
-    return 1;
-  }
-  return frames[session->playhead.frame].time / frames[count - 1].time;
+  const SbTrace *trace = session->shown != NULL ? session->shown->trace : NULL;
+  gboolean complete = session->shown != NULL && session->shown->chart.state == SB_CHART_DONE &&
+                      sb_shown_run_complete(session->shown);
+  sb_playhead_return(&session->playhead, trace, frames, count, complete);
+  session->playhead.waits = session->playhead.waits && !session->playhead.playing;
 }
 
 // Job --------------------------------------------------------------------------------------------
@@ -136,48 +142,38 @@ static void set_failure(SbSession *session, SbStatus status, const SbReport *rep
     g_string_append_printf(text,
                            _(" Pictures show its last good state, up to %.2f s of the cycle."),
                            frames[count - 1].time);
-  } else if (session->shown != NULL) {
-    g_string_append(text, _(" Pictures show the run before."));
   }
   g_free(session->failure);
   session->failure = g_string_free(g_steal_pointer(&text), FALSE);
 }
 
+// A run that ends without a frame, failed or cancelled, leaves the displayed one as it is.
 static void finish(SbSession *session) {
   SbShownRun *fresh = session->fresh;
   SbStatus status = sb_run_handle_status(fresh->handle);
-  double share = playhead_share(session);
   session->ticket = 0;
   fresh->chart.summary = sb_run_summary(fresh->run);
   fresh->chart.life = sb_run_life(fresh->run, &fresh->chart.life_count);
+  fresh->chart.state = status == SB_OK                ? SB_CHART_DONE
+                       : status == SB_ERROR_CANCELLED ? SB_CHART_PARTIAL
+                                                      : SB_CHART_FAILED;
   g_clear_pointer(&session->failure, g_free);
-  if (status == SB_OK) {
-    session->state = SB_SESSION_DONE;
-    fresh->chart.state = SB_CHART_DONE;
-  } else if (status == SB_ERROR_CANCELLED) {
-    session->state = SB_SESSION_PARTIAL;
-    fresh->chart.state = SB_CHART_PARTIAL;
-  } else {
-    session->state = SB_SESSION_FAILED;
-    fresh->chart.state = SB_CHART_FAILED;
+  if (fresh->chart.state == SB_CHART_FAILED) {
     set_failure(session, status, sb_run_handle_report(fresh->handle));
   }
-
-  // A failed run shows its own last good state if it got anywhere, else the run before it does.
   size_t count = 0;
   sb_run_frames(fresh->run, &count);
   if (count > 0) {
-    slot(&session->shown, fresh);
-  } else if (session->shown == fresh) {
-    slot(&session->shown, session->earlier);
+    gboolean watched = session->shown == fresh;
+    display_fresh(session);
+    // A short run is read at once; a long one goes on being read by the ticks.
+    sb_shown_run_update(fresh, FRAMES_PER_TICK);
+    if (!watched || session->playhead.follows || session->playhead.waits) {
+      place_playhead(session);
+    }
   }
   slot(&session->earlier, NULL);
-
-  // A short run is read at once; a long one goes on being read by the ticks.
-  if (session->shown == fresh) {
-    sb_shown_run_update(fresh, FRAMES_PER_TICK);
-  }
-  carry_playhead(session, share);
+  session->state = session->failure != NULL ? SB_SESSION_FAILED : displayed_state(session);
   run_changed(session);
   sb_session_emit(session, SB_SIGNAL_FRAMES);
   sb_session_playhead_changed(session);
@@ -251,9 +247,17 @@ static void start_now(SbSession *session) {
   if (!session->model_valid) {
     return;
   }
-  // A run that this one overtakes while it was being watched makes room for the one before it.
-  if (session->ticket != 0 && session->shown == session->fresh && session->earlier != NULL) {
-    slot(&session->shown, session->earlier);
+  // A run that this one overtakes while it was being watched makes room for the one before it, or
+  // stays as the part that it is.
+  if (session->ticket != 0 && session->shown != NULL && session->shown == session->fresh) {
+    session->shown->chart.state = SB_CHART_PARTIAL;
+    if (session->earlier != NULL) {
+      size_t count = 0;
+      const SbFrame *frames = sb_session_frames(session, &count);
+      sb_playhead_remember(&session->playhead, session->shown->trace, frames, count);
+      slot(&session->shown, session->earlier);
+      place_playhead(session);
+    }
   }
   slot(&session->earlier, NULL);
   slot(&session->fresh, NULL);
@@ -289,10 +293,10 @@ void sb_session_values_changed(SbSession *session) {
     g_source_remove(session->debounce);
     session->debounce = 0;
   }
-  if (same || !session->model_valid || !session->auto_run) {
-    return;
+  if (!same && session->model_valid && session->auto_run) {
+    session->debounce = g_timeout_add(DEBOUNCE_MS, on_debounced, session);
   }
-  session->debounce = g_timeout_add(DEBOUNCE_MS, on_debounced, session);
+  session->former = shows_former(session);
 }
 
 void sb_session_start(SbSession *session) {
@@ -308,7 +312,7 @@ void sb_session_stop(SbSession *session) {
   if (session->ticket != 0 && session->fresh == NULL) {
     // It never began.
     session->ticket = 0;
-    session->state = session->shown != NULL ? SB_SESSION_DONE : SB_SESSION_EMPTY;
+    session->state = displayed_state(session);
     run_changed(session);
   }
 }
@@ -380,6 +384,24 @@ gboolean sb_session_is_stale(SbSession *session, int *id, double *value) {
   return found > 0;
 }
 
+gboolean sb_session_shows_former(SbSession *session) {
+  return session->former;
+}
+
+char *sb_session_former_text(SbSession *session) {
+  int id = -1;
+  double value = 0;
+  if (!session->former || !sb_session_is_stale(session, &id, &value)) {
+    return NULL;
+  }
+  if (id < 0) {
+    return g_strdup(_("run of earlier values"));
+  }
+  g_autofree char *label = sb_words_inside(sb_param((SbParamId)id)->label);
+  g_autofree char *shown = sb_param_format((SbParamId)id, value);
+  return g_strdup_printf(_("run with %s %s"), label, shown);
+}
+
 char *sb_session_stale_text(SbSession *session) {
   int id = -1;
   double value = 0;
@@ -418,22 +440,25 @@ const char *sb_session_pinned_name(SbSession *session) {
 // Ticks -------------------------------------------------------------------------------------------
 
 void sb_session_tick(SbSession *session, gint64 now) {
-  gboolean more = FALSE;
   look(session);
   if (session->ticket != 0 && session->fresh != NULL && session->shown != session->fresh &&
       g_get_monotonic_time() - session->started > WATCH_US) {
-    show_fresh(session);
-    session->playhead.follows = TRUE;
-    sb_shown_run_update(session->fresh, FRAMES_PER_TICK);
+    size_t published = 0;
+    sb_run_frames(session->fresh->run, &published);
+    if (published > 0) {
+      display_fresh(session);
+      sb_shown_run_update(session->fresh, FRAMES_PER_TICK);
+      place_playhead(session);
+      run_changed(session);
+      sb_session_playhead_changed(session);
+    }
+  }
+  gboolean more = session->shown != NULL && sb_shown_run_update(session->shown, FRAMES_PER_TICK);
+  if (more && (session->playhead.follows || session->playhead.waits)) {
+    place_playhead(session);
+  }
+  if (session->former != shows_former(session)) {
     run_changed(session);
-    more = TRUE;
-  }
-  if (session->shown != NULL) {
-    more = sb_shown_run_update(session->shown, FRAMES_PER_TICK) || more;
-  }
-  if (more && session->playhead.follows && session->shown->chart.count > 0) {
-    session->playhead.frame = session->shown->chart.count - 1;
-    session->playhead.time = session->shown->chart.frames[session->playhead.frame].time;
   }
   if (more || session->ticket != 0) {
     refresh_chart(session);

@@ -50,6 +50,10 @@ static void refresh_models(Bar *bar) {
                               ? g_strdup_printf(_("motion %s"), motion)
                               : g_strdup_printf(_("fit %s, film %s, surface %s, motion %s"), fit,
                                                 film, surface, motion);
+  if (run == NULL && sb_session_state(bar->session) == SB_SESSION_RUNNING) {
+    g_autofree char *computed = g_steal_pointer(&text);
+    text = g_strdup_printf(_("being computed: %s"), computed);
+  }
   gtk_label_set_text(GTK_LABEL(bar->models), text);
 }
 
@@ -87,8 +91,15 @@ static void refresh_warnings(Bar *bar, const SbSummary *summary) {
   }
   g_list_free(rows);
   size_t count = summary != NULL ? summary->warnings.count + summary->warnings.dropped : 0;
-  for (size_t i = 0; summary != NULL && i < summary->warnings.count; i++) {
-    add_warning(bar, &summary->warnings.item[i]);
+  // The serious first.
+  size_t serious = 0;
+  for (int pass = 1; summary != NULL && pass >= 0; pass--) {
+    for (size_t i = 0; i < summary->warnings.count; i++) {
+      if (sb_warning_is_serious(summary->warnings.item[i].code) == (pass == 1)) {
+        add_warning(bar, &summary->warnings.item[i]);
+        serious += pass == 1;
+      }
+    }
   }
   // What shapes in the files said against given values when the document was opened.
   const GPtrArray *notes = sb_document_notes(sb_session_document(bar->session));
@@ -98,7 +109,8 @@ static void refresh_warnings(Bar *bar, const SbSummary *summary) {
   }
   gtk_widget_show_all(bar->list);
   g_autofree char *text =
-      count > 0        ? g_strdup_printf(ngettext("%zu warning", "%zu warnings", count), count)
+      serious > 0      ? g_strdup_printf(_("%zu serious of %zu warnings"), serious, count)
+      : count > 0      ? g_strdup_printf(ngettext("%zu warning", "%zu warnings", count), count)
       : notes->len > 0 ? g_strdup_printf(ngettext("%u note", "%u notes", notes->len), notes->len)
                        : g_strdup(_("No warnings"));
   gtk_label_set_text(GTK_LABEL(bar->count), text);

@@ -91,8 +91,12 @@ static void refresh(Studies *studies) {
   gtk_label_set_text(GTK_LABEL(studies->help), sb_words(sb_study_help(chosen(studies))));
   AtkObject *accessible = gtk_widget_get_accessible(studies->area);
   g_autofree char *text =
-      studies->study != NULL ? sb_study_text(studies->study) : g_strdup(_("No study yet."));
+      studies->study == NULL ? g_strdup(_("No study yet."))
+      : busy ? g_strdup(_("A study is being computed; the picture is of the one before."))
+             : sb_study_text(studies->study);
   atk_object_set_description(accessible, text);
+  // The picture is of a former study while another is computed, of former values once they changed.
+  sb_style_former(studies->area, studies->study != NULL && (busy || is_stale(studies)));
   sb_picture_change(studies->picture, 0);
 }
 
@@ -174,7 +178,10 @@ static void compute(Studies *studies) {
   studies->asked_hash = sb_document_sha256(document);
   studies->asked_scene = sb_document_to_flat_text(document);
   g_autofree char *text =
-      g_strdup_printf(_("Computing: %s"), sb_words(sb_study_title(studies->asked)));
+      studies->study != NULL
+          ? g_strdup_printf(_("Computing: %s. The picture is of the study before."),
+                            sb_words(sb_study_title(studies->asked)))
+          : g_strdup_printf(_("Computing: %s"), sb_words(sb_study_title(studies->asked)));
   say(studies, text, NULL);
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(studies->progress), 0);
   studies->job = sb_study_job_start(studies->asked, model, on_done, studies);

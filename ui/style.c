@@ -3,6 +3,8 @@
 // here.
 #include "ui/style.h"
 
+#include "app/chart/theme.h"
+
 #include "sealbench-resources.h"
 
 #include <string.h>
@@ -64,6 +66,10 @@ void sb_style_name(GtkWidget *widget, const char *name, const char *description)
   if (description != NULL) {
     atk_object_set_description(accessible, description);
   }
+}
+
+void sb_style_former(GtkWidget *picture, gboolean former) {
+  gtk_widget_set_opacity(picture, former ? SB_OPACITY_EARLIER : 1);
 }
 
 void sb_style_class(GtkWidget *widget, const char *name) {

@@ -14,5 +14,8 @@ gboolean sb_style_is_dark(void);
 // Gives `widget` an accessible name; `description` may be NULL.
 void sb_style_name(GtkWidget *widget, const char *name, const char *description);
 
+// Shows a picture of former values paler than one of the present values.
+void sb_style_former(GtkWidget *picture, gboolean former);
+
 // Adds a style class.
 void sb_style_class(GtkWidget *widget, const char *name);

@@ -159,6 +159,7 @@ static void on_playhead(View *view) {
 
 static void on_frames(View *view) {
   refresh_speeds(view);
+  sb_style_former(view->area, sb_session_shows_former(view->session));
   size_t count = 0;
   sb_session_frames(view->session, &count);
   gtk_widget_set_sensitive(view->play, count > 1);
@@ -256,6 +257,7 @@ GtkWidget *sb_timeline_view_new(SbSession *session) {
 
   g_signal_connect(box, "destroy", G_CALLBACK(on_destroy), view);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_frames), view);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_frames), view);
   g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_frames), view);
   g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(on_playhead), view);
   gtk_widget_show_all(box);

@@ -101,7 +101,23 @@ static void set_strip(SbWindow *window, const char *kind, const char *text, cons
   }
 }
 
-// What is wrong with the values or the run, and the one button that mends it.
+// What the displayed run found of the valve that nobody may miss, in full sentences; NULL if
+// nothing.
+static char *findings_text(const SbSummary *summary) {
+  g_autoptr(GString) text = g_string_new(NULL);
+  for (size_t i = 0; summary != NULL && i < summary->warnings.count; i++) {
+    const SbWarning *warning = &summary->warnings.item[i];
+    if (sb_warning_is_serious(warning->code)) {
+      gsize start = text->len + (text->len > 0 ? 1 : 0);
+      g_string_append_printf(text, "%s%s.", text->len > 0 ? " " : "", warning->text);
+      text->str[start] = g_ascii_toupper(text->str[start]);
+    }
+  }
+  return text->len > 0 ? g_string_free(g_steal_pointer(&text), FALSE) : NULL;
+}
+
+// What is wrong with the values or the run and the one button that mends it, or else what the run
+// found.
 static void refresh_strip(SbWindow *window) {
   SbSession *session = window->session;
   const char *failure = sb_session_failure(session);
@@ -109,6 +125,7 @@ static void refresh_strip(SbWindow *window) {
   int wrong = sb_session_first_error(session);
   int differs = -1;
   double value = 0;
+  g_autofree char *former = sb_session_former_text(session);
   window->strip_id = -1;
   if (wrong >= 0) {
     const SbParam *param = sb_param((SbParamId)wrong);
@@ -132,30 +149,27 @@ static void refresh_strip(SbWindow *window) {
     window->strip_value = old;
     set_strip(window, "warn", text, button);
   } else if (failure != NULL) {
-    set_strip(window, "error", failure, _("Run again"));
-  } else if (sb_session_state(session) == SB_SESSION_PARTIAL) {
+    g_autofree char *text = former != NULL
+                                ? g_strdup_printf(_("%s Pictures show the %s."), failure, former)
+                                : g_strdup(failure);
+    set_strip(window, "error", text, _("Run again"));
+  } else if (sb_session_state(session) == SB_SESSION_PARTIAL && former == NULL) {
     size_t count = 0;
     const SbFrame *frames = sb_session_frames(session, &count);
     g_autofree char *text =
-        count > 0
-            ? g_strdup_printf(_("Cancelled after %.1f s of the cycle: the pictures are partial."),
-                              frames[count - 1].time)
-            : g_strdup(_("Cancelled before the first frame."));
+        g_strdup_printf(_("Cancelled after %.1f s of the cycle: the pictures are partial."),
+                        count > 0 ? frames[count - 1].time : 0);
     set_strip(window, "warn", text, _("Run again"));
-  } else if (sb_session_state(session) != SB_SESSION_RUNNING &&
-             sb_session_is_stale(session, &differs, &value)) {
-    g_autofree char *text = NULL;
-    if (differs >= 0) {
-      g_autofree char *label = sb_words_inside(sb_param((SbParamId)differs)->label);
-      g_autofree char *shown = sb_param_format((SbParamId)differs, value);
-      text = g_strdup_printf(_("Values have changed. Pictures show the run with %s %s."), label,
-                             shown);
-    } else {
-      text = g_strdup(_("Values have changed. Pictures show an earlier run."));
-    }
-    set_strip(window, "warn", text, _("Run"));
+  } else if (former != NULL) {
+    gboolean running = sb_session_state(session) == SB_SESSION_RUNNING;
+    g_autofree char *text =
+        g_strdup_printf(running ? _("Until the first new frame the pictures show the %s.")
+                                : _("Values have changed. Pictures show the %s."),
+                        former);
+    set_strip(window, "warn", text, running ? NULL : _("Run"));
   } else {
-    set_strip(window, "warn", NULL, NULL);
+    g_autofree char *findings = findings_text(sb_session_summary(session));
+    set_strip(window, "warn", findings, NULL);
   }
 }
 
@@ -181,12 +195,12 @@ static void refresh_run_state(SbWindow *window) {
     text = g_strdup(_("Run failed"));
     style = "sb-error";
     icon = "dialog-error-symbolic";
-  } else if (state == SB_SESSION_PARTIAL) {
-    text = g_strdup(_("Partial run"));
+  } else if (sb_session_shows_former(session)) {
+    text = g_strdup(_("Earlier run"));
     style = "sb-warn";
     icon = "dialog-warning-symbolic";
-  } else if (sb_session_is_stale(session, NULL, NULL)) {
-    text = g_strdup(_("Earlier run"));
+  } else if (state == SB_SESSION_PARTIAL) {
+    text = g_strdup(_("Partial run"));
     style = "sb-warn";
     icon = "dialog-warning-symbolic";
   }
@@ -529,7 +543,15 @@ static void sb_window_init(SbWindow *window) {
   }
 
   // The parts.
-  sb_columns_attach(GTK_PANED(window->columns), GTK_PANED(window->views));
+  GtkWidget *charts = gtk_toggle_button_new();
+  gtk_container_add(GTK_CONTAINER(charts),
+                    gtk_image_new_from_icon_name("view-dual-symbolic", GTK_ICON_SIZE_BUTTON));
+  gtk_widget_show_all(charts);
+  gtk_widget_set_visible(charts, FALSE);
+  gtk_widget_set_tooltip_text(charts, _("Charts beside the section"));
+  sb_style_name(charts, _("Charts"), NULL);
+  gtk_header_bar_pack_end(GTK_HEADER_BAR(window->header), charts);
+  sb_columns_attach(GTK_PANED(window->columns), GTK_PANED(window->views), charts);
   window->panel = sb_param_panel_new(window->session);
   gtk_box_pack_start(GTK_BOX(window->left_column), window->panel, TRUE, TRUE, 0);
   gtk_box_pack_start(GTK_BOX(window->left_column), sb_derived_panel_new(window->session), FALSE,

@@ -149,13 +149,13 @@ double sb_canvas_text_plate(SbCanvas *canvas, const char *text, const SbTextStyl
   return sb_canvas_text(canvas, text, style, x, y, align);
 }
 
-double sb_canvas_text_fit(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
-                          double y, double width) {
+static double text_fit(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
+                       double y, double width, PangoEllipsizeMode where) {
   shape(canvas, text, style);
   double natural = advance(canvas);
   if (natural > width) {
     pango_layout_set_width(canvas->layout, (int)(fmax(width, 1) * PANGO_SCALE));
-    pango_layout_set_ellipsize(canvas->layout, PANGO_ELLIPSIZE_END);
+    pango_layout_set_ellipsize(canvas->layout, where);
     natural = width;
   }
   sb_canvas_color(canvas, style->color, alpha_of(style));
@@ -163,6 +163,16 @@ double sb_canvas_text_fit(SbCanvas *canvas, const char *text, const SbTextStyle 
   pango_cairo_show_layout(canvas->cr, canvas->layout);
   cairo_new_path(canvas->cr);
   return natural;
+}
+
+double sb_canvas_text_fit(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
+                          double y, double width) {
+  return text_fit(canvas, text, style, x, y, width, PANGO_ELLIPSIZE_END);
+}
+
+double sb_canvas_text_fit_ends(SbCanvas *canvas, const char *text, const SbTextStyle *style,
+                               double x, double y, double width) {
+  return text_fit(canvas, text, style, x, y, width, PANGO_ELLIPSIZE_MIDDLE);
 }
 
 double sb_canvas_paragraph(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,

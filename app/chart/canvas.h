@@ -56,6 +56,10 @@ double sb_canvas_text_plate(SbCanvas *canvas, const char *text, const SbTextStyl
 double sb_canvas_text_fit(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
                           double y, double width);
 
+// The same, cut in the middle: both ends tell one name from another.
+double sb_canvas_text_fit_ends(SbCanvas *canvas, const char *text, const SbTextStyle *style,
+                               double x, double y, double width);
+
 // A paragraph broken at words to fit `width`, its top at y. Returns its height.
 double sb_canvas_paragraph(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
                            double y, double width);

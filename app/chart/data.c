@@ -75,6 +75,17 @@ const char *sb_chart_phase(const SbChartRun *run, int stage) {
   }
 }
 
+const char *sb_chart_cycle_name(char *out, const SbChartRun *run, int cycle) {
+  const SbModel *m = run->model;
+  out[0] = '\0';
+  if (m && m->life_actuations > 1 && m->life_shown > 1) {
+    g_snprintf(out, SB_FORMAT_MAX, "actuation %d", cycle == 0 ? 1 : m->life_shown);
+  } else if (m && m->cycles > 1 && !sb_chart_is_rig(run)) {
+    g_snprintf(out, SB_FORMAT_MAX, "cycle %d", cycle + 1);
+  }
+  return out;
+}
+
 const char *sb_chart_span(const SbChartRun *run, int stage) {
   if (sb_chart_is_rig(run) && stage == SB_STAGE_B) {
     return "B";

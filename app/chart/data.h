@@ -76,6 +76,10 @@ bool sb_chart_complete(const SbChartData *data);
 // What happens after stage `stage` until the next: "both seals slide".
 const char *sb_chart_phase(const SbChartRun *run, int stage);
 
+// "actuation 400" or "cycle 2" of a run that shows several, counted from 0; "" where there is one.
+// Written to `out` of SB_FORMAT_MAX bytes, which is returned.
+const char *sb_chart_cycle_name(char *out, const SbChartRun *run, int cycle);
+
 // "B-C" with an en dash: the stage a frame is in and the next; "B" where none follows. `run` may be
 // NULL: a valve.
 const char *sb_chart_span(const SbChartRun *run, int stage);

@@ -294,8 +294,7 @@ static void draw_arrows(SbHysteresisView *v) {
       continue;
     }
     size_t first = mark[s].frame;
-    size_t last =
-        s + 1 < SB_STAGE_COUNT && mark[s + 1].reached ? mark[s + 1].frame : run->count - 1;
+    size_t last = sb_trace_stage_end(run->trace, (SbStage)s, 0, run->count);
     if (s == SB_STAGE_D) {
       last = top_of_stop(run, first, last);
     }

@@ -150,21 +150,18 @@ static void label_curve(SbHysteresisView *v, const char *text, SbRole role, cons
   }
 }
 
-// Point of the curve at a share of the way in time between two stages.
-static bool between(const SbHysteresisView *v, int stage, double share, SbPoint *out) {
+// Point of the curve at a share of the way in frames from a stage of a cycle to what follows it.
+static bool between(const SbHysteresisView *v, int stage, int cycle, double share, SbPoint *out) {
   const SbChartRun *run = &v->data->run;
-  const SbStageMark *mark = sb_trace_marks(run->trace);
-  if (!mark[stage].reached) {
+  const SbStageMark *mark = sb_trace_mark(run->trace, (SbStage)stage, cycle);
+  if (mark == NULL) {
     return false;
   }
-  size_t first = mark[stage].frame;
-  bool next = stage + 1 < SB_STAGE_COUNT && mark[stage + 1].reached;
-  if (!next && !(stage == SB_STAGE_F && sb_chart_complete(v->data))) {
-    return false;
-  }
-  size_t last = next ? mark[stage + 1].frame : run->count - 1;
-  if (last < first) {
-    return false; // stages out of order
+  size_t first = mark->frame;
+  size_t last = sb_trace_stage_end(run->trace, (SbStage)stage, cycle, run->count);
+  bool ends = stage == SB_STAGE_F && sb_chart_complete(v->data);
+  if (last < first || (last + 1 >= run->count && !ends)) {
+    return false; // stages out of order, or this one is not over yet
   }
   size_t i = first + (size_t)(share * (double)(last - first));
   *out = sb_hysteresis_pixel(&v->at, run->frames[i].displacement, run->frames[i].force);
@@ -235,7 +232,7 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
                   4);
     }
   }
-  if (between(v, SB_STAGE_C, 0.5, &p)) {
+  if (between(v, SB_STAGE_C, 0, 0.5, &p)) {
     label_curve(v, "in-stroke", SB_ROLE_INK,
                 (SbPlace[]){{p.x, p.y - 10, SB_MIDDLE},
                             {p.x, p.y + 19, SB_MIDDLE},
@@ -243,12 +240,21 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
                             {p.x - 50, p.y - 10, SB_MIDDLE}},
                 4);
   }
-  if (between(v, SB_STAGE_E, 0.32, &p)) {
+  if (between(v, SB_STAGE_E, 0, 0.32, &p)) {
     label_curve(v, "return", SB_ROLE_INK,
                 (SbPlace[]){{p.x, p.y + 17, SB_MIDDLE},
                             {p.x, p.y - 10, SB_MIDDLE},
                             {p.x - 40, p.y + 17, SB_MIDDLE}},
                 3);
+  }
+  // The second of two loops beside its own in-stroke; more than two are too many to name.
+  if (between(v, SB_STAGE_B, 1, 0.5, &p) && !sb_trace_mark(run->trace, SB_STAGE_B, 2)) {
+    label_curve(v, sb_chart_cycle_name(text, run, 1), SB_ROLE_INK,
+                (SbPlace[]){{p.x, p.y + 17, SB_MIDDLE},
+                            {p.x, p.y - 8, SB_MIDDLE},
+                            {p.x + 30, p.y + 17, SB_MIDDLE},
+                            {p.x + 60, p.y + 17, SB_MIDDLE}},
+                4);
   }
   if (v->data->pinned && v->data->pinned->trace) {
     // Beside the pinned run's own in-stroke.
@@ -256,7 +262,7 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
     SbChartData shown = *v->data;
     shown.run = *v->data->pinned;
     other.data = &shown;
-    if (between(&other, SB_STAGE_C, 0.05, &p)) {
+    if (between(&other, SB_STAGE_C, 0, 0.05, &p)) {
       g_snprintf(text, sizeof text, "%s%s", v->data->pinned_name ? "pinned run: " : "pinned run",
                  v->data->pinned_name ? v->data->pinned_name : "");
       double end =

@@ -321,10 +321,19 @@ void sb_page_foot_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbP
     double head_width = sb_canvas_text_width(c, head, &warn_bold) + 8;
     double space = right - warn_left - head_width;
     g_autoptr(GString) line = g_string_new(NULL);
-    size_t shown = 0;
+    // The serious first, so that none of them is among the number of the others.
+    const char *texts[SB_WARNINGS_MAX];
+    size_t shown = 0, ordered = 0;
+    for (int pass = 1; pass >= 0; pass--) {
+      for (size_t i = 0; i < list->count; i++) {
+        if (sb_warning_is_serious(list->item[i].code) == (pass == 1)) {
+          texts[ordered++] = list->item[i].text;
+        }
+      }
+    }
     while (shown < list->count) {
       g_autofree char *tried =
-          g_strdup_printf("%s%s%s", line->str, shown ? ";  " : "", list->item[shown].text);
+          g_strdup_printf("%s%s%s", line->str, shown ? ";  " : "", texts[shown]);
       char rest[32] = "";
       if (warnings - shown - 1 > 0) {
         g_snprintf(rest, sizeof rest, "  and %zu more", warnings - shown - 1);

@@ -135,9 +135,10 @@ typedef struct {
   const SbStudy *study;
   const SbStudyPanel *panel;
   SbLabels *labels;
-  SbRect plot;
+  SbRect card, plot;
   SbScale x, y;
   double x_unit, y_unit; // shown per SI
+  bool empty;            // no value at all: no range to tell either
 } Plot;
 
 static double unit_of(const SbStudyAxis *axis) {
@@ -188,7 +189,8 @@ static void set_scales(Plot *plot) {
     y.hi = fmin(all.hi, y.hi + more);
     y.lo = fmax(all.lo, y.lo - more);
   }
-  if (!(y.hi >= y.lo)) {
+  plot->empty = !(y.hi >= y.lo);
+  if (plot->empty) {
     y = log_y ? (Span){0.1, 10} : (Span){0, 1};
   }
   if (log_y) {
@@ -215,10 +217,20 @@ static void set_scales(Plot *plot) {
   plot->y = (SbScale){y.lo, y.hi, r.y + r.height, r.y, log_y};
 }
 
-// "10" to a small power as digits, else as 10 with an exponent.
+// Evenly spaced marks too small or too large for plain digits get a power of ten, the same on all
+// of them; "10" to a small power as digits, else as 10 with an exponent.
 static void tick_text(char *out, const SbTicks *ticks, double value, bool logarithmic) {
   if (!logarithmic || ticks->step > 0) {
-    sb_format_fixed(out, value, ticks->decimals);
+    double most = fabs(ticks->value[ticks->count - 1]);
+    most = fmax(most, fabs(ticks->value[0]));
+    int exponent = most > 0 ? (int)floor(log10(most) + 1e-9) : 0;
+    if (value == 0 || (exponent > -4 && exponent < 6)) {
+      sb_format_fixed(out, value, ticks->decimals);
+      return;
+    }
+    char number[SB_FORMAT_MAX], power[SB_FORMAT_MAX];
+    sb_format_fixed(number, value / pow(10, exponent), MAX(ticks->decimals + exponent, 0));
+    g_snprintf(out, SB_FORMAT_MAX, "%s\xc2\xb7%s", number, sb_format_power(power, exponent));
   } else if (value >= 0.999e-3 && value < 1.001e4) {
     sb_format_digits(out, value, 1);
   } else {
@@ -242,6 +254,22 @@ static void make_ticks(SbTicks *out, const SbScale *scale, double room) {
   }
 }
 
+// Makes room for the numbers of the upright axis, whose range does not depend on the plot's width.
+static void fit_numbers(Plot *plot) {
+  SbTextStyle label = sb_canvas_style(plot->canvas, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  char text[SB_FORMAT_MAX];
+  SbTicks ticks;
+  double widest = 0, left = plot->plot.x;
+  make_ticks(&ticks, &plot->y, plot->plot.height * 1.4);
+  for (int i = 0; i < ticks.count && !plot->empty; i++) {
+    tick_text(text, &ticks, ticks.value[i], plot->y.logarithmic);
+    widest = fmax(widest, sb_canvas_text_width(plot->canvas, text, &label));
+  }
+  plot->plot.x = fmax(left, plot->card.x + 4 + ceil(widest) + 8);
+  plot->plot.width -= plot->plot.x - left;
+  set_scales(plot);
+}
+
 static void draw_axes(Plot *plot) {
   SbCanvas *c = plot->canvas;
   SbRect r = plot->plot;
@@ -250,7 +278,7 @@ static void draw_axes(Plot *plot) {
   char text[SB_FORMAT_MAX];
   SbTicks ticks;
   make_ticks(&ticks, &plot->y, r.height * 1.4);
-  for (int i = 0; i < ticks.count; i++) {
+  for (int i = 0; i < ticks.count && !plot->empty; i++) {
     double y = sb_axis_at(&plot->y, ticks.value[i]);
     sb_canvas_hairline(c, r.x, y, r.x + r.width, y, sb_canvas_role(c, SB_ROLE_GRID));
     tick_text(text, &ticks, ticks.value[i], plot->y.logarithmic);
@@ -273,7 +301,10 @@ static void draw_axes(Plot *plot) {
   const SbStudyAxis *axis = &plot->study->x;
   g_autofree char *title =
       g_strdup_printf("%s%s%s", axis->quantity, axis->unit[0] ? " / " : "", axis->unit);
-  sb_canvas_text(c, title, &label, r.x + r.width, bottom + 35, SB_RIGHT);
+  // Under the plot's right end; a title longer than that begins at the card's left.
+  double left = plot->card.x + 12, width = sb_canvas_text_width(c, title, &label);
+  sb_canvas_text_fit(c, title, &label, fmax(r.x + r.width - width, left), bottom + 35,
+                     plot->card.x + plot->card.width - 12 - left);
 }
 
 static void draw_marks(Plot *plot) {
@@ -405,7 +436,7 @@ static void draw_gutter(Plot *plot, Name *name, int count, double width) {
     cairo_move_to(c->cr, name[i].end.x + 4, name[i].end.y);
     cairo_line_to(c->cr, x - 4, name[i].y);
     cairo_stroke(c->cr);
-    sb_canvas_text_fit(c, name[i].series->name, &style, x, name[i].y + 4.3, width - 22);
+    sb_canvas_text_fit_ends(c, name[i].series->name, &style, x, name[i].y + 4.3, width - 22);
   }
 }
 
@@ -475,14 +506,16 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
       .study = study,
       .panel = panel,
       .labels = labels,
+      .card = rect,
       .plot = {rect.x + pad + 36, rect.y + TITLE, rect.width - 2 * pad - 30 - gutter,
                fmax(rect.height - TITLE - FOOT, 20)},
       .x_unit = unit_of(&study->x),
       .y_unit = unit_of(&panel->y),
   };
+  set_scales(&plot);
+  fit_numbers(&plot);
   SbRect r = plot.plot;
   sb_labels_init(labels, (SbRect){r.x - 2, r.y - 10, r.width + 14, r.height + 10});
-  set_scales(&plot);
   draw_axes(&plot);
   SbPoint *points[SB_STUDY_SERIES];
   for (size_t s = 0; s < panel->series_count; s++) {
@@ -500,7 +533,9 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
   draw_marks(&plot);
   if (name_series(&plot, points, gutter) == 0) {
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
-    sb_canvas_text_halo(c, panel->empty, &note, r.x + r.width / 2, r.y + r.height / 2, SB_MIDDLE);
+    double half = fmin(sb_canvas_text_width(c, panel->empty, &note), rect.width - 2 * pad) / 2;
+    double x = CLAMP(r.x + r.width / 2, rect.x + pad + half, rect.x + rect.width - pad - half);
+    sb_canvas_text_fit(c, panel->empty, &note, x - half, r.y + r.height / 2, 2 * half + 1);
   }
   for (size_t s = 0; s < panel->series_count; s++) {
     g_free(points[s]);

@@ -46,7 +46,9 @@ typedef struct {
   double top, bottom;
   SbLabels *labels;
   const SbChartData *data;
-  int stage;  // under the playhead, -1 without one
+  const SbTraceEvent *event; // of all cycles, `events` of them
+  int events;
+  int now;    // index of the event whose stage is under the playhead, -1 without one
   bool whole; // no playhead
 } View;
 
@@ -66,21 +68,25 @@ static void hatch(View *v, double x0, double x1) {
   cairo_restore(cr);
 }
 
+// Pixels of the strip that an event begins.
+static void strip_of(const View *v, int event, double *x0, double *x1) {
+  double last = sb_trace_range(v->data->run.trace).time_max;
+  *x0 = sb_axis_at(&v->x, v->event[event].mark.time);
+  *x1 = sb_axis_at(&v->x, event + 1 < v->events ? v->event[event + 1].mark.time : last);
+}
+
 // Strips from event to event; the current one in the colour of *now*.
 static void draw_strips(View *v) {
   SbCanvas *c = &v->canvas;
-  const SbStageMark *mark = sb_trace_marks(v->data->run.trace);
   double last = sb_trace_range(v->data->run.trace).time_max;
-  for (int s = 0; s < SB_STAGE_COUNT; s++) {
-    if (!mark[s].reached) {
-      continue;
-    }
-    double end = s + 1 < SB_STAGE_COUNT && mark[s + 1].reached ? mark[s + 1].time : last;
-    double x0 = sb_axis_at(&v->x, mark[s].time), x1 = sb_axis_at(&v->x, end);
-    if (s == v->stage) {
+  for (int i = 0; i < v->events; i++) {
+    double x0, x1;
+    strip_of(v, i, &x0, &x1);
+    if (i == v->now) {
       sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_NOW), c->theme->dark ? 0.20 : 0.11);
     } else {
-      sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), s % 2 == 0 ? 0.075 : 0.035);
+      sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK),
+                      v->event[i].stage % 2 == 0 ? 0.075 : 0.035);
     }
     cairo_rectangle(c->cr, x0, v->top, x1 - x0, v->bottom - v->top);
     cairo_fill(c->cr);
@@ -119,26 +125,31 @@ static void draw_displacement(View *v) {
 static void draw_events(View *v) {
   SbCanvas *c = &v->canvas;
   SbTextStyle letter = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
-  const SbStageMark *mark = sb_trace_marks(v->data->run.trace);
   double taken = -1e9;
   double right = v->rect.x + v->rect.width;
   // Letters keep off the playhead's triangle.
   const SbFrame *frame = v->whole ? NULL : sb_chart_frame(v->data);
   double now = frame ? sb_axis_at(&v->x, frame->time) : -1e9;
-  for (int s = 0; s < SB_STAGE_COUNT; s++) {
-    if (!mark[s].reached) {
-      continue;
+  for (int i = 0; i < v->events; i++) {
+    const char *name = sb_stage_name(v->event[i].stage);
+    double x = sb_axis_at(&v->x, v->event[i].mark.time);
+    if (i > 0 && v->event[i].cycle != v->event[i - 1].cycle) {
+      // A cycle ends and the next one begins.
+      sb_canvas_pen(c, 1.6, NULL);
+      sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
+      cairo_move_to(c->cr, floor(x) + 0.5, v->top - 3);
+      cairo_line_to(c->cr, floor(x) + 0.5, v->bottom + 6);
+      cairo_stroke(c->cr);
     }
-    double x = sb_axis_at(&v->x, mark[s].time);
     sb_canvas_hairline(c, x, v->top - 3, x, v->bottom, sb_canvas_role(c, SB_ROLE_AXIS));
     // Letters stand apart by at least 4 px, to the right of their line if they must.
-    double width = sb_canvas_text_width(c, sb_stage_name((SbStage)s), &letter);
+    double width = sb_canvas_text_width(c, name, &letter);
     double left = fmax(x - 0.5 * width, fmax(taken + 4, v->rect.x));
     if (left < now + 8 && left + width > now - 8) {
       left = now + 8;
     }
     if (left + width <= right && left - x < 18) {
-      sb_canvas_text(c, sb_stage_name((SbStage)s), &letter, left, v->top - 7, SB_LEFT);
+      sb_canvas_text(c, name, &letter, left, v->top - 7, SB_LEFT);
       taken = left + width;
     }
   }
@@ -199,6 +210,32 @@ static void draw_markers(View *v) {
   }
 }
 
+// Which of several cycles begins here, in the first of its strips that has room.
+static void draw_cycles(View *v) {
+  SbCanvas *c = &v->canvas;
+  SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
+  int named = -1;
+  for (int i = 0; i < v->events; i++) {
+    char text[SB_FORMAT_MAX];
+    double x0, x1;
+    SbPlace at;
+    strip_of(v, i, &x0, &x1);
+    if (v->event[i].cycle == named ||
+        sb_chart_cycle_name(text, &v->data->run, v->event[i].cycle)[0] == '\0' ||
+        sb_canvas_text_width(c, text, &style) + 12 > x1 - x0) {
+      continue;
+    }
+    const SbPlace places[] = {{x0 + 8, v->top + 16, SB_LEFT},
+                              {x0 + 8, v->bottom - 9, SB_LEFT},
+                              {x1 - 6, v->top + 16, SB_RIGHT},
+                              {x1 - 6, v->bottom - 9, SB_RIGHT}};
+    if (sb_labels_place(v->labels, c, text, &style, places, G_N_ELEMENTS(places), &at)) {
+      sb_canvas_text(c, text, &style, at.x, at.y, at.align);
+      named = v->event[i].cycle;
+    }
+  }
+}
+
 static void draw_names(View *v) {
   SbCanvas *c = &v->canvas;
   const SbChartRun *run = &v->data->run;
@@ -207,14 +244,11 @@ static void draw_names(View *v) {
   SbTextStyle now = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_NOW);
   double last = sb_trace_range(run->trace).time_max;
   SbPlace at;
-  for (int s = 0; s < SB_STAGE_COUNT; s++) {
-    if (!mark[s].reached) {
-      continue;
-    }
-    double end = s + 1 < SB_STAGE_COUNT && mark[s + 1].reached ? mark[s + 1].time : last;
-    double x0 = sb_axis_at(&v->x, mark[s].time), x1 = sb_axis_at(&v->x, end);
-    const char *text = sb_chart_phase(run, s);
-    const SbTextStyle *style = s == v->stage ? &now : &plain;
+  for (int i = 0; i < v->events; i++) {
+    double x0, x1;
+    strip_of(v, i, &x0, &x1);
+    const char *text = sb_chart_phase(run, v->event[i].stage);
+    const SbTextStyle *style = i == v->now ? &now : &plain;
     double width = sb_canvas_text_width(c, text, style);
     if (width + 16 > x1 - x0) {
       continue; // does not fit its own strip
@@ -271,7 +305,7 @@ static void draw_playhead(View *v) {
 
 void sb_timeline_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                       unsigned flags) {
-  View v = {.rect = rect, .data = data, .stage = -1, .whole = flags & SB_CHART_WHOLE};
+  View v = {.rect = rect, .data = data, .now = -1, .whole = flags & SB_CHART_WHOLE};
   sb_canvas_init(&v.canvas, cr, theme);
   v.top = rect.y + 18;
   v.bottom = rect.y + fmax(rect.height - 22, 40);
@@ -285,7 +319,12 @@ void sb_timeline_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCh
       stroke = fmax(stroke, data->run.model->stroke);
     }
     v.s = (SbScale){0, stroke > 0 ? stroke : 1, v.bottom - 4, v.top + 6, false};
-    v.stage = frame ? frame->stage : -1;
+    size_t events = 0;
+    v.event = sb_trace_events(data->run.trace, &events);
+    v.events = (int)events;
+    v.now = frame ? sb_trace_event_of(data->run.trace, data->run.frames,
+                                      (size_t)(frame - data->run.frames))
+                  : -1;
     v.labels = g_new(SbLabels, 1);
     sb_labels_init(v.labels, (SbRect){rect.x, v.top, rect.width, v.bottom - v.top});
     if (frame) {
@@ -297,6 +336,7 @@ void sb_timeline_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCh
     draw_displacement(&v);
     draw_events(&v);
     draw_markers(&v);
+    draw_cycles(&v);
     draw_names(&v);
     if (frame) {
       draw_playhead(&v);

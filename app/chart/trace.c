@@ -15,7 +15,10 @@ struct SbTrace {
   size_t consumed;
   double time_scale, displacement_scale, force_scale; // gap in each
   SbTraceRange range;
-  SbStageMark mark[SB_STAGE_COUNT];
+  SbStageMark mark[SB_STAGE_COUNT]; // of the first cycle
+  GArray *events;                   // SbTraceEvent
+  unsigned seen;                    // stages of the present cycle, a bit each
+  int cycle;
   SbFrame last;
   bool last_kept;
 };
@@ -24,6 +27,7 @@ SbTrace *sb_trace_create(const SbModel *model) {
   SbTrace *trace = g_new0(SbTrace, 1);
   trace->points = g_array_sized_new(FALSE, FALSE, sizeof(SbTracePoint), 4096);
   trace->peaks = g_array_new(FALSE, FALSE, sizeof(SbTracePoint));
+  trace->events = g_array_new(FALSE, FALSE, sizeof(SbTraceEvent));
   if (model && model->motion == SB_MODEL_MOTION_RIG) {
     const SbRig *rig = &model->rig;
     trace->displacement_scale = rig->speed * rig->duration / 4000;
@@ -44,6 +48,7 @@ void sb_trace_destroy(SbTrace *trace) {
   if (trace) {
     g_array_unref(trace->points);
     g_array_unref(trace->peaks);
+    g_array_unref(trace->events);
     g_free(trace);
   }
 }
@@ -63,8 +68,8 @@ static void thin_again(SbTrace *trace) {
   SbTracePoint *p = (SbTracePoint *)(void *)trace->points->data;
   for (guint i = 0; i < trace->points->len; i++) {
     bool event = false;
-    for (int s = 0; s < SB_STAGE_COUNT; s++) {
-      event = event || (trace->mark[s].reached && trace->mark[s].frame == p[i].frame);
+    for (guint e = 0; e < trace->events->len; e++) {
+      event = event || g_array_index(trace->events, SbTraceEvent, e).mark.frame == p[i].frame;
     }
     if (kept == 0 || event || i + 1 == trace->points->len ||
         far_apart(trace, &p[kept - 1], p[i].time, p[i].displacement, p[i].force)) {
@@ -82,9 +87,25 @@ static void keep(SbTrace *trace, const SbFrame *frame, size_t index) {
   g_array_append_val(trace->points, point);
 }
 
+// A cycle begins anew where the stage falls back from the stroke's end or the return to A or B; a
+// stem that rebounds from the stop stays in its cycle.
 static void mark(SbTrace *trace, int stage, const SbFrame *frame, size_t index) {
-  if (stage >= 0 && stage < SB_STAGE_COUNT && !trace->mark[stage].reached) {
-    trace->mark[stage] = (SbStageMark){true, frame->time, frame->displacement, frame->force, index};
+  if (stage < 0 || stage >= SB_STAGE_COUNT) {
+    return;
+  }
+  if (stage <= SB_STAGE_B && trace->seen >> (SB_STAGE_B + 1) != 0) {
+    trace->cycle++;
+    trace->seen = 0;
+  }
+  if ((trace->seen >> stage & 1u) != 0 || trace->events->len >= SB_TRACE_EVENTS_MAX) {
+    return;
+  }
+  trace->seen |= 1u << stage;
+  SbTraceEvent event = {
+      {true, frame->time, frame->displacement, frame->force, index}, (SbStage)stage, trace->cycle};
+  g_array_append_val(trace->events, event);
+  if (trace->cycle == 0) {
+    trace->mark[stage] = event.mark;
   }
 }
 
@@ -169,6 +190,45 @@ SbTraceRange sb_trace_range(const SbTrace *trace) {
 
 const SbStageMark *sb_trace_marks(const SbTrace *trace) {
   return trace->mark;
+}
+
+const SbTraceEvent *sb_trace_events(const SbTrace *trace, size_t *count) {
+  *count = trace->events->len;
+  return (const SbTraceEvent *)(const void *)trace->events->data;
+}
+
+static int find_event(const SbTrace *trace, SbStage stage, int cycle) {
+  for (guint i = 0; i < trace->events->len; i++) {
+    const SbTraceEvent *event = &g_array_index(trace->events, SbTraceEvent, i);
+    if (event->stage == stage && event->cycle == cycle) {
+      return (int)i;
+    }
+  }
+  return -1;
+}
+
+const SbStageMark *sb_trace_mark(const SbTrace *trace, SbStage stage, int cycle) {
+  int i = find_event(trace, stage, cycle);
+  return i >= 0 ? &g_array_index(trace->events, SbTraceEvent, (guint)i).mark : NULL;
+}
+
+size_t sb_trace_stage_end(const SbTrace *trace, SbStage stage, int cycle, size_t count) {
+  int i = find_event(trace, stage, cycle);
+  return i >= 0 && i + 1 < (int)trace->events->len
+             ? g_array_index(trace->events, SbTraceEvent, (guint)i + 1).mark.frame
+             : count - 1;
+}
+
+int sb_trace_event_of(const SbTrace *trace, const SbFrame *frames, size_t frame) {
+  size_t count = 0;
+  const SbTraceEvent *event = sb_trace_events(trace, &count);
+  int found = -1;
+  while (found + 1 < (int)count && event[found + 1].mark.frame <= frame) {
+    found++;
+  }
+  bool before = found > 0 && event[found].mark.frame == frame &&
+                frames[frame].stage != (uint8_t)event[found].stage;
+  return before ? found - 1 : found;
 }
 
 size_t sb_trace_find(const SbTrace *trace, size_t frame) {

@@ -40,8 +40,28 @@ typedef struct {
 
 SbTraceRange sb_trace_range(const SbTrace *trace);
 
-// Events met so far, just before each event.
+// Events of the first cycle met so far, just before each event.
 const SbStageMark *sb_trace_marks(const SbTrace *trace);
+
+// Events of every cycle met so far, in their order, the first of each stage in each cycle; at most
+// SB_TRACE_EVENTS_MAX. Borrowed until the next extend.
+typedef struct {
+  SbStageMark mark;
+  SbStage stage;
+  int cycle; // from 0
+} SbTraceEvent;
+
+enum { SB_TRACE_EVENTS_MAX = 600 };
+const SbTraceEvent *sb_trace_events(const SbTrace *trace, size_t *count);
+
+// A stage's event in a cycle, NULL if it is not met yet; and the frame where the stage ends: that
+// of the next event, or the last of `count` frames.
+const SbStageMark *sb_trace_mark(const SbTrace *trace, SbStage stage, int cycle);
+size_t sb_trace_stage_end(const SbTrace *trace, SbStage stage, int cycle, size_t count);
+
+// Index of the event whose stage a frame is in: the last at or before it, but an event's own frame
+// still belongs to the stage before. -1 without events.
+int sb_trace_event_of(const SbTrace *trace, const SbFrame *frames, size_t frame);
 
 // Peaks of a rig's force met so far, the first peak first, at most SB_TRACE_PEAKS_MAX; borrowed
 // until the next extend.

@@ -234,6 +234,14 @@ bool sb_quantity_parse(double *out, const char *text, const char *si, const char
   double value = is_power_of_ten(scale, &power)
                      ? read_decimal(copy, exponent_at, length, power)
                      : apply_scale(read_decimal(copy, exponent_at, length, 0), scale);
+  if (strcmp(unit, shown) != 0 && !is_power_of_ten(scale, &power)) {
+    // 0.3 inch is 7.62 mm, not the double beside it: noise in the last digits goes.
+    char near[SB_NUMBER_SIZE];
+    sb_number_round(near, sb_quantity_to_shown(value, si, shown), 15);
+    if (strlen(near) < 14) {
+      value = sb_quantity_from_shown(g_ascii_strtod(near, NULL), si, shown);
+    }
+  }
   if (!isfinite(value)) {
     fail(error, "\"%s\" is not a finite number", copy);
     goto done;
@@ -256,6 +264,14 @@ double sb_quantity_to_shown(double value, const char *si, const char *shown) {
     return value * round(inverse);
   }
   return value / scale.scale;
+}
+
+double sb_quantity_step(double value, const char *si, const char *shown, int power, double count) {
+  double steps = round(sb_quantity_to_shown(value, si, shown) / pow(10, power)) + count;
+  // By way of decimals: 163 steps of 0.01 mm are 1.63 mm, not 163 times the double next to 0.01.
+  char text[SB_NUMBER_SIZE];
+  sb_number_format_shifted(text, steps, -power);
+  return sb_quantity_from_shown(g_ascii_strtod(text, NULL), si, shown);
 }
 
 double sb_quantity_from_shown(double number, const char *si, const char *shown) {

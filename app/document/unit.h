@@ -41,6 +41,10 @@ char *sb_quantity_format(double value, const char *si, const char *shown);
 double sb_quantity_to_shown(double value, const char *si, const char *shown);
 double sb_quantity_from_shown(double number, const char *si, const char *shown);
 
+// The value that lies `count` steps of 10^power in unit `shown` from the step nearest to `value`:
+// exactly what its short decimal text reads as.
+double sb_quantity_step(double value, const char *si, const char *shown, int power, double count);
+
 // A catalogue value as text: with its unit, or the name of a choice, the names of flags with ';',
 // or a whole number. Owned by the caller.
 char *sb_param_format(SbParamId id, double value);

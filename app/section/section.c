@@ -448,6 +448,15 @@ static void lay_out(SbSection *section, Layout *layout) {
   section->y0 = view->full ? bottom - radius * scale / 2 : bottom;
 }
 
+double sb_section_strip_height(SbSection *section, const SbSectionView *view,
+                               const SbSectionInstant *instant) {
+  Layout layout = {0};
+  section->view = view;
+  section->instant = instant;
+  lay_out(section, &layout);
+  return (double)section->strip.height;
+}
+
 void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *view,
                      const SbSectionInstant *instant) {
   section->list = list;

@@ -81,6 +81,10 @@ double sb_section_field_scale(SbField field);
 void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *view,
                      const SbSectionInstant *instant);
 
+// Height that the strip of the valve would have in such a picture [px].
+double sb_section_strip_height(SbSection *section, const SbSectionView *view,
+                               const SbSectionInstant *instant);
+
 // What sb_section_draw() made of seal i: the ring's outline in the housing's frame, for checks and
 // hit tests. Valid after a draw; borrowed.
 const SbRingShape *sb_section_ring(const SbSection *section, int seal);

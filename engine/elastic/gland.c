@@ -47,8 +47,11 @@ const char *sb_band_text(SbBand band) {
   }
 }
 
-static SbBand judge(double value, double low, double high) {
-  return value < low ? SB_BAND_BELOW : value > high ? SB_BAND_ABOVE : SB_BAND_WITHIN;
+SbBand sb_band_of(double value, double low, double high) {
+  const double slack = 1e-9;
+  return value < low - slack * fabs(low)     ? SB_BAND_BELOW
+         : value > high + slack * fabs(high) ? SB_BAND_ABOVE
+                                             : SB_BAND_WITHIN;
 }
 
 SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *report) {
@@ -136,9 +139,9 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
     if (r->source[0] == '\0') {
       continue;
     }
-    r->band = judge(r->nominal, r->band_low, r->band_high);
-    const SbBand low = judge(r->worst_low, r->band_low, r->band_high);
-    const SbBand high = judge(r->worst_high, r->band_low, r->band_high);
+    r->band = sb_band_of(r->nominal, r->band_low, r->band_high);
+    const SbBand low = sb_band_of(r->worst_low, r->band_low, r->band_high);
+    const SbBand high = sb_band_of(r->worst_high, r->band_low, r->band_high);
     r->band_worst = low == SB_BAND_BELOW ? SB_BAND_BELOW : high;
   }
   return sb_succeed(report);

@@ -65,6 +65,10 @@ typedef enum { SB_BAND_NONE, SB_BAND_BELOW, SB_BAND_WITHIN, SB_BAND_ABOVE } SbBa
 // Word for a verdict: "below", "within", "above" or ""; borrowed.
 const char *sb_band_text(SbBand band);
 
+// Where a value lies against a band; an end of the band, met but for rounding (1e-9 of it), belongs
+// to the band: a squeeze of (1.6 - 1.36)/1.6 is 15 %. Infinite ends are open.
+SbBand sb_band_of(double value, double low, double high);
+
 typedef struct {
   const char *name;   // as in the list, borrowed
   const char *unit;   // "1" or "m"

@@ -61,6 +61,22 @@ static void draw(Fixture *f, size_t index) {
   sb_section_draw(f->section, &f->list, &f->view, &instant);
 }
 
+// In the room that a window of 1024 by 700 px leaves, both halves without insets are 240 px high.
+static void test_low_picture(void) {
+  Fixture f = {0};
+  fixture_open(&f);
+  f.view = (SbSectionView){.width = 660, .height = 420, .margin = 4, .read_outs = true};
+  SbSectionInstant instant = {.frame = f.frames};
+  double beside = sb_section_strip_height(f.section, &f.view, &instant);
+  f.view.hide_insets = true;
+  f.view.full = true;
+  double alone = sb_section_strip_height(f.section, &f.view, &instant);
+  g_test_message("%.0f px beside insets, %.0f px alone", beside, alone);
+  g_assert_cmpfloat(beside, <, 150);
+  g_assert_cmpfloat(alone, >=, 240);
+  fixture_close(&f);
+}
+
 // Area within 1e-6, no point beyond floor, walls or housing.
 static void test_ring_invariants(void) {
   Fixture f = {0};
@@ -345,6 +361,7 @@ static void test_no_growth(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/section/low-picture", test_low_picture);
   g_test_add_func("/section/ring-invariants", test_ring_invariants);
   g_test_add_func("/section/contact-bar", test_contact_bar);
   if (g_test_slow()) {

@@ -146,6 +146,63 @@ static void test_tables(void) {
 }
 
 // Nothing of a page lies over anything else, whatever the number of panels.
+// Number of pixels of a picture that are not its ground outside a rectangle.
+static size_t outside(cairo_surface_t *picture, SbRect rect, guint32 ground) {
+  cairo_surface_flush(picture);
+  size_t found = 0;
+  const unsigned char *data = cairo_image_surface_get_data(picture);
+  int stride = cairo_image_surface_get_stride(picture);
+  for (int y = 0; y < cairo_image_surface_get_height(picture); y++) {
+    const guint32 *row = (const guint32 *)(const void *)(data + (size_t)y * (size_t)stride);
+    for (int x = 0; x < cairo_image_surface_get_width(picture); x++) {
+      bool within = x >= rect.x - 1 && x < rect.x + rect.width + 1 && y >= rect.y - 1 &&
+                    y < rect.y + rect.height + 1;
+      found += !within && (row[x] & 0xffffff) != ground;
+    }
+  }
+  return found;
+}
+
+// A card keeps its numbers, names and titles to itself: one tiny value on a logarithmic axis, long
+// names of curves, a title longer than the plot, a card without values, wide and narrow.
+static void test_inside_the_card(void) {
+  static const double value[][2] = {{3.6e-9, 3.6e-9}, {3.6e-9, 5e-9}, {1e-14, 1e-2},
+                                    {4e7, 4.1e7},     {0, 0},         {0.2, 1.9}};
+  for (int which = 0; which < 2 * (int)G_N_ELEMENTS(value); which++) {
+    SbStudy *study = g_new0(SbStudy, 1);
+    study->x = (SbStudyAxis){"squeeze of the free section", "1", "%", false};
+    study->panel_count = 1;
+    SbStudyPanel *panel = &study->panel[0];
+    panel->y = (SbStudyAxis){"leak at rest", "1", "", which % 2 == 0};
+    g_strlcpy(panel->empty, "no leak: every contact is closed", sizeof panel->empty);
+    panel->series_count = 2;
+    for (int s = 0; s < 2; s++) {
+      SbStudySeries *series = &panel->series[s];
+      g_strlcpy(series->name, s == 0 ? "karaszkiewicz, 0.055 MPa" : "karaszkiewicz, 0.55 MPa",
+                sizeof series->name);
+      series->count = 2;
+      for (int i = 0; i < 2; i++) {
+        series->x[i] = 0.07 + 0.33 * i;
+        series->y[i] = value[which / 2][i] * (value[which / 2][i] > 0 ? 1 + 0.1 * s : NAN);
+      }
+    }
+    for (int width = 210; width <= 450; width += 40) {
+      cairo_surface_t *picture = cairo_image_surface_create(CAIRO_FORMAT_RGB24, 900, 340);
+      cairo_t *cr = cairo_create(picture);
+      cairo_set_source_rgb(cr, 1, 0, 1);
+      cairo_paint(cr);
+      SbRect rect = {200, 40, width, 260};
+      sb_study_draw(cr, rect, sb_theme(false), study);
+      cairo_destroy(cr);
+      size_t found = outside(picture, rect, 0xff00ff);
+      g_test_message("values %d, width %d: %zu pixels outside", which, width, found);
+      g_assert_cmpuint(found, ==, 0);
+      cairo_surface_destroy(picture);
+    }
+    g_free(study);
+  }
+}
+
 static void test_layout(void) {
   SbStudy *study = synthetic(1);
   for (size_t panels = 0; panels <= SB_STUDY_PANELS; panels++) {
@@ -184,6 +241,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/study/pictures", test_pictures);
   g_test_add_func("/study/text", test_text);
   g_test_add_func("/study/tables", test_tables);
+  g_test_add_func("/study/inside-the-card", test_inside_the_card);
   g_test_add_func("/study/layout", test_layout);
   return g_test_run();
 }

@@ -1,5 +1,6 @@
 // The thinned trace: bounded, complete, the same however the frames arrive; and finding the frame
 // under a point.
+#include "app/chart/format.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/timeline.h"
 #include "tests/app/synthetic.h"
@@ -20,6 +21,41 @@ static void test_events(void) {
     g_assert_cmpfloat(fabs(mark[s].displacement - place[s]), <, 1e-9);
     g_assert_cmpfloat(run.frames[mark[s].frame].force, ==, mark[s].force);
   }
+  synthetic_clear(&run);
+}
+
+// Events of a second cycle are marked like those of the first, and told apart from them; the first
+// cycle's marks stay its own.
+static void test_second_cycle(void) {
+  Synthetic run;
+  synthetic_init(&run, 1250, 1);
+  size_t count = 2 * run.count, events = 0;
+  SbFrame *frames = g_new(SbFrame, count);
+  for (size_t i = 0; i < count; i++) {
+    frames[i] = run.frames[i % run.count];
+    frames[i].time += i < run.count ? 0 : run.frames[run.count - 1].time;
+  }
+  SbTrace *trace = sb_trace_create(&run.model);
+  sb_trace_extend(trace, frames, count, 0);
+  const SbTraceEvent *event = sb_trace_events(trace, &events);
+  g_assert_cmpuint(events, ==, 2 * SB_STAGE_COUNT);
+  for (size_t i = 0; i < events; i++) {
+    g_assert_cmpint((int)event[i].stage, ==, (int)(i % SB_STAGE_COUNT));
+    g_assert_cmpint(event[i].cycle, ==, (int)(i / SB_STAGE_COUNT));
+  }
+  const SbStageMark *second = sb_trace_mark(trace, SB_STAGE_C, 1);
+  g_assert_cmpuint(second->frame, >=, run.count);
+  g_assert_cmpfloat(fabs(second->force - 27.4), <, 1e-6);
+  g_assert_cmpuint(sb_trace_marks(trace)[SB_STAGE_C].frame, <, run.count);
+  g_assert_cmpuint(sb_trace_stage_end(trace, SB_STAGE_F, 0, count), ==,
+                   sb_trace_mark(trace, SB_STAGE_A, 1)->frame);
+  g_assert_cmpint(sb_trace_event_of(trace, frames, second->frame + 1), ==, SB_STAGE_COUNT + 2);
+  SbModel life = {.life_actuations = 400, .life_shown = 400, .cycles = 1};
+  SbChartRun shown = {.model = &life};
+  char name[SB_FORMAT_MAX];
+  g_assert_cmpstr(sb_chart_cycle_name(name, &shown, 1), ==, "actuation 400");
+  sb_trace_destroy(trace);
+  g_free(frames);
   synthetic_clear(&run);
 }
 
@@ -136,6 +172,7 @@ static void test_timeline_hit(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/trace/events", test_events);
+  g_test_add_func("/trace/second-cycle", test_second_cycle);
   g_test_add_func("/trace/faithful", test_faithful);
   g_test_add_func("/trace/bounded", test_bounded);
   g_test_add_func("/trace/hit", test_hit);

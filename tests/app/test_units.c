@@ -124,6 +124,26 @@ static void test_format(void) {
 }
 
 // Any value of any parameter comes back as the same double.
+// Stepped by hand, a value stays one of few digits; so does one given in a unit of another system.
+static void test_steps(void) {
+  double value = 1.60e-3;
+  for (int i = 1; i <= 200; i++) {
+    value = sb_quantity_step(value, "m", "mm", -2, 1);
+    g_autofree char *text = sb_quantity_format(value, "m", "mm");
+    g_autofree char *wanted = g_strdup_printf("%g mm", (160 + i) / 100.0);
+    g_assert_cmpstr(text, ==, wanted);
+  }
+  g_assert_cmpfloat(sb_quantity_step(0.55e6, "Pa", "MPa", -3, -1), ==, 0.549e6);
+  g_assert_cmpfloat(sb_quantity_step(0, "m", "mm", -1, 0), ==, 0);
+  for (int i = 1; i < 100; i++) {
+    g_autofree char *inches = g_strdup_printf("%g inch", i / 10.0);
+    g_assert_true(sb_quantity_parse(&value, inches, "m", "mm", NULL));
+    g_autofree char *text = sb_quantity_format(value, "m", "mm");
+    g_autofree char *wanted = g_strdup_printf("%g mm", i * 254 / 100.0);
+    g_assert_cmpstr(text, ==, wanted);
+  }
+}
+
 static void test_round_trip(void) {
   GRand *random = g_rand_new_with_seed(7);
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
@@ -244,6 +264,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/units/parse", test_parse);
   g_test_add_func("/units/refused", test_refused);
   g_test_add_func("/units/format", test_format);
+  g_test_add_func("/units/steps", test_steps);
   g_test_add_func("/units/round-trip", test_round_trip);
   g_test_add_func("/units/temperatures", test_temperatures);
   g_test_add_func("/units/params", test_params);

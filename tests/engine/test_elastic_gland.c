@@ -59,6 +59,18 @@ static void test_thesis_valve(void) {
 }
 
 // Ranges by hand: squeeze 1 - g/d at its corners, and its linear RSS.
+// An end of a band that a value meets but for rounding belongs to the band: (1.6 - 1.36)/1.6 is
+// below the double 0.15.
+static void test_on_the_band(void) {
+  double squeeze = (1.6e-3 - 1.36e-3) / 1.6e-3;
+  g_assert_cmpint(sb_band_of(squeeze, 0.15, 0.25), ==, SB_BAND_WITHIN);
+  g_assert_cmpint(sb_band_of(0.25 * (1 + 1e-15), 0.15, 0.25), ==, SB_BAND_WITHIN);
+  g_assert_cmpint(sb_band_of(0.1499999, 0.15, 0.25), ==, SB_BAND_BELOW);
+  g_assert_cmpint(sb_band_of(0.2500001, 0.15, 0.25), ==, SB_BAND_ABOVE);
+  g_assert_cmpint(sb_band_of(-1e-9, 0, INFINITY), ==, SB_BAND_BELOW);
+  g_assert_cmpint(sb_band_of(1e9, -INFINITY, INFINITY), ==, SB_BAND_WITHIN);
+}
+
 static void test_tolerances(void) {
   SbGland gland = thesis();
   SbGlandReadout out[SB_GLAND_COUNT];
@@ -120,6 +132,7 @@ static void test_refusals(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/gland/thesis-valve", test_thesis_valve);
+  g_test_add_func("/gland/on-the-band", test_on_the_band);
   g_test_add_func("/gland/tolerances", test_tolerances);
   g_test_add_func("/gland/refusals", test_refusals);
   return g_test_run();

@@ -67,12 +67,12 @@ class Slow(AssertionError):
 class App:
     SENSITIVE = pyatspi.STATE_SENSITIVE
 
-    def __init__(self, *files, env=None, theme="light"):
+    def __init__(self, *files, env=None, theme="light", size=(1260, 900)):
         self.folder = tempfile.mkdtemp(prefix="sealbench-ui-")
         config = os.path.join(self.folder, "sealbench")
         os.makedirs(config)
         with open(os.path.join(config, "window.ini"), "w") as out:
-            out.write("[window]\ntheme=%s\nwidth=1260\nheight=900\n" % theme)
+            out.write("[window]\ntheme=%s\nwidth=%d\nheight=%d\n" % (theme, *size))
         self.latency_path = os.path.join(self.folder, "latency.json")
         surroundings = dict(os.environ, XDG_CONFIG_HOME=self.folder, XDG_DATA_HOME=self.folder,
                             SEALBENCH_LATENCY=self.latency_path, NO_AT_BRIDGE="0",

@@ -85,6 +85,44 @@ def saved_values_come_back(folder):
         assert app.value("Modulus") == "2.5 MPa"
 
 
+def one_run_is_shown_and_values_keep_their_digits(folder):
+    path = scene(folder)
+    with App(path) as app:
+        wait("the first run", app.run_done)
+        # Until solved rings have a first frame, all that is shown is the run before, and says so.
+        app.choose("Fitment", "ring")
+        wait("the former run's name", lambda: app.label(
+            r"^Until the first new frame the pictures show the run with fitment karaszkiewicz\.$"))
+        assert app.label(r"^fit karaszkiewicz,"), "models of another run"
+        assert app.label(r"^run with fitment karaszkiewicz$"), "derived values of another run"
+        app.press("push button", "Stop")
+        wait("the strip", lambda: app.label(
+            r"^Values have changed\. Pictures show the run with fitment karaszkiewicz\.$"))
+        assert not app.label(r"(?i)partial") and app.label(r"^Earlier run$")
+        app.press("push button", "Undo")
+        wait("no strip", lambda: not app.label(r"Pictures show|^Earlier run$"))
+        # On the band is in the band; the playhead stays at its event.
+        app.press("push button", "Previous event")
+        app.press("push button", "Previous event")
+        wait("stage E", lambda: app.status().startswith("stage E,"))
+        app.edit("Section diameter", "1.6 mm")
+        wait("15 %", lambda: app.all("label", re.compile(r"^Squeeze 15\.0\s% pass$")))
+        # Stepped by the keys, and saved, a value stays short.
+        app.field("Section diameter").queryComponent().grabFocus()
+        for text in ("1.61 mm", "1.62 mm", "1.63 mm"):
+            app.key("Up")
+            wait(text, lambda: app.value("Section diameter") == text)
+        app.press("push button", "Save")
+        wait("saved", lambda: not app.label(r"edited"))
+        with open(path) as file:
+            assert "section_diameter = 1.63 mm\n" in file.read()
+        app.unfold("Output")
+        app.edit("Frames", "100000")
+        count = app.label_node(r"^\d+ frames")
+        wait("the long run", lambda: app.text(count).startswith("1000") and " in " in app.text(count))
+        assert app.status().startswith("stage E,"), app.status()
+
+
 def closing_asks_about_changes(folder):
     with App(scene(folder)) as app:
         wait("the first run", app.run_done)
@@ -167,6 +205,6 @@ def unsaved_changes_survive_a_crash(folder):
 if __name__ == "__main__":
     main(edit_with_a_unit_changes_the_breakaway_force, bad_values_stay_in_their_field,
          values_that_do_not_go_together_are_told_at_their_field, undo_and_redo,
-         saved_values_come_back,
+         saved_values_come_back, one_run_is_shown_and_values_keep_their_digits,
          unsaved_changes_survive_a_crash, closing_asks_about_changes,
          broken_files_are_told_in_one_dialog, search_finds_parameters)

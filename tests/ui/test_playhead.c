@@ -19,23 +19,64 @@ static void test_nearest(void) {
   g_assert_cmpuint(sb_playhead_nearest(frames, 1, 5), ==, 0);
 }
 
-static void test_events(void) {
+// A trace whose stages A, B and C begin at frames 0, 10 and 40, for `count` frames.
+static SbTrace *trace_of(size_t count) {
   fill();
+  for (int i = 0; i < COUNT; i++) {
+    frames[i].stage = i <= 10 ? SB_STAGE_A : i <= 40 ? SB_STAGE_B : SB_STAGE_C;
+  }
+  SbTrace *trace = sb_trace_create(NULL);
+  sb_trace_extend(trace, frames, count, 0);
+  return trace;
+}
+
+static void test_events(void) {
   SbPlayhead playhead;
   sb_playhead_init(&playhead);
-  SbStageMark marks[SB_STAGE_COUNT] = {{.reached = true, .frame = 0},
-                                       {.reached = true, .frame = 10},
-                                       {.reached = true, .frame = 40},
-                                       {.reached = false, .frame = 50}};
+  SbTrace *trace = trace_of(COUNT);
   playhead.frame = 10;
-  g_assert_cmpuint(sb_playhead_event(&playhead, marks, COUNT, 1), ==, 40);
-  g_assert_cmpuint(sb_playhead_event(&playhead, marks, COUNT, -1), ==, 0);
+  g_assert_cmpuint(sb_playhead_event(&playhead, trace, COUNT, 1), ==, 40);
+  g_assert_cmpuint(sb_playhead_event(&playhead, trace, COUNT, -1), ==, 0);
   playhead.frame = 40;
-  // The event that was not reached is none; the end is.
-  g_assert_cmpuint(sb_playhead_event(&playhead, marks, COUNT, 1), ==, COUNT - 1);
-  // An event beyond the frames that are there is none either.
+  // After the last event the end.
+  g_assert_cmpuint(sb_playhead_event(&playhead, trace, COUNT, 1), ==, COUNT - 1);
+  // An event beyond the frames that are there is none.
   playhead.frame = 5;
-  g_assert_cmpuint(sb_playhead_event(&playhead, marks, 8, 1), ==, 7);
+  g_assert_cmpuint(sb_playhead_event(&playhead, trace, 8, 1), ==, 7);
+  sb_trace_destroy(trace);
+}
+
+// The place is found again in a run with other frames, as soon as the run has come to it.
+static void test_place(void) {
+  SbPlayhead playhead;
+  sb_playhead_init(&playhead);
+  playhead.follows = FALSE;
+  playhead.frame = 25; // half way from B to C
+  SbTrace *trace = trace_of(COUNT);
+  sb_playhead_remember(&playhead, trace, frames, COUNT);
+  g_assert_cmpint(playhead.place.stage, ==, SB_STAGE_B);
+  sb_trace_destroy(trace);
+  // While the run grows: its newest frame, then the place.
+  trace = trace_of(20);
+  sb_playhead_return(&playhead, trace, frames, 20, FALSE);
+  g_assert_true(playhead.waits);
+  g_assert_cmpuint(playhead.frame, ==, 19);
+  sb_playhead_remember(&playhead, trace, frames, 20); // the place stays what it was
+  sb_trace_destroy(trace);
+  trace = trace_of(COUNT);
+  sb_playhead_return(&playhead, trace, frames, COUNT, TRUE);
+  g_assert_false(playhead.waits);
+  g_assert_cmpuint(playhead.frame, ==, 25);
+  // On an event's frame it stays on the event.
+  playhead.frame = 40;
+  sb_playhead_remember(&playhead, trace, frames, COUNT);
+  sb_playhead_return(&playhead, trace, frames, COUNT, TRUE);
+  g_assert_cmpuint(playhead.frame, ==, 40);
+  // At the end it follows the end.
+  playhead.follows = TRUE;
+  sb_playhead_return(&playhead, trace, frames, COUNT, TRUE);
+  g_assert_cmpuint(playhead.frame, ==, COUNT - 1);
+  sb_trace_destroy(trace);
 }
 
 static void test_play(void) {
@@ -94,6 +135,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/playhead/nearest", test_nearest);
   g_test_add_func("/playhead/events", test_events);
+  g_test_add_func("/playhead/place", test_place);
   g_test_add_func("/playhead/play", test_play);
   g_test_add_func("/playhead/loop", test_loop);
   g_test_add_func("/playhead/nothing", test_nothing);

@@ -3,7 +3,9 @@ import glob
 import os
 import re
 
-from harness import ASSETS, App, main, wait
+import pyatspi
+
+from harness import ASSETS, App, main, scene, wait
 
 
 def shown(app, path):
@@ -53,5 +55,24 @@ def the_rig_shows_its_coefficients(folder):
         wait("the first slip", lambda: app.status().startswith("stage B"))
 
 
+def a_small_window_leaves_room_for_the_section(folder):
+    path = scene(folder).replace("thesis-cycle", "roughness-plus-30")
+    with App(path, size=(1024, 700)) as app:
+        # What nobody may miss stands in words.
+        wait("the finding", lambda: app.label(r"^The stem does not return: least return force"))
+        app.find("toggle button", "1 serious of 6 warnings")
+        # The charts have given way; nothing of the toolbar is cut.
+        toggle = app.find("toggle button", "Charts")
+        wait("no charts", lambda: not app.has("chart", "Force and displacement"))
+        box = app.find("image", "Section").queryComponent().getExtents(pyatspi.DESKTOP_COORDS)
+        assert box.width > 600 and box.height > 400, box
+        for role, name in (("toggle button", "Cutaway"), ("push button", "Zoom in")):
+            at = app.find(role, name).queryComponent().getExtents(pyatspi.DESKTOP_COORDS)
+            assert box.x <= at.x and at.x + at.width <= box.x + box.width, (name, at, box)
+        app.act(toggle, "click")
+        app.find("chart", "Force and displacement")
+
+
 if __name__ == "__main__":
-    main(every_scene_runs, the_rig_shows_its_coefficients)
+    main(every_scene_runs, the_rig_shows_its_coefficients,
+         a_small_window_leaves_room_for_the_section)

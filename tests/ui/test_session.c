@@ -87,6 +87,71 @@ static void test_fast_edits(void) {
   g_assert_cmpfloat(fabs(shown - 1.63e-3), <, 1e-12);
 }
 
+static void at_stage(SbSession *session, const char *stage) {
+  g_autofree char *where = sb_session_where(session);
+  g_assert_cmpstr(where, >, "");
+  g_autofree char *start = g_strdup_printf("stage %s,", stage);
+  g_assert_true(g_str_has_prefix(where, start));
+}
+
+// The playhead stays at its event through a short run and through one that is watched while it
+// grows, and half way between events half way.
+static void test_playhead_keeps_its_place(void) {
+  g_autoptr(SbSession) session = sb_session_new();
+  sb_session_edit(session, SB_P_MODELS_FILM, "thesis");
+  settle(session);
+  sb_session_set_playhead(session, 0);
+  sb_session_step_event(session, 1);
+  sb_session_step_event(session, 1);
+  at_stage(session, "C");
+  sb_session_edit(session, SB_P_OUTPUT_FRAMES, "300");
+  settle(session);
+  at_stage(session, "C");
+  sb_session_edit(session, SB_P_OUTPUT_FRAMES, "300000");
+  settle(session);
+  at_stage(session, "C");
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  sb_session_set_playhead(
+      session, sb_chart_nearest(&sb_session_chart(session)->run, 0.7 * frames[count - 1].time));
+  double share = sb_session_frame(session)->time / frames[count - 1].time;
+  sb_session_edit(session, SB_P_OUTPUT_FRAMES, "200000");
+  settle(session);
+  frames = sb_session_frames(session, &count);
+  g_assert_cmpfloat(fabs(sb_session_frame(session)->time / frames[count - 1].time - share), <,
+                    1e-3);
+}
+
+// A run of other values that is cancelled before its first frame leaves the complete run before it
+// as it is, and that run is said to be of its own value.
+static void test_cancelled_before_the_first_frame(void) {
+  g_autoptr(SbSession) session = sb_session_new();
+  sb_session_edit(session, SB_P_MODELS_FILM, "thesis");
+  settle(session);
+  const SbRun *before = sb_session_run(session);
+  sb_session_edit(session, SB_P_MODELS_FIT, "ring"); // solves its rings for seconds before a frame
+  for (int i = 0; i < 200 && !sb_session_shows_former(session); i++) {
+    turn(session, 10);
+    g_assert_true(sb_session_run(session) == before);
+  }
+  g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_RUNNING);
+  g_autofree char *during = sb_session_former_text(session);
+  g_assert_cmpstr(during, ==, "run with fitment karaszkiewicz");
+  sb_session_stop(session);
+  for (int i = 0; i < 500 && sb_session_state(session) == SB_SESSION_RUNNING; i++) {
+    turn(session, 10);
+  }
+  g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_DONE);
+  g_assert_true(sb_session_run(session) == before);
+  g_assert_cmpint((int)sb_session_chart(session)->run.state, ==, SB_CHART_DONE);
+  g_autofree char *after = sb_session_former_text(session);
+  g_assert_cmpstr(after, ==, "run with fitment karaszkiewicz");
+  // The value back: the displayed run is of the present values again, without another run.
+  sb_session_undo(session);
+  g_assert_false(sb_session_shows_former(session));
+  g_assert_false(sb_session_wants_ticks(session));
+}
+
 // A pinned run stays with its document only.
 static void test_another_document_forgets(void) {
   g_autoptr(SbSession) session = sb_session_new();
@@ -115,6 +180,9 @@ static void test_gone_while_running(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/session/fast-edits", test_fast_edits);
+  g_test_add_func("/session/playhead-keeps-its-place", test_playhead_keeps_its_place);
+  g_test_add_func("/session/cancelled-before-the-first-frame",
+                  test_cancelled_before_the_first_frame);
   g_test_add_func("/session/another-document-forgets", test_another_document_forgets);
   g_test_add_func("/session/gone-while-running", test_gone_while_running);
   return g_test_run();

@@ -26,6 +26,9 @@ def a_study_of_the_document(folder):
         app.edit("Viscosity", "0.3 mPa.s")
         wait("the mark", lambda: app.label(r"^Values have changed: the study shown is of earlier"))
         app.press("push button", "Compute Again")
+        wait("the former one named", lambda: app.label(
+            r"^Computing: Film law.*\. The picture is of the study before\.$")
+            and "of the one before" in chart.description)
         wait("no mark", lambda: not app.label(r"^(Values have changed: the study|Computing)"))
 
 
