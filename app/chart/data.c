@@ -115,7 +115,9 @@ void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace,
 
 static void say(GString *out, const char *label, SbQuantity quantity, double value, double error) {
   char text[SB_FORMAT_MAX];
-  g_string_append_printf(out, "%s %s", label, sb_format_text(text, quantity, value, error));
+  g_string_append_printf(out, "%s %s", label,
+                         isfinite(value) ? sb_format_text(text, quantity, value, error)
+                                         : "not computed");
 }
 
 char *sb_chart_summary(const SbChartData *data) {
@@ -178,7 +180,7 @@ char *sb_chart_summary(const SbChartData *data) {
       say(out, ", film", SB_QUANTITY_FILM, s->film_central, film_error);
       say(out, ", least", SB_QUANTITY_FILM, s->film_min, film_error);
     } else {
-      g_string_append(out, ", at rest");
+      g_string_append(out, isnan(s->film_central) ? ", film not computed" : ", at rest");
     }
     g_string_append(out, ".");
   }
@@ -198,8 +200,9 @@ char *sb_chart_summary(const SbChartData *data) {
     say(out, " Break-away", SB_QUANTITY_FORCE, run->summary->force_breakaway, force_error);
     say(out, ", least return", SB_QUANTITY_FORCE, run->summary->force_return_min, force_error);
     say(out, ", loss per cycle", SB_QUANTITY_ENERGY, run->summary->energy.loop, 0);
-    g_string_append(out,
-                    run->summary->returns ? "; the stem returns." : "; the stem does not return.");
+    g_string_append(out, isnan(run->summary->returned) ? "; whether the stem returns is not known."
+                         : run->summary->returns       ? "; the stem returns."
+                                                       : "; the stem does not return.");
   }
   return g_string_free(out, FALSE);
 }
