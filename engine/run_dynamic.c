@@ -408,6 +408,11 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * run->model.stroke;
   summary->leakage_per_cycle = sb_run_cycle_leakage(summary, net, back);
   sb_run_fill_motion(summary, &energy, &counters);
+  // Work over less than the rounding of places is none: a stem that is pushed and does not move.
+  double pushed = fmax(recorder.force_peak, run->model.pressure_force + run->model.spring_preload);
+  if (energy.largest < 1e-12 * pushed * run->model.stroke) {
+    summary->energy.closure = 0;
+  }
   summary->newton_iterations += (size_t)counters.newton_iterations;
   // Closed form throughout: rounding only.
   double force = 1e-12;
@@ -427,6 +432,6 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   }
   double states = summary->error_load + sb_run_error_friction(run);
   summary->error_force = isnan(force) ? NAN : fmax(states, force);
-  summary->error_energy = isnan(work) ? NAN : fmax(fmax(states, work), energy.closure);
+  summary->error_energy = isnan(work) ? NAN : fmax(fmax(states, work), summary->energy.closure);
   return status;
 }

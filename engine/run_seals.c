@@ -64,6 +64,8 @@ static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
                                "it in a state of the cycle: the path is open"
                              : "the seal does not touch the bore under its pressures: the path is "
                                "open");
+    snprintf(pattern, sizeof pattern, "seals.%s.closing*", sb_seal_name(seal));
+    sb_reason(&run->summary, pattern, "the rubber does not press the bore");
     sb_warn(&run->summary.warnings, "seal-open", "gland.radial_space",
             "the %s seal is open: it does not press the bore under its pressures",
             sb_seal_name(seal));
@@ -94,9 +96,20 @@ static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
             "the leak at rest is not computed: %s", report.text);
     return;
   }
-  out->leakage_static = leak.leak_rate;
   out->closing_pressure = leak.closing_pressure;
-  out->leak_sensitivity = leak.sensitivity;
+  if (!open && leak.constriction_gap >= SB_PERCOLATION_OPEN_GAP * model->sigma) {
+    open = true;
+    snprintf(pattern, sizeof pattern, "seals.%s.leak*", sb_seal_name(seal));
+    sb_reason(
+        &run->summary, pattern,
+        "channels of %.3g times the roughness cross the contact: it is open beyond the leak's "
+        "law",
+        leak.constriction_gap / model->sigma);
+  }
+  if (!open) {
+    out->leakage_static = leak.leak_rate;
+    out->leak_sensitivity = leak.sensitivity;
+  }
   out->leak_state = open ? SB_LEAK_OPEN : leak.percolates ? SB_LEAK_PERCOLATING : SB_LEAK_CLOSED;
   if (leak.percolates) {
     sb_warn(

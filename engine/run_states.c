@@ -158,7 +158,8 @@ static void tell_failure(SbRun *run, int seal, int chamber, int motion, const Sb
   static const char *const stages[] = {"A to C", "C to F", "F to A"};
   static const char *const ways[] = {"in-stroke", "return", "at rest"};
   const SbModel *model = &run->model;
-  bool fitted = isfinite(state->load);
+  bool fitted = sb_sliding_fit(run->memory[seal])->solver.converged;
+  bool complete = isfinite(sb_sliding_friction(state));
   char solver[64], place[96], cause[128];
   snprintf(cause, sizeof cause, "%.127s",
            strncmp(report->text, "film: ", 6) == 0 ? report->text + 6 : report->text);
@@ -175,9 +176,11 @@ static void tell_failure(SbRun *run, int seal, int chamber, int motion, const Sb
   sb_fail_parameter(&whole, report->status, report->parameter,
                     "%s, %s seal, stages %s, %s, %s: %s; kept: %s", solver, sb_seal_name(seal),
                     stages[chamber], ways[motion], place, cause,
-                    fitted ? "its fitment, the other states" : "the other states");
+                    complete ? "the last solution"
+                    : fitted ? "its fitment, the other states"
+                             : "the other states");
   sb_warn(&run->summary.warnings, "not-converged", report->parameter, "%s", whole.text);
-  if (motion != SB_RUN_REST) {
+  if (motion != SB_RUN_REST && !complete) {
     sb_run_lacks_motion(run, whole.text);
   }
   if (chamber == SB_CHAMBER_AT_REST && motion == SB_CYCLE_IN) {

@@ -20,6 +20,10 @@
 
 #define SB_PERCOLATION_THRESHOLD 0.42
 
+// Gap of the constriction over the roughness beyond which the surfaces no longer touch each other
+// (Gaussian heights): an open path, not a contact with channels.
+#define SB_PERCOLATION_OPEN_GAP 3.0
+
 typedef struct {
   const SbSpectrum *spectrum;
   double modulus;          // E', 2/E' = sum (1 - nu^2)/E [Pa]

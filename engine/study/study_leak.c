@@ -17,9 +17,6 @@
 
 enum { POINTS = 39, RING_POINTS = 20, FINE = 9 };
 
-// Gap over roughness beyond which the surfaces no longer touch each other (Gaussian heights).
-#define OPEN_GAP 3.0
-
 double sb_study_leak_cost(const SbModel *model) {
   double film = sb_cost_film(model->film);
   return 2 * (2 * (RING_POINTS + FINE) + 11) * SB_COST_RING + POINTS * SB_COST_DISC +
@@ -80,7 +77,7 @@ static SbStatus solve(SbStudy *out, Figures *figures, const SbModel *scene, SbFi
   SbPercolation leak;
   status = sb_percolation_solve(&leak, &problem, report);
   // A constriction wider than this is an open gap, not a contact with channels.
-  if (status == SB_OK && leak.constriction_gap < OPEN_GAP * model.sigma) {
+  if (status == SB_OK && leak.constriction_gap < SB_PERCOLATION_OPEN_GAP * model.sigma) {
     figures->leak = leak.leak_rate;
   }
   return status;

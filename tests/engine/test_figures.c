@@ -1,0 +1,286 @@
+// Figures: each has a value or a reason, an open seal is told, and the verdict follows the limits.
+#include "engine/elastic/fit.h"
+#include "engine/sealbench.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+  SbParamId id;
+  double value;
+} Change;
+
+static void compile(SbModel *model, const Change *changes, size_t count) {
+  SbParams params;
+  sb_params_init(&params);
+  for (size_t i = 0; i < count; i++) {
+    g_assert_cmpint(sb_params_set(&params, changes[i].id, changes[i].value, NULL), ==, SB_OK);
+  }
+  g_assert_cmpint(sb_model_compile(model, &params, NULL), ==, SB_OK);
+}
+
+static SbRun *run_of(const SbModel *model, SbStatus wanted, SbReport *report) {
+  SbPlan plan;
+  SbRun *run;
+  sb_plan_make(&plan, model);
+  g_assert_cmpint(sb_run_create(&run, model, &plan, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, report), ==, wanted);
+  return run;
+}
+
+static double value_at(const SbSummary *summary, const char *path) {
+  int index = sb_figure_find(path);
+  g_assert_cmpint(index, >=, 0);
+  return sb_figure_value(summary, index);
+}
+
+static const char *reason_at(const SbSummary *summary, const char *path) {
+  return sb_figure_reason(summary, sb_figure_find(path));
+}
+
+// A value or a reason of its own, never both, and no infinity.
+static void check_reasons(const SbSummary *summary) {
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    double value = sb_figure_value(summary, i);
+    g_assert_false(isinf(value));
+    if (isnan(value) && summary->reasons.of[i] == 0) {
+      g_error("%s has neither value nor reason", sb_figure(i)->path);
+    }
+    g_assert_true((sb_figure_reason(summary, i) != NULL) == isnan(value));
+  }
+}
+
+// Paths are unique, found again, and point at the member that they name.
+static void test_paths(void) {
+  SbSummary *summary = g_new0(SbSummary, 1);
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    g_assert_cmpint(sb_figure_find(sb_figure(i)->path), ==, i);
+  }
+  summary->seal[SB_INNER].load = 3;
+  summary->stage[SB_STAGE_C].force = 5;
+  g_assert_cmpfloat(value_at(summary, "seals.inner.load_N"), ==, 3);
+  g_assert_cmpfloat(value_at(summary, "seals.outer.load_N"), ==, 0);
+  g_assert_cmpfloat(value_at(summary, "cycle.stages.C.force_N"), ==, 5);
+  g_assert_cmpint(sb_figure_find("seals.outer"), ==, -1);
+  sb_figures_clear(summary);
+  g_assert_true(isnan(summary->seal[SB_INNER].load) && isnan(summary->error_load));
+  // The first reason stays, and only while there is no value.
+  sb_reason(summary, "seals.inner.load_N", "one");
+  sb_reason(summary, "seals.*", "two");
+  g_assert_cmpstr(reason_at(summary, "seals.inner.load_N"), ==, "one");
+  g_assert_cmpstr(reason_at(summary, "seals.outer.load_N"), ==, "two");
+  summary->seal[SB_INNER].load = 3;
+  g_assert_null(reason_at(summary, "seals.inner.load_N"));
+  // More texts than there is room for still give each figure one.
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    sb_reason(summary, sb_figure(i)->path, "reason %d", i);
+  }
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    g_assert_true(summary->reasons.of[i] > 0 && summary->reasons.of[i] <= SB_REASONS_MAX);
+  }
+  g_free(summary);
+}
+
+// A ring that does not reach the bore under pressure: open, and no leak of 0.
+static void test_open(void) {
+  const Change changes[] = {{SB_P_MODELS_FIT, SB_FIT_DISC},
+                            {SB_P_GLAND_RADIAL_SPACE, 1.57e-3},
+                            {SB_P_SEAL_INNER_DIAMETER, 2.476e-3}};
+  SbModel model;
+  compile(&model, changes, G_N_ELEMENTS(changes));
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  const SbSummary *s = sb_run_summary(run);
+  check_reasons(s);
+  g_assert_cmpint(s->seal[SB_OUTER].leak_state, ==, SB_LEAK_OPEN);
+  g_assert_true(isnan(s->leakage_per_cycle) && isnan(s->seal[SB_OUTER].leakage_static) &&
+                isnan(s->seal[SB_OUTER].film_min));
+  g_assert_cmpfloat(s->seal[SB_OUTER].load, ==, 0);
+  g_assert_cmpfloat(s->seal[SB_OUTER].friction_boundary, ==, 0);
+  g_assert_cmpint(s->verdict[SB_VERDICT_SEALS].ok, ==, SB_ANSWER_NO);
+  g_assert_nonnull(strstr(s->verdict[SB_VERDICT_SEALS].reason, "open"));
+  size_t count;
+  sb_run_frames(run, &count);
+  g_assert_cmpuint(count, >, 0);
+  sb_run_destroy(run);
+  // A small squeeze under a pressure that the rubber cannot hold off opens the contact.
+  const Change pressed[] = {{SB_P_GLAND_RADIAL_SPACE, 1.56e-3},
+                            {SB_P_MODELS_FIT, SB_FIT_HERTZ},
+                            {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS},
+                            {SB_P_CANISTER_PRESSURE, 2e6}};
+  compile(&model, pressed, G_N_ELEMENTS(pressed));
+  run = run_of(&model, SB_OK, NULL);
+  s = sb_run_summary(run);
+  check_reasons(s);
+  g_assert_cmpint(s->seal[SB_OUTER].leak_state, ==, SB_LEAK_OPEN);
+  g_assert_true(isnan(s->returned) && isnan(s->force_peak));
+  g_assert_cmpint(s->verdict[SB_VERDICT_RETURNS].ok, ==, SB_ANSWER_UNKNOWN);
+  sb_run_frames(run, &count);
+  g_assert_cmpuint(count, ==, 0);
+  sb_run_destroy(run);
+}
+
+// Every state of a leak path: closed, channels, none that a surface's theory tells.
+static void test_leak_states(void) {
+  SbModel model;
+  compile(&model, NULL, 0);
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  check_reasons(sb_run_summary(run));
+  g_assert_cmpint(sb_run_summary(run)->seal[SB_INNER].leak_state, ==, SB_LEAK_CLOSED);
+  g_assert_cmpfloat(sb_run_summary(run)->seal[SB_INNER].leakage_static, ==, 0);
+  sb_run_destroy(run);
+  const Change rough[] = {{SB_P_SURFACE_SIGMA_OVER_BETA, 1}, {SB_P_SURFACE_GT_PRODUCT, 0.03}};
+  compile(&model, rough, G_N_ELEMENTS(rough));
+  run = run_of(&model, SB_OK, NULL);
+  g_assert_cmpint(sb_run_summary(run)->seal[SB_OUTER].leak_state, ==, SB_LEAK_PERCOLATING);
+  g_assert_cmpfloat(sb_run_summary(run)->seal[SB_OUTER].leakage_static, >, 0);
+  g_assert_cmpint(sb_run_summary(run)->verdict[SB_VERDICT_SEALS].ok, ==, SB_ANSWER_YES);
+  sb_run_destroy(run);
+  const Change smooth[] = {{SB_P_SURFACE_GT_PRODUCT, 0.02}};
+  compile(&model, smooth, G_N_ELEMENTS(smooth));
+  run = run_of(&model, SB_OK, NULL);
+  const SbSummary *s = sb_run_summary(run);
+  check_reasons(s);
+  g_assert_cmpint(s->seal[SB_OUTER].leak_state, ==, SB_LEAK_NOT_COMPUTED);
+  g_assert_true(isnan(s->seal[SB_OUTER].leakage_static));
+  g_assert_nonnull(strstr(reason_at(s, "seals.outer.leakage_static_m3_per_s"), "0.025"));
+  sb_run_destroy(run);
+}
+
+// What is carried one way by a stem that stays in is no loss of a cycle.
+static void test_one_way(void) {
+  for (int motion = 0; motion < 2; motion++) {
+    const Change changes[] = {{SB_P_SURFACE_GT_PRODUCT, 0.1289 * 1.3},
+                              {SB_P_MODELS_MOTION, motion}};
+    SbModel model;
+    compile(&model, changes, G_N_ELEMENTS(changes));
+    SbRun *run = run_of(&model, SB_OK, NULL);
+    const SbSummary *s = sb_run_summary(run);
+    check_reasons(s);
+    g_assert_cmpfloat(s->returned, ==, 0);
+    g_assert_true(isnan(s->leakage_per_cycle) && isnan(s->leakage_net));
+    g_assert_cmpfloat(s->leakage_carried, >, 0);
+    g_assert_nonnull(strstr(reason_at(s, "cycle.leakage_per_cycle_m3"), "one way"));
+    g_assert_cmpint(s->verdict[SB_VERDICT_RETURNS].ok, ==, SB_ANSWER_NO);
+    sb_run_destroy(run);
+  }
+}
+
+// A solver that fails names itself and its place; nothing after it is computed, least of all 0.
+static void test_failure(void) {
+  // A disc so soft that it has no state under this pressure.
+  const Change changes[] = {
+      {SB_P_MODELS_FIT, SB_FIT_DISC}, {SB_P_SEAL_MODULUS, 0.2e6}, {SB_P_CANISTER_PRESSURE, 2e6}};
+  SbModel model;
+  compile(&model, changes, G_N_ELEMENTS(changes));
+  SbReport report = {0};
+  SbRun *run = run_of(&model, SB_ERROR_NOT_CONVERGED, &report);
+  const SbSummary *s = sb_run_summary(run);
+  check_reasons(s);
+  static const char *const words[] = {"fitment (disc)", "outer seal", "stages A to C", "MPa",
+                                      "kept:"};
+  for (size_t i = 0; i < G_N_ELEMENTS(words); i++) {
+    g_assert_nonnull(strstr(report.text, words[i]));
+  }
+  g_assert_true(isnan(s->returned) && isnan(s->force_peak) && isnan(s->seal[SB_OUTER].load));
+  g_assert_true(isnan(s->seal[SB_OUTER].friction_boundary) && isnan(s->leakage_per_cycle));
+  g_assert_false(s->returns);
+  g_assert_cmpint(s->seal[SB_OUTER].leak_state, ==, SB_LEAK_NOT_COMPUTED);
+  g_assert_cmpint(s->verdict[SB_VERDICT_SEALS].ok, ==, SB_ANSWER_UNKNOWN);
+  g_assert_cmpint(s->verdict[SB_VERDICT_RETURNS].ok, ==, SB_ANSWER_UNKNOWN);
+  for (size_t i = 0; i < s->warnings.count; i++) {
+    g_assert_cmpstr(s->warnings.item[i].code, !=, "no-return");
+  }
+  sb_run_destroy(run);
+}
+
+static bool at_once(void *data) {
+  return true;
+}
+
+static void test_cancelled(void) {
+  SbModel model;
+  compile(&model, NULL, 0);
+  SbPlan plan;
+  SbRun *run;
+  SbRunHooks hooks = {NULL, at_once, NULL};
+  sb_plan_make(&plan, &model);
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, &hooks, NULL), ==, SB_ERROR_CANCELLED);
+  check_reasons(sb_run_summary(run));
+  g_assert_true(isnan(sb_run_summary(run)->force_peak));
+  sb_run_destroy(run);
+}
+
+static void limit(SbModel *model, const char *path, double low, double high) {
+  model->limits.item[model->limits.count++] = (SbLimit){sb_figure_find(path), low, high};
+}
+
+static void test_verdict(void) {
+  SbModel model;
+  compile(&model, NULL, 0);
+  limit(&model, "cycle.force_breakaway_N", -INFINITY, 40);
+  limit(&model, "cycle.force_peak_N", -INFINITY, 34);
+  limit(&model, "seals.outer.squeeze", 0.1, 0.2);
+  limit(&model, "seals.inner.gland_fill", 0.1, 0.72);
+  limit(&model, "cycle.force_return_min_N", 5, INFINITY);
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  const SbVerdict *of = sb_run_summary(run)->verdict;
+  // The worst decides: the peak is the reversal force, 35 N.
+  g_assert_cmpint(of[SB_VERDICT_PRESSES].ok, ==, SB_ANSWER_NO);
+  g_assert_cmpstr(sb_figure(of[SB_VERDICT_PRESSES].figure)->path, ==, "cycle.force_peak_N");
+  g_assert_cmpfloat(of[SB_VERDICT_PRESSES].limit, ==, 34);
+  // Of two that hold, the nearer to its bound.
+  g_assert_cmpint(of[SB_VERDICT_FITS].ok, ==, SB_ANSWER_YES);
+  g_assert_cmpstr(sb_figure(of[SB_VERDICT_FITS].figure)->path, ==, "seals.inner.gland_fill");
+  g_assert_cmpfloat(of[SB_VERDICT_FITS].limit, ==, 0.72);
+  // It returns, but not with the force asked for.
+  g_assert_true(sb_run_summary(run)->returns);
+  g_assert_cmpint(of[SB_VERDICT_RETURNS].ok, ==, SB_ANSWER_NO);
+  g_assert_cmpint(of[SB_VERDICT_LEAK].ok, ==, SB_ANSWER_UNKNOWN);
+  g_assert_cmpint(of[SB_VERDICT_LEAK].figure, ==, -1);
+  sb_run_destroy(run);
+}
+
+// Impossible geometry is refused, and what is hardly meant is told.
+static void test_geometry(void) {
+  SbParams params;
+  SbModel model;
+  SbProblems problems;
+  sb_params_init(&params);
+  sb_params_set(&params, SB_P_STEM_PRESSURE_DIAMETER, 3.2e-3, NULL);
+  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpstr(problems.item[0].key, ==, "stem.pressure_diameter");
+  g_assert_cmpfloat_with_epsilon(problems.item[0].min, 3.28e-3, 1e-12);
+  const Change changes[] = {{SB_P_CANISTER_PRESSURE_MAP, SB_MAP_PORTS},
+                            {SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC}};
+  compile(&model, changes, G_N_ELEMENTS(changes));
+  sb_model_remarks(&model, &problems);
+  g_assert_cmpuint(problems.count, ==, 1);
+  g_assert_cmpstr(problems.item[0].key, ==, "bore.vent_position");
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  bool told = false;
+  const SbWarnings *warnings = &sb_run_summary(run)->warnings;
+  for (size_t i = 0; i < warnings->count; i++) {
+    told = told || strcmp(warnings->item[i].code, "ports-no-vent") == 0;
+  }
+  g_assert_true(told);
+  sb_run_destroy(run);
+  // Inside the range there is nothing to say.
+  model.shape.vent_position = 0.99 * problems.item[0].max;
+  sb_model_remarks(&model, &problems);
+  g_assert_cmpuint(problems.count, ==, 0);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/figures/paths", test_paths);
+  g_test_add_func("/figures/open", test_open);
+  g_test_add_func("/figures/leak-states", test_leak_states);
+  g_test_add_func("/figures/one-way", test_one_way);
+  g_test_add_func("/figures/failure", test_failure);
+  g_test_add_func("/figures/cancelled", test_cancelled);
+  g_test_add_func("/figures/verdict", test_verdict);
+  g_test_add_func("/figures/geometry", test_geometry);
+  return g_test_run();
+}
