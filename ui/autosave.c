@@ -3,7 +3,7 @@
 // name holds the number of the process that writes it: while that lives the file is nobody else's.
 #include "ui/autosave.h"
 
-#include "app/document/atomic.h"
+#include "app/document/output.h"
 
 #include <glib/gi18n.h>
 #include <glib/gstdio.h>
@@ -45,7 +45,7 @@ static gboolean write_now(gpointer data) {
   // Where this is not possible (no home, full disk) the work goes on without a net.
   g_mkdir_with_parents(in, 0700);
   if (strchr(whole, '\n') == NULL &&
-      sb_atomic_write(autosave->path, content, strlen(content), NULL)) {
+      sb_output_write(autosave->path, content, strlen(content), NULL)) {
     autosave->written = serial;
   }
   return G_SOURCE_REMOVE;

@@ -315,7 +315,7 @@ static int solve_and_show(const SbFilmProblem *problem, const char *target) {
       char *json = sb_results_film(film);
       written = sb_cli_emit(json, target);
       g_free(json);
-    } else {
+    } else if (!sb_cli_quiet()) {
       print_table(film, problem);
       print_other_models(film, problem);
     }
@@ -369,7 +369,10 @@ int sb_command_film(int argc, char **argv) {
   problem.dry_x = (const double *)(void *)x->data;
   problem.dry_pressure = (const double *)(void *)p->data;
   problem.dry_count = x->len;
-  code = solve_and_show(&problem, target);
+  code = sb_cli_check_outputs(NULL, NULL, target);
+  if (code == SB_EXIT_DONE) {
+    code = solve_and_show(&problem, target);
+  }
 done:
   g_array_unref(x);
   g_array_unref(p);

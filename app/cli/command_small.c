@@ -23,7 +23,9 @@ int sb_command_check(int argc, char **argv) {
   }
   const char *kind = sb_document_kind(document) == SB_DOCUMENT_SCENE ? "scene" : "valve";
   char *shown = sb_printable(argv[1], strlen(argv[1]));
-  printf("%s: a %s without problems\n", shown, kind);
+  if (!sb_cli_quiet()) {
+    printf("%s: a %s without problems\n", shown, kind);
+  }
   g_free(shown);
   sb_document_free(document);
   return SB_EXIT_DONE;
@@ -195,7 +197,7 @@ int sb_command_plan(int argc, char **argv) {
       char *json = sb_results_plan(&plan);
       code = sb_cli_emit(json, target);
       g_free(json);
-    } else {
+    } else if (!sb_cli_quiet()) {
       print_plan(&plan);
     }
   }
@@ -249,7 +251,7 @@ int sb_command_asperity(int argc, char **argv) {
       char *json = asperity_json(&integrals);
       code = sb_cli_emit(json, target);
       g_free(json);
-    } else if (status == SB_OK) {
+    } else if (status == SB_OK && !sb_cli_quiet()) {
       char digits[SB_NUMBER_SIZE];
       sb_cli_line("lambda", sb_number_format(digits, integrals.lambda));
       sb_cli_line("F2", sb_number_format(digits, integrals.F2));

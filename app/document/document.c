@@ -2,6 +2,7 @@
 // is document_write.c.
 #include "app/document/document_parts.h"
 #include "app/document/document_private.h"
+#include "app/document/output.h"
 #include "app/document/reader.h"
 #include "app/document/series.h"
 #include "app/export/still.h"
@@ -334,7 +335,7 @@ static SbDocument *load_picture(const char *path, GPtrArray *issues) {
 }
 
 SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
-  if (g_str_has_suffix(path, ".png") && g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
+  if (sb_output_ends_in(path, ".png") && g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
     return load_picture(path, issues);
   }
   size_t length = 0;

@@ -2,6 +2,8 @@
 // refused, and every line that means nothing is told.
 #include "app/document/reader.h"
 
+#include "app/document/output.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <glib.h>
@@ -36,6 +38,7 @@ char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t
   } else if ((guint64)info.st_size > bytes_max) {
     add_too_large(issues, shown, bytes_max, (double)info.st_size);
   } else {
+    sb_output_note_input(&info);
     room = (size_t)info.st_size + 2;
     text = g_malloc(room);
   }

@@ -154,8 +154,12 @@ static void test_studies(void) {
   g_assert_cmpstr(json_node_get_string(cli_at(root, "studies.0.name")), ==, "storage");
   json_node_unref(root);
   cli_clear(&result);
-  static const char *const names[] = {"results.json", "cycle.csv", "profiles.csv",
-                                      "study-storage.csv", "study-storage-table.csv"};
+  static const char *const names[] = {"results.json",
+                                      "cycle.csv",
+                                      "profiles.csv",
+                                      "study-storage.csv",
+                                      "study-storage-table.csv",
+                                      ".sealbench-run.manifest"};
   for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
     char *path = g_build_filename(tables, names[i], NULL);
     g_assert_cmpint(g_remove(path), ==, 0);
@@ -182,8 +186,9 @@ static void test_film_file(void) {
   g_assert_cmpint(memcmp(bytes + 4, "ftyp", 4), ==, 0);
   g_free(bytes);
   g_unlink(path);
-  const char *const argv[] = {cli.program,  "render", cli.scene, "-o",         path,   "--view",
-                              "hysteresis", "--size", "320x180", "--duration", "20 s", NULL};
+  const char *const argv[] = {cli.program, "render",     cli.scene, "-o",      path,
+                              "--view",    "hysteresis", "--size",  "320x180", "--duration",
+                              "20 s",      "--progress", "lines",   NULL};
   g_assert_cmpint(interrupted_run(argv, "drawing 10"), ==, 130);
   g_assert_true(g_file_get_contents(path, &bytes, &length, NULL));
   g_assert_cmpuint(length, >, 1000);
@@ -273,13 +278,15 @@ static void test_sequence(void) {
   remove_pictures(pictures);
 
   g_assert_cmpint(g_mkdir(pictures, 0777), ==, 0);
-  const char *const argv[] = {cli.program, "render",     cli.scene, "-o",    pictures, "--size",
-                              "320x180",   "--duration", "20 s",    "--fps", "30",     NULL};
+  const char *const argv[] = {cli.program, "render",     cli.scene,    "-o",   pictures,
+                              "--size",    "320x180",    "--duration", "20 s", "--fps",
+                              "30",        "--progress", "lines",      NULL};
   g_assert_cmpint(interrupted_run(argv, "drawing 10"), ==, 130);
   names = listing(pictures);
-  g_assert_true(g_str_has_prefix(names, "frame-0001.png frame-0002.png "));
+  g_assert_true(
+      g_str_has_prefix(names, ".sealbench-render.manifest frame-0001.png frame-0002.png "));
   g_assert_null(strstr(names, "frame-0600.png"));
-  g_assert_null(strstr(names, ".part-"));
+  g_assert_null(strstr(names, ".part"));
   g_free(names);
   remove_pictures(pictures);
   g_free(pattern);
@@ -329,7 +336,7 @@ static void test_full_disk(void) {
     g_assert_cmpstr(strchr(result.err, '\n'), ==, "\n");
     g_assert_cmpstr(earlier, ==, "earlier");
     g_assert_true(whole);
-    g_assert_null(strstr(names, ".part-"));
+    g_assert_null(strstr(names, ".part"));
     cli_clear(&result);
     g_free(earlier);
     g_free(names);
@@ -342,7 +349,8 @@ static void test_full_disk(void) {
 static void test_interrupt(void) {
   char *out = g_build_filename(cli.folder, "part", NULL);
   const char *const argv[] = {
-      cli.program, "run", cli.scene, "-o", out, "--set", "output.frames=1000000", NULL};
+      cli.program,  "run",   cli.scene, "-o", out, "--set", "output.frames=1000000",
+      "--progress", "lines", NULL};
   g_assert_cmpint(interrupted_run(argv, "s"), ==, 130);
   char *json = cli_contents(out, "results.json");
   JsonNode *root = cli_parse(json);

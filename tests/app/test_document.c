@@ -1,6 +1,6 @@
 // Documents: shipped files hold what the catalogue says, edits undo, saving changes nothing else.
-#include "app/document/atomic.h"
 #include "app/document/document.h"
+#include "app/document/output.h"
 #include "app/document/unit.h"
 #include "app/export/still.h"
 
@@ -350,7 +350,7 @@ static void test_protected(void) {
       _exit(77);
     }
     GError *error = NULL;
-    bool written = sb_atomic_write(path, "new", 3, &error);
+    bool written = sb_output_write(path, "new", 3, &error);
     _exit(!written && g_error_matches(error, SB_APP_ERROR, SB_APP_ERROR_IO) ? 0 : 1);
   }
   int status = 0;
