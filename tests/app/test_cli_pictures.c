@@ -80,9 +80,9 @@ static void test_render(void) {
   }
 }
 
-// Starts the program, interrupts it at its first byte of progress that starts with `word`, and
+// Starts the program, sends it `number` at its first byte of progress that starts with `word`, and
 // returns its exit code.
-static int interrupted_run(const char *const *argv, const char *word) {
+static int interrupted_run(const char *const *argv, const char *word, int number) {
   GPid pid;
   int err = -1;
   GError *error = NULL;
@@ -96,7 +96,7 @@ static int interrupted_run(const char *const *argv, const char *word) {
   while (read(err, &c, 1) == 1) {
     g_string_append_c(seen, c);
     if (!sent && strstr(seen->str, word) != NULL) {
-      kill(pid, SIGINT);
+      kill(pid, number);
       sent = true;
     }
   }
@@ -189,7 +189,7 @@ static void test_film_file(void) {
   const char *const argv[] = {cli.program, "render",     cli.scene, "-o",      path,
                               "--view",    "hysteresis", "--size",  "320x180", "--duration",
                               "20 s",      "--progress", "lines",   NULL};
-  g_assert_cmpint(interrupted_run(argv, "drawing 10"), ==, 130);
+  g_assert_cmpint(interrupted_run(argv, "drawing 10", SIGINT), ==, 130);
   g_assert_true(g_file_get_contents(path, &bytes, &length, NULL));
   g_assert_cmpuint(length, >, 1000);
   g_free(bytes);
@@ -281,7 +281,7 @@ static void test_sequence(void) {
   const char *const argv[] = {cli.program, "render",     cli.scene,    "-o",   pictures,
                               "--size",    "320x180",    "--duration", "20 s", "--fps",
                               "30",        "--progress", "lines",      NULL};
-  g_assert_cmpint(interrupted_run(argv, "drawing 10"), ==, 130);
+  g_assert_cmpint(interrupted_run(argv, "drawing 10", SIGINT), ==, 130);
   names = listing(pictures);
   g_assert_true(
       g_str_has_prefix(names, ".sealbench-render.manifest frame-0001.png frame-0002.png "));
@@ -346,12 +346,12 @@ static void test_full_disk(void) {
   g_free(disk);
 }
 
-static void test_interrupt(void) {
+static void interrupt_by(int number) {
   char *out = g_build_filename(cli.folder, "part", NULL);
   const char *const argv[] = {
       cli.program,  "run",   cli.scene, "-o", out, "--set", "output.frames=1000000",
       "--progress", "lines", NULL};
-  g_assert_cmpint(interrupted_run(argv, "s"), ==, 130);
+  g_assert_cmpint(interrupted_run(argv, "s", number), ==, 130);
   char *json = cli_contents(out, "results.json");
   JsonNode *root = cli_parse(json);
   g_assert_true(json_node_get_boolean(cli_at(root, "partial")));
@@ -361,6 +361,13 @@ static void test_interrupt(void) {
   g_free(json);
   cli_remove_results(out);
   g_free(out);
+}
+
+// A closed terminal keeps what was finished as Ctrl-C does.
+static void test_interrupt(void) {
+  interrupt_by(SIGINT);
+  interrupt_by(SIGTERM);
+  interrupt_by(SIGHUP);
 }
 
 int main(int argc, char **argv) {

@@ -294,6 +294,7 @@ static void test_full_disk(void) {
 static void test_sizes(void) {
   char *path = in_directory("size.mp4");
   SbReport report = {0};
+  Painter plain = {.width = 64, .height = 48, .colour = 0x00FF00};
   // A device gets the finished film, whose index is moved to the front at the end.
   g_assert_cmpint(write_film("/dev/null", &plain, 3, NULL, &report), ==, SB_OK);
   g_assert_cmpint(write_film("/dev/full", &plain, 3, NULL, &report), ==, SB_ERROR_IO);
