@@ -435,13 +435,39 @@ void sb_output_abort(SbOutput *out) {
   *out = (SbOutput){.folder = -1};
 }
 
-bool sb_output_write(const char *path, const void *text, size_t length, GError **error) {
+bool sb_output_write_locked(int *lock, const char *path, const void *text, size_t length,
+                            GError **error) {
   SbOutput file;
   if (!sb_output_begin(&file, path, error)) {
     return false;
   }
   fwrite(text, 1, length, file.stream);
-  return sb_output_commit(&file, error);
+  // Temporary files are locked from their beginning; the lock is the open file's, not the name's.
+  int kept = fcntl(fileno(file.stream), F_DUPFD_CLOEXEC, 3);
+  if (!sb_output_commit(&file, error)) {
+    close(kept);
+    return false;
+  }
+  *lock = kept;
+  return true;
+}
+
+bool sb_output_write(const char *path, const void *text, size_t length, GError **error) {
+  int lock;
+  if (!sb_output_write_locked(&lock, path, text, length, error)) {
+    return false;
+  }
+  close(lock);
+  return true;
+}
+
+bool sb_output_is_locked(const char *path) {
+  int fd = open(path, O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
+  bool locked = fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0;
+  if (fd >= 0) {
+    close(fd);
+  }
+  return locked;
 }
 
 // ---- Before the work ----

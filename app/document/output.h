@@ -58,6 +58,12 @@ void sb_output_abort(SbOutput *out);
 // All of that for a text in memory.
 bool sb_output_write(const char *path, const void *text, size_t length, GError **error);
 
+// The same for a file that others can tell is in use: *lock is a descriptor that keeps it locked
+// (flock) until it is closed, by the process' end at the latest.
+bool sb_output_write_locked(int *lock, const char *path, const void *text, size_t length,
+                            GError **error);
+bool sb_output_is_locked(const char *path);
+
 // ---- Several files of one result in a folder ----
 
 // The folder is locked (flock, which ends with its process) from opening to closing, so that its

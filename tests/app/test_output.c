@@ -460,6 +460,23 @@ static void test_lock(void) {
   tear_down();
 }
 
+// A file in use is known as such from anywhere, replaced or not, until its writer ends.
+static void test_in_use(void) {
+  set_up();
+  g_autofree char *file = in_folder("file");
+  int lock[2];
+  g_assert_false(sb_output_is_locked(file));
+  for (int i = 0; i < 2; i++) {
+    g_assert_true(sb_output_write_locked(&lock[i], file, "text", 4, NULL));
+    g_assert_true(sb_output_is_locked(file));
+  }
+  close(lock[0]); // of what was replaced
+  g_assert_true(sb_output_is_locked(file));
+  close(lock[1]);
+  g_assert_false(sb_output_is_locked(file));
+  tear_down();
+}
+
 static void test_endings(void) {
   g_assert_true(sb_output_ends_in("a.PNG", ".png"));
   g_assert_true(sb_output_ends_in("b.Mp4", ".mp4"));
@@ -477,6 +494,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/output/full-disk", test_full_disk);
   g_test_add_func("/output/manifest", test_manifest);
   g_test_add_func("/output/lock", test_lock);
+  g_test_add_func("/output/in-use", test_in_use);
   g_test_add_func("/output/endings", test_endings);
   g_test_add_func("/output/inputs", test_inputs);
   return g_test_run();
