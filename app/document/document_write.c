@@ -1,6 +1,6 @@
 // Documents as text and files: only the lines that differ are rewritten.
-#include "app/document/output.h"
 #include "app/document/document_private.h"
+#include "app/document/output.h"
 #include "app/document/reader.h"
 #include "app/document/writer.h"
 

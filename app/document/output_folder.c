@@ -76,11 +76,12 @@ static void read_manifest(SbOutputFolder *folder) {
 
 // Waits for the folder's lock; an errno.
 static int lock(int fd) {
-  for (int waited = 0;; waited += LOCK_STEP_MS) {
+  for (gint64 begin = g_get_monotonic_time();;) {
     if (flock(fd, LOCK_EX | LOCK_NB) == 0) {
       return 0;
     }
-    if ((errno != EWOULDBLOCK && errno != EINTR) || waited >= LOCK_WAIT_MS) {
+    if ((errno != EWOULDBLOCK && errno != EINTR) ||
+        g_get_monotonic_time() - begin >= 1000 * (gint64)LOCK_WAIT_MS) {
       return errno;
     }
     g_usleep(1000 * LOCK_STEP_MS);

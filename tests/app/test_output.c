@@ -207,7 +207,7 @@ static void test_named(void) {
   put(file, "old");
   pid_t child = fork();
   if (child == 0) {
-    if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", NULL, MS_REC | MS_PRIVATE, NULL) != 0 ||
+    if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", "none", MS_REC | MS_PRIVATE, NULL) != 0 ||
         mount("none", "/proc", "tmpfs", 0, "") != 0) {
       _exit(77);
     }
@@ -221,6 +221,7 @@ static void test_named(void) {
   }
   int status = 0;
   g_assert_cmpint(waitpid(child, &status, 0), ==, child);
+  g_assert_true(WIFEXITED(status));
   if (WEXITSTATUS(status) == 77) {
     g_test_skip("no mount namespace here");
   } else {
