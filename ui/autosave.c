@@ -1,9 +1,9 @@
 // Keeping and offering unsaved changes. See autosave.h. A file's first line is a comment with the
-// path of the document (nothing for one without a name), the rest is its text with the changes. Its
-// name holds the number of the process that writes it: while that lives the file is nobody else's.
+// path of the document (nothing for one without a name), the rest is its text with the changes. It
+// is locked while the process that wrote it lives, wherever that runs.
 #include "ui/autosave.h"
 
-#include "app/document/atomic.h"
+#include "app/document/output.h"
 
 #include <glib/gi18n.h>
 #include <glib/gstdio.h>
@@ -14,6 +14,7 @@ struct SbAutosave {
   SbSession *session;
   GtkWindow *window;
   char *path;       // of the file
+  int lock;         // on it
   unsigned written; // serial of the document in it, 0: there is none
   guint write, offer;
 };
@@ -25,6 +26,7 @@ static char *folder(void) {
 static void drop_file(SbAutosave *autosave) {
   if (autosave->written != 0) {
     g_unlink(autosave->path);
+    close(autosave->lock);
     autosave->written = 0;
   }
 }
@@ -44,8 +46,13 @@ static gboolean write_now(gpointer data) {
   g_autofree char *in = g_path_get_dirname(autosave->path);
   // Where this is not possible (no home, full disk) the work goes on without a net.
   g_mkdir_with_parents(in, 0700);
+  int lock;
   if (strchr(whole, '\n') == NULL &&
-      sb_atomic_write(autosave->path, content, strlen(content), NULL)) {
+      sb_output_write_locked(&lock, autosave->path, content, strlen(content), NULL)) {
+    if (autosave->written != 0) {
+      close(autosave->lock);
+    }
+    autosave->lock = lock;
     autosave->written = serial;
   }
   return G_SOURCE_REMOVE;
@@ -59,23 +66,15 @@ static void on_params(SbAutosave *autosave) {
   }
 }
 
-// Whether the process that writes such a file still runs. A number may have been given to another
-// program since.
-static gboolean is_alive(const char *name) {
-  gint64 process = g_ascii_strtoll(name, NULL, 10);
-  g_autofree char *path = g_strdup_printf("/proc/%" G_GINT64_FORMAT "/comm", process);
-  g_autofree char *program = NULL;
-  return g_file_get_contents(path, &program, NULL, NULL) && g_str_has_prefix(program, "sealbench");
-}
-
 // A file that was left behind, or NULL. Owned by the caller.
 static char *find_orphan(void) {
   g_autofree char *in = folder();
   g_autoptr(GDir) dir = g_dir_open(in, 0, NULL);
   const char *name;
   while (dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
-    if (g_str_has_suffix(name, ".unsaved") && !is_alive(name)) {
-      return g_build_filename(in, name, NULL);
+    g_autofree char *path = g_build_filename(in, name, NULL);
+    if (g_str_has_suffix(name, ".unsaved") && !sb_output_is_locked(path)) {
+      return g_steal_pointer(&path);
     }
   }
   return NULL;
@@ -150,15 +149,17 @@ static gboolean offer_now(gpointer data) {
 }
 
 SbAutosave *sb_autosave_new(SbSession *session, GtkWindow *window) {
-  static int count;
+  static gboolean offered;
   SbAutosave *autosave = g_new0(SbAutosave, 1);
   autosave->session = session;
   autosave->window = window;
   g_autofree char *in = folder();
-  g_autofree char *name = g_strdup_printf("%d-%d.unsaved", (int)getpid(), ++count);
+  g_autofree char *number = g_uuid_string_random();
+  g_autofree char *name = g_strconcat(number, ".unsaved", NULL);
   autosave->path = g_build_filename(in, name, NULL);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_params), autosave);
-  if (count == 1) {
+  if (!offered) {
+    offered = TRUE;
     // Once the window stands.
     autosave->offer = g_timeout_add(300, offer_now, autosave);
   }

@@ -2,6 +2,7 @@
 // belong to this thread, so nothing is shared with the window but a counter and a flag.
 #include "ui/export_job.h"
 
+#include "app/document/output.h"
 #include "app/export/render_movie.h"
 #include "ui/worker.h"
 
@@ -62,6 +63,17 @@ static void tell_film(SbExportJob *job, bool good, const SbMovieResult *result, 
   }
 }
 
+// Adds which pictures of an earlier sequence stayed.
+static void tell_kept(SbExportJob *job, GPtrArray *kept) {
+  if (kept->len > 0) {
+    g_ptr_array_add(kept, NULL);
+    g_autofree char *names = g_strjoinv(", ", (char **)kept->pdata);
+    g_autofree char *result = g_steal_pointer(&job->result);
+    job->result =
+        g_strdup_printf(_("%s Kept, because changed since an earlier export: %s."), result, names);
+  }
+}
+
 static void make(SbExportJob *job, SbSectionPainter *painter) {
   const SbExportRequest *request = &job->request;
   sb_section_painter_style(painter, &request->style);
@@ -90,9 +102,11 @@ static void make(SbExportJob *job, SbSectionPainter *painter) {
   g_autoptr(GError) error = NULL;
   bool sequence = sb_render_is_sequence(request->path);
   if (sequence) {
-    bool good = sb_render_sequence(run, &options, &movie, request->path, &result, &error);
+    g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
+    bool good = sb_render_sequence(run, &options, &movie, request->path, &result, kept, &error);
     tell_film(job, good, &result, true, error);
-  } else if (g_str_has_suffix(request->path, ".mp4")) {
+    tell_kept(job, kept);
+  } else if (sb_output_ends_in(request->path, ".mp4")) {
     bool good = sb_render_movie(run, &options, &movie, request->path, &result, &error);
     tell_film(job, good, &result, false, error);
   } else {

@@ -20,6 +20,7 @@ static char *locale_folder(void) {
 }
 
 int main(int argc, char **argv) {
+  sb_process_set_up();
   // Numbers look the same in every locale, as in the files.
   setlocale(LC_ALL, "");
   setlocale(LC_NUMERIC, "C");
@@ -28,7 +29,6 @@ int main(int argc, char **argv) {
   bindtextdomain("sealbench", translations);
   bind_textdomain_codeset("sealbench", "UTF-8");
   textdomain("sealbench");
-  sb_process_set_up();
   g_autoptr(SbApplication) application = sb_application_new();
   return g_application_run(G_APPLICATION(application), argc, argv);
 }

@@ -1,9 +1,10 @@
 // Shared parts of the commands.
 #include "app/cli/cli.h"
 
-#include "app/document/atomic.h"
-#include "app/document/shipped.h"
 #include "app/document/nearest.h"
+#include "app/document/output.h"
+#include "app/document/shipped.h"
+#include "app/export/json.h"
 #include "app/run/process.h"
 
 #include <errno.h>
@@ -29,6 +30,33 @@ static char *option_hint(const char *message, const GOptionEntry *entries) {
   return nearest.best != NULL ? g_strdup_printf(", do you mean --%s?", nearest.best) : g_strdup("");
 }
 
+// How progress is shown.
+typedef enum { PROGRESS_NONE, PROGRESS_BAR, PROGRESS_LINES, PROGRESS_JSON } ProgressStyle;
+
+// What every command takes.
+static struct {
+  gboolean quiet, keep_existing;
+  ProgressStyle progress;
+} common;
+
+static bool take_common(const char *progress) {
+  common.progress = isatty(STDERR_FILENO) != 0 && !common.quiet ? PROGRESS_BAR : PROGRESS_NONE;
+  if (g_strcmp0(progress, "lines") == 0) {
+    common.progress = PROGRESS_LINES;
+  } else if (g_strcmp0(progress, "json") == 0) {
+    common.progress = PROGRESS_JSON;
+  } else if (progress != NULL) {
+    sb_cli_fail("--progress: there is no \"%s\" (allowed lines, json)", progress);
+    return false;
+  }
+  sb_output_keep_existing(common.keep_existing);
+  return true;
+}
+
+bool sb_cli_quiet(void) {
+  return common.quiet;
+}
+
 bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int operands_min,
                   int operands_max, const char *notes) {
   const SbCommand *command = sb_commands();
@@ -49,9 +77,25 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
   };
   g_option_context_set_help_enabled(context, FALSE);
   g_option_context_add_main_entries(context, own, NULL);
+  char *progress = NULL;
+  const GOptionEntry every[] = {
+      {"quiet", 'q', 0, G_OPTION_ARG_NONE, &common.quiet, "No progress, no table", NULL},
+      {"progress", 0, 0, G_OPTION_ARG_FILENAME, &progress,
+       "Progress on standard error where it is no terminal", "lines|json"},
+      {0},
+  };
+  const GOptionEntry writing[] = {
+      {"no-overwrite", 0, 0, G_OPTION_ARG_NONE, &common.keep_existing, "Refuses to replace a file",
+       NULL},
+      {"overwrite", 0, G_OPTION_FLAG_REVERSE, G_OPTION_ARG_NONE, &common.keep_existing,
+       "Replaces files (default)", NULL},
+      {0},
+  };
   if (entries != NULL) {
     g_option_context_add_main_entries(context, entries, NULL);
+    g_option_context_add_main_entries(context, writing, NULL);
   }
+  g_option_context_add_main_entries(context, every, NULL);
   GError *error = NULL;
   bool good = g_option_context_parse(context, argc, argv, &error);
   if (!good) {
@@ -76,14 +120,47 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
                 command->name, command->usage);
     good = false;
   }
+  good = good && take_common(progress);
+  g_free(progress);
   g_option_context_free(context);
   return good;
 }
 
+// One object on one line of standard error: the writer's line ends are all indentation.
+static void print_json(SbJson *json) {
+  g_autofree char *text = sb_json_finish(json);
+  g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
+  for (char **line = lines; *line != NULL; line++) {
+    g_strstrip(*line);
+  }
+  g_autofree char *whole = g_strjoinv("", lines);
+  fprintf(stderr, "%s\n", whole);
+}
+
 static void print_line(const char *text) {
   char *printable = sb_printable(text, strlen(text));
-  fprintf(stderr, "sealbench: %s\n", printable);
+  if (common.progress == PROGRESS_JSON) {
+    SbJson json;
+    sb_json_init(&json);
+    sb_json_object(&json, NULL);
+    sb_json_string(&json, "event", "message");
+    sb_json_string(&json, "text", printable);
+    sb_json_object_end(&json);
+    print_json(&json);
+  } else {
+    fprintf(stderr, "sealbench: %s\n", printable);
+  }
   g_free(printable);
+}
+
+void sb_cli_note(const char *format, ...) {
+  if (common.progress != PROGRESS_NONE) {
+    va_list arguments;
+    va_start(arguments, format);
+    g_autofree char *text = g_strdup_vprintf(format, arguments);
+    va_end(arguments);
+    print_line(text);
+  }
 }
 
 int sb_cli_fail(const char *format, ...) {
@@ -206,7 +283,8 @@ SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings) {
   }
   g_ptr_array_unref(issues);
   for (guint i = 0; document != NULL && i < sb_document_notes(document)->len; i++) {
-    fprintf(stderr, "sealbench: note: %s\n", (const char *)sb_document_notes(document)->pdata[i]);
+    g_autofree char *note = g_strconcat("note: ", sb_document_notes(document)->pdata[i], NULL);
+    print_line(note);
   }
   return document;
 }
@@ -227,17 +305,36 @@ bool sb_cli_has_memory(const SbModel *model) {
 
 // ---- Output ----
 
-int sb_cli_emit(const char *json, const char *target) {
-  if (strcmp(target, "-") == 0) {
-    fputs(json, stdout);
-    if (fflush(stdout) != 0 || ferror(stdout) != 0) {
-      sb_cli_fail("standard output: %s", g_strerror(errno));
-      return SB_EXIT_IO;
-    }
-    return SB_EXIT_DONE;
-  }
+int sb_cli_check_outputs(const char *folder, char *const *names, const char *target) {
   GError *error = NULL;
-  return sb_atomic_write(target, json, strlen(json), &error) ? SB_EXIT_DONE : sb_cli_error(error);
+  SbOutputCheck check = {0};
+  bool good = true;
+  for (; folder != NULL && *names != NULL && good; names++) {
+    g_autofree char *path = g_build_filename(folder, *names, NULL);
+    good = sb_output_check(&check, path, true, &error);
+  }
+  if (good && target != NULL) {
+    // A file beside those of the folder finds it made.
+    g_autofree char *in = g_path_get_dirname(target);
+    g_autofree char *whole = g_canonicalize_filename(in, NULL);
+    g_autofree char *made = g_canonicalize_filename(folder != NULL ? folder : "", NULL);
+    bool makes_folder = folder != NULL && strcmp(whole, made) == 0;
+    good = sb_output_check(&check, target, makes_folder, &error);
+  }
+  sb_output_check_clear(&check);
+  return good ? SB_EXIT_DONE : sb_cli_error(error);
+}
+
+void sb_cli_kept(const char *folder, const GPtrArray *kept) {
+  for (guint i = 0; i < kept->len; i++) {
+    g_autofree char *path = g_build_filename(folder, kept->pdata[i], NULL);
+    sb_cli_fail("%s: is of an earlier result and was changed since; it is kept", path);
+  }
+}
+
+int sb_cli_emit(const char *json, const char *target) {
+  GError *error = NULL;
+  return sb_output_write(target, json, strlen(json), &error) ? SB_EXIT_DONE : sb_cli_error(error);
 }
 
 void sb_cli_line(const char *label, const char *text) {
@@ -272,14 +369,22 @@ void sb_cli_warnings(const SbWarnings *warnings) {
 static volatile sig_atomic_t interrupted;
 
 static void on_interrupt(int number) {
+  if (interrupted != 0 && !sb_output_is_committing()) {
+    signal(number, SIG_DFL);
+    raise(number);
+  }
   interrupted = 1;
 }
 
 void sb_cli_catch_interrupts(void) {
-  struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+  struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESTART};
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);
+  struct sigaction former;
+  if (sigaction(SIGHUP, NULL, &former) == 0 && former.sa_handler != SIG_IGN) { // nohup
+    sigaction(SIGHUP, &action, NULL);
+  }
 }
 
 bool sb_cli_interrupted(void *unused) {
@@ -288,24 +393,39 @@ bool sb_cli_interrupted(void *unused) {
 
 // ---- Progress ----
 
-void sb_progress_start(SbProgress *progress, const char *what, bool quiet) {
-  *progress = (SbProgress){what, quiet, isatty(STDERR_FILENO) != 0, 0, g_get_monotonic_time()};
+void sb_progress_start(SbProgress *progress, const char *what) {
+  *progress = (SbProgress){what, 0, g_get_monotonic_time()};
+}
+
+static void print_progress(const SbProgress *progress, double fraction, double elapsed) {
+  g_autofree char *what = g_strchomp(g_strdup(progress->what));
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_object(&json, NULL);
+  sb_json_string(&json, "event", "progress");
+  sb_json_string(&json, "work", what[0] != '\0' ? what : "computing");
+  sb_json_number(&json, "fraction", fraction);
+  sb_json_number(&json, "elapsed_s", elapsed);
+  sb_json_number(&json, "left_s", elapsed * (1 - fraction) / fraction);
+  sb_json_object_end(&json);
+  print_json(&json);
 }
 
 void sb_progress_update(SbProgress *progress, double fraction) {
-  int percent = (int)(100 * CLAMP(fraction, 0, 1));
-  if (progress->quiet) {
-    return;
-  }
-  if (!progress->bar) {
+  fraction = CLAMP(fraction, 0, 1);
+  int percent = (int)(100 * fraction);
+  double elapsed = (double)(g_get_monotonic_time() - progress->start) / G_USEC_PER_SEC;
+  if (common.progress == PROGRESS_LINES) {
     for (; progress->last < percent / 10; progress->last++) {
       fprintf(stderr, "sealbench: %s%d %%\n", progress->what, 10 * (progress->last + 1));
     }
-    return;
+  }
+  if (common.progress == PROGRESS_JSON && percent > progress->last) {
+    progress->last = percent;
+    print_progress(progress, fraction, elapsed);
   }
   // The first blink of a short run needs no bar.
-  double elapsed = (double)(g_get_monotonic_time() - progress->start) / G_USEC_PER_SEC;
-  if (percent <= progress->last || elapsed < 0.3) {
+  if (common.progress != PROGRESS_BAR || percent <= progress->last || elapsed < 0.3) {
     return;
   }
   progress->last = percent;
@@ -320,7 +440,7 @@ void sb_progress_update(SbProgress *progress, double fraction) {
 }
 
 void sb_progress_end(SbProgress *progress) {
-  if (!progress->quiet && progress->bar && progress->last > 0) {
+  if (common.progress == PROGRESS_BAR && progress->last > 0) {
     fprintf(stderr, "\r\033[K");
   }
 }

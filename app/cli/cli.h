@@ -29,9 +29,10 @@ typedef struct {
 // All commands, ending with a name of NULL.
 const SbCommand *sb_commands(void);
 
-// Takes the options of `entries` (NULL-terminated; strings as G_OPTION_ARG_FILENAME, so that bytes
-// pass untouched) out of argv, which keeps its name and the operands. Prints a message and returns
-// false for wrong ones or a number of operands outside [min, max]. Handles --help and exits.
+// Takes the options that every command has (--quiet, --progress; with `entries` --no-overwrite),
+// and those of `entries` (NULL-terminated; strings as G_OPTION_ARG_FILENAME, so that bytes pass
+// untouched) out of argv, which keeps its name and the operands. Prints a message and returns false
+// for wrong ones or a number of operands outside [min, max]. Handles --help and exits.
 bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int operands_min,
                   int operands_max, const char *notes);
 
@@ -62,6 +63,12 @@ void sb_cli_issues(const GPtrArray *issues);
 bool sb_cli_quantity(double *out, const char *option, const char *text, bool required,
                      const char *si, const char *shown);
 
+// --quiet: no table, and no progress but what --progress asks for.
+bool sb_cli_quiet(void);
+
+// "sealbench: ..." on standard error where progress is shown too.
+void sb_cli_note(const char *format, ...) G_GNUC_PRINTF(1, 2);
+
 // Opens a valve or scene ("-": standard input), applies KEY=VALUE settings and compiles; prints
 // every problem and returns NULL if there is any. Owned by the caller.
 SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings);
@@ -69,6 +76,14 @@ SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings);
 // Whether there is memory for the dense solvers of a run of `model` (NULL: of anything), told
 // before the work; prints what is missing.
 bool sb_cli_has_memory(const SbModel *model);
+
+// Whether `names` (NULL-terminated) in `folder` and then the file `target` can be written and are
+// no inputs; any may be NULL. To be called when the inputs are read and before the work. An exit
+// code.
+int sb_cli_check_outputs(const char *folder, char *const *names, const char *target);
+
+// Tells which files of an earlier result (char *) are still in the folder.
+void sb_cli_kept(const char *folder, const GPtrArray *kept);
 
 // Writes `json` to standard output ("-") or a file, whole or not at all; returns an exit code.
 int sb_cli_emit(const char *json, const char *target);
@@ -78,25 +93,26 @@ void sb_cli_figure(const char *label, double value, const char *si, const char *
 void sb_cli_line(const char *label, const char *text);
 void sb_cli_warnings(const SbWarnings *warnings);
 
-// After this Ctrl-C and SIGTERM only set a flag; a second Ctrl-C ends the program at once.
+// After this Ctrl-C, SIGTERM and, unless it was ignored, SIGHUP only set a flag; a second one ends
+// the program at once, but not between the files of one result.
 void sb_cli_catch_interrupts(void);
 bool sb_cli_interrupted(void *unused);
 
-// Progress on standard error: a bar on a terminal, a line every 10 % otherwise.
+// Progress on standard error: a bar on a terminal, otherwise what --progress asks for: a line every
+// 10 %, or a JSON object every percent.
 typedef struct {
   const char *what; // "drawing ", in front of the percentage; may be empty
-  bool quiet, bar;
-  int last;     // last percent (bar) or decile (lines) shown
-  gint64 start; // [us]
+  int last;         // last percent (bar, JSON) or decile (lines) shown
+  gint64 start;     // [us]
 } SbProgress;
 
-void sb_progress_start(SbProgress *progress, const char *what, bool quiet);
+void sb_progress_start(SbProgress *progress, const char *what);
 void sb_progress_update(SbProgress *progress, double fraction);
 void sb_progress_end(SbProgress *progress);
 
 // Computes a study with progress and interrupts; prints what is wrong. SB_EXIT_DONE or
 // SB_EXIT_NOT_CONVERGED (with gaps) leave *out to be written, anything else does not.
-int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model, bool quiet);
+int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model);
 
 int sb_command_run(int argc, char **argv);
 int sb_command_check(int argc, char **argv);

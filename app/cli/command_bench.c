@@ -1,11 +1,11 @@
 // sealbench bench: error against time for every solver, by the engine's cases with known answers.
 #include "app/cli/cli.h"
+#include "app/document/output.h"
 #include "app/export/bench_page.h"
 #include "app/export/json.h"
 
 #include "engine/bench.h"
 
-#include <errno.h>
 #include <math.h>
 
 static char *to_json(const SbBenchCase *cases, size_t count) {
@@ -50,10 +50,10 @@ static void print_table(const SbBenchCase *cases, size_t count) {
 }
 
 // Runs the cases; *done of them are complete afterwards. Returns an exit code.
-static int run_cases(SbBenchCase *cases, size_t count, size_t *done, int repeats, bool quiet) {
+static int run_cases(SbBenchCase *cases, size_t count, size_t *done, int repeats) {
   int code = SB_EXIT_DONE;
   SbProgress progress;
-  sb_progress_start(&progress, "", quiet);
+  sb_progress_start(&progress, "");
   for (*done = 0; *done < count; ++*done) {
     if (sb_cli_interrupted(NULL)) {
       code = SB_EXIT_INTERRUPTED;
@@ -77,22 +77,21 @@ static int run_cases(SbBenchCase *cases, size_t count, size_t *done, int repeats
 // bench.json and its picture. Returns an exit code.
 static int write_folder(const char *folder, const char *json, const SbBenchCase *cases,
                         size_t count) {
-  if (g_mkdir_with_parents(folder, 0777) != 0) {
-    sb_cli_fail("%s: %s", folder, g_strerror(errno));
-    return SB_EXIT_IO;
+  SbOutputFolder *out;
+  GError *error = NULL;
+  g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
+  FILE *stream;
+  bool good = sb_output_folder_open(&out, folder, "bench", &error);
+  if (good && (good = sb_output_folder_add(&stream, out, "bench.json", &error))) {
+    fputs(json, stream);
   }
-  g_autofree char *path = g_build_filename(folder, "bench.json", NULL);
-  int code = sb_cli_emit(json, path);
-  if (code != SB_EXIT_DONE) {
-    return code;
+  if (good && (good = sb_output_folder_add(&stream, out, "bench.png", &error))) {
+    good = sb_bench_put(stream, cases, count, &error);
   }
-  g_autofree char *picture = g_build_filename(folder, "bench.png", NULL);
-  g_autoptr(GError) error = NULL;
-  if (!sb_bench_still(cases, count, picture, &error)) {
-    sb_cli_fail("%s", error->message);
-    return SB_EXIT_IO;
-  }
-  return SB_EXIT_DONE;
+  good = good && sb_output_folder_commit(out, &error) && sb_output_folder_finish(out, kept, &error);
+  sb_output_folder_close(out);
+  sb_cli_kept(folder, kept);
+  return good ? SB_EXIT_DONE : sb_cli_error(error);
 }
 
 int sb_command_bench(int argc, char **argv) {
@@ -102,27 +101,32 @@ int sb_command_bench(int argc, char **argv) {
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &folder, "Folder for bench.json and bench.png",
        "DIR"},
-      {"quick", 0, 0, G_OPTION_ARG_NONE, &quick, "Times each case once, without progress", NULL},
+      {"quick", 0, 0, G_OPTION_ARG_NONE, &quick, "Times each case once", NULL},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
       {0},
   };
   int code = SB_EXIT_INPUT;
-  bool parsed = sb_cli_parse(&argc, &argv, entries, 0, 0,
-                             "Times are the median of 20 cold solves after a warm-up.");
-  if (parsed && !sb_cli_has_memory(NULL)) {
+  char *names[] = {(char *)"bench.json", (char *)"bench.png", NULL};
+  bool good = sb_cli_parse(&argc, &argv, entries, 0, 0,
+                           "Times are the median of 20 cold solves after a warm-up.");
+  if (good) {
+    code = sb_cli_check_outputs(folder, names, target);
+  }
+  if (code == SB_EXIT_DONE && !sb_cli_has_memory(NULL)) {
     code = SB_EXIT_IO;
-  } else if (parsed) {
+  }
+  if (code == SB_EXIT_DONE) {
     const int repeats = quick ? 1 : 20;
     size_t count = sb_bench_count();
     SbBenchCase *cases = g_new0(SbBenchCase, count);
     size_t done = 0;
     sb_cli_catch_interrupts();
-    code = run_cases(cases, count, &done, repeats, quick);
+    code = run_cases(cases, count, &done, repeats);
     char *json = to_json(cases, done);
     int written = folder != NULL ? write_folder(folder, json, cases, done) : SB_EXIT_DONE;
     if (written == SB_EXIT_DONE && target != NULL) {
       written = sb_cli_emit(json, target);
-    } else if (written == SB_EXIT_DONE) {
+    } else if (written == SB_EXIT_DONE && !sb_cli_quiet()) {
       print_table(cases, done);
     }
     code = written != SB_EXIT_DONE ? written : code;

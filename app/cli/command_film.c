@@ -401,7 +401,7 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
       char *json = sb_results_film(film, series != NULL ? &history : NULL);
       written = sb_cli_emit(json, target);
       g_free(json);
-    } else {
+    } else if (!sb_cli_quiet()) {
       print_table(film, problem);
       if (series != NULL) {
         print_history(&history);
@@ -473,7 +473,10 @@ int sb_command_film(int argc, char **argv) {
   problem.dry_x = (const double *)(void *)x->data;
   problem.dry_pressure = (const double *)(void *)p->data;
   problem.dry_count = x->len;
-  code = solve_and_show(&problem, texts, path != NULL ? series : NULL, target);
+  code = sb_cli_check_outputs(NULL, NULL, target);
+  if (code == SB_EXIT_DONE) {
+    code = solve_and_show(&problem, texts, path != NULL ? series : NULL, target);
+  }
 done:
   g_array_unref(x);
   g_array_unref(p);

@@ -168,6 +168,10 @@ int sb_command_fit(int argc, char **argv) {
     sb_cli_fail("--tolerance: out of range (allowed 1e-8 to 0.1)");
     goto done;
   }
+  code = sb_cli_check_outputs(NULL, NULL, target);
+  if (code != SB_EXIT_DONE) {
+    goto done;
+  }
   fit = g_new0(SbFit, 1);
   Solve job = {fit, &problem, {0}};
   sb_cli_catch_interrupts();
@@ -194,7 +198,7 @@ int sb_command_fit(int argc, char **argv) {
           sb_results_fit(fit, seal, problem.pressure, readouts, &model->seal[index].storage);
       written = sb_cli_emit(json, target);
       g_free(json);
-    } else {
+    } else if (!sb_cli_quiet()) {
       print_table(fit, seal);
       print_gland(readouts);
     }

@@ -9,10 +9,10 @@
 
 // The options as they were given; texts are owned.
 typedef struct {
-  char *output, *view, *size, *at, *fps, *duration, *speed, *from, *to, *backend;
+  char *output, *format, *view, *size, *at, *fps, *duration, *speed, *from, *to, *backend;
   char *field, *field_max, *insets, *zoom, *azimuth, *elevation;
   char **settings;
-  gboolean dark, quiet, full, undeformed;
+  gboolean dark, full, undeformed;
 } Options;
 
 // What they mean.
@@ -26,20 +26,15 @@ typedef struct {
 } Request;
 
 static void options_clear(Options *options) {
-  char *const texts[] = {options->output, options->view,    options->size,    options->at,
-                         options->fps,    options->speed,   options->from,    options->duration,
-                         options->to,     options->field,   options->zoom,    options->field_max,
-                         options->insets, options->backend, options->azimuth, options->elevation};
+  char *const texts[] = {options->output,    options->format, options->view,    options->size,
+                         options->at,        options->fps,    options->speed,   options->from,
+                         options->duration,  options->to,     options->field,   options->zoom,
+                         options->field_max, options->insets, options->backend, options->azimuth,
+                         options->elevation};
   for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
     g_free(texts[i]);
   }
   g_strfreev(options->settings);
-}
-
-// In capitals or not, as in the writers.
-static bool ends_in(const char *path, const char *ending) {
-  size_t length = strlen(path), tail = strlen(ending);
-  return length >= tail && g_ascii_strcasecmp(path + length - tail, ending) == 0;
 }
 
 // "1280x720", or a size with a name.
@@ -128,10 +123,29 @@ static bool parse(Request *request, const Options *options) {
   if (options->size != NULL && !parse_size(&how->width, &how->height, options->size)) {
     return false;
   }
-  request->film = ends_in(options->output, ".mp4");
-  request->sequence = sb_render_is_sequence(options->output);
-  request->vector = ends_in(options->output, ".svg") || ends_in(options->output, ".pdf");
-  bool still = request->vector || ends_in(options->output, ".png");
+  bool stream = strcmp(options->output, "-") == 0;
+  if (stream != (options->format != NULL)) {
+    sb_cli_fail(stream ? "--format is missing: -o - needs png, svg, pdf or mp4"
+                       : "--format is for -o -; a file's ending says it");
+    return false;
+  }
+  const char *ending = options->output;
+  if (stream) {
+    static const char *const formats[] = {".png", ".svg", ".pdf", ".mp4", NULL};
+    const char *const *found = formats;
+    while (*found != NULL && g_ascii_strcasecmp(*found + 1, options->format) != 0) {
+      found++;
+    }
+    if (*found == NULL) {
+      sb_cli_fail("--format: there is no \"%s\" (allowed png, svg, pdf, mp4)", options->format);
+      return false;
+    }
+    ending = how->ending = *found;
+  }
+  request->film = sb_output_ends_in(ending, ".mp4");
+  request->sequence = !stream && sb_render_is_sequence(options->output);
+  request->vector = sb_output_ends_in(ending, ".svg") || sb_output_ends_in(ending, ".pdf");
+  bool still = request->vector || sb_output_ends_in(ending, ".png");
   if (!still && !request->film && !request->sequence) {
     sb_cli_fail("-o: %s: the ending must be .png, .svg, .pdf or .mp4", options->output);
     return false;
@@ -211,8 +225,7 @@ static void on_picture(void *data, size_t done, size_t total) {
 }
 
 // Runs what the view needs. An engine's status; `*run` may hold a partial run.
-static SbStatus compute(SbRun **run, SbModel *model, const char *view, bool quiet,
-                        SbReport *report) {
+static SbStatus compute(SbRun **run, SbModel *model, const char *view, SbReport *report) {
   // What is drawn decides what is computed, not what the scene would show by itself.
   const char *needs = strcmp(view, "cutaway") == 0 ? "section" : view;
   int index = sb_param_choice(sb_param(SB_P_OUTPUT_VIEWS), needs, strlen(needs));
@@ -220,7 +233,7 @@ static SbStatus compute(SbRun **run, SbModel *model, const char *view, bool quie
   SbPlan plan;
   sb_plan_make(&plan, model);
   SbProgress progress;
-  sb_progress_start(&progress, "computing ", quiet);
+  sb_progress_start(&progress, "computing ");
   SbStatus status = sb_run_create(run, model, &plan, report);
   if (status == SB_OK) {
     sb_cli_catch_interrupts();
@@ -232,28 +245,30 @@ static SbStatus compute(SbRun **run, SbModel *model, const char *view, bool quie
 }
 
 // The film or sequence, with its own progress.
-static int render_film(const SbRun *run, Request *request, const char *output, bool quiet) {
+static int render_film(const SbRun *run, Request *request, const char *output) {
   SbProgress progress;
-  sb_progress_start(&progress, "drawing ", quiet);
+  sb_progress_start(&progress, "drawing ");
   request->movie.hooks = (SbMovieHooks){on_picture, on_cancelled, &progress};
   SbMovieResult result = {0};
+  g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
   GError *error = NULL;
-  bool good = request->sequence
-                  ? sb_render_sequence(run, &request->how, &request->movie, output, &result, &error)
-                  : sb_render_movie(run, &request->how, &request->movie, output, &result, &error);
+  bool good =
+      request->sequence
+          ? sb_render_sequence(run, &request->how, &request->movie, output, &result, kept, &error)
+          : sb_render_movie(run, &request->how, &request->movie, output, &result, &error);
   sb_progress_end(&progress);
-  if (!quiet && result.wall_s > 0 && request->sequence) {
-    fprintf(stderr, "sealbench: %zu pictures in %.1f s (%.0f a second); engine %.2f s before\n",
-            result.frames, result.wall_s, (double)result.frames / result.wall_s,
-            sb_run_summary(run)->wall_s);
-  } else if (good && !quiet && result.wall_s > 0) {
+  sb_cli_kept(output, kept);
+  if (result.wall_s > 0 && request->sequence) {
+    sb_cli_note("%zu pictures in %.1f s (%.0f a second); engine %.2f s before", result.frames,
+                result.wall_s, (double)result.frames / result.wall_s, sb_run_summary(run)->wall_s);
+  } else if (good && result.wall_s > 0) {
     double read_back = sb_section_painter_read_back(request->how.section_data);
-    fprintf(stderr,
-            "sealbench: %zu pictures in %.1f s (%.0f a second): drawing %.1f s, of it %.1f s "
-            "waiting for GL and reading back; beside it colours %.1f s and encoding %.1f s; engine "
-            "%.2f s before\n",
-            result.frames, result.wall_s, (double)result.frames / result.wall_s, result.draw_s,
-            read_back, result.convert_s, result.encode_s, sb_run_summary(run)->wall_s);
+    sb_cli_note(
+        "%zu pictures in %.1f s (%.0f a second): drawing %.1f s, of it %.1f s "
+        "waiting for GL and reading back; beside it colours %.1f s and encoding %.1f s; engine "
+        "%.2f s before",
+        result.frames, result.wall_s, (double)result.frames / result.wall_s, result.draw_s,
+        read_back, result.convert_s, result.encode_s, sb_run_summary(run)->wall_s);
   }
   return good ? SB_EXIT_DONE : sb_cli_error(error);
 }
@@ -271,9 +286,9 @@ static char *file_names(const SbDocument *document) {
 
 // A study needs no run.
 static int render_study(SbStudyKind kind, SbDocument *document, const SbModel *model,
-                        const SbRenderOptions *options, const char *output, bool quiet) {
+                        const SbRenderOptions *options, const char *output) {
   SbStudy *study = g_new(SbStudy, 1);
-  int code = sb_cli_study(study, kind, model, quiet);
+  int code = sb_cli_study(study, kind, model);
   if (code == SB_EXIT_DONE || code == SB_EXIT_NOT_CONVERGED) {
     g_autofree char *sha256 = sb_document_sha256(document);
     g_autofree char *scene = sb_document_to_flat_text(document);
@@ -284,6 +299,7 @@ static int render_study(SbStudyKind kind, SbDocument *document, const SbModel *m
                         .hash = sha256,
                         .scene = scene,
                         .dark = options->dark,
+                        .ending = options->ending,
                         .width = options->width,
                         .height = options->height};
     GError *error = NULL;
@@ -307,8 +323,8 @@ static int render(const SbRun *run, const SbDocument *document, Request *request
   if (status != SB_OK) {
     return sb_cli_status(status, &report);
   }
-  if (use_gl && !options->quiet) {
-    fprintf(stderr, "sealbench: section by %s\n", sb_section_painter_reason(painter));
+  if (use_gl) {
+    sb_cli_note("section by %s", sb_section_painter_reason(painter));
   }
   SbSectionStyle style = sb_section_style_of(sb_run_model(run));
   style.zoom = request->zoom;
@@ -327,7 +343,7 @@ static int render(const SbRun *run, const SbDocument *document, Request *request
   int code = SB_EXIT_DONE;
   GError *error = NULL;
   if (request->film || request->sequence) {
-    code = render_film(run, request, output, options->quiet);
+    code = render_film(run, request, output);
   } else if (!sb_render_still(run, how, output, &error)) {
     code = sb_cli_error(error);
   }
@@ -338,11 +354,23 @@ static int render(const SbRun *run, const SbDocument *document, Request *request
   return code;
 }
 
+// What cannot be written is told before the work.
+static int check_output(const Request *request, const char *output) {
+  GError *error = NULL;
+  SbOutputCheck check = {0};
+  bool good = request->sequence ? sb_render_sequence_check(output, &check, &error)
+                                : sb_output_check(&check, output, false, &error);
+  sb_output_check_clear(&check);
+  return good ? SB_EXIT_DONE : sb_cli_error(error);
+}
+
 int sb_command_render(int argc, char **argv) {
   Options options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output,
        "Picture (.png, .svg, .pdf), film (.mp4) or sequence (frames/%04d.png or a folder)", "OUT"},
+      {"format", 0, 0, G_OPTION_ARG_FILENAME, &options.format,
+       "Of -o -, which writes to standard output: png, svg, pdf or mp4", "NAME"},
       {"view", 0, 0, G_OPTION_ARG_FILENAME, &options.view,
        "section (default), cutaway, hysteresis, profiles, dashboard, rig, life or a study "
        "(sealbench "
@@ -381,7 +409,6 @@ int sb_command_render(int argc, char **argv) {
        "The rings' outline before fitting, dashed (output.undeformed)", NULL},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"dark", 0, 0, G_OPTION_ARG_NONE, &options.dark, "Dark theme", NULL},
-      {"quiet", 0, 0, G_OPTION_ARG_NONE, &options.quiet, "No progress", NULL},
       {0},
   };
   int code = SB_EXIT_INPUT;
@@ -398,17 +425,20 @@ int sb_command_render(int argc, char **argv) {
   if (document == NULL) {
     goto done;
   }
+  code = check_output(&request, options.output);
+  if (code != SB_EXIT_DONE) {
+    goto done;
+  }
   if (!sb_cli_has_memory(request.is_study ? NULL : model)) {
     code = SB_EXIT_IO;
     goto done;
   }
   if (request.is_study) {
-    code =
-        render_study(request.study, document, model, &request.how, options.output, options.quiet);
+    code = render_study(request.study, document, model, &request.how, options.output);
     goto done;
   }
   SbReport report = {0};
-  SbStatus status = compute(&run, model, request.how.view, options.quiet, &report);
+  SbStatus status = compute(&run, model, request.how.view, &report);
   code = sb_cli_status(status, &report);
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int drawn = render(run, document, &request, &options);

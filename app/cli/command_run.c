@@ -2,7 +2,6 @@
 #include "app/cli/cli.h"
 #include "app/export/results_files.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -163,14 +162,13 @@ static bool on_cancelled(void *data) {
 
 // The studies of a bit mask, in order; returns the worst exit code. An interrupt ends with those
 // that are done.
-static int make_studies(SbStudy *out, size_t *count, const SbModel *model, unsigned mask,
-                        bool quiet) {
+static int make_studies(SbStudy *out, size_t *count, const SbModel *model, unsigned mask) {
   int code = SB_EXIT_DONE;
   for (int i = 0; i < SB_STUDY_COUNT; i++) {
     if ((mask & (1u << i)) == 0) {
       continue;
     }
-    int made = sb_cli_study(&out[*count], (SbStudyKind)i, model, quiet);
+    int made = sb_cli_study(&out[*count], (SbStudyKind)i, model);
     *count += made == SB_EXIT_DONE || made == SB_EXIT_NOT_CONVERGED ? 1 : 0;
     code = made != SB_EXIT_DONE ? made : code;
     if (made == SB_EXIT_INTERRUPTED) {
@@ -184,17 +182,16 @@ int sb_command_run(int argc, char **argv) {
   char *folder = NULL;
   char *json_target = NULL;
   char **settings = NULL;
-  gboolean quiet = FALSE;
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &folder,
        "Folder for results.json, cycle.csv, profiles.csv, and life or study tables", "DIR"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &json_target, "JSON to a file or - ", "FILE|-"},
-      {"quiet", 0, 0, G_OPTION_ARG_NONE, &quiet, "No progress, no table", NULL},
       {0},
   };
   int code = SB_EXIT_INPUT;
   g_autofree SbModel *model = g_new(SbModel, 1);
+  g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
   SbDocument *document = NULL;
   SbRun *run = NULL;
   SbStudy *studies = NULL;
@@ -205,20 +202,21 @@ int sb_command_run(int argc, char **argv) {
   if (document == NULL) {
     goto done;
   }
-  if (!quiet && sb_document_kind(document) == SB_DOCUMENT_VALVE &&
+  if (!sb_cli_quiet() && sb_document_kind(document) == SB_DOCUMENT_VALVE &&
       sb_document_path(document) != NULL) {
     fprintf(stderr, "sealbench: note: %s is a valve, no scene: its default cycle is run\n",
             argv[1]);
   }
-  // A folder that cannot be is told before the work, not after it.
-  GError *error = NULL;
-  if (folder != NULL && !sb_results_folder_check(folder, &error)) {
-    code = sb_cli_error(error);
-    goto done;
-  }
   SbPlan plan;
   SbReport report = {0};
   sb_plan_make(&plan, model);
+  // What cannot be written is told before the work, not after it.
+  char **names = sb_results_folder_names(plan.studies, model->life_actuations > 1);
+  code = sb_cli_check_outputs(folder, names, json_target);
+  g_strfreev(names);
+  if (code != SB_EXIT_DONE) {
+    goto done;
+  }
   if (!sb_cli_has_memory(plan.studies == 0 ? model : NULL)) {
     code = SB_EXIT_IO;
     goto done;
@@ -229,7 +227,7 @@ int sb_command_run(int argc, char **argv) {
     goto done;
   }
   SbProgress progress;
-  sb_progress_start(&progress, "", quiet);
+  sb_progress_start(&progress, "");
   sb_cli_catch_interrupts();
   SbRunHooks hooks = {on_progress, on_cancelled, &progress};
   status = sb_run_execute(run, &hooks, &report);
@@ -244,7 +242,7 @@ int sb_command_run(int argc, char **argv) {
   size_t study_count = 0;
   if (status != SB_ERROR_CANCELLED && plan.studies != 0) {
     studies = g_new(SbStudy, SB_STUDY_COUNT);
-    int studied = make_studies(studies, &study_count, model, plan.studies, quiet);
+    int studied = make_studies(studies, &study_count, model, plan.studies);
     code = studied != SB_EXIT_DONE ? studied : code;
   }
   SbResultsInfo info = {.scene = argv[1],
@@ -254,12 +252,15 @@ int sb_command_run(int argc, char **argv) {
                         .study_count = study_count};
   char *json = sb_results_run(run, &info);
   int written = SB_EXIT_DONE;
-  if (folder != NULL && !sb_results_folder_write(folder, run, json, studies, study_count, &error)) {
+  GError *error = NULL;
+  if (folder != NULL &&
+      !sb_results_folder_write(folder, run, json, studies, study_count, kept, &error)) {
     written = sb_cli_error(error);
   }
+  sb_cli_kept(folder, kept);
   if (json_target != NULL && written == SB_EXIT_DONE) {
     written = sb_cli_emit(json, json_target);
-  } else if (!quiet && written == SB_EXIT_DONE) {
+  } else if (!sb_cli_quiet() && written == SB_EXIT_DONE) {
     print_table(document, run);
     if (folder != NULL) {
       printf("Results are in %s\n", folder);

@@ -34,7 +34,9 @@ int sb_command_check(int argc, char **argv) {
       g_autofree char *printable = sb_printable(line, strlen(line));
       printf("warning: %s\n", printable);
     }
-    printf("%s: a %s without %s\n", shown, kind, remarks->len > 0 ? "errors" : "problems");
+    if (!sb_cli_quiet()) {
+      printf("%s: a %s without %s\n", shown, kind, remarks->len > 0 ? "errors" : "problems");
+    }
     g_ptr_array_unref(remarks);
     g_free(shown);
     sb_document_free(document);
@@ -208,7 +210,7 @@ int sb_command_plan(int argc, char **argv) {
       char *json = sb_results_plan(&plan);
       code = sb_cli_emit(json, target);
       g_free(json);
-    } else {
+    } else if (!sb_cli_quiet()) {
       print_plan(&plan);
     }
   }
@@ -262,7 +264,7 @@ int sb_command_asperity(int argc, char **argv) {
       char *json = asperity_json(&integrals);
       code = sb_cli_emit(json, target);
       g_free(json);
-    } else if (status == SB_OK) {
+    } else if (status == SB_OK && !sb_cli_quiet()) {
       char digits[SB_NUMBER_SIZE];
       sb_cli_line("lambda", sb_number_format(digits, integrals.lambda));
       sb_cli_line("F2", sb_number_format(digits, integrals.F2));

@@ -1,6 +1,7 @@
 // sealbench: the command line. Finds the command and hands over.
 #include "app/cli/cli.h"
 
+#include "app/document/output.h"
 #include "app/run/process.h"
 
 #include <errno.h>
@@ -49,6 +50,7 @@ static void print_help(FILE *stream) {
 
 int main(int argc, char **argv) {
   sb_process_set_up();
+  sb_output_protect_inputs();
   int code = SB_EXIT_INPUT;
   const SbCommand *command = commands;
   while (argc > 1 && command->name != NULL && strcmp(command->name, argv[1]) != 0) {

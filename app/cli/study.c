@@ -5,10 +5,10 @@ static void on_progress(void *data, double fraction) {
   sb_progress_update(data, fraction);
 }
 
-int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model, bool quiet) {
+int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model) {
   g_autofree char *what = g_strdup_printf("study %s ", sb_study_name(kind));
   SbProgress progress;
-  sb_progress_start(&progress, what, quiet);
+  sb_progress_start(&progress, what);
   sb_cli_catch_interrupts();
   SbStudyHooks hooks = {on_progress, sb_cli_interrupted, &progress};
   SbReport report = {0};

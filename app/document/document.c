@@ -3,6 +3,7 @@
 #include "app/document/document_parts.h"
 #include "app/document/document_private.h"
 #include "app/document/nearest.h"
+#include "app/document/output.h"
 #include "app/document/reader.h"
 #include "app/document/series.h"
 #include "app/export/still.h"
@@ -317,8 +318,8 @@ static SbDocument *parse_picture(const char *data, size_t length, const char *na
 SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
   bool stream = strcmp(path, "-") == 0;
   const char *name = stream ? "standard input" : path;
-  size_t length = 0, tail = strlen(path);
-  bool picture = tail >= 4 && g_ascii_strcasecmp(path + tail - 4, ".png") == 0;
+  size_t length = 0;
+  bool picture = sb_output_ends_in(path, ".png");
   size_t most = picture ? SB_STILL_BYTES_MAX : SB_DOCUMENT_BYTES_MAX;
   char *text = stream ? sb_reader_load_stream(&length, STDIN_FILENO, name, most, issues)
                       : sb_reader_load(&length, path, name, most, issues);

@@ -1,6 +1,6 @@
 // Documents as text and files: only the lines that differ are rewritten.
-#include "app/document/atomic.h"
 #include "app/document/document_private.h"
+#include "app/document/output.h"
 #include "app/document/reader.h"
 #include "app/document/writer.h"
 
@@ -174,7 +174,7 @@ char *sb_document_to_flat_text(const SbDocument *document) {
 
 bool sb_document_save(SbDocument *document, const char *path, GError **error) {
   char *text = sb_document_to_text(document, path);
-  if (!sb_atomic_write(path, text, strlen(text), error)) {
+  if (!sb_output_write(path, text, strlen(text), error)) {
     g_free(text);
     return false;
   }

@@ -2,6 +2,8 @@
 // refused, and every line that means nothing is told.
 #include "app/document/reader.h"
 
+#include "app/document/output.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <glib.h>
@@ -74,6 +76,7 @@ char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t
   } else if ((guint64)info.st_size > bytes_max) {
     add_too_large(issues, shown, bytes_max, (double)info.st_size);
   } else {
+    sb_output_note_input(&info);
     text = sb_reader_load_stream(length, fd, shown, bytes_max, issues);
   }
   close(fd);

@@ -79,7 +79,7 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
   cairo_restore(cr);
 }
 
-bool sb_bench_still(const SbBenchCase *cases, size_t count, const char *path, GError **error) {
+bool sb_bench_put(FILE *stream, const SbBenchCase *cases, size_t count, GError **error) {
   g_autofree SbStudy *study = g_new0(SbStudy, 1);
   name_axis(&study->x, "time of one solve", "s", "ms");
   study->panel_count = 1;
@@ -97,5 +97,5 @@ bool sb_bench_still(const SbBenchCase *cases, size_t count, const char *path, GE
                    .user = study};
   // Panel and table share the page about evenly (sb_study_layout).
   still.height = SB_PAGE_HEADER + 1.9 * sb_study_table_height(study) + SB_PAGE_FOOTER + 24;
-  return sb_still_write(&still, path, error);
+  return sb_still_put(stream, &still, ".png", error);
 }

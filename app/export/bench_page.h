@@ -4,6 +4,8 @@
 #include "app/document/unit.h"
 #include "engine/bench.h"
 
-// Draws `count` finished cases and writes `path` (.png, .svg, .pdf; see still.h for errors). Cases
+#include <stdio.h>
+
+// Draws `count` finished cases into `stream` as a PNG (see sb_still_put() for errors). Cases
 // without an error (their solver failed) are rows without figures.
-bool sb_bench_still(const SbBenchCase *cases, size_t count, const char *path, GError **error);
+bool sb_bench_put(FILE *stream, const SbBenchCase *cases, size_t count, GError **error);

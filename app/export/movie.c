@@ -2,7 +2,7 @@
 // full ones. POSIX threads and a mutex, so that the thread sanitizer understands them.
 #include "app/export/movie.h"
 
-#include "app/document/atomic.h"
+#include "app/document/output.h"
 #include "app/export/movie_encoder.h"
 
 #include <glib.h>
@@ -185,16 +185,12 @@ SbStatus sb_movie_write(const char *path, const SbMovieOptions *given, SbMovieDr
     return status;
   }
   GError *error = NULL;
-  SbAtomicFile file;
-  if (!sb_atomic_file_begin(&file, path, &error)) {
+  SbOutput file;
+  if (!sb_output_begin(&file, path, &error)) {
     return take_error(error, report);
   }
-  if (file.temporary == NULL) {
-    sb_atomic_file_abort(&file);
-    return sb_fail(report, SB_ERROR_IO, "%s: a film needs a file, not a device or pipe", path);
-  }
   Pipe line = {.stride = 4 * (size_t)options.width};
-  status = sb_movie_encoder_open(&line.encoder, file.temporary, &options, report);
+  status = sb_movie_encoder_open(&line.encoder, file.written_at, &options, report);
   for (int i = 0; i < ROW && status == SB_OK; i++) {
     line.picture[i] = g_try_malloc(line.stride * (size_t)options.height);
     if (line.picture[i] == NULL) {
@@ -214,14 +210,14 @@ SbStatus sb_movie_write(const char *path, const SbMovieOptions *given, SbMovieDr
     g_free(line.picture[i]);
   }
   if (status == SB_OK || result->partial) {
-    if (!sb_atomic_file_commit(&file, &error)) {
+    if (!sb_output_commit(&file, &error)) {
       result->frames = 0;
       result->partial = false;
       status = take_error(error, report);
     }
   } else {
     result->frames = 0;
-    sb_atomic_file_abort(&file);
+    sb_output_abort(&file);
   }
   result->wall_s = seconds() - begin;
   return status == SB_OK ? sb_succeed(report) : status;

@@ -228,6 +228,7 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
                    .scene = options->scene,
                    .hash = options->hash,
                    .comment = comment->str,
+                   .ending = options->ending,
                    .draw = draw_page,
                    .user = &page};
   bool good = sb_still_write(&still, path, error);

@@ -42,6 +42,7 @@ typedef struct {
   const char *subtitle;  // names of the files; the header adds the run's conditions
   const char *hash;      // of the parameters
   const char *scene;     // text that restores the scene, for PNG and SVG
+  const char *ending;    // of a still whose path has none; NULL: the path's
   const char *stale;     // why the run no longer fits the scene, said on the page; NULL: it does
   SbSectionDraw section; // draws the section; NULL: views that need it are refused
   void *section_data;

@@ -1,6 +1,7 @@
 // A finished run as a film, H.264 in MP4, or as a sequence of PNG files.
 #pragma once
 
+#include "app/document/output.h"
 #include "app/export/film.h"
 
 // Renders `run` into the MP4 file `path`; sizes default to the view's own, `at`, `scale` and
@@ -14,9 +15,15 @@ bool sb_render_movie(const SbRun *run, const SbRenderOptions *options, const SbR
 // (an existing one, or a name that ends with a slash), in which frame-%04d.png is meant.
 bool sb_render_is_sequence(const char *path);
 
+// Whether the files of such a sequence that are there already may be replaced (see
+// sb_output_check()), and its folder written to.
+bool sb_render_sequence_check(const char *path, SbOutputCheck *check, GError **error);
+
 // Renders the pictures of a film, counted from 1, into files named by `path` (see above), each
 // complete with the scene in it; a missing folder is made. Errors as for a film; pictures done
-// before a failure or cancelling stay, result->frames of them.
+// before a failure or cancelling stay, result->frames of them. In a folder pictures of an earlier
+// sequence beyond the last one go; `kept` (of char *, or NULL) gets the names of those that were
+// changed since.
 bool sb_render_sequence(const SbRun *run, const SbRenderOptions *options,
                         const SbRenderMovie *movie, const char *path, SbMovieResult *result,
-                        GError **error);
+                        GPtrArray *kept, GError **error);

@@ -2,9 +2,9 @@
 // not at all and carries the scene, so that any of them can be opened.
 #include "app/export/render_movie.h"
 
+#include "app/document/output.h"
 #include "app/export/still.h"
 
-#include <errno.h>
 #include <string.h>
 
 // Splits "a%04db" at its number field: the digits it asks for and what follows. False if the text
@@ -37,7 +37,47 @@ bool sb_render_is_sequence(const char *path) {
   size_t at;
   int digits;
   const char *rest;
-  return is_folder(path) || (g_str_has_suffix(path, ".png") && field_of(path, &at, &digits, &rest));
+  return is_folder(path) ||
+         (sb_output_ends_in(path, ".png") && field_of(path, &at, &digits, &rest));
+}
+
+// The folder and the pattern of names in it; both owned by the caller. True if the user gave the
+// names.
+static bool split(const char *path, char **folder, char **pattern) {
+  bool named = !is_folder(path);
+  *folder = named ? g_path_get_dirname(path) : g_strdup(path);
+  *pattern = named ? g_path_get_basename(path) : g_strdup("frame-%04d.png");
+  return named;
+}
+
+bool sb_render_sequence_check(const char *path, SbOutputCheck *check, GError **error) {
+  g_autofree char *folder = NULL;
+  g_autofree char *pattern = NULL;
+  split(path, &folder, &pattern);
+  size_t at;
+  int digits;
+  const char *rest;
+  if (!field_of(pattern, &at, &digits, &rest)) {
+    return true; // said later
+  }
+  g_autofree char *first =
+      g_strdup_printf("%s/%.*s%0*d%s", folder, (int)at, pattern, digits, 1, rest);
+  bool good = sb_output_check(check, first, true, error);
+  GDir *dir = g_dir_open(folder, 0, NULL);
+  const char *name;
+  while (good && dir != NULL && (name = g_dir_read_name(dir)) != NULL) {
+    size_t count = strncmp(name, pattern, at) == 0 ? strspn(name + at, "0123456789") : 0;
+    if (count > 0 && strcmp(name + at + count, rest) == 0) {
+      g_autofree char *file = g_build_filename(folder, name, NULL);
+      SbOutputCheck each = {0};
+      good = sb_output_check(&each, file, true, error);
+      sb_output_check_clear(&each);
+    }
+  }
+  if (dir != NULL) {
+    g_dir_close(dir);
+  }
+  return good;
 }
 
 typedef struct {
@@ -50,9 +90,25 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
   sb_film_draw(picture->film, picture->index, cr);
 }
 
-// One file after the other.
-static bool write_all(SbFilm *film, const SbRenderOptions *options, const SbMovieHooks *hooks,
-                      const char *pattern, SbMovieResult *result, GError **error) {
+// One picture into the folder.
+static bool write_one(SbOutputFolder *folder, const SbStill *still, const char *name,
+                      GError **error) {
+  FILE *stream;
+  if (!sb_output_folder_add(&stream, folder, name, error)) {
+    return false;
+  }
+  // What a full stream stopped is the file's failure; committing finds its reason.
+  if (!sb_still_put(stream, still, name, error) && ferror(stream) == 0) {
+    return false;
+  }
+  g_clear_error(error);
+  return sb_output_folder_commit(folder, error);
+}
+
+// One file after the other; names are made by `pattern`.
+static bool write_all(SbOutputFolder *folder, SbFilm *film, const SbRenderOptions *options,
+                      const SbMovieHooks *hooks, const char *pattern, SbMovieResult *result,
+                      GError **error) {
   size_t at;
   int digits;
   const char *rest;
@@ -81,9 +137,9 @@ static bool write_all(SbFilm *film, const SbRenderOptions *options, const SbMovi
       return false;
     }
     picture.index = i;
-    char *path = g_strdup_printf("%.*s%0*zu%s", (int)at, pattern, digits, i + 1, rest);
-    bool good = sb_still_write(&still, path, error);
-    g_free(path);
+    char *name = g_strdup_printf("%.*s%0*zu%s", (int)at, pattern, digits, i + 1, rest);
+    bool good = write_one(folder, &still, name, error);
+    g_free(name);
     if (!good) {
       return false;
     }
@@ -97,31 +153,37 @@ static bool write_all(SbFilm *film, const SbRenderOptions *options, const SbMovi
 
 bool sb_render_sequence(const SbRun *run, const SbRenderOptions *options,
                         const SbRenderMovie *movie, const char *path, SbMovieResult *result,
-                        GError **error) {
+                        GPtrArray *kept, GError **error) {
   SbMovieResult own = {0};
   SbFilm *film;
   if (!sb_film_open(&film, run, options, movie, error)) {
     return false;
   }
-  char *pattern = is_folder(path) ? g_build_filename(path, "frame-%04d.png", NULL) : g_strdup(path);
-  char *folder = g_path_get_dirname(pattern);
-  bool good = true;
-  if (strchr(folder, '%') != NULL) {
+  char *pattern;
+  char *in;
+  // Only names that are the program's own are remembered (see output.h).
+  bool named = split(path, &in, &pattern);
+  SbOutputFolder *folder = NULL;
+  bool good = false;
+  if (named && strchr(in, '%') != NULL) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "%s: the number field belongs into the file's name", path);
-    good = false;
-  } else if (g_mkdir_with_parents(folder, 0777) != 0) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s: %s", folder, g_strerror(errno));
-    good = false;
-  } else {
+  } else if (sb_output_folder_open(&folder, in, named ? NULL : "render", error)) {
     gint64 begin = g_get_monotonic_time();
-    good = write_all(film, options, &movie->hooks, pattern, &own, error);
+    good = write_all(folder, film, options, &movie->hooks, pattern, &own, error);
     own.wall_s = 1e-6 * (double)(g_get_monotonic_time() - begin);
   }
+  // A sequence cut short by its user is a result of its own, one that failed is none.
+  if (good) {
+    good = sb_output_folder_finish(folder, kept, error);
+  } else if (own.partial) {
+    sb_output_folder_finish(folder, kept, NULL);
+  }
+  sb_output_folder_close(folder);
   if (result != NULL) {
     *result = own;
   }
-  g_free(folder);
+  g_free(in);
   g_free(pattern);
   sb_film_close(film);
   return good;

@@ -5,7 +5,7 @@
 // 1/96 inch on paper. Leaves out transparency and colour profiles (sRGB is meant, and said in PNG).
 #include "app/export/still.h"
 
-#include "app/document/atomic.h"
+#include "app/document/output.h"
 #include "engine/sealbench.h"
 
 #include <cairo-pdf.h>
@@ -127,7 +127,7 @@ static bool encode_png(FILE *stream, cairo_surface_t *surface, const SbStill *st
   return true;
 }
 
-static bool write_png(const SbStill *still, const char *path, GError **error) {
+static bool put_png(FILE *stream, const SbStill *still, GError **error) {
   double scale = still->scale > 0 ? still->scale : 1;
   double width = round(still->width * scale), height = round(still->height * scale);
   if (width > SB_STILL_MAX || height > SB_STILL_MAX) {
@@ -149,18 +149,7 @@ static bool write_png(const SbStill *still, const char *path, GError **error) {
     cairo_surface_flush(surface);
     char *software = g_strdup_printf("Sealbench %s", sb_version());
     png_byte *row = g_malloc(3 * (size_t)width);
-    SbAtomicFile file;
-    good = sb_atomic_file_begin(&file, path, error);
-    if (good) {
-      GError *reason = NULL;
-      if (encode_png(file.stream, surface, still, scale, software, row, &reason)) {
-        good = sb_atomic_file_commit(&file, error);
-      } else {
-        sb_atomic_file_abort(&file);
-        g_propagate_prefixed_error(error, reason, "%s: ", path);
-        good = false;
-      }
-    }
+    good = encode_png(stream, surface, still, scale, software, row, error);
     g_free(row);
     g_free(software);
   }
@@ -170,22 +159,6 @@ static bool write_png(const SbStill *still, const char *path, GError **error) {
 
 // ---------------------------------------------------------------------------------------------------
 // SVG and PDF
-
-// The whole of a text or nothing, with the system's own reason.
-static bool write_whole(const char *path, const void *data, size_t length, GError **error) {
-  SbAtomicFile file;
-  if (!sb_atomic_file_begin(&file, path, error)) {
-    return false;
-  }
-  errno = 0;
-  if (fwrite(data, 1, length, file.stream) != length || fflush(file.stream) != 0) {
-    int code = errno ? errno : EIO;
-    sb_atomic_file_abort(&file);
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s: %s", path, g_strerror(code));
-    return false;
-  }
-  return sb_atomic_file_commit(&file, error);
-}
 
 static cairo_status_t append_bytes(void *closure, const unsigned char *data, unsigned length) {
   g_byte_array_append(closure, data, length);
@@ -211,7 +184,7 @@ static char *svg_metadata(const SbStill *still) {
   return g_string_free(out, FALSE);
 }
 
-static bool write_svg(const SbStill *still, const char *path, GError **error) {
+static bool put_svg(FILE *stream, const SbStill *still, GError **error) {
   GByteArray *bytes = g_byte_array_new();
   cairo_surface_t *surface =
       cairo_svg_surface_create_for_stream(append_bytes, bytes, still->width, still->height);
@@ -237,19 +210,35 @@ static bool write_svg(const SbStill *still, const char *path, GError **error) {
     } else {
       g_string_append(out, text);
     }
-    good = write_whole(path, out->str, out->len, error);
+    fwrite(out->str, 1, out->len, stream);
     g_string_free(out, TRUE);
   }
   g_byte_array_unref(bytes);
   return good;
 }
 
-static bool write_pdf(const SbStill *still, const char *path, GError **error) {
+// Equal inputs make equal files: no time, but the one that the environment asks for. Owned by the
+// caller.
+static char *creation_date(void) {
+  const char *given = g_getenv("SOURCE_DATE_EPOCH");
+  gint64 seconds = 0;
+  GDateTime *time = NULL;
+  if (given != NULL && g_ascii_string_to_signed(given, 10, 0, G_MAXINT64, &seconds, NULL)) {
+    time = g_date_time_new_from_unix_utc(seconds);
+  }
+  char *text = time != NULL ? g_date_time_format(time, "%Y-%m-%dT%H:%M:%SZ") : g_strdup("");
+  g_clear_pointer(&time, g_date_time_unref);
+  return text;
+}
+
+static bool put_pdf(FILE *stream, const SbStill *still, GError **error) {
   const double points = 0.75; // 72 per inch over 96 pixels per inch
   GByteArray *bytes = g_byte_array_new();
   cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(
       append_bytes, bytes, still->width * points, still->height * points);
   char *creator = g_strdup_printf("Sealbench %s", sb_version());
+  char *date = creation_date();
+  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, date);
   cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, creator);
   cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE,
                                  still->title ? still->title : "Sealbench");
@@ -265,13 +254,16 @@ static bool write_pdf(const SbStill *still, const char *path, GError **error) {
     good = fail_cairo(error, cairo_surface_status(surface));
   }
   cairo_surface_destroy(surface);
-  good = good && write_whole(path, bytes->data, bytes->len, error);
+  if (good) {
+    fwrite(bytes->data, 1, bytes->len, stream);
+  }
   g_free(creator);
+  g_free(date);
   g_byte_array_unref(bytes);
   return good;
 }
 
-bool sb_still_write(const SbStill *still, const char *path, GError **error) {
+bool sb_still_put(FILE *stream, const SbStill *still, const char *ending, GError **error) {
   if (!(still->width >= SB_STILL_MIN && still->height >= SB_STILL_MIN &&
         still->width <= SB_STILL_MAX && still->height <= SB_STILL_MAX)) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
@@ -279,20 +271,35 @@ bool sb_still_write(const SbStill *still, const char *path, GError **error) {
                 still->height, SB_STILL_MIN, SB_STILL_MAX);
     return false;
   }
-  char *lower = g_ascii_strdown(path, -1);
-  bool good = false;
-  if (g_str_has_suffix(lower, ".png")) {
-    good = write_png(still, path, error);
-  } else if (g_str_has_suffix(lower, ".svg")) {
-    good = write_svg(still, path, error);
-  } else if (g_str_has_suffix(lower, ".pdf")) {
-    good = write_pdf(still, path, error);
-  } else {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "%s: the ending must be .png, .svg or .pdf", path);
+  if (sb_output_ends_in(ending, ".png")) {
+    return put_png(stream, still, error);
   }
-  g_free(lower);
-  return good;
+  if (sb_output_ends_in(ending, ".svg")) {
+    return put_svg(stream, still, error);
+  }
+  if (sb_output_ends_in(ending, ".pdf")) {
+    return put_pdf(stream, still, error);
+  }
+  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: the ending must be .png, .svg or .pdf",
+              ending);
+  return false;
+}
+
+bool sb_still_write(const SbStill *still, const char *path, GError **error) {
+  SbOutput file;
+  if (!sb_output_begin(&file, path, error)) {
+    return false;
+  }
+  // What a full stream stopped is the file's failure; committing finds its reason.
+  if (!sb_still_put(file.stream, still, still->ending != NULL ? still->ending : path, error) &&
+      ferror(file.stream) == 0) {
+    sb_output_abort(&file);
+    return false;
+  }
+  if (error != NULL) {
+    g_clear_error(error);
+  }
+  return sb_output_commit(&file, error);
 }
 
 // ---------------------------------------------------------------------------------------------------

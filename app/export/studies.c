@@ -95,6 +95,7 @@ bool sb_study_still(const SbStudy *study, const SbStudyPage *page, const char *p
                    .scene = page->scene,
                    .hash = page->hash,
                    .comment = comment->str,
+                   .ending = page->ending,
                    .draw = draw,
                    .user = &drawing};
   if (!(still.width > 0)) {

@@ -15,6 +15,7 @@ typedef struct {
   const char *subtitle; // names of the files
   const char *hash;     // of the parameters
   const char *scene;    // text that restores the scene, for PNG and SVG
+  const char *ending;   // see SbStill
   const char *stale;    // why the study no longer fits the scene
   bool dark;
   double width, height; // logical pixels; 0: the size it is made for

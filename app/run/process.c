@@ -2,6 +2,7 @@
 #include "app/run/process.h"
 
 #include <cblas.h>
+#include <fcntl.h>
 #include <gsl/gsl_errno.h>
 #include <malloc.h>
 #include <signal.h>
@@ -59,7 +60,21 @@ bool sb_process_has_memory(void) {
   return true;
 }
 
+// Descriptors 0 to 2 that were closed at the start: the next file to be opened would become one,
+// and messages would go into it. They lead nowhere from now on, the wrong way round, so that using
+// them still fails.
+static void open_standard_streams(void) {
+  for (int fd = 0; fd <= 2; fd++) {
+    if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY) != fd) {
+      _exit(3);
+    }
+  }
+}
+
 void sb_process_set_up(void) {
+  open_standard_streams();
+  // A reader that has gone, of progress or of results, is a failed write like any other.
+  signal(SIGPIPE, SIG_IGN);
   // A limit on the size of files is a failed write like any other, not the program's end.
   signal(SIGXFSZ, SIG_IGN);
   // One thread for a solve: repeatable results, and the other cores are the drawing's.

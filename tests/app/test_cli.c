@@ -427,8 +427,7 @@ static void test_results_and_locale(void) {
   char *up = g_build_filename(cli.folder, "deep", NULL);
   CliResult result = CLI("run", cli.scene, "-o", plain);
   g_assert_cmpint(result.code, ==, 0);
-  g_assert_nonnull(strstr(result.err, "sealbench: 10 %\n"));
-  g_assert_nonnull(strstr(result.err, "sealbench: 100 %\n"));
+  g_assert_cmpstr(result.err, ==, "");
   cli_clear(&result);
   char **environment = g_get_environ();
   environment = g_environ_setenv(environment, "LC_ALL", "de_DE.UTF-8", TRUE);

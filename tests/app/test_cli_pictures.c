@@ -80,9 +80,9 @@ static void test_render(void) {
   }
 }
 
-// Starts the program, interrupts it at its first byte of progress that starts with `word`, and
+// Starts the program, sends it `number` at its first byte of progress that starts with `word`, and
 // returns its exit code.
-static int interrupted_run(const char *const *argv, const char *word) {
+static int interrupted_run(const char *const *argv, const char *word, int number) {
   GPid pid;
   int err = -1;
   GError *error = NULL;
@@ -96,7 +96,7 @@ static int interrupted_run(const char *const *argv, const char *word) {
   while (read(err, &c, 1) == 1) {
     g_string_append_c(seen, c);
     if (!sent && strstr(seen->str, word) != NULL) {
-      kill(pid, SIGINT);
+      kill(pid, number);
       sent = true;
     }
   }
@@ -154,8 +154,12 @@ static void test_studies(void) {
   g_assert_cmpstr(json_node_get_string(cli_at(root, "studies.0.name")), ==, "storage");
   json_node_unref(root);
   cli_clear(&result);
-  static const char *const names[] = {"results.json", "cycle.csv", "profiles.csv",
-                                      "study-storage.csv", "study-storage-table.csv"};
+  static const char *const names[] = {"results.json",
+                                      "cycle.csv",
+                                      "profiles.csv",
+                                      "study-storage.csv",
+                                      "study-storage-table.csv",
+                                      ".sealbench-run.manifest"};
   for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
     char *path = g_build_filename(tables, names[i], NULL);
     g_assert_cmpint(g_remove(path), ==, 0);
@@ -182,9 +186,10 @@ static void test_film_file(void) {
   g_assert_cmpint(memcmp(bytes + 4, "ftyp", 4), ==, 0);
   g_free(bytes);
   g_unlink(path);
-  const char *const argv[] = {cli.program,  "render", cli.scene, "-o",         path,   "--view",
-                              "hysteresis", "--size", "320x180", "--duration", "20 s", NULL};
-  g_assert_cmpint(interrupted_run(argv, "drawing 10"), ==, 130);
+  const char *const argv[] = {cli.program, "render",     cli.scene, "-o",      path,
+                              "--view",    "hysteresis", "--size",  "320x180", "--duration",
+                              "20 s",      "--progress", "lines",   NULL};
+  g_assert_cmpint(interrupted_run(argv, "drawing 10", SIGINT), ==, 130);
   g_assert_true(g_file_get_contents(path, &bytes, &length, NULL));
   g_assert_cmpuint(length, >, 1000);
   g_free(bytes);
@@ -273,13 +278,15 @@ static void test_sequence(void) {
   remove_pictures(pictures);
 
   g_assert_cmpint(g_mkdir(pictures, 0777), ==, 0);
-  const char *const argv[] = {cli.program, "render",     cli.scene, "-o",    pictures, "--size",
-                              "320x180",   "--duration", "20 s",    "--fps", "30",     NULL};
-  g_assert_cmpint(interrupted_run(argv, "drawing 10"), ==, 130);
+  const char *const argv[] = {cli.program, "render",     cli.scene,    "-o",   pictures,
+                              "--size",    "320x180",    "--duration", "20 s", "--fps",
+                              "30",        "--progress", "lines",      NULL};
+  g_assert_cmpint(interrupted_run(argv, "drawing 10", SIGINT), ==, 130);
   names = listing(pictures);
-  g_assert_true(g_str_has_prefix(names, "frame-0001.png frame-0002.png "));
+  g_assert_true(
+      g_str_has_prefix(names, ".sealbench-render.manifest frame-0001.png frame-0002.png "));
   g_assert_null(strstr(names, "frame-0600.png"));
-  g_assert_null(strstr(names, ".part-"));
+  g_assert_null(strstr(names, ".part"));
   g_free(names);
   remove_pictures(pictures);
   g_free(pattern);
@@ -329,7 +336,7 @@ static void test_full_disk(void) {
     g_assert_cmpstr(strchr(result.err, '\n'), ==, "\n");
     g_assert_cmpstr(earlier, ==, "earlier");
     g_assert_true(whole);
-    g_assert_null(strstr(names, ".part-"));
+    g_assert_null(strstr(names, ".part"));
     cli_clear(&result);
     g_free(earlier);
     g_free(names);
@@ -339,11 +346,12 @@ static void test_full_disk(void) {
   g_free(disk);
 }
 
-static void test_interrupt(void) {
+static void interrupt_by(int number) {
   char *out = g_build_filename(cli.folder, "part", NULL);
   const char *const argv[] = {
-      cli.program, "run", cli.scene, "-o", out, "--set", "output.frames=1000000", NULL};
-  g_assert_cmpint(interrupted_run(argv, "s"), ==, 130);
+      cli.program,  "run",   cli.scene, "-o", out, "--set", "output.frames=1000000",
+      "--progress", "lines", NULL};
+  g_assert_cmpint(interrupted_run(argv, "s", number), ==, 130);
   char *json = cli_contents(out, "results.json");
   JsonNode *root = cli_parse(json);
   g_assert_true(json_node_get_boolean(cli_at(root, "partial")));
@@ -353,6 +361,13 @@ static void test_interrupt(void) {
   g_free(json);
   cli_remove_results(out);
   g_free(out);
+}
+
+// A closed terminal keeps what was finished as Ctrl-C does.
+static void test_interrupt(void) {
+  interrupt_by(SIGINT);
+  interrupt_by(SIGTERM);
+  interrupt_by(SIGHUP);
 }
 
 int main(int argc, char **argv) {

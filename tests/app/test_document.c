@@ -1,6 +1,6 @@
 // Documents: shipped files hold what the catalogue says, edits undo, saving changes nothing else.
-#include "app/document/atomic.h"
 #include "app/document/document.h"
+#include "app/document/output.h"
 #include "app/document/unit.h"
 #include "app/export/still.h"
 
@@ -335,6 +335,34 @@ static void test_picture(void) {
   remove_folder(folder);
 }
 
+// Saving through a symbolic link keeps the link, and the file's mode and other names.
+static void test_links(void) {
+  char *folder = temporary_folder();
+  char *path = g_build_filename(folder, "real.valve", NULL);
+  char *link_path = g_build_filename(folder, "link.valve", NULL);
+  SbDocument *document = sb_document_new();
+  GError *error = NULL;
+  sb_document_save(document, path, &error);
+  g_assert_no_error(error);
+  g_assert_cmpint(chmod(path, 0660), ==, 0);
+  g_assert_cmpint(symlink("real.valve", link_path), ==, 0);
+  g_assert_true(sb_document_set(document, SB_P_BORE_DIAMETER, "6.1 mm", &error));
+  sb_document_save(document, link_path, &error);
+  g_assert_no_error(error);
+  g_assert_true(g_file_test(link_path, G_FILE_TEST_IS_SYMLINK));
+  char *text = NULL;
+  g_assert_true(g_file_get_contents(path, &text, NULL, NULL));
+  g_assert_nonnull(strstr(text, "diameter = 6.1 mm"));
+  struct stat info;
+  g_assert_cmpint(stat(path, &info), ==, 0);
+  g_assert_cmpint(info.st_mode & 07777, ==, 0660);
+  g_free(text);
+  sb_document_free(document);
+  g_free(link_path);
+  g_free(path);
+  remove_folder(folder);
+}
+
 // A write-protected file is not replaced, though its folder would allow it. Root may write
 // anything: a child that is not root tries.
 static void test_protected(void) {
@@ -350,7 +378,7 @@ static void test_protected(void) {
       _exit(77);
     }
     GError *error = NULL;
-    bool written = sb_atomic_write(path, "new", 3, &error);
+    bool written = sb_output_write(path, "new", 3, &error);
     _exit(!written && g_error_matches(error, SB_APP_ERROR, SB_APP_ERROR_IO) ? 0 : 1);
   }
   int status = 0;
@@ -378,6 +406,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/document/save", test_save);
   g_test_add_func("/document/moved-scene", test_moved_scene);
   g_test_add_func("/document/picture", test_picture);
+  g_test_add_func("/document/links", test_links);
   g_test_add_func("/document/protected", test_protected);
   return g_test_run();
 }

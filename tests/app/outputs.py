@@ -1,0 +1,277 @@
+#!/usr/bin/env python3
+"""What the program writes, and refuses to write: descriptors closed at its start, inputs as outputs,
+targets told before the work, progress, equal files from equal runs, files of earlier results.
+Arguments: the program, the assets."""
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+program, assets = map(os.path.abspath, sys.argv[1:3])
+quick = os.path.join(assets, "scenes", "quick-look.scene")
+ring = os.path.join(assets, "scenes", "ring-cycle.scene")
+home = tempfile.mkdtemp(prefix="sealbench-outputs-")
+tests = []
+
+
+def test(function):
+    tests.append(function)
+
+
+def run(*arguments, **options):
+    options.setdefault("timeout", 100)
+    return subprocess.run([program, *arguments], capture_output=True, text=True, **options)
+
+
+def path(*parts):
+    return os.path.join(home, *parts)
+
+
+def read(name):
+    with open(name, "rb") as file:
+        return file.read()
+
+
+def expect(got, wanted, what=""):
+    assert got == wanted, f"{what}: got {got!r}, expected {wanted!r}"
+
+
+def done(result, code=0):
+    expect(result.returncode, code, result.stderr)
+    return result
+
+
+film = ("--view", "hysteresis", "--size", "320x200", "--duration", "0.2s")
+
+
+@test
+def closed_descriptors():
+    """No output becomes descriptor 0, 1 or 2."""
+    done(run("render", quick, "-o", path("open.mp4"), *film))
+    for descriptors in [(0,), (1,), (2,), (0, 1, 2)]:
+        out = path("closed.mp4")
+
+        def close():
+            for fd in descriptors:
+                os.close(fd)
+
+        subprocess.run([program, "render", quick, "-o", out, *film, "--progress", "lines"],
+                       preexec_fn=close, check=True)
+        expect(read(out), read(path("open.mp4")), f"closed {descriptors}")
+        json_out = path("closed.json")
+        subprocess.run([program, "run", quick, "--json", json_out], preexec_fn=close)
+        json.loads(read(json_out))
+    # Results that go nowhere are a failure, not silence.
+    closed = subprocess.run([program, "list", "views"], preexec_fn=lambda: os.close(1),
+                            stderr=subprocess.PIPE, text=True)
+    done(closed, 3)
+
+
+@test
+def inputs_are_no_outputs():
+    where = path("inputs")
+    os.mkdir(where)
+    shutil.copy(os.path.join(assets, "valves", "piston.valve"), where)
+    with open(os.path.join(where, "drive.csv"), "w") as file:
+        file.write("time [s],displacement [mm]\n")
+        file.writelines(f"{i},{min(i, 20 - i) * 0.3}\n" for i in range(21))
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    with open(os.path.join(where, "top.stl"), "w") as file:
+        file.write("solid t\n")
+        for face in faces:
+            file.write("facet normal 0 0 0\nouter loop\n")
+            file.writelines("vertex %g %g %g\n" % corners[i] for i in face)
+            file.write("endloop\nendfacet\n")
+        file.write("endsolid t\n")
+    scene = os.path.join(where, "a.scene")
+    with open(scene, "w") as file:
+        file.write("[sealbench]\nformat = 1\nkind = scene\nvalve = piston.valve\n"
+                   "[models]\nfit = karaszkiewicz\nfilm = thesis\nmotion = quasi-static\n"
+                   "[part.stem_top]\ndensity = 1410 kg/m3\nstl = %s\nunit = mm\n" % os.path.join(where, "top.stl"))
+    measured = os.path.join(where, "b.scene")
+    with open(measured, "w") as file:
+        file.write("[sealbench]\nformat = 1\nkind = scene\nvalve = piston.valve\n"
+                   "[drive]\nkind = measured\nfile = drive.csv\n[models]\nmotion = dynamic\n")
+    picture = os.path.join(where, "frame-0002.png")
+    done(run("render", quick, "-o", picture, "--view", "hysteresis", "--size", "320x200"))
+    os.symlink("a.scene", os.path.join(where, "link"))
+    os.link(os.path.join(where, "piston.valve"), os.path.join(where, "second"))
+    before = {name: read(os.path.join(where, name)) for name in os.listdir(where)}
+    cases = [
+        ("run", scene, "--json", "a.scene"), ("run", scene, "--json", "link"),
+        ("run", scene, "--json", "piston.valve"), ("run", scene, "--json", "second"),
+        ("run", scene, "--json", "top.stl"), ("run", measured, "--json", "drive.csv"),
+        ("run", picture, "--json", "frame-0002.png"), ("plan", scene, "--json", "a.scene"),
+        ("render", picture, "-o", "frame-0002.png"), ("render", picture, "-o", "."),
+        ("render", picture, "-o", "frame-%04d.png"),
+        ("fit", os.path.join(where, "piston.valve"), "--seal", "outer", "--json", "second"),
+        ("film", "--load", "850N/m", "--speed", "1m/s", "--radius", "0.8mm", "--modulus", "6MPa",
+         "--viscosity", "0.2mPa.s", "--model", "inverse", "--dry-pressure", "dry.csv", "--json",
+         "dry.csv"),
+    ]
+    with open(os.path.join(where, "dry.csv"), "w") as file:
+        file.writelines(f"{(i - 20) * 2.5e-5},{1e6 * (1 - ((i - 20) / 20) ** 2) ** 2}\n"
+                        for i in range(41))
+    before["dry.csv"] = read(os.path.join(where, "dry.csv"))
+    for case in cases:
+        result = done(run(*case, cwd=where), 1)
+        assert "is an input of this command" in result.stderr, result.stderr
+        now = {name: read(os.path.join(where, name)) for name in os.listdir(where)}
+        expect(now == before, True, case)
+    # Series as one of the files of the results' folder.
+    os.rename(os.path.join(where, "drive.csv"), os.path.join(where, "cycle.csv"))
+    with open(measured) as file:
+        text = file.read().replace("drive.csv", "cycle.csv")
+    with open(measured, "w") as file:
+        file.write(text)
+    result = done(run("run", measured, "-o", ".", cwd=where), 1)
+    assert "cycle.csv: is an input" in result.stderr, result.stderr
+    # Two outputs in one file.
+    result = done(run("run", quick, "-o", "r", "--json", "r/cycle.csv", cwd=where), 1)
+    assert "two outputs" in result.stderr, result.stderr
+    assert not os.path.exists(os.path.join(where, "r"))
+
+
+@test
+def told_before_the_work():
+    cases = [("run", ring, "-o", "/proc/none"), ("run", ring, "--json", "/no/such/file"),
+             ("run", ring, "-o", path(), "--json", home), ("render", ring, "-o", "/no/such/x.mp4"),
+             ("render", ring, "-o", "/proc/none/"), ("render", ring, "-o", "/no/such.pdf"),
+             ("run", ring, "-o", quick)]
+    for case in cases:
+        result = done(run(*case, "--progress", "lines", timeout=20), 3)
+        assert " %" not in result.stderr, result.stderr
+
+
+@test
+def overwriting():
+    out = path("once.json")
+    done(run("run", quick, "--json", out, "--no-overwrite", "--quiet"))
+    first = os.stat(out).st_ino
+    result = done(run("run", quick, "--json", out, "--no-overwrite", "-q"), 1)
+    assert "exists already" in result.stderr, result.stderr
+    expect(os.stat(out).st_ino, first)
+    done(run("run", quick, "--json", out, "--no-overwrite", "--overwrite", "-q"))
+
+
+@test
+def progress():
+    """Silent off a terminal, unless it is asked for; whole lines of JSON; a reader may go."""
+    for command in [("run", quick, "--json", "-"), ("render", quick, "-o", path("p.mp4"), *film),
+                    ("render", quick, "-o", path("p.png"), "--view", "section")]:
+        expect(done(run(*command)).stderr, "")
+    lines = done(run("run", quick, "--json", "-", "--progress", "lines")).stderr.split("\n")
+    expect(lines[:2] + lines[-2:], ["sealbench: 10 %", "sealbench: 20 %", "sealbench: 100 %", ""])
+    result = done(run("render", quick, "-o", path("p.mp4"), *film, "--progress", "json"))
+    objects = [json.loads(line) for line in result.stderr.splitlines()]
+    fractions = [o["fraction"] for o in objects if o["event"] == "progress"]
+    assert fractions and max(fractions) == 1, fractions
+    assert {"computing", "drawing"} == {o["work"] for o in objects if o["event"] == "progress"}
+    assert all(o["event"] in ("progress", "message") for o in objects)
+    done(run("run", quick, "--progress", "dots"), 1)
+    expect(done(run("check", quick, "-q")).stdout, "")
+
+    out = path("gone.json")
+    reader, writer = os.pipe()
+    os.close(reader)
+    code = subprocess.run([program, "run", quick, "--json", out, "--progress", "lines"],
+                          stderr=writer, restore_signals=True).returncode
+    os.close(writer)
+    expect(code, 0, "a reader of progress that has gone")
+    json.loads(read(out))
+
+
+@test
+def equal_runs():
+    """Equal runs give equal files, endings in capitals or not."""
+    for ending in ["pdf", "SVG", "PNG", "Mp4", "Pdf"]:
+        names = [path(f"equal-{i}.{ending}") for i in range(2)]
+        for name in names:
+            more = film if ending == "Mp4" else ("--view", "dashboard")
+            done(run("render", quick, "-o", name, *more))
+            time.sleep(1.1 if ending == "pdf" else 0)
+        expect(read(names[0]) == read(names[1]), True, ending)
+        if ending != "Mp4":
+            stream = subprocess.run([program, "render", quick, "-o", "-", "--format",
+                                     ending.lower(), "--view", "dashboard"], capture_output=True)
+            expect(stream.stdout == read(names[0]), True, "-o - " + ending)
+    dated = path("dated.pdf")
+    done(run("render", quick, "-o", dated, env=dict(os.environ, SOURCE_DATE_EPOCH="86400")))
+    assert b"19700102000000Z" in read(dated)
+    assert b"CreationDate" not in read(path("equal-0.pdf"))
+    done(run("render", quick, "-o", "-"), 1)
+    done(run("render", quick, "-o", dated, "--format", "pdf"), 1)
+    os.mkdir(path("caps"))
+    done(run("render", quick, "-o", path("caps", "A%d.PNG"), *film, "--fps", "10"))
+    expect(sorted(os.listdir(path("caps"))), ["A1.PNG", "A2.PNG"])
+    os.rename(path("caps", "A1.PNG"), path("caps", "scene.PNG"))
+    done(run("check", path("caps", "scene.PNG")))
+
+
+@test
+def earlier_results():
+    """A folder holds the files of the last result; changed ones are kept and named."""
+    where = path("results")
+    done(run("run", quick, "-q", "-o", where, "--set", "output.studies=storage"))
+    assert os.path.exists(path("results", "study-storage.csv"))
+    with open(path("results", "study-storage.csv"), "a") as file:
+        file.write("mine\n")
+    with open(path("results", "study-mine.csv"), "w") as file:
+        file.write("mine\n")
+    done(run("run", quick, "-q", "--json", path("results", "named.json"), "-o", where))
+    result = done(run("run", quick, "-q", "-o", where))
+    expect(result.stderr, "")
+    expect(sorted(os.listdir(where)),
+           [".sealbench-run.manifest", "cycle.csv", "named.json", "profiles.csv", "results.json",
+            "study-mine.csv", "study-storage.csv"])
+    done(run("run", quick, "-q", "-o", where, "--set", "output.studies=storage"))
+    with open(path("results", "study-storage-table.csv"), "a") as file:
+        file.write("mine\n")
+    result = done(run("run", quick, "-q", "-o", where))
+    expect(result.stderr, "sealbench: %s: is of an earlier result and was changed since; it is "
+           "kept\n" % path("results", "study-storage-table.csv"))
+    # The tail of a longer sequence.
+    for rate, count in [("20", 4), ("10", 2)]:
+        done(run("render", quick, "-o", path("frames/"), *film, "--fps", rate))
+        expect(sorted(os.listdir(path("frames"))), [".sealbench-render.manifest"] +
+               [f"frame-{i + 1:04d}.png" for i in range(count)])
+
+
+@test
+def stopped_twice():
+    """A second signal ends the program at once and leaves nothing."""
+    where = path("twice")
+    os.mkdir(where)
+    process = subprocess.Popen([program, "render", quick, "-o", os.path.join(where, "a.mp4"),
+                                "--view", "dashboard", "--progress", "lines"],
+                               stderr=subprocess.PIPE, text=True)
+    for line in process.stderr:
+        if "drawing 10" in line:
+            process.send_signal(signal.SIGSTOP)
+            process.send_signal(signal.SIGHUP)
+            process.send_signal(signal.SIGTERM)
+            process.send_signal(signal.SIGCONT)
+            break
+    process.communicate()
+    assert process.returncode in (-signal.SIGHUP, -signal.SIGTERM), process.returncode
+    expect(os.listdir(where), [])
+
+
+print(f"1..{len(tests)}")
+failed = False
+for number, function in enumerate(tests, 1):
+    try:
+        function()
+        print(f"ok {number} {function.__name__}", flush=True)
+    except Exception as problem:  # every failure is one line of TAP
+        failed = True
+        print(f"not ok {number} {function.__name__}")
+        print("# " + re.sub(r"\s*\n", "\n# ", f"{type(problem).__name__}: {problem}"), flush=True)
+shutil.rmtree(home)
+sys.exit(failed)
