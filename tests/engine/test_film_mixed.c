@@ -357,7 +357,7 @@ static void test_profile(void) {
 static void test_estimate(void) {
   double ratio[64];
   int count = 0;
-  for (double speed = 1e-7; speed < 20; speed *= g_test_slow() ? 6 : 216) {
+  for (double speed = 1e-7; speed < 20; speed *= g_test_slow() ? 6 : 36) {
     for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
       SbFilmProblem problem = seal(speed, (SbRoughModel)model);
       g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
