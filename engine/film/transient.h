@@ -36,7 +36,8 @@ typedef struct {
   size_t factorisations;
   double load_error; // largest |integral of p - W| / W of any step
   double mass_error; // largest |d/dt content + outflow| of any step over the flow scale
-  double error_film_min, error_film_central; // estimates of the present films, relative
+  double error_time; // estimate, relative, of the film in the contact by the time steps
+  double error_mesh; // the same by the mesh: against the spectral steady film at speed_scale
 } SbFilmTransientInfo;
 
 typedef struct SbFilmTransient SbFilmTransient;

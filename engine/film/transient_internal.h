@@ -4,11 +4,7 @@
 #include "engine/film/scale.h"
 #include "engine/film/transient.h"
 
-enum {
-  SB_TRANSIENT_NODES_MAX = 1000,
-  SB_TRANSIENT_TIMES = 3, // contents remembered
-  SB_TRANSIENT_ROWS = 6   // scratch
-};
+enum { SB_TRANSIENT_NODES_MAX = 700 };
 
 // Everything is scaled by the steady problem's b, p_H and b^2/R; time stays in seconds. Nodes are
 // at x = middle + half X, in units of b.
@@ -24,12 +20,9 @@ typedef struct {
   bool cavity[SB_TRANSIENT_NODES_MAX];  // active set
 } SbTransientState;
 
-// A step: content' = c0 content + old, and the mesh's velocity. The cells' contents are followed
-// with the wall in the contact's inside and stand at its edges: their faces move at v g, g = q^2/(1
-// + q^2), q = (1 - X^2)/lag.
+// A step: content' = c0 content + old, and the mesh's velocity.
 typedef struct {
   double c0;
-  double lag;
   const double *old; // [nodes] combination of earlier contents; NULL when steady
   double half_rate, middle_rate;
 } SbTransientStep;
@@ -39,22 +32,16 @@ typedef struct {
   double mass_error, load_error;
 } SbTransientTrace;
 
-// A solver at one resolution; the one with half of it stands in `coarse`.
 struct SbFilmTransient {
   SbFilmTransientProblem problem;
-  SbFilmTransient *coarse; // NULL in itself
   SbFilmScale scale;
-  double fineness; // spacings are this times those of the tolerance 1e-3
-  double limit;    // on the error of a step
-  double layer;    // width of the layers at the edges
-  double reach;    // the mesh ends at -reach and reach
   int nodes;
+  double layer; // width of the layers at the edges
   double X[SB_TRANSIENT_NODES_MAX];
   double volume[SB_TRANSIENT_NODES_MAX];      // length of a node's cell
-  double mean[SB_TRANSIENT_NODES_MAX][3];     // content of a cell by the heights at i - 1 .. i + 1
   double weight[SB_TRANSIENT_NODES_MAX];      // of the load
-  double wanted[SB_TRANSIENT_NODES_MAX];      // spacing that the film asks for
-  bool steep[SB_TRANSIENT_NODES_MAX];         // transport through face i, i + 1 is kept monotonic
+  bool limited[SB_TRANSIENT_NODES_MAX];       // transport through face i, i + 1 is kept monotonic
+  bool steep[SB_TRANSIENT_NODES_MAX];         // the same, where a front stands when a step begins
   bool beside_cavity[SB_TRANSIENT_NODES_MAX]; // the same, by the cavity when a step begins
   double diffusion;                           // kappa = film^2 p_H / (12 eta b^2) [1/s]
   double flow;                                // scale of v m
@@ -65,42 +52,27 @@ struct SbFilmTransient {
   double present_half, present_middle;
   SbSurfaceCompliance compliance; // modes = 0: half-plane and parabola
   double *known;                  // [nodes] ambient pressures to infinity
-  double *moment;                 // [modes][nodes] of the nodes' hats
   double *matrix;
   double *right;
   int *pivot;
   double row_scale[SB_TRANSIENT_NODES_MAX];
-  double scratch[SB_TRANSIENT_ROWS][SB_TRANSIENT_NODES_MAX];
   bool factored; // `matrix` holds the factors for this step size and cavity
   double factored_c0;
   bool factored_cavity[SB_TRANSIENT_NODES_MAX];
   SbTransientState now, next, before;
-  double content[SB_TRANSIENT_TIMES][SB_TRANSIENT_NODES_MAX]; // of the cells, newest first
-  double content_time[SB_TRANSIENT_TIMES], content_half[SB_TRANSIENT_TIMES],
-      content_middle[SB_TRANSIENT_TIMES], content_travel[SB_TRANSIENT_TIMES];
+  double content[3][SB_TRANSIENT_NODES_MAX]; // half m at the last three times, newest first
+  double content_time[3], content_half[3], content_middle[3];
   int known_times;
-  // Of the least and the central film: error of the steady one at speed_scale against the spectral
-  // one, and difference of the resolutions.
-  double steady_error[2], past[2];
-  double step;            // next step to try [s]
-  size_t mesh_steps;      // since the mesh was laid
-  double travel, span[2]; // of the wall over half since then, and what the mesh allows
+  double steady_error, transport; // parts of error_mesh
+  double step;                    // next step to try [s]
   SbFilmTransientInfo info;
 };
 
 // Mesh and kernel for films up to `rest`; the arrays stand.
 void sb_transient_mesh(SbFilmTransient *t, double rest);
 
-// Lays the mesh anew where the film of `now` asks for it, fine enough for what the wall carries
-// over the next `travel` (in X), and brings the states and contents to it.
-void sb_transient_adapt(SbFilmTransient *t, double travel);
-
-// Contents at an earlier time of the cells that have moved by `travel` since.
-void sb_transient_depart(double *out, SbFilmTransient *t, const double *content, double travel,
-                         double lag);
-
-// Content of the cell of node i, by its half-width.
-double sb_transient_content(const SbFilmTransient *t, const SbTransientState *s, int i);
+// Error that the limited transport makes in the contact's fluid, relative, per second.
+double sb_transient_smear(const SbFilmTransient *t, const SbTransientState *s);
 
 // Fluid height of a node.
 double sb_transient_height(const SbTransientState *s, int i);

@@ -20,40 +20,42 @@ static double first_integral(double y) {
   return y == 0.0 ? 0.0 : y * (log(fabs(y)) - 1.0);
 }
 
+// Integral of the straight line from 1 at `top` to 0 at `foot`, times ln|X - s|.
+static double half_hat(double X, double top, double foot, const double *node, const double *weight,
+                       int points) {
+  const double h = fabs(foot - top);
+  const double middle = 0.5 * (foot + top);
+  if (fabs(X - middle) > 4.0 * h) {
+    double sum = 0.0;
+    for (int q = 0; q < points; q++) {
+      sum += weight[q] * 0.5 * (1.0 - node[q]) *
+             log(fabs(X - (middle + 0.5 * (foot - top) * node[q])));
+    }
+    return 0.5 * h * sum;
+  }
+  const double side = foot > top ? 1.0 : -1.0;
+  return side * first_integral(X - top) +
+         (second_integral(X - foot) - second_integral(X - top)) / h;
+}
+
 static double third_integral(double y) {
   return y == 0.0 ? 0.0 : y * y * y / 6.0 * (log(fabs(y)) - 11.0 / 6.0);
 }
 
-// Integrals over [a, b] times ln|X - s|: of the straight lines that are 1 at a, and at b, and of
-// the parabola (s - a)(b - s)/2. Far away by Gauss' rule, where the closed forms would cancel.
-typedef struct {
-  double left, right, bubble;
-} Moments;
-
-static Moments moments(double X, double a, double b) {
-  static const double node[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
-  static const double weight[3] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
+// Integral of the parabola (s - a)(b - s)/2 times ln|X - s|.
+static double bubble(double X, double a, double b, const double *node, const double *weight,
+                     int points) {
   const double h = b - a;
-  const double y = X - 0.5 * (a + b);
-  Moments out = {0};
-  if (fabs(y) > 4.0 * h) {
-    double even = 0.0, odd = 0.0, bubble = 0.0;
-    for (int q = 0; q < 3; q++) {
-      const double near = log(fabs(y - 0.5 * h * node[q])), far = log(fabs(y + 0.5 * h * node[q]));
-      even += weight[q] * (near + far);
-      odd += weight[q] * node[q] * (near - far);
-      bubble += weight[q] * (1.0 - node[q] * node[q]) * (near + far);
+  const double middle = 0.5 * (a + b);
+  if (fabs(X - middle) > 4.0 * h) {
+    double sum = 0.0;
+    for (int q = 0; q < points; q++) {
+      sum += weight[q] * (1.0 - node[q] * node[q]) * log(fabs(X - middle - 0.5 * h * node[q]));
     }
-    out = (Moments){0.25 * h * (even - odd), 0.25 * h * (even + odd), h * h * h / 16.0 * bubble};
-    return out;
+    return h * h * h / 16.0 * sum;
   }
-  const double by_a = X - a, by_b = X - b;
-  const double rise = (second_integral(by_b) - second_integral(by_a)) / h;
-  out.left = first_integral(by_a) + rise;
-  out.right = -first_integral(by_b) - rise;
-  out.bubble = 0.5 * h * (second_integral(by_a) + second_integral(by_b)) - third_integral(by_a) +
-               third_integral(by_b);
-  return out;
+  return 0.5 * h * (second_integral(X - a) + second_integral(X - b)) - third_integral(X - a) +
+         third_integral(X - b);
 }
 
 // Second difference of the pressure at node j: factors of j - 1, j, j + 1.
@@ -66,16 +68,19 @@ static void second_difference(double out[3], const SbFilmTransient *t, int j) {
 }
 
 static void build_kernel(SbFilmTransient *t) {
+  enum { POINTS = 6 };
+  double node[POINTS];
+  double weight[POINTS];
+  sb_legendre_gauss(node, weight, POINTS);
   const int n = t->nodes;
   for (int i = 0; i < n; i++) {
     double *row = t->kernel + (size_t)i * (size_t)n;
     memset(row, 0, (size_t)n * sizeof *row);
     for (int j = 0; j + 1 < n; j++) {
-      const Moments moment = moments(t->X[i], t->X[j], t->X[j + 1]);
-      row[j] -= moment.left / M_PI;
-      row[j + 1] -= moment.right / M_PI;
+      row[j] -= half_hat(t->X[i], t->X[j], t->X[j + 1], node, weight, POINTS) / M_PI;
+      row[j + 1] -= half_hat(t->X[i], t->X[j + 1], t->X[j], node, weight, POINTS) / M_PI;
       // The bend between the nodes: p = line - p'' (s - a)(b - s)/2, p'' the ends' mean.
-      const double bend = moment.bubble / M_PI;
+      const double bend = bubble(t->X[i], t->X[j], t->X[j + 1], node, weight, POINTS) / M_PI;
       for (int k = j; k <= j + 1; k++) {
         if (k > 0 && k + 1 < n) {
           double d[3];
@@ -92,26 +97,44 @@ static void build_kernel(SbFilmTransient *t) {
   }
 }
 
-// What follows from the nodes.
-static void complete(SbFilmTransient *t) {
-  const int n = t->nodes;
-  for (int i = 0; i < n; i++) {
-    const double left = i > 0 ? 0.5 * (t->X[i - 1] - t->X[i]) : 0.0;
-    const double right = i + 1 < n ? 0.5 * (t->X[i + 1] - t->X[i]) : 0.0;
-    t->volume[i] = t->weight[i] = right - left;
-    t->mean[i][0] = t->mean[i][2] = 0.0;
-    if (i > 0 && i + 1 < n) { // the parabola through three heights, over the cell
-      const double cube = (right * right * right - left * left * left) / 3.0;
-      const double square = 0.5 * (right * right - left * left);
-      t->mean[i][0] = (cube - 2.0 * right * square) / (4.0 * left * (left - right));
-      t->mean[i][2] = (cube - 2.0 * left * square) / (4.0 * right * (right - left));
+// Half of the mesh from the middle outward, mirrored: spacing a share of the distance to the edge.
+void sb_transient_mesh(SbFilmTransient *t, double rest) {
+  SbLayers layers = {.lambda = t->scale.lambda, .starvation = 1.0};
+  memcpy(layers.bow, t->scale.bow, sizeof layers.bow);
+  const double width = fmin(sb_layers_width(&layers), 2.0);
+  const double fine = cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
+  const double share = 0.15 * fine;
+  const double finest = 0.5 * width;
+  const double reach = fmax(fmax(4.0, 60.0 * width), 6.0 * sqrt(2.0 * rest));
+  double X[SB_TRANSIENT_NODES_MAX / 2];
+  int n = 0;
+  X[n++] = 0.0;
+  while (X[n - 1] < 1.0 + reach && n < SB_TRANSIENT_NODES_MAX / 2 - 1) {
+    double step = 0.0;
+    for (int pass = 0; pass < 3; pass++) {
+      const double at = X[n - 1] + 0.5 * step;
+      const double d = hypot(finest, at - 1.0);
+      step = share * d / (at < 1.0 ? hypot(1.0, share * d / (0.03 * fine)) : 1.0);
     }
-    t->mean[i][1] = t->volume[i] - t->mean[i][0] - t->mean[i][2];
+    X[n] = X[n - 1] + step;
+    n++;
   }
-  for (int j = 0; j + 1 < n; j++) {
+  t->nodes = 2 * n - 1;
+  t->layer = width;
+  for (int i = 0; i < n; i++) {
+    t->X[n - 1 + i] = X[i];
+    t->X[n - 1 - i] = -X[i];
+  }
+  for (int i = 0; i < t->nodes; i++) {
+    const double left = i > 0 ? t->X[i] - t->X[i - 1] : 0.0;
+    const double right = i + 1 < t->nodes ? t->X[i + 1] - t->X[i] : 0.0;
+    t->volume[i] = t->weight[i] = 0.5 * (left + right);
+    t->limited[i] = right > width && fabs(t->X[i]) < 1.0;
+  }
+  for (int j = 0; j + 1 < t->nodes; j++) {
     const double h = t->X[j + 1] - t->X[j];
     for (int k = j; k <= j + 1; k++) {
-      if (k > 0 && k + 1 < n) {
+      if (k > 0 && k + 1 < t->nodes) {
         double d[3];
         second_difference(d, t, k);
         for (int m = 0; m < 3; m++) {
@@ -121,253 +144,6 @@ static void complete(SbFilmTransient *t) {
     }
   }
   build_kernel(t);
-  t->present_half = NAN;
-  t->factored = false;
-}
-
-// Spacing wanted at X: a share of the distance to the edge, and what the film's bends ask for with
-// the way that the wall carries them.
-static double spacing(const SbFilmTransient *t, double X) {
-  const double share = 0.15 * t->fineness;
-  double out = share * hypot(0.5 * t->layer, fabs(X) - 1.0);
-  if (fabs(X) < 1.0) {
-    out /= hypot(1.0, out / (0.03 * t->fineness));
-  }
-  for (int i = 0; i < t->nodes; i++) {
-    if (t->wanted[i] < out) {
-      const double away = fmax(X - t->X[i] - t->span[1], t->X[i] + t->span[0] - X);
-      out = fmin(out, t->wanted[i] + share * fmax(away, 0.0));
-    }
-  }
-  return out;
-}
-
-// Nodes of one half from its end to the middle; their number, or -1 if they are too many.
-static int march(double *X, const SbFilmTransient *t, double side) {
-  enum { HALF = SB_TRANSIENT_NODES_MAX / 2 };
-  int n = 0;
-  double at = t->reach;
-  while (n < HALF) {
-    X[n++] = side * at;
-    double step = 0.0;
-    for (int pass = 0; pass < 3; pass++) {
-      step = spacing(t, side * (at - 0.5 * step));
-    }
-    if (at < 0.5 * step) {
-      break;
-    }
-    at -= step;
-  }
-  if (n == HALF) {
-    return -1;
-  }
-  // The last node comes to the middle, those of the inner half contact with it.
-  const double stretch = 0.5 / (0.5 - at);
-  for (int i = 0; i < n; i++) {
-    const double d = fabs(X[i]);
-    X[i] = side * X[i] < 0.5 ? side * (0.5 - (0.5 - side * X[i]) * stretch) : side * d;
-  }
-  X[n - 1] = 0.0;
-  return n;
-}
-
-// Lays nodes into `X`; their number.
-static int lay(double *X, SbFilmTransient *t) {
-  double *other = t->scratch[1];
-  for (;;) {
-    const int left = march(X, t, -1.0);
-    const int right = left > 0 ? march(other, t, 1.0) : -1;
-    if (right > 0) {
-      for (int i = right - 2; i >= 0; i--) {
-        X[left + right - 2 - i] = other[i];
-      }
-      return left + right - 1;
-    }
-    for (int i = 0; i < t->nodes; i++) {
-      t->wanted[i] *= 1.25;
-    }
-    if (t->nodes == 0) {
-      t->fineness *= 1.25;
-    }
-  }
-}
-
-void sb_transient_mesh(SbFilmTransient *t, double rest) {
-  SbLayers layers = {.lambda = t->scale.lambda, .starvation = 1.0};
-  memcpy(layers.bow, t->scale.bow, sizeof layers.bow);
-  t->layer = fmin(sb_layers_width(&layers), 2.0);
-  t->reach = 1.0 + fmax(fmax(4.0, 60.0 * t->layer), 6.0 * sqrt(2.0 * rest));
-  t->nodes = 0;
-  t->nodes = lay(t->X, t);
-  complete(t);
-}
-
-// Spacings by the film's bends: a share of the length over which its height curves by its own.
-static void want(SbFilmTransient *t) {
-  const double share = 0.25 * t->fineness;
-  const double least = 0.01 * t->layer * t->fineness;
-  for (int i = 0; i < t->nodes; i++) {
-    t->wanted[i] = INFINITY;
-    const bool rough = i < 2 || i + 2 >= t->nodes || t->beside_cavity[i] ||
-                       t->beside_cavity[i - 1] || t->steep[i] || t->steep[i - 1];
-    if (!rough && fabs(t->X[i]) < 1.0 + 2.0 * t->layer) {
-      double d[3];
-      second_difference(d, t, i);
-      const double bend = d[0] * t->now.H[i - 1] + d[1] * t->now.H[i] + d[2] * t->now.H[i + 1];
-      t->wanted[i] = fmax(share * sqrt(t->now.H[i] / fmax(fabs(bend), 1e-300)), least);
-    }
-  }
-}
-
-// Value at x of the polynomial through `count` points about the interval `from`, from + 1.
-static double interpolate(const double *at, const double *value, int from, int count, double x) {
-  double sum = 0.0;
-  const int first = from + 1 - count / 2;
-  for (int j = first; j < first + count; j++) {
-    double basis = value[j] - value[from];
-    for (int k = first; k < first + count; k++) {
-      basis *= k == j ? 1.0 : (x - at[k]) / (at[j] - at[k]);
-    }
-    sum += basis;
-  }
-  return value[from] + sum;
-}
-
-// Brings node values from the mesh `X` to the new one.
-static void carry_state(SbFilmTransient *t, SbTransientState *s, const double *X, int n,
-                        SbTransientState *old) {
-  *old = *s;
-  for (int i = 0, j = 0; i < t->nodes; i++) {
-    while (j + 2 < n && X[j + 1] <= t->X[i]) {
-      j++;
-    }
-    const int count = j < 1 || j + 2 >= n || t->beside_cavity[j] || t->steep[j] ? 2 : 4;
-    s->P[i] = interpolate(X, old->P, j, count, t->X[i]);
-    s->H[i] = interpolate(X, old->H, j, count, t->X[i]);
-    s->void_[i] = interpolate(X, old->void_, j, 2, t->X[i]);
-    s->cavity[i] = old->cavity[2.0 * t->X[i] < X[j] + X[j + 1] ? j : j + 1];
-    s->P[i] = s->cavity[i] ? 0.0 : fmax(s->P[i], 0.0);
-    s->void_[i] = s->cavity[i] ? s->void_[i] : 0.0;
-  }
-}
-
-// Faces of a mesh: its ends and the midpoints between its nodes.
-static void faces(double *out, const double *X, int n) {
-  out[0] = X[0];
-  for (int i = 1; i < n; i++) {
-    out[i] = 0.5 * (X[i - 1] + X[i]);
-  }
-  out[n] = X[n - 1];
-}
-
-// Content between the face j and x beyond it, by the polynomial through `count` sums of contents.
-static double partial_content(const double *face, const double *content, int j, int count,
-                              double x) {
-  enum { COUNT_MAX = 6 };
-  double sum[COUNT_MAX];
-  const int own = count / 2 - 1;
-  const double *at = face + j - own;
-  sum[own] = 0.0;
-  for (int k = own + 1; k < count; k++) {
-    sum[k] = sum[k - 1] + content[j - own + k - 1];
-  }
-  for (int k = own; k > 0; k--) {
-    sum[k - 1] = sum[k] - content[j - own + k - 1];
-  }
-  double out = 0.0;
-  for (int m = 0; m < count; m++) {
-    double basis = sum[m];
-    for (int k = 0; k < count; k++) {
-      basis *= k == m ? 1.0 : (x - at[k]) / (at[m] - at[k]);
-    }
-    out += basis;
-  }
-  return out;
-}
-
-// Contents of cells with the faces `to` from those of the n cells with the faces `from`, by their
-// integral; cells that stand keep theirs to the last digit.
-static void carry_content(double *out, const SbFilmTransient *t, const double *to, int cells,
-                          const double *from, const double *content, int n) {
-  double before = 0.0;
-  for (int i = 0, j = 0; i < cells; i++) {
-    double whole = 0.0;
-    while (j < n && from[j + 1] <= to[i + 1]) {
-      whole += content[j++];
-    }
-    int count = j == n ? 0 : j < 2 || j + 3 > n ? 2 : 6;
-    for (int k = j - 2; k <= j + 1 && count > 2; k++) {
-      count = t->beside_cavity[k] || t->steep[k] ? 2 : count;
-    }
-    const double part = count > 0 ? partial_content(from, content, j, count, to[i + 1]) : 0.0;
-    out[i] = whole + part - before;
-    before = part;
-  }
-}
-
-void sb_transient_adapt(SbFilmTransient *t, double travel) {
-  t->mesh_steps = 0;
-  const double margin = 0.2 * fabs(travel);
-  t->span[0] = fmin(travel, 0.0) - margin;
-  t->span[1] = fmax(travel, 0.0) + margin;
-  want(t);
-  double *X = t->scratch[0];
-  const int n = t->nodes;
-  const int laid = lay(X, t);
-  bool serves = laid > 0.8 * n;
-  for (int i = 0; i + 1 < n && serves; i++) {
-    serves = t->X[i + 1] - t->X[i] < 1.2 * spacing(t, 0.5 * (t->X[i] + t->X[i + 1]));
-  }
-  t->span[0] += t->travel;
-  t->span[1] += t->travel;
-  if (serves) {
-    return;
-  }
-  double *old = t->scratch[1], *from = t->scratch[2], *to = t->scratch[4];
-  memcpy(old, t->X, (size_t)n * sizeof *old);
-  memcpy(t->X, X, (size_t)laid * sizeof *X);
-  t->nodes = laid;
-  carry_state(t, &t->now, old, n, &t->next);
-  carry_state(t, &t->before, old, n, &t->next);
-  faces(from, old, n);
-  faces(to, t->X, laid);
-  for (int k = 0; k < t->known_times; k++) {
-    memcpy(old, t->content[k], (size_t)n * sizeof *old);
-    carry_content(t->content[k], t, to, laid, from, old, n);
-  }
-  complete(t);
-}
-
-// Goes on as the wall does where the faces move: dX over their share of its speed, integrated.
-static double stretched(double X, double lag) {
-  return X + 0.5 * lag * lag * (X / (1.0 - X * X) + atanh(X));
-}
-
-void sb_transient_depart(double *out, SbFilmTransient *t, const double *content, double travel,
-                         double lag) {
-  double *from = t->scratch[2], *to = t->scratch[4];
-  const int n = t->nodes;
-  faces(from, t->X, n);
-  for (int i = 0; i <= n; i++) {
-    to[i] = from[i];
-    if (fabs(from[i]) < 1.0 - 1e-12 && travel != 0.0) {
-      const double aim = stretched(from[i], lag) - travel;
-      double low = travel > 0.0 ? -1.0 : from[i], high = travel > 0.0 ? from[i] : 1.0;
-      double X = from[i];
-      for (int k = 0; k < 60 && high - low > 1e-15; k++) {
-        const double wrong = stretched(X, lag) - aim;
-        const double inside = lag / (1.0 - X * X);
-        *(wrong > 0.0 ? &high : &low) = X;
-        const double next = X - wrong / (1.0 + inside * inside);
-        if (fabs(next - X) < 1e-15) {
-          break;
-        }
-        X = next > low && next < high ? next : 0.5 * (low + high);
-      }
-      to[i] = X;
-    }
-  }
-  carry_content(out, t, to, n, from, content, n);
 }
 
 // Smooth part of a fitted body on the nodes, added to `present` and its known gap: moments of the
@@ -381,8 +157,8 @@ static void add_smooth(SbFilmTransient *t, double half, double middle) {
   double node[POINTS];
   double weight[POINTS];
   sb_legendre_gauss(node, weight, POINTS);
-  double(*moment)[SB_TRANSIENT_NODES_MAX] = (double(*)[SB_TRANSIENT_NODES_MAX])t->moment;
-  memset(moment, 0, MODES * sizeof *moment);
+  double moment[MODES][SB_TRANSIENT_NODES_MAX];
+  memset(moment, 0, sizeof moment);
   double value[MODES];
   for (int j = 0; j + 1 < n; j++) {
     const double h = t->X[j + 1] - t->X[j];

@@ -43,7 +43,7 @@ static Face face_height(const SbFilmTransient *t, const SbTransientState *s, int
   const double m_u = sb_transient_height(s, U);
   const double m_c = sb_transient_height(s, C);
   const double m_d = sb_transient_height(s, D);
-  if (!t->steep[i] && !t->beside_cavity[i]) {
+  if (!t->limited[i] && !t->steep[i] && !t->beside_cavity[i]) {
     f.by[U - f.first] = (at - c) * (at - d) / ((u - c) * (u - d));
     f.by[C - f.first] = (at - u) * (at - d) / ((c - u) * (c - d));
     f.by[D - f.first] = (at - u) * (at - c) / ((d - u) * (d - c));
@@ -103,19 +103,23 @@ double sb_transient_flow(const SbFilmTransient *t, const SbTransientState *s, in
          t->diffusion * H * H * H * (s->P[i + 1] - s->P[i]) / (s->half * (t->X[i + 1] - t->X[i]));
 }
 
-// Heights of the neighbours count in a cell's content but where fronts are.
-static bool lumped(const SbFilmTransient *t, int i) {
-  return i < 1 || i + 1 >= t->nodes || t->steep[i] || t->steep[i - 1] || t->beside_cavity[i] ||
-         t->beside_cavity[i - 1];
-}
-
-double sb_transient_content(const SbFilmTransient *t, const SbTransientState *s, int i) {
-  const double own = sb_transient_height(s, i);
-  if (lumped(t, i)) {
-    return s->half * t->volume[i] * own;
+double sb_transient_smear(const SbFilmTransient *t, const SbTransientState *s) {
+  // Divergence of the difference between the limited and the central transport.
+  double before = 0.0;
+  double sum = 0.0;
+  double whole = 0.0;
+  for (int i = 1; i + 1 < t->nodes; i++) {
+    if (fabs(t->X[i]) >= 1.0) {
+      continue;
+    }
+    const Face f = face_height(t, s, i, s->speed);
+    const double mean = 0.5 * (sb_transient_height(s, i) + sb_transient_height(s, i + 1));
+    const double difference = t->limited[i] ? s->speed * (f.value - mean) : 0.0;
+    sum += fabs(difference - before) / s->half;
+    whole += t->volume[i] * sb_transient_height(s, i);
+    before = difference;
   }
-  return s->half * (t->mean[i][0] * sb_transient_height(s, i - 1) + t->mean[i][1] * own +
-                    t->mean[i][2] * sb_transient_height(s, i + 1));
+  return sum / whole;
 }
 
 enum { BAND = 5 }; // derivatives of a row go to nodes i - 2 .. i + 2
@@ -129,11 +133,7 @@ typedef struct {
 static void add_face(Row *row, const SbFilmTransient *t, const SbTransientState *s,
                      const SbTransientStep *step, int i, int face, double sign) {
   const double at = 0.5 * (t->X[face] + t->X[face + 1]);
-  double velocity = s->speed - step->half_rate * at - step->middle_rate;
-  if (step->old != NULL && fabs(at) < 1.0) {
-    const double inside = (1.0 - at * at) / step->lag;
-    velocity -= s->speed * inside * inside / (1.0 + inside * inside);
-  }
+  const double velocity = s->speed - step->half_rate * at - step->middle_rate;
   const Face f = face_height(t, s, face, velocity);
   row->residual += sign * velocity * f.value;
   for (int k = 0; k < 3; k++) {
@@ -161,12 +161,11 @@ static void add_face(Row *row, const SbFilmTransient *t, const SbTransientState 
 static Row equation(const SbFilmTransient *t, const SbTransientState *s,
                     const SbTransientStep *step, int i) {
   Row row = {0};
-  row.residual =
-      step->c0 * sb_transient_content(t, s, i) + (step->old != NULL ? step->old[i] : 0.0);
-  const bool lump = lumped(t, i);
-  for (int k = 0; k < 3; k++) {
-    row.by_m[k + 1] += step->c0 * s->half * (!lump ? t->mean[i][k] : k == 1 ? t->volume[i] : 0.0);
+  row.residual = t->volume[i] * step->c0 * s->half * sb_transient_height(s, i);
+  if (step->old != NULL) {
+    row.residual += t->volume[i] * step->old[i];
   }
+  row.by_m[2] += t->volume[i] * step->c0 * s->half;
   add_face(&row, t, s, step, i, i, 1.0);
   add_face(&row, t, s, step, i, i - 1, -1.0);
   return row;
@@ -306,7 +305,7 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
   enum { ITERATIONS_MAX = 30 };
   const int n = t->nodes;
   const int order = n - 1;
-  double *elastic = t->scratch[2], *change = t->scratch[3];
+  double elastic[SB_TRANSIENT_NODES_MAX];
   sb_transient_present(t, s->half, s->middle);
   *trace = (SbTransientTrace){.mass_error = INFINITY, .load_error = INFINITY};
   s->P[0] = t->inlet;
@@ -359,7 +358,7 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
     // New gap by the linear elastic relation; no film may shrink below a fifth at once.
     const double old_H0 = s->H0;
     double *wanted = elastic; // reused
-    change[0] = change[n - 1] = 0.0;
+    double change[SB_TRANSIENT_NODES_MAX] = {0};
     for (int i = 1; i + 1 < n; i++) {
       change[i] = s->cavity[i] ? 0.0 : -t->right[i - 1];
     }

