@@ -131,11 +131,12 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbFrame *last = &run->frames[count > 0 ? count - 1 : 0];
   if (status == SB_ERROR_NOT_CONVERGED && count > 0) {
     SbReport cause = own;
-    sb_fail_parameter(&own, status, cause.parameter,
-                      "motion (%s), both seals, stage %s, stem at %.4g mm, %.4g s: %.110s; kept: "
-                      "the seals, the frames and stages before",
-                      names[run->model.motion], sb_stage_name((SbStage)last->stage),
-                      1e3 * last->displacement, last->time, cause.text);
+    (void)sb_fail_parameter(
+        &own, status, cause.parameter,
+        "motion (%s), both seals, stage %s, stem at %.4g mm, %.4g s: %.110s; kept: "
+        "the seals, the frames and stages before",
+        names[run->model.motion], sb_stage_name((SbStage)last->stage), 1e3 * last->displacement,
+        last->time, cause.text);
   }
   if (status != SB_OK) {
     sb_run_clear_motion(run,

@@ -38,7 +38,7 @@ static void leave(Way *way) {
     summary->counters.film_steps += info.steps;
     summary->newton_iterations += info.newton_iterations;
     summary->error_film_history =
-        fmax(summary->error_film_history, info.error_film_central);
+        fmax(summary->error_film_history, info.error_mesh + info.error_time);
   }
   sb_film_transient_destroy(way->film);
   way->film = NULL;
@@ -131,11 +131,12 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
     } else if (status != SB_OK) {
       SbFrame *at = &run->frames[way.frame];
       SbReport whole;
-      sb_fail(&whole, status,
-              "film in time, %s seal, stage %s, stem at %.4g mm, %.4g s: %.100s; kept: the films "
-              "before, the motion",
-              sb_seal_name(seal), sb_stage_name((SbStage)at->stage), 1e3 * at->displacement,
-              at->time, own.text);
+      (void)sb_fail(
+          &whole, status,
+          "film in time, %s seal, stage %s, stem at %.4g mm, %.4g s: %.100s; kept: the films "
+          "before, the motion",
+          sb_seal_name(seal), sb_stage_name((SbStage)at->stage), 1e3 * at->displacement, at->time,
+          own.text);
       sb_warn(&run->summary.warnings, "film-history", "models.film_time", "%s", whole.text);
       for (; at < run->frames + count; at++) {
         at->seal[seal].film_min = at->seal[seal].film_central = at->seal[seal].lambda = NAN;

@@ -173,12 +173,12 @@ static void tell_failure(SbRun *run, int seal, int chamber, int motion, const Sb
     snprintf(place, sizeof place, "%.4g MPa", 1e-6 * (pressure.left - pressure.right));
   }
   SbReport whole = *report;
-  sb_fail_parameter(&whole, report->status, report->parameter,
-                    "%s, %s seal, stages %s, %s, %s: %s; kept: %s", solver, sb_seal_name(seal),
-                    stages[chamber], ways[motion], place, cause,
-                    complete ? "the last solution"
-                    : fitted ? "its fitment, the other states"
-                             : "the other states");
+  (void)sb_fail_parameter(&whole, report->status, report->parameter,
+                          "%s, %s seal, stages %s, %s, %s: %s; kept: %s", solver,
+                          sb_seal_name(seal), stages[chamber], ways[motion], place, cause,
+                          complete ? "the last solution"
+                          : fitted ? "its fitment, the other states"
+                                   : "the other states");
   sb_warn(&run->summary.warnings, "not-converged", report->parameter, "%s", whole.text);
   if (motion != SB_RUN_REST && !complete) {
     sb_run_lacks_motion(run, whole.text);

@@ -500,9 +500,11 @@ static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, do
     out->viscous = shear * (1 - out->area_share) * area;
     if (out->film_error > 0) {
       SbGtIntegrals thinner;
-      sb_gt_integrals(&thinner, out->lambda * (1 - out->film_error), NULL);
-      double share = sb_gt_area_share(model->gt_product, thinner.F2) - out->area_share;
       bool persson = model->surface == SB_MODEL_SURFACE_PERSSON;
+      double share = NAN;
+      if (sb_gt_integrals(&thinner, out->lambda * (1 - out->film_error), NULL) == SB_OK) {
+        share = sb_gt_area_share(model->gt_product, thinner.F2) - out->area_share;
+      }
       out->friction_error = out->film_error * out->viscous +
                             (persson ? 0 : model->shear_strength * fabs(share) * area);
     }

@@ -342,12 +342,12 @@ static void test_links(void) {
   char *link_path = g_build_filename(folder, "link.valve", NULL);
   SbDocument *document = sb_document_new();
   GError *error = NULL;
-  sb_document_save(document, path, &error);
+  g_assert_true(sb_document_save(document, path, &error));
   g_assert_no_error(error);
   g_assert_cmpint(chmod(path, 0660), ==, 0);
   g_assert_cmpint(symlink("real.valve", link_path), ==, 0);
   g_assert_true(sb_document_set(document, SB_P_BORE_DIAMETER, "6.1 mm", &error));
-  sb_document_save(document, link_path, &error);
+  g_assert_true(sb_document_save(document, link_path, &error));
   g_assert_no_error(error);
   g_assert_true(g_file_test(link_path, G_FILE_TEST_IS_SYMLINK));
   char *text = NULL;

@@ -248,7 +248,7 @@ static void test_geometry(void) {
   SbModel model;
   SbProblems problems;
   sb_params_init(&params);
-  sb_params_set(&params, SB_P_STEM_PRESSURE_DIAMETER, 3.2e-3, NULL);
+  g_assert_cmpint(sb_params_set(&params, SB_P_STEM_PRESSURE_DIAMETER, 3.2e-3, NULL), ==, SB_OK);
   g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpstr(problems.item[0].key, ==, "stem.pressure_diameter");
   g_assert_cmpfloat_with_epsilon(problems.item[0].min, 3.28e-3, 1e-12);
