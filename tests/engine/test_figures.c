@@ -212,6 +212,71 @@ static void test_cancelled(void) {
   sb_run_destroy(run);
 }
 
+// A stem that a finger pushes against its spring and that moves by rounding alone: no work was
+// done, and none of it is missing.
+static void test_no_work(void) {
+  static const struct {
+    const char *key;
+    double value;
+  } given[] = {
+      {"bore.diameter", 0.0060850067221859148},
+      {"gland.radial_space", 0.0014541649783573285},
+      {"seal.section_diameter", 0.0016389222469116867},
+      {"seal.inner_diameter", 0.0031048101495473848},
+      {"gland.axial_width", 0.0024515357650272841},
+      {"stem.pressure_diameter", 0.0056695482412264415},
+      {"stem.seal_spacing", 0.0079632467755437492},
+      {"stem.mass", 0.0014954990978140856},
+      {"drive.stroke", 0.0091100483299035827},
+      {"bore.land_edge", 0.0028934116219645656},
+      {"seal.modulus", 9348628.373423053},
+      {"seal.poisson_ratio", 0.47864702077699733},
+      {"canister.pressure", 203714.15350229875},
+      {"fluid.viscosity", 0.001564476962023591},
+      {"fluid.density", 1225.4390932914043},
+      {"surface.sigma", 2.1101547329588119e-07},
+      {"surface.sigma_over_beta", 0.10495317228036885},
+      {"surface.gt_product", 0.12402744874086596},
+      {"friction.shear_strength", 520712.56170646619},
+      {"friction.load_coefficient", 0.086104200606190825},
+      {"friction.static_ratio", 1.2833337546709993},
+      {"drive.speed", 0.0021669299471111874},
+      {"drive.stiffness", 69418.230367370488},
+      {"drive.reversal_force", 10.629082351675589},
+      {"output.frames", 50},
+      {"models.fit", 0},
+      {"models.film", 1},
+      {"models.surface", 1},
+      {"models.asperities", 0},
+      {"models.motion", 1},
+      {"canister.pressure_map", 2},
+      {"drive.kind", 1},
+      {"drive.peak_force", 30.12494939825007},
+      {"drive.rise_time", 0.17781384485451798},
+      {"drive.finger_damping", 2.2458712868076258},
+      {"drive.amplitude", 0.0037682224307920729},
+      {"drive.frequency", 0.17493126260815928},
+      {"housing.stop_restitution", 0.39236492844735427},
+      {"housing.stop_stiffness", 1566544.4565088691},
+      {"drive.damping_ratio", 0.050000000000000003},
+      {"stem.spring_stiffness", 231.58337111241585},
+      {"stem.spring_preload", 19.234077115145674},
+      {"friction.stribeck_speed", 0.0003006498678997551},
+  };
+  SbParams params;
+  SbModel model;
+  sb_params_init(&params);
+  for (size_t i = 0; i < G_N_ELEMENTS(given); i++) {
+    SbParamId id = (SbParamId)sb_param_find(given[i].key);
+    g_assert_cmpint(sb_params_set(&params, id, given[i].value, NULL), ==, SB_OK);
+  }
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  g_assert_cmpfloat(sb_run_summary(run)->energy.closure, ==, 0);
+  g_assert_cmpfloat(sb_run_summary(run)->energy.external_max, <, 1e-12);
+  sb_run_destroy(run);
+}
+
 static void limit(SbModel *model, const char *path, double low, double high) {
   model->limits.item[model->limits.count++] = (SbLimit){sb_figure_find(path), low, high};
 }
@@ -280,6 +345,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/figures/one-way", test_one_way);
   g_test_add_func("/figures/failure", test_failure);
   g_test_add_func("/figures/cancelled", test_cancelled);
+  g_test_add_func("/figures/no-work", test_no_work);
   g_test_add_func("/figures/verdict", test_verdict);
   g_test_add_func("/figures/geometry", test_geometry);
   return g_test_run();

@@ -26,12 +26,9 @@ static SbRun *run_with(const Change *changes, int count) {
 
 // Actuation n of a life against one cycle at its roughness, given through surface.* alone.
 static void compare(int motion, int n) {
-  const Change life[] = {{SB_P_MODELS_MOTION, motion},
-                         {SB_P_LIFE_ACTUATIONS, 7},
-                         {SB_P_LIFE_ROUGHNESS_NEW, 1},
-                         {SB_P_LIFE_ROUGHNESS_RUN_IN, 0.7},
-                         {SB_P_LIFE_RUNNING_IN, 3},
-                         {SB_P_OUTPUT_FRAMES, 200},
+  const Change life[] = {{SB_P_MODELS_MOTION, motion}, {SB_P_LIFE_ACTUATIONS, 7},
+                         {SB_P_LIFE_ROUGHNESS_NEW, 1}, {SB_P_LIFE_ROUGHNESS_RUN_IN, 0.7},
+                         {SB_P_LIFE_RUNNING_IN, 3},    {SB_P_OUTPUT_FRAMES, 200},
                          {SB_P_LIFE_SHOWN, n}};
   SbRun *run = run_with(life, G_N_ELEMENTS(life));
   size_t count;
