@@ -1,7 +1,7 @@
 // The complete run of a model, as tests that look at results need it.
 #pragma once
 
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 #include <glib.h>
 

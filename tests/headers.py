@@ -54,7 +54,7 @@ with concurrent.futures.ThreadPoolExecutor(2) as pool:
     results = [(header + ' stands alone', said == '', said)
                for header, said in zip(headers, pool.map(alone, headers))]
 
-DROPS = '#include "engine/status.h"\nSbStatus f(void);\nvoid g(void);\nvoid g(void) {\n  %s;\n}\n'
+DROPS = '#include "engine/base/status.h"\nSbStatus f(void);\nvoid g(void);\nvoid g(void) {\n  %s;\n}\n'
 said = compiles('engine', DROPS % 'f()')
 results.append(('a dropped status is refused', 'unused-result' in said, said))
 said = compiles('engine', DROPS % '(void)f()')

@@ -2,7 +2,7 @@
 // window or into a new one. The theme choice is kept in the user's configuration.
 #include "ui/application.h"
 
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 #include "ui/latency.h"
 #include "ui/preferences.h"
 #include "ui/style.h"

@@ -3,7 +3,7 @@
 // of the values at once. (gland_panel.c follows the values.) Each has a bar with the recommended
 // band, a word and a sign, so that colour is not alone.
 //
-// Bands of squeeze, stretch and fill are those of the gland's read-outs (engine/elastic/gland.h,
+// Bands of squeeze, stretch and fill are those of the gland's read-outs (engine/contact/gland.h,
 // with their sources), of which gland_panel.c shows all. A return force of at least 2 N, an eighth
 // of the pressure force of the thesis valve, is this program's own. Metering volumes of 25 to 100
 // µl are those of thesis section 1.7.

@@ -1,5 +1,5 @@
 // Stretch, squeeze, fill, extrusion gap and section of both rings in their glands, at once from the
-// values (engine/elastic/gland.h): one line each with outer and inner seal, the customary band
+// values (engine/contact/gland.h): one line each with outer and inner seal, the customary band
 // below its name, and a word: within, below, above, or tight where only the worst case of the
 // tolerances lies outside. The tooltip tells the worst case over the tolerances, the
 // root-sum-square range and the band's source. Swell lines are there while a ring has swollen.

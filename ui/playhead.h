@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/chart/trace.h"
-#include "engine/frame.h"
+#include "engine/valve/frame.h"
 
 #include <glib.h>
 

@@ -11,7 +11,7 @@
 #include "app/chart/data.h"
 #include "app/document/document.h"
 #include "app/run/runner.h"
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 #include <gio/gio.h>
 

@@ -1,7 +1,7 @@
 // One study on a thread of its own: a model goes in, a finished study comes out.
 #pragma once
 
-#include "engine/study/study.h"
+#include "engine/valve/studies/study.h"
 
 #include <glib.h>
 

@@ -1,5 +1,5 @@
 // Words of the lower layers in the user's language. Labels of parameters are read for translation
-// from engine/params.def itself (po/meson.build); the others, which are few, are listed here,
+// from engine/valve/params.def itself (po/meson.build); the others, which are few, are listed here,
 // because the engine knows nothing of translations.
 #include "ui/words.h"
 
@@ -7,11 +7,11 @@
 
 // For xgettext only.
 G_GNUC_UNUSED static const char *const listed[] = {
-    // engine/elastic/gland.c
+    // engine/contact/gland.c
     N_("below"),
     N_("within"),
     N_("above"),
-    // engine/study/study.h
+    // engine/valve/studies/study.h
     N_("Load over squeeze"),
     N_("load, peak and width of every fitment model over the squeeze, beside the solved ring"),
     N_("Fitment models side by side"),

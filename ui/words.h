@@ -4,7 +4,7 @@
 // what stands in the files and are never translated.
 #pragma once
 
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 #include <glib.h>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/chart/trace.h"
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 typedef enum {
   SB_CHART_EMPTY,   // no run yet

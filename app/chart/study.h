@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/chart/canvas.h"
-#include "engine/study/study.h"
+#include "engine/valve/studies/study.h"
 
 // Draws the study into `rect`, each panel and the table on a ground of its own. Pure: the same
 // picture from the same study on any surface.

@@ -3,7 +3,7 @@
 // costs the same as one of two thousand.
 #pragma once
 
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 typedef struct SbTrace SbTrace;
 

@@ -6,8 +6,8 @@
 
 #include "app/document/document.h"
 
-#include "engine/sealbench.h"
-#include "engine/study/study.h"
+#include "engine/valve/sealbench.h"
+#include "engine/valve/studies/study.h"
 
 #include <stdio.h>
 

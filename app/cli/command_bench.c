@@ -4,7 +4,7 @@
 #include "app/export/bench_page.h"
 #include "app/export/json.h"
 
-#include "engine/bench.h"
+#include "engine/valve/bench.h"
 
 #include <math.h>
 

@@ -8,7 +8,7 @@
 #include "engine/film/regime.h"
 #include "engine/film/transient.h"
 #include "engine/film/wedge.h"
-#include "engine/surface/van_der_waals.h"
+#include "engine/contact/rough/van_der_waals.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 #include "app/cli/timing.h"
 #include "app/export/results.h"
 
-#include "engine/friction/sliding.h"
+#include "engine/valve/sliding.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #include "app/export/render.h"
 #include "app/export/results.h"
 
-#include "engine/surface/greenwood_tripp.h"
+#include "engine/contact/rough/greenwood_tripp.h"
 
 #include <errno.h>
 #include <limits.h>

@@ -1,7 +1,7 @@
 // How long a solve takes: the median of 20 after one warm-up, within a time budget.
 #pragma once
 
-#include "engine/status.h"
+#include "engine/base/status.h"
 
 #define SB_TIMING_NOTE                                                                             \
   "The time shown (wall_s) is the median of up to 20 cold solves after a warm-up; fewer where "    \

@@ -10,7 +10,7 @@
 #include "app/document/issue.h"
 #include "app/document/unit.h"
 
-#include "engine/model.h"
+#include "engine/valve/model.h"
 
 typedef struct SbDocument SbDocument;
 

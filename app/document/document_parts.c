@@ -1,5 +1,5 @@
 // Parts by their shape: a half-profile or an STL mesh in a [part.NAME] group gives the part's mass
-// and moments of inertia (engine/motion/solid.h), and by stretches of a profile the valve's
+// and moments of inertia (engine/mechanism/solid.h), and by stretches of a profile the valve's
 // diameters.
 //
 //   [part.stem_centre]
@@ -24,7 +24,7 @@
 #include "app/document/stl.h"
 #include "app/document/unit.h"
 
-#include "engine/motion/solid.h"
+#include "engine/mechanism/solid.h"
 
 #include <math.h>
 #include <string.h>

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "app/document/issue.h"
-#include "engine/model.h"
+#include "engine/valve/model.h"
 
 enum { SB_SERIES_BYTES_MAX = 1 << 20 };
 

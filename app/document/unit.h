@@ -9,7 +9,7 @@
 
 #include "app/document/number.h"
 
-#include "engine/params.h"
+#include "engine/valve/params.h"
 
 #include <glib.h>
 

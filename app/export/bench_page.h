@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/document/unit.h"
-#include "engine/bench.h"
+#include "engine/valve/bench.h"
 
 #include <stdio.h>
 

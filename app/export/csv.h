@@ -2,7 +2,7 @@
 // exactly, the same bytes in every locale. Errors show in the stream (ferror).
 #pragma once
 
-#include "engine/run.h"
+#include "engine/valve/run/run.h"
 
 #include <stdio.h>
 

@@ -2,7 +2,7 @@
 // number, the same bytes in every locale. Two spaces of indentation; arrays of numbers on one line.
 #pragma once
 
-#include "engine/run.h"
+#include "engine/valve/run/run.h"
 
 #include <glib.h>
 #include <stdbool.h>

@@ -6,7 +6,7 @@
 // the pictures done so far, playable, with "partial" in its comment.
 #pragma once
 
-#include "engine/status.h"
+#include "engine/base/status.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -4,7 +4,7 @@
 
 #include "app/chart/dashboard.h"
 #include "app/document/unit.h"
-#include "engine/run.h"
+#include "engine/valve/run/run.h"
 
 // One view of the table.
 typedef struct {

@@ -1,12 +1,12 @@
 // Results as JSON documents, with stable keys, the unit in each.
 #pragma once
 
-#include "engine/elastic/fit.h"
-#include "engine/elastic/gland.h"
-#include "engine/elastic/rubber_time.h"
+#include "engine/contact/fit.h"
+#include "engine/contact/gland.h"
+#include "engine/rubber/rubber_time.h"
 #include "engine/film/film.h"
-#include "engine/sealbench.h"
-#include "engine/study/study.h"
+#include "engine/valve/sealbench.h"
+#include "engine/valve/studies/study.h"
 
 #include <glib.h>
 

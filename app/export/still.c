@@ -6,7 +6,7 @@
 #include "app/export/still.h"
 
 #include "app/document/output.h"
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>

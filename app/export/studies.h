@@ -4,7 +4,7 @@
 #include "app/chart/canvas.h"
 #include "app/document/unit.h"
 #include "app/export/json.h"
-#include "engine/study/study.h"
+#include "engine/valve/studies/study.h"
 
 #include <stdio.h>
 

@@ -5,7 +5,7 @@
 // thread sanitizer sees all of it.
 #pragma once
 
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 // One run, computed or being computed. Reference counted.
 typedef struct SbRunHandle SbRunHandle;

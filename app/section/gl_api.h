@@ -4,7 +4,7 @@
 
 #include <GL/glcorearb.h>
 
-#include "engine/status.h"
+#include "engine/base/status.h"
 
 #include <stdbool.h>
 

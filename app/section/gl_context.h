@@ -6,7 +6,7 @@
 #pragma once
 
 #include "app/section/gl_api.h"
-#include "engine/status.h"
+#include "engine/base/status.h"
 
 typedef enum { SB_GL_AUTO, SB_GL_OSMESA, SB_GL_EGL } SbGlBackend;
 

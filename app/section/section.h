@@ -10,7 +10,7 @@
 #include "app/section/draw_list.h"
 #include "app/section/ring_shape.h"
 #include "app/section/valve.h"
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 typedef struct SbSection SbSection;
 

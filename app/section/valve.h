@@ -14,7 +14,7 @@
 // next size that can be drawn, and `adjusted` says so.
 #pragma once
 
-#include "engine/model.h"
+#include "engine/valve/model.h"
 
 typedef struct {
   double x, y;

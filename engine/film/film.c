@@ -8,7 +8,7 @@
 #include "engine/film/mixed.h"
 #include "engine/film/reynolds.h"
 #include "engine/film/scale.h"
-#include "engine/surface/van_der_waals.h"
+#include "engine/contact/rough/van_der_waals.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -19,9 +19,9 @@
 // the inlet is on the left. Pressures are gauge. SI units throughout, per metre of circumference.
 #pragma once
 
-#include "engine/elastic/compliance.h"
-#include "engine/status.h"
-#include "engine/surface/rough_law.h"
+#include "engine/contact/compliance.h"
+#include "engine/base/status.h"
+#include "engine/contact/rough/rough_law.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -5,7 +5,7 @@
 // points. The gap's integral with the logarithmic kernel is taken exactly for these polynomials.
 #pragma once
 
-#include "engine/status.h"
+#include "engine/base/status.h"
 
 #include <stdbool.h>
 #include <stddef.h>

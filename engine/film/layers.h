@@ -2,7 +2,7 @@
 // to engine/film). Everything is scaled and in the flow frame: inlet left, X = x / b.
 #pragma once
 
-#include "engine/elastic/compliance.h"
+#include "engine/contact/compliance.h"
 #include "engine/film/hp.h"
 
 // How the film ends.

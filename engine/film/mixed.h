@@ -19,7 +19,7 @@
 #include "engine/film/fluid.h"
 #include "engine/film/layers.h"
 #include "engine/film/scale.h"
-#include "engine/surface/rough_law.h"
+#include "engine/contact/rough/rough_law.h"
 
 enum {
   SB_MIXED_DEGREE_MAX = 8,

@@ -15,7 +15,7 @@
 // beyond, the outlet's pressure drives the film back and no such end exists (SB_ERROR_INFEASIBLE).
 #pragma once
 
-#include "engine/status.h"
+#include "engine/base/status.h"
 
 typedef struct {
   double film_min;       // h0 > 0 [m]

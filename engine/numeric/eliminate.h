@@ -1,7 +1,7 @@
 // Small dense linear systems.
 #pragma once
 
-#include "engine/status.h"
+#include "engine/base/status.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,7 +2,7 @@
 // frames.
 #include "app/document/document.h"
 
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 #include "tests/executed.h"
 #include "tests/sanitized.h"

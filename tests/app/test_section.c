@@ -2,7 +2,7 @@
 // from the display list, over every frame of a thesis cycle.
 #include "app/section/draw_cairo.h"
 #include "app/section/section.h"
-#include "engine/elastic/fit.h"
+#include "engine/contact/fit.h"
 
 #include <glib.h>
 #include <math.h>

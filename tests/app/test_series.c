@@ -2,7 +2,7 @@
 #include "app/document/document.h"
 #include "app/document/series.h"
 
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 #include "tests/executed.h"
 

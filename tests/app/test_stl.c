@@ -2,7 +2,7 @@
 #include "app/document/stl.h"
 
 #include "app/document/unit.h"
-#include "engine/motion/solid.h"
+#include "engine/mechanism/solid.h"
 
 #include <glib/gstdio.h>
 #include <math.h>

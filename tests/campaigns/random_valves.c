@@ -6,7 +6,7 @@
 //
 // STATUS is SbStatus, NULLS the number of figures that have neither a value nor a reason of their
 // own, TEXT the report's.
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 #include <math.h>
 #include <stdio.h>

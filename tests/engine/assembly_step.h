@@ -1,7 +1,7 @@
 // Constrained bodies stepped in all their coordinates, to hold the reduced form against.
 #pragma once
 
-#include "engine/motion/bodies_internal.h"
+#include "engine/mechanism/bodies_internal.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,9 +3,9 @@
 // fitted body at the cells' middles, Newton's method on the asperities' separations.
 #pragma once
 
-#include "engine/elastic/compliance.h"
+#include "engine/contact/compliance.h"
 #include "engine/film/film.h"
-#include "engine/surface/greenwood_tripp.h"
+#include "engine/contact/rough/greenwood_tripp.h"
 
 #include <glib.h>
 #include <lapacke.h>

@@ -1,11 +1,11 @@
 // Surface compliance: dry contacts against Hertz, the disc's own solver, and a dense solve by
 // another method.
-#include "engine/elastic/compliance.h"
+#include "engine/contact/compliance.h"
 
 #include <glib.h>
 #include <math.h>
 
-#include "engine/elastic/disc.h"
+#include "engine/contact/disc/disc.h"
 
 // A parabola without smooth part is Hertz's contact, with end pressures the transition of
 // docs/verification.md.

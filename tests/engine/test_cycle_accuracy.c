@@ -1,9 +1,9 @@
 // Accuracy and cost of a whole cycle with solved films, and the drag of its solved rings: figures
 // against a run of half the step and a hundredth of the tolerance, no allocation inside a Newton
 // step (counted by a malloc of our own), the section's shear turning over at the reversals.
-#include "engine/elastic/fit.h"
+#include "engine/contact/fit.h"
 #include "engine/film/film.h"
-#include "engine/run.h"
+#include "engine/valve/run/run.h"
 
 #include "tests/pace.h"
 

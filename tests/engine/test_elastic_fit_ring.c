@@ -1,6 +1,6 @@
 // The ring through the common interface, beside the other models: reference figures, mirrored
 // pressure, no contact, refusals, cancellation.
-#include "engine/elastic/fit.h"
+#include "engine/contact/fit.h"
 
 #include <glib.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 // Gland read-outs of the thesis' valve, their tolerance ranges and bands.
-#include "engine/elastic/gland.h"
+#include "engine/contact/gland.h"
 
 #include <glib.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 // Rubber in storage against closed limits, a finite-difference diffusion, an integrated recovery,
 // table 2.2; the ring's load against storage time; every warning and refusal.
-#include "engine/elastic/fit.h"
-#include "engine/elastic/rubber_time.h"
+#include "engine/contact/fit.h"
+#include "engine/rubber/rubber_time.h"
 
 #include <glib.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 // Figures: each has a value or a reason, an open seal is told, and the verdict follows the limits.
-#include "engine/elastic/fit.h"
-#include "engine/sealbench.h"
+#include "engine/contact/fit.h"
+#include "engine/valve/sealbench.h"
 
 #include <glib.h>
 #include <math.h>

@@ -3,10 +3,10 @@
 #include <glib.h>
 #include <math.h>
 
-#include "engine/elastic/compliance.h"
-#include "engine/elastic/disc.h"
+#include "engine/contact/compliance.h"
+#include "engine/contact/disc/disc.h"
 #include "engine/film/transient.h"
-#include "engine/friction/sliding.h"
+#include "engine/valve/sliding.h"
 
 static const double RADIUS = 0.75e-3, YOUNG = 2.5e6, NU = 0.49;
 

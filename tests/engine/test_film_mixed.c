@@ -2,10 +2,10 @@
 // near full contact, what an outside program recomputes from the profile, and the rough laws.
 #include "engine/film/film.h"
 #include "engine/film/stribeck.h"
-#include "engine/friction/sliding.h"
-#include "engine/surface/greenwood_tripp.h"
-#include "engine/surface/persson.h"
-#include "engine/surface/van_der_waals.h"
+#include "engine/valve/sliding.h"
+#include "engine/contact/rough/greenwood_tripp.h"
+#include "engine/contact/rough/persson.h"
+#include "engine/contact/rough/van_der_waals.h"
 #include "tests/engine/rough_cells.h"
 
 #include <glib.h>

@@ -1,8 +1,8 @@
 // Film and asperities on a fitted body: the half-plane as a special case, the smooth and the dry
 // limit on the disc's compliance by other methods, symmetry, and a run's seals.
-#include "engine/elastic/compliance.h"
+#include "engine/contact/compliance.h"
 #include "engine/film/film.h"
-#include "engine/friction/sliding.h"
+#include "engine/valve/sliding.h"
 #include "tests/engine/rough_cells.h"
 
 #include <glib.h>

@@ -1,5 +1,5 @@
 // Greenwood and Tripp's integrals against adaptive quadrature, recurrences and printed values.
-#include "engine/surface/greenwood_tripp.h"
+#include "engine/contact/rough/greenwood_tripp.h"
 
 #include <glib.h>
 #include <gsl/gsl_errno.h>

@@ -1,5 +1,5 @@
 // The catalogue is sound, and the thesis valve's derived sizes come out as the thesis prints them.
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 #include <glib.h>
 #include <math.h>

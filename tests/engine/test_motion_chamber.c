@@ -1,7 +1,7 @@
 // The dose chamber: both readings of the thesis (docs/thesis.md) from ports, venting against its
 // closed form, and the chamber as a state of the moving valve.
-#include "engine/motion/chamber.h"
-#include "engine/motion/dynamics.h"
+#include "engine/mechanism/chamber.h"
+#include "engine/mechanism/dynamics.h"
 
 #include <glib.h>
 #include <math.h>

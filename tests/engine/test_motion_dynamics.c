@@ -1,5 +1,5 @@
 // Motion with friction and stops against closed forms: decay, stick-slip, bounces, rest, energy.
-#include "engine/motion/dynamics.h"
+#include "engine/mechanism/dynamics.h"
 
 #include "tests/pace.h"
 

@@ -1,6 +1,6 @@
 // Laws and drives of the motion: pre-sliding, dwell, Stribeck, sinusoids, chamber, refusals; and
 // the numerical path against itself at a tighter tolerance.
-#include "engine/motion/dynamics.h"
+#include "engine/mechanism/dynamics.h"
 
 #include <glib.h>
 #include <math.h>

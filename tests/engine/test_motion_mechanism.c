@@ -1,8 +1,8 @@
 // Constrained bodies stepped in all their coordinates: a slider-crank against its scalar equation
 // of motion, and the thesis' cycle against the reduced form.
-#include "engine/model.h"
-#include "engine/motion/bodies.h"
-#include "engine/motion/dynamics.h"
+#include "engine/valve/model.h"
+#include "engine/mechanism/bodies.h"
+#include "engine/mechanism/dynamics.h"
 #include "tests/engine/assembly_step.h"
 
 #include <glib.h>

@@ -1,6 +1,6 @@
 // Random mechanisms within and beyond sense: each must run to its end with finite numbers and a
 // closed balance. The seeds are fixed; a failure names its own.
-#include "engine/motion/dynamics.h"
+#include "engine/mechanism/dynamics.h"
 
 #include <glib.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 // The rig's coefficients, and a life.
-#include "engine/motion/life.h"
-#include "engine/motion/rig.h"
+#include "engine/valve/life.h"
+#include "engine/valve/rig.h"
 
 #include <glib.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 // Mass, centre and inertia of revolved profiles and meshes against closed forms; what is refused.
-#include "engine/motion/solid.h"
+#include "engine/mechanism/solid.h"
 
 #include <glib.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 // The valve's cycle with full dynamics, the hard cases, convergence of the numerical path, and
 // time.
-#include "engine/motion/dynamics.h"
+#include "engine/mechanism/dynamics.h"
 
 #include "tests/pace.h"
 

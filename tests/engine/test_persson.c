@@ -1,7 +1,7 @@
 // Persson's contact and the static leak: limits, moments, monotony, convergence.
-#include "engine/leak/percolation.h"
-#include "engine/surface/persson.h"
-#include "engine/surface/rough_law.h"
+#include "engine/contact/rough/percolation.h"
+#include "engine/contact/rough/persson.h"
+#include "engine/contact/rough/rough_law.h"
 
 #include <glib.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 // The fitted ring against independent finite elements, its convergence, its balances, its limits.
-#include "engine/elastic/ring/ring.h"
+#include "engine/contact/ring/ring.h"
 
 #include <glib.h>
 #include <math.h>

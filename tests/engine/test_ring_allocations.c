@@ -1,6 +1,6 @@
 // Steps of a ring allocate nothing apart from the sparse factorisation, which is SuiteSparse's own:
 // the linker sends the engine's calls of malloc here (-Wl,--wrap) to be counted.
-#include "engine/elastic/ring/ring.h"
+#include "engine/contact/ring/ring.h"
 
 #include <glib.h>
 #include <math.h>

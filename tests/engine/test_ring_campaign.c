@@ -6,7 +6,7 @@
 // friction every fit must be found; over a land's edge and with friction a ring may be given up,
 // saying where, and a slid one keeps a state that still satisfies everything. The quick run takes a
 // few, the slow one many.
-#include "engine/elastic/ring/ring.h"
+#include "engine/contact/ring/ring.h"
 
 #include <glib.h>
 #include <math.h>

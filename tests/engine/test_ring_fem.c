@@ -1,6 +1,6 @@
 // The ring's elements: consistent tangent, patch test, thick-walled cylinder and sphere against the
 // incompressible closed forms, bending without locking.
-#include "engine/elastic/ring/ring_fem.h"
+#include "engine/contact/ring/ring_fem.h"
 
 #include <glib.h>
 #include <math.h>

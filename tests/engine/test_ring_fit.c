@@ -1,6 +1,6 @@
 // sb_ring_fit: its error estimate must be honest against a much finer mesh, over squeeze, pressure
 // and Poisson's ratio: true error <= 3 x estimate everywhere, median estimate / true <= 10.
-#include "engine/elastic/ring/ring.h"
+#include "engine/contact/ring/ring.h"
 
 #include <glib.h>
 #include <math.h>

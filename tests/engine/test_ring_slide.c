@@ -1,6 +1,6 @@
 // Sliding and load changes of a fitted ring: drag and its reversal, Coulomb's law, warm start,
 // given shear, the land's edge, refusal that keeps the state.
-#include "engine/elastic/ring/ring.h"
+#include "engine/contact/ring/ring.h"
 
 #include <glib.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 // The ring's surface for films and its predictions, against full solutions of the ring: the split
 // into half-plane and smooth part must give the ring's own dry contact, how it changes with the
 // approach, and not depend on the mesh.
-#include "engine/elastic/ring/ring.h"
+#include "engine/contact/ring/ring.h"
 
 #include <glib.h>
 #include <math.h>

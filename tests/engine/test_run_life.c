@@ -1,5 +1,5 @@
 // A life as a run: each actuation is what a scene with that roughness gives by itself.
-#include "engine/sealbench.h"
+#include "engine/valve/sealbench.h"
 
 #include "tests/executed.h"
 

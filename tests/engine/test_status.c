@@ -1,5 +1,5 @@
 // Reports and warnings: formatting, de-duplication, bounds.
-#include "engine/status.h"
+#include "engine/base/status.h"
 
 #include <glib.h>
 

@@ -1,8 +1,8 @@
 // Studies: their numbers against closed forms and reference figures, their bounds, progress and
 // cancel.
-#include "engine/elastic/fit.h"
+#include "engine/contact/fit.h"
 #include "engine/film/film.h"
-#include "engine/study/study.h"
+#include "engine/valve/studies/study.h"
 
 #include <glib.h>
 #include <math.h>

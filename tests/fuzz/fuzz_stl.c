@@ -3,7 +3,7 @@
 #include "app/document/stl.h"
 
 #include "app/document/unit.h"
-#include "engine/motion/solid.h"
+#include "engine/mechanism/solid.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,0 +1,146 @@
+// Texts of the status codes, and the one place that formats reports and warnings.
+#include "engine/base/status.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *sb_status_text(SbStatus status) {
+  static const char *const texts[] = {
+#define SB_STATUS_TEXT(code, text) [code] = text,
+      SB_STATUS_LIST(SB_STATUS_TEXT)
+#undef SB_STATUS_TEXT
+  };
+  size_t index = (size_t)status;
+  return index < sizeof texts / sizeof texts[0] ? texts[index] : "unknown status";
+}
+
+void sb_text_v(char *out, size_t size, const char *format, va_list arguments) {
+  static const char MARK[] = "…";
+  assert(size > sizeof MARK);
+  int length = vsnprintf(out, size, format, arguments);
+  if (length >= 0 && (size_t)length < size) {
+    return;
+  }
+  // Not within a character of several bytes, whose later ones are 10xxxxxx.
+  size_t at = size - sizeof MARK;
+  while (at > 0 && ((unsigned char)out[at] & 0xc0) == 0x80) {
+    at--;
+  }
+  memcpy(out + at, MARK, sizeof MARK);
+}
+
+void sb_text(char *out, size_t size, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  sb_text_v(out, size, format, arguments);
+  va_end(arguments);
+}
+
+SB_PRINTF(4, 0)
+static void fail_v(SbReport *report, SbStatus status, const char *parameter, const char *format,
+                   va_list arguments) {
+  if (report != NULL) {
+    report->status = status;
+    sb_text_v(report->text, sizeof report->text, format, arguments);
+    sb_text(report->parameter, sizeof report->parameter, "%s", parameter);
+  }
+}
+
+SbStatus sb_fail(SbReport *report, SbStatus status, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  fail_v(report, status, "", format, arguments);
+  va_end(arguments);
+  return status;
+}
+
+SbStatus sb_fail_parameter(SbReport *report, SbStatus status, const char *parameter,
+                           const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  fail_v(report, status, parameter, format, arguments);
+  va_end(arguments);
+  return status;
+}
+
+SbStatus sb_succeed(SbReport *report) {
+  if (report != NULL) {
+    memset(report, 0, sizeof *report);
+  }
+  return SB_OK;
+}
+
+void sb_warn_about(SbWarnings *list, const char *subject) {
+  if (list != NULL) {
+    list->subject = subject;
+  }
+}
+
+SB_PRINTF(5, 0)
+static void add(SbWarnings *list, const char *code, const char *parameter, const char *subject,
+                const char *format, va_list arguments) {
+  for (size_t i = 0; i < list->count; i++) {
+    const SbWarning *there = &list->item[i];
+    if (strcmp(there->code, code) == 0 && strcmp(there->parameter, parameter) == 0 &&
+        strcmp(there->subject, subject) == 0) {
+      return;
+    }
+  }
+  if (list->count == SB_WARNINGS_MAX) {
+    list->dropped++;
+    return;
+  }
+  SbWarning *warning = &list->item[list->count++];
+  sb_text(warning->code, sizeof warning->code, "%s", code);
+  sb_text(warning->parameter, sizeof warning->parameter, "%s", parameter);
+  sb_text(warning->subject, sizeof warning->subject, "%s", subject);
+  sb_text_v(warning->text, sizeof warning->text, format, arguments);
+  if (strstr(warning->text, subject) == NULL) {
+    char plain[sizeof warning->text];
+    memcpy(plain, warning->text, sizeof plain);
+    sb_text(warning->text, sizeof warning->text, "%s: %s", subject, plain);
+  }
+}
+
+void sb_warn(SbWarnings *list, const char *code, const char *parameter, const char *format, ...) {
+  if (list != NULL) {
+    va_list arguments;
+    va_start(arguments, format);
+    add(list, code, parameter, list->subject != NULL ? list->subject : "", format, arguments);
+    va_end(arguments);
+  }
+}
+
+SB_PRINTF(5, 6)
+static void add_text(SbWarnings *list, const char *code, const char *parameter, const char *subject,
+                     const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  add(list, code, parameter, subject, format, arguments);
+  va_end(arguments);
+}
+
+bool sb_warning_is_serious(const char *code) {
+  static const char *const serious[] = {
+      "no-return",   "life-no-return", "no-slip",          "static-hold", "no-contact",
+      "static-leak", "ring-drag",      "ring-groove-full", "ring-shape",
+  };
+  for (size_t i = 0; i < sizeof serious / sizeof *serious; i++) {
+    if (strcmp(code, serious[i]) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void sb_warnings_merge(SbWarnings *list, const SbWarnings *from) {
+  for (size_t i = 0; list != NULL && i < from->count; i++) {
+    const SbWarning *w = &from->item[i];
+    bool own = w->subject[0] != '\0' || list->subject == NULL;
+    add_text(list, w->code, w->parameter, own ? w->subject : list->subject, "%s", w->text);
+  }
+  if (list != NULL) {
+    list->dropped += from->dropped;
+  }
+}

@@ -1,0 +1,256 @@
+// The disc's linear system for given edges; see the header.
+#include "engine/contact/disc/disc_system.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "engine/numeric/eliminate.h"
+#include "engine/numeric/legendre.h"
+
+// ---- rules
+
+// Integral over [0, pi] of |cos e - cos f| cos(k f) df, the kink applied to T_k/sqrt(1 - tau^2).
+static double kink_moment(int k, double e) {
+  const double c = cos(e);
+  double part = 0.5 * sin((k + 1) * e) / (k + 1);
+  part += k == 1 ? 0.5 * e : 0.5 * sin((k - 1) * e) / (k - 1);
+  part -= c * (k == 0 ? e : sin(k * e) / k);
+  double whole = k == 1 ? 0.5 * M_PI : 0.0;
+  whole -= k == 0 ? M_PI * c : 0.0;
+  return 2.0 * part - whole;
+}
+
+void sb_disc_system_points(SbDiscSystem *system, size_t n) {
+  system->n = n;
+  sb_legendre_gauss(system->gauss_x, system->gauss_w, SB_DISC_GAUSS);
+  for (int i = 0; i < SB_DISC_GAUSS; i++) {
+    system->gauss_x[i] = 0.5 * (1.0 + system->gauss_x[i]);
+    system->gauss_w[i] *= 0.5;
+  }
+  // cos(k eta) at all points.
+  double cosine[SB_DISC_POINTS_MAX][SB_DISC_POINTS_MAX];
+  double eta[SB_DISC_POINTS_MAX];
+  for (size_t j = 0; j < n; j++) {
+    eta[j] = M_PI * ((double)j + 0.5) / (double)n;
+    system->tau[j] = cos(eta[j]);
+    for (size_t k = 0; k < n; k++) {
+      cosine[k][j] = cos((double)k * eta[j]);
+    }
+  }
+  // F = sum c_k T_k with c_k = (2 - [k = 0])/n sum_j F_j cos(k eta_j); the logarithm turns
+  // T_k/sqrt(1 - tau^2) into pi/k T_k, or pi ln 2 for k = 0.
+  memset(system->log_weight, 0, sizeof system->log_weight);
+  memset(system->kink_weight, 0, sizeof system->kink_weight);
+  for (size_t j = 0; j < n; j++) {
+    system->edge_plus[j] = 0.0;
+    system->edge_minus[j] = 0.0;
+    for (size_t k = 0; k < n; k++) {
+      double c = (k == 0 ? 1.0 : 2.0) / (double)n * cosine[k][j];
+      system->edge_plus[j] += c;
+      system->edge_minus[j] += k % 2 == 0 ? c : -c;
+    }
+  }
+  for (size_t i = 0; i < n; i++) {
+    for (size_t k = 0; k < n; k++) {
+      double scale = (k == 0 ? 1.0 : 2.0) / (double)n;
+      double log_part = scale * (k == 0 ? M_PI * log(2.0) : M_PI / (double)k) * cosine[k][i];
+      double kink_part = scale * kink_moment((int)k, eta[i]);
+      for (size_t j = 0; j < n; j++) {
+        system->log_weight[i * n + j] += log_part * cosine[k][j];
+        system->kink_weight[i * n + j] += kink_part * cosine[k][j];
+      }
+    }
+  }
+}
+
+// ---- directions
+
+SbDiscVector sb_disc_system_force(const SbDiscSystem *system, SbDiscPoint point) {
+  return system->radial ? (SbDiscVector){-point.sin / point.cos, -1.0} : (SbDiscVector){0.0, -1.0};
+}
+
+SbDiscVector sb_disc_system_measure(const SbDiscSystem *system, SbDiscPoint point) {
+  return system->radial ? (SbDiscVector){-point.sin, -point.cos} : (SbDiscVector){0.0, -1.0};
+}
+
+// The wall is the bore turned by 90 degrees: psi from the horizontal, down.
+static SbDiscPoint turn_point(SbDiscPoint p) {
+  return (SbDiscPoint){.angle = p.angle + 0.5 * M_PI, .sin = p.cos, .cos = -p.sin};
+}
+
+static SbDiscVector turn(SbDiscVector v) {
+  return (SbDiscVector){v.y, -v.x};
+}
+
+double sb_disc_system_step(double tau) {
+  const double u = 0.5 * (1.0 + tau);
+  return 1.0 - u * u * u * u * (35.0 + u * (-84.0 + u * (70.0 - 20.0 * u)));
+}
+
+// ---- known loads
+
+// Inward displacement at `to` along m by the fluid on the left arc and by the known step over the
+// contact. The logarithm at tau_to (inside the contact if |tau_to| < 1) and the near one at the
+// left edge are met by cubic grading.
+static double known_displacement(const SbDiscSystem *s, SbDiscEdges edges, SbDiscPoint to,
+                                 SbDiscVector m, double tau_to) {
+  const double centre = 0.5 * (edges.left + edges.right);
+  const double half = 0.5 * (edges.right - edges.left);
+  const double split = fmax(-1.0, fmin(1.0, tau_to));
+  const double theta_left = asin(edges.left);
+  double sum = 0.0;
+  for (int i = 0; i < SB_DISC_GAUSS; i++) {
+    const double x = s->gauss_x[i];
+    const double grade = x * x * x;
+    const double weight = 3.0 * x * x * s->gauss_w[i];
+
+    // Fluid, normal to the arc, from the left edge to the end of the diameter.
+    const double arc = theta_left + 0.5 * M_PI;
+    const SbDiscPoint on_arc = sb_disc_point(theta_left - arc * grade);
+    sum += weight * arc *
+           sb_disc_kernel_pair(&s->kernel, to, m, on_arc, (SbDiscVector){-on_arc.sin, -on_arc.cos});
+
+    // The step, left and right of the target.
+    for (int side = -1; side <= 1; side += 2) {
+      const double length = side < 0 ? split + 1.0 : 1.0 - split;
+      if (!(length > 0.0)) {
+        continue;
+      }
+      const double tau = split + side * length * grade;
+      const SbDiscPoint on_flat = sb_disc_point_at(centre + half * tau);
+      sum += weight * length * half * sb_disc_system_step(tau) *
+             sb_disc_kernel_pair(&s->kernel, to, m, on_flat, sb_disc_system_force(s, on_flat));
+    }
+  }
+  return s->pressure * sum;
+}
+
+// ---- the system
+
+// A contact with itself: n x n block at (row, row) of the matrix. The bore is its own upper half
+// and has an image below; the wall is its own image.
+static void add_self(SbDiscSystem *s, const SbDiscPoint *point, double half, size_t row,
+                     size_t rows, bool image) {
+  const size_t n = s->n;
+  const double log_half = log(half);
+  for (size_t i = 0; i < n; i++) {
+    const SbDiscVector m = sb_disc_system_measure(s, point[i]);
+    for (size_t j = 0; j < n; j++) {
+      const SbDiscVector f = sb_disc_system_force(s, point[j]);
+      const double dot = m.x * f.x + m.y * f.y;
+      double kink;
+      double smooth = sb_disc_kernel_smooth(&s->kernel, point[i], m, point[j], f,
+                                            s->radial ? 1.0 / point[j].cos : 0.0, &kink) -
+                      dot * log_half;
+      if (image) {
+        smooth += sb_disc_kernel_mirror(&s->kernel, point[i], m, point[j], f);
+      }
+      s->matrix[row + i + (row + j) * rows] = dot * s->log_weight[i * n + j] +
+                                              kink * half * s->kink_weight[i * n + j] +
+                                              M_PI / (double)n * smooth;
+    }
+  }
+}
+
+bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double residual[3]) {
+  const size_t n = s->n;
+  const bool wall = s->pressure != 0.0;
+  const size_t rows = wall ? 2 * n + 1 : n;
+  const double centre = 0.5 * (edges.left + edges.right);
+  const double half = 0.5 * (edges.right - edges.left);
+  if (!(edges.left > -1.0 && edges.right < 1.0 && half > 0.0) ||
+      (wall && !(edges.wall > 0.0 && edges.wall < 1.0 &&
+                 edges.wall * edges.wall + edges.right * edges.right < 1.0))) {
+    return false;
+  }
+  SbDiscPoint bore[SB_DISC_POINTS_MAX] = {{0}};
+  SbDiscPoint side[SB_DISC_POINTS_MAX] = {{0}}; // of the wall, turned to the top
+  for (size_t i = 0; i < n; i++) {
+    bore[i] = sb_disc_point_at(centre + half * s->tau[i]);
+    side[i] = sb_disc_point_at(edges.wall * s->tau[i]);
+  }
+
+  // Bore: the flat is met where the inward displacement is the circle's height over it.
+  add_self(s, bore, half, 0, rows, true);
+  for (size_t i = 0; i < n; i++) {
+    const double c = bore[i].cos;
+    s->solution[i] = c - s->half_space - s->hydrostatic * (s->radial ? 1.0 : c);
+  }
+
+  // Wall at depth X: inward displacement X - (1 - cos psi), and its balance with the fluid.
+  if (wall) {
+    add_self(s, side, edges.wall, n, rows, false);
+    for (size_t i = 0; i < n; i++) {
+      const SbDiscPoint to = turn_point(side[i]);
+      const SbDiscVector m_wall = turn(sb_disc_system_measure(s, side[i]));
+      const SbDiscVector m_bore = sb_disc_system_measure(s, bore[i]);
+      for (size_t j = 0; j < n; j++) {
+        s->matrix[n + i + j * rows] =
+            M_PI / (double)n *
+            sb_disc_kernel_pair(&s->kernel, to, m_wall, bore[j], sb_disc_system_force(s, bore[j]));
+        s->matrix[i + (n + j) * rows] =
+            M_PI / (double)n *
+            sb_disc_kernel_value(&s->kernel, bore[i], m_bore, turn_point(side[j]),
+                                 turn(sb_disc_system_force(s, side[j])));
+      }
+      const double c = side[i].cos;
+      s->matrix[i + 2 * n * rows] = 0.0;
+      s->matrix[n + i + 2 * n * rows] = -1.0;
+      s->solution[n + i] = c - 1.0 - s->hydrostatic * (s->radial ? 1.0 : c);
+      s->solution[i] -= known_displacement(s, edges, bore[i], m_bore, s->tau[i]);
+      s->solution[n + i] -= known_displacement(s, edges, to, m_wall, 2.0);
+      // Equilibrium along x: wall load = fluid on the height between the left edges, less what
+      // radial contact forces carry.
+      s->matrix[2 * n + i * rows] =
+          s->radial ? M_PI / (double)n * 2.0 * bore[i].sin / bore[i].cos : 0.0;
+      s->matrix[2 * n + (n + i) * rows] = M_PI / (double)n;
+    }
+    s->matrix[2 * n + 2 * n * rows] = 0.0;
+    double balance = 2.0 * s->pressure * sqrt(1.0 - edges.left * edges.left);
+    if (s->radial) {
+      for (int i = 0; i < SB_DISC_GAUSS; i++) {
+        const double tau = 2.0 * s->gauss_x[i] - 1.0;
+        const SbDiscPoint on_flat = sb_disc_point_at(centre + half * tau);
+        balance -= 2.0 * s->gauss_w[i] * half * s->pressure * sb_disc_system_step(tau) * 2.0 *
+                   on_flat.sin / on_flat.cos;
+      }
+    }
+    s->solution[2 * n] = balance;
+  }
+
+  if (!sb_eliminate(s->matrix, s->solution, rows)) {
+    return false;
+  }
+
+  // Values at the edges.
+  double mean = 0.0;
+  double mean_wall = 0.0;
+  residual[0] = residual[1] = residual[2] = 0.0;
+  for (size_t j = 0; j < n; j++) {
+    mean += fabs(s->solution[j]) / (double)n;
+    residual[0] += s->edge_minus[j] * s->solution[j];
+    residual[1] += s->edge_plus[j] * s->solution[j];
+    if (wall) {
+      mean_wall += fabs(s->solution[n + j]) / (double)n;
+      residual[2] += s->edge_plus[j] * s->solution[n + j];
+    }
+  }
+  residual[0] /= mean;
+  residual[1] /= mean;
+  residual[2] = wall ? residual[2] / mean_wall : 0.0;
+  return isfinite(residual[0]) && isfinite(residual[1]) && isfinite(residual[2]);
+}
+
+double sb_disc_system_bulge(const SbDiscSystem *s, SbDiscEdges edges) {
+  const double centre = 0.5 * (edges.left + edges.right);
+  const double half = 0.5 * (edges.right - edges.left);
+  const SbDiscPoint end = {.angle = 0.5 * M_PI, .sin = 1.0, .cos = 0.0};
+  double sum = 0.0;
+  for (size_t j = 0; j < s->n; j++) {
+    const SbDiscPoint p = sb_disc_point_at(centre + half * s->tau[j]);
+    sum += M_PI / (double)s->n * s->solution[j] *
+           sb_disc_kernel_pair(&s->kernel, end, (SbDiscVector){1.0, 0.0}, p,
+                               sb_disc_system_force(s, p));
+  }
+  return sum;
+}

@@ -1,0 +1,61 @@
+// Inside the disc: the linear system for given contact edges, and how far it is from smooth edges.
+//
+// Dimensionless: lengths in the disc's radius, pressures times C. Over the contact xi = sin theta
+// of [left, right] is mapped to tau in [-1, 1]. The unknowns are F_j at Chebyshev points, excess
+// pressure = F/(h sqrt(1 - tau^2)) with h the half-width; where fluid stands on the left, a known
+// smooth step from its pressure p at the left edge to 0 at the right is added. The groove wall
+// on the right has its own F over [-wall, wall] and the unknown depth to which it flattens the
+// disc.
+#pragma once
+
+#include "engine/contact/disc/disc.h"
+#include "engine/contact/disc/disc_kernel.h"
+
+enum {
+  SB_DISC_GAUSS = 20,
+  SB_DISC_ROWS_MAX = 2 * SB_DISC_POINTS_MAX + 1,
+};
+
+typedef struct {
+  double left, right, wall; // sines of the edges; wall 0: none
+} SbDiscEdges;
+
+typedef struct {
+  // Problem.
+  SbDiscKernel kernel;
+  bool radial;
+  double half_space;  // g/(2 R)
+  double pressure;    // fluid on the left, p C; the wall is there if it is not 0
+  double hydrostatic; // inward radial displacement by the pressure that is on both sides
+  // Rule with n points; weights of the logarithm and of the kink, n x n by rows.
+  size_t n;
+  double tau[SB_DISC_POINTS_MAX];
+  double edge_plus[SB_DISC_POINTS_MAX];  // F(1) from the nodal values
+  double edge_minus[SB_DISC_POINTS_MAX]; // F(-1)
+  double log_weight[SB_DISC_POINTS_MAX * SB_DISC_POINTS_MAX];
+  double kink_weight[SB_DISC_POINTS_MAX * SB_DISC_POINTS_MAX];
+  double gauss_x[SB_DISC_GAUSS]; // on [0, 1]
+  double gauss_w[SB_DISC_GAUSS];
+  // Solution for the last edges: n bore values, n wall values, depth of the wall.
+  double solution[SB_DISC_ROWS_MAX];
+  double matrix[SB_DISC_ROWS_MAX * SB_DISC_ROWS_MAX]; // by columns
+} SbDiscSystem;
+
+// Prepares the rule with n points (2 to SB_DISC_POINTS_MAX).
+void sb_disc_system_points(SbDiscSystem *system, size_t n);
+
+// Solves for given edges; false if the matrix is singular or the edges leave (-1, 1).
+// residual[0..2]: F at the left and right edge and at the wall's, over the mean of |F|; zero when
+// all edges are smooth.
+SB_CHECKED bool sb_disc_system_solve(SbDiscSystem *system, SbDiscEdges edges, double residual[3]);
+
+// Direction of the contact force per unit projected length at a point of the bore contact (vertical
+// or radial, inward), and of the measured displacement.
+SbDiscVector sb_disc_system_force(const SbDiscSystem *system, SbDiscPoint point);
+SbDiscVector sb_disc_system_measure(const SbDiscSystem *system, SbDiscPoint point);
+
+// The smooth step of the known part, 1 at tau = -1 and 0 at 1.
+double sb_disc_system_step(double tau);
+
+// Outward displacement (x) at the right end of the horizontal diameter for the last solution.
+double sb_disc_system_bulge(const SbDiscSystem *system, SbDiscEdges edges);

@@ -1,0 +1,217 @@
+// One entrance to the contact models: checks the problem, derives the sizes that all models share
+// (README, Definitions), calls the model and fills the common result; see the header.
+#include "engine/contact/fit.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "engine/contact/fit_models.h"
+#include "engine/contact/closed/green_english.h"
+#include "engine/contact/closed/lindley.h"
+
+static const char *const model_names[SB_FIT_MODEL_COUNT] = {
+#define MODEL_NAME(code, text) [code] = text,
+    SB_FIT_MODEL_LIST(MODEL_NAME)
+#undef MODEL_NAME
+};
+
+const char *sb_fit_model_name(SbFitModel model) {
+  return (unsigned)model < SB_FIT_MODEL_COUNT ? model_names[model] : NULL;
+}
+
+bool sb_fit_model_from_name(SbFitModel *out, const char *name) {
+  for (int i = 0; i < SB_FIT_MODEL_COUNT; i++) {
+    if (strcmp(name, model_names[i]) == 0) {
+      *out = (SbFitModel)i;
+      return true;
+    }
+  }
+  return false;
+}
+
+static const char *const lindley_names[] = {
+#define LINDLEY_NAME(code, text) text,
+    SB_LINDLEY_LIST(LINDLEY_NAME)
+#undef LINDLEY_NAME
+};
+
+static const char *const green_english_names[] = {
+#define GREEN_ENGLISH_NAME(code, text, a, b, c, n, s_max) text,
+    SB_GREEN_ENGLISH_LIST(GREEN_ENGLISH_NAME)
+#undef GREEN_ENGLISH_NAME
+};
+
+// The kernel, and whether the fluid is on the left alone (and the ring on the groove wall) or on
+// both flanks.
+static const char *const disc_names[] = {
+    "vertical",
+    "radial",
+    "vertical-both-flanks",
+    "radial-both-flanks",
+};
+
+static const char *const default_names[] = {"default"};
+
+const char *sb_fit_variant_name(SbFitModel model, int variant) {
+  if ((unsigned)model >= SB_FIT_MODEL_COUNT) {
+    return NULL;
+  }
+  const char *const *names = default_names;
+  int count = 1;
+  switch (model) {
+  case SB_FIT_LINDLEY:
+    names = lindley_names;
+    count = SB_LINDLEY_COUNT;
+    break;
+  case SB_FIT_GREEN_ENGLISH:
+    names = green_english_names;
+    count = SB_GREEN_ENGLISH_COUNT;
+    break;
+  case SB_FIT_DISC:
+    names = disc_names;
+    count = (int)(sizeof disc_names / sizeof disc_names[0]);
+    break;
+  default:
+    break;
+  }
+  return variant >= 0 && variant < count ? names[variant] : NULL;
+}
+
+// ---- input
+
+static SbStatus check_positive(double value, const char *key, const char *what, SbReport *report) {
+  if (isfinite(value) && value > 0.0) {
+    return SB_OK;
+  }
+  return sb_fail_parameter(report, SB_ERROR_RANGE, key, "%s %g is not positive and finite", what,
+                           value);
+}
+
+static SbStatus check(const SbFitProblem *in, SbReport *report) {
+  if ((unsigned)in->model >= SB_FIT_MODEL_COUNT ||
+      sb_fit_variant_name(in->model, in->variant) == NULL) {
+    return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
+                             "there is no contact model %d, variant %d", (int)in->model,
+                             in->variant);
+  }
+  const struct {
+    double value;
+    const char *key;
+    const char *what;
+  } sizes[] = {
+      {in->section_diameter, "seal.section_diameter", "section diameter [m]"},
+      {in->inner_diameter, "seal.inner_diameter", "inner diameter [m]"},
+      {in->modulus, "seal.modulus", "modulus of the rubber [Pa]"},
+      {in->radial_space, "gland.radial_space", "radial space [m]"},
+      {in->gland_width, "gland.axial_width", "gland width [m]"},
+      {in->bore_diameter, "bore.diameter", "bore diameter [m]"},
+  };
+  for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+    SbStatus status = check_positive(sizes[i].value, sizes[i].key, sizes[i].what, report);
+    if (status != SB_OK) {
+      return status;
+    }
+  }
+  if (!(in->poisson_ratio >= 0.0 && in->poisson_ratio < 0.5)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.poisson_ratio",
+                             "Poisson's ratio %g is not in [0, 0.5)", in->poisson_ratio);
+  }
+  if (!(in->mooney_share >= 0.0 && in->mooney_share <= 0.5)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.mooney_share",
+                             "Mooney share %g is not in [0, 0.5]", in->mooney_share);
+  }
+  if (!(in->housing_modulus >= 0.0)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "housing.modulus",
+                             "modulus of the housing %g Pa is negative", in->housing_modulus);
+  }
+  if (!(in->housing_poisson >= 0.0 && in->housing_poisson <= 0.5)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "housing.poisson_ratio",
+                             "Poisson's ratio %g is not in [0, 0.5]", in->housing_poisson);
+  }
+  if (!isfinite(in->pressure)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.pressure",
+                             "pressure is not a finite number");
+  }
+  if (!(in->tolerance >= 0.0 && in->tolerance < 1.0)) {
+    return sb_fail(report, SB_ERROR_RANGE, "tolerance %g is not in [0, 1)", in->tolerance);
+  }
+  if (!(in->bore_diameter > 2.0 * in->radial_space)) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "bore.diameter",
+                             "bore %.4g mm leaves no stem inside a radial space of %.4g mm",
+                             1e3 * in->bore_diameter, 1e3 * in->radial_space);
+  }
+  return SB_OK;
+}
+
+// ---- what all models share
+
+static void fill_sizes(SbFit *out, const SbFitProblem *in) {
+  const double d = in->section_diameter;
+  const double g = in->radial_space;
+  const double mean_free = in->inner_diameter + d;
+  const double mean_fitted = in->bore_diameter - g;
+  out->model = in->model;
+  out->variant = in->variant;
+  out->squeeze = (d - g) / d;
+  out->stretch_mean = (mean_fitted - mean_free) / mean_free;
+  out->stretch_inner = (in->bore_diameter - 2.0 * g - in->inner_diameter) / in->inner_diameter;
+  out->section_diameter_fitted = d * (1.0 - in->poisson_ratio * out->stretch_mean);
+  out->interference = out->section_diameter_fitted - g;
+  out->gland_fill = 0.25 * M_PI * d * d * mean_free / (g * mean_fitted * in->gland_width);
+}
+
+// Any warning but that of a ring that does not touch means that a model is outside its range.
+static void judge_validity(SbFit *out) {
+  out->valid = true;
+  for (size_t i = 0; i < out->warnings.count; i++) {
+    if (strcmp(out->warnings.item[i].code, "no-contact") != 0) {
+      out->valid = false;
+    }
+  }
+}
+
+static SbStatus solve_model(SbFit *out, const SbFitProblem *in, SbReport *report) {
+  switch (in->model) {
+  case SB_FIT_KARASZKIEWICZ:
+    return sb_fit_karaszkiewicz(out, in, report);
+  case SB_FIT_HERTZ:
+    return sb_fit_hertz(out, in, report);
+  case SB_FIT_LINDLEY:
+    return sb_fit_lindley(out, in, report);
+  case SB_FIT_GREEN_ENGLISH:
+    return sb_fit_green_english(out, in, report);
+  case SB_FIT_DISC_THESIS:
+    return sb_fit_disc_thesis(out, in, report);
+  case SB_FIT_DISC:
+    return sb_fit_disc(out, in, report);
+  case SB_FIT_RING:
+    return sb_fit_ring(out, in, report);
+  case SB_FIT_MODEL_COUNT:
+    break;
+  }
+  return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit", "there is no contact model %d",
+                           (int)in->model);
+}
+
+static double seconds_since(const struct timespec *start) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
+}
+
+SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report) {
+  struct timespec start;
+  clock_gettime(CLOCK_MONOTONIC, &start);
+  memset(out, 0, sizeof *out);
+  SbStatus status = check(problem, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  fill_sizes(out, problem);
+  status = solve_model(out, problem, report);
+  judge_validity(out);
+  out->valid = out->valid && status == SB_OK;
+  out->solver.wall_s = seconds_since(&start);
+  return status == SB_OK ? sb_succeed(report) : status;
+}

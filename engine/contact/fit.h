@@ -1,0 +1,123 @@
+// How the ring sits: contact width, load and pressure profile of a seal in its gland, by any of the
+// contact models. One problem in, one result out, whatever the model, so that `sealbench fit`, the
+// cycle and the panel need not know which it is.
+//
+// Sizes: the ring (free section d, free inner diameter ID) lies in a groove whose floor has the
+// diameter D - 2 g, in a bore of diameter D. The fitted mean diameter is D - g. Quantities follow
+// the README's definitions:
+//   squeeze (d - g)/d; stretch_mean ((D - g) - (ID + d))/(ID + d); stretch_inner (D - 2 g)/ID - 1;
+//   section_diameter_fitted d (1 - nu stretch_mean); interference = that - g, diametral;
+//   gland_fill free ring volume / gland volume = (pi/4) d^2 (ID + d)/(g (D - g) gland width).
+// Load is the integral of the contact pressure over the closed contact (the fluid's share
+// included); load = load_per_length x circumference, and circumference is pi (ID + d) for the
+// closed forms, pi (D - g) for the discs, pi D for the ring. Frictionless; pressure acts from x <
+// 0.
+#pragma once
+
+#include "engine/contact/compliance.h"
+#include "engine/base/status.h"
+
+// enumerator, name on the command line and in files
+#define SB_FIT_MODEL_LIST(X)                                                                       \
+  X(SB_FIT_KARASZKIEWICZ, "karaszkiewicz")                                                         \
+  X(SB_FIT_HERTZ, "hertz")                                                                         \
+  X(SB_FIT_LINDLEY, "lindley")                                                                     \
+  X(SB_FIT_GREEN_ENGLISH, "green-english")                                                         \
+  X(SB_FIT_DISC_THESIS, "disc-thesis")                                                             \
+  X(SB_FIT_DISC, "disc")                                                                           \
+  X(SB_FIT_RING, "ring")
+
+typedef enum {
+#define SB_FIT_MODEL_ENUM(code, text) code,
+  SB_FIT_MODEL_LIST(SB_FIT_MODEL_ENUM)
+#undef SB_FIT_MODEL_ENUM
+      SB_FIT_MODEL_COUNT
+} SbFitModel;
+
+// Name of a model ("disc-thesis"); borrowed. NULL outside the enumeration.
+const char *sb_fit_model_name(SbFitModel model);
+
+// Finds a model by name; false (and nothing written) if there is none.
+SB_CHECKED bool sb_fit_model_from_name(SbFitModel *out, const char *name);
+
+// What to solve. Zero-initialise, then fill; every size and modulus in SI.
+typedef struct {
+  SbFitModel model;
+  int variant;             // of the model, 0 the default: see sb_fit_variant_name
+  double section_diameter; // d, free [m]
+  double inner_diameter;   // ID, free [m]
+  double modulus;          // E of the rubber [Pa]
+  double poisson_ratio;    // nu of the rubber [-]
+  double mooney_share;     // c2/(c1 + c2) of the rubber, 0: neo-Hookean [-]; the ring's alone
+  double housing_modulus;  // E of bore and stem [Pa]; 0 or infinite: rigid
+  double housing_poisson;  // nu of bore and stem [-]
+  double radial_space;     // g [m]
+  double bore_diameter;    // D [m]
+  double gland_width;      // axial [m]
+  double pressure;         // pressure difference [Pa]; positive on the left (x < 0)
+  double tolerance;        // relative, wanted of load, peak and width; 0: 1e-3
+  bool surface_wanted;     // by the film: gives `surface` too
+  bool (*cancel)(void *);  // polled by models that can last; true stops. May be NULL
+  void *cancel_data;
+} SbFitProblem;
+
+// Name of a model's variant (Green & English's rows, the kernel of the disc, ...), counted from 0;
+// NULL beyond the last. Borrowed. A model without variants has the one name "default".
+const char *sb_fit_variant_name(SbFitModel model, int variant);
+
+enum { SB_FIT_PROFILE_MAX = 512 };
+
+typedef struct {
+  SbFitModel model;
+  int variant;
+  double squeeze;                 // [-]
+  double stretch_mean;            // [-]
+  double stretch_inner;           // [-]
+  double section_diameter_fitted; // [m]
+  double interference;            // [m], diametral
+  double gland_fill;              // [-]
+  double circumference;           // [m]
+  double contact_width;           // [m]
+  double contact_left;            // [m], x of the left edge
+  double contact_right;           // [m]
+  double load;                    // [N]
+  double load_per_length;         // [N/m]
+  double pressure_peak;           // [Pa]
+  bool touches;                   // false: no contact, width and load are 0
+  bool valid;                     // inside the validity of the model (see warnings if not)
+  SbWarnings warnings;
+  // What the finite-element ring knows beside; zero for other models.
+  struct {
+    double floor_load;      // on the groove floor [N]
+    double wall_load;       // on the groove wall that the fluid presses it on [N], axial
+    double thickness;       // radial extent of the fitted section [m]
+    double volume_change;   // of the whole ring, relative to the free one
+    double axial_imbalance; // sum of all axial forces over the largest force
+    size_t load_steps, rejected_steps;
+  } ring;
+  struct {
+    bool converged;
+    size_t unknowns;
+    size_t newton_iterations;
+    struct {
+      double load, pressure_peak, contact_width; // relative, discretisation and iteration
+    } error_estimate;
+    double wall_s;
+  } solver;
+  // Contact pressure p [Pa] at `profile_count` abscissae x [m], increasing from contact_left to
+  // contact_right; none without contact.
+  size_t profile_count;
+  double profile_x[SB_FIT_PROFILE_MAX];
+  double profile_p[SB_FIT_PROFILE_MAX];
+  // Surface of the fitted body for films, pressure on its side; modes 0 where the model has none of
+  // its own. The ring's, by static condensation of its equilibrium; only where `surface_wanted`.
+  SbSurfaceCompliance surface;
+} SbFit;
+
+// Solves the problem. SB_ERROR_RANGE or SB_ERROR_INPUT with the catalogue key
+// (seal.section_diameter, gland.radial_space, bore.diameter ...) for input that is not physical;
+// SB_ERROR_INFEASIBLE if the groove floor would have no diameter or the model has no solution
+// there; SB_ERROR_NOT_CONVERGED leaves the last good state in `out` with solver.converged false. A
+// ring that does not touch is valid: SB_OK, load 0, warning "no-contact". `out` is about 30 kB,
+// owned by the caller, and holds no pointers. `report` may be NULL.
+SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report);

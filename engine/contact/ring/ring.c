@@ -1,0 +1,381 @@
+// The ring object: checks its input, makes it dimensionless, fits it into the groove and steps it.
+//
+// How it finds its first states: ring_place.c. Equations and validity: ring_fem.c, ring_contact.c,
+// ring_newton.c. Leaves out twist, buckling out of the section's plane, adhesion.
+#include "engine/contact/ring/ring_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double SIZE_DEFAULT = 0.05, SQUEEZE_MOST = 0.6;
+
+// Arc of a bore contact, in section diameters, below which its elements shrink with it, and the
+// least share of their size that is left.
+static const double WIDE = 0.3, NARROW_LEAST = 0.12;
+
+static SbStatus check_body(const SbRingBody *body, SbReport *report) {
+  if (!(body->section_diameter > 0.0) || !isfinite(body->section_diameter)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.section_diameter",
+                             "the section diameter %g m is not positive", body->section_diameter);
+  }
+  if (!body->plane_strain && (!(body->inner_diameter > 0.0) || !isfinite(body->inner_diameter))) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.inner_diameter",
+                             "the inner diameter %g m is not positive", body->inner_diameter);
+  }
+  if (!(body->modulus > 0.0) || !isfinite(body->modulus)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.modulus",
+                             "the modulus %g Pa is not positive", body->modulus);
+  }
+  if (!(body->poisson_ratio >= 0.3 && body->poisson_ratio <= 0.49995)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.poisson_ratio",
+                             "the ring model takes Poisson's ratio from 0.3 to 0.49995, not %g",
+                             body->poisson_ratio);
+  }
+  if (!(body->mooney_share >= 0.0 && body->mooney_share <= 0.5)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.mooney_share",
+                             "the Mooney share %g lies outside 0 .. 0.5", body->mooney_share);
+  }
+  return SB_OK;
+}
+
+static SbStatus check_load(const SbRingBody *body, const SbRingLoad *load, SbReport *report) {
+  const double numbers[] = {load->floor_radius,   load->bore_radius,   load->pressure_left,
+                            load->pressure_right, load->bore_position, load->friction_bore,
+                            load->friction_floor, load->friction_wall, load->bore_traction,
+                            load->chamfer_angle,  load->edge_length};
+  for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+    if (!isfinite(numbers[i])) {
+      return sb_fail(report, SB_ERROR_INPUT, "a number of the ring's load is not finite");
+    }
+  }
+  if (isnan(load->wall_left) || isnan(load->wall_right) || isnan(load->land_left) ||
+      isnan(load->land_right)) {
+    return sb_fail(report, SB_ERROR_INPUT, "a place of the ring's groove is not a number");
+  }
+  double space = load->bore_radius - load->floor_radius;
+  if (!(space > 0.0)) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "bore.diameter",
+                             "the bore (radius %.4g m) is not larger than the groove floor "
+                             "(radius %.4g m)",
+                             load->bore_radius, load->floor_radius);
+  }
+  if (!body->plane_strain && !(load->floor_radius > 0.0)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "gland.radial_space",
+                             "the groove floor's radius %.4g m is not positive",
+                             load->floor_radius);
+  }
+  double stretch = body->plane_strain ? 0.0 : 2.0 * load->floor_radius / body->inner_diameter - 1.0;
+  if (stretch > 0.6) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.inner_diameter",
+                             "the ring would be stretched by %.0f %%; the model ends at 60 %%",
+                             100.0 * stretch);
+  }
+  if (1.0 - space / body->section_diameter > SQUEEZE_MOST) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "gland.radial_space",
+                             "the ring would be squeezed by %.0f %%; the model ends at %.0f %%",
+                             100.0 * (1.0 - space / body->section_diameter), 100.0 * SQUEEZE_MOST);
+  }
+  double width = load->wall_right - load->wall_left;
+  if (!(width > 0.0)) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
+                             "the groove has no width");
+  }
+  // A nearly incompressible section cannot be larger than its groove; its volume is kept.
+  double d = body->section_diameter;
+  double area = 0.25 * M_PI * d * d;
+  if (!body->plane_strain) {
+    area *= (body->inner_diameter + d) / (load->floor_radius + load->bore_radius);
+  }
+  bool land = load->land_left > -HUGE_VAL || load->land_right < HUGE_VAL;
+  if (!land && isfinite(width) && area > 0.985 * width * space) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
+                             "the groove is overfilled: the section needs %.3g mm2 of %.3g mm2",
+                             1e6 * area, 1e6 * width * space);
+  }
+  if (load->friction_bore < 0.0 || load->friction_floor < 0.0 || load->friction_wall < 0.0 ||
+      load->friction_bore > 2.0 || load->friction_floor > 2.0 || load->friction_wall > 2.0) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "friction.load_coefficient",
+                             "a coefficient of friction lies outside 0 .. 2");
+  }
+  if (load->pressure_left < 0.0 || load->pressure_right < 0.0 ||
+      fmax(load->pressure_left, load->pressure_right) > 4.0 * body->modulus) {
+    return sb_fail_parameter(
+        report, SB_ERROR_RANGE, "canister.pressure",
+        "the ring model takes gauge pressures from 0 to four times the modulus");
+  }
+  if (land &&
+      (!(load->chamfer_angle >= 0.0 && load->chamfer_angle <= 1.2) || !(load->edge_length > 0.0))) {
+    return sb_fail_parameter(
+        report, SB_ERROR_RANGE, "bore.land_edge",
+        "the land's edge needs a chamfer of 0 .. 1.2 rad and a positive length");
+  }
+  return SB_OK;
+}
+
+SbRingSetting sb_ring_setting(const SbRing *ring, const SbRingLoad *load) {
+  double l = ring->length, p = ring->stress;
+  SbRingSetting s = {
+      .bore = load->bore_radius / l,
+      .floor = load->floor_radius / l,
+      .wall_left = load->wall_left / l,
+      .wall_right = load->wall_right / l,
+      .land_left = load->land_left / l,
+      .land_right = load->land_right / l,
+      .chamfer_slope = tan(load->chamfer_angle),
+      .edge_length = load->edge_length / l,
+      .pressure_left = load->pressure_left / p,
+      .pressure_right = load->pressure_right / p,
+      .slide = load->bore_position / l,
+      .traction = load->bore_traction / p,
+      .use_traction = load->use_bore_traction,
+  };
+  s.friction[SB_RING_BORE] = load->friction_bore;
+  s.friction[SB_RING_FLOOR] = load->friction_floor;
+  s.friction[SB_RING_WALL_LEFT] = s.friction[SB_RING_WALL_RIGHT] = load->friction_wall;
+  return s;
+}
+
+static SbRingLoad load_of(const SbRing *ring, const SbRingSetting *s) {
+  double l = ring->length, p = ring->stress;
+  SbRingLoad load = {
+      .floor_radius = s->floor * l,
+      .bore_radius = s->bore * l,
+      .wall_left = s->wall_left * l,
+      .wall_right = s->wall_right * l,
+      .land_left = s->land_left * l,
+      .land_right = s->land_right * l,
+      .chamfer_angle = atan(s->chamfer_slope),
+      .edge_length = s->edge_length * l,
+      .pressure_left = s->pressure_left * p,
+      .pressure_right = s->pressure_right * p,
+      .bore_position = s->slide * l,
+      .friction_bore = s->friction[SB_RING_BORE],
+      .friction_floor = s->friction[SB_RING_FLOOR],
+      .friction_wall = s->friction[SB_RING_WALL_RIGHT],
+      .bore_traction = s->traction * p,
+      .use_bore_traction = s->use_traction,
+  };
+  return load;
+}
+
+// Half the material angle that a squeeze brings into contact (width/d ~ 1.1 sqrt(squeeze), measured
+// on plane-strain solutions from 2 to 40 %); only for meshing.
+static double contact_angle(double squeeze) {
+  return asin(fmin(0.93, 1.15 * sqrt(fmax(0.0, squeeze)) + 0.04));
+}
+
+// First mesh: fine where bore, floor and, under pressure, the low-pressure flank will touch.
+static void first_plan(SbRingMeshPlan *plan, const SbRing *ring, const SbRingSetting *s,
+                       double size) {
+  memset(plan, 0, sizeof *plan);
+  plan->centre = ring->centre;
+  plan->radius = 0.5;
+  plan->size_max = 0.16;
+  plan->growth = 0.5;
+  plan->layers = (int)fmax(4.0, floor(0.5 + 2.2 * log(0.5 / size) / log(2.0) * 0.8));
+  double angle = contact_angle(1.0 - (s->bore - s->floor));
+  plan->zone[plan->zone_count++] = (SbRingZone){-angle, angle, size};
+  plan->zone[plan->zone_count++] = (SbRingZone){M_PI - angle, M_PI + angle, size};
+  if (s->pressure_left > s->pressure_right && s->wall_right < INFINITY) {
+    plan->zone[plan->zone_count++] = (SbRingZone){0.0, M_PI, 1.5 * size};
+  }
+  if (s->pressure_left < s->pressure_right && s->wall_left > -INFINITY) {
+    plan->zone[plan->zone_count++] = (SbRingZone){-M_PI, 0.0, 1.5 * size};
+  }
+}
+
+static SbStatus build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report) {
+  const SbRingBody *body = &ring->body;
+  double mu = ring->stress;
+  double bulk = body->modulus / (3.0 * (1.0 - 2.0 * body->poisson_ratio));
+  SbRingMaterial material = {
+      .c1 = 0.5 * (1.0 - body->mooney_share), .c2 = 0.5 * body->mooney_share, .bulk = bulk / mu};
+  SbStatus status = sb_ring_mesh_create(&ring->mesh, plan, report);
+  if (status == SB_OK) {
+    status = sb_ring_fem_create(&ring->fem, ring->mesh, material, !body->plane_strain, report);
+  }
+  if (status == SB_OK) {
+    status = sb_ring_contact_create(&ring->contact, ring->fem, report);
+  }
+  if (status == SB_OK) {
+    ring->contact->force_scale = body->plane_strain ? 1.0 : 2.0 * M_PI * ring->centre;
+  }
+  return status;
+}
+
+static void drop(SbRing *ring) {
+  sb_ring_contact_destroy(ring->contact);
+  sb_ring_fem_destroy(ring->fem);
+  sb_ring_mesh_destroy(ring->mesh);
+  ring->contact = NULL;
+  ring->fem = NULL;
+  ring->mesh = NULL;
+}
+
+static SbStatus assemble_ring(SbRing *ring, const SbRingSetting *target, SbReport *report) {
+  SbRingSetting smooth = *target;
+  smooth.use_traction = false;
+  memset(smooth.friction, 0, sizeof smooth.friction);
+  SbStatus status = sb_ring_fit_and_press(ring, &smooth, report);
+  if (status == SB_OK && ring->options.fit_mesh) {
+    status = sb_ring_refit(ring, ring->options.element_size, report);
+  }
+  bool rubs = target->use_traction;
+  for (int k = 0; k < SB_RING_SURFACES; k++) {
+    rubs = rubs || target->friction[k] > 0.0;
+  }
+  if (status == SB_OK && rubs) {
+    SbRingNewton newton = sb_ring_newton_options(ring);
+    status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
+  }
+  return status;
+}
+
+SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *load,
+                        const SbRingOptions *options, SbReport *report) {
+  *out = NULL;
+  SbStatus status = check_body(body, report);
+  if (status == SB_OK) {
+    status = check_load(body, load, report);
+  }
+  if (status != SB_OK) {
+    return status;
+  }
+  SbRing *ring = calloc(1, sizeof *ring);
+  if (ring == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring");
+  }
+  ring->body = *body;
+  ring->load = *load;
+  ring->options = options != NULL ? *options : (SbRingOptions){0};
+  SbRingOptions *o = &ring->options;
+  o->element_size = o->element_size > 0.0 ? fmin(0.1, fmax(0.004, o->element_size)) : SIZE_DEFAULT;
+  o->iterations_max = o->iterations_max > 0 ? o->iterations_max : 24;
+  o->step_least = o->step_least > 0.0 ? o->step_least : 1.0 / 64.0;
+  double d = body->section_diameter;
+  ring->length = d;
+  ring->stress = body->modulus / (2.0 * (1.0 + body->poisson_ratio));
+  ring->force = ring->stress * d * (body->plane_strain ? 1.0 : d);
+  ring->centre =
+      body->plane_strain ? load->floor_radius / d + 0.5 : 0.5 * (body->inner_diameter + d) / d;
+  SbRingSetting target = sb_ring_setting(ring, load);
+  // A ring that barely resists rolling can stumble over single nodes of a mesh: try finer ones.
+  static const double FINER[] = {1.0, 0.8, 0.6};
+  status = SB_ERROR_NOT_CONVERGED;
+  for (size_t i = 0; i < sizeof FINER / sizeof FINER[0] && status == SB_ERROR_NOT_CONVERGED; i++) {
+    SbRingMeshPlan plan;
+    first_plan(&plan, ring, &target, FINER[i] * o->element_size);
+    drop(ring);
+    status = build(ring, &plan, report);
+    if (status == SB_OK) {
+      status = assemble_ring(ring, &target, report);
+    }
+  }
+  if (status != SB_OK) {
+    sb_ring_destroy(ring);
+    return status;
+  }
+  *out = ring;
+  return sb_succeed(report);
+}
+
+void sb_ring_destroy(SbRing *ring) {
+  if (ring != NULL) {
+    drop(ring);
+    free(ring);
+  }
+}
+
+SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
+  SbStatus status = check_load(&ring->body, load, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  SbRingSetting target = sb_ring_setting(ring, load);
+  SbRingNewton newton = sb_ring_newton_options(ring);
+  const SbRingSetting *now = &ring->contact->now;
+  double before = now->pressure_left - now->pressure_right;
+  double after = target.pressure_left - target.pressure_right;
+  if (before * after < 0.0) {
+    // The pressure changes sides: by way of equal pressures, where the ring may cross the groove.
+    SbRingSetting even = *now;
+    even.pressure_left = even.pressure_right = fmin(target.pressure_left, target.pressure_right);
+    status = sb_ring_advance(ring->contact, &even, &newton, &ring->count, report);
+  }
+  if (status == SB_OK) {
+    status = sb_ring_press(ring, &target, report);
+  }
+  ring->load = status == SB_OK ? *load : load_of(ring, &ring->contact->now);
+  return status;
+}
+
+const SbRingLoad *sb_ring_load(const SbRing *ring) {
+  return &ring->load;
+}
+
+// Zones of fine elements under one contact, finer still at its ends, where vertices are put.
+static void plan_patch(SbRingMeshPlan *plan, const SbRingPatch *patch, double size, double edge) {
+  plan->zone[plan->zone_count++] = (SbRingZone){patch->angle[0], patch->angle[1], size};
+  for (int k = 0; k < 2; k++) {
+    double angle = patch->angle[k];
+    plan->zone[plan->zone_count++] = (SbRingZone){angle, angle, edge};
+    // Vertices are named within -pi .. pi.
+    angle -= angle > M_PI ? 2.0 * M_PI : 0.0;
+    plan->vertex[plan->vertex_count++] = angle;
+  }
+}
+
+SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
+  SbRing fresh = *ring;
+  SbRingMeshPlan plan = {.centre = ring->centre,
+                         .radius = 0.5,
+                         .size_max = fmin(0.16, 3.2 * element_size),
+                         .growth = 0.5};
+  plan.layers = (int)fmax(4.0, floor(0.5 + 2.2 * log(0.5 / element_size) / log(2.0) * 0.8));
+  SbRingPatch patch[SB_RING_SURFACES];
+  bool touches[SB_RING_SURFACES];
+  for (int s = 0; s < SB_RING_SURFACES; s++) {
+    touches[s] = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
+    if (touches[s]) {
+      // A narrow bore contact has as many elements as one of WIDE: its load is what is wanted.
+      double wide = s == SB_RING_BORE ? 0.5 * (patch[s].angle[1] - patch[s].angle[0]) / WIDE : 1.0;
+      double size = element_size * fmin(1.0, fmax(NARROW_LEAST, wide));
+      plan_patch(&plan, &patch[s], size, 0.3 * size);
+    }
+  }
+  SbStatus status = build(&fresh, &plan, report);
+  if (status != SB_OK) {
+    drop(&fresh);
+    return status;
+  }
+  // Same setting and, by material angle, the same held nodes.
+  sb_ring_fem_transfer(fresh.fem, ring->fem);
+  SbRingContact *contact = fresh.contact;
+  contact->now = ring->contact->now;
+  for (int i = 0; i < contact->count; i++) {
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      bool held = false;
+      for (int turn = 0; turn < 2 && touches[s]; turn++) {
+        double angle = fresh.mesh->angle[i] + 2.0 * M_PI * turn;
+        held = held || (angle > patch[s].angle[0] - 1e-9 && angle < patch[s].angle[1] + 1e-9);
+      }
+      contact->touch[SB_RING_SURFACES * i + s].held = held;
+    }
+  }
+  SbRingNewton newton = sb_ring_newton_options(ring);
+  status = sb_ring_newton(contact, &newton, &fresh.count, report);
+  if (status == SB_ERROR_NOT_CONVERGED) {
+    // Too far from the transferred state: walk the whole way again on the new mesh.
+    SbRingSetting setting = ring->contact->now;
+    status = sb_ring_fit_and_press(&fresh, &setting, report);
+  }
+  if (status != SB_OK) {
+    drop(&fresh);
+    ring->count = fresh.count;
+    return status;
+  }
+  drop(ring);
+  *ring = fresh;
+  return sb_succeed(report);
+}

@@ -1,0 +1,162 @@
+// The seal ring in its groove: axisymmetric finite-strain finite elements with exact contact.
+//
+// Public interface of the `ring` model. Units SI. The section's axial coordinate x has its origin
+// at the section's centre before pressure, canister side left (x < 0), thrust wall right; radii are
+// measured from the valve's axis. Forces are those of the whole ring (N); with `plane_strain` they
+// are per metre. Pressures are gauge.
+//
+// Material: W = c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3) + K/2 (J - 1)^2 with 2 (c1 + c2) = mu =
+// E / (2 (1 + nu)), K = E / (3 (1 - 2 nu)); c2 = 0 is the neo-Hookean energy.
+// Surfaces are rigid and smooth; friction is Coulomb or a given shear. No time dependence here.
+#pragma once
+
+#include "engine/contact/compliance.h"
+#include "engine/base/status.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+typedef struct SbRing SbRing;
+
+// The free ring.
+typedef struct {
+  double section_diameter; // m
+  double inner_diameter;   // m; ignored with plane_strain
+  double modulus;          // Young's modulus, Pa
+  double poisson_ratio;    // 0.3 .. 0.49995
+  double mooney_share;     // c2 / (c1 + c2), 0 .. 0.5
+  bool plane_strain;       // a long straight cord instead of a ring
+} SbRingBody;
+
+// Where everything stands and what acts on the ring. Start from SB_RING_LOAD_INIT.
+typedef struct {
+  double floor_radius, bore_radius; // groove floor (stem) and bore, m
+  double wall_left, wall_right;     // axial places of the groove walls, m; +-INFINITY: none
+  double land_left, land_right;     // axial ends of the bore's land, m; +-INFINITY: none
+  double chamfer_angle;             // rad, beyond an end of the land the bore opens so
+  double edge_length;               // m, axial length over which the chamfer sets in
+  double pressure_left;             // Pa, on the free surface left of bore and floor contact
+  double pressure_right;            // Pa
+  double bore_position;             // m, axial place of the bore's surface; its changes drag
+  double friction_bore;             // Coulomb coefficients, 0 .. 2
+  double friction_floor;
+  double friction_wall;
+  double bore_traction;   // Pa, shear on the ring towards +x, instead of friction_bore
+  bool use_bore_traction; // if set
+} SbRingLoad;
+
+#define SB_RING_LOAD_INIT                                                                          \
+  {                                                                                                \
+    .wall_left = -HUGE_VAL, .wall_right = HUGE_VAL, .land_left = -HUGE_VAL,                        \
+    .land_right = HUGE_VAL, .chamfer_angle = 0.5, .edge_length = 5e-5                              \
+  }
+
+// How finely and how long. Zero fields take the defaults in brackets.
+typedef struct {
+  double element_size;      // side of the contact's elements over section diameter [0.05]
+  bool fit_mesh;            // after the first solution, remesh with nodes at the contact edges
+  int iterations_max;       // Newton iterations per load step [24]
+  double step_least;        // least share of a load step before it is given up [1/64]
+  bool (*poll)(void *data); // returns true to cancel; called every Newton iteration
+  void *poll_data;
+} SbRingOptions;
+
+typedef struct {
+  bool touching;                  // the bore is touched
+  double bore_force, bore_drag;   // radial (compression > 0) and axial (+x on the ring) force
+  double floor_force, floor_drag; // the same at the groove floor
+  double wall_right_force, wall_left_force; // axial, compression > 0
+  double wall_right_drag, wall_left_drag;   // radial friction on the ring, outwards > 0
+  double contact_left, contact_right;       // ends of the bore contact, m
+  double floor_left, floor_right;           // ends of the floor contact, m
+  double wall_inner, wall_outer;            // ends of the right wall's contact, radii, m
+  double pressure_peak;                     // of the bore contact, Pa
+  double position_peak;                     // m
+  double thickness;                         // radial extent of the deformed section, m
+  double axial_left, axial_right;           // axial extent of the deformed section, m
+  double volume_change;                     // relative to the free ring
+  double penetration;                       // largest over the boundary nodes, m
+  double pressure_least;                    // least nodal contact pressure above the fluid's, Pa
+  double friction_excess; // N of departure from Coulomb's law at nodes that cannot settle, 0
+  double axial_imbalance; // sum of all axial forces over the largest one
+  int unknowns, newton_iterations, load_steps, rejected_steps;
+} SbRingResult;
+
+// Fits the free ring into its groove: stretched over the floor, squeezed by the bore, then pressed
+// by the fluid. Owned; free with sb_ring_destroy. Errors: SB_ERROR_RANGE or SB_ERROR_INFEASIBLE
+// with the catalogue key (bore smaller than the groove floor, overfilled groove, nothing that holds
+// the ring against the pressure, the fluid passes it), SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED,
+// SB_ERROR_MEMORY; *out is then NULL. Friction acts from the fitted state on, not during fitting.
+SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *load,
+                        const SbRingOptions *options, SbReport *report);
+void sb_ring_destroy(SbRing *ring);
+
+// Moves on from the present equilibrium to another load (warm start). Friction sees the motion from
+// one load to the next as monotonic. On failure the last equilibrium found on the way is kept,
+// sb_ring_load tells at which load that is, and the report at which share of the step.
+SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report);
+
+// The load of the present state; borrowed.
+const SbRingLoad *sb_ring_load(const SbRing *ring);
+
+void sb_ring_result(const SbRing *ring, SbRingResult *out);
+
+// Contact pressure (and shear, may be NULL) of the bore contact from its left to its right end,
+// where it equals the fluid's. Returns the number of points; writes at most `capacity`.
+int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *shear, int capacity);
+
+// Sizes for drawing: nodes, triangles, points of the outline.
+void sb_ring_sizes(const SbRing *ring, int *nodes, int *triangles, int *outline);
+
+// For drawing, on request only. Any array may be NULL.
+typedef struct {
+  double *place;        // [2 nodes] deformed (x axial, r), m
+  double *displacement; // [2 nodes] (axial, radial) from the free ring, m
+  double *mises;        // [nodes] von Mises stress, Pa
+  double *hydrostatic;  // [nodes] mean stress, tension > 0, Pa
+  double *shear;        // [nodes] axial-radial shear stress, Pa
+  double *contact;      // [nodes] contact or fluid pressure on the boundary, 0 inside, Pa
+  int *triangle;        // [3 triangles] corners
+  int *outline;         // [outline] boundary nodes in order, closed by the first
+} SbRingFields;
+void sb_ring_fields(const SbRing *ring, const SbRingFields *out);
+
+// Number of surface nodes that sb_ring_compliance covers: the bore contact and `margin` boundary
+// nodes on either side; 0 without contact.
+int sb_ring_compliance_size(const SbRing *ring, int margin);
+
+// Normal compliance of those n nodes in the present state, all other contacts as they are: a change
+// of nodal forces f_j [N, inward, whole ring] moves the surface inwards by the sum of c[i * n + j]
+// f_j [m]; a pressure p acts by f_j = area[j] p. x [n] axial places, area [n] m^2, c [n * n] m/N,
+// caller's arrays; per metre with plane_strain. Errors: SB_ERROR_INFEASIBLE without contact,
+// SB_ERROR_NOT_CONVERGED, SB_ERROR_MEMORY.
+SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, double *c,
+                            SbReport *report);
+
+// The bore's surface as film solvers take it (engine/contact/compliance.h): the half-plane with the
+// squeezed rubber's own modulus, a smooth rest that is exact for the discrete ring, and the gap
+// whose dry contact has the present pressure, over a window of 1.4 contact widths. Loads are per
+// length of the bore's circumference. To first order about the present state, frictionless along
+// the bore. Errors: SB_ERROR_INFEASIBLE without contact or where the surface turns away within the
+// window.
+SbStatus sb_ring_surface(SbRing *ring, SbSurfaceCompliance *out, SbReport *report);
+
+// Foretells the result at a nearby load (radii, walls, pressures) by one linear step from the
+// present equilibrium, contacts as they are; costs one factorisation. Wrong to second order in the
+// change, and to first order once contacts open or close by whole nodes. The ring stays as it is.
+// Errors: SB_ERROR_NOT_CONVERGED for a change that turns the mesh inside out.
+SbStatus sb_ring_predict(SbRing *ring, const SbRingLoad *load, SbRingResult *out, SbReport *report);
+
+// Relative errors by comparing two meshes.
+typedef struct {
+  double load, peak, width;
+} SbRingError;
+
+// One fitment to a tolerance: solves on a coarse and on a finer mesh with nodes at the contact
+// edges, and estimates the error of load, peak and width from the two. `out` may be NULL if only
+// the figures are wanted. tolerance is relative on the load, 1e-5 .. 1e-1. Warnings:
+// "no-contact" (loads are then 0; also for a ring under pressure that does not touch without it:
+// the fluid goes past it), "ring-tolerance" if the estimate stays above the tolerance.
+SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, SbRingError *error, const SbRingBody *body,
+                     const SbRingLoad *load, double tolerance, const SbRingOptions *options,
+                     SbWarnings *warnings, SbReport *report);

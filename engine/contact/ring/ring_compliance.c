@@ -1,0 +1,458 @@
+// Normal compliance of the ring at its bore contact: static condensation of the converged tangent.
+//
+// The tangent stiffness of the present equilibrium (large strain, prestress, follower fluid and all
+// other contacts held as they are) is factorised once with the bore's nodes set free; one solve per
+// node gives its column. Exact for the discrete ring to first order in the change of pressure, as
+// long as no other contact opens or closes; along the bore the nodes are free (frictionless), as
+// under a film. The columns belong to nodal forces: a pressure p acts with the forces area_j p_j.
+// For films much thinner than the mesh the same factor gives the split into the half-plane's
+// logarithm and a smooth rest: the surface's answer to the pressures sqrt(1 - z^2) U_l(z) over a
+// window, which the mesh resolves, less the half-plane's, which is closed (Johnson, Contact
+// Mechanics, 2.7), is a sum of Chebyshev polynomials in the pressure's place and in the answer's.
+// The half-plane's modulus is the squeezed rubber's own, from the shortest of these waves; that it
+// varies a little along the contact is left to the smooth part.
+#include "engine/contact/compliance.h"
+#include "engine/contact/ring/ring_private.h"
+
+#include <math.h>
+#include <string.h>
+
+// Loop places of the bore's held nodes and `margin` neighbours on both sides; returns their number.
+static int surface_nodes(const SbRing *ring, int margin, int *first) {
+  SbRingPatch patch;
+  if (!sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+    return 0;
+  }
+  *first = patch.first - margin;
+  int count = patch.last - patch.first + 1 + 2 * margin;
+  return count < ring->contact->count ? count : 0;
+}
+
+int sb_ring_compliance_size(const SbRing *ring, int margin) {
+  int first;
+  return surface_nodes(ring, margin < 0 ? 0 : margin, &first);
+}
+
+// Tangent of the present contact pressure as a follower load that is fixed in space, as a film's
+// is: forces on material points would roll the section over (a load that travels with the point it
+// acts on leaves its support), which is neither what a rigid bore nor what a film does. The force
+// per axial length is kept, not the pressure, so that forces are the unknowns throughout.
+static void add_follower(SbRing *ring) {
+  static const double XI[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};
+  static const double WEIGHT[3] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+  SbRingFem *fem = ring->fem;
+  int loop = ring->contact->count;
+  double turn = fem->axisymmetric ? 2.0 * M_PI : 1.0;
+  SbRingPatch patch;
+  if (!sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+    return;
+  }
+  // Whole sides within the contact; at its ends the pressure is the fluid's.
+  int begin = patch.first + patch.first % 2, end = patch.last - patch.last % 2;
+  for (int start = begin; start < end; start += 2) {
+    int node[3];
+    double p[3], r[3], z[3];
+    for (int a = 0; a < 3; a++) {
+      int place = (start + a) % loop;
+      node[a] = fem->mesh->loop[place];
+      p[a] = sb_ring_node_pressure(ring, place, SB_RING_BORE);
+      r[a] = fem->mesh->x[2 * node[a]] + fem->u[2 * node[a]];
+      z[a] = fem->mesh->x[2 * node[a] + 1] + fem->u[2 * node[a] + 1];
+    }
+    p[0] = start == begin ? patch.end_pressure[0] : p[0];
+    p[2] = start + 2 == end ? patch.end_pressure[1] : p[2];
+    // The straight line through the ends is smooth where nodal pressures zigzag.
+    double slope = (p[2] - p[0]) / (z[2] - z[0]);
+    for (int q = 0; q < 3; q++) {
+      double xi = XI[q];
+      double n[3] = {0.5 * xi * (xi - 1.0), 1.0 - xi * xi, 0.5 * xi * (xi + 1.0)};
+      double d[3] = {xi - 0.5, -2.0 * xi, xi + 0.5};
+      double rr = 0.0, dr = 0.0, zz = 0.0, dz = 0.0;
+      for (int a = 0; a < 3; a++) {
+        rr += n[a] * r[a];
+        dr += d[a] * r[a];
+        zz += n[a] * z[a];
+        dz += d[a] * z[a];
+      }
+      double pressure = p[0] + slope * (zz - z[0]);
+      double radius = fem->axisymmetric ? rr : 1.0, c = WEIGHT[q] * turn;
+      for (int a = 0; a < 3; a++) {
+        for (int b = 0; b < 3; b++) {
+          sb_ring_fem_add(fem, node[a], 0, node[b], 1,
+                          c * n[a] * radius * (pressure * d[b] + slope * n[b] * dz));
+          sb_ring_fem_add(fem, node[a], 1, node[b], 0, -c * n[a] * pressure * radius * d[b]);
+          sb_ring_fem_add(fem, node[a], 1, node[b], 1, -c * n[a] * radius * slope * n[b] * dr);
+        }
+      }
+    }
+  }
+}
+
+// Tangent of the present state with the bore's nodes set free, factorised.
+static SbStatus factorise(SbRing *ring, SbReport *report) {
+  SbRingFem *fem = ring->fem;
+  SbRingContact *contact = ring->contact;
+  int loop = contact->count;
+  fem->axial_damping = 0.0;
+  if (!sb_ring_fem_assemble(fem)) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's state is not an equilibrium");
+  }
+  sb_ring_contact_apply(contact);
+  add_follower(ring);
+  // A node that a wall holds as well keeps the wall.
+  for (int i = 0; i < loop; i++) {
+    SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i];
+    if (!touch[SB_RING_BORE].held) {
+      continue;
+    }
+    SbRingCondition *condition = &fem->condition[fem->mesh->loop[i]];
+    bool wall = touch[SB_RING_WALL_RIGHT].held || touch[SB_RING_WALL_LEFT].held;
+    memset(condition, 0, sizeof *condition);
+    if (wall) {
+      condition->count = 1;
+      condition->direction[0][1] = 1.0;
+      condition->direction[1][0] = 1.0;
+    }
+  }
+  return sb_ring_fem_factor(fem, report);
+}
+
+// Leaves the object as it was: forces and shares of the present state.
+static void settle(SbRing *ring) {
+  if (sb_ring_fem_assemble(ring->fem)) {
+    sb_ring_contact_apply(ring->contact);
+    sb_ring_contact_forces(ring->contact);
+  }
+}
+
+SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, double *c,
+                            SbReport *report) {
+  int first = 0, count = surface_nodes(ring, margin < 0 ? 0 : margin, &first);
+  if (count == 0) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE, "the ring does not touch the bore");
+  }
+  SbRingFem *fem = ring->fem;
+  SbRingContact *contact = ring->contact;
+  int loop = contact->count;
+  SbStatus status = factorise(ring, report);
+  for (int j = 0; status == SB_OK && j < count; j++) {
+    int place = (first + j + loop) % loop;
+    int node = fem->mesh->loop[place];
+    x[j] = (fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1]) * ring->length;
+    double unit = ring->body.plane_strain ? ring->length : ring->length * ring->length;
+    area[j] = contact->weight[place] * unit;
+    // A unit inward force.
+    memset(fem->rhs, 0, sizeof(double) * 2 * (size_t)fem->mesh->nodes);
+    fem->rhs[2 * node] = -1.0;
+    status = sb_ring_fem_apply_factor(fem, report);
+    for (int i = 0; i < count; i++) {
+      int other = fem->mesh->loop[(first + i + loop) % loop];
+      c[i * count + j] = -fem->du[2 * other] * ring->length / ring->force;
+    }
+  }
+  settle(ring);
+  return status == SB_OK ? sb_succeed(report) : status;
+}
+
+// Waves of pressure that are tried, and those that tell the half-plane's modulus; share of the
+// contact's width that the window reaches beyond it, less where the surface turns away; points of
+// the dry pressure, least order of its fit.
+enum { WAVES = 10, WAVE_SHORT = 5, PROFILE = 161, ORDER_LEAST = 2, REACHES = 3 };
+static const double REACH[REACHES] = {0.2, 0.12, 0.07};
+
+// The squeezed rubber's modulus over the unstrained one's: 1 to 1.5 from 3 to 40 % squeeze. Others
+// come from waves that do not see a half-plane.
+static const double MODULUS[2] = {0.8, 2.5};
+
+// Sum of relative errors of both ends and peak above which the gap is refused.
+static const double DRY_MOST = 0.01;
+
+// One boundary side: places and displacements of its three nodes.
+typedef struct {
+  double r[3], z[3], dr[3], dz[3];
+} Side;
+
+static void side_of(const SbRing *ring, int side, Side *out) {
+  const SbRingFem *fem = ring->fem;
+  int loop = ring->contact->count;
+  for (int a = 0; a < 3; a++) {
+    int node = fem->mesh->loop[((2 * side + a) % loop + loop) % loop];
+    out->r[a] = fem->mesh->x[2 * node] + fem->u[2 * node];
+    out->z[a] = fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1];
+    out->dr[a] = fem->du[2 * node];
+    out->dz[a] = fem->du[2 * node + 1];
+  }
+}
+
+static double blend(const double v[3], double xi) {
+  return 0.5 * xi * (xi - 1.0) * v[0] + (1.0 - xi * xi) * v[1] + 0.5 * xi * (xi + 1.0) * v[2];
+}
+
+static double blend_slope(const double v[3], double xi) {
+  return (xi - 0.5) * v[0] - 2.0 * xi * v[1] + (xi + 0.5) * v[2];
+}
+
+// The upper side that lies over the axial place z, from the bore's contact outwards; xi is the
+// place on it. False beyond the surface's turn.
+static bool find_side(const SbRing *ring, const SbRingPatch *patch, double z, int *side,
+                      double *xi) {
+  int middle = (patch->first + patch->last) / 4;
+  Side s;
+  side_of(ring, middle, &s);
+  int step = z > s.z[1] ? 1 : -1;
+  for (int k = 0; k < ring->contact->count / 4; k++) {
+    side_of(ring, middle + k * step, &s);
+    if (!(s.z[2] > s.z[0])) {
+      return false;
+    }
+    if (z >= s.z[0] && z <= s.z[2]) {
+      *side = middle + k * step;
+      *xi = 2.0 * (z - s.z[0]) / (s.z[2] - s.z[0]) - 1.0;
+      for (int i = 0; i < 8; i++) {
+        *xi -= (blend(s.z, *xi) - z) / blend_slope(s.z, *xi);
+      }
+      return true;
+    }
+  }
+  return false;
+}
+
+// Loads the window, from one side of the surface to another, with the inward pressure sqrt(1 - z^2)
+// U_l(z), per length of the bore's circumference so that the answer stays symmetric.
+static void load_wave(SbRing *ring, int from, int to, double middle, double half, int l) {
+  static const double XI[4] = {-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
+                               0.861136311594052575};
+  static const double WEIGHT[4] = {0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
+                                   0.347854845137453857};
+  SbRingFem *fem = ring->fem;
+  int loop = ring->contact->count;
+  double turn = fem->axisymmetric ? 2.0 * M_PI * ring->contact->now.bore : 1.0;
+  memset(fem->rhs, 0, sizeof(double) * 2 * (size_t)fem->mesh->nodes);
+  for (int side = from; side <= to; side++) {
+    Side s;
+    side_of(ring, side, &s);
+    // In the angle of z = -cos(theta), where the wave is smooth up to the window's ends.
+    double a = acos(fmin(1.0, fmax(-1.0, -(s.z[0] - middle) / half)));
+    double b = acos(fmin(1.0, fmax(-1.0, -(s.z[2] - middle) / half)));
+    for (int q = 0; q < 4; q++) {
+      double theta = 0.5 * (a + b) + 0.5 * (b - a) * XI[q];
+      double z = middle - half * cos(theta);
+      double at = 2.0 * (z - s.z[0]) / (s.z[2] - s.z[0]) - 1.0;
+      for (int i = 0; i < 8; i++) {
+        at -= (blend(s.z, at) - z) / blend_slope(s.z, at);
+      }
+      // U_l(-cos theta) sin(theta) = sin((l + 1)(pi - theta)).
+      double pressure = sin((l + 1) * (M_PI - theta));
+      double force = 0.5 * (b - a) * WEIGHT[q] * half * sin(theta) * pressure * turn;
+      double n[3] = {0.5 * at * (at - 1.0), 1.0 - at * at, 0.5 * at * (at + 1.0)};
+      for (int k = 0; k < 3; k++) {
+        fem->rhs[2 * fem->mesh->loop[((2 * side + k) % loop + loop) % loop]] -= n[k] * force;
+      }
+    }
+  }
+}
+
+// Inward displacement of the surface at fixed axial places, and its slope dr/dz there.
+static void read_wave(const SbRing *ring, const SbRingPatch *patch, double middle, double half,
+                      double *value, double *slope) {
+  for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
+    double z = middle - half * cos(M_PI * (i + 0.5) / SB_COMPLIANCE_MODES), xi;
+    int side;
+    value[i] = slope[i] = 0.0;
+    if (find_side(ring, patch, z, &side, &xi)) {
+      Side s;
+      side_of(ring, side, &s);
+      slope[i] = blend_slope(s.r, xi) / blend_slope(s.z, xi);
+      value[i] = slope[i] * blend(s.dz, xi) - blend(s.dr, xi);
+    }
+  }
+}
+
+// -int ln|x - s| of wave l over the window at Chebyshev's points; lengths in metres.
+static void half_plane(double half, int l, double *value) {
+  for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
+    double theta = M_PI - M_PI * (i + 0.5) / SB_COMPLIANCE_MODES;
+    double upper = cos((l + 2) * theta) / (l + 2);
+    value[i] = l == 0 ? 0.5 * M_PI * (M_LN2 - log(half) - upper)
+                      : 0.5 * M_PI * (cos(l * theta) / l - upper);
+    value[i] *= half;
+  }
+}
+
+// A ring that nothing holds axially drifts by any amount under a lopsided pressure, and its free
+// surface beside the contact with it. What of that an answer holds is taken out: as much drift as
+// leaves the least beside the half-plane's answer.
+static void remove_drift(const SbSurfaceCompliance *c, double half,
+                         double answer[WAVES][SB_COMPLIANCE_MODES], const double *slope) {
+  double compliance = sb_compliance_half_plane(c);
+  for (int l = 0; l < WAVES; l++) {
+    double plane[SB_COMPLIANCE_MODES], up = 0.0, down = 1e-30;
+    half_plane(half, l, plane);
+    for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
+      up += (answer[l][i] - compliance * plane[i]) * slope[i];
+      down += slope[i] * slope[i];
+    }
+    for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
+      answer[l][i] -= up / down * slope[i];
+    }
+  }
+}
+
+// Chebyshev coefficients of the smooth part from the answers, less the half-plane's.
+static void smooth_part(SbSurfaceCompliance *out, double half,
+                        double answer[WAVES][SB_COMPLIANCE_MODES]) {
+  enum { N = SB_COMPLIANCE_MODES };
+  double compliance = sb_compliance_half_plane(out), s[WAVES][WAVES + 2] = {{0.0}};
+  for (int l = WAVES - 1; l >= 0; l--) {
+    double plane[N];
+    half_plane(half, l, plane);
+    for (int k = 0; k < WAVES; k++) {
+      double v = 0.0;
+      for (int i = 0; i < N; i++) {
+        double theta = M_PI - M_PI * (i + 0.5) / N;
+        v += (k == 0 ? 1.0 : 2.0) / N * cos(k * theta) * (answer[l][i] - compliance * plane[i]);
+      }
+      s[k][l] = (4.0 * v / (M_PI * half) + s[k][l + 2]) / (l == 0 ? 2.0 : 1.0);
+    }
+  }
+  out->modes = N;
+  for (int k = 0; k < WAVES; k++) {
+    for (int l = 0; l < WAVES; l++) {
+      out->smooth[k][l] = 0.5 * (s[k][l] + s[l][k]);
+    }
+  }
+}
+
+// The gap whose dry contact has the ring's recovered pressure; solved again for a check. As many
+// polynomials as the curve has hold it exactly; where their highest make the gap touch outside the
+// contact, fewer.
+static SbStatus dry_gap(const SbRing *ring, SbRingPatch *patch, SbSurfaceCompliance *c,
+                        SbReport *report) {
+  SbRingPressure smooth;
+  if (!sb_ring_ends(ring, SB_RING_BORE, patch, &smooth)) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                   "no smooth pressure fits the ring's bore contact");
+  }
+  double x[PROFILE], p[PROFILE], low = fmin(smooth.end_pressure[0], smooth.end_pressure[1]);
+  double left = patch->place[0] * ring->length, width = patch->place[1] * ring->length - left;
+  double load = 0.0, peak = 0.0;
+  for (int i = 0; i < PROFILE; i++) {
+    double share = 0.5 * (1.0 - cos(M_PI * i / (PROFILE - 1)));
+    x[i] = left + share * width;
+    p[i] = (sb_ring_pressure_at(&smooth, share) - low) * ring->stress;
+    peak = fmax(peak, p[i]);
+    load += i > 0 ? 0.5 * (p[i] + p[i - 1]) * (x[i] - x[i - 1]) : 0.0;
+  }
+  double ends[2] = {(smooth.end_pressure[0] - low) * ring->stress,
+                    (smooth.end_pressure[1] - low) * ring->stress};
+  load += ends[0] * left - ends[1] * (left + width);
+  for (int order = smooth.terms; order >= ORDER_LEAST; order--) {
+    SbDryContact dry;
+    // An order that gives no contact is as unfit as one that gives another: the next is lower.
+    if (sb_compliance_match(c, order, PROFILE, x, p, ends[0], ends[1], report) != SB_OK ||
+        sb_dry_contact(&dry, c, load, ends[0], ends[1], report) != SB_OK) {
+      continue;
+    }
+    double off = fabs(dry.left - left) / width + fabs(dry.right - left - width) / width +
+                 fabs(dry.peak / peak - 1.0);
+    if (off < DRY_MOST) {
+      return sb_succeed(report);
+    }
+  }
+  return sb_fail(report, SB_ERROR_NOT_CONVERGED, "no smooth gap gives the ring's contact pressure");
+}
+
+// The surface over a window of one reach.
+static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
+                             SbSurfaceCompliance *out, SbReport *report) {
+  *out = (SbSurfaceCompliance){0};
+  double middle = 0.5 * (patch.place[0] + patch.place[1]);
+  double half = (0.5 + reach) * (patch.place[1] - patch.place[0]), xi;
+  int from, to;
+  if (!find_side(ring, &patch, middle - half, &from, &xi) ||
+      !find_side(ring, &patch, middle + half, &to, &xi)) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE,
+                   "the ring's surface turns away too near to the bore contact");
+  }
+  SbStatus status = factorise(ring, report);
+  double answer[WAVES][SB_COMPLIANCE_MODES], slope[SB_COMPLIANCE_MODES];
+  double unit = ring->length / ring->stress; // of displacement per pressure
+  double length = half * ring->length, up = 0.0, down = 0.0;
+  for (int l = 0; l < WAVES && status == SB_OK; l++) {
+    load_wave(ring, from, to, middle, half, l);
+    status = sb_ring_fem_apply_factor(ring->fem, report);
+    read_wave(ring, &patch, middle, half, answer[l], slope);
+    double plane[SB_COMPLIANCE_MODES];
+    half_plane(length, l, plane);
+    for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
+      answer[l][i] *= unit;
+      bool counts = l >= WAVE_SHORT && l % 2 == 0;
+      up += counts ? answer[l][i] * plane[i] : 0.0;
+      down += counts ? plane[i] * plane[i] : 0.0;
+    }
+  }
+  settle(ring);
+  if (status != SB_OK) {
+    return status;
+  }
+  out->left = (middle - half) * ring->length;
+  out->right = (middle + half) * ring->length;
+  out->modulus = 4.0 * down / (M_PI * up);
+  double nu = ring->body.poisson_ratio, unstrained = 2.0 * ring->body.modulus / (1.0 - nu * nu);
+  if (!(out->modulus > MODULUS[0] * unstrained && out->modulus < MODULUS[1] * unstrained)) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE,
+                   "the ring's surface is too steep beside the bore contact");
+  }
+  if (ring->fem->axial_spring > 0.0) {
+    remove_drift(out, length, answer, slope);
+  }
+  smooth_part(out, length, answer);
+
+  return dry_gap(ring, &patch, out, report);
+}
+
+SbStatus sb_ring_surface(SbRing *ring, SbSurfaceCompliance *out, SbReport *report) {
+  *out = (SbSurfaceCompliance){0};
+  SbRingPatch patch;
+  if (!sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE, "the ring does not touch the bore");
+  }
+  SbStatus status = SB_ERROR_INFEASIBLE;
+  for (int i = 0; i < REACHES && status != SB_OK && status != SB_ERROR_MEMORY; i++) {
+    status = surface_over(ring, patch, REACH[i], out, report);
+  }
+  return status;
+}
+
+SbStatus sb_ring_predict(SbRing *ring, const SbRingLoad *load, SbRingResult *out,
+                         SbReport *report) {
+  SbRingContact *contact = ring->contact;
+  SbRingFem *fem = ring->fem;
+  SbRingSetting now = contact->now;
+  sb_ring_fem_save(fem, 1);
+  sb_ring_contact_save(contact, 0);
+  fem->axial_damping = 0.0;
+  contact->now = sb_ring_setting(ring, load);
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  if (sb_ring_fem_assemble(fem)) {
+    sb_ring_contact_apply(contact);
+    status = sb_ring_fem_solve(fem, report);
+  }
+  if (status == SB_OK) {
+    sb_ring_fem_advance(fem, 1.0);
+    status = SB_ERROR_NOT_CONVERGED;
+    if (sb_ring_fem_assemble(fem)) {
+      sb_ring_contact_apply(contact);
+      sb_ring_contact_forces(contact);
+      sb_ring_result(ring, out);
+      status = SB_OK;
+    }
+  }
+  contact->now = now;
+  sb_ring_fem_restore(fem, 1);
+  sb_ring_contact_restore(contact, 0);
+  settle(ring);
+  return status == SB_OK ? sb_succeed(report)
+                         : sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                                   "the change is too large to foretell the ring's load");
+}

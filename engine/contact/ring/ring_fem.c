@@ -1,0 +1,446 @@
+// Assembly of the nearly incompressible finite-strain elements and the sparse solve.
+//
+// Principle: stationary total energy of Psi = W_iso(F) + p (J - 1) - p^2 / (2 K), with u in P2 plus
+// a cubic bubble and p in discontinuous P1 (Crouzeix and Raviart 1973; mixed form as in Sussman and
+// Bathe 1987). Seven-point quadrature (degree 5). The tangent is consistent and symmetric; bubble
+// and pressure are eliminated in each element, so the sparse matrix holds nodal displacements only.
+// Leaves out inertia, thermal strain and rate.
+#include "engine/contact/ring/ring_fem.h"
+
+#include "engine/contact/ring/ring_material.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  NODES = 6,
+  SHAPES = 7,                                      // six nodes and the bubble
+  POINT_SIZE = 3 * SHAPES + 1,                     // dR, dZ, N/R of each shape; weight
+  CONDENSED_SIZE = SB_RING_INNER * (2 * NODES + 1) // inner response to nodes and load
+};
+
+// Degree-5 rule: area coordinates l1, l2 of each point and its weight (sum 1).
+static const double POINT[SB_RING_FEM_POINTS][3] = {
+    {1.0 / 3.0, 1.0 / 3.0, 0.225},
+    {0.059715871789769820, 0.470142064105115090, 0.132394152788506181},
+    {0.470142064105115090, 0.059715871789769820, 0.132394152788506181},
+    {0.470142064105115090, 0.470142064105115090, 0.132394152788506181},
+    {0.797426985353087322, 0.101286507323456339, 0.125939180544827153},
+    {0.101286507323456339, 0.797426985353087322, 0.125939180544827153},
+    {0.101286507323456339, 0.101286507323456339, 0.125939180544827153},
+};
+
+// Gradients of the seven shapes, the hoop term N/R and the weight at one point of one element.
+static bool point_geometry(const SbRingFem *fem, int element, double l1, double l2, double weight,
+                           double g[POINT_SIZE]) {
+  double n[NODES], d1[NODES], d2[NODES];
+  sb_ring_shape(l1, l2, n, d1, d2);
+  const int *tri = &fem->mesh->tri[6 * element];
+  double jac[2][2] = {{0.0, 0.0}, {0.0, 0.0}}, r = 0.0;
+  for (int a = 0; a < NODES; a++) {
+    const double *x = &fem->mesh->x[2 * tri[a]];
+    r += n[a] * x[0];
+    for (int k = 0; k < 2; k++) {
+      jac[0][k] += d1[a] * x[k];
+      jac[1][k] += d2[a] * x[k];
+    }
+  }
+  double det = jac[0][0] * jac[1][1] - jac[0][1] * jac[1][0];
+  double l0 = 1.0 - l1 - l2;
+  for (int a = 0; a < SHAPES; a++) {
+    double e1 = a < NODES ? d1[a] : 27.0 * l2 * (l0 - l1);
+    double e2 = a < NODES ? d2[a] : 27.0 * l1 * (l0 - l2);
+    double value = a < NODES ? n[a] : 27.0 * l0 * l1 * l2;
+    g[3 * a] = (jac[1][1] * e1 - jac[0][1] * e2) / det;
+    g[3 * a + 1] = (jac[0][0] * e2 - jac[1][0] * e1) / det;
+    g[3 * a + 2] = fem->axisymmetric ? value / r : 0.0;
+  }
+  g[3 * SHAPES] = 0.5 * det * weight * (fem->axisymmetric ? 2.0 * M_PI * r : 1.0);
+  return det > 0.0 && (r > 0.0 || !fem->axisymmetric);
+}
+
+SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMaterial material,
+                            bool axisymmetric, SbReport *report) {
+  *out = NULL;
+  SbRingFem *fem = calloc(1, sizeof *fem);
+  if (fem == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's elements");
+  }
+  fem->mesh = mesh;
+  fem->axisymmetric = axisymmetric;
+  fem->material = material;
+  size_t n = (size_t)mesh->nodes, m = (size_t)mesh->elements;
+  fem->u = calloc(2 * n, sizeof(double));
+  fem->inner = calloc(SB_RING_INNER * m, sizeof(double));
+  fem->saved[0] = calloc(2 * n + SB_RING_INNER * m, sizeof(double));
+  fem->saved[1] = calloc(2 * n + SB_RING_INNER * m, sizeof(double));
+  fem->saved[2] = calloc(2 * n + SB_RING_INNER * m, sizeof(double));
+  fem->mass = calloc(n, sizeof(double));
+  fem->residual = calloc(2 * n, sizeof(double));
+  fem->rhs = calloc(2 * n, sizeof(double));
+  fem->du = calloc(2 * n, sizeof(double));
+  fem->condition = calloc(n, sizeof(SbRingCondition));
+  fem->raw_place = calloc(n, sizeof(int));
+  fem->gauss = malloc(sizeof(double) * POINT_SIZE * SB_RING_FEM_POINTS * m);
+  fem->condensed = calloc(CONDENSED_SIZE * m, sizeof(double));
+  fem->work_int = malloc(sizeof(int) * n);
+  if (fem->u == NULL || fem->saved[0] == NULL || fem->saved[1] == NULL || fem->saved[2] == NULL ||
+      fem->mass == NULL || fem->inner == NULL || fem->residual == NULL || fem->rhs == NULL ||
+      fem->du == NULL || fem->condition == NULL || fem->raw_place == NULL || fem->gauss == NULL ||
+      fem->condensed == NULL || fem->work_int == NULL) {
+    sb_ring_fem_destroy(fem);
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's elements");
+  }
+  for (int e = 0; e < mesh->elements; e++) {
+    for (int q = 0; q < SB_RING_FEM_POINTS; q++) {
+      if (!point_geometry(fem, e, POINT[q][0], POINT[q][1], POINT[q][2],
+                          &fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q)])) {
+        sb_ring_fem_destroy(fem);
+        return sb_fail(report, SB_ERROR_RANGE, "the ring's mesh crosses the axis or is inverted");
+      }
+      for (int a = 0; a < NODES; a++) {
+        fem->mass[mesh->tri[6 * e + a]] +=
+            fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q) + 3 * SHAPES] / NODES;
+      }
+    }
+  }
+  SbStatus status = sb_ring_sparse_create(fem, report);
+  if (status != SB_OK) {
+    sb_ring_fem_destroy(fem);
+    return status;
+  }
+  *out = fem;
+  return sb_succeed(report);
+}
+
+void sb_ring_fem_destroy(SbRingFem *fem) {
+  if (fem == NULL) {
+    return;
+  }
+  sb_ring_sparse_finish(fem);
+  void *owned[] = {fem->u,         fem->saved[0], fem->saved[1],  fem->inner,     fem->residual,
+                   fem->saved[2],  fem->mass,     fem->rhs,       fem->du,        fem->condition,
+                   fem->raw_place, fem->gauss,    fem->condensed, fem->row_start, fem->column,
+                   fem->value,     fem->raw,      fem->scatter,   fem->diagonal,  fem->work_int};
+  for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
+    free(owned[i]);
+  }
+  free(fem);
+}
+
+// In-plane gradient, hoop stretch and pressure at a point from local displacements.
+static void point_strain(const double g[POINT_SIZE], const double local[2 * SHAPES], double f[5]) {
+  f[0] = f[3] = f[4] = 1.0;
+  f[1] = f[2] = 0.0;
+  for (int a = 0; a < SHAPES; a++) {
+    f[0] += g[3 * a] * local[2 * a];
+    f[1] += g[3 * a + 1] * local[2 * a];
+    f[2] += g[3 * a] * local[2 * a + 1];
+    f[3] += g[3 * a + 1] * local[2 * a + 1];
+    f[4] += g[3 * a + 2] * local[2 * a];
+  }
+}
+
+static void gather(const SbRingFem *fem, int element, double local[2 * SHAPES]) {
+  const int *tri = &fem->mesh->tri[6 * element];
+  for (int a = 0; a < NODES; a++) {
+    local[2 * a] = fem->u[2 * tri[a]];
+    local[2 * a + 1] = fem->u[2 * tri[a] + 1];
+  }
+  local[2 * NODES] = fem->inner[SB_RING_INNER * element];
+  local[2 * NODES + 1] = fem->inner[SB_RING_INNER * element + 1];
+}
+
+// Solves the 5 x 5 inner system for 13 right-hand sides, with row pivoting; b is overwritten.
+static void solve_inner(double a[SB_RING_INNER][SB_RING_INNER],
+                        double b[SB_RING_INNER][2 * NODES + 1]) {
+  enum { N = SB_RING_INNER, M = 2 * NODES + 1 };
+  for (int k = 0; k < N; k++) {
+    int pivot = k;
+    for (int i = k + 1; i < N; i++) {
+      pivot = fabs(a[i][k]) > fabs(a[pivot][k]) ? i : pivot;
+    }
+    if (pivot != k) {
+      for (int j = k; j < N; j++) {
+        double swap = a[k][j];
+        a[k][j] = a[pivot][j];
+        a[pivot][j] = swap;
+      }
+      for (int j = 0; j < M; j++) {
+        double swap = b[k][j];
+        b[k][j] = b[pivot][j];
+        b[pivot][j] = swap;
+      }
+    }
+    double inverse = a[k][k] != 0.0 ? 1.0 / a[k][k] : 0.0;
+    for (int i = k + 1; i < N; i++) {
+      double factor = a[i][k] * inverse;
+      for (int j = k + 1; j < N; j++) {
+        a[i][j] -= factor * a[k][j];
+      }
+      for (int j = 0; j < M; j++) {
+        b[i][j] -= factor * b[k][j];
+      }
+    }
+    a[k][k] = inverse;
+  }
+  for (int k = N - 1; k >= 0; k--) {
+    for (int i = k + 1; i < N; i++) {
+      for (int j = 0; j < M; j++) {
+        b[k][j] -= a[k][i] * b[i][j];
+      }
+    }
+    for (int j = 0; j < M; j++) {
+      b[k][j] *= a[k][k];
+    }
+  }
+}
+
+// Tangent and residual of one element before condensation; false if turned inside out.
+static bool element_system(SbRingFem *fem, int e, double k[2 * SHAPES][2 * SHAPES],
+                           double kp[2 * SHAPES][3], double kpp[3][3], double r[2 * SHAPES],
+                           double rp[3]) {
+  double local[2 * SHAPES];
+  gather(fem, e, local);
+  const double *pressure = &fem->inner[SB_RING_INNER * e + 2];
+  for (int q = 0; q < SB_RING_FEM_POINTS; q++) {
+    const double *g = &fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q)];
+    double weight = g[3 * SHAPES];
+    double phi[3] = {1.0, POINT[q][0] - 1.0 / 3.0, POINT[q][1] - 1.0 / 3.0};
+    double p = pressure[0] + phi[1] * pressure[1] + phi[2] * pressure[2];
+    double f[5];
+    point_strain(g, local, f);
+    double d = f[0] * f[3] - f[1] * f[2];
+    double jacobian = d * f[4];
+    fem->det_min = fmin(fem->det_min, fmin(d, f[4]));
+    if (!(d > 0.0 && f[4] > 0.0)) {
+      return false;
+    }
+    SbRingSlopes w;
+    sb_ring_material(&fem->material, f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3], d, f[4],
+                     p, &w);
+    // First Piola stress and its derivative in the order rr, rz, zr, zz, hoop.
+    double cof[4] = {f[3], -f[2], -f[1], f[0]};
+    double stress[5], a[5][5];
+    for (int i = 0; i < 4; i++) {
+      stress[i] = weight * (2.0 * w.a * f[i] + w.d * cof[i]);
+      for (int j = 0; j < 4; j++) {
+        a[i][j] = weight * (2.0 * w.ad * (f[i] * cof[j] + cof[i] * f[j]) + w.dd * cof[i] * cof[j]);
+      }
+      a[i][i] += weight * 2.0 * w.a;
+      a[i][4] = a[4][i] = weight * (2.0 * w.af * f[i] + w.df * cof[i]);
+    }
+    stress[4] = weight * w.f;
+    a[4][4] = weight * w.ff;
+    a[0][3] += weight * w.d;
+    a[3][0] += weight * w.d;
+    a[1][2] -= weight * w.d;
+    a[2][1] -= weight * w.d;
+
+    for (int b = 0; b < SHAPES; b++) {
+      const double *gb = &g[3 * b];
+      double v[5], t[5];
+      for (int i = 0; i < 5; i++) {
+        v[i] = a[i][0] * gb[0] + a[i][1] * gb[1] + a[i][4] * gb[2];
+        t[i] = a[i][2] * gb[0] + a[i][3] * gb[1];
+      }
+      for (int c = 0; c <= b; c++) {
+        const double *gc = &g[3 * c];
+        k[2 * c][2 * b] += v[0] * gc[0] + v[1] * gc[1] + v[4] * gc[2];
+        k[2 * c + 1][2 * b] += v[2] * gc[0] + v[3] * gc[1];
+        k[2 * c][2 * b + 1] += t[0] * gc[0] + t[1] * gc[1] + t[4] * gc[2];
+        k[2 * c + 1][2 * b + 1] += t[2] * gc[0] + t[3] * gc[1];
+      }
+      r[2 * b] += stress[0] * gb[0] + stress[1] * gb[1] + stress[4] * gb[2];
+      r[2 * b + 1] += stress[2] * gb[0] + stress[3] * gb[1];
+      double div_r = weight * (f[4] * (cof[0] * gb[0] + cof[1] * gb[1]) + d * gb[2]);
+      double div_z = weight * f[4] * (cof[2] * gb[0] + cof[3] * gb[1]);
+      for (int i = 0; i < 3; i++) {
+        kp[2 * b][i] += phi[i] * div_r;
+        kp[2 * b + 1][i] += phi[i] * div_z;
+      }
+    }
+    double inverse_bulk = weight / fem->material.bulk;
+    for (int i = 0; i < 3; i++) {
+      rp[i] += phi[i] * (weight * (jacobian - 1.0) - p * inverse_bulk);
+      for (int j = 0; j < 3; j++) {
+        kpp[i][j] -= phi[i] * phi[j] * inverse_bulk;
+      }
+    }
+  }
+  return true;
+}
+
+bool sb_ring_fem_assemble(SbRingFem *fem) {
+  const SbRingMesh *mesh = fem->mesh;
+  memset(fem->value, 0, sizeof(double) * (size_t)fem->row_start[2 * mesh->nodes]);
+  memset(fem->residual, 0, sizeof(double) * 2 * (size_t)mesh->nodes);
+  fem->residual_inner = 0.0;
+  fem->det_min = INFINITY;
+  for (int e = 0; e < mesh->elements; e++) {
+    double k[2 * SHAPES][2 * SHAPES] = {{0.0}}, kp[2 * SHAPES][3] = {{0.0}}, kpp[3][3] = {{0.0}};
+    double r[2 * SHAPES] = {0.0}, rp[3] = {0.0};
+    if (!element_system(fem, e, k, kp, kpp, r, rp)) {
+      return false;
+    }
+    // Inner unknowns: bubble (shape 6) and pressure.
+    double inner[SB_RING_INNER][SB_RING_INNER], x[SB_RING_INNER][2 * NODES + 1];
+    double coupling[SB_RING_INNER][2 * NODES];
+    for (int i = 0; i < SB_RING_INNER; i++) {
+      for (int j = 0; j < SB_RING_INNER; j++) {
+        int lo = i < j ? i : j, hi = i < j ? j : i;
+        inner[i][j] = hi < 2   ? k[2 * NODES + lo][2 * NODES + hi]
+                      : lo < 2 ? kp[2 * NODES + lo][hi - 2]
+                               : kpp[lo - 2][hi - 2];
+      }
+      for (int j = 0; j < 2 * NODES; j++) {
+        coupling[i][j] = x[i][j] = i < 2 ? k[j][2 * NODES + i] : kp[j][i - 2];
+      }
+      x[i][2 * NODES] = i < 2 ? r[2 * NODES + i] : rp[i - 2];
+      fem->residual_inner = fmax(fem->residual_inner, fabs(x[i][2 * NODES]));
+    }
+    solve_inner(inner, x);
+    memcpy(&fem->condensed[CONDENSED_SIZE * e], x, sizeof x);
+
+    // Condense and scatter both halves of the symmetric block.
+    const int *tri = &mesh->tri[6 * e];
+    for (int i = 0; i < 2 * NODES; i++) {
+      int node = tri[i / 2];
+      for (int m = 0; m < SB_RING_INNER; m++) {
+        r[i] -= coupling[m][i] * x[m][2 * NODES];
+      }
+      fem->residual[2 * node + i % 2] += r[i];
+      for (int j = i; j < 2 * NODES; j++) {
+        double sum = k[i][j];
+        for (int m = 0; m < SB_RING_INNER; m++) {
+          sum -= coupling[m][i] * x[m][j];
+        }
+        const int *scatter = &fem->scatter[36 * e];
+        int other = tri[j / 2];
+        fem->value[fem->row_start[2 * node + i % 2] + scatter[6 * (i / 2) + j / 2] + j % 2] += sum;
+        if (j > i) {
+          fem->value[fem->row_start[2 * other + j % 2] + scatter[6 * (j / 2) + i / 2] + i % 2] +=
+              sum;
+        }
+      }
+    }
+  }
+  double stiffness = fem->axial_spring + fem->axial_damping;
+  for (int i = 0; i < mesh->nodes && stiffness > 0.0; i++) {
+    double drift = fem->u[2 * i + 1] - fem->saved[1][2 * i + 1] - fem->axial_rest;
+    fem->residual[2 * i + 1] += fem->axial_spring * drift;
+    fem->value[fem->row_start[2 * i + 1] + fem->diagonal[i] + 1] += stiffness;
+  }
+  for (int i = 0; i < 2 * mesh->nodes && fem->viscosity > 0.0; i++) {
+    double resistance = fem->viscosity * fem->mass[i / 2];
+    fem->residual[i] += resistance * (fem->u[i] - fem->saved[1][i]);
+    fem->value[fem->row_start[i] + fem->diagonal[i / 2] + i % 2] += resistance;
+  }
+  return true;
+}
+
+void sb_ring_fem_advance(SbRingFem *fem, double step) {
+  const SbRingMesh *mesh = fem->mesh;
+  for (int e = 0; e < mesh->elements; e++) {
+    const double *x = &fem->condensed[CONDENSED_SIZE * e];
+    for (int m = 0; m < SB_RING_INNER; m++) {
+      double change = x[(2 * NODES + 1) * m + 2 * NODES];
+      for (int j = 0; j < 2 * NODES; j++) {
+        change += x[(2 * NODES + 1) * m + j] * fem->du[2 * mesh->tri[6 * e + j / 2] + j % 2];
+      }
+      fem->inner[SB_RING_INNER * e + m] -= step * change;
+    }
+  }
+  for (int i = 0; i < 2 * mesh->nodes; i++) {
+    fem->u[i] += step * fem->du[i];
+  }
+}
+
+void sb_ring_fem_save(SbRingFem *fem, int place) {
+  size_t nodal = 2 * (size_t)fem->mesh->nodes;
+  memcpy(fem->saved[place], fem->u, sizeof(double) * nodal);
+  memcpy(fem->saved[place] + nodal, fem->inner,
+         sizeof(double) * SB_RING_INNER * (size_t)fem->mesh->elements);
+}
+
+void sb_ring_fem_restore(SbRingFem *fem, int place) {
+  size_t nodal = 2 * (size_t)fem->mesh->nodes;
+  memcpy(fem->u, fem->saved[place], sizeof(double) * nodal);
+  memcpy(fem->inner, fem->saved[place] + nodal,
+         sizeof(double) * SB_RING_INNER * (size_t)fem->mesh->elements);
+}
+
+void sb_ring_fem_volume(const SbRingFem *fem, double *reference, double *deformed) {
+  *reference = *deformed = 0.0;
+  for (int e = 0; e < fem->mesh->elements; e++) {
+    double local[2 * SHAPES];
+    gather(fem, e, local);
+    for (int q = 0; q < SB_RING_FEM_POINTS; q++) {
+      const double *g = &fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q)];
+      double f[5];
+      point_strain(g, local, f);
+      *reference += g[3 * SHAPES];
+      *deformed += g[3 * SHAPES] * (f[0] * f[3] - f[1] * f[2]) * f[4];
+    }
+  }
+}
+
+void sb_ring_fem_stress(const SbRingFem *fem, int element, double l1, double l2, double cauchy[4],
+                        double *jacobian) {
+  double g[POINT_SIZE], local[2 * SHAPES], f[5];
+  point_geometry(fem, element, l1, l2, 0.0, g);
+  gather(fem, element, local);
+  point_strain(g, local, f);
+  double d = fmax(1e-12, f[0] * f[3] - f[1] * f[2]), hoop = fmax(1e-12, f[4]);
+  const double *inner = &fem->inner[SB_RING_INNER * element];
+  double p = inner[2] + (l1 - 1.0 / 3.0) * inner[3] + (l2 - 1.0 / 3.0) * inner[4];
+  SbRingSlopes w;
+  sb_ring_material(&fem->material, f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3], d, hoop,
+                   p, &w);
+  double cof[4] = {f[3], -f[2], -f[1], f[0]}, stress[4];
+  for (int i = 0; i < 4; i++) {
+    stress[i] = 2.0 * w.a * f[i] + w.d * cof[i];
+  }
+  // Cauchy = P F^T / J.
+  *jacobian = d * hoop;
+  cauchy[0] = (stress[0] * f[0] + stress[1] * f[1]) / *jacobian;
+  cauchy[1] = (stress[2] * f[2] + stress[3] * f[3]) / *jacobian;
+  cauchy[2] = (stress[0] * f[2] + stress[1] * f[3]) / *jacobian;
+  cauchy[3] = w.f * hoop / *jacobian;
+}
+
+void sb_ring_fem_transfer(SbRingFem *to, const SbRingFem *from) {
+  const SbRingMesh *mesh = to->mesh;
+  double l1 = 0.0, l2 = 0.0;
+  for (int i = 0; i < mesh->nodes; i++) {
+    int e = sb_ring_mesh_locate(from->mesh, &mesh->x[2 * i], &l1, &l2);
+    double n[6], d1[6], d2[6];
+    sb_ring_shape(l1, l2, n, d1, d2);
+    to->u[2 * i] = to->u[2 * i + 1] = 0.0;
+    for (int a = 0; a < 6; a++) {
+      to->u[2 * i] += n[a] * from->u[2 * from->mesh->tri[6 * e + a]];
+      to->u[2 * i + 1] += n[a] * from->u[2 * from->mesh->tri[6 * e + a] + 1];
+    }
+  }
+  for (int e = 0; e < mesh->elements; e++) {
+    const int *tri = &mesh->tri[6 * e];
+    double *inner = &to->inner[SB_RING_INNER * e], p[3];
+    for (int k = 0; k < 3; k++) {
+      // Pressure a little inside each corner, so that the old element is the right one.
+      double x[2] = {0.0, 0.0};
+      for (int a = 0; a < 3; a++) {
+        double share = a == k ? 2.0 / 3.0 : 1.0 / 6.0;
+        x[0] += share * mesh->x[2 * tri[a]];
+        x[1] += share * mesh->x[2 * tri[a] + 1];
+      }
+      int old = sb_ring_mesh_locate(from->mesh, x, &l1, &l2);
+      const double *q = &from->inner[SB_RING_INNER * old];
+      p[k] = q[2] + (l1 - 1.0 / 3.0) * q[3] + (l2 - 1.0 / 3.0) * q[4];
+    }
+    inner[0] = inner[1] = 0.0;
+    inner[2] = (p[0] + p[1] + p[2]) / 3.0;
+    inner[3] = 2.0 * (p[1] - p[0]);
+    inner[4] = 2.0 * (p[2] - p[0]);
+  }
+}

@@ -1,0 +1,112 @@
+// The deformed ring for drawing: nodes, triangles, outline and nodal stresses, only when asked for.
+//
+// Stresses are Cauchy stresses of the elements at their nodes, averaged over the elements that
+// share a node. Each six-node triangle is given as four plain ones. Triangles and outline run
+// counter-clockwise with the axial place to the right and the radius upwards.
+#include "engine/contact/ring/ring_private.h"
+
+#include <math.h>
+#include <string.h>
+
+void sb_ring_sizes(const SbRing *ring, int *nodes, int *triangles, int *outline) {
+  *nodes = ring->mesh->nodes;
+  *triangles = 4 * ring->mesh->elements;
+  *outline = ring->mesh->loop_count;
+}
+
+// Adds one node's stresses from one element and counts the visit in `visits`.
+static void add_stress(const SbRing *ring, const SbRingFields *out, int element, int corner) {
+  static const double L1[6] = {0.0, 1.0, 0.0, 0.5, 0.5, 0.0};
+  static const double L2[6] = {0.0, 0.0, 1.0, 0.0, 0.5, 0.5};
+  double s[4], jacobian;
+  sb_ring_fem_stress(ring->fem, element, L1[corner], L2[corner], s, &jacobian);
+  int node = ring->mesh->tri[6 * element + corner];
+  double mean = (s[0] + s[1] + s[3]) / 3.0;
+  double d0 = s[0] - mean, d1 = s[1] - mean, d3 = s[3] - mean;
+  double mises = sqrt(1.5 * (d0 * d0 + d1 * d1 + d3 * d3 + 2.0 * s[2] * s[2]));
+  if (out->mises != NULL) {
+    out->mises[node] += mises * ring->stress;
+  }
+  if (out->hydrostatic != NULL) {
+    out->hydrostatic[node] += mean * ring->stress;
+  }
+  if (out->shear != NULL) {
+    out->shear[node] += s[2] * ring->stress;
+  }
+}
+
+static void stresses(const SbRing *ring, const SbRingFields *out) {
+  const SbRingMesh *mesh = ring->mesh;
+  double *field[3] = {out->mises, out->hydrostatic, out->shear};
+  for (int k = 0; k < 3; k++) {
+    if (field[k] != NULL) {
+      memset(field[k], 0, sizeof(double) * (size_t)mesh->nodes);
+    }
+  }
+  for (int e = 0; e < mesh->elements; e++) {
+    for (int a = 0; a < 6; a++) {
+      add_stress(ring, out, e, a);
+    }
+  }
+  // Number of elements at each node: the element list is short enough to count again.
+  int *visits = ring->fem->work_int; // scratch, one per node
+  memset(visits, 0, sizeof(int) * (size_t)mesh->nodes);
+  for (int i = 0; i < 6 * mesh->elements; i++) {
+    visits[mesh->tri[i]]++;
+  }
+  for (int k = 0; k < 3; k++) {
+    for (int i = 0; i < mesh->nodes && field[k] != NULL; i++) {
+      field[k][i] /= visits[i] > 0 ? visits[i] : 1;
+    }
+  }
+}
+
+// Contact pressure where held, the fluid's elsewhere.
+static void boundary_pressure(const SbRing *ring, double *contact) {
+  const SbRingContact *c = ring->contact;
+  memset(contact, 0, sizeof(double) * (size_t)ring->mesh->nodes);
+  for (int i = 0; i < c->count; i++) {
+    double p = 0.0;
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      p = fmax(p, sb_ring_node_pressure(ring, i, (SbRingSurface)s));
+    }
+    if (p == 0.0) {
+      p = hypot(c->fluid[2 * i], c->fluid[2 * i + 1]) / c->weight[i];
+    }
+    contact[ring->mesh->loop[i]] = p * ring->stress;
+  }
+}
+
+void sb_ring_fields(const SbRing *ring, const SbRingFields *out) {
+  const SbRingMesh *mesh = ring->mesh;
+  const double *u = ring->fem->u;
+  for (int i = 0; i < mesh->nodes; i++) {
+    for (int k = 0; k < 2; k++) {
+      if (out->place != NULL) {
+        out->place[2 * i + k] = (mesh->x[2 * i + 1 - k] + u[2 * i + 1 - k]) * ring->length;
+      }
+      if (out->displacement != NULL) {
+        out->displacement[2 * i + k] = u[2 * i + 1 - k] * ring->length;
+      }
+    }
+  }
+  if (out->mises != NULL || out->hydrostatic != NULL || out->shear != NULL) {
+    stresses(ring, out);
+  }
+  if (out->contact != NULL) {
+    boundary_pressure(ring, out->contact);
+  }
+  if (out->triangle != NULL) {
+    static const int PART[12] = {0, 5, 3, 3, 4, 1, 5, 2, 4, 3, 5, 4};
+    for (int e = 0; e < mesh->elements; e++) {
+      for (int k = 0; k < 12; k++) {
+        out->triangle[12 * e + k] = mesh->tri[6 * e + PART[k]];
+      }
+    }
+  }
+  if (out->outline != NULL) {
+    for (int i = 0; i < mesh->loop_count; i++) {
+      out->outline[i] = mesh->loop[mesh->loop_count - 1 - i];
+    }
+  }
+}

@@ -1,0 +1,592 @@
+// Graded triangle meshes of a circular section.
+//
+// Rows of triangles follow the surface inwards; each row has as many vertices as its local size
+// asks for, so the mesh is fine under a contact and at its edges and coarse inside, which a
+// structured quadrilateral grid cannot do without carrying the fine spacing through the section.
+// The two halves share the axis of symmetry; equal plans give mirror meshes. Own construction.
+#include "engine/contact/ring/ring_mesh.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LAYERS_MAX = 24, ROW_MAX = 2000, SAMPLES = 720, BISECTIONS = 30, SMOOTHINGS = 4 };
+
+// Least shape of a triangle that a mesh may have, and how rows are tried: number of rows added and
+// how strongly their depth follows the surface size.
+static const double QUALITY_LEAST = 0.35;
+static const struct {
+  int rows;
+  double follow;
+} TRIAL[] = {{0, 0.5}, {1, 0.5}, {0, 0.3}, {1, 0.3}, {-1, 0.5}, {2, 0.3}, {0, 0.15}, {1, 0.0}};
+
+// Wanted size on the surface at an angle of one half (sign +1 right, -1 left).
+static double surface_size(const SbRingMeshPlan *plan, double angle, double growth) {
+  double size = plan->size_max;
+  for (int i = 0; i < plan->zone_count; i++) {
+    const SbRingZone *zone = &plan->zone[i];
+    // The angle and its turn by 2 pi, so that a zone may straddle the floor at +-pi.
+    double away = INFINITY;
+    for (int turn = -1; turn <= 1; turn++) {
+      double a = angle + turn * 2.0 * M_PI;
+      away = fmin(away, fmax(0.0, fmax(zone->from - a, a - zone->to)));
+    }
+    size = fmin(size, zone->size + growth * plan->radius * away);
+  }
+  return size;
+}
+
+// Depth below the surface after k of m rows, the first as thick as the surface size, geometric.
+static void row_depths(double *depth, double first, double total, int m) {
+  double low = 0.3, high = 6.0;
+  for (int i = 0; i < BISECTIONS; i++) {
+    double q = 0.5 * (low + high);
+    double sum = 0.0, t = first;
+    for (int k = 0; k < m; k++) {
+      sum += t;
+      t *= q;
+    }
+    *(sum > total ? &high : &low) = q;
+  }
+  double q = 0.5 * (low + high), sum = 0.0, t = first;
+  depth[0] = 0.0;
+  for (int k = 0; k < m; k++) {
+    sum += t;
+    depth[k + 1] = sum;
+    t *= q;
+  }
+  for (int k = 1; k <= m; k++) {
+    depth[k] *= total / sum;
+  }
+}
+
+// Everything that is needed while one mesh is built.
+typedef struct {
+  const SbRingMeshPlan *plan;
+  double follow; // share of the surface's growth that the rows' depth follows
+  SbRingMesh *mesh;
+  int vertex_count, vertex_max, tri_max;
+  double *vertex;        // [2 * vertex_max]
+  double *vertex_angle;  // [vertex_max]
+  bool *fixed, *on_axis; // [vertex_max] on the surface; on the axis of symmetry
+  double size[SAMPLES + 1], cumulative[SAMPLES + 1];
+  double depth[SAMPLES + 1][LAYERS_MAX + 1];
+  int row_count[2][LAYERS_MAX + 1];
+  int *rows, *place;
+  int *row[2][LAYERS_MAX + 1]; // vertices of each row and half, from bore to floor
+} Builder;
+
+static int add_vertex(Builder *b, double r, double z, double angle) {
+  b->vertex[2 * b->vertex_count] = r;
+  b->vertex[2 * b->vertex_count + 1] = z;
+  b->vertex_angle[b->vertex_count] = angle;
+  return b->vertex_count++;
+}
+
+// Fills the depths of all rows at all sampled angles of one half.
+static void sample_depths(Builder *b, int half) {
+  const SbRingMeshPlan *plan = b->plan;
+  double last = -1.0;
+  for (int i = 0; i <= SAMPLES; i++) {
+    double angle = (half == 0 ? M_PI : -M_PI) * i / SAMPLES;
+    b->size[i] = surface_size(plan, angle, plan->growth);
+    // Rows must not follow every change of the surface size, or coarse inner rows would cross them.
+    double size = surface_size(plan, angle, b->follow * plan->growth);
+    if (size == last) {
+      memcpy(b->depth[i], b->depth[i - 1], sizeof b->depth[i]);
+    } else {
+      row_depths(b->depth[i], size, plan->radius, plan->layers);
+    }
+    last = size;
+  }
+}
+
+// Angles where the surface row must have a vertex: both ends of the half and what the plan names.
+static int list_breaks(const SbRingMeshPlan *plan, int half, int k, double *at) {
+  int count = 0;
+  at[count++] = 0.0;
+  for (int i = 0; k == 0 && i < plan->vertex_count; i++) {
+    double angle = half == 0 ? plan->vertex[i] : -plan->vertex[i];
+    if (angle > 1e-3 && angle < M_PI - 1e-3) {
+      int j = count++;
+      for (; j > 1 && at[j - 1] > angle; j--) {
+        at[j] = at[j - 1];
+      }
+      at[j] = angle;
+    }
+  }
+  at[count++] = M_PI;
+  return count;
+}
+
+// Integral of 1/size from the bore to an angle, from the samples.
+static double cumulative_at(const double *cumulative, double angle) {
+  double place = angle / M_PI * SAMPLES;
+  int i = (int)fmin(SAMPLES - 1, floor(place));
+  return cumulative[i] + (place - i) * (cumulative[i + 1] - cumulative[i]);
+}
+
+// Places the vertices of one row of one half by equal shares of the integral of 1/size.
+static void place_row(Builder *b, int half, int k, int share_top, int share_bottom) {
+  const SbRingMeshPlan *plan = b->plan;
+  double sign = half == 0 ? 1.0 : -1.0;
+  double *cumulative = b->cumulative;
+  double before = 0.0;
+  cumulative[0] = 0.0;
+  for (int i = 0; i <= SAMPLES; i++) {
+    const double *depth = b->depth[i];
+    double size = k == 0 ? b->size[i] : 0.5 * (depth[k + 1] - depth[k - 1]);
+    double density = (plan->radius - depth[k]) / size;
+    if (i > 0) {
+      cumulative[i] = cumulative[i - 1] + 0.5 * (density + before) * M_PI / SAMPLES;
+    }
+    before = density;
+  }
+  double breaks[SB_RING_VERTICES_MAX + 2];
+  int break_count = list_breaks(plan, half, k, breaks);
+  int *row = b->row[half][k];
+  int count = 0, at = 0;
+  for (int s = 0; s + 1 < break_count; s++) {
+    double c0 = cumulative_at(cumulative, breaks[s]), c1 = cumulative_at(cumulative, breaks[s + 1]);
+    int n = (int)fmax(break_count == 2 ? 2.0 : 1.0, floor(c1 - c0 + 0.5));
+    n = n > ROW_MAX / SB_RING_VERTICES_MAX ? ROW_MAX / SB_RING_VERTICES_MAX : n;
+    for (int j = 0; j < n; j++) {
+      double want = c0 + (c1 - c0) * j / n;
+      while (at < SAMPLES - 1 && cumulative[at + 1] < want) {
+        at++;
+      }
+      double part = (want - cumulative[at]) / (cumulative[at + 1] - cumulative[at]);
+      double angle = j == 0 ? breaks[s] : M_PI * (at + fmin(1.0, fmax(0.0, part))) / SAMPLES;
+      part = angle / M_PI * SAMPLES - at;
+      double radius =
+          plan->radius - b->depth[at][k] - part * (b->depth[at + 1][k] - b->depth[at][k]);
+      bool axis = s == 0 && j == 0;
+      row[count++] = axis && half == 1
+                         ? share_top
+                         : add_vertex(b, plan->centre + radius * cos(angle),
+                                      axis ? 0.0 : sign * radius * sin(angle), sign * angle);
+    }
+  }
+  row[count++] = half == 1
+                     ? share_bottom
+                     : add_vertex(b, plan->centre - plan->radius + b->depth[SAMPLES][k], 0.0, M_PI);
+  b->row_count[half][k] = count;
+}
+
+// Shape of a triangle: 1 equilateral, 0 flat, negative if wound the other way than `sign`.
+static double quality(const double *a, const double *b, const double *c, double sign) {
+  double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+  double sides = (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) +
+                 (c[0] - b[0]) * (c[0] - b[0]) + (c[1] - b[1]) * (c[1] - b[1]) +
+                 (a[0] - c[0]) * (a[0] - c[0]) + (a[1] - c[1]) * (a[1] - c[1]);
+  return sign * 2.0 * sqrt(3.0) * area / sides;
+}
+
+static void add_triangle(SbRingMesh *mesh, const double *vertex, int a, int b, int c) {
+  // Counter-clockwise in (r, z) so that the area is positive.
+  double area = (vertex[2 * b] - vertex[2 * a]) * (vertex[2 * c + 1] - vertex[2 * a + 1]) -
+                (vertex[2 * c] - vertex[2 * a]) * (vertex[2 * b + 1] - vertex[2 * a + 1]);
+  int *tri = &mesh->tri[6 * mesh->elements++];
+  tri[0] = a;
+  tri[1] = area > 0.0 ? b : c;
+  tri[2] = area > 0.0 ? c : b;
+}
+
+static double distance2(const double *a, const double *b) {
+  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
+}
+
+// Joins an outer and an inner row: the shorter of the two possible diagonals, unless its triangle
+// would be flat and the other not.
+static void stitch(Builder *b, int half, int k) {
+  int *outer = b->row[half][k], *inner = b->row[half][k + 1];
+  int no = b->row_count[half][k], ni = b->row_count[half][k + 1];
+  const double *v = b->vertex;
+  double sign = half == 0 ? 1.0 : -1.0;
+  int i = 0, j = 0;
+  while (i < no - 1 || j < ni - 1) {
+    bool step_outer = j == ni - 1;
+    if (i < no - 1 && j < ni - 1) {
+      const double *o = &v[2 * outer[i]], *n = &v[2 * inner[j]];
+      const double *o1 = &v[2 * outer[i + 1]], *n1 = &v[2 * inner[j + 1]];
+      bool outer_flat = quality(o, o1, n, sign) < 0.1, inner_flat = quality(o, n1, n, sign) < 0.1;
+      step_outer = outer_flat == inner_flat ? distance2(o1, n) <= distance2(o, n1) : inner_flat;
+    }
+    if (step_outer) {
+      add_triangle(b->mesh, v, outer[i], outer[i + 1], inner[j]);
+      i++;
+    } else {
+      add_triangle(b->mesh, v, outer[i], inner[j + 1], inner[j]);
+      j++;
+    }
+  }
+}
+
+// Moves inner vertices to the mean of their neighbours where that betters their worst triangle.
+static void smooth(Builder *b) {
+  SbRingMesh *mesh = b->mesh;
+  int *start = b->place, *list = b->place + b->vertex_count + 1;
+  int vertices = b->vertex_count;
+  double *x = mesh->x, *moved = b->vertex; // the builder's own copy takes the new places
+  memset(start, 0, sizeof(int) * ((size_t)vertices + 1));
+  for (int i = 0; i < mesh->elements; i++) {
+    for (int a = 0; a < 3; a++) {
+      start[mesh->tri[6 * i + a] + 1]++;
+    }
+  }
+  for (int v = 0; v < vertices; v++) {
+    start[v + 1] += start[v];
+  }
+  for (int i = mesh->elements - 1; i >= 0; i--) {
+    for (int a = 0; a < 3; a++) {
+      int v = mesh->tri[6 * i + a];
+      list[--start[v + 1]] = i; // fills from the end; start[v + 1] becomes the start of v
+    }
+  }
+  // Here start[v + 1] .. start[v + 2] is the list of v (start of the next), the last ends at 3 m.
+  for (int sweep = 0; sweep < SMOOTHINGS; sweep++) {
+    for (int v = 0; v < vertices; v++) {
+      if (b->fixed[v]) {
+        continue;
+      }
+      int from = start[v + 1], to = v + 2 <= vertices ? start[v + 2] : 3 * mesh->elements;
+      double old[2] = {x[2 * v], x[2 * v + 1]}, mean[2] = {0.0, 0.0}, worst[2] = {1.0, 1.0};
+      int spokes = 2 * (to - from);
+      for (int pass = 0; pass < 2; pass++) {
+        for (int k = from; k < to; k++) {
+          const int *tri = &mesh->tri[6 * list[k]];
+          worst[pass] =
+              fmin(worst[pass], quality(&x[2 * tri[0]], &x[2 * tri[1]], &x[2 * tri[2]], 1.0));
+          for (int a = 0; a < 3 && pass == 0; a++) {
+            mean[0] += tri[a] == v ? 0.0 : x[2 * tri[a]];
+            mean[1] += tri[a] == v ? 0.0 : x[2 * tri[a] + 1];
+          }
+        }
+        if (pass == 0) {
+          // Half of the way, since the neighbours move as well.
+          x[2 * v] = 0.5 * (old[0] + mean[0] / spokes);
+          x[2 * v + 1] = b->on_axis[v] ? 0.0 : 0.5 * (old[1] + mean[1] / spokes);
+        }
+      }
+      bool better = worst[1] > worst[0];
+      moved[2 * v] = better ? x[2 * v] : old[0];
+      moved[2 * v + 1] = better ? x[2 * v + 1] : old[1];
+      x[2 * v] = old[0];
+      x[2 * v + 1] = old[1];
+    }
+    memcpy(x, moved, sizeof(double) * 2 * (size_t)vertices);
+  }
+}
+
+static int compare_sides(const void *a, const void *b) {
+  const int *p = a, *q = b;
+  return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
+}
+
+// Adds the mid-side nodes of all triangles; straight ones, the caller bends the boundary.
+static SbStatus add_midsides(SbRingMesh *mesh, SbReport *report) {
+  int sides = 3 * mesh->elements;
+  int(*side)[4] = malloc(sizeof(int[4]) * (size_t)sides);
+  if (side == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
+  }
+  for (int e = 0; e < mesh->elements; e++) {
+    for (int s = 0; s < 3; s++) {
+      int a = mesh->tri[6 * e + s], c = mesh->tri[6 * e + (s + 1) % 3];
+      side[3 * e + s][0] = a < c ? a : c;
+      side[3 * e + s][1] = a < c ? c : a;
+      side[3 * e + s][2] = e;
+      side[3 * e + s][3] = s;
+    }
+  }
+  qsort(side, (size_t)sides, sizeof(int[4]), compare_sides);
+  for (int i = 0; i < sides; i++) {
+    int node = mesh->nodes;
+    if (i > 0 && compare_sides(side[i], side[i - 1]) == 0) {
+      node--;
+    } else {
+      mesh->nodes++;
+      for (int k = 0; k < 2; k++) {
+        mesh->x[2 * node + k] = 0.5 * (mesh->x[2 * side[i][0] + k] + mesh->x[2 * side[i][1] + k]);
+      }
+    }
+    mesh->tri[6 * side[i][2] + 3 + side[i][3]] = node;
+  }
+  free(side);
+  return SB_OK;
+}
+
+static SbRingMesh *allocate_mesh(int vertices, int triangles, int loop) {
+  SbRingMesh *mesh = calloc(1, sizeof *mesh);
+  if (mesh == NULL) {
+    return NULL;
+  }
+  // Euler: fewer sides than vertices + triangles.
+  size_t nodes = 2 * (size_t)vertices + (size_t)triangles + 8;
+  mesh->x = calloc(2 * nodes, sizeof(double));
+  mesh->tri = calloc(6 * (size_t)triangles, sizeof(int));
+  mesh->loop = calloc((size_t)loop + 1, sizeof(int));
+  mesh->angle = calloc((size_t)loop + 1, sizeof(double));
+  if (mesh->x == NULL || mesh->tri == NULL || mesh->loop == NULL || mesh->angle == NULL) {
+    sb_ring_mesh_destroy(mesh);
+    return NULL;
+  }
+  return mesh;
+}
+
+void sb_ring_mesh_destroy(SbRingMesh *mesh) {
+  if (mesh != NULL) {
+    free(mesh->x);
+    free(mesh->tri);
+    free(mesh->loop);
+    free(mesh->angle);
+    free(mesh);
+  }
+}
+
+// Lists the boundary from the floor over the left flank to the bore and on, and bends its sides.
+static void close_loop(Builder *b) {
+  SbRingMesh *mesh = b->mesh;
+  int nl = b->row_count[1][0], nr = b->row_count[0][0];
+  int count = nl + nr - 2;
+  for (int i = 0; i < count; i++) {
+    int vertex = i < nl ? b->row[1][0][nl - 1 - i] : b->row[0][0][i - nl + 1];
+    mesh->loop[2 * i] = vertex;
+    mesh->angle[2 * i] = i == 0 ? -M_PI : b->vertex_angle[vertex];
+  }
+  mesh->loop_count = 2 * count;
+  // Boundary sides belong to one triangle each: find them through the vertices' place in the loop.
+  int *place = b->place;
+  for (int v = 0; v < b->vertex_count; v++) {
+    place[v] = -1;
+  }
+  for (int i = 0; i < count; i++) {
+    place[mesh->loop[2 * i]] = i;
+  }
+  for (int e = 0; e < mesh->elements; e++) {
+    for (int s = 0; s < 3; s++) {
+      int p = place[mesh->tri[6 * e + s]], q = place[mesh->tri[6 * e + (s + 1) % 3]];
+      if (p < 0 || q < 0 || ((p + 1) % count != q && (q + 1) % count != p)) {
+        continue;
+      }
+      int first = (p + 1) % count == q ? p : q;
+      double from = mesh->angle[2 * first];
+      double to = first + 1 < count ? mesh->angle[2 * first + 2] : M_PI;
+      int node = mesh->tri[6 * e + 3 + s];
+      double angle = 0.5 * (from + to);
+      mesh->loop[2 * first + 1] = node;
+      mesh->angle[2 * first + 1] = angle;
+      mesh->x[2 * node] = b->plan->centre + b->plan->radius * cos(angle);
+      mesh->x[2 * node + 1] = b->plan->radius * sin(angle);
+    }
+  }
+}
+
+static SbStatus build(SbRingMesh **out, Builder *b, SbReport *report) {
+  const SbRingMeshPlan *plan = b->plan;
+  int rows_max = 2 * (plan->layers + 1);
+  b->vertex_max = ROW_MAX * rows_max;
+  b->vertex = malloc(sizeof(double) * 2 * (size_t)b->vertex_max);
+  b->vertex_angle = malloc(sizeof(double) * (size_t)b->vertex_max);
+  b->fixed = calloc(2 * (size_t)b->vertex_max, sizeof(bool));
+  b->rows = malloc(sizeof(int) * ((size_t)rows_max * (ROW_MAX + 1) + 8 * (size_t)b->vertex_max));
+  if (b->vertex == NULL || b->fixed == NULL || b->vertex_angle == NULL || b->rows == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
+  }
+  int slot = 0;
+  for (int half = 0; half < 2; half++) {
+    for (int k = 0; k <= plan->layers; k++) {
+      b->row[half][k] = &b->rows[(size_t)(ROW_MAX + 1) * (size_t)slot++];
+    }
+  }
+  b->on_axis = b->fixed + b->vertex_max;
+  b->place = &b->rows[(size_t)(ROW_MAX + 1) * (size_t)slot];
+
+  // Vertices, row by row; the left half borrows the right half's vertices on the axis.
+  int segments = 0;
+  for (int half = 0; half < 2; half++) {
+    sample_depths(b, half);
+    for (int k = 0; k < plan->layers; k++) {
+      int last = half == 1 ? b->row_count[0][k] - 1 : 0;
+      place_row(b, half, k, b->row[0][k][0], b->row[0][k][last]);
+      segments += b->row_count[half][k];
+    }
+  }
+  int centre = add_vertex(b, plan->centre, 0.0, 0.0);
+  for (int half = 0; half < 2; half++) {
+    b->row[half][plan->layers][0] = centre;
+    b->row_count[half][plan->layers] = 1;
+  }
+
+  // Triangles, mid-sides, boundary.
+  int loop = 2 * (b->row_count[0][0] + b->row_count[1][0]);
+  SbRingMesh *mesh = b->mesh = allocate_mesh(b->vertex_count, 2 * segments, loop);
+  if (mesh == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
+  }
+  for (int half = 0; half < 2; half++) {
+    for (int k = 0; k < plan->layers; k++) {
+      stitch(b, half, k);
+    }
+  }
+  memcpy(mesh->x, b->vertex, sizeof(double) * 2 * (size_t)b->vertex_count);
+  mesh->nodes = b->vertex_count;
+  for (int half = 0; half < 2; half++) {
+    for (int i = 0; i < b->row_count[half][0]; i++) {
+      b->fixed[b->row[half][0][i]] = true;
+    }
+    for (int k = 0; k <= plan->layers; k++) {
+      b->on_axis[b->row[half][k][0]] = b->on_axis[b->row[half][k][b->row_count[half][k] - 1]] =
+          true;
+    }
+  }
+  smooth(b);
+  SbStatus status = add_midsides(mesh, report);
+  if (status != SB_OK) {
+    sb_ring_mesh_destroy(mesh);
+    return status;
+  }
+  close_loop(b);
+  *out = mesh;
+  return sb_succeed(report);
+}
+
+// Least triangle shape; 0 if the triangles overlap, that is, cover more than the outline.
+static double worst_quality(const SbRingMesh *mesh) {
+  double worst = 1.0, covered = 0.0, outline = 0.0;
+  const double *x = mesh->x;
+  for (int e = 0; e < mesh->elements; e++) {
+    const int *tri = &mesh->tri[6 * e];
+    const double *a = &x[2 * tri[0]], *b = &x[2 * tri[1]], *c = &x[2 * tri[2]];
+    worst = fmin(worst, quality(a, b, c, 1.0));
+    covered += (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+  }
+  for (int i = 0; i < mesh->loop_count; i += 2) {
+    const double *a = &x[2 * mesh->loop[i]], *b = &x[2 * mesh->loop[(i + 2) % mesh->loop_count]];
+    outline += a[0] * b[1] - a[1] * b[0];
+  }
+  return covered > outline * (1.0 + 1e-9) ? 0.0 : worst;
+}
+
+static SbStatus attempt(SbRingMesh **out, const SbRingMeshPlan *plan, double follow,
+                        SbReport *report) {
+  Builder *b = calloc(1, sizeof *b);
+  if (b == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
+  }
+  b->plan = plan;
+  b->follow = follow;
+  SbStatus status = build(out, b, report);
+  free(b->vertex);
+  free(b->vertex_angle);
+  free(b->fixed);
+  free(b->rows);
+  free(b);
+  return status;
+}
+
+SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbReport *report) {
+  *out = NULL;
+  if (plan->layers < 3 || plan->layers + 3 >= LAYERS_MAX || !(plan->size_max > 0.0)) {
+    return sb_fail(report, SB_ERROR_INPUT, "ring mesh with %d rows, size %g", plan->layers,
+                   plan->size_max);
+  }
+  // The first trial is nearly always good; the best one is kept.
+  double best = 0.0;
+  for (size_t i = 0; i < sizeof TRIAL / sizeof TRIAL[0] && best < QUALITY_LEAST; i++) {
+    SbRingMeshPlan trial = *plan;
+    trial.layers += TRIAL[i].rows;
+    SbRingMesh *mesh = NULL;
+    SbStatus status = attempt(&mesh, &trial, TRIAL[i].follow, report);
+    if (status != SB_OK) {
+      sb_ring_mesh_destroy(*out);
+      *out = NULL;
+      return status;
+    }
+    double worst = worst_quality(mesh);
+    bool better = worst > best;
+    sb_ring_mesh_destroy(better ? *out : mesh);
+    *out = better ? mesh : *out;
+    best = fmax(best, worst);
+  }
+  return *out != NULL ? sb_succeed(report)
+                      : sb_fail(report, SB_ERROR_NOT_CONVERGED, "no ring mesh with these zones");
+}
+
+SbStatus sb_ring_mesh_create_rectangle(SbRingMesh **out, double r0, double r1, double z0, double z1,
+                                       int nr, int nz, SbReport *report) {
+  *out = NULL;
+  SbRingMesh *mesh = allocate_mesh((nr + 1) * (nz + 1), 2 * nr * nz, 0);
+  if (mesh == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a mesh of %d x %d cells", nr, nz);
+  }
+  for (int j = 0; j <= nz; j++) {
+    for (int i = 0; i <= nr; i++) {
+      int v = j * (nr + 1) + i;
+      mesh->x[2 * v] = r0 + (r1 - r0) * i / nr;
+      mesh->x[2 * v + 1] = z0 + (z1 - z0) * j / nz;
+    }
+  }
+  mesh->nodes = (nr + 1) * (nz + 1);
+  for (int j = 0; j < nz; j++) {
+    for (int i = 0; i < nr; i++) {
+      int v = j * (nr + 1) + i;
+      add_triangle(mesh, mesh->x, v, v + 1, v + nr + 2);
+      add_triangle(mesh, mesh->x, v, v + nr + 2, v + nr + 1);
+    }
+  }
+  SbStatus status = add_midsides(mesh, report);
+  if (status != SB_OK) {
+    sb_ring_mesh_destroy(mesh);
+    return status;
+  }
+  *out = mesh;
+  return sb_succeed(report);
+}
+
+void sb_ring_shape(double l1, double l2, double n[6], double dn1[6], double dn2[6]) {
+  double l0 = 1.0 - l1 - l2;
+  n[0] = l0 * (2.0 * l0 - 1.0);
+  n[1] = l1 * (2.0 * l1 - 1.0);
+  n[2] = l2 * (2.0 * l2 - 1.0);
+  n[3] = 4.0 * l0 * l1;
+  n[4] = 4.0 * l1 * l2;
+  n[5] = 4.0 * l2 * l0;
+  dn1[0] = 1.0 - 4.0 * l0;
+  dn1[1] = 4.0 * l1 - 1.0;
+  dn1[2] = 0.0;
+  dn1[3] = 4.0 * (l0 - l1);
+  dn1[4] = 4.0 * l2;
+  dn1[5] = -4.0 * l2;
+  dn2[0] = 1.0 - 4.0 * l0;
+  dn2[1] = 0.0;
+  dn2[2] = 4.0 * l2 - 1.0;
+  dn2[3] = -4.0 * l1;
+  dn2[4] = 4.0 * l1;
+  dn2[5] = 4.0 * (l0 - l2);
+}
+
+int sb_ring_mesh_locate(const SbRingMesh *mesh, const double x[2], double *l1, double *l2) {
+  int best = 0;
+  double best_out = INFINITY;
+  for (int e = 0; e < mesh->elements; e++) {
+    const int *tri = &mesh->tri[6 * e];
+    const double *a = &mesh->x[2 * tri[0]], *b = &mesh->x[2 * tri[1]], *c = &mesh->x[2 * tri[2]];
+    double d11 = b[0] - a[0], d12 = c[0] - a[0], d21 = b[1] - a[1], d22 = c[1] - a[1];
+    double det = d11 * d22 - d12 * d21;
+    double m1 = ((x[0] - a[0]) * d22 - (x[1] - a[1]) * d12) / det;
+    double m2 = ((x[1] - a[1]) * d11 - (x[0] - a[0]) * d21) / det;
+    double out = fmax(fmax(-m1, -m2), m1 + m2 - 1.0);
+    if (out < best_out) {
+      best_out = out;
+      best = e;
+      *l1 = m1;
+      *l2 = m2;
+      if (out <= 0.0) {
+        break;
+      }
+    }
+  }
+  return best;
+}

@@ -1,0 +1,250 @@
+// Puts the ring into its groove and brings on the fluid: first guesses, leaning on the wall, the
+// ring that only the fluid closes.
+//
+// Fitting starts from a volume-preserving guess (uniform stretch and part of the squeeze) with
+// every node beyond a surface held there; the contact's active set lets go of what is too much.
+// Pressure comes after, from the ring pushed against its wall. Leaves out friction, which acts from
+// the fitted state on.
+#include "engine/contact/ring/ring_private.h"
+
+#include <math.h>
+#include <string.h>
+
+SbRingNewton sb_ring_newton_options(const SbRing *ring) {
+  SbRingNewton newton = {
+      .iterations_max = ring->options.iterations_max,
+      .step_least = ring->options.step_least,
+      .stumbles_max = 4,
+      .walks = true,
+      .correction_max = 0.15,
+      .poll = ring->options.poll,
+      .poll_data = ring->options.poll_data,
+  };
+  return newton;
+}
+
+// Volume-preserving guess: uniform stretch and a share of the squeeze, sunk into the floor by what
+// a stretched ring flattens there (about 0.3 of its inner stretch, measured), so that the contacts
+// start with some width.
+static void guess(SbRing *ring, const SbRingSetting *s, double share) {
+  bool plane = ring->body.plane_strain;
+  double inner = ring->centre - 0.5;
+  double low = fmax(s->floor, fmin(inner, s->bore - 1.0));
+  double space = s->bore - low;
+  double stretch = plane ? 1.0 : (low + 0.5 * fmin(space, 1.0)) / ring->centre;
+  double flat = plane ? 0.0 : fmin(0.1, 0.3 * fmax(0.0, low / inner - 1.0));
+  double thickness = 1.0 / sqrt(stretch);
+  double squeeze = fmax(0.0, thickness - flat - space);
+  thickness -= share * squeeze;
+  double centre = low - flat - 0.5 * (1.0 - share) * squeeze + 0.5 * thickness;
+  stretch = plane ? 1.0 : centre / ring->centre;
+  // An end of the land under the ring pushes it to the wall on the open side; start there, since
+  // without friction the state in the middle of the groove is not stable.
+  double half = 0.5 / (stretch * thickness), shift = 0.0;
+  if (fabs(s->land_right) < 0.6 && isfinite(s->wall_right)) {
+    shift = s->wall_right - half;
+  } else if (fabs(s->land_left) < 0.6 && isfinite(s->wall_left)) {
+    shift = s->wall_left + half;
+  }
+  SbRingFem *fem = ring->fem;
+  for (int i = 0; i < ring->mesh->nodes; i++) {
+    double r = ring->mesh->x[2 * i], z = ring->mesh->x[2 * i + 1];
+    fem->u[2 * i] = centre + thickness * (r - ring->centre) - r;
+    fem->u[2 * i + 1] = z / (stretch * thickness) + shift - z;
+  }
+  memset(fem->inner, 0, sizeof(double) * SB_RING_INNER * (size_t)ring->mesh->elements);
+}
+
+// A pressure difference with nothing to lean on: push the ring against its wall.
+static SbStatus lean(SbRing *ring, const SbRingSetting *s, bool *leaned, SbReport *report) {
+  SbRingContact *contact = ring->contact;
+  double difference = s->pressure_left - s->pressure_right;
+  bool rubs = s->use_traction;
+  *leaned = false;
+  for (int k = 0; k < SB_RING_SURFACES; k++) {
+    rubs = rubs || s->friction[k] > 0.0;
+  }
+  bool land = s->land_left > -INFINITY || s->land_right < INFINITY;
+  SbRingPatch patch;
+  if (difference == 0.0 && land && !rubs && sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+    // A chamfer under the contact pushes towards its open side; without friction the ring would
+    // otherwise balance on the land's edge, which is not stable.
+    if (s->land_right < patch.place[1] && isfinite(s->wall_right)) {
+      difference = 1e-3;
+    } else if (s->land_left > patch.place[0] && isfinite(s->wall_left)) {
+      difference = -1e-3;
+    }
+  }
+  if (difference == 0.0) {
+    return SB_OK;
+  }
+  SbRingSurface wall = difference > 0.0 ? SB_RING_WALL_RIGHT : SB_RING_WALL_LEFT;
+  double place = difference > 0.0 ? s->wall_right : s->wall_left;
+  if (!isfinite(place)) {
+    return rubs || land ? SB_OK
+                        : sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
+                                            "no groove wall holds the ring against the pressure");
+  }
+  double least = INFINITY;
+  for (int i = 0; i < contact->count; i++) {
+    int node = ring->mesh->loop[i];
+    double z = ring->mesh->x[2 * node + 1] + ring->fem->u[2 * node + 1];
+    if (contact->touch[SB_RING_SURFACES * i + wall].held) {
+      return SB_OK;
+    }
+    double gap = fabs(place - z);
+    least = fmin(least, gap);
+  }
+  if (rubs) {
+    return SB_OK; // friction decides how far it goes
+  }
+  // Sunk in by a little more than it takes, so that the wall contact starts with some width.
+  double sunk = fmin(0.06, fmax(0.003, 0.05 * fabs(difference)));
+  double shift = difference > 0.0 ? least + sunk : -least - sunk;
+  *leaned = true;
+  for (int i = 0; i < ring->mesh->nodes; i++) {
+    ring->fem->u[2 * i + 1] += shift;
+  }
+  for (int i = 0; i < contact->count; i++) {
+    int node = ring->mesh->loop[i];
+    double z = ring->mesh->x[2 * node + 1] + ring->fem->u[2 * node + 1];
+    SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i];
+    touch[wall].held = difference > 0.0 ? z >= place : z <= place;
+    touch[difference > 0.0 ? SB_RING_WALL_LEFT : SB_RING_WALL_RIGHT].held = false;
+  }
+  return SB_OK;
+}
+
+// To another setting, leaning first where that is wanted. If pushing the ring to its wall was too
+// rough, it is followed there instead.
+SbStatus sb_ring_press(SbRing *ring, const SbRingSetting *target, SbReport *report) {
+  SbRingNewton newton = sb_ring_newton_options(ring);
+  bool leaned;
+  sb_ring_fem_save(ring->fem, 2);
+  sb_ring_contact_save(ring->contact, 1);
+  SbStatus status = lean(ring, target, &leaned, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  int steps = ring->count.steps;
+  newton.walks = !leaned;
+  status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
+  if (leaned && status == SB_ERROR_NOT_CONVERGED) {
+    if (ring->count.steps == steps) {
+      sb_ring_fem_restore(ring->fem, 2);
+      sb_ring_contact_restore(ring->contact, 1);
+    }
+    newton.walks = true;
+    status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
+  }
+  return status;
+}
+
+// Presses a ring that does not touch the bore by itself. The sealed state, which the fluid holds
+// once something has closed the gap, ends in a fold as the gap grows, where the contact has still
+// some width: it is followed from a bore that touches, outwards, as far as it goes. Beyond, the
+// fluid passes the ring.
+static SbStatus press_open(SbRing *ring, const SbRingSetting *target, SbReport *report) {
+  static const double CLOSED = 0.05;
+  SbRingNewton newton = sb_ring_newton_options(ring);
+  double top = 0.0;
+  for (int i = 0; i < ring->contact->count; i++) {
+    int node = ring->mesh->loop[i];
+    top = fmax(top, ring->mesh->x[2 * node] + ring->fem->u[2 * node]);
+  }
+  SbRingSetting tight = *target;
+  tight.bore = fmin(target->bore, top - CLOSED);
+  SbRingSetting dry = tight;
+  dry.pressure_left = dry.pressure_right = 0.0;
+  SbStatus status = sb_ring_advance(ring->contact, &dry, &newton, &ring->count, report);
+  if (status == SB_OK) {
+    status = sb_ring_press(ring, &tight, report);
+  }
+  if (status != SB_OK) {
+    return status;
+  }
+  // Short of the fold Newton's method takes few iterations; a step that loses the contact went
+  // past.
+  newton.walks = false;
+  newton.iterations_max = 14;
+  newton.step_least = 1.0;
+  double done = 0.0, share = 0.25;
+  while (done < 1.0 && share >= 1.0 / 32.0) {
+    SbRingSetting good = ring->contact->now, next = *target;
+    double to = fmin(1.0, done + share);
+    next.bore = to >= 1.0 ? target->bore : tight.bore + to * (target->bore - tight.bore);
+    sb_ring_fem_save(ring->fem, 2);
+    sb_ring_contact_save(ring->contact, 1);
+    SbRingPatch patch;
+    status = sb_ring_advance(ring->contact, &next, &newton, &ring->count, report);
+    if (status == SB_OK && sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+      done = to;
+      share *= 1.5;
+    } else if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+      sb_ring_fem_restore(ring->fem, 2);
+      sb_ring_contact_restore(ring->contact, 1);
+      ring->contact->now = good;
+      share *= 0.5;
+    } else {
+      return status;
+    }
+  }
+  if (done < 1.0) {
+    double l = ring->length, p = fmax(target->pressure_left, target->pressure_right);
+    const SbRingSetting *now = &ring->contact->now;
+    return sb_fail_parameter(
+        report, SB_ERROR_INFEASIBLE, "gland.radial_space",
+        "the fluid passes the ring: without pressure it does not touch the bore, and what %.3g MPa "
+        "presses on it holds up to a radial space of %.5g mm, not %.5g mm",
+        1e-6 * p * ring->stress, 1e3 * l * (now->bore - now->floor),
+        1e3 * l * (target->bore - target->floor));
+  }
+  return sb_succeed(report);
+}
+
+// Fits the ring without fluid and friction, then brings on the fluid.
+SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingSetting *smooth, SbReport *report) {
+  SbRingNewton newton = sb_ring_newton_options(ring);
+  SbRingSetting dry = *smooth;
+  dry.pressure_left = dry.pressure_right = 0.0;
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  // Guesses with different shares of the squeeze, then a small squeeze that grows.
+  static const double SHARE[] = {0.4, 0.0};
+  for (size_t i = 0; i < sizeof SHARE / sizeof SHARE[0] && status == SB_ERROR_NOT_CONVERGED; i++) {
+    ring->contact->now = dry;
+    guess(ring, &dry, SHARE[i]);
+    sb_ring_contact_detect(ring->contact);
+    status = sb_ring_newton(ring->contact, &newton, &ring->count, report);
+  }
+  if (status == SB_ERROR_NOT_CONVERGED) {
+    SbRingSetting wide = dry;
+    wide.bore = fmax(dry.bore, dry.floor + 0.85);
+    guess(ring, &wide, 0.4);
+    // The ends of the land come in from outside.
+    wide.land_right = fmax(dry.land_right, 1.5);
+    wide.land_left = fmin(dry.land_left, -1.5);
+    ring->contact->now = wide;
+    sb_ring_contact_detect(ring->contact);
+    status = sb_ring_newton(ring->contact, &newton, &ring->count, report);
+    SbRingSetting squeezed = wide;
+    squeezed.bore = dry.bore;
+    if (status == SB_OK) {
+      status = sb_ring_advance(ring->contact, &squeezed, &newton, &ring->count, report);
+    }
+    if (status == SB_OK) {
+      status = sb_ring_advance(ring->contact, &dry, &newton, &ring->count, report);
+    }
+  }
+  if (status != SB_OK) {
+    return status;
+  }
+  ring->count.steps = ring->count.steps > 0 ? ring->count.steps : 1;
+  if (smooth->pressure_left != 0.0 || smooth->pressure_right != 0.0) {
+    SbRingPatch patch;
+    bool touches = sb_ring_patch(ring, SB_RING_BORE, &patch);
+    bool differ = smooth->pressure_left != smooth->pressure_right;
+    status =
+        touches || !differ ? sb_ring_press(ring, smooth, report) : press_open(ring, smooth, report);
+  }
+  return status;
+}

@@ -1,0 +1,299 @@
+// The contact pressure recovered from nodal forces: a smooth curve with the same load, and its
+// ends.
+//
+// Nodal forces are what the element solver knows of the pressure: f_i = int N_i p dA. Divided by
+// the nodes' areas they zigzag between vertices and mid-sides and end at the nearest node; as
+// weights of a smooth p they are far more accurate (they are the residual of the balance, tested
+// with the elements' own shape functions). So the pressure of a smooth contact (Johnson, Contact
+// Mechanics, 2.7),
+//   p = p_first (1 - t/pi) + p_last t/pi + sum a_k sin((k + 1) t),   place = middle - half cos t,
+// is fitted to them: least squares of (f_i - int N_i p dA)^2 / area_i with the total force held
+// exactly, linear in a_k, and Gauss-Newton's method on both ends, which the residual tells about
+// ten times more sharply than the gaps of single nodes do. The number of terms is the one of the
+// least generalised cross-validation (Golub, Heath and Wahba 1979). The outermost held node takes
+// no part but in the total: its force is that of an end that the mesh cannot place. On sides that
+// the fluid still bears in the balance only the excess over it is in f_i. Leaves out contacts in
+// several parts and pressures with a corner in them (a land's edge under the contact): there the
+// fit is not good enough and says so.
+#include "engine/contact/ring/ring_private.h"
+#include "engine/numeric/eliminate.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { ROWS_MAX = 640, TERMS_LEAST = 3, POINTS = 4, ENDS_MAX = 12 };
+
+// Largest root mean square of what the curve leaves of the nodal pressures, over theirs; above the
+// zigzag of a coarse mesh, below what a corner or a second contact leaves.
+static const double MISFIT = 0.03;
+
+static const double GAUSS_X[POINTS] = {-0.861136311594052575, -0.339981043584856265,
+                                       0.339981043584856265, 0.861136311594052575};
+static const double GAUSS_W[POINTS] = {0.347854845137453857, 0.652145154862546143,
+                                       0.652145154862546143, 0.347854845137453857};
+
+// One contact: its nodes from one before the first held to one after the last, along the loop. The
+// place of node i is x[i], rising; r[i] is its radius, or 1 in the plane.
+typedef struct {
+  int rows, terms;
+  double x[ROWS_MAX], r[ROWS_MAX], z[ROWS_MAX];
+  double force[ROWS_MAX], area[ROWS_MAX];
+  bool fits[ROWS_MAX];   // takes part in the least squares
+  bool closed[ROWS_MAX]; // of the side that begins at an even row
+  double turn, end_pressure[2];
+  double range[2][2]; // what either end may be
+  // Of the last fit.
+  double matrix[ROWS_MAX][SB_RING_PRESSURE_TERMS], known[ROWS_MAX];
+  double a[SB_RING_PRESSURE_TERMS];
+} Fit;
+
+static bool collect(Fit *fit, const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch) {
+  const SbRingContact *contact = ring->contact;
+  const SbRingMesh *mesh = ring->mesh;
+  int count = contact->count;
+  // Whole sides, so that even rows are vertices.
+  int first = patch->first - 2 + (patch->first + 2) % 2, last = patch->last + 2 - patch->last % 2;
+  int axis = surface == SB_RING_BORE || surface == SB_RING_FLOOR ? 1 : 0;
+  double sign = surface == SB_RING_BORE || surface == SB_RING_WALL_LEFT ? 1.0 : -1.0;
+  fit->rows = last - first + 1;
+  if (fit->rows > ROWS_MAX || fit->rows < 9 || fit->rows > count) {
+    return false;
+  }
+  fit->turn = ring->fem->axisymmetric ? 2.0 * M_PI : 1.0;
+  for (int i = 0; i < fit->rows; i++) {
+    int place = ((first + i) % count + count) % count, node = mesh->loop[place];
+    double x[2] = {mesh->x[2 * node] + ring->fem->u[2 * node],
+                   mesh->x[2 * node + 1] + ring->fem->u[2 * node + 1]};
+    const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * place + surface];
+    fit->x[i] = sign * x[axis];
+    fit->z[i] = sign * x[1 - axis];
+    fit->r[i] = ring->fem->axisymmetric ? x[0] : 1.0;
+    fit->fits[i] = touch->held && first + i > patch->first && first + i < patch->last;
+    fit->force[i] = touch->held ? touch->force : 0.0;
+    fit->area[i] = contact->weight[place];
+    fit->closed[i] = contact->closed[place / 2];
+    bool inside = first + i >= patch->first && first + i <= patch->last;
+    if (inside && !(touch->held && fit->area[i] > 0.0)) {
+      return false; // in parts
+    }
+    if (i > 0 && !(fit->x[i] > fit->x[i - 1]) && (inside || first + i - 1 >= patch->first)) {
+      return false; // folded
+    }
+  }
+  for (int end = 0; end < 2; end++) {
+    fit->end_pressure[end] = patch->end_pressure[end];
+    // From the open neighbour to two nodes inside the last held one.
+    int at = (end == 0 ? patch->first : patch->last) - first, out = end == 0 ? -1 : 1;
+    fit->range[end][0] = fmin(fit->x[at + out], fit->x[at - 2 * out]);
+    fit->range[end][1] = fmax(fit->x[at + out], fit->x[at - 2 * out]);
+  }
+  return true;
+}
+
+// Coefficients for given ends; the residual per root of the area, and its mean square over that of
+// the nodal pressures. Negative if there is none.
+static double solve(Fit *fit, const double end[2], double *residual) {
+  enum { N = SB_RING_PRESSURE_TERMS + 1 };
+  int terms = fit->terms, order = terms + 1;
+  double middle = 0.5 * (end[0] + end[1]), half = 0.5 * (end[1] - end[0]);
+  double total[SB_RING_PRESSURE_TERMS] = {0.0}, load = 0.0;
+  memset(fit->matrix, 0, sizeof fit->matrix[0] * (size_t)fit->rows);
+  memcpy(fit->known, fit->force, sizeof fit->known[0] * (size_t)fit->rows);
+  for (int i = 0; i < fit->rows; i++) {
+    load += fit->force[i];
+  }
+  for (int i = 0; i + 2 < fit->rows; i += 2) {
+    const double *x = &fit->x[i], *r = &fit->r[i], *z = &fit->z[i];
+    double low = fmax(x[0], end[0]), high = fmin(x[2], end[1]);
+    if (!(high > low)) {
+      continue;
+    }
+    double from = acos(fmin(1.0, fmax(-1.0, (middle - low) / half)));
+    double to = acos(fmin(1.0, fmax(-1.0, (middle - high) / half)));
+    double xi = -1.0;
+    for (int q = 0; q < POINTS; q++) {
+      double t = 0.5 * (from + to) + 0.5 * (to - from) * GAUSS_X[q], c = cos(t), s = sin(t);
+      double at = middle - half * c, slope = 1.0;
+      for (int k = 0; k < 4; k++) {
+        slope = (xi - 0.5) * x[0] - 2.0 * xi * x[1] + (xi + 0.5) * x[2];
+        xi -= (0.5 * xi * (xi - 1.0) * x[0] + (1.0 - xi * xi) * x[1] +
+               0.5 * xi * (xi + 1.0) * x[2] - at) /
+              slope;
+      }
+      double n[3] = {0.5 * xi * (xi - 1.0), 1.0 - xi * xi, 0.5 * xi * (xi + 1.0)};
+      double across = ((xi - 0.5) * z[0] - 2.0 * xi * z[1] + (xi + 0.5) * z[2]) / slope;
+      double area = 0.5 * (to - from) * GAUSS_W[q] * half * s * sqrt(1.0 + across * across) *
+                    fit->turn * (n[0] * r[0] + n[1] * r[1] + n[2] * r[2]);
+      double known = fit->end_pressure[0] * (1.0 - t / M_PI) + fit->end_pressure[1] * t / M_PI;
+      if (!fit->closed[i]) {
+        known -= fit->end_pressure[at < middle ? 0 : 1];
+      }
+      // sin((k + 1) t) by its recurrence.
+      double wave[SB_RING_PRESSURE_TERMS], before = 0.0, now = s;
+      for (int k = 0; k < terms; k++) {
+        wave[k] = area * now;
+        total[k] += wave[k];
+        double next = 2.0 * c * now - before;
+        before = now;
+        now = next;
+      }
+      load -= area * known;
+      for (int b = 0; b < 3; b++) {
+        fit->known[i + b] -= n[b] * area * known;
+        for (int k = 0; k < terms; k++) {
+          fit->matrix[i + b][k] += n[b] * wave[k];
+        }
+      }
+    }
+  }
+  double normal[N * N] = {0.0}, b[N] = {0.0};
+  for (int i = 0; i < fit->rows; i++) {
+    for (int k = 0; k < terms && fit->fits[i]; k++) {
+      double weighted = fit->matrix[i][k] / fit->area[i];
+      b[k] += weighted * fit->known[i];
+      for (int l = 0; l < terms; l++) {
+        normal[l * order + k] += weighted * fit->matrix[i][l];
+      }
+    }
+  }
+  for (int k = 0; k < terms; k++) {
+    normal[terms * order + k] = normal[k * order + terms] = total[k];
+  }
+  b[terms] = load;
+  if (!sb_eliminate(normal, b, (size_t)order)) {
+    return -1.0;
+  }
+  memcpy(fit->a, b, sizeof fit->a[0] * (size_t)terms);
+  double left = 0.0, whole = 0.0;
+  for (int i = 0; i < fit->rows; i++) {
+    double rest = fit->known[i];
+    for (int k = 0; k < terms; k++) {
+      rest -= fit->matrix[i][k] * fit->a[k];
+    }
+    residual[i] = fit->fits[i] ? rest / sqrt(fit->area[i]) : 0.0;
+    left += residual[i] * residual[i];
+    whole += fit->fits[i] ? fit->force[i] * fit->force[i] / fit->area[i] : 0.0;
+  }
+  return whole > 0.0 ? left / whole : -1.0;
+}
+
+// Both ends by Gauss-Newton's method; the mean square, negative if there is none.
+static double find_ends(Fit *fit, double end[2]) {
+  double here[ROWS_MAX], there[ROWS_MAX], slope[2][ROWS_MAX];
+  double width = end[1] - end[0], step = 1e-5 * width, best = solve(fit, end, here);
+  for (int it = 0; it < ENDS_MAX && best >= 0.0; it++) {
+    double m[3] = {0.0}, b[2] = {0.0};
+    for (int k = 0; k < 2; k++) {
+      double moved[2] = {end[0], end[1]};
+      moved[k] += step;
+      if (solve(fit, moved, there) < 0.0) {
+        return -1.0;
+      }
+      for (int i = 0; i < fit->rows; i++) {
+        slope[k][i] = (there[i] - here[i]) / step;
+        b[k] -= slope[k][i] * here[i];
+      }
+    }
+    for (int i = 0; i < fit->rows; i++) {
+      m[0] += slope[0][i] * slope[0][i];
+      m[1] += slope[0][i] * slope[1][i];
+      m[2] += slope[1][i] * slope[1][i];
+    }
+    double det = m[0] * m[2] - m[1] * m[1];
+    if (!(det > 0.0)) {
+      return -1.0;
+    }
+    double move[2] = {(m[2] * b[0] - m[1] * b[1]) / det, (m[0] * b[1] - m[1] * b[0]) / det};
+    double most = fmax(fabs(move[0]), fabs(move[1])), share = fmin(1.0, 0.05 * width / most);
+    bool better = false;
+    for (int half = 0; half < 4 && !better; half++, share *= 0.5) {
+      double trial[2];
+      for (int k = 0; k < 2; k++) {
+        trial[k] = fmin(fit->range[k][1], fmax(fit->range[k][0], end[k] + share * move[k]));
+      }
+      double found = solve(fit, trial, there);
+      better = found >= 0.0 && found < best;
+      if (better) {
+        double moved = fmax(fabs(trial[0] - end[0]), fabs(trial[1] - end[1]));
+        memcpy(end, trial, sizeof trial);
+        memcpy(here, there, sizeof here);
+        better = found < best * (1.0 - 1e-6) || moved > 1e-7 * width;
+        best = found;
+      }
+    }
+    if (!better) {
+      break;
+    }
+  }
+  return solve(fit, end, here);
+}
+
+double sb_ring_pressure_at(const SbRingPressure *p, double share) {
+  if (share <= 0.0 || share >= 1.0) {
+    return p->end_pressure[share <= 0.0 ? 0 : 1];
+  }
+  double t = acos(fmin(1.0, fmax(-1.0, 1.0 - 2.0 * share))), sum = 0.0;
+  for (int k = 0; k < p->terms; k++) {
+    sum += p->a[k] * sin((k + 1) * t);
+  }
+  return sum + p->end_pressure[0] * (1.0 - t / M_PI) + p->end_pressure[1] * t / M_PI;
+}
+
+// Whether the curve rises from both ends and nowhere falls below the lower of their pressures.
+static bool presses(const SbRingPressure *p) {
+  enum { SAMPLES = 320 }; // those of the profile
+  double slope[2] = {(p->end_pressure[1] - p->end_pressure[0]) / M_PI,
+                     (p->end_pressure[0] - p->end_pressure[1]) / M_PI};
+  for (int k = 0; k < p->terms; k++) {
+    slope[0] += (k + 1) * p->a[k];
+    slope[1] += (k % 2 == 0 ? 1.0 : -1.0) * (k + 1) * p->a[k];
+  }
+  double low = fmin(p->end_pressure[0], p->end_pressure[1]);
+  bool good = slope[0] >= 0.0 && slope[1] >= 0.0;
+  for (int i = 0; i <= SAMPLES && good; i++) {
+    good = sb_ring_pressure_at(p, 0.5 * (1.0 - cos(M_PI * i / SAMPLES))) >= low;
+  }
+  return good;
+}
+
+bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch,
+                     SbRingPressure *out) {
+  Fit fit;
+  if (!collect(&fit, ring, surface, patch)) {
+    return false;
+  }
+  double sign = surface == SB_RING_BORE || surface == SB_RING_WALL_LEFT ? 1.0 : -1.0;
+  double least = HUGE_VAL, end[2] = {sign * patch->place[0], sign * patch->place[1]};
+  int held = patch->last - patch->first - 1, worse = 0;
+  // A term of the wrong parity changes nothing: two that do not help end the search.
+  for (int terms = TERMS_LEAST; terms <= SB_RING_PRESSURE_TERMS && terms + 3 < held && worse < 2;
+       terms++) {
+    fit.terms = terms;
+    worse++;
+    double left = find_ends(&fit, end);
+    double free = 1.0 - (double)(terms + 2) / held;
+    if (left >= 0.0 && left < MISFIT * MISFIT && left / (free * free) < least) {
+      SbRingPressure trial = {.terms = terms};
+      for (int k = 0; k < 2; k++) {
+        trial.place[k] = sign * end[k];
+        trial.end_pressure[k] = patch->end_pressure[k];
+      }
+      memcpy(trial.a, fit.a, sizeof fit.a[0] * (size_t)terms);
+      if (presses(&trial)) {
+        least = left / (free * free);
+        worse = 0;
+        *out = trial;
+      }
+    }
+  }
+  return least < HUGE_VAL;
+}
+
+bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
+                  SbRingPressure *pressure) {
+  if (!sb_ring_recover(ring, surface, patch, pressure)) {
+    return false;
+  }
+  memcpy(patch->place, pressure->place, sizeof patch->place);
+  return true;
+}

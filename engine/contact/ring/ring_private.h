@@ -1,0 +1,69 @@
+// What a ring object holds. Internal to the ring.
+#pragma once
+
+#include "engine/contact/ring/ring.h"
+#include "engine/contact/ring/ring_newton.h"
+
+struct SbRing {
+  SbRingBody body;
+  SbRingLoad load;
+  SbRingOptions options;
+  double length, stress, force; // units of the element solver: d, mu, mu d^2 (mu d in the plane)
+  double centre;                // radius of the free section's centre, in section diameters
+  SbRingMesh *mesh;
+  SbRingFem *fem;
+  SbRingContact *contact;
+  SbRingCount count;
+};
+
+// One contiguous contact with a surface, in the order of the loop.
+typedef struct {
+  int first, last;        // loop places of the outermost held nodes (last may exceed the count)
+  double angle[2];        // material angle of both ends, angle[0] < angle[1]
+  double place[2];        // place of both ends along the surface (z, or r for a wall)
+  double end_pressure[2]; // fluid pressure at both ends
+} SbRingPatch;
+
+// Finds a surface's contact; false if it does not touch.
+SB_CHECKED bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch);
+
+// Contact pressure at a loop node (element solver's units), from the excess over the fluid's.
+double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface);
+
+enum { SB_RING_PRESSURE_TERMS = 8 };
+
+// A contact's pressure as a smooth curve with the load of the nodal forces (ring_pressure.c).
+typedef struct {
+  double place[2], end_pressure[2]; // in the order of the loop, as of a patch
+  int terms;
+  double a[SB_RING_PRESSURE_TERMS];
+} SbRingPressure;
+
+// Recovers the pressure of a surface's contact; false where no smooth curve fits it.
+SB_CHECKED bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch,
+                                SbRingPressure *out);
+
+// The same for a patch that sb_ring_patch has found, whose places of the ends are replaced by the
+// recovered ones. False where they stay as they are.
+bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
+                  SbRingPressure *pressure);
+
+// Its value at a share (0 .. 1) of the way from the first to the last end.
+double sb_ring_pressure_at(const SbRingPressure *pressure, double share);
+
+// Replaces the mesh by one fitted to the present contacts and solves on it; the state before is
+// kept if that fails.
+SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
+
+// Newton's method as the ring's options want it.
+SbRingNewton sb_ring_newton_options(const SbRing *ring);
+
+// Fits the ring anew without friction at a setting, fluid last, on its present mesh. Errors as
+// sb_ring_create.
+SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingSetting *smooth, SbReport *report);
+
+// From the present state to another setting, leaning on the wall first where the fluid wants it.
+SbStatus sb_ring_press(SbRing *ring, const SbRingSetting *target, SbReport *report);
+
+// The element solver's setting of a load.
+SbRingSetting sb_ring_setting(const SbRing *ring, const SbRingLoad *load);

@@ -1,0 +1,393 @@
+// What the ring tells: forces, contact ends, pressure profile, volume, checks of its own balance.
+//
+// Ends and profile of a contact are those of the smooth curve that its nodal forces recover
+// (ring_pressure.c), the peak is a parabola through the nodes around it. Where no curve fits, nodal
+// pressures are the nodal contact forces over the nodes' areas, so they are never negative and
+// their sum is the load, and an end of a contact lies between the last held and the first open
+// node, where the gap, which opens with the 3/2 power of the distance, extrapolates to zero; the
+// pressure there is the fluid's.
+#include "engine/contact/ring/ring_private.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+
+// Points of a smooth profile.
+enum { PROFILE_POINTS = 321 };
+
+static bool held(const SbRing *ring, int i, SbRingSurface surface) {
+  int count = ring->contact->count;
+  return ring->contact->touch[SB_RING_SURFACES * ((i + count) % count) + surface].held;
+}
+
+// Deformed place of a boundary node, any integer place in the loop.
+static void place_of(const SbRing *ring, int i, double x[2]) {
+  int count = ring->contact->count;
+  int node = ring->mesh->loop[(i + count) % count];
+  x[0] = ring->mesh->x[2 * node] + ring->fem->u[2 * node];
+  x[1] = ring->mesh->x[2 * node + 1] + ring->fem->u[2 * node + 1];
+}
+
+static double angle_of(const SbRing *ring, int i) {
+  int count = ring->contact->count;
+  double turn = i >= count ? 2.0 * M_PI : i < 0 ? -2.0 * M_PI : 0.0;
+  return ring->mesh->angle[(i + count) % count] + turn;
+}
+
+// Where a contact ends, near its last held node. Inside, the excess over the fluid's pressure falls
+// with the root of the distance, so its square extrapolates linearly from the last two closed
+// sides' mid nodes (whose nodal pressure is the accurate one). Outside, the gap opens with the 3/2
+// power. The mean of both estimates is taken.
+static void find_end(const SbRing *ring, SbRingSurface surface, int last, int outward, double fluid,
+                     double *angle, double *place) {
+  const SbRingContact *contact = ring->contact;
+  int axis = surface == SB_RING_BORE || surface == SB_RING_FLOOR ? 1 : 0;
+  int sides = contact->count / 2;
+  double x[3][2], g[2], curvature, q[3];
+  for (int k = 0; k < 3; k++) {
+    place_of(ring, last + k * outward, x[k]);
+    double gap = sb_ring_gap(&contact->now, surface, x[k], g, &curvature);
+    q[k] = pow(fmax(0.0, gap), 2.0 / 3.0);
+  }
+  double span = x[1][axis] - x[0][axis];
+  double back = q[2] > q[1] ? q[1] / (q[2] - q[1]) * (x[2][axis] - x[1][axis]) : 0.0;
+  double share = fabs(span) > 0.0 ? 1.0 - back / span : 0.5;
+  share = fmin(1.0, fmax(0.0, share));
+
+  // The two outermost closed sides.
+  double z[2], p[2];
+  int found = 0;
+  for (int i = last; found < 2 && abs(i - last) < 8; i -= outward) {
+    int wrapped = (i + contact->count) % contact->count;
+    if (wrapped % 2 == 1 && held(ring, i, surface) && contact->closed[wrapped / 2 % sides]) {
+      double at[2];
+      place_of(ring, i, at);
+      const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * wrapped + surface];
+      double excess = fmax(0.0, touch->force / contact->weight[wrapped] - fluid);
+      z[found] = at[axis];
+      p[found++] = excess * excess;
+    }
+  }
+  if (found == 2 && p[1] > p[0]) {
+    double end = z[0] + (z[0] - z[1]) * p[0] / (p[1] - p[0]);
+    double inner[2];
+    place_of(ring, last - outward, inner);
+    double by_pressure = (end - x[0][axis]) / span;
+    double least = (inner[axis] - x[0][axis]) / span;
+    // A last held mid node stands on a side that the fluid may share: the gap knows better.
+    if ((last + contact->count) % 2 == 0 && by_pressure >= least && by_pressure <= 1.0) {
+      share = 0.5 * (share + by_pressure);
+    }
+  }
+  *place = x[0][axis] + share * span;
+  // A share below zero lies between the last two held nodes.
+  double step = angle_of(ring, last + outward) - angle_of(ring, last);
+  *angle = angle_of(ring, last) + share * step;
+}
+
+bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch) {
+  int count = ring->contact->count;
+  // The contact is what the longest open run leaves.
+  int run = 0, longest = 0, end = -1, any = 0;
+  for (int i = 0; i < 2 * count; i++) {
+    if (held(ring, i % count, surface)) {
+      run = 0;
+      any = 1;
+    } else if (++run > longest) {
+      longest = run;
+      end = i % count;
+    }
+  }
+  if (!any || longest >= count) {
+    return false;
+  }
+  patch->first = (end + 1) % count;
+  patch->last = patch->first + count - longest - 1;
+  double left = ring->contact->now.pressure_left, right = ring->contact->now.pressure_right;
+  patch->end_pressure[0] = surface == SB_RING_BORE || surface == SB_RING_WALL_LEFT ? left : right;
+  patch->end_pressure[1] = surface == SB_RING_BORE || surface == SB_RING_WALL_RIGHT ? right : left;
+  find_end(ring, surface, patch->first, -1, patch->end_pressure[0], &patch->angle[0],
+           &patch->place[0]);
+  find_end(ring, surface, patch->last, 1, patch->end_pressure[1], &patch->angle[1],
+           &patch->place[1]);
+  return true;
+}
+
+double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface) {
+  const SbRingContact *contact = ring->contact;
+  int count = contact->count;
+  i = (i + count) % count;
+  const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + surface];
+  double weight = contact->weight[i];
+  if (!touch->held || !(weight > 0.0)) {
+    return 0.0;
+  }
+  bool closed = contact->closed[i / 2] &&
+                (i % 2 == 1 || contact->closed[(i / 2 + count / 2 - 1) % (count / 2)]);
+  if (closed) {
+    return touch->force / weight;
+  }
+  // At an end the fluid acts on the open side: its pressure plus the excess over it.
+  double x[2], n[2], curvature;
+  place_of(ring, i, x);
+  sb_ring_gap(&contact->now, surface, x, n, &curvature);
+  double length = hypot(n[0], n[1]);
+  double share = (n[0] * contact->share[2 * i] + n[1] * contact->share[2 * i + 1]) / length;
+  SbRingPatch patch;
+  if (!sb_ring_patch(ring, surface, &patch)) {
+    assert(!"a held node belongs to a contact");
+    return 0.0;
+  }
+  int past = (i - patch.first + count) % count;
+  bool nearer_last = 2 * past > patch.last - patch.first;
+  return patch.end_pressure[nearer_last ? 1 : 0] + fmax(0.0, touch->force - share) / weight;
+}
+
+// Nodal pressures as they are, for a contact that no smooth curve fits.
+static int nodal_profile(const SbRing *ring, const SbRingPatch *patch, double *x, double *pressure,
+                         double *shear, int capacity) {
+  int n = 0, count = ring->contact->count;
+  double before = -HUGE_VAL;
+  for (int i = patch->first - 1; i <= patch->last + 1; i++) {
+    double at[2], p = 0.0, t = 0.0;
+    if (i < patch->first || i > patch->last) {
+      int end = i < patch->first ? 0 : 1;
+      at[1] = patch->place[end];
+      p = patch->end_pressure[end];
+    } else {
+      place_of(ring, i, at);
+      // A held node beyond the end that its neighbours tell is only a tail of the mesh.
+      double margin = 1e-6 * (patch->place[1] - patch->place[0]);
+      if (at[1] < patch->place[0] + margin || at[1] > patch->place[1] - margin) {
+        continue;
+      }
+      // Where the surface lets go within the contact it may fold: its open part is passed over.
+      if (at[1] <= before) {
+        continue;
+      }
+      const SbRingTouch *touch =
+          &ring->contact->touch[SB_RING_SURFACES * ((i + count) % count) + SB_RING_BORE];
+      p = sb_ring_node_pressure(ring, i, SB_RING_BORE);
+      t = touch->held ? touch->tangent / ring->contact->weight[(i + count) % count] : 0.0;
+    }
+    if (n < capacity) {
+      x[n] = at[1] * ring->length;
+      pressure[n] = p * ring->stress;
+      if (shear != NULL) {
+        shear[n] = t * ring->stress;
+      }
+    }
+    n++;
+    before = at[1];
+  }
+  return n;
+}
+
+// Nodal shear at an axial place, by straight lines between the mid-sides, whose nodal value is the
+// accurate one; level beyond the outermost.
+static double shear_at(const SbRing *ring, const SbRingPatch *patch, double z) {
+  int count = ring->contact->count;
+  double before = 0.0, value = 0.0;
+  bool any = false;
+  for (int i = patch->first + (patch->first + 1) % 2; i <= patch->last; i += 2) {
+    double at[2];
+    place_of(ring, i, at);
+    const SbRingTouch *touch =
+        &ring->contact->touch[SB_RING_SURFACES * ((i + count) % count) + SB_RING_BORE];
+    double here = touch->tangent / ring->contact->weight[(i + count) % count];
+    if (z <= at[1]) {
+      return any ? value + (z - before) / (at[1] - before) * (here - value) : here;
+    }
+    before = at[1];
+    value = here;
+    any = true;
+  }
+  return value;
+}
+
+int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *shear, int capacity) {
+  SbRingPatch patch;
+  SbRingPressure smooth;
+  if (!sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+    return 0;
+  }
+  if (!sb_ring_ends(ring, SB_RING_BORE, &patch, &smooth)) {
+    return nodal_profile(ring, &patch, x, pressure, shear, capacity);
+  }
+  for (int i = 0; i < PROFILE_POINTS && i < capacity; i++) {
+    // Dense at both ends, where the pressure rises with the root of the distance.
+    bool last = i == PROFILE_POINTS - 1;
+    double share = last ? 1.0 : 0.5 * (1.0 - cos(M_PI * i / (PROFILE_POINTS - 1)));
+    double at = patch.place[0] + share * (patch.place[1] - patch.place[0]);
+    x[i] = at * ring->length;
+    pressure[i] = sb_ring_pressure_at(&smooth, share) * ring->stress;
+    if (shear != NULL) {
+      shear[i] = shear_at(ring, &patch, at) * ring->stress;
+    }
+  }
+  return PROFILE_POINTS;
+}
+
+// Greatest nodal pressure, refined by a parabola through the nodes around it.
+static void find_peak(const SbRing *ring, const SbRingPatch *patch, double *peak, double *place) {
+  *peak = *place = 0.0;
+  int best = patch->first;
+  for (int i = patch->first; i <= patch->last; i++) {
+    double p = sb_ring_node_pressure(ring, i, SB_RING_BORE);
+    if (p > *peak) {
+      *peak = p;
+      best = i;
+    }
+  }
+  double x[2];
+  place_of(ring, best, x);
+  *place = x[1];
+  // Least squares over two nodes either side smooths the vertex/mid-side pattern.
+  int reach = best - patch->first < patch->last - best ? best - patch->first : patch->last - best;
+  reach = reach > 3 ? 3 : reach;
+  if (reach < 2) {
+    return;
+  }
+  double s[5] = {0.0}, b[3] = {0.0}, scale = 0.0;
+  for (int i = best - reach; i <= best + reach; i++) {
+    place_of(ring, i, x);
+    scale = fmax(scale, fabs(x[1] - *place));
+  }
+  for (int i = best - reach; i <= best + reach; i++) {
+    place_of(ring, i, x);
+    double t = (x[1] - *place) / scale, power = 1.0;
+    double p = sb_ring_node_pressure(ring, i, SB_RING_BORE);
+    for (int k = 0; k < 5; k++) {
+      s[k] += power;
+      b[k < 3 ? k : 0] += k < 3 ? power * p : 0.0;
+      power *= t;
+    }
+  }
+  double det = s[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (s[1] * s[4] - s[3] * s[2]) +
+               s[2] * (s[1] * s[3] - s[2] * s[2]);
+  double c0 = (b[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (b[1] * s[4] - s[3] * b[2]) +
+               s[2] * (b[1] * s[3] - s[2] * b[2])) /
+              det;
+  double c1 = (s[0] * (b[1] * s[4] - s[3] * b[2]) - b[0] * (s[1] * s[4] - s[3] * s[2]) +
+               s[2] * (s[1] * b[2] - b[1] * s[2])) /
+              det;
+  double c2 = (s[0] * (s[2] * b[2] - b[1] * s[3]) - s[1] * (s[1] * b[2] - b[1] * s[2]) +
+               b[0] * (s[1] * s[3] - s[2] * s[2])) /
+              det;
+  if (c2 < 0.0) {
+    double t = fmin(1.0, fmax(-1.0, -0.5 * c1 / c2));
+    *peak = c0 + t * (c1 + c2 * t);
+    *place += t * scale;
+  }
+}
+
+// Normal force that the fluid still carries in the balance on sides that are only partly within the
+// contact; that part belongs to the closed contact.
+static double end_share(const SbRing *ring, const SbRingPatch *patch) {
+  int sides = ring->contact->count / 2;
+  double low = fmin(patch->place[0], patch->place[1]),
+         high = fmax(patch->place[0], patch->place[1]);
+  double turn = ring->body.plane_strain ? 1.0 : 2.0 * M_PI, sum = 0.0;
+  for (int side = (patch->first - 2) / 2; side <= patch->last / 2; side++) {
+    if (ring->contact->closed[(side + sides) % sides]) {
+      continue;
+    }
+    double a[2], b[2];
+    place_of(ring, 2 * side, a);
+    place_of(ring, 2 * side + 2, b);
+    double overlap = fmin(high, fmax(a[1], b[1])) - fmax(low, fmin(a[1], b[1]));
+    int end = 4 * side + 2 > patch->first + patch->last ? 1 : 0;
+    double radius = ring->body.plane_strain ? 1.0 : 0.5 * (a[0] + b[0]);
+    sum += fmax(0.0, overlap) * patch->end_pressure[end] * radius * turn;
+  }
+  return sum;
+}
+
+void sb_ring_result(const SbRing *ring, SbRingResult *out) {
+  const SbRingContact *contact = ring->contact;
+  *out = (SbRingResult){.unknowns = 2 * ring->mesh->nodes,
+                        .newton_iterations = ring->count.iterations,
+                        .load_steps = ring->count.steps,
+                        .rejected_steps = ring->count.rejected};
+  double l = ring->length, f = ring->force, force[SB_RING_SURFACES][2];
+  for (int s = 0; s < SB_RING_SURFACES; s++) {
+    sb_ring_contact_total(contact, (SbRingSurface)s, force[s]);
+  }
+  SbRingPatch patch[SB_RING_SURFACES];
+  bool touches[SB_RING_SURFACES];
+  SbRingPressure smooth;
+  for (int s = 0; s < SB_RING_SURFACES; s++) {
+    touches[s] = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
+    if (touches[s]) {
+      sb_ring_ends(ring, (SbRingSurface)s, &patch[s], &smooth);
+    }
+  }
+  for (int s = SB_RING_BORE; s <= SB_RING_FLOOR; s++) {
+    double share = touches[s] ? end_share(ring, &patch[s]) : 0.0;
+    force[s][0] += s == SB_RING_BORE ? -share : share;
+  }
+  out->bore_force = 0.0 - force[SB_RING_BORE][0] * f; // not -0
+  out->bore_drag = force[SB_RING_BORE][1] * f;
+  out->floor_force = force[SB_RING_FLOOR][0] * f;
+  out->floor_drag = force[SB_RING_FLOOR][1] * f;
+  out->wall_right_force = 0.0 - force[SB_RING_WALL_RIGHT][1] * f;
+  out->wall_right_drag = force[SB_RING_WALL_RIGHT][0] * f;
+  out->wall_left_force = force[SB_RING_WALL_LEFT][1] * f;
+  out->wall_left_drag = force[SB_RING_WALL_LEFT][0] * f;
+
+  out->touching = touches[SB_RING_BORE];
+  if (out->touching) {
+    const SbRingPatch *bore = &patch[SB_RING_BORE];
+    out->contact_left = bore->place[0] * l;
+    out->contact_right = bore->place[1] * l;
+    double peak, place;
+    find_peak(ring, bore, &peak, &place);
+    out->pressure_peak = peak * ring->stress;
+    out->position_peak = place * l;
+  }
+  if (touches[SB_RING_FLOOR]) {
+    out->floor_left = patch[SB_RING_FLOOR].place[1] * l;
+    out->floor_right = patch[SB_RING_FLOOR].place[0] * l;
+  }
+  if (touches[SB_RING_WALL_RIGHT]) {
+    out->wall_inner = patch[SB_RING_WALL_RIGHT].place[1] * l;
+    out->wall_outer = patch[SB_RING_WALL_RIGHT].place[0] * l;
+  }
+
+  // Extents, penetration, least excess pressure.
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, least = HUGE_VAL;
+  double axial = 0.0, axial_most = 0.0;
+  for (int i = 0; i < contact->count; i++) {
+    double x[2], n[2], curvature;
+    place_of(ring, i, x);
+    for (int k = 0; k < 2; k++) {
+      low[k] = fmin(low[k], x[k]);
+      high[k] = fmax(high[k], x[k]);
+    }
+    axial += contact->fluid[2 * i + 1];
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + s];
+      double gap = sb_ring_gap(&contact->now, (SbRingSurface)s, x, n, &curvature);
+      out->penetration = fmax(out->penetration, -gap * l);
+      if (touch->held) {
+        double share = n[0] * contact->share[2 * i] + n[1] * contact->share[2 * i + 1];
+        share /= hypot(n[0], n[1]);
+        least = fmin(least, (touch->force - share) / contact->weight[i]);
+      }
+    }
+  }
+  out->pressure_least = isfinite(least) ? least * ring->stress : 0.0;
+  out->thickness = (high[0] - low[0]) * l;
+  out->axial_left = low[1] * l;
+  out->axial_right = high[1] * l;
+  axial_most = fabs(axial);
+  for (int s = 0; s < SB_RING_SURFACES; s++) {
+    axial += force[s][1];
+    axial_most = fmax(axial_most, fmax(fabs(force[s][1]), fabs(force[s][0])));
+  }
+  out->axial_imbalance = axial_most > 0.0 ? fabs(axial) / axial_most : 0.0;
+  out->friction_excess = contact->slip_excess * f;
+  double reference, deformed;
+  sb_ring_fem_volume(ring->fem, &reference, &deformed);
+  out->volume_change = deformed / reference - 1.0;
+}

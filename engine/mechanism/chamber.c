@@ -1,0 +1,143 @@
+// See chamber.h.
+#include "engine/mechanism/chamber.h"
+
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+
+SbStatus sb_chamber_check(const SbChamberModel *m, SbReport *report) {
+  if (!(m->canister >= 0.0) || !isfinite(m->canister)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.pressure",
+                             "the canister's pressure must not be below 0");
+  }
+  if (!(m->volume > 0.0) || !(m->stiffness > 0.0) || !(m->density > 0.0) || !isfinite(m->volume) ||
+      !isfinite(m->stiffness) || !isfinite(m->density)) {
+    return sb_fail(report, SB_ERROR_RANGE,
+                   "the chamber's volume, stiffness and the liquid's density must be above 0");
+  }
+  if (m->ports > SB_CHAMBER_PORTS) {
+    return sb_fail(report, SB_ERROR_RANGE, "a chamber has at most %d ports", SB_CHAMBER_PORTS);
+  }
+  for (size_t i = 0; i < m->ports; i++) {
+    const SbChamberPort *p = &m->port[i];
+    if (!(p->high > p->low) || !(p->area > 0.0) || !isfinite(p->pressure)) {
+      return sb_fail(report, SB_ERROR_RANGE, "port %zu needs a stretch, an area and a pressure", i);
+    }
+  }
+  return sb_succeed(report);
+}
+
+static void equalise(const SbDoseChamber *c, double *pressure) {
+  for (size_t i = 0; i < c->model->ports; i++) {
+    if (c->open[i] && isinf(c->model->port[i].area)) {
+      *pressure = c->model->port[i].pressure;
+    }
+  }
+}
+
+void sb_chamber_start(SbDoseChamber *c, const SbChamberModel *m, double x, double *pressure) {
+  *c = (SbDoseChamber){.model = m};
+  for (size_t i = 0; i < m->ports; i++) {
+    const SbChamberPort *p = &m->port[i];
+    c->open[i] = p->way == SB_PORT_BOTH_WAYS && x >= p->low && x < p->high;
+  }
+  equalise(c, pressure);
+}
+
+void sb_chamber_cross(SbDoseChamber *c, double x, int direction, double *pressure) {
+  for (size_t i = 0; i < c->model->ports; i++) {
+    const SbChamberPort *p = &c->model->port[i];
+    if (x == p->low) {
+      c->open[i] = direction > 0 && p->way == SB_PORT_BOTH_WAYS;
+    } else if (x == p->high) {
+      c->open[i] = direction < 0;
+    }
+  }
+  equalise(c, pressure);
+}
+
+// sign(d) sqrt|d|, with a smooth bend within `bend` of zero.
+static double bent_root(double d, double bend) {
+  double u = d / bend;
+  if (fabs(u) < 1.0) {
+    return sqrt(bend) * u * (1.25 - 0.25 * u * u);
+  }
+  return d > 0.0 ? sqrt(d) : -sqrt(-d);
+}
+
+double sb_chamber_rate(const SbDoseChamber *c, double pressure) {
+  const SbChamberModel *m = c->model;
+  double flow = 0.0, bend = 1e-4 * fmax(m->canister, 1e3);
+  for (size_t i = 0; i < m->ports; i++) {
+    if (c->open[i] && isfinite(m->port[i].area)) {
+      flow += m->port[i].area * sqrt(2.0 / m->density) *
+              bent_root(m->port[i].pressure - pressure, bend);
+    }
+  }
+  return m->stiffness / m->volume * flow;
+}
+
+double sb_chamber_rest_pressure(const SbDoseChamber *c, double pressure) {
+  double low = INFINITY, high = -INFINITY;
+  for (size_t i = 0; i < c->model->ports; i++) {
+    const SbChamberPort *p = &c->model->port[i];
+    if (c->open[i] && isinf(p->area)) {
+      return pressure;
+    }
+    if (c->open[i]) {
+      low = fmin(low, p->pressure);
+      high = fmax(high, p->pressure);
+    }
+  }
+  if (!(high >= low)) {
+    return pressure;
+  }
+  // The flow falls as the pressure rises.
+  for (int i = 0; i < 200 && high > low; i++) {
+    double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) {
+      break;
+    }
+    if (sb_chamber_rate(c, middle) > 0.0) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return high;
+}
+
+bool sb_chamber_settled(const SbDoseChamber *c, double pressure) {
+  double most = 0.0, in = 0.0, out = 0.0;
+  for (size_t i = 0; i < c->model->ports; i++) {
+    if (c->open[i] && isfinite(c->model->port[i].area)) {
+      double drop = c->model->port[i].pressure - pressure;
+      most = fmax(most, fabs(drop));
+      *(drop > 0.0 ? &in : &out) += c->model->port[i].area * sqrt(fabs(drop));
+    }
+  }
+  // Nothing flows, or as much comes in as goes out.
+  return most <= 1e-9 * fmax(c->model->canister, 1e3) || fabs(in - out) <= 1e-9 * (in + out);
+}
+
+static double annulus(double outer, double inner) {
+  return pi / 4.0 * (outer - inner) * (outer + inner);
+}
+
+double sb_chamber_metered_volume(const SbDoseGeometry *g) {
+  double volume = annulus(g->bore, g->land) * g->spacing + annulus(g->land, g->floor) * g->groove +
+                  annulus(g->land, g->land - 2.0 * g->recess_depth) * g->recess_length;
+  // Half of each ring, by Pappus.
+  for (int i = 0; i < 2; i++) {
+    double d = g->rings[i].section;
+    volume -= 0.5 * pi * (g->rings[i].inner + d) * pi / 4.0 * d * d;
+  }
+  return volume;
+}
+
+long sb_chamber_doses(double metered_volume, double liquid, double left) {
+  if (!(metered_volume > 0.0) || !(liquid > left)) {
+    return 0;
+  }
+  return (long)floor((liquid - left) / metered_volume * (1.0 + 1e-12));
+}

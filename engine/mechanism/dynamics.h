@@ -1,0 +1,243 @@
+// The valve's one coordinate with real dynamics: true stick, stops, a platen that only pushes.
+//
+//   m x'' = drive + pressure - spring - sum of seal frictions - damping x' + stop reactions
+//
+// (thesis ch. 4 with its one degree of freedom; friction and contact laws below are ours where the
+// thesis has none.) x > 0 is the in-stroke, compression of the drive is positive.
+//
+// Friction. A contact carries a Coulomb level L [N] given by the caller for where the stem is. It
+// sticks up to L (static_ratio + dwell_gain ln(1 + dwell/dwell_time)); it slides at
+// L [1 + (static_ratio - 1) exp(-(speed/stribeck_speed)^stribeck_exponent)], or at L from the first
+// slip if stribeck_speed is 0, or at L times a caller's function of the speed; `viscous` times the
+// stem's speed acts beside it. A contact with finite `stiffness` joins stem and bore through the
+// seal's tangential spring and damper (pre-sliding, thesis slope A-B): its patch does not move at
+// all while it sticks. A rigid contact (stiffness INFINITY) holds the stem itself at rest, exactly.
+// Contacts that the land does not reach have level 0.
+//
+// Stops. Spring and damper in one direction, the damper from the restitution of a free impact that
+// ends when the force does (Schwager and Poeschel 2007); stiffness INFINITY is an impact law, at
+// rest once a rebound would stay below 1 pm. A massless stop or platen that is left behind relaxes
+// by its own damper and can be met again.
+//
+// Method. Between events the motion is linear in almost all models: closed form (oscillator.h),
+// events found by bounds, resting costs nothing, nor does stick-slip that repeats itself.
+// Velocity-dependent sliding, position-dependent loads and sinusoids go through Radau IIA with
+// error control and events located by re-stepping. Each energy term is integrated by itself; their
+// balance is a result, not a construction. Nothing is allocated. Leaves out: rotation and tilt of
+// the stem, wave motion in the parts, a speed law evaluated at the patch (it uses the stem's
+// speed).
+#pragma once
+
+#include "engine/mechanism/drive.h"
+#include "engine/mechanism/oscillator.h"
+#include "engine/mechanism/radau.h"
+#include "engine/base/status.h"
+
+enum {
+  SB_DYNAMICS_CONTACTS = 4,
+  SB_DYNAMICS_STOPS = 2,
+  SB_DYNAMICS_EDGES = 8,
+  SB_DYNAMICS_EXTRAS = 4,
+};
+
+typedef struct {
+  double static_ratio;      // >= 1
+  double dwell_gain;        // >= 0, per factor e of rest
+  double dwell_time;        // s, > 0 if dwell_gain > 0; the same for all rigid contacts
+  double stribeck_speed;    // m/s; 0: static_ratio is lost at the first slip
+  double stribeck_exponent; // > 0 if stribeck_speed > 0
+  double viscous;           // N s/m, while the contact carries load
+  double stiffness;         // N/m; INFINITY: rigid
+  double damping;           // N s/m, of the tangential spring; 0 if rigid
+} SbDynamicsContact;
+
+typedef struct {
+  double position;    // m, where the stem meets it
+  int side;           // +1 stops motion to +x, -1 to -x
+  double stiffness;   // N/m; INFINITY: impact law
+  double restitution; // of a free impact, 0 (INFINITY only) or 0.01 .. 1
+} SbDynamicsStop;
+
+// What the valve does to the stem at one place: net force on it [N] and the contacts' levels [N].
+typedef struct {
+  double force;
+  double level[SB_DYNAMICS_CONTACTS];
+  bool constant; // neither changes before the next edge is crossed, nor do the extra states
+  bool settled;  // the extra states do not change while the stem does not move
+} SbDynamicsLoads;
+
+// How the parts of a mechanism follow the one coordinate: the mass it sees [kg] and, by virtual
+// work, what 1 N counts where it acts. Parts that move as one: levers of 1 to rounding, which is
+// what the laws here mean by travel and speed.
+typedef struct {
+  double mass, drive, loads, stop, contact[SB_DYNAMICS_CONTACTS];
+} SbDynamicsParts;
+
+typedef struct {
+  double mass;                             // kg, > 0
+  double damping;                          // N s/m, of the stem against ground
+  double spring_preload, spring_stiffness; // return spring: force -(preload + stiffness x)
+  size_t contacts, stops, edges, extras;
+  SbDynamicsContact contact[SB_DYNAMICS_CONTACTS];
+  SbDynamicsStop stop[SB_DYNAMICS_STOPS];
+  double edge[SB_DYNAMICS_EDGES]; // m, increasing; region r lies between edge[r-1] and edge[r]
+  // Loads in a region; called once a region if constant. NULL: none.
+  void (*loads)(SbDynamicsLoads *loads, double x, size_t region, const double *extra, void *user);
+  // The stem crosses edge[i] in direction +1 or -1: the caller may change `extra` or its own state.
+  void (*cross)(size_t edge, int direction, double *extra, void *user);
+  // Rates of the extra states (a chamber pressure); needed if extras > 0 and loads not constant.
+  void (*extra_rates)(double *rate, double x, double v, size_t region, const double *extra,
+                      void *user);
+  double extra_start[SB_DYNAMICS_EXTRAS], extra_scale[SB_DYNAMICS_EXTRAS]; // scale > 0
+  // Sliding friction over level at a speed >= 0 (replaces the Stribeck curve); NULL: none.
+  double (*speed_factor)(size_t contact, double speed, void *user);
+  // The parts at (x, v), asked for at the start of every segment; NULL: one mass.
+  SbStatus (*parts)(SbDynamicsParts *parts, double x, double v, void *user, SbReport *report);
+  void *user;
+  SbDrive drive;
+  // N/m, N s/m. A force drive has no stiffness; its push falls by drive_damping times the speed, as
+  // a finger's does, and ends with the force.
+  double drive_stiffness, drive_damping;
+  bool drive_bonded;                  // pulls as well as pushes
+  double start_position, start_speed; // m, m/s
+  double start_dwell;                 // s of rest before the start
+  double tolerance;                   // relative, of the numerical path, <= 1e-5; 0: 1e-9
+  double rest_speed; // m/s below which a slowing contact rests, a rigid stop keeps; 0: 1e-9
+  long max_events;   // 0: 1e6; four times as many steps
+} SbDynamicsModel;
+
+typedef enum {
+  SB_MOTION_SLIP,       // contact `index` starts to slide (index < 0: all rigid ones)
+  SB_MOTION_STICK,      // ... comes to rest
+  SB_MOTION_TOUCH_STOP, // stop `index`
+  SB_MOTION_LEAVE_STOP,
+  SB_MOTION_TOUCH_DRIVE, // platen or finger
+  SB_MOTION_LEAVE_DRIVE,
+  SB_MOTION_REVERSE, // the platen turns at its reversal force
+  SB_MOTION_EDGE,    // edge `index`, direction `sign`
+} SbMotionEventKind;
+
+// State just before the event.
+typedef struct {
+  SbMotionEventKind kind;
+  int index, sign;
+  double time, position, speed, drive_force;
+} SbMotionEvent;
+
+typedef struct {
+  double drive;    // work done by the drive at its moving end
+  double pressure; // work of the loads' force
+  double friction; // sliding patches
+  double viscous;  // `viscous` and `damping`
+  double seal;     // dampers of the tangential springs
+  double stop;     // stops
+  double machine;  // damper of the drive
+  double kinetic;  // present kinetic energy less that at the start
+  double stored;   // in seals, stops, spring and drive, less that at the start
+  double largest;  // largest |drive + pressure| so far
+  double closure;  // |drive + pressure - all the rest| / largest (0 if largest is 0)
+} SbDynamicsEnergy;
+
+typedef enum { SB_CONTACT_OFF, SB_CONTACT_STUCK, SB_CONTACT_SLIP } SbContactState;
+
+typedef struct {
+  double time, position, speed, acceleration;
+  double drive_position, drive_force, loads_force, spring_force;
+  double stop_force[SB_DYNAMICS_STOPS];    // reaction, >= 0
+  double friction[SB_DYNAMICS_CONTACTS];   // force on the stem, + along x, viscous part included
+  double viscous[SB_DYNAMICS_CONTACTS];    // that part
+  double deflection[SB_DYNAMICS_CONTACTS]; // of the tangential spring, m
+  SbContactState contact[SB_DYNAMICS_CONTACTS];
+  double extra[SB_DYNAMICS_EXTRAS];
+  size_t region;
+} SbDynamicsSample;
+
+typedef struct {
+  long events, segments, steps, rejected, newton_iterations, evaluations;
+  long repeated;      // cycles of stick-slip that were not stepped through: equal to the one before
+  double local_error; // sum of the numerical path's local errors of position, over |x| + 1 mm
+} SbDynamicsCounters;
+
+// One of stop or platen as a spring and damper in one direction.
+typedef struct {
+  bool on;
+  double relic, since; // deflection left when it was last left, and when
+} SbDynamicsTouch;
+
+// Where rigid contacts last broke away.
+typedef struct {
+  int direction; // 0: not yet
+  size_t region;
+  long events, segments;
+  double t, x, stretch, piece; // stretch of the drive's spring [m]; start of its piece [s]
+  SbDynamicsEnergy energy;
+} SbDynamicsBreak;
+
+// Working state; on the caller's memory, no pointers owned. Fields are private.
+typedef struct {
+  const SbDynamicsModel *model;
+  double t, x, v, t_end; // anchor of the segment, and its end
+  double now;            // time last advanced to, within the segment
+  double d[SB_DYNAMICS_CONTACTS], extra[SB_DYNAMICS_EXTRAS];
+  SbContactState state[SB_DYNAMICS_CONTACTS];
+  int sign[SB_DYNAMICS_CONTACTS];
+  double since[SB_DYNAMICS_CONTACTS]; // start of the rest
+  // Last slip, and what a contact holds beyond its limit because that slip had no duration, N.
+  double slipped[SB_DYNAMICS_CONTACTS], margin[SB_DYNAMICS_CONTACTS];
+  bool fresh[SB_DYNAMICS_CONTACTS]; // newly loaded: sticks up to the sliding level only
+  size_t region;
+  SbDynamicsLoads loads;
+  SbDynamicsParts parts;
+  SbDynamicsTouch touch[SB_DYNAMICS_STOPS], push;
+  double stop_damping[SB_DYNAMICS_STOPS];
+  SbDriveState drive;
+  SbDrivePiece piece;
+  SbDynamicsEnergy energy;
+  SbDynamicsBreak broke;
+  double asked; // time that is being advanced to
+  double stored_start, kinetic_start;
+  double force_peak; // of the drive, up to the anchor [N]
+  bool ready, linear, held;
+  // The patch started the segment clearly faster than rest_speed: falling below it is coming to
+  // rest.
+  bool brisk[SB_DYNAMICS_CONTACTS];
+  int event; // that ends the segment, or -1
+  SbOscillator motion;
+  SbRadauSystem system;
+  SbRadauStep step[2];
+  double middle, h; // end of the first step; next step size
+  double piled_time;
+  int piled;
+  SbDynamicsCounters counters;
+  SbRadauCounters radau;
+  void (*listener)(const SbMotionEvent *event, void *user);
+  void *listener_user;
+} SbDynamics;
+
+// Refuses a model that makes no sense, naming what is wrong.
+SbStatus sb_dynamics_check(const SbDynamicsModel *model, SbReport *report);
+
+// State at time 0. The model is borrowed for the life of the state.
+SbStatus sb_dynamics_init(SbDynamics *dynamics, const SbDynamicsModel *model, SbReport *report);
+
+// Reports every event as it happens, save those of cycles passed over (counters.repeated); NULL to
+// stop.
+void sb_dynamics_listen(SbDynamics *dynamics,
+                        void (*listener)(const SbMotionEvent *event, void *user), void *user);
+
+// Moves on to `time` (not before the present). SB_ERROR_NOT_CONVERGED (too many events, a step that
+// cannot be solved) leaves the last good state, which can still be sampled at its time.
+SbStatus sb_dynamics_advance(SbDynamics *dynamics, double time, SbReport *report);
+
+// State, forces and energies at the time last advanced to; either may be NULL.
+void sb_dynamics_sample(const SbDynamics *dynamics, SbDynamicsSample *sample,
+                        SbDynamicsEnergy *energy);
+
+// Whether the drive has ended and the stem rests: nothing more can happen.
+bool sb_dynamics_at_rest(const SbDynamics *dynamics);
+
+// Largest force of the drive up to the last event [N], between samples too.
+double sb_dynamics_force_peak(const SbDynamics *dynamics);
+
+// What the run cost so far.
+SbDynamicsCounters sb_dynamics_counters(const SbDynamics *dynamics);

@@ -1,0 +1,140 @@
+// Outlines of parts. See outline.h.
+#include "engine/mechanism/outline.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double pi = 3.14159265358979323846;
+
+// Pieces that an arc of this chord and bulge needs.
+static size_t divisions(double chord, double bulge, double sagitta) {
+  double t = fabs(bulge);
+  if (t == 0.0) {
+    return 1;
+  }
+  double radius = chord * (1.0 + t * t) / (4.0 * t), sweep = 4.0 * atan(t);
+  double step = 2.0 * acos(1.0 - fmin(sagitta / radius, 1.0));
+  return (size_t)fmax(1.0, ceil(sweep / step));
+}
+
+SbStatus sb_outline_of_profile(SbOutline *out, const SbProfile *p, double sagitta,
+                               SbReport *report) {
+  SbStatus status = sb_profile_check(p, report);
+  out->count = 0;
+  if (status != SB_OK) {
+    return status;
+  }
+  size_t total;
+  for (;; sagitta *= 2.0) {
+    total = 0;
+    for (size_t i = 0; i < p->count; i++) {
+      const SbProfilePoint *a = &p->point[i], *b = &p->point[(i + 1) % p->count];
+      total += divisions(hypot(b->x - a->x, b->r - a->r), a->bulge, sagitta);
+    }
+    if (total <= SB_OUTLINE_MAX) {
+      break;
+    }
+  }
+  for (size_t i = 0; i < p->count; i++) {
+    const SbProfilePoint *a = &p->point[i], *b = &p->point[(i + 1) % p->count];
+    double dx = b->x - a->x, dr = b->r - a->r, t = a->bulge;
+    size_t n = divisions(hypot(dx, dr), t, sagitta);
+    out->point[out->count++] = (SbOutlinePoint){a->x, a->r};
+    // Centre and start of the arc as in solid.c; the ends stay the given points.
+    double off = n > 1 ? (1.0 - t * t) / (4.0 * t) : 0.0;
+    double cx = 0.5 * (a->x + b->x) - off * dr, cr = 0.5 * (a->r + b->r) + off * dx;
+    double radius = hypot(a->x - cx, a->r - cr), from = atan2(a->r - cr, a->x - cx);
+    for (size_t k = 1; k < n; k++) {
+      double angle = from + 4.0 * atan(t) * (double)k / (double)n;
+      double r = cr + radius * sin(angle);
+      out->point[out->count++] = (SbOutlinePoint){cx + radius * cos(angle), fmax(r, 0.0)};
+    }
+  }
+  return sb_succeed(report);
+}
+
+static int ascending(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+void sb_outline_surface(SbOutlineSurface *out, const SbOutline *outline) {
+  size_t n = 0;
+  for (size_t i = 0; i < outline->count; i++) {
+    out->x[i] = outline->point[i].x;
+  }
+  qsort(out->x, outline->count, sizeof *out->x, ascending);
+  for (size_t i = 0; i < outline->count; i++) {
+    if (n == 0 || out->x[i] > out->x[n - 1]) {
+      out->x[n++] = out->x[i];
+    }
+  }
+  out->count = n;
+  for (size_t i = 0; i < n; i++) {
+    out->low_left[i] = out->low_right[i] = out->high_left[i] = out->high_right[i] = -1.0;
+  }
+  // Pieces do not cross, so that between neighbouring points one is lowest and one is highest.
+  for (size_t k = 0; k + 1 < n; k++) {
+    double x0 = out->x[k], x1 = out->x[k + 1], middle = 0.5 * (x0 + x1);
+    double low = INFINITY, high = -1.0;
+    for (size_t i = 0; i < outline->count; i++) {
+      const SbOutlinePoint *a = &outline->point[i], *b = &outline->point[(i + 1) % outline->count];
+      if (fmin(a->x, b->x) > x0 || fmax(a->x, b->x) < x1) {
+        continue;
+      }
+      double slope = (b->r - a->r) / (b->x - a->x), r = a->r + slope * (middle - a->x);
+      double left = a->r + slope * (x0 - a->x), right = a->r + slope * (x1 - a->x);
+      if (r < low) {
+        low = r;
+        out->low_right[k] = left;
+        out->low_left[k + 1] = right;
+      }
+      if (r > high) {
+        high = r;
+        out->high_right[k] = left;
+        out->high_left[k + 1] = right;
+      }
+    }
+  }
+}
+
+// The stretch that x lies in, for x within the part.
+static size_t stretch_at(const SbOutlineSurface *s, double x) {
+  size_t low = 0, high = s->count - 1;
+  while (high - low > 1) {
+    size_t middle = (low + high) / 2;
+    if (s->x[middle] <= x) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+bool sb_outline_radii(double *low, double *high, const SbOutlineSurface *s, double x) {
+  if (s->count < 2 || !(x >= s->x[0] && x <= s->x[s->count - 1])) {
+    return false;
+  }
+  size_t k = stretch_at(s, x);
+  double f = (x - s->x[k]) / (s->x[k + 1] - s->x[k]);
+  *low = s->low_right[k] + f * (s->low_left[k + 1] - s->low_right[k]);
+  *high = s->high_right[k] + f * (s->high_left[k + 1] - s->high_right[k]);
+  return *high >= 0.0;
+}
+
+double sb_outline_room(const SbOutlineSurface *s, double radius, double x0, double x1) {
+  double volume = 0.0;
+  for (size_t k = 0; k + 1 < s->count; k++) {
+    double from = fmax(x0, s->x[k]), to = fmin(x1, s->x[k + 1]);
+    if (!(to > from)) {
+      continue;
+    }
+    double length = s->x[k + 1] - s->x[k], rise = s->high_left[k + 1] - s->high_right[k];
+    double a = fmin(radius, s->high_right[k] + rise * (from - s->x[k]) / length);
+    double b = fmin(radius, s->high_right[k] + rise * (to - s->x[k]) / length);
+    // A cone frustum out of the cylinder; exact where the surface does not cross the cylinder.
+    volume += pi * (to - from) * (radius * radius - (a * a + a * b + b * b) / 3.0);
+  }
+  return volume;
+}

@@ -1,0 +1,262 @@
+// See radau.h. The unknowns are the stage rates k_i = f(t + c_i h, z + h sum_j a_ij k_j), found by
+// a simplified Newton iteration with a differenced Jacobian: at most 30 unknowns, dense LU. The
+// halves of a pair start from the rates of the whole step, between its nodes.
+#include "engine/mechanism/radau.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum { S = SB_RADAU_STAGES, N = SB_RADAU_MAX, UNKNOWNS = SB_RADAU_STAGES * SB_RADAU_MAX };
+
+#define ROOT6 2.449489742783178
+
+static const double node[S] = {(4.0 - ROOT6) / 10.0, (4.0 + ROOT6) / 10.0, 1.0};
+static const double butcher[S][S] = {
+    {(88.0 - 7.0 * ROOT6) / 360.0, (296.0 - 169.0 * ROOT6) / 1800.0, (-2.0 + 3.0 * ROOT6) / 225.0},
+    {(296.0 + 169.0 * ROOT6) / 1800.0, (88.0 + 7.0 * ROOT6) / 360.0, (-2.0 - 3.0 * ROOT6) / 225.0},
+    {(16.0 - ROOT6) / 36.0, (16.0 + ROOT6) / 36.0, 1.0 / 9.0},
+};
+
+// Newton's iteration ends below this share of the tolerance.
+static const double enough = 1e-3;
+
+// LU factors with row exchanges; the diagonal of U as its inverse.
+typedef struct {
+  size_t size;
+  double m[UNKNOWNS][UNKNOWNS], inverse[UNKNOWNS];
+  size_t row[UNKNOWNS];
+} Factors;
+
+static bool factorise(Factors *f) {
+  for (size_t c = 0; c < f->size; c++) {
+    size_t best = c;
+    for (size_t r = c + 1; r < f->size; r++) {
+      if (fabs(f->m[r][c]) > fabs(f->m[best][c])) {
+        best = r;
+      }
+    }
+    f->row[c] = best;
+    if (f->m[best][c] == 0.0 || !isfinite(f->m[best][c])) {
+      return false;
+    }
+    if (best != c) {
+      for (size_t k = 0; k < f->size; k++) {
+        double swap = f->m[c][k];
+        f->m[c][k] = f->m[best][k];
+        f->m[best][k] = swap;
+      }
+    }
+    f->inverse[c] = 1.0 / f->m[c][c];
+    for (size_t r = c + 1; r < f->size; r++) {
+      double factor = f->m[r][c] *= f->inverse[c];
+      if (factor != 0.0) {
+        for (size_t k = c + 1; k < f->size; k++) {
+          f->m[r][k] -= factor * f->m[c][k];
+        }
+      }
+    }
+  }
+  return true;
+}
+
+static void back_substitute(const Factors *f, double *b) {
+  for (size_t c = 0; c < f->size; c++) {
+    double swap = b[c];
+    b[c] = b[f->row[c]];
+    b[f->row[c]] = swap;
+  }
+  for (size_t r = 0; r < f->size; r++) {
+    for (size_t k = 0; k < r; k++) {
+      b[r] -= f->m[r][k] * b[k];
+    }
+  }
+  for (size_t r = f->size; r-- > 0;) {
+    for (size_t k = r + 1; k < f->size; k++) {
+      b[r] -= f->m[r][k] * b[k];
+    }
+    b[r] *= f->inverse[r];
+  }
+}
+
+static double scale(const SbRadauSystem *s, size_t i, double value) {
+  double size = fabs(value) + s->floor[i];
+  return s->tolerance * (s->ceiling[i] > 0.0 ? fmin(size, s->ceiling[i]) : size);
+}
+
+// Forward differences of the rates; `base` are the rates at z.
+static void jacobian(double j[N][N], double *base, const SbRadauSystem *s, double t,
+                     const double *z, SbRadauCounters *counters) {
+  double power[SB_RADAU_POWERS], moved[N], dz[N];
+  s->rates(base, power, t, z, s->user);
+  memcpy(moved, z, s->n * sizeof *z);
+  for (size_t c = 0; c < s->n; c++) {
+    double step = sqrt(DBL_EPSILON) * (fabs(z[c]) + s->floor[c]);
+    moved[c] = z[c] + step;
+    step = moved[c] - z[c];
+    s->rates(dz, power, t, moved, s->user);
+    for (size_t r = 0; r < s->n; r++) {
+      j[r][c] = (dz[r] - base[r]) / step;
+    }
+    moved[c] = z[c];
+  }
+  counters->evaluations += (long)s->n + 1;
+}
+
+// Rates of a solved step at a fraction theta of it: the parabola through its stages.
+static void rates_at(double *k, const SbRadauStep *step, size_t n, double theta) {
+  double weight[S];
+  for (int i = 0; i < S; i++) {
+    double p = node[(i + 1) % S], q = node[(i + 2) % S];
+    weight[i] = (theta - p) * (theta - q) / ((node[i] - p) * (node[i] - q));
+  }
+  for (size_t i = 0; i < n; i++) {
+    k[i] = weight[0] * step->k[0][i] + weight[1] * step->k[1][i] + weight[2] * step->k[2][i];
+  }
+}
+
+// I - h A (x) J, factorised.
+static bool prepare(Factors *f, size_t n, double h, double j[N][N], SbRadauCounters *counters) {
+  f->size = S * n;
+  for (size_t a = 0; a < S; a++) {
+    for (size_t r = 0; r < n; r++) {
+      for (size_t b = 0; b < S; b++) {
+        double factor = h * butcher[a][b];
+        for (size_t c = 0; c < n; c++) {
+          f->m[a * n + r][b * n + c] = -factor * j[r][c];
+        }
+      }
+      f->m[a * n + r][a * n + r] += 1.0;
+    }
+  }
+  counters->factorisations++;
+  return factorise(f);
+}
+
+// The stage rates in `step` are where the iteration starts; `f` is prepared for h. The powers are
+// taken one update before the rates: only if they are `wanted` must that update be small, else what
+// is left after it.
+static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const double *z, double h,
+                  const Factors *f, bool wanted, SbRadauCounters *counters) {
+  step->t = t;
+  step->h = h;
+  memcpy(step->z0, z, s->n * sizeof *z);
+  double previous = INFINITY;
+  for (int iteration = 0; iteration < 12; iteration++) {
+    double residual[UNKNOWNS];
+    for (size_t a = 0; a < S; a++) {
+      double at[N], dz[N];
+      for (size_t i = 0; i < s->n; i++) {
+        at[i] = z[i] + h * (butcher[a][0] * step->k[0][i] + butcher[a][1] * step->k[1][i] +
+                            butcher[a][2] * step->k[2][i]);
+      }
+      s->rates(dz, step->q[a], t + node[a] * h, at, s->user);
+      for (size_t i = 0; i < s->n; i++) {
+        residual[a * s->n + i] = dz[i] - step->k[a][i];
+      }
+    }
+    counters->evaluations += S;
+    counters->newton_iterations++;
+    back_substitute(f, residual);
+    double size = 0.0;
+    bool rounding = true;
+    for (size_t a = 0; a < S; a++) {
+      for (size_t i = 0; i < s->n; i++) {
+        double change = residual[a * s->n + i];
+        step->k[a][i] += change;
+        size = fmax(size, fabs(h * change) / scale(s, i, z[i]));
+        rounding =
+            rounding && fabs(change) <= 64.0 * DBL_EPSILON * fabs(step->k[a][i]) + s->grain[i];
+      }
+    }
+    if (!isfinite(size)) {
+      return false;
+    }
+    // The iteration contracts steadily: the next update would be smaller by as much as this one.
+    double left = iteration > 0 ? size * (size / previous) : size;
+    if ((wanted ? size : left) < enough || rounding) {
+      for (size_t i = 0; i < s->n; i++) {
+        step->z1[i] = z[i];
+        for (size_t b = 0; b < S; b++) {
+          step->z1[i] += h * butcher[S - 1][b] * step->k[b][i];
+        }
+      }
+      return true;
+    }
+    if (iteration > 1 && size > 2.0 * previous) {
+      return false;
+    }
+    previous = size;
+  }
+  return false;
+}
+
+static void start_with(SbRadauStep *step, const double *rates, size_t n) {
+  for (size_t a = 0; a < S; a++) {
+    memcpy(step->k[a], rates, n * sizeof *rates);
+  }
+}
+
+bool sb_radau_step(SbRadauStep *step, const SbRadauSystem *system, double t, const double *z,
+                   double h, SbRadauCounters *counters) {
+  double j[N][N], base[N];
+  jacobian(j, base, system, t, z, counters);
+  start_with(step, base, system->n);
+  Factors f;
+  return prepare(&f, system->n, h, j, counters) && solve(step, system, t, z, h, &f, true, counters);
+}
+
+bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local, const SbRadauSystem *system,
+                   double t, const double *z, double h, SbRadauCounters *counters) {
+  double j[N][N], base[N];
+  SbRadauStep whole;
+  jacobian(j, base, system, t, z, counters);
+  start_with(&whole, base, system->n);
+  Factors f;
+  if (!prepare(&f, system->n, h, j, counters) ||
+      !solve(&whole, system, t, z, h, &f, false, counters) ||
+      !prepare(&f, system->n, 0.5 * h, j, counters)) {
+    return false;
+  }
+  for (int half = 0; half < 2; half++) {
+    for (int a = 0; a < S; a++) {
+      rates_at(pair[half].k[a], &whole, system->n, 0.5 * (half + node[a]));
+    }
+    double from = t + 0.5 * half * h;
+    if (!solve(&pair[half], system, from, half > 0 ? pair[0].z1 : z, 0.5 * h, &f, true, counters)) {
+      return false;
+    }
+  }
+  *error = 0.0;
+  for (size_t i = 0; i < system->n; i++) {
+    local[i] = fabs(whole.z1[i] - pair[1].z1[i]) / 31.0;
+  }
+  for (size_t i = 0; i < system->n; i++) {
+    double allowed = scale(system, i, fmax(fabs(z[i]), fabs(pair[1].z1[i])));
+    *error = fmax(*error, fabs(whole.z1[i] - pair[1].z1[i]) / (31.0 * allowed));
+  }
+  return isfinite(*error);
+}
+
+void sb_radau_dense(const SbRadauStep *step, const SbRadauSystem *system, double theta, double *z,
+                    double *integral) {
+  // Integrals over (0, theta) of the Lagrange polynomials on the three nodes.
+  double b[S];
+  for (int i = 0; i < S; i++) {
+    double p = node[(i + 1) % S], q = node[(i + 2) % S];
+    double norm = (node[i] - p) * (node[i] - q);
+    b[i] = theta * (theta * (theta / 3.0 - 0.5 * (p + q)) + p * q) / norm;
+  }
+  for (size_t i = 0; z != NULL && i < system->n; i++) {
+    z[i] = step->z0[i];
+    for (int a = 0; a < S; a++) {
+      z[i] += step->h * b[a] * step->k[a][i];
+    }
+  }
+  for (size_t i = 0; integral != NULL && i < system->powers; i++) {
+    integral[i] = 0.0;
+    for (int a = 0; a < S; a++) {
+      integral[i] += step->h * b[a] * step->q[a][i];
+    }
+  }
+}

@@ -1,0 +1,273 @@
+// Closed triangle meshes. See solid.h. A mesh bounds a body if every edge is run once each way; it
+// is inside out if its signed volume is negative.
+#include "engine/mechanism/solid_internal.h"
+#include "engine/mechanism/vector3.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// Eigenvalues of a symmetric 3 x 3 matrix by Jacobi rotations, increasing.
+void sb_solid_principal(SbSolid *solid) {
+  double a[3][3];
+  memcpy(a, solid->inertia, sizeof a);
+  for (int sweep = 0; sweep < 30; sweep++) {
+    for (int p = 0; p < 2; p++) {
+      for (int q = p + 1; q < 3; q++) {
+        if (a[p][q] == 0.0) {
+          continue;
+        }
+        double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+        double t = (theta < 0.0 ? -1.0 : 1.0) / (fabs(theta) + hypot(theta, 1.0));
+        double c = 1.0 / hypot(t, 1.0), s = t * c;
+        for (int k = 0; k < 3; k++) {
+          double kp = a[k][p], kq = a[k][q];
+          a[k][p] = c * kp - s * kq;
+          a[k][q] = s * kp + c * kq;
+        }
+        for (int k = 0; k < 3; k++) {
+          double pk = a[p][k], qk = a[q][k];
+          a[p][k] = c * pk - s * qk;
+          a[q][k] = s * pk + c * qk;
+        }
+      }
+    }
+  }
+  double d[3] = {a[0][0], a[1][1], a[2][2]};
+  for (int i = 0; i < 2; i++) {
+    for (int k = 0; k < 2 - i; k++) {
+      if (d[k] > d[k + 1]) {
+        double swap = d[k];
+        d[k] = d[k + 1];
+        d[k + 1] = swap;
+      }
+    }
+  }
+  memcpy(solid->principal, d, sizeof d);
+}
+
+// ---- closed? ----
+
+typedef struct {
+  unsigned from, to;
+  size_t triangle;
+} Edge;
+
+static int by_ends(const void *a, const void *b) {
+  const Edge *e = a, *f = b;
+  if (e->from != f->from) {
+    return e->from < f->from ? -1 : 1;
+  }
+  if (e->to != f->to) {
+    return e->to < f->to ? -1 : 1;
+  }
+  return 0;
+}
+
+static SbStatus check_edges(const unsigned *triangles, size_t count, SbReport *report) {
+  size_t n = 3 * count;
+  Edge *edge = malloc(n * sizeof *edge);
+  if (edge == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for %zu edges", n);
+  }
+  for (size_t t = 0; t < count; t++) {
+    for (size_t k = 0; k < 3; k++) {
+      edge[3 * t + k] = (Edge){triangles[3 * t + k], triangles[3 * t + (k + 1) % 3], t};
+    }
+  }
+  qsort(edge, n, sizeof *edge, by_ends);
+  SbStatus status = SB_OK;
+  for (size_t i = 0; i < n && status == SB_OK; i++) {
+    if (i + 1 < n && by_ends(&edge[i], &edge[i + 1]) == 0) {
+      status = sb_fail(report, SB_ERROR_INPUT,
+                       "triangles %zu and %zu run along their common edge the same way: the mesh "
+                       "has mixed handedness or branches",
+                       edge[i].triangle, edge[i + 1].triangle);
+      break;
+    }
+    Edge back = {edge[i].to, edge[i].from, 0};
+    if (bsearch(&back, edge, n, sizeof *edge, by_ends) == NULL) {
+      status = sb_fail(report, SB_ERROR_INPUT, "the mesh is open at an edge of triangle %zu",
+                       edge[i].triangle);
+    }
+  }
+  free(edge);
+  return status;
+}
+
+// ---- crossing itself? ----
+
+typedef struct {
+  double low[3], high[3];
+  size_t triangle;
+} Box;
+
+static int by_low(const void *a, const void *b) {
+  const Box *p = a, *q = b;
+  return p->low[0] < q->low[0] ? -1 : p->low[0] > q->low[0];
+}
+
+static double side_of(const double *a, const double *b, const double *c, const double *d) {
+  double ab[3], ac[3], ad[3], n[3];
+  for (int k = 0; k < 3; k++) {
+    ab[k] = b[k] - a[k];
+    ac[k] = c[k] - a[k];
+    ad[k] = d[k] - a[k];
+  }
+  cross(n, ab, ac);
+  return dot(n, ad);
+}
+
+// Whether the open segment pq passes through the inside of triangle abc.
+static bool pierces(const double *p, const double *q, const double *a, const double *b,
+                    const double *c) {
+  double sp = side_of(a, b, c, p), sq = side_of(a, b, c, q);
+  if (!((sp > 0.0 && sq < 0.0) || (sp < 0.0 && sq > 0.0))) {
+    return false;
+  }
+  double u = side_of(p, q, a, b), v = side_of(p, q, b, c), w = side_of(p, q, c, a);
+  return (u > 0.0 && v > 0.0 && w > 0.0) || (u < 0.0 && v < 0.0 && w < 0.0);
+}
+
+static bool triangles_cross(const double *vertices, const unsigned *s, const unsigned *t) {
+  const double *p[3], *q[3];
+  for (int i = 0; i < 3; i++) {
+    for (int k = 0; k < 3; k++) {
+      if (s[i] == t[k]) {
+        return false;
+      }
+    }
+    p[i] = vertices + 3 * (size_t)s[i];
+    q[i] = vertices + 3 * (size_t)t[i];
+  }
+  for (int i = 0; i < 3; i++) {
+    if (pierces(p[i], p[(i + 1) % 3], q[0], q[1], q[2]) ||
+        pierces(q[i], q[(i + 1) % 3], p[0], p[1], p[2])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static SbStatus check_crossing(const double *vertices, const unsigned *triangles, size_t count,
+                               SbReport *report) {
+  Box *box = malloc(count * sizeof *box);
+  if (box == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for %zu triangles", count);
+  }
+  for (size_t t = 0; t < count; t++) {
+    box[t] = (Box){.triangle = t};
+    for (int k = 0; k < 3; k++) {
+      double a = vertices[3 * (size_t)triangles[3 * t] + (size_t)k];
+      double b = vertices[3 * (size_t)triangles[3 * t + 1] + (size_t)k];
+      double c = vertices[3 * (size_t)triangles[3 * t + 2] + (size_t)k];
+      box[t].low[k] = fmin(a, fmin(b, c));
+      box[t].high[k] = fmax(a, fmax(b, c));
+    }
+  }
+  qsort(box, count, sizeof *box, by_low);
+  SbStatus status = SB_OK;
+  for (size_t i = 0; i < count && status == SB_OK; i++) {
+    for (size_t j = i + 1; j < count && box[j].low[0] <= box[i].high[0]; j++) {
+      if (box[j].low[1] > box[i].high[1] || box[j].high[1] < box[i].low[1] ||
+          box[j].low[2] > box[i].high[2] || box[j].high[2] < box[i].low[2]) {
+        continue;
+      }
+      size_t s = box[i].triangle, t = box[j].triangle;
+      if (triangles_cross(vertices, triangles + 3 * s, triangles + 3 * t)) {
+        status = sb_fail(report, SB_ERROR_INPUT, "the mesh crosses itself (triangles %zu and %zu)",
+                         s < t ? s : t, s < t ? t : s);
+        break;
+      }
+    }
+  }
+  free(box);
+  return status;
+}
+
+SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_count,
+                       const unsigned *triangles, size_t triangle_count, double density,
+                       SbReport *report) {
+  if (!(density > 0.0) || !isfinite(density)) {
+    return sb_fail(report, SB_ERROR_RANGE, "the density must be above 0, not %g kg/m3", density);
+  }
+  if (triangle_count < 4 || vertex_count < 4 || triangle_count > (size_t)1 << 26) {
+    return sb_fail(report, SB_ERROR_INPUT, "a closed mesh needs at least four triangles");
+  }
+  double origin[3], extent = 0.0;
+  memcpy(origin, vertices, sizeof origin);
+  for (size_t i = 0; i < 3 * vertex_count; i++) {
+    if (!isfinite(vertices[i])) {
+      return sb_fail(report, SB_ERROR_INPUT, "vertex %zu of the mesh is not a number", i / 3);
+    }
+    extent = fmax(extent, fabs(vertices[i] - origin[i % 3]));
+  }
+  for (size_t i = 0; i < 3 * triangle_count; i++) {
+    if (triangles[i] >= vertex_count) {
+      return sb_fail(report, SB_ERROR_INPUT, "triangle %zu names a vertex that is not there",
+                     i / 3);
+    }
+  }
+  for (size_t t = 0; t < triangle_count; t++) {
+    const unsigned *v = triangles + 3 * t;
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
+      return sb_fail(report, SB_ERROR_INPUT, "triangle %zu has two equal corners", t);
+    }
+  }
+  SbStatus status = check_edges(triangles, triangle_count, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  // Sums over tetrahedra (origin, a, b, c): volume, centre, and second moments
+  // integral of x_k x_l = V/20 (sum over pairs of corners x_k x_l + sum x_k sum x_l).
+  double six = 0.0, first[3] = {0}, second[3][3] = {{0}};
+  for (size_t t = 0; t < triangle_count; t++) {
+    double p[3][3], n[3], sum[3];
+    for (int i = 0; i < 3; i++) {
+      for (int k = 0; k < 3; k++) {
+        p[i][k] = vertices[3 * (size_t)triangles[3 * t + (size_t)i] + (size_t)k] - origin[k];
+      }
+    }
+    cross(n, p[0], p[1]);
+    double v = dot(n, p[2]);
+    six += v;
+    for (int k = 0; k < 3; k++) {
+      sum[k] = p[0][k] + p[1][k] + p[2][k];
+      first[k] += v * sum[k] / 4.0;
+    }
+    for (int k = 0; k < 3; k++) {
+      for (int l = 0; l < 3; l++) {
+        double corners = p[0][k] * p[0][l] + p[1][k] * p[1][l] + p[2][k] * p[2][l];
+        second[k][l] += v / 20.0 * (corners + sum[k] * sum[l]);
+      }
+    }
+  }
+  if (!(fabs(six) > 1e-14 * extent * extent * extent)) {
+    return sb_fail(report, SB_ERROR_INPUT, "the mesh encloses no volume");
+  }
+  if (six < 0.0) {
+    return sb_fail(report, SB_ERROR_INPUT,
+                   "the mesh has the wrong handedness: it is inside out (volume %.3g m3)",
+                   six / 6.0);
+  }
+  status = check_crossing(vertices, triangles, triangle_count, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  *solid = (SbSolid){.volume = six / 6.0, .mass = density * six / 6.0};
+  double trace = 0.0, about[3][3];
+  for (int k = 0; k < 3; k++) {
+    double centre = first[k] / six;
+    solid->centre[k] = origin[k] + centre;
+    for (int l = 0; l < 3; l++) {
+      about[k][l] = density / 6.0 * (second[k][l] - centre * first[l]);
+    }
+    trace += about[k][k];
+  }
+  for (int k = 0; k < 3; k++) {
+    for (int l = 0; l < 3; l++) {
+      solid->inertia[k][l] = (k == l ? trace : 0.0) - about[k][l];
+    }
+  }
+  sb_solid_principal(solid);
+  return sb_succeed(report);
+}

@@ -1,0 +1,246 @@
+// Rubber in storage: Prony relaxation and recovery, shift, network scission, Fickian swell; see the
+// header.
+#include "engine/rubber/rubber_time.h"
+
+#include <gsl/gsl_sf_bessel.h>
+#include <math.h>
+
+static const double gas_constant = 8.31446261815324; // [J/(mol K)]
+
+// ---- uptake
+
+double sb_rubber_uptake(double fourier) {
+  if (!(fourier > 0.0)) {
+    return 0.0;
+  }
+  // Early: the boundary layer of a plane with the curvature's first corrections (Crank 5.25).
+  if (fourier < 1e-3) {
+    const double root = sqrt(fourier / M_PI);
+    return 4.0 * root - fourier - fourier * root / 3.0;
+  }
+  double sum = 0.0;
+  for (unsigned n = 1; n <= 80; n++) {
+    const double zero = gsl_sf_bessel_zero_J0(n);
+    const double decay = zero * zero * fourier;
+    if (decay > 45.0) {
+      break;
+    }
+    sum += 4.0 / (zero * zero) * exp(-decay);
+  }
+  return 1.0 - sum;
+}
+
+// ---- recovery
+
+// Eigenvalues and vectors of a symmetric matrix by Jacobi rotations; n x n by rows, vectors in
+// columns.
+static void jacobi(double a[SB_RUBBER_TERMS][SB_RUBBER_TERMS],
+                   double v[SB_RUBBER_TERMS][SB_RUBBER_TERMS], size_t n) {
+  for (size_t i = 0; i < n; i++) {
+    for (size_t j = 0; j < n; j++) {
+      v[i][j] = i == j ? 1.0 : 0.0;
+    }
+  }
+  for (int sweep = 0; sweep < 60; sweep++) {
+    bool rotated = false;
+    for (size_t p = 0; p + 1 < n; p++) {
+      for (size_t q = p + 1; q < n; q++) {
+        if (fabs(a[p][q]) <= 1e-17 * (fabs(a[p][p]) + fabs(a[q][q]))) {
+          continue;
+        }
+        rotated = true;
+        const double theta = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
+        const double t = copysign(1.0, theta) / (fabs(theta) + sqrt(theta * theta + 1.0));
+        const double c = 1.0 / sqrt(t * t + 1.0);
+        const double s = t * c;
+        for (size_t k = 0; k < n; k++) {
+          const double akp = a[k][p];
+          a[k][p] = c * akp - s * a[k][q];
+          a[k][q] = s * akp + c * a[k][q];
+        }
+        for (size_t k = 0; k < n; k++) {
+          const double apk = a[p][k];
+          a[p][k] = c * apk - s * a[q][k];
+          a[q][k] = s * apk + c * a[q][k];
+          const double vkp = v[k][p];
+          v[k][p] = c * vkp - s * v[k][q];
+          v[k][q] = s * vkp + c * v[k][q];
+        }
+      }
+    }
+    if (!rotated) {
+      break;
+    }
+  }
+}
+
+double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t terms, double hold,
+                                  double recovery) {
+  // Free of stress the strain is e = sum g_j e_j and e_i' = (e - e_i)/tau_i. With y_i = sqrt(g_i
+  // tau_i) e_i the matrix v v^T - diag(1/tau), v_i = sqrt(g_i/tau_i), is symmetric and negative.
+  double a[SB_RUBBER_TERMS][SB_RUBBER_TERMS];
+  double vectors[SB_RUBBER_TERMS][SB_RUBBER_TERMS];
+  double start[SB_RUBBER_TERMS];
+  size_t n = 0;
+  double v[SB_RUBBER_TERMS];
+  double rate[SB_RUBBER_TERMS];
+  for (size_t i = 0; i < terms; i++) {
+    if (g[i] > 0.0) {
+      v[n] = sqrt(g[i] / tau[i]);
+      rate[n] = 1.0 / tau[i];
+      start[n] = -sqrt(g[i] * tau[i]) * expm1(-hold / tau[i]);
+      n++;
+    }
+  }
+  for (size_t i = 0; i < n; i++) {
+    for (size_t j = 0; j < n; j++) {
+      a[i][j] = v[i] * v[j] - (i == j ? rate[i] : 0.0);
+    }
+  }
+  jacobi(a, vectors, n);
+  // e(recovery) = sum g_j e_j = sum_j sqrt(g_j/tau_j) y_j.
+  double strain = 0.0;
+  for (size_t k = 0; k < n; k++) {
+    double from = 0.0;
+    double to = 0.0;
+    for (size_t i = 0; i < n; i++) {
+      from += vectors[i][k] * start[i];
+      to += vectors[i][k] * v[i];
+    }
+    strain += to * exp(a[k][k] * recovery) * from;
+  }
+  return fmax(0.0, strain);
+}
+
+// ---- state
+
+static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *report) {
+  if (!(in->section_diameter > 0.0 && in->inner_diameter > 0.0 && in->radial_space > 0.0 &&
+        in->modulus > 0.0 && isfinite(in->section_diameter + in->inner_diameter) &&
+        isfinite(in->radial_space + in->modulus))) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.section_diameter",
+                             "sizes and modulus of the ring must be positive and finite");
+  }
+  if (!(in->storage_time >= 0.0 && isfinite(in->storage_time) && in->recovery_time >= 0.0)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "storage.time",
+                             "storage time %g s and recovery time %g s must not be negative",
+                             in->storage_time, in->recovery_time);
+  }
+  if (!(in->temperature > 0.0 && isfinite(in->temperature) && r->reference_temperature > 0.0 &&
+        isfinite(r->reference_temperature))) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "storage.temperature",
+                             "temperature %g K and reference %g K must be positive",
+                             in->temperature, r->reference_temperature);
+  }
+  double sum = 0.0;
+  for (size_t i = 0; i < r->terms && i < SB_RUBBER_TERMS; i++) {
+    if (!(r->g[i] >= 0.0 && r->tau[i] > 0.0 && isfinite(r->tau[i]))) {
+      return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.relaxation_share_1",
+                               "Prony term %zu: share %g, time %g s", i + 1, r->g[i], r->tau[i]);
+    }
+    sum += r->g[i];
+  }
+  if (r->terms > SB_RUBBER_TERMS || !(sum < 1.0)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.relaxation_share_1",
+                             "%zu Prony terms with shares that sum to %g (at most %d, below 1)",
+                             r->terms, sum, SB_RUBBER_TERMS);
+  }
+  if (r->shift == SB_SHIFT_WLF &&
+      !(r->wlf_c2 > 0.0 && in->temperature > r->reference_temperature - r->wlf_c2)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "storage.temperature",
+                             "%.4g K is at or below the pole of the WLF shift at %.4g K",
+                             in->temperature, r->reference_temperature - r->wlf_c2);
+  }
+  if (!(r->network_rate >= 0.0 && r->network_reform >= 0.0 && r->network_reform <= 1.0)) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.network_rate",
+                             "network rate %g 1/s or reformed share %g makes no sense",
+                             r->network_rate, r->network_reform);
+  }
+  if (!(r->swell_mass >= 0.0 && r->diffusion >= 0.0 && r->swell_modulus >= 0.0 &&
+        isfinite(r->swell_mass + r->diffusion + r->swell_modulus)) ||
+      (r->swell_mass > 0.0 && !(r->rubber_density > 0.0 && r->fluid_density > 0.0))) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.swell_mass",
+                             "swell of %g by mass with diffusion %g m2/s makes no sense",
+                             r->swell_mass, r->diffusion);
+  }
+  return SB_OK;
+}
+
+static double arrhenius(double energy, double temperature, double reference) {
+  return exp(-energy / gas_constant * (1.0 / temperature - 1.0 / reference));
+}
+
+SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRubberStorage *storage,
+                         SbWarnings *warnings, SbReport *report) {
+  *out = (SbRubberState){0};
+  const SbRubber *r = rubber;
+  SbStatus status = check(r, storage, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  const double t = storage->storage_time;
+  const double temperature = storage->temperature;
+  const double reference = r->reference_temperature;
+  const double away = temperature - reference;
+
+  // Shift of the relaxation times.
+  out->shift = 1.0;
+  if (r->shift == SB_SHIFT_WLF) {
+    out->shift = pow(10.0, -r->wlf_c1 * away / (r->wlf_c2 + away));
+  } else if (r->shift == SB_SHIFT_ARRHENIUS) {
+    out->shift = 1.0 / arrhenius(r->relaxation_energy, temperature, reference);
+  }
+  if (r->shift != SB_SHIFT_NONE && fabs(away) > 100.0) {
+    sb_warn(warnings, "shift-range", "storage.temperature",
+            "%.0f K from the reference: the temperature shift holds to about 100 K", away);
+  }
+
+  // Relaxation, and what the elements still hold after release.
+  double tau[SB_RUBBER_TERMS];
+  double longest = 0.0;
+  out->relaxation = 1.0;
+  for (size_t i = 0; i < r->terms; i++) {
+    tau[i] = r->tau[i] * out->shift;
+    out->relaxation += r->g[i] * expm1(-t / tau[i]);
+    longest = r->g[i] > 0.0 ? fmax(longest, tau[i]) : longest;
+  }
+  if (longest > 0.0 && t > 10.0 * longest) {
+    sb_warn(warnings, "relaxation-extrapolated", "storage.time",
+            "storage is %.2g times the longest relaxation time: slower relaxation is unknown",
+            t / longest);
+  }
+
+  // Network.
+  out->network = exp(-r->network_rate * arrhenius(r->network_energy, temperature, reference) * t);
+  const double anew = r->network_reform * (1.0 - out->network);
+  const double lasting = anew > 0.0 ? anew / (out->network + anew) : 0.0;
+  const double slow = sb_rubber_viscoelastic_set(r->g, tau, r->terms, t, storage->recovery_time);
+  out->compression_set = lasting + (1.0 - lasting) * slow;
+
+  // Swell.
+  const double radius = 0.5 * storage->section_diameter;
+  const double diffusion = r->diffusion * arrhenius(r->diffusion_energy, temperature, reference);
+  out->uptake = sb_rubber_uptake(diffusion * t / (radius * radius));
+  const double full =
+      r->swell_mass > 0.0 ? r->swell_mass * r->rubber_density / r->fluid_density : 0.0;
+  out->volume_swell = out->uptake * full;
+  out->linear_swell = cbrt(1.0 + out->volume_swell) - 1.0;
+  out->swell_modulus = r->swell_modulus > 0.0 ? pow(r->swell_modulus, out->uptake)
+                                              : 1.0 / cbrt(1.0 + out->volume_swell);
+  if (out->volume_swell > 0.5) {
+    sb_warn(warnings, "swell-large", "rubber.swell_mass",
+            "swell of %.0f %% by volume: diffusion and elasticity are no longer linear",
+            100.0 * out->volume_swell);
+  }
+
+  // The ring as it is now.
+  const double growth = (1.0 + out->linear_swell) * (1.0 + r->thermal_expansion * away);
+  out->section_diameter = storage->section_diameter * growth;
+  out->inner_diameter = storage->inner_diameter * growth;
+  out->modulus = storage->modulus * (r->entropic ? temperature / reference : 1.0) *
+                 out->swell_modulus * out->relaxation * out->network;
+  out->section_after_set =
+      out->section_diameter -
+      out->compression_set * fmax(0.0, out->section_diameter - storage->radial_space);
+  return sb_succeed(report);
+}

@@ -1,0 +1,37 @@
+// Typical processor time of one solve [s] on one core of 2 to 3 GHz, for predictions: what the
+// plan, the studies and their progress reckon with. Measured on whole runs of the shipped scenes
+// and with `sealbench bench`; good to a factor of two or three.
+#pragma once
+
+#include "engine/contact/fit.h"
+#include "engine/valve/model.h"
+
+#define SB_COST_CLOSED       2e-6
+#define SB_COST_DISC         0.8e-3
+#define SB_COST_RING         70e-3  // fitted; pressed against its wall a little more
+#define SB_COST_RING_SURFACE 0.1    // its compliance for a film, besides
+#define SB_COST_RING_SHAPE   0.4    // to draw: finer, dragged, or over the land's edge
+#define SB_COST_FILM         3e-3   // coupled film on the half-plane
+#define SB_COST_FILM_FITTED  8e-3   // on a disc's or ring's own surface
+#define SB_COST_FILM_MIXED   8e-3   // with asperities in it
+#define SB_COST_FILM_PROFILE 1e-3   // 1500 points of a solved film
+#define SB_COST_FILM_HISTORY 0.6    // of a seal's film through a cycle
+#define SB_COST_ROUGH        1e-5   // real area at a film
+#define SB_COST_LEAK         0.2e-3 // percolation at rest
+#define SB_COST_FRAME        3e-7
+#define SB_COST_SAMPLE       2e-6   // of the sliding plate
+#define SB_COST_ACTUATION    0.5e-3 // quasi-static, its rough contacts evaluated anew
+#define SB_COST_DYNAMICS     8e-3   // a stroke in and out with inertia
+#define SB_COST_DYNAMICS_OWN 2e-3   // the same where no machine's speed is given
+
+// One solve of a fitment model.
+static inline double sb_cost_fit(SbFitModel model) {
+  return model == SB_FIT_RING                                  ? SB_COST_RING
+         : model == SB_FIT_DISC || model == SB_FIT_DISC_THESIS ? SB_COST_DISC
+                                                               : SB_COST_CLOSED;
+}
+
+// One film of a film model, on the half-plane.
+static inline double sb_cost_film(SbModelFilm model) {
+  return model == SB_MODEL_FILM_REYNOLDS ? SB_COST_FILM : SB_COST_CLOSED;
+}

@@ -1,0 +1,533 @@
+// Plans the segments of the quasi-static cycle and evaluates them; the equations are in cycle.h.
+#include "engine/valve/cycle.h"
+
+#include <math.h>
+
+// ---------------------------------------------------------------------------------------------------
+// Resistance
+
+// Whether the inner seal seals at all. While the chamber is open its state is not solved, so the
+// closed states tell.
+static bool inner_touches(const SbCycle *cycle, SbChamber chamber, int direction) {
+  if (chamber == SB_CHAMBER_OPEN) {
+    chamber = direction == SB_CYCLE_OUT ? SB_CHAMBER_CLOSED : SB_CHAMBER_AT_REST;
+  }
+  return cycle->states.state[SB_INNER][chamber][direction].touches;
+}
+
+// Stem displacements at which the inner contact begins and ends to leave the land.
+static double edge_start(const SbCycle *cycle) {
+  return cycle->states.model->land_edge;
+}
+
+double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction) {
+  const SbSliding *inner = &cycle->states.state[SB_INNER][chamber][direction];
+  return cycle->states.model->land_edge + inner->contact_right - inner->contact_left;
+}
+
+void sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s,
+                         double *width_share, double *load_share) {
+  const SbSliding *state = &cycle->states.state[seal][chamber][direction];
+  *width_share = 1;
+  *load_share = 1;
+  if (!state->touches) {
+    *width_share = 0;
+    *load_share = 0;
+    return;
+  }
+  if (seal == SB_OUTER) {
+    return;
+  }
+  if (chamber == SB_CHAMBER_OPEN) {
+    *width_share = 0;
+    *load_share = 0;
+    return;
+  }
+
+  // Share of the contact that the edge has passed, t in [0, 1], and of the elliptic pressure over
+  // it.
+  double width = state->contact_right - state->contact_left;
+  double t = fmin(fmax((s - edge_start(cycle)) / width, 0), 1);
+  double c = 1 - 2 * t;
+  *width_share = 1 - t;
+  *load_share = 1 - (acos(c) - c * sqrt(fmax(1 - c * c, 0))) / M_PI;
+}
+
+double sb_cycle_seal_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
+                              double s) {
+  const SbSliding *state = &cycle->states.state[seal][chamber][direction];
+  double width_share;
+  double load_share;
+  sb_cycle_land_share(cycle, seal, chamber, direction, s, &width_share, &load_share);
+  return (state->boundary_area + state->viscous) * width_share + state->boundary_load * load_share;
+}
+
+double sb_cycle_friction(const SbCycle *cycle, SbChamber chamber, int direction, double s) {
+  return sb_cycle_seal_friction(cycle, SB_OUTER, chamber, direction, s) +
+         sb_cycle_seal_friction(cycle, SB_INNER, chamber, direction, s);
+}
+
+double sb_cycle_static_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
+                                double s) {
+  const SbSliding *state = &cycle->states.state[seal][chamber][direction];
+  double kinetic = sb_sliding_friction(state);
+  double ratio = kinetic > 0 ? state->friction_static / kinetic : 1;
+  return ratio * sb_cycle_seal_friction(cycle, seal, chamber, direction, s);
+}
+
+// Static limit of both seals [N].
+static double static_limit(const SbCycle *cycle, SbChamber chamber, int direction, double s) {
+  return sb_cycle_static_friction(cycle, SB_OUTER, chamber, direction, s) +
+         sb_cycle_static_friction(cycle, SB_INNER, chamber, direction, s);
+}
+
+// d f/d s of the inner seal while the edge passes, from the same ellipse [N/m].
+static double friction_slope(const SbCycle *cycle, SbChamber chamber, int direction, double s) {
+  const SbSliding *state = &cycle->states.state[SB_INNER][chamber][direction];
+  double width = state->contact_right - state->contact_left;
+  double t = state->touches && chamber != SB_CHAMBER_OPEN ? (s - edge_start(cycle)) / width : -1;
+  if (t <= 0 || t >= 1) {
+    return 0;
+  }
+  double c = 1 - 2 * t;
+  return -((state->boundary_area + state->viscous) +
+           state->boundary_load * 4 / M_PI * sqrt(fmax(1 - c * c, 0))) /
+         width;
+}
+
+// Force that balances sliding: F_p + f on the way in, F_p - f on the way out.
+static double balance_force(const SbCycle *cycle, SbChamber chamber, int direction, double s) {
+  double sign = direction == SB_CYCLE_IN ? 1 : -1;
+  return cycle->states.model->pressure_force +
+         sign * sb_cycle_friction(cycle, chamber, direction, s);
+}
+
+double sb_cycle_force(const SbCycle *cycle, double X, double s) {
+  return fmax(cycle->states.model->stiffness * (X - s), 0);
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Evaluation inside a segment
+
+double sb_cycle_stem(const SbCycle *cycle, const SbCycleSegment *segment, double X) {
+  if (segment->mode != SB_CYCLE_SLIP) {
+    return segment->stem0;
+  }
+  // X(s) = s + G(s)/k increases with s inside a segment (jumps are cut out when it is planned), so
+  // bisection-guarded Newton always finds it.
+  double k = cycle->states.model->stiffness;
+  double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
+  double low = fmin(segment->stem0, segment->stem1);
+  double high = fmax(segment->stem0, segment->stem1);
+  double span = segment->platen1 - segment->platen0;
+  double s = span != 0 ? segment->stem0 +
+                             (segment->stem1 - segment->stem0) * ((X - segment->platen0) / span)
+                       : segment->stem1;
+  for (int i = 0; i < 60; i++) {
+    s = fmin(fmax(s, low), high);
+    double miss = s + balance_force(cycle, segment->chamber, segment->direction, s) / k - X;
+    if (miss > 0) {
+      high = s;
+    } else {
+      low = s;
+    }
+    double slope = 1 + sign * friction_slope(cycle, segment->chamber, segment->direction, s) / k;
+    double next = s - miss / slope;
+    if (!(next > low && next < high)) {
+      next = (low + high) / 2;
+    }
+    if (fabs(next - s) <= 4e-16 * (fabs(s) + fabs(X))) {
+      return next;
+    }
+    s = next;
+  }
+  return s;
+}
+
+double sb_cycle_stem_rate(const SbCycle *cycle, const SbCycleSegment *segment, double s) {
+  if (segment->mode != SB_CYCLE_SLIP) {
+    return 0;
+  }
+  double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
+  double slope = friction_slope(cycle, segment->chamber, segment->direction, s);
+  // On the brink of a jump the rate has no bound; a thousand times the platen's stands for it.
+  return 1 / fmax(1 + sign * slope / cycle->states.model->stiffness, 1e-3);
+}
+
+double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, double X, double s,
+                        double *stop_force) {
+  const SbModel *model = cycle->states.model;
+  double force = sb_cycle_force(cycle, X, s);
+  *stop_force = 0;
+  if (segment->mode != SB_CYCLE_STICK) {
+    double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
+    return sign * sb_cycle_friction(cycle, segment->chamber, segment->direction, s);
+  }
+
+  // At a stop the friction keeps the value it came with until the stop is unloaded.
+  double needed = force - model->pressure_force;
+  double friction = needed;
+  if (s >= model->stroke && needed > segment->friction0) {
+    friction = segment->friction0;
+    *stop_force = needed - friction;
+  } else if (s <= 0 && needed < segment->friction0) {
+    friction = segment->friction0;
+    *stop_force = needed - friction;
+  }
+  return friction;
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Planning
+
+// What the planner carries along.
+typedef struct {
+  SbCycle *cycle;
+  double X, s;
+  int platen;
+  SbChamber chamber;
+  SbStage stage;
+  int direction;
+  double friction; // last friction on the stem, signed
+  bool full;
+} Planner;
+
+static void emit(Planner *p, SbCycleMode mode, double X1, double s1, int event) {
+  SbCycle *cycle = p->cycle;
+  if (cycle->count == SB_CYCLE_SEGMENTS_MAX) {
+    p->full = true;
+    return;
+  }
+  SbCycleSegment *segment = &cycle->segment[cycle->count];
+  *segment = (SbCycleSegment){
+      .mode = mode,
+      .direction = p->direction,
+      .platen = p->platen,
+      .chamber = p->chamber,
+      .stage = p->stage,
+      .platen0 = p->X,
+      .platen1 = X1,
+      .stem0 = p->s,
+      .stem1 = s1,
+      .friction0 = p->friction,
+      .event = event,
+  };
+  double stop_force;
+  p->friction = sb_cycle_balance(cycle, segment, X1, s1, &stop_force);
+  cycle->count++;
+  p->X = X1;
+  p->s = s1;
+  if (event >= 0) {
+    p->stage = (SbStage)event;
+  }
+}
+
+// Ends of the smooth pieces of the way from s in `direction`: the nearest of the edge's start,
+// middle and end, or the stop. On the way in at the edge's end the chamber opens; on the way out it
+// closes there.
+static double piece_end(const Planner *p) {
+  const SbModel *model = p->cycle->states.model;
+  double start = edge_start(p->cycle);
+  SbChamber chamber = p->chamber;
+  if (p->direction == SB_CYCLE_OUT && chamber == SB_CHAMBER_OPEN) {
+    chamber = SB_CHAMBER_CLOSED;
+  }
+  double end = sb_cycle_edge_end(p->cycle, chamber, p->direction);
+  double marks[] = {start, (start + end) / 2, end};
+  double best = p->direction == SB_CYCLE_IN ? model->stroke : 0;
+  for (int i = 0; i < 3; i++) {
+    if (p->direction == SB_CYCLE_IN && marks[i] > p->s && marks[i] < best) {
+      best = marks[i];
+    } else if (p->direction == SB_CYCLE_OUT && marks[i] < p->s && marks[i] > best) {
+      best = marks[i];
+    }
+  }
+  return best;
+}
+
+// Root of h(s) = k (X - s) - G(s) between a (h > 0 inside the jump) and b (h <= 0), by bisection.
+static double jump_target(const Planner *p, double a, double b) {
+  double k = p->cycle->states.model->stiffness;
+  double sign = b > a ? 1 : -1;
+  for (int i = 0; i < 200 && fabs(b - a) > 1e-16; i++) {
+    double s = (a + b) / 2;
+    double h = k * (p->X - s) - balance_force(p->cycle, p->chamber, p->direction, s);
+    if (sign * h > 0) {
+      a = s;
+    } else {
+      b = s;
+    }
+  }
+  return (a + b) / 2;
+}
+
+// The stage that lies at the end of a piece, or -1; also switches the chamber after it.
+static int event_at(const Planner *p, double s) {
+  const SbCycle *cycle = p->cycle;
+  bool touches = inner_touches(cycle, p->chamber, p->direction);
+  if (p->direction == SB_CYCLE_IN) {
+    if (s == edge_start(cycle) && touches && p->stage == SB_STAGE_B) {
+      return SB_STAGE_C;
+    }
+    if (s == cycle->states.model->stroke && p->stage < SB_STAGE_D) {
+      return SB_STAGE_D;
+    }
+  } else if (p->chamber == SB_CHAMBER_OPEN && touches &&
+             s == sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT)) {
+    return SB_STAGE_F;
+  }
+  return -1;
+}
+
+static void switch_chamber(Planner *p) {
+  const SbCycle *cycle = p->cycle;
+  if (!inner_touches(cycle, p->chamber, p->direction)) {
+    return;
+  }
+  if (p->direction == SB_CYCLE_IN && p->chamber != SB_CHAMBER_OPEN &&
+      p->s >= sb_cycle_edge_end(cycle, p->chamber, p->direction)) {
+    p->chamber = SB_CHAMBER_OPEN;
+  } else if (p->direction == SB_CYCLE_OUT && p->chamber == SB_CHAMBER_OPEN &&
+             p->s <= sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT)) {
+    p->chamber = SB_CHAMBER_CLOSED;
+  }
+}
+
+// Slides from the present point in the present direction until the stem sticks, stops, or (on the
+// way out) is left by the platen. Forces balance at entry unless a jump is due.
+static void slide(Planner *p) {
+  const SbModel *model = p->cycle->states.model;
+  double k = model->stiffness;
+  double sign = p->direction == SB_CYCLE_IN ? 1 : -1;
+  while (!p->full) {
+    double limit = p->direction == SB_CYCLE_IN ? model->stroke : 0;
+    if (p->s == limit) {
+      return;
+    }
+    double balance = balance_force(p->cycle, p->chamber, p->direction, p->s);
+    double excess = sign * (sb_cycle_force(p->cycle, p->X, p->s) - balance);
+    double noise =
+        1e-12 * (fabs(balance) + model->pressure_force) + 8 * 2.3e-16 * k * (p->X + p->s);
+    double end = piece_end(p);
+
+    if (excess < -noise || (p->direction == SB_CYCLE_OUT && balance < 0)) {
+      return; // resistance has risen above the force: the stem sticks
+    }
+    if (excess > noise) {
+      // Too much force for balance: jump to the first balance, or through the whole piece.
+      double h_end =
+          sign * (k * (p->X - end) - balance_force(p->cycle, p->chamber, p->direction, end));
+      double target = h_end > 0 ? end : jump_target(p, p->s, end);
+      emit(p, SB_CYCLE_JUMP, p->X, target, target == end ? event_at(p, end) : -1);
+      switch_chamber(p);
+      continue;
+    }
+
+    // Balanced sliding, up to where dX/ds changes sign (the middle of the edge is a piece end, so
+    // the slope is monotonic and there is at most one such point).
+    double turn = end;
+    double slope_start = 1 + sign * friction_slope(p->cycle, p->chamber, p->direction, p->s) / k;
+    double inside = end - (end - p->s) * 1e-9;
+    double slope_end = 1 + sign * friction_slope(p->cycle, p->chamber, p->direction, inside) / k;
+    if (slope_start > 0 && slope_end < 0) {
+      double a = p->s;
+      double b = end;
+      for (int i = 0; i < 100; i++) {
+        turn = (a + b) / 2;
+        if (1 + sign * friction_slope(p->cycle, p->chamber, p->direction, turn) / k > 0) {
+          a = turn;
+        } else {
+          b = turn;
+        }
+      }
+    } else if (slope_start <= 0 && slope_end <= 0) {
+      turn = p->s;
+    }
+    if (p->direction == SB_CYCLE_OUT &&
+        balance_force(p->cycle, p->chamber, p->direction, turn) < 0) {
+      // Friction overtakes the pressure inside this piece: the platen leaves where they are equal.
+      double a = p->s;
+      double b = turn;
+      for (int i = 0; i < 100; i++) {
+        turn = (a + b) / 2;
+        if (balance_force(p->cycle, p->chamber, p->direction, turn) > 0) {
+          a = turn;
+        } else {
+          b = turn;
+        }
+      }
+      emit(p, SB_CYCLE_SLIP, turn, turn, -1);
+      return;
+    }
+    if (turn == p->s) {
+      // At the very edge of stability: step over the hump by the smallest jump.
+      p->s = nextafter(p->s, end);
+      double h_end =
+          sign * (k * (p->X - end) - balance_force(p->cycle, p->chamber, p->direction, end));
+      double target = h_end > 0 ? end : jump_target(p, p->s, end);
+      emit(p, SB_CYCLE_JUMP, p->X, target, target == end ? event_at(p, end) : -1);
+      switch_chamber(p);
+      continue;
+    }
+    double X1 = turn + balance_force(p->cycle, p->chamber, p->direction, turn) / k;
+    emit(p, SB_CYCLE_SLIP, X1, turn, turn == end ? event_at(p, turn) : -1);
+    switch_chamber(p);
+  }
+}
+
+double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, bool rested) {
+  double least = balance_force(cycle, chamber, SB_CYCLE_OUT, s);
+  if (rested) {
+    least = fmin(least, cycle->states.model->pressure_force -
+                            static_limit(cycle, chamber, SB_CYCLE_OUT, s));
+  }
+  if (chamber == SB_CHAMBER_OPEN) {
+    chamber = SB_CHAMBER_CLOSED;
+  }
+  // Friction only grows on the way back to the land, so the ends of each state hold the least.
+  return fmin(least, balance_force(cycle, chamber, SB_CYCLE_OUT, 0));
+}
+
+SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
+  const SbModel *model = cycle->states.model;
+  cycle->count = 0;
+  double k = model->stiffness;
+  Planner p = {.cycle = cycle, .platen = 1, .direction = SB_CYCLE_IN, .stage = SB_STAGE_A};
+
+  // A chamber whose inner seal does not touch is always open.
+  bool touches = inner_touches(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
+  p.chamber = touches ? SB_CHAMBER_AT_REST : SB_CHAMBER_OPEN;
+  if (touches && sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN) <= 0) {
+    p.chamber = SB_CHAMBER_OPEN;
+  }
+
+  // In-stroke: stick until the static limit, slide, and again, until the stop; there the platen
+  // reverses.
+  while (!p.full) {
+    double friction = p.stage == SB_STAGE_A ? static_limit(cycle, p.chamber, SB_CYCLE_IN, p.s)
+                                            : sb_cycle_friction(cycle, p.chamber, SB_CYCLE_IN, p.s);
+    double X_slip = p.s + (model->pressure_force + friction) / k;
+    if (p.s >= model->stroke) {
+      emit(&p, SB_CYCLE_STICK, fmax(p.s + model->reversal_force / k, p.X), p.s, -1);
+      break;
+    }
+    emit(&p, SB_CYCLE_STICK, X_slip, p.s, p.stage == SB_STAGE_A ? SB_STAGE_B : -1);
+    slide(&p);
+  }
+  cycle->platen_top = p.X;
+
+  // Return: the platen goes back to X = 0; the stem follows while pressure beats friction.
+  p.platen = -1;
+  double s_return = p.s;
+  SbChamber chamber_return = p.chamber;
+  while (!p.full && p.X > 0) {
+    double limit = balance_force(cycle, p.chamber, SB_CYCLE_OUT, p.s);
+    double X_slip = p.s + limit / k;
+    // Where friction has caught up with the pressure the root is known to rounding only.
+    bool stalled = limit <= 1e-9 * model->pressure_force;
+    if (p.s <= 0 || stalled || X_slip <= 0) {
+      emit(&p, SB_CYCLE_STICK, 0, p.s, -1);
+      break;
+    }
+    emit(&p, SB_CYCLE_STICK, fmin(X_slip, p.X), p.s,
+         p.stage < SB_STAGE_E && p.stage >= SB_STAGE_B ? SB_STAGE_E : -1);
+    p.direction = SB_CYCLE_OUT;
+    slide(&p);
+  }
+
+  cycle->returns = p.s == 0;
+  cycle->force_return_min = s_return > 0
+                                ? sb_cycle_least_return(cycle, s_return, chamber_return, false)
+                                : model->pressure_force;
+  if (p.full) {
+    return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "drive.stiffness",
+                             "the cycle does not end within %d events", SB_CYCLE_SEGMENTS_MAX);
+  }
+  return sb_succeed(report);
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Energy
+
+// Gauss-Legendre on [0, 1], 16 points: abscissae and weights of the upper half of [-1, 1].
+static const double gauss_x[8] = {0.0950125098376374402, 0.281603550779258913, 0.458016777657227386,
+                                  0.617876244402643748,  0.755404408355003034, 0.865631202387831744,
+                                  0.944575023073232576,  0.989400934991649933};
+static const double gauss_w[8] = {
+    0.189450610455068496, 0.182603415044923589,  0.169156519395002538,  0.149595988816576732,
+    0.124628971255533872, 0.0951585116824927848, 0.0622535239386478929, 0.0271524594117540949};
+
+typedef double Integrand(const SbCycle *, const SbCycleSegment *, double);
+
+static double quadrature(const SbCycle *cycle, const SbCycleSegment *segment, double a, double b,
+                         Integrand *f) {
+  double sum = 0;
+  double middle = (a + b) / 2;
+  double half = (b - a) / 2;
+  for (int i = 0; i < 8; i++) {
+    sum += gauss_w[i] * (f(cycle, segment, middle + half * gauss_x[i]) +
+                         f(cycle, segment, middle - half * gauss_x[i]));
+  }
+  return sum * half;
+}
+
+// The platen's work and the loop are integrated over X, friction over s: separate evaluations of
+// separate functions, so that the closure tests the motion and not an identity.
+static double force_of_platen(const SbCycle *cycle, const SbCycleSegment *segment, double X) {
+  return sb_cycle_force(cycle, X, sb_cycle_stem(cycle, segment, X));
+}
+
+static double friction_of_stem(const SbCycle *cycle, const SbCycleSegment *segment, double s) {
+  return sb_cycle_friction(cycle, segment->chamber, segment->direction, s);
+}
+
+static double jump_excess(const SbCycle *cycle, const SbCycleSegment *segment, double s) {
+  double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
+  return cycle->states.model->stiffness * (segment->platen0 - s) -
+         cycle->states.model->pressure_force -
+         sign * sb_cycle_friction(cycle, segment->chamber, segment->direction, s);
+}
+
+void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
+  const SbModel *model = cycle->states.model;
+  double k = model->stiffness;
+  *out = (SbEnergy){0};
+  for (size_t i = 0; i < cycle->count; i++) {
+    const SbCycleSegment *segment = &cycle->segment[i];
+    double ds = segment->stem1 - segment->stem0;
+    double X0 = segment->platen0;
+    double X1 = segment->platen1;
+
+    // Where the platen leaves the stem the force has a corner: X = s.
+    double corner = fmin(fmax(segment->stem0, fmin(X0, X1)), fmax(X0, X1));
+    if (segment->mode == SB_CYCLE_STICK) {
+      out->external += quadrature(cycle, segment, X0, corner, force_of_platen) +
+                       quadrature(cycle, segment, corner, X1, force_of_platen);
+    } else if (segment->mode == SB_CYCLE_SLIP) {
+      out->external += quadrature(cycle, segment, X0, X1, force_of_platen);
+      out->friction +=
+          fabs(quadrature(cycle, segment, segment->stem0, segment->stem1, friction_of_stem));
+    } else {
+      out->friction +=
+          fabs(quadrature(cycle, segment, segment->stem0, segment->stem1, friction_of_stem));
+      out->seal += quadrature(cycle, segment, segment->stem0, segment->stem1, jump_excess);
+    }
+    out->external -= model->pressure_force * ds;
+    out->external_max = fmax(out->external_max, fabs(out->external));
+
+    double force0 = sb_cycle_force(cycle, X0, segment->stem0);
+    double force1 = sb_cycle_force(cycle, X1, segment->stem1);
+    out->stored += (force1 * force1 - force0 * force0) / (2 * k);
+    // F ds around the loop: in a jump the force falls along the spring's line, in sliding it is F_p
+    // +- f.
+    if (segment->mode == SB_CYCLE_JUMP) {
+      out->loop += (force0 + force1) / 2 * ds;
+    } else if (segment->mode == SB_CYCLE_SLIP) {
+      double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
+      out->loop += model->pressure_force * ds + sign * quadrature(cycle, segment, segment->stem0,
+                                                                  segment->stem1, friction_of_stem);
+    }
+  }
+  double sum = out->friction + out->stored + out->seal + out->kinetic + out->stop;
+  out->closure = out->external_max > 0 ? fabs(out->external - sum) / out->external_max : 0;
+}

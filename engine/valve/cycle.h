@@ -1,0 +1,105 @@
+// The quasi-static cycle A to F of a valve in a test machine, as a list of segments between events.
+//
+// The platen moves at constant speed, against the end stop up to the reversal force, and back;
+// machine and stem are coupled by a spring k that pushes but does not pull. At every instant the
+// forces on the stem balance (thesis section 5.2; inertia is nil at 20 mm/min):
+//
+//   in-stroke  k (X - s) = F_p + f(s)      return  k (X - s) = F_p - f(s) >= 0
+//
+// with X the platen, s the stem, F_p the canister's force and f the seals' friction, which changes
+// while the inner seal passes the edge of the bore land: its contact [l, r] then only reaches over
+// x > x_e, x_e = l + (s - s_C); the width-bound part of its friction falls linearly, the load-bound
+// part as an elliptic pressure integrates. Stuck means no motion until the limit is passed:
+// the static friction after the rest before A, the kinetic one where the stem stops on the way, for
+// without dwell the contact keeps its film (the thesis sees the peak on the first motion only).
+// Where the resistance falls faster than the spring relaxes the stem jumps to the next balance at
+// constant X, and the energy set free is counted as lost in the seal. End stop and rest stop are
+// rigid.
+//
+// Everything is located exactly: slip onset, edge, stop, reversal, jumps. Nothing here steps in
+// time.
+#pragma once
+
+#include "engine/valve/frame.h"
+#include "engine/valve/sliding.h"
+
+// Directions of sliding, as indices: the in-stroke (speed > 0), the return.
+enum { SB_CYCLE_IN = 0, SB_CYCLE_OUT = 1, SB_CYCLE_DIRECTIONS = 2 };
+enum { SB_CYCLE_CHAMBERS = 3, SB_CYCLE_SEGMENTS_MAX = 96 };
+
+// Steady sliding states the cycle is made of: seal x chamber state x direction.
+typedef struct {
+  const SbModel *model;
+  SbSliding state[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_CYCLE_DIRECTIONS];
+} SbCycleStates;
+
+typedef enum {
+  SB_CYCLE_STICK, // the stem does not move; s0 = s1
+  SB_CYCLE_SLIP,  // the stem slides in balance
+  SB_CYCLE_JUMP   // the stem jumps at constant X
+} SbCycleMode;
+
+typedef struct {
+  SbCycleMode mode;
+  int direction;     // of sliding, SB_CYCLE_IN or SB_CYCLE_OUT; for STICK that of the last sliding
+  int platen;        // +1 advancing, -1 returning
+  SbChamber chamber; // throughout the segment
+  SbStage stage;     // last event passed
+  double platen0, platen1; // X at start and end [m]
+  double stem0, stem1;     // s at start and end [m]
+  double friction0;        // STICK: friction on the stem at its start [N]
+  int event;               // SbStage of the event at its end, -1 if none
+} SbCycleSegment;
+
+typedef struct {
+  SbCycleStates states;
+  size_t count;
+  SbCycleSegment segment[SB_CYCLE_SEGMENTS_MAX];
+  double platen_top;       // X at reversal [m]
+  bool returns;            // the stem comes to rest at s = 0 by canister pressure alone
+  double force_return_min; // least F_p - f on the way from E to A, whether the stem gets there or
+                           // not [N]
+} SbCycle;
+
+// Plans the segments for `states` (filled by the caller for every entry that can be needed).
+// SB_ERROR_NOT_CONVERGED if the events do not end within SB_CYCLE_SEGMENTS_MAX.
+SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report);
+
+// Share of a seal's contact width and of its load that lie on the land, at stem displacement s.
+void sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s,
+                         double *width_share, double *load_share);
+
+// Kinetic friction of one seal and of both, magnitude [N].
+double sb_cycle_seal_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
+                              double s);
+double sb_cycle_friction(const SbCycle *cycle, SbChamber chamber, int direction, double s);
+
+// Stem displacement of `segment` at platen position X (inside the segment).
+double sb_cycle_stem(const SbCycle *cycle, const SbCycleSegment *segment, double X);
+
+// ds/dX at stem displacement s of `segment`: how much of the platen's motion the stem makes.
+double sb_cycle_stem_rate(const SbCycle *cycle, const SbCycleSegment *segment, double s);
+
+// Force k (X - s) on the stem, not below zero.
+double sb_cycle_force(const SbCycle *cycle, double X, double s);
+
+// Friction force on the stem at a point of a segment, positive against the in-stroke [N]; in STICK
+// what balance needs within the limits, the rest being carried by a stop: `stop_force`, positive
+// pushes out.
+double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, double X, double s,
+                        double *stop_force);
+
+// Static limit of one seal at a place [N].
+double sb_cycle_static_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
+                                double s);
+
+// Stem displacement at which the inner contact has left the land on the way in (chamber at rest) or
+// meets it on the way out (chamber closed).
+double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction);
+
+// Least F_p - f over the way back from displacement s, whatever moves the stem; `rested`: against
+// the static friction at s.
+double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, bool rested);
+
+// Energy of the whole cycle, every term by its own quadrature; fills all fields but kinetic (0).
+void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out);

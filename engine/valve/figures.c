@@ -1,0 +1,97 @@
+// See figures.h.
+#include "engine/valve/figures.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#define SB_FIGURE(path, si, shown, member, verdict)                                                \
+  {path, si, shown, verdict, offsetof(SbSummary, member)},
+#define SB_SEAL_FIGURE(...)
+static const SbFigure figures[SB_FIGURE_COUNT] = {
+#include "engine/valve/figures.def"
+#undef SB_FIGURE
+#undef SB_SEAL_FIGURE
+#define SB_FIGURE(...)
+#define SB_SEAL_FIGURE(path, si, shown, member, verdict)                                           \
+  {"seals.outer." path, si, shown, verdict, offsetof(SbSummary, seal[SB_OUTER].member)},
+#include "engine/valve/figures.def"
+#undef SB_SEAL_FIGURE
+#define SB_SEAL_FIGURE(path, si, shown, member, verdict)                                           \
+  {"seals.inner." path, si, shown, verdict, offsetof(SbSummary, seal[SB_INNER].member)},
+#include "engine/valve/figures.def"
+#undef SB_FIGURE
+#undef SB_SEAL_FIGURE
+};
+
+const SbFigure *sb_figure(int index) {
+  return &figures[index];
+}
+
+int sb_figure_find(const char *path) {
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    if (strcmp(figures[i].path, path) == 0) {
+      return i;
+    }
+  }
+  return -1;
+}
+
+double sb_figure_value(const SbSummary *summary, int index) {
+  return *(const double *)((const char *)summary + figures[index].offset);
+}
+
+const char *sb_figure_reason(const SbSummary *summary, int index) {
+  const SbReasons *reasons = &summary->reasons;
+  if (isfinite(sb_figure_value(summary, index))) {
+    return NULL;
+  }
+  return reasons->of[index] > 0 ? reasons->text[reasons->of[index] - 1]
+                                : "this run computes nothing that gives it";
+}
+
+void sb_figures_clear(SbSummary *summary) {
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    *(double *)((char *)summary + figures[i].offset) = NAN;
+  }
+  summary->reasons = (SbReasons){0};
+}
+
+// Number of a text among the reasons, from 1. The last place takes what no longer fits.
+static unsigned char text_number(SbReasons *reasons, const char *text) {
+  size_t at = 0;
+  while (at < reasons->count && strcmp(reasons->text[at], text) != 0) {
+    at++;
+  }
+  if (at == SB_REASONS_MAX) {
+    snprintf(reasons->text[--at], sizeof reasons->text[0], "one of several failures: see warnings");
+  } else if (at == reasons->count) {
+    snprintf(reasons->text[reasons->count++], sizeof reasons->text[0], "%s", text);
+  }
+  return (unsigned char)(at + 1);
+}
+
+void sb_reason(SbSummary *summary, const char *pattern, const char *format, ...) {
+  char text[sizeof summary->reasons.text[0]];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  size_t length = strlen(pattern);
+  bool many = length > 0 && pattern[length - 1] == '*';
+  unsigned char number = 0;
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    bool fits = strncmp(figures[i].path, pattern, many ? length - 1 : SIZE_MAX) == 0;
+    if (fits && summary->reasons.of[i] == 0) {
+      number = number > 0 ? number : text_number(&summary->reasons, text);
+      summary->reasons.of[i] = number;
+    }
+  }
+}
+
+const char *sb_leak_state_name(SbLeakState state) {
+  static const char *const names[] = {"not-computed", "closed", "percolating", "open"};
+  return names[state];
+}

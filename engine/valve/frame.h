@@ -1,0 +1,123 @@
+// Frames: what one instant of a run looks like. Plain numbers; immutable once published.
+#pragma once
+
+#include "engine/valve/model.h"
+
+#include <stdint.h>
+
+// Events of the cycle; README, Definitions.
+typedef enum {
+  SB_STAGE_A,
+  SB_STAGE_B,
+  SB_STAGE_C,
+  SB_STAGE_D,
+  SB_STAGE_E,
+  SB_STAGE_F,
+  SB_STAGE_COUNT
+} SbStage;
+
+// "A" to "F"; borrowed.
+const char *sb_stage_name(SbStage stage);
+
+// One seal at one instant.
+typedef struct {
+  float land_fraction;  // share of the contact width on the land: 1 sliding on it, 0 off
+  float pressure_left;  // fluid pressure, canister side [Pa]
+  float pressure_right; // fluid pressure, ambient side [Pa]
+  uint32_t profile;     // index into the run's contact profiles, UINT32_MAX: none
+  uint32_t shape;       // index into the run's solved ring shapes, UINT32_MAX: none
+  double contact_left;  // contact in the seal's frame [m], left < right; equal when there is none
+  double contact_right; //
+  double load;          // total contact load, around the circumference [N]
+  double pressure_peak; // [Pa]
+  double film_min;      // [m], 0 at rest unless the films' history is solved
+  double film_central;  // [m]
+  double lambda;        // film_central / sigma
+  double friction_boundary; // signed as friction [N]
+  double friction_viscous;  //
+  double friction;          // force on the stem, positive when it pushes the stem out (resists the
+                            // in-stroke) [N]
+} SbSealFrame;
+
+// Fluid pressure on each side above the lower of the two [Pa]: the step that the contact holds.
+// Contact pressures of frames and profiles count from the lower one too; what both sides share lies
+// on everything.
+static inline double sb_seal_step_left(const SbSealFrame *seal) {
+  return (double)(seal->pressure_left > seal->pressure_right
+                      ? seal->pressure_left - seal->pressure_right
+                      : 0);
+}
+
+static inline double sb_seal_step_right(const SbSealFrame *seal) {
+  return (double)(seal->pressure_right > seal->pressure_left
+                      ? seal->pressure_right - seal->pressure_left
+                      : 0);
+}
+
+// The valve at one instant. Displacement s > 0 is the in-stroke; compression forces are positive.
+typedef struct {
+  double time;           // [s]
+  double displacement;   // of the stem [m]
+  double velocity;       // of the stem [m/s]
+  double platen;         // displacement of the machine's platen [m]
+  double force;          // on the stem by the machine, positive in compression [N]
+  double pressure_force; // pushes the stem out [N]
+  double
+      stop_force; // of the end stop, positive pushes the stem out; of the rest stop, negative [N]
+  double chamber_pressure; // in the dose chamber [Pa]
+  double spring_force;     // of a return spring, pushes the stem out [N]
+  uint8_t stage;           // SbStage of the last event passed
+  uint8_t chamber;         // SbChamber
+  uint8_t on_event;        // 1 if this frame sits exactly on an event, just before it
+  uint8_t peak;            // of a rig's force: 1 the first peak, 2 a following one, else 0
+  SbSealFrame seal[SB_SEAL_COUNT];
+} SbFrame;
+
+// Pressure and film over one contact, shared by all frames that have the same state. Arrays of
+// `count`, owned by the run. x in the seal's frame [m]; film is 0 where none was computed (a seal
+// at rest).
+typedef struct {
+  size_t count;
+  const double *x;
+  const double
+      *pressure;      // total contact pressure, the fluid's outside it, above the lower side [Pa]
+  const double *film; // [m]
+  const double *asperity_pressure; // what asperities bear at this film [Pa]
+  const char *model;               // the model that made it ("hertz shape of karaszkiewicz", ...)
+} SbContactProfile;
+
+// Fields on a solved ring, for drawing.
+typedef enum {
+  SB_FIELD_VON_MISES,    // [Pa]
+  SB_FIELD_HYDROSTATIC,  // mean pressure, compression positive [Pa]
+  SB_FIELD_SHEAR,        // axial-radial [Pa]
+  SB_FIELD_CONTACT,      // contact or fluid pressure on the surface, 0 inside [Pa]
+  SB_FIELD_DISPLACEMENT, // from the free ring, magnitude [m]
+  SB_FIELD_COUNT
+} SbField;
+
+// A solved ring's deformed section, shared by all frames in the same state. Arrays owned by the
+// run.
+typedef struct {
+  size_t nodes, triangles, outline;
+  const double *place; // [2 nodes]: x in the seal's frame, y above the groove floor [m]
+  const float *field[SB_FIELD_COUNT]; // [nodes] each
+  const int *triangle;                // [3 triangles] node numbers
+  const int *outline_node;            // [outline] in order, closed by the first
+  double contact_left, contact_right; // bore contact [m]; equal if there is none
+  double load;                        // on the bore [N]
+  double drag;                        // friction of the bore on the ring, in-stroke > 0 [N]
+} SbSealShape;
+
+// Energy of the cycle, each term accumulated by itself [J].
+typedef struct {
+  double external;     // by the platen and the canister pressure on the stem
+  double external_max; // largest |external| on the way, the scale of the closure
+  double friction;     // by both seals
+  double stored;       // change of elastic energy (machine, stops)
+  double seal;    // released where the stem jumps (slip onset, land edge) or lost inside the rubber
+  double kinetic; // change
+  double stop;    // lost at the stops
+  double loop;    // area of the force-displacement loop: energy_loss_J
+  double closure; // |external - friction - stored - seal - kinetic - stop| / external_max
+} SbEnergy;

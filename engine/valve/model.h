@@ -1,0 +1,249 @@
+// The model: a checked, immutable set of physical quantities compiled from parameters.
+//
+// Everything downstream reads SbModel and nothing else; keys, defaults and overrides end here.
+#pragma once
+
+#include "engine/contact/gland.h"
+#include "engine/rubber/rubber_time.h"
+#include "engine/valve/limits.h"
+#include "engine/mechanism/bodies.h"
+#include "engine/valve/life.h"
+#include "engine/mechanism/outline.h"
+#include "engine/valve/rig.h"
+#include "engine/valve/params.h"
+#include "engine/base/status.h"
+
+#include <stddef.h>
+
+enum { SB_OUTER = 0, SB_INNER = 1, SB_SEAL_COUNT = 2 };
+
+// "outer" or "inner"; borrowed.
+const char *sb_seal_name(int seal);
+
+enum { SB_PROBLEMS_MAX = 32 };
+
+// One thing wrong with a parameter set: the key to change, why, and the range that would do (SI;
+// NaN where that side is open).
+typedef struct {
+  char key[64];
+  char text[200];
+  double min, max;
+} SbProblem;
+
+typedef struct {
+  size_t count;
+  SbProblem item[SB_PROBLEMS_MAX];
+} SbProblems;
+
+typedef enum {
+  SB_MAP_CHAMBER_FILLED,
+  SB_MAP_CHAMBER_VENTED,
+  SB_MAP_PORTS // the chamber's pressure is a state
+} SbPressureMap;
+typedef enum {
+  SB_MODEL_FILM_THESIS,
+  SB_MODEL_FILM_KARASZKIEWICZ,
+  SB_MODEL_FILM_ASYMPTOTIC,
+  SB_MODEL_FILM_REYNOLDS
+} SbModelFilm;
+typedef enum { SB_MODEL_SURFACE_GREENWOOD_TRIPP, SB_MODEL_SURFACE_PERSSON } SbModelSurface;
+typedef enum {
+  SB_MODEL_ASPERITIES_BESIDE, // at the smooth film, taking no load off it
+  SB_MODEL_ASPERITIES_COUPLED // in the film's own solve
+} SbModelAsperities;
+typedef enum {
+  SB_MODEL_MOTION_QUASI_STATIC,
+  SB_MODEL_MOTION_DYNAMIC,
+  SB_MODEL_MOTION_RIG,   // the sliding plate of thesis 3.3 instead of the valve
+  SB_MODEL_MOTION_BODIES // as DYNAMIC, by the constrained parts and with their joints' reactions
+} SbModelMotion;
+
+typedef enum {
+  SB_MODEL_DRIVE_MACHINE,
+  SB_MODEL_DRIVE_HAND,
+  SB_MODEL_DRIVE_FREE_RETURN,
+  SB_MODEL_DRIVE_SINUSOID,
+  SB_MODEL_DRIVE_RAMP,
+  SB_MODEL_DRIVE_MEASURED
+} SbDriveChoice;
+
+// A measured series for drive MEASURED, straight lines between its rows. Kept in the model itself,
+// so that a copy needs nothing else.
+enum { SB_MODEL_SERIES_MAX = 4096 };
+typedef struct {
+  SbDriveQuantity quantity;
+  size_t count;                      // 0: none
+  double time[SB_MODEL_SERIES_MAX];  // [s], increasing from 0
+  double value[SB_MODEL_SERIES_MAX]; // [m] or [N]
+} SbModelSeries;
+
+// One ring and what follows from its size and its gland alone. Sizes and modulus are those after
+// storage; the new ring's are in `stored`.
+typedef struct {
+  SbRubberStorage stored; // the new ring and what it went through
+  SbRubberState storage;  // what that made of it
+  double section_diameter_tolerance, inner_diameter_tolerance; // half-widths [m]
+  double section_diameter;                                     // d, free [m]
+  double inner_diameter;                                       // free [m]
+  double modulus;                                              // E [Pa]
+  double poisson_ratio;                                        // nu
+  double mooney_share;    // c2/(c1 + c2) of the ring model's energy
+  double reduced_modulus; // E' of thesis equation 5.8: 2/E' = sum (1 - nu^2)/E [Pa]
+  double radius;          // R_x = d/2 [m]
+  double squeeze;         // (d - g)/d
+  double stretch_mean;    // of the mean diameter, (D_fitted - D_free)/D_free
+  double stretch_inner;   // of the inner diameter
+  double section_fitted;  // section diameter after stretch, d (1 - nu stretch_mean) [m]
+  double interference;    // section_fitted - g [m]
+  double gland_fill;      // ring volume over groove volume
+} SbSealModel;
+
+// Sizes that the drawing of the section needs beside the rest; the thesis gives none of them. The
+// metered volume comes from some, and with ports the chamber's pressure. All in m; the catalogue
+// says what each is.
+typedef struct {
+  double entry_diameter, entry_length, land_length, vent_position, vent_diameter; // housing
+  double seal_spacing, nose_length, chamber_depth, chamber_length, shoulder_length,
+      rod_diameter; // stem
+} SbValveShape;
+
+// Half-sections of the parts whose shape a document gives, as it gives them; for the drawing only.
+// The housing has an x axis of its own, the three parts of the stem share one; both point out of
+// the canister.
+typedef struct {
+  SbOutline part[SB_VALVE_STEM_BOTTOM + 1]; // by the valve's parts; count 0: no shape
+  bool housing, stem;                       // the sizes below are known: it can be drawn
+  double land_edge, bore;                   // where the bore land begins [m], its radius
+  double groove_left[SB_SEAL_COUNT], groove_right[SB_SEAL_COUNT], floor, land; // walls, radii
+} SbValveOutlines;
+
+// Ranges that studies cover.
+typedef struct {
+  double squeeze_min, squeeze_max; // of the free section
+  double speed_min, speed_max;     // sliding [m/s]
+  double load_min, load_max;       // net, per length [N/m]
+  double time_min, time_max;       // in storage [s]
+} SbStudyRange;
+
+// How the section is shown when nobody says otherwise; no result depends on it.
+typedef struct {
+  int field;                 // index among the choices of output.field = SbField
+  int insets;                // 0 of the outer seal, 1 of the inner one, 2 none
+  bool full;                 // both halves
+  bool cutaway;              // in three dimensions, a quarter cut away
+  double azimuth, elevation; // of the cutaway's camera [rad]
+  bool undeformed;           // the rings' outline before fitting
+  double field_max;          // end of the colours of stresses [Pa]; 0: the range of the run
+} SbSectionLook;
+
+typedef struct {
+  SbSealModel seal[SB_SEAL_COUNT];
+  SbRubber rubber;                  // how storage changes it
+  double radial_space, axial_width; // g, b [m]
+  double bore_diameter;             // D [m]
+  double radial_space_tolerance, axial_width_tolerance, bore_diameter_tolerance,
+      stem_diameter_tolerance; // half-widths [m]
+  double bore_circumference;   // pi D: the friction area's length [m]
+  double land_edge;            // stem displacement at C [m]
+  double housing_modulus, housing_poisson_ratio;
+  double canister_pressure; // gauge [Pa]
+  SbPressureMap pressure_map;
+  double metered_volume;                           // of the dose chamber between the two seals [m3]
+  long doses;                                      // whole ones in the canister
+  bool chamber_at_once;                            // ports pass pressure in one step
+  double discharge_coefficient, chamber_stiffness; // [1], [Pa]
+  bool vent_on_return;
+  double refill_travel, refill_area; // of the by-pass at rest [m], [m2]
+  double pressure_force;             // p pi D_p^2/4, pushes the stem out [N]
+  double stem_mass;                  // of its three parts [kg]
+  SbValveParts parts;                // the stem's share stem_mass
+  double moving_mass;                // stem, seals and block [kg]
+  double viscosity, density;
+  double pressure_viscosity; // Barus' coefficient [1/Pa], 0 for a constant viscosity
+  double eyring_stress;      // [Pa], 0 for a Newtonian fluid
+  double rupture_pressure;   // gauge [Pa]
+  bool inlet_carried;        // the return runs on what the in-stroke left on the bore
+  double gt_product, sigma, sigma_over_beta, hamaker_constant;
+  double shear_strength, load_coefficient, static_ratio;
+  double speed, stroke, reversal_force, stiffness;
+  SbDriveChoice drive;
+  double peak_force, rise_time, hold_time; // hand
+  double finger_damping;                   // hand, ramp [N s/m]
+  double amplitude, frequency;             // sinusoid
+  SbModelSeries measured;                  // measured; filled by whoever read it
+  int cycles;
+  double damping_ratio; // of machine and seal shear
+  double rest;          // before the first stroke [s]
+  double dwell_gain, dwell_time, stribeck_speed, tangential_stiffness;
+  double stop_stiffness, stop_restitution;
+  double spring_stiffness, spring_preload; // return spring
+  double tolerance;
+  double motion_tolerance; // of the steps of a motion without closed form
+  int frames;
+  int actuations; // over which leakage is summed
+  int fit;        // index among the choices of models.fit = SbFitModel
+  SbModelFilm film;
+  bool film_history; // films of frames are solved in time
+  double rest_film;  // before the first stroke [m]
+  SbModelSurface surface;
+  SbModelAsperities asperities;
+  double hamaker; // [J]; 0 without adhesion
+  SbModelMotion motion;
+  int life_actuations;      // computed one after the other; 1: the first alone
+  int life_shown;           // whose frames follow the first's, from 1
+  SbRunningIn running_in;   // factor on the roughness
+  SbRig rig;                // motion RIG
+  double rig_prominence;    // fall of the force that makes a peak [N]
+  unsigned views;           // bit mask of SbView
+  unsigned studies;         // bit mask, 1 << SbStudyKind
+  SbSectionLook look;       // for the drawing only
+  double stem_diameter;     // D_p, also the stem's land [m]
+  SbValveShape shape;       // for the drawing only
+  SbValveOutlines outlines; // filled by whoever read the shapes, none otherwise
+  SbStudyRange study;
+  SbLimits limits; // filled by whoever read them, none otherwise
+} SbModel;
+
+typedef enum {
+  SB_VIEW_HYSTERESIS = 1 << 0,
+  SB_VIEW_PROFILES = 1 << 1,
+  SB_VIEW_SECTION = 1 << 2,
+  SB_VIEW_DASHBOARD = 1 << 3,
+  SB_VIEW_RIG = 1 << 4,
+  SB_VIEW_LIFE = 1 << 5
+} SbView;
+
+// Compiles parameters. On SB_OK the model is complete. Otherwise *out is as it was: SB_ERROR_MEMORY
+// (`problems` is not looked at then), or SB_ERROR_INPUT, and `problems`
+// (may be NULL) lists every combination that makes no sense: bore smaller than the stem, no room
+// for the ring...
+SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems);
+
+// Geometry that is possible and hardly meant, with the key to change and the range that would do.
+void sb_model_remarks(const SbModel *model, SbProblems *out);
+
+// Adds what the storage of the rings has to say about its validity.
+void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings);
+
+// Works out a seal afresh from its `stored` ring, its Poisson's ratio and the gland, for studies
+// that change one of them in a copy of a model. False (with problems added; may be NULL) where they
+// make no sense.
+SB_CHECKED bool sb_model_size_seal(SbModel *model, int seal, SbProblems *problems);
+
+// The gland of a seal with its tolerances, for sb_gland_readouts: sizes as stored.
+void sb_model_gland(SbGland *out, const SbModel *model, int seal);
+
+// Pressures on the two sides of a seal [Pa gauge]: canister side (left, x < 0) and ambient side
+// (right).
+typedef struct {
+  double left, right;
+} SbSealPressure;
+
+// Where in the cycle the chamber and so the seals' pressures change (docs/thesis.md).
+typedef enum {
+  SB_CHAMBER_AT_REST, // A to C: as filled or vented before
+  SB_CHAMBER_OPEN,    // C to F: open to the canister, the inner seal out of contact
+  SB_CHAMBER_CLOSED   // F to A: cut off again, still at canister pressure
+} SbChamber;
+
+SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber);

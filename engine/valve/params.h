@@ -1,0 +1,77 @@
+// The parameter catalogue and a set of values.
+//
+// SbParams holds one double per parameter (SI; an index for a choice, a bit mask for flags) and
+// whether it was given. The catalogue knows ranges and texts; what a combination of values means is
+// model.h.
+#pragma once
+
+#include "engine/base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef enum {
+#define SB_REAL(id, ...) SB_P_##id,
+#define SB_INT           SB_REAL
+#define SB_CHOICE        SB_REAL
+#define SB_FLAGS         SB_REAL
+#define SB_SEAL(id, ...) SB_P_SEAL_##id, SB_P_SEAL_OUTER_##id, SB_P_SEAL_INNER_##id,
+#include "engine/valve/params.def"
+#undef SB_REAL
+#undef SB_INT
+#undef SB_CHOICE
+#undef SB_FLAGS
+#undef SB_SEAL
+  SB_PARAM_COUNT
+} SbParamId;
+
+typedef enum { SB_PARAM_REAL, SB_PARAM_INT, SB_PARAM_CHOICE, SB_PARAM_FLAGS } SbParamKind;
+
+// One row of the catalogue. All strings are static.
+typedef struct {
+  const char *key;     // "gland.radial_space": group, dot, name
+  SbParamKind kind;    //
+  const char *symbol;  // short symbol for panels, UTF-8
+  const char *si;      // SI unit as udunits reads it, "1" if none
+  const char *unit;    // unit shown and saved first, "" if none
+  double min, max;     // allowed range, SI, inclusive
+  double fallback;     // default, SI
+  const char *choices; // "first|second" for choices and flags, else NULL
+  const char *label;   // "Radial space"
+  const char *help;    // one line
+  const char *source;  // where the default comes from
+  const char *tag;     // "thesis", "inferred" or "ours"
+  int parent;          // for seal.outer.X and seal.inner.X the id of seal.X, whose value they take
+                       // when not given; -1 for every other parameter
+} SbParam;
+
+typedef struct {
+  double value[SB_PARAM_COUNT];
+  bool given[SB_PARAM_COUNT];
+} SbParams;
+
+// Row `id` of the catalogue; borrowed.
+const SbParam *sb_param(SbParamId id);
+
+// Id of a key, or -1.
+int sb_param_find(const char *key);
+
+// All defaults, nothing given.
+void sb_params_init(SbParams *params);
+
+// The value in force: its own if given, its parent's for an override that was not, else the
+// default.
+double sb_params_get(const SbParams *params, SbParamId id);
+
+// Sets a value [SI] after checking kind and range. SB_ERROR_INPUT (not a number, not whole) or
+// SB_ERROR_RANGE; then nothing changes and the report names the key and the range in SI.
+SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *report);
+
+// Index of `name` (length `length`) among the choices of a parameter, or -1.
+int sb_param_choice(const SbParam *param, const char *name, size_t length);
+
+// Copies the name of choice `index` into `name` (of `size` bytes); empty if there is none.
+void sb_param_choice_name(const SbParam *param, int index, char *name, size_t size);
+
+// Number of choices, 0 for other kinds.
+int sb_param_choice_count(const SbParam *param);

@@ -1,0 +1,269 @@
+// Decides what a scene computes: its views and figures pull in fields, and nothing else is
+// computed.
+//
+// Predicted cost is the number of solves times a typical time of one (cost.h). Predicted error is
+// what the solvers usually reach at the tolerance, which is less than that where a mesh of few
+// unknowns is already better; closed forms have none of discretisation. The counters in a run's
+// results are the proof of the plan.
+#include "engine/valve/plan.h"
+
+#include "engine/valve/cost.h"
+#include "engine/contact/fit.h"
+#include "engine/valve/studies/study.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+// Sliding states of a cycle: the outer seal in three chamber states, the inner in two, both ways;
+// for profiles each of the five at rest besides.
+enum { FILM_STATES = 10, PROFILE_STATES = 15, CHAMBERS = 3 };
+
+// Times that a motion is run to find its own speed, where no machine gives one.
+enum { OWN_SPEED_ROUNDS = 3 };
+
+static void SB_PRINTF(7, 8)
+    add(SbPlanItem *items, size_t *count, const char *name, const char *model, double cost,
+        double error, const char *format, ...) {
+  assert(*count < SB_PLAN_ITEMS_MAX);
+  SbPlanItem *item = &items[(*count)++];
+  sb_text(item->name, sizeof item->name, "%s", name);
+  sb_text(item->model, sizeof item->model, "%s", model);
+  item->cost_s = cost;
+  item->error = error;
+  va_list arguments;
+  va_start(arguments, format);
+  sb_text_v(item->reason, sizeof item->reason, format, arguments);
+  va_end(arguments);
+}
+
+// Names of the views that want something, "profiles, section".
+static void view_names(unsigned views, char *text, size_t size) {
+  static const char *const names[] = {"hysteresis", "profiles", "section",
+                                      "dashboard",  "rig",      "life"};
+  size_t used = 0;
+  text[0] = '\0';
+  for (unsigned i = 0; i < sizeof names / sizeof names[0]; i++) {
+    if ((views & (1u << i)) != 0 && used < size) {
+      used += (size_t)snprintf(text + used, size - used, "%s%s", used > 0 ? ", " : "", names[i]);
+    }
+  }
+}
+
+// Typical error estimates of a fitment's load and of a film, relative, at the model's tolerance.
+static double fit_error(const SbModel *model) {
+  switch ((SbFitModel)model->fit) {
+  case SB_FIT_RING: // the place of the contact's ends does not fall with the mesh below that
+    return fmax(0.3 * fmin(model->tolerance, 3e-3), 2.7e-4);
+  case SB_FIT_DISC_THESIS: // its nodes are a degree apart
+    return 4e-3;
+  case SB_FIT_DISC:
+    return 0.01 * model->tolerance;
+  default:
+    return 0;
+  }
+}
+
+static double film_error(const SbModel *model) {
+  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
+    return 0.03 * model->tolerance;
+  }
+  if (model->film != SB_MODEL_FILM_REYNOLDS) {
+    return 0;
+  }
+  // The ring's film hangs on its contact's ends.
+  return model->fit == SB_FIT_RING ? 6 * fit_error(model) : 0.01 * model->tolerance;
+}
+
+// Whether a seal slides in this state of the chamber; the inner one has left the land in one.
+static bool slides(int seal, int chamber) {
+  return seal == SB_OUTER || chamber != (int)SB_CHAMBER_OPEN;
+}
+
+// Fitments of a cycle: a seal's next chamber state at the same pressure difference needs none.
+static int count_fits(const SbModel *model) {
+  int count = 0;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    double last = NAN;
+    for (int chamber = 0; chamber < CHAMBERS; chamber++) {
+      SbSealPressure p = sb_model_seal_pressure(model, seal, (SbChamber)chamber);
+      if (slides(seal, chamber) && p.left - p.right != last) {
+        last = p.left - p.right;
+        count++;
+      }
+    }
+  }
+  return count;
+}
+
+static bool finds_speed(const SbModel *model) {
+  return model->motion != SB_MODEL_MOTION_QUASI_STATIC && model->drive != SB_MODEL_DRIVE_MACHINE;
+}
+
+static void plan_fit(SbPlan *plan, const SbModel *model) {
+  SbFitModel fit = (SbFitModel)model->fit;
+  int fits = count_fits(model);
+  bool surface = model->film == SB_MODEL_FILM_REYNOLDS && fit == SB_FIT_RING;
+  plan->ring = fit == SB_FIT_RING;
+  add(plan->field, &plan->field_count, "contact load and width", sb_fit_model_name(fit),
+      fits * (sb_cost_fit(fit) + (surface ? SB_COST_RING_SURFACE : 0)), fit_error(model),
+      "friction and film need them; %d pressure differences over two seals", fits);
+  if (!plan->ring) {
+    add(plan->skipped, &plan->skipped_count, "ring", "", 0, 0,
+        "models.fit = %s already gives load and width", sb_fit_model_name(fit));
+  }
+}
+
+static void plan_film(SbPlan *plan, const SbModel *model) {
+  char name[32];
+  // A machine's speed is known; a finger's is found by running the motion, films and all.
+  int rounds = finds_speed(model) && model->fit != SB_FIT_RING ? OWN_SPEED_ROUNDS : 1;
+  bool body = model->fit == SB_FIT_DISC || model->fit == SB_FIT_RING;
+  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
+    plan->reynolds = true;
+    add(plan->field, &plan->field_count, "film", "reynolds with asperities",
+        rounds * FILM_STATES * (SB_COST_FILM_MIXED + (body ? SB_COST_FILM_FITTED : 0)),
+        film_error(model), "models.asperities = coupled: film and asperities share the load");
+    return;
+  }
+  plan->reynolds = model->film == SB_MODEL_FILM_REYNOLDS;
+  bool fitted = plan->reynolds && body;
+  sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model->film, name, sizeof name);
+  add(plan->field, &plan->field_count, "film", name,
+      rounds * FILM_STATES * (sb_cost_film(model->film) + (fitted ? SB_COST_FILM_FITTED : 0)),
+      film_error(model), "boundary share, viscous friction and leakage need it%s",
+      fitted ? "; on the half-plane and on the fitted ring" : "");
+  if (!plan->reynolds) {
+    add(plan->skipped, &plan->skipped_count, "reynolds film", "", 0, 0,
+        "models.film = %s meets what the friction needs", name);
+  }
+  plan->film_history = plan->reynolds && model->film_history;
+  if (plan->film_history) {
+    // Fronts that cross the contact set its steps, hardly the frames.
+    add(plan->field, &plan->field_count, "film history", "finite volumes",
+        SB_SEAL_COUNT * SB_COST_FILM_HISTORY, 0.03,
+        "models.film_time = transient; friction keeps to the steady film");
+  } else {
+    add(plan->skipped, &plan->skipped_count, "film history", "", 0, 0, "%s",
+        model->film_history ? "models.film has no history, only reynolds"
+                            : "models.film_time = steady: every frame has the film of its speed");
+  }
+}
+
+static void plan_bodies(SbPlan *plan, const SbModel *model) {
+  plan->bodies = model->motion == SB_MODEL_MOTION_BODIES;
+  if (plan->bodies) {
+    add(plan->field, &plan->field_count, "joint reactions", "constrained bodies",
+        0.1 + model->frames * 1e-4, 0, "models.motion = bodies asks for them, %d joints",
+        SB_VALVE_JOINTS);
+  } else {
+    add(plan->skipped, &plan->skipped_count, "joint reactions", "", 0, 0,
+        "nobody asks for them: one coordinate gives the same motion");
+  }
+}
+
+static void plan_motion(SbPlan *plan, const SbModel *model) {
+  char motion[32];
+  sb_param_choice_name(sb_param(SB_P_MODELS_MOTION), (int)model->motion, motion, sizeof motion);
+  bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
+  double once = !inertia             ? 0
+                : finds_speed(model) ? (1 + OWN_SPEED_ROUNDS) * SB_COST_DYNAMICS_OWN
+                                     : SB_COST_DYNAMICS;
+  add(plan->field, &plan->field_count, "force and displacement", motion,
+      model->cycles * once + model->frames * SB_COST_FRAME,
+      fmax(fit_error(model), inertia ? model->motion_tolerance : 0),
+      "figures of the cycle, %d frames", model->frames);
+  if (model->life_actuations > 1) {
+    add(plan->field, &plan->field_count, "life", motion,
+        model->life_actuations * (inertia ? SB_COST_DYNAMICS : SB_COST_ACTUATION), 0,
+        "%d actuations while the roughness runs in; fitment and film are the first's",
+        model->life_actuations);
+  } else {
+    add(plan->skipped, &plan->skipped_count, "life", "", 0, 0, "life.actuations = 1");
+  }
+}
+
+static void plan_rig(SbPlan *plan, const SbModel *model) {
+  size_t samples = sb_rig_samples(&model->rig);
+  add(plan->field, &plan->field_count, "thread force and plate", "rig",
+      (double)samples * SB_COST_SAMPLE, 0, "the coefficients come from its %zu samples", samples);
+  add(plan->field, &plan->field_count, "real contact area", "greenwood-tripp", SB_COST_ROUGH, 0,
+      "what the valve's surface model says under the plate's load");
+  add(plan->skipped, &plan->skipped_count, "contact load and width", "", 0, 0,
+      "the rig gives its load; there is no valve");
+  add(plan->skipped, &plan->skipped_count, "film", "", 0, 0, "the rig's friction is its input");
+}
+
+// Studies are asked for one by one; the others share a line.
+static void plan_studies(SbPlan *plan, const SbModel *model) {
+  char others[160] = "";
+  size_t used = 0;
+  plan->studies = model->studies;
+  for (int i = 0; i < SB_STUDY_COUNT; i++) {
+    const char *name = sb_study_name((SbStudyKind)i);
+    if ((model->studies & (1u << i)) != 0) {
+      char item[40];
+      sb_text(item, sizeof item, "study %s", name);
+      add(plan->field, &plan->field_count, item, "several", sb_study_cost((SbStudyKind)i, model),
+          model->tolerance, "output.studies asks for it");
+    } else if (used < sizeof others) {
+      used +=
+          (size_t)snprintf(others + used, sizeof others - used, "%s%s", used > 0 ? ", " : "", name);
+    }
+  }
+  if (used > 0) {
+    add(plan->skipped, &plan->skipped_count, "studies", "", 0, 0,
+        "output.studies does not ask for %s", others);
+  }
+}
+
+void sb_plan_make(SbPlan *out, const SbModel *model) {
+  *out = (SbPlan){0};
+  if (model->motion == SB_MODEL_MOTION_RIG) {
+    plan_rig(out, model);
+    plan_studies(out, model);
+    return;
+  }
+  plan_fit(out, model);
+  plan_film(out, model);
+  char surface[32];
+  sb_param_choice_name(sb_param(SB_P_MODELS_SURFACE), (int)model->surface, surface, sizeof surface);
+  add(out->field, &out->field_count, "real contact area", surface, FILM_STATES * SB_COST_ROUGH, 0,
+      "boundary friction needs it");
+  add(out->field, &out->field_count, "leak at rest", "percolation", SB_SEAL_COUNT * SB_COST_LEAK, 0,
+      "part of each seal's figures");
+  plan_motion(out, model);
+  plan_bodies(out, model);
+
+  // Profiles over x, for whoever draws them.
+  char who[80];
+  unsigned drawn = SB_VIEW_PROFILES | SB_VIEW_SECTION | SB_VIEW_DASHBOARD;
+  out->profiles = (model->views & drawn) != 0;
+  view_names(model->views & drawn, who, sizeof who);
+  if (out->profiles) {
+    add(out->field, &out->field_count, "contact profiles",
+        out->reynolds ? "reynolds" : sb_fit_model_name((SbFitModel)model->fit),
+        PROFILE_STATES * (out->reynolds ? SB_COST_FILM_PROFILE : SB_COST_CLOSED),
+        fmax(fit_error(model), film_error(model)), "drawn by %s; each seal's states and at rest",
+        who);
+  } else {
+    add(out->skipped, &out->skipped_count, "contact profiles", "", 0, 0, "no view draws them");
+  }
+
+  // Interior fields, only for a drawn section and only where the fitment model has an interior.
+  unsigned sections = model->views & (SB_VIEW_SECTION | SB_VIEW_DASHBOARD);
+  bool interior = model->fit == SB_FIT_RING;
+  view_names(sections, who, sizeof who);
+  out->section_fields = sections != 0 && interior;
+  if (out->section_fields) {
+    int shapes = SB_RUN_MOTIONS * count_fits(model) + SB_RUN_EDGES + 1;
+    add(out->field, &out->field_count, "interior fields", "ring", shapes * SB_COST_RING_SHAPE,
+        fit_error(model), "drawn by %s: %d shapes, dragged and over the land's edge", who, shapes);
+  } else {
+    add(out->skipped, &out->skipped_count, "interior fields", "", 0, 0, "%s",
+        sections == 0 ? "no view draws a section"
+                      : "only models.fit = ring has them: the rings are drawn schematically");
+  }
+  plan_studies(out, model);
+}

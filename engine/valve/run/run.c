@@ -1,0 +1,265 @@
+// Executes a plan: sliding states, the cycle's segments, frames, figures.
+//
+// Nothing here steps in time. The steady sliding states are solved once each, the cycle's events
+// are located exactly (motion/cycle.h), and a frame is an evaluation at its time, so that figures
+// do not depend on the number of frames. Frames live in one array allocated at creation; the count
+// is published with release order after each frame is complete, which is what lets another thread
+// read while this one writes.
+#include "engine/valve/figures.h"
+#include "engine/valve/run/run_private.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+static double now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+// Frames of one actuation, or two if a life shows a second one; or the rig's samples.
+static size_t frames_at_most(const SbModel *model) {
+  if (model->motion == SB_MODEL_MOTION_RIG) {
+    return sb_rig_samples(&model->rig);
+  }
+  size_t one = (size_t)model->frames + SB_RUN_EVENT_FRAMES + 2 * (size_t)model->cycles;
+  return model->life_actuations > 1 && model->life_shown > 1 ? 2 * one : one;
+}
+
+SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, SbReport *report) {
+  *out = NULL;
+  SbRun *run = calloc(1, sizeof *run);
+  if (run == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a run");
+  }
+  run->model = *model;
+  run->plan = *plan;
+  run->speed = model->speed;
+  run->capacity = frames_at_most(model);
+  bool lives = model->life_actuations > 1;
+  run->life = lives ? calloc((size_t)model->life_actuations, sizeof *run->life) : NULL;
+  // Left untouched until used: a run that is cancelled early never pays for the rest.
+  run->frames = malloc(run->capacity * sizeof *run->frames);
+  SbStatus status = SB_OK;
+  for (int i = 0; i < SB_SEAL_COUNT && status == SB_OK; i++) {
+    status = sb_sliding_memory_create(&run->memory[i], report);
+  }
+  if (run->frames == NULL || (lives && run->life == NULL) || status != SB_OK) {
+    sb_run_destroy(run);
+    return sb_fail_parameter(report, SB_ERROR_MEMORY, "output.frames", "no memory for %d frames",
+                             model->frames);
+  }
+  *out = run;
+  return sb_succeed(report);
+}
+
+void sb_run_destroy(SbRun *run) {
+  if (run == NULL) {
+    return;
+  }
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    sb_sliding_memory_destroy(run->memory[i]);
+  }
+  for (int i = 0; i < SB_RUN_PROFILE_SLOTS; i++) {
+    free(run->profile[i].data);
+  }
+  for (int i = 0; i < SB_RUN_SHAPES; i++) {
+    free(run->shape[i].real);
+    free(run->shape[i].floats);
+    free(run->shape[i].integers);
+  }
+  sb_run_bodies_destroy(run->bodies);
+  free(run->life);
+  free(run->frames);
+  free(run);
+}
+
+void sb_run_publish(SbRun *run, size_t count) {
+  if (run->hold) {
+    run->held = count;
+    return;
+  }
+  atomic_store_explicit(&run->published, count, memory_order_release);
+}
+
+void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t index) {
+  SbStageMark *mark = &run->summary.stage[stage];
+  if (!mark->reached) {
+    *mark = (SbStageMark){true, frame->time, frame->displacement, frame->force, index};
+  }
+}
+
+void sb_run_progress(const SbRun *run, const SbRunHooks *hooks, double fraction, size_t frames) {
+  if (hooks == NULL || hooks->progress == NULL) {
+    return;
+  }
+  double share = run->before_frames;
+  hooks->progress(
+      hooks->data,
+      frames == 0 ? share * fraction : share + (1 - share - run->after_frames) * fraction, frames);
+}
+
+bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report) {
+  if (hooks != NULL && hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
+    (void)sb_fail(report, SB_ERROR_CANCELLED, "cancelled");
+    return true;
+  }
+  return false;
+}
+
+SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+  static const char *const names[] = {"quasi-static", "dynamic", "rig", "bodies"};
+  SbSummary *summary = &run->summary;
+  if (run->lacks[0] != '\0') {
+    sb_run_clear_motion(run, run->lacks);
+    return SB_OK;
+  }
+  SbReport own = {0};
+  bool inertia = run->model.motion != SB_MODEL_MOTION_QUASI_STATIC;
+  SbStatus status =
+      inertia ? sb_run_dynamic(run, hooks, &own) : sb_run_quasi_static(run, hooks, &own);
+  summary->returned = summary->returns;
+  // The balance of energies is a check of the motion: open, it is not solved.
+  double open = fmax(1e-6, run->model.motion_tolerance);
+  if (status == SB_OK && summary->energy.closure > open) {
+    status = sb_fail(&own, SB_ERROR_NOT_CONVERGED, "the energies' balance is open by %.2g",
+                     summary->energy.closure);
+  }
+  size_t count = run->hold ? run->held : atomic_load(&run->published);
+  const SbFrame *last = &run->frames[count > 0 ? count - 1 : 0];
+  if (status == SB_ERROR_NOT_CONVERGED && count > 0) {
+    SbReport cause = own;
+    (void)sb_fail_parameter(
+        &own, status, cause.parameter,
+        "motion (%s), both seals, stage %s, stem at %.4g mm, %.4g s: %.110s; kept: "
+        "the seals, the frames and stages before",
+        names[run->model.motion], sb_stage_name((SbStage)last->stage), 1e3 * last->displacement,
+        last->time, cause.text);
+  }
+  if (status != SB_OK) {
+    sb_run_clear_motion(run,
+                        status == SB_ERROR_CANCELLED ? "the run was stopped before" : own.text);
+  }
+  if (status != SB_OK && report != NULL) {
+    *report = own;
+  }
+  return status;
+}
+
+// The valve's actuation: sliding states, shapes to draw, then the motion.
+static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+  SbSummary *summary = &run->summary;
+  sb_model_warn_storage(&run->model, &summary->warnings);
+  // Solved rings take seconds, everything else before the frames milliseconds.
+  run->before_frames = run->plan.section_fields ? 0.95 : run->plan.ring ? 0.9 : 0;
+  run->after_frames = run->life != NULL ? 0.9 * (1 - run->before_frames) : 0;
+
+  // A film that did not converge leaves its best state: the cycle is still worth having, flagged.
+  SbStatus status = sb_run_solve_states_at_speed(run, hooks, report);
+  if (status == SB_OK && run->plan.section_fields) {
+    status = sb_run_solve_shapes(run, hooks, report);
+  }
+  if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+    run->hold = run->plan.film_history;
+    SbStatus motion = sb_run_move(run, hooks, status == SB_OK ? report : NULL);
+    status = motion != SB_OK ? motion : status;
+    if (run->hold) {
+      run->hold = false;
+      if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+        SbStatus history =
+            sb_run_film_history(run, run->held, hooks, status == SB_OK ? report : NULL);
+        status = history != SB_OK ? history : status;
+      }
+      sb_run_publish(run, run->held);
+    }
+    sb_run_summarise_seals(run);
+    summary->leakage_carried = run->model.actuations * summary->seal[SB_OUTER].leakage_per_stroke;
+    summary->leakage_net = run->model.actuations * summary->leakage_per_cycle;
+    summary->dose_mass = run->model.metered_volume * run->model.density;
+    if (summary->stage[SB_STAGE_B].reached) {
+      summary->force_breakaway = summary->stage[SB_STAGE_B].force;
+    }
+    bool moved = run->lacks[0] == '\0';
+    if (status == SB_OK && run->life != NULL && moved) {
+      status = sb_run_rest_of_life(run, hooks, report);
+    }
+    // At rest because nothing moved it.
+    bool stays = !summary->stage[SB_STAGE_B].reached && !summary->stage[SB_STAGE_D].reached &&
+                 run->model.drive != SB_MODEL_DRIVE_FREE_RETURN &&
+                 run->model.drive != SB_MODEL_DRIVE_SINUSOID;
+    if (status == SB_OK && moved && stays) {
+      sb_warn(&summary->warnings, "no-slip", "friction.static_ratio",
+              "the stem never slips: the drive's %.3g N are not enough", summary->force_peak);
+    }
+    // A ramp is held to the end: nothing lets the stem go.
+    if (summary->returned == 0 && run->model.drive != SB_MODEL_DRIVE_RAMP) {
+      sb_warn(&summary->warnings, "no-return", "surface.gt_product",
+              "the stem does not return: least return force %.3g N", summary->force_return_min);
+    }
+  }
+  return status;
+}
+
+SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+  double start = now();
+  SbSummary *summary = &run->summary;
+  *summary = (SbSummary){0};
+  sb_figures_clear(summary);
+  run->lacks[0] = '\0';
+  sb_run_publish(run, 0);
+  run->before_frames = run->after_frames = 0;
+  run->hold = false;
+  run->held = 0;
+  SbReport local = {0};
+  report = report != NULL ? report : &local;
+  SbStatus status = run->model.motion == SB_MODEL_MOTION_RIG ? sb_run_rig(run, hooks, report)
+                                                             : execute_valve(run, hooks, report);
+  sb_run_give_reasons(run, status, report);
+  sb_verdict_fill(summary, &run->model);
+  summary->frames = atomic_load_explicit(&run->published, memory_order_relaxed);
+  if (hooks != NULL && hooks->progress != NULL && status == SB_OK) {
+    hooks->progress(hooks->data, 1, summary->frames);
+  }
+  summary->status = status;
+  summary->converged = status == SB_OK;
+  summary->wall_s = now() - start;
+  return status;
+}
+
+const SbFrame *sb_run_frames(const SbRun *run, size_t *count) {
+  *count = atomic_load_explicit(&run->published, memory_order_acquire);
+  return run->frames;
+}
+
+size_t sb_run_capacity(const SbRun *run) {
+  return run->capacity;
+}
+
+const SbContactProfile *sb_run_profile(const SbRun *run, uint32_t index) {
+  return index < SB_RUN_PROFILE_SLOTS && run->profile[index].data != NULL
+             ? &run->profile[index].view
+             : NULL;
+}
+
+const SbSealShape *sb_run_shape(const SbRun *run, uint32_t index) {
+  return index < SB_RUN_SHAPES && run->shape[index].view.nodes > 0 ? &run->shape[index].view : NULL;
+}
+
+const SbLifeActuation *sb_run_life(const SbRun *run, size_t *count) {
+  *count = run->life != NULL ? (size_t)run->summary.life.done : 0;
+  return run->life;
+}
+
+const SbSummary *sb_run_summary(const SbRun *run) {
+  return &run->summary;
+}
+
+const SbModel *sb_run_model(const SbRun *run) {
+  return &run->model;
+}
+
+const SbPlan *sb_run_plan(const SbRun *run) {
+  return &run->plan;
+}

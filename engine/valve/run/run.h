@@ -1,0 +1,188 @@
+// A run: one scene's cycle, computed step by step on whatever thread calls sb_run_execute().
+//
+// One thread executes; any thread may at the same time read what has been published:
+// sb_run_frames() returns a stable array and the number of frames complete so far
+// (acquire/release), so a reader never waits and a frame never changes once seen.
+#pragma once
+
+#include "engine/valve/frame.h"
+#include "engine/valve/plan.h"
+
+#include <stdatomic.h>
+
+typedef struct SbRun SbRun;
+
+// What the run tells and asks while it works. Both may be NULL. `progress` is called at most every
+// few milliseconds with the fraction done; a true answer of `cancelled` ends the run within 50 ms
+// with SB_ERROR_CANCELLED, its frames so far kept.
+typedef struct {
+  void (*progress)(void *data, double fraction, size_t frames);
+  bool (*cancelled)(void *data);
+  void *data;
+} SbRunHooks;
+
+typedef struct {
+  bool reached;
+  double time, displacement, force; // just before the event; NaN: not reached
+  size_t frame;                     // index of the frame that sits on it
+} SbStageMark;
+
+// Whether anything can pass a seal at rest under its pressures.
+typedef enum {
+  SB_LEAK_NOT_COMPUTED,
+  SB_LEAK_CLOSED,
+  SB_LEAK_PERCOLATING, // through channels between the asperities, leak/percolation.h
+  SB_LEAK_OPEN         // no contact, or none that the rubber presses: no leak law holds
+} SbLeakState;
+
+// "not-computed", "closed", "percolating", "open"; borrowed.
+const char *sb_leak_state_name(SbLeakState state);
+
+// One seal's figures: at the middle of B-C, friction_static at B. NaN: not computed.
+typedef struct {
+  SbLeakState leak_state;
+  double squeeze, stretch_inner, gland_fill;
+  double contact_width, contact_left, contact_right, load, load_per_length, pressure_peak;
+  double film_min, film_central;
+  double film_karaszkiewicz, film_thesis, film_asymptotic,
+      film_reynolds; // central; NaN: not computed
+  double lambda;
+  double real_area_share; // real contact over the contact's area
+  double asperity_share;  // of the net load, on the asperities; NaN unless coupled
+  double friction_boundary, friction_viscous, friction_static, coefficient_of_friction;
+  double leakage_per_stroke; // [m3], thesis equation 5.20
+  double leakage_static;     // through the contact at rest [m3/s], leak/percolation.h
+  double closing_pressure;   // solid contact pressure above which that leak is nil [Pa]
+  double leak_sensitivity;   // d ln(leak)/d ln(contact pressure); 0 while closed
+} SbSealSummary;
+
+// What the sliding-plate rig reports (motion/rig.h).
+typedef struct {
+  bool found; // whether the force has a first peak; else the coefficients mean nothing
+  SbRigCoefficients of;
+  double contact_coefficient; // what the valve's surface model gives under the rig's load
+  double contact_load;        // load under which that model gives the sliding coefficient [N]
+} SbRigSummary;
+
+typedef struct {
+  size_t reynolds_solves, ring_solves, disc_solves, fit_solves, field_evaluations,
+      profile_evaluations;
+  size_t film_steps; // of the films' history, all seals
+} SbCounters;
+
+// What a joint bears over the run, on the first part it names; compare bodies.h.
+typedef struct {
+  char name[2 * SB_BODY_NAME + 8]; // "stem centre, stem top"
+  char kind[16];
+  double axial_min, axial_max; // force along the stroke [N]
+  double transverse_max;       // [N]
+  double torque_max;           // [N m]
+} SbJointSummary;
+
+// The constrained parts of a run with models.motion = bodies.
+typedef struct {
+  int gruebler, constraints, freedom;
+  char text[256];
+  double moving_mass;        // that the stroke sees, by the joints' conditions [kg]
+  double acceleration_error; // largest difference of a part's acceleration from the stroke's,
+                             // relative to all forces over the mass
+  double joint_error;        // most that a step of the motion left a joint violated [m]
+  size_t joints;             // 0: not asked for
+  SbJointSummary joint[SB_VALVE_JOINTS];
+} SbBodiesSummary;
+
+// One figure for each row of figures.def, the seals' twice.
+#define SB_FIGURE(...)      +1
+#define SB_SEAL_FIGURE(...) +SB_SEAL_COUNT
+enum {
+  SB_FIGURE_COUNT =
+#include "engine/valve/figures.def"
+};
+#undef SB_FIGURE
+#undef SB_SEAL_FIGURE
+
+// Why figures were not computed (engine/valve/figures.h): 0 for no reason, else text[of - 1].
+enum { SB_REASONS_MAX = 40 };
+typedef struct {
+  size_t count;
+  char text[SB_REASONS_MAX][256];
+  unsigned char of[SB_FIGURE_COUNT];
+} SbReasons;
+
+typedef enum { SB_ANSWER_UNKNOWN, SB_ANSWER_NO, SB_ANSWER_YES } SbAnswer;
+
+// One question of the verdict: the answer, and the figure that decides it.
+typedef struct {
+  SbAnswer ok;
+  int figure;          // index, -1: none
+  double value, limit; // NaN: none
+  char reason[256];    // one sentence; empty where there is nothing to say
+} SbVerdict;
+
+typedef struct {
+  SbStatus status;
+  double force_peak, force_breakaway, force_return_min;
+  bool returns;
+  double returned;          // the same as a figure: 1, 0, or NaN where the motion was not computed
+  double dose_mass;         // of the metered volume, as liquid [kg]
+  double leakage_per_cycle; // outer seal, out minus in [m3]
+  double leakage_carried;   // by the outer seal's out-strokes of all actuations, as table 7.13 [m3]
+  double leakage_net;       // of all actuations, out minus in [m3]
+  double duration;          // [s]
+  SbStageMark stage[SB_STAGE_COUNT];
+  SbSealSummary seal[SB_SEAL_COUNT];
+  SbBodiesSummary bodies;
+  SbEnergy energy;
+  SbRigSummary rig; // motion RIG
+  SbLife life;      // done = 0: no life was asked for
+  SbWarnings warnings;
+  SbReasons reasons;
+  SbVerdict verdict[SB_VERDICT_COUNT];
+  bool converged;
+  size_t frames, steps, rejected_steps, newton_iterations;
+  double wall_s;
+  double error_force, error_energy, error_film, error_film_history,
+      error_load; // relative estimates; NaN: does not apply
+  SbCounters counters;
+} SbSummary;
+
+// Allocates a run for `model` by `plan` (both copied). *out is owned by the caller.
+SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, SbReport *report);
+
+// Frees a run that no thread executes any more; NULL is allowed.
+void sb_run_destroy(SbRun *run);
+
+// Computes the whole cycle once. SB_OK, SB_ERROR_CANCELLED, or a solver's status with the last good
+// state kept; the summary is valid after any of them.
+SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Frames published so far, oldest first; borrowed, valid until sb_run_destroy(). Any thread.
+const SbFrame *sb_run_frames(const SbRun *run, size_t *count);
+
+// Reactions of the joints at a published frame, as many as the summary has joints, in the order of
+// thesis table 4.3; NULL if nobody asked. Borrowed; any thread.
+const SbReaction *sb_run_reactions(const SbRun *run, size_t frame);
+
+// Number of frames a complete run will have at most (for progress). Any thread.
+size_t sb_run_capacity(const SbRun *run);
+
+// Profile `index` of the run; borrowed. Any thread, for an index found in a published frame.
+const SbContactProfile *sb_run_profile(const SbRun *run, uint32_t index);
+
+// No shape has an index as large as this.
+enum { SB_RUN_SHAPES_MAX = 96 };
+
+// Solved ring shape `index`, NULL if there is none; borrowed. Any thread, for an index found in a
+// published frame.
+const SbSealShape *sb_run_shape(const SbRun *run, uint32_t index);
+
+// What each actuation of a life yielded, oldest first; *count is 0 without a life. Only after
+// sb_run_execute() returned; borrowed.
+const SbLifeActuation *sb_run_life(const SbRun *run, size_t *count);
+
+// Only after sb_run_execute() returned; borrowed.
+const SbSummary *sb_run_summary(const SbRun *run);
+
+// What the run was made for; any time, any thread; borrowed.
+const SbModel *sb_run_model(const SbRun *run);
+const SbPlan *sb_run_plan(const SbRun *run);

@@ -1,0 +1,200 @@
+// The valve's constrained parts in a run: their motion under the joints' conditions, and what each
+// joint bears at every frame.
+//
+// The parts of thesis table 4.1 in the joints of table 4.3. At the start of every segment of the
+// motion (motion/dynamics.h) all parts are brought to where the stem is, onto the joints, and the
+// Jacobian of the joints' conditions is factored there: its null vector is the motion they leave,
+// and gives the mass that the stroke sees and, by virtual work, what each force counts. The loads
+// act where they arise: the drive on the block, friction on each seal, pressure and return spring
+// on the stem top, the stops on the stem bottom; all but the drive push the housing (with the
+// canister, which is sealed to it) back. At every frame the multipliers' system is solved with the
+// loads on their parts, for the reactions, and every moving part's acceleration is compared with
+// the stroke's. Leaves out: parts that move by levers against each other (refused), whose loads
+// dynamics.h does not know.
+#include "engine/valve/run/run_dynamic.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DRIVE, INNER_FRICTION, OUTER_FRICTION, PRESSURE, STOPS, LOADS };
+
+static const size_t loaded[LOADS] = {SB_VALVE_BLOCK, SB_VALVE_INNER_SEAL, SB_VALVE_OUTER_SEAL,
+                                     SB_VALVE_STEM_TOP, SB_VALVE_STEM_BOTTOM};
+
+struct SbRunBodies {
+  SbAssembly assembly;       // where the stem was last asked for
+  SbAssemblyTangent tangent; // there
+  double at;                 // that displacement [m]
+  double mass;               // as assembled [kg]
+  SbReaction *reaction;      // [frames][joints]
+};
+
+static const double axis[3] = {1, 0, 0};
+
+// Travel of what feels a load, per the stem's.
+static double lever(const SbAssemblyTangent *tangent, int load) {
+  double travel = tangent->velocity[loaded[load]][0];
+  return load == DRIVE ? travel : travel - tangent->velocity[SB_VALVE_HOUSING][0];
+}
+
+// Brings the parts to displacement x with the stem at speed v.
+static SbStatus place(SbRun *run, double x, double v, SbReport *report) {
+  SbRunBodies *bodies = run->bodies;
+  double error;
+  SbStatus status =
+      sb_assembly_slide(&bodies->assembly, &bodies->tangent, x - bodies->at, v, &error, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  bodies->at = x;
+  run->summary.bodies.joint_error = fmax(run->summary.bodies.joint_error, error);
+  for (int load = 0; load < LOADS; load++) {
+    double travel = lever(&bodies->tangent, load);
+    if (fabs(travel - 1) > 1e-9) {
+      return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "models.motion",
+                               "'%s' moves %.9g times as far as the stem: the parts must move as "
+                               "one",
+                               bodies->assembly.body[loaded[load]].name, travel);
+    }
+  }
+  if (fabs(bodies->tangent.mass - bodies->mass) > 1e-9 * bodies->mass) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "models.motion",
+                             "the mass that the stroke sees changes from %.9g to %.9g kg",
+                             bodies->mass, bodies->tangent.mass);
+  }
+  return SB_OK;
+}
+
+SbStatus sb_run_bodies_parts(SbDynamicsParts *out, SbRun *run, double x, double v,
+                             SbReport *report) {
+  SbStatus status = place(run, x, v, report);
+  if (status == SB_OK) {
+    const SbAssemblyTangent *tangent = &run->bodies->tangent;
+    *out = (SbDynamicsParts){.mass = tangent->mass,
+                             .drive = lever(tangent, DRIVE),
+                             .loads = lever(tangent, PRESSURE),
+                             .stop = lever(tangent, STOPS)};
+    out->contact[SB_INNER] = lever(tangent, INNER_FRICTION);
+    out->contact[SB_OUTER] = lever(tangent, OUTER_FRICTION);
+  }
+  return status;
+}
+
+SbStatus sb_run_bodies_create(SbRun *run, SbReport *report) {
+  SbBodiesSummary *summary = &run->summary.bodies;
+  SbRunBodies *bodies = calloc(1, sizeof *bodies);
+  run->bodies = bodies;
+  if (bodies == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the valve's parts");
+  }
+  SbAssembly *assembly = &bodies->assembly;
+  SbMobility mobility;
+  SbStatus status = sb_assembly_valve(assembly, &run->model.parts, report);
+  status = status != SB_OK ? status : sb_assembly_mobility(&mobility, assembly, 1, report);
+  status = status != SB_OK ? status
+                           : sb_assembly_tangent(&bodies->tangent, assembly, SB_VALVE_STEM_CENTRE,
+                                                 axis, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  bodies->reaction = malloc(run->capacity * assembly->joints * sizeof *bodies->reaction);
+  if (bodies->reaction == NULL) {
+    return sb_fail_parameter(report, SB_ERROR_MEMORY, "output.frames",
+                             "no memory for the joints' reactions of %d frames", run->model.frames);
+  }
+  bodies->mass = bodies->tangent.mass;
+  summary->joint_error = 0;
+  summary->acceleration_error = 0;
+  summary->gruebler = mobility.gruebler;
+  summary->constraints = mobility.constraints;
+  summary->freedom = mobility.freedom;
+  snprintf(summary->text, sizeof summary->text, "%s", mobility.text);
+  summary->moving_mass = bodies->mass;
+  summary->joints = assembly->joints;
+  for (size_t i = 0; i < assembly->joints; i++) {
+    SbJointSummary *joint = &summary->joint[i];
+    *joint = (SbJointSummary){.axial_min = INFINITY, .axial_max = -INFINITY};
+    snprintf(joint->name, sizeof joint->name, "%s, %s", assembly->body[assembly->joint[i].i].name,
+             assembly->body[assembly->joint[i].j].name);
+    snprintf(joint->kind, sizeof joint->kind, "%s", sb_joint_kind_name(assembly->joint[i].kind));
+  }
+  return SB_OK;
+}
+
+void sb_run_bodies_destroy(SbRunBodies *bodies) {
+  if (bodies != NULL) {
+    free(bodies->reaction);
+    free(bodies);
+  }
+}
+
+double sb_run_bodies_mass(const SbRunBodies *bodies) {
+  return bodies->mass;
+}
+
+SbStatus sb_run_bodies_frame(SbRun *run, size_t index, const SbDynamicsSample *sample,
+                             SbReport *report) {
+  SbRunBodies *bodies = run->bodies;
+  SbAssembly *assembly = &bodies->assembly;
+  SbBodiesSummary *summary = &run->summary.bodies;
+  const double load[LOADS] = {
+      [DRIVE] = sample->drive_force,
+      [INNER_FRICTION] = sample->friction[SB_INNER],
+      [OUTER_FRICTION] = sample->friction[SB_OUTER],
+      [PRESSURE] = sample->loads_force + sample->spring_force,
+      [STOPS] = sample->stop_force[SB_REST_STOP] - sample->stop_force[SB_END_STOP],
+  };
+  SbStatus status = place(run, sample->position, sample->speed, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  double size = 0;
+  sb_assembly_clear_forces(assembly);
+  for (int k = 0; k < LOADS; k++) {
+    const double force[3] = {load[k], 0, 0}, back[3] = {-load[k], 0, 0};
+    sb_assembly_apply(assembly, loaded[k], force, assembly->body[loaded[k]].position);
+    if (k != DRIVE) {
+      sb_assembly_apply(assembly, SB_VALVE_HOUSING, back,
+                        assembly->body[SB_VALVE_HOUSING].position);
+    }
+    size += fabs(load[k]);
+  }
+  SbAssemblyForces forces;
+  status = sb_assembly_forces(&forces, assembly, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  memcpy(&bodies->reaction[index * summary->joints], forces.reaction,
+         summary->joints * sizeof *forces.reaction);
+  for (size_t i = 0; i < summary->joints; i++) {
+    const SbReaction *at = &forces.reaction[i];
+    SbJointSummary *joint = &summary->joint[i];
+    joint->axial_min = fmin(joint->axial_min, at->force[0]);
+    joint->axial_max = fmax(joint->axial_max, at->force[0]);
+    joint->transverse_max = fmax(joint->transverse_max, hypot(at->force[1], at->force[2]));
+    joint->torque_max =
+        fmax(joint->torque_max, hypot(at->torque[0], hypot(at->torque[1], at->torque[2])));
+  }
+  for (size_t b = SB_VALVE_STEM_CENTRE; b <= SB_VALVE_BLOCK && size > 0; b++) {
+    double miss = fabs(forces.acceleration[b][0] - sample->acceleration) * bodies->mass / size;
+    summary->acceleration_error = fmax(summary->acceleration_error, miss);
+  }
+  return SB_OK;
+}
+
+void sb_run_bodies_show(SbRun *run, size_t at, const SbRun *from, size_t count) {
+  size_t joints = run->summary.bodies.joints;
+  if (run->bodies != NULL && from->bodies != NULL) {
+    memcpy(&run->bodies->reaction[at * joints], from->bodies->reaction,
+           count * joints * sizeof *from->bodies->reaction);
+  }
+}
+
+const SbReaction *sb_run_reactions(const SbRun *run, size_t frame) {
+  const SbRunBodies *bodies = run->bodies;
+  return bodies != NULL && bodies->reaction != NULL
+             ? &bodies->reaction[frame * run->summary.bodies.joints]
+             : NULL;
+}

@@ -1,0 +1,160 @@
+// What drives the valve in a run with inertia: the catalogue's drive.* as motion/drive.h.
+#include "engine/valve/run/run_dynamic.h"
+
+#include <math.h>
+
+// Where the machine turns: a rigid stop would then bear the reversal force, or a fiftieth more than
+// what it takes to hold the stem there if that is greater.
+static double platen_top(const SbCycle *cycle) {
+  const SbModel *model = cycle->states.model;
+  double hold =
+      model->pressure_force + model->spring_preload + model->spring_stiffness * model->stroke;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    hold += sb_cycle_static_friction(cycle, seal, SB_CHAMBER_AT_REST, SB_CYCLE_IN, 0);
+  }
+  return model->stroke + fmax(model->reversal_force, 1.02 * hold) / model->stiffness;
+}
+
+static void set_machine(SbDynamicsModel *out, const SbModel *model) {
+  out->drive_stiffness = model->stiffness;
+  out->drive_damping = model->damping_ratio * 2 * sqrt(model->stiffness * out->mass);
+}
+
+void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run) {
+  const SbModel *model = &run->model;
+  SbDrive *drive = &out->drive;
+  drive->cycles = model->cycles;
+  switch (model->drive) {
+  case SB_MODEL_DRIVE_MACHINE:
+    drive->kind = SB_DRIVE_CYCLE;
+    drive->quantity = SB_DRIVE_OF_POSITION;
+    drive->end = platen_top(&run->cycle);
+    drive->speed = model->speed;
+    drive->reversal_force = INFINITY;
+    set_machine(out, model);
+    break;
+  case SB_MODEL_DRIVE_HAND:
+    drive->kind = SB_DRIVE_PRESS;
+    drive->quantity = SB_DRIVE_OF_FORCE;
+    drive->end = model->peak_force;
+    drive->rise = drive->fall = model->rise_time;
+    drive->hold = model->hold_time;
+    drive->pause = model->rise_time;
+    out->drive_damping = model->finger_damping;
+    break;
+  case SB_MODEL_DRIVE_FREE_RETURN:
+    drive->kind = SB_DRIVE_NONE;
+    out->start_position = model->stroke;
+    break;
+  case SB_MODEL_DRIVE_SINUSOID:
+    drive->kind = SB_DRIVE_SINE;
+    drive->quantity = SB_DRIVE_OF_POSITION;
+    drive->start = model->stroke / 2;
+    drive->amplitude = model->amplitude;
+    drive->frequency = model->frequency;
+    set_machine(out, model);
+    out->drive_bonded = true;
+    out->start_position = model->stroke / 2;
+    break;
+  case SB_MODEL_DRIVE_RAMP:
+    drive->kind = SB_DRIVE_RAMP;
+    drive->quantity = SB_DRIVE_OF_FORCE;
+    drive->end = model->peak_force;
+    drive->rate = model->peak_force / model->rise_time;
+    out->drive_damping = model->finger_damping;
+    break;
+  case SB_MODEL_DRIVE_MEASURED:
+    // A displacement moves the machine's platen, a force pushes the stem itself.
+    drive->kind = SB_DRIVE_TABLE;
+    drive->quantity = model->measured.quantity;
+    drive->time = model->measured.time;
+    drive->value = model->measured.value;
+    drive->count = model->measured.count;
+    if (drive->quantity == SB_DRIVE_OF_POSITION) {
+      set_machine(out, model);
+    }
+    break;
+  }
+}
+
+// Row of the greatest value of a measured series.
+static size_t highest_row(const SbModelSeries *series) {
+  size_t best = 0;
+  for (size_t i = 1; i < series->count; i++) {
+    best = series->value[i] > series->value[best] ? i : best;
+  }
+  return best;
+}
+
+// A stem that pressure and spring alone push back: the time of the whole way under the least net
+// force, and half as long again.
+static double free_return_time(const SbRun *run) {
+  const SbModel *model = &run->model;
+  double least = sb_cycle_least_return(&run->cycle, model->stroke, SB_CHAMBER_OPEN, true) +
+                 model->spring_preload;
+  double force = fmax(least, 1e-3 * (model->pressure_force + 1e-3));
+  return 1.5 * sqrt(2 * model->stroke * model->moving_mass / force);
+}
+
+double sb_drive_duration(const SbRun *run) {
+  const SbModel *model = &run->model;
+  switch (model->drive) {
+  case SB_MODEL_DRIVE_MACHINE:
+    return 2 * model->cycles * platen_top(&run->cycle) / model->speed;
+  case SB_MODEL_DRIVE_HAND:
+    return model->cycles * (2 * model->rise_time + model->hold_time) +
+           (model->cycles - 1) * model->rise_time;
+  case SB_MODEL_DRIVE_SINUSOID:
+    return model->cycles / model->frequency;
+  case SB_MODEL_DRIVE_RAMP:
+    return model->rise_time + model->hold_time;
+  case SB_MODEL_DRIVE_MEASURED:
+    return model->measured.count > 0 ? model->measured.time[model->measured.count - 1] : 0;
+  case SB_MODEL_DRIVE_FREE_RETURN:
+    break;
+  }
+  return free_return_time(run);
+}
+
+bool sb_drive_ends_run(const SbRun *run) {
+  SbDriveChoice drive = run->model.drive;
+  return drive == SB_MODEL_DRIVE_SINUSOID || drive == SB_MODEL_DRIVE_RAMP ||
+         drive == SB_MODEL_DRIVE_MEASURED;
+}
+
+double sb_drive_turn(const SbRun *run) {
+  const SbModel *model = &run->model;
+  switch (model->drive) {
+  case SB_MODEL_DRIVE_MACHINE:
+    return platen_top(&run->cycle) / model->speed;
+  case SB_MODEL_DRIVE_HAND:
+    return model->rise_time + model->hold_time;
+  case SB_MODEL_DRIVE_SINUSOID:
+    return 0.25 / model->frequency;
+  case SB_MODEL_DRIVE_RAMP:
+    return model->rise_time + model->hold_time;
+  case SB_MODEL_DRIVE_MEASURED:
+    return model->measured.count > 0 ? model->measured.time[highest_row(&model->measured)] : 0;
+  case SB_MODEL_DRIVE_FREE_RETURN:
+    break;
+  }
+  return 0;
+}
+
+double sb_drive_corner(const SbRun *run, int index) {
+  const SbModel *model = &run->model;
+  if (model->drive == SB_MODEL_DRIVE_MACHINE && index < model->cycles) {
+    return (2 * index + 1) * platen_top(&run->cycle) / model->speed;
+  }
+  if (model->drive == SB_MODEL_DRIVE_HAND && index < 2 * model->cycles) {
+    double period = 3 * model->rise_time + model->hold_time;
+    return index / 2 * period + model->rise_time + index % 2 * model->hold_time;
+  }
+  if (model->drive == SB_MODEL_DRIVE_RAMP && index == 0) {
+    return model->rise_time;
+  }
+  if (model->drive == SB_MODEL_DRIVE_MEASURED && index == 0) {
+    return sb_drive_turn(run);
+  }
+  return INFINITY;
+}

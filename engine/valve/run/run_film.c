@@ -1,0 +1,154 @@
+// The film's history through a run: each seal's velocity of frame after frame goes through the
+// transient film (film/transient.h), so that stops squeeze the film, reversals carry the old one
+// back through the contact, and the frames show that in place of the steady film.
+//
+// A stretch is as long as the seal's whole contact lies on the land between the same pressures; the
+// next begins with the film that was there, evened out. The first begins with fluid.rest_film. The
+// load is the stretch's own; friction and the figures of a seal keep to the steady film, which is
+// what the motion was solved with. From where a film fails its frames have none. Left out: the
+// land's edge under the contact and the step of the pressures themselves.
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/valve/figures.h"
+#include "engine/film/transient.h"
+#include "engine/valve/run/run_private.h"
+
+// A seal's way through the frames.
+typedef struct {
+  SbRun *run;
+  int seal;
+  double speed_scale;
+  SbFilmTransient *film; // of the present stretch, NULL between stretches
+  int chamber;           // of the stretch
+  double central;        // last film [m], what the next stretch begins with
+  SbFilm *result;
+  size_t frame; // that the way has come to
+} Way;
+
+static bool whole_contact(const SbFrame *frame, int seal) {
+  const SbSealFrame *s = &frame->seal[seal];
+  return s->land_fraction > 0.999F && s->contact_right > s->contact_left;
+}
+
+static void leave(Way *way) {
+  if (way->film != NULL) {
+    const SbFilmTransientInfo info = sb_film_transient_info(way->film);
+    SbSummary *summary = &way->run->summary;
+    summary->counters.film_steps += info.steps;
+    summary->newton_iterations += info.newton_iterations;
+    summary->error_film_history =
+        fmax(summary->error_film_history, info.error_mesh + info.error_time);
+  }
+  sb_film_transient_destroy(way->film);
+  way->film = NULL;
+}
+
+// Begins a stretch at rest.
+static SbStatus enter(Way *way, int chamber, const SbRunHooks *hooks, SbReport *report) {
+  const SbRun *run = way->run;
+  const SbSliding *state = &run->cycle.states.state[way->seal][chamber][SB_CYCLE_IN];
+  const SbSealPressure pressure =
+      sb_model_seal_pressure(&run->model, way->seal, (SbChamber)chamber);
+  SbFilmTransientProblem problem = {.speed_scale = way->speed_scale, .rest_film = way->central};
+  sb_sliding_film_problem(&problem.film, &run->model, way->seal, pressure, state->load_net, 0);
+  const SbRunSurface *surface = &run->surface[way->seal][chamber];
+  if (state->film_fitted && surface->known) {
+    problem.film.compliance = &surface->compliance;
+    problem.film.load = surface->load;
+    problem.film.modulus = surface->compliance.modulus;
+  }
+  if (hooks != NULL) {
+    problem.film.cancelled = hooks->cancelled;
+    problem.film.cancelled_data = hooks->data;
+  }
+
+  // A front in the middle of the contact is smeared over a few hundredths of it; finer costs more
+  // than a drawing gains.
+  problem.film.tolerance = fmax(run->model.tolerance, 3e-3);
+  way->chamber = chamber;
+  return sb_film_transient_create(&way->film, &problem, report);
+}
+
+// One seal through all frames.
+static SbStatus replay(Way *way, size_t count, const SbRunHooks *hooks, SbReport *report) {
+  SbRun *run = way->run;
+  for (size_t i = 0; i < count; i++) {
+    SbFrame *frame = &run->frames[i];
+    way->frame = i;
+    const double dt = i > 0 ? frame->time - run->frames[i - 1].time : 0;
+    if (!whole_contact(frame, way->seal) ||
+        (way->film != NULL && way->chamber != (int)frame->chamber)) {
+      leave(way);
+    }
+    if (!whole_contact(frame, way->seal)) {
+      continue;
+    }
+    if (i % 16 == 0 && sb_run_cancelled(hooks, report)) {
+      return SB_ERROR_CANCELLED;
+    }
+    SbStatus status = SB_OK;
+    if (way->film == NULL) {
+      status = enter(way, frame->chamber, hooks, report);
+    } else if (dt > 0) {
+      status = sb_film_transient_step(way->film, dt, frame->velocity,
+                                      sb_film_transient_info(way->film).load, report);
+    }
+    if (status != SB_OK) {
+      return status;
+    }
+    sb_film_transient_result(way->result, way->film);
+    way->central = way->result->film_central;
+    SbSealFrame *out = &frame->seal[way->seal];
+    out->film_min = way->result->film_min;
+    out->film_central = way->result->film_central;
+    out->lambda = way->result->film_central / run->model.sigma;
+  }
+  return SB_OK;
+}
+
+SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, SbReport *report) {
+  SbStatus worst = SB_OK;
+  SbFilm *result = malloc(sizeof *result);
+  if (result == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a film");
+  }
+  double error = 0;
+  run->summary.error_film_history = 0;
+  for (int seal = 0; seal < SB_SEAL_COUNT && worst != SB_ERROR_CANCELLED; seal++) {
+    Way way = {.run = run, .seal = seal, .central = run->model.rest_film, .result = result};
+    for (size_t i = 0; i < count; i++) {
+      way.speed_scale = fmax(way.speed_scale, fabs(run->frames[i].velocity));
+    }
+    if (way.speed_scale == 0) {
+      continue;
+    }
+    SbReport own = {0};
+    const SbStatus status = replay(&way, count, hooks, &own);
+    leave(&way);
+    if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+      worst = sb_fail(report, status, "%s", own.text);
+    } else if (status != SB_OK) {
+      SbFrame *at = &run->frames[way.frame];
+      SbReport whole;
+      (void)sb_fail(
+          &whole, status,
+          "film in time, %s seal, stage %s, stem at %.4g mm, %.4g s: %.100s; kept: the films "
+          "before, the motion",
+          sb_seal_name(seal), sb_stage_name((SbStage)at->stage), 1e3 * at->displacement, at->time,
+          own.text);
+      sb_warn(&run->summary.warnings, "film-history", "models.film_time", "%s", whole.text);
+      for (; at < run->frames + count; at++) {
+        at->seal[seal].film_min = at->seal[seal].film_central = at->seal[seal].lambda = NAN;
+      }
+      error = NAN;
+      sb_reason(&run->summary, "solver.error_estimate.film_history", "%s", whole.text);
+      if (status == SB_ERROR_NOT_CONVERGED && worst == SB_OK) {
+        worst = sb_fail(report, status, "%s", whole.text);
+      }
+    }
+  }
+  free(result);
+  run->summary.error_film_history = isnan(error) ? NAN : run->summary.error_film_history;
+  return worst;
+}

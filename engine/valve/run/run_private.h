@@ -1,0 +1,166 @@
+// What the files of a run share: its state, and the steps that sb_run_execute() takes in order.
+#pragma once
+
+#include "engine/valve/cycle.h"
+#include "engine/mechanism/dynamics.h"
+#include "engine/valve/run/run.h"
+
+enum {
+  SB_RUN_REST = 2,
+  SB_RUN_PROFILE_SLOTS = SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
+  // Room for frames that sit on events, and for those of a motion that outlasts its drive.
+  SB_RUN_EVENT_FRAMES = 2 * SB_CYCLE_SEGMENTS_MAX + 800
+};
+
+// Surface of a seal's fitted body for the film, of one chamber state.
+typedef struct {
+  bool known;
+  double load; // net, that goes with it [N/m]
+  SbSurfaceCompliance compliance;
+} SbRunSurface;
+
+typedef struct {
+  SbContactProfile view;
+  double *data; // x, pressure, film, asperity pressure
+} SbRunProfile;
+
+enum {
+  SB_RUN_SHAPE_FREE = SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
+  SB_RUN_SHAPE_EDGE = SB_RUN_SHAPE_FREE + 1,
+  SB_RUN_SEAL_SHAPES = SB_RUN_SHAPE_EDGE + SB_RUN_EDGES,
+  SB_RUN_SHAPES = SB_SEAL_COUNT * SB_RUN_SEAL_SHAPES
+};
+_Static_assert((int)SB_RUN_SHAPES <= (int)SB_RUN_SHAPES_MAX,
+               "shapes are indexed below SB_RUN_SHAPES_MAX");
+
+typedef struct {
+  SbSealShape view;
+  double *real;
+  float *floats;
+  int *integers;
+} SbRunShape;
+
+// The constrained parts of a run that asks for them (run_bodies.c).
+typedef struct SbRunBodies SbRunBodies;
+void sb_run_bodies_destroy(SbRunBodies *bodies);
+
+// The reactions of the first `count` frames of another run for this one's frames from `at` on.
+void sb_run_bodies_show(SbRun *run, size_t at, const SbRun *from, size_t count);
+
+struct SbRun {
+  SbModel model;
+  SbPlan plan;
+  SbCycle cycle; // its states serve every motion model
+  double speed;  // sliding speed that the states stand for [m/s]: the machine's, or the stem's own
+  double film_exponent; // of the film's speed law about it; 0: every frame slides at that speed
+  SbSummary summary;
+  double friction_error; // of any state by its films [N]
+  SbSlidingMemory *memory[SB_SEAL_COUNT];
+  SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
+  SbRunSurface surface[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS];
+  SbRunShape shape[SB_RUN_SHAPES];
+  uint32_t shape_slot[SB_RUN_SHAPES]; // where a state's shape is: equal states share one
+  double edge_begin, edge_end; // of the land's edge in the inner seal's frame, where it shapes
+                               // that ring [m]; equal: nowhere
+  char lacks[256];             // why there can be no motion, empty: nothing is missing
+  double before_frames;        // share of the work that lies before the first frame
+  SbRunBodies *bodies;         // NULL: the reduced form is enough
+  bool follows;                // a later actuation of a life: the first one's errors stand for all
+  double after_frames;         // and behind the last: the rest of a life
+  SbLifeActuation *life;       // [model.life_actuations], NULL without a life
+  SbFrame *frames;
+  size_t capacity;
+  bool hold;   // frames wait for their films' history before they are published
+  size_t held; // how many do
+  atomic_size_t published;
+};
+
+// Solves every steady sliding state the cycle can need, and the profiles if the plan wants them
+// (run_states.c).
+SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Solves the rings' deformed sections for drawing (run_shapes.c). A shape that cannot be found is
+// left out with a warning; only a cancel or no memory is an error.
+SbStatus sb_run_solve_shapes(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Shape of a seal in a frame: by its chamber, its motion (SB_CYCLE_IN, SB_CYCLE_OUT, SB_RUN_REST)
+// and, of the inner one, the stem's displacement s [m], which moves it over the land's edge.
+// UINT32_MAX if none was solved.
+uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion, double s);
+
+// Where the profile of a state is kept; `motion` is SB_CYCLE_IN, SB_CYCLE_OUT or SB_RUN_REST.
+uint32_t sb_run_profile_slot(int seal, SbChamber chamber, int motion);
+
+// Contact, load, film of one seal of a frame, at stem displacement s (run_states.c). Friction is
+// left to the caller.
+void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber chamber,
+                         int direction, bool moving, double s);
+
+// The motion by the model's choice, if there is all that it needs. One that ends early keeps its
+// frames and the stages it reached; the report says where it ended (run.c).
+SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Frames, stages, energy and leakage of the quasi-static cycle (run_cycle.c) and of the motion with
+// inertia (run_dynamic.c).
+SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Energies and counts of a motion with inertia into the summary (run_dynamic.c).
+void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
+                        const SbDynamicsCounters *counters);
+
+// Solves the sliding states, at the speed of the machine or, where something else drives the stem,
+// at the stem's own mean speed from B to C, which follows from them: repeated until they agree
+// (run_speed.c).
+SbStatus sb_run_solve_states_at_speed(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Mean speed of the stem from B to C [m/s], or from B to D, or from E to F, whichever it passes
+// first, by the present sliding states; of a sinusoid that passes none, its own. 0 if there is
+// none. *slips tells whether the stem slides at all (run_dynamic.c).
+SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRunHooks *hooks,
+                              SbReport *report);
+
+// Makes the surface `factor` times as rough in the run's model and its solved sliding states.
+SbStatus sb_run_resurface(SbRun *run, double factor, SbReport *report);
+
+// The actuations after the first, once that one has run (run_life.c).
+SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// The sliding-plate rig in place of the valve (run_rig.c).
+SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Films of the first `count` frames, which nobody else may see yet, by the transient film
+// (run_film.c). From where a seal's film fails its frames have none (NaN), with a warning.
+SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, SbReport *report);
+
+// Notes why there can be no motion; the first reason stays (run_reasons.c).
+void sb_run_lacks_motion(SbRun *run, const char *why);
+
+// Takes back what only a whole motion tells, of one that ended early (run_reasons.c).
+void sb_run_clear_motion(SbRun *run, const char *why);
+
+// The net leak of a stem that came back to where it began; else NaN, with the reason.
+double sb_run_cycle_leakage(SbSummary *summary, double carried, bool back);
+
+// Gives the figures that are missing by the choice of models or by what happened their reasons
+// (run_reasons.c). The last step of a run.
+void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report);
+
+// Figures of each seal at the middle of B-C (run_seals.c).
+void sb_run_summarise_seals(SbRun *run);
+
+// Makes the first `count` frames visible to other threads.
+void sb_run_publish(SbRun *run, size_t count);
+
+// Remembers the first time a stage is reached.
+void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t index);
+
+// What the films' error leaves in the cycle's forces, over the largest of them; both seals.
+double sb_run_error_friction(const SbRun *run);
+
+// Tells how far the run is: `fraction` of the work before the frames, or of the frames once there
+// are any.
+void sb_run_progress(const SbRun *run, const SbRunHooks *hooks, double fraction, size_t frames);
+
+// Whether the hooks ask to stop; fills the report then.
+bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report);

@@ -1,0 +1,320 @@
+// Sliding states and contact profiles of a run: each steady state is solved once and shared by all
+// frames.
+#include "engine/valve/figures.h"
+#include "engine/valve/run/run_private.h"
+#include "engine/contact/rough/greenwood_tripp.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { OUTSIDE_POINTS = 60, PROFILE_POINTS = SB_FIT_PROFILE_MAX + 2 * OUTSIDE_POINTS };
+
+uint32_t sb_run_profile_slot(int seal, SbChamber chamber, int motion) {
+  return (uint32_t)((seal * SB_CYCLE_CHAMBERS + (int)chamber) * SB_RUN_MOTIONS + motion);
+}
+
+// Contact pressure of the fitment at x, by straight lines; the fluid's outside the contact.
+static double fit_pressure(const SbFit *fit, double x, double left, double right) {
+  size_t n = fit->profile_count;
+  if (n < 2 || x <= fit->profile_x[0]) {
+    return left;
+  }
+  if (x >= fit->profile_x[n - 1]) {
+    return right;
+  }
+  size_t low = 0;
+  size_t high = n - 1;
+  while (high - low > 1) {
+    size_t middle = (low + high) / 2;
+    if (fit->profile_x[middle] <= x) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  double span = fit->profile_x[high] - fit->profile_x[low];
+  double t = span > 0 ? (x - fit->profile_x[low]) / span : 0;
+  return fit->profile_p[low] + t * (fit->profile_p[high] - fit->profile_p[low]);
+}
+
+// What Greenwood and Tripp's asperities bear at the local film (thesis equation 5.12). The film
+// does not give this load up to them (sliding.h): it is shown beside the film's pressure.
+static void asperity_pressure(const SbModel *model, int seal, const double *film, double *out,
+                              size_t n) {
+  double last = NAN;
+  double pressure = 0;
+  for (size_t i = 0; i < n; i++) {
+    // F_5/2 changes by less than 2e-4 over this step; the flat of the film then costs one integral.
+    double lambda = film[i] / model->sigma;
+    if (!(fabs(lambda - last) < 1e-4)) {
+      SbGtIntegrals integrals;
+      pressure = sb_gt_integrals(&integrals, lambda, NULL) == SB_OK
+                     ? sb_gt_pressure(model->gt_product, model->sigma_over_beta,
+                                      model->seal[seal].reduced_modulus, integrals.F5_2)
+                     : NAN;
+      last = lambda;
+    }
+    out[i] = pressure;
+  }
+}
+
+// Pressure and film over one contact, from what the seal's memory has just solved. With a solved
+// film it is the solver's own profile, on the fitted body where the fitment gives one; with a
+// closed form it is the fitment's pressure, the central film held uniform (the law knows no shape)
+// and the dry gap outside.
+static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, const SbSliding *state,
+                             SbRunProfile *profile, SbReport *report) {
+  const SbFit *fit = sb_sliding_fit(run->memory[seal]);
+  const SbFilm *film = sb_sliding_film(run->memory[seal]);
+  bool coupled = run->model.asperities == SB_MODEL_ASPERITIES_COUPLED;
+  bool solved = (coupled || run->model.film == SB_MODEL_FILM_REYNOLDS) && state->film_central > 0;
+  bool fitted = state->touches && isfinite(state->load);
+  bool own_pressure = run->model.fit == SB_FIT_DISC || run->model.fit == SB_FIT_DISC_THESIS ||
+                      run->model.fit == SB_FIT_RING;
+  size_t capacity = solved ? film->points : (size_t)PROFILE_POINTS;
+  double *data = calloc(4 * capacity, sizeof *data);
+  if (data == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a profile");
+  }
+  double *x = data;
+  double *p = data + capacity;
+  double *h = data + 2 * capacity;
+  size_t n = 0;
+  double low = fmin(pressure.left, pressure.right);
+  double left = pressure.left - low;
+  double right = pressure.right - low;
+  if (solved && own_pressure && !state->film_fitted) {
+    // No film on the fitted body: the half-plane's is scaled from its contact to the fitted one.
+    double middle = (fit->contact_left + fit->contact_right) / 2;
+    double stretch = fit->contact_width / 2 / film->hertz_half_width;
+    n = film->points;
+    for (size_t i = 0; i < n; i++) {
+      x[i] = middle + stretch * film->x[i];
+      p[i] = fit_pressure(fit, x[i], left, right);
+      h[i] = film->film[i];
+    }
+  } else if (solved) {
+    n = film->points;
+    memcpy(x, film->x, n * sizeof *x);
+    memcpy(h, film->film, n * sizeof *h);
+    for (size_t i = 0; i < n; i++) {
+      p[i] = film->pressure[i] - low;
+    }
+  } else if (fitted) {
+    double a = fit->contact_width / 2;
+    double middle = (fit->contact_left + fit->contact_right) / 2;
+    double scale = a * a / run->model.seal[seal].radius;
+    for (int i = OUTSIDE_POINTS; i > 0; i--) {
+      double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
+      x[n] = middle - xi * a;
+      p[n] = left;
+      h[n++] = state->film_central + scale * sb_film_dry_gap(xi);
+    }
+    for (size_t i = 0; i < fit->profile_count; i++) {
+      x[n] = fit->profile_x[i];
+      p[n] = fmax(fit->profile_p[i], x[n] < middle ? left : right);
+      h[n++] = state->film_central;
+    }
+    for (int i = 1; i <= OUTSIDE_POINTS; i++) {
+      double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
+      x[n] = middle + xi * a;
+      p[n] = right;
+      h[n++] = state->film_central + scale * sb_film_dry_gap(xi);
+    }
+  }
+  if (solved && coupled) {
+    memcpy(data + 3 * capacity, film->asperity_pressure, n * sizeof *data);
+  } else if (fitted && run->model.surface == SB_MODEL_SURFACE_GREENWOOD_TRIPP) {
+    asperity_pressure(&run->model, seal, h, data + 3 * capacity, n);
+  }
+  free(profile->data);
+  profile->data = data;
+  profile->view = (SbContactProfile){
+      .count = n,
+      .x = x,
+      .pressure = p,
+      .film = h,
+      .asperity_pressure = data + 3 * capacity,
+      .model = solved && (!own_pressure || state->film_fitted)
+                   ? "reynolds"
+                   : sb_fit_model_name((SbFitModel)run->model.fit),
+  };
+  run->summary.counters.profile_evaluations++;
+  return SB_OK;
+}
+
+// Whether the cycle can visit this state at all: the outer seal does in every chamber state, the
+// inner one slides only while it touches the land.
+static bool state_needed(int seal, SbChamber chamber) {
+  return seal == SB_OUTER || chamber != SB_CHAMBER_OPEN;
+}
+
+// Names what failed and where: solver, seal, stages, place; and what there is all the same. Figures
+// that need it say so, too.
+static void tell_failure(SbRun *run, int seal, int chamber, int motion, const SbSliding *state,
+                         SbSealPressure pressure, SbReport *report) {
+  static const char *const stages[] = {"A to C", "C to F", "F to A"};
+  static const char *const ways[] = {"in-stroke", "return", "at rest"};
+  const SbModel *model = &run->model;
+  bool fitted = sb_sliding_fit(run->memory[seal])->solver.converged;
+  bool complete = isfinite(sb_sliding_friction(state));
+  char solver[64], place[96], cause[128];
+  snprintf(cause, sizeof cause, "%.127s",
+           strncmp(report->text, "film: ", 6) == 0 ? report->text + 6 : report->text);
+  if (fitted) {
+    bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+    snprintf(solver, sizeof solver, "film (%s)", coupled ? "with asperities" : "reynolds");
+    snprintf(place, sizeof place, "x %.3g to %.3g mm", 1e3 * state->contact_left,
+             1e3 * state->contact_right);
+  } else {
+    snprintf(solver, sizeof solver, "fitment (%s)", sb_fit_model_name((SbFitModel)model->fit));
+    snprintf(place, sizeof place, "%.4g MPa", 1e-6 * (pressure.left - pressure.right));
+  }
+  SbReport whole = *report;
+  (void)sb_fail_parameter(&whole, report->status, report->parameter,
+                          "%s, %s seal, stages %s, %s, %s: %s; kept: %s", solver,
+                          sb_seal_name(seal), stages[chamber], ways[motion], place, cause,
+                          complete ? "the last solution"
+                          : fitted ? "its fitment, the other states"
+                                   : "the other states");
+  sb_warn(&run->summary.warnings, "not-converged", report->parameter, "%s", whole.text);
+  if (motion != SB_RUN_REST && !complete) {
+    sb_run_lacks_motion(run, whole.text);
+  }
+  if (chamber == SB_CHAMBER_AT_REST && motion == SB_CYCLE_IN) {
+    char pattern[32];
+    snprintf(pattern, sizeof pattern, "seals.%s.*", sb_seal_name(seal));
+    sb_reason(&run->summary, pattern, "%s", whole.text);
+  }
+  *report = whole;
+}
+
+double sb_run_error_friction(const SbRun *run) {
+  double peak = run->summary.force_peak;
+  return peak > 0 ? SB_SEAL_COUNT * run->friction_error / peak : 0;
+}
+
+SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+  SbSummary *summary = &run->summary;
+  SbSlidingCounts counts = {0};
+  SbStatus worst = SB_OK;
+  summary->error_film = NAN;
+  summary->error_load = 0;
+  run->lacks[0] = '\0';
+  run->friction_error = 0;
+  run->cycle.states.model = &run->model;
+  // A carried inlet is left by an in-stroke at the model's speed.
+  SbModel model = run->model;
+  model.speed = run->speed;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
+      SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, (SbChamber)chamber);
+      for (int motion = 0; motion < SB_RUN_MOTIONS && state_needed(seal, (SbChamber)chamber);
+           motion++) {
+        if (sb_run_cancelled(hooks, report)) {
+          return SB_ERROR_CANCELLED;
+        }
+        sb_run_progress(
+            run, hooks,
+            0.3 * (seal * SB_CYCLE_CHAMBERS + chamber) / (SB_SEAL_COUNT * SB_CYCLE_CHAMBERS), 0);
+        if (motion == SB_RUN_REST && !run->plan.profiles) {
+          continue;
+        }
+        double speed = motion == SB_CYCLE_IN ? run->speed : motion == SB_RUN_REST ? 0 : -run->speed;
+        SbSliding rest;
+        SbSliding *state =
+            motion == SB_RUN_REST ? &rest : &run->cycle.states.state[seal][chamber][motion];
+        SbReport own = {0};
+        SbStatus status = sb_sliding_solve(state, &model, seal, pressure, speed, run->memory[seal],
+                                           &counts, &summary->warnings, &own);
+        if (status == SB_ERROR_NOT_CONVERGED) {
+          tell_failure(run, seal, chamber, motion, state, pressure, &own);
+        }
+        bool fatal = status != SB_OK && status != SB_ERROR_NOT_CONVERGED;
+        if (report != NULL && (fatal || (status != SB_OK && worst == SB_OK))) {
+          *report = own; // of failures to converge the first is told
+        }
+        if (status == SB_ERROR_NOT_CONVERGED) {
+          worst = status;
+        } else if (status != SB_OK) {
+          return status;
+        } else if (motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state))) {
+          char text[160];
+          snprintf(text, sizeof text,
+                   "the fluid opens the contact of the %s seal or carries it alone: no law gives "
+                   "film and friction",
+                   sb_seal_name(seal));
+          sb_run_lacks_motion(run, text);
+        }
+        SbRunSurface *surface = &run->surface[seal][chamber];
+        if (state->film_fitted && run->plan.film_history) {
+          surface->known = sb_sliding_surface(&surface->compliance, &surface->load,
+                                              sb_sliding_fit(run->memory[seal]), &run->model, seal,
+                                              pressure, NULL, NULL) == SB_OK;
+        }
+        if (isfinite(state->load)) {
+          summary->error_load = fmax(summary->error_load,
+                                     sb_sliding_fit(run->memory[seal])->solver.error_estimate.load);
+        }
+        // fmax() leaves out what was not computed.
+        run->friction_error = fmax(run->friction_error, state->friction_error);
+        if (!isnan(state->film_error)) {
+          summary->error_film =
+              fmax(isnan(summary->error_film) ? 0 : summary->error_film, state->film_error);
+        }
+        if (run->plan.profiles) {
+          status = make_profile(
+              run, seal, pressure, state,
+              &run->profile[sb_run_profile_slot(seal, (SbChamber)chamber, motion)], report);
+          if (status != SB_OK) {
+            return status;
+          }
+        }
+      }
+    }
+  }
+  // Added up over the rounds of a run that looks for its own speed.
+  summary->counters.fit_solves += counts.fit_solves;
+  summary->counters.disc_solves += counts.disc_solves;
+  summary->counters.ring_solves += counts.ring_solves;
+  summary->counters.reynolds_solves += counts.reynolds_solves;
+  summary->newton_iterations += counts.newton_iterations;
+  return worst;
+}
+
+void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber chamber,
+                         int direction, bool moving, double s) {
+  const SbSliding *state = &run->cycle.states.state[seal][chamber][direction];
+  SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, chamber);
+  double width_share;
+  double load_share;
+  sb_cycle_land_share(&run->cycle, seal, chamber, direction, s, &width_share, &load_share);
+  double width = state->contact_right - state->contact_left;
+
+  // The edge takes the contact away from the canister side.
+  *out = (SbSealFrame){
+      .land_fraction = (float)width_share,
+      .pressure_left = (float)pressure.left,
+      .pressure_right = (float)pressure.right,
+      .profile = run->plan.profiles && state->touches
+                     ? sb_run_profile_slot(seal, chamber, moving ? direction : SB_RUN_REST)
+                     : UINT32_MAX,
+      .contact_left = state->contact_right - width_share * width,
+      .contact_right = state->contact_right,
+      .load = load_share * state->load,
+      .pressure_peak = width_share > 0.5 ? state->pressure_peak : 0,
+  };
+  if (width_share > 0 && width_share <= 0.5) {
+    // The elliptic profile's greatest remaining value, at the edge.
+    double c = 1 - 2 * (1 - width_share);
+    out->pressure_peak = state->pressure_peak * sqrt(fmax(1 - c * c, 0));
+  }
+  out->shape = sb_run_shape_index(run, seal, chamber, moving ? direction : SB_RUN_REST, s);
+  if (moving && width_share > 0) {
+    out->film_min = state->film_min;
+    out->film_central = state->film_central;
+    out->lambda = state->lambda;
+  }
+}

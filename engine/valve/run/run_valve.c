@@ -1,0 +1,323 @@
+// The valve as a mechanism with one coordinate (motion/dynamics.h) and, if the scene asks for
+// ports, one chamber pressure (motion/chamber.h).
+//
+// The same sliding states as in the quasi-static cycle give each seal's Coulomb level, m W + tau_0
+// A_a, its static ratio and a viscous coefficient (the viscous force at the reference speed over
+// that speed; it is a thousandth of the level, so its weak speed dependence is left out). While the
+// edge of the land passes, the inner level follows the part that still touches. With ports the
+// levels lie between those of the vented and of the filled chamber, in proportion to its pressure:
+// exact where the chamber rests, which is all but the milliseconds of filling and venting.
+//
+// Ports by position. With y from the land's edge outwards and the contacts' edges l < r in each
+// seal's frame, the inner contact starts at y = s_C - s and the outer ends of the chamber lie at
+// s_C - s + (r - l)_inner and s_C - s - l_inner + spacing + l_outer. The chamber meets the canister
+// when the inner contact has left the land, the vent while any of the hole lies between the two
+// contacts (open wholly or not at all), and the canister through a by-pass below
+// bore.refill_travel.
+#include "engine/valve/run/run_dynamic.h"
+
+#include <math.h>
+
+// The state that stands for a chamber: sliding the way the stem moves in it.
+static int direction_of(SbChamber chamber) {
+  return chamber == SB_CHAMBER_CLOSED ? SB_CYCLE_OUT : SB_CYCLE_IN;
+}
+
+// How full of pressure the chamber is, 0 vented, 1 at the canister's.
+static double filling(const SbValve *valve, double pressure) {
+  double canister = valve->run->model.canister_pressure;
+  return canister > 0 ? fmin(fmax(pressure / canister, 0), 1) : 1;
+}
+
+static double level_of(const SbCycle *cycle, int seal, SbChamber chamber, double s) {
+  int direction = direction_of(chamber);
+  const SbSliding *state = &cycle->states.state[seal][chamber][direction];
+  double width_share;
+  double load_share;
+  sb_cycle_land_share(cycle, seal, chamber, direction, s, &width_share, &load_share);
+  return state->boundary_area * width_share + state->boundary_load * load_share;
+}
+
+static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const double *extra,
+                        void *user) {
+  const SbValve *valve = user;
+  const SbCycle *cycle = &valve->run->cycle;
+  // Bore and stem are the same on either side of the chamber, so that its pressure cancels.
+  loads->force = -valve->run->model.pressure_force;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    if (valve->ports) {
+      double q = filling(valve, extra[0]);
+      double vented = q < 1 ? level_of(cycle, seal, SB_CHAMBER_AT_REST, x) : 0;
+      double filled = q > 0 ? level_of(cycle, seal, SB_CHAMBER_CLOSED, x) : 0;
+      loads->level[seal] = (1 - q) * vented + q * filled;
+    } else {
+      loads->level[seal] = level_of(cycle, seal, valve->chamber, x);
+    }
+  }
+  // Only while the edge lies under the inner contact does anything change with x.
+  bool still = valve->chamber == SB_CHAMBER_OPEN && !valve->ports;
+  bool settled = !valve->ports || sb_chamber_settled(&valve->dose, extra[0]);
+  loads->settled = settled;
+  loads->constant = settled && (still || !valve->varies[region]);
+}
+
+static void valve_cross(size_t edge, int direction, double *extra, void *user) {
+  SbValve *valve = user;
+  double x = valve->edge[edge];
+  if (valve->touches && direction > 0 && x == valve->edge_open) {
+    valve->chamber = SB_CHAMBER_OPEN;
+  } else if (valve->touches && direction < 0 && x == valve->edge_closed &&
+             valve->chamber == SB_CHAMBER_OPEN) {
+    valve->chamber = SB_CHAMBER_CLOSED;
+  }
+  if (valve->ports) {
+    sb_chamber_cross(&valve->dose, x, direction, extra);
+  }
+}
+
+static void valve_rates(double *rate, double x, double v, size_t region, const double *extra,
+                        void *user) {
+  rate[0] = sb_chamber_rate(&((SbValve *)user)->dose, extra[0]);
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Set-up
+
+// Inserts an edge, increasing, without doubles.
+static void add_edge(SbDynamicsModel *out, double x) {
+  size_t at = 0;
+  while (at < out->edges && out->edge[at] < x) {
+    at++;
+  }
+  if (!isfinite(x) || (at < out->edges && out->edge[at] == x) || out->edges == SB_DYNAMICS_EDGES) {
+    return;
+  }
+  for (size_t k = out->edges; k > at; k--) {
+    out->edge[k] = out->edge[k - 1];
+  }
+  out->edge[at] = x;
+  out->edges++;
+}
+
+static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report) {
+  const SbModel *model = &valve->run->model;
+  const SbCycleStates *states = &valve->run->cycle.states;
+  const SbSliding *inner = &states->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbSliding *outer = &states->state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbValveShape *shape = &model->shape;
+  bool at_once = model->chamber_at_once;
+  double coefficient = model->discharge_coefficient;
+  double canister = model->canister_pressure;
+  SbChamberModel *chamber = &valve->chamber_model;
+  *chamber = (SbChamberModel){.canister = canister,
+                              .volume = model->metered_volume,
+                              .stiffness = model->chamber_stiffness,
+                              .density = model->density};
+
+  // The land's edge: an annulus between stem and bore.
+  double annulus = M_PI / 4 * (model->bore_diameter - model->stem_diameter) *
+                   (model->bore_diameter + model->stem_diameter);
+  double land_area = at_once || annulus <= 0 ? INFINITY : coefficient * annulus;
+  double opens = valve->touches ? valve->edge_open : -INFINITY;
+  chamber->port[chamber->ports++] =
+      (SbChamberPort){opens, INFINITY, SB_PORT_BOTH_WAYS, canister, land_area};
+
+  // The vent.
+  double hole = shape->vent_diameter;
+  double edge = model->land_edge;
+  double low = edge + inner->contact_right - inner->contact_left - shape->vent_position - hole / 2;
+  double high = edge - inner->contact_left + shape->seal_spacing + outer->contact_left -
+                shape->vent_position + hole / 2;
+  bool vents = hole > 0 && high > low && high > 0 && low < model->stroke;
+  if (hole > 0 && !vents) {
+    sb_warn(&valve->run->summary.warnings, "ports-no-vent", "bore.vent_position",
+            "the dose chamber never reaches the vent: it would at a stem of %.3g to %.3g mm, which "
+            "moves from 0 to %.3g mm",
+            1e3 * low, 1e3 * high, 1e3 * model->stroke);
+  }
+  if (vents) {
+    chamber->port[chamber->ports++] =
+        (SbChamberPort){low, high, model->vent_on_return ? SB_PORT_ON_RETURN : SB_PORT_BOTH_WAYS, 0,
+                        at_once ? INFINITY : coefficient * M_PI / 4 * hole * hole};
+  }
+
+  // The by-pass at rest.
+  if (model->refill_travel > 0) {
+    chamber->port[chamber->ports++] =
+        (SbChamberPort){-INFINITY, model->refill_travel, SB_PORT_BOTH_WAYS, canister,
+                        at_once ? INFINITY : coefficient * model->refill_area};
+  }
+  SbStatus status = sb_chamber_check(chamber, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  for (size_t i = 0; at_once && i < chamber->ports; i++) {
+    for (size_t k = 0; k < i; k++) {
+      const SbChamberPort *a = &chamber->port[i];
+      const SbChamberPort *b = &chamber->port[k];
+      if (a->pressure != b->pressure && a->low < b->high && b->low < a->high) {
+        return sb_fail_parameter(
+            report, SB_ERROR_INFEASIBLE, "chamber.flow",
+            "the chamber would be open to canister and vent at once (stem at %.3g to %.3g mm): "
+            "a pressure between them needs chamber.flow = orifice, or other places of the vent "
+            "(bore.vent_position) and the by-pass (bore.refill_travel)",
+            1e3 * fmax(fmax(a->low, b->low), 0), 1e3 * fmin(fmin(a->high, b->high), model->stroke));
+      }
+    }
+  }
+  for (size_t i = 0; i < chamber->ports; i++) {
+    add_edge(out, chamber->port[i].low);
+    add_edge(out, chamber->port[i].high);
+  }
+  out->extras = 1;
+  out->extra_rates = valve_rates;
+  out->extra_scale[0] = fmax(canister, 1e3);
+  double pressure = canister;
+  sb_chamber_start(&valve->dose, chamber, out->start_position, &pressure);
+  out->extra_start[0] = sb_chamber_rest_pressure(&valve->dose, pressure);
+  return SB_OK;
+}
+
+static void warn_flow(SbRun *run, const SbValve *valve) {
+  // The orifice law holds for turbulent jets of liquid.
+  const SbModel *model = &run->model;
+  double speed = sqrt(2 * model->canister_pressure / model->density);
+  double reynolds = model->density * speed * model->shape.vent_diameter / model->viscosity;
+  if (valve->chamber_model.ports > 1 && !model->chamber_at_once && reynolds < 1e3) {
+    sb_warn(&run->summary.warnings, "vent-laminar", "bore.vent_diameter",
+            "the vent's jet has a Reynolds number of %.3g: the orifice law needs 1000 and more",
+            reynolds);
+  }
+}
+
+static SbStatus valve_parts(SbDynamicsParts *parts, double x, double v, void *user,
+                            SbReport *report) {
+  const SbValve *valve = user;
+  return sb_run_bodies_parts(parts, valve->run, x, v, report);
+}
+
+SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbReport *report) {
+  const SbModel *model = &run->model;
+  const SbCycle *cycle = &run->cycle;
+  *valve = (SbValve){.run = run, .ports = model->pressure_map == SB_MAP_PORTS};
+  *out = (SbDynamicsModel){
+      .mass = run->bodies != NULL ? sb_run_bodies_mass(run->bodies) : model->moving_mass,
+      .spring_preload = model->spring_preload,
+      .spring_stiffness = model->spring_stiffness,
+      .contacts = SB_SEAL_COUNT,
+      .stops = 2,
+      .loads = valve_loads,
+      .cross = valve_cross,
+      .parts = run->bodies != NULL ? valve_parts : NULL,
+      .user = valve,
+      .start_dwell = model->rest,
+      .tolerance = model->motion_tolerance,
+  };
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    const SbSliding *state = &cycle->states.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+    double level = state->boundary_area + state->boundary_load;
+    out->contact[seal] = (SbDynamicsContact){
+        .static_ratio = level > 0 ? fmax(state->friction_static / level, 1) : 1,
+        .dwell_gain = model->dwell_gain,
+        .dwell_time = model->dwell_time,
+        .stribeck_speed = model->stribeck_speed,
+        .stribeck_exponent = 1,
+        .viscous = state->viscous / run->speed,
+        .stiffness = INFINITY,
+    };
+    if (model->tangential_stiffness > 0) {
+      out->contact[seal].stiffness = model->tangential_stiffness;
+      out->contact[seal].damping =
+          model->damping_ratio * 2 * sqrt(model->tangential_stiffness * out->mass);
+    }
+  }
+  out->stop[SB_REST_STOP] = (SbDynamicsStop){0, -1, INFINITY, 0};
+  out->stop[SB_END_STOP] =
+      (SbDynamicsStop){model->stroke, 1, model->stop_stiffness, model->stop_restitution};
+  sb_valve_set_drive(out, run);
+
+  // Edges: where the contact meets the land's end, where it has left, where it comes back.
+  valve->touches = cycle->states.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].touches;
+  double far = -INFINITY;
+  if (valve->touches) {
+    valve->edge_open = sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
+    valve->edge_closed = sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
+    far = fmax(valve->edge_open, valve->edge_closed);
+    if (valve->ports) {
+      // The wider contact decides, whatever the pressure is when it leaves.
+      valve->edge_open = valve->edge_closed = far;
+    }
+    add_edge(out, model->land_edge);
+    add_edge(out, valve->edge_open);
+    add_edge(out, valve->edge_closed);
+  }
+  bool behind = out->start_position >= valve->edge_open;
+  valve->chamber = !valve->touches || behind ? SB_CHAMBER_OPEN : SB_CHAMBER_AT_REST;
+  if (valve->ports) {
+    SbStatus status = set_ports(out, valve, report);
+    if (status != SB_OK) {
+      return status;
+    }
+    warn_flow(run, valve);
+  }
+  // Nothing varies with the place where the inner seal does not rub.
+  bool rubs = level_of(cycle, SB_INNER, SB_CHAMBER_AT_REST, 0) > 0 ||
+              level_of(cycle, SB_INNER, SB_CHAMBER_CLOSED, 0) > 0;
+  for (size_t region = 0; region <= out->edges; region++) {
+    double low = region > 0 ? out->edge[region - 1] : -INFINITY;
+    double high = region < out->edges ? out->edge[region] : INFINITY;
+    valve->varies[region] = valve->touches && rubs && low >= model->land_edge && high <= far;
+    if (region < out->edges) {
+      valve->edge[region] = high;
+    }
+  }
+  return SB_OK;
+}
+
+// ---------------------------------------------------------------------------------------------------
+// Frames
+
+double sb_valve_chamber_pressure(const SbValve *valve, const double *extra) {
+  return valve->ports ? extra[0]
+                      : sb_model_seal_pressure(&valve->run->model, SB_OUTER, valve->chamber).left;
+}
+
+// The solved state nearest to what the chamber holds.
+static SbChamber nearest(const SbValve *valve, double pressure) {
+  if (!valve->ports || valve->chamber == SB_CHAMBER_OPEN) {
+    return valve->chamber;
+  }
+  return filling(valve, pressure) < 0.5 ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
+}
+
+static int direction_in(SbChamber chamber, int direction) {
+  return chamber == SB_CHAMBER_OPEN ? direction : direction_of(chamber);
+}
+
+const SbSliding *sb_valve_state(const SbValve *valve, int seal, int direction, double pressure) {
+  SbChamber chamber = nearest(valve, pressure);
+  return &valve->run->cycle.states.state[seal][chamber][direction_in(chamber, direction)];
+}
+
+void sb_valve_fill_seal(SbSealFrame *out, const SbValve *valve, int seal, int direction,
+                        bool moving, double s, double pressure) {
+  SbChamber chamber = nearest(valve, pressure);
+  sb_run_fill_contact(out, valve->run, seal, chamber, direction_in(chamber, direction), moving, s);
+  if (!valve->ports) {
+    return;
+  }
+  *(seal == SB_INNER ? &out->pressure_right : &out->pressure_left) = (float)pressure;
+  if (chamber == SB_CHAMBER_OPEN) {
+    return;
+  }
+  // Between vented and filled as the friction is.
+  SbSealFrame vented;
+  SbSealFrame filled;
+  double q = filling(valve, pressure);
+  sb_run_fill_contact(&vented, valve->run, seal, SB_CHAMBER_AT_REST, SB_CYCLE_IN, moving, s);
+  sb_run_fill_contact(&filled, valve->run, seal, SB_CHAMBER_CLOSED, SB_CYCLE_OUT, moving, s);
+  out->contact_left = (1 - q) * vented.contact_left + q * filled.contact_left;
+  out->contact_right = (1 - q) * vented.contact_right + q * filled.contact_right;
+  out->load = (1 - q) * vented.load + q * filled.load;
+  out->pressure_peak = (1 - q) * vented.pressure_peak + q * filled.pressure_peak;
+}

@@ -1,0 +1,97 @@
+// A seal's steady sliding state: fitment, film, rough contact and the friction that follows, at one
+// pressure and one sliding velocity, by the models that the scene chose.
+//
+//   boundary  F_b = tau_0 A_a + m W    thesis eq. 5.14, A_a = A (real share), m on the TOTAL load
+//   viscous   F_v = tau (A - A_a)      thesis eq. 5.15 and 5.16, tau = min(eta |u|/h, tau_0)
+//   static    F_s = ratio (tau_0 A_a(0) + m W)     break-away from rest, where the film has gone
+//
+// With models.asperities = coupled the film is solved with the asperities in it (film/mixed.h), and
+// what the solution says takes the place of these: A_a its real area (mean over the contact
+// solved, on A), m on the asperities' load alone, the viscous part from the gap that is open, and
+// at rest the dry rough contact, m W on the whole net load.
+//
+// A = contact width x pi D (bore), for every fitment model. The real share A_a/A comes from
+// Greenwood and Tripp at lambda = h_central/sigma. tau_0 is both the boundary shear strength and
+// the Eyring limit.
+//
+// What was not computed is NaN: all of a fitment that failed; the film and what follows from it
+// where the film failed, where the fluid alone carries the seal, or where there is no contact.
+// Without contact, width, load and friction are 0.
+#pragma once
+
+#include "engine/contact/fit.h"
+#include "engine/film/film.h"
+#include "engine/valve/model.h"
+
+typedef struct {
+  bool touches;
+  bool opened; // by the fluid: the rubber does not press, or the film's ends differ too much
+  double contact_left, contact_right; // seal's frame [m]
+  double load, load_per_length;       // total, fluid's share included [N], [N/m]
+  double load_net;               // per length, above the ambient step: what the film carries [N/m]
+  double pressure_peak;          // [Pa]
+  double film_min, film_central; // [m]; 0 at rest, NaN without contact
+  double film_reynolds;          // central, solved on the half-plane; NaN if not solved
+  bool film_fitted;              // film_min and film_central are solved on the fitted body
+  double film_error;             // relative error estimate of the solved film; NaN if closed form
+  double lambda;                 // film_central / sigma
+  double area_share;             // A_a / A
+  double asperity_share;         // of the net load, on the asperities; NaN unless coupled
+  double boundary_area;          // tau_0 A_a, the part of F_b in proportion to the width [N]
+  double boundary_load;          // m W, the part in proportion to the load [N]
+  double viscous;                // [N]
+  double friction_static;        // [N]
+  double friction_error;         // of either friction by the solved film's error [N]
+} SbSliding;
+
+// Kinetic friction of a whole contact [N].
+double sb_sliding_friction(const SbSliding *state);
+
+// Workspaces that one seal's evaluations share; plain create and destroy (NULL allowed).
+typedef struct SbSlidingMemory SbSlidingMemory;
+SbStatus sb_sliding_memory_create(SbSlidingMemory **out, SbReport *report);
+void sb_sliding_memory_destroy(SbSlidingMemory *memory);
+
+// Forgets the last fitment, because something else than its pressure has changed; keeps the memory.
+void sb_sliding_memory_forget(SbSlidingMemory *memory);
+
+// What the last evaluation solved, for profiles; borrowed, overwritten by the next call.
+const SbFit *sb_sliding_fit(const SbSlidingMemory *memory);
+const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
+
+// Counts of what was computed; added to, never reset.
+typedef struct {
+  size_t fit_solves, disc_solves, ring_solves, reynolds_solves, newton_iterations;
+} SbSlidingCounts;
+
+// Evaluates `seal` of `model` between `pressure`, sliding at `speed` (> 0: bore moves to +x, the
+// in-stroke; 0: at rest). The fitment is reused from the last call when the pressure has not
+// changed. A ring that does not touch has touches = false. SB_ERROR_NOT_CONVERGED with what was
+// computed, the rest NaN; the report names solver and cause.
+SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
+                          double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
+                          SbWarnings *warnings, SbReport *report);
+
+// Surface of a fitted body for the film: the ring's own by static condensation (ring.h), with its
+// own modulus, or the disc's, and the gap whose dry contact has the pressure of `fit`. Where the
+// ring has none the disc's compliance stands in for it, with the warning "film-disc-surface".
+// *load is the net load that goes with it [N/m]. `warnings` may be NULL. SB_ERROR_INPUT for the
+// other fitment models and where the contact is too wide.
+SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit *fit,
+                            const SbModel *model, int seal, SbSealPressure pressure,
+                            SbWarnings *warnings, SbReport *report);
+
+// Gives a solved state the surface of `model` (roughness, shear strength): neither fitment nor film
+// depend on it, so that nothing is solved again.
+SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, double speed,
+                              SbWarnings *warnings, SbReport *report);
+
+// The fitment problem of a seal by the model's own choice, at a pressure difference (positive on
+// the left).
+void sb_sliding_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure);
+
+// The film problem of a seal in a run: net load, reduced modulus, radius, pressures (thesis
+// sections 5.2 and 7.1; entrainment is half the sliding speed). `model` of the problem is left at
+// its default.
+void sb_sliding_film_problem(SbFilmProblem *out, const SbModel *model, int seal,
+                             SbSealPressure pressure, double load_net, double speed);

@@ -1,0 +1,115 @@
+// The verdict on a valve: six questions, each decided by the figure that is worst against its
+// limit.
+//
+// A seal seals if it touches, the rubber presses it beyond what the fluid carries, and its peak
+// pressure lies above the fluid's; channels between asperities are a matter of the leak's limit. A
+// question without a limit has no answer, but for the first and the return, which need none.
+#include "engine/valve/figures.h"
+
+#include <math.h>
+#include <stdio.h>
+
+const char *sb_verdict_name(SbVerdictKind kind) {
+  static const char *const names[] = {"seals", "presses", "returns", "doses", "leak", "fits"};
+  return names[kind];
+}
+
+static int seal_figure(int seal, const char *name) {
+  char path[64];
+  snprintf(path, sizeof path, "seals.%s.%s", sb_seal_name(seal), name);
+  return sb_figure_find(path);
+}
+
+static bool any_open(const SbSummary *summary) {
+  return summary->seal[SB_OUTER].leak_state == SB_LEAK_OPEN ||
+         summary->seal[SB_INNER].leak_state == SB_LEAK_OPEN;
+}
+
+// Takes `next` in place of *worst where it is worse: a no before what is unknown before a yes; of
+// two yeses the one nearer to its limit.
+static void take_worse(SbVerdict *worst, const SbVerdict *next) {
+  static const int badness[] = {[SB_ANSWER_YES] = 0, [SB_ANSWER_UNKNOWN] = 1, [SB_ANSWER_NO] = 2};
+  int more = badness[next->ok] - badness[worst->ok];
+  double margin = fabs(next->value - next->limit) / fmax(fabs(next->limit), 1e-300);
+  double known = fabs(worst->value - worst->limit) / fmax(fabs(worst->limit), 1e-300);
+  if (worst->figure < 0 || more > 0 || (more == 0 && next->ok == SB_ANSWER_YES && margin < known)) {
+    *worst = *next;
+  }
+}
+
+static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int seal) {
+  const SbSealSummary *of = &summary->seal[seal];
+  SbSealPressure side = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
+  int figure = seal_figure(seal, "pressure_peak_Pa");
+  SbVerdict out = {SB_ANSWER_YES, figure, of->pressure_peak, fabs(side.left - side.right), ""};
+  if (of->leak_state == SB_LEAK_OPEN) {
+    out.ok = SB_ANSWER_NO;
+    snprintf(out.reason, sizeof out.reason, "the %s seal is open: %.200s", sb_seal_name(seal),
+             sb_figure_reason(summary, seal_figure(seal, "leakage_static_m3_per_s")));
+  } else if (isnan(of->pressure_peak)) {
+    out.ok = SB_ANSWER_UNKNOWN;
+    snprintf(out.reason, sizeof out.reason, "%s", sb_figure_reason(summary, figure));
+  } else if (!(of->pressure_peak > out.limit)) {
+    out.ok = SB_ANSWER_NO;
+    snprintf(out.reason, sizeof out.reason,
+             "the %s seal's peak pressure of %.4g MPa is not above the fluid's %.4g MPa",
+             sb_seal_name(seal), 1e-6 * of->pressure_peak, 1e-6 * out.limit);
+  }
+  return out;
+}
+
+static SbVerdict judge_limit(const SbSummary *summary, const SbLimit *limit) {
+  const SbFigure *figure = sb_figure(limit->figure);
+  double value = sb_figure_value(summary, limit->figure);
+  bool near_high = !isfinite(limit->low) || value - limit->low > limit->high - value;
+  SbVerdict out = {SB_ANSWER_YES, limit->figure, value, near_high ? limit->high : limit->low, ""};
+  if (isnan(value)) {
+    bool open = figure->verdict == SB_VERDICT_LEAK && any_open(summary);
+    out.ok = open ? SB_ANSWER_NO : SB_ANSWER_UNKNOWN;
+    out.limit = isfinite(limit->high) ? limit->high : limit->low;
+    snprintf(out.reason, sizeof out.reason, "%s", sb_figure_reason(summary, limit->figure));
+  } else if (value < limit->low || value > limit->high) {
+    out.ok = SB_ANSWER_NO;
+    out.limit = value < limit->low ? limit->low : limit->high;
+    snprintf(out.reason, sizeof out.reason, "%s = %.5g is %s its limit %.5g (SI)", figure->path,
+             value, value < limit->low ? "below" : "above", out.limit);
+  }
+  return out;
+}
+
+void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
+  SbVerdict *verdict = summary->verdict;
+  for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
+    verdict[kind] = (SbVerdict){SB_ANSWER_UNKNOWN, -1, NAN, NAN, "no limit is set"};
+  }
+  if (model->motion == SB_MODEL_MOTION_RIG) {
+    snprintf(verdict[SB_VERDICT_SEALS].reason, sizeof verdict->reason,
+             "the sliding plate seals nothing");
+  } else {
+    for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+      SbVerdict of = judge_seal(summary, model, seal);
+      take_worse(&verdict[SB_VERDICT_SEALS], &of);
+    }
+  }
+  int least = sb_figure_find("cycle.force_return_min_N");
+  SbVerdict returns = {SB_ANSWER_UNKNOWN, least, summary->force_return_min, NAN, ""};
+  if (isnan(summary->returned)) {
+    snprintf(returns.reason, sizeof returns.reason, "%s",
+             sb_figure_reason(summary, sb_figure_find("cycle.returns")));
+  } else {
+    returns.ok = summary->returned > 0 ? SB_ANSWER_YES : SB_ANSWER_NO;
+    snprintf(returns.reason, sizeof returns.reason, "%s",
+             summary->returned > 0 ? "" : "the stem does not come to rest by itself");
+  }
+  verdict[SB_VERDICT_RETURNS] = returns;
+  for (size_t i = 0; i < model->limits.count; i++) {
+    const SbLimit *limit = &model->limits.item[i];
+    SbVerdictKind kind = sb_figure(limit->figure)->verdict;
+    SbVerdict of = judge_limit(summary, limit);
+    if (kind == SB_VERDICT_RETURNS && verdict[kind].ok == SB_ANSWER_YES &&
+        isnan(verdict[kind].limit)) {
+      verdict[kind].figure = -1; // the limit's figure stands in its place
+    }
+    take_worse(&verdict[kind], &of);
+  }
+}

@@ -1,6 +1,0 @@
-// The version, as the build system knows it.
-#include "engine/sealbench.h"
-
-const char *sb_version(void) {
-  return SB_VERSION;
-}
