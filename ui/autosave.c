@@ -3,7 +3,7 @@
 // is locked while the process that wrote it lives, wherever that runs.
 #include "ui/autosave.h"
 
-#include "app/document/output.h"
+#include "app/base/output.h"
 
 #include <glib/gi18n.h>
 #include <glib/gstdio.h>

@@ -2,7 +2,7 @@
 // a crash the next start offers them. Nothing is written over the user's own file.
 #pragma once
 
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <gtk/gtk.h>
 

@@ -3,7 +3,7 @@
 // in a sentence what it shows now, and its numbers can be copied as a table.
 #include "ui/chart_view.h"
 
-#include "app/chart/format.h"
+#include "app/base/format.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/life.h"
 #include "app/chart/profiles.h"

@@ -1,7 +1,7 @@
 // A widget around one chart of app/chart: draws it, moves the playhead, says what it shows.
 #pragma once
 
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <gtk/gtk.h>
 

@@ -9,8 +9,8 @@
 // µl are those of thesis section 1.7.
 #include "ui/derived_panel.h"
 
-#include "app/chart/format.h"
-#include "app/chart/theme.h"
+#include "app/base/format.h"
+#include "app/base/theme.h"
 #include "ui/style.h"
 
 #include <glib/gi18n.h>

@@ -1,7 +1,7 @@
 // What follows from the values: squeeze, stretch, gland fill, return force, each with a band.
 #pragma once
 
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <gtk/gtk.h>
 

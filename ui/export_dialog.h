@@ -1,7 +1,7 @@
 // The export dialog: a picture (PNG, SVG, PDF) or a film (MP4) of the shown run.
 #pragma once
 
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <gtk/gtk.h>
 

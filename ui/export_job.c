@@ -2,9 +2,9 @@
 // belong to this thread, so nothing is shared with the window but a counter and a flag.
 #include "ui/export_job.h"
 
-#include "app/document/output.h"
+#include "app/base/output.h"
 #include "app/export/render_movie.h"
-#include "ui/worker.h"
+#include "app/session/worker.h"
 
 #include <glib/gi18n.h>
 #include <string.h>

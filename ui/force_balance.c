@@ -3,7 +3,7 @@
 // run lacks and the window does not draw.
 #include "ui/force_balance.h"
 
-#include "app/chart/format.h"
+#include "app/base/format.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 // The balance of forces on the stem, as a row below the section.
 #pragma once
 
-#include "app/chart/canvas.h"
+#include "app/base/canvas.h"
 #include "app/chart/data.h"
 
 // Height of the row [px].

@@ -5,7 +5,7 @@
 // root-sum-square range and the band's source. Swell lines are there while a ring has swollen.
 #include "ui/gland_panel.h"
 
-#include "app/chart/format.h"
+#include "app/base/format.h"
 #include "ui/style.h"
 #include "ui/words.h"
 

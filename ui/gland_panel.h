@@ -1,7 +1,7 @@
 // Design read-outs of both glands against customary bands, for the foot of the parameter column.
 #pragma once
 
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <gtk/gtk.h>
 

@@ -1,7 +1,7 @@
 // The column of parameters: a search box over collapsible groups of rows, all from the catalogue.
 #pragma once
 
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <gtk/gtk.h>
 

@@ -2,7 +2,7 @@
 // and an error line. Generated from the catalogue.
 #pragma once
 
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <gtk/gtk.h>
 

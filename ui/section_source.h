@@ -4,7 +4,7 @@
 #pragma once
 
 #include "app/section/section.h"
-#include "ui/session.h"
+#include "app/session/session.h"
 
 typedef struct SbSectionSource SbSectionSource;
 

@@ -1,7 +1,7 @@
 // The section of the valve at the playhead, with its toolbar.
 #pragma once
 
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <gtk/gtk.h>
 

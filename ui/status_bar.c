@@ -2,7 +2,7 @@
 // time, error estimate, the pinned run, and the warnings with a list behind a button.
 #include "ui/status_bar.h"
 
-#include "app/chart/format.h"
+#include "app/base/format.h"
 #include "ui/style.h"
 
 #include <glib/gi18n.h>

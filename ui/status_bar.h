@@ -1,7 +1,7 @@
 // The line at the bottom: where the playhead is, models, run time, error estimate, warnings.
 #pragma once
 
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <gtk/gtk.h>
 

@@ -1,7 +1,7 @@
 // The thread of a study. It owns the study until it is done; only two atomic numbers are shared.
 #include "ui/study_job.h"
 
-#include "ui/worker.h"
+#include "app/session/worker.h"
 
 struct SbStudyJob {
   SbWorker worker;

@@ -2,7 +2,7 @@
 // and marked when the values have changed since.
 #pragma once
 
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <gtk/gtk.h>
 

@@ -3,7 +3,7 @@
 // here.
 #include "ui/style.h"
 
-#include "app/chart/theme.h"
+#include "app/base/theme.h"
 
 #include "sealbench-resources.h"
 

@@ -1,7 +1,7 @@
 // The cycle in time, with the controls of the playhead.
 #pragma once
 
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <gtk/gtk.h>
 

@@ -11,7 +11,7 @@
 #include "ui/param_panel.h"
 #include "ui/preferences.h"
 #include "ui/section_view.h"
-#include "ui/session.h"
+#include "app/session/session.h"
 #include "ui/status_bar.h"
 #include "ui/study_window.h"
 #include "ui/style.h"

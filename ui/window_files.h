@@ -2,7 +2,7 @@
 // lost.
 #pragma once
 
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <gtk/gtk.h>
 

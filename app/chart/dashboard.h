@@ -1,7 +1,7 @@
 // Everything about one frame on one page: section, loop, profiles, timeline, key figures, footer.
 #pragma once
 
-#include "app/chart/canvas.h"
+#include "app/base/canvas.h"
 #include "app/chart/data.h"
 
 // Draws the section (with its insets, legends and scale bars) into its panel's rectangle, ground

@@ -1,7 +1,7 @@
 // Small questions that several views ask of their data. Computes nothing of its own.
 #include "app/chart/data.h"
 
-#include "app/chart/format.h"
+#include "app/base/format.h"
 
 #include <glib.h>
 #include <math.h>

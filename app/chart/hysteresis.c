@@ -2,7 +2,7 @@
 // to F as ringed dots with the force just before the event; labels placed by the collision rule,
 // *now* first (hysteresis_labels.c). Displacement in mm, force in N, both from the frames. Leaves
 // out any smoothing: lines join computed frames.
-#include "app/chart/format.h"
+#include "app/base/format.h"
 #include "app/chart/hysteresis_private.h"
 
 #include <glib.h>

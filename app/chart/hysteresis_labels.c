@@ -1,7 +1,7 @@
 // Labels of the hysteresis chart: *now*, the stages' letters with their forces, what the lines are.
 // Figures are the frames' and, for loss and least return, the summary's, so they appear only after
 // the run's end. Order is importance: the collision rule serves *now* first.
-#include "app/chart/format.h"
+#include "app/base/format.h"
 #include "app/chart/hysteresis_private.h"
 
 #include <glib.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/chart/hysteresis.h"
-#include "app/chart/label.h"
+#include "app/base/label.h"
 
 typedef struct {
   SbCanvas canvas;

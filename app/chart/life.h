@@ -1,7 +1,7 @@
 // A life over its actuations: forces, film over roughness, leakage.
 #pragma once
 
-#include "app/chart/canvas.h"
+#include "app/base/canvas.h"
 #include "app/chart/data.h"
 
 // Draws the panels into `rect`, each on a ground of its own.

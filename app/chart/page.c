@@ -1,7 +1,7 @@
 // Header and footer of a page. Every export says which models made it, what its error estimates are
 // and what to be warned of; where a run gives no estimate the footer says so rather than nothing.
 #include "app/chart/page.h"
-#include "app/chart/format.h"
+#include "app/base/format.h"
 
 #include <glib.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 // and warnings below.
 #pragma once
 
-#include "app/chart/canvas.h"
+#include "app/base/canvas.h"
 #include "app/chart/data.h"
 
 // Heights of the two strips [px].

@@ -7,8 +7,8 @@
 #include "app/chart/profiles.h"
 #include "app/chart/axis.h"
 #include "app/chart/contact_curve.h"
-#include "app/chart/format.h"
-#include "app/chart/label.h"
+#include "app/base/format.h"
+#include "app/base/label.h"
 
 #include <glib.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 // with shared scales that hold for the whole run.
 #pragma once
 
-#include "app/chart/canvas.h"
+#include "app/base/canvas.h"
 #include "app/chart/data.h"
 
 // Both panels: side by side in a wide rectangle, one above the other in a tall one.

@@ -4,7 +4,7 @@
 // only its displacement and the thread's stretch are to scale with each other.
 #include "app/chart/rig.h"
 #include "app/chart/axis.h"
-#include "app/chart/format.h"
+#include "app/base/format.h"
 #include "app/chart/signal.h"
 
 #include <glib.h>

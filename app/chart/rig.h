@@ -1,7 +1,7 @@
 // The sliding-plate rig: its figures beside the thesis', and the plate itself.
 #pragma once
 
-#include "app/chart/canvas.h"
+#include "app/base/canvas.h"
 #include "app/chart/data.h"
 
 // The coefficients on one scale, ours and those of thesis table 7.8, and in words why they differ.

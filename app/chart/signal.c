@@ -3,8 +3,8 @@
 // stands beside it because peaks lie above it. Levels and peaks appear when the run has ended, for
 // a peak is known by what follows it.
 #include "app/chart/signal.h"
-#include "app/chart/format.h"
-#include "app/chart/label.h"
+#include "app/base/format.h"
+#include "app/base/label.h"
 
 #include <glib.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/chart/axis.h"
-#include "app/chart/canvas.h"
+#include "app/base/canvas.h"
 #include "app/chart/data.h"
 
 // Draws the chart into `rect`.

@@ -5,8 +5,8 @@
 // dots. The range follows what was solved: a closed form that leaves it is clipped.
 #include "app/chart/study.h"
 #include "app/chart/axis.h"
-#include "app/chart/format.h"
-#include "app/chart/label.h"
+#include "app/base/format.h"
+#include "app/base/label.h"
 #include "app/document/unit.h"
 
 #include <glib.h>

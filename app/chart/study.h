@@ -2,7 +2,7 @@
 // for every study: names, units and scales are the study's own.
 #pragma once
 
-#include "app/chart/canvas.h"
+#include "app/base/canvas.h"
 #include "engine/valve/studies/study.h"
 
 // Draws the study into `rect`, each panel and the table on a ground of its own. Pure: the same

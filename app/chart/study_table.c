@@ -1,6 +1,6 @@
 // The table of a study: one heading column, then figures in the column's or the row's unit, three
 // significant digits, an en dash where there is none. Headings wrap at words.
-#include "app/chart/format.h"
+#include "app/base/format.h"
 #include "app/chart/study.h"
 #include "app/document/unit.h"
 

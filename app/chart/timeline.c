@@ -3,8 +3,8 @@
 // back at constant speed, so its duration is known before the run has ended. What is not computed
 // yet is left blank, what a cancelled run lacks is hatched.
 #include "app/chart/timeline.h"
-#include "app/chart/format.h"
-#include "app/chart/label.h"
+#include "app/base/format.h"
+#include "app/base/label.h"
 
 #include <glib.h>
 #include <math.h>

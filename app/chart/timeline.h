@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/chart/axis.h"
-#include "app/chart/canvas.h"
+#include "app/base/canvas.h"
 #include "app/chart/data.h"
 
 // Draws into `rect`; 104 px is the height it is made for.

@@ -1,8 +1,8 @@
 // Shared parts of the commands.
 #include "app/cli/cli.h"
 
-#include "app/document/nearest.h"
-#include "app/document/output.h"
+#include "app/base/nearest.h"
+#include "app/base/output.h"
 #include "app/document/shipped.h"
 #include "app/export/json.h"
 #include "app/run/process.h"

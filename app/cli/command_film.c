@@ -1,7 +1,7 @@
 // sealbench film: the film of one sliding line contact.
 #include "app/cli/cli.h"
 #include "app/cli/timing.h"
-#include "app/document/reader.h"
+#include "app/base/reader.h"
 #include "app/document/series.h"
 #include "app/export/results.h"
 

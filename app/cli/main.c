@@ -1,7 +1,7 @@
 // sealbench: the command line. Finds the command and hands over.
 #include "app/cli/cli.h"
 
-#include "app/document/output.h"
+#include "app/base/output.h"
 #include "app/run/process.h"
 
 #include <errno.h>

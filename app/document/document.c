@@ -2,9 +2,9 @@
 // is document_write.c.
 #include "app/document/document_parts.h"
 #include "app/document/document_private.h"
-#include "app/document/nearest.h"
-#include "app/document/output.h"
-#include "app/document/reader.h"
+#include "app/base/nearest.h"
+#include "app/base/output.h"
+#include "app/base/reader.h"
 #include "app/document/series.h"
 #include "app/export/still.h"
 

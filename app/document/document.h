@@ -7,7 +7,7 @@
 // Not thread-safe: a document belongs to one thread. Hand SbParams or SbModel copies to others.
 #pragma once
 
-#include "app/document/issue.h"
+#include "app/base/issue.h"
 #include "app/document/unit.h"
 
 #include "engine/valve/model.h"

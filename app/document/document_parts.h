@@ -1,7 +1,7 @@
 // Shapes of parts in documents: [part.NAME] groups with a profile or a mesh. Used by document.c.
 #pragma once
 
-#include "app/document/reader.h"
+#include "app/base/reader.h"
 
 #include "engine/valve/model.h"
 

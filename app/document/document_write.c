@@ -1,8 +1,8 @@
 // Documents as text and files: only the lines that differ are rewritten.
 #include "app/document/document_private.h"
-#include "app/document/output.h"
-#include "app/document/reader.h"
-#include "app/document/writer.h"
+#include "app/base/output.h"
+#include "app/base/reader.h"
+#include "app/base/writer.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 // See series.h. One complaint is enough: the first thing wrong ends the reading.
 #include "app/document/series.h"
 
-#include "app/document/reader.h"
+#include "app/base/reader.h"
 #include "app/document/unit.h"
 
 #include <math.h>

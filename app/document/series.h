@@ -7,7 +7,7 @@
 // lines).
 #pragma once
 
-#include "app/document/issue.h"
+#include "app/base/issue.h"
 #include "engine/valve/model.h"
 
 enum { SB_SERIES_BYTES_MAX = 1 << 20 };

@@ -1,7 +1,7 @@
 // See stl.h.
 #include "app/document/stl.h"
 
-#include "app/document/reader.h"
+#include "app/base/reader.h"
 #include "app/document/unit.h"
 
 #include <math.h>

@@ -4,8 +4,8 @@
 // lock and the C locale surround every call to it. Scales of unit pairs are remembered.
 #include "app/document/unit.h"
 
-#include "app/document/issue.h"
-#include "app/document/nearest.h"
+#include "app/base/issue.h"
+#include "app/base/nearest.h"
 
 #include <locale.h>
 #include <math.h>

@@ -7,7 +7,7 @@
 // one in K is a difference. No locale plays a role. Safe to call from any thread.
 #pragma once
 
-#include "app/document/number.h"
+#include "app/base/number.h"
 
 #include "engine/valve/params.h"
 

@@ -1,7 +1,7 @@
 // Frames and profiles as text tables.
 #include "app/export/csv.h"
 
-#include "app/document/number.h"
+#include "app/base/number.h"
 
 #include <glib.h>
 #include <math.h>

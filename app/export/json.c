@@ -1,7 +1,7 @@
 // The JSON writer.
 #include "app/export/json.h"
 
-#include "app/document/number.h"
+#include "app/base/number.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 // full ones. POSIX threads and a mutex, so that the thread sanitizer understands them.
 #include "app/export/movie.h"
 
-#include "app/document/output.h"
+#include "app/base/output.h"
 #include "app/export/movie_encoder.h"
 
 #include <glib.h>

@@ -4,7 +4,7 @@
 // take the middle of B-C.
 #include "app/export/render.h"
 
-#include "app/chart/format.h"
+#include "app/base/format.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/life.h"
 #include "app/chart/page.h"

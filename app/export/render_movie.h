@@ -1,7 +1,7 @@
 // A finished run as a film, H.264 in MP4, or as a sequence of PNG files.
 #pragma once
 
-#include "app/document/output.h"
+#include "app/base/output.h"
 #include "app/export/film.h"
 
 // Renders `run` into the MP4 file `path`; sizes default to the view's own, `at`, `scale` and

@@ -2,7 +2,7 @@
 // not at all and carries the scene, so that any of them can be opened.
 #include "app/export/render_movie.h"
 
-#include "app/document/output.h"
+#include "app/base/output.h"
 #include "app/export/still.h"
 
 #include <string.h>

@@ -4,7 +4,7 @@
 
 #include "app/export/results.h"
 
-#include "app/document/output.h"
+#include "app/base/output.h"
 
 // Names of the files that a run with these studies (a bit mask) writes. Free with g_strfreev().
 char **sb_results_folder_names(unsigned studies, bool life);

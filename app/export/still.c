@@ -5,7 +5,7 @@
 // 1/96 inch on paper. Leaves out transparency and colour profiles (sRGB is meant, and said in PNG).
 #include "app/export/still.h"
 
-#include "app/document/output.h"
+#include "app/base/output.h"
 #include "engine/valve/sealbench.h"
 
 #include <cairo-pdf.h>

@@ -1,7 +1,7 @@
 // Studies outside the program: a page as PNG, SVG or PDF, tables as CSV, the JSON document's part.
 #pragma once
 
-#include "app/chart/canvas.h"
+#include "app/base/canvas.h"
 #include "app/document/unit.h"
 #include "app/export/json.h"
 #include "engine/valve/studies/study.h"

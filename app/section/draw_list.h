@@ -6,8 +6,8 @@
 // refilling allocates nothing.
 #pragma once
 
-#include "app/chart/geometry.h"
-#include "app/chart/theme.h"
+#include "app/base/geometry.h"
+#include "app/base/theme.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,7 +2,7 @@
 #include "app/section/section_private.h"
 
 #include "app/chart/data.h"
-#include "app/chart/theme.h"
+#include "app/base/theme.h"
 
 #include <glib.h>
 #include <math.h>

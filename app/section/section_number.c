@@ -1,7 +1,7 @@
 // Numbers and labels of the section: formatting without locale, places that do not collide.
 #include "app/section/section_private.h"
 
-#include "app/chart/format.h"
+#include "app/base/format.h"
 
 #include <glib.h>
 #include <math.h>

@@ -1,8 +1,8 @@
 // The writer of all outputs: what a file keeps when it is replaced, what is refused, what becomes
 // of files of an earlier result, of locks and of what killed processes leave.
 #define _GNU_SOURCE // unshare
-#include "app/document/output.h"
-#include "app/document/reader.h"
+#include "app/base/output.h"
+#include "app/base/reader.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 // The look's promises about colour: contrast, distance under colour blindness, even maps.
-#include "app/chart/theme.h"
+#include "app/base/theme.h"
 
 #include <glib.h>
 #include <math.h>

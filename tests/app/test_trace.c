@@ -1,6 +1,6 @@
 // The thinned trace: bounded, complete, the same however the frames arrive; and finding the frame
 // under a point.
-#include "app/chart/format.h"
+#include "app/base/format.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/timeline.h"
 #include "tests/app/synthetic.h"

@@ -1,5 +1,5 @@
 // The playhead without a window: nearest frames, events, playing, looping.
-#include "ui/playhead.h"
+#include "app/session/playhead.h"
 
 enum { COUNT = 101 };
 static SbFrame frames[COUNT];

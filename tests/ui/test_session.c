@@ -1,7 +1,7 @@
 // A session under a fast hand: values change while runs go, some of them out of range or not going
 // together, runs are stopped, the playhead moves, undo and redo walk back and forth. In the end the
 // shown run is that of the values in force. Needs no display.
-#include "ui/session.h"
+#include "app/session/session.h"
 
 #include <math.h>
 

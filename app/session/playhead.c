@@ -1,7 +1,7 @@
 // The playhead over one run's frames. Playback is linear in the cycle's time at the chosen speed
 // and shows the nearest frame, nothing interpolated. A hitch longer than a quarter of a second is
 // not caught up, so that the picture never leaps after the window was hidden.
-#include "ui/playhead.h"
+#include "app/session/playhead.h"
 
 #include <math.h>
 

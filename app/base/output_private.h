@@ -1,7 +1,7 @@
 // Inside of the writer, shared by output.c (one file) and output_folder.c (several).
 #pragma once
 
-#include "app/document/output.h"
+#include "app/base/output.h"
 
 bool sb_output_fail(GError **error, SbAppError kind, const char *path, const char *text);
 

@@ -3,7 +3,7 @@
 // wins: *now* first, then marks, then notes.
 #pragma once
 
-#include "app/chart/canvas.h"
+#include "app/base/canvas.h"
 
 enum { SB_LABELS_MAX = 96, SB_LABEL_LINES_MAX = 4096 };
 

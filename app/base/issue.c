@@ -1,5 +1,5 @@
 // Lists of problems, and text of strangers made fit to print.
-#include "app/document/issue.h"
+#include "app/base/issue.h"
 
 #include <stdarg.h>
 #include <stdbool.h>

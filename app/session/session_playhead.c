@@ -1,8 +1,8 @@
 // The playhead of a session: which frame is shown, how it plays and steps, and what stands there in
 // words. What moves it while a run grows is in session_run.c.
-#include "ui/session_private.h"
+#include "app/session/session_private.h"
 
-#include "app/chart/format.h"
+#include "app/base/format.h"
 
 #include <glib/gi18n.h>
 

@@ -1,6 +1,6 @@
 // A run as the window holds it. The count of frames that charts see never runs ahead of the trace
 // by more than one update, so that a curve and its playhead agree.
-#include "ui/shown_run.h"
+#include "app/session/shown_run.h"
 
 enum { LARGE = 100000 }; // frames
 

@@ -1,9 +1,9 @@
 // The session: edits go to the document and, shortly after, to the runner; what the runner
 // publishes comes back as the shown run. A refused text stays with its field, so that the value in
 // force (and the pictures) remain what they were.
-#include "ui/session.h"
+#include "app/session/session.h"
 
-#include "ui/session_private.h"
+#include "app/session/session_private.h"
 
 #include <glib/gi18n.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 // See nearest.h. Likeness is the number of characters inserted, left out, replaced or swapped with
 // their neighbour (optimal string alignment), in capitals or not.
-#include "app/document/nearest.h"
+#include "app/base/nearest.h"
 
 #include <glib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 // See worker.h.
-#include "ui/worker.h"
+#include "app/session/worker.h"
 
 #include "app/run/process.h"
 

@@ -2,9 +2,9 @@
 // and starts again with the newest values. The new run replaces the shown one when it is complete,
 // or once it has lasted long enough to be watched while it grows; the run before then stays behind
 // it, paler, until the new one is complete, and comes back if the new one fails.
-#include "ui/session_private.h"
+#include "app/session/session_private.h"
 
-#include "app/chart/format.h"
+#include "app/base/format.h"
 #include "ui/words.h"
 
 #include <glib/gi18n.h>

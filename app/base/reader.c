@@ -1,8 +1,8 @@
 // Reads and scans key files from anywhere: sizes are bounded before reading, devices and folders
 // refused, and every line that means nothing is told.
-#include "app/document/reader.h"
+#include "app/base/reader.h"
 
-#include "app/document/output.h"
+#include "app/base/output.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -2,7 +2,7 @@
 // name get their names, and the whole is written anew at the end: a file is known at any moment,
 // whatever ends the process, by one of the lines with its name.
 #define _GNU_SOURCE // O_PATH
-#include "app/document/output_private.h"
+#include "app/base/output_private.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 // Numbers as text. Digits come from the C library's correctly rounded conversions (by way of
 // GLib, which takes the locale out); this file only chooses how many and where the point goes.
-#include "app/document/number.h"
+#include "app/base/number.h"
 
 #include <glib.h>
 #include <math.h>

@@ -2,9 +2,9 @@
 // session_playhead.c (playhead).
 #pragma once
 
-#include "ui/playhead.h"
-#include "ui/session.h"
-#include "ui/shown_run.h"
+#include "app/session/playhead.h"
+#include "app/session/session.h"
+#include "app/session/shown_run.h"
 
 typedef enum {
   SB_SIGNAL_PARAMS,

@@ -4,7 +4,7 @@
 // from here.
 #pragma once
 
-#include "app/chart/color.h"
+#include "app/base/color.h"
 
 #include <stdbool.h>
 

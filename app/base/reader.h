@@ -2,7 +2,7 @@
 // edit touches no other line. The format is GKeyFile's: [group], key = value, # comment.
 #pragma once
 
-#include "app/document/issue.h"
+#include "app/base/issue.h"
 
 #include <stdbool.h>
 #include <stddef.h>

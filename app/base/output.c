@@ -1,8 +1,8 @@
 // One file. See output.h.
 #define _GNU_SOURCE // O_TMPFILE, O_PATH, memfd_create
-#include "app/document/output_private.h"
+#include "app/base/output_private.h"
 
-#include "app/document/issue.h"
+#include "app/base/issue.h"
 
 #include <dirent.h>
 #include <errno.h>

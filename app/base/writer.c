@@ -1,7 +1,7 @@
 // Line-wise editing of key files.
-#include "app/document/writer.h"
+#include "app/base/writer.h"
 
-#include "app/document/reader.h"
+#include "app/base/reader.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 // "10 N" beside "9.9 N"), and are cut so that one unit of the last digit is not smaller than the
 // error estimate. Locale is never asked. Leaves out exponents: quantities here stay within six
 // orders of magnitude of their unit, and what does not is written with fixed decimals.
-#include "app/chart/format.h"
+#include "app/base/format.h"
 
 #include <glib.h>
 #include <math.h>

@@ -2,8 +2,8 @@
 // dots, panels. One SbCanvas serves one drawing call.
 #pragma once
 
-#include "app/chart/geometry.h"
-#include "app/chart/theme.h"
+#include "app/base/geometry.h"
+#include "app/base/theme.h"
 
 #include <pango/pangocairo.h>
 #include <stddef.h>
