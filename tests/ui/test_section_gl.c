@@ -4,7 +4,7 @@
 #include "app/section/gl_renderer.h"
 #include "app/section/section.h"
 #include "tests/app/picture.h"
-#include "ui/section_gl.h"
+#include "ui/views/section_gl.h"
 
 #include "tests/executed.h"
 

@@ -1,8 +1,8 @@
 // Windows opened on scenes and closed again, while their run goes and after it, leave nothing
 // behind: no window outlives its closing, and the memory in use stops growing. (Leaks that nothing
 // points to are the sanitizers' to find; this finds what something still points to.)
-#include "ui/application.h"
-#include "ui/window.h"
+#include "ui/window/application.h"
+#include "ui/window/window.h"
 
 #include <glib/gstdio.h>
 #include <malloc.h>

@@ -1,6 +1,6 @@
 // Places of the borders between the window's columns (columns.h).
-#include "ui/columns.h"
-#include "ui/preferences.h"
+#include "ui/window/columns.h"
+#include "ui/window/preferences.h"
 
 // Widths of the look in its window of 1600 px, and the least that still reads well.
 enum { LOOK_WINDOW = 1600, LOOK_LEFT = 346, LOOK_RIGHT = 424, LEAST_LEFT = 316, LEAST_RIGHT = 284 };

@@ -1,7 +1,7 @@
 // The balance of forces on the stem: machine force = pressure force + friction of both seals
 // (negative on the way back) + stop force. What is missing from it is inertia, which a quasi-static
 // run lacks and the window does not draw.
-#include "ui/force_balance.h"
+#include "ui/views/force_balance.h"
 
 #include "app/base/format.h"
 

@@ -1,19 +1,19 @@
 // The section of the valve at the playhead. The picture is the display list of app/section, drawn
 // by GL (read back into the window's picture) where rings have fields, else by cairo. Zooming keeps
 // the size of text and lines and enlarges the valve; drag moves it.
-#include "ui/section_view.h"
+#include "ui/views/section_view.h"
 
 #include "app/chart/rig.h"
 #include "app/section/draw_cairo.h"
 #include "app/section/gl_renderer.h"
 #include "app/section/section.h"
-#include "ui/canvas_area.h"
-#include "ui/force_balance.h"
-#include "ui/picture.h"
-#include "ui/section_gl.h"
-#include "ui/section_source.h"
-#include "ui/style.h"
-#include "ui/words.h"
+#include "ui/views/canvas_area.h"
+#include "ui/views/force_balance.h"
+#include "ui/views/picture.h"
+#include "ui/views/section_gl.h"
+#include "ui/views/section_source.h"
+#include "ui/views/style.h"
+#include "ui/views/words.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 // glyphs there and handing over one image is several times cheaper than sending each to the display
 // server, and other parts of the window can be redrawn without it. The interval between drawings
 // spreads the work of several pictures over the frames while something moves.
-#include "ui/picture.h"
+#include "ui/views/picture.h"
 
 struct SbPicture {
   GtkWidget *area;

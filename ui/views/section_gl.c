@@ -1,6 +1,6 @@
 // A GtkGLArea around the renderer. Functions are looked up in the library that GDK's back end uses:
 // GLX on X11, EGL on Wayland.
-#include "ui/section_gl.h"
+#include "ui/views/section_gl.h"
 
 #include "app/section/gl_renderer.h"
 

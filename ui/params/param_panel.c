@@ -1,10 +1,10 @@
 // The column of parameters. The catalogue's order and the first part of each key make the groups;
 // overrides for one ring get groups of their own, folded until something in them differs. A search
 // shows the matching rows with their groups unfolded.
-#include "ui/param_panel.h"
+#include "ui/params/param_panel.h"
 
-#include "ui/param_row.h"
-#include "ui/style.h"
+#include "ui/params/param_row.h"
+#include "ui/views/style.h"
 
 #include <glib/gi18n.h>
 #include <string.h>

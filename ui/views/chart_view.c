@@ -1,7 +1,7 @@
 // A widget around one chart of app/chart. The loop takes the pointer: press or drag near the curve
 // and the playhead goes to the nearest frame. Every chart has an accessible description that says
 // in a sentence what it shows now, and its numbers can be copied as a table.
-#include "ui/chart_view.h"
+#include "ui/views/chart_view.h"
 
 #include "app/base/format.h"
 #include "app/chart/hysteresis.h"
@@ -9,9 +9,9 @@
 #include "app/chart/profiles.h"
 #include "app/chart/rig.h"
 #include "app/chart/signal.h"
-#include "ui/canvas_area.h"
-#include "ui/picture.h"
-#include "ui/style.h"
+#include "ui/views/canvas_area.h"
+#include "ui/views/picture.h"
+#include "ui/views/style.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -1,12 +1,12 @@
 // The application: one process, any number of windows; a file that is opened goes into a fresh
 // window or into a new one. The theme choice is kept in the user's configuration.
-#include "ui/application.h"
+#include "ui/window/application.h"
 
 #include "engine/valve/sealbench.h"
-#include "ui/latency.h"
-#include "ui/preferences.h"
-#include "ui/style.h"
-#include "ui/window.h"
+#include "ui/window/latency.h"
+#include "ui/window/preferences.h"
+#include "ui/views/style.h"
+#include "ui/window/window.h"
 
 #include <glib/gi18n.h>
 

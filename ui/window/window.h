@@ -1,7 +1,7 @@
 // One window on one session.
 #pragma once
 
-#include "ui/application.h"
+#include "ui/window/application.h"
 
 #define SB_TYPE_WINDOW (sb_window_get_type())
 G_DECLARE_FINAL_TYPE(SbWindow, sb_window, SB, WINDOW, GtkApplicationWindow)

@@ -1,9 +1,9 @@
 // The line at the bottom: where the playhead is (also for screen readers and tests), models, run
 // time, error estimate, the pinned run, and the warnings with a list behind a button.
-#include "ui/status_bar.h"
+#include "ui/window/status_bar.h"
 
 #include "app/base/format.h"
-#include "ui/style.h"
+#include "ui/views/style.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

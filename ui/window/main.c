@@ -1,5 +1,5 @@
 // sealbench-gtk: finds the translations and starts the application.
-#include "ui/application.h"
+#include "ui/window/application.h"
 
 #include "app/run/process.h"
 

@@ -2,16 +2,16 @@
 // picture stays until then. A change of values does not start anything (a study may take seconds):
 // it marks the picture as stale and offers to compute again. What is drawn is the very page that an
 // export writes.
-#include "ui/study_window.h"
+#include "ui/window/study_window.h"
 
 #include "app/chart/study.h"
 #include "app/export/studies.h"
-#include "ui/export_dialog.h"
-#include "ui/picture.h"
-#include "ui/preferences.h"
-#include "ui/study_job.h"
-#include "ui/style.h"
-#include "ui/words.h"
+#include "ui/window/export_dialog.h"
+#include "ui/views/picture.h"
+#include "ui/window/preferences.h"
+#include "ui/window/study_job.h"
+#include "ui/views/style.h"
+#include "ui/views/words.h"
 
 #include <glib/gi18n.h>
 

@@ -1,5 +1,5 @@
 // Least and natural size of a picture in the window (canvas_area.h).
-#include "ui/canvas_area.h"
+#include "ui/views/canvas_area.h"
 
 struct _SbCanvasArea {
   GtkDrawingArea parent;

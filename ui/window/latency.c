@@ -5,7 +5,7 @@
 // processors most of that is waiting for a turn, so the part in which this thread itself used the
 // processor is counted too ("own"). Left out: the time that the display server and the compositor
 // take.
-#include "ui/latency.h"
+#include "ui/window/latency.h"
 
 #include <string.h>
 #include <time.h>

@@ -3,11 +3,11 @@
 // below its name, and a word: within, below, above, or tight where only the worst case of the
 // tolerances lies outside. The tooltip tells the worst case over the tolerances, the
 // root-sum-square range and the band's source. Swell lines are there while a ring has swollen.
-#include "ui/gland_panel.h"
+#include "ui/params/gland_panel.h"
 
 #include "app/base/format.h"
-#include "ui/style.h"
-#include "ui/words.h"
+#include "ui/views/style.h"
+#include "ui/views/words.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

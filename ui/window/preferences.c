@@ -1,6 +1,6 @@
 // What the program remembers between sessions. The file is small and read once; each change is
 // written at once, by way of a temporary file (g_file_set_contents).
-#include "ui/preferences.h"
+#include "ui/window/preferences.h"
 
 static GKeyFile *store;
 

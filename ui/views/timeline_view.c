@@ -1,12 +1,12 @@
 // The cycle in time, with the controls of the playhead: previous event, play, next event, looping
 // and speed. Press or drag on the timeline scrubs to the nearest frame. The keys (Space, arrows,
 // Home, End) are the window's, so that they work wherever no text is typed.
-#include "ui/timeline_view.h"
+#include "ui/views/timeline_view.h"
 
 #include "app/chart/timeline.h"
-#include "ui/canvas_area.h"
-#include "ui/picture.h"
-#include "ui/style.h"
+#include "ui/views/canvas_area.h"
+#include "ui/views/picture.h"
+#include "ui/views/style.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

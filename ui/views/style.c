@@ -1,7 +1,7 @@
 // Look of the widgets: one style sheet over two palettes (assets/light.css, assets/dark.css),
 // chosen by the user or by the desktop. Drawing by cairo takes its colours from app/chart, not from
 // here.
-#include "ui/style.h"
+#include "ui/views/style.h"
 
 #include "app/base/theme.h"
 

@@ -2,10 +2,10 @@
 // field then shows the catalogue's. The wheel and the arrow keys step the value only while the
 // field has the focus, so that scrolling the panel never edits. A refused text stays, in red, with
 // one sentence below, until it is mended, reset or left by Escape.
-#include "ui/param_row.h"
+#include "ui/params/param_row.h"
 
-#include "ui/style.h"
-#include "ui/words.h"
+#include "ui/views/style.h"
+#include "ui/views/words.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

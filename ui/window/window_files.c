@@ -2,9 +2,9 @@
 // each problem; a file that opened in spite of problems says so there too. A document that was
 // opened from a path is saved back by way of a temporary file (app/document), so a failed save
 // loses nothing.
-#include "ui/window_files.h"
+#include "ui/window/window_files.h"
 
-#include "ui/preferences.h"
+#include "ui/window/preferences.h"
 
 #include "app/document/shipped.h"
 

@@ -1,7 +1,7 @@
 // Keeping and offering unsaved changes. See autosave.h. A file's first line is a comment with the
 // path of the document (nothing for one without a name), the rest is its text with the changes. It
 // is locked while the process that wrote it lives, wherever that runs.
-#include "ui/autosave.h"
+#include "ui/window/autosave.h"
 
 #include "app/base/output.h"
 

@@ -7,11 +7,11 @@
 // with their sources), of which gland_panel.c shows all. A return force of at least 2 N, an eighth
 // of the pressure force of the thesis valve, is this program's own. Metering volumes of 25 to 100
 // µl are those of thesis section 1.7.
-#include "ui/derived_panel.h"
+#include "ui/params/derived_panel.h"
 
 #include "app/base/format.h"
 #include "app/base/theme.h"
-#include "ui/style.h"
+#include "ui/views/style.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -1,13 +1,13 @@
 // The export dialog. While an export runs the form is locked and the dialog's first button cancels
 // it; afterwards a sentence says what became of it. Closing the dialog cancels too. The file's
 // ending follows the format, and an existing file is replaced only after a question.
-#include "ui/export_dialog.h"
+#include "ui/window/export_dialog.h"
 
 #include "app/export/render.h"
-#include "ui/export_job.h"
-#include "ui/preferences.h"
-#include "ui/style.h"
-#include "ui/words.h"
+#include "ui/window/export_job.h"
+#include "ui/window/preferences.h"
+#include "ui/views/style.h"
+#include "ui/views/words.h"
 
 #include <glib/gi18n.h>
 #include <string.h>
