@@ -1,8 +1,8 @@
 // Force on the stem against its displacement: the loop, its stages, what was played of it.
 #pragma once
 
-#include "app/chart/axis.h"
 #include "app/base/canvas.h"
+#include "app/chart/axis.h"
 #include "app/chart/data.h"
 
 // Where the chart puts things in a rectangle.

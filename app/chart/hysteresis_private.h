@@ -2,8 +2,8 @@
 // (hysteresis_labels.c).
 #pragma once
 
-#include "app/chart/hysteresis.h"
 #include "app/base/label.h"
+#include "app/chart/hysteresis.h"
 
 typedef struct {
   SbCanvas canvas;

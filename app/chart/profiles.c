@@ -5,10 +5,10 @@
 // exist and are said in words. Leaves out what the solver left out: asperities' share of the
 // pressure is drawn only if the profile has one.
 #include "app/chart/profiles.h"
-#include "app/chart/axis.h"
-#include "app/chart/contact_curve.h"
 #include "app/base/format.h"
 #include "app/base/label.h"
+#include "app/chart/axis.h"
+#include "app/chart/contact_curve.h"
 
 #include <glib.h>
 #include <math.h>

@@ -3,8 +3,8 @@
 // of the differences; they leave no figure that the run did not compute. The plate is a schematic:
 // only its displacement and the thread's stretch are to scale with each other.
 #include "app/chart/rig.h"
-#include "app/chart/axis.h"
 #include "app/base/format.h"
+#include "app/chart/axis.h"
 #include "app/chart/signal.h"
 
 #include <glib.h>

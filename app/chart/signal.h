@@ -2,8 +2,8 @@
 // the coefficients are made of.
 #pragma once
 
-#include "app/chart/axis.h"
 #include "app/base/canvas.h"
+#include "app/chart/axis.h"
 #include "app/chart/data.h"
 
 // Draws the chart into `rect`.

@@ -4,9 +4,9 @@
 // solid, differing in lightness; laws and literature are dashed grey; single values are ringed
 // dots. The range follows what was solved: a closed form that leaves it is clipped.
 #include "app/chart/study.h"
-#include "app/chart/axis.h"
 #include "app/base/format.h"
 #include "app/base/label.h"
+#include "app/chart/axis.h"
 #include "app/document/unit.h"
 
 #include <glib.h>

@@ -1,8 +1,8 @@
 // The cycle in time: stages as strips, displacement as a line, the playhead, bookmarks.
 #pragma once
 
-#include "app/chart/axis.h"
 #include "app/base/canvas.h"
+#include "app/chart/axis.h"
 #include "app/chart/data.h"
 
 // Draws into `rect`; 104 px is the height it is made for.

@@ -1,6 +1,6 @@
 // sealbench bench: error against time for every solver, by the engine's cases with known answers.
-#include "app/cli/cli.h"
 #include "app/base/output.h"
+#include "app/cli/cli.h"
 #include "app/export/bench_page.h"
 #include "app/export/json.h"
 

@@ -1,14 +1,14 @@
 // sealbench film: the film of one sliding line contact.
+#include "app/base/reader.h"
 #include "app/cli/cli.h"
 #include "app/cli/timing.h"
-#include "app/base/reader.h"
 #include "app/document/series.h"
 #include "app/export/results.h"
 
+#include "engine/contact/rough/van_der_waals.h"
 #include "engine/film/regime.h"
 #include "engine/film/transient.h"
 #include "engine/film/wedge.h"
-#include "engine/contact/rough/van_der_waals.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -1,10 +1,10 @@
 // Documents: reading them, values in layers, problems collected. Edits are document_edit.c, writing
 // is document_write.c.
-#include "app/document/document_parts.h"
-#include "app/document/document_private.h"
 #include "app/base/nearest.h"
 #include "app/base/output.h"
 #include "app/base/reader.h"
+#include "app/document/document_parts.h"
+#include "app/document/document_private.h"
 #include "app/document/series.h"
 #include "app/export/still.h"
 
@@ -103,8 +103,7 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
       continue;
     }
     if (entry->name == NULL) {
-      known_group =
-          strcmp(entry->group, SB_LIMITS_GROUP) == 0 || check_group(entry, shown, issues);
+      known_group = strcmp(entry->group, SB_LIMITS_GROUP) == 0 || check_group(entry, shown, issues);
       continue;
     }
     if (!known_group || strcmp(entry->group, SB_LIMITS_GROUP) == 0 ||

@@ -1,8 +1,8 @@
 // A document's [limits]: FIGURE = >= A, <= B or A .. B, each value with its unit. A scene's take
 // the place of its valve's, figure by figure.
-#include "app/document/document_private.h"
 #include "app/base/nearest.h"
 #include "app/base/reader.h"
+#include "app/document/document_private.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 // Documents as text and files: only the lines that differ are rewritten.
-#include "app/document/document_private.h"
 #include "app/base/output.h"
 #include "app/base/reader.h"
 #include "app/base/writer.h"
+#include "app/document/document_private.h"
 
 #include <math.h>
 #include <string.h>

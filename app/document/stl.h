@@ -1,4 +1,5 @@
-// Triangle meshes from STL files, binary or text, for the mass of a part (engine/mechanism/solid.h).
+// Triangle meshes from STL files, binary or text, for the mass of a part
+// (engine/mechanism/solid.h).
 //
 // The format knows no unit: the reader asks for one. STL repeats its corners, and rounds each time:
 // corners that differ by at most 1e-5 of the diagonal of the part's box along every axis (or by two

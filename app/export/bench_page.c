@@ -73,8 +73,9 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
   sb_study_draw(cr, page.body, theme, study);
   char version[64];
   g_snprintf(version, sizeof version, "Sealbench %s", sb_version());
-  SbPageFoot foot = {"reynolds, disc, ring; the cases and their known answers: engine/valve/bench.c",
-                     "relative, of the worst of the figures that a case knows", version, NULL};
+  SbPageFoot foot = {
+      "reynolds, disc, ring; the cases and their known answers: engine/valve/bench.c",
+      "relative, of the worst of the figures that a case knows", version, NULL};
   sb_page_foot_draw(cr, page.whole, theme, &foot);
   cairo_restore(cr);
 }

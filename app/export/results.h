@@ -3,8 +3,8 @@
 
 #include "engine/contact/fit.h"
 #include "engine/contact/gland.h"
-#include "engine/rubber/rubber_time.h"
 #include "engine/film/film.h"
+#include "engine/rubber/rubber_time.h"
 #include "engine/valve/sealbench.h"
 #include "engine/valve/studies/study.h"
 

@@ -1,8 +1,8 @@
 // Beside the section: its title, the legends of its colours, the balance of forces.
 #include "app/section/section_private.h"
 
-#include "app/chart/data.h"
 #include "app/base/theme.h"
+#include "app/chart/data.h"
 
 #include <glib.h>
 #include <math.h>

@@ -6,9 +6,9 @@
 #include <string.h>
 #include <time.h>
 
-#include "engine/contact/fit_models.h"
 #include "engine/contact/closed/green_english.h"
 #include "engine/contact/closed/lindley.h"
+#include "engine/contact/fit_models.h"
 
 static const char *const model_names[SB_FIT_MODEL_COUNT] = {
 #define MODEL_NAME(code, text) [code] = text,

@@ -14,8 +14,8 @@
 // 0.
 #pragma once
 
-#include "engine/contact/compliance.h"
 #include "engine/base/status.h"
+#include "engine/contact/compliance.h"
 
 // enumerator, name on the command line and in files
 #define SB_FIT_MODEL_LIST(X)                                                                       \

@@ -5,10 +5,10 @@
 // on lambda alone. End pressures: see sb_film_dry_pressure and docs/verification.md.
 #include "engine/film/film.h"
 
+#include "engine/contact/rough/van_der_waals.h"
 #include "engine/film/mixed.h"
 #include "engine/film/reynolds.h"
 #include "engine/film/scale.h"
-#include "engine/contact/rough/van_der_waals.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -19,8 +19,8 @@
 // the inlet is on the left. Pressures are gauge. SI units throughout, per metre of circumference.
 #pragma once
 
-#include "engine/contact/compliance.h"
 #include "engine/base/status.h"
+#include "engine/contact/compliance.h"
 #include "engine/contact/rough/rough_law.h"
 
 #include <stdbool.h>

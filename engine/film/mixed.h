@@ -16,10 +16,10 @@
 // ends where the film ends, so that the rupture is not tied to nodes.
 #pragma once
 
+#include "engine/contact/rough/rough_law.h"
 #include "engine/film/fluid.h"
 #include "engine/film/layers.h"
 #include "engine/film/scale.h"
-#include "engine/contact/rough/rough_law.h"
 
 enum {
   SB_MIXED_DEGREE_MAX = 8,

@@ -28,10 +28,10 @@
 // speed).
 #pragma once
 
+#include "engine/base/status.h"
 #include "engine/mechanism/drive.h"
 #include "engine/mechanism/oscillator.h"
 #include "engine/mechanism/radau.h"
-#include "engine/base/status.h"
 
 enum {
   SB_DYNAMICS_CONTACTS = 4,

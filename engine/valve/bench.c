@@ -6,11 +6,11 @@
 
 #include "engine/contact/fit.h"
 #include "engine/contact/ring/ring.h"
+#include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/film/film.h"
 #include "engine/film/wedge.h"
 #include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
-#include "engine/contact/rough/greenwood_tripp.h"
 
 #include <math.h>
 #include <stdio.h>

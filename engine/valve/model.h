@@ -3,15 +3,15 @@
 // Everything downstream reads SbModel and nothing else; keys, defaults and overrides end here.
 #pragma once
 
-#include "engine/contact/gland.h"
-#include "engine/rubber/rubber_time.h"
-#include "engine/valve/limits.h"
-#include "engine/mechanism/bodies.h"
-#include "engine/valve/life.h"
-#include "engine/mechanism/outline.h"
-#include "engine/valve/rig.h"
-#include "engine/valve/params.h"
 #include "engine/base/status.h"
+#include "engine/contact/gland.h"
+#include "engine/mechanism/bodies.h"
+#include "engine/mechanism/outline.h"
+#include "engine/rubber/rubber_time.h"
+#include "engine/valve/life.h"
+#include "engine/valve/limits.h"
+#include "engine/valve/params.h"
+#include "engine/valve/rig.h"
 
 #include <stddef.h>
 

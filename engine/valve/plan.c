@@ -7,8 +7,8 @@
 // results are the proof of the plan.
 #include "engine/valve/plan.h"
 
-#include "engine/valve/cost.h"
 #include "engine/contact/fit.h"
+#include "engine/valve/cost.h"
 #include "engine/valve/studies/study.h"
 
 #include <assert.h>

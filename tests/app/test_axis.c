@@ -1,6 +1,6 @@
 // Ticks and value formatting against tables, and against hostile ranges.
-#include "app/chart/axis.h"
 #include "app/base/format.h"
+#include "app/chart/axis.h"
 
 #include <glib.h>
 #include <locale.h>

@@ -1,6 +1,6 @@
 // Documents: shipped files hold what the catalogue says, edits undo, saving changes nothing else.
-#include "app/document/document.h"
 #include "app/base/output.h"
+#include "app/document/document.h"
 #include "app/document/unit.h"
 #include "app/export/still.h"
 

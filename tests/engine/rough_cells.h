@@ -4,8 +4,8 @@
 #pragma once
 
 #include "engine/contact/compliance.h"
-#include "engine/film/film.h"
 #include "engine/contact/rough/greenwood_tripp.h"
+#include "engine/film/film.h"
 
 #include <glib.h>
 #include <lapacke.h>

@@ -1,7 +1,7 @@
 // Rigid wedge, tapered film, regimes and attraction against quadrature and printed values.
+#include "engine/contact/rough/van_der_waals.h"
 #include "engine/film/regime.h"
 #include "engine/film/wedge.h"
-#include "engine/contact/rough/van_der_waals.h"
 
 #include <glib.h>
 #include <gsl/gsl_errno.h>

@@ -1,11 +1,11 @@
 // The linear disc against independent figures (docs/verification.md, a spectral solver and the
 // thesis' tables), Hertz's limit, equilibrium and the unilateral conditions; its order, its error
 // estimate and its time.
+#include "engine/contact/closed/hertz.h"
 #include "engine/contact/disc/disc.h"
 #include "engine/contact/disc/disc_kernel.h"
 #include "engine/contact/disc/disc_thesis.h"
 #include "engine/contact/fit.h"
-#include "engine/contact/closed/hertz.h"
 
 #include "tests/pace.h"
 

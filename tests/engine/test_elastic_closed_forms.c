@@ -1,11 +1,11 @@
 // Karaszkiewicz, Hertz and E' against the thesis' printed tables, closed identities and limits, and
 // every way in which they warn or refuse.
-#include "engine/contact/fit.h"
 #include "engine/contact/closed/green_english.h"
 #include "engine/contact/closed/hertz.h"
 #include "engine/contact/closed/karaszkiewicz.h"
 #include "engine/contact/closed/lindley.h"
 #include "engine/contact/closed/reduced_modulus.h"
+#include "engine/contact/fit.h"
 
 #include <glib.h>
 #include <math.h>

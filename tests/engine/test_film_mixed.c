@@ -1,11 +1,11 @@
 // Film and asperities in one solve: the smooth and the dry limit, the Stribeck curve between them,
 // near full contact, what an outside program recomputes from the profile, and the rough laws.
-#include "engine/film/film.h"
-#include "engine/film/stribeck.h"
-#include "engine/valve/sliding.h"
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
 #include "engine/contact/rough/van_der_waals.h"
+#include "engine/film/film.h"
+#include "engine/film/stribeck.h"
+#include "engine/valve/sliding.h"
 #include "tests/engine/rough_cells.h"
 
 #include <glib.h>

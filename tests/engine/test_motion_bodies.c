@@ -1,8 +1,8 @@
 // Constrained bodies: counts and messages, textbook motions and reactions, and the thesis' valve
 // against its one-coordinate form.
-#include "engine/valve/model.h"
 #include "engine/mechanism/bodies.h"
 #include "engine/mechanism/dynamics.h"
+#include "engine/valve/model.h"
 #include "tests/engine/assembly_step.h"
 
 #include <glib.h>

@@ -1,8 +1,8 @@
 // Constrained bodies stepped in all their coordinates: a slider-crank against its scalar equation
 // of motion, and the thesis' cycle against the reduced form.
-#include "engine/valve/model.h"
 #include "engine/mechanism/bodies.h"
 #include "engine/mechanism/dynamics.h"
+#include "engine/valve/model.h"
 #include "tests/engine/assembly_step.h"
 
 #include <glib.h>
@@ -156,8 +156,8 @@ static void test_slider_crank(void) {
     SbReport report = {0};
     slider_crank(&a, start, speed, false);
     for (int i = 0; i < n; i++) {
-      g_assert_cmpint(assembly_step(&a, i * until / n, until / n, crank_loads, NULL, &report),
-                      ==, SB_OK);
+      g_assert_cmpint(assembly_step(&a, i * until / n, until / n, crank_loads, NULL, &report), ==,
+                      SB_OK);
       g_assert_cmpstr(report.text, ==, "");
       open = fmax(open, drift(&a));
     }

@@ -28,7 +28,7 @@ def listed():
 
 
 def files_that_speak():
-    found = [name for name in glob.glob("ui/*.c")
+    found = [name for name in glob.glob("ui/*/*.c") + glob.glob("app/session/*.c")
              if re.search(r'(?<!\w)(_|N_|ngettext)\("', open(name).read())]
     found = [name for name in found if name != "ui/window/main.c"]
     found += [name for name in glob.glob("assets/ui/*.ui") if 'translatable="yes"' in open(name).read()]
@@ -44,7 +44,7 @@ def potfiles_lists_what_speaks():
 
 def texts_of_the_window_are_marked():
     bare = []
-    for name in glob.glob("ui/*.c"):
+    for name in glob.glob("ui/*/*.c") + glob.glob("app/session/*.c"):
         text = re.sub(r"(?m)^\s*//.*$|\"sb-\w+\"", "", open(name).read())
         bare += ["%s: %s" % (name, match.group(0)) for match in SHOWN.finditer(text)]
     assert not bare, bare

@@ -3,9 +3,9 @@
 #include "ui/window/application.h"
 
 #include "engine/valve/sealbench.h"
+#include "ui/views/style.h"
 #include "ui/window/latency.h"
 #include "ui/window/preferences.h"
-#include "ui/views/style.h"
 #include "ui/window/window.h"
 
 #include <glib/gi18n.h>

@@ -4,10 +4,10 @@
 #include "ui/window/export_dialog.h"
 
 #include "app/export/render.h"
-#include "ui/window/export_job.h"
-#include "ui/window/preferences.h"
 #include "ui/views/style.h"
 #include "ui/views/words.h"
+#include "ui/window/export_job.h"
+#include "ui/window/preferences.h"
 
 #include <glib/gi18n.h>
 #include <string.h>

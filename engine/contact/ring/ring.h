@@ -10,8 +10,8 @@
 // Surfaces are rigid and smooth; friction is Coulomb or a given shear. No time dependence here.
 #pragma once
 
-#include "engine/contact/compliance.h"
 #include "engine/base/status.h"
+#include "engine/contact/compliance.h"
 
 #include <math.h>
 #include <stdbool.h>

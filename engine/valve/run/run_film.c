@@ -10,8 +10,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "engine/valve/figures.h"
 #include "engine/film/transient.h"
+#include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 
 // A seal's way through the frames.

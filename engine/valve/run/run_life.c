@@ -6,8 +6,8 @@
 // rough contact is evaluated anew. A stem that stays in ends the life. The frames of one later
 // actuation follow those of the first, as if nothing lay between. Leaves out: wear of the section,
 // storage and loss of propellant between actuations, what the film's thickness owes to roughness.
-#include "engine/valve/figures.h"
 #include "engine/film/stroke.h"
+#include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 // What the files of a run share: its state, and the steps that sb_run_execute() takes in order.
 #pragma once
 
-#include "engine/valve/cycle.h"
 #include "engine/mechanism/dynamics.h"
+#include "engine/valve/cycle.h"
 #include "engine/valve/run/run.h"
 
 enum {

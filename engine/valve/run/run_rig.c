@@ -6,8 +6,8 @@
 // stands what the valve's own surface model gives under the rig's load, and the load under which it
 // would give the rig's sliding coefficient: table 7.8 compares a coefficient measured under one
 // with one predicted under the other. Leaves out: the lubricant's film, the cell's noise.
-#include "engine/valve/run/run_private.h"
 #include "engine/contact/rough/greenwood_tripp.h"
+#include "engine/valve/run/run_private.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // Figures of each seal: sliding in the middle of B-C, and the leak at rest.
-#include "engine/valve/figures.h"
 #include "engine/contact/rough/percolation.h"
 #include "engine/film/stroke.h"
+#include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>

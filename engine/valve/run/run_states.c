@@ -1,8 +1,8 @@
 // Sliding states and contact profiles of a run: each steady state is solved once and shared by all
 // frames.
+#include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
-#include "engine/contact/rough/greenwood_tripp.h"
 
 #include <math.h>
 #include <stdio.h>

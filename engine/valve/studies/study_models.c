@@ -12,8 +12,8 @@
 // and F the load (docs/thesis.md): "by shear strength". With the load coefficient m on
 // the total load, which the 5 N and 8 N of the cycle need, it is larger by m: "with m". Measured:
 // 0.51.
-#include "engine/valve/studies/study_private.h"
 #include "engine/contact/rough/greenwood_tripp.h"
+#include "engine/valve/studies/study_private.h"
 
 #include <math.h>
 #include <stdlib.h>

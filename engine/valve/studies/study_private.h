@@ -1,8 +1,8 @@
 // What the studies share: building blocks that stay inside the bounds of SbStudy.
 #pragma once
 
-#include "engine/valve/cost.h"
 #include "engine/contact/fit.h"
+#include "engine/valve/cost.h"
 #include "engine/valve/sliding.h"
 #include "engine/valve/studies/study.h"
 
