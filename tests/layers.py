@@ -1,8 +1,11 @@
 #!/usr/bin/python3
-"""The layers hold: engine knows nothing of GLib, GL, files or printing; app nothing of GTK.
+"""The layers hold: engine knows nothing of GLib, GL, files or printing; app nothing of GTK; inside
+a layer, a room includes only rooms below it.
 
-layers.py ENGINE.a APP.a SEALBENCH, TAP on standard output.
+layers.py SOURCE ENGINE.a APP.a SEALBENCH, TAP on standard output.
 """
+import glob
+import os
 import re
 import subprocess
 import sys
@@ -18,7 +21,32 @@ def matching(names, pattern):
     return sorted(name for name in names if re.match(pattern, name))
 
 
-engine, app, program = sys.argv[1:]
+# Rooms from below; those of one line know nothing of each other.
+ROOMS = {
+    'engine': ['base', 'numeric', 'contact', 'film', 'rubber mechanism', 'valve'],
+    'app': ['base', 'document', 'chart run', 'section session', 'export', 'cli'],
+    'ui': ['views', 'params', 'window'],
+}
+
+
+def arrows_up(source):
+    """Includes of a room that is not below the including file's own."""
+    found = []
+    for layer, floors in ROOMS.items():
+        floor = {room: number for number, rooms in enumerate(floors) for room in rooms.split()}
+        for path in glob.glob(f'{source}/{layer}/*/**/*.[chd]*', recursive=True):
+            name = os.path.relpath(path, source)
+            if not name.endswith(('.c', '.h', '.def')):
+                continue
+            room = name.split('/')[1]
+            with open(path, encoding='utf-8') as file:
+                for other in re.findall(rf'#include "{layer}/(\w+)/', file.read()):
+                    if other != room and floor[other] >= floor[room]:
+                        found.append(f'{name} -> {layer}/{other}')
+    return found
+
+
+source, engine, app, program = sys.argv[1:]
 libraries = subprocess.run(['ldd', program], capture_output=True, text=True, check=True).stdout
 checks = [
     ('engine uses no GLib, GTK, cairo, pango, GL, libav or udunits',
@@ -29,6 +57,7 @@ checks = [
     ('engine has no writable globals',
      [name for name in sorted(symbols(engine, 'bBC')) if not name.startswith(('__', '.'))]),
     ('app uses no GTK', matching(symbols(app, 'U'), r'(gtk|gdk)_')),
+    ('no room includes one beside or above it', arrows_up(source)),
     ('sealbench is not linked with GTK', re.findall(r'lib(?:gtk|gdk)-\S+', libraries)),
 ]
 print(f'1..{len(checks)}')

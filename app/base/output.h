@@ -8,7 +8,7 @@
 // Devices, pipes and "-" (standard output) get the complete bytes at the end.
 #pragma once
 
-#include "app/document/unit.h"
+#include "app/base/error.h"
 
 #include <stdio.h>
 

@@ -5,8 +5,8 @@
 #include "app/base/reader.h"
 #include "app/document/document_parts.h"
 #include "app/document/document_private.h"
+#include "app/document/picture.h"
 #include "app/document/series.h"
-#include "app/export/still.h"
 
 #include <math.h>
 #include <string.h>
@@ -303,7 +303,7 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
 static SbDocument *parse_picture(const char *data, size_t length, const char *name,
                                  GPtrArray *issues) {
   GError *error = NULL;
-  char *text = sb_still_find_scene(data, length, &error);
+  char *text = sb_picture_find_scene(data, length, &error);
   if (text == NULL) {
     sb_issues_add(issues, name, 0, NULL, NULL, "%s", error->message);
     g_error_free(error);
@@ -319,7 +319,7 @@ SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
   const char *name = stream ? "standard input" : path;
   size_t length = 0;
   bool picture = sb_output_ends_in(path, ".png");
-  size_t most = picture ? SB_STILL_BYTES_MAX : SB_DOCUMENT_BYTES_MAX;
+  size_t most = picture ? SB_PICTURE_BYTES_MAX : SB_DOCUMENT_BYTES_MAX;
   char *text = stream ? sb_reader_load_stream(&length, STDIN_FILENO, name, most, issues)
                       : sb_reader_load(&length, path, name, most, issues);
   if (text == NULL) {

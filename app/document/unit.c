@@ -14,8 +14,6 @@
 #include <string.h>
 #include <udunits2.h>
 
-G_DEFINE_QUARK(sb - app - error - quark, sb_app_error)
-
 typedef enum { SCALE_OK, SCALE_UNKNOWN, SCALE_WRONG, SCALE_NO_DATABASE } ScaleStatus;
 
 typedef struct {

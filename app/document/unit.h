@@ -7,21 +7,12 @@
 // one in K is a difference. No locale plays a role. Safe to call from any thread.
 #pragma once
 
+#include "app/base/error.h"
 #include "app/base/number.h"
 
 #include "engine/valve/params.h"
 
 #include <glib.h>
-
-// How messages and exit codes are sorted. BAD_INPUT is the user's, IO the system's.
-typedef enum {
-  SB_APP_ERROR_INPUT,
-  SB_APP_ERROR_IO,
-  SB_APP_ERROR_CANCELLED,
-  SB_APP_ERROR_NOT_CONVERGED
-} SbAppError;
-#define SB_APP_ERROR (sb_app_error_quark())
-GQuark sb_app_error_quark(void);
 
 // Reads `text` as a quantity of the dimension of `si` ("m", "Pa.s", "1"). `shown` is the unit that
 // error messages propose. Returns false with SB_APP_ERROR_INPUT and one sentence that names the

@@ -32,10 +32,3 @@ bool sb_still_put(FILE *stream, const SbStill *still, const char *ending, GError
 // on an unknown ending or an impossible size, SB_APP_ERROR_IO on a full disk and the like; an
 // earlier file under that name stays intact then.
 bool sb_still_write(const SbStill *still, const char *path, GError **error);
-
-// Largest PNG that is looked into.
-#define SB_STILL_BYTES_MAX ((size_t)256 << 20)
-
-// The scene's text in a PNG that sb_still_write() made; owned by the caller. NULL with an error if
-// there is none.
-char *sb_still_find_scene(const void *data, size_t length, GError **error);

@@ -1,5 +1,5 @@
-// The version, as the build system knows it.
-#include "engine/valve/sealbench.h"
+// See version.h.
+#include "engine/base/version.h"
 
 const char *sb_version(void) {
   return SB_VERSION;

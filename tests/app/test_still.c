@@ -1,6 +1,7 @@
 // Exports of real runs: each format is what it says, carries its texts, appears whole or not at
 // all.
 #include "app/export/render.h"
+#include "app/document/picture.h"
 #include "app/export/still.h"
 #include "tests/app/picture.h"
 
@@ -59,7 +60,7 @@ static char *read_scene(const char *path, GError **error) {
   g_autofree char *data = NULL;
   gsize length = 0;
   g_assert_true(g_file_get_contents(path, &data, &length, NULL));
-  return sb_still_find_scene(data, length, error);
+  return sb_picture_find_scene(data, length, error);
 }
 
 static void test_png(void) {
@@ -240,7 +241,7 @@ static void test_bombs(void) {
   g_byte_array_append(bytes, (guint8 *)picture + HEAD, (guint)(length - HEAD));
   struct rusage before, after;
   getrusage(RUSAGE_SELF, &before);
-  g_autofree char *text = sb_still_find_scene(bytes->data, bytes->len, &error);
+  g_autofree char *text = sb_picture_find_scene(bytes->data, bytes->len, &error);
   getrusage(RUSAGE_SELF, &after);
   g_assert_no_error(error);
   g_assert_cmpstr(text, ==, scene);

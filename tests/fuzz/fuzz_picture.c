@@ -1,6 +1,7 @@
 // What any bytes must survive as a PNG that may hold a scene: a text, or one complaint.
 #include "app/document/document.h"
 #include "app/document/unit.h"
+#include "app/document/picture.h"
 #include "app/export/still.h"
 
 #include <stdint.h>
@@ -43,7 +44,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     seal_chunks(copy, size);
   }
   GError *error = NULL;
-  char *scene = sb_still_find_scene(copy, size, &error);
+  char *scene = sb_picture_find_scene(copy, size, &error);
   g_free(copy);
   g_assert_true((scene == NULL) == (error != NULL));
   g_assert_true(error == NULL || error->domain == SB_APP_ERROR);
