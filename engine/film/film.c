@@ -5,8 +5,8 @@
 // on lambda alone. End pressures: see sb_film_dry_pressure and docs/verification.md.
 #include "engine/film/film.h"
 
-#include "engine/film/mixed.h"
-#include "engine/film/reynolds.h"
+#include "engine/film/ehl.h"
+#include "engine/film/ehl_rough.h"
 #include "engine/film/scale.h"
 
 #include <math.h>
@@ -47,7 +47,7 @@ void sb_film_problem_init(SbFilmProblem *problem) {
 
 SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
   *out = calloc(1, sizeof **out);
-  if (*out == NULL || !sb_reynolds_init(*out)) {
+  if (*out == NULL || !sb_ehl_init(*out)) {
     sb_film_solver_destroy(*out);
     *out = NULL;
     return sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
@@ -57,8 +57,8 @@ SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
 
 void sb_film_solver_destroy(SbFilmSolver *solver) {
   if (solver != NULL) {
-    sb_reynolds_finish(solver);
-    sb_mixed_destroy(solver->mixed);
+    sb_ehl_finish(solver);
+    sb_ehl_rough_destroy(solver->mixed);
     free(solver);
   }
 }
@@ -76,15 +76,15 @@ static bool mixed(const SbFilmProblem *problem) {
 static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                               SbFilmSolver *solver, SbReport *report) {
   if (!mixed(problem)) {
-    return sb_reynolds_solve(out, problem, scale, solver, report);
+    return sb_ehl_solve(out, problem, scale, solver, report);
   }
   if (solver->mixed == NULL) {
-    solver->mixed = sb_mixed_create();
+    solver->mixed = sb_ehl_rough_create();
     if (solver->mixed == NULL) {
       return sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
     }
   }
-  return sb_mixed_solve(out, problem, scale, solver->mixed, report);
+  return sb_ehl_rough_solve(out, problem, scale, solver->mixed, report);
 }
 
 #define RANGE(member) offsetof(SbFilmProblem, member)

@@ -5,7 +5,7 @@
 // isoviscous and incompressible unless an option says otherwise. Every model gives the film, the
 // pressure, the friction of the film and the range where it may be used:
 //
-//   reynolds       coupled elastohydrodynamic solution, every speed (reynolds.c)
+//   reynolds       coupled elastohydrodynamic solution, every speed (ehl.c)
 //   inverse        Blok's film of a given smooth dry pressure (inverse.c)
 //   karaszkiewicz  H* = 4.4 U^0.65 W^-0.21, thesis eq. 7.6 (= 5.5)
 //   thesis         H* = 1.492 U^0.5434 W^-0.2893, thesis eq. 7.5
@@ -67,8 +67,8 @@ typedef struct {
   double inlet_film;         // layer [m] that the moving wall brings; 0 floods the inlet
   double rupture_pressure;   // gauge [Pa] at which the film breaks, a vapour pressure for instance
 
-  // Asperities inside the same solve (mixed.h), off by default: the surface model, its figures and
-  // what friction takes. The film, the pressure and the profile are then those of the total.
+  // Asperities inside the same solve (ehl_rough.h), off by default: the surface model, its figures
+  // and what friction takes. The film, the pressure and the profile are then those of the total.
   SbRoughModel surface;    // rough_law.h
   double gt_product;       // zeta beta sigma
   double sigma;            // combined standard deviation of heights [m]
@@ -126,7 +126,7 @@ typedef struct {
   double
       friction_couette; // integral of eta speed / h over the full film [N/m], signed as the speed
   double friction_poiseuille; // integral of (h/2) dp/dx over the full film [N/m]
-  double friction_cavity;     // of the broken film, see mixed.c [N/m]
+  double friction_cavity;     // of the broken film, see ehl_rough.c [N/m]
   double friction_boundary;   // tau_0 real area + m asperity load [N/m], signed as the speed
   double asperity_load;       // integral of the asperities' pressure [N/m]
   double asperity_share;      // of the net load

@@ -1,7 +1,7 @@
 // What is read off a solution of the coupled film solver: films, places, friction, and the transfer
 // to another degree. Everything is interpolated at the solver's own order: the pressure
 // by its nodal polynomials, the gap through the collocation points and ends of an element.
-#include "engine/film/reynolds.h"
+#include "engine/film/ehl.h"
 
 #include "engine/numeric/legendre.h"
 
@@ -9,12 +9,12 @@
 #include <string.h>
 
 // Nodal polynomial of element e at r: pressure without factor, far and known parts.
-static double nodal_polynomial(SbHpTables *tables, const SbHpElement *e, const double *nodal,
+static double nodal_polynomial(SbEhlTables *tables, const SbEhlElement *e, const double *nodal,
                                double far, double r) {
-  const SbHpTable *t = sb_hp_table(tables, e->degree);
-  double basis[SB_HP_DEGREE_MAX + 1];
+  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+  double basis[SB_EHL_DEGREE_MAX + 1];
   sb_barycentric_basis(basis, r, t->node, t->bary, e->degree + 1);
-  int touching = e->map == SB_HP_INLET ? e->degree : e->map == SB_HP_OUTLET ? 0 : -1;
+  int touching = e->map == SB_EHL_INLET ? e->degree : e->map == SB_EHL_OUTLET ? 0 : -1;
   double sum = 0.0;
   for (int k = 0; k <= e->degree; k++) {
     sum += basis[k] * (nodal[e->first_dof + k] - (k == touching ? far : 0.0));
@@ -22,23 +22,23 @@ static double nodal_polynomial(SbHpTables *tables, const SbHpElement *e, const d
   return sum;
 }
 
-void sb_reynolds_carry(SbFilmSolver *solver, int from, int to, const SbLayers *before,
-                       const SbLayers *after, double scale) {
-  const SbHpMesh *a = &solver->mesh[from];
-  const SbHpMesh *b = &solver->mesh[to];
-  const SbReynoldsState *old = &solver->state[from];
-  SbReynoldsState *new = &solver->state[to];
+void sb_ehl_carry(SbFilmSolver *solver, int from, int to, const SbEhlLayers *before,
+                  const SbEhlLayers *after, double scale) {
+  const SbEhlMesh *a = &solver->mesh[from];
+  const SbEhlMesh *b = &solver->mesh[to];
+  const SbEhlState *old = &solver->state[from];
+  SbEhlState *new = &solver->state[to];
   // Towards infinity the gap grows by decades and has no polynomial: its excess over the dry one.
   double *excess = solver->gaps;
   for (int i = 0; i < a->targets; i++) {
-    excess[i] = old->gap[i] - sb_layers_dry_gap(before, a->x[i]);
+    excess[i] = old->gap[i] - sb_ehl_layers_dry_gap(before, a->x[i]);
   }
   for (int i = 0; i < b->count; i++) {
-    const SbHpElement *e = &a->element[i];
-    const SbHpElement *f = &b->element[i];
-    const SbHpTable *t = sb_hp_table(&solver->tables, f->degree);
-    bool infinite = f->map == SB_HP_INLET || f->map == SB_HP_OUTLET;
-    int touching = f->map == SB_HP_INLET ? f->degree : f->map == SB_HP_OUTLET ? 0 : -1;
+    const SbEhlElement *e = &a->element[i];
+    const SbEhlElement *f = &b->element[i];
+    const SbEhlTable *t = sb_ehl_table(&solver->tables, f->degree);
+    bool infinite = f->map == SB_EHL_INLET || f->map == SB_EHL_OUTLET;
+    int touching = f->map == SB_EHL_INLET ? f->degree : f->map == SB_EHL_OUTLET ? 0 : -1;
     for (int k = 0; k <= f->degree; k++) {
       double r = t->node[k];
       double value;
@@ -46,15 +46,15 @@ void sb_reynolds_carry(SbFilmSolver *solver, int from, int to, const SbLayers *b
         value = nodal_polynomial(&solver->tables, e, old->nodal, e->far_pressure, r) +
                 (k == touching ? f->far_pressure : 0.0);
       } else {
-        value = sb_hp_pressure(a, &solver->tables, e, old->nodal, r);
+        value = sb_ehl_pressure(a, &solver->tables, e, old->nodal, r);
       }
       new->nodal[f->first_dof + k] = value;
     }
     for (int k = 0; k < f->points; k++) {
       double r = t->gauss[f->points - f->degree][k];
       double *gap = &new->gap[f->first_row + k];
-      *gap = scale * sb_hp_gap(a, &solver->tables, i, infinite ? excess : old->gap, r);
-      *gap += infinite ? sb_layers_dry_gap(after, sb_hp_position(f, r)) : 0.0;
+      *gap = scale * sb_ehl_gap(a, &solver->tables, i, infinite ? excess : old->gap, r);
+      *gap += infinite ? sb_ehl_layers_dry_gap(after, sb_ehl_position(f, r)) : 0.0;
     }
   }
   for (int i = b->rows; i < b->targets; i++) {
@@ -65,13 +65,13 @@ void sb_reynolds_carry(SbFilmSolver *solver, int from, int to, const SbLayers *b
   new->flux = scale * old->flux;
 }
 
-double sb_reynolds_coordinate(const SbHpElement *e, double X) {
+double sb_ehl_coordinate(const SbEhlElement *e, double X) {
   switch (e->map) {
-  case SB_HP_AFFINE:
+  case SB_EHL_AFFINE:
     return (X - e->m) / e->h;
-  case SB_HP_COSINE:
+  case SB_EHL_COSINE:
     return (acos(fmin(fmax(-X, -1.0), 1.0)) - e->m) / e->h;
-  case SB_HP_INLET:
+  case SB_EHL_INLET:
     return 2.0 * sqrt(e->B / (e->A - X)) - 1.0;
   default:
     return 1.0 - 2.0 * sqrt(e->B / (X - e->A));
@@ -79,7 +79,7 @@ double sb_reynolds_coordinate(const SbHpElement *e, double X) {
 }
 
 // Element that holds X; a cavity belongs to the element after it.
-static int find_element(const SbHpMesh *mesh, double X) {
+static int find_element(const SbEhlMesh *mesh, double X) {
   for (int i = 0; i < mesh->count - 1; i++) {
     if (X <= mesh->element[i].x1) {
       return i;
@@ -88,37 +88,37 @@ static int find_element(const SbHpMesh *mesh, double X) {
   return mesh->count - 1;
 }
 
-void sb_reynolds_resample(SbFilmSolver *solver, int from, int to) {
-  const SbHpMesh *a = &solver->mesh[from];
-  const SbHpMesh *b = &solver->mesh[to];
-  const SbReynoldsState *old = &solver->state[from];
-  SbReynoldsState *new = &solver->state[to];
+void sb_ehl_resample(SbFilmSolver *solver, int from, int to) {
+  const SbEhlMesh *a = &solver->mesh[from];
+  const SbEhlMesh *b = &solver->mesh[to];
+  const SbEhlState *old = &solver->state[from];
+  SbEhlState *new = &solver->state[to];
   // New end pressures change the dry contact's pressure, unless a cavity holds one of them off.
   bool whole = true;
   for (int i = 0; i < b->count; i++) {
     whole = whole && !b->element[i].apart;
   }
   for (int i = 0; i < b->count; i++) {
-    const SbHpElement *f = &b->element[i];
-    const SbHpTable *t = sb_hp_table(&solver->tables, f->degree);
-    bool infinite = f->map == SB_HP_INLET || f->map == SB_HP_OUTLET;
+    const SbEhlElement *f = &b->element[i];
+    const SbEhlTable *t = sb_ehl_table(&solver->tables, f->degree);
+    bool infinite = f->map == SB_EHL_INLET || f->map == SB_EHL_OUTLET;
     for (int k = 0; k <= f->degree; k++) {
       // Beside the node at infinity the neighbour's value is taken.
       double r = t->node[k];
-      bool far = (f->map == SB_HP_INLET && k == 0) || (f->map == SB_HP_OUTLET && k == f->degree);
+      bool far = (f->map == SB_EHL_INLET && k == 0) || (f->map == SB_EHL_OUTLET && k == f->degree);
       r = far ? 0.5 * (r + t->node[k == 0 ? 1 : k - 1]) : r;
-      double X = sb_hp_position(f, r);
-      const SbHpElement *e = &a->element[find_element(a, X)];
+      double X = sb_ehl_position(f, r);
+      const SbEhlElement *e = &a->element[find_element(a, X)];
       double value =
-          X > a->right_end && e->map != SB_HP_OUTLET
+          X > a->right_end && e->map != SB_EHL_OUTLET
               ? 0.0
-              : sb_hp_pressure(a, &solver->tables, e, old->nodal, sb_reynolds_coordinate(e, X));
+              : sb_ehl_pressure(a, &solver->tables, e, old->nodal, sb_ehl_coordinate(e, X));
       value += whole ? sb_film_dry_pressure(X, b->inlet_pressure, b->outlet_pressure) -
                            sb_film_dry_pressure(X, a->inlet_pressure, a->outlet_pressure)
                      : 0.0;
-      bool touching = f->map == SB_HP_INLET ? k == f->degree : k == 0;
+      bool touching = f->map == SB_EHL_INLET ? k == f->degree : k == 0;
       if (infinite && !touching) {
-        double s = f->map == SB_HP_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
+        double s = f->map == SB_EHL_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
         value = (value - f->far_pressure) / (s * s * s * s);
       }
       new->nodal[f->first_dof + k] = value;
@@ -126,9 +126,9 @@ void sb_reynolds_resample(SbFilmSolver *solver, int from, int to) {
   }
   for (int i = 0; i < b->targets; i++) {
     int k = find_element(a, b->x[i]);
-    const SbHpElement *e = &a->element[k];
-    double r = sb_reynolds_coordinate(e, b->x[i]);
-    new->gap[i] = sb_hp_gap(a, &solver->tables, k, old->gap, fmin(r, 1.1));
+    const SbEhlElement *e = &a->element[k];
+    double r = sb_ehl_coordinate(e, b->x[i]);
+    new->gap[i] = sb_ehl_gap(a, &solver->tables, k, old->gap, fmin(r, 1.1));
   }
   new->H0 = old->H0;
   new->shift = old->shift;
@@ -137,20 +137,20 @@ void sb_reynolds_resample(SbFilmSolver *solver, int from, int to) {
 
 // Value of the gap (sign +1) or of the pressure (sign -1, nodal given) at r of an element.
 static double sampled(SbFilmSolver *solver, int which, int element, bool pressure, double r) {
-  const SbHpMesh *mesh = &solver->mesh[which];
-  const SbReynoldsState *state = &solver->state[which];
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlState *state = &solver->state[which];
   if (pressure) {
-    return -sb_hp_pressure(mesh, &solver->tables, &mesh->element[element], state->nodal, r);
+    return -sb_ehl_pressure(mesh, &solver->tables, &mesh->element[element], state->nodal, r);
   }
-  return sb_hp_gap(mesh, &solver->tables, element, state->gap, r);
+  return sb_ehl_gap(mesh, &solver->tables, element, state->gap, r);
 }
 
 // Least value over an element by sampling and golden section.
 static double minimum(double *place, SbFilmSolver *solver, int which, int element, bool pressure) {
   enum { SAMPLES = 16 };
-  const SbHpElement *e = &solver->mesh[which].element[element];
-  double begin = e->map == SB_HP_INLET ? -0.9 : -1.0;
-  double end = e->map == SB_HP_OUTLET ? 0.9 : 1.0;
+  const SbEhlElement *e = &solver->mesh[which].element[element];
+  double begin = e->map == SB_EHL_INLET ? -0.9 : -1.0;
+  double end = e->map == SB_EHL_OUTLET ? 0.9 : 1.0;
   double step = (end - begin) / SAMPLES;
   double best = begin;
   double least = INFINITY;
@@ -190,29 +190,29 @@ static double minimum(double *place, SbFilmSolver *solver, int which, int elemen
     least = value;
     best = r;
   }
-  *place = sb_hp_position(e, best);
+  *place = sb_ehl_position(e, best);
   return least;
 }
 
 // Thin enough that the film in the contact's middle is flat.
-static bool flat_film(const SbReynoldsCase *problem) {
-  return sb_layers_width(&problem->layers) < 0.3;
+static bool flat_film(const SbEhlCase *problem) {
+  return sb_ehl_layers_width(&problem->layers) < 0.3;
 }
 
 // Film at r of an element that carries the flux under the pressure's slope there, by fixed-point
 // steps from `film`; the Poiseuille part is small where this is used.
-static double reynolds_film(SbFilmSolver *solver, int which, const SbReynoldsCase *problem,
-                            int element, double r, double film) {
-  const SbHpMesh *mesh = &solver->mesh[which];
-  const SbReynoldsState *state = &solver->state[which];
-  const SbHpElement *e = &mesh->element[element];
+static double reynolds_film(SbFilmSolver *solver, int which, const SbEhlCase *problem, int element,
+                            double r, double film) {
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlState *state = &solver->state[which];
+  const SbEhlElement *e = &mesh->element[element];
   double step = fmin(1e-3, 0.5 * (1.0 - fabs(r)) + 1e-6);
   double before = fmax(-1.0, r - step);
   double after = fmin(1.0, r + step);
-  double slope = (sb_hp_pressure(mesh, &solver->tables, e, state->nodal, after) -
-                  sb_hp_pressure(mesh, &solver->tables, e, state->nodal, before)) /
-                 (sb_hp_position(e, after) - sb_hp_position(e, before));
-  double pressure = sb_hp_pressure(mesh, &solver->tables, e, state->nodal, r);
+  double slope = (sb_ehl_pressure(mesh, &solver->tables, e, state->nodal, after) -
+                  sb_ehl_pressure(mesh, &solver->tables, e, state->nodal, before)) /
+                 (sb_ehl_position(e, after) - sb_ehl_position(e, before));
+  double pressure = sb_ehl_pressure(mesh, &solver->tables, e, state->nodal, r);
   for (int i = 0; i < 20; i++) {
     double m, by_film, by_pressure;
     sb_film_mobility(&m, &by_film, &by_pressure, &problem->fluid, film, pressure);
@@ -223,11 +223,11 @@ static double reynolds_film(SbFilmSolver *solver, int which, const SbReynoldsCas
 
 // Root mean square of the film's relative change over an element, from the other mesh to `which`;
 // 0 for an infinite one. Flat films go by Reynolds' equation, as the central film does.
-static double element_change(SbFilmSolver *solver, int which, const SbReynoldsCase *problem,
-                             int element, bool flat) {
+static double element_change(SbFilmSolver *solver, int which, const SbEhlCase *problem, int element,
+                             bool flat) {
   enum { SAMPLES = 9 };
-  const SbHpElement *e = &solver->mesh[which].element[element];
-  if (e->map == SB_HP_INLET || e->map == SB_HP_OUTLET) {
+  const SbEhlElement *e = &solver->mesh[which].element[element];
+  if (e->map == SB_EHL_INLET || e->map == SB_EHL_OUTLET) {
     return 0.0;
   }
   double sum = 0.0;
@@ -244,13 +244,12 @@ static double element_change(SbFilmSolver *solver, int which, const SbReynoldsCa
   return sqrt(sum / SAMPLES);
 }
 
-void sb_reynolds_change(double change[3], SbFilmSolver *solver, int which,
-                        const SbReynoldsCase *problem, const SbReynoldsReading *fine,
-                        const SbReynoldsReading *coarse, bool paired) {
+void sb_ehl_change(double change[3], SbFilmSolver *solver, int which, const SbEhlCase *problem,
+                   const SbEhlResults *fine, const SbEhlResults *coarse, bool paired) {
   change[0] = fabs(fine->film_min / coarse->film_min - 1.0);
   change[1] = fabs(fine->film_central / coarse->film_central - 1.0);
   change[2] = fabs(fine->film_flux / coarse->film_flux - 1.0);
-  const SbHpMesh *mesh = &solver->mesh[which];
+  const SbEhlMesh *mesh = &solver->mesh[which];
   if (!paired || mesh->count != solver->mesh[1 - which].count) {
     return;
   }
@@ -265,18 +264,17 @@ void sb_reynolds_change(double change[3], SbFilmSolver *solver, int which,
                      flat_film(problem));
 }
 
-void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
-                      const SbReynoldsCase *problem) {
-  const SbHpMesh *mesh = &solver->mesh[which];
-  const SbReynoldsState *state = &solver->state[which];
+void sb_ehl_results(SbEhlResults *out, SbFilmSolver *solver, int which, const SbEhlCase *problem) {
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlState *state = &solver->state[which];
   memset(out, 0, sizeof *out);
   out->film_flux = state->flux;
 
   // Film at the axis, or in the middle of a fitted body's dry contact.
   double middle = problem->layers.middle - state->shift;
   int axis = find_element(mesh, middle);
-  double at_axis = sb_reynolds_coordinate(&mesh->element[axis], middle);
-  out->film_central = sb_hp_gap(mesh, &solver->tables, axis, state->gap, at_axis);
+  double at_axis = sb_ehl_coordinate(&mesh->element[axis], middle);
+  out->film_central = sb_ehl_gap(mesh, &solver->tables, axis, state->gap, at_axis);
   if (flat_film(problem)) {
     // Flat films there hang on small differences of large deflections between the collocation
     // points; Reynolds' equation gives them from the slope of the pressure, with far less noise.
@@ -295,9 +293,9 @@ void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
   }
   out->load_error = fabs(load) / (0.5 * M_PI);
   for (int i = 0; i < mesh->rows; i++) {
-    const SbHpElement *e = &mesh->element[mesh->owner[i]];
-    const double *value = mesh->value + (size_t)i * (SB_HP_DEGREE_MAX + 1);
-    const double *slope = mesh->slope + (size_t)i * (SB_HP_DEGREE_MAX + 1);
+    const SbEhlElement *e = &mesh->element[mesh->owner[i]];
+    const double *value = mesh->value + (size_t)i * (SB_EHL_DEGREE_MAX + 1);
+    const double *slope = mesh->slope + (size_t)i * (SB_EHL_DEGREE_MAX + 1);
     double P = mesh->value_known[i];
     double P_slope = mesh->slope_known[i];
     for (int j = 0; j <= e->degree; j++) {
@@ -342,7 +340,7 @@ void sb_reynolds_read(SbReynoldsReading *out, SbFilmSolver *solver, int which,
 
   // End of the film: the rupture, or the end of the contact.
   out->position_rupture = 1.0 + problem->layers.middle;
-  if (problem->layers.end != SB_LAYERS_FULL) {
+  if (problem->layers.end != SB_EHL_FULL) {
     int last = mesh->count - 1;
     for (int i = 1; i < mesh->count; i++) {
       if (mesh->element[i].apart) {

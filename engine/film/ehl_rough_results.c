@@ -1,27 +1,28 @@
 // What is read off a solution of the mixed film: films, loads and friction by the rule of the
-// nodes, the layers that the next mesh has to follow, and the profile. Equations in mixed.h, the
-// convention of the broken film in mixed.c.
-#include "engine/film/mixed.h"
+// nodes, the layers that the next mesh has to follow, and the profile. Equations in ehl_rough.h,
+// the convention of the broken film in ehl_rough.c.
+#include "engine/film/ehl_rough.h"
 
 #include <math.h>
 #include <string.h>
 
-static void add_interval(SbMixedReading *out, const SbMixedSolver *solver,
-                         const SbMixedState *state, const SbMixedCase *c, const SbMixedRule *rule,
-                         int e, double half, int j) {
+static void add_interval(SbEhlRoughResults *out, const SbEhlRoughSolver *solver,
+                         const SbEhlRoughState *state, const SbEhlRoughCase *c,
+                         const SbEhlRoughRule *rule, int e, double half, int j) {
   int i = e * rule->degree + j;
-  double full[SB_MIXED_DEGREE_MAX + 1], film[SB_MIXED_DEGREE_MAX + 1];
+  double full[SB_EHL_ROUGH_DEGREE_MAX + 1], film[SB_EHL_ROUGH_DEGREE_MAX + 1];
   memcpy(full, rule->step[j], sizeof full);
   memcpy(film, full, sizeof film);
   if (state->broken[i]) {
     memset(film, 0, sizeof film);
   } else if (state->broken[i + 1]) {
-    sb_mixed_partial(film, rule, j,
-                     sb_mixed_film_end(&solver->mesh[state - solver->state], rule, state->s, e, j));
+    sb_ehl_rough_partial(
+        film, rule, j,
+        sb_ehl_rough_film_end(&solver->mesh[state - solver->state], rule, state->s, e, j));
   }
   for (int k = 0; k <= rule->degree; k++) {
     int n = e * rule->degree + k;
-    const SbMixedPoint *at = &solver->point[n];
+    const SbEhlRoughPoint *at = &solver->point[n];
     double w = half * full[k], wet = half * film[k];
     double open = 1 - at->share;
     double shear = sb_film_shear(&c->fluid, at->h, state->q[n] - at->solid);
@@ -36,22 +37,23 @@ static void add_interval(SbMixedReading *out, const SbMixedSolver *solver,
   }
 }
 
-void sb_mixed_read(SbMixedReading *out, SbMixedSolver *solver, int which, const SbMixedCase *c) {
-  const SbMixedMesh *mesh = &solver->mesh[which];
-  const SbMixedState *state = &solver->state[which];
-  const SbMixedRule *rule = sb_mixed_rule(solver, mesh->degree);
+void sb_ehl_rough_results(SbEhlRoughResults *out, SbEhlRoughSolver *solver, int which,
+                          const SbEhlRoughCase *c) {
+  const SbEhlRoughMesh *mesh = &solver->mesh[which];
+  const SbEhlRoughState *state = &solver->state[which];
+  const SbEhlRoughRule *rule = sb_ehl_rough_rule(solver, mesh->degree);
   memset(out, 0, sizeof *out);
   out->film_min = INFINITY;
   out->position_rupture = mesh->edge[mesh->elements];
   for (int i = 0; i < mesh->nodes; i++) {
-    sb_mixed_point(&solver->point[i], c, state->t[i]);
+    sb_ehl_rough_point(&solver->point[i], c, state->t[i]);
   }
-  out->load_error = fabs(sb_mixed_load(mesh, state->q)) / (0.5 * M_PI);
+  out->load_error = fabs(sb_ehl_rough_load(mesh, state->q)) / (0.5 * M_PI);
   out->film_flux = c->lambda > 0 ? state->kappa / c->lambda : 0;
   double r;
-  int axis = sb_mixed_locate(mesh, 0, &r);
-  SbMixedPoint at;
-  sb_mixed_point(&at, c, sb_mixed_value(mesh, rule, state->t, axis, r));
+  int axis = sb_ehl_rough_locate(mesh, 0, &r);
+  SbEhlRoughPoint at;
+  sb_ehl_rough_point(&at, c, sb_ehl_rough_value(mesh, rule, state->t, axis, r));
   out->film_central = at.h;
   out->central_share = at.share;
 
@@ -63,7 +65,7 @@ void sb_mixed_read(SbMixedReading *out, SbMixedSolver *solver, int which, const 
       int i = e * rule->degree + j;
       add_interval(out, solver, state, c, rule, e, half, j);
       if (!out->ruptured && !state->broken[i] && state->broken[i + 1] && c->lambda > 0) {
-        double end = sb_mixed_film_end(mesh, rule, state->s, e, j);
+        double end = sb_ehl_rough_film_end(mesh, rule, state->s, e, j);
         out->position_rupture = 0.5 * (mesh->edge[e] + mesh->edge[e + 1]) + half * end;
         out->ruptured = true;
       }
@@ -98,19 +100,19 @@ void sb_mixed_read(SbMixedReading *out, SbMixedSolver *solver, int which, const 
     for (int k = 0; k < 40; k++) {
       double x1 = high - RATIO * (high - low), x2 = low + RATIO * (high - low);
       double r1, r2;
-      int e1 = sb_mixed_locate(mesh, x1, &r1), e2 = sb_mixed_locate(mesh, x2, &r2);
-      if (sign * sb_mixed_value(mesh, rule, field, e1, r1) <
-          sign * sb_mixed_value(mesh, rule, field, e2, r2)) {
+      int e1 = sb_ehl_rough_locate(mesh, x1, &r1), e2 = sb_ehl_rough_locate(mesh, x2, &r2);
+      if (sign * sb_ehl_rough_value(mesh, rule, field, e1, r1) <
+          sign * sb_ehl_rough_value(mesh, rule, field, e2, r2)) {
         high = x2;
       } else {
         low = x1;
       }
     }
     X = 0.5 * (low + high);
-    int e = sb_mixed_locate(mesh, X, &r);
-    double value = sb_mixed_value(mesh, rule, field, e, r);
+    int e = sb_ehl_rough_locate(mesh, X, &r);
+    double value = sb_ehl_rough_value(mesh, rule, field, e, r);
     if (which_one == 0) {
-      sb_mixed_point(&at, c, value);
+      sb_ehl_rough_point(&at, c, value);
       if (at.h < out->film_min) {
         out->film_min = at.h;
         out->position_min = X;
@@ -121,11 +123,11 @@ void sb_mixed_read(SbMixedReading *out, SbMixedSolver *solver, int which, const 
   }
 }
 
-void sb_mixed_profile(SbFilm *out, SbMixedSolver *solver, int which, const SbMixedCase *c,
-                      const SbFilmScale *scale, bool forward) {
-  const SbMixedMesh *mesh = &solver->mesh[which];
-  const SbMixedState *state = &solver->state[which];
-  const SbMixedRule *rule = sb_mixed_rule(solver, mesh->degree);
+void sb_ehl_rough_profile(SbFilm *out, SbEhlRoughSolver *solver, int which, const SbEhlRoughCase *c,
+                          const SbFilmScale *scale, bool forward) {
+  const SbEhlRoughMesh *mesh = &solver->mesh[which];
+  const SbEhlRoughState *state = &solver->state[which];
+  const SbEhlRoughRule *rule = sb_ehl_rough_rule(solver, mesh->degree);
   enum { POINTS = 5200 }; // about
   int per = POINTS / mesh->elements;
   size_t n = 0;
@@ -134,9 +136,9 @@ void sb_mixed_profile(SbFilm *out, SbMixedSolver *solver, int which, const SbMix
     double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
     for (int k = e > 0 ? 1 : 0; k <= per; k++) {
       double r = -1 + 2.0 * k / per;
-      SbMixedPoint at;
-      sb_mixed_point(&at, c, sb_mixed_value(mesh, rule, state->t, e, r));
-      double q = sb_mixed_value(mesh, rule, state->q, e, r);
+      SbEhlRoughPoint at;
+      sb_ehl_rough_point(&at, c, sb_ehl_rough_value(mesh, rule, state->t, e, r));
+      double q = sb_ehl_rough_value(mesh, rule, state->q, e, r);
       out->x[n] = (middle + half * r + mesh->shift) * scale->half_width;
       out->pressure[n] = (q + c->fluid.rupture) * scale->pressure;
       out->film[n] = at.h * scale->film;
@@ -162,14 +164,14 @@ void sb_mixed_profile(SbFilm *out, SbMixedSolver *solver, int which, const SbMix
 // Where the film takes the load over from the asperities and hands it back, and how sharply: there
 // Reynolds' equation and q = p + p_a(h) leave a layer of length k h^3 / lambda, k the asperities'
 // stiffness.
-bool sb_mixed_fronts(SbMixedCase *c, const SbMixedSolver *solver, int which,
-                     const SbMixedReading *r) {
+bool sb_ehl_rough_fronts(SbEhlRoughCase *c, const SbEhlRoughSolver *solver, int which,
+                         const SbEhlRoughResults *r) {
   c->front[0].X = c->front[1].X = INFINITY;
   if (c->law == NULL || !(c->lambda > 0)) {
     return false;
   }
-  const SbMixedMesh *mesh = &solver->mesh[which];
-  const SbMixedState *state = &solver->state[which];
+  const SbEhlRoughMesh *mesh = &solver->mesh[which];
+  const SbEhlRoughState *state = &solver->state[which];
   double place[2] = {0, r->ruptured ? r->position_rupture : INFINITY};
   double steepest = 0, steepest_end = 0;
   bool follow = false;
@@ -185,8 +187,8 @@ bool sb_mixed_fronts(SbMixedCase *c, const SbMixedSolver *solver, int which,
   }
   for (int k = 0; k < 2; k++) {
     double coordinate;
-    int n = sb_mixed_locate(mesh, fmin(place[k], mesh->edge[mesh->elements]), &coordinate);
-    const SbMixedPoint *at = &solver->point[n * mesh->degree + mesh->degree / 2];
+    int n = sb_ehl_rough_locate(mesh, fmin(place[k], mesh->edge[mesh->elements]), &coordinate);
+    const SbEhlRoughPoint *at = &solver->point[n * mesh->degree + mesh->degree / 2];
     double layer = -at->solid_t / at->h_t * at->h * at->h * at->h / c->lambda;
     double inside = fabs(1 - fabs(place[k]));
     bool sharp = layer < 0.5 * inside && at->asperity > 1e-3;

@@ -9,45 +9,45 @@
 #include <stddef.h>
 
 enum {
-  SB_HP_DEGREE_MAX = 18,
-  SB_HP_ELEMENTS_MAX = 40,
-  SB_HP_DOFS_MAX = 420,  // nodal pressures
-  SB_HP_EXTRA = 4,       // room for the unknowns beside the pressures
-  SB_HP_QUAD = 24,       // points of the fine rule for smooth remainders
-  SB_HP_MULTIPOLES = 34, // terms of the expansion for distant targets
-  SB_HP_PROJECT = SB_HP_DEGREE_MAX + 12
+  SB_EHL_DEGREE_MAX = 18,
+  SB_EHL_ELEMENTS_MAX = 40,
+  SB_EHL_DOFS_MAX = 420,  // nodal pressures
+  SB_EHL_EXTRA = 4,       // room for the unknowns beside the pressures
+  SB_EHL_QUAD = 24,       // points of the fine rule for smooth remainders
+  SB_EHL_MULTIPOLES = 34, // terms of the expansion for distant targets
+  SB_EHL_PROJECT = SB_EHL_DEGREE_MAX + 12
 };
 
 // How r maps to X.
 typedef enum {
-  SB_HP_AFFINE, // X = m + h r
-  SB_HP_COSINE, // X = -cos(theta), theta = m + h r; pressure = sin(theta) + polynomial
-  SB_HP_INLET,  // X = A - B / s^2, s = (1 + r) / 2, to minus infinity; p = far + s^4 polynomial
-  SB_HP_OUTLET  // X = A + B / s^2, s = (1 - r) / 2, to infinity
-} SbHpMap;
+  SB_EHL_AFFINE, // X = m + h r
+  SB_EHL_COSINE, // X = -cos(theta), theta = m + h r; pressure = sin(theta) + polynomial
+  SB_EHL_INLET,  // X = A - B / s^2, s = (1 + r) / 2, to minus infinity; p = far + s^4 polynomial
+  SB_EHL_OUTLET  // X = A + B / s^2, s = (1 - r) / 2, to infinity
+} SbEhlMap;
 
 // Tables of one degree.
 typedef struct {
   int degree;
-  double node[SB_HP_DEGREE_MAX + 1]; // Lobatto
-  double bary[SB_HP_DEGREE_MAX + 1];
+  double node[SB_EHL_DEGREE_MAX + 1]; // Lobatto
+  double bary[SB_EHL_DEGREE_MAX + 1];
   // Gauss rules of collocation: [0] with `degree` points, [1] with degree + 1.
-  double gauss[2][SB_HP_DEGREE_MAX + 1];
-  double weight[2][SB_HP_DEGREE_MAX + 1];
-  double value[2][SB_HP_DEGREE_MAX + 1][SB_HP_DEGREE_MAX + 1]; // [rule][point][node]
-  double slope[2][SB_HP_DEGREE_MAX + 1][SB_HP_DEGREE_MAX + 1];
-  double fine[SB_HP_QUAD][SB_HP_DEGREE_MAX + 1]; // basis at the fine rule
+  double gauss[2][SB_EHL_DEGREE_MAX + 1];
+  double weight[2][SB_EHL_DEGREE_MAX + 1];
+  double value[2][SB_EHL_DEGREE_MAX + 1][SB_EHL_DEGREE_MAX + 1]; // [rule][point][node]
+  double slope[2][SB_EHL_DEGREE_MAX + 1][SB_EHL_DEGREE_MAX + 1];
+  double fine[SB_EHL_QUAD][SB_EHL_DEGREE_MAX + 1]; // basis at the fine rule
   // Points from which the gap is interpolated: the collocation points and the finite ends.
   // [0] finite elements, [1] inlet, [2] outlet; degree + 2 points each.
-  double gap_node[3][SB_HP_DEGREE_MAX + 2];
-  double gap_bary[3][SB_HP_DEGREE_MAX + 2];
+  double gap_node[3][SB_EHL_DEGREE_MAX + 2];
+  double gap_bary[3][SB_EHL_DEGREE_MAX + 2];
   bool ready;
-} SbHpTable;
+} SbEhlTable;
 
 // One element. Columns 0 .. degree belong to the nodes, column degree + 1 to the known part of the
 // pressure (the sine, or the far pressure).
 typedef struct {
-  SbHpMap map;
+  SbEhlMap map;
   int degree;
   int points;    // collocation points
   int first_dof; // of degree + 1; the first is shared with the element before unless `apart`
@@ -57,25 +57,25 @@ typedef struct {
   double x0, x1;                 // ends; the infinite one is unused
   double m, h, A, B;
   double far_pressure;
-  double node_sine[SB_HP_DEGREE_MAX + 1]; // sin(theta) at the nodes of the cosine map
-  int modes;                              // highest Legendre mode of the projected weight
-  double project[SB_HP_PROJECT + 1][SB_HP_DEGREE_MAX + 2];
-  double fine_x[SB_HP_QUAD];
-  double fine_wb[SB_HP_QUAD][SB_HP_DEGREE_MAX + 2];
+  double node_sine[SB_EHL_DEGREE_MAX + 1]; // sin(theta) at the nodes of the cosine map
+  int modes;                               // highest Legendre mode of the projected weight
+  double project[SB_EHL_PROJECT + 1][SB_EHL_DEGREE_MAX + 2];
+  double fine_x[SB_EHL_QUAD];
+  double fine_wb[SB_EHL_QUAD][SB_EHL_DEGREE_MAX + 2];
   // Of finite elements: integrals with -((X - middle) / half)^(m + 1) / (m + 1).
   double middle, half;
-  double multipole[SB_HP_MULTIPOLES][SB_HP_DEGREE_MAX + 2];
-  double integral[SB_HP_DEGREE_MAX + 2]; // of the pressure (less the far pressure) over X
-  double log_s[SB_HP_DEGREE_MAX + 2];    // integral with ln s, infinite elements
-} SbHpElement;
+  double multipole[SB_EHL_MULTIPOLES][SB_EHL_DEGREE_MAX + 2];
+  double integral[SB_EHL_DEGREE_MAX + 2]; // of the pressure (less the far pressure) over X
+  double log_s[SB_EHL_DEGREE_MAX + 2];    // integral with ln s, infinite elements
+} SbEhlElement;
 
 // A mesh with its operators. Targets are the collocation points (the first `rows`), then the finite
 // ends of the elements. The known parts hold what does not depend on the nodal pressures.
 typedef struct {
   int count;
-  int steps[2]; // of the layout that made it (layers.h)
+  int steps[2]; // of the layout that made it (ehl_layers.h)
   int outlet;   // first element of a flooded outlet, if the last is infinite
-  SbHpElement element[SB_HP_ELEMENTS_MAX];
+  SbEhlElement element[SB_EHL_ELEMENTS_MAX];
   int dofs, rows, targets;
   double inlet_pressure, outlet_pressure; // constant pressure beyond the two ends of the mesh
   double left_end, right_end;             // where those constants begin
@@ -84,46 +84,46 @@ typedef struct {
   double *x;         // [targets]
   double *weight;    // [rows] quadrature weights dX of the collocation points
   // Local operators: a collocation point sees the nodes of its element only.
-  double *value;                     // [rows][SB_HP_DEGREE_MAX + 1]
+  double *value;                     // [rows][SB_EHL_DEGREE_MAX + 1]
   double *slope;                     // d/dX
   double *value_known, *slope_known; // [rows]
   int *owner;                        // [targets] element of a target
   double *load;                      // [dofs] integral of the basis
   double load_known;
-} SbHpMesh;
+} SbEhlMesh;
 
 // Everything that outlives a solve: rules and tables of the degrees in use.
 typedef struct {
-  double fine[SB_HP_QUAD], fine_weight[SB_HP_QUAD];
-  double fine_legendre[SB_HP_QUAD][SB_HP_PROJECT + 1];
-  SbHpTable table[SB_HP_DEGREE_MAX + 1];
-} SbHpTables;
+  double fine[SB_EHL_QUAD], fine_weight[SB_EHL_QUAD];
+  double fine_legendre[SB_EHL_QUAD][SB_EHL_PROJECT + 1];
+  SbEhlTable table[SB_EHL_DEGREE_MAX + 1];
+} SbEhlTables;
 
 // Rules; the tables of a degree follow on first use.
-void sb_hp_tables_init(SbHpTables *tables);
-const SbHpTable *sb_hp_table(SbHpTables *tables, int degree);
+void sb_ehl_tables_init(SbEhlTables *tables);
+const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree);
 
 // Storage of a mesh: false when out of memory. Finish takes a zeroed mesh.
-bool sb_hp_mesh_init(SbHpMesh *mesh);
-void sb_hp_mesh_finish(SbHpMesh *mesh);
+bool sb_ehl_mesh_init(SbEhlMesh *mesh);
+void sb_ehl_mesh_finish(SbEhlMesh *mesh);
 
 // Empties the mesh and adds elements from left to right. Returns false when the mesh is full.
-void sb_hp_mesh_begin(SbHpMesh *mesh, double inlet_pressure, double outlet_pressure);
-bool sb_hp_mesh_add(SbHpMesh *mesh, SbHpMap map, double x0, double x1, double A, int degree,
-                    bool apart);
+void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure);
+bool sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
+                     bool apart);
 
 // Numbers the unknowns and builds every operator.
-void sb_hp_mesh_build(SbHpMesh *mesh, SbHpTables *tables);
+void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables);
 
 // X of the element's coordinate, and dX/dr.
-double sb_hp_position(const SbHpElement *e, double r);
-double sb_hp_stretch(const SbHpElement *e, double r);
+double sb_ehl_position(const SbEhlElement *e, double r);
+double sb_ehl_stretch(const SbEhlElement *e, double r);
 
 // Pressure at r of element e from nodal values; the far pressure included.
-double sb_hp_pressure(const SbHpMesh *mesh, SbHpTables *tables, const SbHpElement *e,
-                      const double *nodal, double r);
+double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlElement *e,
+                       const double *nodal, double r);
 
 // Gap at r of element e, interpolated from the gap at all targets (`target_gap`) at the
 // collocation points and ends of the element.
-double sb_hp_gap(const SbHpMesh *mesh, SbHpTables *tables, int element, const double *target_gap,
-                 double r);
+double sb_ehl_gap(const SbEhlMesh *mesh, SbEhlTables *tables, int element, const double *target_gap,
+                  double r);

@@ -1,10 +1,10 @@
 // The coupled film solver: levels of degree, error estimate, results.
 //
-// A cold solve starts from the layers' shapes (layers.c) on the lowest degree and climbs: each
+// A cold solve starts from the layers' shapes (ehl_layers.c) on the lowest degree and climbs: each
 // level takes the one below as its guess, and the difference of two levels, reduced by the rate at
 // which differences shrink, estimates the error of the finer. It stops when the estimate meets the
 // tolerance. Validity: isoviscous half-plane (options aside), Hertz half-width below the radius.
-#include "engine/film/reynolds.h"
+#include "engine/film/ehl.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,7 +26,7 @@ static double seconds(void) {
 
 // Estimate of the errors of the last level: its change from the level below times the rate at which
 // changes shrink, which is not believed to be better than what was found over the range of M and
-// end pressures. Changes are those of the films' surroundings (sb_reynolds_change). The flux hangs
+// end pressures. Changes are those of the films' surroundings (sb_ehl_change). The flux hangs
 // on the inlet alone; the centre has its error and its own; the minimum both and the outlet's.
 static void estimate(SbFilmSolverInfo *info, double change[LEVELS][3], int levels, double noise) {
   static const double SLOWEST[LEVELS] = {1.0, 0.13, 0.06, 0.1, 0.1, 0.1};
@@ -50,9 +50,9 @@ static void estimate(SbFilmSolverInfo *info, double change[LEVELS][3], int level
 }
 
 // Scaled problem in the flow frame.
-static SbReynoldsCase scaled_case(const SbFilmProblem *problem, const SbFilmScale *scale) {
+static SbEhlCase scaled_case(const SbFilmProblem *problem, const SbFilmScale *scale) {
   double outlet = scale->outlet > 1e-9 ? scale->outlet : 0.0;
-  SbReynoldsCase c = {
+  SbEhlCase c = {
       .fluid = sb_film_fluid(problem, scale->pressure, scale->film),
       .body = sb_film_body(problem, scale),
       .layers = {.lambda = scale->lambda,
@@ -61,7 +61,7 @@ static SbReynoldsCase scaled_case(const SbFilmProblem *problem, const SbFilmScal
                  .outlet = outlet,
                  .starvation = 1.0,
                  .meniscus = -INFINITY,
-                 .end = outlet > 0.0 ? SB_LAYERS_FULL : SB_LAYERS_RUPTURE,
+                 .end = outlet > 0.0 ? SB_EHL_FULL : SB_EHL_RUPTURE,
                  .degree = level_degree[0],
                  .steps = {-1, -1}},
   };
@@ -71,7 +71,7 @@ static SbReynoldsCase scaled_case(const SbFilmProblem *problem, const SbFilmScal
 
 // Results in SI and in the seal's frame.
 static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
-                 const SbReynoldsCase *c, const SbReynoldsReading *r) {
+                 const SbEhlCase *c, const SbEhlResults *r) {
   double sign = problem->speed >= 0.0 ? 1.0 : -1.0;
   out->film_min = r->film_min * scale->film;
   out->film_central = r->film_central * scale->film;
@@ -80,29 +80,29 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   out->pressure_max = (r->pressure_max + c->fluid.rupture) * scale->pressure;
   out->position_film_min = sign * r->position_min * scale->half_width;
   out->position_rupture = sign * r->position_rupture * scale->half_width;
-  out->ruptured = c->layers.end != SB_LAYERS_FULL;
+  out->ruptured = c->layers.end != SB_EHL_FULL;
   out->starved = isfinite(c->layers.meniscus);
   out->friction_couette =
       problem->viscosity * problem->speed * r->couette * scale->half_width / scale->film;
   out->friction_poiseuille = sign * r->poiseuille * scale->film * scale->pressure;
   out->solver.load_error = r->load_error;
   out->solver.flux_error = r->flux_error;
-  if (out->ruptured && c->layers.end == SB_LAYERS_REFORM) {
+  if (out->ruptured && c->layers.end == SB_EHL_REFORM) {
     sb_warn(&out->warnings, "film-cavity", "canister.pressure",
             "the film breaks before the flooded outlet and forms again behind a cavity");
   }
 }
 
 // Rounding in the films, relative: deflections of size one against the film.
-static double rounding(const SbReynoldsReading *r) {
+static double rounding(const SbEhlResults *r) {
   return 3e-16 / fmin(1.0, r->film_min);
 }
 
 // Climbs the levels from a cold start. *levels is 0 when nothing was found.
-static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFilmSolver *solver,
-                      SbReynoldsCase *c, double supply, SbFilmSolverInfo *info,
+static SbStatus climb(SbEhlResults *reading, int *levels, int *which, SbFilmSolver *solver,
+                      SbEhlCase *c, double supply, SbFilmSolverInfo *info,
                       const SbFilmProblem *problem, SbReport *report) {
-  const SbReynoldsCase cold = *c;
+  const SbEhlCase cold = *c;
   double change[LEVELS][3] = {{0}};
   *which = 0;
   *levels = 0;
@@ -111,15 +111,14 @@ static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFil
     bool flooded = true;
     double residual = level + 1 < least ? LEVEL_RESIDUAL[level] : RESIDUAL;
     SbStatus status =
-        level == 0
-            ? sb_reynolds_start(&flooded, solver, which, c, supply, residual, info, problem)
-            : sb_reynolds_refine(solver, which, c, level_degree[level], residual, info, problem);
+        level == 0 ? sb_ehl_start(&flooded, solver, which, c, supply, residual, info, problem)
+                   : sb_ehl_refine(solver, which, c, level_degree[level], residual, info, problem);
     bool anew = level > 0 && status == SB_ERROR_NOT_CONVERGED;
     if (anew) {
       // The level below may be too coarse a guess: this one from nothing.
       *c = cold;
       c->layers.degree = level_degree[level];
-      status = sb_reynolds_start(&flooded, solver, which, c, supply, residual, info, problem);
+      status = sb_ehl_start(&flooded, solver, which, c, supply, residual, info, problem);
     }
     if (status == SB_ERROR_INFEASIBLE) {
       return sb_fail(report, status,
@@ -137,11 +136,10 @@ static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFil
       }
       return status;
     }
-    sb_reynolds_read(&reading[level], solver, *which, c);
+    sb_ehl_results(&reading[level], solver, *which, c);
     *levels = level + 1;
     if (*levels >= 2) {
-      sb_reynolds_change(change[level], solver, *which, c, &reading[level], &reading[level - 1],
-                         !anew);
+      sb_ehl_change(change[level], solver, *which, c, &reading[level], &reading[level - 1], !anew);
       estimate(info, change, *levels, rounding(&reading[level]) + info->residual);
     }
     double worst = fmax(info->error_film_min, info->error_film_central);
@@ -154,22 +152,22 @@ static SbStatus climb(SbReynoldsReading *reading, int *levels, int *which, SbFil
 
 // Outlet's pressure over the inlet's in the units of the rigid wedge, h_min^2 p / (6 U eta
 // sqrt(2 R h_min)): beyond pi/16 it drives the film back (wedge.h).
-static double rigid_step(const SbLayers *layers) {
+static double rigid_step(const SbEhlLayers *layers) {
   double film = 4.894968 * layers->lambda / (6.0 * M_PI);
   return pow(film, 1.5) / (sqrt(2.0) * layers->lambda) * (layers->outlet - layers->inlet);
 }
 
-SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
-                           SbFilmSolver *solver, SbReport *report) {
+SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                      SbFilmSolver *solver, SbReport *report) {
   double begin = seconds();
-  SbReynoldsCase c = scaled_case(problem, scale);
+  SbEhlCase c = scaled_case(problem, scale);
   SbFilmSolverInfo *info = &out->solver;
   // Refusals: no liquid at the inlet, or a film below what double precision resolves.
   if (c.layers.inlet < 0.0) {
     return sb_fail(report, SB_ERROR_INFEASIBLE,
                    "film: the inlet's pressure is below the rupture pressure: no liquid there");
   }
-  if (sb_layers_flux(&c.layers) < 1e-11) {
+  if (sb_ehl_layers_flux(&c.layers) < 1e-11) {
     return sb_fail(report, SB_ERROR_RANGE,
                    "film: M = %.3g: the film is below 1e-11 of b^2/R and lost in rounding; use the "
                    "asymptotic model",
@@ -196,17 +194,17 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
   double supply = problem->inlet_film > 0.0 ? 2.0 * problem->inlet_film / scale->film : INFINITY;
 
   if (isfinite(supply)) {
-    SbLayers starved = c.layers;
-    starved.starvation = fmin(1.0, supply / sb_layers_flux(&c.layers));
-    if (sb_layers_width(&starved) < 1e-7) {
+    SbEhlLayers starved = c.layers;
+    starved.starvation = fmin(1.0, supply / sb_ehl_layers_flux(&c.layers));
+    if (sb_ehl_layers_width(&starved) < 1e-7) {
       return sb_fail(report, SB_ERROR_RANGE,
                      "film: M = %.3g: so little film is supplied that its inlet layer is %.2g of "
                      "the half-width and lost in rounding",
-                     scale->M, sb_layers_width(&starved));
+                     scale->M, sb_ehl_layers_width(&starved));
     }
   }
 
-  SbReynoldsReading reading[LEVELS];
+  SbEhlResults reading[LEVELS];
   int levels = 0;
   int which = 0;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
@@ -217,12 +215,12 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
     // The layers follow the case, so the error of the discretisation stays what it was.
     which = solver->last.which;
     c.layers.degree = solver->last.problem.layers.degree;
-    status = sb_reynolds_follow(solver, &which, &solver->last.problem, &c, 1e-11, info, problem);
+    status = sb_ehl_follow(solver, &which, &solver->last.problem, &c, 1e-11, info, problem);
     if (status == SB_ERROR_CANCELLED) {
       return sb_fail(report, status, "film: cancelled");
     }
     if (status == SB_OK) {
-      sb_reynolds_read(&reading[0], solver, which, &c);
+      sb_ehl_results(&reading[0], solver, which, &c);
       levels = 1;
       double noise = rounding(&reading[0]) + info->residual;
       info->error_film_min = solver->last.error[0] + noise;
@@ -242,10 +240,10 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
   }
 
   // The tolerance decides, whether or not the last level was reached.
-  const SbReynoldsReading *r = &reading[levels - 1];
+  const SbEhlResults *r = &reading[levels - 1];
   fill(out, problem, scale, &c, r);
   if (isfinite(supply) && !out->starved) {
-    // Flooded but for a trifle, see starve() in path.c.
+    // Flooded but for a trifle, see starve() in ehl_continuation.c.
     double excess = fmax(1.0 - supply / r->film_flux, 0.0);
     info->error_film_min += excess;
     info->error_film_central += excess;
@@ -268,6 +266,6 @@ SbStatus sb_reynolds_solve(SbFilm *out, const SbFilmProblem *problem, const SbFi
                      fmax(info->error_film_min, info->error_film_central));
   }
   info->wall_s = seconds() - begin;
-  sb_reynolds_profile(out, solver, which, &c, scale, problem);
+  sb_ehl_profile(out, solver, which, &c, scale, problem);
   return status;
 }

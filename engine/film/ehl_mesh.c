@@ -12,7 +12,7 @@
 //
 // Left out: anything but the half-plane; unequal far pressures are given the tilt of
 // docs/verification.md (the dry contact stays |x| < b).
-#include "engine/film/hp.h"
+#include "engine/film/ehl_mesh.h"
 
 #include "engine/numeric/legendre.h"
 
@@ -22,28 +22,28 @@
 #include <string.h>
 
 enum {
-  COLUMNS = SB_HP_DEGREE_MAX + 2,
-  TARGETS_MAX = SB_HP_DOFS_MAX + SB_HP_ELEMENTS_MAX + 4,
-  STRIDE = SB_HP_DEGREE_MAX + 1,
+  COLUMNS = SB_EHL_DEGREE_MAX + 2,
+  TARGETS_MAX = SB_EHL_DOFS_MAX + SB_EHL_ELEMENTS_MAX + 4,
+  STRIDE = SB_EHL_DEGREE_MAX + 1,
 };
 
 // Half the sum of the distances to -1 and 1 is (rho + 1/rho)/2 on Bernstein's ellipse rho: closer
 // than NEAR (rho = 2) the split kernel is used. Beyond FAR half-lengths from the middle the
-// expansion holds 16 digits with at most SB_HP_MULTIPOLES terms, -ln z of them each.
+// expansion holds 16 digits with at most SB_EHL_MULTIPOLES terms, -ln z of them each.
 static const double NEAR = 1.25;
 static const double FAR = 3.0;
 static const double INVERSE_PI = 0.31830988618379067;
 static const double DIGITS = 37.0; // ln of what is left out, negative
 
-void sb_hp_tables_init(SbHpTables *tables) {
-  sb_legendre_gauss(tables->fine, tables->fine_weight, SB_HP_QUAD);
-  for (int q = 0; q < SB_HP_QUAD; q++) {
-    sb_legendre_values(tables->fine_legendre[q], tables->fine[q], SB_HP_PROJECT);
+void sb_ehl_tables_init(SbEhlTables *tables) {
+  sb_legendre_gauss(tables->fine, tables->fine_weight, SB_EHL_QUAD);
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
+    sb_legendre_values(tables->fine_legendre[q], tables->fine[q], SB_EHL_PROJECT);
   }
 }
 
-const SbHpTable *sb_hp_table(SbHpTables *tables, int degree) {
-  SbHpTable *t = &tables->table[degree];
+const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree) {
+  SbEhlTable *t = &tables->table[degree];
   if (t->ready) {
     return t;
   }
@@ -59,7 +59,7 @@ const SbHpTable *sb_hp_table(SbHpTables *tables, int degree) {
       sb_barycentric_slope(t->slope[rule][i], t->gauss[rule][i], t->node, t->bary, count);
     }
   }
-  for (int q = 0; q < SB_HP_QUAD; q++) {
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
     sb_barycentric_basis(t->fine[q], tables->fine[q], t->node, t->bary, count);
   }
   // Points of the gap: both ends and the Gauss points, or one end and one more Gauss point.
@@ -80,18 +80,18 @@ const SbHpTable *sb_hp_table(SbHpTables *tables, int degree) {
 // ---------------------------------------------------------------- maps
 
 // s of an infinite element: 1 at its finite end, 0 at infinity.
-static double inverse_coordinate(const SbHpElement *e, double r) {
-  return e->map == SB_HP_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
+static double inverse_coordinate(const SbEhlElement *e, double r) {
+  return e->map == SB_EHL_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
 }
 
-double sb_hp_position(const SbHpElement *e, double r) {
+double sb_ehl_position(const SbEhlElement *e, double r) {
   double s;
   switch (e->map) {
-  case SB_HP_AFFINE:
+  case SB_EHL_AFFINE:
     return e->m + e->h * r;
-  case SB_HP_COSINE:
+  case SB_EHL_COSINE:
     return -cos(e->m + e->h * r);
-  case SB_HP_INLET:
+  case SB_EHL_INLET:
     s = inverse_coordinate(e, r);
     return e->A - e->B / (s * s);
   default:
@@ -100,11 +100,11 @@ double sb_hp_position(const SbHpElement *e, double r) {
   }
 }
 
-double sb_hp_stretch(const SbHpElement *e, double r) {
+double sb_ehl_stretch(const SbEhlElement *e, double r) {
   switch (e->map) {
-  case SB_HP_AFFINE:
+  case SB_EHL_AFFINE:
     return e->h;
-  case SB_HP_COSINE:
+  case SB_EHL_COSINE:
     return e->h * sin(e->m + e->h * r);
   default: {
     double s = inverse_coordinate(e, r);
@@ -113,12 +113,12 @@ double sb_hp_stretch(const SbHpElement *e, double r) {
   }
 }
 
-static bool is_infinite(const SbHpElement *e) {
-  return e->map == SB_HP_INLET || e->map == SB_HP_OUTLET;
+static bool is_infinite(const SbEhlElement *e) {
+  return e->map == SB_EHL_INLET || e->map == SB_EHL_OUTLET;
 }
 
 // Factor of the nodal polynomial in the pressure, and the node that touches the neighbour.
-static double factor(const SbHpElement *e, double r) {
+static double factor(const SbEhlElement *e, double r) {
   if (!is_infinite(e)) {
     return 1.0;
   }
@@ -126,13 +126,13 @@ static double factor(const SbHpElement *e, double r) {
   return s * s * s * s;
 }
 
-static int touching_node(const SbHpElement *e) {
-  return e->map == SB_HP_INLET ? e->degree : 0;
+static int touching_node(const SbEhlElement *e) {
+  return e->map == SB_EHL_INLET ? e->degree : 0;
 }
 
 // Known part of the pressure, without the far pressure: basis holds the Lagrange values at r.
-static double known_part(const SbHpElement *e, const double *basis, double r) {
-  if (e->map == SB_HP_COSINE) {
+static double known_part(const SbEhlElement *e, const double *basis, double r) {
+  if (e->map == SB_EHL_COSINE) {
     double known = sin(e->m + e->h * r);
     for (int k = 0; k <= e->degree; k++) {
       known -= basis[k] * e->node_sine[k];
@@ -178,15 +178,15 @@ static void moments_complex(double *out, double real, double imaginary, int n) {
 // ---------------------------------------------------------------- elements
 
 // Moments about the middle of a finite element.
-static void expand(SbHpElement *e) {
+static void expand(SbEhlElement *e) {
   int columns = e->degree + 2;
   e->middle = 0.5 * (e->x0 + e->x1);
   e->half = 0.5 * (e->x1 - e->x0);
   memset(e->multipole, 0, sizeof e->multipole);
-  for (int q = 0; q < SB_HP_QUAD; q++) {
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
     double x = (e->fine_x[q] - e->middle) / e->half;
     double power = 1.0;
-    for (int m = 0; m < SB_HP_MULTIPOLES; m++) {
+    for (int m = 0; m < SB_EHL_MULTIPOLES; m++) {
       power *= x;
       double times = -power / (m + 1);
       for (int j = 0; j < columns; j++) {
@@ -197,25 +197,25 @@ static void expand(SbHpElement *e) {
 }
 
 // Everything about an element that its integrals need, for every target alike.
-static void prepare(SbHpElement *e, SbHpTables *tables) {
-  const SbHpTable *t = sb_hp_table(tables, e->degree);
+static void prepare(SbEhlElement *e, SbEhlTables *tables) {
+  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
   int columns = e->degree + 2;
-  for (int k = 0; k <= e->degree && e->map == SB_HP_COSINE; k++) {
+  for (int k = 0; k <= e->degree && e->map == SB_EHL_COSINE; k++) {
     e->node_sine[k] = sin(e->m + e->h * t->node[k]);
   }
-  int extra = e->map == SB_HP_AFFINE ? 0 : e->map == SB_HP_COSINE ? 10 : 1;
+  int extra = e->map == SB_EHL_AFFINE ? 0 : e->map == SB_EHL_COSINE ? 10 : 1;
   e->modes = e->degree + extra;
   memset(e->project, 0, sizeof e->project);
   memset(e->integral, 0, sizeof e->integral);
-  for (int q = 0; q < SB_HP_QUAD; q++) {
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
     double r = tables->fine[q];
-    double scale = tables->fine_weight[q] * sb_hp_stretch(e, r);
+    double scale = tables->fine_weight[q] * sb_ehl_stretch(e, r);
     double f = factor(e, r);
     for (int k = 0; k <= e->degree; k++) {
       e->fine_wb[q][k] = scale * f * t->fine[q][k];
     }
     e->fine_wb[q][e->degree + 1] = scale * known_part(e, t->fine[q], r);
-    e->fine_x[q] = is_infinite(e) ? inverse_coordinate(e, r) : sb_hp_position(e, r);
+    e->fine_x[q] = is_infinite(e) ? inverse_coordinate(e, r) : sb_ehl_position(e, r);
     for (int j = 0; j < columns; j++) {
       e->integral[j] += e->fine_wb[q][j];
     }
@@ -231,8 +231,8 @@ static void prepare(SbHpElement *e, SbHpTables *tables) {
   }
   if (is_infinite(e)) {
     // Integral with ln s, the distance from the infinite end.
-    double moment[SB_HP_PROJECT + 1];
-    moments_real(moment, e->map == SB_HP_INLET ? -1.0 : 1.0, e->modes);
+    double moment[SB_EHL_PROJECT + 1];
+    moments_real(moment, e->map == SB_EHL_INLET ? -1.0 : 1.0, e->modes);
     for (int j = 0; j < columns; j++) {
       e->log_s[j] = -log(2.0) * e->integral[j];
       for (int k = 0; k <= e->modes; k++) {
@@ -242,7 +242,7 @@ static void prepare(SbHpElement *e, SbHpTables *tables) {
   }
 }
 
-static void add_moments(double *row, const SbHpElement *e, const double *moment, double times) {
+static void add_moments(double *row, const SbEhlElement *e, const double *moment, double times) {
   for (int k = 0; k <= e->modes; k++) {
     for (int j = 0; j < e->degree + 2; j++) {
       row[j] += times * moment[k] * e->project[k][j];
@@ -252,7 +252,7 @@ static void add_moments(double *row, const SbHpElement *e, const double *moment,
 
 // Finite elements: row[j] = integral of column j times ln|X - X'|. `angle` is acos(-X) inside the
 // contact, acosh|X| outside.
-static void row_finite(double *row, const SbHpElement *e, const double *fine, double X,
+static void row_finite(double *row, const SbEhlElement *e, const double *fine, double X,
                        double angle) {
   int columns = e->degree + 2;
   double z = fabs(X - e->middle) / e->half;
@@ -264,7 +264,7 @@ static void row_finite(double *row, const SbHpElement *e, const double *fine, do
     }
     int terms = (int)(DIGITS / log(z)) + 1;
     double power = 1.0;
-    for (int m = 0; m < terms && m < SB_HP_MULTIPOLES; m++) {
+    for (int m = 0; m < terms && m < SB_EHL_MULTIPOLES; m++) {
       power *= inverse;
       for (int j = 0; j < columns; j++) {
         row[j] += power * e->multipole[m][j];
@@ -275,7 +275,7 @@ static void row_finite(double *row, const SbHpElement *e, const double *fine, do
   // The target's own coordinate, complex outside |X| <= 1 on the cosine map.
   double imaginary = 0.0;
   double real;
-  if (e->map == SB_HP_AFFINE) {
+  if (e->map == SB_EHL_AFFINE) {
     real = (X - e->m) / e->h;
   } else if (fabs(X) <= 1.0) {
     real = (angle - e->m) / e->h;
@@ -287,7 +287,7 @@ static void row_finite(double *row, const SbHpElement *e, const double *fine, do
                         ? fmax(1.0, fabs(real))
                         : 0.5 * (hypot(real - 1.0, imaginary) + hypot(real + 1.0, imaginary));
   if (distance > NEAR) {
-    for (int q = 0; q < SB_HP_QUAD; q++) {
+    for (int q = 0; q < SB_EHL_QUAD; q++) {
       double value = log(fabs(X - e->fine_x[q]));
       for (int j = 0; j < columns; j++) {
         row[j] += value * e->fine_wb[q][j];
@@ -295,14 +295,14 @@ static void row_finite(double *row, const SbHpElement *e, const double *fine, do
     }
     return;
   }
-  double moment[SB_HP_PROJECT + 1];
+  double moment[SB_EHL_PROJECT + 1];
   if (imaginary == 0.0) {
     moments_real(moment, real, e->modes);
   } else {
     moments_complex(moment, real, imaginary, e->modes);
   }
   add_moments(row, e, moment, 1.0);
-  if (e->map == SB_HP_AFFINE) {
+  if (e->map == SB_EHL_AFFINE) {
     double value = log(e->h);
     for (int j = 0; j < columns; j++) {
       row[j] += value * e->integral[j];
@@ -310,7 +310,7 @@ static void row_finite(double *row, const SbHpElement *e, const double *fine, do
     return;
   }
   // Remainder of the cosine map's kernel, ln|(X - X')/(z - r)|, smooth in r.
-  for (int q = 0; q < SB_HP_QUAD; q++) {
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
     double dr = real - fine[q];
     double dX = X - e->fine_x[q];
     double value = 0.5 * log(dX * dX / (dr * dr + imaginary * imaginary));
@@ -321,9 +321,9 @@ static void row_finite(double *row, const SbHpElement *e, const double *fine, do
 }
 
 // Infinite elements: |X - X'| = |B + a s^2| / s^2 with a = X - A (inlet) or A - X (outlet).
-static void row_infinite(double *row, const SbHpElement *e, double X) {
+static void row_infinite(double *row, const SbEhlElement *e, double X) {
   int columns = e->degree + 2;
-  double side = e->map == SB_HP_INLET ? 1.0 : -1.0;
+  double side = e->map == SB_EHL_INLET ? 1.0 : -1.0;
   double a = side * (X - e->A);
   for (int j = 0; j < columns; j++) {
     row[j] -= 2.0 * e->log_s[j];
@@ -332,7 +332,7 @@ static void row_infinite(double *row, const SbHpElement *e, double X) {
   double y = a != 0.0 ? sqrt(e->B / fabs(a)) : 1e30;
   bool near = a < 0.0 ? 2.0 * y - 1.0 < NEAR : sqrt(1.0 + y * y) + y < NEAR;
   if (!near) {
-    for (int q = 0; q < SB_HP_QUAD; q++) {
+    for (int q = 0; q < SB_EHL_QUAD; q++) {
       double s = e->fine_x[q];
       double value = log(fabs(e->B + a * s * s));
       for (int j = 0; j < columns; j++) {
@@ -341,7 +341,7 @@ static void row_infinite(double *row, const SbHpElement *e, double X) {
     }
     return;
   }
-  double moment[SB_HP_PROJECT + 1];
+  double moment[SB_EHL_PROJECT + 1];
   if (a < 0.0) {
     moments_real(moment, side * (2.0 * y - 1.0), e->modes);
     add_moments(row, e, moment, 1.0);
@@ -349,7 +349,7 @@ static void row_infinite(double *row, const SbHpElement *e, double X) {
       moments_real(moment, -side * (2.0 * y + 1.0), e->modes);
       add_moments(row, e, moment, 1.0);
     } else {
-      for (int q = 0; q < SB_HP_QUAD; q++) {
+      for (int q = 0; q < SB_EHL_QUAD; q++) {
         double value = log(2.0 * (e->fine_x[q] + y));
         for (int j = 0; j < columns; j++) {
           row[j] += value * e->fine_wb[q][j];
@@ -368,10 +368,10 @@ static void row_infinite(double *row, const SbHpElement *e, double X) {
 
 // ---------------------------------------------------------------- meshes
 
-bool sb_hp_mesh_init(SbHpMesh *mesh) {
+bool sb_ehl_mesh_init(SbEhlMesh *mesh) {
   memset(mesh, 0, sizeof *mesh);
   size_t targets = TARGETS_MAX;
-  size_t dofs = SB_HP_DOFS_MAX;
+  size_t dofs = SB_EHL_DOFS_MAX;
   mesh->gap = malloc(targets * dofs * sizeof(double));
   mesh->gap_known = malloc(targets * sizeof(double));
   mesh->x = malloc(targets * sizeof(double));
@@ -385,7 +385,7 @@ bool sb_hp_mesh_init(SbHpMesh *mesh) {
   if (mesh->gap == NULL || mesh->gap_known == NULL || mesh->x == NULL || mesh->weight == NULL ||
       mesh->value == NULL || mesh->slope == NULL || mesh->value_known == NULL ||
       mesh->slope_known == NULL || mesh->owner == NULL || mesh->load == NULL) {
-    sb_hp_mesh_finish(mesh);
+    sb_ehl_mesh_finish(mesh);
     return false;
   }
   memset(mesh->gap, 0, targets * dofs * sizeof(double));
@@ -394,7 +394,7 @@ bool sb_hp_mesh_init(SbHpMesh *mesh) {
   return true;
 }
 
-void sb_hp_mesh_finish(SbHpMesh *mesh) {
+void sb_ehl_mesh_finish(SbEhlMesh *mesh) {
   free(mesh->gap);
   free(mesh->gap_known);
   free(mesh->x);
@@ -408,7 +408,7 @@ void sb_hp_mesh_finish(SbHpMesh *mesh) {
   memset(mesh, 0, sizeof *mesh);
 }
 
-void sb_hp_mesh_begin(SbHpMesh *mesh, double inlet_pressure, double outlet_pressure) {
+void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure) {
   mesh->count = 0;
   mesh->dofs = 0;
   mesh->rows = 0;
@@ -416,15 +416,15 @@ void sb_hp_mesh_begin(SbHpMesh *mesh, double inlet_pressure, double outlet_press
   mesh->outlet_pressure = outlet_pressure;
 }
 
-bool sb_hp_mesh_add(SbHpMesh *mesh, SbHpMap map, double x0, double x1, double A, int degree,
-                    bool apart) {
+bool sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
+                     bool apart) {
   int shared = mesh->count > 0 && !apart ? 1 : 0;
-  int points = degree + (map == SB_HP_INLET || map == SB_HP_OUTLET ? 1 : 0);
-  if (degree > SB_HP_DEGREE_MAX || mesh->count >= SB_HP_ELEMENTS_MAX ||
-      mesh->dofs - shared + degree + 1 > SB_HP_DOFS_MAX || mesh->rows + points > SB_HP_DOFS_MAX) {
+  int points = degree + (map == SB_EHL_INLET || map == SB_EHL_OUTLET ? 1 : 0);
+  if (degree > SB_EHL_DEGREE_MAX || mesh->count >= SB_EHL_ELEMENTS_MAX ||
+      mesh->dofs - shared + degree + 1 > SB_EHL_DOFS_MAX || mesh->rows + points > SB_EHL_DOFS_MAX) {
     return false;
   }
-  SbHpElement *e = &mesh->element[mesh->count++];
+  SbEhlElement *e = &mesh->element[mesh->count++];
   e->map = map;
   e->degree = degree;
   e->points = points;
@@ -438,22 +438,22 @@ bool sb_hp_mesh_add(SbHpMesh *mesh, SbHpMap map, double x0, double x1, double A,
   mesh->dofs = e->first_dof + degree + 1;
   mesh->rows += points;
   switch (map) {
-  case SB_HP_AFFINE:
+  case SB_EHL_AFFINE:
     e->m = 0.5 * (x0 + x1);
     e->h = 0.5 * (x1 - x0);
     break;
-  case SB_HP_COSINE: {
+  case SB_EHL_COSINE: {
     double begin = acos(-x0);
     double end = acos(-x1);
     e->m = 0.5 * (begin + end);
     e->h = 0.5 * (end - begin);
     break;
   }
-  case SB_HP_INLET:
+  case SB_EHL_INLET:
     e->B = A - x1;
     e->far_pressure = mesh->inlet_pressure;
     break;
-  case SB_HP_OUTLET:
+  case SB_EHL_OUTLET:
     e->B = x0 - A;
     e->far_pressure = mesh->outlet_pressure;
     break;
@@ -462,17 +462,17 @@ bool sb_hp_mesh_add(SbHpMesh *mesh, SbHpMap map, double x0, double x1, double A,
 }
 
 // Position and owner of every target: collocation points, then ends.
-static void place_targets(SbHpMesh *mesh, SbHpTables *tables) {
+static void place_targets(SbEhlMesh *mesh, SbEhlTables *tables) {
   int targets = mesh->rows;
   for (int i = 0; i < mesh->count; i++) {
-    SbHpElement *e = &mesh->element[i];
-    const SbHpTable *t = sb_hp_table(tables, e->degree);
+    SbEhlElement *e = &mesh->element[i];
+    const SbEhlTable *t = sb_ehl_table(tables, e->degree);
     int rule = e->points - e->degree;
     for (int k = 0; k < e->points; k++) {
       double r = t->gauss[rule][k];
       int row = e->first_row + k;
-      double stretch = sb_hp_stretch(e, r);
-      mesh->x[row] = sb_hp_position(e, r);
+      double stretch = sb_ehl_stretch(e, r);
+      mesh->x[row] = sb_ehl_position(e, r);
       mesh->owner[row] = i;
       mesh->weight[row] = t->weight[rule][k] * stretch;
       // Pressure and its slope from the nodes, the factor s^4 differentiated with them.
@@ -480,7 +480,7 @@ static void place_targets(SbHpMesh *mesh, SbHpTables *tables) {
       double f_slope = 0.0;
       if (is_infinite(e)) {
         double s = inverse_coordinate(e, r);
-        f_slope = (e->map == SB_HP_INLET ? 2.0 : -2.0) * s * s * s;
+        f_slope = (e->map == SB_EHL_INLET ? 2.0 : -2.0) * s * s * s;
       }
       double *value = mesh->value + (size_t)row * STRIDE;
       double *slope = mesh->slope + (size_t)row * STRIDE;
@@ -492,7 +492,7 @@ static void place_targets(SbHpMesh *mesh, SbHpTables *tables) {
       mesh->slope_known[row] = 0.0;
       if (is_infinite(e)) {
         mesh->slope_known[row] = -e->far_pressure * slope[touching_node(e)];
-      } else if (e->map == SB_HP_COSINE) {
+      } else if (e->map == SB_EHL_COSINE) {
         double known = e->h * cos(e->m + e->h * r);
         for (int j = 0; j <= e->degree; j++) {
           known -= t->slope[rule][k][j] * e->node_sine[j];
@@ -502,7 +502,7 @@ static void place_targets(SbHpMesh *mesh, SbHpTables *tables) {
     }
     // Ends: the left one is the right one of the element before, unless apart or first.
     e->left_target = -1;
-    if (e->map != SB_HP_INLET) {
+    if (e->map != SB_EHL_INLET) {
       if (i > 0 && !e->apart) {
         e->left_target = mesh->element[i - 1].right_target;
       } else {
@@ -512,7 +512,7 @@ static void place_targets(SbHpMesh *mesh, SbHpTables *tables) {
       }
     }
     e->right_target = -1;
-    if (e->map != SB_HP_OUTLET) {
+    if (e->map != SB_EHL_OUTLET) {
       e->right_target = targets;
       mesh->owner[targets] = i;
       mesh->x[targets++] = e->x1;
@@ -526,15 +526,15 @@ static double half_line(double x) {
   return x == 0.0 ? 0.0 : x * (log(fabs(x)) - 1.0);
 }
 
-void sb_hp_mesh_build(SbHpMesh *mesh, SbHpTables *tables) {
+void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables) {
   for (int i = 0; i < mesh->count; i++) {
     prepare(&mesh->element[i], tables);
   }
   place_targets(mesh, tables);
-  const SbHpElement *first = &mesh->element[0];
-  const SbHpElement *last = &mesh->element[mesh->count - 1];
-  mesh->left_end = first->map == SB_HP_INLET ? first->x1 : first->x0;
-  mesh->right_end = last->map == SB_HP_OUTLET ? last->x0 : last->x1;
+  const SbEhlElement *first = &mesh->element[0];
+  const SbEhlElement *last = &mesh->element[mesh->count - 1];
+  mesh->left_end = first->map == SB_EHL_INLET ? first->x1 : first->x0;
+  mesh->right_end = last->map == SB_EHL_OUTLET ? last->x0 : last->x1;
   double in = mesh->inlet_pressure / M_PI;
   double out = mesh->outlet_pressure / M_PI;
 
@@ -545,7 +545,7 @@ void sb_hp_mesh_build(SbHpMesh *mesh, SbHpTables *tables) {
     double known = 0.0;
     memset(gap, 0, (size_t)mesh->dofs * sizeof *gap);
     for (int k = 0; k < mesh->count; k++) {
-      const SbHpElement *e = &mesh->element[k];
+      const SbEhlElement *e = &mesh->element[k];
       double row[COLUMNS] = {0};
       if (is_infinite(e)) {
         row_infinite(row, e, X);
@@ -564,7 +564,7 @@ void sb_hp_mesh_build(SbHpMesh *mesh, SbHpTables *tables) {
   memset(mesh->load, 0, (size_t)mesh->dofs * sizeof(double));
   mesh->load_known = 0.0;
   for (int k = 0; k < mesh->count; k++) {
-    const SbHpElement *e = &mesh->element[k];
+    const SbEhlElement *e = &mesh->element[k];
     for (int j = 0; j <= e->degree; j++) {
       mesh->load[e->first_dof + j] += e->integral[j];
     }
@@ -572,10 +572,10 @@ void sb_hp_mesh_build(SbHpMesh *mesh, SbHpTables *tables) {
   }
 }
 
-double sb_hp_pressure(const SbHpMesh *mesh, SbHpTables *tables, const SbHpElement *e,
-                      const double *nodal, double r) {
-  const SbHpTable *t = sb_hp_table(tables, e->degree);
-  double basis[SB_HP_DEGREE_MAX + 1];
+double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlElement *e,
+                       const double *nodal, double r) {
+  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+  double basis[SB_EHL_DEGREE_MAX + 1];
   sb_barycentric_basis(basis, r, t->node, t->bary, e->degree + 1);
   double sum = 0.0;
   for (int k = 0; k <= e->degree; k++) {
@@ -584,12 +584,12 @@ double sb_hp_pressure(const SbHpMesh *mesh, SbHpTables *tables, const SbHpElemen
   return e->far_pressure + factor(e, r) * sum + known_part(e, basis, r);
 }
 
-double sb_hp_gap(const SbHpMesh *mesh, SbHpTables *tables, int element, const double *target_gap,
-                 double r) {
-  const SbHpElement *e = &mesh->element[element];
-  const SbHpTable *t = sb_hp_table(tables, e->degree);
-  int kind = e->map == SB_HP_INLET ? 1 : e->map == SB_HP_OUTLET ? 2 : 0;
-  double basis[SB_HP_DEGREE_MAX + 2];
+double sb_ehl_gap(const SbEhlMesh *mesh, SbEhlTables *tables, int element, const double *target_gap,
+                  double r) {
+  const SbEhlElement *e = &mesh->element[element];
+  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+  int kind = e->map == SB_EHL_INLET ? 1 : e->map == SB_EHL_OUTLET ? 2 : 0;
+  double basis[SB_EHL_DEGREE_MAX + 2];
   sb_barycentric_basis(basis, r, t->gap_node[kind], t->gap_bary[kind], e->degree + 2);
   double sum = 0.0;
   for (int k = 0; k < e->degree + 2; k++) {

@@ -1,4 +1,4 @@
-// Newton's method of the mixed-film solver; equations in mixed.h.
+// Newton's method of the mixed-film solver; equations in ehl_rough.h.
 //
 // Unknowns of the linear system are the total pressures, H0 and kappa; gap, parameter, slope and
 // film pressure follow from them at each node:
@@ -10,7 +10,7 @@
 // so that every step leaves the elastic equation, load and flux linear. The rows are Reynolds'
 // equation from node to node, or p = 0 in the cavity, the end pressures and the load. A step is
 // shortened only where the gap would fall by more than the rough law's parameter can follow.
-#include "engine/film/mixed.h"
+#include "engine/film/ehl_rough.h"
 
 #include "engine/surface/van_der_waals.h"
 
@@ -25,16 +25,16 @@ enum { ITERATIONS_MAX = 40 };
 static const double REUSE = 0.1;
 static const double CLOSE = 0.03;
 
-void sb_mixed_point(SbMixedPoint *out, const SbMixedCase *c, double t) {
+void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlRoughCase *c, double t) {
   if (c->law != NULL) {
     SbRoughPoint p;
     sb_rough_law_at(&p, c->law, t);
-    *out = (SbMixedPoint){.h = p.gap / c->film,
-                          .h_t = p.gap_slope / c->film,
-                          .asperity = p.pressure / c->pressure,
-                          .solid = p.pressure / c->pressure,
-                          .solid_t = p.pressure_slope / c->pressure,
-                          .share = p.share};
+    *out = (SbEhlRoughPoint){.h = p.gap / c->film,
+                             .h_t = p.gap_slope / c->film,
+                             .asperity = p.pressure / c->pressure,
+                             .solid = p.pressure / c->pressure,
+                             .solid_t = p.pressure_slope / c->pressure,
+                             .share = p.share};
     if (c->hamaker > 0) {
       double h = fmax(out->h, c->cutoff);
       double pull = c->hamaker / (h * h * h);
@@ -56,7 +56,7 @@ void sb_mixed_point(SbMixedPoint *out, const SbMixedCase *c, double t) {
   }
 }
 
-double sb_mixed_of_gap(const SbMixedCase *c, double gap) {
+double sb_ehl_rough_of_gap(const SbEhlRoughCase *c, double gap) {
   if (c->law != NULL) {
     return sb_rough_law_of_gap(c->law, gap * c->film);
   }
@@ -64,8 +64,8 @@ double sb_mixed_of_gap(const SbMixedCase *c, double gap) {
   return t >= 1 ? t : 1 + log(t);
 }
 
-double sb_mixed_film_end(const SbMixedMesh *mesh, const SbMixedRule *rule, const double *s, int e,
-                         int j) {
+double sb_ehl_rough_film_end(const SbEhlRoughMesh *mesh, const SbEhlRoughRule *rule,
+                             const double *s, int e, int j) {
   int i = e * rule->degree + j;
   double low = rule->node[j], high = rule->node[j + 1];
   if (!(s[i] < 0)) {
@@ -76,7 +76,7 @@ double sb_mixed_film_end(const SbMixedMesh *mesh, const SbMixedRule *rule, const
   }
   for (int k = 0; k < 30; k++) {
     double middle = 0.5 * (low + high);
-    if (sb_mixed_value(mesh, rule, s, e, middle) < 0) {
+    if (sb_ehl_rough_value(mesh, rule, s, e, middle) < 0) {
       low = middle;
     } else {
       high = middle;
@@ -87,14 +87,14 @@ double sb_mixed_film_end(const SbMixedMesh *mesh, const SbMixedRule *rule, const
 
 // One Newton step's data at the nodes.
 typedef struct {
-  double p[SB_MIXED_NODES_MAX], k[SB_MIXED_NODES_MAX], r[SB_MIXED_NODES_MAX];
+  double p[SB_EHL_ROUGH_NODES_MAX], k[SB_EHL_ROUGH_NODES_MAX], r[SB_EHL_ROUGH_NODES_MAX];
   // ds = s0 + s_h dh + s_p dp + s_kappa dkappa
-  double s0[SB_MIXED_NODES_MAX], s_h[SB_MIXED_NODES_MAX], s_p[SB_MIXED_NODES_MAX];
-  double s_kappa[SB_MIXED_NODES_MAX];
-  double step[SB_MIXED_NODES_MAX]; // p[i+1] - p[i] - integral of s
+  double s0[SB_EHL_ROUGH_NODES_MAX], s_h[SB_EHL_ROUGH_NODES_MAX], s_p[SB_EHL_ROUGH_NODES_MAX];
+  double s_kappa[SB_EHL_ROUGH_NODES_MAX];
+  double step[SB_EHL_ROUGH_NODES_MAX]; // p[i+1] - p[i] - integral of s
 } Local;
 
-static void elastic_gaps(double *out, const SbMixedMesh *mesh, const SbMixedState *state) {
+static void elastic_gaps(double *out, const SbEhlRoughMesh *mesh, const SbEhlRoughState *state) {
   for (int i = 0; i < mesh->nodes; i++) {
     out[i] = state->H0 + mesh->known[i];
   }
@@ -102,11 +102,11 @@ static void elastic_gaps(double *out, const SbMixedMesh *mesh, const SbMixedStat
               state->q, 1, 1.0, out, 1);
 }
 
-static void localise(Local *l, SbMixedSolver *solver, const SbMixedMesh *mesh,
-                     const SbMixedState *state, const SbMixedCase *c) {
+static void localise(Local *l, SbEhlRoughSolver *solver, const SbEhlRoughMesh *mesh,
+                     const SbEhlRoughState *state, const SbEhlRoughCase *c) {
   for (int i = 0; i < mesh->nodes; i++) {
-    SbMixedPoint *at = &solver->point[i];
-    sb_mixed_point(at, c, state->t[i]);
+    SbEhlRoughPoint *at = &solver->point[i];
+    sb_ehl_rough_point(at, c, state->t[i]);
     l->p[i] = state->q[i] - at->solid;
     l->k[i] = -at->solid_t / at->h_t;
     l->r[i] = solver->gap[i] - at->h;
@@ -122,8 +122,8 @@ static void localise(Local *l, SbMixedSolver *solver, const SbMixedMesh *mesh,
 }
 
 // What Reynolds' equation lacks from node to node.
-static void residuals(Local *l, const SbMixedMesh *mesh, const SbMixedRule *rule,
-                      const SbMixedState *state) {
+static void residuals(Local *l, const SbEhlRoughMesh *mesh, const SbEhlRoughRule *rule,
+                      const SbEhlRoughState *state) {
   for (int e = 0; e < mesh->elements; e++) {
     double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
     for (int j = 0; j < rule->degree; j++) {
@@ -138,8 +138,9 @@ static void residuals(Local *l, const SbMixedMesh *mesh, const SbMixedRule *rule
 }
 
 // Chooses between full film and cavity at every node; how many changed.
-static int choose(const Local *l, const SbMixedMesh *mesh, const SbMixedRule *rule,
-                  SbMixedState *state, const SbMixedPoint *point, bool flooded, double doubt) {
+static int choose(const Local *l, const SbEhlRoughMesh *mesh, const SbEhlRoughRule *rule,
+                  SbEhlRoughState *state, const SbEhlRoughPoint *point, bool flooded,
+                  double doubt) {
   int changed = 0;
   // Against the flow, as the end of the film depends on what lies behind.
   state->broken[mesh->nodes - 1] = state->broken[mesh->nodes - 2];
@@ -147,9 +148,9 @@ static int choose(const Local *l, const SbMixedMesh *mesh, const SbMixedRule *ru
     double residual = l->step[i];
     if (state->broken[i + 1] && state->s[i] < 0 && state->s[i + 1] > 0) {
       int e = i / rule->degree, j = i % rule->degree;
-      double end = sb_mixed_film_end(mesh, rule, state->s, e, j);
-      double weight[SB_MIXED_DEGREE_MAX + 1];
-      sb_mixed_partial(weight, rule, j, end);
+      double end = sb_ehl_rough_film_end(mesh, rule, state->s, e, j);
+      double weight[SB_EHL_ROUGH_DEGREE_MAX + 1];
+      sb_ehl_rough_partial(weight, rule, j, end);
       double sum = 0;
       for (int k = 0; k <= rule->degree; k++) {
         sum += weight[k] * state->s[e * rule->degree + k];
@@ -167,8 +168,8 @@ static int choose(const Local *l, const SbMixedMesh *mesh, const SbMixedRule *ru
 }
 
 // Adds coefficient times dh (and dp) of node n to a row (NULL: to the constant only).
-static void add_node(double *row, double *constant, const SbMixedMesh *mesh, const Local *l, int n,
-                     double by_h, double by_p) {
+static void add_node(double *row, double *constant, const SbEhlRoughMesh *mesh, const Local *l,
+                     int n, double by_h, double by_p) {
   double gap = by_h + by_p * l->k[n];
   *constant += gap * l->r[n];
   if (row == NULL) {
@@ -188,9 +189,9 @@ static double *row_of(double *matrix, int order, int i) {
 
 // Right-hand side and, if `matrix` is not NULL, the matrix, whose rows get one size each; without
 // it the right-hand side is for the matrix of an earlier call.
-static void assemble(double *matrix, double *right, double *row_scale, const SbMixedMesh *mesh,
-                     const SbMixedRule *rule, const SbMixedState *state, const SbMixedCase *c,
-                     const Local *l) {
+static void assemble(double *matrix, double *right, double *row_scale, const SbEhlRoughMesh *mesh,
+                     const SbEhlRoughRule *rule, const SbEhlRoughState *state,
+                     const SbEhlRoughCase *c, const Local *l) {
   int nodes = mesh->nodes;
   int order = nodes + 2;
   int d = rule->degree;
@@ -216,15 +217,15 @@ static void assemble(double *matrix, double *right, double *row_scale, const SbM
     double constant = 0;
     if (state->broken[i]) {
       add_node(row, &constant, mesh, l, i, 0, 1);
-      right[i + 1] = (c->sealed ? sb_mixed_ends(c, mesh->x[i]) : 0) - l->p[i] - constant;
+      right[i + 1] = (c->sealed ? sb_ehl_rough_ends(c, mesh->x[i]) : 0) - l->p[i] - constant;
       continue;
     }
     int e = i / d, j = i % d;
     double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
-    double weight[SB_MIXED_DEGREE_MAX + 1];
+    double weight[SB_EHL_ROUGH_DEGREE_MAX + 1];
     memcpy(weight, rule->step[j], sizeof weight);
     if (state->broken[i + 1]) {
-      sb_mixed_partial(weight, rule, j, sb_mixed_film_end(mesh, rule, state->s, e, j));
+      sb_ehl_rough_partial(weight, rule, j, sb_ehl_rough_film_end(mesh, rule, state->s, e, j));
     }
     double residual = l->p[i + 1] - l->p[i];
     for (int k = 0; k <= d; k++) {
@@ -249,7 +250,7 @@ static void assemble(double *matrix, double *right, double *row_scale, const SbM
   if (row != NULL) {
     memcpy(row, mesh->load, (size_t)nodes * sizeof *row);
   }
-  right[nodes + 1] = -sb_mixed_load(mesh, state->q);
+  right[nodes + 1] = -sb_ehl_rough_load(mesh, state->q);
 
   for (int i = 0; i < order; i++) {
     if (matrix != NULL) {
@@ -262,19 +263,19 @@ static void assemble(double *matrix, double *right, double *row_scale, const SbM
   }
 }
 
-SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
-                         const SbMixedCase *c, const SbFilmProblem *callback) {
-  SbMixedMesh *mesh = &solver->mesh[which];
-  SbMixedState *state = &solver->state[which];
-  const SbMixedRule *rule = sb_mixed_rule(solver, mesh->degree);
+SbStatus sb_ehl_rough_newton(SbEhlRoughTrace *trace, SbEhlRoughSolver *solver, int which,
+                             const SbEhlRoughCase *c, const SbFilmProblem *callback) {
+  SbEhlRoughMesh *mesh = &solver->mesh[which];
+  SbEhlRoughState *state = &solver->state[which];
+  const SbEhlRoughRule *rule = sb_ehl_rough_rule(solver, mesh->degree);
   int nodes = mesh->nodes;
   int order = nodes + 2;
   Local local;
   double before = INFINITY;
   int settled = 0;
   bool factored = false; // the matrix holds factors that may serve again
-  double row_scale[SB_MIXED_NODES_MAX + 2];
-  *trace = (SbMixedTrace){.step = INFINITY};
+  double row_scale[SB_EHL_ROUGH_NODES_MAX + 2];
+  *trace = (SbEhlRoughTrace){.step = INFINITY};
   for (int iteration = 0; iteration < ITERATIONS_MAX; iteration++) {
     if (callback->cancelled != NULL && callback->cancelled(callback->cancelled_data)) {
       return SB_ERROR_CANCELLED;
@@ -315,7 +316,7 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
     double largest = 0, least = INFINITY;
     bool cut = false;
     for (int i = 0; i < nodes; i++) {
-      const SbMixedPoint *at = &solver->point[i];
+      const SbEhlRoughPoint *at = &solver->point[i];
       double dh = solver->gap[i];
       double dt = dh / at->h_t;
       if (!isfinite(dt)) {
@@ -325,10 +326,10 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
       state->s[i] +=
           local.s0[i] + local.s_h[i] * dh + local.s_p[i] * dp + local.s_kappa[i] * dkappa;
       double down = fmax(1.5, 0.8 * state->t[i]);
-      cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > SB_MIXED_CLOSED);
-      state->t[i] = dt > 0.5 ? sb_mixed_of_gap(c, at->h + dh) : state->t[i] + fmax(dt, -down);
+      cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > SB_EHL_ROUGH_CLOSED);
+      state->t[i] = dt > 0.5 ? sb_ehl_rough_of_gap(c, at->h + dh) : state->t[i] + fmax(dt, -down);
       state->q[i] += dq[i];
-      largest = fmax(largest, fmax(fabs(dh) / (at->h + SB_MIXED_CLOSED), fabs(dq[i])));
+      largest = fmax(largest, fmax(fabs(dh) / (at->h + SB_EHL_ROUGH_CLOSED), fabs(dq[i])));
       least = fmin(least, at->h);
     }
     state->H0 += dH0;
@@ -337,7 +338,7 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
 
     // Steps shrink quadratically; what is left at last is rounding: deflections of size one
     // against the gap.
-    double rounding = 1e-14 / (least + SB_MIXED_CLOSED);
+    double rounding = 1e-14 / (least + SB_EHL_ROUGH_CLOSED);
     bool stalled = largest < 100 * rounding && largest > 0.2 * before;
     if (!cut && (largest < fmax(1e-8, rounding) || stalled)) {
       settled++;

@@ -1,33 +1,33 @@
 // Elements and elastic kernel of the mixed-film solver.
 //
 // Element sizes grow with the distance from the contact's two edges, where the layers of the film
-// (lambda^0.4, layers.h) or the tail of the asperities (sigma^(2/3): the dry gap opens with the
+// (lambda^0.4, ehl_layers.h) or the tail of the asperities (sigma^(2/3): the dry gap opens with the
 // power 3/2) sit. The gap of a polynomial pressure under the logarithmic kernel is exact: with z
 // the target's coordinate in the element, integral of P_k(r) ln|z - r| = 2/(2k+1) (Q_(k+1) -
-// Q_(k-1))(z), Legendre functions of the second kind (as hp.c; here for all z, by their downward
-// recurrence away from the element). Far pressures and their tilt: docs/verification.md as in hp.c.
-// A fitted body's share of kernel and gap: fitted.c.
-#include "engine/film/mixed.h"
+// Q_(k-1))(z), Legendre functions of the second kind (as ehl_mesh.c; here for all z, by their
+// downward recurrence away from the element). Far pressures and their tilt: docs/verification.md as
+// in ehl_mesh.c. A fitted body's share of kernel and gap: ehl_fitted.c.
+#include "engine/film/ehl_rough.h"
 
 #include "engine/numeric/legendre.h"
 
 #include <math.h>
 #include <string.h>
 
-const SbMixedRule *sb_mixed_rule(SbMixedSolver *solver, int degree) {
-  SbMixedRule *rule = &solver->rule[degree];
+const SbEhlRoughRule *sb_ehl_rough_rule(SbEhlRoughSolver *solver, int degree) {
+  SbEhlRoughRule *rule = &solver->rule[degree];
   if (rule->degree == degree) {
     return rule;
   }
   rule->degree = degree;
   sb_legendre_lobatto(rule->node, degree);
   sb_barycentric_weights(rule->bary, rule->node, degree + 1);
-  double gauss[SB_MIXED_DEGREE_MAX + 1], weight[SB_MIXED_DEGREE_MAX + 1];
+  double gauss[SB_EHL_ROUGH_DEGREE_MAX + 1], weight[SB_EHL_ROUGH_DEGREE_MAX + 1];
   int points = degree + 1;
   sb_legendre_gauss(gauss, weight, points);
   memset(rule->project, 0, sizeof rule->project);
   for (int g = 0; g < points; g++) {
-    double basis[SB_MIXED_DEGREE_MAX + 1], mode[SB_MIXED_DEGREE_MAX + 1];
+    double basis[SB_EHL_ROUGH_DEGREE_MAX + 1], mode[SB_EHL_ROUGH_DEGREE_MAX + 1];
     sb_barycentric_basis(basis, gauss[g], rule->node, rule->bary, degree + 1);
     sb_legendre_values(mode, gauss[g], degree);
     for (int k = 0; k <= degree; k++) {
@@ -39,24 +39,24 @@ const SbMixedRule *sb_mixed_rule(SbMixedSolver *solver, int degree) {
   for (int i = 0; i <= degree; i++) {
     sb_barycentric_slope(rule->slope[i], rule->node[i], rule->node, rule->bary, degree + 1);
   }
-  for (int k = 1; k < SB_MIXED_DOWN; k++) {
+  for (int k = 1; k < SB_EHL_ROUGH_DOWN; k++) {
     rule->down[k][0] = (2.0 * k + 1) / k;
     rule->down[k][1] = (k + 1.0) / k;
   }
   for (int j = 0; j < degree; j++) {
-    sb_mixed_partial(rule->step[j], rule, j, rule->node[j + 1]);
+    sb_ehl_rough_partial(rule->step[j], rule, j, rule->node[j + 1]);
   }
   return rule;
 }
 
-void sb_mixed_partial(double *weight, const SbMixedRule *rule, int j, double r) {
-  double gauss[SB_MIXED_DEGREE_MAX], w[SB_MIXED_DEGREE_MAX];
+void sb_ehl_rough_partial(double *weight, const SbEhlRoughRule *rule, int j, double r) {
+  double gauss[SB_EHL_ROUGH_DEGREE_MAX], w[SB_EHL_ROUGH_DEGREE_MAX];
   int points = rule->degree / 2 + 1;
   sb_legendre_gauss(gauss, w, points);
   double from = rule->node[j];
   memset(weight, 0, (size_t)(rule->degree + 1) * sizeof *weight);
   for (int g = 0; g < points; g++) {
-    double basis[SB_MIXED_DEGREE_MAX + 1];
+    double basis[SB_EHL_ROUGH_DEGREE_MAX + 1];
     sb_barycentric_basis(basis, from + 0.5 * (r - from) * (1 + gauss[g]), rule->node, rule->bary,
                          rule->degree + 1);
     for (int k = 0; k <= rule->degree; k++) {
@@ -66,11 +66,11 @@ void sb_mixed_partial(double *weight, const SbMixedRule *rule, int j, double r) 
 }
 
 // out[k] = integral over [-1, 1] of P_k(r) ln|z - r|, k = 0 .. n.
-static void moments(double *out, const SbMixedRule *rule, double z, int n) {
+static void moments(double *out, const SbEhlRoughRule *rule, double z, int n) {
   double plus = log(fmax(fabs(z + 1), 1e-40));
   double minus = log(fmax(fabs(z - 1), 1e-40));
   out[0] = (z + 1) * plus - (z - 1) * minus - 2;
-  double Q[SB_MIXED_DOWN];
+  double Q[SB_EHL_ROUGH_DOWN];
   Q[0] = 0.5 * (plus - minus);
   if (fabs(z) < 1.2) {
     Q[1] = z * Q[0] - 1;
@@ -106,7 +106,7 @@ static double half_line(double x) {
   return x == 0 ? 0 : x * (log(fabs(x)) - 1);
 }
 
-static void build_kernel(SbMixedMesh *mesh, const SbMixedRule *rule) {
+static void build_kernel(SbEhlRoughMesh *mesh, const SbEhlRoughRule *rule) {
   int degree = rule->degree;
   int nodes = mesh->nodes;
   memset(mesh->load, 0, (size_t)nodes * sizeof(double));
@@ -124,7 +124,7 @@ static void build_kernel(SbMixedMesh *mesh, const SbMixedRule *rule) {
     for (int e = 0; e < mesh->elements; e++) {
       double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
       double z = (X - 0.5 * (mesh->edge[e] + mesh->edge[e + 1])) / half;
-      double moment[SB_MIXED_DEGREE_MAX + 1];
+      double moment[SB_EHL_ROUGH_DEGREE_MAX + 1];
       moments(moment, rule, z, degree);
       moment[0] += 2 * log(half);
       for (int j = 0; j <= degree; j++) {
@@ -140,7 +140,7 @@ static void build_kernel(SbMixedMesh *mesh, const SbMixedRule *rule) {
   }
 }
 
-double sb_mixed_load(const SbMixedMesh *mesh, const double *q) {
+double sb_ehl_rough_load(const SbEhlRoughMesh *mesh, const double *q) {
   double sum = -0.5 * M_PI + mesh->inlet * (mesh->edge[0] + mesh->shift) -
                mesh->outlet * (mesh->edge[mesh->elements] + mesh->shift);
   for (int i = 0; i < mesh->nodes; i++) {
@@ -167,7 +167,7 @@ static double dry_reach(double gap) {
 }
 
 // Width of what has to be resolved at the edges: of the film's layer, or of the asperities' tail.
-static double edge_width(const SbMixedCase *c, double layer) {
+static double edge_width(const SbEhlRoughCase *c, double layer) {
   double width = c->lambda > 0 ? layer : 0;
   if (c->law != NULL) {
     double sigma = c->law->surface.sigma / c->film;
@@ -218,11 +218,11 @@ static int march(double *edge, int room, const Feature *f, double to, double gro
   return n;
 }
 
-bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase *c,
-                   double fineness) {
+bool sb_ehl_rough_mesh(SbEhlRoughMesh *mesh, const SbEhlRoughRule *rule, const SbEhlRoughCase *c,
+                       double fineness) {
   static const double GROWTH = 0.75;
-  const SbLayers *l = &c->layers;
-  double thin = sb_layers_width(l);
+  const SbEhlLayers *l = &c->layers;
+  double thin = sb_ehl_layers_width(l);
   double unit = sqrt(1.44 + 0.52 * c->lambda); // length of the rigid wedge
   bool thick = c->lambda > 0 && thin > 1;
 
@@ -258,13 +258,13 @@ bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase
   // From every feature halfway to its neighbours.
   double grow = GROWTH / fineness;
   int n = 0;
-  double piece[SB_MIXED_ELEMENTS_MAX];
+  double piece[SB_EHL_ROUGH_ELEMENTS_MAX];
   mesh->edge[n++] = -left;
   for (int f = 0; f < features; f++) {
     const Feature *here = &feature[f];
     double from = mesh->edge[n - 1];
-    int count = march(piece, SB_MIXED_ELEMENTS_MAX, here, from, grow);
-    if (n + count >= SB_MIXED_ELEMENTS_MAX) {
+    int count = march(piece, SB_EHL_ROUGH_ELEMENTS_MAX, here, from, grow);
+    if (n + count >= SB_EHL_ROUGH_ELEMENTS_MAX) {
       return false;
     }
     for (int i = count - 2; i >= 0; i--) {
@@ -278,15 +278,15 @@ bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase
       double margin = 0.05 * (next->X - here->X);
       to = fmin(fmax(to, here->X + margin), next->X - margin);
     }
-    count = march(&mesh->edge[n], SB_MIXED_ELEMENTS_MAX - n, here, to, grow);
+    count = march(&mesh->edge[n], SB_EHL_ROUGH_ELEMENTS_MAX - n, here, to, grow);
     n += count;
-    if (n > SB_MIXED_ELEMENTS_MAX) {
+    if (n > SB_EHL_ROUGH_ELEMENTS_MAX) {
       return false;
     }
   }
   int elements = n - 1;
   int nodes = elements * rule->degree + 1;
-  if (nodes > SB_MIXED_NODES_MAX) {
+  if (nodes > SB_EHL_ROUGH_NODES_MAX) {
     return false;
   }
   mesh->nodes = nodes;
@@ -303,7 +303,7 @@ bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase
   mesh->shift = l->middle;
   build_kernel(mesh, rule);
   if (c->body.compliance != NULL) {
-    sb_mixed_fitted(mesh, rule, c);
+    sb_ehl_rough_fitted(mesh, rule, c);
   } else {
     for (int i = 0; i < nodes; i++) {
       mesh->known[i] += 0.5 * mesh->x[i] * mesh->x[i];
@@ -312,7 +312,7 @@ bool sb_mixed_mesh(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase
   return true;
 }
 
-int sb_mixed_locate(const SbMixedMesh *mesh, double X, double *r) {
+int sb_ehl_rough_locate(const SbEhlRoughMesh *mesh, double X, double *r) {
   int low = 0, high = mesh->elements;
   while (high - low > 1) {
     int middle = (low + high) / 2;
@@ -327,9 +327,9 @@ int sb_mixed_locate(const SbMixedMesh *mesh, double X, double *r) {
   return low;
 }
 
-double sb_mixed_value(const SbMixedMesh *mesh, const SbMixedRule *rule, const double *field, int e,
-                      double r) {
-  double basis[SB_MIXED_DEGREE_MAX + 1];
+double sb_ehl_rough_value(const SbEhlRoughMesh *mesh, const SbEhlRoughRule *rule,
+                          const double *field, int e, double r) {
+  double basis[SB_EHL_ROUGH_DEGREE_MAX + 1];
   sb_barycentric_basis(basis, r, rule->node, rule->bary, rule->degree + 1);
   double sum = 0;
   for (int k = 0; k <= rule->degree; k++) {

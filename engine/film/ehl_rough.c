@@ -1,9 +1,10 @@
-// Film and asperities together: levels of degree, error estimate, results. Equations in mixed.h.
+// Film and asperities together: levels of degree, error estimate, results. Equations in
+// ehl_rough.h.
 //
 // A cold solve starts from Hertz's pressure under the dry gap, opened by the film of the layers
-// (layers.c) and by the asperities, on elements of degree 4; degrees 6 and 8 follow from it, and
-// the change between two levels estimates the error. Where Newton's method does not take the start,
-// the dry rough contact is solved first and the speed is raised from there.
+// (ehl_layers.c) and by the asperities, on elements of degree 4; degrees 6 and 8 follow from it,
+// and the change between two levels estimates the error. Where Newton's method does not take the
+// start, the dry rough contact is solved first and the speed is raised from there.
 //
 // Friction from the solved split, per length of seal: over the real area A_a (share times length)
 // tau_0 A_a + m W_a, W_a what the asperities carry (thesis eq. 5.14); over the rest, eta u / h of
@@ -11,7 +12,7 @@
 // the part theta = flux film / h of the length, in full-height streamers that the wall shears:
 // theta eta u / h. Validity: mean-gap Reynolds without flow factors (isotropic roughness; factors
 // are near 1 above h = 2 sigma), and the ranges of the rough law.
-#include "engine/film/mixed.h"
+#include "engine/film/ehl_rough.h"
 
 #include "engine/numeric/legendre.h"
 #include "engine/surface/van_der_waals.h"
@@ -31,12 +32,12 @@ static double seconds(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-SbMixedSolver *sb_mixed_create(void) {
-  SbMixedSolver *solver = calloc(1, sizeof *solver);
+SbEhlRoughSolver *sb_ehl_rough_create(void) {
+  SbEhlRoughSolver *solver = calloc(1, sizeof *solver);
   if (solver == NULL) {
     return NULL;
   }
-  size_t order = SB_MIXED_NODES_MAX + 2;
+  size_t order = SB_EHL_ROUGH_NODES_MAX + 2;
   solver->matrix = malloc(order * order * sizeof(double));
   solver->right = malloc(order * sizeof(double));
   solver->pivot = malloc(order * sizeof(int));
@@ -45,13 +46,13 @@ SbMixedSolver *sb_mixed_create(void) {
   }
   if (solver->matrix == NULL || solver->right == NULL || solver->pivot == NULL ||
       solver->mesh[0].kernel == NULL || solver->mesh[1].kernel == NULL) {
-    sb_mixed_destroy(solver);
+    sb_ehl_rough_destroy(solver);
     return NULL;
   }
   return solver;
 }
 
-void sb_mixed_destroy(SbMixedSolver *solver) {
+void sb_ehl_rough_destroy(SbEhlRoughSolver *solver) {
   if (solver != NULL) {
     free(solver->matrix);
     free(solver->right);
@@ -67,13 +68,13 @@ void sb_mixed_destroy(SbMixedSolver *solver) {
 // Flux film of a rough contact: inside, the fluid carries what Hertz's pressure has above p_a(h);
 // at the mouth, where the two meet, its slope is the largest that Reynolds allows, (4/27) lambda /
 // h^2 (as in Blok's inverse film). Blended with the smooth film. `mouth` is where they meet.
-static double flux_guess(double *mouth, const SbMixedCase *c) {
-  double smooth = c->lambda > 0 ? sb_layers_flux(&c->layers) : 0;
+static double flux_guess(double *mouth, const SbEhlRoughCase *c) {
+  double smooth = c->lambda > 0 ? sb_ehl_layers_flux(&c->layers) : 0;
   *mouth = 1;
   if (c->law == NULL || !(c->lambda > 0)) {
     return smooth;
   }
-  double slope = sb_layers_inlet_slope(&c->layers);
+  double slope = sb_ehl_layers_inlet_slope(&c->layers);
   SbRoughPoint at;
   sb_rough_law_at(&at, c->law, sb_rough_law_of_pressure(c->law, 0.999999 * c->pressure));
   double low = log(at.gap / c->film), high = low + 40;
@@ -95,31 +96,31 @@ static double flux_guess(double *mouth, const SbMixedCase *c) {
   return flux;
 }
 
-double sb_mixed_ends(const SbMixedCase *c, double X) {
+double sb_ehl_rough_ends(const SbEhlRoughCase *c, double X) {
   double step = asin(fmin(fmax(X, -1), 1)) / M_PI;
   return c->layers.inlet * (0.5 - step) + c->layers.outlet * (0.5 + step);
 }
 
-void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c) {
-  const SbMixedMesh *mesh = &solver->mesh[which];
-  SbMixedState *state = &solver->state[which];
-  const SbMixedRule *rule = sb_mixed_rule(solver, mesh->degree);
+void sb_ehl_rough_guess(SbEhlRoughSolver *solver, int which, const SbEhlRoughCase *c) {
+  const SbEhlRoughMesh *mesh = &solver->mesh[which];
+  SbEhlRoughState *state = &solver->state[which];
+  const SbEhlRoughRule *rule = sb_ehl_rough_rule(solver, mesh->degree);
   double film =
       fmin(c->flux, isfinite(c->supply) && c->lambda > 0 ? c->supply / c->lambda : c->flux);
-  double width = sb_layers_width(&c->layers);
+  double width = sb_ehl_layers_width(&c->layers);
   double floor = 0.02;
   // A film hardly thickened by asperities has the smooth one's layers.
   bool layered = c->lambda > 0 && width < 0.8 && !isfinite(c->supply) &&
-                 film < 1.2 * sb_layers_flux(&c->layers);
+                 film < 1.2 * sb_ehl_layers_flux(&c->layers);
   for (int i = 0; i < mesh->nodes; i++) {
     double X = mesh->x[i];
-    double q = sb_layers_dry_pressure(&c->layers, X);
+    double q = sb_ehl_layers_dry_pressure(&c->layers, X);
     double dry = sb_film_dry_gap(X);
-    double ambient = sb_mixed_ends(c, X);
+    double ambient = sb_ehl_rough_ends(c, X);
     double fluid = film > 0 ? film * (1 + 1.2 * exp(-fabs(X + 1) / width)) : 0;
     if (layered) {
       double h;
-      sb_layers_shape(&q, &h, &c->layers, film, X);
+      sb_ehl_layers_shape(&q, &h, &c->layers, film, X);
       fluid = fmax(h - dry, 0.5 * film);
     }
     double rough = 0;
@@ -131,23 +132,23 @@ void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c) {
     }
     double lift = pow(pow(fluid, 6) + pow(rough, 6), 1 / 6.0);
     state->q[i] = q;
-    state->t[i] = fmax(sb_mixed_of_gap(c, lift + dry), -3);
+    state->t[i] = fmax(sb_ehl_rough_of_gap(c, lift + dry), -3);
   }
   // Flow: by the film, and by the end pressures through the gap (Poiseuille).
   double resistance = 0;
   for (int i = 1; i < mesh->nodes; i++) {
-    SbMixedPoint at;
-    sb_mixed_point(&at, c, 0.5 * (state->t[i] + state->t[i - 1]));
+    SbEhlRoughPoint at;
+    sb_ehl_rough_point(&at, c, 0.5 * (state->t[i] + state->t[i - 1]));
     resistance += (mesh->x[i] - mesh->x[i - 1]) / (at.h * at.h * at.h);
   }
   state->kappa = isfinite(c->supply)
                      ? c->supply
                      : c->lambda * film + (c->layers.inlet - c->layers.outlet) / resistance;
   // Film pressure that the guess leaves, for the slopes; H0 follows from the first step.
-  double p[SB_MIXED_NODES_MAX];
+  double p[SB_EHL_ROUGH_NODES_MAX];
   for (int i = 0; i < mesh->nodes; i++) {
-    SbMixedPoint at;
-    sb_mixed_point(&at, c, state->t[i]);
+    SbEhlRoughPoint at;
+    sb_ehl_rough_point(&at, c, state->t[i]);
     p[i] = state->q[i] - at.solid;
     state->broken[i] = c->sealed || (c->layers.outlet <= 0 && c->lambda > 0 &&
                                      mesh->x[i] > c->mouth && c->lambda * at.h > state->kappa);
@@ -165,18 +166,18 @@ void sb_mixed_guess(SbMixedSolver *solver, int which, const SbMixedCase *c) {
   state->H0 = 0;
 }
 
-void sb_mixed_resample(SbMixedSolver *solver, int from, int to) {
-  const SbMixedMesh *a = &solver->mesh[from];
-  const SbMixedMesh *b = &solver->mesh[to];
-  const SbMixedState *old = &solver->state[from];
-  SbMixedState *new = &solver->state[to];
-  const SbMixedRule *rule = sb_mixed_rule(solver, a->degree);
+void sb_ehl_rough_resample(SbEhlRoughSolver *solver, int from, int to) {
+  const SbEhlRoughMesh *a = &solver->mesh[from];
+  const SbEhlRoughMesh *b = &solver->mesh[to];
+  const SbEhlRoughState *old = &solver->state[from];
+  SbEhlRoughState *new = &solver->state[to];
+  const SbEhlRoughRule *rule = sb_ehl_rough_rule(solver, a->degree);
   for (int i = 0; i < b->nodes; i++) {
     double X = b->x[i], r;
-    int e = sb_mixed_locate(a, X, &r);
-    new->q[i] = sb_mixed_value(a, rule, old->q, e, r);
-    new->t[i] = sb_mixed_value(a, rule, old->t, e, r);
-    new->s[i] = sb_mixed_value(a, rule, old->s, e, r);
+    int e = sb_ehl_rough_locate(a, X, &r);
+    new->q[i] = sb_ehl_rough_value(a, rule, old->q, e, r);
+    new->t[i] = sb_ehl_rough_value(a, rule, old->t, e, r);
+    new->s[i] = sb_ehl_rough_value(a, rule, old->s, e, r);
     // Overshoot of the polynomials is cut to the range of the nodes beside.
     int k = 0;
     while (k < a->degree - 1 && r > rule->node[k + 1]) {
@@ -194,10 +195,10 @@ void sb_mixed_resample(SbMixedSolver *solver, int from, int to) {
 
 // ---------------------------------------------------------------- solving
 
-static SbStatus attempt(SbMixedSolver *solver, int which, const SbMixedCase *c,
+static SbStatus attempt(SbEhlRoughSolver *solver, int which, const SbEhlRoughCase *c,
                         SbFilmSolverInfo *info, const SbFilmProblem *problem) {
-  SbMixedTrace trace;
-  SbStatus status = sb_mixed_newton(&trace, solver, which, c, problem);
+  SbEhlRoughTrace trace;
+  SbStatus status = sb_ehl_rough_newton(&trace, solver, which, c, problem);
   info->newton_iterations += trace.iterations;
   info->continuation_steps++;
   info->residual = trace.step;
@@ -205,8 +206,8 @@ static SbStatus attempt(SbMixedSolver *solver, int which, const SbMixedCase *c,
 }
 
 // Adds `times` the difference of two states to a third: a straight line through them.
-static void extrapolate(SbMixedState *out, const SbMixedState *now, const SbMixedState *before,
-                        int nodes, double times) {
+static void extrapolate(SbEhlRoughState *out, const SbEhlRoughState *now,
+                        const SbEhlRoughState *before, int nodes, double times) {
   *out = *now;
   for (int i = 0; i < nodes; i++) {
     out->q[i] += times * (now->q[i] - before->q[i]);
@@ -217,11 +218,11 @@ static void extrapolate(SbMixedState *out, const SbMixedState *now, const SbMixe
 
 // Lambda from where a cold start succeeded down to that of the case, on the mesh of the case. The
 // slopes scale with lambda, the flux film is extrapolated by its logarithm.
-static SbStatus descend(SbMixedSolver *solver, const SbMixedCase *c, double from,
+static SbStatus descend(SbEhlRoughSolver *solver, const SbEhlRoughCase *c, double from,
                         SbFilmSolverInfo *info, const SbFilmProblem *problem) {
   enum { STEPS_MAX = 60 };
-  SbMixedState *state = &solver->state[0];
-  SbMixedState *now = &solver->saved[0], *before = &solver->saved[1];
+  SbEhlRoughState *state = &solver->state[0];
+  SbEhlRoughState *now = &solver->saved[0], *before = &solver->saved[1];
   *now = *state;
   double at = log(from), last = NAN;
   double step = log(4.0);
@@ -230,7 +231,7 @@ static SbStatus descend(SbMixedSolver *solver, const SbMixedCase *c, double from
     if (next - log(c->lambda) < 0.1 * step) {
       next = log(c->lambda);
     }
-    SbMixedCase part = *c;
+    SbEhlRoughCase part = *c;
     part.lambda = exp(next);
     double ratio = exp(next - at);
     double times = isfinite(last) ? (next - at) / (at - last) : 0;
@@ -260,18 +261,18 @@ static SbStatus descend(SbMixedSolver *solver, const SbMixedCase *c, double from
   return at > log(c->lambda) ? SB_ERROR_NOT_CONVERGED : SB_OK;
 }
 
-static SbStatus start(SbMixedSolver *solver, int *which, const SbMixedCase *c,
+static SbStatus start(SbEhlRoughSolver *solver, int *which, const SbEhlRoughCase *c,
                       SbFilmSolverInfo *info, const SbFilmProblem *problem) {
   enum { TRIALS = 12 };
-  const SbMixedRule *rule = sb_mixed_rule(solver, degree[0]);
+  const SbEhlRoughRule *rule = sb_ehl_rough_rule(solver, degree[0]);
   *which = 0;
-  if (!sb_mixed_mesh(&solver->mesh[0], rule, c, 1)) {
+  if (!sb_ehl_rough_mesh(&solver->mesh[0], rule, c, 1)) {
     return SB_ERROR_NOT_CONVERGED;
   }
-  SbMixedCase trial = *c;
+  SbEhlRoughCase trial = *c;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   for (int i = 0; i < TRIALS; i++) {
-    sb_mixed_guess(solver, 0, &trial);
+    sb_ehl_rough_guess(solver, 0, &trial);
     status = attempt(solver, 0, &trial, info, problem);
     if (status != SB_ERROR_NOT_CONVERGED || !(c->lambda > 0)) {
       break;
@@ -289,32 +290,33 @@ static SbStatus start(SbMixedSolver *solver, int *which, const SbMixedCase *c,
 // Follows the layers, then raises the degree until the error meets the tolerance. The last change
 // times a rate estimates the error left: inside the contact a level's own error is some hundredth
 // of its change; the least film, beside the kink that the rupture leaves, improves more slowly.
-static SbStatus refine(SbMixedReading *reading, int *levels, int *which, SbMixedSolver *solver,
-                       SbMixedCase *c, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+static SbStatus refine(SbEhlRoughResults *reading, int *levels, int *which,
+                       SbEhlRoughSolver *solver, SbEhlRoughCase *c, SbFilmSolverInfo *info,
+                       const SbFilmProblem *problem) {
   static const double RATE = 0.02, RATE_LEAST = 0.05, RATE_FLOW = 0.02;
   info->error_film_min = info->error_film_central = info->error_film_flux = 1;
-  bool follow = sb_mixed_fronts(c, solver, *which, &reading[0]);
+  bool follow = sb_ehl_rough_fronts(c, solver, *which, &reading[0]);
   for (int k = follow ? 0 : 1; k < DEGREES; k++) {
     int to = 1 - *which;
-    const SbMixedRule *rule = sb_mixed_rule(solver, degree[k]);
-    if (!sb_mixed_mesh(&solver->mesh[to], rule, c, 1)) {
+    const SbEhlRoughRule *rule = sb_ehl_rough_rule(solver, degree[k]);
+    if (!sb_ehl_rough_mesh(&solver->mesh[to], rule, c, 1)) {
       break;
     }
-    sb_mixed_resample(solver, *which, to);
+    sb_ehl_rough_resample(solver, *which, to);
     SbStatus status = attempt(solver, to, c, info, problem);
     if (status != SB_OK) {
       return status;
     }
     *which = to;
-    SbMixedReading *now = &reading[*levels];
-    const SbMixedReading *before = now - 1;
-    sb_mixed_read(now, solver, to, c);
-    sb_mixed_fronts(c, solver, to, now);
+    SbEhlRoughResults *now = &reading[*levels];
+    const SbEhlRoughResults *before = now - 1;
+    sb_ehl_rough_results(now, solver, to, c);
+    sb_ehl_rough_fronts(c, solver, to, now);
     ++*levels;
-    double rounding = 1e-15 / fmin(now->film_min + SB_MIXED_CLOSED, 1) + 3e-9;
+    double rounding = 1e-15 / fmin(now->film_min + SB_EHL_ROUGH_CLOSED, 1) + 3e-9;
     // A closed gap has no relative error; a flow that still moves, moves the films with it.
-    double least = fmax(now->film_min, SB_MIXED_CLOSED);
-    double central = fmax(now->film_central, SB_MIXED_CLOSED);
+    double least = fmax(now->film_min, SB_EHL_ROUGH_CLOSED);
+    double central = fmax(now->film_central, SB_EHL_ROUGH_CLOSED);
     double flow = before->film_flux != 0 ? fabs(now->film_flux / before->film_flux - 1) : 0;
     double base = rounding + RATE_FLOW * flow;
     info->error_film_min = RATE_LEAST * fabs(now->film_min - before->film_min) / least + base;
@@ -331,7 +333,7 @@ static SbStatus refine(SbMixedReading *reading, int *levels, int *which, SbMixed
 
 // Less film at the inlet than the contact would take: from the flooded solution by steps of the
 // flow, on a mesh laid out for the last of them.
-static SbStatus starve(SbMixedSolver *solver, int *which, SbMixedCase *c, double supply,
+static SbStatus starve(SbEhlRoughSolver *solver, int *which, SbEhlRoughCase *c, double supply,
                        SbFilmSolverInfo *info, const SbFilmProblem *problem) {
   enum { STEPS_MAX = 60 };
   double flow = solver->state[*which].kappa;
@@ -340,10 +342,10 @@ static SbStatus starve(SbMixedSolver *solver, int *which, SbMixedCase *c, double
   }
   c->layers.starvation = supply / flow;
   int to = 1 - *which;
-  if (!sb_mixed_mesh(&solver->mesh[to], sb_mixed_rule(solver, degree[0]), c, 1)) {
+  if (!sb_ehl_rough_mesh(&solver->mesh[to], sb_ehl_rough_rule(solver, degree[0]), c, 1)) {
     return SB_ERROR_NOT_CONVERGED;
   }
-  sb_mixed_resample(solver, *which, to);
+  sb_ehl_rough_resample(solver, *which, to);
   *which = to;
   solver->saved[0] = solver->state[to];
   double step = log(1.3);
@@ -371,8 +373,8 @@ static SbStatus starve(SbMixedSolver *solver, int *which, SbMixedCase *c, double
 }
 
 // All levels from a cold start.
-static SbStatus climb(SbMixedReading *reading, int *levels, int *which, SbMixedSolver *solver,
-                      SbMixedCase *c, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+static SbStatus climb(SbEhlRoughResults *reading, int *levels, int *which, SbEhlRoughSolver *solver,
+                      SbEhlRoughCase *c, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
   *levels = 0;
   c->front[0].X = c->front[1].X = INFINITY;
   double supply = c->supply;
@@ -385,7 +387,7 @@ static SbStatus climb(SbMixedReading *reading, int *levels, int *which, SbMixedS
   if (status != SB_OK) {
     return status;
   }
-  sb_mixed_read(&reading[0], solver, *which, c);
+  sb_ehl_rough_results(&reading[0], solver, *which, c);
   *levels = 1;
   return refine(reading, levels, which, solver, c, info, problem);
 }
@@ -414,11 +416,11 @@ static void warn(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   }
 }
 
-SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
-                        SbMixedSolver *solver, SbReport *report) {
+SbStatus sb_ehl_rough_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                            SbEhlRoughSolver *solver, SbReport *report) {
   double begin = seconds();
   SbFilmSolverInfo *info = &out->solver;
-  SbMixedCase c = {
+  SbEhlRoughCase c = {
       .lambda = scale->lambda,
       .supply = problem->inlet_film > 0 && problem->speed != 0
                     ? scale->lambda * 2 * problem->inlet_film / scale->film
@@ -435,7 +437,7 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
                  .middle = scale->middle,
                  .starvation = 1,
                  .meniscus = -INFINITY,
-                 .end = scale->outlet > 0 ? SB_LAYERS_FULL : SB_LAYERS_RUPTURE},
+                 .end = scale->outlet > 0 ? SB_EHL_FULL : SB_EHL_RUPTURE},
   };
   memcpy(c.layers.bow, scale->bow, sizeof c.layers.bow);
   if (problem->surface != SB_ROUGH_NONE) {
@@ -454,7 +456,7 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
     }
     c.law = &solver->law;
   }
-  c.smooth_gap = 0.01 * sb_layers_flux(&c.layers);
+  c.smooth_gap = 0.01 * sb_ehl_layers_flux(&c.layers);
   if (!(c.lambda > 0) && c.layers.inlet == c.layers.outlet) {
     c.sealed = true; // no flow at all
     c.supply = 0;
@@ -466,7 +468,7 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
                    "film: the inlet's pressure is below the rupture pressure: no liquid there");
   }
 
-  SbMixedReading reading[LEVELS];
+  SbEhlRoughResults reading[LEVELS];
   int which, levels;
   SbStatus status = climb(reading, &levels, &which, solver, &c, info, problem);
   if (status == SB_ERROR_NOT_CONVERGED && !(c.lambda > 0) && !c.sealed) {
@@ -486,7 +488,7 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
     return sb_fail(report, SB_ERROR_NOT_CONVERGED,
                    "film: Newton's method stopped at a step of %.2g", info->residual);
   }
-  const SbMixedReading *r = &reading[levels - 1];
+  const SbEhlRoughResults *r = &reading[levels - 1];
   double sign = problem->speed >= 0 ? 1 : -1;
   out->film_min = r->film_min * scale->film;
   out->film_central = r->film_central * scale->film;
@@ -522,6 +524,6 @@ SbStatus sb_mixed_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
   info->converged = status == SB_OK;
   warn(out, problem, scale);
   info->wall_s = seconds() - begin;
-  sb_mixed_profile(out, solver, which, &c, scale, problem->speed >= 0);
+  sb_ehl_rough_profile(out, solver, which, &c, scale, problem->speed >= 0);
   return status == SB_OK ? sb_succeed(report) : status;
 }

@@ -6,8 +6,8 @@
 // thin products; b and p_H are those of a Hertz contact of the dry contact's width and load, so
 // that the layers sit at its edges. The smooth film's shift is an unknown, the mixed film's mesh
 // stands still over the dry contact.
-#include "engine/film/mixed.h"
-#include "engine/film/reynolds.h"
+#include "engine/film/ehl.h"
+#include "engine/film/ehl_rough.h"
 
 #include "engine/numeric/legendre.h"
 
@@ -74,23 +74,23 @@ void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryC
   out->solver.residual = dry->residual;
 }
 
-enum { MODES = SB_COMPLIANCE_MODES, TARGETS_MAX = SB_HP_DOFS_MAX + SB_HP_ELEMENTS_MAX + 4 };
+enum { MODES = SB_COMPLIANCE_MODES, TARGETS_MAX = SB_EHL_DOFS_MAX + SB_EHL_ELEMENTS_MAX + 4 };
 
 // Moments of every nodal basis, and of the state's pressure with its derivative to the shift.
 typedef struct {
-  double basis[MODES][SB_HP_DOFS_MAX];
+  double basis[MODES][SB_EHL_DOFS_MAX];
   double state[MODES];
   double state_slope[MODES];
 } Moments;
 
-static void add_element(Moments *out, const SbHpElement *e, const SbReynoldsState *state,
+static void add_element(Moments *out, const SbEhlElement *e, const SbEhlState *state,
                         const SbFilmBody *body) {
   const double unit = body->side * body->half_width;
-  for (int q = 0; q < SB_HP_QUAD; q++) {
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
     const double at = e->fine_x[q];
-    const double X = e->map == SB_HP_INLET    ? e->A - e->B / (at * at)
-                     : e->map == SB_HP_OUTLET ? e->A + e->B / (at * at)
-                                              : at;
+    const double X = e->map == SB_EHL_INLET    ? e->A - e->B / (at * at)
+                     : e->map == SB_EHL_OUTLET ? e->A + e->B / (at * at)
+                                               : at;
     double value[MODES];
     double slope[MODES];
     sb_compliance_modes(body->compliance, unit * (X + state->shift), value, slope);
@@ -137,8 +137,8 @@ static double window_tilt(const SbFilmBody *body, double inlet, double outlet) {
   return -(inlet - outlet) / M_PI * log(0.5 * (c->right - c->left) / body->half_width);
 }
 
-void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpMesh *mesh,
-                        const SbReynoldsState *state, const SbReynoldsCase *problem) {
+void sb_ehl_fitted(double *kernel, double *gaps, double *slope, const SbEhlMesh *mesh,
+                   const SbEhlState *state, const SbEhlCase *problem) {
   const SbFilmBody *body = &problem->body;
   const SbSurfaceCompliance *c = body->compliance;
   const double unit = body->side * body->half_width;
@@ -155,13 +155,13 @@ void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpM
 
   // S times the moments, without the constant that H0 takes up anyway: it would only cost digits of
   // thin films. Of the basis, of the pressure, of its derivative.
-  double basis[MODES][SB_HP_DOFS_MAX];
+  double basis[MODES][SB_EHL_DOFS_MAX];
   double of_state[MODES] = {0};
   double of_slope[MODES] = {0};
   memset(basis[0], 0, sizeof basis[0]);
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, mesh->dofs, modes, factor,
-              &c->smooth[1][0], MODES, &m.basis[0][0], SB_HP_DOFS_MAX, 0.0, &basis[1][0],
-              SB_HP_DOFS_MAX);
+              &c->smooth[1][0], MODES, &m.basis[0][0], SB_EHL_DOFS_MAX, 0.0, &basis[1][0],
+              SB_EHL_DOFS_MAX);
   for (int k = 1; k < modes; k++) {
     for (int l = 0; l < modes; l++) {
       of_state[k] += factor * c->smooth[k][l] * m.state[l];
@@ -189,10 +189,11 @@ void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpM
               state->nodal, 1, 1.0, gaps, 1);
   memcpy(kernel, mesh->gap, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *kernel);
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, mesh->targets, mesh->dofs, modes, 1.0,
-              &value[0][0], MODES, &basis[0][0], SB_HP_DOFS_MAX, 1.0, kernel, mesh->dofs);
+              &value[0][0], MODES, &basis[0][0], SB_EHL_DOFS_MAX, 1.0, kernel, mesh->dofs);
 }
 
-void sb_mixed_fitted(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase *c) {
+void sb_ehl_rough_fitted(SbEhlRoughMesh *mesh, const SbEhlRoughRule *rule,
+                         const SbEhlRoughCase *c) {
   const SbFilmBody *body = &c->body;
   const SbSurfaceCompliance *surface = body->compliance;
   const double unit = body->side * body->half_width;
@@ -201,9 +202,9 @@ void sb_mixed_fitted(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCa
   const int nodes = mesh->nodes;
 
   // Moments of every nodal basis over the window, and of the ambient pressures.
-  double gauss[SB_HP_QUAD], weight[SB_HP_QUAD];
-  sb_legendre_gauss(gauss, weight, SB_HP_QUAD);
-  double moment[MODES][SB_MIXED_NODES_MAX];
+  double gauss[SB_EHL_QUAD], weight[SB_EHL_QUAD];
+  sb_legendre_gauss(gauss, weight, SB_EHL_QUAD);
+  double moment[MODES][SB_EHL_ROUGH_NODES_MAX];
   double ambient[MODES] = {0}, unused[MODES] = {0};
   memset(moment, 0, sizeof moment);
   const double ends[] = {surface->left / unit - mesh->shift, surface->right / unit - mesh->shift};
@@ -212,10 +213,10 @@ void sb_mixed_fitted(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCa
     const double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
     const double from = fmax((fmin(ends[0], ends[1]) - middle) / half, -1.0);
     const double to = fmin((fmax(ends[0], ends[1]) - middle) / half, 1.0);
-    for (int q = 0; q < SB_HP_QUAD && to > from; q++) {
+    for (int q = 0; q < SB_EHL_QUAD && to > from; q++) {
       const double r = 0.5 * (from + to) + 0.5 * (to - from) * gauss[q];
       const double w = 0.5 * (to - from) * half * weight[q];
-      double mode[MODES], value[SB_MIXED_DEGREE_MAX + 1];
+      double mode[MODES], value[SB_EHL_ROUGH_DEGREE_MAX + 1];
       sb_compliance_modes(surface, unit * (middle + half * r + mesh->shift), mode, NULL);
       sb_barycentric_basis(value, r, rule->node, rule->bary, rule->degree + 1);
       for (int k = 0; k < modes; k++) {
@@ -229,12 +230,12 @@ void sb_mixed_fitted(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCa
               mesh->edge[mesh->elements] + mesh->shift);
 
   // S times them without its constant, as for the smooth film.
-  double by_node[MODES][SB_MIXED_NODES_MAX];
+  double by_node[MODES][SB_EHL_ROUGH_NODES_MAX];
   double of_ambient[MODES] = {0};
   memset(by_node[0], 0, sizeof by_node[0]);
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, nodes, modes, factor,
-              &surface->smooth[1][0], MODES, &moment[0][0], SB_MIXED_NODES_MAX, 0.0, &by_node[1][0],
-              SB_MIXED_NODES_MAX);
+              &surface->smooth[1][0], MODES, &moment[0][0], SB_EHL_ROUGH_NODES_MAX, 0.0,
+              &by_node[1][0], SB_EHL_ROUGH_NODES_MAX);
   for (int k = 1; k < modes; k++) {
     of_ambient[k] = factor * cblas_ddot(modes, surface->smooth[k], 1, ambient, 1);
   }
@@ -246,7 +247,7 @@ void sb_mixed_fitted(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCa
     sb_compliance_modes(surface, x, mode, NULL);
     mesh->known[i] += sb_compliance_gap(surface, x, &slope) / body->film + tilt * mesh->x[i] +
                       cblas_ddot(modes, mode, 1, of_ambient, 1);
-    cblas_dgemv(CblasRowMajor, CblasTrans, modes, nodes, 1.0, &by_node[0][0], SB_MIXED_NODES_MAX,
-                mode, 1, 1.0, mesh->kernel + (size_t)i * (size_t)nodes, 1);
+    cblas_dgemv(CblasRowMajor, CblasTrans, modes, nodes, 1.0, &by_node[0][0],
+                SB_EHL_ROUGH_NODES_MAX, mode, 1, 1.0, mesh->kernel + (size_t)i * (size_t)nodes, 1);
   }
 }
