@@ -1,9 +1,16 @@
-// The coupled film solver: levels of degree, error estimate, results.
+// The coupled film solver: levels of degree, error estimate, results, with asperities or without.
 //
 // A cold solve starts from the layers' shapes (ehl_layers.c) on the lowest degree and climbs: each
 // level takes the one below as its guess, and the difference of two levels, reduced by the rate at
 // which differences shrink, estimates the error of the finer. It stops when the estimate meets the
 // tolerance. Validity: isoviscous half-plane (options aside), Hertz half-width below the radius.
+//
+// Friction with asperities, per length of seal: over the real area A_a (share times length) tau_0
+// A_a + m W_a, W_a what the asperities carry (thesis eq. 5.14); over the rest, eta u / h of Couette
+// and (h/2) p' of Poiseuille in the full film (eq. 5.16); in the cavity the liquid covers the part
+// theta = flux film / h of the length, in full-height streamers that the wall shears: theta eta u /
+// h. Validity: mean-gap Reynolds without flow factors (isotropic roughness; factors are near 1
+// above h = 2 sigma), and the ranges of the rough law.
 #include "engine/film/ehl.h"
 
 #include <math.h>
@@ -11,8 +18,8 @@
 #include <time.h>
 
 // Degrees of the levels; every tolerance takes at least the first three.
-static const int level_degree[] = {4, 6, 8, 10, 12, 14};
-enum { LEVELS = sizeof level_degree / sizeof level_degree[0], LEVELS_LEAST = 3 };
+static const int level_degree[SB_EHL_LEVELS_MAX] = {4, 6, 8, 10, 12, 14};
+enum { LEVELS = SB_EHL_LEVELS_MAX, LEVELS_LEAST = 3 };
 
 // Scaled residual where Newton's method ends, on a level that may be the last and on those before.
 static const double RESIDUAL = 1e-11;
@@ -80,14 +87,41 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   out->pressure_max = (r->pressure_max + c->fluid.rupture) * scale->pressure;
   out->position_film_min = sign * r->position_min * scale->half_width;
   out->position_rupture = sign * r->position_rupture * scale->half_width;
-  out->ruptured = c->layers.end != SB_EHL_FULL;
-  out->starved = isfinite(c->layers.meniscus);
-  out->friction_couette =
-      problem->viscosity * problem->speed * r->couette * scale->half_width / scale->film;
+  out->ruptured = r->ruptured;
+  double shear = problem->viscosity * problem->speed * scale->half_width / scale->film;
+  out->friction_couette = shear * r->couette;
+  out->friction_cavity = shear * r->cavity;
   out->friction_poiseuille = sign * r->poiseuille * scale->film * scale->pressure;
+  out->asperity_load = r->asperity_load * scale->half_width * scale->pressure;
+  out->asperity_share = out->asperity_load / problem->load;
+  out->real_area = r->real_area * scale->half_width;
+  out->real_area_share = r->central_share;
+  out->film_ratio = c->rough.law != NULL ? out->film_central / problem->sigma : 0.0;
+  out->friction_boundary = sign * (problem->shear_strength * out->real_area +
+                                   problem->load_coefficient * out->asperity_load);
   out->solver.load_error = r->load_error;
   out->solver.flux_error = r->flux_error;
-  if (out->ruptured && c->layers.end == SB_EHL_REFORM) {
+  if (c->rough.rows) {
+    out->starved = isfinite(c->rough.supply) && !c->rough.sealed;
+    if (problem->surface == SB_ROUGH_GREENWOOD_TRIPP && out->real_area_share > 0.3) {
+      out->valid = false;
+      sb_warn(&out->warnings, "real-area-large", "surface.gt_product",
+              "asperities touch on %.0f %% of the area: Greenwood and Tripp's asperities are no "
+              "longer independent; compare Persson's",
+              100 * out->real_area_share);
+    }
+    if (problem->speed != 0 && problem->surface != SB_ROUGH_NONE && out->film_ratio < 0.5 &&
+        out->asperity_share < 0.99) {
+      sb_warn(
+          &out->warnings, "film-flow-factors", "surface.sigma",
+          "the mean gap is %.2g of the roughness: the flow between touching asperities is taken "
+          "without flow factors or percolation",
+          out->film_ratio);
+    }
+    return;
+  }
+  out->starved = isfinite(c->layers.meniscus);
+  if (c->layers.end == SB_EHL_REFORM) {
     sb_warn(&out->warnings, "film-cavity", "canister.pressure",
             "the film breaks before the flooded outlet and forms again behind a cavity");
   }
@@ -99,7 +133,7 @@ static double rounding(const SbEhlResults *r) {
 }
 
 // Climbs the levels from a cold start. *levels is 0 when nothing was found.
-static SbStatus climb(SbEhlResults *reading, int *levels, int *which, SbFilmSolver *solver,
+static SbStatus climb(SbEhlResults *results, int *levels, int *which, SbFilmSolver *solver,
                       SbEhlCase *c, double supply, SbFilmSolverInfo *info,
                       const SbFilmProblem *problem, SbReport *report) {
   const SbEhlCase cold = *c;
@@ -136,11 +170,11 @@ static SbStatus climb(SbEhlResults *reading, int *levels, int *which, SbFilmSolv
       }
       return status;
     }
-    sb_ehl_results(&reading[level], solver, *which, c);
+    sb_ehl_results(&results[level], solver, *which, c);
     *levels = level + 1;
     if (*levels >= 2) {
-      sb_ehl_change(change[level], solver, *which, c, &reading[level], &reading[level - 1], !anew);
-      estimate(info, change, *levels, rounding(&reading[level]) + info->residual);
+      sb_ehl_change(change[level], solver, *which, c, &results[level], &results[level - 1], !anew);
+      estimate(info, change, *levels, rounding(&results[level]) + info->residual);
     }
     double worst = fmax(info->error_film_min, info->error_film_central);
     if (*levels >= least && worst <= 0.1 * problem->tolerance) {
@@ -157,27 +191,105 @@ static double rigid_step(const SbEhlLayers *layers) {
   return pow(film, 1.5) / (sqrt(2.0) * layers->lambda) * (layers->outlet - layers->inlet);
 }
 
-SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
-                      SbFilmSolver *solver, SbReport *report) {
-  double begin = seconds();
-  SbEhlCase c = scaled_case(problem, scale);
-  SbFilmSolverInfo *info = &out->solver;
-  // Refusals: no liquid at the inlet, or a film below what double precision resolves.
-  if (c.layers.inlet < 0.0) {
-    return sb_fail(report, SB_ERROR_INFEASIBLE,
-                   "film: the inlet's pressure is below the rupture pressure: no liquid there");
-  }
-  if (sb_ehl_layers_flux(&c.layers) < 1e-11) {
+// What smooth rows do not resolve: SB_OK, or the refusal. `supply` is the flux film supplied.
+static SbStatus refuse_smooth(const SbEhlCase *c, const SbFilmScale *scale, double supply,
+                              SbReport *report) {
+  if (sb_ehl_layers_flux(&c->layers) < 1e-11) {
     return sb_fail(report, SB_ERROR_RANGE,
                    "film: M = %.3g: the film is below 1e-11 of b^2/R and lost in rounding; use the "
                    "asymptotic model",
                    scale->M);
   }
-  if (scale->M < 0.1 && fabs(rigid_step(&c.layers)) > 4.0) {
+  if (scale->M < 0.1 && fabs(rigid_step(&c->layers)) > 4.0) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "canister.pressure",
                              "film: M = %.3g: end pressures that differ by %.3g times what a "
                              "rigid wedge bears drive the fluid through so thick a film",
-                             scale->M, fabs(rigid_step(&c.layers)) / (M_PI / 16.0));
+                             scale->M, fabs(rigid_step(&c->layers)) / (M_PI / 16.0));
+  }
+  SbEhlLayers starved = c->layers;
+  starved.starvation = fmin(1.0, supply / sb_ehl_layers_flux(&c->layers));
+  if (isfinite(supply) && sb_ehl_layers_width(&starved) < 1e-7) {
+    return sb_fail(report, SB_ERROR_RANGE,
+                   "film: M = %.3g: so little film is supplied that its inlet layer is %.2g of "
+                   "the half-width and lost in rounding",
+                   scale->M, sb_ehl_layers_width(&starved));
+  }
+  return SB_OK;
+}
+
+// All levels of smooth rows: from the last solution if that meets the tolerance, or cold.
+static SbStatus solve_smooth(SbEhlResults *results, int *levels, int *which, SbFilmSolver *solver,
+                             SbEhlCase *c, double supply, bool warm, SbFilmSolverInfo *info,
+                             const SbFilmProblem *problem, SbReport *report) {
+  if (warm) {
+    // The layers follow the case, so the error of the discretisation stays what it was.
+    *which = solver->last.which;
+    c->layers.degree = solver->last.problem.layers.degree;
+    SbStatus status = sb_ehl_follow(solver, which, &solver->last.problem, c, 1e-11, info, problem);
+    if (status == SB_ERROR_CANCELLED) {
+      return sb_fail(report, status, "film: cancelled");
+    }
+    if (status == SB_OK) {
+      sb_ehl_results(&results[0], solver, *which, c);
+      *levels = 1;
+      double noise = rounding(&results[0]) + info->residual;
+      info->error_film_min = solver->last.error[0] + noise;
+      info->error_film_central = solver->last.error[1] + noise;
+      info->error_film_flux = solver->last.error[2] + noise;
+      return SB_OK;
+    }
+    c->layers.degree = level_degree[0];
+  }
+  SbStatus status = climb(results, levels, which, solver, c, supply, info, problem, report);
+  if (*levels == 1) {
+    info->error_film_min = info->error_film_central = info->error_film_flux = 1.0;
+  }
+  if (*levels > 0 && isfinite(supply) && !isfinite(c->layers.meniscus)) {
+    // Flooded but for a trifle, see starve() in ehl_continuation.c.
+    double excess = fmax(1.0 - supply / results[*levels - 1].film_flux, 0.0);
+    info->error_film_min += excess;
+    info->error_film_central += excess;
+    info->error_film_flux += excess;
+  }
+  return status;
+}
+
+static SbStatus solve_rough(SbEhlResults *results, int *levels, int *which, SbFilmSolver *solver,
+                            SbEhlCase *c, SbFilm *out, const SbFilmProblem *problem,
+                            SbReport *report) {
+  bool sealed = c->rough.sealed;
+  SbStatus status = sb_ehl_rough_climb(results, levels, which, solver, c, &out->solver, problem);
+  if (c->rough.sealed && !sealed) {
+    sb_warn(&out->warnings, "film-rest-sealed", "surface.sigma",
+            "at rest the gap is closed: no flow passes, and the fluid's pressure between the ends "
+            "is taken as in the smooth dry contact");
+  }
+  if (status == SB_ERROR_CANCELLED) {
+    return sb_fail(report, status, "film: cancelled");
+  }
+  return status == SB_OK
+             ? SB_OK
+             : sb_fail(report, status, "film: Newton's method stopped at a step of %.2g",
+                       out->solver.residual);
+}
+
+SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                      SbFilmSolver *solver, SbReport *report) {
+  double begin = seconds();
+  const bool rough = sb_film_rough(problem);
+  SbEhlCase c = scaled_case(problem, scale);
+  SbFilmSolverInfo *info = &out->solver;
+  // A supplied layer moves with the wall at the full speed, the flux film with half of it.
+  double supply = problem->inlet_film > 0.0 ? 2.0 * problem->inlet_film / scale->film : INFINITY;
+  SbStatus status = SB_OK;
+  if (c.layers.inlet < 0.0) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE,
+                   "film: the inlet's pressure is below the rupture pressure: no liquid there");
+  }
+  status = rough ? sb_ehl_rough_case(&c, solver, problem, scale, report)
+                 : refuse_smooth(&c, scale, supply, report);
+  if (status != SB_OK) {
+    return status;
   }
   if (scale->outlet < 0.0) {
     sb_warn(&out->warnings, "film-outlet-vapour", "",
@@ -190,69 +302,27 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
             "the contact's half-width is %.2g of the radius: no parabola on a half-plane",
             scale->half_width / problem->radius);
   }
-  // A supplied layer moves with the wall at the full speed, the flux film with half of it.
-  double supply = problem->inlet_film > 0.0 ? 2.0 * problem->inlet_film / scale->film : INFINITY;
 
-  if (isfinite(supply)) {
-    SbEhlLayers starved = c.layers;
-    starved.starvation = fmin(1.0, supply / sb_ehl_layers_flux(&c.layers));
-    if (sb_ehl_layers_width(&starved) < 1e-7) {
-      return sb_fail(report, SB_ERROR_RANGE,
-                     "film: M = %.3g: so little film is supplied that its inlet layer is %.2g of "
-                     "the half-width and lost in rounding",
-                     scale->M, sb_ehl_layers_width(&starved));
-    }
-  }
-
-  SbEhlResults reading[LEVELS];
+  SbEhlResults results[SB_EHL_LEVELS_MAX];
   int levels = 0;
   int which = 0;
-  SbStatus status = SB_ERROR_NOT_CONVERGED;
   bool warm =
       solver->last.ready && solver->last.tolerance <= problem->tolerance && !isfinite(supply);
   solver->last.ready = false;
-  if (warm) {
-    // The layers follow the case, so the error of the discretisation stays what it was.
-    which = solver->last.which;
-    c.layers.degree = solver->last.problem.layers.degree;
-    status = sb_ehl_follow(solver, &which, &solver->last.problem, &c, 1e-11, info, problem);
-    if (status == SB_ERROR_CANCELLED) {
-      return sb_fail(report, status, "film: cancelled");
-    }
-    if (status == SB_OK) {
-      sb_ehl_results(&reading[0], solver, which, &c);
-      levels = 1;
-      double noise = rounding(&reading[0]) + info->residual;
-      info->error_film_min = solver->last.error[0] + noise;
-      info->error_film_central = solver->last.error[1] + noise;
-      info->error_film_flux = solver->last.error[2] + noise;
-    }
-    c.layers.degree = status == SB_OK ? c.layers.degree : level_degree[0];
-  }
-  if (levels == 0) {
-    status = climb(reading, &levels, &which, solver, &c, supply, info, problem, report);
-    if (levels == 0) {
-      return status;
-    }
-    if (levels == 1) {
-      info->error_film_min = info->error_film_central = info->error_film_flux = 1.0;
-    }
+  status = rough ? solve_rough(results, &levels, &which, solver, &c, out, problem, report)
+                 : solve_smooth(results, &levels, &which, solver, &c, supply, warm, info, problem,
+                                report);
+  if (levels == 0 || status == SB_ERROR_CANCELLED) {
+    return status;
   }
 
-  // The tolerance decides, whether or not the last level was reached.
-  const SbEhlResults *r = &reading[levels - 1];
-  fill(out, problem, scale, &c, r);
-  if (isfinite(supply) && !out->starved) {
-    // Flooded but for a trifle, see starve() in ehl_continuation.c.
-    double excess = fmax(1.0 - supply / r->film_flux, 0.0);
-    info->error_film_min += excess;
-    info->error_film_central += excess;
-    info->error_film_flux += excess;
-  }
-  info->unknowns = (size_t)solver->mesh[which].dofs + 3;
-  info->converged = fmax(info->error_film_min, info->error_film_central) <= problem->tolerance;
+  // The tolerance decides, whether or not the last level was reached; rough rows must end.
+  fill(out, problem, scale, &c, &results[levels - 1]);
+  info->unknowns = (size_t)solver->mesh[which].dofs + (rough ? 2 : 3);
+  info->converged = fmax(info->error_film_min, info->error_film_central) <= problem->tolerance &&
+                    !(rough && status != SB_OK);
   if (info->converged) {
-    solver->last.ready = true;
+    solver->last.ready = !rough;
     solver->last.which = which;
     solver->last.problem = c;
     solver->last.tolerance = problem->tolerance;

@@ -1,18 +1,66 @@
-// Inside of the coupled film solver (private to engine/film): the state on a mesh, Newton's method,
-// and what is read off a solution.
+// Inside of the coupled film solver (private to engine/film): the case and the state on a mesh,
+// Newton's method, continuation, and the results of a solution.
+//
+// One problem, with asperities and adhesion or without: q on a half-plane or a fitted body, in the
+// flow frame and scaled as in scale.h,
+//
+//   q = p + p_a(h) - p_v(h)           p film, p_a asperities, p_v van der Waals' pull
+//   h = H0 + X^2/2 - (1/pi) integral q ln|X - X'| dX'      (ehl_fitted.c adds a fitted body's own)
+//   h^3 m p' = lambda h - kappa       where the film is full; kappa / lambda is the flux film
+//   integral (q - ambient) dX = pi/2
+//
+// on spectral elements (ehl_mesh.h), with two sets of rows:
+//
+// Smooth (ehl_newton.c): Reynolds' equation collocated at Gauss points; the end of the film is a
+// node of the mesh, the axis moves. Few unknowns, eight digits.
+//
+// Rough (ehl_rough_newton.c): the film's end may lie anywhere between the asperities that carry the
+// rest. Reynolds' equation is integrated from node to node (collocation of Lobatto IIIA's kind);
+// each node is in the full film or in the cavity by complementarity: p >= 0, and no more pressure
+// than the flux brings where it is cavitated; then q = p_a - p_v. The step into the cavity ends
+// where the film ends, so that the rupture is not tied to nodes. h is written h(t), p_a(t) with the
+// parameter t of the rough law, and t and the slope s = p' are iterated beside q and made
+// consistent by Newton's method itself: everything that it linearises is then gentle from a film
+// ten times the roughness to full contact. On a smooth case these rows take three to ten times the
+// smooth ones' time and leave 1e-6 of the least film beside the rupture's kink.
 #pragma once
 
 #include "engine/film/ehl_layers.h"
 #include "engine/film/ehl_mesh.h"
 #include "engine/film/fluid.h"
 #include "engine/film/scale.h"
+#include "engine/surface/rough_law.h"
+
+// Scaled gaps below this are closed for all that double precision tells.
+#define SB_EHL_CLOSED 1e-11
 
 // Unknowns on a mesh: nodal pressures, H0, shift c of the axis, flux film, and one free end.
 typedef struct {
-  double nodal[SB_EHL_DOFS_MAX];
-  double gap[SB_EHL_DOFS_MAX + SB_EHL_ELEMENTS_MAX + 4]; // at all targets
+  double nodal[SB_EHL_DOFS_MAX];  // pressure q
+  double gap[SB_EHL_TARGETS_MAX]; // at all targets, of smooth rows
   double H0, shift, flux;
+  // Rough rows, at the nodes:
+  double t[SB_EHL_DOFS_MAX]; // parameter of the gap
+  double s[SB_EHL_DOFS_MAX]; // slope of the film pressure
+  bool cavity[SB_EHL_DOFS_MAX];
+  double flow; // kappa
 } SbEhlState;
+
+// Asperities and adhesion of a case, scaled.
+typedef struct {
+  bool rows;             // rough rows; all else is unused without
+  const SbRoughLaw *law; // NULL: smooth
+  double film, pressure; // scales of the law
+  double smooth_gap;     // unit of t without a law
+  double hamaker;        // A_H / (6 pi h^3) with h, p scaled; 0 = off
+  double cutoff;         // scaled
+  double supply;         // kappa of a starved inlet; infinite when flooded
+  bool sealed;        // at rest without flow: film pressure by the end pressures, cavity everywhere
+  double flux, inlet; // guesses of the flux film and of where the film's pressure begins
+  struct {
+    double X, width; // of the layers at the film's two ends; X infinite: none
+  } front[2];
+} SbEhlRough;
 
 // The scaled problem in the flow frame.
 typedef struct {
@@ -20,24 +68,38 @@ typedef struct {
   SbEhlLayers layers;
   bool hold; // a free end stays where it is
   SbFilmFluid fluid;
+  SbEhlRough rough;
 } SbEhlCase;
 
 // What Newton's method did.
 typedef struct {
   int iterations;
-  double residual; // largest scaled residual
-  double step;     // last relative change of the flux film
+  double residual; // largest scaled residual; of rough rows the last relative change
 } SbEhlTrace;
+
+// Everything at a node of rough rows.
+typedef struct {
+  double h, h_t;   // gap and its slope to t
+  double solid;    // p_a - p_v
+  double solid_t;  // slope to t
+  double asperity; // p_a
+  double share;    // real area
+} SbEhlRoughPoint;
 
 // Quantities of a solution, scaled, in the flow frame with x from the axis.
 typedef struct {
   double film_min, film_central, film_flux;
   double position_min, position_rupture;
   double pressure_max, pressure_min;
-  double couette;    // integral of dX / H, times Eyring's factor when set
-  double poiseuille; // integral of H/2 dP/dX
+  // Integrals of (1 - share)/H, times Eyring's factor when set, of (1 - share) H/2 dP/dX, and of
+  // theta/H over the cavity.
+  double couette, poiseuille, cavity;
+  double real_area, asperity_load, central_share;
   double load_error, flux_error;
+  bool ruptured;
 } SbEhlResults;
+
+enum { SB_EHL_LEVELS_MAX = 6 };
 
 struct SbFilmSolver {
   SbEhlTables tables;
@@ -46,10 +108,15 @@ struct SbFilmSolver {
   double *matrix; // of Newton's method, row after row
   double *right;
   double *column; // derivative to the free end
-  double *gaps;   // at all targets
+  double *gaps;   // at all targets, and their derivatives to the shift
   double *kernel; // [targets][dofs] of a fitted body: the half-plane's and the smooth part
   int *pivot;
-  struct SbEhlRoughSolver *mixed; // film with asperities, NULL until one is asked for (ehl_rough.h)
+
+  // Rough rows: nodes, states of a continuation, and the law of the last surface.
+  SbEhlRoughPoint point[SB_EHL_DOFS_MAX];
+  SbEhlState saved[2];
+  SbRoughLaw law;
+  bool law_ready;
 
   // The last solution, for warm starts.
   struct {
@@ -70,11 +137,23 @@ void sb_ehl_finish(SbFilmSolver *solver);
 SbStatus sb_ehl_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, SbEhlCase *problem,
                        bool independent, double tolerance, const SbFilmProblem *callback);
 
-// Kernel of a fitted body with the axis at the state's shift, into `kernel` ([targets][dofs]), and
-// the gap that it gives at all targets: the undeformed one and the deflection by the state's
-// pressure, without H0. `slope` takes the derivatives to the shift.
-void sb_ehl_fitted(double *kernel, double *gaps, double *slope, const SbEhlMesh *mesh,
-                   const SbEhlState *state, const SbEhlCase *problem);
+// The same with rough rows.
+SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, const SbEhlCase *c,
+                             const SbFilmProblem *callback);
+
+// Either with its account in `info`.
+SbStatus sb_ehl_iterate(SbFilmSolver *solver, int which, SbEhlCase *c, bool independent,
+                        double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *callback);
+
+// Kernel of a fitted body with the axis at `shift`, into `kernel` ([targets][dofs]), and the gap
+// that it gives at all targets: the undeformed one and the deflection by the nodal pressures,
+// without H0. `slope` takes the derivatives to the shift.
+void sb_ehl_fitted(double *kernel, double *gaps, double *slope, const SbEhlTables *tables,
+                   const SbEhlMesh *mesh, const double *nodal, double shift,
+                   const SbFilmBody *body);
+
+// Load above the ambient step less its target pi/2.
+double sb_ehl_load(const SbEhlMesh *mesh, const SbEhlState *state);
 
 // Carries a solution from mesh/state `from` to `to`, which has the same elements in other degrees
 // or moved with the layers, `before` to `after`. The film is multiplied by `scale`.
@@ -84,21 +163,18 @@ void sb_ehl_carry(SbFilmSolver *solver, int from, int to, const SbEhlLayers *bef
 // The same to a mesh of other elements, by place.
 void sb_ehl_resample(SbFilmSolver *solver, int from, int to);
 
-// Reads a solution.
+// Results of a solution.
 void sb_ehl_results(SbEhlResults *out, SbFilmSolver *solver, int which, const SbEhlCase *problem);
 
 // Relative changes of minimum, centre and flux film from one level of degree to the next, whose
-// readings are `coarse` and `fine`. If `paired`, mesh and state `which` and the other one hold the
+// results are `coarse` and `fine`. If `paired`, mesh and state `which` and the other one hold the
 // two on the same elements: the first two are then root mean squares over the elements about the
 // minimum and about the centre, as single values may agree by chance.
 void sb_ehl_change(double change[3], SbFilmSolver *solver, int which, const SbEhlCase *problem,
                    const SbEhlResults *fine, const SbEhlResults *coarse, bool paired);
 
-// Coordinate r of position X in element e.
-double sb_ehl_coordinate(const SbEhlElement *e, double X);
-
 // Profile of a solution into `out`, in SI and in the seal's frame, with the points that `wanted`
-// asks for (ehl_profile.c).
+// asks for.
 void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
                     const SbFilmScale *scale, const SbFilmProblem *wanted);
 
@@ -120,6 +196,35 @@ SbStatus sb_ehl_refine(SbFilmSolver *solver, int *which, SbEhlCase *problem, int
 SbStatus sb_ehl_follow(SbFilmSolver *solver, int *which, const SbEhlCase *old,
                        const SbEhlCase *problem, double tolerance, SbFilmSolverInfo *info,
                        const SbFilmProblem *callback);
+
+// Asperities and adhesion of `problem` into a case that is complete otherwise, and its rough rows.
+SbStatus sb_ehl_rough_case(SbEhlCase *c, SbFilmSolver *solver, const SbFilmProblem *problem,
+                           const SbFilmScale *scale, SbReport *report);
+
+// All levels of rough rows from a cold start: results of each, their number (0: nothing found), and
+// in `info` the estimates. A gap too closed to tell a flow at rest is solved sealed.
+SbStatus sb_ehl_rough_climb(SbEhlResults *results, int *levels, int *which, SbFilmSolver *solver,
+                            SbEhlCase *c, SbFilmSolverInfo *info, const SbFilmProblem *problem);
+
+// Lays out elements by the layers and the roughness and builds the kernel, that of a fitted body
+// and the undeformed gap included. False if the mesh does not fit.
+bool sb_ehl_rough_mesh(SbFilmSolver *solver, int which, const SbEhlCase *c, int degree);
+
+// Where the film takes the load over from the asperities and hands it back, and how sharply, into
+// c->rough.front for the next mesh; false if neither is sharp enough to need elements of its own.
+bool sb_ehl_rough_fronts(SbEhlCase *c, const SbFilmSolver *solver, int which,
+                         const SbEhlResults *results);
+
+// End pressures joined as in the dry smooth contact (docs/verification.md), at X.
+double sb_ehl_rough_ends(const SbEhlCase *c, double X);
+
+// Gap and solid pressures at t, and the parameter of a gap.
+void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t);
+double sb_ehl_rough_of_gap(const SbEhlCase *c, double gap);
+
+// Where the film of the sub-interval j of an element ends: the root of the slope, `s` at the
+// element's nodes, as a coordinate in it, or its end.
+double sb_ehl_rough_film_end(const SbEhlTable *rule, const double *s, int j);
 
 // The whole solve.
 SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,

@@ -13,19 +13,15 @@
 // the far inlet.
 static const double TENSION = -1e-6;
 
-// Adds what a call of Newton's method did to the totals.
-static void account(SbFilmSolverInfo *info, const SbEhlTrace *trace) {
-  info->newton_iterations += trace->iterations;
-  info->continuation_steps++;
-  info->residual = trace->residual;
-}
-
-// Newton's method with its account.
-static SbStatus iterate(SbFilmSolver *solver, int which, SbEhlCase *c, bool independent,
+SbStatus sb_ehl_iterate(SbFilmSolver *solver, int which, SbEhlCase *c, bool independent,
                         double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
   SbEhlTrace trace;
-  SbStatus status = sb_ehl_newton(&trace, solver, which, c, independent, tolerance, problem);
-  account(info, &trace);
+  SbStatus status = c->rough.rows
+                        ? sb_ehl_rough_newton(&trace, solver, which, c, problem)
+                        : sb_ehl_newton(&trace, solver, which, c, independent, tolerance, problem);
+  info->newton_iterations += trace.iterations;
+  info->continuation_steps++;
+  info->residual = trace.residual;
   return status;
 }
 
@@ -39,7 +35,7 @@ static SbStatus cold_start(SbFilmSolver *solver, int which, SbEhlCase *c, double
   state->H0 = 0.0;
   sb_ehl_layers_guess(state->nodal, state->gap, &state->shift, &state->flux, &solver->mesh[which],
                       &solver->tables, &c->layers);
-  SbStatus status = iterate(solver, which, c, true, tolerance, info, problem);
+  SbStatus status = sb_ehl_iterate(solver, which, c, true, tolerance, info, problem);
   // The lowest degree has a false solution now and then where M is near 1: a film many times as
   // thick as the layers let expect, lost on finer meshes. Continuation does not meet it.
   if (status == SB_OK && state->flux > 8.0 * sb_ehl_layers_flux(&c->layers)) {
@@ -169,7 +165,7 @@ static SbStatus go(SbFilmSolver *solver, int *which, const SbEhlCase *target, Wa
     }
     if (fits) {
       carry_scaled(solver, *which, to, &c, &next);
-      tried = iterate(solver, to, &next, true, tolerance, info, problem);
+      tried = sb_ehl_iterate(solver, to, &next, true, tolerance, info, problem);
     }
     if (tried == SB_ERROR_CANCELLED) {
       return tried;
@@ -208,9 +204,9 @@ static SbStatus continuation(SbFilmSolver *solver, int *which, const SbEhlCase *
 
 // Least pressure at the collocation points.
 static double least_pressure(SbFilmSolver *solver, int which, const SbEhlCase *c) {
-  SbEhlResults reading;
-  sb_ehl_results(&reading, solver, which, c);
-  return reading.pressure_min;
+  SbEhlResults results;
+  sb_ehl_results(&results, solver, which, c);
+  return results.pressure_min;
 }
 
 SbStatus sb_ehl_refine(SbFilmSolver *solver, int *which, SbEhlCase *c, int degree, double tolerance,
@@ -227,13 +223,13 @@ SbStatus sb_ehl_refine(SbFilmSolver *solver, int *which, SbEhlCase *c, int degre
   sb_ehl_carry(solver, *which, to, &c->layers, &next.layers, 1.0);
   double flux = solver->state[to].flux;
   next.hold = has_free_end(&next);
-  SbStatus status = iterate(solver, to, &next, true, tolerance, info, problem);
+  SbStatus status = sb_ehl_iterate(solver, to, &next, true, tolerance, info, problem);
   if (status == SB_OK && next.hold) {
     next.hold = false;
     if (isfinite(next.layers.meniscus)) {
       solver->state[to].flux = flux; // supplied
     }
-    status = iterate(solver, to, &next, false, tolerance, info, problem);
+    status = sb_ehl_iterate(solver, to, &next, false, tolerance, info, problem);
   }
   if (status == SB_OK) {
     *which = to;
@@ -260,7 +256,7 @@ SbStatus sb_ehl_follow(SbFilmSolver *solver, int *which, const SbEhlCase *old, c
     return SB_ERROR_NOT_CONVERGED;
   }
   carry_scaled(solver, *which, to, old, c);
-  SbStatus status = iterate(solver, to, &next, true, tolerance, info, problem);
+  SbStatus status = sb_ehl_iterate(solver, to, &next, true, tolerance, info, problem);
   if (status == SB_OK && c->layers.end == SB_EHL_FULL && least_pressure(solver, to, c) < TENSION) {
     status = SB_ERROR_NOT_CONVERGED; // a cavity opens: start anew
   }
@@ -305,10 +301,10 @@ static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbEhlCase *target,
         sb_ehl_carry(solver, *which, to, &c.layers, &next.layers, 1.0);
       }
       next.hold = true;
-      tried = iterate(solver, to, &next, true, tolerance, info, problem);
+      tried = sb_ehl_iterate(solver, to, &next, true, tolerance, info, problem);
       next.hold = false;
       if (tried == SB_OK) {
-        tried = iterate(solver, to, &next, false, tolerance, info, problem);
+        tried = sb_ehl_iterate(solver, to, &next, false, tolerance, info, problem);
       }
     }
     if (tried == SB_ERROR_CANCELLED) {
@@ -349,7 +345,7 @@ static SbStatus hold_meniscus(SbFilmSolver *solver, int *which, SbEhlCase *c,
   } else {
     sb_ehl_resample(solver, *which, to);
   }
-  SbStatus status = iterate(solver, to, &next, true, tolerance, info, problem);
+  SbStatus status = sb_ehl_iterate(solver, to, &next, true, tolerance, info, problem);
   if (status == SB_OK) {
     *which = to;
     *c = next;
@@ -431,7 +427,7 @@ static SbStatus starve(bool *flooded, SbFilmSolver *solver, int *which, SbEhlCas
   }
   c.hold = false;
   solver->state[*which].flux = flux;
-  SbStatus status = iterate(solver, *which, &c, false, tolerance, info, problem);
+  SbStatus status = sb_ehl_iterate(solver, *which, &c, false, tolerance, info, problem);
   *target = c;
   return status;
 }

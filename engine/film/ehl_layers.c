@@ -315,7 +315,7 @@ bool sb_ehl_layers_mesh(SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlLayers 
     fits = add_outlet(mesh, l->reform, unit, 0.0, l->degree, true);
   }
   if (fits) {
-    sb_ehl_mesh_build(mesh, tables);
+    sb_ehl_mesh_build(mesh, tables, false);
   }
   return fits;
 }

@@ -23,7 +23,6 @@
 
 enum {
   COLUMNS = SB_EHL_DEGREE_MAX + 2,
-  TARGETS_MAX = SB_EHL_DOFS_MAX + SB_EHL_ELEMENTS_MAX + 4,
   STRIDE = SB_EHL_DEGREE_MAX + 1,
 };
 
@@ -77,6 +76,45 @@ const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree) {
   return t;
 }
 
+void sb_ehl_partial(double *weight, const SbEhlTable *t, int j, double r) {
+  double gauss[SB_EHL_DEGREE_MAX], w[SB_EHL_DEGREE_MAX];
+  int points = t->degree / 2 + 1;
+  sb_legendre_gauss(gauss, w, points);
+  double half = 0.5 * (r - t->node[j]);
+  memset(weight, 0, (size_t)(t->degree + 1) * sizeof *weight);
+  for (int g = 0; g < points; g++) {
+    double basis[SB_EHL_DEGREE_MAX + 1];
+    sb_barycentric_basis(basis, t->node[j] + half * (1.0 + gauss[g]), t->node, t->bary,
+                         t->degree + 1);
+    for (int k = 0; k <= t->degree; k++) {
+      weight[k] += half * w[g] * basis[k];
+    }
+  }
+}
+
+const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree) {
+  sb_ehl_table(tables, degree);
+  SbEhlTable *t = &tables->table[degree];
+  for (int i = 0; i <= degree && !t->stepped; i++) {
+    sb_barycentric_slope(t->node_slope[i], t->node[i], t->node, t->bary, degree + 1);
+    if (i < degree) {
+      sb_ehl_partial(t->step[i], t, i, t->node[i + 1]);
+    }
+  }
+  t->stepped = true;
+  return t;
+}
+
+double sb_ehl_interpolate(const SbEhlTable *t, const double *value, double r) {
+  double basis[SB_EHL_DEGREE_MAX + 1];
+  sb_barycentric_basis(basis, r, t->node, t->bary, t->degree + 1);
+  double sum = 0.0;
+  for (int k = 0; k <= t->degree; k++) {
+    sum += basis[k] * value[k];
+  }
+  return sum;
+}
+
 // ---------------------------------------------------------------- maps
 
 // s of an infinite element: 1 at its finite end, 0 at infinity.
@@ -111,6 +149,27 @@ double sb_ehl_stretch(const SbEhlElement *e, double r) {
     return e->B / (s * s * s);
   }
   }
+}
+
+double sb_ehl_coordinate(const SbEhlElement *e, double X) {
+  switch (e->map) {
+  case SB_EHL_AFFINE:
+    return (X - e->m) / e->h;
+  case SB_EHL_COSINE:
+    return (acos(fmin(fmax(-X, -1.0), 1.0)) - e->m) / e->h;
+  case SB_EHL_INLET:
+    return 2.0 * sqrt(e->B / (e->A - X)) - 1.0;
+  default:
+    return 1.0 - 2.0 * sqrt(e->B / (X - e->A));
+  }
+}
+
+int sb_ehl_find(const SbEhlMesh *mesh, double X) {
+  int i = 0;
+  while (i < mesh->count - 1 && !(X < mesh->element[i].x1)) {
+    i++;
+  }
+  return i;
 }
 
 static bool is_infinite(const SbEhlElement *e) {
@@ -370,7 +429,7 @@ static void row_infinite(double *row, const SbEhlElement *e, double X) {
 
 bool sb_ehl_mesh_init(SbEhlMesh *mesh) {
   memset(mesh, 0, sizeof *mesh);
-  size_t targets = TARGETS_MAX;
+  size_t targets = SB_EHL_TARGETS_MAX;
   size_t dofs = SB_EHL_DOFS_MAX;
   mesh->gap = malloc(targets * dofs * sizeof(double));
   mesh->gap_known = malloc(targets * sizeof(double));
@@ -521,16 +580,29 @@ static void place_targets(SbEhlMesh *mesh, SbEhlTables *tables) {
   mesh->targets = targets;
 }
 
+// The nodes for targets.
+static void place_nodes(SbEhlMesh *mesh, SbEhlTables *tables) {
+  mesh->rows = mesh->targets = mesh->dofs;
+  for (int i = 0; i < mesh->count; i++) {
+    const SbEhlElement *e = &mesh->element[i];
+    const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+    for (int k = 0; k <= e->degree; k++) {
+      mesh->x[e->first_dof + k] = sb_ehl_position(e, t->node[k]);
+      mesh->owner[e->first_dof + k] = i;
+    }
+  }
+}
+
 // x (ln|x| - 1): the gap of a constant pressure on a half-line, up to tilt and constant.
 static double half_line(double x) {
   return x == 0.0 ? 0.0 : x * (log(fabs(x)) - 1.0);
 }
 
-void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables) {
+void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
   for (int i = 0; i < mesh->count; i++) {
     prepare(&mesh->element[i], tables);
   }
-  place_targets(mesh, tables);
+  (nodal ? place_nodes : place_targets)(mesh, tables);
   const SbEhlElement *first = &mesh->element[0];
   const SbEhlElement *last = &mesh->element[mesh->count - 1];
   mesh->left_end = first->map == SB_EHL_INLET ? first->x1 : first->x0;

@@ -10,8 +10,9 @@
 
 enum {
   SB_EHL_DEGREE_MAX = 18,
-  SB_EHL_ELEMENTS_MAX = 40,
-  SB_EHL_DOFS_MAX = 420,  // nodal pressures
+  SB_EHL_ELEMENTS_MAX = 100,
+  SB_EHL_DOFS_MAX = 440, // nodal pressures
+  SB_EHL_TARGETS_MAX = SB_EHL_DOFS_MAX + SB_EHL_ELEMENTS_MAX + 4,
   SB_EHL_EXTRA = 4,       // room for the unknowns beside the pressures
   SB_EHL_QUAD = 24,       // points of the fine rule for smooth remainders
   SB_EHL_MULTIPOLES = 34, // terms of the expansion for distant targets
@@ -42,6 +43,10 @@ typedef struct {
   double gap_node[3][SB_EHL_DEGREE_MAX + 2];
   double gap_bary[3][SB_EHL_DEGREE_MAX + 2];
   bool ready;
+  // Rule from node to node, made by sb_ehl_steps().
+  double node_slope[SB_EHL_DEGREE_MAX + 1][SB_EHL_DEGREE_MAX + 1]; // [node][basis]
+  double step[SB_EHL_DEGREE_MAX][SB_EHL_DEGREE_MAX + 1]; // integral of a basis from node j to j + 1
+  bool stepped;
 } SbEhlTable;
 
 // One element. Columns 0 .. degree belong to the nodes, column degree + 1 to the known part of the
@@ -70,7 +75,8 @@ typedef struct {
 } SbEhlElement;
 
 // A mesh with its operators. Targets are the collocation points (the first `rows`), then the finite
-// ends of the elements. The known parts hold what does not depend on the nodal pressures.
+// ends of the elements; of a nodal mesh, the nodes, without local operators. The known parts hold
+// what does not depend on the nodal pressures.
 typedef struct {
   int count;
   int steps[2]; // of the layout that made it (ehl_layers.h)
@@ -103,6 +109,11 @@ typedef struct {
 void sb_ehl_tables_init(SbEhlTables *tables);
 const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree);
 
+// The same with the rule from node to node, and an element's integral of each basis function from
+// node j to r.
+const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree);
+void sb_ehl_partial(double *weight, const SbEhlTable *table, int j, double r);
+
 // Storage of a mesh: false when out of memory. Finish takes a zeroed mesh.
 bool sb_ehl_mesh_init(SbEhlMesh *mesh);
 void sb_ehl_mesh_finish(SbEhlMesh *mesh);
@@ -112,8 +123,17 @@ void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pre
 bool sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
                      bool apart);
 
-// Numbers the unknowns and builds every operator.
-void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables);
+// Numbers the unknowns and builds every operator; `nodal`: with the nodes for targets, on affine
+// elements without cavities.
+void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal);
+
+// Element that holds X (a cavity belongs to the element after it), and the coordinate of X in an
+// element.
+int sb_ehl_find(const SbEhlMesh *mesh, double X);
+double sb_ehl_coordinate(const SbEhlElement *e, double X);
+
+// Polynomial through `value` at the nodes, at r.
+double sb_ehl_interpolate(const SbEhlTable *table, const double *value, double r);
 
 // X of the element's coordinate, and dX/dr.
 double sb_ehl_position(const SbEhlElement *e, double r);

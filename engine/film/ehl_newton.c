@@ -32,7 +32,7 @@ bool sb_ehl_init(SbFilmSolver *solver) {
   solver->matrix = malloc(order * order * sizeof(double));
   solver->right = malloc(order * sizeof(double));
   solver->column = malloc(order * sizeof(double));
-  size_t targets = order + SB_EHL_ELEMENTS_MAX;
+  size_t targets = SB_EHL_TARGETS_MAX;
   solver->gaps = malloc(2 * targets * sizeof(double)); // and their derivatives to the shift
   solver->kernel = malloc(targets * SB_EHL_DOFS_MAX * sizeof(double));
   solver->pivot = malloc(order * sizeof(int));
@@ -75,7 +75,8 @@ static const double *elastic_gaps(SbFilmSolver *solver, const SbEhlMesh *mesh,
   double *out = solver->gaps;
   double *slope = out + mesh->targets;
   if (problem->body.compliance != NULL) {
-    sb_ehl_fitted(solver->kernel, out, slope, mesh, state, problem);
+    sb_ehl_fitted(solver->kernel, out, slope, &solver->tables, mesh, state->nodal, state->shift,
+                  &problem->body);
     for (int i = 0; i < mesh->targets; i++) {
       out[i] += state->H0;
     }
@@ -136,8 +137,7 @@ static Layout lay_out(const SbEhlMesh *mesh, const SbEhlCase *problem) {
   return l;
 }
 
-// Load less its target.
-static double load_residual(const SbEhlMesh *mesh, const SbEhlState *state) {
+double sb_ehl_load(const SbEhlMesh *mesh, const SbEhlState *state) {
   double sum = mesh->load_known - 0.5 * M_PI;
   for (int j = 0; j < mesh->dofs; j++) {
     sum += mesh->load[j] * state->nodal[j];
@@ -238,7 +238,7 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
     next++;
   }
   // Load.
-  right[next] = load_residual(mesh, state);
+  right[next] = sb_ehl_load(mesh, state);
   largest = larger(largest, right[next]);
   if (matrix != NULL) {
     double *row = matrix + (size_t)next * order;
@@ -310,7 +310,7 @@ SbStatus sb_ehl_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, SbEhl
   // Rounding of deflections of size one against the film: no residual is smaller. A fitted body's
   // have more terms.
   tolerance = fmax(tolerance, (problem->body.compliance != NULL ? 8e-16 : 1.1e-16) / state->flux);
-  *trace = (SbEhlTrace){.residual = INFINITY, .step = INFINITY};
+  *trace = (SbEhlTrace){.residual = INFINITY};
 
   for (int iteration = 0; iteration <= ITERATIONS_MAX; iteration++) {
     if (callback->cancelled != NULL && callback->cancelled(callback->cancelled_data)) {
@@ -395,7 +395,6 @@ SbStatus sb_ehl_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, SbEhl
       }
       factor *= 0.5;
     }
-    trace->step = fabs(state->flux - before_flux) / before_flux;
     if (state->flux <= 0.0) {
       return SB_ERROR_NOT_CONVERGED;
     }

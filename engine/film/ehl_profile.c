@@ -309,23 +309,46 @@ static double reach_of(double lambda, double ambient, bool drawn) {
 
 // From the flow frame, inlet left, to the seal's.
 static void mirror(SbFilm *out) {
-  size_t n = out->points;
-  for (size_t i = 0; i < n; i++) {
-    out->x[i] = -out->x[i];
+  double *const column[] = {out->x, out->pressure, out->film, out->asperity_pressure};
+  for (size_t k = 0; k < sizeof column / sizeof column[0]; k++) {
+    for (size_t i = 0, j = out->points - 1; i < j; i++, j--) {
+      double value = column[k][i];
+      column[k][i] = column[k][j];
+      column[k][j] = value;
+    }
   }
-  for (size_t i = 0, j = n - 1; i < j; i++, j--) {
-    double x = out->x[i], pressure = out->pressure[i], film = out->film[i];
-    out->x[i] = out->x[j];
-    out->pressure[i] = out->pressure[j];
-    out->film[i] = out->film[j];
-    out->x[j] = x;
-    out->pressure[j] = pressure;
-    out->film[j] = film;
+  for (size_t i = 0; i < out->points; i++) {
+    out->x[i] = -out->x[i];
   }
 }
 
-void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
-                    const SbFilmScale *scale, const SbFilmProblem *wanted) {
+// Rough rows: every element evenly, by its own polynomials.
+static void fill_rough(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *c,
+                       const SbFilmScale *scale) {
+  enum { POINTS = 5200 }; // about
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlState *state = &solver->state[which];
+  int per = POINTS / mesh->count;
+  size_t n = 0;
+  for (int i = 0; i < mesh->count; i++) {
+    const SbEhlElement *e = &mesh->element[i];
+    const SbEhlTable *table = sb_ehl_table(&solver->tables, e->degree);
+    for (int k = i > 0 ? 1 : 0; k <= per; k++, n++) {
+      double r = -1 + 2.0 * k / per;
+      SbEhlRoughPoint at;
+      sb_ehl_rough_point(&at, c, sb_ehl_interpolate(table, &state->t[e->first_dof], r));
+      double q = sb_ehl_interpolate(table, &state->nodal[e->first_dof], r);
+      out->x[n] = (sb_ehl_position(e, r) + state->shift) * scale->half_width;
+      out->pressure[n] = (q + c->fluid.rupture) * scale->pressure;
+      out->film[n] = at.h * scale->film;
+      out->asperity_pressure[n] = at.asperity * scale->pressure;
+    }
+  }
+  out->points = n;
+}
+
+static void fill_smooth(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
+                        const SbFilmScale *scale, const SbFilmProblem *wanted) {
   enum { LEAST = 4 }; // intervals of an element
   const SbEhlMesh *mesh = &solver->mesh[which];
   const SbEhlState *state = &solver->state[which];
@@ -337,7 +360,7 @@ void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCas
                      : mesh->element[0].x0;
   double end =
       last->map == SB_EHL_OUTLET ? 1.0 + reach_of(lambda, problem->layers.outlet, drawn) : last->x1;
-  double room = SB_FILM_POINTS - (LEAST + 2) * PIECES_MAX;
+  double room = SB_FILM_POINTS - (LEAST + 2) * 80;
   double limit = wanted->profile_points > 0 ? (double)wanted->profile_points : room;
   Spread spread = spread_points(mesh, &problem->layers, begin, end, fmin(limit, room));
 
@@ -386,6 +409,15 @@ void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCas
     }
   }
   out->points = n;
+}
+
+void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
+                    const SbFilmScale *scale, const SbFilmProblem *wanted) {
+  if (problem->rough.rows) {
+    fill_rough(out, solver, which, problem, scale);
+  } else {
+    fill_smooth(out, solver, which, problem, scale, wanted);
+  }
   if (wanted->speed < 0.0) {
     mirror(out);
   }

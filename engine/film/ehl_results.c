@@ -65,29 +65,6 @@ void sb_ehl_carry(SbFilmSolver *solver, int from, int to, const SbEhlLayers *bef
   new->flux = scale * old->flux;
 }
 
-double sb_ehl_coordinate(const SbEhlElement *e, double X) {
-  switch (e->map) {
-  case SB_EHL_AFFINE:
-    return (X - e->m) / e->h;
-  case SB_EHL_COSINE:
-    return (acos(fmin(fmax(-X, -1.0), 1.0)) - e->m) / e->h;
-  case SB_EHL_INLET:
-    return 2.0 * sqrt(e->B / (e->A - X)) - 1.0;
-  default:
-    return 1.0 - 2.0 * sqrt(e->B / (X - e->A));
-  }
-}
-
-// Element that holds X; a cavity belongs to the element after it.
-static int find_element(const SbEhlMesh *mesh, double X) {
-  for (int i = 0; i < mesh->count - 1; i++) {
-    if (X <= mesh->element[i].x1) {
-      return i;
-    }
-  }
-  return mesh->count - 1;
-}
-
 void sb_ehl_resample(SbFilmSolver *solver, int from, int to) {
   const SbEhlMesh *a = &solver->mesh[from];
   const SbEhlMesh *b = &solver->mesh[to];
@@ -108,7 +85,7 @@ void sb_ehl_resample(SbFilmSolver *solver, int from, int to) {
       bool far = (f->map == SB_EHL_INLET && k == 0) || (f->map == SB_EHL_OUTLET && k == f->degree);
       r = far ? 0.5 * (r + t->node[k == 0 ? 1 : k - 1]) : r;
       double X = sb_ehl_position(f, r);
-      const SbEhlElement *e = &a->element[find_element(a, X)];
+      const SbEhlElement *e = &a->element[sb_ehl_find(a, X)];
       double value =
           X > a->right_end && e->map != SB_EHL_OUTLET
               ? 0.0
@@ -125,7 +102,7 @@ void sb_ehl_resample(SbFilmSolver *solver, int from, int to) {
     }
   }
   for (int i = 0; i < b->targets; i++) {
-    int k = find_element(a, b->x[i]);
+    int k = sb_ehl_find(a, b->x[i]);
     const SbEhlElement *e = &a->element[k];
     double r = sb_ehl_coordinate(e, b->x[i]);
     new->gap[i] = sb_ehl_gap(a, &solver->tables, k, old->gap, fmin(r, 1.1));
@@ -135,18 +112,24 @@ void sb_ehl_resample(SbFilmSolver *solver, int from, int to) {
   new->flux = old->flux;
 }
 
-// Value of the gap (sign +1) or of the pressure (sign -1, nodal given) at r of an element.
-static double sampled(SbFilmSolver *solver, int which, int element, bool pressure, double r) {
+// Value of the pressure (negative) or of what the gap grows with, at r of an element: the gap
+// itself, or the parameter of rough rows.
+static double sampled(SbFilmSolver *solver, int which, const SbEhlCase *c, int element,
+                      bool pressure, double r) {
   const SbEhlMesh *mesh = &solver->mesh[which];
   const SbEhlState *state = &solver->state[which];
+  const SbEhlElement *e = &mesh->element[element];
   if (pressure) {
-    return -sb_ehl_pressure(mesh, &solver->tables, &mesh->element[element], state->nodal, r);
+    return -sb_ehl_pressure(mesh, &solver->tables, e, state->nodal, r);
   }
-  return sb_ehl_gap(mesh, &solver->tables, element, state->gap, r);
+  return c->rough.rows ? sb_ehl_interpolate(sb_ehl_table(&solver->tables, e->degree),
+                                            &state->t[e->first_dof], r)
+                       : sb_ehl_gap(mesh, &solver->tables, element, state->gap, r);
 }
 
 // Least value over an element by sampling and golden section.
-static double minimum(double *place, SbFilmSolver *solver, int which, int element, bool pressure) {
+static double minimum(double *place, SbFilmSolver *solver, int which, const SbEhlCase *problem,
+                      int element, bool pressure) {
   enum { SAMPLES = 16 };
   const SbEhlElement *e = &solver->mesh[which].element[element];
   double begin = e->map == SB_EHL_INLET ? -0.9 : -1.0;
@@ -156,7 +139,7 @@ static double minimum(double *place, SbFilmSolver *solver, int which, int elemen
   double least = INFINITY;
   for (int i = 0; i <= SAMPLES; i++) {
     double r = begin + step * i;
-    double value = sampled(solver, which, element, pressure, r);
+    double value = sampled(solver, which, problem, element, pressure, r);
     if (value < least) {
       least = value;
       best = r;
@@ -167,25 +150,25 @@ static double minimum(double *place, SbFilmSolver *solver, int which, int elemen
   double b = fmin(end, best + step);
   double c = b - RATIO * (b - a);
   double d = a + RATIO * (b - a);
-  double at_c = sampled(solver, which, element, pressure, c);
-  double at_d = sampled(solver, which, element, pressure, d);
+  double at_c = sampled(solver, which, problem, element, pressure, c);
+  double at_d = sampled(solver, which, problem, element, pressure, d);
   for (int i = 0; i < 36; i++) {
     if (at_c < at_d) {
       b = d;
       d = c;
       at_d = at_c;
       c = b - RATIO * (b - a);
-      at_c = sampled(solver, which, element, pressure, c);
+      at_c = sampled(solver, which, problem, element, pressure, c);
     } else {
       a = c;
       c = d;
       at_c = at_d;
       d = a + RATIO * (b - a);
-      at_d = sampled(solver, which, element, pressure, d);
+      at_d = sampled(solver, which, problem, element, pressure, d);
     }
   }
   double r = 0.5 * (a + b);
-  double value = sampled(solver, which, element, pressure, r);
+  double value = sampled(solver, which, problem, element, pressure, r);
   if (value < least) {
     least = value;
     best = r;
@@ -236,7 +219,7 @@ static double element_change(SbFilmSolver *solver, int which, const SbEhlCase *p
     double film[2];
     for (int k = 0; k < 2; k++) {
       int mesh = k == 0 ? which : 1 - which;
-      film[k] = sampled(solver, mesh, element, false, r);
+      film[k] = sampled(solver, mesh, problem, element, false, r);
       film[k] = flat ? reynolds_film(solver, mesh, problem, element, r, film[k]) : film[k];
     }
     sum += (film[0] / film[1] - 1.0) * (film[0] / film[1] - 1.0);
@@ -254,44 +237,29 @@ void sb_ehl_change(double change[3], SbFilmSolver *solver, int which, const SbEh
     return;
   }
   double shift = solver->state[which].shift;
-  int thinnest = find_element(mesh, fine->position_min - shift);
+  int thinnest = sb_ehl_find(mesh, fine->position_min - shift);
   change[0] = 0.0;
   for (int i = thinnest > 0 ? thinnest - 1 : 0; i <= thinnest + 1 && i < mesh->count; i++) {
     change[0] = fmax(change[0], element_change(solver, which, problem, i, false));
   }
-  change[1] =
-      element_change(solver, which, problem, find_element(mesh, problem->layers.middle - shift),
-                     flat_film(problem));
+  change[1] = element_change(solver, which, problem,
+                             sb_ehl_find(mesh, problem->layers.middle - shift), flat_film(problem));
 }
 
-void sb_ehl_results(SbEhlResults *out, SbFilmSolver *solver, int which, const SbEhlCase *problem) {
+// Film at the middle of the dry contact, friction and flux of smooth rows; the collocation points
+// of the least film and of the largest pressure.
+static void add_smooth(SbEhlResults *out, int *thinnest, int *highest, SbFilmSolver *solver,
+                       int which, const SbEhlCase *problem, int axis, double at_axis) {
   const SbEhlMesh *mesh = &solver->mesh[which];
   const SbEhlState *state = &solver->state[which];
-  memset(out, 0, sizeof *out);
   out->film_flux = state->flux;
-
-  // Film at the axis, or in the middle of a fitted body's dry contact.
-  double middle = problem->layers.middle - state->shift;
-  int axis = find_element(mesh, middle);
-  double at_axis = sb_ehl_coordinate(&mesh->element[axis], middle);
   out->film_central = sb_ehl_gap(mesh, &solver->tables, axis, state->gap, at_axis);
   if (flat_film(problem)) {
     // Flat films there hang on small differences of large deflections between the collocation
     // points; Reynolds' equation gives them from the slope of the pressure, with far less noise.
     out->film_central = reynolds_film(solver, which, problem, axis, at_axis, out->film_central);
   }
-
-  // Least film and largest pressure: search around the best collocation points.
-  int thinnest = 0;
-  int highest = 0;
   double peak = -INFINITY;
-  double load = mesh->load_known - 0.5 * M_PI +
-                mesh->inlet_pressure * (mesh->left_end + state->shift) -
-                mesh->outlet_pressure * (mesh->right_end + state->shift);
-  for (int j = 0; j < mesh->dofs; j++) {
-    load += mesh->load[j] * state->nodal[j];
-  }
-  out->load_error = fabs(load) / (0.5 * M_PI);
   for (int i = 0; i < mesh->rows; i++) {
     const SbEhlElement *e = &mesh->element[mesh->owner[i]];
     const double *value = mesh->value + (size_t)i * (SB_EHL_DEGREE_MAX + 1);
@@ -303,15 +271,11 @@ void sb_ehl_results(SbEhlResults *out, SbFilmSolver *solver, int which, const Sb
       P_slope += slope[j] * state->nodal[e->first_dof + j];
     }
     double H = state->gap[i];
-    if (P < out->pressure_min) {
-      out->pressure_min = P;
-    }
-    if (H < state->gap[thinnest]) {
-      thinnest = i;
-    }
+    out->pressure_min = fmin(out->pressure_min, P);
+    *thinnest = H < state->gap[*thinnest] ? i : *thinnest;
     if (P > peak) {
       peak = P;
-      highest = i;
+      *highest = i;
     }
     // Friction and flux by the rule of the collocation points.
     out->couette += mesh->weight[i] * sb_film_shear(&problem->fluid, H, P);
@@ -321,12 +285,107 @@ void sb_ehl_results(SbEhlResults *out, SbFilmSolver *solver, int which, const Sb
     double flux = H - H * H * H * m / problem->layers.lambda * P_slope;
     out->flux_error = fmax(out->flux_error, fabs(flux - state->flux) / fmax(H, state->flux));
   }
-  out->film_min = INFINITY;
-  out->pressure_max = -INFINITY;
+  // End of the film: the rupture, or the end of the contact.
+  out->ruptured = problem->layers.end != SB_EHL_FULL;
+  out->position_rupture = 1.0 + problem->layers.middle - state->shift;
+  for (int i = 0; i < mesh->count && out->ruptured; i++) {
+    if (i + 1 == mesh->count || mesh->element[i + 1].apart) {
+      out->position_rupture = mesh->element[i].x1;
+      break;
+    }
+  }
+}
+
+// Friction and loads of rough rows from node j to the next of element e, by the rule of the nodes.
+static void add_step(SbEhlResults *out, const SbEhlRoughPoint *point, const SbEhlState *state,
+                     const SbEhlCase *c, const SbEhlTable *rule, const SbEhlElement *e, int j) {
+  int i = e->first_dof + j;
+  const double *full = rule->step[j];
+  double film[SB_EHL_DEGREE_MAX + 1] = {0};
+  if (!state->cavity[i]) {
+    memcpy(film, full, sizeof film);
+    if (state->cavity[i + 1]) {
+      double end = sb_ehl_rough_film_end(rule, &state->s[e->first_dof], j);
+      sb_ehl_partial(film, rule, j, end);
+      if (!out->ruptured && c->layers.lambda > 0) {
+        out->position_rupture = sb_ehl_position(e, end);
+        out->ruptured = true;
+      }
+    }
+  }
+  double integral = 0; // of the slope
+  for (int k = 0; k <= rule->degree; k++) {
+    int n = e->first_dof + k;
+    const SbEhlRoughPoint *at = &point[n];
+    double w = e->h * full[k], wet = e->h * film[k];
+    double open = 1 - at->share;
+    double shear = sb_film_shear(&c->fluid, at->h, state->nodal[n] - at->solid);
+    out->couette += wet * open * shear;
+    out->poiseuille += wet * open * 0.5 * at->h * state->s[n];
+    if (c->layers.lambda > 0) {
+      double theta = fmin(state->flow / c->layers.lambda / at->h, 1);
+      out->cavity += (w - wet) * open * fmax(theta, 0) * shear;
+    }
+    out->real_area += w * at->share;
+    out->asperity_load += w * at->asperity;
+    integral += w * state->s[n];
+  }
+  // The flux that the profile carries, by the integrated equation.
+  if (!state->cavity[i] && !state->cavity[i + 1]) {
+    double rise = state->nodal[i + 1] - point[i + 1].solid - (state->nodal[i] - point[i].solid);
+    out->flux_error = fmax(out->flux_error, fabs(rise - integral));
+  }
+}
+
+// The same for rough rows; the nodes of the least film and of the largest pressure.
+static void add_rough(SbEhlResults *out, int *thinnest, int *highest, SbFilmSolver *solver,
+                      int which, const SbEhlCase *c, int axis, double at_axis) {
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlState *state = &solver->state[which];
+  for (int i = 0; i < mesh->dofs; i++) {
+    sb_ehl_rough_point(&solver->point[i], c, state->t[i]);
+    *thinnest = state->t[i] < state->t[*thinnest] ? i : *thinnest;
+    *highest = state->nodal[i] > state->nodal[*highest] ? i : *highest;
+  }
+  out->film_flux = c->layers.lambda > 0 ? state->flow / c->layers.lambda : 0;
+  SbEhlRoughPoint at;
+  sb_ehl_rough_point(&at, c, sampled(solver, which, c, axis, false, at_axis));
+  out->film_central = at.h;
+  out->central_share = at.share;
+  out->position_rupture = mesh->right_end;
+  for (int i = 0; i < mesh->count; i++) {
+    const SbEhlElement *e = &mesh->element[i];
+    const SbEhlTable *rule = sb_ehl_steps(&solver->tables, e->degree);
+    for (int j = 0; j < e->degree; j++) {
+      add_step(out, solver->point, state, c, rule, e, j);
+    }
+  }
+}
+
+void sb_ehl_results(SbEhlResults *out, SbFilmSolver *solver, int which, const SbEhlCase *problem) {
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlState *state = &solver->state[which];
+  bool rough = problem->rough.rows;
+  *out = (SbEhlResults){.film_min = INFINITY, .pressure_max = -INFINITY};
+  out->load_error = fabs(sb_ehl_load(mesh, state)) / (0.5 * M_PI);
+  // At the axis, or in the middle of a fitted body's dry contact.
+  double middle = problem->layers.middle - state->shift;
+  int axis = sb_ehl_find(mesh, middle);
+  double at_axis = sb_ehl_coordinate(&mesh->element[axis], middle);
+  int thinnest = 0, highest = 0;
+  (rough ? add_rough : add_smooth)(out, &thinnest, &highest, solver, which, problem, axis, at_axis);
+  out->position_rupture += state->shift;
+
+  // Least film and largest pressure: search around the best points.
   int around = mesh->owner[thinnest];
   for (int i = around > 0 ? around - 1 : 0; i <= around + 1 && i < mesh->count; i++) {
     double place;
-    double value = minimum(&place, solver, which, i, false);
+    double value = minimum(&place, solver, which, problem, i, false);
+    if (rough) {
+      SbEhlRoughPoint at;
+      sb_ehl_rough_point(&at, problem, value);
+      value = at.h;
+    }
     if (value < out->film_min) {
       out->film_min = value;
       out->position_min = place + state->shift;
@@ -335,18 +394,6 @@ void sb_ehl_results(SbEhlResults *out, SbFilmSolver *solver, int which, const Sb
   around = mesh->owner[highest];
   for (int i = around > 0 ? around - 1 : 0; i <= around + 1 && i < mesh->count; i++) {
     double place;
-    out->pressure_max = fmax(out->pressure_max, -minimum(&place, solver, which, i, true));
-  }
-
-  // End of the film: the rupture, or the end of the contact.
-  out->position_rupture = 1.0 + problem->layers.middle;
-  if (problem->layers.end != SB_EHL_FULL) {
-    int last = mesh->count - 1;
-    for (int i = 1; i < mesh->count; i++) {
-      if (mesh->element[i].apart) {
-        last = i - 1;
-      }
-    }
-    out->position_rupture = mesh->element[last].x1 + state->shift;
+    out->pressure_max = fmax(out->pressure_max, -minimum(&place, solver, which, problem, i, true));
   }
 }

@@ -6,7 +6,6 @@
 #include "engine/film/film.h"
 
 #include "engine/film/ehl.h"
-#include "engine/film/ehl_rough.h"
 #include "engine/film/scale.h"
 
 #include <math.h>
@@ -58,7 +57,6 @@ SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
 void sb_film_solver_destroy(SbFilmSolver *solver) {
   if (solver != NULL) {
     sb_ehl_finish(solver);
-    sb_ehl_rough_destroy(solver->mixed);
     free(solver);
   }
 }
@@ -67,24 +65,9 @@ void sb_film_solver_forget(SbFilmSolver *solver) {
   solver->last.ready = false;
 }
 
-// Asperities or adhesion take the mixed solver.
-static bool mixed(const SbFilmProblem *problem) {
+// Asperities or adhesion take rough rows.
+bool sb_film_rough(const SbFilmProblem *problem) {
   return problem->surface != SB_ROUGH_NONE || problem->hamaker > 0.0;
-}
-
-// The coupled solver, with asperities or without.
-static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
-                              SbFilmSolver *solver, SbReport *report) {
-  if (!mixed(problem)) {
-    return sb_ehl_solve(out, problem, scale, solver, report);
-  }
-  if (solver->mixed == NULL) {
-    solver->mixed = sb_ehl_rough_create();
-    if (solver->mixed == NULL) {
-      return sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
-    }
-  }
-  return sb_ehl_rough_solve(out, problem, scale, solver->mixed, report);
 }
 
 #define RANGE(member) offsetof(SbFilmProblem, member)
@@ -135,7 +118,7 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
     return sb_fail(report, SB_ERROR_INPUT, "there is no surface model number %d",
                    (int)problem->surface);
   }
-  if (mixed(problem) && problem->model != SB_FILM_REYNOLDS) {
+  if (sb_film_rough(problem) && problem->model != SB_FILM_REYNOLDS) {
     return sb_fail(report, SB_ERROR_INPUT,
                    "film: asperities and adhesion need the model reynolds, not %s",
                    sb_film_model_name(problem->model));
@@ -248,7 +231,7 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
                              "pi they open the contact",
                              fabs(scale.inlet - scale.outlet));
   }
-  if (scale.U <= 0.0 && !(mixed(problem) && problem->surface != SB_ROUGH_NONE)) {
+  if (scale.U <= 0.0 && !(sb_film_rough(problem) && problem->surface != SB_ROUGH_NONE)) {
     if (fitted) {
       sb_film_rest_fitted(out, problem, &dry);
       status = sb_succeed(report);
@@ -269,7 +252,7 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
         status = sb_film_solver_create(&own, report);
       }
       if (status == SB_OK) {
-        status = solve_coupled(out, problem, &scale, memory != NULL ? memory : own, report);
+        status = sb_ehl_solve(out, problem, &scale, memory != NULL ? memory : own, report);
       }
       sb_film_solver_destroy(own);
       break;

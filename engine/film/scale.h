@@ -30,6 +30,9 @@ typedef struct {
   double half_width, film;               // scales b and of the film
 } SbFilmBody;
 
+// Whether `problem` has asperities or adhesion.
+bool sb_film_rough(const SbFilmProblem *problem);
+
 // Scales of `problem`, which must have been checked.
 SbFilmScale sb_film_scale(const SbFilmProblem *problem);
 
