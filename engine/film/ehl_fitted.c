@@ -63,11 +63,9 @@ void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryC
   const double to = fmin(c->right, dry->right + half);
   out->pressure_max = dry->peak;
   out->position_rupture = dry->right;
-  out->points = POINTS;
-  for (int i = 0; i < POINTS; i++) {
-    out->x[i] = from + (to - from) * i / (POINTS - 1);
-    out->pressure[i] = sb_dry_contact_pressure(dry, out->x[i]);
-    out->film[i] = sb_dry_contact_gap(dry, c, out->x[i]);
+  for (size_t i = 0; i < POINTS && out->x != NULL; i++) {
+    double x = from + (to - from) * (double)i / (POINTS - 1);
+    sb_film_put(out, i, x, sb_dry_contact_pressure(dry, x), sb_dry_contact_gap(dry, c, x));
   }
   out->solver.converged = true;
   out->solver.residual = dry->residual;

@@ -307,21 +307,6 @@ static double reach_of(double lambda, double ambient, bool drawn) {
   return fmax(fmax(least, load), drawn ? 0.0 : fmin(friction, shown));
 }
 
-// From the flow frame, inlet left, to the seal's.
-static void mirror(SbFilm *out) {
-  double *const column[] = {out->x, out->pressure, out->film, out->asperity_pressure};
-  for (size_t k = 0; k < sizeof column / sizeof column[0]; k++) {
-    for (size_t i = 0, j = out->points - 1; i < j; i++, j--) {
-      double value = column[k][i];
-      column[k][i] = column[k][j];
-      column[k][j] = value;
-    }
-  }
-  for (size_t i = 0; i < out->points; i++) {
-    out->x[i] = -out->x[i];
-  }
-}
-
 // Rough rows: every element evenly, by its own polynomials.
 static void fill_rough(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *c,
                        const SbFilmScale *scale) {
@@ -338,13 +323,11 @@ static void fill_rough(SbFilm *out, SbFilmSolver *solver, int which, const SbEhl
       SbEhlRoughPoint at;
       sb_ehl_rough_point(&at, c, sb_ehl_interpolate(table, &state->t[e->first_dof], r));
       double q = sb_ehl_interpolate(table, &state->nodal[e->first_dof], r);
-      out->x[n] = (sb_ehl_position(e, r) + state->shift) * scale->half_width;
-      out->pressure[n] = (q + c->fluid.rupture) * scale->pressure;
-      out->film[n] = at.h * scale->film;
+      sb_film_put(out, n, (sb_ehl_position(e, r) + state->shift) * scale->half_width,
+                  (q + c->fluid.rupture) * scale->pressure, at.h * scale->film);
       out->asperity_pressure[n] = at.asperity * scale->pressure;
     }
   }
-  out->points = n;
 }
 
 static void fill_smooth(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
@@ -402,23 +385,23 @@ static void fill_smooth(SbFilm *out, SbFilmSolver *solver, int which, const SbEh
       double film = piece->flat ? flat_film(problem, state->flux, P,
                                             slope / fmax(sb_ehl_stretch(e, r), 1e-300))
                                 : gap_at(solver, which, problem, piece->element, excess, r);
-      out->x[n] = (X + state->shift) * scale->half_width;
-      out->pressure[n] = (P + problem->fluid.rupture) * scale->pressure;
-      out->film[n] = film * scale->film;
-      n++;
+      sb_film_put(out, n++, (X + state->shift) * scale->half_width,
+                  (P + problem->fluid.rupture) * scale->pressure, film * scale->film);
     }
   }
-  out->points = n;
 }
 
 void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
                     const SbFilmScale *scale, const SbFilmProblem *wanted) {
+  if (wanted->profile == NULL) {
+    return;
+  }
   if (problem->rough.rows) {
     fill_rough(out, solver, which, problem, scale);
   } else {
     fill_smooth(out, solver, which, problem, scale, wanted);
   }
   if (wanted->speed < 0.0) {
-    mirror(out);
+    sb_film_mirror(out);
   }
 }

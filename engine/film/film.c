@@ -174,6 +174,13 @@ double sb_film_dry_pressure(double X, double inlet, double outlet) {
 
 void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale) {
   memset(out, 0, sizeof *out);
+  SbFilmProfile *profile = problem->profile;
+  if (profile != NULL) {
+    out->x = profile->x;
+    out->pressure = profile->pressure;
+    out->film = profile->film;
+    out->asperity_pressure = profile->asperity_pressure;
+  }
   out->model = problem->model;
   out->hertz_half_width = scale->half_width;
   out->hertz_pressure = scale->pressure;
@@ -188,6 +195,20 @@ void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale 
                                          : "isoviscous-elastic";
   strncpy(out->regime, regime, sizeof out->regime - 1);
   out->valid = true;
+}
+
+void sb_film_mirror(SbFilm *out) {
+  double *const column[] = {out->x, out->pressure, out->film, out->asperity_pressure};
+  for (size_t k = 0; k < sizeof column / sizeof column[0]; k++) {
+    for (size_t i = 0, j = out->points; i < out->points / 2; i++) {
+      double value = column[k][i];
+      column[k][i] = column[k][--j];
+      column[k][j] = value;
+    }
+  }
+  for (size_t i = 0; i < out->points; i++) {
+    out->x[i] = -out->x[i];
+  }
 }
 
 void sb_film_warn_common(SbFilm *out, const SbFilmProblem *problem) {
@@ -270,7 +291,7 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
   if (status == SB_ERROR_NOT_CONVERGED) {
     out->valid = false;
   }
-  if (status == SB_OK || (status == SB_ERROR_NOT_CONVERGED && out->points > 0)) {
+  if (status == SB_OK || (status == SB_ERROR_NOT_CONVERGED && out->film_central > 0.0)) {
     sb_film_warn_common(out, problem);
   }
   return status;

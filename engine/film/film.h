@@ -45,6 +45,14 @@ typedef enum {
 
 enum { SB_FILM_POINTS = 7800 }; // capacity of a profile
 
+// Room for a profile, the caller's; 250 kB.
+typedef struct {
+  double x[SB_FILM_POINTS];                 // [m]
+  double pressure[SB_FILM_POINTS];          // gauge [Pa]
+  double film[SB_FILM_POINTS];              // [m]
+  double asperity_pressure[SB_FILM_POINTS]; // [Pa]
+} SbFilmProfile;
+
 // Least film over radius from which on the parabola misses the cylinder by more than some 5 % of
 // the film; a warning says so.
 #define SB_FILM_THICK 0.1
@@ -87,6 +95,7 @@ typedef struct {
   const double *dry_pressure; // [Pa]
   size_t dry_count;
 
+  SbFilmProfile *profile; // lent to the result for its profile; NULL: none is made
   size_t profile_points; // of the coupled solver's profile, about; 0: as many as serve its accuracy
 
   // Polled between Newton steps; true stops the solve with SB_ERROR_CANCELLED. May be NULL.
@@ -109,7 +118,8 @@ typedef struct {
   double wall_s;             // time of the solve, cold or warm, without any output
 } SbFilmSolverInfo;
 
-// What came out. Plain data without pointers: may be copied and handed to another thread.
+// What came out. Plain data but for the profile, which stands in the buffer that the problem lent:
+// a copy shares it and is good as long as the buffer is neither freed nor lent to another solve.
 typedef struct {
   SbFilmModel model;
   double film_min;          // [m]
@@ -143,14 +153,14 @@ typedef struct {
   SbWarnings warnings;
   SbFilmSolverInfo solver;
 
-  // Profile, x increasing, dense in the inlet and outlet layers; at least 400 points unless fewer
-  // were asked for. Central differences of the coupled solver's give its flux to 1e-4 of the larger
-  // of film and flux film.
+  // Profile, none and NULL unless the problem lends room for it: x increasing, dense in the inlet
+  // and outlet layers; at least 400 points unless fewer were asked for. Central differences of the
+  // coupled solver's give its flux to 1e-4 of the larger of film and flux film.
   size_t points;
-  double x[SB_FILM_POINTS];                 // [m]
-  double pressure[SB_FILM_POINTS];          // gauge [Pa]
-  double film[SB_FILM_POINTS];              // gap between the surfaces [m]
-  double asperity_pressure[SB_FILM_POINTS]; // [Pa], a part of `pressure`; 0 without roughness
+  double *x;                 // [m]
+  double *pressure;          // gauge [Pa]
+  double *film;              // gap between the surfaces [m]
+  double *asperity_pressure; // [Pa], a part of `pressure`; 0 without roughness
 } SbFilm;
 
 // Workspace of the film solver and its last solution: later solves start from it and allocate
@@ -183,8 +193,8 @@ void sb_film_problem_init(SbFilmProblem *problem);
 
 // Solves `problem` with its model. `memory` may be NULL (then a workspace lives for the call only).
 // SB_ERROR_RANGE / SB_ERROR_INPUT: nothing solved, *out is zero. SB_ERROR_NOT_CONVERGED: *out holds
-// the best state found, solver.converged is false; without points if there is none, and the films
-// and pressures are then 0. SB_ERROR_CANCELLED, SB_ERROR_MEMORY.
+// the best state found, solver.converged is false; if there is none, the films and pressures are 0.
+//  SB_ERROR_CANCELLED, SB_ERROR_MEMORY.
 SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *memory,
                        SbReport *report);
 

@@ -65,5 +65,19 @@ SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const Sb
 SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                            SbReport *report);
 
+// Point n of the profile, without asperities, where one is wanted.
+static inline void sb_film_put(SbFilm *out, size_t n, double x, double pressure, double film) {
+  if (out->x != NULL) {
+    out->x[n] = x;
+    out->pressure[n] = pressure;
+    out->film[n] = film;
+    out->asperity_pressure[n] = 0.0;
+    out->points = n + 1 > out->points ? n + 1 : out->points;
+  }
+}
+
+// Turns a profile between the flow frame and the seal's where their x differ in sign.
+void sb_film_mirror(SbFilm *out);
+
 // Flags films thinner than a few molecules and pressures that the models do not cover.
 void sb_film_warn_common(SbFilm *out, const SbFilmProblem *problem);

@@ -20,7 +20,8 @@ struct SbSlidingMemory {
   SbFilm fitted_film; // of the fitted body
   bool fitted_last;   // which of them the last evaluation gave
   SbFilm rest;        // dry rough contact, coupled asperities only
-  bool rest_fitted;   // on the fitted body
+  SbFilmProfile film_profile, fitted_profile, rest_profile;
+  bool rest_fitted; // on the fitted body
   double rest_load;
   SbSealPressure rest_pressure;
   bool rested;
@@ -57,7 +58,11 @@ static SbStatus film_solve(SbFilm *out, const SbFilmProblem *problem, SbSlidingM
       return status;
     }
   }
-  return sb_film_solve(out, problem, memory->solver, report);
+  SbFilmProblem lent = *problem;
+  lent.profile = out == &memory->film          ? &memory->film_profile
+                 : out == &memory->fitted_film ? &memory->fitted_profile
+                                               : &memory->rest_profile;
+  return sb_film_solve(out, &lent, memory->solver, report);
 }
 
 void sb_sliding_memory_forget(SbSlidingMemory *memory) {
