@@ -236,22 +236,35 @@ static void moments_complex(double *out, double real, double imaginary, int n) {
 
 // ---------------------------------------------------------------- elements
 
+// row[j] += sum over k < count of value[k] matrix[k][j], rows of COLUMNS.
+static void accumulate(double *restrict row, const double *restrict value,
+                       const double *restrict matrix, int count, int columns) {
+  int k = 0;
+  for (; k + 4 <= count; k += 4, matrix += 4 * COLUMNS) {
+    for (int j = 0; j < columns; j++) {
+      row[j] += (value[k] * matrix[j] + value[k + 1] * matrix[COLUMNS + j]) +
+                (value[k + 2] * matrix[2 * COLUMNS + j] + value[k + 3] * matrix[3 * COLUMNS + j]);
+    }
+  }
+  for (; k < count; k++, matrix += COLUMNS) {
+    for (int j = 0; j < columns; j++) {
+      row[j] += value[k] * matrix[j];
+    }
+  }
+}
+
 // Moments about the middle of a finite element.
 static void expand(SbEhlElement *e) {
-  int columns = e->degree + 2;
   e->middle = 0.5 * (e->x0 + e->x1);
   e->half = 0.5 * (e->x1 - e->x0);
   memset(e->multipole, 0, sizeof e->multipole);
-  for (int q = 0; q < SB_EHL_QUAD; q++) {
-    double x = (e->fine_x[q] - e->middle) / e->half;
-    double power = 1.0;
-    for (int m = 0; m < SB_EHL_MULTIPOLES; m++) {
-      power *= x;
-      double times = -power / (m + 1);
-      for (int j = 0; j < columns; j++) {
-        e->multipole[m][j] += times * e->fine_wb[q][j];
-      }
+  double power[SB_EHL_QUAD], value[SB_EHL_QUAD];
+  for (int m = 0; m < SB_EHL_MULTIPOLES; m++) {
+    for (int q = 0; q < SB_EHL_QUAD; q++) {
+      power[q] = (m > 0 ? power[q] : 1.0) * (e->fine_x[q] - e->middle) / e->half;
+      value[q] = -power[q] / (m + 1);
     }
+    accumulate(e->multipole[m], value, e->fine_wb[0], SB_EHL_QUAD, e->degree + 2);
   }
 }
 
@@ -266,6 +279,7 @@ static void prepare(SbEhlElement *e, SbEhlTables *tables) {
   e->modes = e->degree + extra;
   memset(e->project, 0, sizeof e->project);
   memset(e->integral, 0, sizeof e->integral);
+  double value[SB_EHL_QUAD];
   for (int q = 0; q < SB_EHL_QUAD; q++) {
     double r = tables->fine[q];
     double scale = tables->fine_weight[q] * sb_ehl_stretch(e, r);
@@ -275,37 +289,40 @@ static void prepare(SbEhlElement *e, SbEhlTables *tables) {
     }
     e->fine_wb[q][e->degree + 1] = scale * known_part(e, t->fine[q], r);
     e->fine_x[q] = is_infinite(e) ? inverse_coordinate(e, r) : sb_ehl_position(e, r);
-    for (int j = 0; j < columns; j++) {
-      e->integral[j] += e->fine_wb[q][j];
+    value[q] = 1.0;
+  }
+  accumulate(e->integral, value, e->fine_wb[0], SB_EHL_QUAD, columns);
+  for (int k = 0; k <= e->modes; k++) {
+    for (int q = 0; q < SB_EHL_QUAD; q++) {
+      value[q] = 0.5 * (2 * k + 1) * tables->fine_legendre[q][k];
     }
-    for (int k = 0; k <= e->modes; k++) {
-      double mode = 0.5 * (2 * k + 1) * tables->fine_legendre[q][k];
-      for (int j = 0; j < columns; j++) {
-        e->project[k][j] += mode * e->fine_wb[q][j];
-      }
-    }
+    accumulate(e->project[k], value, e->fine_wb[0], SB_EHL_QUAD, columns);
   }
   if (!is_infinite(e)) {
     expand(e);
+    return;
   }
-  if (is_infinite(e)) {
-    // Integral with ln s, the distance from the infinite end.
-    double moment[SB_EHL_PROJECT + 1];
-    moments_real(moment, e->map == SB_EHL_INLET ? -1.0 : 1.0, e->modes);
-    for (int j = 0; j < columns; j++) {
-      e->log_s[j] = -log(2.0) * e->integral[j];
-      for (int k = 0; k <= e->modes; k++) {
-        e->log_s[j] += moment[k] * e->project[k][j];
-      }
-    }
+  // Integral with ln s, the distance from the infinite end.
+  double moment[SB_EHL_PROJECT + 1];
+  moments_real(moment, e->map == SB_EHL_INLET ? -1.0 : 1.0, e->modes);
+  for (int j = 0; j < columns; j++) {
+    e->log_s[j] = -log(2.0) * e->integral[j];
   }
+  accumulate(e->log_s, moment, e->project[0], e->modes + 1, columns);
 }
 
-static void add_moments(double *row, const SbEhlElement *e, const double *moment, double times) {
-  for (int k = 0; k <= e->modes; k++) {
-    for (int j = 0; j < e->degree + 2; j++) {
-      row[j] += times * moment[k] * e->project[k][j];
-    }
+static void add_moments(double *row, const SbEhlElement *e, const double *moment) {
+  accumulate(row, moment, e->project[0], e->modes + 1, e->degree + 2);
+}
+
+// A smooth part of the kernel by its values at the fine rule.
+static void add_values(double *row, const SbEhlElement *e, const double *value) {
+  accumulate(row, value, e->fine_wb[0], SB_EHL_QUAD, e->degree + 2);
+}
+
+static void add_constant(double *row, const SbEhlElement *e, double value) {
+  for (int j = 0; j < e->degree + 2; j++) {
+    row[j] += value * e->integral[j];
   }
 }
 
@@ -313,22 +330,17 @@ static void add_moments(double *row, const SbEhlElement *e, const double *moment
 // contact, acosh|X| outside.
 static void row_finite(double *row, const SbEhlElement *e, const double *fine, double X,
                        double angle) {
-  int columns = e->degree + 2;
+  double value[SB_EHL_QUAD];
   double z = fabs(X - e->middle) / e->half;
   if (z > FAR) {
-    double value = log(z * e->half);
+    add_constant(row, e, log(z * e->half));
     double inverse = e->half / (X - e->middle);
-    for (int j = 0; j < columns; j++) {
-      row[j] += value * e->integral[j];
+    int terms = (int)fmin(DIGITS / log(z) + 1.0, SB_EHL_MULTIPOLES);
+    double power[SB_EHL_MULTIPOLES] = {inverse};
+    for (int m = 1; m < terms; m++) {
+      power[m] = power[m - 1] * inverse;
     }
-    int terms = (int)(DIGITS / log(z)) + 1;
-    double power = 1.0;
-    for (int m = 0; m < terms && m < SB_EHL_MULTIPOLES; m++) {
-      power *= inverse;
-      for (int j = 0; j < columns; j++) {
-        row[j] += power * e->multipole[m][j];
-      }
-    }
+    accumulate(row, power, e->multipole[0], terms, e->degree + 2);
     return;
   }
   // The target's own coordinate, complex outside |X| <= 1 on the cosine map.
@@ -347,11 +359,9 @@ static void row_finite(double *row, const SbEhlElement *e, const double *fine, d
                         : 0.5 * (hypot(real - 1.0, imaginary) + hypot(real + 1.0, imaginary));
   if (distance > NEAR) {
     for (int q = 0; q < SB_EHL_QUAD; q++) {
-      double value = log(fabs(X - e->fine_x[q]));
-      for (int j = 0; j < columns; j++) {
-        row[j] += value * e->fine_wb[q][j];
-      }
+      value[q] = log(fabs(X - e->fine_x[q]));
     }
+    add_values(row, e, value);
     return;
   }
   double moment[SB_EHL_PROJECT + 1];
@@ -360,31 +370,26 @@ static void row_finite(double *row, const SbEhlElement *e, const double *fine, d
   } else {
     moments_complex(moment, real, imaginary, e->modes);
   }
-  add_moments(row, e, moment, 1.0);
+  add_moments(row, e, moment);
   if (e->map == SB_EHL_AFFINE) {
-    double value = log(e->h);
-    for (int j = 0; j < columns; j++) {
-      row[j] += value * e->integral[j];
-    }
+    add_constant(row, e, log(e->h));
     return;
   }
   // Remainder of the cosine map's kernel, ln|(X - X')/(z - r)|, smooth in r.
   for (int q = 0; q < SB_EHL_QUAD; q++) {
     double dr = real - fine[q];
     double dX = X - e->fine_x[q];
-    double value = 0.5 * log(dX * dX / (dr * dr + imaginary * imaginary));
-    for (int j = 0; j < columns; j++) {
-      row[j] += value * e->fine_wb[q][j];
-    }
+    value[q] = 0.5 * log(dX * dX / (dr * dr + imaginary * imaginary));
   }
+  add_values(row, e, value);
 }
 
 // Infinite elements: |X - X'| = |B + a s^2| / s^2 with a = X - A (inlet) or A - X (outlet).
 static void row_infinite(double *row, const SbEhlElement *e, double X) {
-  int columns = e->degree + 2;
+  double value[SB_EHL_QUAD];
   double side = e->map == SB_EHL_INLET ? 1.0 : -1.0;
   double a = side * (X - e->A);
-  for (int j = 0; j < columns; j++) {
+  for (int j = 0; j < e->degree + 2; j++) {
     row[j] -= 2.0 * e->log_s[j];
   }
   // Roots s = +-y or +-iy; in r they are side (2 s - 1).
@@ -392,37 +397,32 @@ static void row_infinite(double *row, const SbEhlElement *e, double X) {
   bool near = a < 0.0 ? 2.0 * y - 1.0 < NEAR : sqrt(1.0 + y * y) + y < NEAR;
   if (!near) {
     for (int q = 0; q < SB_EHL_QUAD; q++) {
-      double s = e->fine_x[q];
-      double value = log(fabs(e->B + a * s * s));
-      for (int j = 0; j < columns; j++) {
-        row[j] += value * e->fine_wb[q][j];
-      }
+      value[q] = log(fabs(e->B + a * e->fine_x[q] * e->fine_x[q]));
     }
+    add_values(row, e, value);
     return;
   }
   double moment[SB_EHL_PROJECT + 1];
   if (a < 0.0) {
     moments_real(moment, side * (2.0 * y - 1.0), e->modes);
-    add_moments(row, e, moment, 1.0);
+    add_moments(row, e, moment);
     if (2.0 * y + 1.0 < NEAR) {
       moments_real(moment, -side * (2.0 * y + 1.0), e->modes);
-      add_moments(row, e, moment, 1.0);
+      add_moments(row, e, moment);
     } else {
       for (int q = 0; q < SB_EHL_QUAD; q++) {
-        double value = log(2.0 * (e->fine_x[q] + y));
-        for (int j = 0; j < columns; j++) {
-          row[j] += value * e->fine_wb[q][j];
-        }
+        value[q] = log(2.0 * (e->fine_x[q] + y));
       }
+      add_values(row, e, value);
     }
   } else {
     moments_complex(moment, -side, 2.0 * y, e->modes);
-    add_moments(row, e, moment, 2.0);
+    for (int k = 0; k <= e->modes; k++) {
+      moment[k] *= 2.0;
+    }
+    add_moments(row, e, moment);
   }
-  double value = log(0.25 * fabs(a));
-  for (int j = 0; j < columns; j++) {
-    row[j] += value * e->integral[j];
-  }
+  add_constant(row, e, log(0.25 * fabs(a)));
 }
 
 // ---------------------------------------------------------------- meshes

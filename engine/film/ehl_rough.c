@@ -320,6 +320,11 @@ SbStatus sb_ehl_rough_climb(SbEhlResults *results, int *levels, int *which, SbFi
   return status;
 }
 
+static bool same_surface(const SbRoughSurface *a, const SbRoughSurface *b) {
+  return a->model == b->model && a->product == b->product && a->sigma == b->sigma &&
+         a->sigma_over_beta == b->sigma_over_beta && a->modulus == b->modulus;
+}
+
 SbStatus sb_ehl_rough_case(SbEhlCase *c, SbFilmSolver *solver, const SbFilmProblem *problem,
                            const SbFilmScale *scale, SbReport *report) {
   bool starved = problem->inlet_film > 0 && problem->speed != 0;
@@ -338,7 +343,7 @@ SbStatus sb_ehl_rough_case(SbEhlCase *c, SbFilmSolver *solver, const SbFilmProbl
                               .sigma = problem->sigma,
                               .sigma_over_beta = problem->sigma_over_beta,
                               .modulus = problem->modulus};
-    if (!solver->law_ready || memcmp(&solver->law.surface, &surface, sizeof surface) != 0) {
+    if (!solver->law_ready || !same_surface(&solver->law.surface, &surface)) {
       solver->law_ready = false;
       SbStatus made = sb_rough_law_init(&solver->law, &surface, report);
       if (made != SB_OK) {
