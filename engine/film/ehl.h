@@ -173,6 +173,11 @@ void sb_ehl_results(SbEhlResults *out, SbFilmSolver *solver, int which, const Sb
 void sb_ehl_change(double change[3], SbFilmSolver *solver, int which, const SbEhlCase *problem,
                    const SbEhlResults *fine, const SbEhlResults *coarse, bool paired);
 
+// Film that carries the flux under the slope dP/dX, by fixed-point steps from `film`; its
+// Poiseuille part is small where this is used.
+double sb_ehl_flat_film(const SbEhlCase *c, double flux, double film, double pressure,
+                        double slope);
+
 // Profile of a solution into `out`, in SI and in the seal's frame, with the points that `wanted`
 // asks for.
 void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
@@ -214,9 +219,6 @@ bool sb_ehl_rough_mesh(SbFilmSolver *solver, int which, const SbEhlCase *c, int 
 // c->rough.front for the next mesh; false if neither is sharp enough to need elements of its own.
 bool sb_ehl_rough_fronts(SbEhlCase *c, const SbFilmSolver *solver, int which,
                          const SbEhlResults *results);
-
-// End pressures joined as in the dry smooth contact (docs/verification.md), at X.
-double sb_ehl_rough_ends(const SbEhlCase *c, double X);
 
 // Gap and solid pressures at t, and the parameter of a gap.
 void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t);

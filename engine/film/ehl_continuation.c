@@ -75,7 +75,7 @@ static void add_dry_change(SbFilmSolver *solver, int which, const SbEhlLayers *o
   for (int i = 0; i < mesh->count; i++) {
     const SbEhlElement *e = &mesh->element[i];
     bool before_outlet = i + 1 < mesh->count && mesh->element[i + 1].map == SB_EHL_OUTLET;
-    if (e->map == SB_EHL_INLET || e->map == SB_EHL_OUTLET) {
+    if (sb_ehl_infinite(e)) {
       last = e->first_dof + e->degree;
       continue;
     }

@@ -9,6 +9,7 @@
 #include "engine/film/ehl_layers.h"
 
 #include "engine/film/scale.h"
+#include "engine/film/wedge.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -322,9 +323,8 @@ bool sb_ehl_layers_mesh(SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlLayers 
 
 double sb_ehl_layers_dry_pressure(const SbEhlLayers *l, double X) {
   double inside = fmin(fmax(X, -1.0), 1.0);
-  double step = asin(inside) / M_PI;
-  return sqrt((1.0 - inside) * (1.0 + inside)) * bowed(l, inside) + l->inlet * (0.5 - step) +
-         l->outlet * (0.5 + step);
+  return sqrt((1.0 - inside) * (1.0 + inside)) * bowed(l, inside) +
+         sb_film_ends(X, l->inlet, l->outlet);
 }
 
 double sb_ehl_layers_dry_gap(const SbEhlLayers *l, double X) {
@@ -342,8 +342,7 @@ void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *l, d
   double in = sb_ehl_layers_width(l);
   double out = sb_ehl_layers_outlet_width(l);
   double inside = fmin(fmax(X, -1.0), 1.0);
-  double step = asin(inside) / M_PI;
-  double ends = l->inlet * (0.5 - step) + l->outlet * (0.5 + step);
+  double ends = sb_film_ends(X, l->inlet, l->outlet);
   if (X < 0.0) {
     double z = (X + 1.0) / in;
     double p = z > 10.0     ? sqrt(2.0 * z)
@@ -362,17 +361,12 @@ void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *l, d
   }
 }
 
-// Rigid parabola with its rupture, thesis eq. 6.17-6.19.
+// Rigid parabola with its rupture (wedge.h).
 static double rigid_pressure(const SbEhlLayers *l, double X) {
   double film = rigid_film(l);
   double length = sqrt(2.0 * film);
   double t = fmin(atan(X / length), RUPTURE_ANGLE);
-  double cosine = cos(RUPTURE_ANGLE);
-  double s = 1.0 / (cosine * cosine);
-  double sum = 0.5 * t + 0.25 * sin(2.0 * t) -
-               s * (0.375 * t + 0.25 * sin(2.0 * t) + sin(4.0 * t) / 32.0) + 0.25 * M_PI -
-               0.1875 * M_PI * s;
-  return l->lambda * length / (film * film) * fmax(sum, 0.0);
+  return l->lambda * length / (film * film) * fmax(sb_wedge_shape(t, RUPTURE_ANGLE), 0.0);
 }
 
 void sb_ehl_layers_guess(double *nodal, double *gap, double *shift, double *flux,
@@ -401,7 +395,7 @@ void sb_ehl_layers_guess(double *nodal, double *gap, double *shift, double *flux
       } else {
         sb_ehl_layers_shape(&pressure, &film, l, *flux, X);
       }
-      double s = inlet ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
+      double s = sb_ehl_inverse(e, r);
       bool touching = (inlet && k == e->degree) || (outlet && k == 0);
       if ((inlet || outlet) && !touching) {
         pressure = (pressure - e->far_pressure) / (s * s * s * s);

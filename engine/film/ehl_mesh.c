@@ -1,14 +1,8 @@
-// Spectral elements for a pressure on an elastic half-plane, scaled: gap of a pressure P is
-// -(1/pi) integral P ln|X - X'| dX' (thesis eq. 6.46-6.50 without its constant).
+// Spectral elements for a pressure on an elastic half-plane, scaled.
 //
 // Each element maps r in [-1, 1] to X so that the pressure is smooth in r: affine in the layers,
 // X = -cos(theta) inside the contact with Hertz's sine taken out, and inverse squares towards the
-// infinite ends, where p falls like s^4 and faster. Near a target the logarithm is split into
-// ln|z - r|, z being the target's own (complex) coordinate, and a smooth remainder. The first part
-// is exact for polynomials: integral of P_k(r) ln(z - r) = 2/(2k+1) (Q_{k+1} - Q_{k-1})(z) with the
-// Legendre functions of the second kind; the remainder and targets at a middling distance take a
-// Gauss rule, distant ones the expansion about the element's middle c, half its length h,
-// ln|X - X'| = ln|X - c| - sum ((X' - c)/h)^m z^-m / m with z = (X - c)/h.
+// infinite ends, where p falls like s^4 and faster. The gap's integrals are those of ehl_kernel.c.
 //
 // Left out: anything but the half-plane; unequal far pressures are given the tilt of
 // docs/verification.md (the dry contact stays |x| < b).
@@ -16,7 +10,6 @@
 
 #include "engine/numeric/legendre.h"
 
-#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,13 +19,7 @@ enum {
   STRIDE = SB_EHL_DEGREE_MAX + 1,
 };
 
-// Half the sum of the distances to -1 and 1 is (rho + 1/rho)/2 on Bernstein's ellipse rho: closer
-// than NEAR (rho = 2) the split kernel is used. Beyond FAR half-lengths from the middle the
-// expansion holds 16 digits with at most SB_EHL_MULTIPOLES terms, -ln z of them each.
-static const double NEAR = 1.25;
-static const double FAR = 3.0;
 static const double INVERSE_PI = 0.31830988618379067;
-static const double DIGITS = 37.0; // ln of what is left out, negative
 
 void sb_ehl_tables_init(SbEhlTables *tables) {
   sb_legendre_gauss(tables->fine, tables->fine_weight, SB_EHL_QUAD);
@@ -117,11 +104,6 @@ double sb_ehl_interpolate(const SbEhlTable *t, const double *value, double r) {
 
 // ---------------------------------------------------------------- maps
 
-// s of an infinite element: 1 at its finite end, 0 at infinity.
-static double inverse_coordinate(const SbEhlElement *e, double r) {
-  return e->map == SB_EHL_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
-}
-
 double sb_ehl_position(const SbEhlElement *e, double r) {
   double s;
   switch (e->map) {
@@ -130,10 +112,10 @@ double sb_ehl_position(const SbEhlElement *e, double r) {
   case SB_EHL_COSINE:
     return -cos(e->m + e->h * r);
   case SB_EHL_INLET:
-    s = inverse_coordinate(e, r);
+    s = sb_ehl_inverse(e, r);
     return e->A - e->B / (s * s);
   default:
-    s = inverse_coordinate(e, r);
+    s = sb_ehl_inverse(e, r);
     return e->A + e->B / (s * s);
   }
 }
@@ -145,7 +127,7 @@ double sb_ehl_stretch(const SbEhlElement *e, double r) {
   case SB_EHL_COSINE:
     return e->h * sin(e->m + e->h * r);
   default: {
-    double s = inverse_coordinate(e, r);
+    double s = sb_ehl_inverse(e, r);
     return e->B / (s * s * s);
   }
   }
@@ -172,25 +154,20 @@ int sb_ehl_find(const SbEhlMesh *mesh, double X) {
   return i;
 }
 
-static bool is_infinite(const SbEhlElement *e) {
-  return e->map == SB_EHL_INLET || e->map == SB_EHL_OUTLET;
-}
-
-// Factor of the nodal polynomial in the pressure, and the node that touches the neighbour.
-static double factor(const SbEhlElement *e, double r) {
-  if (!is_infinite(e)) {
+double sb_ehl_factor(const SbEhlElement *e, double r) {
+  if (!sb_ehl_infinite(e)) {
     return 1.0;
   }
-  double s = inverse_coordinate(e, r);
+  double s = sb_ehl_inverse(e, r);
   return s * s * s * s;
 }
 
+// Node that touches the neighbour.
 static int touching_node(const SbEhlElement *e) {
   return e->map == SB_EHL_INLET ? e->degree : 0;
 }
 
-// Known part of the pressure, without the far pressure: basis holds the Lagrange values at r.
-static double known_part(const SbEhlElement *e, const double *basis, double r) {
+double sb_ehl_known_part(const SbEhlElement *e, const double *basis, double r) {
   if (e->map == SB_EHL_COSINE) {
     double known = sin(e->m + e->h * r);
     for (int k = 0; k <= e->degree; k++) {
@@ -199,230 +176,8 @@ static double known_part(const SbEhlElement *e, const double *basis, double r) {
     return known;
   }
   // The touching node holds the full pressure, of which the far pressure is no part of s^4 (...).
-  return is_infinite(e) ? -e->far_pressure * factor(e, r) * basis[touching_node(e)] : 0.0;
-}
-
-// ---------------------------------------------------------------- logarithmic moments
-
-// out[k] = Re integral over [-1, 1] of P_k(r) ln(z - r), k = 0 .. n, for real z near the element.
-static void moments_real(double *out, double z, int n) {
-  double plus = log(fmax(fabs(z + 1.0), 1e-40));
-  double minus = log(fmax(fabs(z - 1.0), 1e-40));
-  double before = 0.5 * (plus - minus);
-  double now = z * before - 1.0;
-  out[0] = (z + 1.0) * plus - (z - 1.0) * minus - 2.0;
-  for (int k = 1; k <= n; k++) {
-    double next = ((2 * k + 1) * z * now - k * before) / (k + 1);
-    out[k] = 2.0 / (2 * k + 1) * (next - before);
-    before = now;
-    now = next;
-  }
-}
-
-static void moments_complex(double *out, double real, double imaginary, int n) {
-  double complex z = real + imaginary * I;
-  double complex plus = clog(z + 1.0);
-  double complex minus = clog(z - 1.0);
-  double complex before = 0.5 * (plus - minus);
-  double complex now = z * before - 1.0;
-  out[0] = creal((z + 1.0) * plus - (z - 1.0) * minus - 2.0);
-  for (int k = 1; k <= n; k++) {
-    double complex next = ((2 * k + 1) * z * now - k * before) / (k + 1);
-    out[k] = 2.0 / (2 * k + 1) * creal(next - before);
-    before = now;
-    now = next;
-  }
-}
-
-// ---------------------------------------------------------------- elements
-
-// row[j] += sum over k < count of value[k] matrix[k][j], rows of COLUMNS.
-static void accumulate(double *restrict row, const double *restrict value,
-                       const double *restrict matrix, int count, int columns) {
-  int k = 0;
-  for (; k + 4 <= count; k += 4, matrix += 4 * COLUMNS) {
-    for (int j = 0; j < columns; j++) {
-      row[j] += (value[k] * matrix[j] + value[k + 1] * matrix[COLUMNS + j]) +
-                (value[k + 2] * matrix[2 * COLUMNS + j] + value[k + 3] * matrix[3 * COLUMNS + j]);
-    }
-  }
-  for (; k < count; k++, matrix += COLUMNS) {
-    for (int j = 0; j < columns; j++) {
-      row[j] += value[k] * matrix[j];
-    }
-  }
-}
-
-// Moments about the middle of a finite element.
-static void expand(SbEhlElement *e) {
-  e->middle = 0.5 * (e->x0 + e->x1);
-  e->half = 0.5 * (e->x1 - e->x0);
-  memset(e->multipole, 0, sizeof e->multipole);
-  double power[SB_EHL_QUAD], value[SB_EHL_QUAD];
-  for (int m = 0; m < SB_EHL_MULTIPOLES; m++) {
-    for (int q = 0; q < SB_EHL_QUAD; q++) {
-      power[q] = (m > 0 ? power[q] : 1.0) * (e->fine_x[q] - e->middle) / e->half;
-      value[q] = -power[q] / (m + 1);
-    }
-    accumulate(e->multipole[m], value, e->fine_wb[0], SB_EHL_QUAD, e->degree + 2);
-  }
-}
-
-// Everything about an element that its integrals need, for every target alike.
-static void prepare(SbEhlElement *e, SbEhlTables *tables) {
-  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
-  int columns = e->degree + 2;
-  for (int k = 0; k <= e->degree && e->map == SB_EHL_COSINE; k++) {
-    e->node_sine[k] = sin(e->m + e->h * t->node[k]);
-  }
-  int extra = e->map == SB_EHL_AFFINE ? 0 : e->map == SB_EHL_COSINE ? 10 : 1;
-  e->modes = e->degree + extra;
-  memset(e->project, 0, sizeof e->project);
-  memset(e->integral, 0, sizeof e->integral);
-  double value[SB_EHL_QUAD];
-  for (int q = 0; q < SB_EHL_QUAD; q++) {
-    double r = tables->fine[q];
-    double scale = tables->fine_weight[q] * sb_ehl_stretch(e, r);
-    double f = factor(e, r);
-    for (int k = 0; k <= e->degree; k++) {
-      e->fine_wb[q][k] = scale * f * t->fine[q][k];
-    }
-    e->fine_wb[q][e->degree + 1] = scale * known_part(e, t->fine[q], r);
-    e->fine_x[q] = is_infinite(e) ? inverse_coordinate(e, r) : sb_ehl_position(e, r);
-    value[q] = 1.0;
-  }
-  accumulate(e->integral, value, e->fine_wb[0], SB_EHL_QUAD, columns);
-  for (int k = 0; k <= e->modes; k++) {
-    for (int q = 0; q < SB_EHL_QUAD; q++) {
-      value[q] = 0.5 * (2 * k + 1) * tables->fine_legendre[q][k];
-    }
-    accumulate(e->project[k], value, e->fine_wb[0], SB_EHL_QUAD, columns);
-  }
-  if (!is_infinite(e)) {
-    expand(e);
-    return;
-  }
-  // Integral with ln s, the distance from the infinite end.
-  double moment[SB_EHL_PROJECT + 1];
-  moments_real(moment, e->map == SB_EHL_INLET ? -1.0 : 1.0, e->modes);
-  for (int j = 0; j < columns; j++) {
-    e->log_s[j] = -log(2.0) * e->integral[j];
-  }
-  accumulate(e->log_s, moment, e->project[0], e->modes + 1, columns);
-}
-
-static void add_moments(double *row, const SbEhlElement *e, const double *moment) {
-  accumulate(row, moment, e->project[0], e->modes + 1, e->degree + 2);
-}
-
-// A smooth part of the kernel by its values at the fine rule.
-static void add_values(double *row, const SbEhlElement *e, const double *value) {
-  accumulate(row, value, e->fine_wb[0], SB_EHL_QUAD, e->degree + 2);
-}
-
-static void add_constant(double *row, const SbEhlElement *e, double value) {
-  for (int j = 0; j < e->degree + 2; j++) {
-    row[j] += value * e->integral[j];
-  }
-}
-
-// Finite elements: row[j] = integral of column j times ln|X - X'|. `angle` is acos(-X) inside the
-// contact, acosh|X| outside.
-static void row_finite(double *row, const SbEhlElement *e, const double *fine, double X,
-                       double angle) {
-  double value[SB_EHL_QUAD];
-  double z = fabs(X - e->middle) / e->half;
-  if (z > FAR) {
-    add_constant(row, e, log(z * e->half));
-    double inverse = e->half / (X - e->middle);
-    int terms = (int)fmin(DIGITS / log(z) + 1.0, SB_EHL_MULTIPOLES);
-    double power[SB_EHL_MULTIPOLES] = {inverse};
-    for (int m = 1; m < terms; m++) {
-      power[m] = power[m - 1] * inverse;
-    }
-    accumulate(row, power, e->multipole[0], terms, e->degree + 2);
-    return;
-  }
-  // The target's own coordinate, complex outside |X| <= 1 on the cosine map.
-  double imaginary = 0.0;
-  double real;
-  if (e->map == SB_EHL_AFFINE) {
-    real = (X - e->m) / e->h;
-  } else if (fabs(X) <= 1.0) {
-    real = (angle - e->m) / e->h;
-  } else {
-    real = ((X < 0.0 ? 0.0 : M_PI) - e->m) / e->h;
-    imaginary = angle / e->h;
-  }
-  double distance = imaginary == 0.0
-                        ? fmax(1.0, fabs(real))
-                        : 0.5 * (hypot(real - 1.0, imaginary) + hypot(real + 1.0, imaginary));
-  if (distance > NEAR) {
-    for (int q = 0; q < SB_EHL_QUAD; q++) {
-      value[q] = log(fabs(X - e->fine_x[q]));
-    }
-    add_values(row, e, value);
-    return;
-  }
-  double moment[SB_EHL_PROJECT + 1];
-  if (imaginary == 0.0) {
-    moments_real(moment, real, e->modes);
-  } else {
-    moments_complex(moment, real, imaginary, e->modes);
-  }
-  add_moments(row, e, moment);
-  if (e->map == SB_EHL_AFFINE) {
-    add_constant(row, e, log(e->h));
-    return;
-  }
-  // Remainder of the cosine map's kernel, ln|(X - X')/(z - r)|, smooth in r.
-  for (int q = 0; q < SB_EHL_QUAD; q++) {
-    double dr = real - fine[q];
-    double dX = X - e->fine_x[q];
-    value[q] = 0.5 * log(dX * dX / (dr * dr + imaginary * imaginary));
-  }
-  add_values(row, e, value);
-}
-
-// Infinite elements: |X - X'| = |B + a s^2| / s^2 with a = X - A (inlet) or A - X (outlet).
-static void row_infinite(double *row, const SbEhlElement *e, double X) {
-  double value[SB_EHL_QUAD];
-  double side = e->map == SB_EHL_INLET ? 1.0 : -1.0;
-  double a = side * (X - e->A);
-  for (int j = 0; j < e->degree + 2; j++) {
-    row[j] -= 2.0 * e->log_s[j];
-  }
-  // Roots s = +-y or +-iy; in r they are side (2 s - 1).
-  double y = a != 0.0 ? sqrt(e->B / fabs(a)) : 1e30;
-  bool near = a < 0.0 ? 2.0 * y - 1.0 < NEAR : sqrt(1.0 + y * y) + y < NEAR;
-  if (!near) {
-    for (int q = 0; q < SB_EHL_QUAD; q++) {
-      value[q] = log(fabs(e->B + a * e->fine_x[q] * e->fine_x[q]));
-    }
-    add_values(row, e, value);
-    return;
-  }
-  double moment[SB_EHL_PROJECT + 1];
-  if (a < 0.0) {
-    moments_real(moment, side * (2.0 * y - 1.0), e->modes);
-    add_moments(row, e, moment);
-    if (2.0 * y + 1.0 < NEAR) {
-      moments_real(moment, -side * (2.0 * y + 1.0), e->modes);
-      add_moments(row, e, moment);
-    } else {
-      for (int q = 0; q < SB_EHL_QUAD; q++) {
-        value[q] = log(2.0 * (e->fine_x[q] + y));
-      }
-      add_values(row, e, value);
-    }
-  } else {
-    moments_complex(moment, -side, 2.0 * y, e->modes);
-    for (int k = 0; k <= e->modes; k++) {
-      moment[k] *= 2.0;
-    }
-    add_moments(row, e, moment);
-  }
-  add_constant(row, e, log(0.25 * fabs(a)));
+  return sb_ehl_infinite(e) ? -e->far_pressure * sb_ehl_factor(e, r) * basis[touching_node(e)]
+                            : 0.0;
 }
 
 // ---------------------------------------------------------------- meshes
@@ -535,10 +290,10 @@ static void place_targets(SbEhlMesh *mesh, SbEhlTables *tables) {
       mesh->owner[row] = i;
       mesh->weight[row] = t->weight[rule][k] * stretch;
       // Pressure and its slope from the nodes, the factor s^4 differentiated with them.
-      double f = factor(e, r);
+      double f = sb_ehl_factor(e, r);
       double f_slope = 0.0;
-      if (is_infinite(e)) {
-        double s = inverse_coordinate(e, r);
+      if (sb_ehl_infinite(e)) {
+        double s = sb_ehl_inverse(e, r);
         f_slope = (e->map == SB_EHL_INLET ? 2.0 : -2.0) * s * s * s;
       }
       double *value = mesh->value + (size_t)row * STRIDE;
@@ -547,9 +302,9 @@ static void place_targets(SbEhlMesh *mesh, SbEhlTables *tables) {
         value[j] = f * t->value[rule][k][j];
         slope[j] = (f * t->slope[rule][k][j] + f_slope * t->value[rule][k][j]) / stretch;
       }
-      mesh->value_known[row] = known_part(e, t->value[rule][k], r) + e->far_pressure;
+      mesh->value_known[row] = sb_ehl_known_part(e, t->value[rule][k], r) + e->far_pressure;
       mesh->slope_known[row] = 0.0;
-      if (is_infinite(e)) {
+      if (sb_ehl_infinite(e)) {
         mesh->slope_known[row] = -e->far_pressure * slope[touching_node(e)];
       } else if (e->map == SB_EHL_COSINE) {
         double known = e->h * cos(e->m + e->h * r);
@@ -600,7 +355,7 @@ static double half_line(double x) {
 
 void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
   for (int i = 0; i < mesh->count; i++) {
-    prepare(&mesh->element[i], tables);
+    sb_ehl_kernel_prepare(&mesh->element[i], tables);
   }
   (nodal ? place_nodes : place_targets)(mesh, tables);
   const SbEhlElement *first = &mesh->element[0];
@@ -619,11 +374,7 @@ void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
     for (int k = 0; k < mesh->count; k++) {
       const SbEhlElement *e = &mesh->element[k];
       double row[COLUMNS] = {0};
-      if (is_infinite(e)) {
-        row_infinite(row, e, X);
-      } else {
-        row_finite(row, e, tables->fine, X, angle);
-      }
+      sb_ehl_kernel_row(row, e, tables, X, angle);
       for (int j = 0; j <= e->degree; j++) {
         gap[e->first_dof + j] -= INVERSE_PI * row[j];
       }
@@ -653,7 +404,7 @@ double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlEl
   for (int k = 0; k <= e->degree; k++) {
     sum += basis[k] * nodal[e->first_dof + k];
   }
-  return e->far_pressure + factor(e, r) * sum + known_part(e, basis, r);
+  return e->far_pressure + sb_ehl_factor(e, r) * sum + sb_ehl_known_part(e, basis, r);
 }
 
 double sb_ehl_gap(const SbEhlMesh *mesh, SbEhlTables *tables, int element, const double *target_gap,
@@ -669,7 +420,7 @@ double sb_ehl_gap(const SbEhlMesh *mesh, SbEhlTables *tables, int element, const
     int target = collocated < 0           ? e->left_target
                  : collocated < e->points ? e->first_row + collocated
                                           : e->right_target;
-    sum += basis[k] * target_gap[target] * factor(e, t->gap_node[kind][k]);
+    sum += basis[k] * target_gap[target] * sb_ehl_factor(e, t->gap_node[kind][k]);
   }
-  return sum / factor(e, r);
+  return sum / sb_ehl_factor(e, r);
 }

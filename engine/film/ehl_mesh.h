@@ -135,6 +135,28 @@ double sb_ehl_coordinate(const SbEhlElement *e, double X);
 // Polynomial through `value` at the nodes, at r.
 double sb_ehl_interpolate(const SbEhlTable *table, const double *value, double r);
 
+static inline bool sb_ehl_infinite(const SbEhlElement *e) {
+  return e->map == SB_EHL_INLET || e->map == SB_EHL_OUTLET;
+}
+
+// s of an infinite element: 1 at its finite end, 0 at infinity.
+static inline double sb_ehl_inverse(const SbEhlElement *e, double r) {
+  return e->map == SB_EHL_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
+}
+
+// Factor of the nodal polynomial in the pressure, and the known part of this without the far
+// pressure; `basis` holds the Lagrange values at r.
+double sb_ehl_factor(const SbEhlElement *e, double r);
+double sb_ehl_known_part(const SbEhlElement *e, const double *basis, double r);
+
+// Everything about an element that its integrals need, for every target alike.
+void sb_ehl_kernel_prepare(SbEhlElement *e, SbEhlTables *tables);
+
+// Adds to row[j], j <= degree + 1, the integral of column j times ln|X - X'|. `angle` is acos(-X)
+// inside the contact, acosh|X| outside.
+void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *tables, double X,
+                       double angle);
+
 // X of the element's coordinate, and dX/dr.
 double sb_ehl_position(const SbEhlElement *e, double r);
 double sb_ehl_stretch(const SbEhlElement *e, double r);

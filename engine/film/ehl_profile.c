@@ -14,8 +14,6 @@
 // film.
 #include "engine/film/ehl.h"
 
-#include "engine/numeric/legendre.h"
-
 #include <math.h>
 
 enum { MODES = 22 }; // of the slope on an element; the fine rule holds 24 points
@@ -92,17 +90,13 @@ static Spread spread_points(const SbEhlMesh *mesh, const SbEhlLayers *layers, do
   return s;
 }
 
-static bool is_infinite(const SbEhlElement *e) {
-  return e->map == SB_EHL_INLET || e->map == SB_EHL_OUTLET;
-}
-
 // Gap of an element at r. Towards infinity a thin film's gap grows by many decades: there its
 // excess over the dry gap is interpolated, which the caller has put into `excess`.
 static double gap_at(SbFilmSolver *solver, int which, const SbEhlCase *problem, int element,
                      const double *excess, double r) {
   const SbEhlMesh *mesh = &solver->mesh[which];
   const SbEhlElement *e = &mesh->element[element];
-  if (!is_infinite(e)) {
+  if (!sb_ehl_infinite(e)) {
     return sb_ehl_gap(mesh, &solver->tables, element, solver->state[which].gap, r);
   }
   return sb_ehl_gap(mesh, &solver->tables, element, excess, r) +
@@ -163,11 +157,11 @@ static int cut_pieces(Piece *out, SbFilmSolver *solver, int which, const SbEhlCa
   int count = 0;
   for (int i = 0; i < mesh->count; i++) {
     const SbEhlElement *e = &mesh->element[i];
-    if (is_infinite(e)) {
+    if (sb_ehl_infinite(e)) {
       // s is 1 at the joint, r = 2 s - 1 in the inlet and 1 - 2 s in the outlet.
       bool inlet = e->map == SB_EHL_INLET;
       double far = sb_ehl_coordinate(e, inlet ? begin : end);
-      double s = inlet ? 0.5 * (1.0 + far) : 0.5 * (1.0 - far);
+      double s = sb_ehl_inverse(e, far);
       int pieces = (int)fmax(1.0, ceil(-log(s) / log(GROWTH)));
       for (int k = 0; k < pieces && count < PIECES_MAX; k++) {
         int from = inlet ? k : pieces - k; // 0 is the far end
@@ -283,18 +277,6 @@ static void join(Piece *piece, int count, SbFilmSolver *solver, int which, const
   }
 }
 
-// Film that carries the flux under the slope dp/dX, by fixed-point steps; its Poiseuille part is
-// small where this is used.
-static double flat_film(const SbEhlCase *problem, double flux, double pressure, double slope) {
-  double film = flux;
-  for (int i = 0; i < 8; i++) {
-    double m, by_film, by_pressure;
-    sb_film_mobility(&m, &by_film, &by_pressure, &problem->fluid, film, pressure);
-    film = flux + film * film * film * m * slope / problem->layers.lambda;
-  }
-  return film;
-}
-
 // How far a liquid end at `ambient` is followed. Beyond X the pressure gains (4/3) lambda / X^3:
 // the load left out shall be below 1e-6 of the whole and, in a profile to be recomputed from, the
 // friction below some 2e-3 (its remainder goes with lambda^(1/4) / X), as long as steps of the
@@ -382,8 +364,8 @@ static void fill_smooth(SbFilm *out, SbFilmSolver *solver, int which, const SbEh
       double r = piece->middle + piece->half * t;
       double slope;
       double P = pressure_at(&slope, piece, t);
-      double film = piece->flat ? flat_film(problem, state->flux, P,
-                                            slope / fmax(sb_ehl_stretch(e, r), 1e-300))
+      double film = piece->flat ? sb_ehl_flat_film(problem, state->flux, state->flux, P,
+                                                   slope / fmax(sb_ehl_stretch(e, r), 1e-300))
                                 : gap_at(solver, which, problem, piece->element, excess, r);
       sb_film_put(out, n++, (X + state->shift) * scale->half_width,
                   (P + problem->fluid.rupture) * scale->pressure, film * scale->film);

@@ -3,23 +3,18 @@
 // by its nodal polynomials, the gap through the collocation points and ends of an element.
 #include "engine/film/ehl.h"
 
-#include "engine/numeric/legendre.h"
-
 #include <math.h>
 #include <string.h>
 
 // Nodal polynomial of element e at r: pressure without factor, far and known parts.
 static double nodal_polynomial(SbEhlTables *tables, const SbEhlElement *e, const double *nodal,
                                double far, double r) {
-  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
-  double basis[SB_EHL_DEGREE_MAX + 1];
-  sb_barycentric_basis(basis, r, t->node, t->bary, e->degree + 1);
-  int touching = e->map == SB_EHL_INLET ? e->degree : e->map == SB_EHL_OUTLET ? 0 : -1;
-  double sum = 0.0;
-  for (int k = 0; k <= e->degree; k++) {
-    sum += basis[k] * (nodal[e->first_dof + k] - (k == touching ? far : 0.0));
+  double own[SB_EHL_DEGREE_MAX + 1];
+  memcpy(own, &nodal[e->first_dof], sizeof(double) * (size_t)(e->degree + 1));
+  if (sb_ehl_infinite(e)) {
+    own[e->map == SB_EHL_INLET ? e->degree : 0] -= far;
   }
-  return sum;
+  return sb_ehl_interpolate(sb_ehl_table(tables, e->degree), own, r);
 }
 
 void sb_ehl_carry(SbFilmSolver *solver, int from, int to, const SbEhlLayers *before,
@@ -37,7 +32,7 @@ void sb_ehl_carry(SbFilmSolver *solver, int from, int to, const SbEhlLayers *bef
     const SbEhlElement *e = &a->element[i];
     const SbEhlElement *f = &b->element[i];
     const SbEhlTable *t = sb_ehl_table(&solver->tables, f->degree);
-    bool infinite = f->map == SB_EHL_INLET || f->map == SB_EHL_OUTLET;
+    bool infinite = sb_ehl_infinite(f);
     int touching = f->map == SB_EHL_INLET ? f->degree : f->map == SB_EHL_OUTLET ? 0 : -1;
     for (int k = 0; k <= f->degree; k++) {
       double r = t->node[k];
@@ -78,7 +73,7 @@ void sb_ehl_resample(SbFilmSolver *solver, int from, int to) {
   for (int i = 0; i < b->count; i++) {
     const SbEhlElement *f = &b->element[i];
     const SbEhlTable *t = sb_ehl_table(&solver->tables, f->degree);
-    bool infinite = f->map == SB_EHL_INLET || f->map == SB_EHL_OUTLET;
+    bool infinite = sb_ehl_infinite(f);
     for (int k = 0; k <= f->degree; k++) {
       // Beside the node at infinity the neighbour's value is taken.
       double r = t->node[k];
@@ -95,7 +90,7 @@ void sb_ehl_resample(SbFilmSolver *solver, int from, int to) {
                      : 0.0;
       bool touching = f->map == SB_EHL_INLET ? k == f->degree : k == 0;
       if (infinite && !touching) {
-        double s = f->map == SB_EHL_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
+        double s = sb_ehl_inverse(f, r);
         value = (value - f->far_pressure) / (s * s * s * s);
       }
       new->nodal[f->first_dof + k] = value;
@@ -182,8 +177,21 @@ static bool flat_film(const SbEhlCase *problem) {
   return sb_ehl_layers_width(&problem->layers) < 0.3;
 }
 
-// Film at r of an element that carries the flux under the pressure's slope there, by fixed-point
-// steps from `film`; the Poiseuille part is small where this is used.
+double sb_ehl_flat_film(const SbEhlCase *c, double flux, double film, double pressure,
+                        double slope) {
+  for (int i = 0; i < 20; i++) {
+    double m, by_film, by_pressure;
+    double before = film;
+    sb_film_mobility(&m, &by_film, &by_pressure, &c->fluid, film, pressure);
+    film = flux + film * film * film * m * slope / c->layers.lambda;
+    if (film == before) {
+      break;
+    }
+  }
+  return film;
+}
+
+// The film at r of an element by the pressure's slope there.
 static double reynolds_film(SbFilmSolver *solver, int which, const SbEhlCase *problem, int element,
                             double r, double film) {
   const SbEhlMesh *mesh = &solver->mesh[which];
@@ -196,12 +204,7 @@ static double reynolds_film(SbFilmSolver *solver, int which, const SbEhlCase *pr
                   sb_ehl_pressure(mesh, &solver->tables, e, state->nodal, before)) /
                  (sb_ehl_position(e, after) - sb_ehl_position(e, before));
   double pressure = sb_ehl_pressure(mesh, &solver->tables, e, state->nodal, r);
-  for (int i = 0; i < 20; i++) {
-    double m, by_film, by_pressure;
-    sb_film_mobility(&m, &by_film, &by_pressure, &problem->fluid, film, pressure);
-    film = state->flux + film * film * film * m * slope / problem->layers.lambda;
-  }
-  return film;
+  return sb_ehl_flat_film(problem, state->flux, film, pressure, slope);
 }
 
 // Root mean square of the film's relative change over an element, from the other mesh to `which`;
@@ -210,7 +213,7 @@ static double element_change(SbFilmSolver *solver, int which, const SbEhlCase *p
                              bool flat) {
   enum { SAMPLES = 9 };
   const SbEhlElement *e = &solver->mesh[which].element[element];
-  if (e->map == SB_EHL_INLET || e->map == SB_EHL_OUTLET) {
+  if (sb_ehl_infinite(e)) {
     return 0.0;
   }
   double sum = 0.0;

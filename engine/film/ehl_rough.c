@@ -48,11 +48,6 @@ static double flux_guess(double *inlet, const SbEhlCase *c) {
   return flux;
 }
 
-double sb_ehl_rough_ends(const SbEhlCase *c, double X) {
-  double step = asin(fmin(fmax(X, -1), 1)) / M_PI;
-  return c->layers.inlet * (0.5 - step) + c->layers.outlet * (0.5 + step);
-}
-
 static void guess(SbFilmSolver *solver, int which, const SbEhlCase *c) {
   const SbEhlMesh *mesh = &solver->mesh[which];
   SbEhlState *state = &solver->state[which];
@@ -69,7 +64,7 @@ static void guess(SbFilmSolver *solver, int which, const SbEhlCase *c) {
     double X = mesh->x[i];
     double q = sb_ehl_layers_dry_pressure(&c->layers, X);
     double dry = sb_film_dry_gap(X);
-    double ambient = sb_ehl_rough_ends(c, X);
+    double ambient = sb_film_ends(X, c->layers.inlet, c->layers.outlet);
     double fluid = film > 0 ? film * (1 + 1.2 * exp(-fabs(X + 1) / width)) : 0;
     if (layered) {
       double h;

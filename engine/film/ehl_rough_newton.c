@@ -214,7 +214,9 @@ static void assemble(double *matrix, double *right, double *row_scale, const SbE
     double constant = 0;
     if (state->cavity[i]) {
       add_node(row, &constant, mesh, l, i, 0, 1);
-      right[i + 1] = (c->rough.sealed ? sb_ehl_rough_ends(c, mesh->x[i]) : 0) - l->p[i] - constant;
+      right[i + 1] =
+          (c->rough.sealed ? sb_film_ends(mesh->x[i], c->layers.inlet, c->layers.outlet) : 0) -
+          l->p[i] - constant;
       continue;
     }
     int e = i / d, j = i % d;

@@ -161,15 +161,13 @@ double sb_film_dry_gap(double X) {
   return 0.5 * (a * r - log(a + r));
 }
 
+double sb_film_ends(double X, double inlet, double outlet) {
+  double step = asin(fmin(fmax(X, -1.0), 1.0)) / M_PI;
+  return inlet * (0.5 - step) + outlet * (0.5 + step);
+}
+
 double sb_film_dry_pressure(double X, double inlet, double outlet) {
-  if (X <= -1.0) {
-    return inlet;
-  }
-  if (X >= 1.0) {
-    return outlet;
-  }
-  double step = asin(X) / M_PI;
-  return sqrt((1.0 - X) * (1.0 + X)) + inlet * (0.5 - step) + outlet * (0.5 + step);
+  return sqrt(fmax((1.0 - X) * (1.0 + X), 0.0)) + sb_film_ends(X, inlet, outlet);
 }
 
 void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale) {

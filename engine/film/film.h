@@ -75,7 +75,7 @@ typedef struct {
   double inlet_film;         // layer [m] that the moving wall brings; 0 floods the inlet
   double rupture_pressure;   // gauge [Pa] at which the film breaks, a vapour pressure for instance
 
-  // Asperities inside the same solve (ehl_rough.h), off by default: the surface model, its figures
+  // Asperities inside the same solve (ehl.h), off by default: the surface model, its figures
   // and what friction takes. The film, the pressure and the profile are then those of the total.
   SbRoughModel surface;    // rough_law.h
   double gt_product;       // zeta beta sigma
@@ -136,7 +136,7 @@ typedef struct {
   double
       friction_couette; // integral of eta speed / h over the full film [N/m], signed as the speed
   double friction_poiseuille; // integral of (h/2) dp/dx over the full film [N/m]
-  double friction_cavity;     // of the broken film, see ehl_rough.c [N/m]
+  double friction_cavity;     // of the broken film, see ehl.c [N/m]
   double friction_boundary;   // tau_0 real area + m asperity load [N/m], signed as the speed
   double asperity_load;       // integral of the asperities' pressure [N/m]
   double asperity_share;      // of the net load

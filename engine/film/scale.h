@@ -48,6 +48,9 @@ SbFilmBody sb_film_body(const SbFilmProblem *problem, const SbFilmScale *scale);
 // Dry contact at rest of a fitted body.
 void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryContact *dry);
 
+// End pressures joined as in the dry smooth contact (docs/verification.md), at X.
+double sb_film_ends(double X, double inlet, double outlet);
+
 // Scaled dry pressure in the flow frame (inlet at X = -1), with end pressures: Hertz's plus the
 // transition of the end pressures with the tilt removed so that the contact stays |X| < 1.
 double sb_film_dry_pressure(double X, double inlet, double outlet);
