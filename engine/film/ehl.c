@@ -143,16 +143,15 @@ static SbStatus climb(SbEhlResults *results, int *levels, int *which, SbFilmSolv
   int least = problem->tolerance >= 5e-3 ? LEVELS_LEAST - 1 : LEVELS_LEAST;
   for (int level = 0; level < LEVELS; level++) {
     bool flooded = true;
-    double residual = level + 1 < least ? LEVEL_RESIDUAL[level] : RESIDUAL;
-    SbStatus status =
-        level == 0 ? sb_ehl_start(&flooded, solver, which, c, supply, residual, info, problem)
-                   : sb_ehl_refine(solver, which, c, level_degree[level], residual, info, problem);
+    const SbEhlRun run = {level + 1 < least ? LEVEL_RESIDUAL[level] : RESIDUAL, info, problem};
+    SbStatus status = level == 0 ? sb_ehl_start(&flooded, solver, which, c, supply, &run)
+                                 : sb_ehl_refine(solver, which, c, level_degree[level], &run);
     bool anew = level > 0 && status == SB_ERROR_NOT_CONVERGED;
     if (anew) {
       // The level below may be too coarse a guess: this one from nothing.
       *c = cold;
       c->layers.degree = level_degree[level];
-      status = sb_ehl_start(&flooded, solver, which, c, supply, residual, info, problem);
+      status = sb_ehl_start(&flooded, solver, which, c, supply, &run);
     }
     if (status == SB_ERROR_INFEASIBLE) {
       return sb_fail(report, status,
@@ -225,7 +224,8 @@ static SbStatus solve_smooth(SbEhlResults *results, int *levels, int *which, SbF
     // The layers follow the case, so the error of the discretisation stays what it was.
     *which = solver->last.which;
     c->layers.degree = solver->last.problem.layers.degree;
-    SbStatus status = sb_ehl_follow(solver, which, &solver->last.problem, c, 1e-11, info, problem);
+    const SbEhlRun run = {RESIDUAL, info, problem};
+    SbStatus status = sb_ehl_follow(solver, which, &solver->last.problem, c, &run);
     if (status == SB_ERROR_CANCELLED) {
       return sb_fail(report, status, "film: cancelled");
     }
@@ -258,7 +258,8 @@ static SbStatus solve_rough(SbEhlResults *results, int *levels, int *which, SbFi
                             SbEhlCase *c, SbFilm *out, const SbFilmProblem *problem,
                             SbReport *report) {
   bool sealed = c->rough.sealed;
-  SbStatus status = sb_ehl_rough_climb(results, levels, which, solver, c, &out->solver, problem);
+  const SbEhlRun run = {0.0, &out->solver, problem};
+  SbStatus status = sb_ehl_rough_climb(results, levels, which, solver, c, &run);
   if (c->rough.sealed && !sealed) {
     sb_warn(&out->warnings, "film-rest-sealed", "surface.sigma",
             "at rest the gap is closed: no flow passes, and the fluid's pressure between the ends "

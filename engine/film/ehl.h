@@ -86,6 +86,13 @@ typedef struct {
   double share;    // real area
 } SbEhlRoughPoint;
 
+// Whom a continuation answers to.
+typedef struct {
+  double tolerance;             // scaled residual where Newton's method ends, of smooth rows
+  SbFilmSolverInfo *info;       // account of all calls
+  const SbFilmProblem *problem; // its callback
+} SbEhlRun;
+
 // Quantities of a solution, scaled, in the flow frame with x from the axis.
 typedef struct {
   double film_min, film_central, film_flux;
@@ -141,9 +148,9 @@ SbStatus sb_ehl_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, SbEhl
 SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, const SbEhlCase *c,
                              const SbFilmProblem *callback);
 
-// Either with its account in `info`.
+// Either, with its account.
 SbStatus sb_ehl_iterate(SbFilmSolver *solver, int which, SbEhlCase *c, bool independent,
-                        double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *callback);
+                        const SbEhlRun *run);
 
 // Kernel of a fitted body with the axis at `shift`, into `kernel` ([targets][dofs]), and the gap
 // that it gives at all targets: the undeformed one and the deflection by the nodal pressures,
@@ -188,28 +195,26 @@ void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCas
 // completed (end, reform, meniscus, starvation). `flux` is the flux film supplied, infinite when
 // flooded. *flooded tells whether the supply was enough.
 SbStatus sb_ehl_start(bool *flooded, SbFilmSolver *solver, int *which, SbEhlCase *problem,
-                      double flux, double tolerance, SbFilmSolverInfo *info,
-                      const SbFilmProblem *callback);
+                      double flux, const SbEhlRun *run);
 
 // Solves on another degree from the solution in mesh/state *which, moving a free end last. On
 // failure the old solution and case stand.
 SbStatus sb_ehl_refine(SbFilmSolver *solver, int *which, SbEhlCase *problem, int degree,
-                       double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *callback);
+                       const SbEhlRun *run);
 
 // Solves a case near the one whose solution is in mesh/state *which, on the same degree. Anything
 // but SB_OK asks for a cold start; the old solution stands.
 SbStatus sb_ehl_follow(SbFilmSolver *solver, int *which, const SbEhlCase *old,
-                       const SbEhlCase *problem, double tolerance, SbFilmSolverInfo *info,
-                       const SbFilmProblem *callback);
+                       const SbEhlCase *problem, const SbEhlRun *run);
 
 // Asperities and adhesion of `problem` into a case that is complete otherwise, and its rough rows.
 SbStatus sb_ehl_rough_case(SbEhlCase *c, SbFilmSolver *solver, const SbFilmProblem *problem,
                            const SbFilmScale *scale, SbReport *report);
 
 // All levels of rough rows from a cold start: results of each, their number (0: nothing found), and
-// in `info` the estimates. A gap too closed to tell a flow at rest is solved sealed.
+// in `run->info` the estimates. A gap too closed to tell a flow at rest is solved sealed.
 SbStatus sb_ehl_rough_climb(SbEhlResults *results, int *levels, int *which, SbFilmSolver *solver,
-                            SbEhlCase *c, SbFilmSolverInfo *info, const SbFilmProblem *problem);
+                            SbEhlCase *c, const SbEhlRun *run);
 
 // Lays out elements by the layers and the roughness and builds the kernel, that of a fitted body
 // and the undeformed gap included. False if the mesh does not fit.

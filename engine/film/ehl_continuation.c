@@ -1,4 +1,4 @@
-// Ways to a first solution of the coupled film problem, on the lowest degree.
+// Continuation to a first solution of the coupled film problem, on the lowest degree.
 //
 // Directly from the layers' shapes; by continuation from a case with small end pressures and no
 // options; with a cavity where the flooded outlet's pressure would fall below the rupture pressure
@@ -14,20 +14,19 @@
 static const double TENSION = -1e-6;
 
 SbStatus sb_ehl_iterate(SbFilmSolver *solver, int which, SbEhlCase *c, bool independent,
-                        double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+                        const SbEhlRun *run) {
   SbEhlTrace trace;
-  SbStatus status = c->rough.rows
-                        ? sb_ehl_rough_newton(&trace, solver, which, c, problem)
-                        : sb_ehl_newton(&trace, solver, which, c, independent, tolerance, problem);
-  info->newton_iterations += trace.iterations;
-  info->continuation_steps++;
-  info->residual = trace.residual;
+  SbStatus status = c->rough.rows ? sb_ehl_rough_newton(&trace, solver, which, c, run->problem)
+                                  : sb_ehl_newton(&trace, solver, which, c, independent,
+                                                  run->tolerance, run->problem);
+  run->info->newton_iterations += trace.iterations;
+  run->info->continuation_steps++;
+  run->info->residual = trace.residual;
   return status;
 }
 
 // Cold start on the lowest degree.
-static SbStatus cold_start(SbFilmSolver *solver, int which, SbEhlCase *c, double tolerance,
-                           SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+static SbStatus cold_start(SbFilmSolver *solver, int which, SbEhlCase *c, const SbEhlRun *run) {
   SbEhlState *state = &solver->state[which];
   if (!sb_ehl_layers_mesh(&solver->mesh[which], &solver->tables, &c->layers)) {
     return SB_ERROR_NOT_CONVERGED;
@@ -35,7 +34,7 @@ static SbStatus cold_start(SbFilmSolver *solver, int which, SbEhlCase *c, double
   state->H0 = 0.0;
   sb_ehl_layers_guess(state->nodal, state->gap, &state->shift, &state->flux, &solver->mesh[which],
                       &solver->tables, &c->layers);
-  SbStatus status = sb_ehl_iterate(solver, which, c, true, tolerance, info, problem);
+  SbStatus status = sb_ehl_iterate(solver, which, c, true, run);
   // The lowest degree has a false solution now and then where M is near 1: a film many times as
   // thick as the layers let expect, lost on finer meshes. Continuation does not meet it.
   if (status == SB_OK && state->flux > 8.0 * sb_ehl_layers_flux(&c->layers)) {
@@ -112,23 +111,23 @@ static void carry_scaled(SbFilmSolver *solver, int from, int to, const SbEhlCase
   }
 }
 
-// Ways to a case: from small end pressures, no options and M = 20 if the film is thick, or from no
-// inlet pressure and no options at the same M, or from an outlet pressure that keeps a thick film
-// full.
-typedef enum { WAY_THIN, WAY_SAME, WAY_FULL, WAYS } Way;
+// Homotopies to a case: from small end pressures, no options and M = 20 if the film is thick, or
+// from no inlet pressure and no options at the same M, or from an outlet pressure that keeps a
+// thick film full.
+typedef enum { FROM_THIN, FROM_SAME, FROM_FULL, HOMOTOPIES } Homotopy;
 
-// The case a fraction t of a way.
-static SbEhlCase between(const SbEhlCase *target, Way way, double t) {
+// The case a fraction t of a homotopy.
+static SbEhlCase between(const SbEhlCase *target, Homotopy homotopy, double t) {
   static const double EASY_LAMBDA = 0.0093; // M = 20
   static const double EASY_PRESSURE = 0.3;
   SbEhlCase c = *target;
   c.fluid.barus *= t;
   c.fluid.eyring *= t;
-  if (way == WAY_SAME) {
+  if (homotopy == FROM_SAME) {
     c.layers.inlet *= t;
     return c;
   }
-  if (way == WAY_FULL) {
+  if (homotopy == FROM_FULL) {
     c.layers.outlet += (1.0 - t) * fmax(2.2 + c.layers.inlet - c.layers.outlet, 0.0);
     return c;
   }
@@ -144,16 +143,16 @@ static SbEhlCase between(const SbEhlCase *target, Way way, double t) {
 
 // Reaches the case on the lowest degree by continuation; the layers carry the last solution along.
 // Ends in mesh/state *which.
-static SbStatus go(SbFilmSolver *solver, int *which, const SbEhlCase *target, Way way,
-                   double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+static SbStatus follow_homotopy(SbFilmSolver *solver, int *which, const SbEhlCase *target,
+                                Homotopy homotopy, const SbEhlRun *run) {
   enum { STEPS_MAX = 60 };
-  SbEhlCase c = between(target, way, 0.0);
-  SbStatus status = cold_start(solver, *which, &c, tolerance, info, problem);
+  SbEhlCase c = between(target, homotopy, 0.0);
+  SbStatus status = cold_start(solver, *which, &c, run);
   double done = 0.0;
   double step = 0.25;
   for (int i = 0; status == SB_OK && done < 1.0; i++) {
     double t = fmin(1.0, done + step);
-    SbEhlCase next = between(target, way, t);
+    SbEhlCase next = between(target, homotopy, t);
     int to = 1 - *which;
     SbStatus tried = SB_ERROR_NOT_CONVERGED;
     // As many elements as before, if they fit, so that the layers carry the solution along.
@@ -165,7 +164,7 @@ static SbStatus go(SbFilmSolver *solver, int *which, const SbEhlCase *target, Wa
     }
     if (fits) {
       carry_scaled(solver, *which, to, &c, &next);
-      tried = sb_ehl_iterate(solver, to, &next, true, tolerance, info, problem);
+      tried = sb_ehl_iterate(solver, to, &next, true, run);
     }
     if (tried == SB_ERROR_CANCELLED) {
       return tried;
@@ -190,14 +189,13 @@ static bool has_free_end(const SbEhlCase *c) {
 }
 
 static SbStatus continuation(SbFilmSolver *solver, int *which, const SbEhlCase *target,
-                             double tolerance, SbFilmSolverInfo *info,
-                             const SbFilmProblem *problem) {
+                             const SbEhlRun *run) {
   SbStatus status = SB_ERROR_NOT_CONVERGED;
-  for (int way = 0; way < WAYS && status == SB_ERROR_NOT_CONVERGED; way++) {
-    if (way == WAY_FULL && target->layers.end != SB_EHL_FULL) {
+  for (int homotopy = 0; homotopy < HOMOTOPIES && status == SB_ERROR_NOT_CONVERGED; homotopy++) {
+    if (homotopy == FROM_FULL && target->layers.end != SB_EHL_FULL) {
       break;
     }
-    status = go(solver, which, target, (Way)way, tolerance, info, problem);
+    status = follow_homotopy(solver, which, target, (Homotopy)homotopy, run);
   }
   return status;
 }
@@ -209,8 +207,8 @@ static double least_pressure(SbFilmSolver *solver, int which, const SbEhlCase *c
   return results.pressure_min;
 }
 
-SbStatus sb_ehl_refine(SbFilmSolver *solver, int *which, SbEhlCase *c, int degree, double tolerance,
-                       SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+SbStatus sb_ehl_refine(SbFilmSolver *solver, int *which, SbEhlCase *c, int degree,
+                       const SbEhlRun *run) {
   SbEhlCase next = *c;
   next.layers.degree = degree;
   int to = 1 - *which;
@@ -223,13 +221,13 @@ SbStatus sb_ehl_refine(SbFilmSolver *solver, int *which, SbEhlCase *c, int degre
   sb_ehl_carry(solver, *which, to, &c->layers, &next.layers, 1.0);
   double flux = solver->state[to].flux;
   next.hold = has_free_end(&next);
-  SbStatus status = sb_ehl_iterate(solver, to, &next, true, tolerance, info, problem);
+  SbStatus status = sb_ehl_iterate(solver, to, &next, true, run);
   if (status == SB_OK && next.hold) {
     next.hold = false;
     if (isfinite(next.layers.meniscus)) {
       solver->state[to].flux = flux; // supplied
     }
-    status = sb_ehl_iterate(solver, to, &next, false, tolerance, info, problem);
+    status = sb_ehl_iterate(solver, to, &next, false, run);
   }
   if (status == SB_OK) {
     *which = to;
@@ -239,7 +237,7 @@ SbStatus sb_ehl_refine(SbFilmSolver *solver, int *which, SbEhlCase *c, int degre
 }
 
 SbStatus sb_ehl_follow(SbFilmSolver *solver, int *which, const SbEhlCase *old, const SbEhlCase *c,
-                       double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+                       const SbEhlRun *run) {
   // Far from the old case a cold start is as good.
   if (old->body.compliance != NULL || c->body.compliance != NULL || has_free_end(old) ||
       has_free_end(c) || old->layers.end != c->layers.end ||
@@ -256,7 +254,7 @@ SbStatus sb_ehl_follow(SbFilmSolver *solver, int *which, const SbEhlCase *old, c
     return SB_ERROR_NOT_CONVERGED;
   }
   carry_scaled(solver, *which, to, old, c);
-  SbStatus status = sb_ehl_iterate(solver, to, &next, true, tolerance, info, problem);
+  SbStatus status = sb_ehl_iterate(solver, to, &next, true, run);
   if (status == SB_OK && c->layers.end == SB_EHL_FULL && least_pressure(solver, to, c) < TENSION) {
     status = SB_ERROR_NOT_CONVERGED; // a cavity opens: start anew
   }
@@ -268,15 +266,15 @@ SbStatus sb_ehl_follow(SbFilmSolver *solver, int *which, const SbEhlCase *old, c
 
 // Breaks the film and forms it again: from the solution with an empty outlet at the rupture
 // pressure, the outlet's pressure is raised.
-static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbEhlCase *target, double tolerance,
-                            SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbEhlCase *target,
+                            const SbEhlRun *run) {
   enum { STEPS_MAX = 40 };
   SbEhlCase c = *target;
   c.layers.end = SB_EHL_RUPTURE;
   c.layers.outlet = 0.0;
-  SbStatus status = cold_start(solver, *which, &c, tolerance, info, problem);
+  SbStatus status = cold_start(solver, *which, &c, run);
   if (status == SB_ERROR_NOT_CONVERGED) {
-    status = continuation(solver, which, &c, tolerance, info, problem);
+    status = continuation(solver, which, &c, run);
   }
   if (status != SB_OK) {
     return status;
@@ -301,10 +299,10 @@ static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbEhlCase *target,
         sb_ehl_carry(solver, *which, to, &c.layers, &next.layers, 1.0);
       }
       next.hold = true;
-      tried = sb_ehl_iterate(solver, to, &next, true, tolerance, info, problem);
+      tried = sb_ehl_iterate(solver, to, &next, true, run);
       next.hold = false;
       if (tried == SB_OK) {
-        tried = sb_ehl_iterate(solver, to, &next, false, tolerance, info, problem);
+        tried = sb_ehl_iterate(solver, to, &next, false, run);
       }
     }
     if (tried == SB_ERROR_CANCELLED) {
@@ -330,8 +328,7 @@ static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbEhlCase *target,
 // laid out for the flux `expected`. Ends in mesh/state *which.
 static SbStatus hold_meniscus(SbFilmSolver *solver, int *which, SbEhlCase *c,
                               const SbEhlCase *flooded, double distance, double ratio,
-                              double tolerance, SbFilmSolverInfo *info,
-                              const SbFilmProblem *problem) {
+                              const SbEhlRun *run) {
   SbEhlCase next = *flooded;
   next.hold = true;
   next.layers.meniscus = -1.0 - distance * sb_ehl_layers_width(&flooded->layers);
@@ -345,7 +342,7 @@ static SbStatus hold_meniscus(SbFilmSolver *solver, int *which, SbEhlCase *c,
   } else {
     sb_ehl_resample(solver, *which, to);
   }
-  SbStatus status = sb_ehl_iterate(solver, to, &next, true, tolerance, info, problem);
+  SbStatus status = sb_ehl_iterate(solver, to, &next, true, run);
   if (status == SB_OK) {
     *which = to;
     *c = next;
@@ -357,8 +354,7 @@ static SbStatus hold_meniscus(SbFilmSolver *solver, int *which, SbEhlCase *c,
 // the edge until the supply is bracketed, then by secants of ln flux over ln d; last, the supply is
 // given and the meniscus free.
 static SbStatus starve(bool *flooded, SbFilmSolver *solver, int *which, SbEhlCase *target,
-                       double flux, double tolerance, SbFilmSolverInfo *info,
-                       const SbFilmProblem *problem) {
+                       double flux, const SbEhlRun *run) {
   enum { STEPS_MAX = 80 };
   // So close to the flooded flux the meniscus is lost far away; the solve adds what it leaves to
   // its error.
@@ -380,7 +376,7 @@ static SbStatus starve(bool *flooded, SbFilmSolver *solver, int *which, SbEhlCas
     if (i >= STEPS_MAX) {
       return SB_ERROR_NOT_CONVERGED;
     }
-    SbStatus status = hold_meniscus(solver, which, &c, target, d, ratio, tolerance, info, problem);
+    SbStatus status = hold_meniscus(solver, which, &c, target, d, ratio, run);
     if (status == SB_ERROR_CANCELLED) {
       return status;
     }
@@ -427,17 +423,17 @@ static SbStatus starve(bool *flooded, SbFilmSolver *solver, int *which, SbEhlCas
   }
   c.hold = false;
   solver->state[*which].flux = flux;
-  SbStatus status = sb_ehl_iterate(solver, *which, &c, false, tolerance, info, problem);
+  SbStatus status = sb_ehl_iterate(solver, *which, &c, false, run);
   *target = c;
   return status;
 }
 
 SbStatus sb_ehl_start(bool *flooded, SbFilmSolver *solver, int *which, SbEhlCase *c, double flux,
-                      double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+                      const SbEhlRun *run) {
   *flooded = true;
-  SbStatus status = cold_start(solver, *which, c, tolerance, info, problem);
+  SbStatus status = cold_start(solver, *which, c, run);
   if (status == SB_ERROR_NOT_CONVERGED) {
-    status = continuation(solver, which, c, tolerance, info, problem);
+    status = continuation(solver, which, c, run);
   }
   if (status == SB_ERROR_CANCELLED) {
     return status;
@@ -445,12 +441,11 @@ SbStatus sb_ehl_start(bool *flooded, SbFilmSolver *solver, int *which, SbEhlCase
   // A flooded outlet that would tear the liquid gets a cavity.
   if (c->layers.end == SB_EHL_FULL &&
       (status != SB_OK || least_pressure(solver, *which, c) < TENSION)) {
-    status = open_cavity(solver, which, c, tolerance, info, problem);
+    status = open_cavity(solver, which, c, run);
   }
   if (status == SB_OK && isfinite(flux)) {
-    status = c->layers.end == SB_EHL_REFORM
-                 ? SB_ERROR_INFEASIBLE
-                 : starve(flooded, solver, which, c, flux, tolerance, info, problem);
+    status = c->layers.end == SB_EHL_REFORM ? SB_ERROR_INFEASIBLE
+                                            : starve(flooded, solver, which, c, flux, run);
   }
   return status;
 }

@@ -161,7 +161,7 @@ static void extrapolate(SbEhlState *out, const SbEhlState *now, const SbEhlState
 // of the case, on the mesh of the case. The slopes scale with lambda, the flux film is extrapolated
 // by its logarithm.
 static SbStatus lower(SbFilmSolver *solver, int which, const SbEhlCase *c, double from,
-                      bool starving, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+                      bool starving, const SbEhlRun *run) {
   enum { STEPS_MAX = 60 };
   SbEhlState *state = &solver->state[which];
   SbEhlState *now = &solver->saved[0], *before = &solver->saved[1];
@@ -185,7 +185,7 @@ static SbStatus lower(SbFilmSolver *solver, int which, const SbEhlCase *c, doubl
                         : 1;
       state->flow = now->flow * exp(next - at) * grow;
     }
-    SbStatus status = sb_ehl_iterate(solver, which, &part, false, 0, info, problem);
+    SbStatus status = sb_ehl_iterate(solver, which, &part, false, run);
     if (status == SB_ERROR_CANCELLED) {
       return status;
     }
@@ -203,8 +203,7 @@ static SbStatus lower(SbFilmSolver *solver, int which, const SbEhlCase *c, doubl
   return at > end ? SB_ERROR_NOT_CONVERGED : SB_OK;
 }
 
-static SbStatus start(SbFilmSolver *solver, int which, const SbEhlCase *c, SbFilmSolverInfo *info,
-                      const SbFilmProblem *problem) {
+static SbStatus start(SbFilmSolver *solver, int which, const SbEhlCase *c, const SbEhlRun *run) {
   enum { TRIALS = 12 };
   if (!sb_ehl_rough_mesh(solver, which, c, degree[0])) {
     return SB_ERROR_NOT_CONVERGED;
@@ -213,7 +212,7 @@ static SbStatus start(SbFilmSolver *solver, int which, const SbEhlCase *c, SbFil
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   for (int i = 0; i < TRIALS; i++) {
     guess(solver, which, &trial);
-    status = sb_ehl_iterate(solver, which, &trial, false, 0, info, problem);
+    status = sb_ehl_iterate(solver, which, &trial, false, run);
     if (status != SB_ERROR_NOT_CONVERGED || !(c->layers.lambda > 0)) {
       break;
     }
@@ -221,7 +220,7 @@ static SbStatus start(SbFilmSolver *solver, int which, const SbEhlCase *c, SbFil
     trial.rough.flux = flux_guess(&trial.rough.inlet, &trial);
   }
   if (status == SB_OK && trial.layers.lambda > c->layers.lambda) {
-    status = lower(solver, which, c, trial.layers.lambda, false, info, problem);
+    status = lower(solver, which, c, trial.layers.lambda, false, run);
   }
   return status;
 }
@@ -229,7 +228,7 @@ static SbStatus start(SbFilmSolver *solver, int which, const SbEhlCase *c, SbFil
 // Less film at the inlet than the contact would take: from the flooded solution by steps of the
 // flow, on a mesh laid out for the last of them.
 static SbStatus starve(SbFilmSolver *solver, int *which, SbEhlCase *c, double supply,
-                       SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+                       const SbEhlRun *run) {
   double flow = solver->state[*which].flow;
   if (supply >= flow) {
     return SB_OK; // flooded after all
@@ -242,7 +241,7 @@ static SbStatus starve(SbFilmSolver *solver, int *which, SbEhlCase *c, double su
   resample(solver, *which, to);
   *which = to;
   c->rough.supply = supply;
-  return lower(solver, to, c, flow, true, info, problem);
+  return lower(solver, to, c, flow, true, run);
 }
 
 // The last change times a rate estimates the error left: inside the contact a level's own error is
@@ -263,15 +262,16 @@ static void estimate(SbFilmSolverInfo *info, const SbEhlResults *now, const SbEh
 
 // All levels: follows the layers, then raises the degree until the error meets the tolerance.
 static SbStatus climb(SbEhlResults *results, int *levels, int *which, SbFilmSolver *solver,
-                      SbEhlCase *c, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+                      SbEhlCase *c, const SbEhlRun *run) {
+  SbFilmSolverInfo *info = run->info;
   *levels = *which = 0;
   c->rough.front[0].X = c->rough.front[1].X = INFINITY;
   double supply = c->rough.supply;
   bool starving = isfinite(supply) && !c->rough.sealed;
   c->rough.supply = starving ? INFINITY : supply;
-  SbStatus status = start(solver, *which, c, info, problem);
+  SbStatus status = start(solver, *which, c, run);
   if (status == SB_OK && starving) {
-    status = starve(solver, which, c, supply, info, problem);
+    status = starve(solver, which, c, supply, run);
   }
   if (status != SB_OK) {
     return status;
@@ -286,7 +286,7 @@ static SbStatus climb(SbEhlResults *results, int *levels, int *which, SbFilmSolv
       break;
     }
     resample(solver, *which, to);
-    status = sb_ehl_iterate(solver, to, c, false, 0, info, problem);
+    status = sb_ehl_iterate(solver, to, c, false, run);
     if (status != SB_OK) {
       return status;
     }
@@ -296,7 +296,7 @@ static SbStatus climb(SbEhlResults *results, int *levels, int *which, SbFilmSolv
     estimate(info, &results[*levels], &results[*levels - 1]);
     ++*levels;
     double worst = fmax(info->error_film_min, info->error_film_central);
-    if (degree[k] > degree[0] && worst < 0.1 * problem->tolerance) {
+    if (degree[k] > degree[0] && worst < 0.1 * run->problem->tolerance) {
       break;
     }
   }
@@ -304,13 +304,13 @@ static SbStatus climb(SbEhlResults *results, int *levels, int *which, SbFilmSolv
 }
 
 SbStatus sb_ehl_rough_climb(SbEhlResults *results, int *levels, int *which, SbFilmSolver *solver,
-                            SbEhlCase *c, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
-  SbStatus status = climb(results, levels, which, solver, c, info, problem);
+                            SbEhlCase *c, const SbEhlRun *run) {
+  SbStatus status = climb(results, levels, which, solver, c, run);
   if (status == SB_ERROR_NOT_CONVERGED && !(c->layers.lambda > 0) && !c->rough.sealed) {
     // Closed beyond what the flow at rest can be told from.
     c->rough.sealed = true;
     c->rough.supply = 0;
-    status = climb(results, levels, which, solver, c, info, problem);
+    status = climb(results, levels, which, solver, c, run);
   }
   return status;
 }

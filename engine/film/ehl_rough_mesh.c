@@ -30,8 +30,8 @@ static double edge_width(const SbEhlCase *c, double layer) {
   double width = c->layers.lambda > 0 ? layer : 0;
   if (c->rough.law != NULL) {
     double sigma = c->rough.law->surface.sigma / c->rough.film;
-    // Where the asperities' pressure at the flux film is a small part q of Hertz's, the mouth of
-    // the film lies q^2/2 inside the edge.
+    // Where the asperities' pressure at the flux film is a small part q of Hertz's, the
+    // film's inlet lies q^2/2 inside the edge.
     double tail = 0.5 * fmin(pow(sigma, 2.0 / 3), sqrt(2 * sigma));
     width = fmax(width, c->layers.lambda > 0 ? fmin(tail, 1 - c->rough.inlet) : tail);
   }
@@ -109,7 +109,7 @@ bool sb_ehl_rough_mesh(SbFilmSolver *solver, int which, const SbEhlCase *c, int 
   if (!thick) {
     features = add_feature(feature, features, 0, 0.4, left); // no coarser in the middle
   }
-  // The mouths of a film between asperities, where it hands the load over.
+  // The ends of a film between asperities, where it hands the load over.
   for (int i = 0; i < 2; i++) {
     features =
         add_feature(feature, features, c->rough.front[i].X, c->rough.front[i].width, 0.98 * left);

@@ -1,4 +1,4 @@
-// Newton's method of the mixed-film solver; equations in ehl.h.
+// Newton's method on rough rows; equations in ehl.h.
 //
 // Unknowns of the linear system are the total pressures, H0 and kappa; gap, parameter, slope and
 // film pressure follow from them at each node:
@@ -156,10 +156,10 @@ static int choose(const Local *l, const SbEhlMesh *mesh, const SbEhlTable *rule,
     }
     // Changed only where the last step leaves no doubt about the sign.
     double sign = l->p[i] + residual;
-    bool broken = fabs(sign) < doubt * point[i].asperity ? state->cavity[i] : sign < 0;
-    broken = broken && !(i == 0 && flooded);
-    changed += broken != state->cavity[i];
-    state->cavity[i] = broken;
+    bool cavitated = fabs(sign) < doubt * point[i].asperity ? state->cavity[i] : sign < 0;
+    cavitated = cavitated && !(i == 0 && flooded);
+    changed += cavitated != state->cavity[i];
+    state->cavity[i] = cavitated;
   }
   return changed;
 }

@@ -136,7 +136,7 @@ typedef struct {
   double
       friction_couette; // integral of eta speed / h over the full film [N/m], signed as the speed
   double friction_poiseuille; // integral of (h/2) dp/dx over the full film [N/m]
-  double friction_cavity;     // of the broken film, see ehl.c [N/m]
+  double friction_cavity;     // of the cavitated film, see ehl.c [N/m]
   double friction_boundary;   // tau_0 real area + m asperity load [N/m], signed as the speed
   double asperity_load;       // integral of the asperities' pressure [N/m]
   double asperity_share;      // of the net load
