@@ -25,6 +25,26 @@ SbStatus sb_ehl_iterate(SbFilmSolver *solver, int which, SbEhlCase *c, bool inde
   return status;
 }
 
+static bool has_free_end(const SbEhlCase *c) {
+  return c->layers.end == SB_EHL_REFORM || isfinite(c->layers.meniscus);
+}
+
+// From a guess of pressure and gap, moving a free end last.
+static SbStatus iterate_held(SbFilmSolver *solver, int which, SbEhlCase *c, const SbEhlRun *run) {
+  double flux = solver->state[which].flux;
+  c->hold = has_free_end(c);
+  SbStatus status = sb_ehl_iterate(solver, which, c, true, run);
+  if (status == SB_OK && c->hold) {
+    c->hold = false;
+    if (isfinite(c->layers.meniscus)) {
+      solver->state[which].flux = flux; // supplied
+    }
+    status = sb_ehl_iterate(solver, which, c, false, run);
+  }
+  c->hold = false;
+  return status;
+}
+
 // Cold start on the lowest degree.
 static SbStatus cold_start(SbFilmSolver *solver, int which, SbEhlCase *c, const SbEhlRun *run) {
   SbEhlState *state = &solver->state[which];
@@ -184,10 +204,6 @@ static SbStatus follow_homotopy(SbFilmSolver *solver, int *which, const SbEhlCas
   return status;
 }
 
-static bool has_free_end(const SbEhlCase *c) {
-  return c->layers.end == SB_EHL_REFORM || isfinite(c->layers.meniscus);
-}
-
 static SbStatus continuation(SbFilmSolver *solver, int *which, const SbEhlCase *target,
                              const SbEhlRun *run) {
   SbStatus status = SB_ERROR_NOT_CONVERGED;
@@ -219,16 +235,7 @@ SbStatus sb_ehl_refine(SbFilmSolver *solver, int *which, SbEhlCase *c, int degre
     return SB_ERROR_NOT_CONVERGED;
   }
   sb_ehl_carry(solver, *which, to, &c->layers, &next.layers, 1.0);
-  double flux = solver->state[to].flux;
-  next.hold = has_free_end(&next);
-  SbStatus status = sb_ehl_iterate(solver, to, &next, true, run);
-  if (status == SB_OK && next.hold) {
-    next.hold = false;
-    if (isfinite(next.layers.meniscus)) {
-      solver->state[to].flux = flux; // supplied
-    }
-    status = sb_ehl_iterate(solver, to, &next, false, run);
-  }
+  SbStatus status = iterate_held(solver, to, &next, run);
   if (status == SB_OK) {
     *which = to;
     *c = next;
@@ -298,12 +305,7 @@ static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbEhlCase *target,
       } else {
         sb_ehl_carry(solver, *which, to, &c.layers, &next.layers, 1.0);
       }
-      next.hold = true;
-      tried = sb_ehl_iterate(solver, to, &next, true, run);
-      next.hold = false;
-      if (tried == SB_OK) {
-        tried = sb_ehl_iterate(solver, to, &next, false, run);
-      }
+      tried = iterate_held(solver, to, &next, run);
     }
     if (tried == SB_ERROR_CANCELLED) {
       return tried;
