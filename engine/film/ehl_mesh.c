@@ -365,23 +365,26 @@ void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
   double in = mesh->inlet_pressure / M_PI;
   double out = mesh->outlet_pressure / M_PI;
 
+  // Element by element, as its tables fill the nearest cache.
+  memset(mesh->gap, 0, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *mesh->gap);
+  double angle[SB_EHL_TARGETS_MAX];
   for (int i = 0; i < mesh->targets; i++) {
-    double *gap = mesh->gap + (size_t)i * (size_t)mesh->dofs;
     double X = mesh->x[i];
-    double angle = fabs(X) <= 1.0 ? acos(-X) : acosh(fabs(X));
-    double known = 0.0;
-    memset(gap, 0, (size_t)mesh->dofs * sizeof *gap);
-    for (int k = 0; k < mesh->count; k++) {
-      const SbEhlElement *e = &mesh->element[k];
+    angle[i] = fabs(X) <= 1.0 ? acos(-X) : acosh(fabs(X));
+    mesh->gap_known[i] = in * half_line(X - mesh->left_end) - out * half_line(X - mesh->right_end) +
+                         (in - out) * log(2.0) * X;
+  }
+  for (int k = 0; k < mesh->count; k++) {
+    const SbEhlElement *e = &mesh->element[k];
+    for (int i = 0; i < mesh->targets; i++) {
+      double *gap = mesh->gap + (size_t)i * (size_t)mesh->dofs + e->first_dof;
       double row[COLUMNS] = {0};
-      sb_ehl_kernel_row(row, e, tables, X, angle);
+      sb_ehl_kernel_row(row, e, tables, mesh->x[i], angle[i]);
       for (int j = 0; j <= e->degree; j++) {
-        gap[e->first_dof + j] -= INVERSE_PI * row[j];
+        gap[j] -= INVERSE_PI * row[j];
       }
-      known -= INVERSE_PI * row[e->degree + 1];
+      mesh->gap_known[i] -= INVERSE_PI * row[e->degree + 1];
     }
-    known += in * half_line(X - mesh->left_end) - out * half_line(X - mesh->right_end);
-    mesh->gap_known[i] = known + (in - out) * log(2.0) * X;
   }
 
   memset(mesh->load, 0, (size_t)mesh->dofs * sizeof(double));

@@ -14,6 +14,8 @@
 // film.
 #include "engine/film/ehl.h"
 
+#include "engine/numeric/legendre.h"
+
 #include <math.h>
 
 enum { MODES = 22 }; // of the slope on an element; the fine rule holds 24 points
@@ -296,15 +298,21 @@ static void fill_rough(SbFilm *out, SbFilmSolver *solver, int which, const SbEhl
   const SbEhlMesh *mesh = &solver->mesh[which];
   const SbEhlState *state = &solver->state[which];
   int per = POINTS / mesh->count;
-  size_t n = 0;
-  for (int i = 0; i < mesh->count; i++) {
-    const SbEhlElement *e = &mesh->element[i];
-    const SbEhlTable *table = sb_ehl_table(&solver->tables, e->degree);
-    for (int k = i > 0 ? 1 : 0; k <= per; k++, n++) {
-      double r = -1 + 2.0 * k / per;
+  const SbEhlTable *table = sb_ehl_table(&solver->tables, mesh->element[0].degree);
+  for (int k = 0; k <= per; k++) {
+    double basis[SB_EHL_DEGREE_MAX + 1];
+    double r = -1 + 2.0 * k / per;
+    sb_barycentric_basis(basis, r, table->node, table->bary, table->degree + 1);
+    for (int i = 0; i < (k > 0 ? mesh->count : 1); i++) {
+      const SbEhlElement *e = &mesh->element[i];
+      size_t n = (size_t)(i * per + k);
+      double t = 0, q = 0;
+      for (int j = 0; j <= table->degree; j++) {
+        t += basis[j] * state->t[e->first_dof + j];
+        q += basis[j] * state->nodal[e->first_dof + j];
+      }
       SbEhlRoughPoint at;
-      sb_ehl_rough_point(&at, c, sb_ehl_interpolate(table, &state->t[e->first_dof], r));
-      double q = sb_ehl_interpolate(table, &state->nodal[e->first_dof], r);
+      sb_ehl_rough_point(&at, c, t);
       sb_film_put(out, n, (sb_ehl_position(e, r) + state->shift) * scale->half_width,
                   (q + c->fluid.rupture) * scale->pressure, at.h * scale->film);
       out->asperity_pressure[n] = at.asperity * scale->pressure;
