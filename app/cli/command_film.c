@@ -16,7 +16,7 @@
 
 static void print_table(const SbFilm *film, const SbFilmProblem *problem) {
   printf("Film by %s\n", sb_film_model_name(film->model));
-  if (!film->solver.converged && film->points == 0) {
+  if (!film->solver.converged && film->film_central == 0) {
     sb_cli_line("Converged", "NO, nothing found");
     return;
   }
@@ -114,6 +114,7 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem,
     same.model = models[i];
     same.surface = SB_ROUGH_NONE; // smooth, all of them
     same.hamaker = 0;
+    same.profile = NULL;
     SbReport report = {0};
     if (sb_film_solve(other, &same, NULL, &report) == SB_OK) {
       printf("  %-26s %9.4g nm %9.4g nm%s\n", sb_film_model_name(models[i]),
@@ -372,7 +373,9 @@ static void print_history(const SbResultsHistory *h) {
 static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
                           const SbModelSeries *series, const char *target) {
   SbFilm *film = g_new0(SbFilm, 1);
-  Solve job = {film, problem, {0}};
+  SbFilmProblem lent = *problem;
+  lent.profile = target != NULL ? g_new(SbFilmProfile, 1) : NULL;
+  Solve job = {film, &lent, {0}};
   sb_cli_catch_interrupts();
   double wall_s = 0;
   SbStatus status = sb_timing_median(&wall_s, solve, &job);
@@ -415,6 +418,7 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
     code = written != SB_EXIT_DONE ? written : code;
   }
   g_free(values);
+  g_free(lent.profile);
   g_free(film);
   return code;
 }

@@ -344,7 +344,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
 
 char *sb_results_film(const SbFilm *film, const SbResultsHistory *history) {
   // A solver that found nothing has no figures; what describes the problem stays.
-  const bool none = !film->solver.converged && film->points == 0;
+  const bool none = !film->solver.converged && film->film_central == 0;
   SbJson json;
   sb_json_init(&json);
   sb_json_object(&json, NULL);

@@ -6,8 +6,7 @@
 #include "engine/film/film.h"
 
 #include "engine/contact/rough/van_der_waals.h"
-#include "engine/film/mixed.h"
-#include "engine/film/reynolds.h"
+#include "engine/film/ehl.h"
 #include "engine/film/scale.h"
 
 #include <math.h>
@@ -48,7 +47,7 @@ void sb_film_problem_init(SbFilmProblem *problem) {
 
 SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
   *out = calloc(1, sizeof **out);
-  if (*out == NULL || !sb_reynolds_init(*out)) {
+  if (*out == NULL || !sb_ehl_init(*out)) {
     sb_film_solver_destroy(*out);
     *out = NULL;
     return sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
@@ -58,8 +57,7 @@ SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
 
 void sb_film_solver_destroy(SbFilmSolver *solver) {
   if (solver != NULL) {
-    sb_reynolds_finish(solver);
-    sb_mixed_destroy(solver->mixed);
+    sb_ehl_finish(solver);
     free(solver);
   }
 }
@@ -68,8 +66,8 @@ void sb_film_solver_forget(SbFilmSolver *solver) {
   solver->last.ready = false;
 }
 
-// Asperities or adhesion take the mixed solver.
-static bool mixed(const SbFilmProblem *problem) {
+// Asperities or adhesion take rough rows.
+bool sb_film_rough(const SbFilmProblem *problem) {
   return problem->surface != SB_ROUGH_NONE || problem->hamaker > 0.0;
 }
 
@@ -96,24 +94,15 @@ static void snap_in(SbFilm *out, const SbFilmProblem *problem, double closed) {
       problem->hamaker / (12 * M_PI * SB_VDW_CUTOFF * SB_VDW_CUTOFF));
 }
 
-// The coupled solver, with asperities or without. A pull that would close the film (rough_law.h) is
-// told beforehand: the film without it, and a warning.
+// The coupled solver. A pull that would close the film (rough_law.h) is told beforehand: the film
+// without it, and a warning.
 static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                               SbFilmSolver *solver, SbReport *report) {
-  if (!mixed(problem)) {
-    return sb_reynolds_solve(out, problem, scale, solver, report);
-  }
-  if (solver->mixed == NULL) {
-    solver->mixed = sb_mixed_create();
-    if (solver->mixed == NULL) {
-      return sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
-    }
-  }
   double closed = 0;
   if (problem->hamaker > 0.0) {
     const SbRoughLaw *law = NULL;
     if (problem->surface != SB_ROUGH_NONE) {
-      SbStatus made = sb_mixed_law(&law, solver->mixed, problem, report);
+      SbStatus made = sb_ehl_rough_law(&law, solver, problem, report);
       if (made != SB_OK) {
         return made;
       }
@@ -121,25 +110,25 @@ static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const S
     closed = snap_gap(law, problem, scale);
   }
   if (!(closed > 0)) {
-    return sb_mixed_solve(out, problem, scale, solver->mixed, report);
+    return sb_ehl_solve(out, problem, scale, solver, report);
   }
   SbFilmProblem without = *problem;
   without.hamaker = 0;
-  SbStatus status = solve_coupled(out, &without, scale, solver, report);
+  SbStatus status = sb_ehl_solve(out, &without, scale, solver, report);
   double wall_s = out->solver.wall_s;
   if (status != SB_OK) {
     return status;
   }
   if (out->film_min > closed) { // thick enough, unless the pull itself draws it down there
     sb_film_begin(out, problem, scale);
-    status = sb_mixed_solve(out, problem, scale, solver->mixed, report);
+    status = sb_ehl_solve(out, problem, scale, solver, report);
     wall_s += out->solver.wall_s;
     if (status == SB_OK ? out->film_min > closed : status != SB_ERROR_NOT_CONVERGED) {
       out->solver.wall_s = wall_s;
       return status;
     }
     sb_film_begin(out, &without, scale);
-    status = solve_coupled(out, &without, scale, solver, report);
+    status = sb_ehl_solve(out, &without, scale, solver, report);
     wall_s += out->solver.wall_s;
   }
   snap_in(out, problem, closed);
@@ -195,7 +184,7 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
     return sb_fail(report, SB_ERROR_INPUT, "there is no surface model number %d",
                    (int)problem->surface);
   }
-  if (mixed(problem) && problem->model != SB_FILM_REYNOLDS) {
+  if (sb_film_rough(problem) && problem->model != SB_FILM_REYNOLDS) {
     return sb_fail(report, SB_ERROR_INPUT,
                    "film: asperities and adhesion need the model reynolds, not %s",
                    sb_film_model_name(problem->model));
@@ -238,19 +227,24 @@ double sb_film_dry_gap(double X) {
   return 0.5 * (a * r - log(a + r));
 }
 
+double sb_film_ends(double X, double inlet, double outlet) {
+  double step = asin(fmin(fmax(X, -1.0), 1.0)) / M_PI;
+  return inlet * (0.5 - step) + outlet * (0.5 + step);
+}
+
 double sb_film_dry_pressure(double X, double inlet, double outlet) {
-  if (X <= -1.0) {
-    return inlet;
-  }
-  if (X >= 1.0) {
-    return outlet;
-  }
-  double step = asin(X) / M_PI;
-  return sqrt((1.0 - X) * (1.0 + X)) + inlet * (0.5 - step) + outlet * (0.5 + step);
+  return sqrt(fmax((1.0 - X) * (1.0 + X), 0.0)) + sb_film_ends(X, inlet, outlet);
 }
 
 void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale) {
   memset(out, 0, sizeof *out);
+  SbFilmProfile *profile = problem->profile;
+  if (profile != NULL) {
+    out->x = profile->x;
+    out->pressure = profile->pressure;
+    out->film = profile->film;
+    out->asperity_pressure = profile->asperity_pressure;
+  }
   out->model = problem->model;
   out->hertz_half_width = scale->half_width;
   out->hertz_pressure = scale->pressure;
@@ -265,6 +259,20 @@ void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale 
                                          : "isoviscous-elastic";
   strncpy(out->regime, regime, sizeof out->regime - 1);
   out->valid = true;
+}
+
+void sb_film_mirror(SbFilm *out) {
+  double *const column[] = {out->x, out->pressure, out->film, out->asperity_pressure};
+  for (size_t k = 0; k < sizeof column / sizeof column[0]; k++) {
+    for (size_t i = 0, j = out->points; i < out->points / 2; i++) {
+      double value = column[k][i];
+      column[k][i] = column[k][--j];
+      column[k][j] = value;
+    }
+  }
+  for (size_t i = 0; i < out->points; i++) {
+    out->x[i] = -out->x[i];
+  }
 }
 
 void sb_film_warn_common(SbFilm *out, const SbFilmProblem *problem) {
@@ -308,14 +316,15 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
                              "pi they open the contact",
                              fabs(scale.inlet - scale.outlet));
   }
-  if (scale.U <= 0.0 && !(mixed(problem) && problem->surface != SB_ROUGH_NONE)) {
+  if (scale.U <= 0.0 && !(sb_film_rough(problem) && problem->surface != SB_ROUGH_NONE)) {
     if (fitted) {
       sb_film_rest_fitted(out, problem, &dry);
       status = sb_succeed(report);
     } else {
       status = sb_film_solve_dry(out, problem, &scale, report);
     }
-    if (status == SB_OK && mixed(problem)) { // no film at all between smooth surfaces at rest
+    if (status == SB_OK &&
+        sb_film_rough(problem)) { // no film at all between smooth surfaces at rest
       snap_in(out, problem, snap_gap(NULL, problem, &scale));
     }
   } else {
@@ -350,7 +359,7 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
   if (status == SB_ERROR_NOT_CONVERGED) {
     out->valid = false;
   }
-  if (status == SB_OK || (status == SB_ERROR_NOT_CONVERGED && out->points > 0)) {
+  if (status == SB_OK || (status == SB_ERROR_NOT_CONVERGED && out->film_central > 0.0)) {
     sb_film_warn_common(out, problem);
   }
   return status;

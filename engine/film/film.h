@@ -5,7 +5,7 @@
 // isoviscous and incompressible unless an option says otherwise. Every model gives the film, the
 // pressure, the friction of the film and the range where it may be used:
 //
-//   reynolds       coupled elastohydrodynamic solution, every speed (reynolds.c)
+//   reynolds       coupled elastohydrodynamic solution, every speed (ehl.c)
 //   inverse        Blok's film of a given smooth dry pressure (inverse.c)
 //   karaszkiewicz  H* = 4.4 U^0.65 W^-0.21, thesis eq. 7.6 (= 5.5)
 //   thesis         H* = 1.492 U^0.5434 W^-0.2893, thesis eq. 7.5
@@ -45,6 +45,14 @@ typedef enum {
 
 enum { SB_FILM_POINTS = 7800 }; // capacity of a profile
 
+// Room for a profile, the caller's; 250 kB.
+typedef struct {
+  double x[SB_FILM_POINTS];                 // [m]
+  double pressure[SB_FILM_POINTS];          // gauge [Pa]
+  double film[SB_FILM_POINTS];              // [m]
+  double asperity_pressure[SB_FILM_POINTS]; // [Pa]
+} SbFilmProfile;
+
 // Least film over radius from which on the parabola misses the cylinder by more than some 5 % of
 // the film; a warning says so.
 #define SB_FILM_THICK 0.1
@@ -67,8 +75,8 @@ typedef struct {
   double inlet_film;         // layer [m] that the moving wall brings; 0 floods the inlet
   double rupture_pressure;   // gauge [Pa] at which the film breaks, a vapour pressure for instance
 
-  // Asperities inside the same solve (mixed.h), off by default: the surface model, its figures and
-  // what friction takes. The film, the pressure and the profile are then those of the total.
+  // Asperities inside the same solve (ehl.h), off by default: the surface model, its figures
+  // and what friction takes. The film, the pressure and the profile are then those of the total.
   SbRoughModel surface;    // rough_law.h
   double gt_product;       // zeta beta sigma
   double sigma;            // combined standard deviation of heights [m]
@@ -88,6 +96,7 @@ typedef struct {
   const double *dry_pressure; // [Pa]
   size_t dry_count;
 
+  SbFilmProfile *profile; // lent to the result for its profile; NULL: none is made
   size_t profile_points; // of the coupled solver's profile, about; 0: as many as serve its accuracy
 
   // Polled between Newton steps; true stops the solve with SB_ERROR_CANCELLED. May be NULL.
@@ -111,7 +120,8 @@ typedef struct {
   double wall_s;             // time of the solve, cold or warm, without any output
 } SbFilmSolverInfo;
 
-// What came out. Plain data without pointers: may be copied and handed to another thread.
+// What came out. Plain data but for the profile, which stands in the buffer that the problem lent:
+// a copy shares it and is good as long as the buffer is neither freed nor lent to another solve.
 typedef struct {
   SbFilmModel model;
   double film_min;          // [m]
@@ -128,7 +138,7 @@ typedef struct {
   double
       friction_couette; // integral of eta speed / h over the full film [N/m], signed as the speed
   double friction_poiseuille; // integral of (h/2) dp/dx over the full film [N/m]
-  double friction_cavity;     // of the broken film, see mixed.c [N/m]
+  double friction_cavity;     // of the cavitated film, see ehl.c [N/m]
   double friction_boundary;   // tau_0 real area + m asperity load [N/m], signed as the speed
   double asperity_load;       // integral of the asperities' pressure [N/m]
   double asperity_share;      // of the net load
@@ -145,14 +155,14 @@ typedef struct {
   SbWarnings warnings;
   SbFilmSolverInfo solver;
 
-  // Profile, x increasing, dense in the inlet and outlet layers; at least 400 points unless fewer
-  // were asked for. Central differences of the coupled solver's give its flux to 1e-4 of the larger
-  // of film and flux film.
+  // Profile, none and NULL unless the problem lends room for it: x increasing, dense in the inlet
+  // and outlet layers; at least 400 points unless fewer were asked for. Central differences of the
+  // coupled solver's give its flux to 1e-4 of the larger of film and flux film.
   size_t points;
-  double x[SB_FILM_POINTS];                 // [m]
-  double pressure[SB_FILM_POINTS];          // gauge [Pa]
-  double film[SB_FILM_POINTS];              // gap between the surfaces [m]
-  double asperity_pressure[SB_FILM_POINTS]; // [Pa], a part of `pressure`; 0 without roughness
+  double *x;                 // [m]
+  double *pressure;          // gauge [Pa]
+  double *film;              // gap between the surfaces [m]
+  double *asperity_pressure; // [Pa], a part of `pressure`; 0 without roughness
 } SbFilm;
 
 // Workspace of the film solver and its last solution: later solves start from it and allocate
@@ -185,8 +195,8 @@ void sb_film_problem_init(SbFilmProblem *problem);
 
 // Solves `problem` with its model. `memory` may be NULL (then a workspace lives for the call only).
 // SB_ERROR_RANGE / SB_ERROR_INPUT: nothing solved, *out is zero. SB_ERROR_NOT_CONVERGED: *out holds
-// the best state found, solver.converged is false; without points if there is none, and the films
-// and pressures are then 0. SB_ERROR_CANCELLED, SB_ERROR_MEMORY.
+// the best state found, solver.converged is false; if there is none, the films and pressures are 0.
+//  SB_ERROR_CANCELLED, SB_ERROR_MEMORY.
 SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *memory,
                        SbReport *report);
 

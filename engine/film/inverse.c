@@ -171,25 +171,14 @@ static void evaluate(SbFilm *out, const SbFilmProblem *problem, const Table *t, 
       out->position_film_min = sign * x;
     }
     out->pressure_max = fmax(out->pressure_max, p);
-    out->x[n] = x;
-    out->pressure[n] = p;
-    out->film[n++] = h;
+    sb_film_put(out, n++, x, p, h);
     before_x = x;
     before_p = p;
     before_shear = shear;
     before_h = h;
   }
-  out->points = n;
   if (sign < 0.0) {
-    for (size_t i = 0, j = n - 1; i <= j && j < n; i++, j--) {
-      double x = out->x[i], p = out->pressure[i], h = out->film[i];
-      out->x[i] = -out->x[j];
-      out->pressure[i] = out->pressure[j];
-      out->film[i] = out->film[j];
-      out->x[j] = -x;
-      out->pressure[j] = p;
-      out->film[j] = h;
-    }
+    sb_film_mirror(out);
   }
   if (fabs(load / problem->load - 1.0) > 0.01) {
     sb_warn(&out->warnings, "film-dry-load", "",

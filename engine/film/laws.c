@@ -38,17 +38,15 @@ static void dry_profile(SbFilm *out, const SbFilmProblem *problem, const SbFilmS
                         double film) {
   enum { POINTS = 601 };
   bool forward = problem->speed >= 0.0;
-  out->points = POINTS;
   for (int i = 0; i < POINTS; i++) {
     // A sine in three periods: |X| <= 1 in the middle half, up to 3 outside, dense at +-1.
     double s = -2.0 + 4.0 * i / (POINTS - 1);
     double X =
         fabs(s) <= 1.0 ? sin(s * M_PI / 2.0) : copysign(1.0 + 2.0 * pow(fabs(s) - 1.0, 2), s);
-    out->x[i] = X * scale->half_width;
     double flow = forward ? X : -X;
-    out->pressure[i] = scale->pressure * sb_film_dry_pressure(flow, scale->inlet, scale->outlet);
-    out->film[i] = scale->film * sb_film_dry_gap(X) + film;
-    out->pressure_max = fmax(out->pressure_max, out->pressure[i]);
+    double p = scale->pressure * sb_film_dry_pressure(flow, scale->inlet, scale->outlet);
+    sb_film_put(out, (size_t)i, X * scale->half_width, p, scale->film * sb_film_dry_gap(X) + film);
+    out->pressure_max = fmax(out->pressure_max, p);
   }
 }
 

@@ -14,14 +14,12 @@ static void wedge_profile(SbFilm *out, const SbFilmProblem *problem, const SbWed
   enum { POINTS = 801 };
   double unit = sqrt(2 * rigid->radius * rigid->film_min);
   bool forward = problem->speed >= 0;
-  out->points = POINTS;
-  for (int i = 0; i < POINTS; i++) {
+  for (int i = 0; i < POINTS && out->x != NULL; i++) {
     // tan runs from -30 to 2 throats: the pressure has gone to a ten-thousandth of its peak there.
     double flow = i == POINTS - 1 ? 2 * unit : unit * tan(-1.5375 + 2.6446 * i / (POINTS - 1));
     int at = forward ? i : POINTS - 1 - i;
-    out->x[at] = forward ? flow : -flow;
-    out->pressure[at] = sb_wedge_pressure(wedge, rigid, flow);
-    out->film[at] = rigid->film_min + flow * flow / (2 * rigid->radius);
+    sb_film_put(out, (size_t)at, forward ? flow : -flow, sb_wedge_pressure(wedge, rigid, flow),
+                rigid->film_min + flow * flow / (2 * rigid->radius));
   }
 }
 

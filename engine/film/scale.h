@@ -30,6 +30,9 @@ typedef struct {
   double half_width, film;               // scales b and of the film
 } SbFilmBody;
 
+// Whether `problem` has asperities or adhesion.
+bool sb_film_rough(const SbFilmProblem *problem);
+
 // Scales of `problem`, which must have been checked.
 SbFilmScale sb_film_scale(const SbFilmProblem *problem);
 
@@ -44,6 +47,9 @@ SbFilmBody sb_film_body(const SbFilmProblem *problem, const SbFilmScale *scale);
 
 // Dry contact at rest of a fitted body.
 void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryContact *dry);
+
+// End pressures joined as in the dry smooth contact (docs/verification.md), at X.
+double sb_film_ends(double X, double inlet, double outlet);
 
 // Scaled dry pressure in the flow frame (inlet at X = -1), with end pressures: Hertz's plus the
 // transition of the end pressures with the tilt removed so that the contact stays |X| < 1.
@@ -61,6 +67,20 @@ SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const Sb
                              SbReport *report);
 SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                            SbReport *report);
+
+// Point n of the profile, without asperities, where one is wanted.
+static inline void sb_film_put(SbFilm *out, size_t n, double x, double pressure, double film) {
+  if (out->x != NULL) {
+    out->x[n] = x;
+    out->pressure[n] = pressure;
+    out->film[n] = film;
+    out->asperity_pressure[n] = 0.0;
+    out->points = n + 1 > out->points ? n + 1 : out->points;
+  }
+}
+
+// Turns a profile between the flow frame and the seal's where their x differ in sign.
+void sb_film_mirror(SbFilm *out);
 
 // Flags films thinner than a few molecules and pressures that the models do not cover.
 void sb_film_warn_common(SbFilm *out, const SbFilmProblem *problem);

@@ -1,4 +1,4 @@
-// A Stribeck curve by repeated mixed solutions; what each takes and leaves out is in mixed.h.
+// A Stribeck curve by repeated mixed solutions; what each takes and leaves out is in ehl.h.
 #include "engine/film/stribeck.h"
 
 #include <math.h>

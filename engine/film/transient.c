@@ -178,13 +178,16 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
   // The steady film at the largest speed checks the problem, and the mesh's error by its own.
   const double sign = problem->film.speed < 0.0 ? -1.0 : 1.0;
   SbFilm *steady = malloc(sizeof *steady);
+  SbFilmProfile *profile = malloc(sizeof *profile); // of `steady`
   SbFilmTransient *t = calloc(1, sizeof *t);
-  if (t == NULL || steady == NULL || !allocate(t)) {
+  if (t == NULL || steady == NULL || profile == NULL || !allocate(t)) {
     free(steady);
+    free(profile);
     sb_film_transient_destroy(t);
     return sb_fail(report, SB_ERROR_MEMORY, "transient film: out of memory");
   }
   t->problem = *problem;
+  t->problem.film.profile = profile;
   if (problem->film.compliance != NULL) {
     t->compliance = *problem->film.compliance;
     t->problem.film.compliance = &t->compliance;
@@ -235,6 +238,8 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
     }
   }
   free(steady);
+  free(profile);
+  t->problem.film.profile = problem->film.profile;
   if (status != SB_OK) {
     sb_film_transient_destroy(t);
     return status;
@@ -519,11 +524,9 @@ void sb_film_transient_result(SbFilm *out, const SbFilmTransient *t) {
       .load_error = t->info.load_error,
       .flux_error = t->info.mass_error,
   };
-  out->points = (size_t)t->nodes;
   for (int k = 0; k < t->nodes; k++) {
-    out->x[k] = (s->middle + s->half * t->X[k]) * unit;
-    out->pressure[k] = s->P[k] * t->scale.pressure + problem.rupture_pressure;
-    out->film[k] = s->H[k] * t->scale.film;
+    sb_film_put(out, (size_t)k, (s->middle + s->half * t->X[k]) * unit,
+                s->P[k] * t->scale.pressure + problem.rupture_pressure, s->H[k] * t->scale.film);
   }
   sb_film_warn_common(out, &problem);
 }

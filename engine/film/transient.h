@@ -19,7 +19,8 @@
 #include "engine/film/film.h"
 
 typedef struct {
-  SbFilmProblem film; // sizes, load and speed at the start; tolerance of the film history
+  SbFilmProblem film; // sizes, load and speed at the start; tolerance of the film history; a
+                      // profile lent is that of every result
   double speed_scale; // greatest |speed| to come [m/s]: lays the mesh
   double rest_film;   // 0: start in the steady state of film.speed; else at rest, the contact
                       // parted by this film [m] and the surroundings full

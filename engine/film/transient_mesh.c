@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "engine/film/layers.h"
+#include "engine/film/ehl_layers.h"
 #include "engine/film/transient_internal.h"
 #include "engine/numeric/legendre.h"
 
@@ -99,9 +99,9 @@ static void build_kernel(SbFilmTransient *t) {
 
 // Half of the mesh from the middle outward, mirrored: spacing a share of the distance to the edge.
 void sb_transient_mesh(SbFilmTransient *t, double rest) {
-  SbLayers layers = {.lambda = t->scale.lambda, .starvation = 1.0};
+  SbEhlLayers layers = {.lambda = t->scale.lambda, .starvation = 1.0};
   memcpy(layers.bow, t->scale.bow, sizeof layers.bow);
-  const double width = fmin(sb_layers_width(&layers), 2.0);
+  const double width = fmin(sb_ehl_layers_width(&layers), 2.0);
   const double fine = cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
   const double share = 0.15 * fine;
   const double finest = 0.5 * width;

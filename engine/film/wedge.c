@@ -3,8 +3,7 @@
 
 #include <math.h>
 
-// P* - P*_in at angle t for an end at te.
-static double shape(double t, double te) {
+double sb_wedge_shape(double t, double te) {
   double sec2 = 1 / (cos(te) * cos(te));
   return t / 2 + M_PI / 4 + sin(2 * t) / 4 -
          sec2 * (3 * t / 8 + 3 * M_PI / 16 + sin(2 * t) / 4 + sin(4 * t) / 32);
@@ -30,12 +29,13 @@ SbStatus sb_wedge_solve(SbWedge *out, const SbWedgeProblem *problem, SbReport *r
                    "the outlet pressure drives the film back: no end with zero gradient");
   }
 
-  // shape(te, te) falls from pi/16 at 0 without bound towards pi/2, so one root lies between.
+  // sb_wedge_shape(te, te) falls from pi/16 at 0 without bound towards pi/2, so one root lies
+  // between.
   double low = 0;
   double high = M_PI / 2;
   for (int i = 0; i < 200 && high - low > 1e-16; i++) {
     double te = (low + high) / 2;
-    if (shape(te, te) > step) {
+    if (sb_wedge_shape(te, te) > step) {
       low = te;
     } else {
       high = te;
@@ -52,7 +52,7 @@ SbStatus sb_wedge_solve(SbWedge *out, const SbWedgeProblem *problem, SbReport *r
   out->load = scale * sqrt(2 * R * h0) * c2 / 4;
 
   // The pressure gradient vanishes at -te as well: there the pressure is greatest.
-  out->pressure_max = problem->pressure_left + scale * shape(-te, te);
+  out->pressure_max = problem->pressure_left + scale * sb_wedge_shape(-te, te);
   double eta_u = problem->viscosity * problem->speed;
   double span = te + M_PI / 2;
   out->friction_couette = eta_u * root * span;
@@ -102,7 +102,7 @@ double sb_wedge_pressure(const SbWedge *wedge, const SbWedgeProblem *problem, do
   if (t >= wedge->rupture_angle) {
     return problem->pressure_right;
   }
-  return problem->pressure_left + pressure_scale(problem) * shape(t, wedge->rupture_angle);
+  return problem->pressure_left + pressure_scale(problem) * sb_wedge_shape(t, wedge->rupture_angle);
 }
 
 double sb_taper_factor(double ratio) {

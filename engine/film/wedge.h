@@ -44,6 +44,9 @@ SbStatus sb_wedge_solve(SbWedge *out, const SbWedgeProblem *problem, SbReport *r
 SbStatus sb_wedge_solve_load(SbWedge *out, double *film_min, const SbWedgeProblem *problem,
                              double load, SbReport *report);
 
+// P* - P*_in at angle t for an end at te.
+double sb_wedge_shape(double t, double te);
+
 // Pressure at x for a solved wedge [Pa]; p_out behind the end of the film.
 double sb_wedge_pressure(const SbWedge *wedge, const SbWedgeProblem *problem, double x);
 

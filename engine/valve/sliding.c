@@ -21,7 +21,8 @@ struct SbSlidingMemory {
   SbFilm fitted_film; // of the fitted body
   bool fitted_last;   // which of them the last evaluation gave
   SbFilm rest;        // dry rough contact, coupled asperities only
-  bool rest_fitted;   // on the fitted body
+  SbFilmProfile film_profile, fitted_profile, rest_profile;
+  bool rest_fitted; // on the fitted body
   double rest_load;
   SbSealPressure rest_pressure;
   bool rested;
@@ -58,7 +59,11 @@ static SbStatus film_solve(SbFilm *out, const SbFilmProblem *problem, SbSlidingM
       return status;
     }
   }
-  return sb_film_solve(out, problem, memory->solver, report);
+  SbFilmProblem lent = *problem;
+  lent.profile = out == &memory->film          ? &memory->film_profile
+                 : out == &memory->fitted_film ? &memory->fitted_profile
+                                               : &memory->rest_profile;
+  return sb_film_solve(out, &lent, memory->solver, report);
 }
 
 void sb_sliding_memory_forget(SbSlidingMemory *memory) {
@@ -241,7 +246,7 @@ static bool solve_fitted(SbFilm *film, const SbFilmProblem *plane, const SbModel
 // A solver that stopped before its first solution has no figures; one that stopped above the
 // tolerance has those of its last, with their error.
 static bool has_film(const SbFilm *film, SbStatus status) {
-  return status == SB_OK || (status == SB_ERROR_NOT_CONVERGED && film->points > 0);
+  return status == SB_OK || (status == SB_ERROR_NOT_CONVERGED && film->film_central > 0);
 }
 
 // A seal's film figures are those of `film`, solved on the half-plane or on the fitted body; NaN
@@ -421,7 +426,7 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
     out->viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
   }
   const SbFilm *rest = &memory->rest;
-  if (memory->rested || rest->points > 0) {
+  if (memory->rested || rest->film_central > 0) {
     out->friction_static = model->static_ratio *
                            (model->shear_strength * fmin(rest->real_area / rest_width, 1) * area +
                             model->load_coefficient * rest->asperity_load * circumference);

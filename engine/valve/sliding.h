@@ -5,7 +5,7 @@
 //   viscous   F_v = tau (A - A_a)      thesis eq. 5.15 and 5.16, tau = min(eta |u|/h, tau_0)
 //   static    F_s = ratio (tau_0 A_a(0) + m W)     break-away from rest, where the film has gone
 //
-// With models.asperities = coupled the film is solved with the asperities in it (film/mixed.h), and
+// With models.asperities = coupled the film is solved with the asperities in it (film/ehl.h), and
 // what the solution says takes the place of these: A_a its real area (mean over the contact
 // solved, on A), m on the asperities' load alone, the viscous part from the gap that is open, and
 // at rest the dry rough contact, m W on the whole net load.

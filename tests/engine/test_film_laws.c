@@ -5,6 +5,8 @@
 #include <math.h>
 
 // The inhaler seal of the thesis at the test speed: 850.2 N/m, R 0.805 mm, E' 6.5725 MPa.
+static SbFilmProfile profile, mirrored;
+
 static SbFilmProblem inhaler(SbFilmModel model, double speed) {
   SbFilmProblem problem;
   sb_film_problem_init(&problem);
@@ -14,6 +16,7 @@ static SbFilmProblem inhaler(SbFilmModel model, double speed) {
   problem.radius = 0.805e-3;
   problem.modulus = 6.5725e6;
   problem.viscosity = 0.211e-3;
+  problem.profile = &profile;
   return problem;
 }
 
@@ -79,6 +82,7 @@ static void test_direction(void) {
   problem.speed = -0.5;
   problem.pressure_left = 0.0;
   problem.pressure_right = 0.2e6;
+  problem.profile = &mirrored;
   g_assert_cmpint(sb_film_solve(&back, &problem, NULL, &report), ==, SB_OK);
   close_to(back.film_min, film.film_min, 1e-14);
   close_to(back.position_rupture, -film.position_rupture, 1e-14);
@@ -190,8 +194,31 @@ static void test_inverse(void) {
   g_assert_cmpint(sb_film_solve(&back, &problem, NULL, &report), ==, SB_ERROR_INPUT);
 }
 
+// A profile stands in the room lent for it, and only if there is some; figures do not hang on it,
+// and a copy shares it.
+static void test_lent(void) {
+  static const SbFilmModel models[] = {SB_FILM_REYNOLDS, SB_FILM_ASYMPTOTIC, SB_FILM_RIGID};
+  g_assert_cmpuint(sizeof(SbFilm), <, 20000);
+  for (size_t i = 0; i < 2 * G_N_ELEMENTS(models); i++) {
+    SbFilmProblem problem = inhaler(models[i / 2], i % 2 == 0 ? 0.5 : 0.0);
+    SbFilm film, bare;
+    g_assert_cmpint(sb_film_solve(&film, &problem, NULL, NULL), ==, SB_OK);
+    problem.profile = NULL;
+    g_assert_cmpint(sb_film_solve(&bare, &problem, NULL, NULL), ==, SB_OK);
+    g_assert_true(bare.x == NULL && bare.points == 0);
+    g_assert_cmpfloat(bare.film_min, ==, film.film_min);
+    g_assert_cmpfloat(bare.pressure_max, ==, film.pressure_max);
+    g_assert_cmpfloat(bare.friction_couette, ==, film.friction_couette);
+    SbFilm copy = film;
+    g_assert_cmpuint(copy.points, >=, 400);
+    g_assert_true(copy.x == profile.x && copy.asperity_pressure == profile.asperity_pressure);
+    g_assert_cmpfloat(copy.asperity_pressure[copy.points - 1], ==, 0.0);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/film/laws/lent", test_lent);
   g_test_add_func("/film/laws/figures", test_figures);
   g_test_add_func("/film/laws/rigid", test_rigid);
   g_test_add_func("/film/laws/direction", test_direction);

@@ -15,6 +15,7 @@
 
 static SbFilmSolver *solver;
 static SbFilm film, other;
+static SbFilmProfile profile[2];
 
 // The outer seal of the thesis valve.
 static SbFilmProblem seal(double speed, SbRoughModel surface) {
@@ -36,8 +37,10 @@ static SbFilmProblem seal(double speed, SbRoughModel surface) {
 
 static SbStatus solve(SbFilm *out, const SbFilmProblem *problem) {
   SbReport report;
+  SbFilmProblem lent = *problem;
+  lent.profile = &profile[out == &other];
   sb_film_solver_forget(solver);
-  SbStatus status = sb_film_solve(out, problem, solver, &report);
+  SbStatus status = sb_film_solve(out, &lent, solver, &report);
   if (status != SB_OK) {
     g_test_message("speed %g: %s", problem->speed, report.text);
   }

@@ -7,8 +7,10 @@
 
 // The inhaler's seal at Moes' M; steady at the speed that gives it.
 static SbFilmTransientProblem seal(double M) {
+  static SbFilmProfile profile; // of the last film
   SbFilmTransientProblem p = {0};
   sb_film_problem_init(&p.film);
+  p.film.profile = &profile;
   p.film.radius = 0.805e-3;
   p.film.modulus = 6.5725e6;
   p.film.viscosity = 0.211e-3;

@@ -1,5 +1,5 @@
 // Stribeck curve: coefficient of friction, the asperities' share of the load, and the film against
-// the sliding speed, film and asperities solved in one Newton (film/mixed.h, film/stribeck.h).
+// the sliding speed, film and asperities solved in one Newton (film/ehl.h, film/stribeck.h).
 //
 // The outer seal's net load at its pressures of B-C without its end pressures, both surface models
 // beside each other: Greenwood and Tripp (whose real area the default shear strength was set with)

@@ -1,11 +1,11 @@
-// Ways to a first solution of the coupled film problem, on the lowest degree.
+// Continuation to a first solution of the coupled film problem, on the lowest degree.
 //
 // Directly from the layers' shapes; by continuation from a case with small end pressures and no
 // options; with a cavity where the flooded outlet's pressure would fall below the rupture pressure
 // (the film breaks, the cavity carries the same flux at the rupture pressure, and full film forms
 // again where its pressure starts from there: Jakobsson, Floberg and Olsson's conditions in steady
 // flow); with a meniscus where less film is supplied than the contact would take.
-#include "engine/film/reynolds.h"
+#include "engine/film/ehl.h"
 
 #include <math.h>
 
@@ -13,43 +13,58 @@
 // the far inlet.
 static const double TENSION = -1e-6;
 
-// Adds what a call of Newton's method did to the totals.
-static void account(SbFilmSolverInfo *info, const SbReynoldsTrace *trace) {
-  info->newton_iterations += trace->iterations;
-  info->continuation_steps++;
-  info->residual = trace->residual;
+SbStatus sb_ehl_iterate(SbFilmSolver *solver, int which, SbEhlCase *c, bool independent,
+                        const SbEhlRun *run) {
+  SbEhlTrace trace;
+  SbStatus status = c->rough.rows ? sb_ehl_rough_newton(&trace, solver, which, c, run->problem)
+                                  : sb_ehl_newton(&trace, solver, which, c, independent,
+                                                  run->tolerance, run->problem);
+  run->info->newton_iterations += trace.iterations;
+  run->info->continuation_steps++;
+  run->info->residual = trace.residual;
+  return status;
 }
 
-// Newton's method with its account.
-static SbStatus iterate(SbFilmSolver *solver, int which, SbReynoldsCase *c, bool independent,
-                        double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
-  SbReynoldsTrace trace;
-  SbStatus status = sb_reynolds_newton(&trace, solver, which, c, independent, tolerance, problem);
-  account(info, &trace);
+static bool has_free_end(const SbEhlCase *c) {
+  return c->layers.end == SB_EHL_REFORM || isfinite(c->layers.meniscus);
+}
+
+// From a guess of pressure and gap, moving a free end last.
+static SbStatus iterate_held(SbFilmSolver *solver, int which, SbEhlCase *c, const SbEhlRun *run) {
+  double flux = solver->state[which].flux;
+  c->hold = has_free_end(c);
+  SbStatus status = sb_ehl_iterate(solver, which, c, true, run);
+  if (status == SB_OK && c->hold) {
+    c->hold = false;
+    if (isfinite(c->layers.meniscus)) {
+      solver->state[which].flux = flux; // supplied
+    }
+    status = sb_ehl_iterate(solver, which, c, false, run);
+  }
+  c->hold = false;
   return status;
 }
 
 // Cold start on the lowest degree.
-static SbStatus cold_start(SbFilmSolver *solver, int which, SbReynoldsCase *c, double tolerance,
-                           SbFilmSolverInfo *info, const SbFilmProblem *problem) {
-  SbReynoldsState *state = &solver->state[which];
-  if (!sb_layers_mesh(&solver->mesh[which], &solver->tables, &c->layers)) {
+static SbStatus cold_start(SbFilmSolver *solver, int which, SbEhlCase *c, const SbEhlRun *run) {
+  SbEhlState *state = &solver->state[which];
+  if (!sb_ehl_layers_mesh(&solver->mesh[which], &solver->tables, &c->layers)) {
     return SB_ERROR_NOT_CONVERGED;
   }
   state->H0 = 0.0;
-  sb_layers_guess(state->nodal, state->gap, &state->shift, &state->flux, &solver->mesh[which],
-                  &solver->tables, &c->layers);
-  SbStatus status = iterate(solver, which, c, true, tolerance, info, problem);
+  sb_ehl_layers_guess(state->nodal, state->gap, &state->shift, &state->flux, &solver->mesh[which],
+                      &solver->tables, &c->layers);
+  SbStatus status = sb_ehl_iterate(solver, which, c, true, run);
   // The lowest degree has a false solution now and then where M is near 1: a film many times as
   // thick as the layers let expect, lost on finer meshes. Continuation does not meet it.
-  if (status == SB_OK && state->flux > 8.0 * sb_layers_flux(&c->layers)) {
+  if (status == SB_OK && state->flux > 8.0 * sb_ehl_layers_flux(&c->layers)) {
     status = SB_ERROR_NOT_CONVERGED;
   }
   return status;
 }
 
 // True when both meshes have the same elements up to their places and degrees.
-static bool same_elements(const SbHpMesh *a, const SbHpMesh *b) {
+static bool same_elements(const SbEhlMesh *a, const SbEhlMesh *b) {
   if (a->count != b->count) {
     return false;
   }
@@ -62,35 +77,35 @@ static bool same_elements(const SbHpMesh *a, const SbHpMesh *b) {
 }
 
 // Asks for as many elements as a mesh has.
-static void keep_steps(SbLayers *layers, const SbHpMesh *mesh) {
+static void keep_steps(SbEhlLayers *layers, const SbEhlMesh *mesh) {
   layers->steps[0] = mesh->steps[0];
   layers->steps[1] = mesh->steps[1];
 }
 
 // Adds what the dry contact's pressure changes by when the end pressures do, which leaves its gap
 // as it was; infinite elements hold theirs relative to the end pressure.
-static void add_dry_change(SbFilmSolver *solver, int which, const SbLayers *old,
-                           const SbLayers *new) {
-  const SbHpMesh *mesh = &solver->mesh[which];
+static void add_dry_change(SbFilmSolver *solver, int which, const SbEhlLayers *old,
+                           const SbEhlLayers *new) {
+  const SbEhlMesh *mesh = &solver->mesh[which];
   if (old->inlet == new->inlet && old->outlet == new->outlet) {
     return;
   }
   int last = -1;
   for (int i = 0; i < mesh->count; i++) {
-    const SbHpElement *e = &mesh->element[i];
-    bool before_outlet = i + 1 < mesh->count && mesh->element[i + 1].map == SB_HP_OUTLET;
-    if (e->map == SB_HP_INLET || e->map == SB_HP_OUTLET) {
+    const SbEhlElement *e = &mesh->element[i];
+    bool before_outlet = i + 1 < mesh->count && mesh->element[i + 1].map == SB_EHL_OUTLET;
+    if (sb_ehl_infinite(e)) {
       last = e->first_dof + e->degree;
       continue;
     }
-    const SbHpTable *t = sb_hp_table(&solver->tables, e->degree);
+    const SbEhlTable *t = sb_ehl_table(&solver->tables, e->degree);
     for (int k = 0; k <= e->degree; k++) {
       // Joints are shared: each once, and those of infinite elements are theirs.
       int node = e->first_dof + k;
       if (node <= last || (before_outlet && k == e->degree)) {
         continue;
       }
-      double X = sb_hp_position(e, t->node[k]);
+      double X = sb_ehl_position(e, t->node[k]);
       solver->state[which].nodal[node] += sb_film_dry_pressure(X, new->inlet, new->outlet) -
                                           sb_film_dry_pressure(X, old->inlet, old->outlet);
     }
@@ -100,39 +115,39 @@ static void add_dry_change(SbFilmSolver *solver, int which, const SbLayers *old,
 
 // Carries a solution to another case: the film scales with the flux that the layers let expect. A
 // mesh of as many elements takes it along with its layers, another by place.
-static void carry_scaled(SbFilmSolver *solver, int from, int to, const SbReynoldsCase *old,
-                         const SbReynoldsCase *new) {
-  double scale = sb_layers_flux(&new->layers) / sb_layers_flux(&old->layers);
+static void carry_scaled(SbFilmSolver *solver, int from, int to, const SbEhlCase *old,
+                         const SbEhlCase *new) {
+  double scale = sb_ehl_layers_flux(&new->layers) / sb_ehl_layers_flux(&old->layers);
   if (same_elements(&solver->mesh[from], &solver->mesh[to])) {
-    sb_reynolds_carry(solver, from, to, &old->layers, &new->layers, scale);
+    sb_ehl_carry(solver, from, to, &old->layers, &new->layers, scale);
     add_dry_change(solver, to, &old->layers, &new->layers);
     return;
   }
-  sb_reynolds_resample(solver, from, to);
-  SbReynoldsState *state = &solver->state[to];
+  sb_ehl_resample(solver, from, to);
+  SbEhlState *state = &solver->state[to];
   state->flux *= scale;
   for (int k = 0; k < solver->mesh[to].targets; k++) {
     state->gap[k] *= scale;
   }
 }
 
-// Ways to a case: from small end pressures, no options and M = 20 if the film is thick, or from no
-// inlet pressure and no options at the same M, or from an outlet pressure that keeps a thick film
-// full.
-typedef enum { WAY_THIN, WAY_SAME, WAY_FULL, WAYS } Way;
+// Homotopies to a case: from small end pressures, no options and M = 20 if the film is thick, or
+// from no inlet pressure and no options at the same M, or from an outlet pressure that keeps a
+// thick film full.
+typedef enum { FROM_THIN, FROM_SAME, FROM_FULL, HOMOTOPIES } Homotopy;
 
-// The case a fraction t of a way.
-static SbReynoldsCase between(const SbReynoldsCase *target, Way way, double t) {
+// The case a fraction t of a homotopy.
+static SbEhlCase between(const SbEhlCase *target, Homotopy homotopy, double t) {
   static const double EASY_LAMBDA = 0.0093; // M = 20
   static const double EASY_PRESSURE = 0.3;
-  SbReynoldsCase c = *target;
+  SbEhlCase c = *target;
   c.fluid.barus *= t;
   c.fluid.eyring *= t;
-  if (way == WAY_SAME) {
+  if (homotopy == FROM_SAME) {
     c.layers.inlet *= t;
     return c;
   }
-  if (way == WAY_FULL) {
+  if (homotopy == FROM_FULL) {
     c.layers.outlet += (1.0 - t) * fmax(2.2 + c.layers.inlet - c.layers.outlet, 0.0);
     return c;
   }
@@ -148,28 +163,28 @@ static SbReynoldsCase between(const SbReynoldsCase *target, Way way, double t) {
 
 // Reaches the case on the lowest degree by continuation; the layers carry the last solution along.
 // Ends in mesh/state *which.
-static SbStatus go(SbFilmSolver *solver, int *which, const SbReynoldsCase *target, Way way,
-                   double tolerance, SbFilmSolverInfo *info, const SbFilmProblem *problem) {
+static SbStatus follow_homotopy(SbFilmSolver *solver, int *which, const SbEhlCase *target,
+                                Homotopy homotopy, const SbEhlRun *run) {
   enum { STEPS_MAX = 60 };
-  SbReynoldsCase c = between(target, way, 0.0);
-  SbStatus status = cold_start(solver, *which, &c, tolerance, info, problem);
+  SbEhlCase c = between(target, homotopy, 0.0);
+  SbStatus status = cold_start(solver, *which, &c, run);
   double done = 0.0;
   double step = 0.25;
   for (int i = 0; status == SB_OK && done < 1.0; i++) {
     double t = fmin(1.0, done + step);
-    SbReynoldsCase next = between(target, way, t);
+    SbEhlCase next = between(target, homotopy, t);
     int to = 1 - *which;
     SbStatus tried = SB_ERROR_NOT_CONVERGED;
     // As many elements as before, if they fit, so that the layers carry the solution along.
     keep_steps(&next.layers, &solver->mesh[*which]);
-    bool fits = sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers);
+    bool fits = sb_ehl_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers);
     if (!fits) {
       next.layers.steps[0] = next.layers.steps[1] = -1;
-      fits = sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers);
+      fits = sb_ehl_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers);
     }
     if (fits) {
       carry_scaled(solver, *which, to, &c, &next);
-      tried = iterate(solver, to, &next, true, tolerance, info, problem);
+      tried = sb_ehl_iterate(solver, to, &next, true, run);
     }
     if (tried == SB_ERROR_CANCELLED) {
       return tried;
@@ -189,53 +204,38 @@ static SbStatus go(SbFilmSolver *solver, int *which, const SbReynoldsCase *targe
   return status;
 }
 
-static bool has_free_end(const SbReynoldsCase *c) {
-  return c->layers.end == SB_LAYERS_REFORM || isfinite(c->layers.meniscus);
-}
-
-static SbStatus continuation(SbFilmSolver *solver, int *which, const SbReynoldsCase *target,
-                             double tolerance, SbFilmSolverInfo *info,
-                             const SbFilmProblem *problem) {
+static SbStatus continuation(SbFilmSolver *solver, int *which, const SbEhlCase *target,
+                             const SbEhlRun *run) {
   SbStatus status = SB_ERROR_NOT_CONVERGED;
-  for (int way = 0; way < WAYS && status == SB_ERROR_NOT_CONVERGED; way++) {
-    if (way == WAY_FULL && target->layers.end != SB_LAYERS_FULL) {
+  for (int homotopy = 0; homotopy < HOMOTOPIES && status == SB_ERROR_NOT_CONVERGED; homotopy++) {
+    if (homotopy == FROM_FULL && target->layers.end != SB_EHL_FULL) {
       break;
     }
-    status = go(solver, which, target, (Way)way, tolerance, info, problem);
+    status = follow_homotopy(solver, which, target, (Homotopy)homotopy, run);
   }
   return status;
 }
 
 // Least pressure at the collocation points.
-static double least_pressure(SbFilmSolver *solver, int which, const SbReynoldsCase *c) {
-  SbReynoldsReading reading;
-  sb_reynolds_read(&reading, solver, which, c);
-  return reading.pressure_min;
+static double least_pressure(SbFilmSolver *solver, int which, const SbEhlCase *c) {
+  SbEhlResults results;
+  sb_ehl_results(&results, solver, which, c);
+  return results.pressure_min;
 }
 
-SbStatus sb_reynolds_refine(SbFilmSolver *solver, int *which, SbReynoldsCase *c, int degree,
-                            double tolerance, SbFilmSolverInfo *info,
-                            const SbFilmProblem *problem) {
-  SbReynoldsCase next = *c;
+SbStatus sb_ehl_refine(SbFilmSolver *solver, int *which, SbEhlCase *c, int degree,
+                       const SbEhlRun *run) {
+  SbEhlCase next = *c;
   next.layers.degree = degree;
   int to = 1 - *which;
   // The elements that the solution has, which a continuation may have brought from another case.
   keep_steps(&next.layers, &solver->mesh[*which]);
-  if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers) ||
+  if (!sb_ehl_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers) ||
       !same_elements(&solver->mesh[*which], &solver->mesh[to])) {
     return SB_ERROR_NOT_CONVERGED;
   }
-  sb_reynolds_carry(solver, *which, to, &c->layers, &next.layers, 1.0);
-  double flux = solver->state[to].flux;
-  next.hold = has_free_end(&next);
-  SbStatus status = iterate(solver, to, &next, true, tolerance, info, problem);
-  if (status == SB_OK && next.hold) {
-    next.hold = false;
-    if (isfinite(next.layers.meniscus)) {
-      solver->state[to].flux = flux; // supplied
-    }
-    status = iterate(solver, to, &next, false, tolerance, info, problem);
-  }
+  sb_ehl_carry(solver, *which, to, &c->layers, &next.layers, 1.0);
+  SbStatus status = iterate_held(solver, to, &next, run);
   if (status == SB_OK) {
     *which = to;
     *c = next;
@@ -243,9 +243,8 @@ SbStatus sb_reynolds_refine(SbFilmSolver *solver, int *which, SbReynoldsCase *c,
   return status;
 }
 
-SbStatus sb_reynolds_follow(SbFilmSolver *solver, int *which, const SbReynoldsCase *old,
-                            const SbReynoldsCase *c, double tolerance, SbFilmSolverInfo *info,
-                            const SbFilmProblem *problem) {
+SbStatus sb_ehl_follow(SbFilmSolver *solver, int *which, const SbEhlCase *old, const SbEhlCase *c,
+                       const SbEhlRun *run) {
   // Far from the old case a cold start is as good.
   if (old->body.compliance != NULL || c->body.compliance != NULL || has_free_end(old) ||
       has_free_end(c) || old->layers.end != c->layers.end ||
@@ -256,15 +255,14 @@ SbStatus sb_reynolds_follow(SbFilmSolver *solver, int *which, const SbReynoldsCa
   }
   int to = 1 - *which;
   // The old number of elements, so that the layers carry the solution along.
-  SbReynoldsCase next = *c;
+  SbEhlCase next = *c;
   keep_steps(&next.layers, &solver->mesh[*which]);
-  if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
+  if (!sb_ehl_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
     return SB_ERROR_NOT_CONVERGED;
   }
   carry_scaled(solver, *which, to, old, c);
-  SbStatus status = iterate(solver, to, &next, true, tolerance, info, problem);
-  if (status == SB_OK && c->layers.end == SB_LAYERS_FULL &&
-      least_pressure(solver, to, c) < TENSION) {
+  SbStatus status = sb_ehl_iterate(solver, to, &next, true, run);
+  if (status == SB_OK && c->layers.end == SB_EHL_FULL && least_pressure(solver, to, c) < TENSION) {
     status = SB_ERROR_NOT_CONVERGED; // a cavity opens: start anew
   }
   if (status == SB_OK) {
@@ -275,16 +273,15 @@ SbStatus sb_reynolds_follow(SbFilmSolver *solver, int *which, const SbReynoldsCa
 
 // Breaks the film and forms it again: from the solution with an empty outlet at the rupture
 // pressure, the outlet's pressure is raised.
-static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbReynoldsCase *target,
-                            double tolerance, SbFilmSolverInfo *info,
-                            const SbFilmProblem *problem) {
+static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbEhlCase *target,
+                            const SbEhlRun *run) {
   enum { STEPS_MAX = 40 };
-  SbReynoldsCase c = *target;
-  c.layers.end = SB_LAYERS_RUPTURE;
+  SbEhlCase c = *target;
+  c.layers.end = SB_EHL_RUPTURE;
   c.layers.outlet = 0.0;
-  SbStatus status = cold_start(solver, *which, &c, tolerance, info, problem);
+  SbStatus status = cold_start(solver, *which, &c, run);
   if (status == SB_ERROR_NOT_CONVERGED) {
-    status = continuation(solver, which, &c, tolerance, info, problem);
+    status = continuation(solver, which, &c, run);
   }
   if (status != SB_OK) {
     return status;
@@ -292,28 +289,23 @@ static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbReynoldsCase *ta
   double flux = solver->state[*which].flux;
   double low = 0.0; // outlet pressure reached
   double step = target->layers.outlet;
-  c.layers.end = SB_LAYERS_REFORM;
+  c.layers.end = SB_EHL_REFORM;
   for (int i = 0; low < target->layers.outlet; i++) {
-    SbReynoldsCase next = c;
+    SbEhlCase next = c;
     next.layers.outlet = fmin(low + step, target->layers.outlet);
     int to = 1 - *which;
     bool first = low == 0.0;
-    next.layers.reform = first ? sb_layers_reform(&next.layers, flux) : c.layers.reform;
+    next.layers.reform = first ? sb_ehl_layers_reform(&next.layers, flux) : c.layers.reform;
     SbStatus tried = SB_ERROR_NOT_CONVERGED;
-    if (sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
+    if (sb_ehl_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
       if (first) {
-        sb_reynolds_resample(solver, *which, to);
-        sb_layers_fill_reformed(solver->state[to].nodal, solver->state[to].gap, &solver->mesh[to],
-                                &solver->tables, &next.layers, flux);
+        sb_ehl_resample(solver, *which, to);
+        sb_ehl_layers_fill_reformed(solver->state[to].nodal, solver->state[to].gap,
+                                    &solver->mesh[to], &solver->tables, &next.layers, flux);
       } else {
-        sb_reynolds_carry(solver, *which, to, &c.layers, &next.layers, 1.0);
+        sb_ehl_carry(solver, *which, to, &c.layers, &next.layers, 1.0);
       }
-      next.hold = true;
-      tried = iterate(solver, to, &next, true, tolerance, info, problem);
-      next.hold = false;
-      if (tried == SB_OK) {
-        tried = iterate(solver, to, &next, false, tolerance, info, problem);
-      }
+      tried = iterate_held(solver, to, &next, run);
     }
     if (tried == SB_ERROR_CANCELLED) {
       return tried;
@@ -336,24 +328,23 @@ static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbReynoldsCase *ta
 
 // One solution with the meniscus held `distance` flooded layer widths before the edge; the mesh is
 // laid out for the flux `expected`. Ends in mesh/state *which.
-static SbStatus hold_meniscus(SbFilmSolver *solver, int *which, SbReynoldsCase *c,
-                              const SbReynoldsCase *flooded, double distance, double ratio,
-                              double tolerance, SbFilmSolverInfo *info,
-                              const SbFilmProblem *problem) {
-  SbReynoldsCase next = *flooded;
+static SbStatus hold_meniscus(SbFilmSolver *solver, int *which, SbEhlCase *c,
+                              const SbEhlCase *flooded, double distance, double ratio,
+                              const SbEhlRun *run) {
+  SbEhlCase next = *flooded;
   next.hold = true;
-  next.layers.meniscus = -1.0 - distance * sb_layers_width(&flooded->layers);
+  next.layers.meniscus = -1.0 - distance * sb_ehl_layers_width(&flooded->layers);
   next.layers.starvation = fmin(ratio, 1.0);
   int to = 1 - *which;
-  if (!sb_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
+  if (!sb_ehl_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
     return SB_ERROR_NOT_CONVERGED;
   }
   if (same_elements(&solver->mesh[*which], &solver->mesh[to])) {
-    sb_reynolds_carry(solver, *which, to, &c->layers, &next.layers, 1.0);
+    sb_ehl_carry(solver, *which, to, &c->layers, &next.layers, 1.0);
   } else {
-    sb_reynolds_resample(solver, *which, to);
+    sb_ehl_resample(solver, *which, to);
   }
-  SbStatus status = iterate(solver, to, &next, true, tolerance, info, problem);
+  SbStatus status = sb_ehl_iterate(solver, to, &next, true, run);
   if (status == SB_OK) {
     *which = to;
     *c = next;
@@ -364,9 +355,8 @@ static SbStatus hold_meniscus(SbFilmSolver *solver, int *which, SbReynoldsCase *
 // Draws the meniscus in until the contact takes no more than `flux`: by steps of its distance d to
 // the edge until the supply is bracketed, then by secants of ln flux over ln d; last, the supply is
 // given and the meniscus free.
-static SbStatus starve(bool *flooded, SbFilmSolver *solver, int *which, SbReynoldsCase *target,
-                       double flux, double tolerance, SbFilmSolverInfo *info,
-                       const SbFilmProblem *problem) {
+static SbStatus starve(bool *flooded, SbFilmSolver *solver, int *which, SbEhlCase *target,
+                       double flux, const SbEhlRun *run) {
   enum { STEPS_MAX = 80 };
   // So close to the flooded flux the meniscus is lost far away; the solve adds what it leaves to
   // its error.
@@ -383,12 +373,12 @@ static SbStatus starve(bool *flooded, SbFilmSolver *solver, int *which, SbReynol
   double growth = 0.6;
   double ratio = 1.0; // for which the mesh is laid out
   bool settled = false;
-  SbReynoldsCase c = *target;
+  SbEhlCase c = *target;
   for (int i = 0;; i++) {
     if (i >= STEPS_MAX) {
       return SB_ERROR_NOT_CONVERGED;
     }
-    SbStatus status = hold_meniscus(solver, which, &c, target, d, ratio, tolerance, info, problem);
+    SbStatus status = hold_meniscus(solver, which, &c, target, d, ratio, run);
     if (status == SB_ERROR_CANCELLED) {
       return status;
     }
@@ -435,31 +425,29 @@ static SbStatus starve(bool *flooded, SbFilmSolver *solver, int *which, SbReynol
   }
   c.hold = false;
   solver->state[*which].flux = flux;
-  SbStatus status = iterate(solver, *which, &c, false, tolerance, info, problem);
+  SbStatus status = sb_ehl_iterate(solver, *which, &c, false, run);
   *target = c;
   return status;
 }
 
-SbStatus sb_reynolds_start(bool *flooded, SbFilmSolver *solver, int *which, SbReynoldsCase *c,
-                           double flux, double tolerance, SbFilmSolverInfo *info,
-                           const SbFilmProblem *problem) {
+SbStatus sb_ehl_start(bool *flooded, SbFilmSolver *solver, int *which, SbEhlCase *c, double flux,
+                      const SbEhlRun *run) {
   *flooded = true;
-  SbStatus status = cold_start(solver, *which, c, tolerance, info, problem);
+  SbStatus status = cold_start(solver, *which, c, run);
   if (status == SB_ERROR_NOT_CONVERGED) {
-    status = continuation(solver, which, c, tolerance, info, problem);
+    status = continuation(solver, which, c, run);
   }
   if (status == SB_ERROR_CANCELLED) {
     return status;
   }
   // A flooded outlet that would tear the liquid gets a cavity.
-  if (c->layers.end == SB_LAYERS_FULL &&
+  if (c->layers.end == SB_EHL_FULL &&
       (status != SB_OK || least_pressure(solver, *which, c) < TENSION)) {
-    status = open_cavity(solver, which, c, tolerance, info, problem);
+    status = open_cavity(solver, which, c, run);
   }
   if (status == SB_OK && isfinite(flux)) {
-    status = c->layers.end == SB_LAYERS_REFORM
-                 ? SB_ERROR_INFEASIBLE
-                 : starve(flooded, solver, which, c, flux, tolerance, info, problem);
+    status = c->layers.end == SB_EHL_REFORM ? SB_ERROR_INFEASIBLE
+                                            : starve(flooded, solver, which, c, flux, run);
   }
   return status;
 }

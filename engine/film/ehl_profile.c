@@ -12,7 +12,7 @@
 // points and joints. Deep inside a thin film's contact, where that slope is the small difference of
 // gap and flux film, it is the other way round: the polynomial is kept, and its slope gives the
 // film.
-#include "engine/film/reynolds.h"
+#include "engine/film/ehl.h"
 
 #include "engine/numeric/legendre.h"
 
@@ -68,17 +68,17 @@ static double density(const Spread *s, double X) {
 }
 
 // Spread of at most `limit` points from `begin` to `end`.
-static Spread spread_points(const SbHpMesh *mesh, const SbLayers *layers, double begin, double end,
-                            double limit) {
+static Spread spread_points(const SbEhlMesh *mesh, const SbEhlLayers *layers, double begin,
+                            double end, double limit) {
   static const double INSIDE_MOST = 2600.0;
-  const SbHpElement *last = &mesh->element[mesh->count - 1];
-  double edge = last->map == SB_HP_OUTLET ? mesh->element[mesh->outlet].x0 : last->x1;
-  double width = sb_layers_width(layers);
+  const SbEhlElement *last = &mesh->element[mesh->count - 1];
+  double edge = last->map == SB_EHL_OUTLET ? mesh->element[mesh->outlet].x0 : last->x1;
+  double width = sb_ehl_layers_width(layers);
   Spread s = {
       .inlet = -1.0,
       .inlet_unit = width,
       .outlet = edge,
-      .outlet_unit = sb_layers_outlet_width(layers),
+      .outlet_unit = sb_ehl_layers_outlet_width(layers),
       .fineness = 1.0,
   };
   if (width > 0.86) {
@@ -92,21 +92,17 @@ static Spread spread_points(const SbHpMesh *mesh, const SbLayers *layers, double
   return s;
 }
 
-static bool is_infinite(const SbHpElement *e) {
-  return e->map == SB_HP_INLET || e->map == SB_HP_OUTLET;
-}
-
 // Gap of an element at r. Towards infinity a thin film's gap grows by many decades: there its
 // excess over the dry gap is interpolated, which the caller has put into `excess`.
-static double gap_at(SbFilmSolver *solver, int which, const SbReynoldsCase *problem, int element,
+static double gap_at(SbFilmSolver *solver, int which, const SbEhlCase *problem, int element,
                      const double *excess, double r) {
-  const SbHpMesh *mesh = &solver->mesh[which];
-  const SbHpElement *e = &mesh->element[element];
-  if (!is_infinite(e)) {
-    return sb_hp_gap(mesh, &solver->tables, element, solver->state[which].gap, r);
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlElement *e = &mesh->element[element];
+  if (!sb_ehl_infinite(e)) {
+    return sb_ehl_gap(mesh, &solver->tables, element, solver->state[which].gap, r);
   }
-  return sb_hp_gap(mesh, &solver->tables, element, excess, r) +
-         sb_layers_dry_gap(&problem->layers, sb_hp_position(e, r));
+  return sb_ehl_gap(mesh, &solver->tables, element, excess, r) +
+         sb_ehl_layers_dry_gap(&problem->layers, sb_ehl_position(e, r));
 }
 
 // A piece of the profile: an element, or part of an infinite one, over which s grows by a factor
@@ -120,30 +116,30 @@ typedef struct {
   double begin, end; // pressure at t = -1 and 1, so that the whole is continuous
 } Piece;
 
-enum { PIECES_MAX = SB_HP_ELEMENTS_MAX + 40 };
+enum { PIECES_MAX = SB_EHL_ELEMENTS_MAX + 40 };
 
 // Slope dp/dr by Reynolds' equation.
-static double reynolds_slope(SbFilmSolver *solver, int which, const SbReynoldsCase *problem,
-                             int element, const double *excess, double r) {
-  const SbHpMesh *mesh = &solver->mesh[which];
-  const SbReynoldsState *state = &solver->state[which];
-  const SbHpElement *e = &mesh->element[element];
+static double reynolds_slope(SbFilmSolver *solver, int which, const SbEhlCase *problem, int element,
+                             const double *excess, double r) {
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlState *state = &solver->state[which];
+  const SbEhlElement *e = &mesh->element[element];
   double film = gap_at(solver, which, problem, element, excess, r);
-  double pressure = sb_hp_pressure(mesh, &solver->tables, e, state->nodal, r);
+  double pressure = sb_ehl_pressure(mesh, &solver->tables, e, state->nodal, r);
   double m, by_film, by_pressure;
   sb_film_mobility(&m, &by_film, &by_pressure, &problem->fluid, film, pressure);
   return problem->layers.lambda * (film - state->flux) / (film * film * film * m) *
-         sb_hp_stretch(e, r);
+         sb_ehl_stretch(e, r);
 }
 
-static void fill_piece(Piece *out, SbFilmSolver *solver, int which, const SbReynoldsCase *problem,
+static void fill_piece(Piece *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
                        const double *excess) {
-  const SbHpMesh *mesh = &solver->mesh[which];
-  const SbHpElement *e = &mesh->element[out->element];
-  for (int q = 0; q < SB_HP_QUAD; q++) {
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlElement *e = &mesh->element[out->element];
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
     double r = out->middle + out->half * solver->tables.fine[q];
     double value =
-        out->flat ? sb_hp_pressure(mesh, &solver->tables, e, solver->state[which].nodal, r)
+        out->flat ? sb_ehl_pressure(mesh, &solver->tables, e, solver->state[which].nodal, r)
                   : out->half * reynolds_slope(solver, which, problem, out->element, excess, r);
     value *= solver->tables.fine_weight[q];
     for (int k = 0; k <= MODES; k++) {
@@ -153,21 +149,21 @@ static void fill_piece(Piece *out, SbFilmSolver *solver, int which, const SbReyn
 }
 
 // Cuts the mesh between X = begin and end into pieces, left to right; their number.
-static int cut_pieces(Piece *out, SbFilmSolver *solver, int which, const SbReynoldsCase *problem,
+static int cut_pieces(Piece *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
                       const double *excess, double begin, double end) {
   // Films this flat keep their polynomial: see the head of the file.
   static const double FLAT = 0.03;
   static const double GROWTH = 4.0;
-  const SbHpMesh *mesh = &solver->mesh[which];
-  const SbReynoldsState *state = &solver->state[which];
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlState *state = &solver->state[which];
   int count = 0;
   for (int i = 0; i < mesh->count; i++) {
-    const SbHpElement *e = &mesh->element[i];
-    if (is_infinite(e)) {
+    const SbEhlElement *e = &mesh->element[i];
+    if (sb_ehl_infinite(e)) {
       // s is 1 at the joint, r = 2 s - 1 in the inlet and 1 - 2 s in the outlet.
-      bool inlet = e->map == SB_HP_INLET;
-      double far = sb_reynolds_coordinate(e, inlet ? begin : end);
-      double s = inlet ? 0.5 * (1.0 + far) : 0.5 * (1.0 - far);
+      bool inlet = e->map == SB_EHL_INLET;
+      double far = sb_ehl_coordinate(e, inlet ? begin : end);
+      double s = sb_ehl_inverse(e, far);
       int pieces = (int)fmax(1.0, ceil(-log(s) / log(GROWTH)));
       for (int k = 0; k < pieces && count < PIECES_MAX; k++) {
         int from = inlet ? k : pieces - k; // 0 is the far end
@@ -227,20 +223,20 @@ static double pressure_at(double *slope, const Piece *piece, double t) {
 }
 
 // Pressure gained between infinity and an end of the profile, where p' falls like |x|^-4.
-static double gain_beyond(SbFilmSolver *solver, int which, const SbReynoldsCase *problem,
+static double gain_beyond(SbFilmSolver *solver, int which, const SbEhlCase *problem,
                           const Piece *piece, const double *excess, double t) {
-  const SbHpElement *e = &solver->mesh[which].element[piece->element];
+  const SbEhlElement *e = &solver->mesh[which].element[piece->element];
   double r = piece->middle + piece->half * t;
-  return reynolds_slope(solver, which, problem, piece->element, excess, r) / sb_hp_stretch(e, r) *
-         fabs(sb_hp_position(e, r)) / 3.0;
+  return reynolds_slope(solver, which, problem, piece->element, excess, r) / sb_ehl_stretch(e, r) *
+         fabs(sb_ehl_position(e, r)) / 3.0;
 }
 
 // Strings the pieces' pressures together, from both ends of every full film to its thinnest piece:
 // there a difference in pressure changes the flux least.
-static void join(Piece *piece, int count, SbFilmSolver *solver, int which,
-                 const SbReynoldsCase *problem, const double *excess) {
-  const SbHpMesh *mesh = &solver->mesh[which];
-  const SbReynoldsState *state = &solver->state[which];
+static void join(Piece *piece, int count, SbFilmSolver *solver, int which, const SbEhlCase *problem,
+                 const double *excess) {
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlState *state = &solver->state[which];
   for (int first = 0, last; first < count; first = last + 1) {
     last = first;
     while (last + 1 < count && (piece[last + 1].element == piece[last].element ||
@@ -250,7 +246,7 @@ static void join(Piece *piece, int count, SbFilmSolver *solver, int which,
     int thinnest = first;
     double least = INFINITY;
     for (int i = first; i <= last; i++) {
-      const SbHpElement *e = &mesh->element[piece[i].element];
+      const SbEhlElement *e = &mesh->element[piece[i].element];
       double thickest = 0.0;
       for (int k = 0; k < e->points; k++) {
         thickest = fmax(thickest, state->gap[e->first_row + k]);
@@ -260,18 +256,18 @@ static void join(Piece *piece, int count, SbFilmSolver *solver, int which,
         thinnest = i;
       }
     }
-    const SbHpElement *left = &mesh->element[piece[first].element];
-    const SbHpElement *right = &mesh->element[piece[last].element];
-    double from = sb_hp_pressure(mesh, &solver->tables, left, state->nodal, -1.0);
-    if (left->map == SB_HP_INLET) {
+    const SbEhlElement *left = &mesh->element[piece[first].element];
+    const SbEhlElement *right = &mesh->element[piece[last].element];
+    double from = sb_ehl_pressure(mesh, &solver->tables, left, state->nodal, -1.0);
+    if (left->map == SB_EHL_INLET) {
       from += gain_beyond(solver, which, problem, &piece[first], excess, -1.0);
     }
     for (int i = first; i <= thinnest; i++) {
       piece[i].begin = from;
       piece[i].end = from += rise_of(&piece[i]);
     }
-    from = sb_hp_pressure(mesh, &solver->tables, right, state->nodal, 1.0);
-    if (right->map == SB_HP_OUTLET) {
+    from = sb_ehl_pressure(mesh, &solver->tables, right, state->nodal, 1.0);
+    if (right->map == SB_EHL_OUTLET) {
       from -= gain_beyond(solver, which, problem, &piece[last], excess, 1.0);
     }
     for (int i = last; i >= thinnest; i--) {
@@ -281,18 +277,6 @@ static void join(Piece *piece, int count, SbFilmSolver *solver, int which,
       }
     }
   }
-}
-
-// Film that carries the flux under the slope dp/dX, by fixed-point steps; its Poiseuille part is
-// small where this is used.
-static double flat_film(const SbReynoldsCase *problem, double flux, double pressure, double slope) {
-  double film = flux;
-  for (int i = 0; i < 8; i++) {
-    double m, by_film, by_pressure;
-    sb_film_mobility(&m, &by_film, &by_pressure, &problem->fluid, film, pressure);
-    film = flux + film * film * film * m * slope / problem->layers.lambda;
-  }
-  return film;
 }
 
 // How far a liquid end at `ambient` is followed. Beyond X the pressure gains (4/3) lambda / X^3:
@@ -307,45 +291,56 @@ static double reach_of(double lambda, double ambient, bool drawn) {
   return fmax(fmax(least, load), drawn ? 0.0 : fmin(friction, shown));
 }
 
-// From the flow frame, inlet left, to the seal's.
-static void mirror(SbFilm *out) {
-  size_t n = out->points;
-  for (size_t i = 0; i < n; i++) {
-    out->x[i] = -out->x[i];
-  }
-  for (size_t i = 0, j = n - 1; i < j; i++, j--) {
-    double x = out->x[i], pressure = out->pressure[i], film = out->film[i];
-    out->x[i] = out->x[j];
-    out->pressure[i] = out->pressure[j];
-    out->film[i] = out->film[j];
-    out->x[j] = x;
-    out->pressure[j] = pressure;
-    out->film[j] = film;
+// Rough rows: every element evenly, by its own polynomials.
+static void fill_rough(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *c,
+                       const SbFilmScale *scale) {
+  enum { POINTS = 5200 }; // about
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlState *state = &solver->state[which];
+  int per = POINTS / mesh->count;
+  const SbEhlTable *table = sb_ehl_table(&solver->tables, mesh->element[0].degree);
+  for (int k = 0; k <= per; k++) {
+    double basis[SB_EHL_DEGREE_MAX + 1];
+    double r = -1 + 2.0 * k / per;
+    sb_barycentric_basis(basis, r, table->node, table->bary, table->degree + 1);
+    for (int i = 0; i < (k > 0 ? mesh->count : 1); i++) {
+      const SbEhlElement *e = &mesh->element[i];
+      size_t n = (size_t)(i * per + k);
+      double t = 0, q = 0;
+      for (int j = 0; j <= table->degree; j++) {
+        t += basis[j] * state->t[e->first_dof + j];
+        q += basis[j] * state->nodal[e->first_dof + j];
+      }
+      SbEhlRoughPoint at;
+      sb_ehl_rough_point(&at, c, t);
+      sb_film_put(out, n, (sb_ehl_position(e, r) + state->shift) * scale->half_width,
+                  (q + c->fluid.rupture) * scale->pressure, at.h * scale->film);
+      out->asperity_pressure[n] = at.asperity * scale->pressure;
+    }
   }
 }
 
-void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
-                         const SbReynoldsCase *problem, const SbFilmScale *scale,
-                         const SbFilmProblem *wanted) {
+static void fill_smooth(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
+                        const SbFilmScale *scale, const SbFilmProblem *wanted) {
   enum { LEAST = 4 }; // intervals of an element
-  const SbHpMesh *mesh = &solver->mesh[which];
-  const SbReynoldsState *state = &solver->state[which];
-  const SbHpElement *last = &mesh->element[mesh->count - 1];
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlState *state = &solver->state[which];
+  const SbEhlElement *last = &mesh->element[mesh->count - 1];
   bool drawn = wanted->profile_points > 0;
   double lambda = problem->layers.lambda;
-  double begin = mesh->element[0].map == SB_HP_INLET
+  double begin = mesh->element[0].map == SB_EHL_INLET
                      ? -1.0 - reach_of(lambda, problem->layers.inlet, drawn)
                      : mesh->element[0].x0;
   double end =
-      last->map == SB_HP_OUTLET ? 1.0 + reach_of(lambda, problem->layers.outlet, drawn) : last->x1;
-  double room = SB_FILM_POINTS - (LEAST + 2) * PIECES_MAX;
+      last->map == SB_EHL_OUTLET ? 1.0 + reach_of(lambda, problem->layers.outlet, drawn) : last->x1;
+  double room = SB_FILM_POINTS - (LEAST + 2) * 80;
   double limit = wanted->profile_points > 0 ? (double)wanted->profile_points : room;
   Spread spread = spread_points(mesh, &problem->layers, begin, end, fmin(limit, room));
 
   Piece pieces[PIECES_MAX];
   double *excess = solver->gaps;
   for (int i = 0; i < mesh->targets; i++) {
-    excess[i] = state->gap[i] - sb_layers_dry_gap(&problem->layers, mesh->x[i]);
+    excess[i] = state->gap[i] - sb_ehl_layers_dry_gap(&problem->layers, mesh->x[i]);
   }
   int count = cut_pieces(pieces, solver, which, problem, excess, begin, end);
   join(pieces, count, solver, which, problem, excess);
@@ -353,9 +348,9 @@ void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
   size_t n = 0;
   for (int i = 0; i < count; i++) {
     const Piece *piece = &pieces[i];
-    const SbHpElement *e = &mesh->element[piece->element];
-    double x0 = sb_hp_position(e, piece->middle - piece->half);
-    double x1 = sb_hp_position(e, piece->middle + piece->half);
+    const SbEhlElement *e = &mesh->element[piece->element];
+    double x0 = sb_ehl_position(e, piece->middle - piece->half);
+    double x1 = sb_ehl_position(e, piece->middle + piece->half);
     double c0 = count_to(&spread, x0);
     double c1 = count_to(&spread, x1);
     size_t intervals = (size_t)fmax(ceil(c1 - c0), LEAST);
@@ -372,22 +367,31 @@ void sb_reynolds_profile(SbFilm *out, SbFilmSolver *solver, int which,
       if (k == 0 && i > 0 && (piece[-1].element == piece->element || !e->apart)) {
         continue; // the joint has been written by the piece before
       }
-      double t = (sb_reynolds_coordinate(e, X) - piece->middle) / piece->half;
+      double t = (sb_ehl_coordinate(e, X) - piece->middle) / piece->half;
       t = k == 0 ? -1.0 : k == intervals ? 1.0 : fmin(fmax(t, -1.0), 1.0);
       double r = piece->middle + piece->half * t;
       double slope;
       double P = pressure_at(&slope, piece, t);
-      double film = piece->flat ? flat_film(problem, state->flux, P,
-                                            slope / fmax(sb_hp_stretch(e, r), 1e-300))
+      double film = piece->flat ? sb_ehl_flat_film(problem, state->flux, state->flux, P,
+                                                   slope / fmax(sb_ehl_stretch(e, r), 1e-300))
                                 : gap_at(solver, which, problem, piece->element, excess, r);
-      out->x[n] = (X + state->shift) * scale->half_width;
-      out->pressure[n] = (P + problem->fluid.rupture) * scale->pressure;
-      out->film[n] = film * scale->film;
-      n++;
+      sb_film_put(out, n++, (X + state->shift) * scale->half_width,
+                  (P + problem->fluid.rupture) * scale->pressure, film * scale->film);
     }
   }
-  out->points = n;
+}
+
+void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
+                    const SbFilmScale *scale, const SbFilmProblem *wanted) {
+  if (wanted->profile == NULL) {
+    return;
+  }
+  if (problem->rough.rows) {
+    fill_rough(out, solver, which, problem, scale);
+  } else {
+    fill_smooth(out, solver, which, problem, scale, wanted);
+  }
   if (wanted->speed < 0.0) {
-    mirror(out);
+    sb_film_mirror(out);
   }
 }

@@ -1,4 +1,4 @@
-// Newton's method of the mixed-film solver; equations in mixed.h.
+// Newton's method on rough rows; equations in ehl.h.
 //
 // Unknowns of the linear system are the total pressures, H0 and kappa; gap, parameter, slope and
 // film pressure follow from them at each node:
@@ -10,7 +10,7 @@
 // so that every step leaves the elastic equation, load and flux linear. The rows are Reynolds'
 // equation from node to node, or p = 0 in the cavity, the end pressures and the load. A step is
 // shortened only where the gap would fall by more than the rough law's parameter can follow.
-#include "engine/film/mixed.h"
+#include "engine/film/ehl.h"
 
 #include <cblas.h>
 #include <lapacke.h>
@@ -23,48 +23,47 @@ enum { ITERATIONS_MAX = 40 };
 static const double REUSE = 0.1;
 static const double CLOSE = 0.03;
 
-void sb_mixed_point(SbMixedPoint *out, const SbMixedCase *c, double t) {
+void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t) {
+  const SbEhlRough *rough = &c->rough;
   SbRoughPoint p = {0};
-  if (c->law != NULL) {
-    sb_rough_law_at(&p, c->law, t);
+  if (rough->law != NULL) {
+    sb_rough_law_at(&p, rough->law, t);
   } else { // smooth: linear above t = 1, falling exponentially to nothing below
-    double unit = c->smooth_gap * c->film;
+    double unit = rough->smooth_gap * rough->film;
     p.gap = t >= 1 ? unit * t : unit * exp(t - 1);
     p.gap_slope = t >= 1 ? unit : p.gap;
   }
   double pull = 0, pull_slope = 0;
-  if (c->hamaker > 0) {
-    pull = sb_rough_pull(&pull_slope, &p, c->hamaker);
+  if (rough->hamaker > 0) {
+    pull = sb_rough_pull(&pull_slope, &p, rough->hamaker);
   }
-  *out = (SbMixedPoint){.h = p.gap / c->film,
-                        .h_t = p.gap_slope / c->film,
-                        .asperity = p.pressure / c->pressure,
-                        .solid = (p.pressure - pull) / c->pressure,
-                        .solid_t = (p.pressure_slope - pull_slope) / c->pressure,
-                        .share = p.share};
+  *out = (SbEhlRoughPoint){.h = p.gap / rough->film,
+                           .h_t = p.gap_slope / rough->film,
+                           .asperity = p.pressure / rough->pressure,
+                           .solid = (p.pressure - pull) / rough->pressure,
+                           .solid_t = (p.pressure_slope - pull_slope) / rough->pressure,
+                           .share = p.share};
 }
 
-double sb_mixed_of_gap(const SbMixedCase *c, double gap) {
-  if (c->law != NULL) {
-    return sb_rough_law_of_gap(c->law, gap * c->film);
+double sb_ehl_rough_of_gap(const SbEhlCase *c, double gap) {
+  if (c->rough.law != NULL) {
+    return sb_rough_law_of_gap(c->rough.law, gap * c->rough.film);
   }
-  double t = gap / c->smooth_gap;
+  double t = gap / c->rough.smooth_gap;
   return t >= 1 ? t : 1 + log(t);
 }
 
-double sb_mixed_film_end(const SbMixedMesh *mesh, const SbMixedRule *rule, const double *s, int e,
-                         int j) {
-  int i = e * rule->degree + j;
+double sb_ehl_rough_film_end(const SbEhlTable *rule, const double *s, int j) {
   double low = rule->node[j], high = rule->node[j + 1];
-  if (!(s[i] < 0)) {
+  if (!(s[j] < 0)) {
     return low;
   }
-  if (!(s[i + 1] > 0)) {
+  if (!(s[j + 1] > 0)) {
     return high;
   }
   for (int k = 0; k < 30; k++) {
     double middle = 0.5 * (low + high);
-    if (sb_mixed_value(mesh, rule, s, e, middle) < 0) {
+    if (sb_ehl_interpolate(rule, s, middle) < 0) {
       low = middle;
     } else {
       high = middle;
@@ -75,45 +74,45 @@ double sb_mixed_film_end(const SbMixedMesh *mesh, const SbMixedRule *rule, const
 
 // One Newton step's data at the nodes.
 typedef struct {
-  double p[SB_MIXED_NODES_MAX], k[SB_MIXED_NODES_MAX], r[SB_MIXED_NODES_MAX];
+  double p[SB_EHL_DOFS_MAX], k[SB_EHL_DOFS_MAX], r[SB_EHL_DOFS_MAX];
   // ds = s0 + s_h dh + s_p dp + s_kappa dkappa
-  double s0[SB_MIXED_NODES_MAX], s_h[SB_MIXED_NODES_MAX], s_p[SB_MIXED_NODES_MAX];
-  double s_kappa[SB_MIXED_NODES_MAX];
-  double step[SB_MIXED_NODES_MAX]; // p[i+1] - p[i] - integral of s
+  double s0[SB_EHL_DOFS_MAX], s_h[SB_EHL_DOFS_MAX], s_p[SB_EHL_DOFS_MAX];
+  double s_kappa[SB_EHL_DOFS_MAX];
+  double step[SB_EHL_DOFS_MAX]; // p[i+1] - p[i] - integral of s
 } Local;
 
-static void elastic_gaps(double *out, const SbMixedMesh *mesh, const SbMixedState *state) {
-  for (int i = 0; i < mesh->nodes; i++) {
-    out[i] = state->H0 + mesh->known[i];
+static void elastic_gaps(double *out, const SbEhlMesh *mesh, const SbEhlState *state) {
+  for (int i = 0; i < mesh->dofs; i++) {
+    out[i] = state->H0 + mesh->gap_known[i];
   }
-  cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->nodes, mesh->nodes, 1.0, mesh->kernel, mesh->nodes,
-              state->q, 1, 1.0, out, 1);
+  cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->dofs, mesh->dofs, 1.0, mesh->gap, mesh->dofs,
+              state->nodal, 1, 1.0, out, 1);
 }
 
-static void localise(Local *l, SbMixedSolver *solver, const SbMixedMesh *mesh,
-                     const SbMixedState *state, const SbMixedCase *c) {
-  for (int i = 0; i < mesh->nodes; i++) {
-    SbMixedPoint *at = &solver->point[i];
-    sb_mixed_point(at, c, state->t[i]);
-    l->p[i] = state->q[i] - at->solid;
+static void localise(Local *l, SbFilmSolver *solver, const SbEhlMesh *mesh, const SbEhlState *state,
+                     const SbEhlCase *c) {
+  for (int i = 0; i < mesh->dofs; i++) {
+    SbEhlRoughPoint *at = &solver->point[i];
+    sb_ehl_rough_point(at, c, state->t[i]);
+    l->p[i] = state->nodal[i] - at->solid;
     l->k[i] = -at->solid_t / at->h_t;
-    l->r[i] = solver->gap[i] - at->h;
+    l->r[i] = solver->gaps[i] - at->h;
     double m, m_h, m_p;
     sb_film_mobility(&m, &m_h, &m_p, &c->fluid, at->h, l->p[i]);
     double h = at->h, s = state->s[i];
     double G = h * h * h * m;
-    l->s0[i] = -s + (c->lambda * h - state->kappa) / G;
-    l->s_h[i] = (c->lambda - (3 * h * h * m + h * h * h * m_h) * s) / G;
+    l->s0[i] = -s + (c->layers.lambda * h - state->flow) / G;
+    l->s_h[i] = (c->layers.lambda - (3 * h * h * m + h * h * h * m_h) * s) / G;
     l->s_p[i] = -h * h * h * m_p * s / G;
     l->s_kappa[i] = -1 / G;
   }
 }
 
 // What Reynolds' equation lacks from node to node.
-static void residuals(Local *l, const SbMixedMesh *mesh, const SbMixedRule *rule,
-                      const SbMixedState *state) {
-  for (int e = 0; e < mesh->elements; e++) {
-    double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
+static void residuals(Local *l, const SbEhlMesh *mesh, const SbEhlTable *rule,
+                      const SbEhlState *state) {
+  for (int e = 0; e < mesh->count; e++) {
+    double half = mesh->element[e].h;
     for (int j = 0; j < rule->degree; j++) {
       int i = e * rule->degree + j;
       double sum = 0;
@@ -126,36 +125,36 @@ static void residuals(Local *l, const SbMixedMesh *mesh, const SbMixedRule *rule
 }
 
 // Chooses between full film and cavity at every node; how many changed.
-static int choose(const Local *l, const SbMixedMesh *mesh, const SbMixedRule *rule,
-                  SbMixedState *state, const SbMixedPoint *point, bool flooded, double doubt) {
+static int choose(const Local *l, const SbEhlMesh *mesh, const SbEhlTable *rule, SbEhlState *state,
+                  const SbEhlRoughPoint *point, bool flooded, double doubt) {
   int changed = 0;
   // Against the flow, as the end of the film depends on what lies behind.
-  state->broken[mesh->nodes - 1] = state->broken[mesh->nodes - 2];
-  for (int i = mesh->nodes - 2; i >= 0; i--) {
+  state->cavity[mesh->dofs - 1] = state->cavity[mesh->dofs - 2];
+  for (int i = mesh->dofs - 2; i >= 0; i--) {
     double residual = l->step[i];
-    if (state->broken[i + 1] && state->s[i] < 0 && state->s[i + 1] > 0) {
+    if (state->cavity[i + 1] && state->s[i] < 0 && state->s[i + 1] > 0) {
       int e = i / rule->degree, j = i % rule->degree;
-      double end = sb_mixed_film_end(mesh, rule, state->s, e, j);
-      double weight[SB_MIXED_DEGREE_MAX + 1];
-      sb_mixed_partial(weight, rule, j, end);
+      double end = sb_ehl_rough_film_end(rule, &state->s[e * rule->degree], j);
+      double weight[SB_EHL_DEGREE_MAX + 1];
+      sb_ehl_partial(weight, rule, j, end);
       double sum = 0;
       for (int k = 0; k <= rule->degree; k++) {
         sum += weight[k] * state->s[e * rule->degree + k];
       }
-      residual = -l->p[i] - 0.5 * (mesh->edge[e + 1] - mesh->edge[e]) * sum;
+      residual = -l->p[i] - mesh->element[e].h * sum;
     }
     // Changed only where the last step leaves no doubt about the sign.
     double sign = l->p[i] + residual;
-    bool broken = fabs(sign) < doubt * point[i].asperity ? state->broken[i] : sign < 0;
-    broken = broken && !(i == 0 && flooded);
-    changed += broken != state->broken[i];
-    state->broken[i] = broken;
+    bool cavitated = fabs(sign) < doubt * point[i].asperity ? state->cavity[i] : sign < 0;
+    cavitated = cavitated && !(i == 0 && flooded);
+    changed += cavitated != state->cavity[i];
+    state->cavity[i] = cavitated;
   }
   return changed;
 }
 
 // Adds coefficient times dh (and dp) of node n to a row (NULL: to the constant only).
-static void add_node(double *row, double *constant, const SbMixedMesh *mesh, const Local *l, int n,
+static void add_node(double *row, double *constant, const SbEhlMesh *mesh, const Local *l, int n,
                      double by_h, double by_p) {
   double gap = by_h + by_p * l->k[n];
   *constant += gap * l->r[n];
@@ -163,10 +162,10 @@ static void add_node(double *row, double *constant, const SbMixedMesh *mesh, con
     return;
   }
   if (gap != 0) {
-    cblas_daxpy(mesh->nodes, gap, mesh->kernel + (size_t)n * (size_t)mesh->nodes, 1, row, 1);
+    cblas_daxpy(mesh->dofs, gap, mesh->gap + (size_t)n * (size_t)mesh->dofs, 1, row, 1);
   }
   row[n] += by_p;
-  row[mesh->nodes] += gap; // H0
+  row[mesh->dofs] += gap; // H0
 }
 
 // Row i of the matrix, NULL without one.
@@ -176,10 +175,10 @@ static double *row_of(double *matrix, int order, int i) {
 
 // Right-hand side and, if `matrix` is not NULL, the matrix, whose rows get one size each; without
 // it the right-hand side is for the matrix of an earlier call.
-static void assemble(double *matrix, double *right, double *row_scale, const SbMixedMesh *mesh,
-                     const SbMixedRule *rule, const SbMixedState *state, const SbMixedCase *c,
+static void assemble(double *matrix, double *right, double *row_scale, const SbEhlMesh *mesh,
+                     const SbEhlTable *rule, const SbEhlState *state, const SbEhlCase *c,
                      const Local *l) {
-  int nodes = mesh->nodes;
+  int nodes = mesh->dofs;
   int order = nodes + 2;
   int d = rule->degree;
   if (matrix != NULL) {
@@ -188,11 +187,11 @@ static void assemble(double *matrix, double *right, double *row_scale, const SbM
 
   // Inlet: its pressure, or the flux supplied.
   double *row = matrix;
-  if (isfinite(c->supply)) {
+  if (isfinite(c->rough.supply)) {
     if (row != NULL) {
       row[nodes + 1] = 1;
     }
-    right[0] = c->supply - state->kappa;
+    right[0] = c->rough.supply - state->flow;
   } else {
     double constant = 0;
     add_node(row, &constant, mesh, l, 0, 0, 1);
@@ -202,17 +201,19 @@ static void assemble(double *matrix, double *right, double *row_scale, const SbM
   for (int i = 0; i < nodes - 1; i++) {
     row = row_of(matrix, order, i + 1);
     double constant = 0;
-    if (state->broken[i]) {
+    if (state->cavity[i]) {
       add_node(row, &constant, mesh, l, i, 0, 1);
-      right[i + 1] = (c->sealed ? sb_mixed_ends(c, mesh->x[i]) : 0) - l->p[i] - constant;
+      right[i + 1] =
+          (c->rough.sealed ? sb_film_ends(mesh->x[i], c->layers.inlet, c->layers.outlet) : 0) -
+          l->p[i] - constant;
       continue;
     }
     int e = i / d, j = i % d;
-    double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
-    double weight[SB_MIXED_DEGREE_MAX + 1];
+    double half = mesh->element[e].h;
+    double weight[SB_EHL_DEGREE_MAX + 1];
     memcpy(weight, rule->step[j], sizeof weight);
-    if (state->broken[i + 1]) {
-      sb_mixed_partial(weight, rule, j, sb_mixed_film_end(mesh, rule, state->s, e, j));
+    if (state->cavity[i + 1]) {
+      sb_ehl_partial(weight, rule, j, sb_ehl_rough_film_end(rule, &state->s[e * rule->degree], j));
     }
     double residual = l->p[i + 1] - l->p[i];
     for (int k = 0; k <= d; k++) {
@@ -237,7 +238,7 @@ static void assemble(double *matrix, double *right, double *row_scale, const SbM
   if (row != NULL) {
     memcpy(row, mesh->load, (size_t)nodes * sizeof *row);
   }
-  right[nodes + 1] = -sb_mixed_load(mesh, state->q);
+  right[nodes + 1] = -sb_ehl_load(mesh, state);
 
   for (int i = 0; i < order; i++) {
     if (matrix != NULL) {
@@ -250,30 +251,31 @@ static void assemble(double *matrix, double *right, double *row_scale, const SbM
   }
 }
 
-SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
-                         const SbMixedCase *c, const SbFilmProblem *callback) {
-  SbMixedMesh *mesh = &solver->mesh[which];
-  SbMixedState *state = &solver->state[which];
-  const SbMixedRule *rule = sb_mixed_rule(solver, mesh->degree);
-  int nodes = mesh->nodes;
+SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, const SbEhlCase *c,
+                             const SbFilmProblem *callback) {
+  SbEhlMesh *mesh = &solver->mesh[which];
+  SbEhlState *state = &solver->state[which];
+  const SbEhlTable *rule = sb_ehl_steps(&solver->tables, mesh->element[0].degree);
+  int nodes = mesh->dofs;
   int order = nodes + 2;
   Local local;
   double before = INFINITY;
   int settled = 0;       // small steps so far
   bool small = false;    // the last one
   bool factored = false; // the matrix holds factors that may serve again
-  double row_scale[SB_MIXED_NODES_MAX + 2];
-  *trace = (SbMixedTrace){.step = INFINITY};
+  double row_scale[SB_EHL_DOFS_MAX + 2];
+  *trace = (SbEhlTrace){.residual = INFINITY};
   for (int iteration = 0; iteration < ITERATIONS_MAX; iteration++) {
     if (callback->cancelled != NULL && callback->cancelled(callback->cancelled_data)) {
       return SB_ERROR_CANCELLED;
     }
-    elastic_gaps(solver->gap, mesh, state);
+    elastic_gaps(solver->gaps, mesh, state);
     localise(&local, solver, mesh, state, c);
     residuals(&local, mesh, rule, state);
     int changed = 0;
-    if (c->lambda > 0 && before < 0.3) {
-      changed = choose(&local, mesh, rule, state, solver->point, !isfinite(c->supply), before);
+    if (c->layers.lambda > 0 && before < 0.3) {
+      changed =
+          choose(&local, mesh, rule, state, solver->point, !isfinite(c->rough.supply), before);
     }
     // Converged where no node wants to change sides after a last step that was small; one at the
     // very end of the film may go to and fro without any effect.
@@ -295,17 +297,17 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
 
     // Changes of the gap, in `gap`, and how far they may go.
     for (int i = 0; i < nodes; i++) {
-      solver->gap[i] = dH0 + local.r[i];
+      solver->gaps[i] = dH0 + local.r[i];
     }
-    cblas_dgemv(CblasRowMajor, CblasNoTrans, nodes, nodes, 1.0, mesh->kernel, nodes, dq, 1, 1.0,
-                solver->gap, 1);
+    cblas_dgemv(CblasRowMajor, CblasNoTrans, nodes, nodes, 1.0, mesh->gap, nodes, dq, 1, 1.0,
+                solver->gaps, 1);
     // An opening gap takes its change as it is, a closing one by the parameter, which it cannot
     // outrun: so neither overshoots on the exponential between film and contact.
     double largest = 0, least = INFINITY;
     bool cut = false;
     for (int i = 0; i < nodes; i++) {
-      const SbMixedPoint *at = &solver->point[i];
-      double dh = solver->gap[i];
+      const SbEhlRoughPoint *at = &solver->point[i];
+      double dh = solver->gaps[i];
       double dt = dh / at->h_t;
       if (!isfinite(dt)) {
         return SB_ERROR_NOT_CONVERGED;
@@ -314,27 +316,27 @@ SbStatus sb_mixed_newton(SbMixedTrace *trace, SbMixedSolver *solver, int which,
       state->s[i] +=
           local.s0[i] + local.s_h[i] * dh + local.s_p[i] * dp + local.s_kappa[i] * dkappa;
       // With pull the solids' pressure can have a near-plateau, half a unit of t wide.
-      double down = fmax(c->hamaker > 0 ? 0.3 : 1.5, 0.8 * state->t[i]);
-      cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > SB_MIXED_CLOSED);
-      state->t[i] = dt > 0.5 ? sb_mixed_of_gap(c, at->h + dh) : state->t[i] + fmax(dt, -down);
-      state->q[i] += dq[i];
-      largest = fmax(largest, fmax(fabs(dh) / (at->h + SB_MIXED_CLOSED), fabs(dq[i])));
+      double down = fmax(c->rough.hamaker > 0 ? 0.3 : 1.5, 0.8 * state->t[i]);
+      cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > SB_EHL_CLOSED);
+      state->t[i] = dt > 0.5 ? sb_ehl_rough_of_gap(c, at->h + dh) : state->t[i] + fmax(dt, -down);
+      state->nodal[i] += dq[i];
+      largest = fmax(largest, fmax(fabs(dh) / (at->h + SB_EHL_CLOSED), fabs(dq[i])));
       least = fmin(least, at->h);
     }
     state->H0 += dH0;
-    state->kappa += dkappa;
-    trace->step = largest;
+    state->flow += dkappa;
+    trace->residual = largest;
 
     // Steps shrink quadratically; what is left at last is rounding: deflections of size one
     // against the gap.
-    double rounding = 1e-14 / (least + SB_MIXED_CLOSED);
+    double rounding = 1e-14 / (least + SB_EHL_CLOSED);
     bool stalled = largest < 100 * rounding && largest > 0.2 * before;
     small = !cut && (largest < fmax(1e-8, rounding) || stalled);
     settled += small ? 1 : 0;
     // A start that is none shows soon: a good one is below 1 after five steps. Only a meniscus
     // takes its time to find its node.
     bool hopeless = (iteration > 7 && largest > 3) || (iteration > 20 && largest > 0.1);
-    if (c->lambda > 0 && !isfinite(c->supply) && hopeless) {
+    if (c->layers.lambda > 0 && !isfinite(c->rough.supply) && hopeless) {
       return SB_ERROR_NOT_CONVERGED;
     }
     // Close to the solution each step with the same factors gains what the last one gained.

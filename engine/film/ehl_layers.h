@@ -3,14 +3,14 @@
 #pragma once
 
 #include "engine/contact/compliance.h"
-#include "engine/film/hp.h"
+#include "engine/film/ehl_mesh.h"
 
 // How the film ends.
 typedef enum {
-  SB_LAYERS_RUPTURE, // breaks at the end of the mesh, p = 0 and p' = 0 there
-  SB_LAYERS_FULL,    // flooded outlet under pressure
-  SB_LAYERS_REFORM   // breaks, and forms again at `reform` before the flooded outlet
-} SbLayersEnd;
+  SB_EHL_RUPTURE, // breaks at the end of the mesh, p = 0 and p' = 0 there
+  SB_EHL_FULL,    // flooded outlet under pressure
+  SB_EHL_REFORM   // breaks, and forms again at `reform` before the flooded outlet
+} SbEhlEnd;
 
 // What fixes a mesh.
 typedef struct {
@@ -19,50 +19,51 @@ typedef struct {
   double starvation;    // flux over the flooded flux, 1 when flooded
   double meniscus;      // where the film begins; -infinity when flooded
   double reform;        // where it forms again
-  SbLayersEnd end;
+  SbEhlEnd end;
   int degree;
   int steps[2]; // elements between a layer and the middle, -1 to choose them
   // Of a fitted body (scale.h), zero on a half-plane: middle of the contact, rest of its dry
   // pressure.
   double middle;
   double bow[SB_COMPLIANCE_PRESSURES];
-} SbLayers;
+} SbEhlLayers;
 
 // Flux film (h where dp/dx = 0) of a flooded contact, scaled, to a few per cent.
-double sb_layers_flux(const SbLayers *layers);
+double sb_ehl_layers_flux(const SbEhlLayers *layers);
 
 // Width of the inlet layer, about lambda^0.4.
-double sb_layers_width(const SbLayers *layers);
+double sb_ehl_layers_width(const SbEhlLayers *layers);
 
 // Width of the outlet layer, at most that of the inlet.
-double sb_layers_outlet_width(const SbLayers *layers);
+double sb_ehl_layers_outlet_width(const SbEhlLayers *layers);
 
 // Slope factor of the dry pressure at the inlet edge: 1 for Hertz's.
-double sb_layers_inlet_slope(const SbLayers *layers);
+double sb_ehl_layers_inlet_slope(const SbEhlLayers *layers);
 
 // Pressure of the dry contact at X, the end pressures outside it.
-double sb_layers_dry_pressure(const SbLayers *layers, double X);
+double sb_ehl_layers_dry_pressure(const SbEhlLayers *layers, double X);
 
 // Dry gap of Hertz's contact, with the bend that unequal end pressures add outside it.
-double sb_layers_dry_gap(const SbLayers *layers, double X);
+double sb_ehl_layers_dry_gap(const SbEhlLayers *layers, double X);
 
 // Builds the mesh. Returns false if it does not fit.
-SB_CHECKED bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *layers);
+SB_CHECKED bool sb_ehl_layers_mesh(SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlLayers *layers);
 
 // Pressure and film of the joined layers of a thin film at X.
-void sb_layers_shape(double *pressure, double *film, const SbLayers *layers, double flux, double X);
+void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *layers, double flux,
+                         double X);
 
 // Fills nodal pressures, gaps at all targets, and the shift and flux of a cold start.
-void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, const SbHpMesh *mesh,
-                     SbHpTables *tables, const SbLayers *layers);
+void sb_ehl_layers_guess(double *nodal, double *gap, double *shift, double *flux,
+                         const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlLayers *layers);
 
 // Pressure that a film formed again at X gains until infinity, by Reynolds' equation on the dry
 // gap.
-double sb_layers_gain(const SbLayers *layers, double flux, double X);
+double sb_ehl_layers_gain(const SbEhlLayers *layers, double flux, double X);
 
 // Where the film forms again, by that measure.
-double sb_layers_reform(const SbLayers *layers, double flux);
+double sb_ehl_layers_reform(const SbEhlLayers *layers, double flux);
 
 // Starting pressure and gap of the elements behind the cavity.
-void sb_layers_fill_reformed(double *nodal, double *gap, const SbHpMesh *mesh, SbHpTables *tables,
-                             const SbLayers *layers, double flux);
+void sb_ehl_layers_fill_reformed(double *nodal, double *gap, const SbEhlMesh *mesh,
+                                 SbEhlTables *tables, const SbEhlLayers *layers, double flux);

@@ -6,8 +6,7 @@
 // thin products; b and p_H are those of a Hertz contact of the dry contact's width and load, so
 // that the layers sit at its edges. The smooth film's shift is an unknown, the mixed film's mesh
 // stands still over the dry contact.
-#include "engine/film/mixed.h"
-#include "engine/film/reynolds.h"
+#include "engine/film/ehl.h"
 
 #include "engine/numeric/legendre.h"
 
@@ -64,43 +63,57 @@ void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryC
   const double to = fmin(c->right, dry->right + half);
   out->pressure_max = dry->peak;
   out->position_rupture = dry->right;
-  out->points = POINTS;
-  for (int i = 0; i < POINTS; i++) {
-    out->x[i] = from + (to - from) * i / (POINTS - 1);
-    out->pressure[i] = sb_dry_contact_pressure(dry, out->x[i]);
-    out->film[i] = sb_dry_contact_gap(dry, c, out->x[i]);
+  for (size_t i = 0; i < POINTS && out->x != NULL; i++) {
+    double x = from + (to - from) * (double)i / (POINTS - 1);
+    sb_film_put(out, i, x, sb_dry_contact_pressure(dry, x), sb_dry_contact_gap(dry, c, x));
   }
   out->solver.converged = true;
   out->solver.residual = dry->residual;
 }
 
-enum { MODES = SB_COMPLIANCE_MODES, TARGETS_MAX = SB_HP_DOFS_MAX + SB_HP_ELEMENTS_MAX + 4 };
+enum { MODES = SB_COMPLIANCE_MODES };
 
 // Moments of every nodal basis, and of the state's pressure with its derivative to the shift.
 typedef struct {
-  double basis[MODES][SB_HP_DOFS_MAX];
+  double basis[MODES][SB_EHL_DOFS_MAX];
   double state[MODES];
   double state_slope[MODES];
 } Moments;
 
-static void add_element(Moments *out, const SbHpElement *e, const SbReynoldsState *state,
-                        const SbFilmBody *body) {
+// S acts on the window only: an affine element that reaches beyond it counts as far as it lies in
+// it.
+static void add_element(Moments *out, const SbEhlTables *tables, const SbEhlElement *e,
+                        const double *nodal, double shift, const SbFilmBody *body) {
+  const SbSurfaceCompliance *c = body->compliance;
   const double unit = body->side * body->half_width;
-  for (int q = 0; q < SB_HP_QUAD; q++) {
+  const double ends[] = {c->left / unit - shift, c->right / unit - shift};
+  const double from = fmax((fmin(ends[0], ends[1]) - e->m) / e->h, -1.0);
+  const double to = fmin((fmax(ends[0], ends[1]) - e->m) / e->h, 1.0);
+  const bool cut = e->map == SB_EHL_AFFINE && (from > -1.0 || to < 1.0);
+  for (int q = 0; q < SB_EHL_QUAD && !(cut && to <= from); q++) {
     const double at = e->fine_x[q];
-    const double X = e->map == SB_HP_INLET    ? e->A - e->B / (at * at)
-                     : e->map == SB_HP_OUTLET ? e->A + e->B / (at * at)
-                                              : at;
+    double X = e->map == SB_EHL_INLET    ? e->A - e->B / (at * at)
+               : e->map == SB_EHL_OUTLET ? e->A + e->B / (at * at)
+                                         : at;
+    double weight[SB_EHL_DEGREE_MAX + 2];
+    memcpy(weight, e->fine_wb[q], sizeof weight);
+    if (cut) {
+      const SbEhlTable *t = &tables->table[e->degree];
+      const double r = 0.5 * (from + to) + 0.5 * (to - from) * tables->fine[q];
+      X = e->m + e->h * r;
+      sb_barycentric_basis(weight, r, t->node, t->bary, e->degree + 1);
+      cblas_dscal(e->degree + 1, 0.5 * (to - from) * e->h * tables->fine_weight[q], weight, 1);
+    }
     double value[MODES];
     double slope[MODES];
-    sb_compliance_modes(body->compliance, unit * (X + state->shift), value, slope);
-    double pressure = e->fine_wb[q][e->degree + 1];
+    sb_compliance_modes(c, unit * (X + shift), value, slope);
+    double pressure = weight[e->degree + 1];
     for (int j = 0; j <= e->degree; j++) {
-      pressure += e->fine_wb[q][j] * state->nodal[e->first_dof + j];
+      pressure += weight[j] * nodal[e->first_dof + j];
     }
-    for (int k = 0; k < body->compliance->modes; k++) {
+    for (int k = 0; k < c->modes; k++) {
       for (int j = 0; j <= e->degree; j++) {
-        out->basis[k][e->first_dof + j] += e->fine_wb[q][j] * value[k];
+        out->basis[k][e->first_dof + j] += weight[j] * value[k];
       }
       out->state[k] += pressure * value[k];
       out->state_slope[k] += pressure * slope[k] * unit;
@@ -137,9 +150,9 @@ static double window_tilt(const SbFilmBody *body, double inlet, double outlet) {
   return -(inlet - outlet) / M_PI * log(0.5 * (c->right - c->left) / body->half_width);
 }
 
-void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpMesh *mesh,
-                        const SbReynoldsState *state, const SbReynoldsCase *problem) {
-  const SbFilmBody *body = &problem->body;
+void sb_ehl_fitted(double *kernel, double *gaps, double *slope, const SbEhlTables *tables,
+                   const SbEhlMesh *mesh, const double *nodal, double shift,
+                   const SbFilmBody *body) {
   const SbSurfaceCompliance *c = body->compliance;
   const double unit = body->side * body->half_width;
   const int modes = c->modes;
@@ -148,20 +161,20 @@ void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpM
   Moments m;
   memset(&m, 0, sizeof m);
   for (int i = 0; i < mesh->count; i++) {
-    add_element(&m, &mesh->element[i], state, body);
+    add_element(&m, tables, &mesh->element[i], nodal, shift, body);
   }
   add_ambient(m.state, m.state_slope, body, mesh->inlet_pressure, mesh->outlet_pressure,
-              mesh->left_end + state->shift, mesh->right_end + state->shift);
+              mesh->left_end + shift, mesh->right_end + shift);
 
   // S times the moments, without the constant that H0 takes up anyway: it would only cost digits of
   // thin films. Of the basis, of the pressure, of its derivative.
-  double basis[MODES][SB_HP_DOFS_MAX];
+  double basis[MODES][SB_EHL_DOFS_MAX];
   double of_state[MODES] = {0};
   double of_slope[MODES] = {0};
   memset(basis[0], 0, sizeof basis[0]);
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, mesh->dofs, modes, factor,
-              &c->smooth[1][0], MODES, &m.basis[0][0], SB_HP_DOFS_MAX, 0.0, &basis[1][0],
-              SB_HP_DOFS_MAX);
+              &c->smooth[1][0], MODES, &m.basis[0][0], SB_EHL_DOFS_MAX, 0.0, &basis[1][0],
+              SB_EHL_DOFS_MAX);
   for (int k = 1; k < modes; k++) {
     for (int l = 0; l < modes; l++) {
       of_state[k] += factor * c->smooth[k][l] * m.state[l];
@@ -170,10 +183,10 @@ void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpM
   }
 
   const double tilt = window_tilt(body, mesh->inlet_pressure, mesh->outlet_pressure);
-  double value[TARGETS_MAX][MODES];
+  double value[SB_EHL_TARGETS_MAX][MODES];
   for (int i = 0; i < mesh->targets; i++) {
     double derivative[MODES];
-    const double x = unit * (mesh->x[i] + state->shift);
+    const double x = unit * (mesh->x[i] + shift);
     sb_compliance_modes(c, x, value[i], derivative);
     double gap_slope;
     double sum = sb_compliance_gap(c, x, &gap_slope) / body->film;
@@ -186,67 +199,8 @@ void sb_reynolds_fitted(double *kernel, double *gaps, double *slope, const SbHpM
     slope[i] = sum_slope;
   }
   cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->targets, mesh->dofs, 1.0, mesh->gap, mesh->dofs,
-              state->nodal, 1, 1.0, gaps, 1);
+              nodal, 1, 1.0, gaps, 1);
   memcpy(kernel, mesh->gap, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *kernel);
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, mesh->targets, mesh->dofs, modes, 1.0,
-              &value[0][0], MODES, &basis[0][0], SB_HP_DOFS_MAX, 1.0, kernel, mesh->dofs);
-}
-
-void sb_mixed_fitted(SbMixedMesh *mesh, const SbMixedRule *rule, const SbMixedCase *c) {
-  const SbFilmBody *body = &c->body;
-  const SbSurfaceCompliance *surface = body->compliance;
-  const double unit = body->side * body->half_width;
-  const double factor = 0.25 * surface->modulus; // p_H b over the film's scale
-  const int modes = surface->modes;
-  const int nodes = mesh->nodes;
-
-  // Moments of every nodal basis over the window, and of the ambient pressures.
-  double gauss[SB_HP_QUAD], weight[SB_HP_QUAD];
-  sb_legendre_gauss(gauss, weight, SB_HP_QUAD);
-  double moment[MODES][SB_MIXED_NODES_MAX];
-  double ambient[MODES] = {0}, unused[MODES] = {0};
-  memset(moment, 0, sizeof moment);
-  const double ends[] = {surface->left / unit - mesh->shift, surface->right / unit - mesh->shift};
-  for (int e = 0; e < mesh->elements; e++) {
-    const double middle = 0.5 * (mesh->edge[e] + mesh->edge[e + 1]);
-    const double half = 0.5 * (mesh->edge[e + 1] - mesh->edge[e]);
-    const double from = fmax((fmin(ends[0], ends[1]) - middle) / half, -1.0);
-    const double to = fmin((fmax(ends[0], ends[1]) - middle) / half, 1.0);
-    for (int q = 0; q < SB_HP_QUAD && to > from; q++) {
-      const double r = 0.5 * (from + to) + 0.5 * (to - from) * gauss[q];
-      const double w = 0.5 * (to - from) * half * weight[q];
-      double mode[MODES], value[SB_MIXED_DEGREE_MAX + 1];
-      sb_compliance_modes(surface, unit * (middle + half * r + mesh->shift), mode, NULL);
-      sb_barycentric_basis(value, r, rule->node, rule->bary, rule->degree + 1);
-      for (int k = 0; k < modes; k++) {
-        for (int j = 0; j <= rule->degree; j++) {
-          moment[k][e * rule->degree + j] += w * value[j] * mode[k];
-        }
-      }
-    }
-  }
-  add_ambient(ambient, unused, body, mesh->inlet, mesh->outlet, mesh->edge[0] + mesh->shift,
-              mesh->edge[mesh->elements] + mesh->shift);
-
-  // S times them without its constant, as for the smooth film.
-  double by_node[MODES][SB_MIXED_NODES_MAX];
-  double of_ambient[MODES] = {0};
-  memset(by_node[0], 0, sizeof by_node[0]);
-  cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, nodes, modes, factor,
-              &surface->smooth[1][0], MODES, &moment[0][0], SB_MIXED_NODES_MAX, 0.0, &by_node[1][0],
-              SB_MIXED_NODES_MAX);
-  for (int k = 1; k < modes; k++) {
-    of_ambient[k] = factor * cblas_ddot(modes, surface->smooth[k], 1, ambient, 1);
-  }
-
-  const double tilt = window_tilt(body, mesh->inlet, mesh->outlet);
-  for (int i = 0; i < nodes; i++) {
-    const double x = unit * (mesh->x[i] + mesh->shift);
-    double mode[MODES], slope;
-    sb_compliance_modes(surface, x, mode, NULL);
-    mesh->known[i] += sb_compliance_gap(surface, x, &slope) / body->film + tilt * mesh->x[i] +
-                      cblas_ddot(modes, mode, 1, of_ambient, 1);
-    cblas_dgemv(CblasRowMajor, CblasTrans, modes, nodes, 1.0, &by_node[0][0], SB_MIXED_NODES_MAX,
-                mode, 1, 1.0, mesh->kernel + (size_t)i * (size_t)nodes, 1);
-  }
+              &value[0][0], MODES, &basis[0][0], SB_EHL_DOFS_MAX, 1.0, kernel, mesh->dofs);
 }

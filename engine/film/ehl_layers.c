@@ -6,9 +6,10 @@
 // the length of the rigid wedge, sqrt(2 H_min). The guess joins the layers' shapes, read off our
 // own solution at M = 1e4, or takes the rigid wedge (thesis eq. 6.17-6.19). It only starts Newton's
 // method: its digits do not reach the result.
-#include "engine/film/layers.h"
+#include "engine/film/ehl_layers.h"
 
 #include "engine/film/scale.h"
+#include "engine/film/wedge.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,7 +56,7 @@ static double interpolate(double z, const double *node, const double *value, int
 }
 
 // A fitted body's dry pressure over Hertz's.
-static double bowed(const SbLayers *l, double X) {
+static double bowed(const SbEhlLayers *l, double X) {
   double sum = 1.0;
   double u = 1.0; // U_k
   double before = 0.0;
@@ -68,47 +69,47 @@ static double bowed(const SbLayers *l, double X) {
   return sum;
 }
 
-double sb_layers_inlet_slope(const SbLayers *l) {
+double sb_ehl_layers_inlet_slope(const SbEhlLayers *l) {
   return bowed(l, -1.0) - (l->inlet - l->outlet) / M_PI;
 }
 
 // The same at the outlet edge.
-static double outlet_slope(const SbLayers *l) {
+static double outlet_slope(const SbEhlLayers *l) {
   return bowed(l, 1.0) + (l->inlet - l->outlet) / M_PI;
 }
 
 // Starving thins the layers: film^2 slope / width^0.5 ~ lambda.
-static double starved(const SbLayers *l) {
+static double starved(const SbEhlLayers *l) {
   return pow(l->starvation, 1.5);
 }
 
-double sb_layers_width(const SbLayers *l) {
-  return pow(l->lambda, 0.4) * pow(sb_layers_inlet_slope(l), -1.2) * starved(l);
+double sb_ehl_layers_width(const SbEhlLayers *l) {
+  return pow(l->lambda, 0.4) * pow(sb_ehl_layers_inlet_slope(l), -1.2) * starved(l);
 }
 
 // A flux below what the outlet's own slope would carry narrows its layer as starving does, to the
 // inlet's width.
-double sb_layers_outlet_width(const SbLayers *l) {
-  return pow(l->lambda, 0.4) * pow(fmax(sb_layers_inlet_slope(l), outlet_slope(l)), -1.2) *
+double sb_ehl_layers_outlet_width(const SbEhlLayers *l) {
+  return pow(l->lambda, 0.4) * pow(fmax(sb_ehl_layers_inlet_slope(l), outlet_slope(l)), -1.2) *
          starved(l);
 }
 
 // Minimum film of the rigid wedge: h_min = 4.894968 R U / W.
-static double rigid_film(const SbLayers *l) {
+static double rigid_film(const SbEhlLayers *l) {
   return 4.894968 * l->lambda / (6.0 * M_PI);
 }
 
-double sb_layers_flux(const SbLayers *l) {
-  double elastic = 0.44582 * pow(l->lambda, 0.6) * pow(sb_layers_inlet_slope(l), -0.8);
+double sb_ehl_layers_flux(const SbEhlLayers *l) {
+  double elastic = 0.44582 * pow(l->lambda, 0.6) * pow(sb_ehl_layers_inlet_slope(l), -0.8);
   double rigid = 1.225748 * rigid_film(l);
   return pow(pow(elastic, 1.4) + pow(rigid, 1.4), 1.0 / 1.4);
 }
 
 // Distance from the axis to the rupture, well enough to place the mesh.
-static double rupture_guess(const SbLayers *l) {
-  double width = sb_layers_outlet_width(l);
+static double rupture_guess(const SbEhlLayers *l) {
+  double width = sb_ehl_layers_outlet_width(l);
   double elastic = 1.0 + 0.16406 * width - 0.25 * fmin(width, 0.3) * width;
-  if (sb_layers_width(l) <= THICK) {
+  if (sb_ehl_layers_width(l) <= THICK) {
     return elastic;
   }
   double rigid = tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l)) + 0.8;
@@ -119,7 +120,7 @@ static double rupture_guess(const SbLayers *l) {
 // Place of the least film before a flooded outlet, read off our own solutions (M from 1.3 to 1e6,
 // pressures up to 2.9 p_H apart): at rest the layer lies on the edge, higher outlet pressure pushes
 // it out, thick films less.
-static double flooded_outlet(const SbLayers *l) {
+static double flooded_outlet(const SbEhlLayers *l) {
   double s = -log(outlet_slope(l));
   double thin = exp(-0.916 + 1.25 * s + 0.972 * (1.0 - exp(-1.8 * s)));
   double slowing = cbrt(1.0 + pow(0.8 * thin, 3.0));
@@ -127,43 +128,43 @@ static double flooded_outlet(const SbLayers *l) {
 }
 
 // Length over which the gap opens behind a flooded outlet: the flux film against the dry gap.
-static double opening(const SbLayers *l) {
-  double film = pow(sb_layers_inlet_slope(l), -0.8);
-  return fmax(sb_layers_outlet_width(l),
+static double opening(const SbEhlLayers *l) {
+  double film = pow(sb_ehl_layers_inlet_slope(l), -0.8);
+  return fmax(sb_ehl_layers_outlet_width(l),
               pow(l->lambda, 0.4) * pow(film / outlet_slope(l), 2.0 / 3.0));
 }
 
 // Edge of the contact that the outlet layer's shape belongs to.
-static double outlet_edge(const SbLayers *l) {
-  return l->end == SB_LAYERS_FULL ? flooded_outlet(l) + 0.17 * sb_layers_outlet_width(l) : 1.0;
+static double outlet_edge(const SbEhlLayers *l) {
+  return l->end == SB_EHL_FULL ? flooded_outlet(l) + 0.17 * sb_ehl_layers_outlet_width(l) : 1.0;
 }
 
 // The flooded outlet beyond `from`: elements of growing size up to `reach`, then the infinite one.
-static bool add_outlet(SbHpMesh *mesh, double from, double unit, double reach, int degree,
+static bool add_outlet(SbEhlMesh *mesh, double from, double unit, double reach, int degree,
                        bool apart) {
   static const double step[] = {0.0, 0.4, 1.5, 4.0};
   mesh->outlet = mesh->count;
   double begin = from;
   for (int i = 1; i < 4 || begin - from < reach; i++) {
     double end = i < 4 ? from + unit * step[i] : from + 2.5 * (begin - from);
-    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, begin, end, 0.0, degree + 4, apart && i == 1)) {
+    if (!sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, begin, end, 0.0, degree + 4, apart && i == 1)) {
       return false;
     }
     begin = end;
   }
-  return sb_hp_mesh_add(mesh, SB_HP_OUTLET, begin, 0.0, begin - 1.125 * (begin - from), degree + 4,
-                        false);
+  return sb_ehl_mesh_add(mesh, SB_EHL_OUTLET, begin, 0.0, begin - 1.125 * (begin - from),
+                         degree + 4, false);
 }
 
 // A film that begins at a meniscus: five elements from there to `last`, evenly in asinh z.
-static bool add_meniscus(SbHpMesh *mesh, const SbLayers *l, double unit, double last) {
+static bool add_meniscus(SbEhlMesh *mesh, const SbEhlLayers *l, double unit, double last) {
   enum { COUNT = 5 };
   double begin = asinh((l->meniscus + 1.0) / unit);
   double end = asinh((last + 1.0) / unit);
   double x0 = l->meniscus;
   for (int i = 1; i <= COUNT; i++) {
     double x1 = i == COUNT ? last : -1.0 + unit * sinh(begin + (end - begin) * i / COUNT);
-    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, x0, x1, 0.0, l->degree, false)) {
+    if (!sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, x0, x1, 0.0, l->degree, false)) {
       return false;
     }
     x0 = x1;
@@ -172,22 +173,22 @@ static bool add_meniscus(SbHpMesh *mesh, const SbLayers *l, double unit, double 
 }
 
 // Elements on the scale of the rigid wedge.
-static bool thick_mesh(SbHpMesh *mesh, const SbLayers *l) {
+static bool thick_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   static const double step[] = {5.0, 2.6, 1.9, 1.3, 0.75, 0.35, 0.1, 0.0};
   enum { STEPS = sizeof step / sizeof step[0] };
   double unit = sqrt(1.44 + 0.52 * l->lambda);
   double end = rupture_guess(l);
   double from = end - unit * step[0];
-  if (!sb_hp_mesh_add(mesh, SB_HP_INLET, 0.0, from, from + unit, l->degree, false)) {
+  if (!sb_ehl_mesh_add(mesh, SB_EHL_INLET, 0.0, from, from + unit, l->degree, false)) {
     return false;
   }
   for (int i = 1; i < STEPS; i++) {
-    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, end - unit * step[i - 1], end - unit * step[i], 0.0,
-                        l->degree, false)) {
+    if (!sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, end - unit * step[i - 1], end - unit * step[i], 0.0,
+                         l->degree, false)) {
       return false;
     }
   }
-  if (l->end == SB_LAYERS_FULL) {
+  if (l->end == SB_EHL_FULL) {
     return add_outlet(mesh, end, 0.5 * unit, 0.0, l->degree, false);
   }
   return true;
@@ -196,7 +197,7 @@ static bool thick_mesh(SbHpMesh *mesh, const SbLayers *l) {
 static const double MIDDLE = 0.6; // theta where growing steps end
 
 // Steps in theta from a layer at `begin` to MIDDLE, those asked for if there are any.
-static int inner_steps(SbHpMesh *mesh, const SbLayers *l, int side, double begin) {
+static int inner_steps(SbEhlMesh *mesh, const SbEhlLayers *l, int side, double begin) {
   static const double GROWTH = 4.0;
   int steps = begin < MIDDLE ? (int)ceil(log(MIDDLE / begin) / log(GROWTH)) : 0;
   mesh->steps[side] = l->steps[side] >= 0 ? l->steps[side] : steps;
@@ -205,11 +206,11 @@ static int inner_steps(SbHpMesh *mesh, const SbLayers *l, int side, double begin
 }
 
 // Elements that follow the two layers.
-static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
+static bool thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   static const double inlet_step[] = {-4.0, -1.0, 1.5, 4.0};
   static const double outlet_step[] = {-8.0, -2.5, -0.8, -0.1};
-  double in = sb_layers_width(l);
-  double out = sb_layers_outlet_width(l);
+  double in = sb_ehl_layers_width(l);
+  double out = sb_ehl_layers_outlet_width(l);
   enum { RIGHTS_MAX = 8 };
   double left[4], right[RIGHTS_MAX];
   int lefts = 0;
@@ -224,7 +225,7 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
     lefts = 1;
   }
   int rights = 0;
-  bool full = l->end == SB_LAYERS_FULL;
+  bool full = l->end == SB_EHL_FULL;
   double edge = full ? flooded_outlet(l) : 1.0;
   double last = full ? edge : rupture_guess(l);
   for (int i = 0; i < (full ? 3 : 4); i++) {
@@ -250,11 +251,11 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
       return false;
     }
   } else {
-    if (!sb_hp_mesh_add(mesh, SB_HP_INLET, 0.0, left[0], -1.0 + 0.5 * in, l->degree + 4, false)) {
+    if (!sb_ehl_mesh_add(mesh, SB_EHL_INLET, 0.0, left[0], -1.0 + 0.5 * in, l->degree + 4, false)) {
       return false;
     }
     for (int i = 1; i < lefts; i++) {
-      if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, left[i - 1], left[i], 0.0, l->degree + 4, false)) {
+      if (!sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, left[i - 1], left[i], 0.0, l->degree + 4, false)) {
         return false;
       }
     }
@@ -263,7 +264,7 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
   // Inside the contact, steps growing from both layers to the middle.
   double begin = acos(-left[lefts - 1]);
   double end = acos(right[0]);
-  double theta[SB_HP_ELEMENTS_MAX];
+  double theta[SB_EHL_ELEMENTS_MAX];
   int thetas = 0;
   int steps = inner_steps(mesh, l, 0, begin);
   int steps_right = inner_steps(mesh, l, 1, end);
@@ -278,14 +279,14 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
   for (int i = steps; i >= 0; i--) {
     theta[thetas++] = M_PI - end * pow(MIDDLE / end, steps > 0 ? (double)i / steps : 0.0);
   }
-  SbHpMap map = in > 0.25 ? SB_HP_AFFINE : SB_HP_COSINE;
+  SbEhlMap map = in > 0.25 ? SB_EHL_AFFINE : SB_EHL_COSINE;
   double x0 = left[lefts - 1];
   for (int i = 1; i < thetas; i++) {
     double x1 = i == thetas - 1 ? right[0] : -cos(theta[i]);
     // The widest element lies over the middle; more degrees keep the film between its points.
     int degree = l->degree + (theta[i] - theta[i - 1] > 0.8 ? 6 : 4);
-    if (!sb_hp_mesh_add(mesh, map, x0, x1, 0.0,
-                        degree < SB_HP_DEGREE_MAX ? degree : SB_HP_DEGREE_MAX, false)) {
+    if (!sb_ehl_mesh_add(mesh, map, x0, x1, 0.0,
+                         degree < SB_EHL_DEGREE_MAX ? degree : SB_EHL_DEGREE_MAX, false)) {
       return false;
     }
     x0 = x1;
@@ -293,41 +294,40 @@ static bool thin_mesh(SbHpMesh *mesh, const SbLayers *l) {
 
   // Outlet layer.
   for (int i = 1; i < rights; i++) {
-    if (!sb_hp_mesh_add(mesh, SB_HP_AFFINE, right[i - 1], right[i], 0.0, l->degree, false)) {
+    if (!sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, right[i - 1], right[i], 0.0, l->degree, false)) {
       return false;
     }
   }
-  if (l->end == SB_LAYERS_FULL) {
+  if (l->end == SB_EHL_FULL) {
     return add_outlet(mesh, right[rights - 1], out, 2.0 * opening(l), l->degree, false);
   }
   return true;
 }
 
-bool sb_layers_mesh(SbHpMesh *mesh, SbHpTables *tables, const SbLayers *l) {
-  sb_hp_mesh_begin(mesh, l->inlet, l->outlet);
+bool sb_ehl_layers_mesh(SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlLayers *l) {
+  sb_ehl_mesh_begin(mesh, l->inlet, l->outlet);
   mesh->steps[0] = mesh->steps[1] = -1;
-  bool thick = sb_layers_width(l) > THICK && !isfinite(l->meniscus);
+  bool thick = sb_ehl_layers_width(l) > THICK && !isfinite(l->meniscus);
   bool fits = thick ? thick_mesh(mesh, l) : thin_mesh(mesh, l);
-  if (fits && l->end == SB_LAYERS_REFORM) {
-    double unit = sb_layers_width(l) > THICK ? 0.3 * sqrt(1.44 + 0.52 * l->lambda)
-                                             : sb_layers_outlet_width(l);
+  if (fits && l->end == SB_EHL_REFORM) {
+    double unit = sb_ehl_layers_width(l) > THICK ? 0.3 * sqrt(1.44 + 0.52 * l->lambda)
+                                                 : sb_ehl_layers_outlet_width(l);
     unit = 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0);
     fits = add_outlet(mesh, l->reform, unit, 0.0, l->degree, true);
   }
   if (fits) {
-    sb_hp_mesh_build(mesh, tables);
+    sb_ehl_mesh_build(mesh, tables, false);
   }
   return fits;
 }
 
-double sb_layers_dry_pressure(const SbLayers *l, double X) {
+double sb_ehl_layers_dry_pressure(const SbEhlLayers *l, double X) {
   double inside = fmin(fmax(X, -1.0), 1.0);
-  double step = asin(inside) / M_PI;
-  return sqrt((1.0 - inside) * (1.0 + inside)) * bowed(l, inside) + l->inlet * (0.5 - step) +
-         l->outlet * (0.5 + step);
+  return sqrt((1.0 - inside) * (1.0 + inside)) * bowed(l, inside) +
+         sb_film_ends(X, l->inlet, l->outlet);
 }
 
-double sb_layers_dry_gap(const SbLayers *l, double X) {
+double sb_ehl_layers_dry_gap(const SbEhlLayers *l, double X) {
   double a = fabs(X);
   if (a <= 1.0) {
     return 0.0;
@@ -337,70 +337,65 @@ double sb_layers_dry_gap(const SbLayers *l, double X) {
   return fmax(edge * sb_film_dry_gap(X) + (X < 0.0 ? -bend : bend), 0.0);
 }
 
-void sb_layers_shape(double *pressure, double *film, const SbLayers *l, double flux, double X) {
-  double in = sb_layers_width(l);
-  double out = sb_layers_outlet_width(l);
+void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *l, double flux,
+                         double X) {
+  double in = sb_ehl_layers_width(l);
+  double out = sb_ehl_layers_outlet_width(l);
   double inside = fmin(fmax(X, -1.0), 1.0);
-  double step = asin(inside) / M_PI;
-  double ends = l->inlet * (0.5 - step) + l->outlet * (0.5 + step);
+  double ends = sb_film_ends(X, l->inlet, l->outlet);
   if (X < 0.0) {
     double z = (X + 1.0) / in;
     double p = z > 10.0     ? sqrt(2.0 * z)
                : z < -100.0 ? 0.53 / (z * z)
                             : interpolate(z, inlet_z, inlet_p, INLET_COUNT);
     *pressure = ends + sqrt(in) * p * sqrt(0.5 * (1.0 - X)) * bowed(l, inside);
-    *film = sb_layers_dry_gap(l, X) + flux * interpolate(z, inlet_z, inlet_h, INLET_COUNT);
+    *film = sb_ehl_layers_dry_gap(l, X) + flux * interpolate(z, inlet_z, inlet_h, INLET_COUNT);
   } else {
     double z = (X - outlet_edge(l)) / out;
     double p = z < -10.0 ? sqrt(-2.0 * z) : interpolate(z, outlet_z, outlet_p, OUTLET_COUNT);
     *pressure = ends + sqrt(out) * p * sqrt(0.5 * (1.0 + fmin(X, 1.0))) * bowed(l, inside);
     *film = flux * interpolate(z, outlet_z, outlet_h, OUTLET_COUNT);
     if (z > 0.16406) {
-      *film += sb_layers_dry_gap(l, X);
+      *film += sb_ehl_layers_dry_gap(l, X);
     }
   }
 }
 
-// Rigid parabola with its rupture, thesis eq. 6.17-6.19.
-static double rigid_pressure(const SbLayers *l, double X) {
+// Rigid parabola with its rupture (wedge.h).
+static double rigid_pressure(const SbEhlLayers *l, double X) {
   double film = rigid_film(l);
   double length = sqrt(2.0 * film);
   double t = fmin(atan(X / length), RUPTURE_ANGLE);
-  double cosine = cos(RUPTURE_ANGLE);
-  double s = 1.0 / (cosine * cosine);
-  double sum = 0.5 * t + 0.25 * sin(2.0 * t) -
-               s * (0.375 * t + 0.25 * sin(2.0 * t) + sin(4.0 * t) / 32.0) + 0.25 * M_PI -
-               0.1875 * M_PI * s;
-  return l->lambda * length / (film * film) * fmax(sum, 0.0);
+  return l->lambda * length / (film * film) * fmax(sb_wedge_shape(t, RUPTURE_ANGLE), 0.0);
 }
 
-void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, const SbHpMesh *mesh,
-                     SbHpTables *tables, const SbLayers *l) {
-  bool thick = sb_layers_width(l) > THICK;
-  *flux = thick ? 1.225748 * rigid_film(l) : sb_layers_flux(l);
+void sb_ehl_layers_guess(double *nodal, double *gap, double *shift, double *flux,
+                         const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlLayers *l) {
+  bool thick = sb_ehl_layers_width(l) > THICK;
+  *flux = thick ? 1.225748 * rigid_film(l) : sb_ehl_layers_flux(l);
   *shift =
       l->middle + (thick ? tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l)) - rupture_guess(l) : 0.0);
   for (int i = 0; i < mesh->count; i++) {
-    const SbHpElement *e = &mesh->element[i];
-    const SbHpTable *t = sb_hp_table(tables, e->degree);
+    const SbEhlElement *e = &mesh->element[i];
+    const SbEhlTable *t = sb_ehl_table(tables, e->degree);
     for (int k = 0; k <= e->degree; k++) {
       double r = t->node[k];
-      bool inlet = e->map == SB_HP_INLET;
-      bool outlet = e->map == SB_HP_OUTLET;
+      bool inlet = e->map == SB_EHL_INLET;
+      bool outlet = e->map == SB_EHL_OUTLET;
       // At infinity the nodal value is that of the neighbouring node.
       if (inlet && k == 0) {
         r = t->node[1];
       } else if (outlet && k == e->degree) {
         r = t->node[e->degree - 1];
       }
-      double X = sb_hp_position(e, r);
+      double X = sb_ehl_position(e, r);
       double pressure, film;
       if (thick) {
         pressure = rigid_pressure(l, X + *shift - l->middle) + (X < 0.0 ? l->inlet : l->outlet);
       } else {
-        sb_layers_shape(&pressure, &film, l, *flux, X);
+        sb_ehl_layers_shape(&pressure, &film, l, *flux, X);
       }
-      double s = inlet ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
+      double s = sb_ehl_inverse(e, r);
       bool touching = (inlet && k == e->degree) || (outlet && k == 0);
       if ((inlet || outlet) && !touching) {
         pressure = (pressure - e->far_pressure) / (s * s * s * s);
@@ -415,22 +410,22 @@ void sb_layers_guess(double *nodal, double *gap, double *shift, double *flux, co
       double x = X + *shift - l->middle;
       gap[i] = rigid_film(l) + 0.5 * x * x;
     } else {
-      sb_layers_shape(&pressure, &gap[i], l, *flux, X);
+      sb_ehl_layers_shape(&pressure, &gap[i], l, *flux, X);
     }
   }
 }
 
 // Gap behind the rupture less the flux film.
-static double gap_beyond(const SbLayers *l, double X) {
-  if (sb_layers_width(l) > THICK) {
+static double gap_beyond(const SbEhlLayers *l, double X) {
+  if (sb_ehl_layers_width(l) > THICK) {
     double end = tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l));
     double x = X - rupture_guess(l) + end;
     return 0.5 * (x * x - end * end);
   }
-  return sb_layers_dry_gap(l, X);
+  return sb_ehl_layers_dry_gap(l, X);
 }
 
-double sb_layers_gain(const SbLayers *l, double flux, double X) {
+double sb_ehl_layers_gain(const SbEhlLayers *l, double flux, double X) {
   // X' = X + t / (1 - t)^2 in units of the film's own length, midpoint rule.
   enum { POINTS = 200 };
   double end = rupture_guess(l);
@@ -446,13 +441,13 @@ double sb_layers_gain(const SbLayers *l, double flux, double X) {
   return sum;
 }
 
-double sb_layers_reform(const SbLayers *l, double flux) {
+double sb_ehl_layers_reform(const SbEhlLayers *l, double flux) {
   double begin = rupture_guess(l);
   double low = begin;
   double high = begin + 10.0 * (sqrt(1.44 + 0.52 * l->lambda) + cbrt(l->lambda / l->outlet));
   for (int pass = 0; pass < 60; pass++) {
     double X = 0.5 * (low + high);
-    if (sb_layers_gain(l, flux, X) > l->outlet) {
+    if (sb_ehl_layers_gain(l, flux, X) > l->outlet) {
       low = X;
     } else {
       high = X;
@@ -461,19 +456,19 @@ double sb_layers_reform(const SbLayers *l, double flux) {
   return 0.5 * (low + high);
 }
 
-void sb_layers_fill_reformed(double *nodal, double *gap, const SbHpMesh *mesh, SbHpTables *tables,
-                             const SbLayers *l, double flux) {
+void sb_ehl_layers_fill_reformed(double *nodal, double *gap, const SbEhlMesh *mesh,
+                                 SbEhlTables *tables, const SbEhlLayers *l, double flux) {
   int begin = mesh->count;
   for (int i = 0; i < mesh->count; i++) {
-    const SbHpElement *e = &mesh->element[i];
-    const SbHpTable *t = sb_hp_table(tables, e->degree);
+    const SbEhlElement *e = &mesh->element[i];
+    const SbEhlTable *t = sb_ehl_table(tables, e->degree);
     if (e->apart) {
       begin = i;
     }
     for (int k = 0; i >= begin && k <= e->degree; k++) {
-      bool outlet = e->map == SB_HP_OUTLET;
+      bool outlet = e->map == SB_EHL_OUTLET;
       double r = outlet && k == e->degree ? t->node[k - 1] : t->node[k];
-      double gain = sb_layers_gain(l, flux, sb_hp_position(e, r));
+      double gain = sb_ehl_layers_gain(l, flux, sb_ehl_position(e, r));
       double s = 0.5 * (1.0 - r);
       nodal[e->first_dof + k] = outlet && k > 0 ? -gain / (s * s * s * s) : l->outlet - gain;
     }

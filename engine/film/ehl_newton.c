@@ -9,7 +9,7 @@
 //
 // A film that begins at a meniscus or forms again behind a cavity has one more free end, which
 // moves the mesh; its column of the Jacobian is a difference quotient.
-#include "engine/film/reynolds.h"
+#include "engine/film/ehl.h"
 
 #include <cblas.h>
 #include <lapacke.h>
@@ -18,25 +18,25 @@
 #include <string.h>
 
 enum {
-  STRIDE = SB_HP_DEGREE_MAX + 1,
-  ORDER_MAX = SB_HP_DOFS_MAX + SB_HP_EXTRA,
+  STRIDE = SB_EHL_DEGREE_MAX + 1,
+  ORDER_MAX = SB_EHL_DOFS_MAX + SB_EHL_EXTRA,
   ITERATIONS_MAX = 10,
 };
 
 // A step that leaves less than this of the residual lets the next one take the same factors.
 static const double REUSE = 0.02;
 
-bool sb_reynolds_init(SbFilmSolver *solver) {
-  sb_hp_tables_init(&solver->tables);
+bool sb_ehl_init(SbFilmSolver *solver) {
+  sb_ehl_tables_init(&solver->tables);
   size_t order = ORDER_MAX;
   solver->matrix = malloc(order * order * sizeof(double));
   solver->right = malloc(order * sizeof(double));
   solver->column = malloc(order * sizeof(double));
-  size_t targets = order + SB_HP_ELEMENTS_MAX;
+  size_t targets = SB_EHL_TARGETS_MAX;
   solver->gaps = malloc(2 * targets * sizeof(double)); // and their derivatives to the shift
-  solver->kernel = malloc(targets * SB_HP_DOFS_MAX * sizeof(double));
+  solver->kernel = malloc(targets * SB_EHL_DOFS_MAX * sizeof(double));
   solver->pivot = malloc(order * sizeof(int));
-  bool done = sb_hp_mesh_init(&solver->mesh[0]) && sb_hp_mesh_init(&solver->mesh[1]) &&
+  bool done = sb_ehl_mesh_init(&solver->mesh[0]) && sb_ehl_mesh_init(&solver->mesh[1]) &&
               solver->matrix != NULL && solver->right != NULL && solver->column != NULL &&
               solver->gaps != NULL && solver->kernel != NULL && solver->pivot != NULL;
   if (done) {
@@ -57,9 +57,9 @@ bool sb_reynolds_init(SbFilmSolver *solver) {
   return done;
 }
 
-void sb_reynolds_finish(SbFilmSolver *solver) {
-  sb_hp_mesh_finish(&solver->mesh[0]);
-  sb_hp_mesh_finish(&solver->mesh[1]);
+void sb_ehl_finish(SbFilmSolver *solver) {
+  sb_ehl_mesh_finish(&solver->mesh[0]);
+  sb_ehl_mesh_finish(&solver->mesh[1]);
   free(solver->matrix);
   free(solver->right);
   free(solver->column);
@@ -70,12 +70,13 @@ void sb_reynolds_finish(SbFilmSolver *solver) {
 
 // Gap from the pressure at all targets into solver->gaps, with its derivatives to the nodal
 // pressures (returned, borrowed) and to the shift behind the gaps.
-static const double *elastic_gaps(SbFilmSolver *solver, const SbHpMesh *mesh,
-                                  const SbReynoldsState *state, const SbReynoldsCase *problem) {
+static const double *elastic_gaps(SbFilmSolver *solver, const SbEhlMesh *mesh,
+                                  const SbEhlState *state, const SbEhlCase *problem) {
   double *out = solver->gaps;
   double *slope = out + mesh->targets;
   if (problem->body.compliance != NULL) {
-    sb_reynolds_fitted(solver->kernel, out, slope, mesh, state, problem);
+    sb_ehl_fitted(solver->kernel, out, slope, &solver->tables, mesh, state->nodal, state->shift,
+                  &problem->body);
     for (int i = 0; i < mesh->targets; i++) {
       out[i] += state->H0;
     }
@@ -92,9 +93,9 @@ static const double *elastic_gaps(SbFilmSolver *solver, const SbHpMesh *mesh,
 }
 
 // Local pressure or its slope at row i.
-static double local(const SbHpMesh *mesh, const double *operators, const double *known,
+static double local(const SbEhlMesh *mesh, const double *operators, const double *known,
                     const double *nodal, int i) {
-  const SbHpElement *e = &mesh->element[mesh->owner[i]];
+  const SbEhlElement *e = &mesh->element[mesh->owner[i]];
   const double *row = operators + (size_t)i * STRIDE;
   double sum = known[i];
   for (int j = 0; j <= e->degree; j++) {
@@ -113,11 +114,11 @@ typedef struct {
   int order;
 } Layout;
 
-static Layout lay_out(const SbHpMesh *mesh, const SbReynoldsCase *problem) {
+static Layout lay_out(const SbEhlMesh *mesh, const SbEhlCase *problem) {
   Layout l = {.last = mesh->count - 1, .shift = -1, .flux = -1, .free_end = -1};
-  l.rupture = problem->layers.end != SB_LAYERS_FULL;
+  l.rupture = problem->layers.end != SB_EHL_FULL;
   l.meniscus = isfinite(problem->layers.meniscus);
-  l.reform = problem->layers.end == SB_LAYERS_REFORM && !problem->hold;
+  l.reform = problem->layers.end == SB_EHL_REFORM && !problem->hold;
   for (int i = 1; i < mesh->count; i++) {
     if (mesh->element[i].apart) {
       l.last = i - 1;
@@ -136,8 +137,7 @@ static Layout lay_out(const SbHpMesh *mesh, const SbReynoldsCase *problem) {
   return l;
 }
 
-// Load less its target.
-static double load_residual(const SbHpMesh *mesh, const SbReynoldsState *state) {
+double sb_ehl_load(const SbEhlMesh *mesh, const SbEhlState *state) {
   double sum = mesh->load_known - 0.5 * M_PI;
   for (int j = 0; j < mesh->dofs; j++) {
     sum += mesh->load[j] * state->nodal[j];
@@ -155,8 +155,8 @@ static double larger(double largest, double value) {
 // `gaps` and `kernel` are those of elastic_gaps. Returns the largest scaled residual. A gap guess
 // is linearised about when `independent`.
 static double assemble(double *right, double *matrix, const double *gaps, const double *kernel,
-                       const SbHpMesh *mesh, const SbReynoldsState *state,
-                       const SbReynoldsCase *problem, const Layout *layout, bool independent) {
+                       const SbEhlMesh *mesh, const SbEhlState *state, const SbEhlCase *problem,
+                       const Layout *layout, bool independent) {
   int dofs = mesh->dofs;
   size_t order = (size_t)layout->order;
   const double *gap_slope = gaps + mesh->targets;
@@ -189,7 +189,7 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
     for (int j = 0; j < dofs; j++) {
       row[j] = scale * by_film * gap[j];
     }
-    const SbHpElement *e = &mesh->element[mesh->owner[i]];
+    const SbEhlElement *e = &mesh->element[mesh->owner[i]];
     for (int j = 0; j <= e->degree; j++) {
       row[e->first_dof + j] += scale * (G * mesh->slope[(size_t)i * STRIDE + (size_t)j] +
                                         by_pressure * mesh->value[(size_t)i * STRIDE + (size_t)j]);
@@ -206,7 +206,7 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
 
   // Rupture: p = 0 and H = H*.
   if (layout->rupture) {
-    const SbHpElement *e = &mesh->element[layout->last];
+    const SbEhlElement *e = &mesh->element[layout->last];
     int node = e->first_dof + e->degree;
     int target = e->right_target;
     right[next] = state->nodal[node];
@@ -238,7 +238,7 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
     next++;
   }
   // Load.
-  right[next] = load_residual(mesh, state);
+  right[next] = sb_ehl_load(mesh, state);
   largest = larger(largest, right[next]);
   if (matrix != NULL) {
     double *row = matrix + (size_t)next * order;
@@ -251,36 +251,35 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
 }
 
 // Moves the free end to `place` and rebuilds the mesh.
-static bool move_free_end(SbFilmSolver *solver, int which, SbReynoldsCase *problem, double place) {
-  if (problem->layers.end == SB_LAYERS_REFORM) {
+static bool move_free_end(SbFilmSolver *solver, int which, SbEhlCase *problem, double place) {
+  if (problem->layers.end == SB_EHL_REFORM) {
     problem->layers.reform = place;
   } else {
     problem->layers.meniscus = place;
   }
-  return sb_layers_mesh(&solver->mesh[which], &solver->tables, &problem->layers);
+  return sb_ehl_layers_mesh(&solver->mesh[which], &solver->tables, &problem->layers);
 }
 
-static double free_end(const SbReynoldsCase *problem) {
-  return problem->layers.end == SB_LAYERS_REFORM ? problem->layers.reform
-                                                 : problem->layers.meniscus;
+static double free_end(const SbEhlCase *problem) {
+  return problem->layers.end == SB_EHL_REFORM ? problem->layers.reform : problem->layers.meniscus;
 }
 
 // A film cannot form again before it breaks, nor begin behind the middle of the contact.
-static bool allowed(const SbHpMesh *mesh, const SbReynoldsCase *problem, const Layout *layout,
+static bool allowed(const SbEhlMesh *mesh, const SbEhlCase *problem, const Layout *layout,
                     double place) {
-  double width = sb_layers_width(&problem->layers);
-  return problem->layers.end == SB_LAYERS_REFORM
+  double width = sb_ehl_layers_width(&problem->layers);
+  return problem->layers.end == SB_EHL_REFORM
              ? place > mesh->element[layout->last].x1 + 1e-3 * width
              : place < -0.5;
 }
 
 // Derivative of the residuals to the free end: the mesh is moved a little and put back.
-static bool difference_column(SbFilmSolver *solver, int which, SbReynoldsCase *problem,
+static bool difference_column(SbFilmSolver *solver, int which, SbEhlCase *problem,
                               const Layout *layout) {
-  SbHpMesh *mesh = &solver->mesh[which];
-  SbReynoldsState *state = &solver->state[which];
+  SbEhlMesh *mesh = &solver->mesh[which];
+  SbEhlState *state = &solver->state[which];
   double place = free_end(problem);
-  double step = 1e-6 * sb_layers_width(&problem->layers);
+  double step = 1e-6 * sb_ehl_layers_width(&problem->layers);
   if (!move_free_end(solver, which, problem, place + step)) {
     return false;
   }
@@ -295,11 +294,10 @@ static bool difference_column(SbFilmSolver *solver, int which, SbReynoldsCase *p
   return true;
 }
 
-SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int which,
-                            SbReynoldsCase *problem, bool independent, double tolerance,
-                            const SbFilmProblem *callback) {
-  SbHpMesh *mesh = &solver->mesh[which];
-  SbReynoldsState *state = &solver->state[which];
+SbStatus sb_ehl_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, SbEhlCase *problem,
+                       bool independent, double tolerance, const SbFilmProblem *callback) {
+  SbEhlMesh *mesh = &solver->mesh[which];
+  SbEhlState *state = &solver->state[which];
   Layout layout = lay_out(mesh, problem);
   if (layout.free_end >= 0 && independent) {
     independent = false; // the difference quotient needs a consistent gap
@@ -312,7 +310,7 @@ SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int wh
   // Rounding of deflections of size one against the film: no residual is smaller. A fitted body's
   // have more terms.
   tolerance = fmax(tolerance, (problem->body.compliance != NULL ? 8e-16 : 1.1e-16) / state->flux);
-  *trace = (SbReynoldsTrace){.residual = INFINITY, .step = INFINITY};
+  *trace = (SbEhlTrace){.residual = INFINITY};
 
   for (int iteration = 0; iteration <= ITERATIONS_MAX; iteration++) {
     if (callback->cancelled != NULL && callback->cancelled(callback->cancelled_data)) {
@@ -397,7 +395,6 @@ SbStatus sb_reynolds_newton(SbReynoldsTrace *trace, SbFilmSolver *solver, int wh
       }
       factor *= 0.5;
     }
-    trace->step = fabs(state->flux - before_flux) / before_flux;
     if (state->flux <= 0.0) {
       return SB_ERROR_NOT_CONVERGED;
     }

@@ -1,0 +1,254 @@
+// Elastic kernel of the spectral elements: the gap of a pressure P on a half-plane, scaled, is
+// -(1/pi) integral P ln|X - X'| dX' (thesis eq. 6.46-6.50 without its constant).
+//
+// Near a target the logarithm is split into ln|z - r|, z being the target's own (complex)
+// coordinate, and a smooth remainder. The first part is exact for polynomials: integral of P_k(r)
+// ln(z - r) = 2/(2k+1) (Q_{k+1} - Q_{k-1})(z) with the Legendre functions of the second kind; the
+// remainder and targets at a middling distance take a Gauss rule, distant ones the expansion about
+// the element's middle c, half its length h, ln|X - X'| = ln|X - c| - sum ((X' - c)/h)^m z^-m / m
+// with z = (X - c)/h.
+#include "engine/film/ehl_mesh.h"
+
+#include <complex.h>
+#include <math.h>
+#include <string.h>
+
+enum { COLUMNS = SB_EHL_DEGREE_MAX + 2 };
+
+// Half the sum of the distances to -1 and 1 is (rho + 1/rho)/2 on Bernstein's ellipse rho: closer
+// than NEAR (rho = 2) the split kernel is used. Beyond FAR half-lengths from the middle the
+// expansion holds 16 digits with at most SB_EHL_MULTIPOLES terms, -ln z of them each.
+static const double NEAR = 1.25;
+static const double FAR = 3.0;
+static const double DIGITS = 37.0; // ln of what is left out, negative
+
+// ---------------------------------------------------------------- logarithmic moments
+
+// out[k] = Re integral over [-1, 1] of P_k(r) ln(z - r), k = 0 .. n, for real z near the element.
+static void moments_real(double *out, double z, int n) {
+  double plus = log(fmax(fabs(z + 1.0), 1e-40));
+  double minus = log(fmax(fabs(z - 1.0), 1e-40));
+  double before = 0.5 * (plus - minus);
+  double now = z * before - 1.0;
+  out[0] = (z + 1.0) * plus - (z - 1.0) * minus - 2.0;
+  for (int k = 1; k <= n; k++) {
+    double next = ((2 * k + 1) * z * now - k * before) / (k + 1);
+    out[k] = 2.0 / (2 * k + 1) * (next - before);
+    before = now;
+    now = next;
+  }
+}
+
+static void moments_complex(double *out, double real, double imaginary, int n) {
+  double complex z = real + imaginary * I;
+  double complex plus = clog(z + 1.0);
+  double complex minus = clog(z - 1.0);
+  double complex before = 0.5 * (plus - minus);
+  double complex now = z * before - 1.0;
+  out[0] = creal((z + 1.0) * plus - (z - 1.0) * minus - 2.0);
+  for (int k = 1; k <= n; k++) {
+    double complex next = ((2 * k + 1) * z * now - k * before) / (k + 1);
+    out[k] = 2.0 / (2 * k + 1) * creal(next - before);
+    before = now;
+    now = next;
+  }
+}
+
+// ---------------------------------------------------------------- elements
+
+// row[j] += sum over k < count of value[k] matrix[k][j], rows of COLUMNS.
+static void accumulate(double *restrict row, const double *restrict value,
+                       const double *restrict matrix, int count, int columns) {
+  int k = 0;
+  for (; k + 4 <= count; k += 4, matrix += 4 * COLUMNS) {
+    for (int j = 0; j < columns; j++) {
+      row[j] += (value[k] * matrix[j] + value[k + 1] * matrix[COLUMNS + j]) +
+                (value[k + 2] * matrix[2 * COLUMNS + j] + value[k + 3] * matrix[3 * COLUMNS + j]);
+    }
+  }
+  for (; k < count; k++, matrix += COLUMNS) {
+    for (int j = 0; j < columns; j++) {
+      row[j] += value[k] * matrix[j];
+    }
+  }
+}
+
+// Moments about the middle of a finite element.
+static void expand(SbEhlElement *e) {
+  e->middle = 0.5 * (e->x0 + e->x1);
+  e->half = 0.5 * (e->x1 - e->x0);
+  memset(e->multipole, 0, sizeof e->multipole);
+  double power[SB_EHL_QUAD], value[SB_EHL_QUAD];
+  for (int m = 0; m < SB_EHL_MULTIPOLES; m++) {
+    for (int q = 0; q < SB_EHL_QUAD; q++) {
+      power[q] = (m > 0 ? power[q] : 1.0) * (e->fine_x[q] - e->middle) / e->half;
+      value[q] = -power[q] / (m + 1);
+    }
+    accumulate(e->multipole[m], value, e->fine_wb[0], SB_EHL_QUAD, e->degree + 2);
+  }
+}
+
+void sb_ehl_kernel_prepare(SbEhlElement *e, SbEhlTables *tables) {
+  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+  int columns = e->degree + 2;
+  for (int k = 0; k <= e->degree && e->map == SB_EHL_COSINE; k++) {
+    e->node_sine[k] = sin(e->m + e->h * t->node[k]);
+  }
+  int extra = e->map == SB_EHL_AFFINE ? 0 : e->map == SB_EHL_COSINE ? 10 : 1;
+  e->modes = e->degree + extra;
+  memset(e->project, 0, sizeof e->project);
+  memset(e->integral, 0, sizeof e->integral);
+  double value[SB_EHL_QUAD];
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
+    double r = tables->fine[q];
+    double scale = tables->fine_weight[q] * sb_ehl_stretch(e, r);
+    double f = sb_ehl_factor(e, r);
+    for (int k = 0; k <= e->degree; k++) {
+      e->fine_wb[q][k] = scale * f * t->fine[q][k];
+    }
+    e->fine_wb[q][e->degree + 1] = scale * sb_ehl_known_part(e, t->fine[q], r);
+    e->fine_x[q] = sb_ehl_infinite(e) ? sb_ehl_inverse(e, r) : sb_ehl_position(e, r);
+    value[q] = 1.0;
+  }
+  accumulate(e->integral, value, e->fine_wb[0], SB_EHL_QUAD, columns);
+  for (int k = 0; k <= e->modes; k++) {
+    for (int q = 0; q < SB_EHL_QUAD; q++) {
+      value[q] = 0.5 * (2 * k + 1) * tables->fine_legendre[q][k];
+    }
+    accumulate(e->project[k], value, e->fine_wb[0], SB_EHL_QUAD, columns);
+  }
+  if (!sb_ehl_infinite(e)) {
+    expand(e);
+    return;
+  }
+  // Integral with ln s, the distance from the infinite end.
+  double moment[SB_EHL_PROJECT + 1];
+  moments_real(moment, e->map == SB_EHL_INLET ? -1.0 : 1.0, e->modes);
+  for (int j = 0; j < columns; j++) {
+    e->log_s[j] = -log(2.0) * e->integral[j];
+  }
+  accumulate(e->log_s, moment, e->project[0], e->modes + 1, columns);
+}
+
+static void add_moments(double *row, const SbEhlElement *e, const double *moment) {
+  accumulate(row, moment, e->project[0], e->modes + 1, e->degree + 2);
+}
+
+// A smooth part of the kernel by its values at the fine rule.
+static void add_values(double *row, const SbEhlElement *e, const double *value) {
+  accumulate(row, value, e->fine_wb[0], SB_EHL_QUAD, e->degree + 2);
+}
+
+static void add_constant(double *row, const SbEhlElement *e, double value) {
+  for (int j = 0; j < e->degree + 2; j++) {
+    row[j] += value * e->integral[j];
+  }
+}
+
+// Finite elements: row[j] = integral of column j times ln|X - X'|. `angle` is acos(-X) inside the
+// contact, acosh|X| outside.
+static void row_finite(double *row, const SbEhlElement *e, const double *fine, double X,
+                       double angle) {
+  double value[SB_EHL_QUAD];
+  double z = fabs(X - e->middle) / e->half;
+  if (z > FAR) {
+    add_constant(row, e, log(z * e->half));
+    double inverse = e->half / (X - e->middle);
+    int terms = (int)fmin(DIGITS / log(z) + 1.0, SB_EHL_MULTIPOLES);
+    double power[SB_EHL_MULTIPOLES] = {inverse};
+    for (int m = 1; m < terms; m++) {
+      power[m] = power[m - 1] * inverse;
+    }
+    accumulate(row, power, e->multipole[0], terms, e->degree + 2);
+    return;
+  }
+  // The target's own coordinate, complex outside |X| <= 1 on the cosine map.
+  double imaginary = 0.0;
+  double real;
+  if (e->map == SB_EHL_AFFINE) {
+    real = (X - e->m) / e->h;
+  } else if (fabs(X) <= 1.0) {
+    real = (angle - e->m) / e->h;
+  } else {
+    real = ((X < 0.0 ? 0.0 : M_PI) - e->m) / e->h;
+    imaginary = angle / e->h;
+  }
+  double distance = imaginary == 0.0
+                        ? fmax(1.0, fabs(real))
+                        : 0.5 * (hypot(real - 1.0, imaginary) + hypot(real + 1.0, imaginary));
+  if (distance > NEAR) {
+    for (int q = 0; q < SB_EHL_QUAD; q++) {
+      value[q] = log(fabs(X - e->fine_x[q]));
+    }
+    add_values(row, e, value);
+    return;
+  }
+  double moment[SB_EHL_PROJECT + 1];
+  if (imaginary == 0.0) {
+    moments_real(moment, real, e->modes);
+  } else {
+    moments_complex(moment, real, imaginary, e->modes);
+  }
+  add_moments(row, e, moment);
+  if (e->map == SB_EHL_AFFINE) {
+    add_constant(row, e, log(e->h));
+    return;
+  }
+  // Remainder of the cosine map's kernel, ln|(X - X')/(z - r)|, smooth in r.
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
+    double dr = real - fine[q];
+    double dX = X - e->fine_x[q];
+    value[q] = 0.5 * log(dX * dX / (dr * dr + imaginary * imaginary));
+  }
+  add_values(row, e, value);
+}
+
+// Infinite elements: |X - X'| = |B + a s^2| / s^2 with a = X - A (inlet) or A - X (outlet).
+static void row_infinite(double *row, const SbEhlElement *e, double X) {
+  double value[SB_EHL_QUAD];
+  double side = e->map == SB_EHL_INLET ? 1.0 : -1.0;
+  double a = side * (X - e->A);
+  for (int j = 0; j < e->degree + 2; j++) {
+    row[j] -= 2.0 * e->log_s[j];
+  }
+  // Roots s = +-y or +-iy; in r they are side (2 s - 1).
+  double y = a != 0.0 ? sqrt(e->B / fabs(a)) : 1e30;
+  bool near = a < 0.0 ? 2.0 * y - 1.0 < NEAR : sqrt(1.0 + y * y) + y < NEAR;
+  if (!near) {
+    for (int q = 0; q < SB_EHL_QUAD; q++) {
+      value[q] = log(fabs(e->B + a * e->fine_x[q] * e->fine_x[q]));
+    }
+    add_values(row, e, value);
+    return;
+  }
+  double moment[SB_EHL_PROJECT + 1];
+  if (a < 0.0) {
+    moments_real(moment, side * (2.0 * y - 1.0), e->modes);
+    add_moments(row, e, moment);
+    if (2.0 * y + 1.0 < NEAR) {
+      moments_real(moment, -side * (2.0 * y + 1.0), e->modes);
+      add_moments(row, e, moment);
+    } else {
+      for (int q = 0; q < SB_EHL_QUAD; q++) {
+        value[q] = log(2.0 * (e->fine_x[q] + y));
+      }
+      add_values(row, e, value);
+    }
+  } else {
+    moments_complex(moment, -side, 2.0 * y, e->modes);
+    for (int k = 0; k <= e->modes; k++) {
+      moment[k] *= 2.0;
+    }
+    add_moments(row, e, moment);
+  }
+  add_constant(row, e, log(0.25 * fabs(a)));
+}
+
+void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *tables, double X,
+                       double angle) {
+  if (sb_ehl_infinite(e)) {
+    row_infinite(row, e, X);
+  } else {
+    row_finite(row, e, tables->fine, X, angle);
+  }
+}

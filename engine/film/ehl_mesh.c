@@ -1,0 +1,429 @@
+// Spectral elements for a pressure on an elastic half-plane, scaled.
+//
+// Each element maps r in [-1, 1] to X so that the pressure is smooth in r: affine in the layers,
+// X = -cos(theta) inside the contact with Hertz's sine taken out, and inverse squares towards the
+// infinite ends, where p falls like s^4 and faster. The gap's integrals are those of ehl_kernel.c.
+//
+// Left out: anything but the half-plane; unequal far pressures are given the tilt of
+// docs/verification.md (the dry contact stays |x| < b).
+#include "engine/film/ehl_mesh.h"
+
+#include "engine/numeric/legendre.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  COLUMNS = SB_EHL_DEGREE_MAX + 2,
+  STRIDE = SB_EHL_DEGREE_MAX + 1,
+};
+
+static const double INVERSE_PI = 0.31830988618379067;
+
+void sb_ehl_tables_init(SbEhlTables *tables) {
+  sb_legendre_gauss(tables->fine, tables->fine_weight, SB_EHL_QUAD);
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
+    sb_legendre_values(tables->fine_legendre[q], tables->fine[q], SB_EHL_PROJECT);
+  }
+}
+
+const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree) {
+  SbEhlTable *t = &tables->table[degree];
+  if (t->ready) {
+    return t;
+  }
+  t->degree = degree;
+  int count = degree + 1;
+  sb_legendre_lobatto(t->node, degree);
+  sb_barycentric_weights(t->bary, t->node, count);
+  for (int rule = 0; rule < 2; rule++) {
+    int points = degree + rule;
+    sb_legendre_gauss(t->gauss[rule], t->weight[rule], points);
+    for (int i = 0; i < points; i++) {
+      sb_barycentric_basis(t->value[rule][i], t->gauss[rule][i], t->node, t->bary, count);
+      sb_barycentric_slope(t->slope[rule][i], t->gauss[rule][i], t->node, t->bary, count);
+    }
+  }
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
+    sb_barycentric_basis(t->fine[q], tables->fine[q], t->node, t->bary, count);
+  }
+  // Points of the gap: both ends and the Gauss points, or one end and one more Gauss point.
+  t->gap_node[0][0] = -1.0;
+  memcpy(&t->gap_node[0][1], t->gauss[0], (size_t)degree * sizeof(double));
+  t->gap_node[0][degree + 1] = 1.0;
+  memcpy(&t->gap_node[1][0], t->gauss[1], (size_t)count * sizeof(double));
+  t->gap_node[1][degree + 1] = 1.0;
+  t->gap_node[2][0] = -1.0;
+  memcpy(&t->gap_node[2][1], t->gauss[1], (size_t)count * sizeof(double));
+  for (int kind = 0; kind < 3; kind++) {
+    sb_barycentric_weights(t->gap_bary[kind], t->gap_node[kind], degree + 2);
+  }
+  t->ready = true;
+  return t;
+}
+
+void sb_ehl_partial(double *weight, const SbEhlTable *t, int j, double r) {
+  double gauss[SB_EHL_DEGREE_MAX], w[SB_EHL_DEGREE_MAX];
+  int points = t->degree / 2 + 1;
+  sb_legendre_gauss(gauss, w, points);
+  double half = 0.5 * (r - t->node[j]);
+  memset(weight, 0, (size_t)(t->degree + 1) * sizeof *weight);
+  for (int g = 0; g < points; g++) {
+    double basis[SB_EHL_DEGREE_MAX + 1];
+    sb_barycentric_basis(basis, t->node[j] + half * (1.0 + gauss[g]), t->node, t->bary,
+                         t->degree + 1);
+    for (int k = 0; k <= t->degree; k++) {
+      weight[k] += half * w[g] * basis[k];
+    }
+  }
+}
+
+const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree) {
+  sb_ehl_table(tables, degree);
+  SbEhlTable *t = &tables->table[degree];
+  for (int i = 0; i <= degree && !t->stepped; i++) {
+    sb_barycentric_slope(t->node_slope[i], t->node[i], t->node, t->bary, degree + 1);
+    if (i < degree) {
+      sb_ehl_partial(t->step[i], t, i, t->node[i + 1]);
+    }
+  }
+  t->stepped = true;
+  return t;
+}
+
+double sb_ehl_interpolate(const SbEhlTable *t, const double *value, double r) {
+  double basis[SB_EHL_DEGREE_MAX + 1];
+  sb_barycentric_basis(basis, r, t->node, t->bary, t->degree + 1);
+  double sum = 0.0;
+  for (int k = 0; k <= t->degree; k++) {
+    sum += basis[k] * value[k];
+  }
+  return sum;
+}
+
+// ---------------------------------------------------------------- maps
+
+double sb_ehl_position(const SbEhlElement *e, double r) {
+  double s;
+  switch (e->map) {
+  case SB_EHL_AFFINE:
+    return e->m + e->h * r;
+  case SB_EHL_COSINE:
+    return -cos(e->m + e->h * r);
+  case SB_EHL_INLET:
+    s = sb_ehl_inverse(e, r);
+    return e->A - e->B / (s * s);
+  default:
+    s = sb_ehl_inverse(e, r);
+    return e->A + e->B / (s * s);
+  }
+}
+
+double sb_ehl_stretch(const SbEhlElement *e, double r) {
+  switch (e->map) {
+  case SB_EHL_AFFINE:
+    return e->h;
+  case SB_EHL_COSINE:
+    return e->h * sin(e->m + e->h * r);
+  default: {
+    double s = sb_ehl_inverse(e, r);
+    return e->B / (s * s * s);
+  }
+  }
+}
+
+double sb_ehl_coordinate(const SbEhlElement *e, double X) {
+  switch (e->map) {
+  case SB_EHL_AFFINE:
+    return (X - e->m) / e->h;
+  case SB_EHL_COSINE:
+    return (acos(fmin(fmax(-X, -1.0), 1.0)) - e->m) / e->h;
+  case SB_EHL_INLET:
+    return 2.0 * sqrt(e->B / (e->A - X)) - 1.0;
+  default:
+    return 1.0 - 2.0 * sqrt(e->B / (X - e->A));
+  }
+}
+
+int sb_ehl_find(const SbEhlMesh *mesh, double X) {
+  int i = 0;
+  while (i < mesh->count - 1 && !(X < mesh->element[i].x1)) {
+    i++;
+  }
+  return i;
+}
+
+double sb_ehl_factor(const SbEhlElement *e, double r) {
+  if (!sb_ehl_infinite(e)) {
+    return 1.0;
+  }
+  double s = sb_ehl_inverse(e, r);
+  return s * s * s * s;
+}
+
+// Node that touches the neighbour.
+static int touching_node(const SbEhlElement *e) {
+  return e->map == SB_EHL_INLET ? e->degree : 0;
+}
+
+double sb_ehl_known_part(const SbEhlElement *e, const double *basis, double r) {
+  if (e->map == SB_EHL_COSINE) {
+    double known = sin(e->m + e->h * r);
+    for (int k = 0; k <= e->degree; k++) {
+      known -= basis[k] * e->node_sine[k];
+    }
+    return known;
+  }
+  // The touching node holds the full pressure, of which the far pressure is no part of s^4 (...).
+  return sb_ehl_infinite(e) ? -e->far_pressure * sb_ehl_factor(e, r) * basis[touching_node(e)]
+                            : 0.0;
+}
+
+// ---------------------------------------------------------------- meshes
+
+bool sb_ehl_mesh_init(SbEhlMesh *mesh) {
+  memset(mesh, 0, sizeof *mesh);
+  size_t targets = SB_EHL_TARGETS_MAX;
+  size_t dofs = SB_EHL_DOFS_MAX;
+  mesh->gap = malloc(targets * dofs * sizeof(double));
+  mesh->gap_known = malloc(targets * sizeof(double));
+  mesh->x = malloc(targets * sizeof(double));
+  mesh->weight = malloc(targets * sizeof(double));
+  mesh->value = malloc(targets * STRIDE * sizeof(double));
+  mesh->slope = malloc(targets * STRIDE * sizeof(double));
+  mesh->value_known = malloc(targets * sizeof(double));
+  mesh->slope_known = malloc(targets * sizeof(double));
+  mesh->owner = malloc(targets * sizeof(int));
+  mesh->load = malloc(dofs * sizeof(double));
+  if (mesh->gap == NULL || mesh->gap_known == NULL || mesh->x == NULL || mesh->weight == NULL ||
+      mesh->value == NULL || mesh->slope == NULL || mesh->value_known == NULL ||
+      mesh->slope_known == NULL || mesh->owner == NULL || mesh->load == NULL) {
+    sb_ehl_mesh_finish(mesh);
+    return false;
+  }
+  memset(mesh->gap, 0, targets * dofs * sizeof(double));
+  memset(mesh->value, 0, targets * STRIDE * sizeof(double));
+  memset(mesh->slope, 0, targets * STRIDE * sizeof(double));
+  return true;
+}
+
+void sb_ehl_mesh_finish(SbEhlMesh *mesh) {
+  free(mesh->gap);
+  free(mesh->gap_known);
+  free(mesh->x);
+  free(mesh->weight);
+  free(mesh->value);
+  free(mesh->slope);
+  free(mesh->value_known);
+  free(mesh->slope_known);
+  free(mesh->owner);
+  free(mesh->load);
+  memset(mesh, 0, sizeof *mesh);
+}
+
+void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure) {
+  mesh->count = 0;
+  mesh->dofs = 0;
+  mesh->rows = 0;
+  mesh->inlet_pressure = inlet_pressure;
+  mesh->outlet_pressure = outlet_pressure;
+}
+
+bool sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
+                     bool apart) {
+  int shared = mesh->count > 0 && !apart ? 1 : 0;
+  int points = degree + (map == SB_EHL_INLET || map == SB_EHL_OUTLET ? 1 : 0);
+  if (degree > SB_EHL_DEGREE_MAX || mesh->count >= SB_EHL_ELEMENTS_MAX ||
+      mesh->dofs - shared + degree + 1 > SB_EHL_DOFS_MAX || mesh->rows + points > SB_EHL_DOFS_MAX) {
+    return false;
+  }
+  SbEhlElement *e = &mesh->element[mesh->count++];
+  e->map = map;
+  e->degree = degree;
+  e->points = points;
+  e->apart = apart;
+  e->x0 = x0;
+  e->x1 = x1;
+  e->A = A;
+  e->first_dof = mesh->dofs - shared;
+  e->first_row = mesh->rows;
+  e->far_pressure = 0.0;
+  mesh->dofs = e->first_dof + degree + 1;
+  mesh->rows += points;
+  switch (map) {
+  case SB_EHL_AFFINE:
+    e->m = 0.5 * (x0 + x1);
+    e->h = 0.5 * (x1 - x0);
+    break;
+  case SB_EHL_COSINE: {
+    double begin = acos(-x0);
+    double end = acos(-x1);
+    e->m = 0.5 * (begin + end);
+    e->h = 0.5 * (end - begin);
+    break;
+  }
+  case SB_EHL_INLET:
+    e->B = A - x1;
+    e->far_pressure = mesh->inlet_pressure;
+    break;
+  case SB_EHL_OUTLET:
+    e->B = x0 - A;
+    e->far_pressure = mesh->outlet_pressure;
+    break;
+  }
+  return true;
+}
+
+// Position and owner of every target: collocation points, then ends.
+static void place_targets(SbEhlMesh *mesh, SbEhlTables *tables) {
+  int targets = mesh->rows;
+  for (int i = 0; i < mesh->count; i++) {
+    SbEhlElement *e = &mesh->element[i];
+    const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+    int rule = e->points - e->degree;
+    for (int k = 0; k < e->points; k++) {
+      double r = t->gauss[rule][k];
+      int row = e->first_row + k;
+      double stretch = sb_ehl_stretch(e, r);
+      mesh->x[row] = sb_ehl_position(e, r);
+      mesh->owner[row] = i;
+      mesh->weight[row] = t->weight[rule][k] * stretch;
+      // Pressure and its slope from the nodes, the factor s^4 differentiated with them.
+      double f = sb_ehl_factor(e, r);
+      double f_slope = 0.0;
+      if (sb_ehl_infinite(e)) {
+        double s = sb_ehl_inverse(e, r);
+        f_slope = (e->map == SB_EHL_INLET ? 2.0 : -2.0) * s * s * s;
+      }
+      double *value = mesh->value + (size_t)row * STRIDE;
+      double *slope = mesh->slope + (size_t)row * STRIDE;
+      for (int j = 0; j <= e->degree; j++) {
+        value[j] = f * t->value[rule][k][j];
+        slope[j] = (f * t->slope[rule][k][j] + f_slope * t->value[rule][k][j]) / stretch;
+      }
+      mesh->value_known[row] = sb_ehl_known_part(e, t->value[rule][k], r) + e->far_pressure;
+      mesh->slope_known[row] = 0.0;
+      if (sb_ehl_infinite(e)) {
+        mesh->slope_known[row] = -e->far_pressure * slope[touching_node(e)];
+      } else if (e->map == SB_EHL_COSINE) {
+        double known = e->h * cos(e->m + e->h * r);
+        for (int j = 0; j <= e->degree; j++) {
+          known -= t->slope[rule][k][j] * e->node_sine[j];
+        }
+        mesh->slope_known[row] = known / stretch;
+      }
+    }
+    // Ends: the left one is the right one of the element before, unless apart or first.
+    e->left_target = -1;
+    if (e->map != SB_EHL_INLET) {
+      if (i > 0 && !e->apart) {
+        e->left_target = mesh->element[i - 1].right_target;
+      } else {
+        e->left_target = targets;
+        mesh->owner[targets] = i;
+        mesh->x[targets++] = e->x0;
+      }
+    }
+    e->right_target = -1;
+    if (e->map != SB_EHL_OUTLET) {
+      e->right_target = targets;
+      mesh->owner[targets] = i;
+      mesh->x[targets++] = e->x1;
+    }
+  }
+  mesh->targets = targets;
+}
+
+// The nodes for targets.
+static void place_nodes(SbEhlMesh *mesh, SbEhlTables *tables) {
+  mesh->rows = mesh->targets = mesh->dofs;
+  for (int i = 0; i < mesh->count; i++) {
+    const SbEhlElement *e = &mesh->element[i];
+    const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+    for (int k = 0; k <= e->degree; k++) {
+      mesh->x[e->first_dof + k] = sb_ehl_position(e, t->node[k]);
+      mesh->owner[e->first_dof + k] = i;
+    }
+  }
+}
+
+// x (ln|x| - 1): the gap of a constant pressure on a half-line, up to tilt and constant.
+static double half_line(double x) {
+  return x == 0.0 ? 0.0 : x * (log(fabs(x)) - 1.0);
+}
+
+void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
+  for (int i = 0; i < mesh->count; i++) {
+    sb_ehl_kernel_prepare(&mesh->element[i], tables);
+  }
+  (nodal ? place_nodes : place_targets)(mesh, tables);
+  const SbEhlElement *first = &mesh->element[0];
+  const SbEhlElement *last = &mesh->element[mesh->count - 1];
+  mesh->left_end = first->map == SB_EHL_INLET ? first->x1 : first->x0;
+  mesh->right_end = last->map == SB_EHL_OUTLET ? last->x0 : last->x1;
+  double in = mesh->inlet_pressure / M_PI;
+  double out = mesh->outlet_pressure / M_PI;
+
+  // Element by element, as its tables fill the nearest cache.
+  memset(mesh->gap, 0, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *mesh->gap);
+  double angle[SB_EHL_TARGETS_MAX];
+  for (int i = 0; i < mesh->targets; i++) {
+    double X = mesh->x[i];
+    angle[i] = fabs(X) <= 1.0 ? acos(-X) : acosh(fabs(X));
+    mesh->gap_known[i] = in * half_line(X - mesh->left_end) - out * half_line(X - mesh->right_end) +
+                         (in - out) * log(2.0) * X;
+  }
+  for (int k = 0; k < mesh->count; k++) {
+    const SbEhlElement *e = &mesh->element[k];
+    for (int i = 0; i < mesh->targets; i++) {
+      double *gap = mesh->gap + (size_t)i * (size_t)mesh->dofs + e->first_dof;
+      double row[COLUMNS] = {0};
+      sb_ehl_kernel_row(row, e, tables, mesh->x[i], angle[i]);
+      for (int j = 0; j <= e->degree; j++) {
+        gap[j] -= INVERSE_PI * row[j];
+      }
+      mesh->gap_known[i] -= INVERSE_PI * row[e->degree + 1];
+    }
+  }
+
+  memset(mesh->load, 0, (size_t)mesh->dofs * sizeof(double));
+  mesh->load_known = 0.0;
+  for (int k = 0; k < mesh->count; k++) {
+    const SbEhlElement *e = &mesh->element[k];
+    for (int j = 0; j <= e->degree; j++) {
+      mesh->load[e->first_dof + j] += e->integral[j];
+    }
+    mesh->load_known += e->integral[e->degree + 1];
+  }
+}
+
+double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlElement *e,
+                       const double *nodal, double r) {
+  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+  double basis[SB_EHL_DEGREE_MAX + 1];
+  sb_barycentric_basis(basis, r, t->node, t->bary, e->degree + 1);
+  double sum = 0.0;
+  for (int k = 0; k <= e->degree; k++) {
+    sum += basis[k] * nodal[e->first_dof + k];
+  }
+  return e->far_pressure + sb_ehl_factor(e, r) * sum + sb_ehl_known_part(e, basis, r);
+}
+
+double sb_ehl_gap(const SbEhlMesh *mesh, SbEhlTables *tables, int element, const double *target_gap,
+                  double r) {
+  const SbEhlElement *e = &mesh->element[element];
+  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+  int kind = e->map == SB_EHL_INLET ? 1 : e->map == SB_EHL_OUTLET ? 2 : 0;
+  double basis[SB_EHL_DEGREE_MAX + 2];
+  sb_barycentric_basis(basis, r, t->gap_node[kind], t->gap_bary[kind], e->degree + 2);
+  double sum = 0.0;
+  for (int k = 0; k < e->degree + 2; k++) {
+    int collocated = kind == 1 ? k : k - 1;
+    int target = collocated < 0           ? e->left_target
+                 : collocated < e->points ? e->first_row + collocated
+                                          : e->right_target;
+    sum += basis[k] * target_gap[target] * sb_ehl_factor(e, t->gap_node[kind][k]);
+  }
+  return sum / sb_ehl_factor(e, r);
+}

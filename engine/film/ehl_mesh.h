@@ -1,0 +1,173 @@
+// Spectral elements for a pressure on a half-plane (private to engine/film).
+//
+// The line is cut into elements; on each the pressure is a polynomial in the element's own
+// coordinate r in [-1, 1], continuous across elements, and the film equation is collocated at Gauss
+// points. The gap's integral with the logarithmic kernel is taken exactly for these polynomials.
+#pragma once
+
+#include "engine/base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum {
+  SB_EHL_DEGREE_MAX = 18,
+  SB_EHL_ELEMENTS_MAX = 100,
+  SB_EHL_DOFS_MAX = 440, // nodal pressures
+  SB_EHL_TARGETS_MAX = SB_EHL_DOFS_MAX + SB_EHL_ELEMENTS_MAX + 4,
+  SB_EHL_EXTRA = 4,       // room for the unknowns beside the pressures
+  SB_EHL_QUAD = 24,       // points of the fine rule for smooth remainders
+  SB_EHL_MULTIPOLES = 34, // terms of the expansion for distant targets
+  SB_EHL_PROJECT = SB_EHL_DEGREE_MAX + 12
+};
+
+// How r maps to X.
+typedef enum {
+  SB_EHL_AFFINE, // X = m + h r
+  SB_EHL_COSINE, // X = -cos(theta), theta = m + h r; pressure = sin(theta) + polynomial
+  SB_EHL_INLET,  // X = A - B / s^2, s = (1 + r) / 2, to minus infinity; p = far + s^4 polynomial
+  SB_EHL_OUTLET  // X = A + B / s^2, s = (1 - r) / 2, to infinity
+} SbEhlMap;
+
+// Tables of one degree.
+typedef struct {
+  int degree;
+  double node[SB_EHL_DEGREE_MAX + 1]; // Lobatto
+  double bary[SB_EHL_DEGREE_MAX + 1];
+  // Gauss rules of collocation: [0] with `degree` points, [1] with degree + 1.
+  double gauss[2][SB_EHL_DEGREE_MAX + 1];
+  double weight[2][SB_EHL_DEGREE_MAX + 1];
+  double value[2][SB_EHL_DEGREE_MAX + 1][SB_EHL_DEGREE_MAX + 1]; // [rule][point][node]
+  double slope[2][SB_EHL_DEGREE_MAX + 1][SB_EHL_DEGREE_MAX + 1];
+  double fine[SB_EHL_QUAD][SB_EHL_DEGREE_MAX + 1]; // basis at the fine rule
+  // Points from which the gap is interpolated: the collocation points and the finite ends.
+  // [0] finite elements, [1] inlet, [2] outlet; degree + 2 points each.
+  double gap_node[3][SB_EHL_DEGREE_MAX + 2];
+  double gap_bary[3][SB_EHL_DEGREE_MAX + 2];
+  bool ready;
+  // Rule from node to node, made by sb_ehl_steps().
+  double node_slope[SB_EHL_DEGREE_MAX + 1][SB_EHL_DEGREE_MAX + 1]; // [node][basis]
+  double step[SB_EHL_DEGREE_MAX][SB_EHL_DEGREE_MAX + 1]; // integral of a basis from node j to j + 1
+  bool stepped;
+} SbEhlTable;
+
+// One element. Columns 0 .. degree belong to the nodes, column degree + 1 to the known part of the
+// pressure (the sine, or the far pressure).
+typedef struct {
+  SbEhlMap map;
+  int degree;
+  int points;    // collocation points
+  int first_dof; // of degree + 1; the first is shared with the element before unless `apart`
+  int first_row;
+  int left_target, right_target; // targets at the ends, -1 at infinity
+  bool apart;                    // does not touch the element before: a cavity lies between
+  double x0, x1;                 // ends; the infinite one is unused
+  double m, h, A, B;
+  double far_pressure;
+  double node_sine[SB_EHL_DEGREE_MAX + 1]; // sin(theta) at the nodes of the cosine map
+  int modes;                               // highest Legendre mode of the projected weight
+  double project[SB_EHL_PROJECT + 1][SB_EHL_DEGREE_MAX + 2];
+  double fine_x[SB_EHL_QUAD];
+  double fine_wb[SB_EHL_QUAD][SB_EHL_DEGREE_MAX + 2];
+  // Of finite elements: integrals with -((X - middle) / half)^(m + 1) / (m + 1).
+  double middle, half;
+  double multipole[SB_EHL_MULTIPOLES][SB_EHL_DEGREE_MAX + 2];
+  double integral[SB_EHL_DEGREE_MAX + 2]; // of the pressure (less the far pressure) over X
+  double log_s[SB_EHL_DEGREE_MAX + 2];    // integral with ln s, infinite elements
+} SbEhlElement;
+
+// A mesh with its operators. Targets are the collocation points (the first `rows`), then the finite
+// ends of the elements; of a nodal mesh, the nodes, without local operators. The known parts hold
+// what does not depend on the nodal pressures.
+typedef struct {
+  int count;
+  int steps[2]; // of the layout that made it (ehl_layers.h)
+  int outlet;   // first element of a flooded outlet, if the last is infinite
+  SbEhlElement element[SB_EHL_ELEMENTS_MAX];
+  int dofs, rows, targets;
+  double inlet_pressure, outlet_pressure; // constant pressure beyond the two ends of the mesh
+  double left_end, right_end;             // where those constants begin
+  double *gap;                            // [targets][dofs] -(1/pi) integral of basis ln|X - X'|
+  double *gap_known; // [targets] gap of the known pressure, of the far pressures and their tilt
+  double *x;         // [targets]
+  double *weight;    // [rows] quadrature weights dX of the collocation points
+  // Local operators: a collocation point sees the nodes of its element only.
+  double *value;                     // [rows][SB_EHL_DEGREE_MAX + 1]
+  double *slope;                     // d/dX
+  double *value_known, *slope_known; // [rows]
+  int *owner;                        // [targets] element of a target
+  double *load;                      // [dofs] integral of the basis
+  double load_known;
+} SbEhlMesh;
+
+// Everything that outlives a solve: rules and tables of the degrees in use.
+typedef struct {
+  double fine[SB_EHL_QUAD], fine_weight[SB_EHL_QUAD];
+  double fine_legendre[SB_EHL_QUAD][SB_EHL_PROJECT + 1];
+  SbEhlTable table[SB_EHL_DEGREE_MAX + 1];
+} SbEhlTables;
+
+// Rules; the tables of a degree follow on first use.
+void sb_ehl_tables_init(SbEhlTables *tables);
+const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree);
+
+// The same with the rule from node to node, and an element's integral of each basis function from
+// node j to r.
+const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree);
+void sb_ehl_partial(double *weight, const SbEhlTable *table, int j, double r);
+
+// Storage of a mesh: false when out of memory. Finish takes a zeroed mesh.
+SB_CHECKED bool sb_ehl_mesh_init(SbEhlMesh *mesh);
+void sb_ehl_mesh_finish(SbEhlMesh *mesh);
+
+// Empties the mesh and adds elements from left to right. Returns false when the mesh is full.
+void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure);
+SB_CHECKED bool sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A,
+                                int degree, bool apart);
+
+// Numbers the unknowns and builds every operator; `nodal`: with the nodes for targets, on affine
+// elements without cavities.
+void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal);
+
+// Element that holds X (a cavity belongs to the element after it), and the coordinate of X in an
+// element.
+int sb_ehl_find(const SbEhlMesh *mesh, double X);
+double sb_ehl_coordinate(const SbEhlElement *e, double X);
+
+// Polynomial through `value` at the nodes, at r.
+double sb_ehl_interpolate(const SbEhlTable *table, const double *value, double r);
+
+static inline bool sb_ehl_infinite(const SbEhlElement *e) {
+  return e->map == SB_EHL_INLET || e->map == SB_EHL_OUTLET;
+}
+
+// s of an infinite element: 1 at its finite end, 0 at infinity.
+static inline double sb_ehl_inverse(const SbEhlElement *e, double r) {
+  return e->map == SB_EHL_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
+}
+
+// Factor of the nodal polynomial in the pressure, and the known part of this without the far
+// pressure; `basis` holds the Lagrange values at r.
+double sb_ehl_factor(const SbEhlElement *e, double r);
+double sb_ehl_known_part(const SbEhlElement *e, const double *basis, double r);
+
+// Everything about an element that its integrals need, for every target alike.
+void sb_ehl_kernel_prepare(SbEhlElement *e, SbEhlTables *tables);
+
+// Adds to row[j], j <= degree + 1, the integral of column j times ln|X - X'|. `angle` is acos(-X)
+// inside the contact, acosh|X| outside.
+void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *tables, double X,
+                       double angle);
+
+// X of the element's coordinate, and dX/dr.
+double sb_ehl_position(const SbEhlElement *e, double r);
+double sb_ehl_stretch(const SbEhlElement *e, double r);
+
+// Pressure at r of element e from nodal values; the far pressure included.
+double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlElement *e,
+                       const double *nodal, double r);
+
+// Gap at r of element e, interpolated from the gap at all targets (`target_gap`) at the
+// collocation points and ends of the element.
+double sb_ehl_gap(const SbEhlMesh *mesh, SbEhlTables *tables, int element, const double *target_gap,
+                  double r);

@@ -1,0 +1,207 @@
+// Elements of rough rows.
+//
+// Element sizes grow with the distance from the contact's two edges, where the layers of the film
+// (lambda^0.4, ehl_layers.h) or the tail of the asperities (sigma^(2/3): the dry gap opens with the
+// power 3/2) sit, and with that from the film's ends between asperities.
+#include "engine/film/ehl.h"
+
+#include <math.h>
+#include <string.h>
+
+// X > 1 where the dry gap reaches `gap`.
+static double dry_reach(double gap) {
+  double low = 1, high = 2;
+  while (sb_film_dry_gap(high) < gap) {
+    high *= 2;
+  }
+  for (int i = 0; i < 60; i++) {
+    double middle = 0.5 * (low + high);
+    if (sb_film_dry_gap(middle) < gap) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return high;
+}
+
+// Width of what has to be resolved at the edges: of the film's layer, or of the asperities' tail.
+static double edge_width(const SbEhlCase *c, double layer) {
+  double width = c->layers.lambda > 0 ? layer : 0;
+  if (c->rough.law != NULL) {
+    double sigma = c->rough.law->surface.sigma / c->rough.film;
+    // Where the asperities' pressure at the flux film is a small part q of Hertz's, the
+    // film's inlet lies q^2/2 inside the edge.
+    double tail = 0.5 * fmin(pow(sigma, 2.0 / 3), sqrt(2 * sigma));
+    width = fmax(width, c->layers.lambda > 0 ? fmin(tail, 1 - c->rough.inlet) : tail);
+  }
+  return width;
+}
+
+// A place about which elements shrink to `width`.
+typedef struct {
+  double X, width;
+} Feature;
+
+// Adds a feature unless those before resolve it, in order of X.
+static int add_feature(Feature *feature, int count, double X, double width, double reach) {
+  if (!(fabs(X) < reach)) {
+    return count;
+  }
+  int at = 0;
+  for (int i = 0; i < count; i++) {
+    if (fabs(X - feature[i].X) < 0.1 * width) {
+      feature[i].width = fmin(feature[i].width, width);
+      return count;
+    }
+    at += feature[i].X < X;
+  }
+  for (int i = count; i > at; i--) {
+    feature[i] = feature[i - 1];
+  }
+  feature[at] = (Feature){X, width};
+  return count + 1;
+}
+
+// Places of element ends from feature `f` to X, growing with the distance. Returns how many.
+static int march(double *edge, int room, const Feature *f, double to, double grow) {
+  double distance = fabs(to - f->X);
+  // ln(1 + d/w) grows evenly: the first element has about w times `grow`.
+  double total = log1p(distance / f->width);
+  int n = (int)ceil(total / log1p(grow) - 1e-9);
+  n = n < 1 ? 1 : n;
+  for (int i = 1; i <= n && i <= room; i++) {
+    double d = i == n ? distance : f->width * expm1(total * i / n);
+    edge[i - 1] = to > f->X ? f->X + d : f->X - d;
+  }
+  return n;
+}
+
+bool sb_ehl_rough_mesh(SbFilmSolver *solver, int which, const SbEhlCase *c, int degree) {
+  static const double GROWTH = 0.75;
+  const SbEhlLayers *l = &c->layers;
+  double thin = sb_ehl_layers_width(l);
+  double unit = sqrt(1.44 + 0.52 * c->layers.lambda); // length of the rigid wedge
+  bool thick = c->layers.lambda > 0 && thin > 1;
+
+  // Reach: the film's pressure falls like (4/3) lambda / X^3, the asperities' with the gap.
+  double tail = 1.5;
+  if (c->rough.law != NULL) {
+    SbRoughPoint end;
+    sb_rough_law_at(&end, c->rough.law,
+                    sb_rough_law_of_pressure(c->rough.law, 1e-13 * c->rough.pressure));
+    tail = dry_reach(end.gap / c->rough.film);
+  }
+  double film_reach = fmax(3, sqrt(c->layers.lambda * 4e6));
+
+  // The edges: the flux needs the inlet's layer, the least film the outlet's, which is finer.
+  Feature feature[6] = {
+      {thick ? -0.6 * unit : -1, fmin(edge_width(c, thick ? 0.6 * unit : thin), unit)},
+      {thick ? 0.7 * unit : 1, fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin), unit)}};
+  int features = 2;
+  double left = c->layers.lambda > 0 ? fmax(tail, film_reach) : tail;
+  double right = fmax(tail, feature[1].X + 3 * feature[1].width);
+  right = thick ? fmax(right, 2 * unit) : right;
+  right = c->layers.outlet > 0 ? fmax(right, film_reach) : right;
+  if (!(c->layers.lambda > 0) && c->layers.inlet != c->layers.outlet) {
+    left = right = fmax(fmax(left, right), 3);
+  }
+  if (!thick) {
+    features = add_feature(feature, features, 0, 0.4, left); // no coarser in the middle
+  }
+  // The ends of a film between asperities, where it hands the load over.
+  for (int i = 0; i < 2; i++) {
+    features =
+        add_feature(feature, features, c->rough.front[i].X, c->rough.front[i].width, 0.98 * left);
+  }
+
+  // From every feature halfway to its neighbours.
+  int n = 0;
+  double piece[SB_EHL_ELEMENTS_MAX], edge[SB_EHL_ELEMENTS_MAX + 1];
+  edge[n++] = -left;
+  for (int f = 0; f < features; f++) {
+    const Feature *here = &feature[f];
+    double from = edge[n - 1];
+    int count = march(piece, SB_EHL_ELEMENTS_MAX, here, from, GROWTH);
+    if (n + count >= SB_EHL_ELEMENTS_MAX) {
+      return false;
+    }
+    for (int i = count - 2; i >= 0; i--) {
+      edge[n++] = piece[i];
+    }
+    edge[n++] = here->X;
+    double to = right;
+    if (f < features - 1) {
+      const Feature *next = &feature[f + 1];
+      to = 0.5 * (here->X + next->X + next->width - here->width);
+      double margin = 0.05 * (next->X - here->X);
+      to = fmin(fmax(to, here->X + margin), next->X - margin);
+    }
+    count = march(&edge[n], SB_EHL_ELEMENTS_MAX - n, here, to, GROWTH);
+    n += count;
+    if (n > SB_EHL_ELEMENTS_MAX) {
+      return false;
+    }
+  }
+  SbEhlMesh *mesh = &solver->mesh[which];
+  sb_ehl_mesh_begin(mesh, l->inlet, l->outlet);
+  for (int e = 0; e < n - 1; e++) {
+    if (!sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, edge[e], edge[e + 1], 0, degree, false)) {
+      return false;
+    }
+  }
+  sb_ehl_mesh_build(mesh, &solver->tables, true);
+  // The mesh stands still over the dry contact: a fitted body's share is known once for all.
+  size_t targets = (size_t)mesh->targets;
+  if (c->body.compliance != NULL) {
+    double none[SB_EHL_DOFS_MAX] = {0};
+    sb_ehl_fitted(solver->kernel, solver->gaps, solver->gaps + targets, &solver->tables, mesh, none,
+                  l->middle, &c->body);
+    memcpy(mesh->gap, solver->kernel, targets * targets * sizeof(double));
+    memcpy(mesh->gap_known, solver->gaps, targets * sizeof(double));
+  } else {
+    for (size_t i = 0; i < targets; i++) {
+      mesh->gap_known[i] += 0.5 * mesh->x[i] * mesh->x[i];
+    }
+  }
+  return true;
+}
+
+// Where the film takes the load over from the asperities and hands it back, and how sharply: there
+// Reynolds' equation and q = p + p_a(h) leave a layer of length k h^3 / lambda, k the asperities'
+// stiffness.
+bool sb_ehl_rough_fronts(SbEhlCase *c, const SbFilmSolver *solver, int which,
+                         const SbEhlResults *results) {
+  c->rough.front[0].X = c->rough.front[1].X = INFINITY;
+  if (c->rough.law == NULL || !(c->layers.lambda > 0)) {
+    return false;
+  }
+  const SbEhlMesh *mesh = &solver->mesh[which];
+  const SbEhlState *state = &solver->state[which];
+  double place[2] = {0, results->ruptured ? results->position_rupture - state->shift : INFINITY};
+  double steepest = 0, steepest_end = 0;
+  bool follow = false;
+  for (int i = 0; i < mesh->dofs; i++) {
+    if (!state->cavity[i] && state->s[i] > steepest) {
+      steepest = state->s[i];
+      place[0] = mesh->x[i];
+    }
+    if (!results->ruptured && -state->s[i] > steepest_end) {
+      steepest_end = -state->s[i];
+      place[1] = mesh->x[i];
+    }
+  }
+  for (int k = 0; k < 2; k++) {
+    const SbEhlElement *e = &mesh->element[sb_ehl_find(mesh, place[k])];
+    const SbEhlRoughPoint *at = &solver->point[e->first_dof + e->degree / 2];
+    double layer = -at->solid_t / at->h_t * at->h * at->h * at->h / c->layers.lambda;
+    double inside = fabs(1 - fabs(place[k]));
+    bool sharp = layer < 0.5 * inside && at->asperity > 1e-3;
+    if (sharp || (k == 1 && results->ruptured && at->asperity > 1e-3)) {
+      c->rough.front[k].X = place[k];
+      c->rough.front[k].width = fmin(fmax(layer, 1e-3 * inside), 0.5 * inside);
+    }
+    follow = follow || sharp;
+  }
+  return follow;
+}
