@@ -10,6 +10,7 @@
 
 #include "app/base/error.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 
 struct stat;

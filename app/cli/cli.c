@@ -17,15 +17,16 @@
 
 // ---- Options and messages ----
 
-// GLib names an unknown option; the one most like it among those of the command.
-static char *option_hint(const char *message, const GOptionEntry *entries) {
+// GLib names an unknown option; the one most like it among those of `groups` (NULL: an empty one).
+static char *option_hint(const char *message, const GOptionEntry *const *groups, size_t count) {
   const char *start = strstr(message, "--");
   g_autofree char *word = g_strdup(start != NULL ? start + 2 : "");
   word[strcspn(word, "= ")] = '\0';
   SbNearest nearest = sb_nearest(word);
-  sb_nearest_try(&nearest, "help");
-  for (; entries != NULL && entries->long_name != NULL; entries++) {
-    sb_nearest_try(&nearest, entries->long_name);
+  for (size_t i = 0; i < count; i++) {
+    for (const GOptionEntry *each = groups[i]; each != NULL && each->long_name != NULL; each++) {
+      sb_nearest_try(&nearest, each->long_name);
+    }
   }
   return nearest.best != NULL ? g_strdup_printf(", do you mean --%s?", nearest.best) : g_strdup("");
 }
@@ -100,7 +101,9 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
   bool good = g_option_context_parse(context, argc, argv, &error);
   if (!good) {
     bool unknown = g_error_matches(error, G_OPTION_ERROR, G_OPTION_ERROR_UNKNOWN_OPTION);
-    g_autofree char *hint = unknown ? option_hint(error->message, entries) : g_strdup("");
+    const GOptionEntry *groups[] = {own, every, entries, entries != NULL ? writing : NULL};
+    g_autofree char *hint =
+        unknown ? option_hint(error->message, groups, G_N_ELEMENTS(groups)) : g_strdup("");
     sb_cli_fail("%s%s (see sealbench %s --help)", error->message, hint, command->name);
     g_error_free(error);
   }
