@@ -100,8 +100,12 @@ static void test_open(void) {
   g_assert_cmpint(s->verdict[SB_VERDICT_SEALS].ok, ==, SB_ANSWER_NO);
   g_assert_nonnull(strstr(s->verdict[SB_VERDICT_SEALS].reason, "open"));
   size_t count;
-  sb_run_frames(run, &count);
+  const SbFrame *frames = sb_run_frames(run, &count);
   g_assert_cmpuint(count, >, 0);
+  for (size_t i = 0; i < count; i++) {
+    g_assert_true(isnan(frames[i].seal[SB_OUTER].film_min) &&
+                  isnan(frames[i].seal[SB_OUTER].film_central));
+  }
   sb_run_destroy(run);
   // A small squeeze under a pressure that the rubber cannot hold off opens the contact.
   const Change pressed[] = {{SB_P_GLAND_RADIAL_SPACE, 1.56e-3},
