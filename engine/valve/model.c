@@ -8,6 +8,7 @@
 #include "engine/valve/model.h"
 
 #include "engine/contact/closed/reduced_modulus.h"
+#include "engine/contact/fit.h"
 #include "engine/mechanism/chamber.h"
 
 #include <math.h>
@@ -49,6 +50,15 @@ bool sb_model_size_seal(SbModel *model, int index, SbProblems *problems) {
   seal->section_diameter = seal->storage.section_diameter;
   seal->inner_diameter = seal->storage.inner_diameter;
   seal->modulus = seal->storage.modulus;
+  // Small strains: warned of from a quarter of the modulus on. Somewhere above 0.55 of it the
+  // pressure parts the flats of some gaps: no contact state is left.
+  if (model->fit == SB_FIT_DISC && model->canister_pressure > 0.5 * seal->modulus) {
+    add_problem(problems, "canister.pressure", 0, 0.5 * seal->modulus,
+                "is beyond the linear disc (models.fit), which holds to half the rubber's modulus "
+                "of %.4g MPa; the ring goes further",
+                seal->modulus * 1e-6);
+    return false;
+  }
   double nu = seal->poisson_ratio;
   seal->reduced_modulus =
       sb_reduced_modulus(seal->modulus, nu, model->housing_modulus, model->housing_poisson_ratio);
