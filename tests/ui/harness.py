@@ -101,9 +101,12 @@ class App:
         rule = Atspi.MatchRule.new(states, every, {}, every, [ROLES[role]], any_, [], every, False)
         tops = [root] if root is not None else [
             self.node.getChildAtIndex(i) for i in range(self.node.childCount)]
+        # What a collection finds lies below its node.
         return [node for top in tops if top is not None
-                for node in top.get_collection_iface().get_matches(
-                    rule, Atspi.CollectionSortOrder.CANONICAL, 0, True) if self._named(node, name)]
+                for node in (*([top] if top.get_role() == ROLES[role] else []),
+                             *top.get_collection_iface().get_matches(
+                                 rule, Atspi.CollectionSortOrder.CANONICAL, 0, True))
+                if self._named(node, name)]
 
     @staticmethod
     def _named(node, name):
@@ -300,9 +303,11 @@ def main(*tests):
     print("1..%d" % len(tests))
     failed = 0
     for number, test in enumerate(tests, 1):
+        start = time.monotonic()
         try:
             least_of(test, 3)
-            print("ok %d - %s" % (number, test.__name__), flush=True)
+            print("ok %d - %s" % (number, test.__name__))
+            print("# %.1f s" % (time.monotonic() - start), flush=True)
         except Exception as error:
             failed += 1
             print("not ok %d - %s" % (number, test.__name__))
