@@ -74,11 +74,12 @@ class App:
         with open(os.path.join(config, "window.ini"), "w") as out:
             out.write("[window]\ntheme=%s\nwidth=%d\nheight=%d\n" % (theme, *size))
         self.latency_path = os.path.join(self.folder, "latency.json")
-        surroundings = dict(os.environ, XDG_CONFIG_HOME=self.folder, XDG_DATA_HOME=self.folder,
-                            SEALBENCH_LATENCY=self.latency_path, NO_AT_BRIDGE="0",
-                            G_DEBUG="fatal-criticals", GTK_RECENT_FILES_ENABLED="0")
-        surroundings.update(env or {})
-        self.process = subprocess.Popen([PROGRAM, *files], env=surroundings)
+        self.surroundings = dict(
+            os.environ, XDG_CONFIG_HOME=self.folder, XDG_DATA_HOME=self.folder,
+            SEALBENCH_LATENCY=self.latency_path, NO_AT_BRIDGE="0", G_DEBUG="fatal-criticals",
+            GTK_RECENT_FILES_ENABLED="0")
+        self.surroundings.update(env or {})
+        self.process = subprocess.Popen([PROGRAM, *files], env=self.surroundings)
         self.node = wait("the program's window", self._find)
 
     def _find(self):
@@ -210,6 +211,16 @@ class App:
                         "--object-path", "/org/sealbench/Sealbench", "--method",
                         "org.gtk.Actions.Activate", name, "[]", "{}"], check=True,
                        stdout=subprocess.DEVNULL)
+
+    def replace_window(self, path, number):
+        """Opens a file as a desktop would, which makes a window, and closes window `number` (from 1)."""
+        subprocess.run([PROGRAM, path], env=self.surroundings, check=True)
+        wait("the other window", lambda: self.node.childCount == 2)
+        subprocess.run(["gdbus", "call", "--session", "--dest", "org.sealbench.Sealbench",
+                        "--object-path", "/org/sealbench/Sealbench/window/%d" % number, "--method",
+                        "org.gtk.Actions.Activate", "close", "[]", "{}"], check=True,
+                       stdout=subprocess.DEVNULL)
+        wait("the former window gone", lambda: self.node.childCount == 1)
 
     def latency(self):
         """What the program's own probe of its main loop has measured."""

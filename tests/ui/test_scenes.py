@@ -23,19 +23,22 @@ def shown(app, path):
 
 
 def every_scene_runs(folder):
-    count = 0
+    paths = []
     for path in sorted(glob.glob(os.path.join(ASSETS, "scenes", "*.scene"))):
-        name = os.path.basename(path)
         with open(path) as file:
             text = file.read()
-        if "fit = ring" in text or "fit = disc" in text or name == "sliding-plate.scene":
-            continue
-        with App(path) as app:
+        if ("fit = ring" not in text and "fit = disc" not in text
+                and os.path.basename(path) != "sliding-plate.scene"):
+            paths.append(path)
+    assert len(paths) >= 8, paths
+    # One program, a window after the other: that of the scene before closes.
+    with App(paths[0]) as app:
+        for number, path in enumerate(paths):
+            if number > 0:
+                app.replace_window(path, number)
             text = shown(app, path)
             for word in ("B ", "break-away", "least return force", "loss per cycle"):
-                assert word in text, (name, text)
-            count += 1
-    assert count >= 8, count
+                assert word in text, (path, text)
 
 
 def the_rig_shows_its_coefficients(folder):
