@@ -310,7 +310,7 @@ void sb_study_window_open(GtkWindow *parent, SbSession *session) {
                               sb_words(sb_study_title((SbStudyKind)i)));
   }
   gtk_combo_box_set_active(GTK_COMBO_BOX(studies->kind), first_kind(session));
-  sb_style_class(studies->window, "sb-window");
+  sb_style_window(studies->window);
   sb_style_class(studies->area, "sb-canvas");
   gtk_widget_set_can_focus(studies->area, TRUE);
   sb_style_name(studies->area, _("Study"), NULL);
