@@ -1,5 +1,6 @@
 // The program from outside: exit codes, messages, JSON keys, locales, what is written where.
 #include "tests/app/cli_fixture.h"
+#include "tests/sanitized.h"
 
 #include <glib/gstdio.h>
 #include <math.h>
@@ -621,6 +622,26 @@ static void test_limits(void) {
   g_remove(path);
 }
 
+static void limit_stack(gpointer data) {
+  struct rlimit limit = {256 << 10, 256 << 10};
+  setrlimit(RLIMIT_STACK, &limit);
+}
+
+// Nothing needs more of a stack than a quarter of a megabyte: no large buffer lies there.
+static void test_small_stack(void) {
+  if (SB_SANITIZED) {
+    return; // whose frames are larger
+  }
+  const char *const run[] = {"run", cli.scene, "--quiet", NULL};
+  const char *const fit[] = {"fit", cli.valve, "--seal", "outer", "--quiet", NULL};
+  const char *const *const all[] = {run, fit};
+  for (size_t i = 0; i < G_N_ELEMENTS(all); i++) {
+    CliResult result = cli_run(all[i], NULL, limit_stack);
+    g_assert_cmpint(result.code, ==, 0);
+    cli_clear(&result);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -640,6 +661,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/utf8-options", test_utf8_options);
   g_test_add_func("/cli/results-and-locale", test_results_and_locale);
   g_test_add_func("/cli/io-errors", test_io_errors);
+  g_test_add_func("/cli/small-stack", test_small_stack);
   int result = g_test_run();
   cli_tear_down();
   return result;

@@ -152,7 +152,7 @@ static void on_done(void *data) {
     g_free(studies->hash);
     g_free(studies->scene);
     studies->study = study;
-    studies->model = studies->asked_model;
+    sb_model_keep(&studies->model, &studies->asked_model);
     studies->hash = g_steal_pointer(&studies->asked_hash);
     studies->scene = g_steal_pointer(&studies->asked_scene);
     judge(studies);
@@ -172,7 +172,7 @@ static void compute(Studies *studies) {
   }
   const SbDocument *document = sb_session_document(studies->session);
   studies->asked = chosen(studies);
-  studies->asked_model = *model;
+  sb_model_keep(&studies->asked_model, model);
   g_free(studies->asked_hash);
   g_free(studies->asked_scene);
   studies->asked_hash = sb_document_sha256(document);
@@ -271,6 +271,8 @@ static void on_destroy(GtkWidget *widget, Studies *studies) {
   g_free(studies->study);
   g_free(studies->hash);
   g_free(studies->scene);
+  sb_model_clear(&studies->model);
+  sb_model_clear(&studies->asked_model);
   g_free(studies);
 }
 
