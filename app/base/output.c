@@ -299,7 +299,7 @@ bool sb_output_seal(SbOutput *out, GError **error) {
 
 // Copies all of a file to a descriptor; an errno, 0 for success.
 static int copy_all(int to, int from) {
-  char bytes[1 << 14];
+  char bytes[1 << 13];
   for (off_t at = 0;;) {
     ssize_t got = pread(from, bytes, sizeof bytes, at);
     if (got == 0) {

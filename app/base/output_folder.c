@@ -29,7 +29,7 @@ static bool fail(GError **error, const char *path, int code) {
 // SHA-256 of an open file, from its start; NULL if it cannot be read. Owned by the caller.
 static char *hash_of(int fd) {
   GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
-  guchar bytes[1 << 14];
+  guchar bytes[1 << 13];
   ssize_t got;
   for (off_t at = 0; (got = pread(fd, bytes, sizeof bytes, at)) > 0; at += got) {
     g_checksum_update(sum, bytes, got);

@@ -507,7 +507,8 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
       .panel = panel,
       .labels = labels,
       .card = rect,
-      .plot = {rect.x + pad + 36, rect.y + TITLE, rect.width - 2 * pad - 30 - gutter,
+      .plot = {rect.x + pad + 36, rect.y + TITLE,
+               rect.width - 2 * pad - (narrow ? 42 : 30) - gutter,
                fmax(rect.height - TITLE - FOOT, 20)},
       .x_unit = unit_of(&study->x),
       .y_unit = unit_of(&panel->y),
@@ -515,7 +516,8 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
   set_scales(&plot);
   fit_numbers(&plot);
   SbRect r = plot.plot;
-  sb_labels_init(labels, (SbRect){r.x - 2, r.y - 10, r.width + 14, r.height + 10});
+  double right = fmin(r.x + r.width + 12, rect.x + rect.width - 4);
+  sb_labels_init(labels, (SbRect){r.x - 2, r.y - 10, right - r.x + 2, r.height + 10});
   draw_axes(&plot);
   SbPoint *points[SB_STUDY_SERIES];
   for (size_t s = 0; s < panel->series_count; s++) {

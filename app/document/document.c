@@ -40,7 +40,7 @@ void sb_document_free(SbDocument *document) {
   g_free(document->valve_name);
   g_free(document->series_name);
   g_free(document->series_path);
-  g_free(document->series);
+  sb_model_data_release(document->data);
   g_free(document->text);
   g_ptr_array_unref(document->entries);
   g_array_unref(document->edits);
@@ -218,6 +218,16 @@ static void read_valve(SbDocument *document, const char *directory, const char *
   g_free(text);
 }
 
+static SbModelData *data_of(SbDocument *document) {
+  if (document->data == NULL) {
+    document->data = sb_model_data_create();
+    if (document->data == NULL) {
+      g_error("no memory for a document"); // as g_malloc() does
+    }
+  }
+  return document->data;
+}
+
 // Reads the measured series that [drive] file names, if it does.
 static void read_series(SbDocument *document, const GPtrArray *entries, const char *directory,
                         GPtrArray *issues) {
@@ -229,8 +239,7 @@ static void read_series(SbDocument *document, const GPtrArray *entries, const ch
       document->series_path = g_path_is_absolute(entry->value) || directory == NULL
                                   ? g_strdup(entry->value)
                                   : g_build_filename(directory, entry->value, NULL);
-      document->series = g_new(SbModelSeries, 1);
-      sb_series_read(document->series, document->series_path, issues);
+      sb_series_read(&data_of(document)->measured, document->series_path, issues);
     }
   }
 }
@@ -289,6 +298,10 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   }
   sb_shapes_settle(document->shapes, name, document->notes);
   read_series(document, entries, directory, issues);
+  const SbValveOutlines *outlines = &document->shapes->outlines;
+  if (outlines->housing || outlines->stem) {
+    data_of(document)->outlines = *outlines;
+  }
   document->saved = document->own;
   sb_document_refresh_title(document);
   document->name = g_strdup(name);
@@ -464,12 +477,9 @@ bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *is
     return false;
   }
   if (status == SB_OK) {
-    if (document->series != NULL) {
-      out->measured = *document->series;
-    }
-    out->outlines = document->shapes->outlines;
+    out->data = document->data;
     out->limits = document->limits;
-    if (out->drive == SB_MODEL_DRIVE_MEASURED && out->measured.count == 0) {
+    if (out->drive == SB_MODEL_DRIVE_MEASURED && sb_model_measured(out) == NULL) {
       sb_issues_add(issues, shown, 0, SB_SERIES_KEY, "a CSV file",
                     "drive.kind = measured needs the file of a measured series");
       return false;
@@ -497,10 +507,11 @@ char *sb_document_sha256(const SbDocument *document) {
     g_checksum_update(sum, (const guchar *)line, -1);
     g_free(line);
   }
-  for (size_t i = 0; document->series != NULL && i < document->series->count; i++) {
+  const SbModelSeries *series = document->data != NULL ? &document->data->measured : NULL;
+  for (size_t i = 0; series != NULL && i < series->count; i++) {
     char digits[2][SB_NUMBER_SIZE];
-    sb_number_format(digits[0], document->series->time[i]);
-    sb_number_format(digits[1], document->series->value[i]);
+    sb_number_format(digits[0], series->time[i]);
+    sb_number_format(digits[1], series->value[i]);
     char *line = g_strdup_printf("%s,%s\n", digits[0], digits[1]);
     g_checksum_update(sum, (const guchar *)line, -1);
     g_free(line);

@@ -73,7 +73,8 @@ double sb_document_value(const SbDocument *document, SbParamId id);
 // The same as text with unit. Owned by the caller.
 char *sb_document_text(const SbDocument *document, SbParamId id);
 
-// Compiles the values in force. False with at least one issue (file, key, range) if they do not go
+// Compiles the values in force; the model borrows series and shapes from the document
+// (sb_model_keep() outlives it). False with at least one issue (file, key, range) if they do not go
 // together.
 bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues);
 

@@ -21,25 +21,25 @@ typedef struct {
 
 struct SbDocument {
   SbDocumentKind kind;
-  char *path;            // NULL before the first save
-  char *name;            // stands for it in messages then
-  char *title;           //
-  char *valve_path;      // scenes: path to open, else NULL
-  char *valve_name;      // scenes: as the file has it
-  char *series_name;     // value of drive.file, NULL without one
-  char *series_path;     // path to open
-  SbModelSeries *series; // NULL: none read
-  char *text;            // of the file as last read or written
-  GPtrArray *entries;    // of that text
-  SbParams base;         // what the valve gives (scenes)
-  SbParams own;          // what the document gives
-  SbParams saved;        // what its file gives
-  SbLimits limits;       // on figures: the valve's, and its own in their place
-  SbShapes *shapes;      // of the parts
-  GPtrArray *notes;      // of char *, what shapes say against given values
-  GArray *edits;         // Edit
-  guint done;            // edits before this one are in force
-  bool mergeable;        // the last edit may swallow the next one of its key
+  char *path;         // NULL before the first save
+  char *name;         // stands for it in messages then
+  char *title;        //
+  char *valve_path;   // scenes: path to open, else NULL
+  char *valve_name;   // scenes: as the file has it
+  char *series_name;  // value of drive.file, NULL without one
+  char *series_path;  // path to open
+  SbModelData *data;  // series and outlines, for its models; NULL: neither
+  char *text;         // of the file as last read or written
+  GPtrArray *entries; // of that text
+  SbParams base;      // what the valve gives (scenes)
+  SbParams own;       // what the document gives
+  SbParams saved;     // what its file gives
+  SbLimits limits;    // on figures: the valve's, and its own in their place
+  SbShapes *shapes;   // of the parts
+  GPtrArray *notes;   // of char *, what shapes say against given values
+  GArray *edits;      // Edit
+  guint done;         // edits before this one are in force
+  bool mergeable;     // the last edit may swallow the next one of its key
   unsigned serial;
 };
 

@@ -157,7 +157,7 @@ static void *work(void *data) {
       continue;
     }
     runner->waiting = false;
-    *model = runner->model;
+    sb_model_keep(model, &runner->model);
     unsigned ticket = runner->ticket;
     pthread_mutex_unlock(&runner->mutex);
     compute(runner, model, ticket);
@@ -206,6 +206,8 @@ void sb_runner_destroy(SbRunner *runner) {
   pthread_mutex_unlock(&runner->mutex);
   pthread_join(runner->thread, NULL);
   sb_run_handle_unref(runner->latest);
+  sb_model_clear(&runner->model);
+  sb_model_clear(&runner->computed);
   pthread_cond_destroy(&runner->wake);
   pthread_mutex_destroy(&runner->mutex);
   free(runner);
@@ -215,7 +217,7 @@ unsigned sb_runner_submit(SbRunner *runner, const SbModel *model) {
   pthread_mutex_lock(&runner->mutex);
   atomic_store_explicit(&runner->void_up_to, runner->ticket, memory_order_relaxed);
   unsigned ticket = ++runner->ticket;
-  runner->model = *model;
+  sb_model_keep(&runner->model, model);
   runner->waiting = true;
   pthread_cond_signal(&runner->wake);
   pthread_mutex_unlock(&runner->mutex);

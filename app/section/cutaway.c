@@ -75,7 +75,9 @@ SbCutaway *sb_cutaway_create(const SbModel *model, double inner_contact_left) {
   }
   // The rod that goes on and on ends here.
   double end = valve->end + model->stroke + ROD * bore;
-  for (size_t i = 0; i < valve->solid_count && !model->outlines.stem; i++) {
+  const SbValveOutlines *given = sb_model_outlines(model);
+  bool shaped_stem = given != NULL && given->stem;
+  for (size_t i = 0; i < valve->solid_count && !shaped_stem; i++) {
     SbValveSolid *solid = &valve->solid[i];
     for (size_t k = 0; solid->moves && k < solid->count; k++) {
       solid->point[k].x = fmin(solid->point[k].x, end);
@@ -285,9 +287,9 @@ static void paint_fluid(const SbCutaway *cutaway, SbSection *section, const SbSe
   const double pressure[3] = {frame->seal[SB_INNER].pressure_left,
                               frame->seal[SB_OUTER].pressure_left,
                               frame->seal[SB_OUTER].pressure_right};
+  g_autofree SbValvePoint *contour = g_new(SbValvePoint, CONTOUR_MAX);
+  g_autofree SbPoint *pixel = g_new(SbPoint, CONTOUR_MAX);
   for (int i = 0; i < 3; i++) {
-    SbValvePoint contour[CONTOUR_MAX];
-    SbPoint pixel[CONTOUR_MAX];
     if (edge[i + 1] <= edge[i]) {
       continue;
     }
@@ -330,10 +332,10 @@ static void paint_face(SbCutaway *cutaway, SbSection *section, int face) {
   paint_fluid(cutaway, section, &plane);
 
   double s = sb_section_displacement(section);
+  g_autofree SbValvePoint *point = g_new(SbValvePoint, SB_VALVE_POINTS_MAX);
+  g_autofree SbPoint *pixel = g_new(SbPoint, SB_VALVE_POINTS_MAX);
   for (size_t i = 0; i < cutaway->valve.solid_count; i++) {
     const SbValveSolid *solid = &cutaway->valve.solid[i];
-    SbValvePoint point[SB_VALVE_POINTS_MAX];
-    SbPoint pixel[SB_VALVE_POINTS_MAX];
     size_t count = map_points(&plane, point, outline_solid(solid, s, point), pixel);
     SbDrawItem *item =
         sb_draw_fill(list, pixel, count, solid->moves ? palette->stem : palette->housing);

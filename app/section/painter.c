@@ -63,6 +63,7 @@ void sb_section_painter_destroy(SbSectionPainter *painter) {
     cairo_surface_destroy(painter->picture);
   }
   sb_section_destroy(painter->section);
+  sb_model_clear(&painter->model);
   sb_text_destroy(painter->text);
   sb_draw_list_finish(&painter->list);
   g_free(painter);
@@ -116,7 +117,7 @@ static void prepare(SbSectionPainter *painter, const SbChartRun *run) {
   sb_section_destroy(painter->section);
   painter->section = sb_section_create(run->model, &limits);
   painter->limits = limits;
-  memcpy(&painter->model, run->model, sizeof painter->model);
+  sb_model_keep(&painter->model, run->model);
 }
 
 // The list through GL onto the context; false if GL cannot (size).

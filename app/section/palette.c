@@ -19,20 +19,18 @@ static void make_shade(SbDrawMap *map, SbColor body, bool dark) {
 static void make_palette(SbPalette *palette, bool dark) {
   const SbTheme *theme = sb_theme(dark);
   const SbColor *role = theme->role;
-  *palette = (SbPalette){
-      .dark = dark,
-      .panel = role[SB_ROLE_PANEL],
-      .axis = role[SB_ROLE_AXIS],
-      .ink = role[SB_ROLE_INK],
-      .second = role[SB_ROLE_SECOND],
-      .fluid_line = role[SB_ROLE_FLUID],
-      .now = role[SB_ROLE_NOW],
-      .housing = role[SB_ROLE_HOUSING],
-      .housing_hatch = role[SB_ROLE_HOUSING_HATCH],
-      .stem = role[SB_ROLE_STEM],
-      .stem_hatch = role[SB_ROLE_STEM_HATCH],
-      .outline = role[SB_ROLE_OUTLINE],
-  };
+  palette->dark = dark;
+  palette->panel = role[SB_ROLE_PANEL];
+  palette->axis = role[SB_ROLE_AXIS];
+  palette->ink = role[SB_ROLE_INK];
+  palette->second = role[SB_ROLE_SECOND];
+  palette->fluid_line = role[SB_ROLE_FLUID];
+  palette->now = role[SB_ROLE_NOW];
+  palette->housing = role[SB_ROLE_HOUSING];
+  palette->housing_hatch = role[SB_ROLE_HOUSING_HATCH];
+  palette->stem = role[SB_ROLE_STEM];
+  palette->stem_hatch = role[SB_ROLE_STEM_HATCH];
+  palette->outline = role[SB_ROLE_OUTLINE];
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     palette->seal[i] = sb_theme_seal(theme, i);
     make_shade(&palette->seal_shade[i],

@@ -14,7 +14,7 @@ static const double RIGHT_ROOM = 0.26;
 
 SbSection *sb_section_create(const SbModel *model, const SbSectionLimits *limits) {
   SbSection *section = g_new0(SbSection, 1);
-  section->model = *model;
+  sb_model_keep(&section->model, model);
   section->limits = *limits;
   section->text = sb_text_create();
   sb_valve_make(&section->valve, model, limits->inner_contact_left, 2 * model->bore_diameter);
@@ -29,6 +29,7 @@ void sb_section_destroy(SbSection *section) {
   g_free(section->scratch);
   g_free(section->scratch_scalar);
   sb_cutaway_destroy(section->cutaway);
+  sb_model_clear(&section->model);
   g_free(section);
 }
 
@@ -257,7 +258,7 @@ static void draw_solid(SbSection *section, const SbSectionFrameMap *map, const S
       closed = false;
     }
   }
-  SbPoint line[CLIPPED_MAX];
+  g_autofree SbPoint *line = g_new(SbPoint, n);
   for (size_t i = 0; i < n; i++) {
     line[i] = pixel[(start + i) % n];
   }
@@ -271,7 +272,7 @@ static SbDrawHatch hatch(SbColor colour, double lean, double offset) {
 // Above a housing of known shape nothing is known: no fluid, no wall.
 static void draw_outside(SbSection *section, const SbSectionFrameMap *map) {
   const SbOutlineSurface *surface = &section->valve.housing;
-  SbPoint pixel[2 * SB_OUTLINE_MAX + 2];
+  g_autofree SbPoint *pixel = g_new(SbPoint, 2 * SB_OUTLINE_MAX + 2);
   size_t n = 0;
   for (size_t i = 0; i < surface->count; i++) {
     for (int side = 0; side < 2; side++) {

@@ -7,6 +7,7 @@
 #include <glib.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 // One bar of a colour map with its ticks.
 static double legend(SbSection *section, double x, double y, double width, const char *name,
@@ -15,7 +16,14 @@ static double legend(SbSection *section, double x, double y, double width, const
   SbDrawList *list = section->list;
   sb_draw_text(list, x, y, 12, 600, SB_LEFT, palette->ink, name);
   double name_width = sb_text_width(section->text, name, 12, 600);
-  sb_draw_text(list, x + name_width + 7, y, 12, 400, SB_LEFT, palette->second, unit);
+  // Where there is no room for all of it, the unit alone.
+  char written[64];
+  g_strlcpy(written, unit, sizeof written);
+  char *comment = strchr(written, ',');
+  if (comment != NULL && name_width + 7 + sb_text_width(section->text, unit, 12, 400) > width) {
+    *comment = '\0';
+  }
+  sb_draw_text(list, x + name_width + 7, y, 12, 400, SB_LEFT, palette->second, written);
   float x0 = x, x1 = (x + width), y0 = (y + 9), y1 = (y + 21);
   const SbPoint corner[6] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y0}, {x1, y1}, {x0, y1}};
   const float scalar[6] = {0.0, 1.0, 1.0, 0.0, 1.0, 0.0};

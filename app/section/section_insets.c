@@ -110,7 +110,7 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
   double left_px = inset_x(inset, frame->contact_left);
   double right_px = inset_x(inset, frame->contact_right);
   if (profile != NULL && profile->count > 1 && contact) {
-    SbPoint points[CURVE_MAX + 2];
+    g_autofree SbPoint *points = g_new(SbPoint, CURVE_MAX + 2);
     size_t count = curve(inset, profile, profile->pressure, bore, px, bore, points + 1);
     // Outside the contact as far as the pressure is the fluid's it is drawn in the fluid's colour;
     // a film's inlet belongs to the seal.
@@ -275,7 +275,7 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
   bool film = contact && profile != NULL && profile->count > 1 && frame->film_central > 0;
   double body_top = low;
   if (film) {
-    SbPoint points[CURVE_MAX + 2];
+    g_autofree SbPoint *points = g_new(SbPoint, CURVE_MAX + 2);
     size_t count = curve(inset, profile, profile->film, bore, -px, low + 40, points);
     if (count > 1) {
       // A solved film ends where it ruptures; beyond, the gap opens by micrometres: a vertical

@@ -259,12 +259,16 @@ static void draw_stem_forces(SbSection *section) {
   bool above = y - 34 > (double)sb_section_at(section, 0, section->valve.rod).y;
   double point = fabs(force) >= 0.05 ? right - PX_PER_NEWTON * fabs(force) - 8 : right;
   const double at[2][2] = {{right, y - 18}, {point, y + 5}};
-  place(section, at + !above, 1 + above, &style, text);
+  bool written = place(section, at + !above, 1 + above, &style, text);
 
   if (fabs(frame->stop_force) >= 0.05) {
     double shown = PX_PER_NEWTON * frame->stop_force;
-    double from = shown > 0 ? right - shown : right;
     double stop_y = axis - 15;
+    // On a thin rod it has no line of its own: left of the drive's arrow and label.
+    if (y + 11 > stop_y - 6) {
+      right = point - (written ? sb_text_width(section->text, text, 14, 700) + 10 : 0);
+    }
+    double from = shown > 0 ? right - shown : right;
     sb_draw_arrow(list, from, stop_y, from + shown, stop_y, 3, 11, 10, palette->second);
     snprintf(text, sizeof text, "stop %s", sb_section_force(value, frame->stop_force));
     SbSectionLabel small = label_style(palette->second, 600, SB_RIGHT, &palette->stem);

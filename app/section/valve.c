@@ -4,7 +4,9 @@
 // the stem into its three parts, the crimp.
 #include "app/section/valve.h"
 
+#include <glib.h>
 #include <math.h>
+#include <string.h>
 
 // Proportions that are not worth a parameter, relative to the radial space (1.36 mm in the thesis
 // valve): flank of the dose chamber, chamfers.
@@ -70,17 +72,17 @@ static void make_vent(SbValve *valve, const SbValveShape *shape) {
 // The housing's surfaces, and its solid cut in two by the vent.
 static void finish_housing(SbValve *valve) {
   SbValveSolid *whole = &valve->solid[0];
-  SbOutline outline = {.count = whole->count};
+  g_autofree SbOutline *outline = g_new(SbOutline, 1);
+  outline->count = whole->count;
   for (size_t i = 0; i < whole->count; i++) {
-    outline.point[i] = (SbOutlinePoint){whole->point[i].x, whole->point[i].y};
+    outline->point[i] = (SbOutlinePoint){whole->point[i].x, whole->point[i].y};
   }
-  sb_outline_surface(&valve->housing, &outline);
+  sb_outline_surface(&valve->housing, outline);
   if (valve->vent_right > valve->vent_left) {
-    SbValveSolid left, *right = new_solid(valve, false);
-    cut(right, whole, valve->vent_right, 1);
-    cut(&left, whole, valve->vent_left, -1);
-    left.moves = false;
-    *whole = left;
+    g_autofree SbValveSolid *uncut = g_memdup2(whole, sizeof *whole);
+    cut(new_solid(valve, false), uncut, valve->vent_right, 1);
+    cut(whole, uncut, valve->vent_left, -1);
+    whole->moves = false;
   }
 }
 
@@ -195,8 +197,7 @@ static void add_outline(SbValveSolid *solid, const SbOutline *outline, const Map
   }
 }
 
-static void shape_housing(SbValve *valve, const SbModel *model) {
-  const SbValveOutlines *given = &model->outlines;
+static void shape_housing(SbValve *valve, const SbValveOutlines *given) {
   Map x = {1, {given->land_edge}, {0}};
   Map r = {2, {0, given->bore}, {0, valve->bore}};
   valve->adjusted = valve->adjusted || map_stretches(&r);
@@ -210,15 +211,14 @@ static void shape_housing(SbValve *valve, const SbModel *model) {
     valve->end = fmax(valve->end, solid->point[i].x);
   }
   // The mouth is as wide as the hole is a quarter of the way from the face to the land.
-  SbOutlineSurface surface;
+  g_autofree SbOutlineSurface *surface = g_new(SbOutlineSurface, 1);
   double low, high;
-  sb_outline_surface(&surface, &given->part[SB_VALVE_HOUSING]);
-  bool found = sb_outline_radii(&low, &high, &surface, given->land_edge + 0.75 * valve->face);
+  sb_outline_surface(surface, &given->part[SB_VALVE_HOUSING]);
+  bool found = sb_outline_radii(&low, &high, surface, given->land_edge + 0.75 * valve->face);
   valve->mouth = found ? map_to(&r, low) : valve->bore;
 }
 
-static void shape_stem(SbValve *valve, const SbModel *model) {
-  const SbValveOutlines *given = &model->outlines;
+static void shape_stem(SbValve *valve, const SbValveOutlines *given) {
   Map x = {4,
            {given->groove_left[SB_INNER], given->groove_right[SB_INNER],
             given->groove_left[SB_OUTER], given->groove_right[SB_OUTER]},
@@ -239,16 +239,16 @@ static void shape_stem(SbValve *valve, const SbModel *model) {
     }
   }
   // The recess between the grooves, for labels and the dose path; the rod behind the outer one.
-  SbOutlineSurface surface;
+  g_autofree SbOutlineSurface *surface = g_new(SbOutlineSurface, 1);
   enum { SAMPLES = 200 };
   double low, high;
   double left = given->groove_right[SB_INNER], right = given->groove_left[SB_OUTER];
   double deepest = given->land;
-  sb_outline_surface(&surface, &given->part[SB_VALVE_STEM_CENTRE]);
+  sb_outline_surface(surface, &given->part[SB_VALVE_STEM_CENTRE]);
   for (int pass = 0; pass < 2; pass++) {
     for (int i = 0; i <= SAMPLES; i++) {
       double at = left + (right - left) * i / SAMPLES;
-      if (!sb_outline_radii(&low, &high, &surface, at)) {
+      if (!sb_outline_radii(&low, &high, surface, at)) {
         continue;
       }
       deepest = fmin(deepest, high);
@@ -262,15 +262,15 @@ static void shape_stem(SbValve *valve, const SbModel *model) {
   valve->chamber_floor = map_to(&r, deepest);
   double behind = (given->groove_right[SB_OUTER] + far) / 2;
   for (int part = SB_VALVE_STEM_CENTRE; part <= SB_VALVE_STEM_BOTTOM; part++) {
-    sb_outline_surface(&surface, &given->part[part]);
-    if (sb_outline_radii(&low, &high, &surface, behind)) {
+    sb_outline_surface(surface, &given->part[part]);
+    if (sb_outline_radii(&low, &high, surface, behind)) {
       valve->rod = map_to(&r, high);
     }
   }
 }
 
 void sb_valve_make(SbValve *valve, const SbModel *model, double inner_contact_left, double top) {
-  *valve = (SbValve){0};
+  memset(valve, 0, sizeof *valve);
   const SbValveShape *shape = &model->shape;
   double b = model->axial_width;
   valve->bore = model->bore_diameter / 2;
@@ -295,8 +295,9 @@ void sb_valve_make(SbValve *valve, const SbModel *model, double inner_contact_le
 
   // The land holds the outer seal at rest.
   valve->end = at_least(valve, shape->land_length, valve->groove_right[SB_OUTER] + 0.2 * b);
-  if (model->outlines.housing) {
-    shape_housing(valve, model);
+  const SbValveOutlines *given = sb_model_outlines(model);
+  if (given != NULL && given->housing) {
+    shape_housing(valve, given);
   } else {
     make_housing(valve, model, top);
   }
@@ -306,9 +307,9 @@ void sb_valve_make(SbValve *valve, const SbModel *model, double inner_contact_le
   // it does not say.
   size_t stem = valve->solid_count;
   make_stem(valve, model);
-  if (model->outlines.stem) {
+  if (given != NULL && given->stem) {
     valve->solid_count = stem;
-    shape_stem(valve, model);
+    shape_stem(valve, given);
   }
 }
 

@@ -24,7 +24,7 @@ struct _SbSession {
   char *rejected[SB_PARAM_COUNT];
   char *error[SB_PARAM_COUNT];
   int last_edited; // parameter, or -1
-  SbModel *model;  // owned; with its series larger than an object may be
+  SbModel *model;  // owned
   gboolean model_valid;
 
   // Runs. `fresh` is what the runner computes; `shown` is what the pictures show: `fresh` as soon

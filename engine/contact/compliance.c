@@ -112,13 +112,17 @@ SbStatus sb_compliance_fit(SbSurfaceCompliance *out, int modes, double left, dou
       !(modulus > 0.0)) {
     return sb_fail(report, SB_ERROR_INPUT, "compliance: %d polynomials for %zu nodes", modes, n);
   }
-  SbSurfaceCompliance c = {.modes = modes, .left = left, .right = right, .modulus = modulus};
+  SbSurfaceCompliance *c = out;
+  c->modes = modes;
+  c->left = left;
+  c->right = right;
+  c->modulus = modulus;
   // Normal equations for every right-hand side: first the gap, then half the matrix, V+ S.
   const size_t m = (size_t)modes;
   double normal[SB_COMPLIANCE_MODES * SB_COMPLIANCE_MODES] = {0};
   double value[SB_COMPLIANCE_MODES];
   for (size_t i = 0; i < n; i++) {
-    sb_compliance_modes(&c, x[i], value, NULL);
+    sb_compliance_modes(c, x[i], value, NULL);
     for (size_t k = 0; k < m; k++) {
       for (size_t l = 0; l < m; l++) {
         normal[l * m + k] += value[k] * value[l];
@@ -127,23 +131,24 @@ SbStatus sb_compliance_fit(SbSurfaceCompliance *out, int modes, double left, dou
   }
   // The inverse, column by column: these systems are small.
   double inverse[SB_COMPLIANCE_MODES][SB_COMPLIANCE_MODES];
+  double both[SB_COMPLIANCE_MODES][SB_COMPLIANCE_MODES]; // at first a copy to eliminate
   for (size_t k = 0; k < m; k++) {
-    double copy[SB_COMPLIANCE_MODES * SB_COMPLIANCE_MODES];
-    memcpy(copy, normal, sizeof copy);
+    memcpy(both, normal, sizeof both);
     memset(inverse[k], 0, sizeof inverse[k]);
     inverse[k][k] = 1.0;
-    if (!sb_eliminate(copy, inverse[k], m)) {
+    if (!sb_eliminate(&both[0][0], inverse[k], m)) {
+      memset(out, 0, sizeof *out);
       return sb_fail(report, SB_ERROR_INPUT, "compliance: the nodes do not fix the polynomials");
     }
   }
   double moment[SB_COMPLIANCE_MODES] = {0};
-  double both[SB_COMPLIANCE_MODES][SB_COMPLIANCE_MODES] = {{0}}; // V^T S V
+  memset(both, 0, sizeof both); // now V^T S V
   for (size_t i = 0; i < n; i++) {
-    sb_compliance_modes(&c, x[i], value, NULL);
+    sb_compliance_modes(c, x[i], value, NULL);
     double row[SB_COMPLIANCE_MODES] = {0}; // of S V
     for (size_t j = 0; smooth != NULL && j < n; j++) {
       double other[SB_COMPLIANCE_MODES];
-      sb_compliance_modes(&c, x[j], other, NULL);
+      sb_compliance_modes(c, x[j], other, NULL);
       for (size_t l = 0; l < m; l++) {
         row[l] += smooth[i * n + j] * other[l];
       }
@@ -157,19 +162,18 @@ SbStatus sb_compliance_fit(SbSurfaceCompliance *out, int modes, double left, dou
   }
   for (size_t k = 0; k < m; k++) {
     for (size_t a = 0; a < m; a++) {
-      c.gap[k] += inverse[k][a] * moment[a];
+      c->gap[k] += inverse[k][a] * moment[a];
       for (size_t l = 0; l < m; l++) {
         for (size_t b = 0; b < m; b++) {
           const double term = 0.5 * inverse[k][a] * both[a][b] * inverse[l][b];
-          c.smooth[k][l] += term;
-          c.smooth[l][k] += term;
+          c->smooth[k][l] += term;
+          c->smooth[l][k] += term;
         }
       }
     }
   }
-  sb_compliance_gap(&c, left, &c.beyond[0]);
-  sb_compliance_gap(&c, right, &c.beyond[1]);
-  *out = c;
+  sb_compliance_gap(c, left, &c->beyond[0]);
+  sb_compliance_gap(c, right, &c->beyond[1]);
   return sb_succeed(report);
 }
 

@@ -239,7 +239,7 @@ SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double 
   double last = INFINITY;
   for (; d.iterations < ITERATIONS_MAX; d.iterations++) {
     enum { ORDER = COUNT + 2 };
-    Equations here, there[2];
+    Equations here, there;
     const double step = 1e-5 * (right - left);
     equations(&here, &rules, c, left, right, COUNT, load, pressure_left, pressure_right, unit);
     double matrix[ORDER * ORDER];
@@ -258,18 +258,19 @@ SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double 
     }
     last = d.residual;
     for (int edge = 0; edge < 2; edge++) {
-      for (int side = 0; side < 2; side++) {
-        const double move = side == 0 ? -step : step;
-        equations(&there[side], &rules, c, left + (edge == 0 ? move : 0.0),
-                  right + (edge == 1 ? move : 0.0), COUNT, load, pressure_left, pressure_right,
-                  unit);
-      }
-      for (int i = 0; i < ORDER; i++) {
-        double change = there[1].known[i] - there[0].known[i];
-        for (int k = 0; k < COUNT; k++) {
-          change += (there[1].matrix[i][k] - there[0].matrix[i][k]) * a[k];
+      double *column = &matrix[(COUNT + edge) * ORDER];
+      memset(column, 0, ORDER * sizeof *column);
+      for (int side = -1; side <= 1; side += 2) {
+        equations(&there, &rules, c, left + (edge == 0 ? side * step : 0.0),
+                  right + (edge == 1 ? side * step : 0.0), COUNT, load, pressure_left,
+                  pressure_right, unit);
+        for (int i = 0; i < ORDER; i++) {
+          double row = there.known[i];
+          for (int k = 0; k < COUNT; k++) {
+            row += there.matrix[i][k] * a[k];
+          }
+          column[i] += side * row / (2.0 * step) * width;
         }
-        matrix[(COUNT + edge) * ORDER + i] = change / (2.0 * step) * width;
       }
     }
     if (!sb_eliminate(matrix, b, ORDER)) {

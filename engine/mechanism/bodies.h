@@ -52,6 +52,29 @@ typedef struct {
   SbJoint joint[SB_JOINTS_MAX];
 } SbAssembly;
 
+enum {
+  SB_ASSEMBLY_ROWS = 6 * SB_JOINTS_MAX,
+  SB_ASSEMBLY_COLUMNS = 6 * SB_BODIES_MAX,
+  SB_ASSEMBLY_SIZE = SB_ASSEMBLY_ROWS + SB_ASSEMBLY_COLUMNS
+};
+
+// The joints' conditions at the present positions and speeds.
+typedef struct {
+  size_t rows;
+  double jacobian[SB_ASSEMBLY_ROWS][SB_ASSEMBLY_COLUMNS]; // of (velocity, length x spin)
+  double rate[SB_ASSEMBLY_ROWS];  // what the rows' second derivative has beside J a
+  double error[SB_ASSEMBLY_ROWS]; // violation of the position conditions [m]
+  size_t joint[SB_ASSEMBLY_ROWS];
+} SbAssemblyConditions;
+
+// Work memory of the functions below, whose content means nothing between calls; one serves any
+// assembly, but one thread at a time. Half a megabyte: not for the stack.
+typedef struct {
+  SbAssemblyConditions conditions;
+  double matrix[SB_ASSEMBLY_SIZE * SB_ASSEMBLY_SIZE], right[SB_ASSEMBLY_SIZE];
+  int pivot[SB_ASSEMBLY_SIZE];
+} SbAssemblyWork;
+
 typedef struct {
   int gruebler;    // 6 (n - 1) - constraints
   int constraints; // sum over joints
@@ -87,11 +110,12 @@ void sb_assembly_clear_forces(SbAssembly *assembly);
 // Counts. SB_ERROR_INFEASIBLE, with the text of `mobility`, unless there are exactly `expected`
 // degrees of freedom and no redundant conditions; expected < 0 accepts any freedom.
 SbStatus sb_assembly_mobility(SbMobility *mobility, const SbAssembly *assembly, int expected,
-                              SbReport *report);
+                              SbAssemblyWork *work, SbReport *report);
 
 // Accelerations and reactions under the applied forces. SB_ERROR_INFEASIBLE if conditions repeat
 // each other (reactions are then not unique).
-SbStatus sb_assembly_forces(SbAssemblyForces *forces, const SbAssembly *assembly, SbReport *report);
+SbStatus sb_assembly_forces(SbAssemblyForces *forces, const SbAssembly *assembly,
+                            SbAssemblyWork *work, SbReport *report);
 
 // Motion along the single degree of freedom: velocity of every centre [m/s] and spin [rad/s] per
 // 1 m/s of one body's centre along an axis, and the mass that a push there sees [kg].
@@ -106,7 +130,7 @@ typedef struct {
 // SB_ERROR_INFEASIBLE, with Gruebler's count, unless freedom is 1, nothing repeats and `body` moves
 // along `axis`.
 SbStatus sb_assembly_tangent(SbAssemblyTangent *tangent, const SbAssembly *assembly, size_t body,
-                             const double axis[3], SbReport *report);
+                             const double axis[3], SbAssemblyWork *work, SbReport *report);
 
 // Moves all parts along their freedom until the tangent's body is `distance` [m] further along the
 // axis, onto the joints by Newton's method, and sets all speeds to those of `speed` [m/s] there.
@@ -114,11 +138,11 @@ SbStatus sb_assembly_tangent(SbAssemblyTangent *tangent, const SbAssembly *assem
 // what the joints were violated by before they were brought back [m]. Errors as above, and
 // SB_ERROR_NOT_CONVERGED if the parts cannot get there; they may then have moved.
 SbStatus sb_assembly_slide(SbAssembly *assembly, SbAssemblyTangent *tangent, double distance,
-                           double speed, double *error, SbReport *report);
+                           double speed, double *error, SbAssemblyWork *work, SbReport *report);
 
 // Brings positions and velocities onto the joints' conditions by the smallest change in the sense
 // of the masses. SB_ERROR_NOT_CONVERGED if the parts are too far from an assembled state.
-SbStatus sb_assembly_settle(SbAssembly *assembly, SbReport *report);
+SbStatus sb_assembly_settle(SbAssembly *assembly, SbAssemblyWork *work, SbReport *report);
 
 // The valve's parts, and their indices in sb_assembly_valve.
 enum {

@@ -186,7 +186,8 @@ static size_t freest(const SbAssembly *a, double basis[ROWS][COLUMNS], size_t ra
   return best;
 }
 
-SbStatus sb_assembly_mobility(SbMobility *m, const SbAssembly *a, int expected, SbReport *report) {
+SbStatus sb_assembly_mobility(SbMobility *m, const SbAssembly *a, int expected,
+                              SbAssemblyWork *work, SbReport *report) {
   *m = (SbMobility){0};
   size_t grounds = 0;
   for (size_t b = 0; b < a->bodies; b++) {
@@ -196,12 +197,12 @@ SbStatus sb_assembly_mobility(SbMobility *m, const SbAssembly *a, int expected, 
     snprintf(m->text, sizeof m->text, "an assembly needs one ground, not %zu", grounds);
     return sb_fail(report, SB_ERROR_INPUT, "%s", m->text);
   }
-  Conditions c;
-  sb_bodies_conditions(&c, a, sb_bodies_extent(a));
-  double basis[ROWS][COLUMNS];
+  Conditions *c = &work->conditions;
+  sb_bodies_conditions(c, a, sb_bodies_extent(a));
+  double(*basis)[COLUMNS] = (double(*)[COLUMNS])work->matrix; // ROWS of them
   bool repeated[ROWS] = {false};
-  size_t rank = independent_rows(basis, repeated, &c, 6 * a->bodies);
-  m->constraints = (int)c.rows;
+  size_t rank = independent_rows(basis, repeated, c, 6 * a->bodies);
+  m->constraints = (int)c->rows;
   m->gruebler = 6 * ((int)a->bodies - 1) - m->constraints;
   m->redundant = m->constraints - (int)rank;
   m->freedom = 6 * ((int)a->bodies - 1) - (int)rank;
@@ -213,7 +214,7 @@ SbStatus sb_assembly_mobility(SbMobility *m, const SbAssembly *a, int expected, 
     while (!repeated[r]) {
       r++;
     }
-    const SbJoint *joint = &a->joint[c.joint[r]];
+    const SbJoint *joint = &a->joint[c->joint[r]];
     snprintf(m->text + used, sizeof m->text - used,
              "; over-constrained: %d condition%s repeated, first by the %s joint of '%s' and '%s'",
              m->redundant, m->redundant == 1 ? " is" : "s are", sb_joint_kind_name(joint->kind),

@@ -6,27 +6,23 @@
 #include "engine/mechanism/bodies.h"
 
 enum {
-  ROWS = 6 * SB_JOINTS_MAX,
-  COLUMNS = 6 * SB_BODIES_MAX,
-  SIZE = ROWS + COLUMNS,
+  ROWS = SB_ASSEMBLY_ROWS,
+  COLUMNS = SB_ASSEMBLY_COLUMNS,
+  SIZE = SB_ASSEMBLY_SIZE,
 };
 
-typedef struct {
-  size_t rows;
-  double jacobian[ROWS][COLUMNS]; // of (velocity, length x spin) of each body
-  double rate[ROWS];              // what the rows' second derivative has beside J a
-  double error[ROWS];             // violation of the position conditions [m]
-  size_t joint[ROWS];
-} Conditions;
+typedef SbAssemblyConditions Conditions;
 
 // Conditions at the present positions and speeds; turns count times `length`.
 void sb_bodies_conditions(Conditions *conditions, const SbAssembly *assembly, double length);
 
 // Accelerations and reactions without asking whether conditions repeat each other.
-SbStatus sb_bodies_forces(SbAssemblyForces *forces, const SbAssembly *assembly, SbReport *report);
+SbStatus sb_bodies_forces(SbAssemblyForces *forces, const SbAssembly *assembly,
+                          SbAssemblyWork *work, SbReport *report);
 
 // Brings positions, not speeds, onto the joints; *error is what they were off by [m].
-SbStatus sb_bodies_settle_positions(SbAssembly *assembly, double *error, SbReport *report);
+SbStatus sb_bodies_settle_positions(SbAssembly *assembly, double *error, SbAssemblyWork *work,
+                                    SbReport *report);
 
 // Length that makes rotations comparable with translations: the assembly's extent [m].
 double sb_bodies_extent(const SbAssembly *assembly);

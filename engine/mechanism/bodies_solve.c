@@ -34,11 +34,11 @@ static double largest_mass(const SbAssembly *a) {
 
 // Solves the system for one right side: top (bodies, per mass) and bottom (conditions). The answer
 // replaces them: accelerations (spins times length), multipliers per mass.
-static SbStatus solve(const SbAssembly *a, const Conditions *c, double mass, double length,
+static SbStatus solve(const SbAssembly *a, SbAssemblyWork *work, double mass, double length,
                       double *top, double *bottom, SbReport *report) {
+  const Conditions *c = &work->conditions;
   size_t columns = 6 * a->bodies, size = columns + c->rows;
-  double matrix[SIZE * SIZE], right[SIZE];
-  lapack_int pivot[SIZE];
+  double *matrix = work->matrix, *right = work->right;
   memset(matrix, 0, size * size * sizeof *matrix);
   for (size_t b = 0; b < a->bodies; b++) {
     double block[6][6];
@@ -59,7 +59,8 @@ static SbStatus solve(const SbAssembly *a, const Conditions *c, double mass, dou
   memcpy(right, top, columns * sizeof *right);
   memcpy(right + columns, bottom, c->rows * sizeof *right);
   lapack_int n = (lapack_int)size;
-  lapack_int info = LAPACKE_dgesv(LAPACK_ROW_MAJOR, n, 1, matrix, n, pivot, right, 1);
+  // By columns, which for a symmetric matrix are its rows: by rows LAPACKE would allocate.
+  lapack_int info = LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, matrix, n, work->pivot, right, n);
   if (info != 0) {
     return sb_fail(report, SB_ERROR_INFEASIBLE, "the joints' conditions repeat each other");
   }
@@ -68,16 +69,18 @@ static SbStatus solve(const SbAssembly *a, const Conditions *c, double mass, dou
   return SB_OK;
 }
 
-SbStatus sb_assembly_forces(SbAssemblyForces *out, const SbAssembly *a, SbReport *report) {
+SbStatus sb_assembly_forces(SbAssemblyForces *out, const SbAssembly *a, SbAssemblyWork *work,
+                            SbReport *report) {
   SbMobility mobility;
-  SbStatus status = sb_assembly_mobility(&mobility, a, -1, report);
-  return status != SB_OK ? status : sb_bodies_forces(out, a, report);
+  SbStatus status = sb_assembly_mobility(&mobility, a, -1, work, report);
+  return status != SB_OK ? status : sb_bodies_forces(out, a, work, report);
 }
 
-SbStatus sb_bodies_forces(SbAssemblyForces *out, const SbAssembly *a, SbReport *report) {
-  Conditions c;
+SbStatus sb_bodies_forces(SbAssemblyForces *out, const SbAssembly *a, SbAssemblyWork *work,
+                          SbReport *report) {
+  Conditions *c = &work->conditions;
   double length = sb_bodies_extent(a), mass = largest_mass(a), top[COLUMNS] = {0}, bottom[ROWS];
-  sb_bodies_conditions(&c, a, length);
+  sb_bodies_conditions(c, a, length);
   for (size_t b = 0; b < a->bodies; b++) {
     const SbBody *body = &a->body[b];
     if (body->ground) {
@@ -97,10 +100,10 @@ SbStatus sb_bodies_forces(SbAssemblyForces *out, const SbAssembly *a, SbReport *
       top[6 * b + 3 + k] = (body->torque[k] - gyro[k]) / (mass * length);
     }
   }
-  for (size_t r = 0; r < c.rows; r++) {
-    bottom[r] = -c.rate[r];
+  for (size_t r = 0; r < c->rows; r++) {
+    bottom[r] = -c->rate[r];
   }
-  SbStatus status = solve(a, &c, mass, length, top, bottom, report);
+  SbStatus status = solve(a, work, mass, length, top, bottom, report);
   if (status != SB_OK) {
     return status;
   }
@@ -112,11 +115,11 @@ SbStatus sb_bodies_forces(SbAssemblyForces *out, const SbAssembly *a, SbReport *
     }
   }
   // Reaction on body i: minus the multipliers times the rows, moved from its centre to the point.
-  for (size_t r = 0; r < c.rows; r++) {
-    const SbJoint *joint = &a->joint[c.joint[r]];
+  for (size_t r = 0; r < c->rows; r++) {
+    const SbJoint *joint = &a->joint[c->joint[r]];
     size_t side = a->body[joint->i].ground ? joint->j : joint->i;
     double sign = side == joint->i ? -1.0 : 1.0;
-    SbReaction *reaction = &out->reaction[c.joint[r]];
+    SbReaction *reaction = &out->reaction[c->joint[r]];
     double rotate[9], arm[3], force[3], torque[3], moment[3];
     rotation(rotate, a->body[joint->i].orientation);
     turn(arm, rotate, joint->local_i);
@@ -124,8 +127,8 @@ SbStatus sb_bodies_forces(SbAssemblyForces *out, const SbAssembly *a, SbReport *
       arm[k] += a->body[joint->i].position[k] - a->body[side].position[k];
     }
     for (size_t k = 0; k < 3; k++) {
-      force[k] = sign * bottom[r] * mass * c.jacobian[r][6 * side + k];
-      torque[k] = sign * bottom[r] * mass * length * c.jacobian[r][6 * side + 3 + k];
+      force[k] = sign * bottom[r] * mass * c->jacobian[r][6 * side + k];
+      torque[k] = sign * bottom[r] * mass * length * c->jacobian[r][6 * side + 3 + k];
     }
     cross(moment, arm, force);
     for (size_t k = 0; k < 3; k++) {
@@ -136,15 +139,16 @@ SbStatus sb_bodies_forces(SbAssemblyForces *out, const SbAssembly *a, SbReport *
   return sb_succeed(report);
 }
 
-SbStatus sb_bodies_settle_positions(SbAssembly *a, double *error, SbReport *report) {
+SbStatus sb_bodies_settle_positions(SbAssembly *a, double *error, SbAssemblyWork *work,
+                                    SbReport *report) {
   double length = sb_bodies_extent(a), mass = largest_mass(a), worst = INFINITY;
-  Conditions c;
+  Conditions *c = &work->conditions;
   for (int iteration = 0; iteration < 20; iteration++) {
     double top[COLUMNS] = {0}, bottom[ROWS], now = 0.0;
-    sb_bodies_conditions(&c, a, length);
-    for (size_t r = 0; r < c.rows; r++) {
-      bottom[r] = -c.error[r];
-      now = fmax(now, fabs(c.error[r]));
+    sb_bodies_conditions(c, a, length);
+    for (size_t r = 0; r < c->rows; r++) {
+      bottom[r] = -c->error[r];
+      now = fmax(now, fabs(c->error[r]));
     }
     *error = iteration == 0 ? now : *error;
     if (now <= 1e-15 * length || (iteration > 1 && now >= 0.5 * worst && now < 1e-12 * length)) {
@@ -152,7 +156,7 @@ SbStatus sb_bodies_settle_positions(SbAssembly *a, double *error, SbReport *repo
       break;
     }
     worst = now;
-    SbStatus status = solve(a, &c, mass, length, top, bottom, report);
+    SbStatus status = solve(a, work, mass, length, top, bottom, report);
     if (status != SB_OK) {
       return status;
     }
@@ -174,26 +178,26 @@ SbStatus sb_bodies_settle_positions(SbAssembly *a, double *error, SbReport *repo
   return sb_succeed(report);
 }
 
-SbStatus sb_assembly_settle(SbAssembly *a, SbReport *report) {
+SbStatus sb_assembly_settle(SbAssembly *a, SbAssemblyWork *work, SbReport *report) {
   double length = sb_bodies_extent(a), mass = largest_mass(a), error;
-  SbStatus status = sb_bodies_settle_positions(a, &error, report);
+  SbStatus status = sb_bodies_settle_positions(a, &error, work, report);
   if (status != SB_OK) {
     return status;
   }
   // Velocities: remove what violates the conditions.
-  Conditions c;
+  Conditions *c = &work->conditions;
   double top[COLUMNS] = {0}, bottom[ROWS];
-  sb_bodies_conditions(&c, a, length);
-  for (size_t r = 0; r < c.rows; r++) {
+  sb_bodies_conditions(c, a, length);
+  for (size_t r = 0; r < c->rows; r++) {
     bottom[r] = 0.0;
     for (size_t b = 0; b < a->bodies; b++) {
       for (size_t k = 0; k < 3; k++) {
-        bottom[r] -= c.jacobian[r][6 * b + k] * a->body[b].velocity[k] +
-                     c.jacobian[r][6 * b + 3 + k] * a->body[b].spin[k] * length;
+        bottom[r] -= c->jacobian[r][6 * b + k] * a->body[b].velocity[k] +
+                     c->jacobian[r][6 * b + 3 + k] * a->body[b].spin[k] * length;
       }
     }
   }
-  status = solve(a, &c, mass, length, top, bottom, report);
+  status = solve(a, work, mass, length, top, bottom, report);
   for (size_t b = 0; b < a->bodies && status == SB_OK; b++) {
     for (size_t k = 0; k < 3 && !a->body[b].ground; k++) {
       a->body[b].velocity[k] += top[6 * b + k];

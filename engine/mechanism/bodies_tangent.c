@@ -5,9 +5,9 @@
 
 #include <lapacke.h>
 
-static SbStatus not_one(const SbAssembly *a, SbReport *report) {
+static SbStatus not_one(const SbAssembly *a, SbAssemblyWork *work, SbReport *report) {
   SbMobility mobility;
-  SbStatus status = sb_assembly_mobility(&mobility, a, 1, report);
+  SbStatus status = sb_assembly_mobility(&mobility, a, 1, work, report);
   return status != SB_OK
              ? status
              : sb_fail(report, SB_ERROR_INFEASIBLE,
@@ -35,29 +35,29 @@ static double mass_of(const SbAssembly *a, const SbAssemblyTangent *t) {
 }
 
 SbStatus sb_assembly_tangent(SbAssemblyTangent *t, const SbAssembly *a, size_t body,
-                             const double axis[3], SbReport *report) {
-  Conditions c;
+                             const double axis[3], SbAssemblyWork *work, SbReport *report) {
+  Conditions *c = &work->conditions;
   double length = sb_bodies_extent(a);
-  sb_bodies_conditions(&c, a, length);
+  sb_bodies_conditions(c, a, length);
   // The transpose of J, column by column, without the ground's rows.
-  double matrix[COLUMNS * ROWS], tau[COLUMNS], null[COLUMNS] = {0};
+  double *matrix = work->matrix, tau[COLUMNS], null[COLUMNS] = {0};
   size_t size = 6 * (a->bodies - 1);
-  if (c.rows + 1 != size) {
-    return not_one(a, report);
+  if (c->rows + 1 != size) {
+    return not_one(a, work, report);
   }
-  for (size_t r = 0; r < c.rows; r++) {
+  for (size_t r = 0; r < c->rows; r++) {
     double *out = matrix + r * size;
     for (size_t b = 0; b < a->bodies; b++) {
       if (!a->body[b].ground) {
-        memcpy(out, &c.jacobian[r][6 * b], 6 * sizeof *out);
+        memcpy(out, &c->jacobian[r][6 * b], 6 * sizeof *out);
         out += 6;
       }
     }
   }
   lapack_int n = (lapack_int)size;
-  lapack_int rows = (lapack_int)c.rows;
+  lapack_int rows = (lapack_int)c->rows;
   bool whole = LAPACKE_dgeqrf(LAPACK_COL_MAJOR, n, rows, matrix, n, tau) == 0;
-  for (size_t r = 0; r < c.rows && whole; r++) {
+  for (size_t r = 0; r < c->rows && whole; r++) {
     whole = fabs(matrix[r * size + r]) > 1e-9;
   }
   // The last column of Q is orthogonal to all conditions.
@@ -65,7 +65,7 @@ SbStatus sb_assembly_tangent(SbAssemblyTangent *t, const SbAssembly *a, size_t b
   whole =
       whole && LAPACKE_dormqr(LAPACK_COL_MAJOR, 'L', 'N', n, 1, rows, matrix, n, tau, null, n) == 0;
   if (!whole) {
-    return not_one(a, report);
+    return not_one(a, work, report);
   }
   // `axis` may be that of *t.
   double unit = sqrt(dot(axis, axis));
@@ -94,7 +94,7 @@ SbStatus sb_assembly_tangent(SbAssemblyTangent *t, const SbAssembly *a, size_t b
 }
 
 SbStatus sb_assembly_slide(SbAssembly *a, SbAssemblyTangent *t, double distance, double speed,
-                           double *error, SbReport *report) {
+                           double *error, SbAssemblyWork *work, SbReport *report) {
   double start = dot(a->body[t->body].position, t->axis), worst = 0.0, before = INFINITY;
   double size = fabs(start) + fabs(distance) + sb_bodies_extent(a);
   for (int iteration = 0; iteration < 30; iteration++) {
@@ -123,8 +123,8 @@ SbStatus sb_assembly_slide(SbAssembly *a, SbAssemblyTangent *t, double distance,
       multiply(body->orientation, q, body->orientation);
       normalise(body->orientation);
     }
-    SbStatus status = sb_bodies_settle_positions(a, &off, report);
-    status = status != SB_OK ? status : sb_assembly_tangent(t, a, t->body, t->axis, report);
+    SbStatus status = sb_bodies_settle_positions(a, &off, work, report);
+    status = status != SB_OK ? status : sb_assembly_tangent(t, a, t->body, t->axis, work, report);
     if (status != SB_OK) {
       return status;
     }

@@ -46,6 +46,14 @@ static double relic_loss(const SbDynamicsTouch *touch, double k, double c, doubl
   return 0.5 * k * (a - b) * (a + b);
 }
 
+double sb_motion_stops_relax(const SbDynamics *s, double t0, double t1) {
+  double sum = 0.0;
+  for (size_t i = 0; i < s->model->stops; i++) {
+    sum += relic_loss(&s->touch[i], s->model->stop[i].stiffness, s->stop_damping[i], t0, t1);
+  }
+  return sum;
+}
+
 // Adds what the closed-form motion does over (0, tau).
 static void closed_energy(const SbDynamics *s, double tau, double x, double v,
                           SbDynamicsEnergy *e) {
@@ -150,9 +158,7 @@ void sb_motion_energy_at(const SbDynamics *s, double t, double x, double v, cons
       e->machine += q[POWER_MACHINE];
     }
   }
-  for (size_t i = 0; i < m->stops; i++) {
-    e->stop += relic_loss(&s->touch[i], m->stop[i].stiffness, s->stop_damping[i], s->t, t);
-  }
+  e->stop += sb_motion_stops_relax(s, s->t, t);
   e->machine += relic_loss(&s->push, m->drive_stiffness, m->drive_damping, s->t, t);
   e->kinetic = 0.5 * s->parts.mass * v * v - s->kinetic_start;
   e->stored = sb_motion_stored_energy(s, t, x, d) - s->stored_start;

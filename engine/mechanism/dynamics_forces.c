@@ -210,14 +210,16 @@ static bool drive_gauge(const SbDynamics *s, SbGauge *g) {
   }
   double value, rate, side = s->push.on ? 1.0 : -1.0;
   sb_motion_drive_at(s, s->t, &value, &rate);
+  // The drive's value carries the rounding of the time since its piece began.
+  *g = (SbGauge){.noise = fabs(s->piece.value) + fabs(value) + fabs(rate * s->t)};
   if (m->drive.quantity == SB_DRIVE_OF_FORCE) {
-    *g = (SbGauge){.constant = side * value, .rate = side * rate, .of_v = -side * m->drive_damping};
+    g->constant = side * value;
+    g->rate = side * rate;
+    g->of_v = -side * m->drive_damping;
     return true;
   }
   double k = m->drive_stiffness, c = m->drive_damping;
-  // The drive's position carries the rounding of the time since its piece began.
-  *g = (SbGauge){.noise = fabs(s->piece.value) + fabs(value) + fabs(rate * s->t) + fabs(s->x)};
-  g->noise += length_noise;
+  g->noise += fabs(s->x) + length_noise;
   if (s->push.on) {
     g->noise *= k;
     g->constant = k * (value - s->x) + c * rate;
@@ -239,7 +241,8 @@ static bool stop_gauge(const SbDynamics *s, size_t i, const Linear *l, SbGauge *
   double side = p->side, gap = side * (p->position - s->x);
   *g = (SbGauge){.noise = fabs(p->position) + fabs(s->x) + length_noise};
   if (!s->touch[i].on) {
-    if (s->held) {
+    // One that was left still deflected comes back to a stem that friction holds meanwhile.
+    if (s->held && s->touch[i].relic == 0.0) {
       return false;
     }
     g->constant = gap;

@@ -145,6 +145,9 @@ double sb_motion_force_peak(const SbDynamics *s, double known);
 // Energy in seals, stops, return spring and drive [J].
 double sb_motion_stored_energy(const SbDynamics *s, double t, double x, const double *d);
 
+// What the dampers of stops that were left take from t0 to t1 [J].
+double sb_motion_stops_relax(const SbDynamics *s, double t0, double t1);
+
 // Energies up to time t of the present segment, whose state is given.
 void sb_motion_energy_at(const SbDynamics *s, double t, double x, double v, const double *d,
                          SbDynamicsEnergy *e);

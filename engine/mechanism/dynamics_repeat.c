@@ -56,7 +56,6 @@ static void add_energy(SbDynamicsEnergy *e, const SbDynamicsEnergy *was, double 
   e->friction += times * (e->friction - was->friction);
   e->viscous += times * (e->viscous - was->viscous);
   e->seal += times * (e->seal - was->seal);
-  e->stop += times * (e->stop - was->stop);
   e->machine += times * (e->machine - was->machine);
 }
 
@@ -94,6 +93,7 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
     sb_motion_drive_at(s, s->t, &there, &rate);
     s->x += there - y;
     add_energy(&s->energy, &was.energy, times);
+    s->energy.stop += sb_motion_stops_relax(s, before, s->t); // fades, is no part of a cycle
     for (size_t i = 0; i < m->contacts; i++) {
       s->since[i] += s->t - before;
     }

@@ -233,21 +233,25 @@ static SbStatus run_ring_step(SbBenchCase *out, const Case *c, SbReport *report)
 
 // The whole cycle by closed forms; its error is what the energy balance does not close.
 static SbStatus run_cycle(SbBenchCase *out, const Case *c, SbReport *report) {
-  SbParams params;
-  sb_params_init(&params);
-  SbModel model;
-  SbPlan plan;
+  struct {
+    SbParams params;
+    SbModel model;
+    SbPlan plan;
+  } *made = malloc(sizeof *made); // too large for a small stack
+  if (made == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a model");
+  }
+  sb_params_init(&made->params);
   SbRun *run = NULL;
-  SbStatus status = sb_params_set(&params, SB_P_MODELS_MOTION, c->parameter, report);
-  if (status != SB_OK) {
-    return status;
+  SbStatus status = sb_params_set(&made->params, SB_P_MODELS_MOTION, c->parameter, report);
+  if (status == SB_OK && sb_model_compile(&made->model, &made->params, NULL) != SB_OK) {
+    status = sb_fail(report, SB_ERROR_INPUT, "the default valve does not compile");
   }
-  status = sb_model_compile(&model, &params, NULL);
-  if (status != SB_OK) {
-    return sb_fail(report, status, "the default valve does not compile");
+  if (status == SB_OK) {
+    sb_plan_make(&made->plan, &made->model);
+    status = sb_run_create(&run, &made->model, &made->plan, report);
   }
-  sb_plan_make(&plan, &model);
-  status = sb_run_create(&run, &model, &plan, report);
+  free(made);
   if (status == SB_OK) {
     status = sb_run_execute(run, NULL, report);
     const SbSummary *summary = sb_run_summary(run);

@@ -30,7 +30,7 @@ typedef struct {
   double contact_right; //
   double load;          // total contact load, around the circumference [N]
   double pressure_peak; // [Pa]
-  double film_min;      // [m], 0 at rest unless the films' history is solved
+  double film_min;      // [m], 0 at rest unless the films' history is solved, NAN without contact
   double film_central;  // [m]
   double lambda;        // film_central / sigma
   double friction_boundary; // signed as friction [N]

@@ -8,12 +8,14 @@
 #include "engine/valve/model.h"
 
 #include "engine/contact/closed/reduced_modulus.h"
+#include "engine/contact/fit.h"
 #include "engine/mechanism/chamber.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 const char *sb_seal_name(int seal) {
   return seal == SB_OUTER ? "outer" : "inner";
@@ -49,6 +51,15 @@ bool sb_model_size_seal(SbModel *model, int index, SbProblems *problems) {
   seal->section_diameter = seal->storage.section_diameter;
   seal->inner_diameter = seal->storage.inner_diameter;
   seal->modulus = seal->storage.modulus;
+  // Small strains: warned of from a quarter of the modulus on. Somewhere above 0.55 of it the
+  // pressure parts the flats of some gaps: no contact state is left.
+  if (model->fit == SB_FIT_DISC && model->canister_pressure > 0.5 * seal->modulus) {
+    add_problem(problems, "canister.pressure", 0, 0.5 * seal->modulus,
+                "is beyond the linear disc (models.fit), which holds to half the rubber's modulus "
+                "of %.4g MPa; the ring goes further",
+                seal->modulus * 1e-6);
+    return false;
+  }
   double nu = seal->poisson_ratio;
   seal->reduced_modulus =
       sb_reduced_modulus(seal->modulus, nu, model->housing_modulus, model->housing_poisson_ratio);
@@ -237,7 +248,8 @@ static bool compile_dose(SbModel *model, const SbParams *params, SbProblems *pro
 
 // Parts and joints. The stem's mass, where it is given, is shared by its three parts as theirs are
 // to each other; otherwise it is their sum.
-static bool compile_parts(SbModel *model, const SbParams *params, SbProblems *problems) {
+static bool compile_parts(SbModel *model, SbAssemblyWork *work, const SbParams *params,
+                          SbProblems *problems) {
   static const SbParamId mass[SB_VALVE_GROUND] = {
       SB_P_PART_HOUSING_MASS,     SB_P_PART_STEM_CENTRE_MASS, SB_P_PART_STEM_TOP_MASS,
       SB_P_PART_STEM_BOTTOM_MASS, SB_P_PART_INNER_SEAL_MASS,  SB_P_PART_OUTER_SEAL_MASS,
@@ -287,10 +299,10 @@ static bool compile_parts(SbModel *model, const SbParams *params, SbProblems *pr
   const double axis[3] = {1, 0, 0};
   SbAssemblyTangent tangent;
   SbStatus status = sb_assembly_valve(&assembly, &model->parts, &report);
-  status = status != SB_OK ? status : sb_assembly_mobility(&mobility, &assembly, 1, &report);
-  status = status != SB_OK
-               ? status
-               : sb_assembly_tangent(&tangent, &assembly, SB_VALVE_STEM_CENTRE, axis, &report);
+  status = status != SB_OK ? status : sb_assembly_mobility(&mobility, &assembly, 1, work, &report);
+  status = status != SB_OK ? status
+                           : sb_assembly_tangent(&tangent, &assembly, SB_VALVE_STEM_CENTRE, axis,
+                                                 work, &report);
   if (status != SB_OK) {
     int changed = SB_VALVE_BLOCK_GROUND;
     for (int i = SB_VALVE_JOINTS - 1; i >= 0; i--) {
@@ -302,7 +314,8 @@ static bool compile_parts(SbModel *model, const SbParams *params, SbProblems *pr
   return true;
 }
 
-static SbStatus compile(SbModel *model, const SbParams *params, SbProblems *problems) {
+static SbStatus compile(SbModel *model, SbAssemblyWork *work, const SbParams *params,
+                        SbProblems *problems) {
   if (problems != NULL) {
     problems->count = 0;
   }
@@ -490,7 +503,7 @@ static SbStatus compile(SbModel *model, const SbParams *params, SbProblems *prob
   for (int i = 0; good && i < SB_SEAL_COUNT; i++) {
     good = compile_seal(model, i, params, problems) && good;
   }
-  good = compile_parts(model, params, problems) && good;
+  good = compile_parts(model, work, params, problems) && good;
   good = good && compile_dose(model, params, problems);
   if (!good) {
     return SB_ERROR_INPUT;
@@ -499,16 +512,52 @@ static SbStatus compile(SbModel *model, const SbParams *params, SbProblems *prob
 }
 
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems) {
-  SbModel *model = calloc(1, sizeof *model); // too large for a small stack
-  if (model == NULL) {
+  struct {
+    SbModel model;
+    SbAssemblyWork work;
+  } *made = calloc(1, sizeof *made); // too large for a small stack
+  if (made == NULL) {
     return SB_ERROR_MEMORY;
   }
-  SbStatus status = compile(model, params, problems);
+  SbStatus status = compile(&made->model, &made->work, params, problems);
   if (status == SB_OK) {
-    *out = *model;
+    *out = made->model;
   }
-  free(model);
+  free(made);
   return status;
+}
+
+SbModelData *sb_model_data_create(void) {
+  SbModelData *data = calloc(1, sizeof *data);
+  if (data != NULL) {
+    atomic_init(&data->holders, 1);
+  }
+  return data;
+}
+
+// The count alone changes behind the const.
+static atomic_uint *holders(const SbModelData *data) {
+  return &((SbModelData *)data)->holders;
+}
+
+void sb_model_data_release(const SbModelData *data) {
+  if (data != NULL && atomic_fetch_sub_explicit(holders(data), 1, memory_order_acq_rel) == 1) {
+    free((SbModelData *)data);
+  }
+}
+
+void sb_model_keep(SbModel *kept, const SbModel *model) {
+  const SbModelData *before = kept->data;
+  if (model->data != NULL) {
+    atomic_fetch_add_explicit(holders(model->data), 1, memory_order_relaxed);
+  }
+  memcpy(kept, model, sizeof *kept); // with its padding: copies are compared as bytes
+  sb_model_data_release(before);
+}
+
+void sb_model_clear(SbModel *kept) {
+  sb_model_data_release(kept->data);
+  *kept = (SbModel){0};
 }
 
 void sb_model_remarks(const SbModel *model, SbProblems *out) {

@@ -13,6 +13,7 @@
 #include "engine/valve/params.h"
 #include "engine/valve/rig.h"
 
+#include <stdatomic.h>
 #include <stddef.h>
 
 enum { SB_OUTER = 0, SB_INNER = 1, SB_SEAL_COUNT = 2 };
@@ -67,8 +68,7 @@ typedef enum {
   SB_MODEL_DRIVE_MEASURED
 } SbDriveChoice;
 
-// A measured series for drive MEASURED, straight lines between its rows. Kept in the model itself,
-// so that a copy needs nothing else.
+// A measured series for drive MEASURED, straight lines between its rows.
 enum { SB_MODEL_SERIES_MAX = 4096 };
 typedef struct {
   SbDriveQuantity quantity;
@@ -116,6 +116,16 @@ typedef struct {
   double land_edge, bore;                   // where the bore land begins [m], its radius
   double groove_left[SB_SEAL_COUNT], groove_right[SB_SEAL_COUNT], floor, land; // walls, radii
 } SbValveOutlines;
+
+// What is large in a model and never changes: models share it by reference, so that runs and
+// studies may copy them freely. Whoever reads a file makes it; a model and a plain copy of one
+// borrow it. What keeps a copy for longer than a call (a run, another thread, a drawing) does so by
+// sb_model_keep() and need not ask who else has let go.
+typedef struct {
+  atomic_uint holders;
+  SbModelSeries measured; // count 0: none
+  SbValveOutlines outlines;
+} SbModelData;
 
 // Ranges that studies cover.
 typedef struct {
@@ -170,7 +180,6 @@ typedef struct {
   double peak_force, rise_time, hold_time; // hand
   double finger_damping;                   // hand, ramp [N s/m]
   double amplitude, frequency;             // sinusoid
-  SbModelSeries measured;                  // measured; filled by whoever read it
   int cycles;
   double damping_ratio; // of machine and seal shear
   double rest;          // before the first stroke [s]
@@ -189,17 +198,17 @@ typedef struct {
   SbModelAsperities asperities;
   double hamaker; // [J]; 0 without adhesion
   SbModelMotion motion;
-  int life_actuations;      // computed one after the other; 1: the first alone
-  int life_shown;           // whose frames follow the first's, from 1
-  SbRunningIn running_in;   // factor on the roughness
-  SbRig rig;                // motion RIG
-  double rig_prominence;    // fall of the force that makes a peak [N]
-  unsigned views;           // bit mask of SbView
-  unsigned studies;         // bit mask, 1 << SbStudyKind
-  SbSectionLook look;       // for the drawing only
-  double stem_diameter;     // D_p, also the stem's land [m]
-  SbValveShape shape;       // for the drawing only
-  SbValveOutlines outlines; // filled by whoever read the shapes, none otherwise
+  int life_actuations;     // computed one after the other; 1: the first alone
+  int life_shown;          // whose frames follow the first's, from 1
+  SbRunningIn running_in;  // factor on the roughness
+  SbRig rig;               // motion RIG
+  double rig_prominence;   // fall of the force that makes a peak [N]
+  unsigned views;          // bit mask of SbView
+  unsigned studies;        // bit mask, 1 << SbStudyKind
+  SbSectionLook look;      // for the drawing only
+  double stem_diameter;    // D_p, also the stem's land [m]
+  SbValveShape shape;      // for the drawing only
+  const SbModelData *data; // borrowed; NULL: neither a measured series nor outlines
   SbStudyRange study;
   SbLimits limits; // filled by whoever read them, none otherwise
 } SbModel;
@@ -218,6 +227,25 @@ typedef enum {
 // (may be NULL) lists every combination that makes no sense: bore smaller than the stem, no room
 // for the ring...
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems);
+
+// All zero and held once, or NULL without memory. To be filled before a model points to it.
+SbModelData *sb_model_data_create(void);
+
+// Lets go of it; with the last holder it goes. From any thread; takes NULL.
+void sb_model_data_release(const SbModelData *data);
+
+// Copies a model into `kept`, which holds what it refers to until the next keep or clear. `kept` is
+// all zero before the first.
+void sb_model_keep(SbModel *kept, const SbModel *model);
+void sb_model_clear(SbModel *kept);
+
+// The measured series and the parts' outlines; NULL: none. Borrowed.
+static inline const SbModelSeries *sb_model_measured(const SbModel *model) {
+  return model->data != NULL && model->data->measured.count > 0 ? &model->data->measured : NULL;
+}
+static inline const SbValveOutlines *sb_model_outlines(const SbModel *model) {
+  return model->data != NULL ? &model->data->outlines : NULL;
+}
 
 // Geometry that is possible and hardly meant, with the key to change and the range that would do.
 void sb_model_remarks(const SbModel *model, SbProblems *out);

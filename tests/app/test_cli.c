@@ -1,5 +1,6 @@
 // The program from outside: exit codes, messages, JSON keys, locales, what is written where.
 #include "tests/app/cli_fixture.h"
+#include "tests/sanitized.h"
 
 #include <glib/gstdio.h>
 #include <math.h>
@@ -522,32 +523,34 @@ static void check_nulls(JsonNode *node, const char *path, JsonObject *reasons) {
 // Nothing that was not computed is 0: null, its reason, an empty cell, a dash.
 static void test_reasons(void) {
   static const struct {
-    const char *set[3];
+    const char *set[5];
     int code;
     const char *null; // a path that must be null
     const char *says; // its reason
   } cases[] = {
       {{"--set=models.fit=disc", "--set=gland.radial_space=1.57mm",
-        "--set=seal.inner_diameter=2.476mm"},
+        "--set=seal.inner_diameter=2.476mm", "--quiet", "--quiet"},
        0,
        "cycle.leakage_per_cycle_m3",
        "does not touch"},
-      {{"--set=models.fit=disc", "--set=seal.modulus=0.2MPa", "--set=canister.pressure=2MPa"},
+      {{"--set=models.fit=disc", "--set=seal.modulus=1.1MPa", "--set=seal.section_diameter=2.6mm",
+        "--set=seal.inner_diameter=2.2mm", "--set=gland.axial_width=8mm"},
        2,
        "cycle.returns",
-       "fitment (disc), outer seal, stages A to C, in-stroke, 2 MPa"},
-      {{"--set=surface.gt_product=0.02", "--quiet", "--quiet"},
+       "fitment (disc), outer seal, stages A to C, in-stroke, 0.55 MPa"},
+      {{"--set=surface.gt_product=0.02", "--quiet", "--quiet", "--quiet", "--quiet"},
        0,
        "seals.inner.leakage_static_m3_per_s",
        "0.025"},
-      {{"--set=surface.gt_product=0.17", "--quiet", "--quiet"},
+      {{"--set=surface.gt_product=0.17", "--quiet", "--quiet", "--quiet", "--quiet"},
        0,
        "cycle.leakage_net_all_actuations_m3",
        "does not come back"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
-    CliResult run = CLI("run", cli.scene, "--set=models.film=thesis", cases[i].set[0],
-                        cases[i].set[1], cases[i].set[2], "--json", "-", "--quiet");
+    CliResult run =
+        CLI("run", cli.scene, "--set=models.film=thesis", cases[i].set[0], cases[i].set[1],
+            cases[i].set[2], cases[i].set[3], cases[i].set[4], "--json", "-", "--quiet");
     g_assert_cmpint(run.code, ==, cases[i].code);
     JsonNode *root = cli_parse(run.out);
     JsonObject *reasons = json_node_get_object(cli_at(root, "reasons"));
@@ -619,6 +622,26 @@ static void test_limits(void) {
   g_remove(path);
 }
 
+static void limit_stack(gpointer data) {
+  struct rlimit limit = {256 << 10, 256 << 10};
+  setrlimit(RLIMIT_STACK, &limit);
+}
+
+// Nothing needs more of a stack than a quarter of a megabyte: no large buffer lies there.
+static void test_small_stack(void) {
+  if (SB_SANITIZED) {
+    return; // whose frames are larger
+  }
+  const char *const run[] = {"run", cli.scene, "--quiet", NULL};
+  const char *const fit[] = {"fit", cli.valve, "--seal", "outer", "--quiet", NULL};
+  const char *const *const all[] = {run, fit};
+  for (size_t i = 0; i < G_N_ELEMENTS(all); i++) {
+    CliResult result = cli_run(all[i], NULL, limit_stack);
+    g_assert_cmpint(result.code, ==, 0);
+    cli_clear(&result);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -638,6 +661,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/utf8-options", test_utf8_options);
   g_test_add_func("/cli/results-and-locale", test_results_and_locale);
   g_test_add_func("/cli/io-errors", test_io_errors);
+  g_test_add_func("/cli/small-stack", test_small_stack);
   int result = g_test_run();
   cli_tear_down();
   return result;

@@ -77,7 +77,7 @@ static void test_diameters(void) {
   g_assert_cmpuint(sb_document_notes(document)->len, ==, 1);
   SbModel model;
   g_assert_true(sb_document_compile(document, &model, issues));
-  g_assert_true(model.outlines.housing && !model.outlines.stem);
+  g_assert_true(model.data->outlines.housing && !model.data->outlines.stem);
   assert_relative(model.bore_diameter, 6.1e-3, 1e-12);
   assert_relative(model.stem_diameter, 5.8e-3, 1e-12);
   assert_relative(model.radial_space, 1.4e-3, 1e-12);

@@ -1,6 +1,7 @@
 // Measured series: read, refused with file, line and column, and followed by the engine.
 #include "app/document/document.h"
 #include "app/document/series.h"
+#include "app/run/runner.h"
 
 #include "engine/valve/sealbench.h"
 
@@ -96,6 +97,34 @@ static void test_followed(void) {
   sb_run_destroy(run);
 }
 
+static void ignore(void *data) {}
+
+// What the engine's thread is asked for, and the run that it makes, outlive the document.
+static void test_outlives(void) {
+  g_autofree char *path =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "scenes", "measured-drive.scene", NULL);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  SbDocument *document = sb_document_load(path, issues);
+  g_autofree SbModel *model = g_new(SbModel, 1);
+  g_assert_true(sb_document_compile(document, model, issues));
+  SbRun *alone = executed_run(model);
+  SbRunner *runner = sb_runner_create(ignore, NULL);
+  sb_runner_submit(runner, model);
+  sb_document_free(document);
+  while (sb_runner_is_busy(runner)) {
+    g_usleep(1000);
+  }
+  SbRunHandle *handle = sb_runner_latest(runner);
+  sb_runner_destroy(runner);
+  const SbRun *run = sb_run_handle_run(handle);
+  g_assert_cmpfloat(sb_run_summary(run)->force_peak, ==, sb_run_summary(alone)->force_peak);
+  const SbModelSeries *kept = sb_model_measured(sb_run_model(run));
+  g_assert_true(kept == sb_model_measured(sb_run_model(alone)));
+  g_assert_cmpfloat(kept->time[kept->count - 1], >, 0);
+  sb_run_handle_unref(handle);
+  sb_run_destroy(alone);
+}
+
 // A scene that moves keeps its series; a missing one is one complaint about the key's file.
 static void test_document(void) {
   g_autofree char *path =
@@ -131,6 +160,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/series/read", test_read);
   g_test_add_func("/series/refused", test_refused);
   g_test_add_func("/series/followed", test_followed);
+  g_test_add_func("/series/outlives", test_outlives);
   g_test_add_func("/series/document", test_document);
   return g_test_run();
 }

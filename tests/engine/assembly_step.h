@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+static SbAssemblyWork assembly_work;
+
 typedef struct {
   double position[SB_BODIES_MAX][3], orientation[SB_BODIES_MAX][4];
   double velocity[SB_BODIES_MAX][3], spin[SB_BODIES_MAX][3];
@@ -19,7 +21,7 @@ static inline SbStatus rates_of(BodyRates *out, SbAssembly *a, double time,
     sb_assembly_clear_forces(a);
     apply(a, time, user);
   }
-  SbStatus status = sb_bodies_forces(&forces, a, report);
+  SbStatus status = sb_bodies_forces(&forces, a, &assembly_work, report);
   if (status != SB_OK) {
     return status;
   }
@@ -69,7 +71,7 @@ static inline SbStatus assembly_step(SbAssembly *a, double time, double h,
   SbAssembly start = *a;
   BodyRates k1, k2, k3, k4, mean;
   SbMobility mobility;
-  SbStatus status = sb_assembly_mobility(&mobility, a, -1, report);
+  SbStatus status = sb_assembly_mobility(&mobility, a, -1, &assembly_work, report);
   status = status != SB_OK ? status : rates_of(&k1, a, time, apply, user, report);
   if (status == SB_OK) {
     move_bodies(a, &start, &k1, 0.5 * h);
@@ -94,5 +96,5 @@ static inline SbStatus assembly_step(SbAssembly *a, double time, double h,
     p[i] = (p1[i] + 2.0 * (p2[i] + p3[i]) + p4[i]) / 6.0;
   }
   move_bodies(a, &start, &mean, h);
-  return sb_assembly_settle(a, report);
+  return sb_assembly_settle(a, &assembly_work, report);
 }

@@ -29,7 +29,7 @@ static void test_mobility(void) {
   SbReport report = {0};
   g_assert_cmpint(thesis_valve(&a, &report), ==, SB_OK);
   g_assert_cmpuint(a.bodies, ==, SB_VALVE_BODIES);
-  g_assert_cmpint(sb_assembly_mobility(&m, &a, 1, &report), ==, SB_OK);
+  g_assert_cmpint(sb_assembly_mobility(&m, &a, 1, &assembly_work, &report), ==, SB_OK);
   g_assert_cmpint(m.gruebler, ==, 1);
   g_assert_cmpint(m.constraints, ==, 41);
   g_assert_cmpint(m.freedom, ==, 1);
@@ -41,18 +41,21 @@ static void test_mobility(void) {
   g_assert_cmpint(sb_assembly_join(&over, NULL, SB_JOINT_TRANSLATIONAL, SB_VALVE_STEM_TOP,
                                    SB_VALVE_GROUND, at, x_axis, &report),
                   ==, SB_OK);
-  g_assert_cmpint(sb_assembly_mobility(&m, &over, 1, &report), ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpint(sb_assembly_mobility(&m, &over, 1, &assembly_work, &report), ==,
+                  SB_ERROR_INFEASIBLE);
   g_assert_cmpint(m.gruebler, ==, -4);
   g_assert_cmpint(m.redundant, ==, 5);
   g_assert_cmpint(m.freedom, ==, 1);
   g_assert_nonnull(strstr(report.text, "over-constrained: 5 conditions are repeated"));
   g_assert_nonnull(strstr(report.text, "'stem top' and 'ground'"));
   SbAssemblyForces forces;
-  g_assert_cmpint(sb_assembly_forces(&forces, &over, &report), ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpint(sb_assembly_forces(&forces, &over, &assembly_work, &report), ==,
+                  SB_ERROR_INFEASIBLE);
   // Without its last joint nothing guides the valve.
   SbAssembly under = a;
   under.joints--;
-  g_assert_cmpint(sb_assembly_mobility(&m, &under, 1, &report), ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpint(sb_assembly_mobility(&m, &under, 1, &assembly_work, &report), ==,
+                  SB_ERROR_INFEASIBLE);
   g_assert_cmpint(m.freedom, ==, 6);
   g_assert_nonnull(strstr(report.text, "under-constrained: 1 expected"));
   // A forgotten part is named.
@@ -60,7 +63,8 @@ static void test_mobility(void) {
   const double inertia[3] = {1e-9, 1e-9, 1e-9};
   g_assert_cmpint(sb_assembly_add(&loose, NULL, "loose pin", 1e-3, inertia, at, &report), ==,
                   SB_OK);
-  g_assert_cmpint(sb_assembly_mobility(&m, &loose, 1, &report), ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpint(sb_assembly_mobility(&m, &loose, 1, &assembly_work, &report), ==,
+                  SB_ERROR_INFEASIBLE);
   g_assert_cmpint(m.freedom, ==, 7);
   g_assert_nonnull(strstr(report.text, "'loose pin'"));
   // Bad parts.
@@ -132,7 +136,7 @@ static void test_pendulum(void) {
     SbAssemblyForces f;
     sb_assembly_clear_forces(&a);
     gravity(&a, 0.0, NULL);
-    g_assert_cmpint(sb_assembly_forces(&f, &a, &report), ==, SB_OK);
+    g_assert_cmpint(sb_assembly_forces(&f, &a, &assembly_work, &report), ==, SB_OK);
     double now = atan2(b->position[0], -b->position[1]), w = b->spin[2];
     double radial = mass * (w * w * arm + 9.81 * cos(now));
     double tangential = mass * (9.81 * sin(now) - 9.81 * sin(now) * mass * arm * arm / about);
@@ -201,7 +205,7 @@ static void test_slider(void) {
       SB_OK);
   gravity(&a, 0.0, NULL);
   SbAssemblyForces f;
-  g_assert_cmpint(sb_assembly_forces(&f, &a, &report), ==, SB_OK);
+  g_assert_cmpint(sb_assembly_forces(&f, &a, &assembly_work, &report), ==, SB_OK);
   double along = -9.81 * sin(slope), normal = 0.7 * 9.81 * cos(slope);
   ASSERT_NEAR(f.acceleration[block][0], along * cos(slope), 1e-12);
   ASSERT_NEAR(f.acceleration[block][1], along * sin(slope), 1e-12);
@@ -230,8 +234,9 @@ static void test_valve(void) {
   SbReport report = {0};
   SbAssemblyTangent tangent;
   g_assert_cmpint(thesis_valve(&a, &report), ==, SB_OK);
-  g_assert_cmpint(sb_assembly_tangent(&tangent, &a, SB_VALVE_STEM_CENTRE, x_axis, &report), ==,
-                  SB_OK);
+  g_assert_cmpint(
+      sb_assembly_tangent(&tangent, &a, SB_VALVE_STEM_CENTRE, x_axis, &assembly_work, &report), ==,
+      SB_OK);
   double mass = tangent.mass;
   ASSERT_NEAR(mass, 3.73e-3 + 6.46e-6 + 1e-10, 1e-12 * mass);
   SbDynamicsContact seal = {.static_ratio = 1.1, .stiffness = 3e4, .damping = 3.0};
@@ -267,7 +272,7 @@ static void test_valve(void) {
     b[SB_VALVE_STEM_TOP].force[0] = sample.loads_force;
     b[SB_VALVE_STEM_BOTTOM].force[0] = stop;
     SbAssemblyForces f;
-    g_assert_cmpint(sb_assembly_forces(&f, &a, &report), ==, SB_OK);
+    g_assert_cmpint(sb_assembly_forces(&f, &a, &assembly_work, &report), ==, SB_OK);
     double size = (14.5 + fabs(sample.drive_force)) / mass;
     for (size_t k = SB_VALVE_STEM_CENTRE; k <= SB_VALVE_BLOCK; k++) {
       worst = fmax(worst, fabs(f.acceleration[k][0] - sample.acceleration) / size);
@@ -305,8 +310,9 @@ static void test_valve_motion(void) {
   double previous = 0.0, worst = 0.0;
   for (int n = 250; n <= 1000; n *= 2) {
     g_assert_cmpint(thesis_valve(&a, &report), ==, SB_OK);
-    g_assert_cmpint(sb_assembly_tangent(&tangent, &a, SB_VALVE_STEM_CENTRE, x_axis, &report), ==,
-                    SB_OK);
+    g_assert_cmpint(
+        sb_assembly_tangent(&tangent, &a, SB_VALVE_STEM_CENTRE, x_axis, &assembly_work, &report),
+        ==, SB_OK);
     SbOscillator o;
     sb_oscillator_init(&o, tangent.mass, 5.0, 1e5, 1e5 * 2.8e-4 + 5.0 * 0.02 - 27.5, 1e5 * 0.02,
                        0.0, 0.0);

@@ -362,6 +362,62 @@ static void test_push(void) {
   }
 }
 
+// A stop that is left still deflected comes back to a stem that friction holds meanwhile within
+// that deflection, and bears what it must: k times the deflection. The stem is thrown onto it
+// against a level that just lets it go.
+static void test_stop_comes_back(void) {
+  Flat flat = {{.force = 3.5, .level = {3.0}, .constant = true}};
+  SbDynamicsModel m = {.mass = 1e-3,
+                       .contacts = 1,
+                       .contact = {{.static_ratio = 1.5, .stiffness = INFINITY}},
+                       .stops = 1,
+                       .stop = {{.position = 1e-3, .side = 1, .stiffness = 1e6}},
+                       .loads = flat_loads,
+                       .user = &flat,
+                       .start_position = 1e-3};
+  int left = 0;
+  for (int i = 0; i < 400; i++) {
+    m.start_speed = 0.1 * (i % 20 + 1);
+    m.stop[0].restitution = 0.05 + 0.04 * (i / 20);
+    SbDynamics s;
+    Log log;
+    go(&s, &m, &log);
+    advance(&s, 1.0);
+    SbDynamicsSample sample;
+    SbDynamicsEnergy energy;
+    sb_dynamics_sample(&s, &sample, &energy);
+    ASSERT_NEAR(sample.stop_force[0], 1e6 * fmax(sample.position - 1e-3, 0.0), 1e-9);
+    ASSERT_NEAR(energy.pressure - energy.friction - energy.stop - energy.stored - energy.kinetic,
+                0.0, 1e-11 * 0.5e-3 * m.start_speed * m.start_speed);
+    left += nth(&log, SB_MOTION_LEAVE_STOP, 0) != NULL && sample.position > 1e-3;
+  }
+  g_assert_cmpint(left, >, 5);
+}
+
+// A machine pulls the stem off a stop by stick-slip, so quick that the stop still fades while
+// cycles are passed over: what it fades by is no part of each cycle.
+static void test_repeat_beside_stop(void) {
+  Flat flat = {{.level = {1.0}, .constant = true}};
+  SbDynamicsModel m = {
+      .mass = 1e-3,
+      .contacts = 1,
+      .contact = {{.static_ratio = 2.0, .stiffness = INFINITY}},
+      .stops = 1,
+      .stop = {{.position = 0.0, .side = 1, .stiffness = 1e4, .restitution = 0.02}},
+      .loads = flat_loads,
+      .user = &flat,
+      .start_position = 1e-6,
+      .drive = {.kind = SB_DRIVE_RAMP, .start = 1e-6, .rate = 2e-3, .end = -1e-2},
+      .drive_stiffness = 1e6,
+      .drive_bonded = true,
+  };
+  SbDynamics s;
+  go(&s, &m, NULL);
+  advance(&s, 0.9);
+  g_assert_cmpint(sb_dynamics_counters(&s).repeated, >, 500);
+  g_assert_cmpfloat(closure(&s), <, 1e-10);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/motion/dynamics/decay", test_decay);
@@ -371,5 +427,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/motion/dynamics/bounce", test_bounce);
   g_test_add_func("/motion/dynamics/walls", test_walls);
   g_test_add_func("/motion/dynamics/push", test_push);
+  g_test_add_func("/motion/dynamics/stop-comes-back", test_stop_comes_back);
+  g_test_add_func("/motion/dynamics/repeat-beside-stop", test_repeat_beside_stop);
   return g_test_run();
 }

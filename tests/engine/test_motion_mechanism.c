@@ -107,8 +107,9 @@ static void slider_crank(SbAssembly *a, double q, double speed, bool flat) {
   // Speeds of the motion that the joints leave.
   SbAssemblyTangent t;
   if (!flat) {
-    g_assert_cmpint(sb_assembly_tangent(&t, a, SLIDER, x_axis, &report), ==, SB_OK);
-    g_assert_cmpint(sb_assembly_slide(a, &t, 0.0, c.slider1 * speed, NULL, &report), ==, SB_OK);
+    g_assert_cmpint(sb_assembly_tangent(&t, a, SLIDER, x_axis, &assembly_work, &report), ==, SB_OK);
+    g_assert_cmpint(sb_assembly_slide(a, &t, 0.0, c.slider1 * speed, NULL, &assembly_work, &report),
+                    ==, SB_OK);
   }
 }
 
@@ -184,13 +185,13 @@ static void test_tangent(void) {
   SbAssemblyTangent t;
   SbReport report = {0};
   slider_crank(&a, 0.4, 0.0, false);
-  g_assert_cmpint(sb_assembly_tangent(&t, &a, SLIDER, x_axis, &report), ==, SB_OK);
+  g_assert_cmpint(sb_assembly_tangent(&t, &a, SLIDER, x_axis, &assembly_work, &report), ==, SB_OK);
   for (double q = 0.4; q < 2.8; q += 0.1) {
     Crank c = crank_at(q);
     double error;
-    g_assert_cmpint(
-        sb_assembly_slide(&a, &t, c.slider - a.body[SLIDER].position[0], 1.5, &error, &report), ==,
-        SB_OK);
+    g_assert_cmpint(sb_assembly_slide(&a, &t, c.slider - a.body[SLIDER].position[0], 1.5, &error,
+                                      &assembly_work, &report),
+                    ==, SB_OK);
     g_assert_cmpfloat(drift(&a), <, 1e-15);
     double now = 2.0 * atan2(a.body[CRANK].orientation[3], a.body[CRANK].orientation[0]);
     g_assert_cmpfloat_with_epsilon(now, q, 1e-12);
@@ -204,12 +205,12 @@ static void test_tangent(void) {
                                    1e-11 * fmax(10.0, fabs(force)));
     // The multipliers' system accelerates the slider as mass and force say.
     SbAssemblyForces f;
-    g_assert_cmpint(sb_assembly_forces(&f, &a, &report), ==, SB_OK);
+    g_assert_cmpint(sb_assembly_forces(&f, &a, &assembly_work, &report), ==, SB_OK);
     double speed = 1.5 / c.slider1, spin_rate = (c.force - c.half * speed * speed) / c.mass;
     g_assert_cmpfloat_with_epsilon(f.spin_rate[CRANK][2] / spin_rate, 1.0, 1e-9);
   }
   // Past the dead centre there is nowhere to go.
-  g_assert_cmpint(sb_assembly_slide(&a, &t, -1.0, 0.0, NULL, &report), !=, SB_OK);
+  g_assert_cmpint(sb_assembly_slide(&a, &t, -1.0, 0.0, NULL, &assembly_work, &report), !=, SB_OK);
 }
 
 // Gruebler's count decides: pins all round repeat three conditions, a missing guide leaves five too
@@ -220,17 +221,20 @@ static void test_refused(void) {
   SbAssemblyTangent t;
   SbReport report = {0};
   slider_crank(&a, 0.3, 0.0, false);
-  g_assert_cmpint(sb_assembly_mobility(&m, &a, 1, &report), ==, SB_OK);
+  g_assert_cmpint(sb_assembly_mobility(&m, &a, 1, &assembly_work, &report), ==, SB_OK);
   g_assert_cmpint(m.gruebler, ==, 1);
   g_assert_cmpint(m.constraints, ==, 17);
-  g_assert_cmpint(sb_assembly_tangent(&t, &a, CRANK, z_axis, &report), ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpint(sb_assembly_tangent(&t, &a, CRANK, z_axis, &assembly_work, &report), ==,
+                  SB_ERROR_INFEASIBLE);
   g_assert_nonnull(strstr(report.text, "'crank' does not move along the axis"));
   a.joints--;
-  g_assert_cmpint(sb_assembly_tangent(&t, &a, SLIDER, x_axis, &report), ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpint(sb_assembly_tangent(&t, &a, SLIDER, x_axis, &assembly_work, &report), ==,
+                  SB_ERROR_INFEASIBLE);
   g_assert_nonnull(strstr(report.text, "4 parts, 12 constraints, 6 degrees of freedom"));
   g_assert_nonnull(strstr(report.text, "under-constrained: 1 expected"));
   slider_crank(&a, 0.3, 0.0, true);
-  g_assert_cmpint(sb_assembly_tangent(&t, &a, SLIDER, x_axis, &report), ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpint(sb_assembly_tangent(&t, &a, SLIDER, x_axis, &assembly_work, &report), ==,
+                  SB_ERROR_INFEASIBLE);
   g_assert_nonnull(strstr(report.text, "over-constrained: 3 conditions are repeated"));
   g_assert_cmpint(assembly_step(&a, 0.0, 1e-3, crank_loads, NULL, &report), ==,
                   SB_ERROR_INFEASIBLE);
@@ -292,7 +296,9 @@ static void test_cycle(void) {
   sb_params_init(&params);
   g_assert_cmpint(sb_model_compile(&valve, &params, NULL), ==, SB_OK);
   g_assert_cmpint(sb_assembly_valve(&a, &valve.parts, &report), ==, SB_OK);
-  g_assert_cmpint(sb_assembly_tangent(&t, &a, SB_VALVE_STEM_CENTRE, x_axis, &report), ==, SB_OK);
+  g_assert_cmpint(
+      sb_assembly_tangent(&t, &a, SB_VALVE_STEM_CENTRE, x_axis, &assembly_work, &report), ==,
+      SB_OK);
   double home[SB_BODIES_MAX];
   for (size_t b = 0; b < a.bodies; b++) {
     home[b] = a.body[b].position[0];
@@ -324,7 +330,8 @@ static void test_cycle(void) {
     if (s.held || every > 1) {
       // At rest, or a sample: where the reduced form is.
       double speed = s.held ? 0.0 : s.v, x = every > 1 ? s.x : at;
-      g_assert_cmpint(sb_assembly_slide(&a, &t, x - at, speed, NULL, &report), ==, SB_OK);
+      g_assert_cmpint(sb_assembly_slide(&a, &t, x - at, speed, NULL, &assembly_work, &report), ==,
+                      SB_OK);
       at = x;
     }
     segments += !s.held;
@@ -355,8 +362,9 @@ static void test_cycle(void) {
       place = fmax(place, fabs(a.body[SB_VALVE_HOUSING].position[0]));
       force = fmax(force, s.push.on ? 1e5 * fabs(block - x) : 0.0);
       furthest = fmax(furthest, x);
-      g_assert_cmpint(sb_assembly_tangent(&t, &a, SB_VALVE_STEM_CENTRE, x_axis, &report), ==,
-                      SB_OK);
+      g_assert_cmpint(
+          sb_assembly_tangent(&t, &a, SB_VALVE_STEM_CENTRE, x_axis, &assembly_work, &report), ==,
+          SB_OK);
     }
     g_assert_cmpint(sb_dynamics_advance(&s, until, &report), ==, SB_OK);
   }

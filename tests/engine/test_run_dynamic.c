@@ -277,6 +277,26 @@ static void test_finger(void) {
   sb_run_destroy(run);
 }
 
+// The last moment of a finger whose force falls to 0 is known to the rounding of the time: it
+// leaves the stem once, where friction depends on speed too.
+static void test_finger_leaves(void) {
+  Setting settings[] = {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
+                        {SB_P_DRIVE_PEAK_FORCE, 58.798170439287645},
+                        {SB_P_DRIVE_RISE_TIME, 0.0840600806026059},
+                        {SB_P_DRIVE_STIFFNESS, 20126.07849234182},
+                        {SB_P_DRIVE_DAMPING_RATIO, 0.2001909473491302},
+                        {SB_P_FRICTION_STATIC_RATIO, 1.48},
+                        {SB_P_FRICTION_STRIBECK_SPEED, 0.004973802219665759},
+                        {SB_P_HOUSING_STOP_RESTITUTION, 0.5774017734051939},
+                        {SB_P_MODELS_FILM, 1},
+                        {SB_P_STEM_MASS, 0.03811766630825119},
+                        {SB_P_SURFACE_GT_PRODUCT, 0.1062033815929603},
+                        {SB_P_OUTPUT_FRAMES, 50}};
+  SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, settings, G_N_ELEMENTS(settings));
+  g_assert_true(sb_run_summary(run)->returns);
+  sb_run_destroy(run);
+}
+
 // A finger has no speed of its own: the films are those at which the stem slides, whatever
 // drive.speed says, each frame's at its own speed, and the work of friction follows.
 static void test_own_speed(void) {
@@ -333,6 +353,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-dynamic/own-speed", test_own_speed);
   g_test_add_func("/run-dynamic/first-slip", test_first_slip);
   g_test_add_func("/run-dynamic/finger", test_finger);
+  g_test_add_func("/run-dynamic/finger-leaves", test_finger_leaves);
   g_test_add_func("/run-dynamic/refused", test_refused);
   return g_test_run();
 }

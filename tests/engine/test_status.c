@@ -75,11 +75,24 @@ static void test_cut(void) {
   g_free(words);
 }
 
+// What tells a defect of the valve, or that something was not computed, is never one of a number.
+static void test_serious(void) {
+  static const char *const serious[] = {"no-return",     "life-no-return", "seal-open",
+                                        "ports-no-vent", "not-converged",  "film-history",
+                                        "film-snap-in"};
+  for (size_t i = 0; i < G_N_ELEMENTS(serious); i++) {
+    g_assert_true(sb_warning_is_serious(serious[i]));
+  }
+  g_assert_false(sb_warning_is_serious("boundary-regime"));
+  g_assert_false(sb_warning_is_serious("film-opened")); // "seal-open" where the seal is needed
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/status/report", test_report);
   g_test_add_func("/status/warnings", test_warnings);
   g_test_add_func("/status/subjects", test_subjects);
   g_test_add_func("/status/cut", test_cut);
+  g_test_add_func("/status/serious", test_serious);
   return g_test_run();
 }

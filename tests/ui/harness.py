@@ -74,11 +74,12 @@ class App:
         with open(os.path.join(config, "window.ini"), "w") as out:
             out.write("[window]\ntheme=%s\nwidth=%d\nheight=%d\n" % (theme, *size))
         self.latency_path = os.path.join(self.folder, "latency.json")
-        surroundings = dict(os.environ, XDG_CONFIG_HOME=self.folder, XDG_DATA_HOME=self.folder,
-                            SEALBENCH_LATENCY=self.latency_path, NO_AT_BRIDGE="0",
-                            G_DEBUG="fatal-criticals", GTK_RECENT_FILES_ENABLED="0")
-        surroundings.update(env or {})
-        self.process = subprocess.Popen([PROGRAM, *files], env=surroundings)
+        self.surroundings = dict(
+            os.environ, XDG_CONFIG_HOME=self.folder, XDG_DATA_HOME=self.folder,
+            SEALBENCH_LATENCY=self.latency_path, NO_AT_BRIDGE="0", G_DEBUG="fatal-criticals",
+            GTK_RECENT_FILES_ENABLED="0")
+        self.surroundings.update(env or {})
+        self.process = subprocess.Popen([PROGRAM, *files], env=self.surroundings)
         self.node = wait("the program's window", self._find)
 
     def _find(self):
@@ -101,9 +102,12 @@ class App:
         rule = Atspi.MatchRule.new(states, every, {}, every, [ROLES[role]], any_, [], every, False)
         tops = [root] if root is not None else [
             self.node.getChildAtIndex(i) for i in range(self.node.childCount)]
+        # What a collection finds lies below its node.
         return [node for top in tops if top is not None
-                for node in top.get_collection_iface().get_matches(
-                    rule, Atspi.CollectionSortOrder.CANONICAL, 0, True) if self._named(node, name)]
+                for node in (*([top] if top.get_role() == ROLES[role] else []),
+                             *top.get_collection_iface().get_matches(
+                                 rule, Atspi.CollectionSortOrder.CANONICAL, 0, True))
+                if self._named(node, name)]
 
     @staticmethod
     def _named(node, name):
@@ -208,6 +212,16 @@ class App:
                         "org.gtk.Actions.Activate", name, "[]", "{}"], check=True,
                        stdout=subprocess.DEVNULL)
 
+    def replace_window(self, path, number):
+        """Opens a file as a desktop would, which makes a window, and closes window `number` (from 1)."""
+        subprocess.run([PROGRAM, path], env=self.surroundings, check=True)
+        wait("the other window", lambda: self.node.childCount == 2)
+        subprocess.run(["gdbus", "call", "--session", "--dest", "org.sealbench.Sealbench",
+                        "--object-path", "/org/sealbench/Sealbench/window/%d" % number, "--method",
+                        "org.gtk.Actions.Activate", "close", "[]", "{}"], check=True,
+                       stdout=subprocess.DEVNULL)
+        wait("the former window gone", lambda: self.node.childCount == 1)
+
     def latency(self):
         """What the program's own probe of its main loop has measured."""
         if os.path.exists(self.latency_path):
@@ -300,9 +314,11 @@ def main(*tests):
     print("1..%d" % len(tests))
     failed = 0
     for number, test in enumerate(tests, 1):
+        start = time.monotonic()
         try:
             least_of(test, 3)
-            print("ok %d - %s" % (number, test.__name__), flush=True)
+            print("ok %d - %s" % (number, test.__name__))
+            print("# %.1f s" % (time.monotonic() - start), flush=True)
         except Exception as error:
             failed += 1
             print("not ok %d - %s" % (number, test.__name__))

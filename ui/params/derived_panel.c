@@ -1,7 +1,7 @@
 // What follows from the values of the displayed run: squeeze, stretch and gland fill from its
-// model, the return force from its result, so that all are of one run; before the first run those
-// of the values at once. (gland_panel.c follows the values.) Each has a bar with the recommended
-// band, a word and a sign, so that colour is not alone.
+// model, the return force and the verdict from its result, so that all are of one run; before the
+// first run those of the values at once. (gland_panel.c follows the values.) Each has a bar with
+// the recommended band, a word and a sign, so that colour is not alone.
 //
 // Bands of squeeze, stretch and fill are those of the gland's read-outs (engine/contact/gland.h,
 // with their sources), of which gland_panel.c shows all. A return force of at least 2 N, an eighth
@@ -11,6 +11,7 @@
 
 #include "app/base/format.h"
 #include "app/base/theme.h"
+#include "engine/valve/figures.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -53,7 +54,7 @@ enum { ITEMS = G_N_ELEMENTS(items) };
 
 typedef struct {
   SbSession *session;
-  GtkWidget *grid, *note;
+  GtkWidget *grid, *note, *questions;
   GtkWidget *name[ITEMS], *value[ITEMS], *bar[ITEMS], *icon[ITEMS], *verdict[ITEMS];
   double shown[ITEMS];         // NAN: not known
   double lo[ITEMS], hi[ITEMS]; // bands in force
@@ -124,7 +125,8 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, Panel *panel) {
   return GDK_EVENT_PROPAGATE;
 }
 
-static void show(Panel *panel, int index, double value) {
+// The value, NAN: not known, for the reason `why` (NULL: nothing has run).
+static void show(Panel *panel, int index, double value, const char *why) {
   const Item *item = &items[index];
   panel->shown[index] = value;
   GtkStyleContext *style = gtk_widget_get_style_context(panel->verdict[index]);
@@ -135,6 +137,9 @@ static void show(Panel *panel, int index, double value) {
   gtk_style_context_remove_class(icon_style, "sb-warn");
   const char *word = "";
   char text[SB_FORMAT_MAX] = "–";
+  if (isnan(value) && why != NULL) {
+    g_strlcpy(text, _("not known"), sizeof text);
+  }
   if (!isnan(value)) {
     sb_format_text(text, item->quantity, value, 0);
     SbBand band = band_of(panel, index, value);
@@ -151,8 +156,43 @@ static void show(Panel *panel, int index, double value) {
   gtk_label_set_text(GTK_LABEL(panel->value[index]), text);
   gtk_label_set_text(GTK_LABEL(panel->verdict[index]), word);
   g_autofree char *spoken = g_strdup_printf("%s %s %s", _(item->name), text, word);
-  sb_style_name(panel->value[index], spoken, _(item->tip));
+  sb_style_name(panel->value[index], spoken, why != NULL ? why : _(item->tip));
+  gtk_widget_set_tooltip_text(panel->value[index], why);
   gtk_widget_queue_draw(panel->bar[index]);
+}
+
+// The six questions in one line, a tick, a cross or a dash before each; why, as its tooltip.
+static void show_verdict(Panel *panel, const SbSummary *summary) {
+  static const char *const words[SB_VERDICT_COUNT] = {
+      [SB_VERDICT_SEALS] = NC_("verdict", "seals"),
+      [SB_VERDICT_PRESSES] = NC_("verdict", "presses"),
+      [SB_VERDICT_RETURNS] = NC_("verdict", "returns"),
+      [SB_VERDICT_DOSES] = NC_("verdict", "doses"),
+      [SB_VERDICT_LEAK] = NC_("verdict", "leak"),
+      [SB_VERDICT_FITS] = NC_("verdict", "fits")};
+  static const char *const signs[] = {
+      [SB_ANSWER_UNKNOWN] = "–", [SB_ANSWER_NO] = "✗", [SB_ANSWER_YES] = "✓"};
+  g_autoptr(GString) line = g_string_new(NULL);
+  g_autoptr(GString) tip = g_string_new(NULL);
+  for (int i = 0; summary != NULL && i < SB_VERDICT_COUNT; i++) {
+    const SbVerdict *verdict = &summary->verdict[i];
+    const char *word = g_dpgettext2(NULL, "verdict", words[i]);
+    const char *weight = verdict->ok == SB_ANSWER_NO ? "bold" : "normal";
+    // No break between a sign and its word.
+    g_autofree char *one = g_markup_printf_escaped("<span weight='%s'>%s\u00a0%s</span>", weight,
+                                                   signs[verdict->ok], word);
+    g_string_append_printf(line, "%s%s", i > 0 ? "  " : "", one);
+    const char *answer = verdict->ok == SB_ANSWER_YES  ? C_("verdict", "yes")
+                         : verdict->ok == SB_ANSWER_NO ? C_("verdict", "no")
+                                                       : C_("verdict", "not known");
+    g_string_append_printf(tip, "%s%s: %s%s%s", i > 0 ? "\n" : "", word, answer,
+                           verdict->reason[0] != '\0' ? ", " : "", verdict->reason);
+  }
+  gtk_label_set_markup(GTK_LABEL(panel->questions), line->str);
+  gtk_widget_set_tooltip_text(panel->questions, tip->str);
+  gtk_widget_set_visible(panel->questions, summary != NULL);
+  AtkObject *spoken = gtk_widget_get_accessible(panel->questions);
+  atk_object_set_description(spoken, tip->str);
 }
 
 static void refresh(Panel *panel) {
@@ -164,14 +204,17 @@ static void refresh(Panel *panel) {
   // A plate on its rings has no glands, return or doses.
   gtk_widget_set_visible(panel->grid, model == NULL || model->motion != SB_MODEL_MOTION_RIG);
   const SbSealModel *seal = model != NULL ? &model->seal[SB_OUTER] : NULL;
-  show(panel, 0, seal != NULL ? seal->squeeze : NAN);
-  show(panel, 1, seal != NULL ? seal->stretch_inner : NAN);
-  show(panel, 2, seal != NULL ? seal->gland_fill : NAN);
-  // The stem must have come back, and all the way, for a return force to be known.
-  gboolean returned = summary != NULL && summary->stage[SB_STAGE_E].reached;
-  show(panel, 3, returned ? summary->force_return_min : NAN);
-  show(panel, 4, model != NULL ? model->metered_volume : NAN);
-  show(panel, 5, model != NULL ? (double)model->doses : NAN);
+  show(panel, 0, seal != NULL ? seal->squeeze : NAN, NULL);
+  show(panel, 1, seal != NULL ? seal->stretch_inner : NAN, NULL);
+  show(panel, 2, seal != NULL ? seal->gland_fill : NAN, NULL);
+  // The way back must have begun for a return force to be known.
+  gboolean back = summary != NULL && summary->stage[SB_STAGE_E].reached;
+  int least = sb_figure_find(back ? "cycle.force_return_min_N" : "cycle.stages.E.force_N");
+  show(panel, 3, back ? summary->force_return_min : NAN,
+       summary != NULL ? sb_figure_reason(summary, least) : NULL);
+  show(panel, 4, model != NULL ? model->metered_volume : NAN, NULL);
+  show(panel, 5, model != NULL ? (double)model->doses : NAN, NULL);
+  show_verdict(panel, summary);
   gtk_label_set_text(GTK_LABEL(panel->note), former != NULL ? former : _("outer seal"));
   gtk_widget_set_tooltip_text(panel->note, former);
   for (int i = 0; i < ITEMS; i++) {
@@ -179,6 +222,7 @@ static void refresh(Panel *panel) {
     sb_style_former(panel->bar[i], former != NULL);
     sb_style_former(panel->verdict[i], former != NULL);
   }
+  sb_style_former(panel->questions, former != NULL);
 }
 
 static void on_destroy(GtkWidget *widget, Panel *panel) {
@@ -224,6 +268,9 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
     gtk_grid_attach(GTK_GRID(grid), panel->icon[i], 3, i + 1, 1, 1);
     gtk_grid_attach(GTK_GRID(grid), panel->verdict[i], 4, i + 1, 1, 1);
   }
+  panel->questions = label_new("", "sb-questions", 0);
+  gtk_label_set_line_wrap(GTK_LABEL(panel->questions), TRUE);
+  gtk_grid_attach(GTK_GRID(grid), panel->questions, 0, ITEMS + 1, 5, 1);
   g_object_set_data_full(G_OBJECT(grid), "panel", panel, g_free);
   g_signal_connect(grid, "destroy", G_CALLBACK(on_destroy), panel);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), panel);

@@ -9,6 +9,7 @@
 #include "app/chart/profiles.h"
 #include "app/chart/rig.h"
 #include "app/chart/signal.h"
+#include "engine/valve/figures.h"
 #include "ui/views/canvas_area.h"
 #include "ui/views/picture.h"
 #include "ui/views/style.h"
@@ -31,7 +32,7 @@ static const struct {
 } kinds[] = {
     {N_("Force and displacement"), 190, 260, 50}, {N_("Contact pressure"), 132, 178, 80},
     {N_("Film thickness"), 132, 178, 80},         {N_("Life"), 176, 230, 1000},
-    {N_("Why they differ"), 176, 176, 1000},
+    {N_("Why they differ"), 224, 224, 1000},
 };
 
 // Model of the run shown; before the first run, of the values.
@@ -146,8 +147,14 @@ static void describe_loop(SbSession *session, GString *text) {
   if (summary != NULL) {
     g_string_append_printf(text, _("break-away %s, "),
                            sb_format_text(a, SB_QUANTITY_FORCE, summary->force_breakaway, 0));
-    g_string_append_printf(text, _("least return force %s, "),
-                           sb_format_text(a, SB_QUANTITY_FORCE, summary->force_return_min, 0));
+    int least = sb_figure_find("cycle.force_return_min_N");
+    if (isnan(summary->force_return_min)) {
+      g_string_append_printf(text, _("least return force not known: %s, "),
+                             sb_figure_reason(summary, least));
+    } else {
+      g_string_append_printf(text, _("least return force %s, "),
+                             sb_format_text(a, SB_QUANTITY_FORCE, summary->force_return_min, 0));
+    }
     g_string_append_printf(text, _("loss per cycle %s, "),
                            sb_format_text(a, SB_QUANTITY_ENERGY, summary->energy.loop, 0));
   }

@@ -75,3 +75,12 @@ void sb_style_former(GtkWidget *picture, gboolean former) {
 void sb_style_class(GtkWidget *widget, const char *name) {
   gtk_style_context_add_class(gtk_widget_get_style_context(widget), name);
 }
+
+void sb_style_window(GtkWidget *window) {
+  g_autofree char *font = NULL;
+  g_object_get(gtk_settings_get_default(), "gtk-font-name", &font, NULL);
+  sb_style_class(window, "sb-window");
+  if (font == NULL || g_str_has_prefix(font, "Sans ")) {
+    sb_style_class(window, "sb-builtin-font");
+  }
+}

@@ -19,3 +19,6 @@ void sb_style_former(GtkWidget *picture, gboolean former);
 
 // Adds a style class.
 void sb_style_class(GtkWidget *widget, const char *name);
+
+// The look of a window: its ground, and its font where the desktop names none of its own.
+void sb_style_window(GtkWidget *window);

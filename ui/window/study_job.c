@@ -32,7 +32,7 @@ SbStudyJob *sb_study_job_start(SbStudyKind kind, const SbModel *model, void (*do
                                void *data) {
   SbStudyJob *job = g_new0(SbStudyJob, 1);
   job->kind = kind;
-  job->model = *model;
+  sb_model_keep(&job->model, model);
   job->study = g_new(SbStudy, 1);
   sb_worker_start(&job->worker, "study", work, job, done, data);
   return job;
@@ -60,5 +60,6 @@ void sb_study_job_free(SbStudyJob *job) {
   }
   sb_worker_finish(&job->worker);
   g_free(job->study);
+  sb_model_clear(&job->model);
   g_free(job);
 }

@@ -152,7 +152,7 @@ static void on_done(void *data) {
     g_free(studies->hash);
     g_free(studies->scene);
     studies->study = study;
-    studies->model = studies->asked_model;
+    sb_model_keep(&studies->model, &studies->asked_model);
     studies->hash = g_steal_pointer(&studies->asked_hash);
     studies->scene = g_steal_pointer(&studies->asked_scene);
     judge(studies);
@@ -172,7 +172,7 @@ static void compute(Studies *studies) {
   }
   const SbDocument *document = sb_session_document(studies->session);
   studies->asked = chosen(studies);
-  studies->asked_model = *model;
+  sb_model_keep(&studies->asked_model, model);
   g_free(studies->asked_hash);
   g_free(studies->asked_scene);
   studies->asked_hash = sb_document_sha256(document);
@@ -271,6 +271,8 @@ static void on_destroy(GtkWidget *widget, Studies *studies) {
   g_free(studies->study);
   g_free(studies->hash);
   g_free(studies->scene);
+  sb_model_clear(&studies->model);
+  sb_model_clear(&studies->asked_model);
   g_free(studies);
 }
 
@@ -310,7 +312,7 @@ void sb_study_window_open(GtkWindow *parent, SbSession *session) {
                               sb_words(sb_study_title((SbStudyKind)i)));
   }
   gtk_combo_box_set_active(GTK_COMBO_BOX(studies->kind), first_kind(session));
-  sb_style_class(studies->window, "sb-window");
+  sb_style_window(studies->window);
   sb_style_class(studies->area, "sb-canvas");
   gtk_widget_set_can_focus(studies->area, TRUE);
   sb_style_name(studies->area, _("Study"), NULL);

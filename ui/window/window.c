@@ -534,13 +534,7 @@ static void sb_window_init(SbWindow *window) {
   };
   g_action_map_add_action_entries(G_ACTION_MAP(window), entries, G_N_ELEMENTS(entries), window);
 
-  // Where the desktop names no font of its own, the look's.
-  g_autofree char *font = NULL;
-  g_object_get(gtk_settings_get_default(), "gtk-font-name", &font, NULL);
-  sb_style_class(GTK_WIDGET(window), "sb-window");
-  if (font == NULL || g_str_has_prefix(font, "Sans ")) {
-    sb_style_class(GTK_WIDGET(window), "sb-builtin-font");
-  }
+  sb_style_window(GTK_WIDGET(window));
 
   // The parts.
   GtkWidget *charts = gtk_toggle_button_new();

@@ -28,14 +28,12 @@ void sb_disc_system_points(SbDiscSystem *system, size_t n) {
     system->gauss_w[i] *= 0.5;
   }
   // cos(k eta) at all points.
-  double cosine[SB_DISC_POINTS_MAX][SB_DISC_POINTS_MAX];
-  double eta[SB_DISC_POINTS_MAX];
+  double circle[4 * SB_DISC_POINTS_MAX]; // cos(m pi/2n), eta = (2 j + 1) pi/2n
+  for (size_t m = 0; m < 4 * n; m++) {
+    circle[m] = cos(M_PI * (double)m / (2.0 * (double)n));
+  }
   for (size_t j = 0; j < n; j++) {
-    eta[j] = M_PI * ((double)j + 0.5) / (double)n;
-    system->tau[j] = cos(eta[j]);
-    for (size_t k = 0; k < n; k++) {
-      cosine[k][j] = cos((double)k * eta[j]);
-    }
+    system->tau[j] = circle[2 * j + 1];
   }
   // F = sum c_k T_k with c_k = (2 - [k = 0])/n sum_j F_j cos(k eta_j); the logarithm turns
   // T_k/sqrt(1 - tau^2) into pi/k T_k, or pi ln 2 for k = 0.
@@ -45,7 +43,7 @@ void sb_disc_system_points(SbDiscSystem *system, size_t n) {
     system->edge_plus[j] = 0.0;
     system->edge_minus[j] = 0.0;
     for (size_t k = 0; k < n; k++) {
-      double c = (k == 0 ? 1.0 : 2.0) / (double)n * cosine[k][j];
+      double c = (k == 0 ? 1.0 : 2.0) / (double)n * circle[k * (2 * j + 1) % (4 * n)];
       system->edge_plus[j] += c;
       system->edge_minus[j] += k % 2 == 0 ? c : -c;
     }
@@ -53,11 +51,12 @@ void sb_disc_system_points(SbDiscSystem *system, size_t n) {
   for (size_t i = 0; i < n; i++) {
     for (size_t k = 0; k < n; k++) {
       double scale = (k == 0 ? 1.0 : 2.0) / (double)n;
-      double log_part = scale * (k == 0 ? M_PI * log(2.0) : M_PI / (double)k) * cosine[k][i];
-      double kink_part = scale * kink_moment((int)k, eta[i]);
+      double log_part =
+          scale * (k == 0 ? M_PI * log(2.0) : M_PI / (double)k) * circle[k * (2 * i + 1) % (4 * n)];
+      double kink_part = scale * kink_moment((int)k, M_PI * ((double)i + 0.5) / (double)n);
       for (size_t j = 0; j < n; j++) {
-        system->log_weight[i * n + j] += log_part * cosine[k][j];
-        system->kink_weight[i * n + j] += kink_part * cosine[k][j];
+        system->log_weight[i * n + j] += log_part * circle[k * (2 * j + 1) % (4 * n)];
+        system->kink_weight[i * n + j] += kink_part * circle[k * (2 * j + 1) % (4 * n)];
       }
     }
   }

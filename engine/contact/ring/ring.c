@@ -243,7 +243,8 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
     return status;
   }
   SbRing *ring = calloc(1, sizeof *ring);
-  if (ring == NULL) {
+  if (ring == NULL || (ring->recovery = sb_ring_recovery_create()) == NULL) {
+    free(ring);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring");
   }
   ring->body = *body;
@@ -283,6 +284,7 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
 void sb_ring_destroy(SbRing *ring) {
   if (ring != NULL) {
     drop(ring);
+    free(ring->recovery);
     free(ring);
   }
 }

@@ -19,6 +19,7 @@
 #include "engine/numeric/eliminate.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { ROWS_MAX = 640, TERMS_LEAST = 3, POINTS = 4, ENDS_MAX = 12 };
@@ -34,7 +35,7 @@ static const double GAUSS_W[POINTS] = {0.347854845137453857, 0.65214515486254614
 
 // One contact: its nodes from one before the first held to one after the last, along the loop. The
 // place of node i is x[i], rising; r[i] is its radius, or 1 in the plane.
-typedef struct {
+typedef struct SbRingRecovery {
   int rows, terms;
   double x[ROWS_MAX], r[ROWS_MAX], z[ROWS_MAX];
   double force[ROWS_MAX], area[ROWS_MAX];
@@ -45,7 +46,13 @@ typedef struct {
   // Of the last fit.
   double matrix[ROWS_MAX][SB_RING_PRESSURE_TERMS], known[ROWS_MAX];
   double a[SB_RING_PRESSURE_TERMS];
+  // Residuals at the ends, beside them, and their slopes to both.
+  double here[ROWS_MAX], there[ROWS_MAX], slope[2][ROWS_MAX];
 } Fit;
+
+SbRingRecovery *sb_ring_recovery_create(void) {
+  return malloc(sizeof(Fit));
+}
 
 static bool collect(Fit *fit, const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch) {
   const SbRingContact *contact = ring->contact;
@@ -179,7 +186,7 @@ static double solve(Fit *fit, const double end[2], double *residual) {
 
 // Both ends by Gauss-Newton's method; the mean square, negative if there is none.
 static double find_ends(Fit *fit, double end[2]) {
-  double here[ROWS_MAX], there[ROWS_MAX], slope[2][ROWS_MAX];
+  double *here = fit->here, *there = fit->there, (*slope)[ROWS_MAX] = fit->slope;
   double width = end[1] - end[0], step = 1e-5 * width, best = solve(fit, end, here);
   for (int it = 0; it < ENDS_MAX && best >= 0.0; it++) {
     double m[3] = {0.0}, b[2] = {0.0};
@@ -216,7 +223,7 @@ static double find_ends(Fit *fit, double end[2]) {
       if (better) {
         double moved = fmax(fabs(trial[0] - end[0]), fabs(trial[1] - end[1]));
         memcpy(end, trial, sizeof trial);
-        memcpy(here, there, sizeof here);
+        memcpy(here, there, sizeof fit->here);
         better = found < best * (1.0 - 1e-6) || moved > 1e-7 * width;
         best = found;
       }
@@ -258,8 +265,8 @@ static bool presses(const SbRingPressure *p) {
 
 bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch,
                      SbRingPressure *out) {
-  Fit fit;
-  if (!collect(&fit, ring, surface, patch)) {
+  Fit *fit = ring->recovery;
+  if (!collect(fit, ring, surface, patch)) {
     return false;
   }
   double sign = surface == SB_RING_BORE || surface == SB_RING_WALL_LEFT ? 1.0 : -1.0;
@@ -268,9 +275,9 @@ bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatc
   // A term of the wrong parity changes nothing: two that do not help end the search.
   for (int terms = TERMS_LEAST; terms <= SB_RING_PRESSURE_TERMS && terms + 3 < held && worse < 2;
        terms++) {
-    fit.terms = terms;
+    fit->terms = terms;
     worse++;
-    double left = find_ends(&fit, end);
+    double left = find_ends(fit, end);
     double free = 1.0 - (double)(terms + 2) / held;
     if (left >= 0.0 && left < MISFIT * MISFIT && left / (free * free) < least) {
       SbRingPressure trial = {.terms = terms};
@@ -278,7 +285,7 @@ bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatc
         trial.place[k] = sign * end[k];
         trial.end_pressure[k] = patch->end_pressure[k];
       }
-      memcpy(trial.a, fit.a, sizeof fit.a[0] * (size_t)terms);
+      memcpy(trial.a, fit->a, sizeof fit->a[0] * (size_t)terms);
       if (presses(&trial)) {
         least = left / (free * free);
         worse = 0;

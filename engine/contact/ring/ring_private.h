@@ -4,6 +4,10 @@
 #include "engine/contact/ring/ring.h"
 #include "engine/contact/ring/ring_newton.h"
 
+// Work memory of sb_ring_recover(); of no content between calls (ring_pressure.c).
+typedef struct SbRingRecovery SbRingRecovery;
+SbRingRecovery *sb_ring_recovery_create(void); // NULL without memory; free() ends it
+
 struct SbRing {
   SbRingBody body;
   SbRingLoad load;
@@ -14,6 +18,7 @@ struct SbRing {
   SbRingFem *fem;
   SbRingContact *contact;
   SbRingCount count;
+  SbRingRecovery *recovery; // owned
 };
 
 // One contiguous contact with a surface, in the order of the loop.

@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 static double now(void) {
@@ -34,7 +35,7 @@ SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, Sb
   if (run == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a run");
   }
-  run->model = *model;
+  sb_model_keep(&run->model, model);
   run->plan = *plan;
   run->speed = model->speed;
   run->capacity = frames_at_most(model);
@@ -73,6 +74,7 @@ void sb_run_destroy(SbRun *run) {
   sb_run_bodies_destroy(run->bodies);
   free(run->life);
   free(run->frames);
+  sb_model_clear(&run->model);
   free(run);
 }
 
@@ -205,7 +207,7 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   double start = now();
   SbSummary *summary = &run->summary;
-  *summary = (SbSummary){0};
+  memset(summary, 0, sizeof *summary); // too large for a temporary on a small stack
   sb_figures_clear(summary);
   run->lacks[0] = '\0';
   sb_run_publish(run, 0);

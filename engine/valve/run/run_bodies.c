@@ -29,6 +29,7 @@ struct SbRunBodies {
   double at;                 // that displacement [m]
   double mass;               // as assembled [kg]
   SbReaction *reaction;      // [frames][joints]
+  SbAssemblyWork work;
 };
 
 static const double axis[3] = {1, 0, 0};
@@ -43,8 +44,8 @@ static double lever(const SbAssemblyTangent *tangent, int load) {
 static SbStatus place(SbRun *run, double x, double v, SbReport *report) {
   SbRunBodies *bodies = run->bodies;
   double error;
-  SbStatus status =
-      sb_assembly_slide(&bodies->assembly, &bodies->tangent, x - bodies->at, v, &error, report);
+  SbStatus status = sb_assembly_slide(&bodies->assembly, &bodies->tangent, x - bodies->at, v,
+                                      &error, &bodies->work, report);
   if (status != SB_OK) {
     return status;
   }
@@ -92,10 +93,11 @@ SbStatus sb_run_bodies_create(SbRun *run, SbReport *report) {
   SbAssembly *assembly = &bodies->assembly;
   SbMobility mobility;
   SbStatus status = sb_assembly_valve(assembly, &run->model.parts, report);
-  status = status != SB_OK ? status : sb_assembly_mobility(&mobility, assembly, 1, report);
+  status = status != SB_OK ? status
+                           : sb_assembly_mobility(&mobility, assembly, 1, &bodies->work, report);
   status = status != SB_OK ? status
                            : sb_assembly_tangent(&bodies->tangent, assembly, SB_VALVE_STEM_CENTRE,
-                                                 axis, report);
+                                                 axis, &bodies->work, report);
   if (status != SB_OK) {
     return status;
   }
@@ -162,7 +164,7 @@ SbStatus sb_run_bodies_frame(SbRun *run, size_t index, const SbDynamicsSample *s
     size += fabs(load[k]);
   }
   SbAssemblyForces forces;
-  status = sb_assembly_forces(&forces, assembly, report);
+  status = sb_assembly_forces(&forces, assembly, &bodies->work, report);
   if (status != SB_OK) {
     return status;
   }

@@ -23,6 +23,7 @@ static void set_machine(SbDynamicsModel *out, const SbModel *model) {
 void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run) {
   const SbModel *model = &run->model;
   SbDrive *drive = &out->drive;
+  const SbModelSeries *measured = sb_model_measured(model);
   drive->cycles = model->cycles;
   switch (model->drive) {
   case SB_MODEL_DRIVE_MACHINE:
@@ -66,10 +67,12 @@ void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run) {
   case SB_MODEL_DRIVE_MEASURED:
     // A displacement moves the machine's platen, a force pushes the stem itself.
     drive->kind = SB_DRIVE_TABLE;
-    drive->quantity = model->measured.quantity;
-    drive->time = model->measured.time;
-    drive->value = model->measured.value;
-    drive->count = model->measured.count;
+    if (measured != NULL) {
+      drive->quantity = measured->quantity;
+      drive->time = measured->time;
+      drive->value = measured->value;
+      drive->count = measured->count;
+    }
     if (drive->quantity == SB_DRIVE_OF_POSITION) {
       set_machine(out, model);
     }
@@ -98,6 +101,7 @@ static double free_return_time(const SbRun *run) {
 
 double sb_drive_duration(const SbRun *run) {
   const SbModel *model = &run->model;
+  const SbModelSeries *measured = sb_model_measured(model);
   switch (model->drive) {
   case SB_MODEL_DRIVE_MACHINE:
     return 2 * model->cycles * platen_top(&run->cycle) / model->speed;
@@ -109,7 +113,7 @@ double sb_drive_duration(const SbRun *run) {
   case SB_MODEL_DRIVE_RAMP:
     return model->rise_time + model->hold_time;
   case SB_MODEL_DRIVE_MEASURED:
-    return model->measured.count > 0 ? model->measured.time[model->measured.count - 1] : 0;
+    return measured != NULL ? measured->time[measured->count - 1] : 0;
   case SB_MODEL_DRIVE_FREE_RETURN:
     break;
   }
@@ -124,6 +128,7 @@ bool sb_drive_ends_run(const SbRun *run) {
 
 double sb_drive_turn(const SbRun *run) {
   const SbModel *model = &run->model;
+  const SbModelSeries *measured = sb_model_measured(model);
   switch (model->drive) {
   case SB_MODEL_DRIVE_MACHINE:
     return platen_top(&run->cycle) / model->speed;
@@ -134,7 +139,7 @@ double sb_drive_turn(const SbRun *run) {
   case SB_MODEL_DRIVE_RAMP:
     return model->rise_time + model->hold_time;
   case SB_MODEL_DRIVE_MEASURED:
-    return model->measured.count > 0 ? model->measured.time[highest_row(&model->measured)] : 0;
+    return measured != NULL ? measured->time[highest_row(measured)] : 0;
   case SB_MODEL_DRIVE_FREE_RETURN:
     break;
   }

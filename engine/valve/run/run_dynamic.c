@@ -278,6 +278,16 @@ static double relative(double a, double b, double scale) {
   return scale > 0 ? fabs(a - b) / scale : 0;
 }
 
+// Sets a motion up whose warnings are told elsewhere.
+static SbStatus set_up_again(SbDynamicsModel *model, SbValve *valve, SbRun *run, SbReport *report) {
+  SbWarnings *warnings = &run->summary.warnings;
+  size_t count = warnings->count, dropped = warnings->dropped;
+  SbStatus status = sb_valve_set_up(model, valve, run, report);
+  warnings->count = count;
+  warnings->dropped = dropped;
+  return status;
+}
+
 // The same motion at ten times the tolerance. With errors in proportion to the power 5/6 of the
 // tolerance (order 5 in the step, order 6 locally) the difference is 5.8 times the error of the
 // fine motion; a half of it is told, three times as much as that, and never less than the
@@ -288,10 +298,8 @@ static SbStatus estimate_error(SbRun *run, const Recorder *fine, const SbDynamic
   SbDynamics motion;
   SbDynamicsModel model;
   SbValve valve;
-  SbWarnings kept = run->summary.warnings;
   Recorder coarse = {.run = run, .valve = &valve};
-  SbStatus status = sb_valve_set_up(&model, &valve, run, report);
-  run->summary.warnings = kept;
+  SbStatus status = set_up_again(&model, &valve, run, report);
   if (status != SB_OK) {
     return status;
   }
@@ -343,11 +351,9 @@ SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRu
   SbDynamics motion;
   SbDynamicsModel model;
   SbValve valve;
-  SbWarnings kept = run->summary.warnings;
   Recorder recorder = {.run = run, .valve = &valve};
   *speed = 0;
-  SbStatus status = sb_valve_set_up(&model, &valve, run, report);
-  run->summary.warnings = kept;
+  SbStatus status = set_up_again(&model, &valve, run, report);
   if (status == SB_OK) {
     status = run_motion(&recorder, &motion, &model, hooks, report);
   }

@@ -93,7 +93,7 @@ static SbStatus actuate(SbLifeActuation *out, long n, double roughness, void *us
   one->plan.bodies = run->plan.bodies && n + 1 == run->model.life_shown;
   one->speed = run->speed;
   one->film_exponent = run->film_exponent;
-  one->summary = (SbSummary){0};
+  memset(&one->summary, 0, sizeof one->summary);
   sb_figures_clear(&one->summary);
   sb_run_publish(one, 0);
   SbStatus status = sb_run_resurface(one, roughness / run->model.running_in.start, report);

@@ -13,14 +13,12 @@ void sb_run_lacks_motion(SbRun *run, const char *why) {
 }
 
 void sb_run_clear_motion(SbRun *run, const char *why) {
-  SbSummary *summary = &run->summary;
-  SbSummary kept = *summary; // stages that were reached stand
+  SbSummary *summary = &run->summary; // stages that were reached stand
   summary->force_peak = summary->force_return_min = summary->leakage_per_cycle = NAN;
   summary->duration = summary->error_force = summary->error_energy = NAN;
   summary->energy = (SbEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
   summary->returns = false;
   summary->returned = NAN;
-  memcpy(summary->stage, kept.stage, sizeof kept.stage);
   sb_reason(summary, "cycle.*", "%s", why);
   sb_reason(summary, "solver.error_estimate.force", "%s", why);
   sb_reason(summary, "solver.error_estimate.energy", "%s", why);

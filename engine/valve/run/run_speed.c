@@ -32,13 +32,13 @@ static SbStatus proxy_speed(SbRun *run, const SbRunHooks *hooks, SbReport *repor
   SbModel model = run->model;
   model.fit = SB_FIT_KARASZKIEWICZ;
   model.film = SB_MODEL_FILM_THESIS;
-  SbPlan plan = run->plan;
-  plan.ring = plan.section_fields = plan.profiles = plan.film_history = false;
   SbRun *proxy;
-  SbStatus status = sb_run_create(&proxy, &model, &plan, report);
+  SbStatus status = sb_run_create(&proxy, &model, &run->plan, report);
   if (status != SB_OK) {
     return status;
   }
+  SbPlan *plan = &proxy->plan;
+  plan->ring = plan->section_fields = plan->profiles = plan->film_history = false;
   status = sb_run_solve_states_at_speed(proxy, hooks, report);
   run->speed = proxy->speed;
   run->film_exponent = proxy->film_exponent > 0 ? exponent(run->model.film) : 0;

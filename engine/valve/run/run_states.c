@@ -312,7 +312,10 @@ void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber
     out->pressure_peak = state->pressure_peak * sqrt(fmax(1 - c * c, 0));
   }
   out->shape = sb_run_shape_index(run, seal, chamber, moving ? direction : SB_RUN_REST, s);
-  if (moving && width_share > 0) {
+  // At rest the surfaces meet; off the land there is no film.
+  if (!state->touches || !(width_share > 0)) {
+    out->film_min = out->film_central = out->lambda = NAN;
+  } else if (moving) {
     out->film_min = state->film_min;
     out->film_central = state->film_central;
     out->lambda = state->lambda;
