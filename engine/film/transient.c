@@ -12,6 +12,8 @@
 #include "engine/film/transient_internal.h"
 
 static const double TRAVEL = 1.0; // largest way of the fluid in a step, in cells
+// Of the largest local error of a step against the mean's: the least film is local.
+static const double LOCAL = 0.3;
 
 static bool cancelled(const SbFilmTransient *t) {
   const SbFilmProblem *p = &t->problem.film;
@@ -336,10 +338,10 @@ static SbStatus advance(double *error, SbFilmTransient *t, double h, double spee
                            : 0.0;
   for (int i = 0; i < t->nodes && ratio > 0.0; i++) {
     if (s->cavity[i] == t->before.cavity[i]) {
+      const double m = sb_transient_height(s, i), rise = m - sb_transient_height(&t->before, i);
       s->P[i] = fmax(s->P[i] + ratio * (s->P[i] - t->before.P[i]), s->cavity[i] ? 0.0 : 1e-300);
       s->H[i] = fmax(s->H[i] + ratio * (s->H[i] - t->before.H[i]), 0.3 * s->H[i]);
-      s->void_[i] = fmax(s->void_[i] + ratio * (s->void_[i] - t->before.void_[i]), 0.0);
-      s->void_[i] = fmin(s->void_[i], 0.999 * s->H[i]);
+      s->void_[i] = s->cavity[i] ? fmax(s->H[i] - fmax(m + ratio * rise, 0.3 * m), 0.0) : 0.0;
     }
   }
   s->H0 += ratio * (s->H0 - t->before.H0);
@@ -387,14 +389,18 @@ static SbStatus advance(double *error, SbFilmTransient *t, double h, double spee
   }
   double sum = 0.0;
   double whole = 0.0;
+  double largest = 0.0;
   for (int i = 0; i < t->nodes; i++) {
     if (fabs(t->X[i]) < 1.0) {
       const double content = s->half * sb_transient_height(s, i);
       sum += t->volume[i] * fabs(content - guess[i]);
       whole += t->volume[i] * content;
+      largest = fmax(largest, fabs(content - guess[i]) / content);
     }
   }
-  *error = t->known_times >= 2 ? share * sum / whole : INFINITY;
+  *error = t->known_times >= 2
+               ? share * fmax(sum / whole, t->problem.resolve ? LOCAL * largest : 0.0)
+               : INFINITY;
   t->info.load_error = fmax(t->info.load_error, trace.load_error);
   t->info.mass_error = fmax(t->info.mass_error, trace.mass_error);
   return SB_OK;
@@ -475,7 +481,8 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, double load1, 
 }
 
 // Takes the companion along, to the end of a piece that the fluid went `way` in; the difference of
-// the films, or what is left in the contact of the largest before.
+// the films, or what is left in the contact of the largest before. Half of the difference: all of
+// it is the error of a method of first order, a third of second order; fronts lie between.
 static SbStatus compare(SbFilmTransient *t, double way) {
   SbFilmTransient *other = t->companion;
   double *error[2] = {&t->info.error_film_min, &t->info.error_film_central};
@@ -485,13 +492,25 @@ static SbStatus compare(SbFilmTransient *t, double way) {
       return status;
     }
     double fine[2], coarse[2], place;
-    read_figures(fine, &place, t);
     read_figures(coarse, &place, other);
+    read_figures(fine, &place, t);
+    // A dip that the coarse spacing does not know goes as deep again as its node lies below the
+    // neighbours, for all that the two know.
+    int at = 1;
+    while (t->X[at] < place) {
+      at++;
+    }
+    const double *H = t->now.H;
+    const bool unknown = !t->problem.resolve && t->carried[at] > 0.0;
+    const double bend = unknown ? fabs(0.5 * (H[at - 2] + H[at + 1]) / fine[0] - 1.0) : 0.0;
+    t->way += way;
     for (int k = 0; k < 2; k++) {
-      const double kept =
-          (*error[k] - t->info.error_mesh) * fmax(1.0 - 0.5 * way / t->now.half, 0.0);
-      *error[k] =
-          status == SB_OK ? t->info.error_mesh + fmax(kept, fabs(coarse[k] / fine[k] - 1.0)) : NAN;
+      const double apart = 0.5 * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);
+      if (apart > t->apart[k] || t->way - t->apart_way[k] > 2.0 * t->now.half) {
+        t->apart[k] = apart;
+        t->apart_way[k] = t->way;
+      }
+      *error[k] = status == SB_OK ? t->info.error_mesh + t->apart[k] : NAN;
     }
     if (status != SB_OK) {
       sb_film_transient_destroy(other);

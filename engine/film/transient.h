@@ -15,7 +15,7 @@
 // complementarity as an active set. Between the edges' layers the cells move with the fluid, at
 // u/2: what the wall carries through the contact keeps its form whatever the step. A companion at
 // twice the spacing and twice the step runs beside: the estimates of least and central film are
-// the largest difference between the two, undivided, that the fluid still in the contact has seen,
+// half the largest difference between the two that the fluid still in the contact has seen,
 // and the mesh's own error in steady sliding. Range: isoviscous (Barus' and Eyring's options are
 // refused), flooded surroundings, M >= 1; the pressure must stay that of one contact.
 #pragma once

@@ -69,7 +69,8 @@ struct SbFilmTransient {
   double content[3][SB_TRANSIENT_NODES_MAX]; // half m at the last three times, newest first
   double content_time[3], content_half[3], content_middle[3], content_travel[3];
   int known_times;
-  double step; // next step to try [s]
+  double way, apart[2], apart_way[2]; // of the fluid; largest difference, and the way then
+  double step;                        // next step to try [s]
   SbFilmTransientInfo info;
 };
 

@@ -11,7 +11,7 @@
 #include "engine/film/transient_internal.h"
 #include "engine/numeric/legendre.h"
 
-static const double RESOLVED = 3.5e-3; // spacing for the dip of a reversal, 0.02 b wide
+static const double RESOLVED = 4.5e-3; // spacing for the dip of a reversal, 0.02 b wide
 static const double CARRIED = 3.0;     // layers
 
 // f'' = ln|y|.
@@ -108,6 +108,7 @@ void sb_transient_mesh(SbFilmTransient *t, double rest) {
   const double fine =
       t->coarseness * cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
   const double share = 0.15 * fine;
+  const double inner = t->problem.resolve ? 0.10 * fine : share;
   const double finest = 0.5 * width;
   const double reach = fmax(fmax(4.0, 60.0 * width), 6.0 * sqrt(2.0 * rest));
   double X[SB_TRANSIENT_NODES_MAX / 2];
@@ -118,8 +119,8 @@ void sb_transient_mesh(SbFilmTransient *t, double rest) {
     double step = 0.0;
     for (int pass = 0; pass < 3; pass++) {
       const double at = X[n - 1] + 0.5 * step;
-      const double d = hypot(finest, at - 1.0);
-      step = share * d / (at < 1.0 ? hypot(1.0, share * d / t->cell) : 1.0);
+      const double d = hypot(at < 1.0 ? finest * share / inner : finest, at - 1.0);
+      step = at < 1.0 ? inner * d / hypot(1.0, inner * d / t->cell) : share * d;
     }
     X[n] = X[n - 1] + step;
     n++;

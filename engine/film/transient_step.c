@@ -139,7 +139,7 @@ void sb_transient_carry(double *out, const SbFilmTransient *t, const double *con
       most = fmax(most, content[j]);
     }
     double value = 0.0;
-    if (most > 2.5 * least) {
+    if (most > 6.0 * least) {
       // A front: Hermite's cubic with harmonic means for slopes rises throughout.
       const double *m = content + k;
       const double h = t->volume[k + 1];
@@ -339,7 +339,7 @@ static bool is_steep(const SbFilmTransient *t, const SbTransientState *s, int fa
     least = fmin(least, sb_transient_height(s, i));
     most = fmax(most, sb_transient_height(s, i));
   }
-  return most > 2.5 * least;
+  return most > 6.0 * least;
 }
 
 SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTransientState *s,
