@@ -217,7 +217,7 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   t->flow = 0.5 * problem->speed_scale / t->scale.half_width * largest->film_flux / t->scale.film;
   t->now.load = 0.5 * M_PI;
   t->now.half = 1.0;
-  t->now.middle = copysign(t->scale.middle, scaled.speed);
+  t->now.middle = scaled.speed < 0.0 ? -t->scale.middle : t->scale.middle;
   sb_transient_mesh(t, problem->rest_film / t->scale.film);
   SbStatus status = lay_steady(t, &t->now, largest, scaled.speed, report);
   if (status != SB_OK) {
@@ -276,6 +276,12 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
   }
   if (status == SB_OK) {
     status = begin(&t->companion, problem, 2.0, &steady[0], &steady[1], report);
+    if (status == SB_ERROR_NOT_CONVERGED) {
+      sb_film_transient_destroy(t->companion);
+      t->companion = NULL;
+      t->info.error_film_min = t->info.error_film_central = NAN;
+      status = SB_OK;
+    }
   }
   free(steady);
   if (status != SB_OK) {

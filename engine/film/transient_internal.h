@@ -46,6 +46,7 @@ struct SbFilmTransient {
   double weight[SB_TRANSIENT_NODES_MAX];      // of the load
   double carried[SB_TRANSIENT_NODES_MAX];     // share of v that face i, i + 1 moves at
   double reach;                               // way in a step up to which faces move
+  bool limited[SB_TRANSIENT_NODES_MAX];       // faces of cells wider than the layers
   bool steep[SB_TRANSIENT_NODES_MAX];         // transport through the face is kept monotonic: a
                                               // front stands there when a step begins
   bool beside_cavity[SB_TRANSIENT_NODES_MAX]; // the same, by the cavity when a step begins

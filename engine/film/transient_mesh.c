@@ -135,6 +135,7 @@ void sb_transient_mesh(SbFilmTransient *t, double rest) {
     const double left = i > 0 ? t->X[i] - t->X[i - 1] : 0.0;
     const double right = i + 1 < t->nodes ? t->X[i + 1] - t->X[i] : 0.0;
     t->volume[i] = t->weight[i] = 0.5 * (left + right);
+    t->limited[i] = !t->problem.resolve && right > width && fabs(t->X[i]) < 1.0;
     // From CARRIED layers inside the edges on the faces move, after as many again with the fluid.
     const double inside = (1.0 - fabs(t->X[i] + 0.5 * right)) / (CARRIED * width) - 1.0;
     const double ramp = fmin(fmax(inside, 0.0), 1.0);

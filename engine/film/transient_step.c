@@ -1,7 +1,8 @@
 // The implicit step of the transient film; equations in transient.h.
 //
 // Node values stand for cells between the midpoints. Fluid goes through a face by quadratic
-// upwind interpolation, and with van Albada's limited slope where a front stands or the upwind node
+// upwind interpolation, and with van Albada's limited slope where a
+// front stands, a coarse cell is wider than the layers or the upwind node
 // lies in a cavity, so that fronts stay monotonic; faces that move with the fluid let none through.
 // Unknown of a node is its pressure or its void, whichever is not zero.
 #include "engine/film/transient_internal.h"
@@ -43,7 +44,7 @@ static Face face_height(const SbFilmTransient *t, const SbTransientState *s, int
   const double m_u = sb_transient_height(s, U);
   const double m_c = sb_transient_height(s, C);
   const double m_d = sb_transient_height(s, D);
-  if (!t->steep[i] && !t->beside_cavity[i]) {
+  if (!t->limited[i] && !t->steep[i] && !t->beside_cavity[i]) {
     f.by[U - f.first] = (at - c) * (at - d) / ((u - c) * (u - d));
     f.by[C - f.first] = (at - u) * (at - d) / ((c - u) * (c - d));
     f.by[D - f.first] = (at - u) * (at - c) / ((d - u) * (d - c));
@@ -339,7 +340,7 @@ static bool is_steep(const SbFilmTransient *t, const SbTransientState *s, int fa
     least = fmin(least, sb_transient_height(s, i));
     most = fmax(most, sb_transient_height(s, i));
   }
-  return most > 6.0 * least;
+  return most > (t->problem.resolve ? 6.0 : 2.5) * least;
 }
 
 SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTransientState *s,

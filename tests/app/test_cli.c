@@ -255,7 +255,8 @@ static void test_film_history(void) {
   "film", "--load", "850.2N/m", "--radius", "0.805mm", "--modulus", "6.5725MPa", "--viscosity",    \
       "0.211mPa.s", "--json", "-"
   char *path = g_build_filename(cli.folder, "speed.csv", NULL);
-  g_assert_true(g_file_set_contents(path, "time,speed\n0,0.1\n1e-3,0.08\n2e-3,0.08\n", -1, NULL));
+  g_assert_true(
+      g_file_set_contents(path, "time [s],speed [m/s]\n0,0.1\n1e-3,0.08\n2e-3,0.08\n", -1, NULL));
   CliResult good = CLI(AT_REST, "--history", path);
   g_assert_cmpint(good.code, ==, 0);
   JsonNode *json = cli_parse(good.out);
@@ -283,9 +284,10 @@ static void test_film_history(void) {
   cli_clear(&good);
   static const struct {
     const char *text, *message;
-  } bad[] = {{"0,0.1\n1e-3,fast\n", ":2"},
-             {"0,0.1\n1e-3,0.1\n1e-3,0\n", ":3"},
-             {"0,0\n1e-3,0.1\n", "begins at rest"}};
+  } bad[] = {{"time [s],speed [m/s]\n0,0.1\n1e-3,fast\n", "line 3"},
+             {"time [s],speed [m/s]\n0,0.1\n1e-3,0.1\n1e-3,0\n", "line 4"},
+             {"time [s],speed [m/s]\n0,0\n1e-3,0.1\n", "begins at rest"},
+             {"0,0.1\n1e-3,0\n", "not a heading"}};
   for (size_t k = 0; k < G_N_ELEMENTS(bad); k++) {
     g_assert_true(g_file_set_contents(path, bad[k].text, -1, NULL));
     CliResult refused = CLI(AT_REST, "--history", path);
