@@ -500,15 +500,15 @@ static SbStatus compare(SbFilmTransient *t, double way) {
     double fine[2], coarse[2], place;
     read_figures(coarse, &place, other);
     read_figures(fine, &place, t);
-    // A dip that the coarse spacing does not know goes as deep again as its node lies below the
-    // neighbours, for all that the two know.
+    // A dip that the coarse spacing does not know may go twice as deep again as its node lies below
+    // the neighbours, for all that the two know.
     int at = 1;
     while (t->X[at] < place) {
       at++;
     }
     const double *H = t->now.H;
     const bool unknown = !t->problem.resolve && t->carried[at] > 0.0;
-    const double bend = unknown ? fabs(0.5 * (H[at - 2] + H[at + 1]) / fine[0] - 1.0) : 0.0;
+    const double bend = unknown ? fabs((H[at - 2] + H[at + 1]) / fine[0] - 2.0) : 0.0;
     t->way += way;
     for (int k = 0; k < 2; k++) {
       const double apart = 0.5 * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);
