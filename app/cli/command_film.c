@@ -334,7 +334,7 @@ static bool read_history(SbModelSeries *series, SbFilmProblem *problem, const ch
 // The film at every row of the series; rows behind a failure stay unknown.
 static SbStatus follow(SbResultsHistory *out, const SbFilmProblem *problem,
                        const SbModelSeries *series, SbReport *report) {
-  SbFilmTransientProblem transient = {.film = *problem};
+  SbFilmTransientProblem transient = {.film = *problem, .resolve = true};
   for (size_t i = 0; i < series->count; i++) {
     transient.speed_scale = fmax(transient.speed_scale, fabs(series->value[i]));
     out->film_min[i] = out->film_central[i] = out->error_min[i] = out->error_central[i] = NAN;

@@ -12,8 +12,12 @@
 // Space: finite volumes on a mesh refined at both edges of the contact that breathes with the
 // Hertz contact of W(t), second order; pressure by straight lines, the elastic kernel exact for
 // these. Time: BDF2 with steps chosen from its own error, Newton's method with the cavity's
-// complementarity as an active set. Range: isoviscous (Barus' and Eyring's options are refused),
-// flooded surroundings, M >= 1; the pressure must stay that of one contact.
+// complementarity as an active set. Between the edges' layers the cells move with the fluid, at
+// u/2: what the wall carries through the contact keeps its form whatever the step. A companion at
+// twice the spacing and twice the step runs beside: the estimates of least and central film are
+// half the largest difference between the two that the fluid still in the contact has seen,
+// and the mesh's own error in steady sliding. Range: isoviscous (Barus' and Eyring's options are
+// refused), flooded surroundings, M >= 1; the pressure must stay that of one contact.
 #pragma once
 
 #include "engine/film/film.h"
@@ -24,6 +28,8 @@ typedef struct {
   double speed_scale; // greatest |speed| to come [m/s]: lays the mesh
   double rest_film;   // 0: start in the steady state of film.speed; else at rest, the contact
                       // parted by this film [m] and the surroundings full
+  bool resolve;       // spacing and steps for the narrow dip that a reversal carries through the
+                      // contact; else for the mean film
 } SbFilmTransientProblem;
 
 // Counters and checks since the start.
@@ -39,6 +45,7 @@ typedef struct {
   double mass_error; // largest |d/dt content + outflow| of any step over the flow scale
   double error_time; // estimate, relative, of the film in the contact by the time steps
   double error_mesh; // the same by the mesh: against the spectral steady film at speed_scale
+  double error_film_min, error_film_central; // of the present figures; NaN: the companion failed
 } SbFilmTransientInfo;
 
 typedef struct SbFilmTransient SbFilmTransient;

@@ -4,14 +4,15 @@
 #include "engine/film/scale.h"
 #include "engine/film/transient.h"
 
-enum { SB_TRANSIENT_NODES_MAX = 700 };
+enum { SB_TRANSIENT_NODES_MAX = 1000 };
 
 // Everything is scaled by the steady problem's b, p_H and b^2/R; time stays in seconds. Nodes are
 // at x = middle + half X, in units of b.
 typedef struct {
   double time;
-  double speed; // v = u/(2 b) [1/s]
-  double load;  // pi/2 at the start's load
+  double speed;  // v = u/(2 b) [1/s]
+  double load;   // pi/2 at the start's load
+  double travel; // of the fluid at v since the start
   double half, middle;
   double H0;
   double P[SB_TRANSIENT_NODES_MAX];     // above the rupture pressure
@@ -24,7 +25,7 @@ typedef struct {
 typedef struct {
   double c0;
   const double *old; // [nodes] combination of earlier contents; NULL when steady
-  double half_rate, middle_rate;
+  double half_rate, middle_rate, carried_rate;
 } SbTransientStep;
 
 typedef struct {
@@ -36,12 +37,18 @@ struct SbFilmTransient {
   SbFilmTransientProblem problem;
   SbFilmScale scale;
   int nodes;
-  double layer; // width of the layers at the edges
+  double layer;               // width of the layers at the edges
+  double cell;                // spacing between the layers
+  double coarseness;          // of mesh and steps: 1, the companion's 2
+  SbFilmTransient *companion; // NULL in itself
   double X[SB_TRANSIENT_NODES_MAX];
   double volume[SB_TRANSIENT_NODES_MAX];      // length of a node's cell
   double weight[SB_TRANSIENT_NODES_MAX];      // of the load
-  bool limited[SB_TRANSIENT_NODES_MAX];       // transport through face i, i + 1 is kept monotonic
-  bool steep[SB_TRANSIENT_NODES_MAX];         // the same, where a front stands when a step begins
+  double carried[SB_TRANSIENT_NODES_MAX];     // share of v that face i, i + 1 moves at
+  double reach;                               // way in a step up to which faces move
+  bool limited[SB_TRANSIENT_NODES_MAX];       // faces of cells wider than the layers
+  bool steep[SB_TRANSIENT_NODES_MAX];         // transport through the face is kept monotonic: a
+                                              // front stands there when a step begins
   bool beside_cavity[SB_TRANSIENT_NODES_MAX]; // the same, by the cavity when a step begins
   double diffusion;                           // kappa = film^2 p_H / (12 eta b^2) [1/s]
   double flow;                                // scale of v m
@@ -61,18 +68,19 @@ struct SbFilmTransient {
   bool factored_cavity[SB_TRANSIENT_NODES_MAX];
   SbTransientState now, next, before;
   double content[3][SB_TRANSIENT_NODES_MAX]; // half m at the last three times, newest first
-  double content_time[3], content_half[3], content_middle[3];
+  double content_time[3], content_half[3], content_middle[3], content_travel[3];
   int known_times;
-  double steady_error, transport; // parts of error_mesh
-  double step;                    // next step to try [s]
+  double way, apart[2], apart_way[2]; // of the fluid; largest difference, and the way then
+  double step;                        // next step to try [s]
   SbFilmTransientInfo info;
 };
 
 // Mesh and kernel for films up to `rest`; the arrays stand.
 void sb_transient_mesh(SbFilmTransient *t, double rest);
 
-// Error that the limited transport makes in the contact's fluid, relative, per second.
-double sb_transient_smear(const SbFilmTransient *t, const SbTransientState *s);
+// Mean over each cell, displaced back by the carried share of `way`, of an earlier content: the
+// derivatives of the content's integral over the mesh, which keeps the mass exactly.
+void sb_transient_carry(double *out, const SbFilmTransient *t, const double *content, double way);
 
 // Fluid height of a node.
 double sb_transient_height(const SbTransientState *s, int i);

@@ -11,6 +11,9 @@
 #include "engine/film/transient_internal.h"
 #include "engine/numeric/legendre.h"
 
+static const double RESOLVED = 4.5e-3; // spacing for the dip of a reversal, 0.02 b wide
+static const double CARRIED = 3.0;     // layers
+
 // f'' = ln|y|.
 static double second_integral(double y) {
   return y == 0.0 ? 0.0 : 0.5 * y * y * (log(fabs(y)) - 1.5);
@@ -102,19 +105,22 @@ void sb_transient_mesh(SbFilmTransient *t, double rest) {
   SbEhlLayers layers = {.lambda = t->scale.lambda, .starvation = 1.0};
   memcpy(layers.bow, t->scale.bow, sizeof layers.bow);
   const double width = fmin(sb_ehl_layers_width(&layers), 2.0);
-  const double fine = cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
+  const double fine =
+      t->coarseness * cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
   const double share = 0.15 * fine;
+  const double inner = t->problem.resolve ? 0.10 * fine : share;
   const double finest = 0.5 * width;
   const double reach = fmax(fmax(4.0, 60.0 * width), 6.0 * sqrt(2.0 * rest));
   double X[SB_TRANSIENT_NODES_MAX / 2];
   int n = 0;
+  t->cell = (t->problem.resolve ? RESOLVED : 0.03) * fine;
   X[n++] = 0.0;
   while (X[n - 1] < 1.0 + reach && n < SB_TRANSIENT_NODES_MAX / 2 - 1) {
     double step = 0.0;
     for (int pass = 0; pass < 3; pass++) {
       const double at = X[n - 1] + 0.5 * step;
-      const double d = hypot(finest, at - 1.0);
-      step = share * d / (at < 1.0 ? hypot(1.0, share * d / (0.03 * fine)) : 1.0);
+      const double d = hypot(at < 1.0 ? finest * share / inner : finest, at - 1.0);
+      step = at < 1.0 ? inner * d / hypot(1.0, inner * d / t->cell) : share * d;
     }
     X[n] = X[n - 1] + step;
     n++;
@@ -129,7 +135,11 @@ void sb_transient_mesh(SbFilmTransient *t, double rest) {
     const double left = i > 0 ? t->X[i] - t->X[i - 1] : 0.0;
     const double right = i + 1 < t->nodes ? t->X[i + 1] - t->X[i] : 0.0;
     t->volume[i] = t->weight[i] = 0.5 * (left + right);
-    t->limited[i] = right > width && fabs(t->X[i]) < 1.0;
+    t->limited[i] = !t->problem.resolve && right > width && fabs(t->X[i]) < 1.0;
+    // From CARRIED layers inside the edges on the faces move, after as many again with the fluid.
+    const double inside = (1.0 - fabs(t->X[i] + 0.5 * right)) / (CARRIED * width) - 1.0;
+    const double ramp = fmin(fmax(inside, 0.0), 1.0);
+    t->carried[i] = 2.0 * CARRIED * width < 0.7 ? ramp * ramp * (3.0 - 2.0 * ramp) : 0.0;
   }
   for (int j = 0; j + 1 < t->nodes; j++) {
     const double h = t->X[j + 1] - t->X[j];
@@ -143,6 +153,7 @@ void sb_transient_mesh(SbFilmTransient *t, double rest) {
       }
     }
   }
+  t->reach = 0.3 * CARRIED * width;
   build_kernel(t);
 }
 

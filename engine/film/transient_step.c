@@ -1,9 +1,10 @@
 // The implicit step of the transient film; equations in transient.h.
 //
 // Node values stand for cells between the midpoints. Fluid goes through a face by quadratic
-// upwind interpolation in the layers, which are resolved, and with van Albada's limited slope
-// where the mesh is wider than they are or the upwind node lies in a cavity, so that fronts stay
-// monotonic. Unknown of a node is its pressure or its void, whichever is not zero.
+// upwind interpolation, and with van Albada's limited slope where a
+// front stands, a coarse cell is wider than the layers or the upwind node
+// lies in a cavity, so that fronts stay monotonic; faces that move with the fluid let none through.
+// Unknown of a node is its pressure or its void, whichever is not zero.
 #include "engine/film/transient_internal.h"
 
 #include <cblas.h>
@@ -103,23 +104,64 @@ double sb_transient_flow(const SbFilmTransient *t, const SbTransientState *s, in
          t->diffusion * H * H * H * (s->P[i + 1] - s->P[i]) / (s->half * (t->X[i + 1] - t->X[i]));
 }
 
-double sb_transient_smear(const SbFilmTransient *t, const SbTransientState *s) {
-  // Divergence of the difference between the limited and the central transport.
-  double before = 0.0;
-  double sum = 0.0;
-  double whole = 0.0;
-  for (int i = 1; i + 1 < t->nodes; i++) {
-    if (fabs(t->X[i]) >= 1.0) {
-      continue;
-    }
-    const Face f = face_height(t, s, i, s->speed);
-    const double mean = 0.5 * (sb_transient_height(s, i) + sb_transient_height(s, i + 1));
-    const double difference = t->limited[i] ? s->speed * (f.value - mean) : 0.0;
-    sum += fabs(difference - before) / s->half;
-    whole += t->volume[i] * sb_transient_height(s, i);
-    before = difference;
+void sb_transient_carry(double *out, const SbFilmTransient *t, const double *content, double way) {
+  enum { SIDE = 3, FACES = 2 * SIDE };
+  const int n = t->nodes;
+  memcpy(out, content, (size_t)n * sizeof *out);
+  int first = 0;
+  while (first < n && t->carried[first] == 0.0) {
+    first++;
   }
-  return sum / whole;
+  if (first == n || way == 0.0) {
+    return;
+  }
+  // Integral up to face i, i + 1 from a little before the first that moves: the surroundings hold
+  // so much more liquid that the contact's would be lost in rounding.
+  const int from = first - 2 * SIDE, to = n - 2 - from;
+  double place[SB_TRANSIENT_NODES_MAX], integral[SB_TRANSIENT_NODES_MAX];
+  for (int i = from; i <= to; i++) {
+    place[i] = 0.5 * (t->X[i] + t->X[i + 1]);
+    integral[i] = i > from ? integral[i - 1] + t->volume[i] * content[i] : 0.0;
+  }
+  double before = integral[first - 1];
+  for (int i = first; i <= n - 1 - first; i++) {
+    const double at = place[i] - t->carried[i] * way;
+    int k = i; // at lies between faces k and k + 1
+    while (k > from + SIDE && place[k] > at) {
+      k--;
+    }
+    while (k < to - SIDE && place[k + 1] < at) {
+      k++;
+    }
+    double least = INFINITY;
+    double most = 0.0;
+    for (int j = k - SIDE + 2; j <= k + SIDE; j++) {
+      least = fmin(least, content[j]);
+      most = fmax(most, content[j]);
+    }
+    double value = 0.0;
+    if (most > 6.0 * least) {
+      // A front: Hermite's cubic with harmonic means for slopes rises throughout.
+      const double *m = content + k;
+      const double h = t->volume[k + 1];
+      const double s = (at - place[k]) / h;
+      const double left = 2.0 * m[0] * m[1] / (m[0] + m[1]);
+      const double right = 2.0 * m[2] * m[1] / (m[2] + m[1]);
+      value =
+          integral[k] +
+          h * s * (left + s * (3.0 * m[1] - 2.0 * left - right + s * (left + right - 2.0 * m[1])));
+    } else {
+      for (int j = k - SIDE + 1; j <= k + SIDE; j++) {
+        double basis = 1.0;
+        for (int l = k - SIDE + 1; l <= k + SIDE; l++) {
+          basis *= l == j ? 1.0 : (at - place[l]) / (place[j] - place[l]);
+        }
+        value += basis * integral[j];
+      }
+    }
+    out[i] = (value - before) / t->volume[i];
+    before = value;
+  }
 }
 
 enum { BAND = 5 }; // derivatives of a row go to nodes i - 2 .. i + 2
@@ -133,7 +175,8 @@ typedef struct {
 static void add_face(Row *row, const SbFilmTransient *t, const SbTransientState *s,
                      const SbTransientStep *step, int i, int face, double sign) {
   const double at = 0.5 * (t->X[face] + t->X[face + 1]);
-  const double velocity = s->speed - step->half_rate * at - step->middle_rate;
+  const double velocity =
+      s->speed - step->half_rate * at - step->middle_rate - step->carried_rate * t->carried[face];
   const Face f = face_height(t, s, face, velocity);
   row->residual += sign * velocity * f.value;
   for (int k = 0; k < 3; k++) {
@@ -297,7 +340,7 @@ static bool is_steep(const SbFilmTransient *t, const SbTransientState *s, int fa
     least = fmin(least, sb_transient_height(s, i));
     most = fmax(most, sb_transient_height(s, i));
   }
-  return most > 2.5 * least;
+  return most > (t->problem.resolve ? 6.0 : 2.5) * least;
 }
 
 SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTransientState *s,

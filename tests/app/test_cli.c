@@ -249,6 +249,62 @@ static void test_json_film(void) {
   cli_clear(&result);
 }
 
+// The film through a table of speeds: a row for each of the file, steady at first; files that are
+// no such table are refused with their line.
+static void test_film_history(void) {
+#define AT_REST                                                                                    \
+  "film", "--load", "850.2N/m", "--radius", "0.805mm", "--modulus", "6.5725MPa", "--viscosity",    \
+      "0.211mPa.s", "--json", "-"
+  char *path = g_build_filename(cli.folder, "speed.csv", NULL);
+  g_assert_true(
+      g_file_set_contents(path, "time [s],speed [m/s]\n0,0.1\n1e-3,0.08\n2e-3,0.08\n", -1, NULL));
+  CliResult good = CLI(AT_REST, "--history", path);
+  g_assert_cmpint(good.code, ==, 0);
+  JsonNode *json = cli_parse(good.out);
+  const char *const names[] = {"time_s", "film_min_m", "film_central_m", "error_estimate.film_min",
+                               "error_estimate.film_central"};
+  double value[G_N_ELEMENTS(names)][3];
+  for (size_t k = 0; k < G_N_ELEMENTS(names); k++) {
+    g_autofree char *name = g_strconcat("history.", names[k], NULL);
+    JsonArray *rows = json_node_get_array(cli_at(json, name));
+    g_assert_cmpuint(json_array_get_length(rows), ==, 3);
+    for (guint i = 0; i < 3; i++) {
+      value[k][i] = json_array_get_double_element(rows, i);
+    }
+  }
+  g_assert_cmpfloat(value[0][1], ==, 1e-3);
+  g_assert_cmpfloat_with_epsilon(value[1][0] / cli_number(json, "film_min_m"), 1, 2e-3);
+  g_assert_cmpfloat_with_epsilon(value[2][0] / cli_number(json, "film_central_m"), 1, 2e-3);
+  for (int i = 0; i < 3; i++) {
+    g_assert_cmpfloat(value[1][i], <, value[2][i]);
+    g_assert_true(value[3][i] > 0 && value[3][i] < 0.03);
+    g_assert_true(value[4][i] > 0 && value[4][i] < 0.01);
+  }
+  g_assert_cmpfloat(value[1][2], <, value[1][0]); // slower
+  json_node_unref(json);
+  cli_clear(&good);
+  static const struct {
+    const char *text, *message;
+  } bad[] = {{"time [s],speed [m/s]\n0,0.1\n1e-3,fast\n", "line 3"},
+             {"time [s],speed [m/s]\n0,0.1\n1e-3,0.1\n1e-3,0\n", "line 4"},
+             {"time [s],speed [m/s]\n0,0\n1e-3,0.1\n", "begins at rest"},
+             {"0,0.1\n1e-3,0\n", "not a heading"}};
+  for (size_t k = 0; k < G_N_ELEMENTS(bad); k++) {
+    g_assert_true(g_file_set_contents(path, bad[k].text, -1, NULL));
+    CliResult refused = CLI(AT_REST, "--history", path);
+    g_assert_cmpint(refused.code, ==, 1);
+    g_assert_nonnull(strstr(refused.err, "speed.csv"));
+    g_assert_nonnull(strstr(refused.err, bad[k].message));
+    cli_clear(&refused);
+  }
+  CliResult both = CLI(AT_REST, "--history", path, "--speed", "1 m/s");
+  g_assert_cmpint(both.code, ==, 1);
+  g_assert_nonnull(strstr(both.err, "--speed"));
+  cli_clear(&both);
+  g_free(path);
+#undef AT_REST
+}
+
 static void test_film_options(void) {
 #define CONTACT                                                                                    \
   "film", "--load", "850.2N/m", "--speed", "1 m/s", "--radius", "0.805mm", "--modulus",            \
@@ -656,6 +712,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/json/fit", test_json_fit);
   g_test_add_func("/cli/json/film", test_json_film);
   g_test_add_func("/cli/film-options", test_film_options);
+  g_test_add_func("/cli/film-history", test_film_history);
   g_test_add_func("/cli/json/small", test_json_small);
   g_test_add_func("/cli/json/bench", test_json_bench);
   g_test_add_func("/cli/utf8-options", test_utf8_options);

@@ -266,6 +266,49 @@ static void test_start(void) {
   g_free(steady);
 }
 
+// Reference values of the least film (finite volumes with complementarity, extrapolated from three
+// grids): from steady sliding to rest in 5 ms, 50 ms at rest, back in 10 ms. Never further off than
+// three estimates and the reference's own uncertainty, whatever the resolution.
+static void history(bool resolve, int rows) {
+  static const struct {
+    double time, speed, least, uncertainty; // [s], [m/s], [m]; 0: not known
+    double claim;                           // most that the resolved film may say of its error
+  } row[] = {{5e-3, 0.0, 7.550e-9, 0.003, 0.01}, {30e-3, 0.0, 8.821e-9, 0.001, 0.01},
+             {55e-3, 0.0, 0.0, 0.0, 0.0},        {58e-3, -0.03, 7.326e-9, 0.001, 0.05},
+             {65e-3, -0.1, 0.0, 0.0, 0.0},       {71e-3, -0.1, 9.24e-9, 0.05, 0.18}};
+  SbFilmTransientProblem p = seal(1000.0);
+  p.film.modulus = 6.5725154e6;
+  p.film.speed = p.speed_scale = 0.1;
+  p.resolve = resolve;
+  SbFilmTransient *t = begin(&p);
+  SbFilm *film = g_new(SbFilm, 1);
+  for (int i = 0; i < rows; i++) {
+    step(t, row[i].time - (i > 0 ? row[i - 1].time : 0.0), row[i].speed, p.film.load);
+    sb_film_transient_result(film, t);
+    if (row[i].least == 0.0) {
+      continue;
+    }
+    const double error = fabs(film->film_min / row[i].least - 1.0);
+    const double estimate = film->solver.error_film_min;
+    g_test_message("%g ms: %.4g nm, off %.2g, estimate %.2g", 1e3 * row[i].time,
+                   1e9 * film->film_min, error, estimate);
+    g_assert_cmpfloat(error, <=, 3.0 * estimate + row[i].uncertainty);
+    if (resolve) {
+      g_assert_cmpfloat(estimate, <, row[i].claim);
+    }
+  }
+  const SbFilmTransientInfo info = sb_film_transient_info(t);
+  g_assert_cmpfloat(info.load_error, <, 1e-10);
+  g_assert_cmpfloat(info.mass_error, <, 1e-10);
+  sb_film_transient_destroy(t);
+  g_free(film);
+}
+
+static void test_history(void) {
+  history(false, 6);
+  history(true, g_test_slow() ? 6 : 1);
+}
+
 // What it cannot solve is refused.
 static void test_refused(void) {
   SbFilmTransient *t = NULL;
@@ -299,6 +342,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film-transient/steps", test_steps);
   g_test_add_func("/film-transient/squeeze", test_squeeze);
   g_test_add_func("/film-transient/start", test_start);
+  g_test_add_func("/film-transient/history", test_history);
   g_test_add_func("/film-transient/refused", test_refused);
   return g_test_run();
 }

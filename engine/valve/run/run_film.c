@@ -24,6 +24,7 @@ typedef struct {
   double central;        // last film [m], what the next stretch begins with
   SbFilm *result;
   size_t frame; // that the way has come to
+  double error; // largest estimate of the least film
 } Way;
 
 static bool whole_contact(const SbFrame *frame, int seal) {
@@ -37,8 +38,6 @@ static void leave(Way *way) {
     SbSummary *summary = &way->run->summary;
     summary->counters.film_steps += info.steps;
     summary->newton_iterations += info.newton_iterations;
-    summary->error_film_history =
-        fmax(summary->error_film_history, info.error_mesh + info.error_time);
   }
   sb_film_transient_destroy(way->film);
   way->film = NULL;
@@ -99,6 +98,10 @@ static SbStatus replay(Way *way, size_t count, const SbRunHooks *hooks, SbReport
     }
     sb_film_transient_result(way->result, way->film);
     way->central = way->result->film_central;
+    // Least film of the coarse setting: the companion's difference and the bend of what its spacing
+    // does not know. Without the companion nothing is known.
+    const double least = way->result->solver.error_film_min;
+    way->error = isnan(least) ? INFINITY : fmax(way->error, least);
     SbSealFrame *out = &frame->seal[way->seal];
     out->film_min = way->result->film_min;
     out->film_central = way->result->film_central;
@@ -126,6 +129,12 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
     SbReport own = {0};
     const SbStatus status = replay(&way, count, hooks, &own);
     leave(&way);
+    if (isinf(way.error)) {
+      error = NAN;
+      sb_reason(&run->summary, "solver.error_estimate.film_history",
+                "%s seal: the film of half the resolution did not converge", sb_seal_name(seal));
+    }
+    run->summary.error_film_history = fmax(run->summary.error_film_history, way.error);
     if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
       worst = sb_fail(report, status, "%s", own.text);
     } else if (status != SB_OK) {
