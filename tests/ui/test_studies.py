@@ -37,6 +37,7 @@ def a_study_can_be_cancelled(folder):
         open_studies(app)
         app.watch_latency()
         app.choose("Study", "Leak over squeeze")
+        wait("enough to judge by", lambda: app.latency()["samples"] > 60)
         app.press("push button", "Cancel")
         wait("the end", lambda: app.label(r"^No study: the study was cancelled"))
         app.find("push button", "Compute Again")
