@@ -9,6 +9,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -369,14 +370,14 @@ void sb_cli_warnings(const SbWarnings *warnings) {
 
 // ---- Interrupts ----
 
-static volatile sig_atomic_t interrupted;
+static atomic_int interrupted;
 
 static void on_interrupt(int number) {
-  if (interrupted != 0 && !sb_output_is_committing()) {
+  // Two signals may come to two threads at the same time: one of them is the second.
+  if (atomic_exchange(&interrupted, 1) != 0 && !sb_output_is_committing()) {
     signal(number, SIG_DFL);
     raise(number);
   }
-  interrupted = 1;
 }
 
 void sb_cli_catch_interrupts(void) {
@@ -391,7 +392,7 @@ void sb_cli_catch_interrupts(void) {
 }
 
 bool sb_cli_interrupted(void *unused) {
-  return interrupted != 0;
+  return atomic_load(&interrupted) != 0;
 }
 
 // ---- Progress ----
