@@ -250,6 +250,8 @@ def stopped_twice():
     os.mkdir(where)
     process = subprocess.Popen([program, "render", quick, "-o", os.path.join(where, "a.mp4"),
                                 "--view", "dashboard", "--progress", "lines"],
+                               # The tests may run under nohup, which the program keeps to.
+                               preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),
                                stderr=subprocess.PIPE, text=True)
     for line in process.stderr:
         if "drawing 10" in line:
