@@ -9,9 +9,9 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdatomic.h>
 #include <signal.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

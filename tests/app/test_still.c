@@ -1,7 +1,7 @@
 // Exports of real runs: each format is what it says, carries its texts, appears whole or not at
 // all.
-#include "app/export/render.h"
 #include "app/document/picture.h"
+#include "app/export/render.h"
 #include "app/export/still.h"
 #include "tests/app/picture.h"
 
