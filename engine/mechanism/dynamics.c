@@ -153,11 +153,11 @@ static void cross_edge(SbDynamics *s, int direction) {
 static void switch_drive(SbDynamics *s) {
   const SbDynamicsModel *m = s->model;
   tell(s, s->push.on ? SB_MOTION_LEAVE_DRIVE : SB_MOTION_TOUCH_DRIVE, 0, 0);
-  s->push.relic = 0.0;
+  s->push.residual = 0.0;
   if (s->push.on && m->drive.quantity == SB_DRIVE_OF_POSITION) {
     double y, rate;
     sb_motion_drive_at(s, s->t, &y, &rate);
-    s->push.relic = m->drive_damping > 0.0 ? fmax(0.0, y - s->x) : 0.0;
+    s->push.residual = m->drive_damping > 0.0 ? fmax(0.0, y - s->x) : 0.0;
     s->push.since = s->t;
   }
   s->push.on = !s->push.on;
@@ -189,7 +189,7 @@ static void meet_stop(SbDynamics *s, size_t i) {
     tell(s, SB_MOTION_LEAVE_STOP, (int)i, 0);
     touch->on = false;
     double e = p->side * (s->x - p->position);
-    touch->relic = !rigid && s->stop_damping[i] > 0.0 ? fmax(0.0, e) : 0.0;
+    touch->residual = !rigid && s->stop_damping[i] > 0.0 ? fmax(0.0, e) : 0.0;
     touch->since = s->t;
     update_held(s);
     return;
@@ -197,7 +197,7 @@ static void meet_stop(SbDynamics *s, size_t i) {
   tell(s, SB_MOTION_TOUCH_STOP, (int)i, 0);
   if (!rigid) {
     touch->on = true;
-    touch->relic = 0.0;
+    touch->residual = 0.0;
     return;
   }
   double rest = sb_motion_rest_speed(s->model);

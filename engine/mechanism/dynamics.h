@@ -161,7 +161,7 @@ typedef struct {
 // One of stop or platen as a spring and damper in one direction.
 typedef struct {
   bool on;
-  double relic, since; // deflection left when it was last left, and when
+  double residual, since; // deflection left when it was last left, and when
 } SbDynamicsTouch;
 
 // Where rigid contacts last broke away.

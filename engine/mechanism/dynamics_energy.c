@@ -18,8 +18,8 @@ double sb_motion_stored_energy(const SbDynamics *s, double t, double x, const do
     const SbDynamicsStop *p = &m->stop[i];
     if (p->stiffness < 1e300) {
       double e = s->touch[i].on ? x - p->position
-                                : sb_motion_touch_relic(&s->touch[i], p->stiffness,
-                                                        s->stop_damping[i], t, &fading);
+                                : sb_motion_touch_residual(&s->touch[i], p->stiffness,
+                                                           s->stop_damping[i], t, &fading);
       sum += 0.5 * p->stiffness * e * e;
     }
   }
@@ -29,27 +29,28 @@ double sb_motion_stored_energy(const SbDynamics *s, double t, double x, const do
       sb_motion_drive_at(s, t, &y, &rate);
       e = y - x;
     } else {
-      e = sb_motion_touch_relic(&s->push, m->drive_stiffness, m->drive_damping, t, &fading);
+      e = sb_motion_touch_residual(&s->push, m->drive_stiffness, m->drive_damping, t, &fading);
     }
     sum += 0.5 * m->drive_stiffness * e * e;
   }
   return sum;
 }
 
-static double relic_loss(const SbDynamicsTouch *touch, double k, double c, double t0, double t1) {
+static double residual_loss(const SbDynamicsTouch *touch, double k, double c, double t0,
+                            double t1) {
   double fading;
-  if (touch->on || touch->relic == 0.0) {
+  if (touch->on || touch->residual == 0.0) {
     return 0.0;
   }
-  double a = sb_motion_touch_relic(touch, k, c, t0, &fading),
-         b = sb_motion_touch_relic(touch, k, c, t1, &fading);
+  double a = sb_motion_touch_residual(touch, k, c, t0, &fading),
+         b = sb_motion_touch_residual(touch, k, c, t1, &fading);
   return 0.5 * k * (a - b) * (a + b);
 }
 
 double sb_motion_stops_relax(const SbDynamics *s, double t0, double t1) {
   double sum = 0.0;
   for (size_t i = 0; i < s->model->stops; i++) {
-    sum += relic_loss(&s->touch[i], s->model->stop[i].stiffness, s->stop_damping[i], t0, t1);
+    sum += residual_loss(&s->touch[i], s->model->stop[i].stiffness, s->stop_damping[i], t0, t1);
   }
   return sum;
 }
@@ -159,7 +160,7 @@ void sb_motion_energy_at(const SbDynamics *s, double t, double x, double v, cons
     }
   }
   e->stop += sb_motion_stops_relax(s, s->t, t);
-  e->machine += relic_loss(&s->push, m->drive_stiffness, m->drive_damping, s->t, t);
+  e->machine += residual_loss(&s->push, m->drive_stiffness, m->drive_damping, s->t, t);
   e->kinetic = 0.5 * s->parts.mass * v * v - s->kinetic_start;
   e->stored = sb_motion_stored_energy(s, t, x, d) - s->stored_start;
   double external = e->drive + e->pressure;

@@ -15,12 +15,12 @@ void sb_motion_drive_at(const SbDynamics *s, double t, double *value, double *ra
   }
 }
 
-double sb_motion_touch_relic(const SbDynamicsTouch *touch, double stiffness, double damping,
-                             double t, double *fading) {
+double sb_motion_touch_residual(const SbDynamicsTouch *touch, double stiffness, double damping,
+                                double t, double *fading) {
   *fading = damping > 0.0 ? stiffness / damping : 0.0;
   double faded = *fading * (t - touch->since);
   // exp(-746) is 0, but slow to find.
-  return touch->relic != 0.0 && faded < 746.0 ? touch->relic * exp(-faded) : 0.0;
+  return touch->residual != 0.0 && faded < 746.0 ? touch->residual * exp(-faded) : 0.0;
 }
 
 double sb_motion_drive_force(const SbDynamics *s, double t, double x, double v) {
@@ -232,7 +232,7 @@ static bool drive_gauge(const SbDynamics *s, SbGauge *g) {
   g->constant = s->x - value;
   g->rate = -rate;
   g->of_x = 1.0;
-  g->relax = sb_motion_touch_relic(&s->push, k, c, s->t, &g->relax_rate);
+  g->relax = sb_motion_touch_residual(&s->push, k, c, s->t, &g->relax_rate);
   return true;
 }
 
@@ -242,13 +242,13 @@ static bool stop_gauge(const SbDynamics *s, size_t i, const Linear *l, SbGauge *
   *g = (SbGauge){.noise = fabs(p->position) + fabs(s->x) + length_noise};
   if (!s->touch[i].on) {
     // One that was left still deflected comes back to a stem that friction holds meanwhile.
-    if (s->held && s->touch[i].relic == 0.0) {
+    if (s->held && s->touch[i].residual == 0.0) {
       return false;
     }
     g->constant = gap;
     g->of_x = -side;
-    g->relax =
-        sb_motion_touch_relic(&s->touch[i], p->stiffness, s->stop_damping[i], s->t, &g->relax_rate);
+    g->relax = sb_motion_touch_residual(&s->touch[i], p->stiffness, s->stop_damping[i], s->t,
+                                        &g->relax_rate);
     return true;
   }
   if (p->stiffness > 1e300) {

@@ -72,8 +72,8 @@ static inline bool sb_motion_finger_gone(const SbDynamics *s) {
 void sb_motion_drive_at(const SbDynamics *s, double t, double *value, double *rate);
 
 // Deflection a released stop or platen still has at time t, and the rate at which it fades.
-double sb_motion_touch_relic(const SbDynamicsTouch *touch, double stiffness, double damping,
-                             double t, double *fading);
+double sb_motion_touch_residual(const SbDynamicsTouch *touch, double stiffness, double damping,
+                                double t, double *fading);
 
 // Force of the drive on the stem (it pushes or is bonded and on), for a stem at (x, v) at t.
 double sb_motion_drive_force(const SbDynamics *s, double t, double x, double v);
