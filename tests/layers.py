@@ -30,8 +30,9 @@ ROOMS = {
 
 
 def arrows_up(source):
-    """Includes of a room that is not below the including file's own."""
+    """Includes of a layer or a room that is not below the including file's own."""
     found = []
+    layers = list(ROOMS)
     for layer, floors in ROOMS.items():
         floor = {room: number for number, rooms in enumerate(floors) for room in rooms.split()}
         for path in glob.glob(f'{source}/{layer}/*/**/*.[chd]*', recursive=True):
@@ -40,9 +41,10 @@ def arrows_up(source):
                 continue
             room = name.split('/')[1]
             with open(path, encoding='utf-8') as file:
-                for other in re.findall(rf'#include "{layer}/(\w+)/', file.read()):
-                    if other != room and floor[other] >= floor[room]:
-                        found.append(f'{name} -> {layer}/{other}')
+                for where, other in re.findall(r'#include "(engine|app|ui)/(\w+)/', file.read()):
+                    if layers.index(where) > layers.index(layer) or (
+                            where == layer and other != room and floor[other] >= floor[room]):
+                        found.append(f'{name} -> {where}/{other}')
     return found
 
 

@@ -2,9 +2,9 @@
 // session_playhead.c (playhead).
 #pragma once
 
+#include "app/session/displayed_run.h"
 #include "app/session/playhead.h"
 #include "app/session/session.h"
-#include "app/session/shown_run.h"
 
 typedef enum {
   SB_SIGNAL_PARAMS,
@@ -33,7 +33,7 @@ struct _SbSession {
   SbSessionInbox *inbox;
   unsigned ticket; // of the request under way; 0 if none is
   SbParams asked;  // its values
-  SbShownRun *fresh, *shown, *earlier, *pinned;
+  SbDisplayedRun *fresh, *shown, *earlier, *pinned;
   char *pinned_name;
   SbSessionState state;
   char *failure;

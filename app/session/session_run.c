@@ -5,7 +5,7 @@
 #include "app/session/session_private.h"
 
 #include "app/base/format.h"
-#include "ui/views/words.h"
+#include "app/base/translation.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -19,10 +19,10 @@ enum {
 
 static void start_now(SbSession *session);
 
-static SbShownRun **slot(SbShownRun **slot, SbShownRun *value) {
-  SbShownRun *old = *slot;
-  *slot = sb_shown_run_ref(value);
-  sb_shown_run_unref(old);
+static SbDisplayedRun **slot(SbDisplayedRun **slot, SbDisplayedRun *value) {
+  SbDisplayedRun *old = *slot;
+  *slot = sb_displayed_run_ref(value);
+  sb_displayed_run_unref(old);
   return slot;
 }
 
@@ -114,7 +114,7 @@ static void place_playhead(SbSession *session) {
   const SbFrame *frames = sb_session_frames(session, &count);
   const SbTrace *trace = session->shown != NULL ? session->shown->trace : NULL;
   gboolean complete = session->shown != NULL && session->shown->chart.state == SB_CHART_DONE &&
-                      sb_shown_run_complete(session->shown);
+                      sb_displayed_run_complete(session->shown);
   sb_playhead_return(&session->playhead, trace, frames, count, complete);
   session->playhead.waits = session->playhead.waits && !session->playhead.playing;
 }
@@ -149,7 +149,7 @@ static void set_failure(SbSession *session, SbStatus status, const SbReport *rep
 
 // A run that ends without a frame, failed or cancelled, leaves the displayed one as it is.
 static void finish(SbSession *session) {
-  SbShownRun *fresh = session->fresh;
+  SbDisplayedRun *fresh = session->fresh;
   SbStatus status = sb_run_handle_status(fresh->handle);
   session->ticket = 0;
   fresh->chart.summary = sb_run_summary(fresh->run);
@@ -167,7 +167,7 @@ static void finish(SbSession *session) {
     gboolean watched = session->shown == fresh;
     display_fresh(session);
     // A short run is read at once; a long one goes on being read by the ticks.
-    sb_shown_run_update(fresh, FRAMES_PER_TICK);
+    sb_displayed_run_update(fresh, FRAMES_PER_TICK);
     if (!watched || session->playhead.follows || session->playhead.waits) {
       place_playhead(session);
     }
@@ -198,7 +198,7 @@ static void look(SbSession *session) {
     return;
   }
   if (session->fresh == NULL) {
-    session->fresh = sb_shown_run_new(handle, &session->asked);
+    session->fresh = sb_displayed_run_new(handle, &session->asked);
   } else {
     sb_run_handle_unref(handle);
   }
@@ -397,7 +397,7 @@ char *sb_session_former_text(SbSession *session) {
   if (id < 0) {
     return g_strdup(_("run of earlier values"));
   }
-  g_autofree char *label = sb_words_inside(sb_param((SbParamId)id)->label);
+  g_autofree char *label = sb_translation_inside(sb_param((SbParamId)id)->label);
   g_autofree char *shown = sb_param_format((SbParamId)id, value);
   return g_strdup_printf(_("run with %s %s"), label, shown);
 }
@@ -447,13 +447,14 @@ void sb_session_tick(SbSession *session, gint64 now) {
     sb_run_frames(session->fresh->run, &published);
     if (published > 0) {
       display_fresh(session);
-      sb_shown_run_update(session->fresh, FRAMES_PER_TICK);
+      sb_displayed_run_update(session->fresh, FRAMES_PER_TICK);
       place_playhead(session);
       run_changed(session);
       sb_session_playhead_changed(session);
     }
   }
-  gboolean more = session->shown != NULL && sb_shown_run_update(session->shown, FRAMES_PER_TICK);
+  gboolean more =
+      session->shown != NULL && sb_displayed_run_update(session->shown, FRAMES_PER_TICK);
   if (more && (session->playhead.follows || session->playhead.waits)) {
     place_playhead(session);
   }
@@ -473,7 +474,7 @@ void sb_session_tick(SbSession *session, gint64 now) {
 
 gboolean sb_session_wants_ticks(SbSession *session) {
   return session->ticket != 0 || session->playhead.playing ||
-         (session->shown != NULL && !sb_shown_run_complete(session->shown));
+         (session->shown != NULL && !sb_displayed_run_complete(session->shown));
 }
 
 // Life -------------------------------------------------------------------------------------------

@@ -6,8 +6,8 @@
 #include "ui/params/gland_panel.h"
 
 #include "app/base/format.h"
+#include "app/base/translation.h"
 #include "ui/views/style.h"
-#include "ui/views/words.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -107,7 +107,7 @@ static void show_row(Panel *panel, int row, SbGlandReadout readout[SB_SEAL_COUNT
     gboolean outside = readout[seal].band == SB_BAND_BELOW || readout[seal].band == SB_BAND_ABOVE;
     set_class(cell[1 + seal], outside ? "sb-warn" : NULL);
     if (outside && word[0] == '\0') {
-      word = sb_words(sb_band_text(readout[seal].band));
+      word = sb_translation(sb_band_text(readout[seal].band));
     }
   }
   // Inside as sized, but not over the whole of the tolerances.

@@ -4,8 +4,8 @@
 // one sentence below, until it is mended, reset or left by Escape.
 #include "ui/params/param_row.h"
 
+#include "app/base/translation.h"
 #include "ui/views/style.h"
-#include "ui/views/words.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -224,7 +224,7 @@ GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fiel
   const SbParam *param = sb_param(id);
   row->session = session;
   row->id = id;
-  g_autofree char *name = g_strconcat(owner(param), sb_words(param->label), NULL);
+  g_autofree char *name = g_strconcat(owner(param), sb_translation(param->label), NULL);
   g_autofree char *range = sb_param_range(id);
   sb_style_class(GTK_WIDGET(row), "sb-row");
 
@@ -232,7 +232,7 @@ GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fiel
   GtkWidget *line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
   GtkWidget *texts = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
   gtk_widget_set_valign(texts, GTK_ALIGN_CENTER);
-  row->label = label_new(sb_words(param->label), "sb-row-label", 0);
+  row->label = label_new(sb_translation(param->label), "sb-row-label", 0);
   gtk_label_set_ellipsize(GTK_LABEL(row->label), PANGO_ELLIPSIZE_END);
   gtk_box_pack_start(GTK_BOX(texts), row->label, FALSE, FALSE, 0);
   if (param->kind == SB_PARAM_REAL || param->kind == SB_PARAM_INT) {
@@ -364,7 +364,7 @@ static gboolean contains(const char *text, const char *needle) {
 
 gboolean sb_param_row_matches(SbParamRow *row, const char *needle) {
   const SbParam *param = sb_param(row->id);
-  return contains(param->label, needle) || contains(sb_words(param->label), needle) ||
+  return contains(param->label, needle) || contains(sb_translation(param->label), needle) ||
          contains(param->key, needle) || contains(param->symbol, needle) ||
          contains(param->help, needle) || contains(owner(param), needle);
 }

@@ -11,7 +11,7 @@
 #include "app/chart/signal.h"
 #include "engine/valve/figures.h"
 #include "ui/views/canvas_area.h"
-#include "ui/views/picture.h"
+#include "ui/views/draw_cache.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -21,7 +21,7 @@ typedef struct {
   SbSession *session;
   SbChartViewKind kind;
   GtkWidget *area;
-  SbPicture *picture;
+  SbDrawCache *cache;
   guint describe; // source that renews the description, 0 if none is due
 } View;
 
@@ -287,8 +287,8 @@ static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) 
 static void on_change(View *view) {
   gtk_widget_set_visible(view->area, applies(view));
   sb_style_former(view->area, sb_session_shows_former(view->session));
-  sb_picture_change(view->picture,
-                    sb_session_wants_ticks(view->session) ? kinds[view->kind].interval : 0);
+  sb_draw_cache_change(view->cache,
+                       sb_session_wants_ticks(view->session) ? kinds[view->kind].interval : 0);
   // Screen readers need no more than a few sentences a second.
   if (view->describe == 0) {
     view->describe = g_timeout_add(200, describe, view);
@@ -314,7 +314,7 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |
                                         GDK_KEY_PRESS_MASK | GDK_FOCUS_CHANGE_MASK);
   atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_CHART);
-  view->picture = sb_picture_attach(view->area, draw, view);
+  view->cache = sb_draw_cache_attach(view->area, draw, view);
   g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
   g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
   g_signal_connect(view->area, "destroy", G_CALLBACK(on_destroy), view);

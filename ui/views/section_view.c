@@ -3,17 +3,17 @@
 // the size of text and lines and enlarges the valve; drag moves it.
 #include "ui/views/section_view.h"
 
+#include "app/base/translation.h"
 #include "app/chart/rig.h"
 #include "app/section/draw_cairo.h"
 #include "app/section/gl_renderer.h"
 #include "app/section/section.h"
 #include "ui/views/canvas_area.h"
+#include "ui/views/draw_cache.h"
 #include "ui/views/force_balance.h"
-#include "ui/views/picture.h"
 #include "ui/views/section_gl.h"
 #include "ui/views/section_source.h"
 #include "ui/views/style.h"
-#include "ui/views/words.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -44,7 +44,7 @@ typedef struct {
   SbGlContext *context;   // NULL where no GL works
   SbGlRenderer *renderer; // likewise
   cairo_surface_t *read;  // GL's picture
-  SbPicture *picture;
+  SbDrawCache *cache;
   guint describe; // source that renews the description, 0 if none is due
 } View;
 
@@ -238,7 +238,7 @@ static gboolean describe(gpointer data) {
 }
 
 static void redraw(View *view) {
-  sb_picture_change(view->picture, sb_session_wants_ticks(view->session) ? INTERVAL : 0);
+  sb_draw_cache_change(view->cache, sb_session_wants_ticks(view->session) ? INTERVAL : 0);
 }
 
 static void on_change(View *view) {
@@ -489,7 +489,7 @@ static GtkWidget *make_toolbar(View *view) {
   view->field_combo = gtk_combo_box_text_new();
   for (int i = 0; i < SB_FIELD_COUNT; i++) {
     gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(view->field_combo),
-                                   sb_words(sb_section_field_name((SbField)i)));
+                                   sb_translation(sb_section_field_name((SbField)i)));
   }
   gtk_combo_box_set_active(GTK_COMBO_BOX(view->field_combo), 0);
   shrink(view->field_combo);
@@ -570,7 +570,7 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   gtk_box_pack_start(GTK_BOX(view->box), make_toolbar(view), FALSE, FALSE, 0);
 
   view->area = sb_canvas_area_new(380, 400, 240, 320);
-  view->picture = sb_picture_attach(view->area, draw, view);
+  view->cache = sb_draw_cache_attach(view->area, draw, view);
   sb_style_class(view->area, "sb-canvas");
   gtk_widget_set_can_focus(view->area, TRUE);
   gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |

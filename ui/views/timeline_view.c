@@ -5,7 +5,7 @@
 
 #include "app/chart/timeline.h"
 #include "ui/views/canvas_area.h"
-#include "ui/views/picture.h"
+#include "ui/views/draw_cache.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -14,7 +14,7 @@
 typedef struct {
   SbSession *session;
   GtkWidget *area, *play, *play_icon, *loop, *speed;
-  SbPicture *picture;
+  SbDrawCache *cache;
   gboolean playing; // as the button shows
   guint describe;   // source that renews the description, 0 if none is due
   double cycle;     // duration that the speed texts were made for [s]
@@ -154,7 +154,7 @@ static void on_playhead(View *view) {
   if (view->describe == 0) {
     view->describe = g_timeout_add(200, describe, view);
   }
-  sb_picture_change(view->picture, sb_session_wants_ticks(view->session) ? INTERVAL : 0);
+  sb_draw_cache_change(view->cache, sb_session_wants_ticks(view->session) ? INTERVAL : 0);
 }
 
 static void on_frames(View *view) {
@@ -249,7 +249,7 @@ GtkWidget *sb_timeline_view_new(SbSession *session) {
   gtk_widget_add_events(view->area,
                         GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK | GDK_SCROLL_MASK);
   atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_SLIDER);
-  view->picture = sb_picture_attach(view->area, draw, view);
+  view->cache = sb_draw_cache_attach(view->area, draw, view);
   g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
   g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
   g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_scroll), view);

@@ -3,9 +3,9 @@
 // ending follows the format, and an existing file is replaced only after a question.
 #include "ui/window/export_dialog.h"
 
+#include "app/base/translation.h"
 #include "app/export/render.h"
 #include "ui/views/style.h"
-#include "ui/views/words.h"
 #include "ui/window/export_job.h"
 #include "ui/window/preferences.h"
 
@@ -370,7 +370,7 @@ static void on_destroy(GtkWidget *widget, Dialog *dialog) {
 static void fill_section(Dialog *dialog) {
   for (int i = 0; i < SB_FIELD_COUNT; i++) {
     gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->field),
-                                   sb_words(sb_section_field_name((SbField)i)));
+                                   sb_translation(sb_section_field_name((SbField)i)));
   }
   const SbRun *run = sb_session_run(dialog->session);
   SbSectionStyle style = run != NULL ? sb_section_style_of(sb_run_model(run)) : (SbSectionStyle){0};
@@ -395,12 +395,13 @@ static void fill(Dialog *dialog) {
       continue;
     }
     gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->view), views[i].name,
-                              sb_words(views[i].label));
+                              sb_translation(views[i].label));
   }
   gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), _("As made"));
   const SbRenderSize *sizes = sb_render_sizes(&count);
   for (size_t i = 0; i < count; i++) {
-    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), sb_words(sizes[i].label));
+    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size),
+                                   sb_translation(sizes[i].label));
   }
   gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(dialog->size), _("Own size"));
   gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(dialog->at), "now", _("At the playhead"));

@@ -4,11 +4,11 @@
 // export writes.
 #include "ui/window/study_window.h"
 
+#include "app/base/translation.h"
 #include "app/chart/study.h"
 #include "app/export/studies.h"
-#include "ui/views/picture.h"
+#include "ui/views/draw_cache.h"
 #include "ui/views/style.h"
-#include "ui/views/words.h"
 #include "ui/window/export_dialog.h"
 #include "ui/window/preferences.h"
 #include "ui/window/study_job.h"
@@ -18,7 +18,7 @@
 typedef struct {
   SbSession *session; // owned reference
   GtkWidget *window, *kind, *again, *stop, *progress, *message, *area, *path, *export, *copy, *help;
-  SbPicture *picture;
+  SbDrawCache *cache;
   SbStudyJob *job;
   guint poll, later; // sources, 0 if none
   SbStudyKind asked; // what the job computes
@@ -88,7 +88,7 @@ static void refresh(Studies *studies) {
   gtk_widget_set_sensitive(studies->again, possible);
   gtk_widget_set_sensitive(studies->export, !busy && studies->study != NULL);
   gtk_widget_set_sensitive(studies->copy, studies->study != NULL);
-  gtk_label_set_text(GTK_LABEL(studies->help), sb_words(sb_study_help(chosen(studies))));
+  gtk_label_set_text(GTK_LABEL(studies->help), sb_translation(sb_study_help(chosen(studies))));
   AtkObject *accessible = gtk_widget_get_accessible(studies->area);
   g_autofree char *text =
       studies->study == NULL ? g_strdup(_("No study yet."))
@@ -97,7 +97,7 @@ static void refresh(Studies *studies) {
   atk_object_set_description(accessible, text);
   // The picture is of a former study while another is computed, of former values once they changed.
   sb_style_former(studies->area, studies->study != NULL && (busy || is_stale(studies)));
-  sb_picture_change(studies->picture, 0);
+  sb_draw_cache_change(studies->cache, 0);
 }
 
 // Values have changed, or the study is done: does what is shown still belong to them?
@@ -180,8 +180,8 @@ static void compute(Studies *studies) {
   g_autofree char *text =
       studies->study != NULL
           ? g_strdup_printf(_("Computing: %s. The picture is of the study before."),
-                            sb_words(sb_study_title(studies->asked)))
-          : g_strdup_printf(_("Computing: %s"), sb_words(sb_study_title(studies->asked)));
+                            sb_translation(sb_study_title(studies->asked)))
+          : g_strdup_printf(_("Computing: %s"), sb_translation(sb_study_title(studies->asked)));
   say(studies, text, NULL);
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(studies->progress), 0);
   studies->job = sb_study_job_start(studies->asked, model, on_done, studies);
@@ -309,7 +309,7 @@ void sb_study_window_open(GtkWindow *parent, SbSession *session) {
   gtk_window_set_destroy_with_parent(GTK_WINDOW(studies->window), TRUE);
   for (int i = 0; i < SB_STUDY_COUNT; i++) {
     gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(studies->kind), sb_study_name((SbStudyKind)i),
-                              sb_words(sb_study_title((SbStudyKind)i)));
+                              sb_translation(sb_study_title((SbStudyKind)i)));
   }
   gtk_combo_box_set_active(GTK_COMBO_BOX(studies->kind), first_kind(session));
   sb_style_window(studies->window);
@@ -317,7 +317,7 @@ void sb_study_window_open(GtkWindow *parent, SbSession *session) {
   gtk_widget_set_can_focus(studies->area, TRUE);
   sb_style_name(studies->area, _("Study"), NULL);
   atk_object_set_role(gtk_widget_get_accessible(studies->area), ATK_ROLE_CHART);
-  studies->picture = sb_picture_attach(studies->area, draw, studies);
+  studies->cache = sb_draw_cache_attach(studies->area, draw, studies);
   follow_kind(studies);
   g_signal_connect(studies->kind, "changed", G_CALLBACK(on_kind), studies);
   g_signal_connect(studies->again, "clicked", G_CALLBACK(on_again), studies);

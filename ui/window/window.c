@@ -3,6 +3,7 @@
 #include "ui/window/window.h"
 #include "ui/window/autosave.h"
 
+#include "app/base/translation.h"
 #include "app/session/session.h"
 #include "ui/params/derived_panel.h"
 #include "ui/params/gland_panel.h"
@@ -11,9 +12,8 @@
 #include "ui/views/section_view.h"
 #include "ui/views/style.h"
 #include "ui/views/timeline_view.h"
-#include "ui/views/words.h"
-#include "ui/window/columns.h"
 #include "ui/window/export_dialog.h"
+#include "ui/window/paned_layout.h"
 #include "ui/window/preferences.h"
 #include "ui/window/status_bar.h"
 #include "ui/window/study_window.h"
@@ -134,7 +134,7 @@ static void refresh_strip(SbWindow *window) {
       old = value;
     }
     g_autofree char *shown = sb_param_format((SbParamId)wrong, old);
-    g_autofree char *label = sb_words_inside(param->label);
+    g_autofree char *label = sb_translation_inside(param->label);
     const char *what = sb_session_rejected(session, (SbParamId)wrong) == NULL
                            ? _("does not go with the other values")
                        : strstr(sb_session_error(session, (SbParamId)wrong), "out of range") != NULL
@@ -143,7 +143,7 @@ static void refresh_strip(SbWindow *window) {
     g_autofree char *text =
         g_strdup_printf(run != NULL ? _("%s %s. Pictures show the last good run, %s %s.")
                                     : _("%s %s. Nothing has run yet; %s %s would do."),
-                        sb_words(param->label), what, label, shown);
+                        sb_translation(param->label), what, label, shown);
     g_autofree char *button = g_strdup_printf(_("Set %s"), shown);
     window->strip_id = wrong;
     window->strip_value = old;
@@ -545,7 +545,7 @@ static void sb_window_init(SbWindow *window) {
   gtk_widget_set_tooltip_text(charts, _("Charts beside the section"));
   sb_style_name(charts, _("Charts"), NULL);
   gtk_header_bar_pack_end(GTK_HEADER_BAR(window->header), charts);
-  sb_columns_attach(GTK_PANED(window->columns), GTK_PANED(window->views), charts);
+  sb_paned_layout_attach(GTK_PANED(window->columns), GTK_PANED(window->views), charts);
   window->panel = sb_param_panel_new(window->session);
   gtk_box_pack_start(GTK_BOX(window->left_column), window->panel, TRUE, TRUE, 0);
   gtk_box_pack_start(GTK_BOX(window->left_column), sb_derived_panel_new(window->session), FALSE,

@@ -15,15 +15,15 @@ typedef struct {
   SbTrace *trace;      // owned
   SbChartRun chart;    // refers to both
   SbParams params;     // the values it was made from
-} SbShownRun;
+} SbDisplayedRun;
 
 // Takes the reference over; the handle's run must exist.
-SbShownRun *sb_shown_run_new(SbRunHandle *handle, const SbParams *params);
-SbShownRun *sb_shown_run_ref(SbShownRun *shown);
-void sb_shown_run_unref(SbShownRun *shown); // takes NULL
+SbDisplayedRun *sb_displayed_run_new(SbRunHandle *handle, const SbParams *params);
+SbDisplayedRun *sb_displayed_run_ref(SbDisplayedRun *shown);
+void sb_displayed_run_unref(SbDisplayedRun *shown); // takes NULL
 
 // Reads frames that were published since; at most `limit` of them. True if there were any.
-bool sb_shown_run_update(SbShownRun *shown, size_t limit);
+bool sb_displayed_run_update(SbDisplayedRun *shown, size_t limit);
 
 // True if the trace has caught up with the frames.
-bool sb_shown_run_complete(const SbShownRun *shown);
+bool sb_displayed_run_complete(const SbDisplayedRun *shown);

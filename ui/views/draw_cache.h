@@ -4,15 +4,15 @@
 
 #include <gtk/gtk.h>
 
-typedef struct SbPicture SbPicture;
+typedef struct SbDrawCache SbDrawCache;
 
 // Draws the whole picture of `width` x `height` logical pixels.
-typedef void (*SbPictureDraw)(cairo_t *cr, double width, double height, void *data);
+typedef void (*SbDrawCacheDraw)(cairo_t *cr, double width, double height, void *data);
 
 // Makes `area` (a drawing area) show what `draw` draws, with a focus ring. Lives as long as the
 // widget.
-SbPicture *sb_picture_attach(GtkWidget *area, SbPictureDraw draw, void *data);
+SbDrawCache *sb_draw_cache_attach(GtkWidget *area, SbDrawCacheDraw draw, void *data);
 
 // The picture has changed: draws it with the next frame, or, if it was drawn less than `interval`
 // ms ago, that long after.
-void sb_picture_change(SbPicture *picture, int interval);
+void sb_draw_cache_change(SbDrawCache *cache, int interval);

@@ -1,12 +1,12 @@
 // A run as the window holds it. The count of frames that charts see never runs ahead of the trace
 // by more than one update, so that a curve and its playhead agree.
-#include "app/session/shown_run.h"
+#include "app/session/displayed_run.h"
 
 enum { LARGE = 100000 }; // frames
 
-SbShownRun *sb_shown_run_new(SbRunHandle *handle, const SbParams *params) {
+SbDisplayedRun *sb_displayed_run_new(SbRunHandle *handle, const SbParams *params) {
   const SbRun *run = sb_run_handle_run(handle);
-  SbShownRun *shown = g_new0(SbShownRun, 1);
+  SbDisplayedRun *shown = g_new0(SbDisplayedRun, 1);
   shown->references = 1;
   shown->handle = handle;
   shown->run = run;
@@ -18,7 +18,7 @@ SbShownRun *sb_shown_run_new(SbRunHandle *handle, const SbParams *params) {
   return shown;
 }
 
-SbShownRun *sb_shown_run_ref(SbShownRun *shown) {
+SbDisplayedRun *sb_displayed_run_ref(SbDisplayedRun *shown) {
   if (shown != NULL) {
     shown->references++;
   }
@@ -31,7 +31,7 @@ static gpointer release(gpointer data) {
   return NULL;
 }
 
-void sb_shown_run_unref(SbShownRun *shown) {
+void sb_displayed_run_unref(SbDisplayedRun *shown) {
   if (shown == NULL || --shown->references > 0) {
     return;
   }
@@ -47,7 +47,7 @@ void sb_shown_run_unref(SbShownRun *shown) {
   g_free(shown);
 }
 
-bool sb_shown_run_update(SbShownRun *shown, size_t limit) {
+bool sb_displayed_run_update(SbDisplayedRun *shown, size_t limit) {
   size_t published = 0;
   const SbFrame *frames = sb_run_frames(shown->run, &published);
   size_t before = sb_trace_frames(shown->trace);
@@ -60,7 +60,7 @@ bool sb_shown_run_update(SbShownRun *shown, size_t limit) {
   return true;
 }
 
-bool sb_shown_run_complete(const SbShownRun *shown) {
+bool sb_displayed_run_complete(const SbDisplayedRun *shown) {
   size_t published = 0;
   sb_run_frames(shown->run, &published);
   return sb_trace_frames(shown->trace) >= published;

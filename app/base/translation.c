@@ -1,7 +1,7 @@
 // Words of the lower layers in the user's language. Labels of parameters are read for translation
 // from engine/valve/params.def itself (po/meson.build); the others, which are few, are listed here,
 // because the engine knows nothing of translations.
-#include "ui/views/words.h"
+#include "app/base/translation.h"
 
 #include <glib/gi18n.h>
 
@@ -43,12 +43,12 @@ G_GNUC_UNUSED static const char *const listed[] = {
     N_("Report, 1600 \xc3\x97 1200"),
 };
 
-const char *sb_words(const char *text) {
+const char *sb_translation(const char *text) {
   // The empty text stands for a catalogue's header.
   return text != NULL && text[0] != '\0' ? _(text) : "";
 }
 
-char *sb_words_inside(const char *label) {
-  const char *translated = sb_words(label);
+char *sb_translation_inside(const char *label) {
+  const char *translated = sb_translation(label);
   return translated == label ? g_utf8_strdown(label, -1) : g_strdup(translated);
 }

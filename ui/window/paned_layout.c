@@ -1,5 +1,5 @@
-// Places of the borders between the window's columns (columns.h).
-#include "ui/window/columns.h"
+// Places of the borders between the window's columns (paned_layout.h).
+#include "ui/window/paned_layout.h"
 #include "ui/window/preferences.h"
 
 // Widths of the look in its window of 1600 px, and the least that still reads well.
@@ -13,7 +13,7 @@ typedef struct {
   GtkWidget *charts; // toggle of the right column
   int width;         // of the window that the borders were placed for
   guint later;       // source that shows or hides the right column, 0 if none is due
-} Columns;
+} PanedLayout;
 
 static int scaled(int width, int look, int least) {
   return CLAMP(width * look / LOOK_WINDOW, least, look);
@@ -21,32 +21,32 @@ static int scaled(int width, int look, int least) {
 
 // Not inside an allocation: the column leaves or joins the layout.
 static gboolean on_later(gpointer data) {
-  Columns *columns = data;
-  columns->later = 0;
-  gboolean narrow = columns->width < THREE_COLUMNS;
-  if (gtk_widget_get_visible(columns->charts) != narrow) {
-    gtk_widget_set_visible(columns->charts, narrow);
-    gtk_widget_set_visible(gtk_paned_get_child2(columns->views), !narrow);
+  PanedLayout *layout = data;
+  layout->later = 0;
+  gboolean narrow = layout->width < THREE_COLUMNS;
+  if (gtk_widget_get_visible(layout->charts) != narrow) {
+    gtk_widget_set_visible(layout->charts, narrow);
+    gtk_widget_set_visible(gtk_paned_get_child2(layout->views), !narrow);
   }
   return G_SOURCE_REMOVE;
 }
 
-static void columns_free(gpointer data) {
-  Columns *columns = data;
-  if (columns->later != 0) {
-    g_source_remove(columns->later);
+static void layout_free(gpointer data) {
+  PanedLayout *layout = data;
+  if (layout->later != 0) {
+    g_source_remove(layout->later);
   }
-  g_free(columns);
+  g_free(layout);
 }
 
 // A new width: the widths that a hand has given, or the look's share of this window.
-static void on_allocate(GtkPaned *paned, GdkRectangle *allocation, Columns *columns) {
-  if (columns->width == allocation->width || allocation->width < 200) {
+static void on_allocate(GtkPaned *paned, GdkRectangle *allocation, PanedLayout *layout) {
+  if (layout->width == allocation->width || allocation->width < 200) {
     return;
   }
-  columns->width = allocation->width;
-  if (columns->later == 0) {
-    columns->later = g_idle_add(on_later, columns);
+  layout->width = allocation->width;
+  if (layout->later == 0) {
+    layout->later = g_idle_add(on_later, layout);
   }
   int left = sb_preferences_int("left-column", 0);
   int right = sb_preferences_int("right-column", 0);
@@ -56,24 +56,24 @@ static void on_allocate(GtkPaned *paned, GdkRectangle *allocation, Columns *colu
   if (right < LEAST_RIGHT || right > allocation->width / 2) {
     right = scaled(allocation->width, LOOK_RIGHT, LEAST_RIGHT);
   }
-  gtk_paned_set_position(columns->columns, left);
-  gtk_paned_set_position(columns->views, MAX(allocation->width - left - right - 2, 1));
+  gtk_paned_set_position(layout->columns, left);
+  gtk_paned_set_position(layout->views, MAX(allocation->width - left - right - 2, 1));
 }
 
 // Only what a hand moved is remembered.
-static gboolean on_release(GtkPaned *paned, GdkEventButton *event, Columns *columns) {
-  sb_preferences_set_int("left-column", gtk_paned_get_position(columns->columns));
-  GtkWidget *right = gtk_paned_get_child2(columns->views);
+static gboolean on_release(GtkPaned *paned, GdkEventButton *event, PanedLayout *layout) {
+  sb_preferences_set_int("left-column", gtk_paned_get_position(layout->columns));
+  GtkWidget *right = gtk_paned_get_child2(layout->views);
   sb_preferences_set_int("right-column", gtk_widget_get_allocated_width(right));
   return GDK_EVENT_PROPAGATE;
 }
 
-void sb_columns_attach(GtkPaned *columns, GtkPaned *views, GtkWidget *charts) {
-  Columns *self = g_new0(Columns, 1);
+void sb_paned_layout_attach(GtkPaned *columns, GtkPaned *views, GtkWidget *charts) {
+  PanedLayout *self = g_new0(PanedLayout, 1);
   self->columns = columns;
   self->views = views;
   self->charts = charts;
-  g_object_set_data_full(G_OBJECT(columns), "columns", self, columns_free);
+  g_object_set_data_full(G_OBJECT(columns), "columns", self, layout_free);
   g_object_bind_property(gtk_paned_get_child2(views), "visible", charts, "active",
                          G_BINDING_BIDIRECTIONAL | G_BINDING_SYNC_CREATE);
   gtk_widget_set_size_request(gtk_paned_get_child1(columns), LEAST_LEFT, -1);

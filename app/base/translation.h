@@ -4,14 +4,12 @@
 // what stands in the files and are never translated.
 #pragma once
 
-#include "engine/valve/sealbench.h"
-
 #include <glib.h>
 
 // A parameter's label, a study's title or help, a view's, a size's, a field's or a band's name in
 // the user's language; the text itself where it has no translation. Borrowed; NULL gives "".
-const char *sb_words(const char *text);
+const char *sb_translation(const char *text);
 
 // A label as it stands inside a sentence: small in English, as it is in a translation (German nouns
 // keep their capitals). Owned by the caller (g_free).
-char *sb_words_inside(const char *label);
+char *sb_translation_inside(const char *label);

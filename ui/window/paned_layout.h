@@ -8,4 +8,4 @@
 
 // `columns` holds the left column and `views`; `views` holds the centre and the right column.
 // `charts` is the toggle.
-void sb_columns_attach(GtkPaned *columns, GtkPaned *views, GtkWidget *charts);
+void sb_paned_layout_attach(GtkPaned *columns, GtkPaned *views, GtkWidget *charts);
