@@ -231,7 +231,7 @@ static size_t clip(SbPoint *points, size_t count, bool row, double limit, double
 // Fills and outlines one solid shifted by dx. Edges on the axis are no edges.
 static void draw_solid(SbSection *section, const SbSectionFrameMap *map, const SbValveSolid *solid,
                        double dx, const SbDrawHatch *lines) {
-  SbPoint pixel[CLIPPED_MAX];
+  g_autofree SbPoint *pixel = g_new(SbPoint, CLIPPED_MAX);
   size_t n = solid->count;
   for (size_t i = 0; i < n; i++) {
     const SbValvePoint *at = &solid->point[i];

@@ -85,6 +85,15 @@ typedef struct {
   double share;    // real area
 } SbEhlRoughPoint;
 
+// One Newton step's data at the nodes of rough rows (ehl_rough_newton.c).
+typedef struct {
+  double p[SB_EHL_DOFS_MAX], k[SB_EHL_DOFS_MAX], r[SB_EHL_DOFS_MAX];
+  // ds = s0 + s_h dh + s_p dp + s_kappa dkappa
+  double s0[SB_EHL_DOFS_MAX], s_h[SB_EHL_DOFS_MAX], s_p[SB_EHL_DOFS_MAX];
+  double s_kappa[SB_EHL_DOFS_MAX];
+  double step[SB_EHL_DOFS_MAX]; // p[i+1] - p[i] - integral of s
+} SbEhlRoughStep;
+
 // Whom a continuation answers to.
 typedef struct {
   double tolerance;             // scaled residual where Newton's method ends, of smooth rows
@@ -121,6 +130,7 @@ struct SbFilmSolver {
 
   // Rough rows: nodes, states of a continuation, and the law of the last surface.
   SbEhlRoughPoint point[SB_EHL_DOFS_MAX];
+  SbEhlRoughStep step;
   SbEhlState saved[2];
   SbRoughLaw law;
   bool law_ready;

@@ -73,17 +73,11 @@ void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryC
 
 enum { MODES = SB_COMPLIANCE_MODES };
 
-// Moments of every nodal basis, and of the state's pressure with its derivative to the shift.
-typedef struct {
-  double basis[MODES][SB_EHL_DOFS_MAX];
-  double state[MODES];
-  double state_slope[MODES];
-} Moments;
-
 // S acts on the window only: an affine element that reaches beyond it counts as far as it lies in
-// it.
-static void add_element(Moments *out, const SbEhlTables *tables, const SbEhlElement *e,
-                        const double *nodal, double shift, const SbFilmBody *body) {
+// it. Moments of the element's basis, and of the state's pressure with its derivative to the shift.
+static void add_element(SbEhlFittedWork *work, double *state, double *state_slope,
+                        const SbEhlTables *tables, const SbEhlElement *e, const double *nodal,
+                        double shift, const SbFilmBody *body) {
   const SbSurfaceCompliance *c = body->compliance;
   const double unit = body->side * body->half_width;
   const double ends[] = {c->left / unit - shift, c->right / unit - shift};
@@ -113,10 +107,10 @@ static void add_element(Moments *out, const SbEhlTables *tables, const SbEhlElem
     }
     for (int k = 0; k < c->modes; k++) {
       for (int j = 0; j <= e->degree; j++) {
-        out->basis[k][e->first_dof + j] += weight[j] * value[k];
+        work->moment[k][e->first_dof + j] += weight[j] * value[k];
       }
-      out->state[k] += pressure * value[k];
-      out->state_slope[k] += pressure * slope[k] * unit;
+      state[k] += pressure * value[k];
+      state_slope[k] += pressure * slope[k] * unit;
     }
   }
 }
@@ -158,42 +152,43 @@ void sb_ehl_fitted(double *kernel, double *gaps, double *slope, const SbEhlTable
   const int modes = c->modes;
   // p_H b over the film's scale.
   const double factor = 0.25 * c->modulus;
-  Moments m;
-  memset(&m, 0, sizeof m);
+  SbEhlFittedWork *work = mesh->fitted;
+  memset(work->moment, 0, sizeof work->moment);
+  double state[MODES] = {0};
+  double state_slope[MODES] = {0};
   for (int i = 0; i < mesh->count; i++) {
-    add_element(&m, tables, &mesh->element[i], nodal, shift, body);
+    add_element(work, state, state_slope, tables, &mesh->element[i], nodal, shift, body);
   }
-  add_ambient(m.state, m.state_slope, body, mesh->inlet_pressure, mesh->outlet_pressure,
+  add_ambient(state, state_slope, body, mesh->inlet_pressure, mesh->outlet_pressure,
               mesh->left_end + shift, mesh->right_end + shift);
 
   // S times the moments, without the constant that H0 takes up anyway: it would only cost digits of
   // thin films. Of the basis, of the pressure, of its derivative.
-  double basis[MODES][SB_EHL_DOFS_MAX];
   double of_state[MODES] = {0};
   double of_slope[MODES] = {0};
-  memset(basis[0], 0, sizeof basis[0]);
+  memset(work->smooth[0], 0, sizeof work->smooth[0]);
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, mesh->dofs, modes, factor,
-              &c->smooth[1][0], MODES, &m.basis[0][0], SB_EHL_DOFS_MAX, 0.0, &basis[1][0],
-              SB_EHL_DOFS_MAX);
+              &c->smooth[1][0], MODES, &work->moment[0][0], SB_EHL_DOFS_MAX, 0.0,
+              &work->smooth[1][0], SB_EHL_DOFS_MAX);
   for (int k = 1; k < modes; k++) {
     for (int l = 0; l < modes; l++) {
-      of_state[k] += factor * c->smooth[k][l] * m.state[l];
-      of_slope[k] += factor * c->smooth[k][l] * m.state_slope[l];
+      of_state[k] += factor * c->smooth[k][l] * state[l];
+      of_slope[k] += factor * c->smooth[k][l] * state_slope[l];
     }
   }
 
   const double tilt = window_tilt(body, mesh->inlet_pressure, mesh->outlet_pressure);
-  double value[SB_EHL_TARGETS_MAX][MODES];
   for (int i = 0; i < mesh->targets; i++) {
+    double *value = work->value[i];
     double derivative[MODES];
     const double x = unit * (mesh->x[i] + shift);
-    sb_compliance_modes(c, x, value[i], derivative);
+    sb_compliance_modes(c, x, value, derivative);
     double gap_slope;
     double sum = sb_compliance_gap(c, x, &gap_slope) / body->film;
     double sum_slope = gap_slope / body->film * unit;
     for (int k = 0; k < modes; k++) {
-      sum += value[i][k] * of_state[k];
-      sum_slope += derivative[k] * unit * of_state[k] + value[i][k] * of_slope[k];
+      sum += value[k] * of_state[k];
+      sum_slope += derivative[k] * unit * of_state[k] + value[k] * of_slope[k];
     }
     gaps[i] = sum + mesh->gap_known[i] + tilt * mesh->x[i];
     slope[i] = sum_slope;
@@ -202,5 +197,6 @@ void sb_ehl_fitted(double *kernel, double *gaps, double *slope, const SbEhlTable
               nodal, 1, 1.0, gaps, 1);
   memcpy(kernel, mesh->gap, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *kernel);
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, mesh->targets, mesh->dofs, modes, 1.0,
-              &value[0][0], MODES, &basis[0][0], SB_EHL_DOFS_MAX, 1.0, kernel, mesh->dofs);
+              &work->value[0][0], MODES, &work->smooth[0][0], SB_EHL_DOFS_MAX, 1.0, kernel,
+              mesh->dofs);
 }

@@ -196,9 +196,11 @@ bool sb_ehl_mesh_init(SbEhlMesh *mesh) {
   mesh->slope_known = malloc(targets * sizeof(double));
   mesh->owner = malloc(targets * sizeof(int));
   mesh->load = malloc(dofs * sizeof(double));
+  mesh->fitted = malloc(sizeof *mesh->fitted);
   if (mesh->gap == NULL || mesh->gap_known == NULL || mesh->x == NULL || mesh->weight == NULL ||
       mesh->value == NULL || mesh->slope == NULL || mesh->value_known == NULL ||
-      mesh->slope_known == NULL || mesh->owner == NULL || mesh->load == NULL) {
+      mesh->slope_known == NULL || mesh->owner == NULL || mesh->load == NULL ||
+      mesh->fitted == NULL) {
     sb_ehl_mesh_finish(mesh);
     return false;
   }
@@ -219,6 +221,7 @@ void sb_ehl_mesh_finish(SbEhlMesh *mesh) {
   free(mesh->slope_known);
   free(mesh->owner);
   free(mesh->load);
+  free(mesh->fitted);
   memset(mesh, 0, sizeof *mesh);
 }
 

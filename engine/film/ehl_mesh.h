@@ -6,6 +6,7 @@
 #pragma once
 
 #include "engine/base/status.h"
+#include "engine/contact/compliance.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -76,6 +77,14 @@ typedef struct {
   double log_s[SB_EHL_DEGREE_MAX + 2];    // integral with ln s, infinite elements
 } SbEhlElement;
 
+// Work memory of ehl_fitted.c: moments of every nodal basis, the smooth compliance times these, and
+// the body's polynomials at the targets.
+typedef struct {
+  double moment[SB_COMPLIANCE_MODES][SB_EHL_DOFS_MAX];
+  double smooth[SB_COMPLIANCE_MODES][SB_EHL_DOFS_MAX];
+  double value[SB_EHL_TARGETS_MAX][SB_COMPLIANCE_MODES];
+} SbEhlFittedWork;
+
 // A mesh with its operators. Targets are the collocation points (the first `rows`), then the finite
 // ends of the elements; of a nodal mesh, the nodes, without local operators. The known parts hold
 // what does not depend on the nodal pressures.
@@ -98,6 +107,7 @@ typedef struct {
   int *owner;                        // [targets] element of a target
   double *load;                      // [dofs] integral of the basis
   double load_known;
+  SbEhlFittedWork *fitted;
 } SbEhlMesh;
 
 // Everything that outlives a solve: rules and tables of the degrees in use.

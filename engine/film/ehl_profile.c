@@ -16,6 +16,7 @@
 
 #include "engine/numeric/legendre.h"
 
+#include <assert.h>
 #include <math.h>
 
 enum { MODES = 22 }; // of the slope on an element; the fine rule holds 24 points
@@ -337,7 +338,9 @@ static void fill_smooth(SbFilm *out, SbFilmSolver *solver, int which, const SbEh
   double limit = wanted->profile_points > 0 ? (double)wanted->profile_points : room;
   Spread spread = spread_points(mesh, &problem->layers, begin, end, fmin(limit, room));
 
-  Piece pieces[PIECES_MAX];
+  Piece *pieces = (void *)solver->matrix; // free between solves
+  static_assert(PIECES_MAX * sizeof *pieces < SB_EHL_DOFS_MAX * SB_EHL_DOFS_MAX * sizeof(double),
+                "the matrix holds the pieces");
   double *excess = solver->gaps;
   for (int i = 0; i < mesh->targets; i++) {
     excess[i] = state->gap[i] - sb_ehl_layers_dry_gap(&problem->layers, mesh->x[i]);

@@ -72,15 +72,6 @@ double sb_ehl_rough_film_end(const SbEhlTable *rule, const double *s, int j) {
   return 0.5 * (low + high);
 }
 
-// One Newton step's data at the nodes.
-typedef struct {
-  double p[SB_EHL_DOFS_MAX], k[SB_EHL_DOFS_MAX], r[SB_EHL_DOFS_MAX];
-  // ds = s0 + s_h dh + s_p dp + s_kappa dkappa
-  double s0[SB_EHL_DOFS_MAX], s_h[SB_EHL_DOFS_MAX], s_p[SB_EHL_DOFS_MAX];
-  double s_kappa[SB_EHL_DOFS_MAX];
-  double step[SB_EHL_DOFS_MAX]; // p[i+1] - p[i] - integral of s
-} Local;
-
 static void elastic_gaps(double *out, const SbEhlMesh *mesh, const SbEhlState *state) {
   for (int i = 0; i < mesh->dofs; i++) {
     out[i] = state->H0 + mesh->gap_known[i];
@@ -89,8 +80,8 @@ static void elastic_gaps(double *out, const SbEhlMesh *mesh, const SbEhlState *s
               state->nodal, 1, 1.0, out, 1);
 }
 
-static void localise(Local *l, SbFilmSolver *solver, const SbEhlMesh *mesh, const SbEhlState *state,
-                     const SbEhlCase *c) {
+static void localise(SbEhlRoughStep *l, SbFilmSolver *solver, const SbEhlMesh *mesh,
+                     const SbEhlState *state, const SbEhlCase *c) {
   for (int i = 0; i < mesh->dofs; i++) {
     SbEhlRoughPoint *at = &solver->point[i];
     sb_ehl_rough_point(at, c, state->t[i]);
@@ -109,7 +100,7 @@ static void localise(Local *l, SbFilmSolver *solver, const SbEhlMesh *mesh, cons
 }
 
 // What Reynolds' equation lacks from node to node.
-static void residuals(Local *l, const SbEhlMesh *mesh, const SbEhlTable *rule,
+static void residuals(SbEhlRoughStep *l, const SbEhlMesh *mesh, const SbEhlTable *rule,
                       const SbEhlState *state) {
   for (int e = 0; e < mesh->count; e++) {
     double half = mesh->element[e].h;
@@ -125,8 +116,8 @@ static void residuals(Local *l, const SbEhlMesh *mesh, const SbEhlTable *rule,
 }
 
 // Chooses between full film and cavity at every node; how many changed.
-static int choose(const Local *l, const SbEhlMesh *mesh, const SbEhlTable *rule, SbEhlState *state,
-                  const SbEhlRoughPoint *point, bool flooded, double doubt) {
+static int choose(const SbEhlRoughStep *l, const SbEhlMesh *mesh, const SbEhlTable *rule,
+                  SbEhlState *state, const SbEhlRoughPoint *point, bool flooded, double doubt) {
   int changed = 0;
   // Against the flow, as the end of the film depends on what lies behind.
   state->cavity[mesh->dofs - 1] = state->cavity[mesh->dofs - 2];
@@ -154,8 +145,8 @@ static int choose(const Local *l, const SbEhlMesh *mesh, const SbEhlTable *rule,
 }
 
 // Adds coefficient times dh (and dp) of node n to a row (NULL: to the constant only).
-static void add_node(double *row, double *constant, const SbEhlMesh *mesh, const Local *l, int n,
-                     double by_h, double by_p) {
+static void add_node(double *row, double *constant, const SbEhlMesh *mesh, const SbEhlRoughStep *l,
+                     int n, double by_h, double by_p) {
   double gap = by_h + by_p * l->k[n];
   *constant += gap * l->r[n];
   if (row == NULL) {
@@ -177,7 +168,7 @@ static double *row_of(double *matrix, int order, int i) {
 // it the right-hand side is for the matrix of an earlier call.
 static void assemble(double *matrix, double *right, double *row_scale, const SbEhlMesh *mesh,
                      const SbEhlTable *rule, const SbEhlState *state, const SbEhlCase *c,
-                     const Local *l) {
+                     const SbEhlRoughStep *l) {
   int nodes = mesh->dofs;
   int order = nodes + 2;
   int d = rule->degree;
@@ -258,7 +249,7 @@ SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which,
   const SbEhlTable *rule = sb_ehl_steps(&solver->tables, mesh->element[0].degree);
   int nodes = mesh->dofs;
   int order = nodes + 2;
-  Local local;
+  SbEhlRoughStep *local = &solver->step;
   double before = INFINITY;
   int settled = 0;       // small steps so far
   bool small = false;    // the last one
@@ -270,12 +261,11 @@ SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which,
       return SB_ERROR_CANCELLED;
     }
     elastic_gaps(solver->gaps, mesh, state);
-    localise(&local, solver, mesh, state, c);
-    residuals(&local, mesh, rule, state);
+    localise(local, solver, mesh, state, c);
+    residuals(local, mesh, rule, state);
     int changed = 0;
     if (c->layers.lambda > 0 && before < 0.3) {
-      changed =
-          choose(&local, mesh, rule, state, solver->point, !isfinite(c->rough.supply), before);
+      changed = choose(local, mesh, rule, state, solver->point, !isfinite(c->rough.supply), before);
     }
     // Converged where no node wants to change sides after a last step that was small; one at the
     // very end of the film may go to and fro without any effect.
@@ -284,7 +274,7 @@ SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which,
     }
     factored = factored && changed == 0;
     assemble(factored ? NULL : solver->matrix, solver->right, row_scale, mesh, rule, state, c,
-             &local);
+             local);
     if ((!factored && LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, solver->matrix, order,
                                           solver->pivot) != 0) ||
         LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', order, 1, solver->matrix, order, solver->pivot,
@@ -297,7 +287,7 @@ SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which,
 
     // Changes of the gap, in `gap`, and how far they may go.
     for (int i = 0; i < nodes; i++) {
-      solver->gaps[i] = dH0 + local.r[i];
+      solver->gaps[i] = dH0 + local->r[i];
     }
     cblas_dgemv(CblasRowMajor, CblasNoTrans, nodes, nodes, 1.0, mesh->gap, nodes, dq, 1, 1.0,
                 solver->gaps, 1);
@@ -312,9 +302,9 @@ SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which,
       if (!isfinite(dt)) {
         return SB_ERROR_NOT_CONVERGED;
       }
-      double dp = dq[i] + local.k[i] * dh;
+      double dp = dq[i] + local->k[i] * dh;
       state->s[i] +=
-          local.s0[i] + local.s_h[i] * dh + local.s_p[i] * dp + local.s_kappa[i] * dkappa;
+          local->s0[i] + local->s_h[i] * dh + local->s_p[i] * dp + local->s_kappa[i] * dkappa;
       // With pull the solids' pressure can have a near-plateau, half a unit of t wide.
       double down = fmax(c->rough.hamaker > 0 ? 0.3 : 1.5, 0.8 * state->t[i]);
       cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > SB_EHL_CLOSED);

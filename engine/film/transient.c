@@ -357,12 +357,11 @@ static SbStatus advance(double *error, SbFilmTransient *t, double h, double spee
     }
   }
   s->H0 += ratio * (s->H0 - t->before.H0);
-  double old[SB_TRANSIENT_NODES_MAX] = {0};
-  double guess[SB_TRANSIENT_NODES_MAX] = {0};
+  double *old = t->work[0], *guess = t->work[1], *earlier = t->work[2];
+  memset(t->work, 0, sizeof t->work);
   double carried_rate = 0.0;
   const bool carry = fabs(s->travel - t->now.travel) < t->reach * s->half;
   for (int k = 0; k < t->known_times; k++) {
-    double earlier[SB_TRANSIENT_NODES_MAX];
     const double way = carry ? (s->travel - t->content_travel[k]) / s->half : 0.0;
     sb_transient_carry(earlier, t, t->content[k], way);
     const double weight = k < 2 ? c[k + 1] : 0.0;

@@ -63,6 +63,9 @@ struct SbFilmTransient {
   double *right;
   int *pivot;
   double row_scale[SB_TRANSIENT_NODES_MAX];
+  double work[3][SB_TRANSIENT_NODES_MAX];   // of a step, outside Newton's method
+  double newton[2][SB_TRANSIENT_NODES_MAX]; // inside: elastic gap and change of the pressure
+  double moment[SB_COMPLIANCE_MODES][SB_TRANSIENT_NODES_MAX]; // of the hats, of a fitted body
   bool factored; // `matrix` holds the factors for this step size and cavity
   double factored_c0;
   bool factored_cavity[SB_TRANSIENT_NODES_MAX];

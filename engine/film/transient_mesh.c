@@ -168,8 +168,7 @@ static void add_smooth(SbFilmTransient *t, double half, double middle) {
   double node[POINTS];
   double weight[POINTS];
   sb_legendre_gauss(node, weight, POINTS);
-  double moment[MODES][SB_TRANSIENT_NODES_MAX];
-  memset(moment, 0, sizeof moment);
+  memset(t->moment, 0, sizeof t->moment);
   double value[MODES];
   for (int j = 0; j + 1 < n; j++) {
     const double h = t->X[j + 1] - t->X[j];
@@ -177,8 +176,8 @@ static void add_smooth(SbFilmTransient *t, double half, double middle) {
       const double s = 0.5 * (1.0 + node[q]);
       sb_compliance_modes(c, b * (middle + half * (t->X[j] + s * h)), value, NULL);
       for (int k = 0; k < c->modes; k++) {
-        moment[k][j] += half * 0.5 * h * weight[q] * (1.0 - s) * value[k];
-        moment[k][j + 1] += half * 0.5 * h * weight[q] * s * value[k];
+        t->moment[k][j] += half * 0.5 * h * weight[q] * (1.0 - s) * value[k];
+        t->moment[k][j + 1] += half * 0.5 * h * weight[q] * s * value[k];
       }
     }
   }
@@ -210,7 +209,7 @@ static void add_smooth(SbFilmTransient *t, double half, double middle) {
         sum += factor * value[k] * c->smooth[k][l];
       }
       t->present_known[i] += sum * known[l];
-      cblas_daxpy(n, sum, moment[l], 1, row, 1);
+      cblas_daxpy(n, sum, t->moment[l], 1, row, 1);
     }
   }
 }

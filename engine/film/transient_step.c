@@ -348,7 +348,7 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
   enum { ITERATIONS_MAX = 30 };
   const int n = t->nodes;
   const int order = n - 1;
-  double elastic[SB_TRANSIENT_NODES_MAX];
+  double *elastic = t->newton[0], *change = t->newton[1];
   sb_transient_present(t, s->half, s->middle);
   *trace = (SbTransientTrace){.mass_error = INFINITY, .load_error = INFINITY};
   s->P[0] = t->inlet;
@@ -401,7 +401,7 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
     // New gap by the linear elastic relation; no film may shrink below a fifth at once.
     const double old_H0 = s->H0;
     double *wanted = elastic; // reused
-    double change[SB_TRANSIENT_NODES_MAX] = {0};
+    change[0] = change[n - 1] = 0.0;
     for (int i = 1; i + 1 < n; i++) {
       change[i] = s->cavity[i] ? 0.0 : -t->right[i - 1];
     }
