@@ -83,7 +83,7 @@ void sb_csv_life(FILE *stream, const SbRun *run) {
     put(stream, one->force_peak, ',');
     put(stream, one->force_breakaway, ',');
     put(stream, one->force_return, ',');
-    fprintf(stream, "%d,", one->returns);
+    put(stream, one->returned, ',');
     put(stream, one->lambda, ',');
     put(stream, one->leakage, ',');
     put(stream, one->carried, ',');

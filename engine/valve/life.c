@@ -25,7 +25,8 @@ SbStatus sb_life_run(SbLife *life, SbLifeActuation *each, const SbRunningIn *law
                    "a life needs at least one actuation and a running-in above 0");
   }
   double lost[2] = {0.0, 0.0}; // rounding of the sums
-  for (long n = 0; n < count && life->failure == 0; n++) {
+  bool goes_on = true;
+  for (long n = 0; n < count && goes_on; n++) {
     if (cancelled != NULL && cancelled(user)) {
       return sb_fail(report, SB_ERROR_CANCELLED, "cancelled after %ld actuations", n);
     }
@@ -42,7 +43,8 @@ SbStatus sb_life_run(SbLife *life, SbLifeActuation *each, const SbRunningIn *law
     }
     life->peak_last = one.force_peak;
     life->return_least = fmin(life->return_least, one.force_return);
-    life->failure = one.returns ? 0 : n + 1;
+    life->failure = one.returned == 0 ? n + 1 : 0;
+    goes_on = one.returned > 0;
     if (each != NULL) {
       each[n] = one;
     }

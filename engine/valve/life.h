@@ -4,8 +4,8 @@
 // from its value when new to its value when run in as exp(-n/actuations). Literature in the thesis
 // gives 1.7 um new and 0.2 um run in (Rana); how fast is not given: an input. What one actuation
 // does at a given roughness comes from the caller's model of the cycle. A stem that does not return
-// ends the life: there is no stroke left. Leaves out: wear of the
-// section, swelling, propellant loss between actuations (leak/).
+// ends the life: there is no stroke left; so does one of which that is not known. Leaves out: wear
+// of the section, swelling, propellant loss between actuations (leak/).
 #pragma once
 
 #include "engine/base/status.h"
@@ -24,7 +24,7 @@ typedef struct {
   double force_peak;      // N
   double force_breakaway; // at the first slip, N; NaN if there was none
   double force_return;    // least, N
-  bool returns;
+  double returned;        // 1: the stem comes back to rest, 0: it does not; NaN: not known
 } SbLifeActuation;
 
 typedef struct {
@@ -40,8 +40,8 @@ typedef struct {
 double sb_life_roughness(const SbRunningIn *law, long n);
 
 // Runs `count` actuations in order. `actuate` fills one actuation for a roughness and may fail (the
-// life ends there with that status, `life` holding what was done); one that does not return is the
-// last, which is SB_OK. each[count] (may be NULL) keeps
+// life ends there with that status, `life` holding what was done); one that is not known to return
+// is the last, which is SB_OK. each[count] (may be NULL) keeps
 // every actuation. `cancelled` (may be NULL) is asked before each.
 SbStatus sb_life_run(SbLife *life, SbLifeActuation *each, const SbRunningIn *law, long count,
                      SbStatus (*actuate)(SbLifeActuation *out, long n, double roughness, void *user,

@@ -4,6 +4,7 @@
 
 #include <glib.h>
 #include <math.h>
+#include <string.h>
 
 static const SbRingBody BODY = {.section_diameter = 1.61e-3,
                                 .inner_diameter = 2.84e-3,
@@ -108,6 +109,54 @@ static void test_pressed(void) {
   // Friction of the total contact pressure, the fluid's share included.
   g_assert_cmpfloat(fabs(forth.bore_drag / forth.bore_force - 0.2), <, 4e-3);
   sb_ring_destroy(ring);
+}
+
+// A rough bore over a ring that floor and wall do not hold rolls it: the drag that the ring bears
+// has its greatest value (0.470 of the load, `reference/ring-friction.md`, +-1.5 %; this mesh is
+// coarse), the turn counts on from step to step, and beyond it no step is a state of sliding. By
+// one long step as by short ones, both ways. Back from there it can still be turned.
+static void test_rolls(void) {
+  const struct {
+    double way;
+    int steps;
+    double pressure;
+  } cases[] = {{4e-3, 40, 0.0}, {-4e-3, 40, 0.0}, {4e-3, 1, 0.0}, {4e-3, 20, 0.55e6}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    SbRingLoad load = groove(cases[i].pressure);
+    load.friction_bore = 0.7;
+    SbRing *ring = create(&load);
+    SbRingResult r, before = {0};
+    SbReport report = {0};
+    SbStatus status = SB_OK;
+    double most = 0.0;
+    for (int n = 0; n < cases[i].steps && status == SB_OK; n++) {
+      load.bore_position += cases[i].way / cases[i].steps;
+      status = sb_ring_step(ring, &load, &report);
+      sb_ring_result(ring, &r);
+      most = fmax(most, fabs(r.bore_drag) / r.bore_force);
+      if (status == SB_OK) {
+        g_assert_cmpint(r.state, ==, SB_RING_SLIDES);
+        g_assert_cmpfloat(fabs(r.turn - before.turn), <, 0.5);
+        before = r;
+      }
+    }
+    g_test_message("turned by %.3f rad, drag %.4f of the load: %s", r.turn, most, report.text);
+    g_assert_cmpint(status, ==, SB_ERROR_NOT_CONVERGED);
+    g_assert_cmpint(r.state, ==, SB_RING_ROLLS);
+    g_assert_nonnull(strstr(report.text, "rolls"));
+    g_assert_cmpfloat(r.turn * cases[i].way, >, 0.0);
+    g_assert_cmpfloat(fabs(r.turn), >, 1.5);
+    g_assert_cmpfloat(fabs(r.turn), <=, 2.0);
+    if (cases[i].pressure == 0.0 && cases[i].steps > 1) {
+      g_assert_cmpfloat(fabs(most / 0.470 - 1.0), <, 0.04);
+    }
+    load = *sb_ring_load(ring);
+    load.bore_position -= 0.05 * cases[i].way;
+    step(ring, &load, &before);
+    g_assert_cmpfloat(fabs(before.turn), <, fabs(r.turn));
+    g_assert_cmpint(before.state, ==, SB_RING_SLIDES);
+    sb_ring_destroy(ring);
+  }
 }
 
 // A given shear on the contact instead of Coulomb's law.
@@ -268,6 +317,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/ring-slide/reversal", test_reversal);
   g_test_add_func("/ring-slide/pressed", test_pressed);
+  g_test_add_func("/ring-slide/rolls", test_rolls);
   g_test_add_func("/ring-slide/traction", test_traction);
   g_test_add_func("/ring-slide/warm", test_warm);
   g_test_add_func("/ring-slide/land-edge", test_land_edge);

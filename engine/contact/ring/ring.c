@@ -355,6 +355,7 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
   sb_ring_fem_transfer(fresh.fem, ring->fem);
   SbRingContact *contact = fresh.contact;
   contact->now = ring->contact->now;
+  contact->turn = ring->contact->turn;
   for (int i = 0; i < contact->count; i++) {
     for (int s = 0; s < SB_RING_SURFACES; s++) {
       bool held = false;

@@ -61,8 +61,16 @@ typedef struct {
   void *poll_data;
 } SbRingOptions;
 
+typedef enum {
+  SB_RING_SLIDES,     // holds its place: rests, or the bore slides over it
+  SB_RING_ROLLS,      // the last step was refused: its section would roll on (ring_advance.c)
+  SB_RING_NO_CONTACT, // does not touch the bore
+} SbRingState;
+
 typedef struct {
-  bool touching;                  // the bore is touched
+  SbRingState state;
+  double turn;   // of the section since it was free, rad; > 0 as the bore's motion to +x drives it
+  bool touching; // the bore is touched
   double bore_force, bore_drag;   // radial (compression > 0) and axial (+x on the ring) force
   double floor_force, floor_drag; // the same at the groove floor
   double wall_right_force, wall_left_force; // axial, compression > 0
@@ -93,7 +101,8 @@ void sb_ring_destroy(SbRing *ring);
 
 // Moves on from the present equilibrium to another load (warm start). Friction sees the motion from
 // one load to the next as monotonic. On failure the last equilibrium found on the way is kept,
-// sb_ring_load tells at which load that is, and the report at which share of the step.
+// sb_ring_load tells at which load that is, and the report at which share of the step. A ring that
+// would roll is such a failure (SB_ERROR_NOT_CONVERGED): the result's state says so.
 SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report);
 
 // The load of the present state; borrowed.

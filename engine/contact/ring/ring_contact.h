@@ -57,6 +57,8 @@ typedef struct {
   double slide_start;    // slide at the start of the step
   SbRingTouch *saved[2]; // for sb_ring_contact_save
   double slip_excess;    // departure from Coulomb's law at nodes that could not settle
+  double turn;           // of the section since it was free, from +r towards +z, unwrapped
+  bool rolls;            // the last step ended because the section would roll on
   double force_scale;    // for tolerances
   int unsteady;          // touch that last changed, -1: none since the solve began
 } SbRingContact;

@@ -53,6 +53,7 @@ static void guess(SbRing *ring, const SbRingSetting *s, double share) {
     fem->u[2 * i + 1] = z / (stretch * thickness) + shift - z;
   }
   memset(fem->inner, 0, sizeof(double) * SB_RING_INNER * (size_t)ring->mesh->elements);
+  ring->contact->turn = 0.0;
 }
 
 // A pressure difference with nothing to lean on: push the ring against its wall.

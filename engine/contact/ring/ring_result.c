@@ -305,7 +305,8 @@ static double end_share(const SbRing *ring, const SbRingPatch *patch) {
 
 void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   const SbRingContact *contact = ring->contact;
-  *out = (SbRingResult){.unknowns = 2 * ring->mesh->nodes,
+  *out = (SbRingResult){.turn = contact->turn,
+                        .unknowns = 2 * ring->mesh->nodes,
                         .newton_iterations = ring->count.iterations,
                         .load_steps = ring->count.steps,
                         .rejected_steps = ring->count.rejected};
@@ -336,6 +337,7 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   out->wall_left_drag = force[SB_RING_WALL_LEFT][0] * f;
 
   out->touching = touches[SB_RING_BORE];
+  out->state = contact->rolls ? SB_RING_ROLLS : out->touching ? SB_RING_SLIDES : SB_RING_NO_CONTACT;
   if (out->touching) {
     const SbRingPatch *bore = &patch[SB_RING_BORE];
     out->contact_left = bore->place[0] * l;

@@ -59,7 +59,7 @@ static void yield_of(SbLifeActuation *out, const SbRun *run) {
   const SbStageMark *slip = &summary->stage[SB_STAGE_B];
   out->force_breakaway = slip->reached ? slip->force : NAN;
   out->force_return = summary->force_return_min;
-  out->returns = summary->returns;
+  out->returned = summary->returned;
 }
 
 // Puts the frames of `one` behind those of the first actuation.

@@ -3,7 +3,8 @@
 // One equilibrium for each seal, pressure difference and way of sliding: fitted and pressed first,
 // then dragged by the seal's own friction as a uniform shear on the bore contact, held by Coulomb
 // friction on floor and wall. Where the drag is more than the ring can bear without rolling, the
-// last equilibrium on the way is kept and the part of the force that it bears is told.
+// last equilibrium on the way is kept; the part of the force that it bears, its turn, and whether
+// it rolls are told.
 //
 // A row of them for the inner ring while the land's edge and the chamfer beside it pass over it,
 // until the free ring clears the chamfer. Friction on floor and bore holds the ring where it is
@@ -163,26 +164,30 @@ static SbStatus step(SbRun *run, SbRing *ring, const SbRingLoad *to, bool *whole
   return status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY ? status : SB_OK;
 }
 
-// Drags the ring by a force [N, in-stroke > 0], as an even shear over the contact, whose area grows
-// with it: halfway first, then by the area that both states point to. *borne is the force that acts
-// on the ring then over the one wanted; below 1 where the equilibrium ends on the way.
-static SbStatus drag(SbRun *run, SbRing *ring, double force, double *borne, SbReport *report) {
-  double turn = run->model.bore_circumference;
-  SbRingResult at;
-  sb_ring_result(ring, &at);
+// Drags the ring by a force [N, in-stroke > 0], as an even shear over the contact, whose area
+// changes with it: in shares of the force, the shear by the last two states' secant. *at is the
+// state found, with less of the force where the equilibrium ends on the way.
+static SbStatus drag(SbRun *run, SbRing *ring, double force, SbRingResult *at, SbReport *report) {
+  static const double shares[] = {0.5, 0.8, 1, 1, 1};
+  sb_ring_result(ring, at);
   SbRingLoad load = *sb_ring_load(ring);
   load.use_bore_traction = true;
-  double first = at.contact_right - at.contact_left, area = turn * first;
-  bool whole = area > 0;
+  double width = at->contact_right - at->contact_left;
+  double rate = 1 / (run->model.bore_circumference * width), shear = 0, borne = 0;
+  bool goes_on = at->touching;
   SbStatus status = SB_OK;
-  for (int i = 0; i < 2 && whole && status == SB_OK; i++) {
-    load.bore_traction = (i == 0 ? 0.5 : 1) * force / area;
+  for (size_t i = 0; i < sizeof shares / sizeof *shares && goes_on && status == SB_OK; i++) {
+    load.bore_traction = shear + rate * (shares[i] * force - borne);
+    bool whole;
     status = step(run, ring, &load, &whole, report);
-    sb_ring_result(ring, &at);
-    // The area is that of half the force: as much again for the other half.
-    area = turn * (2 * (at.contact_right - at.contact_left) - first);
+    sb_ring_result(ring, at);
+    double reached = sb_ring_load(ring)->bore_traction;
+    rate = at->bore_drag != borne ? (reached - shear) / (at->bore_drag - borne) : 0;
+    shear = reached;
+    borne = at->bore_drag;
+    goes_on =
+        at->touching && fabs(borne / force - 1) > drag_tolerance && (whole || borne / force > 1);
   }
-  *borne = force != 0 ? at.bore_drag / force : 1;
   return status;
 }
 
@@ -206,14 +211,15 @@ static SbStatus solve_dragged(SbRun *run, int seal, SbChamber chamber, Poll *hoo
     }
     if (order[i] != SB_RUN_REST) {
       const SbSliding *state = &run->cycle.states.state[seal][chamber][order[i]];
-      double borne;
-      status = drag(run, ring, (order[i] == SB_CYCLE_IN ? 1 : -1) * sb_sliding_friction(state),
-                    &borne, report);
-      if (status == SB_OK && !(fabs(borne - 1) <= drag_tolerance)) {
+      double force = (order[i] == SB_CYCLE_IN ? 1 : -1) * sb_sliding_friction(state);
+      SbRingResult at;
+      status = drag(run, ring, force, &at, report);
+      if (status == SB_OK && !(fabs(at.bore_drag / force - 1) <= drag_tolerance)) {
         sb_warn_about(&run->summary.warnings, sb_seal_name(seal));
         sb_warn(&run->summary.warnings, "ring-drag", "friction.shear_strength",
-                "the drawn %s ring bears %.0f %% of its friction force, then rolls",
-                sb_seal_name(seal), 100 * borne);
+                "the drawn %s ring bears %.0f %% of its friction force, turned by %.0f°, then %s",
+                sb_seal_name(seal), 100 * at.bore_drag / force, fabs(at.turn) * 180 / M_PI,
+                at.state == SB_RING_ROLLS ? "rolls" : "finds no equilibrium");
         sb_warn_about(&run->summary.warnings, NULL);
       }
     }
