@@ -508,10 +508,13 @@ char *sb_results_fit(const SbFit *fit, const char *seal, double pressure,
 
 // ---- plan and lists ----
 
-char *sb_results_plan(const SbPlan *plan) {
+char *sb_results_plan(const SbPlan *plan, const char *scene) {
   SbJson json;
   sb_json_init(&json);
   sb_json_object(&json, NULL);
+  if (scene != NULL) {
+    sb_json_string(&json, "scene", scene);
+  }
   sb_json_array(&json, "fields");
   for (size_t i = 0; i < plan->field_count; i++) {
     const SbPlanItem *item = &plan->field[i];

@@ -32,6 +32,6 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info);
 char *sb_results_film(const SbFilm *film, const SbResultsHistory *history); // NULL: none
 char *sb_results_fit(const SbFit *fit, const char *seal, double pressure,
                      const SbGlandReadout *gland, const SbRubberState *storage);
-char *sb_results_plan(const SbPlan *plan);
+char *sb_results_plan(const SbPlan *plan, const char *scene); // NULL: not named
 char *sb_results_params(void);
 char *sb_results_models(void);
