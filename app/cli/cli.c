@@ -293,7 +293,10 @@ SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings) {
     sb_document_set_option(document, *setting, issues);
   }
   if (document != NULL && issues->len == 0) {
-    sb_document_compile(document, model, issues);
+    // What --set changed may not go together with a case.
+    if (sb_document_compile(document, model, issues) && settings != NULL) {
+      (void)sb_document_check_cases(document, issues);
+    }
   }
   sb_cli_issues(issues);
   if (issues->len > 0) {

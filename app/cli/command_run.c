@@ -46,15 +46,17 @@ static void print_seal(const SbSummary *summary, int seal) {
 }
 
 // The questions that have an answer.
-static void print_verdict(const SbSummary *summary) {
+static void print_verdict(const SbCaseVerdict *verdicts) {
   printf("Verdict\n");
   for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
-    const SbVerdict *verdict = &summary->verdict[kind];
+    const SbVerdict *verdict = &verdicts[kind].of;
+    const char *name = verdicts[kind].name;
     if (verdict->figure >= 0) {
       static const char *const answers[] = {"-", "NO", "yes"};
-      g_autofree char *text =
-          g_strdup_printf("%s%s%s%s", answers[verdict->ok], verdict->reason[0] != '\0' ? " (" : "",
-                          verdict->reason, verdict->reason[0] != '\0' ? ")" : "");
+      bool because = verdict->reason[0] != '\0';
+      g_autofree char *text = g_strdup_printf(
+          "%s%s%s%s%s%s", answers[verdict->ok], because ? " (" : "", verdict->reason,
+          because ? ")" : "", name != NULL ? ", case " : "", name != NULL ? name : "");
       sb_cli_line(sb_verdict_name((SbVerdictKind)kind), text);
     }
   }
@@ -104,7 +106,8 @@ static void print_solver(const SbSummary *summary) {
   sb_cli_figure("Engine time", summary->wall_s, "s", "ms");
 }
 
-static void print_table(const SbDocument *document, const SbRun *run) {
+static void print_table(const SbDocument *document, const SbRun *run,
+                        const SbCaseVerdict *verdict) {
   const SbSummary *summary = sb_run_summary(run);
   printf("%s\n", sb_document_title(document));
   if (sb_run_model(run)->motion == SB_MODEL_MOTION_RIG) {
@@ -148,7 +151,7 @@ static void print_table(const SbDocument *document, const SbRun *run) {
   }
   print_seal(summary, SB_OUTER);
   print_seal(summary, SB_INNER);
-  print_verdict(summary);
+  print_verdict(verdict);
   print_solver(summary);
 }
 
@@ -217,7 +220,7 @@ static int write_results(SbCliFiles *files, const SbCliFile *file, const Options
     g_ptr_array_add(files->json, g_steal_pointer(&json));
   } else if (!sb_cli_quiet()) {
     sb_cli_files_head(files);
-    print_table(file->document, run);
+    print_table(file->document, run, info->verdict);
     if (file->folder != NULL) {
       printf("Results are in %s\n", file->folder);
     }
@@ -225,13 +228,41 @@ static int write_results(SbCliFiles *files, const SbCliFile *file, const Options
   return SB_EXIT_DONE;
 }
 
-// Computes one file's run and studies, and writes them. An exit code.
+// Whether there is memory for the scene and its cases.
+static bool has_memory(const SbCliFile *file, bool studies) {
+  g_autofree SbModel *model = g_new(SbModel, 1);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  bool good = sb_cli_has_memory(studies ? NULL : file->model);
+  for (size_t i = 0; good && i < sb_document_case_count(file->document); i++) {
+    good = !sb_document_compile_case(file->document, i, model, issues) || sb_cli_has_memory(model);
+  }
+  return good;
+}
+
+// The worst answers of the scene and its cases; an exit code.
+static int judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *document) {
+  g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
+  SbProgress progress;
+  sb_progress_start(&progress, "cases ");
+  SbRunHooks hooks = {on_progress, on_cancelled, &progress};
+  SbStatus status = sb_cases_judge(verdict, run, document, &hooks, problems);
+  sb_progress_end(&progress);
+  for (guint i = 0; i < problems->len; i++) {
+    sb_cli_fail("%s", (const char *)problems->pdata[i]);
+  }
+  return status == SB_OK                ? SB_EXIT_DONE
+         : status == SB_ERROR_CANCELLED ? SB_EXIT_INTERRUPTED
+         : status == SB_ERROR_MEMORY    ? SB_EXIT_IO
+                                        : SB_EXIT_NOT_CONVERGED;
+}
+
+// Computes one file's run, cases and studies, and writes them. An exit code.
 static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *options) {
   const SbModel *model = file->model;
   SbPlan plan;
   SbReport report = {0};
   sb_plan_make(&plan, model);
-  if (!sb_cli_has_memory(plan.studies == 0 ? model : NULL)) {
+  if (!has_memory(file, plan.studies != 0)) {
     return SB_EXIT_IO;
   }
   SbRun *run = NULL;
@@ -250,14 +281,18 @@ static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *opt
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED || status == SB_ERROR_CANCELLED) {
     g_autofree char *sha256 = sb_document_sha256(file->document);
     size_t study_count = 0;
-    if (status != SB_ERROR_CANCELLED && plan.studies != 0) {
+    SbCaseVerdict verdict[SB_VERDICT_COUNT];
+    int judged = judge(verdict, run, file->document);
+    code = MAX(code, judged);
+    if (code != SB_EXIT_INTERRUPTED && plan.studies != 0) {
       studies = g_new(SbStudy, SB_STUDY_COUNT);
       int studied = make_studies(studies, &study_count, model, plan.studies);
       code = studied != SB_EXIT_DONE ? studied : code;
     }
     SbResultsInfo info = {.scene = file->path,
                           .sha256 = sha256,
-                          .partial = status == SB_ERROR_CANCELLED || code == SB_EXIT_INTERRUPTED,
+                          .partial = code == SB_EXIT_INTERRUPTED,
+                          .verdict = verdict,
                           .studies = studies,
                           .study_count = study_count};
     int written = write_results(files, file, options, run, &info);

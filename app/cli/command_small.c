@@ -3,6 +3,7 @@
 #include "app/export/json.h"
 #include "app/export/render.h"
 #include "app/export/results.h"
+#include "app/run/cases.h"
 
 #include "engine/contact/rough/greenwood_tripp.h"
 
@@ -193,6 +194,7 @@ int sb_command_plan(int argc, char **argv) {
     for (const SbCliFile *file; (file = sb_cli_files_next(&files)) != NULL;) {
       SbPlan plan;
       sb_plan_make(&plan, file->model);
+      sb_cases_plan(&plan, file->document);
       if (target != NULL) {
         g_ptr_array_add(files.json, sb_results_plan(&plan, files.count > 1 ? file->path : NULL));
       } else if (!sb_cli_quiet()) {

@@ -1,6 +1,7 @@
 // Results as JSON documents, with stable keys, the unit in each.
 #pragma once
 
+#include "app/run/cases.h"
 #include "engine/contact/fit.h"
 #include "engine/contact/gland.h"
 #include "engine/film/film.h"
@@ -17,6 +18,7 @@ typedef struct {
   bool partial;           // interrupted
   const SbStudy *studies; // `study_count` of them, what output.studies asked for
   size_t study_count;
+  const SbCaseVerdict *verdict; // of SB_VERDICT_COUNT
 } SbResultsInfo;
 
 // A film through a series of speeds, one value a row; NAN where it was not reached.
