@@ -54,9 +54,9 @@ char *sb_issue_line(const SbIssue *issue) {
     g_string_append_printf(line, "%s: ", issue->file);
   }
   if (issue->key != NULL) {
-    // Names in [limits] have dots of their own.
-    bool limit = g_str_has_prefix(issue->key, "limits.");
-    const char *dot = limit ? strchr(issue->key, '.') : strrchr(issue->key, '.');
+    // Names in [limits] and [cases] have dots of their own.
+    bool named = g_str_has_prefix(issue->key, "limits.") || g_str_has_prefix(issue->key, "cases.");
+    const char *dot = named ? strchr(issue->key, '.') : strrchr(issue->key, '.');
     if (dot != NULL) {
       g_string_append_printf(line, "[%.*s] %s: ", (int)(dot - issue->key), issue->key, dot + 1);
     } else {

@@ -39,7 +39,13 @@ typedef enum { PROGRESS_NONE, PROGRESS_BAR, PROGRESS_LINES, PROGRESS_JSON } Prog
 static struct {
   gboolean quiet, keep_existing;
   ProgressStyle progress;
+  char *file; // that messages and progress name; NULL: none
 } common;
+
+void sb_cli_name_file(const char *path) {
+  g_free(common.file);
+  common.file = path != NULL ? sb_printable(path, strlen(path)) : NULL;
+}
 
 static bool take_common(const char *progress) {
   common.progress = isatty(STDERR_FILENO) != 0 && !common.quiet ? PROGRESS_BAR : PROGRESS_NONE;
@@ -141,6 +147,12 @@ static void print_json(SbJson *json) {
   fprintf(stderr, "%s\n", whole);
 }
 
+static void put_file(SbJson *json) {
+  if (common.file != NULL) {
+    sb_json_string(json, "file", common.file);
+  }
+}
+
 static void print_line(const char *text) {
   char *printable = sb_printable(text, strlen(text));
   if (common.progress == PROGRESS_JSON) {
@@ -148,11 +160,14 @@ static void print_line(const char *text) {
     sb_json_init(&json);
     sb_json_object(&json, NULL);
     sb_json_string(&json, "event", "message");
+    put_file(&json);
     sb_json_string(&json, "text", printable);
     sb_json_object_end(&json);
     print_json(&json);
   } else {
-    fprintf(stderr, "sealbench: %s\n", printable);
+    const char *file = common.file;
+    fprintf(stderr, "sealbench: %s%s%s\n", file != NULL ? file : "", file != NULL ? ": " : "",
+            printable);
   }
   g_free(printable);
 }
@@ -278,7 +293,10 @@ SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings) {
     sb_document_set_option(document, *setting, issues);
   }
   if (document != NULL && issues->len == 0) {
-    sb_document_compile(document, model, issues);
+    // What --set changed may not go together with a case.
+    if (sb_document_compile(document, model, issues) && settings != NULL) {
+      (void)sb_document_check_cases(document, issues);
+    }
   }
   sb_cli_issues(issues);
   if (issues->len > 0) {
@@ -313,18 +331,19 @@ int sb_cli_check_outputs(const char *folder, char *const *names, const char *tar
   GError *error = NULL;
   SbOutputCheck check = {0};
   bool good = true;
+  // A file beside those of a folder finds it made.
+  bool finds_folder = false;
+  g_autofree char *in = g_path_get_dirname(target != NULL ? target : "");
+  g_autofree char *beside = g_canonicalize_filename(in, NULL);
   for (; folder != NULL && *names != NULL && good; names++) {
     g_autofree char *path = g_build_filename(folder, *names, NULL);
+    g_autofree char *of = g_path_get_dirname(path);
+    g_autofree char *made = g_canonicalize_filename(of, NULL);
+    g_autofree char *whole = g_canonicalize_filename(folder, NULL);
+    finds_folder |= strcmp(made, beside) == 0 || strcmp(whole, beside) == 0;
     good = sb_output_check(&check, path, true, &error);
   }
-  if (good && target != NULL) {
-    // A file beside those of the folder finds it made.
-    g_autofree char *in = g_path_get_dirname(target);
-    g_autofree char *whole = g_canonicalize_filename(in, NULL);
-    g_autofree char *made = g_canonicalize_filename(folder != NULL ? folder : "", NULL);
-    bool makes_folder = folder != NULL && strcmp(whole, made) == 0;
-    good = sb_output_check(&check, target, makes_folder, &error);
-  }
+  good = good && sb_output_check(&check, target, finds_folder, &error);
   sb_output_check_clear(&check);
   return good ? SB_EXIT_DONE : sb_cli_error(error);
 }
@@ -407,6 +426,7 @@ static void print_progress(const SbProgress *progress, double fraction, double e
   sb_json_init(&json);
   sb_json_object(&json, NULL);
   sb_json_string(&json, "event", "progress");
+  put_file(&json);
   sb_json_string(&json, "work", what[0] != '\0' ? what : "computing");
   sb_json_number(&json, "fraction", fraction);
   sb_json_number(&json, "elapsed_s", elapsed);
@@ -419,9 +439,12 @@ void sb_progress_update(SbProgress *progress, double fraction) {
   fraction = CLAMP(fraction, 0, 1);
   int percent = (int)(100 * fraction);
   double elapsed = (double)(g_get_monotonic_time() - progress->start) / G_USEC_PER_SEC;
+  const char *file = common.file != NULL ? common.file : "";
+  const char *colon = common.file != NULL ? ": " : "";
   if (common.progress == PROGRESS_LINES) {
     for (; progress->last < percent / 10; progress->last++) {
-      fprintf(stderr, "sealbench: %s%d %%\n", progress->what, 10 * (progress->last + 1));
+      fprintf(stderr, "sealbench: %s%s%s%d %%\n", file, colon, progress->what,
+              10 * (progress->last + 1));
     }
   }
   if (common.progress == PROGRESS_JSON && percent > progress->last) {
@@ -439,7 +462,7 @@ void sb_progress_update(SbProgress *progress, double fraction) {
     cells[i] = i < WIDTH * percent / 100 ? '#' : '.';
   }
   cells[WIDTH] = '\0';
-  fprintf(stderr, "\r[%s] %s%3d %%  %.0f s left ", cells, progress->what, percent,
+  fprintf(stderr, "\r[%s] %s%s%s%3d %%  %.0f s left ", cells, file, colon, progress->what, percent,
           elapsed * (100 - percent) / percent);
 }
 

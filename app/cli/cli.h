@@ -40,6 +40,9 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
 #define SB_CLI_SET_HELP                                                                            \
   "Overrides a parameter; a percentage with a sign, +5% or -5%, changes its value in force"
 
+// Help of --json where there may be several files.
+#define SB_CLI_JSON_HELP "JSON to a file or -; of several files an array"
+
 // "sealbench: ..." on standard error; returns SB_EXIT_INPUT.
 int sb_cli_fail(const char *format, ...) G_GNUC_PRINTF(1, 2);
 
@@ -73,13 +76,54 @@ void sb_cli_note(const char *format, ...) G_GNUC_PRINTF(1, 2);
 // every problem and returns NULL if there is any. Owned by the caller.
 SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings);
 
+// One operand of a command that takes several.
+typedef struct {
+  const char *path;     // as given
+  char *name;           // of its folder below -o
+  char *folder;         // for its results: that of -o, of several files one in it; NULL without -o
+  SbDocument *document; // NULL: has a problem, which was told
+  SbModel *model;       // compiled from it
+} SbCliFile;
+
+typedef struct {
+  SbCliFile *file;
+  int count, at;   // at: the one being worked on
+  int heads;       // printed so far
+  int code;        // the highest exit code so far
+  GPtrArray *json; // of char *, a document of each file that has one
+} SbCliFiles;
+
+enum { SB_CLI_FILES_MAX = 10000 };
+
+// Opens argv[1] and on; prints every problem. False if nothing can be done: none is sound, standard
+// input is named twice, or results of two files would go to one folder. To be closed in any case.
+bool sb_cli_files_open(SbCliFiles *files, int argc, char **argv, char **settings,
+                       const char *folder);
+void sb_cli_files_close(SbCliFiles *files);
+
+// The next sound file, which progress and messages name from now on if there are several; NULL
+// after the last, and after an interrupt.
+SbCliFile *sb_cli_files_next(SbCliFiles *files);
+
+// Prints the name of the file in front of its table, where there are several.
+void sb_cli_files_head(SbCliFiles *files);
+
+// Takes the exit code of a file into account.
+void sb_cli_files_done(SbCliFiles *files, int code);
+
+// Writes the documents: that of the only operand, or an array. Nothing where there are none.
+void sb_cli_files_emit(SbCliFiles *files, const char *target);
+
+// Progress and messages name this file (NULL: none); borrowed.
+void sb_cli_name_file(const char *path);
+
 // Whether there is memory for the dense solvers of a run of `model` (NULL: of anything), told
 // before the work; prints what is missing.
 bool sb_cli_has_memory(const SbModel *model);
 
-// Whether `names` (NULL-terminated) in `folder` and then the file `target` can be written and are
-// no inputs; any may be NULL. To be called when the inputs are read and before the work. An exit
-// code.
+// Whether `names` (NULL-terminated, below `folder`, which will be made as theirs are) and then the
+// file `target` can be written and are no inputs; any may be NULL. To be called when the inputs are
+// read and before the work. An exit code.
 int sb_cli_check_outputs(const char *folder, char *const *names, const char *target);
 
 // Tells which files of an earlier result (char *) are still in the folder.

@@ -1,5 +1,7 @@
 // sealbench render: a view of a scene as a picture, a film or a sequence of pictures.
 #include "app/cli/cli.h"
+
+#include "app/base/output.h"
 #include "app/export/render_movie.h"
 #include "app/export/studies.h"
 #include "app/section/painter.h"
@@ -23,6 +25,7 @@ typedef struct {
   SbGlBackend backend;
   bool film, sequence, vector, is_study;
   SbStudyKind study;
+  char *name; // of a picture in its file's folder: "section.png"; NULL: -o names it
 } Request;
 
 static void options_clear(Options *options) {
@@ -98,7 +101,52 @@ static bool parse_film(Request *request, const Options *options) {
   return true;
 }
 
-static bool parse(Request *request, const Options *options) {
+// Where the bytes go, of `files` files, and the ending that says how they are drawn.
+static bool parse_output(Request *request, const char **ending, const Options *options, int files) {
+  static const char *const formats[] = {".png", ".svg", ".pdf", ".mp4", NULL};
+  bool stream = strcmp(options->output, "-") == 0;
+  if (files > 1) {
+    bool named = stream;
+    for (const char *const *each = formats; *each != NULL; each++) {
+      named |= sb_output_ends_in(options->output, *each);
+    }
+    if (named && !g_file_test(options->output, G_FILE_TEST_IS_DIR)) {
+      sb_cli_fail("-o: %s: %d files need a folder; --format chooses png, svg, pdf or mp4",
+                  options->output, files);
+      return false;
+    }
+  } else if (stream != (options->format != NULL)) {
+    sb_cli_fail(stream ? "--format is missing: -o - needs png, svg, pdf or mp4"
+                       : "--format is for -o - and for several files; a file's ending says it");
+    return false;
+  }
+  *ending = options->output;
+  if (stream || files > 1) {
+    const char *format = options->format != NULL ? options->format : "png";
+    const char *const *found = formats;
+    while (*found != NULL && g_ascii_strcasecmp(*found + 1, format) != 0) {
+      found++;
+    }
+    if (*found == NULL) {
+      sb_cli_unknown("--format: there is no", format, "png|svg|pdf|mp4", NULL);
+      return false;
+    }
+    *ending = *found;
+    request->how.ending = stream ? *found : NULL;
+    request->name = files > 1 ? g_strconcat(request->how.view, *found, NULL) : NULL;
+  }
+  request->film = sb_output_ends_in(*ending, ".mp4");
+  request->sequence = *ending == options->output && sb_render_is_sequence(options->output);
+  request->vector = sb_output_ends_in(*ending, ".svg") || sb_output_ends_in(*ending, ".pdf");
+  bool still = request->vector || sb_output_ends_in(*ending, ".png");
+  if (!still && !request->film && !request->sequence) {
+    sb_cli_fail("-o: %s: the ending must be .png, .svg, .pdf or .mp4", options->output);
+    return false;
+  }
+  return true;
+}
+
+static bool parse(Request *request, const Options *options, int files) {
   SbRenderOptions *how = &request->how;
   if (options->output == NULL) {
     sb_cli_fail("-o is missing: the picture or film to write");
@@ -123,35 +171,12 @@ static bool parse(Request *request, const Options *options) {
   if (options->size != NULL && !parse_size(&how->width, &how->height, options->size)) {
     return false;
   }
-  bool stream = strcmp(options->output, "-") == 0;
-  if (stream != (options->format != NULL)) {
-    sb_cli_fail(stream ? "--format is missing: -o - needs png, svg, pdf or mp4"
-                       : "--format is for -o -; a file's ending says it");
-    return false;
-  }
-  const char *ending = options->output;
-  if (stream) {
-    static const char *const formats[] = {".png", ".svg", ".pdf", ".mp4", NULL};
-    const char *const *found = formats;
-    while (*found != NULL && g_ascii_strcasecmp(*found + 1, options->format) != 0) {
-      found++;
-    }
-    if (*found == NULL) {
-      sb_cli_fail("--format: there is no \"%s\" (allowed png, svg, pdf, mp4)", options->format);
-      return false;
-    }
-    ending = how->ending = *found;
-  }
-  request->film = sb_output_ends_in(ending, ".mp4");
-  request->sequence = !stream && sb_render_is_sequence(options->output);
-  request->vector = sb_output_ends_in(ending, ".svg") || sb_output_ends_in(ending, ".pdf");
-  bool still = request->vector || sb_output_ends_in(ending, ".png");
-  if (!still && !request->film && !request->sequence) {
-    sb_cli_fail("-o: %s: the ending must be .png, .svg, .pdf or .mp4", options->output);
+  const char *ending;
+  if (!parse_output(request, &ending, options, files)) {
     return false;
   }
   if (request->film && sb_movie_missing() != NULL) {
-    sb_cli_fail("-o: %s: %s", options->output, sb_movie_missing());
+    sb_cli_fail("-o: %s: %s", ending, sb_movie_missing());
     return false;
   }
   if (request->is_study && (request->film || request->sequence)) {
@@ -284,11 +309,21 @@ static char *file_names(const SbDocument *document) {
   return names;
 }
 
+// Makes the folder of one of several files, when there is something to put into it.
+static bool make_folder(const Request *request, const char *output, GError **error) {
+  g_autofree char *path = g_path_get_dirname(output);
+  SbOutputFolder *folder = NULL;
+  bool good = request->name == NULL || sb_output_folder_open(&folder, path, NULL, error);
+  sb_output_folder_close(folder);
+  return good;
+}
+
 // A study needs no run.
-static int render_study(SbStudyKind kind, SbDocument *document, const SbModel *model,
-                        const SbRenderOptions *options, const char *output) {
+static int render_study(const Request *request, SbDocument *document, const SbModel *model,
+                        const char *output) {
+  const SbRenderOptions *options = &request->how;
   SbStudy *study = g_new(SbStudy, 1);
-  int code = sb_cli_study(study, kind, model);
+  int code = sb_cli_study(study, request->study, model);
   if (code == SB_EXIT_DONE || code == SB_EXIT_NOT_CONVERGED) {
     g_autofree char *sha256 = sb_document_sha256(document);
     g_autofree char *scene = sb_document_to_flat_text(document);
@@ -303,7 +338,7 @@ static int render_study(SbStudyKind kind, SbDocument *document, const SbModel *m
                         .width = options->width,
                         .height = options->height};
     GError *error = NULL;
-    if (!sb_study_still(study, &page, output, &error)) {
+    if (!make_folder(request, output, &error) || !sb_study_still(study, &page, output, &error)) {
       code = sb_cli_error(error);
     }
   }
@@ -313,9 +348,8 @@ static int render_study(SbStudyKind kind, SbDocument *document, const SbModel *m
 
 // Draws the finished run; an exit code.
 static int render(const SbRun *run, const SbDocument *document, Request *request,
-                  const Options *options) {
+                  const char *output) {
   // Vectors need no GL, and views without a section do not either.
-  const char *output = options->output;
   bool use_gl = !request->vector && sb_render_view(request->how.view)->section;
   SbSectionPainter *painter = NULL;
   SbReport report = {0};
@@ -342,7 +376,9 @@ static int render(const SbRun *run, const SbDocument *document, Request *request
   how->section_data = painter;
   int code = SB_EXIT_DONE;
   GError *error = NULL;
-  if (request->film || request->sequence) {
+  if (!make_folder(request, output, &error)) {
+    code = sb_cli_error(error);
+  } else if (request->film || request->sequence) {
     code = render_film(run, request, output);
   } else if (!sb_render_still(run, how, output, &error)) {
     code = sb_cli_error(error);
@@ -355,7 +391,17 @@ static int render(const SbRun *run, const SbDocument *document, Request *request
 }
 
 // What cannot be written is told before the work.
-static int check_output(const Request *request, const char *output) {
+static int check_outputs(const SbCliFiles *files, const Request *request, const char *output) {
+  if (request->name != NULL) {
+    g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
+    for (int i = 0; i < files->count; i++) {
+      if (files->file[i].document != NULL) {
+        g_ptr_array_add(names, g_build_filename(files->file[i].name, request->name, NULL));
+      }
+    }
+    g_ptr_array_add(names, NULL);
+    return sb_cli_check_outputs(output, (char **)names->pdata, NULL);
+  }
   GError *error = NULL;
   SbOutputCheck check = {0};
   bool good = request->sequence ? sb_render_sequence_check(output, &check, &error)
@@ -364,13 +410,44 @@ static int check_output(const Request *request, const char *output) {
   return good ? SB_EXIT_DONE : sb_cli_error(error);
 }
 
+// Computes and draws one file; an exit code.
+static int render_file(const SbCliFile *file, const Request *asked, const Options *options) {
+  Request request = *asked;
+  SbModel *model = file->model;
+  if (!sb_cli_has_memory(request.is_study ? NULL : model)) {
+    return SB_EXIT_IO;
+  }
+  g_autofree char *output = request.name != NULL
+                                ? g_build_filename(file->folder, request.name, NULL)
+                                : g_strdup(options->output);
+  int code;
+  if (request.is_study) {
+    code = render_study(&request, file->document, model, output);
+  } else {
+    SbRun *run = NULL;
+    SbReport report = {0};
+    SbStatus status = compute(&run, model, request.how.view, &report);
+    code = sb_cli_status(status, &report);
+    if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+      int drawn = render(run, file->document, &request, output);
+      code = drawn != SB_EXIT_DONE ? drawn : code;
+    }
+    sb_run_destroy(run);
+  }
+  return code;
+}
+
 int sb_command_render(int argc, char **argv) {
   Options options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output,
-       "Picture (.png, .svg, .pdf), film (.mp4) or sequence (frames/%04d.png or a folder)", "OUT"},
+       "Picture (.png, .svg, .pdf), film (.mp4) or sequence (frames/%04d.png or a folder); of "
+       "several "
+       "files a folder, for SCENE-NAME/VIEW.png in it",
+       "OUT"},
       {"format", 0, 0, G_OPTION_ARG_FILENAME, &options.format,
-       "Of -o -, which writes to standard output: png, svg, pdf or mp4", "NAME"},
+       "Of -o -, which writes to standard output, and of several files: png, svg, pdf or mp4",
+       "NAME"},
       {"view", 0, 0, G_OPTION_ARG_FILENAME, &options.view,
        "section (default), cutaway, hysteresis, profiles, dashboard, rig, life or a study "
        "(sealbench "
@@ -411,42 +488,22 @@ int sb_command_render(int argc, char **argv) {
       {"dark", 0, 0, G_OPTION_ARG_NONE, &options.dark, "Dark theme", NULL},
       {0},
   };
-  int code = SB_EXIT_INPUT;
   Request request = {0};
-  g_autofree SbModel *model = g_new(SbModel, 1);
-  SbDocument *document = NULL;
-  SbRun *run = NULL;
-  if (!sb_cli_parse(&argc, &argv, entries, 1, 1, NULL) || !parse(&request, &options)) {
-    goto done;
+  SbCliFiles files = {.code = SB_EXIT_INPUT};
+  if (sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) &&
+      parse(&request, &options, argc - 1)) {
+    g_auto(GStrv) settings = all_settings(&options);
+    if (sb_cli_files_open(&files, argc, argv, settings, options.output)) {
+      int checked = check_outputs(&files, &request, options.output);
+      sb_cli_files_done(&files, checked);
+      for (const SbCliFile *file;
+           checked == SB_EXIT_DONE && (file = sb_cli_files_next(&files)) != NULL;) {
+        sb_cli_files_done(&files, render_file(file, &request, &options));
+      }
+    }
   }
-  char **settings = all_settings(&options);
-  document = sb_cli_open(model, argv[1], settings);
-  g_strfreev(settings);
-  if (document == NULL) {
-    goto done;
-  }
-  code = check_output(&request, options.output);
-  if (code != SB_EXIT_DONE) {
-    goto done;
-  }
-  if (!sb_cli_has_memory(request.is_study ? NULL : model)) {
-    code = SB_EXIT_IO;
-    goto done;
-  }
-  if (request.is_study) {
-    code = render_study(request.study, document, model, &request.how, options.output);
-    goto done;
-  }
-  SbReport report = {0};
-  SbStatus status = compute(&run, model, request.how.view, &report);
-  code = sb_cli_status(status, &report);
-  if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
-    int drawn = render(run, document, &request, &options);
-    code = drawn != SB_EXIT_DONE ? drawn : code;
-  }
-done:
-  sb_run_destroy(run);
-  sb_document_free(document);
+  sb_cli_files_close(&files);
+  g_free(request.name);
   options_clear(&options);
-  return code;
+  return files.code;
 }

@@ -46,15 +46,17 @@ static void print_seal(const SbSummary *summary, int seal) {
 }
 
 // The questions that have an answer.
-static void print_verdict(const SbSummary *summary) {
+static void print_verdict(const SbCaseVerdict *verdicts) {
   printf("Verdict\n");
   for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
-    const SbVerdict *verdict = &summary->verdict[kind];
+    const SbVerdict *verdict = &verdicts[kind].of;
+    const char *name = verdicts[kind].name;
     if (verdict->figure >= 0) {
       static const char *const answers[] = {"-", "NO", "yes"};
-      g_autofree char *text =
-          g_strdup_printf("%s%s%s%s", answers[verdict->ok], verdict->reason[0] != '\0' ? " (" : "",
-                          verdict->reason, verdict->reason[0] != '\0' ? ")" : "");
+      bool because = verdict->reason[0] != '\0';
+      g_autofree char *text = g_strdup_printf(
+          "%s%s%s%s%s%s", answers[verdict->ok], because ? " (" : "", verdict->reason,
+          because ? ")" : "", name != NULL ? ", case " : "", name != NULL ? name : "");
       sb_cli_line(sb_verdict_name((SbVerdictKind)kind), text);
     }
   }
@@ -104,7 +106,8 @@ static void print_solver(const SbSummary *summary) {
   sb_cli_figure("Engine time", summary->wall_s, "s", "ms");
 }
 
-static void print_table(const SbDocument *document, const SbRun *run) {
+static void print_table(const SbDocument *document, const SbRun *run,
+                        const SbCaseVerdict *verdict) {
   const SbSummary *summary = sb_run_summary(run);
   printf("%s\n", sb_document_title(document));
   if (sb_run_model(run)->motion == SB_MODEL_MOTION_RIG) {
@@ -148,7 +151,7 @@ static void print_table(const SbDocument *document, const SbRun *run) {
   }
   print_seal(summary, SB_OUTER);
   print_seal(summary, SB_INNER);
-  print_verdict(summary);
+  print_verdict(verdict);
   print_solver(summary);
 }
 
@@ -178,53 +181,94 @@ static int make_studies(SbStudy *out, size_t *count, const SbModel *model, unsig
   return code;
 }
 
-int sb_command_run(int argc, char **argv) {
-  char *folder = NULL;
-  char *json_target = NULL;
-  char **settings = NULL;
-  const GOptionEntry entries[] = {
-      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &folder,
-       "Folder for results.json, cycle.csv, profiles.csv, and life or study tables", "DIR"},
-      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
-      {"json", 0, 0, G_OPTION_ARG_FILENAME, &json_target, "JSON to a file or - ", "FILE|-"},
-      {0},
-  };
-  int code = SB_EXIT_INPUT;
-  g_autofree SbModel *model = g_new(SbModel, 1);
+typedef struct {
+  char *folder, *json_target;
+  char **settings;
+} Options;
+
+// Whether all that will be written can be: told before the work, not after it. An exit code.
+static int check_outputs(const SbCliFiles *files, const Options *options) {
+  g_autoptr(GPtrArray) all = g_ptr_array_new_with_free_func(g_free);
+  for (int i = 0; i < files->count; i++) {
+    const SbCliFile *file = &files->file[i];
+    if (file->document == NULL) {
+      continue;
+    }
+    const SbModel *model = file->model;
+    g_auto(GStrv) names = sb_results_folder_names(model->studies, model->life_actuations > 1);
+    for (char **name = names; *name != NULL; name++) {
+      g_ptr_array_add(all, files->count > 1 ? g_build_filename(file->name, *name, NULL)
+                                            : g_strdup(*name));
+    }
+  }
+  g_ptr_array_add(all, NULL);
+  return sb_cli_check_outputs(options->folder, (char **)all->pdata, options->json_target);
+}
+
+// Writes or prints what was computed; an exit code.
+static int write_results(SbCliFiles *files, const SbCliFile *file, const Options *options,
+                         const SbRun *run, const SbResultsInfo *info) {
+  g_autofree char *json = sb_results_run(run, info);
   g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
-  SbDocument *document = NULL;
-  SbRun *run = NULL;
-  SbStudy *studies = NULL;
-  if (!sb_cli_parse(&argc, &argv, entries, 1, 1, NULL)) {
-    goto done;
+  GError *error = NULL;
+  if (file->folder != NULL && !sb_results_folder_write(file->folder, run, json, info->studies,
+                                                       info->study_count, kept, &error)) {
+    return sb_cli_error(error);
   }
-  document = sb_cli_open(model, argv[1], settings);
-  if (document == NULL) {
-    goto done;
+  sb_cli_kept(file->folder, kept);
+  if (options->json_target != NULL) {
+    g_ptr_array_add(files->json, g_steal_pointer(&json));
+  } else if (!sb_cli_quiet()) {
+    sb_cli_files_head(files);
+    print_table(file->document, run, info->verdict);
+    if (file->folder != NULL) {
+      printf("Results are in %s\n", file->folder);
+    }
   }
-  if (!sb_cli_quiet() && sb_document_kind(document) == SB_DOCUMENT_VALVE &&
-      sb_document_path(document) != NULL) {
-    fprintf(stderr, "sealbench: note: %s is a valve, no scene: its default cycle is run\n",
-            argv[1]);
+  return SB_EXIT_DONE;
+}
+
+// Whether there is memory for the scene and its cases.
+static bool has_memory(const SbCliFile *file, bool studies) {
+  g_autofree SbModel *model = g_new(SbModel, 1);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  bool good = sb_cli_has_memory(studies ? NULL : file->model);
+  for (size_t i = 0; good && i < sb_document_case_count(file->document); i++) {
+    good = !sb_document_compile_case(file->document, i, model, issues) || sb_cli_has_memory(model);
   }
+  return good;
+}
+
+// The worst answers of the scene and its cases; an exit code.
+static int judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *document) {
+  g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
+  SbProgress progress;
+  sb_progress_start(&progress, "cases ");
+  SbRunHooks hooks = {on_progress, on_cancelled, &progress};
+  SbStatus status = sb_cases_judge(verdict, run, document, &hooks, problems);
+  sb_progress_end(&progress);
+  for (guint i = 0; i < problems->len; i++) {
+    sb_cli_fail("%s", (const char *)problems->pdata[i]);
+  }
+  return status == SB_OK                ? SB_EXIT_DONE
+         : status == SB_ERROR_CANCELLED ? SB_EXIT_INTERRUPTED
+         : status == SB_ERROR_MEMORY    ? SB_EXIT_IO
+                                        : SB_EXIT_NOT_CONVERGED;
+}
+
+// Computes one file's run, cases and studies, and writes them. An exit code.
+static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *options) {
+  const SbModel *model = file->model;
   SbPlan plan;
   SbReport report = {0};
   sb_plan_make(&plan, model);
-  // What cannot be written is told before the work, not after it.
-  char **names = sb_results_folder_names(plan.studies, model->life_actuations > 1);
-  code = sb_cli_check_outputs(folder, names, json_target);
-  g_strfreev(names);
-  if (code != SB_EXIT_DONE) {
-    goto done;
+  if (!has_memory(file, plan.studies != 0)) {
+    return SB_EXIT_IO;
   }
-  if (!sb_cli_has_memory(plan.studies == 0 ? model : NULL)) {
-    code = SB_EXIT_IO;
-    goto done;
-  }
+  SbRun *run = NULL;
   SbStatus status = sb_run_create(&run, model, &plan, &report);
   if (status != SB_OK) {
-    code = sb_cli_status(status, &report);
-    goto done;
+    return sb_cli_status(status, &report);
   }
   SbProgress progress;
   sb_progress_start(&progress, "");
@@ -232,49 +276,63 @@ int sb_command_run(int argc, char **argv) {
   SbRunHooks hooks = {on_progress, on_cancelled, &progress};
   status = sb_run_execute(run, &hooks, &report);
   sb_progress_end(&progress);
-  code = sb_cli_status(status, &report);
-  bool has_results =
-      status == SB_OK || status == SB_ERROR_NOT_CONVERGED || status == SB_ERROR_CANCELLED;
-  if (!has_results) {
-    goto done;
-  }
-  char *sha256 = sb_document_sha256(document);
-  size_t study_count = 0;
-  if (status != SB_ERROR_CANCELLED && plan.studies != 0) {
-    studies = g_new(SbStudy, SB_STUDY_COUNT);
-    int studied = make_studies(studies, &study_count, model, plan.studies);
-    code = studied != SB_EXIT_DONE ? studied : code;
-  }
-  SbResultsInfo info = {.scene = argv[1],
-                        .sha256 = sha256,
-                        .partial = status == SB_ERROR_CANCELLED || code == SB_EXIT_INTERRUPTED,
-                        .studies = studies,
-                        .study_count = study_count};
-  char *json = sb_results_run(run, &info);
-  int written = SB_EXIT_DONE;
-  GError *error = NULL;
-  if (folder != NULL &&
-      !sb_results_folder_write(folder, run, json, studies, study_count, kept, &error)) {
-    written = sb_cli_error(error);
-  }
-  sb_cli_kept(folder, kept);
-  if (json_target != NULL && written == SB_EXIT_DONE) {
-    written = sb_cli_emit(json, json_target);
-  } else if (!sb_cli_quiet() && written == SB_EXIT_DONE) {
-    print_table(document, run);
-    if (folder != NULL) {
-      printf("Results are in %s\n", folder);
+  int code = sb_cli_status(status, &report);
+  g_autofree SbStudy *studies = NULL;
+  if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED || status == SB_ERROR_CANCELLED) {
+    g_autofree char *sha256 = sb_document_sha256(file->document);
+    size_t study_count = 0;
+    SbCaseVerdict verdict[SB_VERDICT_COUNT];
+    int judged = judge(verdict, run, file->document);
+    code = MAX(code, judged);
+    if (code != SB_EXIT_INTERRUPTED && plan.studies != 0) {
+      studies = g_new(SbStudy, SB_STUDY_COUNT);
+      int studied = make_studies(studies, &study_count, model, plan.studies);
+      code = studied != SB_EXIT_DONE ? studied : code;
     }
+    SbResultsInfo info = {.scene = file->path,
+                          .sha256 = sha256,
+                          .partial = code == SB_EXIT_INTERRUPTED,
+                          .verdict = verdict,
+                          .studies = studies,
+                          .study_count = study_count};
+    int written = write_results(files, file, options, run, &info);
+    code = written != SB_EXIT_DONE ? written : code;
   }
-  code = written != SB_EXIT_DONE ? written : code;
-  g_free(json);
-  g_free(sha256);
-done:
-  g_free(studies);
   sb_run_destroy(run);
-  sb_document_free(document);
-  g_strfreev(settings);
-  g_free(folder);
-  g_free(json_target);
   return code;
+}
+
+int sb_command_run(int argc, char **argv) {
+  Options options = {0};
+  const GOptionEntry entries[] = {
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.folder,
+       "Folder for results.json, cycle.csv, profiles.csv, and life or study tables; of several "
+       "files a folder each in it",
+       "DIR"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json_target, SB_CLI_JSON_HELP, "FILE|-"},
+      {0},
+  };
+  SbCliFiles files = {.code = SB_EXIT_INPUT};
+  if (sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) &&
+      sb_cli_files_open(&files, argc, argv, options.settings, options.folder)) {
+    int checked = check_outputs(&files, &options);
+    sb_cli_files_done(&files, checked);
+    for (const SbCliFile *file;
+         checked == SB_EXIT_DONE && (file = sb_cli_files_next(&files)) != NULL;) {
+      if (!sb_cli_quiet() && sb_document_kind(file->document) == SB_DOCUMENT_VALVE &&
+          sb_document_path(file->document) != NULL) {
+        sb_cli_name_file(NULL);
+        sb_cli_fail("note: %s is a valve, no scene: its default cycle is run", file->path);
+        sb_cli_name_file(files.count > 1 ? file->path : NULL);
+      }
+      sb_cli_files_done(&files, run_file(&files, file, &options));
+    }
+    sb_cli_files_emit(&files, options.json_target);
+  }
+  sb_cli_files_close(&files);
+  g_strfreev(options.settings);
+  g_free(options.folder);
+  g_free(options.json_target);
+  return files.code;
 }

@@ -3,6 +3,7 @@
 #include "app/export/json.h"
 #include "app/export/render.h"
 #include "app/export/results.h"
+#include "app/run/cases.h"
 
 #include "engine/contact/rough/greenwood_tripp.h"
 
@@ -13,35 +14,26 @@
 #include <unistd.h>
 
 int sb_command_check(int argc, char **argv) {
-  enum { FILES_MAX = 10000 };
-  if (!sb_cli_parse(&argc, &argv, NULL, 1, FILES_MAX, NULL)) {
-    return SB_EXIT_INPUT;
+  SbCliFiles files = {.code = SB_EXIT_INPUT};
+  if (sb_cli_parse(&argc, &argv, NULL, 1, SB_CLI_FILES_MAX, NULL) &&
+      sb_cli_files_open(&files, argc, argv, NULL, NULL)) {
+    for (const SbCliFile *file; (file = sb_cli_files_next(&files)) != NULL;) {
+      const char *kind = sb_document_kind(file->document) == SB_DOCUMENT_SCENE ? "scene" : "valve";
+      g_autofree char *shown = sb_printable(file->path, strlen(file->path));
+      g_autoptr(GPtrArray) remarks = sb_issues_new();
+      sb_document_remarks(file->document, file->model, remarks);
+      for (guint i = 0; i < remarks->len; i++) {
+        g_autofree char *line = sb_issue_line(remarks->pdata[i]);
+        g_autofree char *printable = sb_printable(line, strlen(line));
+        printf("warning: %s\n", printable);
+      }
+      if (!sb_cli_quiet()) {
+        printf("%s: a %s without %s\n", shown, kind, remarks->len > 0 ? "errors" : "problems");
+      }
+    }
   }
-  int code = SB_EXIT_DONE;
-  for (int i = 1; i < argc; i++) {
-    g_autofree SbModel *model = g_new(SbModel, 1);
-    SbDocument *document = sb_cli_open(model, argv[i], NULL);
-    if (document == NULL) {
-      code = SB_EXIT_INPUT;
-      continue;
-    }
-    const char *kind = sb_document_kind(document) == SB_DOCUMENT_SCENE ? "scene" : "valve";
-    char *shown = sb_printable(argv[i], strlen(argv[i]));
-    GPtrArray *remarks = sb_issues_new();
-    sb_document_remarks(document, model, remarks);
-    for (guint k = 0; k < remarks->len; k++) {
-      g_autofree char *line = sb_issue_line(remarks->pdata[k]);
-      g_autofree char *printable = sb_printable(line, strlen(line));
-      printf("warning: %s\n", printable);
-    }
-    if (!sb_cli_quiet()) {
-      printf("%s: a %s without %s\n", shown, kind, remarks->len > 0 ? "errors" : "problems");
-    }
-    g_ptr_array_unref(remarks);
-    g_free(shown);
-    sb_document_free(document);
-  }
-  return code;
+  sb_cli_files_close(&files);
+  return files.code;
 }
 
 // ---- list ----
@@ -193,31 +185,29 @@ int sb_command_plan(int argc, char **argv) {
   char **settings = NULL;
   const GOptionEntry entries[] = {
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
-      {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, SB_CLI_JSON_HELP, "FILE|-"},
       {0},
   };
-  int code = SB_EXIT_INPUT;
-  g_autofree SbModel *model = g_new(SbModel, 1);
-  SbDocument *document = NULL;
-  if (sb_cli_parse(&argc, &argv, entries, 1, 1, NULL)) {
-    document = sb_cli_open(model, argv[1], settings);
-  }
-  if (document != NULL) {
-    SbPlan plan;
-    sb_plan_make(&plan, model);
-    code = SB_EXIT_DONE;
-    if (target != NULL) {
-      char *json = sb_results_plan(&plan);
-      code = sb_cli_emit(json, target);
-      g_free(json);
-    } else if (!sb_cli_quiet()) {
-      print_plan(&plan);
+  SbCliFiles files = {.code = SB_EXIT_INPUT};
+  if (sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) &&
+      sb_cli_files_open(&files, argc, argv, settings, NULL)) {
+    for (const SbCliFile *file; (file = sb_cli_files_next(&files)) != NULL;) {
+      SbPlan plan;
+      sb_plan_make(&plan, file->model);
+      sb_cases_plan(&plan, file->document);
+      if (target != NULL) {
+        g_ptr_array_add(files.json, sb_results_plan(&plan, files.count > 1 ? file->path : NULL));
+      } else if (!sb_cli_quiet()) {
+        sb_cli_files_head(&files);
+        print_plan(&plan);
+      }
     }
+    sb_cli_files_emit(&files, target);
   }
-  sb_document_free(document);
+  sb_cli_files_close(&files);
   g_strfreev(settings);
   g_free(target);
-  return code;
+  return files.code;
 }
 
 // ---- asperity ----

@@ -10,9 +10,10 @@
 #include <string.h>
 
 static const SbCommand commands[] = {
-    {"run", "FILE.scene", "Computes a scene's cycle", sb_command_run},
-    {"render", "FILE.scene -o OUT.{mp4,png,svg,pdf}", "Draws a view of a scene", sb_command_render},
-    {"plan", "FILE.scene", "Says what a scene would compute, and why", sb_command_plan},
+    {"run", "FILE.scene...", "Computes the cycle of scenes", sb_command_run},
+    {"render", "FILE.scene... -o OUT.{mp4,png,svg,pdf}", "Draws a view of scenes",
+     sb_command_render},
+    {"plan", "FILE.scene...", "Says what scenes would compute, and why", sb_command_plan},
     {"check", "FILE...", "Reports every problem of valve or scene files", sb_command_check},
     {"fit", "FILE.valve --seal NAME", "Fits one seal into its gland", sb_command_fit},
     {"film", "--load W --speed U --radius R --modulus E --viscosity ETA",

@@ -22,6 +22,7 @@ SbDocument *sb_document_new(void) {
   g_ptr_array_unref(none);
   document->edits = g_array_new(FALSE, FALSE, sizeof(Edit));
   document->notes = g_ptr_array_new_with_free_func(g_free);
+  document->cases = sb_document_cases_new();
   document->shapes = sb_shapes_new();
   sb_params_init(&document->base);
   sb_params_init(&document->own);
@@ -45,6 +46,7 @@ void sb_document_free(SbDocument *document) {
   g_ptr_array_unref(document->entries);
   g_array_unref(document->edits);
   g_ptr_array_unref(document->notes);
+  g_ptr_array_unref(document->cases);
   sb_shapes_free(document->shapes);
   g_free(document);
 }
@@ -76,6 +78,11 @@ static char *group_of(SbParamId id) {
   return g_strndup(key, (gsize)(strrchr(key, '.') - key));
 }
 
+// Whether a group's names are no keys of the catalogue.
+static bool has_own_names(const char *group) {
+  return strcmp(group, SB_LIMITS_GROUP) == 0 || strcmp(group, SB_CASES_GROUP) == 0;
+}
+
 // Whether any key stands in `group`; else an issue.
 static bool check_group(const SbEntry *entry, const char *shown, GPtrArray *issues) {
   SbNearest nearest = sb_nearest(entry->group);
@@ -86,6 +93,8 @@ static bool check_group(const SbEntry *entry, const char *shown, GPtrArray *issu
     }
     sb_nearest_try(&nearest, g_intern_string(group));
   }
+  sb_nearest_try(&nearest, SB_LIMITS_GROUP);
+  sb_nearest_try(&nearest, SB_CASES_GROUP);
   g_autofree char *hint = sb_nearest_hint(&nearest);
   sb_issues_add(issues, shown, entry->line, NULL, NULL, "unknown group [%.60s]%s", entry->group,
                 hint);
@@ -103,10 +112,10 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
       continue;
     }
     if (entry->name == NULL) {
-      known_group = strcmp(entry->group, SB_LIMITS_GROUP) == 0 || check_group(entry, shown, issues);
+      known_group = has_own_names(entry->group) || check_group(entry, shown, issues);
       continue;
     }
-    if (!known_group || strcmp(entry->group, SB_LIMITS_GROUP) == 0 ||
+    if (!known_group || has_own_names(entry->group) ||
         sb_parts_is_shape_key(entry->group, entry->name)) {
       continue;
     }
@@ -134,6 +143,7 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
     g_free(key);
   }
   sb_document_read_limits(&document->limits, entries, shown, issues);
+  sb_document_read_cases(document->cases, entries, shown, issues);
   sb_parts_read(document->shapes, params, base, entries, shown, directory, issues, document->notes);
 }
 
@@ -307,7 +317,9 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   document->name = g_strdup(name);
   if (issues->len == before) {
     g_autofree SbModel *model = g_new(SbModel, 1);
-    sb_document_compile(document, model, issues);
+    if (sb_document_compile(document, model, issues)) {
+      (void)sb_document_check_cases(document, issues);
+    }
   }
   return document;
 }
@@ -417,8 +429,7 @@ char *sb_document_text(const SbDocument *document, SbParamId id) {
   return sb_param_format(id, sb_document_value(document, id));
 }
 
-// Range of a problem in the parameter's unit: "at least 5.79 mm".
-static char *problem_range(const SbProblem *problem, const SbParam *param) {
+char *sb_document_problem_range(const SbProblem *problem, const SbParam *param) {
   char min[SB_NUMBER_SIZE] = "";
   char max[SB_NUMBER_SIZE] = "";
   double low = sb_quantity_to_shown(problem->min, param->si, param->unit);
@@ -460,34 +471,43 @@ static void add_problems(const SbDocument *document, const SbParams *params,
       param = sb_param((SbParamId)id);
     }
     bool in_valve = !document->own.given[id] && document->base.given[id];
-    char *range = problem_range(problem, param);
+    char *range = sb_document_problem_range(problem, param);
     sb_issues_add(issues, in_valve ? document->valve_path : shown, 0, param->key, range, "%s",
                   problem->text);
     g_free(range);
   }
 }
 
-bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues) {
-  SbParams params = sb_document_params(document);
-  SbProblems problems;
-  const char *shown = document->path != NULL ? document->path : document->name;
-  SbStatus status = sb_model_compile(out, &params, &problems);
-  if (status == SB_ERROR_MEMORY) {
-    sb_issues_add(issues, shown, 0, NULL, NULL, "%s", sb_status_text(status));
-    return false;
-  }
+SbStatus sb_document_compile_params(const SbDocument *document, const SbParams *params,
+                                    SbModel *out, SbProblems *problems) {
+  SbStatus status = sb_model_compile(out, params, problems);
   if (status == SB_OK) {
     out->data = document->data;
     out->limits = document->limits;
     if (out->drive == SB_MODEL_DRIVE_MEASURED && sb_model_measured(out) == NULL) {
-      sb_issues_add(issues, shown, 0, SB_SERIES_KEY, "a CSV file",
-                    "drive.kind = measured needs the file of a measured series");
-      return false;
+      SbProblem *problem = &problems->item[0];
+      problems->count = 1;
+      problem->min = problem->max = NAN;
+      sb_text(problem->key, sizeof problem->key, "%s", SB_SERIES_KEY);
+      sb_text(problem->text, sizeof problem->text,
+              "drive.kind = measured needs the CSV file of a measured series");
+      return SB_ERROR_INPUT;
     }
-    return true;
   }
-  add_problems(document, &params, &problems, issues);
-  return false;
+  return status;
+}
+
+bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues) {
+  SbParams params = sb_document_params(document);
+  SbProblems problems;
+  const char *shown = document->path != NULL ? document->path : document->name;
+  SbStatus status = sb_document_compile_params(document, &params, out, &problems);
+  if (status == SB_ERROR_MEMORY) {
+    sb_issues_add(issues, shown, 0, NULL, NULL, "%s", sb_status_text(status));
+  } else if (status != SB_OK) {
+    add_problems(document, &params, &problems, issues);
+  }
+  return status == SB_OK;
 }
 
 void sb_document_remarks(const SbDocument *document, const SbModel *model, GPtrArray *issues) {

@@ -78,6 +78,17 @@ char *sb_document_text(const SbDocument *document, SbParamId id);
 // together.
 bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues);
 
+// The [cases]: each is the document with some values replaced. The name is borrowed.
+size_t sb_document_case_count(const SbDocument *document);
+const char *sb_document_case_name(const SbDocument *document, size_t index);
+
+// As sb_document_compile(), for one case; issues name it ("[cases] cold: gland.radial_space: ...").
+bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel *out,
+                              GPtrArray *issues);
+
+// Whether all compile.
+bool sb_document_check_cases(const SbDocument *document, GPtrArray *issues);
+
 // Adds what is possible in a compiled document's geometry and hardly meant, as compile() does for
 // what is not possible.
 void sb_document_remarks(const SbDocument *document, const SbModel *model, GPtrArray *issues);

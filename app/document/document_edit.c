@@ -80,9 +80,8 @@ static bool is_change(double *factor, const char *text) {
   return true;
 }
 
-// A value with unit, or a change of the value in force.
-static bool read_value(double *out, const SbDocument *document, SbParamId id, const char *text,
-                       GError **error) {
+bool sb_document_read_value(double *out, const SbDocument *document, SbParamId id, const char *text,
+                            GError **error) {
   const SbParam *param = sb_param(id);
   double factor;
   if (param->kind != SB_PARAM_REAL || !is_change(&factor, text)) {
@@ -119,7 +118,7 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
   if (id < 0) {
     g_autofree char *hint = issues->len < SB_ISSUES_MAX ? sb_document_key_hint(key) : NULL;
     sb_issues_add(issues, "--set", 0, key, NULL, "unknown key%s", hint != NULL ? hint : "");
-  } else if (!read_value(&value, document, (SbParamId)id, equal + 1, &error)) {
+  } else if (!sb_document_read_value(&value, document, (SbParamId)id, equal + 1, &error)) {
     char *range = sb_param_range((SbParamId)id);
     sb_issues_add(issues, "--set", 0, key, range, "%s", error->message);
     g_free(range);

@@ -9,6 +9,7 @@
 
 #define SB_META_GROUP   "sealbench"
 #define SB_LIMITS_GROUP "limits"
+#define SB_CASES_GROUP  "cases"
 
 // The one key that names a file and no value.
 #define SB_SERIES_KEY "drive.file"
@@ -35,6 +36,7 @@ struct SbDocument {
   SbParams own;       // what the document gives
   SbParams saved;     // what its file gives
   SbLimits limits;    // on figures: the valve's, and its own in their place
+  GPtrArray *cases;   // in the same way (document_cases.c)
   SbShapes *shapes;   // of the parts
   GPtrArray *notes;   // of char *, what shapes say against given values
   GArray *edits;      // Edit
@@ -57,6 +59,24 @@ void sb_document_read_limits(SbLimits *limits, const GPtrArray *entries, const c
 
 // Appends them as a group; nothing where there are none.
 void sb_document_append_limits(GString *text, const SbLimits *limits);
+
+// The same for [cases], whose values are looked at when they are compiled (document_cases.c).
+enum { SB_CASES_MAX = 100 };
+GPtrArray *sb_document_cases_new(void);
+void sb_document_read_cases(GPtrArray *cases, const GPtrArray *entries, const char *shown,
+                            GPtrArray *issues);
+void sb_document_append_cases(GString *text, const GPtrArray *cases);
+
+// Compiles values in place of the document's own.
+SbStatus sb_document_compile_params(const SbDocument *document, const SbParams *params,
+                                    SbModel *out, SbProblems *problems);
+
+// Range of a problem in the parameter's unit, "at least 5.79 mm"; NULL: none. Owned by the caller.
+char *sb_document_problem_range(const SbProblem *problem, const SbParam *param);
+
+// A value with unit, or a change of the value in force ("+5 %").
+bool sb_document_read_value(double *out, const SbDocument *document, SbParamId id, const char *text,
+                            GError **error);
 
 // Adds to the notes that a value in force is not what a shape makes it; `shown` names who says so.
 // Nothing where they agree.

@@ -169,6 +169,7 @@ char *sb_document_to_flat_text(const SbDocument *document) {
   }
   g_hash_table_unref(seen);
   sb_document_append_limits(text, &document->limits);
+  sb_document_append_cases(text, document->cases);
   return g_string_free(text, FALSE);
 }
 

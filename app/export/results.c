@@ -50,17 +50,17 @@ static void put_figures(SbJson *json, const SbSummary *summary, const char *scop
   }
 }
 
-static void put_verdict(SbJson *json, const SbSummary *summary) {
+static void put_verdict(SbJson *json, const SbCaseVerdict *verdicts) {
   sb_json_object(json, "verdict");
   for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
-    const SbVerdict *verdict = &summary->verdict[kind];
+    const SbVerdict *verdict = &verdicts[kind].of;
     sb_json_object(json, sb_verdict_name((SbVerdictKind)kind));
     sb_json_answer(json, "ok", verdict->ok);
     sb_json_string(json, "reason", verdict->reason[0] != '\0' ? verdict->reason : NULL);
     sb_json_string(json, "figure", verdict->figure >= 0 ? sb_figure(verdict->figure)->path : NULL);
     sb_json_number(json, "value", verdict->value);
     sb_json_number(json, "limit", verdict->limit);
-    sb_json_string(json, "case", NULL);
+    sb_json_string(json, "case", verdicts[kind].name);
     sb_json_object_end(json);
   }
   sb_json_object_end(json);
@@ -308,7 +308,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   sb_json_object_end(&json);
   sb_json_object(&json, "cycle");
   put_figures(&json, summary, "cycle.");
-  put_verdict(&json, summary);
+  put_verdict(&json, info->verdict);
   sb_json_object_end(&json);
   if (model->motion == SB_MODEL_MOTION_RIG) {
     put_rig(&json, run);
@@ -508,10 +508,13 @@ char *sb_results_fit(const SbFit *fit, const char *seal, double pressure,
 
 // ---- plan and lists ----
 
-char *sb_results_plan(const SbPlan *plan) {
+char *sb_results_plan(const SbPlan *plan, const char *scene) {
   SbJson json;
   sb_json_init(&json);
   sb_json_object(&json, NULL);
+  if (scene != NULL) {
+    sb_json_string(&json, "scene", scene);
+  }
   sb_json_array(&json, "fields");
   for (size_t i = 0; i < plan->field_count; i++) {
     const SbPlanItem *item = &plan->field[i];

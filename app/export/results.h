@@ -1,6 +1,7 @@
 // Results as JSON documents, with stable keys, the unit in each.
 #pragma once
 
+#include "app/run/cases.h"
 #include "engine/contact/fit.h"
 #include "engine/contact/gland.h"
 #include "engine/film/film.h"
@@ -17,6 +18,7 @@ typedef struct {
   bool partial;           // interrupted
   const SbStudy *studies; // `study_count` of them, what output.studies asked for
   size_t study_count;
+  const SbCaseVerdict *verdict; // of SB_VERDICT_COUNT
 } SbResultsInfo;
 
 // A film through a series of speeds, one value a row; NAN where it was not reached.
@@ -32,6 +34,6 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info);
 char *sb_results_film(const SbFilm *film, const SbResultsHistory *history); // NULL: none
 char *sb_results_fit(const SbFit *fit, const char *seal, double pressure,
                      const SbGlandReadout *gland, const SbRubberState *storage);
-char *sb_results_plan(const SbPlan *plan);
+char *sb_results_plan(const SbPlan *plan, const char *scene); // NULL: not named
 char *sb_results_params(void);
 char *sb_results_models(void);

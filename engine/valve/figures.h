@@ -35,5 +35,9 @@ void sb_reason(SbSummary *summary, const char *pattern, const char *format, ...)
 // "seals", "presses", ...; borrowed.
 const char *sb_verdict_name(SbVerdictKind kind);
 
+// Takes `next` in place of *worst where it is worse (true): a no before what is unknown before a
+// yes; of two yeses the one nearer to its limit, of two noes the one further beyond it.
+bool sb_verdict_take_worse(SbVerdict *worst, const SbVerdict *next);
+
 // What the summary says of the valve, against the model's limits. The summary must be complete.
 void sb_verdict_fill(SbSummary *summary, const SbModel *model);

@@ -25,16 +25,24 @@ static bool any_open(const SbSummary *summary) {
          summary->seal[SB_INNER].leak_state == SB_LEAK_OPEN;
 }
 
-// Takes `next` in place of *worst where it is worse: a no before what is unknown before a yes; of
-// two yeses the one nearer to its limit.
-static void take_worse(SbVerdict *worst, const SbVerdict *next) {
+// How far a figure is from its limit, relative; without a number as far as can be.
+static double margin(const SbVerdict *of) {
+  double distance = fabs(of->value - of->limit) / fmax(fabs(of->limit), 1e-300);
+  return isnan(distance) ? INFINITY : distance;
+}
+
+bool sb_verdict_take_worse(SbVerdict *worst, const SbVerdict *next) {
   static const int badness[] = {[SB_ANSWER_YES] = 0, [SB_ANSWER_UNKNOWN] = 1, [SB_ANSWER_NO] = 2};
   int more = badness[next->ok] - badness[worst->ok];
-  double margin = fabs(next->value - next->limit) / fmax(fabs(next->limit), 1e-300);
-  double known = fabs(worst->value - worst->limit) / fmax(fabs(worst->limit), 1e-300);
-  if (worst->figure < 0 || more > 0 || (more == 0 && next->ok == SB_ANSWER_YES && margin < known)) {
+  bool worse = worst->figure < 0 || more > 0;
+  if (!worse && more == 0) {
+    worse = (next->ok == SB_ANSWER_YES && margin(next) < margin(worst)) ||
+            (next->ok == SB_ANSWER_NO && margin(next) > margin(worst));
+  }
+  if (worse) {
     *worst = *next;
   }
+  return worse;
 }
 
 static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int seal) {
@@ -88,7 +96,7 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
   } else {
     for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
       SbVerdict of = judge_seal(summary, model, seal);
-      take_worse(&verdict[SB_VERDICT_SEALS], &of);
+      sb_verdict_take_worse(&verdict[SB_VERDICT_SEALS], &of);
     }
   }
   int least = sb_figure_find("cycle.force_return_min_N");
@@ -110,6 +118,6 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
         isnan(verdict[kind].limit)) {
       verdict[kind].figure = -1; // the limit's figure stands in its place
     }
-    take_worse(&verdict[kind], &of);
+    sb_verdict_take_worse(&verdict[kind], &of);
   }
 }

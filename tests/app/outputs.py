@@ -243,6 +243,128 @@ def earlier_results():
                [f"frame-{i + 1:04d}.png" for i in range(count)])
 
 
+def scenes(where, **extra):
+    """A folder of scenes of the quick look: NAME=what stands below its last group, [output]."""
+    os.makedirs(where)
+    with open(quick) as file:
+        text = file.read().replace("../valves", os.path.join(assets, "valves"))
+    text = text.replace("frames = 400\n", "")
+    for name, more in extra.items():
+        with open(os.path.join(where, name + ".scene"), "w") as file:
+            file.write(text + more)
+    return [os.path.join(where, name + ".scene") for name in extra]
+
+
+@test
+def several_files():
+    """A folder, an object and a table for each; one that fails does not stop the others."""
+    a, bad, c = scenes(path("several"), a="", bad="[seal]\nmodulus = 3\n",
+                       c="[surface]\ngt_product = 0.14\n")
+    out = path("several", "out")
+    result = done(run("run", a, bad, c, "-o", out, "--json", os.path.join(out, "all.json")), 1)
+    assert bad in result.stderr and "[seal] modulus" in result.stderr, result.stderr
+    expect(sorted(os.listdir(out)), ["a", "all.json", "c"])
+    every = json.loads(read(os.path.join(out, "all.json")))
+    expect([each["scene"] for each in every], [a, c])
+    for name, each in zip("ac", every):
+        expect(json.loads(read(os.path.join(out, name, "results.json"))), each)
+    assert every[0]["cycle"]["force_peak_N"] and \
+        every[0]["cycle"]["force_breakaway_N"] != every[1]["cycle"]["force_breakaway_N"]
+    # The same as each alone.
+    alone = json.loads(done(run("run", c, "--json", "-")).stdout)
+    expect(alone["cycle"], every[1]["cycle"])
+    table = done(run("run", a, c)).stdout
+    assert table.index(a + ":\n") < table.index("Peak force") < table.index("\n\n" + c + ":\n")
+    plans = json.loads(done(run("plan", c, a, "--json", "-")).stdout)
+    expect([plan["scene"] for plan in plans], [c, a])
+    expect(plans[0]["fields"], json.loads(done(run("plan", c, "--json", "-")).stdout)["fields"])
+    result = done(run("run", a, c, "-q", "--progress", "json"))
+    named = [json.loads(line)["file"] for line in result.stderr.splitlines()]
+    expect(sorted(set(named)), [a, c])
+    # The highest code: one solver that does not converge, one file with a problem.
+    with open(a) as file:
+        stuck = file.read()
+    with open(path("several", "stuck.scene"), "w") as file:
+        file.write(re.sub(r"\[models\]\n(\w+ = .*\n)*", "", stuck) + "[models]\nfit = disc\n"
+                   "[seal]\nmodulus = 1.1 MPa\nsection_diameter = 2.6 mm\ninner_diameter = 2.2 mm\n"
+                   "[gland]\naxial_width = 8 mm\n")
+    stuck = path("several", "stuck.scene")
+    result = done(run("run", bad, stuck, a, "--json", "-"), 2)
+    assert f"{stuck}: [canister] pressure: fitment (disc)" in result.stderr, result.stderr
+    expect([each["solver"]["converged"] for each in json.loads(result.stdout)], [False, True])
+
+
+@test
+def several_pictures():
+    a, c = scenes(path("drawn"), a="", c="")
+    out = path("drawn", "out")
+    view = ("--view", "hysteresis", "--size", "320x200")
+    done(run("render", a, c, "-o", out, *view))
+    done(run("render", a, c, "-o", out, *view, "--format", "SVG"))
+    done(run("render", a, c, "-o", out, "--view", "squeeze", "--format", "pdf"))
+    for name in "ac":
+        expect(sorted(os.listdir(os.path.join(out, name))),
+               ["hysteresis.png", "hysteresis.svg", "squeeze.pdf"])
+    done(run("render", a, "-o", path("drawn", "alone.png"), *view))
+    expect(read(os.path.join(out, "a", "hysteresis.png")) == read(path("drawn", "alone.png")), True)
+    for target in ["-", path("drawn", "x.mp4")]:
+        result = done(run("render", a, c, "-o", target), 1)
+        assert "2 files need a folder" in result.stderr, result.stderr
+    result = done(run("render", a, c, "-o", out, "--format", "pgn"), 1)
+    assert "do you mean png?" in result.stderr, result.stderr
+
+
+@test
+def several_refused():
+    """Before any work and with nothing written: twins, targets, inputs."""
+    a, c = scenes(path("refused"), a="", c="")
+    twin, = scenes(path("refused", "deep"), a="")
+    where = path("refused")
+    before = sorted(os.listdir(where))
+    slow = ("--set", "models.fit=ring", "--progress", "lines")
+    cases = [
+        (1, "would both be written to out/a", ("run", a, twin, "-o", "out")),
+        (1, "would both be written to out/a", ("render", a, twin, "-o", "out")),
+        (1, "standard input can be only one", ("run", "-", a, "-")),
+        (1, "is an input of this command", ("run", a, c, "--json", "c.scene")),
+        (1, "two outputs would go to this file", ("run", a, c, "-o", "out", "--json",
+                                                  "out/c/cycle.csv")),
+        (3, "No such file or directory", ("run", a, c, "--json", "none/all.json")),
+        (3, "Not a directory", ("run", a, c, "-o", "a.scene")),
+        (3, "", ("render", a, c, "-o", "/proc/none")),
+    ]
+    for code, text, arguments in cases:
+        result = done(run(*arguments, *slow, cwd=where, timeout=20, stdin=subprocess.DEVNULL), code)
+        assert text in result.stderr and " %" not in result.stderr, (arguments, result.stderr)
+        expect(sorted(os.listdir(where)), before, arguments)
+    # A folder of one of them.
+    os.makedirs(path("refused", "out", "c", "cycle.csv"))
+    result = done(run("run", a, c, "-o", "out", *slow, cwd=where), 3)
+    assert "cycle.csv: Is a directory" in result.stderr and " %" not in result.stderr
+    expect(os.listdir(path("refused", "out")), ["c"])
+    # Without -o two of one name are two objects.
+    both = json.loads(done(run("run", a, twin, "--json", "-")).stdout)
+    expect([each["scene"] for each in both], [a, twin])
+
+
+@test
+def several_stopped():
+    """An interrupt writes what was finished, flagged, and says what was not begun."""
+    names = scenes(path("stopped"), a="frames = 1000000\n", b="", c="")
+    out = path("stopped", "all.json")
+    process = subprocess.Popen([program, "run", *names, "--json", out, "--progress", "lines"],
+                               stderr=subprocess.PIPE, text=True)
+    seen = []
+    for line in process.stderr:
+        seen.append(line)
+        if line.endswith("a.scene: 10 %\n"):
+            process.send_signal(signal.SIGTERM)
+    expect(process.wait(), 130, "".join(seen))
+    assert "2 of 3 files were not begun" in "".join(seen), seen
+    every = json.loads(read(out))
+    expect([(each["scene"], each["partial"]) for each in every], [(names[0], True)])
+
+
 @test
 def stopped_twice():
     """A second signal ends the program at once and leaves nothing."""

@@ -313,6 +313,30 @@ static void test_verdict(void) {
   sb_run_destroy(run);
 }
 
+// A no before what is unknown before a yes; of two alike the one that is worse by its limit.
+static void test_worse(void) {
+  static const struct {
+    SbVerdict worst, next;
+    bool taken;
+  } cases[] = {
+      {{SB_ANSWER_YES, 0, 20, 40, ""}, {SB_ANSWER_YES, 1, 39, 40, ""}, true},
+      {{SB_ANSWER_YES, 0, 39, 40, ""}, {SB_ANSWER_YES, 1, 20, 40, ""}, false},
+      {{SB_ANSWER_YES, 0, 39, 40, ""}, {SB_ANSWER_UNKNOWN, 1, NAN, 40, ""}, true},
+      {{SB_ANSWER_UNKNOWN, 0, NAN, 40, ""}, {SB_ANSWER_YES, 1, 39, 40, ""}, false},
+      {{SB_ANSWER_UNKNOWN, 0, NAN, 40, ""}, {SB_ANSWER_NO, 1, 41, 40, ""}, true},
+      {{SB_ANSWER_NO, 0, 41, 40, ""}, {SB_ANSWER_NO, 1, 60, 40, ""}, true},
+      {{SB_ANSWER_NO, 0, 60, 40, ""}, {SB_ANSWER_NO, 1, 41, 40, ""}, false},
+      {{SB_ANSWER_NO, 0, 60, 40, ""}, {SB_ANSWER_NO, 1, NAN, 40, ""}, true},
+      {{SB_ANSWER_NO, 0, NAN, 40, ""}, {SB_ANSWER_NO, 1, 60, 40, ""}, false},
+      {{SB_ANSWER_UNKNOWN, -1, NAN, NAN, ""}, {SB_ANSWER_YES, 1, 39, 40, ""}, true},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    SbVerdict worst = cases[i].worst;
+    g_assert_cmpint(sb_verdict_take_worse(&worst, &cases[i].next), ==, cases[i].taken);
+    g_assert_cmpint(worst.figure, ==, cases[i].taken ? 1 : 0);
+  }
+}
+
 // Impossible geometry is refused, and what is hardly meant is told.
 static void test_geometry(void) {
   SbParams params;
@@ -353,6 +377,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/figures/cancelled", test_cancelled);
   g_test_add_func("/figures/no-work", test_no_work);
   g_test_add_func("/figures/verdict", test_verdict);
+  g_test_add_func("/figures/worse", test_worse);
   g_test_add_func("/figures/geometry", test_geometry);
   return g_test_run();
 }

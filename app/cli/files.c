@@ -1,0 +1,140 @@
+// The files of a command that takes several: opened before anything is computed, worked on one
+// after the other. A file with a problem does not stop the others; the exit code is the highest.
+#include "app/cli/cli.h"
+
+#include "app/base/output.h"
+
+#include <string.h>
+
+// What a file's folder below -o is called: its name without the ending.
+static char *folder_name(const char *path) {
+  if (strcmp(path, "-") == 0) {
+    return g_strdup("standard-input");
+  }
+  char *name = g_path_get_basename(path);
+  static const char *const endings[] = {".scene", ".valve", ".png"};
+  for (size_t i = 0; i < G_N_ELEMENTS(endings); i++) {
+    size_t length = strlen(name), tail = strlen(endings[i]);
+    // "..scene" stays as it is: "." and ".." are other folders.
+    if (sb_output_ends_in(name, endings[i]) && strspn(name, ".") < length - tail) {
+      name[length - tail] = '\0';
+      break;
+    }
+  }
+  return name;
+}
+
+// Whether the files can be told apart; an exit code.
+static int refuse_twins(const SbCliFiles *files, bool in_folders) {
+  const SbCliFile *stream = NULL;
+  g_autoptr(GHashTable) seen = g_hash_table_new(g_str_hash, g_str_equal);
+  for (int i = 0; i < files->count; i++) {
+    const SbCliFile *file = &files->file[i];
+    if (strcmp(file->path, "-") == 0 && stream != NULL) {
+      return sb_cli_fail("-: standard input can be only one of the files");
+    }
+    stream = strcmp(file->path, "-") == 0 ? file : stream;
+    const SbCliFile *twin = g_hash_table_lookup(seen, file->name);
+    if (in_folders && twin != NULL) {
+      return sb_cli_fail("-o: %s and %s would both be written to %s", twin->path, file->path,
+                         file->folder);
+    }
+    g_hash_table_insert(seen, file->name, (gpointer)file);
+  }
+  return SB_EXIT_DONE;
+}
+
+bool sb_cli_files_open(SbCliFiles *files, int argc, char **argv, char **settings,
+                       const char *folder) {
+  *files = (SbCliFiles){.count = argc - 1, .at = -1};
+  files->file = g_new0(SbCliFile, files->count);
+  files->json = g_ptr_array_new_with_free_func(g_free);
+  for (int i = 0; i < files->count; i++) {
+    files->file[i].path = argv[i + 1];
+    files->file[i].name = folder_name(argv[i + 1]);
+    if (folder != NULL) {
+      files->file[i].folder =
+          files->count > 1 ? g_build_filename(folder, files->file[i].name, NULL) : g_strdup(folder);
+    }
+  }
+  files->code = refuse_twins(files, folder != NULL && files->count > 1);
+  if (files->code != SB_EXIT_DONE) {
+    return false;
+  }
+  bool any = false;
+  for (int i = 0; i < files->count; i++) {
+    SbCliFile *file = &files->file[i];
+    file->model = g_new(SbModel, 1);
+    file->document = sb_cli_open(file->model, file->path, settings);
+    files->code = file->document == NULL ? SB_EXIT_INPUT : files->code;
+    any |= file->document != NULL;
+  }
+  return any;
+}
+
+void sb_cli_files_close(SbCliFiles *files) {
+  sb_cli_name_file(NULL);
+  for (int i = 0; i < files->count; i++) {
+    SbCliFile *file = &files->file[i];
+    sb_document_free(file->document);
+    g_free(file->model);
+    g_free(file->name);
+    g_free(file->folder);
+  }
+  g_free(files->file);
+  if (files->json != NULL) {
+    g_ptr_array_unref(files->json);
+  }
+}
+
+SbCliFile *sb_cli_files_next(SbCliFiles *files) {
+  while (!sb_cli_interrupted(NULL) && ++files->at < files->count) {
+    SbCliFile *file = &files->file[files->at];
+    if (file->document != NULL) {
+      sb_cli_name_file(files->count > 1 ? file->path : NULL);
+      return file;
+    }
+  }
+  sb_cli_name_file(NULL);
+  int left = 0;
+  for (int i = files->at + 1; i < files->count; i++) {
+    left += files->file[i].document != NULL;
+  }
+  if (left > 0) {
+    sb_cli_fail("interrupted: %d of %d files were not begun", left, files->count);
+  }
+  return NULL;
+}
+
+void sb_cli_files_head(SbCliFiles *files) {
+  if (files->count > 1) {
+    const char *path = files->file[files->at].path;
+    g_autofree char *shown = sb_printable(path, strlen(path));
+    printf("%s%s:\n", files->heads++ > 0 ? "\n" : "", shown);
+  }
+}
+
+void sb_cli_files_done(SbCliFiles *files, int code) {
+  files->code = MAX(files->code, code);
+}
+
+void sb_cli_files_emit(SbCliFiles *files, const char *target) {
+  GPtrArray *json = files->json;
+  if (target == NULL || json->len == 0) {
+    return;
+  }
+  if (files->count == 1) {
+    sb_cli_files_done(files, sb_cli_emit(json->pdata[0], target));
+    return;
+  }
+  // Strings hold no line ends: each of those begins a line of the document.
+  GString *text = g_string_new("[");
+  for (guint i = 0; i < json->len; i++) {
+    g_auto(GStrv) lines = g_strsplit(g_strchomp(json->pdata[i]), "\n", -1);
+    g_autofree char *inside = g_strjoinv("\n  ", lines);
+    g_string_append_printf(text, "%s\n  %s", i > 0 ? "," : "", inside);
+  }
+  g_string_append(text, "\n]\n");
+  sb_cli_files_done(files, sb_cli_emit(text->str, target));
+  g_string_free(text, TRUE);
+}

@@ -1,0 +1,140 @@
+// A document's [cases]: NAME = KEY=VALUE; KEY=VALUE. Each is the document with some values
+// replaced, those of --set and of edits included. A scene's take the place of its valve's, name by
+// name.
+#include "app/base/reader.h"
+#include "app/document/document_private.h"
+
+#include <string.h>
+
+typedef struct {
+  char *name, *settings;
+  char *shown; // the file that has it
+} Case;
+
+static void case_free(gpointer data) {
+  Case *one = data;
+  g_free(one->name);
+  g_free(one->settings);
+  g_free(one->shown);
+  g_free(one);
+}
+
+GPtrArray *sb_document_cases_new(void) {
+  return g_ptr_array_new_with_free_func(case_free);
+}
+
+void sb_document_read_cases(GPtrArray *cases, const GPtrArray *entries, const char *shown,
+                            GPtrArray *issues) {
+  for (guint i = 0; i < entries->len; i++) {
+    const SbEntry *entry = entries->pdata[i];
+    if (entry->name == NULL || strcmp(entry->group, SB_CASES_GROUP) != 0) {
+      continue;
+    }
+    guint at = 0;
+    while (at < cases->len && strcmp(((Case *)cases->pdata[at])->name, entry->name) != 0) {
+      at++;
+    }
+    if (at == SB_CASES_MAX) {
+      g_autofree char *key = g_strdup_printf("%s.%s", SB_CASES_GROUP, entry->name);
+      sb_issues_add(issues, shown, entry->line, key, NULL, "is more than the %d cases there may be",
+                    SB_CASES_MAX);
+      continue;
+    }
+    Case *one = g_new(Case, 1);
+    *one = (Case){g_strdup(entry->name), g_strdup(entry->value), g_strdup(shown)};
+    if (at < cases->len) {
+      case_free(cases->pdata[at]);
+      cases->pdata[at] = one;
+    } else {
+      g_ptr_array_add(cases, one);
+    }
+  }
+}
+
+void sb_document_append_cases(GString *text, const GPtrArray *cases) {
+  for (guint i = 0; i < cases->len; i++) {
+    const Case *one = cases->pdata[i];
+    g_string_append_printf(text, "%s%s = %s\n", i == 0 ? "\n[" SB_CASES_GROUP "]\n" : "", one->name,
+                           one->settings);
+  }
+}
+
+size_t sb_document_case_count(const SbDocument *document) {
+  return document->cases->len;
+}
+
+const char *sb_document_case_name(const SbDocument *document, size_t index) {
+  return ((const Case *)document->cases->pdata[index])->name;
+}
+
+// Puts one "KEY=VALUE" into `params`; what is wrong becomes an issue on the case `path`.
+static void put_setting(SbParams *params, bool *set, const SbDocument *document, const Case *one,
+                        const char *path, const char *setting, GPtrArray *issues) {
+  const char *equal = strchr(setting, '=');
+  if (equal == NULL || equal == setting) {
+    sb_issues_add(issues, one->shown, 0, path, "KEY=VALUE; KEY=VALUE", "\"%.60s\" is no KEY=VALUE",
+                  setting);
+    return;
+  }
+  g_autofree char *key = g_strstrip(g_strndup(setting, (gsize)(equal - setting)));
+  g_autofree char *value_text = g_strstrip(g_strdup(equal + 1));
+  int id = sb_param_find(key);
+  if (id < 0) {
+    g_autofree char *hint = sb_document_key_hint(key);
+    sb_issues_add(issues, one->shown, 0, path, NULL, "%s: unknown key%s", key, hint);
+    return;
+  }
+  double value = 0;
+  SbReport report = {0};
+  g_autoptr(GError) error = NULL;
+  if (set[id]) {
+    sb_issues_add(issues, one->shown, 0, path, NULL, "%s: is given twice", key);
+  } else if (!sb_document_read_value(&value, document, (SbParamId)id, value_text, &error) ||
+             sb_params_set(params, (SbParamId)id, value, &report) != SB_OK) {
+    g_autofree char *range = sb_param_range((SbParamId)id);
+    sb_issues_add(issues, one->shown, 0, path, range, "%s: %s", key,
+                  error != NULL ? error->message : report.text);
+  }
+  set[id] = true;
+}
+
+bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel *out,
+                              GPtrArray *issues) {
+  const Case *one = document->cases->pdata[index];
+  g_autofree char *path = g_strdup_printf("%s.%s", SB_CASES_GROUP, one->name);
+  guint before = issues->len;
+  SbParams params = sb_document_params(document);
+  bool set[SB_PARAM_COUNT] = {false};
+  g_auto(GStrv) settings = g_strsplit(one->settings, ";", -1);
+  char **setting = settings;
+  do {
+    put_setting(&params, set, document, one, path, *setting != NULL ? g_strstrip(*setting) : "",
+                issues);
+    setting += *setting != NULL;
+  } while (*setting != NULL && *g_strstrip(*setting) != '\0'); // a last semicolon is fine
+  if (issues->len > before) {
+    return false;
+  }
+  SbProblems problems = {0};
+  SbStatus status = sb_document_compile_params(document, &params, out, &problems);
+  if (status != SB_OK && problems.count == 0) {
+    sb_issues_add(issues, one->shown, 0, path, NULL, "%s", sb_status_text(status));
+  }
+  for (size_t i = 0; status != SB_OK && i < problems.count; i++) {
+    const SbProblem *problem = &problems.item[i];
+    int id = sb_param_find(problem->key);
+    g_autofree char *range =
+        id >= 0 ? sb_document_problem_range(problem, sb_param((SbParamId)id)) : NULL;
+    sb_issues_add(issues, one->shown, 0, path, range, "%s: %s", problem->key, problem->text);
+  }
+  return status == SB_OK;
+}
+
+bool sb_document_check_cases(const SbDocument *document, GPtrArray *issues) {
+  g_autofree SbModel *model = g_new(SbModel, 1);
+  bool good = true;
+  for (size_t i = 0; i < document->cases->len; i++) {
+    good = sb_document_compile_case(document, i, model, issues) && good;
+  }
+  return good;
+}

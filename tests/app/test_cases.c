@@ -1,0 +1,196 @@
+// A scene's [cases]: the verdict takes the worst of the scene and its cases and names it; what is
+// wrong in a case is told with file, group, case, key and range.
+#include "tests/app/cli_fixture.h"
+
+#include <glib/gstdio.h>
+#include <string.h>
+
+static char *path; // of the scene under test
+
+static void write_scene(const char *format, ...) G_GNUC_PRINTF(1, 2);
+
+// The groups behind [sealbench].
+static void write_scene(const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *groups = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  g_autofree char *text = g_strdup_printf("[sealbench]\nformat = 1\nkind = scene\nvalve = %s\n"
+                                          "[models]\nfit = karaszkiewicz\nfilm = thesis\n%s",
+                                          cli.valve, groups);
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+}
+
+static JsonNode *run_json(const char *file, const char *set, const char *more) {
+  CliResult run = CLI("run", file, "--json", "-", "--set", set, "--set", more);
+  g_assert_cmpstr(run.err, ==, "");
+  g_assert_cmpint(run.code, ==, 0);
+  JsonNode *root = cli_parse(run.out);
+  cli_clear(&run);
+  return root;
+}
+
+static const char limits[] = "[limits]\ncycle.force_breakaway_N = <= 60 N\n"
+                             "seals.outer.squeeze = 5 % .. 25 %\n";
+
+// What is worst is what the case gives when it is run by itself, bit by bit.
+static void test_worst(void) {
+  const char *none = "output.frames=400";
+  write_scene("%s[cases]\nrough = surface.gt_product = +10 %%\n"
+              "hot day.2 = canister.pressure=0.9 MPa; fluid.viscosity=-20%%;\n"
+              "wide = seal.section_diameter=1.63 mm; gland.radial_space=1.34 mm\n",
+              limits);
+  JsonNode *all = run_json(path, none, none);
+  static const struct {
+    const char *kind, *name, *figure, *set[2];
+  } worst[] = {
+      {"presses",
+       "hot day.2",
+       "cycle.force_breakaway_N",
+       {"canister.pressure=0.9 MPa", "fluid.viscosity=-20%"}},
+      {"fits",
+       "wide",
+       "seals.outer.squeeze",
+       {"seal.section_diameter=1.63 mm", "gland.radial_space=1.34 mm"}},
+      {"returns",
+       "rough",
+       "cycle.force_return_min_N",
+       {"surface.gt_product=+10%", "output.frames=400"}},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(worst); i++) {
+    g_autofree char *at = g_strdup_printf("cycle.verdict.%s", worst[i].kind);
+    JsonNode *verdict = cli_at(all, at);
+    g_assert_cmpstr(json_node_get_string(cli_at(verdict, "case")), ==, worst[i].name);
+    g_assert_cmpstr(json_node_get_string(cli_at(verdict, "figure")), ==, worst[i].figure);
+    CliResult alone = CLI("run", path, "--json", "-", "--set", worst[i].set[0], "--set",
+                          worst[i].set[1], "--set", "models.fit=karaszkiewicz");
+    JsonNode *one = cli_parse(alone.out);
+    g_assert_cmpfloat(cli_number(verdict, "value"), ==, cli_number(one, worst[i].figure));
+    json_node_unref(one);
+    cli_clear(&alone);
+  }
+  // A question without a limit has no answer and no case; the figures are the scene's own.
+  g_assert_true(JSON_NODE_HOLDS_NULL(cli_at(all, "cycle.verdict.leak.ok")));
+  g_assert_true(JSON_NODE_HOLDS_NULL(cli_at(all, "cycle.verdict.leak.case")));
+  double wide = cli_number(all, "cycle.verdict.fits.value");
+  double own = cli_number(all, "seals.outer.squeeze");
+  g_assert_cmpfloat(wide, >, own);
+  json_node_unref(all);
+  // --set changes what the cases lie upon: -10 % and the case's +10 % return again.
+  all = run_json(path, "surface.gt_product=-10 %", "canister.pressure=0.56 MPa");
+  g_assert_true(json_node_get_boolean(cli_at(all, "cycle.verdict.returns.ok")));
+  json_node_unref(all);
+  // The scene itself can be the worst.
+  write_scene("%s[cases]\nnarrow = gland.radial_space=1.4 mm\n", limits);
+  all = run_json(path, none, none);
+  g_assert_true(JSON_NODE_HOLDS_NULL(cli_at(all, "cycle.verdict.presses.case")));
+  g_assert_cmpfloat(cli_number(all, "cycle.verdict.presses.value"), ==,
+                    cli_number(all, "cycle.force_breakaway_N"));
+  json_node_unref(all);
+}
+
+// In the table, in the plan, and through a picture of the scene.
+static void test_shown(void) {
+  write_scene("[limits]\ncycle.force_breakaway_N = <= 30 N\n[cases]\n"
+              "hot = canister.pressure=0.9 MPa\ncold = canister.pressure=0.4 MPa\n");
+  CliResult table = CLI("run", path);
+  g_assert_nonnull(strstr(table.out, "is above its limit 30 (SI)), case hot\n"));
+  cli_clear(&table);
+  CliResult plan = CLI("plan", path);
+  g_assert_nonnull(strstr(plan.out, "2 cases by the scene's models: the verdict takes the worst"));
+  cli_clear(&plan);
+  CliResult none = CLI("plan", cli.scene);
+  g_assert_null(strstr(none.out, "cases by"));
+  cli_clear(&none);
+  g_autofree char *picture = g_build_filename(cli.folder, "cases.png", NULL);
+  CliResult drawn = CLI("render", path, "-o", picture, "--view", "hysteresis");
+  g_assert_cmpint(drawn.code, ==, 0);
+  cli_clear(&drawn);
+  CliResult again = CLI("run", picture, "--json", "-", "--quiet");
+  JsonNode *root = cli_parse(again.out);
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "cycle.verdict.presses.case")), ==, "hot");
+  json_node_unref(root);
+  cli_clear(&again);
+  g_unlink(picture);
+}
+
+// A case that a solver cannot do leaves its questions open, is named, and is flagged.
+static void test_failure(void) {
+  write_scene(
+      "[limits]\nseals.outer.load_N = >= 1 N\ncycle.force_breakaway_N = <= 30 N\n[cases]\n"
+      "stuck = models.fit=disc; seal.modulus=1.1 MPa; seal.section_diameter=2.6 mm; "
+      "seal.inner_diameter=2.2 mm; gland.axial_width=8 mm\nhot = canister.pressure=0.9 MPa\n");
+  CliResult run = CLI("run", path, "--json", "-", "--quiet");
+  g_assert_cmpint(run.code, ==, 2);
+  g_assert_nonnull(strstr(run.err, "sealbench: case stuck: fitment (disc), outer seal"));
+  JsonNode *root = cli_parse(run.out);
+  g_assert_true(JSON_NODE_HOLDS_NULL(cli_at(root, "cycle.verdict.fits.ok")));
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "cycle.verdict.fits.case")), ==, "stuck");
+  g_assert_nonnull(strstr(json_node_get_string(cli_at(root, "cycle.verdict.fits.reason")), "disc"));
+  // A no stands whatever is unknown beside it.
+  g_assert_false(json_node_get_boolean(cli_at(root, "cycle.verdict.presses.ok")));
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "cycle.verdict.presses.case")), ==, "hot");
+  json_node_unref(root);
+  cli_clear(&run);
+}
+
+static void test_refused(void) {
+  static const struct {
+    const char *line, *says; // behind "PATH: [cases] a.b: "
+  } cases[] = {
+      {"gland.radialspace=1 mm", "gland.radialspace: unknown key, do you mean gland.radial_space?"},
+      {"gland.radial_space=9 m",
+       "gland.radial_space: 9000 mm is out of range (allowed 0.1 to 20 mm)"},
+      {"seal.modulus=3 MPa; gland.radial_space=3",
+       "gland.radial_space: \"3\" has no unit, write for example \"3 mm\" (allowed 0.1 to 20 mm)"},
+      {"bore.diameter=5 mm", "bore.diameter: the bore is smaller than the stem "
+                             "(stem.pressure_diameter 5.794 mm) (allowed at least 5.794 mm)"},
+      {"seal.modulus", "\"seal.modulus\" is no KEY=VALUE (allowed KEY=VALUE; KEY=VALUE)"},
+      {"", "\"\" is no KEY=VALUE (allowed KEY=VALUE; KEY=VALUE)"},
+      {"seal.modulus=3 MPa; seal.modulus=4 MPa", "seal.modulus: is given twice"},
+      {"models.fit=rnig", "models.fit: \"rnig\" is not one of the names, do you mean ring?"},
+  };
+  g_autofree char *out = g_build_filename(cli.folder, "none", NULL);
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    write_scene("[cases]\ngood = seal.modulus=3 MPa\na.b = %s\n", cases[i].line);
+    g_autofree char *says = g_strdup_printf("sealbench: %s: [cases] a.b: %s", path, cases[i].says);
+    CliResult check = CLI("check", path);
+    CliResult run = CLI("run", path, "-o", out);
+    g_assert_cmpint(check.code, ==, 1);
+    g_assert_cmpint(run.code, ==, 1);
+    if (!g_str_has_prefix(check.err, says)) {
+      g_error("\"%s\" is not \"%s\"", check.err, says);
+    }
+    g_assert_cmpstr(run.err, ==, check.err);
+    cli_clear(&check);
+    cli_clear(&run);
+  }
+  g_assert_false(g_file_test(out, G_FILE_TEST_EXISTS));
+  // What --set changes can make a case impossible.
+  write_scene("[cases]\ntight = bore.diameter=6 mm\n");
+  CliResult run =
+      CLI("run", path, "--set", "stem.pressure_diameter=6.2 mm", "--set", "bore.diameter=6.4 mm");
+  g_assert_cmpint(run.code, ==, 1);
+  g_assert_nonnull(strstr(run.err, "[cases] tight: "));
+  cli_clear(&run);
+  // A mistyped group is known.
+  write_scene("[case]\na = seal.modulus=3 MPa\n");
+  CliResult check = CLI("check", path);
+  g_assert_nonnull(strstr(check.err, "unknown group [case], do you mean cases?"));
+  cli_clear(&check);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  cli_set_up();
+  path = g_build_filename(cli.folder, "cases.scene", NULL);
+  g_test_add_func("/cases/worst", test_worst);
+  g_test_add_func("/cases/shown", test_shown);
+  g_test_add_func("/cases/failure", test_failure);
+  g_test_add_func("/cases/refused", test_refused);
+  int result = g_test_run();
+  g_unlink(path);
+  g_free(path);
+  cli_tear_down();
+  return result;
+}

@@ -1,0 +1,271 @@
+// What commands print for people says the same as their JSON: tables of fits, the rig, a life, the
+// bench and the lists, and the tables that runs of these leave in their folder.
+#include "tests/app/cli_fixture.h"
+
+#include <glib/gstdio.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// The number behind `label` in a table; fails if the table has no such line.
+static double shown(const char *table, const char *label) {
+  g_autofree char *begin = g_strdup_printf("\n  %s ", label);
+  const char *at = strstr(table, begin);
+  if (at == NULL) {
+    g_error("no line \"%s\" in:\n%s", label, table);
+  }
+  return g_ascii_strtod(at + strlen(begin), NULL);
+}
+
+// Five digits of what the JSON says, in another unit.
+#define SAME(table, label, root, path, factor)                                                     \
+  g_assert_cmpfloat_with_epsilon(shown(table, label) / ((factor)*cli_number(root, path)), 1, 1e-4)
+
+static char *scene_named(const char *name) {
+  g_autofree char *folder = g_path_get_dirname(cli.scene);
+  return g_build_filename(folder, name, NULL);
+}
+
+static JsonNode *json_of(const char *const *arguments) {
+  CliResult result = cli_run(arguments, NULL, NULL);
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *root = cli_parse(result.out);
+  cli_clear(&result);
+  return root;
+}
+#define JSON(...) json_of((const char *const[]){__VA_ARGS__, "--json", "-", NULL})
+
+static void test_fit(void) {
+  static const char *const models[] = {"ring", "green-english:plane-strain-unrestrained", "disc"};
+  for (size_t i = 0; i < G_N_ELEMENTS(models); i++) {
+    CliResult table = CLI("fit", cli.valve, "--seal", "outer", "--model", models[i], "--pressure",
+                          "0.55 MPa", "--tolerance", "1e-2");
+    g_assert_cmpint(table.code, ==, 0);
+    JsonNode *root = JSON("fit", cli.valve, "--seal", "outer", "--model", models[i], "--pressure",
+                          "0.55 MPa", "--tolerance", "1e-2");
+    SAME(table.out, "Squeeze", root, "squeeze", 100);
+    SAME(table.out, "Contact width", root, "contact_width_m", 1e3);
+    SAME(table.out, "Load", root, "load_N", 1);
+    SAME(table.out, "Peak pressure", root, "pressure_peak_Pa", 1e-6);
+    if (i == 0) {
+      SAME(table.out, "Load on the groove floor", root, "ring.floor_load_N", 1);
+      g_assert_nonnull(strstr(table.out, " Newton iterations\n"));
+    }
+    g_assert_nonnull(strstr(table.out, "Gland against customary bands\n"));
+    g_assert_nonnull(strstr(table.out, ": within; Parker ORD 5700"));
+    json_node_unref(root);
+    cli_clear(&table);
+  }
+  static const struct {
+    const char *option, *value, *says;
+  } bad[] = {
+      {"--model", "karaszkiewicz:x", "do you mean karaszkiewicz?"},
+      {"--pressure", "70 MPa", "--pressure: 70 MPa is out of range (allowed "},
+      {"--pressure", "1 mm", "another kind"},
+      {"--tolerance", "1", "--tolerance: out of range (allowed 1e-8 to 0.1)"},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+    CliResult result = CLI("fit", cli.valve, "--seal", "outer", bad[i].option, bad[i].value);
+    g_assert_cmpint(result.code, ==, 1);
+    g_assert_nonnull(strstr(result.err, bad[i].says));
+    cli_clear(&result);
+  }
+  CliResult none = CLI("fit", cli.valve);
+  g_assert_nonnull(strstr(none.err, "--seal: is missing (allowed outer, inner)"));
+  cli_clear(&none);
+}
+
+// Rows of a file of the folder, its heading first.
+static char **rows_of(const char *folder, const char *name) {
+  g_autofree char *text = g_strchomp(cli_contents(folder, name));
+  return g_strsplit(text, "\n", -1);
+}
+
+static void test_rig(void) {
+  g_autofree char *scene = scene_named("sliding-plate.scene");
+  g_autofree char *out = g_build_filename(cli.folder, "rig", NULL);
+  CliResult table = CLI("run", scene, "-o", out);
+  g_assert_cmpint(table.code, ==, 0);
+  g_autofree char *text = cli_contents(out, "results.json");
+  JsonNode *root = cli_parse(text);
+  SAME(table.out, "Static coefficient", root, "rig.coefficient_static", 1);
+  SAME(table.out, "Dynamic coefficient", root, "rig.coefficient_dynamic", 1);
+  SAME(table.out, "First peak", root, "rig.first_peak_N", 1);
+  SAME(table.out, "Peaks that follow", root, "rig.following_peaks", 1);
+  SAME(table.out, "Energy of the pull", root, "cycle.energy_loss_J", 1e3);
+  // The table of the cycle marks the peaks that the JSON counts.
+  g_auto(GStrv) rows = rows_of(out, "cycle.csv");
+  g_assert_true(g_str_has_suffix(rows[0], ",peak"));
+  size_t first = 0, following = 0, count = 0;
+  for (char **row = rows + 1; *row != NULL; row++, count++) {
+    first += g_str_has_suffix(*row, ",1");
+    following += g_str_has_suffix(*row, ",2");
+  }
+  g_assert_cmpuint(first, ==, 1);
+  g_assert_cmpfloat((double)following, ==, cli_number(root, "rig.following_peaks"));
+  g_assert_cmpfloat((double)count, ==, cli_number(root, "solver.frames"));
+  json_node_unref(root);
+  cli_clear(&table);
+  cli_remove_results(out);
+}
+
+static void test_life(void) {
+  g_autofree char *scene = scene_named("life-400.scene");
+  g_autofree char *out = g_build_filename(cli.folder, "life", NULL);
+  CliResult table =
+      CLI("run", scene, "-o", out, "--set", "life.actuations=5", "--set", "models.film=thesis");
+  g_assert_cmpint(table.code, ==, 0);
+  g_assert_nonnull(strstr(table.out, "\nLife of 5 actuations\n"));
+  g_autofree char *text = cli_contents(out, "results.json");
+  JsonNode *root = cli_parse(text);
+  SAME(table.out, "Roughness, last over given", root, "life.roughness_last", 1);
+  SAME(table.out, "Return force, last", root, "life.force_return_last_N", 1);
+  SAME(table.out, "Leakage, carried out", root, "life.leakage_carried_m3", 1e12);
+  g_auto(GStrv) rows = rows_of(out, "life.csv");
+  g_assert_cmpuint(g_strv_length(rows), ==, 6);
+  double carried = 0;
+  for (int i = 1; i <= 5; i++) {
+    g_auto(GStrv) cells = g_strsplit(rows[i], ",", -1);
+    g_assert_cmpint(atoi(cells[0]), ==, i);
+    g_autofree char *path = g_strdup_printf("life.by_actuation.roughness.%d", i - 1);
+    g_assert_cmpfloat(g_ascii_strtod(cells[1], NULL), ==, cli_number(root, path));
+    carried += g_ascii_strtod(cells[8], NULL);
+  }
+  g_assert_cmpfloat_with_epsilon(carried / cli_number(root, "life.leakage_carried_m3"), 1, 1e-12);
+  json_node_unref(root);
+  cli_clear(&table);
+  g_autofree char *csv = g_build_filename(out, "life.csv", NULL);
+  g_unlink(csv);
+  cli_remove_results(out);
+  // A life that ends early says at which actuation, and what it then does not know.
+  table = CLI("run", scene, "--set", "life.actuations=5", "--set", "models.film=thesis", "--set",
+              "surface.gt_product=0.17");
+  g_assert_nonnull(
+      strstr(table.out, "  the stem does not return from actuation 1: none after it\n"));
+  cli_clear(&table);
+  root = JSON("run", scene, "--set", "life.actuations=5", "--set", "models.film=thesis", "--set",
+              "surface.gt_product=0.17");
+  g_assert_cmpfloat(cli_number(root, "life.first_failure"), ==, 1);
+  g_assert_true(JSON_NODE_HOLDS_NULL(cli_at(root, "life.roughness_last")));
+  JsonObject *reasons = json_node_get_object(cli_at(root, "reasons"));
+  g_assert_nonnull(strstr(json_object_get_string_member(reasons, "life.roughness_last"),
+                          "the life ends at actuation 1"));
+  json_node_unref(root);
+}
+
+// The parts' joints: as many columns as reactions, whose largest are the JSON's.
+static void test_bodies(void) {
+  g_autofree char *out = g_build_filename(cli.folder, "bodies", NULL);
+  CliResult run = CLI("run", cli.scene, "-o", out, "--set", "models.motion=bodies", "--set",
+                      "models.film=thesis", "--set", "output.frames=60", "--quiet");
+  g_assert_cmpint(run.code, ==, 0);
+  cli_clear(&run);
+  g_autofree char *text = cli_contents(out, "results.json");
+  JsonNode *root = cli_parse(text);
+  JsonArray *joints = json_node_get_array(cli_at(root, "bodies.joints"));
+  g_auto(GStrv) rows = rows_of(out, "cycle.csv");
+  g_auto(GStrv) heading = g_strsplit(rows[0], ",", -1);
+  guint first = g_strv_length(heading) - json_array_get_length(joints);
+  for (guint k = 0; k < json_array_get_length(joints); k++) {
+    g_assert_true(g_str_has_prefix(heading[first + k], "reaction_"));
+    double most = -HUGE_VAL;
+    for (char **row = rows + 1; *row != NULL; row++) {
+      g_auto(GStrv) cells = g_strsplit(*row, ",", -1);
+      most = fmax(most, g_ascii_strtod(cells[first + k], NULL));
+    }
+    g_autofree char *path = g_strdup_printf("bodies.joints.%u.force_axial_max_N", k);
+    double all = cli_number(root, path);
+    g_assert_cmpfloat(fabs(most - all), <=, 1e-9 * fabs(all));
+  }
+  json_node_unref(root);
+  cli_remove_results(out);
+}
+
+// One run of the bench for its table, its folder and its picture.
+static void test_bench(void) {
+  g_autofree char *out = g_build_filename(cli.folder, "bench", NULL);
+  CliResult table = CLI("bench", "--quick", "-o", out);
+  g_assert_cmpstr(table.err, ==, "");
+  g_assert_cmpint(table.code, ==, 0);
+  g_autofree char *text = cli_contents(out, "bench.json");
+  JsonNode *root = cli_parse(text);
+  JsonArray *cases = json_node_get_array(cli_at(root, "cases"));
+  g_auto(GStrv) lines = g_strsplit(g_strchomp(table.out), "\n", -1);
+  g_assert_cmpuint(g_strv_length(lines), ==, json_array_get_length(cases) + 1);
+  for (guint i = 0; i < json_array_get_length(cases); i++) {
+    JsonNode *row = json_array_get_element(cases, i);
+    g_assert_true(g_str_has_prefix(lines[i + 1], json_node_get_string(cli_at(row, "solver"))));
+    g_assert_nonnull(strstr(lines[i + 1], json_node_get_string(cli_at(row, "case"))));
+    cli_has_keys(row, "solver case unknowns iterations wall_s error error_estimate order");
+    // Solved films keep what their tolerance promised, against independent figures.
+    if (strcmp(json_node_get_string(cli_at(row, "solver")), "reynolds") == 0) {
+      g_assert_cmpfloat(cli_number(row, "error"), <, 1e-3);
+    }
+  }
+  json_node_unref(root);
+  cli_clear(&table);
+  static const char *const names[] = {"bench.json", "bench.png", ".sealbench-bench.manifest"};
+  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+    g_autofree char *path = g_build_filename(out, names[i], NULL);
+    if (i == 1) {
+      g_autofree char *bytes = NULL;
+      gsize length = 0;
+      g_assert_true(g_file_get_contents(path, &bytes, &length, NULL));
+      g_assert_cmpint(memcmp(bytes, "\x89PNG", 4), ==, 0);
+      g_assert_cmpuint(length, >, 10000);
+    }
+    g_assert_cmpint(g_unlink(path), ==, 0);
+  }
+  g_assert_cmpint(g_rmdir(out), ==, 0);
+}
+
+// Every key, model and view of the JSON stands in the list for people.
+static void test_lists(void) {
+  static const struct {
+    const char *list, *member;
+  } lists[] = {{"params", "key"}, {"models", "name"}, {"views", "name"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(lists); i++) {
+    CliResult table = CLI("list", lists[i].list);
+    g_assert_cmpint(table.code, ==, 0);
+    JsonNode *root = JSON("list", lists[i].list);
+    JsonArray *rows = json_node_get_array(root);
+    g_assert_cmpuint(json_array_get_length(rows), >, 8);
+    for (guint k = 0; k < json_array_get_length(rows); k++) {
+      const char *name =
+          json_node_get_string(cli_at(json_array_get_element(rows, k), lists[i].member));
+      bool one_seal =
+          g_str_has_prefix(name, "seal.outer.") || g_str_has_prefix(name, "seal.inner.");
+      if (!one_seal && strstr(table.out, name) == NULL) {
+        g_error("list %s lacks %s", lists[i].list, name);
+      }
+    }
+    json_node_unref(root);
+    cli_clear(&table);
+  }
+  CliResult table = CLI("asperity", "--lambda", "3");
+  JsonNode *root = JSON("asperity", "--lambda", "3");
+  g_assert_cmpfloat(shown(table.out, "F2"), ==, cli_number(root, "F2"));
+  g_assert_cmpfloat(shown(table.out, "F5/2"), ==, cli_number(root, "F5_2"));
+  json_node_unref(root);
+  cli_clear(&table);
+  table = CLI("asperity", "--lambda", "60");
+  g_assert_nonnull(strstr(table.out, "Warnings\n  asperity-underflow"));
+  cli_clear(&table);
+  root = JSON("asperity", "--lambda", "60");
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "warnings.0.code")), ==, "asperity-underflow");
+  json_node_unref(root);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  cli_set_up();
+  g_test_add_func("/cli-tables/fit", test_fit);
+  g_test_add_func("/cli-tables/rig", test_rig);
+  g_test_add_func("/cli-tables/life", test_life);
+  g_test_add_func("/cli-tables/bodies", test_bodies);
+  g_test_add_func("/cli-tables/bench", test_bench);
+  g_test_add_func("/cli-tables/lists", test_lists);
+  int result = g_test_run();
+  cli_tear_down();
+  return result;
+}
