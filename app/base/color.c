@@ -51,7 +51,7 @@ static bool in_gamut(SbColor c) {
 }
 
 SbColor sb_color_oklch(double lightness, double chroma, double hue_degrees) {
-  const double hue = hue_degrees * (3.14159265358979323846 / 180);
+  const double hue = hue_degrees * (M_PI / 180);
   double ca = cos(hue), sa = sin(hue);
   SbColor out = sb_color_from_oklab((SbOklab){lightness, chroma * ca, chroma * sa});
   if (!in_gamut(out)) {

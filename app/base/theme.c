@@ -61,13 +61,12 @@ static double clamp(double v, double lo, double hi) {
 }
 
 SbColor sb_theme_field(const SbTheme *theme, double t) {
-  const double pi = 3.14159265358979323846;
   t = clamp(t, 0, 1);
   if (theme->dark) {
-    return sb_color_oklch(0.300 + 0.625 * t, 0.035 + 0.125 * sin(pi * (0.14 + 0.78 * t)),
+    return sb_color_oklch(0.300 + 0.625 * t, 0.035 + 0.125 * sin(M_PI * (0.14 + 0.78 * t)),
                           -30 + 125 * t);
   }
-  return sb_color_oklch(0.945 - 0.625 * t, 0.035 + 0.135 * sin(pi * (0.06 + 0.80 * t)),
+  return sb_color_oklch(0.945 - 0.625 * t, 0.035 + 0.135 * sin(M_PI * (0.06 + 0.80 * t)),
                         95 - 125 * t);
 }
 

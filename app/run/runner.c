@@ -3,12 +3,12 @@
 #include "app/run/runner.h"
 
 #include "app/run/process.h"
+#include "engine/base/clock.h"
 
 #include <locale.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <time.h>
 
 struct SbRunHandle {
   atomic_uint references;
@@ -81,12 +81,6 @@ typedef struct {
   double notified; // [s]
 } Job;
 
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static bool is_cancelled(void *data) {
   const Job *job = data;
   return atomic_load_explicit(&job->runner->void_up_to, memory_order_relaxed) >=
@@ -98,7 +92,7 @@ static void on_progress(void *data, double fraction, size_t frames) {
   Job *job = data;
   unsigned permille = fraction > 0 ? (unsigned)(1000 * fraction) : 0;
   atomic_store_explicit(&job->handle->permille, permille, memory_order_relaxed);
-  double time = now();
+  double time = sb_clock_seconds();
   if (time - job->notified >= interval) {
     job->notified = time;
     job->runner->notify(job->runner->data);

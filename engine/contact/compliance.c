@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "engine/contact/disc/disc_kernel.h"
-#include "engine/numeric/eliminate.h"
+#include "engine/numeric/dense.h"
 
 double sb_compliance_half_plane(const SbSurfaceCompliance *c) {
   return 4.0 / (M_PI * c->modulus);

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "engine/contact/compliance.h"
-#include "engine/numeric/eliminate.h"
+#include "engine/numeric/dense.h"
 #include "engine/numeric/legendre.h"
 
 enum { QUADRATURE = 48, GAP_POINTS = 16, ORDER_MAX = SB_COMPLIANCE_PRESSURES + 2 };

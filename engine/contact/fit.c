@@ -4,8 +4,9 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "engine/base/check.h"
+#include "engine/base/clock.h"
 #include "engine/contact/closed/green_english.h"
 #include "engine/contact/closed/lindley.h"
 #include "engine/contact/fit_models.h"
@@ -80,14 +81,6 @@ const char *sb_fit_variant_name(SbFitModel model, int variant) {
 
 // ---- input
 
-static SbStatus check_positive(double value, const char *key, const char *what, SbReport *report) {
-  if (isfinite(value) && value > 0.0) {
-    return SB_OK;
-  }
-  return sb_fail_parameter(report, SB_ERROR_RANGE, key, "%s %g is not positive and finite", what,
-                           value);
-}
-
 static SbStatus check(const SbFitProblem *in, SbReport *report) {
   if ((unsigned)in->model >= SB_FIT_MODEL_COUNT ||
       sb_fit_variant_name(in->model, in->variant) == NULL) {
@@ -95,46 +88,22 @@ static SbStatus check(const SbFitProblem *in, SbReport *report) {
                              "there is no contact model %d, variant %d", (int)in->model,
                              in->variant);
   }
-  const struct {
-    double value;
-    const char *key;
-    const char *what;
-  } sizes[] = {
-      {in->section_diameter, "seal.section_diameter", "section diameter [m]"},
-      {in->inner_diameter, "seal.inner_diameter", "inner diameter [m]"},
-      {in->modulus, "seal.modulus", "modulus of the rubber [Pa]"},
-      {in->radial_space, "gland.radial_space", "radial space [m]"},
-      {in->gland_width, "gland.axial_width", "gland width [m]"},
-      {in->bore_diameter, "bore.diameter", "bore diameter [m]"},
-  };
-  for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-    SbStatus status = check_positive(sizes[i].value, sizes[i].key, sizes[i].what, report);
-    if (status != SB_OK) {
-      return status;
-    }
-  }
-  if (!(in->poisson_ratio >= 0.0 && in->poisson_ratio < 0.5)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.poisson_ratio",
-                             "Poisson's ratio %g is not in [0, 0.5)", in->poisson_ratio);
-  }
-  if (!(in->mooney_share >= 0.0 && in->mooney_share <= 0.5)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.mooney_share",
-                             "Mooney share %g is not in [0, 0.5]", in->mooney_share);
-  }
-  if (!(in->housing_modulus >= 0.0)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "housing.modulus",
-                             "modulus of the housing %g Pa is negative", in->housing_modulus);
-  }
-  if (!(in->housing_poisson >= 0.0 && in->housing_poisson <= 0.5)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "housing.poisson_ratio",
-                             "Poisson's ratio %g is not in [0, 0.5]", in->housing_poisson);
-  }
-  if (!isfinite(in->pressure)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.pressure",
-                             "pressure is not a finite number");
-  }
-  if (!(in->tolerance >= 0.0 && in->tolerance < 1.0)) {
-    return sb_fail(report, SB_ERROR_RANGE, "tolerance %g is not in [0, 1)", in->tolerance);
+  SbStatus status = SB_CHECK(
+      report,
+      {"seal.section_diameter", "the section diameter [m]", in->section_diameter, SB_ABOVE_ZERO},
+      {"seal.inner_diameter", "the inner diameter [m]", in->inner_diameter, SB_ABOVE_ZERO},
+      {"seal.modulus", "the rubber's modulus [Pa]", in->modulus, SB_ABOVE_ZERO},
+      {"gland.radial_space", "the radial space [m]", in->radial_space, SB_ABOVE_ZERO},
+      {"gland.axial_width", "the gland's width [m]", in->gland_width, SB_ABOVE_ZERO},
+      {"bore.diameter", "the bore's diameter [m]", in->bore_diameter, SB_ABOVE_ZERO},
+      {"seal.poisson_ratio", "the rubber's Poisson's ratio", in->poisson_ratio, SB_POISSON},
+      {"seal.mooney_share", "the Mooney share", in->mooney_share, 0.0, 0.5},
+      {"housing.modulus", "the housing's modulus [Pa]", in->housing_modulus, 0.0, INFINITY},
+      {"housing.poisson_ratio", "the housing's Poisson's ratio", in->housing_poisson, 0.0, 0.5},
+      {"canister.pressure", "the pressure [Pa]", in->pressure, SB_FINITE},
+      {"", "the tolerance", in->tolerance, 0.0, 1.0 - DBL_EPSILON});
+  if (status != SB_OK) {
+    return status;
   }
   if (!(in->bore_diameter > 2.0 * in->radial_space)) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "bore.diameter",
@@ -194,15 +163,8 @@ static SbStatus solve_model(SbFit *out, const SbFitProblem *in, SbReport *report
                            (int)in->model);
 }
 
-static double seconds_since(const struct timespec *start) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
-}
-
 SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report) {
-  struct timespec start;
-  clock_gettime(CLOCK_MONOTONIC, &start);
+  const double start = sb_clock_seconds();
   memset(out, 0, sizeof *out);
   SbStatus status = check(problem, report);
   if (status != SB_OK) {
@@ -212,6 +174,6 @@ SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report)
   status = solve_model(out, problem, report);
   judge_validity(out);
   out->valid = out->valid && status == SB_OK;
-  out->solver.wall_s = seconds_since(&start);
+  out->solver.wall_s = sb_clock_seconds() - start;
   return status == SB_OK ? sb_succeed(report) : status;
 }

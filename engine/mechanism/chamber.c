@@ -1,19 +1,19 @@
 // See chamber.h.
 #include "engine/mechanism/chamber.h"
 
+#include "engine/base/check.h"
+#include "engine/numeric/root.h"
+
 #include <math.h>
 
-static const double pi = 3.14159265358979323846;
-
 SbStatus sb_chamber_check(const SbChamberModel *m, SbReport *report) {
-  if (!(m->canister >= 0.0) || !isfinite(m->canister)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.pressure",
-                             "the canister's pressure must not be below 0");
-  }
-  if (!(m->volume > 0.0) || !(m->stiffness > 0.0) || !(m->density > 0.0) || !isfinite(m->volume) ||
-      !isfinite(m->stiffness) || !isfinite(m->density)) {
-    return sb_fail(report, SB_ERROR_RANGE,
-                   "the chamber's volume, stiffness and the liquid's density must be above 0");
+  SbStatus status =
+      SB_CHECK(report, {"canister.pressure", "the pressure [Pa]", m->canister, SB_NOT_NEGATIVE},
+               {"", "the chamber's volume [m3]", m->volume, SB_ABOVE_ZERO},
+               {"", "the chamber's stiffness [Pa]", m->stiffness, SB_ABOVE_ZERO},
+               {"", "the liquid's density [kg/m3]", m->density, SB_ABOVE_ZERO});
+  if (status != SB_OK) {
+    return status;
   }
   if (m->ports > SB_CHAMBER_PORTS) {
     return sb_fail(report, SB_ERROR_RANGE, "a chamber has at most %d ports", SB_CHAMBER_PORTS);
@@ -77,6 +77,10 @@ double sb_chamber_rate(const SbDoseChamber *c, double pressure) {
   return m->stiffness / m->volume * flow;
 }
 
+static double rate_at(double pressure, const void *chamber) {
+  return sb_chamber_rate(chamber, pressure);
+}
+
 double sb_chamber_rest_pressure(const SbDoseChamber *c, double pressure) {
   double low = INFINITY, high = -INFINITY;
   for (size_t i = 0; i < c->model->ports; i++) {
@@ -92,19 +96,7 @@ double sb_chamber_rest_pressure(const SbDoseChamber *c, double pressure) {
   if (!(high >= low)) {
     return pressure;
   }
-  // The flow falls as the pressure rises.
-  for (int i = 0; i < 200 && high > low; i++) {
-    double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) {
-      break;
-    }
-    if (sb_chamber_rate(c, middle) > 0.0) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
-  return high;
+  return sb_bisect(rate_at, c, low, high); // it falls as the pressure rises
 }
 
 bool sb_chamber_settled(const SbDoseChamber *c, double pressure) {
@@ -121,7 +113,7 @@ bool sb_chamber_settled(const SbDoseChamber *c, double pressure) {
 }
 
 static double annulus(double outer, double inner) {
-  return pi / 4.0 * (outer - inner) * (outer + inner);
+  return M_PI / 4.0 * (outer - inner) * (outer + inner);
 }
 
 double sb_chamber_metered_volume(const SbDoseGeometry *g) {
@@ -130,7 +122,7 @@ double sb_chamber_metered_volume(const SbDoseGeometry *g) {
   // Half of each ring, by Pappus.
   for (int i = 0; i < 2; i++) {
     double d = g->rings[i].section;
-    volume -= 0.5 * pi * (g->rings[i].inner + d) * pi / 4.0 * d * d;
+    volume -= 0.5 * M_PI * (g->rings[i].inner + d) * M_PI / 4.0 * d * d;
   }
   return volume;
 }

@@ -1,15 +1,9 @@
 // See drive.h.
 #include "engine/mechanism/drive.h"
 
+#include "engine/base/check.h"
+
 #include <math.h>
-
-static bool positive(double x) {
-  return isfinite(x) && x > 0.0;
-}
-
-static bool not_negative(double x) {
-  return isfinite(x) && x >= 0.0;
-}
 
 static SbStatus check_table(const SbDrive *d, SbReport *report) {
   if (d->time == NULL || d->value == NULL || d->count < 2) {
@@ -28,55 +22,54 @@ static SbStatus check_table(const SbDrive *d, SbReport *report) {
 }
 
 SbStatus sb_drive_check(const SbDrive *d, SbReport *report) {
-  if (!isfinite(d->start)) {
-    return sb_fail(report, SB_ERROR_RANGE, "the drive's start is not a number");
+  const SbBound start = {"", "the drive's start", d->start, SB_FINITE};
+  const SbBound cycle[] = {
+      {"drive.speed", "the platen's speed [m/s]", d->speed, SB_ABOVE_ZERO},
+      {"", "the platen's speed back [m/s]", d->speed_back, SB_NOT_NEGATIVE},
+      {"", "the platen's hold [s]", d->hold, SB_NOT_NEGATIVE},
+      {"", "the pause between cycles [s]", d->pause, SB_NOT_NEGATIVE},
+      {"drive.reversal_force", "the reversal force [N]", d->reversal_force, DBL_MIN, INFINITY},
+  };
+  SbStatus status = sb_check_bounds(&start, 1, report);
+  if (status != SB_OK) {
+    return status;
   }
   switch (d->kind) {
   case SB_DRIVE_NONE:
     return sb_succeed(report);
   case SB_DRIVE_CYCLE:
-    if (!positive(d->speed)) {
-      return sb_fail_parameter(report, SB_ERROR_RANGE, "drive.speed",
-                               "the platen's speed must be above 0, not %g m/s", d->speed);
-    }
-    if (!not_negative(d->speed_back) || !not_negative(d->hold) || !not_negative(d->pause)) {
-      return sb_fail(report, SB_ERROR_RANGE, "return speed, hold and pause must not be negative");
-    }
-    if (d->quantity != SB_DRIVE_OF_POSITION) {
+    status = sb_check_bounds(cycle, sizeof cycle / sizeof *cycle, report);
+    if (status == SB_OK && d->quantity != SB_DRIVE_OF_POSITION) {
       return sb_fail(report, SB_ERROR_INPUT, "a platen cycle prescribes a position, not a force");
     }
-    if (!(d->reversal_force > 0.0) || !(d->end > d->start) ||
-        (isinf(d->reversal_force) && isinf(d->end))) {
+    if (status == SB_OK && (!(d->end > d->start) || (isinf(d->reversal_force) && isinf(d->end)))) {
       return sb_fail_parameter(report, SB_ERROR_RANGE, "drive.reversal_force",
-                               "a platen cycle needs a positive reversal force or an end beyond "
-                               "its start");
+                               "a platen cycle needs a reversal force or an end beyond its start");
     }
     break;
   case SB_DRIVE_RAMP:
-    if (!positive(d->rate) || !isfinite(d->end)) {
-      return sb_fail(report, SB_ERROR_RANGE, "a ramp needs a rate above 0 and a finite end");
-    }
+    status = SB_CHECK(report, {"", "the ramp's rate", d->rate, SB_ABOVE_ZERO},
+                      {"", "the ramp's end", d->end, SB_FINITE});
     break;
   case SB_DRIVE_PRESS:
-    if (!positive(d->rise) || !positive(d->fall) || !not_negative(d->hold) ||
-        !not_negative(d->pause) || !isfinite(d->end)) {
-      return sb_fail(report, SB_ERROR_RANGE,
-                     "a press needs times of rise and fall above 0, hold and pause not negative");
-    }
+    status = SB_CHECK(report, {"", "the press's rise [s]", d->rise, SB_ABOVE_ZERO},
+                      {"", "the press's fall [s]", d->fall, SB_ABOVE_ZERO},
+                      {"", "the press's hold [s]", d->hold, SB_NOT_NEGATIVE},
+                      {"", "the pause between presses [s]", d->pause, SB_NOT_NEGATIVE},
+                      {"", "the press's end", d->end, SB_FINITE});
     break;
   case SB_DRIVE_SINE:
-    if (!positive(d->frequency) || !isfinite(d->amplitude) || !isfinite(d->phase)) {
-      return sb_fail(report, SB_ERROR_RANGE, "a sinusoid needs a frequency above 0");
-    }
+    status = SB_CHECK(report, {"", "the sinusoid's frequency [Hz]", d->frequency, SB_ABOVE_ZERO},
+                      {"", "its amplitude", d->amplitude, SB_FINITE},
+                      {"", "its phase [rad]", d->phase, SB_FINITE});
     break;
   case SB_DRIVE_TABLE:
     return check_table(d, report);
   }
-  if ((d->kind == SB_DRIVE_CYCLE || d->kind == SB_DRIVE_PRESS) && d->cycles < 1) {
-    return sb_fail(report, SB_ERROR_RANGE, "the drive must run at least one cycle, not %d",
-                   d->cycles);
+  if (status == SB_OK && (d->kind == SB_DRIVE_CYCLE || d->kind == SB_DRIVE_PRESS)) {
+    status = SB_CHECK(report, {"", "the number of cycles", d->cycles, 1.0, DBL_MAX});
   }
-  return sb_succeed(report);
+  return status == SB_OK ? sb_succeed(report) : status;
 }
 
 void sb_drive_start(SbDriveState *state, const SbDrive *drive) {
@@ -85,7 +78,7 @@ void sb_drive_start(SbDriveState *state, const SbDrive *drive) {
 }
 
 void sb_drive_sine(const SbDrive *d, double t, double *value, double *rate) {
-  double w = 2.0 * 3.14159265358979323846 * d->frequency;
+  double w = 2.0 * M_PI * d->frequency;
   *value = d->start + d->amplitude * sin(w * t + d->phase);
   *rate = d->amplitude * w * cos(w * t + d->phase);
 }
@@ -168,7 +161,7 @@ void sb_drive_piece(SbDrivePiece *p, SbDriveState *s, const SbDrive *d, double t
   }
   if (d->kind == SB_DRIVE_SINE) {
     *p = (SbDrivePiece){.at = t, .until = INFINITY, .curved = true};
-    p->step = 0.1 / (2.0 * 3.14159265358979323846 * d->frequency);
+    p->step = 0.1 / (2.0 * M_PI * d->frequency);
     sb_drive_sine(d, t, &p->value, &p->rate);
     return;
   }

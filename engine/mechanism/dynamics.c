@@ -1,6 +1,7 @@
 // What events do in dynamics.h. A segment lasts from one event to the next; dynamics_path.c
 // finds its motion and its end, this file says what the end does.
 #include "engine/mechanism/dynamics_internal.h"
+#include "engine/numeric/root.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,26 +16,20 @@ static double restitution_of(double zeta) {
     return exp(-2.0);
   }
   if (difference > 0.0) {
-    return exp(-zeta / s *
-               (3.14159265358979323846 - atan2(2.0 * zeta * s, 1.0 - 2.0 * zeta * zeta)));
+    return exp(-zeta / s * (M_PI - atan2(2.0 * zeta * s, 1.0 - 2.0 * zeta * zeta)));
   }
   return exp(-2.0 * zeta / s * log(zeta + s));
+}
+
+static double too_springy(double zeta, const void *restitution) {
+  return restitution_of(zeta) - *(const double *)restitution;
 }
 
 static double damping_for(double mass, double stiffness, double restitution) {
   if (restitution >= 1.0 || stiffness > 1e300) {
     return 0.0;
   }
-  double low = 0.0, high = 100.0;
-  for (int i = 0; i < 200 && high - low > 1e-16 * high; i++) {
-    double zeta = 0.5 * (low + high);
-    if (restitution_of(zeta) > restitution) {
-      low = zeta;
-    } else {
-      high = zeta;
-    }
-  }
-  return (low + high) * sqrt(stiffness * mass);
+  return 2.0 * sb_bisect(too_springy, &restitution, 0.0, 100.0) * sqrt(stiffness * mass);
 }
 
 // Makes the state at t the new anchor.

@@ -1,26 +1,25 @@
 // What dynamics.h refuses, by name.
+#include "engine/base/check.h"
 #include "engine/mechanism/dynamics_internal.h"
 
 #include <math.h>
 
 static SbStatus check_contact(const SbDynamicsModel *m, size_t i, SbReport *report) {
   const SbDynamicsContact *c = &m->contact[i];
-  if (!(c->static_ratio >= 1.0) || !isfinite(c->static_ratio)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "friction.static_ratio",
-                             "static over sliding friction must be at least 1, not %g",
-                             c->static_ratio);
-  }
-  if (!(c->dwell_gain >= 0.0) || (c->dwell_gain > 0.0 && !(c->dwell_time > 0.0))) {
-    return sb_fail(report, SB_ERROR_RANGE, "contact %zu: dwell strengthening needs a time above 0",
-                   i);
-  }
-  if (!(c->stribeck_speed >= 0.0) || (c->stribeck_speed > 0.0 && !(c->stribeck_exponent > 0.0)) ||
-      !(c->viscous >= 0.0) || !isfinite(c->viscous)) {
-    return sb_fail(report, SB_ERROR_RANGE, "contact %zu: Stribeck or viscous law out of range", i);
-  }
-  if (!(c->stiffness > 0.0) || !(c->damping >= 0.0) || !isfinite(c->damping)) {
-    return sb_fail(report, SB_ERROR_RANGE,
-                   "contact %zu: tangential stiffness must be above 0, damping not below", i);
+  SbStatus status = SB_CHECK(
+      report,
+      {"friction.static_ratio", "static over sliding friction", c->static_ratio, 1.0, DBL_MAX},
+      {"", "a contact's gain by rest", c->dwell_gain, 0.0, INFINITY},
+      {"", "its time of rest [s]", c->dwell_time, c->dwell_gain > 0.0 ? DBL_MIN : -INFINITY,
+       INFINITY},
+      {"", "its Stribeck speed [m/s]", c->stribeck_speed, 0.0, INFINITY},
+      {"", "its Stribeck exponent", c->stribeck_exponent,
+       c->stribeck_speed > 0.0 ? DBL_MIN : -INFINITY, INFINITY},
+      {"", "its viscous friction [N s/m]", c->viscous, SB_NOT_NEGATIVE},
+      {"", "its tangential stiffness [N/m]", c->stiffness, DBL_MIN, INFINITY},
+      {"", "its tangential damping [N s/m]", c->damping, SB_NOT_NEGATIVE});
+  if (status != SB_OK) {
+    return status;
   }
   if (!is_rigid(m, i) && c->damping == 0.0 && sb_motion_speed_dependent(m, i)) {
     return sb_fail(report, SB_ERROR_INPUT,
@@ -42,36 +41,41 @@ static SbStatus check_stop(const SbDynamicsStop *p, size_t i, SbReport *report) 
   if (!isfinite(p->position) || (p->side != 1 && p->side != -1)) {
     return sb_fail(report, SB_ERROR_INPUT, "stop %zu needs a position and a side of +1 or -1", i);
   }
-  if (!(p->stiffness > 0.0) || !(p->restitution >= (rigid ? 0.0 : 0.01)) ||
-      !(p->restitution <= 1.0)) {
-    return sb_fail(report, SB_ERROR_RANGE,
-                   "stop %zu: stiffness must be above 0 and restitution between %g and 1", i,
-                   rigid ? 0.0 : 0.01);
-  }
-  return sb_succeed(report);
+  return SB_CHECK(report, {"", "a stop's stiffness [N/m]", p->stiffness, DBL_MIN, INFINITY},
+                  {"", "its restitution", p->restitution, rigid ? 0.0 : 0.01, 1.0});
 }
 
 SbStatus sb_dynamics_check(const SbDynamicsModel *m, SbReport *report) {
-  if (!(m->mass > 0.0) || !isfinite(m->mass)) {
-    return sb_fail(report, SB_ERROR_RANGE, "the moving mass must be above 0, not %g kg", m->mass);
-  }
-  if (!(m->damping >= 0.0) || !(m->spring_stiffness >= 0.0) || !isfinite(m->damping) ||
-      !isfinite(m->spring_stiffness) || !isfinite(m->spring_preload)) {
-    return sb_fail(report, SB_ERROR_RANGE, "damping and return spring must not be negative");
+  bool driven = m->drive.kind != SB_DRIVE_NONE;
+  bool sprung = driven && m->drive.quantity == SB_DRIVE_OF_POSITION;
+  SbStatus status =
+      SB_CHECK(report, {"", "the moving mass [kg]", m->mass, SB_ABOVE_ZERO},
+               {"", "the stem's damping [N s/m]", m->damping, SB_NOT_NEGATIVE},
+               {"", "the return spring's stiffness [N/m]", m->spring_stiffness, SB_NOT_NEGATIVE},
+               {"", "the return spring's preload [N]", m->spring_preload, SB_FINITE},
+               {"", "the start's position [m]", m->start_position, SB_FINITE},
+               {"", "the start's speed [m/s]", m->start_speed, SB_FINITE},
+               {"", "the rest before the start [s]", m->start_dwell, 0.0, INFINITY},
+               {"", "the tolerance", m->tolerance, 0.0, 1e-5},
+               {"drive.stiffness", "the drive's damping [N s/m]", driven ? m->drive_damping : 0.0,
+                SB_NOT_NEGATIVE},
+               {"drive.stiffness", "the drive's stiffness [N/m]", sprung ? m->drive_stiffness : 1.0,
+                DBL_MIN, 1e300});
+  if (status != SB_OK) {
+    return status;
   }
   if (m->contacts > SB_DYNAMICS_CONTACTS || m->stops > SB_DYNAMICS_STOPS ||
       m->edges > SB_DYNAMICS_EDGES || m->extras > SB_DYNAMICS_EXTRAS) {
     return sb_fail(report, SB_ERROR_RANGE, "too many contacts, stops, edges or extra states");
   }
-  for (size_t i = 0; i < m->contacts; i++) {
-    if (check_contact(m, i, report) != SB_OK) {
-      return SB_ERROR_RANGE;
-    }
+  for (size_t i = 0; i < m->contacts && status == SB_OK; i++) {
+    status = check_contact(m, i, report);
   }
-  for (size_t i = 0; i < m->stops; i++) {
-    if (check_stop(&m->stop[i], i, report) != SB_OK) {
-      return SB_ERROR_RANGE;
-    }
+  for (size_t i = 0; i < m->stops && status == SB_OK; i++) {
+    status = check_stop(&m->stop[i], i, report);
+  }
+  if (status != SB_OK) {
+    return SB_ERROR_RANGE;
   }
   for (size_t i = 0; i < m->edges; i++) {
     if (!isfinite(m->edge[i]) || (i > 0 && !(m->edge[i] > m->edge[i - 1]))) {
@@ -82,21 +86,6 @@ SbStatus sb_dynamics_check(const SbDynamicsModel *m, SbReport *report) {
     if (!(m->extra_scale[i] > 0.0) || !isfinite(m->extra_start[i])) {
       return sb_fail(report, SB_ERROR_RANGE, "extra state %zu needs a start and a scale above 0",
                      i);
-    }
-  }
-  if (!isfinite(m->start_position) || !isfinite(m->start_speed) || !(m->start_dwell >= 0.0)) {
-    return sb_fail(report, SB_ERROR_RANGE, "start position, speed or dwell out of range");
-  }
-  if (!(m->tolerance >= 0.0) || m->tolerance > 1e-5) {
-    return sb_fail(report, SB_ERROR_RANGE, "tolerance must lie between 0 and 1e-5");
-  }
-  if (m->drive.kind != SB_DRIVE_NONE) {
-    bool force = m->drive.quantity == SB_DRIVE_OF_FORCE;
-    if (!(m->drive_damping >= 0.0) || !isfinite(m->drive_damping) ||
-        (!force && !(m->drive_stiffness > 0.0 && m->drive_stiffness < 1e300))) {
-      return sb_fail_parameter(report, SB_ERROR_RANGE, "drive.stiffness",
-                               "the drive needs a finite stiffness above 0, not %g N/m",
-                               m->drive_stiffness);
     }
   }
   return sb_drive_check(&m->drive, report);

@@ -5,6 +5,8 @@
 //   v = v0 phi_0 + f0/m tau phi_1 + f1/m tau^2 phi_2 at u = -C tau/m, and x one order up.
 #include "engine/mechanism/oscillator.h"
 
+#include "engine/numeric/legendre.h"
+
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
@@ -172,33 +174,20 @@ double sb_oscillator_integral_x(const SbOscillator *o, double tau) {
   return tau * (o->x0 + o->trend0 + 0.5 * o->trend1 * tau) + area;
 }
 
-// Gauss-Legendre, 10 points, over (a, b) of v^2 or, for `transient`, of z'^2.
-static double panel_v2(const SbOscillator *o, double a, double b, bool transient) {
-  static const double node[5] = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244,
-                                 0.8650633666889845, 0.9739065285171717};
-  static const double weight[5] = {0.2955242247147529, 0.2692667193099963, 0.2190863625159820,
-                                   0.1494513491505806, 0.0666713443086881};
-  double middle = 0.5 * (a + b), half = 0.5 * (b - a), sum = 0.0;
-  for (int i = 0; i < 10; i++) {
-    double at = middle + (i < 5 ? half : -half) * node[i % 5];
-    double z, v, moved;
-    if (transient) {
-      transient_at(o, at, &z, &v, &moved);
-    } else {
-      sb_oscillator_at(o, at, NULL, &v, NULL);
-    }
-    sum += weight[i % 5] * v * v;
-  }
-  return half * sum;
-}
-
-// Panels that grow from the fastest decay to tau.
+// Integral of v^2 over (0, tau) or, for `transient`, of z'^2: Gauss points in panels that grow from
+// the fastest decay to tau.
 static double graded_v2(const SbOscillator *o, double tau, double rate, bool transient) {
-  double a = 0.0, sum = 0.0;
+  enum { POINTS = 10 };
+  double node[POINTS], weight[POINTS], a = 0.0, sum = 0.0;
   double step = rate > 0.0 ? 0.5 / rate : tau;
+  sb_legendre_gauss(node, weight, POINTS);
   while (a < tau) {
     double b = fmin(tau, a + step);
-    sum += panel_v2(o, a, b, transient);
+    for (int i = 0; i < POINTS; i++) {
+      State s = state_at(o, 0.5 * (a + b) + 0.5 * (b - a) * node[i]);
+      double v = transient ? s.w : s.v;
+      sum += 0.5 * (b - a) * weight[i] * v * v;
+    }
     a = b;
     step *= 1.5;
   }

@@ -1,10 +1,10 @@
 // Outlines of parts. See outline.h.
 #include "engine/mechanism/outline.h"
 
+#include "engine/numeric/root.h"
+
 #include <math.h>
 #include <stdlib.h>
-
-static const double pi = 3.14159265358979323846;
 
 // Pieces that an arc of this chord and bulge needs.
 static size_t divisions(double chord, double bulge, double sagitta) {
@@ -98,25 +98,11 @@ void sb_outline_surface(SbOutlineSurface *out, const SbOutline *outline) {
   }
 }
 
-// The stretch that x lies in, for x within the part.
-static size_t stretch_at(const SbOutlineSurface *s, double x) {
-  size_t low = 0, high = s->count - 1;
-  while (high - low > 1) {
-    size_t middle = (low + high) / 2;
-    if (s->x[middle] <= x) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
-}
-
 bool sb_outline_radii(double *low, double *high, const SbOutlineSurface *s, double x) {
   if (s->count < 2 || !(x >= s->x[0] && x <= s->x[s->count - 1])) {
     return false;
   }
-  size_t k = stretch_at(s, x);
+  size_t k = sb_interval(s->x, s->count, x);
   double f = (x - s->x[k]) / (s->x[k + 1] - s->x[k]);
   *low = s->low_right[k] + f * (s->low_left[k + 1] - s->low_right[k]);
   *high = s->high_right[k] + f * (s->high_left[k + 1] - s->high_right[k]);
@@ -134,7 +120,7 @@ double sb_outline_room(const SbOutlineSurface *s, double radius, double x0, doub
     double a = fmin(radius, s->high_right[k] + rise * (from - s->x[k]) / length);
     double b = fmin(radius, s->high_right[k] + rise * (to - s->x[k]) / length);
     // A cone frustum out of the cylinder; exact where the surface does not cross the cylinder.
-    volume += pi * (to - from) * (radius * radius - (a * a + a * b + b * b) / 3.0);
+    volume += M_PI * (to - from) * (radius * radius - (a * a + a * b + b * b) / 3.0);
   }
   return volume;
 }

@@ -3,6 +3,8 @@
 // halves of a pair start from the rates of the whole step, between its nodes.
 #include "engine/mechanism/radau.h"
 
+#include "engine/numeric/dense.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -21,63 +23,12 @@ static const double butcher[S][S] = {
 // Newton's iteration ends below this share of the tolerance.
 static const double enough = 1e-3;
 
-// LU factors with row exchanges; the diagonal of U as its inverse.
+// Factors of a step's equations.
 typedef struct {
   size_t size;
-  double m[UNKNOWNS][UNKNOWNS], inverse[UNKNOWNS];
-  size_t row[UNKNOWNS];
+  double m[UNKNOWNS * UNKNOWNS];
+  size_t pivot[UNKNOWNS];
 } Factors;
-
-static bool factorise(Factors *f) {
-  for (size_t c = 0; c < f->size; c++) {
-    size_t best = c;
-    for (size_t r = c + 1; r < f->size; r++) {
-      if (fabs(f->m[r][c]) > fabs(f->m[best][c])) {
-        best = r;
-      }
-    }
-    f->row[c] = best;
-    if (f->m[best][c] == 0.0 || !isfinite(f->m[best][c])) {
-      return false;
-    }
-    if (best != c) {
-      for (size_t k = 0; k < f->size; k++) {
-        double swap = f->m[c][k];
-        f->m[c][k] = f->m[best][k];
-        f->m[best][k] = swap;
-      }
-    }
-    f->inverse[c] = 1.0 / f->m[c][c];
-    for (size_t r = c + 1; r < f->size; r++) {
-      double factor = f->m[r][c] *= f->inverse[c];
-      if (factor != 0.0) {
-        for (size_t k = c + 1; k < f->size; k++) {
-          f->m[r][k] -= factor * f->m[c][k];
-        }
-      }
-    }
-  }
-  return true;
-}
-
-static void back_substitute(const Factors *f, double *b) {
-  for (size_t c = 0; c < f->size; c++) {
-    double swap = b[c];
-    b[c] = b[f->row[c]];
-    b[f->row[c]] = swap;
-  }
-  for (size_t r = 0; r < f->size; r++) {
-    for (size_t k = 0; k < r; k++) {
-      b[r] -= f->m[r][k] * b[k];
-    }
-  }
-  for (size_t r = f->size; r-- > 0;) {
-    for (size_t k = r + 1; k < f->size; k++) {
-      b[r] -= f->m[r][k] * b[k];
-    }
-    b[r] *= f->inverse[r];
-  }
-}
 
 static double scale(const SbRadauSystem *s, size_t i, double value) {
   double size = fabs(value) + s->floor[i];
@@ -123,14 +74,14 @@ static bool prepare(Factors *f, size_t n, double h, double j[N][N], SbRadauCount
       for (size_t b = 0; b < S; b++) {
         double factor = h * butcher[a][b];
         for (size_t c = 0; c < n; c++) {
-          f->m[a * n + r][b * n + c] = -factor * j[r][c];
+          f->m[a * n + r + (b * n + c) * f->size] = -factor * j[r][c];
         }
       }
-      f->m[a * n + r][a * n + r] += 1.0;
+      f->m[(a * n + r) * (f->size + 1)] += 1.0;
     }
   }
   counters->factorisations++;
-  return factorise(f);
+  return sb_lu_factor(f->m, f->pivot, f->size);
 }
 
 // The stage rates in `step` are where the iteration starts; `f` is prepared for h. The powers are
@@ -157,7 +108,7 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
     }
     counters->evaluations += S;
     counters->newton_iterations++;
-    back_substitute(f, residual);
+    sb_lu_solve(f->m, f->pivot, residual, f->size);
     double size = 0.0;
     bool rounding = true;
     for (size_t a = 0; a < S; a++) {

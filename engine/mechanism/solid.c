@@ -1,11 +1,10 @@
 // Revolved profiles. See solid.h; meshes are in solid_mesh.c.
 #include "engine/mechanism/solid.h"
 #include "engine/mechanism/solid_internal.h"
+#include "engine/numeric/legendre.h"
 
 #include <float.h>
 #include <math.h>
-
-static const double pi = 3.14159265358979323846;
 
 // One piece of the outline.
 typedef struct {
@@ -48,9 +47,9 @@ static void point_on(const Piece *s, double f, double *x, double *r) {
 // Whether an angle lies on the arc, as a fraction of it.
 static bool on_arc(const Piece *s, double angle, double slack, double *f) {
   double turn = (angle - s->from) * (s->sweep > 0.0 ? 1.0 : -1.0);
-  turn -= 2.0 * pi * floor(turn / (2.0 * pi));
-  if (turn > 2.0 * pi - slack) {
-    turn -= 2.0 * pi;
+  turn -= 2.0 * M_PI * floor(turn / (2.0 * M_PI));
+  if (turn > 2.0 * M_PI - slack) {
+    turn -= 2.0 * M_PI;
   }
   *f = turn / fabs(s->sweep);
   return turn <= fabs(s->sweep) + slack;
@@ -179,22 +178,20 @@ static bool crosses(const SbProfile *p, size_t i, size_t j, double tiny) {
 
 // ---- integrals ----
 
+enum { POINTS = 10 }; // Gauss points of a piece
+
 typedef struct {
   double area, volume, first, third, second; // A, and integrals of r, r x, r^3, r x^2 over it
 } Moments;
 
-static void add_piece(Moments *m, const Piece *s) {
-  static const double node[5] = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244,
-                                 0.8650633666889845, 0.9739065285171717};
-  static const double weight[5] = {0.2955242247147529, 0.2692667193099963, 0.2190863625159820,
-                                   0.1494513491505806, 0.0666713443086881};
+static void add_piece(Moments *m, const Piece *s, const double *node, const double *weight) {
   int panels = s->arc ? 1 + (int)(fabs(s->sweep) / 0.6) : 1;
   for (int panel = 0; panel < panels; panel++) {
-    for (int i = 0; i < 10; i++) {
-      double f = (panel + 0.5 + (i < 5 ? 0.5 : -0.5) * node[i % 5]) / panels, x, r, dx;
+    for (int i = 0; i < POINTS; i++) {
+      double f = (panel + 0.5 + 0.5 * node[i]) / panels, x, r, dx;
       point_on(s, f, &x, &r);
       dx = s->arc ? -s->sweep * (r - s->cr) : s->x1 - s->x0;
-      double w = -0.5 * weight[i % 5] / panels * dx;
+      double w = -0.5 * weight[i] / panels * dx;
       m->area += w * r;
       m->volume += w * r * r / 2.0;
       m->first += w * r * r * x / 2.0;
@@ -205,12 +202,14 @@ static void add_piece(Moments *m, const Piece *s) {
 }
 
 static void moments_of(Moments *m, const SbProfile *p) {
+  double node[POINTS], weight[POINTS];
+  sb_legendre_gauss(node, weight, POINTS);
   *m = (Moments){0};
   size_t n = pieces_of(p);
   for (size_t i = 0; i < n; i++) {
     Piece s;
     piece_at(&s, p, i);
-    add_piece(m, &s);
+    add_piece(m, &s, node, weight);
   }
 }
 
@@ -244,7 +243,7 @@ SbStatus sb_profile_check(const SbProfile *p, SbReport *report) {
       return sb_fail(report, SB_ERROR_INPUT, "piece %zu of the profile has no length", i);
     }
     double bottom;
-    if (s.arc && s.cr - s.radius < -tiny && on_arc(&s, -0.5 * pi, 1e-9, &bottom)) {
+    if (s.arc && s.cr - s.radius < -tiny && on_arc(&s, -0.5 * M_PI, 1e-9, &bottom)) {
       return sb_fail(report, SB_ERROR_INPUT, "arc %zu of the profile dips below the axis", i);
     }
   }
@@ -290,11 +289,11 @@ SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *p, double density, Sb
   }
   Moments m;
   moments_of(&m, &near);
-  *solid = (SbSolid){.volume = 2.0 * pi * m.volume};
+  *solid = (SbSolid){.volume = 2.0 * M_PI * m.volume};
   solid->mass = density * solid->volume;
   double at = m.first / m.volume;
-  double axial = 2.0 * pi * density * m.third;
-  double across = 0.5 * axial + 2.0 * pi * density * (m.second - at * m.first);
+  double axial = 2.0 * M_PI * density * m.third;
+  double across = 0.5 * axial + 2.0 * M_PI * density * (m.second - at * m.first);
   solid->centre[0] = at + 0.5 * (low + high);
   solid->inertia[0][0] = axial;
   solid->inertia[1][1] = across;

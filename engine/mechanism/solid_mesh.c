@@ -2,47 +2,19 @@
 // is inside out if its signed volume is negative.
 #include "engine/mechanism/solid_internal.h"
 #include "engine/mechanism/vector3.h"
+#include "engine/numeric/dense.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// Eigenvalues of a symmetric 3 x 3 matrix by Jacobi rotations, increasing.
 void sb_solid_principal(SbSolid *solid) {
-  double a[3][3];
+  double a[9];
   memcpy(a, solid->inertia, sizeof a);
-  for (int sweep = 0; sweep < 30; sweep++) {
-    for (int p = 0; p < 2; p++) {
-      for (int q = p + 1; q < 3; q++) {
-        if (a[p][q] == 0.0) {
-          continue;
-        }
-        double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-        double t = (theta < 0.0 ? -1.0 : 1.0) / (fabs(theta) + hypot(theta, 1.0));
-        double c = 1.0 / hypot(t, 1.0), s = t * c;
-        for (int k = 0; k < 3; k++) {
-          double kp = a[k][p], kq = a[k][q];
-          a[k][p] = c * kp - s * kq;
-          a[k][q] = s * kp + c * kq;
-        }
-        for (int k = 0; k < 3; k++) {
-          double pk = a[p][k], qk = a[q][k];
-          a[p][k] = c * pk - s * qk;
-          a[q][k] = s * pk + c * qk;
-        }
-      }
-    }
-  }
-  double d[3] = {a[0][0], a[1][1], a[2][2]};
-  for (int i = 0; i < 2; i++) {
-    for (int k = 0; k < 2 - i; k++) {
-      if (d[k] > d[k + 1]) {
-        double swap = d[k];
-        d[k] = d[k + 1];
-        d[k + 1] = swap;
-      }
-    }
-  }
-  memcpy(solid->principal, d, sizeof d);
+  sb_eigen_symmetric(a, NULL, 3);
+  double low = fmin(a[0], fmin(a[4], a[8])), high = fmax(a[0], fmax(a[4], a[8]));
+  solid->principal[0] = low;
+  solid->principal[1] = fmax(fmin(a[0], a[4]), fmin(fmax(a[0], a[4]), a[8]));
+  solid->principal[2] = high;
 }
 
 // ---- closed? ----

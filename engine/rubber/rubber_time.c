@@ -2,6 +2,9 @@
 // header.
 #include "engine/rubber/rubber_time.h"
 
+#include "engine/base/check.h"
+#include "engine/numeric/dense.h"
+
 #include <gsl/gsl_sf_bessel.h>
 #include <math.h>
 
@@ -32,54 +35,12 @@ double sb_rubber_uptake(double fourier) {
 
 // ---- recovery
 
-// Eigenvalues and vectors of a symmetric matrix by Jacobi rotations; n x n by rows, vectors in
-// columns.
-static void jacobi(double a[SB_RUBBER_TERMS][SB_RUBBER_TERMS],
-                   double v[SB_RUBBER_TERMS][SB_RUBBER_TERMS], size_t n) {
-  for (size_t i = 0; i < n; i++) {
-    for (size_t j = 0; j < n; j++) {
-      v[i][j] = i == j ? 1.0 : 0.0;
-    }
-  }
-  for (int sweep = 0; sweep < 60; sweep++) {
-    bool rotated = false;
-    for (size_t p = 0; p + 1 < n; p++) {
-      for (size_t q = p + 1; q < n; q++) {
-        if (fabs(a[p][q]) <= 1e-17 * (fabs(a[p][p]) + fabs(a[q][q]))) {
-          continue;
-        }
-        rotated = true;
-        const double theta = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
-        const double t = copysign(1.0, theta) / (fabs(theta) + sqrt(theta * theta + 1.0));
-        const double c = 1.0 / sqrt(t * t + 1.0);
-        const double s = t * c;
-        for (size_t k = 0; k < n; k++) {
-          const double akp = a[k][p];
-          a[k][p] = c * akp - s * a[k][q];
-          a[k][q] = s * akp + c * a[k][q];
-        }
-        for (size_t k = 0; k < n; k++) {
-          const double apk = a[p][k];
-          a[p][k] = c * apk - s * a[q][k];
-          a[q][k] = s * apk + c * a[q][k];
-          const double vkp = v[k][p];
-          v[k][p] = c * vkp - s * v[k][q];
-          v[k][q] = s * vkp + c * v[k][q];
-        }
-      }
-    }
-    if (!rotated) {
-      break;
-    }
-  }
-}
-
 double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t terms, double hold,
                                   double recovery) {
   // Free of stress the strain is e = sum g_j e_j and e_i' = (e - e_i)/tau_i. With y_i = sqrt(g_i
   // tau_i) e_i the matrix v v^T - diag(1/tau), v_i = sqrt(g_i/tau_i), is symmetric and negative.
-  double a[SB_RUBBER_TERMS][SB_RUBBER_TERMS];
-  double vectors[SB_RUBBER_TERMS][SB_RUBBER_TERMS];
+  double a[SB_RUBBER_TERMS * SB_RUBBER_TERMS];
+  double vectors[SB_RUBBER_TERMS * SB_RUBBER_TERMS];
   double start[SB_RUBBER_TERMS];
   size_t n = 0;
   double v[SB_RUBBER_TERMS];
@@ -94,20 +55,20 @@ double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t ter
   }
   for (size_t i = 0; i < n; i++) {
     for (size_t j = 0; j < n; j++) {
-      a[i][j] = v[i] * v[j] - (i == j ? rate[i] : 0.0);
+      a[i + j * n] = v[i] * v[j] - (i == j ? rate[i] : 0.0);
     }
   }
-  jacobi(a, vectors, n);
+  sb_eigen_symmetric(a, vectors, n);
   // e(recovery) = sum g_j e_j = sum_j sqrt(g_j/tau_j) y_j.
   double strain = 0.0;
   for (size_t k = 0; k < n; k++) {
     double from = 0.0;
     double to = 0.0;
     for (size_t i = 0; i < n; i++) {
-      from += vectors[i][k] * start[i];
-      to += vectors[i][k] * v[i];
+      from += vectors[i + k * n] * start[i];
+      to += vectors[i + k * n] * v[i];
     }
-    strain += to * exp(a[k][k] * recovery) * from;
+    strain += to * exp(a[k + k * n] * recovery) * from;
   }
   return fmax(0.0, strain);
 }
@@ -115,30 +76,34 @@ double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t ter
 // ---- state
 
 static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *report) {
-  if (!(in->section_diameter > 0.0 && in->inner_diameter > 0.0 && in->radial_space > 0.0 &&
-        in->modulus > 0.0 && isfinite(in->section_diameter + in->inner_diameter) &&
-        isfinite(in->radial_space + in->modulus))) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.section_diameter",
-                             "sizes and modulus of the ring must be positive and finite");
-  }
-  if (!(in->storage_time >= 0.0 && isfinite(in->storage_time) && in->recovery_time >= 0.0)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "storage.time",
-                             "storage time %g s and recovery time %g s must not be negative",
-                             in->storage_time, in->recovery_time);
-  }
-  if (!(in->temperature > 0.0 && isfinite(in->temperature) && r->reference_temperature > 0.0 &&
-        isfinite(r->reference_temperature))) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "storage.temperature",
-                             "temperature %g K and reference %g K must be positive",
-                             in->temperature, r->reference_temperature);
-  }
+  // Densities matter for a rubber that swells only.
+  const double least = r->swell_mass > 0.0 ? DBL_MIN : 0.0;
+  SbStatus status = SB_CHECK(
+      report,
+      {"seal.section_diameter", "the section diameter [m]", in->section_diameter, SB_ABOVE_ZERO},
+      {"seal.section_diameter", "the inner diameter [m]", in->inner_diameter, SB_ABOVE_ZERO},
+      {"seal.section_diameter", "the radial space [m]", in->radial_space, SB_ABOVE_ZERO},
+      {"seal.section_diameter", "the modulus [Pa]", in->modulus, SB_ABOVE_ZERO},
+      {"storage.time", "the storage time [s]", in->storage_time, SB_NOT_NEGATIVE},
+      {"storage.time", "the recovery time [s]", in->recovery_time, 0.0, INFINITY},
+      {"storage.temperature", "the temperature [K]", in->temperature, SB_ABOVE_ZERO},
+      {"storage.temperature", "the reference [K]", r->reference_temperature, SB_ABOVE_ZERO},
+      {"rubber.network_rate", "the network's rate [1/s]", r->network_rate, 0.0, INFINITY},
+      {"rubber.network_rate", "the reformed share", r->network_reform, 0.0, 1.0},
+      {"rubber.swell_mass", "swell by mass", r->swell_mass, SB_NOT_NEGATIVE},
+      {"rubber.swell_mass", "diffusion [m2/s]", r->diffusion, SB_NOT_NEGATIVE},
+      {"rubber.swell_mass", "the swollen modulus over the dry", r->swell_modulus, SB_NOT_NEGATIVE},
+      {"rubber.swell_mass", "the rubber's density [kg/m3]", r->rubber_density, least, INFINITY},
+      {"rubber.swell_mass", "the fluid's density [kg/m3]", r->fluid_density, least, INFINITY});
   double sum = 0.0;
-  for (size_t i = 0; i < r->terms && i < SB_RUBBER_TERMS; i++) {
-    if (!(r->g[i] >= 0.0 && r->tau[i] > 0.0 && isfinite(r->tau[i]))) {
-      return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.relaxation_share_1",
-                               "Prony term %zu: share %g, time %g s", i + 1, r->g[i], r->tau[i]);
-    }
+  for (size_t i = 0; i < r->terms && i < SB_RUBBER_TERMS && status == SB_OK; i++) {
+    status = SB_CHECK(report,
+                      {"rubber.relaxation_share_1", "a Prony term's share", r->g[i], 0.0, INFINITY},
+                      {"rubber.relaxation_share_1", "its time [s]", r->tau[i], SB_ABOVE_ZERO});
     sum += r->g[i];
+  }
+  if (status != SB_OK) {
+    return status;
   }
   if (r->terms > SB_RUBBER_TERMS || !(sum < 1.0)) {
     return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.relaxation_share_1",
@@ -150,18 +115,6 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
     return sb_fail_parameter(report, SB_ERROR_RANGE, "storage.temperature",
                              "%.4g K is at or below the pole of the WLF shift at %.4g K",
                              in->temperature, r->reference_temperature - r->wlf_c2);
-  }
-  if (!(r->network_rate >= 0.0 && r->network_reform >= 0.0 && r->network_reform <= 1.0)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.network_rate",
-                             "network rate %g 1/s or reformed share %g makes no sense",
-                             r->network_rate, r->network_reform);
-  }
-  if (!(r->swell_mass >= 0.0 && r->diffusion >= 0.0 && r->swell_modulus >= 0.0 &&
-        isfinite(r->swell_mass + r->diffusion + r->swell_modulus)) ||
-      (r->swell_mass > 0.0 && !(r->rubber_density > 0.0 && r->fluid_density > 0.0))) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.swell_mass",
-                             "swell of %g by mass with diffusion %g m2/s makes no sense",
-                             r->swell_mass, r->diffusion);
   }
   return SB_OK;
 }

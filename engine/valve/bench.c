@@ -4,6 +4,7 @@
 // other program's answer, but this one's on meshes of 8000 to 10000 unknowns, which agree to 3e-4.
 #include "engine/valve/bench.h"
 
+#include "engine/base/clock.h"
 #include "engine/contact/fit.h"
 #include "engine/contact/ring/ring.h"
 #include "engine/contact/rough/greenwood_tripp.h"
@@ -16,7 +17,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 typedef enum { ASPERITY, WEDGE, FILM, DISC, RING, RING_STEP, CYCLE } Kind;
 
@@ -57,12 +57,6 @@ static const Case cases[] = {
 
 size_t sb_bench_count(void) {
   return sizeof cases / sizeof cases[0];
-}
-
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 static double relative(double value, double expected) {
@@ -213,13 +207,13 @@ static SbStatus run_ring_step(SbBenchCase *out, const Case *c, SbReport *report)
   if (status == SB_OK) {
     sb_ring_result(ring, &before);
   }
-  double start = now();
+  double start = sb_clock_seconds();
   for (int i = 0; i < STEPS && status == SB_OK; i++) {
     load.bore_position += 1e-5;
     load.pressure_left *= 1.01;
     status = sb_ring_step(ring, &load, report);
   }
-  out->wall_s = (now() - start) / STEPS;
+  out->wall_s = (sb_clock_seconds() - start) / STEPS;
   if (status == SB_OK) {
     sb_ring_result(ring, &after);
   }
@@ -325,11 +319,11 @@ SbStatus sb_bench_run(SbBenchCase *out, size_t index, int repeats, const SbBench
   double wall[REPEATS_MAX];
   int n = repeats < 1 ? 1 : repeats > REPEATS_MAX ? REPEATS_MAX : repeats;
   for (int i = 0; i < n && status == SB_OK; i++) {
-    double start = now();
+    double start = sb_clock_seconds();
     out->wall_s = 0;
     status = run_once(out, c, report);
     // A case that times a part of itself has said so.
-    wall[i] = out->wall_s > 0 ? out->wall_s : now() - start;
+    wall[i] = out->wall_s > 0 ? out->wall_s : sb_clock_seconds() - start;
   }
   qsort(wall, (size_t)n, sizeof *wall, compare);
   out->wall_s = wall[n / 2];

@@ -1,6 +1,9 @@
 // Plans the segments of the quasi-static cycle and evaluates them; the equations are in cycle.h.
 #include "engine/valve/cycle.h"
 
+#include "engine/numeric/legendre.h"
+#include "engine/numeric/root.h"
+
 #include <math.h>
 
 // ---------------------------------------------------------------------------------------------------
@@ -102,6 +105,21 @@ static double balance_force(const SbCycle *cycle, SbChamber chamber, int directi
          sign * sb_cycle_friction(cycle, chamber, direction, s);
 }
 
+// A platen's position and where in the cycle it stands.
+typedef struct {
+  const SbCycle *cycle;
+  SbChamber chamber;
+  int direction;
+  double platen;
+} Place;
+
+// dX/ds of balanced sliding at s.
+static double platen_rate(const Place *p, double s) {
+  double sign = p->direction == SB_CYCLE_IN ? 1 : -1;
+  return 1 + sign * friction_slope(p->cycle, p->chamber, p->direction, s) /
+                 p->cycle->states.model->stiffness;
+}
+
 double sb_cycle_force(const SbCycle *cycle, double X, double s) {
   return fmax(cycle->states.model->stiffness * (X - s), 0);
 }
@@ -109,49 +127,35 @@ double sb_cycle_force(const SbCycle *cycle, double X, double s) {
 // ---------------------------------------------------------------------------------------------------
 // Evaluation inside a segment
 
+// How far the balance of a stem at s needs the platen beyond X, rising with s.
+static double platen_beyond(double *slope, double s, const void *context) {
+  const Place *p = context;
+  double k = p->cycle->states.model->stiffness;
+  *slope = platen_rate(p, s);
+  return s + balance_force(p->cycle, p->chamber, p->direction, s) / k - p->platen;
+}
+
 double sb_cycle_stem(const SbCycle *cycle, const SbCycleSegment *segment, double X) {
   if (segment->mode != SB_CYCLE_SLIP) {
     return segment->stem0;
   }
-  // X(s) = s + G(s)/k increases with s inside a segment (jumps are cut out when it is planned), so
-  // bisection-guarded Newton always finds it.
-  double k = cycle->states.model->stiffness;
-  double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
+  // X(s) = s + G(s)/k increases with s inside a segment: jumps are cut out when it is planned.
   double low = fmin(segment->stem0, segment->stem1);
   double high = fmax(segment->stem0, segment->stem1);
   double span = segment->platen1 - segment->platen0;
-  double s = span != 0 ? segment->stem0 +
-                             (segment->stem1 - segment->stem0) * ((X - segment->platen0) / span)
-                       : segment->stem1;
-  for (int i = 0; i < 60; i++) {
-    s = fmin(fmax(s, low), high);
-    double miss = s + balance_force(cycle, segment->chamber, segment->direction, s) / k - X;
-    if (miss > 0) {
-      high = s;
-    } else {
-      low = s;
-    }
-    double slope = 1 + sign * friction_slope(cycle, segment->chamber, segment->direction, s) / k;
-    double next = s - miss / slope;
-    if (!(next > low && next < high)) {
-      next = (low + high) / 2;
-    }
-    if (fabs(next - s) <= 4e-16 * (fabs(s) + fabs(X))) {
-      return next;
-    }
-    s = next;
-  }
-  return s;
+  double share = span != 0 ? (X - segment->platen0) / span : 1;
+  const Place place = {cycle, segment->chamber, segment->direction, X};
+  return sb_newton_bracketed(platen_beyond, &place, low, high,
+                             segment->stem0 + (segment->stem1 - segment->stem0) * share);
 }
 
 double sb_cycle_stem_rate(const SbCycle *cycle, const SbCycleSegment *segment, double s) {
   if (segment->mode != SB_CYCLE_SLIP) {
     return 0;
   }
-  double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
-  double slope = friction_slope(cycle, segment->chamber, segment->direction, s);
+  const Place place = {cycle, segment->chamber, segment->direction, 0};
   // On the brink of a jump the rate has no bound; a thousand times the platen's stands for it.
-  return 1 / fmax(1 + sign * slope / cycle->states.model->stiffness, 1e-3);
+  return 1 / fmax(platen_rate(&place, s), 1e-3);
 }
 
 double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, double X, double s,
@@ -245,20 +249,21 @@ static double piece_end(const Planner *p) {
   return best;
 }
 
-// Root of h(s) = k (X - s) - G(s) between a (h > 0 inside the jump) and b (h <= 0), by bisection.
-static double jump_target(const Planner *p, double a, double b) {
-  double k = p->cycle->states.model->stiffness;
-  double sign = b > a ? 1 : -1;
-  for (int i = 0; i < 200 && fabs(b - a) > 1e-16; i++) {
-    double s = (a + b) / 2;
-    double h = k * (p->X - s) - balance_force(p->cycle, p->chamber, p->direction, s);
-    if (sign * h > 0) {
-      a = s;
-    } else {
-      b = s;
-    }
-  }
-  return (a + b) / 2;
+// Force on a stem at s beyond the balance, in the direction of sliding.
+static double excess_force(double s, const void *context) {
+  const Place *p = context;
+  double sign = p->direction == SB_CYCLE_IN ? 1 : -1;
+  return sign * (p->cycle->states.model->stiffness * (p->platen - s) -
+                 balance_force(p->cycle, p->chamber, p->direction, s));
+}
+
+static double rate_at(double s, const void *context) {
+  return platen_rate(context, s);
+}
+
+static double balance_at(double s, const void *context) {
+  const Place *p = context;
+  return balance_force(p->cycle, p->chamber, p->direction, s);
 }
 
 // The stage that lies at the end of a piece, or -1; also switches the chamber after it.
@@ -293,84 +298,58 @@ static void switch_chamber(Planner *p) {
   }
 }
 
+// Jumps to the first balance ahead, or through the whole piece that ends at `end`.
+static void jump(Planner *p, const Place *place, double end) {
+  double target = excess_force(end, place) > 0 ? end : sb_bisect(excess_force, place, p->s, end);
+  emit(p, SB_CYCLE_JUMP, p->X, target, target == end ? event_at(p, end) : -1);
+  switch_chamber(p);
+}
+
 // Slides from the present point in the present direction until the stem sticks, stops, or (on the
 // way out) is left by the platen. Forces balance at entry unless a jump is due.
 static void slide(Planner *p) {
   const SbModel *model = p->cycle->states.model;
   double k = model->stiffness;
-  double sign = p->direction == SB_CYCLE_IN ? 1 : -1;
-  while (!p->full) {
-    double limit = p->direction == SB_CYCLE_IN ? model->stroke : 0;
-    if (p->s == limit) {
-      return;
-    }
-    double balance = balance_force(p->cycle, p->chamber, p->direction, p->s);
-    double excess = sign * (sb_cycle_force(p->cycle, p->X, p->s) - balance);
+  bool out = p->direction == SB_CYCLE_OUT;
+  while (!p->full && p->s != (out ? 0 : model->stroke)) {
+    const Place place = {p->cycle, p->chamber, p->direction, p->X};
+    double balance = balance_at(p->s, &place);
+    double excess = (out ? -1 : 1) * (sb_cycle_force(p->cycle, p->X, p->s) - balance);
     double noise =
         1e-12 * (fabs(balance) + model->pressure_force) + 8 * 2.3e-16 * k * (p->X + p->s);
     double end = piece_end(p);
 
-    if (excess < -noise || (p->direction == SB_CYCLE_OUT && balance < 0)) {
+    if (excess < -noise || (out && balance < 0)) {
       return; // resistance has risen above the force: the stem sticks
     }
     if (excess > noise) {
-      // Too much force for balance: jump to the first balance, or through the whole piece.
-      double h_end =
-          sign * (k * (p->X - end) - balance_force(p->cycle, p->chamber, p->direction, end));
-      double target = h_end > 0 ? end : jump_target(p, p->s, end);
-      emit(p, SB_CYCLE_JUMP, p->X, target, target == end ? event_at(p, end) : -1);
-      switch_chamber(p);
+      jump(p, &place, end);
       continue;
     }
 
     // Balanced sliding, up to where dX/ds changes sign (the middle of the edge is a piece end, so
     // the slope is monotonic and there is at most one such point).
     double turn = end;
-    double slope_start = 1 + sign * friction_slope(p->cycle, p->chamber, p->direction, p->s) / k;
-    double inside = end - (end - p->s) * 1e-9;
-    double slope_end = 1 + sign * friction_slope(p->cycle, p->chamber, p->direction, inside) / k;
-    if (slope_start > 0 && slope_end < 0) {
-      double a = p->s;
-      double b = end;
-      for (int i = 0; i < 100; i++) {
-        turn = (a + b) / 2;
-        if (1 + sign * friction_slope(p->cycle, p->chamber, p->direction, turn) / k > 0) {
-          a = turn;
-        } else {
-          b = turn;
-        }
-      }
-    } else if (slope_start <= 0 && slope_end <= 0) {
+    bool unstable_end = rate_at(end - (end - p->s) * 1e-9, &place) <= 0;
+    if (rate_at(p->s, &place) > 0 && unstable_end) {
+      turn = sb_bisect(rate_at, &place, p->s, end);
+    } else if (unstable_end) {
       turn = p->s;
     }
-    if (p->direction == SB_CYCLE_OUT &&
-        balance_force(p->cycle, p->chamber, p->direction, turn) < 0) {
+    if (out && balance_at(turn, &place) < 0) {
       // Friction overtakes the pressure inside this piece: the platen leaves where they are equal.
-      double a = p->s;
-      double b = turn;
-      for (int i = 0; i < 100; i++) {
-        turn = (a + b) / 2;
-        if (balance_force(p->cycle, p->chamber, p->direction, turn) > 0) {
-          a = turn;
-        } else {
-          b = turn;
-        }
-      }
+      turn = sb_bisect(balance_at, &place, p->s, turn);
       emit(p, SB_CYCLE_SLIP, turn, turn, -1);
       return;
     }
     if (turn == p->s) {
       // At the very edge of stability: step over the hump by the smallest jump.
       p->s = nextafter(p->s, end);
-      double h_end =
-          sign * (k * (p->X - end) - balance_force(p->cycle, p->chamber, p->direction, end));
-      double target = h_end > 0 ? end : jump_target(p, p->s, end);
-      emit(p, SB_CYCLE_JUMP, p->X, target, target == end ? event_at(p, end) : -1);
-      switch_chamber(p);
+      jump(p, &place, end);
       continue;
     }
-    double X1 = turn + balance_force(p->cycle, p->chamber, p->direction, turn) / k;
-    emit(p, SB_CYCLE_SLIP, X1, turn, turn == end ? event_at(p, turn) : -1);
+    emit(p, SB_CYCLE_SLIP, turn + balance_at(turn, &place) / k, turn,
+         turn == end ? event_at(p, turn) : -1);
     switch_chamber(p);
   }
 }
@@ -449,26 +428,23 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
 // ---------------------------------------------------------------------------------------------------
 // Energy
 
-// Gauss-Legendre on [0, 1], 16 points: abscissae and weights of the upper half of [-1, 1].
-static const double gauss_x[8] = {0.0950125098376374402, 0.281603550779258913, 0.458016777657227386,
-                                  0.617876244402643748,  0.755404408355003034, 0.865631202387831744,
-                                  0.944575023073232576,  0.989400934991649933};
-static const double gauss_w[8] = {
-    0.189450610455068496, 0.182603415044923589,  0.169156519395002538,  0.149595988816576732,
-    0.124628971255533872, 0.0951585116824927848, 0.0622535239386478929, 0.0271524594117540949};
+// Gauss points of a segment and what is integrated over it.
+enum { POINTS = 16 };
+
+typedef struct {
+  const SbCycle *cycle;
+  double node[POINTS], weight[POINTS];
+} Rule;
 
 typedef double Integrand(const SbCycle *, const SbCycleSegment *, double);
 
-static double quadrature(const SbCycle *cycle, const SbCycleSegment *segment, double a, double b,
+static double quadrature(const Rule *rule, const SbCycleSegment *segment, double a, double b,
                          Integrand *f) {
   double sum = 0;
-  double middle = (a + b) / 2;
-  double half = (b - a) / 2;
-  for (int i = 0; i < 8; i++) {
-    sum += gauss_w[i] * (f(cycle, segment, middle + half * gauss_x[i]) +
-                         f(cycle, segment, middle - half * gauss_x[i]));
+  for (int i = 0; i < POINTS; i++) {
+    sum += rule->weight[i] * f(rule->cycle, segment, (a + b) / 2 + (b - a) / 2 * rule->node[i]);
   }
-  return sum * half;
+  return sum * (b - a) / 2;
 }
 
 // The platen's work and the loop are integrated over X, friction over s: separate evaluations of
@@ -491,6 +467,8 @@ static double jump_excess(const SbCycle *cycle, const SbCycleSegment *segment, d
 void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
   const SbModel *model = cycle->states.model;
   double k = model->stiffness;
+  Rule rule = {.cycle = cycle};
+  sb_legendre_gauss(rule.node, rule.weight, POINTS);
   *out = (SbEnergy){0};
   for (size_t i = 0; i < cycle->count; i++) {
     const SbCycleSegment *segment = &cycle->segment[i];
@@ -500,18 +478,15 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
 
     // Where the platen leaves the stem the force has a corner: X = s.
     double corner = fmin(fmax(segment->stem0, fmin(X0, X1)), fmax(X0, X1));
-    if (segment->mode == SB_CYCLE_STICK) {
-      out->external += quadrature(cycle, segment, X0, corner, force_of_platen) +
-                       quadrature(cycle, segment, corner, X1, force_of_platen);
-    } else if (segment->mode == SB_CYCLE_SLIP) {
-      out->external += quadrature(cycle, segment, X0, X1, force_of_platen);
-      out->friction +=
-          fabs(quadrature(cycle, segment, segment->stem0, segment->stem1, friction_of_stem));
+    double rubbed =
+        fabs(quadrature(&rule, segment, segment->stem0, segment->stem1, friction_of_stem));
+    if (segment->mode == SB_CYCLE_JUMP) {
+      out->seal += quadrature(&rule, segment, segment->stem0, segment->stem1, jump_excess);
     } else {
-      out->friction +=
-          fabs(quadrature(cycle, segment, segment->stem0, segment->stem1, friction_of_stem));
-      out->seal += quadrature(cycle, segment, segment->stem0, segment->stem1, jump_excess);
+      out->external += quadrature(&rule, segment, X0, corner, force_of_platen) +
+                       quadrature(&rule, segment, corner, X1, force_of_platen);
     }
+    out->friction += rubbed;
     out->external -= model->pressure_force * ds;
     out->external_max = fmax(out->external_max, fabs(out->external));
 
@@ -522,10 +497,8 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
     // +- f.
     if (segment->mode == SB_CYCLE_JUMP) {
       out->loop += (force0 + force1) / 2 * ds;
-    } else if (segment->mode == SB_CYCLE_SLIP) {
-      double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
-      out->loop += model->pressure_force * ds + sign * quadrature(cycle, segment, segment->stem0,
-                                                                  segment->stem1, friction_of_stem);
+    } else {
+      out->loop += model->pressure_force * ds + rubbed;
     }
   }
   double sum = out->friction + out->stored + out->seal + out->kinetic + out->stop;

@@ -226,7 +226,7 @@ static void test_refused(void) {
   g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
   load = groove();
   load.bore_radius = NAN;
-  g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_INPUT);
+  g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_RANGE);
   SbRingBody body = BODY;
   body.poisson_ratio = 0.5;
   load = groove();

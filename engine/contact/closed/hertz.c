@@ -2,28 +2,14 @@
 // header.
 #include "engine/contact/closed/hertz.h"
 
+#include "engine/base/check.h"
+#include "engine/numeric/root.h"
+
 #include <math.h>
 
 double sb_hertz_half_width(double load_per_length, double radius, double reduced_modulus) {
   return load_per_length > 0.0 ? sqrt(8.0 * load_per_length * radius / (M_PI * reduced_modulus))
                                : 0.0;
-}
-
-static bool positive(double value) {
-  return isfinite(value) && value > 0.0;
-}
-
-static SbStatus check(double radius, double reduced_modulus, double disc_modulus,
-                      SbReport *report) {
-  if (!positive(radius)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.section_diameter",
-                             "contact radius %g m is not positive", radius);
-  }
-  if (!positive(reduced_modulus) || !positive(disc_modulus)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.modulus",
-                             "modulus %g Pa is not positive", disc_modulus);
-  }
-  return SB_OK;
 }
 
 // Fills everything from the half-width.
@@ -45,16 +31,23 @@ static void warn_width(SbWarnings *warnings, double b, double radius) {
   }
 }
 
+// Approach over k R, less the one wanted, at half-width t R.
+static double approach_of_width(double *slope, double t, const void *target) {
+  *slope = 4.0 * t * (log(4.0 / t) - 1.0);
+  return t * t * (2.0 * log(4.0 / t) - 1.0) - *(const double *)target;
+}
+
 SbStatus sb_hertz_from_approach(SbHertz *out, double approach, double radius,
                                 double reduced_modulus, double disc_modulus, SbWarnings *warnings,
                                 SbReport *report) {
   *out = (SbHertz){0};
-  SbStatus status = check(radius, reduced_modulus, disc_modulus, report);
+  SbStatus status =
+      SB_CHECK(report, {"seal.section_diameter", "the contact's radius [m]", radius, SB_ABOVE_ZERO},
+               {"seal.modulus", "the reduced modulus [Pa]", reduced_modulus, SB_ABOVE_ZERO},
+               {"seal.modulus", "the disc's modulus [Pa]", disc_modulus, SB_ABOVE_ZERO},
+               {"", "the approach [m]", approach, SB_FINITE});
   if (status != SB_OK) {
     return status;
-  }
-  if (!isfinite(approach)) {
-    return sb_fail(report, SB_ERROR_RANGE, "approach is not a finite number");
   }
   if (!(approach > 0.0)) {
     sb_warn(warnings, "no-contact", "gland.radial_space",
@@ -63,34 +56,14 @@ SbStatus sb_hertz_from_approach(SbHertz *out, double approach, double radius,
   }
 
   // With t = b/R the approach is k t^2 (2 ln(4/t) - 1) R, rising up to t = 4/e and
-  // meaningful below t = 1. Newton's iteration, guarded by bisection.
-  const double k = reduced_modulus / (4.0 * disc_modulus);
-  const double target = approach / (k * radius);
-  const double top = 1.0;
+  // meaningful below t = 1.
+  const double target = 4.0 * disc_modulus / reduced_modulus * approach / radius;
   if (target >= 2.0 * log(4.0) - 1.0) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.radial_space",
                              "an approach of %.3g radii makes Hertz's contact wider than the disc",
                              approach / radius);
   }
-  double low = 0.0;
-  double high = top;
-  double t = sqrt(target / 6.0);
-  for (int i = 0; i < 200; i++) {
-    double value = t * t * (2.0 * log(4.0 / t) - 1.0) - target;
-    if (value > 0.0) {
-      high = t;
-    } else {
-      low = t;
-    }
-    double next = t - value / (4.0 * t * (log(4.0 / t) - 1.0));
-    if (!(next > low && next < high)) {
-      next = 0.5 * (low + high);
-    }
-    if (fabs(next - t) <= 4e-16 * t) {
-      break;
-    }
-    t = next;
-  }
+  double t = sb_newton_bracketed(approach_of_width, &target, 0.0, 1.0, sqrt(target / 6.0));
   fill(out, t * radius, radius, reduced_modulus, disc_modulus);
   warn_width(warnings, out->half_width, radius);
   return sb_succeed(report);

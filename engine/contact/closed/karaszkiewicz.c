@@ -1,44 +1,21 @@
 // Karaszkiewicz's ring in its groove, thesis eq. 5.1-5.7; see the header.
 #include "engine/contact/closed/karaszkiewicz.h"
 
+#include "engine/base/check.h"
+
 #include <math.h>
-
-static bool positive(double value) {
-  return isfinite(value) && value > 0.0;
-}
-
-static SbStatus check(const SbKaraszkiewiczInput *in, SbReport *report) {
-  if (!positive(in->section_diameter)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.section_diameter",
-                             "section diameter %g m is not positive", in->section_diameter);
-  }
-  if (!positive(in->inner_diameter)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.inner_diameter",
-                             "inner diameter %g m is not positive", in->inner_diameter);
-  }
-  if (!positive(in->radial_space)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "gland.radial_space",
-                             "radial space %g m is not positive", in->radial_space);
-  }
-  if (!positive(in->modulus)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.modulus",
-                             "modulus %g Pa is not positive", in->modulus);
-  }
-  if (!(in->poisson_ratio >= 0.0 && in->poisson_ratio < 0.5)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.poisson_ratio",
-                             "Poisson's ratio %g is not in [0, 0.5)", in->poisson_ratio);
-  }
-  if (!isfinite(in->pressure)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.pressure",
-                             "pressure is not a finite number");
-  }
-  return SB_OK;
-}
 
 SbStatus sb_karaszkiewicz(SbKaraszkiewicz *out, const SbKaraszkiewiczInput *in,
                           SbWarnings *warnings, SbReport *report) {
   *out = (SbKaraszkiewicz){0};
-  SbStatus status = check(in, report);
+  SbStatus status = SB_CHECK(
+      report,
+      {"seal.section_diameter", "the section diameter [m]", in->section_diameter, SB_ABOVE_ZERO},
+      {"seal.inner_diameter", "the inner diameter [m]", in->inner_diameter, SB_ABOVE_ZERO},
+      {"gland.radial_space", "the radial space [m]", in->radial_space, SB_ABOVE_ZERO},
+      {"seal.modulus", "the modulus [Pa]", in->modulus, SB_ABOVE_ZERO},
+      {"seal.poisson_ratio", "Poisson's ratio", in->poisson_ratio, SB_POISSON},
+      {"canister.pressure", "the pressure [Pa]", in->pressure, SB_FINITE});
   if (status != SB_OK) {
     return status;
   }

@@ -7,7 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/base/check.h"
 #include "engine/contact/disc/disc_system.h"
+#include "engine/numeric/dense.h"
 
 enum { NEWTON_MAX = 40 };
 
@@ -32,34 +34,9 @@ static double edge_residuals(SbDiscSystem *s, const double *v, size_t count, dou
   return norm;
 }
 
-// Cramer's rule; the Jacobian has one or three columns.
-static bool small_solve(double a[3][3], const double *b, double *x, size_t n) {
-  if (n == 1) {
-    x[0] = b[0] / a[0][0];
-    return isfinite(x[0]);
-  }
-  double cofactor[3][3];
-  for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 3; j++) {
-      const int i1 = (i + 1) % 3;
-      const int i2 = (i + 2) % 3;
-      const int j1 = (j + 1) % 3;
-      const int j2 = (j + 2) % 3;
-      cofactor[i][j] = a[i1][j1] * a[i2][j2] - a[i1][j2] * a[i2][j1];
-    }
-  }
-  const double det = a[0][0] * cofactor[0][0] + a[0][1] * cofactor[0][1] + a[0][2] * cofactor[0][2];
-  bool finite = true;
-  for (int j = 0; j < 3; j++) {
-    x[j] = (b[0] * cofactor[0][j] + b[1] * cofactor[1][j] + b[2] * cofactor[2][j]) / det;
-    finite = finite && isfinite(x[j]);
-  }
-  return finite;
-}
-
-// Derivatives of the residuals by the edges, carried from one solve to the next.
+// Derivatives of the residuals by the edges, by columns, carried from one solve to the next.
 typedef struct {
-  double a[3][3];
+  double a[9];
   bool known;
 } Jacobian;
 
@@ -77,7 +54,7 @@ static bool differentiate(SbDiscSystem *s, const double *v, const double *r, siz
       return false;
     }
     for (size_t i = 0; i < count; i++) {
-      jacobian->a[i][j] = (rj[i] - r[i]) / h;
+      jacobian->a[i + j * count] = (rj[i] - r[i]) / h;
     }
   }
   jacobian->known = true;
@@ -94,10 +71,10 @@ static void correct(Jacobian *jacobian, const double *step, const double *before
   for (size_t i = 0; i < count && square > 0.0; i++) {
     double miss = after[i] - before[i];
     for (size_t j = 0; j < count; j++) {
-      miss -= jacobian->a[i][j] * step[j];
+      miss -= jacobian->a[i + j * count] * step[j];
     }
     for (size_t j = 0; j < count; j++) {
-      jacobian->a[i][j] += miss * step[j] / square;
+      jacobian->a[i + j * count] += miss * step[j] / square;
     }
   }
 }
@@ -123,8 +100,10 @@ static bool newton(SbDiscSystem *s, double *v, size_t count, double tolerance, J
       }
       fresh = true;
     }
-    double step[3];
-    if (!small_solve(jacobian->a, r, step, count)) {
+    double step[3], a[9];
+    memcpy(step, r, count * sizeof(double));
+    memcpy(a, jacobian->a, sizeof a);
+    if (!sb_eliminate(a, step, count)) {
       jacobian->known = false;
       if (fresh) {
         return false;
@@ -239,26 +218,15 @@ static Figures figures(const SbDiscSystem *s, SbDiscEdges edges) {
 // ---- solve
 
 static SbStatus check(const SbDiscProblem *in, SbReport *report) {
-  const bool sizes =
-      isfinite(in->diameter) && in->diameter > 0.0 && isfinite(in->space) && in->space > 0.0;
-  if (!sizes) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.section_diameter",
-                             "disc of %g m in a space of %g m: not both positive", in->diameter,
-                             in->space);
-  }
-  if (!(isfinite(in->modulus) && in->modulus > 0.0)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.modulus",
-                             "modulus %g Pa is not positive", in->modulus);
-  }
-  if (!(in->poisson_ratio >= 0.0 && in->poisson_ratio < 0.5)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.poisson_ratio",
-                             "Poisson's ratio %g is not in [0, 0.5)", in->poisson_ratio);
-  }
-  if (!(in->pressure_left >= 0.0 && isfinite(in->pressure_left) && in->pressure_right >= 0.0 &&
-        isfinite(in->pressure_right))) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.pressure",
-                             "pressures %g and %g Pa are not both finite and at least 0",
-                             in->pressure_left, in->pressure_right);
+  SbStatus status =
+      SB_CHECK(report, {"seal.section_diameter", "the diameter [m]", in->diameter, SB_ABOVE_ZERO},
+               {"seal.section_diameter", "the space [m]", in->space, SB_ABOVE_ZERO},
+               {"seal.modulus", "the modulus [Pa]", in->modulus, SB_ABOVE_ZERO},
+               {"seal.poisson_ratio", "Poisson's ratio", in->poisson_ratio, SB_POISSON},
+               {"canister.pressure", "the pressure [Pa]", in->pressure_left, SB_NOT_NEGATIVE},
+               {"canister.pressure", "the pressure [Pa]", in->pressure_right, SB_NOT_NEGATIVE});
+  if (status != SB_OK) {
+    return status;
   }
   if ((unsigned)in->variant >= SB_DISC_VARIANT_COUNT ||
       !(in->tolerance >= 0.0 && in->tolerance < 1.0)) {

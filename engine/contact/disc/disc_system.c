@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "engine/numeric/eliminate.h"
+#include "engine/numeric/dense.h"
 #include "engine/numeric/legendre.h"
 
 // ---- rules

@@ -6,10 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/base/check.h"
 #include "engine/contact/disc/disc_kernel.h"
-#include "engine/numeric/eliminate.h"
+#include "engine/numeric/dense.h"
+#include "engine/numeric/legendre.h"
 
-enum { MAX = SB_DISC_THESIS_NODES };
+enum { MAX = SB_DISC_THESIS_NODES, GAUSS = 5 };
 
 // Workspace: influence of each cell on each node, the factorised part of it, right-hand side.
 typedef struct {
@@ -23,16 +25,11 @@ typedef struct {
   SbDiscPoint node[MAX];
   double fluid[MAX]; // inward displacement by the fluid
   double pressure[MAX];
+  double gauss_x[GAUSS], gauss_w[GAUSS];
 } Work;
 
 static const SbDiscVector down = {0.0, -1.0};
 static const double nodes_limit = 75.0 / 180.0 * M_PI;
-
-enum { GAUSS = 5 };
-static const double gauss_x[GAUSS] = {-0.9061798459386640, -0.5384693101056831, 0.0,
-                                      0.5384693101056831, 0.9061798459386640};
-static const double gauss_w[GAUSS] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
-                                      0.4786286704993665, 0.2369268850561891};
 
 // Inward displacement at `to` of unit pressure per projected width on the cell [a, b] and its image
 // below: two Gauss points for what is smooth over a degree, the logarithm exactly.
@@ -80,9 +77,9 @@ static void fill_fluid(Work *w, size_t nodes, double alpha, double pressure) {
     const double high = alpha + arc * pow((panel + 1.0) / PANELS, 2.0);
     for (int k = 0; k < GAUSS; k++) {
       const double half = 0.5 * (high - low);
-      const SbDiscPoint right = sb_disc_point(0.5 * (low + high) + half * gauss_x[k]);
+      const SbDiscPoint right = sb_disc_point(0.5 * (low + high) + half * w->gauss_x[k]);
       const SbDiscPoint left = {.angle = -right.angle, .sin = -right.sin, .cos = right.cos};
-      const double weight = pressure * half * gauss_w[k];
+      const double weight = pressure * half * w->gauss_w[k];
       for (size_t i = 0; i < nodes; i++) {
         const SbDiscPoint to = w->node[i];
         w->fluid[i] +=
@@ -153,21 +150,17 @@ static size_t find_contact(Work *w, double limit, double pressure, size_t *itera
 SbStatus sb_disc_thesis(SbDiscThesis *out, const SbDiscThesisInput *in, double step,
                         SbWarnings *warnings, SbReport *report) {
   *out = (SbDiscThesis){.step = step};
-  if (!(in->section_diameter > 0.0 && in->section_fitted > 0.0 && in->radial_space > 0.0 &&
-        in->modulus > 0.0 && isfinite(in->section_diameter + in->modulus + in->radial_space))) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.section_diameter",
-                             "sizes and modulus must be positive");
-  }
-  if (!(in->poisson_ratio >= 0.0 && in->poisson_ratio < 0.5)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.poisson_ratio",
-                             "Poisson's ratio %g is not in [0, 0.5)", in->poisson_ratio);
-  }
-  if (!(in->pressure >= 0.0 && isfinite(in->pressure))) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.pressure",
-                             "pressure %g Pa is negative or not finite", in->pressure);
-  }
-  if (!(step >= nodes_limit / (MAX - 1) && step <= 0.1)) {
-    return sb_fail(report, SB_ERROR_RANGE, "angle %g between nodes is not usable", step);
+  SbStatus status = SB_CHECK(
+      report,
+      {"seal.section_diameter", "the section diameter [m]", in->section_diameter, SB_ABOVE_ZERO},
+      {"seal.section_diameter", "the fitted section [m]", in->section_fitted, SB_ABOVE_ZERO},
+      {"gland.radial_space", "the radial space [m]", in->radial_space, SB_ABOVE_ZERO},
+      {"seal.modulus", "the modulus [Pa]", in->modulus, SB_ABOVE_ZERO},
+      {"seal.poisson_ratio", "Poisson's ratio", in->poisson_ratio, SB_POISSON},
+      {"canister.pressure", "the pressure [Pa]", in->pressure, SB_NOT_NEGATIVE},
+      {"", "the angle between nodes [rad]", step, nodes_limit / (MAX - 1), 0.1});
+  if (status != SB_OK) {
+    return status;
   }
   const double squeeze = 1.0 - in->radial_space / in->section_fitted;
   if (!(squeeze > 0.0)) {
@@ -188,6 +181,7 @@ SbStatus sb_disc_thesis(SbDiscThesis *out, const SbDiscThesisInput *in, double s
   const double compliance = sb_disc_compliance(in->modulus, in->poisson_ratio);
   w->kernel = sb_disc_kernel(in->poisson_ratio);
   w->step = step;
+  sb_legendre_gauss(w->gauss_x, w->gauss_w, GAUSS);
   w->space = in->radial_space / in->section_fitted;
 
   // Most contacts end within 45 degrees, which costs a third of the full table.

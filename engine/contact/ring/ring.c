@@ -2,6 +2,7 @@
 //
 // How it finds its first states: ring_place.c. Equations and validity: ring_fem.c, ring_contact.c,
 // ring_newton.c. Leaves out twist, buckling out of the section's plane, adhesion.
+#include "engine/base/check.h"
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -15,43 +16,38 @@ static const double SIZE_DEFAULT = 0.05, SQUEEZE_MOST = 0.6;
 static const double WIDE = 0.3, NARROW_LEAST = 0.12;
 
 static SbStatus check_body(const SbRingBody *body, SbReport *report) {
-  if (!(body->section_diameter > 0.0) || !isfinite(body->section_diameter)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.section_diameter",
-                             "the section diameter %g m is not positive", body->section_diameter);
-  }
-  if (!body->plane_strain && (!(body->inner_diameter > 0.0) || !isfinite(body->inner_diameter))) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.inner_diameter",
-                             "the inner diameter %g m is not positive", body->inner_diameter);
-  }
-  if (!(body->modulus > 0.0) || !isfinite(body->modulus)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.modulus",
-                             "the modulus %g Pa is not positive", body->modulus);
-  }
-  if (!(body->poisson_ratio >= 0.3 && body->poisson_ratio <= 0.49995)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.poisson_ratio",
-                             "the ring model takes Poisson's ratio from 0.3 to 0.49995, not %g",
-                             body->poisson_ratio);
-  }
-  if (!(body->mooney_share >= 0.0 && body->mooney_share <= 0.5)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.mooney_share",
-                             "the Mooney share %g lies outside 0 .. 0.5", body->mooney_share);
-  }
-  return SB_OK;
+  return SB_CHECK(
+      report,
+      {"seal.section_diameter", "the section diameter [m]", body->section_diameter, SB_ABOVE_ZERO},
+      {"seal.inner_diameter", "the inner diameter [m]",
+       body->plane_strain ? 1.0 : body->inner_diameter, SB_ABOVE_ZERO},
+      {"seal.modulus", "the modulus [Pa]", body->modulus, SB_ABOVE_ZERO},
+      {"seal.poisson_ratio", "the ring model's Poisson's ratio", body->poisson_ratio, 0.3, 0.49995},
+      {"seal.mooney_share", "the Mooney share", body->mooney_share, 0.0, 0.5});
 }
 
 static SbStatus check_load(const SbRingBody *body, const SbRingLoad *load, SbReport *report) {
-  const double numbers[] = {load->floor_radius,   load->bore_radius,   load->pressure_left,
-                            load->pressure_right, load->bore_position, load->friction_bore,
-                            load->friction_floor, load->friction_wall, load->bore_traction,
-                            load->chamfer_angle,  load->edge_length};
-  for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-    if (!isfinite(numbers[i])) {
-      return sb_fail(report, SB_ERROR_INPUT, "a number of the ring's load is not finite");
-    }
-  }
-  if (isnan(load->wall_left) || isnan(load->wall_right) || isnan(load->land_left) ||
-      isnan(load->land_right)) {
-    return sb_fail(report, SB_ERROR_INPUT, "a place of the ring's groove is not a number");
+  const char *friction = "friction.load_coefficient", *fluid = "canister.pressure";
+  const char *edge = "bore.land_edge";
+  bool land = load->land_left > -HUGE_VAL || load->land_right < HUGE_VAL;
+  SbStatus status = SB_CHECK(
+      report, {"", "the groove floor's radius [m]", load->floor_radius, SB_FINITE},
+      {"", "the bore's radius [m]", load->bore_radius, SB_FINITE},
+      {"", "the bore's position [m]", load->bore_position, SB_FINITE},
+      {"", "the bore's shear [Pa]", load->bore_traction, SB_FINITE},
+      {"", "the left wall's place [m]", load->wall_left, -INFINITY, INFINITY},
+      {"", "the right wall's place [m]", load->wall_right, -INFINITY, INFINITY},
+      {"", "the land's left end [m]", load->land_left, -INFINITY, INFINITY},
+      {"", "the land's right end [m]", load->land_right, -INFINITY, INFINITY},
+      {friction, "the coefficient of friction on the bore", load->friction_bore, 0.0, 2.0},
+      {friction, "the coefficient of friction on the floor", load->friction_floor, 0.0, 2.0},
+      {friction, "the coefficient of friction on the walls", load->friction_wall, 0.0, 2.0},
+      {fluid, "the pressure on the ring [Pa]", load->pressure_left, 0.0, 4.0 * body->modulus},
+      {fluid, "the pressure on the ring [Pa]", load->pressure_right, 0.0, 4.0 * body->modulus},
+      {edge, "the chamfer [rad]", land ? load->chamfer_angle : 0.0, 0.0, 1.2},
+      {edge, "the length of the land's edge [m]", land ? load->edge_length : 1.0, SB_ABOVE_ZERO});
+  if (status != SB_OK) {
+    return status;
   }
   double space = load->bore_radius - load->floor_radius;
   if (!(space > 0.0)) {
@@ -87,28 +83,10 @@ static SbStatus check_load(const SbRingBody *body, const SbRingLoad *load, SbRep
   if (!body->plane_strain) {
     area *= (body->inner_diameter + d) / (load->floor_radius + load->bore_radius);
   }
-  bool land = load->land_left > -HUGE_VAL || load->land_right < HUGE_VAL;
   if (!land && isfinite(width) && area > 0.985 * width * space) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
                              "the groove is overfilled: the section needs %.3g mm2 of %.3g mm2",
                              1e6 * area, 1e6 * width * space);
-  }
-  if (load->friction_bore < 0.0 || load->friction_floor < 0.0 || load->friction_wall < 0.0 ||
-      load->friction_bore > 2.0 || load->friction_floor > 2.0 || load->friction_wall > 2.0) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "friction.load_coefficient",
-                             "a coefficient of friction lies outside 0 .. 2");
-  }
-  if (load->pressure_left < 0.0 || load->pressure_right < 0.0 ||
-      fmax(load->pressure_left, load->pressure_right) > 4.0 * body->modulus) {
-    return sb_fail_parameter(
-        report, SB_ERROR_RANGE, "canister.pressure",
-        "the ring model takes gauge pressures from 0 to four times the modulus");
-  }
-  if (land &&
-      (!(load->chamfer_angle >= 0.0 && load->chamfer_angle <= 1.2) || !(load->edge_length > 0.0))) {
-    return sb_fail_parameter(
-        report, SB_ERROR_RANGE, "bore.land_edge",
-        "the land's edge needs a chamfer of 0 .. 1.2 rad and a positive length");
   }
   return SB_OK;
 }

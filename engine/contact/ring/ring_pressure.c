@@ -16,7 +16,7 @@
 // several parts and pressures with a corner in them (a land's edge under the contact): there the
 // fit is not good enough and says so.
 #include "engine/contact/ring/ring_private.h"
-#include "engine/numeric/eliminate.h"
+#include "engine/numeric/dense.h"
 
 #include <math.h>
 #include <stdlib.h>

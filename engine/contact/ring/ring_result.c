@@ -7,6 +7,7 @@
 // node, where the gap, which opens with the 3/2 power of the distance, extrapolates to zero; the
 // pressure there is the fluid's.
 #include "engine/contact/ring/ring_private.h"
+#include "engine/numeric/dense.h"
 
 #include <assert.h>
 #include <math.h>
@@ -248,41 +249,31 @@ static void find_peak(const SbRing *ring, const SbRingPatch *patch, double *peak
   if (reach < 2) {
     return;
   }
-  double s[5] = {0.0}, b[3] = {0.0}, scale = 0.0;
+  double normal[9] = {0.0}, b[3] = {0.0}, scale = 0.0;
   for (int i = best - reach; i <= best + reach; i++) {
     place_of(ring, i, x);
     scale = fmax(scale, fabs(x[1] - *place));
   }
   for (int i = best - reach; i <= best + reach; i++) {
     place_of(ring, i, x);
-    double t = (x[1] - *place) / scale, power = 1.0;
+    double t = (x[1] - *place) / scale, power[3] = {1.0, t, t * t};
     double p = sb_ring_node_pressure(ring, i, SB_RING_BORE);
-    for (int k = 0; k < 5; k++) {
-      s[k] += power;
-      b[k < 3 ? k : 0] += k < 3 ? power * p : 0.0;
-      power *= t;
+    for (int k = 0; k < 3; k++) {
+      b[k] += power[k] * p;
+      for (int l = 0; l < 3; l++) {
+        normal[k + 3 * l] += power[k] * power[l];
+      }
     }
   }
-  double det = s[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (s[1] * s[4] - s[3] * s[2]) +
-               s[2] * (s[1] * s[3] - s[2] * s[2]);
-  double c0 = (b[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (b[1] * s[4] - s[3] * b[2]) +
-               s[2] * (b[1] * s[3] - s[2] * b[2])) /
-              det;
-  double c1 = (s[0] * (b[1] * s[4] - s[3] * b[2]) - b[0] * (s[1] * s[4] - s[3] * s[2]) +
-               s[2] * (s[1] * b[2] - b[1] * s[2])) /
-              det;
-  double c2 = (s[0] * (s[2] * b[2] - b[1] * s[3]) - s[1] * (s[1] * b[2] - b[1] * s[2]) +
-               b[0] * (s[1] * s[3] - s[2] * s[2])) /
-              det;
-  if (c2 < 0.0) {
-    double t = fmin(1.0, fmax(-1.0, -0.5 * c1 / c2));
-    *peak = c0 + t * (c1 + c2 * t);
+  if (sb_eliminate(normal, b, 3) && b[2] < 0.0) {
+    double t = fmin(1.0, fmax(-1.0, -0.5 * b[1] / b[2]));
+    *peak = b[0] + t * (b[1] + b[2] * t);
     *place += t * scale;
   }
 }
 
-// Normal force that the fluid still carries in the balance on sides that are only partly within the
-// contact; that part belongs to the closed contact.
+// Normal force that the fluid still carries in the balance on sides that are only partly within
+// the contact; that part belongs to the closed contact.
 static double end_share(const SbRing *ring, const SbRingPatch *patch) {
   int sides = ring->contact->count / 2;
   double low = fmin(patch->place[0], patch->place[1]),

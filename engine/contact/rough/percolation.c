@@ -1,21 +1,28 @@
 // Critical constriction; see percolation.h.
 #include "engine/contact/rough/percolation.h"
 
+#include "engine/numeric/root.h"
+
 #include <math.h>
 
-// Where erf(x) = 0.42.
+static double below_threshold(double x, const void *none) {
+  return SB_PERCOLATION_THRESHOLD - erf(x);
+}
+
+// Where erf(x) is the threshold.
 static double threshold_argument(void) {
-  double low = 0;
-  double high = 1;
-  for (int i = 0; i < 100; i++) {
-    double x = (low + high) / 2;
-    if (erf(x) < SB_PERCOLATION_THRESHOLD) {
-      low = x;
-    } else {
-      high = x;
-    }
-  }
-  return (low + high) / 2;
+  return sb_bisect(below_threshold, NULL, 0, 1);
+}
+
+// Mean-square slope that is missing from the critical one up to wave number exp(x).
+typedef struct {
+  const SbSpectrum *spectrum;
+  double critical;
+} Slope;
+
+static double missing_slope(double x, const void *context) {
+  const Slope *s = context;
+  return s->critical * s->critical - sb_spectrum_slope2(s->spectrum, exp(x));
 }
 
 // Gap u_1 where surfaces just lose contact at wave number q: u + (du/dq) A/(dA/dq) with u the mean
@@ -41,17 +48,8 @@ static void constriction(SbPercolation *out, const SbPercolationProblem *p, doub
   if (!out->percolates) {
     return;
   }
-  double low = log(s->q0);
-  double high = log(s->q1);
-  for (int i = 0; i < 100; i++) {
-    double middle = (low + high) / 2;
-    if (sb_spectrum_slope2(s, exp(middle)) < critical * critical) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
-  out->constriction_q = exp((low + high) / 2);
+  const Slope slope = {s, critical};
+  out->constriction_q = exp(sb_bisect(missing_slope, &slope, log(s->q0), log(s->q1)));
   out->constriction_size = 2 * M_PI / out->constriction_q;
   out->constriction_gap = local_gap(p, out->constriction_q, pressure);
   out->leak_rate = pow(out->constriction_gap, 3) / (12 * p->viscosity) * p->pressure_drop *

@@ -5,14 +5,25 @@
 // Simpson's rule.
 #include "engine/contact/rough/persson.h"
 
+#include "engine/numeric/root.h"
+
 #include <gsl/gsl_sf_erf.h>
 #include <gsl/gsl_sf_expint.h>
 #include <math.h>
+
+static const double HURST = 0.8;
 
 // integral of q^n C q dq 2 pi between a and b for C = q^(-2(H+1)): the power is n - 2H.
 static double moment(double hurst, double n, double a, double b) {
   double power = n - 2 * hurst;
   return 2 * M_PI * (pow(b, power) - pow(a, power)) / power;
+}
+
+// What a spectrum of hurst exponent HURST from 1 to exp(x) lacks of Nayak's breadth wanted.
+static double missing_breadth(double x, const void *wanted) {
+  double ratio = exp(x);
+  return *(const double *)wanted - 1.5 * moment(HURST, 4, 1, ratio) * moment(HURST, 0, 1, ratio) /
+                                       pow(moment(HURST, 2, 1, ratio), 2);
 }
 
 SbStatus sb_spectrum_from_asperities(SbSpectrum *out, double sigma, double sigma_over_beta,
@@ -37,20 +48,8 @@ SbStatus sb_spectrum_from_asperities(SbSpectrum *out, double sigma, double sigma
   double m2 = sqrt(m0 * m4) / root_alpha;
 
   // q1/q0 from alpha = (3/2) <q^4> <1>/<q^2>^2, which grows with the ratio.
-  double H = 0.8;
-  double low = 1e-6;
-  double high = 30;
-  for (int i = 0; i < 200; i++) {
-    double ratio = exp((low + high) / 2);
-    double breadth =
-        1.5 * moment(H, 4, 1, ratio) * moment(H, 0, 1, ratio) / pow(moment(H, 2, 1, ratio), 2);
-    if (breadth < alpha) {
-      low = (low + high) / 2;
-    } else {
-      high = (low + high) / 2;
-    }
-  }
-  double ratio = exp((low + high) / 2);
+  const double H = HURST;
+  double ratio = exp(sb_bisect(missing_breadth, &alpha, 1e-6, 30));
 
   // q0 from <q^2> = 2 m2, amplitude from <1> = m0.
   double q0 = sqrt(2 * m2 / m0 * moment(H, 0, 1, ratio) / moment(H, 2, 1, ratio));

@@ -5,6 +5,7 @@
 // do not depend on the number of frames. Frames live in one array allocated at creation; the count
 // is published with release order after each frame is complete, which is what lets another thread
 // read while this one writes.
+#include "engine/base/clock.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 
@@ -12,13 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 // Frames of one actuation, or two if a life shows a second one; or the rig's samples.
 static size_t frames_at_most(const SbModel *model) {
@@ -205,7 +199,7 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
 }
 
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
-  double start = now();
+  double start = sb_clock_seconds();
   SbSummary *summary = &run->summary;
   memset(summary, 0, sizeof *summary); // too large for a temporary on a small stack
   sb_figures_clear(summary);
@@ -226,7 +220,7 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   }
   summary->status = status;
   summary->converged = status == SB_OK;
-  summary->wall_s = now() - start;
+  summary->wall_s = sb_clock_seconds() - start;
   return status;
 }
 

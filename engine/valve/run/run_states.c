@@ -1,6 +1,7 @@
 // Sliding states and contact profiles of a run: each steady state is solved once and shared by all
 // frames.
 #include "engine/contact/rough/greenwood_tripp.h"
+#include "engine/numeric/root.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 
@@ -24,16 +25,7 @@ static double fit_pressure(const SbFit *fit, double x, double left, double right
   if (x >= fit->profile_x[n - 1]) {
     return right;
   }
-  size_t low = 0;
-  size_t high = n - 1;
-  while (high - low > 1) {
-    size_t middle = (low + high) / 2;
-    if (fit->profile_x[middle] <= x) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
+  size_t low = sb_interval(fit->profile_x, n, x), high = low + 1;
   double span = fit->profile_x[high] - fit->profile_x[low];
   double t = span > 0 ? (x - fit->profile_x[low]) / span : 0;
   return fit->profile_p[low] + t * (fit->profile_p[high] - fit->profile_p[low]);

@@ -1,0 +1,20 @@
+// Small dense matrices: linear systems and eigenvalues. For some dozens of rows, where a threaded
+// library costs more than the work. Matrices are n x n by columns; nothing is allocated.
+#pragma once
+
+#include "engine/base/status.h"
+
+// Factors a in place with row exchanges, to be used by sb_lu_solve(); false if singular.
+SB_CHECKED bool sb_lu_factor(double *a, size_t *pivot, size_t n);
+
+// Solves a x = b for a factored a; b becomes x.
+void sb_lu_solve(const double *a, const size_t *pivot, double *b, size_t n);
+
+enum { SB_ELIMINATE_MAX = 256 };
+
+// Both at once for n <= SB_ELIMINATE_MAX: a is lost.
+SB_CHECKED bool sb_eliminate(double *a, double *b, size_t n);
+
+// Eigenvalues of a symmetric matrix onto its diagonal, by Jacobi's rotations, which keep the small
+// ones' digits; its rest is lost. Eigenvectors as the columns of v, NULL: not wanted.
+void sb_eigen_symmetric(double *a, double *v, size_t n);

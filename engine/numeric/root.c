@@ -1,0 +1,44 @@
+// See root.h.
+#include "engine/numeric/root.h"
+
+#include <float.h>
+#include <math.h>
+
+double sb_bisect(SbFunction f, const void *context, double above, double below) {
+  for (int i = 0; i < 200; i++) {
+    const double middle = 0.5 * (above + below);
+    if (middle == above || middle == below) {
+      break;
+    }
+    *(f(middle, context) > 0.0 ? &above : &below) = middle;
+  }
+  return 0.5 * (above + below);
+}
+
+double sb_newton_bracketed(SbSlopedFunction f, const void *context, double low, double high,
+                           double guess) {
+  double x = fmin(fmax(guess, low), high);
+  for (int i = 0; i < 200; i++) {
+    double slope;
+    const double value = f(&slope, x, context);
+    *(value > 0.0 ? &high : &low) = x;
+    double next = x - value / slope;
+    if (!(next > low && next < high)) {
+      next = 0.5 * (low + high);
+    }
+    if (fabs(next - x) <= 2.0 * DBL_EPSILON * fabs(x)) {
+      return next;
+    }
+    x = next;
+  }
+  return x;
+}
+
+size_t sb_interval(const double *x, size_t count, double at) {
+  size_t low = 0, high = count - 1;
+  while (high - low > 1) {
+    const size_t middle = (low + high) / 2;
+    *(x[middle] <= at ? &low : &high) = middle;
+  }
+  return low;
+}
