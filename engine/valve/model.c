@@ -521,10 +521,60 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   }
   SbStatus status = compile(&made->model, &made->work, params, problems);
   if (status == SB_OK) {
+    // Member by member: the padding stays zero, for copies are compared as bytes.
+    memcpy(made->model.params.value, params->value, sizeof params->value);
+    memcpy(made->model.params.given, params->given, sizeof params->given);
     *out = made->model;
   }
   free(made);
   return status;
+}
+
+// What the first of the problems says, with its range.
+static SbStatus tell_problem(const SbProblems *problems, SbReport *report) {
+  const SbProblem *problem = &problems->item[0];
+  int id = sb_param_find(problem->key);
+  const char *si =
+      id >= 0 && strcmp(sb_param((SbParamId)id)->si, "1") != 0 ? sb_param((SbParamId)id)->si : "";
+  char low[48] = "", high[48] = "";
+  if (isfinite(problem->min)) {
+    sb_text(low, sizeof low, "; at least %.6g %s", problem->min, si);
+  }
+  if (isfinite(problem->max)) {
+    sb_text(high, sizeof high, "; at most %.6g %s", problem->max, si);
+  }
+  return sb_fail_parameter(report, SB_ERROR_INPUT, problem->key, "%s: %s%s%s", problem->key,
+                           problem->text, low, high);
+}
+
+SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *overrides,
+                           size_t count, SbReport *report) {
+  SbParams params = base->params;
+  for (size_t i = 0; i < count; i++) {
+    SbReport own = {0};
+    SbStatus status = sb_params_set(&params, overrides[i].id, overrides[i].value, &own);
+    if (status != SB_OK) {
+      return sb_fail_parameter(report, status, own.parameter, "%s: %s", own.parameter, own.text);
+    }
+  }
+  if (sb_params_get(&params, SB_P_DRIVE_KIND) == SB_MODEL_DRIVE_MEASURED &&
+      sb_model_measured(base) == NULL) {
+    return sb_fail_parameter(report, SB_ERROR_INPUT, "drive.kind",
+                             "drive.kind: measured needs a measured series");
+  }
+  SbProblems problems;
+  const SbModelData *data = base->data;
+  const SbLimits limits = base->limits;
+  SbStatus status = sb_model_compile(out, &params, &problems);
+  if (status == SB_ERROR_INPUT) {
+    return tell_problem(&problems, report);
+  }
+  if (status != SB_OK) {
+    return sb_fail(report, status, "no memory for a model");
+  }
+  out->data = data;
+  out->limits = limits;
+  return sb_succeed(report);
 }
 
 SbModelData *sb_model_data_create(void) {

@@ -147,6 +147,7 @@ typedef struct {
 } SbSectionLook;
 
 typedef struct {
+  SbParams params; // what it was compiled from
   SbSealModel seal[SB_SEAL_COUNT];
   SbRubber rubber;                  // how storage changes it
   double radial_space, axial_width; // g, b [m]
@@ -227,6 +228,19 @@ typedef enum {
 // (may be NULL) lists every combination that makes no sense: bore smaller than the stem, no room
 // for the ring...
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems);
+
+// One parameter in place of a base's.
+typedef struct {
+  SbParamId id;
+  double value; // SI
+} SbOverride;
+
+// Compiles the parameters of `base` with `count` overrides in their place, the last of a parameter
+// counts; series, shapes and limits are the base's, the data borrowed. What else somebody wrote
+// into `base` is left behind. SB_ERROR_RANGE or SB_ERROR_INPUT with a report that names key, value
+// and range, *out as it was; SB_ERROR_MEMORY. `out` may be `base`.
+SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *overrides,
+                           size_t count, SbReport *report);
 
 // All zero and held once, or NULL without memory. To be filled before a model points to it.
 SbModelData *sb_model_data_create(void);

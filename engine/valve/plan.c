@@ -9,12 +9,14 @@
 
 #include "engine/contact/fit.h"
 #include "engine/valve/cost.h"
+#include "engine/valve/figures.h"
 #include "engine/valve/studies/study.h"
 
 #include <assert.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 // Sliding states of a cycle: the outer seal in three chamber states, the inner in two, both ways;
 // for profiles each of the five at rest besides.
@@ -218,8 +220,68 @@ static void plan_studies(SbPlan *plan, const SbModel *model) {
   }
 }
 
+// What figures need of their seal, by the beginnings of their names; the first that fits. Any other
+// figure needs the whole cycle.
+static const struct {
+  const char *name;
+  SbSealDepth depth;
+} seal_needs[] = {
+    {"squeeze", SB_DEPTH_SIZES},         {"stretch_inner", SB_DEPTH_SIZES},
+    {"gland_fill", SB_DEPTH_SIZES},      {"contact_", SB_DEPTH_FITMENT},
+    {"load_N", SB_DEPTH_FITMENT},        {"pressure_peak", SB_DEPTH_FITMENT},
+    {"leakage_static", SB_DEPTH_LEAK},   {"closing_pressure", SB_DEPTH_LEAK},
+    {"leak_sensitivity", SB_DEPTH_LEAK}, {"leakage_per_stroke", SB_DEPTH_SLIDING},
+    {"film_", SB_DEPTH_SLIDING},         {"lambda", SB_DEPTH_SLIDING},
+    {"real_area", SB_DEPTH_SLIDING},     {"asperity_load", SB_DEPTH_SLIDING},
+    {"friction_", SB_DEPTH_SLIDING},     {"coefficient_of", SB_DEPTH_SLIDING},
+};
+
+static bool begins(const char *text, const char *with) {
+  return strncmp(text, with, strlen(with)) == 0;
+}
+
+static SbSealDepth seal_need(const char *name) {
+  for (size_t i = 0; i < sizeof seal_needs / sizeof seal_needs[0]; i++) {
+    if (begins(name, seal_needs[i].name)) {
+      return seal_needs[i].depth;
+    }
+  }
+  return SB_DEPTH_WHOLE;
+}
+
+void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size_t count) {
+  *out = (SbPlan){.ring = model->fit == SB_FIT_RING,
+                  .reynolds = model->film == SB_MODEL_FILM_REYNOLDS ||
+                              model->asperities == SB_MODEL_ASPERITIES_COUPLED};
+  for (size_t i = 0; i < count; i++) {
+    const char *path = sb_figure(figures[i])->path;
+    int seal = begins(path, "seals.inner.") ? SB_INNER : SB_OUTER;
+    SbSealDepth depth = SB_DEPTH_WHOLE;
+    if (begins(path, "seals.")) {
+      const char *name = path + strlen("seals.outer.");
+      depth = seal_need(name);
+      out->film_laws = out->film_laws || begins(name, "film_by_model");
+    } else if (strcmp(path, "cycle.dose_mass_kg") == 0) {
+      depth = SB_DEPTH_SIZES;
+    } else if (begins(path, "cycle.leakage_carried")) {
+      depth = SB_DEPTH_SLIDING;
+    } else if (strcmp(path, "solver.error_estimate.film_history") == 0) {
+      out->film_history = out->reynolds && model->film_history;
+    }
+    out->seal[seal] = depth > out->seal[seal] ? depth : out->seal[seal];
+  }
+  // Films at a speed that the motion decides need the motion.
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    out->motion = out->motion || out->seal[seal] == SB_DEPTH_WHOLE ||
+                  (out->seal[seal] > SB_DEPTH_FITMENT && finds_speed(model));
+  }
+  if (out->motion) {
+    out->seal[SB_OUTER] = out->seal[SB_INNER] = SB_DEPTH_WHOLE;
+  }
+}
+
 void sb_plan_make(SbPlan *out, const SbModel *model) {
-  *out = (SbPlan){0};
+  *out = (SbPlan){.seal = {SB_DEPTH_WHOLE, SB_DEPTH_WHOLE}, .film_laws = true, .motion = true};
   if (model->motion == SB_MODEL_MOTION_RIG) {
     plan_rig(out, model);
     plan_studies(out, model);

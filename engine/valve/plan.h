@@ -1,5 +1,6 @@
-// The plan: the smallest set of fields that a scene's views and outputs need, each by the cheapest
-// model that meets the tolerance, with predicted cost and error.
+// The plan: the smallest set of fields that a scene's views and outputs, or the figures that
+// somebody wants, need; each by the cheapest model that meets the tolerance, with predicted cost
+// and error.
 #pragma once
 
 #include "engine/valve/model.h"
@@ -18,6 +19,15 @@ typedef struct {
   double error;     // predicted relative error of discretisation; 0 for a closed form
 } SbPlanItem;
 
+// How much of a seal is solved; each has all that stands before it.
+typedef enum {
+  SB_DEPTH_SIZES,   // nothing: its sizes are the model's
+  SB_DEPTH_FITMENT, // its contact under the pressures at rest
+  SB_DEPTH_SLIDING, // the film and the friction there, sliding in
+  SB_DEPTH_LEAK,    // sliding in at the chamber's other pressures too: is it open at one?
+  SB_DEPTH_WHOLE    // every state of the cycle
+} SbSealDepth;
+
 typedef struct {
   size_t field_count, skipped_count;
   SbPlanItem field[SB_PLAN_ITEMS_MAX];
@@ -29,7 +39,15 @@ typedef struct {
   bool ring;           // the ring is solved
   bool bodies;         // the parts' accelerations and the joints' reactions are solved
   unsigned studies;    // bit mask, 1 << SbStudyKind: computed beside the cycle
+  SbSealDepth seal[SB_SEAL_COUNT];
+  bool film_laws; // films by the laws that are not the model's own, too
+  bool motion;    // the cycle is run; needs both seals' whole depth
 } SbPlan;
 
-// Plans `model` for its own views. Always succeeds.
+// Plans `model` for its own views and all figures. Always succeeds.
 void sb_plan_make(SbPlan *out, const SbModel *model);
+
+// Plans `model` for `count` figures (indices, engine/valve/figures.h) and nothing to look at;
+// without the lists of fields. A run by this plan leaves figures that nobody wants uncomputed;
+// those it has are the same to the bit as a whole run's.
+void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size_t count);

@@ -3,6 +3,7 @@
 
 #include "engine/base/status.h"
 #include "engine/base/version.h"
+#include "engine/valve/evaluate.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/frame.h"
 #include "engine/valve/model.h"

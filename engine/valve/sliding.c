@@ -30,6 +30,8 @@ struct SbSlidingMemory {
   bool fitted;
   double fitted_pressure; // difference for which `fit` stands
   int fitted_seal;
+  bool (*cancelled)(void *); // NULL: nobody asks to stop
+  void *cancelled_data;
 };
 
 double sb_sliding_friction(const SbSliding *state) {
@@ -63,12 +65,23 @@ static SbStatus film_solve(SbFilm *out, const SbFilmProblem *problem, SbSlidingM
   lent.profile = out == &memory->film          ? &memory->film_profile
                  : out == &memory->fitted_film ? &memory->fitted_profile
                                                : &memory->rest_profile;
+  lent.cancelled = memory->cancelled;
+  lent.cancelled_data = memory->cancelled_data;
   return sb_film_solve(out, &lent, memory->solver, report);
 }
 
 void sb_sliding_memory_forget(SbSlidingMemory *memory) {
   memory->fitted = false;
   memory->rested = false;
+  memory->fitted_last = false;
+  if (memory->solver != NULL) {
+    sb_film_solver_forget(memory->solver);
+  }
+}
+
+void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data) {
+  memory->cancelled = cancelled;
+  memory->cancelled_data = data;
 }
 
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory) {
@@ -119,6 +132,8 @@ static SbStatus solve_fit(SbSlidingMemory *memory, const SbModel *model, int sea
   }
   SbFitProblem problem;
   sb_sliding_fit_problem(&problem, model, seal, pressure);
+  problem.cancel = memory->cancelled;
+  problem.cancel_data = memory->cancelled_data;
   problem.surface_wanted =
       model->film == SB_MODEL_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   SbStatus status = sb_fit_solve(&memory->fit, &problem, report);
@@ -549,10 +564,7 @@ SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, 
   return status;
 }
 
-static SbStatus solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                      double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
-                      SbWarnings *warnings, SbReport *report) {
-  (void)sb_succeed(report);
+void sb_sliding_clear(SbSliding *out) {
   *out = (SbSliding){.contact_left = NAN,
                      .contact_right = NAN,
                      .load = NAN,
@@ -570,8 +582,16 @@ static SbStatus solve(SbSliding *out, const SbModel *model, int seal, SbSealPres
                      .boundary_load = NAN,
                      .viscous = NAN,
                      .friction_static = NAN};
+}
 
-  // Fitment. The fit takes the difference; the common part only shifts the fluid's level.
+// Fitment: contact and loads. *known tells whether there is a contact to go on with.
+static SbStatus fit_contact(SbSliding *out, bool *known, const SbModel *model, int seal,
+                            SbSealPressure pressure, SbSlidingMemory *memory,
+                            SbSlidingCounts *counts, SbWarnings *warnings, SbReport *report) {
+  (void)sb_succeed(report);
+  sb_sliding_clear(out);
+  *known = false;
+  // The fit takes the difference; the common part only shifts the fluid's level.
   SbStatus status = solve_fit(memory, model, seal, pressure.left - pressure.right, counts, report);
   if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
     return status;
@@ -600,7 +620,19 @@ static SbStatus solve(SbSliding *out, const SbModel *model, int seal, SbSealPres
                      fit->model != SB_FIT_GREEN_ENGLISH;
   double fluid = fabs(pressure.left - pressure.right) * fit->contact_width / 2;
   out->load_net = fit->load_per_length - (holds_fluid ? fluid : 0);
+  *known = true;
+  return status;
+}
 
+static SbStatus solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
+                      double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
+                      SbWarnings *warnings, SbReport *report) {
+  bool known;
+  SbStatus status =
+      fit_contact(out, &known, model, seal, pressure, memory, counts, warnings, report);
+  if (!known) {
+    return status;
+  }
   SbReport own = {0};
   SbReport *first = status == SB_OK ? report : NULL; // the first failure is told
   if (model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0) {
@@ -648,6 +680,17 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
                           SbWarnings *warnings, SbReport *report) {
   sb_warn_about(warnings, about(seal));
   SbStatus status = solve(out, model, seal, pressure, speed, memory, counts, warnings, report);
+  sb_warn_about(warnings, NULL);
+  return status;
+}
+
+SbStatus sb_sliding_fitment(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
+                            SbSlidingMemory *memory, SbSlidingCounts *counts, SbWarnings *warnings,
+                            SbReport *report) {
+  bool known;
+  sb_warn_about(warnings, about(seal));
+  SbStatus status =
+      fit_contact(out, &known, model, seal, pressure, memory, counts, warnings, report);
   sb_warn_about(warnings, NULL);
   return status;
 }

@@ -52,12 +52,19 @@ typedef struct SbSlidingMemory SbSlidingMemory;
 SbStatus sb_sliding_memory_create(SbSlidingMemory **out, SbReport *report);
 void sb_sliding_memory_destroy(SbSlidingMemory *memory);
 
-// Forgets the last fitment, because something else than its pressure has changed; keeps the memory.
+// Forgets what was solved, because something else than pressure and speed has changed: what comes
+// next does not depend on what came before. Keeps the memory.
 void sb_sliding_memory_forget(SbSlidingMemory *memory);
+
+// Polled while a fitment or a film is solved; true ends it with SB_ERROR_CANCELLED. NULL: nobody.
+void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data);
 
 // What the last evaluation solved, for profiles; borrowed, overwritten by the next call.
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory);
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
+
+// A state of which nothing is known: all NaN.
+void sb_sliding_clear(SbSliding *out);
 
 // Counts of what was computed; added to, never reset.
 typedef struct {
@@ -71,6 +78,12 @@ typedef struct {
 SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
                           double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                           SbWarnings *warnings, SbReport *report);
+
+// The fitment alone, as sb_sliding_solve() has it: contact, loads and peak; the rest stays NaN, or
+// 0 where the seal does not touch.
+SbStatus sb_sliding_fitment(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
+                            SbSlidingMemory *memory, SbSlidingCounts *counts, SbWarnings *warnings,
+                            SbReport *report);
 
 // Surface of a fitted body for the film: the ring's own by static condensation (ring.h), with its
 // own modulus, or the disc's, and the gap whose dry contact has the pressure of `fit`. Where the

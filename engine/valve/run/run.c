@@ -26,37 +26,23 @@ static size_t frames_at_most(const SbModel *model) {
 SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, SbReport *report) {
   *out = NULL;
   SbRun *run = calloc(1, sizeof *run);
-  if (run == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a run");
-  }
-  sb_model_keep(&run->model, model);
-  run->plan = *plan;
-  run->speed = model->speed;
-  run->capacity = frames_at_most(model);
-  bool lives = model->life_actuations > 1;
-  run->life = lives ? calloc((size_t)model->life_actuations, sizeof *run->life) : NULL;
-  // Left untouched until used: a run that is cancelled early never pays for the rest.
-  run->frames = malloc(run->capacity * sizeof *run->frames);
-  SbStatus status = SB_OK;
+  SbStatus status = run != NULL ? SB_OK : sb_fail(report, SB_ERROR_MEMORY, "no memory for a run");
   for (int i = 0; i < SB_SEAL_COUNT && status == SB_OK; i++) {
     status = sb_sliding_memory_create(&run->memory[i], report);
   }
-  if (run->frames == NULL || (lives && run->life == NULL) || status != SB_OK) {
+  if (status == SB_OK) {
+    status = sb_run_renew(run, model, plan, report);
+  }
+  if (status != SB_OK) {
     sb_run_destroy(run);
-    return sb_fail_parameter(report, SB_ERROR_MEMORY, "output.frames", "no memory for %d frames",
-                             model->frames);
+    return status;
   }
   *out = run;
-  return sb_succeed(report);
+  return SB_OK;
 }
 
-void sb_run_destroy(SbRun *run) {
-  if (run == NULL) {
-    return;
-  }
-  for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    sb_sliding_memory_destroy(run->memory[i]);
-  }
+// Frees what one execution made.
+static void free_results(SbRun *run) {
   for (int i = 0; i < SB_RUN_PROFILE_SLOTS; i++) {
     free(run->profile[i].data);
   }
@@ -67,8 +53,53 @@ void sb_run_destroy(SbRun *run) {
   }
   sb_run_bodies_destroy(run->bodies);
   free(run->life);
-  free(run->frames);
   sb_model_clear(&run->model);
+}
+
+SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbReport *report) {
+  SbModel kept = {0};
+  sb_model_keep(&kept, model); // what the run held may be this model's
+  free_results(run);
+  SbSlidingMemory *memory[SB_SEAL_COUNT];
+  memcpy(memory, run->memory, sizeof memory);
+  SbFrame *frames = run->frames;
+  size_t capacity = frames_at_most(model);
+  if (capacity > run->room) {
+    free(frames);
+    // Left untouched until used: a run that is cancelled early never pays for the rest.
+    frames = malloc(capacity * sizeof *frames);
+    run->room = frames != NULL ? capacity : 0;
+  }
+  size_t room = run->room;
+  memset(run, 0, sizeof *run);
+  memcpy(run->memory, memory, sizeof memory);
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    sb_sliding_memory_forget(run->memory[i]);
+  }
+  memcpy(&run->model, &kept, sizeof kept); // with its padding
+  run->plan = *plan;
+  run->speed = model->speed;
+  run->frames = frames;
+  run->capacity = capacity;
+  run->room = room;
+  bool lives = model->life_actuations > 1;
+  run->life = lives ? calloc((size_t)model->life_actuations, sizeof *run->life) : NULL;
+  if (run->frames == NULL || (lives && run->life == NULL)) {
+    return sb_fail_parameter(report, SB_ERROR_MEMORY, "output.frames", "no memory for %d frames",
+                             model->frames);
+  }
+  return sb_succeed(report);
+}
+
+void sb_run_destroy(SbRun *run) {
+  if (run == NULL) {
+    return;
+  }
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    sb_sliding_memory_destroy(run->memory[i]);
+  }
+  free_results(run);
+  free(run->frames);
   free(run);
 }
 
@@ -159,7 +190,8 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
   }
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     run->hold = run->plan.film_history;
-    SbStatus motion = sb_run_move(run, hooks, status == SB_OK ? report : NULL);
+    SbStatus motion =
+        run->plan.motion ? sb_run_move(run, hooks, status == SB_OK ? report : NULL) : SB_OK;
     status = motion != SB_OK ? motion : status;
     if (run->hold) {
       run->hold = false;
@@ -177,7 +209,7 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
     if (summary->stage[SB_STAGE_B].reached) {
       summary->force_breakaway = summary->stage[SB_STAGE_B].force;
     }
-    bool moved = run->lacks[0] == '\0';
+    bool moved = run->plan.motion && run->lacks[0] == '\0';
     if (status == SB_OK && run->life != NULL && moved) {
       status = sb_run_rest_of_life(run, hooks, report);
     }

@@ -43,6 +43,7 @@ typedef struct {
   SbLeakState leak_state;
   double squeeze, stretch_inner, gland_fill;
   double contact_width, contact_left, contact_right, load, load_per_length, pressure_peak;
+  double contact_pressure; // mean, of the rubber alone: net load over width [Pa]
   double film_min, film_central;
   double film_karaszkiewicz, film_thesis, film_asymptotic,
       film_reynolds; // central; NaN: not computed
@@ -148,6 +149,11 @@ typedef struct {
 
 // Allocates a run for `model` by `plan` (both copied). *out is owned by the caller.
 SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, SbReport *report);
+
+// Makes `run`, which no thread executes, one for another model and plan; it keeps its memory and
+// nothing else. What was borrowed from it is gone. On SB_ERROR_MEMORY it can only be renewed again
+// or destroyed.
+SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbReport *report);
 
 // Frees a run that no thread executes any more; NULL is allowed.
 void sb_run_destroy(SbRun *run);

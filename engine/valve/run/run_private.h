@@ -69,9 +69,9 @@ struct SbRun {
   double after_frames;         // and behind the last: the rest of a life
   SbLifeActuation *life;       // [model.life_actuations], NULL without a life
   SbFrame *frames;
-  size_t capacity;
-  bool hold;   // frames wait for their films' history before they are published
-  size_t held; // how many do
+  size_t capacity, room; // of this run; of the array
+  bool hold;             // frames wait for their films' history before they are published
+  size_t held;           // how many do
   atomic_size_t published;
 };
 

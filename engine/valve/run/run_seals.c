@@ -10,7 +10,7 @@
 
 static double film_by(SbRun *run, int seal, const SbSliding *state, SbFilmModel film_model) {
   SbFilmProblem problem;
-  SbFilm *film = calloc(1, sizeof *film);
+  SbFilm *film = run->plan.film_laws ? calloc(1, sizeof *film) : NULL;
   double central = NAN;
   if (film != NULL && state->touches && state->load_net > 0) {
     SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, SB_CHAMBER_AT_REST);
@@ -54,7 +54,6 @@ static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
   SbPercolation leak;
   SbReport report = {0};
   char pattern[64];
-  out->leakage_static = out->closing_pressure = out->leak_sensitivity = NAN;
   bool open = !presses(run, seal);
   out->leak_state = open ? SB_LEAK_OPEN : SB_LEAK_NOT_COMPUTED;
   if (open) {
@@ -78,7 +77,7 @@ static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
   SbPercolationProblem problem = {
       .spectrum = &spectrum,
       .modulus = model->seal[seal].reduced_modulus,
-      .contact_pressure = state->load_net / out->contact_width,
+      .contact_pressure = out->contact_pressure,
       .viscosity = model->viscosity,
       .pressure_drop = fabs(pressure.left - pressure.right),
       .width = out->contact_width,
@@ -138,6 +137,7 @@ static void summarise_seal(SbRun *run, int seal) {
       .contact_right = state->touches ? state->contact_right : NAN,
       .load = state->load,
       .load_per_length = state->load_per_length,
+      .contact_pressure = state->load_net / (state->contact_right - state->contact_left),
       .pressure_peak = state->pressure_peak,
       .film_min = state->film_min,
       .film_central = state->film_central,
@@ -153,12 +153,17 @@ static void summarise_seal(SbRun *run, int seal) {
       .friction_boundary = state->boundary_area + state->boundary_load,
       .friction_viscous = state->viscous,
       .friction_static = state->friction_static,
+      .leakage_static = NAN,
+      .closing_pressure = NAN,
+      .leak_sensitivity = NAN,
   };
   double friction = sb_sliding_friction(state);
   out->coefficient_of_friction = state->load > 0 ? friction / state->load : NAN;
   out->leakage_per_stroke =
       sb_leak_stroke(run->model.bore_diameter, state->film_central, run->model.stroke);
-  static_leak(run, seal, out);
+  if (run->plan.seal[seal] >= SB_DEPTH_LEAK) {
+    static_leak(run, seal, out);
+  }
 }
 
 void sb_run_summarise_seals(SbRun *run) {

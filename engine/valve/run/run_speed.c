@@ -52,8 +52,8 @@ SbStatus sb_run_solve_states_at_speed(SbRun *run, const SbRunHooks *hooks, SbRep
   SbWarnings *warnings = &run->summary.warnings;
   run->speed = model->speed;
   run->film_exponent = 0;
-  bool own =
-      model->motion != SB_MODEL_MOTION_QUASI_STATIC && model->drive != SB_MODEL_DRIVE_MACHINE;
+  bool own = run->plan.motion && model->motion != SB_MODEL_MOTION_QUASI_STATIC &&
+             model->drive != SB_MODEL_DRIVE_MACHINE;
   if (own && run->plan.ring) {
     SbStatus status = proxy_speed(run, hooks, report);
     return status != SB_OK ? status : sb_run_solve_states(run, hooks, report);

@@ -137,10 +137,24 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
   return SB_OK;
 }
 
-// Whether the cycle can visit this state at all: the outer seal does in every chamber state, the
-// inner one slides only while it touches the land.
-static bool state_needed(int seal, SbChamber chamber) {
-  return seal == SB_OUTER || chamber != SB_CHAMBER_OPEN;
+// Whether the plan asks for this state and the cycle can visit it at all: the outer seal does in
+// every chamber state, the inner one slides only while it touches the land.
+static bool state_needed(const SbRun *run, int seal, int chamber, int motion) {
+  if (seal == SB_INNER && chamber == (int)SB_CHAMBER_OPEN) {
+    return false;
+  }
+  switch (run->plan.seal[seal]) {
+  case SB_DEPTH_SIZES:
+    return false;
+  case SB_DEPTH_FITMENT:
+  case SB_DEPTH_SLIDING:
+    return chamber == (int)SB_CHAMBER_AT_REST && motion == SB_CYCLE_IN;
+  case SB_DEPTH_LEAK:
+    return motion == SB_CYCLE_IN;
+  case SB_DEPTH_WHOLE:
+    break;
+  }
+  return motion != SB_RUN_REST || run->plan.profiles;
 }
 
 // Names what failed and where: solver, seal, stages, place; and what there is all the same. Figures
@@ -201,26 +215,35 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   SbModel model = run->model;
   model.speed = run->speed;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    sb_sliding_memory_poll(run->memory[seal], hooks != NULL ? hooks->cancelled : NULL,
+                           hooks != NULL ? hooks->data : NULL);
+    // At least what the figures are taken from is unknown until it is solved.
+    sb_sliding_clear(&run->cycle.states.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN]);
+  }
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
       SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, (SbChamber)chamber);
-      for (int motion = 0; motion < SB_RUN_MOTIONS && state_needed(seal, (SbChamber)chamber);
-           motion++) {
+      for (int motion = 0; motion < SB_RUN_MOTIONS; motion++) {
+        if (!state_needed(run, seal, chamber, motion)) {
+          continue;
+        }
         if (sb_run_cancelled(hooks, report)) {
           return SB_ERROR_CANCELLED;
         }
         sb_run_progress(
             run, hooks,
             0.3 * (seal * SB_CYCLE_CHAMBERS + chamber) / (SB_SEAL_COUNT * SB_CYCLE_CHAMBERS), 0);
-        if (motion == SB_RUN_REST && !run->plan.profiles) {
-          continue;
-        }
         double speed = motion == SB_CYCLE_IN ? run->speed : motion == SB_RUN_REST ? 0 : -run->speed;
         SbSliding rest;
         SbSliding *state =
             motion == SB_RUN_REST ? &rest : &run->cycle.states.state[seal][chamber][motion];
         SbReport own = {0};
-        SbStatus status = sb_sliding_solve(state, &model, seal, pressure, speed, run->memory[seal],
-                                           &counts, &summary->warnings, &own);
+        bool fitment = run->plan.seal[seal] == SB_DEPTH_FITMENT;
+        SbStatus status =
+            fitment ? sb_sliding_fitment(state, &model, seal, pressure, run->memory[seal], &counts,
+                                         &summary->warnings, &own)
+                    : sb_sliding_solve(state, &model, seal, pressure, speed, run->memory[seal],
+                                       &counts, &summary->warnings, &own);
         if (status == SB_ERROR_NOT_CONVERGED) {
           tell_failure(run, seal, chamber, motion, state, pressure, &own);
         }
@@ -232,7 +255,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
           worst = status;
         } else if (status != SB_OK) {
           return status;
-        } else if (motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state))) {
+        } else if (!fitment && motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state))) {
           char text[160];
           snprintf(text, sizeof text,
                    "the fluid opens the contact of the %s seal or carries it alone: no law gives "

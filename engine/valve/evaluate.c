@@ -1,0 +1,78 @@
+// Answers by a run whose plan has no more than the figures need; see the header.
+#include "engine/valve/evaluate.h"
+
+#include "engine/valve/run/run.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct SbEvaluator {
+  SbRun *run;    // NULL before the first question
+  bool answered; // the run is that of the last question
+  SbReport why;  // there was none
+};
+
+SbStatus sb_evaluator_create(SbEvaluator **out, SbReport *report) {
+  *out = calloc(1, sizeof **out);
+  if (*out == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for an evaluator");
+  }
+  return sb_succeed(report);
+}
+
+void sb_evaluator_destroy(SbEvaluator *evaluator) {
+  if (evaluator != NULL) {
+    sb_run_destroy(evaluator->run);
+    free(evaluator);
+  }
+}
+
+static SbStatus prepare(SbEvaluator *evaluator, const SbQuestion *question, SbReport *report) {
+  SbModel model;
+  SbPlan plan;
+  SbStatus status = sb_model_override(&model, question->base, question->override,
+                                      question->override_count, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  sb_plan_figures(&plan, &model, question->figure, question->figure_count);
+  if (model.motion == SB_MODEL_MOTION_QUASI_STATIC && !plan.film_history) {
+    model.frames = 2; // its frames are looked at and nothing else; the least that there may be
+  }
+  return evaluator->run == NULL ? sb_run_create(&evaluator->run, &model, &plan, report)
+                                : sb_run_renew(evaluator->run, &model, &plan, report);
+}
+
+SbStatus sb_evaluate(double *value, SbEvaluator *evaluator, const SbQuestion *question,
+                     SbReport *report) {
+  SbReport own = {0};
+  SbStatus status = prepare(evaluator, question, &own);
+  evaluator->answered = status == SB_OK;
+  if (evaluator->answered) {
+    const SbRunHooks hooks = {NULL, question->cancelled, question->data};
+    status = sb_run_execute(evaluator->run, &hooks, &own);
+  }
+  for (size_t i = 0; i < question->figure_count; i++) {
+    value[i] = evaluator->answered
+                   ? sb_figure_value(sb_run_summary(evaluator->run), question->figure[i])
+                   : NAN;
+  }
+  evaluator->why = own;
+  if (report != NULL) {
+    *report = own;
+  }
+  return status;
+}
+
+const char *sb_evaluator_reason(const SbEvaluator *evaluator, int figure) {
+  const SbSummary *summary = sb_evaluator_summary(evaluator);
+  return summary != NULL ? sb_figure_reason(summary, figure) : evaluator->why.text;
+}
+
+const SbModel *sb_evaluator_model(const SbEvaluator *evaluator) {
+  return evaluator->answered ? sb_run_model(evaluator->run) : NULL;
+}
+
+const SbSummary *sb_evaluator_summary(const SbEvaluator *evaluator) {
+  return evaluator->answered ? sb_run_summary(evaluator->run) : NULL;
+}

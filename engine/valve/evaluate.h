@@ -1,0 +1,55 @@
+// Figures of a model with overrides: the one question that whoever asks many asks.
+//
+// evaluate(model, overrides) -> figures. A base that was compiled and checked, any parameters of it
+// replaced, and the figures that are wanted; no more is computed than those need (plan.h), and
+// those are the same to the bit as a run's of that model, whatever else is asked for with them.
+//
+// An evaluator is the memory of one thread: nothing is shared between two of them but the base,
+// which nobody writes. What an answer is does not depend on what the evaluator was asked before:
+// solvers start warm only from states of the same question, in the order of a run.
+//
+// Leaves out: derivatives; frames, profiles and shapes (run.h has them); wall times and counts.
+#pragma once
+
+#include "engine/valve/figures.h"
+
+typedef struct SbEvaluator SbEvaluator;
+
+// What is asked. Pointers are borrowed for the call.
+typedef struct {
+  const SbModel *base;
+  const SbOverride *override; // [override_count], the last of a parameter counts
+  size_t override_count;
+  const int *figure; // [figure_count], indices of figures.def (sb_figure_find)
+  size_t figure_count;
+  // Polled as in a run (SbRunHooks), at least every 50 ms; may be NULL.
+  bool (*cancelled)(void *data);
+  void *data;
+} SbQuestion;
+
+// *out is owned by the caller. SB_ERROR_MEMORY.
+SbStatus sb_evaluator_create(SbEvaluator **out, SbReport *report);
+
+// Takes NULL.
+void sb_evaluator_destroy(SbEvaluator *evaluator);
+
+// Answers: value[i] is figure[i] in SI, or NaN where sb_evaluator_reason() tells why.
+//   SB_OK                     every figure has its value or a reason of the valve's own
+//   SB_ERROR_RANGE, _INPUT    an override is out of its range, or the values do not go together:
+//   the
+//                             report names key and range; all NaN
+//   SB_ERROR_NOT_CONVERGED    some figures have values, others NaN
+//   SB_ERROR_INFEASIBLE, _CANCELLED, _MEMORY
+// `report` may be NULL.
+SbStatus sb_evaluate(double *value, SbEvaluator *evaluator, const SbQuestion *question,
+                     SbReport *report);
+
+// Why a figure of the last question has no value; NULL for one that has. Borrowed until the next
+// question.
+const char *sb_evaluator_reason(const SbEvaluator *evaluator, int figure);
+
+// The model that the last question was answered for, and its whole summary, of which only what the
+// figures asked for needed means something; NULL after one that was refused. Borrowed until the
+// next question.
+const SbModel *sb_evaluator_model(const SbEvaluator *evaluator);
+const SbSummary *sb_evaluator_summary(const SbEvaluator *evaluator);

@@ -1,0 +1,331 @@
+// Evaluate: the figures of a run to the bit, whatever is asked for with them or was asked before;
+// no more computed than wanted; refused overrides; two threads.
+#include "engine/contact/fit.h"
+#include "engine/valve/evaluate.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+enum { CHANGES = 6 };
+
+typedef struct {
+  const char *name;
+  SbOverride change[CHANGES]; // to the defaults; a choice by its index
+  size_t count;
+  SbStatus status;
+} Case;
+
+static const Case cases[] = {
+    {"closed forms", {{0}}, 0, SB_OK},
+    {"solved film and disc",
+     {{SB_P_MODELS_FIT, SB_FIT_DISC}, {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}},
+     2,
+     SB_OK},
+    {"film with asperities",
+     {{SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED}, {SB_P_CANISTER_PRESSURE_MAP, 1}},
+     2,
+     SB_OK},
+    {"a finger, which finds its own speed",
+     {{SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC}, {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND}},
+     2,
+     SB_OK},
+    {"a life",
+     {{SB_P_LIFE_ACTUATIONS, 3}, {SB_P_LIFE_SHOWN, 2}, {SB_P_LIFE_ROUGHNESS_NEW, 1.5}},
+     3,
+     SB_OK},
+    {"no contact", {{SB_P_GLAND_RADIAL_SPACE, 1.7e-3}, {SB_P_MODELS_FIT, SB_FIT_DISC}}, 2, SB_OK},
+    {"the sliding plate",
+     {{SB_P_MODELS_MOTION, SB_MODEL_MOTION_RIG}, {SB_P_RIG_DURATION, 0.2}},
+     2,
+     SB_OK},
+};
+
+static const Case history = {
+    "a film followed in time",
+    {{SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}, {SB_P_MODELS_FILM_TIME, 1}},
+    2,
+    SB_OK};
+
+static SbModel base_model(void) {
+  SbParams params;
+  SbModel model;
+  sb_params_init(&params);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  return model;
+}
+
+static SbModel case_model(const Case *of) {
+  SbModel model = base_model();
+  g_assert_cmpint(sb_model_override(&model, &model, of->change, of->count, NULL), ==, SB_OK);
+  return model;
+}
+
+static SbEvaluator *evaluator_new(void) {
+  SbEvaluator *evaluator;
+  g_assert_cmpint(sb_evaluator_create(&evaluator, NULL), ==, SB_OK);
+  return evaluator;
+}
+
+static bool same_bits(double a, double b) {
+  return (isnan(a) && isnan(b)) || memcmp(&a, &b, sizeof a) == 0;
+}
+
+static void ask(double *value, SbEvaluator *evaluator, const SbModel *base,
+                const SbOverride *change, size_t changes, const int *figure, size_t figures,
+                SbStatus wanted) {
+  SbReport report;
+  SbQuestion question = {base, change, changes, figure, figures, NULL, NULL};
+  SbStatus status = sb_evaluate(value, evaluator, &question, &report);
+  if (status != wanted) {
+    g_error("%s: %s", sb_status_text(status), report.text);
+  }
+}
+
+// Every figure, with all others and by what it needs alone, is the run's.
+static void check_case(const Case *of) {
+  SbModel base = base_model(), model = case_model(of);
+  SbPlan plan;
+  SbRun *run;
+  sb_plan_make(&plan, &model);
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, NULL), ==, of->status);
+  const SbSummary *summary = sb_run_summary(run);
+  SbEvaluator *evaluator = evaluator_new();
+  int all[SB_FIGURE_COUNT];
+  double value[SB_FIGURE_COUNT];
+  size_t numbers = 0;
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    all[i] = i;
+  }
+  // Once from nothing, once from what the last question left.
+  for (int round = 0; round < 2; round++) {
+    ask(value, evaluator, &base, of->change, of->count, all, SB_FIGURE_COUNT, of->status);
+    for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+      double wanted = sb_figure_value(summary, i);
+      numbers += isfinite(wanted);
+      if (!same_bits(value[i], wanted)) {
+        g_error("%s, round %d: %s is %.17g, not %.17g", of->name, round, sb_figure(i)->path,
+                value[i], wanted);
+      }
+      g_assert_cmpstr(sb_evaluator_reason(evaluator, i), ==, sb_figure_reason(summary, i));
+    }
+  }
+  g_assert_cmpuint(numbers, >=, 6);
+  bool whole = false; // asked for one figure of the whole cycle: the others take the same way
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    double own;
+    SbPlan least;
+    sb_plan_figures(&least, &model, &i, 1);
+    if (least.motion && whole) {
+      continue;
+    }
+    whole = whole || least.motion;
+    ask(&own, evaluator, &base, of->change, of->count, &i, 1, of->status);
+    if (!same_bits(own, value[i])) {
+      g_error("%s: %s alone is %.17g, not %.17g", of->name, sb_figure(i)->path, own, value[i]);
+    }
+    g_assert_true((sb_evaluator_reason(evaluator, i) != NULL) == isnan(own));
+  }
+  sb_evaluator_destroy(evaluator);
+  sb_run_destroy(run);
+}
+
+static void test_bits(void) {
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_test_message("%s", cases[i].name);
+    check_case(&cases[i]);
+  }
+}
+
+static void test_history(void) {
+  check_case(&history);
+}
+
+// The ring's own film: each seal's figures, the cycle's only once.
+static void test_ring(void) {
+  const SbOverride change[] = {{SB_P_MODELS_FIT, SB_FIT_RING},
+                               {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS},
+                               {SB_P_OUTPUT_TOLERANCE, 1e-2}};
+  const Case of = {"ring", {change[0], change[1], change[2]}, 3, SB_OK};
+  static const char *const paths[] = {"seals.inner.load_N", "seals.inner.film_central_m",
+                                      "seals.outer.friction_boundary_N",
+                                      "seals.outer.leakage_static_m3_per_s"};
+  SbModel base = base_model(), model = case_model(&of);
+  SbPlan plan;
+  SbRun *run;
+  sb_plan_make(&plan, &model);
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, NULL), ==, SB_OK);
+  SbEvaluator *evaluator = evaluator_new();
+  for (size_t i = 0; i < G_N_ELEMENTS(paths); i++) {
+    int figure = sb_figure_find(paths[i]);
+    double value;
+    ask(&value, evaluator, &base, change, 3, &figure, 1, SB_OK);
+    g_assert_true(same_bits(value, sb_figure_value(sb_run_summary(run), figure)));
+    g_assert_true(isfinite(value));
+  }
+  sb_evaluator_destroy(evaluator);
+  sb_run_destroy(run);
+}
+
+// Sizes need no solve, a load one fitment, a film one film; the cycle all of them.
+static void test_least(void) {
+  const SbOverride change[] = {{SB_P_MODELS_FIT, SB_FIT_DISC},
+                               {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}};
+  static const struct {
+    const char *path;
+    size_t fits, films;
+  } needs[] = {{"seals.outer.squeeze", 0, 0},
+               {"cycle.dose_mass_kg", 0, 0},
+               {"seals.outer.load_N", 1, 0},
+               {"seals.inner.pressure_peak_Pa", 1, 0},
+               {"seals.outer.film_central_m", 1, 2}, // on the half-plane and on the disc
+               {"cycle.leakage_carried_all_actuations_m3", 1, 2}};
+  SbModel base = base_model();
+  SbEvaluator *evaluator = evaluator_new();
+  for (size_t i = 0; i < G_N_ELEMENTS(needs); i++) {
+    int figure = sb_figure_find(needs[i].path);
+    double value;
+    ask(&value, evaluator, &base, change, 2, &figure, 1, SB_OK);
+    const SbCounters *counters = &sb_evaluator_summary(evaluator)->counters;
+    g_assert_true(isfinite(value));
+    g_assert_cmpuint(counters->fit_solves, ==, needs[i].fits);
+    g_assert_cmpuint(counters->reynolds_solves, ==, needs[i].films);
+  }
+  int force = sb_figure_find("cycle.force_peak_N");
+  double value;
+  ask(&value, evaluator, &base, change, 2, &force, 1, SB_OK);
+  g_assert_cmpuint(sb_evaluator_summary(evaluator)->counters.reynolds_solves, >, 10);
+  // By the other laws only where they are asked for.
+  int law = sb_figure_find("seals.outer.film_by_model.thesis");
+  ask(&value, evaluator, &base, change, 2, &law, 1, SB_OK);
+  g_assert_true(isfinite(value));
+  sb_evaluator_destroy(evaluator);
+}
+
+// A refused override names key and range; the evaluator goes on.
+static void test_refused(void) {
+  static const struct {
+    SbOverride change;
+    SbStatus status;
+    const char *key, *says;
+  } bad[] = {
+      {{SB_P_GLAND_RADIAL_SPACE, 1}, SB_ERROR_RANGE, "gland.radial_space", "0.0001 to 0.02 (m)"},
+      {{SB_P_SEAL_MODULUS, NAN}, SB_ERROR_INPUT, "seal.modulus", "seal.modulus: not a finite"},
+      {{SB_P_OUTPUT_FRAMES, 10.5}, SB_ERROR_INPUT, "output.frames", "whole number"},
+      {{SB_P_BORE_DIAMETER, 5e-3}, SB_ERROR_INPUT, "bore.diameter", "at least 0.005794 m"},
+      {{SB_P_DRIVE_CYCLES, 2}, SB_ERROR_INPUT, "drive.cycles", "needs models.motion"},
+      {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_MEASURED}, SB_ERROR_INPUT, "drive.kind", "series"},
+  };
+  SbModel base = base_model();
+  SbEvaluator *evaluator = evaluator_new();
+  const int figure[] = {sb_figure_find("seals.outer.squeeze"),
+                        sb_figure_find("seals.outer.load_N")};
+  double value[2];
+  for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+    SbReport report;
+    SbQuestion question = {&base, &bad[i].change, 1, figure, 2, NULL, NULL};
+    g_assert_cmpint(sb_evaluate(value, evaluator, &question, &report), ==, bad[i].status);
+    g_assert_cmpint(report.status, ==, bad[i].status);
+    g_assert_cmpstr(report.parameter, ==, bad[i].key);
+    g_assert_nonnull(strstr(report.text, bad[i].key));
+    g_assert_nonnull(strstr(report.text, bad[i].says));
+    g_assert_true(isnan(value[0]) && isnan(value[1]));
+    g_assert_cmpstr(sb_evaluator_reason(evaluator, figure[0]), ==, report.text);
+    g_assert_null(sb_evaluator_model(evaluator));
+  }
+  // The last override of a parameter counts; what somebody wrote into the base is not asked.
+  base.radial_space = 1;
+  const SbOverride twice[] = {{SB_P_GLAND_RADIAL_SPACE, 1.3e-3}, {SB_P_GLAND_RADIAL_SPACE, 1.4e-3}};
+  ask(value, evaluator, &base, twice, 2, figure, 1, SB_OK);
+  g_assert_cmpfloat(fabs(value[0] - (1 - 1.4 / 1.61)), <, 1e-12);
+  sb_evaluator_destroy(evaluator);
+}
+
+static bool after(void *data) {
+  int *left = data;
+  return --*left < 0;
+}
+
+// Ends where it is told to, within a solve too; then answers as ever.
+static void test_cancel(void) {
+  const SbOverride change = {SB_P_MODELS_FIT, SB_FIT_RING};
+  SbModel base = base_model();
+  SbEvaluator *evaluator = evaluator_new();
+  int figure = sb_figure_find("seals.outer.load_N");
+  double value, first;
+  ask(&first, evaluator, &base, &change, 1, &figure, 1, SB_OK);
+  int polls = 0;
+  for (int limit = 0; limit < 10; limit += 4) {
+    int left = limit;
+    SbReport report;
+    SbQuestion question = {&base, &change, 1, &figure, 1, after, &left};
+    SbStatus status = sb_evaluate(&value, evaluator, &question, &report);
+    g_assert_cmpint(status, ==, SB_ERROR_CANCELLED);
+    g_assert_true(isnan(value));
+    g_assert_nonnull(sb_evaluator_reason(evaluator, figure));
+    polls = limit;
+  }
+  g_assert_cmpint(polls, >, 4); // one fitment alone asks more often than that
+  ask(&value, evaluator, &base, &change, 1, &figure, 1, SB_OK);
+  g_assert_true(same_bits(value, first));
+  sb_evaluator_destroy(evaluator);
+}
+
+enum { THREADS = 2, QUESTIONS = 24 };
+
+typedef struct {
+  const SbModel *base;
+  int offset; // each thread begins elsewhere
+  double value[QUESTIONS][2];
+} Worker;
+
+static gpointer work(gpointer data) {
+  Worker *worker = data;
+  SbEvaluator *evaluator = evaluator_new();
+  const int figure[] = {sb_figure_find("cycle.force_breakaway_N"),
+                        sb_figure_find("seals.inner.film_central_m")};
+  for (int i = 0; i < QUESTIONS; i++) {
+    int n = (i + worker->offset) % QUESTIONS;
+    const SbOverride change[] = {{SB_P_GLAND_RADIAL_SPACE, 1.3e-3 + 4e-6 * n},
+                                 {SB_P_MODELS_FIT, n % 3 == 0 ? SB_FIT_DISC : 0},
+                                 {SB_P_MODELS_FILM, n % 2 == 0 ? SB_MODEL_FILM_REYNOLDS : 0}};
+    ask(worker->value[n], evaluator, worker->base, change, 3, figure, 2, SB_OK);
+  }
+  sb_evaluator_destroy(evaluator);
+  return NULL;
+}
+
+// Two threads on one base, in different orders, say the same.
+static void test_threads(void) {
+  SbModel base = base_model();
+  Worker worker[THREADS];
+  GThread *thread[THREADS];
+  for (int i = 0; i < THREADS; i++) {
+    worker[i] = (Worker){.base = &base, .offset = i * 7};
+    thread[i] = g_thread_new("evaluate", work, &worker[i]);
+  }
+  for (int i = 0; i < THREADS; i++) {
+    g_thread_join(thread[i]);
+  }
+  for (int n = 0; n < QUESTIONS; n++) {
+    g_assert_true(isfinite(worker[0].value[n][0]) && isfinite(worker[0].value[n][1]));
+    g_assert_cmpmem(worker[0].value[n], sizeof worker[0].value[n], worker[1].value[n],
+                    sizeof worker[1].value[n]);
+  }
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/evaluate/bits", test_bits);
+  g_test_add_func("/evaluate/ring", test_ring);
+  g_test_add_func("/evaluate/least", test_least);
+  g_test_add_func("/evaluate/refused", test_refused);
+  g_test_add_func("/evaluate/cancel", test_cancel);
+  g_test_add_func("/evaluate/threads", test_threads);
+  if (g_test_slow()) {
+    g_test_add_func("/evaluate/history", test_history);
+  }
+  return g_test_run();
+}
