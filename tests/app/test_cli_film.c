@@ -1,0 +1,189 @@
+// The command film from outside: JSON keys, its options, films through a table of speeds.
+#include "tests/app/cli_fixture.h"
+
+#include <glib/gstdio.h>
+#include <math.h>
+#include <string.h>
+
+static void test_json_film(void) {
+  CliResult result =
+      CLI("film", "--load", "850.2N/m", "--speed", "20 mm/min", "--radius", "0.805mm", "--modulus",
+          "6.5725MPa", "--viscosity", "0.211mPa.s", "--model", "thesis", "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *root = cli_parse(result.out);
+  cli_has_keys(root, "model film_min_m film_central_m film_flux_m pressure_max_Pa "
+                     "position_film_min_m position_rupture_m hertz_half_width_m hertz_pressure_Pa "
+                     "friction_couette_N_per_m friction_poiseuille_N_per_m moes_M regime valid "
+                     "warnings solver.converged solver.unknowns solver.newton_iterations "
+                     "solver.continuation_steps solver.residual solver.error_estimate.film_min "
+                     "solver.error_estimate.film_central solver.wall_s profile.x_m "
+                     "profile.pressure_Pa profile.film_m");
+  g_assert_cmpfloat(fabs(cli_number(root, "film_central_m") - 1.720e-9), <, 5e-13);
+  g_assert_cmpuint(json_array_get_length(json_node_get_array(cli_at(root, "profile.x_m"))), >=,
+                   400);
+  json_node_unref(root);
+  cli_clear(&result);
+  result =
+      CLI("film", "--load", "850.2N/m", "--speed", "20 mm/min", "--radius", "0.805mm", "--modulus",
+          "6.5725MPa", "--viscosity", "0.211mPa.s", "--model", "karaszkiewicz", "--json", "-");
+  root = cli_parse(result.out);
+  g_assert_cmpfloat(fabs(cli_number(root, "film_central_m") - 0.282e-9), <, 5e-13);
+  json_node_unref(root);
+  cli_clear(&result);
+}
+
+// The film through a table of speeds: a row for each of the file, steady at first; files that are
+// no such table are refused with their line.
+static void test_film_history(void) {
+#define AT_REST                                                                                    \
+  "film", "--load", "850.2N/m", "--radius", "0.805mm", "--modulus", "6.5725MPa", "--viscosity",    \
+      "0.211mPa.s", "--json", "-"
+  char *path = g_build_filename(cli.folder, "speed.csv", NULL);
+  g_assert_true(
+      g_file_set_contents(path, "time [s],speed [m/s]\n0,0.1\n1e-3,0.08\n2e-3,0.08\n", -1, NULL));
+  CliResult good = CLI(AT_REST, "--history", path);
+  g_assert_cmpint(good.code, ==, 0);
+  JsonNode *json = cli_parse(good.out);
+  const char *const names[] = {"time_s", "film_min_m", "film_central_m", "error_estimate.film_min",
+                               "error_estimate.film_central"};
+  double value[G_N_ELEMENTS(names)][3];
+  for (size_t k = 0; k < G_N_ELEMENTS(names); k++) {
+    g_autofree char *name = g_strconcat("history.", names[k], NULL);
+    JsonArray *rows = json_node_get_array(cli_at(json, name));
+    g_assert_cmpuint(json_array_get_length(rows), ==, 3);
+    for (guint i = 0; i < 3; i++) {
+      value[k][i] = json_array_get_double_element(rows, i);
+    }
+  }
+  g_assert_cmpfloat(value[0][1], ==, 1e-3);
+  g_assert_cmpfloat_with_epsilon(value[1][0] / cli_number(json, "film_min_m"), 1, 2e-3);
+  g_assert_cmpfloat_with_epsilon(value[2][0] / cli_number(json, "film_central_m"), 1, 2e-3);
+  for (int i = 0; i < 3; i++) {
+    g_assert_cmpfloat(value[1][i], <, value[2][i]);
+    g_assert_true(value[3][i] > 0 && value[3][i] < 0.03);
+    g_assert_true(value[4][i] > 0 && value[4][i] < 0.01);
+  }
+  g_assert_cmpfloat(value[1][2], <, value[1][0]); // slower
+  json_node_unref(json);
+  cli_clear(&good);
+  static const struct {
+    const char *text, *message;
+  } bad[] = {{"time [s],speed [m/s]\n0,0.1\n1e-3,fast\n", "line 3"},
+             {"time [s],speed [m/s]\n0,0.1\n1e-3,0.1\n1e-3,0\n", "line 4"},
+             {"time [s],speed [m/s]\n0,0\n1e-3,0.1\n", "begins at rest"},
+             {"0,0.1\n1e-3,0\n", "not a heading"}};
+  for (size_t k = 0; k < G_N_ELEMENTS(bad); k++) {
+    g_assert_true(g_file_set_contents(path, bad[k].text, -1, NULL));
+    CliResult refused = CLI(AT_REST, "--history", path);
+    g_assert_cmpint(refused.code, ==, 1);
+    g_assert_nonnull(strstr(refused.err, "speed.csv"));
+    g_assert_nonnull(strstr(refused.err, bad[k].message));
+    cli_clear(&refused);
+  }
+  CliResult both = CLI(AT_REST, "--history", path, "--speed", "1 m/s");
+  g_assert_cmpint(both.code, ==, 1);
+  g_assert_nonnull(strstr(both.err, "--speed"));
+  cli_clear(&both);
+  g_free(path);
+#undef AT_REST
+}
+
+static void test_film_options(void) {
+#define CONTACT                                                                                    \
+  "film", "--load", "850.2N/m", "--speed", "1 m/s", "--radius", "0.805mm", "--modulus",            \
+      "6.5725MPa", "--viscosity", "0.211mPa.s"
+  CliResult flooded = CLI(CONTACT, "--json", "-");
+  CliResult starved = CLI(CONTACT, "--json", "-", "--inlet-film", "20 nm");
+  g_assert_cmpint(flooded.code, ==, 0);
+  g_assert_cmpint(starved.code, ==, 0);
+  JsonNode *one = cli_parse(flooded.out);
+  JsonNode *two = cli_parse(starved.out);
+  g_assert_false(json_node_get_boolean(cli_at(one, "starved")));
+  g_assert_true(json_node_get_boolean(cli_at(two, "starved")));
+  g_assert_cmpfloat(cli_number(two, "film_central_m"), <, cli_number(one, "film_central_m"));
+  json_node_unref(one);
+  json_node_unref(two);
+  cli_clear(&flooded);
+  cli_clear(&starved);
+
+  // The table's chart and pull take the options given: both are proportional to them.
+  double chart[2], pull[2];
+  for (int i = 0; i < 2; i++) {
+    CliResult table = CLI(CONTACT, "--pressure-viscosity", i == 0 ? "1/GPa" : "3/GPa", "--hamaker",
+                          i == 0 ? "1e-21J" : "3e-21J");
+    g_assert_cmpint(table.code, ==, 0);
+    g_assert_nonnull(strstr(table.out, i == 0 ? "alpha 1/GPa" : "alpha 3/GPa"));
+    chart[i] = g_ascii_strtod(strstr(table.out, "g_V ") + 4, NULL);
+    pull[i] = g_ascii_strtod(strstr(table.out, "pull (5.17)") + 11, NULL);
+    cli_clear(&table);
+  }
+  g_assert_cmpfloat_with_epsilon(chart[1] / chart[0], 3, 2e-3);
+  g_assert_cmpfloat_with_epsilon(pull[1] / pull[0], 3, 2e-3);
+
+  // End pressures that all but open the contact: solved, or said with no figures but the problem's.
+  CliResult open = CLI(CONTACT, "--pressure-left", "3.2 MPa", "--json", "-");
+  one = cli_parse(open.out);
+  if (open.code == 0) {
+    g_assert_cmpfloat(cli_number(one, "film_min_m"), >, 0.0);
+  } else {
+    g_assert_cmpint(open.code, ==, 2);
+    g_assert_true(json_node_is_null(cli_at(one, "film_min_m")));
+    g_assert_true(json_node_is_null(cli_at(one, "solver.error_estimate.film_min")));
+    g_assert_false(json_node_get_boolean(cli_at(one, "valid")));
+    g_assert_cmpfloat(cli_number(one, "hertz_pressure_Pa"), >, 0.0);
+  }
+  json_node_unref(one);
+  cli_clear(&open);
+
+  // The inverse model reads its table; a table that is none gives one line.
+  char *path = g_build_filename(cli.folder, "dry.csv", NULL);
+  GString *table = g_string_new("x,p\n# smooth\n");
+  for (int i = -40; i <= 40; i++) {
+    double X = i / 40.0;
+    char x[G_ASCII_DTOSTR_BUF_SIZE];
+    char p[G_ASCII_DTOSTR_BUF_SIZE];
+    g_ascii_dtostr(x, sizeof x, 0.5e-3 * X);
+    g_ascii_dtostr(p, sizeof p, 1e6 * (1 - X * X) * (1 - X * X));
+    g_string_append_printf(table, "%s,%s\n", x, p);
+  }
+  g_assert_true(g_file_set_contents(path, table->str, -1, NULL));
+  g_string_free(table, TRUE);
+  CliResult result = CLI(CONTACT, "--json", "-", "--model", "inverse", "--dry-pressure", path);
+  g_assert_cmpstr(result.err, ==, "");
+  g_assert_cmpint(result.code, ==, 0);
+  cli_clear(&result);
+  static const char *const bad[] = {"",
+                                    "x,p\n0,1\n",
+                                    "0,1\n0,2\n1,1\n",
+                                    "0 1\n1 nan\n2 3\n",
+                                    "0,1,2\n1,2,3\n2,3,4\n",
+                                    "0,1\n0x1,2\n2,1\n",
+                                    "0,1\n1-2\n2,1\n",
+                                    "\xff\xfe"};
+  for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+    g_assert_true(g_file_set_contents(path, bad[i], -1, NULL));
+    result = CLI(CONTACT, "--model", "inverse", "--dry-pressure", path);
+    g_assert_cmpint(result.code, ==, 1);
+    g_assert_true(g_str_has_prefix(result.err, "sealbench: "));
+    cli_clear(&result);
+  }
+  result = CLI(CONTACT, "--model", "inverse");
+  g_assert_cmpint(result.code, ==, 1);
+  cli_clear(&result);
+  result = CLI(CONTACT, "--model", "wet");
+  g_assert_nonnull(strstr(result.err, "moes"));
+  cli_clear(&result);
+  g_unlink(path);
+  g_free(path);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  cli_set_up();
+  g_test_add_func("/cli/json/film", test_json_film);
+  g_test_add_func("/cli/film-options", test_film_options);
+  g_test_add_func("/cli/film-history", test_film_history);
+  int result = g_test_run();
+  cli_tear_down();
+  return result;
+}
