@@ -274,15 +274,17 @@ static void take_film(SbSliding *out, const SbFilm *film, SbStatus status, bool 
   out->film_fitted = fitted;
   out->film_min = film->film_min;
   out->film_central = film->film_central;
-  out->film_error = fmax(film->solver.error_film_min, film->solver.error_film_central);
+  double ring = 0;
   if (fitted && fit->model == SB_FIT_RING) {
     // A thin film goes with the power -0.8 of the strength of the pressure's root at its inlet,
     // which goes with peak over root of width but hangs on few nodes of the ring's mesh: measured,
     // it is out by up to five times their relative errors.
-    out->film_error +=
+    ring =
         0.8 * 5 *
         (fit->solver.error_estimate.pressure_peak + 0.5 * fit->solver.error_estimate.contact_width);
   }
+  out->central_error = film->solver.error_film_central + ring;
+  out->film_error = fmax(film->solver.error_film_min + ring, out->central_error);
 }
 
 // Layer that the return stroke finds on the bore: what the in-stroke carried through the contact,
@@ -346,7 +348,7 @@ static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSea
   if (problem.model == SB_FILM_REYNOLDS) {
     out->film_reynolds = out->film_central;
   } else {
-    out->film_error = NAN;
+    out->film_error = out->central_error = NAN;
   }
   if (problem.model == SB_FILM_REYNOLDS && status == SB_OK &&
       solve_fitted(&memory->fitted_film, &problem, model, seal, pressure, memory, counts,
@@ -446,10 +448,9 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
                            (model->shear_strength * fmin(rest->real_area / rest_width, 1) * area +
                             model->load_coefficient * rest->asperity_load * circumference);
   }
-  out->friction_error =
-      fmax(film->solver.error_contact * (out->boundary_area + out->boundary_load) +
-               out->film_error * out->viscous,
-           rest->solver.error_contact * out->friction_static);
+  out->friction_error = film->solver.error_contact * (out->boundary_area + out->boundary_load) +
+                        out->central_error * out->viscous;
+  out->static_error = rest->solver.error_contact * out->friction_static;
   return worst;
 }
 
@@ -518,14 +519,14 @@ static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, do
     double shear = model->viscosity * fabs(speed) / out->film_central;
     shear = shear > model->shear_strength ? model->shear_strength : shear;
     out->viscous = shear * (1 - out->area_share) * area;
-    if (out->film_error > 0) {
+    if (out->central_error > 0) {
       SbGtIntegrals thinner;
       bool persson = model->surface == SB_MODEL_SURFACE_PERSSON;
       double share = NAN;
-      if (sb_gt_integrals(&thinner, out->lambda * (1 - out->film_error), NULL) == SB_OK) {
+      if (sb_gt_integrals(&thinner, out->lambda * (1 - out->central_error), NULL) == SB_OK) {
         share = sb_gt_area_share(model->gt_product, thinner.F2) - out->area_share;
       }
-      out->friction_error = out->film_error * out->viscous +
+      out->friction_error = out->central_error * out->viscous +
                             (persson ? 0 : model->shear_strength * fabs(share) * area);
     }
   }
@@ -575,6 +576,7 @@ void sb_sliding_clear(SbSliding *out) {
                      .film_central = NAN,
                      .film_reynolds = NAN,
                      .film_error = NAN,
+                     .central_error = NAN,
                      .lambda = NAN,
                      .area_share = NAN,
                      .asperity_share = NAN,

@@ -34,6 +34,7 @@ typedef struct {
   double film_reynolds;          // central, solved on the half-plane; NaN if not solved
   bool film_fitted;              // film_min and film_central are solved on the fitted body
   double film_error;             // relative error estimate of the solved film; NaN if closed form
+  double central_error;          // the same of film_central alone, on which friction hangs
   double lambda;                 // film_central / sigma
   double area_share;             // A_a / A
   double asperity_share;         // of the net load, on the asperities; NaN unless coupled
@@ -41,7 +42,8 @@ typedef struct {
   double boundary_load;          // m W, the part in proportion to the load [N]
   double viscous;                // [N]
   double friction_static;        // [N]
-  double friction_error;         // of either friction by the solved film's error [N]
+  double friction_error;         // of kinetic friction by the solved film's error [N]
+  double static_error;           // the same of static friction [N]
 } SbSliding;
 
 // Kinetic friction of a whole contact [N].

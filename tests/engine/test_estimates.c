@@ -255,6 +255,9 @@ static void test_cycle(void) {
       sb_run_destroy(fine);
     }
   }
+  for (size_t i = 0; i < G_N_ELEMENTS(tally); i++) {
+    check_median(&tally[i]);
+  }
 }
 
 int main(int argc, char **argv) {

@@ -154,6 +154,7 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   summary->leakage_per_cycle = sb_run_cycle_leakage(summary, cycle_leakage(run), summary->returns);
   summary->steps = run->cycle.count;
   summary->error_force = summary->error_load + sb_run_error_friction(run);
-  summary->error_energy = fmax(summary->energy.closure, summary->error_force);
+  summary->error_energy =
+      fmax(summary->energy.closure, summary->error_load + sb_run_error_work(run));
   return status;
 }

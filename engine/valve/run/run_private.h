@@ -54,7 +54,7 @@ struct SbRun {
   double speed;  // sliding speed that the states stand for [m/s]: the machine's, or the stem's own
   double film_exponent; // of the film's speed law about it; 0: every frame slides at that speed
   SbSummary summary;
-  double friction_error; // of any state by its films [N]
+  double friction_error, static_error; // of any state's frictions by its films [N]
   SbSlidingMemory *memory[SB_SEAL_COUNT];
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
   SbRunSurface surface[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS];
@@ -157,6 +157,9 @@ void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t i
 
 // What the films' error leaves in the cycle's forces, over the largest of them; both seals.
 double sb_run_error_friction(const SbRun *run);
+
+// The same of the works of a quasi-static cycle, over the greatest external work.
+double sb_run_error_work(const SbRun *run);
 
 // Tells how far the run is: `fraction` of the work before the frames, or of the frames once there
 // are any.

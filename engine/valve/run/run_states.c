@@ -199,7 +199,14 @@ static void tell_failure(SbRun *run, int seal, int chamber, int motion, const Sb
 
 double sb_run_error_friction(const SbRun *run) {
   double peak = run->summary.force_peak;
-  return peak > 0 ? SB_SEAL_COUNT * run->friction_error / peak : 0;
+  return peak > 0 ? SB_SEAL_COUNT * fmax(run->friction_error, run->static_error) / peak : 0;
+}
+
+double sb_run_error_work(const SbRun *run) {
+  double peak = run->summary.force_peak;
+  // Static friction works only over the way that the machine yields before the stem slips.
+  double yields = fmin(1, peak / (run->model.stiffness * run->model.stroke));
+  return peak > 0 ? SB_SEAL_COUNT * (run->friction_error + yields * run->static_error) / peak : 0;
 }
 
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
@@ -209,7 +216,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   summary->error_film = NAN;
   summary->error_load = 0;
   run->lacks[0] = '\0';
-  run->friction_error = 0;
+  run->friction_error = run->static_error = 0;
   run->cycle.states.model = &run->model;
   // A carried inlet is left by an in-stroke at the model's speed.
   SbModel model = run->model;
@@ -275,6 +282,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
         }
         // fmax() leaves out what was not computed.
         run->friction_error = fmax(run->friction_error, state->friction_error);
+        run->static_error = fmax(run->static_error, state->static_error);
         if (!isnan(state->film_error)) {
           summary->error_film =
               fmax(isnan(summary->error_film) ? 0 : summary->error_film, state->film_error);
