@@ -10,6 +10,8 @@ struct SbEvaluator {
   SbRun *run;    // NULL before the first question
   bool answered; // the run is that of the last question
   SbReport why;  // there was none
+  SbModel model; // of the question; with its plan too large for a stack
+  SbPlan plan;
 };
 
 SbStatus sb_evaluator_create(SbEvaluator **out, SbReport *report) {
@@ -28,19 +30,19 @@ void sb_evaluator_destroy(SbEvaluator *evaluator) {
 }
 
 static SbStatus prepare(SbEvaluator *evaluator, const SbQuestion *question, SbReport *report) {
-  SbModel model;
-  SbPlan plan;
-  SbStatus status = sb_model_override(&model, question->base, question->override,
+  SbModel *model = &evaluator->model;
+  SbPlan *plan = &evaluator->plan;
+  SbStatus status = sb_model_override(model, question->base, question->override,
                                       question->override_count, report);
   if (status != SB_OK) {
     return status;
   }
-  sb_plan_figures(&plan, &model, question->figure, question->figure_count);
-  if (model.motion == SB_MODEL_MOTION_QUASI_STATIC && !plan.film_history) {
-    model.frames = 2; // its frames are looked at and nothing else; the least that there may be
+  sb_plan_figures(plan, model, question->figure, question->figure_count);
+  if (model->motion == SB_MODEL_MOTION_QUASI_STATIC && !plan->film_history) {
+    model->frames = 2; // its frames are looked at and nothing else; the least that there may be
   }
-  return evaluator->run == NULL ? sb_run_create(&evaluator->run, &model, &plan, report)
-                                : sb_run_renew(evaluator->run, &model, &plan, report);
+  return evaluator->run == NULL ? sb_run_create(&evaluator->run, model, plan, report)
+                                : sb_run_renew(evaluator->run, model, plan, report);
 }
 
 SbStatus sb_evaluate(double *value, SbEvaluator *evaluator, const SbQuestion *question,

@@ -101,11 +101,15 @@ static SbStatus solve(SbStudy *out, double value[FIGURES], const SbModel *scene,
             "some corner of the tolerances leaves no valve that could be put together");
     return sb_succeed(report);
   }
-  SbPlan plan;
-  sb_plan_make(&plan, &model);
+  SbPlan *plan = malloc(sizeof *plan);
+  if (plan == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a plan");
+  }
+  sb_plan_make(plan, &model);
   SbRun *run = NULL;
   SbReport local = {0};
-  SbStatus status = sb_run_create(&run, &model, &plan, &local);
+  SbStatus status = sb_run_create(&run, &model, plan, &local);
+  free(plan);
   if (status == SB_OK) {
     SbRunHooks own = {NULL, hooks != NULL && hooks->cancelled != NULL ? run_cancelled : NULL,
                       (void *)(uintptr_t)hooks};
