@@ -30,9 +30,11 @@ ROOMS = {
 
 
 def arrows_up(source):
-    """Includes of a room that is not below the including file's own."""
+    """Includes of a layer above the including file's, or of a room that is not below its own."""
     found = []
+    layers = list(ROOMS)
     for layer, floors in ROOMS.items():
+        above = '|'.join(layers[layers.index(layer) + 1:]) or 'none'
         floor = {room: number for number, rooms in enumerate(floors) for room in rooms.split()}
         for path in glob.glob(f'{source}/{layer}/*/**/*.[chd]*', recursive=True):
             name = os.path.relpath(path, source)
@@ -40,9 +42,11 @@ def arrows_up(source):
                 continue
             room = name.split('/')[1]
             with open(path, encoding='utf-8') as file:
-                for other in re.findall(rf'#include "{layer}/(\w+)/', file.read()):
-                    if other != room and floor[other] >= floor[room]:
-                        found.append(f'{name} -> {layer}/{other}')
+                text = file.read()
+            found += [f'{name} -> {other}' for other in re.findall(rf'#include "({above})/', text)]
+            for other in re.findall(rf'#include "{layer}/(\w+)/', text):
+                if other != room and floor[other] >= floor[room]:
+                    found.append(f'{name} -> {layer}/{other}')
     return found
 
 
@@ -57,7 +61,7 @@ checks = [
     ('engine has no writable globals',
      [name for name in sorted(symbols(engine, 'bBC')) if not name.startswith(('__', '.'))]),
     ('app uses no GTK', matching(symbols(app, 'U'), r'(gtk|gdk)_')),
-    ('no room includes one beside or above it', arrows_up(source)),
+    ('no layer includes one above it, no room one beside or above it', arrows_up(source)),
     ('sealbench is not linked with GTK', re.findall(r'lib(?:gtk|gdk)-\S+', libraries)),
 ]
 print(f'1..{len(checks)}')

@@ -5,7 +5,7 @@
 #include "app/session/session_private.h"
 
 #include "app/base/format.h"
-#include "ui/views/words.h"
+#include "app/session/words.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -6,8 +6,8 @@
 #include "ui/params/gland_panel.h"
 
 #include "app/base/format.h"
+#include "app/session/words.h"
 #include "ui/views/style.h"
-#include "ui/views/words.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

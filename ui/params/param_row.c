@@ -4,8 +4,8 @@
 // one sentence below, until it is mended, reset or left by Escape.
 #include "ui/params/param_row.h"
 
+#include "app/session/words.h"
 #include "ui/views/style.h"
-#include "ui/views/words.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -7,13 +7,13 @@
 #include "app/section/draw_cairo.h"
 #include "app/section/gl_renderer.h"
 #include "app/section/section.h"
+#include "app/session/words.h"
 #include "ui/views/canvas_area.h"
 #include "ui/views/force_balance.h"
 #include "ui/views/picture.h"
 #include "ui/views/section_gl.h"
 #include "ui/views/section_source.h"
 #include "ui/views/style.h"
-#include "ui/views/words.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -4,8 +4,8 @@
 #include "ui/window/export_dialog.h"
 
 #include "app/export/render.h"
+#include "app/session/words.h"
 #include "ui/views/style.h"
-#include "ui/views/words.h"
 #include "ui/window/export_job.h"
 #include "ui/window/preferences.h"
 

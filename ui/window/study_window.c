@@ -6,9 +6,9 @@
 
 #include "app/chart/study.h"
 #include "app/export/studies.h"
+#include "app/session/words.h"
 #include "ui/views/picture.h"
 #include "ui/views/style.h"
-#include "ui/views/words.h"
 #include "ui/window/export_dialog.h"
 #include "ui/window/preferences.h"
 #include "ui/window/study_job.h"

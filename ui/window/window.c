@@ -4,6 +4,7 @@
 #include "ui/window/autosave.h"
 
 #include "app/session/session.h"
+#include "app/session/words.h"
 #include "ui/params/derived_panel.h"
 #include "ui/params/gland_panel.h"
 #include "ui/params/param_panel.h"
@@ -11,7 +12,6 @@
 #include "ui/views/section_view.h"
 #include "ui/views/style.h"
 #include "ui/views/timeline_view.h"
-#include "ui/views/words.h"
 #include "ui/window/columns.h"
 #include "ui/window/export_dialog.h"
 #include "ui/window/preferences.h"

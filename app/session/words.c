@@ -1,7 +1,7 @@
 // Words of the lower layers in the user's language. Labels of parameters are read for translation
 // from engine/valve/params.def itself (po/meson.build); the others, which are few, are listed here,
 // because the engine knows nothing of translations.
-#include "ui/views/words.h"
+#include "app/session/words.h"
 
 #include <glib/gi18n.h>
 
