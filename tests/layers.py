@@ -59,7 +59,7 @@ checks = [
     ('engine has no writable globals',
      [name for name in sorted(symbols(engine, 'bBC')) if not name.startswith(('__', '.'))]),
     ('app uses no GTK', matching(symbols(app, 'U'), r'(gtk|gdk)_')),
-    ('no room includes one beside or above it', arrows_up(source)),
+    ('no layer includes one above it, no room one beside or above it', arrows_up(source)),
     ('sealbench is not linked with GTK', re.findall(r'lib(?:gtk|gdk)-\S+', libraries)),
 ]
 print(f'1..{len(checks)}')

@@ -9,30 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const SbCommand commands[] = {
-    {"run", "FILE.scene...", "Computes the cycle of scenes", sb_command_run},
-    {"render", "FILE.scene... -o OUT.{mp4,png,svg,pdf}", "Draws a view of scenes",
-     sb_command_render},
-    {"plan", "FILE.scene...", "Says what scenes would compute, and why", sb_command_plan},
-    {"check", "FILE...", "Reports every problem of valve or scene files", sb_command_check},
-    {"fit", "FILE.valve --seal NAME", "Fits one seal into its gland", sb_command_fit},
-    {"film", "--load W --speed U --radius R --modulus E --viscosity ETA",
-     "Computes the film of a sliding line contact", sb_command_film},
-    {"asperity", "--lambda L", "Greenwood and Tripp's integrals F2 and F5/2", sb_command_asperity},
-    {"list", "params|models|views", "Lists parameters, models or views", sb_command_list},
-    {"bench", "[-o DIR]", "Measures error against time for every solver", sb_command_bench},
-    {"open", "[FILE]", "Starts the window", sb_command_open},
-    {NULL, NULL, NULL, NULL},
-};
-
-const SbCommand *sb_commands(void) {
-  return commands;
-}
-
 static void print_help(FILE *stream) {
   fprintf(stream, "Sealbench %s: a workbench for the seals of inhaler valves.\n\nUsage:\n",
           sb_version());
-  for (const SbCommand *command = commands; command->name != NULL; command++) {
+  for (const SbCommand *command = sb_commands(); command->name != NULL; command++) {
     char *head = g_strdup_printf("%s %s", command->name, command->usage);
     if (strlen(head) > 32) {
       fprintf(stream, "  sealbench %s\n  %43s%s\n", head, "", command->help);
@@ -53,7 +33,7 @@ int main(int argc, char **argv) {
   sb_process_set_up();
   sb_output_protect_inputs();
   int code = SB_EXIT_INPUT;
-  const SbCommand *command = commands;
+  const SbCommand *command = sb_commands();
   while (argc > 1 && command->name != NULL && strcmp(command->name, argv[1]) != 0) {
     command++;
   }
@@ -67,7 +47,7 @@ int main(int argc, char **argv) {
     code = SB_EXIT_DONE;
   } else if (command->name == NULL) {
     GString *names = g_string_new("--help|--version");
-    for (command = commands; command->name != NULL; command++) {
+    for (command = sb_commands(); command->name != NULL; command++) {
       g_string_append_printf(names, "|%s", command->name);
     }
     sb_cli_unknown("there is no command", argv[1], names->str, "see sealbench --help");

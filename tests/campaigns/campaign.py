@@ -10,6 +10,7 @@ slices that meson.build registers, `./check --campaigns` runs every campaign in 
 import argparse
 import os
 import random
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -86,6 +87,9 @@ class Campaign:
     def configure(self, build, *options, **environment):
         """Sets up a build folder of the campaign's own, unless it is there."""
         name = os.path.basename(build)
+        if 'CC' in environment and shutil.which('ccache'):
+            # Meson takes it by itself only where CC is not set.
+            environment['CC'] = 'ccache ' + environment['CC']
         return os.path.exists(build + '/build.ninja') or self.run(
             ['meson', 'setup', build, SOURCE, *options], f'{name}: set up with {" ".join(options)}',
             env={**os.environ, **environment})

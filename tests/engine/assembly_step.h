@@ -70,9 +70,7 @@ static inline SbStatus assembly_step(SbAssembly *a, double time, double h,
                                      void *user, SbReport *report) {
   SbAssembly start = *a;
   BodyRates k1, k2, k3, k4, mean;
-  SbMobility mobility;
-  SbStatus status = sb_assembly_mobility(&mobility, a, -1, &assembly_work, report);
-  status = status != SB_OK ? status : rates_of(&k1, a, time, apply, user, report);
+  SbStatus status = rates_of(&k1, a, time, apply, user, report);
   if (status == SB_OK) {
     move_bodies(a, &start, &k1, 0.5 * h);
     status = rates_of(&k2, a, time + 0.5 * h, apply, user, report);

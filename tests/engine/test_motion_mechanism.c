@@ -340,7 +340,7 @@ static void test_cycle(void) {
       double k = (s.push.on ? 1e5 : 0.0) + (s.touch[0].on ? 1e6 : 0.0);
       double w = sqrt(k / m.mass) + 1.0, time = s.t;
       double ringing = fmin(span, 60.0 / w);
-      int fine = (int)ceil(ringing * w / 0.02), coarse = (int)ceil((span - ringing) * w / 0.3);
+      int fine = (int)ceil(ringing * w / 0.025), coarse = (int)ceil((span - ringing) * w / 0.3);
       fine = fine > 50 ? fine : 50;
       for (int i = 0; i < fine + coarse; i++) {
         double h = i < fine ? ringing / fine : (span - ringing) / coarse;

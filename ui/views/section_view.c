@@ -8,6 +8,7 @@
 #include "app/section/draw_cairo.h"
 #include "app/section/gl_renderer.h"
 #include "app/section/section.h"
+#include "app/base/translation.h"
 #include "ui/views/canvas_area.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/force_balance.h"

@@ -1,0 +1,22 @@
+// The commands of sealbench.
+#include "app/cli/cli.h"
+
+static const SbCommand commands[] = {
+    {"run", "FILE.scene...", "Computes the cycle of scenes", sb_command_run},
+    {"render", "FILE.scene... -o OUT.{mp4,png,svg,pdf}", "Draws a view of scenes",
+     sb_command_render},
+    {"plan", "FILE.scene...", "Says what scenes would compute, and why", sb_command_plan},
+    {"check", "FILE...", "Reports every problem of valve or scene files", sb_command_check},
+    {"fit", "FILE.valve --seal NAME", "Fits one seal into its gland", sb_command_fit},
+    {"film", "--load W --speed U --radius R --modulus E --viscosity ETA",
+     "Computes the film of a sliding line contact", sb_command_film},
+    {"asperity", "--lambda L", "Greenwood and Tripp's integrals F2 and F5/2", sb_command_asperity},
+    {"list", "params|models|views", "Lists parameters, models or views", sb_command_list},
+    {"bench", "[-o DIR]", "Measures error against time for every solver", sb_command_bench},
+    {"open", "[FILE]", "Starts the window", sb_command_open},
+    {NULL, NULL, NULL, NULL},
+};
+
+const SbCommand *sb_commands(void) {
+  return commands;
+}
