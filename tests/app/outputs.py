@@ -301,10 +301,10 @@ def several_pictures():
     view = ("--view", "hysteresis", "--size", "320x200")
     done(run("render", a, c, "-o", out, *view))
     done(run("render", a, c, "-o", out, *view, "--format", "SVG"))
-    done(run("render", a, c, "-o", out, "--view", "squeeze", "--format", "pdf"))
+    done(run("render", a, c, "-o", out, "--view", "storage", "--format", "pdf"))
     for name in "ac":
         expect(sorted(os.listdir(os.path.join(out, name))),
-               ["hysteresis.png", "hysteresis.svg", "squeeze.pdf"])
+               ["hysteresis.png", "hysteresis.svg", "storage.pdf"])
     done(run("render", a, "-o", path("drawn", "alone.png"), *view))
     expect(read(os.path.join(out, "a", "hysteresis.png")) == read(path("drawn", "alone.png")), True)
     for target in ["-", path("drawn", "x.mp4")]:
