@@ -310,6 +310,9 @@ def several_pictures():
     for target in ["-", path("drawn", "x.mp4")]:
         result = done(run("render", a, c, "-o", target), 1)
         assert "2 files need a folder" in result.stderr, result.stderr
+    # Refused when it is drawn: no folder stays.
+    result = done(run("render", a, c, "-o", path("drawn", "none"), *view, "--at", "Q"), 1)
+    assert not os.path.exists(path("drawn", "none"))
     result = done(run("render", a, c, "-o", out, "--format", "pgn"), 1)
     assert "do you mean png?" in result.stderr, result.stderr
 
