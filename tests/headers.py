@@ -2,7 +2,7 @@
 """Every header compiles alone, twice, by the flags of its layer, and so does a variable of each type
 that it gives an initialiser for (SbRingLoad, SB_RING_LOAD_INIT); a dropped status does not pass.
 
-headers.py BUILD SOURCE, TAP on standard output.
+headers.py BUILD SOURCE LAYER..., TAP on standard output.
 """
 import concurrent.futures
 import json
@@ -12,8 +12,7 @@ import shlex
 import subprocess
 import sys
 
-build, source = sys.argv[1:]
-layers = ('engine', 'app', 'ui')
+build, source, *layers = sys.argv[1:]
 
 # How a layer is compiled: compiler, places of headers and definitions of any of its files.
 commands = {}
@@ -55,10 +54,11 @@ with concurrent.futures.ThreadPoolExecutor(2) as pool:
                for header, said in zip(headers, pool.map(alone, headers))]
 
 DROPS = '#include "engine/base/status.h"\nSbStatus f(void);\nvoid g(void);\nvoid g(void) {\n  %s;\n}\n'
-said = compiles('engine', DROPS % 'f()')
-results.append(('a dropped status is refused', 'unused-result' in said, said))
-said = compiles('engine', DROPS % '(void)f()')
-results.append(('a status dropped on purpose is not', said == '', said))
+if 'engine' in layers:
+    said = compiles('engine', DROPS % 'f()')
+    results.append(('a dropped status is refused', 'unused-result' in said, said))
+    said = compiles('engine', DROPS % '(void)f()')
+    results.append(('a status dropped on purpose is not', said == '', said))
 
 print(f'1..{len(results)}')
 for number, (text, good, said) in enumerate(results, 1):

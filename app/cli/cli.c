@@ -282,11 +282,43 @@ bool sb_cli_quantity(double *out, const char *option, const char *text, bool req
   return good;
 }
 
+// ", do you mean NAME?" of a file that is not there: the most alike of those beside it and, for a
+// name alone, of those that ship. Owned by the caller.
+static char *file_hint(const char *path) {
+  g_autofree char *folder = g_path_get_dirname(path);
+  g_autofree char *name = g_path_get_basename(path);
+  SbNearest nearest = sb_nearest(name);
+  GDir *dir = g_dir_open(folder, 0, NULL);
+  for (const char *each; dir != NULL && (each = g_dir_read_name(dir)) != NULL;) {
+    if (g_str_has_suffix(each, ".scene") || g_str_has_suffix(each, ".valve")) {
+      sb_nearest_try(&nearest, g_intern_string(each));
+    }
+  }
+  if (dir != NULL) {
+    g_dir_close(dir);
+  }
+  g_autoptr(GPtrArray) shipped = sb_shipped_scenes();
+  for (guint i = 0; strchr(path, G_DIR_SEPARATOR) == NULL && i < shipped->len; i++) {
+    g_autofree char *base = g_path_get_basename(shipped->pdata[i]);
+    sb_nearest_try(&nearest, g_intern_string(base));
+    base[strlen(base) - strlen(".scene")] = '\0';
+    sb_nearest_try(&nearest, g_intern_string(base));
+  }
+  return sb_nearest_hint(&nearest);
+}
+
 SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings) {
   GPtrArray *issues = sb_issues_new();
   // A name that is no file here may be one that ships: "thesis-cycle".
-  char *shipped = g_file_test(path, G_FILE_TEST_EXISTS) ? NULL : sb_shipped_find(path);
+  bool there = strcmp(path, "-") == 0 || g_file_test(path, G_FILE_TEST_EXISTS);
+  char *shipped = there ? NULL : sb_shipped_find(path);
   SbDocument *document = sb_document_load(shipped != NULL ? shipped : path, issues);
+  if (!there && shipped == NULL && issues->len == 1) {
+    SbIssue *issue = issues->pdata[0];
+    g_autofree char *hint = file_hint(path);
+    g_autofree char *text = issue->text;
+    issue->text = g_strconcat(text, hint, NULL);
+  }
   g_free(shipped);
   for (char **setting = settings; document != NULL && setting != NULL && *setting != NULL;
        setting++) {

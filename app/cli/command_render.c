@@ -8,6 +8,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 // The options as they were given; texts are owned.
 typedef struct {
@@ -309,6 +310,14 @@ static char *file_names(const SbDocument *document) {
   return names;
 }
 
+// Takes folders that a failure left empty away again: nothing was written.
+static void remove_folder(const char *output, const char *root, bool root_was_there) {
+  g_autofree char *path = g_path_get_dirname(output);
+  if (rmdir(path) == 0 && !root_was_there) {
+    (void)rmdir(root);
+  }
+}
+
 // Makes the folder of one of several files, when there is something to put into it.
 static bool make_folder(const Request *request, const char *output, GError **error) {
   g_autofree char *path = g_path_get_dirname(output);
@@ -420,6 +429,8 @@ static int render_file(const SbCliFile *file, const Request *asked, const Option
   g_autofree char *output = request.name != NULL
                                 ? g_build_filename(file->folder, request.name, NULL)
                                 : g_strdup(options->output);
+  bool root_was_there = g_file_test(options->output, G_FILE_TEST_IS_DIR);
+  bool was_there = file->folder != NULL && g_file_test(file->folder, G_FILE_TEST_IS_DIR);
   int code;
   if (request.is_study) {
     code = render_study(&request, file->document, model, output);
@@ -433,6 +444,9 @@ static int render_file(const SbCliFile *file, const Request *asked, const Option
       code = drawn != SB_EXIT_DONE ? drawn : code;
     }
     sb_run_destroy(run);
+  }
+  if (request.name != NULL && !was_there && code != SB_EXIT_DONE) {
+    remove_folder(output, options->output, root_was_there);
   }
   return code;
 }

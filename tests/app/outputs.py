@@ -301,15 +301,18 @@ def several_pictures():
     view = ("--view", "hysteresis", "--size", "320x200")
     done(run("render", a, c, "-o", out, *view))
     done(run("render", a, c, "-o", out, *view, "--format", "SVG"))
-    done(run("render", a, c, "-o", out, "--view", "squeeze", "--format", "pdf"))
+    done(run("render", a, c, "-o", out, "--view", "storage", "--format", "pdf"))
     for name in "ac":
         expect(sorted(os.listdir(os.path.join(out, name))),
-               ["hysteresis.png", "hysteresis.svg", "squeeze.pdf"])
+               ["hysteresis.png", "hysteresis.svg", "storage.pdf"])
     done(run("render", a, "-o", path("drawn", "alone.png"), *view))
     expect(read(os.path.join(out, "a", "hysteresis.png")) == read(path("drawn", "alone.png")), True)
     for target in ["-", path("drawn", "x.mp4")]:
         result = done(run("render", a, c, "-o", target), 1)
         assert "2 files need a folder" in result.stderr, result.stderr
+    # Refused when it is drawn: no folder stays.
+    result = done(run("render", a, c, "-o", path("drawn", "none"), *view, "--at", "Q"), 1)
+    assert not os.path.exists(path("drawn", "none"))
     result = done(run("render", a, c, "-o", out, "--format", "pgn"), 1)
     assert "do you mean png?" in result.stderr, result.stderr
 

@@ -35,6 +35,11 @@ static void test_mistyped(void) {
        "--modulus=6MPa", "--viscosity=0.2mPa.s", "--model", "Reynods");
   SAYS(1, "do you mean params?", "list", "parms");
   SAYS(1, "do you mean gland.radial_space?", "plan", scene, "--set", "gland.radialspace=1.3mm");
+  SAYS(1, "thesis-cylce: No such file or directory, do you mean thesis-cycle?", "run",
+       "thesis-cylce");
+  g_autofree char *near_valve = g_strndup(valve, strlen(valve) - 1);
+  SAYS(1, "No such file or directory, do you mean piston.valve?", "check", near_valve);
+  SAYS(1, "xyzzy.scene: No such file or directory\n", "run", "xyzzy.scene");
   SAYS(1, "do you mean persson?", "plan", scene, "--set", "models.surface=person");
 }
 
