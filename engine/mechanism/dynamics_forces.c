@@ -426,6 +426,13 @@ bool sb_motion_event_value(const SbDynamics *at, int event, const Linear *l, dou
   double size = fabs(g.constant) + g.noise + fabs(g.relax);
   double speed = 10.0 * at->system.tolerance * at->system.floor[1];
   *grain = 1e-12 * size + fabs(g.of_v) * speed;
+  // What slows down to the speed of rest is at rest, whatever the tolerance leaves of its speed.
+  for (int i = 0; i < (int)at->model->contacts; i++) {
+    bool own = event == (is_rigid(at->model, (size_t)i) ? EVENT_RIGID_UP : EVENT_CONTACT_UP + i);
+    if (own && at->brisk[i]) {
+      *grain = fmin(*grain, 0.1 * sb_motion_rest_speed(at->model));
+    }
+  }
   return true;
 }
 

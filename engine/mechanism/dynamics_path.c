@@ -318,8 +318,9 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
 SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report) {
   s->linear = has_closed_form(s);
   for (size_t i = 0; i < s->model->contacts; i++) {
-    double slip = fabs(sb_motion_patch_speed(s, i));
-    s->brisk[i] = s->state[i] == SB_CONTACT_SLIP && slip > 2.0 * sb_motion_rest_speed(s->model);
+    // One that was brisk stays so while it slows down to the speed of rest, in however many steps.
+    double slip = fabs(sb_motion_patch_speed(s, i)), rest = sb_motion_rest_speed(s->model);
+    s->brisk[i] = s->state[i] == SB_CONTACT_SLIP && slip > (s->brisk[i] ? rest : 2.0 * rest);
   }
   if (s->linear) {
     closed_path(s);

@@ -16,9 +16,10 @@ static double balancing_diameter(void) {
 
 // All run to their end with finite frames and a closed balance (run_with asserts 1e-6).
 static void test_hard(void) {
+  enum { SETTINGS = 8 };
   const struct {
     const char *name;
-    Setting setting[4];
+    Setting setting[SETTINGS];
     bool returns;
   } cases[] = {
       {"no friction",
@@ -76,17 +77,30 @@ static void test_hard(void) {
         {SB_P_CHAMBER_FLOW, 1}},
        true},
       {"no pressure", {{SB_P_CANISTER_PRESSURE, 0}}, false},
+      // The stem rests at last where the stiff stop has pushed it, the land's edge under its
+      // contact: it slows down to the speed of rest in steps of any size.
+      {"creeps to rest beside a stop of 1e8 N/m",
+       {{SB_P_BORE_DIAMETER, 6.57e-3},
+        {SB_P_GLAND_RADIAL_SPACE, 1.8556e-3},
+        {SB_P_SEAL_SECTION_DIAMETER, 2.506e-3},
+        {SB_P_DRIVE_STROKE, 9.036e-3},
+        {SB_P_BORE_LAND_EDGE, 7.603e-3},
+        {SB_P_HOUSING_STOP_RESTITUTION, 0.11},
+        {SB_P_HOUSING_STOP_STIFFNESS, 1e8}},
+       false},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
-    Setting setting[5] = {{SB_P_OUTPUT_FRAMES, 100}};
+    Setting setting[1 + SETTINGS] = {{SB_P_OUTPUT_FRAMES, 100}};
     size_t n = 1;
-    for (int k = 0; k < 4 && (cases[i].setting[k].id != 0 || cases[i].setting[k].value != 0); k++) {
+    for (int k = 0; k < SETTINGS && (cases[i].setting[k].id != 0 || cases[i].setting[k].value != 0);
+         k++) {
       setting[n++] = cases[i].setting[k];
     }
     SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, setting, n);
     const SbSummary *summary = sb_run_summary(run);
     g_test_message("%s: closure %.1e, %zu steps, %.0f ms", cases[i].name, summary->energy.closure,
                    summary->steps, 1e3 * summary->wall_s);
+    g_assert_cmpuint(summary->steps, <, 100000);
     size_t count;
     const SbFrame *frames = sb_run_frames(run, &count);
     for (size_t k = 0; k < count; k++) {
