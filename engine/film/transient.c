@@ -516,7 +516,9 @@ static SbStatus compare(SbFilmTransient *t, double way) {
     const double bend = unknown ? fabs((H[at - 2] + H[at + 1]) / fine[0] - 2.0) : 0.0;
     t->way += way;
     for (int k = 0; k < 2; k++) {
-      const double apart = 0.5 * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);
+      // A spacing for the mean film alone finds the least one with the first order.
+      const double share = k == 0 && !t->problem.resolve ? 1.0 : 0.5;
+      const double apart = share * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);
       if (apart > t->apart[k] || t->way - t->apart_way[k] > 2.0 * t->now.half) {
         t->apart[k] = apart;
         t->apart_way[k] = t->way;

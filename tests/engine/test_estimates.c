@@ -6,6 +6,7 @@
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
 #include "engine/valve/sealbench.h"
+#include "engine/valve/studies/study.h"
 
 #include <glib.h>
 #include <math.h>
@@ -260,11 +261,58 @@ static void test_cycle(void) {
   }
 }
 
+// ---------------------------------------------------------------- studies
+
+static SbStudy *study_of(SbStudyKind kind, double tolerance) {
+  SbParams params;
+  sb_params_init(&params);
+  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_TOLERANCE, tolerance, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, NULL), ==,
+                  SB_OK);
+  SbModel model;
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  SbStudy *study = g_new(SbStudy, 1);
+  g_assert_cmpint(sb_study_make(study, kind, &model, NULL, NULL), ==, SB_OK);
+  return study;
+}
+
+// The one estimate that a study prints covers every curve: what films and loads are out by, over
+// the largest value of the curve.
+static void test_studies(void) {
+  static Tally tally = {.name = "studies"};
+  for (int kind = 0; kind < SB_STUDY_COUNT; kind++) {
+    SbStudy *coarse = study_of((SbStudyKind)kind, 1e-2), *fine = study_of((SbStudyKind)kind, 1e-4);
+    for (size_t p = 0; p < fine->panel_count; p++) {
+      for (size_t k = 0; k < fine->panel[p].series_count; k++) {
+        const SbStudySeries *a = &fine->panel[p].series[k], *b = &coarse->panel[p].series[k];
+        g_assert_cmpuint(a->count, ==, b->count);
+        double most = 0, off = 0;
+        for (size_t i = 0; i < a->count; i++) {
+          bool known = isfinite(a->y[i]) && isfinite(b->y[i]) && a->x[i] == b->x[i];
+          most = known ? fmax(most, fabs(a->y[i])) : most;
+          off = known ? fmax(off, fabs(a->y[i] - b->y[i])) : off;
+        }
+        char where[160];
+        g_snprintf(where, sizeof where, "%s, %s of %s", sb_study_name((SbStudyKind)kind),
+                   fine->panel[p].y.quantity, a->name);
+        if (most > 0 && coarse->error > 0) {
+          hold(&tally, where, off / most, coarse->error, fine->error);
+        }
+      }
+    }
+    g_free(coarse);
+    g_free(fine);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/estimates/mixed", test_mixed);
   g_test_add_func("/estimates/inverse", test_inverse);
   g_test_add_func("/estimates/disc-thesis", test_disc_thesis);
   g_test_add_func("/estimates/cycle", test_cycle);
+  if (g_test_slow()) {
+    g_test_add_func("/estimates/studies", test_studies);
+  }
   return g_test_run();
 }

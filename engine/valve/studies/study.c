@@ -70,6 +70,7 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   }
   if (out->load_largest > 0) {
     out->error = fmax(out->error, out->load_error / out->load_largest);
+    out->error = fmax(out->error, out->width_error / out->width_largest);
   }
   if (status == SB_OK) {
     status = sb_study_step(hooks, 1, report);
@@ -169,6 +170,9 @@ SbStatus sb_study_step(const SbStudyHooks *hooks, double fraction, SbReport *rep
 
 static void add_load_error(SbStudy *out, const SbFit *fit) {
   out->load_error = fmax(out->load_error, fit->solver.error_estimate.load * fit->load);
+  out->width_error =
+      fmax(out->width_error, fit->solver.error_estimate.contact_width * fit->contact_width);
+  out->width_largest = fmax(out->width_largest, fit->contact_width);
   out->load_largest = fmax(out->load_largest, fit->load);
 }
 

@@ -107,7 +107,8 @@ typedef struct {
   // the largest load, because a ring that barely touches has none to speak of. 0: closed forms
   // alone.
   double error;
-  double load_error, load_largest; // [N], what it is made from
+  double load_error, load_largest;   // [N], what it is made from
+  double width_error, width_largest; // [m], of contacts alike
   size_t note_count;
   char note[SB_STUDY_NOTES][200]; // what the numbers say, definitions, sources
   SbWarnings warnings;

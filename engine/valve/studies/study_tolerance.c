@@ -130,8 +130,8 @@ static SbStatus solve(SbStudy *out, double value[FIGURES], const SbModel *scene,
     value[3] = summary->stage[SB_STAGE_E].reached ? summary->force_return_min : NAN;
     out->solves += summary->counters.ring_solves + summary->counters.disc_solves +
                    summary->counters.reynolds_solves;
-    if (isfinite(summary->error_load)) {
-      out->error = fmax(out->error, summary->error_load);
+    if (isfinite(summary->error_force)) {
+      out->error = fmax(out->error, summary->error_force);
     }
   } else {
     sb_warn(&out->warnings, "study-gap-tolerance", local.parameter, "no cycle at some sizes: %s",
