@@ -231,6 +231,13 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
       SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, (SbChamber)chamber);
+      const SbSealPressure at_rest = sb_model_seal_pressure(&run->model, seal, SB_CHAMBER_AT_REST);
+      if (run->plan.seal[seal] == SB_DEPTH_LEAK && chamber != (int)SB_CHAMBER_AT_REST &&
+          pressure.left == at_rest.left && pressure.right == at_rest.right) {
+        SbSliding(*states)[SB_CYCLE_DIRECTIONS] = run->cycle.states.state[seal];
+        states[chamber][SB_CYCLE_IN] = states[SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+        continue;
+      }
       for (int motion = 0; motion < SB_RUN_MOTIONS; motion++) {
         if (!state_needed(run, seal, chamber, motion)) {
           continue;
