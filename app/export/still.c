@@ -41,6 +41,21 @@ static bool draw_on(cairo_surface_t *surface, const SbStill *still, double scale
 // ---------------------------------------------------------------------------------------------------
 // PNG
 
+// libpng reports by a callback that must not return: `text` says what was wrong, `back` is where it
+// goes on.
+typedef struct {
+  jmp_buf back;
+  char text[160];
+} Failure;
+
+static void png_failed(png_structp png, png_const_charp text) {
+  Failure *failure = png_get_error_ptr(png);
+  g_strlcpy(failure->text, text, sizeof failure->text);
+  longjmp(failure->back, 1);
+}
+
+static void png_warned(png_structp png, png_const_charp text) {}
+
 static void png_write_bytes(png_structp png, png_bytep data, png_size_t length) {
   FILE *stream = png_get_io_ptr(png);
   if (fwrite(data, 1, length, stream) != length) {
@@ -66,9 +81,9 @@ static int add_text(png_text *text, int count, const char *key, const char *valu
 // Only plain variables live across the jump; all are set before it.
 static bool encode_png(FILE *stream, cairo_surface_t *surface, const SbStill *still, double scale,
                        const char *software, png_byte *row, GError **error) {
-  SbPngFailure failure = {.text = ""};
+  Failure failure = {.text = ""};
   png_structp png =
-      png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, sb_png_failed, sb_png_warned);
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, png_failed, png_warned);
   png_infop info = png ? png_create_info_struct(png) : NULL;
   if (!info) {
     png_destroy_write_struct(&png, NULL);

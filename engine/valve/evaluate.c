@@ -45,8 +45,8 @@ static SbStatus prepare(SbEvaluator *evaluator, const SbQuestion *question, SbRe
                                 : sb_run_renew(evaluator->run, model, plan, report);
 }
 
-SbStatus sb_evaluate(double *value, SbEvaluator *evaluator, const SbQuestion *question,
-                     SbReport *report) {
+SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestion *question,
+                          SbReport *report) {
   SbReport own = {0};
   SbStatus status = prepare(evaluator, question, &own);
   evaluator->answered = status == SB_OK;

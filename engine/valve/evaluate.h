@@ -41,8 +41,8 @@ void sb_evaluator_destroy(SbEvaluator *evaluator);
 //   SB_ERROR_NOT_CONVERGED    some figures have values, others NaN
 //   SB_ERROR_INFEASIBLE, _CANCELLED, _MEMORY
 // `report` may be NULL.
-SbStatus sb_evaluate(double *value, SbEvaluator *evaluator, const SbQuestion *question,
-                     SbReport *report);
+SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestion *question,
+                          SbReport *report);
 
 // Why a figure of the last question has no value; NULL for one that has. Borrowed until the next
 // question.

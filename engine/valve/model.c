@@ -36,7 +36,9 @@ static void SB_PRINTF(5, 6) add_problem(SbProblems *problems, const char *key, d
   va_end(arguments);
 }
 
-bool sb_model_size_seal(SbModel *model, int index, SbProblems *problems) {
+// Works out a seal from its `stored` ring, its Poisson's ratio and the gland. False (with problems
+// added) where they make no sense.
+static bool size_seal(SbModel *model, int index, SbProblems *problems) {
   SbSealModel *seal = &model->seal[index];
   bool outer = index == SB_OUTER;
   SbParamId diameter_id =
@@ -113,7 +115,7 @@ static bool compile_seal(SbModel *model, int index, const SbParams *params, SbPr
   seal->poisson_ratio = OWN(POISSON_RATIO);
   seal->mooney_share = OWN(MOONEY_SHARE);
 #undef OWN
-  return sb_model_size_seal(model, index, problems);
+  return size_seal(model, index, problems);
 }
 
 static SbRubber read_rubber(const SbParams *params, double fluid_density) {

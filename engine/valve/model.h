@@ -267,11 +267,6 @@ void sb_model_remarks(const SbModel *model, SbProblems *out);
 // Adds what the storage of the rings has to say about its validity.
 void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings);
 
-// Works out a seal afresh from its `stored` ring, its Poisson's ratio and the gland, for studies
-// that change one of them in a copy of a model. False (with problems added; may be NULL) where they
-// make no sense.
-SB_CHECKED bool sb_model_size_seal(SbModel *model, int seal, SbProblems *problems);
-
 // The gland of a seal with its tolerances, for sb_gland_readouts: sizes as stored.
 void sb_model_gland(SbGland *out, const SbModel *model, int seal);
 

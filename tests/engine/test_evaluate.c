@@ -76,7 +76,7 @@ static void ask(double *value, SbEvaluator *evaluator, const SbModel *base,
                 SbStatus wanted) {
   SbReport report;
   SbQuestion question = {base, change, changes, figure, figures, NULL, NULL};
-  SbStatus status = sb_evaluate(value, evaluator, &question, &report);
+  SbStatus status = sb_evaluator_ask(value, evaluator, &question, &report);
   if (status != wanted) {
     g_error("%s: %s", sb_status_text(status), report.text);
   }
@@ -226,7 +226,7 @@ static void test_refused(void) {
   for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
     SbReport report;
     SbQuestion question = {&base, &bad[i].change, 1, figure, 2, NULL, NULL};
-    g_assert_cmpint(sb_evaluate(value, evaluator, &question, &report), ==, bad[i].status);
+    g_assert_cmpint(sb_evaluator_ask(value, evaluator, &question, &report), ==, bad[i].status);
     g_assert_cmpint(report.status, ==, bad[i].status);
     g_assert_cmpstr(report.parameter, ==, bad[i].key);
     g_assert_nonnull(strstr(report.text, bad[i].key));
@@ -261,7 +261,7 @@ static void test_cancel(void) {
     int left = limit;
     SbReport report;
     SbQuestion question = {&base, &change, 1, &figure, 1, after, &left};
-    SbStatus status = sb_evaluate(&value, evaluator, &question, &report);
+    SbStatus status = sb_evaluator_ask(&value, evaluator, &question, &report);
     g_assert_cmpint(status, ==, SB_ERROR_CANCELLED);
     g_assert_true(isnan(value));
     g_assert_nonnull(sb_evaluator_reason(evaluator, figure));

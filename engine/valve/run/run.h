@@ -142,8 +142,8 @@ typedef struct {
   bool converged;
   size_t frames, steps, rejected_steps, newton_iterations;
   double wall_s;
-  double error_force, error_energy, error_film, error_film_history,
-      error_load; // relative estimates; NaN: does not apply
+  double error_force, error_energy, error_film, error_film_history, error_load,
+      error_width; // relative estimates; NaN: does not apply
   SbCounters counters;
 } SbSummary;
 

@@ -214,7 +214,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   SbSlidingCounts counts = {0};
   SbStatus worst = SB_OK;
   summary->error_film = NAN;
-  summary->error_load = 0;
+  summary->error_load = summary->error_width = 0;
   run->lacks[0] = '\0';
   run->friction_error = run->static_error = 0;
   run->cycle.states.model = &run->model;
@@ -230,6 +230,13 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
       SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, (SbChamber)chamber);
+      const SbSealPressure at_rest = sb_model_seal_pressure(&run->model, seal, SB_CHAMBER_AT_REST);
+      if (run->plan.seal[seal] == SB_DEPTH_LEAK && chamber != (int)SB_CHAMBER_AT_REST &&
+          pressure.left == at_rest.left && pressure.right == at_rest.right) {
+        SbSliding(*states)[SB_CYCLE_DIRECTIONS] = run->cycle.states.state[seal];
+        states[chamber][SB_CYCLE_IN] = states[SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+        continue;
+      }
       for (int motion = 0; motion < SB_RUN_MOTIONS; motion++) {
         if (!state_needed(run, seal, chamber, motion)) {
           continue;
@@ -277,8 +284,10 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
                                               pressure, NULL, NULL) == SB_OK;
         }
         if (isfinite(state->load)) {
-          summary->error_load = fmax(summary->error_load,
-                                     sb_sliding_fit(run->memory[seal])->solver.error_estimate.load);
+          const SbFit *fit = sb_sliding_fit(run->memory[seal]);
+          summary->error_load = fmax(summary->error_load, fit->solver.error_estimate.load);
+          summary->error_width =
+              fmax(summary->error_width, fit->solver.error_estimate.contact_width);
         }
         // fmax() leaves out what was not computed.
         run->friction_error = fmax(run->friction_error, state->friction_error);

@@ -10,7 +10,7 @@
 
 typedef struct {
   const char *name, *title, *help;
-  SbStatus (*make)(SbStudy *out, const SbModel *model, const SbStudyHooks *hooks, SbReport *report);
+  void (*make)(SbStudyWork *work);
   double (*cost)(const SbModel *model);
 } Entry;
 
@@ -64,18 +64,19 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   }
   out->kind = kind;
   out->complete = true;
-  SbStatus status = sb_study_step(hooks, 0, report);
-  if (status == SB_OK) {
-    status = entry->make(out, model, hooks, report);
+  SbStudyWork work = {out, model, *model, NULL, hooks, report, SB_OK, 0, 0};
+  work.status = sb_evaluator_create(&work.evaluator, report);
+  sb_study_step(&work, 0);
+  if (work.status == SB_OK) {
+    entry->make(&work);
   }
   if (out->load_largest > 0) {
     out->error = fmax(out->error, out->load_error / out->load_largest);
     out->error = fmax(out->error, out->width_error / out->width_largest);
   }
-  if (status == SB_OK) {
-    status = sb_study_step(hooks, 1, report);
-  }
-  return status;
+  sb_study_step(&work, 1);
+  sb_evaluator_destroy(work.evaluator);
+  return work.status == SB_OK ? sb_succeed(report) : work.status;
 }
 
 // ---- building blocks ----
@@ -158,91 +159,154 @@ void sb_study_note(SbStudy *out, const char *format, ...) {
   va_end(arguments);
 }
 
-SbStatus sb_study_step(const SbStudyHooks *hooks, double fraction, SbReport *report) {
-  if (hooks != NULL && hooks->progress != NULL) {
+// ---- asking ----
+
+bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report) {
+  if (work->status == SB_OK && status != SB_OK) {
+    work->status = status;
+    if (work->report != NULL) {
+      *work->report = *report;
+    }
+  }
+  return work->status == SB_OK;
+}
+
+void sb_study_step(SbStudyWork *work, double fraction) {
+  const SbStudyHooks *hooks = work->hooks;
+  if (work->status != SB_OK || hooks == NULL) {
+    return;
+  }
+  if (hooks->progress != NULL) {
     hooks->progress(hooks->data, fraction);
   }
-  if (hooks != NULL && hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
-    return sb_fail(report, SB_ERROR_CANCELLED, "the study was cancelled");
+  if (hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
+    work->status = sb_fail(work->report, SB_ERROR_CANCELLED, "the study was cancelled");
   }
-  return sb_succeed(report);
 }
 
-static void add_load_error(SbStudy *out, const SbFit *fit) {
-  out->load_error = fmax(out->load_error, fit->solver.error_estimate.load * fit->load);
-  out->width_error =
-      fmax(out->width_error, fit->solver.error_estimate.contact_width * fit->contact_width);
-  out->width_largest = fmax(out->width_largest, fit->contact_width);
-  out->load_largest = fmax(out->load_largest, fit->load);
+void sb_study_fix(SbStudyWork *work, const SbOverride *override, size_t count) {
+  SbReport report;
+  if (work->status == SB_OK) {
+    (void)sb_study_goes_on(
+        work, sb_model_override(&work->base, &work->base, override, count, &report), &report);
+  }
 }
 
-SbStatus sb_study_fit(SbStudy *out, SbFit *fit, const SbFitProblem *problem,
-                      const SbStudyHooks *hooks, SbReport *report) {
-  SbFitProblem copy = *problem;
-  if (hooks != NULL) {
-    copy.cancel = hooks->cancelled;
-    copy.cancel_data = hooks->data;
+void sb_study_fix_machine(SbStudyWork *work) {
+  bool ports = work->base.pressure_map == SB_MAP_PORTS;
+  const SbOverride machine[] = {
+      {SB_P_MODELS_MOTION, SB_MODEL_MOTION_QUASI_STATIC},
+      {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_MACHINE},
+      // What only the motion with inertia knows, and this cycle has not.
+      {SB_P_DRIVE_CYCLES, 1},
+      {SB_P_FRICTION_DWELL_GAIN, 0},
+      {SB_P_FRICTION_STRIBECK_SPEED, 0},
+      {SB_P_FRICTION_TANGENTIAL_STIFFNESS, 0},
+      {SB_P_STEM_SPRING_STIFFNESS, 0},
+      {SB_P_STEM_SPRING_PRELOAD, 0},
+      {SB_P_CANISTER_PRESSURE_MAP, ports ? SB_MAP_CHAMBER_VENTED : work->base.pressure_map},
+  };
+  sb_study_fix(work, machine, sizeof machine / sizeof machine[0]);
+}
+
+void sb_study_fix_outer(SbStudyWork *work) {
+  const SbSealModel *ring = &work->scene->seal[SB_OUTER];
+  const SbOverride outer[] = {
+      {SB_P_STORAGE_TIME, 0},
+      {SB_P_STORAGE_TEMPERATURE, work->scene->rubber.reference_temperature},
+      {SB_P_SEAL_OUTER_SECTION_DIAMETER, ring->section_diameter},
+      {SB_P_SEAL_OUTER_INNER_DIAMETER, ring->inner_diameter},
+      {SB_P_SEAL_OUTER_MODULUS, ring->modulus},
+      {SB_P_SEAL_INNER_SECTION_DIAMETER, ring->section_diameter},
+      {SB_P_SEAL_INNER_INNER_DIAMETER, ring->inner_diameter},
+      {SB_P_SEAL_INNER_MODULUS, ring->modulus},
+      {SB_P_CANISTER_PRESSURE_MAP, SB_MAP_CHAMBER_FILLED},
+  };
+  sb_study_fix_machine(work);
+  sb_study_fix(work, outer, sizeof outer / sizeof outer[0]);
+}
+
+void sb_study_squeezed(SbOverride out[SB_STUDY_SQUEEZED], const SbStudyWork *work, double squeeze) {
+  const SbModel *scene = work->scene;
+  double space = scene->seal[SB_OUTER].section_diameter * (1 - squeeze);
+  double floor = scene->bore_diameter - 2 * scene->radial_space;
+  double land = (scene->stem_diameter - floor) / (2 * scene->radial_space);
+  out[0] = (SbOverride){SB_P_GLAND_RADIAL_SPACE, space};
+  out[1] = (SbOverride){SB_P_BORE_DIAMETER, floor + 2 * space};
+  out[2] = (SbOverride){SB_P_STEM_PRESSURE_DIAMETER, floor + land * 2 * space};
+}
+
+// What one answer cost and how far it is off.
+static void account(SbStudyWork *work, SbStatus status) {
+  SbStudy *out = work->out;
+  const SbSummary *summary = sb_evaluator_summary(work->evaluator);
+  if (summary == NULL) {
+    return;
   }
-  SbReport local = {0};
-  SbStatus status = sb_fit_solve(fit, &copy, &local);
-  bool solver =
-      copy.model == SB_FIT_RING || copy.model == SB_FIT_DISC || copy.model == SB_FIT_DISC_THESIS;
-  out->solves += solver ? 1 : 0;
-  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
-    if (report != NULL) {
-      *report = local;
-    }
-    return status;
-  }
+  size_t fits = summary->counters.disc_solves + summary->counters.ring_solves;
+  out->solves += fits + summary->counters.reynolds_solves;
   if (status != SB_OK) {
-    fit->load = fit->load_per_length = fit->pressure_peak = fit->contact_width = NAN;
+    return;
+  }
+  double load = 0, width = 0; // fmax() leaves out the seal that was not asked for
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    load = fmax(load, summary->seal[seal].load);
+    width = fmax(width, summary->seal[seal].contact_width);
+  }
+  if (fits > 0) {
+    out->load_error = fmax(out->load_error, summary->error_load * load);
+    out->load_largest = fmax(out->load_largest, load);
+    out->width_error = fmax(out->width_error, summary->error_width * width);
+    out->width_largest = fmax(out->width_largest, width);
+  }
+  out->error = fmax(out->error, summary->error_film);
+}
+
+void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, size_t paths,
+                  const SbOverride *override, size_t overrides) {
+  enum { PATHS = 8 };
+  assert(paths <= PATHS);
+  int figure[PATHS];
+  for (size_t i = 0; i < paths; i++) {
+    figure[i] = sb_figure_find(path[i]);
+    assert(figure[i] >= 0);
+    value[i] = NAN;
+  }
+  if (work->status != SB_OK) {
+    return;
+  }
+  const SbStudyHooks *hooks = work->hooks;
+  SbQuestion question = {&work->base,
+                         override,
+                         overrides,
+                         figure,
+                         paths,
+                         hooks != NULL ? hooks->cancelled : NULL,
+                         hooks != NULL ? hooks->data : NULL};
+  SbReport report;
+  SbStatus status = sb_evaluator_ask(value, work->evaluator, &question, &report);
+  account(work, status);
+  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    (void)sb_study_goes_on(work, status, &report);
+    return;
+  }
+  const SbModel *model = sb_evaluator_model(work->evaluator); // NULL: the values were refused
+  if (status != SB_OK) {
+    const char *what = model != NULL ? sb_fit_model_name((SbFitModel)model->fit) : "study";
     char code[48];
-    sb_text(code, sizeof code, "study-gap-%s", sb_fit_model_name(copy.model));
-    sb_warn(&out->warnings, code, local.parameter, "%s has no value at some points: %s",
-            sb_fit_model_name(copy.model), local.text);
-    out->complete = out->complete && status != SB_ERROR_NOT_CONVERGED;
-  } else if (solver) {
-    add_load_error(out, fit);
+    sb_text(code, sizeof code, "study-gap-%s", what);
+    sb_warn(&work->out->warnings, code, report.parameter, "%s has no value at some points: %s",
+            what, report.text);
+    work->out->complete = work->out->complete && status != SB_ERROR_NOT_CONVERGED;
   }
-  return sb_succeed(report);
+  work->spent += model != NULL ? sb_cost_fit((SbFitModel)model->fit) : 0;
+  sb_study_step(work, fmin(work->spent / work->total, 1));
 }
 
-SbStatus sb_study_sliding(SbStudy *out, SbSliding *state, const SbModel *model, int seal,
-                          SbSealPressure pressure, double speed, SbSlidingMemory *memory,
-                          SbReport *report) {
-  SbSlidingCounts counts = {0};
-  SbReport local = {0};
-  SbStatus status =
-      sb_sliding_solve(state, model, seal, pressure, speed, memory, &counts, NULL, &local);
-  out->solves += counts.disc_solves + counts.ring_solves + counts.reynolds_solves;
-  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
-    if (report != NULL) {
-      *report = local;
-    }
-    return status;
-  }
-  if (status != SB_OK) {
-    *state = (SbSliding){.load = NAN,
-                         .load_per_length = NAN,
-                         .load_net = NAN,
-                         .contact_right = NAN,
-                         .film_min = NAN,
-                         .film_central = NAN,
-                         .boundary_area = NAN,
-                         .boundary_load = NAN,
-                         .viscous = NAN,
-                         .friction_static = NAN};
-    sb_warn(&out->warnings, "study-gap-sliding", local.parameter, "some points have no value: %s",
-            local.text);
-    out->complete = out->complete && status != SB_ERROR_NOT_CONVERGED;
-    return sb_succeed(report);
-  }
-  const SbFit *fit = sb_sliding_fit(memory);
-  if (counts.disc_solves + counts.ring_solves > 0) {
-    add_load_error(out, fit);
-  }
-  if (isfinite(state->film_error)) {
-    out->error = fmax(out->error, state->film_error);
-  }
-  return sb_succeed(report);
+double sb_study_net_load(SbStudyWork *work) {
+  static const char *const width[] = {"seals.outer.contact_width_m"};
+  double value;
+  sb_study_ask(work, &value, width, 1, NULL, 0);
+  const SbSummary *summary = sb_evaluator_summary(work->evaluator);
+  return summary != NULL ? summary->seal[SB_OUTER].contact_pressure * value : NAN;
 }

@@ -9,6 +9,7 @@
 // coarse at low speed (docs/thesis.md, 3); solved in the mesh it is 0.6.
 #include "engine/film/film.h"
 #include "engine/film/law_fit.h"
+#include "engine/valve/sliding.h"
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
@@ -46,21 +47,18 @@ static double law_film(const Law *law, const Scale *scale, double speed, double 
 
 // Passes the progress of one regression on as its part of the study.
 typedef struct {
-  const SbStudyHooks *hooks;
+  SbStudyWork *work;
   double from, share;
 } Part;
 
 static void on_progress(void *data, double fraction) {
   const Part *part = data;
-  if (part->hooks != NULL && part->hooks->progress != NULL) {
-    part->hooks->progress(part->hooks->data, part->from + part->share * fraction);
-  }
+  sb_study_step(part->work, part->from + part->share * fraction);
 }
 
 static bool is_cancelled(void *data) {
   const Part *part = data;
-  return part->hooks != NULL && part->hooks->cancelled != NULL &&
-         part->hooks->cancelled(part->hooks->data);
+  return part->work->status != SB_OK;
 }
 
 // Root mean square and largest of solved/law - 1 over the points of a regression.
@@ -92,18 +90,18 @@ static void put_row(SbStudy *out, const Law *law, const SbFilmLaw *own, const Sb
 }
 
 // The film solved at one speed and load.
-static SbStatus solve_film(SbStudy *out, SbFilm *film, const SbModel *model, double speed,
-                           double load, const SbStudyHooks *hooks, SbReport *report) {
+static bool solve_film(SbStudyWork *work, SbFilm *film, double speed, double load) {
   SbFilmProblem problem;
-  sb_sliding_film_problem(&problem, model, SB_OUTER, (SbSealPressure){0, 0}, load, speed);
-  if (hooks != NULL) {
-    problem.cancelled = hooks->cancelled;
-    problem.cancelled_data = hooks->data;
+  SbReport report;
+  sb_sliding_film_problem(&problem, work->scene, SB_OUTER, (SbSealPressure){0, 0}, load, speed);
+  if (work->hooks != NULL) {
+    problem.cancelled = work->hooks->cancelled;
+    problem.cancelled_data = work->hooks->data;
   }
-  SbStatus status = sb_film_solve(film, &problem, NULL, report);
-  out->solves++;
-  out->error = fmax(out->error, film->solver.error_film_central);
-  return status;
+  SbStatus status = sb_film_solve(film, &problem, NULL, &report);
+  work->out->solves++;
+  work->out->error = fmax(work->out->error, film->solver.error_film_central);
+  return sb_study_goes_on(work, status, &report);
 }
 
 static void draw(SbStudy *out, const Law laws[], const SbFilmLaw *central, const Scale *scale,
@@ -143,12 +141,13 @@ static void draw(SbStudy *out, const Law laws[], const SbFilmLaw *central, const
   }
 }
 
-static SbStatus regress(SbStudy *out, SbFilmLaw *fits, const SbModel *model, const Scale *scale,
-                        const SbStudyHooks *hooks, SbReport *report) {
+static void regress(SbStudyWork *work, SbFilmLaw *fits, const Scale *scale) {
+  SbStudy *out = work->out;
+  const SbModel *model = work->scene;
   const SbStudyRange *range = &model->study;
-  SbStatus status = SB_OK;
-  for (int f = 0; status == SB_OK && f < FITS; f++) {
-    Part part = {hooks, 0.95 * f / FITS, 0.95 / FITS};
+  for (int f = 0; work->status == SB_OK && f < FITS; f++) {
+    Part part = {work, 0.95 * f / FITS, 0.95 / FITS};
+    SbReport report;
     SbFilmLawRange grid = {
         .film = f == 0 ? SB_FILM_LAW_CENTRAL : SB_FILM_LAW_MIN,
         .U_min = range->speed_min * scale->U_per_speed,
@@ -162,11 +161,10 @@ static SbStatus regress(SbStudy *out, SbFilmLaw *fits, const SbModel *model, con
         .progress = on_progress,
         .data = &part,
     };
-    status = sb_film_law_fit(&fits[f], &grid, NULL, report);
+    (void)sb_study_goes_on(work, sb_film_law_fit(&fits[f], &grid, NULL, &report), &report);
     out->solves += fits[f].count;
     out->error = fmax(out->error, fits[f].error);
   }
-  return status;
 }
 
 static void table(SbStudy *out, const Law laws[], const SbFilmLaw *fits, const Scale *scale,
@@ -191,33 +189,27 @@ static void table(SbStudy *out, const Law laws[], const SbFilmLaw *fits, const S
   sb_study_row(out, NULL, NULL, "solved, least")->value[8] = film->film_min;
 }
 
-SbStatus sb_study_film_law(SbStudy *out, const SbModel *model, const SbStudyHooks *hooks,
-                           SbReport *report) {
+void sb_study_film_law(SbStudyWork *work) {
+  SbStudy *out = work->out;
+  const SbModel *model = work->scene;
   const SbStudyRange *range = &model->study;
   const SbSealModel *seal = &model->seal[SB_OUTER];
   double unit = seal->reduced_modulus * seal->radius;
   const Scale scale = {model->viscosity / 2 / unit, 1 / unit, seal->radius};
   SbFilmLaw *fits = calloc(FITS, sizeof *fits);
   SbFilm *film = calloc(1, sizeof *film);
-  SbSlidingMemory *memory = NULL;
-  SbStatus status = fits != NULL && film != NULL
-                        ? sb_sliding_memory_create(&memory, report)
-                        : sb_fail(report, SB_ERROR_MEMORY, "no memory for a study");
-  if (status == SB_OK) {
-    status = regress(out, fits, model, &scale, hooks, report);
+  if (fits == NULL || film == NULL) {
+    work->status = sb_fail(work->report, SB_ERROR_MEMORY, "no memory for a study");
+  } else {
+    regress(work, fits, &scale);
   }
   // The scene's own point: the net load of its outer seal at the drive's speed, without end
   // pressure as the laws have it.
-  SbSliding state = {0};
-  if (status == SB_OK) {
-    SbSealPressure pressure = sb_model_seal_pressure(model, SB_OUTER, SB_CHAMBER_AT_REST);
-    status = sb_study_sliding(out, &state, model, SB_OUTER, pressure, 0, memory, report);
-  }
-  double load = state.load_net > 0 ? state.load_net : sqrt(range->load_min * range->load_max);
-  if (status == SB_OK) {
-    status = solve_film(out, film, model, model->speed, load, hooks, report);
-  }
-  if (status == SB_OK) {
+  work->total = INFINITY; // this question is no measure of the progress
+  sb_study_fix_machine(work);
+  double own = sb_study_net_load(work);
+  double load = own > 0 ? own : sqrt(range->load_min * range->load_max);
+  if (work->status == SB_OK && solve_film(work, film, model->speed, load)) {
     Law laws[FITS];
     for (int f = 0; f < FITS; f++) {
       laws[f] =
@@ -246,8 +238,6 @@ SbStatus sb_study_film_law(SbStudy *out, const SbModel *model, const SbStudyHook
                   "laws are against the same %zu solutions.",
                   model->speed * 1e3, load, fits[0].count);
   }
-  sb_sliding_memory_destroy(memory);
   free(film);
   free(fits);
-  return status;
 }

@@ -16,7 +16,6 @@
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 enum { THESIS, DISC_THESIS, DISC, RING, KARASZKIEWICZ, MODELS, TABLE_MODELS = 4 };
 
@@ -71,15 +70,24 @@ static bool is_thesis(const SbModel *model) {
          near(model->radial_space, 1.36e-3) && near(model->bore_diameter, 6e-3);
 }
 
-// Case `index`: the pressures first, then the steps of size at the canister's pressure.
-static void make_problem(SbFitProblem *problem, const SbModel *model, int index) {
+// Case `index`: the pressures first, then the steps of size at the canister's pressure, which is
+// the last case of all.
+static Figures solve(SbStudyWork *work, int model, int index) {
+  static const char *const paths[] = {"seals.outer.load_N", "seals.outer.pressure_peak_Pa",
+                                      "seals.outer.contact_width_m"};
+  const SbSealModel *ring = &work->scene->seal[SB_OUTER];
   int step = index - PRESSURES;
-  sb_sliding_fit_problem(problem, model, SB_OUTER,
-                         step < 0 ? pressures[index] : model->canister_pressure);
-  if (step >= 0) {
-    problem->section_diameter += steps[step].section;
-    problem->inner_diameter += steps[step].inner;
-  }
+  bool steps_size = step >= 0 && step < STEPS;
+  const SbOverride override[] = {
+      {SB_P_MODELS_FIT, models[model].model},
+      {SB_P_CANISTER_PRESSURE, step < 0 ? pressures[index] : work->scene->canister_pressure},
+      {SB_P_SEAL_OUTER_SECTION_DIAMETER,
+       ring->section_diameter + (steps_size ? steps[step].section : 0)},
+      {SB_P_SEAL_OUTER_INNER_DIAMETER, ring->inner_diameter + (steps_size ? steps[step].inner : 0)},
+  };
+  double value[3];
+  sb_study_ask(work, value, paths, 3, override, sizeof override / sizeof override[0]);
+  return (Figures){value[0], value[1], value[2]};
 }
 
 static double coefficient(const SbModel *model, const Figures *f) {
@@ -129,14 +137,15 @@ static void put_table(SbStudy *out, const SbModel *model, Figures all[][CASES],
     for (int m = 0; m < TABLE_MODELS; m++) {
       row[m] = all[m][c];
     }
-    SbFitProblem problem;
-    make_problem(&problem, model, c);
+    const SbSealModel *ring = &model->seal[SB_OUTER];
+    const double section = c < PRESSURES ? 0 : steps[c - PRESSURES].section;
     if (c < PRESSURES) {
       sb_text(name, sizeof name, "%.2f MPa", pressures[c] * 1e-6);
-    } else if (steps[c - PRESSURES].section != 0) {
-      sb_text(name, sizeof name, "d %.2f mm", problem.section_diameter * 1e3);
+    } else if (section != 0) {
+      sb_text(name, sizeof name, "d %.2f mm", (ring->section_diameter + section) * 1e3);
     } else {
-      sb_text(name, sizeof name, "ID %.2f mm", problem.inner_diameter * 1e3);
+      sb_text(name, sizeof name, "ID %.2f mm",
+              (ring->inner_diameter + steps[c - PRESSURES].inner) * 1e3);
     }
     put_row(out, row, name);
   }
@@ -160,54 +169,34 @@ static int find_pressure(double pressure) {
   return -1;
 }
 
-static SbStatus solve_all(SbStudy *out, const SbModel *model, Figures all[][CASES],
-                          Figures *central, const SbStudyHooks *hooks, SbReport *report) {
-  SbFit *fit = malloc(sizeof *fit);
-  if (fit == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a study");
-  }
-  bool thesis = is_thesis(model) && near(model->canister_pressure, 0.55e6);
-  int middle = find_pressure(model->canister_pressure);
-  SbStatus status = SB_OK;
-  for (int c = 0; status == SB_OK && c <= CASES; c++) {
-    // The last turn is the canister's own pressure, where it is none of the list.
-    bool own = c == CASES;
-    if (own && middle >= 0) {
-      break;
-    }
-    for (int m = 0; status == SB_OK && m < MODELS; m++) {
-      Figures *f = own ? &central[m] : &all[m][c];
-      if (m == THESIS) {
-        bool known = own ? false : c < PRESSURES ? is_thesis(model) : thesis;
-        *f = known ? printed[c] : (Figures){NAN, NAN, NAN};
-        continue;
-      }
-      SbFitProblem problem;
-      make_problem(&problem, model, own ? 0 : c);
-      problem.pressure = own ? model->canister_pressure : problem.pressure;
-      problem.model = models[m].model;
-      status = sb_study_fit(out, fit, &problem, hooks, report);
-      *f = (Figures){fit->load, fit->pressure_peak, fit->contact_width};
-      if (status == SB_OK) {
-        status = sb_study_step(hooks, (c + (m + 1.0) / MODELS) / (CASES + 1), report);
-      }
+static void solve_all(SbStudyWork *work, Figures all[][CASES], Figures *central) {
+  bool thesis = is_thesis(work->scene);
+  bool usual = thesis && near(work->scene->canister_pressure, 0.55e6);
+  int middle = find_pressure(work->scene->canister_pressure);
+  for (int c = 0; c < CASES; c++) {
+    all[THESIS][c] = (c < PRESSURES ? thesis : usual) ? printed[c] : (Figures){NAN, NAN, NAN};
+    for (int m = THESIS + 1; m < MODELS; m++) {
+      all[m][c] = solve(work, m, c);
     }
   }
-  for (int m = 0; middle >= 0 && m < MODELS; m++) {
-    central[m] = all[m][middle];
+  // At the canister's own pressure, where it is none of the list.
+  central[THESIS] = middle >= 0 ? all[THESIS][middle] : (Figures){NAN, NAN, NAN};
+  for (int m = THESIS + 1; m < MODELS; m++) {
+    central[m] = middle >= 0 ? all[m][middle] : solve(work, m, CASES);
   }
-  free(fit);
-  return status;
 }
 
-SbStatus sb_study_models(SbStudy *out, const SbModel *model, const SbStudyHooks *hooks,
-                         SbReport *report) {
+void sb_study_models(SbStudyWork *work) {
+  SbStudy *out = work->out;
+  const SbModel *model = work->scene;
+  const SbOverride smooth[] = {{SB_P_MODELS_FILM, SB_MODEL_FILM_THESIS},
+                               {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE}};
+  sb_study_fix_outer(work);
+  sb_study_fix(work, smooth, sizeof smooth / sizeof smooth[0]);
+  work->total = (CASES + 1) * (SB_COST_RING + 2 * SB_COST_DISC);
   Figures all[MODELS][CASES];
   Figures central[MODELS];
-  SbStatus status = solve_all(out, model, all, central, hooks, report);
-  if (status != SB_OK) {
-    return status;
-  }
+  solve_all(work, all, central);
   sb_study_axis(&out->x, "pressure on the outer seal", "Pa", "MPa", false);
   SbStudyPanel *panels[] = {
       sb_study_panel(out, "load", "N", "N", false),
@@ -248,5 +237,4 @@ SbStatus sb_study_models(SbStudy *out, const SbModel *model, const SbStudyHooks 
   if (!is_thesis(model)) {
     sb_study_note(out, "Ring and gland are not the thesis': its printed values are left out.");
   }
-  return SB_OK;
 }

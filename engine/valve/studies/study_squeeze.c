@@ -10,7 +10,6 @@
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 enum { RING, RING_UNSTRETCHED, DISC, DISC_THESIS, LINDLEY, GREEN, HERTZ, KARASZKIEWICZ, MODELS };
 
@@ -44,78 +43,62 @@ typedef struct {
   double load, peak, width;
 } Figures;
 
-static SbStatus solve(SbStudy *out, Figures *figures, const SbModel *model, int index,
-                      double squeeze, SbFit *fit, const SbStudyHooks *hooks, SbReport *report) {
-  SbFitProblem problem;
-  sb_sliding_fit_problem(&problem, model, SB_OUTER, 0);
-  double floor = model->bore_diameter - 2 * model->radial_space;
-  problem.model = models[index].model;
-  problem.radial_space = problem.section_diameter * (1 - squeeze);
-  problem.bore_diameter = floor + 2 * problem.radial_space;
-  if (!models[index].stretched) {
-    problem.inner_diameter = floor;
-  }
-  SbStatus status = sb_study_fit(out, fit, &problem, hooks, report);
-  *figures = (Figures){fit->load, fit->pressure_peak, fit->contact_width};
-  return status;
+static Figures solve(SbStudyWork *work, int index, double squeeze) {
+  static const char *const paths[FIGURES] = {"seals.outer.load_N", "seals.outer.pressure_peak_Pa",
+                                             "seals.outer.contact_width_m"};
+  const SbModel *scene = work->scene;
+  SbOverride override[SB_STUDY_SQUEEZED + 2];
+  sb_study_squeezed(override, work, squeeze);
+  override[3] = (SbOverride){SB_P_MODELS_FIT, models[index].model};
+  double floor = scene->bore_diameter - 2 * scene->radial_space;
+  override[4] =
+      (SbOverride){SB_P_SEAL_OUTER_INNER_DIAMETER,
+                   models[index].stretched ? scene->seal[SB_OUTER].inner_diameter : floor};
+  double value[FIGURES];
+  sb_study_ask(work, value, paths, FIGURES, override, SB_STUDY_SQUEEZED + 2);
+  return (Figures){value[0], value[1], value[2]};
 }
 
 static double difference(double value, double ring) {
   return ring > 0 ? value / ring - 1 : NAN;
 }
 
-SbStatus sb_study_squeeze(SbStudy *out, const SbModel *model, const SbStudyHooks *hooks,
-                          SbReport *report) {
+void sb_study_squeeze(SbStudyWork *work) {
+  SbStudy *out = work->out;
+  const SbModel *model = work->scene;
   const double lo = model->study.squeeze_min, hi = model->study.squeeze_max;
   const double design = model->seal[SB_OUTER].squeeze;
-  SbFit *fit = malloc(sizeof *fit);
-  if (fit == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a study");
-  }
+  // The fitment alone, by its own tolerance: no film wants the ring's surface.
+  const SbOverride dry[] = {{SB_P_CANISTER_PRESSURE, 0},
+                            {SB_P_MODELS_FILM, SB_MODEL_FILM_THESIS},
+                            {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE}};
+  sb_study_fix_outer(work);
+  sb_study_fix(work, dry, sizeof dry / sizeof dry[0]);
+  work->total = 2 * (20 + 1 + TABLE) * SB_COST_RING + 2 * (39 + 1 + TABLE) * SB_COST_DISC;
   sb_study_axis(&out->x, "squeeze of the free section", "1", "%", false);
   SbStudyPanel *load = sb_study_panel(out, "load", "N", "N", false);
   SbStudyPanel *peak = sb_study_panel(out, "peak pressure", "Pa", "MPa", false);
   SbStudyPanel *width = sb_study_panel(out, "contact width", "m", "mm", false);
   sb_study_mark(out, design, "as designed, %.1f %%", 100 * design);
 
-  // Curves. The costs of the models decide how the progress moves.
-  double total = sb_study_squeeze_cost(model), done = 0;
-  SbStatus status = SB_OK;
   Figures at_design[MODELS], at_table[MODELS][TABLE];
-  for (int m = 0; status == SB_OK && m < MODELS; m++) {
+  for (int m = 0; m < MODELS; m++) {
     SbStudySeries *series[FIGURES] = {
         sb_study_series(load, models[m].style, "%s", models[m].name),
         sb_study_series(peak, models[m].style, "%s", models[m].name),
         sb_study_series(width, models[m].style, "%s", models[m].name),
     };
-    double cost = models[m].model == SB_FIT_RING      ? SB_COST_RING
-                  : models[m].style == SB_STUDY_CURVE ? SB_COST_DISC
-                                                      : 0;
-    for (int i = 0; status == SB_OK && i < models[m].points; i++) {
+    for (int i = 0; i < models[m].points; i++) {
       double s = lo + (hi - lo) * i / (models[m].points - 1);
-      Figures f;
-      status = solve(out, &f, model, m, s, fit, hooks, report);
+      Figures f = solve(work, m, s);
       sb_study_point(series[0], s, f.load);
       sb_study_point(series[1], s, f.peak);
       sb_study_point(series[2], s, f.width);
-      done += cost;
-      if (status == SB_OK) {
-        status = sb_study_step(hooks, 0.85 * fmin(done / total, 1), report);
-      }
     }
-  }
-  for (int m = 0; status == SB_OK && m < MODELS; m++) {
-    status = solve(out, &at_design[m], model, m, design, fit, hooks, report);
-    for (int k = 0; status == SB_OK && k < TABLE; k++) {
-      status = solve(out, &at_table[m][k], model, m, table_squeeze[k], fit, hooks, report);
+    at_design[m] = solve(work, m, design);
+    for (int k = 0; k < TABLE; k++) {
+      at_table[m][k] = solve(work, m, table_squeeze[k]);
     }
-    if (status == SB_OK) {
-      status = sb_study_step(hooks, 0.85 + 0.15 * (m + 1) / MODELS, report);
-    }
-  }
-  free(fit);
-  if (status != SB_OK) {
-    return status;
   }
 
   sb_text(out->row_heading, sizeof out->row_heading, "as designed, %.1f %%", 100 * design);
@@ -155,5 +138,4 @@ SbStatus sb_study_squeeze(SbStudy *out, const SbModel *model, const SbStudyHooks
                 100 * model->seal[SB_OUTER].stretch_inner);
   sb_study_note(out, "The closed forms know no stretch; compare them with the ring that is not "
                      "stretched too.");
-  return SB_OK;
 }

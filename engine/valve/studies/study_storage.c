@@ -8,7 +8,6 @@
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 enum { POINTS = 33, ROWS_MAX = 8, FIGURES = 4 };
 
@@ -18,36 +17,28 @@ double sb_study_storage_cost(const SbModel *model) {
   return (POINTS + ROWS_MAX) * SB_SEAL_COUNT * (fit + film);
 }
 
+// Both seals after a storage time; the evaluator has their rings.
 typedef struct {
-  double load, friction, squeeze, modulus;
+  double load[SB_SEAL_COUNT], friction[SB_SEAL_COUNT];
 } Figures;
 
-// One seal after a storage time.
-static SbStatus solve(SbStudy *out, Figures *figures, SbModel *model, int seal, double time,
-                      SbSlidingMemory *memory, SbReport *report) {
-  model->seal[seal].stored.storage_time = time;
-  SbProblems problems = {0};
-  if (!sb_model_size_seal(model, seal, &problems)) {
-    *figures = (Figures){NAN, NAN, NAN, NAN};
-    sb_warn(&out->warnings, "study-gap-storage", problems.item[0].key,
-            "the %s seal after some storage: %s", sb_seal_name(seal), problems.item[0].text);
-    return SB_OK;
-  }
-  // The memory keeps a fitment by its pressure alone; the ring has changed.
-  sb_sliding_memory_forget(memory);
-  SbSliding state;
-  SbStatus status = sb_study_sliding(out, &state, model, seal,
-                                     sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST),
-                                     model->speed, memory, report);
-  *figures = (Figures){state.load, sb_sliding_friction(&state), model->seal[seal].squeeze,
-                       model->seal[seal].modulus};
-  return status;
+static Figures solve(SbStudyWork *work, double time) {
+  static const char *const paths[] = {"seals.outer.load_N",
+                                      "seals.inner.load_N",
+                                      "seals.outer.friction_boundary_N",
+                                      "seals.inner.friction_boundary_N",
+                                      "seals.outer.friction_viscous_N",
+                                      "seals.inner.friction_viscous_N"};
+  const SbOverride stored = {SB_P_STORAGE_TIME, time};
+  double value[6];
+  sb_study_ask(work, value, paths, 6, &stored, 1);
+  return (Figures){{value[0], value[1]}, {value[2] + value[4], value[3] + value[5]}};
 }
 
 static const char *const seal_names[SB_SEAL_COUNT] = {"outer seal", "inner seal"};
 
-static SbStatus draw(SbStudy *out, SbModel *model, SbSlidingMemory *memory,
-                     const SbStudyHooks *hooks, SbReport *report) {
+static void draw(SbStudyWork *work) {
+  SbStudy *out = work->out;
   SbStudyPanel *panel[FIGURES] = {
       sb_study_panel(out, "load", "N", "N", false),
       sb_study_panel(out, "sliding friction", "N", "N", false),
@@ -60,27 +51,23 @@ static SbStatus draw(SbStudy *out, SbModel *model, SbSlidingMemory *memory,
       series[q][seal] = sb_study_series(panel[q], SB_STUDY_CURVE, "%s", seal_names[seal]);
     }
   }
-  double lo = model->study.time_min, hi = model->study.time_max;
-  SbStatus status = SB_OK;
-  for (int i = 0; status == SB_OK && i < POINTS; i++) {
+  double lo = work->scene->study.time_min, hi = work->scene->study.time_max;
+  for (int i = 0; i < POINTS; i++) {
     double time = lo * pow(hi / lo, i / (POINTS - 1.0));
-    for (int seal = 0; status == SB_OK && seal < SB_SEAL_COUNT; seal++) {
-      Figures f;
-      status = solve(out, &f, model, seal, time, memory, report);
-      const double value[FIGURES] = {f.load, f.friction, f.squeeze, f.modulus};
-      for (int q = 0; q < FIGURES; q++) {
-        sb_study_point(series[q][seal], time, value[q]);
-      }
-    }
-    if (status == SB_OK) {
-      status = sb_study_step(hooks, 0.85 * (i + 1) / POINTS, report);
+    Figures f = solve(work, time);
+    const SbModel *then = sb_evaluator_model(work->evaluator);
+    for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+      const SbSealModel *ring = then != NULL ? &then->seal[seal] : NULL;
+      sb_study_point(series[0][seal], time, f.load[seal]);
+      sb_study_point(series[1][seal], time, f.friction[seal]);
+      sb_study_point(series[2][seal], time, ring != NULL ? ring->squeeze : NAN);
+      sb_study_point(series[3][seal], time, ring != NULL ? ring->modulus : NAN);
     }
   }
-  return status;
 }
 
-static SbStatus table(SbStudy *out, SbModel *model, double scene_time, SbSlidingMemory *memory,
-                      SbReport *report) {
+static void table(SbStudyWork *work, double scene_time) {
+  SbStudy *out = work->out;
   static const struct {
     const char *name;
     double time;
@@ -103,49 +90,42 @@ static SbStatus table(SbStudy *out, SbModel *model, double scene_time, SbSliding
   sb_study_column(out, "network left", "1", "%");
   sb_study_column(out, "compression set", "1", "%");
   sb_study_column(out, "uptake of its equilibrium", "1", "%");
-  SbStatus status = SB_OK;
-  for (int i = 0; status == SB_OK && i <= TIMES; i++) {
+  for (int i = 0; i <= TIMES; i++) {
     double time = i < TIMES ? times[i].time : scene_time;
-    if (i < TIMES && time > model->study.time_max) {
+    if (i < TIMES && time > work->scene->study.time_max) {
       continue;
     }
     SbStudyRow *row =
         i < TIMES ? sb_study_row(out, NULL, NULL, "%s", times[i].name)
                   : sb_study_row(out, NULL, NULL, "this scene, %.3g days", scene_time / 86400);
-    Figures f[SB_SEAL_COUNT];
-    for (int seal = 0; status == SB_OK && seal < SB_SEAL_COUNT; seal++) {
-      status = solve(out, &f[seal], model, seal, time, memory, report);
-      row->value[seal] = f[seal].load;
-      row->value[2 + seal] = f[seal].friction;
+    Figures f = solve(work, time);
+    for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+      row->value[seal] = f.load[seal];
+      row->value[2 + seal] = f.friction[seal];
     }
-    const SbSealModel *seal = &model->seal[SB_OUTER];
+    const SbModel *then = sb_evaluator_model(work->evaluator);
+    if (then == NULL) {
+      continue;
+    }
+    const SbSealModel *seal = &then->seal[SB_OUTER];
     row->value[4] = seal->section_diameter;
     row->value[5] = seal->squeeze;
     row->value[6] = seal->modulus;
     row->value[7] = seal->storage.network;
     row->value[8] = seal->storage.compression_set;
-    row->value[9] = model->rubber.swell_mass > 0 ? seal->storage.uptake : NAN;
+    row->value[9] = then->rubber.swell_mass > 0 ? seal->storage.uptake : NAN;
   }
-  return status;
 }
 
-SbStatus sb_study_storage(SbStudy *out, const SbModel *model, const SbStudyHooks *hooks,
-                          SbReport *report) {
-  SbModel copy = *model;
-  SbSlidingMemory *memory = NULL;
-  SbStatus status = sb_sliding_memory_create(&memory, report);
-  if (status == SB_OK) {
-    sb_study_axis(&out->x, "storage time", "s", "day", true);
-    status = draw(out, &copy, memory, hooks, report);
-  }
+void sb_study_storage(SbStudyWork *work) {
+  SbStudy *out = work->out;
+  const SbModel *model = work->scene;
   double scene_time = model->seal[SB_OUTER].stored.storage_time;
-  if (status == SB_OK) {
-    status = table(out, &copy, scene_time, memory, report);
-  }
-  sb_sliding_memory_destroy(memory);
-  if (status != SB_OK) {
-    return status;
-  }
+  sb_study_fix_machine(work);
+  work->total = (POINTS + ROWS_MAX) * sb_cost_fit((SbFitModel)model->fit);
+  sb_study_axis(&out->x, "storage time", "s", "day", true);
+  draw(work);
+  table(work, scene_time);
   if (scene_time >= model->study.time_min && scene_time <= model->study.time_max) {
     sb_study_mark(out, scene_time, "this scene");
   }
@@ -170,5 +150,4 @@ SbStatus sb_study_storage(SbStudy *out, const SbModel *model, const SbStudyHooks
                        "rubber.network_rate or rubber.swell_mass.");
   }
   sb_model_warn_storage(model, &out->warnings);
-  return SB_OK;
 }

@@ -8,6 +8,7 @@
 // here, where the cycle takes the total. The cycle's own friction, film and roughness not knowing
 // of each other, is drawn as a reference.
 #include "engine/film/stribeck.h"
+#include "engine/valve/sliding.h"
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
@@ -24,8 +25,10 @@ double sb_study_stribeck_cost(const SbModel *model) {
   return MODELS * POINTS * SB_COST_FILM_MIXED;
 }
 
-static SbStatus solve(SbStudy *out, SbStribeckPoint *points, const SbModel *model, int which,
-                      double load, const SbStudyHooks *hooks, SbReport *report) {
+// Solves one surface model's curve; points that have no answer are not converged.
+static void solve(SbStudyWork *work, SbStribeckPoint *points, int which, double load) {
+  SbStudy *out = work->out;
+  const SbModel *model = work->scene;
   SbFilmProblem problem;
   sb_sliding_film_problem(&problem, model, SB_OUTER, (SbSealPressure){0, 0}, load, 0);
   problem.surface = models[which].model;
@@ -34,18 +37,18 @@ static SbStatus solve(SbStudy *out, SbStribeckPoint *points, const SbModel *mode
   problem.sigma_over_beta = model->sigma_over_beta;
   problem.shear_strength = model->shear_strength;
   problem.load_coefficient = model->load_coefficient;
-  if (hooks != NULL) {
-    problem.cancelled = hooks->cancelled;
-    problem.cancelled_data = hooks->data;
+  if (work->hooks != NULL) {
+    problem.cancelled = work->hooks->cancelled;
+    problem.cancelled_data = work->hooks->data;
   }
   SbReport local = {0};
-  SbStatus status = sb_film_stribeck(points, POINTS, &problem, model->study.speed_min,
-                                     model->study.speed_max, NULL, &local);
+  SbStatus status = work->status != SB_OK
+                        ? work->status
+                        : sb_film_stribeck(points, POINTS, &problem, model->study.speed_min,
+                                           model->study.speed_max, NULL, &local);
   if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
-    if (report != NULL) {
-      *report = local;
-    }
-    return status;
+    (void)sb_study_goes_on(work, status, &local);
+    return;
   }
   // The scene's own surface is the subject; gaps of the other are a warning.
   bool own =
@@ -58,7 +61,7 @@ static SbStatus solve(SbStudy *out, SbStribeckPoint *points, const SbModel *mode
     for (int i = 0; i < POINTS; i++) {
       points[i].converged = false;
     }
-    return sb_succeed(report);
+    return;
   }
   for (int i = 0; i < POINTS; i++) {
     out->solves++;
@@ -69,43 +72,19 @@ static SbStatus solve(SbStudy *out, SbStribeckPoint *points, const SbModel *mode
               models[which].name, points[i].speed * 1e3);
     }
   }
-  return sb_succeed(report);
 }
 
 // The cycle's friction at the same speeds, its parts independent of each other.
-static SbStatus draw_cycle(SbStudy *out, SbStudySeries *friction, const SbModel *model,
-                           SbReport *report) {
-  SbSlidingMemory *memory = NULL;
-  SbStatus status = sb_sliding_memory_create(&memory, report);
-  SbSealPressure pressure = sb_model_seal_pressure(model, SB_OUTER, SB_CHAMBER_AT_REST);
-  for (int i = 0; status == SB_OK && i < POINTS; i++) {
-    double speed = model->study.speed_min *
-                   pow(model->study.speed_max / model->study.speed_min, i / (POINTS - 1.0));
-    SbSliding state;
-    status = sb_study_sliding(out, &state, model, SB_OUTER, pressure, speed, memory, report);
-    sb_study_point(friction, speed,
-                   state.load > 0 ? sb_sliding_friction(&state) / state.load : NAN);
+static void draw_cycle(SbStudyWork *work, SbStudySeries *friction) {
+  static const char *const path[] = {"seals.outer.coefficient_of_friction"};
+  const SbStudyRange *range = &work->scene->study;
+  for (int i = 0; i < POINTS; i++) {
+    SbOverride at = {SB_P_DRIVE_SPEED, range->speed_min * pow(range->speed_max / range->speed_min,
+                                                              i / (POINTS - 1.0))};
+    double value;
+    sb_study_ask(work, &value, path, 1, &at, 1);
+    sb_study_point(friction, at.value, value);
   }
-  sb_sliding_memory_destroy(memory);
-  return status;
-}
-
-// The outer seal's net load per length as fitted.
-static SbStatus net_load(SbStudy *out, double *load, const SbModel *model, SbReport *report) {
-  SbSlidingMemory *memory = NULL;
-  SbStatus status = sb_sliding_memory_create(&memory, report);
-  SbSliding state = {0};
-  if (status == SB_OK) {
-    SbSealPressure pressure = sb_model_seal_pressure(model, SB_OUTER, SB_CHAMBER_AT_REST);
-    status = sb_study_sliding(out, &state, model, SB_OUTER, pressure, 0, memory, report);
-  }
-  sb_sliding_memory_destroy(memory);
-  *load = state.load_net;
-  if (status == SB_OK && !(state.load_net > 0)) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.section_diameter",
-                             "the outer seal bears no load: there is no film to speak of");
-  }
-  return status;
 }
 
 // A row every so many points.
@@ -134,57 +113,59 @@ static void put_rows(SbStudy *out, const SbStribeckPoint *points) {
   }
 }
 
-SbStatus sb_study_stribeck(SbStudy *out, const SbModel *model, const SbStudyHooks *hooks,
-                           SbReport *report) {
-  double load = 0;
-  SbStatus status = net_load(out, &load, model, report);
+void sb_study_stribeck(SbStudyWork *work) {
+  SbStudy *out = work->out;
+  const SbModel *model = work->scene;
+  sb_study_fix_machine(work);
+  work->total = INFINITY; // these questions are no measure of the progress
+  double load = sb_study_net_load(work);
+  if (work->status == SB_OK && !(load > 0)) {
+    work->status = sb_fail_parameter(work->report, SB_ERROR_INFEASIBLE, "seal.section_diameter",
+                                     "the outer seal bears no load: there is no film to speak of");
+  }
   SbStribeckPoint *points = calloc(MODELS * POINTS, sizeof *points);
-  if (status == SB_OK && points == NULL) {
-    status = sb_fail(report, SB_ERROR_MEMORY, "no memory for a study");
+  if (points == NULL) {
+    work->status = sb_fail(work->report, SB_ERROR_MEMORY, "no memory for a study");
+  }
+  if (work->status != SB_OK) {
+    free(points);
+    return;
   }
   sb_study_axis(&out->x, "sliding speed", "m/s", "mm/s", true);
   SbStudyPanel *friction = sb_study_panel(out, "coefficient of friction", "1", "", true);
   SbStudyPanel *share = sb_study_panel(out, "load that asperities bear", "1", "%", false);
   SbStudyPanel *film = sb_study_panel(out, "central film over roughness", "1", "", true);
-  for (int m = 0; status == SB_OK && m < MODELS; m++) {
+  for (int m = 0; m < MODELS; m++) {
     SbStribeckPoint *own = points + m * POINTS;
-    status = solve(out, own, model, m, load, hooks, report);
+    solve(work, own, m, load);
     SbStudySeries *f = sb_study_series(friction, SB_STUDY_CURVE, "%s", models[m].name);
     SbStudySeries *s = sb_study_series(share, SB_STUDY_CURVE, "%s", models[m].name);
     SbStudySeries *h = sb_study_series(film, SB_STUDY_CURVE, "%s", models[m].name);
-    for (int i = 0; status == SB_OK && i < POINTS; i++) {
+    for (int i = 0; i < POINTS; i++) {
       bool good = own[i].converged;
       out->error = fmax(out->error, good ? own[i].error : 0);
       sb_study_point(f, own[i].speed, good ? own[i].coefficient : NAN);
       sb_study_point(s, own[i].speed, good ? own[i].asperity_share : NAN);
       sb_study_point(h, own[i].speed, good ? own[i].film_ratio : NAN);
     }
-    if (status == SB_OK) {
-      status = sb_study_step(hooks, 0.9 * (m + 1) / MODELS, report);
-    }
+    sb_study_step(work, 0.9 * (m + 1) / MODELS);
   }
-  if (status == SB_OK) {
-    status = draw_cycle(out, sb_study_series(friction, SB_STUDY_REFERENCE, "as the cycle takes it"),
-                        model, report);
+  draw_cycle(work, sb_study_series(friction, SB_STUDY_REFERENCE, "as the cycle takes it"));
+  put_rows(out, points);
+  SbStudySeries *limit = sb_study_series(film, SB_STUDY_REFERENCE, "film = roughness");
+  sb_study_point(limit, model->study.speed_min, 1);
+  sb_study_point(limit, model->study.speed_max, 1);
+  if (model->speed >= model->study.speed_min && model->speed <= model->study.speed_max) {
+    sb_study_mark(out, model->speed, "drive");
   }
-  if (status == SB_OK) {
-    put_rows(out, points);
-    SbStudySeries *limit = sb_study_series(film, SB_STUDY_REFERENCE, "film = roughness");
-    sb_study_point(limit, model->study.speed_min, 1);
-    sb_study_point(limit, model->study.speed_max, 1);
-    if (model->speed >= model->study.speed_min && model->speed <= model->study.speed_max) {
-      sb_study_mark(out, model->speed, "drive");
-    }
-    sb_text(out->models, sizeof out->models,
-            "mixed film: reynolds with Greenwood & Tripp or Persson in one solve, half-plane");
-    sb_text(out->validity, sizeof out->validity,
-            "isoviscous, no end pressures; Greenwood & Tripp: small real area; the shear strength "
-            "was set with Greenwood & Tripp's");
-    sb_study_note(out,
-                  "Net load %.0f N/m, roughness %.3g \xc2\xb5m, shear strength %.3g MPa, m %.3g on "
-                  "the asperities' load (the cycle: on the total).",
-                  load, model->sigma * 1e6, model->shear_strength * 1e-6, model->load_coefficient);
-  }
+  sb_text(out->models, sizeof out->models,
+          "mixed film: reynolds with Greenwood & Tripp or Persson in one solve, half-plane");
+  sb_text(out->validity, sizeof out->validity,
+          "isoviscous, no end pressures; Greenwood & Tripp: small real area; the shear strength "
+          "was set with Greenwood & Tripp's");
+  sb_study_note(out,
+                "Net load %.0f N/m, roughness %.3g \xc2\xb5m, shear strength %.3g MPa, m %.3g on "
+                "the asperities' load (the cycle: on the total).",
+                load, model->sigma * 1e6, model->shear_strength * 1e-6, model->load_coefficient);
   free(points);
-  return status;
 }

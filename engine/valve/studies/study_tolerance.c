@@ -7,11 +7,10 @@
 // so linear. Worst case: the corner that the signs of those differences choose, solved anew; it is
 // the worst of all corners where every figure rises or falls with every size, which the curves
 // show. The groove's width is left out: nothing here depends on it.
-#include "engine/valve/run/run.h"
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 enum { SIZES = 7, STEPS = 2, FIGURES = 4 }; // STEPS on either side
 
@@ -61,85 +60,29 @@ static double tolerance_of(const SbModel *model, int size) {
   }
 }
 
-// A copy of the model with its sizes at `place` of their bands; false if they do not go together.
-static bool move_sizes(SbModel *out, const SbModel *model, const double place[SIZES]) {
-  double by[SIZES];
+// The figures with the sizes at `place` of their bands, about the base's own.
+static void solve(SbStudyWork *work, double value[FIGURES], const double place[SIZES]) {
+  static const char *const paths[FIGURES] = {"seals.outer.load_N", "seals.inner.load_N",
+                                             "cycle.force_breakaway_N", "cycle.force_return_min_N"};
+  static const SbParamId sizes[SIZES] = {
+      SB_P_SEAL_OUTER_SECTION_DIAMETER, SB_P_SEAL_INNER_SECTION_DIAMETER,
+      SB_P_SEAL_OUTER_INNER_DIAMETER,   SB_P_SEAL_INNER_INNER_DIAMETER,
+      SB_P_GLAND_RADIAL_SPACE,          SB_P_BORE_DIAMETER,
+      SB_P_STEM_PRESSURE_DIAMETER};
+  SbOverride override[SIZES];
   for (int i = 0; i < SIZES; i++) {
-    by[i] = place[i] * tolerance_of(model, i);
+    override[i].id = sizes[i];
+    override[i].value =
+        sb_params_get(&work->base.params, sizes[i]) + place[i] * tolerance_of(&work->base, i);
   }
-  *out = *model;
-  out->seal[SB_OUTER].stored.section_diameter += by[0];
-  out->seal[SB_INNER].stored.section_diameter += by[1];
-  out->seal[SB_OUTER].stored.inner_diameter += by[2];
-  out->seal[SB_INNER].stored.inner_diameter += by[3];
-  out->radial_space += by[4];
-  out->bore_diameter += by[5];
-  out->bore_circumference = M_PI * out->bore_diameter;
-  out->stem_diameter += by[6];
-  out->pressure_force = out->canister_pressure * M_PI / 4 * out->stem_diameter * out->stem_diameter;
-  bool good = out->stem_diameter <= out->bore_diameter;
-  for (int seal = 0; good && seal < SB_SEAL_COUNT; seal++) {
-    good = sb_model_size_seal(out, seal, NULL);
+  sb_study_ask(work, value, paths, FIGURES, override, SIZES);
+  const SbSummary *summary = sb_evaluator_summary(work->evaluator);
+  if (summary == NULL || !summary->stage[SB_STAGE_E].reached) {
+    value[3] = NAN; // the stem never turned back
   }
-  return good;
-}
-
-// The study's cancel as a run's.
-static bool run_cancelled(void *data) {
-  const SbStudyHooks *hooks = data;
-  return hooks->cancelled(hooks->data);
-}
-
-static SbStatus solve(SbStudy *out, double value[FIGURES], const SbModel *scene,
-                      const double place[SIZES], const SbStudyHooks *hooks, SbReport *report) {
-  for (int i = 0; i < FIGURES; i++) {
-    value[i] = NAN;
+  if (summary != NULL) {
+    work->out->error = fmax(work->out->error, summary->error_force); // leaves out what is NaN
   }
-  SbModel model;
-  if (!move_sizes(&model, scene, place)) {
-    sb_warn(&out->warnings, "study-gap-tolerance", "bore.diameter",
-            "some corner of the tolerances leaves no valve that could be put together");
-    return sb_succeed(report);
-  }
-  SbPlan *plan = malloc(sizeof *plan);
-  if (plan == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a plan");
-  }
-  sb_plan_make(plan, &model);
-  SbRun *run = NULL;
-  SbReport local = {0};
-  SbStatus status = sb_run_create(&run, &model, plan, &local);
-  free(plan);
-  if (status == SB_OK) {
-    SbRunHooks own = {NULL, hooks != NULL && hooks->cancelled != NULL ? run_cancelled : NULL,
-                      (void *)(uintptr_t)hooks};
-    status = sb_run_execute(run, &own, &local);
-  }
-  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
-    sb_run_destroy(run);
-    if (report != NULL) {
-      *report = local;
-    }
-    return status;
-  }
-  if (status == SB_OK) {
-    const SbSummary *summary = sb_run_summary(run);
-    value[0] = summary->seal[SB_OUTER].load;
-    value[1] = summary->seal[SB_INNER].load;
-    value[2] = summary->force_breakaway;
-    value[3] = summary->stage[SB_STAGE_E].reached ? summary->force_return_min : NAN;
-    out->solves += summary->counters.ring_solves + summary->counters.disc_solves +
-                   summary->counters.reynolds_solves;
-    if (isfinite(summary->error_force)) {
-      out->error = fmax(out->error, summary->error_force);
-    }
-  } else {
-    sb_warn(&out->warnings, "study-gap-tolerance", local.parameter, "no cycle at some sizes: %s",
-            local.text);
-    out->complete = out->complete && status != SB_ERROR_NOT_CONVERGED;
-  }
-  sb_run_destroy(run);
-  return sb_succeed(report);
 }
 
 // What the curves say: values[size][step][figure].
@@ -147,32 +90,25 @@ typedef struct {
   double value[SIZES][2 * STEPS + 1][FIGURES];
 } Grid;
 
-static SbStatus fill(SbStudy *out, Grid *grid, const SbModel *model, const SbStudyHooks *hooks,
-                     SbReport *report) {
+static void fill(SbStudyWork *work, Grid *grid) {
   double nominal[FIGURES];
   const double middle[SIZES] = {0};
-  SbStatus status = solve(out, nominal, model, middle, hooks, report);
-  for (int size = 0; status == SB_OK && size < SIZES; size++) {
-    for (int k = 0; status == SB_OK && k <= 2 * STEPS; k++) {
+  solve(work, nominal, middle);
+  for (int size = 0; size < SIZES; size++) {
+    for (int k = 0; k <= 2 * STEPS; k++) {
       double place[SIZES] = {0};
       place[size] = (k - STEPS) / (double)STEPS;
       if (k == STEPS) {
-        for (int f = 0; f < FIGURES; f++) {
-          grid->value[size][k][f] = nominal[f];
-        }
-        continue;
-      }
-      status = solve(out, grid->value[size][k], model, place, hooks, report);
-      if (status == SB_OK) {
-        status = sb_study_step(hooks, 0.8 * (size + (k + 1.0) / (2 * STEPS + 1)) / SIZES, report);
+        memcpy(grid->value[size][k], nominal, sizeof nominal);
+      } else {
+        solve(work, grid->value[size][k], place);
       }
     }
   }
-  return status;
 }
 
-static SbStatus table(SbStudy *out, const Grid *grid, const SbModel *model,
-                      const SbStudyHooks *hooks, SbReport *report) {
+static void table(SbStudyWork *work, const Grid *grid) {
+  SbStudy *out = work->out;
   sb_text(out->row_heading, sizeof out->row_heading, "figure");
   sb_study_column(out, "nominal", "N", "N");
   sb_study_column(out, "worst case, least", "N", "N");
@@ -182,8 +118,7 @@ static SbStatus table(SbStudy *out, const Grid *grid, const SbModel *model,
   for (int size = 0; size < SIZES; size++) {
     sb_study_column(out, column_names[size], "N", "N");
   }
-  SbStatus status = SB_OK;
-  for (int f = 0; status == SB_OK && f < FIGURES; f++) {
+  for (int f = 0; f < FIGURES; f++) {
     SbStudyRow *row = sb_study_row(out, NULL, NULL, "%s", figures[f].name);
     double nominal = grid->value[0][STEPS][f], squares = 0;
     double corner[SIZES];
@@ -196,43 +131,30 @@ static SbStatus table(SbStudy *out, const Grid *grid, const SbModel *model,
     row->value[0] = nominal;
     row->value[3] = nominal - sqrt(squares);
     row->value[4] = nominal + sqrt(squares);
-    for (int side = 0; status == SB_OK && side < 2; side++) {
+    for (int side = 0; side < 2; side++) {
       double place[SIZES], value[FIGURES];
       for (int size = 0; size < SIZES; size++) {
         place[size] = side == 0 ? -corner[size] : corner[size];
       }
-      status = solve(out, value, model, place, hooks, report);
+      solve(work, value, place);
       row->value[1 + side] = value[f];
     }
-    if (status == SB_OK) {
-      status = sb_study_step(hooks, 0.8 + 0.2 * (f + 1) / FIGURES, report);
-    }
   }
-  return status;
 }
 
-SbStatus sb_study_tolerance(SbStudy *out, const SbModel *scene, const SbStudyHooks *hooks,
-                            SbReport *report) {
-  if (scene->motion == SB_MODEL_MOTION_RIG) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "models.motion",
-                             "the rig has no valve whose sizes could vary");
+void sb_study_tolerance(SbStudyWork *work) {
+  SbStudy *out = work->out;
+  const SbModel *model = work->scene;
+  if (model->motion == SB_MODEL_MOTION_RIG) {
+    work->status = sb_fail_parameter(work->report, SB_ERROR_INFEASIBLE, "models.motion",
+                                     "the rig has no valve whose sizes could vary");
+    return;
   }
-  // The cycle of the test machine, whatever drives the scene; no views, so nothing else is
-  // computed.
-  SbModel model = *scene;
-  model.motion = SB_MODEL_MOTION_QUASI_STATIC;
-  model.drive = SB_MODEL_DRIVE_MACHINE;
-  model.views = SB_VIEW_HYSTERESIS;
-  model.studies = 0;
-  model.frames = 2;
+  sb_study_fix_machine(work);
+  work->total = (2 * STEPS * SIZES + 1 + 2 * FIGURES) * sb_cost_fit((SbFitModel)model->fit);
   Grid grid;
-  SbStatus status = fill(out, &grid, &model, hooks, report);
-  if (status == SB_OK) {
-    status = table(out, &grid, &model, hooks, report);
-  }
-  if (status != SB_OK) {
-    return status;
-  }
+  fill(work, &grid);
+  table(work, &grid);
   sb_study_axis(&out->x, "place in the size's tolerance band", "1", "", false);
   for (int f = 0; f < FIGURES; f++) {
     if (!figures[f].drawn) {
@@ -247,18 +169,17 @@ SbStatus sb_study_tolerance(SbStudy *out, const SbModel *scene, const SbStudyHoo
     }
   }
   char film[32];
-  sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model.film, film, sizeof film);
+  sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model->film, film, sizeof film);
   sb_text(out->models, sizeof out->models, "fit %s, film %s, quasi-static cycle of the machine",
-          sb_fit_model_name((SbFitModel)model.fit), film);
+          sb_fit_model_name((SbFitModel)model->fit), film);
   sb_text(out->validity, sizeof out->validity,
           "worst case: where every figure rises or falls with every size; root sum of squares: "
           "independent sizes, linear");
   sb_study_note(out,
                 "Half-widths: d %.3g and %.3g mm, ID %.3g and %.3g mm (outer, inner), g %.3g mm, "
                 "D %.3g mm, stem %.3g mm. \"by\": half the difference between the band's ends.",
-                1e3 * tolerance_of(&model, 0), 1e3 * tolerance_of(&model, 1),
-                1e3 * tolerance_of(&model, 2), 1e3 * tolerance_of(&model, 3),
-                1e3 * tolerance_of(&model, 4), 1e3 * tolerance_of(&model, 5),
-                1e3 * tolerance_of(&model, 6));
-  return SB_OK;
+                1e3 * tolerance_of(model, 0), 1e3 * tolerance_of(model, 1),
+                1e3 * tolerance_of(model, 2), 1e3 * tolerance_of(model, 3),
+                1e3 * tolerance_of(model, 4), 1e3 * tolerance_of(model, 5),
+                1e3 * tolerance_of(model, 6));
 }
