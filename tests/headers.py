@@ -9,10 +9,12 @@ import json
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 
 build, source, *layers = sys.argv[1:]
+# The installed header stands alone as C and as C++, with no flags at all.
 
 # How a layer is compiled: compiler, places of headers and definitions of any of its files.
 commands = {}
@@ -52,6 +54,13 @@ headers = sorted(os.path.relpath(os.path.join(where, name), source)
 with concurrent.futures.ThreadPoolExecutor(2) as pool:
     results = [(header + ' stands alone', said == '', said)
                for header, said in zip(headers, pool.map(alone, headers))]
+
+for language in ('c', 'c++') if shutil.which('c++') else ('c',):
+    said = subprocess.run(['c++' if language == 'c++' else 'cc', '-x', language, '-I', source + '/include',
+                           '-Wall', '-Wextra', '-Wpedantic', '-Werror', '-fsyntax-only', '-'],
+                          input='#include <sealbench.h>\n#include <sealbench.h>\nSbScene *used;\n',
+                          capture_output=True, text=True, check=False).stderr
+    results.append((f'include/sealbench.h stands alone as {language}', said == '', said))
 
 DROPS = '#include "engine/base/status.h"\nSbStatus f(void);\nvoid g(void);\nvoid g(void) {\n  %s;\n}\n'
 if 'engine' in layers:

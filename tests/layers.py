@@ -2,7 +2,7 @@
 """The layers hold: engine knows nothing of GLib, GL, files or printing; app nothing of GTK; inside
 a layer, a room includes only rooms below it.
 
-layers.py SOURCE ENGINE.a APP.a SEALBENCH, TAP on standard output.
+layers.py SOURCE ENGINE.a APP.a SEALBENCH LIBRARY.so, TAP on standard output.
 """
 import glob
 import os
@@ -24,7 +24,7 @@ def matching(names, pattern):
 # Rooms from below; those of one line know nothing of each other.
 ROOMS = {
     'engine': ['base', 'numeric', 'contact', 'film', 'rubber mechanism', 'valve'],
-    'app': ['base', 'document', 'chart run', 'section session', 'export', 'cli'],
+    'app': ['base', 'document', 'chart run library', 'section session', 'export', 'cli'],
     'ui': ['views', 'params', 'window'],
 }
 
@@ -48,8 +48,21 @@ def arrows_up(source):
     return found
 
 
-source, engine, app, program = sys.argv[1:]
+source, engine, app, program, library = sys.argv[1:]
 libraries = subprocess.run(['ldd', program], capture_output=True, text=True, check=True).stdout
+
+
+def visible(path):
+    """What a shared library lets others see, but for the linker's own marks."""
+    out = subprocess.run(['nm', '-D', '--defined-only', path], capture_output=True, text=True, check=True)
+    return {line.split()[-1] for line in out.stdout.splitlines() if line.split()[-2] != 'A'}
+
+
+with open(source + '/include/sealbench.h', encoding='utf-8') as file:
+    declared = set(re.findall(r'\b(sb_\w+)\(', re.sub(r'//.*', '', file.read())))
+needed = re.findall(r'\(NEEDED\).*\[(\S+)\]', subprocess.run(
+    ['readelf', '-d', library], capture_output=True, text=True, check=True).stdout)
+LIBRARY_MAY_NEED = r'lib(openblas|lapacke|gsl|gslcblas|klu|m|c|pthread|glib-2\.0|gio-2\.0|gobject-2\.0|udunits2)\.so'
 checks = [
     ('engine uses no GLib, GTK, cairo, pango, GL, libav or udunits',
      matching(symbols(engine, 'U'), r'(g|gtk|gdk|cairo|pango|av|ut|cv)_|gl[A-Z]|egl[A-Z]|OSMesa')),
@@ -60,6 +73,9 @@ checks = [
      [name for name in sorted(symbols(engine, 'bBC')) if not name.startswith(('__', '.'))]),
     ('app uses no GTK', matching(symbols(app, 'U'), r'(gtk|gdk)_')),
     ('no layer includes one above it, no room one beside or above it', arrows_up(source)),
+    ('the library shows what its header declares and nothing else', sorted(visible(library) ^ declared)),
+    ('the library needs GLib, GIO, udunits and the engine\'s libraries alone',
+     [name for name in needed if not re.match(LIBRARY_MAY_NEED, name)]),
     ('sealbench is not linked with GTK', re.findall(r'lib(?:gtk|gdk)-\S+', libraries)),
 ]
 print(f'1..{len(checks)}')

@@ -37,7 +37,7 @@ static char *unreadable(GError **error, const char *why) {
 
 // What lies packed in `bytes`, as a text.
 static char *unpack(Bytes bytes, GError **error) {
-  enum { PIECE = 1 << 14 };
+  enum { PIECE = 1 << 13 };
   g_autoptr(GZlibDecompressor) zlib = g_zlib_decompressor_new(G_ZLIB_COMPRESSOR_FORMAT_ZLIB);
   g_autoptr(GByteArray) out = g_byte_array_new();
   GConverterResult result = G_CONVERTER_CONVERTED;

@@ -1,0 +1,480 @@
+// The installed interface (include/sealbench.h) over documents, runs and the evaluator.
+//
+// Statuses are the engine's, numbered alike. All memory that callers see belongs to the scene.
+#include "include/sealbench.h"
+
+#include "app/document/document.h"
+#include "engine/valve/sealbench.h"
+
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <pthread.h>
+#include <stddef.h>
+#include <string.h>
+#include <unistd.h>
+
+_Static_assert((int)SB_SCENE_ERROR_INPUT == (int)SB_ERROR_INPUT &&
+                   (int)SB_SCENE_ERROR_RANGE == (int)SB_ERROR_RANGE &&
+                   (int)SB_SCENE_ERROR_INFEASIBLE == (int)SB_ERROR_INFEASIBLE &&
+                   (int)SB_SCENE_ERROR_NOT_CONVERGED == (int)SB_ERROR_NOT_CONVERGED &&
+                   (int)SB_SCENE_ERROR_CANCELLED == (int)SB_ERROR_CANCELLED &&
+                   (int)SB_SCENE_ERROR_MEMORY == (int)SB_ERROR_MEMORY &&
+                   (int)SB_SCENE_ERROR_IO == (int)SB_ERROR_IO,
+               "the statuses of the library are the engine's");
+
+_Static_assert(SB_LIBRARY_VERSION_MAJOR == SB_PROJECT_MAJOR &&
+                   SB_LIBRARY_VERSION_MINOR == SB_PROJECT_MINOR &&
+                   SB_LIBRARY_VERSION_MICRO == SB_PROJECT_MICRO,
+               "the header's version is the project's");
+
+struct SbScene {
+  SbDocument *document;
+  GPtrArray *issues; // of the file, of SbIssue
+  GPtrArray *lines;  // of them, of char *
+  char key[64];      // of the parameter at fault in the last failure, or empty
+  char *message;     // of that failure
+  char *text;        // last value given as text
+  SbRun *run;        // NULL before the first
+  SbEvaluator *evaluator;
+  void (*progress)(void *data, double fraction);
+  int (*cancelled)(void *data);
+  void *data;
+};
+
+// ---- What one frame has ----
+
+typedef struct {
+  SbFigureInfo info;
+  size_t offset;
+  bool single; // a float
+} Quantity;
+
+#define FRAME(name, unit, member)                                                                  \
+  { {name, unit}, offsetof(SbFrame, member), sizeof((SbFrame){0}.member) == sizeof(float) }
+#define SEAL(which, name, unit, member) FRAME("seals." which "." name, unit, member)
+#define SEAL_QUANTITIES(which, index)                                                              \
+  SEAL(which, "contact_left_m", "m", seal[index].contact_left),                                    \
+      SEAL(which, "contact_right_m", "m", seal[index].contact_right),                              \
+      SEAL(which, "land_share", "1", seal[index].land_fraction),                                   \
+      SEAL(which, "pressure_left_Pa", "Pa", seal[index].pressure_left),                            \
+      SEAL(which, "pressure_right_Pa", "Pa", seal[index].pressure_right),                          \
+      SEAL(which, "load_N", "N", seal[index].load),                                                \
+      SEAL(which, "pressure_peak_Pa", "Pa", seal[index].pressure_peak),                            \
+      SEAL(which, "film_min_m", "m", seal[index].film_min),                                        \
+      SEAL(which, "film_central_m", "m", seal[index].film_central),                                \
+      SEAL(which, "lambda", "1", seal[index].lambda),                                              \
+      SEAL(which, "friction_boundary_N", "N", seal[index].friction_boundary),                      \
+      SEAL(which, "friction_viscous_N", "N", seal[index].friction_viscous),                        \
+      SEAL(which, "friction_N", "N", seal[index].friction)
+
+static const Quantity quantities[] = {
+    FRAME("time_s", "s", time),
+    FRAME("displacement_m", "m", displacement),
+    FRAME("velocity_m_per_s", "m/s", velocity),
+    FRAME("platen_m", "m", platen),
+    FRAME("force_N", "N", force),
+    FRAME("pressure_force_N", "N", pressure_force),
+    FRAME("stop_force_N", "N", stop_force),
+    FRAME("spring_force_N", "N", spring_force),
+    FRAME("chamber_pressure_Pa", "Pa", chamber_pressure),
+    SEAL_QUANTITIES("outer", SB_OUTER),
+    SEAL_QUANTITIES("inner", SB_INNER),
+};
+
+// ---- Catalogues, filled once ----
+
+static SbParameterInfo parameter_infos[SB_PARAM_COUNT];
+static SbFigureInfo figure_infos[SB_FIGURE_COUNT];
+static SbFigureInfo quantity_infos[G_N_ELEMENTS(quantities)];
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+static void set_up(void) {
+  // A special function outside its domain must not end the program; the engine checks results.
+  gsl_set_error_handler_off();
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    parameter_infos[i] =
+        (SbParameterInfo){param->key,   param->symbol, param->si,  param->unit, param->choices,
+                          param->label, param->help,   param->min, param->max,  param->fallback};
+  }
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    figure_infos[i] = (SbFigureInfo){sb_figure(i)->path, sb_figure(i)->si};
+  }
+  for (size_t i = 0; i < G_N_ELEMENTS(quantities); i++) {
+    quantity_infos[i] = quantities[i].info;
+  }
+}
+
+static void ensure_set_up(void) {
+  pthread_once(&once, set_up);
+}
+
+const char *sb_library_version(void) {
+  return sb_version();
+}
+
+const SbParameterInfo *sb_list_parameters(size_t *count) {
+  ensure_set_up();
+  *count = SB_PARAM_COUNT;
+  return parameter_infos;
+}
+
+const SbFigureInfo *sb_list_figures(size_t *count) {
+  ensure_set_up();
+  *count = SB_FIGURE_COUNT;
+  return figure_infos;
+}
+
+const SbFigureInfo *sb_list_quantities(size_t *count) {
+  ensure_set_up();
+  *count = G_N_ELEMENTS(quantities);
+  return quantity_infos;
+}
+
+// ---- Failures ----
+
+static SbSceneStatus G_GNUC_PRINTF(4, 5)
+    fail(SbScene *scene, SbSceneStatus status, const char *key, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  char *message = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  g_free(scene->message);
+  scene->message = message;
+  g_strlcpy(scene->key, key, sizeof scene->key);
+  return status;
+}
+
+static SbSceneStatus report(SbScene *scene, SbStatus status, const SbReport *from) {
+  if (status == SB_OK) {
+    return SB_SCENE_OK;
+  }
+  return fail(scene, (SbSceneStatus)status, from->parameter, "%s",
+              from->text[0] != '\0' ? from->text : sb_status_text(status));
+}
+
+// Id of a parameter, or -1 with the message.
+static int find_parameter(SbScene *scene, const char *key) {
+  int id = sb_param_find(key);
+  if (id < 0) {
+    fail(scene, SB_SCENE_ERROR_INPUT, key, "there is no parameter \"%s\"", key);
+  }
+  return id;
+}
+
+static int find_figure(SbScene *scene, const char *path) {
+  int index = sb_figure_find(path);
+  if (index < 0) {
+    fail(scene, SB_SCENE_ERROR_INPUT, path, "there is no figure \"%s\"", path);
+  }
+  return index;
+}
+
+// ---- Scenes ----
+
+// Takes the document, NULL if nothing could be made of the file.
+static SbSceneStatus take(SbScene **out, SbDocument *document, GPtrArray *issues, bool readable) {
+  SbScene *scene = g_new0(SbScene, 1);
+  *out = scene;
+  scene->issues = issues;
+  scene->lines = g_ptr_array_new_with_free_func(g_free);
+  scene->message = g_strdup("");
+  for (guint i = 0; i < issues->len; i++) {
+    g_ptr_array_add(scene->lines, sb_issue_line(issues->pdata[i]));
+  }
+  bool good = document != NULL && issues->len == 0;
+  if (!good) {
+    sb_document_free(document);
+    document = sb_document_new();
+  }
+  scene->document = document;
+  if (sb_evaluator_create(&scene->evaluator, NULL) != SB_OK) {
+    sb_scene_close(scene);
+    *out = NULL;
+    return SB_SCENE_ERROR_MEMORY;
+  }
+  if (good) {
+    return SB_SCENE_OK;
+  }
+  const SbIssue *first = issues->pdata[0];
+  return fail(scene, readable ? SB_SCENE_ERROR_INPUT : SB_SCENE_ERROR_IO,
+              first->key != NULL ? first->key : "", "%s", (const char *)scene->lines->pdata[0]);
+}
+
+SbSceneStatus sb_scene_open(SbScene **out, const char *path) {
+  ensure_set_up();
+  GPtrArray *issues = sb_issues_new();
+  SbDocument *document = sb_document_load(path, issues);
+  bool readable = document != NULL || access(path, R_OK) == 0;
+  return take(out, document, issues, readable);
+}
+
+SbSceneStatus sb_scene_parse(SbScene **out, const char *text, size_t length, const char *folder) {
+  ensure_set_up();
+  GPtrArray *issues = sb_issues_new();
+  return take(out, sb_document_parse(text, length, "text", folder, issues), issues, true);
+}
+
+SbSceneStatus sb_scene_new(SbScene **out) {
+  ensure_set_up();
+  return take(out, sb_document_new(), sb_issues_new(), true);
+}
+
+void sb_scene_close(SbScene *scene) {
+  if (scene == NULL) {
+    return;
+  }
+  sb_run_destroy(scene->run);
+  sb_evaluator_destroy(scene->evaluator);
+  sb_document_free(scene->document);
+  g_ptr_array_unref(scene->issues);
+  g_ptr_array_unref(scene->lines);
+  g_free(scene->message);
+  g_free(scene->text);
+  g_free(scene);
+}
+
+const char *sb_scene_message(const SbScene *scene) {
+  return scene->message;
+}
+
+const char *sb_scene_message_key(const SbScene *scene) {
+  return scene->key;
+}
+
+const char *sb_scene_issue(const SbScene *scene, size_t index) {
+  return index < scene->lines->len ? scene->lines->pdata[index] : NULL;
+}
+
+const char *sb_scene_title(const SbScene *scene) {
+  return sb_document_title(scene->document);
+}
+
+// ---- Parameters ----
+
+// A change that the document refused.
+static SbSceneStatus refused(SbScene *scene, const char *key, GError *error) {
+  SbSceneStatus status = fail(scene, SB_SCENE_ERROR_INPUT, key, "%s: %s", key, error->message);
+  g_error_free(error);
+  return status;
+}
+
+SbSceneStatus sb_scene_set_text(SbScene *scene, const char *key, const char *text) {
+  GError *error = NULL;
+  int id = find_parameter(scene, key);
+  if (id < 0) {
+    return SB_SCENE_ERROR_INPUT;
+  }
+  return sb_document_set(scene->document, (SbParamId)id, text, &error) ? SB_SCENE_OK
+                                                                       : refused(scene, key, error);
+}
+
+SbSceneStatus sb_scene_set(SbScene *scene, const char *key, double value) {
+  GError *error = NULL;
+  int id = find_parameter(scene, key);
+  if (id < 0) {
+    return SB_SCENE_ERROR_INPUT;
+  }
+  // In range or not, told with the number as it is, not in the unit shown.
+  SbParams ignored;
+  SbReport why;
+  sb_params_init(&ignored);
+  SbStatus status = sb_params_set(&ignored, (SbParamId)id, value, &why);
+  if (status != SB_OK) {
+    return fail(scene, (SbSceneStatus)status, key, "%s: %s", key, why.text);
+  }
+  return sb_document_set_value(scene->document, (SbParamId)id, value, false, &error)
+             ? SB_SCENE_OK
+             : refused(scene, key, error);
+}
+
+SbSceneStatus sb_scene_unset(SbScene *scene, const char *key) {
+  int id = find_parameter(scene, key);
+  if (id < 0) {
+    return SB_SCENE_ERROR_INPUT;
+  }
+  sb_document_unset(scene->document, (SbParamId)id);
+  return SB_SCENE_OK;
+}
+
+SbSceneStatus sb_scene_get(SbScene *scene, const char *key, double *value) {
+  int id = find_parameter(scene, key);
+  *value = id < 0 ? NAN : sb_document_value(scene->document, (SbParamId)id);
+  return id < 0 ? SB_SCENE_ERROR_INPUT : SB_SCENE_OK;
+}
+
+const char *sb_scene_get_text(SbScene *scene, const char *key) {
+  int id = find_parameter(scene, key);
+  g_free(scene->text);
+  scene->text = id < 0 ? NULL : sb_document_text(scene->document, (SbParamId)id);
+  return scene->text;
+}
+
+// ---- Runs ----
+
+void sb_scene_callbacks(SbScene *scene, void (*progress)(void *data, double fraction),
+                        int (*cancelled)(void *data), void *data) {
+  scene->progress = progress;
+  scene->cancelled = cancelled;
+  scene->data = data;
+}
+
+static void on_progress(void *data, double fraction, size_t frames) {
+  const SbScene *scene = data;
+  if (scene->progress != NULL) {
+    scene->progress(scene->data, fraction);
+  }
+}
+
+static bool is_cancelled(void *data) {
+  const SbScene *scene = data;
+  return scene->cancelled != NULL && scene->cancelled(scene->data) != 0;
+}
+
+// The values in force as a model, which borrows from the document.
+static SbSceneStatus compile(SbScene *scene, SbModel *model) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  if (sb_document_compile(scene->document, model, issues)) {
+    return SB_SCENE_OK;
+  }
+  const SbIssue *first = issues->pdata[0];
+  g_autofree char *line = sb_issue_line(first);
+  return fail(scene, SB_SCENE_ERROR_INPUT, first->key != NULL ? first->key : "", "%s", line);
+}
+
+SbSceneStatus sb_scene_run(SbScene *scene) {
+  SbModel model;
+  SbPlan plan;
+  SbReport why = {0};
+  SbSceneStatus compiled = compile(scene, &model);
+  if (compiled != SB_SCENE_OK) {
+    return compiled;
+  }
+  sb_plan_make(&plan, &model);
+  plan.profiles = model.motion != SB_MODEL_MOTION_RIG;
+  plan.section_fields = false;
+  SbStatus status = scene->run == NULL ? sb_run_create(&scene->run, &model, &plan, &why)
+                                       : sb_run_renew(scene->run, &model, &plan, &why);
+  if (status != SB_OK) {
+    sb_run_destroy(scene->run);
+    scene->run = NULL;
+    return report(scene, status, &why);
+  }
+  const SbRunHooks hooks = {on_progress, is_cancelled, scene};
+  return report(scene, sb_run_execute(scene->run, &hooks, &why), &why);
+}
+
+SbSceneStatus sb_scene_figure(SbScene *scene, const char *path, double *value) {
+  int index = find_figure(scene, path);
+  const SbSummary *summary = scene->run != NULL ? sb_run_summary(scene->run) : NULL;
+  *value = NAN;
+  if (index < 0) {
+    return SB_SCENE_ERROR_INPUT;
+  }
+  if (summary == NULL) {
+    return fail(scene, SB_SCENE_ERROR_INPUT, path, "there has been no run yet");
+  }
+  *value = sb_figure_value(summary, index);
+  return SB_SCENE_OK;
+}
+
+const char *sb_scene_reason(const SbScene *scene, const char *path) {
+  int index = sb_figure_find(path);
+  if (index < 0) {
+    return NULL;
+  }
+  return scene->run != NULL ? sb_figure_reason(sb_run_summary(scene->run), index)
+                            : "there has been no run yet";
+}
+
+const char *sb_scene_warning(const SbScene *scene, size_t index) {
+  const SbWarnings *warnings = scene->run != NULL ? &sb_run_summary(scene->run)->warnings : NULL;
+  return warnings != NULL && index < warnings->count ? warnings->item[index].text : NULL;
+}
+
+size_t sb_scene_frame_count(const SbScene *scene) {
+  size_t count = 0;
+  if (scene->run != NULL) {
+    sb_run_frames(scene->run, &count);
+  }
+  return count;
+}
+
+SbSceneStatus sb_scene_frames(SbScene *scene, const char *quantity, double *out) {
+  size_t count = 0;
+  const SbFrame *frames = scene->run != NULL ? sb_run_frames(scene->run, &count) : NULL;
+  for (size_t q = 0; q < G_N_ELEMENTS(quantities); q++) {
+    if (strcmp(quantities[q].info.key, quantity) != 0) {
+      continue;
+    }
+    for (size_t i = 0; i < count; i++) {
+      const char *at = (const char *)&frames[i] + quantities[q].offset;
+      out[i] = quantities[q].single ? (double)*(const float *)at : *(const double *)at;
+    }
+    return SB_SCENE_OK;
+  }
+  return fail(scene, SB_SCENE_ERROR_INPUT, quantity, "frames have no quantity \"%s\"", quantity);
+}
+
+SbSceneStatus sb_scene_profile(SbScene *scene, size_t frame, const char *seal,
+                               SbSceneProfile *out) {
+  size_t count = 0;
+  const SbFrame *frames = scene->run != NULL ? sb_run_frames(scene->run, &count) : NULL;
+  *out = (SbSceneProfile){0};
+  int index = 0;
+  while (index < SB_SEAL_COUNT && strcmp(sb_seal_name(index), seal) != 0) {
+    index++;
+  }
+  if (index == SB_SEAL_COUNT) {
+    return fail(scene, SB_SCENE_ERROR_INPUT, "", "there is no seal \"%s\": outer or inner", seal);
+  }
+  if (frame >= count) {
+    return fail(scene, SB_SCENE_ERROR_INPUT, "", "there is no frame %zu of %zu", frame, count);
+  }
+  const SbContactProfile *profile = sb_run_profile(scene->run, frames[frame].seal[index].profile);
+  if (profile != NULL) {
+    *out = (SbSceneProfile){
+        profile->count, profile->x, profile->pressure, profile->film, profile->asperity_pressure,
+        profile->model};
+  }
+  return SB_SCENE_OK;
+}
+
+// ---- Evaluation ----
+
+SbSceneStatus sb_scene_evaluate(SbScene *scene, const char *const *keys, const double *values,
+                                size_t count, const char *const *figures, size_t figure_count,
+                                double *out) {
+  SbModel model;
+  SbReport why = {0};
+  g_autofree SbOverride *overrides = g_new(SbOverride, count + 1);
+  g_autofree int *indices = g_new(int, figure_count + 1);
+  for (size_t i = 0; i < figure_count; i++) {
+    out[i] = NAN;
+  }
+  for (size_t i = 0; i < count; i++) {
+    int id = find_parameter(scene, keys[i]);
+    if (id < 0) {
+      return SB_SCENE_ERROR_INPUT;
+    }
+    overrides[i] = (SbOverride){(SbParamId)id, values[i]};
+  }
+  for (size_t i = 0; i < figure_count; i++) {
+    indices[i] = find_figure(scene, figures[i]);
+    if (indices[i] < 0) {
+      return SB_SCENE_ERROR_INPUT;
+    }
+  }
+  SbSceneStatus compiled = compile(scene, &model);
+  if (compiled != SB_SCENE_OK) {
+    return compiled;
+  }
+  const SbQuestion question = {&model,       overrides,    count, indices,
+                               figure_count, is_cancelled, scene};
+  return report(scene, sb_evaluator_ask(out, scene->evaluator, &question, &why), &why);
+}
+
+const char *sb_scene_evaluation_reason(const SbScene *scene, const char *path) {
+  int index = sb_figure_find(path);
+  return index >= 0 ? sb_evaluator_reason(scene->evaluator, index) : NULL;
+}

@@ -1,0 +1,361 @@
+"""Elastomer seals of inhaler valves: a module over libsealbench.
+
+    import sealbench
+
+    with sealbench.Scene("thesis-cycle.scene") as scene:
+        scene["seal.section_diameter"] = "1.63 mm"
+        scene.run()
+        print(scene.figure("cycle.force_breakaway_N"))
+        time, force = scene.frames("time_s", "force_N")
+
+Parameters, figures and quantities go by the keys of the files and of the program's JSON; PARAMETERS,
+FIGURES and QUANTITIES describe them. Numbers are SI, texts carry units ("1.63 mm"). Arrays are
+numpy's float64 where numpy is installed, else array.array("d"); they are copies. A figure that was
+not computed is NaN, and reason() says why. A scene belongs to one thread at a time; different scenes
+may be used in different threads at once, and a run lets other threads go on.
+
+The library is looked for by the name in the environment variable SEALBENCH_LIBRARY, beside this
+module's own installation, then where the system's loader looks.
+"""
+from __future__ import annotations
+
+import array
+import ctypes
+import glob
+import math
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from types import TracebackType
+from typing import Any, NamedTuple, Union
+
+try:
+    import numpy
+except ImportError:
+    numpy = None  # type: ignore[assignment]
+
+__all__ = ["Scene", "Error", "Parameter", "Figure", "Profile", "PARAMETERS", "FIGURES", "QUANTITIES",
+           "VERSION"]
+
+Value = Union[float, int, str]
+Array = Any  # numpy.ndarray or array.array, of doubles
+
+
+class Parameter(NamedTuple):
+    """A row of the catalogue of parameters; SI."""
+    key: str
+    symbol: str
+    unit: str
+    shown: str
+    choices: tuple[str, ...]
+    label: str
+    help: str
+    low: float
+    high: float
+    default: float
+
+
+class Figure(NamedTuple):
+    """A figure of a run, or a quantity of its frames, with its SI unit ("1": none)."""
+    key: str
+    unit: str
+
+
+class Profile(NamedTuple):
+    """Over a seal's contact, by rising x in the seal's frame [m]: total pressure above the lower of
+    the two fluid pressures [Pa], film [m], what asperities bear [Pa], and the model that made it."""
+    x: Array
+    pressure: Array
+    film: Array
+    asperity_pressure: Array
+    model: str
+
+
+class Error(Exception):
+    """A call that failed: `status` is one of the names below, `key` the parameter at fault or ""."""
+    STATUS = ("ok", "input", "range", "infeasible", "not-converged", "cancelled", "memory", "io")
+
+    def __init__(self, status: int, message: str, key: str = "") -> None:
+        super().__init__(message)
+        self.status = self.STATUS[status]
+        self.key = key
+
+
+# ---- The library ----
+
+_Double = ctypes.c_double
+_Text = ctypes.c_char_p
+_OnProgress = ctypes.CFUNCTYPE(None, ctypes.c_void_p, _Double)
+_IsCancelled = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
+
+
+class _ParameterInfo(ctypes.Structure):
+    _fields_ = [(name, _Text) for name in ("key", "symbol", "unit", "shown", "choices", "label", "help")]
+    _fields_ += [(name, _Double) for name in ("low", "high", "default_value")]
+
+
+class _FigureInfo(ctypes.Structure):
+    _fields_ = [("key", _Text), ("unit", _Text)]
+
+
+class _Profile(ctypes.Structure):
+    _fields_ = [("count", ctypes.c_size_t)]
+    _fields_ += [(name, ctypes.POINTER(_Double)) for name in ("x", "pressure", "film", "asperity_pressure")]
+    _fields_ += [("model", _Text)]
+
+
+def _load() -> ctypes.CDLL:
+    name = "libsealbench.so.0"
+    here = os.path.dirname(os.path.abspath(__file__))
+    # lib/python3/dist-packages/ and lib/TRIPLET/ are neighbours.
+    beside = [path for up in ("../..", "../../..") for where in ("", "*")
+              for path in sorted(glob.glob(os.path.join(here, up, where, name)))]
+    own = os.environ.get("SEALBENCH_LIBRARY")
+    failure = None
+    for path in [own] if own else [*beside, name]:
+        try:
+            return ctypes.CDLL(path)
+        except OSError as error:
+            failure = error
+    raise ImportError(f"libsealbench is not there: {failure}; SEALBENCH_LIBRARY names it")
+
+
+_lib = _load()
+_scene, _size, _pointer = ctypes.c_void_p, ctypes.c_size_t, ctypes.POINTER
+for _name, _result, _arguments in (
+        ("sb_library_version", _Text, []),
+        ("sb_list_parameters", _pointer(_ParameterInfo), [_pointer(_size)]),
+        ("sb_list_figures", _pointer(_FigureInfo), [_pointer(_size)]),
+        ("sb_list_quantities", _pointer(_FigureInfo), [_pointer(_size)]),
+        ("sb_scene_open", ctypes.c_int, [_pointer(_scene), _Text]),
+        ("sb_scene_parse", ctypes.c_int, [_pointer(_scene), _Text, _size, _Text]),
+        ("sb_scene_new", ctypes.c_int, [_pointer(_scene)]),
+        ("sb_scene_close", None, [_scene]),
+        ("sb_scene_message", _Text, [_scene]),
+        ("sb_scene_message_key", _Text, [_scene]),
+        ("sb_scene_issue", _Text, [_scene, _size]),
+        ("sb_scene_title", _Text, [_scene]),
+        ("sb_scene_set_text", ctypes.c_int, [_scene, _Text, _Text]),
+        ("sb_scene_set", ctypes.c_int, [_scene, _Text, _Double]),
+        ("sb_scene_unset", ctypes.c_int, [_scene, _Text]),
+        ("sb_scene_get", ctypes.c_int, [_scene, _Text, _pointer(_Double)]),
+        ("sb_scene_get_text", _Text, [_scene, _Text]),
+        ("sb_scene_callbacks", None, [_scene, _OnProgress, _IsCancelled, ctypes.c_void_p]),
+        ("sb_scene_run", ctypes.c_int, [_scene]),
+        ("sb_scene_figure", ctypes.c_int, [_scene, _Text, _pointer(_Double)]),
+        ("sb_scene_reason", _Text, [_scene, _Text]),
+        ("sb_scene_warning", _Text, [_scene, _size]),
+        ("sb_scene_frame_count", _size, [_scene]),
+        ("sb_scene_frames", ctypes.c_int, [_scene, _Text, _pointer(_Double)]),
+        ("sb_scene_profile", ctypes.c_int, [_scene, _size, _Text, _pointer(_Profile)]),
+        ("sb_scene_evaluate", ctypes.c_int, [_scene, _pointer(_Text), _pointer(_Double), _size,
+                                             _pointer(_Text), _size, _pointer(_Double)]),
+        ("sb_scene_evaluation_reason", _Text, [_scene, _Text])):
+    _function = getattr(_lib, _name)
+    _function.restype, _function.argtypes = _result, _arguments
+
+
+def _text(value: bytes | None) -> str:
+    return "" if value is None else value.decode()
+
+
+def _copy(pointer: Any, count: int) -> Array:
+    """A copy of `count` doubles."""
+    values = array.array("d", pointer[:count] if count > 0 else [])
+    return values if numpy is None else numpy.frombuffer(values, dtype=float)
+
+
+def _listed(function: Any) -> Iterable[Any]:
+    count = _size()
+    rows = function(ctypes.byref(count))
+    return (rows[i] for i in range(count.value))
+
+
+VERSION: str = _text(_lib.sb_library_version())
+PARAMETERS: dict[str, Parameter] = {
+    _text(row.key): Parameter(
+        _text(row.key), _text(row.symbol), _text(row.unit), _text(row.shown),
+        tuple(_text(row.choices).split("|")) if row.choices else (), _text(row.label), _text(row.help),
+        row.low, row.high, row.default_value)
+    for row in _listed(_lib.sb_list_parameters)}
+FIGURES: dict[str, Figure] = {
+    _text(row.key): Figure(_text(row.key), _text(row.unit)) for row in _listed(_lib.sb_list_figures)}
+QUANTITIES: dict[str, Figure] = {
+    _text(row.key): Figure(_text(row.key), _text(row.unit)) for row in _listed(_lib.sb_list_quantities)}
+
+
+class Scene:
+    """A valve or scene file in memory, its changes, and what was computed last."""
+
+    def __init__(self, path: str | os.PathLike[str] | None = None, *, text: str | None = None,
+                 folder: str | os.PathLike[str] | None = None) -> None:
+        """Opens a file, or a file's text (other files are looked for in `folder`); without either
+        the thesis' valve. Error with every issue of the file, a line each."""
+        self._scene: ctypes.c_void_p | None = _scene()
+        out = ctypes.byref(self._scene)
+        if text is not None:
+            data = text.encode()
+            status = _lib.sb_scene_parse(out, data, len(data), os.fsencode(folder) if folder else None)
+        elif path is not None:
+            status = _lib.sb_scene_open(out, os.fsencode(path))
+        else:
+            status = _lib.sb_scene_new(out)
+        if status != 0:
+            issues, key = [], ""
+            while self._scene and (line := _lib.sb_scene_issue(self._scene, len(issues))) is not None:
+                issues.append(_text(line))
+            if self._scene:
+                key = _text(_lib.sb_scene_message_key(self._scene))
+            self.close()
+            raise Error(status, "\n".join(issues) or "no memory", key)
+        self._calls: tuple[Any, ...] = ()
+        self._raised: BaseException | None = None
+
+    def close(self) -> None:
+        """Frees the scene; it cannot be used afterwards."""
+        if self._scene is not None:
+            _lib.sb_scene_close(self._scene)
+            self._scene = None
+
+    def __enter__(self) -> Scene:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None,
+                 trace: TracebackType | None) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_scene", None) is not None:
+            self.close()
+
+    def _use(self) -> ctypes.c_void_p:
+        if self._scene is None:
+            raise ValueError("the scene is closed")
+        return self._scene
+
+    def _check(self, status: int) -> None:
+        raised, self._raised = self._raised, None
+        if raised is not None:
+            raise raised
+        if status != 0:
+            raise Error(status, _text(_lib.sb_scene_message(self._use())),
+                        _text(_lib.sb_scene_message_key(self._use())))
+
+    @property
+    def title(self) -> str:
+        return _text(_lib.sb_scene_title(self._use()))
+
+    # ---- Parameters ----
+
+    def __getitem__(self, key: str) -> float:
+        """Value in force, SI; the index of a choice."""
+        value = _Double()
+        self._check(_lib.sb_scene_get(self._use(), key.encode(), ctypes.byref(value)))
+        return value.value
+
+    def __setitem__(self, key: str, value: Value) -> None:
+        """Sets a parameter from a text with unit ("1.63 mm", "reynolds") or a number in SI."""
+        if isinstance(value, str):
+            self._check(_lib.sb_scene_set_text(self._use(), key.encode(), value.encode()))
+        else:
+            self._check(_lib.sb_scene_set(self._use(), key.encode(), value))
+
+    def __delitem__(self, key: str) -> None:
+        """Takes the scene's own value back: its valve's or the default is in force again."""
+        self._check(_lib.sb_scene_unset(self._use(), key.encode()))
+
+    def text(self, key: str) -> str:
+        """Value in force as text with unit."""
+        value = _lib.sb_scene_get_text(self._use(), key.encode())
+        self._check(0 if value is not None else 1)
+        return _text(value)
+
+    # ---- A run ----
+
+    def callbacks(self, progress: Callable[[float], None] | None = None,
+                  cancelled: Callable[[], bool] | None = None) -> None:
+        """`progress` is told the fraction done; a true answer of `cancelled` ends a run or evaluation
+        with Error("cancelled"). What either raises ends it too and is raised again."""
+        def guarded(function: Callable[..., Any] | None, failed: Any) -> Callable[..., Any]:
+            def call(_data: Any, *arguments: Any) -> Any:
+                try:
+                    return function(*arguments) if function is not None else None
+                except BaseException as error:  # pylint: disable=broad-except
+                    self._raised = error
+                    return failed
+            return call
+        asked = guarded(cancelled, True)
+        on_progress = _OnProgress(guarded(progress, None))
+        is_cancelled = _IsCancelled(lambda data: int(bool(self._raised is not None or asked(data))))
+        _lib.sb_scene_callbacks(self._use(), on_progress, is_cancelled, None)
+        self._calls = (on_progress, is_cancelled)  # as long as the library may call them
+
+    def run(self) -> None:
+        """Computes the scene's cycle. After Error "not-converged", "infeasible" or "cancelled" what was
+        finished can be read."""
+        self._check(_lib.sb_scene_run(self._use()))
+
+    def figure(self, path: str) -> float:
+        """A figure of the last run, SI; NaN: not computed, see reason()."""
+        value = _Double()
+        self._check(_lib.sb_scene_figure(self._use(), path.encode(), ctypes.byref(value)))
+        return value.value
+
+    def figures(self) -> dict[str, float]:
+        """All figures of the last run."""
+        return {path: self.figure(path) for path in FIGURES}
+
+    def reason(self, path: str) -> str:
+        """Why a figure of the last run is NaN; empty where it is a number."""
+        return _text(_lib.sb_scene_reason(self._use(), path.encode()))
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings of the last run, a sentence each."""
+        found: list[str] = []
+        while (text := _lib.sb_scene_warning(self._use(), len(found))) is not None:
+            found.append(_text(text))
+        return found
+
+    def __len__(self) -> int:
+        """Frames of the last run."""
+        return int(_lib.sb_scene_frame_count(self._use()))
+
+    def __bool__(self) -> bool:
+        return True
+
+    def frames(self, *quantities: str) -> list[Array]:
+        """An array over the frames of the last run for each quantity."""
+        count = len(self)
+        out = []
+        for quantity in quantities:
+            values = (_Double * max(count, 1))()
+            self._check(_lib.sb_scene_frames(self._use(), quantity.encode(), values))
+            out.append(_copy(values, count))
+        return out
+
+    def profile(self, frame: int, seal: str = "outer") -> Profile:
+        """Pressure and film over a seal's contact at a frame; empty arrays without contact."""
+        got = _Profile()
+        frame = frame + len(self) if frame < 0 else frame
+        self._check(_lib.sb_scene_profile(self._use(), frame, seal.encode(), ctypes.byref(got)))
+        return Profile(_copy(got.x, got.count), _copy(got.pressure, got.count),
+                       _copy(got.film, got.count), _copy(got.asperity_pressure, got.count),
+                       _text(got.model))
+
+    # ---- Evaluation ----
+
+    def evaluate(self, figures: Sequence[str], overrides: Mapping[str, float] | None = None,
+                 reasons: dict[str, str] | None = None) -> dict[str, float]:
+        """Figures with parameters replaced (SI), to the bit those of a run; computes no more than they
+        need and leaves the scene and its last run as they are. `reasons` takes why a figure is NaN."""
+        given = dict(overrides or {})
+        keys = (_Text * max(len(given), 1))(*(key.encode() for key in given))
+        values = (_Double * max(len(given), 1))(*given.values())
+        paths = (_Text * max(len(figures), 1))(*(path.encode() for path in figures))
+        out = (_Double * max(len(figures), 1))()
+        self._check(_lib.sb_scene_evaluate(self._use(), keys, values, len(given), paths, len(figures), out))
+        if reasons is not None:
+            for path, value in zip(figures, out):
+                if math.isnan(value):
+                    reasons[path] = _text(_lib.sb_scene_evaluation_reason(self._use(), path.encode()))
+        return dict(zip(figures, out))

@@ -1,0 +1,136 @@
+#!/usr/bin/python3
+"""The Python module: values and units, failures, frames, profiles, evaluation, callbacks, threads.
+
+test_python.py SOURCE, TAP on standard output.
+"""
+import math
+import os
+import sys
+import threading
+import typing
+
+import sealbench
+
+SCENES = sys.argv[1] + '/assets/scenes/'
+results = []
+
+
+def check(name, good, said=''):
+    results.append(bool(good))
+    print(f'{"ok" if good else "not ok"} {len(results)} {name}{"" if good else " # " + str(said)}')
+
+
+def failure(call):
+    """What a call raises, as (status, key, text)."""
+    try:
+        call()
+    except sealbench.Error as error:
+        return error.status, error.key, str(error)
+    return 'ok', '', ''
+
+
+check('catalogues', sealbench.PARAMETERS['gland.radial_space'].unit == 'm'
+      and sealbench.PARAMETERS['models.fit'].choices[-1] == 'ring'
+      and sealbench.FIGURES['seals.outer.load_N'].unit == 'N' and 'time_s' in sealbench.QUANTITIES)
+
+scene = sealbench.Scene(SCENES + 'quick-look.scene')
+scene['seal.section_diameter'] = '1.63 mm'
+check('text with unit', scene['seal.section_diameter'] == 1.63e-3)
+scene['seal.section_diameter'] = 1.65e-3
+check('number in SI', scene.text('seal.section_diameter') == '1.65 mm')
+del scene['seal.section_diameter']
+check('taken back', scene['seal.section_diameter'] == 1.61e-3)
+
+status, key, text = failure(lambda: scene.__setitem__('gland.radial_space', 1.0))
+check('a range', (status, key) == ('range', 'gland.radial_space') and '0.0001 to 0.02' in text, text)
+status, key, text = failure(lambda: scene.__setitem__('gland.radial_spac', 1.0))
+check('an unknown key', (status, key) == ('input', 'gland.radial_spac'), text)
+status, _, text = failure(lambda: scene.figure('cycle.force_peak_N'))
+check('no run yet', status == 'input' and 'no run' in text and len(scene) == 0, text)
+status, _, text = failure(lambda: sealbench.Scene('/nowhere.scene'))
+check('no file', status == 'io' and '/nowhere.scene' in text, text)
+status, _, text = failure(lambda: sealbench.Scene(text='[sealbench]\nformat = 1\nkind = valve\n[gland]\n'
+                                                  'radial_space = 9 m\naxial_width = 9 m\n'))
+check('every issue of a file', status == 'input' and len(text.splitlines()) == 2, text)
+
+scene.run()
+time, force, friction = scene.frames('time_s', 'force_N', 'seals.outer.friction_N')
+check('frames', len(time) == len(force) == len(friction) == len(scene) > 100
+      and all(a <= b for a, b in zip(time, time[1:])))
+check('figures', abs(max(force) / scene.figure('cycle.force_peak_N') - 1) < 1e-9)
+film = 'seals.outer.film_by_model.reynolds'
+check('a reason', math.isnan(scene.figure(film)) and 'closed form' in scene.reason(film))
+profile = scene.profile(len(scene) // 4)
+check('a profile', len(profile.x) == len(profile.film) > 50 and profile.model != ''
+      and max(profile.pressure) > 0.5e6)
+status, _, text = failure(lambda: scene.profile(10**6))
+check('no such frame', status == 'input', text)
+try:
+    import numpy
+    check('arrays are numpy\'s own', isinstance(time, numpy.ndarray) and time.flags.owndata is not None
+          and time.dtype == float)
+except ImportError:
+    check('arrays without numpy', time.typecode == 'd')
+
+paths = ['seals.outer.load_N', 'cycle.force_breakaway_N', film]
+reasons: typing.Dict[str, str] = {}
+values = scene.evaluate(paths, {}, reasons)
+check('evaluate says what the run says', all(values[p] == scene.figure(p) for p in paths[:2]))
+check('its reasons', list(reasons) == [film], reasons)
+more = scene.evaluate(paths[:1], {'seal.outer.section_diameter': 1.63e-3})
+check('an override', more[paths[0]] > values[paths[0]] and scene['seal.outer.section_diameter'] == 1.61e-3)
+status, key, text = failure(lambda: scene.evaluate(paths, {'bore.diameter': 5e-3}))
+check('a refused override', (status, key) == ('input', 'bore.diameter') and 'at least' in text, text)
+
+told = []
+scene.callbacks(told.append, lambda: False)
+scene.run()
+check('progress', told and told[-1] == 1 and told == sorted(told), told)
+scene.callbacks(None, lambda: True)
+check('cancel', failure(scene.run)[0] == 'cancelled')
+
+
+def stops():
+    raise KeyboardInterrupt
+
+
+scene.callbacks(None, stops)
+try:
+    scene.run()
+    check('what a callback raises', False)
+except KeyboardInterrupt:
+    check('what a callback raises', True)
+scene.callbacks()
+scene.run()
+scene.close()
+scene.close()
+try:
+    scene.run()
+    check('a closed scene', False)
+except ValueError:
+    check('a closed scene', True)
+
+
+def sweep(out, order):
+    with sealbench.Scene(SCENES + 'thesis-cycle.scene') as own:
+        for i in order:
+            out[i] = own.evaluate(['cycle.force_breakaway_N'], {'gland.radial_space': 1.33e-3 + 5e-6 * i})
+
+
+one: dict = {}
+two: dict = {}
+threads = [threading.Thread(target=sweep, args=(one, range(6))),
+           threading.Thread(target=sweep, args=(two, reversed(range(6))))]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+check('two scenes in two threads', one == two and len(one) == 6, (one, two))
+
+hints = [name for name in ('__init__', 'evaluate', 'frames', 'profile', 'callbacks', 'figure', 'run')
+         if 'return' not in typing.get_type_hints(getattr(sealbench.Scene, name))]
+check('typed and documented', not hints and all(
+    getattr(sealbench.Scene, name).__doc__ for name in vars(sealbench.Scene)
+    if callable(getattr(sealbench.Scene, name)) and not name.startswith('_') and name != 'text'), hints)
+print(f'1..{len(results)}')
+sys.exit(not all(results) or os.EX_OK)
