@@ -172,13 +172,11 @@ void sb_ehl_fitted(double *kernel, double *gaps, double *slope, const SbEhlTable
 // Load above the ambient step less its target pi/2.
 double sb_ehl_load(const SbEhlMesh *mesh, const SbEhlState *state);
 
-// Carries a solution from mesh/state `from` to `to`, which has the same elements in other degrees
-// or moved with the layers, `before` to `after`. The film is multiplied by `scale`.
+// Carries a solution from mesh/state `from` to `to`: along with the elements where these are the
+// same in other degrees or moved with the layers, `before` to `after`, else by place. The film is
+// multiplied by `scale`.
 void sb_ehl_carry(SbFilmSolver *solver, int from, int to, const SbEhlLayers *before,
                   const SbEhlLayers *after, double scale);
-
-// The same to a mesh of other elements, by place.
-void sb_ehl_resample(SbFilmSolver *solver, int from, int to);
 
 // Results of a solution.
 void sb_ehl_results(SbEhlResults *out, SbFilmSolver *solver, int which, const SbEhlCase *problem);

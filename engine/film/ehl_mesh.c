@@ -146,6 +146,14 @@ double sb_ehl_coordinate(const SbEhlElement *e, double X) {
   }
 }
 
+bool sb_ehl_same_elements(const SbEhlMesh *a, const SbEhlMesh *b) {
+  bool same = a->count == b->count;
+  for (int i = 0; same && i < a->count; i++) {
+    same = a->element[i].map == b->element[i].map && a->element[i].apart == b->element[i].apart;
+  }
+  return same;
+}
+
 int sb_ehl_find(const SbEhlMesh *mesh, double X) {
   int i = 0;
   while (i < mesh->count - 1 && !(X < mesh->element[i].x1)) {
@@ -356,6 +364,12 @@ static double half_line(double x) {
   return x == 0.0 ? 0.0 : x * (log(fabs(x)) - 1.0);
 }
 
+double sb_ehl_ambient_gap(double X, double left, double right, double inlet, double outlet) {
+  return (inlet * half_line(X - left) - outlet * half_line(X - right) +
+          (inlet - outlet) * log(2.0) * X) /
+         M_PI;
+}
+
 void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
   for (int i = 0; i < mesh->count; i++) {
     sb_ehl_kernel_prepare(&mesh->element[i], tables);
@@ -365,8 +379,6 @@ void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
   const SbEhlElement *last = &mesh->element[mesh->count - 1];
   mesh->left_end = first->map == SB_EHL_INLET ? first->x1 : first->x0;
   mesh->right_end = last->map == SB_EHL_OUTLET ? last->x0 : last->x1;
-  double in = mesh->inlet_pressure / M_PI;
-  double out = mesh->outlet_pressure / M_PI;
 
   // Element by element, as its tables fill the nearest cache.
   memset(mesh->gap, 0, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *mesh->gap);
@@ -374,8 +386,8 @@ void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
   for (int i = 0; i < mesh->targets; i++) {
     double X = mesh->x[i];
     angle[i] = fabs(X) <= 1.0 ? acos(-X) : acosh(fabs(X));
-    mesh->gap_known[i] = in * half_line(X - mesh->left_end) - out * half_line(X - mesh->right_end) +
-                         (in - out) * log(2.0) * X;
+    mesh->gap_known[i] = sb_ehl_ambient_gap(X, mesh->left_end, mesh->right_end,
+                                            mesh->inlet_pressure, mesh->outlet_pressure);
   }
   for (int k = 0; k < mesh->count; k++) {
     const SbEhlElement *e = &mesh->element[k];

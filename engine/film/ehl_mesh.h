@@ -135,9 +135,16 @@ void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pre
 SB_CHECKED bool sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A,
                                 int degree, bool apart);
 
+// Gap by pressures that are constant beyond the ends of a mesh, up to a constant, with the tilt
+// that leaves the dry contact |X| < 1 (docs/verification.md).
+double sb_ehl_ambient_gap(double X, double left, double right, double inlet, double outlet);
+
 // Numbers the unknowns and builds every operator; `nodal`: with the nodes for targets, on affine
 // elements without cavities.
 void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal);
+
+// Whether both meshes have the same elements up to their places and degrees.
+bool sb_ehl_same_elements(const SbEhlMesh *a, const SbEhlMesh *b);
 
 // Element that holds X (a cavity belongs to the element after it), and the coordinate of X in an
 // element.

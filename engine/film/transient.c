@@ -168,8 +168,9 @@ static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
 
 // One resolution from the steady films at speed_scale and, unless it is at rest, at the start.
 static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *problem,
-                      double coarseness, const SbFilm *largest, const SbFilm *start,
+                      double coarseness, const SbFilm steady[2], SbFilmSolver *solver,
                       SbReport *report) {
+  const SbFilm *largest = &steady[0];
   SbFilmTransient *t = *out = calloc(1, sizeof *t);
   if (t == NULL || !allocate(t)) {
     return sb_fail(report, SB_ERROR_MEMORY, "transient film: out of memory");
@@ -197,7 +198,7 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   t->now.load = 0.5 * M_PI;
   t->now.half = 1.0;
   t->now.middle = scaled.speed < 0.0 ? -t->scale.middle : t->scale.middle;
-  sb_transient_mesh(t, problem->rest_film / t->scale.film);
+  sb_transient_mesh(t, solver, problem->rest_film / t->scale.film);
   SbStatus status = lay_steady(t, &t->now, largest, scaled.speed, report);
   if (status != SB_OK) {
     return status;
@@ -216,7 +217,7 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
       return sb_fail(report, status, "transient film: no dry contact to start from");
     }
   } else if (problem->film.speed != scaled.speed) {
-    status = lay_steady(t, &t->now, start, problem->film.speed, report);
+    status = lay_steady(t, &t->now, &steady[1], problem->film.speed, report);
   }
   t->info.unknowns = (size_t)t->nodes - 1;
   t->info.speed = problem->film.speed;
@@ -232,34 +233,37 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
   if (status != SB_OK) {
     return status;
   }
-  SbFilm *steady = malloc(2 * sizeof *steady);
-  SbFilmProfile *profile = malloc(2 * sizeof *profile); // of those
-  if (steady == NULL || profile == NULL) {
-    free(steady);
-    free(profile);
-    return sb_fail(report, SB_ERROR_MEMORY, "transient film: out of memory");
-  }
+  struct {
+    SbFilm film[2];
+    SbFilmProfile profile[2];
+  } *steady = malloc(sizeof *steady);
+  SbFilmSolver *solver = NULL;
+  status = steady != NULL ? sb_film_solver_create(&solver, report)
+                          : sb_fail(report, SB_ERROR_MEMORY, "transient film: out of memory");
   // The steady film at the largest speed checks the problem, and the mesh's error by its own.
   SbFilmProblem film = problem->film;
   film.speed = (film.speed < 0.0 ? -1.0 : 1.0) * problem->speed_scale;
-  film.profile = &profile[0];
-  status = sb_film_solve(&steady[0], &film, NULL, report);
-  if (status == SB_OK && steady[0].moes_M < 1.0) {
+  if (status == SB_OK) {
+    film.profile = &steady->profile[0];
+    status = sb_film_solve(&steady->film[0], &film, solver, report);
+  }
+  if (status == SB_OK && steady->film[0].moes_M < 1.0) {
     status = sb_fail_parameter(report, SB_ERROR_RANGE, "drive.speed",
-                               "transient film: M = %.3g is below 1", steady[0].moes_M);
+                               "transient film: M = %.3g is below 1", steady->film[0].moes_M);
   }
   if (status == SB_OK && problem->rest_film == 0.0 && problem->film.speed != film.speed) {
     film.speed = problem->film.speed;
-    film.profile = &profile[1];
+    film.profile = &steady->profile[1];
     film.tolerance = fmin(film.tolerance, 1e-3);
-    status = sb_film_solve(&steady[1], &film, NULL, report);
+    sb_film_solver_forget(solver);
+    status = sb_film_solve(&steady->film[1], &film, solver, report);
   }
   SbFilmTransient *t = NULL;
   if (status == SB_OK) {
-    status = begin(&t, problem, 1.0, &steady[0], &steady[1], report);
+    status = begin(&t, problem, 1.0, steady->film, solver, report);
   }
   if (status == SB_OK) {
-    status = begin(&t->companion, problem, 2.0, &steady[0], &steady[1], report);
+    status = begin(&t->companion, problem, 2.0, steady->film, solver, report);
     if (status == SB_ERROR_NOT_CONVERGED) {
       sb_film_transient_destroy(t->companion);
       t->companion = NULL;
@@ -267,8 +271,8 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
       status = SB_OK;
     }
   }
+  sb_film_solver_destroy(solver);
   free(steady);
-  free(profile);
   if (status != SB_OK) {
     sb_film_transient_destroy(t);
     return status;

@@ -83,8 +83,8 @@ struct SbFilmTransient {
   SbFilmTransientInfo info;
 };
 
-// Mesh and kernel for films up to `rest`; the arrays stand.
-void sb_transient_mesh(SbFilmTransient *t, double rest);
+// Mesh and kernel for films up to `rest`; the arrays stand. Takes the solver's tables and a mesh.
+void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest);
 
 // Mean over each cell, displaced back by the carried share of `way`, of an earlier content: the
 // derivatives of the content's integral over the mesh, which keeps the mass exactly.
