@@ -122,11 +122,11 @@ struct SbFilmSolver {
   SbEhlMesh mesh[2]; // the current level and the next
   SbEhlState state[2];
   double *matrix; // of Newton's method, row after row
-  double *right;
-  double *column; // derivative to the free end
-  double *gaps;   // at all targets, and their derivatives to the shift
+  double right[SB_EHL_ORDER_MAX];
+  double column[SB_EHL_ORDER_MAX]; // derivative to the free end
+  int pivot[SB_EHL_ORDER_MAX];
+  double gaps[2 * SB_EHL_TARGETS_MAX]; // at all targets, and their derivatives to the shift
   double *kernel; // [targets][dofs] of a fitted body: the half-plane's and the smooth part
-  int *pivot;
 
   // Rough rows: nodes, states of a continuation, and the law of the last surface.
   SbEhlRoughPoint point[SB_EHL_DOFS_MAX];

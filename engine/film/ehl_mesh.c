@@ -191,46 +191,43 @@ double sb_ehl_known_part(const SbEhlElement *e, const double *basis, double r) {
 // ---------------------------------------------------------------- meshes
 
 bool sb_ehl_mesh_init(SbEhlMesh *mesh) {
-  memset(mesh, 0, sizeof *mesh);
-  size_t targets = SB_EHL_TARGETS_MAX;
-  size_t dofs = SB_EHL_DOFS_MAX;
-  mesh->gap = malloc(targets * dofs * sizeof(double));
-  mesh->gap_known = malloc(targets * sizeof(double));
-  mesh->x = malloc(targets * sizeof(double));
-  mesh->weight = malloc(targets * sizeof(double));
-  mesh->value = malloc(targets * STRIDE * sizeof(double));
-  mesh->slope = malloc(targets * STRIDE * sizeof(double));
-  mesh->value_known = malloc(targets * sizeof(double));
-  mesh->slope_known = malloc(targets * sizeof(double));
-  mesh->owner = malloc(targets * sizeof(int));
-  mesh->load = malloc(dofs * sizeof(double));
+  enum { TARGETS = SB_EHL_TARGETS_MAX, DOFS = SB_EHL_DOFS_MAX };
+  *mesh = (SbEhlMesh){0};
+  struct {
+    double **place;
+    size_t count;
+  } part[] = {
+      {&mesh->gap, TARGETS * DOFS},
+      {&mesh->value, TARGETS * STRIDE},
+      {&mesh->slope, TARGETS * STRIDE},
+      {&mesh->gap_known, TARGETS},
+      {&mesh->x, TARGETS},
+      {&mesh->weight, TARGETS},
+      {&mesh->value_known, TARGETS},
+      {&mesh->slope_known, TARGETS},
+      {&mesh->load, DOFS},
+  };
+  enum { PARTS = sizeof part / sizeof part[0] };
+  size_t size = 0;
+  for (int i = 0; i < PARTS; i++) {
+    size += part[i].count;
+  }
+  mesh->store = malloc(size * sizeof(double));
   mesh->fitted = malloc(sizeof *mesh->fitted);
-  if (mesh->gap == NULL || mesh->gap_known == NULL || mesh->x == NULL || mesh->weight == NULL ||
-      mesh->value == NULL || mesh->slope == NULL || mesh->value_known == NULL ||
-      mesh->slope_known == NULL || mesh->owner == NULL || mesh->load == NULL ||
-      mesh->fitted == NULL) {
-    sb_ehl_mesh_finish(mesh);
+  if (mesh->store == NULL || mesh->fitted == NULL) {
     return false;
   }
-  memset(mesh->gap, 0, targets * dofs * sizeof(double));
-  memset(mesh->value, 0, targets * STRIDE * sizeof(double));
-  memset(mesh->slope, 0, targets * STRIDE * sizeof(double));
+  memset(mesh->store, 0, size * sizeof(double)); // touches the pages, so that no solve pays for it
+  for (int i = 0; i < PARTS; i++) {
+    *part[i].place = i > 0 ? *part[i - 1].place + part[i - 1].count : mesh->store;
+  }
   return true;
 }
 
 void sb_ehl_mesh_finish(SbEhlMesh *mesh) {
-  free(mesh->gap);
-  free(mesh->gap_known);
-  free(mesh->x);
-  free(mesh->weight);
-  free(mesh->value);
-  free(mesh->slope);
-  free(mesh->value_known);
-  free(mesh->slope_known);
-  free(mesh->owner);
-  free(mesh->load);
+  free(mesh->store);
   free(mesh->fitted);
-  memset(mesh, 0, sizeof *mesh);
+  *mesh = (SbEhlMesh){0};
 }
 
 void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure) {
@@ -423,6 +420,19 @@ double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlEl
     sum += basis[k] * nodal[e->first_dof + k];
   }
   return e->far_pressure + sb_ehl_factor(e, r) * sum + sb_ehl_known_part(e, basis, r);
+}
+
+double sb_ehl_local(double *slope, const SbEhlMesh *mesh, const double *nodal, int row) {
+  const SbEhlElement *e = &mesh->element[mesh->owner[row]];
+  const double *value = mesh->value + (size_t)row * STRIDE;
+  const double *rise = mesh->slope + (size_t)row * STRIDE;
+  double sum = mesh->value_known[row];
+  *slope = mesh->slope_known[row];
+  for (int j = 0; j <= e->degree; j++) {
+    sum += value[j] * nodal[e->first_dof + j];
+    *slope += rise[j] * nodal[e->first_dof + j];
+  }
+  return sum;
 }
 
 double sb_ehl_gap(const SbEhlMesh *mesh, SbEhlTables *tables, int element, const double *target_gap,

@@ -16,9 +16,9 @@ enum {
   SB_EHL_ELEMENTS_MAX = 100,
   SB_EHL_DOFS_MAX = 440, // nodal pressures
   SB_EHL_TARGETS_MAX = SB_EHL_DOFS_MAX + SB_EHL_ELEMENTS_MAX + 4,
-  SB_EHL_EXTRA = 4,       // room for the unknowns beside the pressures
-  SB_EHL_QUAD = 24,       // points of the fine rule for smooth remainders
-  SB_EHL_MULTIPOLES = 34, // terms of the expansion for distant targets
+  SB_EHL_ORDER_MAX = SB_EHL_DOFS_MAX + 4, // with the unknowns beside the pressures
+  SB_EHL_QUAD = 24,                       // points of the fine rule for smooth remainders
+  SB_EHL_MULTIPOLES = 34,                 // terms of the expansion for distant targets
   SB_EHL_PROJECT = SB_EHL_DEGREE_MAX + 12
 };
 
@@ -104,10 +104,11 @@ typedef struct {
   double *value;                     // [rows][SB_EHL_DEGREE_MAX + 1]
   double *slope;                     // d/dX
   double *value_known, *slope_known; // [rows]
-  int *owner;                        // [targets] element of a target
+  int owner[SB_EHL_TARGETS_MAX];     // element of a target
   double *load;                      // [dofs] integral of the basis
   double load_known;
   SbEhlFittedWork *fitted;
+  double *store; // all of these arrays
 } SbEhlMesh;
 
 // Everything that outlives a solve: rules and tables of the degrees in use.
@@ -126,7 +127,8 @@ const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree);
 const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree);
 void sb_ehl_partial(double *weight, const SbEhlTable *table, int j, double r);
 
-// Storage of a mesh: false when out of memory. Finish takes a zeroed mesh.
+// Storage of a mesh: false when out of memory, then to be finished as well. Finish takes a zeroed
+// mesh.
 SB_CHECKED bool sb_ehl_mesh_init(SbEhlMesh *mesh);
 void sb_ehl_mesh_finish(SbEhlMesh *mesh);
 
@@ -183,6 +185,9 @@ double sb_ehl_stretch(const SbEhlElement *e, double r);
 // Pressure at r of element e from nodal values; the far pressure included.
 double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlElement *e,
                        const double *nodal, double r);
+
+// Pressure at a collocation point, and its slope.
+double sb_ehl_local(double *slope, const SbEhlMesh *mesh, const double *nodal, int row);
 
 // Gap at r of element e, interpolated from the gap at all targets (`target_gap`) at the
 // collocation points and ends of the element.

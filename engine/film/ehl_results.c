@@ -226,15 +226,8 @@ static void add_smooth(SbEhlResults *out, int *thinnest, int *highest, SbFilmSol
   }
   double peak = -INFINITY;
   for (int i = 0; i < mesh->rows; i++) {
-    const SbEhlElement *e = &mesh->element[mesh->owner[i]];
-    const double *value = mesh->value + (size_t)i * (SB_EHL_DEGREE_MAX + 1);
-    const double *slope = mesh->slope + (size_t)i * (SB_EHL_DEGREE_MAX + 1);
-    double P = mesh->value_known[i];
-    double P_slope = mesh->slope_known[i];
-    for (int j = 0; j <= e->degree; j++) {
-      P += value[j] * state->nodal[e->first_dof + j];
-      P_slope += slope[j] * state->nodal[e->first_dof + j];
-    }
+    double P_slope;
+    double P = sb_ehl_local(&P_slope, mesh, state->nodal, i);
     double H = state->gap[i];
     out->pressure_min = fmin(out->pressure_min, P);
     *thinnest = H < state->gap[*thinnest] ? i : *thinnest;
