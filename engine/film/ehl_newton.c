@@ -11,8 +11,9 @@
 // moves the mesh; its column of the Jacobian is a difference quotient.
 #include "engine/film/ehl.h"
 
+#include "engine/numeric/eliminate.h"
+
 #include <cblas.h>
-#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,10 +40,7 @@ bool sb_ehl_init(SbFilmSolver *solver) {
   }
   cblas_dgemv(CblasRowMajor, CblasNoTrans, TRIAL, TRIAL, 1.0, solver->matrix, TRIAL, solver->right,
               1, 0.0, solver->gaps, 1);
-  return LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, TRIAL, TRIAL, solver->matrix, TRIAL,
-                             solver->pivot) == 0 &&
-         LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', TRIAL, 1, solver->matrix, TRIAL, solver->pivot,
-                             solver->right, TRIAL) == 0;
+  return sb_factor_solve(solver->matrix, solver->pivot, solver->right, TRIAL, true);
 }
 
 void sb_ehl_finish(SbFilmSolver *solver) {
@@ -319,16 +317,11 @@ SbStatus sb_ehl_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, SbEhl
           matrix[(size_t)i * (size_t)order + (size_t)layout.free_end] = solver->column[i];
         }
       }
-      if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, matrix, order, solver->pivot) != 0) {
-        return SB_ERROR_NOT_CONVERGED;
-      }
-      factored = true;
     }
-    // The rows of our matrix are LAPACK's columns: solve with the transpose.
-    if (LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', order, 1, matrix, order, solver->pivot, right,
-                            order) != 0) {
+    if (!sb_factor_solve(matrix, solver->pivot, right, order, !factored)) {
       return SB_ERROR_NOT_CONVERGED;
     }
+    factored = true;
     trace->iterations++;
 
     // Full steps unless the film would vanish.

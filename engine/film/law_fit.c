@@ -38,13 +38,11 @@ static SbStatus check(const SbFilmLawRange *range, SbReport *report) {
 }
 
 // Fills the points of the law.
-static SbStatus solve_grid(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSolver *memory,
-                           SbReport *report) {
+static SbStatus solve_grid(SbFilmLaw *out, const SbFilmLawRange *range, SbReport *report) {
+  SbFilmSolver *solver = NULL;
   SbFilm *film = malloc(sizeof *film);
-  if (film == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "film law: out of memory");
-  }
-  SbStatus status = SB_OK;
+  SbStatus status = film != NULL ? sb_film_solver_create(&solver, report)
+                                 : sb_fail(report, SB_ERROR_MEMORY, "film law: out of memory");
   for (size_t j = 0; status == SB_OK && j < range->W_count; j++) {
     double v = (double)j / (double)(range->W_count - 1);
     double W = range->W_min * pow(range->W_max / range->W_min, v);
@@ -54,7 +52,7 @@ static SbStatus solve_grid(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSo
       SbFilmProblem problem = contact(U, W, range->tolerance);
       problem.cancelled = range->cancelled;
       problem.cancelled_data = range->data;
-      status = sb_film_solve(film, &problem, memory, report);
+      status = sb_film_solve(film, &problem, solver, report);
       double h = range->film == SB_FILM_LAW_MIN       ? film->film_min
                  : range->film == SB_FILM_LAW_CENTRAL ? film->film_central
                                                       : film->film_flux;
@@ -73,6 +71,7 @@ static SbStatus solve_grid(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSo
     }
   }
   free(film);
+  sb_film_solver_destroy(solver);
   return status;
 }
 
@@ -119,21 +118,12 @@ static SbStatus regress(SbFilmLaw *out, SbReport *report) {
   return SB_OK;
 }
 
-SbStatus sb_film_law_fit(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSolver *memory,
-                         SbReport *report) {
+SbStatus sb_film_law_fit(SbFilmLaw *out, const SbFilmLawRange *range, SbReport *report) {
   memset(out, 0, sizeof *out);
   SbStatus status = check(range, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  SbFilmSolver *own = NULL;
-  if (memory == NULL) {
-    status = sb_film_solver_create(&own, report);
-  }
   if (status == SB_OK) {
-    status = solve_grid(out, range, memory != NULL ? memory : own, report);
+    status = solve_grid(out, range, report);
   }
-  sb_film_solver_destroy(own);
   if (status == SB_OK) {
     status = regress(out, report);
   }

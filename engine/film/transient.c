@@ -98,12 +98,8 @@ static double film_at(const SbFilmTransient *t, const SbTransientState *s, doubl
     i++;
   }
   double sum = 0.0;
-  for (int j = i - 1; j <= i + 2; j++) {
-    double basis = 1.0;
-    for (int k = i - 1; k <= i + 2; k++) {
-      basis *= k == j ? 1.0 : (X - t->X[k]) / (t->X[j] - t->X[k]);
-    }
-    sum += basis * s->H[j];
+  for (int k = 0; k < 4; k++) {
+    sum += sb_transient_lagrange(&t->X[i - 1], 4, k, X) * s->H[i - 1 + k];
   }
   return sum;
 }
@@ -297,23 +293,12 @@ static void derivative(double c[3], double h, const SbTransientPast *past, int c
   c[2] = h / (before * (h + before));
 }
 
-// Value at the new time of the polynomial through the `count` last ones.
-static void extrapolation(double e[3], double h, const SbTransientPast *past, int count) {
-  const double now = past[0].time + h;
-  for (int k = 0; k < 3; k++) {
-    e[k] = k < count ? 1.0 : 0.0;
-    for (int j = 0; j < count && k < count; j++) {
-      e[k] *= j == k ? 1.0 : (now - past[j].time) / (past[k].time - past[j].time);
-    }
-  }
-}
-
 SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, double speed,
                               double load) {
-  double c[3], e[3];
+  double c[3];
   const SbTransientPast *past = t->past;
+  const double time[] = {past[0].time, past[1].time, past[2].time};
   derivative(c, h, past, t->known_times);
-  extrapolation(e, h, past, t->known_times);
   SbTransientState *s = &t->next;
   *s = t->now;
   s->time = t->now.time + h;
@@ -348,10 +333,12 @@ SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, doubl
     const double way = carry ? (s->travel - past[k].travel) / s->half : 0.0;
     sb_transient_carry(earlier, t, past[k].content, way);
     const double weight = k < 2 ? c[k + 1] : 0.0;
+    // Of the polynomial through the last contents, at the new time.
+    const double ahead = sb_transient_lagrange(time, t->known_times, k, time[0] + h);
     carried_rate -= weight * past[k].half * way;
     for (int i = 0; i < t->nodes; i++) {
       old[i] += weight * earlier[i];
-      guess[i] += e[k] * earlier[i];
+      guess[i] += ahead * earlier[i];
     }
   }
   const SbTransientStep step = {

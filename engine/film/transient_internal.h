@@ -90,6 +90,15 @@ void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest);
 // derivatives of the content's integral over the mesh, which keeps the mass exactly.
 void sb_transient_carry(double *out, const SbFilmTransient *t, const double *content, double way);
 
+// Lagrange's polynomial of node k of `count`, at x.
+static inline double sb_transient_lagrange(const double *node, int count, int k, double x) {
+  double value = 1.0;
+  for (int j = 0; j < count; j++) {
+    value *= j == k ? 1.0 : (x - node[j]) / (node[k] - node[j]);
+  }
+  return value;
+}
+
 // Fluid height of a node.
 double sb_transient_height(const SbTransientState *s, int i);
 

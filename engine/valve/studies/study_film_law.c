@@ -162,7 +162,7 @@ static SbStatus regress(SbStudy *out, SbFilmLaw *fits, const SbModel *model, con
         .progress = on_progress,
         .data = &part,
     };
-    status = sb_film_law_fit(&fits[f], &grid, NULL, report);
+    status = sb_film_law_fit(&fits[f], &grid, report);
     out->solves += fits[f].count;
     out->error = fmax(out->error, fits[f].error);
   }

@@ -40,7 +40,7 @@ static SbStatus solve(SbStudy *out, SbStribeckPoint *points, const SbModel *mode
   }
   SbReport local = {0};
   SbStatus status = sb_film_stribeck(points, POINTS, &problem, model->study.speed_min,
-                                     model->study.speed_max, NULL, &local);
+                                     model->study.speed_max, &local);
   if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     if (report != NULL) {
       *report = local;
