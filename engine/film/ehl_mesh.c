@@ -232,19 +232,21 @@ void sb_ehl_mesh_finish(SbEhlMesh *mesh) {
 
 void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure) {
   mesh->count = 0;
+  mesh->fits = true;
   mesh->dofs = 0;
   mesh->rows = 0;
   mesh->inlet_pressure = inlet_pressure;
   mesh->outlet_pressure = outlet_pressure;
 }
 
-bool sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
+void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
                      bool apart) {
   int shared = mesh->count > 0 && !apart ? 1 : 0;
   int points = degree + (map == SB_EHL_INLET || map == SB_EHL_OUTLET ? 1 : 0);
   if (degree > SB_EHL_DEGREE_MAX || mesh->count >= SB_EHL_ELEMENTS_MAX ||
       mesh->dofs - shared + degree + 1 > SB_EHL_DOFS_MAX || mesh->rows + points > SB_EHL_DOFS_MAX) {
-    return false;
+    mesh->fits = false;
+    return;
   }
   SbEhlElement *e = &mesh->element[mesh->count++];
   e->map = map;
@@ -280,7 +282,6 @@ bool sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double
     e->far_pressure = mesh->outlet_pressure;
     break;
   }
-  return true;
 }
 
 // Position and owner of every target: collocation points, then ends.
@@ -367,7 +368,10 @@ double sb_ehl_ambient_gap(double X, double left, double right, double inlet, dou
          M_PI;
 }
 
-void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
+bool sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
+  if (!mesh->fits) {
+    return false;
+  }
   for (int i = 0; i < mesh->count; i++) {
     sb_ehl_kernel_prepare(&mesh->element[i], tables);
   }
@@ -408,6 +412,7 @@ void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
     }
     mesh->load_known += e->integral[e->degree + 1];
   }
+  return true;
 }
 
 double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlElement *e,

@@ -90,6 +90,7 @@ typedef struct {
 // what does not depend on the nodal pressures.
 typedef struct {
   int count;
+  bool fits;    // so far
   int steps[2]; // of the layout that made it (ehl_layers.h)
   int outlet;   // first element of a flooded outlet, if the last is infinite
   SbEhlElement element[SB_EHL_ELEMENTS_MAX];
@@ -132,18 +133,18 @@ void sb_ehl_partial(double *weight, const SbEhlTable *table, int j, double r);
 SB_CHECKED bool sb_ehl_mesh_init(SbEhlMesh *mesh);
 void sb_ehl_mesh_finish(SbEhlMesh *mesh);
 
-// Empties the mesh and adds elements from left to right. Returns false when the mesh is full.
+// Empties the mesh and adds elements from left to right.
 void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure);
-SB_CHECKED bool sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A,
-                                int degree, bool apart);
+void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
+                     bool apart);
 
 // Gap by pressures that are constant beyond the ends of a mesh, up to a constant, with the tilt
 // that leaves the dry contact |X| < 1 (docs/verification.md).
 double sb_ehl_ambient_gap(double X, double left, double right, double inlet, double outlet);
 
-// Numbers the unknowns and builds every operator; `nodal`: with the nodes for targets, on affine
-// elements without cavities.
-void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal);
+// Numbers the unknowns and builds every operator, unless the elements did not fit: then false;
+// `nodal`: with the nodes for targets, on affine elements without cavities.
+SB_CHECKED bool sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal);
 
 // Whether both meshes have the same elements up to their places and degrees.
 bool sb_ehl_same_elements(const SbEhlMesh *a, const SbEhlMesh *b);
