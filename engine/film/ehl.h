@@ -122,11 +122,11 @@ struct SbFilmSolver {
   SbEhlMesh mesh[2]; // the current level and the next
   SbEhlState state[2];
   double *matrix; // of Newton's method, row after row
-  double *right;
-  double *column; // derivative to the free end
-  double *gaps;   // at all targets, and their derivatives to the shift
+  double right[SB_EHL_ORDER_MAX];
+  double column[SB_EHL_ORDER_MAX]; // derivative to the free end
+  int pivot[SB_EHL_ORDER_MAX];
+  double gaps[2 * SB_EHL_TARGETS_MAX]; // at all targets, and their derivatives to the shift
   double *kernel; // [targets][dofs] of a fitted body: the half-plane's and the smooth part
-  int *pivot;
 
   // Rough rows: nodes, states of a continuation, and the law of the last surface.
   SbEhlRoughPoint point[SB_EHL_DOFS_MAX];
@@ -172,13 +172,11 @@ void sb_ehl_fitted(double *kernel, double *gaps, double *slope, const SbEhlTable
 // Load above the ambient step less its target pi/2.
 double sb_ehl_load(const SbEhlMesh *mesh, const SbEhlState *state);
 
-// Carries a solution from mesh/state `from` to `to`, which has the same elements in other degrees
-// or moved with the layers, `before` to `after`. The film is multiplied by `scale`.
+// Carries a solution from mesh/state `from` to `to`: along with the elements where these are the
+// same in other degrees or moved with the layers, `before` to `after`, else by place. The film is
+// multiplied by `scale`.
 void sb_ehl_carry(SbFilmSolver *solver, int from, int to, const SbEhlLayers *before,
                   const SbEhlLayers *after, double scale);
-
-// The same to a mesh of other elements, by place.
-void sb_ehl_resample(SbFilmSolver *solver, int from, int to);
 
 // Results of a solution.
 void sb_ehl_results(SbEhlResults *out, SbFilmSolver *solver, int which, const SbEhlCase *problem);

@@ -63,72 +63,17 @@ static SbStatus cold_start(SbFilmSolver *solver, int which, SbEhlCase *c, const 
   return status;
 }
 
-// True when both meshes have the same elements up to their places and degrees.
-static bool same_elements(const SbEhlMesh *a, const SbEhlMesh *b) {
-  if (a->count != b->count) {
-    return false;
-  }
-  for (int i = 0; i < a->count; i++) {
-    if (a->element[i].map != b->element[i].map || a->element[i].apart != b->element[i].apart) {
-      return false;
-    }
-  }
-  return true;
-}
-
 // Asks for as many elements as a mesh has.
 static void keep_steps(SbEhlLayers *layers, const SbEhlMesh *mesh) {
   layers->steps[0] = mesh->steps[0];
   layers->steps[1] = mesh->steps[1];
 }
 
-// Adds what the dry contact's pressure changes by when the end pressures do, which leaves its gap
-// as it was; infinite elements hold theirs relative to the end pressure.
-static void add_dry_change(SbFilmSolver *solver, int which, const SbEhlLayers *old,
-                           const SbEhlLayers *new) {
-  const SbEhlMesh *mesh = &solver->mesh[which];
-  if (old->inlet == new->inlet && old->outlet == new->outlet) {
-    return;
-  }
-  int last = -1;
-  for (int i = 0; i < mesh->count; i++) {
-    const SbEhlElement *e = &mesh->element[i];
-    bool before_outlet = i + 1 < mesh->count && mesh->element[i + 1].map == SB_EHL_OUTLET;
-    if (sb_ehl_infinite(e)) {
-      last = e->first_dof + e->degree;
-      continue;
-    }
-    const SbEhlTable *t = sb_ehl_table(&solver->tables, e->degree);
-    for (int k = 0; k <= e->degree; k++) {
-      // Joints are shared: each once, and those of infinite elements are theirs.
-      int node = e->first_dof + k;
-      if (node <= last || (before_outlet && k == e->degree)) {
-        continue;
-      }
-      double X = sb_ehl_position(e, t->node[k]);
-      solver->state[which].nodal[node] += sb_film_dry_pressure(X, new->inlet, new->outlet) -
-                                          sb_film_dry_pressure(X, old->inlet, old->outlet);
-    }
-    last = e->first_dof + e->degree;
-  }
-}
-
-// Carries a solution to another case: the film scales with the flux that the layers let expect. A
-// mesh of as many elements takes it along with its layers, another by place.
+// Carries a solution to another case: the film scales with the flux that the layers let expect.
 static void carry_scaled(SbFilmSolver *solver, int from, int to, const SbEhlCase *old,
                          const SbEhlCase *new) {
   double scale = sb_ehl_layers_flux(&new->layers) / sb_ehl_layers_flux(&old->layers);
-  if (same_elements(&solver->mesh[from], &solver->mesh[to])) {
-    sb_ehl_carry(solver, from, to, &old->layers, &new->layers, scale);
-    add_dry_change(solver, to, &old->layers, &new->layers);
-    return;
-  }
-  sb_ehl_resample(solver, from, to);
-  SbEhlState *state = &solver->state[to];
-  state->flux *= scale;
-  for (int k = 0; k < solver->mesh[to].targets; k++) {
-    state->gap[k] *= scale;
-  }
+  sb_ehl_carry(solver, from, to, &old->layers, &new->layers, scale);
 }
 
 // Homotopies to a case: from small end pressures, no options and M = 20 if the film is thick, or
@@ -231,7 +176,7 @@ SbStatus sb_ehl_refine(SbFilmSolver *solver, int *which, SbEhlCase *c, int degre
   // The elements that the solution has, which a continuation may have brought from another case.
   keep_steps(&next.layers, &solver->mesh[*which]);
   if (!sb_ehl_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers) ||
-      !same_elements(&solver->mesh[*which], &solver->mesh[to])) {
+      !sb_ehl_same_elements(&solver->mesh[*which], &solver->mesh[to])) {
     return SB_ERROR_NOT_CONVERGED;
   }
   sb_ehl_carry(solver, *which, to, &c->layers, &next.layers, 1.0);
@@ -298,12 +243,10 @@ static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbEhlCase *target,
     next.layers.reform = first ? sb_ehl_layers_reform(&next.layers, flux) : c.layers.reform;
     SbStatus tried = SB_ERROR_NOT_CONVERGED;
     if (sb_ehl_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
+      sb_ehl_carry(solver, *which, to, &c.layers, &next.layers, 1.0);
       if (first) {
-        sb_ehl_resample(solver, *which, to);
         sb_ehl_layers_fill_reformed(solver->state[to].nodal, solver->state[to].gap,
                                     &solver->mesh[to], &solver->tables, &next.layers, flux);
-      } else {
-        sb_ehl_carry(solver, *which, to, &c.layers, &next.layers, 1.0);
       }
       tried = iterate_held(solver, to, &next, run);
     }
@@ -339,11 +282,7 @@ static SbStatus hold_meniscus(SbFilmSolver *solver, int *which, SbEhlCase *c,
   if (!sb_ehl_layers_mesh(&solver->mesh[to], &solver->tables, &next.layers)) {
     return SB_ERROR_NOT_CONVERGED;
   }
-  if (same_elements(&solver->mesh[*which], &solver->mesh[to])) {
-    sb_ehl_carry(solver, *which, to, &c->layers, &next.layers, 1.0);
-  } else {
-    sb_ehl_resample(solver, *which, to);
-  }
+  sb_ehl_carry(solver, *which, to, &c->layers, &next.layers, 1.0);
   SbStatus status = sb_ehl_iterate(solver, to, &next, true, run);
   if (status == SB_OK) {
     *which = to;

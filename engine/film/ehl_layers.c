@@ -140,58 +140,48 @@ static double outlet_edge(const SbEhlLayers *l) {
 }
 
 // The flooded outlet beyond `from`: elements of growing size up to `reach`, then the infinite one.
-static bool add_outlet(SbEhlMesh *mesh, double from, double unit, double reach, int degree,
+static void add_outlet(SbEhlMesh *mesh, double from, double unit, double reach, int degree,
                        bool apart) {
   static const double step[] = {0.0, 0.4, 1.5, 4.0};
   mesh->outlet = mesh->count;
   double begin = from;
   for (int i = 1; i < 4 || begin - from < reach; i++) {
     double end = i < 4 ? from + unit * step[i] : from + 2.5 * (begin - from);
-    if (!sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, begin, end, 0.0, degree + 4, apart && i == 1)) {
-      return false;
-    }
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, begin, end, 0.0, degree + 4, apart && i == 1);
     begin = end;
   }
-  return sb_ehl_mesh_add(mesh, SB_EHL_OUTLET, begin, 0.0, begin - 1.125 * (begin - from),
-                         degree + 4, false);
+  sb_ehl_mesh_add(mesh, SB_EHL_OUTLET, begin, 0.0, begin - 1.125 * (begin - from), degree + 4,
+                  false);
 }
 
 // A film that begins at a meniscus: five elements from there to `last`, evenly in asinh z.
-static bool add_meniscus(SbEhlMesh *mesh, const SbEhlLayers *l, double unit, double last) {
+static void add_meniscus(SbEhlMesh *mesh, const SbEhlLayers *l, double unit, double last) {
   enum { COUNT = 5 };
   double begin = asinh((l->meniscus + 1.0) / unit);
   double end = asinh((last + 1.0) / unit);
   double x0 = l->meniscus;
   for (int i = 1; i <= COUNT; i++) {
     double x1 = i == COUNT ? last : -1.0 + unit * sinh(begin + (end - begin) * i / COUNT);
-    if (!sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, x0, x1, 0.0, l->degree, false)) {
-      return false;
-    }
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, x0, x1, 0.0, l->degree, false);
     x0 = x1;
   }
-  return true;
 }
 
 // Elements on the scale of the rigid wedge.
-static bool thick_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
+static void thick_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   static const double step[] = {5.0, 2.6, 1.9, 1.3, 0.75, 0.35, 0.1, 0.0};
   enum { STEPS = sizeof step / sizeof step[0] };
   double unit = sqrt(1.44 + 0.52 * l->lambda);
   double end = rupture_guess(l);
   double from = end - unit * step[0];
-  if (!sb_ehl_mesh_add(mesh, SB_EHL_INLET, 0.0, from, from + unit, l->degree, false)) {
-    return false;
-  }
+  sb_ehl_mesh_add(mesh, SB_EHL_INLET, 0.0, from, from + unit, l->degree, false);
   for (int i = 1; i < STEPS; i++) {
-    if (!sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, end - unit * step[i - 1], end - unit * step[i], 0.0,
-                         l->degree, false)) {
-      return false;
-    }
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, end - unit * step[i - 1], end - unit * step[i], 0.0,
+                    l->degree, false);
   }
   if (l->end == SB_EHL_FULL) {
-    return add_outlet(mesh, end, 0.5 * unit, 0.0, l->degree, false);
+    add_outlet(mesh, end, 0.5 * unit, 0.0, l->degree, false);
   }
-  return true;
 }
 
 static const double MIDDLE = 0.6; // theta where growing steps end
@@ -206,7 +196,7 @@ static int inner_steps(SbEhlMesh *mesh, const SbEhlLayers *l, int side, double b
 }
 
 // Elements that follow the two layers.
-static bool thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
+static void thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   static const double inlet_step[] = {-4.0, -1.0, 1.5, 4.0};
   static const double outlet_step[] = {-8.0, -2.5, -0.8, -0.1};
   double in = sb_ehl_layers_width(l);
@@ -247,17 +237,11 @@ static bool thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
 
   // Inlet and its layer: higher degree, as the flux there is a small difference.
   if (isfinite(l->meniscus)) {
-    if (!add_meniscus(mesh, l, in, left[lefts - 1])) {
-      return false;
-    }
+    add_meniscus(mesh, l, in, left[lefts - 1]);
   } else {
-    if (!sb_ehl_mesh_add(mesh, SB_EHL_INLET, 0.0, left[0], -1.0 + 0.5 * in, l->degree + 4, false)) {
-      return false;
-    }
+    sb_ehl_mesh_add(mesh, SB_EHL_INLET, 0.0, left[0], -1.0 + 0.5 * in, l->degree + 4, false);
     for (int i = 1; i < lefts; i++) {
-      if (!sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, left[i - 1], left[i], 0.0, l->degree + 4, false)) {
-        return false;
-      }
+      sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, left[i - 1], left[i], 0.0, l->degree + 4, false);
     }
   }
 
@@ -270,7 +254,8 @@ static bool thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   int steps_right = inner_steps(mesh, l, 1, end);
   if (steps < 0 || steps_right < 0 || (begin < MIDDLE) != (steps > 0) ||
       (end < MIDDLE) != (steps_right > 0)) {
-    return false;
+    mesh->fits = false;
+    return;
   }
   for (int i = 0; i <= steps; i++) {
     theta[thetas++] = begin * pow(MIDDLE / begin, steps > 0 ? (double)i / steps : 0.0);
@@ -285,40 +270,32 @@ static bool thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
     double x1 = i == thetas - 1 ? right[0] : -cos(theta[i]);
     // The widest element lies over the middle; more degrees keep the film between its points.
     int degree = l->degree + (theta[i] - theta[i - 1] > 0.8 ? 6 : 4);
-    if (!sb_ehl_mesh_add(mesh, map, x0, x1, 0.0,
-                         degree < SB_EHL_DEGREE_MAX ? degree : SB_EHL_DEGREE_MAX, false)) {
-      return false;
-    }
+    sb_ehl_mesh_add(mesh, map, x0, x1, 0.0, degree < SB_EHL_DEGREE_MAX ? degree : SB_EHL_DEGREE_MAX,
+                    false);
     x0 = x1;
   }
 
   // Outlet layer.
   for (int i = 1; i < rights; i++) {
-    if (!sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, right[i - 1], right[i], 0.0, l->degree, false)) {
-      return false;
-    }
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, right[i - 1], right[i], 0.0, l->degree, false);
   }
   if (l->end == SB_EHL_FULL) {
-    return add_outlet(mesh, right[rights - 1], out, 2.0 * opening(l), l->degree, false);
+    add_outlet(mesh, right[rights - 1], out, 2.0 * opening(l), l->degree, false);
   }
-  return true;
 }
 
 bool sb_ehl_layers_mesh(SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlLayers *l) {
   sb_ehl_mesh_begin(mesh, l->inlet, l->outlet);
   mesh->steps[0] = mesh->steps[1] = -1;
   bool thick = sb_ehl_layers_width(l) > THICK && !isfinite(l->meniscus);
-  bool fits = thick ? thick_mesh(mesh, l) : thin_mesh(mesh, l);
-  if (fits && l->end == SB_EHL_REFORM) {
+  (thick ? thick_mesh : thin_mesh)(mesh, l);
+  if (l->end == SB_EHL_REFORM) {
     double unit = sb_ehl_layers_width(l) > THICK ? 0.3 * sqrt(1.44 + 0.52 * l->lambda)
                                                  : sb_ehl_layers_outlet_width(l);
     unit = 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0);
-    fits = add_outlet(mesh, l->reform, unit, 0.0, l->degree, true);
+    add_outlet(mesh, l->reform, unit, 0.0, l->degree, true);
   }
-  if (fits) {
-    sb_ehl_mesh_build(mesh, tables, false);
-  }
-  return fits;
+  return sb_ehl_mesh_build(mesh, tables, false);
 }
 
 double sb_ehl_layers_dry_pressure(const SbEhlLayers *l, double X) {

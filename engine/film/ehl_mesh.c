@@ -146,6 +146,14 @@ double sb_ehl_coordinate(const SbEhlElement *e, double X) {
   }
 }
 
+bool sb_ehl_same_elements(const SbEhlMesh *a, const SbEhlMesh *b) {
+  bool same = a->count == b->count;
+  for (int i = 0; same && i < a->count; i++) {
+    same = a->element[i].map == b->element[i].map && a->element[i].apart == b->element[i].apart;
+  }
+  return same;
+}
+
 int sb_ehl_find(const SbEhlMesh *mesh, double X) {
   int i = 0;
   while (i < mesh->count - 1 && !(X < mesh->element[i].x1)) {
@@ -183,63 +191,62 @@ double sb_ehl_known_part(const SbEhlElement *e, const double *basis, double r) {
 // ---------------------------------------------------------------- meshes
 
 bool sb_ehl_mesh_init(SbEhlMesh *mesh) {
-  memset(mesh, 0, sizeof *mesh);
-  size_t targets = SB_EHL_TARGETS_MAX;
-  size_t dofs = SB_EHL_DOFS_MAX;
-  mesh->gap = malloc(targets * dofs * sizeof(double));
-  mesh->gap_known = malloc(targets * sizeof(double));
-  mesh->x = malloc(targets * sizeof(double));
-  mesh->weight = malloc(targets * sizeof(double));
-  mesh->value = malloc(targets * STRIDE * sizeof(double));
-  mesh->slope = malloc(targets * STRIDE * sizeof(double));
-  mesh->value_known = malloc(targets * sizeof(double));
-  mesh->slope_known = malloc(targets * sizeof(double));
-  mesh->owner = malloc(targets * sizeof(int));
-  mesh->load = malloc(dofs * sizeof(double));
+  enum { TARGETS = SB_EHL_TARGETS_MAX, DOFS = SB_EHL_DOFS_MAX };
+  *mesh = (SbEhlMesh){0};
+  struct {
+    double **place;
+    size_t count;
+  } part[] = {
+      {&mesh->gap, TARGETS * DOFS},
+      {&mesh->value, TARGETS * STRIDE},
+      {&mesh->slope, TARGETS * STRIDE},
+      {&mesh->gap_known, TARGETS},
+      {&mesh->x, TARGETS},
+      {&mesh->weight, TARGETS},
+      {&mesh->value_known, TARGETS},
+      {&mesh->slope_known, TARGETS},
+      {&mesh->load, DOFS},
+  };
+  enum { PARTS = sizeof part / sizeof part[0] };
+  size_t size = 0;
+  for (int i = 0; i < PARTS; i++) {
+    size += part[i].count;
+  }
+  mesh->store = malloc(size * sizeof(double));
   mesh->fitted = malloc(sizeof *mesh->fitted);
-  if (mesh->gap == NULL || mesh->gap_known == NULL || mesh->x == NULL || mesh->weight == NULL ||
-      mesh->value == NULL || mesh->slope == NULL || mesh->value_known == NULL ||
-      mesh->slope_known == NULL || mesh->owner == NULL || mesh->load == NULL ||
-      mesh->fitted == NULL) {
-    sb_ehl_mesh_finish(mesh);
+  if (mesh->store == NULL || mesh->fitted == NULL) {
     return false;
   }
-  memset(mesh->gap, 0, targets * dofs * sizeof(double));
-  memset(mesh->value, 0, targets * STRIDE * sizeof(double));
-  memset(mesh->slope, 0, targets * STRIDE * sizeof(double));
+  memset(mesh->store, 0, size * sizeof(double)); // touches the pages, so that no solve pays for it
+  for (int i = 0; i < PARTS; i++) {
+    *part[i].place = i > 0 ? *part[i - 1].place + part[i - 1].count : mesh->store;
+  }
   return true;
 }
 
 void sb_ehl_mesh_finish(SbEhlMesh *mesh) {
-  free(mesh->gap);
-  free(mesh->gap_known);
-  free(mesh->x);
-  free(mesh->weight);
-  free(mesh->value);
-  free(mesh->slope);
-  free(mesh->value_known);
-  free(mesh->slope_known);
-  free(mesh->owner);
-  free(mesh->load);
+  free(mesh->store);
   free(mesh->fitted);
-  memset(mesh, 0, sizeof *mesh);
+  *mesh = (SbEhlMesh){0};
 }
 
 void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure) {
   mesh->count = 0;
+  mesh->fits = true;
   mesh->dofs = 0;
   mesh->rows = 0;
   mesh->inlet_pressure = inlet_pressure;
   mesh->outlet_pressure = outlet_pressure;
 }
 
-bool sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
+void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
                      bool apart) {
   int shared = mesh->count > 0 && !apart ? 1 : 0;
   int points = degree + (map == SB_EHL_INLET || map == SB_EHL_OUTLET ? 1 : 0);
   if (degree > SB_EHL_DEGREE_MAX || mesh->count >= SB_EHL_ELEMENTS_MAX ||
       mesh->dofs - shared + degree + 1 > SB_EHL_DOFS_MAX || mesh->rows + points > SB_EHL_DOFS_MAX) {
-    return false;
+    mesh->fits = false;
+    return;
   }
   SbEhlElement *e = &mesh->element[mesh->count++];
   e->map = map;
@@ -275,7 +282,6 @@ bool sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double
     e->far_pressure = mesh->outlet_pressure;
     break;
   }
-  return true;
 }
 
 // Position and owner of every target: collocation points, then ends.
@@ -356,7 +362,16 @@ static double half_line(double x) {
   return x == 0.0 ? 0.0 : x * (log(fabs(x)) - 1.0);
 }
 
-void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
+double sb_ehl_ambient_gap(double X, double left, double right, double inlet, double outlet) {
+  return (inlet * half_line(X - left) - outlet * half_line(X - right) +
+          (inlet - outlet) * log(2.0) * X) /
+         M_PI;
+}
+
+bool sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
+  if (!mesh->fits) {
+    return false;
+  }
   for (int i = 0; i < mesh->count; i++) {
     sb_ehl_kernel_prepare(&mesh->element[i], tables);
   }
@@ -365,8 +380,6 @@ void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
   const SbEhlElement *last = &mesh->element[mesh->count - 1];
   mesh->left_end = first->map == SB_EHL_INLET ? first->x1 : first->x0;
   mesh->right_end = last->map == SB_EHL_OUTLET ? last->x0 : last->x1;
-  double in = mesh->inlet_pressure / M_PI;
-  double out = mesh->outlet_pressure / M_PI;
 
   // Element by element, as its tables fill the nearest cache.
   memset(mesh->gap, 0, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *mesh->gap);
@@ -374,8 +387,8 @@ void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
   for (int i = 0; i < mesh->targets; i++) {
     double X = mesh->x[i];
     angle[i] = fabs(X) <= 1.0 ? acos(-X) : acosh(fabs(X));
-    mesh->gap_known[i] = in * half_line(X - mesh->left_end) - out * half_line(X - mesh->right_end) +
-                         (in - out) * log(2.0) * X;
+    mesh->gap_known[i] = sb_ehl_ambient_gap(X, mesh->left_end, mesh->right_end,
+                                            mesh->inlet_pressure, mesh->outlet_pressure);
   }
   for (int k = 0; k < mesh->count; k++) {
     const SbEhlElement *e = &mesh->element[k];
@@ -399,6 +412,7 @@ void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
     }
     mesh->load_known += e->integral[e->degree + 1];
   }
+  return true;
 }
 
 double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlElement *e,
@@ -411,6 +425,19 @@ double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlEl
     sum += basis[k] * nodal[e->first_dof + k];
   }
   return e->far_pressure + sb_ehl_factor(e, r) * sum + sb_ehl_known_part(e, basis, r);
+}
+
+double sb_ehl_local(double *slope, const SbEhlMesh *mesh, const double *nodal, int row) {
+  const SbEhlElement *e = &mesh->element[mesh->owner[row]];
+  const double *value = mesh->value + (size_t)row * STRIDE;
+  const double *rise = mesh->slope + (size_t)row * STRIDE;
+  double sum = mesh->value_known[row];
+  *slope = mesh->slope_known[row];
+  for (int j = 0; j <= e->degree; j++) {
+    sum += value[j] * nodal[e->first_dof + j];
+    *slope += rise[j] * nodal[e->first_dof + j];
+  }
+  return sum;
 }
 
 double sb_ehl_gap(const SbEhlMesh *mesh, SbEhlTables *tables, int element, const double *target_gap,

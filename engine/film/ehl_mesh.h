@@ -16,9 +16,9 @@ enum {
   SB_EHL_ELEMENTS_MAX = 100,
   SB_EHL_DOFS_MAX = 440, // nodal pressures
   SB_EHL_TARGETS_MAX = SB_EHL_DOFS_MAX + SB_EHL_ELEMENTS_MAX + 4,
-  SB_EHL_EXTRA = 4,       // room for the unknowns beside the pressures
-  SB_EHL_QUAD = 24,       // points of the fine rule for smooth remainders
-  SB_EHL_MULTIPOLES = 34, // terms of the expansion for distant targets
+  SB_EHL_ORDER_MAX = SB_EHL_DOFS_MAX + 4, // with the unknowns beside the pressures
+  SB_EHL_QUAD = 24,                       // points of the fine rule for smooth remainders
+  SB_EHL_MULTIPOLES = 34,                 // terms of the expansion for distant targets
   SB_EHL_PROJECT = SB_EHL_DEGREE_MAX + 12
 };
 
@@ -90,6 +90,7 @@ typedef struct {
 // what does not depend on the nodal pressures.
 typedef struct {
   int count;
+  bool fits;    // so far
   int steps[2]; // of the layout that made it (ehl_layers.h)
   int outlet;   // first element of a flooded outlet, if the last is infinite
   SbEhlElement element[SB_EHL_ELEMENTS_MAX];
@@ -104,10 +105,11 @@ typedef struct {
   double *value;                     // [rows][SB_EHL_DEGREE_MAX + 1]
   double *slope;                     // d/dX
   double *value_known, *slope_known; // [rows]
-  int *owner;                        // [targets] element of a target
+  int owner[SB_EHL_TARGETS_MAX];     // element of a target
   double *load;                      // [dofs] integral of the basis
   double load_known;
   SbEhlFittedWork *fitted;
+  double *store; // all of these arrays
 } SbEhlMesh;
 
 // Everything that outlives a solve: rules and tables of the degrees in use.
@@ -126,18 +128,26 @@ const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree);
 const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree);
 void sb_ehl_partial(double *weight, const SbEhlTable *table, int j, double r);
 
-// Storage of a mesh: false when out of memory. Finish takes a zeroed mesh.
+// Storage of a mesh: false when out of memory, then to be finished as well. Finish takes a zeroed
+// mesh.
 SB_CHECKED bool sb_ehl_mesh_init(SbEhlMesh *mesh);
 void sb_ehl_mesh_finish(SbEhlMesh *mesh);
 
-// Empties the mesh and adds elements from left to right. Returns false when the mesh is full.
+// Empties the mesh and adds elements from left to right.
 void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure);
-SB_CHECKED bool sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A,
-                                int degree, bool apart);
+void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
+                     bool apart);
 
-// Numbers the unknowns and builds every operator; `nodal`: with the nodes for targets, on affine
-// elements without cavities.
-void sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal);
+// Gap by pressures that are constant beyond the ends of a mesh, up to a constant, with the tilt
+// that leaves the dry contact |X| < 1 (docs/verification.md).
+double sb_ehl_ambient_gap(double X, double left, double right, double inlet, double outlet);
+
+// Numbers the unknowns and builds every operator, unless the elements did not fit: then false;
+// `nodal`: with the nodes for targets, on affine elements without cavities.
+SB_CHECKED bool sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal);
+
+// Whether both meshes have the same elements up to their places and degrees.
+bool sb_ehl_same_elements(const SbEhlMesh *a, const SbEhlMesh *b);
 
 // Element that holds X (a cavity belongs to the element after it), and the coordinate of X in an
 // element.
@@ -176,6 +186,9 @@ double sb_ehl_stretch(const SbEhlElement *e, double r);
 // Pressure at r of element e from nodal values; the far pressure included.
 double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlElement *e,
                        const double *nodal, double r);
+
+// Pressure at a collocation point, and its slope.
+double sb_ehl_local(double *slope, const SbEhlMesh *mesh, const double *nodal, int row);
 
 // Gap at r of element e, interpolated from the gap at all targets (`target_gap`) at the
 // collocation points and ends of the element.

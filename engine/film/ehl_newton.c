@@ -11,61 +11,43 @@
 // moves the mesh; its column of the Jacobian is a difference quotient.
 #include "engine/film/ehl.h"
 
+#include "engine/numeric/dense.h"
+
 #include <cblas.h>
-#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-  STRIDE = SB_EHL_DEGREE_MAX + 1,
-  ORDER_MAX = SB_EHL_DOFS_MAX + SB_EHL_EXTRA,
-  ITERATIONS_MAX = 10,
-};
+enum { STRIDE = SB_EHL_DEGREE_MAX + 1, ITERATIONS_MAX = 10 };
 
 // A step that leaves less than this of the residual lets the next one take the same factors.
 static const double REUSE = 0.02;
 
 bool sb_ehl_init(SbFilmSolver *solver) {
+  enum { TRIAL = 64 };
   sb_ehl_tables_init(&solver->tables);
-  size_t order = ORDER_MAX;
-  solver->matrix = malloc(order * order * sizeof(double));
-  solver->right = malloc(order * sizeof(double));
-  solver->column = malloc(order * sizeof(double));
-  size_t targets = SB_EHL_TARGETS_MAX;
-  solver->gaps = malloc(2 * targets * sizeof(double)); // and their derivatives to the shift
-  solver->kernel = malloc(targets * SB_EHL_DOFS_MAX * sizeof(double));
-  solver->pivot = malloc(order * sizeof(int));
-  bool done = sb_ehl_mesh_init(&solver->mesh[0]) && sb_ehl_mesh_init(&solver->mesh[1]) &&
-              solver->matrix != NULL && solver->right != NULL && solver->column != NULL &&
-              solver->gaps != NULL && solver->kernel != NULL && solver->pivot != NULL;
-  if (done) {
-    // Touches the pages and LAPACK's own buffers once, so that no solve pays for them.
-    enum { TRIAL = 64 };
-    memset(solver->matrix, 0, order * order * sizeof(double));
-    memset(solver->right, 0, order * sizeof(double));
-    for (size_t i = 0; i < TRIAL; i++) {
-      solver->matrix[i * TRIAL + i] = 1.0;
-    }
-    cblas_dgemv(CblasRowMajor, CblasNoTrans, TRIAL, TRIAL, 1.0, solver->matrix, TRIAL,
-                solver->right, 1, 0.0, solver->gaps, 1);
-    done = LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, TRIAL, TRIAL, solver->matrix, TRIAL,
-                               solver->pivot) == 0 &&
-           LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', TRIAL, 1, solver->matrix, TRIAL,
-                               solver->pivot, solver->right, TRIAL) == 0;
+  const size_t size = (size_t)SB_EHL_ORDER_MAX * SB_EHL_ORDER_MAX * sizeof(double);
+  solver->matrix = malloc(size);
+  solver->kernel = malloc((size_t)SB_EHL_TARGETS_MAX * SB_EHL_DOFS_MAX * sizeof(double));
+  if (!sb_ehl_mesh_init(&solver->mesh[0]) || !sb_ehl_mesh_init(&solver->mesh[1]) ||
+      solver->matrix == NULL || solver->kernel == NULL) {
+    return false;
   }
-  return done;
+  // Touches the pages and LAPACK's own buffers once, so that no solve pays for them.
+  memset(solver->matrix, 0, size);
+  for (size_t i = 0; i < TRIAL; i++) {
+    solver->matrix[i * TRIAL + i] = 1.0;
+  }
+  cblas_dgemv(CblasRowMajor, CblasNoTrans, TRIAL, TRIAL, 1.0, solver->matrix, TRIAL, solver->right,
+              1, 0.0, solver->gaps, 1);
+  return sb_factor_solve(solver->matrix, solver->pivot, solver->right, TRIAL, true);
 }
 
 void sb_ehl_finish(SbFilmSolver *solver) {
   sb_ehl_mesh_finish(&solver->mesh[0]);
   sb_ehl_mesh_finish(&solver->mesh[1]);
   free(solver->matrix);
-  free(solver->right);
-  free(solver->column);
-  free(solver->gaps);
   free(solver->kernel);
-  free(solver->pivot);
 }
 
 // Gap from the pressure at all targets into solver->gaps, with its derivatives to the nodal
@@ -90,18 +72,6 @@ static const double *elastic_gaps(SbFilmSolver *solver, const SbEhlMesh *mesh,
   cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->targets, mesh->dofs, 1.0, mesh->gap, mesh->dofs,
               state->nodal, 1, 1.0, out, 1);
   return mesh->gap;
-}
-
-// Local pressure or its slope at row i.
-static double local(const SbEhlMesh *mesh, const double *operators, const double *known,
-                    const double *nodal, int i) {
-  const SbEhlElement *e = &mesh->element[mesh->owner[i]];
-  const double *row = operators + (size_t)i * STRIDE;
-  double sum = known[i];
-  for (int j = 0; j <= e->degree; j++) {
-    sum += row[j] * nodal[e->first_dof + j];
-  }
-  return sum;
 }
 
 // Where the conditions beside the collocation rows act.
@@ -170,8 +140,8 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
   for (int i = 0; i < mesh->rows; i++) {
     double elastic = gaps[i];
     double H = independent ? state->gap[i] : elastic;
-    double slope = local(mesh, mesh->slope, mesh->slope_known, state->nodal, i);
-    double pressure = local(mesh, mesh->value, mesh->value_known, state->nodal, i);
+    double slope;
+    double pressure = sb_ehl_local(&slope, mesh, state->nodal, i);
     double m, m_film, m_pressure;
     sb_film_mobility(&m, &m_film, &m_pressure, &problem->fluid, H, pressure);
     double G = H * H * H * m / lambda;
@@ -347,16 +317,11 @@ SbStatus sb_ehl_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, SbEhl
           matrix[(size_t)i * (size_t)order + (size_t)layout.free_end] = solver->column[i];
         }
       }
-      if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, matrix, order, solver->pivot) != 0) {
-        return SB_ERROR_NOT_CONVERGED;
-      }
-      factored = true;
     }
-    // The rows of our matrix are LAPACK's columns: solve with the transpose.
-    if (LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', order, 1, matrix, order, solver->pivot, right,
-                            order) != 0) {
+    if (!sb_factor_solve(matrix, solver->pivot, right, order, !factored)) {
       return SB_ERROR_NOT_CONVERGED;
     }
+    factored = true;
     trace->iterations++;
 
     // Full steps unless the film would vanish.

@@ -1,20 +1,18 @@
 // What is read off a solution of the coupled film solver: films, places, friction, and the transfer
-// to another degree. Everything is interpolated at the solver's own order: the pressure
+// to another mesh. Everything is interpolated at the solver's own order: the pressure
 // by its nodal polynomials, the gap through the collocation points and ends of an element.
 #include "engine/film/ehl.h"
 
 #include <math.h>
 #include <string.h>
 
-// Nodal polynomial of element e at r: pressure without factor, far and known parts.
-static double nodal_polynomial(SbEhlTables *tables, const SbEhlElement *e, const double *nodal,
-                               double far, double r) {
-  double own[SB_EHL_DEGREE_MAX + 1];
-  memcpy(own, &nodal[e->first_dof], sizeof(double) * (size_t)(e->degree + 1));
-  if (sb_ehl_infinite(e)) {
-    own[e->map == SB_EHL_INLET ? e->degree : 0] -= far;
-  }
-  return sb_ehl_interpolate(sb_ehl_table(tables, e->degree), own, r);
+// Where a target of the new mesh takes its value from: the same r of the same element if the two
+// meshes have the same elements, else its place.
+static const SbEhlElement *source(double *r, const SbEhlMesh *from, int element, bool same,
+                                  double X) {
+  const SbEhlElement *e = &from->element[same ? element : sb_ehl_find(from, X)];
+  *r = same ? *r : sb_ehl_coordinate(e, X);
+  return e;
 }
 
 void sb_ehl_carry(SbFilmSolver *solver, int from, int to, const SbEhlLayers *before,
@@ -23,48 +21,12 @@ void sb_ehl_carry(SbFilmSolver *solver, int from, int to, const SbEhlLayers *bef
   const SbEhlMesh *b = &solver->mesh[to];
   const SbEhlState *old = &solver->state[from];
   SbEhlState *new = &solver->state[to];
+  const bool same = sb_ehl_same_elements(a, b);
   // Towards infinity the gap grows by decades and has no polynomial: its excess over the dry one.
   double *excess = solver->gaps;
   for (int i = 0; i < a->targets; i++) {
     excess[i] = old->gap[i] - sb_ehl_layers_dry_gap(before, a->x[i]);
   }
-  for (int i = 0; i < b->count; i++) {
-    const SbEhlElement *e = &a->element[i];
-    const SbEhlElement *f = &b->element[i];
-    const SbEhlTable *t = sb_ehl_table(&solver->tables, f->degree);
-    bool infinite = sb_ehl_infinite(f);
-    int touching = f->map == SB_EHL_INLET ? f->degree : f->map == SB_EHL_OUTLET ? 0 : -1;
-    for (int k = 0; k <= f->degree; k++) {
-      double r = t->node[k];
-      double value;
-      if (infinite) {
-        value = nodal_polynomial(&solver->tables, e, old->nodal, e->far_pressure, r) +
-                (k == touching ? f->far_pressure : 0.0);
-      } else {
-        value = sb_ehl_pressure(a, &solver->tables, e, old->nodal, r);
-      }
-      new->nodal[f->first_dof + k] = value;
-    }
-    for (int k = 0; k < f->points; k++) {
-      double r = t->gauss[f->points - f->degree][k];
-      double *gap = &new->gap[f->first_row + k];
-      *gap = scale * sb_ehl_gap(a, &solver->tables, i, infinite ? excess : old->gap, r);
-      *gap += infinite ? sb_ehl_layers_dry_gap(after, sb_ehl_position(f, r)) : 0.0;
-    }
-  }
-  for (int i = b->rows; i < b->targets; i++) {
-    new->gap[i] = old->flux; // ends: not used by the first step
-  }
-  new->H0 = old->H0;
-  new->shift = old->shift;
-  new->flux = scale * old->flux;
-}
-
-void sb_ehl_resample(SbFilmSolver *solver, int from, int to) {
-  const SbEhlMesh *a = &solver->mesh[from];
-  const SbEhlMesh *b = &solver->mesh[to];
-  const SbEhlState *old = &solver->state[from];
-  SbEhlState *new = &solver->state[to];
   // New end pressures change the dry contact's pressure, unless a cavity holds one of them off.
   bool whole = true;
   for (int i = 0; i < b->count; i++) {
@@ -75,36 +37,36 @@ void sb_ehl_resample(SbFilmSolver *solver, int from, int to) {
     const SbEhlTable *t = sb_ehl_table(&solver->tables, f->degree);
     bool infinite = sb_ehl_infinite(f);
     for (int k = 0; k <= f->degree; k++) {
-      // Beside the node at infinity the neighbour's value is taken.
+      // For the node at infinity a place near it.
       double r = t->node[k];
       bool far = (f->map == SB_EHL_INLET && k == 0) || (f->map == SB_EHL_OUTLET && k == f->degree);
-      r = far ? 0.5 * (r + t->node[k == 0 ? 1 : k - 1]) : r;
+      r = far ? 0.98 * r : r;
+      double s = sb_ehl_inverse(f, r);
       double X = sb_ehl_position(f, r);
-      const SbEhlElement *e = &a->element[sb_ehl_find(a, X)];
-      double value =
-          X > a->right_end && e->map != SB_EHL_OUTLET
-              ? 0.0
-              : sb_ehl_pressure(a, &solver->tables, e, old->nodal, sb_ehl_coordinate(e, X));
+      const SbEhlElement *e = source(&r, a, i, same, X);
+      double value = !same && X > a->right_end && e->map != SB_EHL_OUTLET
+                         ? 0.0
+                         : sb_ehl_pressure(a, &solver->tables, e, old->nodal, r);
       value += whole ? sb_film_dry_pressure(X, b->inlet_pressure, b->outlet_pressure) -
                            sb_film_dry_pressure(X, a->inlet_pressure, a->outlet_pressure)
                      : 0.0;
       bool touching = f->map == SB_EHL_INLET ? k == f->degree : k == 0;
-      if (infinite && !touching) {
-        double s = sb_ehl_inverse(f, r);
-        value = (value - f->far_pressure) / (s * s * s * s);
-      }
-      new->nodal[f->first_dof + k] = value;
+      new->nodal[f->first_dof + k] =
+          infinite && !touching ? (value - f->far_pressure) / (s * s * s * s) : value;
     }
   }
   for (int i = 0; i < b->targets; i++) {
-    int k = sb_ehl_find(a, b->x[i]);
-    const SbEhlElement *e = &a->element[k];
-    double r = sb_ehl_coordinate(e, b->x[i]);
-    new->gap[i] = sb_ehl_gap(a, &solver->tables, k, old->gap, fmin(r, 1.1));
+    const SbEhlElement *f = &b->element[b->owner[i]];
+    double r = fmin(sb_ehl_coordinate(f, b->x[i]), 1.0);
+    const SbEhlElement *e = source(&r, a, b->owner[i], same, b->x[i]);
+    bool infinite = sb_ehl_infinite(e);
+    double gap = sb_ehl_gap(a, &solver->tables, (int)(e - a->element), infinite ? excess : old->gap,
+                            fmin(r, 1.1));
+    new->gap[i] = scale *gap + (infinite ? sb_ehl_layers_dry_gap(after, b->x[i]) : 0.0);
   }
   new->H0 = old->H0;
   new->shift = old->shift;
-  new->flux = old->flux;
+  new->flux = scale * old->flux;
 }
 
 // Value of the pressure (negative) or of what the gap grows with, at r of an element: the gap
@@ -264,15 +226,8 @@ static void add_smooth(SbEhlResults *out, int *thinnest, int *highest, SbFilmSol
   }
   double peak = -INFINITY;
   for (int i = 0; i < mesh->rows; i++) {
-    const SbEhlElement *e = &mesh->element[mesh->owner[i]];
-    const double *value = mesh->value + (size_t)i * (SB_EHL_DEGREE_MAX + 1);
-    const double *slope = mesh->slope + (size_t)i * (SB_EHL_DEGREE_MAX + 1);
-    double P = mesh->value_known[i];
-    double P_slope = mesh->slope_known[i];
-    for (int j = 0; j <= e->degree; j++) {
-      P += value[j] * state->nodal[e->first_dof + j];
-      P_slope += slope[j] * state->nodal[e->first_dof + j];
-    }
+    double P_slope;
+    double P = sb_ehl_local(&P_slope, mesh, state->nodal, i);
     double H = state->gap[i];
     out->pressure_min = fmin(out->pressure_min, P);
     *thinnest = H < state->gap[*thinnest] ? i : *thinnest;

@@ -146,11 +146,11 @@ bool sb_ehl_rough_mesh(SbFilmSolver *solver, int which, const SbEhlCase *c, int 
   SbEhlMesh *mesh = &solver->mesh[which];
   sb_ehl_mesh_begin(mesh, l->inlet, l->outlet);
   for (int e = 0; e < n - 1; e++) {
-    if (!sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, edge[e], edge[e + 1], 0, degree, false)) {
-      return false;
-    }
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, edge[e], edge[e + 1], 0, degree, false);
   }
-  sb_ehl_mesh_build(mesh, &solver->tables, true);
+  if (!sb_ehl_mesh_build(mesh, &solver->tables, true)) {
+    return false;
+  }
   // The mesh stands still over the dry contact: a fitted body's share is known once for all.
   size_t targets = (size_t)mesh->targets;
   if (c->body.compliance != NULL) {

@@ -12,8 +12,9 @@
 // shortened only where the gap would fall by more than the rough law's parameter can follow.
 #include "engine/film/ehl.h"
 
+#include "engine/numeric/dense.h"
+
 #include <cblas.h>
-#include <lapacke.h>
 #include <math.h>
 #include <string.h>
 
@@ -275,10 +276,7 @@ SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which,
     factored = factored && changed == 0;
     assemble(factored ? NULL : solver->matrix, solver->right, row_scale, mesh, rule, state, c,
              local);
-    if ((!factored && LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, solver->matrix, order,
-                                          solver->pivot) != 0) ||
-        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', order, 1, solver->matrix, order, solver->pivot,
-                            solver->right, order) != 0) {
+    if (!sb_factor_solve(solver->matrix, solver->pivot, solver->right, order, !factored)) {
       return SB_ERROR_NOT_CONVERGED;
     }
     trace->iterations++;

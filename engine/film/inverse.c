@@ -15,62 +15,37 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_spline.h>
 #include <math.h>
-#include <stdlib.h>
 
 enum { TABLE_LEAST = 9, SAMPLES = 1101, SEARCH = 8 };
 
-// The table in the flow frame, and its spline.
-typedef struct {
-  double *x, *p;
-  size_t count;
-  gsl_interp *spline;
-  gsl_interp_accel *accel;
-} Table;
-
-static void finish(Table *t) {
-  free(t->x);
-  free(t->p);
-  if (t->spline != NULL) {
-    gsl_interp_free(t->spline);
-  }
-  if (t->accel != NULL) {
-    gsl_interp_accel_free(t->accel);
-  }
-}
-
-// Every `stride`-th point of the problem's table, turned round for reversed flow.
-static bool start(Table *t, const SbFilmProblem *problem, size_t stride) {
+// Every `stride`-th point of the problem's table as a spline in the flow frame, turned round for
+// reversed flow; NULL when out of memory.
+static gsl_spline *table(const SbFilmProblem *problem, size_t stride) {
   bool forward = problem->speed >= 0.0;
-  *t = (Table){.count = (problem->dry_count - 1) / stride + 1};
-  t->x = malloc(t->count * sizeof(double));
-  t->p = malloc(t->count * sizeof(double));
-  t->spline = gsl_interp_alloc(gsl_interp_cspline, t->count);
-  t->accel = gsl_interp_accel_alloc();
-  if (t->x == NULL || t->p == NULL || t->spline == NULL || t->accel == NULL) {
-    return false;
-  }
-  for (size_t i = 0; i < t->count; i++) {
-    size_t k = i * stride;
-    size_t from = forward ? k : (t->count - 1) * stride - k;
+  size_t count = (problem->dry_count - 1) / stride + 1;
+  gsl_spline *t = gsl_spline_alloc(gsl_interp_cspline, count);
+  for (size_t i = 0; i < count && t != NULL; i++) {
+    size_t from = (forward ? i : count - 1 - i) * stride;
     t->x[i] = forward ? problem->dry_x[from] : -problem->dry_x[from];
-    t->p[i] = problem->dry_pressure[from];
+    t->y[i] = problem->dry_pressure[from];
   }
-  return gsl_interp_init(t->spline, t->x, t->p, t->count) == GSL_SUCCESS;
+  if (t != NULL && gsl_interp_init(t->interp, t->x, t->y, count) != GSL_SUCCESS) {
+    gsl_spline_free(t);
+    return NULL;
+  }
+  return t;
 }
 
-static double slope_at(const Table *t, double x) {
+static double slope_at(const gsl_spline *t, double x) {
   double slope = 0.0;
-  if (gsl_interp_eval_deriv_e(t->spline, t->x, t->p, x, t->accel, &slope) != GSL_SUCCESS) {
-    return 0.0;
-  }
-  return slope;
+  return gsl_spline_eval_deriv_e(t, x, NULL, &slope) == GSL_SUCCESS ? slope : 0.0;
 }
 
 // Steepest rise and its place: by search, then by golden section beside the best.
-static double steepest(double *place, const Table *t) {
+static double steepest(double *place, const gsl_spline *t) {
   double best = 0.0, beside = 0.0;
   *place = t->x[0];
-  for (size_t i = 1; i < t->count; i++) {
+  for (size_t i = 1; i < t->size; i++) {
     for (int k = 0; k < SEARCH; k++) {
       double x = t->x[i - 1] + (t->x[i] - t->x[i - 1]) * k / SEARCH;
       double slope = slope_at(t, x);
@@ -81,7 +56,7 @@ static double steepest(double *place, const Table *t) {
       }
     }
   }
-  double low = fmax(*place - beside, t->x[0]), high = fmin(*place + beside, t->x[t->count - 1]);
+  double low = fmax(*place - beside, t->x[0]), high = fmin(*place + beside, t->x[t->size - 1]);
   for (int k = 0; k < 40; k++) {
     double x1 = high - 0.6180339887498949 * (high - low), x2 = low + high - x1;
     bool left = slope_at(t, x1) > slope_at(t, x2);
@@ -132,13 +107,13 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
 }
 
 // Films along the table into the profile and the scalars; the steepest slope is known.
-static void evaluate(SbFilm *out, const SbFilmProblem *problem, const Table *t, double place,
+static void evaluate(SbFilm *out, const SbFilmProblem *problem, const gsl_spline *t, double place,
                      double steep) {
   double eta_u = 0.5 * problem->viscosity * fabs(problem->speed);
   double flux = 2.0 / 3.0 * sqrt(4.0 * eta_u / steep);
   double sign = problem->speed >= 0.0 ? 1.0 : -1.0;
   double begin = t->x[0];
-  double end = t->x[t->count - 1];
+  double end = t->x[t->size - 1];
   double axis = 0.0 > begin && 0.0 < end ? 0.0 : 0.5 * (begin + end);
   out->film_flux = flux;
   out->flow = 0.5 * problem->speed * flux;
@@ -152,7 +127,7 @@ static void evaluate(SbFilm *out, const SbFilmProblem *problem, const Table *t, 
   for (int i = 0; i < SAMPLES; i++) {
     double x = i == SAMPLES - 1 ? end : begin + (end - begin) * i / (SAMPLES - 1);
     double p = 0.0;
-    if (gsl_interp_eval_e(t->spline, t->x, t->p, x, t->accel, &p) != GSL_SUCCESS) {
+    if (gsl_spline_eval_e(t, x, NULL, &p) != GSL_SUCCESS) {
       continue;
     }
     double y = root(slope_at(t, x) * flux * flux / (12.0 * eta_u), x < place);
@@ -192,14 +167,14 @@ SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const 
   if (status != SB_OK) {
     return status;
   }
-  Table fine, coarse = {0};
-  bool ready = start(&fine, problem, 1) && start(&coarse, problem, 2);
-  if (!ready) {
+  gsl_spline *fine = table(problem, 1);
+  gsl_spline *coarse = table(problem, 2);
+  if (fine == NULL || coarse == NULL) {
     status = sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
   } else {
     double place, coarse_place;
-    double steep = steepest(&place, &fine);
-    double coarse_steep = steepest(&coarse_place, &coarse);
+    double steep = steepest(&place, fine);
+    double coarse_steep = steepest(&coarse_place, coarse);
     // A smooth slope does not care for every second point; a square-root edge gives sqrt(2).
     double change = coarse_steep > 0.0 ? fabs(sqrt(steep / coarse_steep) - 1.0) : 1.0;
     if (!(steep > 0.0)) {
@@ -210,9 +185,9 @@ SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const 
                        "second point left out: a square-root edge or too coarse a table",
                        200.0 * change);
     } else {
-      evaluate(out, problem, &fine, place, steep);
+      evaluate(out, problem, fine, place, steep);
       out->solver.converged = true;
-      out->solver.unknowns = fine.count;
+      out->solver.unknowns = fine->size;
       // The spline's slope is of third order at least: half the points are out by seven times more.
       double estimate = 0.25 * change + 1e-12;
       out->solver.error_film_min = out->solver.error_film_central = out->solver.error_film_flux =
@@ -235,7 +210,7 @@ SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const 
       status = sb_succeed(report);
     }
   }
-  finish(&fine);
-  finish(&coarse);
+  gsl_spline_free(fine);
+  gsl_spline_free(coarse);
   return status;
 }

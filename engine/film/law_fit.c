@@ -38,13 +38,11 @@ static SbStatus check(const SbFilmLawRange *range, SbReport *report) {
 }
 
 // Fills the points of the law.
-static SbStatus solve_grid(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSolver *memory,
-                           SbReport *report) {
+static SbStatus solve_grid(SbFilmLaw *out, const SbFilmLawRange *range, SbReport *report) {
+  SbFilmSolver *solver = NULL;
   SbFilm *film = malloc(sizeof *film);
-  if (film == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "film law: out of memory");
-  }
-  SbStatus status = SB_OK;
+  SbStatus status = film != NULL ? sb_film_solver_create(&solver, report)
+                                 : sb_fail(report, SB_ERROR_MEMORY, "film law: out of memory");
   for (size_t j = 0; status == SB_OK && j < range->W_count; j++) {
     double v = (double)j / (double)(range->W_count - 1);
     double W = range->W_min * pow(range->W_max / range->W_min, v);
@@ -54,7 +52,7 @@ static SbStatus solve_grid(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSo
       SbFilmProblem problem = contact(U, W, range->tolerance);
       problem.cancelled = range->cancelled;
       problem.cancelled_data = range->data;
-      status = sb_film_solve(film, &problem, memory, report);
+      status = sb_film_solve(film, &problem, solver, report);
       double h = range->film == SB_FILM_LAW_MIN       ? film->film_min
                  : range->film == SB_FILM_LAW_CENTRAL ? film->film_central
                                                       : film->film_flux;
@@ -73,71 +71,59 @@ static SbStatus solve_grid(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSo
     }
   }
   free(film);
+  sb_film_solver_destroy(solver);
   return status;
 }
 
 // The regression itself.
 static SbStatus regress(SbFilmLaw *out, SbReport *report) {
-  size_t n = out->count;
-  gsl_matrix *X = gsl_matrix_alloc(n, 3);
-  gsl_vector *y = gsl_vector_alloc(n);
-  gsl_vector *c = gsl_vector_alloc(3);
-  gsl_matrix *covariance = gsl_matrix_alloc(3, 3);
-  gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(n, 3);
-  SbStatus status = SB_OK;
-  if (X == NULL || y == NULL || c == NULL || covariance == NULL || work == NULL) {
-    status = sb_fail(report, SB_ERROR_MEMORY, "film law: out of memory");
-  } else {
-    for (size_t i = 0; i < n; i++) {
-      gsl_matrix_set(X, i, 0, 1.0);
-      gsl_matrix_set(X, i, 1, log(out->U[i]));
-      gsl_matrix_set(X, i, 2, log(out->W[i]));
-      gsl_vector_set(y, i, log(out->H[i]));
-    }
-    double chi2 = 0.0;
-    if (gsl_multifit_linear(X, y, c, covariance, &chi2, work) != 0) {
-      status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "film law: the regression failed");
-    } else {
-      out->k = exp(gsl_vector_get(c, 0));
-      out->a = gsl_vector_get(c, 1);
-      out->b = gsl_vector_get(c, 2);
-      double quantile = n > 3 ? gsl_cdf_tdist_Pinv(0.975, (double)(n - 3)) : 0.0;
-      out->k_confidence = quantile * sqrt(gsl_matrix_get(covariance, 0, 0));
-      out->a_confidence = quantile * sqrt(gsl_matrix_get(covariance, 1, 1));
-      out->b_confidence = quantile * sqrt(gsl_matrix_get(covariance, 2, 2));
-      double sum = 0.0;
-      for (size_t i = 0; i < n; i++) {
-        double law = out->k * pow(out->U[i], out->a) * pow(out->W[i], out->b);
-        out->residual[i] = out->H[i] / law - 1.0;
-        sum += out->residual[i] * out->residual[i];
-        out->largest_residual = fmax(out->largest_residual, fabs(out->residual[i]));
-      }
-      out->rms_residual = sqrt(sum / (double)n);
-    }
+  const size_t n = out->count;
+  double rows[SB_FILM_LAW_POINTS][3], ln_H[SB_FILM_LAW_POINTS], c[3], covariance[3][3];
+  for (size_t i = 0; i < n; i++) {
+    rows[i][0] = 1.0;
+    rows[i][1] = log(out->U[i]);
+    rows[i][2] = log(out->W[i]);
+    ln_H[i] = log(out->H[i]);
   }
+  gsl_matrix_view X = gsl_matrix_view_array(&rows[0][0], n, 3);
+  gsl_vector_view y = gsl_vector_view_array(ln_H, n);
+  gsl_vector_view coefficients = gsl_vector_view_array(c, 3);
+  gsl_matrix_view spread = gsl_matrix_view_array(&covariance[0][0], 3, 3);
+  gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(n, 3);
+  if (work == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "film law: out of memory");
+  }
+  double chi2;
+  const int failed =
+      gsl_multifit_linear(&X.matrix, &y.vector, &coefficients.vector, &spread.matrix, &chi2, work);
   gsl_multifit_linear_free(work);
-  gsl_matrix_free(covariance);
-  gsl_vector_free(c);
-  gsl_vector_free(y);
-  gsl_matrix_free(X);
-  return status;
+  if (failed != 0) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "film law: the regression failed");
+  }
+  out->k = exp(c[0]);
+  out->a = c[1];
+  out->b = c[2];
+  double quantile = n > 3 ? gsl_cdf_tdist_Pinv(0.975, (double)(n - 3)) : 0.0;
+  out->k_confidence = quantile * sqrt(covariance[0][0]);
+  out->a_confidence = quantile * sqrt(covariance[1][1]);
+  out->b_confidence = quantile * sqrt(covariance[2][2]);
+  double sum = 0.0;
+  for (size_t i = 0; i < n; i++) {
+    double law = out->k * pow(out->U[i], out->a) * pow(out->W[i], out->b);
+    out->residual[i] = out->H[i] / law - 1.0;
+    sum += out->residual[i] * out->residual[i];
+    out->largest_residual = fmax(out->largest_residual, fabs(out->residual[i]));
+  }
+  out->rms_residual = sqrt(sum / (double)n);
+  return SB_OK;
 }
 
-SbStatus sb_film_law_fit(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSolver *memory,
-                         SbReport *report) {
+SbStatus sb_film_law_fit(SbFilmLaw *out, const SbFilmLawRange *range, SbReport *report) {
   memset(out, 0, sizeof *out);
   SbStatus status = check(range, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  SbFilmSolver *own = NULL;
-  if (memory == NULL) {
-    status = sb_film_solver_create(&own, report);
-  }
   if (status == SB_OK) {
-    status = solve_grid(out, range, memory != NULL ? memory : own, report);
+    status = solve_grid(out, range, report);
   }
-  sb_film_solver_destroy(own);
   if (status == SB_OK) {
     status = regress(out, report);
   }

@@ -38,8 +38,7 @@ typedef struct {
   double residual[SB_FILM_LAW_POINTS]; // solved / law - 1
 } SbFilmLaw;
 
-// Solves the grid and fits the law. `memory` may be NULL. SB_ERROR_RANGE for an empty or too large
+// Solves the grid and fits the law. SB_ERROR_RANGE for an empty or too large
 // grid, SB_ERROR_NOT_CONVERGED if any solve fails, SB_ERROR_CANCELLED,
 // SB_ERROR_MEMORY.
-SbStatus sb_film_law_fit(SbFilmLaw *out, const SbFilmLawRange *range, SbFilmSolver *memory,
-                         SbReport *report);
+SbStatus sb_film_law_fit(SbFilmLaw *out, const SbFilmLawRange *range, SbReport *report);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 SbStatus sb_film_stribeck(SbStribeckPoint *out, size_t count, const SbFilmProblem *problem,
-                          double slowest, double fastest, SbFilmSolver *memory, SbReport *report) {
+                          double slowest, double fastest, SbReport *report) {
   if (problem->surface == SB_ROUGH_NONE) {
     return sb_fail(report, SB_ERROR_INPUT, "a Stribeck curve needs a rough surface");
   }
@@ -14,19 +14,14 @@ SbStatus sb_film_stribeck(SbStribeckPoint *out, size_t count, const SbFilmProble
                    "a Stribeck curve needs two rising speeds and two points");
   }
   SbFilm *film = malloc(sizeof *film);
-  SbFilmSolver *own = NULL;
-  SbStatus status = SB_OK;
-  if (film == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
-  }
-  if (memory == NULL) {
-    status = sb_film_solver_create(&own, report);
-  }
+  SbFilmSolver *solver = NULL;
+  SbStatus status = film != NULL ? sb_film_solver_create(&solver, report)
+                                 : sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
   size_t converged = 0;
   for (size_t i = 0; i < count && status == SB_OK; i++) {
     SbFilmProblem at = *problem;
     at.speed = slowest * pow(fastest / slowest, (double)i / (double)(count - 1));
-    status = sb_film_solve(film, &at, memory != NULL ? memory : own, report);
+    status = sb_film_solve(film, &at, solver, report);
     out[i] = (SbStribeckPoint){.speed = at.speed};
     if (status == SB_ERROR_NOT_CONVERGED) {
       status = SB_OK;
@@ -58,6 +53,6 @@ SbStatus sb_film_stribeck(SbStribeckPoint *out, size_t count, const SbFilmProble
     status = sb_succeed(report);
   }
   free(film);
-  sb_film_solver_destroy(own);
+  sb_film_solver_destroy(solver);
   return status;
 }

@@ -21,8 +21,8 @@ typedef struct {
 
 // Solves `problem` (surface model, shear_strength and load_coefficient set; its speed is not used)
 // at `count` >= 2 speeds spaced evenly in the logarithm from `slowest` to `fastest` [m/s] > 0, in
-// out[0 .. count - 1]. `memory` may be NULL. Each point takes some 10 ms. A point that does not
+// out[0 .. count - 1]. Each point takes some 10 ms. A point that does not
 // converge is flagged and skipped over; SB_ERROR_NOT_CONVERGED if none did. SB_ERROR_INPUT for a
 // problem without a surface, SB_ERROR_RANGE for speeds or count, else as sb_film_solve().
 SbStatus sb_film_stribeck(SbStribeckPoint *out, size_t count, const SbFilmProblem *problem,
-                          double slowest, double fastest, SbFilmSolver *memory, SbReport *report);
+                          double slowest, double fastest, SbReport *report);

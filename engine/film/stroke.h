@@ -8,6 +8,3 @@
 
 // Volume [m3] over a signed stroke `length` [m] at film `film` [m] on a bore of `diameter` [m].
 double sb_leak_stroke(double diameter, double film, double length);
-
-// Flow [m3/s] at sliding speed `speed` [m/s] (equation 5.19).
-double sb_leak_flow(double diameter, double film, double speed);

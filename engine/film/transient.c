@@ -5,6 +5,7 @@
 // the contact is held to a share of the tolerance.
 #include "engine/film/transient.h"
 
+#include <gsl/gsl_interp.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,20 +28,11 @@ static bool sample(double *film, double *pressure, const SbFilm *profile, double
   if (profile->points < 2 || x < profile->x[0] || x > profile->x[profile->points - 1]) {
     return false;
   }
-  size_t low = 0;
-  size_t high = profile->points - 1;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    if (profile->x[middle] <= x) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
-  const double span = profile->x[high] - profile->x[low];
-  const double s = span > 0.0 ? (x - profile->x[low]) / span : 0.0;
-  *film = profile->film[low] + s * (profile->film[high] - profile->film[low]);
-  *pressure = profile->pressure[low] + s * (profile->pressure[high] - profile->pressure[low]);
+  const size_t i = gsl_interp_bsearch(profile->x, x, 0, profile->points - 1);
+  const double span = profile->x[i + 1] - profile->x[i];
+  const double s = span > 0.0 ? (x - profile->x[i]) / span : 0.0;
+  *film = profile->film[i] + s * (profile->film[i + 1] - profile->film[i]);
+  *pressure = profile->pressure[i] + s * (profile->pressure[i + 1] - profile->pressure[i]);
   return true;
 }
 
@@ -106,12 +98,8 @@ static double film_at(const SbFilmTransient *t, const SbTransientState *s, doubl
     i++;
   }
   double sum = 0.0;
-  for (int j = i - 1; j <= i + 2; j++) {
-    double basis = 1.0;
-    for (int k = i - 1; k <= i + 2; k++) {
-      basis *= k == j ? 1.0 : (X - t->X[k]) / (t->X[j] - t->X[k]);
-    }
-    sum += basis * s->H[j];
+  for (int k = 0; k < 4; k++) {
+    sum += sb_transient_lagrange(&t->X[i - 1], 4, k, X) * s->H[i - 1 + k];
   }
   return sum;
 }
@@ -123,18 +111,14 @@ static void read_figures(double out[2], double *place, const SbFilmTransient *t)
 }
 
 static void remember(SbFilmTransient *t) {
-  memmove(t->content[1], t->content[0], 2 * sizeof t->content[0]);
-  memmove(&t->content_time[1], &t->content_time[0], 2 * sizeof(double));
-  memmove(&t->content_half[1], &t->content_half[0], 2 * sizeof(double));
-  memmove(&t->content_middle[1], &t->content_middle[0], 2 * sizeof(double));
-  memmove(&t->content_travel[1], &t->content_travel[0], 2 * sizeof(double));
+  const SbTransientState *s = &t->now;
+  SbTransientPast *past = t->past;
+  memmove(&past[1], &past[0], 2 * sizeof *past);
+  past[0].time = s->time, past[0].travel = s->travel;
+  past[0].half = s->half, past[0].middle = s->middle;
   for (int i = 0; i < t->nodes; i++) {
-    t->content[0][i] = t->now.half * sb_transient_height(&t->now, i);
+    past[0].content[i] = s->half * sb_transient_height(s, i);
   }
-  t->content_time[0] = t->now.time;
-  t->content_half[0] = t->now.half;
-  t->content_middle[0] = t->now.middle;
-  t->content_travel[0] = t->now.travel;
   t->known_times = t->known_times < 3 ? t->known_times + 1 : 3;
 }
 
@@ -142,27 +126,18 @@ void sb_film_transient_destroy(SbFilmTransient *t) {
   if (t != NULL) {
     sb_film_transient_destroy(t->companion);
     free(t->kernel);
-    free(t->known);
     free(t->present);
-    free(t->present_known);
     free(t->matrix);
-    free(t->right);
-    free(t->pivot);
     free(t);
   }
 }
 
 static bool allocate(SbFilmTransient *t) {
-  const size_t n = SB_TRANSIENT_NODES_MAX;
-  t->kernel = malloc(n * n * sizeof(double));
-  t->known = malloc(n * sizeof(double));
-  t->present = malloc(n * n * sizeof(double));
-  t->present_known = malloc(n * sizeof(double));
-  t->matrix = malloc(n * n * sizeof(double));
-  t->right = malloc(n * sizeof(double));
-  t->pivot = malloc(n * sizeof(int));
-  return t->kernel != NULL && t->known != NULL && t->present != NULL && t->present_known != NULL &&
-         t->matrix != NULL && t->right != NULL && t->pivot != NULL;
+  const size_t size = (size_t)SB_TRANSIENT_NODES_MAX * SB_TRANSIENT_NODES_MAX * sizeof(double);
+  t->kernel = malloc(size);
+  t->present = malloc(size);
+  t->matrix = malloc(size);
+  return t->kernel != NULL && t->present != NULL && t->matrix != NULL;
 }
 
 static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
@@ -189,8 +164,9 @@ static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
 
 // One resolution from the steady films at speed_scale and, unless it is at rest, at the start.
 static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *problem,
-                      double coarseness, const SbFilm *largest, const SbFilm *start,
+                      double coarseness, const SbFilm steady[2], SbFilmSolver *solver,
                       SbReport *report) {
+  const SbFilm *largest = &steady[0];
   SbFilmTransient *t = *out = calloc(1, sizeof *t);
   if (t == NULL || !allocate(t)) {
     return sb_fail(report, SB_ERROR_MEMORY, "transient film: out of memory");
@@ -218,7 +194,7 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   t->now.load = 0.5 * M_PI;
   t->now.half = 1.0;
   t->now.middle = scaled.speed < 0.0 ? -t->scale.middle : t->scale.middle;
-  sb_transient_mesh(t, problem->rest_film / t->scale.film);
+  sb_transient_mesh(t, solver, problem->rest_film / t->scale.film);
   SbStatus status = lay_steady(t, &t->now, largest, scaled.speed, report);
   if (status != SB_OK) {
     return status;
@@ -237,7 +213,7 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
       return sb_fail(report, status, "transient film: no dry contact to start from");
     }
   } else if (problem->film.speed != scaled.speed) {
-    status = lay_steady(t, &t->now, start, problem->film.speed, report);
+    status = lay_steady(t, &t->now, &steady[1], problem->film.speed, report);
   }
   t->info.unknowns = (size_t)t->nodes - 1;
   t->info.speed = problem->film.speed;
@@ -253,34 +229,37 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
   if (status != SB_OK) {
     return status;
   }
-  SbFilm *steady = malloc(2 * sizeof *steady);
-  SbFilmProfile *profile = malloc(2 * sizeof *profile); // of those
-  if (steady == NULL || profile == NULL) {
-    free(steady);
-    free(profile);
-    return sb_fail(report, SB_ERROR_MEMORY, "transient film: out of memory");
-  }
+  struct {
+    SbFilm film[2];
+    SbFilmProfile profile[2];
+  } *steady = malloc(sizeof *steady);
+  SbFilmSolver *solver = NULL;
+  status = steady != NULL ? sb_film_solver_create(&solver, report)
+                          : sb_fail(report, SB_ERROR_MEMORY, "transient film: out of memory");
   // The steady film at the largest speed checks the problem, and the mesh's error by its own.
   SbFilmProblem film = problem->film;
   film.speed = (film.speed < 0.0 ? -1.0 : 1.0) * problem->speed_scale;
-  film.profile = &profile[0];
-  status = sb_film_solve(&steady[0], &film, NULL, report);
-  if (status == SB_OK && steady[0].moes_M < 1.0) {
+  if (status == SB_OK) {
+    film.profile = &steady->profile[0];
+    status = sb_film_solve(&steady->film[0], &film, solver, report);
+  }
+  if (status == SB_OK && steady->film[0].moes_M < 1.0) {
     status = sb_fail_parameter(report, SB_ERROR_RANGE, "drive.speed",
-                               "transient film: M = %.3g is below 1", steady[0].moes_M);
+                               "transient film: M = %.3g is below 1", steady->film[0].moes_M);
   }
   if (status == SB_OK && problem->rest_film == 0.0 && problem->film.speed != film.speed) {
     film.speed = problem->film.speed;
-    film.profile = &profile[1];
+    film.profile = &steady->profile[1];
     film.tolerance = fmin(film.tolerance, 1e-3);
-    status = sb_film_solve(&steady[1], &film, NULL, report);
+    sb_film_solver_forget(solver);
+    status = sb_film_solve(&steady->film[1], &film, solver, report);
   }
   SbFilmTransient *t = NULL;
   if (status == SB_OK) {
-    status = begin(&t, problem, 1.0, &steady[0], &steady[1], report);
+    status = begin(&t, problem, 1.0, steady->film, solver, report);
   }
   if (status == SB_OK) {
-    status = begin(&t->companion, problem, 2.0, &steady[0], &steady[1], report);
+    status = begin(&t->companion, problem, 2.0, steady->film, solver, report);
     if (status == SB_ERROR_NOT_CONVERGED) {
       sb_film_transient_destroy(t->companion);
       t->companion = NULL;
@@ -288,8 +267,8 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
       status = SB_OK;
     }
   }
+  sb_film_solver_destroy(solver);
   free(steady);
-  free(profile);
   if (status != SB_OK) {
     sb_film_transient_destroy(t);
     return status;
@@ -301,36 +280,25 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
 // ---------------------------------------------------------------- steps
 
 // Weights of the derivative at the new time by the new and the `count` last values, newest first.
-static void derivative(double c[3], double h, const double *time, int count) {
+static void derivative(double c[3], double h, const SbTransientPast *past, int count) {
   if (count < 2) {
     c[0] = 1.0 / h;
     c[1] = -1.0 / h;
     c[2] = 0.0;
     return;
   }
-  const double before = time[0] - time[1];
+  const double before = past[0].time - past[1].time;
   c[0] = (2.0 * h + before) / (h * (h + before));
   c[1] = -(h + before) / (h * before);
   c[2] = h / (before * (h + before));
 }
 
-// Value at the new time of the polynomial through the `count` last ones.
-static void extrapolation(double e[3], double h, const double *time, int count) {
-  const double now = time[0] + h;
-  for (int k = 0; k < 3; k++) {
-    e[k] = k < count ? 1.0 : 0.0;
-    for (int j = 0; j < count && k < count; j++) {
-      e[k] *= j == k ? 1.0 : (now - time[j]) / (time[k] - time[j]);
-    }
-  }
-}
-
-// One implicit step of length h to the given speed and load, from `now` to `next`; *error is the
-// step's own, the mean over the contact against the mean film, infinite while unknown.
-static SbStatus advance(double *error, SbFilmTransient *t, double h, double speed, double load) {
-  double c[3], e[3];
-  derivative(c, h, t->content_time, t->known_times);
-  extrapolation(e, h, t->content_time, t->known_times);
+SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, double speed,
+                              double load) {
+  double c[3];
+  const SbTransientPast *past = t->past;
+  const double time[] = {past[0].time, past[1].time, past[2].time};
+  derivative(c, h, past, t->known_times);
   SbTransientState *s = &t->next;
   *s = t->now;
   s->time = t->now.time + h;
@@ -362,21 +330,23 @@ static SbStatus advance(double *error, SbFilmTransient *t, double h, double spee
   double carried_rate = 0.0;
   const bool carry = fabs(s->travel - t->now.travel) < t->reach * s->half;
   for (int k = 0; k < t->known_times; k++) {
-    const double way = carry ? (s->travel - t->content_travel[k]) / s->half : 0.0;
-    sb_transient_carry(earlier, t, t->content[k], way);
+    const double way = carry ? (s->travel - past[k].travel) / s->half : 0.0;
+    sb_transient_carry(earlier, t, past[k].content, way);
     const double weight = k < 2 ? c[k + 1] : 0.0;
-    carried_rate -= weight * t->content_half[k] * way;
+    // Of the polynomial through the last contents, at the new time.
+    const double ahead = sb_transient_lagrange(time, t->known_times, k, time[0] + h);
+    carried_rate -= weight * past[k].half * way;
     for (int i = 0; i < t->nodes; i++) {
       old[i] += weight * earlier[i];
-      guess[i] += e[k] * earlier[i];
+      guess[i] += ahead * earlier[i];
     }
   }
   const SbTransientStep step = {
       .c0 = c[0],
       .old = old,
-      .half_rate = c[0] * s->half + c[1] * t->content_half[0] + c[2] * t->content_half[1],
+      .half_rate = c[0] * s->half + c[1] * past[0].half + c[2] * past[1].half,
       .carried_rate = carried_rate,
-      .middle_rate = c[0] * s->middle + c[1] * t->content_middle[0] + c[2] * t->content_middle[1],
+      .middle_rate = c[0] * s->middle + c[1] * past[0].middle + c[2] * past[1].middle,
   };
   SbTransientTrace trace;
   status = sb_transient_newton(&trace, t, s, &step);
@@ -389,8 +359,8 @@ static SbStatus advance(double *error, SbFilmTransient *t, double h, double spee
   // h1)/2, for BDF2 y'''/6 times the two products.
   double share = INFINITY;
   if (t->known_times >= 3) {
-    const double h1 = t->content_time[0] - t->content_time[1];
-    const double h2 = t->content_time[1] - t->content_time[2];
+    const double h1 = past[0].time - past[1].time;
+    const double h2 = past[1].time - past[2].time;
     const double own = h * h * (h + h1) * (h + h1) / (2.0 * h + h1);
     const double other = h * (h + h1) * (h + h1 + h2);
     share = own / (own + other);
@@ -417,7 +387,7 @@ static SbStatus advance(double *error, SbFilmTransient *t, double h, double spee
   return SB_OK;
 }
 
-static void accept(SbFilmTransient *t, double error) {
+void sb_transient_accept(SbFilmTransient *t, double error) {
   // Fluid that leaves the contact takes its error with it.
   const double h = t->next.time - t->now.time;
   const double left = fmin(1.0, 0.5 * h * fabs(t->next.speed) / t->next.half);
@@ -465,7 +435,7 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, double load1, 
     const double share = (t->now.time + h - begin) / dt;
     double error;
     const SbStatus status =
-        advance(&error, t, h, v0 + share * (v1 - v0), load0 + share * (load1 - load0));
+        sb_transient_advance(&error, t, h, v0 + share * (v1 - v0), load0 + share * (load1 - load0));
     if (status == SB_ERROR_NOT_CONVERGED ||
         (status == SB_OK && error > limit && t->known_times >= 2)) {
       t->info.rejected++;
@@ -480,7 +450,7 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, double load1, 
     if (status != SB_OK) {
       return status;
     }
-    accept(t, error);
+    sb_transient_accept(t, error);
     const double grow = fmin(2.0, 0.85 * cbrt(limit / fmax(error, 1e-300)));
     h = isfinite(error) ? h * fmax(grow, 0.3) : h;
     if (wanted > h && grow >= 1.0) {
@@ -548,26 +518,6 @@ SbStatus sb_film_transient_step(SbFilmTransient *t, double dt, double speed, dou
                     report);
     if (status == SB_OK) {
       status = compare(t, way / pieces);
-    }
-  }
-  return status;
-}
-
-SbStatus sb_film_transient_fixed(SbFilmTransient *t, double dt, size_t count, double speed,
-                                 double load, SbReport *report) {
-  SbStatus status = check_step(dt, speed, load, t, report);
-  const double v0 = t->now.speed, v1 = 0.5 * speed / t->scale.half_width;
-  const double load0 = t->now.load, load1 = load / t->problem.film.load * 0.5 * M_PI;
-  for (size_t k = 1; k <= count && status == SB_OK; k++) {
-    const double share = (double)k / (double)count;
-    double error;
-    status = advance(&error, t, dt / (double)count, v0 + share * (v1 - v0),
-                     load0 + share * (load1 - load0));
-    if (status == SB_OK) {
-      accept(t, error);
-    } else {
-      status =
-          sb_fail(report, status, "transient film: step %zu of %zu does not converge", k, count);
     }
   }
   return status;

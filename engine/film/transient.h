@@ -66,10 +66,6 @@ void sb_film_transient_destroy(SbFilmTransient *transient);
 SbStatus sb_film_transient_step(SbFilmTransient *transient, double dt, double speed, double load,
                                 SbReport *report);
 
-// The same in `count` even steps without error control, for studies of the order.
-SbStatus sb_film_transient_fixed(SbFilmTransient *transient, double dt, size_t count, double speed,
-                                 double load, SbReport *report);
-
 // The present film in SI and in the seal's frame; film_flux is the film where the pressure is
 // greatest, flow that through x = 0, `solver` counts since the start.
 void sb_film_transient_result(SbFilm *out, const SbFilmTransient *transient);

@@ -21,6 +21,12 @@ typedef struct {
   bool cavity[SB_TRANSIENT_NODES_MAX];  // active set
 } SbTransientState;
 
+// An earlier time.
+typedef struct {
+  double time, travel, half, middle;
+  double content[SB_TRANSIENT_NODES_MAX]; // half m
+} SbTransientPast;
+
 // A step: content' = c0 content + old, and the mesh's velocity.
 typedef struct {
   double c0;
@@ -54,14 +60,14 @@ struct SbFilmTransient {
   double flow;                                // scale of v m
   double inlet, outlet;                       // left and right ambient pressure above the rupture's
   double *kernel;                             // [nodes][nodes] of the half-plane at half = 1
-  double *present;       // [nodes][nodes] kernel at present_half, present_middle
-  double *present_known; // [nodes] undeformed gap and known pressures there
+  double *present; // [nodes][nodes] kernel at present_half, present_middle
+  double present_known[SB_TRANSIENT_NODES_MAX]; // undeformed gap and known pressures there
   double present_half, present_middle;
-  SbSurfaceCompliance compliance; // modes = 0: half-plane and parabola
-  double *known;                  // [nodes] ambient pressures to infinity
+  SbSurfaceCompliance compliance;       // modes = 0: half-plane and parabola
+  double known[SB_TRANSIENT_NODES_MAX]; // ambient pressures to infinity
   double *matrix;
-  double *right;
-  int *pivot;
+  double right[SB_TRANSIENT_NODES_MAX];
+  int pivot[SB_TRANSIENT_NODES_MAX];
   double row_scale[SB_TRANSIENT_NODES_MAX];
   double work[3][SB_TRANSIENT_NODES_MAX];   // of a step, outside Newton's method
   double newton[2][SB_TRANSIENT_NODES_MAX]; // inside: elastic gap and change of the pressure
@@ -70,20 +76,28 @@ struct SbFilmTransient {
   double factored_c0;
   bool factored_cavity[SB_TRANSIENT_NODES_MAX];
   SbTransientState now, next, before;
-  double content[3][SB_TRANSIENT_NODES_MAX]; // half m at the last three times, newest first
-  double content_time[3], content_half[3], content_middle[3], content_travel[3];
-  int known_times;
+  SbTransientPast past[3];            // newest first
+  int known_times;                    // of these
   double way, apart[2], apart_way[2]; // of the fluid; largest difference, and the way then
   double step;                        // next step to try [s]
   SbFilmTransientInfo info;
 };
 
-// Mesh and kernel for films up to `rest`; the arrays stand.
-void sb_transient_mesh(SbFilmTransient *t, double rest);
+// Mesh and kernel for films up to `rest`; the arrays stand. Takes the solver's tables and a mesh.
+void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest);
 
 // Mean over each cell, displaced back by the carried share of `way`, of an earlier content: the
 // derivatives of the content's integral over the mesh, which keeps the mass exactly.
 void sb_transient_carry(double *out, const SbFilmTransient *t, const double *content, double way);
+
+// Lagrange's polynomial of node k of `count`, at x.
+static inline double sb_transient_lagrange(const double *node, int count, int k, double x) {
+  double value = 1.0;
+  for (int j = 0; j < count; j++) {
+    value *= j == k ? 1.0 : (x - node[j]) / (node[k] - node[j]);
+  }
+  return value;
+}
 
 // Fluid height of a node.
 double sb_transient_height(const SbTransientState *s, int i);
@@ -105,6 +119,13 @@ double sb_transient_flow(const SbFilmTransient *t, const SbTransientState *s, in
 // whose H may disagree with its P.
 SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTransientState *s,
                              const SbTransientStep *step);
+
+// One implicit step of length h to the given speed (SbTransientState's) and load, from `now` to
+// `next`; *error is the step's own, the mean over the contact against the mean film, infinite while
+// unknown. Then takes `next` for `now`.
+SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, double speed,
+                              double load);
+void sb_transient_accept(SbFilmTransient *t, double error);
 
 // Contact at rest with the film `rest` (scaled) between the surfaces.
 SbStatus sb_transient_rest(SbFilmTransient *t, SbTransientState *s, double rest);

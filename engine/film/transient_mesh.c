@@ -7,59 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "engine/film/ehl_layers.h"
+#include "engine/film/ehl.h"
 #include "engine/film/transient_internal.h"
 #include "engine/numeric/legendre.h"
 
 static const double RESOLVED = 4.5e-3; // spacing for the dip of a reversal, 0.02 b wide
 static const double CARRIED = 3.0;     // layers
-
-// f'' = ln|y|.
-static double second_integral(double y) {
-  return y == 0.0 ? 0.0 : 0.5 * y * y * (log(fabs(y)) - 1.5);
-}
-
-static double first_integral(double y) {
-  return y == 0.0 ? 0.0 : y * (log(fabs(y)) - 1.0);
-}
-
-// Integral of the straight line from 1 at `top` to 0 at `foot`, times ln|X - s|.
-static double half_hat(double X, double top, double foot, const double *node, const double *weight,
-                       int points) {
-  const double h = fabs(foot - top);
-  const double middle = 0.5 * (foot + top);
-  if (fabs(X - middle) > 4.0 * h) {
-    double sum = 0.0;
-    for (int q = 0; q < points; q++) {
-      sum += weight[q] * 0.5 * (1.0 - node[q]) *
-             log(fabs(X - (middle + 0.5 * (foot - top) * node[q])));
-    }
-    return 0.5 * h * sum;
-  }
-  const double side = foot > top ? 1.0 : -1.0;
-  return side * first_integral(X - top) +
-         (second_integral(X - foot) - second_integral(X - top)) / h;
-}
-
-static double third_integral(double y) {
-  return y == 0.0 ? 0.0 : y * y * y / 6.0 * (log(fabs(y)) - 11.0 / 6.0);
-}
-
-// Integral of the parabola (s - a)(b - s)/2 times ln|X - s|.
-static double bubble(double X, double a, double b, const double *node, const double *weight,
-                     int points) {
-  const double h = b - a;
-  const double middle = 0.5 * (a + b);
-  if (fabs(X - middle) > 4.0 * h) {
-    double sum = 0.0;
-    for (int q = 0; q < points; q++) {
-      sum += weight[q] * (1.0 - node[q] * node[q]) * log(fabs(X - middle - 0.5 * h * node[q]));
-    }
-    return h * h * h / 16.0 * sum;
-  }
-  return 0.5 * h * (second_integral(X - a) + second_integral(X - b)) - third_integral(X - a) +
-         third_integral(X - b);
-}
 
 // Second difference of the pressure at node j: factors of j - 1, j, j + 1.
 static void second_difference(double out[3], const SbFilmTransient *t, int j) {
@@ -70,38 +23,51 @@ static void second_difference(double out[3], const SbFilmTransient *t, int j) {
   out[1] = -out[0] - out[2];
 }
 
-static void build_kernel(SbFilmTransient *t) {
-  enum { POINTS = 6 };
-  double node[POINTS];
-  double weight[POINTS];
-  sb_legendre_gauss(node, weight, POINTS);
-  const int n = t->nodes;
-  for (int i = 0; i < n; i++) {
-    double *row = t->kernel + (size_t)i * (size_t)n;
-    memset(row, 0, (size_t)n * sizeof *row);
-    for (int j = 0; j + 1 < n; j++) {
-      row[j] -= half_hat(t->X[i], t->X[j], t->X[j + 1], node, weight, POINTS) / M_PI;
-      row[j + 1] -= half_hat(t->X[i], t->X[j + 1], t->X[j], node, weight, POINTS) / M_PI;
-      // The bend between the nodes: p = line - p'' (s - a)(b - s)/2, p'' the ends' mean.
-      const double bend = bubble(t->X[i], t->X[j], t->X[j + 1], node, weight, POINTS) / M_PI;
-      for (int k = j; k <= j + 1; k++) {
-        if (k > 0 && k + 1 < n) {
-          double d[3];
-          second_difference(d, t, k);
-          for (int m = 0; m < 3; m++) {
-            row[k - 1 + m] += 0.5 * bend * d[m];
-          }
-        }
+// Adds to `row` the integral over the interval after node j, whose quadratic polynomials through
+// its ends and its middle have the integrals `part`: there the pressure is the ends' mean less
+// p'' h^2 / 8 with the mean p'' of the ends.
+static void add_interval(double *row, const SbFilmTransient *t, int j, const double *part,
+                         double factor) {
+  const double h = t->X[j + 1] - t->X[j];
+  row[j] += factor * (part[0] + 0.5 * part[1]);
+  row[j + 1] += factor * (part[2] + 0.5 * part[1]);
+  for (int k = j; k <= j + 1; k++) {
+    if (k > 0 && k + 1 < t->nodes) {
+      double d[3];
+      second_difference(d, t, k);
+      for (int m = 0; m < 3; m++) {
+        row[k - 1 + m] -= factor * part[1] * h * h / 16.0 * d[m];
       }
     }
-    t->known[i] = t->inlet / M_PI * first_integral(t->X[i] - t->X[0]) -
-                  t->outlet / M_PI * first_integral(t->X[i] - t->X[n - 1]) +
-                  (t->inlet - t->outlet) / M_PI * log(2.0) * t->X[i];
+  }
+}
+
+// Kernel and weights of the load, interval by interval as an element of `solver`'s meshes.
+static void build_kernel(SbFilmTransient *t, SbFilmSolver *solver) {
+  enum { QUADRATIC = 2 };
+  const size_t n = (size_t)t->nodes;
+  SbEhlMesh *mesh = &solver->mesh[0];
+  SbEhlElement *e = &mesh->element[0];
+  memset(t->kernel, 0, n * n * sizeof *t->kernel);
+  memset(t->weight, 0, sizeof t->weight);
+  for (int j = 0; j + 1 < t->nodes; j++) {
+    sb_ehl_mesh_begin(mesh, 0.0, 0.0);
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, t->X[j], t->X[j + 1], 0.0, QUADRATIC, false);
+    sb_ehl_kernel_prepare(e, &solver->tables);
+    add_interval(t->weight, t, j, e->integral, 1.0);
+    for (size_t i = 0; i < n; i++) {
+      double part[SB_EHL_DEGREE_MAX + 2] = {0};
+      sb_ehl_kernel_row(part, e, &solver->tables, t->X[i], 0.0);
+      add_interval(t->kernel + i * n, t, j, part, -1.0 / M_PI);
+    }
+  }
+  for (size_t i = 0; i < n; i++) {
+    t->known[i] = sb_ehl_ambient_gap(t->X[i], t->X[0], t->X[n - 1], t->inlet, t->outlet);
   }
 }
 
 // Half of the mesh from the middle outward, mirrored: spacing a share of the distance to the edge.
-void sb_transient_mesh(SbFilmTransient *t, double rest) {
+void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest) {
   SbEhlLayers layers = {.lambda = t->scale.lambda, .starvation = 1.0};
   memcpy(layers.bow, t->scale.bow, sizeof layers.bow);
   const double width = fmin(sb_ehl_layers_width(&layers), 2.0);
@@ -134,27 +100,15 @@ void sb_transient_mesh(SbFilmTransient *t, double rest) {
   for (int i = 0; i < t->nodes; i++) {
     const double left = i > 0 ? t->X[i] - t->X[i - 1] : 0.0;
     const double right = i + 1 < t->nodes ? t->X[i + 1] - t->X[i] : 0.0;
-    t->volume[i] = t->weight[i] = 0.5 * (left + right);
+    t->volume[i] = 0.5 * (left + right);
     t->limited[i] = !t->problem.resolve && right > width && fabs(t->X[i]) < 1.0;
     // From CARRIED layers inside the edges on the faces move, after as many again with the fluid.
     const double inside = (1.0 - fabs(t->X[i] + 0.5 * right)) / (CARRIED * width) - 1.0;
     const double ramp = fmin(fmax(inside, 0.0), 1.0);
     t->carried[i] = 2.0 * CARRIED * width < 0.7 ? ramp * ramp * (3.0 - 2.0 * ramp) : 0.0;
   }
-  for (int j = 0; j + 1 < t->nodes; j++) {
-    const double h = t->X[j + 1] - t->X[j];
-    for (int k = j; k <= j + 1; k++) {
-      if (k > 0 && k + 1 < t->nodes) {
-        double d[3];
-        second_difference(d, t, k);
-        for (int m = 0; m < 3; m++) {
-          t->weight[k - 1 + m] -= 0.5 * h * h * h / 12.0 * d[m];
-        }
-      }
-    }
-  }
   t->reach = 0.3 * CARRIED * width;
-  build_kernel(t);
+  build_kernel(t, solver);
 }
 
 // Smooth part of a fitted body on the nodes, added to `present` and its known gap: moments of the

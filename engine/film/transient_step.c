@@ -7,8 +7,9 @@
 // Unknown of a node is its pressure or its void, whichever is not zero.
 #include "engine/film/transient_internal.h"
 
+#include "engine/numeric/dense.h"
+
 #include <cblas.h>
-#include <lapacke.h>
 #include <math.h>
 #include <string.h>
 
@@ -152,11 +153,8 @@ void sb_transient_carry(double *out, const SbFilmTransient *t, const double *con
           h * s * (left + s * (3.0 * m[1] - 2.0 * left - right + s * (left + right - 2.0 * m[1])));
     } else {
       for (int j = k - SIDE + 1; j <= k + SIDE; j++) {
-        double basis = 1.0;
-        for (int l = k - SIDE + 1; l <= k + SIDE; l++) {
-          basis *= l == j ? 1.0 : (at - place[l]) / (place[j] - place[l]);
-        }
-        value += basis * integral[j];
+        value += sb_transient_lagrange(&place[k - SIDE + 1], FACES, j - (k - SIDE + 1), at) *
+                 integral[j];
       }
     }
     out[i] = (value - before) / t->volume[i];
@@ -386,16 +384,14 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
       before_mass = mass;
     }
     assemble(t, s, step, elastic, fresh);
+    t->factored = sb_factor_solve(t->matrix, t->pivot, t->right, order, fresh);
+    if (!t->factored) {
+      return SB_ERROR_NOT_CONVERGED;
+    }
     if (fresh) {
-      t->factored =
-          LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, t->matrix, order, t->pivot) == 0;
       t->factored_c0 = step->c0;
       memcpy(t->factored_cavity, s->cavity, (size_t)n * sizeof(bool));
       trace->factorisations++;
-    }
-    if (!t->factored || LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', order, 1, t->matrix, order,
-                                            t->pivot, t->right, order) != 0) {
-      return SB_ERROR_NOT_CONVERGED;
     }
     trace->iterations++;
     // New gap by the linear elastic relation; no film may shrink below a fifth at once.
@@ -482,10 +478,7 @@ SbStatus sb_transient_rest(SbFilmTransient *t, SbTransientState *s, double rest)
     }
     out[order - 1] = 0.0;
     t->right[order - 1] = load_of(t, s) - s->load;
-    const int rows = (int)order;
-    if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, rows, rows, t->matrix, rows, t->pivot) != 0 ||
-        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', rows, 1, t->matrix, rows, t->pivot, t->right,
-                            rows) != 0) {
+    if (!sb_factor_solve(t->matrix, t->pivot, t->right, n - 1, true)) {
       return SB_ERROR_NOT_CONVERGED;
     }
     for (int i = 1; i + 1 < n; i++) {

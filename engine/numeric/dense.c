@@ -3,6 +3,7 @@
 #include "engine/numeric/dense.h"
 
 #include <assert.h>
+#include <lapacke.h>
 #include <math.h>
 
 static void swap(double *a, double *b) {
@@ -103,4 +104,10 @@ void sb_eigen_symmetric(double *a, double *v, size_t n) {
       }
     }
   }
+}
+
+bool sb_factor_solve(double *a, int *pivot, double *b, int n, bool fresh) {
+  // Our rows are LAPACK's columns: solve with the transpose.
+  return (!fresh || LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, a, n, pivot) == 0) &&
+         LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', n, 1, a, n, pivot, b, n) == 0;
 }

@@ -18,3 +18,7 @@ SB_CHECKED bool sb_eliminate(double *a, double *b, size_t n);
 // Eigenvalues of a symmetric matrix onto its diagonal, by Jacobi's rotations, which keep the small
 // ones' digits; its rest is lost. Eigenvectors as the columns of v, NULL: not wanted.
 void sb_eigen_symmetric(double *a, double *v, size_t n);
+
+// Solves a x = b in place by LAPACK: `a` is n x n by rows. `fresh` replaces it by its factors, with
+// `pivot` [n]; else it holds those of an earlier call. False if singular.
+SB_CHECKED bool sb_factor_solve(double *a, int *pivot, double *b, int n, bool fresh);

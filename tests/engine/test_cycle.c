@@ -305,7 +305,7 @@ static void test_leakage(void) {
   }
   // Equation 5.19 over the time of a stroke is equation 5.20.
   double speed = 1e-2;
-  double over_time = sb_leak_flow(6e-3, 1e-9, speed) * (6.60e-3 / speed);
+  double over_time = G_PI * 6e-3 * 1e-9 * speed / 2 * (6.60e-3 / speed);
   g_assert_cmpfloat(fabs(over_time / sb_leak_stroke(6e-3, 1e-9, 6.60e-3) - 1), <, 1e-12);
 }
 

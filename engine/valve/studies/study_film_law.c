@@ -161,7 +161,7 @@ static void regress(SbStudyWork *work, SbFilmLaw *fits, const Scale *scale) {
         .progress = on_progress,
         .data = &part,
     };
-    (void)sb_study_goes_on(work, sb_film_law_fit(&fits[f], &grid, NULL, &report), &report);
+    (void)sb_study_goes_on(work, sb_film_law_fit(&fits[f], &grid, &report), &report);
     out->solves += fits[f].count;
     out->error = fmax(out->error, fits[f].error);
   }

@@ -45,7 +45,7 @@ static void solve(SbStudyWork *work, SbStribeckPoint *points, int which, double 
   SbStatus status = work->status != SB_OK
                         ? work->status
                         : sb_film_stribeck(points, POINTS, &problem, model->study.speed_min,
-                                           model->study.speed_max, NULL, &local);
+                                           model->study.speed_max, &local);
   if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     (void)sb_study_goes_on(work, status, &local);
     return;
