@@ -121,18 +121,6 @@ typedef struct {
 } SbRingFields;
 void sb_ring_fields(const SbRing *ring, const SbRingFields *out);
 
-// Number of surface nodes that sb_ring_compliance covers: the bore contact and `margin` boundary
-// nodes on either side; 0 without contact.
-int sb_ring_compliance_size(const SbRing *ring, int margin);
-
-// Normal compliance of those n nodes in the present state, all other contacts as they are: a change
-// of nodal forces f_j [N, inward, whole ring] moves the surface inwards by the sum of c[i * n + j]
-// f_j [m]; a pressure p acts by f_j = area[j] p. x [n] axial places, area [n] m^2, c [n * n] m/N,
-// caller's arrays; per metre with plane_strain. Errors: SB_ERROR_INFEASIBLE without contact,
-// SB_ERROR_NOT_CONVERGED, SB_ERROR_MEMORY.
-SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, double *c,
-                            SbReport *report);
-
 // The bore's surface as film solvers take it (engine/contact/compliance.h): the half-plane with the
 // squeezed rubber's own modulus, a smooth rest that is exact for the discrete ring, and the gap
 // whose dry contact has the present pressure, over a window of 1.4 contact widths. Loads are per

@@ -62,10 +62,7 @@ void sb_ring_contact_destroy(SbRingContact *contact) {
 }
 
 void sb_ring_contact_place(const SbRingContact *contact, int i, double x[2]) {
-  const SbRingFem *fem = contact->fem;
-  int node = fem->mesh->loop[i];
-  x[0] = fem->mesh->x[2 * node] + fem->u[2 * node];
-  x[1] = fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1];
+  sb_ring_fem_place(contact->fem, contact->fem->mesh->loop[i], x);
 }
 
 void sb_ring_contact_detect(SbRingContact *contact) {

@@ -69,15 +69,13 @@ static void fail(const SbRingContact *contact, double residual, int changes, int
                   "no balance of forces (residual %.2g) after %d iterations", residual, iterations);
     return;
   }
-  const SbRingFem *fem = contact->fem;
-  int node = fem->mesh->loop[contact->unsteady / SB_RING_SURFACES];
+  double x[2];
+  sb_ring_contact_place(contact, contact->unsteady / SB_RING_SURFACES, x);
   SbRingSurface surface = (SbRingSurface)(contact->unsteady % SB_RING_SURFACES);
   bool wall = surface == SB_RING_WALL_RIGHT || surface == SB_RING_WALL_LEFT;
   (void)sb_fail(report, SB_ERROR_NOT_CONVERGED,
                 "the contact at the %s does not settle %.2f section diameters %s (residual %.2g)",
-                sb_ring_surface_name(surface),
-                wall ? fem->mesh->x[2 * node] + fem->u[2 * node] - contact->now.floor
-                     : fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1],
+                sb_ring_surface_name(surface), wall ? x[0] - contact->now.floor : x[1],
                 wall ? "above the floor" : "from its middle", residual);
 }
 

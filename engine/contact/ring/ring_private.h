@@ -72,3 +72,10 @@ SbStatus sb_ring_press(SbRing *ring, const SbRingSetting *target, SbReport *repo
 
 // The element solver's setting of a load.
 SbRingSetting sb_ring_setting(const SbRing *ring, const SbRingLoad *load);
+
+// Tangent of the present state with the bore's nodes set free, factorised; the ring must be settled
+// afterwards. SB_ERROR_NOT_CONVERGED.
+SbStatus sb_ring_free_bore(SbRing *ring, SbReport *report);
+
+// Leaves the ring as it was: forces and shares of the present state.
+void sb_ring_settle(SbRing *ring);
