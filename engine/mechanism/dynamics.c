@@ -88,6 +88,13 @@ static void load_region(SbDynamics *s) {
   }
 }
 
+// A contact comes to rest; `fresh`: newly loaded, it sticks up to the sliding level only.
+static void rest(SbDynamics *s, size_t i, bool fresh) {
+  s->state[i] = SB_CONTACT_STUCK;
+  s->since[i] = s->t;
+  s->fresh[i] = fresh;
+}
+
 // Loads have changed at once: which contacts appear, vanish, hold or let go.
 static void reload(SbDynamics *s) {
   const SbDynamicsModel *m = s->model;
@@ -115,18 +122,14 @@ static void reload(SbDynamics *s) {
       if (fabs(to) < fabs(s->d[i])) {
         jump_deflection(s, i, to);
       } else if (fabs(to) > fabs(s->d[i])) {
-        s->state[i] = SB_CONTACT_STUCK;
-        s->since[i] = s->t;
-        s->fresh[i] = true;
+        rest(s, i, true);
       }
     } else if (s->state[i] == SB_CONTACT_SLIP && !is_rigid(m, i)) {
       double rate =
           (s->sign[i] * sb_motion_sliding_level(s, i, level, fabs(s->v)) - c->stiffness * s->d[i]) /
           c->damping;
       if (s->sign[i] * (s->v - rate) < 0.0) {
-        s->state[i] = SB_CONTACT_STUCK;
-        s->since[i] = s->t;
-        s->fresh[i] = true;
+        rest(s, i, true);
       }
     }
   }
@@ -168,9 +171,7 @@ static void turn_rigid(SbDynamics *s) {
       s->state[i] = SB_CONTACT_SLIP;
       s->sign[i] = s->v > 0.0 ? 1 : -1;
     } else if (s->state[i] != SB_CONTACT_STUCK) {
-      s->state[i] = SB_CONTACT_STUCK;
-      s->since[i] = s->t;
-      s->fresh[i] = false;
+      rest(s, i, false);
     }
   }
   update_held(s);
@@ -249,9 +250,7 @@ static void contact_event(SbDynamics *s, size_t i, int direction) {
       // It still crept a little: the spring takes what the damper carried of it.
       jump_deflection(s, i, s->d[i] - c->damping / c->stiffness * sb_motion_patch_speed(s, i));
     }
-    s->state[i] = SB_CONTACT_STUCK;
-    s->since[i] = s->t;
-    s->fresh[i] = false;
+    rest(s, i, false);
     if (s->t > s->slipped[i] * (1.0 + 1e-14)) {
       s->margin[i] = 0.0;
     } else {
@@ -352,7 +351,7 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
   }
   size_t patches = sb_motion_patches(m);
   s->system = (SbRadauSystem){.n = 2 + patches + m->extras,
-                              .powers = POWER_COUNT,
+                              .powers = SB_DYNAMICS_TERMS,
                               .rates = sb_motion_numerical_rates,
                               .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9};
   s->system.floor[0] = 1e-3;

@@ -393,20 +393,16 @@ bool sb_motion_event_gauge(const SbDynamics *s, int event, const Linear *l, SbGa
 
 // ---- the numerical path ----
 
-void sb_motion_anchor_copy(SbDynamics *at, const SbDynamics *s, double t, const double *z) {
+void sb_motion_anchor_at(SbDynamics *at, Linear *l, const SbDynamics *s, double t,
+                         const double *z) {
   // All but the steps, which are large and not asked for.
   memcpy(at, s, offsetof(SbDynamics, step));
   at->t = t;
   at->x = z[0];
   at->v = z[1];
   size_t patches = sb_motion_patches(s->model);
-  for (size_t i = 0; i < patches; i++) {
-    at->d[i] = z[2 + i];
-  }
+  memcpy(at->d, z + 2, patches * sizeof *z);
   sb_motion_loads_at(s, z[0], z + 2 + patches, &at->loads);
-}
-
-void sb_motion_anchor_forces(const SbDynamics *at, Linear *l) {
   sb_motion_linear_forces(at, l);
   if (at->held) {
     l->f0 = sb_motion_demand(at, at->t, at->x, at->d, &at->loads);
@@ -437,29 +433,27 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
   const double *extra = z + 2 + patches;
   SbDynamicsLoads loads;
   sb_motion_loads_at(s, x, extra, &loads);
-  for (size_t i = 0; i < POWER_COUNT; i++) {
-    power[i] = 0.0;
-  }
+  SbDynamicsEnergy e = {0};
   const SbDynamicsParts *parts = &s->parts;
   double force =
       parts->loads * (loads.force - m->spring_preload - m->spring_stiffness * x - m->damping * v);
-  power[POWER_PRESSURE] = loads.force * v;
-  power[POWER_VISCOUS] = m->damping * v * v;
+  e.pressure = loads.force * v;
+  e.viscous = m->damping * v * v;
   // Drive.
   double push = sb_motion_drive_force(s, t, x, v), value, rate;
   force += parts->drive * push;
   sb_motion_drive_at(s, t, &value, &rate);
   if (m->drive.quantity == SB_DRIVE_OF_FORCE) {
-    power[POWER_DRIVE] = push * v;
+    e.drive = push * v;
   } else if (s->push.on) {
-    power[POWER_DRIVE] = push * rate;
-    power[POWER_MACHINE] = m->drive_damping * (rate - v) * (rate - v);
+    e.drive = push * rate;
+    e.machine = m->drive_damping * (rate - v) * (rate - v);
   }
   // Stops.
   for (size_t i = 0; i < m->stops; i++) {
     if (s->touch[i].on && m->stop[i].stiffness < 1e300) {
       force -= parts->stop * m->stop[i].side * sb_motion_stop_force(s, i, t, x, v);
-      power[POWER_STOP] += s->stop_damping[i] * v * v;
+      e.stop += s->stop_damping[i] * v * v;
     }
   }
   // Contacts: what the stem feels, and how the patch's spring follows.
@@ -473,21 +467,22 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
     if (s->state[i] == SB_CONTACT_OFF) {
       continue;
     }
-    power[POWER_VISCOUS] += c->viscous * v * v;
+    e.viscous += c->viscous * v * v;
     force += parts->contact[i] * (on_stem - c->viscous * v);
     if (is_rigid(m, i)) {
-      power[POWER_FRICTION] -= on_stem * v;
+      e.friction -= on_stem * v;
     } else if (s->state[i] == SB_CONTACT_STUCK) {
       dz[2 + i] = v;
-      power[POWER_SEAL] += c->damping * v * v;
+      e.seal += c->damping * v * v;
     } else {
       if (c->damping > 0.0) {
         dz[2 + i] = (-on_stem - c->stiffness * z[2 + i]) / c->damping;
       }
-      power[POWER_SEAL] += c->damping * dz[2 + i] * dz[2 + i];
-      power[POWER_FRICTION] -= on_stem * (v - dz[2 + i]);
+      e.seal += c->damping * dz[2 + i] * dz[2 + i];
+      e.friction -= on_stem * (v - dz[2 + i]);
     }
   }
+  memcpy(power, e.term, sizeof e.term);
   dz[0] = v;
   dz[1] = s->held ? 0.0 : force / parts->mass;
   if (m->extras > 0) {

@@ -20,18 +20,6 @@ enum {
   EVENT_COUNT = EVENT_CONTACT_DOWN + SB_DYNAMICS_CONTACTS,
 };
 
-// Integrands of the numerical path.
-enum {
-  POWER_DRIVE,
-  POWER_PRESSURE,
-  POWER_FRICTION,
-  POWER_VISCOUS,
-  POWER_SEAL,
-  POWER_STOP,
-  POWER_MACHINE,
-  POWER_COUNT,
-};
-
 // Forces on the stem that are linear in its state: f0 + f1 tau - k (x - x0) - c v, sliding contacts
 // included at their level, rigid sticking ones and the rigid stop that holds it left out.
 typedef struct {
@@ -112,11 +100,10 @@ double sb_motion_patch_speed(const SbDynamics *s, size_t i);
 // Gauge of an event in the closed-form path; false if it cannot happen in this mode.
 bool sb_motion_event_gauge(const SbDynamics *s, int event, const Linear *linear, SbGauge *gauge);
 
-// Numerical path: a copy of the state anchored at z (x, v, deflections, extra states) at time t.
-void sb_motion_anchor_copy(SbDynamics *at, const SbDynamics *s, double t, const double *z);
-
-// Linear forces at an anchor for sb_motion_event_value; for a held stem what it must bear.
-void sb_motion_anchor_forces(const SbDynamics *at, Linear *linear);
+// Numerical path: a copy of the state anchored at z (x, v, deflections, extra states) at time t,
+// and the linear forces there; for a held stem what it must bear.
+void sb_motion_anchor_at(SbDynamics *at, Linear *linear, const SbDynamics *s, double t,
+                         const double *z);
 
 // The gauge's value at an anchor, and a size below which its sign means nothing; false as above.
 bool sb_motion_event_value(const SbDynamics *at, int event, const Linear *linear, double *value,

@@ -77,8 +77,7 @@ typedef struct {
 static void values_at(const SbDynamics *s, double t, const double *z, Values *out) {
   SbDynamics at;
   Linear linear;
-  sb_motion_anchor_copy(&at, s, t, z);
-  sb_motion_anchor_forces(&at, &linear);
+  sb_motion_anchor_at(&at, &linear, s, t, z);
   for (int event = 0; event < EVENT_COUNT; event++) {
     out->live[event] =
         sb_motion_event_value(&at, event, &linear, &out->value[event], &out->grain[event]);
@@ -89,8 +88,7 @@ static double one_value(const SbDynamics *s, int event, double t, const double *
   SbDynamics at;
   double value = 0.0, grain;
   Linear linear;
-  sb_motion_anchor_copy(&at, s, t, z);
-  sb_motion_anchor_forces(&at, &linear);
+  sb_motion_anchor_at(&at, &linear, s, t, z);
   return sb_motion_event_value(&at, event, &linear, &value, &grain) ? value : 1.0;
 }
 

@@ -13,6 +13,7 @@
 // varies a little along the contact is left to the smooth part.
 #include "engine/contact/compliance.h"
 #include "engine/contact/ring/ring_private.h"
+#include "engine/numeric/legendre.h"
 
 #include <math.h>
 #include <string.h>
@@ -231,15 +232,14 @@ static void smooth_part(SbSurfaceCompliance *out, double half,
   enum { N = SB_COMPLIANCE_MODES };
   double compliance = sb_compliance_half_plane(out), s[WAVES][WAVES + 2] = {{0.0}};
   for (int l = WAVES - 1; l >= 0; l--) {
-    double plane[N];
+    double plane[N], rest[N], v[N];
     half_plane(half, l, plane);
+    for (int i = 0; i < N; i++) {
+      rest[i] = answer[l][i] - compliance * plane[i];
+    }
+    sb_chebyshev_coefficients(v, rest, N);
     for (int k = 0; k < WAVES; k++) {
-      double v = 0.0;
-      for (int i = 0; i < N; i++) {
-        double theta = M_PI - M_PI * (i + 0.5) / N;
-        v += (k == 0 ? 1.0 : 2.0) / N * cos(k * theta) * (answer[l][i] - compliance * plane[i]);
-      }
-      s[k][l] = (4.0 * v / (M_PI * half) + s[k][l + 2]) / (l == 0 ? 2.0 : 1.0);
+      s[k][l] = (4.0 * v[k] / (M_PI * half) + s[k][l + 2]) / (l == 0 ? 2.0 : 1.0);
     }
   }
   out->modes = N;

@@ -27,20 +27,18 @@ SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *r
   contact->force_scale = 1.0;
   contact->touch = calloc(n * SB_RING_SURFACES, sizeof(SbRingTouch));
   contact->closed = calloc(n, sizeof(bool));
-  contact->share = calloc(2 * n, sizeof(double));
-  contact->weight = calloc(n, sizeof(double));
-  contact->fluid = calloc(2 * n, sizeof(double));
-  contact->pressed = calloc(2 * n, sizeof(double));
-  contact->anchor = calloc(2 * n, sizeof(double));
-  for (int place = 0; place < 2; place++) {
-    contact->saved[place] = calloc(n * SB_RING_SURFACES, sizeof(SbRingTouch));
-  }
+  contact->share = calloc(9 * n, sizeof(double)); // and what follows it
+  contact->saved[0] = calloc(2 * n * SB_RING_SURFACES, sizeof(SbRingTouch));
   if (contact->touch == NULL || contact->closed == NULL || contact->share == NULL ||
-      contact->weight == NULL || contact->fluid == NULL || contact->pressed == NULL ||
-      contact->anchor == NULL || contact->saved[0] == NULL || contact->saved[1] == NULL) {
+      contact->saved[0] == NULL) {
     sb_ring_contact_destroy(contact);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's contact");
   }
+  contact->pressed = contact->share + 2 * n;
+  contact->fluid = contact->share + 4 * n;
+  contact->anchor = contact->share + 6 * n;
+  contact->weight = contact->share + 8 * n;
+  contact->saved[1] = contact->saved[0] + n * SB_RING_SURFACES;
   *out = contact;
   return SB_OK;
 }
@@ -50,13 +48,7 @@ void sb_ring_contact_destroy(SbRingContact *contact) {
     free(contact->touch);
     free(contact->closed);
     free(contact->share);
-    free(contact->weight);
-    free(contact->fluid);
-    free(contact->pressed);
-    free(contact->anchor);
-    for (int place = 0; place < 2; place++) {
-      free(contact->saved[place]);
-    }
+    free(contact->saved[0]);
     free(contact);
   }
 }

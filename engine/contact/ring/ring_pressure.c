@@ -251,8 +251,8 @@ static bool presses(const SbRingPressure *p) {
   return good;
 }
 
-bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch,
-                     SbRingPressure *out) {
+bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
+                  SbRingPressure *out) {
   Fit *fit = ring->recovery;
   if (!collect(fit, ring, surface, patch)) {
     return false;
@@ -281,14 +281,8 @@ bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatc
       }
     }
   }
-  return least < HUGE_VAL;
-}
-
-bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
-                  SbRingPressure *pressure) {
-  if (!sb_ring_recover(ring, surface, patch, pressure)) {
-    return false;
+  if (least < HUGE_VAL) {
+    memcpy(patch->place, out->place, sizeof patch->place);
   }
-  memcpy(patch->place, pressure->place, sizeof patch->place);
-  return true;
+  return least < HUGE_VAL;
 }
