@@ -214,8 +214,8 @@ typedef struct {
   SbRadauSystem system;
   SbRadauStep step[2];
   double middle, h; // end of the first step; next step size
-  double piled_time;
-  int piled;
+  double accumulated_at;
+  int accumulated;
   SbDynamicsCounters counters;
   SbRadauCounters radau;
   void (*listener)(const SbMotionEvent *event, void *user);

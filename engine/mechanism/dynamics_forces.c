@@ -201,9 +201,9 @@ double sb_motion_patch_speed(const SbDynamics *s, size_t i) {
   return s->v - (s->sign[i] * level - c->stiffness * s->d[i]) / c->damping;
 }
 
-// ---- gauges of the closed-form path ----
+// ---- event functions of the closed-form path ----
 
-static bool drive_gauge(const SbDynamics *s, SbGauge *g) {
+static bool drive_function(const SbDynamics *s, SbEventFunction *g) {
   const SbDynamicsModel *m = s->model;
   if (m->drive.kind == SB_DRIVE_NONE || m->drive_bonded || sb_motion_finger_gone(s)) {
     return false;
@@ -211,7 +211,7 @@ static bool drive_gauge(const SbDynamics *s, SbGauge *g) {
   double value, rate, side = s->push.on ? 1.0 : -1.0;
   sb_motion_drive_at(s, s->t, &value, &rate);
   // The drive's value carries the rounding of the time since its piece began.
-  *g = (SbGauge){.noise = fabs(s->piece.value) + fabs(value) + fabs(rate * s->t)};
+  *g = (SbEventFunction){.noise = fabs(s->piece.value) + fabs(value) + fabs(rate * s->t)};
   if (m->drive.quantity == SB_DRIVE_OF_FORCE) {
     g->constant = side * value;
     g->rate = side * rate;
@@ -236,10 +236,10 @@ static bool drive_gauge(const SbDynamics *s, SbGauge *g) {
   return true;
 }
 
-static bool stop_gauge(const SbDynamics *s, size_t i, const Linear *l, SbGauge *g) {
+static bool stop_function(const SbDynamics *s, size_t i, const Linear *l, SbEventFunction *g) {
   const SbDynamicsStop *p = &s->model->stop[i];
   double side = p->side, gap = side * (p->position - s->x);
-  *g = (SbGauge){.noise = fabs(p->position) + fabs(s->x) + length_noise};
+  *g = (SbEventFunction){.noise = fabs(p->position) + fabs(s->x) + length_noise};
   if (!s->touch[i].on) {
     // One that was left still deflected comes back to a stem that friction holds meanwhile.
     if (s->held && s->touch[i].residual == 0.0) {
@@ -252,7 +252,7 @@ static bool stop_gauge(const SbDynamics *s, size_t i, const Linear *l, SbGauge *
     return true;
   }
   if (p->stiffness > 1e300) {
-    *g = (SbGauge){.constant = side * l->f0, .rate = side * l->f1, .noise = l->size};
+    *g = (SbEventFunction){.constant = side * l->f0, .rate = side * l->f1, .noise = l->size};
     return true;
   }
   g->noise *= p->stiffness;
@@ -263,7 +263,7 @@ static bool stop_gauge(const SbDynamics *s, size_t i, const Linear *l, SbGauge *
 }
 
 // Adds the level that contact i can hold from now on.
-static void add_holding(const SbDynamics *s, size_t i, SbGauge *g) {
+static void add_holding(const SbDynamics *s, size_t i, SbEventFunction *g) {
   const SbDynamicsContact *c = &s->model->contact[i];
   double level = s->loads.level[i];
   g->constant += s->margin[i];
@@ -289,8 +289,8 @@ static bool on_rigid_stop(const SbDynamics *s) {
   return false;
 }
 
-static bool rigid_gauge(const SbDynamics *s, int side, const Linear *l, SbGauge *g) {
-  *g = (SbGauge){0};
+static bool rigid_function(const SbDynamics *s, int side, const Linear *l, SbEventFunction *g) {
+  *g = (SbEventFunction){0};
   bool any = false;
   for (size_t i = 0; i < s->model->contacts; i++) {
     if (!is_rigid(s->model, i) || s->state[i] == SB_CONTACT_OFF) {
@@ -299,8 +299,8 @@ static bool rigid_gauge(const SbDynamics *s, int side, const Linear *l, SbGauge 
     any = true;
     if (s->state[i] == SB_CONTACT_SLIP) {
       // Slowing down for ever is coming to rest.
-      *g = (SbGauge){.constant = s->brisk[i] ? -sb_motion_rest_speed(s->model) : 0.0,
-                     .of_v = s->sign[i]};
+      *g = (SbEventFunction){.constant = s->brisk[i] ? -sb_motion_rest_speed(s->model) : 0.0,
+                             .of_v = s->sign[i]};
       return side > 0;
     }
     add_holding(s, i, g);
@@ -312,12 +312,12 @@ static bool rigid_gauge(const SbDynamics *s, int side, const Linear *l, SbGauge 
   return any && !on_rigid_stop(s);
 }
 
-static bool contact_gauge(const SbDynamics *s, size_t i, int side, SbGauge *g) {
+static bool contact_function(const SbDynamics *s, size_t i, int side, SbEventFunction *g) {
   const SbDynamicsContact *c = &s->model->contact[i];
   if (is_rigid(s->model, i) || s->state[i] == SB_CONTACT_OFF) {
     return false;
   }
-  *g = (SbGauge){0};
+  *g = (SbEventFunction){0};
   if (s->state[i] == SB_CONTACT_SLIP) {
     g->constant = s->brisk[i] ? -sb_motion_rest_speed(s->model) : 0.0;
     g->of_v = s->sign[i];
@@ -340,53 +340,53 @@ static bool contact_gauge(const SbDynamics *s, size_t i, int side, SbGauge *g) {
   return true;
 }
 
-bool sb_motion_event_gauge(const SbDynamics *s, int event, const Linear *l, SbGauge *g) {
+bool sb_motion_event_function(const SbDynamics *s, int event, const Linear *l, SbEventFunction *g) {
   const SbDynamicsModel *m = s->model;
   switch (event) {
   case EVENT_EDGE_UP:
     if (s->held || s->region >= m->edges) {
       return false;
     }
-    *g = (SbGauge){.constant = m->edge[s->region] - s->x, .of_x = -1.0};
+    *g = (SbEventFunction){.constant = m->edge[s->region] - s->x, .of_x = -1.0};
     return true;
   case EVENT_EDGE_DOWN:
     if (s->held || s->region == 0) {
       return false;
     }
-    *g = (SbGauge){.constant = s->x - m->edge[s->region - 1], .of_x = 1.0};
+    *g = (SbEventFunction){.constant = s->x - m->edge[s->region - 1], .of_x = 1.0};
     return true;
   case EVENT_DRIVE:
-    return drive_gauge(s, g);
+    return drive_function(s, g);
   case EVENT_REVERSAL:
     if (m->drive.kind != SB_DRIVE_CYCLE || s->drive.phase != SB_DRIVE_FORWARD || !s->push.on ||
         !isfinite(m->drive.reversal_force)) {
       return false;
     }
-    drive_gauge(s, g);
-    *g = (SbGauge){.constant = m->drive.reversal_force - g->constant,
-                   .rate = -g->rate,
-                   .of_x = -g->of_x,
-                   .of_v = -g->of_v,
-                   .noise = g->noise + m->drive.reversal_force};
+    drive_function(s, g);
+    *g = (SbEventFunction){.constant = m->drive.reversal_force - g->constant,
+                           .rate = -g->rate,
+                           .of_x = -g->of_x,
+                           .of_v = -g->of_v,
+                           .noise = g->noise + m->drive.reversal_force};
     return true;
   case EVENT_RIGID_UP:
-    return rigid_gauge(s, 1, l, g);
+    return rigid_function(s, 1, l, g);
   case EVENT_RIGID_DOWN:
-    return rigid_gauge(s, -1, l, g);
+    return rigid_function(s, -1, l, g);
   default:
     break;
   }
   if (event >= EVENT_CONTACT_DOWN) {
     size_t i = (size_t)(event - EVENT_CONTACT_DOWN);
-    return i < m->contacts && contact_gauge(s, i, -1, g);
+    return i < m->contacts && contact_function(s, i, -1, g);
   }
   if (event >= EVENT_CONTACT_UP) {
     size_t i = (size_t)(event - EVENT_CONTACT_UP);
-    return i < m->contacts && contact_gauge(s, i, 1, g);
+    return i < m->contacts && contact_function(s, i, 1, g);
   }
   if (event >= EVENT_STOP) {
     size_t i = (size_t)(event - EVENT_STOP);
-    return i < m->stops && stop_gauge(s, i, l, g);
+    return i < m->stops && stop_function(s, i, l, g);
   }
   return false;
 }
@@ -410,9 +410,9 @@ void sb_motion_anchor_at(SbDynamics *at, Linear *l, const SbDynamics *s, double 
 }
 
 bool sb_motion_event_value(const SbDynamics *at, int event, const Linear *l, double *value,
-                           double *grain) {
-  SbGauge g;
-  if (!sb_motion_event_gauge(at, event, l, &g)) {
+                           double *noise) {
+  SbEventFunction g;
+  if (!sb_motion_event_function(at, event, l, &g)) {
     return false;
   }
   *value = g.constant + g.of_v * at->v + g.relax;
@@ -421,7 +421,7 @@ bool sb_motion_event_value(const SbDynamics *at, int event, const Linear *l, dou
   }
   double size = fabs(g.constant) + g.noise + fabs(g.relax);
   double speed = 10.0 * at->system.tolerance * at->system.floor[1];
-  *grain = 1e-12 * size + fabs(g.of_v) * speed;
+  *noise = 1e-12 * size + fabs(g.of_v) * speed;
   return true;
 }
 

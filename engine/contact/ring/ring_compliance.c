@@ -382,5 +382,5 @@ SbStatus sb_ring_predict(SbRing *ring, const SbRingLoad *load, SbRingResult *out
   sb_ring_settle(ring);
   return status == SB_OK ? sb_succeed(report)
                          : sb_fail(report, SB_ERROR_NOT_CONVERGED,
-                                   "the change is too large to foretell the ring's load");
+                                   "the change is too large for a linear prediction of the load");
 }

@@ -159,7 +159,7 @@ static void toggle(SbRingContact *contact, int at) {
   }
 }
 
-int sb_ring_contact_update(SbRingContact *contact, bool gentle) {
+int sb_ring_contact_update(SbRingContact *contact, bool single) {
   SbRingFem *fem = contact->fem;
   int changes = 0;
   double tiny = 1e-11 * contact->force_scale;
@@ -183,29 +183,29 @@ int sb_ring_contact_update(SbRingContact *contact, bool gentle) {
           touch->force - n[0] * contact->share[2 * i] - n[1] * contact->share[2 * i + 1];
       if (!touch->held && gap < deepest) {
         worst_catch = at;
-        deepest = gentle ? gap : deepest;
+        deepest = single ? gap : deepest;
       } else if (touch->held && excess < least) {
         worst_release = at;
-        least = gentle ? excess : least;
+        least = single ? excess : least;
       } else {
         continue;
       }
-      if (!gentle) {
+      if (!single) {
         toggle(contact, at);
         changes++;
       }
     }
   }
-  if (gentle && worst_release >= 0) {
+  if (single && worst_release >= 0) {
     toggle(contact, worst_release);
     changes++;
   }
-  if (gentle && worst_catch >= 0) {
+  if (single && worst_catch >= 0) {
     toggle(contact, worst_catch);
     changes++;
   }
-  // Friction follows once the contact is steady: both at once chase each other.
-  return changes > 0 ? changes : sb_ring_contact_update_slip(contact, gentle);
+  // Friction follows once the contact is steady: changing both at once does not converge.
+  return changes > 0 ? changes : sb_ring_contact_update_slip(contact, single);
 }
 
 double sb_ring_contact_limit(const SbRingContact *contact) {

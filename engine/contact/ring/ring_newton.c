@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-enum { GENTLE_AFTER = 14, RECENTRES_MAX = 6, MORE = 10 };
+enum { SINGLE_AFTER = 14, RECENTRES_MAX = 6, MORE = 10 };
 
 static const double NEARLY = 1e-2;
 
@@ -145,7 +145,7 @@ SbStatus sb_ring_newton(SbRingContact *contact, const SbRingNewton *options, SbR
     step = fmin(step, sb_ring_contact_limit(contact));
     sb_ring_fem_save(fem, 0);
     sb_ring_fem_advance(fem, step);
-    changes = sb_ring_contact_update(contact, it >= GENTLE_AFTER) + (step < 1.0 ? 1 : 0);
+    changes = sb_ring_contact_update(contact, it >= SINGLE_AFTER) + (step < 1.0 ? 1 : 0);
     double damping = DAMPING * (it < 8 ? 1.0 : it < 16 ? 0.1 : 0.01);
     fem->axial_damping = changes > 0 ? damping / fem->mesh->nodes : 0.0;
   }
