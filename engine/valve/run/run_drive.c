@@ -112,7 +112,8 @@ SbDriveTimes sb_drive_times(const SbRun *run) {
                           .period = 2 * once,
                           .first = {once}};
   case SB_MODEL_DRIVE_HAND:
-    return (SbDriveTimes){.duration = model->cycles * (3 * rise + hold) - rise,
+    return (SbDriveTimes){.duration =
+                              model->cycles * (2 * rise + hold) + (model->cycles - 1) * rise,
                           .turn = rise + hold,
                           .corners = 2 * model->cycles,
                           .period = 3 * rise + hold,
