@@ -1,14 +1,14 @@
-// Polynomials of a surface compliance: values, integrals, fits; the linear disc's. See the header.
+// Polynomials of a surface compliance: values, integrals; the linear disc's. See the header.
 //
-// Chebyshev's polynomials over the window, by their recurrences; least squares by normal equations,
-// which are well conditioned for them. What a contact on such a surface does: dry_contact.c.
+// Chebyshev's polynomials over the window, by their recurrences. What a contact on such a surface
+// does: dry_contact.c.
 #include "engine/contact/compliance.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "engine/contact/disc/disc_kernel.h"
-#include "engine/numeric/dense.h"
+#include "engine/numeric/legendre.h"
 
 double sb_compliance_half_plane(const SbSurfaceCompliance *c) {
   return 4.0 / (M_PI * c->modulus);
@@ -104,79 +104,6 @@ double sb_compliance_smooth(const SbSurfaceCompliance *c, double x, const double
   return sum;
 }
 
-SbStatus sb_compliance_fit(SbSurfaceCompliance *out, int modes, double left, double right,
-                           double modulus, size_t n, const double *x, const double *gap,
-                           const double *smooth, SbReport *report) {
-  memset(out, 0, sizeof *out);
-  if (modes < 1 || modes > SB_COMPLIANCE_MODES || (size_t)modes > n || !(left < right) ||
-      !(modulus > 0.0)) {
-    return sb_fail(report, SB_ERROR_INPUT, "compliance: %d polynomials for %zu nodes", modes, n);
-  }
-  SbSurfaceCompliance *c = out;
-  c->modes = modes;
-  c->left = left;
-  c->right = right;
-  c->modulus = modulus;
-  // Normal equations for every right-hand side: first the gap, then half the matrix, V+ S.
-  const size_t m = (size_t)modes;
-  double normal[SB_COMPLIANCE_MODES * SB_COMPLIANCE_MODES] = {0};
-  double value[SB_COMPLIANCE_MODES];
-  for (size_t i = 0; i < n; i++) {
-    sb_compliance_modes(c, x[i], value, NULL);
-    for (size_t k = 0; k < m; k++) {
-      for (size_t l = 0; l < m; l++) {
-        normal[l * m + k] += value[k] * value[l];
-      }
-    }
-  }
-  // The inverse, column by column: these systems are small.
-  double inverse[SB_COMPLIANCE_MODES][SB_COMPLIANCE_MODES];
-  double both[SB_COMPLIANCE_MODES][SB_COMPLIANCE_MODES]; // at first a copy to eliminate
-  for (size_t k = 0; k < m; k++) {
-    memcpy(both, normal, sizeof both);
-    memset(inverse[k], 0, sizeof inverse[k]);
-    inverse[k][k] = 1.0;
-    if (!sb_eliminate(&both[0][0], inverse[k], m)) {
-      memset(out, 0, sizeof *out);
-      return sb_fail(report, SB_ERROR_INPUT, "compliance: the nodes do not fix the polynomials");
-    }
-  }
-  double moment[SB_COMPLIANCE_MODES] = {0};
-  memset(both, 0, sizeof both); // now V^T S V
-  for (size_t i = 0; i < n; i++) {
-    sb_compliance_modes(c, x[i], value, NULL);
-    double row[SB_COMPLIANCE_MODES] = {0}; // of S V
-    for (size_t j = 0; smooth != NULL && j < n; j++) {
-      double other[SB_COMPLIANCE_MODES];
-      sb_compliance_modes(c, x[j], other, NULL);
-      for (size_t l = 0; l < m; l++) {
-        row[l] += smooth[i * n + j] * other[l];
-      }
-    }
-    for (size_t k = 0; k < m; k++) {
-      moment[k] += gap != NULL ? gap[i] * value[k] : 0.0;
-      for (size_t l = 0; l < m; l++) {
-        both[k][l] += value[k] * row[l];
-      }
-    }
-  }
-  for (size_t k = 0; k < m; k++) {
-    for (size_t a = 0; a < m; a++) {
-      c->gap[k] += inverse[k][a] * moment[a];
-      for (size_t l = 0; l < m; l++) {
-        for (size_t b = 0; b < m; b++) {
-          const double term = 0.5 * inverse[k][a] * both[a][b] * inverse[l][b];
-          c->smooth[k][l] += term;
-          c->smooth[l][k] += term;
-        }
-      }
-    }
-  }
-  sb_compliance_gap(c, left, &c->beyond[0]);
-  sb_compliance_gap(c, right, &c->beyond[1]);
-  return sb_succeed(report);
-}
-
 // What the disc's surface has beside the half-plane's logarithm, S(x, x') for |x|, |x'| < R:
 // smooth, in parts of the compliance 2 (1 - nu^2)/(pi E) (disc_kernel.h).
 static double smooth_rest(double radius, double x, double x_prime) {
@@ -195,18 +122,31 @@ SbStatus sb_compliance_disc(SbSurfaceCompliance *out, double radius, double modu
   }
   enum { N = SB_COMPLIANCE_MODES };
   const double factor = sb_disc_compliance(modulus, poisson_ratio);
-  double x[N];
-  double gap[N];
-  double smooth[N * N];
+  double x[N], gap[N], answer[N][N];
   for (int i = 0; i < N; i++) {
     x[i] = -reach * cos(M_PI * (i + 0.5) / N);
     const double s = x[i] / radius;
     gap[i] = x[i] * s / (1.0 + sqrt((1.0 - s) * (1.0 + s)));
   }
+  *out = (SbSurfaceCompliance){
+      .modes = N, .left = -reach, .right = reach, .modulus = 4.0 / (M_PI * factor)};
+  sb_chebyshev_coefficients(out->gap, gap, N);
+  // The smooth part over both places: by one, then by the other.
   for (int i = 0; i < N; i++) {
+    double row[N];
     for (int j = 0; j < N; j++) {
-      smooth[i * N + j] = factor * (smooth_rest(radius, x[i], x[j]) + log(radius));
+      row[j] = factor * (smooth_rest(radius, x[i], x[j]) + log(radius));
     }
+    sb_chebyshev_coefficients(answer[i], row, N);
   }
-  return sb_compliance_fit(out, N, -reach, reach, 4.0 / (M_PI * factor), N, x, gap, smooth, report);
+  for (int l = 0; l < N; l++) {
+    double column[N];
+    for (int i = 0; i < N; i++) {
+      column[i] = answer[i][l];
+    }
+    sb_chebyshev_coefficients(out->smooth[l], column, N); // symmetric
+  }
+  sb_compliance_gap(out, -reach, &out->beyond[0]);
+  sb_compliance_gap(out, reach, &out->beyond[1]);
+  return sb_succeed(report);
 }

@@ -37,16 +37,6 @@ typedef struct {
   double smooth[SB_COMPLIANCE_MODES][SB_COMPLIANCE_MODES];
 } SbSurfaceCompliance;
 
-// Fits gap and smooth part to values at `n` nodes x (increasing, inside the window) by least
-// squares with `modes` polynomials. `gap` holds n values [m], NULL for a flat one; `smooth` n x n
-// by rows [1/Pa], the displacement at x_i by a unit line load at x_j less the half-plane's -C
-// ln|x_i - x_j| with lengths in metres, NULL for none. A matrix that is not quite symmetric is made
-// so. SB_ERROR_INPUT unless 1 <= modes <= min(n, SB_COMPLIANCE_MODES) and the nodes determine the
-// polynomials; take twice as many nodes as modes unless they are Chebyshev's.
-SbStatus sb_compliance_fit(SbSurfaceCompliance *out, int modes, double left, double right,
-                           double modulus, size_t n, const double *x, const double *gap,
-                           const double *smooth, SbReport *report);
-
 // The linear disc between two flats (vertical kernel, exact circle), with a window of +-`reach` in
 // which the contact must lie; 12 digits up to a reach of half the radius. SB_ERROR_RANGE.
 SbStatus sb_compliance_disc(SbSurfaceCompliance *out, double radius, double modulus,

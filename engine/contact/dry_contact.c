@@ -412,13 +412,7 @@ SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const 
     }
     value[i] = sum - sb_compliance_smooth(c, s, moment, NULL);
   }
-  for (int k = 0; k < c->modes; k++) {
-    double sum = 0.0;
-    for (int i = 0; i < c->modes; i++) {
-      sum += value[i] * cos(k * (M_PI - M_PI * (i + 0.5) / c->modes));
-    }
-    c->gap[k] = (k == 0 ? 1.0 : 2.0) / c->modes * sum;
-  }
+  sb_chebyshev_coefficients(c->gap, value, c->modes);
   // Beyond the window S has no slope: the gap goes on with that of both.
   for (int end = 0; end < 2; end++) {
     double slope;

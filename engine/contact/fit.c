@@ -52,31 +52,21 @@ static const char *const disc_names[] = {
     "radial-both-flanks",
 };
 
-static const char *const default_names[] = {"default"};
-
 const char *sb_fit_variant_name(SbFitModel model, int variant) {
-  if ((unsigned)model >= SB_FIT_MODEL_COUNT) {
+  static const struct {
+    const char *const *names;
+    int count;
+  } variants[SB_FIT_MODEL_COUNT] = {
+      [SB_FIT_LINDLEY] = {lindley_names, SB_LINDLEY_COUNT},
+      [SB_FIT_GREEN_ENGLISH] = {green_english_names, SB_GREEN_ENGLISH_COUNT},
+      [SB_FIT_DISC] = {disc_names, (int)(sizeof disc_names / sizeof disc_names[0])},
+  };
+  if ((unsigned)model >= SB_FIT_MODEL_COUNT || variant < 0) {
     return NULL;
   }
-  const char *const *names = default_names;
-  int count = 1;
-  switch (model) {
-  case SB_FIT_LINDLEY:
-    names = lindley_names;
-    count = SB_LINDLEY_COUNT;
-    break;
-  case SB_FIT_GREEN_ENGLISH:
-    names = green_english_names;
-    count = SB_GREEN_ENGLISH_COUNT;
-    break;
-  case SB_FIT_DISC:
-    names = disc_names;
-    count = (int)(sizeof disc_names / sizeof disc_names[0]);
-    break;
-  default:
-    break;
-  }
-  return variant >= 0 && variant < count ? names[variant] : NULL;
+  const char *const *names = variants[model].names;
+  return names == NULL ? (variant == 0 ? "default" : NULL)
+                       : (variant < variants[model].count ? names[variant] : NULL);
 }
 
 // ---- input
@@ -140,29 +130,6 @@ static void judge_validity(SbFit *out) {
   }
 }
 
-static SbStatus solve_model(SbFit *out, const SbFitProblem *in, SbReport *report) {
-  switch (in->model) {
-  case SB_FIT_KARASZKIEWICZ:
-    return sb_fit_karaszkiewicz(out, in, report);
-  case SB_FIT_HERTZ:
-    return sb_fit_hertz(out, in, report);
-  case SB_FIT_LINDLEY:
-    return sb_fit_lindley(out, in, report);
-  case SB_FIT_GREEN_ENGLISH:
-    return sb_fit_green_english(out, in, report);
-  case SB_FIT_DISC_THESIS:
-    return sb_fit_disc_thesis(out, in, report);
-  case SB_FIT_DISC:
-    return sb_fit_disc(out, in, report);
-  case SB_FIT_RING:
-    return sb_fit_ring(out, in, report);
-  case SB_FIT_MODEL_COUNT:
-    break;
-  }
-  return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit", "there is no contact model %d",
-                           (int)in->model);
-}
-
 SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report) {
   const double start = sb_clock_seconds();
   memset(out, 0, sizeof *out);
@@ -171,7 +138,16 @@ SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report)
     return status;
   }
   fill_sizes(out, problem);
-  status = solve_model(out, problem, report);
+  static SbStatus (*const solve[SB_FIT_MODEL_COUNT])(SbFit *, const SbFitProblem *, SbReport *) = {
+      [SB_FIT_KARASZKIEWICZ] = sb_fit_karaszkiewicz,
+      [SB_FIT_HERTZ] = sb_fit_hertz,
+      [SB_FIT_LINDLEY] = sb_fit_lindley,
+      [SB_FIT_GREEN_ENGLISH] = sb_fit_green_english,
+      [SB_FIT_DISC_THESIS] = sb_fit_disc_thesis,
+      [SB_FIT_DISC] = sb_fit_disc,
+      [SB_FIT_RING] = sb_fit_ring,
+  };
+  status = solve[problem->model](out, problem, report);
   judge_validity(out);
   out->valid = out->valid && status == SB_OK;
   out->solver.wall_s = sb_clock_seconds() - start;

@@ -140,10 +140,6 @@ SbStatus sb_assembly_tangent(SbAssemblyTangent *tangent, const SbAssembly *assem
 SbStatus sb_assembly_slide(SbAssembly *assembly, SbAssemblyTangent *tangent, double distance,
                            double speed, double *error, SbAssemblyWork *work, SbReport *report);
 
-// Brings positions and velocities onto the joints' conditions by the smallest change in the sense
-// of the masses. SB_ERROR_NOT_CONVERGED if the parts are too far from an assembled state.
-SbStatus sb_assembly_settle(SbAssembly *assembly, SbAssemblyWork *work, SbReport *report);
-
 // The valve's parts, and their indices in sb_assembly_valve.
 enum {
   SB_VALVE_HOUSING,

@@ -16,6 +16,12 @@ typedef SbAssemblyConditions Conditions;
 // Conditions at the present positions and speeds; turns count times `length`.
 void sb_bodies_conditions(Conditions *conditions, const SbAssembly *assembly, double length);
 
+// Solves the constrained system, masses per `mass` and turns times `length`, for one right side:
+// top (bodies, per mass) and bottom (conditions). The answer replaces them: accelerations,
+// multipliers.
+SbStatus sb_bodies_solve(const SbAssembly *assembly, SbAssemblyWork *work, double mass,
+                         double length, double *top, double *bottom, SbReport *report);
+
 // Accelerations and reactions without asking whether conditions repeat each other.
 SbStatus sb_bodies_forces(SbAssemblyForces *forces, const SbAssembly *assembly,
                           SbAssemblyWork *work, SbReport *report);

@@ -32,10 +32,8 @@ static double largest_mass(const SbAssembly *a) {
   return most > 0.0 ? most : 1.0;
 }
 
-// Solves the system for one right side: top (bodies, per mass) and bottom (conditions). The answer
-// replaces them: accelerations (spins times length), multipliers per mass.
-static SbStatus solve(const SbAssembly *a, SbAssemblyWork *work, double mass, double length,
-                      double *top, double *bottom, SbReport *report) {
+SbStatus sb_bodies_solve(const SbAssembly *a, SbAssemblyWork *work, double mass, double length,
+                         double *top, double *bottom, SbReport *report) {
   const Conditions *c = &work->conditions;
   size_t columns = 6 * a->bodies, size = columns + c->rows;
   double *matrix = work->matrix, *right = work->right;
@@ -103,7 +101,7 @@ SbStatus sb_bodies_forces(SbAssemblyForces *out, const SbAssembly *a, SbAssembly
   for (size_t r = 0; r < c->rows; r++) {
     bottom[r] = -c->rate[r];
   }
-  SbStatus status = solve(a, work, mass, length, top, bottom, report);
+  SbStatus status = sb_bodies_solve(a, work, mass, length, top, bottom, report);
   if (status != SB_OK) {
     return status;
   }
@@ -156,7 +154,7 @@ SbStatus sb_bodies_settle_positions(SbAssembly *a, double *error, SbAssemblyWork
       break;
     }
     worst = now;
-    SbStatus status = solve(a, work, mass, length, top, bottom, report);
+    SbStatus status = sb_bodies_solve(a, work, mass, length, top, bottom, report);
     if (status != SB_OK) {
       return status;
     }
@@ -176,33 +174,4 @@ SbStatus sb_bodies_settle_positions(SbAssembly *a, double *error, SbAssemblyWork
                    "the parts cannot be brought onto their joints (%.3g m off)", worst);
   }
   return sb_succeed(report);
-}
-
-SbStatus sb_assembly_settle(SbAssembly *a, SbAssemblyWork *work, SbReport *report) {
-  double length = sb_bodies_extent(a), mass = largest_mass(a), error;
-  SbStatus status = sb_bodies_settle_positions(a, &error, work, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  // Velocities: remove what violates the conditions.
-  Conditions *c = &work->conditions;
-  double top[COLUMNS] = {0}, bottom[ROWS];
-  sb_bodies_conditions(c, a, length);
-  for (size_t r = 0; r < c->rows; r++) {
-    bottom[r] = 0.0;
-    for (size_t b = 0; b < a->bodies; b++) {
-      for (size_t k = 0; k < 3; k++) {
-        bottom[r] -= c->jacobian[r][6 * b + k] * a->body[b].velocity[k] +
-                     c->jacobian[r][6 * b + 3 + k] * a->body[b].spin[k] * length;
-      }
-    }
-  }
-  status = solve(a, work, mass, length, top, bottom, report);
-  for (size_t b = 0; b < a->bodies && status == SB_OK; b++) {
-    for (size_t k = 0; k < 3 && !a->body[b].ground; k++) {
-      a->body[b].velocity[k] += top[6 * b + k];
-      a->body[b].spin[k] += top[6 * b + 3 + k] / length;
-    }
-  }
-  return status == SB_OK ? sb_succeed(report) : status;
 }

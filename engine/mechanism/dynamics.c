@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { PILED_MAX = 500 };
+enum { ACCUMULATED_MAX = 500 };
 
 // Damping of a spring and damper that returns a free mass with restitution e, the impact ending
 // when its force does: e = exp(-zeta/s (pi - atan2(2 zeta s, 1 - 2 zeta^2))), s = sqrt(1 - zeta^2).
@@ -88,6 +88,13 @@ static void load_region(SbDynamics *s) {
   }
 }
 
+// A contact comes to rest; `fresh`: newly loaded, it sticks up to the sliding level only.
+static void rest(SbDynamics *s, size_t i, bool fresh) {
+  s->state[i] = SB_CONTACT_STUCK;
+  s->since[i] = s->t;
+  s->fresh[i] = fresh;
+}
+
 // Loads have changed at once: which contacts appear, vanish, hold or let go.
 static void reload(SbDynamics *s) {
   const SbDynamicsModel *m = s->model;
@@ -115,18 +122,14 @@ static void reload(SbDynamics *s) {
       if (fabs(to) < fabs(s->d[i])) {
         jump_deflection(s, i, to);
       } else if (fabs(to) > fabs(s->d[i])) {
-        s->state[i] = SB_CONTACT_STUCK;
-        s->since[i] = s->t;
-        s->fresh[i] = true;
+        rest(s, i, true);
       }
     } else if (s->state[i] == SB_CONTACT_SLIP && !is_rigid(m, i)) {
       double rate =
           (s->sign[i] * sb_motion_sliding_level(s, i, level, fabs(s->v)) - c->stiffness * s->d[i]) /
           c->damping;
       if (s->sign[i] * (s->v - rate) < 0.0) {
-        s->state[i] = SB_CONTACT_STUCK;
-        s->since[i] = s->t;
-        s->fresh[i] = true;
+        rest(s, i, true);
       }
     }
   }
@@ -168,9 +171,7 @@ static void turn_rigid(SbDynamics *s) {
       s->state[i] = SB_CONTACT_SLIP;
       s->sign[i] = s->v > 0.0 ? 1 : -1;
     } else if (s->state[i] != SB_CONTACT_STUCK) {
-      s->state[i] = SB_CONTACT_STUCK;
-      s->since[i] = s->t;
-      s->fresh[i] = false;
+      rest(s, i, false);
     }
   }
   update_held(s);
@@ -249,13 +250,11 @@ static void contact_event(SbDynamics *s, size_t i, int direction) {
       // It still crept a little: the spring takes what the damper carried of it.
       jump_deflection(s, i, s->d[i] - c->damping / c->stiffness * sb_motion_patch_speed(s, i));
     }
-    s->state[i] = SB_CONTACT_STUCK;
-    s->since[i] = s->t;
-    s->fresh[i] = false;
+    rest(s, i, false);
     if (s->t > s->slipped[i] * (1.0 + 1e-14)) {
       s->margin[i] = 0.0;
     } else {
-      // Exactly at its limit: rounding cannot decide, so it holds a hair more.
+      // Exactly at its limit: rounding cannot decide, so its limit is raised by rounding.
       s->margin[i] = fmax(4.0 * s->margin[i], 1e-12 * s->loads.level[i]);
     }
     return;
@@ -352,7 +351,7 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
   }
   size_t patches = sb_motion_patches(m);
   s->system = (SbRadauSystem){.n = 2 + patches + m->extras,
-                              .powers = POWER_COUNT,
+                              .powers = SB_DYNAMICS_TERMS,
                               .rates = sb_motion_numerical_rates,
                               .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9};
   s->system.floor[0] = 1e-3;
@@ -365,7 +364,7 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
   }
   s->kinetic_start = 0.5 * m->mass * s->v * s->v;
   s->stored_start = sb_motion_stored_energy(s, 0.0, s->x, s->d);
-  s->piled_time = -1.0;
+  s->accumulated_at = -1.0;
   return sb_succeed(report);
 }
 
@@ -376,12 +375,12 @@ void sb_dynamics_listen(SbDynamics *s, void (*listener)(const SbMotionEvent *eve
 }
 
 // Events that follow each other without time passing are a fault of the model.
-static bool piles_up(SbDynamics *s) {
-  if (s->t > s->piled_time) {
-    s->piled_time = s->t;
-    s->piled = 0;
+static bool accumulates(SbDynamics *s) {
+  if (s->t > s->accumulated_at) {
+    s->accumulated_at = s->t;
+    s->accumulated = 0;
   }
-  return ++s->piled > PILED_MAX;
+  return ++s->accumulated > ACCUMULATED_MAX;
 }
 
 SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
@@ -439,9 +438,9 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
           return status;
         }
       }
-      if (event != EVENT_BREAK && (s->counters.events > most || piles_up(s))) {
+      if (event != EVENT_BREAK && (s->counters.events > most || accumulates(s))) {
         return sb_fail(report, SB_ERROR_NOT_CONVERGED, "%s at %.9g s (%ld events)",
-                       s->counters.events > most ? "too many events" : "events pile up", s->t,
+                       s->counters.events > most ? "too many events" : "events accumulate", s->t,
                        s->counters.events);
       }
     }

@@ -124,18 +124,26 @@ typedef struct {
   double time, position, speed, drive_force;
 } SbMotionEvent;
 
+enum { SB_DYNAMICS_TERMS = 7 };
+
+// Energies [J].
 typedef struct {
-  double drive;    // work done by the drive at its moving end
-  double pressure; // work of the loads' force
-  double friction; // sliding patches
-  double viscous;  // `viscous` and `damping`
-  double seal;     // dampers of the tangential springs
-  double stop;     // stops
-  double machine;  // damper of the drive
-  double kinetic;  // present kinetic energy less that at the start
-  double stored;   // in seals, stops, spring and drive, less that at the start
-  double largest;  // largest |drive + pressure| so far
-  double closure;  // |drive + pressure - all the rest| / largest (0 if largest is 0)
+  union {
+    struct {
+      double drive;    // work done by the drive at its moving end
+      double pressure; // work of the loads' force
+      double friction; // sliding patches
+      double viscous;  // `viscous` and `damping`
+      double seal;     // dampers of the tangential springs
+      double stop;     // stops
+      double machine;  // damper of the drive
+    };
+    double term[SB_DYNAMICS_TERMS]; // these, which are integrated, in a row
+  };
+  double kinetic; // present kinetic energy less that at the start
+  double stored;  // in seals, stops, spring and drive, less that at the start
+  double largest; // largest |drive + pressure| so far
+  double closure; // |drive + pressure - all the rest| / largest (0 if largest is 0)
 } SbDynamicsEnergy;
 
 typedef enum { SB_CONTACT_OFF, SB_CONTACT_STUCK, SB_CONTACT_SLIP } SbContactState;
@@ -206,8 +214,8 @@ typedef struct {
   SbRadauSystem system;
   SbRadauStep step[2];
   double middle, h; // end of the first step; next step size
-  double piled_time;
-  int piled;
+  double accumulated_at;
+  int accumulated;
   SbDynamicsCounters counters;
   SbRadauCounters radau;
   void (*listener)(const SbMotionEvent *event, void *user);

@@ -150,13 +150,9 @@ void sb_motion_energy_at(const SbDynamics *s, double t, double x, double v, cons
         continue;
       }
       sb_radau_dense(step, &s->system, fmin(1.0, (t - step->t) / step->h), NULL, q);
-      e->drive += q[POWER_DRIVE];
-      e->pressure += q[POWER_PRESSURE];
-      e->friction += q[POWER_FRICTION];
-      e->viscous += q[POWER_VISCOUS];
-      e->seal += q[POWER_SEAL];
-      e->stop += q[POWER_STOP];
-      e->machine += q[POWER_MACHINE];
+      for (int k = 0; k < SB_DYNAMICS_TERMS; k++) {
+        e->term[k] += q[k];
+      }
     }
   }
   e->stop += sb_motion_stops_relax(s, s->t, t);

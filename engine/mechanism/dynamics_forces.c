@@ -201,9 +201,9 @@ double sb_motion_patch_speed(const SbDynamics *s, size_t i) {
   return s->v - (s->sign[i] * level - c->stiffness * s->d[i]) / c->damping;
 }
 
-// ---- gauges of the closed-form path ----
+// ---- event functions of the closed-form path ----
 
-static bool drive_gauge(const SbDynamics *s, SbGauge *g) {
+static bool drive_function(const SbDynamics *s, SbEventFunction *g) {
   const SbDynamicsModel *m = s->model;
   if (m->drive.kind == SB_DRIVE_NONE || m->drive_bonded || sb_motion_finger_gone(s)) {
     return false;
@@ -211,7 +211,7 @@ static bool drive_gauge(const SbDynamics *s, SbGauge *g) {
   double value, rate, side = s->push.on ? 1.0 : -1.0;
   sb_motion_drive_at(s, s->t, &value, &rate);
   // The drive's value carries the rounding of the time since its piece began.
-  *g = (SbGauge){.noise = fabs(s->piece.value) + fabs(value) + fabs(rate * s->t)};
+  *g = (SbEventFunction){.noise = fabs(s->piece.value) + fabs(value) + fabs(rate * s->t)};
   if (m->drive.quantity == SB_DRIVE_OF_FORCE) {
     g->constant = side * value;
     g->rate = side * rate;
@@ -236,10 +236,10 @@ static bool drive_gauge(const SbDynamics *s, SbGauge *g) {
   return true;
 }
 
-static bool stop_gauge(const SbDynamics *s, size_t i, const Linear *l, SbGauge *g) {
+static bool stop_function(const SbDynamics *s, size_t i, const Linear *l, SbEventFunction *g) {
   const SbDynamicsStop *p = &s->model->stop[i];
   double side = p->side, gap = side * (p->position - s->x);
-  *g = (SbGauge){.noise = fabs(p->position) + fabs(s->x) + length_noise};
+  *g = (SbEventFunction){.noise = fabs(p->position) + fabs(s->x) + length_noise};
   if (!s->touch[i].on) {
     // One that was left still deflected comes back to a stem that friction holds meanwhile.
     if (s->held && s->touch[i].residual == 0.0) {
@@ -252,7 +252,7 @@ static bool stop_gauge(const SbDynamics *s, size_t i, const Linear *l, SbGauge *
     return true;
   }
   if (p->stiffness > 1e300) {
-    *g = (SbGauge){.constant = side * l->f0, .rate = side * l->f1, .noise = l->size};
+    *g = (SbEventFunction){.constant = side * l->f0, .rate = side * l->f1, .noise = l->size};
     return true;
   }
   g->noise *= p->stiffness;
@@ -263,7 +263,7 @@ static bool stop_gauge(const SbDynamics *s, size_t i, const Linear *l, SbGauge *
 }
 
 // Adds the level that contact i can hold from now on.
-static void add_holding(const SbDynamics *s, size_t i, SbGauge *g) {
+static void add_holding(const SbDynamics *s, size_t i, SbEventFunction *g) {
   const SbDynamicsContact *c = &s->model->contact[i];
   double level = s->loads.level[i];
   g->constant += s->margin[i];
@@ -289,8 +289,8 @@ static bool on_rigid_stop(const SbDynamics *s) {
   return false;
 }
 
-static bool rigid_gauge(const SbDynamics *s, int side, const Linear *l, SbGauge *g) {
-  *g = (SbGauge){0};
+static bool rigid_function(const SbDynamics *s, int side, const Linear *l, SbEventFunction *g) {
+  *g = (SbEventFunction){0};
   bool any = false;
   for (size_t i = 0; i < s->model->contacts; i++) {
     if (!is_rigid(s->model, i) || s->state[i] == SB_CONTACT_OFF) {
@@ -299,8 +299,8 @@ static bool rigid_gauge(const SbDynamics *s, int side, const Linear *l, SbGauge 
     any = true;
     if (s->state[i] == SB_CONTACT_SLIP) {
       // Slowing down for ever is coming to rest.
-      *g = (SbGauge){.constant = s->brisk[i] ? -sb_motion_rest_speed(s->model) : 0.0,
-                     .of_v = s->sign[i]};
+      *g = (SbEventFunction){.constant = s->brisk[i] ? -sb_motion_rest_speed(s->model) : 0.0,
+                             .of_v = s->sign[i]};
       return side > 0;
     }
     add_holding(s, i, g);
@@ -312,12 +312,12 @@ static bool rigid_gauge(const SbDynamics *s, int side, const Linear *l, SbGauge 
   return any && !on_rigid_stop(s);
 }
 
-static bool contact_gauge(const SbDynamics *s, size_t i, int side, SbGauge *g) {
+static bool contact_function(const SbDynamics *s, size_t i, int side, SbEventFunction *g) {
   const SbDynamicsContact *c = &s->model->contact[i];
   if (is_rigid(s->model, i) || s->state[i] == SB_CONTACT_OFF) {
     return false;
   }
-  *g = (SbGauge){0};
+  *g = (SbEventFunction){0};
   if (s->state[i] == SB_CONTACT_SLIP) {
     g->constant = s->brisk[i] ? -sb_motion_rest_speed(s->model) : 0.0;
     g->of_v = s->sign[i];
@@ -340,73 +340,69 @@ static bool contact_gauge(const SbDynamics *s, size_t i, int side, SbGauge *g) {
   return true;
 }
 
-bool sb_motion_event_gauge(const SbDynamics *s, int event, const Linear *l, SbGauge *g) {
+bool sb_motion_event_function(const SbDynamics *s, int event, const Linear *l, SbEventFunction *g) {
   const SbDynamicsModel *m = s->model;
   switch (event) {
   case EVENT_EDGE_UP:
     if (s->held || s->region >= m->edges) {
       return false;
     }
-    *g = (SbGauge){.constant = m->edge[s->region] - s->x, .of_x = -1.0};
+    *g = (SbEventFunction){.constant = m->edge[s->region] - s->x, .of_x = -1.0};
     return true;
   case EVENT_EDGE_DOWN:
     if (s->held || s->region == 0) {
       return false;
     }
-    *g = (SbGauge){.constant = s->x - m->edge[s->region - 1], .of_x = 1.0};
+    *g = (SbEventFunction){.constant = s->x - m->edge[s->region - 1], .of_x = 1.0};
     return true;
   case EVENT_DRIVE:
-    return drive_gauge(s, g);
+    return drive_function(s, g);
   case EVENT_REVERSAL:
     if (m->drive.kind != SB_DRIVE_CYCLE || s->drive.phase != SB_DRIVE_FORWARD || !s->push.on ||
         !isfinite(m->drive.reversal_force)) {
       return false;
     }
-    drive_gauge(s, g);
-    *g = (SbGauge){.constant = m->drive.reversal_force - g->constant,
-                   .rate = -g->rate,
-                   .of_x = -g->of_x,
-                   .of_v = -g->of_v,
-                   .noise = g->noise + m->drive.reversal_force};
+    drive_function(s, g);
+    *g = (SbEventFunction){.constant = m->drive.reversal_force - g->constant,
+                           .rate = -g->rate,
+                           .of_x = -g->of_x,
+                           .of_v = -g->of_v,
+                           .noise = g->noise + m->drive.reversal_force};
     return true;
   case EVENT_RIGID_UP:
-    return rigid_gauge(s, 1, l, g);
+    return rigid_function(s, 1, l, g);
   case EVENT_RIGID_DOWN:
-    return rigid_gauge(s, -1, l, g);
+    return rigid_function(s, -1, l, g);
   default:
     break;
   }
   if (event >= EVENT_CONTACT_DOWN) {
     size_t i = (size_t)(event - EVENT_CONTACT_DOWN);
-    return i < m->contacts && contact_gauge(s, i, -1, g);
+    return i < m->contacts && contact_function(s, i, -1, g);
   }
   if (event >= EVENT_CONTACT_UP) {
     size_t i = (size_t)(event - EVENT_CONTACT_UP);
-    return i < m->contacts && contact_gauge(s, i, 1, g);
+    return i < m->contacts && contact_function(s, i, 1, g);
   }
   if (event >= EVENT_STOP) {
     size_t i = (size_t)(event - EVENT_STOP);
-    return i < m->stops && stop_gauge(s, i, l, g);
+    return i < m->stops && stop_function(s, i, l, g);
   }
   return false;
 }
 
 // ---- the numerical path ----
 
-void sb_motion_anchor_copy(SbDynamics *at, const SbDynamics *s, double t, const double *z) {
+void sb_motion_anchor_at(SbDynamics *at, Linear *l, const SbDynamics *s, double t,
+                         const double *z) {
   // All but the steps, which are large and not asked for.
   memcpy(at, s, offsetof(SbDynamics, step));
   at->t = t;
   at->x = z[0];
   at->v = z[1];
   size_t patches = sb_motion_patches(s->model);
-  for (size_t i = 0; i < patches; i++) {
-    at->d[i] = z[2 + i];
-  }
+  memcpy(at->d, z + 2, patches * sizeof *z);
   sb_motion_loads_at(s, z[0], z + 2 + patches, &at->loads);
-}
-
-void sb_motion_anchor_forces(const SbDynamics *at, Linear *l) {
   sb_motion_linear_forces(at, l);
   if (at->held) {
     l->f0 = sb_motion_demand(at, at->t, at->x, at->d, &at->loads);
@@ -414,9 +410,9 @@ void sb_motion_anchor_forces(const SbDynamics *at, Linear *l) {
 }
 
 bool sb_motion_event_value(const SbDynamics *at, int event, const Linear *l, double *value,
-                           double *grain) {
-  SbGauge g;
-  if (!sb_motion_event_gauge(at, event, l, &g)) {
+                           double *noise) {
+  SbEventFunction g;
+  if (!sb_motion_event_function(at, event, l, &g)) {
     return false;
   }
   *value = g.constant + g.of_v * at->v + g.relax;
@@ -425,12 +421,12 @@ bool sb_motion_event_value(const SbDynamics *at, int event, const Linear *l, dou
   }
   double size = fabs(g.constant) + g.noise + fabs(g.relax);
   double speed = 10.0 * at->system.tolerance * at->system.floor[1];
-  *grain = 1e-12 * size + fabs(g.of_v) * speed;
+  *noise = 1e-12 * size + fabs(g.of_v) * speed;
   // What slows down to the speed of rest is at rest, whatever the tolerance leaves of its speed.
   for (int i = 0; i < (int)at->model->contacts; i++) {
     bool own = event == (is_rigid(at->model, (size_t)i) ? EVENT_RIGID_UP : EVENT_CONTACT_UP + i);
     if (own && at->brisk[i]) {
-      *grain = fmin(*grain, 0.1 * sb_motion_rest_speed(at->model));
+      *noise = fmin(*noise, 0.1 * sb_motion_rest_speed(at->model));
     }
   }
   return true;
@@ -444,29 +440,27 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
   const double *extra = z + 2 + patches;
   SbDynamicsLoads loads;
   sb_motion_loads_at(s, x, extra, &loads);
-  for (size_t i = 0; i < POWER_COUNT; i++) {
-    power[i] = 0.0;
-  }
+  SbDynamicsEnergy e = {0};
   const SbDynamicsParts *parts = &s->parts;
   double force =
       parts->loads * (loads.force - m->spring_preload - m->spring_stiffness * x - m->damping * v);
-  power[POWER_PRESSURE] = loads.force * v;
-  power[POWER_VISCOUS] = m->damping * v * v;
+  e.pressure = loads.force * v;
+  e.viscous = m->damping * v * v;
   // Drive.
   double push = sb_motion_drive_force(s, t, x, v), value, rate;
   force += parts->drive * push;
   sb_motion_drive_at(s, t, &value, &rate);
   if (m->drive.quantity == SB_DRIVE_OF_FORCE) {
-    power[POWER_DRIVE] = push * v;
+    e.drive = push * v;
   } else if (s->push.on) {
-    power[POWER_DRIVE] = push * rate;
-    power[POWER_MACHINE] = m->drive_damping * (rate - v) * (rate - v);
+    e.drive = push * rate;
+    e.machine = m->drive_damping * (rate - v) * (rate - v);
   }
   // Stops.
   for (size_t i = 0; i < m->stops; i++) {
     if (s->touch[i].on && m->stop[i].stiffness < 1e300) {
       force -= parts->stop * m->stop[i].side * sb_motion_stop_force(s, i, t, x, v);
-      power[POWER_STOP] += s->stop_damping[i] * v * v;
+      e.stop += s->stop_damping[i] * v * v;
     }
   }
   // Contacts: what the stem feels, and how the patch's spring follows.
@@ -480,21 +474,22 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
     if (s->state[i] == SB_CONTACT_OFF) {
       continue;
     }
-    power[POWER_VISCOUS] += c->viscous * v * v;
+    e.viscous += c->viscous * v * v;
     force += parts->contact[i] * (on_stem - c->viscous * v);
     if (is_rigid(m, i)) {
-      power[POWER_FRICTION] -= on_stem * v;
+      e.friction -= on_stem * v;
     } else if (s->state[i] == SB_CONTACT_STUCK) {
       dz[2 + i] = v;
-      power[POWER_SEAL] += c->damping * v * v;
+      e.seal += c->damping * v * v;
     } else {
       if (c->damping > 0.0) {
         dz[2 + i] = (-on_stem - c->stiffness * z[2 + i]) / c->damping;
       }
-      power[POWER_SEAL] += c->damping * dz[2 + i] * dz[2 + i];
-      power[POWER_FRICTION] -= on_stem * (v - dz[2 + i]);
+      e.seal += c->damping * dz[2 + i] * dz[2 + i];
+      e.friction -= on_stem * (v - dz[2 + i]);
     }
   }
+  memcpy(power, e.term, sizeof e.term);
   dz[0] = v;
   dz[1] = s->held ? 0.0 : force / parts->mass;
   if (m->extras > 0) {

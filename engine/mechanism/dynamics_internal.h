@@ -1,5 +1,5 @@
-// What the files of dynamics share: _check (input), _forces (forces, gauges), _path (motion between
-// events), _energy, and dynamics.c (what events do). Private to this folder.
+// What the files of dynamics share: _check (input), _forces (forces, event functions), _path
+// (motion between events), _energy, and dynamics.c (what events do). Private to this folder.
 #pragma once
 
 #include "engine/mechanism/dynamics.h"
@@ -18,18 +18,6 @@ enum {
   EVENT_CONTACT_UP = EVENT_STOP + SB_DYNAMICS_STOPS,
   EVENT_CONTACT_DOWN = EVENT_CONTACT_UP + SB_DYNAMICS_CONTACTS,
   EVENT_COUNT = EVENT_CONTACT_DOWN + SB_DYNAMICS_CONTACTS,
-};
-
-// Integrands of the numerical path.
-enum {
-  POWER_DRIVE,
-  POWER_PRESSURE,
-  POWER_FRICTION,
-  POWER_VISCOUS,
-  POWER_SEAL,
-  POWER_STOP,
-  POWER_MACHINE,
-  POWER_COUNT,
 };
 
 // Forces on the stem that are linear in its state: f0 + f1 tau - k (x - x0) - c v, sliding contacts
@@ -109,18 +97,18 @@ double sb_motion_deflection_at(const SbDynamics *s, size_t i, double tau, double
 // Speed of the sliding patch of contact i over the bore, at the anchor.
 double sb_motion_patch_speed(const SbDynamics *s, size_t i);
 
-// Gauge of an event in the closed-form path; false if it cannot happen in this mode.
-bool sb_motion_event_gauge(const SbDynamics *s, int event, const Linear *linear, SbGauge *gauge);
+// Function of an event in the closed-form path; false if it cannot happen in this mode.
+bool sb_motion_event_function(const SbDynamics *s, int event, const Linear *linear,
+                              SbEventFunction *function);
 
-// Numerical path: a copy of the state anchored at z (x, v, deflections, extra states) at time t.
-void sb_motion_anchor_copy(SbDynamics *at, const SbDynamics *s, double t, const double *z);
+// Numerical path: a copy of the state anchored at z (x, v, deflections, extra states) at time t,
+// and the linear forces there; for a held stem what it must bear.
+void sb_motion_anchor_at(SbDynamics *at, Linear *linear, const SbDynamics *s, double t,
+                         const double *z);
 
-// Linear forces at an anchor for sb_motion_event_value; for a held stem what it must bear.
-void sb_motion_anchor_forces(const SbDynamics *at, Linear *linear);
-
-// The gauge's value at an anchor, and a size below which its sign means nothing; false as above.
+// The function's value at an anchor, and a size below which its sign means nothing; false as above.
 bool sb_motion_event_value(const SbDynamics *at, int event, const Linear *linear, double *value,
-                           double *grain);
+                           double *noise);
 
 // Rates and integrands at z; `user` is the SbDynamics.
 void sb_motion_numerical_rates(double *dz, double *power, double t, const double *z, void *user);

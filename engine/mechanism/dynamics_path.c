@@ -46,19 +46,20 @@ static void closed_path(SbDynamics *s) {
   s->t_end = isfinite(s->piece.until) && horizon < horizon_max ? s->piece.until : s->t + horizon;
   s->event = EVENT_BREAK;
   for (int event = 0; event < EVENT_COUNT; event++) {
-    SbGauge gauge;
+    SbEventFunction function;
     bool found;
-    if (!sb_motion_event_gauge(s, event, &l, &gauge)) {
+    if (!sb_motion_event_function(s, event, &l, &function)) {
       continue;
     }
     // The time itself is rounded, and with it whatever changes fast. Not so the edges: crossing one
     // puts the stem on it.
     double v = s->held ? 0.0 : s->v, a = s->held ? 0.0 : (l.f0 - l.c * v) / s->parts.mass;
     if (event != EVENT_EDGE_UP && event != EVENT_EDGE_DOWN) {
-      gauge.noise += s->t * (fabs(gauge.rate) + fabs(gauge.of_x * v) + fabs(gauge.of_v * a) +
-                             fabs(gauge.relax * gauge.relax_rate));
+      function.noise +=
+          s->t * (fabs(function.rate) + fabs(function.of_x * v) + fabs(function.of_v * a) +
+                  fabs(function.relax * function.relax_rate));
     }
-    double at = sb_gauge_first(&gauge, &s->motion, horizon, &found);
+    double at = sb_event_first(&function, &s->motion, horizon, &found);
     if (found && (at < horizon || s->event == EVENT_BREAK)) {
       horizon = at;
       s->t_end = s->t + at;
@@ -70,28 +71,26 @@ static void closed_path(SbDynamics *s) {
 // ---- numerical path ----
 
 typedef struct {
-  double value[EVENT_COUNT], grain[EVENT_COUNT];
+  double value[EVENT_COUNT], noise[EVENT_COUNT];
   bool live[EVENT_COUNT];
 } Values;
 
 static void values_at(const SbDynamics *s, double t, const double *z, Values *out) {
   SbDynamics at;
   Linear linear;
-  sb_motion_anchor_copy(&at, s, t, z);
-  sb_motion_anchor_forces(&at, &linear);
+  sb_motion_anchor_at(&at, &linear, s, t, z);
   for (int event = 0; event < EVENT_COUNT; event++) {
     out->live[event] =
-        sb_motion_event_value(&at, event, &linear, &out->value[event], &out->grain[event]);
+        sb_motion_event_value(&at, event, &linear, &out->value[event], &out->noise[event]);
   }
 }
 
 static double one_value(const SbDynamics *s, int event, double t, const double *z) {
   SbDynamics at;
-  double value = 0.0, grain;
+  double value = 0.0, noise;
   Linear linear;
-  sb_motion_anchor_copy(&at, s, t, z);
-  sb_motion_anchor_forces(&at, &linear);
-  return sb_motion_event_value(&at, event, &linear, &value, &grain) ? value : 1.0;
+  sb_motion_anchor_at(&at, &linear, s, t, z);
+  return sb_motion_event_value(&at, event, &linear, &value, &noise) ? value : 1.0;
 }
 
 // Where `event` turns negative between two fractions of a step, on its dense output.
@@ -182,9 +181,9 @@ static bool cut_at_event(SbDynamics *s, SbReport *report) {
       values_at(s, step->t + high * step->h, z, &after);
       for (int event = 0; event < EVENT_COUNT; event++) {
         // Armed once it was clearly positive; before that only a clear fall counts.
-        bool armed = before.live[event] && before.value[event] > before.grain[event];
+        bool armed = before.live[event] && before.value[event] > before.noise[event];
         if (!after.live[event] || !(after.value[event] < 0.0) ||
-            !(armed || after.value[event] < -after.grain[event])) {
+            !(armed || after.value[event] < -after.noise[event])) {
           continue;
         }
         double at = dense_root(s, step, event, low, high,
@@ -238,13 +237,13 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
   s->system.ceiling[0] = acting.k > 0.0 ? force_size / acting.k : 0.0;
   // A very stiff drive turns the rounding of its own place into acceleration and speed: less than
   // that cannot be asked for.
-  double square = acting.k / s->parts.mass, grain = 0.0;
+  double square = acting.k / s->parts.mass, noise = 0.0;
   if (square > stiff_square && s->push.on && m->drive.quantity == SB_DRIVE_OF_POSITION) {
     double place, rate;
     sb_motion_drive_at(s, s->t, &place, &rate);
-    grain = DBL_EPSILON * (fabs(place) + fabs(rate * s->t)) * square;
+    noise = DBL_EPSILON * (fabs(place) + fabs(rate * s->t)) * square;
   }
-  double speed = grain / sqrt(fmax(square, 1.0));
+  double speed = noise / sqrt(fmax(square, 1.0));
   double quickest = quickest_rate(s);
   s->system.floor[1] = fmax(speed_size, 10.0 * speed / s->system.tolerance);
   for (size_t i = 0; i < patches; i++) {
@@ -266,8 +265,8 @@ static SbStatus numerical_path(SbDynamics *s, SbReport *report) {
     }
     // A step that is long against the relaxation damps that rounding, too.
     double damped = fmax(1.0, h * quickest);
-    s->system.grain[0] = 8.0 * speed / damped;
-    s->system.grain[1] = 8.0 * grain / damped;
+    s->system.noise[0] = 8.0 * speed / damped;
+    s->system.noise[1] = 8.0 * noise / damped;
     if (!sb_radau_pair(s->step, &error, local, &s->system, s->t, z, h, &s->radau)) {
       h *= 0.25;
       s->counters.rejected++;
@@ -390,11 +389,11 @@ double sb_motion_force_peak(const SbDynamics *s, double known) {
   if (!(slope > 0.0) || first + 2.0 * swing + k * fabs(s->motion.trend1 - rate) < peak) {
     return peak;
   }
-  SbGauge rising = {.constant = k * rate - c * l.f0 / s->parts.mass,
-                    .rate = -c * l.f1 / s->parts.mass,
-                    .of_x = c * l.k / s->parts.mass,
-                    .of_v = c * l.c / s->parts.mass - k};
+  SbEventFunction rising = {.constant = k * rate - c * l.f0 / s->parts.mass,
+                            .rate = -c * l.f1 / s->parts.mass,
+                            .of_x = c * l.k / s->parts.mass,
+                            .of_v = c * l.c / s->parts.mass - k};
   bool found;
-  double at = sb_gauge_first(&rising, &s->motion, s->t_end - s->t, &found);
+  double at = sb_event_first(&rising, &s->motion, s->t_end - s->t, &found);
   return found ? fmax(peak, push_at(s, fmin(s->t + at, s->t_end))) : peak;
 }

@@ -50,15 +50,6 @@ static double way_ahead(const SbDynamics *s) {
   return way;
 }
 
-static void add_energy(SbDynamicsEnergy *e, const SbDynamicsEnergy *was, double times) {
-  e->drive += times * (e->drive - was->drive);
-  e->pressure += times * (e->pressure - was->pressure);
-  e->friction += times * (e->friction - was->friction);
-  e->viscous += times * (e->viscous - was->viscous);
-  e->seal += times * (e->seal - was->seal);
-  e->machine += times * (e->machine - was->machine);
-}
-
 SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
   const SbDynamicsModel *m = s->model;
   double y, rate;
@@ -92,8 +83,12 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
     s->t += times * period;
     sb_motion_drive_at(s, s->t, &there, &rate);
     s->x += there - y;
-    add_energy(&s->energy, &was.energy, times);
-    s->energy.stop += sb_motion_stops_relax(s, before, s->t); // fades, is no part of a cycle
+    // A stop's fades, and is no part of a cycle.
+    double stop = s->energy.stop + sb_motion_stops_relax(s, before, s->t);
+    for (int i = 0; i < SB_DYNAMICS_TERMS; i++) {
+      s->energy.term[i] += times * (s->energy.term[i] - was.energy.term[i]);
+    }
+    s->energy.stop = stop;
     for (size_t i = 0; i < m->contacts; i++) {
       s->since[i] += s->t - before;
     }

@@ -119,7 +119,7 @@ static void transient_at(const SbOscillator *o, double tau, double *z, double *w
   }
 }
 
-// The state at one time: what a gauge, its rounding and its bounds all ask for.
+// The state at one time: what a function, its rounding and its bounds all ask for.
 typedef struct {
   double tau, travel, v, a;
   double z, w; // transient and its rate; 0 without a spring
@@ -228,7 +228,7 @@ double sb_oscillator_integral_v2(const SbOscillator *o, double tau) {
   return o->trend1 * (o->trend1 * tau + 2.0 * moved) + square;
 }
 
-static double value_at(const SbGauge *g, const State *s, double *rate) {
+static double value_at(const SbEventFunction *g, const State *s, double *rate) {
   double value = g->constant + g->rate * s->tau + g->of_x * s->travel + g->of_v * s->v;
   *rate = g->rate + g->of_x * s->v + g->of_v * s->a;
   if (g->relax != 0.0) {
@@ -243,7 +243,7 @@ static double value_at(const SbGauge *g, const State *s, double *rate) {
   return value;
 }
 
-double sb_gauge_at(const SbGauge *g, const SbOscillator *o, double tau, double *rate) {
+double sb_event_at(const SbEventFunction *g, const SbOscillator *o, double tau, double *rate) {
   State s = state_at(o, tau);
   double slope;
   double value = value_at(g, &s, &slope);
@@ -254,7 +254,7 @@ double sb_gauge_at(const SbGauge *g, const SbOscillator *o, double tau, double *
 }
 
 // Size below which a value of g is rounding.
-static double grain(const SbGauge *g, const SbOscillator *o, const State *s) {
+static double noise(const SbEventFunction *g, const SbOscillator *o, const State *s) {
   double size = g->noise + fabs(g->constant) + fabs(g->rate * s->tau) + fabs(g->relax) +
                 fabs(g->of_x * s->travel) +
                 fabs(g->of_v) * (fabs(s->v) + fabs(o->v0) + fabs(o->w0));
@@ -266,7 +266,7 @@ static double grain(const SbGauge *g, const SbOscillator *o, const State *s) {
 
 // Bounds over `window` from the state on: |g''|, and how far the fading parts can pull g below its
 // trend.
-static void bounds(const SbGauge *g, const SbOscillator *o, const State *at, double window,
+static void bounds(const SbEventFunction *g, const SbOscillator *o, const State *at, double window,
                    double *curvature, double *swing) {
   double tau = at->tau;
   double px = fabs(g->of_x), pv = fabs(g->of_v);
@@ -304,7 +304,8 @@ static void bounds(const SbGauge *g, const SbOscillator *o, const State *at, dou
 }
 
 // Until when the straight trend of g, lowered by all that still swings, stays positive.
-static double trend_clear(const SbGauge *g, const SbOscillator *o, double tau, double swing) {
+static double trend_clear(const SbEventFunction *g, const SbOscillator *o, double tau,
+                          double swing) {
   if (o->kind == SB_OSCILLATOR_DRIFT) {
     return tau;
   }
@@ -319,21 +320,21 @@ static double trend_clear(const SbGauge *g, const SbOscillator *o, double tau, d
   if (!(level + rate * tau > 0.0)) {
     return tau;
   }
-  // A hair short of it, so that rounding cannot step over.
+  // Short of it by rounding, so that rounding cannot step over.
   return rate >= 0.0 ? INFINITY : fmax(tau, (1.0 - 8.0 * DBL_EPSILON) * (level / -rate));
 }
 
 // From tau, where g is small and falls: Newton's method kept in the bracket of the sign change.
-static double polish(const SbGauge *g, const SbOscillator *o, double tau, double horizon) {
+static double polish(const SbEventFunction *g, const SbOscillator *o, double tau, double horizon) {
   double rate;
-  double value = sb_gauge_at(g, o, tau, &rate);
+  double value = sb_event_at(g, o, tau, &rate);
   for (int i = 0; i < 8 && rate < 0.0; i++) {
     double next = fmin(horizon, fmax(0.0, tau - value / rate));
     if (fabs(next - tau) <= DBL_EPSILON * tau) {
       return next;
     }
     double r;
-    double v = sb_gauge_at(g, o, next, &r);
+    double v = sb_event_at(g, o, next, &r);
     if (fabs(v) > fabs(value)) {
       break;
     }
@@ -344,11 +345,12 @@ static double polish(const SbGauge *g, const SbOscillator *o, double tau, double
   return tau;
 }
 
-double sb_gauge_first(const SbGauge *g, const SbOscillator *o, double horizon, bool *found) {
+double sb_event_first(const SbEventFunction *g, const SbOscillator *o, double horizon,
+                      bool *found) {
   double tau = 0.0, rate;
   State at = state_at(o, 0.0);
   double value = value_at(g, &at, &rate);
-  double tiny = grain(g, o, &at);
+  double tiny = noise(g, o, &at);
   *found = false;
   // Already past it: something jumped.
   if (value < -64.0 * tiny) {
@@ -376,7 +378,7 @@ double sb_gauge_first(const SbGauge *g, const SbOscillator *o, double horizon, b
         tau = fmin(step, horizon);
         at = state_at(o, tau);
         value = value_at(g, &at, &rate);
-        tiny = grain(g, o, &at);
+        tiny = noise(g, o, &at);
         if (value > 16.0 * tiny || tau >= horizon) {
           break;
         }
@@ -391,7 +393,7 @@ double sb_gauge_first(const SbGauge *g, const SbOscillator *o, double horizon, b
   for (int i = 0; i < 200000 && tau < horizon; i++) {
     at = state_at(o, tau);
     value = value_at(g, &at, &rate);
-    tiny = grain(g, o, &at);
+    tiny = noise(g, o, &at);
     if (value <= tiny) {
       if (rate < 0.0) {
         *found = true;

@@ -53,12 +53,12 @@ typedef struct {
   double relax, relax_rate;
   double log_gain, log_start, log_time;
   double noise; // size of terms that have cancelled in the coefficients: sets the rounding error
-} SbGauge;
+} SbEventFunction;
 
 // Value at tau, and its rate (may be NULL).
-double sb_gauge_at(const SbGauge *g, const SbOscillator *o, double tau, double *rate);
+double sb_event_at(const SbEventFunction *g, const SbOscillator *o, double tau, double *rate);
 
 // First tau in [0, horizon] at which g turns negative; `horizon` if none (then *found = false).
 // A g that is zero at 0 and rises is not an event; one that is zero and falls is one, at 0.
 // Bounds on the curvature make the march safe: between its steps g provably keeps its sign.
-double sb_gauge_first(const SbGauge *g, const SbOscillator *o, double horizon, bool *found);
+double sb_event_first(const SbEventFunction *g, const SbOscillator *o, double horizon, bool *found);

@@ -117,7 +117,7 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
         step->k[a][i] += change;
         size = fmax(size, fabs(h * change) / scale(s, i, z[i]));
         rounding =
-            rounding && fabs(change) <= 64.0 * DBL_EPSILON * fabs(step->k[a][i]) + s->grain[i];
+            rounding && fabs(change) <= 64.0 * DBL_EPSILON * fabs(step->k[a][i]) + s->noise[i];
       }
     }
     if (!isfinite(size)) {

@@ -23,7 +23,7 @@ typedef struct {
   double tolerance;             // relative
   double floor[SB_RADAU_MAX];   // absolute size per component below which errors are scaled by this
   double ceiling[SB_RADAU_MAX]; // absolute size above which they are; 0: none
-  double grain[SB_RADAU_MAX];   // rounding of the rates: Newton's iteration ends there
+  double noise[SB_RADAU_MAX];   // rounding of the rates: Newton's iteration ends there
 } SbRadauSystem;
 
 // One step, enough for dense output.

@@ -66,6 +66,15 @@ void sb_legendre_lobatto(double *node, int n) {
   }
 }
 
+void sb_chebyshev_coefficients(double *out, const double *value, int n) {
+  for (int k = 0; k < n; k++) {
+    out[k] = 0.0;
+    for (int i = 0; i < n; i++) {
+      out[k] += (k == 0 ? 1.0 : 2.0) / n * value[i] * cos(k * (M_PI - M_PI * (i + 0.5) / n));
+    }
+  }
+}
+
 void sb_barycentric_weights(double *weight, const double *node, int count) {
   for (int i = 0; i < count; i++) {
     double product = 1.0;

@@ -1,14 +1,18 @@
-// Legendre polynomials: quadrature rules and nodes for spectral elements.
+// Legendre polynomials: quadrature rules and nodes for spectral elements; Chebyshev coefficients.
+// Arrays hold as many numbers as the comment of each function says; r and the nodes lie in [-1, 1].
 #pragma once
 
 // Values P_0 .. P_degree at r in out[0..degree].
 void sb_legendre_values(double *out, double r, int degree);
 
-// Gauss rule with n >= 1 points on [-1, 1], increasing; exact to degree 2n - 1.
+// Gauss rule node[n], weight[n] with n >= 1 points, increasing; exact to degree 2n - 1.
 void sb_legendre_gauss(double *node, double *weight, int n);
 
-// Lobatto nodes: n + 1 >= 2 points on [-1, 1] with both ends, the extrema of P_n.
+// Lobatto nodes: node[0 .. n], n + 1 >= 2 points with both ends, the extrema of P_n.
 void sb_legendre_lobatto(double *node, int n);
+
+// Coefficients of Chebyshev's polynomials T_0 .. T_(n-1) for values at z_i = -cos(pi (i + 1/2)/n).
+void sb_chebyshev_coefficients(double *out, const double *value, int n);
 
 // Barycentric weights of `count` distinct nodes, for sb_barycentric_basis.
 void sb_barycentric_weights(double *weight, const double *node, int count);

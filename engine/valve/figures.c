@@ -73,12 +73,10 @@ static unsigned char text_number(SbReasons *reasons, const char *text) {
   return (unsigned char)(at + 1);
 }
 
-void sb_reason(SbSummary *summary, const char *pattern, const char *format, ...) {
+static void SB_PRINTF(3, 0)
+    give_reason(SbSummary *summary, const char *pattern, const char *format, va_list arguments) {
   char text[sizeof summary->reasons.text[0]];
-  va_list arguments;
-  va_start(arguments, format);
   vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
   size_t length = strlen(pattern);
   bool many = length > 0 && pattern[length - 1] == '*';
   unsigned char number = 0;
@@ -89,6 +87,22 @@ void sb_reason(SbSummary *summary, const char *pattern, const char *format, ...)
       summary->reasons.of[i] = number;
     }
   }
+}
+
+void sb_reason(SbSummary *summary, const char *pattern, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  give_reason(summary, pattern, format, arguments);
+  va_end(arguments);
+}
+
+void sb_seal_reason(SbSummary *summary, int seal, const char *name, const char *format, ...) {
+  char pattern[64];
+  snprintf(pattern, sizeof pattern, "seals.%s.%s", sb_seal_name(seal), name);
+  va_list arguments;
+  va_start(arguments, format);
+  give_reason(summary, pattern, format, arguments);
+  va_end(arguments);
 }
 
 const char *sb_leak_state_name(SbLeakState state) {

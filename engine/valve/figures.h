@@ -32,6 +32,10 @@ void sb_figures_clear(SbSummary *summary);
 // '*'. The first reason given stays.
 void sb_reason(SbSummary *summary, const char *pattern, const char *format, ...) SB_PRINTF(3, 4);
 
+// The same for a seal's figures; `name` is what follows "seals.outer." in the pattern.
+void sb_seal_reason(SbSummary *summary, int seal, const char *name, const char *format, ...)
+    SB_PRINTF(4, 5);
+
 // "seals", "presses", ...; borrowed.
 const char *sb_verdict_name(SbVerdictKind kind);
 

@@ -148,70 +148,25 @@ typedef struct {
 
 typedef struct {
   SbParams params; // what it was compiled from
+#define SB_MODEL_FIELD(type, name, id) type name;
+#include "engine/valve/model.def"
   SbSealModel seal[SB_SEAL_COUNT];
-  SbRubber rubber;                  // how storage changes it
-  double radial_space, axial_width; // g, b [m]
-  double bore_diameter;             // D [m]
-  double radial_space_tolerance, axial_width_tolerance, bore_diameter_tolerance,
-      stem_diameter_tolerance; // half-widths [m]
-  double bore_circumference;   // pi D: the friction area's length [m]
-  double land_edge;            // stem displacement at C [m]
-  double housing_modulus, housing_poisson_ratio;
-  double canister_pressure; // gauge [Pa]
-  SbPressureMap pressure_map;
-  double metered_volume;                           // of the dose chamber between the two seals [m3]
-  long doses;                                      // whole ones in the canister
-  bool chamber_at_once;                            // ports pass pressure in one step
-  double discharge_coefficient, chamber_stiffness; // [1], [Pa]
-  bool vent_on_return;
-  double refill_travel, refill_area; // of the by-pass at rest [m], [m2]
-  double pressure_force;             // p pi D_p^2/4, pushes the stem out [N]
-  double stem_mass;                  // of its three parts [kg]
-  SbValveParts parts;                // the stem's share stem_mass
-  double moving_mass;                // stem, seals and block [kg]
-  double viscosity, density;
+  SbRubber rubber;           // how storage changes it
+  double bore_circumference; // pi D: the friction area's length [m]
+  double metered_volume;     // of the dose chamber between the two seals [m3]
+  long doses;                // whole ones in the canister
+  double pressure_force;     // p pi D_p^2/4, pushes the stem out [N]
+  SbValveParts parts;        // the stem's share stem_mass
+  double moving_mass;        // stem, seals and block [kg]
   double pressure_viscosity; // Barus' coefficient [1/Pa], 0 for a constant viscosity
-  double eyring_stress;      // [Pa], 0 for a Newtonian fluid
-  double rupture_pressure;   // gauge [Pa]
-  bool inlet_carried;        // the return runs on what the in-stroke left on the bore
-  double gt_product, sigma, sigma_over_beta, hamaker_constant;
-  double shear_strength, load_coefficient, static_ratio;
-  double speed, stroke, reversal_force, stiffness;
-  SbDriveChoice drive;
-  double peak_force, rise_time, hold_time; // hand
-  double finger_damping;                   // hand, ramp [N s/m]
-  double amplitude, frequency;             // sinusoid
-  int cycles;
-  double damping_ratio; // of machine and seal shear
-  double rest;          // before the first stroke [s]
-  double dwell_gain, dwell_time, stribeck_speed, tangential_stiffness;
-  double stop_stiffness, stop_restitution;
-  double spring_stiffness, spring_preload; // return spring
-  double tolerance;
-  double motion_tolerance; // of the steps of a motion without closed form
-  int frames;
-  int actuations; // over which leakage is summed
-  int fit;        // index among the choices of models.fit = SbFitModel
-  SbModelFilm film;
-  bool film_history; // films of frames are solved in time
-  double rest_film;  // before the first stroke [m]
-  SbModelSurface surface;
-  SbModelAsperities asperities;
-  double hamaker; // [J]; 0 without adhesion
-  SbModelMotion motion;
-  int life_actuations;     // computed one after the other; 1: the first alone
-  int life_shown;          // whose frames follow the first's, from 1
-  SbRunningIn running_in;  // factor on the roughness
-  SbRig rig;               // motion RIG
-  double rig_prominence;   // fall of the force that makes a peak [N]
-  unsigned views;          // bit mask of SbView
-  unsigned studies;        // bit mask, 1 << SbStudyKind
-  SbSectionLook look;      // for the drawing only
-  double stem_diameter;    // D_p, also the stem's land [m]
-  SbValveShape shape;      // for the drawing only
-  const SbModelData *data; // borrowed; NULL: neither a measured series nor outlines
+  double hamaker;            // [J]; 0 without adhesion
+  SbRunningIn running_in;    // factor on the roughness
+  SbRig rig;                 // motion RIG
+  SbSectionLook look;        // for the drawing only
+  SbValveShape shape;        // for the drawing only
   SbStudyRange study;
-  SbLimits limits; // filled by whoever read them, none otherwise
+  const SbModelData *data; // borrowed; NULL: neither a measured series nor outlines
+  SbLimits limits;         // filled by whoever read them, none otherwise
 } SbModel;
 
 typedef enum {

@@ -34,6 +34,17 @@ struct SbSlidingMemory {
   void *cancelled_data;
 };
 
+// One evaluation: what is asked for, with what memory, and where counts and warnings go.
+typedef struct {
+  const SbModel *model;
+  int seal;
+  SbSealPressure pressure;
+  double speed;
+  SbSlidingMemory *memory;
+  SbSlidingCounts *counts;
+  SbWarnings *warnings;
+} Task;
+
 double sb_sliding_friction(const SbSliding *state) {
   return state->boundary_area + state->boundary_load + state->viscous;
 }
@@ -51,23 +62,6 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
     sb_film_solver_destroy(memory->solver);
     free(memory);
   }
-}
-
-static SbStatus film_solve(SbFilm *out, const SbFilmProblem *problem, SbSlidingMemory *memory,
-                           SbReport *report) {
-  if (problem->model == SB_FILM_REYNOLDS && memory->solver == NULL) {
-    SbStatus status = sb_film_solver_create(&memory->solver, report);
-    if (status != SB_OK) {
-      return status;
-    }
-  }
-  SbFilmProblem lent = *problem;
-  lent.profile = out == &memory->film          ? &memory->film_profile
-                 : out == &memory->fitted_film ? &memory->fitted_profile
-                                               : &memory->rest_profile;
-  lent.cancelled = memory->cancelled;
-  lent.cancelled_data = memory->cancelled_data;
-  return sb_film_solve(out, &lent, memory->solver, report);
 }
 
 void sb_sliding_memory_forget(SbSlidingMemory *memory) {
@@ -93,17 +87,11 @@ const SbFilm *sb_sliding_film(const SbSlidingMemory *memory) {
 }
 
 static SbFilmModel film_model(SbModelFilm film) {
-  switch (film) {
-  case SB_MODEL_FILM_KARASZKIEWICZ:
-    return SB_FILM_KARASZKIEWICZ;
-  case SB_MODEL_FILM_ASYMPTOTIC:
-    return SB_FILM_ASYMPTOTIC;
-  case SB_MODEL_FILM_REYNOLDS:
-    return SB_FILM_REYNOLDS;
-  case SB_MODEL_FILM_THESIS:
-    break;
-  }
-  return SB_FILM_THESIS;
+  static const SbFilmModel models[] = {[SB_MODEL_FILM_THESIS] = SB_FILM_THESIS,
+                                       [SB_MODEL_FILM_KARASZKIEWICZ] = SB_FILM_KARASZKIEWICZ,
+                                       [SB_MODEL_FILM_ASYMPTOTIC] = SB_FILM_ASYMPTOTIC,
+                                       [SB_MODEL_FILM_REYNOLDS] = SB_FILM_REYNOLDS};
+  return models[film];
 }
 
 void sb_sliding_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure) {
@@ -125,25 +113,27 @@ void sb_sliding_fit_problem(SbFitProblem *out, const SbModel *model, int seal, d
   };
 }
 
-static SbStatus solve_fit(SbSlidingMemory *memory, const SbModel *model, int seal, double pressure,
-                          SbSlidingCounts *counts, SbReport *report) {
-  if (memory->fitted && memory->fitted_pressure == pressure && memory->fitted_seal == seal) {
+static SbStatus solve_fit(const Task *task, SbReport *report) {
+  SbSlidingMemory *memory = task->memory;
+  const SbModel *model = task->model;
+  double pressure = task->pressure.left - task->pressure.right;
+  if (memory->fitted && memory->fitted_pressure == pressure && memory->fitted_seal == task->seal) {
     return SB_OK;
   }
   SbFitProblem problem;
-  sb_sliding_fit_problem(&problem, model, seal, pressure);
+  sb_sliding_fit_problem(&problem, model, task->seal, pressure);
   problem.cancel = memory->cancelled;
   problem.cancel_data = memory->cancelled_data;
   problem.surface_wanted =
       model->film == SB_MODEL_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   SbStatus status = sb_fit_solve(&memory->fit, &problem, report);
-  counts->fit_solves++;
-  counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
-  counts->ring_solves += problem.model == SB_FIT_RING;
-  counts->newton_iterations += memory->fit.solver.newton_iterations;
+  task->counts->fit_solves++;
+  task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
+  task->counts->ring_solves += problem.model == SB_FIT_RING;
+  task->counts->newton_iterations += memory->fit.solver.newton_iterations;
   memory->fitted = status == SB_OK;
   memory->fitted_pressure = pressure;
-  memory->fitted_seal = seal;
+  memory->fitted_seal = task->seal;
   return status;
 }
 
@@ -166,93 +156,49 @@ void sb_sliding_film_problem(SbFilmProblem *out, const SbModel *model, int seal,
   out->profile_points = 1500; // drawn and written, not differentiated
 }
 
-// Gives a surface the gap whose dry contact has the fitment's pressure, and solves that for a
-// check. A gap of many polynomials may touch again outside the contact; then fewer do.
-static SbStatus match_fit(SbSurfaceCompliance *surface, double load, const SbFit *fit, double left,
-                          double right, SbReport *report) {
-  enum { ORDER = 8, LEAST = 3 };
-  SbStatus status = SB_ERROR_INPUT;
-  for (int order = ORDER; order >= LEAST && status != SB_OK; order--) {
-    SbDryContact dry;
-    status = sb_compliance_match(surface, order, fit->profile_count, fit->profile_x, fit->profile_p,
-                                 left, right, report);
-    if (status == SB_OK) {
-      status = sb_dry_contact(&dry, surface, load, left, right, report);
+static SbStatus solve_counted(const Task *task, SbFilm *film, const SbFilmProblem *problem,
+                              SbReport *report) {
+  SbSlidingMemory *memory = task->memory;
+  bool solved = problem->model == SB_FILM_REYNOLDS;
+  if (solved && memory->solver == NULL) {
+    SbStatus status = sb_film_solver_create(&memory->solver, report);
+    if (status != SB_OK) {
+      return status;
     }
   }
-  return status;
-}
-
-SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit *fit,
-                            const SbModel *model, int seal, SbSealPressure pressure,
-                            SbWarnings *warnings, SbReport *report) {
-  bool own = fit->model == SB_FIT_DISC || fit->model == SB_FIT_RING;
-  if (!own || fit->profile_count < 12) {
-    return sb_fail(report, SB_ERROR_INPUT, "the fitment model gives no pressure of a body");
+  SbFilmProblem lent = *problem;
+  lent.profile = film == &memory->film          ? &memory->film_profile
+                 : film == &memory->fitted_film ? &memory->fitted_profile
+                                                : &memory->rest_profile;
+  lent.cancelled = memory->cancelled;
+  lent.cancelled_data = memory->cancelled_data;
+  SbStatus status = sb_film_solve(film, &lent, memory->solver, report);
+  if (solved) {
+    task->counts->reynolds_solves++;
+    task->counts->newton_iterations += (size_t)film->solver.newton_iterations;
   }
-  const SbSealModel *ring = &model->seal[seal];
-  double low = fmin(pressure.left, pressure.right);
-  double left = pressure.left - low;
-  double right = pressure.right - low;
-  *load = fit->load_per_length + left * fit->contact_left - right * fit->contact_right;
-  if (fit->surface.modes > 0) {
-    // Condensed against a rigid bore; the housing gives way as a half-plane beside it.
-    double rubber = 2 * ring->modulus / (1 - ring->poisson_ratio * ring->poisson_ratio);
-    *out = fit->surface;
-    out->modulus = 1 / (1 / out->modulus + 1 / ring->reduced_modulus - 1 / rubber);
-    if (match_fit(out, *load, fit, left, right, report) == SB_OK) {
-      return SB_OK;
-    }
-  }
-  if (fit->model == SB_FIT_RING && warnings != NULL) {
-    sb_warn(warnings, "film-disc-surface", "models.fit",
-            "the %s ring's surface beside its contact is too steep for a film on it: the film "
-            "takes the ring's pressure, but gives way like a linear disc",
-            sb_seal_name(seal));
-  }
-  double radius = 0.5 * fit->section_diameter_fitted;
-  double middle = 0.5 * (fit->contact_left + fit->contact_right);
-  // The disc's middle is the contact's: pressure against the wall moves both.
-  double reach = 0.7 * fit->contact_width;
-  SbStatus status = sb_compliance_disc(out, radius, ring->modulus, ring->poisson_ratio,
-                                       fmin(reach, 0.9 * radius), report);
-  if (status != SB_OK) {
-    return status;
-  }
-  out->left += middle;
-  out->right += middle;
-  out->modulus = ring->reduced_modulus;
-  return match_fit(out, *load, fit, left, right, report);
-}
-
-static SbStatus solve_counted(SbFilm *film, const SbFilmProblem *problem, SbSlidingMemory *memory,
-                              SbSlidingCounts *counts, SbReport *report) {
-  SbStatus status = film_solve(film, problem, memory, report);
-  counts->reynolds_solves++;
-  counts->newton_iterations += (size_t)film->solver.newton_iterations;
   return status;
 }
 
 // The film on the fitted body in place of the half-plane's; false where there is none or it fails.
-static bool solve_fitted(SbFilm *film, const SbFilmProblem *plane, const SbModel *model, int seal,
-                         SbSealPressure pressure, SbSlidingMemory *memory, SbSlidingCounts *counts,
-                         SbWarnings *warnings) {
-  if (memory->fit.model != SB_FIT_DISC && memory->fit.model != SB_FIT_RING) {
+static bool solve_fitted(const Task *task, SbFilm *film, const SbFilmProblem *plane) {
+  const SbFit *fit = &task->memory->fit;
+  if (fit->model != SB_FIT_DISC && fit->model != SB_FIT_RING) {
     return false;
   }
   SbReport report = {0};
   SbSurfaceCompliance surface;
   SbFilmProblem problem = *plane;
   problem.compliance = &surface;
-  SbStatus status = sb_sliding_surface(&surface, &problem.load, &memory->fit, model, seal, pressure,
-                                       warnings, &report);
+  SbStatus status = sb_sliding_surface(&surface, &problem.load, fit, task->model, task->seal,
+                                       task->pressure, task->warnings, &report);
   if (status == SB_OK) {
     problem.modulus = surface.modulus;
-    status = solve_counted(film, &problem, memory, counts, &report);
+    status = solve_counted(task, film, &problem, &report);
   }
   if (status != SB_OK) {
-    sb_warn(warnings, "film-half-plane", "models.fit",
-            "no film on the fitted %s seal (%s): it is the half-plane's", sb_seal_name(seal),
+    sb_warn(task->warnings, "film-half-plane", "models.fit",
+            "no film on the fitted %s seal (%s): it is the half-plane's", sb_seal_name(task->seal),
             report.text);
   }
   return status == SB_OK;
@@ -289,75 +235,70 @@ static void take_film(SbSliding *out, const SbFilm *film, SbStatus status, bool 
 
 // Layer that the return stroke finds on the bore: what the in-stroke carried through the contact,
 // flow over the wall's speed, at the drive's speed and the same pressures. 0 floods the inlet.
-static SbStatus carried_layer(double *layer, const SbFilmProblem *back, const SbModel *model,
-                              SbSlidingMemory *memory, SbSlidingCounts *counts, SbReport *report) {
+static SbStatus carried_layer(const Task *task, double *layer, const SbFilmProblem *back,
+                              SbReport *report) {
+  SbFilm *film = &task->memory->film;
   SbFilmProblem in = *back;
-  in.speed = model->speed;
+  in.speed = task->model->speed;
   in.inlet_film = 0;
-  SbStatus status = solve_counted(&memory->film, &in, memory, counts, report);
-  *layer = status == SB_OK ? fabs(memory->film.flow / in.speed) : 0;
+  SbStatus status = solve_counted(task, film, &in, report);
+  *layer = status == SB_OK ? fabs(film->flow / in.speed) : 0;
   return status;
 }
 
 // What a run's options cannot reach, told once.
-static void option_warnings(SbWarnings *warnings, const SbModel *model, int seal,
-                            const SbFilmProblem *problem) {
+static void option_warnings(const Task *task, const SbFilmProblem *problem) {
+  const SbModel *model = task->model;
   bool asked = model->pressure_viscosity > 0 || model->eyring_stress > 0 ||
                model->rupture_pressure != 0 || model->inlet_carried;
   if (asked && problem->model != SB_FILM_REYNOLDS) {
-    sb_warn(warnings, "film-options", "models.film",
+    sb_warn(task->warnings, "film-options", "models.film",
             "pressure viscosity, Eyring stress, rupture pressure and a carried inlet act on the "
             "solved film only (models.film = reynolds), not on a power law");
   } else if (problem->rupture_pressure < model->rupture_pressure) {
-    sb_warn(warnings, "rupture-ambient", "fluid.rupture_pressure",
+    sb_warn(task->warnings, "rupture-ambient", "fluid.rupture_pressure",
             "the film of the %s seal breaks at the %.3g MPa around it: the rupture pressure of "
             "%.3g MPa is higher",
-            sb_seal_name(seal), 1e-6 * problem->rupture_pressure, 1e-6 * model->rupture_pressure);
+            sb_seal_name(task->seal), 1e-6 * problem->rupture_pressure,
+            1e-6 * model->rupture_pressure);
   }
   if (model->hamaker > 0 && model->asperities != SB_MODEL_ASPERITIES_COUPLED) {
-    sb_warn(warnings, "adhesion-beside", "models.adhesion",
+    sb_warn(task->warnings, "adhesion-beside", "models.adhesion",
             "adhesion acts in the solve of film and asperities together only (models.asperities = "
             "coupled): left out here");
   }
 }
 
-static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                           double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
-                           SbWarnings *warnings, SbReport *report) {
+static SbStatus solve_film(const Task *task, SbSliding *out, SbReport *report) {
+  SbSlidingMemory *memory = task->memory;
   SbFilmProblem problem;
-  sb_sliding_film_problem(&problem, model, seal, pressure, out->load_net, speed);
-  problem.model = film_model(model->film);
-  option_warnings(warnings, model, seal, &problem);
-  if (model->inlet_carried && speed < 0 && problem.model == SB_FILM_REYNOLDS) {
-    SbStatus carried = carried_layer(&problem.inlet_film, &problem, model, memory, counts, report);
+  sb_sliding_film_problem(&problem, task->model, task->seal, task->pressure, out->load_net,
+                          task->speed);
+  problem.model = film_model(task->model->film);
+  option_warnings(task, &problem);
+  bool solved = problem.model == SB_FILM_REYNOLDS;
+  if (task->model->inlet_carried && task->speed < 0 && solved) {
+    SbStatus carried = carried_layer(task, &problem.inlet_film, &problem, report);
     if (carried != SB_OK) {
       return carried;
     }
   }
+  SbStatus status = solve_counted(task, &memory->film, &problem, report);
   memory->fitted_last = false;
-  SbStatus status = film_solve(&memory->film, &problem, memory, report);
-  if (problem.model == SB_FILM_REYNOLDS) {
-    counts->reynolds_solves++;
-    counts->newton_iterations += (size_t)memory->film.solver.newton_iterations;
-  }
   if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
     return status;
   }
-  const SbFilm *best = &memory->film;
-  take_film(out, best, status, false, &memory->fit);
-  if (problem.model == SB_FILM_REYNOLDS) {
+  take_film(out, &memory->film, status, false, &memory->fit);
+  if (solved) {
     out->film_reynolds = out->film_central;
   } else {
     out->film_error = out->central_error = NAN;
   }
-  if (problem.model == SB_FILM_REYNOLDS && status == SB_OK &&
-      solve_fitted(&memory->fitted_film, &problem, model, seal, pressure, memory, counts,
-                   warnings)) {
-    best = &memory->fitted_film;
-    take_film(out, best, SB_OK, true, &memory->fit);
+  if (solved && status == SB_OK && solve_fitted(task, &memory->fitted_film, &problem)) {
+    take_film(out, &memory->fitted_film, SB_OK, true, &memory->fit);
     memory->fitted_last = true;
   }
-  sb_warnings_merge(warnings, &best->warnings);
+  sb_warnings_merge(task->warnings, &sb_sliding_film(memory)->warnings);
   return status;
 }
 
@@ -375,61 +316,54 @@ static void coupled_problem(SbFilmProblem *out, const SbModel *model, int seal,
   out->load_coefficient = model->load_coefficient;
 }
 
-// Solves it on the fitted body, or on the half-plane where that cannot be.
-static SbStatus solve_rough(SbFilm *film, bool *fitted, const SbFilmProblem *plane,
-                            const SbModel *model, int seal, SbSealPressure pressure,
-                            SbSlidingMemory *memory, SbSlidingCounts *counts, SbWarnings *warnings,
-                            SbReport *report) {
-  *fitted = solve_fitted(film, plane, model, seal, pressure, memory, counts, warnings);
-  return *fitted ? SB_OK : solve_counted(film, plane, memory, counts, report);
-}
-
-// Film, rough contact and friction from one solution each, sliding and at rest.
-static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
-                              SbSealPressure pressure, double speed, SbSlidingMemory *memory,
-                              SbSlidingCounts *counts, SbWarnings *warnings, SbReport *report) {
+// Film, rough contact and friction from one solution each, sliding and at rest: on the fitted body,
+// or on the half-plane where that cannot be.
+static SbStatus solve_coupled(const Task *task, SbSliding *out, SbReport *report) {
+  const SbModel *model = task->model;
+  SbSlidingMemory *memory = task->memory;
+  SbSealPressure pressure = task->pressure;
   SbFilmProblem problem;
   SbStatus worst = SB_OK, last = SB_OK;
   bool same = memory->rested && memory->rest_load == out->load_net &&
               memory->rest_pressure.left == pressure.left &&
               memory->rest_pressure.right == pressure.right;
   if (!same) {
-    coupled_problem(&problem, model, seal, pressure, out->load_net, 0);
-    SbStatus status = solve_rough(&memory->rest, &memory->rest_fitted, &problem, model, seal,
-                                  pressure, memory, counts, warnings, report);
-    if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
-      return status;
+    coupled_problem(&problem, model, task->seal, pressure, out->load_net, 0);
+    memory->rest_fitted = solve_fitted(task, &memory->rest, &problem);
+    last = memory->rest_fitted ? SB_OK : solve_counted(task, &memory->rest, &problem, report);
+    if (last != SB_OK && last != SB_ERROR_NOT_CONVERGED) {
+      return last;
     }
-    worst = last = status;
-    memory->rested = status == SB_OK;
+    worst = last;
+    memory->rested = last == SB_OK;
     memory->rest_load = out->load_net;
     memory->rest_pressure = pressure;
   }
   memory->fitted_last = false;
   bool fitted = memory->rest_fitted;
-  if (speed != 0) {
-    coupled_problem(&problem, model, seal, pressure, out->load_net, speed);
-    option_warnings(warnings, model, seal, &problem);
+  if (task->speed != 0) {
+    coupled_problem(&problem, model, task->seal, pressure, out->load_net, task->speed);
+    option_warnings(task, &problem);
     if (model->inlet_carried) {
-      sb_warn(warnings, "inlet-flooded", "models.inlet",
+      sb_warn(task->warnings, "inlet-flooded", "models.inlet",
               "with coupled asperities the inlet is flooded both ways: what a rough contact leaves "
               "on the bore is not known");
     }
-    SbStatus status = solve_rough(&memory->film, &fitted, &problem, model, seal, pressure, memory,
-                                  counts, warnings, worst == SB_OK ? report : NULL);
-    if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
-      return status;
+    fitted = solve_fitted(task, &memory->film, &problem);
+    last = fitted ? SB_OK
+                  : solve_counted(task, &memory->film, &problem, worst == SB_OK ? report : NULL);
+    if (last != SB_OK && last != SB_ERROR_NOT_CONVERGED) {
+      return last;
     }
-    worst = status != SB_OK ? status : worst;
-    last = status;
+    worst = last != SB_OK ? last : worst;
   } else {
     memory->film = memory->rest;
   }
   const SbFilm *film = &memory->film;
-  sb_warnings_merge(warnings, &film->warnings);
+  sb_warnings_merge(task->warnings, &film->warnings);
   // Lengths of the half-plane's contact over the fitted one's; forces over its circumference.
-  double area = (out->contact_right - out->contact_left) * model->bore_circumference;
   double fit_width = out->contact_right - out->contact_left;
+  double area = fit_width * model->bore_circumference;
   double width = fitted ? fit_width : 2 * film->hertz_half_width;
   double rest_width = memory->rest_fitted ? fit_width : 2 * memory->rest.hertz_half_width;
   double circumference = out->load / out->load_per_length;
@@ -587,19 +521,18 @@ void sb_sliding_clear(SbSliding *out) {
 }
 
 // Fitment: contact and loads. *known tells whether there is a contact to go on with.
-static SbStatus fit_contact(SbSliding *out, bool *known, const SbModel *model, int seal,
-                            SbSealPressure pressure, SbSlidingMemory *memory,
-                            SbSlidingCounts *counts, SbWarnings *warnings, SbReport *report) {
+static SbStatus fit_contact(const Task *task, SbSliding *out, bool *known, SbReport *report) {
+  SbSealPressure pressure = task->pressure;
   (void)sb_succeed(report);
   sb_sliding_clear(out);
   *known = false;
   // The fit takes the difference; the common part only shifts the fluid's level.
-  SbStatus status = solve_fit(memory, model, seal, pressure.left - pressure.right, counts, report);
+  SbStatus status = solve_fit(task, report);
   if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
     return status;
   }
-  const SbFit *fit = &memory->fit;
-  sb_warnings_merge(warnings, &fit->warnings);
+  const SbFit *fit = &task->memory->fit;
+  sb_warnings_merge(task->warnings, &fit->warnings);
   // One that stopped above the tolerance counts, with its error; else it holds another load's.
   bool close = fit->solver.error_estimate.load > 0 && fit->solver.error_estimate.load < 1;
   out->touches = fit->touches || status != SB_OK;
@@ -626,33 +559,31 @@ static SbStatus fit_contact(SbSliding *out, bool *known, const SbModel *model, i
   return status;
 }
 
-static SbStatus solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                      double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
-                      SbWarnings *warnings, SbReport *report) {
+static SbStatus solve(const Task *task, SbSliding *out, SbReport *report) {
+  SbWarnings *warnings = task->warnings;
+  int seal = task->seal;
   bool known;
-  SbStatus status =
-      fit_contact(out, &known, model, seal, pressure, memory, counts, warnings, report);
+  SbStatus status = fit_contact(task, out, &known, report);
   if (!known) {
     return status;
   }
   SbReport own = {0};
   SbReport *first = status == SB_OK ? report : NULL; // the first failure is told
-  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0) {
-    SbStatus coupled =
-        solve_coupled(out, model, seal, pressure, speed, memory, counts, warnings, &own);
+  if (task->model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0) {
+    SbStatus coupled = solve_coupled(task, out, &own);
     coupled = opened_by_fluid(out, coupled, &own, seal, warnings, first);
     return coupled != SB_OK ? coupled : status;
   }
 
   // Film, only when sliding.
-  if (speed == 0) {
+  if (task->speed == 0) {
     out->film_min = out->film_central = 0;
   } else if (out->load_net <= 0) {
     out->opened = true;
     sb_warn(warnings, "film-no-net-load", "canister.pressure",
             "the fluid alone carries the %s seal: no film law applies", sb_seal_name(seal));
   } else {
-    SbStatus film = solve_film(out, model, seal, pressure, speed, memory, counts, warnings, &own);
+    SbStatus film = solve_film(task, out, &own);
     film = opened_by_fluid(out, film, &own, seal, warnings, first);
     if (film != SB_OK && film != SB_ERROR_NOT_CONVERGED) {
       return film;
@@ -661,18 +592,16 @@ static SbStatus solve(SbSliding *out, const SbModel *model, int seal, SbSealPres
   }
 
   SbStatus area_status =
-      rough_contact(out, model, seal, speed, warnings, status == SB_OK ? report : NULL);
+      rough_contact(out, task->model, seal, task->speed, warnings, status == SB_OK ? report : NULL);
   if (area_status != SB_OK) {
     return area_status;
   }
 
   // Regime and validity.
-  if (speed != 0 && out->film_central > 0) {
-    if (out->lambda < 1) {
-      sb_warn(warnings, "boundary-regime", "surface.sigma",
-              "λ = %.2g at the %s seal: boundary regime, the film is thinner than the roughness",
-              out->lambda, sb_seal_name(seal));
-    }
+  if (task->speed != 0 && out->film_central > 0 && out->lambda < 1) {
+    sb_warn(warnings, "boundary-regime", "surface.sigma",
+            "λ = %.2g at the %s seal: boundary regime, the film is thinner than the roughness",
+            out->lambda, sb_seal_name(seal));
   }
   return status;
 }
@@ -680,8 +609,9 @@ static SbStatus solve(SbSliding *out, const SbModel *model, int seal, SbSealPres
 SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
                           double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
                           SbWarnings *warnings, SbReport *report) {
+  const Task task = {model, seal, pressure, speed, memory, counts, warnings};
   sb_warn_about(warnings, about(seal));
-  SbStatus status = solve(out, model, seal, pressure, speed, memory, counts, warnings, report);
+  SbStatus status = solve(&task, out, report);
   sb_warn_about(warnings, NULL);
   return status;
 }
@@ -689,10 +619,10 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
 SbStatus sb_sliding_fitment(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
                             SbSlidingMemory *memory, SbSlidingCounts *counts, SbWarnings *warnings,
                             SbReport *report) {
+  const Task task = {model, seal, pressure, 0, memory, counts, warnings};
   bool known;
   sb_warn_about(warnings, about(seal));
-  SbStatus status =
-      fit_contact(out, &known, model, seal, pressure, memory, counts, warnings, report);
+  SbStatus status = fit_contact(&task, out, &known, report);
   sb_warn_about(warnings, NULL);
   return status;
 }

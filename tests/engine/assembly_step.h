@@ -63,6 +63,36 @@ static inline void move_bodies(SbAssembly *a, const SbAssembly *from, const Body
   }
 }
 
+// Brings positions onto the joints, and takes from the velocities what violates their conditions by
+// the smallest change in the sense of the masses.
+static inline SbStatus settle(SbAssembly *a, SbReport *report) {
+  double length = sb_bodies_extent(a), error;
+  SbStatus status = sb_bodies_settle_positions(a, &error, &assembly_work, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  SbAssemblyConditions *c = &assembly_work.conditions;
+  double top[COLUMNS] = {0}, bottom[ROWS];
+  sb_bodies_conditions(c, a, length);
+  for (size_t r = 0; r < c->rows; r++) {
+    bottom[r] = 0.0;
+    for (size_t b = 0; b < a->bodies; b++) {
+      for (size_t k = 0; k < 3; k++) {
+        bottom[r] -= c->jacobian[r][6 * b + k] * a->body[b].velocity[k] +
+                     c->jacobian[r][6 * b + 3 + k] * a->body[b].spin[k] * length;
+      }
+    }
+  }
+  status = sb_bodies_solve(a, &assembly_work, 1.0, length, top, bottom, report);
+  for (size_t b = 0; b < a->bodies && status == SB_OK; b++) {
+    for (size_t k = 0; k < 3 && !a->body[b].ground; k++) {
+      a->body[b].velocity[k] += top[6 * b + k];
+      a->body[b].spin[k] += top[6 * b + 3 + k] / length;
+    }
+  }
+  return status;
+}
+
 // Advances by h with the classical Runge-Kutta method (order 4), the applied forces held or set
 // anew at each stage by `apply` (may be NULL), and brings positions back onto the joints.
 static inline SbStatus assembly_step(SbAssembly *a, double time, double h,
@@ -94,5 +124,5 @@ static inline SbStatus assembly_step(SbAssembly *a, double time, double h,
     p[i] = (p1[i] + 2.0 * (p2[i] + p3[i]) + p4[i]) / 6.0;
   }
   move_bodies(a, &start, &mean, h);
-  return sb_assembly_settle(a, &assembly_work, report);
+  return settle(a, report);
 }

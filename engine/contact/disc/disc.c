@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "engine/base/check.h"
+#include "engine/contact/closed/hertz.h"
 #include "engine/contact/disc/disc_system.h"
 #include "engine/numeric/dense.h"
 
@@ -238,12 +239,10 @@ static SbStatus check(const SbDiscProblem *in, SbReport *report) {
 
 // Half-width over radius of Hertz's contact at the approach; the start of Newton.
 static double hertz_start(double approach) {
-  double t = sqrt(approach / 4.0);
-  for (int i = 0; i < 30; i++) {
-    // approach/R = t^2 (2 ln(4/t) - 1)/2
-    t = sqrt(2.0 * approach / fmax(0.5, 2.0 * log(4.0 / t) - 1.0));
-  }
-  return fmin(t, 0.9);
+  SbHertz hertz;
+  // As of a disc that is as stiff as the flat is not: 2/E' = 1/E_disc.
+  SbStatus status = sb_hertz_from_approach(&hertz, approach, 1.0, 2.0, 1.0, NULL, NULL);
+  return status == SB_OK ? fmin(hertz.half_width, 0.9) : 0.9;
 }
 
 // Unknowns of one resolution after the next: the dry half-width, and the edges under pressure.

@@ -130,18 +130,6 @@ typedef struct {
 } SbRingFields;
 void sb_ring_fields(const SbRing *ring, const SbRingFields *out);
 
-// Number of surface nodes that sb_ring_compliance covers: the bore contact and `margin` boundary
-// nodes on either side; 0 without contact.
-int sb_ring_compliance_size(const SbRing *ring, int margin);
-
-// Normal compliance of those n nodes in the present state, all other contacts as they are: a change
-// of nodal forces f_j [N, inward, whole ring] moves the surface inwards by the sum of c[i * n + j]
-// f_j [m]; a pressure p acts by f_j = area[j] p. x [n] axial places, area [n] m^2, c [n * n] m/N,
-// caller's arrays; per metre with plane_strain. Errors: SB_ERROR_INFEASIBLE without contact,
-// SB_ERROR_NOT_CONVERGED, SB_ERROR_MEMORY.
-SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, double *c,
-                            SbReport *report);
-
 // The bore's surface as film solvers take it (engine/contact/compliance.h): the half-plane with the
 // squeezed rubber's own modulus, a smooth rest that is exact for the discrete ring, and the gap
 // whose dry contact has the present pressure, over a window of 1.4 contact widths. Loads are per
@@ -150,10 +138,10 @@ SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, d
 // window.
 SbStatus sb_ring_surface(SbRing *ring, SbSurfaceCompliance *out, SbReport *report);
 
-// Foretells the result at a nearby load (radii, walls, pressures) by one linear step from the
-// present equilibrium, contacts as they are; costs one factorisation. Wrong to second order in the
-// change, and to first order once contacts open or close by whole nodes. The ring stays as it is.
-// Errors: SB_ERROR_NOT_CONVERGED for a change that turns the mesh inside out.
+// Linearised prediction of the result at a nearby load (radii, walls, pressures) by one linear step
+// from the present equilibrium, contacts as they are; costs one factorisation. Wrong to second
+// order in the change, and to first order once contacts open or close by whole nodes. The ring
+// stays as it is. Errors: SB_ERROR_NOT_CONVERGED for a change that turns the mesh inside out.
 SbStatus sb_ring_predict(SbRing *ring, const SbRingLoad *load, SbRingResult *out, SbReport *report);
 
 // Relative errors by comparing two meshes.

@@ -13,33 +13,16 @@
 // varies a little along the contact is left to the smooth part.
 #include "engine/contact/compliance.h"
 #include "engine/contact/ring/ring_private.h"
+#include "engine/numeric/legendre.h"
 
 #include <math.h>
 #include <string.h>
-
-// Loop places of the bore's held nodes and `margin` neighbours on both sides; returns their number.
-static int surface_nodes(const SbRing *ring, int margin, int *first) {
-  SbRingPatch patch;
-  if (!sb_ring_patch(ring, SB_RING_BORE, &patch)) {
-    return 0;
-  }
-  *first = patch.first - margin;
-  int count = patch.last - patch.first + 1 + 2 * margin;
-  return count < ring->contact->count ? count : 0;
-}
-
-int sb_ring_compliance_size(const SbRing *ring, int margin) {
-  int first;
-  return surface_nodes(ring, margin < 0 ? 0 : margin, &first);
-}
 
 // Tangent of the present contact pressure as a follower load that is fixed in space, as a film's
 // is: forces on material points would roll the section over (a load that travels with the point it
 // acts on leaves its support), which is neither what a rigid bore nor what a film does. The force
 // per axial length is kept, not the pressure, so that forces are the unknowns throughout.
 static void add_follower(SbRing *ring) {
-  static const double XI[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};
-  static const double WEIGHT[3] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
   SbRingFem *fem = ring->fem;
   int loop = ring->contact->count;
   double turn = fem->axisymmetric ? 2.0 * M_PI : 1.0;
@@ -56,26 +39,22 @@ static void add_follower(SbRing *ring) {
       int place = (start + a) % loop;
       node[a] = fem->mesh->loop[place];
       p[a] = sb_ring_node_pressure(ring, place, SB_RING_BORE);
-      r[a] = fem->mesh->x[2 * node[a]] + fem->u[2 * node[a]];
-      z[a] = fem->mesh->x[2 * node[a] + 1] + fem->u[2 * node[a] + 1];
+      double x[2];
+      sb_ring_fem_place(fem, node[a], x);
+      r[a] = x[0];
+      z[a] = x[1];
     }
     p[0] = start == begin ? patch.end_pressure[0] : p[0];
     p[2] = start + 2 == end ? patch.end_pressure[1] : p[2];
     // The straight line through the ends is smooth where nodal pressures zigzag.
     double slope = (p[2] - p[0]) / (z[2] - z[0]);
     for (int q = 0; q < 3; q++) {
-      double xi = XI[q];
-      double n[3] = {0.5 * xi * (xi - 1.0), 1.0 - xi * xi, 0.5 * xi * (xi + 1.0)};
-      double d[3] = {xi - 0.5, -2.0 * xi, xi + 0.5};
-      double rr = 0.0, dr = 0.0, zz = 0.0, dz = 0.0;
-      for (int a = 0; a < 3; a++) {
-        rr += n[a] * r[a];
-        dr += d[a] * r[a];
-        zz += n[a] * z[a];
-        dz += d[a] * z[a];
-      }
+      double n[3], d[3];
+      sb_ring_side_shape(SB_RING_X3[q], n, d);
+      double rr = sb_ring_side_sum(n, r), dr = sb_ring_side_sum(d, r);
+      double zz = sb_ring_side_sum(n, z), dz = sb_ring_side_sum(d, z);
       double pressure = p[0] + slope * (zz - z[0]);
-      double radius = fem->axisymmetric ? rr : 1.0, c = WEIGHT[q] * turn;
+      double radius = fem->axisymmetric ? rr : 1.0, c = SB_RING_W3[q] * turn;
       for (int a = 0; a < 3; a++) {
         for (int b = 0; b < 3; b++) {
           sb_ring_fem_add(fem, node[a], 0, node[b], 1,
@@ -88,8 +67,7 @@ static void add_follower(SbRing *ring) {
   }
 }
 
-// Tangent of the present state with the bore's nodes set free, factorised.
-static SbStatus factorise(SbRing *ring, SbReport *report) {
+SbStatus sb_ring_free_bore(SbRing *ring, SbReport *report) {
   SbRingFem *fem = ring->fem;
   SbRingContact *contact = ring->contact;
   int loop = contact->count;
@@ -117,41 +95,11 @@ static SbStatus factorise(SbRing *ring, SbReport *report) {
   return sb_ring_fem_factor(fem, report);
 }
 
-// Leaves the object as it was: forces and shares of the present state.
-static void settle(SbRing *ring) {
+void sb_ring_settle(SbRing *ring) {
   if (sb_ring_fem_assemble(ring->fem)) {
     sb_ring_contact_apply(ring->contact);
     sb_ring_contact_forces(ring->contact);
   }
-}
-
-SbStatus sb_ring_compliance(SbRing *ring, int margin, double *x, double *area, double *c,
-                            SbReport *report) {
-  int first = 0, count = surface_nodes(ring, margin < 0 ? 0 : margin, &first);
-  if (count == 0) {
-    return sb_fail(report, SB_ERROR_INFEASIBLE, "the ring does not touch the bore");
-  }
-  SbRingFem *fem = ring->fem;
-  SbRingContact *contact = ring->contact;
-  int loop = contact->count;
-  SbStatus status = factorise(ring, report);
-  for (int j = 0; status == SB_OK && j < count; j++) {
-    int place = (first + j + loop) % loop;
-    int node = fem->mesh->loop[place];
-    x[j] = (fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1]) * ring->length;
-    double unit = ring->body.plane_strain ? ring->length : ring->length * ring->length;
-    area[j] = contact->weight[place] * unit;
-    // A unit inward force.
-    memset(fem->rhs, 0, sizeof(double) * 2 * (size_t)fem->mesh->nodes);
-    fem->rhs[2 * node] = -1.0;
-    status = sb_ring_fem_apply_factor(fem, report);
-    for (int i = 0; i < count; i++) {
-      int other = fem->mesh->loop[(first + i + loop) % loop];
-      c[i * count + j] = -fem->du[2 * other] * ring->length / ring->force;
-    }
-  }
-  settle(ring);
-  return status == SB_OK ? sb_succeed(report) : status;
 }
 
 // Waves of pressure that are tried, and those that tell the half-plane's modulus; share of the
@@ -177,40 +125,27 @@ static void side_of(const SbRing *ring, int side, Side *out) {
   int loop = ring->contact->count;
   for (int a = 0; a < 3; a++) {
     int node = fem->mesh->loop[((2 * side + a) % loop + loop) % loop];
-    out->r[a] = fem->mesh->x[2 * node] + fem->u[2 * node];
-    out->z[a] = fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1];
+    double x[2];
+    sb_ring_fem_place(fem, node, x);
+    out->r[a] = x[0];
+    out->z[a] = x[1];
     out->dr[a] = fem->du[2 * node];
     out->dz[a] = fem->du[2 * node + 1];
   }
 }
 
-static double blend(const double v[3], double xi) {
-  return 0.5 * xi * (xi - 1.0) * v[0] + (1.0 - xi * xi) * v[1] + 0.5 * xi * (xi + 1.0) * v[2];
-}
-
-static double blend_slope(const double v[3], double xi) {
-  return (xi - 0.5) * v[0] - 2.0 * xi * v[1] + (xi + 0.5) * v[2];
-}
-
-// The upper side that lies over the axial place z, from the bore's contact outwards; xi is the
-// place on it. False beyond the surface's turn.
-static bool find_side(const SbRing *ring, const SbRingPatch *patch, double z, int *side,
-                      double *xi) {
-  int middle = (patch->first + patch->last) / 4;
-  Side s;
-  side_of(ring, middle, &s);
-  int step = z > s.z[1] ? 1 : -1;
-  for (int k = 0; k < ring->contact->count / 4; k++) {
-    side_of(ring, middle + k * step, &s);
-    if (!(s.z[2] > s.z[0])) {
+// The upper side that lies over the axial place z, from the bore's contact outwards. False beyond
+// the surface's turn.
+static bool find_side(const SbRing *ring, const SbRingPatch *patch, double z, int *side, Side *s) {
+  *side = (patch->first + patch->last) / 4;
+  side_of(ring, *side, s);
+  int step = z > s->z[1] ? 1 : -1;
+  for (int k = 0; k < ring->contact->count / 4; k++, *side += step) {
+    side_of(ring, *side, s);
+    if (!(s->z[2] > s->z[0])) {
       return false;
     }
-    if (z >= s.z[0] && z <= s.z[2]) {
-      *side = middle + k * step;
-      *xi = 2.0 * (z - s.z[0]) / (s.z[2] - s.z[0]) - 1.0;
-      for (int i = 0; i < 8; i++) {
-        *xi -= (blend(s.z, *xi) - z) / blend_slope(s.z, *xi);
-      }
+    if (z >= s->z[0] && z <= s->z[2]) {
       return true;
     }
   }
@@ -220,10 +155,6 @@ static bool find_side(const SbRing *ring, const SbRingPatch *patch, double z, in
 // Loads the window, from one side of the surface to another, with the inward pressure sqrt(1 - z^2)
 // U_l(z), per length of the bore's circumference so that the answer stays symmetric.
 static void load_wave(SbRing *ring, int from, int to, double middle, double half, int l) {
-  static const double XI[4] = {-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
-                               0.861136311594052575};
-  static const double WEIGHT[4] = {0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
-                                   0.347854845137453857};
   SbRingFem *fem = ring->fem;
   int loop = ring->contact->count;
   double turn = fem->axisymmetric ? 2.0 * M_PI * ring->contact->now.bore : 1.0;
@@ -235,16 +166,13 @@ static void load_wave(SbRing *ring, int from, int to, double middle, double half
     double a = acos(fmin(1.0, fmax(-1.0, -(s.z[0] - middle) / half)));
     double b = acos(fmin(1.0, fmax(-1.0, -(s.z[2] - middle) / half)));
     for (int q = 0; q < 4; q++) {
-      double theta = 0.5 * (a + b) + 0.5 * (b - a) * XI[q];
+      double theta = 0.5 * (a + b) + 0.5 * (b - a) * SB_RING_X4[q];
       double z = middle - half * cos(theta);
-      double at = 2.0 * (z - s.z[0]) / (s.z[2] - s.z[0]) - 1.0;
-      for (int i = 0; i < 8; i++) {
-        at -= (blend(s.z, at) - z) / blend_slope(s.z, at);
-      }
+      double n[3], d[3];
+      sb_ring_side_at(s.z, z, n, d);
       // U_l(-cos theta) sin(theta) = sin((l + 1)(pi - theta)).
       double pressure = sin((l + 1) * (M_PI - theta));
-      double force = 0.5 * (b - a) * WEIGHT[q] * half * sin(theta) * pressure * turn;
-      double n[3] = {0.5 * at * (at - 1.0), 1.0 - at * at, 0.5 * at * (at + 1.0)};
+      double force = 0.5 * (b - a) * SB_RING_W4[q] * half * sin(theta) * pressure * turn;
       for (int k = 0; k < 3; k++) {
         fem->rhs[2 * fem->mesh->loop[((2 * side + k) % loop + loop) % loop]] -= n[k] * force;
       }
@@ -256,14 +184,14 @@ static void load_wave(SbRing *ring, int from, int to, double middle, double half
 static void read_wave(const SbRing *ring, const SbRingPatch *patch, double middle, double half,
                       double *value, double *slope) {
   for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
-    double z = middle - half * cos(M_PI * (i + 0.5) / SB_COMPLIANCE_MODES), xi;
+    double z = middle - half * cos(M_PI * (i + 0.5) / SB_COMPLIANCE_MODES), n[3], d[3];
     int side;
+    Side s;
     value[i] = slope[i] = 0.0;
-    if (find_side(ring, patch, z, &side, &xi)) {
-      Side s;
-      side_of(ring, side, &s);
-      slope[i] = blend_slope(s.r, xi) / blend_slope(s.z, xi);
-      value[i] = slope[i] * blend(s.dz, xi) - blend(s.dr, xi);
+    if (find_side(ring, patch, z, &side, &s)) {
+      sb_ring_side_at(s.z, z, n, d);
+      slope[i] = sb_ring_side_sum(d, s.r) / sb_ring_side_sum(d, s.z);
+      value[i] = slope[i] * sb_ring_side_sum(n, s.dz) - sb_ring_side_sum(n, s.dr);
     }
   }
 }
@@ -304,15 +232,14 @@ static void smooth_part(SbSurfaceCompliance *out, double half,
   enum { N = SB_COMPLIANCE_MODES };
   double compliance = sb_compliance_half_plane(out), s[WAVES][WAVES + 2] = {{0.0}};
   for (int l = WAVES - 1; l >= 0; l--) {
-    double plane[N];
+    double plane[N], rest[N], v[N];
     half_plane(half, l, plane);
+    for (int i = 0; i < N; i++) {
+      rest[i] = answer[l][i] - compliance * plane[i];
+    }
+    sb_chebyshev_coefficients(v, rest, N);
     for (int k = 0; k < WAVES; k++) {
-      double v = 0.0;
-      for (int i = 0; i < N; i++) {
-        double theta = M_PI - M_PI * (i + 0.5) / N;
-        v += (k == 0 ? 1.0 : 2.0) / N * cos(k * theta) * (answer[l][i] - compliance * plane[i]);
-      }
-      s[k][l] = (4.0 * v / (M_PI * half) + s[k][l + 2]) / (l == 0 ? 2.0 : 1.0);
+      s[k][l] = (4.0 * v[k] / (M_PI * half) + s[k][l + 2]) / (l == 0 ? 2.0 : 1.0);
     }
   }
   out->modes = N;
@@ -367,14 +294,15 @@ static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
                              SbSurfaceCompliance *out, SbReport *report) {
   *out = (SbSurfaceCompliance){0};
   double middle = 0.5 * (patch.place[0] + patch.place[1]);
-  double half = (0.5 + reach) * (patch.place[1] - patch.place[0]), xi;
+  double half = (0.5 + reach) * (patch.place[1] - patch.place[0]);
   int from, to;
-  if (!find_side(ring, &patch, middle - half, &from, &xi) ||
-      !find_side(ring, &patch, middle + half, &to, &xi)) {
+  Side s;
+  if (!find_side(ring, &patch, middle - half, &from, &s) ||
+      !find_side(ring, &patch, middle + half, &to, &s)) {
     return sb_fail(report, SB_ERROR_INFEASIBLE,
                    "the ring's surface turns away too near to the bore contact");
   }
-  SbStatus status = factorise(ring, report);
+  SbStatus status = sb_ring_free_bore(ring, report);
   double answer[WAVES][SB_COMPLIANCE_MODES], slope[SB_COMPLIANCE_MODES];
   double unit = ring->length / ring->stress; // of displacement per pressure
   double length = half * ring->length, up = 0.0, down = 0.0;
@@ -391,7 +319,7 @@ static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
       down += counts ? plane[i] * plane[i] : 0.0;
     }
   }
-  settle(ring);
+  sb_ring_settle(ring);
   if (status != SB_OK) {
     return status;
   }
@@ -451,8 +379,8 @@ SbStatus sb_ring_predict(SbRing *ring, const SbRingLoad *load, SbRingResult *out
   contact->now = now;
   sb_ring_fem_restore(fem, 1);
   sb_ring_contact_restore(contact, 0);
-  settle(ring);
+  sb_ring_settle(ring);
   return status == SB_OK ? sb_succeed(report)
                          : sb_fail(report, SB_ERROR_NOT_CONVERGED,
-                                   "the change is too large to foretell the ring's load");
+                                   "the change is too large for a linear prediction of the load");
 }

@@ -27,20 +27,18 @@ SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *r
   contact->force_scale = 1.0;
   contact->touch = calloc(n * SB_RING_SURFACES, sizeof(SbRingTouch));
   contact->closed = calloc(n, sizeof(bool));
-  contact->share = calloc(2 * n, sizeof(double));
-  contact->weight = calloc(n, sizeof(double));
-  contact->fluid = calloc(2 * n, sizeof(double));
-  contact->pressed = calloc(2 * n, sizeof(double));
-  contact->anchor = calloc(2 * n, sizeof(double));
-  for (int place = 0; place < 2; place++) {
-    contact->saved[place] = calloc(n * SB_RING_SURFACES, sizeof(SbRingTouch));
-  }
+  contact->share = calloc(9 * n, sizeof(double)); // and what follows it
+  contact->saved[0] = calloc(2 * n * SB_RING_SURFACES, sizeof(SbRingTouch));
   if (contact->touch == NULL || contact->closed == NULL || contact->share == NULL ||
-      contact->weight == NULL || contact->fluid == NULL || contact->pressed == NULL ||
-      contact->anchor == NULL || contact->saved[0] == NULL || contact->saved[1] == NULL) {
+      contact->saved[0] == NULL) {
     sb_ring_contact_destroy(contact);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's contact");
   }
+  contact->pressed = contact->share + 2 * n;
+  contact->fluid = contact->share + 4 * n;
+  contact->anchor = contact->share + 6 * n;
+  contact->weight = contact->share + 8 * n;
+  contact->saved[1] = contact->saved[0] + n * SB_RING_SURFACES;
   *out = contact;
   return SB_OK;
 }
@@ -50,22 +48,13 @@ void sb_ring_contact_destroy(SbRingContact *contact) {
     free(contact->touch);
     free(contact->closed);
     free(contact->share);
-    free(contact->weight);
-    free(contact->fluid);
-    free(contact->pressed);
-    free(contact->anchor);
-    for (int place = 0; place < 2; place++) {
-      free(contact->saved[place]);
-    }
+    free(contact->saved[0]);
     free(contact);
   }
 }
 
 void sb_ring_contact_place(const SbRingContact *contact, int i, double x[2]) {
-  const SbRingFem *fem = contact->fem;
-  int node = fem->mesh->loop[i];
-  x[0] = fem->mesh->x[2 * node] + fem->u[2 * node];
-  x[1] = fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1];
+  sb_ring_fem_place(contact->fem, contact->fem->mesh->loop[i], x);
 }
 
 void sb_ring_contact_detect(SbRingContact *contact) {
@@ -170,7 +159,7 @@ static void toggle(SbRingContact *contact, int at) {
   }
 }
 
-int sb_ring_contact_update(SbRingContact *contact, bool gentle) {
+int sb_ring_contact_update(SbRingContact *contact, bool single) {
   SbRingFem *fem = contact->fem;
   int changes = 0;
   double tiny = 1e-11 * contact->force_scale;
@@ -194,29 +183,29 @@ int sb_ring_contact_update(SbRingContact *contact, bool gentle) {
           touch->force - n[0] * contact->share[2 * i] - n[1] * contact->share[2 * i + 1];
       if (!touch->held && gap < deepest) {
         worst_catch = at;
-        deepest = gentle ? gap : deepest;
+        deepest = single ? gap : deepest;
       } else if (touch->held && excess < least) {
         worst_release = at;
-        least = gentle ? excess : least;
+        least = single ? excess : least;
       } else {
         continue;
       }
-      if (!gentle) {
+      if (!single) {
         toggle(contact, at);
         changes++;
       }
     }
   }
-  if (gentle && worst_release >= 0) {
+  if (single && worst_release >= 0) {
     toggle(contact, worst_release);
     changes++;
   }
-  if (gentle && worst_catch >= 0) {
+  if (single && worst_catch >= 0) {
     toggle(contact, worst_catch);
     changes++;
   }
-  // Friction follows once the contact is steady: both at once chase each other.
-  return changes > 0 ? changes : sb_ring_contact_update_slip(contact, gentle);
+  // Friction follows once the contact is steady: changing both at once does not converge.
+  return changes > 0 ? changes : sb_ring_contact_update_slip(contact, single);
 }
 
 double sb_ring_contact_limit(const SbRingContact *contact) {

@@ -94,8 +94,8 @@ double sb_ring_contact_slipped(const SbRingContact *contact, SbRingSurface surfa
 // The first slip state of a node that a surface has just caught.
 void sb_ring_contact_begin_friction(SbRingContact *contact, int i, SbRingSurface surface);
 
-// Renews stick and slip, with `gentle` only at the worst fault; returns how many changed.
-int sb_ring_contact_update_slip(SbRingContact *contact, bool gentle);
+// Renews stick and slip, with `single` only at the worst fault; returns how many changed.
+int sb_ring_contact_update_slip(SbRingContact *contact, bool single);
 
 // Sum of what exceeds Coulomb's law at sticking nodes and of the friction that is left out.
 double sb_ring_contact_slip_excess(const SbRingContact *contact);
@@ -115,8 +115,8 @@ double sb_ring_contact_apply(SbRingContact *contact);
 double sb_ring_contact_limit(const SbRingContact *contact);
 
 // After the solve and the step: new held set and slip states from the linear model's reactions.
-// Returns how many changed. With `gentle` only the worst offender of each kind changes.
-int sb_ring_contact_update(SbRingContact *contact, bool gentle);
+// Returns how many changed. With `single` only the worst offender of each kind changes.
+int sb_ring_contact_update(SbRingContact *contact, bool single);
 
 // At convergence: forces of all touches from the residual.
 void sb_ring_contact_forces(SbRingContact *contact);

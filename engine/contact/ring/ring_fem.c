@@ -71,27 +71,26 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->axisymmetric = axisymmetric;
   fem->material = material;
   size_t n = (size_t)mesh->nodes, m = (size_t)mesh->elements;
-  fem->u = calloc(2 * n, sizeof(double));
-  fem->inner = calloc(SB_RING_INNER * m, sizeof(double));
-  fem->saved[0] = calloc(2 * n + SB_RING_INNER * m, sizeof(double));
-  fem->saved[1] = calloc(2 * n + SB_RING_INNER * m, sizeof(double));
-  fem->saved[2] = calloc(2 * n + SB_RING_INNER * m, sizeof(double));
-  fem->mass = calloc(n, sizeof(double));
-  fem->residual = calloc(2 * n, sizeof(double));
-  fem->rhs = calloc(2 * n, sizeof(double));
-  fem->du = calloc(2 * n, sizeof(double));
+  size_t state = 2 * n + SB_RING_INNER * m;
+  fem->u = calloc(4 * state + 7 * n, sizeof(double)); // and what follows it
   fem->condition = calloc(n, sizeof(SbRingCondition));
-  fem->raw_place = calloc(n, sizeof(int));
+  fem->raw_place = calloc(2 * n, sizeof(int));
   fem->gauss = malloc(sizeof(double) * POINT_SIZE * SB_RING_FEM_POINTS * m);
   fem->condensed = calloc(CONDENSED_SIZE * m, sizeof(double));
-  fem->work_int = malloc(sizeof(int) * n);
-  if (fem->u == NULL || fem->saved[0] == NULL || fem->saved[1] == NULL || fem->saved[2] == NULL ||
-      fem->mass == NULL || fem->inner == NULL || fem->residual == NULL || fem->rhs == NULL ||
-      fem->du == NULL || fem->condition == NULL || fem->raw_place == NULL || fem->gauss == NULL ||
-      fem->condensed == NULL || fem->work_int == NULL) {
+  if (fem->u == NULL || fem->condition == NULL || fem->raw_place == NULL || fem->gauss == NULL ||
+      fem->condensed == NULL) {
     sb_ring_fem_destroy(fem);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's elements");
   }
+  fem->inner = fem->u + 2 * n;
+  for (size_t place = 0; place < 3; place++) {
+    fem->saved[place] = fem->u + (place + 1) * state;
+  }
+  fem->residual = fem->u + 4 * state;
+  fem->rhs = fem->residual + 2 * n;
+  fem->du = fem->residual + 4 * n;
+  fem->mass = fem->residual + 6 * n;
+  fem->work_int = fem->raw_place + n;
   for (int e = 0; e < mesh->elements; e++) {
     for (int q = 0; q < SB_RING_FEM_POINTS; q++) {
       if (!point_geometry(fem, e, POINT[q][0], POINT[q][1], POINT[q][2],
@@ -119,10 +118,9 @@ void sb_ring_fem_destroy(SbRingFem *fem) {
     return;
   }
   sb_ring_sparse_finish(fem);
-  void *owned[] = {fem->u,         fem->saved[0], fem->saved[1],  fem->inner,     fem->residual,
-                   fem->saved[2],  fem->mass,     fem->rhs,       fem->du,        fem->condition,
-                   fem->raw_place, fem->gauss,    fem->condensed, fem->row_start, fem->column,
-                   fem->value,     fem->raw,      fem->scatter,   fem->diagonal,  fem->work_int};
+  void *owned[] = {fem->u,         fem->condition, fem->raw_place, fem->gauss,
+                   fem->condensed, fem->row_start, fem->column,    fem->value,
+                   fem->raw,       fem->scatter,   fem->diagonal};
   for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
     free(owned[i]);
   }
@@ -357,18 +355,18 @@ void sb_ring_fem_advance(SbRingFem *fem, double step) {
   }
 }
 
+// Bytes of displacement and inner unknowns, which follow each other.
+static size_t state_size(const SbRingFem *fem) {
+  return sizeof(double) *
+         (2 * (size_t)fem->mesh->nodes + SB_RING_INNER * (size_t)fem->mesh->elements);
+}
+
 void sb_ring_fem_save(SbRingFem *fem, int place) {
-  size_t nodal = 2 * (size_t)fem->mesh->nodes;
-  memcpy(fem->saved[place], fem->u, sizeof(double) * nodal);
-  memcpy(fem->saved[place] + nodal, fem->inner,
-         sizeof(double) * SB_RING_INNER * (size_t)fem->mesh->elements);
+  memcpy(fem->saved[place], fem->u, state_size(fem));
 }
 
 void sb_ring_fem_restore(SbRingFem *fem, int place) {
-  size_t nodal = 2 * (size_t)fem->mesh->nodes;
-  memcpy(fem->u, fem->saved[place], sizeof(double) * nodal);
-  memcpy(fem->inner, fem->saved[place] + nodal,
-         sizeof(double) * SB_RING_INNER * (size_t)fem->mesh->elements);
+  memcpy(fem->u, fem->saved[place], state_size(fem));
 }
 
 void sb_ring_fem_volume(const SbRingFem *fem, double *reference, double *deformed) {

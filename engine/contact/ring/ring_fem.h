@@ -61,6 +61,12 @@ struct SbRingFem {
   int *work_int; // [nodes] scratch
 };
 
+// Deformed place (r, z) of a node.
+static inline void sb_ring_fem_place(const SbRingFem *fem, int node, double x[2]) {
+  x[0] = fem->mesh->x[2 * node] + fem->u[2 * node];
+  x[1] = fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1];
+}
+
 // Owned, free with sb_ring_fem_destroy; keeps `mesh` borrowed. The state is zero.
 SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMaterial material,
                             bool axisymmetric, SbReport *report);

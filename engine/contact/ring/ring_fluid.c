@@ -9,9 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double GAUSS_X[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};
-static const double GAUSS_W[3] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
-
 // The boundary place where a surface pushes hardest; `fallback` if it does not touch.
 static int crest(const SbRingContact *contact, SbRingSurface surface, int fallback) {
   int best = -1;
@@ -94,9 +91,8 @@ static void load_side(SbRingContact *contact, int side, double pressure, bool cl
   }
   double turn = fem->axisymmetric ? 2.0 * M_PI : 1.0;
   for (int q = 0; q < 3; q++) {
-    double xi = GAUSS_X[q], w = GAUSS_W[q];
-    double n[3] = {0.5 * xi * (xi - 1.0), 1.0 - xi * xi, 0.5 * xi * (xi + 1.0)};
-    double d[3] = {xi - 0.5, -2.0 * xi, xi + 0.5};
+    double w = SB_RING_W3[q], n[3], d[3];
+    sb_ring_side_shape(SB_RING_X3[q], n, d);
     double r = 0.0, dr = 0.0, dz = 0.0;
     for (int a = 0; a < 3; a++) {
       r += n[a] * x[a][0];

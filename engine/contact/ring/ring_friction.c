@@ -65,7 +65,7 @@ static void flip(SbRingTouch *touch, signed char state) {
   touch->slip = touch->flips >= FLIPS_MAX ? 0 : state;
 }
 
-int sb_ring_contact_update_slip(SbRingContact *contact, bool gentle) {
+int sb_ring_contact_update_slip(SbRingContact *contact, bool single) {
   int changes = 0, worst = -1;
   double most = 0.0;
   signed char worst_state = 0;
@@ -77,7 +77,7 @@ int sb_ring_contact_update_slip(SbRingContact *contact, bool gentle) {
       if (touch->flips >= FLIPS_MAX) {
         continue;
       }
-      if (fault > 0.0 && !gentle) {
+      if (fault > 0.0 && !single) {
         flip(touch, state);
         contact->unsteady = SB_RING_SURFACES * i + s;
         changes++;

@@ -5,13 +5,14 @@
 // structured quadrilateral grid cannot do without carrying the fine spacing through the section.
 // The two halves share the axis of symmetry; equal plans give mirror meshes. Own construction.
 #include "engine/contact/ring/ring_mesh.h"
+#include "engine/numeric/root.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { LAYERS_MAX = 24, ROW_MAX = 2000, SAMPLES = 720, BISECTIONS = 30, SMOOTHINGS = 4 };
+enum { LAYERS_MAX = 24, ROW_MAX = 2000, SAMPLES = 720, SMOOTHINGS = 4 };
 
 // Least shape of a triangle that a mesh may have, and how rows are tried: number of rows added and
 // how strongly their depth follows the surface size.
@@ -37,19 +38,26 @@ static double surface_size(const SbRingMeshPlan *plan, double angle, double grow
   return size;
 }
 
+// Geometric rows: the depth that m of them leave of the total with a ratio q.
+typedef struct {
+  double first, total;
+  int m;
+} Rows;
+
+static double depth_left(double q, const void *context) {
+  const Rows *rows = context;
+  double left = rows->total, t = rows->first;
+  for (int k = 0; k < rows->m; k++) {
+    left -= t;
+    t *= q;
+  }
+  return left;
+}
+
 // Depth below the surface after k of m rows, the first as thick as the surface size, geometric.
 static void row_depths(double *depth, double first, double total, int m) {
-  double low = 0.3, high = 6.0;
-  for (int i = 0; i < BISECTIONS; i++) {
-    double q = 0.5 * (low + high);
-    double sum = 0.0, t = first;
-    for (int k = 0; k < m; k++) {
-      sum += t;
-      t *= q;
-    }
-    *(sum > total ? &high : &low) = q;
-  }
-  double q = 0.5 * (low + high), sum = 0.0, t = first;
+  const Rows rows = {first, total, m};
+  double q = sb_bisect(depth_left, &rows, 0.3, 6.0), sum = 0.0, t = first;
   depth[0] = 0.0;
   for (int k = 0; k < m; k++) {
     sum += t;
@@ -183,7 +191,7 @@ static double quality(const double *a, const double *b, const double *c, double 
   return sign * 2.0 * sqrt(3.0) * area / sides;
 }
 
-static void add_triangle(SbRingMesh *mesh, const double *vertex, int a, int b, int c) {
+void sb_ring_mesh_add(SbRingMesh *mesh, const double *vertex, int a, int b, int c) {
   // Counter-clockwise in (r, z) so that the area is positive.
   double area = (vertex[2 * b] - vertex[2 * a]) * (vertex[2 * c + 1] - vertex[2 * a + 1]) -
                 (vertex[2 * c] - vertex[2 * a]) * (vertex[2 * b + 1] - vertex[2 * a + 1]);
@@ -214,10 +222,10 @@ static void stitch(Builder *b, int half, int k) {
       step_outer = outer_flat == inner_flat ? distance2(o1, n) <= distance2(o, n1) : inner_flat;
     }
     if (step_outer) {
-      add_triangle(b->mesh, v, outer[i], outer[i + 1], inner[j]);
+      sb_ring_mesh_add(b->mesh, v, outer[i], outer[i + 1], inner[j]);
       i++;
     } else {
-      add_triangle(b->mesh, v, outer[i], inner[j + 1], inner[j]);
+      sb_ring_mesh_add(b->mesh, v, outer[i], inner[j + 1], inner[j]);
       j++;
     }
   }
@@ -285,7 +293,7 @@ static int compare_sides(const void *a, const void *b) {
 }
 
 // Adds the mid-side nodes of all triangles; straight ones, the caller bends the boundary.
-static SbStatus add_midsides(SbRingMesh *mesh, SbReport *report) {
+SbStatus sb_ring_mesh_add_midsides(SbRingMesh *mesh, SbReport *report) {
   int sides = 3 * mesh->elements;
   int(*side)[4] = malloc(sizeof(int[4]) * (size_t)sides);
   if (side == NULL) {
@@ -317,7 +325,7 @@ static SbStatus add_midsides(SbRingMesh *mesh, SbReport *report) {
   return SB_OK;
 }
 
-static SbRingMesh *allocate_mesh(int vertices, int triangles, int loop) {
+SbRingMesh *sb_ring_mesh_allocate(int vertices, int triangles, int loop) {
   SbRingMesh *mesh = calloc(1, sizeof *mesh);
   if (mesh == NULL) {
     return NULL;
@@ -421,7 +429,7 @@ static SbStatus build(SbRingMesh **out, Builder *b, SbReport *report) {
 
   // Triangles, mid-sides, boundary.
   int loop = 2 * (b->row_count[0][0] + b->row_count[1][0]);
-  SbRingMesh *mesh = b->mesh = allocate_mesh(b->vertex_count, 2 * segments, loop);
+  SbRingMesh *mesh = b->mesh = sb_ring_mesh_allocate(b->vertex_count, 2 * segments, loop);
   if (mesh == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
   }
@@ -442,7 +450,7 @@ static SbStatus build(SbRingMesh **out, Builder *b, SbReport *report) {
     }
   }
   smooth(b);
-  SbStatus status = add_midsides(mesh, report);
+  SbStatus status = sb_ring_mesh_add_midsides(mesh, report);
   if (status != SB_OK) {
     sb_ring_mesh_destroy(mesh);
     return status;
@@ -514,35 +522,13 @@ SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbRep
                       : sb_fail(report, SB_ERROR_NOT_CONVERGED, "no ring mesh with these zones");
 }
 
-SbStatus sb_ring_mesh_create_rectangle(SbRingMesh **out, double r0, double r1, double z0, double z1,
-                                       int nr, int nz, SbReport *report) {
-  *out = NULL;
-  SbRingMesh *mesh = allocate_mesh((nr + 1) * (nz + 1), 2 * nr * nz, 0);
-  if (mesh == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a mesh of %d x %d cells", nr, nz);
+void sb_ring_side_at(const double v[3], double wanted, double n[3], double d[3]) {
+  double xi = 2.0 * (wanted - v[0]) / (v[2] - v[0]) - 1.0;
+  for (int i = 0; i < 6; i++) {
+    sb_ring_side_shape(xi, n, d);
+    xi -= (sb_ring_side_sum(n, v) - wanted) / sb_ring_side_sum(d, v);
   }
-  for (int j = 0; j <= nz; j++) {
-    for (int i = 0; i <= nr; i++) {
-      int v = j * (nr + 1) + i;
-      mesh->x[2 * v] = r0 + (r1 - r0) * i / nr;
-      mesh->x[2 * v + 1] = z0 + (z1 - z0) * j / nz;
-    }
-  }
-  mesh->nodes = (nr + 1) * (nz + 1);
-  for (int j = 0; j < nz; j++) {
-    for (int i = 0; i < nr; i++) {
-      int v = j * (nr + 1) + i;
-      add_triangle(mesh, mesh->x, v, v + 1, v + nr + 2);
-      add_triangle(mesh, mesh->x, v, v + nr + 2, v + nr + 1);
-    }
-  }
-  SbStatus status = add_midsides(mesh, report);
-  if (status != SB_OK) {
-    sb_ring_mesh_destroy(mesh);
-    return status;
-  }
-  *out = mesh;
-  return sb_succeed(report);
+  sb_ring_side_shape(xi, n, d);
 }
 
 void sb_ring_shape(double l1, double l2, double n[6], double dn1[6], double dn2[6]) {

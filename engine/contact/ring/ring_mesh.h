@@ -42,16 +42,45 @@ typedef struct {
 // Builds the mesh; owned, free with sb_ring_mesh_destroy. SB_ERROR_MEMORY if it does not fit.
 SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbReport *report);
 
-// A structured mesh of the rectangle r0..r1 x z0..z1 with nr x nz cells of two triangles each, for
-// closed-form checks; its loop is left empty.
-SbStatus sb_ring_mesh_create_rectangle(SbRingMesh **out, double r0, double r1, double z0, double z1,
-                                       int nr, int nz, SbReport *report);
+// Parts of building one, for meshes of other bodies (tests of the elements against closed forms):
+// an empty mesh with room for so many vertices, triangles and boundary nodes; a triangle of three
+// vertices; the mid-side nodes of all triangles, straight ones.
+SbRingMesh *sb_ring_mesh_allocate(int vertices, int triangles, int loop);
+void sb_ring_mesh_add(SbRingMesh *mesh, const double *vertex, int a, int b, int c);
+SbStatus sb_ring_mesh_add_midsides(SbRingMesh *mesh, SbReport *report);
 
 void sb_ring_mesh_destroy(SbRingMesh *mesh);
 
 // Shape functions of the six-node triangle at area coordinates (l1, l2) of vertices 1 and 2.
 void sb_ring_shape(double l1, double l2, double n[6], double dn1[6], double dn2[6]);
 
+// A boundary side: its three nodes' shape functions at xi in -1 .. 1, and their slopes.
+static inline void sb_ring_side_shape(double xi, double n[3], double d[3]) {
+  n[0] = 0.5 * xi * (xi - 1.0);
+  n[1] = 1.0 - xi * xi;
+  n[2] = 0.5 * xi * (xi + 1.0);
+  d[0] = xi - 0.5;
+  d[1] = -2.0 * xi;
+  d[2] = xi + 0.5;
+}
+
+// The sum of three nodes' values by their shapes or slopes.
+static inline double sb_ring_side_sum(const double n[3], const double v[3]) {
+  return n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
+}
+
+// Where on a side the nodal values v, which rise along it, give `wanted`: xi with its shapes and
+// slopes.
+void sb_ring_side_at(const double v[3], double wanted, double n[3], double d[3]);
+
+// Gauss points of a side, exact to degree 5 and 7.
+static const double SB_RING_X3[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};
+static const double SB_RING_W3[3] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+static const double SB_RING_X4[4] = {-0.861136311594052575, -0.339981043584856265,
+                                     0.339981043584856265, 0.861136311594052575};
+static const double SB_RING_W4[4] = {0.347854845137453857, 0.652145154862546143,
+                                     0.652145154862546143, 0.347854845137453857};
+
 // Finds the triangle (by its straight sides) that holds the reference point, or the nearest one;
-// returns its index and the area coordinates. `start` is a first guess.
+// returns its index and the area coordinates.
 int sb_ring_mesh_locate(const SbRingMesh *mesh, const double x[2], double *l1, double *l2);

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-enum { GENTLE_AFTER = 14, RECENTRES_MAX = 6, MORE = 10 };
+enum { SINGLE_AFTER = 14, RECENTRES_MAX = 6, MORE = 10 };
 
 static const double NEARLY = 1e-2;
 
@@ -69,15 +69,13 @@ static void fail(const SbRingContact *contact, double residual, int changes, int
                   "no balance of forces (residual %.2g) after %d iterations", residual, iterations);
     return;
   }
-  const SbRingFem *fem = contact->fem;
-  int node = fem->mesh->loop[contact->unsteady / SB_RING_SURFACES];
+  double x[2];
+  sb_ring_contact_place(contact, contact->unsteady / SB_RING_SURFACES, x);
   SbRingSurface surface = (SbRingSurface)(contact->unsteady % SB_RING_SURFACES);
   bool wall = surface == SB_RING_WALL_RIGHT || surface == SB_RING_WALL_LEFT;
   (void)sb_fail(report, SB_ERROR_NOT_CONVERGED,
                 "the contact at the %s does not settle %.2f section diameters %s (residual %.2g)",
-                sb_ring_surface_name(surface),
-                wall ? fem->mesh->x[2 * node] + fem->u[2 * node] - contact->now.floor
-                     : fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1],
+                sb_ring_surface_name(surface), wall ? x[0] - contact->now.floor : x[1],
                 wall ? "above the floor" : "from its middle", residual);
 }
 
@@ -147,7 +145,7 @@ SbStatus sb_ring_newton(SbRingContact *contact, const SbRingNewton *options, SbR
     step = fmin(step, sb_ring_contact_limit(contact));
     sb_ring_fem_save(fem, 0);
     sb_ring_fem_advance(fem, step);
-    changes = sb_ring_contact_update(contact, it >= GENTLE_AFTER) + (step < 1.0 ? 1 : 0);
+    changes = sb_ring_contact_update(contact, it >= SINGLE_AFTER) + (step < 1.0 ? 1 : 0);
     double damping = DAMPING * (it < 8 ? 1.0 : it < 16 ? 0.1 : 0.01);
     fem->axial_damping = changes > 0 ? damping / fem->mesh->nodes : 0.0;
   }

@@ -88,13 +88,12 @@ static SbStatus lean(SbRing *ring, const SbRingSetting *s, bool *leaned, SbRepor
   }
   double least = INFINITY;
   for (int i = 0; i < contact->count; i++) {
-    int node = ring->mesh->loop[i];
-    double z = ring->mesh->x[2 * node + 1] + ring->fem->u[2 * node + 1];
+    double x[2];
+    sb_ring_contact_place(contact, i, x);
     if (contact->touch[SB_RING_SURFACES * i + wall].held) {
       return SB_OK;
     }
-    double gap = fabs(place - z);
-    least = fmin(least, gap);
+    least = fmin(least, fabs(place - x[1]));
   }
   if (rubs) {
     return SB_OK; // friction decides how far it goes
@@ -107,10 +106,10 @@ static SbStatus lean(SbRing *ring, const SbRingSetting *s, bool *leaned, SbRepor
     ring->fem->u[2 * i + 1] += shift;
   }
   for (int i = 0; i < contact->count; i++) {
-    int node = ring->mesh->loop[i];
-    double z = ring->mesh->x[2 * node + 1] + ring->fem->u[2 * node + 1];
+    double x[2];
+    sb_ring_contact_place(contact, i, x);
     SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i];
-    touch[wall].held = difference > 0.0 ? z >= place : z <= place;
+    touch[wall].held = difference > 0.0 ? x[1] >= place : x[1] <= place;
     touch[difference > 0.0 ? SB_RING_WALL_LEFT : SB_RING_WALL_RIGHT].held = false;
   }
   return SB_OK;
@@ -150,8 +149,9 @@ static SbStatus press_open(SbRing *ring, const SbRingSetting *target, SbReport *
   SbRingNewton newton = sb_ring_newton_options(ring);
   double top = 0.0;
   for (int i = 0; i < ring->contact->count; i++) {
-    int node = ring->mesh->loop[i];
-    top = fmax(top, ring->mesh->x[2 * node] + ring->fem->u[2 * node]);
+    double x[2];
+    sb_ring_contact_place(ring->contact, i, x);
+    top = fmax(top, x[0]);
   }
   SbRingSetting tight = *target;
   tight.bore = fmin(target->bore, top - CLOSED);

@@ -28,11 +28,6 @@ enum { ROWS_MAX = 640, TERMS_LEAST = 3, POINTS = 4, ENDS_MAX = 12 };
 // zigzag of a coarse mesh, below what a corner or a second contact leaves.
 static const double MISFIT = 0.03;
 
-static const double GAUSS_X[POINTS] = {-0.861136311594052575, -0.339981043584856265,
-                                       0.339981043584856265, 0.861136311594052575};
-static const double GAUSS_W[POINTS] = {0.347854845137453857, 0.652145154862546143,
-                                       0.652145154862546143, 0.347854845137453857};
-
 // One contact: its nodes from one before the first held to one after the last, along the loop. The
 // place of node i is x[i], rising; r[i] is its radius, or 1 in the plane.
 typedef struct SbRingRecovery {
@@ -69,8 +64,8 @@ static bool collect(Fit *fit, const SbRing *ring, SbRingSurface surface, const S
   fit->turn = ring->fem->axisymmetric ? 2.0 * M_PI : 1.0;
   for (int i = 0; i < fit->rows; i++) {
     int place = ((first + i) % count + count) % count, node = mesh->loop[place];
-    double x[2] = {mesh->x[2 * node] + ring->fem->u[2 * node],
-                   mesh->x[2 * node + 1] + ring->fem->u[2 * node + 1]};
+    double x[2];
+    sb_ring_fem_place(ring->fem, node, x);
     const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * place + surface];
     fit->x[i] = sign * x[axis];
     fit->z[i] = sign * x[1 - axis];
@@ -117,20 +112,13 @@ static double solve(Fit *fit, const double end[2], double *residual) {
     }
     double from = acos(fmin(1.0, fmax(-1.0, (middle - low) / half)));
     double to = acos(fmin(1.0, fmax(-1.0, (middle - high) / half)));
-    double xi = -1.0;
     for (int q = 0; q < POINTS; q++) {
-      double t = 0.5 * (from + to) + 0.5 * (to - from) * GAUSS_X[q], c = cos(t), s = sin(t);
-      double at = middle - half * c, slope = 1.0;
-      for (int k = 0; k < 4; k++) {
-        slope = (xi - 0.5) * x[0] - 2.0 * xi * x[1] + (xi + 0.5) * x[2];
-        xi -= (0.5 * xi * (xi - 1.0) * x[0] + (1.0 - xi * xi) * x[1] +
-               0.5 * xi * (xi + 1.0) * x[2] - at) /
-              slope;
-      }
-      double n[3] = {0.5 * xi * (xi - 1.0), 1.0 - xi * xi, 0.5 * xi * (xi + 1.0)};
-      double across = ((xi - 0.5) * z[0] - 2.0 * xi * z[1] + (xi + 0.5) * z[2]) / slope;
-      double area = 0.5 * (to - from) * GAUSS_W[q] * half * s * sqrt(1.0 + across * across) *
-                    fit->turn * (n[0] * r[0] + n[1] * r[1] + n[2] * r[2]);
+      double t = 0.5 * (from + to) + 0.5 * (to - from) * SB_RING_X4[q], c = cos(t), s = sin(t);
+      double at = middle - half * c, n[3], d[3];
+      sb_ring_side_at(x, at, n, d);
+      double across = sb_ring_side_sum(d, z) / sb_ring_side_sum(d, x);
+      double area = 0.5 * (to - from) * SB_RING_W4[q] * half * s * sqrt(1.0 + across * across) *
+                    fit->turn * sb_ring_side_sum(n, r);
       double known = fit->end_pressure[0] * (1.0 - t / M_PI) + fit->end_pressure[1] * t / M_PI;
       if (!fit->closed[i]) {
         known -= fit->end_pressure[at < middle ? 0 : 1];
@@ -263,8 +251,8 @@ static bool presses(const SbRingPressure *p) {
   return good;
 }
 
-bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch,
-                     SbRingPressure *out) {
+bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
+                  SbRingPressure *out) {
   Fit *fit = ring->recovery;
   if (!collect(fit, ring, surface, patch)) {
     return false;
@@ -293,14 +281,8 @@ bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatc
       }
     }
   }
-  return least < HUGE_VAL;
-}
-
-bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
-                  SbRingPressure *pressure) {
-  if (!sb_ring_recover(ring, surface, patch, pressure)) {
-    return false;
+  if (least < HUGE_VAL) {
+    memcpy(patch->place, out->place, sizeof patch->place);
   }
-  memcpy(patch->place, pressure->place, sizeof patch->place);
-  return true;
+  return least < HUGE_VAL;
 }

@@ -4,7 +4,7 @@
 #include "engine/contact/ring/ring.h"
 #include "engine/contact/ring/ring_newton.h"
 
-// Work memory of sb_ring_recover(); of no content between calls (ring_pressure.c).
+// Work memory of sb_ring_ends(); of no content between calls (ring_pressure.c).
 typedef struct SbRingRecovery SbRingRecovery;
 SbRingRecovery *sb_ring_recovery_create(void); // NULL without memory; free() ends it
 
@@ -44,12 +44,8 @@ typedef struct {
   double a[SB_RING_PRESSURE_TERMS];
 } SbRingPressure;
 
-// Recovers the pressure of a surface's contact; false where no smooth curve fits it.
-SB_CHECKED bool sb_ring_recover(const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch,
-                                SbRingPressure *out);
-
-// The same for a patch that sb_ring_patch has found, whose places of the ends are replaced by the
-// recovered ones. False where they stay as they are.
+// Recovers the pressure of the contact that sb_ring_patch has found, and replaces the places of its
+// ends by the recovered ones. False, with the ends as they are, where no smooth curve fits it.
 bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
                   SbRingPressure *pressure);
 
@@ -72,3 +68,10 @@ SbStatus sb_ring_press(SbRing *ring, const SbRingSetting *target, SbReport *repo
 
 // The element solver's setting of a load.
 SbRingSetting sb_ring_setting(const SbRing *ring, const SbRingLoad *load);
+
+// Tangent of the present state with the bore's nodes set free, factorised; the ring must be settled
+// afterwards. SB_ERROR_NOT_CONVERGED.
+SbStatus sb_ring_free_bore(SbRing *ring, SbReport *report);
+
+// Leaves the ring as it was: forces and shares of the present state.
+void sb_ring_settle(SbRing *ring);

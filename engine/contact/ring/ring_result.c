@@ -24,9 +24,7 @@ static bool held(const SbRing *ring, int i, SbRingSurface surface) {
 // Deformed place of a boundary node, any integer place in the loop.
 static void place_of(const SbRing *ring, int i, double x[2]) {
   int count = ring->contact->count;
-  int node = ring->mesh->loop[(i + count) % count];
-  x[0] = ring->mesh->x[2 * node] + ring->fem->u[2 * node];
-  x[1] = ring->mesh->x[2 * node + 1] + ring->fem->u[2 * node + 1];
+  sb_ring_contact_place(ring->contact, (i + count) % count, x);
 }
 
 static double angle_of(const SbRing *ring, int i) {

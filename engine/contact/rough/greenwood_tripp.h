@@ -27,6 +27,9 @@ typedef struct {
   bool underflow; // lambda > SB_GT_LAMBDA_MAX: both integrals reported as 0
 } SbGtIntegrals;
 
+// ln F_n(lambda) for n = 1, 3/2, 2, 5/2; F_n' = -n F_(n-1).
+void sb_gt_log_integrals(double out[4], double lambda);
+
 // Integrals at `lambda` (film over height deviation, dimensionless). SB_ERROR_INPUT if it is not
 // finite, SB_ERROR_RANGE below SB_GT_LAMBDA_MIN (surfaces pressed ten standard deviations into each
 // other).

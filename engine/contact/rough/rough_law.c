@@ -1,11 +1,12 @@
 // Tables of the rough-surface laws; equations and sources in rough_law.h.
 //
-// Greenwood and Tripp's integrals are taken as in greenwood_tripp.c but with F_1 and F_3/2 beside
-// them, which are the slopes: F_n' = -n F_(n-1), (F_1(-t))' = Phi(t). For Persson the outer
-// integral over wave number runs over the panels of persson.c; the inner one depends on one number
-// only, a = w p / E*, and is tabled: G(a) = integral_a^inf [0.45 + 1.65 erf(x)^2] exp(-x^2)/x dx.
+// Greenwood and Tripp's F_1 and F_3/2 are slopes: F_n' = -n F_(n-1), (F_1(-t))' = Phi(t). For
+// Persson the outer integral over wave number runs over the panels of persson.c; the inner one
+// depends on one number only, a = w p / E*, and is tabled: G(a) = integral_a^inf [0.45 + 1.65
+// erf(x)^2] exp(-x^2)/x dx.
 #include "engine/contact/rough/rough_law.h"
 
+#include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
 #include "engine/contact/rough/van_der_waals.h"
 
@@ -30,33 +31,6 @@ bool sb_rough_model_from_name(SbRoughModel *out, const char *name) {
 
 // ---------------------------------------------------------------- Greenwood and Tripp
 
-// ln F_n(lambda) for n = 1, 3/2, 2, 5/2: trapezoidal sums after t = e^u (greenwood_tripp.c). The
-// peak of width 1/|lambda| in u takes two steps at lambda = -8: error below 1e-11.
-static void log_integrals(double out[4], double lambda) {
-  const double h = 1.0 / 14;
-  const double log_root_two_pi = 0.91893853320467274178;
-  double peak = (-lambda + sqrt(lambda * lambda + 11)) / 2;
-  double top = 2.75 * log(peak) - lambda * peak - peak * peak / 2;
-  double u_peak = log(peak);
-  double sum[4] = {0};
-  for (int i = -240; i < 140; i++) {
-    double u = u_peak + i * h;
-    double t = exp(u);
-    double root = sqrt(t);
-    double term = exp(-lambda * t - t * t / 2 - top + 2 * u);
-    sum[0] += term;
-    sum[1] += term * root;
-    sum[2] += term * t;
-    sum[3] += term * t * root;
-    if (i > 0 && term * t * root < 1e-18 * sum[3]) {
-      break;
-    }
-  }
-  for (int k = 0; k < 4; k++) {
-    out[k] = log(h * sum[k]) + top - lambda * lambda / 2 - log_root_two_pi;
-  }
-}
-
 static void table_greenwood_tripp(SbRoughLaw *law) {
   const SbRoughSurface *s = &law->surface;
   law->begin = -8;
@@ -68,10 +42,10 @@ static void table_greenwood_tripp(SbRoughLaw *law) {
   for (int i = 0; i < law->count; i++) {
     double t = law->begin + law->step * i;
     double log_F[4], log_closed[4];
-    log_integrals(log_F, t);
+    sb_gt_log_integrals(log_F, t);
     // h/sigma = t Phi + phi, or F_1(-t) where that cancels.
     double share = 0.5 * erfc(-t / M_SQRT2);
-    log_integrals(log_closed, fabs(t));
+    sb_gt_log_integrals(log_closed, fabs(t));
     law->gap[i] = t > 0 ? log(t * share + exp(-t * t / 2) / sqrt(2 * M_PI)) : log_closed[0];
     law->gap_slope[i] = exp(log(share) - law->gap[i]);
     law->pressure[i] = pressure + log_F[3];

@@ -99,67 +99,50 @@ static double free_return_time(const SbRun *run) {
   return 1.5 * sqrt(2 * model->stroke * model->moving_mass / force);
 }
 
-double sb_drive_duration(const SbRun *run) {
+SbDriveTimes sb_drive_times(const SbRun *run) {
   const SbModel *model = &run->model;
   const SbModelSeries *measured = sb_model_measured(model);
+  double rise = model->rise_time, hold = model->hold_time, once;
   switch (model->drive) {
   case SB_MODEL_DRIVE_MACHINE:
-    return 2 * model->cycles * platen_top(&run->cycle) / model->speed;
+    once = platen_top(&run->cycle) / model->speed;
+    return (SbDriveTimes){.duration = 2 * model->cycles * once,
+                          .turn = once,
+                          .corners = model->cycles,
+                          .period = 2 * once,
+                          .first = {once}};
   case SB_MODEL_DRIVE_HAND:
-    return model->cycles * (2 * model->rise_time + model->hold_time) +
-           (model->cycles - 1) * model->rise_time;
+    return (SbDriveTimes){.duration =
+                              model->cycles * (2 * rise + hold) + (model->cycles - 1) * rise,
+                          .turn = rise + hold,
+                          .corners = 2 * model->cycles,
+                          .period = 3 * rise + hold,
+                          .first = {rise, rise + hold}};
   case SB_MODEL_DRIVE_SINUSOID:
-    return model->cycles / model->frequency;
+    return (SbDriveTimes){.duration = model->cycles / model->frequency,
+                          .turn = 0.25 / model->frequency,
+                          .ends_run = true};
   case SB_MODEL_DRIVE_RAMP:
-    return model->rise_time + model->hold_time;
+    return (SbDriveTimes){.duration = rise + hold,
+                          .turn = rise + hold,
+                          .ends_run = true,
+                          .corners = 1,
+                          .first = {rise}};
   case SB_MODEL_DRIVE_MEASURED:
-    return measured != NULL ? measured->time[measured->count - 1] : 0;
+    once = measured != NULL ? measured->time[highest_row(measured)] : 0;
+    return (SbDriveTimes){.duration = measured != NULL ? measured->time[measured->count - 1] : 0,
+                          .turn = once,
+                          .ends_run = true,
+                          .corners = 1,
+                          .first = {once}};
   case SB_MODEL_DRIVE_FREE_RETURN:
     break;
   }
-  return free_return_time(run);
+  return (SbDriveTimes){.duration = free_return_time(run)};
 }
 
-bool sb_drive_ends_run(const SbRun *run) {
-  SbDriveChoice drive = run->model.drive;
-  return drive == SB_MODEL_DRIVE_SINUSOID || drive == SB_MODEL_DRIVE_RAMP ||
-         drive == SB_MODEL_DRIVE_MEASURED;
-}
-
-double sb_drive_turn(const SbRun *run) {
-  const SbModel *model = &run->model;
-  const SbModelSeries *measured = sb_model_measured(model);
-  switch (model->drive) {
-  case SB_MODEL_DRIVE_MACHINE:
-    return platen_top(&run->cycle) / model->speed;
-  case SB_MODEL_DRIVE_HAND:
-    return model->rise_time + model->hold_time;
-  case SB_MODEL_DRIVE_SINUSOID:
-    return 0.25 / model->frequency;
-  case SB_MODEL_DRIVE_RAMP:
-    return model->rise_time + model->hold_time;
-  case SB_MODEL_DRIVE_MEASURED:
-    return measured != NULL ? measured->time[highest_row(measured)] : 0;
-  case SB_MODEL_DRIVE_FREE_RETURN:
-    break;
-  }
-  return 0;
-}
-
-double sb_drive_corner(const SbRun *run, int index) {
-  const SbModel *model = &run->model;
-  if (model->drive == SB_MODEL_DRIVE_MACHINE && index < model->cycles) {
-    return (2 * index + 1) * platen_top(&run->cycle) / model->speed;
-  }
-  if (model->drive == SB_MODEL_DRIVE_HAND && index < 2 * model->cycles) {
-    double period = 3 * model->rise_time + model->hold_time;
-    return index / 2 * period + model->rise_time + index % 2 * model->hold_time;
-  }
-  if (model->drive == SB_MODEL_DRIVE_RAMP && index == 0) {
-    return model->rise_time;
-  }
-  if (model->drive == SB_MODEL_DRIVE_MEASURED && index == 0) {
-    return sb_drive_turn(run);
-  }
-  return INFINITY;
+double sb_drive_corner(const SbDriveTimes *times, int index) {
+  int each = times->first[1] > 0 ? 2 : 1; // in a period
+  return index < times->corners ? index / each * times->period + times->first[index % each]
+                                : INFINITY;
 }

@@ -224,9 +224,10 @@ static SbStatus run_motion(Recorder *r, SbDynamics *motion, const SbDynamicsMode
   r->report = report;
   r->leak_from = model->start_position;
   r->return_least = INFINITY;
-  r->turn = sb_drive_turn(run);
+  const SbDriveTimes times = sb_drive_times(run);
+  r->turn = times.turn;
   sb_dynamics_listen(motion, valve_event, r);
-  double drive = sb_drive_duration(run);
+  double drive = times.duration;
   size_t total = (size_t)run->model.frames;
   if (!r->frames) {
     total = WITHOUT_FRAMES;
@@ -241,13 +242,13 @@ static SbStatus run_motion(Recorder *r, SbDynamics *motion, const SbDynamicsMode
   }
   while (status == SB_OK) {
     if (next == total &&
-        (sb_drive_ends_run(run) || sb_dynamics_at_rest(motion) || time >= patience(drive))) {
+        (times.ends_run || sb_dynamics_at_rest(motion) || time >= patience(drive))) {
       break;
     }
     // The next even instant or a corner of the drive before it; behind the drive, wider and wider.
     double even = next < total ? (next + 1 == total ? drive : (double)next * step)
                                : time + fmax(step, (time - drive) / 32);
-    double turn = sb_drive_corner(run, corner);
+    double turn = sb_drive_corner(&times, corner);
     if (turn < even) {
       corner++;
     } else if (next < total) {

@@ -55,15 +55,17 @@ SbStatus sb_run_bodies_frame(SbRun *run, size_t index, const SbDynamicsSample *s
 // Sets what drives the mechanism, and where it starts.
 void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run);
 
-// Time of the whole drive; frames are evenly spaced over it [s].
-double sb_drive_duration(const SbRun *run);
+// When the drive does what; all in s.
+typedef struct {
+  double duration; // of the whole drive: frames are evenly spaced over it
+  double turn;     // from then on a reverse slip is the return, before it a rebound
+  bool ends_run;   // the run ends with the drive, without waiting for rest
+  // Where the platen turns or the finger's force bends, so that a frame sits on every extreme
+  // whatever the frames' spacing: in the first period, and so on in all of them.
+  int corners;
+  double period, first[2];
+} SbDriveTimes;
+SbDriveTimes sb_drive_times(const SbRun *run);
 
-// Whether the run ends with the drive, without waiting for rest.
-bool sb_drive_ends_run(const SbRun *run);
-
-// When the drive has turned: from then on a reverse slip is the return, before it a rebound [s].
-double sb_drive_turn(const SbRun *run);
-
-// Corner `index` of the drive: where the platen turns or the finger's force bends, so that a frame
-// sits on every extreme whatever the frames' spacing. INFINITY behind the last.
-double sb_drive_corner(const SbRun *run, int index);
+// Corner `index`; INFINITY behind the last.
+double sb_drive_corner(const SbDriveTimes *times, int index);

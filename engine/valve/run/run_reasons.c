@@ -36,12 +36,6 @@ double sb_run_cycle_leakage(SbSummary *summary, double carried, bool back) {
   return back ? carried : NAN;
 }
 
-static void seal_reason(SbSummary *summary, int seal, const char *name, const char *text) {
-  char pattern[64];
-  snprintf(pattern, sizeof pattern, "seals.%s.%s", sb_seal_name(seal), name);
-  sb_reason(summary, pattern, "%s", text);
-}
-
 void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   SbSummary *summary = &run->summary;
   const SbModel *model = &run->model;
@@ -64,26 +58,26 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const SbSealSummary *of = &summary->seal[seal];
     if (of->load == 0) {
-      seal_reason(summary, seal, "*", "the seal does not touch the bore under its pressures");
+      sb_seal_reason(summary, seal, "*", "the seal does not touch the bore under its pressures");
     }
     if (!solved) {
-      seal_reason(summary, seal, "film_by_model.reynolds",
-                  "models.film is a closed form: no film was solved");
+      sb_seal_reason(summary, seal, "film_by_model.reynolds",
+                     "models.film is a closed form: no film was solved");
     }
     if (!coupled) {
-      seal_reason(summary, seal, "asperity_load_share",
-                  "models.asperities = beside: asperities share no load with the film");
+      sb_seal_reason(summary, seal, "asperity_load_share",
+                     "models.asperities = beside: asperities share no load with the film");
     }
     if (isnan(of->load)) {
       continue; // the run ended before
     }
-    seal_reason(summary, seal, "film*",
-                "the fluid opens the contact or carries it alone: no film law applies");
-    seal_reason(summary, seal, "lambda", "there is no film");
-    seal_reason(summary, seal, "real_area_share", "there is no film to tell it");
-    seal_reason(summary, seal, "friction*", "there is no film to tell it");
-    seal_reason(summary, seal, "coefficient*", "there is no film to tell the friction");
-    seal_reason(summary, seal, "leakage_per_stroke_m3", "there is no film to carry it");
+    sb_seal_reason(summary, seal, "film*",
+                   "the fluid opens the contact or carries it alone: no film law applies");
+    sb_seal_reason(summary, seal, "lambda", "there is no film");
+    sb_seal_reason(summary, seal, "real_area_share", "there is no film to tell it");
+    sb_seal_reason(summary, seal, "friction*", "there is no film to tell it");
+    sb_seal_reason(summary, seal, "coefficient*", "there is no film to tell the friction");
+    sb_seal_reason(summary, seal, "leakage_per_stroke_m3", "there is no film to carry it");
   }
   if (status == SB_OK) {
     const char *outer = sb_figure_reason(summary, sb_figure_find("seals.outer.film_central_m"));

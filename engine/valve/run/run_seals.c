@@ -18,14 +18,13 @@ static double film_by(SbRun *run, int seal, const SbSliding *state, SbFilmModel 
     problem.model = film_model;
     run->summary.counters.reynolds_solves += film_model == SB_FILM_REYNOLDS;
     SbReport report = {0};
-    char pattern[64];
     if (sb_film_solve(film, &problem, NULL, &report) == SB_OK) {
       central = film->film_central;
     }
-    snprintf(pattern, sizeof pattern, "seals.%s.film_by_model.%s", sb_seal_name(seal),
-             sb_film_model_name(film_model));
     if (isnan(central)) {
-      sb_reason(&run->summary, pattern, "%s", report.text);
+      char name[48];
+      snprintf(name, sizeof name, "film_by_model.%s", sb_film_model_name(film_model));
+      sb_seal_reason(&run->summary, seal, name, "%s", report.text);
     }
   }
   free(film);
@@ -53,18 +52,16 @@ static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
   SbSpectrum spectrum;
   SbPercolation leak;
   SbReport report = {0};
-  char pattern[64];
   bool open = !presses(run, seal);
   out->leak_state = open ? SB_LEAK_OPEN : SB_LEAK_NOT_COMPUTED;
   if (open) {
-    snprintf(pattern, sizeof pattern, "seals.%s.leak*", sb_seal_name(seal));
-    sb_reason(&run->summary, pattern, "%s",
-              state->touches ? "the rubber presses the bore no more than the fluid does, or leaves "
-                               "it in a state of the cycle: the path is open"
-                             : "the seal does not touch the bore under its pressures: the path is "
-                               "open");
-    snprintf(pattern, sizeof pattern, "seals.%s.closing*", sb_seal_name(seal));
-    sb_reason(&run->summary, pattern, "the rubber does not press the bore");
+    sb_seal_reason(&run->summary, seal, "leak*", "%s",
+                   state->touches
+                       ? "the rubber presses the bore no more than the fluid does, or leaves "
+                         "it in a state of the cycle: the path is open"
+                       : "the seal does not touch the bore under its pressures: the path is "
+                         "open");
+    sb_seal_reason(&run->summary, seal, "closing*", "the rubber does not press the bore");
     sb_warn(&run->summary.warnings, "seal-open", "gland.radial_space",
             "the %s seal is open: it does not press the bore under its pressures",
             sb_seal_name(seal));
@@ -88,8 +85,7 @@ static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
     static const char *const figures[] = {"leakage_static*", "closing_pressure*",
                                           "leak_sensitivity"};
     for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
-      snprintf(pattern, sizeof pattern, "seals.%s.%s", sb_seal_name(seal), figures[i]);
-      sb_reason(&run->summary, pattern, "leak at rest: %s", report.text);
+      sb_seal_reason(&run->summary, seal, figures[i], "leak at rest: %s", report.text);
     }
     sb_warn(&run->summary.warnings, "static-leak-unknown", report.parameter,
             "the leak at rest is not computed: %s", report.text);
@@ -98,9 +94,8 @@ static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
   out->closing_pressure = leak.closing_pressure;
   if (!open && leak.constriction_gap >= SB_PERCOLATION_OPEN_GAP * model->sigma) {
     open = true;
-    snprintf(pattern, sizeof pattern, "seals.%s.leak*", sb_seal_name(seal));
-    sb_reason(
-        &run->summary, pattern,
+    sb_seal_reason(
+        &run->summary, seal, "leak*",
         "channels of %.3g times the roughness cross the contact: it is open beyond the leak's "
         "law",
         leak.constriction_gap / model->sigma);

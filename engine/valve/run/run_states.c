@@ -190,9 +190,7 @@ static void tell_failure(SbRun *run, int seal, int chamber, int motion, const Sb
     sb_run_lacks_motion(run, whole.text);
   }
   if (chamber == SB_CHAMBER_AT_REST && motion == SB_CYCLE_IN) {
-    char pattern[32];
-    snprintf(pattern, sizeof pattern, "seals.%s.*", sb_seal_name(seal));
-    sb_reason(&run->summary, pattern, "%s", whole.text);
+    sb_seal_reason(&run->summary, seal, "*", "%s", whole.text);
   }
   *report = whole;
 }
