@@ -157,6 +157,7 @@ static void test_studies(void) {
   static const char *const names[] = {"results.json",
                                       "cycle.csv",
                                       "profiles.csv",
+                                      "figures.csv",
                                       "study-storage.csv",
                                       "study-storage-table.csv",
                                       ".sealbench-run.manifest"};

@@ -36,7 +36,8 @@ def files_that_speak():
 
 
 def potfiles_lists_what_speaks():
-    extra = {"engine/valve/params.def", "assets/org.sealbench.Sealbench.desktop"}
+    extra = {"engine/valve/figures.def", "engine/valve/params.def",
+             "assets/org.sealbench.Sealbench.desktop"}
     assert sorted(listed()) == sorted(set(files_that_speak()) | extra), \
         set(listed()) ^ (set(files_that_speak()) | extra)
     assert listed() == sorted(listed()), "not in order"
