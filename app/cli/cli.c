@@ -297,7 +297,7 @@ bool sb_cli_has_memory(const SbModel *model) {
   // Closed forms and the quasi-static cycle solve nothing dense.
   bool dense = model == NULL || model->motion != SB_MODEL_MOTION_QUASI_STATIC ||
                model->asperities == SB_MODEL_ASPERITIES_COUPLED ||
-               (model->film != SB_MODEL_FILM_THESIS && model->film != SB_MODEL_FILM_KARASZKIEWICZ);
+               (model->film != SB_FILM_THESIS && model->film != SB_FILM_KARASZKIEWICZ);
   if (dense && !sb_process_has_memory()) {
     sb_cli_fail(
         "there is not enough memory for the solvers: they need 140 MB of address space more "

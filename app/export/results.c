@@ -224,10 +224,10 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   sb_json_string(&json, "parameters_sha256", info->sha256);
   sb_json_bool(&json, "partial", info->partial);
   sb_json_object(&json, "models");
-  put_choice(&json, "fit", SB_P_MODELS_FIT, model->fit);
-  put_choice(&json, "film", SB_P_MODELS_FILM, (int)model->film);
+  sb_json_string(&json, "fit", sb_fit_model_name(model->fit));
+  sb_json_string(&json, "film", sb_film_model_name(model->film));
   put_choice(&json, "film_time", SB_P_MODELS_FILM_TIME, model->film_history);
-  put_choice(&json, "surface", SB_P_MODELS_SURFACE, (int)model->surface);
+  sb_json_string(&json, "surface", sb_rough_model_name(model->surface));
   put_choice(&json, "asperities", SB_P_MODELS_ASPERITIES, (int)model->asperities);
   sb_json_string(&json, "friction", "boundary-viscous-static");
   put_choice(&json, "motion", SB_P_MODELS_MOTION, (int)model->motion);

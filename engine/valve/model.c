@@ -379,11 +379,12 @@ static SbStatus compile(SbModel *model, SbAssemblyWork *work, const SbParams *pa
   model->motion_tolerance = sb_params_get(params, SB_P_OUTPUT_MOTION_TOLERANCE);
   model->actuations = (int)sb_params_get(params, SB_P_OUTPUT_ACTUATIONS);
   model->frames = (int)sb_params_get(params, SB_P_OUTPUT_FRAMES);
-  model->fit = (int)sb_params_get(params, SB_P_MODELS_FIT);
-  model->film = (SbModelFilm)sb_params_get(params, SB_P_MODELS_FILM);
+  model->fit = (SbFitModel)sb_params_get(params, SB_P_MODELS_FIT);
+  model->film = (SbFilmModel)sb_params_get(params, SB_P_MODELS_FILM);
   model->film_history = sb_params_get(params, SB_P_MODELS_FILM_TIME) != 0;
   model->rest_film = sb_params_get(params, SB_P_FLUID_REST_FILM);
-  model->surface = (SbModelSurface)sb_params_get(params, SB_P_MODELS_SURFACE);
+  model->surface =
+      sb_params_get(params, SB_P_MODELS_SURFACE) > 0 ? SB_ROUGH_PERSSON : SB_ROUGH_GREENWOOD_TRIPP;
   model->asperities = (SbModelAsperities)sb_params_get(params, SB_P_MODELS_ASPERITIES);
   model->hamaker = sb_params_get(params, SB_P_MODELS_ADHESION) > 0
                        ? sb_params_get(params, SB_P_SURFACE_HAMAKER_CONSTANT)

@@ -4,7 +4,9 @@
 #pragma once
 
 #include "engine/base/status.h"
+#include "engine/contact/fit.h"
 #include "engine/contact/gland.h"
+#include "engine/film/film.h"
 #include "engine/mechanism/bodies.h"
 #include "engine/mechanism/outline.h"
 #include "engine/rubber/rubber_time.h"
@@ -41,13 +43,6 @@ typedef enum {
   SB_MAP_CHAMBER_VENTED,
   SB_MAP_PORTS // the chamber's pressure is a state
 } SbPressureMap;
-typedef enum {
-  SB_MODEL_FILM_THESIS,
-  SB_MODEL_FILM_KARASZKIEWICZ,
-  SB_MODEL_FILM_ASYMPTOTIC,
-  SB_MODEL_FILM_REYNOLDS
-} SbModelFilm;
-typedef enum { SB_MODEL_SURFACE_GREENWOOD_TRIPP, SB_MODEL_SURFACE_PERSSON } SbModelSurface;
 typedef enum {
   SB_MODEL_ASPERITIES_BESIDE, // at the smooth film, taking no load off it
   SB_MODEL_ASPERITIES_COUPLED // in the film's own solve
@@ -190,11 +185,11 @@ typedef struct {
   double motion_tolerance; // of the steps of a motion without closed form
   int frames;
   int actuations; // over which leakage is summed
-  int fit;        // index among the choices of models.fit = SbFitModel
-  SbModelFilm film;
+  SbFitModel fit; // enumerations and choices of models.fit, models.film have one order
+  SbFilmModel film;
   bool film_history; // films of frames are solved in time
   double rest_film;  // before the first stroke [m]
-  SbModelSurface surface;
+  SbRoughModel surface;
   SbModelAsperities asperities;
   double hamaker; // [J]; 0 without adhesion
   SbModelMotion motion;

@@ -79,24 +79,10 @@ const SbFilm *sb_sliding_film(const SbSlidingMemory *memory) {
   return memory->fitted_last ? &memory->fitted_film : &memory->film;
 }
 
-static SbFilmModel film_model(SbModelFilm film) {
-  switch (film) {
-  case SB_MODEL_FILM_KARASZKIEWICZ:
-    return SB_FILM_KARASZKIEWICZ;
-  case SB_MODEL_FILM_ASYMPTOTIC:
-    return SB_FILM_ASYMPTOTIC;
-  case SB_MODEL_FILM_REYNOLDS:
-    return SB_FILM_REYNOLDS;
-  case SB_MODEL_FILM_THESIS:
-    break;
-  }
-  return SB_FILM_THESIS;
-}
-
 void sb_sliding_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure) {
   const SbSealModel *ring = &model->seal[seal];
   *out = (SbFitProblem){
-      .model = (SbFitModel)model->fit,
+      .model = model->fit,
       .section_diameter = ring->section_diameter,
       .inner_diameter = ring->inner_diameter,
       .modulus = ring->modulus,
@@ -120,7 +106,7 @@ static SbStatus solve_fit(SbSlidingMemory *memory, const SbModel *model, int sea
   SbFitProblem problem;
   sb_sliding_fit_problem(&problem, model, seal, pressure);
   problem.surface_wanted =
-      model->film == SB_MODEL_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+      model->film == SB_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   SbStatus status = sb_fit_solve(&memory->fit, &problem, report);
   counts->fit_solves++;
   counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
@@ -309,7 +295,7 @@ static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSea
                            SbWarnings *warnings, SbReport *report) {
   SbFilmProblem problem;
   sb_sliding_film_problem(&problem, model, seal, pressure, out->load_net, speed);
-  problem.model = film_model(model->film);
+  problem.model = model->film;
   option_warnings(warnings, model, seal, &problem);
   if (model->inlet_carried && speed < 0 && problem.model == SB_FILM_REYNOLDS) {
     SbStatus carried = carried_layer(&problem.inlet_film, &problem, model, memory, counts, report);
@@ -348,8 +334,7 @@ static SbStatus solve_film(SbSliding *out, const SbModel *model, int seal, SbSea
 static void coupled_problem(SbFilmProblem *out, const SbModel *model, int seal,
                             SbSealPressure pressure, double load_net, double speed) {
   sb_sliding_film_problem(out, model, seal, pressure, load_net, speed);
-  out->surface =
-      model->surface == SB_MODEL_SURFACE_PERSSON ? SB_ROUGH_PERSSON : SB_ROUGH_GREENWOOD_TRIPP;
+  out->surface = model->surface;
   out->gt_product = model->gt_product;
   out->sigma = model->sigma;
   out->sigma_over_beta = model->sigma_over_beta;
@@ -442,7 +427,7 @@ static SbStatus solve_coupled(SbSliding *out, const SbModel *model, int seal,
 // film, Persson's on the net pressure that the solids must carry.
 static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *model, int seal,
                           SbWarnings *warnings, SbReport *report) {
-  if (model->surface == SB_MODEL_SURFACE_PERSSON) {
+  if (model->surface == SB_ROUGH_PERSSON) {
     SbSpectrum spectrum;
     SbStatus status = sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
                                                   model->gt_product, report);
@@ -505,7 +490,7 @@ static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, do
     out->viscous = shear * (1 - out->area_share) * area;
     if (out->film_error > 0) {
       SbGtIntegrals thinner;
-      bool persson = model->surface == SB_MODEL_SURFACE_PERSSON;
+      bool persson = model->surface == SB_ROUGH_PERSSON;
       double share = NAN;
       if (sb_gt_integrals(&thinner, out->lambda * (1 - out->film_error), NULL) == SB_OK) {
         share = sb_gt_area_share(model->gt_product, thinner.F2) - out->area_share;

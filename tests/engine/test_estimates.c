@@ -196,7 +196,7 @@ static SbRun *run_cycle(int asperities, double sigma, double speed, double toler
   const struct {
     SbParamId id;
     double value;
-  } setting[] = {{SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS},
+  } setting[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
                  {SB_P_MODELS_ASPERITIES, asperities},
                  {SB_P_SURFACE_SIGMA, sigma},
                  {SB_P_DRIVE_SPEED, speed},

@@ -124,7 +124,7 @@ static void test_open(void) {
   // A small squeeze under a pressure that the rubber cannot hold off opens the contact.
   const Change pressed[] = {{SB_P_GLAND_RADIAL_SPACE, 1.56e-3},
                             {SB_P_MODELS_FIT, SB_FIT_HERTZ},
-                            {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS},
+                            {SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
                             {SB_P_CANISTER_PRESSURE, 2e6}};
   compile(&model, pressed, G_N_ELEMENTS(pressed));
   run = run_of(&model, SB_OK, NULL);

@@ -200,7 +200,7 @@ static void test_storage(void) {
 // The Stribeck curve: from asperities to the film without a jump; a point solved anew by itself.
 static void test_stribeck(void) {
   SbModel model = thesis_model(1e-3);
-  model.film = SB_MODEL_FILM_THESIS;
+  model.film = SB_FILM_THESIS;
   model.study.speed_min = 1e-3;
   model.study.speed_max = 50;
   SbStudy *study = make(SB_STUDY_STRIBECK, &model);
@@ -275,7 +275,7 @@ static void test_tolerance(void) {
 static void test_leak(void) {
   SbModel model = thesis_model(1e-2);
   model.fit = SB_FIT_RING; // fewer curves
-  model.film = SB_MODEL_FILM_THESIS;
+  model.film = SB_FILM_THESIS;
   model.study.squeeze_min = 0.06;
   model.study.squeeze_max = 0.12;
   SbStudy *study = make(SB_STUDY_LEAK, &model);

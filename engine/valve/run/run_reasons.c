@@ -78,7 +78,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
     }
   }
   bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  bool solved = coupled || model->film == SB_MODEL_FILM_REYNOLDS;
+  bool solved = coupled || model->film == SB_FILM_REYNOLDS;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const SbSealSummary *of = &summary->seal[seal];
     if (of->load == 0) {

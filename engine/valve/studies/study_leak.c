@@ -32,7 +32,7 @@ static SbStatus solve(SbStudy *out, Figures *figures, const SbModel *scene, SbFi
                       SbSlidingMemory *memory, SbReport *report) {
   SbModel model = *scene;
   double floor = model.bore_diameter - 2 * model.radial_space;
-  model.fit = (int)fit;
+  model.fit = fit;
   model.radial_space = model.seal[SB_OUTER].section_diameter * (1 - squeeze);
   model.bore_diameter = floor + 2 * model.radial_space;
   model.bore_circumference = M_PI * model.bore_diameter;
@@ -124,7 +124,7 @@ enum { LINES = 5 };
 // The scene's own model first, then disc and ring, each once; the scene's and the ring at a tenth
 // of the pressure too.
 static int choose_lines(Line *line, const SbModel *model) {
-  SbFitModel own = (SbFitModel)model->fit;
+  SbFitModel own = model->fit;
   int count = 0;
   line[count++] = (Line){own, 1};
   if (own != SB_FIT_DISC) {
@@ -351,7 +351,7 @@ SbStatus sb_study_leak(SbStudy *out, const SbModel *model, const SbStudyHooks *h
   bool own = model->fit != SB_FIT_DISC && model->fit != SB_FIT_RING;
   sb_text(out->models, sizeof out->models,
           "fit %s%sdisc, ring; percolation by Persson's contact; film as the scene's",
-          own ? sb_fit_model_name((SbFitModel)model->fit) : "", own ? ", " : "");
+          own ? sb_fit_model_name(model->fit) : "", own ? ", " : "");
   sb_text(out->validity, sizeof out->validity,
           "mean contact pressure, liquid without vapour; gaps below 3 "
           "\xcf\x83; no figure where the ring does not touch by itself");
