@@ -10,6 +10,7 @@
 #include "engine/contact/closed/reduced_modulus.h"
 #include "engine/contact/fit.h"
 #include "engine/mechanism/chamber.h"
+#include "engine/valve/model_private.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -116,34 +117,6 @@ static bool compile_seal(SbModel *model, int index, const SbParams *params, SbPr
   return sb_model_size_seal(model, index, problems);
 }
 
-static SbRubber read_rubber(const SbParams *params, double fluid_density) {
-  return (SbRubber){
-      .reference_temperature = sb_params_get(params, SB_P_RUBBER_REFERENCE_TEMPERATURE),
-      .terms = 3,
-      .g = {sb_params_get(params, SB_P_RUBBER_RELAXATION_SHARE_1),
-            sb_params_get(params, SB_P_RUBBER_RELAXATION_SHARE_2),
-            sb_params_get(params, SB_P_RUBBER_RELAXATION_SHARE_3)},
-      .tau = {sb_params_get(params, SB_P_RUBBER_RELAXATION_TIME_1),
-              sb_params_get(params, SB_P_RUBBER_RELAXATION_TIME_2),
-              sb_params_get(params, SB_P_RUBBER_RELAXATION_TIME_3)},
-      .shift = (SbShift)sb_params_get(params, SB_P_RUBBER_SHIFT),
-      .wlf_c1 = sb_params_get(params, SB_P_RUBBER_WLF_C1),
-      .wlf_c2 = sb_params_get(params, SB_P_RUBBER_WLF_C2),
-      .relaxation_energy = sb_params_get(params, SB_P_RUBBER_RELAXATION_ENERGY),
-      .entropic = sb_params_get(params, SB_P_RUBBER_ENTROPIC) != 0.0,
-      .thermal_expansion = sb_params_get(params, SB_P_RUBBER_THERMAL_EXPANSION),
-      .network_rate = sb_params_get(params, SB_P_RUBBER_NETWORK_RATE),
-      .network_energy = sb_params_get(params, SB_P_RUBBER_NETWORK_ENERGY),
-      .network_reform = sb_params_get(params, SB_P_RUBBER_NETWORK_REFORM),
-      .swell_mass = sb_params_get(params, SB_P_RUBBER_SWELL_MASS),
-      .rubber_density = sb_params_get(params, SB_P_RUBBER_DENSITY),
-      .fluid_density = fluid_density,
-      .diffusion = sb_params_get(params, SB_P_RUBBER_DIFFUSION),
-      .diffusion_energy = sb_params_get(params, SB_P_RUBBER_DIFFUSION_ENERGY),
-      .swell_modulus = sb_params_get(params, SB_P_RUBBER_SWELL_MODULUS),
-  };
-}
-
 // What only the motion with inertia can do. The quasi-static balance is not silently asked for it.
 static bool compile_quasi_static(const SbModel *model, SbProblems *problems) {
   const struct {
@@ -168,34 +141,6 @@ static bool compile_quasi_static(const SbModel *model, SbProblems *problems) {
     }
   }
   return good;
-}
-
-// The rig's rings obey the friction.* keys: the static ratio, its growth with rest, the loss with
-// speed and the shear stiffness of one ring. Dampers as drive.damping_ratio says.
-static SbRig read_rig(const SbModel *model, const SbParams *params) {
-  SbRig rig = {
-      .load = sb_params_get(params, SB_P_RIG_LOAD),
-      .mass = sb_params_get(params, SB_P_RIG_MASS),
-      .coefficient = sb_params_get(params, SB_P_RIG_COEFFICIENT),
-      .speed = sb_params_get(params, SB_P_RIG_SPEED),
-      .thread_stiffness = sb_params_get(params, SB_P_RIG_THREAD_STIFFNESS),
-      .duration = sb_params_get(params, SB_P_RIG_DURATION),
-      .rate = sb_params_get(params, SB_P_RIG_RATE),
-      .rest = model->rest,
-      .contact = {.static_ratio = model->static_ratio,
-                  .dwell_gain = model->dwell_gain,
-                  .dwell_time = model->dwell_time,
-                  .stribeck_speed = model->stribeck_speed,
-                  .stribeck_exponent = 1,
-                  .stiffness = INFINITY},
-  };
-  rig.thread_damping = model->damping_ratio * 2 * sqrt(rig.thread_stiffness * rig.mass);
-  if (model->tangential_stiffness > 0) {
-    rig.contact.stiffness = model->tangential_stiffness;
-    rig.contact.damping =
-        model->damping_ratio * 2 * sqrt(model->tangential_stiffness * rig.mass / SB_RIG_RINGS);
-  }
-  return rig;
 }
 
 // Ranges must rise.
@@ -319,122 +264,8 @@ static SbStatus compile(SbModel *model, SbAssemblyWork *work, const SbParams *pa
   if (problems != NULL) {
     problems->count = 0;
   }
-  model->radial_space = sb_params_get(params, SB_P_GLAND_RADIAL_SPACE);
-  model->axial_width = sb_params_get(params, SB_P_GLAND_AXIAL_WIDTH);
-  model->bore_diameter = sb_params_get(params, SB_P_BORE_DIAMETER);
-  model->radial_space_tolerance = sb_params_get(params, SB_P_GLAND_RADIAL_SPACE_TOLERANCE);
-  model->axial_width_tolerance = sb_params_get(params, SB_P_GLAND_AXIAL_WIDTH_TOLERANCE);
-  model->bore_diameter_tolerance = sb_params_get(params, SB_P_BORE_DIAMETER_TOLERANCE);
-  model->stem_diameter_tolerance = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER_TOLERANCE);
-  model->land_edge = sb_params_get(params, SB_P_BORE_LAND_EDGE);
-  model->housing_modulus = sb_params_get(params, SB_P_HOUSING_MODULUS);
-  model->housing_poisson_ratio = sb_params_get(params, SB_P_HOUSING_POISSON_RATIO);
-  model->canister_pressure = sb_params_get(params, SB_P_CANISTER_PRESSURE);
-  model->pressure_map = (SbPressureMap)sb_params_get(params, SB_P_CANISTER_PRESSURE_MAP);
-  model->stem_mass = sb_params_get(params, SB_P_STEM_MASS);
-  model->viscosity = sb_params_get(params, SB_P_FLUID_VISCOSITY);
-  model->pressure_viscosity = sb_params_get(params, SB_P_MODELS_VISCOSITY) > 0
-                                  ? sb_params_get(params, SB_P_FLUID_PRESSURE_VISCOSITY)
-                                  : 0;
-  model->eyring_stress = sb_params_get(params, SB_P_FLUID_EYRING_STRESS);
-  model->rupture_pressure = sb_params_get(params, SB_P_FLUID_RUPTURE_PRESSURE);
-  model->inlet_carried = sb_params_get(params, SB_P_MODELS_INLET) > 0;
-  model->density = sb_params_get(params, SB_P_FLUID_DENSITY);
-  model->gt_product = sb_params_get(params, SB_P_SURFACE_GT_PRODUCT);
-  model->sigma = sb_params_get(params, SB_P_SURFACE_SIGMA);
-  model->sigma_over_beta = sb_params_get(params, SB_P_SURFACE_SIGMA_OVER_BETA);
-  model->hamaker_constant = sb_params_get(params, SB_P_SURFACE_HAMAKER_CONSTANT);
-  model->shear_strength = sb_params_get(params, SB_P_FRICTION_SHEAR_STRENGTH);
-  model->load_coefficient = sb_params_get(params, SB_P_FRICTION_LOAD_COEFFICIENT);
-  model->static_ratio = sb_params_get(params, SB_P_FRICTION_STATIC_RATIO);
-  model->speed = sb_params_get(params, SB_P_DRIVE_SPEED);
-  model->stroke = sb_params_get(params, SB_P_DRIVE_STROKE);
-  model->reversal_force = sb_params_get(params, SB_P_DRIVE_REVERSAL_FORCE);
-  model->stiffness = sb_params_get(params, SB_P_DRIVE_STIFFNESS);
-  model->drive = (SbDriveChoice)sb_params_get(params, SB_P_DRIVE_KIND);
-  model->peak_force = sb_params_get(params, SB_P_DRIVE_PEAK_FORCE);
-  model->rise_time = sb_params_get(params, SB_P_DRIVE_RISE_TIME);
-  model->hold_time = sb_params_get(params, SB_P_DRIVE_HOLD_TIME);
-  model->finger_damping = sb_params_get(params, SB_P_DRIVE_FINGER_DAMPING);
-  model->amplitude = sb_params_get(params, SB_P_DRIVE_AMPLITUDE);
-  model->frequency = sb_params_get(params, SB_P_DRIVE_FREQUENCY);
-  model->cycles = (int)sb_params_get(params, SB_P_DRIVE_CYCLES);
-  model->damping_ratio = sb_params_get(params, SB_P_DRIVE_DAMPING_RATIO);
-  model->rest = sb_params_get(params, SB_P_DRIVE_REST);
-  model->dwell_gain = sb_params_get(params, SB_P_FRICTION_DWELL_GAIN);
-  model->dwell_time = sb_params_get(params, SB_P_FRICTION_DWELL_TIME);
-  model->stribeck_speed = sb_params_get(params, SB_P_FRICTION_STRIBECK_SPEED);
-  model->tangential_stiffness = sb_params_get(params, SB_P_FRICTION_TANGENTIAL_STIFFNESS);
-  model->stop_stiffness = sb_params_get(params, SB_P_HOUSING_STOP_STIFFNESS);
-  model->stop_restitution = sb_params_get(params, SB_P_HOUSING_STOP_RESTITUTION);
-  model->spring_stiffness = sb_params_get(params, SB_P_STEM_SPRING_STIFFNESS);
-  model->spring_preload = sb_params_get(params, SB_P_STEM_SPRING_PRELOAD);
-  model->chamber_at_once = sb_params_get(params, SB_P_CHAMBER_FLOW) != 0;
-  model->discharge_coefficient = sb_params_get(params, SB_P_CHAMBER_DISCHARGE_COEFFICIENT);
-  model->chamber_stiffness = sb_params_get(params, SB_P_CHAMBER_STIFFNESS);
-  model->vent_on_return = sb_params_get(params, SB_P_BORE_VENT_WAY) != 0;
-  model->refill_travel = sb_params_get(params, SB_P_BORE_REFILL_TRAVEL);
-  model->refill_area = sb_params_get(params, SB_P_BORE_REFILL_AREA);
-  model->tolerance = sb_params_get(params, SB_P_OUTPUT_TOLERANCE);
-  model->motion_tolerance = sb_params_get(params, SB_P_OUTPUT_MOTION_TOLERANCE);
-  model->actuations = (int)sb_params_get(params, SB_P_OUTPUT_ACTUATIONS);
-  model->frames = (int)sb_params_get(params, SB_P_OUTPUT_FRAMES);
-  model->fit = (SbFitModel)sb_params_get(params, SB_P_MODELS_FIT);
-  model->film = (SbFilmModel)sb_params_get(params, SB_P_MODELS_FILM);
-  model->film_history = sb_params_get(params, SB_P_MODELS_FILM_TIME) != 0;
-  model->rest_film = sb_params_get(params, SB_P_FLUID_REST_FILM);
-  model->surface =
-      sb_params_get(params, SB_P_MODELS_SURFACE) > 0 ? SB_ROUGH_PERSSON : SB_ROUGH_GREENWOOD_TRIPP;
-  model->asperities = (SbModelAsperities)sb_params_get(params, SB_P_MODELS_ASPERITIES);
-  model->hamaker = sb_params_get(params, SB_P_MODELS_ADHESION) > 0
-                       ? sb_params_get(params, SB_P_SURFACE_HAMAKER_CONSTANT)
-                       : 0;
-  model->motion = (SbModelMotion)sb_params_get(params, SB_P_MODELS_MOTION);
-  model->views = (unsigned)sb_params_get(params, SB_P_OUTPUT_VIEWS);
-  model->studies = (unsigned)sb_params_get(params, SB_P_OUTPUT_STUDIES);
-  model->study.squeeze_min = sb_params_get(params, SB_P_STUDY_SQUEEZE_MIN);
-  model->study.squeeze_max = sb_params_get(params, SB_P_STUDY_SQUEEZE_MAX);
-  model->study.speed_min = sb_params_get(params, SB_P_STUDY_SPEED_MIN);
-  model->study.speed_max = sb_params_get(params, SB_P_STUDY_SPEED_MAX);
-  model->study.load_min = sb_params_get(params, SB_P_STUDY_LOAD_MIN);
-  model->study.load_max = sb_params_get(params, SB_P_STUDY_LOAD_MAX);
-  model->study.time_min = sb_params_get(params, SB_P_STUDY_TIME_MIN);
-  model->study.time_max = sb_params_get(params, SB_P_STUDY_TIME_MAX);
-  model->look.field = (int)sb_params_get(params, SB_P_OUTPUT_FIELD);
-  model->look.insets = (int)sb_params_get(params, SB_P_OUTPUT_INSETS);
-  model->look.full = sb_params_get(params, SB_P_OUTPUT_SECTION) == 1;
-  model->look.cutaway = sb_params_get(params, SB_P_OUTPUT_SECTION) == 2;
-  model->look.azimuth = sb_params_get(params, SB_P_OUTPUT_AZIMUTH);
-  model->look.elevation = sb_params_get(params, SB_P_OUTPUT_ELEVATION);
-  model->look.undeformed = sb_params_get(params, SB_P_OUTPUT_UNDEFORMED) > 0;
-  model->look.field_max = sb_params_get(params, SB_P_OUTPUT_FIELD_MAX);
-  model->shape.entry_diameter = sb_params_get(params, SB_P_BORE_ENTRY_DIAMETER);
-  model->shape.entry_length = sb_params_get(params, SB_P_BORE_ENTRY_LENGTH);
-  model->shape.land_length = sb_params_get(params, SB_P_BORE_LAND_LENGTH);
-  model->shape.vent_position = sb_params_get(params, SB_P_BORE_VENT_POSITION);
-  model->shape.vent_diameter = sb_params_get(params, SB_P_BORE_VENT_DIAMETER);
-  model->shape.seal_spacing = sb_params_get(params, SB_P_STEM_SEAL_SPACING);
-  model->shape.nose_length = sb_params_get(params, SB_P_STEM_NOSE_LENGTH);
-  model->shape.chamber_depth = sb_params_get(params, SB_P_STEM_CHAMBER_DEPTH);
-  model->shape.chamber_length = sb_params_get(params, SB_P_STEM_CHAMBER_LENGTH);
-  model->shape.shoulder_length = sb_params_get(params, SB_P_STEM_SHOULDER_LENGTH);
-  model->shape.rod_diameter = sb_params_get(params, SB_P_STEM_ROD_DIAMETER);
-  model->rubber = read_rubber(params, model->density);
-  model->rig = read_rig(model, params);
-  model->life_actuations = (int)sb_params_get(params, SB_P_LIFE_ACTUATIONS);
-  int shown = (int)sb_params_get(params, SB_P_LIFE_SHOWN);
-  model->life_shown = shown > 0 ? shown : model->life_actuations;
-  model->running_in = (SbRunningIn){
-      .start = sb_params_get(params, SB_P_LIFE_ROUGHNESS_NEW),
-      .end = sb_params_get(params, SB_P_LIFE_ROUGHNESS_RUN_IN),
-      .actuations = sb_params_get(params, SB_P_LIFE_RUNNING_IN),
-  };
-  model->rig_prominence = sb_params_get(params, SB_P_RIG_PROMINENCE);
-  model->bore_circumference = M_PI * model->bore_diameter;
-  double pressure_diameter = sb_params_get(params, SB_P_STEM_PRESSURE_DIAMETER);
-  model->stem_diameter = pressure_diameter;
-  model->pressure_force =
-      model->canister_pressure * M_PI / 4 * pressure_diameter * pressure_diameter;
+  sb_model_read(model, params);
+  const double pressure_diameter = model->stem_diameter;
 
   // The stem must fit into the bore and the groove must leave a core.
   bool good = true;
