@@ -3,7 +3,7 @@
 
 #include "app/document/unit.h"
 
-#include "engine/valve/figures.h"
+#include "engine/valve/sealbench.h"
 
 #include <glib.h>
 #include <math.h>

@@ -1,6 +1,8 @@
 // See figures.h.
 #include "engine/valve/figures.h"
 
+#include "engine/valve/model.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>

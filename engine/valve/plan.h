@@ -2,7 +2,7 @@
 // model that meets the tolerance, with predicted cost and error.
 #pragma once
 
-#include "engine/valve/model.h"
+#include "engine/valve/valve.h"
 
 enum {
   SB_PLAN_ITEMS_MAX = 24,

@@ -6,7 +6,10 @@
 #pragma once
 
 #include "engine/valve/frame.h"
+#include "engine/valve/life.h"
+#include "engine/valve/limits.h"
 #include "engine/valve/plan.h"
+#include "engine/valve/rig.h"
 
 #include <stdatomic.h>
 

@@ -3,6 +3,7 @@
 
 #include "engine/contact/fit.h"
 #include "engine/valve/cost.h"
+#include "engine/valve/model.h"
 #include "engine/valve/sliding.h"
 #include "engine/valve/studies/study.h"
 
