@@ -48,6 +48,19 @@ def arrows_up(source):
     return found
 
 
+def includes_of_the_model(source):
+    """Files outside engine/valve that include model.h: valve.h has the types that they need."""
+    found = []
+    for path in glob.glob(f'{source}/*/**/*.[ch]', recursive=True):
+        name = os.path.relpath(path, source)
+        if name.split('/')[0] in ROOMS or name.startswith('tests/'):
+            with open(path, encoding='utf-8') as file:
+                if '#include "engine/valve/model.h"' in file.read() and \
+                        not name.startswith('engine/valve/'):
+                    found.append(name)
+    return found
+
+
 source, engine, app, program, library = sys.argv[1:]
 libraries = subprocess.run(['ldd', program], capture_output=True, text=True, check=True).stdout
 
@@ -76,6 +89,7 @@ checks = [
     ('the library shows what its header declares and nothing else', sorted(visible(library) ^ declared)),
     ('the library needs GLib, GIO, udunits and the engine\'s libraries alone',
      [name for name in needed if not re.match(LIBRARY_MAY_NEED, name)]),
+    ('no file outside engine/valve includes its model', includes_of_the_model(source)),
     ('sealbench is not linked with GTK', re.findall(r'lib(?:gtk|gdk)-\S+', libraries)),
 ]
 print(f'1..{len(checks)}')

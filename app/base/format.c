@@ -111,6 +111,17 @@ static Unit choose_unit(SbQuantity quantity, double value) {
   }
 }
 
+SbQuantity sb_quantity_of_unit(const char *unit) {
+  for (int quantity = 0; quantity < SB_QUANTITY_COUNT; quantity++) {
+    if (strcmp(choose_unit((SbQuantity)quantity, 0).unit, unit) == 0) {
+      return (SbQuantity)quantity;
+    }
+  }
+  // A volume's smallest unit was asked for above.
+  return strcmp(unit, "nl") == 0 || strcmp(unit, "µl") == 0 ? SB_QUANTITY_VOLUME
+                                                            : SB_QUANTITY_NUMBER;
+}
+
 void sb_format(SbFormatted *out, SbQuantity quantity, double value, double relative_error) {
   Unit unit = choose_unit(quantity, isfinite(value) ? value : 0);
   g_strlcpy(out->unit, unit.unit, sizeof out->unit);
@@ -140,6 +151,11 @@ char *sb_format_text(char *out, SbQuantity quantity, double value, double relati
     g_strlcat(out, parts.unit, SB_FORMAT_MAX);
   }
   return out;
+}
+
+char *sb_format_figure(char *out, const SbSummary *summary, int index) {
+  return sb_format_text(out, sb_quantity_of_unit(sb_figure(index)->shown),
+                        sb_figure_value(summary, index), sb_figure_error(summary, index));
 }
 
 char *sb_format_given(char *out, SbQuantity quantity, double value) {

@@ -4,6 +4,8 @@
 // supports, true minus, thin space in thousands, the unit always, zero as "0".
 #pragma once
 
+#include "engine/valve/figures.h"
+
 #include <stddef.h>
 
 typedef enum {
@@ -20,6 +22,10 @@ typedef enum {
   SB_QUANTITY_COUNT
 } SbQuantity;
 
+// The quantity that people read in `unit` ("nm": SB_QUANTITY_FILM); SB_QUANTITY_NUMBER for what is
+// none of these.
+SbQuantity sb_quantity_of_unit(const char *unit);
+
 enum { SB_FORMAT_MAX = 48 };
 
 // A number and its unit apart, for read-outs that set the unit smaller.
@@ -34,6 +40,10 @@ void sb_format(SbFormatted *out, SbQuantity quantity, double value, double relat
 
 // "27.4 N" into `out` (of SB_FORMAT_MAX bytes), which is returned. No break inside.
 char *sb_format_text(char *out, SbQuantity quantity, double value, double relative_error);
+
+// A figure of a run (engine/valve/figures.h) in the unit that people read, with no more digits than
+// its error estimate supports.
+char *sb_format_figure(char *out, const SbSummary *summary, int index);
 
 // As sb_format_text() for a given value rather than a computed one: no trailing zeros.
 char *sb_format_given(char *out, SbQuantity quantity, double value);

@@ -202,8 +202,7 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
   if (sum && sb_chart_complete(v->data)) {
     double zero = sb_axis_at(&v->at.x, 0);
     if (isfinite(sum->energy.loop) && sum->energy.loop > 0) {
-      sb_format_text(value, SB_QUANTITY_ENERGY, sum->energy.loop,
-                     isfinite(sum->error_energy) ? sum->error_energy : 0);
+      sb_format_figure(value, sum, sb_figure_find("cycle.energy_loss_J"));
       int cycles = run->model ? run->model->cycles : 1;
       if (cycles > 1) {
         g_snprintf(text, sizeof text, "loss of %d cycles %s", cycles, value);
@@ -221,7 +220,7 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
                   6);
     }
     if (isfinite(sum->force_return_min)) {
-      sb_format_text(value, SB_QUANTITY_FORCE, sum->force_return_min, sb_chart_error_force(run));
+      sb_format_figure(value, sum, sb_figure_find("cycle.force_return_min_N"));
       g_snprintf(text, sizeof text, "least return %s", value);
       double y = sb_axis_at(&v->at.y, fmax(sum->force_return_min, v->at.y.lo));
       label_curve(v, text, SB_ROLE_INK,

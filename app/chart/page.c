@@ -12,12 +12,14 @@
 // ---------------------------------------------------------------------------------------------------
 // Texts
 
+static void append_name(GString *out, const char *label, const char *name) {
+  g_string_append_printf(out, "%s%s %s", out->len ? DOT : "", label, name);
+}
+
 static void append_choice(GString *out, const char *label, SbParamId id, int index) {
   char name[64];
   sb_param_choice_name(sb_param(id), index, name, sizeof name);
-  if (name[0]) {
-    g_string_append_printf(out, "%s%s %s", out->len ? DOT : "", label, name);
-  }
+  append_name(out, label, name);
 }
 
 void sb_page_models_text(char *out, size_t size, const SbChartRun *run) {
@@ -26,9 +28,9 @@ void sb_page_models_text(char *out, size_t size, const SbChartRun *run) {
   if (m && m->motion == SB_MODEL_MOTION_RIG) {
     append_choice(text, "motion", SB_P_MODELS_MOTION, (int)m->motion);
   } else if (m) {
-    append_choice(text, "fit", SB_P_MODELS_FIT, m->fit);
-    append_choice(text, "film", SB_P_MODELS_FILM, (int)m->film);
-    append_choice(text, "surface", SB_P_MODELS_SURFACE, (int)m->surface);
+    append_name(text, "fit", sb_fit_model_name(m->fit));
+    append_name(text, "film", sb_film_model_name(m->film));
+    append_name(text, "surface", sb_rough_model_name(m->surface));
     if (m->asperities == SB_MODEL_ASPERITIES_COUPLED) {
       append_choice(text, "asperities", SB_P_MODELS_ASPERITIES, (int)m->asperities);
     }

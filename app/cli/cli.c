@@ -347,7 +347,7 @@ bool sb_cli_has_memory(const SbModel *model) {
   // Closed forms and the quasi-static cycle solve nothing dense.
   bool dense = model == NULL || model->motion != SB_MODEL_MOTION_QUASI_STATIC ||
                model->asperities == SB_MODEL_ASPERITIES_COUPLED ||
-               (model->film != SB_MODEL_FILM_THESIS && model->film != SB_MODEL_FILM_KARASZKIEWICZ);
+               (model->film != SB_FILM_THESIS && model->film != SB_FILM_KARASZKIEWICZ);
   if (dense && !sb_process_has_memory()) {
     sb_cli_fail(
         "there is not enough memory for the solvers: they need 140 MB of address space more "
@@ -393,7 +393,7 @@ int sb_cli_emit(const char *json, const char *target) {
 }
 
 void sb_cli_line(const char *label, const char *text) {
-  enum { WIDTH = 30 };
+  enum { WIDTH = 36 };
   glong gap = WIDTH - g_utf8_strlen(label, -1);
   printf("  %s%*s %s\n", label, (int)MAX(gap, 0), "", text);
 }
@@ -408,6 +408,14 @@ void sb_cli_figure(const char *label, double value, const char *si, const char *
   char *text = g_strdup_printf("%s%s%s", digits, *shown != '\0' ? " " : "", shown);
   sb_cli_line(label, text);
   g_free(text);
+}
+
+void sb_cli_rows(const SbResultRow *row, const void *of) {
+  for (; row->key != NULL; row++) {
+    if (row->label != NULL) {
+      sb_cli_figure(row->label, sb_result_value(row, of), row->si, row->shown);
+    }
+  }
 }
 
 void sb_cli_warnings(const SbWarnings *warnings) {

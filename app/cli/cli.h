@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/document/document.h"
+#include "app/export/json.h"
 
 #include "engine/valve/sealbench.h"
 #include "engine/valve/studies/study.h"
@@ -134,6 +135,7 @@ int sb_cli_emit(const char *json, const char *target);
 
 // "  Contact width        0.8886 mm": a figure with at most five digits; "-" if it is not finite.
 void sb_cli_figure(const char *label, double value, const char *si, const char *shown);
+void sb_cli_rows(const SbResultRow *row, const void *of); // those with a label
 void sb_cli_line(const char *label, const char *text);
 void sb_cli_warnings(const SbWarnings *warnings);
 

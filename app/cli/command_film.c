@@ -20,32 +20,18 @@ static void print_table(const SbFilm *film, const SbFilmProblem *problem) {
     sb_cli_line("Converged", "NO, nothing found");
     return;
   }
-  sb_cli_figure("Film, least", film->film_min, "m", "nm");
-  sb_cli_figure("Film, central", film->film_central, "m", "nm");
-  sb_cli_figure("Film, of the flow", film->film_flux, "m", "nm");
-  sb_cli_figure("Pressure, largest", film->pressure_max, "Pa", "MPa");
-  sb_cli_figure("Place of the least film", film->position_film_min, "m", "mm");
-  sb_cli_figure("Place of rupture", film->position_rupture, "m", "mm");
-  sb_cli_figure("Hertz half-width", film->hertz_half_width, "m", "mm");
-  sb_cli_figure("Hertz pressure", film->hertz_pressure, "Pa", "MPa");
-  sb_cli_figure("Friction, Couette", film->friction_couette, "N/m", "N/m");
-  sb_cli_figure("Friction, Poiseuille", film->friction_poiseuille, "N/m", "N/m");
+  sb_cli_rows(sb_film_rows, film);
+  sb_cli_rows(sb_film_contact_rows, film);
+  sb_cli_line("Regime", film->regime);
   if (problem->surface != SB_ROUGH_NONE) {
     sb_cli_line("Asperities", sb_rough_model_name(problem->surface));
-    sb_cli_figure("Central film over roughness", film->film_ratio, "1", "");
-    sb_cli_figure("Load on asperities, share", film->asperity_share, "1", "");
-    sb_cli_figure("Real contact at the axis, share", film->real_area_share, "1", "");
-    sb_cli_figure("Friction, boundary", film->friction_boundary, "N/m", "N/m");
-    sb_cli_figure("Friction, broken film", film->friction_cavity, "N/m", "N/m");
+    sb_cli_rows(sb_film_rough_rows, film);
     sb_cli_figure("Coefficient of friction",
                   fabs(film->friction_boundary + film->friction_couette + film->friction_cavity) /
                       problem->load,
                   "1", "");
   }
-  sb_cli_figure("Moes' M", film->moes_M, "1", "");
-  sb_cli_line("Regime", film->regime);
-  sb_cli_figure("Error estimate, least film", film->solver.error_film_min, "1", "");
-  sb_cli_figure("Error estimate, central film", film->solver.error_film_central, "1", "");
+  sb_cli_rows(sb_film_error_rows, film);
   sb_cli_figure("Time", film->solver.wall_s, "s", "ms");
   if (!film->solver.converged) {
     sb_cli_line("Converged", "NO");

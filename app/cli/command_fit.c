@@ -9,27 +9,16 @@
 
 static void print_table(const SbFit *fit, const char *seal) {
   printf("%s seal by %s\n", seal, sb_fit_model_name(fit->model));
-  sb_cli_figure("Squeeze", fit->squeeze, "1", "%");
-  sb_cli_figure("Stretch, mean diameter", fit->stretch_mean, "1", "%");
-  sb_cli_figure("Stretch, inner diameter", fit->stretch_inner, "1", "%");
-  sb_cli_figure("Section when fitted", fit->section_diameter_fitted, "m", "mm");
-  sb_cli_figure("Interference", fit->interference, "m", "mm");
-  sb_cli_figure("Gland fill", fit->gland_fill, "1", "%");
-  sb_cli_figure("Circumference of the load", fit->circumference, "m", "mm");
-  sb_cli_figure("Contact width", fit->contact_width, "m", "mm");
-  sb_cli_figure("Load", fit->load, "N", "N");
-  sb_cli_figure("Load per length", fit->load_per_length, "N/m", "N/m");
-  sb_cli_figure("Peak pressure", fit->pressure_peak, "Pa", "MPa");
+  sb_cli_rows(sb_fit_rows, fit);
   if (fit->model == SB_FIT_RING) {
-    sb_cli_figure("Load on the groove floor", fit->ring.floor_load, "N", "N");
-    sb_cli_figure("Load on the groove wall", fit->ring.wall_load, "N", "N");
+    sb_cli_rows(sb_fit_ring_rows, fit);
     char text[96];
     snprintf(text, sizeof text, "%zu unknowns, %zu load steps (%zu halved), %zu Newton iterations",
              fit->solver.unknowns, fit->ring.load_steps, fit->ring.rejected_steps,
              fit->solver.newton_iterations);
     sb_cli_line("Solver", text);
   }
-  sb_cli_figure("Error estimate, load", fit->solver.error_estimate.load, "1", "");
+  sb_cli_rows(sb_fit_error_rows, fit);
   sb_cli_figure("Time", fit->solver.wall_s, "s", "ms");
   if (!fit->solver.converged) {
     sb_cli_line("Converged", "NO");

@@ -5,43 +5,45 @@
 #include <math.h>
 #include <string.h>
 
-// A line of the table: the figure at `path`, or a dash and the reason.
-static void print_figure(const SbSummary *summary, const char *label, const char *path) {
-  int index = sb_figure_find(path);
-  const SbFigure *figure = sb_figure(index);
+// A line of the table: the figure, or a dash and the reason.
+static void print_figure(const SbSummary *summary, int index) {
+  double value = sb_figure_value(summary, index);
   const char *reason = sb_figure_reason(summary, index);
-  if (reason != NULL) {
-    g_autofree char *dash = g_strdup_printf("- (%s)", reason);
-    sb_cli_line(label, dash);
-  } else {
-    sb_cli_figure(label, sb_figure_value(summary, index), figure->si, figure->shown);
+  g_autofree char *text = sb_figure_format(index, value, sb_figure_error(summary, index));
+  g_autofree char *why = reason != NULL ? g_strdup_printf("%s (%s)", text, reason) : NULL;
+  sb_cli_line(sb_figure(index)->label, reason != NULL ? why : text);
+}
+
+// Those of the short table whose paths begin with `scope`; `known`: without those that are not.
+static void print_figures(const SbSummary *summary, const char *scope, bool known) {
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    const SbFigure *figure = sb_figure(i);
+    if (figure->brief && g_str_has_prefix(figure->path, scope) &&
+        !(known && isnan(sb_figure_value(summary, i)))) {
+      print_figure(summary, i);
+    }
   }
 }
 
-static void print_seal(const SbSummary *summary, int seal) {
-  static const struct {
-    const char *label, *name;
-  } lines[] = {{"Contact width", "contact_width_m"},
-               {"Load", "load_N"},
-               {"Peak pressure", "pressure_peak_Pa"},
-               {"Film, least", "film_min_m"},
-               {"Film, central", "film_central_m"},
-               {"  by Karaszkiewicz, eq. 7.6", "film_by_model.karaszkiewicz"},
-               {"  by the thesis, eq. 7.5", "film_by_model.thesis"},
-               {"  by Reynolds, solved", "film_by_model.reynolds"},
-               {"Film over roughness", "lambda"},
-               {"Friction, boundary", "friction_boundary_N"},
-               {"Friction, viscous", "friction_viscous_N"},
-               {"Friction, static", "friction_static_N"},
-               {"Coefficient of friction", "coefficient_of_friction"},
-               {"Leakage per stroke", "leakage_per_stroke_m3"},
-               {"Leak at rest", "leakage_static_m3_per_s"},
-               {"Closed at a pressure of", "closing_pressure_Pa"}};
-  printf("%s seal, middle of B-C\n", seal == SB_OUTER ? "Outer" : "Inner");
-  for (size_t i = 0; i < G_N_ELEMENTS(lines); i++) {
-    g_autofree char *path = g_strdup_printf("seals.%s.%s", sb_seal_name(seal), lines[i].name);
-    print_figure(summary, lines[i].label, path);
+// Time, displacement and force in a line.
+static void print_stage(const SbSummary *summary, SbStage stage) {
+  g_autofree char *scope = g_strdup_printf("cycle.stages.%s.", sb_stage_name(stage));
+  g_autofree char *label = g_strdup_printf("Stage %s", sb_stage_name(stage));
+  g_autoptr(GString) text = g_string_new(NULL);
+  for (int i = 0; i < SB_FIGURE_COUNT && summary->stage[stage].reached; i++) {
+    if (g_str_has_prefix(sb_figure(i)->path, scope)) {
+      g_autofree char *one =
+          sb_figure_format(i, sb_figure_value(summary, i), sb_figure_error(summary, i));
+      g_string_append_printf(text, "%s%s", text->len > 0 ? ", " : "", one);
+    }
   }
+  sb_cli_line(label, text->len > 0 ? text->str : "not reached");
+}
+
+static void print_seal(const SbSummary *summary, int seal) {
+  g_autofree char *scope = g_strdup_printf("seals.%s.", sb_seal_name(seal));
+  printf("%s seal, middle of B-C\n", seal == SB_OUTER ? "Outer" : "Inner");
+  print_figures(summary, scope, false);
   sb_cli_line("Leak path", sb_leak_state_name(summary->seal[seal].leak_state));
 }
 
@@ -62,38 +64,12 @@ static void print_verdict(const SbCaseVerdict *verdicts) {
   }
 }
 
-static void print_life(const SbRun *run) {
-  const SbLife *life = &sb_run_summary(run)->life;
-  size_t count;
-  const SbLifeActuation *each = sb_run_life(run, &count);
-  printf("Life of %ld actuations\n", life->done);
-  sb_cli_figure("Roughness, last over given", each[count - 1].roughness, "1", "");
-  sb_cli_figure("Break-away force, last", each[count - 1].force_breakaway, "N", "N");
-  sb_cli_figure("Return force, last", each[count - 1].force_return, "N", "N");
-  sb_cli_figure("  least of all", life->return_least, "N", "N");
-  sb_cli_figure("Film over roughness, last", each[count - 1].lambda, "1", "");
-  sb_cli_figure("Leakage, carried out", life->carried, "m3", "nl");
-  sb_cli_figure("  net", life->leakage, "m3", "nl");
-  if (life->failure > 0) {
-    printf("  the stem does not return from actuation %ld: none after it\n", life->failure);
-  }
-}
-
-static void print_rig(const SbRun *run) {
-  const SbRigSummary *rig = &sb_run_summary(run)->rig;
-  const SbRigCoefficients *of = &rig->of;
-  double none = NAN;
-  sb_cli_figure("Static coefficient", rig->found ? of->static_coefficient : none, "1", "");
-  sb_cli_figure("Dynamic coefficient", rig->found ? of->dynamic_coefficient : none, "1", "");
-  sb_cli_figure("  of the mean force", rig->found ? of->mean_coefficient : none, "1", "");
+static void print_rig(const SbSummary *summary) {
+  print_figures(summary, "rig.", false);
   sb_cli_figure("  measured in the thesis", SB_RIG_MEASURED_DYNAMIC, "1", "");
   sb_cli_figure("  predicted there", SB_RIG_PREDICTED_DYNAMIC, "1", "");
-  sb_cli_figure("  surface model, this load", rig->contact_coefficient, "1", "");
-  sb_cli_figure("First peak", rig->found ? of->first_peak : none, "N", "N");
-  sb_cli_figure("  at", rig->found ? of->first_time : none, "s", "s");
-  char *peaks = g_strdup_printf("%zu", rig->found ? of->peaks : 0);
+  g_autofree char *peaks = g_strdup_printf("%zu", summary->rig.of.peaks);
   sb_cli_line("Peaks that follow", peaks);
-  g_free(peaks);
 }
 
 static void print_solver(const SbSummary *summary) {
@@ -110,44 +86,19 @@ static void print_table(const SbDocument *document, const SbRun *run,
                         const SbCaseVerdict *verdict) {
   const SbSummary *summary = sb_run_summary(run);
   printf("%s\n", sb_document_title(document));
-  if (sb_run_model(run)->motion == SB_MODEL_MOTION_RIG) {
-    print_rig(run);
-    print_figure(summary, "Energy of the pull", "cycle.energy_loss_J");
-    print_figure(summary, "Energy closure", "cycle.energy_closure");
-    print_figure(summary, "Duration", "cycle.duration_s");
+  bool rig = sb_run_model(run)->motion == SB_MODEL_MOTION_RIG;
+  print_figures(summary, "cycle.", rig);
+  if (rig) {
+    print_rig(summary);
     print_solver(summary);
     return;
   }
-  print_figure(summary, "Peak force", "cycle.force_peak_N");
-  print_figure(summary, "Break-away force", "cycle.force_breakaway_N");
-  print_figure(summary, "Least return force", "cycle.force_return_min_N");
-  if (isnan(summary->returned)) {
-    print_figure(summary, "Stem returns", "cycle.returns");
-  } else {
-    sb_cli_line("Stem returns", summary->returns ? "yes" : "no");
-  }
-  print_figure(summary, "Energy of the loop", "cycle.energy_loss_J");
-  print_figure(summary, "Energy closure", "cycle.energy_closure");
-  print_figure(summary, "Leakage per cycle", "cycle.leakage_per_cycle_m3");
-  print_figure(summary, "  carried out, all actuations", "cycle.leakage_carried_all_actuations_m3");
-  print_figure(summary, "  net, all actuations", "cycle.leakage_net_all_actuations_m3");
-  print_figure(summary, "Dose", "cycle.dose_mass_kg");
-  print_figure(summary, "Duration", "cycle.duration_s");
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
-    const SbStageMark *mark = &summary->stage[i];
-    char digits[3][SB_NUMBER_SIZE];
-    char *text =
-        mark->reached
-            ? g_strdup_printf("%s s, %s mm, %s N", sb_number_round(digits[0], mark->time, 4),
-                              sb_number_round(digits[1], mark->displacement * 1e3, 4),
-                              sb_number_round(digits[2], mark->force, 4))
-            : g_strdup("not reached");
-    char label[] = {'S', 't', 'a', 'g', 'e', ' ', sb_stage_name((SbStage)i)[0], '\0'};
-    sb_cli_line(label, text);
-    g_free(text);
+    print_stage(summary, (SbStage)i);
   }
   if (summary->life.done > 0) {
-    print_life(run);
+    printf("Life of %ld actuations\n", summary->life.done);
+    print_figures(summary, "life.", false);
   }
   print_seal(summary, SB_OUTER);
   print_seal(summary, SB_INNER);

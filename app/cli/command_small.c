@@ -55,6 +55,17 @@ static void list_params(void) {
   printf("seal.outer.* and seal.inner.* override seal.* for one seal.\n");
 }
 
+static void list_figures(void) {
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    const SbFigure *figure = sb_figure(i);
+    g_autofree char *label = sb_figure_label(i);
+    printf("%-40s %s\n", figure->path, figure->help);
+    printf("    %s%s%s%s%s\n", label, *figure->shown != '\0' ? " in " : "", figure->shown,
+           figure->better != SB_BETTER_NONE ? "; better is " : "",
+           figure->better != SB_BETTER_NONE ? sb_better_name(figure->better) : "");
+  }
+}
+
 static void list_models(void) {
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
@@ -120,23 +131,28 @@ int sb_command_list(int argc, char **argv) {
     goto done;
   }
   const char *what = argv[1];
-  bool params = strcmp(what, "params") == 0;
-  bool models = strcmp(what, "models") == 0;
-  if (!params && !models && strcmp(what, "views") != 0) {
-    sb_cli_unknown("there is no list", what, "params|models|views", NULL);
+  static const struct {
+    const char *name;
+    char *(*json)(void);
+    void (*print)(void);
+  } lists[] = {{"params", sb_results_params, list_params},
+               {"figures", sb_results_figures, list_figures},
+               {"models", sb_results_models, list_models},
+               {"views", views_json, list_views}};
+  size_t at = 0;
+  while (at < G_N_ELEMENTS(lists) && strcmp(what, lists[at].name) != 0) {
+    at++;
+  }
+  if (at == G_N_ELEMENTS(lists)) {
+    sb_cli_unknown("there is no list", what, "params|figures|models|views", NULL);
     goto done;
   }
   code = SB_EXIT_DONE;
   if (target != NULL) {
-    char *json = params ? sb_results_params() : models ? sb_results_models() : views_json();
+    g_autofree char *json = lists[at].json();
     code = sb_cli_emit(json, target);
-    g_free(json);
-  } else if (params) {
-    list_params();
-  } else if (models) {
-    list_models();
   } else {
-    list_views();
+    lists[at].print();
   }
 done:
   g_free(target);

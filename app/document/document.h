@@ -10,7 +10,7 @@
 #include "app/base/issue.h"
 #include "app/document/unit.h"
 
-#include "engine/valve/model.h"
+#include "engine/valve/valve.h"
 
 typedef struct SbDocument SbDocument;
 

@@ -5,7 +5,7 @@
 #include "app/document/document_parts.h"
 
 #include "app/document/document.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/sealbench.h"
 
 #define SB_META_GROUP   "sealbench"
 #define SB_LIMITS_GROUP "limits"

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "app/base/issue.h"
-#include "engine/valve/model.h"
+#include "engine/valve/valve.h"
 
 enum { SB_SERIES_BYTES_MAX = 1 << 20 };
 

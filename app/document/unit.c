@@ -4,8 +4,10 @@
 // lock and the C locale surround every call to it. Scales of unit pairs are remembered.
 #include "app/document/unit.h"
 
+#include "app/base/format.h"
 #include "app/base/issue.h"
 #include "app/base/nearest.h"
+#include "engine/valve/figures.h"
 
 #include <locale.h>
 #include <math.h>
@@ -414,6 +416,27 @@ bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error)
   }
   *out = value;
   return true;
+}
+
+char *sb_figure_format(int index, double value, double error) {
+  const SbFigure *figure = sb_figure(index);
+  if (!isfinite(value)) {
+    return g_strdup("-");
+  }
+  if (figure->digits == 0) {
+    return g_strdup(value > 0 ? "yes" : "no");
+  }
+  double shown = sb_quantity_to_shown(value, figure->si, figure->shown);
+  int unsupported = sb_format_decimals(shown, figure->digits, 0) -
+                    sb_format_decimals(shown, figure->digits, error);
+  char digits[SB_NUMBER_SIZE];
+  sb_number_round(digits, shown, MAX(figure->digits - MAX(unsupported, 0), 1));
+  return g_strconcat(digits, *figure->shown != '\0' ? " " : "", figure->shown, NULL);
+}
+
+char *sb_figure_label(int index) {
+  const SbFigure *figure = sb_figure(index);
+  return g_strconcat(figure->label, *figure->where != '\0' ? ", " : "", figure->where, NULL);
 }
 
 // An end of a range. Where a round number of SI is none in the unit that people read (3.2e9 s are

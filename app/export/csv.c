@@ -1,25 +1,68 @@
 // Frames and profiles as text tables.
 #include "app/export/csv.h"
 
-#include "app/base/number.h"
+#include "app/document/unit.h"
+
+#include "engine/valve/sealbench.h"
 
 #include <glib.h>
 #include <math.h>
+#include <string.h>
 
-static void put(FILE *stream, double value, char end) {
+// The next column of a row; what was not computed is empty.
+static void put(FILE *stream, double value) {
   char digits[SB_NUMBER_SIZE];
-  // What was not computed is empty.
-  fputs(isnan(value) ? "" : sb_number_format(digits, value), stream);
-  fputc(end, stream);
+  fprintf(stream, ",%s", isnan(value) ? "" : sb_number_format(digits, value));
 }
 
+static void put_text(FILE *stream, const char *text) {
+  g_auto(GStrv) parts = g_strsplit(text != NULL ? text : "", "\"", -1);
+  g_autofree char *doubled = g_strjoinv("\"\"", parts);
+  const char *quote = strpbrk(doubled, ",\"\n") != NULL ? "\"" : "";
+  fprintf(stream, ",%s%s%s", quote, doubled, quote);
+}
+
+void sb_csv_figures(FILE *stream, const SbRun *run) {
+  const SbSummary *summary = sb_run_summary(run);
+  fputs("figure,value,unit,error_estimate [1],label,reason\n", stream);
+  for (int i = 0; i < SB_FIGURE_COUNT && ferror(stream) == 0; i++) {
+    const SbFigure *figure = sb_figure(i);
+    g_autofree char *label = sb_figure_label(i);
+    fputs(figure->path, stream);
+    put(stream, sb_figure_value(summary, i));
+    put_text(stream, figure->si);
+    put(stream, sb_figure_error(summary, i));
+    put_text(stream, label);
+    put_text(stream, sb_figure_reason(summary, i));
+    fputc('\n', stream);
+  }
+}
+
+// The columns of a frame behind its time, a heading and an expression each; stage and on_event
+// stand between.
+#define COLUMNS_BEFORE(COLUMN)                                                                     \
+  COLUMN("displacement [m]", frame->displacement)                                                  \
+  COLUMN("velocity [m/s]", frame->velocity)                                                        \
+  COLUMN("force [N]", frame->force)                                                                \
+  COLUMN("pressure_force [N]", frame->pressure_force)                                              \
+  COLUMN("friction_inner [N]", frame->seal[SB_INNER].friction)                                     \
+  COLUMN("friction_outer [N]", frame->seal[SB_OUTER].friction)                                     \
+  COLUMN("platen [m]", frame->platen)                                                              \
+  COLUMN("stop_force [N]", frame->stop_force)                                                      \
+  COLUMN("spring_force [N]", frame->spring_force)
+#define COLUMNS_AFTER(COLUMN)                                                                      \
+  COLUMN("load_inner [N]", frame->seal[SB_INNER].load)                                             \
+  COLUMN("load_outer [N]", frame->seal[SB_OUTER].load)                                             \
+  COLUMN("film_central_inner [m]", frame->seal[SB_INNER].film_central)                             \
+  COLUMN("film_central_outer [m]", frame->seal[SB_OUTER].film_central)                             \
+  COLUMN("land_fraction_inner [1]", (double)frame->seal[SB_INNER].land_fraction)                   \
+  COLUMN("land_fraction_outer [1]", (double)frame->seal[SB_OUTER].land_fraction)                   \
+  COLUMN("chamber_pressure [Pa]", frame->chamber_pressure)
+#define HEADING(name, value) "," name
+#define PUT(name, value)     put(stream, value);
+
 void sb_csv_cycle(FILE *stream, const SbRun *run) {
-  fputs("time [s],displacement [m],velocity [m/s],force [N],pressure_force [N],"
-        "friction_inner [N],friction_outer [N],platen [m],stop_force [N],spring_force [N],"
-        "stage,on_event,"
-        "load_inner [N],load_outer [N],film_central_inner [m],film_central_outer [m],"
-        "land_fraction_inner [1],land_fraction_outer [1],chamber_pressure [Pa]",
-        stream);
+  fputs("time [s]" COLUMNS_BEFORE(HEADING) ",stage,on_event" COLUMNS_AFTER(HEADING), stream);
   // Axial force of each joint on the first part it names.
   const SbBodiesSummary *bodies = &sb_run_summary(run)->bodies;
   for (size_t i = 0; i < bodies->joints; i++) {
@@ -38,57 +81,54 @@ void sb_csv_cycle(FILE *stream, const SbRun *run) {
   const SbFrame *frames = sb_run_frames(run, &count);
   for (size_t i = 0; i < count && ferror(stream) == 0; i++) {
     const SbFrame *frame = &frames[i];
-    const SbSealFrame *inner = &frame->seal[SB_INNER];
-    const SbSealFrame *outer = &frame->seal[SB_OUTER];
-    const double before[] = {frame->time,        frame->displacement,   frame->velocity,
-                             frame->force,       frame->pressure_force, inner->friction,
-                             outer->friction,    frame->platen,         frame->stop_force,
-                             frame->spring_force};
-    for (size_t k = 0; k < sizeof before / sizeof before[0]; k++) {
-      put(stream, before[k], ',');
-    }
-    fprintf(stream, "%s,%d,", sb_stage_name((SbStage)frame->stage), frame->on_event);
-    const double after[] = {
-        inner->load,          outer->load,          inner->film_central,    outer->film_central,
-        inner->land_fraction, outer->land_fraction, frame->chamber_pressure};
-    const size_t last = sizeof after / sizeof after[0] - 1;
-    for (size_t k = 0; k <= last; k++) {
-      put(stream, after[k], k < last || rig || bodies->joints > 0 ? ',' : '\n');
-    }
+    char digits[SB_NUMBER_SIZE];
+    fputs(sb_number_format(digits, frame->time), stream);
+    COLUMNS_BEFORE(PUT)
+    fprintf(stream, ",%s,%d", sb_stage_name((SbStage)frame->stage), frame->on_event);
+    COLUMNS_AFTER(PUT)
     const SbReaction *reaction = sb_run_reactions(run, i);
     for (size_t k = 0; k < bodies->joints; k++) {
-      put(stream, reaction[k].force[0], k + 1 < bodies->joints ? ',' : '\n');
+      put(stream, reaction[k].force[0]);
     }
-    if (rig) {
-      fprintf(stream, "%d\n", frame->peak);
-    }
+    fprintf(stream, rig ? ",%d\n" : "\n", frame->peak);
   }
 }
 
+const SbLifeColumn sb_life_columns[] = {
+    {"roughness", "1", offsetof(SbLifeActuation, roughness)},
+    {"force_peak", "N", offsetof(SbLifeActuation, force_peak)},
+    {"force_breakaway", "N", offsetof(SbLifeActuation, force_breakaway)},
+    {"force_return", "N", offsetof(SbLifeActuation, force_return)},
+    {"returns", NULL, offsetof(SbLifeActuation, returned)},
+    {"lambda", "1", offsetof(SbLifeActuation, lambda)},
+    {"leakage", "m3", offsetof(SbLifeActuation, leakage)},
+    {"leakage_carried", "m3", offsetof(SbLifeActuation, carried)},
+    {0}};
+
+double sb_life_value(const SbLifeActuation *of, const SbLifeColumn *column) {
+  return *(const double *)((const char *)of + column->offset);
+}
+
 void sb_csv_life(FILE *stream, const SbRun *run) {
-  fputs("actuation,roughness [1],force_peak [N],force_breakaway [N],force_return "
-        "[N],returns,lambda [1],leakage [m3],"
-        "leakage_carried [m3],leakage_sum [m3],leakage_carried_sum [m3]\n",
-        stream);
+  fputs("actuation", stream);
+  for (const SbLifeColumn *column = sb_life_columns; column->name != NULL; column++) {
+    fprintf(stream, column->unit != NULL ? ",%s [%s]" : ",%s", column->name, column->unit);
+  }
+  fputs(",leakage_sum [m3],leakage_carried_sum [m3]\n", stream);
   size_t count;
   const SbLifeActuation *each = sb_run_life(run, &count);
   double net = 0;
   double carried = 0;
   for (size_t i = 0; i < count && ferror(stream) == 0; i++) {
-    const SbLifeActuation *one = &each[i];
-    net += one->leakage;
-    carried += one->carried;
-    fprintf(stream, "%zu,", i + 1);
-    put(stream, one->roughness, ',');
-    put(stream, one->force_peak, ',');
-    put(stream, one->force_breakaway, ',');
-    put(stream, one->force_return, ',');
-    put(stream, one->returned, ',');
-    put(stream, one->lambda, ',');
-    put(stream, one->leakage, ',');
-    put(stream, one->carried, ',');
-    put(stream, net, ',');
-    put(stream, carried, '\n');
+    net += each[i].leakage;
+    carried += each[i].carried;
+    fprintf(stream, "%zu", i + 1);
+    for (const SbLifeColumn *column = sb_life_columns; column->name != NULL; column++) {
+      put(stream, sb_life_value(&each[i], column));
+    }
+    put(stream, net);
+    put(stream, carried);
+    fputc('\n', stream);
   }
 }
 
@@ -106,11 +146,12 @@ void sb_csv_profiles(FILE *stream, const SbRun *run) {
       shown[seal] = index;
       const SbContactProfile *profile = index != UINT32_MAX ? sb_run_profile(run, index) : NULL;
       for (size_t k = 0; profile != NULL && k < profile->count && ferror(stream) == 0; k++) {
-        fprintf(stream, "%zu,%s,", i, sb_seal_name(seal));
-        put(stream, profile->x[k], ',');
-        put(stream, profile->pressure[k], ',');
-        put(stream, profile->film[k], ',');
-        put(stream, profile->asperity_pressure[k], '\n');
+        fprintf(stream, "%zu,%s", i, sb_seal_name(seal));
+        put(stream, profile->x[k]);
+        put(stream, profile->pressure[k]);
+        put(stream, profile->film[k]);
+        put(stream, profile->asperity_pressure[k]);
+        fputc('\n', stream);
       }
     }
   }

@@ -9,6 +9,18 @@
 // One row per frame: time, displacement, velocity, force, ...
 void sb_csv_cycle(FILE *stream, const SbRun *run);
 
+// One row per figure of the catalogue: value in SI, error estimate, or why there is none.
+void sb_csv_figures(FILE *stream, const SbRun *run);
+
+// What a life's table says of each actuation, and its JSON without what has no unit (NULL: a bool);
+// the last has a name of NULL.
+typedef struct {
+  const char *name, *unit;
+  size_t offset;
+} SbLifeColumn;
+extern const SbLifeColumn sb_life_columns[];
+double sb_life_value(const SbLifeActuation *of, const SbLifeColumn *column);
+
 // One row per actuation of a life: roughness, forces, leakage and its sum; the heading alone
 // without a life.
 void sb_csv_life(FILE *stream, const SbRun *run);

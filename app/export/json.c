@@ -146,3 +146,13 @@ void sb_json_warnings(SbJson *json, const SbWarnings *warnings) {
   }
   sb_json_array_end(json);
 }
+
+double sb_result_value(const SbResultRow *row, const void *of) {
+  return *(const double *)((const char *)of + row->offset);
+}
+
+void sb_json_rows(SbJson *json, const SbResultRow *row, const void *of, bool found) {
+  for (; row->key != NULL; row++) {
+    sb_json_number(json, row->key, found ? sb_result_value(row, of) : NAN);
+  }
+}

@@ -34,5 +34,17 @@ void sb_json_string(SbJson *json, const char *key, const char *value);
 // An array of `count` numbers on one line.
 void sb_json_numbers(SbJson *json, const char *key, const double *values, size_t count);
 
+// A number of a result struct: key in JSON, and label and unit in the table that people read (NULL:
+// in the JSON alone).
+typedef struct {
+  const char *key, *label, *si, *shown;
+  size_t offset;
+} SbResultRow;
+
+double sb_result_value(const SbResultRow *row, const void *of);
+
+// The rows of the struct `of` up to a key of NULL; null where nothing was `found`.
+void sb_json_rows(SbJson *json, const SbResultRow *row, const void *of, bool found);
+
 // The array "warnings": code, text, parameter (null without one).
 void sb_json_warnings(SbJson *json, const SbWarnings *warnings);

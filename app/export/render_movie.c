@@ -4,14 +4,14 @@
 #include <string.h>
 
 static SbStatus draw(void *data, size_t picture, uint8_t *pixels, size_t stride, SbReport *report) {
-  SbFilm *film = data;
+  SbMoviePictures *film = data;
   int width;
   int height;
-  sb_film_size(film, &width, &height);
+  sb_movie_pictures_size(film, &width, &height);
   cairo_surface_t *surface =
       cairo_image_surface_create_for_data(pixels, CAIRO_FORMAT_ARGB32, width, height, (int)stride);
   cairo_t *cr = cairo_create(surface);
-  sb_film_draw(film, picture, cr);
+  sb_movie_pictures_draw(film, picture, cr);
   cairo_status_t status = cairo_status(cr);
   cairo_destroy(cr);
   cairo_surface_flush(surface);
@@ -23,21 +23,22 @@ static SbStatus draw(void *data, size_t picture, uint8_t *pixels, size_t stride,
 
 bool sb_render_movie(const SbRun *run, const SbRenderOptions *options, const SbRenderMovie *movie,
                      const char *path, SbMovieResult *result, GError **error) {
-  SbFilm *film;
-  if (!sb_film_open(&film, run, options, movie, error)) {
+  SbMoviePictures *film;
+  if (!sb_movie_pictures_open(&film, run, options, movie, error)) {
     return false;
   }
-  SbMovieOptions how = {
-      .frames = sb_film_pictures(film), .title = options->title, .comment = sb_film_comment(film)};
-  sb_film_size(film, &how.width, &how.height);
-  sb_film_rate(film, &how.fps_num, &how.fps_den);
+  SbMovieOptions how = {.frames = sb_movie_pictures_count(film),
+                        .title = options->title,
+                        .comment = sb_movie_pictures_comment(film)};
+  sb_movie_pictures_size(film, &how.width, &how.height);
+  sb_movie_pictures_rate(film, &how.fps_num, &how.fps_den);
   SbReport report = {0};
   SbMovieResult own = {0};
   SbStatus status = sb_movie_write(path, &how, draw, film, &movie->hooks, &own, &report);
   if (result != NULL) {
     *result = own;
   }
-  sb_film_close(film);
+  sb_movie_pictures_close(film);
   if (status == SB_OK) {
     return true;
   }

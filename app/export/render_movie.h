@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/base/output.h"
-#include "app/export/film.h"
+#include "app/export/movie_pictures.h"
 
 // Renders `run` into the MP4 file `path`; sizes default to the view's own, `at`, `scale` and
 // `scene` of the options are not used. SB_APP_ERROR_INPUT (unknown view, size, rate, range, no

@@ -81,13 +81,13 @@ bool sb_render_sequence_check(const char *path, SbOutputCheck *check, GError **e
 }
 
 typedef struct {
-  SbFilm *film;
+  SbMoviePictures *film;
   size_t index;
 } Picture;
 
 static void draw(cairo_t *cr, double width, double height, void *user) {
   const Picture *picture = user;
-  sb_film_draw(picture->film, picture->index, cr);
+  sb_movie_pictures_draw(picture->film, picture->index, cr);
 }
 
 // One picture into the folder.
@@ -106,7 +106,7 @@ static bool write_one(SbOutputFolder *folder, const SbStill *still, const char *
 }
 
 // One file after the other; names are made by `pattern`.
-static bool write_all(SbOutputFolder *folder, SbFilm *film, const SbRenderOptions *options,
+static bool write_all(SbOutputFolder *folder, SbMoviePictures *film, const SbRenderOptions *options,
                       const SbMovieHooks *hooks, const char *pattern, SbMovieResult *result,
                       GError **error) {
   size_t at;
@@ -116,17 +116,17 @@ static bool write_all(SbOutputFolder *folder, SbFilm *film, const SbRenderOption
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s has no number field", pattern);
     return false;
   }
-  size_t total = sb_film_pictures(film);
+  size_t total = sb_movie_pictures_count(film);
   int width;
   int height;
-  sb_film_size(film, &width, &height);
+  sb_movie_pictures_size(film, &width, &height);
   Picture picture = {film, 0};
   SbStill still = {.width = width,
                    .height = height,
                    .title = options->title,
                    .scene = options->scene,
                    .hash = options->hash,
-                   .comment = sb_film_comment(film),
+                   .comment = sb_movie_pictures_comment(film),
                    .draw = draw,
                    .user = &picture};
   for (size_t i = 0; i < total; i++) {
@@ -155,8 +155,8 @@ bool sb_render_sequence(const SbRun *run, const SbRenderOptions *options,
                         const SbRenderMovie *movie, const char *path, SbMovieResult *result,
                         GPtrArray *kept, GError **error) {
   SbMovieResult own = {0};
-  SbFilm *film;
-  if (!sb_film_open(&film, run, options, movie, error)) {
+  SbMoviePictures *film;
+  if (!sb_movie_pictures_open(&film, run, options, movie, error)) {
     return false;
   }
   char *pattern;
@@ -185,6 +185,6 @@ bool sb_render_sequence(const SbRun *run, const SbRenderOptions *options,
   }
   g_free(in);
   g_free(pattern);
-  sb_film_close(film);
+  sb_movie_pictures_close(film);
   return good;
 }

@@ -1,6 +1,7 @@
 // Results as JSON documents, with stable keys, the unit in each.
 #pragma once
 
+#include "app/export/json.h"
 #include "app/run/cases.h"
 #include "engine/contact/fit.h"
 #include "engine/contact/gland.h"
@@ -29,6 +30,12 @@ typedef struct {
   double *error_min, *error_central; // estimates, relative
 } SbResultsHistory;
 
+// Rows of SbFilm: what was found, what the contact's problem alone gives, what asperities do, error
+// estimates; of SbFit: what was found, with the ring model, error estimates. Each ends with a key
+// of NULL.
+extern const SbResultRow sb_film_rows[], sb_film_contact_rows[], sb_film_rough_rows[],
+    sb_film_error_rows[], sb_fit_rows[], sb_fit_ring_rows[], sb_fit_error_rows[];
+
 // All of these return a text owned by the caller. Numbers that do not exist are null.
 char *sb_results_run(const SbRun *run, const SbResultsInfo *info);
 char *sb_results_film(const SbFilm *film, const SbResultsHistory *history); // NULL: none
@@ -36,4 +43,5 @@ char *sb_results_fit(const SbFit *fit, const char *seal, double pressure,
                      const SbGlandReadout *gland, const SbRubberState *storage);
 char *sb_results_plan(const SbPlan *plan, const char *scene); // NULL: not named
 char *sb_results_params(void);
+char *sb_results_figures(void);
 char *sb_results_models(void);

@@ -4,12 +4,12 @@
 #include "app/export/csv.h"
 #include "app/export/studies.h"
 
-enum { LIFE = 3, RUN_FILES = 4 };
+enum { LIFE = 4, RUN_FILES = 5 };
 
 // Name of file `index`; NULL for one that there is not. Owned by the caller.
 static char *file_name(int index, unsigned studies, bool life) {
   static const char *const names[RUN_FILES] = {"results.json", "cycle.csv", "profiles.csv",
-                                               "life.csv"};
+                                               "figures.csv", "life.csv"};
   if (index < RUN_FILES) {
     return index != LIFE || life ? g_strdup(names[index]) : NULL;
   }
@@ -39,6 +39,8 @@ static void put_file(FILE *stream, int index, const SbRun *run, const char *json
     sb_csv_cycle(stream, run);
   } else if (index == 2) {
     sb_csv_profiles(stream, run);
+  } else if (index == 3) {
+    sb_csv_figures(stream, run);
   } else if (index == LIFE) {
     sb_csv_life(stream, run);
   } else {

@@ -1,5 +1,5 @@
-// A folder of results: results.json, cycle.csv, profiles.csv, life.csv where there is a life, and
-// two tables for each study; all or none.
+// A folder of results: results.json, cycle.csv, profiles.csv, figures.csv, life.csv where there is
+// a life, and two tables for each study; all or none.
 #pragma once
 
 #include "app/export/results.h"

@@ -4,6 +4,8 @@
 // the stem into its three parts, the crimp.
 #include "app/section/valve.h"
 
+#include "engine/valve/sealbench.h"
+
 #include <glib.h>
 #include <math.h>
 #include <string.h>

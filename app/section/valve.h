@@ -14,7 +14,7 @@
 // next size that can be drawn, and `adjusted` says so.
 #pragma once
 
-#include "engine/valve/model.h"
+#include "engine/valve/valve.h"
 
 typedef struct {
   double x, y;

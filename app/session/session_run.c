@@ -418,7 +418,8 @@ char *sb_session_stale_text(SbSession *session) {
 
 static char *pin_name(SbSession *session) {
   char peak[SB_FORMAT_MAX];
-  sb_format_text(peak, SB_QUANTITY_FORCE, sb_run_summary(session->pinned->run)->force_breakaway, 0);
+  sb_format_figure(peak, sb_run_summary(session->pinned->run),
+                   sb_figure_find("cycle.force_breakaway_N"));
   return g_strdup_printf("break-away %s", peak);
 }
 

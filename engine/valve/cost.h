@@ -32,6 +32,6 @@ static inline double sb_cost_fit(SbFitModel model) {
 }
 
 // One film of a film model, on the half-plane.
-static inline double sb_cost_film(SbModelFilm model) {
-  return model == SB_MODEL_FILM_REYNOLDS ? SB_COST_FILM : SB_COST_CLOSED;
+static inline double sb_cost_film(SbFilmModel model) {
+  return model == SB_FILM_REYNOLDS ? SB_COST_FILM : SB_COST_CLOSED;
 }

@@ -1,6 +1,7 @@
 // Answers by a run whose plan has no more than the figures need; see the header.
 #include "engine/valve/evaluate.h"
 
+#include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
 
 #include <math.h>

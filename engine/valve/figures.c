@@ -1,29 +1,29 @@
 // See figures.h.
 #include "engine/valve/figures.h"
 
+#include "engine/valve/model.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-#define SB_FIGURE(path, si, shown, member, verdict)                                                \
-  {path, si, shown, verdict, offsetof(SbSummary, member)},
-#define SB_SEAL_FIGURE(...)
+// From a row's unit on the columns are those of SbFigure.
+#define COLUMNS(si, shown, digits, better, estimate, verdict, brief, label, help)                  \
+  si, shown, digits, SB_BETTER_##better, estimate, SB_VERDICT_##verdict, brief, label, help
+#define SEAL(name, index, path, member, ...)                                                       \
+  {"seals." name "." path, offsetof(SbSummary, seal[index].member), name " seal",                  \
+   COLUMNS(__VA_ARGS__)},
 static const SbFigure figures[SB_FIGURE_COUNT] = {
+#define SB_FIGURE(path, member, ...) {path, offsetof(SbSummary, member), "", COLUMNS(__VA_ARGS__)},
+#define SB_FIGURE_AT(path, place, where, ...)                                                      \
+  {path, offsetof(SbSummary, place), where, COLUMNS(__VA_ARGS__)},
 #include "engine/valve/figures.def"
-#undef SB_FIGURE
-#undef SB_SEAL_FIGURE
-#define SB_FIGURE(...)
-#define SB_SEAL_FIGURE(path, si, shown, member, verdict)                                           \
-  {"seals.outer." path, si, shown, verdict, offsetof(SbSummary, seal[SB_OUTER].member)},
+#define SB_SEAL_FIGURE(...) SEAL("outer", SB_OUTER, __VA_ARGS__)
 #include "engine/valve/figures.def"
-#undef SB_SEAL_FIGURE
-#define SB_SEAL_FIGURE(path, si, shown, member, verdict)                                           \
-  {"seals.inner." path, si, shown, verdict, offsetof(SbSummary, seal[SB_INNER].member)},
+#define SB_SEAL_FIGURE(...) SEAL("inner", SB_INNER, __VA_ARGS__)
 #include "engine/valve/figures.def"
-#undef SB_FIGURE
-#undef SB_SEAL_FIGURE
 };
 
 const SbFigure *sb_figure(int index) {
@@ -52,11 +52,36 @@ const char *sb_figure_reason(const SbSummary *summary, int index) {
                                 : "this run computes nothing that gives it";
 }
 
+double sb_figure_error(const SbSummary *summary, int index) {
+  char path[64];
+  snprintf(path, sizeof path, "solver.error_estimate.%s", figures[index].estimate);
+  return *figures[index].estimate != '\0' ? sb_figure_value(summary, sb_figure_find(path)) : NAN;
+}
+
+const char *sb_better_name(SbBetter better) {
+  static const char *const names[] = {"none", "less", "more"};
+  return names[better];
+}
+
 void sb_figures_clear(SbSummary *summary) {
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     *(double *)((char *)summary + figures[i].offset) = NAN;
   }
   summary->reasons = (SbReasons){0};
+}
+
+void sb_figures_of_model(SbSummary *summary, const SbModel *model) {
+  summary->metered_volume = model->metered_volume;
+  summary->doses = (double)model->doses;
+  if (model->motion == SB_MODEL_MOTION_RIG) {
+    return; // the plate has no glands and gives no dose
+  }
+  summary->dose_mass = model->metered_volume * model->density;
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    summary->seal[i].squeeze = model->seal[i].squeeze;
+    summary->seal[i].stretch_inner = model->seal[i].stretch_inner;
+    summary->seal[i].gland_fill = model->seal[i].gland_fill;
+  }
 }
 
 // Number of a text among the reasons, from 1. The last place takes what no longer fits.

@@ -5,12 +5,20 @@
 #include "engine/valve/limits.h"
 #include "engine/valve/run/run.h"
 
-// One row of figures.def, of the cycle or of one seal; strings are static.
+typedef enum { SB_BETTER_NONE, SB_BETTER_LESS, SB_BETTER_MORE } SbBetter;
+
+// One row of figures.def, a seal's for each seal; strings are static.
 typedef struct {
   const char *path;
-  const char *si, *shown; // unit, and that which people read
-  SbVerdictKind verdict;  // what a limit on it decides
   size_t offset;          // of its value in SbSummary
+  const char *where;      // "outer seal", "stage B": what tells it from others of its label; or ""
+  const char *si, *shown; // unit, and that which people read
+  int digits;             // significant ones in tables; 0: a yes or no, 1 or 0
+  SbBetter better;
+  const char *estimate;  // name of its error estimate below "solver.error_estimate."; "": none
+  SbVerdictKind verdict; // what a limit on it decides
+  bool brief;            // a short table lists it
+  const char *label, *help;
 } SbFigure;
 
 // Figure `index` < SB_FIGURE_COUNT; borrowed.
@@ -25,8 +33,17 @@ double sb_figure_value(const SbSummary *summary, int index);
 // Why it was not computed; NULL for a number. Borrowed.
 const char *sb_figure_reason(const SbSummary *summary, int index);
 
+// Estimate of its relative error; NaN: there is none.
+double sb_figure_error(const SbSummary *summary, int index);
+
+// "none", "less", "more"; borrowed.
+const char *sb_better_name(SbBetter better);
+
 // Makes every figure NaN, with no reason.
 void sb_figures_clear(SbSummary *summary);
+
+// Fills those that follow from the model alone: what the rings' and the chamber's sizes give.
+void sb_figures_of_model(SbSummary *summary, const SbModel *model);
 
 // Why the figures of `pattern` are missing, should they be: a path, or a beginning of paths with a
 // '*'. The first reason given stays.

@@ -1,7 +1,7 @@
 // Frames: what one instant of a run looks like. Plain numbers; immutable once published.
 #pragma once
 
-#include "engine/valve/model.h"
+#include "engine/valve/valve.h"
 
 #include <stdint.h>
 

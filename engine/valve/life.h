@@ -32,7 +32,7 @@ typedef struct {
   double leakage;               // sum, m3; NaN like `carried` for a life that ended before its time
   double carried;               // sum, m3
   double peak_first, peak_last; // the last NaN for such a life
-  double return_least;          // over the life, N
+  double return_least;          // over the life, N; NaN if no actuation has one
   long failure;                 // number from 1 of the actuation without return, 0 if none
 } SbLife;
 

@@ -10,6 +10,7 @@
 #include "engine/contact/closed/reduced_modulus.h"
 #include "engine/contact/fit.h"
 #include "engine/mechanism/chamber.h"
+#include "engine/valve/model_private.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -118,34 +119,6 @@ static bool compile_seal(SbModel *model, int index, const SbParams *params, SbPr
   return size_seal(model, index, problems);
 }
 
-static SbRubber read_rubber(const SbParams *params, double fluid_density) {
-  return (SbRubber){
-      .reference_temperature = sb_params_get(params, SB_P_RUBBER_REFERENCE_TEMPERATURE),
-      .terms = 3,
-      .g = {sb_params_get(params, SB_P_RUBBER_RELAXATION_SHARE_1),
-            sb_params_get(params, SB_P_RUBBER_RELAXATION_SHARE_2),
-            sb_params_get(params, SB_P_RUBBER_RELAXATION_SHARE_3)},
-      .tau = {sb_params_get(params, SB_P_RUBBER_RELAXATION_TIME_1),
-              sb_params_get(params, SB_P_RUBBER_RELAXATION_TIME_2),
-              sb_params_get(params, SB_P_RUBBER_RELAXATION_TIME_3)},
-      .shift = (SbShift)sb_params_get(params, SB_P_RUBBER_SHIFT),
-      .wlf_c1 = sb_params_get(params, SB_P_RUBBER_WLF_C1),
-      .wlf_c2 = sb_params_get(params, SB_P_RUBBER_WLF_C2),
-      .relaxation_energy = sb_params_get(params, SB_P_RUBBER_RELAXATION_ENERGY),
-      .entropic = sb_params_get(params, SB_P_RUBBER_ENTROPIC) != 0.0,
-      .thermal_expansion = sb_params_get(params, SB_P_RUBBER_THERMAL_EXPANSION),
-      .network_rate = sb_params_get(params, SB_P_RUBBER_NETWORK_RATE),
-      .network_energy = sb_params_get(params, SB_P_RUBBER_NETWORK_ENERGY),
-      .network_reform = sb_params_get(params, SB_P_RUBBER_NETWORK_REFORM),
-      .swell_mass = sb_params_get(params, SB_P_RUBBER_SWELL_MASS),
-      .rubber_density = sb_params_get(params, SB_P_RUBBER_DENSITY),
-      .fluid_density = fluid_density,
-      .diffusion = sb_params_get(params, SB_P_RUBBER_DIFFUSION),
-      .diffusion_energy = sb_params_get(params, SB_P_RUBBER_DIFFUSION_ENERGY),
-      .swell_modulus = sb_params_get(params, SB_P_RUBBER_SWELL_MODULUS),
-  };
-}
-
 // What only the motion with inertia can do. The quasi-static balance is not silently asked for it.
 static bool compile_quasi_static(const SbModel *model, SbProblems *problems) {
   const struct {
@@ -170,34 +143,6 @@ static bool compile_quasi_static(const SbModel *model, SbProblems *problems) {
     }
   }
   return good;
-}
-
-// The rig's rings obey the friction.* keys: the static ratio, its growth with rest, the loss with
-// speed and the shear stiffness of one ring. Dampers as drive.damping_ratio says.
-static SbRig read_rig(const SbModel *model, const SbParams *params) {
-  SbRig rig = {
-      .load = sb_params_get(params, SB_P_RIG_LOAD),
-      .mass = sb_params_get(params, SB_P_RIG_MASS),
-      .coefficient = sb_params_get(params, SB_P_RIG_COEFFICIENT),
-      .speed = sb_params_get(params, SB_P_RIG_SPEED),
-      .thread_stiffness = sb_params_get(params, SB_P_RIG_THREAD_STIFFNESS),
-      .duration = sb_params_get(params, SB_P_RIG_DURATION),
-      .rate = sb_params_get(params, SB_P_RIG_RATE),
-      .rest = model->rest,
-      .contact = {.static_ratio = model->static_ratio,
-                  .dwell_gain = model->dwell_gain,
-                  .dwell_time = model->dwell_time,
-                  .stribeck_speed = model->stribeck_speed,
-                  .stribeck_exponent = 1,
-                  .stiffness = INFINITY},
-  };
-  rig.thread_damping = model->damping_ratio * 2 * sqrt(rig.thread_stiffness * rig.mass);
-  if (model->tangential_stiffness > 0) {
-    rig.contact.stiffness = model->tangential_stiffness;
-    rig.contact.damping =
-        model->damping_ratio * 2 * sqrt(model->tangential_stiffness * rig.mass / SB_RIG_RINGS);
-  }
-  return rig;
 }
 
 // Ranges must rise.
@@ -321,29 +266,8 @@ static SbStatus compile(SbModel *model, SbAssemblyWork *work, const SbParams *pa
   if (problems != NULL) {
     problems->count = 0;
   }
-#define SB_MODEL_FIELD(type, name, id) model->name = (type)sb_params_get(params, SB_P_##id);
-#define SB_MODEL_MEMBER                SB_MODEL_FIELD
-#include "engine/valve/model.def"
-  model->pressure_viscosity = sb_params_get(params, SB_P_MODELS_VISCOSITY) > 0
-                                  ? sb_params_get(params, SB_P_FLUID_PRESSURE_VISCOSITY)
-                                  : 0;
-  model->hamaker = sb_params_get(params, SB_P_MODELS_ADHESION) > 0
-                       ? sb_params_get(params, SB_P_SURFACE_HAMAKER_CONSTANT)
-                       : 0;
-  model->look.full = sb_params_get(params, SB_P_OUTPUT_SECTION) == 1;
-  model->look.cutaway = sb_params_get(params, SB_P_OUTPUT_SECTION) == 2;
-  model->rubber = read_rubber(params, model->density);
-  model->rig = read_rig(model, params);
-  model->life_shown = model->life_shown > 0 ? model->life_shown : model->life_actuations;
-  model->running_in = (SbRunningIn){
-      .start = sb_params_get(params, SB_P_LIFE_ROUGHNESS_NEW),
-      .end = sb_params_get(params, SB_P_LIFE_ROUGHNESS_RUN_IN),
-      .actuations = sb_params_get(params, SB_P_LIFE_RUNNING_IN),
-  };
-  model->bore_circumference = M_PI * model->bore_diameter;
+  sb_model_read(model, params);
   double pressure_diameter = model->stem_diameter;
-  model->pressure_force =
-      model->canister_pressure * M_PI / 4 * pressure_diameter * pressure_diameter;
 
   // The stem must fit into the bore and the groove must leave a core.
   bool good = true;

@@ -1,81 +1,22 @@
 // The model: a checked, immutable set of physical quantities compiled from parameters.
 //
-// Everything downstream reads SbModel and nothing else; keys, defaults and overrides end here.
+// Everything downstream reads SbModel and nothing else; keys, defaults and overrides end here. Of
+// what others need of a valve without its model, valve.h has the types.
 #pragma once
 
 #include "engine/base/status.h"
+#include "engine/contact/fit.h"
 #include "engine/contact/gland.h"
+#include "engine/film/film.h"
 #include "engine/mechanism/bodies.h"
-#include "engine/mechanism/outline.h"
 #include "engine/rubber/rubber_time.h"
 #include "engine/valve/life.h"
 #include "engine/valve/limits.h"
-#include "engine/valve/params.h"
 #include "engine/valve/rig.h"
+#include "engine/valve/valve.h"
 
 #include <stdatomic.h>
 #include <stddef.h>
-
-enum { SB_OUTER = 0, SB_INNER = 1, SB_SEAL_COUNT = 2 };
-
-// "outer" or "inner"; borrowed.
-const char *sb_seal_name(int seal);
-
-enum { SB_PROBLEMS_MAX = 32 };
-
-// One thing wrong with a parameter set: the key to change, why, and the range that would do (SI;
-// NaN where that side is open).
-typedef struct {
-  char key[64];
-  char text[200];
-  double min, max;
-} SbProblem;
-
-typedef struct {
-  size_t count;
-  SbProblem item[SB_PROBLEMS_MAX];
-} SbProblems;
-
-typedef enum {
-  SB_MAP_CHAMBER_FILLED,
-  SB_MAP_CHAMBER_VENTED,
-  SB_MAP_PORTS // the chamber's pressure is a state
-} SbPressureMap;
-typedef enum {
-  SB_MODEL_FILM_THESIS,
-  SB_MODEL_FILM_KARASZKIEWICZ,
-  SB_MODEL_FILM_ASYMPTOTIC,
-  SB_MODEL_FILM_REYNOLDS
-} SbModelFilm;
-typedef enum { SB_MODEL_SURFACE_GREENWOOD_TRIPP, SB_MODEL_SURFACE_PERSSON } SbModelSurface;
-typedef enum {
-  SB_MODEL_ASPERITIES_BESIDE, // at the smooth film, taking no load off it
-  SB_MODEL_ASPERITIES_COUPLED // in the film's own solve
-} SbModelAsperities;
-typedef enum {
-  SB_MODEL_MOTION_QUASI_STATIC,
-  SB_MODEL_MOTION_DYNAMIC,
-  SB_MODEL_MOTION_RIG,   // the sliding plate of thesis 3.3 instead of the valve
-  SB_MODEL_MOTION_BODIES // as DYNAMIC, by the constrained parts and with their joints' reactions
-} SbModelMotion;
-
-typedef enum {
-  SB_MODEL_DRIVE_MACHINE,
-  SB_MODEL_DRIVE_HAND,
-  SB_MODEL_DRIVE_FREE_RETURN,
-  SB_MODEL_DRIVE_SINUSOID,
-  SB_MODEL_DRIVE_RAMP,
-  SB_MODEL_DRIVE_MEASURED
-} SbDriveChoice;
-
-// A measured series for drive MEASURED, straight lines between its rows.
-enum { SB_MODEL_SERIES_MAX = 4096 };
-typedef struct {
-  SbDriveQuantity quantity;
-  size_t count;                      // 0: none
-  double time[SB_MODEL_SERIES_MAX];  // [s], increasing from 0
-  double value[SB_MODEL_SERIES_MAX]; // [m] or [N]
-} SbModelSeries;
 
 // One ring and what follows from its size and its gland alone. Sizes and modulus are those after
 // storage; the new ring's are in `stored`.
@@ -98,25 +39,6 @@ typedef struct {
   double gland_fill;      // ring volume over groove volume
 } SbSealModel;
 
-// Sizes that the drawing of the section needs beside the rest; the thesis gives none of them. The
-// metered volume comes from some, and with ports the chamber's pressure. All in m; the catalogue
-// says what each is.
-typedef struct {
-  double entry_diameter, entry_length, land_length, vent_position, vent_diameter; // housing
-  double seal_spacing, nose_length, chamber_depth, chamber_length, shoulder_length,
-      rod_diameter; // stem
-} SbValveShape;
-
-// Half-sections of the parts whose shape a document gives, as it gives them; for the drawing only.
-// The housing has an x axis of its own, the three parts of the stem share one; both point out of
-// the canister.
-typedef struct {
-  SbOutline part[SB_VALVE_STEM_BOTTOM + 1]; // by the valve's parts; count 0: no shape
-  bool housing, stem;                       // the sizes below are known: it can be drawn
-  double land_edge, bore;                   // where the bore land begins [m], its radius
-  double groove_left[SB_SEAL_COUNT], groove_right[SB_SEAL_COUNT], floor, land; // walls, radii
-} SbValveOutlines;
-
 // What is large in a model and never changes: models share it by reference, so that runs and
 // studies may copy them freely. Whoever reads a file makes it; a model and a plain copy of one
 // borrow it. What keeps a copy for longer than a call (a run, another thread, a drawing) does so by
@@ -135,18 +57,7 @@ typedef struct {
   double time_min, time_max;       // in storage [s]
 } SbStudyRange;
 
-// How the section is shown when nobody says otherwise; no result depends on it.
-typedef struct {
-  int field;                 // index among the choices of output.field = SbField
-  int insets;                // 0 of the outer seal, 1 of the inner one, 2 none
-  bool full;                 // both halves
-  bool cutaway;              // in three dimensions, a quarter cut away
-  double azimuth, elevation; // of the cutaway's camera [rad]
-  bool undeformed;           // the rings' outline before fitting
-  double field_max;          // end of the colours of stresses [Pa]; 0: the range of the run
-} SbSectionLook;
-
-typedef struct {
+struct SbModel {
   SbParams params; // what it was compiled from
 #define SB_MODEL_FIELD(type, name, id) type name;
 #include "engine/valve/model.def"
@@ -159,36 +70,22 @@ typedef struct {
   SbValveParts parts;        // the stem's share stem_mass
   double moving_mass;        // stem, seals and block [kg]
   double pressure_viscosity; // Barus' coefficient [1/Pa], 0 for a constant viscosity
-  double hamaker;            // [J]; 0 without adhesion
-  SbRunningIn running_in;    // factor on the roughness
-  SbRig rig;                 // motion RIG
-  SbSectionLook look;        // for the drawing only
-  SbValveShape shape;        // for the drawing only
+  SbRoughModel surface;
+  double hamaker;         // [J]; 0 without adhesion
+  SbRunningIn running_in; // factor on the roughness
+  SbRig rig;              // motion RIG
+  SbSectionLook look;     // for the drawing only
+  SbValveShape shape;     // for the drawing only
   SbStudyRange study;
   const SbModelData *data; // borrowed; NULL: neither a measured series nor outlines
   SbLimits limits;         // filled by whoever read them, none otherwise
-} SbModel;
-
-typedef enum {
-  SB_VIEW_HYSTERESIS = 1 << 0,
-  SB_VIEW_PROFILES = 1 << 1,
-  SB_VIEW_SECTION = 1 << 2,
-  SB_VIEW_DASHBOARD = 1 << 3,
-  SB_VIEW_RIG = 1 << 4,
-  SB_VIEW_LIFE = 1 << 5
-} SbView;
+};
 
 // Compiles parameters. On SB_OK the model is complete. Otherwise *out is as it was: SB_ERROR_MEMORY
 // (`problems` is not looked at then), or SB_ERROR_INPUT, and `problems`
 // (may be NULL) lists every combination that makes no sense: bore smaller than the stem, no room
 // for the ring...
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems);
-
-// One parameter in place of a base's.
-typedef struct {
-  SbParamId id;
-  double value; // SI
-} SbOverride;
 
 // Compiles the parameters of `base` with `count` overrides in their place, the last of a parameter
 // counts; series, shapes and limits are the base's, the data borrowed. What else somebody wrote
@@ -230,12 +127,5 @@ void sb_model_gland(SbGland *out, const SbModel *model, int seal);
 typedef struct {
   double left, right;
 } SbSealPressure;
-
-// Where in the cycle the chamber and so the seals' pressures change (docs/thesis.md).
-typedef enum {
-  SB_CHAMBER_AT_REST, // A to C: as filled or vented before
-  SB_CHAMBER_OPEN,    // C to F: open to the canister, the inner seal out of contact
-  SB_CHAMBER_CLOSED   // F to A: cut off again, still at canister pressure
-} SbChamber;
 
 SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber);

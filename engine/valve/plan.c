@@ -10,6 +10,7 @@
 #include "engine/contact/fit.h"
 #include "engine/valve/cost.h"
 #include "engine/valve/figures.h"
+#include "engine/valve/model.h"
 #include "engine/valve/studies/study.h"
 
 #include <assert.h>
@@ -55,7 +56,7 @@ static void view_names(unsigned views, char *text, size_t size) {
 
 // Typical error estimates of a fitment's load and of a film, relative, at the model's tolerance.
 static double fit_error(const SbModel *model) {
-  switch ((SbFitModel)model->fit) {
+  switch (model->fit) {
   case SB_FIT_RING: // the place of the contact's ends does not fall with the mesh below that
     return fmax(0.3 * fmin(model->tolerance, 3e-3), 2.7e-4);
   case SB_FIT_DISC_THESIS: // its nodes are a degree apart
@@ -71,7 +72,7 @@ static double film_error(const SbModel *model) {
   if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
     return 0.03 * model->tolerance;
   }
-  if (model->film != SB_MODEL_FILM_REYNOLDS) {
+  if (model->film != SB_FILM_REYNOLDS) {
     return 0;
   }
   // The ring's film hangs on its contact's ends.
@@ -104,9 +105,9 @@ static bool finds_speed(const SbModel *model) {
 }
 
 static void plan_fit(SbPlan *plan, const SbModel *model) {
-  SbFitModel fit = (SbFitModel)model->fit;
+  SbFitModel fit = model->fit;
   int fits = count_fits(model);
-  bool surface = model->film == SB_MODEL_FILM_REYNOLDS && fit == SB_FIT_RING;
+  bool surface = model->film == SB_FILM_REYNOLDS && fit == SB_FIT_RING;
   plan->ring = fit == SB_FIT_RING;
   add(plan->field, &plan->field_count, "contact load and width", sb_fit_model_name(fit),
       fits * (sb_cost_fit(fit) + (surface ? SB_COST_RING_SURFACE : 0)), fit_error(model),
@@ -129,7 +130,7 @@ static void plan_film(SbPlan *plan, const SbModel *model) {
         film_error(model), "models.asperities = coupled: film and asperities share the load");
     return;
   }
-  plan->reynolds = model->film == SB_MODEL_FILM_REYNOLDS;
+  plan->reynolds = model->film == SB_FILM_REYNOLDS;
   bool fitted = plan->reynolds && body;
   sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model->film, name, sizeof name);
   add(plan->field, &plan->field_count, "film", name,
@@ -251,7 +252,7 @@ static SbSealDepth seal_need(const char *name) {
 
 void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size_t count) {
   *out = (SbPlan){.ring = model->fit == SB_FIT_RING,
-                  .reynolds = model->film == SB_MODEL_FILM_REYNOLDS ||
+                  .reynolds = model->film == SB_FILM_REYNOLDS ||
                               model->asperities == SB_MODEL_ASPERITIES_COUPLED};
   for (size_t i = 0; i < count; i++) {
     const char *path = sb_figure(figures[i])->path;
@@ -290,7 +291,8 @@ void sb_plan_make(SbPlan *out, const SbModel *model) {
   plan_fit(out, model);
   plan_film(out, model);
   char surface[32];
-  sb_param_choice_name(sb_param(SB_P_MODELS_SURFACE), (int)model->surface, surface, sizeof surface);
+  sb_param_choice_name(sb_param(SB_P_MODELS_SURFACE), model->surface == SB_ROUGH_PERSSON, surface,
+                       sizeof surface);
   add(out->field, &out->field_count, "real contact area", surface, FILM_STATES * SB_COST_ROUGH, 0,
       "boundary friction needs it");
   add(out->field, &out->field_count, "leak at rest", "percolation", SB_SEAL_COUNT * SB_COST_LEAK, 0,
@@ -305,7 +307,7 @@ void sb_plan_make(SbPlan *out, const SbModel *model) {
   view_names(model->views & drawn, who, sizeof who);
   if (out->profiles) {
     add(out->field, &out->field_count, "contact profiles",
-        out->reynolds ? "reynolds" : sb_fit_model_name((SbFitModel)model->fit),
+        out->reynolds ? "reynolds" : sb_fit_model_name(model->fit),
         PROFILE_STATES * (out->reynolds ? SB_COST_FILM_PROFILE : SB_COST_CLOSED),
         fmax(fit_error(model), film_error(model)), "drawn by %s; each seal's states and at rest",
         who);

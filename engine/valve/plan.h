@@ -3,7 +3,7 @@
 // and error.
 #pragma once
 
-#include "engine/valve/model.h"
+#include "engine/valve/valve.h"
 
 enum {
   SB_PLAN_ITEMS_MAX = 24,

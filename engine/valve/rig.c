@@ -83,7 +83,7 @@ double sb_rig_contact_coefficient(double load, double diameter, double radius,
 SbStatus sb_rig_coefficients(SbRigCoefficients *out, const double *force, size_t count, double rate,
                              double load, double prominence, size_t *peak, size_t peak_max,
                              SbReport *report) {
-  *out = (SbRigCoefficients){0};
+  *out = (SbRigCoefficients){NAN, NAN, NAN, NAN, NAN, 0, false, false};
   if (!(load > 0.0) || !(prominence >= 0.0) || !(rate > 0.0) || count < 3) {
     return sb_fail(report, SB_ERROR_RANGE,
                    "coefficients need a load above 0, a rate and at least three samples");

@@ -55,7 +55,7 @@ SbStatus sb_rig_run(const SbRig *rig, SbRigEach each, void *user, SbMotionEvent 
 // Coefficients of a signal, computed or measured. A peak is a highest sample from which the force
 // falls by more than `prominence` [N] before it rises above it again; take a few times the noise.
 // `peak` (may be NULL) gets the samples of the first `peak_max` peaks, the first one included.
-// SB_ERROR_INFEASIBLE if the signal has no first peak.
+// SB_ERROR_INFEASIBLE if the signal has no first peak; the coefficients are then NaN.
 SbStatus sb_rig_coefficients(SbRigCoefficients *out, const double *force, size_t count, double rate,
                              double load, double prominence, size_t *peak, size_t peak_max,
                              SbReport *report);

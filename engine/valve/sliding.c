@@ -86,18 +86,10 @@ const SbFilm *sb_sliding_film(const SbSlidingMemory *memory) {
   return memory->fitted_last ? &memory->fitted_film : &memory->film;
 }
 
-static SbFilmModel film_model(SbModelFilm film) {
-  static const SbFilmModel models[] = {[SB_MODEL_FILM_THESIS] = SB_FILM_THESIS,
-                                       [SB_MODEL_FILM_KARASZKIEWICZ] = SB_FILM_KARASZKIEWICZ,
-                                       [SB_MODEL_FILM_ASYMPTOTIC] = SB_FILM_ASYMPTOTIC,
-                                       [SB_MODEL_FILM_REYNOLDS] = SB_FILM_REYNOLDS};
-  return models[film];
-}
-
 void sb_sliding_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure) {
   const SbSealModel *ring = &model->seal[seal];
   *out = (SbFitProblem){
-      .model = (SbFitModel)model->fit,
+      .model = model->fit,
       .section_diameter = ring->section_diameter,
       .inner_diameter = ring->inner_diameter,
       .modulus = ring->modulus,
@@ -125,7 +117,7 @@ static SbStatus solve_fit(const Task *task, SbReport *report) {
   problem.cancel = memory->cancelled;
   problem.cancel_data = memory->cancelled_data;
   problem.surface_wanted =
-      model->film == SB_MODEL_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+      model->film == SB_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   SbStatus status = sb_fit_solve(&memory->fit, &problem, report);
   task->counts->fit_solves++;
   task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
@@ -274,7 +266,7 @@ static SbStatus solve_film(const Task *task, SbSliding *out, SbReport *report) {
   SbFilmProblem problem;
   sb_sliding_film_problem(&problem, task->model, task->seal, task->pressure, out->load_net,
                           task->speed);
-  problem.model = film_model(task->model->film);
+  problem.model = task->model->film;
   option_warnings(task, &problem);
   bool solved = problem.model == SB_FILM_REYNOLDS;
   if (task->model->inlet_carried && task->speed < 0 && solved) {
@@ -306,8 +298,7 @@ static SbStatus solve_film(const Task *task, SbSliding *out, SbReport *report) {
 static void coupled_problem(SbFilmProblem *out, const SbModel *model, int seal,
                             SbSealPressure pressure, double load_net, double speed) {
   sb_sliding_film_problem(out, model, seal, pressure, load_net, speed);
-  out->surface =
-      model->surface == SB_MODEL_SURFACE_PERSSON ? SB_ROUGH_PERSSON : SB_ROUGH_GREENWOOD_TRIPP;
+  out->surface = model->surface;
   out->gt_product = model->gt_product;
   out->sigma = model->sigma;
   out->sigma_over_beta = model->sigma_over_beta;
@@ -392,7 +383,7 @@ static SbStatus solve_coupled(const Task *task, SbSliding *out, SbReport *report
 // film, Persson's on the net pressure that the solids must carry.
 static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *model, int seal,
                           SbWarnings *warnings, SbReport *report) {
-  if (model->surface == SB_MODEL_SURFACE_PERSSON) {
+  if (model->surface == SB_ROUGH_PERSSON) {
     SbSpectrum spectrum;
     SbStatus status = sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
                                                   model->gt_product, report);
@@ -455,7 +446,7 @@ static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, do
     out->viscous = shear * (1 - out->area_share) * area;
     if (out->central_error > 0) {
       SbGtIntegrals thinner;
-      bool persson = model->surface == SB_MODEL_SURFACE_PERSSON;
+      bool persson = model->surface == SB_ROUGH_PERSSON;
       double share = NAN;
       if (sb_gt_integrals(&thinner, out->lambda * (1 - out->central_error), NULL) == SB_OK) {
         share = sb_gt_area_share(model->gt_product, thinner.F2) - out->area_share;

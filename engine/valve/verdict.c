@@ -6,6 +6,8 @@
 // question without a limit has no answer, but for the first and the return, which need none.
 #include "engine/valve/figures.h"
 
+#include "engine/valve/model.h"
+
 #include <math.h>
 #include <stdio.h>
 

@@ -93,7 +93,7 @@ char *cli_contents(const char *where, const char *name) {
 }
 
 void cli_remove_results(const char *where) {
-  static const char *const names[] = {"results.json", "cycle.csv", "profiles.csv",
+  static const char *const names[] = {"results.json", "cycle.csv", "profiles.csv", "figures.csv",
                                       ".sealbench-run.manifest"};
   for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
     char *path = g_build_filename(where, names[i], NULL);

@@ -228,7 +228,7 @@ def earlier_results():
     result = done(run("run", quick, "-q", "-o", where))
     expect(result.stderr, "")
     expect(sorted(os.listdir(where)),
-           [".sealbench-run.manifest", "cycle.csv", "named.json", "profiles.csv", "results.json",
+           [".sealbench-run.manifest", "cycle.csv", "figures.csv", "named.json", "profiles.csv", "results.json",
             "study-mine.csv", "study-storage.csv"])
     done(run("run", quick, "-q", "-o", where, "--set", "output.studies=storage"))
     with open(path("results", "study-storage-table.csv"), "a") as file:

@@ -35,7 +35,7 @@ static void test_usage(void) {
       {{"run", "/no/such.scene"}, 1, "sealbench: /no/such.scene: No such file or directory\n"},
       {{"check", "/"}, 1, "sealbench: /: is a folder, not a file\n"},
       {{"check", "/dev/zero"}, 1, "is not a regular file\n"},
-      {{"list", "colours"}, 1, "allowed params, models, views"},
+      {{"list", "colours"}, 1, "allowed params, figures, models, views"},
       {{"asperity"}, 1, "--lambda is missing"},
       {{"asperity", "--lambda", "x"}, 1, "--lambda: \"x\" is not a number"},
       {{"asperity", "--lambda", "3 mm"}, 1, "this value has none"},

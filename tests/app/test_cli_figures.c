@@ -66,7 +66,8 @@ static void test_reasons(void) {
     cli_clear(&run);
   }
   CliResult table = CLI("run", cli.scene, "--set=surface.gt_product=0.17");
-  g_assert_nonnull(strstr(table.out, "Leakage per cycle              - (the stem does not come"));
+  g_assert_nonnull(
+      strstr(table.out, "Leakage per cycle                    - (the stem does not come"));
   cli_clear(&table);
 }
 
@@ -126,11 +127,90 @@ static void test_limits(void) {
   g_remove(path);
 }
 
+// `list figures` is the catalogue: each key once, with all that a person needs, and a path in the
+// JSON of a run that has its block; a table gives no more digits than the error estimate supports.
+static void test_list(void) {
+  CliResult list = CLI("list", "figures", "--json", "-");
+  g_assert_cmpint(list.code, ==, 0);
+  JsonNode *figures = cli_parse(list.out);
+  static const char *const scenes[] = {"quick-look", "sliding-plate", "life-400"};
+  JsonNode *runs[G_N_ELEMENTS(scenes)];
+  g_autofree char *folder = g_path_get_dirname(cli.scene);
+  for (size_t i = 0; i < G_N_ELEMENTS(scenes); i++) {
+    g_autofree char *path = g_strdup_printf("%s/%s.scene", folder, scenes[i]);
+    CliResult run = CLI("run", path, "--json", "-", "--quiet", "--set=life.actuations=2",
+                        i == 2 ? "--quiet" : "--set=life.actuations=1");
+    g_assert_cmpint(run.code, ==, 0);
+    runs[i] = cli_parse(run.out);
+    cli_clear(&run);
+  }
+  g_autoptr(GHashTable) seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+  JsonArray *rows = json_node_get_array(figures);
+  for (guint i = 0; i < json_array_get_length(rows); i++) {
+    JsonObject *row = json_array_get_object_element(rows, i);
+    const char *key = json_object_get_string_member(row, "key");
+    const char *label = json_object_get_string_member(row, "label");
+    const char *better = json_object_get_string_member(row, "better");
+    g_assert_true(g_hash_table_add(seen, g_strdup(key)));
+    g_assert_true(g_hash_table_add(seen, g_strdup(label)));
+    g_assert_cmpuint(strlen(json_object_get_string_member(row, "help")), >, 10);
+    g_assert_cmpuint(strlen(json_object_get_string_member(row, "unit")), >, 0);
+    g_assert_nonnull(strstr("none less more", better));
+    bool found = false;
+    for (size_t k = 0; k < G_N_ELEMENTS(scenes) && !found; k++) {
+      JsonNode *at = runs[k];
+      g_auto(GStrv) names = g_strsplit(key, ".", -1);
+      for (char **name = names; at != NULL && *name != NULL; name++) {
+        at = json_object_get_member(json_node_get_object(at), *name);
+      }
+      found = at != NULL;
+    }
+    if (!found) {
+      g_error("no run has %s", key);
+    }
+  }
+  static const char *const some[] = {"cycle.force_return_min_N", "seals.inner.gland_fill",
+                                     "cycle.stages.C.force_N",   "dose.metered_volume_m3",
+                                     "rig.coefficient_dynamic",  "life.force_return_least_N"};
+  for (size_t i = 0; i < G_N_ELEMENTS(some); i++) {
+    g_assert_true(g_hash_table_contains(seen, some[i]));
+  }
+  json_node_unref(figures);
+  for (size_t i = 0; i < G_N_ELEMENTS(scenes); i++) {
+    json_node_unref(runs[i]);
+  }
+  cli_clear(&list);
+  // The plate's force is sampled: its coefficients have three digits, not four.
+  g_autofree char *plate = g_strdup_printf("%s/sliding-plate.scene", folder);
+  CliResult table = CLI("run", plate);
+  g_assert_nonnull(strstr(table.out, " 0.539\n"));
+  cli_clear(&table);
+  table = CLI("list", "figures");
+  g_assert_nonnull(strstr(table.out, "\nseals.outer.load_N "));
+  cli_clear(&table);
+}
+
+// figures.csv: a row a figure, SI, its estimate, or why it is missing.
+static void test_table(void) {
+  g_autofree char *out = g_build_filename(cli.folder, "figures", NULL);
+  CliResult run = CLI("run", cli.scene, "--set=surface.gt_product=0.17", "-o", out, "--quiet");
+  g_assert_cmpint(run.code, ==, 0);
+  cli_clear(&run);
+  g_autofree char *text = cli_contents(out, "figures.csv");
+  g_assert_true(g_str_has_prefix(text, "figure,value,unit,error_estimate [1],label,reason\n"
+                                       "cycle.force_peak_N,36.0"));
+  g_assert_nonnull(strstr(text, "\ncycle.leakage_per_cycle_m3,,m3,,Leakage per cycle,the stem"));
+  g_assert_nonnull(strstr(text, ",\"Load, outer seal\",\n"));
+  cli_remove_results(out);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
   g_test_add_func("/cli/json/reasons", test_reasons);
   g_test_add_func("/cli/limits", test_limits);
+  g_test_add_func("/cli/list-figures", test_list);
+  g_test_add_func("/cli/figures-table", test_table);
   int result = g_test_run();
   cli_tear_down();
   return result;

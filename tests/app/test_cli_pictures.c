@@ -154,11 +154,9 @@ static void test_studies(void) {
   g_assert_cmpstr(json_node_get_string(cli_at(root, "studies.0.name")), ==, "storage");
   json_node_unref(root);
   cli_clear(&result);
-  static const char *const names[] = {"results.json",
-                                      "cycle.csv",
-                                      "profiles.csv",
-                                      "study-storage.csv",
-                                      "study-storage-table.csv",
+  static const char *const names[] = {"results.json",           "cycle.csv",
+                                      "profiles.csv",           "figures.csv",
+                                      "study-storage.csv",      "study-storage-table.csv",
                                       ".sealbench-run.manifest"};
   for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
     char *path = g_build_filename(tables, names[i], NULL);

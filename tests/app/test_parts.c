@@ -1,6 +1,7 @@
 // Shapes of parts in valve files: masses, moments and diameters against closed forms, what wins
 // where a key says otherwise, and refusals with file, group and key.
 #include "app/document/document.h"
+#include "engine/valve/sealbench.h"
 
 #include <glib/gstdio.h>
 #include <math.h>

@@ -30,8 +30,7 @@ static void fixture_open(Fixture *f) {
     g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, SB_FIT_RING, &report), ==, SB_OK);
   }
   if (f->solved) {
-    g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, &report), ==,
-                    SB_OK);
+    g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, &report), ==, SB_OK);
   }
   g_assert_cmpint(sb_model_compile(&f->model, &params, NULL), ==, SB_OK);
   SbPlan plan;

@@ -3,7 +3,7 @@
 // over the run; the GL below us grows its caches in a few steps, whose moment depends on how its
 // threads are scheduled: so the median sweep is judged. Quick runs look at fewer pictures. The
 // address sanitizer holds freed memory back, so there only the drawing is exercised.
-#include "app/export/film.h"
+#include "app/export/movie_pictures.h"
 #include "app/section/painter.h"
 #include "tests/executed.h"
 #include "tests/sanitized.h"
@@ -54,17 +54,17 @@ static void test_section(void) {
   const size_t sweep = pictures / SWEEPS;
   // Back and forth over the run: the film is one sweep of a tenth of the pictures.
   SbRenderMovie movie = {.fps = 100, .duration = (double)pictures / 1000};
-  SbFilm *film;
+  SbMoviePictures *film;
   GError *error = NULL;
-  g_assert_true(sb_film_open(&film, run, &options, &movie, &error));
-  g_assert_cmpuint(sb_film_pictures(film), ==, sweep);
+  g_assert_true(sb_movie_pictures_open(&film, run, &options, &movie, &error));
+  g_assert_cmpuint(sb_movie_pictures_count(film), ==, sweep);
   cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, WIDTH, HEIGHT);
   size_t allocated[SWEEPS];
   size_t in_memory = 0;
   gint64 begin = g_get_monotonic_time();
   for (size_t i = 0; i < pictures; i++) {
     cairo_t *cr = cairo_create(surface);
-    sb_film_draw(film, i % sweep, cr);
+    sb_movie_pictures_draw(film, i % sweep, cr);
     g_assert_cmpint(cairo_status(cr), ==, CAIRO_STATUS_SUCCESS);
     cairo_destroy(cr);
     if ((i + 1) % sweep == 0) {
@@ -90,7 +90,7 @@ static void test_section(void) {
     g_assert_cmpuint(larger, <, in_memory + 4 * 1024 * 1024);
   }
   cairo_surface_destroy(surface);
-  sb_film_close(film);
+  sb_movie_pictures_close(film);
   sb_section_painter_destroy(painter);
   sb_run_destroy(run);
 }

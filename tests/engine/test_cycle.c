@@ -338,7 +338,7 @@ static double planned(const SbRun *run, const char *field) {
 
 // What a run solves is what its plan reckoned with, also where it goes round for its own speed.
 static void test_plan_counts(void) {
-  Setting disc[] = {{SB_P_MODELS_FIT, SB_FIT_DISC}, {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}};
+  Setting disc[] = {{SB_P_MODELS_FIT, SB_FIT_DISC}, {SB_P_MODELS_FILM, SB_FILM_REYNOLDS}};
   SbRun *run = run_cycle(disc, 2);
   const SbCounters *counters = &sb_run_summary(run)->counters;
   g_assert_cmpuint(counters->disc_solves, ==, 2);
@@ -349,7 +349,7 @@ static void test_plan_counts(void) {
 
   Setting hand[] = {{SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC},
                     {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
-                    {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}};
+                    {SB_P_MODELS_FILM, SB_FILM_REYNOLDS}};
   run = run_cycle(hand, 3);
   counters = &sb_run_summary(run)->counters;
   g_assert_cmpuint(counters->fit_solves, >=, 2);

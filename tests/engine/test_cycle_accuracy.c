@@ -4,6 +4,7 @@
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
 #include "engine/valve/run/run.h"
+#include "engine/valve/sealbench.h"
 
 #include "tests/pace.h"
 
@@ -97,8 +98,7 @@ static SbRun *run_cycle(int fit, double frames, double tolerance, unsigned views
   SbParams params;
   sb_params_init(&params);
   g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, fit, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, NULL), ==,
-                  SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_FRAMES, frames, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_TOLERANCE, tolerance, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_VIEWS, views, NULL), ==, SB_OK);

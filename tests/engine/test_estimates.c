@@ -197,7 +197,7 @@ static SbRun *run_cycle(int asperities, double sigma, double speed, double toler
   const struct {
     SbParamId id;
     double value;
-  } setting[] = {{SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS},
+  } setting[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
                  {SB_P_MODELS_ASPERITIES, asperities},
                  {SB_P_SURFACE_SIGMA, sigma},
                  {SB_P_DRIVE_SPEED, speed},
@@ -267,7 +267,7 @@ static SbStudy *study_of(SbStudyKind kind, double tolerance) {
   SbParams params;
   sb_params_init(&params);
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_TOLERANCE, tolerance, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, NULL), ==,
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==,
                   SB_OK);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);

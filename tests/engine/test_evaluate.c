@@ -2,6 +2,7 @@
 // no more computed than wanted; refused overrides; two threads.
 #include "engine/contact/fit.h"
 #include "engine/valve/evaluate.h"
+#include "engine/valve/sealbench.h"
 
 #include <glib.h>
 #include <math.h>
@@ -19,7 +20,7 @@ typedef struct {
 static const Case cases[] = {
     {"closed forms", {{0}}, 0, SB_OK},
     {"solved film and disc",
-     {{SB_P_MODELS_FIT, SB_FIT_DISC}, {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}},
+     {{SB_P_MODELS_FIT, SB_FIT_DISC}, {SB_P_MODELS_FILM, SB_FILM_REYNOLDS}},
      2,
      SB_OK},
     {"film with asperities",
@@ -43,7 +44,7 @@ static const Case cases[] = {
 
 static const Case history = {
     "a film followed in time",
-    {{SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}, {SB_P_MODELS_FILM_TIME, 1}},
+    {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS}, {SB_P_MODELS_FILM_TIME, 1}},
     2,
     SB_OK};
 
@@ -145,7 +146,7 @@ static void test_history(void) {
 // The ring's own film: each seal's figures, the cycle's only once.
 static void test_ring(void) {
   const SbOverride change[] = {{SB_P_MODELS_FIT, SB_FIT_RING},
-                               {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS},
+                               {SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
                                {SB_P_OUTPUT_TOLERANCE, 1e-2}};
   const Case of = {"ring", {change[0], change[1], change[2]}, 3, SB_OK};
   static const char *const paths[] = {"seals.inner.load_N", "seals.inner.film_central_m",
@@ -172,7 +173,7 @@ static void test_ring(void) {
 // Sizes need no solve, a load one fitment, a film one film; the cycle all of them.
 static void test_least(void) {
   const SbOverride change[] = {{SB_P_MODELS_FIT, SB_FIT_DISC},
-                               {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}};
+                               {SB_P_MODELS_FILM, SB_FILM_REYNOLDS}};
   static const struct {
     const char *path;
     size_t fits, films;
@@ -290,7 +291,7 @@ static gpointer work(gpointer data) {
     int n = (i + worker->offset) % QUESTIONS;
     const SbOverride change[] = {{SB_P_GLAND_RADIAL_SPACE, 1.3e-3 + 4e-6 * n},
                                  {SB_P_MODELS_FIT, n % 3 == 0 ? SB_FIT_DISC : 0},
-                                 {SB_P_MODELS_FILM, n % 2 == 0 ? SB_MODEL_FILM_REYNOLDS : 0}};
+                                 {SB_P_MODELS_FILM, n % 2 == 0 ? SB_FILM_REYNOLDS : 0}};
     ask(worker->value[n], evaluator, worker->base, change, 3, figure, 2, SB_OK);
   }
   sb_evaluator_destroy(evaluator);

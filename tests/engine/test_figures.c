@@ -63,6 +63,20 @@ static void test_paths(void) {
   g_assert_cmpfloat(value_at(summary, "seals.outer.load_N"), ==, 0);
   g_assert_cmpfloat(value_at(summary, "cycle.stages.C.force_N"), ==, 5);
   g_assert_cmpint(sb_figure_find("seals.outer"), ==, -1);
+  // Estimates are figures too; what has one refers to it.
+  summary->error_load = 1e-3;
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    const SbFigure *figure = sb_figure(i);
+    g_autofree char *estimate = g_strconcat("solver.error_estimate.", figure->estimate, NULL);
+    g_assert_true(*figure->estimate == '\0' || sb_figure_find(estimate) >= 0);
+    g_assert_true(figure->digits >= 0 && *figure->label != '\0' && *figure->help != '\0');
+    // Path and unit agree: what has a unit says it in its key.
+    const char *underscore = strrchr(figure->path, '_');
+    g_assert_true(strcmp(figure->si, "1") == 0 || strstr(figure->path, "film_by_model") != NULL ||
+                  underscore != NULL);
+  }
+  g_assert_cmpfloat(sb_figure_error(summary, sb_figure_find("seals.outer.load_N")), ==, 1e-3);
+  g_assert_true(isnan(sb_figure_error(summary, sb_figure_find("cycle.duration_s"))));
   sb_figures_clear(summary);
   g_assert_true(isnan(summary->seal[SB_INNER].load) && isnan(summary->error_load));
   // The first reason stays, and only while there is no value.
@@ -110,7 +124,7 @@ static void test_open(void) {
   // A small squeeze under a pressure that the rubber cannot hold off opens the contact.
   const Change pressed[] = {{SB_P_GLAND_RADIAL_SPACE, 1.56e-3},
                             {SB_P_MODELS_FIT, SB_FIT_HERTZ},
-                            {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS},
+                            {SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
                             {SB_P_CANISTER_PRESSURE, 2e6}};
   compile(&model, pressed, G_N_ELEMENTS(pressed));
   run = run_of(&model, SB_OK, NULL);

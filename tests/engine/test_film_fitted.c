@@ -193,8 +193,7 @@ static void test_run(void) {
   SbParams params;
   sb_params_init(&params);
   g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, SB_FIT_DISC, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, NULL), ==,
-                  SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==, SB_OK);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   SbSlidingMemory *memory = NULL;
@@ -234,8 +233,7 @@ static void solve_ring(SbSliding *out, SbDryContact *dry, double *modulus, doubl
   SbParams params;
   sb_params_init(&params);
   g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, SB_FIT_RING, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, NULL), ==,
-                  SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_TOLERANCE, tolerance, NULL), ==, SB_OK);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);

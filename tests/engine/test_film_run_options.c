@@ -15,8 +15,7 @@ typedef struct {
 static SbModel model_with(const Setting *setting, size_t count) {
   SbParams params;
   sb_params_init(&params);
-  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS, NULL), ==,
-                  SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==, SB_OK);
   for (size_t i = 0; i < count; i++) {
     g_assert_cmpint(sb_params_set(&params, setting[i].id, setting[i].value, NULL), ==, SB_OK);
   }
@@ -152,7 +151,7 @@ static void test_coupled(void) {
 
 // A power law has none of this: the run says so.
 static void test_told(void) {
-  const Setting on[] = {{SB_P_MODELS_FILM, SB_MODEL_FILM_THESIS}, {SB_P_MODELS_VISCOSITY, 1}};
+  const Setting on[] = {{SB_P_MODELS_FILM, SB_FILM_THESIS}, {SB_P_MODELS_VISCOSITY, 1}};
   SbModel model = model_with(on, G_N_ELEMENTS(on));
   solve(&plain, &model, PRESSED, model.speed, &warnings);
   g_assert_true(has(&warnings, "film-options"));

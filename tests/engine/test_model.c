@@ -41,6 +41,33 @@ static void test_choices(void) {
 }
 
 // A life of some actuations is of motions that can repeat, others are refused by its key.
+// The choices of the models are the enumerations of the rooms below, which own them.
+static void test_model_names(void) {
+  SbParams params;
+  SbModel model;
+  char name[64];
+  const SbParam *fit = sb_param(SB_P_MODELS_FIT), *film = sb_param(SB_P_MODELS_FILM);
+  const SbParam *surface = sb_param(SB_P_MODELS_SURFACE);
+  g_assert_cmpint(sb_param_choice_count(fit), ==, SB_FIT_MODEL_COUNT);
+  for (int i = 0; i < SB_FIT_MODEL_COUNT; i++) {
+    sb_params_init(&params);
+    g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, i, NULL), ==, SB_OK);
+    g_assert_cmpint(
+        sb_params_set(&params, SB_P_MODELS_FILM, MIN(i, sb_param_choice_count(film) - 1), NULL), ==,
+        SB_OK);
+    g_assert_cmpint(
+        sb_params_set(&params, SB_P_MODELS_SURFACE, i % sb_param_choice_count(surface), NULL), ==,
+        SB_OK);
+    g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+    sb_param_choice_name(fit, i, name, sizeof name);
+    g_assert_cmpstr(sb_fit_model_name(model.fit), ==, name);
+    sb_param_choice_name(film, (int)params.value[SB_P_MODELS_FILM], name, sizeof name);
+    g_assert_cmpstr(sb_film_model_name(model.film), ==, name);
+    sb_param_choice_name(surface, (int)params.value[SB_P_MODELS_SURFACE], name, sizeof name);
+    g_assert_cmpstr(sb_rough_model_name(model.surface), ==, name);
+  }
+}
+
 static void test_life_motions(void) {
   static const struct {
     SbModelMotion motion;
@@ -224,6 +251,7 @@ static void test_gland(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/model/model-names", test_model_names);
   g_test_add_func("/model/catalogue", test_catalogue);
   g_test_add_func("/model/choices", test_choices);
   g_test_add_func("/model/life-motions", test_life_motions);

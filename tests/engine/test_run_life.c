@@ -76,7 +76,7 @@ static void test_actuations(void) {
 static void test_no_running_in(void) {
   const Change life[] = {{SB_P_LIFE_ACTUATIONS, 50},
                          {SB_P_LIFE_ROUGHNESS_RUN_IN, 1},
-                         {SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}};
+                         {SB_P_MODELS_FILM, SB_FILM_REYNOLDS}};
   SbRun *run = run_with(life, G_N_ELEMENTS(life));
   const SbSummary *s = sb_run_summary(run);
   size_t count;
@@ -150,8 +150,8 @@ static void test_cancel(void) {
 
 // Stick-slip between frames does not hide the film that a stroke drags.
 static void test_leakage_of_motion(void) {
-  const Change film[] = {{SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS}};
-  const Change inertia[] = {{SB_P_MODELS_FILM, SB_MODEL_FILM_REYNOLDS},
+  const Change film[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS}};
+  const Change inertia[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
                             {SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC}};
   SbRun *slow = run_with(film, 1), *fast = run_with(inertia, 2);
   double a = sb_run_summary(slow)->leakage_per_cycle, b = sb_run_summary(fast)->leakage_per_cycle;

@@ -2,6 +2,7 @@
 // cancel.
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
+#include "engine/valve/sealbench.h"
 #include "engine/valve/studies/study.h"
 
 #include <glib.h>
@@ -200,7 +201,7 @@ static void test_storage(void) {
 // The Stribeck curve: from asperities to the film without a jump; a point solved anew by itself.
 static void test_stribeck(void) {
   SbModel model = thesis_model(1e-3);
-  model.film = SB_MODEL_FILM_THESIS;
+  model.film = SB_FILM_THESIS;
   model.study.speed_min = 1e-3;
   model.study.speed_max = 50;
   SbStudy *study = make(SB_STUDY_STRIBECK, &model);
@@ -275,7 +276,7 @@ static void test_tolerance(void) {
 static void check_leak(double tolerance) {
   SbModel model = thesis_model(tolerance);
   model.fit = SB_FIT_RING; // fewer curves
-  model.film = SB_MODEL_FILM_THESIS;
+  model.film = SB_FILM_THESIS;
   model.study.squeeze_min = 0.06;
   model.study.squeeze_max = 0.12;
   SbStudy *study = make(SB_STUDY_LEAK, &model);

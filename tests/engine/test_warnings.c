@@ -173,7 +173,7 @@ static void test_runs(void) {
        {{SB_P_SURFACE_GT_PRODUCT, 0.3}, {-1, 0}, {-1, 0}},
        {{-1, 0}, {-1, 0}, {-1, 0}}},
       {"persson-shear-strength",
-       {{SB_P_MODELS_SURFACE, SB_MODEL_SURFACE_PERSSON}, {-1, 0}, {-1, 0}},
+       {{SB_P_MODELS_SURFACE, 1}, {-1, 0}, {-1, 0}},
        {{-1, 0}, {-1, 0}, {-1, 0}}},
       {"static-leak",
        {{SB_P_SURFACE_SIGMA_OVER_BETA, 1}, {SB_P_SURFACE_GT_PRODUCT, 0.026}, {-1, 0}},

@@ -261,7 +261,7 @@ class App:
 
     def breakaway(self):
         """The break-away force that the loop's description tells, in newtons."""
-        match = re.search(r"break-away ([\d.]+)\sN", self.loop_text())
+        match = re.search(r"break-away force ([\d.]+)\sN", self.loop_text())
         return float(match.group(1)) if match else None
 
     def run_done(self):

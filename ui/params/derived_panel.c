@@ -11,44 +11,33 @@
 
 #include "app/base/format.h"
 #include "app/base/theme.h"
+#include "app/base/translation.h"
 #include "engine/valve/figures.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
 
+// A figure of the catalogue, whose label, help and unit stand there.
 typedef struct {
-  const char *name, *low, *high, *tip;
-  SbQuantity quantity;
-  double axis_lo, axis_hi; // ends of the bar
-  double lo, hi;           // recommended band
-  int gland;               // SbGlandQuantity whose band it is, or NO_GLAND
+  const char *path, *low, *high, *note; // note: behind the help, or NULL
+  double axis_lo, axis_hi;              // ends of the bar
+  double lo, hi;                        // recommended band
+  int gland;                            // SbGlandQuantity whose band it is, or NO_GLAND
 } Item;
 
 enum { NO_GLAND = -1 };
 
 static const Item items[] = {
-    {N_("Squeeze"), N_("low"), N_("high"),
-     N_("Share of the free section by which the groove squeezes the ring."), SB_QUANTITY_FRACTION,
-     0, 0.35, 0, 0, SB_GLAND_SQUEEZE},
-    {N_("Stretch, inner"), N_("low"), N_("high"),
-     N_("Stretch of the inner diameter onto the groove floor."), SB_QUANTITY_FRACTION, 0, 0.25, 0,
-     0, SB_GLAND_STRETCH_INNER},
-    {N_("Gland fill"), N_("low"), N_("high"), N_("Volume of the ring over that of its groove."),
-     SB_QUANTITY_FRACTION, 0.3, 1.1, 0, 0, SB_GLAND_FILL},
-    {N_("Return force"), N_("low"), N_("high"),
-     N_("Least of pressure force minus friction on the way back, from the run. Below zero the "
-        "valve "
-        "sticks; this program asks for 2 N."),
-     SB_QUANTITY_FORCE, -2, 8, 2, INFINITY, NO_GLAND},
-    {N_("Metered volume"), N_("small"), N_("large"),
-     N_("Room of the dose chamber between the two rings that neither stem nor rubber fills. Usual: "
-        "25 "
-        "to 100 µl."),
-     SB_QUANTITY_VOLUME, 0, 150e-9, 25e-9, 100e-9, NO_GLAND},
-    {N_("Doses"), N_("few"), N_("many"),
-     N_("Whole doses in the canister (canister.fill less canister.residue). Usual: 60 to 200."),
-     SB_QUANTITY_NUMBER, 0, 300, 60, 200, NO_GLAND},
+    {"seals.outer.squeeze", N_("low"), N_("high"), NULL, 0, 0.35, 0, 0, SB_GLAND_SQUEEZE},
+    {"seals.outer.stretch_inner", N_("low"), N_("high"), NULL, 0, 0.25, 0, 0,
+     SB_GLAND_STRETCH_INNER},
+    {"seals.outer.gland_fill", N_("low"), N_("high"), NULL, 0.3, 1.1, 0, 0, SB_GLAND_FILL},
+    {"cycle.force_return_min_N", N_("low"), N_("high"), N_("This program asks for 2 N."), -2, 8, 2,
+     INFINITY, NO_GLAND},
+    {"dose.metered_volume_m3", N_("small"), N_("large"), N_("Usual: 25 to 100 µl."), 0, 150e-9,
+     25e-9, 100e-9, NO_GLAND},
+    {"dose.doses", N_("few"), N_("many"), N_("Usual: 60 to 200."), 0, 300, 60, 200, NO_GLAND},
 };
 enum { ITEMS = G_N_ELEMENTS(items) };
 
@@ -56,6 +45,9 @@ typedef struct {
   SbSession *session;
   GtkWidget *grid, *note, *questions;
   GtkWidget *name[ITEMS], *value[ITEMS], *bar[ITEMS], *icon[ITEMS], *verdict[ITEMS];
+  int figure[ITEMS];
+  char *tip[ITEMS];
+  SbSummary model;             // figures that follow from the model alone
   double shown[ITEMS];         // NAN: not known
   double lo[ITEMS], hi[ITEMS]; // bands in force
 } Panel;
@@ -77,11 +69,11 @@ static void set_bands(Panel *panel) {
     bool own = item->gland == NO_GLAND;
     panel->lo[i] = own ? item->lo : readout[item->gland].band_low;
     panel->hi[i] = own ? item->hi : readout[item->gland].band_high;
-    if (!own) {
-      g_autofree char *tip = g_strdup_printf("%s %s", _(item->tip), readout[item->gland].source);
-      gtk_widget_set_tooltip_text(panel->bar[i], tip);
-      gtk_widget_set_tooltip_text(panel->name[i], tip);
-    }
+    const char *help = sb_translation(sb_figure(panel->figure[i])->help);
+    const char *more = own ? _(item->note) : readout[item->gland].source;
+    panel->tip[i] = g_strdup_printf("%s. %s", help, more);
+    gtk_widget_set_tooltip_text(panel->bar[i], panel->tip[i]);
+    gtk_widget_set_tooltip_text(panel->name[i], panel->tip[i]);
   }
 }
 
@@ -125,6 +117,10 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, Panel *panel) {
   return GDK_EVENT_PROPAGATE;
 }
 
+static const char *name_of(const Panel *panel, int index) {
+  return sb_translation(sb_figure(panel->figure[index])->label);
+}
+
 // The value, NAN: not known, for the reason `why` (NULL: nothing has run).
 static void show(Panel *panel, int index, double value, const char *why) {
   const Item *item = &items[index];
@@ -141,7 +137,7 @@ static void show(Panel *panel, int index, double value, const char *why) {
     g_strlcpy(text, _("not known"), sizeof text);
   }
   if (!isnan(value)) {
-    sb_format_text(text, item->quantity, value, 0);
+    sb_format_text(text, sb_quantity_of_unit(sb_figure(panel->figure[index])->shown), value, 0);
     SbBand band = band_of(panel, index, value);
     gboolean good = band == SB_BAND_WITHIN;
     word = good ? _("pass") : band == SB_BAND_BELOW ? _(item->low) : _(item->high);
@@ -155,8 +151,8 @@ static void show(Panel *panel, int index, double value, const char *why) {
   }
   gtk_label_set_text(GTK_LABEL(panel->value[index]), text);
   gtk_label_set_text(GTK_LABEL(panel->verdict[index]), word);
-  g_autofree char *spoken = g_strdup_printf("%s %s %s", _(item->name), text, word);
-  sb_style_name(panel->value[index], spoken, why != NULL ? why : _(item->tip));
+  g_autofree char *spoken = g_strdup_printf("%s %s %s", name_of(panel, index), text, word);
+  sb_style_name(panel->value[index], spoken, why != NULL ? why : panel->tip[index]);
   gtk_widget_set_tooltip_text(panel->value[index], why);
   gtk_widget_queue_draw(panel->bar[index]);
 }
@@ -203,17 +199,22 @@ static void refresh(Panel *panel) {
   g_autofree char *former = sb_session_former_text(panel->session);
   // A plate on its rings has no glands, return or doses.
   gtk_widget_set_visible(panel->grid, model == NULL || model->motion != SB_MODEL_MOTION_RIG);
-  const SbSealModel *seal = model != NULL ? &model->seal[SB_OUTER] : NULL;
-  show(panel, 0, seal != NULL ? seal->squeeze : NAN, NULL);
-  show(panel, 1, seal != NULL ? seal->stretch_inner : NAN, NULL);
-  show(panel, 2, seal != NULL ? seal->gland_fill : NAN, NULL);
+  sb_figures_clear(&panel->model);
+  if (model != NULL) {
+    sb_figures_of_model(&panel->model, model);
+  }
   // The way back must have begun for a return force to be known.
   gboolean back = summary != NULL && summary->stage[SB_STAGE_E].reached;
-  int least = sb_figure_find(back ? "cycle.force_return_min_N" : "cycle.stages.E.force_N");
-  show(panel, 3, back ? summary->force_return_min : NAN,
-       summary != NULL ? sb_figure_reason(summary, least) : NULL);
-  show(panel, 4, model != NULL ? model->metered_volume : NAN, NULL);
-  show(panel, 5, model != NULL ? (double)model->doses : NAN, NULL);
+  for (int i = 0; i < ITEMS; i++) {
+    int figure = panel->figure[i];
+    double value = sb_figure_value(&panel->model, figure);
+    const char *why = NULL;
+    if (isnan(value) && summary != NULL) {
+      value = back ? sb_figure_value(summary, figure) : NAN;
+      why = sb_figure_reason(summary, back ? figure : sb_figure_find("cycle.stages.E.force_N"));
+    }
+    show(panel, i, value, why);
+  }
   show_verdict(panel, summary);
   gtk_label_set_text(GTK_LABEL(panel->note), former != NULL ? former : _("outer seal"));
   gtk_widget_set_tooltip_text(panel->note, former);
@@ -223,6 +224,14 @@ static void refresh(Panel *panel) {
     sb_style_former(panel->verdict[i], former != NULL);
   }
   sb_style_former(panel->questions, former != NULL);
+}
+
+static void panel_free(gpointer data) {
+  Panel *panel = data;
+  for (int i = 0; i < ITEMS; i++) {
+    g_free(panel->tip[i]);
+  }
+  g_free(panel);
 }
 
 static void on_destroy(GtkWidget *widget, Panel *panel) {
@@ -250,13 +259,12 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
   gtk_label_set_max_width_chars(GTK_LABEL(panel->note), 24);
   gtk_grid_attach(GTK_GRID(grid), panel->note, 1, 0, 4, 1);
   for (int i = 0; i < ITEMS; i++) {
-    GtkWidget *name = panel->name[i] = label_new(_(items[i].name), "sb-derived-name", 0);
+    panel->figure[i] = sb_figure_find(items[i].path);
+    GtkWidget *name = panel->name[i] = label_new(name_of(panel, i), "sb-derived-name", 0);
     gtk_widget_set_hexpand(name, TRUE);
-    gtk_widget_set_tooltip_text(name, _(items[i].tip));
     panel->value[i] = label_new("", "sb-derived-value", 1);
     panel->bar[i] = gtk_drawing_area_new();
     gtk_widget_set_size_request(panel->bar[i], 80, 18);
-    gtk_widget_set_tooltip_text(panel->bar[i], _(items[i].tip));
     g_object_set_data(G_OBJECT(panel->bar[i]), "index", GINT_TO_POINTER(i));
     g_signal_connect(panel->bar[i], "draw", G_CALLBACK(on_draw), panel);
     panel->icon[i] = gtk_image_new();
@@ -271,7 +279,7 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
   panel->questions = label_new("", "sb-questions", 0);
   gtk_label_set_line_wrap(GTK_LABEL(panel->questions), TRUE);
   gtk_grid_attach(GTK_GRID(grid), panel->questions, 0, ITEMS + 1, 5, 1);
-  g_object_set_data_full(G_OBJECT(grid), "panel", panel, g_free);
+  g_object_set_data_full(G_OBJECT(grid), "panel", panel, panel_free);
   g_signal_connect(grid, "destroy", G_CALLBACK(on_destroy), panel);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), panel);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), panel);

@@ -4,6 +4,7 @@
 #include "ui/views/chart_view.h"
 
 #include "app/base/format.h"
+#include "app/base/translation.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/life.h"
 #include "app/chart/profiles.h"
@@ -109,6 +110,21 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
 
 // Description ------------------------------------------------------------------------------------
 
+// "return force 1.6 N, " of each, or why it is not known.
+static void append_figures(GString *text, const SbSummary *summary, const char *const *paths) {
+  for (; *paths != NULL; paths++) {
+    int index = sb_figure_find(*paths);
+    const char *reason = sb_figure_reason(summary, index);
+    g_autofree char *label = sb_translation_inside(sb_figure(index)->label);
+    char value[SB_FORMAT_MAX];
+    if (reason != NULL) {
+      g_string_append_printf(text, _("%s not known: %s, "), label, reason);
+    } else {
+      g_string_append_printf(text, "%s %s, ", label, sb_format_figure(value, summary, index));
+    }
+  }
+}
+
 static void describe_loop(SbSession *session, GString *text) {
   const SbChartData *data = sb_session_chart(session);
   char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
@@ -119,17 +135,13 @@ static void describe_loop(SbSession *session, GString *text) {
   if (sb_chart_is_rig(&data->run)) {
     const SbSummary *ended = data->run.summary;
     if (ended != NULL && ended->rig.found) {
-      g_string_append_printf(
-          text, _("Sliding plate: break-away %s, static coefficient %s, "),
-          sb_format_text(a, SB_QUANTITY_FORCE, ended->force_breakaway, 0),
-          sb_format_text(b, SB_QUANTITY_NUMBER, ended->rig.of.static_coefficient, 0));
-      g_string_append_printf(
-          text, _("dynamic %s from %zu peaks, "),
-          sb_format_text(a, SB_QUANTITY_NUMBER, ended->rig.of.dynamic_coefficient, 0),
-          ended->rig.of.peaks);
-      g_string_append_printf(
-          text, _("of the mean force %s, thesis 0.51 measured and 0.4 predicted, "),
-          sb_format_text(a, SB_QUANTITY_NUMBER, ended->rig.of.mean_coefficient, 0));
+      static const char *const paths[] = {"cycle.force_breakaway_N", "rig.coefficient_static",
+                                          "rig.coefficient_dynamic", "rig.coefficient_mean", NULL};
+      g_string_append(text, _("Sliding plate: "));
+      append_figures(text, ended, paths);
+      g_string_append_printf(text,
+                             _("%zu peaks that follow, thesis 0.51 measured and 0.4 predicted, "),
+                             ended->rig.of.peaks);
     }
     g_autofree char *now = sb_session_where(session);
     g_string_append_printf(text, _("now %s."), now);
@@ -145,18 +157,9 @@ static void describe_loop(SbSession *session, GString *text) {
   }
   const SbSummary *summary = data->run.summary;
   if (summary != NULL) {
-    g_string_append_printf(text, _("break-away %s, "),
-                           sb_format_text(a, SB_QUANTITY_FORCE, summary->force_breakaway, 0));
-    int least = sb_figure_find("cycle.force_return_min_N");
-    if (isnan(summary->force_return_min)) {
-      g_string_append_printf(text, _("least return force not known: %s, "),
-                             sb_figure_reason(summary, least));
-    } else {
-      g_string_append_printf(text, _("least return force %s, "),
-                             sb_format_text(a, SB_QUANTITY_FORCE, summary->force_return_min, 0));
-    }
-    g_string_append_printf(text, _("loss per cycle %s, "),
-                           sb_format_text(a, SB_QUANTITY_ENERGY, summary->energy.loop, 0));
+    static const char *const paths[] = {"cycle.force_breakaway_N", "cycle.force_return_min_N",
+                                        "cycle.energy_loss_J", NULL};
+    append_figures(text, summary, paths);
   }
   g_autofree char *where = sb_session_where(session);
   g_string_append_printf(text, _("now %s."), where);

@@ -22,7 +22,7 @@ struct SbSectionSource {
 static SbRun *make_rest(const SbModel *model) {
   g_autofree SbModel *quick = g_memdup2(model, sizeof *model);
   quick->fit = 0;
-  quick->film = SB_MODEL_FILM_THESIS;
+  quick->film = SB_FILM_THESIS;
   quick->motion = SB_MODEL_MOTION_QUASI_STATIC;
   quick->frames = 2;
   quick->views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION;

@@ -8,13 +8,13 @@
 #include "app/section/draw_cairo.h"
 #include "app/section/gl_renderer.h"
 #include "app/section/section.h"
-#include "app/base/translation.h"
 #include "ui/views/canvas_area.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/force_balance.h"
 #include "ui/views/section_gl.h"
 #include "ui/views/section_source.h"
 #include "ui/views/style.h"
+#include "ui/views/toolbar.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -163,7 +163,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   gboolean ran = sb_session_run(view->session) != NULL;
   SbRect picture = picture_rect(view, area_width, area_height);
   const SbSectionLook *look = &sb_run_model(now.run)->look;
-  const char *inset = gtk_combo_box_get_active_id(GTK_COMBO_BOX(view->inset_combo));
+  int inset = gtk_combo_box_get_active(GTK_COMBO_BOX(view->inset_combo)); // as output.insets
   gboolean cutaway = is_cutaway(view);
   double enlarged = cutaway ? 1 : view->zoom;
   SbSectionView how = {
@@ -172,10 +172,10 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
       .margin = EDGE,
       .dark = sb_style_is_dark(),
       .read_outs = ran,
-      .hide_insets = !ran || g_strcmp0(inset, "none") == 0,
+      .hide_insets = !ran || inset == 2,
       .hide_forces = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->forces)),
       .hide_labels = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->labels)),
-      .inset_seal = g_strcmp0(inset, "inner") == 0 ? SB_INNER : SB_OUTER,
+      .inset_seal = inset == 1 ? SB_INNER : SB_OUTER,
       .field = (SbField)MAX(gtk_combo_box_get_active(GTK_COMBO_BOX(view->field_combo)), 0),
       .mesh = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->mesh)),
       .full = look->full,
@@ -455,29 +455,6 @@ static void on_cutaway(View *view) {
   gtk_widget_queue_resize(view->gl);
 }
 
-static GtkWidget *icon_button(const char *icon, const char *name, const char *action, GtkBox *box) {
-  GtkWidget *button = gtk_button_new_from_icon_name(icon, GTK_ICON_SIZE_BUTTON);
-  gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
-  gtk_widget_set_tooltip_text(button, name);
-  sb_style_name(button, name, NULL);
-  gtk_box_pack_start(box, button, FALSE, FALSE, 0);
-  return button;
-}
-
-static GtkWidget *linked_box(void) {
-  GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
-  sb_style_class(box, "linked");
-  return box;
-}
-
-// Lets a combo box be narrower than its longest item.
-static void shrink(GtkWidget *combo) {
-  g_autoptr(GList) cells = gtk_cell_layout_get_cells(GTK_CELL_LAYOUT(combo));
-  if (cells != NULL) {
-    g_object_set(cells->data, "ellipsize", PANGO_ELLIPSIZE_END, "width-chars", 9, NULL);
-  }
-}
-
 static GtkWidget *make_toolbar(View *view) {
   GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
   sb_style_class(bar, "sb-toolbar");
@@ -487,31 +464,21 @@ static GtkWidget *make_toolbar(View *view) {
   view->heading = heading;
   gtk_box_pack_start(GTK_BOX(bar), heading, FALSE, FALSE, 0);
 
-  view->field_combo = gtk_combo_box_text_new();
+  const char *fields[SB_FIELD_COUNT];
   for (int i = 0; i < SB_FIELD_COUNT; i++) {
-    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(view->field_combo),
-                                   sb_translation(sb_section_field_name((SbField)i)));
+    fields[i] = sb_section_field_name((SbField)i);
   }
-  gtk_combo_box_set_active(GTK_COMBO_BOX(view->field_combo), 0);
-  shrink(view->field_combo);
+  view->field_combo = sb_toolbar_combo(GTK_BOX(bar), fields, SB_FIELD_COUNT, _("Field"),
+                                       _("What the colours of solved rings show"));
   gtk_widget_set_no_show_all(view->field_combo, TRUE);
-  sb_style_name(view->field_combo, _("Field"), _("What the colours of solved rings show"));
   g_signal_connect_swapped(view->field_combo, "changed", G_CALLBACK(on_change), view);
-  gtk_box_pack_start(GTK_BOX(bar), view->field_combo, FALSE, TRUE, 0);
-
-  view->inset_combo = gtk_combo_box_text_new();
-  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "outer",
-                            _("Insets: outer seal"));
-  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "inner",
-                            _("Insets: inner seal"));
-  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(view->inset_combo), "none", _("No insets"));
-  gtk_combo_box_set_active(GTK_COMBO_BOX(view->inset_combo), 0);
-  shrink(view->inset_combo);
-  sb_style_name(view->inset_combo, _("Insets"), _("Which seal's contact the insets enlarge"));
+  static const char *const insets[] = {N_("Insets: outer seal"), N_("Insets: inner seal"),
+                                       N_("No insets")};
+  view->inset_combo = sb_toolbar_combo(GTK_BOX(bar), insets, G_N_ELEMENTS(insets), _("Insets"),
+                                       _("Which seal's contact the insets enlarge"));
   g_signal_connect_swapped(view->inset_combo, "changed", G_CALLBACK(on_change), view);
-  gtk_box_pack_start(GTK_BOX(bar), view->inset_combo, FALSE, TRUE, 0);
 
-  GtkWidget *toggles = linked_box();
+  GtkWidget *toggles = sb_toolbar_linked();
   view->forces = toggle_new(view, _("Forces"), _("Force arrows"), TRUE, GTK_BOX(toggles));
   view->labels =
       toggle_new(view, _("Labels"), _("Names and values of the parts"), TRUE, GTK_BOX(toggles));
@@ -526,10 +493,12 @@ static GtkWidget *make_toolbar(View *view) {
   gtk_box_pack_start(GTK_BOX(bar), toggles, FALSE, FALSE, 0);
   view->toggles = toggles;
 
-  GtkWidget *zooms = linked_box();
-  icon_button("zoom-out-symbolic", _("Zoom out"), "win.zoom-out", GTK_BOX(zooms));
-  icon_button("zoom-fit-best-symbolic", _("Whole valve"), "win.zoom-fit", GTK_BOX(zooms));
-  icon_button("zoom-in-symbolic", _("Zoom in"), "win.zoom-in", GTK_BOX(zooms));
+  GtkWidget *zooms = sb_toolbar_linked();
+  sb_toolbar_button(GTK_BOX(zooms), "zoom-out-symbolic", _("Zoom out"), _("Zoom out"),
+                    "win.zoom-out");
+  sb_toolbar_button(GTK_BOX(zooms), "zoom-fit-best-symbolic", _("Whole valve"), _("Whole valve"),
+                    "win.zoom-fit");
+  sb_toolbar_button(GTK_BOX(zooms), "zoom-in-symbolic", _("Zoom in"), _("Zoom in"), "win.zoom-in");
   gtk_box_pack_end(GTK_BOX(bar), zooms, FALSE, FALSE, 0);
 
   // In a narrow window the toolbar scrolls, so that it does not decide how narrow that can be.
@@ -540,13 +509,18 @@ static GtkWidget *make_toolbar(View *view) {
   return scroller;
 }
 
+// Places a widget at the top of the picture, in the middle.
+static void place_top(GtkWidget *widget, int margin) {
+  gtk_widget_set_halign(widget, GTK_ALIGN_CENTER);
+  gtk_widget_set_valign(widget, GTK_ALIGN_START);
+  gtk_widget_set_margin_top(widget, margin);
+  gtk_widget_set_no_show_all(widget, TRUE);
+}
+
 // Over the picture while nothing has run: one sentence, one button.
 static GtkWidget *make_empty(void) {
   GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 10);
   sb_style_class(box, "sb-empty");
-  gtk_widget_set_halign(box, GTK_ALIGN_CENTER);
-  gtk_widget_set_valign(box, GTK_ALIGN_START);
-  gtk_widget_set_margin_top(box, 170);
   gtk_container_add(GTK_CONTAINER(box),
                     gtk_label_new(_("Run the cycle to see forces, contacts and film.")));
   GtkWidget *button = gtk_button_new_with_label(_("Run the cycle"));
@@ -555,8 +529,16 @@ static GtkWidget *make_empty(void) {
   sb_style_class(button, "suggested-action");
   gtk_container_add(GTK_CONTAINER(box), button);
   gtk_widget_show_all(box);
-  gtk_widget_set_no_show_all(box, TRUE);
+  place_top(box, 170);
   return box;
+}
+
+static void take_pointer(GtkWidget *widget, GCallback scrolled, View *view) {
+  gtk_widget_add_events(widget, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK | GDK_SCROLL_MASK |
+                                    GDK_SMOOTH_SCROLL_MASK);
+  g_signal_connect(widget, "scroll-event", scrolled, view);
+  g_signal_connect(widget, "button-press-event", G_CALLBACK(on_press), view);
+  g_signal_connect(widget, "motion-notify-event", G_CALLBACK(on_motion), view);
 }
 
 GtkWidget *sb_section_view_new(SbSession *session) {
@@ -574,20 +556,15 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   view->cache = sb_draw_cache_attach(view->area, draw, view);
   sb_style_class(view->area, "sb-canvas");
   gtk_widget_set_can_focus(view->area, TRUE);
-  gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |
-                                        GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK);
+  take_pointer(view->area, G_CALLBACK(on_scroll), view);
   atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_IMAGE);
   GtkWidget *overlay = gtk_overlay_new();
   gtk_container_add(GTK_CONTAINER(overlay), view->area);
   view->gl = sb_section_gl_new(&view->list, on_gl_decided, view);
-  gtk_widget_add_events(view->gl, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |
-                                      GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK);
+  take_pointer(view->gl, G_CALLBACK(on_gl_scroll), view);
   sb_style_name(view->gl, _("Section picture"), NULL);
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->gl);
   g_signal_connect(overlay, "get-child-position", G_CALLBACK(on_place), view);
-  g_signal_connect(view->gl, "scroll-event", G_CALLBACK(on_gl_scroll), view);
-  g_signal_connect(view->gl, "button-press-event", G_CALLBACK(on_press), view);
-  g_signal_connect(view->gl, "motion-notify-event", G_CALLBACK(on_motion), view);
   view->empty = make_empty();
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->empty);
   // Whatever models are being run, the valve at rest is drawn by closed forms.
@@ -596,16 +573,10 @@ GtkWidget *sb_section_view_new(SbSession *session) {
                       "forms."));
   sb_style_class(view->rest, "sb-empty");
   gtk_label_set_line_wrap(GTK_LABEL(view->rest), TRUE);
-  gtk_widget_set_halign(view->rest, GTK_ALIGN_CENTER);
-  gtk_widget_set_valign(view->rest, GTK_ALIGN_START);
-  gtk_widget_set_margin_top(view->rest, 70);
-  gtk_widget_set_no_show_all(view->rest, TRUE);
+  place_top(view->rest, 70);
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->rest);
   gtk_box_pack_start(GTK_BOX(view->box), overlay, TRUE, TRUE, 0);
 
-  g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_scroll), view);
-  g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
-  g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
   g_signal_connect_swapped(view->area, "size-allocate", G_CALLBACK(clamp_pan), view);
   g_signal_connect(view->box, "destroy", G_CALLBACK(on_destroy), view);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_params_changed), view);

@@ -7,6 +7,7 @@
 #include "ui/views/canvas_area.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/style.h"
+#include "ui/views/toolbar.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -166,34 +167,22 @@ static void on_frames(View *view) {
   on_playhead(view);
 }
 
-static GtkWidget *action_button(const char *icon, const char *name, const char *tip,
-                                const char *action) {
-  GtkWidget *button = gtk_button_new_from_icon_name(icon, GTK_ICON_SIZE_BUTTON);
-  gtk_actionable_set_action_name(GTK_ACTIONABLE(button), action);
-  gtk_widget_set_tooltip_text(button, tip);
-  sb_style_name(button, name, NULL);
-  return button;
-}
-
 static GtkWidget *make_controls(View *view) {
   GtkWidget *rows = gtk_box_new(GTK_ORIENTATION_VERTICAL, 10);
   gtk_widget_set_valign(rows, GTK_ALIGN_CENTER);
   GtkWidget *row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
   gtk_container_add(GTK_CONTAINER(rows), row);
 
-  GtkWidget *linked = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
-  sb_style_class(linked, "linked");
-  gtk_container_add(GTK_CONTAINER(linked),
-                    action_button("media-skip-backward-symbolic", _("Previous event"),
-                                  _("Previous event (Ctrl+Left)"), "win.previous-event"));
+  GtkWidget *linked = sb_toolbar_linked();
+  sb_toolbar_button(GTK_BOX(linked), "media-skip-backward-symbolic", _("Previous event"),
+                    _("Previous event (Ctrl+Left)"), "win.previous-event");
   view->play = gtk_button_new();
   view->play_icon = gtk_image_new();
   gtk_container_add(GTK_CONTAINER(view->play), view->play_icon);
   g_signal_connect(view->play, "clicked", G_CALLBACK(on_play), view);
   gtk_container_add(GTK_CONTAINER(linked), view->play);
-  gtk_container_add(GTK_CONTAINER(linked),
-                    action_button("media-skip-forward-symbolic", _("Next event"),
-                                  _("Next event (Ctrl+Right)"), "win.next-event"));
+  sb_toolbar_button(GTK_BOX(linked), "media-skip-forward-symbolic", _("Next event"),
+                    _("Next event (Ctrl+Right)"), "win.next-event");
   gtk_container_add(GTK_CONTAINER(row), linked);
 
   view->loop = gtk_toggle_button_new();

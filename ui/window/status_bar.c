@@ -42,14 +42,13 @@ static void refresh_models(Bar *bar) {
   if (model == NULL) {
     return;
   }
-  g_autofree char *fit = choice_name(SB_P_MODELS_FIT, model->fit);
-  g_autofree char *film = choice_name(SB_P_MODELS_FILM, (int)model->film);
-  g_autofree char *surface = choice_name(SB_P_MODELS_SURFACE, (int)model->surface);
   g_autofree char *motion = choice_name(SB_P_MODELS_MOTION, (int)model->motion);
-  g_autofree char *text = model->motion == SB_MODEL_MOTION_RIG
-                              ? g_strdup_printf(_("motion %s"), motion)
-                              : g_strdup_printf(_("fit %s, film %s, surface %s, motion %s"), fit,
-                                                film, surface, motion);
+  g_autofree char *text =
+      model->motion == SB_MODEL_MOTION_RIG
+          ? g_strdup_printf(_("motion %s"), motion)
+          : g_strdup_printf(_("fit %s, film %s, surface %s, motion %s"),
+                            sb_fit_model_name(model->fit), sb_film_model_name(model->film),
+                            sb_rough_model_name(model->surface), motion);
   if (run == NULL && sb_session_state(bar->session) == SB_SESSION_RUNNING) {
     g_autofree char *computed = g_steal_pointer(&text);
     text = g_strdup_printf(_("being computed: %s"), computed);

@@ -296,12 +296,9 @@ static void on_next_error(GSimpleAction *action, GVariant *parameter, gpointer d
   }
 }
 
-static void on_previous_event(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  sb_session_step_event(SB_WINDOW(data)->session, -1);
-}
-
-static void on_next_event(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  sb_session_step_event(SB_WINDOW(data)->session, 1);
+static void on_event(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  bool next = g_str_equal(g_action_get_name(G_ACTION(action)), "next-event");
+  sb_session_step_event(SB_WINDOW(data)->session, next ? 1 : -1);
 }
 
 static void on_pin(GSimpleAction *action, GVariant *state, gpointer data) {
@@ -329,36 +326,23 @@ static void on_save_as(GSimpleAction *action, GVariant *parameter, gpointer data
   sb_window_files_save(SB_WINDOW(data)->files, TRUE);
 }
 
-static void on_zoom_in(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  sb_section_view_zoom(SB_WINDOW(data)->section, 1);
-}
-
-static void on_zoom_out(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  sb_section_view_zoom(SB_WINDOW(data)->section, -1);
+// One of "zoom-in", "zoom-out", "zoom-fit".
+static void on_zoom(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  const char *name = g_action_get_name(G_ACTION(action));
+  int step = g_str_equal(name, "zoom-in") - g_str_equal(name, "zoom-out");
+  sb_section_view_zoom(SB_WINDOW(data)->section, step);
 }
 
 static void on_cutaway(GSimpleAction *action, GVariant *parameter, gpointer data) {
   sb_section_view_toggle_cutaway(SB_WINDOW(data)->section);
 }
 
-static void on_turn_left(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  sb_section_view_turn(SB_WINDOW(data)->section, -1, 0);
-}
-
-static void on_turn_right(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  sb_section_view_turn(SB_WINDOW(data)->section, 1, 0);
-}
-
-static void on_turn_up(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  sb_section_view_turn(SB_WINDOW(data)->section, 0, 1);
-}
-
-static void on_turn_down(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  sb_section_view_turn(SB_WINDOW(data)->section, 0, -1);
-}
-
-static void on_zoom_fit(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  sb_section_view_zoom(SB_WINDOW(data)->section, 0);
+// One of "turn-left", "turn-right", "turn-up", "turn-down".
+static void on_turn(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  const char *name = g_action_get_name(G_ACTION(action));
+  int right = g_str_equal(name, "turn-right") - g_str_equal(name, "turn-left");
+  int up = g_str_equal(name, "turn-up") - g_str_equal(name, "turn-down");
+  sb_section_view_turn(SB_WINDOW(data)->section, right, up);
 }
 
 static void on_copy_table(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -514,16 +498,16 @@ static void sb_window_init(SbWindow *window) {
       {.name = "search", .activate = on_search},
       {.name = "next-error", .activate = on_next_error},
       {.name = "run-or-stop", .activate = on_run_or_stop},
-      {.name = "previous-event", .activate = on_previous_event},
-      {.name = "next-event", .activate = on_next_event},
-      {.name = "zoom-in", .activate = on_zoom_in},
-      {.name = "zoom-out", .activate = on_zoom_out},
-      {.name = "zoom-fit", .activate = on_zoom_fit},
+      {.name = "previous-event", .activate = on_event},
+      {.name = "next-event", .activate = on_event},
+      {.name = "zoom-in", .activate = on_zoom},
+      {.name = "zoom-out", .activate = on_zoom},
+      {.name = "zoom-fit", .activate = on_zoom},
       {.name = "cutaway", .activate = on_cutaway},
-      {.name = "turn-left", .activate = on_turn_left},
-      {.name = "turn-right", .activate = on_turn_right},
-      {.name = "turn-up", .activate = on_turn_up},
-      {.name = "turn-down", .activate = on_turn_down},
+      {.name = "turn-left", .activate = on_turn},
+      {.name = "turn-right", .activate = on_turn},
+      {.name = "turn-up", .activate = on_turn},
+      {.name = "turn-down", .activate = on_turn},
       {.name = "export", .activate = on_export},
       {.name = "studies", .activate = on_studies},
       {.name = "close", .activate = on_close},

@@ -205,7 +205,6 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
     sb_run_summarise_seals(run);
     summary->leakage_carried = run->model.actuations * summary->seal[SB_OUTER].leakage_per_stroke;
     summary->leakage_net = run->model.actuations * summary->leakage_per_cycle;
-    summary->dose_mass = run->model.metered_volume * run->model.density;
     if (summary->stage[SB_STAGE_B].reached) {
       summary->force_breakaway = summary->stage[SB_STAGE_B].force;
     }
@@ -235,6 +234,7 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   memset(summary, 0, sizeof *summary); // too large for a temporary on a small stack
   sb_figures_clear(summary);
+  sb_figures_of_model(summary, &run->model);
   run->lacks[0] = '\0';
   sb_run_publish(run, 0);
   run->before_frames = run->after_frames = 0;

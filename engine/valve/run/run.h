@@ -6,7 +6,10 @@
 #pragma once
 
 #include "engine/valve/frame.h"
+#include "engine/valve/life.h"
+#include "engine/valve/limits.h"
 #include "engine/valve/plan.h"
+#include "engine/valve/rig.h"
 
 #include <stdatomic.h>
 
@@ -38,23 +41,13 @@ typedef enum {
 // "not-computed", "closed", "percolating", "open"; borrowed.
 const char *sb_leak_state_name(SbLeakState state);
 
-// One seal's figures: at the middle of B-C, friction_static at B. NaN: not computed.
+// One seal's figures, one member for each SB_SEAL_FIGURE (meaning and unit there): at the middle of
+// B-C, friction_static at B. NaN: not computed.
 typedef struct {
   SbLeakState leak_state;
-  double squeeze, stretch_inner, gland_fill;
-  double contact_width, contact_left, contact_right, load, load_per_length, pressure_peak;
   double contact_pressure; // mean, of the rubber alone: net load over width [Pa]
-  double film_min, film_central;
-  double film_karaszkiewicz, film_thesis, film_asymptotic,
-      film_reynolds; // central; NaN: not computed
-  double lambda;
-  double real_area_share; // real contact over the contact's area
-  double asperity_share;  // of the net load, on the asperities; NaN unless coupled
-  double friction_boundary, friction_viscous, friction_static, coefficient_of_friction;
-  double leakage_per_stroke; // [m3], thesis equation 5.20
-  double leakage_static;     // through the contact at rest [m3/s], leak/percolation.h
-  double closing_pressure;   // solid contact pressure above which that leak is nil [Pa]
-  double leak_sensitivity;   // d ln(leak)/d ln(contact pressure); 0 while closed
+#define SB_SEAL_FIGURE(path, member, ...) double member;
+#include "engine/valve/figures.def"
 } SbSealSummary;
 
 // What the sliding-plate rig reports (motion/rig.h).
@@ -93,14 +86,13 @@ typedef struct {
 } SbBodiesSummary;
 
 // One figure for each row of figures.def, the seals' twice.
-#define SB_FIGURE(...)      +1
-#define SB_SEAL_FIGURE(...) +SB_SEAL_COUNT
 enum {
   SB_FIGURE_COUNT =
+#define SB_FIGURE(...)      +1
+#define SB_FIGURE_AT(...)   +1
+#define SB_SEAL_FIGURE(...) +SB_SEAL_COUNT
 #include "engine/valve/figures.def"
 };
-#undef SB_FIGURE
-#undef SB_SEAL_FIGURE
 
 // Why figures were not computed (engine/valve/figures.h): 0 for no reason, else text[of - 1].
 enum { SB_REASONS_MAX = 40 };
@@ -120,16 +112,13 @@ typedef struct {
   char reason[256];    // one sentence; empty where there is nothing to say
 } SbVerdict;
 
+// What a run found: one member for each SB_FIGURE (meaning and unit there; NaN: not computed), and
+// what is no figure or stands in a struct of its own.
 typedef struct {
+#define SB_FIGURE(path, member, ...) double member;
+#include "engine/valve/figures.def"
   SbStatus status;
-  double force_peak, force_breakaway, force_return_min;
-  bool returns;
-  double returned;          // the same as a figure: 1, 0, or NaN where the motion was not computed
-  double dose_mass;         // of the metered volume, as liquid [kg]
-  double leakage_per_cycle; // outer seal, out minus in [m3]
-  double leakage_carried;   // by the outer seal's out-strokes of all actuations, as table 7.13 [m3]
-  double leakage_net;       // of all actuations, out minus in [m3]
-  double duration;          // [s]
+  bool returns; // as `returned`; false where that is not known
   SbStageMark stage[SB_STAGE_COUNT];
   SbSealSummary seal[SB_SEAL_COUNT];
   SbBodiesSummary bodies;
@@ -142,8 +131,7 @@ typedef struct {
   bool converged;
   size_t frames, steps, rejected_steps, newton_iterations;
   double wall_s;
-  double error_force, error_energy, error_film, error_film_history, error_load,
-      error_width; // relative estimates; NaN: does not apply
+  double error_width; // of contact widths, relative as error_load; NaN: does not apply
   SbCounters counters;
 } SbSummary;
 

@@ -132,6 +132,22 @@ static bool cancelled(void *user) {
   return sb_run_cancelled(lived->hooks, NULL);
 }
 
+// What is "last" stands for the whole life: unknown for one that ended before its time.
+static void fill_figures(SbSummary *summary, const SbLifeActuation *each, long count) {
+  long done = summary->life.done;
+  if (done > 0) {
+    summary->life_breakaway_first = each[0].force_breakaway;
+    summary->life_lambda_first = each[0].lambda;
+  }
+  if (done == count) {
+    const SbLifeActuation *last = &each[done - 1];
+    summary->life_roughness = last->roughness;
+    summary->life_breakaway_last = last->force_breakaway;
+    summary->life_return_last = last->force_return;
+    summary->life_lambda_last = last->lambda;
+  }
+}
+
 SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   Lived lived = {.run = run,
                  .hooks = hooks,
@@ -151,6 +167,7 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
                        cancelled, &lived, report);
   memset(lived.one->shape, 0, sizeof lived.one->shape);
   sb_run_destroy(lived.one);
+  fill_figures(&run->summary, run->life, run->model.life_actuations);
   if (life->failure > 0) {
     sb_warn(&run->summary.warnings, "life-no-return", "surface.gt_product",
             "the life ends at actuation %ld of %d: its stem does not return", life->failure,

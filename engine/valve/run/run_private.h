@@ -3,6 +3,7 @@
 
 #include "engine/mechanism/dynamics.h"
 #include "engine/valve/cycle.h"
+#include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
 
 enum {

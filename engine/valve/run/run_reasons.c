@@ -39,13 +39,31 @@ double sb_run_cycle_leakage(SbSummary *summary, double carried, bool back) {
 void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   SbSummary *summary = &run->summary;
   const SbModel *model = &run->model;
-  if (model->motion == SB_MODEL_MOTION_RIG) {
+  const SbLife *life = &summary->life;
+  if (life->failure > 0) {
+    sb_reason(summary, "life.*", "the life ends at actuation %ld: its stem does not return",
+              life->failure);
+  } else if (life->done > 0) {
+    sb_reason(summary, "life.*", "the life was not computed beyond actuation %ld", life->done);
+  } else if (model->life_actuations == 1) {
+    sb_reason(summary, "life.*", "life.actuations = 1: there is no life");
+  } else if (run->lacks[0] != '\0') {
+    sb_reason(summary, "life.*", "%s", run->lacks);
+  }
+  if (model->motion != SB_MODEL_MOTION_RIG) {
+    sb_reason(summary, "rig.*", "models.motion is not rig: no plate is pulled");
+  } else {
+    if (status == SB_OK) {
+      sb_reason(summary, "rig.*",
+                "the force has no peak: the plate did not break away, or slid smoothly");
+    }
     sb_reason(summary, "cycle.force_breakaway_N", "the plate never slips");
     sb_reason(summary, "cycle.stages.B*", "the plate never slips");
     sb_reason(summary, "cycle.*", "the sliding plate (models.motion = rig) has no valve's cycle");
     sb_reason(summary, "seals.*", "the sliding plate (models.motion = rig) has no valve's seals");
     sb_reason(summary, "solver.*", "the sliding plate (models.motion = rig) solves no film or fit");
-  } else if (status == SB_OK) {
+  }
+  if (status == SB_OK && model->motion != SB_MODEL_MOTION_RIG) {
     sb_reason(summary, "cycle.force_breakaway_N", "the stem never slips: stage B is not reached");
     for (int i = 0; i < SB_STAGE_COUNT; i++) {
       char pattern[32];
@@ -54,7 +72,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
     }
   }
   bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  bool solved = coupled || model->film == SB_MODEL_FILM_REYNOLDS;
+  bool solved = coupled || model->film == SB_FILM_REYNOLDS;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const SbSealSummary *of = &summary->seal[seal];
     if (of->load == 0) {

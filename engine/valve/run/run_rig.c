@@ -94,7 +94,6 @@ static void compare_contact(SbRun *run) {
   const SbSealModel *ring = &model->seal[SB_OUTER];
   SbGtIntegrals integrals;
   SbRigSummary *out = &run->summary.rig;
-  out->contact_coefficient = out->contact_load = NAN;
   if (sb_gt_integrals(&integrals, 0, NULL) != SB_OK) {
     return;
   }

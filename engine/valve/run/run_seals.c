@@ -121,37 +121,29 @@ static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
 
 static void summarise_seal(SbRun *run, int seal) {
   const SbSliding *state = &run->cycle.states.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-  const SbSealModel *model = &run->model.seal[seal];
   SbSealSummary *out = &run->summary.seal[seal];
-  *out = (SbSealSummary){
-      .squeeze = model->squeeze,
-      .stretch_inner = model->stretch_inner,
-      .gland_fill = model->gland_fill,
-      .contact_width = state->contact_right - state->contact_left,
-      .contact_left = state->touches ? state->contact_left : NAN,
-      .contact_right = state->touches ? state->contact_right : NAN,
-      .load = state->load,
-      .load_per_length = state->load_per_length,
-      .contact_pressure = state->load_net / (state->contact_right - state->contact_left),
-      .pressure_peak = state->pressure_peak,
-      .film_min = state->film_min,
-      .film_central = state->film_central,
-      .film_karaszkiewicz = film_by(run, seal, state, SB_FILM_KARASZKIEWICZ),
-      .film_thesis = film_by(run, seal, state, SB_FILM_THESIS),
-      .film_asymptotic = film_by(run, seal, state, SB_FILM_ASYMPTOTIC),
-      .film_reynolds = run->model.asperities == SB_MODEL_ASPERITIES_COUPLED
+  out->contact_width = state->contact_right - state->contact_left;
+  out->contact_left = state->touches ? state->contact_left : NAN;
+  out->contact_right = state->touches ? state->contact_right : NAN;
+  out->load = state->load;
+  out->load_per_length = state->load_per_length;
+  out->contact_pressure = state->load_net / (state->contact_right - state->contact_left);
+  out->pressure_peak = state->pressure_peak;
+  out->film_min = state->film_min;
+  out->film_central = state->film_central;
+  out->film_karaszkiewicz = film_by(run, seal, state, SB_FILM_KARASZKIEWICZ);
+  out->film_thesis = film_by(run, seal, state, SB_FILM_THESIS);
+  out->film_asymptotic = film_by(run, seal, state, SB_FILM_ASYMPTOTIC);
+  out->film_reynolds = run->model.asperities == SB_MODEL_ASPERITIES_COUPLED
                            ? film_by(run, seal, state, SB_FILM_REYNOLDS)
-                           : state->film_reynolds,
-      .real_area_share = state->area_share,
-      .asperity_share = state->asperity_share,
-      .lambda = state->lambda,
-      .friction_boundary = state->boundary_area + state->boundary_load,
-      .friction_viscous = state->viscous,
-      .friction_static = state->friction_static,
-      .leakage_static = NAN,
-      .closing_pressure = NAN,
-      .leak_sensitivity = NAN,
-  };
+                           : state->film_reynolds;
+  out->real_area_share = state->area_share;
+  out->asperity_share = state->asperity_share;
+  out->lambda = state->lambda;
+  out->friction_boundary = state->boundary_area + state->boundary_load;
+  out->friction_viscous = state->viscous;
+  out->friction_static = state->friction_static;
+  out->leakage_static = out->closing_pressure = out->leak_sensitivity = NAN;
   double friction = sb_sliding_friction(state);
   out->coefficient_of_friction = state->load > 0 ? friction / state->load : NAN;
   out->leakage_per_stroke =

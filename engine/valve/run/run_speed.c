@@ -16,11 +16,11 @@
 #include <math.h>
 
 // Power of the speed in the film's law.
-static double exponent(SbModelFilm film) {
+static double exponent(SbFilmModel film) {
   switch (film) {
-  case SB_MODEL_FILM_THESIS:
+  case SB_FILM_THESIS:
     return 0.5434;
-  case SB_MODEL_FILM_KARASZKIEWICZ:
+  case SB_FILM_KARASZKIEWICZ:
     return 0.65;
   default:
     return 0.6;
@@ -31,7 +31,7 @@ static double exponent(SbModelFilm film) {
 static SbStatus proxy_speed(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbModel model = run->model;
   model.fit = SB_FIT_KARASZKIEWICZ;
-  model.film = SB_MODEL_FILM_THESIS;
+  model.film = SB_FILM_THESIS;
   SbRun *proxy;
   SbStatus status = sb_run_create(&proxy, &model, &run->plan, report);
   if (status != SB_OK) {

@@ -61,7 +61,7 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
   const SbFit *fit = sb_sliding_fit(run->memory[seal]);
   const SbFilm *film = sb_sliding_film(run->memory[seal]);
   bool coupled = run->model.asperities == SB_MODEL_ASPERITIES_COUPLED;
-  bool solved = (coupled || run->model.film == SB_MODEL_FILM_REYNOLDS) && state->film_central > 0;
+  bool solved = (coupled || run->model.film == SB_FILM_REYNOLDS) && state->film_central > 0;
   bool fitted = state->touches && isfinite(state->load);
   bool own_pressure = run->model.fit == SB_FIT_DISC || run->model.fit == SB_FIT_DISC_THESIS ||
                       run->model.fit == SB_FIT_RING;
@@ -118,7 +118,7 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
   }
   if (solved && coupled) {
     memcpy(data + 3 * capacity, film->asperity_pressure, n * sizeof *data);
-  } else if (fitted && run->model.surface == SB_MODEL_SURFACE_GREENWOOD_TRIPP) {
+  } else if (fitted && run->model.surface == SB_ROUGH_GREENWOOD_TRIPP) {
     asperity_pressure(&run->model, seal, h, data + 3 * capacity, n);
   }
   free(profile->data);
@@ -129,9 +129,8 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
       .pressure = p,
       .film = h,
       .asperity_pressure = data + 3 * capacity,
-      .model = solved && (!own_pressure || state->film_fitted)
-                   ? "reynolds"
-                   : sb_fit_model_name((SbFitModel)run->model.fit),
+      .model = solved && (!own_pressure || state->film_fitted) ? "reynolds"
+                                                               : sb_fit_model_name(run->model.fit),
   };
   run->summary.counters.profile_evaluations++;
   return SB_OK;
@@ -175,7 +174,7 @@ static void tell_failure(SbRun *run, int seal, int chamber, int motion, const Sb
     snprintf(place, sizeof place, "x %.3g to %.3g mm", 1e3 * state->contact_left,
              1e3 * state->contact_right);
   } else {
-    snprintf(solver, sizeof solver, "fitment (%s)", sb_fit_model_name((SbFitModel)model->fit));
+    snprintf(solver, sizeof solver, "fitment (%s)", sb_fit_model_name(model->fit));
     snprintf(place, sizeof place, "%.4g MPa", 1e-6 * (pressure.left - pressure.right));
   }
   SbReport whole = *report;

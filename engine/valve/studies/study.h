@@ -6,7 +6,8 @@
 // Whoever wants one asks for it by name; nothing else computes it.
 #pragma once
 
-#include "engine/valve/model.h"
+#include "engine/base/status.h"
+#include "engine/valve/valve.h"
 
 // enumerator, function's suffix, name, title, help
 #define SB_STUDY_LIST(X)                                                                           \

@@ -91,7 +91,7 @@ enum { LINES = 5 };
 // The scene's own model first, then disc and ring, each once; the scene's and the ring at a tenth
 // of the pressure too.
 static int choose_lines(Line *line, const SbModel *model) {
-  SbFitModel own = (SbFitModel)model->fit;
+  SbFitModel own = model->fit;
   int count = 0;
   line[count++] = (Line){own, 1};
   if (own != SB_FIT_DISC) {
@@ -265,7 +265,7 @@ void sb_study_leak(SbStudyWork *work) {
   bool own = model->fit != SB_FIT_DISC && model->fit != SB_FIT_RING;
   sb_text(out->models, sizeof out->models,
           "fit %s%sdisc, ring; percolation by Persson's contact; film as the scene's",
-          own ? sb_fit_model_name((SbFitModel)model->fit) : "", own ? ", " : "");
+          own ? sb_fit_model_name(model->fit) : "", own ? ", " : "");
   sb_text(out->validity, sizeof out->validity,
           "mean contact pressure, liquid without vapour; gaps below 3 "
           "\xcf\x83; no figure where the ring does not touch by itself");

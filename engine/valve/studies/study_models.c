@@ -189,7 +189,7 @@ static void solve_all(SbStudyWork *work, Figures all[][CASES], Figures *central)
 void sb_study_models(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
-  const SbOverride smooth[] = {{SB_P_MODELS_FILM, SB_MODEL_FILM_THESIS},
+  const SbOverride smooth[] = {{SB_P_MODELS_FILM, SB_FILM_THESIS},
                                {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE}};
   sb_study_fix_outer(work);
   sb_study_fix(work, smooth, sizeof smooth / sizeof smooth[0]);

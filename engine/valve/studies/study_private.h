@@ -5,6 +5,7 @@
 #include "engine/contact/fit.h"
 #include "engine/valve/cost.h"
 #include "engine/valve/evaluate.h"
+#include "engine/valve/model.h"
 #include "engine/valve/studies/study.h"
 
 // A study at work. A failure that ends it stays in `status`: whoever asks on gets NaN at no cost,

@@ -70,7 +70,7 @@ void sb_study_squeeze(SbStudyWork *work) {
   const double design = model->seal[SB_OUTER].squeeze;
   // The fitment alone, by its own tolerance: no film wants the ring's surface.
   const SbOverride dry[] = {{SB_P_CANISTER_PRESSURE, 0},
-                            {SB_P_MODELS_FILM, SB_MODEL_FILM_THESIS},
+                            {SB_P_MODELS_FILM, SB_FILM_THESIS},
                             {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE}};
   sb_study_fix_outer(work);
   sb_study_fix(work, dry, sizeof dry / sizeof dry[0]);

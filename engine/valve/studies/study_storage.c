@@ -12,7 +12,7 @@
 enum { POINTS = 33, ROWS_MAX = 8, FIGURES = 4 };
 
 double sb_study_storage_cost(const SbModel *model) {
-  double fit = sb_cost_fit((SbFitModel)model->fit);
+  double fit = sb_cost_fit(model->fit);
   double film = sb_cost_film(model->film);
   return (POINTS + ROWS_MAX) * SB_SEAL_COUNT * (fit + film);
 }
@@ -132,7 +132,7 @@ void sb_study_storage(SbStudyWork *work) {
   char film[32];
   sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model->film, film, sizeof film);
   sb_text(out->models, sizeof out->models, "fit %s, film %s; rubber: %d Prony terms, %s",
-          sb_fit_model_name((SbFitModel)model->fit), film, (int)model->rubber.terms,
+          sb_fit_model_name(model->fit), film, (int)model->rubber.terms,
           model->rubber.swell_mass > 0 ? "Fickian swell" : "no swell");
   sb_text(out->validity, sizeof out->validity,
           "relaxation to ten times its longest time; swell below 50 %% by volume; the constants "

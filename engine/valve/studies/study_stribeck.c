@@ -51,8 +51,7 @@ static void solve(SbStudyWork *work, SbStribeckPoint *points, int which, double 
     return;
   }
   // The scene's own surface is the subject; gaps of the other are a warning.
-  bool own =
-      (model->surface == SB_MODEL_SURFACE_PERSSON) == (models[which].model == SB_ROUGH_PERSSON);
+  bool own = model->surface == models[which].model;
   if (status != SB_OK) {
     // This surface model has no answer at all: the other may.
     sb_warn(&out->warnings, "study-gap-surface", local.parameter, "%s: %s", models[which].name,

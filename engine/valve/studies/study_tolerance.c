@@ -36,7 +36,7 @@ static const struct {
                       {"least return force", true}};
 
 double sb_study_tolerance_cost(const SbModel *model) {
-  double fit = sb_cost_fit((SbFitModel)model->fit);
+  double fit = sb_cost_fit(model->fit);
   double film = sb_cost_film(model->film);
   return (2 * STEPS * SIZES + 1 + 2 * FIGURES) * (2 * fit + 10 * film + SB_COST_ACTUATION);
 }
@@ -171,7 +171,7 @@ void sb_study_tolerance(SbStudyWork *work) {
   char film[32];
   sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model->film, film, sizeof film);
   sb_text(out->models, sizeof out->models, "fit %s, film %s, quasi-static cycle of the machine",
-          sb_fit_model_name((SbFitModel)model->fit), film);
+          sb_fit_model_name(model->fit), film);
   sb_text(out->validity, sizeof out->validity,
           "worst case: where every figure rises or falls with every size; root sum of squares: "
           "independent sizes, linear");

@@ -1,13 +1,13 @@
-// Which instants a film shows and how each is drawn. Picture k of n shows the frame nearest to the
+// Which instants a movie shows and how each is drawn. Picture k of n shows the frame nearest to the
 // time t0 + (t1 - t0) k/(n - 1), so that the first is the start of the range and the last its end;
 // nothing is interpolated.
-#include "app/export/film.h"
+#include "app/export/movie_pictures.h"
 
 #include "app/chart/page.h"
 
 #include <math.h>
 
-struct SbFilm {
+struct SbMoviePictures {
   const SbRenderView *view;
   const SbRenderOptions *options;
   const SbFrame *frames;
@@ -25,14 +25,15 @@ static bool fail(GError **error, const char *text) {
   return false;
 }
 
-static void take_rate(SbFilm *film, double fps) {
+static void take_rate(SbMoviePictures *film, double fps) {
   bool whole = fps == floor(fps);
   film->fps_num = (int)lround(whole ? fps : fps * 1000);
   film->fps_den = whole ? 1 : 1000;
 }
 
 // Times of the ends, from the frames they name.
-static bool take_range(SbFilm *film, const SbRun *run, const SbRenderMovie *movie, GError **error) {
+static bool take_range(SbMoviePictures *film, const SbRun *run, const SbRenderMovie *movie,
+                       GError **error) {
   size_t from = 0;
   size_t to = film->count - 1;
   GError *reason = NULL;
@@ -49,13 +50,13 @@ static bool take_range(SbFilm *film, const SbRun *run, const SbRenderMovie *movi
   return true;
 }
 
-bool sb_film_open(SbFilm **out, const SbRun *run, const SbRenderOptions *options,
-                  const SbRenderMovie *movie, GError **error) {
+bool sb_movie_pictures_open(SbMoviePictures **out, const SbRun *run, const SbRenderOptions *options,
+                            const SbRenderMovie *movie, GError **error) {
   const double fps_min = 0.1;
   const double fps_max = 1000;
   const double pictures_max = 1e6;
   *out = NULL;
-  SbFilm *film = g_new0(SbFilm, 1);
+  SbMoviePictures *film = g_new0(SbMoviePictures, 1);
   film->options = options;
   film->view = sb_render_view(options->view);
   film->frames = sb_run_frames(run, &film->count);
@@ -103,7 +104,7 @@ bool sb_film_open(SbFilm **out, const SbRun *run, const SbRenderOptions *options
   return true;
 }
 
-void sb_film_close(SbFilm *film) {
+void sb_movie_pictures_close(SbMoviePictures *film) {
   if (film == NULL) {
     return;
   }
@@ -112,26 +113,26 @@ void sb_film_close(SbFilm *film) {
   g_free(film);
 }
 
-size_t sb_film_pictures(const SbFilm *film) {
+size_t sb_movie_pictures_count(const SbMoviePictures *film) {
   return film->pictures;
 }
 
-void sb_film_size(const SbFilm *film, int *width, int *height) {
+void sb_movie_pictures_size(const SbMoviePictures *film, int *width, int *height) {
   *width = film->width;
   *height = film->height;
 }
 
-void sb_film_rate(const SbFilm *film, int *numerator, int *denominator) {
+void sb_movie_pictures_rate(const SbMoviePictures *film, int *numerator, int *denominator) {
   *numerator = film->fps_num;
   *denominator = film->fps_den;
 }
 
-const char *sb_film_comment(const SbFilm *film) {
+const char *sb_movie_pictures_comment(const SbMoviePictures *film) {
   return film->comment;
 }
 
 // Pictures come in order mostly: the search goes on from the last one's frame.
-static size_t nearest(const SbFilm *film, double time) {
+static size_t nearest(const SbMoviePictures *film, double time) {
   const SbFrame *frames = film->frames;
   size_t i = film->data.playhead;
   if (frames[i].time > time) {
@@ -143,7 +144,7 @@ static size_t nearest(const SbFilm *film, double time) {
   return i;
 }
 
-void sb_film_draw(SbFilm *film, size_t index, cairo_t *cr) {
+void sb_movie_pictures_draw(SbMoviePictures *film, size_t index, cairo_t *cr) {
   double share = film->pictures > 1 ? (double)index / (double)(film->pictures - 1) : 0;
   film->data.playhead = nearest(film, film->begin + share * (film->end - film->begin));
   const SbRenderOptions *options = film->options;

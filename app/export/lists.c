@@ -1,0 +1,120 @@
+// The JSON documents of `list`: the two catalogues, parameters and figures, and the models.
+#include "app/export/results.h"
+
+#include "app/document/unit.h"
+#include "app/export/json.h"
+
+#include <string.h>
+
+static void put_choices(SbJson *json, const SbParam *param, double fallback) {
+  char name[64];
+  sb_json_string(json, "min", NULL);
+  sb_json_string(json, "max", NULL);
+  if (param->kind == SB_PARAM_CHOICE) {
+    sb_param_choice_name(param, (int)fallback, name, sizeof name);
+    sb_json_string(json, "default", name);
+  } else {
+    sb_json_array(json, "default");
+    for (int i = 0; i < sb_param_choice_count(param); i++) {
+      if ((unsigned)fallback & 1u << i) {
+        sb_param_choice_name(param, i, name, sizeof name);
+        sb_json_string(json, NULL, name);
+      }
+    }
+    sb_json_array_end(json);
+  }
+  sb_json_array(json, "choices");
+  for (int i = 0; i < sb_param_choice_count(param); i++) {
+    sb_param_choice_name(param, i, name, sizeof name);
+    sb_json_string(json, NULL, name);
+  }
+  sb_json_array_end(json);
+}
+
+char *sb_results_params(void) {
+  static const char *const kinds[] = {"real", "integer", "choice", "flags"};
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_array(&json, NULL);
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    sb_json_object(&json, NULL);
+    sb_json_string(&json, "key", param->key);
+    sb_json_string(&json, "kind", kinds[param->kind]);
+    sb_json_string(&json, "symbol", param->symbol);
+    // min, max and default are SI; people see display_unit.
+    sb_json_string(&json, "unit", param->si);
+    sb_json_string(&json, "display_unit", param->unit);
+    if (param->choices != NULL) {
+      put_choices(&json, param, param->fallback);
+    } else {
+      sb_json_number(&json, "min", param->min);
+      sb_json_number(&json, "max", param->max);
+      sb_json_number(&json, "default", param->fallback);
+    }
+    sb_json_string(&json, "help", param->help);
+    sb_json_string(&json, "source", param->source);
+    sb_json_string(&json, "tag", param->tag);
+    sb_json_object_end(&json);
+  }
+  sb_json_array_end(&json);
+  return sb_json_finish(&json);
+}
+
+char *sb_results_figures(void) {
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_array(&json, NULL);
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    const SbFigure *figure = sb_figure(i);
+    g_autofree char *label = sb_figure_label(i);
+    g_autofree char *estimate = *figure->estimate != '\0'
+                                    ? g_strconcat("solver.error_estimate.", figure->estimate, NULL)
+                                    : NULL;
+    sb_json_object(&json, NULL);
+    sb_json_string(&json, "key", figure->path);
+    sb_json_string(&json, "unit", figure->si);
+    sb_json_string(&json, "display_unit", figure->shown);
+    sb_json_string(&json, "label", label);
+    sb_json_string(&json, "help", figure->help);
+    sb_json_string(&json, "better", sb_better_name(figure->better));
+    sb_json_string(&json, "error_estimate", estimate);
+    sb_json_string(&json, "verdict",
+                   figure->verdict != SB_VERDICT_NONE ? sb_verdict_name(figure->verdict) : NULL);
+    sb_json_object_end(&json);
+  }
+  sb_json_array_end(&json);
+  return sb_json_finish(&json);
+}
+
+char *sb_results_models(void) {
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_array(&json, NULL);
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    for (int k = 0; g_str_has_prefix(param->key, "models.") && k < sb_param_choice_count(param);
+         k++) {
+      char name[64];
+      sb_param_choice_name(param, k, name, sizeof name);
+      sb_json_object(&json, NULL);
+      sb_json_string(&json, "key", param->key);
+      sb_json_string(&json, "name", name);
+      sb_json_bool(&json, "default", k == (int)param->fallback);
+      sb_json_object_end(&json);
+    }
+  }
+  // Film models that only the command `film` has.
+  for (int k = 0; k < SB_FILM_MODEL_COUNT; k++) {
+    const char *name = sb_film_model_name((SbFilmModel)k);
+    if (sb_param_choice(sb_param(SB_P_MODELS_FILM), name, strlen(name)) < 0) {
+      sb_json_object(&json, NULL);
+      sb_json_string(&json, "key", "film");
+      sb_json_string(&json, "name", name);
+      sb_json_bool(&json, "default", false);
+      sb_json_object_end(&json);
+    }
+  }
+  sb_json_array_end(&json);
+  return sb_json_finish(&json);
+}
