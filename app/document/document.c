@@ -86,12 +86,14 @@ static bool has_own_names(const char *group) {
 // Whether any key stands in `group`; else an issue.
 static bool check_group(const SbEntry *entry, const char *shown, GPtrArray *issues) {
   SbNearest nearest = sb_nearest(entry->group);
+  g_autoptr(GPtrArray) groups = g_ptr_array_new_with_free_func(g_free); // for as long as `nearest`
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
-    g_autofree char *group = group_of((SbParamId)i);
+    char *group = group_of((SbParamId)i);
+    g_ptr_array_add(groups, group);
     if (strcmp(group, entry->group) == 0) {
       return true;
     }
-    sb_nearest_try(&nearest, g_intern_string(group));
+    sb_nearest_try(&nearest, group);
   }
   sb_nearest_try(&nearest, SB_LIMITS_GROUP);
   sb_nearest_try(&nearest, SB_CASES_GROUP);

@@ -11,6 +11,7 @@
 
 #include <locale.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +25,7 @@ typedef struct {
   double zero;  // SI value of none: other than 0 for points of a scale of temperature only
 } Scale;
 
-static GMutex lock;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
 // A unit may hold digits as exponents only ("m3", "s-2") or as the leading "1/" of a reciprocal;
 // "mm 10" or "5 mm" inside a unit would be silent factors.
@@ -94,7 +95,7 @@ static Scale find_scale(const char *unit, const char *si) {
   }
   static GHashTable *remembered = NULL;
   char *pair = g_strdup_printf("%s|%s", unit, si);
-  g_mutex_lock(&lock);
+  pthread_mutex_lock(&lock);
   if (remembered == NULL) {
     remembered = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
   }
@@ -116,7 +117,7 @@ static Scale find_scale(const char *unit, const char *si) {
       g_hash_table_insert(remembered, g_strdup(pair), g_memdup2(&scale, sizeof scale));
     }
   }
-  g_mutex_unlock(&lock);
+  pthread_mutex_unlock(&lock);
   g_free(pair);
   return scale;
 }

@@ -64,7 +64,7 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   }
   out->kind = kind;
   out->complete = true;
-  SbStudyWork work = {out, model, *model, NULL, hooks, report, SB_OK, 0, 0};
+  SbStudyWork work = {out, model, *model, NULL, hooks, report, SB_OK, 0, entry->cost(model)};
   work.status = sb_evaluator_create(&work.evaluator, report);
   sb_study_step(&work, 0);
   if (work.status == SB_OK) {
@@ -140,6 +140,19 @@ void sb_study_point(SbStudySeries *series, double x, double y) {
   size_t at = next(&series->count, SB_STUDY_POINTS);
   series->x[at] = x;
   series->y[at] = y;
+}
+
+void sb_study_curve(SbStudy *out, SbStudyStyle style, const char *name) {
+  for (size_t i = 0; i < out->panel_count; i++) {
+    sb_study_series(&out->panel[i], style, "%s", name);
+  }
+}
+
+void sb_study_put(SbStudy *out, double x, const double *y) {
+  for (size_t i = 0; i < out->panel_count; i++) {
+    SbStudyPanel *panel = &out->panel[i];
+    sb_study_point(&panel->series[panel->series_count - 1], x, y[i]);
+  }
 }
 
 void sb_study_mark(SbStudy *out, double x, const char *format, ...) {
@@ -243,8 +256,12 @@ static void account(SbStudyWork *work, SbStatus status) {
   if (summary == NULL) {
     return;
   }
-  size_t fits = summary->counters.disc_solves + summary->counters.ring_solves;
-  out->solves += fits + summary->counters.reynolds_solves;
+  const SbCounters *counters = &summary->counters;
+  size_t fits = counters->disc_solves + counters->ring_solves;
+  work->spent += (double)counters->ring_solves * SB_COST_RING +
+                 (double)counters->disc_solves * SB_COST_DISC +
+                 (double)counters->reynolds_solves * SB_COST_FILM;
+  out->solves += fits + counters->reynolds_solves;
   if (status != SB_OK) {
     return;
   }
@@ -299,14 +316,19 @@ void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, siz
             what, report.text);
     work->out->complete = work->out->complete && status != SB_ERROR_NOT_CONVERGED;
   }
-  work->spent += model != NULL ? sb_cost_fit((SbFitModel)model->fit) : 0;
   sb_study_step(work, fmin(work->spent / work->total, 1));
 }
 
+SbStudyContact sb_study_contact(SbStudyWork *work, const SbOverride *override, size_t overrides) {
+  static const char *const paths[] = {"seals.outer.load_N", "seals.outer.pressure_peak_Pa",
+                                      "seals.outer.contact_width_m"};
+  double value[3];
+  sb_study_ask(work, value, paths, 3, override, overrides);
+  return (SbStudyContact){value[0], value[1], value[2]};
+}
+
 double sb_study_net_load(SbStudyWork *work) {
-  static const char *const width[] = {"seals.outer.contact_width_m"};
-  double value;
-  sb_study_ask(work, &value, width, 1, NULL, 0);
+  double width = sb_study_contact(work, NULL, 0).width;
   const SbSummary *summary = sb_evaluator_summary(work->evaluator);
-  return summary != NULL ? summary->seal[SB_OUTER].contact_pressure * value : NAN;
+  return summary != NULL ? summary->seal[SB_OUTER].contact_pressure * width : NAN;
 }

@@ -133,8 +133,7 @@ static bool find_opening(double *from, double *to, const double *at, const Figur
 }
 
 // Into the series, by rising squeeze.
-static void put_points(SbStudySeries *p, SbStudySeries *q, SbStudySeries *v, const double *at,
-                       const Figures *figures, int count) {
+static void put_points(SbStudy *out, const double *at, const Figures *figures, int count) {
   double last = -INFINITY;
   for (int n = 0; n < count; n++) {
     int next = -1;
@@ -147,9 +146,8 @@ static void put_points(SbStudySeries *p, SbStudySeries *q, SbStudySeries *v, con
       return;
     }
     last = at[next];
-    sb_study_point(p, last, figures[next].pressure);
-    sb_study_point(q, last, figures[next].leak > 0 ? figures[next].leak : NAN);
-    sb_study_point(v, last, figures[next].stroke);
+    const Figures *f = &figures[next];
+    sb_study_put(out, last, (const double[]){f->pressure, f->leak > 0 ? f->leak : NAN, f->stroke});
   }
 }
 
@@ -158,15 +156,13 @@ static void draw(SbStudyWork *work, const Line *lines, int count, double closing
   SbStudyPanel *pressure =
       sb_study_panel(out, "pressure of the rubber on the bore", "Pa", "MPa", false);
   SbStudyPanel *rest = sb_study_panel(out, "leak at rest", "m3/s", "\xc2\xb5l/h", true);
-  SbStudyPanel *stroke = sb_study_panel(out, "carried out per stroke", "m3", "nl", false);
+  sb_study_panel(out, "carried out per stroke", "m3", "nl", false);
   sb_text(rest->empty, sizeof rest->empty, "no leak: every contact is closed");
   double lo = work->scene->study.squeeze_min, hi = work->scene->study.squeeze_max;
   for (const Line *line = lines; line < lines + count; line++) {
     char name[40];
     line_name(name, sizeof name, line, work->scene);
-    SbStudySeries *p = sb_study_series(pressure, SB_STUDY_CURVE, "%s", name);
-    SbStudySeries *q = sb_study_series(rest, SB_STUDY_CURVE, "%s", name);
-    SbStudySeries *v = sb_study_series(stroke, SB_STUDY_CURVE, "%s", name);
+    sb_study_curve(out, SB_STUDY_CURVE, name);
     double at[POINTS + FINE];
     Figures figures[POINTS + FINE];
     int points = points_of(line);
@@ -183,8 +179,8 @@ static void draw(SbStudyWork *work, const Line *lines, int count, double closing
         points++;
       }
     }
-    put_points(p, q, v, at, figures, points);
-    tell(out, p, closing);
+    put_points(out, at, figures, points);
+    tell(out, &pressure->series[pressure->series_count - 1], closing);
   }
   SbStudySeries *limit = sb_study_series(pressure, SB_STUDY_REFERENCE, "channels close");
   sb_study_point(limit, lo, closing);
@@ -253,10 +249,6 @@ void sb_study_leak(SbStudyWork *work) {
   sb_study_fix_outer(work);
   Line lines[LINES];
   int count = choose_lines(lines, model);
-  for (int m = 0; m < count; m++) {
-    int table_rows = lines[m].share < 1 ? 0 : ROWS;
-    work->total += 2 * (points_of(&lines[m]) + FINE + table_rows) * sb_cost_fit(lines[m].fit);
-  }
   sb_study_axis(&out->x, "squeeze of the free section", "1", "%", false);
   draw(work, lines, count, closed.closing_pressure);
   table(work, lines, count);

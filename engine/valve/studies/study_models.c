@@ -32,9 +32,7 @@ static const struct {
 };
 
 // Printed "current analysis": tables 7.2, 7.3, 7.4; the loads at 0.13 and 0.7 MPa from W* of 7.9.
-typedef struct {
-  double load, peak, width;
-} Figures;
+typedef SbStudyContact Figures;
 
 #define WSTAR_LOAD(w) ((w)*6.5725e6 * 0.805e-3 * M_PI * 4.64e-3)
 
@@ -55,7 +53,7 @@ static const Figures printed[CASES] = {
 };
 
 double sb_study_models_cost(const SbModel *model) {
-  return 10 * (2 * SB_COST_RING + 2 * SB_COST_DISC);
+  return (CASES + 1) * (SB_COST_RING + 2 * SB_COST_DISC);
 }
 
 static bool near(double a, double b) {
@@ -73,8 +71,6 @@ static bool is_thesis(const SbModel *model) {
 // Case `index`: the pressures first, then the steps of size at the canister's pressure, which is
 // the last case of all.
 static Figures solve(SbStudyWork *work, int model, int index) {
-  static const char *const paths[] = {"seals.outer.load_N", "seals.outer.pressure_peak_Pa",
-                                      "seals.outer.contact_width_m"};
   const SbSealModel *ring = &work->scene->seal[SB_OUTER];
   int step = index - PRESSURES;
   bool steps_size = step >= 0 && step < STEPS;
@@ -85,9 +81,7 @@ static Figures solve(SbStudyWork *work, int model, int index) {
        ring->section_diameter + (steps_size ? steps[step].section : 0)},
       {SB_P_SEAL_OUTER_INNER_DIAMETER, ring->inner_diameter + (steps_size ? steps[step].inner : 0)},
   };
-  double value[3];
-  sb_study_ask(work, value, paths, 3, override, sizeof override / sizeof override[0]);
-  return (Figures){value[0], value[1], value[2]};
+  return sb_study_contact(work, override, sizeof override / sizeof override[0]);
 }
 
 static double coefficient(const SbModel *model, const Figures *f) {
@@ -193,32 +187,25 @@ void sb_study_models(SbStudyWork *work) {
                                {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE}};
   sb_study_fix_outer(work);
   sb_study_fix(work, smooth, sizeof smooth / sizeof smooth[0]);
-  work->total = (CASES + 1) * (SB_COST_RING + 2 * SB_COST_DISC);
   Figures all[MODELS][CASES];
   Figures central[MODELS];
   solve_all(work, all, central);
   sb_study_axis(&out->x, "pressure on the outer seal", "Pa", "MPa", false);
-  SbStudyPanel *panels[] = {
-      sb_study_panel(out, "load", "N", "N", false),
-      sb_study_panel(out, "peak pressure", "Pa", "MPa", false),
-      sb_study_panel(out, "contact width", "m", "mm", false),
-      sb_study_panel(out, "friction coefficient by shear strength", "1", "", false),
-  };
+  sb_study_panel(out, "load", "N", "N", false);
+  sb_study_panel(out, "peak pressure", "Pa", "MPa", false);
+  sb_study_panel(out, "contact width", "m", "mm", false);
+  SbStudyPanel *share =
+      sb_study_panel(out, "friction coefficient by shear strength", "1", "", false);
   for (int m = 0; m < MODELS; m++) {
-    SbStudySeries *series[4];
-    for (int q = 0; q < 4; q++) {
-      series[q] = sb_study_series(panels[q], models[m].style, "%s", models[m].name);
-    }
+    sb_study_curve(out, models[m].style, models[m].name);
     for (int c = 0; c < PRESSURES; c++) {
       const Figures *f = &all[m][c];
-      sb_study_point(series[0], pressures[c], f->load);
-      sb_study_point(series[1], pressures[c], f->peak);
-      sb_study_point(series[2], pressures[c], f->width);
-      sb_study_point(series[3], pressures[c], coefficient(model, f));
+      sb_study_put(out, pressures[c],
+                   (const double[]){f->load, f->peak, f->width, coefficient(model, f)});
     }
   }
-  SbStudySeries *measured = sb_study_series(panels[3], SB_STUDY_REFERENCE, "measured 0.51");
-  SbStudySeries *predicted = sb_study_series(panels[3], SB_STUDY_REFERENCE, "table 7.8: 0.4");
+  SbStudySeries *measured = sb_study_series(share, SB_STUDY_REFERENCE, "measured 0.51");
+  SbStudySeries *predicted = sb_study_series(share, SB_STUDY_REFERENCE, "table 7.8: 0.4");
   for (int c = 0; c < PRESSURES; c += PRESSURES - 1) {
     sb_study_point(measured, pressures[c], 0.51);
     sb_study_point(predicted, pressures[c], 0.4);

@@ -18,7 +18,7 @@ typedef struct {
   const SbStudyHooks *hooks;
   SbReport *report;
   SbStatus status;
-  double spent, total; // fitments asked for and to be asked for, by their costs
+  double spent, total; // [s] what questions have cost, and what the study will
 } SbStudyWork;
 
 #define SB_STUDY_DECLARE(code, function, name, title, help)                                        \
@@ -51,6 +51,13 @@ void sb_study_squeezed(SbOverride out[SB_STUDY_SQUEEZED], const SbStudyWork *wor
 void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, size_t paths,
                   const SbOverride *override, size_t overrides);
 
+// The outer seal's contact by overrides of the base.
+typedef struct {
+  double load, peak, width; // [N], [Pa], [m]
+} SbStudyContact;
+
+SbStudyContact sb_study_contact(SbStudyWork *work, const SbOverride *override, size_t overrides);
+
 // Net load per length of the scene's outer seal at rest under its pressures [N/m]; NaN: none.
 double sb_study_net_load(SbStudyWork *work);
 
@@ -75,6 +82,10 @@ SbStudyRow *sb_study_row(SbStudy *out, const char *si, const char *unit, const c
 
 // Appends a point.
 void sb_study_point(SbStudySeries *series, double x, double y);
+
+// A series of one name in every panel, and a point of the newest in each: y[panel_count].
+void sb_study_curve(SbStudy *out, SbStudyStyle style, const char *name);
+void sb_study_put(SbStudy *out, double x, const double *y);
 
 void sb_study_mark(SbStudy *out, double x, const char *format, ...) SB_PRINTF(3, 4);
 void sb_study_note(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);

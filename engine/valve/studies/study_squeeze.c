@@ -32,31 +32,22 @@ static const struct {
 
 // Squeezes of the table beside the design's own.
 static const double table_squeeze[] = {0.10, 0.20, 0.30, 0.40};
-enum { TABLE = sizeof table_squeeze / sizeof table_squeeze[0], FIGURES = 3 };
+enum { TABLE = sizeof table_squeeze / sizeof table_squeeze[0] };
 
 double sb_study_squeeze_cost(const SbModel *model) {
-  return 41 * SB_COST_RING + 80 * SB_COST_DISC;
+  return 2 * (20 + 1 + TABLE) * SB_COST_RING + 2 * (39 + 1 + TABLE) * SB_COST_DISC;
 }
 
-// Figures of one model at one squeeze.
-typedef struct {
-  double load, peak, width;
-} Figures;
-
-static Figures solve(SbStudyWork *work, int index, double squeeze) {
-  static const char *const paths[FIGURES] = {"seals.outer.load_N", "seals.outer.pressure_peak_Pa",
-                                             "seals.outer.contact_width_m"};
+// One model at one squeeze.
+static SbStudyContact solve(SbStudyWork *work, int index, double squeeze) {
   const SbModel *scene = work->scene;
+  double floor = scene->bore_diameter - 2 * scene->radial_space;
+  double inner = models[index].stretched ? scene->seal[SB_OUTER].inner_diameter : floor;
   SbOverride override[SB_STUDY_SQUEEZED + 2];
   sb_study_squeezed(override, work, squeeze);
   override[3] = (SbOverride){SB_P_MODELS_FIT, models[index].model};
-  double floor = scene->bore_diameter - 2 * scene->radial_space;
-  override[4] =
-      (SbOverride){SB_P_SEAL_OUTER_INNER_DIAMETER,
-                   models[index].stretched ? scene->seal[SB_OUTER].inner_diameter : floor};
-  double value[FIGURES];
-  sb_study_ask(work, value, paths, FIGURES, override, SB_STUDY_SQUEEZED + 2);
-  return (Figures){value[0], value[1], value[2]};
+  override[4] = (SbOverride){SB_P_SEAL_OUTER_INNER_DIAMETER, inner};
+  return sb_study_contact(work, override, SB_STUDY_SQUEEZED + 2);
 }
 
 static double difference(double value, double ring) {
@@ -74,26 +65,19 @@ void sb_study_squeeze(SbStudyWork *work) {
                             {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE}};
   sb_study_fix_outer(work);
   sb_study_fix(work, dry, sizeof dry / sizeof dry[0]);
-  work->total = 2 * (20 + 1 + TABLE) * SB_COST_RING + 2 * (39 + 1 + TABLE) * SB_COST_DISC;
   sb_study_axis(&out->x, "squeeze of the free section", "1", "%", false);
-  SbStudyPanel *load = sb_study_panel(out, "load", "N", "N", false);
-  SbStudyPanel *peak = sb_study_panel(out, "peak pressure", "Pa", "MPa", false);
-  SbStudyPanel *width = sb_study_panel(out, "contact width", "m", "mm", false);
+  sb_study_panel(out, "load", "N", "N", false);
+  sb_study_panel(out, "peak pressure", "Pa", "MPa", false);
+  sb_study_panel(out, "contact width", "m", "mm", false);
   sb_study_mark(out, design, "as designed, %.1f %%", 100 * design);
 
-  Figures at_design[MODELS], at_table[MODELS][TABLE];
+  SbStudyContact at_design[MODELS], at_table[MODELS][TABLE];
   for (int m = 0; m < MODELS; m++) {
-    SbStudySeries *series[FIGURES] = {
-        sb_study_series(load, models[m].style, "%s", models[m].name),
-        sb_study_series(peak, models[m].style, "%s", models[m].name),
-        sb_study_series(width, models[m].style, "%s", models[m].name),
-    };
+    sb_study_curve(out, models[m].style, models[m].name);
     for (int i = 0; i < models[m].points; i++) {
       double s = lo + (hi - lo) * i / (models[m].points - 1);
-      Figures f = solve(work, m, s);
-      sb_study_point(series[0], s, f.load);
-      sb_study_point(series[1], s, f.peak);
-      sb_study_point(series[2], s, f.width);
+      SbStudyContact f = solve(work, m, s);
+      sb_study_put(out, s, (const double[]){f.load, f.peak, f.width});
     }
     at_design[m] = solve(work, m, design);
     for (int k = 0; k < TABLE; k++) {
@@ -115,7 +99,7 @@ void sb_study_squeeze(SbStudyWork *work) {
   }
   for (int m = 0; m < MODELS; m++) {
     SbStudyRow *row = sb_study_row(out, NULL, NULL, "%s", models[m].name);
-    const Figures *f = &at_design[m], *r = &at_design[RING];
+    const SbStudyContact *f = &at_design[m], *r = &at_design[RING];
     row->value[0] = f->load;
     row->value[1] = difference(f->load, r->load);
     row->value[2] = f->peak;

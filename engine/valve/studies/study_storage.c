@@ -122,7 +122,6 @@ void sb_study_storage(SbStudyWork *work) {
   const SbModel *model = work->scene;
   double scene_time = model->seal[SB_OUTER].stored.storage_time;
   sb_study_fix_machine(work);
-  work->total = (POINTS + ROWS_MAX) * sb_cost_fit((SbFitModel)model->fit);
   sb_study_axis(&out->x, "storage time", "s", "day", true);
   draw(work);
   table(work, scene_time);

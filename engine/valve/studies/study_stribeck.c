@@ -132,20 +132,17 @@ void sb_study_stribeck(SbStudyWork *work) {
   }
   sb_study_axis(&out->x, "sliding speed", "m/s", "mm/s", true);
   SbStudyPanel *friction = sb_study_panel(out, "coefficient of friction", "1", "", true);
-  SbStudyPanel *share = sb_study_panel(out, "load that asperities bear", "1", "%", false);
+  sb_study_panel(out, "load that asperities bear", "1", "%", false);
   SbStudyPanel *film = sb_study_panel(out, "central film over roughness", "1", "", true);
   for (int m = 0; m < MODELS; m++) {
     SbStribeckPoint *own = points + m * POINTS;
     solve(work, own, m, load);
-    SbStudySeries *f = sb_study_series(friction, SB_STUDY_CURVE, "%s", models[m].name);
-    SbStudySeries *s = sb_study_series(share, SB_STUDY_CURVE, "%s", models[m].name);
-    SbStudySeries *h = sb_study_series(film, SB_STUDY_CURVE, "%s", models[m].name);
+    sb_study_curve(out, SB_STUDY_CURVE, models[m].name);
     for (int i = 0; i < POINTS; i++) {
-      bool good = own[i].converged;
-      out->error = fmax(out->error, good ? own[i].error : 0);
-      sb_study_point(f, own[i].speed, good ? own[i].coefficient : NAN);
-      sb_study_point(s, own[i].speed, good ? own[i].asperity_share : NAN);
-      sb_study_point(h, own[i].speed, good ? own[i].film_ratio : NAN);
+      const double y[] = {own[i].coefficient, own[i].asperity_share, own[i].film_ratio};
+      static const double none[] = {NAN, NAN, NAN};
+      out->error = fmax(out->error, own[i].converged ? own[i].error : 0);
+      sb_study_put(out, own[i].speed, own[i].converged ? y : none);
     }
     sb_study_step(work, 0.9 * (m + 1) / MODELS);
   }

@@ -151,7 +151,6 @@ void sb_study_tolerance(SbStudyWork *work) {
     return;
   }
   sb_study_fix_machine(work);
-  work->total = (2 * STEPS * SIZES + 1 + 2 * FIGURES) * sb_cost_fit((SbFitModel)model->fit);
   Grid grid;
   fill(work, &grid);
   table(work, &grid);
