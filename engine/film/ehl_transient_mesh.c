@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "engine/film/ehl.h"
-#include "engine/film/transient_internal.h"
+#include "engine/film/ehl_transient.h"
 #include "engine/numeric/legendre.h"
 
 static const double RESOLVED = 4.5e-3; // spacing for the dip of a reversal, 0.02 b wide
