@@ -115,10 +115,8 @@ static void add_element(SbEhlFittedWork *work, double *state, double *state_slop
   }
 }
 
-// The ambient pressures up to the ends of the mesh, `begin` and `end` from the axis, less the lower
-// one everywhere; `slope` takes the derivatives to the shift.
-static void add_ambient(double *out, double *slope, const SbFilmBody *body, double inlet,
-                        double outlet, double begin, double end) {
+void sb_film_ambient(double *out, double *slope, const SbFilmBody *body, double inlet,
+                     double outlet, double begin, double end) {
   const SbSurfaceCompliance *c = body->compliance;
   const double unit = body->side * body->half_width;
   const double low = fmin(inlet, outlet);
@@ -137,9 +135,7 @@ static void add_ambient(double *out, double *slope, const SbFilmBody *body, doub
   }
 }
 
-// The tilt of unequal ambient pressures belongs to the window, a mesh gives it to |X| < 1: what is
-// to be added to the gap, over X.
-static double window_tilt(const SbFilmBody *body, double inlet, double outlet) {
+double sb_film_window_tilt(const SbFilmBody *body, double inlet, double outlet) {
   const SbSurfaceCompliance *c = body->compliance;
   return -(inlet - outlet) / M_PI * log(0.5 * (c->right - c->left) / body->half_width);
 }
@@ -159,8 +155,8 @@ void sb_ehl_fitted(double *kernel, double *gaps, double *slope, const SbEhlTable
   for (int i = 0; i < mesh->count; i++) {
     add_element(work, state, state_slope, tables, &mesh->element[i], nodal, shift, body);
   }
-  add_ambient(state, state_slope, body, mesh->inlet_pressure, mesh->outlet_pressure,
-              mesh->left_end + shift, mesh->right_end + shift);
+  sb_film_ambient(state, state_slope, body, mesh->inlet_pressure, mesh->outlet_pressure,
+                  mesh->left_end + shift, mesh->right_end + shift);
 
   // S times the moments, without the constant that H0 takes up anyway: it would only cost digits of
   // thin films. Of the basis, of the pressure, of its derivative.
@@ -177,7 +173,7 @@ void sb_ehl_fitted(double *kernel, double *gaps, double *slope, const SbEhlTable
     }
   }
 
-  const double tilt = window_tilt(body, mesh->inlet_pressure, mesh->outlet_pressure);
+  const double tilt = sb_film_window_tilt(body, mesh->inlet_pressure, mesh->outlet_pressure);
   for (int i = 0; i < mesh->targets; i++) {
     double *value = work->value[i];
     double derivative[MODES];

@@ -37,13 +37,17 @@ void sb_ehl_carry(SbFilmSolver *solver, int from, int to, const SbEhlLayers *bef
     const SbEhlTable *t = sb_ehl_table(&solver->tables, f->degree);
     bool infinite = sb_ehl_infinite(f);
     for (int k = 0; k <= f->degree; k++) {
-      // For the node at infinity a place near it.
+      // For the node at infinity a place near it, if there is no such node to take.
       double r = t->node[k];
       bool far = (f->map == SB_EHL_INLET && k == 0) || (f->map == SB_EHL_OUTLET && k == f->degree);
       r = far ? 0.98 * r : r;
       double s = sb_ehl_inverse(f, r);
       double X = sb_ehl_position(f, r);
       const SbEhlElement *e = source(&r, a, i, same, X);
+      if (far && e->map == f->map && e->B == f->B) {
+        new->nodal[f->first_dof + k] = old->nodal[e->first_dof + (k == 0 ? 0 : e->degree)];
+        continue;
+      }
       double value = !same && X > a->right_end && e->map != SB_EHL_OUTLET
                          ? 0.0
                          : sb_ehl_pressure(a, &solver->tables, e, old->nodal, r);

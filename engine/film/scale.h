@@ -45,6 +45,15 @@ SbStatus sb_film_scale_fitted(SbFilmScale *scale, SbDryContact *dry, const SbFil
 // Body of `problem` in those scales; without a compliance if it is the half-plane.
 SbFilmBody sb_film_body(const SbFilmProblem *problem, const SbFilmScale *scale);
 
+// Moments of the ambient pressures up to the ends of a mesh, `begin` and `end` from the axis, less
+// the lower one everywhere, added to `out`; to `slope` their derivatives to the axis.
+void sb_film_ambient(double *out, double *slope, const SbFilmBody *body, double inlet,
+                     double outlet, double begin, double end);
+
+// The tilt of unequal ambient pressures belongs to the window, a mesh gives it to |X| < 1: what is
+// to be added to the gap, over X.
+double sb_film_window_tilt(const SbFilmBody *body, double inlet, double outlet);
+
 // Dry contact at rest of a fitted body.
 void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryContact *dry);
 

@@ -1,6 +1,6 @@
 // Transient film: steady limits against the spectral solver, squeezing and transport against
 // closed forms, balances at every step, order in time, independence of the steps asked for.
-#include "engine/film/transient_internal.h"
+#include "engine/film/ehl_transient.h"
 
 #include <glib.h>
 #include <math.h>

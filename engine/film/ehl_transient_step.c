@@ -5,7 +5,7 @@
 // front stands, a coarse cell is wider than the layers or the upwind node
 // lies in a cavity, so that fronts stay monotonic; faces that move with the fluid let none through.
 // Unknown of a node is its pressure or its void, whichever is not zero.
-#include "engine/film/transient_internal.h"
+#include "engine/film/ehl_transient.h"
 
 #include "engine/numeric/dense.h"
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "engine/film/ehl.h"
-#include "engine/film/transient_internal.h"
+#include "engine/film/ehl_transient.h"
 #include "engine/numeric/legendre.h"
 
 static const double RESOLVED = 4.5e-3; // spacing for the dip of a reversal, 0.02 b wide
@@ -111,9 +111,9 @@ void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest) {
   build_kernel(t, solver);
 }
 
-// Smooth part of a fitted body on the nodes, added to `present` and its known gap: moments of the
-// nodes' hats, S, and the polynomials at the nodes. Beyond the window the pressure counts as far as
-// it differs from the ambient one. The constant is H0's.
+// Smooth part of a fitted body on the nodes, added to `present` and its known gap, as in
+// ehl_fitted.c: moments of the nodes' hats inside the window, S, and the polynomials at the nodes.
+// The constant is H0's.
 static void add_smooth(SbFilmTransient *t, double half, double middle) {
   enum { POINTS = 3, MODES = SB_COMPLIANCE_MODES };
   const SbSurfaceCompliance *c = &t->compliance;
@@ -125,34 +125,27 @@ static void add_smooth(SbFilmTransient *t, double half, double middle) {
   memset(t->moment, 0, sizeof t->moment);
   double value[MODES];
   for (int j = 0; j + 1 < n; j++) {
-    const double h = t->X[j + 1] - t->X[j];
-    for (int q = 0; q < POINTS; q++) {
-      const double s = 0.5 * (1.0 + node[q]);
-      sb_compliance_modes(c, b * (middle + half * (t->X[j] + s * h)), value, NULL);
+    const double x = b * (middle + half * t->X[j]);
+    const double h = half * (t->X[j + 1] - t->X[j]);
+    const double from = fmax((c->left - x) / (b * h), 0.0);
+    const double to = fmin((c->right - x) / (b * h), 1.0);
+    for (int q = 0; q < POINTS && from < to; q++) {
+      const double s = 0.5 * (from + to) + 0.5 * (to - from) * node[q];
+      sb_compliance_modes(c, x + s * b * h, value, NULL);
       for (int k = 0; k < c->modes; k++) {
-        t->moment[k][j] += half * 0.5 * h * weight[q] * (1.0 - s) * value[k];
-        t->moment[k][j + 1] += half * 0.5 * h * weight[q] * s * value[k];
+        const double part = 0.5 * (to - from) * h * weight[q] * value[k];
+        t->moment[k][j] += part * (1.0 - s);
+        t->moment[k][j + 1] += part * s;
       }
     }
   }
-  const double left = b * (middle + half * t->X[0]);
-  const double right = b * (middle + half * t->X[n - 1]);
-  double before[MODES], after[MODES], whole[MODES], at_left[MODES], at_right[MODES];
-  sb_compliance_integrals(c, fmin(c->left, left), left, before);
-  sb_compliance_integrals(c, right, fmax(c->right, right), after);
-  sb_compliance_integrals(c, c->left, c->right, whole);
-  sb_compliance_modes(c, c->left, at_left, NULL);
-  sb_compliance_modes(c, c->right, at_right, NULL);
-  double known[MODES];
-  for (int k = 0; k < c->modes; k++) {
-    known[k] = (t->inlet * (before[k] - fmax(c->left - left, 0.0) * at_left[k]) +
-                t->outlet * (after[k] - fmax(right - c->right, 0.0) * at_right[k]) -
-                fmin(t->inlet, t->outlet) * whole[k]) /
-               b;
-  }
+  double known[MODES] = {0}, by_axis[MODES] = {0};
+  const SbFilmBody body = {c, 1.0, b, t->scale.film};
+  const SbFilmBody breathing = {c, 1.0, half * b, t->scale.film};
+  sb_film_ambient(known, by_axis, &body, t->inlet, t->outlet, middle + half * t->X[0],
+                  middle + half * t->X[n - 1]);
+  const double tilt = half * sb_film_window_tilt(&breathing, t->inlet, t->outlet);
   const double factor = 0.25 * c->modulus; // p_H b over the film's scale
-  const double window = 0.5 * (c->right - c->left) / (half * b);
-  const double tilt = -(t->inlet - t->outlet) / M_PI * log(window) * half;
   for (int i = 0; i < n; i++) {
     sb_compliance_modes(c, b * (middle + half * t->X[i]), value, NULL);
     double *row = t->present + (size_t)i * (size_t)n;

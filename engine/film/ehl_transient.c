@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/film/transient_internal.h"
+#include "engine/film/ehl_transient.h"
 
 static const double TRAVEL = 1.0; // largest way of the fluid in a step, in cells
 // Of the largest local error of a step against the mean's: the least film is local.
