@@ -7,6 +7,8 @@
 #include "engine/contact/disc/disc_thesis.h"
 #include "engine/contact/fit.h"
 
+#include "tests/engine/near.h"
+#include "tests/engine/seals.h"
 #include "tests/pace.h"
 
 #include <glib.h>
@@ -16,18 +18,6 @@
 #define D  1.61e-3
 #define E  2.5e6
 #define NU 0.49
-
-#define assert_close(value, expected, relative)                                                    \
-  g_assert_cmpfloat(fabs((value) - (expected)), <=, (relative)*fabs(expected))
-
-static bool warned(const SbWarnings *list, const char *code) {
-  for (size_t i = 0; i < list->count; i++) {
-    if (g_str_equal(list->item[i].code, code)) {
-      return true;
-    }
-  }
-  return false;
-}
 
 static SbDiscProblem disc_problem(SbDiscVariant variant, double squeeze, double left,
                                   double right) {
@@ -430,21 +420,6 @@ static void test_limits(void) {
 }
 
 // ---- through the common interface
-
-static SbFitProblem thesis(SbFitModel model) {
-  return (SbFitProblem){
-      .model = model,
-      .section_diameter = 1.61e-3,
-      .inner_diameter = 2.84e-3,
-      .modulus = E,
-      .poisson_ratio = NU,
-      .housing_modulus = 2.6e9,
-      .housing_poisson = 0.35,
-      .radial_space = 1.36e-3,
-      .bore_diameter = 6.0e-3,
-      .gland_width = 2.0e-3,
-  };
-}
 
 // The nine cases of the thesis (tables 7.2-7.4 and the loads of 7.9), "current analysis": 2.5 % in
 // load, 2 % in peak, 0.03 mm in width.

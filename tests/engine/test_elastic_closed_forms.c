@@ -6,37 +6,11 @@
 #include "engine/contact/closed/lindley.h"
 #include "engine/contact/closed/reduced_modulus.h"
 #include "engine/contact/fit.h"
+#include "tests/engine/near.h"
+#include "tests/engine/seals.h"
 
 #include <glib.h>
 #include <math.h>
-
-#define assert_close(value, expected, relative)                                                    \
-  g_assert_cmpfloat(fabs((value) - (expected)), <=, (relative)*fabs(expected))
-
-// The valve of the thesis (tables 7.1 and section 7.2.1), unpressurised.
-static SbFitProblem thesis(SbFitModel model) {
-  return (SbFitProblem){
-      .model = model,
-      .section_diameter = 1.61e-3,
-      .inner_diameter = 2.84e-3,
-      .modulus = 2.5e6,
-      .poisson_ratio = 0.49,
-      .housing_modulus = 2.6e9,
-      .housing_poisson = 0.35,
-      .radial_space = 1.36e-3,
-      .bore_diameter = 6.0e-3,
-      .gland_width = 2.0e-3,
-  };
-}
-
-static bool warned(const SbWarnings *list, const char *code) {
-  for (size_t i = 0; i < list->count; i++) {
-    if (g_str_equal(list->item[i].code, code)) {
-      return true;
-    }
-  }
-  return false;
-}
 
 static void test_reduced_modulus(void) {
   assert_close(sb_reduced_modulus(2.5e6, 0.49, 2.6e9, 0.35), 6.5725e6, 1e-5);

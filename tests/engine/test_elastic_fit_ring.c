@@ -1,26 +1,12 @@
 // The ring through the common interface, beside the other models: reference figures, mirrored
 // pressure, no contact, refusals, cancellation.
 #include "engine/contact/fit.h"
+#include "tests/engine/near.h"
+#include "tests/engine/seals.h"
 
 #include <glib.h>
 #include <math.h>
 #include <string.h>
-
-#define assert_close(value, expected, relative)                                                    \
-  g_assert_cmpfloat(fabs((value) - (expected)), <=, (relative)*fabs(expected))
-
-static SbFitProblem thesis(SbFitModel model) {
-  return (SbFitProblem){
-      .model = model,
-      .section_diameter = 1.61e-3,
-      .inner_diameter = 2.84e-3,
-      .modulus = 2.5e6,
-      .poisson_ratio = 0.49,
-      .radial_space = 1.36e-3,
-      .bore_diameter = 6.0e-3,
-      .gland_width = 2.0e-3,
-  };
-}
 
 // docs/verification.md: 4.772 N, 253.1 N/m at the bore, 0.552 mm, 0.585 MPa; 0.5 % in load, 1 % in
 // peak.

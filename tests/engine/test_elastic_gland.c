@@ -1,11 +1,9 @@
 // Gland read-outs of the thesis' valve, their tolerance ranges and bands.
 #include "engine/contact/gland.h"
+#include "tests/engine/near.h"
 
 #include <glib.h>
 #include <math.h>
-
-#define assert_close(value, expected, relative)                                                    \
-  g_assert_cmpfloat(fabs((value) - (expected)), <=, (relative)*fabs(expected))
 
 static SbGland thesis(void) {
   return (SbGland){.section_diameter = 1.61e-3,

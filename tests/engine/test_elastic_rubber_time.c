@@ -2,21 +2,10 @@
 // table 2.2; the ring's load against storage time; every warning and refusal.
 #include "engine/contact/fit.h"
 #include "engine/rubber/rubber_time.h"
+#include "tests/engine/near.h"
 
 #include <glib.h>
 #include <math.h>
-
-#define assert_close(value, expected, relative)                                                    \
-  g_assert_cmpfloat(fabs((value) - (expected)), <=, (relative)*fabs(expected))
-
-static bool warned(const SbWarnings *list, const char *code) {
-  for (size_t i = 0; i < list->count; i++) {
-    if (g_str_equal(list->item[i].code, code)) {
-      return true;
-    }
-  }
-  return false;
-}
 
 static SbRubberStorage stored(double time, double temperature) {
   return (SbRubberStorage){.section_diameter = 1.61e-3,

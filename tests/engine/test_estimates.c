@@ -7,6 +7,7 @@
 #include "engine/film/film.h"
 #include "engine/valve/sealbench.h"
 #include "engine/valve/studies/study.h"
+#include "tests/engine/seals.h"
 
 #include <glib.h>
 #include <math.h>
@@ -157,16 +158,8 @@ static void test_inverse(void) {
 static void test_disc_thesis(void) {
   static Tally tally[] = {{.name = "load"}, {.name = "peak"}, {.name = "width"}};
   for (double space = 1.30e-3; space < 1.52e-3; space += 3e-6) {
-    SbFitProblem in = {.model = SB_FIT_DISC_THESIS,
-                       .section_diameter = 1.61e-3,
-                       .inner_diameter = 2.84e-3,
-                       .modulus = 2.5e6,
-                       .poisson_ratio = 0.49,
-                       .housing_modulus = 2.6e9,
-                       .housing_poisson = 0.35,
-                       .radial_space = space,
-                       .bore_diameter = 6e-3,
-                       .gland_width = 2e-3};
+    SbFitProblem in = thesis(SB_FIT_DISC_THESIS);
+    in.radial_space = space;
     SbFit nodes, disc;
     g_assert_cmpint(sb_fit_solve(&nodes, &in, NULL), ==, SB_OK);
     in.model = SB_FIT_DISC;

@@ -6,6 +6,7 @@
 #include "engine/film/film.h"
 #include "engine/film/stribeck.h"
 #include "engine/valve/sliding.h"
+#include "tests/engine/near.h"
 #include "tests/engine/rough_cells.h"
 
 #include <glib.h>
@@ -402,15 +403,6 @@ static void test_starved(void) {
   g_assert_false(film.starved);
 }
 
-static bool warns(const SbFilm *f, const char *code) {
-  for (size_t i = 0; i < f->warnings.count; i++) {
-    if (strcmp(f->warnings.item[i].code, code) == 0) {
-      return true;
-    }
-  }
-  return false;
-}
-
 static void test_adhesion(void) {
   // Across an open rough gap the pull is small and thins the film; the reference's digits.
   SbFilmProblem problem = seal(1e-4, SB_ROUGH_GREENWOOD_TRIPP);
@@ -419,7 +411,7 @@ static void test_adhesion(void) {
   g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
   problem.hamaker = 1.35e-19;
   g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
-  g_assert_false(warns(&other, "film-snap-in"));
+  g_assert_false(warned(&other.warnings, "film-snap-in"));
   close_to("film without the pull", film.film_min * 1e9, 2.6209, 5e-5);
   close_to("film with the pull", other.film_min * 1e9, 2.6126, 5e-5);
   // Nor is a pressure that hardly rises as the gap closes (by a hundredth of the asperities' own
@@ -429,14 +421,14 @@ static void test_adhesion(void) {
   problem.gt_product = 0.09023;
   problem.hamaker = 1.35e-19;
   g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
-  g_assert_false(warns(&other, "film-snap-in"));
+  g_assert_false(warned(&other.warnings, "film-snap-in"));
   g_assert_cmpfloat(other.asperity_share, >, 1.05);
   // Without asperities a film of tens of nanometres feels A/(6 pi h^3) as that much more load.
   problem = seal(0.1, SB_ROUGH_NONE);
   g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
   problem.hamaker = 1.35e-19;
   g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
-  g_assert_false(warns(&other, "film-snap-in"));
+  g_assert_false(warned(&other.warnings, "film-snap-in"));
   g_assert_cmpfloat(other.film_central, <, film.film_central);
   // The contact's total pressure stays Hertz's; the pull adds to what the film bears there.
   double pull = sb_vdw_attraction(problem.hamaker, other.film_central);
@@ -466,11 +458,11 @@ static void test_snap_in(void) {
     SbStatus status = solve(&film, &problem);
     g_test_message("sigma %g, %g m/s, model %d, pull %g: %s, %.4g nm of %.4g", sigma, speed,
                    (int)model, problem.hamaker,
-                   warns(&film, "film-snap-in") ? "snaps in" : "solved", 1e9 * film.film_min,
-                   1e9 * other.film_min);
+                   warned(&film.warnings, "film-snap-in") ? "snaps in" : "solved",
+                   1e9 * film.film_min, 1e9 * other.film_min);
     g_assert_cmpint(status, ==, SB_OK);
     g_assert_true(film.solver.converged);
-    if (warns(&film, "film-snap-in")) {
+    if (warned(&film.warnings, "film-snap-in")) {
       snapped++;
       g_assert_cmpfloat(film.film_min, ==, other.film_min);
       g_assert_cmpstr(film.regime, ==, "boundary");

@@ -2,6 +2,7 @@
 // nothing, each on moves the film the way its equation says, and where it cannot act it is told.
 #include "engine/valve/sealbench.h"
 #include "engine/valve/sliding.h"
+#include "tests/engine/near.h"
 
 #include <glib.h>
 #include <math.h>
@@ -38,15 +39,6 @@ static void solve(SbFilm *film, const SbModel *model, SbSealPressure pressure, d
       ==, SB_OK);
   *film = *sb_sliding_film(memory);
   sb_sliding_memory_destroy(memory);
-}
-
-static bool has(const SbWarnings *warnings, const char *code) {
-  for (size_t i = 0; i < warnings->count; i++) {
-    if (strcmp(warnings->item[i].code, code) == 0) {
-      return true;
-    }
-  }
-  return false;
 }
 
 static const SbSealPressure PRESSED = {.left = 0.55e6, .right = 0}, BOTH = {0.55e6, 0.55e6};
@@ -98,7 +90,7 @@ static void test_rupture(void) {
   g_assert_true(ambient.ruptured);
   model = model_with(vapour, 1);
   solve(&changed, &model, BOTH, model.speed, &warnings);
-  g_assert_false(has(&warnings, "rupture-ambient"));
+  g_assert_false(warned(&warnings, "rupture-ambient"));
   g_assert_true(changed.ruptured);
   g_assert_cmpfloat(fabs(changed.film_min / ambient.film_min - 1), <, 2e-3);
   g_assert_cmpfloat(fabs(changed.position_rupture / ambient.position_rupture - 1), <, 1e-3);
@@ -107,7 +99,7 @@ static void test_rupture(void) {
   solve(&ambient, &model, PRESSED, model.speed, &warnings);
   model = model_with(vapour, 1);
   solve(&changed, &model, PRESSED, model.speed, &warnings);
-  g_assert_true(has(&warnings, "rupture-ambient"));
+  g_assert_true(warned(&warnings, "rupture-ambient"));
   g_assert_cmpfloat(changed.film_min, ==, ambient.film_min);
 }
 
@@ -135,10 +127,10 @@ static void test_coupled(void) {
   const Setting on[] = {{SB_P_MODELS_ASPERITIES, 1}, {SB_P_MODELS_INLET, 1}};
   SbModel model = model_with(on, 1);
   solve(&plain, &model, PRESSED, model.speed, &warnings);
-  g_assert_false(has(&warnings, "inlet-flooded"));
+  g_assert_false(warned(&warnings, "inlet-flooded"));
   model = model_with(on, 2);
   solve(&plain, &model, PRESSED, model.speed, &warnings);
-  g_assert_true(has(&warnings, "inlet-flooded"));
+  g_assert_true(warned(&warnings, "inlet-flooded"));
   SbParams params;
   sb_params_init(&params);
   g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_ASPERITIES, 1, NULL), ==, SB_OK);
@@ -154,10 +146,10 @@ static void test_told(void) {
   const Setting on[] = {{SB_P_MODELS_FILM, SB_FILM_THESIS}, {SB_P_MODELS_VISCOSITY, 1}};
   SbModel model = model_with(on, G_N_ELEMENTS(on));
   solve(&plain, &model, PRESSED, model.speed, &warnings);
-  g_assert_true(has(&warnings, "film-options"));
+  g_assert_true(warned(&warnings, "film-options"));
   model = model_with(on, 1);
   solve(&plain, &model, PRESSED, model.speed, &warnings);
-  g_assert_false(has(&warnings, "film-options"));
+  g_assert_false(warned(&warnings, "film-options"));
 }
 
 int main(int argc, char **argv) {

@@ -4,13 +4,12 @@
 #include "engine/mechanism/dynamics.h"
 #include "engine/valve/sealbench.h"
 #include "tests/engine/assembly_step.h"
+#include "tests/engine/near.h"
 
 #include <glib.h>
 #include <gsl/gsl_sf_ellint.h>
 #include <math.h>
 #include <string.h>
-
-#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
 
 static const double x_axis[3] = {1.0, 0.0, 0.0}, z_axis[3] = {0.0, 0.0, 1.0};
 

@@ -2,11 +2,10 @@
 // closed form, and the chamber as a state of the moving valve.
 #include "engine/mechanism/chamber.h"
 #include "engine/mechanism/dynamics.h"
+#include "tests/engine/near.h"
 
 #include <glib.h>
 #include <math.h>
-
-#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
 
 enum { EDGES = 2 * SB_CHAMBER_PORTS };
 

@@ -1,6 +1,7 @@
 // Motion with friction and stops against closed forms: decay, stick-slip, bounces, rest, energy.
 #include "engine/mechanism/dynamics.h"
 
+#include "tests/engine/near.h"
 #include "tests/pace.h"
 
 #include <glib.h>
@@ -64,8 +65,6 @@ static double closure(const SbDynamics *s) {
   sb_dynamics_sample(s, NULL, &e);
   return e.closure;
 }
-
-#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
 
 // ---- rigid friction ----
 

@@ -1,11 +1,10 @@
 // Laws and drives of the motion: pre-sliding, dwell, Stribeck, sinusoids, chamber, refusals; and
 // the numerical path against itself at a tighter tolerance.
 #include "engine/mechanism/dynamics.h"
+#include "tests/engine/near.h"
 
 #include <glib.h>
 #include <math.h>
-
-#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
 
 typedef struct {
   double force, level;

@@ -1,11 +1,10 @@
 // The rig's coefficients, and a life.
 #include "engine/valve/life.h"
 #include "engine/valve/rig.h"
+#include "tests/engine/near.h"
 
 #include <glib.h>
 #include <math.h>
-
-#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
 
 // ---- coefficients of a signal ----
 

@@ -1,12 +1,11 @@
 // Mass, centre and inertia of revolved profiles and meshes against closed forms; what is refused.
 #include "engine/mechanism/solid.h"
+#include "tests/engine/near.h"
 
 #include <glib.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
 
 static const double rho = 1090.0;
 

@@ -1,20 +1,9 @@
 // The fitted ring against independent finite elements, its convergence, its balances, its limits.
 #include "engine/contact/ring/ring.h"
+#include "tests/engine/seals.h"
 
 #include <glib.h>
 #include <math.h>
-
-static const SbRingBody BODY = {.section_diameter = 1.61e-3,
-                                .inner_diameter = 2.84e-3,
-                                .modulus = 2.5e6,
-                                .poisson_ratio = 0.49};
-
-static SbRingLoad groove(void) {
-  SbRingLoad load = SB_RING_LOAD_INIT;
-  load.floor_radius = 1.64e-3;
-  load.bore_radius = 3e-3;
-  return load;
-}
 
 static SbRingBody cord(double poisson) {
   SbRingBody body = BODY;
@@ -23,16 +12,9 @@ static SbRingBody cord(double poisson) {
   return body;
 }
 
-static SbRing *fitted(const SbRingBody *body, const SbRingLoad *load, double size,
+static SbRing *solved(const SbRingBody *body, const SbRingLoad *load, double size,
                       SbRingResult *result) {
-  SbRing *ring = NULL;
-  SbReport report = {0};
-  SbRingOptions options = {.element_size = size, .fit_mesh = true};
-  SbStatus status = sb_ring_create(&ring, body, load, &options, &report);
-  if (status != SB_OK) {
-    g_test_message("%s", report.text);
-  }
-  g_assert_cmpint(status, ==, SB_OK);
+  SbRing *ring = fitted(body, load, size);
   sb_ring_result(ring, result);
   return ring;
 }
@@ -56,11 +38,11 @@ static void check_state(const SbRing *ring) {
 // at nu = 0.499.
 static void test_plane(void) {
   SbRingBody body = cord(0.49);
-  SbRingLoad load = groove();
+  SbRingLoad load = open_groove();
   load.floor_radius = 0.0;
   load.bore_radius = BODY.section_diameter * (1.0 - 0.1553);
   SbRingResult r;
-  SbRing *ring = fitted(&body, &load, 0.04, &r);
+  SbRing *ring = solved(&body, &load, 0.04, &r);
   near(r.bore_force, 399.96, 5e-4);
   near(r.floor_force, r.bore_force, 1e-9);
   near(r.contact_right - r.contact_left, 0.692e-3, 5e-3);
@@ -68,16 +50,16 @@ static void test_plane(void) {
   check_state(ring);
   sb_ring_destroy(ring);
   body.poisson_ratio = 0.499;
-  ring = fitted(&body, &load, 0.04, &r);
+  ring = solved(&body, &load, 0.04, &r);
   near(r.bore_force, 406.1, 5e-4);
   sb_ring_destroy(ring);
 }
 
 // The valve's ring: bore 4.772 N, floor 4.446 N, 0.552 mm, 0.585 MPa.
 static void test_ring(void) {
-  SbRingLoad load = groove();
+  SbRingLoad load = open_groove();
   SbRingResult r;
-  SbRing *ring = fitted(&BODY, &load, 0.04, &r);
+  SbRing *ring = solved(&BODY, &load, 0.04, &r);
   near(r.bore_force, 4.772, 1e-3);
   near(r.floor_force, 4.446, 1e-3);
   near(r.contact_right - r.contact_left, 0.552e-3, 1e-2);
@@ -89,10 +71,10 @@ static void test_ring(void) {
 
 // Only stretched: floor 1.657 N, radial thickness 1.500 mm; the bore is not touched.
 static void test_stretched(void) {
-  SbRingLoad load = groove();
+  SbRingLoad load = open_groove();
   load.bore_radius = 3.3e-3;
   SbRingResult r;
-  SbRing *ring = fitted(&BODY, &load, 0.04, &r);
+  SbRing *ring = solved(&BODY, &load, 0.04, &r);
   near(r.floor_force, 1.657, 2e-3);
   near(r.thickness, 1.5e-3, 1e-3);
   g_assert_false(r.touching);
@@ -105,13 +87,13 @@ static void test_stretched(void) {
 // coarsest, of observed order 1.8 in the element's size (edges fall unevenly between nodes, which
 // is why single ratios vary from 1.5 to 3).
 static void test_convergence(void) {
-  SbRingLoad load = groove();
+  SbRingLoad load = open_groove();
   SbRingResult r;
   static const double SIZE[] = {0.08, 0.04, 0.02, 0.007};
   enum { N = sizeof SIZE / sizeof SIZE[0] };
   double force[N], peak[N], width[N], off[N];
   for (int i = 0; i < N; i++) {
-    SbRing *ring = fitted(&BODY, &load, SIZE[i], &r);
+    SbRing *ring = solved(&BODY, &load, SIZE[i], &r);
     force[i] = r.bore_force;
     peak[i] = r.pressure_peak;
     width[i] = r.contact_right - r.contact_left;
@@ -136,16 +118,16 @@ static void test_convergence(void) {
 // Pressure against the groove wall: the wall carries exactly the pressure on the open annulus
 // between the contacts' held ends; the contact widens and moves to the wall.
 static void test_pressure(void) {
-  SbRingLoad load = groove();
+  SbRingLoad load = open_groove();
   SbRingResult dry, r;
-  sb_ring_destroy(fitted(&BODY, &load, 0.05, &dry));
+  sb_ring_destroy(solved(&BODY, &load, 0.05, &dry));
   load.wall_left = -1e-3;
   load.wall_right = 1e-3;
   static const double PRESSURE[] = {0.13e6, 0.55e6, 2e6};
   double width = dry.contact_right - dry.contact_left;
   for (int i = 0; i < 3; i++) {
     load.pressure_left = PRESSURE[i];
-    SbRing *ring = fitted(&BODY, &load, 0.05, &r);
+    SbRing *ring = solved(&BODY, &load, 0.05, &r);
     double area =
         G_PI * (load.bore_radius * load.bore_radius - load.floor_radius * load.floor_radius);
     near(r.wall_right_force, PRESSURE[i] * area, 1e-9);
@@ -167,7 +149,7 @@ static void test_pressure(void) {
   }
   // Equal pressure on both flanks narrows the contact.
   load.pressure_left = load.pressure_right = 0.55e6;
-  sb_ring_destroy(fitted(&BODY, &load, 0.05, &r));
+  sb_ring_destroy(solved(&BODY, &load, 0.05, &r));
   g_assert_cmpfloat(r.contact_right - r.contact_left, <, dry.contact_right - dry.contact_left);
   g_assert_cmpfloat(r.bore_force, >, dry.bore_force);
 }
@@ -180,11 +162,11 @@ static void test_range(void) {
     double change[3];
     for (int k = 0; k < 3; k++) {
       SbRingBody body = cord(POISSON[k]);
-      SbRingLoad load = groove();
+      SbRingLoad load = open_groove();
       load.floor_radius = 0.0;
       load.bore_radius = BODY.section_diameter * (1.0 - SQUEEZE[i]);
       SbRingResult r;
-      SbRing *ring = fitted(&body, &load, 0.06, &r);
+      SbRing *ring = solved(&body, &load, 0.06, &r);
       check_state(ring);
       change[k] = r.volume_change;
       sb_ring_destroy(ring);
@@ -196,11 +178,11 @@ static void test_range(void) {
   }
   static const double STRETCH[] = {0.0, 0.2};
   for (int i = 0; i < 2; i++) {
-    SbRingLoad load = groove();
+    SbRingLoad load = open_groove();
     load.floor_radius = 1.42e-3 * (1.0 + STRETCH[i]);
     load.bore_radius = load.floor_radius + 1.3e-3;
     SbRingResult r;
-    SbRing *ring = fitted(&BODY, &load, 0.06, &r);
+    SbRing *ring = solved(&BODY, &load, 0.06, &r);
     g_assert_true(r.touching);
     check_state(ring);
     sb_ring_destroy(ring);
@@ -211,25 +193,25 @@ static void test_range(void) {
 static void test_refused(void) {
   SbRing *ring = NULL;
   SbReport report;
-  SbRingLoad load = groove();
+  SbRingLoad load = open_groove();
   load.bore_radius = 1.6e-3;
   g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
   g_assert_cmpstr(report.parameter, ==, "bore.diameter");
   g_assert_null(ring);
-  load = groove();
+  load = open_groove();
   load.wall_left = -0.6e-3;
   load.wall_right = 0.6e-3;
   g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
   g_assert_cmpstr(report.parameter, ==, "gland.axial_width");
-  load = groove();
+  load = open_groove();
   load.pressure_left = 1e5;
   g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
-  load = groove();
+  load = open_groove();
   load.bore_radius = NAN;
   g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_RANGE);
   SbRingBody body = BODY;
   body.poisson_ratio = 0.5;
-  load = groove();
+  load = open_groove();
   g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, &report), ==, SB_ERROR_RANGE);
   g_assert_cmpstr(report.parameter, ==, "seal.poisson_ratio");
   sb_ring_destroy(NULL);
@@ -243,7 +225,7 @@ static bool stop(void *data) {
 static void test_cancel(void) {
   SbRing *ring = NULL;
   SbReport report;
-  SbRingLoad load = groove();
+  SbRingLoad load = open_groove();
   SbRingOptions options = {.poll = stop};
   g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, &options, &report), ==, SB_ERROR_CANCELLED);
   g_assert_null(ring);
@@ -276,9 +258,9 @@ static void fields_free(const SbRingFields *fields) {
 
 // Drawing data: sizes agree, the outline lies on the triangles' boundary, stresses are finite.
 static void test_fields(void) {
-  SbRingLoad load = groove();
+  SbRingLoad load = open_groove();
   SbRingResult r;
-  SbRing *ring = fitted(&BODY, &load, 0.05, &r);
+  SbRing *ring = solved(&BODY, &load, 0.05, &r);
   int nodes, triangles, outline;
   SbRingFields fields = fields_of(ring, &nodes, &triangles, &outline);
   double inside = 0.0, around = 0.0, most = 0.0;
@@ -320,7 +302,7 @@ static void test_tension(void) {
   const double fluid = 0.2e6;
   load.pressure_left = load.pressure_right = fluid;
   SbRingResult r;
-  SbRing *ring = fitted(&body, &load, 0.1, &r);
+  SbRing *ring = solved(&body, &load, 0.1, &r);
   int nodes, triangles, outline;
   SbRingFields fields = fields_of(ring, &nodes, &triangles, &outline);
   double mu = body.modulus / (2 * (1 + body.poisson_ratio));

@@ -1,6 +1,7 @@
 // sb_ring_fit: its error estimate must be honest against a much finer mesh, over squeeze, pressure
 // and Poisson's ratio: true error <= 3 x estimate everywhere, median estimate / true <= 10.
 #include "engine/contact/ring/ring.h"
+#include "tests/engine/seals.h"
 
 #include <glib.h>
 #include <math.h>
@@ -79,10 +80,8 @@ static void test_narrow(void) {
     double squeeze, stretch, poisson, pressure;
   } CASE[] = {{0.02, 0.03, 0.4999, 0.0}, {0.1, 0.155, 0.49, 0.0}, {0.12, 0.18, 0.49, 0.13e6}};
   for (size_t i = 0; i < G_N_ELEMENTS(CASE); i++) {
-    SbRingBody body = {.section_diameter = 1.61e-3,
-                       .inner_diameter = 2.84e-3,
-                       .modulus = 2.5e6,
-                       .poisson_ratio = CASE[i].poisson};
+    SbRingBody body = BODY;
+    body.poisson_ratio = CASE[i].poisson;
     SbRingLoad load = SB_RING_LOAD_INIT;
     load.floor_radius = 1.42e-3 * (1.0 + CASE[i].stretch);
     load.bore_radius = load.floor_radius + 1.61e-3 * (1.0 - CASE[i].squeeze);
@@ -116,12 +115,8 @@ static void test_narrow(void) {
 }
 
 static void test_no_contact(void) {
-  SbRingBody body = {.section_diameter = 1.61e-3,
-                     .inner_diameter = 2.84e-3,
-                     .modulus = 2.5e6,
-                     .poisson_ratio = 0.49};
-  SbRingLoad load = SB_RING_LOAD_INIT;
-  load.floor_radius = 1.64e-3;
+  SbRingBody body = BODY;
+  SbRingLoad load = open_groove();
   load.bore_radius = 3.3e-3;
   SbRingResult r;
   SbRingError error;

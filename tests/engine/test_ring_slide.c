@@ -1,37 +1,11 @@
 // Sliding and load changes of a fitted ring: drag and its reversal, Coulomb's law, warm start,
 // given shear, the land's edge, refusal that keeps the state.
 #include "engine/contact/ring/ring_private.h"
+#include "tests/engine/seals.h"
 
 #include <glib.h>
 #include <math.h>
 #include <string.h>
-
-static const SbRingBody BODY = {.section_diameter = 1.61e-3,
-                                .inner_diameter = 2.84e-3,
-                                .modulus = 2.5e6,
-                                .poisson_ratio = 0.49};
-
-static SbRingLoad groove(double pressure) {
-  SbRingLoad load = SB_RING_LOAD_INIT;
-  load.floor_radius = 1.64e-3;
-  load.bore_radius = 3e-3;
-  load.wall_left = -1e-3;
-  load.wall_right = 1e-3;
-  load.pressure_left = pressure;
-  return load;
-}
-
-static SbRing *create(const SbRingLoad *load) {
-  SbRing *ring = NULL;
-  SbReport report = {0};
-  SbRingOptions options = {.element_size = 0.06, .fit_mesh = true};
-  SbStatus status = sb_ring_create(&ring, &BODY, load, &options, &report);
-  if (status != SB_OK) {
-    g_test_message("%s", report.text);
-  }
-  g_assert_cmpint(status, ==, SB_OK);
-  return ring;
-}
 
 static void step(SbRing *ring, const SbRingLoad *load, SbRingResult *r) {
   SbReport report = {0};
@@ -60,7 +34,7 @@ static SbRingResult slide(SbRing *ring, SbRingLoad *load, double travel, int ste
 static void test_reversal(void) {
   SbRingLoad load = groove(0.0);
   load.friction_bore = load.friction_floor = load.friction_wall = 0.2;
-  SbRing *ring = create(&load);
+  SbRing *ring = fitted(&BODY, &load, 0.06);
   SbRingResult rest, forth, back;
   sb_ring_result(ring, &rest);
   g_assert_cmpfloat(fabs(rest.bore_drag), <, 1e-9 * rest.bore_force);
@@ -90,7 +64,7 @@ static void test_reversal(void) {
 static void test_pressed(void) {
   SbRingLoad load = groove(0.55e6);
   load.friction_bore = load.friction_floor = load.friction_wall = 0.2;
-  SbRing *ring = create(&load);
+  SbRing *ring = fitted(&BODY, &load, 0.06);
   SbRingResult rest, forth, back;
   sb_ring_result(ring, &rest);
   forth = slide(ring, &load, 0.3e-3, 12);
@@ -165,7 +139,7 @@ static void test_traction(void) {
   load.use_bore_traction = true;
   load.bore_traction = 5e4;
   load.friction_floor = 0.3;
-  SbRing *ring = create(&load);
+  SbRing *ring = fitted(&BODY, &load, 0.06);
   SbRingResult r;
   sb_ring_result(ring, &r);
   double area = 2.0 * G_PI * load.bore_radius * (r.contact_right - r.contact_left);
@@ -177,14 +151,14 @@ static void test_traction(void) {
 // Stepping to a load and creating there give the same frictionless state; a small step is cheap.
 static void test_warm(void) {
   SbRingLoad load = groove(0.2e6);
-  SbRing *ring = create(&load);
+  SbRing *ring = fitted(&BODY, &load, 0.06);
   SbRingResult before, r, fresh;
   sb_ring_result(ring, &before);
   load.pressure_left = 0.25e6;
   load.bore_radius = 2.98e-3;
   step(ring, &load, &r);
   g_assert_cmpint(r.newton_iterations - before.newton_iterations, <=, 12);
-  SbRing *other = create(&load);
+  SbRing *other = fitted(&BODY, &load, 0.06);
   sb_ring_result(other, &fresh);
   // Different meshes (each fitted to its own first state).
   g_assert_cmpfloat(fabs(r.bore_force / fresh.bore_force - 1.0), <, 5e-3);
@@ -207,7 +181,7 @@ static void test_land_edge(void) {
   load.chamfer_angle = 0.5;
   load.edge_length = 0.1e-3;
   load.land_right = 1.2e-3;
-  SbRing *ring = create(&load);
+  SbRing *ring = fitted(&BODY, &load, 0.06);
   SbRingResult r;
   sb_ring_result(ring, &r);
   double full = r.bore_force, last = full;
@@ -251,7 +225,7 @@ static void compliance(SbRing *ring, const SbRingPatch *patch, int n, double *c)
 // the bore, c df = dr on the contact.
 static void test_compliance(void) {
   SbRingLoad load = groove(0.0);
-  SbRing *ring = create(&load);
+  SbRing *ring = fitted(&BODY, &load, 0.06);
   SbRingResult before, after, again;
   sb_ring_result(ring, &before);
   SbRingPatch patch;
@@ -315,7 +289,7 @@ static void test_compliance(void) {
 // A step that cannot be done is refused and the ring stays where it was.
 static void test_keeps_state(void) {
   SbRingLoad load = groove(0.0);
-  SbRing *ring = create(&load);
+  SbRing *ring = fitted(&BODY, &load, 0.06);
   SbRingResult before, after;
   sb_ring_result(ring, &before);
   SbRingLoad bad = load;

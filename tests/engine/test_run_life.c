@@ -1,12 +1,11 @@
 // A life as a run: each actuation is what a scene with that roughness gives by itself.
 #include "engine/valve/sealbench.h"
 
+#include "tests/engine/near.h"
 #include "tests/executed.h"
 
 #include <glib.h>
 #include <math.h>
-
-#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
 
 typedef struct {
   SbParamId id;

@@ -2,12 +2,11 @@
 // signal that they hold, taken here by another way.
 #include "engine/valve/sealbench.h"
 
+#include "tests/engine/near.h"
 #include "tests/executed.h"
 
 #include <glib.h>
 #include <math.h>
-
-#define ASSERT_NEAR(a, b, tolerance) g_assert_cmpfloat_with_epsilon((a), (b), (tolerance))
 
 static SbRun *pull(const double changes[][2], int count) {
   SbParams params;

@@ -138,12 +138,6 @@ void sb_ring_fields(const SbRing *ring, const SbRingFields *out);
 // window.
 SbStatus sb_ring_surface(SbRing *ring, SbSurfaceCompliance *out, SbReport *report);
 
-// Linearised prediction of the result at a nearby load (radii, walls, pressures) by one linear step
-// from the present equilibrium, contacts as they are; costs one factorisation. Wrong to second
-// order in the change, and to first order once contacts open or close by whole nodes. The ring
-// stays as it is. Errors: SB_ERROR_NOT_CONVERGED for a change that turns the mesh inside out.
-SbStatus sb_ring_predict(SbRing *ring, const SbRingLoad *load, SbRingResult *out, SbReport *report);
-
 // Relative errors by comparing two meshes.
 typedef struct {
   double load, peak, width;

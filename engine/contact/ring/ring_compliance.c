@@ -351,36 +351,3 @@ SbStatus sb_ring_surface(SbRing *ring, SbSurfaceCompliance *out, SbReport *repor
   }
   return status;
 }
-
-SbStatus sb_ring_predict(SbRing *ring, const SbRingLoad *load, SbRingResult *out,
-                         SbReport *report) {
-  SbRingContact *contact = ring->contact;
-  SbRingFem *fem = ring->fem;
-  SbRingSetting now = contact->now;
-  sb_ring_fem_save(fem, 1);
-  sb_ring_contact_save(contact, 0);
-  fem->axial_damping = 0.0;
-  contact->now = sb_ring_setting(ring, load);
-  SbStatus status = SB_ERROR_NOT_CONVERGED;
-  if (sb_ring_fem_assemble(fem)) {
-    sb_ring_contact_apply(contact);
-    status = sb_ring_fem_solve(fem, report);
-  }
-  if (status == SB_OK) {
-    sb_ring_fem_advance(fem, 1.0);
-    status = SB_ERROR_NOT_CONVERGED;
-    if (sb_ring_fem_assemble(fem)) {
-      sb_ring_contact_apply(contact);
-      sb_ring_contact_forces(contact);
-      sb_ring_result(ring, out);
-      status = SB_OK;
-    }
-  }
-  contact->now = now;
-  sb_ring_fem_restore(fem, 1);
-  sb_ring_contact_restore(contact, 0);
-  sb_ring_settle(ring);
-  return status == SB_OK ? sb_succeed(report)
-                         : sb_fail(report, SB_ERROR_NOT_CONVERGED,
-                                   "the change is too large for a linear prediction of the load");
-}
