@@ -98,7 +98,7 @@ static void test_rolls(void) {
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     SbRingLoad load = groove(cases[i].pressure);
     load.friction_bore = 0.7;
-    SbRing *ring = create(&load);
+    SbRing *ring = fitted(&BODY, &load, 0.06);
     SbRingResult r, before = {0};
     SbReport report = {0};
     SbStatus status = SB_OK;
