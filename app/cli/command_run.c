@@ -66,8 +66,8 @@ static void print_verdict(const SbCaseVerdict *verdicts) {
 
 static void print_rig(const SbSummary *summary) {
   print_figures(summary, "rig.", false);
-  sb_cli_figure("  measured in the thesis", SB_RIG_MEASURED_DYNAMIC, "1", "");
-  sb_cli_figure("  predicted there", SB_RIG_PREDICTED_DYNAMIC, "1", "");
+  sb_cli_figure("Dynamic, measured in the thesis", SB_RIG_MEASURED_DYNAMIC, "1", "");
+  sb_cli_figure("Dynamic, predicted there", SB_RIG_PREDICTED_DYNAMIC, "1", "");
   g_autofree char *peaks = g_strdup_printf("%zu", summary->rig.of.peaks);
   sb_cli_line("Peaks that follow", peaks);
 }

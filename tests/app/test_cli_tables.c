@@ -101,7 +101,7 @@ static void test_rig(void) {
   SAME(table.out, "Dynamic coefficient", root, "rig.coefficient_dynamic", 1);
   SAME(table.out, "First peak", root, "rig.first_peak_N", 1);
   SAME(table.out, "Peaks that follow", root, "rig.following_peaks", 1);
-  SAME(table.out, "Energy of the pull", root, "cycle.energy_loss_J", 1e3);
+  SAME(table.out, "Energy of the loop", root, "cycle.energy_loss_J", 1e3);
   // The table of the cycle marks the peaks that the JSON counts.
   g_auto(GStrv) rows = rows_of(out, "cycle.csv");
   g_assert_true(g_str_has_suffix(rows[0], ",peak"));

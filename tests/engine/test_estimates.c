@@ -260,8 +260,7 @@ static SbStudy *study_of(SbStudyKind kind, double tolerance) {
   SbParams params;
   sb_params_init(&params);
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_TOLERANCE, tolerance, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==,
-                  SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==, SB_OK);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   SbStudy *study = g_new(SbStudy, 1);

@@ -42,11 +42,10 @@ static const Case cases[] = {
      SB_OK},
 };
 
-static const Case history = {
-    "a film followed in time",
-    {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS}, {SB_P_MODELS_FILM_TIME, 1}},
-    2,
-    SB_OK};
+static const Case history = {"a film followed in time",
+                             {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS}, {SB_P_MODELS_FILM_TIME, 1}},
+                             2,
+                             SB_OK};
 
 static SbModel base_model(void) {
   SbParams params;

@@ -5,7 +5,6 @@
 
 #include "app/base/translation.h"
 #include "app/export/render.h"
-#include "app/base/translation.h"
 #include "ui/views/style.h"
 #include "ui/window/export_job.h"
 #include "ui/window/preferences.h"
