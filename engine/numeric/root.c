@@ -17,19 +17,18 @@ double sb_bisect(SbFunction f, const void *context, double above, double below) 
 
 double sb_newton_bracketed(SbSlopedFunction f, const void *context, double low, double high,
                            double guess) {
+  const double least = 2.0 * DBL_EPSILON * fmax(fabs(low), fabs(high));
   double x = fmin(fmax(guess, low), high);
-  for (int i = 0; i < 200; i++) {
+  for (int i = 0; i < 200 && high - low > least; i++) {
     double slope;
     const double value = f(&slope, x, context);
+    const double step = value / slope;
+    // Before the bracket is asked: at the root itself a step of nothing stays on its end.
+    if (fabs(step) <= least) {
+      return fmin(fmax(x - step, low), high);
+    }
     *(value > 0.0 ? &high : &low) = x;
-    double next = x - value / slope;
-    if (!(next > low && next < high)) {
-      next = 0.5 * (low + high);
-    }
-    if (fabs(next - x) <= 2.0 * DBL_EPSILON * fabs(x)) {
-      return next;
-    }
-    x = next;
+    x = x - step > low && x - step < high ? x - step : 0.5 * (low + high);
   }
   return x;
 }

@@ -12,8 +12,8 @@ double sb_bisect(SbFunction f, const void *context, double above, double below);
 // A function with its slope.
 typedef double (*SbSlopedFunction)(double *slope, double x, const void *context);
 
-// Root of a rising f in [low, high] to rounding: Newton's method from `guess`, bisection where that
-// leaves the bracket.
+// Root of a rising f in [low, high] to the rounding of its ends: Newton's method from `guess`,
+// bisection where that leaves the bracket.
 double sb_newton_bracketed(SbSlopedFunction f, const void *context, double low, double high,
                            double guess);
 

@@ -476,8 +476,10 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
     double X0 = segment->platen0;
     double X1 = segment->platen1;
 
-    // Where the platen leaves the stem the force has a corner: X = s.
-    double corner = fmin(fmax(segment->stem0, fmin(X0, X1)), fmax(X0, X1));
+    // Where the platen leaves a stem that stands the force has a corner: X = s.
+    double corner = segment->mode == SB_CYCLE_STICK
+                        ? fmin(fmax(segment->stem0, fmin(X0, X1)), fmax(X0, X1))
+                        : X1;
     double rubbed =
         fabs(quadrature(&rule, segment, segment->stem0, segment->stem1, friction_of_stem));
     if (segment->mode == SB_CYCLE_JUMP) {
