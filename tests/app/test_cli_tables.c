@@ -127,9 +127,9 @@ static void test_life(void) {
   g_assert_nonnull(strstr(table.out, "\nLife of 5 actuations\n"));
   g_autofree char *text = cli_contents(out, "results.json");
   JsonNode *root = cli_parse(text);
-  SAME(table.out, "Roughness, last over given", root, "life.roughness_last", 1);
-  SAME(table.out, "Return force, last", root, "life.force_return_last_N", 1);
-  SAME(table.out, "Leakage, carried out", root, "life.leakage_carried_m3", 1e12);
+  SAME(table.out, "Roughness, last actuation", root, "life.roughness_last", 1);
+  SAME(table.out, "Return force, last actuation", root, "life.force_return_last_N", 1);
+  SAME(table.out, "Leakage carried, whole life", root, "life.leakage_carried_m3", 1e12);
   g_auto(GStrv) rows = rows_of(out, "life.csv");
   g_assert_cmpuint(g_strv_length(rows), ==, 6);
   double carried = 0;
@@ -149,8 +149,7 @@ static void test_life(void) {
   // A life that ends early says at which actuation, and what it then does not know.
   table = CLI("run", scene, "--set", "life.actuations=5", "--set", "models.film=thesis", "--set",
               "surface.gt_product=0.17");
-  g_assert_nonnull(
-      strstr(table.out, "  the stem does not return from actuation 1: none after it\n"));
+  g_assert_nonnull(strstr(table.out, "(the life ends at actuation 1: its stem does not return)\n"));
   cli_clear(&table);
   root = JSON("run", scene, "--set", "life.actuations=5", "--set", "models.film=thesis", "--set",
               "surface.gt_product=0.17");
