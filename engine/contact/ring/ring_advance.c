@@ -258,10 +258,7 @@ SbStatus sb_ring_advance(SbRingContact *contact, const SbRingSetting *target,
       }
       // Forces and conditions of the state that is kept.
       mark_anchor(contact);
-      if (sb_ring_fem_assemble(fem)) {
-        sb_ring_contact_apply(contact);
-        sb_ring_contact_forces(contact);
-      }
+      sb_ring_contact_settle(contact);
       return status;
     }
   }

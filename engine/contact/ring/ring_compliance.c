@@ -96,10 +96,7 @@ SbStatus sb_ring_free_bore(SbRing *ring, SbReport *report) {
 }
 
 void sb_ring_settle(SbRing *ring) {
-  if (sb_ring_fem_assemble(ring->fem)) {
-    sb_ring_contact_apply(ring->contact);
-    sb_ring_contact_forces(ring->contact);
-  }
+  sb_ring_contact_settle(ring->contact);
 }
 
 // Waves of pressure that are tried, and those that tell the half-plane's modulus; share of the

@@ -256,6 +256,19 @@ void sb_ring_contact_forces(SbRingContact *contact) {
   }
 }
 
+void sb_ring_contact_settle(SbRingContact *contact) {
+  SbRingFem *fem = contact->fem;
+  // Neither the spring nor the damper of the attempts acts on it.
+  sb_ring_fem_save(fem, 1);
+  fem->axial_rest = 0.0;
+  contact->settled = true;
+  if (sb_ring_fem_assemble(fem)) {
+    sb_ring_contact_apply(contact);
+    sb_ring_contact_forces(contact);
+  }
+  contact->settled = false;
+}
+
 void sb_ring_contact_total(const SbRingContact *contact, SbRingSurface surface, double force[2]) {
   force[0] = force[1] = 0.0;
   for (int i = 0; i < contact->count; i++) {
@@ -274,9 +287,11 @@ void sb_ring_contact_total(const SbRingContact *contact, SbRingSurface surface, 
 void sb_ring_contact_save(SbRingContact *contact, int place) {
   memcpy(contact->saved[place], contact->touch,
          sizeof(SbRingTouch) * SB_RING_SURFACES * (size_t)contact->count);
+  memcpy(contact->saved_crest[place], contact->crest, sizeof contact->crest);
 }
 
 void sb_ring_contact_restore(SbRingContact *contact, int place) {
   memcpy(contact->touch, contact->saved[place],
          sizeof(SbRingTouch) * SB_RING_SURFACES * (size_t)contact->count);
+  memcpy(contact->crest, contact->saved_crest[place], sizeof contact->crest);
 }

@@ -53,6 +53,9 @@ typedef struct {
   double *pressed;       // [2 count] the part of it from open sides
   double *weight;        // [count] current area of the boundary nodes
   double *fluid;         // [2 count] fluid force on the open sides' nodes
+  int crest[2];          // boundary nodes of bore and floor between which the fluids change sides
+  int saved_crest[2][2]; // for sb_ring_contact_save
+  bool settled;          // the state stands still: its crests stay
   double *anchor;        // [2 count] place at the start of the step, for sticking
   double slide_start;    // slide at the start of the step
   SbRingTouch *saved[2]; // for sb_ring_contact_save
@@ -120,6 +123,10 @@ int sb_ring_contact_update(SbRingContact *contact, bool single);
 
 // At convergence: forces of all touches from the residual.
 void sb_ring_contact_forces(SbRingContact *contact);
+
+// Assembles a state that was an equilibrium anew and leaves its conditions and forces, whatever
+// attempts to go on from it have left behind.
+void sb_ring_contact_settle(SbRingContact *contact);
 
 // Sum of a surface's force on the ring, (r, z).
 void sb_ring_contact_total(const SbRingContact *contact, SbRingSurface surface, double force[2]);

@@ -140,8 +140,11 @@ void sb_ring_contact_load_fluid(SbRingContact *contact) {
   const SbRingMesh *mesh = contact->fem->mesh;
   int sides = contact->count / 2;
   // Between the crests over the right flank stands the right pressure.
-  int bore = crest(contact, SB_RING_BORE, node_at(mesh, 0.0));
-  int floor_at = crest(contact, SB_RING_FLOOR, 0);
+  if (!contact->settled) {
+    contact->crest[0] = crest(contact, SB_RING_BORE, node_at(mesh, 0.0));
+    contact->crest[1] = crest(contact, SB_RING_FLOOR, 0);
+  }
+  int bore = contact->crest[0], floor_at = contact->crest[1];
   int past = floor_at > bore ? floor_at : floor_at + contact->count;
   memset(contact->share, 0, sizeof(double) * 2 * (size_t)contact->count);
   memset(contact->fluid, 0, sizeof(double) * 2 * (size_t)contact->count);
