@@ -290,11 +290,8 @@ void sb_plan_make(SbPlan *out, const SbModel *model) {
   }
   plan_fit(out, model);
   plan_film(out, model);
-  char surface[32];
-  sb_param_choice_name(sb_param(SB_P_MODELS_SURFACE), model->surface == SB_ROUGH_PERSSON, surface,
-                       sizeof surface);
-  add(out->field, &out->field_count, "real contact area", surface, FILM_STATES * SB_COST_ROUGH, 0,
-      "boundary friction needs it");
+  add(out->field, &out->field_count, "real contact area", sb_rough_model_name(model->surface),
+      FILM_STATES * SB_COST_ROUGH, 0, "boundary friction needs it");
   add(out->field, &out->field_count, "leak at rest", "percolation", SB_SEAL_COUNT * SB_COST_LEAK, 0,
       "part of each seal's figures");
   plan_motion(out, model);

@@ -65,6 +65,14 @@ static void test_model_names(void) {
     g_assert_cmpstr(sb_film_model_name(model.film), ==, name);
     sb_param_choice_name(surface, (int)params.value[SB_P_MODELS_SURFACE], name, sizeof name);
     g_assert_cmpstr(sb_rough_model_name(model.surface), ==, name);
+    // The plan names them so too.
+    SbPlan plan;
+    sb_plan_make(&plan, &model);
+    bool named = false;
+    for (size_t k = 0; k < plan.field_count; k++) {
+      named = named || strcmp(plan.field[k].model, name) == 0;
+    }
+    g_assert_true(named);
   }
 }
 

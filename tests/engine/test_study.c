@@ -330,6 +330,26 @@ static bool is_cancelled(void *data) {
   return watch->calls > watch->stop_after;
 }
 
+// True from the poll on that brings the count to 0.
+static bool poll_cancels(void *data) {
+  int *left = data;
+  return --*left <= 0;
+}
+
+// A cancel is told alike between two answers and inside one.
+static void test_cancelled(void) {
+  SbModel model = thesis_model(1e-2);
+  g_autofree SbStudy *study = g_new(SbStudy, 1);
+  for (int polls = 1; polls < 400; polls += polls < 20 ? 1 : 60) {
+    int left = polls;
+    const SbStudyHooks hooks = {NULL, poll_cancels, &left};
+    SbReport report = {0};
+    g_assert_cmpint(sb_study_make(study, SB_STUDY_SQUEEZE, &model, &hooks, &report), ==,
+                    SB_ERROR_CANCELLED);
+    g_assert_cmpstr(report.text, ==, "the study was cancelled");
+  }
+}
+
 static void test_hooks(void) {
   SbModel model = thesis_model(1e-2);
   SbStudy *study = g_new(SbStudy, 1);
@@ -369,6 +389,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/study/tolerance", test_tolerance);
   g_test_add_func("/study/leak", test_leak);
   g_test_add_func("/study/hooks", test_hooks);
+  g_test_add_func("/study/cancelled", test_cancelled);
   g_test_add_func("/study/range", test_range);
   if (g_test_slow()) {
     g_test_add_func("/study/squeeze", test_squeeze);

@@ -177,7 +177,10 @@ void sb_study_note(SbStudy *out, const char *format, ...) {
 bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report) {
   if (work->status == SB_OK && status != SB_OK) {
     work->status = status;
-    if (work->report != NULL) {
+    if (status == SB_ERROR_CANCELLED) {
+      // Said alike wherever it struck.
+      (void)sb_fail(work->report, status, "the study was cancelled");
+    } else if (work->report != NULL) {
       *work->report = *report;
     }
   }
@@ -193,7 +196,7 @@ void sb_study_step(SbStudyWork *work, double fraction) {
     hooks->progress(hooks->data, fraction);
   }
   if (hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
-    work->status = sb_fail(work->report, SB_ERROR_CANCELLED, "the study was cancelled");
+    (void)sb_study_goes_on(work, SB_ERROR_CANCELLED, NULL);
   }
 }
 
