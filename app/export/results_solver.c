@@ -21,7 +21,6 @@ const SbResultRow sb_film_contact_rows[] = {
     {"hertz_half_width_m", "Hertz half-width", "m", "mm", offsetof(SbFilm, hertz_half_width)},
     {"hertz_pressure_Pa", "Hertz pressure", "Pa", "MPa", offsetof(SbFilm, hertz_pressure)},
     {"moes_M", "Moes' M", "1", "", offsetof(SbFilm, moes_M)},
-    {"expected_model_error", NULL, "", "", offsetof(SbFilm, expected_error)},
     {0}};
 
 const SbResultRow sb_film_rough_rows[] = {
