@@ -115,18 +115,28 @@ typedef struct {
   bool ruptured;
 } SbEhlResults;
 
+// Work memory of ehl_fitted.c: moments of every nodal basis, the smooth compliance times these, and
+// the body's polynomials at the targets.
+typedef struct {
+  double moment[SB_COMPLIANCE_MODES][SB_EHL_DOFS_MAX];
+  double smooth[SB_COMPLIANCE_MODES][SB_EHL_DOFS_MAX];
+  double value[SB_EHL_TARGETS_MAX][SB_COMPLIANCE_MODES];
+} SbEhlFittedWork;
+
 enum { SB_EHL_LEVELS_MAX = 6 };
 
 struct SbFilmSolver {
   SbEhlTables tables;
   SbEhlMesh mesh[2]; // the current level and the next
   SbEhlState state[2];
-  double *matrix; // of Newton's method, row after row
+  double matrix[SB_EHL_ORDER_MAX * SB_EHL_ORDER_MAX]; // of Newton's method, row after row
   double right[SB_EHL_ORDER_MAX];
   double column[SB_EHL_ORDER_MAX]; // derivative to the free end
   int pivot[SB_EHL_ORDER_MAX];
   double gaps[2 * SB_EHL_TARGETS_MAX]; // at all targets, and their derivatives to the shift
-  double *kernel; // [targets][dofs] of a fitted body: the half-plane's and the smooth part
+  // [targets][dofs] of a fitted body: the half-plane's and the smooth part.
+  double kernel[SB_EHL_TARGETS_MAX * SB_EHL_DOFS_MAX];
+  SbEhlFittedWork fitted;
 
   // Rough rows: nodes, states of a continuation, and the law of the last surface.
   SbEhlRoughPoint point[SB_EHL_DOFS_MAX];
@@ -145,9 +155,8 @@ struct SbFilmSolver {
   } last;
 };
 
-// Storage; false when out of memory.
+// Readies the memory of a solver; false if LAPACK fails.
 SB_CHECKED bool sb_ehl_init(SbFilmSolver *solver);
-void sb_ehl_finish(SbFilmSolver *solver);
 
 // Newton's method on mesh/state `which`. `independent`: state.gap is a guess of its own, to be made
 // consistent by the first step; otherwise it is computed from the pressure.
@@ -162,11 +171,10 @@ SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which,
 SbStatus sb_ehl_iterate(SbFilmSolver *solver, int which, SbEhlCase *c, bool independent,
                         const SbEhlRun *run);
 
-// Kernel of a fitted body with the axis at `shift`, into `kernel` ([targets][dofs]), and the gap
-// that it gives at all targets: the undeformed one and the deflection by the nodal pressures,
-// without H0. `slope` takes the derivatives to the shift.
-void sb_ehl_fitted(double *kernel, double *gaps, double *slope, const SbEhlTables *tables,
-                   const SbEhlMesh *mesh, const double *nodal, double shift,
+// Kernel of a fitted body with the axis at `shift`, into solver->kernel ([targets][dofs]), and the
+// gap that it gives at all targets into solver->gaps: the undeformed one and the deflection by the
+// nodal pressures, without H0; behind it the derivatives to the shift.
+void sb_ehl_fitted(SbFilmSolver *solver, const SbEhlMesh *mesh, const double *nodal, double shift,
                    const SbFilmBody *body);
 
 // Load above the ambient step less its target pi/2.

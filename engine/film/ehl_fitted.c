@@ -140,20 +140,22 @@ double sb_film_window_tilt(const SbFilmBody *body, double inlet, double outlet) 
   return -(inlet - outlet) / M_PI * log(0.5 * (c->right - c->left) / body->half_width);
 }
 
-void sb_ehl_fitted(double *kernel, double *gaps, double *slope, const SbEhlTables *tables,
-                   const SbEhlMesh *mesh, const double *nodal, double shift,
+void sb_ehl_fitted(SbFilmSolver *solver, const SbEhlMesh *mesh, const double *nodal, double shift,
                    const SbFilmBody *body) {
+  double *kernel = solver->kernel;
+  double *gaps = solver->gaps;
+  double *slope = gaps + mesh->targets;
   const SbSurfaceCompliance *c = body->compliance;
   const double unit = body->side * body->half_width;
   const int modes = c->modes;
   // p_H b over the film's scale.
   const double factor = 0.25 * c->modulus;
-  SbEhlFittedWork *work = mesh->fitted;
+  SbEhlFittedWork *work = &solver->fitted;
   memset(work->moment, 0, sizeof work->moment);
   double state[MODES] = {0};
   double state_slope[MODES] = {0};
   for (int i = 0; i < mesh->count; i++) {
-    add_element(work, state, state_slope, tables, &mesh->element[i], nodal, shift, body);
+    add_element(work, state, state_slope, &solver->tables, &mesh->element[i], nodal, shift, body);
   }
   sb_film_ambient(state, state_slope, body, mesh->inlet_pressure, mesh->outlet_pressure,
                   mesh->left_end + shift, mesh->right_end + shift);

@@ -102,11 +102,12 @@ void sb_ehl_kernel_prepare(SbEhlElement *e, SbEhlTables *tables) {
   for (int q = 0; q < SB_EHL_QUAD; q++) {
     double r = tables->fine[q];
     double scale = tables->fine_weight[q] * sb_ehl_stretch(e, r);
-    double f = sb_ehl_factor(e, r);
+    SbEhlLocal local;
+    sb_ehl_local(&local, e, t->fine[q], NULL, r);
     for (int k = 0; k <= e->degree; k++) {
-      e->fine_wb[q][k] = scale * f * t->fine[q][k];
+      e->fine_wb[q][k] = scale * local.value[k];
     }
-    e->fine_wb[q][e->degree + 1] = scale * sb_ehl_known_part(e, t->fine[q], r);
+    e->fine_wb[q][e->degree + 1] = scale * (local.known - e->far_pressure);
     e->fine_x[q] = sb_ehl_infinite(e) ? sb_ehl_inverse(e, r) : sb_ehl_position(e, r);
     value[q] = 1.0;
   }

@@ -11,13 +11,9 @@
 #include "engine/numeric/legendre.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum {
-  COLUMNS = SB_EHL_DEGREE_MAX + 2,
-  STRIDE = SB_EHL_DEGREE_MAX + 1,
-};
+enum { COLUMNS = SB_EHL_DEGREE_MAX + 2 };
 
 static const double INVERSE_PI = 0.31830988618379067;
 
@@ -49,14 +45,11 @@ const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree) {
     sb_barycentric_basis(t->fine[q], tables->fine[q], t->node, t->bary, count);
   }
   // Points of the gap: both ends and the Gauss points, or one end and one more Gauss point.
-  t->gap_node[0][0] = -1.0;
-  memcpy(&t->gap_node[0][1], t->gauss[0], (size_t)degree * sizeof(double));
-  t->gap_node[0][degree + 1] = 1.0;
-  memcpy(&t->gap_node[1][0], t->gauss[1], (size_t)count * sizeof(double));
-  t->gap_node[1][degree + 1] = 1.0;
-  t->gap_node[2][0] = -1.0;
-  memcpy(&t->gap_node[2][1], t->gauss[1], (size_t)count * sizeof(double));
   for (int kind = 0; kind < 3; kind++) {
+    int rule = kind > 0 ? 1 : 0;
+    t->gap_node[kind][0] = -1.0;
+    memcpy(&t->gap_node[kind][kind != 1], t->gauss[rule], (size_t)(degree + rule) * sizeof(double));
+    t->gap_node[kind][degree + 1] = kind != 2 ? 1.0 : t->gap_node[kind][degree + 1];
     sb_barycentric_weights(t->gap_bary[kind], t->gap_node[kind], degree + 2);
   }
   t->ready = true;
@@ -162,73 +155,37 @@ int sb_ehl_find(const SbEhlMesh *mesh, double X) {
   return i;
 }
 
-double sb_ehl_factor(const SbEhlElement *e, double r) {
-  if (!sb_ehl_infinite(e)) {
-    return 1.0;
-  }
+// Factor of the nodal polynomial in the pressure.
+static double factor_at(const SbEhlElement *e, double r) {
   double s = sb_ehl_inverse(e, r);
-  return s * s * s * s;
+  return sb_ehl_infinite(e) ? s * s * s * s : 1.0;
 }
 
-// Node that touches the neighbour.
-static int touching_node(const SbEhlElement *e) {
-  return e->map == SB_EHL_INLET ? e->degree : 0;
-}
-
-double sb_ehl_known_part(const SbEhlElement *e, const double *basis, double r) {
+void sb_ehl_local(SbEhlLocal *out, const SbEhlElement *e, const double *basis, const double *rise,
+                  double r) {
+  double stretch = sb_ehl_stretch(e, r);
+  double s = sb_ehl_inverse(e, r);
+  double factor = factor_at(e, r);
+  double factor_rise = sb_ehl_infinite(e) ? (e->map == SB_EHL_INLET ? 2.0 : -2.0) * s * s * s : 0.0;
+  out->known = e->far_pressure;
+  out->known_slope = 0.0;
   if (e->map == SB_EHL_COSINE) {
-    double known = sin(e->m + e->h * r);
-    for (int k = 0; k <= e->degree; k++) {
-      known -= basis[k] * e->node_sine[k];
-    }
-    return known;
+    out->known = sin(e->m + e->h * r);
+    out->known_slope = e->h * cos(e->m + e->h * r) / stretch;
   }
-  // The touching node holds the full pressure, of which the far pressure is no part of s^4 (...).
-  return sb_ehl_infinite(e) ? -e->far_pressure * sb_ehl_factor(e, r) * basis[touching_node(e)]
-                            : 0.0;
+  for (int k = 0; k <= e->degree; k++) {
+    out->value[k] = factor * basis[k];
+    out->slope[k] = rise != NULL ? (factor * rise[k] + factor_rise * basis[k]) / stretch : 0.0;
+    // The known part at a node is zero: of the sine, or of the far pressure where the node that
+    // touches the neighbour holds the full pressure.
+    bool touching = k == (e->map == SB_EHL_INLET ? e->degree : 0);
+    double at_node = e->map == SB_EHL_COSINE ? e->node_sine[k] : touching ? e->far_pressure : 0.0;
+    out->known -= out->value[k] * at_node;
+    out->known_slope -= out->slope[k] * at_node;
+  }
 }
 
 // ---------------------------------------------------------------- meshes
-
-bool sb_ehl_mesh_init(SbEhlMesh *mesh) {
-  enum { TARGETS = SB_EHL_TARGETS_MAX, DOFS = SB_EHL_DOFS_MAX };
-  *mesh = (SbEhlMesh){0};
-  struct {
-    double **place;
-    size_t count;
-  } part[] = {
-      {&mesh->gap, TARGETS * DOFS},
-      {&mesh->value, TARGETS * STRIDE},
-      {&mesh->slope, TARGETS * STRIDE},
-      {&mesh->gap_known, TARGETS},
-      {&mesh->x, TARGETS},
-      {&mesh->weight, TARGETS},
-      {&mesh->value_known, TARGETS},
-      {&mesh->slope_known, TARGETS},
-      {&mesh->load, DOFS},
-  };
-  enum { PARTS = sizeof part / sizeof part[0] };
-  size_t size = 0;
-  for (int i = 0; i < PARTS; i++) {
-    size += part[i].count;
-  }
-  mesh->store = malloc(size * sizeof(double));
-  mesh->fitted = malloc(sizeof *mesh->fitted);
-  if (mesh->store == NULL || mesh->fitted == NULL) {
-    return false;
-  }
-  memset(mesh->store, 0, size * sizeof(double)); // touches the pages, so that no solve pays for it
-  for (int i = 0; i < PARTS; i++) {
-    *part[i].place = i > 0 ? *part[i - 1].place + part[i - 1].count : mesh->store;
-  }
-  return true;
-}
-
-void sb_ehl_mesh_finish(SbEhlMesh *mesh) {
-  free(mesh->store);
-  free(mesh->fitted);
-  *mesh = (SbEhlMesh){0};
-}
 
 void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure) {
   mesh->count = 0;
@@ -294,34 +251,10 @@ static void place_targets(SbEhlMesh *mesh, SbEhlTables *tables) {
     for (int k = 0; k < e->points; k++) {
       double r = t->gauss[rule][k];
       int row = e->first_row + k;
-      double stretch = sb_ehl_stretch(e, r);
       mesh->x[row] = sb_ehl_position(e, r);
       mesh->owner[row] = i;
-      mesh->weight[row] = t->weight[rule][k] * stretch;
-      // Pressure and its slope from the nodes, the factor s^4 differentiated with them.
-      double f = sb_ehl_factor(e, r);
-      double f_slope = 0.0;
-      if (sb_ehl_infinite(e)) {
-        double s = sb_ehl_inverse(e, r);
-        f_slope = (e->map == SB_EHL_INLET ? 2.0 : -2.0) * s * s * s;
-      }
-      double *value = mesh->value + (size_t)row * STRIDE;
-      double *slope = mesh->slope + (size_t)row * STRIDE;
-      for (int j = 0; j <= e->degree; j++) {
-        value[j] = f * t->value[rule][k][j];
-        slope[j] = (f * t->slope[rule][k][j] + f_slope * t->value[rule][k][j]) / stretch;
-      }
-      mesh->value_known[row] = sb_ehl_known_part(e, t->value[rule][k], r) + e->far_pressure;
-      mesh->slope_known[row] = 0.0;
-      if (sb_ehl_infinite(e)) {
-        mesh->slope_known[row] = -e->far_pressure * slope[touching_node(e)];
-      } else if (e->map == SB_EHL_COSINE) {
-        double known = e->h * cos(e->m + e->h * r);
-        for (int j = 0; j <= e->degree; j++) {
-          known -= t->slope[rule][k][j] * e->node_sine[j];
-        }
-        mesh->slope_known[row] = known / stretch;
-      }
+      mesh->weight[row] = t->weight[rule][k] * sb_ehl_stretch(e, r);
+      sb_ehl_local(&mesh->local[row], e, t->value[rule][k], t->slope[rule][k], r);
     }
     // Ends: the left one is the right one of the element before, unless apart or first.
     e->left_target = -1;
@@ -415,29 +348,31 @@ bool sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
   return true;
 }
 
-double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlElement *e,
-                       const double *nodal, double r) {
-  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
-  double basis[SB_EHL_DEGREE_MAX + 1];
-  sb_barycentric_basis(basis, r, t->node, t->bary, e->degree + 1);
-  double sum = 0.0;
-  for (int k = 0; k <= e->degree; k++) {
-    sum += basis[k] * nodal[e->first_dof + k];
-  }
-  return e->far_pressure + sb_ehl_factor(e, r) * sum + sb_ehl_known_part(e, basis, r);
-}
-
-double sb_ehl_local(double *slope, const SbEhlMesh *mesh, const double *nodal, int row) {
-  const SbEhlElement *e = &mesh->element[mesh->owner[row]];
-  const double *value = mesh->value + (size_t)row * STRIDE;
-  const double *rise = mesh->slope + (size_t)row * STRIDE;
-  double sum = mesh->value_known[row];
-  *slope = mesh->slope_known[row];
+double sb_ehl_sum(double *slope, const SbEhlLocal *local, const SbEhlElement *e,
+                  const double *nodal) {
+  double sum = local->known;
+  double rise = local->known_slope;
   for (int j = 0; j <= e->degree; j++) {
-    sum += value[j] * nodal[e->first_dof + j];
-    *slope += rise[j] * nodal[e->first_dof + j];
+    sum += local->value[j] * nodal[e->first_dof + j];
+    rise += local->slope[j] * nodal[e->first_dof + j];
+  }
+  if (slope != NULL) {
+    *slope = rise;
   }
   return sum;
+}
+
+double sb_ehl_pressure(double *slope, SbEhlTables *tables, const SbEhlElement *e,
+                       const double *nodal, double r) {
+  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+  double basis[SB_EHL_DEGREE_MAX + 1], rise[SB_EHL_DEGREE_MAX + 1];
+  sb_barycentric_basis(basis, r, t->node, t->bary, e->degree + 1);
+  if (slope != NULL) {
+    sb_barycentric_slope(rise, r, t->node, t->bary, e->degree + 1);
+  }
+  SbEhlLocal local;
+  sb_ehl_local(&local, e, basis, slope != NULL ? rise : NULL, r);
+  return sb_ehl_sum(slope, &local, e, nodal);
 }
 
 double sb_ehl_gap(const SbEhlMesh *mesh, SbEhlTables *tables, int element, const double *target_gap,
@@ -453,7 +388,7 @@ double sb_ehl_gap(const SbEhlMesh *mesh, SbEhlTables *tables, int element, const
     int target = collocated < 0           ? e->left_target
                  : collocated < e->points ? e->first_row + collocated
                                           : e->right_target;
-    sum += basis[k] * target_gap[target] * sb_ehl_factor(e, t->gap_node[kind][k]);
+    sum += basis[k] * target_gap[target] * factor_at(e, t->gap_node[kind][k]);
   }
-  return sum / sb_ehl_factor(e, r);
+  return sum / factor_at(e, r);
 }

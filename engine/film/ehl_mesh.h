@@ -77,13 +77,11 @@ typedef struct {
   double log_s[SB_EHL_DEGREE_MAX + 2];    // integral with ln s, infinite elements
 } SbEhlElement;
 
-// Work memory of ehl_fitted.c: moments of every nodal basis, the smooth compliance times these, and
-// the body's polynomials at the targets.
+// Pressure at a place of an element and its slope to X: the known part and the share of each node.
 typedef struct {
-  double moment[SB_COMPLIANCE_MODES][SB_EHL_DOFS_MAX];
-  double smooth[SB_COMPLIANCE_MODES][SB_EHL_DOFS_MAX];
-  double value[SB_EHL_TARGETS_MAX][SB_COMPLIANCE_MODES];
-} SbEhlFittedWork;
+  double value[SB_EHL_DEGREE_MAX + 1], slope[SB_EHL_DEGREE_MAX + 1];
+  double known, known_slope;
+} SbEhlLocal;
 
 // A mesh with its operators. Targets are the collocation points (the first `rows`), then the finite
 // ends of the elements; of a nodal mesh, the nodes, without local operators. The known parts hold
@@ -97,19 +95,14 @@ typedef struct {
   int dofs, rows, targets;
   double inlet_pressure, outlet_pressure; // constant pressure beyond the two ends of the mesh
   double left_end, right_end;             // where those constants begin
-  double *gap;                            // [targets][dofs] -(1/pi) integral of basis ln|X - X'|
-  double *gap_known; // [targets] gap of the known pressure, of the far pressures and their tilt
-  double *x;         // [targets]
-  double *weight;    // [rows] quadrature weights dX of the collocation points
-  // Local operators: a collocation point sees the nodes of its element only.
-  double *value;                     // [rows][SB_EHL_DEGREE_MAX + 1]
-  double *slope;                     // d/dX
-  double *value_known, *slope_known; // [rows]
-  int owner[SB_EHL_TARGETS_MAX];     // element of a target
-  double *load;                      // [dofs] integral of the basis
-  double load_known;
-  SbEhlFittedWork *fitted;
-  double *store; // all of these arrays
+  double x[SB_EHL_TARGETS_MAX];           // of the targets
+  int owner[SB_EHL_TARGETS_MAX];          // element of a target
+  // [targets][dofs] -(1/pi) integral of basis ln|X - X'|, and the gap of the known pressure, of the
+  // far pressures and their tilt.
+  double gap[SB_EHL_TARGETS_MAX * SB_EHL_DOFS_MAX], gap_known[SB_EHL_TARGETS_MAX];
+  double weight[SB_EHL_DOFS_MAX];           // [rows] quadrature weights dX
+  SbEhlLocal local[SB_EHL_DOFS_MAX];        // [rows]
+  double load[SB_EHL_DOFS_MAX], load_known; // integrals of the basis and of the known pressure
 } SbEhlMesh;
 
 // Everything that outlives a solve: rules and tables of the degrees in use.
@@ -127,11 +120,6 @@ const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree);
 // node j to r.
 const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree);
 void sb_ehl_partial(double *weight, const SbEhlTable *table, int j, double r);
-
-// Storage of a mesh: false when out of memory, then to be finished as well. Finish takes a zeroed
-// mesh.
-SB_CHECKED bool sb_ehl_mesh_init(SbEhlMesh *mesh);
-void sb_ehl_mesh_finish(SbEhlMesh *mesh);
 
 // Empties the mesh and adds elements from left to right.
 void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure);
@@ -166,10 +154,14 @@ static inline double sb_ehl_inverse(const SbEhlElement *e, double r) {
   return e->map == SB_EHL_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
 }
 
-// Factor of the nodal polynomial in the pressure, and the known part of this without the far
-// pressure; `basis` holds the Lagrange values at r.
-double sb_ehl_factor(const SbEhlElement *e, double r);
-double sb_ehl_known_part(const SbEhlElement *e, const double *basis, double r);
+// Pressure at r, where the nodes' Lagrange polynomials are `basis` with the slopes `rise` to r
+// (NULL: values only).
+void sb_ehl_local(SbEhlLocal *out, const SbEhlElement *e, const double *basis, const double *rise,
+                  double r);
+
+// Pressure by the nodal values, and its slope unless NULL.
+double sb_ehl_sum(double *slope, const SbEhlLocal *local, const SbEhlElement *e,
+                  const double *nodal);
 
 // Everything about an element that its integrals need, for every target alike.
 void sb_ehl_kernel_prepare(SbEhlElement *e, SbEhlTables *tables);
@@ -183,12 +175,10 @@ void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *ta
 double sb_ehl_position(const SbEhlElement *e, double r);
 double sb_ehl_stretch(const SbEhlElement *e, double r);
 
-// Pressure at r of element e from nodal values; the far pressure included.
-double sb_ehl_pressure(const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlElement *e,
+// Pressure at r of element e from nodal values, the far pressure included; its slope to X unless
+// NULL.
+double sb_ehl_pressure(double *slope, SbEhlTables *tables, const SbEhlElement *e,
                        const double *nodal, double r);
-
-// Pressure at a collocation point, and its slope.
-double sb_ehl_local(double *slope, const SbEhlMesh *mesh, const double *nodal, int row);
 
 // Gap at r of element e, interpolated from the gap at all targets (`target_gap`) at the
 // collocation points and ends of the element.

@@ -15,39 +15,24 @@
 
 #include <cblas.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum { STRIDE = SB_EHL_DEGREE_MAX + 1, ITERATIONS_MAX = 10 };
+enum { ITERATIONS_MAX = 10 };
 
 // A step that leaves less than this of the residual lets the next one take the same factors.
 static const double REUSE = 0.02;
 
 bool sb_ehl_init(SbFilmSolver *solver) {
   enum { TRIAL = 64 };
-  sb_ehl_tables_init(&solver->tables);
-  const size_t size = (size_t)SB_EHL_ORDER_MAX * SB_EHL_ORDER_MAX * sizeof(double);
-  solver->matrix = malloc(size);
-  solver->kernel = malloc((size_t)SB_EHL_TARGETS_MAX * SB_EHL_DOFS_MAX * sizeof(double));
-  if (!sb_ehl_mesh_init(&solver->mesh[0]) || !sb_ehl_mesh_init(&solver->mesh[1]) ||
-      solver->matrix == NULL || solver->kernel == NULL) {
-    return false;
-  }
   // Touches the pages and LAPACK's own buffers once, so that no solve pays for them.
-  memset(solver->matrix, 0, size);
+  memset(solver, 0, sizeof *solver);
+  sb_ehl_tables_init(&solver->tables);
   for (size_t i = 0; i < TRIAL; i++) {
     solver->matrix[i * TRIAL + i] = 1.0;
   }
   cblas_dgemv(CblasRowMajor, CblasNoTrans, TRIAL, TRIAL, 1.0, solver->matrix, TRIAL, solver->right,
               1, 0.0, solver->gaps, 1);
   return sb_factor_solve(solver->matrix, solver->pivot, solver->right, TRIAL, true);
-}
-
-void sb_ehl_finish(SbFilmSolver *solver) {
-  sb_ehl_mesh_finish(&solver->mesh[0]);
-  sb_ehl_mesh_finish(&solver->mesh[1]);
-  free(solver->matrix);
-  free(solver->kernel);
 }
 
 // Gap from the pressure at all targets into solver->gaps, with its derivatives to the nodal
@@ -57,8 +42,7 @@ static const double *elastic_gaps(SbFilmSolver *solver, const SbEhlMesh *mesh,
   double *out = solver->gaps;
   double *slope = out + mesh->targets;
   if (problem->body.compliance != NULL) {
-    sb_ehl_fitted(solver->kernel, out, slope, &solver->tables, mesh, state->nodal, state->shift,
-                  &problem->body);
+    sb_ehl_fitted(solver, mesh, state->nodal, state->shift, &problem->body);
     for (int i = 0; i < mesh->targets; i++) {
       out[i] += state->H0;
     }
@@ -141,7 +125,9 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
     double elastic = gaps[i];
     double H = independent ? state->gap[i] : elastic;
     double slope;
-    double pressure = sb_ehl_local(&slope, mesh, state->nodal, i);
+    const SbEhlElement *e = &mesh->element[mesh->owner[i]];
+    const SbEhlLocal *local = &mesh->local[i];
+    double pressure = sb_ehl_sum(&slope, local, e, state->nodal);
     double m, m_film, m_pressure;
     sb_film_mobility(&m, &m_film, &m_pressure, &problem->fluid, H, pressure);
     double G = H * H * H * m / lambda;
@@ -159,10 +145,8 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
     for (int j = 0; j < dofs; j++) {
       row[j] = scale * by_film * gap[j];
     }
-    const SbEhlElement *e = &mesh->element[mesh->owner[i]];
     for (int j = 0; j <= e->degree; j++) {
-      row[e->first_dof + j] += scale * (G * mesh->slope[(size_t)i * STRIDE + (size_t)j] +
-                                        by_pressure * mesh->value[(size_t)i * STRIDE + (size_t)j]);
+      row[e->first_dof + j] += scale * (G * local->slope[j] + by_pressure * local->value[j]);
     }
     row[dofs] = scale * by_film;
     if (layout->shift >= 0) {

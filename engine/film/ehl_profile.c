@@ -126,7 +126,7 @@ static double reynolds_slope(SbFilmSolver *solver, int which, const SbEhlCase *p
   const SbEhlState *state = &solver->state[which];
   const SbEhlElement *e = &mesh->element[element];
   double film = gap_at(solver, which, problem, element, excess, r);
-  double pressure = sb_ehl_pressure(mesh, &solver->tables, e, state->nodal, r);
+  double pressure = sb_ehl_pressure(NULL, &solver->tables, e, state->nodal, r);
   double m, by_film, by_pressure;
   sb_film_mobility(&m, &by_film, &by_pressure, &problem->fluid, film, pressure);
   return problem->layers.lambda * (film - state->flux) / (film * film * film * m) *
@@ -140,7 +140,7 @@ static void fill_piece(Piece *out, SbFilmSolver *solver, int which, const SbEhlC
   for (int q = 0; q < SB_EHL_QUAD; q++) {
     double r = out->middle + out->half * solver->tables.fine[q];
     double value =
-        out->flat ? sb_ehl_pressure(mesh, &solver->tables, e, solver->state[which].nodal, r)
+        out->flat ? sb_ehl_pressure(NULL, &solver->tables, e, solver->state[which].nodal, r)
                   : out->half * reynolds_slope(solver, which, problem, out->element, excess, r);
     value *= solver->tables.fine_weight[q];
     for (int k = 0; k <= MODES; k++) {
@@ -259,7 +259,7 @@ static void join(Piece *piece, int count, SbFilmSolver *solver, int which, const
     }
     const SbEhlElement *left = &mesh->element[piece[first].element];
     const SbEhlElement *right = &mesh->element[piece[last].element];
-    double from = sb_ehl_pressure(mesh, &solver->tables, left, state->nodal, -1.0);
+    double from = sb_ehl_pressure(NULL, &solver->tables, left, state->nodal, -1.0);
     if (left->map == SB_EHL_INLET) {
       from += gain_beyond(solver, which, problem, &piece[first], excess, -1.0);
     }
@@ -267,7 +267,7 @@ static void join(Piece *piece, int count, SbFilmSolver *solver, int which, const
       piece[i].begin = from;
       piece[i].end = from += rise_of(&piece[i]);
     }
-    from = sb_ehl_pressure(mesh, &solver->tables, right, state->nodal, 1.0);
+    from = sb_ehl_pressure(NULL, &solver->tables, right, state->nodal, 1.0);
     if (right->map == SB_EHL_OUTLET) {
       from -= gain_beyond(solver, which, problem, &piece[last], excess, 1.0);
     }

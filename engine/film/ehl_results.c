@@ -50,7 +50,7 @@ void sb_ehl_carry(SbFilmSolver *solver, int from, int to, const SbEhlLayers *bef
       }
       double value = !same && X > a->right_end && e->map != SB_EHL_OUTLET
                          ? 0.0
-                         : sb_ehl_pressure(a, &solver->tables, e, old->nodal, r);
+                         : sb_ehl_pressure(NULL, &solver->tables, e, old->nodal, r);
       value += whole ? sb_film_dry_pressure(X, b->inlet_pressure, b->outlet_pressure) -
                            sb_film_dry_pressure(X, a->inlet_pressure, a->outlet_pressure)
                      : 0.0;
@@ -81,7 +81,7 @@ static double sampled(SbFilmSolver *solver, int which, const SbEhlCase *c, int e
   const SbEhlState *state = &solver->state[which];
   const SbEhlElement *e = &mesh->element[element];
   if (pressure) {
-    return -sb_ehl_pressure(mesh, &solver->tables, e, state->nodal, r);
+    return -sb_ehl_pressure(NULL, &solver->tables, e, state->nodal, r);
   }
   return c->rough.rows ? sb_ehl_interpolate(sb_ehl_table(&solver->tables, e->degree),
                                             &state->t[e->first_dof], r)
@@ -163,13 +163,8 @@ static double reynolds_film(SbFilmSolver *solver, int which, const SbEhlCase *pr
   const SbEhlMesh *mesh = &solver->mesh[which];
   const SbEhlState *state = &solver->state[which];
   const SbEhlElement *e = &mesh->element[element];
-  double step = fmin(1e-3, 0.5 * (1.0 - fabs(r)) + 1e-6);
-  double before = fmax(-1.0, r - step);
-  double after = fmin(1.0, r + step);
-  double slope = (sb_ehl_pressure(mesh, &solver->tables, e, state->nodal, after) -
-                  sb_ehl_pressure(mesh, &solver->tables, e, state->nodal, before)) /
-                 (sb_ehl_position(e, after) - sb_ehl_position(e, before));
-  double pressure = sb_ehl_pressure(mesh, &solver->tables, e, state->nodal, r);
+  double slope;
+  double pressure = sb_ehl_pressure(&slope, &solver->tables, e, state->nodal, r);
   return sb_ehl_flat_film(problem, state->flux, film, pressure, slope);
 }
 
@@ -231,7 +226,7 @@ static void add_smooth(SbEhlResults *out, int *thinnest, int *highest, SbFilmSol
   double peak = -INFINITY;
   for (int i = 0; i < mesh->rows; i++) {
     double P_slope;
-    double P = sb_ehl_local(&P_slope, mesh, state->nodal, i);
+    double P = sb_ehl_sum(&P_slope, &mesh->local[i], &mesh->element[mesh->owner[i]], state->nodal);
     double H = state->gap[i];
     out->pressure_min = fmin(out->pressure_min, P);
     *thinnest = H < state->gap[*thinnest] ? i : *thinnest;

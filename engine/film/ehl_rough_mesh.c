@@ -155,8 +155,7 @@ bool sb_ehl_rough_mesh(SbFilmSolver *solver, int which, const SbEhlCase *c, int 
   size_t targets = (size_t)mesh->targets;
   if (c->body.compliance != NULL) {
     double none[SB_EHL_DOFS_MAX] = {0};
-    sb_ehl_fitted(solver->kernel, solver->gaps, solver->gaps + targets, &solver->tables, mesh, none,
-                  l->middle, &c->body);
+    sb_ehl_fitted(solver, mesh, none, l->middle, &c->body);
     memcpy(mesh->gap, solver->kernel, targets * targets * sizeof(double));
     memcpy(mesh->gap_known, solver->gaps, targets * sizeof(double));
   } else {

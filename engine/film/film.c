@@ -46,7 +46,7 @@ void sb_film_problem_init(SbFilmProblem *problem) {
 }
 
 SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
-  *out = calloc(1, sizeof **out);
+  *out = malloc(sizeof **out);
   if (*out == NULL || !sb_ehl_init(*out)) {
     sb_film_solver_destroy(*out);
     *out = NULL;
@@ -56,10 +56,7 @@ SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
 }
 
 void sb_film_solver_destroy(SbFilmSolver *solver) {
-  if (solver != NULL) {
-    sb_ehl_finish(solver);
-    free(solver);
-  }
+  free(solver);
 }
 
 void sb_film_solver_forget(SbFilmSolver *solver) {
