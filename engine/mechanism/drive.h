@@ -1,16 +1,15 @@
 // What moves the stem: the position of a machine's platen or the force of a finger, against time.
 //
 // Every drive but the sinusoid is straight between its breaks, so that the motion between them has
-// a closed form. A platen cycle reverses when its force reaches a level, which the caller reports
-// (sb_drive_reverse). SI units, positive into the canister. Source: thesis 3.5 (machine, 20 mm/min
-// and reversal); the hand's press-and-release is ours.
+// a closed form. A machine that goes to a place and back at constant speed is a press of its
+// platen's position. SI units, positive into the canister. Source: thesis 3.5 (machine,
+// 20 mm/min); the hand's press-and-release is ours.
 #pragma once
 
 #include "engine/base/status.h"
 
 typedef enum {
   SB_DRIVE_NONE,  // nothing pushes: free return
-  SB_DRIVE_CYCLE, // platen: forward at constant speed to a force or position, hold, back to `start`
   SB_DRIVE_RAMP,  // `start`, then `rate` per second until `end`
   SB_DRIVE_PRESS, // `start` to `end` in `rise`, `hold`, back in `fall`
   SB_DRIVE_SINE,  // start + amplitude sin(2 pi frequency t + phase)
@@ -21,15 +20,12 @@ typedef enum { SB_DRIVE_OF_POSITION, SB_DRIVE_OF_FORCE } SbDriveQuantity;
 
 typedef struct {
   SbDriveKind kind;
-  SbDriveQuantity quantity; // CYCLE is always a position
-  double start, end;        // m or N; CYCLE: `end` is the farthest position (INFINITY: none)
-  double rate;              // RAMP: m/s or N/s, > 0 (its sign follows from start and end)
-  double speed;             // CYCLE: m/s, > 0
-  double speed_back;        // CYCLE: m/s; 0 means `speed`
-  double reversal_force;    // CYCLE: N; INFINITY: none
-  double rise, hold, fall;  // s; CYCLE uses hold
-  int cycles;               // CYCLE and PRESS: repeats, at least 1
-  double pause;             // CYCLE and PRESS: s between repeats
+  SbDriveQuantity quantity;
+  double start, end;                  // m or N
+  double rate;                        // RAMP: m/s or N/s, > 0 (its sign follows from start and end)
+  double rise, hold, fall;            // PRESS: s
+  int cycles;                         // PRESS: repeats, at least 1
+  double pause;                       // PRESS: s between repeats
   double amplitude, frequency, phase; // m or N, Hz, rad
   const double *time, *value;         // TABLE: s (strictly increasing), m or N; borrowed
   size_t count;
@@ -45,16 +41,17 @@ typedef enum {
 
 typedef struct {
   SbDrivePhase phase;
-  double since, from; // time and value at the start of the phase
+  double since, from; // time [s] and value [m or N] at the start of the phase
   int cycle;
   size_t cursor;
 } SbDriveState;
 
 // The drive on one piece of time: value + rate (t - at) until `until`, or a sinusoid.
 typedef struct {
-  double at, value, rate, until;
-  bool curved; // sinusoid: value and rate hold at `at` only; steps should not exceed `step`
-  double step;
+  double at, until;   // s
+  double value, rate; // m or N, per s
+  bool curved;        // sinusoid: value and rate hold at `at` only
+  double step;        // s, which steps should not exceed then
 } SbDrivePiece;
 
 // Refuses a drive that makes no sense, naming what is wrong.
@@ -66,9 +63,6 @@ void sb_drive_start(SbDriveState *state, const SbDrive *drive);
 // The piece that holds at time t and on to `until` (> t, maybe INFINITY). Time never runs
 // backwards.
 void sb_drive_piece(SbDrivePiece *piece, SbDriveState *state, const SbDrive *drive, double t);
-
-// The platen's force has reached the reversal force at time t.
-void sb_drive_reverse(SbDriveState *state, const SbDrive *drive, double t);
 
 // Value and rate of a sinusoid at t.
 void sb_drive_sine(const SbDrive *drive, double t, double *value, double *rate);

@@ -287,10 +287,6 @@ static void apply(SbDynamics *s, int event) {
   case EVENT_DRIVE:
     switch_drive(s);
     return;
-  case EVENT_REVERSAL:
-    tell(s, SB_MOTION_REVERSE, 0, -1);
-    sb_drive_reverse(&s->drive, &s->model->drive, s->t);
-    return;
   case EVENT_RIGID_UP:
     rigid_event(s, 1);
     return;

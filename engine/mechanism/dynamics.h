@@ -113,8 +113,7 @@ typedef enum {
   SB_MOTION_LEAVE_STOP,
   SB_MOTION_TOUCH_DRIVE, // platen or finger
   SB_MOTION_LEAVE_DRIVE,
-  SB_MOTION_REVERSE, // the platen turns at its reversal force
-  SB_MOTION_EDGE,    // edge `index`, direction `sign`
+  SB_MOTION_EDGE, // edge `index`, direction `sign`
 } SbMotionEventKind;
 
 // State just before the event.

@@ -357,18 +357,6 @@ bool sb_motion_event_function(const SbDynamics *s, int event, const Linear *l, S
     return true;
   case EVENT_DRIVE:
     return drive_function(s, g);
-  case EVENT_REVERSAL:
-    if (m->drive.kind != SB_DRIVE_CYCLE || s->drive.phase != SB_DRIVE_FORWARD || !s->push.on ||
-        !isfinite(m->drive.reversal_force)) {
-      return false;
-    }
-    drive_function(s, g);
-    *g = (SbEventFunction){.constant = m->drive.reversal_force - g->constant,
-                           .rate = -g->rate,
-                           .of_x = -g->of_x,
-                           .of_v = -g->of_v,
-                           .noise = g->noise + m->drive.reversal_force};
-    return true;
   case EVENT_RIGID_UP:
     return rigid_function(s, 1, l, g);
   case EVENT_RIGID_DOWN:

@@ -11,7 +11,6 @@ enum {
   EVENT_EDGE_UP,
   EVENT_EDGE_DOWN,
   EVENT_DRIVE,    // platen or finger touches or is left
-  EVENT_REVERSAL, // the platen's force reaches its limit
   EVENT_RIGID_UP, // rigid contacts: slip forward, or come to rest
   EVENT_RIGID_DOWN,
   EVENT_STOP,

@@ -249,11 +249,7 @@ static void test_valve(void) {
       .edges = 1,
       .edge = {3.3e-3},
       .loads = valve_loads,
-      .drive = {.kind = SB_DRIVE_CYCLE,
-                .speed = 1e-2,
-                .end = INFINITY,
-                .reversal_force = 35.0,
-                .cycles = 1},
+      .drive = {.kind = SB_DRIVE_PRESS, .end = 6.95e-3, .rise = 0.695, .fall = 0.695, .cycles = 1},
       .drive_stiffness = 1e5,
       .drive_damping = 5.0};
   SbDynamics s;

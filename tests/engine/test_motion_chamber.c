@@ -160,11 +160,8 @@ static void test_valve(void) {
           .extra_rates = rates,
           .cross = crossed,
           .user = &v,
-          .drive = {.kind = SB_DRIVE_CYCLE,
-                    .speed = 1e-2,
-                    .end = INFINITY,
-                    .reversal_force = 35.0,
-                    .cycles = 1},
+          .drive =
+              {.kind = SB_DRIVE_PRESS, .end = 6.95e-3, .rise = 0.695, .fall = 0.695, .cycles = 1},
           .drive_stiffness = 1e5,
           .drive_damping = 5.0};
       for (size_t i = 0; i < v.edges; i++) {

@@ -447,7 +447,7 @@ static void test_refusals(void) {
       bad.contacts = 99;
       break;
     case 7:
-      bad.drive = (SbDrive){.kind = SB_DRIVE_CYCLE, .speed = -1.0, .end = 1.0};
+      bad.drive = (SbDrive){.kind = SB_DRIVE_PRESS, .rise = -1.0, .fall = 1.0, .end = 1.0};
       bad.drive_stiffness = 1e5;
       break;
     case 8:

@@ -301,21 +301,18 @@ static void test_cycle(void) {
     home[b] = a.body[b].position[0];
   }
   SbDynamicsContact seal = {.static_ratio = 1.1, .stiffness = INFINITY};
-  SbDynamicsModel m = {.mass = valve.moving_mass,
-                       .contacts = 2,
-                       .contact = {seal, seal},
-                       .stops = 2,
-                       .stop = {{6.6e-3, 1, 1e6, 0.3}, {0.0, -1, INFINITY, 0.0}},
-                       .edges = 1,
-                       .edge = {3.3e-3},
-                       .loads = valve_loads,
-                       .drive = {.kind = SB_DRIVE_CYCLE,
-                                 .speed = 20e-3 / 60.0,
-                                 .end = INFINITY,
-                                 .reversal_force = 30.0,
-                                 .cycles = 1},
-                       .drive_stiffness = 1e5,
-                       .drive_damping = 5.0};
+  SbDynamicsModel m = {
+      .mass = valve.moving_mass,
+      .contacts = 2,
+      .contact = {seal, seal},
+      .stops = 2,
+      .stop = {{6.6e-3, 1, 1e6, 0.3}, {0.0, -1, INFINITY, 0.0}},
+      .edges = 1,
+      .edge = {3.3e-3},
+      .loads = valve_loads,
+      .drive = {.kind = SB_DRIVE_PRESS, .end = 6.9e-3, .rise = 20.7, .fall = 20.7, .cycles = 1},
+      .drive_stiffness = 1e5,
+      .drive_damping = 5.0};
   SbDynamics s;
   g_assert_cmpint(sb_dynamics_init(&s, &m, &report), ==, SB_OK);
   g_assert_cmpint(sb_dynamics_advance(&s, 0.0, &report), ==, SB_OK);

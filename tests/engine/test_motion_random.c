@@ -88,11 +88,11 @@ static void run_case(guint32 seed, double *worst, double *slowest) {
   double time[POINTS], value[POINTS], until, speed = between(r, speed_law ? 1e-3 : 1e-4, 10.0);
   switch (g_rand_int_range(r, 0, 4)) {
   case 0:
-    m.drive = (SbDrive){.kind = SB_DRIVE_CYCLE,
-                        .speed = speed,
-                        .end = 8e-3,
-                        .reversal_force = between(r, 10.0, 200.0),
+    // Up to the stop's place and as far on as a force strains the machine.
+    m.drive = (SbDrive){.kind = SB_DRIVE_PRESS,
+                        .end = fmin(8e-3, 6.6e-3 + between(r, 10.0, 200.0) / m.drive_stiffness),
                         .cycles = chance(r, 0.3) ? 2 : 1};
+    m.drive.rise = m.drive.fall = m.drive.end / speed;
     until = 20e-3 / speed * m.drive.cycles;
     break;
   case 1:

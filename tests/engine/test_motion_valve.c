@@ -69,11 +69,7 @@ static SbDynamicsModel valve_model(Valve *valve) {
       .edge = {3.3e-3},
       .loads = valve_loads,
       .user = valve,
-      .drive = {.kind = SB_DRIVE_CYCLE,
-                .speed = 20e-3 / 60.0,
-                .end = INFINITY,
-                .reversal_force = 35.0,
-                .cycles = 1},
+      .drive = {.kind = SB_DRIVE_PRESS, .end = 6.95e-3, .rise = 20.85, .fall = 20.85, .cycles = 1},
       .drive_stiffness = 1e5,
       .drive_damping = 5.0,
   };
@@ -157,8 +153,8 @@ static void test_hard(void) {
       SbDynamicsModel m = valve_model(&valve);
       m.mass = h->mass;
       m.stop[0].stiffness = h->stop_stiffness;
-      m.drive.speed = h->speed;
-      m.drive.reversal_force = h->speed > 1.0 ? 1e3 : 70.0;
+      m.drive.end = h->speed > 1.0 ? 16.6e-3 : 7.3e-3;
+      m.drive.rise = m.drive.fall = m.drive.end / h->speed;
       m.drive_damping *= sqrt(h->mass / 3.73e-3);
       for (int k = 0; k < 2; k++) {
         m.contact[k].static_ratio = h->ratio;

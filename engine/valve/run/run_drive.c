@@ -27,11 +27,10 @@ void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run) {
   drive->cycles = model->cycles;
   switch (model->drive) {
   case SB_MODEL_DRIVE_MACHINE:
-    drive->kind = SB_DRIVE_CYCLE;
+    drive->kind = SB_DRIVE_PRESS;
     drive->quantity = SB_DRIVE_OF_POSITION;
     drive->end = platen_top(&run->cycle);
-    drive->speed = model->speed;
-    drive->reversal_force = INFINITY;
+    drive->rise = drive->fall = drive->end / model->speed;
     set_machine(out, model);
     break;
   case SB_MODEL_DRIVE_HAND:
