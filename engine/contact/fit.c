@@ -7,23 +7,56 @@
 
 #include "engine/base/check.h"
 #include "engine/base/clock.h"
-#include "engine/contact/closed/green_english.h"
-#include "engine/contact/closed/lindley.h"
+#include "engine/contact/closed_forms.h"
 #include "engine/contact/fit_models.h"
 
-static const char *const model_names[SB_FIT_MODEL_COUNT] = {
-#define MODEL_NAME(code, text) [code] = text,
-    SB_FIT_MODEL_LIST(MODEL_NAME)
-#undef MODEL_NAME
+static const char *const lindley_names[] = {
+    [SB_LINDLEY_EXTENDED] = "extended",
+    [SB_LINDLEY_INITIAL] = "initial",
+    [SB_LINDLEY_SIMPLE_WIDTH] = "simple-width",
+    [SB_LINDLEY_KURAN] = "kuran",
+    [SB_LINDLEY_COUNT] = NULL,
+};
+static const char *const green_english_names[] = {
+    [SB_GREEN_ENGLISH_RADIAL] = "radial-unrestrained",
+    [SB_GREEN_ENGLISH_PLANE] = "plane-strain-unrestrained",
+    [SB_GREEN_ENGLISH_AXIAL_LUBRICATED] = "axial-unrestrained-lubricated",
+    [SB_GREEN_ENGLISH_AXIAL] = "axial-unrestrained-unlubricated",
+    [SB_GREEN_ENGLISH_AXIAL_RESTRAINED] = "axial-restrained",
+    [SB_GREEN_ENGLISH_RADIAL_RESTRAINED] = "radial-restrained",
+    [SB_GREEN_ENGLISH_PLANE_RESTRAINED] = "plane-strain-restrained",
+    [SB_GREEN_ENGLISH_COUNT] = NULL,
+};
+static const char *const disc_names[] = {
+    [SB_DISC_VERTICAL] = "vertical",
+    [SB_DISC_RADIAL] = "radial",
+    [SB_DISC_VERTICAL_BOTH] = "vertical-both-flanks",
+    [SB_DISC_RADIAL_BOTH] = "radial-both-flanks",
+    [SB_DISC_VARIANT_COUNT] = NULL,
+};
+static const char *const no_names[] = {"default", NULL};
+
+static const struct {
+  const char *name;
+  SbStatus (*solve)(SbFit *, const SbFitProblem *, SbReport *);
+  const char *const *variants; // NULL-terminated
+} models[SB_FIT_MODEL_COUNT] = {
+    [SB_FIT_KARASZKIEWICZ] = {"karaszkiewicz", sb_fit_closed, no_names},
+    [SB_FIT_HERTZ] = {"hertz", sb_fit_closed, no_names},
+    [SB_FIT_LINDLEY] = {"lindley", sb_fit_closed, lindley_names},
+    [SB_FIT_GREEN_ENGLISH] = {"green-english", sb_fit_closed, green_english_names},
+    [SB_FIT_DISC_THESIS] = {"disc-thesis", sb_fit_disc_thesis, no_names},
+    [SB_FIT_DISC] = {"disc", sb_fit_disc, disc_names},
+    [SB_FIT_RING] = {"ring", sb_fit_ring, no_names},
 };
 
 const char *sb_fit_model_name(SbFitModel model) {
-  return (unsigned)model < SB_FIT_MODEL_COUNT ? model_names[model] : NULL;
+  return (unsigned)model < SB_FIT_MODEL_COUNT ? models[model].name : NULL;
 }
 
 bool sb_fit_model_from_name(SbFitModel *out, const char *name) {
   for (int i = 0; i < SB_FIT_MODEL_COUNT; i++) {
-    if (strcmp(name, model_names[i]) == 0) {
+    if (strcmp(name, models[i].name) == 0) {
       *out = (SbFitModel)i;
       return true;
     }
@@ -31,42 +64,15 @@ bool sb_fit_model_from_name(SbFitModel *out, const char *name) {
   return false;
 }
 
-static const char *const lindley_names[] = {
-#define LINDLEY_NAME(code, text) text,
-    SB_LINDLEY_LIST(LINDLEY_NAME)
-#undef LINDLEY_NAME
-};
-
-static const char *const green_english_names[] = {
-#define GREEN_ENGLISH_NAME(code, text, a, b, c, n, s_max) text,
-    SB_GREEN_ENGLISH_LIST(GREEN_ENGLISH_NAME)
-#undef GREEN_ENGLISH_NAME
-};
-
-// The kernel, and whether the fluid is on the left alone (and the ring on the groove wall) or on
-// both flanks.
-static const char *const disc_names[] = {
-    "vertical",
-    "radial",
-    "vertical-both-flanks",
-    "radial-both-flanks",
-};
-
 const char *sb_fit_variant_name(SbFitModel model, int variant) {
-  static const struct {
-    const char *const *names;
-    int count;
-  } variants[SB_FIT_MODEL_COUNT] = {
-      [SB_FIT_LINDLEY] = {lindley_names, SB_LINDLEY_COUNT},
-      [SB_FIT_GREEN_ENGLISH] = {green_english_names, SB_GREEN_ENGLISH_COUNT},
-      [SB_FIT_DISC] = {disc_names, (int)(sizeof disc_names / sizeof disc_names[0])},
-  };
   if ((unsigned)model >= SB_FIT_MODEL_COUNT || variant < 0) {
     return NULL;
   }
-  const char *const *names = variants[model].names;
-  return names == NULL ? (variant == 0 ? "default" : NULL)
-                       : (variant < variants[model].count ? names[variant] : NULL);
+  const char *const *names = models[model].variants;
+  for (; *names != NULL && variant > 0; variant--) {
+    names++;
+  }
+  return *names;
 }
 
 // ---- input
@@ -120,6 +126,19 @@ static void fill_sizes(SbFit *out, const SbFitProblem *in) {
   out->gland_fill = 0.25 * M_PI * d * d * mean_free / (g * mean_fitted * in->gland_width);
 }
 
+void sb_fit_contact(SbFit *out, double left, double right) {
+  out->touches = true;
+  out->contact_left = left;
+  out->contact_right = right;
+  out->contact_width = right - left;
+  out->load = out->load_per_length * out->circumference;
+  out->profile_count = SB_FIT_POINTS;
+  for (size_t i = 0; i < SB_FIT_POINTS; i++) {
+    const double t = sin(M_PI * ((double)i / (SB_FIT_POINTS - 1) - 0.5));
+    out->profile_x[i] = 0.5 * ((1.0 - t) * left + (1.0 + t) * right);
+  }
+}
+
 // Any warning but that of a ring that does not touch means that a model is outside its range.
 static void judge_validity(SbFit *out) {
   out->valid = true;
@@ -138,16 +157,7 @@ SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report)
     return status;
   }
   fill_sizes(out, problem);
-  static SbStatus (*const solve[SB_FIT_MODEL_COUNT])(SbFit *, const SbFitProblem *, SbReport *) = {
-      [SB_FIT_KARASZKIEWICZ] = sb_fit_karaszkiewicz,
-      [SB_FIT_HERTZ] = sb_fit_hertz,
-      [SB_FIT_LINDLEY] = sb_fit_lindley,
-      [SB_FIT_GREEN_ENGLISH] = sb_fit_green_english,
-      [SB_FIT_DISC_THESIS] = sb_fit_disc_thesis,
-      [SB_FIT_DISC] = sb_fit_disc,
-      [SB_FIT_RING] = sb_fit_ring,
-  };
-  status = solve[problem->model](out, problem, report);
+  status = models[problem->model].solve(out, problem, report);
   judge_validity(out);
   out->valid = out->valid && status == SB_OK;
   out->solver.wall_s = sb_clock_seconds() - start;

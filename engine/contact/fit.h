@@ -17,22 +17,26 @@
 #include "engine/base/status.h"
 #include "engine/contact/compliance.h"
 
-// enumerator, name on the command line and in files
-#define SB_FIT_MODEL_LIST(X)                                                                       \
-  X(SB_FIT_KARASZKIEWICZ, "karaszkiewicz")                                                         \
-  X(SB_FIT_HERTZ, "hertz")                                                                         \
-  X(SB_FIT_LINDLEY, "lindley")                                                                     \
-  X(SB_FIT_GREEN_ENGLISH, "green-english")                                                         \
-  X(SB_FIT_DISC_THESIS, "disc-thesis")                                                             \
-  X(SB_FIT_DISC, "disc")                                                                           \
-  X(SB_FIT_RING, "ring")
-
 typedef enum {
-#define SB_FIT_MODEL_ENUM(code, text) code,
-  SB_FIT_MODEL_LIST(SB_FIT_MODEL_ENUM)
-#undef SB_FIT_MODEL_ENUM
-      SB_FIT_MODEL_COUNT
+  SB_FIT_KARASZKIEWICZ,
+  SB_FIT_HERTZ,
+  SB_FIT_LINDLEY,
+  SB_FIT_GREEN_ENGLISH,
+  SB_FIT_DISC_THESIS,
+  SB_FIT_DISC,
+  SB_FIT_RING,
+  SB_FIT_MODEL_COUNT
 } SbFitModel;
+
+// Variants of `disc`: its kernel, and whether the fluid is on one flank, the ring on the groove
+// wall beyond, or on both flanks.
+typedef enum {
+  SB_DISC_VERTICAL,
+  SB_DISC_RADIAL,
+  SB_DISC_VERTICAL_BOTH,
+  SB_DISC_RADIAL_BOTH,
+  SB_DISC_VARIANT_COUNT
+} SbDiscVariant;
 
 // Name of a model ("disc-thesis"); borrowed. NULL outside the enumeration.
 const char *sb_fit_model_name(SbFitModel model);

@@ -4,10 +4,14 @@
 
 #include "engine/contact/fit.h"
 
-SbStatus sb_fit_karaszkiewicz(SbFit *out, const SbFitProblem *in, SbReport *report);
-SbStatus sb_fit_hertz(SbFit *out, const SbFitProblem *in, SbReport *report);
-SbStatus sb_fit_lindley(SbFit *out, const SbFitProblem *in, SbReport *report);
-SbStatus sb_fit_green_english(SbFit *out, const SbFitProblem *in, SbReport *report);
+// The closed forms, all four (closed_forms.h).
+SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report);
 SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report);
 SbStatus sb_fit_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report);
 SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report);
+
+// A contact between two edges [m] with the circumference and the load per length that stand in
+// `out`: edges, width and load, and a profile of zero pressure at SB_FIT_POINTS places that crowd
+// towards the edges.
+enum { SB_FIT_POINTS = 257 };
+void sb_fit_contact(SbFit *out, double left, double right);

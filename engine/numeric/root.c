@@ -1,8 +1,12 @@
 // See root.h.
 #include "engine/numeric/root.h"
 
+#include "engine/numeric/dense.h"
+
+#include <assert.h>
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 double sb_bisect(SbFunction f, const void *context, double above, double below) {
   for (int i = 0; i < 200; i++) {
@@ -40,4 +44,88 @@ size_t sb_interval(const double *x, size_t count, double at) {
     *(x[middle] <= at ? &low : &high) = middle;
   }
   return low;
+}
+
+static double largest(const double *r, size_t n) {
+  double most = 0.0;
+  for (size_t i = 0; i < n; i++) {
+    most = fmax(most, fabs(r[i]));
+  }
+  return most;
+}
+
+// Derivatives of the residuals by the unknowns, by columns.
+static bool differentiate(SbSystem f, void *context, const double *x, const double *r, size_t n,
+                          double *slope) {
+  for (size_t j = 0; j < n; j++) {
+    double shifted[SB_SYSTEM_MAX] = {0.0};
+    memcpy(shifted, x, n * sizeof *x);
+    const double h = 1e-6 * fabs(x[j]) + 1e-12;
+    shifted[j] += h;
+    if (!f(&slope[j * n], shifted, context)) {
+      return false;
+    }
+    for (size_t i = 0; i < n; i++) {
+      slope[i + j * n] = (slope[i + j * n] - r[i]) / h;
+    }
+  }
+  return true;
+}
+
+bool sb_solve_system(SbSystem f, void *context, double *x, size_t n, double tolerance,
+                     SbBroyden *b) {
+  enum { N = SB_SYSTEM_MAX, ITERATIONS_MAX = 40 };
+  double r[N], next[N] = {0.0}, there[N], moved[N] = {0.0}, step[N], a[N * N];
+  bool fresh = false;
+  assert(n <= N);
+  bool good = f(r, x, context);
+  b->residual = good ? largest(r, n) : INFINITY;
+  for (int i = 0; good && b->residual > tolerance; i++) {
+    if (i >= ITERATIONS_MAX) {
+      return false;
+    }
+    if (!b->known) {
+      b->known = fresh = differentiate(f, context, x, r, n, b->slope);
+    }
+    memcpy(step, r, n * sizeof *r);
+    memcpy(a, b->slope, sizeof a);
+    const bool solvable = b->known && sb_eliminate(a, step, n);
+    bool better = false;
+    double share = -1.0;
+    for (int k = 0; k < (fresh ? 12 : 1) && solvable && !better; k++, share *= 0.5) {
+      for (size_t j = 0; j < n; j++) {
+        moved[j] = share * step[j];
+        next[j] = x[j] + moved[j];
+      }
+      better = f(there, next, context) && largest(there, n) < (fresh ? 1.0 : 0.5) * b->residual;
+    }
+    b->iterations++;
+    if (!better && !fresh && solvable) {
+      b->known = false;
+      continue;
+    }
+    if (!better) {
+      // A residual at rounding level cannot be bettered.
+      b->known = false;
+      return f(r, x, context) && b->residual <= 1e3 * tolerance;
+    }
+    double square = 0.0;
+    for (size_t j = 0; j < n; j++) {
+      square += moved[j] * moved[j];
+    }
+    for (size_t k = 0; k < n && square > 0.0; k++) {
+      double miss = there[k] - r[k];
+      for (size_t j = 0; j < n; j++) {
+        miss -= b->slope[k + j * n] * moved[j];
+      }
+      for (size_t j = 0; j < n; j++) {
+        b->slope[k + j * n] += miss * moved[j] / square;
+      }
+    }
+    memcpy(x, next, n * sizeof *x);
+    memcpy(r, there, n * sizeof *r);
+    b->residual = largest(r, n);
+    fresh = false;
+  }
+  return good;
 }

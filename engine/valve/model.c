@@ -7,7 +7,7 @@
 // is flatter, 1.500 mm against 1.576 mm for the thesis valve).
 #include "engine/valve/model.h"
 
-#include "engine/contact/closed/reduced_modulus.h"
+#include "engine/contact/closed_forms.h"
 #include "engine/contact/fit.h"
 #include "engine/mechanism/chamber.h"
 #include "engine/valve/model_private.h"

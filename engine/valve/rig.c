@@ -1,7 +1,7 @@
 // See rig.h.
 #include "engine/valve/rig.h"
 
-#include "engine/contact/closed/hertz.h"
+#include "engine/contact/closed_forms.h"
 
 #include <math.h>
 

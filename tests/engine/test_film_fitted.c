@@ -6,7 +6,6 @@
 #include <math.h>
 
 #include "engine/contact/compliance.h"
-#include "engine/contact/disc/disc.h"
 #include "engine/film/transient.h"
 #include "engine/valve/sliding.h"
 

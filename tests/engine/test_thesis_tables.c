@@ -1,6 +1,6 @@
 // The thesis' printed tables that hang together: W*, U*, the fit column of table 7.11, table 7.8,
 // table 7.12.
-#include "engine/contact/closed/reduced_modulus.h"
+#include "engine/contact/closed_forms.h"
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/film/film.h"
 

@@ -8,10 +8,11 @@
 // disc.
 #pragma once
 
-#include "engine/contact/disc/disc.h"
+#include "engine/base/status.h"
 #include "engine/contact/disc/disc_kernel.h"
 
 enum {
+  SB_DISC_POINTS_MAX = 48, // Chebyshev points over a contact, at most
   SB_DISC_GAUSS = 20,
   SB_DISC_ROWS_MAX = 2 * SB_DISC_POINTS_MAX + 1,
 };

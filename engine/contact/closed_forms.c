@@ -1,0 +1,160 @@
+// The closed forms as contact models: each gives width and load, the rest is common. Equations,
+// sources and ranges in the header.
+#include "engine/contact/closed_forms.h"
+
+#include "engine/contact/fit_models.h"
+#include "engine/numeric/root.h"
+
+#include <float.h>
+#include <math.h>
+
+// ---- line contact
+
+static double compliance(double modulus, double poisson) {
+  return modulus > 0.0 && isfinite(modulus) ? (1.0 - poisson * poisson) / modulus : 0.0;
+}
+
+double sb_reduced_modulus(double modulus_a, double poisson_a, double modulus_b, double poisson_b) {
+  double sum = compliance(modulus_a, poisson_a) + compliance(modulus_b, poisson_b);
+  return sum > 0.0 ? 2.0 / sum : INFINITY;
+}
+
+double sb_hertz_half_width(double load_per_length, double radius, double reduced_modulus) {
+  return load_per_length > 0.0 ? sqrt(8.0 * load_per_length * radius / (M_PI * reduced_modulus))
+                               : 0.0;
+}
+
+// Approach over k R, less the one wanted, at half-width t R.
+static double approach_of_width(double *slope, double t, const void *target) {
+  *slope = 4.0 * t * (log(4.0 / t) - 1.0);
+  return t * t * (2.0 * log(4.0 / t) - 1.0) - *(const double *)target;
+}
+
+double sb_hertz_width_of_approach(double approach, double stiffness) {
+  // With t = b/R the approach is t^2 (2 ln(4/t) - 1) R E'/(4 E_d), rising up to t = 4/e and
+  // meaningful below t = 1.
+  const double target = stiffness * approach;
+  return target < 2.0 * log(4.0) - 1.0
+             ? sb_newton_bracketed(approach_of_width, &target, 0.0, 1.0, sqrt(target / 6.0))
+             : 1.0;
+}
+
+// ---- contact models
+
+// What a model adds to what all have in common: full width [m] and load per length [N/m].
+typedef struct {
+  double width, load;
+} Contact;
+
+static void check_squeeze(SbFit *out, const char *code, double low, double high, const char *of) {
+  if (out->squeeze < low || out->squeeze > high) {
+    sb_warn(&out->warnings, code, "seal.section_diameter",
+            "squeeze %.3g %% is outside %.3g to %.3g %%, the range of %s", 100.0 * out->squeeze,
+            100.0 * low, 100.0 * high, of);
+  }
+}
+
+static Contact karaszkiewicz(SbFit *out, const SbFitProblem *in) {
+  check_squeeze(out, "karaszkiewicz-squeeze", 0.07, 0.25, "Karaszkiewicz's formulae");
+  const double p = fabs(in->pressure), s = out->squeeze, nu = in->poisson_ratio;
+  const double unloaded = 2.0 * s + 0.13;
+  const double growth = 0.39 / (1.0 - s) - 0.5 * unloaded;
+  const double width = in->section_diameter * (unloaded - growth * expm1(-4.6 * p / in->modulus));
+  return (Contact){width, width * (M_PI / 6.0 * unloaded * in->modulus + nu / (1.0 - nu) * p)};
+}
+
+static Contact hertz(SbFit *out, const SbFitProblem *in) {
+  static const double WIDTH_MOST = 0.3; // of b/R: there the parabola is off the circle by 4 %
+  const double nu = in->poisson_ratio, radius = 0.5 * in->section_diameter;
+  const double modulus =
+      sb_reduced_modulus(in->modulus, nu, in->housing_modulus, in->housing_poisson);
+  const double t =
+      sb_hertz_width_of_approach(2.0 * out->squeeze, 4.0 * in->modulus / (1.0 - nu * nu) / modulus);
+  if (t > WIDTH_MOST) {
+    sb_warn(&out->warnings, "hertz-width", "gland.radial_space",
+            "contact half-width is %.2g of the radius: Hertz theory wants it small (below %g)", t,
+            WIDTH_MOST);
+  }
+  return (Contact){2.0 * t * radius, M_PI * modulus * t * t * radius / 8.0};
+}
+
+// Width and load of F/(pi d D E), by Lindley's 2.9.
+static Contact of_load_factor(SbFit *out, const SbFitProblem *in, double factor) {
+  if (in->poisson_ratio < 0.45) {
+    sb_warn(&out->warnings, "incompressible-assumed", "seal.poisson_ratio",
+            "the formula is for incompressible rubber, not Poisson's ratio %.3g",
+            in->poisson_ratio);
+  }
+  const double d = in->section_diameter;
+  return (Contact){d * sqrt(6.0 / M_PI * factor), factor * d * in->modulus};
+}
+
+static Contact lindley(SbFit *out, const SbFitProblem *in) {
+  const bool initial = in->variant == SB_LINDLEY_INITIAL;
+  const double s = out->squeeze;
+  check_squeeze(out, "lindley-squeeze", 0.0, initial ? 0.15 : 0.25, "Lindley's formula");
+  Contact c = of_load_factor(out, in, 1.25 * s * sqrt(s) + (initial ? 0.0 : 50.0 * pow(s, 6.0)));
+  c.width = in->variant == SB_LINDLEY_SIMPLE_WIDTH ? 2.4 * s * in->section_diameter
+            : in->variant == SB_LINDLEY_KURAN      ? 2.5 * s * in->section_diameter
+                                                   : c.width;
+  return c;
+}
+
+static Contact green_english(SbFit *out, const SbFitProblem *in) {
+  static const struct {
+    double a, b, c, n, s_max;
+  } rows[SB_GREEN_ENGLISH_COUNT] = {
+      [SB_GREEN_ENGLISH_RADIAL] = {1.03792, 1.2871, 7.77994, 3.534, 0.32},
+      [SB_GREEN_ENGLISH_PLANE] = {0.97184, 1.29093, 7.1014, 3.55262, 0.32},
+      [SB_GREEN_ENGLISH_AXIAL_LUBRICATED] = {0.74602, 1.25282, 3.09259, 3.38757, 0.32},
+      [SB_GREEN_ENGLISH_AXIAL] = {0.97275, 1.29292, 6.93373, 3.55385, 0.32},
+      [SB_GREEN_ENGLISH_AXIAL_RESTRAINED] = {1.63328, 1.38463, 683.984, 5.1869, 0.10},
+      [SB_GREEN_ENGLISH_RADIAL_RESTRAINED] = {1.7673, 1.38755, 948.475, 5.32269, 0.10},
+      [SB_GREEN_ENGLISH_PLANE_RESTRAINED] = {1.55365, 1.38072, 530.577, 5.13163, 0.10},
+  };
+  const double s = out->squeeze;
+  const double s_max = rows[in->variant].s_max;
+  check_squeeze(out, "green-english-squeeze", 0.0, s_max, "this row of Green and English");
+  return of_load_factor(out, in,
+                        rows[in->variant].a * pow(s, rows[in->variant].b) +
+                            rows[in->variant].c * pow(s, rows[in->variant].n));
+}
+
+SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report) {
+  static Contact (*const model[])(SbFit *, const SbFitProblem *) = {
+      [SB_FIT_KARASZKIEWICZ] = karaszkiewicz,
+      [SB_FIT_HERTZ] = hertz,
+      [SB_FIT_LINDLEY] = lindley,
+      [SB_FIT_GREEN_ENGLISH] = green_english,
+  };
+  out->circumference = M_PI * (in->inner_diameter + in->section_diameter);
+  // Closed forms hold to rounding and have no unknowns.
+  out->solver.converged = true;
+  out->solver.error_estimate.load = 16.0 * DBL_EPSILON;
+  out->solver.error_estimate.pressure_peak = 16.0 * DBL_EPSILON;
+  out->solver.error_estimate.contact_width = 16.0 * DBL_EPSILON;
+  if (!(out->squeeze > 0.0)) {
+    sb_warn(&out->warnings, "no-contact", "seal.section_diameter",
+            "the ring does not touch the bore (squeeze %.3g %%): load 0", 100.0 * out->squeeze);
+    return sb_succeed(report);
+  }
+  const Contact c = model[in->model](out, in);
+  if (c.width >= in->section_diameter && in->model == SB_FIT_HERTZ) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.radial_space",
+                             "a squeeze of %.3g %% makes Hertz's contact wider than the disc",
+                             100.0 * out->squeeze);
+  }
+  if (in->pressure != 0.0 && in->model != SB_FIT_KARASZKIEWICZ) {
+    sb_warn(&out->warnings, "pressure-ignored", "canister.pressure",
+            "the model %s knows no fluid pressure: %.3g MPa left out", sb_fit_model_name(in->model),
+            1e-6 * in->pressure);
+  }
+  out->load_per_length = c.load;
+  out->pressure_peak = 4.0 * c.load / (M_PI * c.width);
+  sb_fit_contact(out, -0.5 * c.width, 0.5 * c.width);
+  for (size_t i = 1; i + 1 < out->profile_count; i++) {
+    const double t = out->profile_x[i] / out->contact_right;
+    out->profile_p[i] = out->pressure_peak * sqrt((1.0 - t) * (1.0 + t));
+  }
+  return sb_succeed(report);
+}
