@@ -82,8 +82,8 @@ SbSectionStyle sb_section_style_of(const SbModel *model) {
   enum { OF_INNER = 1, NONE = 2 };
   return (SbSectionStyle){.inset_seal = look->insets == OF_INNER ? SB_INNER : SB_OUTER,
                           .hide_insets = look->insets == NONE,
-                          .full = look->full,
-                          .cutaway = look->cutaway,
+                          .full = look->section == SB_SECTION_FULL,
+                          .cutaway = look->section == SB_SECTION_CUTAWAY,
                           .azimuth = look->azimuth,
                           .elevation = look->elevation,
                           .undeformed = look->undeformed,

@@ -10,7 +10,6 @@
 #include "engine/contact/closed_forms.h"
 #include "engine/contact/fit.h"
 #include "engine/mechanism/chamber.h"
-#include "engine/valve/model_private.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -22,34 +21,87 @@ const char *sb_seal_name(int seal) {
   return seal == SB_OUTER ? "outer" : "inner";
 }
 
-static void SB_PRINTF(5, 6) add_problem(SbProblems *problems, const char *key, double min,
-                                        double max, const char *format, ...) {
-  if (problems == NULL || problems->count == SB_PROBLEMS_MAX) {
-    return;
+static void SB_PRINTF(5, 6)
+    refuse(SbProblems *problems, const char *key, double min, double max, const char *format, ...) {
+  if (problems->count < SB_PROBLEMS_MAX) {
+    SbProblem *problem = &problems->item[problems->count++];
+    sb_text(problem->key, sizeof problem->key, "%s", key);
+    problem->min = min;
+    problem->max = max;
+    va_list arguments;
+    va_start(arguments, format);
+    sb_text_v(problem->text, sizeof problem->text, format, arguments);
+    va_end(arguments);
   }
-  SbProblem *problem = &problems->item[problems->count++];
-  sb_text(problem->key, sizeof problem->key, "%s", key);
-  problem->min = min;
-  problem->max = max;
-  va_list arguments;
-  va_start(arguments, format);
-  sb_text_v(problem->text, sizeof problem->text, format, arguments);
-  va_end(arguments);
 }
 
-// Works out a seal from its `stored` ring, its Poisson's ratio and the gland. False (with problems
-// added) where they make no sense.
-static bool size_seal(SbModel *model, int index, SbProblems *problems) {
+// What the catalogue says by itself, and what makes of a parameter another of its kind.
+static void take_values(SbModel *model, const SbParams *params) {
+  model->params = *params;
+#define VALUE(id)                              sb_params_get(params, SB_P_##id)
+#define SB_REAL(id, where, place, ...)         model->place = VALUE(id);
+#define SB_INT(id, where, place, ...)          model->place = (int)VALUE(id);
+#define SB_CHOICE(id, type, where, place, ...) model->place = (type)VALUE(id);
+#define SB_FLAGS(id, where, place, ...)        model->place = (unsigned)VALUE(id);
+#define SB_SEAL(id, where, place, ...)                                                             \
+  model->seal[SB_OUTER].place = VALUE(SEAL_OUTER_##id);                                            \
+  model->seal[SB_INNER].place = VALUE(SEAL_INNER_##id);
+#include "engine/valve/params.def"
+#undef VALUE
+  model->pressure_viscosity = model->barus ? model->pressure_viscosity : 0;
+  model->hamaker = model->adhesion ? model->hamaker : 0;
+  model->surface = model->persson ? SB_ROUGH_PERSSON : SB_ROUGH_GREENWOOD_TRIPP;
+  model->life_shown = model->life_shown > 0 ? model->life_shown : model->life_actuations;
+  model->rubber.terms = 3;
+  model->rubber.fluid_density = model->density;
+  model->bore_circumference = M_PI * model->bore_diameter;
+  model->pressure_force =
+      model->canister_pressure * M_PI / 4 * model->stem_diameter * model->stem_diameter;
+  if (model->life_actuations > 1) {
+    // The scene's surface is the reference; the run starts with the new valve's.
+    model->gt_product *= model->running_in.start;
+    model->sigma *= model->running_in.start;
+    model->sigma_over_beta *= model->running_in.start;
+  }
+}
+
+// The rig's rings obey the friction.* keys: the static ratio, its growth with rest, the loss with
+// speed and the shear stiffness of one ring. Dampers as drive.damping_ratio says.
+static void compile_rig(SbModel *model, SbProblems *problems) {
+  SbRig *rig = &model->rig;
+  rig->rest = model->rest;
+  rig->contact = (SbDynamicsContact){.static_ratio = model->static_ratio,
+                                     .dwell_gain = model->dwell_gain,
+                                     .dwell_time = model->dwell_time,
+                                     .stribeck_speed = model->stribeck_speed,
+                                     .stribeck_exponent = 1,
+                                     .stiffness = INFINITY};
+  rig->thread_damping = model->damping_ratio * 2 * sqrt(rig->thread_stiffness * rig->mass);
+  if (model->tangential_stiffness > 0) {
+    rig->contact.stiffness = model->tangential_stiffness;
+    rig->contact.damping =
+        model->damping_ratio * 2 * sqrt(model->tangential_stiffness * rig->mass / SB_RIG_RINGS);
+  }
+  // As many samples as there may be frames.
+  const double samples = rig->duration * rig->rate;
+  if (model->motion == SB_MODEL_MOTION_RIG && !(samples >= 2 && samples <= 2e7)) {
+    refuse(problems, "rig.duration", 2 / rig->rate, 2e7 / rig->rate,
+           "makes %.3g samples at %.4g Hz, not between 2 and 20 million", samples, rig->rate);
+  }
+}
+
+// Works out a seal from its `stored` ring, its Poisson's ratio and the gland.
+static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   SbSealModel *seal = &model->seal[index];
   bool outer = index == SB_OUTER;
-  SbParamId diameter_id =
-      outer ? SB_P_SEAL_OUTER_SECTION_DIAMETER : SB_P_SEAL_INNER_SECTION_DIAMETER;
-  SbParamId inner_id = outer ? SB_P_SEAL_OUTER_INNER_DIAMETER : SB_P_SEAL_INNER_INNER_DIAMETER;
+  seal->stored.storage_time = model->storage_time;
+  seal->stored.temperature = model->storage_temperature;
+  seal->stored.recovery_time = model->recovery_time;
   seal->stored.radial_space = model->radial_space;
   SbReport report = {0};
   if (sb_rubber_state(&seal->storage, &model->rubber, &seal->stored, NULL, &report) != SB_OK) {
-    add_problem(problems, report.parameter, NAN, NAN, "%s", report.text);
-    return false;
+    refuse(problems, report.parameter, NAN, NAN, "%s", report.text);
+    return;
   }
   seal->section_diameter = seal->storage.section_diameter;
   seal->inner_diameter = seal->storage.inner_diameter;
@@ -57,11 +109,11 @@ static bool size_seal(SbModel *model, int index, SbProblems *problems) {
   // Small strains: warned of from a quarter of the modulus on. Somewhere above 0.55 of it the
   // pressure parts the flats of some gaps: no contact state is left.
   if (model->fit == SB_FIT_DISC && model->canister_pressure > 0.5 * seal->modulus) {
-    add_problem(problems, "canister.pressure", 0, 0.5 * seal->modulus,
-                "is beyond the linear disc (models.fit), which holds to half the rubber's modulus "
-                "of %.4g MPa; the ring goes further",
-                seal->modulus * 1e-6);
-    return false;
+    refuse(problems, "canister.pressure", 0, 0.5 * seal->modulus,
+           "is beyond the linear disc (models.fit), which holds to half the rubber's modulus of "
+           "%.4g MPa; the ring goes further",
+           seal->modulus * 1e-6);
+    return;
   }
   double nu = seal->poisson_ratio;
   seal->reduced_modulus =
@@ -81,94 +133,93 @@ static bool size_seal(SbModel *model, int index, SbProblems *problems) {
   seal->gland_fill = M_PI / 4 * d * d / (g * model->axial_width) * mean_free / mean_fitted;
 
   // Beyond 60 % no model here means anything; the fit models warn long before.
-  bool good = true;
   if (seal->squeeze > 0.6) {
-    add_problem(problems, sb_param(diameter_id)->key, NAN, g / 0.4,
-                "squeezes the %s seal by %.0f %%, more than 60 %%", sb_seal_name(index),
-                100 * seal->squeeze);
-    good = false;
+    refuse(problems, outer ? "seal.outer.section_diameter" : "seal.inner.section_diameter", NAN,
+           g / 0.4, "squeezes the %s seal by %.0f %%, more than 60 %%", sb_seal_name(index),
+           100 * seal->squeeze);
   }
   if (seal->stretch_inner > 1) {
-    add_problem(problems, sb_param(inner_id)->key, floor / 2, NAN,
-                "stretches the %s seal by %.0f %% onto the groove floor, more than 100 %%",
-                sb_seal_name(index), 100 * seal->stretch_inner);
-    good = false;
+    refuse(problems, outer ? "seal.outer.inner_diameter" : "seal.inner.inner_diameter", floor / 2,
+           NAN, "stretches the %s seal by %.0f %% onto the groove floor, more than 100 %%",
+           sb_seal_name(index), 100 * seal->stretch_inner);
   }
-  return good;
 }
 
-// One seal's own quantities. Returns false (with problems added) where they make no sense.
-static bool compile_seal(SbModel *model, int index, const SbParams *params, SbProblems *problems) {
-  SbSealModel *seal = &model->seal[index];
-  // The key of the seal's own, which takes the common one's value where it is not given.
-#define OWN(name)                                                                                  \
-  sb_params_get(params, index == SB_OUTER ? SB_P_SEAL_OUTER_##name : SB_P_SEAL_INNER_##name)
-  seal->stored = (SbRubberStorage){
-      .section_diameter = OWN(SECTION_DIAMETER),
-      .inner_diameter = OWN(INNER_DIAMETER),
-      .modulus = OWN(MODULUS),
-      .storage_time = sb_params_get(params, SB_P_STORAGE_TIME),
-      .temperature = sb_params_get(params, SB_P_STORAGE_TEMPERATURE),
-      .recovery_time = sb_params_get(params, SB_P_STORAGE_RECOVERY_TIME),
-  };
-  seal->section_diameter_tolerance = OWN(SECTION_DIAMETER_TOLERANCE);
-  seal->inner_diameter_tolerance = OWN(INNER_DIAMETER_TOLERANCE);
-  seal->poisson_ratio = OWN(POISSON_RATIO);
-  seal->mooney_share = OWN(MOONEY_SHARE);
-#undef OWN
-  return size_seal(model, index, problems);
-}
-
-// What only the motion with inertia can do. The quasi-static balance is not silently asked for it.
-static bool compile_quasi_static(const SbModel *model, SbProblems *problems) {
-  const struct {
-    const char *key;
-    bool used;
-  } uses[] = {
-      {"drive.kind", model->drive != SB_MODEL_DRIVE_MACHINE},
-      {"drive.cycles", model->cycles > 1},
-      {"canister.pressure_map", model->pressure_map == SB_MAP_PORTS},
-      {"friction.dwell_gain", model->dwell_gain > 0},
-      {"friction.stribeck_speed", model->stribeck_speed > 0},
-      {"friction.tangential_stiffness", model->tangential_stiffness > 0},
-      {"stem.spring_stiffness", model->spring_stiffness > 0},
-      {"stem.spring_preload", model->spring_preload > 0},
-  };
-  bool good = true;
-  for (size_t i = 0; i < sizeof uses / sizeof uses[0]; i++) {
-    if (uses[i].used) {
-      add_problem(problems, uses[i].key, NAN, NAN,
-                  "needs models.motion = dynamic; the quasi-static cycle knows only the machine");
-      good = false;
-    }
+// The stem must fit into the bore and the groove must leave a core.
+static void check_sizes(const SbModel *model, SbProblems *problems) {
+  double stem = model->stem_diameter;
+  double floor = model->bore_diameter - 2 * model->radial_space;
+  if (stem > model->bore_diameter) {
+    refuse(problems, "bore.diameter", stem, NAN,
+           "the bore is smaller than the stem (stem.pressure_diameter %.4g mm)", stem * 1e3);
   }
-  return good;
+  if (floor <= 0) {
+    refuse(problems, "gland.radial_space", NAN, model->bore_diameter / 2,
+           "the groove leaves no stem: twice the radial space exceeds the bore diameter");
+  } else if (stem <= floor) {
+    refuse(problems, "stem.pressure_diameter", floor, model->bore_diameter,
+           "the stem's land lies below the floor of its groove (%.4g mm): nothing holds the ring",
+           floor * 1e3);
+  }
 }
 
-// Ranges must rise.
-static bool compile_study(const SbModel *model, SbProblems *problems) {
+// Combinations that no model has, and ranges that do not rise.
+static void check_combinations(const SbModel *model, SbProblems *problems) {
+  bool balance = model->motion == SB_MODEL_MOTION_QUASI_STATIC;
+  bool lives = model->life_actuations > 1;
+  // The quasi-static balance is not silently asked for what only the motion with inertia can do.
+  const char *needs_inertia =
+      "needs models.motion = dynamic; the quasi-static cycle knows only the machine";
+  const char *range = "the range of the study does not rise";
+  const SbStudyRange *study = &model->study;
   const struct {
+    bool wrong;
     const char *key;
     double min, max;
-  } ranges[] = {
-      {"study.squeeze_max", model->study.squeeze_min, model->study.squeeze_max},
-      {"study.speed_max", model->study.speed_min, model->study.speed_max},
-      {"study.load_max", model->study.load_min, model->study.load_max},
-      {"study.time_max", model->study.time_min, model->study.time_max},
+    const char *text;
+  } rules[] = {
+      {!(study->squeeze_max > study->squeeze_min), "study.squeeze_max", study->squeeze_min, NAN,
+       range},
+      {!(study->speed_max > study->speed_min), "study.speed_max", study->speed_min, NAN, range},
+      {!(study->load_max > study->load_min), "study.load_max", study->load_min, NAN, range},
+      {!(study->time_max > study->time_min), "study.time_max", study->time_min, NAN, range},
+      {balance && model->drive != SB_MODEL_DRIVE_MACHINE, "drive.kind", NAN, NAN, needs_inertia},
+      {balance && model->cycles > 1, "drive.cycles", NAN, NAN, needs_inertia},
+      {balance && model->pressure_map == SB_MAP_PORTS, "canister.pressure_map", NAN, NAN,
+       needs_inertia},
+      {balance && model->dwell_gain > 0, "friction.dwell_gain", NAN, NAN, needs_inertia},
+      {balance && model->stribeck_speed > 0, "friction.stribeck_speed", NAN, NAN, needs_inertia},
+      {balance && model->tangential_stiffness > 0, "friction.tangential_stiffness", NAN, NAN,
+       needs_inertia},
+      {balance && model->spring_stiffness > 0, "stem.spring_stiffness", NAN, NAN, needs_inertia},
+      {balance && model->spring_preload > 0, "stem.spring_preload", NAN, NAN, needs_inertia},
+      {!balance && model->stribeck_speed > 0 && model->tangential_stiffness > 0 &&
+           !(model->damping_ratio > 0),
+       "drive.damping_ratio", 1e-3, 2,
+       "must be above 0 where friction that depends on speed (friction.stribeck_speed) acts "
+       "through an elastic seal (friction.tangential_stiffness)"},
+      {lives && (model->motion == SB_MODEL_MOTION_RIG || model->motion == SB_MODEL_MOTION_BODIES),
+       "life.actuations", NAN, 1, "needs models.motion = quasi-static or dynamic"},
   };
-  bool good = true;
-  for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
-    if (!(ranges[i].max > ranges[i].min)) {
-      add_problem(problems, ranges[i].key, ranges[i].min, NAN,
-                  "the range of the study does not rise");
-      good = false;
+  for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
+    if (rules[i].wrong) {
+      refuse(problems, rules[i].key, rules[i].min, rules[i].max, "%s", rules[i].text);
     }
   }
-  return good;
+  if (model->life_shown > model->life_actuations) {
+    refuse(problems, "life.shown", 0, model->life_actuations,
+           "is beyond the life's last actuation (life.actuations %d)", model->life_actuations);
+  }
+  // Running-in changes the surface, and with it a film that shares its load with asperities.
+  if (lives && model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
+    refuse(problems, "models.asperities", NAN, NAN,
+           "coupled: a life of %d actuations keeps its film and needs beside",
+           model->life_actuations);
+  }
 }
 
 // Metered volume and doses; with ports there must be a chamber.
-static bool compile_dose(SbModel *model, const SbParams *params, SbProblems *problems) {
+static void compile_dose(SbModel *model, SbProblems *problems) {
   const SbValveShape *shape = &model->shape;
   model->metered_volume = sb_chamber_metered_volume(&(SbDoseGeometry){
       .bore = model->bore_diameter,
@@ -181,65 +232,18 @@ static bool compile_dose(SbModel *model, const SbParams *params, SbProblems *pro
       .rings = {{model->seal[SB_OUTER].section_diameter, model->seal[SB_OUTER].inner_diameter},
                 {model->seal[SB_INNER].section_diameter, model->seal[SB_INNER].inner_diameter}},
   });
-  model->doses = sb_chamber_doses(model->metered_volume, sb_params_get(params, SB_P_CANISTER_FILL),
-                                  sb_params_get(params, SB_P_CANISTER_RESIDUE));
+  model->doses =
+      sb_chamber_doses(model->metered_volume, model->canister_fill, model->canister_residue);
   if (model->pressure_map == SB_MAP_PORTS && !(model->metered_volume > 0)) {
-    add_problem(problems, "stem.seal_spacing", NAN, NAN,
-                "leaves no dose chamber between the seals (%.3g µl), which "
-                "canister.pressure_map = ports needs",
-                model->metered_volume * 1e9);
-    return false;
+    refuse(problems, "stem.seal_spacing", NAN, NAN,
+           "leaves no dose chamber between the seals (%.3g µl), which canister.pressure_map = "
+           "ports needs",
+           model->metered_volume * 1e9);
   }
-  return true;
 }
 
-// Parts and joints. The stem's mass, where it is given, is shared by its three parts as theirs are
-// to each other; otherwise it is their sum.
-static bool compile_parts(SbModel *model, SbAssemblyWork *work, const SbParams *params,
-                          SbProblems *problems) {
-  static const SbParamId mass[SB_VALVE_GROUND] = {
-      SB_P_PART_HOUSING_MASS,     SB_P_PART_STEM_CENTRE_MASS, SB_P_PART_STEM_TOP_MASS,
-      SB_P_PART_STEM_BOTTOM_MASS, SB_P_PART_INNER_SEAL_MASS,  SB_P_PART_OUTER_SEAL_MASS,
-      SB_P_PART_BLOCK_MASS};
-  static const SbParamId joint[SB_VALVE_JOINTS] = {
-      SB_P_JOINT_HOUSING_GROUND, SB_P_JOINT_CENTRE_TOP,   SB_P_JOINT_BOTTOM_CENTRE,
-      SB_P_JOINT_INNER_CENTRE,   SB_P_JOINT_OUTER_CENTRE, SB_P_JOINT_BLOCK_BOTTOM,
-      SB_P_JOINT_BLOCK_GROUND};
-  SbValvePart *part = model->parts.part;
-  bool good = true;
-  for (int i = 0; i < SB_VALVE_GROUND; i++) {
-    // The catalogue has mass, axial and transverse moment in a row.
-    part[i] = (SbValvePart){sb_params_get(params, mass[i]), sb_params_get(params, mass[i] + 1),
-                            sb_params_get(params, mass[i] + 2)};
-    if (part[i].axial > 2 * part[i].transverse * 1.001) {
-      add_problem(problems, sb_param(mass[i] + 1)->key, NAN, 2 * part[i].transverse,
-                  "no body has an axial moment of inertia above twice its transverse one");
-      good = false;
-    }
-  }
-  for (int i = 0; i < SB_VALVE_JOINTS; i++) {
-    model->parts.joint[i] = (int)sb_params_get(params, joint[i]);
-  }
-  double sum = part[SB_VALVE_STEM_CENTRE].mass + part[SB_VALVE_STEM_TOP].mass +
-               part[SB_VALVE_STEM_BOTTOM].mass;
-  double share = 1;
-  if (params->given[SB_P_STEM_MASS]) {
-    share = model->stem_mass / sum;
-  } else {
-    model->stem_mass = sum;
-  }
-  for (int i = SB_VALVE_STEM_CENTRE; i <= SB_VALVE_STEM_BOTTOM; i++) {
-    part[i].mass *= share;
-    part[i].axial *= share;
-    part[i].transverse *= share;
-  }
-  model->moving_mass = model->stem_mass + part[SB_VALVE_INNER_SEAL].mass +
-                       part[SB_VALVE_OUTER_SEAL].mass + part[SB_VALVE_BLOCK].mass;
-  if (!good || model->motion != SB_MODEL_MOTION_BODIES) {
-    return good;
-  }
-
-  // What the joints leave free must be the stroke, once.
+// What the joints leave free must be the stroke, once.
+static void check_joints(const SbModel *model, SbAssemblyWork *work, SbProblems *problems) {
   SbAssembly assembly;
   SbMobility mobility;
   SbReport report = {0};
@@ -251,114 +255,78 @@ static bool compile_parts(SbModel *model, SbAssemblyWork *work, const SbParams *
                            : sb_assembly_tangent(&tangent, &assembly, SB_VALVE_STEM_CENTRE, axis,
                                                  work, &report);
   if (status != SB_OK) {
-    int changed = SB_VALVE_BLOCK_GROUND;
-    for (int i = SB_VALVE_JOINTS - 1; i >= 0; i--) {
-      changed = model->parts.joint[i] != (int)sb_param(joint[i])->fallback ? i : changed;
+    // The first joint that is not the catalogue's, which has them in the valve's order.
+    int changed = 0;
+    while (changed < SB_VALVE_BLOCK_GROUND &&
+           model->parts.joint[changed] ==
+               (int)sb_param(SB_P_JOINT_HOUSING_GROUND + changed)->fallback) {
+      changed++;
     }
-    add_problem(problems, sb_param(joint[changed])->key, NAN, NAN, "%s", report.text);
-    return false;
+    refuse(problems, sb_param(SB_P_JOINT_HOUSING_GROUND + changed)->key, NAN, NAN, "%s",
+           report.text);
   }
-  return true;
 }
 
-static SbStatus compile(SbModel *model, SbAssemblyWork *work, const SbParams *params,
-                        SbProblems *problems) {
-  if (problems != NULL) {
-    problems->count = 0;
+// Parts and joints. The stem's mass, where it is given, is shared by its three parts as theirs are
+// to each other; otherwise it is their sum.
+static void compile_parts(SbModel *model, SbProblems *problems) {
+  SbValvePart *part = model->parts.part;
+  for (int i = 0; i < SB_VALVE_GROUND; i++) {
+    if (part[i].axial > 2 * part[i].transverse * 1.001) {
+      // The catalogue has mass, axial and transverse moment of each part in a row.
+      refuse(problems, sb_param(SB_P_PART_HOUSING_INERTIA_AXIAL + 3 * i)->key, NAN,
+             2 * part[i].transverse,
+             "no body has an axial moment of inertia above twice its transverse one");
+    }
   }
-  sb_model_read(model, params);
-  double pressure_diameter = model->stem_diameter;
-
-  // The stem must fit into the bore and the groove must leave a core.
-  bool good = true;
-  if (pressure_diameter > model->bore_diameter) {
-    add_problem(problems, "bore.diameter", pressure_diameter, NAN,
-                "the bore is smaller than the stem (stem.pressure_diameter %.4g mm)",
-                pressure_diameter * 1e3);
-    good = false;
+  double sum = part[SB_VALVE_STEM_CENTRE].mass + part[SB_VALVE_STEM_TOP].mass +
+               part[SB_VALVE_STEM_BOTTOM].mass;
+  model->stem_mass = model->params.given[SB_P_STEM_MASS] ? model->stem_mass : sum;
+  double share = model->stem_mass / sum;
+  for (int i = SB_VALVE_STEM_CENTRE; i <= SB_VALVE_STEM_BOTTOM; i++) {
+    part[i].mass *= share;
+    part[i].axial *= share;
+    part[i].transverse *= share;
   }
-  if (2 * model->radial_space >= model->bore_diameter) {
-    add_problem(problems, "gland.radial_space", NAN, model->bore_diameter / 2,
-                "the groove leaves no stem: twice the radial space exceeds the bore diameter");
-    good = false;
-  }
-  double floor = model->bore_diameter - 2 * model->radial_space;
-  if (floor > 0 && pressure_diameter <= floor) {
-    add_problem(problems, "stem.pressure_diameter", floor, model->bore_diameter,
-                "the stem's land lies below the floor of its groove (%.4g mm): nothing holds the "
-                "ring",
-                floor * 1e3);
-    good = false;
-  }
-  good = compile_study(model, problems) && good;
-  if (model->motion == SB_MODEL_MOTION_QUASI_STATIC) {
-    good = compile_quasi_static(model, problems) && good;
-  }
-  if (model->motion != SB_MODEL_MOTION_QUASI_STATIC && model->stribeck_speed > 0 &&
-      model->tangential_stiffness > 0 && !(model->damping_ratio > 0)) {
-    add_problem(
-        problems, "drive.damping_ratio", 1e-3, 2,
-        "must be above 0 where friction that depends on speed (friction.stribeck_speed) acts "
-        "through an elastic seal (friction.tangential_stiffness)");
-    good = false;
-  }
-  if (model->life_shown > model->life_actuations) {
-    add_problem(problems, "life.shown", 0, model->life_actuations,
-                "is beyond the life's last actuation (life.actuations %d)", model->life_actuations);
-    good = false;
-  }
-  if (model->life_actuations > 1 &&
-      (model->motion == SB_MODEL_MOTION_RIG || model->motion == SB_MODEL_MOTION_BODIES)) {
-    add_problem(problems, "life.actuations", NAN, 1,
-                "needs models.motion = quasi-static or dynamic");
-    good = false;
-  }
-  // Running-in changes the surface, and with it a film that shares its load with asperities.
-  if (model->life_actuations > 1 && model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
-    add_problem(problems, "models.asperities", NAN, NAN,
-                "coupled: a life of %d actuations keeps its film and needs beside",
-                model->life_actuations);
-    good = false;
-  }
-  if (model->life_actuations > 1) {
-    // The scene's surface is the reference; the run starts with the new valve's.
-    model->gt_product *= model->running_in.start;
-    model->sigma *= model->running_in.start;
-    model->sigma_over_beta *= model->running_in.start;
-  }
-  // As many samples as there may be frames.
-  const double samples = model->rig.duration * model->rig.rate;
-  if (model->motion == SB_MODEL_MOTION_RIG && !(samples >= 2 && samples <= 2e7)) {
-    add_problem(problems, "rig.duration", 2 / model->rig.rate, 2e7 / model->rig.rate,
-                "makes %.3g samples at %.4g Hz, not between 2 and 20 million", samples,
-                model->rig.rate);
-    good = false;
-  }
-  for (int i = 0; good && i < SB_SEAL_COUNT; i++) {
-    good = compile_seal(model, i, params, problems) && good;
-  }
-  good = compile_parts(model, work, params, problems) && good;
-  good = good && compile_dose(model, params, problems);
-  if (!good) {
-    return SB_ERROR_INPUT;
-  }
-  return SB_OK;
+  model->moving_mass = model->stem_mass + part[SB_VALVE_INNER_SEAL].mass +
+                       part[SB_VALVE_OUTER_SEAL].mass + part[SB_VALVE_BLOCK].mass;
 }
 
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems) {
   struct {
     SbModel model;
     SbAssemblyWork work;
+    SbProblems problems;
   } *made = calloc(1, sizeof *made); // too large for a small stack
   if (made == NULL) {
     return SB_ERROR_MEMORY;
   }
-  SbStatus status = compile(&made->model, &made->work, params, problems);
+  SbModel *model = &made->model;
+  SbProblems *found = &made->problems;
+  take_values(model, params);
+  check_sizes(model, found);
+  check_combinations(model, found);
+  compile_rig(model, found);
+  for (int i = 0; found->count == 0 && i < SB_SEAL_COUNT; i++) {
+    compile_seal(model, i, found);
+  }
+  size_t before = found->count;
+  compile_parts(model, found);
+  if (found->count == before && model->motion == SB_MODEL_MOTION_BODIES) {
+    check_joints(model, &made->work, found);
+  }
+  if (found->count == 0) {
+    compile_dose(model, found);
+  }
+  if (problems != NULL) {
+    *problems = *found;
+  }
+  SbStatus status = found->count > 0 ? SB_ERROR_INPUT : SB_OK;
   if (status == SB_OK) {
     // Member by member: the padding stays zero, for copies are compared as bytes.
-    memcpy(made->model.params.value, params->value, sizeof params->value);
-    memcpy(made->model.params.given, params->given, sizeof params->given);
-    *out = made->model;
+    memcpy(model->params.value, params->value, sizeof params->value);
+    memcpy(model->params.given, params->given, sizeof params->given);
+    *out = *model;
   }
   free(made);
   return status;
@@ -452,8 +420,8 @@ void sb_model_remarks(const SbModel *model, SbProblems *out) {
   double furthest = model->land_edge + model->shape.seal_spacing + hole / 2;
   if (model->pressure_map == SB_MAP_PORTS && hole > 0 &&
       (model->shape.vent_position <= nearest || model->shape.vent_position >= furthest)) {
-    add_problem(out, "bore.vent_position", fmax(nearest, 0), furthest,
-                "the dose chamber never reaches the vent between rest and stop: it does not empty");
+    refuse(out, "bore.vent_position", fmax(nearest, 0), furthest,
+           "the dose chamber never reaches the vent between rest and stop: it does not empty");
   }
 }
 

@@ -18,25 +18,28 @@
 #include <stdatomic.h>
 #include <stddef.h>
 
+// Members that lines of params.def declare; those of places that are declared here are left out.
+#define SB_DECLARE_OWN(type, name) type name;
+#define SB_DECLARE_IN(...)
+
 // One ring and what follows from its size and its gland alone. Sizes and modulus are those after
 // storage; the new ring's are in `stored`.
 typedef struct {
   SbRubberStorage stored; // the new ring and what it went through
   SbRubberState storage;  // what that made of it
-  double section_diameter_tolerance, inner_diameter_tolerance; // half-widths [m]
-  double section_diameter;                                     // d, free [m]
-  double inner_diameter;                                       // free [m]
-  double modulus;                                              // E [Pa]
-  double poisson_ratio;                                        // nu
-  double mooney_share;    // c2/(c1 + c2) of the ring model's energy
-  double reduced_modulus; // E' of thesis equation 5.8: 2/E' = sum (1 - nu^2)/E [Pa]
-  double radius;          // R_x = d/2 [m]
-  double squeeze;         // (d - g)/d
-  double stretch_mean;    // of the mean diameter, (D_fitted - D_free)/D_free
-  double stretch_inner;   // of the inner diameter
-  double section_fitted;  // section diameter after stretch, d (1 - nu stretch_mean) [m]
-  double interference;    // section_fitted - g [m]
-  double gland_fill;      // ring volume over groove volume
+#define SB_SEAL(id, where, place, ...) SB_DECLARE_##where(double, place)
+#include "engine/valve/params.def"
+  double section_diameter; // d, free [m]
+  double inner_diameter;   // free [m]
+  double modulus;          // E [Pa]
+  double reduced_modulus;  // E' of thesis equation 5.8: 2/E' = sum (1 - nu^2)/E [Pa]
+  double radius;           // R_x = d/2 [m]
+  double squeeze;          // (d - g)/d
+  double stretch_mean;     // of the mean diameter, (D_fitted - D_free)/D_free
+  double stretch_inner;    // of the inner diameter
+  double section_fitted;   // section diameter after stretch, d (1 - nu stretch_mean) [m]
+  double interference;     // section_fitted - g [m]
+  double gland_fill;       // ring volume over groove volume
 } SbSealModel;
 
 // What is large in a model and never changes: models share it by reference, so that runs and
@@ -59,8 +62,11 @@ typedef struct {
 
 struct SbModel {
   SbParams params; // what it was compiled from
-#define SB_MODEL_FIELD(type, name, id) type name;
-#include "engine/valve/model.def"
+#define SB_REAL(id, where, place, ...)         SB_DECLARE_##where(double, place)
+#define SB_INT(id, where, place, ...)          SB_DECLARE_##where(int, place)
+#define SB_CHOICE(id, type, where, place, ...) SB_DECLARE_##where(type, place)
+#define SB_FLAGS(id, where, place, ...)        SB_DECLARE_##where(unsigned, place)
+#include "engine/valve/params.def"
   SbSealModel seal[SB_SEAL_COUNT];
   SbRubber rubber;           // how storage changes it
   double bore_circumference; // pi D: the friction area's length [m]
@@ -69,9 +75,7 @@ struct SbModel {
   double pressure_force;     // p pi D_p^2/4, pushes the stem out [N]
   SbValveParts parts;        // the stem's share stem_mass
   double moving_mass;        // stem, seals and block [kg]
-  double pressure_viscosity; // Barus' coefficient [1/Pa], 0 for a constant viscosity
   SbRoughModel surface;
-  double hamaker;         // [J]; 0 without adhesion
   SbRunningIn running_in; // factor on the roughness
   SbRig rig;              // motion RIG
   SbSectionLook look;     // for the drawing only

@@ -5,33 +5,26 @@
 #include <stdio.h>
 #include <string.h>
 
+// The rows are all alike but for what a kind leaves out.
+#define ROW(id, kind, key, symbol, si, unit, min, max, fallback, choices, parent, ...)             \
+  [SB_P_##id] = {key, kind, symbol, si, unit, min, max, fallback, choices, __VA_ARGS__, parent},
+#define SB_REAL(id, where, place, key, symbol, si, unit, min, max, fallback, ...)                  \
+  ROW(id, SB_PARAM_REAL, key, symbol, si, unit, min, max, fallback, NULL, -1, __VA_ARGS__)
+#define SB_INT(id, where, place, key, symbol, min, max, fallback, ...)                             \
+  ROW(id, SB_PARAM_INT, key, symbol, "1", "", min, max, fallback, NULL, -1, __VA_ARGS__)
+#define SB_CHOICE(id, type, where, place, key, choices, fallback, ...)                             \
+  ROW(id, SB_PARAM_CHOICE, key, "", "1", "", 0, 0, fallback, choices, -1, __VA_ARGS__)
+#define SB_FLAGS(id, where, place, key, choices, fallback, ...)                                    \
+  ROW(id, SB_PARAM_FLAGS, key, "", "1", "", 0, 0, fallback, choices, -1, __VA_ARGS__)
+#define SEAL_ROW(id, parent, key, symbol, si, unit, min, max, fallback, ...)                       \
+  ROW(SEAL_##id, SB_PARAM_REAL, key, symbol, si, unit, min, max, fallback, NULL, parent,           \
+      __VA_ARGS__)
+#define SB_SEAL(id, where, place, name, ...)                                                       \
+  SEAL_ROW(id, -1, "seal." name, __VA_ARGS__)                                                      \
+  SEAL_ROW(OUTER_##id, SB_P_SEAL_##id, "seal.outer." name, __VA_ARGS__)                            \
+  SEAL_ROW(INNER_##id, SB_P_SEAL_##id, "seal.inner." name, __VA_ARGS__)
 static const SbParam table[SB_PARAM_COUNT] = {
-#define SB_REAL(id, key, symbol, si, unit, min, max, fallback, label, help, source, tag)           \
-  [SB_P_##id] = {key,      SB_PARAM_REAL, symbol, si,   unit,   min, max,                          \
-                 fallback, NULL,          label,  help, source, tag, -1},
-#define SB_INT(id, key, symbol, min, max, fallback, label, help, source, tag)                      \
-  [SB_P_##id] = {key,      SB_PARAM_INT, symbol, "1",  "",     min, max,                           \
-                 fallback, NULL,         label,  help, source, tag, -1},
-#define SB_CHOICE(id, key, choices, fallback, label, help, source, tag)                            \
-  [SB_P_##id] = {key,      SB_PARAM_CHOICE, "",    "1",  "",     0,   0,                           \
-                 fallback, choices,         label, help, source, tag, -1},
-#define SB_FLAGS(id, key, choices, fallback, label, help, source, tag)                             \
-  [SB_P_##id] = {key,      SB_PARAM_FLAGS, "",    "1",  "",     0,   0,                            \
-                 fallback, choices,        label, help, source, tag, -1},
-#define SB_SEAL(id, name, symbol, si, unit, min, max, fallback, label, help, source, tag)          \
-  SB_REAL(SEAL_##id, "seal." name, symbol, si, unit, min, max, fallback, label, help, source, tag) \
-  [SB_P_SEAL_OUTER_##                                                                              \
-      id] = {"seal.outer." name, SB_PARAM_REAL, symbol, si,   unit,   min, max,                    \
-             fallback,           NULL,          label,  help, source, tag, SB_P_SEAL_##id},        \
-    [SB_P_SEAL_INNER_##                                                                            \
-        id] = {"seal.inner." name, SB_PARAM_REAL, symbol, si,   unit,   min, max,                  \
-               fallback,           NULL,          label,  help, source, tag, SB_P_SEAL_##id},
 #include "engine/valve/params.def"
-#undef SB_REAL
-#undef SB_INT
-#undef SB_CHOICE
-#undef SB_FLAGS
-#undef SB_SEAL
 };
 
 const SbParam *sb_param(SbParamId id) {
@@ -85,37 +78,41 @@ SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *r
   return SB_OK;
 }
 
+// The next of the choices from *at on, of the length returned; *at is moved behind it, NULL after
+// the last.
+static size_t next_choice(const char **at) {
+  size_t length = strcspn(*at, "|");
+  *at = (*at)[length] == '|' ? *at + length + 1 : NULL;
+  return length;
+}
+
 int sb_param_choice(const SbParam *param, const char *name, size_t length) {
-  const char *start = param->choices;
-  for (int i = 0; start != NULL; i++) {
-    const char *bar = strchr(start, '|');
-    size_t n = bar != NULL ? (size_t)(bar - start) : strlen(start);
-    if (n == length && strncmp(start, name, n) == 0) {
+  const char *at = param->choices;
+  for (int i = 0; at != NULL; i++) {
+    const char *start = at;
+    if (next_choice(&at) == length && strncmp(start, name, length) == 0) {
       return i;
     }
-    start = bar != NULL ? bar + 1 : NULL;
   }
   return -1;
 }
 
 void sb_param_choice_name(const SbParam *param, int index, char *name, size_t size) {
-  const char *start = param->choices;
+  const char *at = param->choices;
   name[0] = '\0';
-  for (int i = 0; start != NULL; i++) {
-    const char *bar = strchr(start, '|');
-    size_t n = bar != NULL ? (size_t)(bar - start) : strlen(start);
+  for (int i = 0; at != NULL && i <= index; i++) {
+    const char *start = at;
+    size_t length = next_choice(&at);
     if (i == index) {
-      snprintf(name, size, "%.*s", (int)n, start);
-      return;
+      snprintf(name, size, "%.*s", (int)length, start);
     }
-    start = bar != NULL ? bar + 1 : NULL;
   }
 }
 
 int sb_param_choice_count(const SbParam *param) {
-  int count = param->choices != NULL ? 1 : 0;
-  for (const char *c = param->choices; c != NULL && *c != '\0'; c++) {
-    count += *c == '|';
+  int count = 0;
+  for (const char *at = param->choices; at != NULL; count++) {
+    (void)next_choice(&at);
   }
   return count;
 }

@@ -17,11 +17,6 @@ typedef enum {
 #define SB_FLAGS         SB_REAL
 #define SB_SEAL(id, ...) SB_P_SEAL_##id, SB_P_SEAL_OUTER_##id, SB_P_SEAL_INNER_##id,
 #include "engine/valve/params.def"
-#undef SB_REAL
-#undef SB_INT
-#undef SB_CHOICE
-#undef SB_FLAGS
-#undef SB_SEAL
   SB_PARAM_COUNT
 } SbParamId;
 

@@ -95,12 +95,14 @@ typedef struct {
   double groove_left[SB_SEAL_COUNT], groove_right[SB_SEAL_COUNT], floor, land; // walls, radii
 } SbValveOutlines;
 
+// Half of the section, both halves, or in three dimensions, a quarter cut away: output.section.
+enum { SB_SECTION_HALF, SB_SECTION_FULL, SB_SECTION_CUTAWAY };
+
 // How the section is shown when nobody says otherwise; no result depends on it.
 typedef struct {
   int field;                 // index among the choices of output.field = SbField
   int insets;                // 0 of the outer seal, 1 of the inner one, 2 none
-  bool full;                 // both halves
-  bool cutaway;              // in three dimensions, a quarter cut away
+  int section;               // SB_SECTION_HALF, ...
   double azimuth, elevation; // of the cutaway's camera [rad]
   bool undeformed;           // the rings' outline before fitting
   double field_max;          // end of the colours of stresses [Pa]; 0: the range of the run

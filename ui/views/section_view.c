@@ -178,7 +178,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
       .inset_seal = inset == 1 ? SB_INNER : SB_OUTER,
       .field = (SbField)MAX(gtk_combo_box_get_active(GTK_COMBO_BOX(view->field_combo)), 0),
       .mesh = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->mesh)),
-      .full = look->full,
+      .full = look->section == SB_SECTION_FULL,
       .cutaway = cutaway,
       .magnify = view->zoom,
       .undeformed = look->undeformed,
@@ -266,8 +266,9 @@ static void follow_look(View *view) {
   if (look->azimuth != before.azimuth || look->elevation != before.elevation) {
     sb_session_set_camera(view->session, look->azimuth, look->elevation);
   }
-  if (look->cutaway != before.cutaway) {
-    gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(view->cutaway), look->cutaway);
+  gboolean cutaway = look->section == SB_SECTION_CUTAWAY;
+  if (cutaway != (before.section == SB_SECTION_CUTAWAY)) {
+    gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(view->cutaway), cutaway);
   }
 }
 
