@@ -6,38 +6,36 @@
 #include <assert.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct {
   const char *name, *title, *help;
-  void (*make)(SbStudyWork *work);
-  double (*cost)(const SbModel *model);
+  const SbStudyDesign *design;
 } Entry;
 
 static const Entry entries[SB_STUDY_COUNT] = {
 #define SB_STUDY_ENTRY(code, function, name, title, help)                                          \
-  [code] = {name, title, help, sb_study_##function, sb_study_##function##_cost},
+  [code] = {name, title, help, &sb_study_##function},
     SB_STUDY_LIST(SB_STUDY_ENTRY)
 #undef SB_STUDY_ENTRY
 };
 
 static const Entry *find(SbStudyKind kind) {
-  return (unsigned)kind < SB_STUDY_COUNT ? &entries[kind] : NULL;
+  static const Entry none;
+  return (unsigned)kind < SB_STUDY_COUNT ? &entries[kind] : &none;
 }
 
 const char *sb_study_name(SbStudyKind kind) {
-  const Entry *entry = find(kind);
-  return entry != NULL ? entry->name : NULL;
+  return find(kind)->name;
 }
 
 const char *sb_study_title(SbStudyKind kind) {
-  const Entry *entry = find(kind);
-  return entry != NULL ? entry->title : NULL;
+  return find(kind)->title;
 }
 
 const char *sb_study_help(SbStudyKind kind) {
-  const Entry *entry = find(kind);
-  return entry != NULL ? entry->help : NULL;
+  return find(kind)->help;
 }
 
 bool sb_study_from_name(SbStudyKind *out, const char *name) {
@@ -51,32 +49,72 @@ bool sb_study_from_name(SbStudyKind *out, const char *name) {
 }
 
 double sb_study_cost(SbStudyKind kind, const SbModel *model) {
-  const Entry *entry = find(kind);
-  return entry != NULL ? entry->cost(model) : 0;
+  const SbStudyDesign *design = find(kind)->design;
+  const SbStudySolves none = {0}, *solves = design != NULL ? &design->solves : &none;
+  return solves->rings * SB_COST_RING + solves->discs * SB_COST_DISC +
+         solves->fits * sb_cost_fit(model->fit) + solves->films * sb_cost_film(model->film) +
+         solves->reynolds * SB_COST_FILM + solves->mixed * SB_COST_FILM_MIXED +
+         solves->cycles * SB_COST_ACTUATION;
+}
+
+// Axes, columns and texts that the scene does not change.
+static void put_design(SbStudy *out, const SbStudyDesign *design) {
+  out->x = design->x;
+  while (out->panel_count < SB_STUDY_PANELS && design->panel[out->panel_count].quantity[0] != 0) {
+    SbStudyPanel *panel = &out->panel[out->panel_count];
+    panel->y = design->panel[out->panel_count++];
+    sb_text(panel->empty, sizeof panel->empty, "no value in this range");
+  }
+  sb_text(out->row_heading, sizeof out->row_heading, "%s",
+          design->row_heading != NULL ? design->row_heading : "");
+  while (out->column_count < SB_STUDY_COLUMNS && design->column[out->column_count].name[0] != 0) {
+    SbStudyColumn *column = &out->column[out->column_count];
+    *column = design->column[out->column_count++];
+    column->digits = column->digits > 0 ? column->digits : 3;
+  }
+  sb_text(out->models, sizeof out->models, "%s", design->models != NULL ? design->models : "");
+  sb_text(out->validity, sizeof out->validity, "%s",
+          design->validity != NULL ? design->validity : "");
 }
 
 SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
                        const SbStudyHooks *hooks, SbReport *report) {
-  const Entry *entry = find(kind);
+  const SbStudyDesign *design = find(kind)->design;
   memset(out, 0, sizeof *out);
-  if (entry == NULL) {
+  if (design == NULL) {
     return sb_fail(report, SB_ERROR_INPUT, "there is no study %d", (int)kind);
+  }
+  SbStudyWork *work = calloc(1, sizeof *work);
+  if (work == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a study");
   }
   out->kind = kind;
   out->complete = true;
-  SbStudyWork work = {out, model, *model, NULL, hooks, report, SB_OK, 0, entry->cost(model)};
-  work.status = sb_evaluator_create(&work.evaluator, report);
-  sb_study_step(&work, 0);
-  if (work.status == SB_OK) {
-    entry->make(&work);
+  put_design(out, design);
+  const double *range = (const double *)((const char *)&model->study + design->range);
+  work->out = out;
+  work->design = design;
+  work->scene = model;
+  work->base = *model;
+  work->report = report;
+  work->lo = range[0];
+  work->hi = range[1];
+  work->hooks = hooks != NULL ? *hooks : (SbStudyHooks){0};
+  work->total = sb_study_cost(kind, model);
+  work->status = sb_evaluator_create(&work->evaluator, report);
+  sb_study_step(work, 0);
+  if (work->status == SB_OK) {
+    design->make(work);
   }
   if (out->load_largest > 0) {
     out->error = fmax(out->error, out->load_error / out->load_largest);
     out->error = fmax(out->error, out->width_error / out->width_largest);
   }
-  sb_study_step(&work, 1);
-  sb_evaluator_destroy(work.evaluator);
-  return work.status == SB_OK ? sb_succeed(report) : work.status;
+  sb_study_step(work, 1);
+  sb_evaluator_destroy(work->evaluator);
+  SbStatus status = work->status;
+  free(work);
+  return status == SB_OK ? sb_succeed(report) : status;
 }
 
 // ---- building blocks ----
@@ -87,53 +125,11 @@ static size_t next(size_t *count, size_t capacity) {
   return *count < capacity ? (*count)++ : capacity - 1;
 }
 
-void sb_study_axis(SbStudyAxis *out, const char *quantity, const char *si, const char *unit,
-                   bool logarithmic) {
-  sb_text(out->quantity, sizeof out->quantity, "%s", quantity);
-  sb_text(out->si, sizeof out->si, "%s", si);
-  sb_text(out->unit, sizeof out->unit, "%s", unit);
-  out->logarithmic = logarithmic;
-}
-
-SbStudyPanel *sb_study_panel(SbStudy *out, const char *quantity, const char *si, const char *unit,
-                             bool logarithmic) {
-  SbStudyPanel *panel = &out->panel[next(&out->panel_count, SB_STUDY_PANELS)];
-  sb_study_axis(&panel->y, quantity, si, unit, logarithmic);
-  sb_text(panel->empty, sizeof panel->empty, "no value in this range");
-  return panel;
-}
-
-SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const char *format, ...) {
+SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const char *name) {
   SbStudySeries *series = &panel->series[next(&panel->series_count, SB_STUDY_SERIES)];
   series->style = style;
-  va_list arguments;
-  va_start(arguments, format);
-  sb_text_v(series->name, sizeof series->name, format, arguments);
-  va_end(arguments);
+  sb_text(series->name, sizeof series->name, "%s", name);
   return series;
-}
-
-SbStudyColumn *sb_study_column(SbStudy *out, const char *name, const char *si, const char *unit) {
-  SbStudyColumn *column = &out->column[next(&out->column_count, SB_STUDY_COLUMNS)];
-  sb_text(column->name, sizeof column->name, "%s", name);
-  sb_text(column->si, sizeof column->si, "%s", si);
-  sb_text(column->unit, sizeof column->unit, "%s", unit);
-  column->digits = 3;
-  return column;
-}
-
-SbStudyRow *sb_study_row(SbStudy *out, const char *si, const char *unit, const char *format, ...) {
-  SbStudyRow *row = &out->row[next(&out->row_count, SB_STUDY_ROWS)];
-  va_list arguments;
-  va_start(arguments, format);
-  sb_text_v(row->name, sizeof row->name, format, arguments);
-  va_end(arguments);
-  sb_text(row->si, sizeof row->si, "%s", si != NULL ? si : "");
-  sb_text(row->unit, sizeof row->unit, "%s", si != NULL ? unit : "");
-  for (size_t i = 0; i < SB_STUDY_COLUMNS; i++) {
-    row->value[i] = NAN;
-  }
-  return row;
 }
 
 void sb_study_point(SbStudySeries *series, double x, double y) {
@@ -142,17 +138,52 @@ void sb_study_point(SbStudySeries *series, double x, double y) {
   series->y[at] = y;
 }
 
-void sb_study_curve(SbStudy *out, SbStudyStyle style, const char *name) {
-  for (size_t i = 0; i < out->panel_count; i++) {
-    sb_study_series(&out->panel[i], style, "%s", name);
+SbStudyRow *sb_study_row(SbStudy *out, const char *format, ...) {
+  SbStudyRow *row = &out->row[next(&out->row_count, SB_STUDY_ROWS)];
+  va_list arguments;
+  va_start(arguments, format);
+  sb_text_v(row->name, sizeof row->name, format, arguments);
+  va_end(arguments);
+  for (size_t i = 0; i < SB_STUDY_COLUMNS; i++) {
+    row->value[i] = NAN;
+  }
+  return row;
+}
+
+double sb_study_place(const SbStudyWork *work, int index, int count) {
+  double lo = work->lo, hi = work->hi, t = index / (count - 1.0);
+  return work->design->x.logarithmic ? lo * pow(hi / lo, t) : lo + (hi - lo) * index / (count - 1);
+}
+
+const double *sb_study_at(SbStudyWork *work, int line, double x) {
+  for (size_t i = 0; i < work->answers; i++) {
+    const SbStudyAnswer *known = &work->answer[i];
+    if (known->line == line && fabs(known->x - x) <= 1e-9 * fabs(x)) {
+      return known->value;
+    }
+  }
+  SbStudyAnswer *answer = &work->answer[next(&work->answers, SB_STUDY_ANSWERS)];
+  answer->line = line;
+  answer->x = x;
+  work->design->solve(answer->value, work, line, x);
+  return answer->value;
+}
+
+void sb_study_curves(SbStudyWork *work, SbStudyStyle style, const char *name, int line,
+                     const double *at, int count) {
+  for (size_t p = 0; p < work->out->panel_count; p++) {
+    SbStudySeries *series = sb_study_series(&work->out->panel[p], style, name);
+    for (int i = 0; i < count; i++) {
+      double x = at != NULL ? at[i] : sb_study_place(work, i, count);
+      sb_study_point(series, x, sb_study_at(work, line, x)[p]);
+    }
   }
 }
 
-void sb_study_put(SbStudy *out, double x, const double *y) {
-  for (size_t i = 0; i < out->panel_count; i++) {
-    SbStudyPanel *panel = &out->panel[i];
-    sb_study_point(&panel->series[panel->series_count - 1], x, y[i]);
-  }
+void sb_study_level(SbStudyWork *work, SbStudyPanel *panel, const char *name, double y) {
+  SbStudySeries *series = sb_study_series(panel, SB_STUDY_REFERENCE, name);
+  sb_study_point(series, work->lo, y);
+  sb_study_point(series, work->hi, y);
 }
 
 void sb_study_mark(SbStudy *out, double x, const char *format, ...) {
@@ -162,6 +193,12 @@ void sb_study_mark(SbStudy *out, double x, const char *format, ...) {
   va_start(arguments, format);
   sb_text_v(mark->text, sizeof mark->text, format, arguments);
   va_end(arguments);
+}
+
+void sb_study_mark_scene(SbStudyWork *work, double x, const char *text) {
+  if (x >= work->lo && x <= work->hi) {
+    sb_study_mark(work->out, x, "%s", text);
+  }
 }
 
 void sb_study_note(SbStudy *out, const char *format, ...) {
@@ -188,8 +225,8 @@ bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report
 }
 
 void sb_study_step(SbStudyWork *work, double fraction) {
-  const SbStudyHooks *hooks = work->hooks;
-  if (work->status != SB_OK || hooks == NULL) {
+  const SbStudyHooks *hooks = &work->hooks;
+  if (work->status != SB_OK) {
     return;
   }
   if (hooks->progress != NULL) {
@@ -295,14 +332,13 @@ void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, siz
   if (work->status != SB_OK) {
     return;
   }
-  const SbStudyHooks *hooks = work->hooks;
-  SbQuestion question = {&work->base,
-                         override,
-                         overrides,
-                         figure,
-                         paths,
-                         hooks != NULL ? hooks->cancelled : NULL,
-                         hooks != NULL ? hooks->data : NULL};
+  SbQuestion question = {.base = &work->base,
+                         .override = override,
+                         .override_count = overrides,
+                         .figure = figure,
+                         .figure_count = paths,
+                         .cancelled = work->hooks.cancelled,
+                         .data = work->hooks.data};
   SbReport report;
   SbStatus status = sb_evaluator_ask(value, work->evaluator, &question, &report);
   account(work, status);
@@ -322,16 +358,16 @@ void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, siz
   sb_study_step(work, fmin(work->spent / work->total, 1));
 }
 
-SbStudyContact sb_study_contact(SbStudyWork *work, const SbOverride *override, size_t overrides) {
+void sb_study_contact(double value[SB_STUDY_CONTACT], SbStudyWork *work, const SbOverride *override,
+                      size_t overrides) {
   static const char *const paths[] = {"seals.outer.load_N", "seals.outer.pressure_peak_Pa",
                                       "seals.outer.contact_width_m"};
-  double value[3];
-  sb_study_ask(work, value, paths, 3, override, overrides);
-  return (SbStudyContact){value[0], value[1], value[2]};
+  sb_study_ask(work, value, paths, SB_STUDY_CONTACT, override, overrides);
 }
 
 double sb_study_net_load(SbStudyWork *work) {
-  double width = sb_study_contact(work, NULL, 0).width;
+  double contact[SB_STUDY_CONTACT];
+  sb_study_contact(contact, work, NULL, 0);
   const SbSummary *summary = sb_evaluator_summary(work->evaluator);
-  return summary != NULL ? summary->seal[SB_OUTER].contact_pressure * width : NAN;
+  return summary != NULL ? summary->seal[SB_OUTER].contact_pressure * contact[2] : NAN;
 }

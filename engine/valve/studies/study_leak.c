@@ -11,49 +11,50 @@
 #include "engine/contact/rough/percolation.h"
 #include "engine/valve/studies/study_private.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
+#include <string.h>
 
-enum { POINTS = 39, RING_POINTS = 20, FINE = 9, ROWS = 11 };
+enum { POINTS = 39, RING_POINTS = 20, FINE = 9, ROWS = 11, LINES = 5, FULL = 3 };
+enum { PRESSURE, LEAK, STROKE, FIGURES };
 
-double sb_study_leak_cost(const SbModel *model) {
-  double film = sb_cost_film(model->film);
-  return 2 * (2 * (RING_POINTS + FINE) + 11) * SB_COST_RING + POINTS * SB_COST_DISC +
-         5 * POINTS * film;
+// Shares of the canister's pressure.
+static const double shares[] = {1, 0.1};
+
+// A line of the study: a fitment model at one of the shares.
+static int line_of(SbFitModel fit, int share) {
+  return (int)fit * 2 + share;
 }
 
-typedef struct {
-  double pressure, leak, stroke;
-} Figures;
+static SbFitModel fit_of(int line) {
+  return (SbFitModel)(line / 2);
+}
 
-// One curve: a fitment model at a share of the canister's pressure.
-typedef struct {
-  SbFitModel fit;
-  double share;
-} Line;
-
-static Figures solve(SbStudyWork *work, const Line *line, double squeeze) {
+static void solve(double *value, SbStudyWork *work, int line, double squeeze) {
   static const char *const paths[] = {"seals.outer.leakage_static_m3_per_s",
                                       "seals.outer.leakage_per_stroke_m3"};
   static const char *const width[] = {"seals.outer.contact_width_m"};
   enum { COUNT = SB_STUDY_SQUEEZED + 3 };
   SbOverride override[COUNT];
   sb_study_squeezed(override, work, squeeze);
-  override[3] = (SbOverride){SB_P_MODELS_FIT, line->fit};
+  override[3] = (SbOverride){SB_P_MODELS_FIT, fit_of(line)};
   // Finer than the roughness theory deserves; a ring that barely touches is costly.
-  override[4] = (SbOverride){SB_P_OUTPUT_TOLERANCE,
-                             fmax(work->scene->tolerance, line->fit == SB_FIT_RING ? 1e-2 : 1e-3)};
+  override[4] =
+      (SbOverride){SB_P_OUTPUT_TOLERANCE,
+                   fmax(work->scene->tolerance, fit_of(line) == SB_FIT_RING ? 1e-2 : 1e-3)};
   // A ring that does not touch by itself lets the fluid past before any pressure could press it on.
   override[5] = (SbOverride){SB_P_CANISTER_PRESSURE, 0};
-  double free, value[2] = {NAN, NAN};
+  double free;
+  value[PRESSURE] = value[LEAK] = value[STROKE] = NAN;
   sb_study_ask(work, &free, width, 1, override, COUNT);
   if (!(free > 0)) {
-    return (Figures){NAN, NAN, NAN};
+    return;
   }
-  override[5].value = line->share * work->scene->canister_pressure;
-  sb_study_ask(work, value, paths, 2, override, COUNT);
+  override[5].value = shares[line % 2] * work->scene->canister_pressure;
+  sb_study_ask(work, &value[LEAK], paths, 2, override, COUNT);
   const SbSummary *summary = sb_evaluator_summary(work->evaluator);
   double pressure = summary != NULL ? summary->seal[SB_OUTER].contact_pressure : NAN;
-  return (Figures){isnan(pressure) ? NAN : fmax(pressure, 0), value[0], value[1]};
+  value[PRESSURE] = isnan(pressure) ? NAN : fmax(pressure, 0);
 }
 
 // What a curve of pressure says: where the ring touches and where channels open.
@@ -86,146 +87,111 @@ static void tell(SbStudy *out, const SbStudySeries *series, double closing) {
   }
 }
 
-enum { LINES = 5 };
-
-// The scene's own model first, then disc and ring, each once; the scene's and the ring at a tenth
-// of the pressure too.
-static int choose_lines(Line *line, const SbModel *model) {
-  SbFitModel own = model->fit;
+// Lines that are drawn, and how many: the scene's own model, disc and ring, each once; then the
+// scene's and the ring at a tenth of the pressure too.
+static int choose_lines(int lines[LINES], const SbModel *model) {
+  const int wanted[LINES] = {line_of(model->fit, 0), line_of(SB_FIT_DISC, 0),
+                             line_of(SB_FIT_RING, 0), line_of(model->fit, 1),
+                             line_of(SB_FIT_RING, 1)};
   int count = 0;
-  line[count++] = (Line){own, 1};
-  if (own != SB_FIT_DISC) {
-    line[count++] = (Line){SB_FIT_DISC, 1};
+  for (int i = 0; i < LINES; i++) {
+    bool known = false;
+    for (int k = 0; k < count; k++) {
+      known = known || lines[k] == wanted[i];
+    }
+    if (!known) {
+      lines[count++] = wanted[i];
+    }
   }
-  if (own != SB_FIT_RING) {
-    line[count++] = (Line){SB_FIT_RING, 1};
-    line[count++] = (Line){own, 0.1};
-  }
-  line[count++] = (Line){SB_FIT_RING, 0.1};
   return count;
 }
 
-static int points_of(const Line *line) {
-  return line->fit == SB_FIT_RING ? RING_POINTS : POINTS;
-}
-
-static void line_name(char *name, size_t size, const Line *line, const SbModel *model) {
-  sb_text(name, size, "%s, %.2g MPa", sb_fit_model_name(line->fit),
-          line->share * model->canister_pressure * 1e-6);
-}
-
-// Between which squeezes a ring begins to touch and its channels to close; false if it is closed
-// over the whole range or never.
-static bool find_opening(double *from, double *to, const double *at, const Figures *figures,
-                         int count, double closing) {
-  for (int i = 0; i < count; i++) {
-    if (figures[i].pressure >= closing) {
-      *to = at[i];
-      int k = i;
-      while (k > 0 && figures[k - 1].pressure > 0) {
-        k--;
-      }
-      *from = k > 0 ? at[k - 1] : at[0];
-      return i > 0;
+// Places of a line: even ones, and more between where the ring begins to touch and where its
+// channels close; the leak lies there.
+static int choose_places(double at[POINTS + FINE], SbStudyWork *work, int line, double closing) {
+  int even = fit_of(line) == SB_FIT_RING ? RING_POINTS : POINTS, closed = 0, count = 0;
+  for (int i = 0; i < even; i++) {
+    at[i] = sb_study_place(work, i, even);
+  }
+  while (closed < even && !(sb_study_at(work, line, at[closed])[PRESSURE] >= closing)) {
+    closed++;
+  }
+  if (closed == 0 || closed == even) {
+    return even;
+  }
+  int open = closed - 1;
+  while (open > 0 && sb_study_at(work, line, at[open])[PRESSURE] > 0) {
+    open--;
+  }
+  double from = at[open], to = at[closed];
+  for (int i = 0; i < FINE; i++) {
+    at[even + i] = from + (to - from) * (i + 1.0) / (FINE + 1);
+  }
+  gsl_sort(at, 1, (size_t)(even + FINE));
+  for (int i = 0; i < even + FINE; i++) {
+    if (count == 0 || at[i] > at[count - 1] + 1e-9) {
+      at[count++] = at[i];
     }
   }
-  return false;
+  return count;
 }
 
-// Into the series, by rising squeeze.
-static void put_points(SbStudy *out, const double *at, const Figures *figures, int count) {
-  double last = -INFINITY;
-  for (int n = 0; n < count; n++) {
-    int next = -1;
-    for (int i = 0; i < count; i++) {
-      if (at[i] > last + 1e-9 && (next < 0 || at[i] < at[next])) {
-        next = i;
-      }
-    }
-    if (next < 0) {
-      return;
-    }
-    last = at[next];
-    const Figures *f = &figures[next];
-    sb_study_put(out, last, (const double[]){f->pressure, f->leak > 0 ? f->leak : NAN, f->stroke});
-  }
-}
-
-static void draw(SbStudyWork *work, const Line *lines, int count, double closing) {
+// A curve for each line, and at full pressure columns of the table.
+static void draw(SbStudyWork *work, const int *lines, int count, double closing) {
+  static const char *const quantity[] = {"pressure", "leak at rest", "per stroke"};
+  static const char *const unit[][2] = {{"Pa", "MPa"}, {"m3/s", "\xc2\xb5l/h"}, {"m3", "nl"}};
   SbStudy *out = work->out;
-  SbStudyPanel *pressure =
-      sb_study_panel(out, "pressure of the rubber on the bore", "Pa", "MPa", false);
-  SbStudyPanel *rest = sb_study_panel(out, "leak at rest", "m3/s", "\xc2\xb5l/h", true);
-  sb_study_panel(out, "carried out per stroke", "m3", "nl", false);
+  SbStudyPanel *pressure = &out->panel[PRESSURE], *rest = &out->panel[LEAK];
   sb_text(rest->empty, sizeof rest->empty, "no leak: every contact is closed");
-  double lo = work->scene->study.squeeze_min, hi = work->scene->study.squeeze_max;
-  for (const Line *line = lines; line < lines + count; line++) {
+  for (int l = 0; l < count; l++) {
+    const int line = lines[l], share = line % 2;
+    const char *fit = sb_fit_model_name(fit_of(line));
     char name[40];
-    line_name(name, sizeof name, line, work->scene);
-    sb_study_curve(out, SB_STUDY_CURVE, name);
+    sb_text(name, sizeof name, "%s, %.2g MPa", fit,
+            shares[share] * work->scene->canister_pressure * 1e-6);
     double at[POINTS + FINE];
-    Figures figures[POINTS + FINE];
-    int points = points_of(line);
+    int points = choose_places(at, work, line, closing);
+    sb_study_curves(work, SB_STUDY_CURVE, name, line, at, points);
+    SbStudySeries *leak = &rest->series[rest->series_count - 1];
     for (int i = 0; i < points; i++) {
-      at[i] = lo + (hi - lo) * i / (points - 1.0);
-      figures[i] = solve(work, line, at[i]);
+      leak->y[i] = leak->y[i] > 0 ? leak->y[i] : NAN;
     }
-    // Once more where it begins to touch and to close: the leak lies between.
-    double from, to;
-    if (find_opening(&from, &to, at, figures, points, closing)) {
-      for (int i = 0; i < FINE; i++) {
-        at[points] = from + (to - from) * (i + 1.0) / (FINE + 1);
-        figures[points] = solve(work, line, at[points]);
-        points++;
-      }
-    }
-    put_points(out, at, figures, points);
     tell(out, &pressure->series[pressure->series_count - 1], closing);
+    for (int q = 0; q < FIGURES && share == 0; q++) {
+      SbStudyColumn *column = &out->column[out->column_count++];
+      *column = (SbStudyColumn){.digits = 3};
+      sb_text(column->name, sizeof column->name, "%s %s", quantity[q], fit);
+      sb_text(column->si, sizeof column->si, "%s", unit[q][0]);
+      sb_text(column->unit, sizeof column->unit, "%s", unit[q][1]);
+    }
   }
-  SbStudySeries *limit = sb_study_series(pressure, SB_STUDY_REFERENCE, "channels close");
-  sb_study_point(limit, lo, closing);
-  sb_study_point(limit, hi, closing);
+  sb_study_level(work, pressure, "channels close", closing);
 }
 
-// Rows by squeeze at the canister's pressure, then by pressure as designed; the lines at full
-// pressure are the columns.
-static void table(SbStudyWork *work, const Line *lines, int count) {
+// Rows by squeeze at the canister's pressure, then at its tenth; the models at full pressure are
+// the columns.
+static void table(SbStudyWork *work, const int *lines, int count) {
   double design = work->scene->seal[SB_OUTER].squeeze;
   const struct {
-    double squeeze, share;
-  } rows[ROWS] = {{0.022, 1},  {0.05, 1},   {0.07, 1},    {0.10, 1},   {design, 1},  {0.20, 1},
-                  {0.05, 0.1}, {0.07, 0.1}, {0.075, 0.1}, {0.10, 0.1}, {design, 0.1}};
-  SbStudy *out = work->out;
-  sb_text(out->row_heading, sizeof out->row_heading, "squeeze, pressure");
-  for (int m = 0; m < count; m++) {
-    if (lines[m].share < 1) {
-      continue;
-    }
-    static const char *const quantity[] = {"pressure", "leak at rest", "per stroke"};
-    static const char *const unit[][2] = {{"Pa", "MPa"}, {"m3/s", "\xc2\xb5l/h"}, {"m3", "nl"}};
-    for (int q = 0; q < 3; q++) {
-      char text[40];
-      sb_text(text, sizeof text, "%s %s", quantity[q], sb_fit_model_name(lines[m].fit));
-      sb_study_column(out, text, unit[q][0], unit[q][1]);
-    }
-  }
+    double squeeze;
+    int share;
+  } rows[ROWS] = {{0.022, 0}, {0.05, 0}, {0.07, 0},  {0.10, 0}, {design, 0}, {0.20, 0},
+                  {0.05, 1},  {0.07, 1}, {0.075, 1}, {0.10, 1}, {design, 1}};
   for (int r = 0; r < ROWS; r++) {
-    SbStudyRow *row = sb_study_row(out, NULL, NULL, "%.3g %%, %.2g MPa", 100 * rows[r].squeeze,
-                                   rows[r].share * work->scene->canister_pressure * 1e-6);
+    SbStudyRow *row = sb_study_row(work->out, "%.3g %%, %.2g MPa", 100 * rows[r].squeeze,
+                                   shares[rows[r].share] * work->scene->canister_pressure * 1e-6);
     double *cell = row->value;
-    for (const Line *line = lines; line < lines + count; line++) {
-      if (line->share < 1) {
-        continue;
+    for (int l = 0; l < count; l++) {
+      if (lines[l] % 2 == 0) {
+        memcpy(cell, sb_study_at(work, line_of(fit_of(lines[l]), rows[r].share), rows[r].squeeze),
+               FIGURES * sizeof *cell);
+        cell += FIGURES;
       }
-      Figures f = solve(work, &(Line){line->fit, rows[r].share}, rows[r].squeeze);
-      *cell++ = f.pressure;
-      *cell++ = f.leak;
-      *cell++ = f.stroke;
     }
   }
 }
 
-void sb_study_leak(SbStudyWork *work) {
+static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
   SbSpectrum spectrum;
@@ -247,9 +213,8 @@ void sb_study_leak(SbStudyWork *work) {
     return;
   }
   sb_study_fix_outer(work);
-  Line lines[LINES];
+  int lines[LINES];
   int count = choose_lines(lines, model);
-  sb_study_axis(&out->x, "squeeze of the free section", "1", "%", false);
   draw(work, lines, count, closed.closing_pressure);
   table(work, lines, count);
   double design = model->seal[SB_OUTER].squeeze;
@@ -258,12 +223,25 @@ void sb_study_leak(SbStudyWork *work) {
   sb_text(out->models, sizeof out->models,
           "fit %s%sdisc, ring; percolation by Persson's contact; film as the scene's",
           own ? sb_fit_model_name(model->fit) : "", own ? ", " : "");
-  sb_text(out->validity, sizeof out->validity,
-          "mean contact pressure, liquid without vapour; gaps below 3 "
-          "\xcf\x83; no figure where the ring does not touch by itself");
   sb_study_note(out,
                 "Roughness %.3g \xc2\xb5m; channels close at %.3g MPa of solid pressure. Stroke "
                 "%.3g mm at %.4g mm/s. Karaszkiewicz holds from 7 to 25 %%.",
                 model->sigma * 1e6, closed.closing_pressure * 1e-6, model->stroke * 1e3,
                 model->speed * 1e3);
 }
+
+const SbStudyDesign sb_study_leak = {
+    .x = {"squeeze of the free section", "1", "%"},
+    .panel = {{"pressure of the rubber on the bore", "Pa", "MPa"},
+              {"leak at rest", "m3/s", "\xc2\xb5l/h", true},
+              {"carried out per stroke", "m3", "nl"}},
+    .range = offsetof(SbStudyRange, squeeze_min),
+    .row_heading = "squeeze, pressure",
+    .validity = "mean contact pressure, liquid without vapour; gaps below 3 \xcf\x83; no figure "
+                "where the ring does not touch by itself",
+    .solves = {.rings = 2 * (2 * (RING_POINTS + FINE) + ROWS),
+               .discs = POINTS,
+               .films = LINES * POINTS},
+    .solve = solve,
+    .make = make,
+};

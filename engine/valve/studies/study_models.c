@@ -16,6 +16,7 @@
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { THESIS, DISC_THESIS, DISC, RING, KARASZKIEWICZ, MODELS, TABLE_MODELS = 4 };
 
@@ -31,30 +32,29 @@ static const struct {
     [KARASZKIEWICZ] = {"Karaszkiewicz", SB_FIT_KARASZKIEWICZ, SB_STUDY_REFERENCE},
 };
 
-// Printed "current analysis": tables 7.2, 7.3, 7.4; the loads at 0.13 and 0.7 MPa from W* of 7.9.
-typedef SbStudyContact Figures;
-
-#define WSTAR_LOAD(w) ((w)*6.5725e6 * 0.805e-3 * M_PI * 4.64e-3)
-
 static const double pressures[] = {0, 0.13e6, 0.29e6, 0.55e6, 0.7e6};
-enum { PRESSURES = sizeof pressures / sizeof pressures[0], STEPS = 4, CASES = PRESSURES + STEPS };
+enum { PRESSURES = sizeof pressures / sizeof pressures[0], SIZES = 5 };
 
 #define STEP 0.02e-3 // of d and ID [m]
 
-// d up, d down, ID up, ID down, after the pressures.
+// Sizes that each model is solved with; a line is a model with one of them.
 static const struct {
   double section, inner;
-} steps[STEPS] = {{STEP, 0}, {-STEP, 0}, {0, STEP}, {0, -STEP}};
+} sizes[SIZES] = {{0, 0}, {STEP, 0}, {-STEP, 0}, {0, STEP}, {0, -STEP}};
 
-static const Figures printed[CASES] = {
+static int line_of(int model, int size) {
+  return size * MODELS + model;
+}
+
+// Printed "current analysis": tables 7.2, 7.3, 7.4; the loads at 0.13 and 0.7 MPa from W* of 7.9.
+// Load, peak and width at the pressures, then with the other sizes at 0.55 MPa.
+#define WSTAR_LOAD(w) ((w)*6.5725e6 * 0.805e-3 * M_PI * 4.64e-3)
+
+static const double printed[PRESSURES + SIZES - 1][SB_STUDY_CONTACT] = {
     {4.371, 637195.3, 0.5900e-3},   {WSTAR_LOAD(0.07981), NAN, NAN}, {8.469, 942625.8, 0.7682e-3},
     {12.395, 1197543.7, 0.8886e-3}, {WSTAR_LOAD(0.19055), NAN, NAN}, {13.181, 1230639.8, 0.8996e-3},
     {11.611, 1163127.0, 0.8543e-3}, {12.520, 1205035.1, 0.8886e-3},  {12.271, 1189737.8, 0.8886e-3},
 };
-
-double sb_study_models_cost(const SbModel *model) {
-  return (CASES + 1) * (SB_COST_RING + 2 * SB_COST_DISC);
-}
 
 static bool near(double a, double b) {
   return fabs(a - b) <= 1e-6 * fabs(b);
@@ -68,155 +68,105 @@ static bool is_thesis(const SbModel *model) {
          near(model->radial_space, 1.36e-3) && near(model->bore_diameter, 6e-3);
 }
 
-// Case `index`: the pressures first, then the steps of size at the canister's pressure, which is
-// the last case of all.
-static Figures solve(SbStudyWork *work, int model, int index) {
-  const SbSealModel *ring = &work->scene->seal[SB_OUTER];
-  int step = index - PRESSURES;
-  bool steps_size = step >= 0 && step < STEPS;
-  const SbOverride override[] = {
-      {SB_P_MODELS_FIT, models[model].model},
-      {SB_P_CANISTER_PRESSURE, step < 0 ? pressures[index] : work->scene->canister_pressure},
-      {SB_P_SEAL_OUTER_SECTION_DIAMETER,
-       ring->section_diameter + (steps_size ? steps[step].section : 0)},
-      {SB_P_SEAL_OUTER_INNER_DIAMETER, ring->inner_diameter + (steps_size ? steps[step].inner : 0)},
-  };
-  return sb_study_contact(work, override, sizeof override / sizeof override[0]);
+static void print(double *value, const SbModel *model, int size, double pressure) {
+  static const double nothing[] = {NAN, NAN, NAN};
+  const double *row = nothing;
+  for (int p = 0; p < PRESSURES && is_thesis(model); p++) {
+    if (size == 0 && fabs(pressure - pressures[p]) < 1) {
+      row = printed[p];
+    } else if (size > 0 && near(pressure, 0.55e6)) {
+      row = printed[PRESSURES - 1 + size];
+    }
+  }
+  memcpy(value, row, SB_STUDY_CONTACT * sizeof *row);
 }
 
-static double coefficient(const SbModel *model, const Figures *f) {
+// Share of the friction that the shear strength alone gives at rest, over the load.
+static double coefficient(const SbModel *model, double load, double width) {
   SbGtIntegrals rest;
-  if (sb_gt_integrals(&rest, 0, NULL) != SB_OK || !(f->load > 0)) {
+  if (sb_gt_integrals(&rest, 0, NULL) != SB_OK || !(load > 0)) {
     return NAN;
   }
-  double area = f->width * model->bore_circumference;
-  return model->shear_strength * sb_gt_area_share(model->gt_product, rest.F2) * area / f->load;
+  double area = width * model->bore_circumference;
+  return model->shear_strength * sb_gt_area_share(model->gt_product, rest.F2) * area / load;
 }
 
-static void put_row(SbStudy *out, const Figures figures[TABLE_MODELS], const char *name) {
-  SbStudyRow *row = sb_study_row(out, NULL, NULL, "%s", name);
+// Contact and coefficient of a model with one of the sizes.
+static void solve(double *value, SbStudyWork *work, int line, double pressure) {
+  const SbSealModel *ring = &work->scene->seal[SB_OUTER];
+  int model = line % MODELS, size = line / MODELS;
+  const SbOverride override[] = {
+      {SB_P_MODELS_FIT, models[model].model},
+      {SB_P_CANISTER_PRESSURE, pressure},
+      {SB_P_SEAL_OUTER_SECTION_DIAMETER, ring->section_diameter + sizes[size].section},
+      {SB_P_SEAL_OUTER_INNER_DIAMETER, ring->inner_diameter + sizes[size].inner},
+  };
+  if (model == THESIS) {
+    print(value, work->scene, size, pressure);
+  } else {
+    sb_study_contact(value, work, override, sizeof override / sizeof override[0]);
+  }
+  value[3] = coefficient(work->scene, value[0], value[2]);
+}
+
+// Contacts with a size, or half their difference from those with another (`less` > 0).
+static void put_row(SbStudyWork *work, const char *name, int size, int less, double pressure) {
+  SbStudyRow *row = sb_study_row(work->out, "%s", name);
   for (int m = 0; m < TABLE_MODELS; m++) {
-    row->value[m] = figures[m].load;
-    row->value[TABLE_MODELS + m] = figures[m].peak;
-    row->value[2 * TABLE_MODELS + m] = figures[m].width;
+    const double *value = sb_study_at(work, line_of(m, size), pressure);
+    const double *other = sb_study_at(work, line_of(m, less), pressure);
+    for (int q = 0; q < SB_STUDY_CONTACT; q++) {
+      row->value[q * TABLE_MODELS + m] = less > 0 ? (value[q] - other[q]) / 2 : value[q];
+    }
   }
 }
 
-static void put_sensitivity(SbStudy *out, Figures all[][CASES], int up, const char *name) {
-  Figures half[TABLE_MODELS];
+static void put_table(SbStudyWork *work) {
+  const SbModel *model = work->scene;
+  const SbSealModel *ring = &model->seal[SB_OUTER];
+  const double canister = model->canister_pressure;
+  char name[64];
+  for (int p = 0; p < PRESSURES; p++) {
+    sb_text(name, sizeof name, "%.2f MPa", pressures[p] * 1e-6);
+    put_row(work, name, 0, 0, pressures[p]);
+  }
+  for (int size = 1; size < SIZES; size++) {
+    bool section = sizes[size].section != 0;
+    double diameter = section ? ring->section_diameter + sizes[size].section
+                              : ring->inner_diameter + sizes[size].inner;
+    sb_text(name, sizeof name, "%s %.2f mm", section ? "d" : "ID", 1e3 * diameter);
+    put_row(work, name, size, 0, canister);
+  }
+  put_row(work, "for d + 0.02 mm", 1, 2, canister);
+  put_row(work, "for ID + 0.02 mm", 3, 4, canister);
+  SbStudyRow *area = sb_study_row(work->out, "friction by shear strength");
+  SbStudyRow *both = sb_study_row(work->out, "friction with m");
+  sb_text(area->si, sizeof area->si, "1");
+  sb_text(both->si, sizeof both->si, "1");
   for (int m = 0; m < TABLE_MODELS; m++) {
-    const Figures *a = &all[m][PRESSURES + up], *b = &all[m][PRESSURES + up + 1];
-    half[m] =
-        (Figures){(a->load - b->load) / 2, (a->peak - b->peak) / 2, (a->width - b->width) / 2};
-  }
-  put_row(out, half, name);
-}
-
-static void put_table(SbStudy *out, const SbModel *model, Figures all[][CASES],
-                      const Figures *central) {
-  static const char *const quantities[] = {"load", "peak", "width"};
-  static const char *const units[][2] = {{"N", "N"}, {"Pa", "MPa"}, {"m", "mm"}};
-  static const char *const names[TABLE_MODELS] = {"thesis", "disc-thesis", "disc", "ring"};
-  for (int q = 0; q < 3; q++) {
-    for (int m = 0; m < TABLE_MODELS; m++) {
-      char name[40];
-      sb_text(name, sizeof name, "%s %s", quantities[q], names[m]);
-      sb_study_column(out, name, units[q][0], units[q][1]);
-    }
-  }
-  sb_text(out->row_heading, sizeof out->row_heading, "case");
-  for (int c = 0; c < CASES; c++) {
-    Figures row[TABLE_MODELS];
-    char name[64];
-    for (int m = 0; m < TABLE_MODELS; m++) {
-      row[m] = all[m][c];
-    }
-    const SbSealModel *ring = &model->seal[SB_OUTER];
-    const double section = c < PRESSURES ? 0 : steps[c - PRESSURES].section;
-    if (c < PRESSURES) {
-      sb_text(name, sizeof name, "%.2f MPa", pressures[c] * 1e-6);
-    } else if (section != 0) {
-      sb_text(name, sizeof name, "d %.2f mm", (ring->section_diameter + section) * 1e3);
-    } else {
-      sb_text(name, sizeof name, "ID %.2f mm",
-              (ring->inner_diameter + steps[c - PRESSURES].inner) * 1e3);
-    }
-    put_row(out, row, name);
-  }
-  put_sensitivity(out, all, 0, "for d + 0.02 mm");
-  put_sensitivity(out, all, 2, "for ID + 0.02 mm");
-  SbStudyRow *area = sb_study_row(out, "1", "", "friction by shear strength");
-  SbStudyRow *both = sb_study_row(out, "1", "", "friction with m");
-  for (int m = 0; m < TABLE_MODELS; m++) {
-    area->value[m] = coefficient(model, &central[m]);
+    area->value[m] = sb_study_at(work, line_of(m, 0), canister)[3];
     both->value[m] = area->value[m] + model->load_coefficient;
   }
 }
 
-// Index among the pressures of the canister's own, or -1.
-static int find_pressure(double pressure) {
-  for (int i = 0; i < PRESSURES; i++) {
-    if (fabs(pressures[i] - pressure) < 1) {
-      return i;
-    }
-  }
-  return -1;
-}
-
-static void solve_all(SbStudyWork *work, Figures all[][CASES], Figures *central) {
-  bool thesis = is_thesis(work->scene);
-  bool usual = thesis && near(work->scene->canister_pressure, 0.55e6);
-  int middle = find_pressure(work->scene->canister_pressure);
-  for (int c = 0; c < CASES; c++) {
-    all[THESIS][c] = (c < PRESSURES ? thesis : usual) ? printed[c] : (Figures){NAN, NAN, NAN};
-    for (int m = THESIS + 1; m < MODELS; m++) {
-      all[m][c] = solve(work, m, c);
-    }
-  }
-  // At the canister's own pressure, where it is none of the list.
-  central[THESIS] = middle >= 0 ? all[THESIS][middle] : (Figures){NAN, NAN, NAN};
-  for (int m = THESIS + 1; m < MODELS; m++) {
-    central[m] = middle >= 0 ? all[m][middle] : solve(work, m, CASES);
-  }
-}
-
-void sb_study_models(SbStudyWork *work) {
+static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
   const SbOverride smooth[] = {{SB_P_MODELS_FILM, SB_FILM_THESIS},
                                {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE}};
   sb_study_fix_outer(work);
   sb_study_fix(work, smooth, sizeof smooth / sizeof smooth[0]);
-  Figures all[MODELS][CASES];
-  Figures central[MODELS];
-  solve_all(work, all, central);
-  sb_study_axis(&out->x, "pressure on the outer seal", "Pa", "MPa", false);
-  sb_study_panel(out, "load", "N", "N", false);
-  sb_study_panel(out, "peak pressure", "Pa", "MPa", false);
-  sb_study_panel(out, "contact width", "m", "mm", false);
-  SbStudyPanel *share =
-      sb_study_panel(out, "friction coefficient by shear strength", "1", "", false);
+  work->lo = pressures[0];
+  work->hi = pressures[PRESSURES - 1];
   for (int m = 0; m < MODELS; m++) {
-    sb_study_curve(out, models[m].style, models[m].name);
-    for (int c = 0; c < PRESSURES; c++) {
-      const Figures *f = &all[m][c];
-      sb_study_put(out, pressures[c],
-                   (const double[]){f->load, f->peak, f->width, coefficient(model, f)});
-    }
+    sb_study_curves(work, models[m].style, models[m].name, m, pressures, PRESSURES);
   }
-  SbStudySeries *measured = sb_study_series(share, SB_STUDY_REFERENCE, "measured 0.51");
-  SbStudySeries *predicted = sb_study_series(share, SB_STUDY_REFERENCE, "table 7.8: 0.4");
-  for (int c = 0; c < PRESSURES; c += PRESSURES - 1) {
-    sb_study_point(measured, pressures[c], 0.51);
-    sb_study_point(predicted, pressures[c], 0.4);
-  }
+  sb_study_level(work, &out->panel[3], "measured 0.51", 0.51);
+  sb_study_level(work, &out->panel[3], "table 7.8: 0.4", 0.4);
   sb_study_mark(out, model->canister_pressure, "canister");
-  put_table(out, model, all, central);
+  put_table(work);
   sb_text(out->models, sizeof out->models, "disc-thesis, disc, ring, Karaszkiewicz%s",
           is_thesis(model) ? "; printed: thesis tables 7.2 to 7.4, 7.8, 7.9" : "");
-  sb_text(out->validity, sizeof out->validity,
-          "disc-thesis: pressure on both flanks; disc: linear strain; ring: neo-Hookean, pressure "
-          "from the canister against the groove wall");
   sb_study_note(out,
                 "Friction by shear strength: real area at rest x shear strength over the "
                 "load, as table 7.8; with m: the load coefficient %.3g added.",
@@ -225,3 +175,29 @@ void sb_study_models(SbStudyWork *work) {
     sb_study_note(out, "Ring and gland are not the thesis': its printed values are left out.");
   }
 }
+
+const SbStudyDesign sb_study_models = {
+    .x = {"pressure on the outer seal", "Pa", "MPa"},
+    .panel = {{"load", "N", "N"},
+              {"peak pressure", "Pa", "MPa"},
+              {"contact width", "m", "mm"},
+              {"friction coefficient by shear strength", "1", ""}},
+    .row_heading = "case",
+    .column = {{"load thesis", "N", "N"},
+               {"load disc-thesis", "N", "N"},
+               {"load disc", "N", "N"},
+               {"load ring", "N", "N"},
+               {"peak thesis", "Pa", "MPa"},
+               {"peak disc-thesis", "Pa", "MPa"},
+               {"peak disc", "Pa", "MPa"},
+               {"peak ring", "Pa", "MPa"},
+               {"width thesis", "m", "mm"},
+               {"width disc-thesis", "m", "mm"},
+               {"width disc", "m", "mm"},
+               {"width ring", "m", "mm"}},
+    .validity = "disc-thesis: pressure on both flanks; disc: linear strain; ring: neo-Hookean, "
+                "pressure from the canister against the groove wall",
+    .solves = {.rings = PRESSURES + SIZES, .discs = 2 * (PRESSURES + SIZES)},
+    .solve = solve,
+    .make = make,
+};

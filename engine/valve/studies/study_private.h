@@ -1,5 +1,5 @@
-// What the studies share: whom they ask, and building blocks that stay inside the bounds of
-// SbStudy.
+// What the studies share: what a study is as data, whom they ask, and building blocks that stay
+// inside the bounds of SbStudy.
 #pragma once
 
 #include "engine/contact/fit.h"
@@ -8,22 +8,59 @@
 #include "engine/valve/model.h"
 #include "engine/valve/studies/study.h"
 
+enum { SB_STUDY_VALUES = 8, SB_STUDY_ANSWERS = 512 };
+
+typedef struct SbStudyWork SbStudyWork;
+
+// How many solves a study takes, for its predicted time (cost.h).
+typedef struct {
+  int rings, discs; // fitments
+  int fits, films;  // by the scene's own models
+  int reynolds;     // films on the half-plane
+  int mixed;        // with asperities in them
+  int cycles;       // quasi-static
+} SbStudySolves;
+
+// A study as data. What depends on the scene its make() adds.
+typedef struct {
+  SbStudyAxis x;
+  SbStudyAxis panel[SB_STUDY_PANELS]; // up to the first without a quantity
+  size_t range;            // place in SbStudyRange of the least x; the largest stands behind it
+  const char *row_heading; // of the table; NULL: there is none
+  SbStudyColumn column[SB_STUDY_COLUMNS]; // up to the first without a name; 0 digits: three
+  const char *models, *validity;          // NULL: make() says it
+  SbStudySolves solves;
+  // Values of one line of the study (a model, a seal, a size) at x, those of the panels first; NULL
+  // for a study that asks for nothing by sb_study_at().
+  void (*solve)(double value[SB_STUDY_VALUES], SbStudyWork *work, int line, double x);
+  void (*make)(SbStudyWork *work);
+} SbStudyDesign;
+
+// What is known of one line at one x.
+typedef struct {
+  int line;
+  double x, value[SB_STUDY_VALUES];
+} SbStudyAnswer;
+
 // A study at work. A failure that ends it stays in `status`: whoever asks on gets NaN at no cost,
 // so that loops need not look.
-typedef struct {
+struct SbStudyWork {
   SbStudy *out;
+  const SbStudyDesign *design;
   const SbModel *scene;
-  SbModel base; // what is asked: the scene, but for what the study holds fixed
+  SbModel base;  // what is asked: the scene, but for what the study holds fixed
+  double lo, hi; // ends of the abscissa: the scene's range, or the study's own
   SbEvaluator *evaluator;
-  const SbStudyHooks *hooks;
+  SbStudyHooks hooks;
   SbReport *report;
   SbStatus status;
   double spent, total; // [s] what questions have cost, and what the study will
-} SbStudyWork;
+  size_t answers;
+  SbStudyAnswer answer[SB_STUDY_ANSWERS];
+};
 
 #define SB_STUDY_DECLARE(code, function, name, title, help)                                        \
-  void sb_study_##function(SbStudyWork *work);                                                     \
-  double sb_study_##function##_cost(const SbModel *model);
+  extern const SbStudyDesign sb_study_##function;
 SB_STUDY_LIST(SB_STUDY_DECLARE)
 #undef SB_STUDY_DECLARE
 
@@ -51,44 +88,41 @@ void sb_study_squeezed(SbOverride out[SB_STUDY_SQUEEZED], const SbStudyWork *wor
 void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, size_t paths,
                   const SbOverride *override, size_t overrides);
 
-// The outer seal's contact by overrides of the base.
-typedef struct {
-  double load, peak, width; // [N], [Pa], [m]
-} SbStudyContact;
-
-SbStudyContact sb_study_contact(SbStudyWork *work, const SbOverride *override, size_t overrides);
+// The outer seal's load [N], peak pressure [Pa] and contact width [m] by overrides of the base.
+enum { SB_STUDY_CONTACT = 3 };
+void sb_study_contact(double value[SB_STUDY_CONTACT], SbStudyWork *work, const SbOverride *override,
+                      size_t overrides);
 
 // Net load per length of the scene's outer seal at rest under its pressures [N/m]; NaN: none.
 double sb_study_net_load(SbStudyWork *work);
 
+// Values of a line at x by the design's solve(), which is called once for each place.
+const double *sb_study_at(SbStudyWork *work, int line, double x);
+
+// Place `index` of `count` from lo to hi, even on the abscissa.
+double sb_study_place(const SbStudyWork *work, int index, int count);
+
+// Curves of a line in every panel, one of which shows each of its first values, at `count` places:
+// at[], or evenly over the abscissa if that is NULL.
+void sb_study_curves(SbStudyWork *work, SbStudyStyle style, const char *name, int line,
+                     const double *at, int count);
+
 // Passes on how the work on something else than a question ended; true: well.
 bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report);
 
-// Names a quantity; `unit` is the one shown.
-void sb_study_axis(SbStudyAxis *out, const char *quantity, const char *si, const char *unit,
-                   bool logarithmic);
-
-// Adds a panel, a series, a table's column or row; borrowed from `out`. They never
-// fail: no study asks for more than SbStudy holds.
-SbStudyPanel *sb_study_panel(SbStudy *out, const char *quantity, const char *si, const char *unit,
-                             bool logarithmic);
-SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const char *format, ...)
-    SB_PRINTF(3, 4);
-SbStudyColumn *sb_study_column(SbStudy *out, const char *name, const char *si, const char *unit);
-
-// A row of the columns' units (`si` NULL) or of its own; all values NaN at first.
-SbStudyRow *sb_study_row(SbStudy *out, const char *si, const char *unit, const char *format, ...)
-    SB_PRINTF(4, 5);
-
-// Appends a point.
+// Adds a series, a point, a table's row (all values NaN), a mark, a note; borrowed from `out`. They
+// never fail: no study asks for more than SbStudy holds.
+SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const char *name);
 void sb_study_point(SbStudySeries *series, double x, double y);
-
-// A series of one name in every panel, and a point of the newest in each: y[panel_count].
-void sb_study_curve(SbStudy *out, SbStudyStyle style, const char *name);
-void sb_study_put(SbStudy *out, double x, const double *y);
-
+SbStudyRow *sb_study_row(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);
 void sb_study_mark(SbStudy *out, double x, const char *format, ...) SB_PRINTF(3, 4);
 void sb_study_note(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);
+
+// A reference of one value over the whole abscissa.
+void sb_study_level(SbStudyWork *work, SbStudyPanel *panel, const char *name, double y);
+
+// Marks a value of the scene, if the abscissa has it.
+void sb_study_mark_scene(SbStudyWork *work, double x, const char *text);
 
 // Tells the progress and looks for a cancel.
 void sb_study_step(SbStudyWork *work, double fraction);

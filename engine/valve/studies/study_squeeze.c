@@ -34,30 +34,21 @@ static const struct {
 static const double table_squeeze[] = {0.10, 0.20, 0.30, 0.40};
 enum { TABLE = sizeof table_squeeze / sizeof table_squeeze[0] };
 
-double sb_study_squeeze_cost(const SbModel *model) {
-  return 2 * (20 + 1 + TABLE) * SB_COST_RING + 2 * (39 + 1 + TABLE) * SB_COST_DISC;
-}
-
-// One model at one squeeze.
-static SbStudyContact solve(SbStudyWork *work, int index, double squeeze) {
+// One model at one squeeze: its contact.
+static void solve(double *value, SbStudyWork *work, int line, double squeeze) {
   const SbModel *scene = work->scene;
   double floor = scene->bore_diameter - 2 * scene->radial_space;
-  double inner = models[index].stretched ? scene->seal[SB_OUTER].inner_diameter : floor;
+  double inner = models[line].stretched ? scene->seal[SB_OUTER].inner_diameter : floor;
   SbOverride override[SB_STUDY_SQUEEZED + 2];
   sb_study_squeezed(override, work, squeeze);
-  override[3] = (SbOverride){SB_P_MODELS_FIT, models[index].model};
+  override[3] = (SbOverride){SB_P_MODELS_FIT, models[line].model};
   override[4] = (SbOverride){SB_P_SEAL_OUTER_INNER_DIAMETER, inner};
-  return sb_study_contact(work, override, SB_STUDY_SQUEEZED + 2);
+  sb_study_contact(value, work, override, SB_STUDY_SQUEEZED + 2);
 }
 
-static double difference(double value, double ring) {
-  return ring > 0 ? value / ring - 1 : NAN;
-}
-
-void sb_study_squeeze(SbStudyWork *work) {
+static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
-  const double lo = model->study.squeeze_min, hi = model->study.squeeze_max;
   const double design = model->seal[SB_OUTER].squeeze;
   // The fitment alone, by its own tolerance: no film wants the ring's surface.
   const SbOverride dry[] = {{SB_P_CANISTER_PRESSURE, 0},
@@ -65,57 +56,25 @@ void sb_study_squeeze(SbStudyWork *work) {
                             {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE}};
   sb_study_fix_outer(work);
   sb_study_fix(work, dry, sizeof dry / sizeof dry[0]);
-  sb_study_axis(&out->x, "squeeze of the free section", "1", "%", false);
-  sb_study_panel(out, "load", "N", "N", false);
-  sb_study_panel(out, "peak pressure", "Pa", "MPa", false);
-  sb_study_panel(out, "contact width", "m", "mm", false);
   sb_study_mark(out, design, "as designed, %.1f %%", 100 * design);
-
-  SbStudyContact at_design[MODELS], at_table[MODELS][TABLE];
-  for (int m = 0; m < MODELS; m++) {
-    sb_study_curve(out, models[m].style, models[m].name);
-    for (int i = 0; i < models[m].points; i++) {
-      double s = lo + (hi - lo) * i / (models[m].points - 1);
-      SbStudyContact f = solve(work, m, s);
-      sb_study_put(out, s, (const double[]){f.load, f.peak, f.width});
-    }
-    at_design[m] = solve(work, m, design);
-    for (int k = 0; k < TABLE; k++) {
-      at_table[m][k] = solve(work, m, table_squeeze[k]);
-    }
-  }
-
   sb_text(out->row_heading, sizeof out->row_heading, "as designed, %.1f %%", 100 * design);
-  sb_study_column(out, "load", "N", "N");
-  sb_study_column(out, "load against ring", "1", "%");
-  sb_study_column(out, "peak", "Pa", "MPa");
-  sb_study_column(out, "peak against ring", "1", "%");
-  sb_study_column(out, "width", "m", "mm");
-  sb_study_column(out, "width against ring", "1", "%");
-  for (int k = 0; k < TABLE; k++) {
-    char name[40];
-    sb_text(name, sizeof name, "load against ring at %.0f %%", 100 * table_squeeze[k]);
-    sb_study_column(out, name, "1", "%");
-  }
   for (int m = 0; m < MODELS; m++) {
-    SbStudyRow *row = sb_study_row(out, NULL, NULL, "%s", models[m].name);
-    const SbStudyContact *f = &at_design[m], *r = &at_design[RING];
-    row->value[0] = f->load;
-    row->value[1] = difference(f->load, r->load);
-    row->value[2] = f->peak;
-    row->value[3] = difference(f->peak, r->peak);
-    row->value[4] = f->width;
-    row->value[5] = difference(f->width, r->width);
-    for (int k = 0; k < TABLE; k++) {
-      row->value[6 + k] = difference(at_table[m][k].load, at_table[RING][k].load);
+    sb_study_curves(work, models[m].style, models[m].name, m, NULL, models[m].points);
+    SbStudyRow *row = sb_study_row(out, "%s", models[m].name);
+    for (int k = 0; k < SB_STUDY_CONTACT + TABLE; k++) {
+      const bool designed = k < SB_STUDY_CONTACT;
+      const double at = designed ? design : table_squeeze[k - SB_STUDY_CONTACT];
+      const double value = sb_study_at(work, m, at)[designed ? k : 0];
+      const double ring = sb_study_at(work, RING, at)[designed ? k : 0];
+      const double difference = ring > 0 ? value / ring - 1 : NAN;
+      if (designed) {
+        row->value[2 * k] = value;
+        row->value[2 * k + 1] = difference;
+      } else {
+        row->value[SB_STUDY_CONTACT + k] = difference;
+      }
     }
   }
-  sb_text(out->models, sizeof out->models,
-          "ring, disc, disc-thesis, Lindley (eq. 2.8, 2.10), Green & English (radial), Hertz, "
-          "Karaszkiewicz");
-  sb_text(out->validity, sizeof out->validity,
-          "Lindley to 25 %%, Green & English to 32 %%, Karaszkiewicz 7 to 25 %%, discs: linear "
-          "strain, an estimate beyond 10 %%; ring: neo-Hookean");
   sb_study_note(out,
                 "No pressure, walls or friction. The bore moves, the groove floor stays: the "
                 "stretch is the scene's (%.1f %% inner).",
@@ -123,3 +82,26 @@ void sb_study_squeeze(SbStudyWork *work) {
   sb_study_note(out, "The closed forms know no stretch; compare them with the ring that is not "
                      "stretched too.");
 }
+
+const SbStudyDesign sb_study_squeeze = {
+    .x = {"squeeze of the free section", "1", "%"},
+    .panel = {{"load", "N", "N"}, {"peak pressure", "Pa", "MPa"}, {"contact width", "m", "mm"}},
+    .range = offsetof(SbStudyRange, squeeze_min),
+    .column = {{"load", "N", "N"},
+               {"load against ring", "1", "%"},
+               {"peak", "Pa", "MPa"},
+               {"peak against ring", "1", "%"},
+               {"width", "m", "mm"},
+               {"width against ring", "1", "%"},
+               {"load against ring at 10 %", "1", "%"},
+               {"load against ring at 20 %", "1", "%"},
+               {"load against ring at 30 %", "1", "%"},
+               {"load against ring at 40 %", "1", "%"}},
+    .models = "ring, disc, disc-thesis, Lindley (eq. 2.8, 2.10), Green & English (radial), Hertz, "
+              "Karaszkiewicz",
+    .validity = "Lindley to 25 %, Green & English to 32 %, Karaszkiewicz 7 to 25 %, discs: linear "
+                "strain, an estimate beyond 10 %; ring: neo-Hookean",
+    .solves = {.rings = 2 * (20 + 1 + TABLE), .discs = 2 * (39 + 1 + TABLE)},
+    .solve = solve,
+    .make = make,
+};
