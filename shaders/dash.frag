@@ -1,6 +1,6 @@
 #version 330 core
 // Dashed lines: as solid ones, times the coverage of the two dashes of the pattern.
-in vec4 v_colour;
+in vec4 v_color;
 in vec4 v_extra;
 uniform vec4 pattern; // on, off, on, off in device pixels
 out vec4 fragment;
@@ -16,5 +16,5 @@ void main() {
   float at = mod(v_extra.z, period);
   float covered = max(max(dash(at, pattern.x), dash(at - period, pattern.x)),
                       dash(at - pattern.x - pattern.y, pattern.z));
-  fragment = v_colour * (across * along * covered);
+  fragment = v_color * (across * along * covered);
 }

@@ -1,6 +1,6 @@
 #version 330 core
 // A scalar through a colour map of 256 entries. extra.x: the scalar, 0 to 1 over the map.
-in vec4 v_colour;
+in vec4 v_color;
 in vec4 v_extra;
 uniform sampler2D map;
 uniform float levels;      // 0: no lines of equal value

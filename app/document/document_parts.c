@@ -206,7 +206,7 @@ static void derive_mass(const Part *part, SbParamId id, double value, const char
   }
 }
 
-// A size: the shape has the last word.
+// A size: the shape takes precedence.
 static void derive_size(const Part *part, SbParamId id, double value, const char *source) {
   const SbParam *param = sb_param(id);
   if (!part->params->given[id]) {
@@ -225,7 +225,7 @@ static void derive_size(const Part *part, SbParamId id, double value, const char
     char other[SB_NUMBER_SIZE];
     sb_number_round(other, sb_quantity_to_shown(value, param->si, param->unit), 5);
     sb_issues_add(part->issues, part->shown, typed != NULL ? typed->line : 0, param->key, NULL,
-                  "is %s, but the %s of [%s] makes it %s %s: the shape has the last word, leave "
+                  "is %s, but the %s of [%s] makes it %s %s: the shape takes precedence, leave "
                   "the key out or mend one of them",
                   says, source, part->group, other, param->unit);
     return;

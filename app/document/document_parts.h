@@ -39,7 +39,7 @@ const SbShapeSize *sb_shapes_size(const SbShapes *shapes, SbParamId id);
 // `shapes` and sets those that `params` does not give; `base` is what they lie upon (the valve's
 // values; NULL for a valve). `directory` is where meshes are looked for (NULL: the current one).
 //
-// A shape has the last word on sizes in its own file: where a key beside it says otherwise by more
+// A shape takes precedence over sizes in its own file: where a key beside it says otherwise by more
 // than 0.1 % that is an issue. A mass or moment beside it is in force, and a note (char *) tells.
 // What cannot be read or bounds no body becomes an issue with file, group and key.
 void sb_parts_read(SbShapes *shapes, SbParams *params, const SbParams *base,

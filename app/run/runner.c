@@ -158,7 +158,7 @@ static void *work(void *data) {
     pthread_mutex_lock(&runner->mutex);
     runner->finished = ticket;
     pthread_mutex_unlock(&runner->mutex);
-    // The last word: now the runner is not busy any more.
+    // Last of all: now the runner is not busy any more.
     runner->notify(runner->data);
     pthread_mutex_lock(&runner->mutex);
   }

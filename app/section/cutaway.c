@@ -30,7 +30,7 @@ static const double FLUID_OPACITY = 0.72, FLUID_FULL = 0.2e6;
 
 struct SbCutaway {
   SbRevolve revolve;
-  SbValve valve; // whole: the section's has its housing cut in two by the vent
+  SbValveOutline valve; // whole: the section's has its housing cut in two by the vent
   // Rings of this instant in the housing's frame, counterclockwise.
   size_t ring_count[SB_SEAL_COUNT];
   SbValvePoint ring[SB_SEAL_COUNT][RING_POINTS];
@@ -67,8 +67,8 @@ SbCutaway *sb_cutaway_create(const SbModel *model, double inner_contact_left) {
   whole->shape.vent_diameter = 0;
   double bore = model->bore_diameter;
   double radius = fmax(SB_SECTION_TOP * bore, model->shape.entry_diameter / 2 + 0.12 * bore);
-  SbValve *valve = &cutaway->valve;
-  sb_valve_make(valve, whole, inner_contact_left, radius);
+  SbValveOutline *valve = &cutaway->valve;
+  sb_valve_outline_make(valve, whole, inner_contact_left, radius);
   g_free(whole);
   if (!valve->shaped_housing) {
     finish_housing(&valve->solid[0], radius, CHAMFER * bore);
@@ -138,7 +138,7 @@ static void outline_ring(SbCutaway *cutaway, const SbSection *section, int seal)
 // The largest picture of housing and stem at every stroke that the strip holds, in its middle.
 static void place_camera(SbCutaway *cutaway, const SbSection *section, const SbOrbit *orbit,
                          double *scale, double *x0, double *y0) {
-  const SbValve *valve = &cutaway->valve;
+  const SbValveOutline *valve = &cutaway->valve;
   const SbRect *strip = &section->strip;
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   const double *axis[2] = {orbit->right, orbit->up};
@@ -227,7 +227,7 @@ static SbSectionPlane plane_of(const SbRevolve *revolve, int face) {
 }
 
 // The section's hatch, lying in the face: lines z - lean r = start + n pitch sqrt(2).
-static void hatch_on(SbDrawItem *item, const SbSectionPlane *plane, double scale, SbColor colour,
+static void hatch_on(SbDrawItem *item, const SbSectionPlane *plane, double scale, SbColor color,
                      double lean, double start) {
   item->feather = false;
   double det = plane->xx * plane->yy - plane->xy * plane->yx;
@@ -240,23 +240,23 @@ static void hatch_on(SbDrawItem *item, const SbSectionPlane *plane, double scale
   double steep = hypot(gx, gy);
   double nx = gx / steep, ny = gy / steep;
   double offset = scale * M_SQRT1_2 * start / steep + nx * plane->x0 + ny * plane->y0;
-  item->hatch = (SbDrawHatch){colour, (SB_HATCH_PITCH / steep), SB_HATCH_WIDTH, nx, ny, offset};
+  item->hatch = (SbDrawHatch){color, (SB_HATCH_PITCH / steep), SB_HATCH_WIDTH, nx, ny, offset};
 }
 
 // Contour of the housing's inside with both ends on the axis, from `left` to `right`.
-static size_t inside(const SbValve *valve, double left, double right, SbValvePoint *out) {
+static size_t inside(const SbValveOutline *valve, double left, double right, SbValvePoint *out) {
   const SbOutlineSurface *surface = &valve->housing;
   const double beside = 1e-9 * (right - left);
   size_t n = 0;
   out[n++] = (SbValvePoint){left, 0};
-  out[n++] = (SbValvePoint){left, sb_valve_bore_at(valve, left + beside)};
+  out[n++] = (SbValvePoint){left, sb_valve_outline_bore(valve, left + beside)};
   for (size_t i = 0; i < surface->count; i++) {
     if (surface->x[i] > left + beside && surface->x[i] < right - beside) {
       out[n++] = (SbValvePoint){surface->x[i], surface->low_left[i]};
       out[n++] = (SbValvePoint){surface->x[i], surface->low_right[i]};
     }
   }
-  out[n++] = (SbValvePoint){right, sb_valve_bore_at(valve, right - beside)};
+  out[n++] = (SbValvePoint){right, sb_valve_outline_bore(valve, right - beside)};
   out[n++] = (SbValvePoint){right, 0};
   for (size_t i = 0; i < n; i++) {
     out[i].y = isfinite(out[i].y) ? fmax(out[i].y, 0) : 0;
@@ -274,7 +274,7 @@ static size_t map_points(const SbSectionPlane *plane, const SbValvePoint *points
 
 // Fluid in the housing by pressure, changing at the sealing contacts as in the section.
 static void paint_fluid(const SbCutaway *cutaway, SbSection *section, const SbSectionPlane *plane) {
-  const SbValve *valve = &cutaway->valve;
+  const SbValveOutline *valve = &cutaway->valve;
   const SbFrame *frame = section->instant->frame;
   double edge[4] = {valve->face, 0, 0, valve->end};
   const int seals[2] = {SB_INNER, SB_OUTER};
@@ -294,15 +294,15 @@ static void paint_fluid(const SbCutaway *cutaway, SbSection *section, const SbSe
       continue;
     }
     size_t count = inside(valve, edge[i], edge[i + 1], contour);
-    SbColor colour = sb_palette_fluid(section->palette, pressure[i]);
-    colour.a = (FLUID_OPACITY * sqrt(CLAMP(pressure[i] / FLUID_FULL, 0, 1)));
-    sb_draw_fill(section->list, pixel, map_points(plane, contour, count, pixel), colour);
+    SbColor color = sb_palette_fluid(section->palette, pressure[i]);
+    color.a = (FLUID_OPACITY * sqrt(CLAMP(pressure[i] / FLUID_FULL, 0, 1)));
+    sb_draw_fill(section->list, pixel, map_points(plane, contour, count, pixel), color);
   }
 }
 
 // The port on the upper face, as the section shows it.
 static void paint_vent(SbSection *section, const SbCutaway *cutaway, const SbSectionPlane *plane) {
-  const SbValve *valve = &section->valve;
+  const SbValveOutline *valve = &section->valve;
   double low, high;
   if (valve->vent_right <= valve->vent_left ||
       !sb_outline_radii(&low, &high, &cutaway->valve.housing,
@@ -370,17 +370,17 @@ static void paint_face(SbCutaway *cutaway, SbSection *section, int face) {
 
 typedef struct {
   char text[96];
-  SbColor colour;
+  SbColor color;
   SbPoint at;     // what it names
   double x, half; // middle and half width
 } Callout;
 
 enum { CALLOUTS_MAX = 6, PASSES = 40 };
 
-static void name_point(Callout *callouts, size_t *count, SbPoint at, SbColor colour,
+static void name_point(Callout *callouts, size_t *count, SbPoint at, SbColor color,
                        const char *text) {
   Callout *callout = &callouts[(*count)++];
-  *callout = (Callout){.colour = colour, .at = at, .x = (double)at.x};
+  *callout = (Callout){.color = color, .at = at, .x = (double)at.x};
   g_strlcpy(callout->text, text, sizeof callout->text);
 }
 
@@ -420,17 +420,17 @@ static void draw_row(const SbCutaway *cutaway, SbSection *section, Callout *call
   double from = above ? y + 5 : y - 14;
   for (size_t i = 0; i < count; i++) {
     const Callout *it = &callouts[i];
-    sb_draw_line(section->list, it->x, from, it->at.x, it->at.y, 1, it->colour);
+    sb_draw_line(section->list, it->x, from, it->at.x, it->at.y, 1, it->color);
     sb_draw_disc(section->list, it->at.x, it->at.y, 3.2, section->palette->panel);
-    sb_draw_disc(section->list, it->at.x, it->at.y, 2.2, it->colour);
-    sb_draw_text(section->list, it->x, y, 12, 600, SB_MIDDLE, it->colour, it->text);
+    sb_draw_disc(section->list, it->at.x, it->at.y, 2.2, it->color);
+    sb_draw_text(section->list, it->x, y, 12, 600, SB_MIDDLE, it->color, it->text);
   }
 }
 
 // Names of what the cut faces show, while the camera looks into the open quarter.
 static void paint_labels(SbCutaway *cutaway, SbSection *section) {
   const SbPalette *palette = section->palette;
-  const SbValve *valve = &section->valve;
+  const SbValveOutline *valve = &section->valve;
   const SbFrame *frame = section->instant->frame;
   const double *toward = cutaway->revolve.orbit.toward;
   bool looks_in = toward[1] > 0.3 && fabs(toward[2]) < 1.1 * toward[1];
@@ -466,7 +466,7 @@ static void paint_labels(SbCutaway *cutaway, SbSection *section) {
   snprintf(text, sizeof text, "Canister %s",
            sb_section_megapascal(value, (double)frame->seal[SB_INNER].pressure_left));
   double mouth = 0.9 * valve->face;
-  double hole = sb_valve_bore_at(valve, mouth);
+  double hole = sb_valve_outline_bore(valve, mouth);
   if (isfinite(hole)) {
     name_point(row, &count, sb_section_plane_at(&upper, mouth, (hole + valve->land) / 2),
                palette->fluid_line, text);

@@ -8,8 +8,8 @@
 #include <pango/pangocairo.h>
 #include <string.h>
 
-static void set_colour(cairo_t *cr, SbColor colour) {
-  cairo_set_source_rgba(cr, colour.r, colour.g, colour.b, colour.a);
+static void set_color(cairo_t *cr, SbColor color) {
+  cairo_set_source_rgba(cr, color.r, color.g, color.b, color.a);
 }
 
 static void trace(cairo_t *cr, const SbPoint *points, size_t count, bool closed) {
@@ -43,13 +43,13 @@ static void draw_hatch(cairo_t *cr, const SbDrawHatch *hatch) {
   }
   cairo_set_dash(cr, NULL, 0, 0);
   cairo_set_line_width(cr, hatch->width);
-  set_colour(cr, hatch->colour);
+  set_color(cr, hatch->color);
   cairo_stroke(cr);
 }
 
 static void draw_fill(cairo_t *cr, const SbDrawItem *item, const SbPoint *points) {
   trace(cr, points, item->count, true);
-  set_colour(cr, item->colour);
+  set_color(cr, item->color);
   if (item->hatch.width <= 0) {
     cairo_fill(cr);
     return;
@@ -68,11 +68,11 @@ static void draw_stroke(cairo_t *cr, const SbDrawItem *item, const SbPoint *poin
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
   cairo_set_dash(cr, item->dash != NULL ? item->dash->length : NULL,
                  item->dash != NULL ? item->dash->count : 0, 0);
-  set_colour(cr, item->colour);
+  set_color(cr, item->color);
   cairo_stroke(cr);
 }
 
-static SbColor map_colour(const SbDrawItem *item, float scalar) {
+static SbColor map_color(const SbDrawItem *item, float scalar) {
   float t = (scalar - item->map_min) / fmaxf(item->map_max - item->map_min, 1e-30f);
   return item->map->entry[(int)(255.0f * CLAMP(t, 0, 1.0f) + 0.5f)];
 }
@@ -107,7 +107,7 @@ static void draw_isolines(cairo_t *cr, const SbDrawItem *item, const SbPoint *po
     }
   }
   cairo_set_line_width(cr, item->width);
-  set_colour(cr, item->line_colour);
+  set_color(cr, item->line_color);
   cairo_stroke(cr);
 }
 
@@ -117,7 +117,7 @@ static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbPoint *points
   if (item->count == 6 && !item->shaded) {
     cairo_pattern_t *gradient = cairo_pattern_create_linear(points[0].x, 0.0, points[1].x, 0.0);
     for (int i = 0; i <= 32; i++) {
-      SbColor c = map_colour(item, scalars[0] + (scalars[1] - scalars[0]) * (float)i / 32.0f);
+      SbColor c = map_color(item, scalars[0] + (scalars[1] - scalars[0]) * (float)i / 32.0f);
       cairo_pattern_add_color_stop_rgb(gradient, i / 32.0, c.r, c.g, c.b);
     }
     cairo_rectangle(cr, points[0].x, points[0].y, (points[2].x - points[0].x),
@@ -144,7 +144,7 @@ static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbPoint *points
     } else {
       trace(cr, points + i, 3, true);
     }
-    set_colour(cr, map_colour(item, mean));
+    set_color(cr, map_color(item, mean));
     cairo_fill_preserve(cr);
     cairo_stroke(cr);
   }
@@ -163,7 +163,7 @@ static void draw_text(cairo_t *cr, const SbDrawItem *item, const char *string, S
     x -= width;
   }
   cairo_move_to(cr, x, item->y - baseline);
-  set_colour(cr, item->colour);
+  set_color(cr, item->color);
   // Pixels: outlines, since cairo puts cached glyphs on whole pixels. SVG and PDF: text.
   if (cairo_surface_get_type(cairo_get_target(cr)) == CAIRO_SURFACE_TYPE_IMAGE) {
     pango_cairo_layout_path(cr, layout);
@@ -176,7 +176,7 @@ static void draw_text(cairo_t *cr, const SbDrawItem *item, const char *string, S
 void sb_draw_list_to_cairo(const SbDrawList *list, SbText *text, cairo_t *cr) {
   cairo_save(cr);
   cairo_rectangle(cr, 0, 0, list->width, list->height);
-  set_colour(cr, list->background);
+  set_color(cr, list->background);
   cairo_fill(cr);
   for (size_t i = 0; i < list->item_count; i++) {
     const SbDrawItem *item = &list->item[i];

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-SbDrawHatch sb_draw_hatch(SbColor colour, double pitch, double width, double lean, double offset) {
-  return (SbDrawHatch){colour, pitch, width, M_SQRT1_2, (lean * M_SQRT1_2), (offset * M_SQRT1_2)};
+SbDrawHatch sb_draw_hatch(SbColor color, double pitch, double width, double lean, double offset) {
+  return (SbDrawHatch){color, pitch, width, M_SQRT1_2, (lean * M_SQRT1_2), (offset * M_SQRT1_2)};
 }
 
 void sb_draw_list_init(SbDrawList *list) {
@@ -51,10 +51,10 @@ void sb_draw_clip(SbDrawList *list, const SbRect *rect) {
   list->current_clip = rect == NULL ? 0 : add_clip(list, *rect);
 }
 
-static SbDrawItem *add_item(SbDrawList *list, SbDrawKind kind, SbColor colour) {
+static SbDrawItem *add_item(SbDrawList *list, SbDrawKind kind, SbColor color) {
   list->item = reserve(list->item, &list->item_capacity, list->item_count, 1, sizeof *list->item);
   SbDrawItem *item = &list->item[list->item_count++];
-  *item = (SbDrawItem){.kind = kind, .colour = colour, .clip = list->current_clip};
+  *item = (SbDrawItem){.kind = kind, .color = color, .clip = list->current_clip};
   return item;
 }
 
@@ -67,25 +67,25 @@ static SbPoint *add_points(SbDrawList *list, size_t count) {
 }
 
 static SbDrawItem *add_shape(SbDrawList *list, SbDrawKind kind, const SbPoint *points, size_t count,
-                             SbColor colour) {
-  SbDrawItem *item = add_item(list, kind, colour);
+                             SbColor color) {
+  SbDrawItem *item = add_item(list, kind, color);
   item->first = list->point_count;
   item->count = count;
   memcpy(add_points(list, count), points, count * sizeof *points);
   return item;
 }
 
-SbDrawItem *sb_draw_fill(SbDrawList *list, const SbPoint *points, size_t count, SbColor colour) {
-  SbDrawItem *item = add_shape(list, SB_DRAW_FILL, points, count, colour);
+SbDrawItem *sb_draw_fill(SbDrawList *list, const SbPoint *points, size_t count, SbColor color) {
+  SbDrawItem *item = add_shape(list, SB_DRAW_FILL, points, count, color);
   item->feather = true;
   return item;
 }
 
 SbDrawItem *sb_draw_rect(SbDrawList *list, double x, double y, double width, double height,
-                         SbColor colour) {
+                         SbColor color) {
   double x0 = x, y0 = y, x1 = (x + width), y1 = (y + height);
   const SbPoint points[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-  return sb_draw_fill(list, points, 4, colour);
+  return sb_draw_fill(list, points, 4, color);
 }
 
 enum { CORNER = 6 };
@@ -106,40 +106,40 @@ static void round_points(SbPoint points[4 * (CORNER + 1)], double x, double y, d
 }
 
 SbDrawItem *sb_draw_round_rect(SbDrawList *list, double x, double y, double width, double height,
-                               double radius, SbColor colour) {
+                               double radius, SbColor color) {
   SbPoint points[4 * (CORNER + 1)];
   round_points(points, x, y, width, height, radius);
-  return sb_draw_fill(list, points, G_N_ELEMENTS(points), colour);
+  return sb_draw_fill(list, points, G_N_ELEMENTS(points), color);
 }
 
-SbDrawItem *sb_draw_disc(SbDrawList *list, double x, double y, double radius, SbColor colour) {
+SbDrawItem *sb_draw_disc(SbDrawList *list, double x, double y, double radius, SbColor color) {
   enum { SIDES = 24 };
   SbPoint points[SIDES];
   for (int i = 0; i < SIDES; i++) {
     double angle = 2 * M_PI * i / SIDES;
     points[i] = (SbPoint){(x + radius * cos(angle)), (y + radius * sin(angle))};
   }
-  return sb_draw_fill(list, points, SIDES, colour);
+  return sb_draw_fill(list, points, SIDES, color);
 }
 
 SbDrawItem *sb_draw_stroke(SbDrawList *list, const SbPoint *points, size_t count, double width,
-                           SbColor colour) {
-  SbDrawItem *item = add_shape(list, SB_DRAW_STROKE, points, count, colour);
+                           SbColor color) {
+  SbDrawItem *item = add_shape(list, SB_DRAW_STROKE, points, count, color);
   item->width = width;
   return item;
 }
 
 SbDrawItem *sb_draw_line(SbDrawList *list, double x0, double y0, double x1, double y1, double width,
-                         SbColor colour) {
+                         SbColor color) {
   const SbPoint points[2] = {{x0, y0}, {x1, y1}};
-  return sb_draw_stroke(list, points, 2, width, colour);
+  return sb_draw_stroke(list, points, 2, width, color);
 }
 
 SbDrawItem *sb_draw_round_frame(SbDrawList *list, double x, double y, double width, double height,
-                                double radius, double line, SbColor colour) {
+                                double radius, double line, SbColor color) {
   SbPoint points[4 * (CORNER + 1)];
   round_points(points, x, y, width, height, radius);
-  SbDrawItem *item = sb_draw_stroke(list, points, G_N_ELEMENTS(points), line, colour);
+  SbDrawItem *item = sb_draw_stroke(list, points, G_N_ELEMENTS(points), line, color);
   item->closed = true;
   return item;
 }
@@ -159,8 +159,8 @@ SbDrawItem *sb_draw_mesh(SbDrawList *list, const SbPoint *points, const float *s
 }
 
 SbDrawItem *sb_draw_text(SbDrawList *list, double x, double y, double size, int weight,
-                         SbAlign align, SbColor colour, const char *text) {
-  SbDrawItem *item = add_item(list, SB_DRAW_TEXT, colour);
+                         SbAlign align, SbColor color, const char *text) {
+  SbDrawItem *item = add_item(list, SB_DRAW_TEXT, color);
   size_t length = MIN(strlen(text), (size_t)SB_DRAW_TEXT_MAX);
   while (length > 0 && ((unsigned char)text[length] & 0xC0) == 0x80) {
     length--; // not inside a character
@@ -181,7 +181,7 @@ SbDrawItem *sb_draw_text(SbDrawList *list, double x, double y, double size, int 
 }
 
 void sb_draw_arrow(SbDrawList *list, double x0, double y0, double x1, double y1, double line,
-                   double head_length, double head_width, SbColor colour) {
+                   double head_length, double head_width, SbColor color) {
   double length = hypot(x1 - x0, y1 - y0);
   if (length < 1e-6) {
     return;
@@ -192,7 +192,7 @@ void sb_draw_arrow(SbDrawList *list, double x0, double y0, double x1, double y1,
   double wide = head_width / 2 * head / head_length;
   double notch = 0.78 * head;
   if (length > notch) {
-    sb_draw_line(list, x0, y0, x1 - ux * (notch - 0.5), y1 - uy * (notch - 0.5), line, colour);
+    sb_draw_line(list, x0, y0, x1 - ux * (notch - 0.5), y1 - uy * (notch - 0.5), line, color);
   }
   const SbPoint points[4] = {
       {x1, y1},
@@ -200,7 +200,7 @@ void sb_draw_arrow(SbDrawList *list, double x0, double y0, double x1, double y1,
       {(x1 - ux * notch), (y1 - uy * notch)},
       {(x1 - ux * head + uy * wide), (y1 - uy * head - ux * wide)},
   };
-  sb_draw_fill(list, points, 4, colour);
+  sb_draw_fill(list, points, 4, color);
 }
 
 void sb_draw_reflect(SbDrawList *list, size_t first, double y) {
@@ -209,7 +209,7 @@ void sb_draw_reflect(SbDrawList *list, size_t first, double y) {
     if (list->item[i].kind == SB_DRAW_TEXT) {
       continue;
     }
-    SbDrawItem *item = add_item(list, list->item[i].kind, list->item[i].colour);
+    SbDrawItem *item = add_item(list, list->item[i].kind, list->item[i].color);
     *item = list->item[i]; // scalars are shared
     size_t from = item->first;
     size_t count = item->count;

@@ -22,12 +22,12 @@ typedef enum {
 // Hatch over a fill. The lines are x * across_x + y * across_y = offset + n * pitch, where across
 // is a unit vector. width 0: no hatch.
 typedef struct {
-  SbColor colour;
+  SbColor color;
   double pitch, width, across_x, across_y, offset;
 } SbDrawHatch;
 
 // Lines of 45 degrees: x + lean * y = offset + n * pitch * sqrt(2); lean is +1 or -1.
-SbDrawHatch sb_draw_hatch(SbColor colour, double pitch, double width, double lean, double offset);
+SbDrawHatch sb_draw_hatch(SbColor color, double pitch, double width, double lean, double offset);
 
 // A colour map of 256 entries; the caller keeps it alive and unchanged as long as lists refer to
 // it.
@@ -39,7 +39,7 @@ enum { SB_DRAW_TEXT_MAX = 160 };
 
 typedef struct {
   SbDrawKind kind;
-  SbColor colour;
+  SbColor color;
   int clip;            // index into SbDrawList.clip
   size_t first, count; // points (fill, stroke, mesh) or bytes (text, without the final zero)
   // Stroke.
@@ -55,7 +55,7 @@ typedef struct {
   double map_min, map_max;
   bool shaded;     // vertices take the map's colour, and colours run straight between them
   double isolines; // how many steps the map's range has for lines of equal value, 0 for none
-  SbColor line_colour;
+  SbColor line_color;
   // Text: anchored at the baseline.
   double x, y, size;
   int weight;
@@ -90,22 +90,22 @@ void sb_draw_clip(SbDrawList *list, const SbRect *rect);
 
 // Each of these adds one item and returns it; the pointer holds until the next addition. Points
 // are copied.
-SbDrawItem *sb_draw_fill(SbDrawList *list, const SbPoint *points, size_t count, SbColor colour);
+SbDrawItem *sb_draw_fill(SbDrawList *list, const SbPoint *points, size_t count, SbColor color);
 SbDrawItem *sb_draw_rect(SbDrawList *list, double x, double y, double width, double height,
-                         SbColor colour);
+                         SbColor color);
 SbDrawItem *sb_draw_round_rect(SbDrawList *list, double x, double y, double width, double height,
-                               double radius, SbColor colour);
-SbDrawItem *sb_draw_disc(SbDrawList *list, double x, double y, double radius, SbColor colour);
+                               double radius, SbColor color);
+SbDrawItem *sb_draw_disc(SbDrawList *list, double x, double y, double radius, SbColor color);
 SbDrawItem *sb_draw_stroke(SbDrawList *list, const SbPoint *points, size_t count, double width,
-                           SbColor colour);
+                           SbColor color);
 SbDrawItem *sb_draw_line(SbDrawList *list, double x0, double y0, double x1, double y1, double width,
-                         SbColor colour);
+                         SbColor color);
 SbDrawItem *sb_draw_round_frame(SbDrawList *list, double x, double y, double width, double height,
-                                double radius, double line, SbColor colour);
+                                double radius, double line, SbColor color);
 SbDrawItem *sb_draw_mesh(SbDrawList *list, const SbPoint *points, const float *scalars,
                          size_t count, const SbDrawMap *map, double min, double max);
 SbDrawItem *sb_draw_text(SbDrawList *list, double x, double y, double size, int weight,
-                         SbAlign align, SbColor colour, const char *text);
+                         SbAlign align, SbColor color, const char *text);
 
 // Adds the mirror image, about the horizontal line at `y`, of all items from number `first` on that
 // hold no text. Hatches keep their direction: the parts are the same ones.
@@ -113,4 +113,4 @@ void sb_draw_reflect(SbDrawList *list, size_t first, double y);
 
 // An arrow from (x0, y0) to its point (x1, y1): a shaft and a head of length x width.
 void sb_draw_arrow(SbDrawList *list, double x0, double y0, double x1, double y1, double line,
-                   double head_length, double head_width, SbColor colour);
+                   double head_length, double head_width, SbColor color);

@@ -23,7 +23,7 @@ typedef enum {
 
 typedef struct {
   GLuint id;
-  GLint to_clip, flip, pattern, line_colour, line, levels, sampler;
+  GLint to_clip, flip, pattern, line_color, line, levels, sampler;
 } Program;
 
 typedef struct {
@@ -41,7 +41,7 @@ struct SbGlRenderer {
   Program program[PROGRAM_COUNT];
   GLuint array, buffer;
   size_t buffer_size;
-  GLuint framebuffer, colour;
+  GLuint framebuffer, color;
   int width, height, size_max;
   SbGlAtlas *atlas;
   SbMesh mesh;
@@ -94,7 +94,7 @@ static SbStatus build_program(SbGlRenderer *renderer, ProgramId id, GLuint verte
   program->to_clip = gl->GetUniformLocation(program->id, "to_clip");
   program->flip = gl->GetUniformLocation(program->id, "flip");
   program->pattern = gl->GetUniformLocation(program->id, "pattern");
-  program->line_colour = gl->GetUniformLocation(program->id, "line_colour");
+  program->line_color = gl->GetUniformLocation(program->id, "line_colour");
   program->line = gl->GetUniformLocation(program->id, "line");
   program->levels = gl->GetUniformLocation(program->id, "levels");
   program->sampler = gl->GetUniformLocation(program->id, id == PROGRAM_TEXT ? "atlas" : "map");
@@ -130,7 +130,7 @@ static void describe_vertices(SbGlRenderer *renderer) {
   const GLsizei size = sizeof(SbMeshVertex);
   gl->VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, size, NULL);
   gl->VertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, size,
-                          (const void *)offsetof(SbMeshVertex, colour));
+                          (const void *)offsetof(SbMeshVertex, color));
   gl->VertexAttribPointer(2, 4, GL_FLOAT, GL_FALSE, size,
                           (const void *)offsetof(SbMeshVertex, extra));
   for (GLuint i = 0; i < 3; i++) {
@@ -181,7 +181,7 @@ void sb_gl_renderer_destroy(SbGlRenderer *renderer) {
   }
   if (renderer->framebuffer != 0) {
     gl->DeleteFramebuffers(1, &renderer->framebuffer);
-    gl->DeleteRenderbuffers(1, &renderer->colour);
+    gl->DeleteRenderbuffers(1, &renderer->color);
   }
   sb_gl_atlas_destroy(renderer->atlas);
   sb_mesh_finish(&renderer->mesh);
@@ -221,7 +221,7 @@ static bool add_text(SbGlRenderer *renderer, const SbDrawItem *item, const char 
   if (line.width > 0) {
     sb_mesh_glyphs(&renderer->mesh, round(x) + line.left,
                    round((double)item->y * scale) - line.ascent, line.width, line.height, line.u,
-                   line.v, item->colour);
+                   line.v, item->color);
   }
   return true;
 }
@@ -304,13 +304,13 @@ static void set_parameters(SbGlRenderer *renderer, const Batch *batch, const Pro
     }
     gl->Uniform4f(program->pattern, length[0], length[1], length[2], length[3]);
   } else if (batch->program == PROGRAM_HATCH) {
-    SbColor c = item->hatch.colour;
-    gl->Uniform4f(program->line_colour, c.r * c.a, c.g * c.a, c.b * c.a, c.a);
+    SbColor c = item->hatch.color;
+    gl->Uniform4f(program->line_color, c.r * c.a, c.g * c.a, c.b * c.a, c.a);
     gl->Uniform2f(program->line, s * item->hatch.pitch, s * item->hatch.width / 2.0f);
   } else if (batch->program == PROGRAM_FIELD) {
-    SbColor c = item->line_colour;
+    SbColor c = item->line_color;
     gl->Uniform1f(program->levels, item->isolines);
-    gl->Uniform4f(program->line_colour, c.r, c.g, c.b, c.a);
+    gl->Uniform4f(program->line_color, c.r, c.g, c.b, c.a);
     gl->Uniform2f(program->line, 0.0f, s * item->width / 2.0f);
     gl->BindTexture(GL_TEXTURE_2D, map_texture(renderer, item->map));
   } else if (batch->program == PROGRAM_TEXT) {
@@ -388,16 +388,16 @@ static SbStatus prepare_framebuffer(SbGlRenderer *renderer, int width, int heigh
   }
   if (renderer->framebuffer == 0) {
     gl->GenFramebuffers(1, &renderer->framebuffer);
-    gl->GenRenderbuffers(1, &renderer->colour);
+    gl->GenRenderbuffers(1, &renderer->color);
   }
   gl->BindFramebuffer(GL_FRAMEBUFFER, renderer->framebuffer);
   if (renderer->width == width && renderer->height == height) {
     return SB_OK;
   }
-  gl->BindRenderbuffer(GL_RENDERBUFFER, renderer->colour);
+  gl->BindRenderbuffer(GL_RENDERBUFFER, renderer->color);
   gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
   gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                              renderer->colour);
+                              renderer->color);
   if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     renderer->width = renderer->height = 0;
     return sb_fail(report, SB_ERROR_MEMORY, "no framebuffer of %d x %d pixels", width, height);

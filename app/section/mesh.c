@@ -44,11 +44,9 @@ static void premultiply(uint8_t out[4], SbColor c) {
   out[3] = (uint8_t)(255.0 * c.a + 0.5);
 }
 
-static SbMeshVertex solid(SbPoint point, const uint8_t colour[4]) {
-  return (SbMeshVertex){point.x,
-                        point.y,
-                        {colour[0], colour[1], colour[2], colour[3]},
-                        {0.0, WIDE, WIDE, 2.0 * WIDE}};
+static SbMeshVertex solid(SbPoint point, const uint8_t color[4]) {
+  return (SbMeshVertex){
+      point.x, point.y, {color[0], color[1], color[2], color[3]}, {0.0, WIDE, WIDE, 2.0 * WIDE}};
 }
 
 // Scaled points without repeated ones. Returns how many are left.
@@ -99,22 +97,22 @@ static bool is_ear(const SbPoint *p, const int *next, const int *previous, int b
   return true;
 }
 
-static void triangle(SbMesh *mesh, SbPoint a, SbPoint b, SbPoint c, const uint8_t colour[4]) {
+static void triangle(SbMesh *mesh, SbPoint a, SbPoint b, SbPoint c, const uint8_t color[4]) {
   SbMeshVertex *v = add(mesh, 3);
-  v[0] = solid(a, colour);
-  v[1] = solid(b, colour);
-  v[2] = solid(c, colour);
+  v[0] = solid(a, color);
+  v[1] = solid(b, color);
+  v[2] = solid(c, color);
 }
 
 // Triangulates a simple polygon with positive area in mesh->work.
-static void clip_ears(SbMesh *mesh, const SbPoint *p, int n, const uint8_t colour[4]) {
+static void clip_ears(SbMesh *mesh, const SbPoint *p, int n, const uint8_t color[4]) {
   bool convex = true;
   for (int i = 0; i < n && convex; i++) {
     convex = cross(p[i], p[(i + 1) % n], p[(i + 2) % n]) >= 0.0;
   }
   if (convex) {
     for (int i = 1; i + 1 < n; i++) {
-      triangle(mesh, p[0], p[i], p[i + 1], colour);
+      triangle(mesh, p[0], p[i], p[i + 1], color);
     }
     return;
   }
@@ -126,7 +124,7 @@ static void clip_ears(SbMesh *mesh, const SbPoint *p, int n, const uint8_t colou
   int left = n, at = 0, tried = 0;
   while (left > 3 && tried < left) {
     if (is_ear(p, next, previous, at)) {
-      triangle(mesh, p[previous[at]], p[at], p[next[at]], colour);
+      triangle(mesh, p[previous[at]], p[at], p[next[at]], color);
       next[previous[at]] = next[at];
       previous[next[at]] = previous[at];
       at = previous[at];
@@ -140,7 +138,7 @@ static void clip_ears(SbMesh *mesh, const SbPoint *p, int n, const uint8_t colou
   // What is left is a triangle, or (rounding, self-contact) nothing worth a hole: a fan.
   int first = at;
   for (int i = next[first]; next[i] != first; i = next[i]) {
-    triangle(mesh, p[first], p[i], p[next[i]], colour);
+    triangle(mesh, p[first], p[i], p[next[i]], color);
   }
 }
 
@@ -173,8 +171,8 @@ void sb_mesh_fill(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points, d
     }
   }
   size_t first = mesh->count;
-  uint8_t colour[4];
-  premultiply(colour, item->colour);
+  uint8_t color[4];
+  premultiply(color, item->color);
   if (item->feather) {
     // With positive area (y down) the inside is on the left of the path in the mitre's sense.
     static const uint8_t none[4] = {0, 0, 0, 0};
@@ -184,21 +182,21 @@ void sb_mesh_fill(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points, d
       SbPoint m = mitre(direction(before, p[i]), direction(p[i], after), 3.0);
       inner[i] = (SbPoint){p[i].x + 0.5 * m.x, p[i].y + 0.5 * m.y};
     }
-    clip_ears(mesh, inner, (int)n, colour);
+    clip_ears(mesh, inner, (int)n, color);
     for (size_t i = 0; i < n; i++) {
       size_t j = (i + 1) % n;
       SbPoint outer_i = {2.0 * p[i].x - inner[i].x, 2.0 * p[i].y - inner[i].y};
       SbPoint outer_j = {2.0 * p[j].x - inner[j].x, 2.0 * p[j].y - inner[j].y};
       SbMeshVertex *v = add(mesh, 6);
-      v[0] = solid(inner[i], colour);
+      v[0] = solid(inner[i], color);
       v[1] = solid(outer_i, none);
-      v[2] = solid(inner[j], colour);
+      v[2] = solid(inner[j], color);
       v[3] = solid(outer_i, none);
       v[4] = solid(outer_j, none);
-      v[5] = solid(inner[j], colour);
+      v[5] = solid(inner[j], color);
     }
   } else {
-    clip_ears(mesh, p, (int)n, colour);
+    clip_ears(mesh, p, (int)n, color);
   }
   if (item->hatch.width > 0.0) {
     const SbDrawHatch *hatch = &item->hatch;
@@ -212,7 +210,7 @@ void sb_mesh_fill(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points, d
 
 // The strip of a whole line, a quad per segment; ends reach a pixel further for their soft edge.
 static void strip(SbMesh *mesh, const SbPoint *p, size_t n, bool closed, double half,
-                  const uint8_t colour[4]) {
+                  const uint8_t color[4]) {
   double reach = half + 1.0;
   double total = 0.0;
   size_t segments = closed ? n : n - 1;
@@ -242,19 +240,19 @@ static void strip(SbMesh *mesh, const SbPoint *p, size_t n, bool closed, double 
     const SbMeshVertex corner[4] = {
         {a.x + reach * ma.x,
          a.y + reach * ma.y,
-         {colour[0], colour[1], colour[2], colour[3]},
+         {color[0], color[1], color[2], color[3]},
          {reach, half, lead + from, size}},
         {a.x - reach * ma.x,
          a.y - reach * ma.y,
-         {colour[0], colour[1], colour[2], colour[3]},
+         {color[0], color[1], color[2], color[3]},
          {-reach, half, lead + from, size}},
         {b.x + reach * mb.x,
          b.y + reach * mb.y,
-         {colour[0], colour[1], colour[2], colour[3]},
+         {color[0], color[1], color[2], color[3]},
          {reach, half, lead + to, size}},
         {b.x - reach * mb.x,
          b.y - reach * mb.y,
-         {colour[0], colour[1], colour[2], colour[3]},
+         {color[0], color[1], color[2], color[3]},
          {-reach, half, lead + to, size}},
     };
     SbMeshVertex *v = add(mesh, 6);
@@ -274,15 +272,15 @@ void sb_mesh_stroke(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points,
   if (n < 2) {
     return;
   }
-  SbColor colour = item->colour;
+  SbColor color = item->color;
   double half = item->width * (double)scale / 2.0;
   if (half < 0.5) {
     // Thinner than a pixel: a pixel wide, fainter.
-    colour.a *= 2.0 * half;
+    color.a *= 2.0 * half;
     half = 0.5;
   }
   uint8_t ink[4];
-  premultiply(ink, colour);
+  premultiply(ink, color);
   strip(mesh, p, n, item->closed && n > 2, half, ink);
 }
 
@@ -295,9 +293,9 @@ void sb_mesh_field(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points,
     SbPoint p = {(points[i].x * scale), (points[i].y * scale)};
     double t = (scalars[i] - item->map_min) / range;
     if (item->shaded) {
-      uint8_t colour[4];
-      premultiply(colour, item->map->entry[(int)(255.0 * fmin(fmax(t, 0.0), 1.0) + 0.5)]);
-      v[i] = solid(p, colour);
+      uint8_t color[4];
+      premultiply(color, item->map->entry[(int)(255.0 * fmin(fmax(t, 0.0), 1.0) + 0.5)]);
+      v[i] = solid(p, color);
     } else {
       v[i] = solid(p, white);
       v[i].extra[0] = t;
@@ -306,9 +304,9 @@ void sb_mesh_field(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points,
 }
 
 void sb_mesh_glyphs(SbMesh *mesh, double x, double y, double width, double height, double u,
-                    double v, SbColor colour) {
+                    double v, SbColor color) {
   uint8_t ink[4];
-  premultiply(ink, colour);
+  premultiply(ink, color);
   const double at[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
   SbMeshVertex *vertex = add(mesh, 6);
   for (int i = 0; i < 6; i++) {

@@ -11,8 +11,8 @@
 
 typedef struct {
   float x, y;
-  uint8_t colour[4]; // premultiplied
-  float extra[4];    // see shaders/*.frag
+  uint8_t color[4]; // premultiplied
+  float extra[4];   // see shaders/*.frag
 } SbMeshVertex;
 
 typedef struct {
@@ -35,4 +35,4 @@ void sb_mesh_field(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points,
 
 // A rectangle of an atlas, device pixels.
 void sb_mesh_glyphs(SbMesh *mesh, double x, double y, double width, double height, double u,
-                    double v, SbColor colour);
+                    double v, SbColor color);

@@ -17,7 +17,8 @@ SbSection *sb_section_create(const SbModel *model, const SbSectionLimits *limits
   sb_model_keep(&section->model, model);
   section->limits = *limits;
   section->text = sb_text_create();
-  sb_valve_make(&section->valve, model, limits->inner_contact_left, 2 * model->bore_diameter);
+  sb_valve_outline_make(&section->valve, model, limits->inner_contact_left,
+                        2 * model->bore_diameter);
   return section;
 }
 
@@ -117,7 +118,7 @@ const SbRingShape *sb_section_ring(const SbSection *section, int seal) {
   return &section->ring[seal];
 }
 
-const SbValve *sb_section_valve(const SbSection *section) {
+const SbValveOutline *sb_section_valve(const SbSection *section) {
   return &section->valve;
 }
 
@@ -128,18 +129,18 @@ void sb_section_transform(const SbSection *section, double *scale, double *x0, d
 }
 
 typedef struct {
-  const SbValve *valve;
+  const SbValveOutline *valve;
   double origin;
 } Surroundings;
 
 static double housing_above(void *data, double x) {
   const Surroundings *around = data;
-  return sb_valve_bore_at(around->valve, x + around->origin) - around->valve->floor;
+  return sb_valve_outline_bore(around->valve, x + around->origin) - around->valve->floor;
 }
 
 // Outlines of both rings in their own frames.
 static void shape_rings(SbSection *section) {
-  const SbValve *valve = &section->valve;
+  const SbValveOutline *valve = &section->valve;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const SbSealFrame *seal = &section->instant->frame->seal[i];
     Surroundings around = {valve, sb_section_origin(section, i)};
@@ -265,8 +266,8 @@ static void draw_solid(SbSection *section, const SbSectionFrameMap *map, const S
   sb_draw_stroke(section->list, line, n, 1.8, palette->outline)->closed = closed;
 }
 
-static SbDrawHatch hatch(SbColor colour, double lean, double offset) {
-  return sb_draw_hatch(colour, SB_HATCH_PITCH, SB_HATCH_WIDTH, lean, offset);
+static SbDrawHatch hatch(SbColor color, double lean, double offset) {
+  return sb_draw_hatch(color, SB_HATCH_PITCH, SB_HATCH_WIDTH, lean, offset);
 }
 
 // Above a housing of known shape nothing is known: no fluid, no wall.
@@ -291,7 +292,7 @@ static void draw_outside(SbSection *section, const SbSectionFrameMap *map) {
 }
 
 void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map) {
-  const SbValve *valve = &section->valve;
+  const SbValveOutline *valve = &section->valve;
   if (valve->shaped_housing) {
     draw_outside(section, map);
   }
@@ -304,7 +305,7 @@ void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map) {
 }
 
 static void draw_stem(SbSection *section, const SbSectionFrameMap *map) {
-  const SbValve *valve = &section->valve;
+  const SbValveOutline *valve = &section->valve;
   double s = sb_section_displacement(section);
   SbDrawHatch lines =
       hatch(section->palette->stem_hatch, -1, section->x0 - s * section->scale - section->y0);
@@ -385,7 +386,7 @@ static void lay_out_cutaway(SbSection *section, const Layout *layout, double bot
 // One seal's surroundings, from below the groove floor to above the land.
 static void lay_out_zoom(SbSection *section, const Layout *layout, double bottom) {
   const SbSectionView *view = section->view;
-  const SbValve *valve = &section->valve;
+  const SbValveOutline *valve = &section->valve;
   int seal = view->zoom == SB_SECTION_ZOOM_INNER ? SB_INNER : SB_OUTER;
   double left = layout->margin + (layout->column ? LEGENDS + COLUMN_GAP : 0);
   double top = layout->top + (layout->column ? 0 : 66);
@@ -400,7 +401,7 @@ static void lay_out_zoom(SbSection *section, const Layout *layout, double bottom
 
 static void lay_out(SbSection *section, Layout *layout) {
   const SbSectionView *view = section->view;
-  const SbValve *valve = &section->valve;
+  const SbValveOutline *valve = &section->valve;
   const SbModel *model = &section->model;
   double margin = view->margin;
   layout->margin = margin;

@@ -88,7 +88,7 @@ double sb_section_strip_height(SbSection *section, const SbSectionView *view,
 // What sb_section_draw() made of seal i: the ring's outline in the housing's frame, for checks and
 // hit tests. Valid after a draw; borrowed.
 const SbRingShape *sb_section_ring(const SbSection *section, int seal);
-const SbValve *sb_section_valve(const SbSection *section);
+const SbValveOutline *sb_section_valve(const SbSection *section);
 
 // Logical pixels per metre and the place of the housing frame's origin (land edge on the axis) of
 // the last picture.

@@ -68,7 +68,7 @@ static void force_bars(SbSection *section, double x, double y, double width) {
   const struct {
     const char *name;
     double force;
-    SbColor colour;
+    SbColor color;
   } row[4] = {
       {"drive", frame->force, palette->ink},
       {"pressure", frame->pressure_force, palette->fluid_line},
@@ -83,7 +83,7 @@ static void force_bars(SbSection *section, double x, double y, double width) {
     sb_draw_text(list, x, base, 11, 400, SB_LEFT, palette->second, row[i].name);
     double length = fabs(row[i].force) * px;
     if (length > 0.5) {
-      sb_draw_rect(list, zero, base - 8, length, 8, row[i].colour);
+      sb_draw_rect(list, zero, base - 8, length, 8, row[i].color);
     }
     sb_section_fixed(text, row[i].force, 1);
     sb_draw_text(list, zero + length + 6, base, 11, 600, SB_LEFT, palette->ink, text);

@@ -410,7 +410,7 @@ static Inset inset_of(const SbSection *section, const SbRect *rect) {
 void sb_section_draw_leader(SbSection *section, const SbRect *pressure, const SbRect *film) {
   int seal = section->view->inset_seal;
   Inset inset = inset_of(section, pressure);
-  SbColor colour = section->palette->seal[seal];
+  SbColor color = section->palette->seal[seal];
   double origin = sb_section_origin(section, seal);
   double half = (double)pressure->width / 2 / inset.scale;
   SbPoint middle = sb_section_at(section, origin + inset.centre, section->valve.bore);
@@ -421,7 +421,7 @@ void sb_section_draw_leader(SbSection *section, const SbRect *pressure, const Sb
   double box_left =
       CLAMP((double)middle.x - width / 2, (double)section->strip.x, strip_right - width);
   double box_top = (double)middle.y - above;
-  sb_draw_round_frame(section->list, box_left, box_top, width, height + above, 3, 1.4, colour);
+  sb_draw_round_frame(section->list, box_left, box_top, width, height + above, 3, 1.4, color);
   bool stacked = film->y > pressure->y;
   double bottom = (double)(film->y + film->height);
   double elbow = (bottom + (double)section->strip.y) / 2 + 1;
@@ -431,14 +431,14 @@ void sb_section_draw_leader(SbSection *section, const SbRect *pressure, const Sb
   const SbPoint bracket[4] = {{from, bottom}, {from, elbow}, {to, elbow}, {to, bottom}};
   if (stacked) {
     from = to;
-    sb_draw_stroke(section->list, bracket + 2, 2, 1.2, colour);
+    sb_draw_stroke(section->list, bracket + 2, 2, 1.2, color);
   } else {
-    sb_draw_stroke(section->list, bracket, 4, 1.2, colour);
+    sb_draw_stroke(section->list, bracket, 4, 1.2, color);
   }
   if (drop < from || drop > to) {
-    sb_draw_line(section->list, drop < from ? from : to, elbow, drop, elbow, 1.2, colour);
+    sb_draw_line(section->list, drop < from ? from : to, elbow, drop, elbow, 1.2, color);
   }
-  sb_draw_line(section->list, drop, elbow, drop, box_top, 1.2, colour);
+  sb_draw_line(section->list, drop, elbow, drop, box_top, 1.2, color);
   sb_section_reserve(section, drop - 2, elbow, 4, box_top - elbow);
 }
 

@@ -14,8 +14,8 @@ static double axis_of(const SbSection *section) {
   return fmin((double)section->strip.y + (double)section->strip.height, section->y0);
 }
 
-static SbSectionLabel label_style(SbColor colour, int weight, SbAlign align, const SbColor *plate) {
-  return (SbSectionLabel){12, weight, align, colour, plate};
+static SbSectionLabel label_style(SbColor color, int weight, SbAlign align, const SbColor *plate) {
+  return (SbSectionLabel){12, weight, align, color, plate};
 }
 
 // First of the candidate places (pairs x, y) where the label fits; false: none did.
@@ -52,7 +52,7 @@ static void name_and_pressure(SbSection *section, double x, double y, const char
 static void draw_regions(SbSection *section) {
   const SbPalette *palette = section->palette;
   const SbFrame *frame = section->instant->frame;
-  const SbValve *valve = &section->valve;
+  const SbValveOutline *valve = &section->valve;
   const SbRect *strip = &section->strip;
   double top = (double)strip->y + 22;
   name_and_pressure(section, (double)strip->x + 12, top, "Canister",
@@ -313,7 +313,7 @@ static void draw_motion(SbSection *section) {
 static void draw_dose_path(SbSection *section) {
   const SbPalette *palette = section->palette;
   const SbFrame *frame = section->instant->frame;
-  const SbValve *valve = &section->valve;
+  const SbValveOutline *valve = &section->valve;
   if (frame->chamber != SB_CHAMBER_OPEN || frame->seal[SB_INNER].land_fraction > 0 ||
       on_chamfer(section->instant->ring[SB_INNER])) {
     return;
@@ -323,14 +323,14 @@ static void draw_dose_path(SbSection *section) {
   double ring = sb_section_origin(section, SB_INNER);
   double radius = sqrt(valve->section_area[SB_INNER] / M_PI);
   double top = valve->floor + 2 * radius;
-  double mouth = sb_valve_bore_at(valve, ring);
+  double mouth = sb_valve_outline_bore(valve, ring);
   double over = isfinite(mouth) ? (fmax(top, valve->land) + mouth) / 2 : top + 0.17 * g;
   // Down along the ring between it and the housing, then over the stem's land.
   double beside = ring + 0.72 * radius;
   double shoulder = valve->floor + radius * (1 + 0.694);
-  double above = fmin(sb_valve_bore_at(valve, beside), top + 0.1 * g);
+  double above = fmin(sb_valve_outline_bore(valve, beside), top + 0.1 * g);
   double behind = ring + 1.25 * radius;
-  double roof = fmin(sb_valve_bore_at(valve, behind), top + 0.1 * g);
+  double roof = fmin(sb_valve_outline_bore(valve, behind), top + 0.1 * g);
   double mouth_left = valve->chamber_left - s;
   double depth = valve->land - valve->chamber_floor;
   enum { KNOTS = 7, STEPS = 12 };
@@ -368,7 +368,7 @@ static void draw_dose_path(SbSection *section) {
       double off = (way[i].x - ring) / radius;
       double low = valve->floor + radius * (1 + sqrt(fmax(1 - off * off, 0)));
       low = fabs(off) < 1 ? low : -HUGE_VAL;
-      double high = sb_valve_bore_at(valve, way[i].x);
+      double high = sb_valve_outline_bore(valve, way[i].x);
       double clear = fmin(0.06 * g, (high - low) / 2);
       least = fmin(least, high - low);
       way[i].y = fmin(fmax(smooth, low + clear), high - clear);
@@ -447,7 +447,7 @@ static void draw_zoom(SbSection *section) {
   SbDrawList *list = section->list;
   int i = section->view->zoom == SB_SECTION_ZOOM_INNER ? SB_INNER : SB_OUTER;
   const SbSealFrame *seal = &section->instant->frame->seal[i];
-  const SbValve *valve = &section->valve;
+  const SbValveOutline *valve = &section->valve;
   double origin = sb_section_origin(section, i);
   char text[96], value[SB_SECTION_NUMBER];
   if (seal->land_fraction > 0) {

@@ -105,7 +105,6 @@ double sb_section_label(SbSection *section, double x, double y, const SbSectionL
     sb_draw_round_rect(section->list, rect.x, rect.y, rect.width, rect.height, 2, *style->plate);
   }
   sb_section_reserve(section, rect.x, rect.y, rect.width, rect.height);
-  sb_draw_text(section->list, x, y, style->size, style->weight, style->align, style->colour,
-               string);
+  sb_draw_text(section->list, x, y, style->size, style->weight, style->align, style->color, string);
   return rect.width - 6;
 }

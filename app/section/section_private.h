@@ -16,7 +16,7 @@ typedef struct SbCutaway SbCutaway;
 struct SbSection {
   SbModel model;
   SbSectionLimits limits;
-  SbValve valve;
+  SbValveOutline valve;
   SbText *text;
   SbRingShape ring[SB_SEAL_COUNT];
   size_t scratch_size; // of a mesh's corners
@@ -47,7 +47,7 @@ typedef struct {
   double size;
   int weight;
   SbAlign align;
-  SbColor colour;
+  SbColor color;
   const SbColor *plate; // ground of the body below, or NULL
 } SbSectionLabel;
 

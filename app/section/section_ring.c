@@ -128,8 +128,8 @@ static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *sh
                                     sign ? &palette->diverging : &palette->field, least, greatest);
     item->isolines = ISOLINES;
     item->width = 0.6;
-    item->line_colour = palette->ink;
-    item->line_colour.a = 0.16;
+    item->line_color = palette->ink;
+    item->line_color.a = 0.16;
   }
   if (section->view->mesh) {
     SbColor line = palette->outline;

@@ -26,7 +26,7 @@ static void add(SbValveSolid *solid, double x, double y) {
   }
 }
 
-static SbValveSolid *new_solid(SbValve *valve, bool moves) {
+static SbValveSolid *new_solid(SbValveOutline *valve, bool moves) {
   SbValveSolid *solid = &valve->solid[valve->solid_count++];
   solid->moves = moves;
   solid->count = 0;
@@ -48,7 +48,7 @@ static void cut(SbValveSolid *to, const SbValveSolid *from, double x, int side) 
   }
 }
 
-static double at_least(SbValve *valve, double value, double least) {
+static double at_least(SbValveOutline *valve, double value, double least) {
   if (value >= least) {
     return value;
   }
@@ -56,7 +56,7 @@ static double at_least(SbValve *valve, double value, double least) {
   return least;
 }
 
-static double at_most(SbValve *valve, double value, double most) {
+static double at_most(SbValveOutline *valve, double value, double most) {
   if (value <= most) {
     return value;
   }
@@ -64,7 +64,7 @@ static double at_most(SbValve *valve, double value, double most) {
   return most;
 }
 
-static void make_vent(SbValve *valve, const SbValveShape *shape) {
+static void make_vent(SbValveOutline *valve, const SbValveShape *shape) {
   if (shape->vent_diameter > 0 && shape->vent_position + shape->vent_diameter < valve->end) {
     valve->vent_left = shape->vent_position - shape->vent_diameter / 2;
     valve->vent_right = shape->vent_position + shape->vent_diameter / 2;
@@ -72,7 +72,7 @@ static void make_vent(SbValve *valve, const SbValveShape *shape) {
 }
 
 // The housing's surfaces, and its solid cut in two by the vent.
-static void finish_housing(SbValve *valve) {
+static void finish_housing(SbValveOutline *valve) {
   SbValveSolid *whole = &valve->solid[0];
   g_autofree SbOutline *outline = g_new(SbOutline, 1);
   outline->count = whole->count;
@@ -88,7 +88,7 @@ static void finish_housing(SbValve *valve) {
   }
 }
 
-static void make_housing(SbValve *valve, const SbModel *model, double top) {
+static void make_housing(SbValveOutline *valve, const SbModel *model, double top) {
   const SbValveShape *shape = &model->shape;
   double g = model->radial_space;
   double mouth = at_least(valve, shape->entry_diameter / 2, valve->bore + 0.1 * g);
@@ -116,7 +116,7 @@ static void make_housing(SbValve *valve, const SbModel *model, double top) {
   add(solid, valve->end, top);
 }
 
-static void make_stem(SbValve *valve, const SbModel *model) {
+static void make_stem(SbValveOutline *valve, const SbModel *model) {
   const SbValveShape *shape = &model->shape;
   double g = model->radial_space;
   double chamfer = fmin(0.33 * g, 0.3 * shape->nose_length);
@@ -199,7 +199,7 @@ static void add_outline(SbValveSolid *solid, const SbOutline *outline, const Map
   }
 }
 
-static void shape_housing(SbValve *valve, const SbValveOutlines *given) {
+static void shape_housing(SbValveOutline *valve, const SbValveOutlines *given) {
   Map x = {1, {given->land_edge}, {0}};
   Map r = {2, {0, given->bore}, {0, valve->bore}};
   valve->adjusted = valve->adjusted || map_stretches(&r);
@@ -220,7 +220,7 @@ static void shape_housing(SbValve *valve, const SbValveOutlines *given) {
   valve->mouth = found ? map_to(&r, low) : valve->bore;
 }
 
-static void shape_stem(SbValve *valve, const SbValveOutlines *given) {
+static void shape_stem(SbValveOutline *valve, const SbValveOutlines *given) {
   Map x = {4,
            {given->groove_left[SB_INNER], given->groove_right[SB_INNER],
             given->groove_left[SB_OUTER], given->groove_right[SB_OUTER]},
@@ -271,7 +271,8 @@ static void shape_stem(SbValve *valve, const SbValveOutlines *given) {
   }
 }
 
-void sb_valve_make(SbValve *valve, const SbModel *model, double inner_contact_left, double top) {
+void sb_valve_outline_make(SbValveOutline *valve, const SbModel *model, double inner_contact_left,
+                           double top) {
   memset(valve, 0, sizeof *valve);
   const SbValveShape *shape = &model->shape;
   double b = model->axial_width;
@@ -315,7 +316,7 @@ void sb_valve_make(SbValve *valve, const SbModel *model, double inner_contact_le
   }
 }
 
-double sb_valve_bore_at(const SbValve *valve, double x) {
+double sb_valve_outline_bore(const SbValveOutline *valve, double x) {
   double low, high;
   return sb_outline_radii(&low, &high, &valve->housing, x) ? low : HUGE_VAL;
 }

@@ -48,13 +48,14 @@ typedef struct {
   double origin[SB_SEAL_COUNT];       // origin of the seal's frame, stem's frame
   double section_area[SB_SEAL_COUNT]; // of the fitted ring, volume kept: A/(1 + stretch) [m2]
   bool adjusted; // some drawing size had to give way, or a profile was stretched
-} SbValve;
+} SbValveOutline;
 
 // Builds the outlines. inner_contact_left: left end of the inner seal's contact in its own frame
 // when it reaches the land edge [m]; with `land_edge` it fixes where the seals are. `top` is the
 // radius up to which the housing is drawn [m].
-void sb_valve_make(SbValve *valve, const SbModel *model, double inner_contact_left, double top);
+void sb_valve_outline_make(SbValveOutline *valve, const SbModel *model, double inner_contact_left,
+                           double top);
 
 // Radius of the housing's inner surface at x in the housing's frame [m]; HUGE_VAL beside the
 // housing.
-double sb_valve_bore_at(const SbValve *valve, double x);
+double sb_valve_outline_bore(const SbValveOutline *valve, double x);

@@ -19,11 +19,10 @@ enum {
 
 static void start_now(SbSession *session);
 
-static SbDisplayedRun **slot(SbDisplayedRun **slot, SbDisplayedRun *value) {
-  SbDisplayedRun *old = *slot;
-  *slot = sb_displayed_run_ref(value);
+static void set_reference(SbDisplayedRun **run, SbDisplayedRun *value) {
+  SbDisplayedRun *old = *run;
+  *run = sb_displayed_run_ref(value);
   sb_displayed_run_unref(old);
-  return slot;
 }
 
 // What views see ---------------------------------------------------------------------------------
@@ -105,8 +104,8 @@ static void display_fresh(SbSession *session) {
   if (session->shown != NULL) {
     sb_playhead_remember(&session->playhead, session->shown->trace, frames, count);
   }
-  slot(&session->earlier, session->shown);
-  slot(&session->shown, session->fresh);
+  set_reference(&session->earlier, session->shown);
+  set_reference(&session->shown, session->fresh);
 }
 
 static void place_playhead(SbSession *session) {
@@ -172,7 +171,7 @@ static void finish(SbSession *session) {
       place_playhead(session);
     }
   }
-  slot(&session->earlier, NULL);
+  set_reference(&session->earlier, NULL);
   session->state = session->failure != NULL ? SB_SESSION_FAILED : displayed_state(session);
   run_changed(session);
   sb_session_emit(session, SB_SIGNAL_FRAMES);
@@ -180,7 +179,7 @@ static void finish(SbSession *session) {
 }
 
 // The runner has something new.
-static void look(SbSession *session) {
+static void poll_frames(SbSession *session) {
   SbRunHandle *handle = session->ticket != 0 ? sb_runner_latest(session->runner) : NULL;
   if (handle == NULL || sb_run_handle_ticket(handle) != session->ticket) {
     sb_run_handle_unref(handle);
@@ -225,7 +224,7 @@ static gboolean on_inbox(gpointer data) {
   SbSessionInbox *inbox = data;
   g_atomic_int_set(&inbox->pending, 0);
   if (inbox->session != NULL) {
-    look(inbox->session);
+    poll_frames(inbox->session);
   }
   inbox_unref(inbox);
   return G_SOURCE_REMOVE;
@@ -255,12 +254,12 @@ static void start_now(SbSession *session) {
       size_t count = 0;
       const SbFrame *frames = sb_session_frames(session, &count);
       sb_playhead_remember(&session->playhead, session->shown->trace, frames, count);
-      slot(&session->shown, session->earlier);
+      set_reference(&session->shown, session->earlier);
       place_playhead(session);
     }
   }
-  slot(&session->earlier, NULL);
-  slot(&session->fresh, NULL);
+  set_reference(&session->earlier, NULL);
+  set_reference(&session->fresh, NULL);
   g_clear_pointer(&session->failure, g_free);
   // The window shows everything: the views of the scene do not limit it.
   g_autofree SbModel *model = g_memdup2(session->model, sizeof *model);
@@ -424,9 +423,10 @@ static char *pin_name(SbSession *session) {
 }
 
 void sb_session_pin(SbSession *session, gboolean on) {
-  slot(&session->pinned, on && session->shown != NULL && session->shown->chart.summary != NULL
-                             ? session->shown
-                             : NULL);
+  set_reference(&session->pinned,
+                on && session->shown != NULL && session->shown->chart.summary != NULL
+                    ? session->shown
+                    : NULL);
   g_clear_pointer(&session->pinned_name, g_free);
   if (session->pinned != NULL) {
     session->pinned_name = pin_name(session);
@@ -441,7 +441,7 @@ const char *sb_session_pinned_name(SbSession *session) {
 // Ticks -------------------------------------------------------------------------------------------
 
 void sb_session_tick(SbSession *session, gint64 now) {
-  look(session);
+  poll_frames(session);
   if (session->ticket != 0 && session->fresh != NULL && session->shown != session->fresh &&
       g_get_monotonic_time() - session->started > WATCH_US) {
     size_t published = 0;
@@ -483,10 +483,10 @@ gboolean sb_session_wants_ticks(SbSession *session) {
 static void drop_runs(SbSession *session) {
   session->ticket = 0;
   session->state = SB_SESSION_EMPTY;
-  slot(&session->fresh, NULL);
-  slot(&session->shown, NULL);
-  slot(&session->earlier, NULL);
-  slot(&session->pinned, NULL);
+  set_reference(&session->fresh, NULL);
+  set_reference(&session->shown, NULL);
+  set_reference(&session->earlier, NULL);
+  set_reference(&session->pinned, NULL);
   g_clear_pointer(&session->pinned_name, g_free);
   g_clear_pointer(&session->failure, g_free);
   bool loops = session->playhead.loops;

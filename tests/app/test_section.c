@@ -83,7 +83,7 @@ static void test_ring_invariants(void) {
   size_t whole = 0, partial = 0, free_rings = 0;
   for (size_t k = 0; k < f.count; k++) {
     draw(&f, k);
-    const SbValve *valve = sb_section_valve(f.section);
+    const SbValveOutline *valve = sb_section_valve(f.section);
     for (int i = 0; i < SB_SEAL_COUNT; i++) {
       const SbRingShape *ring = sb_section_ring(f.section, i);
       const SbSealFrame *seal = &f.frames[k].seal[i];
@@ -97,7 +97,7 @@ static void test_ring_invariants(void) {
         g_assert_cmpfloat(x, <=, valve->groove_right[i] + 1e-12);
         g_assert_cmpfloat(ring->y[j], >=, 0);
         g_assert_cmpfloat(ring->y[j] + valve->floor, <=,
-                          sb_valve_bore_at(valve, ring->x[j] + origin) + 1e-9);
+                          sb_valve_outline_bore(valve, ring->x[j] + origin) + 1e-9);
       }
       // Points on the bore: exactly the contact where all of it is on the land.
       if (seal->land_fraction >= 1) {
@@ -134,7 +134,7 @@ static void test_contact_bar(void) {
     draw(&f, k);
     double scale, x0, y0;
     sb_section_transform(f.section, &scale, &x0, &y0);
-    const SbValve *valve = sb_section_valve(f.section);
+    const SbValveOutline *valve = sb_section_valve(f.section);
     double bore = y0 - valve->bore * scale;
     for (size_t i = 0; i < f.list.item_count; i++) {
       const SbDrawItem *item = &f.list.item[i];
@@ -202,7 +202,7 @@ static void test_ring_mesh(void) {
   double scale, x0, y0;
   sb_section_transform(f.section, &scale, &x0, &y0);
   double pixel = 1 / scale;
-  const SbValve *valve = sb_section_valve(f.section);
+  const SbValveOutline *valve = sb_section_valve(f.section);
   size_t whole = 0, partial = 0, other = 0;
   for (size_t k = 0; k < f.count; k++) {
     for (int i = 0; i < SB_SEAL_COUNT; i++) {
@@ -220,7 +220,7 @@ static void test_ring_mesh(void) {
         g_assert_cmpfloat(y, >=, -0.1 * pixel);
         // Nowhere in the housing, on the way over the land's edge and its chamfer neither.
         double place = x + valve->origin[i] - f.frames[k].displacement;
-        g_assert_cmpfloat(y, <=, sb_valve_bore_at(valve, place) - valve->floor + 0.02 * pixel);
+        g_assert_cmpfloat(y, <=, sb_valve_outline_bore(valve, place) - valve->floor + 0.02 * pixel);
         if (seal->land_fraction < 1.0 && place < 0) {
           continue; // the contact on the land is right of the edge
         }

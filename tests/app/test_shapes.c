@@ -167,7 +167,7 @@ static void test_triangles(void) {
     draw(&drawing, &model, strokes[k], &plain);
     double scale, x0, y0;
     sb_section_transform(drawing.section, &scale, &x0, &y0);
-    const SbValve *valve = sb_section_valve(drawing.section);
+    const SbValveOutline *valve = sb_section_valve(drawing.section);
     g_assert_false(valve->adjusted);
     for (size_t i = 0; i < G_N_ELEMENTS(groups); i++) {
       double most_left, left;
@@ -189,12 +189,12 @@ static void test_walls(void) {
   compile(&model, "valves", "piston-profiles.valve");
   Drawing drawing;
   draw(&drawing, &model, 2e-3, &plain);
-  const SbValve *valve = sb_section_valve(drawing.section);
-  g_assert_cmpfloat_with_epsilon(sb_valve_bore_at(valve, 1e-3), 3e-3, 1e-12);
-  g_assert_cmpfloat_with_epsilon(sb_valve_bore_at(valve, -1.2e-3), 3.5e-3, 1e-12);
+  const SbValveOutline *valve = sb_section_valve(drawing.section);
+  g_assert_cmpfloat_with_epsilon(sb_valve_outline_bore(valve, 1e-3), 3e-3, 1e-12);
+  g_assert_cmpfloat_with_epsilon(sb_valve_outline_bore(valve, -1.2e-3), 3.5e-3, 1e-12);
   double on_lead = 3e-3 + (0.4e-3 - 0.025e-3) * tan(0.5);
-  g_assert_cmpfloat_with_epsilon(sb_valve_bore_at(valve, -0.4e-3), on_lead, 1e-7);
-  g_assert_false(isfinite(sb_valve_bore_at(valve, 13e-3)));
+  g_assert_cmpfloat_with_epsilon(sb_valve_outline_bore(valve, -0.4e-3), on_lead, 1e-7);
+  g_assert_false(isfinite(sb_valve_outline_bore(valve, 13e-3)));
   g_assert_cmpfloat_with_epsilon(valve->chamber_floor, 2.05e-3, 1e-9);
   g_assert_cmpfloat_with_epsilon(valve->rod, 1.55e-3, 1e-9);
   finish(&drawing);
@@ -222,9 +222,9 @@ static void test_override(void) {
   g_assert_cmpfloat(model.bore_diameter, ==, 6.1e-3);
   Drawing drawing;
   draw(&drawing, &model, 2e-3, &plain);
-  const SbValve *valve = sb_section_valve(drawing.section);
+  const SbValveOutline *valve = sb_section_valve(drawing.section);
   g_assert_true(valve->adjusted);
-  g_assert_cmpfloat_with_epsilon(sb_valve_bore_at(valve, 1e-3), 3.05e-3, 1e-12);
+  g_assert_cmpfloat_with_epsilon(sb_valve_outline_bore(valve, 1e-3), 3.05e-3, 1e-12);
   double wide = -HUGE_VAL;
   for (size_t i = 0; i < valve->solid_count; i++) {
     for (size_t k = 0; k < valve->solid[i].count; k++) {

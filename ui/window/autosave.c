@@ -80,7 +80,7 @@ static char *find_orphan(void) {
   return NULL;
 }
 
-static void tell(GtkWindow *window, const char *title, const GPtrArray *issues) {
+static void show_message(GtkWindow *window, const char *title, const GPtrArray *issues) {
   GtkWidget *dialog =
       gtk_message_dialog_new(window, GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT,
                              GTK_MESSAGE_ERROR, GTK_BUTTONS_CLOSE, "%s", title);
@@ -126,7 +126,7 @@ static gboolean offer_file(SbAutosave *autosave, const char *file) {
       write_now(autosave);
       g_unlink(file);
     } else {
-      tell(autosave->window, _("The changes could not be restored."), issues);
+      show_message(autosave->window, _("The changes could not be restored."), issues);
     }
     g_ptr_array_unref(issues);
   }

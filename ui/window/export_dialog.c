@@ -195,7 +195,7 @@ static void on_choose(GtkButton *button, Dialog *dialog) {
 // The job
 // ------------------------------------------------------------------------------------------
 
-static void say(Dialog *dialog, const char *text, const char *style) {
+static void set_status(Dialog *dialog, const char *text, const char *style) {
   GtkStyleContext *context = gtk_widget_get_style_context(dialog->result);
   gtk_style_context_remove_class(context, "sb-pass");
   gtk_style_context_remove_class(context, "sb-error");
@@ -232,7 +232,7 @@ static void on_done(void *data) {
   Dialog *dialog = data;
   gboolean good = FALSE;
   stop_polling(dialog);
-  say(dialog, sb_export_job_result(dialog->job, &good), good ? "sb-pass" : "sb-error");
+  set_status(dialog, sb_export_job_result(dialog->job, &good), good ? "sb-pass" : "sb-error");
   if (!good) {
     gtk_style_context_remove_class(gtk_widget_get_style_context(dialog->result), "sb-pass");
   }
@@ -303,14 +303,14 @@ static gboolean start(gpointer data) {
   const char *path = gtk_entry_get_text(GTK_ENTRY(dialog->path));
   SbRunHandle *handle = sb_session_handle(dialog->session);
   if (handle == NULL) {
-    say(dialog, _("The run has not ended yet."), "sb-error");
+    set_status(dialog, _("The run has not ended yet."), "sb-error");
     return G_SOURCE_REMOVE;
   }
   g_autofree char *first = first_file(dialog, path);
   if (!g_path_is_absolute(path) || !sb_export_may_replace(GTK_WINDOW(dialog->dialog), first)) {
     sb_run_handle_unref(handle);
     if (!g_path_is_absolute(path)) {
-      say(dialog, _("The file needs its folder: an absolute path."), "sb-error");
+      set_status(dialog, _("The file needs its folder: an absolute path."), "sb-error");
     }
     return G_SOURCE_REMOVE;
   }
@@ -335,7 +335,7 @@ static gboolean start(gpointer data) {
       .scene = sb_document_to_flat_text(document),
       .stale = sb_session_stale_text(dialog->session),
   };
-  say(dialog, _("Exporting…"), "sb-pass");
+  set_status(dialog, _("Exporting…"), "sb-pass");
   gtk_style_context_remove_class(gtk_widget_get_style_context(dialog->result), "sb-pass");
   set_busy(dialog, TRUE);
   dialog->job = sb_export_job_start(handle, &request, on_done, dialog);

@@ -68,7 +68,7 @@ static void draw(cairo_t *cr, double width, double height, void *data) {
 
 // State to widgets -------------------------------------------------------------------------------
 
-static void say(Studies *studies, const char *text, const char *style) {
+static void set_status(Studies *studies, const char *text, const char *style) {
   GtkStyleContext *context = gtk_widget_get_style_context(studies->message);
   gtk_style_context_remove_class(context, "sb-warn");
   gtk_style_context_remove_class(context, "sb-error");
@@ -104,14 +104,16 @@ static void refresh(Studies *studies) {
 static void judge(Studies *studies) {
   if (studies->job == NULL && studies->study != NULL) {
     if (sb_session_model(studies->session) == NULL) {
-      say(studies, _("The values do not go together now; the study shown is of earlier ones."),
-          "sb-warn");
+      set_status(studies,
+                 _("The values do not go together now; the study shown is of earlier ones."),
+                 "sb-warn");
     } else if (is_stale(studies)) {
-      say(studies, _("Values have changed: the study shown is of earlier ones."), "sb-warn");
+      set_status(studies, _("Values have changed: the study shown is of earlier ones."), "sb-warn");
     } else if (!studies->study->complete) {
-      say(studies, _("A solver did not converge at every point; those are left out."), "sb-error");
+      set_status(studies, _("A solver did not converge at every point; those are left out."),
+                 "sb-error");
     } else {
-      say(studies, "", NULL);
+      set_status(studies, "", NULL);
     }
   }
   refresh(studies);
@@ -158,7 +160,7 @@ static void on_done(void *data) {
     judge(studies);
   } else {
     refresh(studies);
-    say(studies, text, "sb-warn");
+    set_status(studies, text, "sb-warn");
   }
 }
 
@@ -166,7 +168,7 @@ static void compute(Studies *studies) {
   const SbModel *model = sb_session_model(studies->session);
   end_job(studies);
   if (model == NULL) {
-    say(studies, _("The values do not go together: mend them first."), "sb-error");
+    set_status(studies, _("The values do not go together: mend them first."), "sb-error");
     refresh(studies);
     return;
   }
@@ -182,7 +184,7 @@ static void compute(Studies *studies) {
           ? g_strdup_printf(_("Computing: %s. The picture is of the study before."),
                             sb_translation(sb_study_title(studies->asked)))
           : g_strdup_printf(_("Computing: %s"), sb_translation(sb_study_title(studies->asked)));
-  say(studies, text, NULL);
+  set_status(studies, text, NULL);
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(studies->progress), 0);
   studies->job = sb_study_job_start(studies->asked, model, on_done, studies);
   studies->poll = g_timeout_add(50, on_poll, studies);
@@ -228,7 +230,7 @@ static gboolean export_page(gpointer data) {
     return G_SOURCE_REMOVE;
   }
   if (!g_path_is_absolute(path)) {
-    say(studies, _("The file needs its folder: an absolute path."), "sb-error");
+    set_status(studies, _("The file needs its folder: an absolute path."), "sb-error");
     return G_SOURCE_REMOVE;
   }
   if (!sb_export_may_replace(GTK_WINDOW(studies->window), path)) {
@@ -242,10 +244,10 @@ static gboolean export_page(gpointer data) {
   g_autofree char *text = NULL;
   if (sb_study_still(studies->study, &page, path, &error)) {
     text = g_strdup_printf(_("%s is written."), name);
-    say(studies, text, "sb-pass");
+    set_status(studies, text, "sb-pass");
   } else {
     text = g_strdup_printf(_("Nothing was written: %s."), error->message);
-    say(studies, text, "sb-error");
+    set_status(studies, text, "sb-error");
   }
   return G_SOURCE_REMOVE;
 }

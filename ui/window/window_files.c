@@ -22,7 +22,8 @@ static gboolean save(SbWindowFiles *files, gboolean as);
 // Lines shown of a list of problems; more are counted.
 enum { LINES_MAX = 12 };
 
-static void tell(SbWindowFiles *files, GtkMessageType type, const char *title, const char *text) {
+static void show_message(SbWindowFiles *files, GtkMessageType type, const char *title,
+                         const char *text) {
   GtkWidget *dialog =
       gtk_message_dialog_new(files->window, GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT, type,
                              GTK_BUTTONS_CLOSE, "%s", title);
@@ -48,8 +49,8 @@ static char *lines_of(const GPtrArray *issues) {
 static void load(SbWindowFiles *files, GFile *file) {
   g_autofree char *path = g_file_get_path(file);
   if (path == NULL) {
-    tell(files, GTK_MESSAGE_ERROR, _("This file cannot be opened."),
-         _("Only files on this computer can be opened."));
+    show_message(files, GTK_MESSAGE_ERROR, _("This file cannot be opened."),
+                 _("Only files on this computer can be opened."));
     return;
   }
   g_autofree char *name = g_path_get_basename(path);
@@ -62,7 +63,7 @@ static void load(SbWindowFiles *files, GFile *file) {
                                : _("%s cannot be opened."),
                         shown);
     g_autofree char *text = lines_of(issues);
-    tell(files, opened ? GTK_MESSAGE_WARNING : GTK_MESSAGE_ERROR, title, text);
+    show_message(files, opened ? GTK_MESSAGE_WARNING : GTK_MESSAGE_ERROR, title, text);
   }
   if (opened) {
     g_autofree char *uri = g_file_get_uri(file);
@@ -182,7 +183,7 @@ static gboolean save(SbWindowFiles *files, gboolean as) {
   }
   g_autoptr(GError) error = NULL;
   if (!sb_session_save(files->session, name, &error)) {
-    tell(files, GTK_MESSAGE_ERROR, _("The file was not saved."), error->message);
+    show_message(files, GTK_MESSAGE_ERROR, _("The file was not saved."), error->message);
     return FALSE;
   }
   if (name != NULL) {
