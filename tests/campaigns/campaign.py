@@ -16,6 +16,8 @@ import sys
 import tempfile
 import time
 
+# Small matrices many times: threads of the library would wait for each other.
+os.environ['OPENBLAS_NUM_THREADS'] = '1'
 SOURCE = os.path.abspath(os.path.join(os.path.dirname(__file__), '..', '..'))
 
 
