@@ -1,284 +1,35 @@
 // Profile of a coupled film solution, dense enough that Reynolds' equation, the load and the
 // deflection can be recomputed from its points alone.
 //
-// The points follow a density with a closed-form integral: geometric in the distance from the inlet
-// layer and from the outlet layer, even in the angle inside the contact. A central difference on a
-// geometric grid of ratio 1 + c errs by about 3 c^2 in the far inlet, where p' falls like |x|^-4.
+// Points lie evenly in the element's own coordinate, the same number on every element, as elements
+// follow the layers; of an infinite one they are geometric in s, the same number over every factor
+// of GROWTH. A central difference on a geometric grid of ratio 1 + c errs by about 3 c^2 in the far
+// inlet, where p' falls like |x|^-4.
 //
-// Pressure: nodal polynomials satisfy Reynolds' equation at the collocation points only, and their
-// slopes jump at the joints of elements. Collocation at Gauss points is superconvergent at the
-// joints (de Boor and Swartz 1973), and the gap has a degree to spare; so the pressure is the
-// integral of the slope that Reynolds' equation gives for the gap interpolated through collocation
-// points and joints. Deep inside a thin film's contact, where that slope is the small difference of
-// gap and flux film, it is the other way round: the polynomial is kept, and its slope gives the
-// film.
+// Pressure of smooth rows: nodal polynomials satisfy Reynolds' equation at the collocation points
+// only, and their slopes jump at the joints of elements. Collocation at Gauss points is
+// superconvergent at the joints (de Boor and Swartz 1973), and the gap has a degree to spare; so
+// the polynomial takes the integral of what its slope lacks of Reynolds' for the gap interpolated
+// through collocation points and joints. Deep inside a thin film's contact, where that slope is the
+// small difference of gap and flux film, it is the other way round: the polynomial is kept, and its
+// slope gives the film.
 #include "engine/film/ehl.h"
 
-#include "engine/numeric/legendre.h"
-
-#include <assert.h>
 #include <math.h>
 
-enum { MODES = 22 }; // of the slope on an element; the fine rule holds 24 points
-
-// How points are spread: flow frame, X of the mesh.
+// What a profile is made from.
 typedef struct {
-  double inlet, inlet_unit;   // place and length of the inlet layer
-  double outlet, outlet_unit; // and of the outlet layer
-  double fineness;            // points per unit of the layers' geometric measure, times the ratio
-  double angle;               // points per radian inside the contact
-} Spread;
+  SbFilmSolver *solver;
+  const SbEhlMesh *mesh;
+  const SbEhlState *state;
+  const SbEhlCase *c;
+} Source;
 
-// Ratios of the geometric grids outside and inside of a layer, and its length without growth.
-static const double RATIO_OUTSIDE = 0.0058;
-static const double RATIO_INSIDE = 0.0125;
-static const double CORE_INLET = 1.2;
-static const double CORE_OUTLET = 0.4;
-// Just outside, where the film is a few times the flux film, the flux is asked relative to the flux
-// film: EXTRA more points per core length, fading over NEARBY core lengths.
-static const double EXTRA = 20.0;
-static const double NEARBY = 6.0;
-
-// Points of a layer's grid up to `distance` from its middle, outwards positive.
-static double layer_count(double distance, double core) {
-  double u = distance / core;
-  return u > 0.0 ? asinh(u) / RATIO_OUTSIDE + EXTRA * NEARBY * atan(u / NEARBY)
-                 : asinh(u) / RATIO_INSIDE;
-}
-
-static double layer_density(double distance, double core) {
-  double u = distance / core;
-  double geometric = 1.0 / (core * hypot(u, 1.0));
-  return u > 0.0 ? geometric / RATIO_OUTSIDE + EXTRA / core / (1.0 + u * u / (NEARBY * NEARBY))
-                 : geometric / RATIO_INSIDE;
-}
-
-// Number of points left of X, up to a constant, and its derivative.
-static double count_to(const Spread *s, double X) {
-  double in = layer_count(s->inlet - X, CORE_INLET * s->inlet_unit);
-  double out = layer_count(X - s->outlet, CORE_OUTLET * s->outlet_unit);
-  double inside = acos(fmin(fmax(-X, -1.0), 1.0));
-  return s->fineness * (out - in) + s->angle * inside;
-}
-
-static double density(const Spread *s, double X) {
-  double in = layer_density(s->inlet - X, CORE_INLET * s->inlet_unit);
-  double out = layer_density(X - s->outlet, CORE_OUTLET * s->outlet_unit);
-  double inside = fabs(X) < 1.0 ? 1.0 / sqrt((1.0 - X) * (1.0 + X)) : 0.0;
-  return s->fineness * (in + out) + s->angle * inside;
-}
-
-// Spread of at most `limit` points from `begin` to `end`.
-static Spread spread_points(const SbEhlMesh *mesh, const SbEhlLayers *layers, double begin,
-                            double end, double limit) {
-  static const double INSIDE_MOST = 2600.0;
-  const SbEhlElement *last = &mesh->element[mesh->count - 1];
-  double edge = last->map == SB_EHL_OUTLET ? mesh->element[mesh->outlet].x0 : last->x1;
-  double width = sb_ehl_layers_width(layers);
-  Spread s = {
-      .inlet = -1.0,
-      .inlet_unit = width,
-      .outlet = edge,
-      .outlet_unit = sb_ehl_layers_outlet_width(layers),
-      .fineness = 1.0,
-  };
-  if (width > 0.86) {
-    // Thick films live on the rigid wedge's length.
-    s.inlet_unit = s.outlet_unit = 0.4 * sqrt(1.44 + 0.52 * layers->lambda);
-    s.inlet = edge - 3.0 * s.inlet_unit;
-  }
-  double layer = count_to(&s, end) - count_to(&s, begin);
-  s.fineness = fmin(1.0, 0.85 * limit / layer);
-  s.angle = fmin(INSIDE_MOST, limit - s.fineness * layer) / M_PI;
-  return s;
-}
-
-// Gap of an element at r. Towards infinity a thin film's gap grows by many decades: there its
-// excess over the dry gap is interpolated, which the caller has put into `excess`.
-static double gap_at(SbFilmSolver *solver, int which, const SbEhlCase *problem, int element,
-                     const double *excess, double r) {
-  const SbEhlMesh *mesh = &solver->mesh[which];
-  const SbEhlElement *e = &mesh->element[element];
-  if (!sb_ehl_infinite(e)) {
-    return sb_ehl_gap(mesh, &solver->tables, element, solver->state[which].gap, r);
-  }
-  return sb_ehl_gap(mesh, &solver->tables, element, excess, r) +
-         sb_ehl_layers_dry_gap(&problem->layers, sb_ehl_position(e, r));
-}
-
-// A piece of the profile: an element, or part of an infinite one, over which s grows by a factor
-// of four. Its pressure as Legendre modes in its own coordinate t: of dp/dt by Reynolds' equation,
-// or of the nodal polynomial itself where the film is flat.
+// A point in the scaled problem.
 typedef struct {
-  int element;
-  double middle, half; // r = middle + half t
-  bool flat;
-  double mode[MODES + 1];
-  double begin, end; // pressure at t = -1 and 1, so that the whole is continuous
-} Piece;
-
-enum { PIECES_MAX = SB_EHL_ELEMENTS_MAX + 40 };
-
-// Slope dp/dr by Reynolds' equation.
-static double reynolds_slope(SbFilmSolver *solver, int which, const SbEhlCase *problem, int element,
-                             const double *excess, double r) {
-  const SbEhlMesh *mesh = &solver->mesh[which];
-  const SbEhlState *state = &solver->state[which];
-  const SbEhlElement *e = &mesh->element[element];
-  double film = gap_at(solver, which, problem, element, excess, r);
-  double pressure = sb_ehl_pressure(NULL, &solver->tables, e, state->nodal, r);
-  double m, by_film, by_pressure;
-  sb_film_mobility(&m, &by_film, &by_pressure, &problem->fluid, film, pressure);
-  return problem->layers.lambda * (film - state->flux) / (film * film * film * m) *
-         sb_ehl_stretch(e, r);
-}
-
-static void fill_piece(Piece *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
-                       const double *excess) {
-  const SbEhlMesh *mesh = &solver->mesh[which];
-  const SbEhlElement *e = &mesh->element[out->element];
-  for (int q = 0; q < SB_EHL_QUAD; q++) {
-    double r = out->middle + out->half * solver->tables.fine[q];
-    double value =
-        out->flat ? sb_ehl_pressure(NULL, &solver->tables, e, solver->state[which].nodal, r)
-                  : out->half * reynolds_slope(solver, which, problem, out->element, excess, r);
-    value *= solver->tables.fine_weight[q];
-    for (int k = 0; k <= MODES; k++) {
-      out->mode[k] += (k + 0.5) * value * solver->tables.fine_legendre[q][k];
-    }
-  }
-}
-
-// Cuts the mesh between X = begin and end into pieces, left to right; their number.
-static int cut_pieces(Piece *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
-                      const double *excess, double begin, double end) {
-  // Films this flat keep their polynomial: see the head of the file.
-  static const double FLAT = 0.03;
-  static const double GROWTH = 4.0;
-  const SbEhlMesh *mesh = &solver->mesh[which];
-  const SbEhlState *state = &solver->state[which];
-  int count = 0;
-  for (int i = 0; i < mesh->count; i++) {
-    const SbEhlElement *e = &mesh->element[i];
-    if (sb_ehl_infinite(e)) {
-      // s is 1 at the joint, r = 2 s - 1 in the inlet and 1 - 2 s in the outlet.
-      bool inlet = e->map == SB_EHL_INLET;
-      double far = sb_ehl_coordinate(e, inlet ? begin : end);
-      double s = sb_ehl_inverse(e, far);
-      int pieces = (int)fmax(1.0, ceil(-log(s) / log(GROWTH)));
-      for (int k = 0; k < pieces && count < PIECES_MAX; k++) {
-        int from = inlet ? k : pieces - k; // 0 is the far end
-        double s0 = pow(s, (double)(pieces - from) / pieces);
-        double s1 = pow(s, (double)(pieces - from + (inlet ? -1 : 1)) / pieces);
-        double r0 = inlet ? 2.0 * s0 - 1.0 : 1.0 - 2.0 * s0;
-        double r1 = inlet ? 2.0 * s1 - 1.0 : 1.0 - 2.0 * s1;
-        out[count++] = (Piece){i, 0.5 * (r0 + r1), 0.5 * (r1 - r0), false, {0.0}, 0.0, 0.0};
-      }
-      continue;
-    }
-    bool flat = true;
-    for (int k = 0; k < e->points; k++) {
-      flat = flat && fabs(state->gap[e->first_row + k] / state->flux - 1.0) < FLAT;
-    }
-    out[count++] = (Piece){i, 0.0, 1.0, flat, {0.0}, 0.0, 0.0};
-  }
-  for (int i = 0; i < count; i++) {
-    fill_piece(&out[i], solver, which, problem, excess);
-  }
-  return count;
-}
-
-// Rise of the pressure over a piece by its own modes.
-static double rise_of(const Piece *piece) {
-  double sum = piece->flat ? 0.0 : 2.0 * piece->mode[0];
-  for (int k = 1; piece->flat && k <= MODES; k += 2) {
-    sum += 2.0 * piece->mode[k];
-  }
-  return sum;
-}
-
-// Pressure at t and, of a flat film, its slope dp/dt; the integral of P_k from -1 is
-// (P_{k+1} - P_{k-1})(t) / (2k + 1). What the ends hold beyond the modes is spread evenly.
-static double pressure_at(double *slope, const Piece *piece, double t) {
-  double before = 1.0, now = t;               // P_{k-1}, P_k
-  double slope_before = 0.0, slope_now = 1.0; // and their derivatives
-  double tilt = 0.5 * (piece->end - piece->begin - rise_of(piece));
-  double sum = piece->begin + tilt * (t + 1.0);
-  sum += piece->flat ? 0.0 : piece->mode[0] * (t + 1.0);
-  *slope = tilt;
-  for (int k = 1; k <= MODES; k++) {
-    double next = ((2 * k + 1) * t * now - k * before) / (k + 1);
-    if (piece->flat) {
-      sum += piece->mode[k] * (now - (k % 2 == 0 ? 1.0 : -1.0));
-      *slope += piece->mode[k] * slope_now;
-    } else {
-      sum += piece->mode[k] * (next - before) / (2 * k + 1);
-    }
-    double slope_next = slope_before + (2 * k + 1) * now;
-    slope_before = slope_now;
-    slope_now = slope_next;
-    before = now;
-    now = next;
-  }
-  return sum;
-}
-
-// Pressure gained between infinity and an end of the profile, where p' falls like |x|^-4.
-static double gain_beyond(SbFilmSolver *solver, int which, const SbEhlCase *problem,
-                          const Piece *piece, const double *excess, double t) {
-  const SbEhlElement *e = &solver->mesh[which].element[piece->element];
-  double r = piece->middle + piece->half * t;
-  return reynolds_slope(solver, which, problem, piece->element, excess, r) / sb_ehl_stretch(e, r) *
-         fabs(sb_ehl_position(e, r)) / 3.0;
-}
-
-// Strings the pieces' pressures together, from both ends of every full film to its thinnest piece:
-// there a difference in pressure changes the flux least.
-static void join(Piece *piece, int count, SbFilmSolver *solver, int which, const SbEhlCase *problem,
-                 const double *excess) {
-  const SbEhlMesh *mesh = &solver->mesh[which];
-  const SbEhlState *state = &solver->state[which];
-  for (int first = 0, last; first < count; first = last + 1) {
-    last = first;
-    while (last + 1 < count && (piece[last + 1].element == piece[last].element ||
-                                !mesh->element[piece[last + 1].element].apart)) {
-      last++;
-    }
-    int thinnest = first;
-    double least = INFINITY;
-    for (int i = first; i <= last; i++) {
-      const SbEhlElement *e = &mesh->element[piece[i].element];
-      double thickest = 0.0;
-      for (int k = 0; k < e->points; k++) {
-        thickest = fmax(thickest, state->gap[e->first_row + k]);
-      }
-      if (thickest < least) {
-        least = thickest;
-        thinnest = i;
-      }
-    }
-    const SbEhlElement *left = &mesh->element[piece[first].element];
-    const SbEhlElement *right = &mesh->element[piece[last].element];
-    double from = sb_ehl_pressure(NULL, &solver->tables, left, state->nodal, -1.0);
-    if (left->map == SB_EHL_INLET) {
-      from += gain_beyond(solver, which, problem, &piece[first], excess, -1.0);
-    }
-    for (int i = first; i <= thinnest; i++) {
-      piece[i].begin = from;
-      piece[i].end = from += rise_of(&piece[i]);
-    }
-    from = sb_ehl_pressure(NULL, &solver->tables, right, state->nodal, 1.0);
-    if (right->map == SB_EHL_OUTLET) {
-      from -= gain_beyond(solver, which, problem, &piece[last], excess, 1.0);
-    }
-    for (int i = last; i >= thinnest; i--) {
-      piece[i].end = from;
-      if (i > thinnest) {
-        piece[i].begin = from -= rise_of(&piece[i]);
-      }
-    }
-  }
-}
+  double X, pressure, film, asperity;
+  double lack; // of the pressure's slope against Reynolds'
+} Point;
 
 // How far a liquid end at `ambient` is followed. Beyond X the pressure gains (4/3) lambda / X^3:
 // the load left out shall be below 1e-6 of the whole and, in a profile to be recomputed from, the
@@ -292,107 +43,137 @@ static double reach_of(double lambda, double ambient, bool drawn) {
   return fmax(fmax(least, load), drawn ? 0.0 : fmin(friction, shown));
 }
 
-// Rough rows: every element evenly, by its own polynomials.
-static void fill_rough(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *c,
-                       const SbFilmScale *scale) {
-  enum { POINTS = 5200 }; // about
-  const SbEhlMesh *mesh = &solver->mesh[which];
-  const SbEhlState *state = &solver->state[which];
-  int per = POINTS / mesh->count;
-  const SbEhlTable *table = sb_ehl_table(&solver->tables, mesh->element[0].degree);
-  for (int k = 0; k <= per; k++) {
-    double basis[SB_EHL_DEGREE_MAX + 1];
-    double r = -1 + 2.0 * k / per;
-    sb_barycentric_basis(basis, r, table->node, table->bary, table->degree + 1);
-    for (int i = 0; i < (k > 0 ? mesh->count : 1); i++) {
-      const SbEhlElement *e = &mesh->element[i];
-      size_t n = (size_t)(i * per + k);
-      double t = 0, q = 0;
-      for (int j = 0; j <= table->degree; j++) {
-        t += basis[j] * state->t[e->first_dof + j];
-        q += basis[j] * state->nodal[e->first_dof + j];
-      }
-      SbEhlRoughPoint at;
-      sb_ehl_rough_point(&at, c, t);
-      sb_film_put(out, n, (sb_ehl_position(e, r) + state->shift) * scale->half_width,
-                  (q + c->fluid.rupture) * scale->pressure, at.h * scale->film);
-      out->asperity_pressure[n] = at.asperity * scale->pressure;
-    }
+static const double GROWTH = 2.0;
+
+// s where an infinite element's points end, and how many parts of equal growth that makes; one of a
+// finite element.
+static int parts_of(double *s, const SbEhlElement *e, const SbEhlCase *c, bool drawn) {
+  if (!sb_ehl_infinite(e)) {
+    return 1;
+  }
+  bool inlet = e->map == SB_EHL_INLET;
+  double reach =
+      1.0 + reach_of(c->layers.lambda, inlet ? c->layers.inlet : c->layers.outlet, drawn);
+  *s = sb_ehl_inverse(e, sb_ehl_coordinate(e, inlet ? -reach : reach));
+  return (int)fmax(1.0, ceil(-log(*s) / log(GROWTH)));
+}
+
+// Films this flat keep their polynomial: see the head of the file.
+static bool flat_element(const Source *from, const SbEhlElement *e) {
+  static const double FLAT = 0.03;
+  bool flat = !sb_ehl_infinite(e);
+  for (int k = 0; k < e->points; k++) {
+    flat = flat && fabs(from->state->gap[e->first_row + k] / from->state->flux - 1.0) < FLAT;
+  }
+  return flat;
+}
+
+// Towards infinity a thin film's gap grows by many decades: there its excess over the dry gap is
+// interpolated, which stands in solver->gaps.
+static Point smooth_point(const Source *from, int element, bool flat, double r) {
+  const SbEhlElement *e = &from->mesh->element[element];
+  const SbEhlLayers *l = &from->c->layers;
+  Point p = {.X = sb_ehl_position(e, r)};
+  double slope;
+  p.pressure = sb_ehl_pressure(&slope, &from->solver->tables, e, from->state->nodal, r);
+  if (flat) {
+    p.film = sb_ehl_flat_film(from->c, from->state->flux, from->state->flux, p.pressure, slope);
+    return p;
+  }
+  bool infinite = sb_ehl_infinite(e);
+  p.film = sb_ehl_gap(from->mesh, &from->solver->tables, element,
+                      infinite ? from->solver->gaps : from->state->gap, r) +
+           (infinite ? sb_ehl_layers_dry_gap(l, p.X) : 0.0);
+  double m, by_film, by_pressure;
+  sb_film_mobility(&m, &by_film, &by_pressure, &from->c->fluid, p.film, p.pressure);
+  p.lack = l->lambda * (p.film - from->state->flux) / (p.film * p.film * p.film * m) - slope;
+  return p;
+}
+
+static Point rough_point(const Source *from, int element, double r) {
+  const SbEhlElement *e = &from->mesh->element[element];
+  const SbEhlTable *table = sb_ehl_table(&from->solver->tables, e->degree);
+  SbEhlRoughPoint at;
+  sb_ehl_rough_point(&at, from->c, sb_ehl_interpolate(table, &from->state->t[e->first_dof], r));
+  return (Point){.X = sb_ehl_position(e, r),
+                 .pressure = sb_ehl_interpolate(table, &from->state->nodal[e->first_dof], r),
+                 .film = at.h,
+                 .asperity = at.asperity};
+}
+
+// Spreads what the pressure of a full film, elements `first` to `last`, has too much at its end
+// over its thinnest element, whose points begin at `begin`: there a difference in pressure changes
+// the flux least.
+static void join(SbFilm *out, const size_t *begin, int thinnest, size_t end, double excess) {
+  size_t from = begin[thinnest], to = begin[thinnest + 1];
+  for (size_t n = from; n < end; n++) {
+    out->pressure[n] -= excess * fmin((double)(n - from + 1) / (double)(to - from), 1.0);
   }
 }
 
-static void fill_smooth(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
-                        const SbFilmScale *scale, const SbFilmProblem *wanted) {
-  enum { LEAST = 4 }; // intervals of an element
-  const SbEhlMesh *mesh = &solver->mesh[which];
-  const SbEhlState *state = &solver->state[which];
-  const SbEhlElement *last = &mesh->element[mesh->count - 1];
-  bool drawn = wanted->profile_points > 0;
-  double lambda = problem->layers.lambda;
-  double begin = mesh->element[0].map == SB_EHL_INLET
-                     ? -1.0 - reach_of(lambda, problem->layers.inlet, drawn)
-                     : mesh->element[0].x0;
-  double end =
-      last->map == SB_EHL_OUTLET ? 1.0 + reach_of(lambda, problem->layers.outlet, drawn) : last->x1;
-  double room = SB_FILM_POINTS - (LEAST + 2) * 80;
-  double limit = wanted->profile_points > 0 ? (double)wanted->profile_points : room;
-  Spread spread = spread_points(mesh, &problem->layers, begin, end, fmin(limit, room));
-
-  Piece *pieces = (void *)solver->matrix; // free between solves
-  static_assert(PIECES_MAX * sizeof *pieces < SB_EHL_DOFS_MAX * SB_EHL_DOFS_MAX * sizeof(double),
-                "the matrix holds the pieces");
-  double *excess = solver->gaps;
-  for (int i = 0; i < mesh->targets; i++) {
-    excess[i] = state->gap[i] - sb_ehl_layers_dry_gap(&problem->layers, mesh->x[i]);
-  }
-  int count = cut_pieces(pieces, solver, which, problem, excess, begin, end);
-  join(pieces, count, solver, which, problem, excess);
-
-  size_t n = 0;
-  for (int i = 0; i < count; i++) {
-    const Piece *piece = &pieces[i];
-    const SbEhlElement *e = &mesh->element[piece->element];
-    double x0 = sb_ehl_position(e, piece->middle - piece->half);
-    double x1 = sb_ehl_position(e, piece->middle + piece->half);
-    double c0 = count_to(&spread, x0);
-    double c1 = count_to(&spread, x1);
-    size_t intervals = (size_t)fmax(ceil(c1 - c0), LEAST);
-    double X = x0;
-    for (size_t k = 0; k <= intervals; k++) {
-      // Next place by two steps of Newton's method from the last one.
-      double target = c0 + (c1 - c0) * (double)k / (double)intervals;
-      double next = X;
-      for (int pass = 0; pass < 2 && k > 0; pass++) {
-        next += (target - count_to(&spread, next)) / density(&spread, next);
-        next = fmin(fmax(next, X + 0.1 / density(&spread, X)), x1);
-      }
-      X = k == 0 ? x0 : k == intervals ? x1 : next;
-      if (k == 0 && i > 0 && (piece[-1].element == piece->element || !e->apart)) {
-        continue; // the joint has been written by the piece before
-      }
-      double t = (sb_ehl_coordinate(e, X) - piece->middle) / piece->half;
-      t = k == 0 ? -1.0 : k == intervals ? 1.0 : fmin(fmax(t, -1.0), 1.0);
-      double r = piece->middle + piece->half * t;
-      double slope;
-      double P = pressure_at(&slope, piece, t);
-      double film = piece->flat ? sb_ehl_flat_film(problem, state->flux, state->flux, P,
-                                                   slope / fmax(sb_ehl_stretch(e, r), 1e-300))
-                                : gap_at(solver, which, problem, piece->element, excess, r);
-      sb_film_put(out, n++, (X + state->shift) * scale->half_width,
-                  (P + problem->fluid.rupture) * scale->pressure, film * scale->film);
-    }
-  }
-}
-
-void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
+void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *c,
                     const SbFilmScale *scale, const SbFilmProblem *wanted) {
   if (wanted->profile == NULL) {
     return;
   }
-  if (problem->rough.rows) {
-    fill_rough(out, solver, which, problem, scale);
-  } else {
-    fill_smooth(out, solver, which, problem, scale, wanted);
+  const Source from = {solver, &solver->mesh[which], &solver->state[which], c};
+  const SbEhlMesh *mesh = from.mesh;
+  const SbEhlState *state = from.state;
+  bool drawn = wanted->profile_points > 0;
+  for (int i = 0; i < mesh->targets && !c->rough.rows; i++) {
+    solver->gaps[i] = state->gap[i] - sb_ehl_layers_dry_gap(&c->layers, mesh->x[i]);
+  }
+  int parts = 0;
+  for (int i = 0; i < mesh->count; i++) {
+    double s;
+    parts += parts_of(&s, &mesh->element[i], c, drawn);
+  }
+  size_t room = SB_FILM_POINTS - 1 - SB_EHL_ELEMENTS_MAX;
+  size_t most = drawn && wanted->profile_points < room ? wanted->profile_points : room;
+  size_t per = most / (size_t)parts / 2 * 2; // even, for who integrates by parabolas
+  per = per < 4 ? 4 : per;
+
+  size_t begin[SB_EHL_ELEMENTS_MAX + 1]; // first point of an element
+  int thinnest = 0;
+  double least = INFINITY; // film in its middle
+  double correction = 0.0;
+  Point last = {0};
+  for (int i = 0; i < mesh->count; i++) {
+    const SbEhlElement *e = &mesh->element[i];
+    double s = 1.0;
+    size_t intervals = per * (size_t)parts_of(&s, e, c, drawn);
+    bool inlet = e->map == SB_EHL_INLET, outlet = e->map == SB_EHL_OUTLET;
+    bool flat = !c->rough.rows && flat_element(&from, e);
+    bool fresh = i == 0 || e->apart;
+    begin[i] = out->points;
+    if (fresh) {
+      least = INFINITY;
+    }
+    double middle = c->rough.rows ? INFINITY : state->gap[e->first_row + e->points / 2];
+    if (middle < least) {
+      least = middle;
+      thinnest = i;
+    }
+    for (size_t k = 0; k <= intervals; k++) {
+      double share = (double)k / (double)intervals;
+      double r = inlet    ? 2.0 * pow(s, 1.0 - share) - 1.0
+                 : outlet ? 1.0 - 2.0 * pow(s, share)
+                          : -1.0 + 2.0 * share;
+      Point p = c->rough.rows ? rough_point(&from, i, r) : smooth_point(&from, i, flat, r);
+      correction += k > 0 ? 0.5 * (p.lack + last.lack) * (p.X - last.X) : 0.0;
+      correction = k == 0 && fresh ? 0.0 : correction;
+      last = p;
+      if (k > 0 || fresh) { // a joint has been written by the element before
+        sb_film_put(out, out->points, (p.X + state->shift) * scale->half_width,
+                    (p.pressure + correction + c->fluid.rupture) * scale->pressure,
+                    p.film * scale->film);
+        out->asperity_pressure[out->points - 1] = p.asperity * scale->pressure;
+      }
+    }
+    begin[i + 1] = out->points;
+    if (i + 1 == mesh->count || mesh->element[i + 1].apart) {
+      join(out, begin, thinnest, out->points, correction * scale->pressure);
+    }
   }
   if (wanted->speed < 0.0) {
     sb_film_mirror(out);
