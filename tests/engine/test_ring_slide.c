@@ -218,7 +218,7 @@ static void compliance(SbRing *ring, const SbRingPatch *patch, int n, double *c)
       c[i * n + j] = -fem->du[2 * other] * ring->length / ring->force;
     }
   }
-  sb_ring_settle(ring);
+  sb_ring_contact_settle(ring->contact);
 }
 
 // The condensed compliance: symmetric and positive, and it foretells the loads of a small step of

@@ -91,52 +91,6 @@ static SbStatus check_load(const SbRingBody *body, const SbRingLoad *load, SbRep
   return SB_OK;
 }
 
-SbRingSetting sb_ring_setting(const SbRing *ring, const SbRingLoad *load) {
-  double l = ring->length, p = ring->stress;
-  SbRingSetting s = {
-      .bore = load->bore_radius / l,
-      .floor = load->floor_radius / l,
-      .wall_left = load->wall_left / l,
-      .wall_right = load->wall_right / l,
-      .land_left = load->land_left / l,
-      .land_right = load->land_right / l,
-      .chamfer_slope = tan(load->chamfer_angle),
-      .edge_length = load->edge_length / l,
-      .pressure_left = load->pressure_left / p,
-      .pressure_right = load->pressure_right / p,
-      .slide = load->bore_position / l,
-      .traction = load->bore_traction / p,
-      .use_traction = load->use_bore_traction,
-  };
-  s.friction[SB_RING_BORE] = load->friction_bore;
-  s.friction[SB_RING_FLOOR] = load->friction_floor;
-  s.friction[SB_RING_WALL_LEFT] = s.friction[SB_RING_WALL_RIGHT] = load->friction_wall;
-  return s;
-}
-
-static SbRingLoad load_of(const SbRing *ring, const SbRingSetting *s) {
-  double l = ring->length, p = ring->stress;
-  SbRingLoad load = {
-      .floor_radius = s->floor * l,
-      .bore_radius = s->bore * l,
-      .wall_left = s->wall_left * l,
-      .wall_right = s->wall_right * l,
-      .land_left = s->land_left * l,
-      .land_right = s->land_right * l,
-      .chamfer_angle = atan(s->chamfer_slope),
-      .edge_length = s->edge_length * l,
-      .pressure_left = s->pressure_left * p,
-      .pressure_right = s->pressure_right * p,
-      .bore_position = s->slide * l,
-      .friction_bore = s->friction[SB_RING_BORE],
-      .friction_floor = s->friction[SB_RING_FLOOR],
-      .friction_wall = s->friction[SB_RING_WALL_RIGHT],
-      .bore_traction = s->traction * p,
-      .use_bore_traction = s->use_traction,
-  };
-  return load;
-}
-
 // Half the material angle that a squeeze brings into contact (width/d ~ 1.1 sqrt(squeeze), measured
 // on plane-strain solutions from 2 to 40 %); only for meshing.
 static double contact_angle(double squeeze) {
@@ -144,15 +98,14 @@ static double contact_angle(double squeeze) {
 }
 
 // First mesh: fine where bore, floor and, under pressure, the low-pressure flank will touch.
-static void first_plan(SbRingMeshPlan *plan, const SbRing *ring, const SbRingSetting *s,
-                       double size) {
+static void first_plan(SbRingMeshPlan *plan, const SbRing *ring, const SbRingLoad *s, double size) {
   memset(plan, 0, sizeof *plan);
   plan->centre = ring->centre;
   plan->radius = 0.5;
   plan->size_max = 0.16;
   plan->growth = 0.5;
   plan->layers = (int)fmax(4.0, floor(0.5 + 2.2 * log(0.5 / size) / log(2.0) * 0.8));
-  double angle = contact_angle(1.0 - (s->bore - s->floor));
+  double angle = contact_angle(1.0 - (s->bore_radius - s->floor_radius));
   plan->zone[plan->zone_count++] = (SbRingZone){-angle, angle, size};
   plan->zone[plan->zone_count++] = (SbRingZone){M_PI - angle, M_PI + angle, size};
   if (s->pressure_left > s->pressure_right && s->wall_right < INFINITY) {
@@ -191,19 +144,15 @@ static void drop(SbRing *ring) {
   ring->mesh = NULL;
 }
 
-static SbStatus assemble_ring(SbRing *ring, const SbRingSetting *target, SbReport *report) {
-  SbRingSetting smooth = *target;
-  smooth.use_traction = false;
-  memset(smooth.friction, 0, sizeof smooth.friction);
+static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *target, SbReport *report) {
+  SbRingLoad smooth = *target;
+  smooth.use_bore_traction = false;
+  smooth.friction_bore = smooth.friction_floor = smooth.friction_wall = 0.0;
   SbStatus status = sb_ring_fit_and_press(ring, &smooth, report);
   if (status == SB_OK && ring->options.fit_mesh) {
     status = sb_ring_refit(ring, ring->options.element_size, report);
   }
-  bool rubs = target->use_traction;
-  for (int k = 0; k < SB_RING_SURFACES; k++) {
-    rubs = rubs || target->friction[k] > 0.0;
-  }
-  if (status == SB_OK && rubs) {
+  if (status == SB_OK && sb_ring_rubs(target)) {
     SbRingNewton newton = sb_ring_newton_options(ring);
     status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
   }
@@ -238,7 +187,7 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
   ring->force = ring->stress * d * (body->plane_strain ? 1.0 : d);
   ring->centre =
       body->plane_strain ? load->floor_radius / d + 0.5 : 0.5 * (body->inner_diameter + d) / d;
-  SbRingSetting target = sb_ring_setting(ring, load);
+  SbRingLoad target = sb_ring_load_in(load, ring->length, ring->stress);
   // A ring that barely resists rolling can stumble over single nodes of a mesh: try finer ones.
   static const double FINER[] = {1.0, 0.8, 0.6};
   status = SB_ERROR_NOT_CONVERGED;
@@ -272,21 +221,23 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   if (status != SB_OK) {
     return status;
   }
-  SbRingSetting target = sb_ring_setting(ring, load);
+  SbRingLoad target = sb_ring_load_in(load, ring->length, ring->stress);
   SbRingNewton newton = sb_ring_newton_options(ring);
-  const SbRingSetting *now = &ring->contact->now;
+  const SbRingLoad *now = &ring->contact->is.now;
   double before = now->pressure_left - now->pressure_right;
   double after = target.pressure_left - target.pressure_right;
   if (before * after < 0.0) {
     // The pressure changes sides: by way of equal pressures, where the ring may cross the groove.
-    SbRingSetting even = *now;
+    SbRingLoad even = *now;
     even.pressure_left = even.pressure_right = fmin(target.pressure_left, target.pressure_right);
     status = sb_ring_advance(ring->contact, &even, &newton, &ring->count, report);
   }
   if (status == SB_OK) {
     status = sb_ring_press(ring, &target, report);
   }
-  ring->load = status == SB_OK ? *load : load_of(ring, &ring->contact->now);
+  ring->load = status == SB_OK ? *load
+                               : sb_ring_load_in(&ring->contact->is.now, 1.0 / ring->length,
+                                                 1.0 / ring->stress);
   return status;
 }
 
@@ -332,8 +283,9 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
   // Same setting and, by material angle, the same held nodes.
   sb_ring_fem_transfer(fresh.fem, ring->fem);
   SbRingContact *contact = fresh.contact;
-  contact->now = ring->contact->now;
-  contact->turn = ring->contact->turn;
+  contact->is.now = ring->contact->is.now;
+  contact->is.turn = ring->contact->is.turn;
+  sb_ring_fem_save(fresh.fem, SB_RING_START);
   for (int i = 0; i < contact->count; i++) {
     for (int s = 0; s < SB_RING_SURFACES; s++) {
       bool held = false;
@@ -341,14 +293,14 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
         double angle = fresh.mesh->angle[i] + 2.0 * M_PI * turn;
         held = held || (angle > patch[s].angle[0] - 1e-9 && angle < patch[s].angle[1] + 1e-9);
       }
-      contact->touch[SB_RING_SURFACES * i + s].held = held;
+      sb_ring_touch(contact, i, s)->held = held;
     }
   }
   SbRingNewton newton = sb_ring_newton_options(ring);
   status = sb_ring_newton(contact, &newton, &fresh.count, report);
   if (status == SB_ERROR_NOT_CONVERGED) {
     // Too far from the transferred state: walk the whole way again on the new mesh.
-    SbRingSetting setting = ring->contact->now;
+    SbRingLoad setting = ring->contact->is.now;
     status = sb_ring_fit_and_press(&fresh, &setting, report);
   }
   if (status != SB_OK) {

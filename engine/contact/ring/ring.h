@@ -63,7 +63,7 @@ typedef struct {
 
 typedef enum {
   SB_RING_SLIDES,     // holds its place: rests, or the bore slides over it
-  SB_RING_ROLLS,      // the last step was refused: its section would roll on (ring_advance.c)
+  SB_RING_ROLLS,      // the last step was refused: its section would roll on (ring_newton.c)
   SB_RING_NO_CONTACT, // does not touch the bore
 } SbRingState;
 

@@ -24,45 +24,29 @@
 // per axial length is kept, not the pressure, so that forces are the unknowns throughout.
 static void add_follower(SbRing *ring) {
   SbRingFem *fem = ring->fem;
-  int loop = ring->contact->count;
-  double turn = fem->axisymmetric ? 2.0 * M_PI : 1.0;
+  const SbRingContact *contact = ring->contact;
   SbRingPatch patch;
   if (!sb_ring_patch(ring, SB_RING_BORE, &patch)) {
     return;
   }
-  // Whole sides within the contact; at its ends the pressure is the fluid's.
+  // Whole sides within the contact; at its ends the pressure is the fluid's. The straight line
+  // through a side's ends is smooth where nodal pressures zigzag.
   int begin = patch.first + patch.first % 2, end = patch.last - patch.last % 2;
   for (int start = begin; start < end; start += 2) {
-    int node[3];
-    double p[3], r[3], z[3];
-    for (int a = 0; a < 3; a++) {
-      int place = (start + a) % loop;
-      node[a] = fem->mesh->loop[place];
-      p[a] = sb_ring_node_pressure(ring, place, SB_RING_BORE);
-      double x[2];
-      sb_ring_fem_place(fem, node[a], x);
-      r[a] = x[0];
-      z[a] = x[1];
+    double p[2], x[2][2], force[3][2], k[3][2][3][2], area[3];
+    for (int a = 0; a < 2; a++) {
+      int i = start + 2 * a;
+      p[a] = i == begin ? patch.end_pressure[0]
+             : i == end ? patch.end_pressure[1]
+                        : sb_ring_node_pressure(ring, i, SB_RING_BORE);
+      sb_ring_contact_place(contact, i, x[a]);
     }
-    p[0] = start == begin ? patch.end_pressure[0] : p[0];
-    p[2] = start + 2 == end ? patch.end_pressure[1] : p[2];
-    // The straight line through the ends is smooth where nodal pressures zigzag.
-    double slope = (p[2] - p[0]) / (z[2] - z[0]);
-    for (int q = 0; q < 3; q++) {
-      double n[3], d[3];
-      sb_ring_side_shape(SB_RING_X3[q], n, d);
-      double rr = sb_ring_side_sum(n, r), dr = sb_ring_side_sum(d, r);
-      double zz = sb_ring_side_sum(n, z), dz = sb_ring_side_sum(d, z);
-      double pressure = p[0] + slope * (zz - z[0]);
-      double radius = fem->axisymmetric ? rr : 1.0, c = SB_RING_W3[q] * turn;
-      for (int a = 0; a < 3; a++) {
-        for (int b = 0; b < 3; b++) {
-          sb_ring_fem_add(fem, node[a], 0, node[b], 1,
-                          c * n[a] * radius * (pressure * d[b] + slope * n[b] * dz));
-          sb_ring_fem_add(fem, node[a], 1, node[b], 0, -c * n[a] * pressure * radius * d[b]);
-          sb_ring_fem_add(fem, node[a], 1, node[b], 1, -c * n[a] * radius * slope * n[b] * dr);
-        }
-      }
+    SbRingSidePressure pressure = {p[0], (p[1] - p[0]) / (x[1][1] - x[0][1]), true};
+    sb_ring_side_load(contact, start / 2, pressure, force, k, area);
+    for (int at = 0; at < 36; at++) {
+      int a = at / 12, i = at / 6 % 2, b = at / 2 % 3, j = at % 2;
+      sb_ring_fem_add(fem, fem->mesh->loop[sb_ring_wrap(contact, start + a)], i,
+                      fem->mesh->loop[sb_ring_wrap(contact, start + b)], j, k[a][i][b][j]);
     }
   }
 }
@@ -70,7 +54,6 @@ static void add_follower(SbRing *ring) {
 SbStatus sb_ring_free_bore(SbRing *ring, SbReport *report) {
   SbRingFem *fem = ring->fem;
   SbRingContact *contact = ring->contact;
-  int loop = contact->count;
   fem->axial_damping = 0.0;
   if (!sb_ring_fem_assemble(fem)) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's state is not an equilibrium");
@@ -78,14 +61,14 @@ SbStatus sb_ring_free_bore(SbRing *ring, SbReport *report) {
   sb_ring_contact_apply(contact);
   add_follower(ring);
   // A node that a wall holds as well keeps the wall.
-  for (int i = 0; i < loop; i++) {
-    SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i];
-    if (!touch[SB_RING_BORE].held) {
+  for (int i = 0; i < contact->count; i++) {
+    if (!sb_ring_touch(contact, i, SB_RING_BORE)->held) {
       continue;
     }
     SbRingCondition *condition = &fem->condition[fem->mesh->loop[i]];
-    bool wall = touch[SB_RING_WALL_RIGHT].held || touch[SB_RING_WALL_LEFT].held;
-    memset(condition, 0, sizeof *condition);
+    bool wall = sb_ring_touch(contact, i, SB_RING_WALL_RIGHT)->held ||
+                sb_ring_touch(contact, i, SB_RING_WALL_LEFT)->held;
+    *condition = (SbRingCondition){0};
     if (wall) {
       condition->count = 1;
       condition->direction[0][1] = 1.0;
@@ -93,10 +76,6 @@ SbStatus sb_ring_free_bore(SbRing *ring, SbReport *report) {
     }
   }
   return sb_ring_fem_factor(fem, report);
-}
-
-void sb_ring_settle(SbRing *ring) {
-  sb_ring_contact_settle(ring->contact);
 }
 
 // Waves of pressure that are tried, and those that tell the half-plane's modulus; share of the
@@ -119,9 +98,8 @@ typedef struct {
 
 static void side_of(const SbRing *ring, int side, Side *out) {
   const SbRingFem *fem = ring->fem;
-  int loop = ring->contact->count;
   for (int a = 0; a < 3; a++) {
-    int node = fem->mesh->loop[((2 * side + a) % loop + loop) % loop];
+    int node = fem->mesh->loop[sb_ring_wrap(ring->contact, 2 * side + a)];
     double x[2];
     sb_ring_fem_place(fem, node, x);
     out->r[a] = x[0];
@@ -153,8 +131,7 @@ static bool find_side(const SbRing *ring, const SbRingPatch *patch, double z, in
 // U_l(z), per length of the bore's circumference so that the answer stays symmetric.
 static void load_wave(SbRing *ring, int from, int to, double middle, double half, int l) {
   SbRingFem *fem = ring->fem;
-  int loop = ring->contact->count;
-  double turn = fem->axisymmetric ? 2.0 * M_PI * ring->contact->now.bore : 1.0;
+  double turn = fem->axisymmetric ? 2.0 * M_PI * ring->contact->is.now.bore_radius : 1.0;
   memset(fem->rhs, 0, sizeof(double) * 2 * (size_t)fem->mesh->nodes);
   for (int side = from; side <= to; side++) {
     Side s;
@@ -171,7 +148,7 @@ static void load_wave(SbRing *ring, int from, int to, double middle, double half
       double pressure = sin((l + 1) * (M_PI - theta));
       double force = 0.5 * (b - a) * SB_RING_W4[q] * half * sin(theta) * pressure * turn;
       for (int k = 0; k < 3; k++) {
-        fem->rhs[2 * fem->mesh->loop[((2 * side + k) % loop + loop) % loop]] -= n[k] * force;
+        fem->rhs[2 * fem->mesh->loop[sb_ring_wrap(ring->contact, 2 * side + k)]] -= n[k] * force;
       }
     }
   }
@@ -316,7 +293,7 @@ static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
       down += counts ? plane[i] * plane[i] : 0.0;
     }
   }
-  sb_ring_settle(ring);
+  sb_ring_contact_settle(ring->contact);
   if (status != SB_OK) {
     return status;
   }

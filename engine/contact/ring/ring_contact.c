@@ -1,11 +1,16 @@
-// Unilateral contact of the ring with smooth rigid surfaces: the active set and its forces.
+// Unilateral contact of the ring with smooth rigid surfaces and its Coulomb friction: the active
+// sets and their forces.
 //
 // Contact is a primal-dual active set (Hintermueller, Ito and Kunisch 2002) on boundary nodes: held
 // nodes satisfy gap = 0 as an equation of their own, the normal force is the residual of the
-// balance they replace, so neither penetration nor tension is left at the end. Friction enters the
-// same nodes' tangential rows (ring_friction.c), the fluid every side that is not closed
-// (ring_fluid.c); the surfaces are those of ring_groove.c. Leaves out adhesion and a finite
-// friction elasticity.
+// balance they replace, so neither penetration nor tension is left at the end. The fluid loads
+// every side that is not closed (ring_fluid.c); the surfaces are those of ring_groove.c.
+//
+// Friction enters the same nodes' tangential rows. A sticking node has not moved along its surface
+// since the start of the step and |t . R| <= mu n . R; a sliding one has t . R = s mu n . R, s the
+// sign of the force on the ring, and moves against it. Both are exact, without a regularising
+// stiffness; the states follow the motion like the active set of the normal contact. Leaves out
+// adhesion, rate, wear and a static coefficient of its own.
 #include "engine/contact/ring/ring_contact.h"
 
 #include <math.h>
@@ -14,6 +19,17 @@
 
 // Share of the edge's rounding that a held node may move along it in one iteration.
 static const double EDGE_SHARE = 0.5;
+
+// A node that keeps changing between sticking and sliding has no discrete solution of Coulomb's law
+// (it happens at coefficients near 1, where the continuous problem may have none either). It is
+// left sticking after this many changes, and what exceeds the law is reported.
+enum { FLIPS_MAX = 5 };
+
+// An end node of a contact can have no state with friction at all: pulled when held, whether it
+// sticks or slides, and inside the surface when let go. (Under fluid it jumps by mu p when caught.)
+// After being caught so often it is held without friction, which always has a solution; its
+// friction is taken up again in the next step, and what is missing is reported.
+enum { CATCHES_MAX = 3 };
 
 SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report) {
   *out = NULL;
@@ -25,49 +41,160 @@ SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *r
   contact->fem = fem;
   contact->count = (int)n;
   contact->force_scale = 1.0;
-  contact->touch = calloc(n * SB_RING_SURFACES, sizeof(SbRingTouch));
+  contact->is.touch = calloc(3 * n * SB_RING_SURFACES, sizeof(SbRingTouch)); // and the saved ones
   contact->closed = calloc(n, sizeof(bool));
-  contact->share = calloc(9 * n, sizeof(double)); // and what follows it
-  contact->saved[0] = calloc(2 * n * SB_RING_SURFACES, sizeof(SbRingTouch));
-  if (contact->touch == NULL || contact->closed == NULL || contact->share == NULL ||
-      contact->saved[0] == NULL) {
+  contact->share = calloc(7 * n, sizeof(double)); // and what follows it
+  if (contact->is.touch == NULL || contact->closed == NULL || contact->share == NULL) {
     sb_ring_contact_destroy(contact);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's contact");
   }
   contact->pressed = contact->share + 2 * n;
   contact->fluid = contact->share + 4 * n;
-  contact->anchor = contact->share + 6 * n;
-  contact->weight = contact->share + 8 * n;
-  contact->saved[1] = contact->saved[0] + n * SB_RING_SURFACES;
+  contact->weight = contact->share + 6 * n;
+  contact->saved[SB_RING_START].touch = contact->is.touch + n * SB_RING_SURFACES;
+  contact->saved[SB_RING_BEFORE].touch = contact->is.touch + 2 * n * SB_RING_SURFACES;
   *out = contact;
   return SB_OK;
 }
 
 void sb_ring_contact_destroy(SbRingContact *contact) {
   if (contact != NULL) {
-    free(contact->touch);
+    free(contact->is.touch);
     free(contact->closed);
     free(contact->share);
-    free(contact->saved[0]);
     free(contact);
   }
 }
 
-void sb_ring_contact_place(const SbRingContact *contact, int i, double x[2]) {
-  sb_ring_fem_place(contact->fem, contact->fem->mesh->loop[i], x);
+SbRingFrame sb_ring_frame_at(const SbRingContact *contact, int i, SbRingSurface surface) {
+  double x[2];
+  sb_ring_contact_place(contact, i, x);
+  return sb_ring_frame(&contact->is.now, surface, x);
 }
 
 void sb_ring_contact_detect(SbRingContact *contact) {
   for (int i = 0; i < contact->count; i++) {
-    double x[2], g[2], curvature;
-    sb_ring_contact_place(contact, i, x);
     for (int s = 0; s < SB_RING_SURFACES; s++) {
-      SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + s];
-      touch->held = sb_ring_gap(&contact->now, (SbRingSurface)s, x, g, &curvature) <= 1e-12;
+      SbRingTouch *touch = sb_ring_touch(contact, i, s);
+      touch->held = sb_ring_frame_at(contact, i, (SbRingSurface)s).gap <= 1e-12;
       touch->slip = 0;
     }
   }
 }
+
+// ---- friction
+
+// Whether a node is held by a surface with Coulomb friction of its own.
+static bool rubs(const SbRingContact *contact, int i, SbRingSurface surface) {
+  return sb_ring_touch(contact, i, surface)->held &&
+         sb_ring_friction(&contact->is.now, surface) > 0.0;
+}
+
+bool sb_ring_contact_sticks(const SbRingContact *contact, int i, SbRingSurface surface) {
+  const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
+  return !touch->smooth && touch->slip == 0 && rubs(contact, i, surface);
+}
+
+// Motion of a boundary node along t relative to the surface since the start of the step.
+static double slipped(const SbRingContact *contact, SbRingSurface surface, int i,
+                      const double t[2]) {
+  const double *u = &contact->fem->u[2 * contact->fem->mesh->loop[i]];
+  const double *start = &contact->fem->saved[SB_RING_START][2 * contact->fem->mesh->loop[i]];
+  double moved = t[0] * (u[0] - start[0]) + t[1] * (u[1] - start[1]);
+  if (surface == SB_RING_BORE) {
+    moved -=
+        t[1] * (contact->is.now.bore_position - contact->saved[SB_RING_START].now.bore_position);
+  }
+  return moved;
+}
+
+// How far a held node is from Coulomb's law, in units of force: too large a sticking force, or a
+// slip that its own friction would have to drive. The new slip state is given too.
+static double slip_fault(const SbRingContact *contact, SbRingSurface surface, int i,
+                         signed char *state) {
+  const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
+  *state = touch->slip;
+  if (!rubs(contact, i, surface) || touch->smooth) {
+    return 0.0;
+  }
+  if (touch->slip == 0) {
+    double over = fabs(touch->tangent) - sb_ring_friction(&contact->is.now, surface) * touch->force;
+    *state = touch->tangent > 0.0 ? 1 : -1;
+    return over > 1e-11 * contact->force_scale ? over : 0.0;
+  }
+  SbRingFrame frame = sb_ring_frame_at(contact, i, surface);
+  double against = slipped(contact, surface, i, frame.t) * touch->slip;
+  *state = 0;
+  // A length as a force by a stiffness of order one per unit of boundary.
+  return against > 1e-11 ? against * contact->weight[i] : 0.0;
+}
+
+static void flip(SbRingContact *contact, int at, signed char state) {
+  SbRingTouch *touch = &contact->is.touch[at];
+  touch->flips++;
+  touch->slip = touch->flips >= FLIPS_MAX ? 0 : state;
+  contact->unsteady = at;
+}
+
+// Renews stick and slip, with `single` only at the worst fault; returns how many changed.
+static int update_slip(SbRingContact *contact, bool single) {
+  int changes = 0, worst = -1;
+  double most = 0.0;
+  signed char worst_state = 0;
+  for (int at = 0; at < SB_RING_SURFACES * contact->count; at++) {
+    signed char state;
+    double fault =
+        slip_fault(contact, (SbRingSurface)(at % SB_RING_SURFACES), at / SB_RING_SURFACES, &state);
+    if (contact->is.touch[at].flips >= FLIPS_MAX) {
+      continue;
+    }
+    if (fault > 0.0 && !single) {
+      flip(contact, at, state);
+      changes++;
+    } else if (fault > most) {
+      most = fault;
+      worst = at;
+      worst_state = state;
+    }
+  }
+  if (worst >= 0) {
+    flip(contact, worst, worst_state);
+    changes++;
+  }
+  return changes;
+}
+
+// The first slip state of a node that a surface has just caught: friction against its motion in
+// this step. A node that comes back, since the surface would have had to pull it in that state,
+// tries the others in turn.
+static void begin_friction(SbRingContact *contact, int i, SbRingSurface surface) {
+  SbRingTouch *touch = sb_ring_touch(contact, i, surface);
+  if (sb_ring_friction(&contact->is.now, surface) > 0.0) {
+    SbRingFrame frame = sb_ring_frame_at(contact, i, surface);
+    double moved = slipped(contact, surface, i, frame.t);
+    int state = moved > 1e-9 ? -1 : moved < -1e-9 ? 1 : 0, turn = touch->catches % 3;
+    touch->slip = (signed char)(turn < 2 ? state * (1 - turn) : -state);
+  }
+  touch->smooth = touch->catches >= CATCHES_MAX;
+  touch->catches++;
+}
+
+// Sum of what exceeds Coulomb's law at sticking nodes and of the friction that is left out.
+static double slip_excess(const SbRingContact *contact) {
+  double sum = 0.0;
+  for (int i = 0; i < contact->count; i++) {
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      const SbRingTouch *touch = sb_ring_touch(contact, i, s);
+      double limit = sb_ring_friction(&contact->is.now, (SbRingSurface)s) * touch->force;
+      if (rubs(contact, i, (SbRingSurface)s) && (touch->smooth || touch->slip == 0)) {
+        sum += touch->smooth ? limit : fmax(0.0, fabs(touch->tangent) - limit);
+      }
+    }
+  }
+  return sum;
+}
+
+// ---- conditions and forces
 
 double sb_ring_contact_apply(SbRingContact *contact) {
   SbRingFem *fem = contact->fem;
@@ -75,44 +202,34 @@ double sb_ring_contact_apply(SbRingContact *contact) {
   double worst = 0.0;
   for (int i = 0; i < contact->count; i++) {
     SbRingCondition *condition = &fem->condition[fem->mesh->loop[i]];
-    memset(condition, 0, sizeof *condition);
-    double x[2];
-    sb_ring_contact_place(contact, i, x);
+    *condition = (SbRingCondition){0};
     for (int s = 0; s < SB_RING_SURFACES && condition->count < 2; s++) {
-      const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + s];
+      const SbRingTouch *touch = sb_ring_touch(contact, i, s);
       if (!touch->held) {
         continue;
       }
-      double n[2], t[2], gap, curvature;
-      sb_ring_frame(&contact->now, (SbRingSurface)s, x, n, t, &gap, &curvature);
-      worst = fmax(worst, fabs(gap));
-      double *row = condition->direction[condition->count];
-      row[0] = n[0];
-      row[1] = n[1];
-      condition->gap[condition->count] = -gap;
+      SbRingFrame frame = sb_ring_frame_at(contact, i, (SbRingSurface)s);
+      worst = fmax(worst, fabs(frame.gap));
+      memcpy(condition->direction[condition->count], frame.n, sizeof frame.n);
+      condition->gap[condition->count] = -frame.gap;
       if (condition->count == 1) {
         condition->count = 2; // held in a corner
         break;
       }
       condition->count = 1;
-      condition->direction[1][0] = t[0];
-      condition->direction[1][1] = t[1];
-      condition->curve = curvature;
-      double friction = contact->now.friction[s];
-      if (s == SB_RING_BORE && contact->now.use_traction) {
-        condition->drive = contact->now.traction * contact->weight[i];
-      } else if (friction > 0.0 && !touch->smooth && touch->slip == 0) {
-        condition->gap[1] = -sb_ring_contact_slipped(contact, (SbRingSurface)s, i, x, t);
+      memcpy(condition->direction[1], frame.t, sizeof frame.t);
+      condition->curve = frame.curvature;
+      if (s == SB_RING_BORE && contact->is.now.use_bore_traction) {
+        condition->drive = contact->is.now.bore_traction * contact->weight[i];
+      } else if (sb_ring_contact_sticks(contact, i, (SbRingSurface)s)) {
+        condition->gap[1] = -slipped(contact, (SbRingSurface)s, i, frame.t);
         bool corner = false;
         for (int other = s + 1; other < SB_RING_SURFACES; other++) {
-          corner = corner || contact->touch[SB_RING_SURFACES * i + other].held;
+          corner = corner || sb_ring_touch(contact, i, other)->held;
         }
-        if (!corner) {
-          condition->count = 2;
-          break;
-        }
-      } else {
-        condition->mix = touch->smooth ? 0.0 : -touch->slip * friction;
+        condition->count = corner ? 1 : 2;
+      } else if (!touch->smooth) {
+        condition->mix = -touch->slip * sb_ring_friction(&contact->is.now, (SbRingSurface)s);
       }
     }
   }
@@ -120,72 +237,66 @@ double sb_ring_contact_apply(SbRingContact *contact) {
 }
 
 // Splits a nodal force into the touches' normal and tangential parts.
-static void split_force(SbRingContact *contact, int i, const double x[2], const double force[2]) {
-  int held[SB_RING_SURFACES], count = 0;
-  double n[2][2], t[2][2], gap, curvature;
+static void split_force(SbRingContact *contact, int i, const double force[2]) {
+  SbRingTouch *held[2];
+  SbRingFrame frame[2];
+  int count = 0;
   for (int s = 0; s < SB_RING_SURFACES; s++) {
-    SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + s];
+    SbRingTouch *touch = sb_ring_touch(contact, i, s);
+    touch->force = touch->tangent = 0.0;
     if (touch->held && count < 2) {
-      sb_ring_frame(&contact->now, (SbRingSurface)s, x, n[count], t[count], &gap, &curvature);
-      held[count++] = s;
-    } else {
-      touch->force = touch->tangent = 0.0;
+      frame[count] = sb_ring_frame_at(contact, i, (SbRingSurface)s);
+      held[count++] = touch;
     }
   }
   if (count == 1) {
-    SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + held[0]];
-    touch->force = n[0][0] * force[0] + n[0][1] * force[1];
-    touch->tangent = t[0][0] * force[0] + t[0][1] * force[1];
+    const double *n = frame[0].n, *t = frame[0].t;
+    held[0]->force = n[0] * force[0] + n[1] * force[1];
+    held[0]->tangent = t[0] * force[0] + t[1] * force[1];
   } else if (count == 2) {
     // Two surfaces: normal forces only.
-    double det = n[0][0] * n[1][1] - n[0][1] * n[1][0];
-    SbRingTouch *a = &contact->touch[SB_RING_SURFACES * i + held[0]];
-    SbRingTouch *b = &contact->touch[SB_RING_SURFACES * i + held[1]];
-    a->force = (force[0] * n[1][1] - force[1] * n[1][0]) / det;
-    b->force = (n[0][0] * force[1] - n[0][1] * force[0]) / det;
-    a->tangent = b->tangent = 0.0;
+    const double *a = frame[0].n, *b = frame[1].n;
+    double det = a[0] * b[1] - a[1] * b[0];
+    held[0]->force = (force[0] * b[1] - force[1] * b[0]) / det;
+    held[1]->force = (a[0] * force[1] - a[1] * force[0]) / det;
   }
 }
 
 // Holds a node or lets it go.
 static void toggle(SbRingContact *contact, int at) {
-  SbRingTouch *touch = &contact->touch[at];
+  SbRingTouch *touch = &contact->is.touch[at];
   contact->unsteady = at;
   touch->held = !touch->held;
   touch->slip = 0;
   if (touch->held) {
-    sb_ring_contact_begin_friction(contact, at / SB_RING_SURFACES,
-                                   (SbRingSurface)(at % SB_RING_SURFACES));
+    begin_friction(contact, at / SB_RING_SURFACES, (SbRingSurface)(at % SB_RING_SURFACES));
   }
 }
 
 int sb_ring_contact_update(SbRingContact *contact, bool single) {
   SbRingFem *fem = contact->fem;
   int changes = 0;
-  double tiny = 1e-11 * contact->force_scale;
-  int worst_release = -1, worst_catch = -1;
-  double least = -tiny, deepest = -1e-11;
+  int worst[2] = {-1, -1}; // to be let go, to be caught
+  double least = -1e-11 * contact->force_scale, deepest = -1e-11;
   for (int i = 0; i < contact->count; i++) {
     int node = fem->mesh->loop[i];
-    double x[2], force[2];
-    sb_ring_contact_place(contact, i, x);
+    const double *share = &contact->share[2 * i];
     if (fem->condition[node].count > 0) {
+      double force[2];
       sb_ring_fem_reaction(fem, node, force);
-      split_force(contact, i, x, force);
+      split_force(contact, i, force);
     }
     for (int s = 0; s < SB_RING_SURFACES; s++) {
       int at = SB_RING_SURFACES * i + s;
-      const SbRingTouch *touch = &contact->touch[at];
-      double n[2], t[2], gap, curvature;
-      sb_ring_frame(&contact->now, (SbRingSurface)s, x, n, t, &gap, &curvature);
+      const SbRingTouch *touch = &contact->is.touch[at];
+      SbRingFrame frame = sb_ring_frame_at(contact, i, (SbRingSurface)s);
       // The fluid would push this node off the surface, along n, by its share.
-      double excess =
-          touch->force - n[0] * contact->share[2 * i] - n[1] * contact->share[2 * i + 1];
-      if (!touch->held && gap < deepest) {
-        worst_catch = at;
-        deepest = single ? gap : deepest;
+      double excess = touch->force - frame.n[0] * share[0] - frame.n[1] * share[1];
+      if (!touch->held && frame.gap < deepest) {
+        worst[1] = at;
+        deepest = single ? frame.gap : deepest;
       } else if (touch->held && excess < least) {
-        worst_release = at;
+        worst[0] = at;
         least = single ? excess : least;
       } else {
         continue;
@@ -196,31 +307,28 @@ int sb_ring_contact_update(SbRingContact *contact, bool single) {
       }
     }
   }
-  if (single && worst_release >= 0) {
-    toggle(contact, worst_release);
-    changes++;
-  }
-  if (single && worst_catch >= 0) {
-    toggle(contact, worst_catch);
-    changes++;
+  for (int k = 0; k < 2 && single; k++) {
+    if (worst[k] >= 0) {
+      toggle(contact, worst[k]);
+      changes++;
+    }
   }
   // Friction follows once the contact is steady: changing both at once does not converge.
-  return changes > 0 ? changes : sb_ring_contact_update_slip(contact, single);
+  return changes > 0 ? changes : update_slip(contact, single);
 }
 
 double sb_ring_contact_limit(const SbRingContact *contact) {
   const SbRingFem *fem = contact->fem;
   double step = 1.0;
   for (int i = 0; i < contact->count; i++) {
-    if (contact->touch[SB_RING_SURFACES * i + SB_RING_BORE].held) {
-      double x[2], g[2], before, after;
+    if (sb_ring_touch(contact, i, SB_RING_BORE)->held) {
+      double x[2], move = fem->du[2 * fem->mesh->loop[i] + 1];
       sb_ring_contact_place(contact, i, x);
-      sb_ring_gap(&contact->now, SB_RING_BORE, x, g, &before);
-      double move = fem->du[2 * fem->mesh->loop[i] + 1];
+      double before = sb_ring_frame(&contact->is.now, SB_RING_BORE, x).curvature;
       x[1] += move;
-      sb_ring_gap(&contact->now, SB_RING_BORE, x, g, &after);
+      double after = sb_ring_frame(&contact->is.now, SB_RING_BORE, x).curvature;
       if (before != 0.0 || after != 0.0) {
-        step = fmin(step, EDGE_SHARE * contact->now.edge_length / fmax(fabs(move), 1e-30));
+        step = fmin(step, EDGE_SHARE * contact->is.now.edge_length / fmax(fabs(move), 1e-30));
       }
     }
   }
@@ -230,36 +338,33 @@ double sb_ring_contact_limit(const SbRingContact *contact) {
 void sb_ring_contact_begin(SbRingContact *contact) {
   contact->unsteady = -1;
   for (int i = 0; i < SB_RING_SURFACES * contact->count; i++) {
-    contact->touch[i].flips = contact->touch[i].catches = 0;
-    contact->touch[i].smooth = false;
+    contact->is.touch[i].flips = contact->is.touch[i].catches = 0;
+    contact->is.touch[i].smooth = false;
   }
 }
 
 void sb_ring_contact_forces(SbRingContact *contact) {
   const SbRingFem *fem = contact->fem;
   for (int i = 0; i < contact->count; i++) {
-    double x[2];
-    sb_ring_contact_place(contact, i, x);
-    split_force(contact, i, x, &fem->residual[2 * fem->mesh->loop[i]]);
+    split_force(contact, i, &fem->residual[2 * fem->mesh->loop[i]]);
   }
-  contact->slip_excess = sb_ring_contact_slip_excess(contact);
+  contact->slip_excess = slip_excess(contact);
   // For the record, the fluid on open sides is the fluid's again, not the contact's.
   for (int i = 0; i < contact->count; i++) {
-    double x[2], force[2];
-    sb_ring_contact_place(contact, i, x);
+    double force[2];
     for (int k = 0; k < 2; k++) {
       force[k] = fem->residual[2 * fem->mesh->loop[i] + k] - contact->pressed[2 * i + k];
       contact->fluid[2 * i + k] += contact->pressed[2 * i + k];
       contact->share[2 * i + k] -= contact->pressed[2 * i + k];
     }
-    split_force(contact, i, x, force);
+    split_force(contact, i, force);
   }
 }
 
 void sb_ring_contact_settle(SbRingContact *contact) {
   SbRingFem *fem = contact->fem;
   // Neither the spring nor the damper of the attempts acts on it.
-  sb_ring_fem_save(fem, 1);
+  sb_ring_save(contact, SB_RING_START);
   fem->axial_rest = 0.0;
   contact->settled = true;
   if (sb_ring_fem_assemble(fem)) {
@@ -272,26 +377,30 @@ void sb_ring_contact_settle(SbRingContact *contact) {
 void sb_ring_contact_total(const SbRingContact *contact, SbRingSurface surface, double force[2]) {
   force[0] = force[1] = 0.0;
   for (int i = 0; i < contact->count; i++) {
-    const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + surface];
+    const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
     if (touch->held) {
-      double x[2], n[2], t[2], gap, curvature;
-      sb_ring_contact_place(contact, i, x);
-      sb_ring_frame(&contact->now, surface, x, n, t, &gap, &curvature);
+      SbRingFrame frame = sb_ring_frame_at(contact, i, surface);
       for (int k = 0; k < 2; k++) {
-        force[k] += touch->force * n[k] + touch->tangent * t[k];
+        force[k] += touch->force * frame.n[k] + touch->tangent * frame.t[k];
       }
     }
   }
 }
 
-void sb_ring_contact_save(SbRingContact *contact, int place) {
-  memcpy(contact->saved[place], contact->touch,
-         sizeof(SbRingTouch) * SB_RING_SURFACES * (size_t)contact->count);
-  memcpy(contact->saved_crest[place], contact->crest, sizeof contact->crest);
+// Copies a state into the memory of another.
+static void copy_state(SbRingContactState *to, const SbRingContactState *from, int count) {
+  SbRingTouch *touch = to->touch;
+  memcpy(touch, from->touch, sizeof(SbRingTouch) * SB_RING_SURFACES * (size_t)count);
+  *to = *from;
+  to->touch = touch;
 }
 
-void sb_ring_contact_restore(SbRingContact *contact, int place) {
-  memcpy(contact->touch, contact->saved[place],
-         sizeof(SbRingTouch) * SB_RING_SURFACES * (size_t)contact->count);
-  memcpy(contact->crest, contact->saved_crest[place], sizeof contact->crest);
+void sb_ring_save(SbRingContact *contact, int place) {
+  sb_ring_fem_save(contact->fem, place);
+  copy_state(&contact->saved[place], &contact->is, contact->count);
+}
+
+void sb_ring_restore(SbRingContact *contact, int place) {
+  sb_ring_fem_restore(contact->fem, place);
+  copy_state(&contact->is, &contact->saved[place], contact->count);
 }

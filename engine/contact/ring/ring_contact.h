@@ -1,13 +1,15 @@
-// Rigid surfaces around the ring (ring_groove.c), unilateral contact (ring_contact.c) with Coulomb
-// friction (ring_friction.c), and fluid pressure (ring_fluid.c).
+// Rigid surfaces around the ring (ring_groove.c), unilateral contact with Coulomb friction
+// (ring_contact.c), and fluid pressure (ring_fluid.c).
 //
-// Internal to the ring; all quantities in the element solver's units. A boundary node that is held
-// by a surface lies on it exactly and may only be pushed; the fluid loads every side of the
-// boundary that is not closed by contact, and a node is let go when the contact pushes less than
-// the fluid would. So fluid enters exactly as far as the first held node, and contact pressure
-// starts there from the fluid's.
+// Internal to the ring; all quantities, those of a load too, in the element solver's units: lengths
+// in section diameters, stresses in initial shear moduli. A boundary node that is held by a surface
+// lies on it exactly and may only be pushed; the fluid loads every side of the boundary that is not
+// closed by contact, and a node is let go when the contact pushes less than the fluid would. So
+// fluid enters exactly as far as the first held node, and contact pressure starts there from the
+// fluid's.
 #pragma once
 
+#include "engine/contact/ring/ring.h"
 #include "engine/contact/ring/ring_fem.h"
 
 typedef enum {
@@ -18,19 +20,12 @@ typedef enum {
   SB_RING_SURFACES
 } SbRingSurface;
 
-// Where the surfaces stand and what acts, once per load step.
+// A surface at a place.
 typedef struct {
-  double bore, floor;           // radii
-  double wall_left, wall_right; // axial places, +-INFINITY: none
-  double land_left, land_right; // axial ends of the bore's land, +-INFINITY: none
-  double chamfer_slope;         // radial opening per axial length beyond an end of the land
-  double edge_length;           // axial length over which the slope sets in
-  double pressure_left, pressure_right;
-  double slide;                      // axial place of the bore's surface
-  double friction[SB_RING_SURFACES]; // Coulomb coefficients
-  double traction;                   // given shear on the ring from the bore, replaces Coulomb if
-  bool use_traction;                 // use_traction is set
-} SbRingSetting;
+  double n[2], t[2]; // unit normal into the free side, tangent (r, z)
+  double gap;        // along the normal, > 0 outside
+  double curvature;  // the normal's turn towards the tangent per axial length
+} SbRingFrame;
 
 // One boundary node against one surface.
 typedef struct {
@@ -43,65 +38,88 @@ typedef struct {
   double tangent;        // tangential contact force along t
 } SbRingTouch;
 
+// What a state of the contact is beside its displacements.
+typedef struct {
+  SbRingLoad now;     // where the surfaces stand and what acts, once per load step
+  double turn;        // of the section since it was free, from +r towards +z, unwrapped, rad
+  int crest[2];       // boundary nodes of bore and floor between which the fluids change sides
+  SbRingTouch *touch; // [count][SB_RING_SURFACES]
+} SbRingContactState;
+
+// Places of saved states, those of sb_ring_fem_save: the start of a load step or of a part of it,
+// from which friction counts its motion, and the state before an attempt of several of them.
+enum { SB_RING_START = 1, SB_RING_BEFORE = 2 };
+
 typedef struct {
   SbRingFem *fem; // borrowed
-  SbRingSetting now;
-  int count;             // boundary nodes
-  SbRingTouch *touch;    // [count][SB_RING_SURFACES]
-  bool *closed;          // [count / 2] boundary sides closed by contact
-  double *share;         // [2 count] force of the fluid that held nodes must exceed
-  double *pressed;       // [2 count] the part of it from open sides
-  double *weight;        // [count] current area of the boundary nodes
-  double *fluid;         // [2 count] fluid force on the open sides' nodes
-  int crest[2];          // boundary nodes of bore and floor between which the fluids change sides
-  int saved_crest[2][2]; // for sb_ring_contact_save
-  bool settled;          // the state stands still: its crests stay
-  double *anchor;        // [2 count] place at the start of the step, for sticking
-  double slide_start;    // slide at the start of the step
-  SbRingTouch *saved[2]; // for sb_ring_contact_save
-  double slip_excess;    // departure from Coulomb's law at nodes that could not settle
-  double turn;           // of the section since it was free, from +r towards +z, unwrapped
-  bool rolls;            // the last step ended because the section would roll on
-  double force_scale;    // for tolerances
-  int unsteady;          // touch that last changed, -1: none since the solve began
+  int count;      // boundary nodes
+  SbRingContactState is, saved[3];
+  bool *closed;       // [count / 2] boundary sides closed by contact
+  double *share;      // [2 count] force of the fluid that held nodes must exceed
+  double *pressed;    // [2 count] the part of it from open sides
+  double *fluid;      // [2 count] fluid force on the open sides' nodes
+  double *weight;     // [count] current area of the boundary nodes
+  bool settled;       // the state stands still: its crests stay
+  bool rolls;         // the last step ended because the section would roll on
+  double slip_excess; // departure from Coulomb's law at nodes that could not settle
+  double force_scale; // for tolerances
+  int unsteady;       // touch that last changed, -1: none since the solve began
 } SbRingContact;
 
 SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report);
 void sb_ring_contact_destroy(SbRingContact *contact);
 
-// Gap (>= 0 outside), its gradient and its second derivative along z at a place.
-double sb_ring_gap(const SbRingSetting *setting, SbRingSurface surface, const double x[2],
-                   double gradient[2], double *curvature);
+// A boundary node in the order of the loop, by any whole number.
+static inline int sb_ring_wrap(const SbRingContact *contact, int i) {
+  int count = contact->count;
+  return i >= 0 && i < count ? i : (i % count + count) % count;
+}
 
-// Unit normal (into the free side) and tangent of a surface at a place, the gap along the normal;
-// `curvature` is the normal's turn towards the tangent per axial length.
-void sb_ring_frame(const SbRingSetting *setting, SbRingSurface surface, const double x[2],
-                   double n[2], double t[2], double *gap, double *curvature);
+static inline SbRingTouch *sb_ring_touch(const SbRingContact *contact, int i, int surface) {
+  return &contact->is.touch[SB_RING_SURFACES * sb_ring_wrap(contact, i) + surface];
+}
+
+// Deformed place (r, z) of a boundary node.
+static inline void sb_ring_contact_place(const SbRingContact *contact, int i, double x[2]) {
+  sb_ring_fem_place(contact->fem, contact->fem->mesh->loop[sb_ring_wrap(contact, i)], x);
+}
+
+// A surface at a place, and at that of a boundary node.
+SbRingFrame sb_ring_frame(const SbRingLoad *load, SbRingSurface surface, const double x[2]);
+SbRingFrame sb_ring_frame_at(const SbRingContact *contact, int i, SbRingSurface surface);
 
 // The name of a surface, for messages.
 const char *sb_ring_surface_name(SbRingSurface surface);
 
-// Deformed place (r, z) of a boundary node.
-void sb_ring_contact_place(const SbRingContact *contact, int i, double x[2]);
+// Coulomb's coefficient of a surface, 0 where its shear is given; whether anything drags the ring.
+double sb_ring_friction(const SbRingLoad *load, SbRingSurface surface);
+bool sb_ring_rubs(const SbRingLoad *load);
+
+// A load in units of a length and a pressure.
+SbRingLoad sb_ring_load_in(const SbRingLoad *load, double length, double pressure);
+
+// The load at a share t of the way; discrete choices are b's. An end of the land that is set or
+// removed comes from or goes to SB_RING_REACH, where it touches nothing.
+#define SB_RING_REACH 1.5
+SbRingLoad sb_ring_load_between(const SbRingLoad *a, const SbRingLoad *b, double t);
 
 // Adds the fluid to residual and tangent; renews `closed`, `weight`, `share`, `pressed`, `fluid`.
 void sb_ring_contact_load_fluid(SbRingContact *contact);
 
-// Whether a node is held by a surface with Coulomb friction of its own.
-bool sb_ring_contact_rubs(const SbRingContact *contact, int i, SbRingSurface surface);
+// A pressure on one boundary side, that begins at an even boundary node: p = value + slope (z - z0)
+// with z0 the axial place of the side's first node.
+typedef struct {
+  double value, slope;
+  bool fixed; // in space, its force per length of the axis kept; else it follows the surface
+} SbRingSidePressure;
 
-// Relative motion of a boundary node at `x` along t since the start of the step.
-double sb_ring_contact_slipped(const SbRingContact *contact, SbRingSurface surface, int i,
-                               const double x[2], const double t[2]);
+// Forces of the pressure on a side's three nodes, force[node][(r, z)], what they change with the
+// nodes' places (subtracted, the tangent's entries), and the nodes' shares of the side's area.
+void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressure pressure,
+                       double force[3][2], double tangent[3][2][3][2], double area[3]);
 
-// The first slip state of a node that a surface has just caught.
-void sb_ring_contact_begin_friction(SbRingContact *contact, int i, SbRingSurface surface);
-
-// Renews stick and slip, with `single` only at the worst fault; returns how many changed.
-int sb_ring_contact_update_slip(SbRingContact *contact, bool single);
-
-// Sum of what exceeds Coulomb's law at sticking nodes and of the friction that is left out.
-double sb_ring_contact_slip_excess(const SbRingContact *contact);
+// Whether a node sticks by Coulomb friction of its own.
+bool sb_ring_contact_sticks(const SbRingContact *contact, int i, SbRingSurface surface);
 
 // Marks every node that is on or inside a surface as held.
 void sb_ring_contact_detect(SbRingContact *contact);
@@ -131,7 +149,6 @@ void sb_ring_contact_settle(SbRingContact *contact);
 // Sum of a surface's force on the ring, (r, z).
 void sb_ring_contact_total(const SbRingContact *contact, SbRingSurface surface, double force[2]);
 
-// Two places for the touches: 0 is the load stepper's, 1 the one before a walk in
-// viscous steps.
-void sb_ring_contact_save(SbRingContact *contact, int place);
-void sb_ring_contact_restore(SbRingContact *contact, int place);
+// The whole state, displacements too, to and from one of the places above.
+void sb_ring_save(SbRingContact *contact, int place);
+void sb_ring_restore(SbRingContact *contact, int place);

@@ -7,8 +7,6 @@
 // Leaves out inertia, thermal strain and rate.
 #include "engine/contact/ring/ring_fem.h"
 
-#include "engine/contact/ring/ring_material.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,6 +28,51 @@ static const double POINT[SB_RING_FEM_POINTS][3] = {
     {0.101286507323456339, 0.797426985353087322, 0.125939180544827153},
     {0.101286507323456339, 0.101286507323456339, 0.125939180544827153},
 };
+
+// ---- material
+
+// First and second derivatives of the energy. With no shear out of the plane it depends on three
+// numbers only: a = F:F of the 2 x 2 in-plane gradient, D its determinant and f the hoop stretch
+// (I1 = a + f^2, I2 = D^2 + a f^2, J = D f), so that Mooney-Rivlin needs no tensor algebra.
+typedef struct {
+  double a, d, f, ad, af, dd, ff, df;
+} Slopes;
+
+// Of c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3) + p (J - 1) at (a, D > 0, f > 0) and the
+// pressure-like multiplier p (tension positive). c2 = 0 is the neo-Hookean energy, mu/2 = c1.
+static void differentiate(const SbRingMaterial *material, double a, double d, double f, double p,
+                          Slopes *w) {
+  double cube = cbrt(d * f);
+  double v = material->c1 / (cube * cube);
+  double q = material->c2 / (cube * cube * cube * cube);
+  double s1 = a + f * f, s2 = d * d + a * f * f;
+  // c1 (D f)^(-2/3) (a + f^2)
+  w->a = v;
+  w->d = -2.0 / 3.0 * v / d * s1;
+  w->f = v * (-2.0 / 3.0 * s1 / f + 2.0 * f);
+  w->ad = -2.0 / 3.0 * v / d;
+  w->af = -2.0 / 3.0 * v / f;
+  w->dd = 10.0 / 9.0 * v / (d * d) * s1;
+  w->ff = v * (10.0 / 9.0 * s1 / (f * f) - 8.0 / 3.0 + 2.0);
+  w->df = v * (4.0 / 9.0 * s1 / (d * f) - 4.0 / 3.0 * f / d);
+  // c2 (D f)^(-4/3) (D^2 + a f^2)
+  if (q != 0.0) {
+    w->a += q * f * f;
+    w->d += q * (-4.0 / 3.0 * s2 / d + 2.0 * d);
+    w->f += q * (-4.0 / 3.0 * s2 / f + 2.0 * a * f);
+    w->ad += -4.0 / 3.0 * q * f * f / d;
+    w->af += 2.0 / 3.0 * q * f;
+    w->dd += q * (28.0 / 9.0 * s2 / (d * d) - 16.0 / 3.0 + 2.0);
+    w->ff += q * (28.0 / 9.0 * s2 / (f * f) - 16.0 / 3.0 * a + 2.0 * a);
+    w->df += q * (16.0 / 9.0 * s2 / (d * f) - 8.0 / 3.0 * a * f / d - 8.0 / 3.0 * d / f);
+  }
+  // p (D f - 1)
+  w->d += p * f;
+  w->f += p * d;
+  w->df += p;
+}
+
+// ---- elements
 
 // Gradients of the seven shapes, the hoop term N/R and the weight at one point of one element.
 static bool point_geometry(const SbRingFem *fem, int element, double l1, double l2, double weight,
@@ -150,47 +193,26 @@ static void gather(const SbRingFem *fem, int element, double local[2 * SHAPES]) 
   local[2 * NODES + 1] = fem->inner[SB_RING_INNER * element + 1];
 }
 
-// Solves the 5 x 5 inner system for 13 right-hand sides, with row pivoting; b is overwritten.
-static void solve_inner(double a[SB_RING_INNER][SB_RING_INNER],
-                        double b[SB_RING_INNER][2 * NODES + 1]) {
-  enum { N = SB_RING_INNER, M = 2 * NODES + 1 };
-  for (int k = 0; k < N; k++) {
+// Turns the rows of [A | B], A the inner system, into [1 | A^-1 B], by Gauss and Jordan with row
+// pivoting.
+enum { INNER = SB_RING_INNER, RIGHT = 2 * NODES + 1 };
+static void solve_inner(double m[INNER][INNER + RIGHT]) {
+  for (int k = 0; k < INNER; k++) {
     int pivot = k;
-    for (int i = k + 1; i < N; i++) {
-      pivot = fabs(a[i][k]) > fabs(a[pivot][k]) ? i : pivot;
+    for (int i = k + 1; i < INNER; i++) {
+      pivot = fabs(m[i][k]) > fabs(m[pivot][k]) ? i : pivot;
     }
-    if (pivot != k) {
-      for (int j = k; j < N; j++) {
-        double swap = a[k][j];
-        a[k][j] = a[pivot][j];
-        a[pivot][j] = swap;
-      }
-      for (int j = 0; j < M; j++) {
-        double swap = b[k][j];
-        b[k][j] = b[pivot][j];
-        b[pivot][j] = swap;
-      }
+    double inverse = m[pivot][k] != 0.0 ? 1.0 / m[pivot][k] : 0.0;
+    for (int j = 0; j < INNER + RIGHT; j++) {
+      double top = inverse * m[pivot][j];
+      m[pivot][j] = m[k][j];
+      m[k][j] = top;
     }
-    double inverse = a[k][k] != 0.0 ? 1.0 / a[k][k] : 0.0;
-    for (int i = k + 1; i < N; i++) {
-      double factor = a[i][k] * inverse;
-      for (int j = k + 1; j < N; j++) {
-        a[i][j] -= factor * a[k][j];
+    for (int i = 0; i < INNER; i++) {
+      double factor = i != k ? m[i][k] : 0.0;
+      for (int j = 0; j < INNER + RIGHT; j++) {
+        m[i][j] -= factor * m[k][j];
       }
-      for (int j = 0; j < M; j++) {
-        b[i][j] -= factor * b[k][j];
-      }
-    }
-    a[k][k] = inverse;
-  }
-  for (int k = N - 1; k >= 0; k--) {
-    for (int i = k + 1; i < N; i++) {
-      for (int j = 0; j < M; j++) {
-        b[k][j] -= a[k][i] * b[i][j];
-      }
-    }
-    for (int j = 0; j < M; j++) {
-      b[k][j] *= a[k][k];
     }
   }
 }
@@ -215,9 +237,9 @@ static bool element_system(SbRingFem *fem, int e, double k[2 * SHAPES][2 * SHAPE
     if (!(d > 0.0 && f[4] > 0.0)) {
       return false;
     }
-    SbRingSlopes w;
-    sb_ring_material(&fem->material, f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3], d, f[4],
-                     p, &w);
+    Slopes w;
+    differentiate(&fem->material, f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3], d, f[4], p,
+                  &w);
     // First Piola stress and its derivative in the order rr, rz, zr, zz, hoop.
     double cof[4] = {f[3], -f[2], -f[1], f[0]};
     double stress[5], a[5][5];
@@ -283,23 +305,26 @@ bool sb_ring_fem_assemble(SbRingFem *fem) {
       return false;
     }
     // Inner unknowns: bubble (shape 6) and pressure.
-    double inner[SB_RING_INNER][SB_RING_INNER], x[SB_RING_INNER][2 * NODES + 1];
-    double coupling[SB_RING_INNER][2 * NODES];
-    for (int i = 0; i < SB_RING_INNER; i++) {
-      for (int j = 0; j < SB_RING_INNER; j++) {
+    double inner[INNER][INNER + RIGHT], coupling[INNER][2 * NODES];
+    for (int i = 0; i < INNER; i++) {
+      for (int j = 0; j < INNER; j++) {
         int lo = i < j ? i : j, hi = i < j ? j : i;
         inner[i][j] = hi < 2   ? k[2 * NODES + lo][2 * NODES + hi]
                       : lo < 2 ? kp[2 * NODES + lo][hi - 2]
                                : kpp[lo - 2][hi - 2];
       }
       for (int j = 0; j < 2 * NODES; j++) {
-        coupling[i][j] = x[i][j] = i < 2 ? k[j][2 * NODES + i] : kp[j][i - 2];
+        coupling[i][j] = inner[i][INNER + j] = i < 2 ? k[j][2 * NODES + i] : kp[j][i - 2];
       }
-      x[i][2 * NODES] = i < 2 ? r[2 * NODES + i] : rp[i - 2];
-      fem->residual_inner = fmax(fem->residual_inner, fabs(x[i][2 * NODES]));
+      double residual = i < 2 ? r[2 * NODES + i] : rp[i - 2];
+      inner[i][INNER + 2 * NODES] = residual;
+      fem->residual_inner = fmax(fem->residual_inner, fabs(residual));
     }
-    solve_inner(inner, x);
-    memcpy(&fem->condensed[CONDENSED_SIZE * e], x, sizeof x);
+    solve_inner(inner);
+    double(*x)[RIGHT] = (double(*)[RIGHT])(void *)&fem->condensed[CONDENSED_SIZE * e];
+    for (int i = 0; i < INNER; i++) {
+      memcpy(x[i], &inner[i][INNER], sizeof x[i]);
+    }
 
     // Condense and scatter both halves of the symmetric block.
     const int *tri = &mesh->tri[6 * e];
@@ -393,9 +418,9 @@ void sb_ring_fem_stress(const SbRingFem *fem, int element, double l1, double l2,
   double d = fmax(1e-12, f[0] * f[3] - f[1] * f[2]), hoop = fmax(1e-12, f[4]);
   const double *inner = &fem->inner[SB_RING_INNER * element];
   double p = inner[2] + (l1 - 1.0 / 3.0) * inner[3] + (l2 - 1.0 / 3.0) * inner[4];
-  SbRingSlopes w;
-  sb_ring_material(&fem->material, f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3], d, hoop,
-                   p, &w);
+  Slopes w;
+  differentiate(&fem->material, f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3], d, hoop, p,
+                &w);
   double cof[4] = {f[3], -f[2], -f[1], f[0]}, stress[4];
   for (int i = 0; i < 4; i++) {
     stress[i] = 2.0 * w.a * f[i] + w.d * cof[i];

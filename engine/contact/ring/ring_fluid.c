@@ -9,158 +9,145 @@
 #include <math.h>
 #include <string.h>
 
-// The boundary place where a surface pushes hardest; `fallback` if it does not touch.
-static int crest(const SbRingContact *contact, SbRingSurface surface, int fallback) {
-  int best = -1;
+// The boundary place where a surface pushes hardest; without contact the one nearest to an angle.
+static int crest(const SbRingContact *contact, SbRingSurface surface, double angle) {
+  const double *angles = contact->fem->mesh->angle;
+  int best = -1, nearest = 0;
   double most = -1.0;
   for (int i = 0; i < contact->count; i++) {
-    const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + surface];
-    if (touch->held) {
-      double pressure = touch->force / fmax(contact->weight[i], 1e-30);
-      if (pressure > most) {
-        most = pressure;
-        best = i;
-      }
-    }
-  }
-  return best >= 0 ? best : fallback;
-}
-
-// Nearest boundary node to an angle.
-static int node_at(const SbRingMesh *mesh, double angle) {
-  int best = 0;
-  for (int i = 0; i < mesh->loop_count; i++) {
-    if (fabs(mesh->angle[i] - angle) < fabs(mesh->angle[best] - angle)) {
+    const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
+    double pressure = touch->held ? touch->force / fmax(contact->weight[i], 1e-30) : -1.0;
+    if (pressure > most) {
+      most = pressure;
       best = i;
     }
+    nearest = fabs(angles[i] - angle) < fabs(angles[nearest] - angle) ? i : nearest;
   }
-  return best;
+  return best >= 0 ? best : nearest;
 }
 
 // Brings the fluid's force on one node of an open side into the balance. What presses a held node
 // on its surface is kept apart: it changes no motion, but without it the node's contact force, and
 // with it friction, would jump whenever the neighbour is caught or let go.
-static void load_node(SbRingContact *contact, const int at[3], int a, const double force[2],
+static void load_node(SbRingContact *contact, int i, const int nodes[3], const double force[2],
                       double k[2][3][2]) {
   SbRingFem *fem = contact->fem;
-  int node = fem->mesh->loop[at[a]], held = 0;
-  double n[2] = {0.0, 0.0}, t[2] = {0.0, 0.0}, gap, curvature = 0.0, x[2];
-  sb_ring_contact_place(contact, at[a], x);
+  int node = fem->mesh->loop[i], held = 0;
+  SbRingFrame frame = {.curvature = 0.0};
   for (int s = 0; s < SB_RING_SURFACES; s++) {
-    if (contact->touch[SB_RING_SURFACES * at[a] + s].held) {
-      sb_ring_frame(&contact->now, (SbRingSurface)s, x, n, t, &gap, &curvature);
+    if (sb_ring_touch(contact, i, s)->held) {
+      frame = sb_ring_frame_at(contact, i, (SbRingSurface)s);
       held++;
     }
   }
+  const double *n = frame.n, *t = frame.t;
   // What remains of a force vector v in the balance: P v, all of it, its tangential part, or
   // nothing.
-  double p[2][2];
-  for (int i = 0; i < 2; i++) {
-    for (int j = 0; j < 2; j++) {
-      p[i][j] = held > 1 ? 0.0 : (i == j ? 1.0 : 0.0) - (held == 1 ? n[i] * n[j] : 0.0);
+  for (int r = 0; r < 2; r++) {
+    double p[2] = {0.0, 0.0};
+    for (int c = 0; c < 2 && held < 2; c++) {
+      p[c] = (r == c ? 1.0 : 0.0) - (held == 1 ? n[r] * n[c] : 0.0);
     }
-  }
-  for (int i = 0; i < 2; i++) {
-    double acting = p[i][0] * force[0] + p[i][1] * force[1];
-    contact->fluid[2 * at[a] + i] += acting;
-    contact->pressed[2 * at[a] + i] += force[i] - acting;
-    contact->share[2 * at[a] + i] += force[i] - acting;
-    fem->residual[2 * node + i] -= acting;
-    if (held == 1 && curvature != 0.0) {
+    double acting = p[0] * force[0] + p[1] * force[1];
+    contact->fluid[2 * i + r] += acting;
+    contact->pressed[2 * i + r] += force[r] - acting;
+    contact->share[2 * i + r] += force[r] - acting;
+    fem->residual[2 * node + r] -= acting;
+    if (held == 1 && frame.curvature != 0.0) {
       double along = t[0] * force[0] + t[1] * force[1], across = n[0] * force[0] + n[1] * force[1];
-      sb_ring_fem_add(fem, node, i, node, 1, curvature * (t[i] * across + n[i] * along));
+      sb_ring_fem_add(fem, node, r, node, 1, frame.curvature * (t[r] * across + n[r] * along));
     }
     for (int b = 0; b < 3; b++) {
-      for (int j = 0; j < 2; j++) {
-        double value = p[i][0] * k[0][b][j] + p[i][1] * k[1][b][j];
+      for (int c = 0; c < 2; c++) {
+        double value = p[0] * k[0][b][c] + p[1] * k[1][b][c];
         if (value != 0.0) {
-          sb_ring_fem_add(fem, node, i, fem->mesh->loop[at[b]], j, value);
+          sb_ring_fem_add(fem, node, r, nodes[b], c, value);
         }
       }
     }
   }
 }
 
-// Fluid force on the three nodes of one side, and its tangent if the side is open.
-static void load_side(SbRingContact *contact, int side, double pressure, bool closed) {
-  SbRingFem *fem = contact->fem;
-  int at[3] = {2 * side, 2 * side + 1, (2 * side + 2) % contact->count};
-  double x[3][2], force[3][2] = {{0.0}}, k[3][2][3][2] = {{{{0.0}}}};
+void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressure pressure,
+                       double force[3][2], double tangent[3][2][3][2], double area[3]) {
+  const SbRingFem *fem = contact->fem;
+  double r[3], z[3], turn = fem->axisymmetric ? 2.0 * M_PI : 1.0;
   for (int a = 0; a < 3; a++) {
-    sb_ring_contact_place(contact, at[a], x[a]);
+    double x[2];
+    sb_ring_contact_place(contact, 2 * side + a, x);
+    r[a] = x[0];
+    z[a] = x[1];
+    area[a] = 0.0;
   }
-  double turn = fem->axisymmetric ? 2.0 * M_PI : 1.0;
+  memset(force, 0, sizeof(double[3][2]));
+  memset(tangent, 0, sizeof(double[3][2][3][2]));
   for (int q = 0; q < 3; q++) {
-    double w = SB_RING_W3[q], n[3], d[3];
+    double n[3], d[3];
     sb_ring_side_shape(SB_RING_X3[q], n, d);
-    double r = 0.0, dr = 0.0, dz = 0.0;
+    double dr = sb_ring_side_sum(d, r), dz = sb_ring_side_sum(d, z);
+    double radius = fem->axisymmetric ? sb_ring_side_sum(n, r) : 1.0;
+    double p = pressure.value + pressure.slope * (sb_ring_side_sum(n, z) - z[0]);
     for (int a = 0; a < 3; a++) {
-      r += n[a] * x[a][0];
-      dr += d[a] * x[a][0];
-      dz += d[a] * x[a][1];
-    }
-    double radius = fem->axisymmetric ? r : 1.0;
-    for (int a = 0; a < 3; a++) {
-      contact->weight[at[a]] += w * n[a] * turn * radius * sqrt(dr * dr + dz * dz);
-    }
-    if (pressure == 0.0) {
-      continue;
-    }
-    // Outward normal times length is (dz, -dr): the ring is pushed by -p (dz, -dr) radius turn.
-    double c = w * turn * pressure;
-    for (int a = 0; a < 3; a++) {
-      force[a][0] -= c * n[a] * radius * dz;
-      force[a][1] += c * n[a] * radius * dr;
+      // Outward normal times length is (dz, -dr): the ring is pushed by -p (dz, -dr) radius turn.
+      double c = SB_RING_W3[q] * turn * n[a];
+      area[a] += c * radius * sqrt(dr * dr + dz * dz);
+      force[a][0] -= c * p * radius * dz;
+      force[a][1] += c * p * radius * dr;
       for (int b = 0; b < 3; b++) {
-        double hoop = fem->axisymmetric ? n[b] : 0.0;
-        k[a][0][b][0] += c * n[a] * hoop * dz;
-        k[a][0][b][1] += c * n[a] * radius * d[b];
-        k[a][1][b][0] -= c * n[a] * (hoop * dr + radius * d[b]);
+        double hoop = fem->axisymmetric && !pressure.fixed ? n[b] : 0.0;
+        double rise = pressure.slope * n[b];
+        tangent[a][0][b][0] += c * p * hoop * dz;
+        tangent[a][0][b][1] += c * radius * (p * d[b] + rise * dz);
+        tangent[a][1][b][0] -= c * p * (hoop * dr + radius * d[b]);
+        tangent[a][1][b][1] -= c * radius * rise * dr;
       }
     }
   }
-  if (pressure == 0.0) {
-    return;
-  }
-  for (int a = 0; a < 3; a++) {
-    if (closed) {
-      contact->share[2 * at[a]] += force[a][0];
-      contact->share[2 * at[a] + 1] += force[a][1];
-    } else {
-      load_node(contact, at, a, force[a], k[a]);
-    }
-  }
 }
 
-static bool holds(const SbRingContact *contact, int i, int surface) {
-  return contact->touch[SB_RING_SURFACES * i + surface].held;
+// Whether a surface holds all three nodes of a side.
+static bool closes(const SbRingContact *contact, int side) {
+  for (int s = 0; s < SB_RING_SURFACES; s++) {
+    if (sb_ring_touch(contact, 2 * side, s)->held &&
+        sb_ring_touch(contact, 2 * side + 1, s)->held &&
+        sb_ring_touch(contact, 2 * side + 2, s)->held) {
+      return true;
+    }
+  }
+  return false;
 }
 
 void sb_ring_contact_load_fluid(SbRingContact *contact) {
-  const SbRingMesh *mesh = contact->fem->mesh;
-  int sides = contact->count / 2;
   // Between the crests over the right flank stands the right pressure.
   if (!contact->settled) {
-    contact->crest[0] = crest(contact, SB_RING_BORE, node_at(mesh, 0.0));
-    contact->crest[1] = crest(contact, SB_RING_FLOOR, 0);
+    contact->is.crest[0] = crest(contact, SB_RING_BORE, 0.0);
+    contact->is.crest[1] = crest(contact, SB_RING_FLOOR, -M_PI);
   }
-  int bore = contact->crest[0], floor_at = contact->crest[1];
-  int past = floor_at > bore ? floor_at : floor_at + contact->count;
-  memset(contact->share, 0, sizeof(double) * 2 * (size_t)contact->count);
-  memset(contact->fluid, 0, sizeof(double) * 2 * (size_t)contact->count);
-  memset(contact->pressed, 0, sizeof(double) * 2 * (size_t)contact->count);
-  memset(contact->weight, 0, sizeof(double) * (size_t)contact->count);
-  for (int side = 0; side < sides; side++) {
-    bool closed = false;
-    for (int s = 0; s < SB_RING_SURFACES && !closed; s++) {
-      closed = holds(contact, 2 * side, s) && holds(contact, 2 * side + 1, s) &&
-               holds(contact, (2 * side + 2) % contact->count, s);
-    }
-    contact->closed[side] = closed;
+  int count = contact->count, bore = contact->is.crest[0], floor_at = contact->is.crest[1];
+  int past = floor_at > bore ? floor_at : floor_at + count;
+  memset(contact->share, 0, 7 * sizeof(double) * (size_t)count); // and what follows it
+  for (int side = 0; side < count / 2; side++) {
+    contact->closed[side] = closes(contact, side);
     int middle = 2 * side + 1;
-    bool right = (middle > bore && middle < past) ||
-                 (middle + contact->count > bore && middle + contact->count < past);
-    load_side(contact, side, right ? contact->now.pressure_right : contact->now.pressure_left,
-              closed);
+    bool right =
+        (middle > bore && middle < past) || (middle + count > bore && middle + count < past);
+    SbRingSidePressure pressure = {.value = right ? contact->is.now.pressure_right
+                                                  : contact->is.now.pressure_left};
+    double force[3][2], k[3][2][3][2], area[3];
+    int nodes[3];
+    sb_ring_side_load(contact, side, pressure, force, k, area);
+    for (int a = 0; a < 3; a++) {
+      nodes[a] = contact->fem->mesh->loop[sb_ring_wrap(contact, 2 * side + a)];
+    }
+    for (int a = 0; a < 3; a++) {
+      int i = sb_ring_wrap(contact, 2 * side + a);
+      contact->weight[i] += area[a];
+      if (contact->closed[side]) {
+        contact->share[2 * i] += force[a][0];
+        contact->share[2 * i + 1] += force[a][1];
+      } else if (pressure.value != 0.0) {
+        load_node(contact, i, nodes, force[a], k[a]);
+      }
+    }
   }
 }

@@ -1,11 +1,13 @@
 // The groove's rigid surfaces: floor, both walls and the bore with its land and chamfers.
 //
-// Each gives the gap of a place, its normal, tangent and curvature. Beyond an end of the land the
-// bore opens with the chamfer's slope, which sets in smoothly over the edge's rounding. Leaves out
-// fillets of the groove's corners and any give of the surfaces.
+// Each gives the gap of a place, its normal, tangent and curvature; and what can be done with a
+// load, which says where they stand. Beyond an end of the land the bore opens with the chamfer's
+// slope, which sets in smoothly over the edge's rounding. Leaves out fillets of the groove's
+// corners and any give of the surfaces.
 #include "engine/contact/ring/ring_contact.h"
 
 #include <math.h>
+#include <stddef.h>
 
 // Height above zero whose slope rises smoothly from 0 to 1 over a length (twice differentiable, so
 // that Newton does not stumble where the chamfer sets in).
@@ -25,64 +27,88 @@ static double ramp(double x, double length, double *slope, double *curvature) {
   return x - 0.5 * length;
 }
 
-double sb_ring_gap(const SbRingSetting *setting, SbRingSurface surface, const double x[2],
-                   double gradient[2], double *curvature) {
-  *curvature = 0.0;
-  switch (surface) {
-  case SB_RING_BORE: {
-    double s1, c1, s2, c2;
-    double opening = ramp(x[1] - setting->land_right, setting->edge_length, &s1, &c1) +
-                     ramp(setting->land_left - x[1], setting->edge_length, &s2, &c2);
-    gradient[0] = -1.0;
-    gradient[1] = setting->chamfer_slope * (s1 - s2);
-    *curvature = setting->chamfer_slope * (c1 + c2);
-    return setting->bore + setting->chamfer_slope * opening - x[0];
+SbRingFrame sb_ring_frame(const SbRingLoad *load, SbRingSurface surface, const double x[2]) {
+  if (surface == SB_RING_FLOOR) {
+    return (SbRingFrame){.n = {1.0, 0.0}, .t = {0.0, 1.0}, .gap = x[0] - load->floor_radius};
   }
-  case SB_RING_FLOOR:
-    gradient[0] = 1.0;
-    gradient[1] = 0.0;
-    return x[0] - setting->floor;
-  case SB_RING_WALL_RIGHT:
-    gradient[0] = 0.0;
-    gradient[1] = -1.0;
-    return setting->wall_right - x[1];
-  case SB_RING_WALL_LEFT:
-    gradient[0] = 0.0;
-    gradient[1] = 1.0;
-    return x[1] - setting->wall_left;
-  case SB_RING_SURFACES:
-    break;
+  if (surface == SB_RING_WALL_RIGHT) {
+    return (SbRingFrame){.n = {0.0, -1.0}, .t = {1.0, 0.0}, .gap = load->wall_right - x[1]};
   }
-  gradient[0] = gradient[1] = 0.0;
-  return INFINITY;
-}
-
-void sb_ring_frame(const SbRingSetting *setting, SbRingSurface surface, const double x[2],
-                   double n[2], double t[2], double *gap, double *curvature) {
-  double g[2];
-  *gap = sb_ring_gap(setting, surface, x, g, curvature);
-  double length = hypot(g[0], g[1]);
-  n[0] = g[0] / length;
-  n[1] = g[1] / length;
-  *gap /= length;
-  bool along_z = surface == SB_RING_BORE || surface == SB_RING_FLOOR;
-  t[0] = along_z ? (surface == SB_RING_BORE ? -n[1] * n[0] / fabs(n[0]) : 0.0) : 1.0;
-  t[1] = along_z ? fabs(n[0]) : 0.0;
-  *curvature /= length * length;
+  if (surface == SB_RING_WALL_LEFT) {
+    return (SbRingFrame){.n = {0.0, 1.0}, .t = {1.0, 0.0}, .gap = x[1] - load->wall_left};
+  }
+  double s1, c1, s2, c2;
+  double opening = ramp(x[1] - load->land_right, load->edge_length, &s1, &c1) +
+                   ramp(load->land_left - x[1], load->edge_length, &s2, &c2);
+  double chamfer = opening > 0.0 ? tan(load->chamfer_angle) : 0.0;
+  double slope = chamfer * (s1 - s2), length = sqrt(1.0 + slope * slope);
+  return (SbRingFrame){.n = {-1.0 / length, slope / length},
+                       .t = {slope / length, 1.0 / length},
+                       .gap = (load->bore_radius + chamfer * opening - x[0]) / length,
+                       .curvature = chamfer * (c1 + c2) / (length * length)};
 }
 
 const char *sb_ring_surface_name(SbRingSurface surface) {
-  switch (surface) {
-  case SB_RING_BORE:
-    return "bore";
-  case SB_RING_FLOOR:
-    return "groove floor";
-  case SB_RING_WALL_RIGHT:
-    return "right groove wall";
-  case SB_RING_WALL_LEFT:
-    return "left groove wall";
-  case SB_RING_SURFACES:
-    break;
+  static const char *const names[SB_RING_SURFACES] = {"bore", "groove floor", "right groove wall",
+                                                      "left groove wall"};
+  return names[surface];
+}
+
+double sb_ring_friction(const SbRingLoad *load, SbRingSurface surface) {
+  return surface == SB_RING_BORE    ? (load->use_bore_traction ? 0.0 : load->friction_bore)
+         : surface == SB_RING_FLOOR ? load->friction_floor
+                                    : load->friction_wall;
+}
+
+bool sb_ring_rubs(const SbRingLoad *load) {
+  return load->use_bore_traction || load->friction_bore > 0.0 || load->friction_floor > 0.0 ||
+         load->friction_wall > 0.0;
+}
+
+// The numbers of a load: lengths, pressures or neither, and the side whose end of the land it is.
+static const struct {
+  size_t at;
+  int length, pressure, end;
+} NUMBER[] = {
+    {offsetof(SbRingLoad, floor_radius), 1, 0, 0},
+    {offsetof(SbRingLoad, bore_radius), 1, 0, 0},
+    {offsetof(SbRingLoad, wall_left), 1, 0, 0},
+    {offsetof(SbRingLoad, wall_right), 1, 0, 0},
+    {offsetof(SbRingLoad, land_left), 1, 0, -1},
+    {offsetof(SbRingLoad, land_right), 1, 0, 1},
+    {offsetof(SbRingLoad, chamfer_angle), 0, 0, 0},
+    {offsetof(SbRingLoad, edge_length), 1, 0, 0},
+    {offsetof(SbRingLoad, pressure_left), 0, 1, 0},
+    {offsetof(SbRingLoad, pressure_right), 0, 1, 0},
+    {offsetof(SbRingLoad, bore_position), 1, 0, 0},
+    {offsetof(SbRingLoad, friction_bore), 0, 0, 0},
+    {offsetof(SbRingLoad, friction_floor), 0, 0, 0},
+    {offsetof(SbRingLoad, friction_wall), 0, 0, 0},
+    {offsetof(SbRingLoad, bore_traction), 0, 1, 0},
+};
+enum { NUMBERS = sizeof NUMBER / sizeof NUMBER[0] };
+
+static double *number(SbRingLoad *load, int i) {
+  return (double *)((char *)load + NUMBER[i].at);
+}
+
+SbRingLoad sb_ring_load_in(const SbRingLoad *load, double length, double pressure) {
+  SbRingLoad out = *load;
+  for (int i = 0; i < NUMBERS; i++) {
+    *number(&out, i) /= NUMBER[i].length ? length : NUMBER[i].pressure ? pressure : 1.0;
   }
-  return "";
+  return out;
+}
+
+SbRingLoad sb_ring_load_between(const SbRingLoad *a, const SbRingLoad *b, double t) {
+  SbRingLoad start = *a, out = *b;
+  for (int i = 0; i < NUMBERS; i++) {
+    double from = *number(&start, i), to = *number(&out, i), end = NUMBER[i].end;
+    if (end != 0.0 && (isfinite(from) || isfinite(to))) {
+      from = isfinite(from) ? from : end * SB_RING_REACH;
+      to = isfinite(to) ? to : end * SB_RING_REACH;
+    }
+    *number(&out, i) = isfinite(from) && isfinite(to) ? from + t * (to - from) : to;
+  }
+  return out;
 }

@@ -69,15 +69,22 @@ static void row_depths(double *depth, double first, double total, int m) {
   }
 }
 
+// What surrounds a vertex: its triangles' other corners, their worst shape before and after a move.
+typedef struct {
+  int spokes;
+  double sum[2], worst[2];
+} Neighbours;
+
 // Everything that is needed while one mesh is built.
 typedef struct {
   const SbRingMeshPlan *plan;
   double follow; // share of the surface's growth that the rows' depth follows
   SbRingMesh *mesh;
-  int vertex_count, vertex_max, tri_max;
-  double *vertex;        // [2 * vertex_max]
-  double *vertex_angle;  // [vertex_max]
-  bool *fixed, *on_axis; // [vertex_max] on the surface; on the axis of symmetry
+  int vertex_count, vertex_max;
+  double *vertex;         // [2 * vertex_max]
+  double *vertex_angle;   // [vertex_max]
+  Neighbours *neighbours; // [vertex_max]
+  bool *fixed, *on_axis;  // [vertex_max] on the surface; on the axis of symmetry
   double size[SAMPLES + 1], cumulative[SAMPLES + 1];
   double depth[SAMPLES + 1][LAYERS_MAX + 1];
   int row_count[2][LAYERS_MAX + 1];
@@ -231,59 +238,44 @@ static void stitch(Builder *b, int half, int k) {
   }
 }
 
-// Moves inner vertices to the mean of their neighbours where that betters their worst triangle.
+// Moves inner vertices to the mean of their neighbours, half of the way, since those move as well,
+// where that betters their worst triangle.
 static void smooth(Builder *b) {
   SbRingMesh *mesh = b->mesh;
-  int *start = b->place, *list = b->place + b->vertex_count + 1;
-  int vertices = b->vertex_count;
   double *x = mesh->x, *moved = b->vertex; // the builder's own copy takes the new places
-  memset(start, 0, sizeof(int) * ((size_t)vertices + 1));
-  for (int i = 0; i < mesh->elements; i++) {
-    for (int a = 0; a < 3; a++) {
-      start[mesh->tri[6 * i + a] + 1]++;
-    }
-  }
-  for (int v = 0; v < vertices; v++) {
-    start[v + 1] += start[v];
-  }
-  for (int i = mesh->elements - 1; i >= 0; i--) {
-    for (int a = 0; a < 3; a++) {
-      int v = mesh->tri[6 * i + a];
-      list[--start[v + 1]] = i; // fills from the end; start[v + 1] becomes the start of v
-    }
-  }
-  // Here start[v + 1] .. start[v + 2] is the list of v (start of the next), the last ends at 3 m.
   for (int sweep = 0; sweep < SMOOTHINGS; sweep++) {
-    for (int v = 0; v < vertices; v++) {
-      if (b->fixed[v]) {
-        continue;
-      }
-      int from = start[v + 1], to = v + 2 <= vertices ? start[v + 2] : 3 * mesh->elements;
-      double old[2] = {x[2 * v], x[2 * v + 1]}, mean[2] = {0.0, 0.0}, worst[2] = {1.0, 1.0};
-      int spokes = 2 * (to - from);
-      for (int pass = 0; pass < 2; pass++) {
-        for (int k = from; k < to; k++) {
-          const int *tri = &mesh->tri[6 * list[k]];
-          worst[pass] =
-              fmin(worst[pass], quality(&x[2 * tri[0]], &x[2 * tri[1]], &x[2 * tri[2]], 1.0));
-          for (int a = 0; a < 3 && pass == 0; a++) {
-            mean[0] += tri[a] == v ? 0.0 : x[2 * tri[a]];
-            mean[1] += tri[a] == v ? 0.0 : x[2 * tri[a] + 1];
-          }
-        }
-        if (pass == 0) {
-          // Half of the way, since the neighbours move as well.
-          x[2 * v] = 0.5 * (old[0] + mean[0] / spokes);
-          x[2 * v + 1] = b->on_axis[v] ? 0.0 : 0.5 * (old[1] + mean[1] / spokes);
-        }
-      }
-      bool better = worst[1] > worst[0];
-      moved[2 * v] = better ? x[2 * v] : old[0];
-      moved[2 * v + 1] = better ? x[2 * v + 1] : old[1];
-      x[2 * v] = old[0];
-      x[2 * v + 1] = old[1];
+    for (int v = 0; v < b->vertex_count; v++) {
+      b->neighbours[v] = (Neighbours){.worst = {1.0, 1.0}};
     }
-    memcpy(x, moved, sizeof(double) * 2 * (size_t)vertices);
+    for (int e = 0; e < mesh->elements; e++) {
+      for (int a = 0; a < 3; a++) {
+        int v = mesh->tri[6 * e + a], p = mesh->tri[6 * e + (a + 1) % 3];
+        int q = mesh->tri[6 * e + (a + 2) % 3];
+        Neighbours *n = &b->neighbours[v];
+        n->spokes += 2;
+        n->sum[0] += x[2 * p] + x[2 * q];
+        n->sum[1] += x[2 * p + 1] + x[2 * q + 1];
+        n->worst[0] = fmin(n->worst[0], quality(&x[2 * v], &x[2 * p], &x[2 * q], 1.0));
+      }
+    }
+    for (int v = 0; v < b->vertex_count; v++) {
+      const Neighbours *n = &b->neighbours[v];
+      moved[2 * v] = 0.5 * (x[2 * v] + n->sum[0] / n->spokes);
+      moved[2 * v + 1] = b->on_axis[v] ? 0.0 : 0.5 * (x[2 * v + 1] + n->sum[1] / n->spokes);
+    }
+    for (int e = 0; e < mesh->elements; e++) {
+      for (int a = 0; a < 3; a++) {
+        int v = mesh->tri[6 * e + a], p = mesh->tri[6 * e + (a + 1) % 3];
+        int q = mesh->tri[6 * e + (a + 2) % 3];
+        double *worst = &b->neighbours[v].worst[1];
+        *worst = fmin(*worst, quality(&moved[2 * v], &x[2 * p], &x[2 * q], 1.0));
+      }
+    }
+    for (int v = 0; v < b->vertex_count; v++) {
+      if (!b->fixed[v] && b->neighbours[v].worst[1] > b->neighbours[v].worst[0]) {
+        memcpy(&x[2 * v], &moved[2 * v], sizeof(double[2]));
+      }
+    }
   }
 }
 
@@ -398,8 +390,10 @@ static SbStatus build(SbRingMesh **out, Builder *b, SbReport *report) {
   b->vertex = malloc(sizeof(double) * 2 * (size_t)b->vertex_max);
   b->vertex_angle = malloc(sizeof(double) * (size_t)b->vertex_max);
   b->fixed = calloc(2 * (size_t)b->vertex_max, sizeof(bool));
-  b->rows = malloc(sizeof(int) * ((size_t)rows_max * (ROW_MAX + 1) + 8 * (size_t)b->vertex_max));
-  if (b->vertex == NULL || b->fixed == NULL || b->vertex_angle == NULL || b->rows == NULL) {
+  b->rows = malloc(sizeof(int) * ((size_t)rows_max * (ROW_MAX + 1) + (size_t)b->vertex_max));
+  b->neighbours = malloc(sizeof(Neighbours) * (size_t)b->vertex_max);
+  if (b->vertex == NULL || b->neighbours == NULL || b->fixed == NULL || b->vertex_angle == NULL ||
+      b->rows == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
   }
   int slot = 0;
@@ -488,6 +482,7 @@ static SbStatus attempt(SbRingMesh **out, const SbRingMeshPlan *plan, double fol
   SbStatus status = build(out, b, report);
   free(b->vertex);
   free(b->vertex_angle);
+  free(b->neighbours);
   free(b->fixed);
   free(b->rows);
   free(b);

@@ -3,7 +3,24 @@
 // One iteration assembles, factorises once, takes the correction (shortened if a node would move
 // too far or a point turn inside out) and renews the held set from the linear model's reactions. It
 // has converged when the balance holds on all free rows, held nodes lie on their surfaces and the
-// held set is steady. Load steps and what to do where it fails: ring_advance.c.
+// held set is steady. Load steps and what to do where it fails: ring_newton.c.
+//
+// A load step is taken in parts whose largest change is moderate, halved where Newton fails. Where
+// that is not enough the equilibrium is unstable or far (the land's edge lets the section snap
+// through, friction lets go, a wall is reached across the groove): the setting is then held and the
+// ring follows in steps of a viscous motion, M c (u_n - u_n-1) + R(u_n) = 0 with reference volume M
+// and falling c (pseudo-transient continuation, Kelley and Keyes 1998), friction seeing every step.
+// The viscosity is gone at the end, so that what is returned is an equilibrium. A ring that keeps
+// moving has none; the report says how it leaves. Leaves out inertia: where several equilibria can
+// be reached it is the one of an overdamped motion.
+//
+// Rolling. What resists the turning of a ring's section is its hoop stress, by nearly the sine of
+// the turn, so that the drag it bears is greatest near a quarter turn. Steady sliding was found at
+// turns up to 1.55 rad, falling drag from 2.05 rad on (dry and under fluid, with and without
+// friction on floor and wall). A section that turns beyond ROLLED has equilibria at a given place
+// of the bore still, but rolls on with it at a falling drag: no sliding state, and the step is
+// refused. The turn is the mean one of the section's points, followed along the path so that it
+// does not wrap.
 #include "engine/contact/ring/ring_newton.h"
 
 #include <math.h>
@@ -23,15 +40,15 @@ static const double AXIAL_SPRING = 1e-7;
 // A correction that has to be cut shorter than this is a stumble.
 static const double STUMBLE = 0.1;
 
+// Whether something holds the ring axially.
 static bool leans(const SbRingContact *contact) {
   for (int i = 0; i < contact->count; i++) {
-    const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i];
-    if (touch[SB_RING_WALL_RIGHT].held || touch[SB_RING_WALL_LEFT].held) {
+    if (sb_ring_touch(contact, i, SB_RING_WALL_RIGHT)->held ||
+        sb_ring_touch(contact, i, SB_RING_WALL_LEFT)->held) {
       return true;
     }
     for (int s = 0; s < SB_RING_SURFACES; s++) {
-      if (!touch[s].smooth && touch[s].slip == 0 &&
-          sb_ring_contact_rubs(contact, i, (SbRingSurface)s)) {
+      if (sb_ring_contact_sticks(contact, i, (SbRingSurface)s)) {
         return true;
       }
     }
@@ -55,7 +72,7 @@ static bool recentre(SbRingFem *fem, double force_scale) {
   int nodes = fem->mesh->nodes;
   double drift = 0.0;
   for (int i = 0; i < nodes; i++) {
-    drift += (fem->u[2 * i + 1] - fem->saved[1][2 * i + 1] - fem->axial_rest) / nodes;
+    drift += (fem->u[2 * i + 1] - fem->saved[SB_RING_START][2 * i + 1] - fem->axial_rest) / nodes;
   }
   fem->axial_rest += drift;
   return fabs(drift) * fem->axial_spring * nodes > DRIFT_FORCE * force_scale;
@@ -75,7 +92,7 @@ static void fail(const SbRingContact *contact, double residual, int changes, int
   bool wall = surface == SB_RING_WALL_RIGHT || surface == SB_RING_WALL_LEFT;
   (void)sb_fail(report, SB_ERROR_NOT_CONVERGED,
                 "the contact at the %s does not settle %.2f section diameters %s (residual %.2g)",
-                sb_ring_surface_name(surface), wall ? x[0] - contact->now.floor : x[1],
+                sb_ring_surface_name(surface), wall ? x[0] - contact->is.now.floor_radius : x[1],
                 wall ? "above the floor" : "from its middle", residual);
 }
 
@@ -149,4 +166,199 @@ SbStatus sb_ring_newton(SbRingContact *contact, const SbRingNewton *options, SbR
     double damping = DAMPING * (it < 8 ? 1.0 : it < 16 ? 0.1 : 0.01);
     fem->axial_damping = changes > 0 ? damping / fem->mesh->nodes : 0.0;
   }
+}
+
+// ---- load steps
+
+// Largest changes of one part: pressure in shear moduli, places in section diameters.
+static const double PRESSURE_STEP = 0.8, LAND_STEP = 0.15;
+
+// Viscosities, in shear moduli per section diameter squared: first, least before it is dropped,
+// most; and how many steps and droppings are tried.
+static const double VISCOSITY = 30.0, VISCOSITY_LEAST = 0.3, VISCOSITY_MOST = 3e4;
+enum { VISCOUS_STEPS = 50, DROPS_MAX = 4, WALKS_MAX = 3 };
+
+// Newton iterations after which a load step is given up at its next failure.
+enum { ITERATIONS_MOST = 1000 };
+
+// A motion beyond which the ring counts as gone, in section diameters; the turn beyond which it
+// rolls and the largest one of a part, in radians.
+static const double GONE = 1.5, ROLLED = 2.0, TURN_STEP = 0.5;
+
+// Number of parts that a load step is first taken in.
+static double parts(const SbRingLoad *a, const SbRingLoad *b) {
+  double pressure =
+      fmax(fabs(b->pressure_left - a->pressure_left), fabs(b->pressure_right - a->pressure_right));
+  double from[2] = {a->land_left, a->land_right}, to[2] = {b->land_left, b->land_right};
+  double most = pressure / PRESSURE_STEP;
+  for (int k = 0; k < 2; k++) {
+    double way = fmin(SB_RING_REACH, fmax(-SB_RING_REACH, to[k])) -
+                 fmin(SB_RING_REACH, fmax(-SB_RING_REACH, from[k]));
+    most = fmax(most, fabs(way) / LAND_STEP);
+  }
+  return ceil(fmax(1.0, most));
+}
+
+// Mean axial place of the section; in *turn its turn since it was free, that of all which look the
+// same that is nearest to the last one known.
+static double place_of_section(const SbRingContact *contact, double *turn) {
+  const SbRingFem *fem = contact->fem;
+  const SbRingMesh *mesh = fem->mesh;
+  double sum = 0.0, now[2] = {0.0, 0.0}, then[2] = {0.0, 0.0};
+  for (int i = 0; i < mesh->nodes; i++) {
+    sum += fem->mass[i];
+    for (int k = 0; k < 2; k++) {
+      now[k] += fem->mass[i] * (mesh->x[2 * i + k] + fem->u[2 * i + k]);
+      then[k] += fem->mass[i] * mesh->x[2 * i + k];
+    }
+  }
+  double cross = 0.0, dot = 0.0;
+  for (int i = 0; i < mesh->nodes; i++) {
+    double a[2], b[2];
+    for (int k = 0; k < 2; k++) {
+      a[k] = mesh->x[2 * i + k] - then[k] / sum;
+      b[k] = mesh->x[2 * i + k] + fem->u[2 * i + k] - now[k] / sum;
+    }
+    cross += fem->mass[i] * (a[0] * b[1] - a[1] * b[0]);
+    dot += fem->mass[i] * (a[0] * b[0] + a[1] * b[1]);
+  }
+  *turn = contact->is.turn + remainder(atan2(cross, dot) - contact->is.turn, 2.0 * M_PI);
+  return now[1] / sum;
+}
+
+// Takes the section's turn over from a new equilibrium, unless it cannot be one of the path: turned
+// too far in one part, or rolling on.
+static SbStatus take_turn(SbRingContact *contact, SbReport *report) {
+  double turn;
+  (void)place_of_section(contact, &turn);
+  if (fabs(turn - contact->is.turn) > TURN_STEP) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the section turns by %.3g rad at once",
+                   turn - contact->is.turn);
+  }
+  if (fabs(turn) > ROLLED && fabs(turn) > fabs(contact->is.turn)) {
+    contact->rolls = true;
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                   "the ring rolls: its section has turned by %.3g rad, where no drag holds it",
+                   fabs(turn));
+  }
+  contact->is.turn = turn;
+  contact->rolls = false;
+  return SB_OK;
+}
+
+// Solves at the present load; back to the start of the part where that fails.
+static SbStatus attempt(SbRingContact *contact, const SbRingNewton *options, SbRingCount *count,
+                        SbReport *report) {
+  SbStatus status = sb_ring_newton(contact, options, count, report);
+  contact->fem->viscosity = 0.0;
+  status = status == SB_OK ? take_turn(contact, report) : status;
+  if (status == SB_OK && options->keeps != NULL && !options->keeps(options->keeps_data)) {
+    status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the contact is lost");
+  }
+  if (status != SB_OK) {
+    sb_ring_restore(contact, SB_RING_START);
+  }
+  return status;
+}
+
+// Follows the ring at another load from the present state to an equilibrium.
+static SbStatus walk(SbRingContact *contact, const SbRingLoad *load, const SbRingNewton *options,
+                     SbRingCount *count, SbReport *report) {
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  double c = VISCOSITY;
+  int drops = 0;
+  double turn, from = place_of_section(contact, &turn);
+  for (int i = 0; i < VISCOUS_STEPS && c <= VISCOSITY_MOST; i++) {
+    bool drop = c < VISCOSITY_LEAST;
+    contact->fem->viscosity = drop ? 0.0 : c;
+    sb_ring_save(contact, SB_RING_START);
+    contact->is.now = *load;
+    int before = count->iterations;
+    status = attempt(contact, options, count, report);
+    if (contact->rolls || status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY ||
+        (status == SB_OK && drop)) {
+      return status;
+    }
+    if (status == SB_OK) {
+      if (fabs(place_of_section(contact, &turn) - from) > GONE) {
+        return sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                       "the ring leaves its place, nothing holds it axially");
+      }
+      int used = count->iterations - before;
+      c *= used <= 6 ? 0.3 : used <= 12 ? 0.6 : 1.0;
+      continue;
+    }
+    if (drop && ++drops >= DROPS_MAX) {
+      return status;
+    }
+    c *= drop ? 10.0 : 8.0;
+  }
+  return status == SB_OK ? sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring does not come to rest")
+                         : status;
+}
+
+// Keeps the reason and puts before it where equilibrium ended.
+static void explain(double done, SbReport *report) {
+  if (report == NULL) {
+    return;
+  }
+  SbReport reason = *report;
+  (void)sb_fail(report, SB_ERROR_NOT_CONVERGED, "equilibrium lost at %.3g of the step: %.160s",
+                done, reason.text);
+  report->residual = reason.residual;
+  report->iteration = reason.iteration;
+}
+
+// Whether a smaller step cannot help either.
+static bool gives_up(const SbRingContact *contact, SbStatus status, int iterations) {
+  return status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY || contact->rolls ||
+         iterations > ITERATIONS_MOST;
+}
+
+SbStatus sb_ring_advance(SbRingContact *contact, const SbRingLoad *target,
+                         const SbRingNewton *options, SbRingCount *count, SbReport *report) {
+  SbRingLoad start = contact->is.now;
+  double part = 1.0 / fmax(options->parts_least, parts(&start, target));
+  double done = 0.0, share = part;
+  int walks = 0, first = count->iterations;
+  contact->rolls = false;
+  while (done < 1.0) {
+    double next = fmin(1.0, done + share);
+    SbRingLoad load = next >= 1.0 ? *target : sb_ring_load_between(&start, target, next);
+    sb_ring_save(contact, SB_RING_START);
+    contact->is.now = load;
+    int before = count->iterations;
+    SbStatus status = attempt(contact, options, count, report);
+    if (status == SB_OK) {
+      share = count->iterations - before <= 8 ? 2.0 * share : share;
+    } else {
+      count->rejected++;
+    }
+    bool stop = status != SB_OK && gives_up(contact, status, count->iterations - first);
+    if (status != SB_OK && !stop && options->walks && share <= 0.25 * part && walks < WALKS_MAX) {
+      walks++;
+      sb_ring_save(contact, SB_RING_BEFORE);
+      status = walk(contact, &load, options, count, report);
+      if (status == SB_OK) {
+        share = 0.5 * part;
+      } else {
+        sb_ring_restore(contact, SB_RING_BEFORE);
+        stop = gives_up(contact, status, count->iterations - first);
+      }
+    }
+    if (status == SB_OK) {
+      done = next;
+      count->steps++;
+      continue;
+    }
+    share *= 0.5;
+    if (stop || share < options->step_least * part) {
+      if (status == SB_ERROR_NOT_CONVERGED) {
+        explain(done, report);
+      }
+      sb_ring_contact_settle(contact); // forces and conditions of the state that is kept
+      return status;
+    }
+  }
+  return sb_succeed(report);
 }

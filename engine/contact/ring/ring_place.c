@@ -26,11 +26,11 @@ SbRingNewton sb_ring_newton_options(const SbRing *ring) {
 // Volume-preserving guess: uniform stretch and a share of the squeeze, sunk into the floor by what
 // a stretched ring flattens there (about 0.3 of its inner stretch, measured), so that the contacts
 // start with some width.
-static void guess(SbRing *ring, const SbRingSetting *s, double share) {
+static void guess(SbRing *ring, const SbRingLoad *s, double share) {
   bool plane = ring->body.plane_strain;
   double inner = ring->centre - 0.5;
-  double low = fmax(s->floor, fmin(inner, s->bore - 1.0));
-  double space = s->bore - low;
+  double low = fmax(s->floor_radius, fmin(inner, s->bore_radius - 1.0));
+  double space = s->bore_radius - low;
   double stretch = plane ? 1.0 : (low + 0.5 * fmin(space, 1.0)) / ring->centre;
   double flat = plane ? 0.0 : fmin(0.1, 0.3 * fmax(0.0, low / inner - 1.0));
   double thickness = 1.0 / sqrt(stretch);
@@ -53,21 +53,18 @@ static void guess(SbRing *ring, const SbRingSetting *s, double share) {
     fem->u[2 * i + 1] = z / (stretch * thickness) + shift - z;
   }
   memset(fem->inner, 0, sizeof(double) * SB_RING_INNER * (size_t)ring->mesh->elements);
-  ring->contact->turn = 0.0;
+  ring->contact->is.turn = 0.0;
 }
 
 // A pressure difference with nothing to lean on: push the ring against its wall.
-static SbStatus lean(SbRing *ring, const SbRingSetting *s, bool *leaned, SbReport *report) {
+static SbStatus lean(SbRing *ring, const SbRingLoad *s, bool *leaned, SbReport *report) {
   SbRingContact *contact = ring->contact;
   double difference = s->pressure_left - s->pressure_right;
-  bool rubs = s->use_traction;
-  *leaned = false;
-  for (int k = 0; k < SB_RING_SURFACES; k++) {
-    rubs = rubs || s->friction[k] > 0.0;
-  }
+  bool holds = sb_ring_rubs(s); // it leans already, or friction decides how far it goes
   bool land = s->land_left > -INFINITY || s->land_right < INFINITY;
+  *leaned = false;
   SbRingPatch patch;
-  if (difference == 0.0 && land && !rubs && sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+  if (difference == 0.0 && land && !holds && sb_ring_patch(ring, SB_RING_BORE, &patch)) {
     // A chamfer under the contact pushes towards its open side; without friction the ring would
     // otherwise balance on the land's edge, which is not stable.
     if (s->land_right < patch.place[1] && isfinite(s->wall_right)) {
@@ -76,52 +73,44 @@ static SbStatus lean(SbRing *ring, const SbRingSetting *s, bool *leaned, SbRepor
       difference = -1e-3;
     }
   }
-  if (difference == 0.0) {
-    return SB_OK;
-  }
   SbRingSurface wall = difference > 0.0 ? SB_RING_WALL_RIGHT : SB_RING_WALL_LEFT;
   double place = difference > 0.0 ? s->wall_right : s->wall_left;
-  if (!isfinite(place)) {
-    return rubs || land ? SB_OK
-                        : sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
-                                            "no groove wall holds the ring against the pressure");
+  if (difference != 0.0 && !isfinite(place) && !holds && !land) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
+                             "no groove wall holds the ring against the pressure");
   }
   double least = INFINITY;
   for (int i = 0; i < contact->count; i++) {
     double x[2];
     sb_ring_contact_place(contact, i, x);
-    if (contact->touch[SB_RING_SURFACES * i + wall].held) {
-      return SB_OK;
-    }
+    holds = holds || sb_ring_touch(contact, i, wall)->held;
     least = fmin(least, fabs(place - x[1]));
   }
-  if (rubs) {
-    return SB_OK; // friction decides how far it goes
+  *leaned = difference != 0.0 && isfinite(place) && !holds;
+  if (!*leaned) {
+    return SB_OK;
   }
   // Sunk in by a little more than it takes, so that the wall contact starts with some width.
   double sunk = fmin(0.06, fmax(0.003, 0.05 * fabs(difference)));
   double shift = difference > 0.0 ? least + sunk : -least - sunk;
-  *leaned = true;
   for (int i = 0; i < ring->mesh->nodes; i++) {
     ring->fem->u[2 * i + 1] += shift;
   }
   for (int i = 0; i < contact->count; i++) {
     double x[2];
     sb_ring_contact_place(contact, i, x);
-    SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i];
-    touch[wall].held = difference > 0.0 ? x[1] >= place : x[1] <= place;
-    touch[difference > 0.0 ? SB_RING_WALL_LEFT : SB_RING_WALL_RIGHT].held = false;
+    sb_ring_touch(contact, i, SB_RING_WALL_RIGHT)->held = difference > 0.0 && x[1] >= place;
+    sb_ring_touch(contact, i, SB_RING_WALL_LEFT)->held = difference < 0.0 && x[1] <= place;
   }
   return SB_OK;
 }
 
-// To another setting, leaning first where that is wanted. If pushing the ring to its wall was too
+// To another load, leaning first where that is wanted. If pushing the ring to its wall was too
 // rough, it is followed there instead.
-SbStatus sb_ring_press(SbRing *ring, const SbRingSetting *target, SbReport *report) {
+SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report) {
   SbRingNewton newton = sb_ring_newton_options(ring);
   bool leaned;
-  sb_ring_fem_save(ring->fem, 2);
-  sb_ring_contact_save(ring->contact, 1);
+  sb_ring_save(ring->contact, SB_RING_BEFORE);
   SbStatus status = lean(ring, target, &leaned, report);
   if (status != SB_OK) {
     return status;
@@ -131,8 +120,7 @@ SbStatus sb_ring_press(SbRing *ring, const SbRingSetting *target, SbReport *repo
   status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
   if (leaned && status == SB_ERROR_NOT_CONVERGED) {
     if (ring->count.steps == steps) {
-      sb_ring_fem_restore(ring->fem, 2);
-      sb_ring_contact_restore(ring->contact, 1);
+      sb_ring_restore(ring->contact, SB_RING_BEFORE);
     }
     newton.walks = true;
     status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
@@ -140,11 +128,16 @@ SbStatus sb_ring_press(SbRing *ring, const SbRingSetting *target, SbReport *repo
   return status;
 }
 
+static bool touches_bore(void *ring) {
+  SbRingPatch patch;
+  return sb_ring_patch(ring, SB_RING_BORE, &patch);
+}
+
 // Presses a ring that does not touch the bore by itself. The sealed state, which the fluid holds
 // once something has closed the gap, ends in a fold as the gap grows, where the contact has still
 // some width: it is followed from a bore that touches, outwards, as far as it goes. Beyond, the
 // fluid passes the ring.
-static SbStatus press_open(SbRing *ring, const SbRingSetting *target, SbReport *report) {
+static SbStatus press_open(SbRing *ring, const SbRingLoad *target, SbReport *report) {
   static const double CLOSED = 0.05;
   SbRingNewton newton = sb_ring_newton_options(ring);
   double top = 0.0;
@@ -153,9 +146,9 @@ static SbStatus press_open(SbRing *ring, const SbRingSetting *target, SbReport *
     sb_ring_contact_place(ring->contact, i, x);
     top = fmax(top, x[0]);
   }
-  SbRingSetting tight = *target;
-  tight.bore = fmin(target->bore, top - CLOSED);
-  SbRingSetting dry = tight;
+  SbRingLoad tight = *target;
+  tight.bore_radius = fmin(target->bore_radius, top - CLOSED);
+  SbRingLoad dry = tight;
   dry.pressure_left = dry.pressure_right = 0.0;
   SbStatus status = sb_ring_advance(ring->contact, &dry, &newton, &ring->count, report);
   if (status == SB_OK) {
@@ -168,67 +161,50 @@ static SbStatus press_open(SbRing *ring, const SbRingSetting *target, SbReport *
   // past.
   newton.walks = false;
   newton.iterations_max = 14;
-  newton.step_least = 1.0;
-  double done = 0.0, share = 0.25;
-  while (done < 1.0 && share >= 1.0 / 32.0) {
-    SbRingSetting good = ring->contact->now, next = *target;
-    double to = fmin(1.0, done + share);
-    next.bore = to >= 1.0 ? target->bore : tight.bore + to * (target->bore - tight.bore);
-    sb_ring_fem_save(ring->fem, 2);
-    sb_ring_contact_save(ring->contact, 1);
-    SbRingPatch patch;
-    status = sb_ring_advance(ring->contact, &next, &newton, &ring->count, report);
-    if (status == SB_OK && sb_ring_patch(ring, SB_RING_BORE, &patch)) {
-      done = to;
-      share *= 1.5;
-    } else if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
-      sb_ring_fem_restore(ring->fem, 2);
-      sb_ring_contact_restore(ring->contact, 1);
-      ring->contact->now = good;
-      share *= 0.5;
-    } else {
-      return status;
-    }
+  newton.parts_least = 4.0;
+  newton.step_least = 1.0 / 8.0;
+  newton.keeps = touches_bore;
+  newton.keeps_data = ring;
+  status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
+  if (status != SB_ERROR_NOT_CONVERGED) {
+    return status;
   }
-  if (done < 1.0) {
-    double l = ring->length, p = fmax(target->pressure_left, target->pressure_right);
-    const SbRingSetting *now = &ring->contact->now;
-    return sb_fail_parameter(
-        report, SB_ERROR_INFEASIBLE, "gland.radial_space",
-        "the fluid passes the ring: without pressure it does not touch the bore, and what %.3g MPa "
-        "presses on it holds up to a radial space of %.5g mm, not %.5g mm",
-        1e-6 * p * ring->stress, 1e3 * l * (now->bore - now->floor),
-        1e3 * l * (target->bore - target->floor));
-  }
-  return sb_succeed(report);
+  double l = ring->length, p = fmax(target->pressure_left, target->pressure_right);
+  const SbRingLoad *now = &ring->contact->is.now;
+  return sb_fail_parameter(
+      report, SB_ERROR_INFEASIBLE, "gland.radial_space",
+      "the fluid passes the ring: without pressure it does not touch the bore, and what %.3g MPa "
+      "presses on it holds up to a radial space of %.5g mm, not %.5g mm",
+      1e-6 * p * ring->stress, 1e3 * l * (now->bore_radius - now->floor_radius),
+      1e3 * l * (target->bore_radius - target->floor_radius));
 }
 
 // Fits the ring without fluid and friction, then brings on the fluid.
-SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingSetting *smooth, SbReport *report) {
+SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport *report) {
   SbRingNewton newton = sb_ring_newton_options(ring);
-  SbRingSetting dry = *smooth;
+  SbRingLoad dry = *smooth;
   dry.pressure_left = dry.pressure_right = 0.0;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   // Guesses with different shares of the squeeze, then a small squeeze that grows.
   static const double SHARE[] = {0.4, 0.0};
   for (size_t i = 0; i < sizeof SHARE / sizeof SHARE[0] && status == SB_ERROR_NOT_CONVERGED; i++) {
-    ring->contact->now = dry;
+    ring->contact->is.now = dry;
     guess(ring, &dry, SHARE[i]);
     sb_ring_contact_detect(ring->contact);
     status = sb_ring_newton(ring->contact, &newton, &ring->count, report);
   }
   if (status == SB_ERROR_NOT_CONVERGED) {
-    SbRingSetting wide = dry;
-    wide.bore = fmax(dry.bore, dry.floor + 0.85);
+    SbRingLoad wide = dry;
+    wide.bore_radius = fmax(dry.bore_radius, dry.floor_radius + 0.85);
     guess(ring, &wide, 0.4);
     // The ends of the land come in from outside.
-    wide.land_right = fmax(dry.land_right, 1.5);
-    wide.land_left = fmin(dry.land_left, -1.5);
-    ring->contact->now = wide;
+    wide.land_right = fmax(dry.land_right, SB_RING_REACH);
+    wide.land_left = fmin(dry.land_left, -SB_RING_REACH);
+    ring->contact->is.now = wide;
     sb_ring_contact_detect(ring->contact);
     status = sb_ring_newton(ring->contact, &newton, &ring->count, report);
-    SbRingSetting squeezed = wide;
-    squeezed.bore = dry.bore;
+    SbRingLoad squeezed = wide;
+    squeezed.bore_radius = dry.bore_radius;
     if (status == SB_OK) {
       status = sb_ring_advance(ring->contact, &squeezed, &newton, &ring->count, report);
     }

@@ -51,22 +51,20 @@ SbRingRecovery *sb_ring_recovery_create(void) {
 
 static bool collect(Fit *fit, const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch) {
   const SbRingContact *contact = ring->contact;
-  const SbRingMesh *mesh = ring->mesh;
-  int count = contact->count;
   // Whole sides, so that even rows are vertices.
   int first = patch->first - 2 + (patch->first + 2) % 2, last = patch->last + 2 - patch->last % 2;
   int axis = surface == SB_RING_BORE || surface == SB_RING_FLOOR ? 1 : 0;
   double sign = surface == SB_RING_BORE || surface == SB_RING_WALL_LEFT ? 1.0 : -1.0;
   fit->rows = last - first + 1;
-  if (fit->rows > ROWS_MAX || fit->rows < 9 || fit->rows > count) {
+  if (fit->rows > ROWS_MAX || fit->rows < 9 || fit->rows > contact->count) {
     return false;
   }
   fit->turn = ring->fem->axisymmetric ? 2.0 * M_PI : 1.0;
   for (int i = 0; i < fit->rows; i++) {
-    int place = ((first + i) % count + count) % count, node = mesh->loop[place];
+    int place = sb_ring_wrap(contact, first + i);
     double x[2];
-    sb_ring_fem_place(ring->fem, node, x);
-    const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * place + surface];
+    sb_ring_contact_place(contact, place, x);
+    const SbRingTouch *touch = sb_ring_touch(contact, place, surface);
     fit->x[i] = sign * x[axis];
     fit->z[i] = sign * x[1 - axis];
     fit->r[i] = ring->fem->axisymmetric ? x[0] : 1.0;

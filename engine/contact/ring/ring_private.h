@@ -59,19 +59,13 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
 // Newton's method as the ring's options want it.
 SbRingNewton sb_ring_newton_options(const SbRing *ring);
 
-// Fits the ring anew without friction at a setting, fluid last, on its present mesh. Errors as
+// Fits the ring anew without friction at a load, fluid last, on its present mesh. Errors as
 // sb_ring_create.
-SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingSetting *smooth, SbReport *report);
+SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport *report);
 
-// From the present state to another setting, leaning on the wall first where the fluid wants it.
-SbStatus sb_ring_press(SbRing *ring, const SbRingSetting *target, SbReport *report);
+// From the present state to another load, leaning on the wall first where the fluid wants it.
+SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report);
 
-// The element solver's setting of a load.
-SbRingSetting sb_ring_setting(const SbRing *ring, const SbRingLoad *load);
-
-// Tangent of the present state with the bore's nodes set free, factorised; the ring must be settled
-// afterwards. SB_ERROR_NOT_CONVERGED.
+// Tangent of the present state with the bore's nodes set free, factorised; sb_ring_contact_settle
+// must follow. SB_ERROR_NOT_CONVERGED.
 SbStatus sb_ring_free_bore(SbRing *ring, SbReport *report);
-
-// Leaves the ring as it was: forces and shares of the present state.
-void sb_ring_settle(SbRing *ring);

@@ -16,21 +16,9 @@
 // Points of a smooth profile.
 enum { PROFILE_POINTS = 321 };
 
-static bool held(const SbRing *ring, int i, SbRingSurface surface) {
-  int count = ring->contact->count;
-  return ring->contact->touch[SB_RING_SURFACES * ((i + count) % count) + surface].held;
-}
-
-// Deformed place of a boundary node, any integer place in the loop.
-static void place_of(const SbRing *ring, int i, double x[2]) {
-  int count = ring->contact->count;
-  sb_ring_contact_place(ring->contact, (i + count) % count, x);
-}
-
 static double angle_of(const SbRing *ring, int i) {
-  int count = ring->contact->count;
-  double turn = i >= count ? 2.0 * M_PI : i < 0 ? -2.0 * M_PI : 0.0;
-  return ring->mesh->angle[(i + count) % count] + turn;
+  double turn = i >= ring->contact->count ? 2.0 * M_PI : i < 0 ? -2.0 * M_PI : 0.0;
+  return ring->mesh->angle[sb_ring_wrap(ring->contact, i)] + turn;
 }
 
 // Where a contact ends, near its last held node. Inside, the excess over the fluid's pressure falls
@@ -41,12 +29,10 @@ static void find_end(const SbRing *ring, SbRingSurface surface, int last, int ou
                      double *angle, double *place) {
   const SbRingContact *contact = ring->contact;
   int axis = surface == SB_RING_BORE || surface == SB_RING_FLOOR ? 1 : 0;
-  int sides = contact->count / 2;
-  double x[3][2], g[2], curvature, q[3];
+  double x[3][2], q[3];
   for (int k = 0; k < 3; k++) {
-    place_of(ring, last + k * outward, x[k]);
-    double gap = sb_ring_gap(&contact->now, surface, x[k], g, &curvature);
-    q[k] = pow(fmax(0.0, gap), 2.0 / 3.0);
+    sb_ring_contact_place(contact, last + k * outward, x[k]);
+    q[k] = pow(fmax(0.0, sb_ring_frame(&contact->is.now, surface, x[k]).gap), 2.0 / 3.0);
   }
   double span = x[1][axis] - x[0][axis];
   double back = q[2] > q[1] ? q[1] / (q[2] - q[1]) * (x[2][axis] - x[1][axis]) : 0.0;
@@ -57,11 +43,11 @@ static void find_end(const SbRing *ring, SbRingSurface surface, int last, int ou
   double z[2], p[2];
   int found = 0;
   for (int i = last; found < 2 && abs(i - last) < 8; i -= outward) {
-    int wrapped = (i + contact->count) % contact->count;
-    if (wrapped % 2 == 1 && held(ring, i, surface) && contact->closed[wrapped / 2 % sides]) {
+    int wrapped = sb_ring_wrap(contact, i);
+    const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
+    if (wrapped % 2 == 1 && touch->held && contact->closed[wrapped / 2]) {
       double at[2];
-      place_of(ring, i, at);
-      const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * wrapped + surface];
+      sb_ring_contact_place(contact, i, at);
       double excess = fmax(0.0, touch->force / contact->weight[wrapped] - fluid);
       z[found] = at[axis];
       p[found++] = excess * excess;
@@ -70,7 +56,7 @@ static void find_end(const SbRing *ring, SbRingSurface surface, int last, int ou
   if (found == 2 && p[1] > p[0]) {
     double end = z[0] + (z[0] - z[1]) * p[0] / (p[1] - p[0]);
     double inner[2];
-    place_of(ring, last - outward, inner);
+    sb_ring_contact_place(ring->contact, last - outward, inner);
     double by_pressure = (end - x[0][axis]) / span;
     double least = (inner[axis] - x[0][axis]) / span;
     // A last held mid node stands on a side that the fluid may share: the gap knows better.
@@ -89,7 +75,7 @@ bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch
   // The contact is what the longest open run leaves.
   int run = 0, longest = 0, end = -1, any = 0;
   for (int i = 0; i < 2 * count; i++) {
-    if (held(ring, i % count, surface)) {
+    if (sb_ring_touch(ring->contact, i % count, surface)->held) {
       run = 0;
       any = 1;
     } else if (++run > longest) {
@@ -102,7 +88,7 @@ bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch
   }
   patch->first = (end + 1) % count;
   patch->last = patch->first + count - longest - 1;
-  double left = ring->contact->now.pressure_left, right = ring->contact->now.pressure_right;
+  double left = ring->contact->is.now.pressure_left, right = ring->contact->is.now.pressure_right;
   patch->end_pressure[0] = surface == SB_RING_BORE || surface == SB_RING_WALL_LEFT ? left : right;
   patch->end_pressure[1] = surface == SB_RING_BORE || surface == SB_RING_WALL_RIGHT ? right : left;
   find_end(ring, surface, patch->first, -1, patch->end_pressure[0], &patch->angle[0],
@@ -112,26 +98,26 @@ bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch
   return true;
 }
 
+// How far a node's contact force exceeds what the fluid would press there.
+static double excess(const SbRingContact *contact, int i, SbRingSurface surface) {
+  SbRingFrame frame = sb_ring_frame_at(contact, i, surface);
+  const double *share = &contact->share[2 * i];
+  return sb_ring_touch(contact, i, surface)->force - frame.n[0] * share[0] - frame.n[1] * share[1];
+}
+
 double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface) {
   const SbRingContact *contact = ring->contact;
   int count = contact->count;
-  i = (i + count) % count;
-  const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + surface];
+  i = sb_ring_wrap(contact, i);
+  const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
   double weight = contact->weight[i];
   if (!touch->held || !(weight > 0.0)) {
     return 0.0;
   }
-  bool closed = contact->closed[i / 2] &&
-                (i % 2 == 1 || contact->closed[(i / 2 + count / 2 - 1) % (count / 2)]);
-  if (closed) {
+  if (contact->closed[i / 2] && contact->closed[sb_ring_wrap(contact, i - 1 + i % 2) / 2]) {
     return touch->force / weight;
   }
   // At an end the fluid acts on the open side: its pressure plus the excess over it.
-  double x[2], n[2], curvature;
-  place_of(ring, i, x);
-  sb_ring_gap(&contact->now, surface, x, n, &curvature);
-  double length = hypot(n[0], n[1]);
-  double share = (n[0] * contact->share[2 * i] + n[1] * contact->share[2 * i + 1]) / length;
   SbRingPatch patch;
   if (!sb_ring_patch(ring, surface, &patch)) {
     assert(!"a held node belongs to a contact");
@@ -139,13 +125,18 @@ double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface) {
   }
   int past = (i - patch.first + count) % count;
   bool nearer_last = 2 * past > patch.last - patch.first;
-  return patch.end_pressure[nearer_last ? 1 : 0] + fmax(0.0, touch->force - share) / weight;
+  return patch.end_pressure[nearer_last ? 1 : 0] + fmax(0.0, excess(contact, i, surface)) / weight;
+}
+
+static double node_shear(const SbRing *ring, int i) {
+  const SbRingTouch *touch = sb_ring_touch(ring->contact, i, SB_RING_BORE);
+  return touch->held ? touch->tangent / ring->contact->weight[sb_ring_wrap(ring->contact, i)] : 0.0;
 }
 
 // Nodal pressures as they are, for a contact that no smooth curve fits.
 static int nodal_profile(const SbRing *ring, const SbRingPatch *patch, double *x, double *pressure,
                          double *shear, int capacity) {
-  int n = 0, count = ring->contact->count;
+  int n = 0;
   double before = -HUGE_VAL;
   for (int i = patch->first - 1; i <= patch->last + 1; i++) {
     double at[2], p = 0.0, t = 0.0;
@@ -154,7 +145,7 @@ static int nodal_profile(const SbRing *ring, const SbRingPatch *patch, double *x
       at[1] = patch->place[end];
       p = patch->end_pressure[end];
     } else {
-      place_of(ring, i, at);
+      sb_ring_contact_place(ring->contact, i, at);
       // A held node beyond the end that its neighbours tell is only a tail of the mesh.
       double margin = 1e-6 * (patch->place[1] - patch->place[0]);
       if (at[1] < patch->place[0] + margin || at[1] > patch->place[1] - margin) {
@@ -164,10 +155,8 @@ static int nodal_profile(const SbRing *ring, const SbRingPatch *patch, double *x
       if (at[1] <= before) {
         continue;
       }
-      const SbRingTouch *touch =
-          &ring->contact->touch[SB_RING_SURFACES * ((i + count) % count) + SB_RING_BORE];
       p = sb_ring_node_pressure(ring, i, SB_RING_BORE);
-      t = touch->held ? touch->tangent / ring->contact->weight[(i + count) % count] : 0.0;
+      t = node_shear(ring, i);
     }
     if (n < capacity) {
       x[n] = at[1] * ring->length;
@@ -185,15 +174,12 @@ static int nodal_profile(const SbRing *ring, const SbRingPatch *patch, double *x
 // Nodal shear at an axial place, by straight lines between the mid-sides, whose nodal value is the
 // accurate one; level beyond the outermost.
 static double shear_at(const SbRing *ring, const SbRingPatch *patch, double z) {
-  int count = ring->contact->count;
   double before = 0.0, value = 0.0;
   bool any = false;
   for (int i = patch->first + (patch->first + 1) % 2; i <= patch->last; i += 2) {
     double at[2];
-    place_of(ring, i, at);
-    const SbRingTouch *touch =
-        &ring->contact->touch[SB_RING_SURFACES * ((i + count) % count) + SB_RING_BORE];
-    double here = touch->tangent / ring->contact->weight[(i + count) % count];
+    sb_ring_contact_place(ring->contact, i, at);
+    double here = node_shear(ring, i);
     if (z <= at[1]) {
       return any ? value + (z - before) / (at[1] - before) * (here - value) : here;
     }
@@ -239,7 +225,7 @@ static void find_peak(const SbRing *ring, const SbRingPatch *patch, double *peak
     }
   }
   double x[2];
-  place_of(ring, best, x);
+  sb_ring_contact_place(ring->contact, best, x);
   *place = x[1];
   // Least squares over two nodes either side smooths the vertex/mid-side pattern.
   int reach = best - patch->first < patch->last - best ? best - patch->first : patch->last - best;
@@ -249,11 +235,11 @@ static void find_peak(const SbRing *ring, const SbRingPatch *patch, double *peak
   }
   double normal[9] = {0.0}, b[3] = {0.0}, scale = 0.0;
   for (int i = best - reach; i <= best + reach; i++) {
-    place_of(ring, i, x);
+    sb_ring_contact_place(ring->contact, i, x);
     scale = fmax(scale, fabs(x[1] - *place));
   }
   for (int i = best - reach; i <= best + reach; i++) {
-    place_of(ring, i, x);
+    sb_ring_contact_place(ring->contact, i, x);
     double t = (x[1] - *place) / scale, power[3] = {1.0, t, t * t};
     double p = sb_ring_node_pressure(ring, i, SB_RING_BORE);
     for (int k = 0; k < 3; k++) {
@@ -273,17 +259,16 @@ static void find_peak(const SbRing *ring, const SbRingPatch *patch, double *peak
 // Normal force that the fluid still carries in the balance on sides that are only partly within
 // the contact; that part belongs to the closed contact.
 static double end_share(const SbRing *ring, const SbRingPatch *patch) {
-  int sides = ring->contact->count / 2;
   double low = fmin(patch->place[0], patch->place[1]),
          high = fmax(patch->place[0], patch->place[1]);
   double turn = ring->body.plane_strain ? 1.0 : 2.0 * M_PI, sum = 0.0;
   for (int side = (patch->first - 2) / 2; side <= patch->last / 2; side++) {
-    if (ring->contact->closed[(side + sides) % sides]) {
+    if (ring->contact->closed[sb_ring_wrap(ring->contact, 2 * side) / 2]) {
       continue;
     }
     double a[2], b[2];
-    place_of(ring, 2 * side, a);
-    place_of(ring, 2 * side + 2, b);
+    sb_ring_contact_place(ring->contact, 2 * side, a);
+    sb_ring_contact_place(ring->contact, 2 * side + 2, b);
     double overlap = fmin(high, fmax(a[1], b[1])) - fmax(low, fmin(a[1], b[1]));
     int end = 4 * side + 2 > patch->first + patch->last ? 1 : 0;
     double radius = ring->body.plane_strain ? 1.0 : 0.5 * (a[0] + b[0]);
@@ -294,7 +279,7 @@ static double end_share(const SbRing *ring, const SbRingPatch *patch) {
 
 void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   const SbRingContact *contact = ring->contact;
-  *out = (SbRingResult){.turn = contact->turn,
+  *out = (SbRingResult){.turn = contact->is.turn,
                         .unknowns = 2 * ring->mesh->nodes,
                         .newton_iterations = ring->count.iterations,
                         .load_steps = ring->count.steps,
@@ -349,21 +334,18 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, least = HUGE_VAL;
   double axial = 0.0, axial_most = 0.0;
   for (int i = 0; i < contact->count; i++) {
-    double x[2], n[2], curvature;
-    place_of(ring, i, x);
+    double x[2];
+    sb_ring_contact_place(ring->contact, i, x);
     for (int k = 0; k < 2; k++) {
       low[k] = fmin(low[k], x[k]);
       high[k] = fmax(high[k], x[k]);
     }
     axial += contact->fluid[2 * i + 1];
     for (int s = 0; s < SB_RING_SURFACES; s++) {
-      const SbRingTouch *touch = &contact->touch[SB_RING_SURFACES * i + s];
-      double gap = sb_ring_gap(&contact->now, (SbRingSurface)s, x, n, &curvature);
+      double gap = sb_ring_frame(&contact->is.now, (SbRingSurface)s, x).gap;
       out->penetration = fmax(out->penetration, -gap * l);
-      if (touch->held) {
-        double share = n[0] * contact->share[2 * i] + n[1] * contact->share[2 * i + 1];
-        share /= hypot(n[0], n[1]);
-        least = fmin(least, (touch->force - share) / contact->weight[i]);
+      if (sb_ring_touch(contact, i, s)->held) {
+        least = fmin(least, excess(contact, i, (SbRingSurface)s) / contact->weight[i]);
       }
     }
   }

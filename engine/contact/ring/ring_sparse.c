@@ -24,86 +24,71 @@ struct SbRingFactor {
   klu_numeric *numeric;
 };
 
-static int compare_int(const void *a, const void *b) {
-  int p = *(const int *)a, q = *(const int *)b;
-  return (p > q) - (p < q);
-}
-
 // Sparse rows: node neighbours, where each element block goes, where the diagonal blocks are.
 SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
   const SbRingMesh *mesh = fem->mesh;
-  int nodes = mesh->nodes, elements = mesh->elements;
-  int *start = calloc((size_t)nodes + 1, sizeof(int));
-  int *list = malloc(sizeof(int) * 36 * (size_t)elements);
-  int *fill = calloc((size_t)nodes + 1, sizeof(int));
+  int nodes = mesh->nodes, corners = 6 * mesh->elements;
+  // The corners of elements at each node, after a count of them; of a row's neighbours, which row
+  // last had each and where.
+  int *start = calloc((size_t)nodes + 2, sizeof(int));
+  int *corner = malloc(sizeof(int) * (size_t)corners);
+  int *seen = malloc(sizeof(int) * 2 * (size_t)nodes), *place = seen + nodes;
   SbStatus status = SB_ERROR_MEMORY;
-  if (start == NULL || list == NULL || fill == NULL) {
-    goto done;
-  }
-  for (int i = 0; i < 6 * elements; i++) {
-    start[mesh->tri[i] + 1] += 6;
-  }
-  for (int i = 0; i < nodes; i++) {
-    start[i + 1] += start[i];
-  }
-  for (int e = 0; e < elements; e++) {
-    const int *tri = &mesh->tri[6 * e];
-    for (int a = 0; a < 6; a++) {
-      for (int b = 0; b < 6; b++) {
-        list[start[tri[a]] + fill[tri[a]]++] = tri[b];
-      }
-    }
-  }
-  // Sort and make unique in place; fill becomes the number of neighbours.
-  int total = 0;
-  for (int i = 0; i < nodes; i++) {
-    int *row = &list[start[i]];
-    qsort(row, (size_t)fill[i], sizeof(int), compare_int);
-    int unique = 0;
-    for (int k = 0; k < fill[i]; k++) {
-      if (unique == 0 || row[unique - 1] != row[k]) {
-        row[unique++] = row[k];
-      }
-    }
-    fill[i] = unique;
-    total += unique;
-  }
   fem->row_start = malloc(sizeof(int) * (2 * (size_t)nodes + 1));
-  fem->column = malloc(sizeof(int) * 4 * (size_t)total);
-  fem->value = malloc(sizeof(double) * 4 * (size_t)total);
-  fem->raw = malloc(sizeof(double) * 4 * (size_t)total);
-  fem->scatter = malloc(sizeof(int) * 36 * (size_t)elements);
+  fem->scatter = malloc(sizeof(int) * 6 * (size_t)corners);
   fem->diagonal = malloc(sizeof(int) * (size_t)nodes);
-  if (fem->row_start == NULL || fem->column == NULL || fem->value == NULL || fem->raw == NULL ||
+  if (start == NULL || corner == NULL || seen == NULL || fem->row_start == NULL ||
       fem->scatter == NULL || fem->diagonal == NULL) {
     goto done;
   }
-  int at = 0;
-  for (int i = 0; i < nodes; i++) {
-    for (int c = 0; c < 2; c++) {
-      fem->row_start[2 * i + c] = at;
-      for (int k = 0; k < fill[i]; k++) {
-        fem->column[at++] = 2 * list[start[i] + k];
-        fem->column[at++] = 2 * list[start[i] + k] + 1;
-      }
-    }
-  }
-  fem->row_start[2 * nodes] = at;
-  // Place of a block: offset of its first column inside the row.
-  for (int e = 0; e < elements; e++) {
-    const int *tri = &mesh->tri[6 * e];
-    for (int a = 0; a < 6; a++) {
-      const int *row = &list[start[tri[a]]];
-      for (int b = 0; b < 6; b++) {
-        const int *hit = bsearch(&tri[b], row, (size_t)fill[tri[a]], sizeof(int), compare_int);
-        fem->scatter[36 * e + 6 * a + b] = 2 * (int)(hit - row);
-      }
-    }
+  for (int i = 0; i < corners; i++) {
+    start[mesh->tri[i] + 2]++;
   }
   for (int i = 0; i < nodes; i++) {
-    const int *row = &list[start[i]];
-    const int *hit = bsearch(&i, row, (size_t)fill[i], sizeof(int), compare_int);
-    fem->diagonal[i] = hit == NULL ? 0 : 2 * (int)(hit - row);
+    start[i + 2] += start[i + 1];
+  }
+  for (int i = 0; i < corners; i++) {
+    corner[start[mesh->tri[i] + 1]++] = i;
+  }
+  // Each row in the first pass to see how long it is: two columns for each neighbour, and the same
+  // for the other component.
+  for (int pass = 0; pass < 2; pass++) {
+    int at = 0;
+    memset(seen, -1, sizeof(int) * (size_t)nodes);
+    for (int i = 0; i < nodes; i++) {
+      int width = 0;
+      for (int c = start[i]; c < start[i + 1]; c++) {
+        const int *tri = &mesh->tri[corner[c] / 6 * 6];
+        for (int b = 0; b < 6; b++) {
+          int other = tri[b];
+          if (seen[other] != i) {
+            seen[other] = i;
+            place[other] = width;
+            for (int k = 0; k < 2 && pass == 1; k++) {
+              fem->column[at + width + k] = 2 * other + k;
+            }
+            width += 2;
+          }
+          fem->scatter[6 * corner[c] + b] = place[other];
+        }
+      }
+      fem->diagonal[i] = place[i];
+      fem->row_start[2 * i] = at;
+      fem->row_start[2 * i + 1] = at + width;
+      if (pass == 1) {
+        memcpy(&fem->column[at + width], &fem->column[at], sizeof(int) * (size_t)width);
+      }
+      at += 2 * width;
+    }
+    fem->row_start[2 * nodes] = at;
+    if (pass == 0) {
+      fem->column = malloc(sizeof(int) * (size_t)at);
+      fem->value = calloc((size_t)at, sizeof(double));
+      fem->raw = malloc(sizeof(double) * (size_t)at);
+      if (fem->column == NULL || fem->value == NULL || fem->raw == NULL) {
+        goto done;
+      }
+    }
   }
   SbRingFactor *factor = fem->factor = calloc(1, sizeof *fem->factor);
   if (factor == NULL) {
@@ -112,13 +97,12 @@ SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
   klu_defaults(&factor->common);
   factor->common.btf = 0;   // the pattern is that of one connected body
   factor->common.scale = 0; // conditions are scaled to their rows
-  memset(fem->value, 0, sizeof(double) * (size_t)at);
   factor->symbolic = klu_analyze(2 * nodes, fem->row_start, fem->column, &factor->common);
   status = factor->symbolic != NULL ? SB_OK : SB_ERROR_MEMORY;
 done:
   free(start);
-  free(list);
-  free(fill);
+  free(corner);
+  free(seen);
   return status == SB_OK ? SB_OK : sb_fail(report, status, "no memory for the ring's matrix");
 }
 
