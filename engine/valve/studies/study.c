@@ -1,6 +1,7 @@
 // The table of studies and the pieces that they are made of.
 #include "engine/valve/studies/study.h"
 
+#include "engine/valve/sliding.h"
 #include "engine/valve/studies/study_private.h"
 
 #include <assert.h>
@@ -102,6 +103,9 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   work->hooks = hooks != NULL ? *hooks : (SbStudyHooks){0};
   work->total = sb_study_cost(kind, model);
   work->status = sb_evaluator_create(&work->evaluator, report);
+  if (work->status == SB_OK) {
+    work->status = sb_film_solver_create(&work->solver, report);
+  }
   sb_study_step(work, 0);
   if (work->status == SB_OK) {
     design->make(work);
@@ -112,6 +116,7 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   }
   sb_study_step(work, 1);
   sb_evaluator_destroy(work->evaluator);
+  sb_film_solver_destroy(work->solver);
   SbStatus status = work->status;
   free(work);
   return status == SB_OK ? sb_succeed(report) : status;
@@ -370,4 +375,27 @@ double sb_study_net_load(SbStudyWork *work) {
   sb_study_contact(contact, work, NULL, 0);
   const SbSummary *summary = sb_evaluator_summary(work->evaluator);
   return summary != NULL ? summary->seal[SB_OUTER].contact_pressure * contact[2] : NAN;
+}
+
+void sb_study_film_problem(SbFilmProblem *out, const SbStudyWork *work, double load, double speed) {
+  sb_sliding_film_problem(out, work->scene, SB_OUTER, (SbSealPressure){0, 0}, load, speed);
+  out->cancelled = work->hooks.cancelled;
+  out->cancelled_data = work->hooks.data;
+}
+
+SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport *report) {
+  if (work->status != SB_OK) {
+    return work->status;
+  }
+  SbStatus status = sb_film_solve(&work->film, problem, work->solver, report);
+  work->out->solves++;
+  work->spent += problem->surface != SB_ROUGH_NONE ? SB_COST_FILM_MIXED : SB_COST_FILM;
+  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    (void)sb_study_goes_on(work, status, report);
+  } else if (status == SB_OK) {
+    const SbFilmSolverInfo *info = &work->film.solver;
+    work->out->error = fmax(work->out->error, fmax(info->error_film_min, info->error_film_central));
+  }
+  sb_study_step(work, fmin(work->spent / work->total, 1));
+  return status;
 }

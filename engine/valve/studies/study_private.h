@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/contact/fit.h"
+#include "engine/film/film.h"
 #include "engine/valve/cost.h"
 #include "engine/valve/evaluate.h"
 #include "engine/valve/model.h"
@@ -50,7 +51,10 @@ struct SbStudyWork {
   const SbModel *scene;
   SbModel base;  // what is asked: the scene, but for what the study holds fixed
   double lo, hi; // ends of the abscissa: the scene's range, or the study's own
+  double load;   // net, of films that the study solves at one load [N/m]
   SbEvaluator *evaluator;
+  SbFilmSolver *solver; // of the films that are solved beside questions
+  SbFilm film;          // the last of them
   SbStudyHooks hooks;
   SbReport *report;
   SbStatus status;
@@ -106,6 +110,12 @@ double sb_study_place(const SbStudyWork *work, int index, int count);
 // at[], or evenly over the abscissa if that is NULL.
 void sb_study_curves(SbStudyWork *work, SbStudyStyle style, const char *name, int line,
                      const double *at, int count);
+
+// A film of the scene's outer seal without end pressures, whatever is fixed; the problem is the
+// caller's to change, then to solve into work->film, warm from the last one, with the progress
+// told.
+void sb_study_film_problem(SbFilmProblem *out, const SbStudyWork *work, double load, double speed);
+SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport *report);
 
 // Passes on how the work on something else than a question ended; true: well.
 bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report);

@@ -1,5 +1,5 @@
 // Stribeck curve: coefficient of friction, the asperities' share of the load, and the film against
-// the sliding speed, film and asperities solved in one Newton (film/ehl.h, film/stribeck.h).
+// the sliding speed, film and asperities solved in one Newton (film/ehl.h).
 //
 // The outer seal's net load at its pressures of B-C without its end pressures, both surface models
 // beside each other: Greenwood and Tripp (whose real area the default shear strength was set with)
@@ -7,86 +7,68 @@
 // gives too much friction; docs/thesis.md, 10). The load coefficient m acts on the asperities' load
 // here, where the cycle takes the total. The cycle's own friction, film and roughness not knowing
 // of each other, is drawn as a reference.
-#include "engine/film/stribeck.h"
-#include "engine/valve/sliding.h"
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { POINTS = 41, MODELS = 2 };
+enum { COEFFICIENT, SHARE, RATIO, CENTRAL, LEAST, BOUNDARY, VISCOUS, AREA };
 
 static const struct {
   const char *name;
   SbRoughModel model;
 } models[MODELS] = {{"Greenwood & Tripp", SB_ROUGH_GREENWOOD_TRIPP}, {"Persson", SB_ROUGH_PERSSON}};
 
-// Solves one surface model's curve; points that have no answer are not converged.
-static void solve_surface(SbStudyWork *work, SbStribeckPoint *points, int which, double load) {
+// What one surface model has at a speed: the panels' values and those of the table.
+static void solve(double *value, SbStudyWork *work, int line, double speed) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
   SbFilmProblem problem;
-  sb_sliding_film_problem(&problem, model, SB_OUTER, (SbSealPressure){0, 0}, load, 0);
-  problem.surface = models[which].model;
+  SbReport report = {0};
+  sb_study_film_problem(&problem, work, work->load, speed);
+  problem.surface = models[line].model;
   problem.gt_product = model->gt_product;
   problem.sigma = model->sigma;
   problem.sigma_over_beta = model->sigma_over_beta;
   problem.shear_strength = model->shear_strength;
   problem.load_coefficient = model->load_coefficient;
-  problem.cancelled = work->hooks.cancelled;
-  problem.cancelled_data = work->hooks.data;
-  SbReport local = {0};
-  SbStatus status = work->status != SB_OK
-                        ? work->status
-                        : sb_film_stribeck(points, POINTS, &problem, work->lo, work->hi, &local);
-  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
-    (void)sb_study_goes_on(work, status, &local);
-    return;
-  }
-  // The scene's own surface is the subject; gaps of the other are a warning.
-  bool own = model->surface == models[which].model;
+  SbStatus status = sb_study_film(work, &problem, &report);
   if (status != SB_OK) {
-    // This surface model has no answer at all: the other may.
-    sb_warn(&out->warnings, "study-gap-surface", local.parameter, "%s: %s", models[which].name,
-            local.text);
-    out->complete = out->complete && (status != SB_ERROR_NOT_CONVERGED || !own);
-    return;
-  }
-  for (int i = 0; i < POINTS; i++) {
-    out->solves++;
-    out->error = fmax(out->error, points[i].error);
-    if (!points[i].converged) {
-      out->complete = out->complete && !own;
+    for (int i = 0; i < SB_STUDY_VALUES; i++) {
+      value[i] = NAN;
+    }
+    if (status == SB_ERROR_NOT_CONVERGED) {
+      // The scene's own surface is the subject; gaps of the other are a warning.
+      out->complete = out->complete && model->surface != models[line].model;
       sb_warn(&out->warnings, "study-gap-stribeck", "study.speed_min",
               "%s: the mixed film did not converge at %.3g mm/s and perhaps elsewhere",
-              models[which].name, points[i].speed * 1e3);
+              models[line].name, speed * 1e3);
+    } else if (work->status == SB_OK) {
+      // This surface model has no answer at all: the other may.
+      sb_warn(&out->warnings, "study-gap-surface", report.parameter, "%s: %s", models[line].name,
+              report.text);
     }
+    return;
   }
-}
-
-// A row every so many points of a curve.
-static void put_rows(SbStudy *out, const SbStribeckPoint *points) {
-  for (int i = 0; i < POINTS; i += 5) {
-    const SbStribeckPoint *p = &points[i];
-    SbStudyRow *row = p->speed < 1 ? sb_study_row(out, "%.3g mm/s", p->speed * 1e3)
-                                   : sb_study_row(out, "%.3g m/s", p->speed);
-    if (p->converged) {
-      const double value[] = {p->film_central,   p->film_min,       p->film_ratio,
-                              p->boundary,       p->viscous,        p->coefficient,
-                              p->asperity_share, p->real_area_share};
-      memcpy(row->value, value, sizeof value);
-    }
-  }
+  const SbFilm *film = &work->film;
+  value[RATIO] = film->film_ratio;
+  value[CENTRAL] = film->film_central;
+  value[LEAST] = film->film_min;
+  value[BOUNDARY] = film->friction_boundary;
+  value[VISCOUS] = film->friction_couette + film->friction_cavity; // full film and ruptured one
+  value[COEFFICIENT] = (value[BOUNDARY] + value[VISCOUS]) / work->load;
+  value[SHARE] = film->asperity_share;
+  value[AREA] = film->real_area_share;
 }
 
 static void make(SbStudyWork *work) {
   static const char *const cycle[] = {"seals.outer.coefficient_of_friction"};
+  static const int columns[] = {CENTRAL, LEAST, RATIO, BOUNDARY, VISCOUS, COEFFICIENT, SHARE, AREA};
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
   sb_study_fix_machine(work);
-  work->total = INFINITY; // these questions are no measure of the progress
-  double load = sb_study_net_load(work);
-  if (work->status == SB_OK && !(load > 0)) {
+  work->load = sb_study_net_load(work);
+  if (work->status == SB_OK && !(work->load > 0)) {
     work->status = sb_fail_parameter(work->report, SB_ERROR_INFEASIBLE, "seal.section_diameter",
                                      "the outer seal bears no load: there is no film to speak of");
   }
@@ -94,20 +76,15 @@ static void make(SbStudyWork *work) {
     return;
   }
   for (int m = 0; m < MODELS; m++) {
-    SbStribeckPoint points[POINTS] = {0};
-    solve_surface(work, points, m, load);
-    for (size_t p = 0; p < out->panel_count; p++) {
-      SbStudySeries *series = sb_study_series(&out->panel[p], SB_STUDY_CURVE, models[m].name);
-      for (int i = 0; i < POINTS; i++) {
-        const SbStribeckPoint *at = &points[i];
-        const double value[] = {at->coefficient, at->asperity_share, at->film_ratio};
-        sb_study_point(series, sb_study_place(work, i, POINTS), at->converged ? value[p] : NAN);
-      }
+    sb_study_curves(work, SB_STUDY_CURVE, models[m].name, m, NULL, POINTS);
+  }
+  for (int i = 0; i < POINTS; i += 5) {
+    const double speed = sb_study_place(work, i, POINTS);
+    SbStudyRow *row = speed < 1 ? sb_study_row(out, "%.3g mm/s", speed * 1e3)
+                                : sb_study_row(out, "%.3g m/s", speed);
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
+      row->value[k] = sb_study_at(work, 0, speed)[columns[k]];
     }
-    if (m == 0) {
-      put_rows(out, points);
-    }
-    sb_study_step(work, 0.9 * (m + 1) / MODELS);
   }
   // The cycle's friction at the same speeds, its parts independent of each other.
   SbStudySeries *friction =
@@ -123,7 +100,8 @@ static void make(SbStudyWork *work) {
   sb_study_note(out,
                 "Net load %.0f N/m, roughness %.3g \xc2\xb5m, shear strength %.3g MPa, m %.3g on "
                 "the asperities' load (the cycle: on the total).",
-                load, model->sigma * 1e6, model->shear_strength * 1e-6, model->load_coefficient);
+                work->load, model->sigma * 1e6, model->shear_strength * 1e-6,
+                model->load_coefficient);
 }
 
 const SbStudyDesign sb_study_stribeck = {
@@ -145,5 +123,6 @@ const SbStudyDesign sb_study_stribeck = {
     .validity = "isoviscous, no end pressures; Greenwood & Tripp: small real area; the shear "
                 "strength was set with Greenwood & Tripp's",
     .solves = {.mixed = MODELS * POINTS},
+    .solve = solve,
     .make = make,
 };
