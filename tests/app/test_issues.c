@@ -1,11 +1,10 @@
 // Broken input: each case gives exactly the one clear line that the user needs, and nothing hangs.
 #include "app/document/document.h"
 
-#include "tests/pace.h"
-
 #include <fcntl.h>
 #include <glib/gstdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -168,6 +167,13 @@ static void expect(const char *path, const char *says) {
   g_free(line);
 }
 
+// Most memory that was resident so far [kB].
+static long most_memory(void) {
+  struct rusage usage;
+  g_assert_cmpint(getrusage(RUSAGE_SELF, &usage), ==, 0);
+  return usage.ru_maxrss;
+}
+
 static void test_files(void) {
   expect("/no/such.valve", "No such file or directory");
   expect(folder, "is a folder, not a file");
@@ -179,14 +185,14 @@ static void test_files(void) {
   g_unlink(path);
   g_free(path);
 
-  // A gigabyte is refused by its size, in no time.
+  // A gigabyte is refused by its size, and not read.
   path = g_build_filename(folder, "huge.valve", NULL);
   int fd = open(path, O_WRONLY | O_CREAT, 0600);
   g_assert_cmpint(ftruncate(fd, 1 << 30), ==, 0);
   close(fd);
-  double start = pace_clock();
+  long before = most_memory();
   expect(path, "is too large (1024.0 MiB) (allowed at most 1 MiB)");
-  g_assert_cmpfloat(pace_clock() - start, <, 0.2);
+  g_assert_cmpint(most_memory() - before, <, 64 * 1024);
   g_unlink(path);
   g_free(path);
 
@@ -220,18 +226,14 @@ static void test_files(void) {
   g_free(scene);
 }
 
-// A full mebibyte of nonsense: bounded output, bounded time.
+// A full mebibyte of nonsense: bounded output.
 static void test_flood(void) {
   GString *text = g_string_new(VALVE "[seal]\n");
   for (int i = 0; text->len < SB_DOCUMENT_BYTES_MAX - 40; i++) {
     g_string_append_printf(text, "k%d = 1\n", i);
   }
   GPtrArray *issues = sb_issues_new();
-  double start = pace_clock();
   SbDocument *document = sb_document_parse(text->str, text->len, "x.valve", NULL, issues);
-  double took = pace_clock() - start;
-  g_test_message("%.3f s", took);
-  g_assert_cmpfloat(took, <, SB_SANITIZED ? 30 : 5);
   g_assert_cmpuint(issues->len, ==, SB_ISSUES_MAX + 1);
   SbIssue *last = issues->pdata[SB_ISSUES_MAX];
   g_assert_true(g_str_has_prefix(last->text, "and "));

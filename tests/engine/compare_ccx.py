@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The unpressurised ring by CalculiX and by sealbench, in one run: loads and times.
+"""The unpressurised ring by CalculiX and by sealbench, in one run: loads (and times, told only).
 
 CalculiX gets half of the free section (symmetric in the axial direction) as eight-node axisymmetric
 elements with reduced integration, which do not lock at nu = 0.49, neo-Hookean with the same energy,
@@ -190,12 +190,11 @@ def main():
         return 0
     bore, floor, seconds, unknowns = calculix()
     load, ours, our_unknowns = sealbench(*sys.argv[1:3])
-    print('1..2')
+    print('1..1')
     print(f'# CalculiX  bore {bore:.4f} N, floor {floor:.4f} N, {unknowns} unknowns, {seconds:.2f} s')
     print(f'# sealbench bore {load:.4f} N, {our_unknowns} unknowns, {ours:.3f} s')
     off = load / bore - 1
     print(f'{"ok" if abs(off) < 3e-3 else "not ok"} 1 loads agree to 0.3 % ({100 * off:+.3f} %)')
-    print(f'{"ok" if ours < seconds else "not ok"} 2 sealbench is {seconds / ours:.0f} times faster')
     return 0
 
 

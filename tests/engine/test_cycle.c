@@ -3,8 +3,6 @@
 #include "engine/valve/cost.h"
 #include "engine/valve/sealbench.h"
 
-#include "tests/pace.h"
-
 #include <glib.h>
 #include <math.h>
 #include <string.h>
@@ -366,7 +364,6 @@ static void test_plan(void) {
   SbRun *run = run_cycle(&loop, 1);
   const SbSummary *summary = sb_run_summary(run);
   g_assert_cmpfloat(summary->wall_s, >, 0);
-  g_assert_cmpfloat(summary->wall_s, <, 10);
   g_assert_cmpuint(summary->counters.field_evaluations, ==, 0);
   g_assert_cmpuint(summary->counters.reynolds_solves, ==, 0);
   g_assert_cmpuint(summary->counters.profile_evaluations, ==, 0);
@@ -419,15 +416,6 @@ static void test_jump(void) {
   }
 }
 
-static void make_cycle(void *data) {
-  sb_run_destroy(run_cycle(NULL, 0));
-}
-
-static void test_speed(void) {
-  PaceTime time = pace_time(make_cycle, NULL, 20);
-  pace_limit("a closed-form cycle of 400 frames", &time, 5e-3);
-}
-
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/cycle/hand", test_hand);
@@ -444,6 +432,5 @@ int main(int argc, char **argv) {
   g_test_add_func("/cycle/plan", test_plan);
   g_test_add_func("/cycle/jump", test_jump);
   g_test_add_func("/cycle/plan-counts", test_plan_counts);
-  g_test_add_func("/cycle/speed", test_speed);
   return g_test_run();
 }

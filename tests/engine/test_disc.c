@@ -7,7 +7,6 @@
 
 #include "tests/engine/near.h"
 #include "tests/engine/seals.h"
-#include "tests/pace.h"
 
 #include <glib.h>
 #include <math.h>
@@ -253,19 +252,6 @@ static void test_honesty(void) {
         g_assert_cmpfloat(ratio[q][count / 2], <=, 10.0);
       }
     }
-  }
-}
-
-static void solve_one(void *data) {
-  solve(data);
-}
-
-// A solve to 0.1 %.
-static void test_time(void) {
-  for (int fluid = 0; fluid < 2; fluid++) {
-    SbFitProblem in = disc_problem(SB_DISC_VERTICAL, 0.25 / 1.61, fluid ? 0.55e6 : 0.0);
-    PaceTime time = pace_time(solve_one, &in, 20);
-    pace_limit(fluid ? "a disc under pressure" : "a disc", &time, 3e-3);
   }
 }
 
@@ -516,7 +502,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/disc/hertz-limit", test_hertz_limit);
   g_test_add_func("/disc/order", test_order);
   g_test_add_func("/disc/honesty", test_honesty);
-  g_test_add_func("/disc/time", test_time);
   g_test_add_func("/disc/pressure", test_pressure);
   g_test_add_func("/disc/limits", test_limits);
   g_test_add_func("/disc/thesis-cases", test_thesis_cases);

@@ -2,7 +2,6 @@
 #include "engine/mechanism/dynamics.h"
 
 #include "tests/engine/near.h"
-#include "tests/pace.h"
 
 #include <glib.h>
 #include <math.h>
@@ -192,13 +191,9 @@ static void test_stiff(void) {
   g_assert_cmpfloat(f.closure, <, 1e-9);
   // All the way to the edge, and no further.
   SbReport report = {0};
-  double start = pace_clock();
   g_assert_cmpint(sb_dynamics_advance(&once, 20.0, &report), ==, SB_ERROR_NOT_CONVERGED);
   g_assert_nonnull(strstr(report.text, "lie ahead where friction changes with the place"));
   g_assert_nonnull(strstr(report.text, "drive.damping_ratio"));
-  double took = pace_clock() - start;
-  g_test_message("refused after %.3f s", took);
-  g_assert_cmpfloat(took, <, 1.0);
   g_assert_cmpint(sb_dynamics_counters(&once).events, <, 2000);
   sb_dynamics_sample(&once, &a, &e);
   ASSERT_NEAR(a.position, 3e-3, 1e-7);

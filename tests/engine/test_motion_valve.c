@@ -2,8 +2,6 @@
 // time.
 #include "engine/mechanism/dynamics.h"
 
-#include "tests/pace.h"
-
 #include <glib.h>
 #include <math.h>
 
@@ -97,12 +95,6 @@ static SbDynamicsCounters run(const SbDynamicsModel *m, double until, int frames
   return sb_dynamics_counters(&s);
 }
 
-static void run_again(void *data) {
-  SbDynamicsSample sample;
-  SbDynamicsEnergy energy;
-  run(data, 45.0, 400, NULL, &sample, &energy);
-}
-
 static void test_cycle(void) {
   Valve valve = {14.5, 5.0, 8.0, false};
   SbDynamicsModel m = valve_model(&valve);
@@ -122,8 +114,6 @@ static void test_cycle(void) {
   g_assert_true(sample.drive_force == 0.0);
   g_assert_cmpfloat(stages.slip, >, 14.5 + 8.0);
   g_assert_cmpfloat(stages.slip, <, 14.5 + 13.0 * 1.1 + 0.1);
-  PaceTime time = pace_time(run_again, &m, 20);
-  pace_limit("the motion of 400 frames", &time, 20e-3);
 }
 
 // ---- hard cases ----
@@ -172,13 +162,11 @@ static void test_hard(void) {
       Stages stages;
       SbDynamicsSample sample;
       SbDynamicsEnergy energy;
-      gint64 start = g_get_monotonic_time();
       SbDynamicsCounters c = run(&m, 15e-3 / h->speed, 50, &stages, &sample, &energy);
-      double took = (double)(g_get_monotonic_time() - start) * 1e-3;
       g_test_message("%-28s %d: closure %.1e, events %ld, segments %ld, rejected %ld, x %.3g, "
-                     "stop force seen %d, %.1f ms",
+                     "stop force seen %d",
                      h->name, kind, energy.closure, c.events, c.segments, c.rejected,
-                     sample.position, !isnan(stages.stop), took);
+                     sample.position, !isnan(stages.stop));
       g_assert_cmpfloat(energy.closure, <, 1e-6);
       g_assert_false(isnan(stages.stop));
     }

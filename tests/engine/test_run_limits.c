@@ -2,8 +2,6 @@
 // below their estimates, and the time a cycle takes.
 #include "tests/engine/motion_run.h"
 
-#include "tests/pace.h"
-
 // ---- hard cases ----
 
 // Friction on the way back exactly as strong as the pressure, by the pressure's diameter.
@@ -180,23 +178,9 @@ static void test_tolerance(void) {
   }
 }
 
-// A whole cycle with closed-form seals, its error estimate included.
-static void make_cycle(void *data) {
-  sb_run_destroy(run_with(SB_MODEL_MOTION_DYNAMIC, NULL, 0));
-}
-
-static void test_time(void) {
-  PaceTime time = pace_time(make_cycle, NULL, 60);
-  pace_limit("a dynamic cycle", &time, 20e-3);
-}
-
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-limits/hard", test_hard);
   g_test_add_func("/run-limits/tolerance", test_tolerance);
-  if (g_test_slow()) {
-    // Alone on the machine: where others keep it busy a time says nothing.
-    g_test_add_func("/run-limits/time", test_time);
-  }
   return g_test_run();
 }
