@@ -17,13 +17,14 @@
 #include <string.h>
 #include <time.h>
 
-// Degrees of the levels; every tolerance takes at least the first three.
-static const int level_degree[SB_EHL_LEVELS_MAX] = {4, 6, 8, 10, 12, 14};
-enum { LEVELS = SB_EHL_LEVELS_MAX, LEVELS_LEAST = 3 };
+// Levels of degree 4, 6 and so on, of rough rows perhaps with two of the first, and the last one's
+// degree; every tolerance takes at least the first levels.
+enum { LEVELS = 6, DEGREE_FIRST = 4, DEGREE_LAST = 14, DEGREE_LAST_ROUGH = 8 };
 
-// Scaled residual where Newton's method ends, on a level that may be the last and on those before.
+// Scaled residual where Newton's method of smooth rows ends, on a level that may be the last and on
+// those before.
 static const double RESIDUAL = 1e-11;
-static const double LEVEL_RESIDUAL[LEVELS_LEAST - 1] = {1e-7, 1e-9};
+static const double LEVEL_RESIDUAL[] = {1e-7, 1e-9};
 
 static double seconds(void) {
   struct timespec now;
@@ -31,29 +32,48 @@ static double seconds(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+// Rounding in the films, relative: deflections of size one against the film.
+static double rounding(const SbEhlResults *r, bool rough) {
+  return rough ? 1e-15 / fmin(1.0, r->film_min + SB_EHL_CLOSED) + 3e-9
+               : 3e-16 / fmin(1.0, r->film_min);
+}
+
 // Estimate of the errors of the last level: its change from the level below times the rate at which
 // changes shrink, which is not believed to be better than what was found over the range of M and
 // end pressures. Changes are those of the films' surroundings (sb_ehl_change). The flux hangs
 // on the inlet alone; the centre has its error and its own; the minimum both and the outlet's.
-static void estimate(SbFilmSolverInfo *info, double change[LEVELS][3], int levels, double noise) {
+static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
+                     const SbEhlResults *results) {
   static const double SLOWEST[LEVELS] = {1.0, 0.13, 0.06, 0.1, 0.1, 0.1};
   // Half of what a level leaves at its best, whatever the changes say: at last the kernel's and
-  // Newton's own digits.
+  // Newton's own digits; of rough rows what they leave beside the rupture.
   static const double FINEST[LEVELS] = {1.0, 2e-8, 1.5e-10, 1e-10, 1e-10, 1e-10};
-  double *c = change[levels - 1];
-  c[2] = fmax(c[2], 0.05 * c[1]);
-  c[1] = fmax(c[1], c[2]);
-  c[0] = fmax(c[0], c[1]);
-  double estimates[3];
+  SbFilmSolverInfo *info = solver->info;
+  const SbEhlCase *c = &solver->now->c;
+  const bool rough = c->rough.rows;
+  const SbEhlResults *now = &results[levels - 1], *before = &results[levels - 2];
+  double noise = rounding(now, rough) + (rough ? 0.0 : info->residual);
+  double *last = change[levels - 1];
+  last[2] = fmax(last[2], 0.05 * last[1]);
+  last[1] = fmax(last[1], last[2]);
+  last[0] = fmax(last[0], last[1]);
+  double *const estimates[] = {&info->error_film_min, &info->error_film_central,
+                               &info->error_film_flux};
   for (int i = 0; i < 3; i++) {
-    double last = change[levels - 1][i];
-    double rate = levels > 2 ? last / fmax(change[levels - 2][i], 1e-300) : 0.0;
-    estimates[i] = fmin(fmax(rate, SLOWEST[levels - 1]), 1.0) * last + noise;
-    estimates[i] = fmax(estimates[i], FINEST[levels - 1]);
+    double rate = levels > 2 ? last[i] / fmax(change[levels - 2][i], 1e-300) : 0.0;
+    *estimates[i] = fmin(fmax(rate, SLOWEST[levels - 1]), 1.0) * last[i] + noise;
+    *estimates[i] = fmax(*estimates[i], FINEST[levels - 1]);
   }
-  info->error_film_min = estimates[0];
-  info->error_film_central = estimates[1];
-  info->error_film_flux = estimates[2];
+  if (rough) {
+    static const double RATE = 0.05, RATE_FLOW = 0.02;
+    info->error_film_min += c->layers.degree < DEGREE_LAST_ROUGH ? 5e-8 : 0.0;
+    info->error_contact = noise + RATE_FLOW * change[levels - 1][2];
+    if (c->rough.law != NULL) {
+      double area = RATE * fabs(now->real_area - before->real_area) + now->area_error;
+      double load = RATE * fabs(now->asperity_load - before->asperity_load);
+      info->error_contact += area / now->real_area + load / now->asperity_load;
+    }
+  }
 }
 
 // Scaled problem in the flow frame.
@@ -62,6 +82,7 @@ static SbEhlCase scaled_case(const SbFilmProblem *problem, const SbFilmScale *sc
   SbEhlCase c = {
       .fluid = sb_film_fluid(problem, scale->pressure, scale->film),
       .body = sb_film_body(problem, scale),
+      .supply = INFINITY,
       .layers = {.lambda = scale->lambda,
                  .middle = scale->middle,
                  .inlet = scale->inlet,
@@ -69,7 +90,7 @@ static SbEhlCase scaled_case(const SbFilmProblem *problem, const SbFilmScale *sc
                  .starvation = 1.0,
                  .meniscus = -INFINITY,
                  .end = outlet > 0.0 ? SB_EHL_FULL : SB_EHL_RUPTURE,
-                 .degree = level_degree[0],
+                 .degree = DEGREE_FIRST,
                  .steps = {-1, -1}},
   };
   memcpy(c.layers.bow, scale->bow, sizeof c.layers.bow);
@@ -101,8 +122,8 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
                                    problem->load_coefficient * out->asperity_load);
   out->solver.load_error = r->load_error;
   out->solver.flux_error = r->flux_error;
+  out->starved = isfinite(c->supply);
   if (c->rough.rows) {
-    out->starved = isfinite(c->rough.supply) && !c->rough.sealed;
     if (problem->surface == SB_ROUGH_GREENWOOD_TRIPP && out->real_area_share > 0.3) {
       out->valid = false;
       sb_warn(&out->warnings, "real-area-large", "surface.gt_product",
@@ -120,65 +141,50 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
     }
     return;
   }
-  out->starved = isfinite(c->layers.meniscus);
   if (c->layers.end == SB_EHL_REFORM) {
     sb_warn(&out->warnings, "film-cavity", "canister.pressure",
             "the film breaks before the flooded outlet and forms again behind a cavity");
   }
 }
 
-// Rounding in the films, relative: deflections of size one against the film.
-static double rounding(const SbEhlResults *r) {
-  return 3e-16 / fmin(1.0, r->film_min);
-}
-
 // Climbs the levels from a cold start. *levels is 0 when nothing was found.
-static SbStatus climb(SbEhlResults *results, int *levels, int *which, SbFilmSolver *solver,
-                      SbEhlCase *c, double supply, SbFilmSolverInfo *info,
-                      const SbFilmProblem *problem, SbReport *report) {
-  const SbEhlCase cold = *c;
+static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
+                      const SbEhlCase *cold, double supply) {
   double change[LEVELS][3] = {{0}};
-  *which = 0;
+  const bool rough = cold->rough.rows;
+  const double wanted = solver->problem->tolerance;
+  SbFilmSolverInfo *info = solver->info;
+  const int least = rough || wanted >= 5e-3 ? 2 : 3;
+  bool again = false; // rough rows whose film has sharp ends follow these on the first degree
   *levels = 0;
-  int least = problem->tolerance >= 5e-3 ? LEVELS_LEAST - 1 : LEVELS_LEAST;
-  for (int level = 0; level < LEVELS; level++) {
-    bool flooded = true;
-    const SbEhlRun run = {level + 1 < least ? LEVEL_RESIDUAL[level] : RESIDUAL, info, problem};
-    SbStatus status = level == 0 ? sb_ehl_start(&flooded, solver, which, c, supply, &run)
-                                 : sb_ehl_refine(solver, which, c, level_degree[level], &run);
-    bool anew = level > 0 && status == SB_ERROR_NOT_CONVERGED;
+  for (int degree = DEGREE_FIRST; degree <= (rough ? DEGREE_LAST_ROUGH : DEGREE_LAST);) {
+    solver->tolerance = *levels + 1 < least ? LEVEL_RESIDUAL[*levels] : RESIDUAL;
+    SbStatus status =
+        *levels == 0 ? sb_ehl_start(solver, cold, supply) : sb_ehl_refine(solver, degree);
+    bool anew = *levels > 0 && status == SB_ERROR_NOT_CONVERGED && !rough;
     if (anew) {
       // The level below may be too coarse a guess: this one from nothing.
-      *c = cold;
-      c->layers.degree = level_degree[level];
-      status = sb_ehl_start(&flooded, solver, which, c, supply, &run);
-    }
-    if (status == SB_ERROR_INFEASIBLE) {
-      return sb_fail(report, status,
-                     "film: a starved inlet together with a cavity before a flooded outlet");
-    }
-    if (status == SB_ERROR_CANCELLED) {
-      return sb_fail(report, status, "film: cancelled");
+      SbEhlCase c = *cold;
+      c.layers.degree = degree;
+      status = sb_ehl_start(solver, &c, supply);
     }
     if (status != SB_OK) {
-      status = sb_fail(report, status, "film: Newton's method stopped at residual %.2g, degree %d",
-                       info->residual, level_degree[level]);
-      if (report != NULL) {
-        report->residual = info->residual;
-        report->iteration = info->newton_iterations;
-      }
       return status;
     }
-    sb_ehl_results(&results[level], solver, *which, c);
-    *levels = level + 1;
-    if (*levels >= 2) {
-      sb_ehl_change(change[level], solver, *which, c, &results[level], &results[level - 1], !anew);
-      estimate(info, change, *levels, rounding(&results[level]) + info->residual);
+    SbEhlResults *now = &results[*levels];
+    sb_ehl_results(now, solver->now);
+    info->error_film_min = info->error_film_central = info->error_film_flux = 1.0;
+    if (++*levels >= 2) {
+      sb_ehl_change(change[*levels - 1], solver, now, now - 1, !anew);
+      estimate(solver, change, *levels, results);
     }
+    bool sharp = rough && sb_ehl_rough_fronts(solver->now, now);
+    again = sharp && *levels == 1;
     double worst = fmax(info->error_film_min, info->error_film_central);
-    if (*levels >= least && worst <= 0.1 * problem->tolerance) {
+    if (*levels >= least && degree > DEGREE_FIRST && worst <= 0.1 * wanted) {
       break;
     }
+    degree += again ? 0 : 2;
   }
   return SB_OK;
 }
@@ -216,35 +222,39 @@ static SbStatus refuse_smooth(const SbEhlCase *c, const SbFilmScale *scale, doub
   return SB_OK;
 }
 
-// All levels of smooth rows: from the last solution if that meets the tolerance, or cold.
-static SbStatus solve_smooth(SbEhlResults *results, int *levels, int *which, SbFilmSolver *solver,
-                             SbEhlCase *c, double supply, bool warm, SbFilmSolverInfo *info,
-                             const SbFilmProblem *problem, SbReport *report) {
-  if (warm) {
-    // The layers follow the case, so the error of the discretisation stays what it was.
-    *which = solver->last.which;
-    c->layers.degree = solver->last.problem.layers.degree;
-    const SbEhlRun run = {RESIDUAL, info, problem};
-    SbStatus status = sb_ehl_follow(solver, which, &solver->last.problem, c, &run);
-    if (status == SB_ERROR_CANCELLED) {
-      return sb_fail(report, status, "film: cancelled");
-    }
-    if (status == SB_OK) {
-      sb_ehl_results(&results[0], solver, *which, c);
-      *levels = 1;
-      double noise = rounding(&results[0]) + info->residual;
-      info->error_film_min = solver->last.error[0] + noise;
-      info->error_film_central = solver->last.error[1] + noise;
-      info->error_film_flux = solver->last.error[2] + noise;
-      return SB_OK;
-    }
-    c->layers.degree = level_degree[0];
+// From the last solution, if that meets the tolerance: the layers follow the case, so the error of
+// the discretisation stays what it was.
+static SbStatus solve_warm(SbEhlResults *results, SbFilmSolver *solver, const SbEhlCase *c) {
+  SbFilmSolverInfo *info = solver->info;
+  solver->tolerance = RESIDUAL;
+  SbStatus status = sb_ehl_follow(solver, c);
+  if (status == SB_OK) {
+    sb_ehl_results(results, solver->now);
+    double noise = rounding(results, false) + info->residual;
+    info->error_film_min = solver->last.error[0] + noise;
+    info->error_film_central = solver->last.error[1] + noise;
+    info->error_film_flux = solver->last.error[2] + noise;
   }
-  SbStatus status = climb(results, levels, which, solver, c, supply, info, problem, report);
-  if (*levels == 1) {
-    info->error_film_min = info->error_film_central = info->error_film_flux = 1.0;
-  }
-  if (*levels > 0 && isfinite(supply) && !isfinite(c->layers.meniscus)) {
+  return status;
+}
+
+// All levels, from a cold start.
+static SbStatus solve_cold(SbEhlResults *results, int *levels, SbFilmSolver *solver, SbEhlCase *c,
+                           double supply, SbWarnings *warnings) {
+  SbFilmSolverInfo *info = solver->info;
+  const bool rest = !(c->layers.lambda > 0.0);
+  SbStatus status = climb(results, levels, solver, c, rest ? INFINITY : supply);
+  if (c->rough.rows) {
+    if (status == SB_ERROR_NOT_CONVERGED && rest && !c->rough.sealed) {
+      // Closed beyond what the flow at rest can be told from.
+      c->rough.sealed = true;
+      status = climb(results, levels, solver, c, INFINITY);
+      sb_warn(
+          warnings, "film-rest-sealed", "surface.sigma",
+          "at rest the gap is closed: no flow passes, and the fluid's pressure between the ends "
+          "is taken as in the smooth dry contact");
+    }
+  } else if (*levels > 0 && isfinite(supply) && !isfinite(solver->now->c.supply)) {
     // Flooded but for a trifle, see starve() in ehl_continuation.c.
     double excess = fmax(1.0 - supply / results[*levels - 1].film_flux, 0.0);
     info->error_film_min += excess;
@@ -254,41 +264,22 @@ static SbStatus solve_smooth(SbEhlResults *results, int *levels, int *which, SbF
   return status;
 }
 
-static SbStatus solve_rough(SbEhlResults *results, int *levels, int *which, SbFilmSolver *solver,
-                            SbEhlCase *c, SbFilm *out, const SbFilmProblem *problem,
-                            SbReport *report) {
-  bool sealed = c->rough.sealed;
-  const SbEhlRun run = {0.0, &out->solver, problem};
-  SbStatus status = sb_ehl_rough_climb(results, levels, which, solver, c, &run);
-  if (c->rough.sealed && !sealed) {
-    sb_warn(&out->warnings, "film-rest-sealed", "surface.sigma",
-            "at rest the gap is closed: no flow passes, and the fluid's pressure between the ends "
-            "is taken as in the smooth dry contact");
-  }
-  if (status == SB_ERROR_CANCELLED) {
-    return sb_fail(report, status, "film: cancelled");
-  }
-  return status == SB_OK
-             ? SB_OK
-             : sb_fail(report, status, "film: Newton's method stopped at a step of %.2g",
-                       out->solver.residual);
-}
-
 SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                       SbFilmSolver *solver, SbReport *report) {
   double begin = seconds();
   const bool rough = sb_film_rough(problem);
-  SbEhlCase c = scaled_case(problem, scale);
   SbFilmSolverInfo *info = &out->solver;
+  SbEhlCase c = scaled_case(problem, scale);
+  solver->problem = problem;
+  solver->info = info;
   // A supplied layer moves with the wall at the full speed, the flux film with half of it.
   double supply = problem->inlet_film > 0.0 ? 2.0 * problem->inlet_film / scale->film : INFINITY;
-  SbStatus status = SB_OK;
   if (c.layers.inlet < 0.0) {
     return sb_fail(report, SB_ERROR_INFEASIBLE,
                    "film: the inlet's pressure is below the rupture pressure: no liquid there");
   }
-  status = rough ? sb_ehl_rough_case(&c, solver, problem, scale, report)
-                 : refuse_smooth(&c, scale, supply, report);
+  SbStatus status = rough ? sb_ehl_rough_case(&c, solver, scale, report)
+                          : refuse_smooth(&c, scale, supply, report);
   if (status != SB_OK) {
     return status;
   }
@@ -304,28 +295,42 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
             scale->half_width / problem->radius);
   }
 
-  SbEhlResults results[SB_EHL_LEVELS_MAX];
-  int levels = 0;
-  int which = 0;
-  bool warm =
-      solver->last.ready && solver->last.tolerance <= problem->tolerance && !isfinite(supply);
+  SbEhlResults results[LEVELS];
+  int levels = 1;
+  bool warm = solver->last.ready && solver->last.tolerance <= problem->tolerance &&
+              !isfinite(supply) && !rough;
   solver->last.ready = false;
-  status = rough ? solve_rough(results, &levels, &which, solver, &c, out, problem, report)
-                 : solve_smooth(results, &levels, &which, solver, &c, supply, warm, info, problem,
-                                report);
-  if (levels == 0 || status == SB_ERROR_CANCELLED) {
+  status = warm ? solve_warm(results, solver, &c) : SB_ERROR_NOT_CONVERGED;
+  if (status == SB_ERROR_NOT_CONVERGED) {
+    status = solve_cold(results, &levels, solver, &c, supply, &out->warnings);
+  }
+  if (status == SB_ERROR_CANCELLED) {
+    return sb_fail(report, status, "film: cancelled");
+  }
+  if (status == SB_ERROR_INFEASIBLE) {
+    return sb_fail(report, status,
+                   "film: a starved inlet together with a cavity before a flooded outlet");
+  }
+  if (status != SB_OK) {
+    status = sb_fail(report, status, "film: Newton's method stopped at residual %.2g, degree %d",
+                     info->residual, solver->now->c.layers.degree);
+    if (report != NULL) {
+      report->residual = info->residual;
+      report->iteration = info->newton_iterations;
+    }
+  }
+  if (levels == 0) {
     return status;
   }
 
   // The tolerance decides, whether or not the last level was reached; rough rows must end.
-  fill(out, problem, scale, &c, &results[levels - 1]);
-  info->unknowns = (size_t)solver->mesh[which].dofs + (rough ? 2 : 3);
+  const SbEhlSolution *found = solver->now;
+  fill(out, problem, scale, &found->c, &results[levels - 1]);
+  info->unknowns = (size_t)found->mesh.dofs + (rough ? 2 : 3);
   info->converged = fmax(info->error_film_min, info->error_film_central) <= problem->tolerance &&
                     !(rough && status != SB_OK);
   if (info->converged) {
     solver->last.ready = !rough;
-    solver->last.which = which;
-    solver->last.problem = c;
     solver->last.tolerance = problem->tolerance;
     solver->last.error[0] = info->error_film_min;
     solver->last.error[1] = info->error_film_central;
@@ -337,6 +342,6 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
                      fmax(info->error_film_min, info->error_film_central));
   }
   info->wall_s = seconds() - begin;
-  sb_ehl_profile(out, solver, which, &c, scale, problem);
+  sb_ehl_profile(out, found, scale);
   return status;
 }

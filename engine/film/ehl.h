@@ -1,5 +1,5 @@
-// Inside of the coupled film solver (private to engine/film): the case and the state on a mesh,
-// Newton's method, continuation, and the results of a solution.
+// Inside of the coupled film solver (private to engine/film): a solution, which is a case on a mesh
+// with its state, Newton's method, continuation, and the results of a solution.
 //
 // One problem, with asperities and adhesion or without: q on a half-plane or a fitted body, in the
 // flow frame and scaled as in scale.h,
@@ -34,11 +34,11 @@
 // Scaled gaps below this are closed for all that double precision tells.
 #define SB_EHL_CLOSED 1e-11
 
-// Unknowns on a mesh: nodal pressures, H0, shift c of the axis, flux film, and one free end.
+// Unknowns on a mesh, scaled: nodal pressures, H0, shift c of the axis, flux film.
 typedef struct {
   double nodal[SB_EHL_DOFS_MAX];  // pressure q
   double gap[SB_EHL_TARGETS_MAX]; // at all targets, of smooth rows
-  double H0, shift, flux;
+  double H0, shift, flux;         // flux: of smooth rows
   // Rough rows, at the nodes:
   double t[SB_EHL_DOFS_MAX]; // parameter of the gap
   double s[SB_EHL_DOFS_MAX]; // slope of the film pressure
@@ -46,18 +46,18 @@ typedef struct {
   double flow; // kappa
 } SbEhlState;
 
-// Asperities and adhesion of a case, scaled.
+// Asperities and adhesion of a case.
 typedef struct {
   bool rows;             // rough rows; all else is unused without
   const SbRoughLaw *law; // NULL: smooth
-  double film, pressure; // scales of the law
-  double smooth_gap;     // unit of t without a law
+  double film;           // scale of the law's gap [m]
+  double pressure;       // scale of the law's pressure [Pa]
+  double smooth_gap;     // unit of t without a law, scaled
   double hamaker;        // A_H [J]; 0 = off
-  double supply;         // kappa of a starved inlet; infinite when flooded
-  bool sealed;        // at rest without flow: film pressure by the end pressures, cavity everywhere
-  double flux, inlet; // guesses of the flux film and of where the film's pressure begins
+  bool sealed;        // at rest without flow: film pressure by the end pressures, cavity all over
+  double flux, inlet; // guesses of the flux film and of where the film's pressure begins, scaled
   struct {
-    double X, width; // of the layers at the film's two ends; X infinite: none
+    double X, width; // of the layers at the film's two ends, scaled; X infinite: none
   } front[2];
 } SbEhlRough;
 
@@ -65,18 +65,21 @@ typedef struct {
 typedef struct {
   SbFilmBody body;
   SbEhlLayers layers;
-  bool hold; // a free end stays where it is
+  double supply; // flux film of a starved inlet, scaled; infinite when flooded
+  bool hold;     // a free end stays where it is
   SbFilmFluid fluid;
   SbEhlRough rough;
 } SbEhlCase;
 
-// What Newton's method did.
+// A case with its mesh and state.
 typedef struct {
-  int iterations;
-  double residual; // largest scaled residual; of rough rows the last relative change
-} SbEhlTrace;
+  SbFilmSolver *solver; // its work memory
+  SbEhlCase c;
+  SbEhlMesh mesh;
+  SbEhlState state;
+} SbEhlSolution;
 
-// Everything at a node of rough rows.
+// Everything at a node of rough rows, scaled.
 typedef struct {
   double h, h_t;   // gap and its slope to t
   double solid;    // p_a - p_v
@@ -85,7 +88,7 @@ typedef struct {
   double share;    // real area
 } SbEhlRoughPoint;
 
-// One Newton step's data at the nodes of rough rows (ehl_rough_newton.c).
+// One Newton step's data at the nodes of rough rows, scaled (ehl_rough_newton.c).
 typedef struct {
   double p[SB_EHL_DOFS_MAX], k[SB_EHL_DOFS_MAX], r[SB_EHL_DOFS_MAX];
   // ds = s0 + s_h dh + s_p dp + s_kappa dkappa
@@ -93,13 +96,6 @@ typedef struct {
   double s_kappa[SB_EHL_DOFS_MAX];
   double step[SB_EHL_DOFS_MAX]; // p[i+1] - p[i] - integral of s
 } SbEhlRoughStep;
-
-// Whom a continuation answers to.
-typedef struct {
-  double tolerance;             // scaled residual where Newton's method ends, of smooth rows
-  SbFilmSolverInfo *info;       // account of all calls
-  const SbFilmProblem *problem; // its callback
-} SbEhlRun;
 
 // Quantities of a solution, scaled, in the flow frame with x from the axis.
 typedef struct {
@@ -123,12 +119,11 @@ typedef struct {
   double value[SB_EHL_TARGETS_MAX][SB_COMPLIANCE_MODES];
 } SbEhlFittedWork;
 
-enum { SB_EHL_LEVELS_MAX = 6 };
-
 struct SbFilmSolver {
   SbEhlTables tables;
-  SbEhlMesh mesh[2]; // the current level and the next
-  SbEhlState state[2];
+  SbEhlSolution solution[2];
+  SbEhlSolution *now; // the last solution; the other one is the next
+  // Work memory.
   double matrix[SB_EHL_ORDER_MAX * SB_EHL_ORDER_MAX]; // of Newton's method, row after row
   double right[SB_EHL_ORDER_MAX];
   double column[SB_EHL_ORDER_MAX]; // derivative to the free end
@@ -137,113 +132,111 @@ struct SbFilmSolver {
   // [targets][dofs] of a fitted body: the half-plane's and the smooth part.
   double kernel[SB_EHL_TARGETS_MAX * SB_EHL_DOFS_MAX];
   SbEhlFittedWork fitted;
-
-  // Rough rows: nodes, states of a continuation, and the law of the last surface.
-  SbEhlRoughPoint point[SB_EHL_DOFS_MAX];
+  SbEhlRoughPoint point[SB_EHL_DOFS_MAX]; // rough rows: at the nodes
   SbEhlRoughStep step;
-  SbEhlState saved[2];
-  SbRoughLaw law;
+
+  // Whom a solve answers to.
+  const SbFilmProblem *problem; // its callback
+  SbFilmSolverInfo *info;       // account of all calls
+  double tolerance;             // scaled residual where Newton's method ends, of smooth rows
+
+  SbRoughLaw law; // of the last surface
   bool law_ready;
 
-  // The last solution, for warm starts.
+  // The last solution serves for warm starts if it is ready.
   struct {
     bool ready;
-    int which;
-    SbEhlCase problem;
-    double tolerance; // that it met
-    double error[3];  // minimum, centre, flux
+    double tolerance; // that it met, relative
+    double error[3];  // relative: minimum, centre, flux
   } last;
 };
 
 // Readies the memory of a solver; false if LAPACK fails.
 SB_CHECKED bool sb_ehl_init(SbFilmSolver *solver);
 
-// Newton's method on mesh/state `which`. `independent`: state.gap is a guess of its own, to be made
+// The solution that is not the last one.
+static inline SbEhlSolution *sb_ehl_other(SbFilmSolver *solver) {
+  return &solver->solution[solver->now == &solver->solution[0] ? 1 : 0];
+}
+
+// Whether the caller wants to stop.
+static inline bool sb_ehl_cancelled(const SbFilmSolver *solver) {
+  const SbFilmProblem *p = solver->problem;
+  return p->cancelled != NULL && p->cancelled(p->cancelled_data);
+}
+
+// Newton's method of smooth rows. `independent`: state.gap is a guess of its own, to be made
 // consistent by the first step; otherwise it is computed from the pressure.
-SbStatus sb_ehl_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, SbEhlCase *problem,
-                       bool independent, double tolerance, const SbFilmProblem *callback);
+SbStatus sb_ehl_newton(SbEhlSolution *s, bool independent);
 
-// The same with rough rows.
-SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, const SbEhlCase *c,
-                             const SbFilmProblem *callback);
-
-// Either, with its account.
-SbStatus sb_ehl_iterate(SbFilmSolver *solver, int which, SbEhlCase *c, bool independent,
-                        const SbEhlRun *run);
+// The same of rough rows.
+SbStatus sb_ehl_rough_newton(SbEhlSolution *s);
 
 // Kernel of a fitted body with the axis at `shift`, into solver->kernel ([targets][dofs]), and the
 // gap that it gives at all targets into solver->gaps: the undeformed one and the deflection by the
 // nodal pressures, without H0; behind it the derivatives to the shift.
-void sb_ehl_fitted(SbFilmSolver *solver, const SbEhlMesh *mesh, const double *nodal, double shift,
-                   const SbFilmBody *body);
+void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift);
 
 // Load above the ambient step less its target pi/2.
-double sb_ehl_load(const SbEhlMesh *mesh, const SbEhlState *state);
+double sb_ehl_load(const SbEhlSolution *s);
 
-// Carries a solution from mesh/state `from` to `to`: along with the elements where these are the
-// same in other degrees or moved with the layers, `before` to `after`, else by place. The film is
-// multiplied by `scale`.
-void sb_ehl_carry(SbFilmSolver *solver, int from, int to, const SbEhlLayers *before,
-                  const SbEhlLayers *after, double scale);
+// Carries a solution to another mesh: along with the elements where these are the same in other
+// degrees or moved with the layers, else by place. The film is multiplied by `scale`.
+void sb_ehl_carry(SbEhlSolution *to, const SbEhlSolution *from, double scale);
 
 // Results of a solution.
-void sb_ehl_results(SbEhlResults *out, SbFilmSolver *solver, int which, const SbEhlCase *problem);
+void sb_ehl_results(SbEhlResults *out, const SbEhlSolution *s);
 
 // Relative changes of minimum, centre and flux film from one level of degree to the next, whose
-// results are `coarse` and `fine`. If `paired`, mesh and state `which` and the other one hold the
-// two on the same elements: the first two are then root mean squares over the elements about the
-// minimum and about the centre, as single values may agree by chance.
-void sb_ehl_change(double change[3], SbFilmSolver *solver, int which, const SbEhlCase *problem,
-                   const SbEhlResults *fine, const SbEhlResults *coarse, bool paired);
+// results are `coarse` and `fine`, the finer one the solver's last solution. If `paired`, the other
+// solution is the coarser one: where they share the elements, the first two are then root mean
+// squares over the elements about the minimum and about the centre, as single values may agree by
+// chance.
+void sb_ehl_change(double change[3], SbFilmSolver *solver, const SbEhlResults *fine,
+                   const SbEhlResults *coarse, bool paired);
 
 // Film that carries the flux under the slope dP/dX, by fixed-point steps from `film`; its
 // Poiseuille part is small where this is used.
 double sb_ehl_flat_film(const SbEhlCase *c, double flux, double film, double pressure,
                         double slope);
 
-// Profile of a solution into `out`, in SI and in the seal's frame, with the points that `wanted`
+// Profile of a solution into `out`, in SI and in the seal's frame, with the points that the problem
 // asks for.
-void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *problem,
-                    const SbFilmScale *scale, const SbFilmProblem *wanted);
+void sb_ehl_profile(SbFilm *out, const SbEhlSolution *s, const SbFilmScale *scale);
 
-// A solution of the lowest degree in mesh/state *which, from nothing: directly, or by continuation
-// from an easier case, with the cavity or the meniscus that the case needs. `problem->layers` is
-// completed (end, reform, meniscus, starvation). `flux` is the flux film supplied, infinite when
-// flooded. *flooded tells whether the supply was enough.
-SbStatus sb_ehl_start(bool *flooded, SbFilmSolver *solver, int *which, SbEhlCase *problem,
-                      double flux, const SbEhlRun *run);
+// A solution of the case and its degree, from nothing: directly, or by continuation from an easier
+// case, with the cavity or the meniscus that the case needs; `supply` is the flux film supplied.
+SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply);
 
-// Solves on another degree from the solution in mesh/state *which, moving a free end last. On
-// failure the old solution and case stand.
-SbStatus sb_ehl_refine(SbFilmSolver *solver, int *which, SbEhlCase *problem, int degree,
-                       const SbEhlRun *run);
+// The last solution on another degree.
+SbStatus sb_ehl_refine(SbFilmSolver *solver, int degree);
 
-// Solves a case near the one whose solution is in mesh/state *which, on the same degree. Anything
-// but SB_OK asks for a cold start; the old solution stands.
-SbStatus sb_ehl_follow(SbFilmSolver *solver, int *which, const SbEhlCase *old,
-                       const SbEhlCase *problem, const SbEhlRun *run);
+// Solves a case near the last solution's on the same degree. Anything but SB_OK asks for a cold
+// start.
+SbStatus sb_ehl_follow(SbFilmSolver *solver, const SbEhlCase *c);
 
 // The problem's rough law in *law, from the solver's storage.
 SbStatus sb_ehl_rough_law(const SbRoughLaw **law, SbFilmSolver *solver,
                           const SbFilmProblem *problem, SbReport *report);
 
-// Asperities and adhesion of `problem` into a case that is complete otherwise, and its rough rows.
-SbStatus sb_ehl_rough_case(SbEhlCase *c, SbFilmSolver *solver, const SbFilmProblem *problem,
-                           const SbFilmScale *scale, SbReport *report);
+// Asperities and adhesion of the solver's problem into a case that is complete otherwise.
+SbStatus sb_ehl_rough_case(SbEhlCase *c, SbFilmSolver *solver, const SbFilmScale *scale,
+                           SbReport *report);
 
-// All levels of rough rows from a cold start: results of each, their number (0: nothing found), and
-// in `run->info` the estimates. A gap too closed to tell a flow at rest is solved sealed.
-SbStatus sb_ehl_rough_climb(SbEhlResults *results, int *levels, int *which, SbFilmSolver *solver,
-                            SbEhlCase *c, const SbEhlRun *run);
+// Flux film of a rough case, and where the film's pressure begins, into c->rough.
+void sb_ehl_rough_flux(SbEhlCase *c);
+
+// Starting state of rough rows on the solution's mesh.
+void sb_ehl_rough_guess(SbEhlSolution *s);
 
 // Lays out elements by the layers and the roughness and builds the kernel, that of a fitted body
 // and the undeformed gap included. False if the mesh does not fit.
-SB_CHECKED bool sb_ehl_rough_mesh(SbFilmSolver *solver, int which, const SbEhlCase *c, int degree);
+SB_CHECKED bool sb_ehl_rough_mesh(SbEhlSolution *s);
 
 // Where the film takes the load over from the asperities and hands it back, and how sharply, into
-// c->rough.front for the next mesh; false if neither is sharp enough to need elements of its own.
-bool sb_ehl_rough_fronts(SbEhlCase *c, const SbFilmSolver *solver, int which,
-                         const SbEhlResults *results);
+// the case's rough.front for the next mesh; false if neither is sharp enough to need elements of
+// its own.
+bool sb_ehl_rough_fronts(SbEhlSolution *s, const SbEhlResults *results);
 
 // Gap and solid pressures at t, and the parameter of a gap.
 void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t);

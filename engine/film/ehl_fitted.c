@@ -92,7 +92,7 @@ static void add_element(SbEhlFittedWork *work, double *state, double *state_slop
     double weight[SB_EHL_DEGREE_MAX + 2];
     memcpy(weight, e->fine_wb[q], sizeof weight);
     if (cut) {
-      const SbEhlTable *t = &tables->table[e->degree];
+      const SbEhlTable *t = e->table;
       const double r = 0.5 * (from + to) + 0.5 * (to - from) * tables->fine[q];
       X = e->m + e->h * r;
       sb_barycentric_basis(weight, r, t->node, t->bary, e->degree + 1);
@@ -140,22 +140,23 @@ double sb_film_window_tilt(const SbFilmBody *body, double inlet, double outlet) 
   return -(inlet - outlet) / M_PI * log(0.5 * (c->right - c->left) / body->half_width);
 }
 
-void sb_ehl_fitted(SbFilmSolver *solver, const SbEhlMesh *mesh, const double *nodal, double shift,
-                   const SbFilmBody *body) {
-  double *kernel = solver->kernel;
-  double *gaps = solver->gaps;
-  double *slope = gaps + mesh->targets;
+void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift) {
+  const SbEhlMesh *mesh = &s->mesh;
+  const SbFilmBody *body = &s->c.body;
   const SbSurfaceCompliance *c = body->compliance;
+  double *kernel = s->solver->kernel;
+  double *gaps = s->solver->gaps;
+  double *slope = gaps + mesh->targets;
   const double unit = body->side * body->half_width;
   const int modes = c->modes;
   // p_H b over the film's scale.
   const double factor = 0.25 * c->modulus;
-  SbEhlFittedWork *work = &solver->fitted;
+  SbEhlFittedWork *work = &s->solver->fitted;
   memset(work->moment, 0, sizeof work->moment);
   double state[MODES] = {0};
   double state_slope[MODES] = {0};
   for (int i = 0; i < mesh->count; i++) {
-    add_element(work, state, state_slope, &solver->tables, &mesh->element[i], nodal, shift, body);
+    add_element(work, state, state_slope, mesh->tables, &mesh->element[i], nodal, shift, body);
   }
   sb_film_ambient(state, state_slope, body, mesh->inlet_pressure, mesh->outlet_pressure,
                   mesh->left_end + shift, mesh->right_end + shift);

@@ -88,8 +88,8 @@ static void expand(SbEhlElement *e) {
   }
 }
 
-void sb_ehl_kernel_prepare(SbEhlElement *e, SbEhlTables *tables) {
-  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables) {
+  const SbEhlTable *t = e->table;
   int columns = e->degree + 2;
   for (int k = 0; k <= e->degree && e->map == SB_EHL_COSINE; k++) {
     e->node_sine[k] = sin(e->m + e->h * t->node[k]);

@@ -284,7 +284,7 @@ static void thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   }
 }
 
-bool sb_ehl_layers_mesh(SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlLayers *l) {
+bool sb_ehl_layers_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   sb_ehl_mesh_begin(mesh, l->inlet, l->outlet);
   mesh->steps[0] = mesh->steps[1] = -1;
   bool thick = sb_ehl_layers_width(l) > THICK && !isfinite(l->meniscus);
@@ -295,7 +295,7 @@ bool sb_ehl_layers_mesh(SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlLayers 
     unit = 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0);
     add_outlet(mesh, l->reform, unit, 0.0, l->degree, true);
   }
-  return sb_ehl_mesh_build(mesh, tables, false);
+  return sb_ehl_mesh_build(mesh, false);
 }
 
 double sb_ehl_layers_dry_pressure(const SbEhlLayers *l, double X) {
@@ -347,14 +347,14 @@ static double rigid_pressure(const SbEhlLayers *l, double X) {
 }
 
 void sb_ehl_layers_guess(double *nodal, double *gap, double *shift, double *flux,
-                         const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlLayers *l) {
+                         const SbEhlMesh *mesh, const SbEhlLayers *l) {
   bool thick = sb_ehl_layers_width(l) > THICK;
   *flux = thick ? 1.225748 * rigid_film(l) : sb_ehl_layers_flux(l);
   *shift =
       l->middle + (thick ? tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l)) - rupture_guess(l) : 0.0);
   for (int i = 0; i < mesh->count; i++) {
     const SbEhlElement *e = &mesh->element[i];
-    const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+    const SbEhlTable *t = e->table;
     for (int k = 0; k <= e->degree; k++) {
       double r = t->node[k];
       bool inlet = e->map == SB_EHL_INLET;
@@ -434,11 +434,11 @@ double sb_ehl_layers_reform(const SbEhlLayers *l, double flux) {
 }
 
 void sb_ehl_layers_fill_reformed(double *nodal, double *gap, const SbEhlMesh *mesh,
-                                 SbEhlTables *tables, const SbEhlLayers *l, double flux) {
+                                 const SbEhlLayers *l, double flux) {
   int begin = mesh->count;
   for (int i = 0; i < mesh->count; i++) {
     const SbEhlElement *e = &mesh->element[i];
-    const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+    const SbEhlTable *t = e->table;
     if (e->apart) {
       begin = i;
     }

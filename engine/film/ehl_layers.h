@@ -47,7 +47,7 @@ double sb_ehl_layers_dry_pressure(const SbEhlLayers *layers, double X);
 double sb_ehl_layers_dry_gap(const SbEhlLayers *layers, double X);
 
 // Builds the mesh. Returns false if it does not fit.
-SB_CHECKED bool sb_ehl_layers_mesh(SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlLayers *layers);
+SB_CHECKED bool sb_ehl_layers_mesh(SbEhlMesh *mesh, const SbEhlLayers *layers);
 
 // Pressure and film of the joined layers of a thin film at X.
 void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *layers, double flux,
@@ -55,7 +55,7 @@ void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *laye
 
 // Fills nodal pressures, gaps at all targets, and the shift and flux of a cold start.
 void sb_ehl_layers_guess(double *nodal, double *gap, double *shift, double *flux,
-                         const SbEhlMesh *mesh, SbEhlTables *tables, const SbEhlLayers *layers);
+                         const SbEhlMesh *mesh, const SbEhlLayers *layers);
 
 // Pressure that a film formed again at X gains until infinity, by Reynolds' equation on the dry
 // gap.
@@ -66,4 +66,4 @@ double sb_ehl_layers_reform(const SbEhlLayers *layers, double flux);
 
 // Starting pressure and gap of the elements behind the cavity.
 void sb_ehl_layers_fill_reformed(double *nodal, double *gap, const SbEhlMesh *mesh,
-                                 SbEhlTables *tables, const SbEhlLayers *layers, double flux);
+                                 const SbEhlLayers *layers, double flux);

@@ -208,6 +208,7 @@ void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double
   SbEhlElement *e = &mesh->element[mesh->count++];
   e->map = map;
   e->degree = degree;
+  e->table = sb_ehl_table(mesh->tables, degree);
   e->points = points;
   e->apart = apart;
   e->x0 = x0;
@@ -242,11 +243,11 @@ void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double
 }
 
 // Position and owner of every target: collocation points, then ends.
-static void place_targets(SbEhlMesh *mesh, SbEhlTables *tables) {
+static void place_targets(SbEhlMesh *mesh) {
   int targets = mesh->rows;
   for (int i = 0; i < mesh->count; i++) {
     SbEhlElement *e = &mesh->element[i];
-    const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+    const SbEhlTable *t = e->table;
     int rule = e->points - e->degree;
     for (int k = 0; k < e->points; k++) {
       double r = t->gauss[rule][k];
@@ -278,11 +279,11 @@ static void place_targets(SbEhlMesh *mesh, SbEhlTables *tables) {
 }
 
 // The nodes for targets.
-static void place_nodes(SbEhlMesh *mesh, SbEhlTables *tables) {
+static void place_nodes(SbEhlMesh *mesh) {
   mesh->rows = mesh->targets = mesh->dofs;
   for (int i = 0; i < mesh->count; i++) {
     const SbEhlElement *e = &mesh->element[i];
-    const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+    const SbEhlTable *t = e->table;
     for (int k = 0; k <= e->degree; k++) {
       mesh->x[e->first_dof + k] = sb_ehl_position(e, t->node[k]);
       mesh->owner[e->first_dof + k] = i;
@@ -301,14 +302,14 @@ double sb_ehl_ambient_gap(double X, double left, double right, double inlet, dou
          M_PI;
 }
 
-bool sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
+bool sb_ehl_mesh_build(SbEhlMesh *mesh, bool nodal) {
   if (!mesh->fits) {
     return false;
   }
   for (int i = 0; i < mesh->count; i++) {
-    sb_ehl_kernel_prepare(&mesh->element[i], tables);
+    sb_ehl_kernel_prepare(&mesh->element[i], mesh->tables);
   }
-  (nodal ? place_nodes : place_targets)(mesh, tables);
+  (nodal ? place_nodes : place_targets)(mesh);
   const SbEhlElement *first = &mesh->element[0];
   const SbEhlElement *last = &mesh->element[mesh->count - 1];
   mesh->left_end = first->map == SB_EHL_INLET ? first->x1 : first->x0;
@@ -328,7 +329,7 @@ bool sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal) {
     for (int i = 0; i < mesh->targets; i++) {
       double *gap = mesh->gap + (size_t)i * (size_t)mesh->dofs + e->first_dof;
       double row[COLUMNS] = {0};
-      sb_ehl_kernel_row(row, e, tables, mesh->x[i], angle[i]);
+      sb_ehl_kernel_row(row, e, mesh->tables, mesh->x[i], angle[i]);
       for (int j = 0; j <= e->degree; j++) {
         gap[j] -= INVERSE_PI * row[j];
       }
@@ -362,9 +363,8 @@ double sb_ehl_sum(double *slope, const SbEhlLocal *local, const SbEhlElement *e,
   return sum;
 }
 
-double sb_ehl_pressure(double *slope, SbEhlTables *tables, const SbEhlElement *e,
-                       const double *nodal, double r) {
-  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+double sb_ehl_pressure(double *slope, const SbEhlElement *e, const double *nodal, double r) {
+  const SbEhlTable *t = e->table;
   double basis[SB_EHL_DEGREE_MAX + 1], rise[SB_EHL_DEGREE_MAX + 1];
   sb_barycentric_basis(basis, r, t->node, t->bary, e->degree + 1);
   if (slope != NULL) {
@@ -375,10 +375,8 @@ double sb_ehl_pressure(double *slope, SbEhlTables *tables, const SbEhlElement *e
   return sb_ehl_sum(slope, &local, e, nodal);
 }
 
-double sb_ehl_gap(const SbEhlMesh *mesh, SbEhlTables *tables, int element, const double *target_gap,
-                  double r) {
-  const SbEhlElement *e = &mesh->element[element];
-  const SbEhlTable *t = sb_ehl_table(tables, e->degree);
+double sb_ehl_gap(const SbEhlElement *e, const double *target_gap, double r) {
+  const SbEhlTable *t = e->table;
   int kind = e->map == SB_EHL_INLET ? 1 : e->map == SB_EHL_OUTLET ? 2 : 0;
   double basis[SB_EHL_DEGREE_MAX + 2];
   sb_barycentric_basis(basis, r, t->gap_node[kind], t->gap_bary[kind], e->degree + 2);

@@ -52,11 +52,19 @@ typedef struct {
   bool stepped;
 } SbEhlTable;
 
+// Everything that outlives a solve: rules and tables of the degrees in use.
+typedef struct {
+  double fine[SB_EHL_QUAD], fine_weight[SB_EHL_QUAD];
+  double fine_legendre[SB_EHL_QUAD][SB_EHL_PROJECT + 1];
+  SbEhlTable table[SB_EHL_DEGREE_MAX + 1];
+} SbEhlTables;
+
 // One element. Columns 0 .. degree belong to the nodes, column degree + 1 to the known part of the
 // pressure (the sine, or the far pressure).
 typedef struct {
   SbEhlMap map;
   int degree;
+  const SbEhlTable *table;
   int points;    // collocation points
   int first_dof; // of degree + 1; the first is shared with the element before unless `apart`
   int first_row;
@@ -87,6 +95,7 @@ typedef struct {
 // ends of the elements; of a nodal mesh, the nodes, without local operators. The known parts hold
 // what does not depend on the nodal pressures.
 typedef struct {
+  SbEhlTables *tables;
   int count;
   bool fits;    // so far
   int steps[2]; // of the layout that made it (ehl_layers.h)
@@ -105,13 +114,6 @@ typedef struct {
   double load[SB_EHL_DOFS_MAX], load_known; // integrals of the basis and of the known pressure
 } SbEhlMesh;
 
-// Everything that outlives a solve: rules and tables of the degrees in use.
-typedef struct {
-  double fine[SB_EHL_QUAD], fine_weight[SB_EHL_QUAD];
-  double fine_legendre[SB_EHL_QUAD][SB_EHL_PROJECT + 1];
-  SbEhlTable table[SB_EHL_DEGREE_MAX + 1];
-} SbEhlTables;
-
 // Rules; the tables of a degree follow on first use.
 void sb_ehl_tables_init(SbEhlTables *tables);
 const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree);
@@ -121,7 +123,7 @@ const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree);
 const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree);
 void sb_ehl_partial(double *weight, const SbEhlTable *table, int j, double r);
 
-// Empties the mesh and adds elements from left to right.
+// Empties the mesh, whose tables stand, and adds elements from left to right.
 void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure);
 void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
                      bool apart);
@@ -132,7 +134,7 @@ double sb_ehl_ambient_gap(double X, double left, double right, double inlet, dou
 
 // Numbers the unknowns and builds every operator, unless the elements did not fit: then false;
 // `nodal`: with the nodes for targets, on affine elements without cavities.
-SB_CHECKED bool sb_ehl_mesh_build(SbEhlMesh *mesh, SbEhlTables *tables, bool nodal);
+SB_CHECKED bool sb_ehl_mesh_build(SbEhlMesh *mesh, bool nodal);
 
 // Whether both meshes have the same elements up to their places and degrees.
 bool sb_ehl_same_elements(const SbEhlMesh *a, const SbEhlMesh *b);
@@ -164,7 +166,7 @@ double sb_ehl_sum(double *slope, const SbEhlLocal *local, const SbEhlElement *e,
                   const double *nodal);
 
 // Everything about an element that its integrals need, for every target alike.
-void sb_ehl_kernel_prepare(SbEhlElement *e, SbEhlTables *tables);
+void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables);
 
 // Adds to row[j], j <= degree + 1, the integral of column j times ln|X - X'|. `angle` is acos(-X)
 // inside the contact, acosh|X| outside.
@@ -177,10 +179,8 @@ double sb_ehl_stretch(const SbEhlElement *e, double r);
 
 // Pressure at r of element e from nodal values, the far pressure included; its slope to X unless
 // NULL.
-double sb_ehl_pressure(double *slope, SbEhlTables *tables, const SbEhlElement *e,
-                       const double *nodal, double r);
+double sb_ehl_pressure(double *slope, const SbEhlElement *e, const double *nodal, double r);
 
 // Gap at r of element e, interpolated from the gap at all targets (`target_gap`) at the
 // collocation points and ends of the element.
-double sb_ehl_gap(const SbEhlMesh *mesh, SbEhlTables *tables, int element, const double *target_gap,
-                  double r);
+double sb_ehl_gap(const SbEhlElement *e, const double *target_gap, double r);

@@ -27,6 +27,11 @@ bool sb_ehl_init(SbFilmSolver *solver) {
   // Touches the pages and LAPACK's own buffers once, so that no solve pays for them.
   memset(solver, 0, sizeof *solver);
   sb_ehl_tables_init(&solver->tables);
+  for (int i = 0; i < 2; i++) {
+    solver->solution[i].solver = solver;
+    solver->solution[i].mesh.tables = &solver->tables;
+  }
+  solver->now = &solver->solution[0];
   for (size_t i = 0; i < TRIAL; i++) {
     solver->matrix[i * TRIAL + i] = 1.0;
   }
@@ -37,21 +42,21 @@ bool sb_ehl_init(SbFilmSolver *solver) {
 
 // Gap from the pressure at all targets into solver->gaps, with its derivatives to the nodal
 // pressures (returned, borrowed) and to the shift behind the gaps.
-static const double *elastic_gaps(SbFilmSolver *solver, const SbEhlMesh *mesh,
-                                  const SbEhlState *state, const SbEhlCase *problem) {
-  double *out = solver->gaps;
-  double *slope = out + mesh->targets;
-  if (problem->body.compliance != NULL) {
-    sb_ehl_fitted(solver, mesh, state->nodal, state->shift, &problem->body);
+static const double *elastic_gaps(const SbEhlSolution *s) {
+  const SbEhlMesh *mesh = &s->mesh;
+  const SbEhlState *state = &s->state;
+  double *out = s->solver->gaps;
+  if (s->c.body.compliance != NULL) {
+    sb_ehl_fitted(s, state->nodal, state->shift);
     for (int i = 0; i < mesh->targets; i++) {
       out[i] += state->H0;
     }
-    return solver->kernel;
+    return s->solver->kernel;
   }
   for (int i = 0; i < mesh->targets; i++) {
     double x = mesh->x[i] + state->shift;
     out[i] = state->H0 + 0.5 * x * x + mesh->gap_known[i];
-    slope[i] = x;
+    out[mesh->targets + i] = x;
   }
   cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->targets, mesh->dofs, 1.0, mesh->gap, mesh->dofs,
               state->nodal, 1, 1.0, out, 1);
@@ -68,11 +73,13 @@ typedef struct {
   int order;
 } Layout;
 
-static Layout lay_out(const SbEhlMesh *mesh, const SbEhlCase *problem) {
+static Layout lay_out(const SbEhlSolution *s) {
+  const SbEhlMesh *mesh = &s->mesh;
+  const SbEhlCase *c = &s->c;
   Layout l = {.last = mesh->count - 1, .shift = -1, .flux = -1, .free_end = -1};
-  l.rupture = problem->layers.end != SB_EHL_FULL;
-  l.meniscus = isfinite(problem->layers.meniscus);
-  l.reform = problem->layers.end == SB_EHL_REFORM && !problem->hold;
+  l.rupture = c->layers.end != SB_EHL_FULL;
+  l.meniscus = isfinite(c->layers.meniscus);
+  l.reform = c->layers.end == SB_EHL_REFORM && !c->hold;
   for (int i = 1; i < mesh->count; i++) {
     if (mesh->element[i].apart) {
       l.last = i - 1;
@@ -82,22 +89,20 @@ static Layout lay_out(const SbEhlMesh *mesh, const SbEhlCase *problem) {
   if (l.rupture) {
     l.shift = l.order++;
   }
-  if (!l.meniscus || problem->hold) {
+  if (!l.meniscus || c->hold) {
     l.flux = l.order++;
   }
-  if ((l.meniscus && !problem->hold) || l.reform) {
+  if ((l.meniscus && !c->hold) || l.reform) {
     l.free_end = l.order++;
   }
   return l;
 }
 
-double sb_ehl_load(const SbEhlMesh *mesh, const SbEhlState *state) {
-  double sum = mesh->load_known - 0.5 * M_PI;
-  for (int j = 0; j < mesh->dofs; j++) {
-    sum += mesh->load[j] * state->nodal[j];
-  }
-  sum += mesh->inlet_pressure * (mesh->left_end + state->shift);
-  return sum - mesh->outlet_pressure * (mesh->right_end + state->shift);
+double sb_ehl_load(const SbEhlSolution *s) {
+  const SbEhlMesh *mesh = &s->mesh;
+  return mesh->load_known - 0.5 * M_PI + cblas_ddot(mesh->dofs, mesh->load, 1, s->state.nodal, 1) +
+         mesh->inlet_pressure * (mesh->left_end + s->state.shift) -
+         mesh->outlet_pressure * (mesh->right_end + s->state.shift);
 }
 
 // The larger size, a NaN counting as infinite.
@@ -105,16 +110,18 @@ static double larger(double largest, double value) {
   return isfinite(value) ? fmax(largest, fabs(value)) : INFINITY;
 }
 
-// Residuals into `right` and, if `matrix` is given, the Jacobian without the free end's column.
-// `gaps` and `kernel` are those of elastic_gaps. Returns the largest scaled residual. A gap guess
-// is linearised about when `independent`.
-static double assemble(double *right, double *matrix, const double *gaps, const double *kernel,
-                       const SbEhlMesh *mesh, const SbEhlState *state, const SbEhlCase *problem,
+// Residuals into `right` and, unless NULL, the Jacobian without the free end's column into
+// `matrix`, for the gaps in solver->gaps with the derivatives `kernel`. Returns the largest scaled
+// residual. A gap guess is linearised about when `independent`.
+static double assemble(double *right, double *matrix, const double *kernel, const SbEhlSolution *s,
                        const Layout *layout, bool independent) {
+  const SbEhlMesh *mesh = &s->mesh;
+  const SbEhlState *state = &s->state;
+  const double *gaps = s->solver->gaps;
+  const double *gap_slope = gaps + mesh->targets;
   int dofs = mesh->dofs;
   size_t order = (size_t)layout->order;
-  const double *gap_slope = gaps + mesh->targets;
-  double lambda = problem->layers.lambda;
+  double lambda = s->c.layers.lambda;
   double largest = 0.0;
   if (matrix != NULL) {
     memset(matrix, 0, order * order * sizeof *matrix);
@@ -129,7 +136,7 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
     const SbEhlLocal *local = &mesh->local[i];
     double pressure = sb_ehl_sum(&slope, local, e, state->nodal);
     double m, m_film, m_pressure;
-    sb_film_mobility(&m, &m_film, &m_pressure, &problem->fluid, H, pressure);
+    sb_film_mobility(&m, &m_film, &m_pressure, &s->c.fluid, H, pressure);
     double G = H * H * H * m / lambda;
     double by_film = (3.0 * H * H * m + H * H * H * m_film) / lambda * slope - 1.0;
     double by_pressure = H * H * H * m_pressure / lambda * slope;
@@ -184,7 +191,7 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
   // Pressure where the film begins or forms again.
   if (layout->meniscus || layout->reform) {
     int node = layout->reform ? mesh->element[layout->last + 1].first_dof : 0;
-    right[next] = state->nodal[node] - (layout->reform ? 0.0 : problem->layers.inlet);
+    right[next] = state->nodal[node] - (layout->reform ? 0.0 : s->c.layers.inlet);
     largest = larger(largest, right[next]);
     if (matrix != NULL) {
       matrix[(size_t)next * order + (size_t)node] = 1.0;
@@ -192,7 +199,7 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
     next++;
   }
   // Load.
-  right[next] = sb_ehl_load(mesh, state);
+  right[next] = sb_ehl_load(s);
   largest = larger(largest, right[next]);
   if (matrix != NULL) {
     double *row = matrix + (size_t)next * order;
@@ -204,155 +211,120 @@ static double assemble(double *right, double *matrix, const double *gaps, const 
   return largest;
 }
 
-// Moves the free end to `place` and rebuilds the mesh.
-static bool move_free_end(SbFilmSolver *solver, int which, SbEhlCase *problem, double place) {
-  if (problem->layers.end == SB_EHL_REFORM) {
-    problem->layers.reform = place;
-  } else {
-    problem->layers.meniscus = place;
+static double *free_end(SbEhlLayers *layers) {
+  return layers->end == SB_EHL_REFORM ? &layers->reform : &layers->meniscus;
+}
+
+// Moves the free end to `place` and rebuilds the mesh. A film cannot form again before it breaks,
+// nor begin behind the middle of the contact.
+static bool move_free_end(SbEhlSolution *s, const Layout *layout, double place) {
+  SbEhlLayers *layers = &s->c.layers;
+  bool allowed = layers->end == SB_EHL_REFORM
+                     ? place > s->mesh.element[layout->last].x1 + 1e-3 * sb_ehl_layers_width(layers)
+                     : place < -0.5;
+  if (allowed) {
+    *free_end(layers) = place;
   }
-  return sb_ehl_layers_mesh(&solver->mesh[which], &solver->tables, &problem->layers);
-}
-
-static double free_end(const SbEhlCase *problem) {
-  return problem->layers.end == SB_EHL_REFORM ? problem->layers.reform : problem->layers.meniscus;
-}
-
-// A film cannot form again before it breaks, nor begin behind the middle of the contact.
-static bool allowed(const SbEhlMesh *mesh, const SbEhlCase *problem, const Layout *layout,
-                    double place) {
-  double width = sb_ehl_layers_width(&problem->layers);
-  return problem->layers.end == SB_EHL_REFORM
-             ? place > mesh->element[layout->last].x1 + 1e-3 * width
-             : place < -0.5;
+  return allowed && sb_ehl_layers_mesh(&s->mesh, layers);
 }
 
 // Derivative of the residuals to the free end: the mesh is moved a little and put back.
-static bool difference_column(SbFilmSolver *solver, int which, SbEhlCase *problem,
-                              const Layout *layout) {
-  SbEhlMesh *mesh = &solver->mesh[which];
-  SbEhlState *state = &solver->state[which];
-  double place = free_end(problem);
-  double step = 1e-6 * sb_ehl_layers_width(&problem->layers);
-  if (!move_free_end(solver, which, problem, place + step)) {
+static bool difference_column(SbEhlSolution *s, const Layout *layout) {
+  SbFilmSolver *solver = s->solver;
+  double place = *free_end(&s->c.layers);
+  double step = 1e-6 * sb_ehl_layers_width(&s->c.layers);
+  if (!move_free_end(s, layout, place + step)) {
     return false;
   }
-  const double *kernel = elastic_gaps(solver, mesh, state, problem);
-  assemble(solver->column, NULL, solver->gaps, kernel, mesh, state, problem, layout, false);
-  if (!move_free_end(solver, which, problem, place)) {
-    return false;
-  }
+  assemble(solver->column, NULL, elastic_gaps(s), s, layout, false);
   for (int i = 0; i < layout->order; i++) {
-    solver->column[i] = (solver->column[i] - solver->right[i]) / step;
+    double rise = (solver->column[i] - solver->right[i]) / step;
+    solver->matrix[(size_t)i * (size_t)layout->order + (size_t)layout->free_end] = rise;
   }
-  return true;
+  return move_free_end(s, layout, place);
 }
 
-SbStatus sb_ehl_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, SbEhlCase *problem,
-                       bool independent, double tolerance, const SbFilmProblem *callback) {
-  SbEhlMesh *mesh = &solver->mesh[which];
-  SbEhlState *state = &solver->state[which];
-  Layout layout = lay_out(mesh, problem);
-  if (layout.free_end >= 0 && independent) {
-    independent = false; // the difference quotient needs a consistent gap
+// Takes the step in solver->right, cut to parts where the film would vanish; of an independent gap
+// the first step stands as it is.
+static bool apply(SbEhlSolution *s, const Layout *layout, bool first) {
+  SbEhlState *state = &s->state;
+  const double *step = s->solver->right;
+  const double H0 = state->H0, shift = state->shift, flux = state->flux;
+  const double place = layout->free_end >= 0 ? *free_end(&s->c.layers) : 0.0;
+  double applied = 0.0;
+  double factor = 1.0;
+  for (int cut = 0; cut <= 8; cut++, factor *= 0.5) {
+    cblas_daxpy(s->mesh.dofs, applied - factor, step, 1, state->nodal, 1);
+    applied = factor;
+    state->H0 = H0 - factor * step[s->mesh.dofs];
+    state->shift = shift - (layout->shift >= 0 ? factor * step[layout->shift] : 0.0);
+    state->flux = flux - (layout->flux >= 0 ? factor * step[layout->flux] : 0.0);
+    bool thin = state->flux < 0.1 * flux;
+    if (layout->free_end >= 0 && !thin) {
+      thin = !move_free_end(s, layout, place - factor * step[layout->free_end]);
+    }
+    elastic_gaps(s);
+    for (int i = 0; !first && !thin && i < s->mesh.rows; i++) {
+      thin = s->solver->gaps[i] < 0.1 * state->gap[i];
+    }
+    if (!thin || first) {
+      return state->flux > 0.0;
+    }
   }
-  int order = layout.order;
-  double *matrix = solver->matrix;
-  double *right = solver->right;
-  double before_residual = INFINITY;
-  bool factored = false; // `matrix` holds the factors of an earlier step
+  return false;
+}
+
+SbStatus sb_ehl_newton(SbEhlSolution *s, bool independent) {
+  SbFilmSolver *solver = s->solver;
+  SbFilmSolverInfo *info = solver->info;
+  SbEhlState *state = &s->state;
+  const Layout layout = lay_out(s);
+  independent = independent && layout.free_end < 0; // a difference quotient needs a consistent gap
+  double before = INFINITY;
+  bool factored = false; // the matrix holds the factors of an earlier step
   // Rounding of deflections of size one against the film: no residual is smaller. A fitted body's
   // have more terms.
-  tolerance = fmax(tolerance, (problem->body.compliance != NULL ? 8e-16 : 1.1e-16) / state->flux);
-  *trace = (SbEhlTrace){.residual = INFINITY};
-
-  for (int iteration = 0; iteration <= ITERATIONS_MAX; iteration++) {
-    if (callback->cancelled != NULL && callback->cancelled(callback->cancelled_data)) {
+  double tolerance =
+      fmax(solver->tolerance, (s->c.body.compliance != NULL ? 8e-16 : 1.1e-16) / state->flux);
+  for (int iteration = 0;; iteration++) {
+    if (sb_ehl_cancelled(solver)) {
       return SB_ERROR_CANCELLED;
     }
     bool first = independent && iteration == 0;
-    const double *kernel = elastic_gaps(solver, mesh, state, problem);
-    trace->residual =
-        assemble(right, NULL, solver->gaps, kernel, mesh, state, problem, &layout, first);
-    if (!isfinite(trace->residual)) {
-      return SB_ERROR_NOT_CONVERGED;
-    }
+    const double *kernel = elastic_gaps(s);
+    double residual = assemble(solver->right, NULL, kernel, s, &layout, first);
+    info->residual = residual;
     // Done at the tolerance, or where rounding stops the descent not far above it.
-    bool stalled = trace->residual <= 10.0 * tolerance && trace->residual > 0.3 * before_residual;
-    if (!first && (trace->residual <= tolerance || stalled)) {
+    bool last = residual > 0.3 * before || iteration == ITERATIONS_MAX;
+    if (!first && (residual <= tolerance || (last && residual <= 10.0 * tolerance))) {
       break;
     }
-    // Close to the solution the last factors serve again: each step then gains what they gained.
-    factored = factored && trace->residual < REUSE * before_residual;
-    before_residual = trace->residual;
-    if (iteration == ITERATIONS_MAX) {
-      if (trace->residual <= 10.0 * tolerance) {
-        break;
-      }
+    if (!isfinite(residual) || iteration == ITERATIONS_MAX) {
       return SB_ERROR_NOT_CONVERGED;
     }
+    // Close to the solution the last factors serve again: each step then gains what they gained.
+    factored = factored && residual < REUSE * before;
+    before = residual;
     if (!factored) {
-      assemble(right, matrix, solver->gaps, kernel, mesh, state, problem, &layout, first);
-      if (layout.free_end >= 0) {
-        if (!difference_column(solver, which, problem, &layout)) {
-          return SB_ERROR_NOT_CONVERGED;
-        }
-        for (int i = 0; i < order; i++) {
-          matrix[(size_t)i * (size_t)order + (size_t)layout.free_end] = solver->column[i];
-        }
+      assemble(solver->right, solver->matrix, kernel, s, &layout, first);
+      if (layout.free_end >= 0 && !difference_column(s, &layout)) {
+        return SB_ERROR_NOT_CONVERGED;
       }
     }
-    if (!sb_factor_solve(matrix, solver->pivot, right, order, !factored)) {
+    if (!sb_factor_solve(solver->matrix, solver->pivot, solver->right, layout.order, !factored)) {
       return SB_ERROR_NOT_CONVERGED;
     }
     factored = true;
-    trace->iterations++;
-
-    // Full steps unless the film would vanish.
-    double flux_change = layout.flux >= 0 ? right[layout.flux] : 0.0;
-    double factor = 1.0;
-    const double before_H0 = state->H0, before_shift = state->shift, before_flux = state->flux;
-    double place = layout.free_end >= 0 ? free_end(problem) : 0.0;
-    double applied = 0.0;
-    for (int cut = 0;; cut++) {
-      for (int j = 0; j < mesh->dofs; j++) {
-        state->nodal[j] -= (factor - applied) * right[j];
-      }
-      applied = factor;
-      state->H0 = before_H0 - factor * right[mesh->dofs];
-      if (layout.shift >= 0) {
-        state->shift = before_shift - factor * right[layout.shift];
-      }
-      state->flux = before_flux - factor * flux_change;
-      bool thin = state->flux < 0.1 * before_flux;
-      if (layout.free_end >= 0) {
-        double moved = place - factor * right[layout.free_end];
-        thin = thin || !allowed(mesh, problem, &layout, moved);
-        if (!thin && !move_free_end(solver, which, problem, moved)) {
-          return SB_ERROR_NOT_CONVERGED;
-        }
-      }
-      elastic_gaps(solver, mesh, state, problem);
-      for (int i = 0; !first && !thin && i < mesh->rows; i++) {
-        thin = solver->gaps[i] < 0.1 * state->gap[i];
-      }
-      if (!thin || first) {
-        break;
-      }
-      if (cut >= 8) {
-        return SB_ERROR_NOT_CONVERGED;
-      }
-      factor *= 0.5;
-    }
-    if (state->flux <= 0.0) {
+    info->newton_iterations++;
+    if (!apply(s, &layout, first)) {
       return SB_ERROR_NOT_CONVERGED;
     }
-    memcpy(state->gap, solver->gaps, (size_t)mesh->targets * sizeof(double));
+    memcpy(state->gap, solver->gaps, (size_t)s->mesh.targets * sizeof(double));
   }
 
   // A film that is not positive everywhere is no solution.
-  memcpy(state->gap, solver->gaps, (size_t)mesh->targets * sizeof(double));
-  for (int i = 0; i < mesh->rows; i++) {
+  memcpy(state->gap, solver->gaps, (size_t)s->mesh.targets * sizeof(double));
+  for (int i = 0; i < s->mesh.rows; i++) {
     if (!(state->gap[i] > 0.0)) {
       return SB_ERROR_NOT_CONVERGED;
     }

@@ -17,14 +17,6 @@
 
 #include <math.h>
 
-// What a profile is made from.
-typedef struct {
-  SbFilmSolver *solver;
-  const SbEhlMesh *mesh;
-  const SbEhlState *state;
-  const SbEhlCase *c;
-} Source;
-
 // A point in the scaled problem.
 typedef struct {
   double X, pressure, film, asperity;
@@ -48,6 +40,7 @@ static const double GROWTH = 2.0;
 // s where an infinite element's points end, and how many parts of equal growth that makes; one of a
 // finite element.
 static int parts_of(double *s, const SbEhlElement *e, const SbEhlCase *c, bool drawn) {
+  *s = 1.0;
   if (!sb_ehl_infinite(e)) {
     return 1;
   }
@@ -59,49 +52,46 @@ static int parts_of(double *s, const SbEhlElement *e, const SbEhlCase *c, bool d
 }
 
 // Films this flat keep their polynomial: see the head of the file.
-static bool flat_element(const Source *from, const SbEhlElement *e) {
+static bool flat_element(const SbEhlSolution *s, const SbEhlElement *e) {
   static const double FLAT = 0.03;
   bool flat = !sb_ehl_infinite(e);
   for (int k = 0; k < e->points; k++) {
-    flat = flat && fabs(from->state->gap[e->first_row + k] / from->state->flux - 1.0) < FLAT;
+    flat = flat && fabs(s->state.gap[e->first_row + k] / s->state.flux - 1.0) < FLAT;
   }
   return flat;
 }
 
 // Towards infinity a thin film's gap grows by many decades: there its excess over the dry gap is
 // interpolated, which stands in solver->gaps.
-static Point smooth_point(const Source *from, int element, bool flat, double r) {
-  const SbEhlElement *e = &from->mesh->element[element];
-  const SbEhlLayers *l = &from->c->layers;
+static Point smooth_point(const SbEhlSolution *s, const SbEhlElement *e, bool flat, double r) {
+  const SbEhlLayers *l = &s->c.layers;
+  const double flux = s->state.flux;
   Point p = {.X = sb_ehl_position(e, r)};
   double slope;
-  p.pressure = sb_ehl_pressure(&slope, &from->solver->tables, e, from->state->nodal, r);
+  p.pressure = sb_ehl_pressure(&slope, e, s->state.nodal, r);
   if (flat) {
-    p.film = sb_ehl_flat_film(from->c, from->state->flux, from->state->flux, p.pressure, slope);
+    p.film = sb_ehl_flat_film(&s->c, flux, flux, p.pressure, slope);
     return p;
   }
   bool infinite = sb_ehl_infinite(e);
-  p.film = sb_ehl_gap(from->mesh, &from->solver->tables, element,
-                      infinite ? from->solver->gaps : from->state->gap, r) +
+  p.film = sb_ehl_gap(e, infinite ? s->solver->gaps : s->state.gap, r) +
            (infinite ? sb_ehl_layers_dry_gap(l, p.X) : 0.0);
   double m, by_film, by_pressure;
-  sb_film_mobility(&m, &by_film, &by_pressure, &from->c->fluid, p.film, p.pressure);
-  p.lack = l->lambda * (p.film - from->state->flux) / (p.film * p.film * p.film * m) - slope;
+  sb_film_mobility(&m, &by_film, &by_pressure, &s->c.fluid, p.film, p.pressure);
+  p.lack = l->lambda * (p.film - flux) / (p.film * p.film * p.film * m) - slope;
   return p;
 }
 
-static Point rough_point(const Source *from, int element, double r) {
-  const SbEhlElement *e = &from->mesh->element[element];
-  const SbEhlTable *table = sb_ehl_table(&from->solver->tables, e->degree);
+static Point rough_point(const SbEhlSolution *s, const SbEhlElement *e, double r) {
   SbEhlRoughPoint at;
-  sb_ehl_rough_point(&at, from->c, sb_ehl_interpolate(table, &from->state->t[e->first_dof], r));
+  sb_ehl_rough_point(&at, &s->c, sb_ehl_interpolate(e->table, &s->state.t[e->first_dof], r));
   return (Point){.X = sb_ehl_position(e, r),
-                 .pressure = sb_ehl_interpolate(table, &from->state->nodal[e->first_dof], r),
+                 .pressure = sb_ehl_pressure(NULL, e, s->state.nodal, r),
                  .film = at.h,
                  .asperity = at.asperity};
 }
 
-// Spreads what the pressure of a full film, elements `first` to `last`, has too much at its end
+// Spreads what the pressure of a full film has too much at its end
 // over its thinnest element, whose points begin at `begin`: there a difference in pressure changes
 // the flux least.
 static void join(SbFilm *out, const size_t *begin, int thinnest, size_t end, double excess) {
@@ -111,22 +101,22 @@ static void join(SbFilm *out, const size_t *begin, int thinnest, size_t end, dou
   }
 }
 
-void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCase *c,
-                    const SbFilmScale *scale, const SbFilmProblem *wanted) {
+void sb_ehl_profile(SbFilm *out, const SbEhlSolution *s, const SbFilmScale *scale) {
+  const SbFilmProblem *wanted = s->solver->problem;
   if (wanted->profile == NULL) {
     return;
   }
-  const Source from = {solver, &solver->mesh[which], &solver->state[which], c};
-  const SbEhlMesh *mesh = from.mesh;
-  const SbEhlState *state = from.state;
-  bool drawn = wanted->profile_points > 0;
-  for (int i = 0; i < mesh->targets && !c->rough.rows; i++) {
-    solver->gaps[i] = state->gap[i] - sb_ehl_layers_dry_gap(&c->layers, mesh->x[i]);
+  const SbEhlMesh *mesh = &s->mesh;
+  const SbEhlState *state = &s->state;
+  const bool rough = s->c.rough.rows;
+  const bool drawn = wanted->profile_points > 0;
+  for (int i = 0; i < mesh->targets && !rough; i++) {
+    s->solver->gaps[i] = state->gap[i] - sb_ehl_layers_dry_gap(&s->c.layers, mesh->x[i]);
   }
+  double far; // s of an infinite element's last point
   int parts = 0;
   for (int i = 0; i < mesh->count; i++) {
-    double s;
-    parts += parts_of(&s, &mesh->element[i], c, drawn);
+    parts += parts_of(&far, &mesh->element[i], &s->c, drawn);
   }
   size_t room = SB_FILM_POINTS - 1 - SB_EHL_ELEMENTS_MAX;
   size_t most = drawn && wanted->profile_points < room ? wanted->profile_points : room;
@@ -140,32 +130,29 @@ void sb_ehl_profile(SbFilm *out, SbFilmSolver *solver, int which, const SbEhlCas
   Point last = {0};
   for (int i = 0; i < mesh->count; i++) {
     const SbEhlElement *e = &mesh->element[i];
-    double s = 1.0;
-    size_t intervals = per * (size_t)parts_of(&s, e, c, drawn);
+    size_t intervals = per * (size_t)parts_of(&far, e, &s->c, drawn);
     bool inlet = e->map == SB_EHL_INLET, outlet = e->map == SB_EHL_OUTLET;
-    bool flat = !c->rough.rows && flat_element(&from, e);
+    bool flat = !rough && flat_element(s, e);
     bool fresh = i == 0 || e->apart;
     begin[i] = out->points;
-    if (fresh) {
-      least = INFINITY;
-    }
-    double middle = c->rough.rows ? INFINITY : state->gap[e->first_row + e->points / 2];
+    least = fresh ? INFINITY : least;
+    double middle = rough ? INFINITY : state->gap[e->first_row + e->points / 2];
     if (middle < least) {
       least = middle;
       thinnest = i;
     }
     for (size_t k = 0; k <= intervals; k++) {
       double share = (double)k / (double)intervals;
-      double r = inlet    ? 2.0 * pow(s, 1.0 - share) - 1.0
-                 : outlet ? 1.0 - 2.0 * pow(s, share)
+      double r = inlet    ? 2.0 * pow(far, 1.0 - share) - 1.0
+                 : outlet ? 1.0 - 2.0 * pow(far, share)
                           : -1.0 + 2.0 * share;
-      Point p = c->rough.rows ? rough_point(&from, i, r) : smooth_point(&from, i, flat, r);
+      Point p = rough ? rough_point(s, e, r) : smooth_point(s, e, flat, r);
       correction += k > 0 ? 0.5 * (p.lack + last.lack) * (p.X - last.X) : 0.0;
       correction = k == 0 && fresh ? 0.0 : correction;
       last = p;
       if (k > 0 || fresh) { // a joint has been written by the element before
         sb_film_put(out, out->points, (p.X + state->shift) * scale->half_width,
-                    (p.pressure + correction + c->fluid.rupture) * scale->pressure,
+                    (p.pressure + correction + s->c.fluid.rupture) * scale->pressure,
                     p.film * scale->film);
         out->asperity_pressure[out->points - 1] = p.asperity * scale->pressure;
       }

@@ -77,8 +77,9 @@ static int march(double *edge, int room, const Feature *f, double to, double gro
   return n;
 }
 
-bool sb_ehl_rough_mesh(SbFilmSolver *solver, int which, const SbEhlCase *c, int degree) {
+bool sb_ehl_rough_mesh(SbEhlSolution *s) {
   static const double GROWTH = 0.75;
+  const SbEhlCase *c = &s->c;
   const SbEhlLayers *l = &c->layers;
   double thin = sb_ehl_layers_width(l);
   double unit = sqrt(1.44 + 0.52 * c->layers.lambda); // length of the rigid wedge
@@ -143,21 +144,22 @@ bool sb_ehl_rough_mesh(SbFilmSolver *solver, int which, const SbEhlCase *c, int 
       return false;
     }
   }
-  SbEhlMesh *mesh = &solver->mesh[which];
+  SbEhlMesh *mesh = &s->mesh;
   sb_ehl_mesh_begin(mesh, l->inlet, l->outlet);
+  sb_ehl_steps(mesh->tables, l->degree);
   for (int e = 0; e < n - 1; e++) {
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, edge[e], edge[e + 1], 0, degree, false);
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, edge[e], edge[e + 1], 0, l->degree, false);
   }
-  if (!sb_ehl_mesh_build(mesh, &solver->tables, true)) {
+  if (!sb_ehl_mesh_build(mesh, true)) {
     return false;
   }
   // The mesh stands still over the dry contact: a fitted body's share is known once for all.
   size_t targets = (size_t)mesh->targets;
   if (c->body.compliance != NULL) {
     double none[SB_EHL_DOFS_MAX] = {0};
-    sb_ehl_fitted(solver, mesh, none, l->middle, &c->body);
-    memcpy(mesh->gap, solver->kernel, targets * targets * sizeof(double));
-    memcpy(mesh->gap_known, solver->gaps, targets * sizeof(double));
+    sb_ehl_fitted(s, none, l->middle);
+    memcpy(mesh->gap, s->solver->kernel, targets * targets * sizeof(double));
+    memcpy(mesh->gap_known, s->solver->gaps, targets * sizeof(double));
   } else {
     for (size_t i = 0; i < targets; i++) {
       mesh->gap_known[i] += 0.5 * mesh->x[i] * mesh->x[i];
@@ -169,14 +171,14 @@ bool sb_ehl_rough_mesh(SbFilmSolver *solver, int which, const SbEhlCase *c, int 
 // Where the film takes the load over from the asperities and hands it back, and how sharply: there
 // Reynolds' equation and q = p + p_a(h) leave a layer of length k h^3 / lambda, k the asperities'
 // stiffness.
-bool sb_ehl_rough_fronts(SbEhlCase *c, const SbFilmSolver *solver, int which,
-                         const SbEhlResults *results) {
+bool sb_ehl_rough_fronts(SbEhlSolution *s, const SbEhlResults *results) {
+  SbEhlCase *c = &s->c;
   c->rough.front[0].X = c->rough.front[1].X = INFINITY;
   if (c->rough.law == NULL || !(c->layers.lambda > 0)) {
     return false;
   }
-  const SbEhlMesh *mesh = &solver->mesh[which];
-  const SbEhlState *state = &solver->state[which];
+  const SbEhlMesh *mesh = &s->mesh;
+  const SbEhlState *state = &s->state;
   double place[2] = {0, results->ruptured ? results->position_rupture - state->shift : INFINITY};
   double steepest = 0, steepest_end = 0;
   bool follow = false;
@@ -192,7 +194,7 @@ bool sb_ehl_rough_fronts(SbEhlCase *c, const SbFilmSolver *solver, int which,
   }
   for (int k = 0; k < 2; k++) {
     const SbEhlElement *e = &mesh->element[sb_ehl_find(mesh, place[k])];
-    const SbEhlRoughPoint *at = &solver->point[e->first_dof + e->degree / 2];
+    const SbEhlRoughPoint *at = &s->solver->point[e->first_dof + e->degree / 2];
     double layer = -at->solid_t / at->h_t * at->h * at->h * at->h / c->layers.lambda;
     double inside = fabs(1 - fabs(place[k]));
     bool sharp = layer < 0.5 * inside && at->asperity > 1e-3;

@@ -73,29 +73,31 @@ double sb_ehl_rough_film_end(const SbEhlTable *rule, const double *s, int j) {
   return 0.5 * (low + high);
 }
 
-static void elastic_gaps(double *out, const SbEhlMesh *mesh, const SbEhlState *state) {
+// The linear elastic equation's gap into solver->gaps, and everything at the nodes.
+static void localise(const SbEhlSolution *s) {
+  const SbEhlMesh *mesh = &s->mesh;
+  const SbEhlState *state = &s->state;
+  const SbEhlCase *c = &s->c;
+  SbEhlRoughStep *l = &s->solver->step;
+  double *gaps = s->solver->gaps;
   for (int i = 0; i < mesh->dofs; i++) {
-    out[i] = state->H0 + mesh->gap_known[i];
+    gaps[i] = state->H0 + mesh->gap_known[i];
   }
   cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->dofs, mesh->dofs, 1.0, mesh->gap, mesh->dofs,
-              state->nodal, 1, 1.0, out, 1);
-}
-
-static void localise(SbEhlRoughStep *l, SbFilmSolver *solver, const SbEhlMesh *mesh,
-                     const SbEhlState *state, const SbEhlCase *c) {
+              state->nodal, 1, 1.0, gaps, 1);
   for (int i = 0; i < mesh->dofs; i++) {
-    SbEhlRoughPoint *at = &solver->point[i];
+    SbEhlRoughPoint *at = &s->solver->point[i];
     sb_ehl_rough_point(at, c, state->t[i]);
     l->p[i] = state->nodal[i] - at->solid;
     l->k[i] = -at->solid_t / at->h_t;
-    l->r[i] = solver->gaps[i] - at->h;
+    l->r[i] = gaps[i] - at->h;
     double m, m_h, m_p;
     sb_film_mobility(&m, &m_h, &m_p, &c->fluid, at->h, l->p[i]);
-    double h = at->h, s = state->s[i];
+    double h = at->h, slope = state->s[i];
     double G = h * h * h * m;
-    l->s0[i] = -s + (c->layers.lambda * h - state->flow) / G;
-    l->s_h[i] = (c->layers.lambda - (3 * h * h * m + h * h * h * m_h) * s) / G;
-    l->s_p[i] = -h * h * h * m_p * s / G;
+    l->s0[i] = -slope + (c->layers.lambda * h - state->flow) / G;
+    l->s_h[i] = (c->layers.lambda - (3 * h * h * m + h * h * h * m_h) * slope) / G;
+    l->s_p[i] = -h * h * h * m_p * slope / G;
     l->s_kappa[i] = -1 / G;
   }
 }
@@ -167,9 +169,13 @@ static double *row_of(double *matrix, int order, int i) {
 
 // Right-hand side and, if `matrix` is not NULL, the matrix, whose rows get one size each; without
 // it the right-hand side is for the matrix of an earlier call.
-static void assemble(double *matrix, double *right, double *row_scale, const SbEhlMesh *mesh,
-                     const SbEhlTable *rule, const SbEhlState *state, const SbEhlCase *c,
-                     const SbEhlRoughStep *l) {
+static void assemble(double *matrix, double *row_scale, const SbEhlSolution *s,
+                     const SbEhlTable *rule) {
+  const SbEhlMesh *mesh = &s->mesh;
+  const SbEhlState *state = &s->state;
+  const SbEhlCase *c = &s->c;
+  const SbEhlRoughStep *l = &s->solver->step;
+  double *right = s->solver->right;
   int nodes = mesh->dofs;
   int order = nodes + 2;
   int d = rule->degree;
@@ -179,11 +185,11 @@ static void assemble(double *matrix, double *right, double *row_scale, const SbE
 
   // Inlet: its pressure, or the flux supplied.
   double *row = matrix;
-  if (isfinite(c->rough.supply)) {
+  if (isfinite(c->supply) || c->rough.sealed) {
     if (row != NULL) {
       row[nodes + 1] = 1;
     }
-    right[0] = c->rough.supply - state->flow;
+    right[0] = (c->rough.sealed ? 0 : c->layers.lambda * c->supply) - state->flow;
   } else {
     double constant = 0;
     add_node(row, &constant, mesh, l, 0, 0, 1);
@@ -230,7 +236,7 @@ static void assemble(double *matrix, double *right, double *row_scale, const SbE
   if (row != NULL) {
     memcpy(row, mesh->load, (size_t)nodes * sizeof *row);
   }
-  right[nodes + 1] = -sb_ehl_load(mesh, state);
+  right[nodes + 1] = -sb_ehl_load(s);
 
   for (int i = 0; i < order; i++) {
     if (matrix != NULL) {
@@ -243,30 +249,28 @@ static void assemble(double *matrix, double *right, double *row_scale, const SbE
   }
 }
 
-SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which, const SbEhlCase *c,
-                             const SbFilmProblem *callback) {
-  SbEhlMesh *mesh = &solver->mesh[which];
-  SbEhlState *state = &solver->state[which];
-  const SbEhlTable *rule = sb_ehl_steps(&solver->tables, mesh->element[0].degree);
+SbStatus sb_ehl_rough_newton(SbEhlSolution *s) {
+  SbFilmSolver *solver = s->solver;
+  const SbEhlCase *c = &s->c;
+  const SbEhlMesh *mesh = &s->mesh;
+  SbEhlState *state = &s->state;
+  const SbEhlTable *rule = mesh->element[0].table;
   int nodes = mesh->dofs;
-  int order = nodes + 2;
   SbEhlRoughStep *local = &solver->step;
   double before = INFINITY;
   int settled = 0;       // small steps so far
   bool small = false;    // the last one
   bool factored = false; // the matrix holds factors that may serve again
   double row_scale[SB_EHL_DOFS_MAX + 2];
-  *trace = (SbEhlTrace){.residual = INFINITY};
   for (int iteration = 0; iteration < ITERATIONS_MAX; iteration++) {
-    if (callback->cancelled != NULL && callback->cancelled(callback->cancelled_data)) {
+    if (sb_ehl_cancelled(solver)) {
       return SB_ERROR_CANCELLED;
     }
-    elastic_gaps(solver->gaps, mesh, state);
-    localise(local, solver, mesh, state, c);
+    localise(s);
     residuals(local, mesh, rule, state);
     int changed = 0;
     if (c->layers.lambda > 0 && before < 0.3) {
-      changed = choose(local, mesh, rule, state, solver->point, !isfinite(c->rough.supply), before);
+      changed = choose(local, mesh, rule, state, solver->point, !isfinite(c->supply), before);
     }
     // Converged where no node wants to change sides after a last step that was small; one at the
     // very end of the film may go to and fro without any effect.
@@ -274,12 +278,11 @@ SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which,
       return SB_OK;
     }
     factored = factored && changed == 0;
-    assemble(factored ? NULL : solver->matrix, solver->right, row_scale, mesh, rule, state, c,
-             local);
-    if (!sb_factor_solve(solver->matrix, solver->pivot, solver->right, order, !factored)) {
+    assemble(factored ? NULL : solver->matrix, row_scale, s, rule);
+    if (!sb_factor_solve(solver->matrix, solver->pivot, solver->right, nodes + 2, !factored)) {
       return SB_ERROR_NOT_CONVERGED;
     }
-    trace->iterations++;
+    solver->info->newton_iterations++;
     const double *dq = solver->right;
     double dH0 = dq[nodes], dkappa = dq[nodes + 1];
 
@@ -313,7 +316,7 @@ SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which,
     }
     state->H0 += dH0;
     state->flow += dkappa;
-    trace->residual = largest;
+    solver->info->residual = largest;
 
     // Steps shrink quadratically; what is left at last is rounding: deflections of size one
     // against the gap.
@@ -324,7 +327,7 @@ SbStatus sb_ehl_rough_newton(SbEhlTrace *trace, SbFilmSolver *solver, int which,
     // A start that is none shows soon: a good one is below 1 after five steps. Only a meniscus
     // takes its time to find its node.
     bool hopeless = (iteration > 7 && largest > 3) || (iteration > 20 && largest > 0.1);
-    if (c->layers.lambda > 0 && !isfinite(c->rough.supply) && hopeless) {
+    if (c->layers.lambda > 0 && !isfinite(c->supply) && hopeless) {
       return SB_ERROR_NOT_CONVERGED;
     }
     // Close to the solution each step with the same factors gains what the last one gained.

@@ -46,7 +46,7 @@ static void add_interval(double *row, const SbFilmTransient *t, int j, const dou
 static void build_kernel(SbFilmTransient *t, SbFilmSolver *solver) {
   enum { QUADRATIC = 2 };
   const size_t n = (size_t)t->nodes;
-  SbEhlMesh *mesh = &solver->mesh[0];
+  SbEhlMesh *mesh = &solver->solution[0].mesh;
   SbEhlElement *e = &mesh->element[0];
   memset(t->kernel, 0, n * n * sizeof *t->kernel);
   memset(t->weight, 0, sizeof t->weight);

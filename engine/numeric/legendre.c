@@ -108,21 +108,20 @@ void sb_barycentric_basis(double *basis, double r, const double *node, const dou
 
 void sb_barycentric_slope(double *slope, double r, const double *node, const double *weight,
                           int count) {
-  // Product form: l_i' = w_i sum_k prod_{j != i, k} (r - x_j), scaled as the weights are.
+  // l_i = w_i product of 2 (r - x_j) over j != i, the weights' scale; logarithmic derivatives, with
+  // the factor of the nearest node m, which may vanish, taken out.
+  int m = 0;
+  for (int i = 1; i < count; i++) {
+    m = fabs(r - node[i]) < fabs(r - node[m]) ? i : m;
+  }
+  double product = 1.0, sum = 0.0; // over j != m, of 1 / (r - x_j)
+  for (int j = 0; j < count; j++) {
+    product *= j != m ? 2.0 * (r - node[j]) : 1.0;
+    sum += j != m ? 1.0 / (r - node[j]) : 0.0;
+  }
   for (int i = 0; i < count; i++) {
-    double total = 0.0;
-    for (int k = 0; k < count; k++) {
-      if (k == i) {
-        continue;
-      }
-      double product = 2.0;
-      for (int j = 0; j < count; j++) {
-        if (j != i && j != k) {
-          product *= 2.0 * (r - node[j]);
-        }
-      }
-      total += product;
-    }
-    slope[i] = weight[i] * total;
+    double inverse = 1.0 / (r - node[i]);
+    double rest = (1.0 + (r - node[m]) * (sum - inverse)) * inverse;
+    slope[i] = weight[i] * product * (i == m ? sum : rest);
   }
 }
