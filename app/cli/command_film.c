@@ -5,7 +5,7 @@
 #include "app/document/series.h"
 #include "app/export/results.h"
 
-#include "engine/contact/rough/van_der_waals.h"
+#include "engine/contact/rough/rough_law.h"
 #include "engine/film/regime.h"
 #include "engine/film/transient.h"
 #include "engine/film/wedge.h"

@@ -3,16 +3,17 @@
 // For p = sqrt(1 - z^2) U_k(z) on a half-plane of half-width a, the displacement's slope is -C pi
 // T_{k+1}(z) inside and -C pi (z -+ sqrt(z^2 - 1))^{k+1} outside (Johnson, section 2.7; the finite
 // Hilbert transform of Chebyshev's polynomials), so that smooth edges need no condition of their
-// own: the form of the pressure holds it. Coefficients enter linearly, both edges by Newton's
-// method. Leaves out contacts in several parts, which are refused.
+// own: the form of the pressure holds it. The coefficients follow from both edges by a linear
+// system, the edges by Newton's method. Leaves out contacts in several parts, which are refused.
 #include <math.h>
 #include <string.h>
 
 #include "engine/contact/compliance.h"
 #include "engine/numeric/dense.h"
 #include "engine/numeric/legendre.h"
+#include "engine/numeric/root.h"
 
-enum { QUADRATURE = 48, GAP_POINTS = 16, ORDER_MAX = SB_COMPLIANCE_PRESSURES + 2 };
+enum { QUADRATURE = 48, GAP_POINTS = 16, COUNT = 16 };
 
 // Gauss' rules of moments and of gaps, made once for a contact.
 typedef struct {
@@ -72,55 +73,88 @@ static void moments_of(Moments *out, const Rules *rules, const SbSurfaceComplian
   add_constant(out->known, c, right, c->right, p_right);
 }
 
-// Equations of a contact between two edges, linear in the coefficients: the gap's slope at count +
-// 1 points and the load. Rows are scaled by the half-plane's slope under `unit`.
+// A contact on the surface c under a load, with the coefficients and moments of the last edges that
+// were tried. Edges are unknown as their distances from the ends of the window, over its half.
 typedef struct {
-  double matrix[ORDER_MAX][SB_COMPLIANCE_PRESSURES];
-  double known[ORDER_MAX];
-} Equations;
+  const SbSurfaceCompliance *c;
+  Rules rules;
+  SbDryContact dry;
+} Problem;
 
-static void equations(Equations *out, const Rules *rules, const SbSurfaceCompliance *c, double left,
-                      double right, int count, double load, double p_left, double p_right,
-                      double unit) {
+static double window_of(const SbSurfaceCompliance *c) {
+  return 0.5 * (c->right - c->left);
+}
+
+// For given edges the slope of the gap vanishes at COUNT + 1 points z = cos(angle), T_0 to T_COUNT
+// of it: all but T_0 give the coefficients, T_0 and the load tell how wrong the edges are.
+static bool edge_residuals(double *r, const double *x, void *context) {
+  Problem *problem = context;
+  const SbSurfaceCompliance *c = problem->c;
+  SbDryContact *d = &problem->dry;
+  const double window = window_of(c);
+  const double left = c->left + x[0] * window, right = c->right - x[1] * window;
+  if (!(x[0] > 0.0 && x[1] > 0.0 && right > left)) {
+    return false;
+  }
   const double C = sb_compliance_half_plane(c);
-  const double half = 0.5 * (right - left);
-  const double middle = 0.5 * (left + right);
-  const double window = 0.5 * (c->right - c->left);
-  const double low = fmin(p_left, p_right);
+  const double half = 0.5 * (right - left), middle = 0.5 * (left + right);
+  const double low = fmin(d->pressure_left, d->pressure_right);
+  const double unit = 2.0 * d->load / (M_PI * half); // of pressure
   Moments m;
-  moments_of(&m, rules, c, left, right, count, p_left - low, p_right - low);
-  for (int i = 0; i <= count; i++) {
-    const double angle = M_PI * (i + 0.5) / (count + 1);
-    const double x = middle + half * cos(angle);
-    double slope;
-    sb_compliance_gap(c, x, &slope);
-    slope += C * (p_left - p_right) * log(half / window);
-    // Slope of the smooth part at x by the moments.
-    double by_moment[SB_COMPLIANCE_MODES] = {0};
-    double value[SB_COMPLIANCE_MODES];
-    double derivative[SB_COMPLIANCE_MODES];
-    sb_compliance_modes(c, x, value, derivative);
+  moments_of(&m, &problem->rules, c, left, right, COUNT, d->pressure_left - low,
+             d->pressure_right - low);
+  // Rows by the polynomials of the slope: [COUNT + 1][known, coefficients], over C pi unit.
+  double row[COUNT + 1][COUNT + 1] = {{0.0}};
+  for (int i = 0; i <= COUNT; i++) {
+    const double angle = M_PI * (i + 0.5) / (COUNT + 1), at = middle + half * cos(angle);
+    double slope, value[SB_COMPLIANCE_MODES], derivative[SB_COMPLIANCE_MODES];
+    double by_moment[SB_COMPLIANCE_MODES] = {0.0}, here[COUNT + 1];
+    sb_compliance_gap(c, at, &slope);
+    slope += C * (d->pressure_left - d->pressure_right) * log(half / window);
+    sb_compliance_modes(c, at, value, derivative);
     for (int k = 0; k < c->modes; k++) {
       for (int l = 0; l < c->modes; l++) {
         by_moment[l] += derivative[k] * c->smooth[k][l];
       }
     }
+    here[0] = slope;
+    memset(&here[1], 0, sizeof here - sizeof here[0]);
     for (int l = 0; l < c->modes; l++) {
-      slope += by_moment[l] * m.known[l];
-    }
-    out->known[i] = slope / (C * M_PI * unit);
-    for (int k = 0; k < count; k++) {
-      double smooth = 0.0;
-      for (int l = 0; l < c->modes; l++) {
-        smooth += by_moment[l] * m.basis[k][l];
+      here[0] += by_moment[l] * m.known[l];
+      for (int k = 0; k < COUNT; k++) {
+        here[k + 1] += by_moment[l] * m.basis[k][l];
       }
-      out->matrix[i][k] = -cos((k + 1) * angle) + smooth / (C * M_PI);
+    }
+    for (int k = 0; k <= COUNT; k++) {
+      here[k] = here[k] / (C * M_PI * (k == 0 ? unit : 1.0)) - (k == 0 ? 0.0 : cos(k * angle));
+      for (int n = 0; n <= COUNT; n++) {
+        row[n][k] += (n == 0 ? 1.0 : 2.0) / (COUNT + 1) * cos(n * angle) * here[k];
+      }
     }
   }
-  memset(out->matrix[count + 1], 0, sizeof out->matrix[0]);
-  const double scale = load / unit;
-  out->matrix[count + 1][0] = 0.5 * M_PI * half / scale;
-  out->known[count + 1] = ((p_left - p_right) * middle - load) / load;
+  double matrix[COUNT * COUNT], a[COUNT];
+  for (int n = 0; n < COUNT; n++) {
+    a[n] = -row[n + 1][0];
+    for (int k = 0; k < COUNT; k++) {
+      matrix[k * COUNT + n] = row[n + 1][k + 1];
+    }
+  }
+  if (!sb_eliminate(matrix, a, COUNT)) {
+    return false;
+  }
+  r[0] = row[0][0];
+  r[1] = a[0] + ((d->pressure_left - d->pressure_right) * middle - d->load) / d->load;
+  d->left = left;
+  d->right = right;
+  memcpy(d->moment, m.known, sizeof d->moment);
+  for (int k = 0; k < COUNT; k++) {
+    r[0] += row[0][k + 1] * a[k];
+    d->a[k] = a[k] * unit;
+    for (int l = 0; l < c->modes; l++) {
+      d->moment[l] += d->a[k] * m.basis[k][l];
+    }
+  }
+  return isfinite(r[0]) && isfinite(r[1]);
 }
 
 // U_k at z = -1 and 1: (-1)^k (k + 1) and k + 1.
@@ -167,7 +201,7 @@ static double gap_outside(const SbDryContact *d, const Rules *rules, const SbSur
   const double C = sb_compliance_half_plane(c);
   const double half = 0.5 * (d->right - d->left);
   const double middle = 0.5 * (d->left + d->right);
-  const double window = 0.5 * (c->right - c->left);
+  const double window = window_of(c);
   const double edge = x < d->left ? d->left : d->right;
   double sum = 0.0;
   for (int q = 0; q < GAP_POINTS; q++) {
@@ -221,95 +255,31 @@ static SbStatus check_signs(SbDryContact *d, const Rules *rules, const SbSurface
 SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double load,
                         double pressure_left, double pressure_right, SbReport *report) {
   memset(out, 0, sizeof *out);
-  enum { COUNT = 16, ITERATIONS_MAX = 40 };
   double left, right;
   if (c->modes < 3 || !(load > 0.0) || !first_edges(&left, &right, c, load)) {
     return sb_fail(report, SB_ERROR_INPUT, "dry contact: no convex gap or no load");
   }
-  SbDryContact d = {.pressure_left = pressure_left,
-                    .pressure_right = pressure_right,
-                    .load = load,
-                    .count = COUNT,
-                    .residual = INFINITY};
-  Rules rules;
-  make_rules(&rules);
-  const double unit = 2.0 * load / (M_PI * 0.5 * (right - left));
-  double a[SB_COMPLIANCE_PRESSURES] = {1.0};
-  const double width = c->right - c->left;
-  double last = INFINITY;
-  for (; d.iterations < ITERATIONS_MAX; d.iterations++) {
-    enum { ORDER = COUNT + 2 };
-    Equations here, there;
-    const double step = 1e-5 * (right - left);
-    equations(&here, &rules, c, left, right, COUNT, load, pressure_left, pressure_right, unit);
-    double matrix[ORDER * ORDER];
-    double b[ORDER];
-    d.residual = 0.0;
-    for (int i = 0; i < ORDER; i++) {
-      b[i] = -here.known[i];
-      for (int k = 0; k < COUNT; k++) {
-        b[i] -= here.matrix[i][k] * a[k];
-        matrix[k * ORDER + i] = here.matrix[i][k];
-      }
-      d.residual = fmax(d.residual, fabs(b[i]));
-    }
-    if (d.residual < 1e-13 || (d.residual < 1e-10 && d.residual > 0.5 * last)) {
-      break;
-    }
-    last = d.residual;
-    for (int edge = 0; edge < 2; edge++) {
-      double *column = &matrix[(COUNT + edge) * ORDER];
-      memset(column, 0, ORDER * sizeof *column);
-      for (int side = -1; side <= 1; side += 2) {
-        equations(&there, &rules, c, left + (edge == 0 ? side * step : 0.0),
-                  right + (edge == 1 ? side * step : 0.0), COUNT, load, pressure_left,
-                  pressure_right, unit);
-        for (int i = 0; i < ORDER; i++) {
-          double row = there.known[i];
-          for (int k = 0; k < COUNT; k++) {
-            row += there.matrix[i][k] * a[k];
-          }
-          column[i] += side * row / (2.0 * step) * width;
-        }
-      }
-    }
-    if (!sb_eliminate(matrix, b, ORDER)) {
-      return sb_fail(report, SB_ERROR_NOT_CONVERGED, "dry contact: singular equations");
-    }
-    // The edges stay in the window and move by at most a third of the contact.
-    const double moved = fmax(fabs(b[COUNT]), fabs(b[COUNT + 1])) * width;
-    double factor = fmin(1.0, (right - left) / (3.0 * fmax(moved, 1e-300)));
-    while (factor > 1e-4 && (left + factor * b[COUNT] * width <= c->left ||
-                             right + factor * b[COUNT + 1] * width >= c->right)) {
-      factor *= 0.5;
-    }
-    if (factor <= 1e-4) {
-      return sb_fail(report, SB_ERROR_INFEASIBLE, "dry contact: it leaves its window");
-    }
-    for (int k = 0; k < COUNT; k++) {
-      a[k] += factor * b[k];
-    }
-    left += factor * b[COUNT] * width;
-    right += factor * b[COUNT + 1] * width;
+  Problem problem = {.c = c,
+                     .dry = {.pressure_left = pressure_left,
+                             .pressure_right = pressure_right,
+                             .load = load,
+                             .count = COUNT}};
+  make_rules(&problem.rules);
+  const double window = window_of(c);
+  double x[2] = {(left - c->left) / window, (c->right - right) / window};
+  SbBroyden broyden = {0};
+  const bool solved = sb_solve_system(edge_residuals, &problem, x, 2, 1e-13, &broyden);
+  *out = problem.dry;
+  out->iterations = (int)broyden.iterations;
+  out->residual = broyden.residual;
+  edge_factors(out);
+  if (!solved) {
+    return fmin(x[0], x[1]) < 1e-3
+               ? sb_fail(report, SB_ERROR_INFEASIBLE, "dry contact: it leaves its window")
+               : sb_fail(report, SB_ERROR_NOT_CONVERGED, "dry contact: residual %.2g",
+                         out->residual);
   }
-  d.left = left;
-  d.right = right;
-  const double low = fmin(pressure_left, pressure_right);
-  Moments m;
-  moments_of(&m, &rules, c, left, right, COUNT, pressure_left - low, pressure_right - low);
-  memcpy(d.moment, m.known, sizeof d.moment);
-  for (int k = 0; k < COUNT; k++) {
-    d.a[k] = a[k] * unit;
-    for (int l = 0; l < c->modes; l++) {
-      d.moment[l] += d.a[k] * m.basis[k][l];
-    }
-  }
-  edge_factors(&d);
-  *out = d;
-  if (!(d.residual < 1e-9)) {
-    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "dry contact: residual %.2g", d.residual);
-  }
-  return check_signs(out, &rules, c, report);
+  return check_signs(out, &problem.rules, c, report);
 }
 
 double sb_dry_contact_pressure(const SbDryContact *d, double x) {
@@ -341,7 +311,7 @@ double sb_dry_contact_gap(const SbDryContact *d, const SbSurfaceCompliance *c, d
 SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const double *x,
                              const double *p, double pressure_left, double pressure_right,
                              SbReport *report) {
-  enum { ORDER = 12 };
+  enum { ORDER = 12, ANGLES = 400 };
   if (order < 1 || order > ORDER || n < (size_t)order + 2 || !(x[n - 1] > x[0]) ||
       !(x[0] > c->left && x[n - 1] < c->right) || c->modes < order + 2) {
     return sb_fail(report, SB_ERROR_INPUT, "compliance: a pressure of %zu points cannot be matched",
@@ -351,34 +321,21 @@ SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const 
   const double right = x[n - 1];
   const double half = 0.5 * (right - left);
   const double middle = 0.5 * (left + right);
-  const size_t m = (size_t)order;
-  // Least squares over the angle, by straight lines between the points.
-  double normal[ORDER * ORDER] = {0};
-  double a[ORDER] = {0};
   const double low = fmin(pressure_left, pressure_right);
   const double p_left = pressure_left - low;
   const double p_right = pressure_right - low;
-  enum { ANGLES = 400 };
-  size_t at = 0;
+  // Least squares over equal steps of the angle, where the sines are orthogonal, by straight lines
+  // between the points.
+  double a[ORDER] = {0};
   for (int i = 0; i < ANGLES; i++) {
-    const double theta = M_PI * (i + 0.5) / ANGLES;
+    const double theta = M_PI * (i + 0.5) / ANGLES, step = theta / M_PI;
     const double s = middle - half * cos(theta);
-    while (at + 2 < n && x[at + 1] < s) {
-      at++;
-    }
+    const size_t at = sb_interval(x, n, s);
     const double t = (s - x[at]) / (x[at + 1] - x[at]);
-    const double step = theta / M_PI;
     const double rest = p[at] + t * (p[at + 1] - p[at]) - p_left * (1.0 - step) - p_right * step;
-    for (size_t k = 0; k < m; k++) {
-      const double f = sin((double)(k + 1) * (M_PI - theta));
-      a[k] += f * rest;
-      for (size_t l = 0; l < m; l++) {
-        normal[l * m + k] += f * sin((double)(l + 1) * (M_PI - theta));
-      }
+    for (int k = 0; k < order; k++) {
+      a[k] += 2.0 / ANGLES * rest * sin((k + 1) * (M_PI - theta));
     }
-  }
-  if (!sb_eliminate(normal, a, m)) {
-    return sb_fail(report, SB_ERROR_INPUT, "compliance: a pressure that cannot be matched");
   }
   Moments split;
   Rules rules;
@@ -394,7 +351,7 @@ SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const 
   // The gap whose slope under these pressures is zero, a polynomial up to the smooth part: gap =
   // C pi sum a_k int T_{k+1} - tilt - S p, at Chebyshev's points of the window.
   const double C = sb_compliance_half_plane(c);
-  const double window = 0.5 * (c->right - c->left);
+  const double window = window_of(c);
   const double centre = 0.5 * (c->right + c->left);
   double value[SB_COMPLIANCE_MODES];
   for (int i = 0; i < c->modes; i++) {

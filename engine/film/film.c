@@ -5,7 +5,6 @@
 // on lambda alone. End pressures: see sb_film_dry_pressure and docs/verification.md.
 #include "engine/film/film.h"
 
-#include "engine/contact/rough/van_der_waals.h"
 #include "engine/film/ehl.h"
 #include "engine/film/scale.h"
 

@@ -46,6 +46,14 @@ size_t sb_interval(const double *x, size_t count, double at) {
   return low;
 }
 
+double sb_hermite(double *slope, double f, double width, const double value[2],
+                  const double end[2]) {
+  const double d = value[1] - value[0], a = width * end[0], b = width * end[1];
+  const double c2 = 3.0 * d - 2.0 * a - b, c3 = a + b - 2.0 * d;
+  *slope = (a + f * (2.0 * c2 + 3.0 * f * c3)) / width;
+  return value[0] + f * (a + f * (c2 + f * c3));
+}
+
 static double largest(const double *r, size_t n) {
   double most = 0.0;
   for (size_t i = 0; i < n; i++) {

@@ -21,6 +21,11 @@ double sb_newton_bracketed(SbSlopedFunction f, const void *context, double low, 
 // Greatest i <= count - 2 with x[i] <= at, 0 if there is none; x increasing, count >= 2.
 size_t sb_interval(const double *x, size_t count, double at);
 
+// Cubic with the values and slopes of both ends of an interval of some width, at its fraction f;
+// its slope.
+double sb_hermite(double *slope, double f, double width, const double value[2],
+                  const double end[2]);
+
 // Residuals r of the unknowns x; false where they are not defined.
 typedef bool (*SbSystem)(double *r, const double *x, void *context);
 

@@ -1,5 +1,5 @@
 // Rigid wedge, tapered film, regimes and attraction against quadrature and printed values.
-#include "engine/contact/rough/van_der_waals.h"
+#include "engine/contact/rough/rough_law.h"
 #include "engine/film/regime.h"
 #include "engine/film/wedge.h"
 

@@ -2,7 +2,7 @@
 // near full contact and what an outside program recomputes from the profile.
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
-#include "engine/contact/rough/van_der_waals.h"
+#include "engine/contact/rough/rough_law.h"
 #include "engine/film/film.h"
 #include "engine/valve/sliding.h"
 #include "tests/engine/near.h"

@@ -3,7 +3,6 @@
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
 #include "engine/contact/rough/rough_law.h"
-#include "engine/contact/rough/van_der_waals.h"
 #include "tests/engine/rough_cells.h"
 
 #include <glib.h>

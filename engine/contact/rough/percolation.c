@@ -3,15 +3,12 @@
 
 #include "engine/numeric/root.h"
 
+#include <gsl/gsl_cdf.h>
 #include <math.h>
-
-static double below_threshold(double x, const void *none) {
-  return SB_PERCOLATION_THRESHOLD - erf(x);
-}
 
 // Where erf(x) is the threshold.
 static double threshold_argument(void) {
-  return sb_bisect(below_threshold, NULL, 0, 1);
+  return gsl_cdf_ugaussian_Pinv(0.5 * (1 + SB_PERCOLATION_THRESHOLD)) / M_SQRT2;
 }
 
 // Mean-square slope that is missing from the critical one up to wave number exp(x).

@@ -1,17 +1,16 @@
 // Persson's theory for one self-affine spectrum; sources and equations in persson.h.
 //
 // The outer integral over wave number is a midpoint rule of 240 panels in a variable that removes
-// the singular start (second order), the inner one over pressure an exponential integral plus
-// Simpson's rule.
+// the singular start (second order). The inner one over pressure depends on one number only, a = w
+// p / E*, and is tabled by Simpson's rule: G(a) = integral_a^inf [gamma + 3 (1 - gamma) erf(x)^2]
+// exp(-x^2)/x dx.
 #include "engine/contact/rough/persson.h"
 
 #include "engine/numeric/root.h"
 
-#include <gsl/gsl_sf_erf.h>
-#include <gsl/gsl_sf_expint.h>
 #include <math.h>
 
-static const double HURST = 0.8;
+static const double HURST = 0.8, GAMMA = 0.45;
 
 // integral of q^n C q dq 2 pi between a and b for C = q^(-2(H+1)): the power is n - 2H.
 static double moment(double hurst, double n, double a, double b) {
@@ -75,52 +74,75 @@ double sb_persson_area_share(const SbSpectrum *s, double q, double modulus, doub
   return erf(M_SQRT2 * pressure / (modulus / 2 * sqrt(slope2)));
 }
 
-// Inner integral over p' from p to infinity of [gamma + 3 (1 - gamma) erf(w p'/E*)^2] exp(-(w
-// p'/E*)^2)/p'. With t = (w p'/E*)^2 the first part is E1(t)/2; the second is small where the first
-// is not and is summed over ln t by Simpson's rule, 48 intervals to where exp(-t) is nothing.
-static double inner_integral(double a) {
-  const double gamma = 0.45;
-  // Without pressure the surfaces part without bound; GSL's integral must not be asked for that.
-  double t0 = fmax(a * a, 1e-280);
-  if (t0 > 600) {
-    return 0;
-  }
-  double first = gamma * gsl_sf_expint_E1(t0) / 2;
-  double u0 = log(fmax(t0, 1e-12));
-  double u1 = log(t0 + 40);
-  enum { N = 48 };
-  double h = (u1 - u0) / N;
-  double sum = 0;
-  for (int i = 0; i <= N; i++) {
-    double t = exp(u0 + i * h);
-    double P = gsl_sf_erf(sqrt(t));
-    double weight = i == 0 || i == N ? 1 : i % 2 == 1 ? 4 : 2;
-    sum += weight * P * P * exp(-t);
-  }
-  return first + 3 * (1 - gamma) * sum * h / 3 / 2;
+static double inner_integrand(double a) {
+  double e = erf(a);
+  return (GAMMA + 3 * (1 - GAMMA) * e * e) * exp(-a * a); // times d ln a
 }
 
-double sb_persson_separation(const SbSpectrum *s, double q, double modulus, double pressure) {
+void sb_persson_gap_init(SbPerssonGap *gap, const SbSpectrum *s, double q) {
+  // The inner integral, summed downwards from a = 6.2, where it is 1e-18.
+  enum { INNER = SB_PERSSON_INNER, PANELS = SB_PERSSON_PANELS, SUB = 4 };
+  gap->begin = log(1e-4);
+  gap->step = (log(6.2) - gap->begin) / (INNER - 1);
+  double G = inner_integrand(6.2) / (2 * 6.2 * 6.2);
+  double h = gap->step / SUB;
+  for (int i = INNER - 1; i >= 0; i--) {
+    double x = gap->begin + gap->step * i;
+    for (int k = 0; k < SUB && i < INNER - 1; k += 2) {
+      G += h / 3 *
+           (inner_integrand(exp(x + h * k)) + 4 * inner_integrand(exp(x + h * (k + 1))) +
+            inner_integrand(exp(x + h * (k + 2))));
+    }
+    gap->value[i] = log(G);
+    gap->slope[i] = -inner_integrand(exp(x)) / G;
+  }
+  // u = sqrt(pi) int q^2 C w G dq with w = (pi int_q k^3 C)^(-1/2) = (slope2/2)^(-1/2). The start
+  // is an integrable singularity of w, removed by integrating over v^2.
   q = fmin(fmax(q, s->q0), s->q1);
-  double E = modulus / 2;
-  double p = pressure / fmax(sb_persson_area_share(s, q, modulus, pressure), 1e-300);
-  double base = sb_spectrum_slope2(s, q);
-
-  // u = sqrt(pi) int q^2 C w (inner) dq with w = (pi int_q k^3 C)^(-1/2) = (slope2/2)^(-1/2). The
-  // start is an integrable singularity of w, removed by integrating over v^2.
-  enum { PANELS = 240 };
-  double length = log(s->q1 / q);
-  double sum = 0;
+  double base = sb_spectrum_slope2(s, q), length = log(s->q1 / q);
   for (int i = 0; i < PANELS; i++) {
     double v = (i + 0.5) / PANELS;
     double k = q * exp(length * v * v);
-    double slope2 = sb_spectrum_slope2(s, k) - base;
-    if (slope2 <= 0) {
-      continue;
-    }
-    double w = sqrt(2 / slope2);
+    double w = sqrt(2 / fmax(sb_spectrum_slope2(s, k) - base, 1e-300));
     double spectrum = s->amplitude * pow(k, -2 * (s->hurst + 1));
-    sum += k * k * k * spectrum * w * inner_integral(w * p / E) * 2 * v * length / PANELS;
+    gap->log_w[i] = log(w);
+    gap->weight[i] =
+        length > 0 ? sqrt(M_PI) * k * k * k * spectrum * w * 2 * v * length / PANELS : 0;
   }
-  return sqrt(M_PI) * sum;
+}
+
+// G at ln a, and dG/d ln a.
+static double inner(double *slope, const SbPerssonGap *gap, double log_a) {
+  enum { LAST = SB_PERSSON_INNER - 1 };
+  double f = (log_a - gap->begin) / gap->step;
+  if (f <= 0) {
+    // The exponential integral and a constant rest: the integrand is gamma below.
+    *slope = -GAMMA;
+    return exp(gap->value[0]) + GAMMA * (gap->begin - log_a);
+  }
+  // Beyond the end it is steeper than any power; a straight line suffices at 1e-18.
+  int i = (int)fmin(f, LAST - 1);
+  double log_G = sb_hermite(slope, fmin(f - i, 1), gap->step, &gap->value[i], &gap->slope[i]);
+  double G = exp(log_G + fmax(f - LAST, 0) * gap->step * *slope);
+  *slope *= G;
+  return G;
+}
+
+double sb_persson_gap_at(double *slope, const SbPerssonGap *gap, double log_p) {
+  double sum = 0;
+  *slope = 0;
+  for (int i = 0; i < SB_PERSSON_PANELS; i++) {
+    double by;
+    sum += gap->weight[i] * inner(&by, gap, gap->log_w[i] + log_p);
+    *slope += gap->weight[i] * by;
+  }
+  return sum;
+}
+
+double sb_persson_separation(const SbSpectrum *s, double q, double modulus, double pressure) {
+  SbPerssonGap gap;
+  sb_persson_gap_init(&gap, s, q);
+  double share = fmax(sb_persson_area_share(s, q, modulus, pressure), 1e-300), slope;
+  // Without pressure the surfaces part without bound.
+  return sb_persson_gap_at(&slope, &gap, log(fmax(2 * pressure / modulus / share, 1e-140)));
 }

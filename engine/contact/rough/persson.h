@@ -44,3 +44,15 @@ double sb_persson_area_share(const SbSpectrum *spectrum, double q, double modulu
 // Mean separation of the surfaces [m] in the parts in contact at wave number `q` (q0: everywhere),
 // from the roughness of larger wave numbers (Yang & Persson's integral).
 double sb_persson_separation(const SbSpectrum *spectrum, double q, double modulus, double pressure);
+
+// The same as a function of the pressure, its integrals prepared for one wave number; plain data.
+enum { SB_PERSSON_INNER = 240, SB_PERSSON_PANELS = 240 };
+typedef struct {
+  double begin, step;                                         // of ln a in the inner table
+  double value[SB_PERSSON_INNER], slope[SB_PERSSON_INNER];    // ln G, d ln G/d ln a
+  double log_w[SB_PERSSON_PANELS], weight[SB_PERSSON_PANELS]; // ln w; [m]
+} SbPerssonGap;
+void sb_persson_gap_init(SbPerssonGap *gap, const SbSpectrum *spectrum, double q);
+
+// Separation [m] at ln(p/E*), p the pressure on the part in contact, and its slope to that.
+double sb_persson_gap_at(double *slope, const SbPerssonGap *gap, double log_p);

@@ -1,17 +1,16 @@
 // Tables of the rough-surface laws; equations and sources in rough_law.h.
 //
-// Greenwood and Tripp's F_1 and F_3/2 are slopes: F_n' = -n F_(n-1), (F_1(-t))' = Phi(t). For
-// Persson the outer integral over wave number runs over the panels of persson.c; the inner one
-// depends on one number only, a = w p / E*, and is tabled: G(a) = integral_a^inf [0.45 + 1.65
-// erf(x)^2] exp(-x^2)/x dx.
+// Greenwood and Tripp's F_1 and F_3/2 are slopes: F_n' = -n F_(n-1), (F_1(-t))' = Phi(t).
 #include "engine/contact/rough/rough_law.h"
 
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
-#include "engine/contact/rough/van_der_waals.h"
+#include "engine/numeric/root.h"
 
 #include <math.h>
 #include <string.h>
+
+enum { GAP, PRESSURE, SHARE, QUANTITIES = SB_ROUGH_QUANTITIES };
 
 static const char *const names[SB_ROUGH_COUNT] = {"none", "greenwood-tripp", "persson"};
 
@@ -46,82 +45,16 @@ static void table_greenwood_tripp(SbRoughLaw *law) {
     // h/sigma = t Phi + phi, or F_1(-t) where that cancels.
     double share = 0.5 * erfc(-t / M_SQRT2);
     sb_gt_log_integrals(log_closed, fabs(t));
-    law->gap[i] = t > 0 ? log(t * share + exp(-t * t / 2) / sqrt(2 * M_PI)) : log_closed[0];
-    law->gap_slope[i] = exp(log(share) - law->gap[i]);
-    law->pressure[i] = pressure + log_F[3];
-    law->pressure_slope[i] = -2.5 * exp(log_F[1] - log_F[3]);
-    law->share[i] = area + log_F[2];
-    law->share_slope[i] = -2 * exp(log_F[0] - log_F[2]);
+    law->value[GAP][i] = t > 0 ? log(t * share + exp(-t * t / 2) / sqrt(2 * M_PI)) : log_closed[0];
+    law->slope[GAP][i] = exp(log(share) - law->value[GAP][i]);
+    law->value[PRESSURE][i] = pressure + log_F[3];
+    law->slope[PRESSURE][i] = -2.5 * exp(log_F[1] - log_F[3]);
+    law->value[SHARE][i] = area + log_F[2];
+    law->slope[SHARE][i] = -2 * exp(log_F[0] - log_F[2]);
   }
 }
 
 // ---------------------------------------------------------------- Persson
-
-enum { INNER = 240 };
-
-// ln G over ln a with its slope; G in the header of this file.
-typedef struct {
-  double begin, step;
-  double value[INNER], slope[INNER];
-} InnerTable;
-
-static double inner_integrand(double a) {
-  double e = erf(a);
-  return (0.45 + 1.65 * e * e) * exp(-a * a); // times d ln a
-}
-
-static void table_inner(InnerTable *table) {
-  // Summed downwards from a = 6.2, where G is 1e-18, by Simpson's rule in ln a.
-  enum { SUB = 4 };
-  table->begin = log(1e-4);
-  table->step = (log(6.2) - table->begin) / (INNER - 1);
-  double G = inner_integrand(6.2) / (2 * 6.2 * 6.2);
-  for (int i = INNER - 1; i >= 0; i--) {
-    double x = table->begin + table->step * i;
-    if (i < INNER - 1) {
-      double h = table->step / SUB;
-      for (int k = 0; k < SUB; k += 2) {
-        G += h / 3 *
-             (inner_integrand(exp(x + h * k)) + 4 * inner_integrand(exp(x + h * (k + 1))) +
-              inner_integrand(exp(x + h * (k + 2))));
-      }
-    }
-    table->value[i] = log(G);
-    table->slope[i] = -inner_integrand(exp(x)) / G;
-  }
-}
-
-// Cubic of values and slopes at both ends of an interval of width h, at its fraction f.
-static double hermite(double *slope, double f, double h, const double *value, const double *end) {
-  double d = value[1] - value[0];
-  double a = h * end[0], b = h * end[1];
-  double c2 = 3 * d - 2 * a - b;
-  double c3 = a + b - 2 * d;
-  *slope = (a + f * (2 * c2 + 3 * f * c3)) / h;
-  return value[0] + f * (a + f * (c2 + f * c3));
-}
-
-// G at ln a, and dG/d ln a.
-static double inner(double *slope, const InnerTable *table, double log_a) {
-  double f = (log_a - table->begin) / table->step;
-  if (f <= 0) {
-    // E1 and the constant rest: the integrand is 0.45 below.
-    *slope = -0.45;
-    return exp(table->value[0]) + 0.45 * (table->begin - log_a);
-  }
-  if (f >= INNER - 1) {
-    // Steeper than any power; the straight line of the last node suffices at 1e-18.
-    double G = exp(table->value[INNER - 1] +
-                   table->slope[INNER - 1] * (log_a - table->begin - table->step * (INNER - 1)));
-    *slope = G * table->slope[INNER - 1];
-    return G;
-  }
-  int i = (int)f;
-  double by;
-  double G = exp(hermite(&by, f - i, table->step, &table->value[i], &table->slope[i]));
-  *slope = G * by;
-  return G;
-}
 
 static SbStatus table_persson(SbRoughLaw *law, SbReport *report) {
   const SbRoughSurface *s = &law->surface;
@@ -131,20 +64,8 @@ static SbStatus table_persson(SbRoughLaw *law, SbReport *report) {
   if (status != SB_OK) {
     return status;
   }
-  InnerTable table;
-  table_inner(&table);
-  // Panels of the outer integral: ln w and weight, as in sb_persson_separation().
-  enum { PANELS = 240 };
-  double log_w[PANELS], weight[PANELS];
-  double length = log(spectrum.q1 / spectrum.q0);
-  for (int k = 0; k < PANELS; k++) {
-    double v = (k + 0.5) / PANELS;
-    double q = spectrum.q0 * exp(length * v * v);
-    double w = sqrt(2 / sb_spectrum_slope2(&spectrum, q));
-    log_w[k] = log(w);
-    weight[k] = sqrt(M_PI) * q * q * q * spectrum.amplitude * pow(q, -2 * (spectrum.hurst + 1)) *
-                w * 2 * v * length / PANELS / s->sigma;
-  }
+  SbPerssonGap gap;
+  sb_persson_gap_init(&gap, &spectrum, spectrum.q0);
   // Pressures over E* = E'/2; p_1 is half of that at which the shortest waves close.
   double p_1 = 0.5 * spectrum.slope / M_SQRT2;
   law->begin = -11;
@@ -155,19 +76,15 @@ static SbStatus table_persson(SbRoughLaw *law, SbReport *report) {
     double soft = t > 0 ? log1p(exp(-t)) : -t + log1p(exp(t));
     double log_p = log(p_1 * soft);
     double by_t = -1 / ((1 + exp(t)) * soft); // d ln p/dt
-    double sum = 0, slope = 0;
-    for (int k = 0; k < PANELS; k++) {
-      double by;
-      sum += weight[k] * inner(&by, &table, log_w[k] + log_p);
-      slope += weight[k] * by;
-    }
-    law->gap[i] = log(sum);
-    law->gap_slope[i] = slope / sum * by_t;
-    law->pressure[i] = log_p - M_LN2;
-    law->pressure_slope[i] = by_t;
+    double slope;
+    double separation = sb_persson_gap_at(&slope, &gap, log_p);
+    law->value[GAP][i] = log(separation / s->sigma);
+    law->slope[GAP][i] = slope / separation * by_t;
+    law->value[PRESSURE][i] = log_p - M_LN2;
+    law->slope[PRESSURE][i] = by_t;
     double z = M_SQRT2 * exp(log_p) / spectrum.slope;
-    law->share[i] = log(erf(z));
-    law->share_slope[i] = 2 / sqrt(M_PI) * z * exp(-z * z) / erf(z) * by_t;
+    law->value[SHARE][i] = log(erf(z));
+    law->slope[SHARE][i] = 2 / sqrt(M_PI) * z * exp(-z * z) / erf(z) * by_t;
   }
   return SB_OK;
 }
@@ -200,67 +117,42 @@ SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbRep
 }
 
 void sb_rough_law_at(SbRoughPoint *out, const SbRoughLaw *law, double t) {
-  double sigma = law->surface.sigma;
-  double modulus = law->surface.modulus;
-  double f = (t - law->begin) / law->step;
+  double f = (t - law->begin) / law->step, v[QUANTITIES], by[QUANTITIES];
   int last = law->count - 1;
-  if (f >= last) {
-    double beyond = t - law->begin - law->step * last;
-    double gap = sigma * exp(law->gap[last]);
-    out->gap_slope = gap * law->gap_slope[last];
-    out->gap = gap + out->gap_slope * beyond;
-    out->pressure = modulus * exp(law->pressure[last] + law->pressure_slope[last] * beyond);
-    out->pressure_slope = out->pressure * law->pressure_slope[last];
-    out->share = exp(law->share[last] + law->share_slope[last] * beyond);
-    out->share_slope = out->share * law->share_slope[last];
-    return;
+  int i = (int)fmin(fmax(f, 0), last - 1);
+  double beyond = law->step * (f - fmin(fmax(f, 0), last));
+  for (int k = 0; k < QUANTITIES; k++) {
+    v[k] = sb_hermite(&by[k], fmin(fmax(f - i, 0), 1), law->step, &law->value[k][i],
+                      &law->slope[k][i]);
   }
-  double log_gap, log_p, log_share, gap_by, p_by, share_by;
-  if (f <= 0) {
-    double beyond = t - law->begin;
-    gap_by = law->gap_slope[0];
-    p_by = law->pressure_slope[0];
-    log_gap = law->gap[0] + gap_by * beyond;
-    log_p = law->pressure[0] + p_by * beyond;
-    log_share = law->share[0];
-    share_by = 0;
-  } else {
-    int i = (int)f;
-    f -= i;
-    log_gap = hermite(&gap_by, f, law->step, &law->gap[i], &law->gap_slope[i]);
-    log_p = hermite(&p_by, f, law->step, &law->pressure[i], &law->pressure_slope[i]);
-    log_share = hermite(&share_by, f, law->step, &law->share[i], &law->share_slope[i]);
-  }
-  out->gap = sigma * exp(log_gap);
-  out->gap_slope = out->gap * gap_by;
-  out->pressure = modulus * exp(log_p);
-  out->pressure_slope = out->pressure * p_by;
+  out->gap = law->surface.sigma * exp(v[GAP] + fmin(beyond, 0) * by[GAP]);
+  out->gap_slope = out->gap * by[GAP];
+  out->gap += out->gap_slope * fmax(beyond, 0);
+  out->pressure = law->surface.modulus * exp(v[PRESSURE] + beyond * by[PRESSURE]);
+  out->pressure_slope = out->pressure * by[PRESSURE];
+  // Beyond the closed end the share stays.
+  double log_share = v[SHARE] + fmax(beyond, 0) * by[SHARE];
   out->share = exp(fmin(log_share, 0));
-  out->share_slope = log_share < 0 ? out->share * share_by : 0;
+  out->share_slope = log_share < 0 && f > 0 ? out->share * by[SHARE] : 0;
 }
 
 // Parameter where the tabled logarithm, rising (sign +1) or falling (-1), has the value wanted.
-static double invert(const SbRoughLaw *law, const double *value, const double *slope, double wanted,
-                     double sign) {
+static double invert(const SbRoughLaw *law, int quantity, double wanted, double sign) {
+  const double *value = law->value[quantity], *slope = law->slope[quantity];
   int low = 0, high = law->count - 1;
-  if (sign * (wanted - value[0]) <= 0) {
-    return law->begin + (wanted - value[0]) / slope[0];
-  }
-  if (sign * (wanted - value[high]) >= 0) {
-    return law->begin + law->step * high + (wanted - value[high]) / slope[high];
+  for (int end = 0; end <= high; end += high) {
+    if (sign * (wanted - value[end]) * (end == 0 ? -1 : 1) >= 0) {
+      return law->begin + law->step * end + (wanted - value[end]) / slope[end];
+    }
   }
   while (high - low > 1) {
     int middle = (low + high) / 2;
-    if (sign * (wanted - value[middle]) >= 0) {
-      low = middle;
-    } else {
-      high = middle;
-    }
+    *(sign * (wanted - value[middle]) >= 0 ? &low : &high) = middle;
   }
   double f = (wanted - value[low]) / (value[high] - value[low]);
   for (int k = 0; k < 6; k++) {
     double by;
-    double now = hermite(&by, f, law->step, &value[low], &slope[low]);
+    double now = sb_hermite(&by, f, law->step, &value[low], &slope[low]);
     f = fmin(fmax(f + (wanted - now) / (by * law->step), 0), 1);
   }
   return law->begin + law->step * (low + f);
@@ -268,18 +160,27 @@ static double invert(const SbRoughLaw *law, const double *value, const double *s
 
 double sb_rough_law_of_gap(const SbRoughLaw *law, double gap) {
   int last = law->count - 1;
-  double most = law->surface.sigma * exp(law->gap[last]);
+  double most = law->surface.sigma * exp(law->value[GAP][last]);
   if (gap >= most) { // straight in the gap itself there
-    return law->begin + law->step * last + (gap - most) / (most * law->gap_slope[last]);
+    return law->begin + law->step * last + (gap - most) / (most * law->slope[GAP][last]);
   }
-  return invert(law, law->gap, law->gap_slope, log(gap / law->surface.sigma), 1);
+  return invert(law, GAP, log(gap / law->surface.sigma), 1);
 }
 
 double sb_rough_law_of_pressure(const SbRoughLaw *law, double pressure) {
-  return invert(law, law->pressure, law->pressure_slope, log(pressure / law->surface.modulus), -1);
+  return invert(law, PRESSURE, log(pressure / law->surface.modulus), -1);
 }
 
 // ---------------------------------------------------------------- adhesion
+
+double sb_vdw_attraction(double hamaker, double gap) {
+  double h = fmax(gap, SB_VDW_CUTOFF);
+  return hamaker / (6 * M_PI * h * h * h);
+}
+
+double sb_vdw_slope(double hamaker, double gap) {
+  return gap > SB_VDW_CUTOFF ? -3 * sb_vdw_attraction(hamaker, gap) / gap : 0;
+}
 
 double sb_rough_pull(double *slope, const SbRoughPoint *at, double hamaker) {
   double open = 1 - at->share;

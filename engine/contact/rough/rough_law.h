@@ -37,18 +37,17 @@ typedef struct {
   double modulus;         // E', 2/E' = sum (1 - nu^2)/E [Pa] > 0
 } SbRoughSurface;
 
-enum { SB_ROUGH_NODES_MAX = 448 };
+enum { SB_ROUGH_NODES_MAX = 448, SB_ROUGH_QUANTITIES = 3 };
 
 // Tables of one surface; plain data.
 typedef struct {
   SbRoughSurface surface;
   int count;
-  double begin, step;                                            // t of the first node, spacing
-  double gap[SB_ROUGH_NODES_MAX], gap_slope[SB_ROUGH_NODES_MAX]; // ln(h/sigma), d/dt
-  double pressure[SB_ROUGH_NODES_MAX];                           // ln(p/E')
-  double pressure_slope[SB_ROUGH_NODES_MAX];
-  double share[SB_ROUGH_NODES_MAX]; // ln of the real area over the nominal, not yet limited
-  double share_slope[SB_ROUGH_NODES_MAX];
+  double begin, step; // t of the first node, spacing
+  // ln(h/sigma), ln(p/E'), ln of the real area over the nominal, not yet limited; their slopes to
+  // t.
+  double value[SB_ROUGH_QUANTITIES][SB_ROUGH_NODES_MAX];
+  double slope[SB_ROUGH_QUANTITIES][SB_ROUGH_NODES_MAX];
 } SbRoughLaw;
 
 // One point of the law.
@@ -69,6 +68,24 @@ void sb_rough_law_at(SbRoughPoint *out, const SbRoughLaw *law, double t);
 // Parameter at a mean gap [m] > 0, and at a pressure [Pa] > 0.
 double sb_rough_law_of_gap(const SbRoughLaw *law, double gap);
 double sb_rough_law_of_pressure(const SbRoughLaw *law, double pressure);
+
+// Van der Waals attraction between two flat walls, with a stated cut-off and sign.
+//
+// Source: Israelachvili; thesis equation 5.17 with the sign mended (docs/thesis.md, 7): the walls
+// pull each other with p = A_H/(6 pi h^3) per unit area, which ADDS to the load that film and
+// asperities carry. The law holds between the contact distance D0 = 0.165 nm (Israelachvili's
+// cut-off; closer, the bodies touch and the pull is held at its value there) and some 5 nm (beyond,
+// retardation weakens it further). Between rough surfaces it acts over the open part of the area
+// and across the gap that is open there (sb_rough_pull).
+
+// Cut-off distance [m].
+#define SB_VDW_CUTOFF 0.165e-9
+
+// Attraction [Pa], positive, at distance `gap` [m] for Hamaker constant `hamaker` [J].
+double sb_vdw_attraction(double hamaker, double gap);
+
+// Its derivative with respect to the gap [Pa/m]; 0 below the cut-off.
+double sb_vdw_slope(double hamaker, double gap);
 
 // Van der Waals' pull [Pa] at a point of the law and its slope to t: A_H/(6 pi d^3) over the part
 // of the area that is open, across the gap that is open there, d = h/(1 - share).
