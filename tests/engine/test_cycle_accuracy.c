@@ -4,6 +4,7 @@
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
 #include "engine/valve/run/run.h"
+#include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"
 
 #include "tests/pace.h"
