@@ -18,7 +18,7 @@ static void schematic(SbContactCurve *out, const SbSealFrame *seal, const SbMode
   out->count = SCHEMATIC_POINTS;
   double half = 0.5 * (seal->contact_right - seal->contact_left);
   double middle = 0.5 * (seal->contact_right + seal->contact_left);
-  double radius = model ? model->seal[index].radius : 0.8e-3;
+  double radius = model ? sb_model_seal(model, index)->radius : 0.8e-3;
   for (int i = 0; i < SCHEMATIC_POINTS; i++) {
     double xi = -1.6 + 3.2 * i / (SCHEMATIC_POINTS - 1);
     double inside = fmax(1 - xi * xi, 0),

@@ -30,7 +30,7 @@ size_t sb_chart_nearest(const SbChartRun *run, double time) {
 }
 
 bool sb_chart_is_rig(const SbChartRun *run) {
-  return run && run->model && run->model->motion == SB_MODEL_MOTION_RIG;
+  return run && sb_model_is_rig(run->model);
 }
 
 bool sb_chart_complete(const SbChartData *data) {
@@ -78,9 +78,9 @@ const char *sb_chart_phase(const SbChartRun *run, int stage) {
 const char *sb_chart_cycle_name(char *out, const SbChartRun *run, int cycle) {
   const SbModel *m = run->model;
   out[0] = '\0';
-  if (m && m->life_actuations > 1 && m->life_shown > 1) {
-    g_snprintf(out, SB_FORMAT_MAX, "actuation %d", cycle == 0 ? 1 : m->life_shown);
-  } else if (m && m->cycles > 1 && !sb_chart_is_rig(run)) {
+  if (m && sb_model_number(m, SB_P_LIFE_ACTUATIONS) > 1 && sb_model_shown_actuation(m) > 1) {
+    g_snprintf(out, SB_FORMAT_MAX, "actuation %d", cycle == 0 ? 1 : sb_model_shown_actuation(m));
+  } else if (m && sb_model_number(m, SB_P_DRIVE_CYCLES) > 1 && !sb_chart_is_rig(run)) {
     g_snprintf(out, SB_FORMAT_MAX, "cycle %d", cycle + 1);
   }
   return out;

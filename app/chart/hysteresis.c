@@ -35,8 +35,10 @@ void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartDat
 
   // Ranges hold for the whole cycle from the first frame on, so that a growing loop does not jump.
   const SbModel *model = data->run.model;
-  double x1 = model ? model->stroke * 1e3 : 1, y0 = 0;
-  double y1 = model ? fmax(model->reversal_force, 1.2 * model->pressure_force) : 10;
+  double x1 = model ? sb_model_value(model, SB_P_DRIVE_STROKE) * 1e3 : 1, y0 = 0;
+  double y1 = model ? fmax(sb_model_value(model, SB_P_DRIVE_REVERSAL_FORCE),
+                           1.2 * sb_model_pressure_force(model))
+                    : 10;
   include_run(&data->run, &x1, &y0, &y1);
   include_run(data->pinned, &x1, &y0, &y1);
   if (data->run.state == SB_CHART_RUNNING) {
@@ -148,11 +150,12 @@ static void draw_titles(SbHysteresisView *v, SbRect rect) {
     const char *note = "";
     char several[64] = "";
     const SbModel *m = v->data->run.model;
-    if (m && m->life_actuations > 1) {
+    if (m && sb_model_number(m, SB_P_LIFE_ACTUATIONS) > 1) {
       g_snprintf(several, sizeof several, "actuations 1 and %d of %d, stages of the first",
-                 m->life_shown, m->life_actuations);
-    } else if (m && m->cycles > 1) {
-      g_snprintf(several, sizeof several, "%d cycles, stages of the first", m->cycles);
+                 sb_model_shown_actuation(m), sb_model_number(m, SB_P_LIFE_ACTUATIONS));
+    } else if (m && sb_model_number(m, SB_P_DRIVE_CYCLES) > 1) {
+      g_snprintf(several, sizeof several, "%d cycles, stages of the first",
+                 sb_model_number(m, SB_P_DRIVE_CYCLES));
     }
     switch (v->data->run.state) {
     case SB_CHART_RUNNING:
@@ -340,8 +343,8 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
 
   // The pressure force, which the loop straddles.
   const SbModel *model = data->run.model;
-  if (model && model->pressure_force > 0) {
-    double y = floor(sb_axis_at(&v.at.y, model->pressure_force)) + 0.5;
+  if (model && sb_model_pressure_force(model) > 0) {
+    double y = floor(sb_axis_at(&v.at.y, sb_model_pressure_force(model))) + 0.5;
     SbPoint line[2] = {{sb_axis_at(&v.at.x, 0), y}, {plot.x + plot.width, y}};
     sb_canvas_pen(c, 1.2, &sb_dash_reference);
     sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_FLUID), 1);

@@ -179,13 +179,15 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
     label_curve(v, "stop", SB_ROLE_SECOND,
                 (SbPlace[]){{p.x - 8, p.y + 5, SB_RIGHT}, {p.x + 8, p.y + 5, SB_LEFT}}, 2);
   }
-  double reference = run->model ? run->model->pressure_force : 0;
+  double reference = run->model ? sb_model_pressure_force(run->model) : 0;
   if (reference > 0) {
     double y = sb_axis_at(&v->at.y, reference);
     sb_format_text(value, SB_QUANTITY_FORCE, reference, 0);
     g_snprintf(text, sizeof text, "pressure force %s", value);
     double zero = sb_axis_at(&v->at.x, 0), end = sb_axis_at(&v->at.x, v->at.x.hi);
-    double stroke = run->model ? sb_axis_at(&v->at.x, run->model->stroke * 1e3) : end;
+    double stroke = run->model
+                        ? sb_axis_at(&v->at.x, sb_model_value(run->model, SB_P_DRIVE_STROKE) * 1e3)
+                        : end;
     label_curve(v, text, SB_ROLE_FLUID,
                 (SbPlace[]){{stroke - 8, y - 7, SB_RIGHT},
                             {zero + 10, y - 7, SB_LEFT},
@@ -203,7 +205,7 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
     double zero = sb_axis_at(&v->at.x, 0);
     if (isfinite(sum->energy.loop) && sum->energy.loop > 0) {
       sb_format_figure(value, sum, sb_figure_find("cycle.energy_loss_J"));
-      int cycles = run->model ? run->model->cycles : 1;
+      int cycles = run->model ? sb_model_number(run->model, SB_P_DRIVE_CYCLES) : 1;
       if (cycles > 1) {
         g_snprintf(text, sizeof text, "loss of %d cycles %s", cycles, value);
       } else {

@@ -12,29 +12,25 @@
 // ---------------------------------------------------------------------------------------------------
 // Texts
 
-static void append_name(GString *out, const char *label, const char *name) {
-  g_string_append_printf(out, "%s%s %s", out->len ? DOT : "", label, name);
-}
-
-static void append_choice(GString *out, const char *label, SbParamId id, int index) {
+static void append_choice(GString *out, const char *label, const SbModel *model, SbParamId id) {
   char name[64];
-  sb_param_choice_name(sb_param(id), index, name, sizeof name);
-  append_name(out, label, name);
+  sb_model_choice_name(model, id, name, sizeof name);
+  g_string_append_printf(out, "%s%s %s", out->len ? DOT : "", label, name);
 }
 
 void sb_page_models_text(char *out, size_t size, const SbChartRun *run) {
   g_autoptr(GString) text = g_string_new(NULL);
   const SbModel *m = run->model;
-  if (m && m->motion == SB_MODEL_MOTION_RIG) {
-    append_choice(text, "motion", SB_P_MODELS_MOTION, (int)m->motion);
+  if (sb_model_is_rig(m)) {
+    append_choice(text, "motion", m, SB_P_MODELS_MOTION);
   } else if (m) {
-    append_name(text, "fit", sb_fit_model_name(m->fit));
-    append_name(text, "film", sb_film_model_name(m->film));
-    append_name(text, "surface", sb_rough_model_name(m->surface));
-    if (m->asperities == SB_MODEL_ASPERITIES_COUPLED) {
-      append_choice(text, "asperities", SB_P_MODELS_ASPERITIES, (int)m->asperities);
+    append_choice(text, "fit", m, SB_P_MODELS_FIT);
+    append_choice(text, "film", m, SB_P_MODELS_FILM);
+    append_choice(text, "surface", m, SB_P_MODELS_SURFACE);
+    if (sb_model_number(m, SB_P_MODELS_ASPERITIES) == SB_MODEL_ASPERITIES_COUPLED) {
+      append_choice(text, "asperities", m, SB_P_MODELS_ASPERITIES);
     }
-    append_choice(text, "motion", SB_P_MODELS_MOTION, (int)m->motion);
+    append_choice(text, "motion", m, SB_P_MODELS_MOTION);
   }
   g_strlcpy(out, text->str, size);
 }
@@ -46,27 +42,29 @@ void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run) {
     return;
   }
   char pressure[SB_FORMAT_MAX], speed[SB_FORMAT_MAX], map[64];
-  if (m->motion == SB_MODEL_MOTION_RIG) {
+  if (sb_model_is_rig(m)) {
+    const SbRig *rig = sb_model_rig(m);
     g_snprintf(out, size, "load %s" DOT "thread %s" DOT "%.4g samples a second",
-               sb_format_given(pressure, SB_QUANTITY_FORCE, m->rig.load),
-               sb_format_given(speed, SB_QUANTITY_SPEED, m->rig.speed), m->rig.rate);
+               sb_format_given(pressure, SB_QUANTITY_FORCE, rig->load),
+               sb_format_given(speed, SB_QUANTITY_SPEED, rig->speed), rig->rate);
     return;
   }
-  sb_format_given(pressure, SB_QUANTITY_PRESSURE, m->canister_pressure);
-  if (m->drive != SB_MODEL_DRIVE_MACHINE) {
+  double v = sb_model_value(m, SB_P_DRIVE_SPEED);
+  sb_format_given(pressure, SB_QUANTITY_PRESSURE, sb_model_value(m, SB_P_CANISTER_PRESSURE));
+  if (sb_model_number(m, SB_P_DRIVE_KIND) != SB_MODEL_DRIVE_MACHINE) {
     // A speed belongs to the machine only.
     char kind[32];
-    sb_param_choice_name(sb_param(SB_P_DRIVE_KIND), (int)m->drive, kind, sizeof kind);
+    sb_model_choice_name(m, SB_P_DRIVE_KIND, kind, sizeof kind);
     g_snprintf(speed, sizeof speed, "drive %s", kind);
-  } else if (m->speed < 1e-3) {
+  } else if (v < 1e-3) {
     // As test machines are set.
     char number[SB_FORMAT_MAX];
-    sb_format_given(number, SB_QUANTITY_NUMBER, m->speed * 60e3);
+    sb_format_given(number, SB_QUANTITY_NUMBER, v * 60e3);
     g_snprintf(speed, sizeof speed, "%s\xc2\xa0mm/min", number);
   } else {
-    sb_format_given(speed, SB_QUANTITY_SPEED, m->speed);
+    sb_format_given(speed, SB_QUANTITY_SPEED, v);
   }
-  sb_param_choice_name(sb_param(SB_P_CANISTER_PRESSURE_MAP), (int)m->pressure_map, map, sizeof map);
+  sb_model_choice_name(m, SB_P_CANISTER_PRESSURE_MAP, map, sizeof map);
   g_snprintf(out, size, "canister %s" DOT "%s" DOT "%s", pressure, speed, map);
 }
 

@@ -51,7 +51,9 @@ static void position_scale(SbScale *out, SbTicks *ticks, const SbChartData *data
 
 static void pressure_scale(SbScale *out, SbTicks *ticks, const SbChartData *data, SbRect plot) {
   const SbModel *model = data->run.model;
-  double top = fmax(range_of(data).pressure_peak_max, model ? model->canister_pressure : 0) * 1e-6;
+  double top = fmax(range_of(data).pressure_peak_max,
+                    model ? sb_model_value(model, SB_P_CANISTER_PRESSURE) : 0) *
+               1e-6;
   // Head-room for the peak's label, at least 26 px.
   double room = plot.height > 80 ? plot.height / (plot.height - 30) : 1.3;
   *out = (SbScale){0, (top > 0 ? top : 1) * room, plot.y + plot.height, plot.y, false};
@@ -62,7 +64,7 @@ static void film_scale(SbScale *out, SbTicks *ticks, const SbChartData *data, Sb
   const SbModel *model = data->run.model;
   SbTraceRange r = range_of(data);
   double least = r.film_min > 0 ? r.film_min : 1e-9;
-  double most = fmax(r.film_max, model ? model->sigma : 1e-6);
+  double most = fmax(r.film_max, model ? sb_model_sigma(model) : 1e-6);
   *out = (SbScale){0.38 * least, 45 * most, plot.y + plot.height, plot.y, true};
   sb_axis_log_ticks(ticks, out->lo, out->hi);
   // Not closer than 18 px.
@@ -349,7 +351,7 @@ static void film_chart(Small *s) {
   char value[SB_FORMAT_MAX], least[SB_FORMAT_MAX], text[128];
 
   // Roughness, dashed, and its label.
-  double sigma = s->data->run.model ? s->data->run.model->sigma : 0;
+  double sigma = s->data->run.model ? sb_model_sigma(s->data->run.model) : 0;
   double sigma_y = sigma > 0 ? sb_axis_at(&s->y, sigma) : -1e9;
   if (sigma_y > s->plot.y && sigma_y < bottom) {
     double y = floor(sigma_y) + 0.5;

@@ -12,10 +12,8 @@
 #include <string.h>
 
 static const SbRigSummary *summary_of(const SbChartRun *run) {
-  return run->summary && run->model && run->model->motion == SB_MODEL_MOTION_RIG &&
-                 run->summary->rig.found
-             ? &run->summary->rig
-             : NULL;
+  return run->summary && sb_model_is_rig(run->model) && run->summary->rig.found ? &run->summary->rig
+                                                                                : NULL;
 }
 
 // ---------------------------------------------------------------------------------------------------
@@ -56,7 +54,7 @@ char *sb_rig_reasons_text(const SbChartRun *run) {
       sb_format_digits(a, SB_RIG_PREDICTED_DYNAMIC, 2),
       sb_format_digits(b, of->mean_coefficient, 3));
   char load[SB_FORMAT_MAX];
-  sb_format_given(load, SB_QUANTITY_FORCE, m->rig.load);
+  sb_format_given(load, SB_QUANTITY_FORCE, sb_model_rig(m)->load);
   g_string_append_printf(
       out,
       "It was also predicted for the valve's seal, pressed on by some 12 N. Real area grows more "
@@ -66,7 +64,7 @@ char *sb_rig_reasons_text(const SbChartRun *run) {
   if (isfinite(rig->contact_load)) {
     g_string_append_printf(
         out, ", and falls to %s only at %s, %s a ring.\n",
-        sb_format_digits(a, m->rig.coefficient, 2),
+        sb_format_digits(a, sb_model_rig(m)->coefficient, 2),
         sb_format_text(b, SB_QUANTITY_FORCE, rig->contact_load, 0),
         sb_format_text(d, SB_QUANTITY_FORCE, rig->contact_load / SB_RIG_RINGS, 0));
   } else {
@@ -76,7 +74,7 @@ char *sb_rig_reasons_text(const SbChartRun *run) {
       out,
       "The thesis gives neither the load nor the speed of its rig; sliding %s, load and speed are "
       "inputs here. The first peak has had %.3g s of rest, those that follow a fraction of one.",
-      sb_format_digits(a, m->rig.coefficient, 2), m->rig.rest);
+      sb_format_digits(a, sb_model_rig(m)->coefficient, 2), sb_model_rig(m)->rest);
   return g_string_free(out, FALSE);
 }
 
@@ -261,7 +259,7 @@ void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
                     "schematic, from the side: two of the four rings");
   const SbModel *m = data->run.model;
   const SbFrame *f = sb_chart_frame(data);
-  double travel = m ? fmax(m->rig.speed * m->rig.duration, 1e-6) : 1e-3;
+  double travel = m ? fmax(sb_model_rig(m)->speed * sb_model_rig(m)->duration, 1e-6) : 1e-3;
   double moved = f ? fmax(f->displacement, 0) / travel : 0;
   double wound = f ? fmax(f->platen, 0) / travel : 0;
   double w = in.width, h = fmin(in.height, 0.42 * w), top = in.y + 0.5 * (in.height - h);
@@ -331,7 +329,7 @@ void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   char value[SB_FORMAT_MAX], text[96];
   if (m) {
     g_snprintf(text, sizeof text, "load %s",
-               sb_format_given(value, SB_QUANTITY_FORCE, m->rig.load));
+               sb_format_given(value, SB_QUANTITY_FORCE, sb_model_rig(m)->load));
     double x = plate_x + 0.5 * plate_w, y = plate_y - block_h - 40;
     sb_canvas_text(c, text, &strong, x, y - 6, SB_MIDDLE);
     sb_canvas_pen(c, 2, NULL);
@@ -349,9 +347,9 @@ void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
     char place[SB_FORMAT_MAX];
     sb_format_fixed(place, f->displacement * 1e3, 3);
     g_snprintf(text, sizeof text, "plate %s\xc2\xa0mm, %s", place,
-               f->stage == SB_STAGE_A                              ? "not yet broken away"
-               : fabs(f->velocity) < 1e-3 * (m ? m->rig.speed : 1) ? "stuck"
-                                                                   : "slipping");
+               f->stage == SB_STAGE_A                                        ? "not yet broken away"
+               : fabs(f->velocity) < 1e-3 * (m ? sb_model_rig(m)->speed : 1) ? "stuck"
+                                                                             : "slipping");
     sb_canvas_color(c, now, 1);
     sb_canvas_text(c, text, &at_now, plate_x, floor_y + 0.12 * h + 18, SB_LEFT);
   }

@@ -29,9 +29,9 @@ static void lay_out(View *v, SbRect rect, unsigned flags) {
     range = sb_trace_range(run->trace);
   }
   double lo = fmin(range.force_min, 0), hi = range.force_max;
-  double last = fmax(range.time_max, m ? m->rig.duration : 0);
+  double last = fmax(range.time_max, m ? sb_model_rig(m)->duration : 0);
   if (!(hi > lo)) {
-    hi = m ? m->rig.load : 1;
+    hi = m ? sb_model_rig(m)->load : 1;
   }
   int wanted = in.height > 420 ? 8 : in.height > 240 ? 6 : 4;
   // Room above the highest peak for its label.
@@ -60,10 +60,10 @@ static void draw_axes(View *v, SbRect rect, unsigned flags) {
   const SbModel *m = v->data->run.model;
   if (!compact && m) {
     char load[SB_FORMAT_MAX], speed[SB_FORMAT_MAX], note[160];
-    g_snprintf(note, sizeof note,
-               "load %s on %d rings, thread wound up at %s, %.0f samples a second",
-               sb_format_given(load, SB_QUANTITY_FORCE, m->rig.load), SB_RIG_RINGS,
-               sb_format_given(speed, SB_QUANTITY_SPEED, m->rig.speed), m->rig.rate);
+    g_snprintf(
+        note, sizeof note, "load %s on %d rings, thread wound up at %s, %.0f samples a second",
+        sb_format_given(load, SB_QUANTITY_FORCE, sb_model_rig(m)->load), SB_RIG_RINGS,
+        sb_format_given(speed, SB_QUANTITY_SPEED, sb_model_rig(m)->speed), sb_model_rig(m)->rate);
     sb_canvas_text_fit(c, note, &label, rect.x + pad, rect.y + pad + 34, rect.width - 2 * pad);
   }
   sb_canvas_text(c, "force in the thread / N", &label, rect.x + pad,
@@ -148,7 +148,7 @@ static void draw_peaks(View *v) {
   SbCanvas *c = &v->canvas;
   const SbRigCoefficients *of = &s->rig.of;
   SbColor outer = sb_canvas_role(c, SB_ROLE_OUTER), fluid = sb_canvas_role(c, SB_ROLE_FLUID);
-  double load = run->model->rig.load;
+  double load = sb_model_rig(run->model)->load;
   draw_level(v, of->mean_coefficient * load, of->first_time, &sb_dash_dimension, fluid);
   if (of->stick_slip) {
     draw_level(v, of->dynamic_coefficient * load, of->first_time, &sb_dash_reference, outer);

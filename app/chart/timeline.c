@@ -17,9 +17,12 @@ static double duration_of(const SbChartData *data) {
   if (whole && run->summary->duration > 0) {
     return fmax(known, run->summary->duration);
   }
-  double expected = sb_chart_is_rig(run) ? m->rig.duration : 0;
-  if (expected == 0 && m && m->speed > 0 && m->stiffness > 0) {
-    expected = 2 * (m->stroke + m->reversal_force / m->stiffness) / m->speed;
+  double expected = sb_chart_is_rig(run) ? sb_model_rig(m)->duration : 0;
+  if (expected == 0 && m) {
+    double yields =
+        sb_model_value(m, SB_P_DRIVE_REVERSAL_FORCE) / sb_model_value(m, SB_P_DRIVE_STIFFNESS);
+    expected =
+        2 * (sb_model_value(m, SB_P_DRIVE_STROKE) + yields) / sb_model_value(m, SB_P_DRIVE_SPEED);
   }
   double longest = fmax(known, expected);
   return longest > 0 ? longest : 1;
@@ -316,7 +319,7 @@ void sb_timeline_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCh
   if (any) {
     double stroke = sb_trace_range(data->run.trace).displacement_max;
     if (data->run.model && !sb_chart_is_rig(&data->run)) {
-      stroke = fmax(stroke, data->run.model->stroke);
+      stroke = fmax(stroke, sb_model_value(data->run.model, SB_P_DRIVE_STROKE));
     }
     v.s = (SbScale){0, stroke > 0 ? stroke : 1, v.bottom - 4, v.top + 6, false};
     size_t events = 0;

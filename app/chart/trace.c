@@ -28,16 +28,18 @@ SbTrace *sb_trace_create(const SbModel *model) {
   trace->points = g_array_sized_new(FALSE, FALSE, sizeof(SbTracePoint), 4096);
   trace->peaks = g_array_new(FALSE, FALSE, sizeof(SbTracePoint));
   trace->events = g_array_new(FALSE, FALSE, sizeof(SbTraceEvent));
-  if (model && model->motion == SB_MODEL_MOTION_RIG) {
-    const SbRig *rig = &model->rig;
+  if (sb_model_is_rig(model)) {
+    const SbRig *rig = sb_model_rig(model);
     trace->displacement_scale = rig->speed * rig->duration / 4000;
     trace->force_scale = rig->load / 4000;
     trace->time_scale = rig->duration / 4000;
     return trace;
   }
-  double stroke = model && model->stroke > 0 ? model->stroke : 6.6e-3;
-  double force = model ? fmax(model->reversal_force, model->pressure_force) : 35;
-  double speed = model && model->speed > 0 ? model->speed : 0.333e-3;
+  double stroke = model ? sb_model_value(model, SB_P_DRIVE_STROKE) : 6.6e-3;
+  double force =
+      model ? fmax(sb_model_value(model, SB_P_DRIVE_REVERSAL_FORCE), sb_model_pressure_force(model))
+            : 35;
+  double speed = model ? sb_model_value(model, SB_P_DRIVE_SPEED) : 0.333e-3;
   trace->displacement_scale = stroke / 4000;
   trace->force_scale = (force > 0 ? force : 35) / 4000;
   trace->time_scale = 2.2 * stroke / speed / 4000;

@@ -307,7 +307,7 @@ static char *file_hint(const char *path) {
   return sb_nearest_hint(&nearest);
 }
 
-SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings) {
+SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
   GPtrArray *issues = sb_issues_new();
   // A name that is no file here may be one that ships: "thesis-cycle".
   bool there = strcmp(path, "-") == 0 || g_file_test(path, G_FILE_TEST_EXISTS);
@@ -345,9 +345,13 @@ SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings) {
 
 bool sb_cli_has_memory(const SbModel *model) {
   // Closed forms and the quasi-static cycle solve nothing dense.
-  bool dense = model == NULL || model->motion != SB_MODEL_MOTION_QUASI_STATIC ||
-               model->asperities == SB_MODEL_ASPERITIES_COUPLED ||
-               (model->film != SB_FILM_THESIS && model->film != SB_FILM_KARASZKIEWICZ);
+  bool dense = model == NULL;
+  if (model != NULL) {
+    int film = sb_model_number(model, SB_P_MODELS_FILM);
+    dense = sb_model_number(model, SB_P_MODELS_MOTION) != SB_MODEL_MOTION_QUASI_STATIC ||
+            sb_model_number(model, SB_P_MODELS_ASPERITIES) == SB_MODEL_ASPERITIES_COUPLED ||
+            (film != SB_FILM_THESIS && film != SB_FILM_KARASZKIEWICZ);
+  }
   if (dense && !sb_process_has_memory()) {
     sb_cli_fail(
         "there is not enough memory for the solvers: they need 140 MB of address space more "

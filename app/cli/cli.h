@@ -74,8 +74,8 @@ bool sb_cli_quiet(void);
 void sb_cli_note(const char *format, ...) G_GNUC_PRINTF(1, 2);
 
 // Opens a valve or scene ("-": standard input), applies KEY=VALUE settings and compiles; prints
-// every problem and returns NULL if there is any. Owned by the caller.
-SbDocument *sb_cli_open(SbModel *model, const char *path, char **settings);
+// every problem and returns NULL if there is any. It and *model are owned by the caller.
+SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings);
 
 // One operand of a command that takes several.
 typedef struct {

@@ -3,8 +3,6 @@
 #include "app/cli/timing.h"
 #include "app/export/results.h"
 
-#include "engine/valve/sliding.h"
-
 #include <string.h>
 
 static void print_table(const SbFit *fit, const char *seal) {
@@ -113,13 +111,13 @@ int sb_command_fit(int argc, char **argv) {
       {0},
   };
   int code = SB_EXIT_INPUT;
-  g_autofree SbModel *model = g_new(SbModel, 1);
+  g_autoptr(SbModel) model = NULL;
   SbDocument *document = NULL;
   SbFit *fit = NULL;
   if (!sb_cli_parse(&argc, &argv, entries, 1, 1, SB_TIMING_NOTE)) {
     goto done;
   }
-  document = sb_cli_open(model, argv[1], settings);
+  document = sb_cli_open(&model, argv[1], settings);
   if (document == NULL) {
     goto done;
   }
@@ -136,7 +134,7 @@ int sb_command_fit(int argc, char **argv) {
     goto done;
   }
   SbFitProblem problem;
-  sb_sliding_fit_problem(&problem, model, index, 0);
+  sb_model_fit_problem(&problem, model, index, 0);
   problem.cancel = on_cancel;
   problem.tolerance = 1e-3;
   if (!sb_cli_quantity(&problem.pressure, "--pressure", pressure, false, "Pa", "MPa") ||
@@ -183,8 +181,8 @@ int sb_command_fit(int argc, char **argv) {
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int written = SB_EXIT_DONE;
     if (target != NULL) {
-      char *json =
-          sb_results_fit(fit, seal, problem.pressure, readouts, &model->seal[index].storage);
+      char *json = sb_results_fit(fit, seal, problem.pressure, readouts,
+                                  &sb_model_seal(model, index)->storage);
       written = sb_cli_emit(json, target);
       g_free(json);
     } else if (!sb_cli_quiet()) {

@@ -251,13 +251,16 @@ static void on_picture(void *data, size_t done, size_t total) {
 }
 
 // Runs what the view needs. An engine's status; `*run` may hold a partial run.
-static SbStatus compute(SbRun **run, SbModel *model, const char *view, SbReport *report) {
+static SbStatus compute(SbRun **run, const SbModel *model, const char *view, SbReport *report) {
   // What is drawn decides what is computed, not what the scene would show by itself.
   const char *needs = strcmp(view, "cutaway") == 0 ? "section" : view;
   int index = sb_param_choice(sb_param(SB_P_OUTPUT_VIEWS), needs, strlen(needs));
-  model->views = index >= 0 ? 1u << index : model->views;
+  const SbPlanWishes wishes = {
+      .views = index >= 0 ? 1u << index : (unsigned)sb_model_number(model, SB_P_OUTPUT_VIEWS),
+      .studies = (unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES),
+      .life = true};
   SbPlan plan;
-  sb_plan_make(&plan, model);
+  sb_plan_wished(&plan, model, &wishes);
   SbProgress progress;
   sb_progress_start(&progress, "computing ");
   SbStatus status = sb_run_create(run, model, &plan, report);
@@ -422,7 +425,7 @@ static int check_outputs(const SbCliFiles *files, const Request *request, const 
 // Computes and draws one file; an exit code.
 static int render_file(const SbCliFile *file, const Request *asked, const Options *options) {
   Request request = *asked;
-  SbModel *model = file->model;
+  const SbModel *model = file->model;
   if (!sb_cli_has_memory(request.is_study ? NULL : model)) {
     return SB_EXIT_IO;
   }

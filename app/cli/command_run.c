@@ -86,7 +86,7 @@ static void print_table(const SbDocument *document, const SbRun *run,
                         const SbCaseVerdict *verdict) {
   const SbSummary *summary = sb_run_summary(run);
   printf("%s\n", sb_document_title(document));
-  bool rig = sb_run_model(run)->motion == SB_MODEL_MOTION_RIG;
+  bool rig = sb_model_is_rig(sb_run_model(run));
   print_figures(summary, "cycle.", rig);
   if (rig) {
     print_rig(summary);
@@ -146,7 +146,9 @@ static int check_outputs(const SbCliFiles *files, const Options *options) {
       continue;
     }
     const SbModel *model = file->model;
-    g_auto(GStrv) names = sb_results_folder_names(model->studies, model->life_actuations > 1);
+    g_auto(GStrv) names =
+        sb_results_folder_names((unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES),
+                                sb_model_number(model, SB_P_LIFE_ACTUATIONS) > 1);
     for (char **name = names; *name != NULL; name++) {
       g_ptr_array_add(all, files->count > 1 ? g_build_filename(file->name, *name, NULL)
                                             : g_strdup(*name));
@@ -181,11 +183,11 @@ static int write_results(SbCliFiles *files, const SbCliFile *file, const Options
 
 // Whether there is memory for the scene and its cases.
 static bool has_memory(const SbCliFile *file, bool studies) {
-  g_autofree SbModel *model = g_new(SbModel, 1);
   g_autoptr(GPtrArray) issues = sb_issues_new();
   bool good = sb_cli_has_memory(studies ? NULL : file->model);
   for (size_t i = 0; good && i < sb_document_case_count(file->document); i++) {
-    good = !sb_document_compile_case(file->document, i, model, issues) || sb_cli_has_memory(model);
+    g_autoptr(SbModel) model = NULL;
+    good = !sb_document_compile_case(file->document, i, &model, issues) || sb_cli_has_memory(model);
   }
   return good;
 }

@@ -64,8 +64,7 @@ bool sb_cli_files_open(SbCliFiles *files, int argc, char **argv, char **settings
   bool any = false;
   for (int i = 0; i < files->count; i++) {
     SbCliFile *file = &files->file[i];
-    file->model = g_new(SbModel, 1);
-    file->document = sb_cli_open(file->model, file->path, settings);
+    file->document = sb_cli_open(&file->model, file->path, settings);
     files->code = file->document == NULL ? SB_EXIT_INPUT : files->code;
     any |= file->document != NULL;
   }
@@ -77,7 +76,7 @@ void sb_cli_files_close(SbCliFiles *files) {
   for (int i = 0; i < files->count; i++) {
     SbCliFile *file = &files->file[i];
     sb_document_free(file->document);
-    g_free(file->model);
+    sb_model_destroy(file->model);
     g_free(file->name);
     g_free(file->folder);
   }

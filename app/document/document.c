@@ -318,8 +318,8 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   sb_document_refresh_title(document);
   document->name = g_strdup(name);
   if (issues->len == before) {
-    g_autofree SbModel *model = g_new(SbModel, 1);
-    if (sb_document_compile(document, model, issues)) {
+    g_autoptr(SbModel) model = NULL;
+    if (sb_document_compile(document, &model, issues)) {
       (void)sb_document_check_cases(document, issues);
     }
   }
@@ -480,30 +480,11 @@ static void add_problems(const SbDocument *document, const SbParams *params,
   }
 }
 
-SbStatus sb_document_compile_params(const SbDocument *document, const SbParams *params,
-                                    SbModel *out, SbProblems *problems) {
-  SbStatus status = sb_model_compile(out, params, problems);
-  if (status == SB_OK) {
-    out->data = document->data;
-    out->limits = document->limits;
-    if (out->drive == SB_MODEL_DRIVE_MEASURED && sb_model_measured(out) == NULL) {
-      SbProblem *problem = &problems->item[0];
-      problems->count = 1;
-      problem->min = problem->max = NAN;
-      sb_text(problem->key, sizeof problem->key, "%s", SB_SERIES_KEY);
-      sb_text(problem->text, sizeof problem->text,
-              "drive.kind = measured needs the CSV file of a measured series");
-      return SB_ERROR_INPUT;
-    }
-  }
-  return status;
-}
-
-bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues) {
+bool sb_document_compile(const SbDocument *document, SbModel **out, GPtrArray *issues) {
   SbParams params = sb_document_params(document);
   SbProblems problems;
   const char *shown = document->path != NULL ? document->path : document->name;
-  SbStatus status = sb_document_compile_params(document, &params, out, &problems);
+  SbStatus status = sb_model_create(out, &params, document->data, &document->limits, &problems);
   if (status == SB_ERROR_MEMORY) {
     sb_issues_add(issues, shown, 0, NULL, NULL, "%s", sb_status_text(status));
   } else if (status != SB_OK) {

@@ -4,7 +4,7 @@
 // document's own keys. Edits go to the document's own keys and can be undone. Files are GKeyFile
 // text with units in the values; comments and untouched values survive saving as they stand.
 //
-// Not thread-safe: a document belongs to one thread. Hand SbParams or SbModel copies to others.
+// Not thread-safe: a document belongs to one thread. Hand SbParams or models to others.
 #pragma once
 
 #include "app/base/issue.h"
@@ -73,17 +73,17 @@ double sb_document_value(const SbDocument *document, SbParamId id);
 // The same as text with unit. Owned by the caller.
 char *sb_document_text(const SbDocument *document, SbParamId id);
 
-// Compiles the values in force; the model borrows series and shapes from the document
-// (sb_model_keep() outlives it). False with at least one issue (file, key, range) if they do not go
-// together.
-bool sb_document_compile(const SbDocument *document, SbModel *out, GPtrArray *issues);
+// Compiles the values in force; *out is owned by the caller. False with at least one issue (file,
+// key, range) and *out = NULL if they do not go together.
+bool sb_document_compile(const SbDocument *document, SbModel **out, GPtrArray *issues);
+G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbModel, sb_model_destroy)
 
 // The [cases]: each is the document with some values replaced. The name is borrowed.
 size_t sb_document_case_count(const SbDocument *document);
 const char *sb_document_case_name(const SbDocument *document, size_t index);
 
 // As sb_document_compile(), for one case; issues name it ("[cases] cold: gland.radial_space: ...").
-bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel *out,
+bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel **out,
                               GPtrArray *issues);
 
 // Whether all compile.

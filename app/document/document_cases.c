@@ -98,8 +98,9 @@ static void put_setting(SbParams *params, bool *set, const SbDocument *document,
   set[id] = true;
 }
 
-bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel *out,
+bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel **out,
                               GPtrArray *issues) {
+  *out = NULL;
   const Case *one = document->cases->pdata[index];
   g_autofree char *path = g_strdup_printf("%s.%s", SB_CASES_GROUP, one->name);
   guint before = issues->len;
@@ -116,7 +117,7 @@ bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel 
     return false;
   }
   SbProblems problems = {0};
-  SbStatus status = sb_document_compile_params(document, &params, out, &problems);
+  SbStatus status = sb_model_create(out, &params, document->data, &document->limits, &problems);
   if (status != SB_OK && problems.count == 0) {
     sb_issues_add(issues, one->shown, 0, path, NULL, "%s", sb_status_text(status));
   }
@@ -131,10 +132,10 @@ bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel 
 }
 
 bool sb_document_check_cases(const SbDocument *document, GPtrArray *issues) {
-  g_autofree SbModel *model = g_new(SbModel, 1);
   bool good = true;
   for (size_t i = 0; i < document->cases->len; i++) {
-    good = sb_document_compile_case(document, i, model, issues) && good;
+    g_autoptr(SbModel) model = NULL;
+    good = sb_document_compile_case(document, i, &model, issues) && good;
   }
   return good;
 }

@@ -67,10 +67,6 @@ void sb_document_read_cases(GPtrArray *cases, const GPtrArray *entries, const ch
                             GPtrArray *issues);
 void sb_document_append_cases(GString *text, const GPtrArray *cases);
 
-// Compiles values in place of the document's own.
-SbStatus sb_document_compile_params(const SbDocument *document, const SbParams *params,
-                                    SbModel *out, SbProblems *problems);
-
 // Range of a problem in the parameter's unit, "at least 5.79 mm"; NULL: none. Owned by the caller.
 char *sb_document_problem_range(const SbProblem *problem, const SbParam *param);
 

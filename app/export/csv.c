@@ -75,7 +75,7 @@ void sb_csv_cycle(FILE *stream, const SbRun *run) {
     fputs(" [N]", stream);
   }
   // Of the rig's force: 1 the first peak, 2 one that follows.
-  bool rig = sb_run_model(run)->motion == SB_MODEL_MOTION_RIG;
+  bool rig = sb_model_is_rig(sb_run_model(run));
   fputs(rig ? ",peak\n" : "\n", stream);
   size_t count = 0;
   const SbFrame *frames = sb_run_frames(run, &count);

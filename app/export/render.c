@@ -53,12 +53,12 @@ const SbRenderView *sb_render_view(const char *name) {
 }
 
 bool sb_render_view_fits(const SbRenderView *view, const SbRun *run, GError **error) {
-  if (strcmp(view->name, "rig") == 0 && sb_run_model(run)->motion != SB_MODEL_MOTION_RIG) {
+  if (strcmp(view->name, "rig") == 0 && !sb_model_is_rig(sb_run_model(run))) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "the view \"rig\" is for the sliding plate (models.motion = rig)");
     return false;
   }
-  if (strcmp(view->name, "cutaway") == 0 && sb_run_model(run)->motion == SB_MODEL_MOTION_RIG) {
+  if (strcmp(view->name, "cutaway") == 0 && sb_model_is_rig(sb_run_model(run))) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "the view \"cutaway\" is for a valve, not for the sliding plate");
     return false;

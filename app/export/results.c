@@ -11,9 +11,9 @@
 
 // ---- run ----
 
-static void put_choice(SbJson *json, const char *key, SbParamId id, int index) {
+static void put_choice(SbJson *json, const char *key, const SbModel *model, SbParamId id) {
   char name[64];
-  sb_param_choice_name(sb_param(id), index, name, sizeof name);
+  sb_model_choice_name(model, id, name, sizeof name);
   sb_json_string(json, key, name);
 }
 
@@ -87,7 +87,7 @@ static void put_seal(SbJson *json, const SbSummary *summary, int seal) {
 // The figures' object, with the inputs and the thesis' figures to hold against them.
 static void put_rig(SbJson *json, const SbRun *run) {
   const SbRigSummary *rig = &sb_run_summary(run)->rig;
-  const SbRig *model = &sb_run_model(run)->rig;
+  const SbRig *model = sb_model_rig(sb_run_model(run));
   sb_json_object(json, "rig");
   sb_json_number(json, "load_N", model->load);
   sb_json_number(json, "sampling_rate_Hz", model->rate);
@@ -116,7 +116,7 @@ static void put_bodies(SbJson *json, const SbRun *run) {
   sb_json_number(json, "joint_error_m", bodies->joint_error);
   sb_json_array(json, "parts");
   for (int i = 0; i < SB_VALVE_GROUND; i++) {
-    const SbValvePart *part = &model->parts.part[i];
+    const SbValvePart *part = &sb_model_parts(model)->part[i];
     sb_json_object(json, NULL);
     sb_json_string(json, "name", sb_valve_part_name(i));
     sb_json_number(json, "mass_kg", part->mass);
@@ -175,7 +175,7 @@ static void put_reasons(SbJson *json, const SbRun *run) {
     const char *reason = sb_figure_reason(summary, i);
     const char *path = sb_figure(i)->path;
     if (reason == NULL || (g_str_has_prefix(path, "life.") && summary->life.done == 0) ||
-        (g_str_has_prefix(path, "rig.") && sb_run_model(run)->motion != SB_MODEL_MOTION_RIG)) {
+        (g_str_has_prefix(path, "rig.") && !sb_model_is_rig(sb_run_model(run)))) {
       continue;
     }
     sb_json_string(json, path, reason);
@@ -224,19 +224,19 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   sb_json_string(&json, "parameters_sha256", info->sha256);
   sb_json_bool(&json, "partial", info->partial);
   sb_json_object(&json, "models");
-  sb_json_string(&json, "fit", sb_fit_model_name(model->fit));
-  sb_json_string(&json, "film", sb_film_model_name(model->film));
-  put_choice(&json, "film_time", SB_P_MODELS_FILM_TIME, model->film_history);
-  sb_json_string(&json, "surface", sb_rough_model_name(model->surface));
-  put_choice(&json, "asperities", SB_P_MODELS_ASPERITIES, (int)model->asperities);
+  put_choice(&json, "fit", model, SB_P_MODELS_FIT);
+  put_choice(&json, "film", model, SB_P_MODELS_FILM);
+  put_choice(&json, "film_time", model, SB_P_MODELS_FILM_TIME);
+  put_choice(&json, "surface", model, SB_P_MODELS_SURFACE);
+  put_choice(&json, "asperities", model, SB_P_MODELS_ASPERITIES);
   sb_json_string(&json, "friction", "boundary-viscous-static");
-  put_choice(&json, "motion", SB_P_MODELS_MOTION, (int)model->motion);
+  put_choice(&json, "motion", model, SB_P_MODELS_MOTION);
   sb_json_object_end(&json);
   sb_json_object(&json, "cycle");
   put_figures(&json, summary, "cycle.");
   put_verdict(&json, info->verdict);
   sb_json_object_end(&json);
-  if (model->motion == SB_MODEL_MOTION_RIG) {
+  if (sb_model_is_rig(model)) {
     put_rig(&json, run);
   }
   if (summary->life.done > 0) {

@@ -331,8 +331,8 @@ static bool is_cancelled(void *data) {
   return scene->cancelled != NULL && scene->cancelled(scene->data) != 0;
 }
 
-// The values in force as a model, which borrows from the document.
-static SbSceneStatus compile(SbScene *scene, SbModel *model) {
+// The values in force as a model.
+static SbSceneStatus compile(SbScene *scene, SbModel **model) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   if (sb_document_compile(scene->document, model, issues)) {
     return SB_SCENE_OK;
@@ -343,18 +343,18 @@ static SbSceneStatus compile(SbScene *scene, SbModel *model) {
 }
 
 SbSceneStatus sb_scene_run(SbScene *scene) {
-  SbModel model;
+  g_autoptr(SbModel) model = NULL;
   SbPlan plan;
   SbReport why = {0};
   SbSceneStatus compiled = compile(scene, &model);
   if (compiled != SB_SCENE_OK) {
     return compiled;
   }
-  sb_plan_make(&plan, &model);
-  plan.profiles = model.motion != SB_MODEL_MOTION_RIG;
+  sb_plan_make(&plan, model);
+  plan.profiles = !sb_model_is_rig(model);
   plan.section_fields = false;
-  SbStatus status = scene->run == NULL ? sb_run_create(&scene->run, &model, &plan, &why)
-                                       : sb_run_renew(scene->run, &model, &plan, &why);
+  SbStatus status = scene->run == NULL ? sb_run_create(&scene->run, model, &plan, &why)
+                                       : sb_run_renew(scene->run, model, &plan, &why);
   if (status != SB_OK) {
     sb_run_destroy(scene->run);
     scene->run = NULL;
@@ -445,7 +445,7 @@ SbSceneStatus sb_scene_profile(SbScene *scene, size_t frame, const char *seal,
 SbSceneStatus sb_scene_evaluate(SbScene *scene, const char *const *keys, const double *values,
                                 size_t count, const char *const *figures, size_t figure_count,
                                 double *out) {
-  SbModel model;
+  g_autoptr(SbModel) model = NULL;
   SbReport why = {0};
   g_autofree SbOverride *overrides = g_new(SbOverride, count + 1);
   g_autofree int *indices = g_new(int, figure_count + 1);
@@ -469,8 +469,7 @@ SbSceneStatus sb_scene_evaluate(SbScene *scene, const char *const *keys, const d
   if (compiled != SB_SCENE_OK) {
     return compiled;
   }
-  const SbQuestion question = {&model,       overrides,    count, indices,
-                               figure_count, is_cancelled, scene};
+  const SbQuestion question = {model, overrides, count, indices, figure_count, is_cancelled, scene};
   return report(scene, sb_evaluator_ask(out, scene->evaluator, &question, &why), &why);
 }
 

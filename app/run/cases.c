@@ -6,19 +6,11 @@
 #include <math.h>
 #include <string.h>
 
-// Leaves of a model what the questions need.
-static void reduce(SbModel *model) {
-  model->views = 0;
-  model->studies = 0;
-  model->life_actuations = 1;
-}
-
 // The answers of one set of values.
-static SbStatus evaluate(SbVerdict out[SB_VERDICT_COUNT], SbModel *model, const SbRunHooks *hooks,
-                         SbReport *report) {
-  reduce(model);
+static SbStatus evaluate(SbVerdict out[SB_VERDICT_COUNT], const SbModel *model,
+                         const SbRunHooks *hooks, SbReport *report) {
   SbPlan plan;
-  sb_plan_make(&plan, model);
+  sb_plan_wished(&plan, model, &(SbPlanWishes){0});
   SbRun *run = NULL;
   SbStatus status = sb_run_create(&run, model, &plan, report);
   if (status == SB_OK) {
@@ -57,18 +49,18 @@ SbStatus sb_cases_judge(SbCaseVerdict out[SB_VERDICT_COUNT], const SbRun *run,
   SbStatus worst = SB_OK;
   Share share = {hooks, 0, sb_document_case_count(document)};
   const SbRunHooks own = {on_progress, on_cancelled, &share};
-  g_autofree SbModel *model = g_new(SbModel, 1);
   g_autoptr(GPtrArray) issues = sb_issues_new();
   for (; share.index < share.count; share.index++) {
     const char *name = sb_document_case_name(document, share.index);
     SbReport report = {0};
     SbVerdict each[SB_VERDICT_COUNT];
+    g_autoptr(SbModel) model = NULL;
     SbStatus status = SB_ERROR_CANCELLED;
     for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
       each[kind] = (SbVerdict){SB_ANSWER_UNKNOWN, out[kind].of.figure, NAN, NAN, ""};
     }
     if (worst != SB_ERROR_CANCELLED) {
-      status = sb_document_compile_case(document, share.index, model, issues)
+      status = sb_document_compile_case(document, share.index, &model, issues)
                    ? evaluate(each, model, &own, &report)
                    : sb_fail(&report, SB_ERROR_INPUT, "its values do not go together");
     }
@@ -101,13 +93,12 @@ void sb_cases_plan(SbPlan *plan, const SbDocument *document) {
   sb_text(item->name, sizeof item->name, "%zu case%s", count, count > 1 ? "s" : "");
   sb_text(item->model, sizeof item->model, "the scene's models");
   sb_text(item->reason, sizeof item->reason, "the verdict takes the worst");
-  g_autofree SbModel *model = g_new(SbModel, 1);
   g_autofree SbPlan *each = g_new(SbPlan, 1);
   g_autoptr(GPtrArray) issues = sb_issues_new();
   for (size_t i = 0; i < count; i++) {
-    if (sb_document_compile_case(document, i, model, issues)) {
-      reduce(model);
-      sb_plan_make(each, model);
+    g_autoptr(SbModel) model = NULL;
+    if (sb_document_compile_case(document, i, &model, issues)) {
+      sb_plan_wished(each, model, &(SbPlanWishes){0});
       for (size_t k = 0; k < each->field_count; k++) {
         item->cost_s += each->field[k].cost_s;
         item->error = fmax(item->error, each->field[k].error);

@@ -29,9 +29,8 @@ struct SbRunner {
   pthread_mutex_t mutex; // guards what follows
   pthread_cond_t wake;
   bool quit;
-  bool waiting;        // the mailbox is full
-  SbModel model;       // asked for
-  SbModel computed;    // of the thread alone
+  SbModel *model;      // asked for and not yet begun; NULL: none
+  unsigned views;      // for which it is
   unsigned ticket;     // last one given out
   unsigned finished;   // last one that ended or was dropped
   SbRunHandle *latest; // one reference
@@ -109,7 +108,7 @@ static void show(SbRunner *runner, SbRunHandle *handle) {
   runner->notify(runner->data);
 }
 
-static void compute(SbRunner *runner, const SbModel *model, unsigned ticket) {
+static void compute(SbRunner *runner, const SbModel *model, unsigned views, unsigned ticket) {
   SbRunHandle *handle = calloc(1, sizeof *handle);
   if (handle == NULL) {
     return;
@@ -119,7 +118,7 @@ static void compute(SbRunner *runner, const SbModel *model, unsigned ticket) {
   atomic_init(&handle->done, false);
   handle->ticket = ticket;
   SbPlan plan;
-  sb_plan_make(&plan, model);
+  sb_plan_wished(&plan, model, &(SbPlanWishes){.views = views, .life = true});
   handle->status = sb_run_create(&handle->run, model, &plan, &handle->report);
   if (handle->status == SB_OK) {
     show(runner, handle);
@@ -143,18 +142,18 @@ static void *work(void *data) {
   if (plain != (locale_t)0) {
     uselocale(plain);
   }
-  SbModel *model = &runner->computed;
   pthread_mutex_lock(&runner->mutex);
   while (!runner->quit) {
-    if (!runner->waiting) {
+    if (runner->model == NULL) {
       pthread_cond_wait(&runner->wake, &runner->mutex);
       continue;
     }
-    runner->waiting = false;
-    sb_model_keep(model, &runner->model);
-    unsigned ticket = runner->ticket;
+    SbModel *model = runner->model;
+    runner->model = NULL;
+    unsigned views = runner->views, ticket = runner->ticket;
     pthread_mutex_unlock(&runner->mutex);
-    compute(runner, model, ticket);
+    compute(runner, model, views, ticket);
+    sb_model_destroy(model);
     pthread_mutex_lock(&runner->mutex);
     runner->finished = ticket;
     pthread_mutex_unlock(&runner->mutex);
@@ -200,19 +199,20 @@ void sb_runner_destroy(SbRunner *runner) {
   pthread_mutex_unlock(&runner->mutex);
   pthread_join(runner->thread, NULL);
   sb_run_handle_unref(runner->latest);
-  sb_model_clear(&runner->model);
-  sb_model_clear(&runner->computed);
+  sb_model_destroy(runner->model);
   pthread_cond_destroy(&runner->wake);
   pthread_mutex_destroy(&runner->mutex);
   free(runner);
 }
 
-unsigned sb_runner_submit(SbRunner *runner, const SbModel *model) {
+unsigned sb_runner_submit(SbRunner *runner, const SbModel *model, unsigned views) {
+  SbModel *copy = sb_model_copy(model);
   pthread_mutex_lock(&runner->mutex);
   atomic_store_explicit(&runner->void_up_to, runner->ticket, memory_order_relaxed);
   unsigned ticket = ++runner->ticket;
-  sb_model_keep(&runner->model, model);
-  runner->waiting = true;
+  sb_model_destroy(runner->model);
+  runner->model = copy;
+  runner->views = views;
   pthread_cond_signal(&runner->wake);
   pthread_mutex_unlock(&runner->mutex);
   return ticket;
@@ -221,8 +221,9 @@ unsigned sb_runner_submit(SbRunner *runner, const SbModel *model) {
 void sb_runner_cancel(SbRunner *runner) {
   pthread_mutex_lock(&runner->mutex);
   atomic_store_explicit(&runner->void_up_to, runner->ticket, memory_order_relaxed);
-  if (runner->waiting) {
-    runner->waiting = false;
+  if (runner->model != NULL) {
+    sb_model_destroy(runner->model);
+    runner->model = NULL;
     runner->finished = runner->ticket;
   }
   pthread_mutex_unlock(&runner->mutex);

@@ -44,9 +44,9 @@ SbRunner *sb_runner_create(SbRunnerNotify notify, void *data);
 // called again. Handles stay valid. Takes NULL. Not from inside `notify`.
 void sb_runner_destroy(SbRunner *runner);
 
-// Asks for a run of `model` (copied) by its own plan. What is being computed is cancelled, what was
-// waiting is dropped. Returns the request's ticket; tickets grow from 1.
-unsigned sb_runner_submit(SbRunner *runner, const SbModel *model);
+// Asks for a run of `model` (copied) for these views (a bit mask of SbView). What is being computed
+// is cancelled, what was waiting is dropped. Returns the request's ticket; tickets grow from 1.
+unsigned sb_runner_submit(SbRunner *runner, const SbModel *model, unsigned views);
 
 // Stops what is being computed and drops what waits. May be called at any time, any number of
 // times.

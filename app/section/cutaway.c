@@ -62,19 +62,16 @@ SbCutaway *sb_cutaway_create(const SbModel *model, double inner_contact_left) {
   sb_revolve_init(&cutaway->revolve);
   cutaway->point = g_array_new(FALSE, FALSE, sizeof(SbPoint));
   cutaway->scalar = g_array_new(FALSE, FALSE, sizeof(float));
-  SbModel *whole = g_new(SbModel, 1);
-  *whole = *model;
-  whole->shape.vent_diameter = 0;
-  double bore = model->bore_diameter;
-  double radius = fmax(SB_SECTION_TOP * bore, model->shape.entry_diameter / 2 + 0.12 * bore);
+  double bore = sb_model_value(model, SB_P_BORE_DIAMETER);
+  double radius =
+      fmax(SB_SECTION_TOP * bore, sb_model_shape(model)->entry_diameter / 2 + 0.12 * bore);
   SbValveOutline *valve = &cutaway->valve;
-  sb_valve_outline_make(valve, whole, inner_contact_left, radius);
-  g_free(whole);
+  sb_valve_outline_make(valve, model, inner_contact_left, radius, false);
   if (!valve->shaped_housing) {
     finish_housing(&valve->solid[0], radius, CHAMFER * bore);
   }
   // The rod that goes on and on ends here.
-  double end = valve->end + model->stroke + ROD * bore;
+  double end = valve->end + sb_model_value(model, SB_P_DRIVE_STROKE) + ROD * bore;
   const SbValveOutlines *given = sb_model_outlines(model);
   bool shaped_stem = given != NULL && given->stem;
   for (size_t i = 0; i < valve->solid_count && !shaped_stem; i++) {
@@ -144,7 +141,7 @@ static void place_camera(SbCutaway *cutaway, const SbSection *section, const SbO
   const double *axis[2] = {orbit->right, orbit->up};
   for (size_t k = 0; k < valve->solid_count; k++) {
     const SbValveSolid *solid = &valve->solid[k];
-    double stroke = solid->moves ? section->model.stroke : 0;
+    double stroke = solid->moves ? sb_model_value(section->model, SB_P_DRIVE_STROKE) : 0;
     for (size_t j = 0; j < solid->count; j++) {
       SbValvePoint p = solid->point[j];
       for (int i = 0; i < 2; i++) {
@@ -452,7 +449,8 @@ static void paint_labels(SbCutaway *cutaway, SbSection *section) {
                palette->seal[i], text);
   }
   double end = valve->vent_right > valve->vent_left ? valve->vent_left : valve->end;
-  double place = fmax(end - 0.15 * section->model.bore_diameter, valve->face / 2);
+  double place =
+      fmax(end - 0.15 * sb_model_value(section->model, SB_P_BORE_DIAMETER), valve->face / 2);
   double low, high;
   if (sb_outline_radii(&low, &high, &cutaway->valve.housing, place)) {
     name_point(row, &count, sb_section_plane_at(&upper, place, (low + high) / 2), palette->ink,

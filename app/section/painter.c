@@ -21,7 +21,7 @@ struct SbSectionPainter {
   gint64 read_back;         // [us]
   // The section in use and what it was made for.
   SbSection *section;
-  SbModel model;
+  SbModel *model;
   SbSectionLimits limits;
   const SbFrame *frames;
   size_t count;
@@ -63,7 +63,7 @@ void sb_section_painter_destroy(SbSectionPainter *painter) {
     cairo_surface_destroy(painter->picture);
   }
   sb_section_destroy(painter->section);
-  sb_model_clear(&painter->model);
+  sb_model_destroy(painter->model);
   sb_text_destroy(painter->text);
   sb_draw_list_finish(&painter->list);
   g_free(painter);
@@ -78,7 +78,7 @@ double sb_section_painter_read_back(const SbSectionPainter *painter) {
 }
 
 SbSectionStyle sb_section_style_of(const SbModel *model) {
-  const SbSectionLook *look = &model->look;
+  const SbSectionLook *look = sb_model_look(model);
   enum { OF_INNER = 1, NONE = 2 };
   return (SbSectionStyle){.inset_seal = look->insets == OF_INNER ? SB_INNER : SB_OUTER,
                           .hide_insets = look->insets == NONE,
@@ -97,8 +97,7 @@ void sb_section_painter_style(SbSectionPainter *painter, const SbSectionStyle *s
 
 // The section for this run, made anew when the model changed, its limits when frames were added.
 static void prepare(SbSectionPainter *painter, const SbChartRun *run) {
-  bool same_model =
-      painter->section != NULL && memcmp(&painter->model, run->model, sizeof painter->model) == 0;
+  bool same_model = painter->section != NULL && sb_model_same(painter->model, run->model);
   bool same_frames = painter->frames == run->frames && painter->count == run->count;
   if (same_model && same_frames) {
     return;
@@ -117,7 +116,8 @@ static void prepare(SbSectionPainter *painter, const SbChartRun *run) {
   sb_section_destroy(painter->section);
   painter->section = sb_section_create(run->model, &limits);
   painter->limits = limits;
-  sb_model_keep(&painter->model, run->model);
+  sb_model_destroy(painter->model);
+  painter->model = sb_model_copy(run->model);
 }
 
 // The list through GL onto the context; false if GL cannot (size).

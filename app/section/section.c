@@ -14,11 +14,11 @@ static const double RIGHT_ROOM = 0.26;
 
 SbSection *sb_section_create(const SbModel *model, const SbSectionLimits *limits) {
   SbSection *section = g_new0(SbSection, 1);
-  sb_model_keep(&section->model, model);
+  section->model = sb_model_copy(model);
   section->limits = *limits;
   section->text = sb_text_create();
-  sb_valve_outline_make(&section->valve, model, limits->inner_contact_left,
-                        2 * model->bore_diameter);
+  double top = 2 * sb_model_value(model, SB_P_BORE_DIAMETER);
+  sb_valve_outline_make(&section->valve, model, limits->inner_contact_left, top, true);
   return section;
 }
 
@@ -30,7 +30,7 @@ void sb_section_destroy(SbSection *section) {
   g_free(section->scratch);
   g_free(section->scratch_scalar);
   sb_cutaway_destroy(section->cutaway);
-  sb_model_clear(&section->model);
+  sb_model_destroy(section->model);
   g_free(section);
 }
 
@@ -392,7 +392,7 @@ static void lay_out_zoom(SbSection *section, const Layout *layout, double bottom
   double top = layout->top + (layout->column ? 0 : 66);
   double width = view->width - layout->margin - left, tall = bottom - top;
   section->strip = (SbRect){left, top, width, tall};
-  double g = section->model.radial_space;
+  double g = sb_model_value(section->model, SB_P_GLAND_RADIAL_SPACE);
   section->scale = MIN(width / (2.6 * g), tall / (1.85 * g));
   double centre = valve->origin[seal] - sb_section_displacement(section);
   section->x0 = left + width / 2 - centre * section->scale;
@@ -402,7 +402,7 @@ static void lay_out_zoom(SbSection *section, const Layout *layout, double bottom
 static void lay_out(SbSection *section, Layout *layout) {
   const SbSectionView *view = section->view;
   const SbValveOutline *valve = &section->valve;
-  const SbModel *model = &section->model;
+  const SbModel *model = section->model;
   double margin = view->margin;
   layout->margin = margin;
   layout->top = margin;
@@ -420,11 +420,12 @@ static void lay_out(SbSection *section, Layout *layout) {
 
   // Room on the left for the pressure arrow at full stroke, on the right for the ambient.
   double strip_width = view->width - 2 * margin;
-  double left_room = 3.4 * model->pressure_force + 18;
-  double left = MIN(valve->nose - model->stroke, valve->face);
-  double right = valve->end + RIGHT_ROOM * model->bore_diameter;
+  double left_room = 3.4 * sb_model_pressure_force(model) + 18;
+  double left = MIN(valve->nose - sb_model_value(model, SB_P_DRIVE_STROKE), valve->face);
+  double bore = sb_model_value(model, SB_P_BORE_DIAMETER);
+  double right = valve->end + RIGHT_ROOM * bore;
   double scale = (strip_width - left_room) / (right - left);
-  double radius = SB_SECTION_TOP * model->bore_diameter * (view->full ? 2 : 1);
+  double radius = SB_SECTION_TOP * bore * (view->full ? 2 : 1);
   // A low picture gives the insets at least 130 px of the strip's height, then none. A high narrow
   // one stacks them, and what it cannot use stays free below.
   double titles = layout->column ? 22 : 82, gap = 30;
@@ -473,7 +474,7 @@ void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *
   shape_rings(section);
   if (view->cutaway) {
     if (section->cutaway == NULL) {
-      section->cutaway = sb_cutaway_create(&section->model, section->limits.inner_contact_left);
+      section->cutaway = sb_cutaway_create(section->model, section->limits.inner_contact_left);
     }
     sb_cutaway_draw(section->cutaway, section);
     sb_section_draw_legends(section, layout.margin, layout.top, layout.legend_width);

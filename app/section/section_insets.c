@@ -100,9 +100,13 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
       sb_section_frame_map(inset_x(inset, -sb_section_origin(section, seal)),
                            bore + section->valve.bore * inset->scale, inset->scale, rect);
   sb_section_draw_housing(section, &map);
-  const SbSectionPlane plane = {
-      inset_x(inset, 0), inset->scale, 0, bore + section->model.radial_space * inset->scale, 0,
-      -inset->scale};
+  const SbSectionPlane plane = {inset_x(inset, 0),
+                                inset->scale,
+                                0,
+                                bore + sb_model_value(section->model, SB_P_GLAND_RADIAL_SPACE) *
+                                           inset->scale,
+                                0,
+                                -inset->scale};
   sb_section_draw_ring(section, seal, &plane);
 
   // Pressure rises from the bore line into the housing.
@@ -351,7 +355,7 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->ink, why);
     if (rest) {
       snprintf(text, sizeof text, "asperities carry the load, \xcf\x83 %s %s",
-               sb_section_significant(value, section->model.sigma * 1e6), "\xc2\xb5m");
+               sb_section_significant(value, sb_model_sigma(section->model) * 1e6), "\xc2\xb5m");
       half = sb_text_width(section->text, text, 11, 400) / 2 + 8;
       if (2 * half < rect->width) {
         x = CLAMP(x, rect->x + half, rect->x + rect->width - half);
@@ -382,7 +386,7 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     sb_draw_text(list, x, y + 18, 12, 400, centre, palette->ink, text);
     char sigma[SB_SECTION_NUMBER];
     snprintf(text, sizeof text, "roughness \xcf\x83 %s %s is not drawn",
-             sb_section_significant(sigma, section->model.sigma * 1e6), "\xc2\xb5m");
+             sb_section_significant(sigma, sb_model_sigma(section->model) * 1e6), "\xc2\xb5m");
     if (y + 40 < floor && !narrow) {
       sb_draw_text(list, x, y + 35, 11, 400, centre, palette->second, text);
     }
@@ -402,7 +406,8 @@ static Inset inset_of(const SbSection *section, const SbRect *rect) {
   int seal = section->view->inset_seal;
   const SbSectionLimits *limits = &section->limits;
   double left = limits->contact_left[seal], right = limits->contact_right[seal];
-  double range = fmax(1.9 * (right - left), 0.75 * section->model.seal[seal].section_diameter);
+  double range =
+      fmax(1.9 * (right - left), 0.75 * sb_model_seal(section->model, seal)->section_diameter);
   return (Inset){*rect, (left + right) / 2, (double)rect->width / range};
 }
 

@@ -87,7 +87,7 @@ static void draw_regions(SbSection *section) {
   double depth = (valve->bore - valve->chamber_floor) * section->scale;
   SbSectionLabel bold = label_style(palette->ink, 600, SB_MIDDLE, NULL);
   SbSectionLabel plain = label_style(palette->ink, 400, SB_MIDDLE, NULL);
-  double length = section->model.shape.chamber_length * section->scale;
+  double length = sb_model_shape(section->model)->chamber_length * section->scale;
   if (length > 1.3 * sb_text_width(section->text, "Chamber", 12, 600)) {
     const double high[1][2] = {{(double)chamber.x, (double)chamber.y + 1}};
     const double middle[1][2] = {{(double)chamber.x, (double)chamber.y + 6}};
@@ -107,7 +107,7 @@ static void draw_land_edge(SbSection *section) {
   const SbSealFrame *inner = &frame->seal[SB_INNER];
   double bore = section->valve.bore;
   SbPoint edge = sb_section_at(section, 0, bore);
-  double way = section->model.land_edge - frame->displacement;
+  double way = sb_model_value(section->model, SB_P_BORE_LAND_EDGE) - frame->displacement;
   double y = section->strip.y + 22;
   char text[128], length[SB_SECTION_NUMBER];
   sb_section_millimetre(length, fabs(way));
@@ -162,7 +162,8 @@ static bool on_chamfer(const SbSealShape *shape) {
 // What the land edge's dimension takes, so that labels keep off it.
 static void reserve_land_edge(SbSection *section) {
   const SbFrame *frame = section->instant->frame;
-  double bore = section->valve.bore, way = section->model.land_edge - frame->displacement;
+  double bore = section->valve.bore,
+         way = sb_model_value(section->model, SB_P_BORE_LAND_EDGE) - frame->displacement;
   SbPoint edge = sb_section_at(section, 0, bore);
   double low = (double)section->strip.y + 33, height = (double)edge.y - 4 - low;
   if (height < 8) {
@@ -286,7 +287,7 @@ static void draw_motion(SbSection *section) {
   double middle = sb_section_at(section, section->valve.chamber - frame->displacement, 0).x;
   SbSectionLabel bold = label_style(palette->ink, 600, SB_MIDDLE, &palette->stem);
   // Below the chamber, or beside it where it is deep.
-  double beside = middle + section->model.shape.chamber_length / 2 * section->scale + 30;
+  double beside = middle + sb_model_shape(section->model)->chamber_length / 2 * section->scale + 30;
   bool deep = axis - 52 < (double)sb_section_at(section, 0, section->valve.chamber_floor).y + 16;
   const double at[2][2] = {{deep ? beside : middle, axis - 52}, {middle + 60, axis - 52}};
   if (axis - 52 > (double)sb_section_at(section, 0, section->valve.floor).y + 16) {
@@ -318,7 +319,7 @@ static void draw_dose_path(SbSection *section) {
       on_chamfer(section->instant->ring[SB_INNER])) {
     return;
   }
-  double g = section->model.radial_space;
+  double g = sb_model_value(section->model, SB_P_GLAND_RADIAL_SPACE);
   double s = frame->displacement;
   double ring = sb_section_origin(section, SB_INNER);
   double radius = sqrt(valve->section_area[SB_INNER] / M_PI);

@@ -14,7 +14,7 @@ enum { SB_SECTION_PLACED_MAX = 64 };
 typedef struct SbCutaway SbCutaway;
 
 struct SbSection {
-  SbModel model;
+  SbModel *model; // owned
   SbSectionLimits limits;
   SbValveOutline valve;
   SbText *text;

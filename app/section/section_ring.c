@@ -150,7 +150,7 @@ static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *sh
 // The section of the free ring, where it lies when nothing holds it: its axis is the valve's, so
 // that it cuts into groove floor and bore by stretch and squeeze.
 static void draw_undeformed(SbSection *section, int seal, const SbSectionPlane *plane) {
-  const SbSealModel *model = &section->model.seal[seal];
+  const SbSealModel *model = sb_model_seal(section->model, seal);
   enum { POINTS = 72 };
   SbPoint point[POINTS];
   double radius = model->section_diameter / 2;

@@ -89,8 +89,8 @@ static void finish_housing(SbValveOutline *valve) {
 }
 
 static void make_housing(SbValveOutline *valve, const SbModel *model, double top) {
-  const SbValveShape *shape = &model->shape;
-  double g = model->radial_space;
+  const SbValveShape *shape = sb_model_shape(model);
+  double g = sb_model_value(model, SB_P_GLAND_RADIAL_SPACE);
   double mouth = at_least(valve, shape->entry_diameter / 2, valve->bore + 0.1 * g);
   mouth = at_most(valve, mouth, 0.8 * top + 0.2 * valve->bore);
   double chamfer = CHAMFER * g;
@@ -117,8 +117,8 @@ static void make_housing(SbValveOutline *valve, const SbModel *model, double top
 }
 
 static void make_stem(SbValveOutline *valve, const SbModel *model) {
-  const SbValveShape *shape = &model->shape;
-  double g = model->radial_space;
+  const SbValveShape *shape = sb_model_shape(model);
+  double g = sb_model_value(model, SB_P_GLAND_RADIAL_SPACE);
   double chamfer = fmin(0.33 * g, 0.3 * shape->nose_length);
   double land = valve->land;
   double rod = at_most(valve, shape->rod_diameter / 2, valve->floor);
@@ -134,7 +134,7 @@ static void make_stem(SbValveOutline *valve, const SbModel *model) {
   valve->chamber_floor = land - depth;
   valve->rod = rod;
 
-  double far = valve->end + 40 * model->bore_diameter;
+  double far = valve->end + 40 * sb_model_value(model, SB_P_BORE_DIAMETER);
   SbValveSolid *solid = new_solid(valve, true);
   add(solid, far, 0);
   add(solid, far, rod);
@@ -272,22 +272,24 @@ static void shape_stem(SbValveOutline *valve, const SbValveOutlines *given) {
 }
 
 void sb_valve_outline_make(SbValveOutline *valve, const SbModel *model, double inner_contact_left,
-                           double top) {
+                           double top, bool vent) {
   memset(valve, 0, sizeof *valve);
-  const SbValveShape *shape = &model->shape;
-  double b = model->axial_width;
-  valve->bore = model->bore_diameter / 2;
-  valve->floor = valve->bore - model->radial_space;
-  valve->land = fmax(model->stem_diameter / 2, valve->floor + 0.2 * model->radial_space);
-  valve->adjusted = valve->land > model->stem_diameter / 2;
+  const SbValveShape *shape = sb_model_shape(model);
+  double b = sb_model_value(model, SB_P_GLAND_AXIAL_WIDTH);
+  double g = sb_model_value(model, SB_P_GLAND_RADIAL_SPACE);
+  double stem = sb_model_value(model, SB_P_STEM_PRESSURE_DIAMETER) / 2;
+  valve->bore = sb_model_value(model, SB_P_BORE_DIAMETER) / 2;
+  valve->floor = valve->bore - g;
+  valve->land = fmax(stem, valve->floor + 0.2 * g);
+  valve->adjusted = valve->land > stem;
 
   // A seal's frame has its origin in its groove's middle.
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    const SbSealModel *seal = &model->seal[i];
+    const SbSealModel *seal = sb_model_seal(model, i);
     double d = seal->section_diameter;
     valve->section_area[i] = M_PI / 4 * d * d / (1 + seal->stretch_mean);
   }
-  valve->origin[SB_INNER] = model->land_edge - inner_contact_left;
+  valve->origin[SB_INNER] = sb_model_value(model, SB_P_BORE_LAND_EDGE) - inner_contact_left;
   double spacing = at_least(valve, shape->seal_spacing, 1.2 * b);
   valve->groove_right[SB_INNER] = valve->origin[SB_INNER] + b / 2;
   valve->groove_right[SB_OUTER] = valve->groove_right[SB_INNER] + spacing;
@@ -304,14 +306,16 @@ void sb_valve_outline_make(SbValveOutline *valve, const SbModel *model, double i
   } else {
     make_housing(valve, model, top);
   }
-  make_vent(valve, &model->shape);
+  if (vent) {
+    make_vent(valve, shape);
+  }
   finish_housing(valve);
   // Where a profile gives the stem it replaces the one made of parameters, of which it keeps what
   // it does not say.
-  size_t stem = valve->solid_count;
+  size_t first = valve->solid_count;
   make_stem(valve, model);
   if (given != NULL && given->stem) {
-    valve->solid_count = stem;
+    valve->solid_count = first;
     shape_stem(valve, given);
   }
 }

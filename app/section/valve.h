@@ -50,11 +50,11 @@ typedef struct {
   bool adjusted; // some drawing size had to give way, or a profile was stretched
 } SbValveOutline;
 
-// Builds the outlines. inner_contact_left: left end of the inner seal's contact in its own frame
-// when it reaches the land edge [m]; with `land_edge` it fixes where the seals are. `top` is the
-// radius up to which the housing is drawn [m].
+// Builds the outlines, the housing with its vent or without. inner_contact_left: left end of the
+// inner seal's contact in its own frame when it reaches the land edge [m]; with `land_edge` it
+// fixes where the seals are. `top` is the radius up to which the housing is drawn [m].
 void sb_valve_outline_make(SbValveOutline *valve, const SbModel *model, double inner_contact_left,
-                           double top);
+                           double top, bool vent);
 
 // Radius of the housing's inner surface at x in the housing's frame [m]; HUGE_VAL beside the
 // housing.

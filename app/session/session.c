@@ -37,8 +37,9 @@ static void compile(SbSession *session) {
     }
   }
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  session->model_valid = sb_document_compile(session->document, session->model, issues);
-  for (guint i = 0; !session->model_valid && i < issues->len; i++) {
+  g_clear_pointer(&session->model, sb_model_destroy);
+  bool valid = sb_document_compile(session->document, &session->model, issues);
+  for (guint i = 0; !valid && i < issues->len; i++) {
     const SbIssue *issue = g_ptr_array_index(issues, i);
     int id = issue->key != NULL ? sb_param_find(issue->key) : -1;
     if (id >= 0 && session->error[id] == NULL) {
@@ -219,7 +220,7 @@ void sb_session_clear_error(SbSession *session, SbParamId id) {
 }
 
 const SbModel *sb_session_model(SbSession *session) {
-  return session->model_valid ? session->model : NULL;
+  return session->model;
 }
 
 const char *sb_session_lock(SbSession *session, SbParamId id) {
@@ -253,7 +254,7 @@ static void finalize(GObject *object) {
     forget_rejected(session, id);
   }
   sb_document_free(session->document);
-  g_free(session->model);
+  sb_model_destroy(session->model);
   G_OBJECT_CLASS(sb_session_parent_class)->finalize(object);
 }
 
@@ -269,7 +270,6 @@ static void sb_session_class_init(SbSessionClass *class) {
 }
 
 static void sb_session_init(SbSession *session) {
-  session->model = g_new0(SbModel, 1);
   session->document = sb_document_new();
   session->last_edited = -1;
   sb_session_init_runs(session);

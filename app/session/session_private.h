@@ -24,8 +24,7 @@ struct _SbSession {
   char *rejected[SB_PARAM_COUNT];
   char *error[SB_PARAM_COUNT];
   int last_edited; // parameter, or -1
-  SbModel *model;  // owned
-  gboolean model_valid;
+  SbModel *model;  // of the present values, owned; NULL: they do not go together
 
   // Runs. `fresh` is what the runner computes; `shown` is what the pictures show: `fresh` as soon
   // as it is worth it, else the run before.

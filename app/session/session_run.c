@@ -243,7 +243,7 @@ static void start_now(SbSession *session) {
     g_source_remove(session->debounce);
     session->debounce = 0;
   }
-  if (!session->model_valid) {
+  if (session->model == NULL) {
     return;
   }
   // A run that this one overtakes while it was being watched makes room for the one before it, or
@@ -262,12 +262,11 @@ static void start_now(SbSession *session) {
   set_reference(&session->fresh, NULL);
   g_clear_pointer(&session->failure, g_free);
   // The window shows everything: the views of the scene do not limit it.
-  g_autofree SbModel *model = g_memdup2(session->model, sizeof *model);
-  model->views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION;
   session->asked = sb_document_params(session->document);
   session->started = g_get_monotonic_time();
   session->state = SB_SESSION_RUNNING;
-  session->ticket = sb_runner_submit(session->runner, model);
+  session->ticket = sb_runner_submit(session->runner, session->model,
+                                     SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION);
   run_changed(session);
 }
 
@@ -292,7 +291,7 @@ void sb_session_values_changed(SbSession *session) {
     g_source_remove(session->debounce);
     session->debounce = 0;
   }
-  if (!same && session->model_valid && session->auto_run) {
+  if (!same && session->model != NULL && session->auto_run) {
     session->debounce = g_timeout_add(DEBOUNCE_MS, on_debounced, session);
   }
   session->former = shows_former(session);

@@ -349,6 +349,27 @@ static SbStatus tell_problem(const SbProblems *problems, SbReport *report) {
                            problem->text, low, high);
 }
 
+// With what documents bring besides.
+static SbStatus complete(SbModel *out, const SbParams *params, const SbModelData *data,
+                         const SbLimits *limits, SbProblems *problems) {
+  SbProblems own;
+  problems = problems != NULL ? problems : &own;
+  problems->count = 0;
+  if (sb_params_get(params, SB_P_DRIVE_KIND) == SB_MODEL_DRIVE_MEASURED &&
+      (data == NULL || data->measured.count == 0)) {
+    refuse(problems, "drive.file", NAN, NAN,
+           "drive.kind = measured needs the CSV file of a measured series");
+    return SB_ERROR_INPUT;
+  }
+  const SbLimits none = {0}, kept = limits != NULL ? *limits : none; // it may be out's
+  SbStatus status = sb_model_compile(out, params, problems);
+  if (status == SB_OK) {
+    out->data = data;
+    out->limits = kept;
+  }
+  return status;
+}
+
 SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *overrides,
                            size_t count, SbReport *report) {
   SbParams params = base->params;
@@ -365,18 +386,11 @@ SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *
                              "drive.kind: measured needs a measured series");
   }
   SbProblems problems;
-  const SbModelData *data = base->data;
-  const SbLimits limits = base->limits;
-  SbStatus status = sb_model_compile(out, &params, &problems);
+  SbStatus status = complete(out, &params, base->data, &base->limits, &problems);
   if (status == SB_ERROR_INPUT) {
     return tell_problem(&problems, report);
   }
-  if (status != SB_OK) {
-    return sb_fail(report, status, "no memory for a model");
-  }
-  out->data = data;
-  out->limits = limits;
-  return sb_succeed(report);
+  return status == SB_OK ? sb_succeed(report) : sb_fail(report, status, "no memory for a model");
 }
 
 SbModelData *sb_model_data_create(void) {
@@ -410,6 +424,118 @@ void sb_model_keep(SbModel *kept, const SbModel *model) {
 void sb_model_clear(SbModel *kept) {
   sb_model_data_release(kept->data);
   *kept = (SbModel){0};
+}
+
+// ---- From outside
+
+SbStatus sb_model_create(SbModel **out, const SbParams *params, const SbModelData *data,
+                         const SbLimits *limits, SbProblems *problems) {
+  SbModel *model = calloc(1, sizeof *model);
+  SbStatus status =
+      model != NULL ? complete(model, params, data, limits, problems) : SB_ERROR_MEMORY;
+  *out = status == SB_OK ? sb_model_copy(model) : NULL; // which holds the data
+  free(model);
+  return status == SB_OK && *out == NULL ? SB_ERROR_MEMORY : status;
+}
+
+SbStatus sb_model_derive(SbModel **out, const SbModel *base, const SbOverride *overrides,
+                         size_t count, SbReport *report) {
+  *out = sb_model_copy(base);
+  if (*out == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a model");
+  }
+  SbStatus status = sb_model_override(*out, *out, overrides, count, report);
+  if (status != SB_OK) {
+    sb_model_destroy(*out);
+    *out = NULL;
+  }
+  return status;
+}
+
+SbModel *sb_model_create_resting(const SbModel *base) {
+  SbModel *model = sb_model_copy(base);
+  if (model != NULL) {
+    model->fit = SB_FIT_KARASZKIEWICZ;
+    model->film = SB_FILM_THESIS;
+    model->motion = SB_MODEL_MOTION_QUASI_STATIC;
+    model->frames = 2; // the least that there may be
+  }
+  return model;
+}
+
+SbModel *sb_model_copy(const SbModel *model) {
+  SbModel *copy = calloc(1, sizeof *copy);
+  if (copy != NULL) {
+    sb_model_keep(copy, model);
+  }
+  return copy;
+}
+
+void sb_model_destroy(SbModel *model) {
+  if (model != NULL) {
+    sb_model_clear(model);
+    free(model);
+  }
+}
+
+bool sb_model_same(const SbModel *a, const SbModel *b) {
+  return a == b || (a != NULL && b != NULL && memcmp(a, b, sizeof *a) == 0);
+}
+
+double sb_model_value(const SbModel *model, SbParamId id) {
+  return sb_params_get(&model->params, id);
+}
+
+int sb_model_number(const SbModel *model, SbParamId id) {
+  return (int)sb_params_get(&model->params, id);
+}
+
+void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t size) {
+  sb_param_choice_name(sb_param(id), sb_model_number(model, id), name, size);
+}
+
+bool sb_model_is_rig(const SbModel *model) {
+  return model != NULL && model->motion == SB_MODEL_MOTION_RIG;
+}
+
+const SbSealModel *sb_model_seal(const SbModel *model, int seal) {
+  return &model->seal[seal];
+}
+
+const SbValveShape *sb_model_shape(const SbModel *model) {
+  return &model->shape;
+}
+
+const SbValveParts *sb_model_parts(const SbModel *model) {
+  return &model->parts;
+}
+
+const SbRig *sb_model_rig(const SbModel *model) {
+  return &model->rig;
+}
+
+const SbSectionLook *sb_model_look(const SbModel *model) {
+  return &model->look;
+}
+
+double sb_model_pressure_force(const SbModel *model) {
+  return model->pressure_force;
+}
+
+double sb_model_sigma(const SbModel *model) {
+  return model->sigma;
+}
+
+int sb_model_shown_actuation(const SbModel *model) {
+  return model->life_shown;
+}
+
+const SbModelSeries *sb_model_measured(const SbModel *model) {
+  return model->data != NULL && model->data->measured.count > 0 ? &model->data->measured : NULL;
+}
+
+const SbValveOutlines *sb_model_outlines(const SbModel *model) {
+  return model->data != NULL ? &model->data->outlines : NULL;
 }
 
 void sb_model_remarks(const SbModel *model, SbProblems *out) {
@@ -450,6 +576,25 @@ void sb_model_gland(SbGland *out, const SbModel *model, int seal) {
       .land_diameter_tolerance = model->stem_diameter_tolerance,
       .poisson_ratio = ring->poisson_ratio,
       .volume_swell = ring->storage.volume_swell,
+  };
+}
+
+void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure) {
+  const SbSealModel *ring = &model->seal[seal];
+  *out = (SbFitProblem){
+      .model = model->fit,
+      .section_diameter = ring->section_diameter,
+      .inner_diameter = ring->inner_diameter,
+      .modulus = ring->modulus,
+      .poisson_ratio = ring->poisson_ratio,
+      .mooney_share = ring->mooney_share,
+      .housing_modulus = model->housing_modulus,
+      .housing_poisson = model->housing_poisson_ratio,
+      .radial_space = model->radial_space,
+      .bore_diameter = model->bore_diameter,
+      .gland_width = model->axial_width,
+      .pressure = pressure,
+      .tolerance = model->tolerance,
   };
 }
 

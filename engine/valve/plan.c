@@ -177,7 +177,7 @@ static void plan_motion(SbPlan *plan, const SbModel *model) {
       model->cycles * once + model->frames * SB_COST_FRAME,
       fmax(fit_error(model), inertia ? model->motion_tolerance : 0),
       "figures of the cycle, %d frames", model->frames);
-  if (model->life_actuations > 1) {
+  if (plan->life) {
     add(plan->field, &plan->field_count, "life", motion,
         model->life_actuations * (inertia ? SB_COST_DYNAMICS : SB_COST_ACTUATION), 0,
         "%d actuations while the roughness runs in; fitment and film are the first's",
@@ -199,13 +199,13 @@ static void plan_rig(SbPlan *plan, const SbModel *model) {
 }
 
 // Studies are asked for one by one; the others share a line.
-static void plan_studies(SbPlan *plan, const SbModel *model) {
+static void plan_studies(SbPlan *plan, const SbModel *model, unsigned studies) {
   char others[160] = "";
   size_t used = 0;
-  plan->studies = model->studies;
+  plan->studies = studies;
   for (int i = 0; i < SB_STUDY_COUNT; i++) {
     const char *name = sb_study_name((SbStudyKind)i);
-    if ((model->studies & (1u << i)) != 0) {
+    if ((studies & (1u << i)) != 0) {
       char item[40];
       sb_text(item, sizeof item, "study %s", name);
       add(plan->field, &plan->field_count, item, "several", sb_study_cost((SbStudyKind)i, model),
@@ -253,7 +253,8 @@ static SbSealDepth seal_need(const char *name) {
 void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size_t count) {
   *out = (SbPlan){.ring = model->fit == SB_FIT_RING,
                   .reynolds = model->film == SB_FILM_REYNOLDS ||
-                              model->asperities == SB_MODEL_ASPERITIES_COUPLED};
+                              model->asperities == SB_MODEL_ASPERITIES_COUPLED,
+                  .life = model->life_actuations > 1};
   for (size_t i = 0; i < count; i++) {
     const char *path = sb_figure(figures[i])->path;
     int seal = begins(path, "seals.inner.") ? SB_INNER : SB_OUTER;
@@ -282,10 +283,17 @@ void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size
 }
 
 void sb_plan_make(SbPlan *out, const SbModel *model) {
-  *out = (SbPlan){.seal = {SB_DEPTH_WHOLE, SB_DEPTH_WHOLE}, .film_laws = true, .motion = true};
+  sb_plan_wished(out, model, &(SbPlanWishes){model->views, model->studies, true});
+}
+
+void sb_plan_wished(SbPlan *out, const SbModel *model, const SbPlanWishes *wishes) {
+  *out = (SbPlan){.seal = {SB_DEPTH_WHOLE, SB_DEPTH_WHOLE},
+                  .film_laws = true,
+                  .motion = true,
+                  .life = wishes->life && model->life_actuations > 1};
   if (model->motion == SB_MODEL_MOTION_RIG) {
     plan_rig(out, model);
-    plan_studies(out, model);
+    plan_studies(out, model, wishes->studies);
     return;
   }
   plan_fit(out, model);
@@ -300,8 +308,8 @@ void sb_plan_make(SbPlan *out, const SbModel *model) {
   // Profiles over x, for whoever draws them.
   char who[80];
   unsigned drawn = SB_VIEW_PROFILES | SB_VIEW_SECTION | SB_VIEW_DASHBOARD;
-  out->profiles = (model->views & drawn) != 0;
-  view_names(model->views & drawn, who, sizeof who);
+  out->profiles = (wishes->views & drawn) != 0;
+  view_names(wishes->views & drawn, who, sizeof who);
   if (out->profiles) {
     add(out->field, &out->field_count, "contact profiles",
         out->reynolds ? "reynolds" : sb_fit_model_name(model->fit),
@@ -313,7 +321,7 @@ void sb_plan_make(SbPlan *out, const SbModel *model) {
   }
 
   // Interior fields, only for a drawn section and only where the fitment model has an interior.
-  unsigned sections = model->views & (SB_VIEW_SECTION | SB_VIEW_DASHBOARD);
+  unsigned sections = wishes->views & (SB_VIEW_SECTION | SB_VIEW_DASHBOARD);
   bool interior = model->fit == SB_FIT_RING;
   view_names(sections, who, sizeof who);
   out->section_fields = sections != 0 && interior;
@@ -326,5 +334,5 @@ void sb_plan_make(SbPlan *out, const SbModel *model) {
         sections == 0 ? "no view draws a section"
                       : "only models.fit = ring has them: the rings are drawn schematically");
   }
-  plan_studies(out, model);
+  plan_studies(out, model, wishes->studies);
 }

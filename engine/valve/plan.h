@@ -42,9 +42,18 @@ typedef struct {
   SbSealDepth seal[SB_SEAL_COUNT];
   bool film_laws; // films by the laws that are not the model's own, too
   bool motion;    // the cycle is run; needs both seals' whole depth
+  bool life;      // and the actuations after the first
 } SbPlan;
 
-// Plans `model` for its own views and all figures. Always succeeds.
+// What somebody wants of a run beside its figures.
+typedef struct {
+  unsigned views, studies; // bit masks of SbView and 1 << SbStudyKind
+  bool life;               // the actuations after the first, where the model has any
+} SbPlanWishes;
+
+// Plans `model` for all figures and what is wished; sb_plan_make(): what its own parameters ask
+// for. Always succeeds.
+void sb_plan_wished(SbPlan *out, const SbModel *model, const SbPlanWishes *wishes);
 void sb_plan_make(SbPlan *out, const SbModel *model);
 
 // Plans `model` for `count` figures (indices, engine/valve/figures.h) and nothing to look at;

@@ -3,10 +3,11 @@
 
 #include "engine/base/status.h"
 #include "engine/base/version.h"
+#include "engine/film/film.h"
 #include "engine/valve/evaluate.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/frame.h"
-#include "engine/valve/model.h"
 #include "engine/valve/params.h"
 #include "engine/valve/plan.h"
 #include "engine/valve/run/run.h"
+#include "engine/valve/valve.h"

@@ -86,25 +86,6 @@ const SbFilm *sb_sliding_film(const SbSlidingMemory *memory) {
   return memory->fitted_last ? &memory->fitted_film : &memory->film;
 }
 
-void sb_sliding_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure) {
-  const SbSealModel *ring = &model->seal[seal];
-  *out = (SbFitProblem){
-      .model = model->fit,
-      .section_diameter = ring->section_diameter,
-      .inner_diameter = ring->inner_diameter,
-      .modulus = ring->modulus,
-      .poisson_ratio = ring->poisson_ratio,
-      .mooney_share = ring->mooney_share,
-      .housing_modulus = model->housing_modulus,
-      .housing_poisson = model->housing_poisson_ratio,
-      .radial_space = model->radial_space,
-      .bore_diameter = model->bore_diameter,
-      .gland_width = model->axial_width,
-      .pressure = pressure,
-      .tolerance = model->tolerance,
-  };
-}
-
 static SbStatus solve_fit(const Task *task, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   const SbModel *model = task->model;
@@ -113,7 +94,7 @@ static SbStatus solve_fit(const Task *task, SbReport *report) {
     return SB_OK;
   }
   SbFitProblem problem;
-  sb_sliding_fit_problem(&problem, model, task->seal, pressure);
+  sb_model_fit_problem(&problem, model, task->seal, pressure);
   problem.cancel = memory->cancelled;
   problem.cancel_data = memory->cancelled_data;
   problem.surface_wanted =

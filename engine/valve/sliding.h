@@ -101,10 +101,6 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
 SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, double speed,
                               SbWarnings *warnings, SbReport *report);
 
-// The fitment problem of a seal by the model's own choice, at a pressure difference (positive on
-// the left).
-void sb_sliding_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure);
-
 // The film problem of a seal in a run: net load, reduced modulus, radius, pressures (thesis
 // sections 5.2 and 7.1; entrainment is half the sliding speed). `model` of the problem is left at
 // its default.

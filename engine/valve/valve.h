@@ -1,11 +1,20 @@
-// What is said of a valve without its model: its seals and chamber, the choices of models, and what
-// documents and drawings hand to a model or take from it. SbModel itself is model.h's.
+// A valve's model, as everybody outside engine/valve has it: a checked set of physical quantities
+// that is compiled from parameters and never changes; its values are read here, another one is
+// derived. What it is made of is model.h's.
 #pragma once
 
+#include "engine/contact/fit.h"
+#include "engine/contact/gland.h"
 #include "engine/mechanism/bodies.h"
 #include "engine/mechanism/drive.h"
 #include "engine/mechanism/outline.h"
+#include "engine/rubber/rubber_time.h"
+#include "engine/valve/limits.h"
 #include "engine/valve/params.h"
+#include "engine/valve/rig.h"
+
+#include <stdatomic.h>
+#include <stddef.h>
 
 typedef struct SbModel SbModel;
 
@@ -116,3 +125,103 @@ typedef enum {
   SB_VIEW_RIG = 1 << 4,
   SB_VIEW_LIFE = 1 << 5
 } SbView;
+
+// Members that lines of params.def declare; those of places that are declared here are left out.
+#define SB_DECLARE_OWN(type, name) type name;
+#define SB_DECLARE_IN(...)
+
+// One ring and what follows from its size and its gland alone. Sizes and modulus are those after
+// storage; the new ring's are in `stored`.
+typedef struct {
+  SbRubberStorage stored; // the new ring and what it went through
+  SbRubberState storage;  // what that made of it
+#define SB_SEAL(id, where, place, ...) SB_DECLARE_##where(double, place)
+#include "engine/valve/params.def"
+  double section_diameter; // d, free [m]
+  double inner_diameter;   // free [m]
+  double modulus;          // E [Pa]
+  double reduced_modulus;  // E' of thesis equation 5.8: 2/E' = sum (1 - nu^2)/E [Pa]
+  double radius;           // R_x = d/2 [m]
+  double squeeze;          // (d - g)/d
+  double stretch_mean;     // of the mean diameter, (D_fitted - D_free)/D_free
+  double stretch_inner;    // of the inner diameter
+  double section_fitted;   // section diameter after stretch, d (1 - nu stretch_mean) [m]
+  double interference;     // section_fitted - g [m]
+  double gland_fill;       // ring volume over groove volume
+} SbSealModel;
+
+// What is large in a model: models share it by reference. Whoever reads a file makes and fills it.
+typedef struct {
+  atomic_uint holders;
+  SbModelSeries measured; // count 0: none
+  SbValveOutlines outlines;
+} SbModelData;
+
+// All zero and held once, or NULL without memory. To be filled before a model is made with it.
+SbModelData *sb_model_data_create(void);
+
+// Lets go of it; with the last holder it goes. From any thread; takes NULL.
+void sb_model_data_release(const SbModelData *data);
+
+// Compiles parameters. On SB_OK *out is owned by the caller and holds `data` (NULL: neither a
+// measured series nor outlines); it has `limits` (NULL: none). Otherwise *out is NULL:
+// SB_ERROR_MEMORY, or SB_ERROR_INPUT, and `problems` (may be NULL) lists every combination that
+// makes no sense: bore smaller than the stem, no room for the ring...
+SbStatus sb_model_create(SbModel **out, const SbParams *params, const SbModelData *data,
+                         const SbLimits *limits, SbProblems *problems);
+
+// Compiles the parameters of `base` with `count` overrides in their place, the last of a parameter
+// counts; series, outlines and limits are the base's. SB_ERROR_RANGE or SB_ERROR_INPUT with a
+// report that names key, value and range; SB_ERROR_MEMORY. As sb_model_create() otherwise.
+SbStatus sb_model_derive(SbModel **out, const SbModel *base, const SbOverride *overrides,
+                         size_t count, SbReport *report);
+
+// The same valve by closed forms and the balance of forces, for a picture of it at rest; NULL
+// without memory.
+SbModel *sb_model_create_resting(const SbModel *base);
+
+// One of its own for somebody who keeps it (another thread, a drawing); NULL without memory.
+SbModel *sb_model_copy(const SbModel *model);
+
+// Takes NULL.
+void sb_model_destroy(SbModel *model);
+
+// Whether two are of the same values and data; NULL is like NULL only.
+bool sb_model_same(const SbModel *a, const SbModel *b);
+
+// The value of a parameter that it was compiled from: SI, or as a whole number, choice or bit mask.
+double sb_model_value(const SbModel *model, SbParamId id);
+int sb_model_number(const SbModel *model, SbParamId id);
+
+// Name of a choice that it was compiled from, into `name` of `size` bytes.
+void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t size);
+
+// Whether it is the sliding plate in place of a valve (NULL: no).
+bool sb_model_is_rig(const SbModel *model);
+
+// What follows from the parameters; borrowed.
+const SbSealModel *sb_model_seal(const SbModel *model, int seal);
+const SbValveShape *sb_model_shape(const SbModel *model);
+const SbValveParts *sb_model_parts(const SbModel *model);
+const SbRig *sb_model_rig(const SbModel *model);
+const SbSectionLook *sb_model_look(const SbModel *model);
+double sb_model_pressure_force(const SbModel *model); // p pi D_p^2/4, pushes the stem out [N]
+double sb_model_sigma(const SbModel *model);          // of the first actuation's surface [m]
+int sb_model_shown_actuation(const SbModel *model);   // of a life, from 1
+
+// The measured series and the parts' outlines; NULL: none. Borrowed.
+const SbModelSeries *sb_model_measured(const SbModel *model);
+const SbValveOutlines *sb_model_outlines(const SbModel *model);
+
+// Geometry that is possible and hardly meant, with the key to change and the range that would do.
+void sb_model_remarks(const SbModel *model, SbProblems *out);
+
+// Adds what the storage of the rings has to say about its validity.
+void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings);
+
+// The gland of a seal with its tolerances, for sb_gland_readouts: sizes as stored.
+void sb_model_gland(SbGland *out, const SbModel *model, int seal);
+
+// The fitment problem of a seal by the model's own choice, at a pressure difference (positive on
+// the left).
+void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure);

@@ -59,8 +59,7 @@ void synthetic_init(Synthetic *out, size_t frames, double scale) {
   memset(out, 0, sizeof *out);
   SbParams params;
   sb_params_init(&params);
-  SbProblems problems;
-  g_assert_cmpint(sb_model_compile(&out->model, &params, &problems), ==, SB_OK);
+  g_assert_cmpint(sb_model_create(&out->model, &params, NULL, NULL, NULL), ==, SB_OK);
   make_profile(out, SB_OUTER);
   make_profile(out, SB_INNER);
 
@@ -153,7 +152,7 @@ void synthetic_init(Synthetic *out, size_t frames, double scale) {
     }
   }
   out->count = n;
-  out->trace = sb_trace_create(&out->model);
+  out->trace = sb_trace_create(out->model);
   sb_trace_extend(out->trace, out->frames, n, 0);
 
   SbSummary *s = &out->summary;
@@ -184,6 +183,7 @@ void synthetic_init(Synthetic *out, size_t frames, double scale) {
 
 void synthetic_clear(Synthetic *run) {
   g_free(run->frames);
+  sb_model_destroy(run->model);
   sb_trace_destroy(run->trace);
 }
 
@@ -195,7 +195,7 @@ void synthetic_data(SbChartData *out, const Synthetic *run, double time) {
                           .frames = run->frames,
                           .count = run->count,
                           .trace = run->trace,
-                          .model = &run->model,
+                          .model = run->model,
                           .summary = &run->summary,
                           .profile = profile,
                           .source = run};

@@ -5,7 +5,7 @@
 #include "app/chart/data.h"
 
 typedef struct {
-  SbModel model;
+  SbModel *model;
   SbSummary summary;
   SbFrame *frames;
   size_t count;

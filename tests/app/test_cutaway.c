@@ -211,8 +211,8 @@ static void test_order(void) {
 static void test_steady(void) {
   SbParams params;
   sb_params_init(&params);
-  SbModel *model = g_new(SbModel, 1);
-  g_assert_cmpint(sb_model_compile(model, &params, NULL), ==, SB_OK);
+  SbModel *model = NULL;
+  g_assert_cmpint(sb_model_create(&model, &params, NULL, NULL, NULL), ==, SB_OK);
   SbSectionLimits limits = {.inner_contact_left = -0.3e-3, .pressure_max = 1.2e6};
   SbSection *section = sb_section_create(model, &limits);
   SbDrawList list;
@@ -227,7 +227,7 @@ static void test_steady(void) {
   enum { TURN = 60, PICTURES = 4 * TURN };
   for (int i = 0; i < PICTURES; i++) {
     double phase = 2 * G_PI * i / TURN;
-    frame.displacement = 0.5 * model->stroke * (1 - cos(phase));
+    frame.displacement = 0.5 * sb_model_value(model, SB_P_DRIVE_STROKE) * (1 - cos(phase));
     SbSectionView view = {.width = 1216,
                           .height = 568,
                           .margin = 20,
@@ -248,7 +248,7 @@ static void test_steady(void) {
   }
   sb_draw_list_finish(&list);
   sb_section_destroy(section);
-  g_free(model);
+  sb_model_destroy(model);
 }
 
 int main(int argc, char **argv) {

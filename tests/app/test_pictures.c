@@ -137,7 +137,7 @@ static void test_states(void) {
   synthetic_data(&done, &run, 7.27);
   cairo_surface_t *finished = draw_view(draw_dashboard, &done, 1600, 900, 1, false, 0);
 
-  SbTrace *half_trace = sb_trace_create(&run.model);
+  SbTrace *half_trace = sb_trace_create(run.model);
   size_t half = 3 * run.count / 5;
   sb_trace_extend(half_trace, run.frames, half, 0);
   SbChartRun half_run = done.run;
@@ -152,7 +152,7 @@ static void test_states(void) {
     switch (state) {
     case 0:
       name = "state-empty";
-      data.run = (SbChartRun){.state = SB_CHART_EMPTY, .model = &run.model};
+      data.run = (SbChartRun){.state = SB_CHART_EMPTY, .model = run.model};
       break;
     case 1:
       name = "state-running";
@@ -289,7 +289,7 @@ static void test_hostile(void) {
                                 .count = COUNT,
                                 .trace = trace,
                                 .summary = &run.summary,
-                                .model = turn % 2 ? &run.model : NULL},
+                                .model = turn % 2 ? run.model : NULL},
                         .playhead = (size_t)turn};
     cairo_surface_t *shown = draw_view(draw_dashboard, &data, 700, 500, 1, turn % 2, 0);
     g_assert_cmpint(cairo_surface_status(shown), ==, CAIRO_STATUS_SUCCESS);

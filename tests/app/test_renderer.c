@@ -18,7 +18,7 @@ enum { AROUND = 40, RINGS = 5, NODES = 1 + AROUND * RINGS, TRIANGLES = AROUND * 
 
 // An instant made by hand, so that the golden pictures depend on the drawing alone.
 typedef struct {
-  SbModel model;
+  SbModel *model;
   SbFrame frame;
   double x[SB_SEAL_COUNT][SAMPLES], pressure[SB_SEAL_COUNT][SAMPLES];
   double film[SB_SEAL_COUNT][SAMPLES], asperities[SB_SEAL_COUNT][SAMPLES];
@@ -56,7 +56,8 @@ static void set_seal(Scene *scene, int i, double half, double peak, double left,
 static void make_scene(Scene *scene, double displacement, double half) {
   SbParams params;
   sb_params_init(&params);
-  g_assert_cmpint(sb_model_compile(&scene->model, &params, NULL), ==, SB_OK);
+  sb_model_destroy(scene->model); // of the scene before
+  g_assert_cmpint(sb_model_create(&scene->model, &params, NULL, NULL, NULL), ==, SB_OK);
   bool open = displacement > 4.1e-3;
   scene->frame = (SbFrame){.time = displacement / 3.333e-4,
                            .displacement = displacement,
@@ -71,7 +72,7 @@ static void make_scene(Scene *scene, double displacement, double half) {
 
 // An ellipse that fills the radial space, its fields smooth in the place.
 static void make_shape(Scene *scene, double half_width) {
-  double half_height = scene->model.radial_space / 2;
+  double half_height = sb_model_value(scene->model, SB_P_GLAND_RADIAL_SPACE) / 2;
   for (int i = 0; i < NODES; i++) {
     double r = i == 0 ? 0 : (double)((i - 1) / AROUND + 1) / RINGS;
     double angle = i == 0 ? 0 : 2 * G_PI * ((i - 1) % AROUND) / AROUND;
@@ -138,7 +139,7 @@ static void draw_list_as(SbDrawList *list, const Scene *scene, const Golden *how
   if (how->solved) {
     sb_section_limits_add_shape(&limits, &scene->shape);
   }
-  SbSection *section = sb_section_create(&scene->model, &limits);
+  SbSection *section = sb_section_create(scene->model, &limits);
   SbSectionView view = {.width = WIDTH,
                         .height = HEIGHT,
                         .margin = 20,

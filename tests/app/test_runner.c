@@ -2,18 +2,20 @@
 // lost or freed too early. Runs under the thread sanitizer in ./check.
 #include "app/run/runner.h"
 
+#include "app/document/document.h"
+
 #include "tests/sanitized.h"
 
 #include <glib.h>
 #include <math.h>
 #include <stdatomic.h>
 
-static SbModel model_with(int frames) {
+static SbModel *model_with(int frames) {
   SbParams params;
   sb_params_init(&params);
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_FRAMES, frames, NULL), ==, SB_OK);
-  SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  SbModel *model = NULL;
+  g_assert_cmpint(sb_model_create(&model, &params, NULL, NULL, NULL), ==, SB_OK);
   return model;
 }
 
@@ -33,8 +35,8 @@ static void test_one(void) {
   atomic_uint notes = 0;
   SbRunner *runner = sb_runner_create(count, &notes);
   g_assert_null(sb_runner_latest(runner));
-  SbModel model = model_with(400);
-  unsigned ticket = sb_runner_submit(runner, &model);
+  g_autoptr(SbModel) model = model_with(400);
+  unsigned ticket = sb_runner_submit(runner, model, SB_VIEW_HYSTERESIS);
   wait_idle(runner);
   SbRunHandle *handle = sb_runner_latest(runner);
   g_assert_cmpuint(sb_run_handle_ticket(handle), ==, ticket);
@@ -52,8 +54,8 @@ static void test_one(void) {
 
 // Frames are published while the run goes on, and each is complete when seen.
 static int growing_looks(SbRunner *runner) {
-  SbModel model = model_with(100000);
-  unsigned ticket = sb_runner_submit(runner, &model);
+  g_autoptr(SbModel) model = model_with(100000);
+  unsigned ticket = sb_runner_submit(runner, model, SB_VIEW_HYSTERESIS);
   size_t seen = 0;
   int looks = 0;
   while (sb_runner_is_busy(runner)) {
@@ -88,8 +90,8 @@ static void test_growing(void) {
 
 // Cancels a long run in its middle; how long that took [us], or -1 if the run was done before.
 static gint64 cancel_one(SbRunner *runner) {
-  SbModel model = model_with(500000);
-  unsigned ticket = sb_runner_submit(runner, &model);
+  g_autoptr(SbModel) model = model_with(500000);
+  unsigned ticket = sb_runner_submit(runner, model, SB_VIEW_HYSTERESIS);
   SbRunHandle *handle = NULL;
   while (handle == NULL || sb_run_handle_ticket(handle) != ticket) {
     sb_run_handle_unref(handle);
@@ -132,8 +134,8 @@ static void test_cancel(void) {
   g_assert_cmpint(least, <, SB_SANITIZED ? 20 * wanted : 2 * wanted);
   // A cancel of nothing does not hit the next request.
   sb_runner_cancel(runner);
-  SbModel model = model_with(100);
-  sb_runner_submit(runner, &model);
+  g_autoptr(SbModel) model = model_with(100);
+  sb_runner_submit(runner, model, SB_VIEW_HYSTERESIS);
   wait_idle(runner);
   SbRunHandle *handle = sb_runner_latest(runner);
   g_assert_cmpint(sb_run_handle_status(handle), ==, SB_OK);
@@ -145,24 +147,25 @@ static void test_cancel(void) {
 static void test_newest_wins(void) {
   atomic_uint notes = 0;
   SbRunner *runner = sb_runner_create(count, &notes);
-  SbModel long_model = model_with(300000);
+  g_autoptr(SbModel) long_model = model_with(300000);
   unsigned ticket = 0;
   for (int i = 0; i < 200; i++) {
-    ticket = sb_runner_submit(runner, &long_model);
+    ticket = sb_runner_submit(runner, long_model, SB_VIEW_HYSTERESIS);
     if (i % 20 == 0) {
       g_usleep(2000);
     }
   }
-  SbModel model = model_with(123);
-  ticket = sb_runner_submit(runner, &model);
+  g_autoptr(SbModel) model = model_with(123);
+  ticket = sb_runner_submit(runner, model, SB_VIEW_HYSTERESIS);
   wait_idle(runner);
   SbRunHandle *handle = sb_runner_latest(runner);
   g_assert_cmpuint(sb_run_handle_ticket(handle), ==, ticket);
-  g_assert_cmpint(sb_run_model(sb_run_handle_run(handle))->frames, ==, 123);
+  g_assert_cmpint(sb_model_number(sb_run_model(sb_run_handle_run(handle)), SB_P_OUTPUT_FRAMES), ==,
+                  123);
   g_assert_cmpint(sb_run_handle_status(handle), ==, SB_OK);
   sb_run_handle_unref(handle);
   // Destroyed in the middle of a run.
-  sb_runner_submit(runner, &long_model);
+  sb_runner_submit(runner, long_model, SB_VIEW_HYSTERESIS);
   sb_runner_destroy(runner);
 }
 

@@ -16,26 +16,29 @@ static SbRun *run_scene(const char *path, int frames_factor, unsigned views) {
   g_autoptr(SbDocument) document = sb_document_load(path, issues);
   g_assert_cmpuint(issues->len, ==, 0);
   g_assert_nonnull(document);
-  SbModel model;
-  g_assert_true(sb_document_compile(document, &model, issues));
-  model.frames *= frames_factor;
-  if (views != 0) {
-    model.views = views;
-  }
-  return executed_run(&model);
+  g_autoptr(SbModel) scene = NULL, model = NULL;
+  g_assert_true(sb_document_compile(document, &scene, issues));
+  const SbOverride change[] = {
+      {SB_P_OUTPUT_FRAMES, frames_factor * sb_model_number(scene, SB_P_OUTPUT_FRAMES)},
+      {SB_P_OUTPUT_VIEWS, views},
+  };
+  g_assert_cmpint(sb_model_derive(&model, scene, change, views != 0 ? 2 : 1, NULL), ==, SB_OK);
+  return executed_run(model);
 }
 
 // A scene with inertia at another tolerance of its steps; NULL for others.
 static SbRun *run_tolerance(const char *path, double tolerance) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(SbDocument) document = sb_document_load(path, issues);
-  SbModel model;
-  g_assert_true(sb_document_compile(document, &model, issues));
-  if (model.motion != SB_MODEL_MOTION_DYNAMIC && model.motion != SB_MODEL_MOTION_BODIES) {
+  g_autoptr(SbModel) scene = NULL, model = NULL;
+  g_assert_true(sb_document_compile(document, &scene, issues));
+  int motion = sb_model_number(scene, SB_P_MODELS_MOTION);
+  if (motion != SB_MODEL_MOTION_DYNAMIC && motion != SB_MODEL_MOTION_BODIES) {
     return NULL;
   }
-  model.motion_tolerance = tolerance;
-  return executed_run(&model);
+  const SbOverride change = {SB_P_OUTPUT_MOTION_TOLERANCE, tolerance};
+  g_assert_cmpint(sb_model_derive(&model, scene, &change, 1, NULL), ==, SB_OK);
+  return executed_run(model);
 }
 
 // At least one actuation: the stem leaves its rest and the machine or hand turns it; or one pull.
@@ -43,7 +46,7 @@ static void actuates(const SbRun *run) {
   const SbSummary *summary = sb_run_summary(run);
   g_assert_true(summary->stage[SB_STAGE_B].reached);
   // The rig has no stop: its one actuation is the pull.
-  if (sb_run_model(run)->motion == SB_MODEL_MOTION_RIG) {
+  if (sb_model_is_rig(sb_run_model(run))) {
     g_assert_true(summary->rig.found);
     g_assert_cmpuint(summary->rig.of.peaks, >, 10);
   } else {
@@ -82,7 +85,7 @@ static void runs(const char *path) {
     g_assert_cmpfloat(fabs(x->force_peak / y->force_peak - 1), <, 1e-3);
     g_assert_cmpfloat(fabs(x->force_breakaway / y->force_breakaway - 1), <, 1e-3);
     g_assert_cmpfloat(fabs(x->energy.loop / y->energy.loop - 1), <, 1e-3);
-    if (sb_run_model(a)->motion == SB_MODEL_MOTION_RIG) {
+    if (sb_model_is_rig(sb_run_model(a))) {
       g_assert_true(isnan(x->force_return_min));
     } else {
       g_assert_cmpfloat(fabs(x->force_return_min - y->force_return_min), <, 1e-3 * 14.5);

@@ -76,8 +76,8 @@ static void test_followed(void) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(SbDocument) document = sb_document_load(path, issues);
   g_assert_cmpuint(issues->len, ==, 0);
-  g_autofree SbModel *model = g_new(SbModel, 1);
-  g_assert_true(sb_document_compile(document, model, issues));
+  g_autoptr(SbModel) model = NULL;
+  g_assert_true(sb_document_compile(document, &model, issues));
   g_assert_true(sb_series_read(&series, csv, issues));
   SbRun *run = executed_run(model);
   size_t count, row = 0;
@@ -105,11 +105,11 @@ static void test_outlives(void) {
       g_build_filename(g_getenv("SEALBENCH_ASSETS"), "scenes", "measured-drive.scene", NULL);
   g_autoptr(GPtrArray) issues = sb_issues_new();
   SbDocument *document = sb_document_load(path, issues);
-  g_autofree SbModel *model = g_new(SbModel, 1);
-  g_assert_true(sb_document_compile(document, model, issues));
+  g_autoptr(SbModel) model = NULL;
+  g_assert_true(sb_document_compile(document, &model, issues));
   SbRun *alone = executed_run(model);
   SbRunner *runner = sb_runner_create(ignore, NULL);
-  sb_runner_submit(runner, model);
+  sb_runner_submit(runner, model, SB_VIEW_HYSTERESIS);
   sb_document_free(document);
   while (sb_runner_is_busy(runner)) {
     g_usleep(1000);

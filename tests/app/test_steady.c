@@ -35,9 +35,11 @@ static SbRun *compute(void) {
   sb_params_init(&params);
   SbReport report = {0};
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_VIEWS, SB_VIEW_SECTION, &report), ==, SB_OK);
-  SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
-  return executed_run(&model);
+  SbModel *model = NULL;
+  g_assert_cmpint(sb_model_create(&model, &params, NULL, NULL, NULL), ==, SB_OK);
+  SbRun *run = executed_run(model);
+  sb_model_destroy(model);
+  return run;
 }
 
 static void test_section(void) {

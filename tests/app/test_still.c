@@ -4,6 +4,7 @@
 #include "app/export/render.h"
 #include "app/export/still.h"
 #include "tests/app/picture.h"
+#include "tests/executed.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -23,16 +24,12 @@ static char *folder;
 static SbRun *compute(void) {
   SbParams params;
   sb_params_init(&params);
-  SbModel model;
-  SbProblems problems;
-  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_OK);
-  model.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES;
-  SbPlan plan;
-  sb_plan_make(&plan, &model);
-  SbRun *out = NULL;
-  SbReport report;
-  g_assert_cmpint(sb_run_create(&out, &model, &plan, &report), ==, SB_OK);
-  g_assert_cmpint(sb_run_execute(out, NULL, &report), ==, SB_OK);
+  SbModel *model = NULL;
+  unsigned views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES;
+  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_VIEWS, views, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_create(&model, &params, NULL, NULL, NULL), ==, SB_OK);
+  SbRun *out = executed_run(model);
+  sb_model_destroy(model);
   return out;
 }
 

@@ -35,7 +35,7 @@ static void test_second_cycle(void) {
     frames[i] = run.frames[i % run.count];
     frames[i].time += i < run.count ? 0 : run.frames[run.count - 1].time;
   }
-  SbTrace *trace = sb_trace_create(&run.model);
+  SbTrace *trace = sb_trace_create(run.model);
   sb_trace_extend(trace, frames, count, 0);
   const SbTraceEvent *event = sb_trace_events(trace, &events);
   g_assert_cmpuint(events, ==, 2 * SB_STAGE_COUNT);
@@ -50,10 +50,13 @@ static void test_second_cycle(void) {
   g_assert_cmpuint(sb_trace_stage_end(trace, SB_STAGE_F, 0, count), ==,
                    sb_trace_mark(trace, SB_STAGE_A, 1)->frame);
   g_assert_cmpint(sb_trace_event_of(trace, frames, second->frame + 1), ==, SB_STAGE_COUNT + 2);
-  SbModel life = {.life_actuations = 400, .life_shown = 400, .cycles = 1};
-  SbChartRun shown = {.model = &life};
+  SbModel *life = NULL;
+  const SbOverride lives = {SB_P_LIFE_ACTUATIONS, 400};
+  g_assert_cmpint(sb_model_derive(&life, run.model, &lives, 1, NULL), ==, SB_OK);
+  SbChartRun shown = {.model = life};
   char name[SB_FORMAT_MAX];
   g_assert_cmpstr(sb_chart_cycle_name(name, &shown, 1), ==, "actuation 400");
+  sb_model_destroy(life);
   sb_trace_destroy(trace);
   g_free(frames);
   synthetic_clear(&run);
@@ -84,7 +87,7 @@ static void test_faithful(void) {
   g_test_message("%zu points of %zu frames, furthest %.2g of the range", n, run.count, worst);
   g_assert_cmpfloat(worst, <, 4.0 / 4000);
 
-  SbTrace *pieces = sb_trace_create(&run.model);
+  SbTrace *pieces = sb_trace_create(run.model);
   size_t turns = 0;
   while (sb_trace_extend(pieces, run.frames, run.count, 777)) {
     turns++;

@@ -44,15 +44,15 @@ static int nulls(const SbSummary *summary) {
 
 int main(void) {
   static char line[8192];
-  static SbModel model;
   while (fgets(line, sizeof line, stdin) != NULL) {
     SbParams params;
     SbProblems problems;
+    SbModel *model;
     if (!set_all(&params, line)) {
       fflush(stdout);
       continue;
     }
-    if (sb_model_compile(&model, &params, &problems) != SB_OK) {
+    if (sb_model_create(&model, &params, NULL, NULL, &problems) != SB_OK) {
       printf("refused %s: %s\n", problems.item[0].key, problems.item[0].text);
       fflush(stdout);
       continue;
@@ -60,8 +60,8 @@ int main(void) {
     SbPlan plan;
     SbRun *run;
     SbReport report = {0};
-    sb_plan_make(&plan, &model);
-    SbStatus status = sb_run_create(&run, &model, &plan, &report);
+    sb_plan_make(&plan, model);
+    SbStatus status = sb_run_create(&run, model, &plan, &report);
     if (status == SB_OK) {
       status = sb_run_execute(run, NULL, &report);
       const SbSummary *summary = sb_run_summary(run);
@@ -70,6 +70,7 @@ int main(void) {
     }
     fflush(stdout);
     sb_run_destroy(run);
+    sb_model_destroy(model);
   }
   return 0;
 }

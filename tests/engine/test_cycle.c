@@ -1,6 +1,7 @@
 // The cycle A to F against a hand calculation from the printed equations, and on its hard cases.
 #include "engine/film/stroke.h"
 #include "engine/valve/cost.h"
+#include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"
 
 #include <glib.h>

@@ -3,6 +3,7 @@
 // step (counted by a malloc of our own), the section's shear turning over at the reversals.
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
+#include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
 #include "engine/valve/sealbench.h"
 #include "tests/sanitized.h"

@@ -1,5 +1,6 @@
 // Figures: each has a value or a reason, an open seal is told, and the verdict follows the limits.
 #include "engine/contact/fit.h"
+#include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"
 
 #include <glib.h>

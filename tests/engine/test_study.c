@@ -2,6 +2,7 @@
 // cancel.
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
+#include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"
 #include "engine/valve/studies/study.h"
 

@@ -2,6 +2,7 @@
 // where it is kept. The fitment models' warnings are tested the same way in
 // test_elastic_closed_forms.c.
 #include "engine/film/film.h"
+#include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"
 
 #include <glib.h>

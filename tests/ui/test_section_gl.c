@@ -17,14 +17,14 @@ static void fill(SbDrawList *list, bool dark) {
   SbReport report = {0};
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_VIEWS, SB_VIEW_SECTION, &report), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_FRAMES, 20, &report), ==, SB_OK);
-  SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
-  SbRun *run = executed_run(&model);
+  SbModel *model = NULL;
+  g_assert_cmpint(sb_model_create(&model, &params, NULL, NULL, NULL), ==, SB_OK);
+  SbRun *run = executed_run(model);
   size_t count;
   const SbFrame *frames = sb_run_frames(run, &count);
   SbSectionLimits limits;
   sb_section_limits_of_frames(&limits, frames, count);
-  SbSection *section = sb_section_create(&model, &limits);
+  SbSection *section = sb_section_create(model, &limits);
   SbSectionView view = {.width = WIDTH, .height = HEIGHT, .margin = 8, .dark = dark};
   SbSectionInstant instant = {.frame = &frames[count / 4]};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
@@ -33,6 +33,7 @@ static void fill(SbDrawList *list, bool dark) {
   sb_section_draw(section, list, &view, &instant);
   sb_section_destroy(section);
   sb_run_destroy(run);
+  sb_model_destroy(model);
 }
 
 static cairo_surface_t *headless(const SbDrawList *list) {

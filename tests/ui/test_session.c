@@ -83,7 +83,7 @@ static void test_fast_edits(void) {
   g_assert_true(sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, "1.63 mm"));
   g_assert_cmpint(sb_session_error_count(session), ==, 0);
   settle(session);
-  double shown = sb_run_model(sb_session_run(session))->seal[SB_OUTER].section_diameter;
+  double shown = sb_model_seal(sb_run_model(sb_session_run(session)), SB_OUTER)->section_diameter;
   g_assert_cmpfloat(fabs(shown - 1.63e-3), <, 1e-12);
 }
 

@@ -198,7 +198,7 @@ static void refresh(Panel *panel) {
   const SbSummary *summary = shown->state == SB_CHART_DONE ? shown->summary : NULL;
   g_autofree char *former = sb_session_former_text(panel->session);
   // A plate on its rings has no glands, return or doses.
-  gtk_widget_set_visible(panel->grid, model == NULL || model->motion != SB_MODEL_MOTION_RIG);
+  gtk_widget_set_visible(panel->grid, !sb_model_is_rig(model));
   sb_figures_clear(&panel->model);
   if (model != NULL) {
     sb_figures_of_model(&panel->model, model);

@@ -137,7 +137,7 @@ static void refresh(Panel *panel) {
   SbGlandReadout all[SB_SEAL_COUNT][SB_GLAND_COUNT];
   gboolean swollen = FALSE;
   // The rings of the sliding-plate rig lie in no gland.
-  gtk_widget_set_visible(panel->expander, model == NULL || model->motion != SB_MODEL_MOTION_RIG);
+  gtk_widget_set_visible(panel->expander, !sb_model_is_rig(model));
   for (int seal = 0; model != NULL && seal < SB_SEAL_COUNT; seal++) {
     SbGland gland;
     sb_model_gland(&gland, model, seal);

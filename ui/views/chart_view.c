@@ -44,12 +44,12 @@ static const SbModel *model_of(SbSession *session) {
 
 static gboolean applies(const View *view) {
   const SbModel *model = model_of(view->session);
-  gboolean rig = model != NULL && model->motion == SB_MODEL_MOTION_RIG;
+  gboolean rig = sb_model_is_rig(model);
   switch (view->kind) {
   case SB_CHART_VIEW_FILM:
     return !rig;
   case SB_CHART_VIEW_LIFE:
-    return !rig && model != NULL && model->life_actuations > 1;
+    return !rig && model != NULL && sb_model_number(model, SB_P_LIFE_ACTUATIONS) > 1;
   case SB_CHART_VIEW_REASONS:
     return rig;
   default:

@@ -20,14 +20,10 @@ struct SbSectionSource {
 
 // Whatever the models of the scene are, closed forms do for a picture at rest.
 static SbRun *make_rest(const SbModel *model) {
-  g_autofree SbModel *quick = g_memdup2(model, sizeof *model);
-  quick->fit = 0;
-  quick->film = SB_FILM_THESIS;
-  quick->motion = SB_MODEL_MOTION_QUASI_STATIC;
-  quick->frames = 2;
-  quick->views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION;
+  g_autoptr(SbModel) quick = sb_model_create_resting(model);
+  const SbPlanWishes wishes = {.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION};
   SbPlan plan;
-  sb_plan_make(&plan, quick);
+  sb_plan_wished(&plan, quick, &wishes);
   SbRun *run = NULL;
   SbReport report = {0};
   if (sb_run_create(&run, quick, &plan, &report) != SB_OK) {

@@ -162,7 +162,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   double height = area_height;
   gboolean ran = sb_session_run(view->session) != NULL;
   SbRect picture = picture_rect(view, area_width, area_height);
-  const SbSectionLook *look = &sb_run_model(now.run)->look;
+  const SbSectionLook *look = sb_model_look(sb_run_model(now.run));
   int inset = gtk_combo_box_get_active(GTK_COMBO_BOX(view->inset_combo)); // as output.insets
   gboolean cutaway = is_cutaway(view);
   double enlarged = cutaway ? 1 : view->zoom;
@@ -256,7 +256,7 @@ static void follow_look(View *view) {
   if (model == NULL) {
     return;
   }
-  const SbSectionLook *look = &model->look;
+  const SbSectionLook *look = sb_model_look(model);
   SbSectionLook before = view->look;
   view->look = *look;
   if (look->field != before.field || look->insets != before.insets) {
@@ -286,7 +286,7 @@ static void show_state(View *view) {
   gboolean solved = run != NULL && sb_run_plan(run)->section_fields;
   // The rig's picture has neither fields nor insets, and its forces and names always.
   const SbModel *model = sb_session_model(view->session);
-  gboolean rig = model != NULL && model->motion == SB_MODEL_MOTION_RIG;
+  gboolean rig = sb_model_is_rig(model);
   gtk_label_set_text(GTK_LABEL(view->heading), rig ? _("Rig") : _("Section"));
   gtk_widget_set_visible(view->inset_combo, !rig);
   gtk_widget_set_visible(view->toggles, !rig);

@@ -20,12 +20,6 @@ static void set_text(GtkWidget *label, const char *text) {
   }
 }
 
-static char *choice_name(SbParamId id, int index) {
-  char name[64];
-  sb_param_choice_name(sb_param(id), index, name, sizeof name);
-  return g_strdup(name);
-}
-
 static void append_error(GString *text, const char *name, double error) {
   if (isfinite(error) && error > 0 && error < 1e-5) {
     g_string_append_printf(text, _("%s%s below 0.001 %%"), text->len > 0 ? ", " : "", name);
@@ -42,13 +36,15 @@ static void refresh_models(Bar *bar) {
   if (model == NULL) {
     return;
   }
-  g_autofree char *motion = choice_name(SB_P_MODELS_MOTION, (int)model->motion);
-  g_autofree char *text =
-      model->motion == SB_MODEL_MOTION_RIG
-          ? g_strdup_printf(_("motion %s"), motion)
-          : g_strdup_printf(_("fit %s, film %s, surface %s, motion %s"),
-                            sb_fit_model_name(model->fit), sb_film_model_name(model->film),
-                            sb_rough_model_name(model->surface), motion);
+  char fit[32], film[32], surface[32], motion[32];
+  sb_model_choice_name(model, SB_P_MODELS_FIT, fit, sizeof fit);
+  sb_model_choice_name(model, SB_P_MODELS_FILM, film, sizeof film);
+  sb_model_choice_name(model, SB_P_MODELS_SURFACE, surface, sizeof surface);
+  sb_model_choice_name(model, SB_P_MODELS_MOTION, motion, sizeof motion);
+  g_autofree char *text = sb_model_is_rig(model)
+                              ? g_strdup_printf(_("motion %s"), motion)
+                              : g_strdup_printf(_("fit %s, film %s, surface %s, motion %s"), fit,
+                                                film, surface, motion);
   if (run == NULL && sb_session_state(bar->session) == SB_SESSION_RUNNING) {
     g_autofree char *computed = g_steal_pointer(&text);
     text = g_strdup_printf(_("being computed: %s"), computed);

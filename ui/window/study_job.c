@@ -7,7 +7,7 @@
 struct SbStudyJob {
   SbWorker worker;
   SbStudyKind kind;
-  SbModel model;
+  SbModel *model;
   SbStudy *study; // the thread's until it has ended
   SbStatus status;
   SbReport report;
@@ -26,14 +26,14 @@ static bool is_cancelled(void *data) {
 static void work(void *owner) {
   SbStudyJob *job = owner;
   SbStudyHooks hooks = {on_progress, is_cancelled, job};
-  job->status = sb_study_make(job->study, job->kind, &job->model, &hooks, &job->report);
+  job->status = sb_study_make(job->study, job->kind, job->model, &hooks, &job->report);
 }
 
 SbStudyJob *sb_study_job_start(SbStudyKind kind, const SbModel *model, void (*done)(void *data),
                                void *data) {
   SbStudyJob *job = g_new0(SbStudyJob, 1);
   job->kind = kind;
-  sb_model_keep(&job->model, model);
+  job->model = sb_model_copy(model);
   job->study = g_new(SbStudy, 1);
   sb_worker_start(&job->worker, "study", work, job, done, data);
   return job;
@@ -61,6 +61,6 @@ void sb_study_job_free(SbStudyJob *job) {
   }
   sb_worker_finish(&job->worker);
   g_free(job->study);
-  sb_model_clear(&job->model);
+  sb_model_destroy(job->model);
   g_free(job);
 }

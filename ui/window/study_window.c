@@ -22,10 +22,10 @@ typedef struct {
   SbStudyJob *job;
   guint poll, later; // sources, 0 if none
   SbStudyKind asked; // what the job computes
-  SbModel asked_model;
+  SbModel *asked_model;
   char *asked_hash, *asked_scene;
   SbStudy *study; // shown; NULL until the first is done
-  SbModel model;  // it belongs to this
+  SbModel *model; // it belongs to this
   char *hash, *scene;
 } Studies;
 
@@ -44,7 +44,7 @@ static gboolean is_stale(Studies *studies) {
 static const char *const STALE = "of earlier values";
 
 static SbStudyPage make_page(Studies *studies, gboolean stale) {
-  return (SbStudyPage){.model = &studies->model,
+  return (SbStudyPage){.model = studies->model,
                        .title = sb_document_title(sb_session_document(studies->session)),
                        .hash = studies->hash,
                        .scene = studies->scene,
@@ -154,7 +154,8 @@ static void on_done(void *data) {
     g_free(studies->hash);
     g_free(studies->scene);
     studies->study = study;
-    sb_model_keep(&studies->model, &studies->asked_model);
+    sb_model_destroy(studies->model);
+    studies->model = g_steal_pointer(&studies->asked_model);
     studies->hash = g_steal_pointer(&studies->asked_hash);
     studies->scene = g_steal_pointer(&studies->asked_scene);
     judge(studies);
@@ -174,7 +175,8 @@ static void compute(Studies *studies) {
   }
   const SbDocument *document = sb_session_document(studies->session);
   studies->asked = chosen(studies);
-  sb_model_keep(&studies->asked_model, model);
+  sb_model_destroy(studies->asked_model);
+  studies->asked_model = sb_model_copy(model);
   g_free(studies->asked_hash);
   g_free(studies->asked_scene);
   studies->asked_hash = sb_document_sha256(document);
@@ -273,8 +275,8 @@ static void on_destroy(GtkWidget *widget, Studies *studies) {
   g_free(studies->study);
   g_free(studies->hash);
   g_free(studies->scene);
-  sb_model_clear(&studies->model);
-  sb_model_clear(&studies->asked_model);
+  sb_model_destroy(studies->model);
+  sb_model_destroy(studies->asked_model);
   g_free(studies);
 }
 
@@ -282,7 +284,7 @@ static void on_destroy(GtkWidget *widget, Studies *studies) {
 static int first_kind(SbSession *session) {
   const SbModel *model = sb_session_model(session);
   for (int i = 0; model != NULL && i < SB_STUDY_COUNT; i++) {
-    if ((model->studies & (1u << i)) != 0) {
+    if (((unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES) & (1u << i)) != 0) {
       return i;
     }
   }

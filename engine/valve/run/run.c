@@ -15,12 +15,12 @@
 #include <string.h>
 
 // Frames of one actuation, or two if a life shows a second one; or the rig's samples.
-static size_t frames_at_most(const SbModel *model) {
+static size_t frames_at_most(const SbModel *model, const SbPlan *plan) {
   if (model->motion == SB_MODEL_MOTION_RIG) {
     return sb_rig_samples(&model->rig);
   }
   size_t one = (size_t)model->frames + SB_RUN_EVENT_FRAMES + 2 * (size_t)model->cycles;
-  return model->life_actuations > 1 && model->life_shown > 1 ? 2 * one : one;
+  return plan->life && model->life_shown > 1 ? 2 * one : one;
 }
 
 SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, SbReport *report) {
@@ -63,7 +63,7 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
   SbSlidingMemory *memory[SB_SEAL_COUNT];
   memcpy(memory, run->memory, sizeof memory);
   SbFrame *frames = run->frames;
-  size_t capacity = frames_at_most(model);
+  size_t capacity = frames_at_most(model, plan);
   if (capacity > run->room) {
     free(frames);
     // Left untouched until used: a run that is cancelled early never pays for the rest.
@@ -82,9 +82,8 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
   run->frames = frames;
   run->capacity = capacity;
   run->room = room;
-  bool lives = model->life_actuations > 1;
-  run->life = lives ? calloc((size_t)model->life_actuations, sizeof *run->life) : NULL;
-  if (run->frames == NULL || (lives && run->life == NULL)) {
+  run->life = plan->life ? calloc((size_t)model->life_actuations, sizeof *run->life) : NULL;
+  if (run->frames == NULL || (plan->life && run->life == NULL)) {
     return sb_fail_parameter(report, SB_ERROR_MEMORY, "output.frames", "no memory for %d frames",
                              model->frames);
   }

@@ -152,9 +152,9 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   Lived lived = {.run = run,
                  .hooks = hooks,
                  .first_frames = atomic_load_explicit(&run->published, memory_order_relaxed)};
-  SbModel single = run->model;
-  single.life_actuations = 1;
-  SbStatus status = sb_run_create(&lived.one, &single, &run->plan, report);
+  SbPlan single = run->plan;
+  single.life = false;
+  SbStatus status = sb_run_create(&lived.one, &run->model, &single, report);
   if (status != SB_OK) {
     return status;
   }

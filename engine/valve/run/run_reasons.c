@@ -45,7 +45,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
               life->failure);
   } else if (life->done > 0) {
     sb_reason(summary, "life.*", "the life was not computed beyond actuation %ld", life->done);
-  } else if (model->life_actuations == 1) {
+  } else if (!run->plan.life) {
     sb_reason(summary, "life.*", "life.actuations = 1: there is no life");
   } else if (run->lacks[0] != '\0') {
     sb_reason(summary, "life.*", "%s", run->lacks);
