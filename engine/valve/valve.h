@@ -114,3 +114,10 @@ typedef enum {
   SB_VIEW_RIG = 1 << 4,
   SB_VIEW_LIFE = 1 << 5
 } SbView;
+
+// Counts of what a run computed; added to, never reset.
+typedef struct {
+  size_t fit_solves, disc_solves, ring_solves, reynolds_solves, newton_iterations;
+  size_t film_steps; // of the films' history, all seals
+  size_t field_evaluations, profile_evaluations;
+} SbCounters;
