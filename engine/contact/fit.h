@@ -16,6 +16,7 @@
 
 #include "engine/base/status.h"
 #include "engine/contact/compliance.h"
+#include "engine/contact/ring/ring.h"
 
 typedef enum {
   SB_FIT_KARASZKIEWICZ,
@@ -125,3 +126,7 @@ typedef struct {
 // ring that does not touch is valid: SB_OK, load 0, warning "no-contact". `out` is about 30 kB,
 // owned by the caller, and holds no pointers. `report` may be NULL.
 SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report);
+
+// The free ring and its groove as the ring model takes them (ring.h): the wall of the lower
+// pressure only.
+void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem *problem);

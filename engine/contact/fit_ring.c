@@ -10,26 +10,28 @@
 #include <math.h>
 #include <string.h>
 
-#include "engine/contact/ring/ring.h"
+void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem *in) {
+  *body = (SbRingBody){.section_diameter = in->section_diameter,
+                       .inner_diameter = in->inner_diameter,
+                       .modulus = in->modulus,
+                       .poisson_ratio = in->poisson_ratio,
+                       .mooney_share = in->mooney_share};
+  *load = (SbRingLoad)SB_RING_LOAD_INIT;
+  load->bore_radius = 0.5 * in->bore_diameter;
+  load->floor_radius = load->bore_radius - in->radial_space;
+  if (in->pressure > 0.0) {
+    load->pressure_left = in->pressure;
+    load->wall_right = 0.5 * in->gland_width;
+  } else if (in->pressure < 0.0) {
+    load->pressure_right = -in->pressure;
+    load->wall_left = -0.5 * in->gland_width;
+  }
+}
 
 SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
-  const SbRingBody body = {
-      .section_diameter = in->section_diameter,
-      .inner_diameter = in->inner_diameter,
-      .modulus = in->modulus,
-      .poisson_ratio = in->poisson_ratio,
-      .mooney_share = in->mooney_share,
-  };
-  SbRingLoad load = SB_RING_LOAD_INIT;
-  load.bore_radius = 0.5 * in->bore_diameter;
-  load.floor_radius = load.bore_radius - in->radial_space;
-  if (in->pressure > 0.0) {
-    load.pressure_left = in->pressure;
-    load.wall_right = 0.5 * in->gland_width;
-  } else if (in->pressure < 0.0) {
-    load.pressure_right = -in->pressure;
-    load.wall_left = -0.5 * in->gland_width;
-  }
+  SbRingBody body;
+  SbRingLoad load;
+  sb_fit_ring_problem(&body, &load, in);
   const SbRingOptions options = {.poll = in->cancel, .poll_data = in->cancel_data};
   const double wanted = in->tolerance > 0.0 ? in->tolerance : 1e-3;
   // A film hangs on the root of the pressure at the contact's ends, which scatters with the mesh

@@ -41,7 +41,7 @@ typedef struct {
   SbSealPressure pressure;
   double speed;
   SbSlidingMemory *memory;
-  SbSlidingCounts *counts;
+  SbCounters *counts;
   SbWarnings *warnings;
 } Task;
 
@@ -579,7 +579,7 @@ static SbStatus solve(const Task *task, SbSliding *out, SbReport *report) {
 }
 
 SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                          double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
+                          double speed, SbSlidingMemory *memory, SbCounters *counts,
                           SbWarnings *warnings, SbReport *report) {
   const Task task = {model, seal, pressure, speed, memory, counts, warnings};
   sb_warn_about(warnings, about(seal));
@@ -589,7 +589,7 @@ SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSeal
 }
 
 SbStatus sb_sliding_fitment(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                            SbSlidingMemory *memory, SbSlidingCounts *counts, SbWarnings *warnings,
+                            SbSlidingMemory *memory, SbCounters *counts, SbWarnings *warnings,
                             SbReport *report) {
   const Task task = {model, seal, pressure, 0, memory, counts, warnings};
   bool known;

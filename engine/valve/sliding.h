@@ -68,23 +68,18 @@ const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
 // A state of which nothing is known: all NaN.
 void sb_sliding_clear(SbSliding *out);
 
-// Counts of what was computed; added to, never reset.
-typedef struct {
-  size_t fit_solves, disc_solves, ring_solves, reynolds_solves, newton_iterations;
-} SbSlidingCounts;
-
 // Evaluates `seal` of `model` between `pressure`, sliding at `speed` (> 0: bore moves to +x, the
 // in-stroke; 0: at rest). The fitment is reused from the last call when the pressure has not
 // changed. A ring that does not touch has touches = false. SB_ERROR_NOT_CONVERGED with what was
 // computed, the rest NaN; the report names solver and cause.
 SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                          double speed, SbSlidingMemory *memory, SbSlidingCounts *counts,
+                          double speed, SbSlidingMemory *memory, SbCounters *counts,
                           SbWarnings *warnings, SbReport *report);
 
 // The fitment alone, as sb_sliding_solve() has it: contact, loads and peak; the rest stays NaN, or
 // 0 where the seal does not touch.
 SbStatus sb_sliding_fitment(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                            SbSlidingMemory *memory, SbSlidingCounts *counts, SbWarnings *warnings,
+                            SbSlidingMemory *memory, SbCounters *counts, SbWarnings *warnings,
                             SbReport *report);
 
 // Surface of a fitted body for the film: the ring's own by static condensation (ring.h), with its

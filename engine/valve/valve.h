@@ -225,3 +225,9 @@ void sb_model_gland(SbGland *out, const SbModel *model, int seal);
 // The fitment problem of a seal by the model's own choice, at a pressure difference (positive on
 // the left).
 void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure);
+// Counts of what a run computed; added to, never reset.
+typedef struct {
+  size_t fit_solves, disc_solves, ring_solves, reynolds_solves, newton_iterations;
+  size_t film_steps; // of the films' history, all seals
+  size_t field_evaluations, profile_evaluations;
+} SbCounters;

@@ -200,7 +200,7 @@ static void test_run(void) {
   for (int chamber = 0; chamber < 3; chamber++) {
     const SbSealPressure pressure = sb_model_seal_pressure(&model, SB_OUTER, (SbChamber)chamber);
     SbSliding state;
-    SbSlidingCounts counts = {0};
+    SbCounters counts = {0};
     SbWarnings warnings = {0};
     g_assert_cmpint(sb_sliding_solve(&state, &model, SB_OUTER, pressure, model.speed, memory,
                                      &counts, &warnings, NULL),
@@ -240,7 +240,7 @@ static void solve_ring(SbSliding *out, SbDryContact *dry, double *modulus, doubl
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
   const int seal = chamber == 0 ? SB_OUTER : SB_INNER;
   const SbSealPressure pressure = sb_model_seal_pressure(&model, seal, SB_CHAMBER_AT_REST);
-  SbSlidingCounts counts = {0};
+  SbCounters counts = {0};
   SbWarnings warnings = {0};
   g_assert_cmpint(
       sb_sliding_solve(out, &model, seal, pressure, speed, memory, &counts, &warnings, NULL), ==,

@@ -489,7 +489,7 @@ static void test_sliding(void) {
   g_assert_cmpint(sb_params_set(&params, SB_P_SURFACE_SIGMA, 2e-7, NULL), ==, SB_OK);
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   SbSlidingMemory *memory = NULL;
-  SbSlidingCounts counts = {0};
+  SbCounters counts = {0};
   SbWarnings warnings = {0};
   SbSliding state;
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);

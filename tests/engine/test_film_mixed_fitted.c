@@ -153,7 +153,7 @@ static void run_seal(int fit_model) {
   for (int seal_side = 0; seal_side < SB_SEAL_COUNT; seal_side++) {
     const SbSealPressure pressure = sb_model_seal_pressure(&model, seal_side, SB_CHAMBER_AT_REST);
     SbSliding state;
-    SbSlidingCounts counts = {0};
+    SbCounters counts = {0};
     SbWarnings warnings = {0};
     g_assert_cmpint(sb_sliding_solve(&state, &model, seal_side, pressure, -1e-2, memory, &counts,
                                      &warnings, NULL),

@@ -31,7 +31,7 @@ static void solve(SbFilm *film, const SbModel *model, SbSealPressure pressure, d
                   SbWarnings *warnings) {
   SbSlidingMemory *memory = NULL;
   SbSliding state;
-  SbSlidingCounts counts = {0};
+  SbCounters counts = {0};
   *warnings = (SbWarnings){0};
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
   g_assert_cmpint(

@@ -1,5 +1,4 @@
-// The rig's coefficients, and a life.
-#include "engine/valve/life.h"
+// The coefficients of the sliding-plate rig.
 #include "engine/valve/rig.h"
 #include "tests/engine/near.h"
 
@@ -128,70 +127,9 @@ static void test_rig(void) {
                   SB_ERROR_RANGE);
 }
 
-// ---- a life ----
-
-// A valve as a balance of forces: canister against two seals that rub as rough as they are.
-typedef struct {
-  double pressure, friction; // N, friction at unit roughness
-  double film;               // m
-  long known;                // actuations of which the return is known, 0: all
-} Valve;
-
-static SbStatus actuate(SbLifeActuation *out, long n, double roughness, void *user,
-                        SbReport *report) {
-  const Valve *v = user;
-  // Thesis eq. 5.20: one stroke under a film.
-  out->leakage = 0.5 * G_PI * 6e-3 * v->film * 6.6e-3;
-  out->force_peak = v->pressure + v->friction * roughness;
-  out->force_return = v->pressure - v->friction * roughness;
-  out->returned = v->known > 0 && n >= v->known ? NAN : out->force_return > 0.0 ? 1 : 0;
-  return SB_OK;
-}
-
-static bool stop_at_once(void *user) {
-  return true;
-}
-
-static void test_life(void) {
-  Valve v = {14.5, 11.0, 1.71e-9, 0};
-  SbRunningIn law = {1.3, 0.9, 60.0};
-  ASSERT_NEAR(sb_life_roughness(&law, 0), 1.3, 1e-15);
-  ASSERT_NEAR(sb_life_roughness(&law, 60), 0.9 + 0.4 * exp(-1.0), 1e-15);
-  static SbLifeActuation each[400];
-  SbLife life;
-  SbReport report = {0};
-  g_assert_cmpint(sb_life_run(&life, each, &law, 400, actuate, NULL, &v, &report), ==, SB_OK);
-  ASSERT_NEAR(life.leakage, 400.0 * each[0].leakage, 1e-15 * life.leakage);
-  ASSERT_NEAR(life.return_least, 14.5 - 11.0 * 1.3, 1e-9);
-  g_assert_cmpint(life.failure, ==, 0);
-  g_assert_cmpint(life.done, ==, 400);
-  g_assert_cmpfloat(life.peak_last, <, life.peak_first);
-  // Roughened, the stem stays in once the roughness is above 14.5/11: the life ends there.
-  SbRunningIn rising = {0.9, 1.5, 60.0};
-  g_assert_cmpint(sb_life_run(&life, each, &rising, 400, actuate, NULL, &v, &report), ==, SB_OK);
-  g_assert_cmpint(life.failure, ==, 1 + (long)ceil(60.0 * log(0.6 / (1.5 - 14.5 / 11.0))));
-  g_assert_cmpint(life.done, ==, life.failure);
-  for (long n = 0; n < life.done; n++) {
-    g_assert_true(each[n].returned == (n + 1 < life.failure ? 1 : 0));
-  }
-  g_assert_true(isnan(life.leakage) && isnan(life.carried) && isnan(life.peak_last));
-  // A return that is not known is no failure, but the life's last actuation all the same.
-  v.known = 3;
-  g_assert_cmpint(sb_life_run(&life, each, &law, 400, actuate, NULL, &v, &report), ==, SB_OK);
-  g_assert_cmpint(life.failure, ==, 0);
-  g_assert_cmpint(life.done, ==, 4);
-  g_assert_true(isnan(each[3].returned) && isnan(life.leakage) && isnan(life.peak_last));
-  g_assert_cmpint(sb_life_run(&life, NULL, &law, 5, actuate, stop_at_once, &v, &report), ==,
-                  SB_ERROR_CANCELLED);
-  g_assert_cmpint(life.done, ==, 0);
-  g_assert_cmpint(sb_life_run(&life, NULL, &law, 0, actuate, NULL, &v, &report), ==,
-                  SB_ERROR_RANGE);
-}
-
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/motion/rig/signal", test_signal);
   g_test_add_func("/motion/rig/plate", test_rig);
-  g_test_add_func("/motion/life/run", test_life);
   return g_test_run();
 }

@@ -24,21 +24,18 @@ static size_t frames_at_most(const SbModel *model, const SbPlan *plan) {
 }
 
 SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, SbReport *report) {
-  *out = NULL;
   SbRun *run = calloc(1, sizeof *run);
   SbStatus status = run != NULL ? SB_OK : sb_fail(report, SB_ERROR_MEMORY, "no memory for a run");
   for (int i = 0; i < SB_SEAL_COUNT && status == SB_OK; i++) {
     status = sb_sliding_memory_create(&run->memory[i], report);
   }
-  if (status == SB_OK) {
-    status = sb_run_renew(run, model, plan, report);
-  }
+  status = status == SB_OK ? sb_run_renew(run, model, plan, report) : status;
   if (status != SB_OK) {
     sb_run_destroy(run);
-    return status;
+    run = NULL;
   }
   *out = run;
-  return SB_OK;
+  return status;
 }
 
 // Frees what one execution made.
@@ -47,9 +44,7 @@ static void free_results(SbRun *run) {
     free(run->profile[i].data);
   }
   for (int i = 0; i < SB_RUN_SHAPES; i++) {
-    free(run->shape[i].real);
-    free(run->shape[i].floats);
-    free(run->shape[i].integers);
+    free(run->shape[i].data);
   }
   sb_run_bodies_destroy(run->bodies);
   free(run->life);
@@ -60,28 +55,20 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
   SbModel kept = {0};
   sb_model_keep(&kept, model); // what the run held may be this model's
   free_results(run);
-  SbSlidingMemory *memory[SB_SEAL_COUNT];
-  memcpy(memory, run->memory, sizeof memory);
-  SbFrame *frames = run->frames;
-  size_t capacity = frames_at_most(model, plan);
-  if (capacity > run->room) {
-    free(frames);
-    // Left untouched until used: a run that is cancelled early never pays for the rest.
-    frames = malloc(capacity * sizeof *frames);
-    run->room = frames != NULL ? capacity : 0;
-  }
-  size_t room = run->room;
-  memset(run, 0, sizeof *run);
-  memcpy(run->memory, memory, sizeof memory);
-  for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    sb_sliding_memory_forget(run->memory[i]);
-  }
+  memset((char *)run + offsetof(SbRun, model), 0, sizeof *run - offsetof(SbRun, model));
   memcpy(&run->model, &kept, sizeof kept); // with its padding
   run->plan = *plan;
   run->speed = model->speed;
-  run->frames = frames;
-  run->capacity = capacity;
-  run->room = room;
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    sb_sliding_memory_forget(run->memory[i]);
+  }
+  run->capacity = frames_at_most(model, plan);
+  if (run->capacity > run->room) {
+    free(run->frames);
+    // Left untouched until used: a run that is cancelled early never pays for the rest.
+    run->frames = malloc(run->capacity * sizeof *run->frames);
+    run->room = run->frames != NULL ? run->capacity : 0;
+  }
   run->life = plan->life ? calloc((size_t)model->life_actuations, sizeof *run->life) : NULL;
   if (run->frames == NULL || (plan->life && run->life == NULL)) {
     return sb_fail_parameter(report, SB_ERROR_MEMORY, "output.frames", "no memory for %d frames",
@@ -118,17 +105,17 @@ void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t i
 }
 
 void sb_run_progress(const SbRun *run, const SbRunHooks *hooks, double fraction, size_t frames) {
-  if (hooks == NULL || hooks->progress == NULL) {
-    return;
-  }
   double share = run->before_frames;
-  hooks->progress(
-      hooks->data,
-      frames == 0 ? share * fraction : share + (1 - share - run->after_frames) * fraction, frames);
+  if (hooks->progress != NULL) {
+    hooks->progress(hooks->data,
+                    frames == 0 ? share * fraction
+                                : share + (1 - share - run->after_frames) * fraction,
+                    frames);
+  }
 }
 
 bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report) {
-  if (hooks != NULL && hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
+  if (hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
     (void)sb_fail(report, SB_ERROR_CANCELLED, "cancelled");
     return true;
   }
@@ -148,14 +135,13 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
       inertia ? sb_run_dynamic(run, hooks, &own) : sb_run_quasi_static(run, hooks, &own);
   summary->returned = summary->returns;
   // The balance of energies is a check of the motion: open, it is not solved.
-  double open = fmax(1e-6, run->model.motion_tolerance);
-  if (status == SB_OK && summary->energy.closure > open) {
+  if (status == SB_OK && summary->energy.closure > fmax(1e-6, run->model.motion_tolerance)) {
     status = sb_fail(&own, SB_ERROR_NOT_CONVERGED, "the energies' balance is open by %.2g",
                      summary->energy.closure);
   }
   size_t count = run->hold ? run->held : atomic_load(&run->published);
-  const SbFrame *last = &run->frames[count > 0 ? count - 1 : 0];
   if (status == SB_ERROR_NOT_CONVERGED && count > 0) {
+    const SbFrame *last = &run->frames[count - 1];
     SbReport cause = own;
     (void)sb_fail_parameter(
         &own, status, cause.parameter,
@@ -167,70 +153,83 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   if (status != SB_OK) {
     sb_run_clear_motion(run,
                         status == SB_ERROR_CANCELLED ? "the run was stopped before" : own.text);
-  }
-  if (status != SB_OK && report != NULL) {
-    *report = own;
+    if (report != NULL) {
+      *report = own;
+    }
   }
   return status;
+}
+
+// Whether what was computed so far is worth going on with: a film or motion that did not converge
+// leaves its best state.
+static bool usable(SbStatus status) {
+  return status == SB_OK || status == SB_ERROR_NOT_CONVERGED;
+}
+
+// What the whole motion says of the valve beside its own figures.
+static void conclude(SbRun *run, bool moved) {
+  SbSummary *summary = &run->summary;
+  const SbDriveChoice drive = run->model.drive;
+  summary->leakage_carried = run->model.actuations * summary->seal[SB_OUTER].leakage_per_stroke;
+  summary->leakage_net = run->model.actuations * summary->leakage_per_cycle;
+  if (summary->stage[SB_STAGE_B].reached) {
+    summary->force_breakaway = summary->stage[SB_STAGE_B].force;
+  }
+  // At rest because nothing moved it.
+  bool stays = !summary->stage[SB_STAGE_B].reached && !summary->stage[SB_STAGE_D].reached &&
+               drive != SB_MODEL_DRIVE_FREE_RETURN && drive != SB_MODEL_DRIVE_SINUSOID;
+  if (moved && stays) {
+    sb_warn(&summary->warnings, "no-slip", "friction.static_ratio",
+            "the stem never slips: the drive's %.3g N are not enough", summary->force_peak);
+  }
+  // A ramp is held to the end: nothing lets the stem go.
+  if (summary->returned == 0 && drive != SB_MODEL_DRIVE_RAMP) {
+    sb_warn(&summary->warnings, "no-return", "surface.gt_product",
+            "the stem does not return: least return force %.3g N", summary->force_return_min);
+  }
 }
 
 // The valve's actuation: sliding states, shapes to draw, then the motion.
 static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
-  SbSummary *summary = &run->summary;
-  sb_model_warn_storage(&run->model, &summary->warnings);
+  const SbPlan *plan = &run->plan;
+  sb_model_warn_storage(&run->model, &run->summary.warnings);
   // Solved rings take seconds, everything else before the frames milliseconds.
-  run->before_frames = run->plan.section_fields ? 0.95 : run->plan.ring ? 0.9 : 0;
+  run->before_frames = plan->section_fields ? 0.95 : plan->ring ? 0.9 : 0;
   run->after_frames = run->life != NULL ? 0.9 * (1 - run->before_frames) : 0;
-
-  // A film that did not converge leaves its best state: the cycle is still worth having, flagged.
   SbStatus status = sb_run_solve_states_at_speed(run, hooks, report);
-  if (status == SB_OK && run->plan.section_fields) {
+  if (status == SB_OK && plan->section_fields) {
     status = sb_run_solve_shapes(run, hooks, report);
   }
-  if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
-    run->hold = run->plan.film_history;
-    SbStatus motion =
-        run->plan.motion ? sb_run_move(run, hooks, status == SB_OK ? report : NULL) : SB_OK;
-    status = motion != SB_OK ? motion : status;
-    if (run->hold) {
-      run->hold = false;
-      if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
-        SbStatus history =
-            sb_run_film_history(run, run->held, hooks, status == SB_OK ? report : NULL);
-        status = history != SB_OK ? history : status;
-      }
-      sb_run_publish(run, run->held);
-    }
-    sb_run_summarise_seals(run);
-    summary->leakage_carried = run->model.actuations * summary->seal[SB_OUTER].leakage_per_stroke;
-    summary->leakage_net = run->model.actuations * summary->leakage_per_cycle;
-    if (summary->stage[SB_STAGE_B].reached) {
-      summary->force_breakaway = summary->stage[SB_STAGE_B].force;
-    }
-    bool moved = run->plan.motion && run->lacks[0] == '\0';
-    if (status == SB_OK && run->life != NULL && moved) {
-      status = sb_run_rest_of_life(run, hooks, report);
-    }
-    // At rest because nothing moved it.
-    bool stays = !summary->stage[SB_STAGE_B].reached && !summary->stage[SB_STAGE_D].reached &&
-                 run->model.drive != SB_MODEL_DRIVE_FREE_RETURN &&
-                 run->model.drive != SB_MODEL_DRIVE_SINUSOID;
-    if (status == SB_OK && moved && stays) {
-      sb_warn(&summary->warnings, "no-slip", "friction.static_ratio",
-              "the stem never slips: the drive's %.3g N are not enough", summary->force_peak);
-    }
-    // A ramp is held to the end: nothing lets the stem go.
-    if (summary->returned == 0 && run->model.drive != SB_MODEL_DRIVE_RAMP) {
-      sb_warn(&summary->warnings, "no-return", "surface.gt_product",
-              "the stem does not return: least return force %.3g N", summary->force_return_min);
-    }
+  if (!usable(status)) {
+    return status;
   }
+  run->hold = plan->film_history;
+  if (plan->motion) {
+    SbStatus motion = sb_run_move(run, hooks, status == SB_OK ? report : NULL);
+    status = motion != SB_OK ? motion : status;
+  }
+  if (run->hold) {
+    run->hold = false;
+    if (usable(status)) {
+      SbStatus film = sb_run_film_history(run, run->held, hooks, status == SB_OK ? report : NULL);
+      status = film != SB_OK ? film : status;
+    }
+    sb_run_publish(run, run->held);
+  }
+  sb_run_summarise_seals(run);
+  bool moved = plan->motion && run->lacks[0] == '\0';
+  if (status == SB_OK && run->life != NULL && moved) {
+    status = sb_run_rest_of_life(run, hooks, report);
+  }
+  conclude(run, status == SB_OK && moved);
   return status;
 }
 
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+  const SbRunHooks none = {0};
   double start = sb_clock_seconds();
   SbSummary *summary = &run->summary;
+  hooks = hooks != NULL ? hooks : &none;
   memset(summary, 0, sizeof *summary); // too large for a temporary on a small stack
   sb_figures_clear(summary);
   sb_figures_of_model(summary, &run->model);
@@ -246,7 +245,7 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   sb_run_give_reasons(run, status, report);
   sb_verdict_fill(summary, &run->model);
   summary->frames = atomic_load_explicit(&run->published, memory_order_relaxed);
-  if (hooks != NULL && hooks->progress != NULL && status == SB_OK) {
+  if (hooks->progress != NULL && status == SB_OK) {
     hooks->progress(hooks->data, 1, summary->frames);
   }
   summary->status = status;

@@ -58,12 +58,6 @@ typedef struct {
   double contact_load;        // load under which that model gives the sliding coefficient [N]
 } SbRigSummary;
 
-typedef struct {
-  size_t reynolds_solves, ring_solves, disc_solves, fit_solves, field_evaluations,
-      profile_evaluations;
-  size_t film_steps; // of the films' history, all seals
-} SbCounters;
-
 // What a joint bears over the run, on the first part it names; compare bodies.h.
 typedef struct {
   char name[2 * SB_BODY_NAME + 8]; // "stem centre, stem top"
@@ -129,7 +123,7 @@ typedef struct {
   SbReasons reasons;
   SbVerdict verdict[SB_VERDICT_COUNT];
   bool converged;
-  size_t frames, steps, rejected_steps, newton_iterations;
+  size_t frames, steps, rejected_steps;
   double wall_s;
   double error_width; // of contact widths, relative as error_load; NaN: does not apply
   SbCounters counters;

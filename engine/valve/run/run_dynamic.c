@@ -420,7 +420,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   if (energy.largest < 1e-12 * pushed * run->model.stroke) {
     summary->energy.closure = 0;
   }
-  summary->newton_iterations += (size_t)counters.newton_iterations;
+  summary->counters.newton_iterations += (size_t)counters.newton_iterations;
   // Closed form throughout: rounding only.
   double force = 1e-12;
   double work = 1e-12;

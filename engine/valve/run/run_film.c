@@ -37,7 +37,7 @@ static void leave(Way *way) {
     const SbFilmTransientInfo info = sb_film_transient_info(way->film);
     SbSummary *summary = &way->run->summary;
     summary->counters.film_steps += info.steps;
-    summary->newton_iterations += info.newton_iterations;
+    summary->counters.newton_iterations += info.newton_iterations;
   }
   sb_film_transient_destroy(way->film);
   way->film = NULL;
@@ -57,10 +57,8 @@ static SbStatus enter(Way *way, int chamber, const SbRunHooks *hooks, SbReport *
     problem.film.load = surface->load;
     problem.film.modulus = surface->compliance.modulus;
   }
-  if (hooks != NULL) {
-    problem.film.cancelled = hooks->cancelled;
-    problem.film.cancelled_data = hooks->data;
-  }
+  problem.film.cancelled = hooks->cancelled;
+  problem.film.cancelled_data = hooks->data;
 
   // A front in the middle of the contact is smeared over a few hundredths of it; finer costs more
   // than a drawing gains.

@@ -25,10 +25,11 @@ typedef struct {
   double *data; // x, pressure, film, asperity pressure
 } SbRunProfile;
 
+// Shapes of a seal: of its steady states, over the land's edge, free.
 enum {
-  SB_RUN_SHAPE_FREE = SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
-  SB_RUN_SHAPE_EDGE = SB_RUN_SHAPE_FREE + 1,
-  SB_RUN_SEAL_SHAPES = SB_RUN_SHAPE_EDGE + SB_RUN_EDGES,
+  SB_RUN_SHAPE_EDGE = SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
+  SB_RUN_SHAPE_FREE = SB_RUN_SHAPE_EDGE + SB_RUN_EDGES,
+  SB_RUN_SEAL_SHAPES = SB_RUN_SHAPE_FREE + 1,
   SB_RUN_SHAPES = SB_SEAL_COUNT * SB_RUN_SEAL_SHAPES
 };
 _Static_assert((int)SB_RUN_SHAPES <= (int)SB_RUN_SHAPES_MAX,
@@ -36,9 +37,7 @@ _Static_assert((int)SB_RUN_SHAPES <= (int)SB_RUN_SHAPES_MAX,
 
 typedef struct {
   SbSealShape view;
-  double *real;
-  float *floats;
-  int *integers;
+  void *data; // all its arrays
 } SbRunShape;
 
 // The constrained parts of a run that asks for them (run_bodies.c).
@@ -49,30 +48,31 @@ void sb_run_bodies_destroy(SbRunBodies *bodies);
 void sb_run_bodies_show(SbRun *run, size_t at, const SbRun *from, size_t count);
 
 struct SbRun {
+  // Kept from one model to the next; what follows is one execution's.
+  SbSlidingMemory *memory[SB_SEAL_COUNT];
+  SbFrame *frames;
+  size_t room; // of the array
   SbModel model;
   SbPlan plan;
-  SbCycle cycle; // its states serve every motion model
-  double speed;  // sliding speed that the states stand for [m/s]: the machine's, or the stem's own
+  size_t capacity; // frames at most
+  SbCycle cycle;   // its states serve every motion model
+  double speed; // sliding speed that the states stand for [m/s]: the machine's, or the stem's own
   double film_exponent; // of the film's speed law about it; 0: every frame slides at that speed
   SbSummary summary;
   double friction_error, static_error; // of any state's frictions by its films [N]
-  SbSlidingMemory *memory[SB_SEAL_COUNT];
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
   SbRunSurface surface[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS];
   SbRunShape shape[SB_RUN_SHAPES];
-  uint32_t shape_slot[SB_RUN_SHAPES]; // where a state's shape is: equal states share one
   double edge_begin, edge_end; // of the land's edge in the inner seal's frame, where it shapes
                                // that ring [m]; equal: nowhere
   char lacks[256];             // why there can be no motion, empty: nothing is missing
   double before_frames;        // share of the work that lies before the first frame
+  double after_frames;         // and behind the last: the rest of a life
   SbRunBodies *bodies;         // NULL: the reduced form is enough
   bool follows;                // a later actuation of a life: the first one's errors stand for all
-  double after_frames;         // and behind the last: the rest of a life
   SbLifeActuation *life;       // [model.life_actuations], NULL without a life
-  SbFrame *frames;
-  size_t capacity, room; // of this run; of the array
-  bool hold;             // frames wait for their films' history before they are published
-  size_t held;           // how many do
+  bool hold;                   // frames wait for their films' history before they are published
+  size_t held;                 // how many do
   atomic_size_t published;
 };
 
@@ -88,6 +88,10 @@ SbStatus sb_run_solve_shapes(SbRun *run, const SbRunHooks *hooks, SbReport *repo
 // and, of the inner one, the stem's displacement s [m], which moves it over the land's edge.
 // UINT32_MAX if none was solved.
 uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion, double s);
+
+// The first chamber state with the pressures of this one on a seal that touches then: one solution
+// serves both (run_states.c).
+int sb_run_first_alike(const SbRun *run, int seal, int chamber);
 
 // Where the profile of a state is kept; `motion` is SB_CYCLE_IN, SB_CYCLE_OUT or SB_RUN_REST.
 uint32_t sb_run_profile_slot(int seal, SbChamber chamber, int motion);
@@ -121,9 +125,6 @@ SbStatus sb_run_solve_states_at_speed(SbRun *run, const SbRunHooks *hooks, SbRep
 SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRunHooks *hooks,
                               SbReport *report);
 
-// Makes the surface `factor` times as rough in the run's model and its solved sliding states.
-SbStatus sb_run_resurface(SbRun *run, double factor, SbReport *report);
-
 // The actuations after the first, once that one has run (run_life.c).
 SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
@@ -135,7 +136,7 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, SbReport *report);
 
 // Notes why there can be no motion; the first reason stays (run_reasons.c).
-void sb_run_lacks_motion(SbRun *run, const char *why);
+void sb_run_lacks_motion(SbRun *run, const char *format, ...) SB_PRINTF(2, 3);
 
 // Takes back what only a whole motion tells, of one that ended early (run_reasons.c).
 void sb_run_clear_motion(SbRun *run, const char *why);

@@ -35,7 +35,8 @@ static double film_by(SbRun *run, int seal, const SbSliding *state, SbFilmModel 
 static bool presses(const SbRun *run, int seal) {
   for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
     bool needed = seal == SB_OUTER || chamber != SB_CHAMBER_OPEN;
-    const SbSliding *state = &run->cycle.states.state[seal][chamber][SB_CYCLE_IN];
+    int alike = sb_run_first_alike(run, seal, chamber);
+    const SbSliding *state = &run->cycle.states.state[seal][alike][SB_CYCLE_IN];
     if (needed && (!state->touches || state->load_net <= 0 || state->opened)) {
       return false;
     }

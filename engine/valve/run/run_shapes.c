@@ -30,13 +30,19 @@ static const double drag_tolerance = 0.02;
 static const double edge_floor_friction = 0.5;
 static const double edge_bore_friction = 0.2;
 
+// A row of shapes of one seal in work; `load` is that of the fitted ring.
 typedef struct {
-  const SbRunHooks *hooks;
-} Poll;
+  SbRun *run;
+  int seal;
+  SbRingBody body;
+  SbRingLoad load;
+  SbRingOptions options;
+  SbRing *ring; // NULL before the first
+  SbReport *report;
+} Task;
 
 static bool poll(void *data) {
-  const Poll *p = data;
-  return p->hooks != NULL && p->hooks->cancelled != NULL && p->hooks->cancelled(p->hooks->data);
+  return sb_run_cancelled(data, NULL);
 }
 
 static uint32_t slot(int seal, int index) {
@@ -59,239 +65,183 @@ uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int m
   if (!run->plan.section_fields) {
     return UINT32_MAX;
   }
-  int index = (int)chamber * SB_RUN_MOTIONS + motion;
   int edge = seal == SB_INNER ? edge_of(run, s) : -1;
   // A place without a solution takes the one before.
   while (edge >= 0 && edge < SB_RUN_EDGES &&
          run->shape[slot(seal, SB_RUN_SHAPE_EDGE + edge)].view.nodes == 0) {
     edge--;
   }
-  if (edge >= 0) {
-    index = edge < SB_RUN_EDGES ? SB_RUN_SHAPE_EDGE + edge : SB_RUN_SHAPE_FREE;
-  }
-  uint32_t found = run->shape_slot[slot(seal, index)];
-  return found < SB_RUN_SHAPES && run->shape[found].view.nodes > 0 ? found : UINT32_MAX;
+  uint32_t found =
+      slot(seal, edge >= 0 ? SB_RUN_SHAPE_EDGE + edge
+                           : sb_run_first_alike(run, seal, (int)chamber) * SB_RUN_MOTIONS + motion);
+  return run->shape[found].view.nodes > 0 ? found : UINT32_MAX;
 }
 
-// Copies the present state of a ring into a slot.
-static SbStatus keep(SbRun *run, uint32_t index, const SbRing *ring, double floor_radius,
-                     SbReport *report) {
-  int nodes;
-  int triangles;
-  int outline;
-  sb_ring_sizes(ring, &nodes, &triangles, &outline);
-  size_t n = (size_t)nodes;
-  SbRunShape *shape = &run->shape[index];
-  double *work = malloc(8 * n * sizeof *work);
-  shape->real = malloc(2 * n * sizeof *shape->real);
-  shape->floats = malloc(SB_FIELD_COUNT * n * sizeof *shape->floats);
-  shape->integers = malloc((3 * (size_t)triangles + (size_t)outline) * sizeof *shape->integers);
-  if (work == NULL || shape->real == NULL || shape->floats == NULL || shape->integers == NULL) {
+// Fits a ring of its own; its states are kept from then on.
+static SbStatus fit(Task *task) {
+  sb_ring_destroy(task->ring);
+  task->ring = NULL;
+  task->run->summary.counters.ring_solves++;
+  return sb_ring_create(&task->ring, &task->body, &task->load, &task->options, task->report);
+}
+
+// Copies the present state of the ring into a slot.
+static SbStatus keep(Task *task, int index) {
+  SbRunShape *shape = &task->run->shape[slot(task->seal, index)];
+  int nodes, triangles, outline;
+  sb_ring_sizes(task->ring, &nodes, &triangles, &outline);
+  size_t n = (size_t)nodes, corners = 3 * (size_t)triangles;
+  double *work = malloc(6 * n * sizeof *work);
+  double *place = malloc(2 * n * sizeof *place + SB_FIELD_COUNT * n * sizeof(float) +
+                         (corners + (size_t)outline) * sizeof(int));
+  if (work == NULL || place == NULL) {
     free(work);
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a ring's shape");
+    free(place);
+    return sb_fail(task->report, SB_ERROR_MEMORY, "no memory for a ring's shape");
   }
-  SbRingFields fields = {
-      .place = shape->real,
-      .displacement = work,
-      .mises = work + 2 * n,
-      .hydrostatic = work + 3 * n,
-      .shear = work + 4 * n,
-      .contact = work + 5 * n,
-      .triangle = shape->integers,
-      .outline = shape->integers + 3 * triangles,
-  };
-  sb_ring_fields(ring, &fields);
+  float *field = (float *)(place + 2 * n);
+  int *triangle = (int *)(field + SB_FIELD_COUNT * n);
+  SbRingFields fields = {.place = place,
+                         .displacement = work,
+                         .mises = work + 2 * n,
+                         .hydrostatic = work + 3 * n,
+                         .shear = work + 4 * n,
+                         .contact = work + 5 * n,
+                         .triangle = triangle,
+                         .outline = triangle + corners};
+  sb_ring_fields(task->ring, &fields);
   for (size_t i = 0; i < n; i++) {
-    shape->real[2 * i + 1] -= floor_radius;
-    shape->floats[SB_FIELD_VON_MISES * n + i] = (float)fields.mises[i];
-    shape->floats[SB_FIELD_HYDROSTATIC * n + i] = (float)-fields.hydrostatic[i];
-    shape->floats[SB_FIELD_SHEAR * n + i] = (float)fields.shear[i];
-    shape->floats[SB_FIELD_CONTACT * n + i] = (float)fields.contact[i];
-    shape->floats[SB_FIELD_DISPLACEMENT * n + i] =
-        (float)hypot(fields.displacement[2 * i], fields.displacement[2 * i + 1]);
+    place[2 * i + 1] -= task->load.floor_radius;
+    field[SB_FIELD_VON_MISES * n + i] = (float)fields.mises[i];
+    field[SB_FIELD_HYDROSTATIC * n + i] = (float)-fields.hydrostatic[i];
+    field[SB_FIELD_SHEAR * n + i] = (float)fields.shear[i];
+    field[SB_FIELD_CONTACT * n + i] = (float)fields.contact[i];
+    field[SB_FIELD_DISPLACEMENT * n + i] = (float)hypot(work[2 * i], work[2 * i + 1]);
   }
   free(work);
   SbRingResult result;
-  sb_ring_result(ring, &result);
-  shape->view = (SbSealShape){
-      .nodes = n,
-      .triangles = (size_t)triangles,
-      .outline = (size_t)outline,
-      .place = shape->real,
-      .triangle = shape->integers,
-      .outline_node = shape->integers + 3 * triangles,
-      .contact_left = result.touching ? result.contact_left : 0,
-      .contact_right = result.touching ? result.contact_right : 0,
-      .load = result.bore_force,
-      .drag = result.bore_drag,
-  };
-  for (int f = 0; f < SB_FIELD_COUNT; f++) {
-    shape->view.field[f] = shape->floats + (size_t)f * n;
+  sb_ring_result(task->ring, &result);
+  free(shape->data);
+  shape->data = place;
+  shape->view = (SbSealShape){.nodes = n,
+                              .triangles = (size_t)triangles,
+                              .outline = (size_t)outline,
+                              .place = place,
+                              .triangle = triangle,
+                              .outline_node = triangle + corners,
+                              .contact_left = result.touching ? result.contact_left : 0,
+                              .contact_right = result.touching ? result.contact_right : 0,
+                              .load = result.bore_force,
+                              .drag = result.bore_drag};
+  for (size_t f = 0; f < SB_FIELD_COUNT; f++) {
+    shape->view.field[f] = field + f * n;
   }
-  run->summary.counters.field_evaluations++;
+  task->run->summary.counters.field_evaluations++;
   return SB_OK;
 }
 
-static SbRingBody ring_body(const SbModel *model, int seal) {
-  const SbSealModel *s = &model->seal[seal];
-  return (SbRingBody){
-      .section_diameter = s->section_diameter,
-      .inner_diameter = s->inner_diameter,
-      .modulus = s->modulus,
-      .poisson_ratio = s->poisson_ratio,
-      .mooney_share = s->mooney_share,
-  };
-}
-
-static SbRingLoad ring_load(const SbModel *model, SbSealPressure pressure) {
-  SbRingLoad load = SB_RING_LOAD_INIT;
-  double low = fmin(pressure.left, pressure.right);
-  load.bore_radius = model->bore_diameter / 2;
-  load.floor_radius = load.bore_radius - model->radial_space;
-  load.wall_left = -model->axial_width / 2;
-  load.wall_right = model->axial_width / 2;
-  load.pressure_left = pressure.left - low;
-  load.pressure_right = pressure.right - low;
-  return load;
-}
-
 // A step, or as much of it as has an equilibrium; *whole tells which.
-static SbStatus step(SbRun *run, SbRing *ring, const SbRingLoad *to, bool *whole,
-                     SbReport *report) {
-  SbStatus status = sb_ring_step(ring, to, report);
-  run->summary.counters.ring_solves++;
+static SbStatus step(Task *task, const SbRingLoad *to, bool *whole) {
+  SbStatus status = sb_ring_step(task->ring, to, task->report);
+  task->run->summary.counters.ring_solves++;
   *whole = status == SB_OK;
   return status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY ? status : SB_OK;
 }
 
 // Drags the ring by a force [N, in-stroke > 0], as an even shear over the contact, whose area
-// changes with it: in shares of the force, the shear by the last two states' secant. *at is the
-// state found, with less of the force where the equilibrium ends on the way.
-static SbStatus drag(SbRun *run, SbRing *ring, double force, SbRingResult *at, SbReport *report) {
+// changes with it: in shares of the force, the shear by the last two states' secant. Where the
+// equilibrium ends on the way less of the force is borne.
+static SbStatus drag(Task *task, double force) {
   static const double shares[] = {0.5, 0.8, 1, 1, 1};
-  sb_ring_result(ring, at);
-  SbRingLoad load = *sb_ring_load(ring);
+  SbWarnings *warnings = &task->run->summary.warnings;
+  SbRingResult at;
+  sb_ring_result(task->ring, &at);
+  SbRingLoad load = *sb_ring_load(task->ring);
   load.use_bore_traction = true;
-  double width = at->contact_right - at->contact_left;
-  double rate = 1 / (run->model.bore_circumference * width), shear = 0, borne = 0;
-  bool goes_on = at->touching;
+  double width = at.contact_right - at.contact_left;
+  double rate = 1 / (task->run->model.bore_circumference * width), shear = 0, borne = 0;
+  bool goes_on = at.touching;
   SbStatus status = SB_OK;
   for (size_t i = 0; i < sizeof shares / sizeof *shares && goes_on && status == SB_OK; i++) {
     load.bore_traction = shear + rate * (shares[i] * force - borne);
     bool whole;
-    status = step(run, ring, &load, &whole, report);
-    sb_ring_result(ring, at);
-    double reached = sb_ring_load(ring)->bore_traction;
-    rate = at->bore_drag != borne ? (reached - shear) / (at->bore_drag - borne) : 0;
+    status = step(task, &load, &whole);
+    sb_ring_result(task->ring, &at);
+    double reached = sb_ring_load(task->ring)->bore_traction;
+    rate = at.bore_drag != borne ? (reached - shear) / (at.bore_drag - borne) : 0;
     shear = reached;
-    borne = at->bore_drag;
+    borne = at.bore_drag;
     goes_on =
-        at->touching && fabs(borne / force - 1) > drag_tolerance && (whole || borne / force > 1);
+        at.touching && fabs(borne / force - 1) > drag_tolerance && (whole || borne / force > 1);
+  }
+  if (status == SB_OK && !(fabs(at.bore_drag / force - 1) <= drag_tolerance)) {
+    sb_warn_about(warnings, sb_seal_name(task->seal));
+    sb_warn(warnings, "ring-drag", "friction.shear_strength",
+            "the drawn %s ring bears %.0f %% of its friction force, turned by %.0f°, then %s",
+            sb_seal_name(task->seal), 100 * at.bore_drag / force, fabs(at.turn) * 180 / M_PI,
+            at.state == SB_RING_ROLLS ? "rolls" : "finds no equilibrium");
+    sb_warn_about(warnings, NULL);
   }
   return status;
 }
 
-// At rest, dragged by the in-stroke, dragged by the return, for one seal and chamber state.
-static SbStatus solve_dragged(SbRun *run, int seal, SbChamber chamber, Poll *hooks,
-                              SbReport *report) {
-  const SbModel *model = &run->model;
-  SbRingBody body = ring_body(model, seal);
-  SbRingLoad load = ring_load(model, sb_model_seal_pressure(model, seal, chamber));
-  load.friction_floor = floor_friction;
-  load.friction_wall = wall_friction;
-  SbRingOptions options = {.fit_mesh = true, .poll = poll, .poll_data = hooks};
+// At rest, dragged by the in-stroke, dragged by the return, for one chamber state. Each from the
+// fitted ring, so that one way of sliding does not carry the other's history.
+static SbStatus solve_dragged(Task *task, int chamber) {
   const int order[SB_RUN_MOTIONS] = {SB_RUN_REST, SB_CYCLE_IN, SB_CYCLE_OUT};
-  for (int i = 0; i < SB_RUN_MOTIONS; i++) {
-    // Each from the fitted ring, so that one way of sliding does not carry the other's history.
-    SbRing *ring = NULL;
-    SbStatus status = sb_ring_create(&ring, &body, &load, &options, report);
-    run->summary.counters.ring_solves++;
-    if (status != SB_OK) {
-      return status;
+  const SbSliding *state = task->run->cycle.states.state[task->seal][chamber];
+  task->options.fit_mesh = true;
+  task->load.friction_floor = floor_friction;
+  task->load.friction_wall = wall_friction;
+  SbStatus status = SB_OK;
+  for (int i = 0; i < SB_RUN_MOTIONS && status == SB_OK; i++) {
+    status = fit(task);
+    if (status == SB_OK && order[i] != SB_RUN_REST) {
+      double friction = sb_sliding_friction(&state[order[i]]);
+      status = drag(task, order[i] == SB_CYCLE_IN ? friction : -friction);
     }
-    if (order[i] != SB_RUN_REST) {
-      const SbSliding *state = &run->cycle.states.state[seal][chamber][order[i]];
-      double force = (order[i] == SB_CYCLE_IN ? 1 : -1) * sb_sliding_friction(state);
-      SbRingResult at;
-      status = drag(run, ring, force, &at, report);
-      if (status == SB_OK && !(fabs(at.bore_drag / force - 1) <= drag_tolerance)) {
-        sb_warn_about(&run->summary.warnings, sb_seal_name(seal));
-        sb_warn(&run->summary.warnings, "ring-drag", "friction.shear_strength",
-                "the drawn %s ring bears %.0f %% of its friction force, turned by %.0f°, then %s",
-                sb_seal_name(seal), 100 * at.bore_drag / force, fabs(at.turn) * 180 / M_PI,
-                at.state == SB_RING_ROLLS ? "rolls" : "finds no equilibrium");
-        sb_warn_about(&run->summary.warnings, NULL);
-      }
-    }
-    if (status == SB_OK) {
-      status = keep(run, slot(seal, (int)chamber * SB_RUN_MOTIONS + order[i]), ring,
-                    load.floor_radius, report);
-    }
-    sb_ring_destroy(ring);
-    if (status != SB_OK) {
-      return status;
-    }
+    status = status == SB_OK ? keep(task, chamber * SB_RUN_MOTIONS + order[i]) : status;
   }
-  return SB_OK;
+  return status;
 }
 
-// The free ring. Returns in *end where the land's edge is when the chamfer just clears it.
-static SbStatus solve_free(SbRun *run, Poll *hooks, double *end, SbReport *report) {
-  const SbModel *model = &run->model;
-  SbRingBody body = ring_body(model, SB_INNER);
-  SbRingLoad load = ring_load(model, (SbSealPressure){0});
-  SbRingOptions options = {.poll = poll, .poll_data = hooks};
-  load.bore_radius += model->seal[SB_INNER].section_diameter;
-  SbRing *ring = NULL;
-  SbStatus status = sb_ring_create(&ring, &body, &load, &options, report);
-  run->summary.counters.ring_solves++;
-  uint32_t index = slot(SB_INNER, SB_RUN_SHAPE_FREE);
-  if (status == SB_OK) {
-    status = keep(run, index, ring, load.floor_radius, report);
-  }
-  sb_ring_destroy(ring);
-  if (status != SB_OK) {
-    return status;
-  }
-  const double *place = run->shape[index].real;
-  *end = -HUGE_VAL;
-  for (size_t i = 0; i < run->shape[index].view.nodes; i++) {
-    double height = place[2 * i + 1] - model->radial_space;
-    if (height > 0) {
-      double rise = height / tan(load.chamfer_angle);
-      *end = fmax(*end, place[2 * i] + rise + load.edge_length / 2);
+// Where the land's edge is when the chamfer just clears the free ring.
+static double clear_of(const SbSealShape *free_ring, double height, const SbRingLoad *load) {
+  double end = -HUGE_VAL;
+  for (size_t i = 0; i < free_ring->nodes; i++) {
+    double above = free_ring->place[2 * i + 1] - height;
+    if (above > 0) {
+      double rise = above / tan(load->chamfer_angle);
+      end = fmax(end, free_ring->place[2 * i] + rise + load->edge_length / 2);
     }
   }
-  return SB_OK;
+  return end;
 }
 
-// The inner ring while the edge passes from the left end of its contact until it is free.
-static SbStatus solve_edge(SbRun *run, Poll *hooks, SbReport *report) {
+// The free inner ring, and the ring while the edge passes from the left end of its contact until it
+// is free.
+static SbStatus solve_edge(Task *task) {
+  SbRun *run = task->run;
   const SbModel *model = &run->model;
+  const SbRingLoad fitted = task->load;
+  task->load.bore_radius += model->seal[task->seal].section_diameter;
+  task->load.pressure_left = task->load.pressure_right = 0;
+  SbStatus status = fit(task);
+  status = status == SB_OK ? keep(task, SB_RUN_SHAPE_FREE) : status;
+  task->load = fitted;
+  task->load.friction_floor = edge_floor_friction;
+  task->load.friction_bore = edge_bore_friction;
+  status = status == SB_OK ? fit(task) : status;
   double begin = run->cycle.states.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].contact_left;
-  double end;
-  SbStatus status = solve_free(run, hooks, &end, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  SbRingBody body = ring_body(model, SB_INNER);
-  SbRingLoad load = ring_load(model, sb_model_seal_pressure(model, SB_INNER, SB_CHAMBER_AT_REST));
-  load.friction_floor = edge_floor_friction;
-  load.friction_bore = edge_bore_friction;
-  SbRingOptions options = {.poll = poll, .poll_data = hooks};
-  SbRing *ring = NULL;
-  status = sb_ring_create(&ring, &body, &load, &options, report);
-  run->summary.counters.ring_solves++;
+  double end = clear_of(&run->shape[slot(task->seal, SB_RUN_SHAPE_FREE)].view, model->radial_space,
+                        &task->load);
   for (int i = 0; i < SB_RUN_EDGES && status == SB_OK && end > begin; i++) {
-    SbRingLoad edged = load;
+    SbRingLoad edged = task->load;
     edged.land_left = begin + (double)i / SB_RUN_EDGES * (end - begin);
     bool whole;
-    status = step(run, ring, &edged, &whole, report);
-    if (status == SB_OK && whole) {
-      status = keep(run, slot(SB_INNER, SB_RUN_SHAPE_EDGE + i), ring, load.floor_radius, report);
-    }
+    status = step(task, &edged, &whole);
+    status = status == SB_OK && whole ? keep(task, SB_RUN_SHAPE_EDGE + i) : status;
   }
-  sb_ring_destroy(ring);
   if (status == SB_OK && end > begin) {
     run->edge_begin = begin;
     run->edge_end = end;
@@ -299,46 +249,39 @@ static SbStatus solve_edge(SbRun *run, Poll *hooks, SbReport *report) {
   return status;
 }
 
-// Whether two chamber states put the same pressure step on a seal, so that one solution serves
-// both.
-static bool same_pressure(const SbModel *model, int seal, SbChamber a, SbChamber b) {
-  SbSealPressure p = sb_model_seal_pressure(model, seal, a);
-  SbSealPressure q = sb_model_seal_pressure(model, seal, b);
-  return p.left - p.right == q.left - q.right;
+// All shapes of a seal that a chamber state needs.
+static SbStatus solve_chamber(SbRun *run, int seal, int chamber, const SbRunHooks *hooks,
+                              SbReport *report) {
+  const SbModel *model = &run->model;
+  SbFitProblem problem;
+  SbSealPressure pressure = sb_model_seal_pressure(model, seal, (SbChamber)chamber);
+  sb_model_fit_problem(&problem, model, seal, pressure.left - pressure.right);
+  Task task = {.run = run, .seal = seal, .report = report, .options = {.poll = poll}};
+  task.options.poll_data = (void *)hooks;
+  sb_fit_ring_problem(&task.body, &task.load, &problem);
+  task.load.wall_left = -model->axial_width / 2;
+  task.load.wall_right = model->axial_width / 2;
+  const SbRingLoad fitted = task.load;
+  SbStatus status = solve_dragged(&task, chamber);
+  if (status == SB_OK && seal == SB_INNER && chamber == SB_CHAMBER_AT_REST) {
+    task.load = fitted;
+    task.options.fit_mesh = false;
+    status = solve_edge(&task);
+  }
+  sb_ring_destroy(task.ring);
+  return status;
 }
 
 SbStatus sb_run_solve_shapes(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
-  Poll p = {hooks};
-  for (uint32_t i = 0; i < SB_RUN_SHAPES; i++) {
-    run->shape_slot[i] = i;
-  }
+  const double states = SB_SEAL_COUNT * SB_CYCLE_CHAMBERS;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
-      if (!run->cycle.states.state[seal][chamber][SB_CYCLE_IN].touches) {
+      if (!run->cycle.states.state[seal][chamber][SB_CYCLE_IN].touches ||
+          sb_run_first_alike(run, seal, chamber) != chamber) {
         continue;
       }
-      // Reuse an earlier chamber state of equal pressure.
-      int before = -1;
-      for (int c = 0; c < chamber && before < 0; c++) {
-        bool known = run->cycle.states.state[seal][c][SB_CYCLE_IN].touches;
-        before =
-            known && same_pressure(&run->model, seal, (SbChamber)c, (SbChamber)chamber) ? c : -1;
-      }
-      if (before >= 0) {
-        for (int m = 0; m < SB_RUN_MOTIONS; m++) {
-          run->shape_slot[slot(seal, chamber * SB_RUN_MOTIONS + m)] =
-              run->shape_slot[slot(seal, before * SB_RUN_MOTIONS + m)];
-        }
-        continue;
-      }
-      sb_run_progress(run, hooks,
-                      0.3 + 0.7 * (seal * SB_CYCLE_CHAMBERS + chamber) /
-                                (SB_SEAL_COUNT * SB_CYCLE_CHAMBERS),
-                      0);
-      SbStatus status = solve_dragged(run, seal, (SbChamber)chamber, &p, report);
-      if (status == SB_OK && seal == SB_INNER && chamber == SB_CHAMBER_AT_REST) {
-        status = solve_edge(run, &p, report);
-      }
+      sb_run_progress(run, hooks, 0.3 + 0.7 * (seal * SB_CYCLE_CHAMBERS + chamber) / states, 0);
+      SbStatus status = solve_chamber(run, seal, chamber, hooks, report);
       if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
         return status;
       }

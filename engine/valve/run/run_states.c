@@ -12,6 +12,18 @@
 
 enum { OUTSIDE_POINTS = 60, PROFILE_POINTS = SB_FIT_PROFILE_MAX + 2 * OUTSIDE_POINTS };
 
+int sb_run_first_alike(const SbRun *run, int seal, int chamber) {
+  SbSealPressure p = sb_model_seal_pressure(&run->model, seal, (SbChamber)chamber);
+  for (int c = 0; c < chamber; c++) {
+    SbSealPressure q = sb_model_seal_pressure(&run->model, seal, (SbChamber)c);
+    if (run->cycle.states.state[seal][c][SB_CYCLE_IN].touches && p.left == q.left &&
+        p.right == q.right) {
+      return c;
+    }
+  }
+  return chamber;
+}
+
 uint32_t sb_run_profile_slot(int seal, SbChamber chamber, int motion) {
   return (uint32_t)((seal * SB_CYCLE_CHAMBERS + (int)chamber) * SB_RUN_MOTIONS + motion);
 }
@@ -56,8 +68,10 @@ static void asperity_pressure(const SbModel *model, int seal, const double *film
 // film it is the solver's own profile, on the fitted body where the fitment gives one; with a
 // closed form it is the fitment's pressure, the central film held uniform (the law knows no shape)
 // and the dry gap outside.
-static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, const SbSliding *state,
-                             SbRunProfile *profile, SbReport *report) {
+static SbStatus make_profile(SbRun *run, int seal, int chamber, int motion, const SbSliding *state,
+                             SbReport *report) {
+  SbRunProfile *profile = &run->profile[sb_run_profile_slot(seal, (SbChamber)chamber, motion)];
+  const SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, (SbChamber)chamber);
   const SbFit *fit = sb_sliding_fit(run->memory[seal]);
   const SbFilm *film = sb_sliding_film(run->memory[seal]);
   bool coupled = run->model.asperities == SB_MODEL_ASPERITIES_COUPLED;
@@ -98,22 +112,18 @@ static SbStatus make_profile(SbRun *run, int seal, SbSealPressure pressure, cons
     double a = fit->contact_width / 2;
     double middle = (fit->contact_left + fit->contact_right) / 2;
     double scale = a * a / run->model.seal[seal].radius;
-    for (int i = OUTSIDE_POINTS; i > 0; i--) {
+    for (int i = -OUTSIDE_POINTS; i <= OUTSIDE_POINTS; i++) {
       double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
-      x[n] = middle - xi * a;
-      p[n] = left;
-      h[n++] = state->film_central + scale * sb_film_dry_gap(xi);
-    }
-    for (size_t i = 0; i < fit->profile_count; i++) {
-      x[n] = fit->profile_x[i];
-      p[n] = fmax(fit->profile_p[i], x[n] < middle ? left : right);
-      h[n++] = state->film_central;
-    }
-    for (int i = 1; i <= OUTSIDE_POINTS; i++) {
-      double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
-      x[n] = middle + xi * a;
-      p[n] = right;
-      h[n++] = state->film_central + scale * sb_film_dry_gap(xi);
+      for (size_t k = 0; i == 0 && k < fit->profile_count; k++) {
+        x[n] = fit->profile_x[k];
+        p[n] = fmax(fit->profile_p[k], x[n] < middle ? left : right);
+        h[n++] = state->film_central;
+      }
+      if (i != 0) {
+        x[n] = middle + copysign(xi * a, i);
+        p[n] = i < 0 ? left : right;
+        h[n++] = state->film_central + scale * sb_film_dry_gap(xi);
+      }
     }
   }
   if (solved && coupled) {
@@ -149,7 +159,7 @@ static bool state_needed(const SbRun *run, int seal, int chamber, int motion) {
   case SB_DEPTH_SLIDING:
     return chamber == (int)SB_CHAMBER_AT_REST && motion == SB_CYCLE_IN;
   case SB_DEPTH_LEAK:
-    return motion == SB_CYCLE_IN;
+    return motion == SB_CYCLE_IN && sb_run_first_alike(run, seal, chamber) == chamber;
   case SB_DEPTH_WHOLE:
     break;
   }
@@ -186,7 +196,7 @@ static void tell_failure(SbRun *run, int seal, int chamber, int motion, const Sb
                                    : "the other states");
   sb_warn(&run->summary.warnings, "not-converged", report->parameter, "%s", whole.text);
   if (motion != SB_RUN_REST && !complete) {
-    sb_run_lacks_motion(run, whole.text);
+    sb_run_lacks_motion(run, "%s", whole.text);
   }
   if (chamber == SB_CHAMBER_AT_REST && motion == SB_CYCLE_IN) {
     sb_seal_reason(&run->summary, seal, "*", "%s", whole.text);
@@ -206,9 +216,53 @@ double sb_run_error_work(const SbRun *run) {
   return peak > 0 ? SB_SEAL_COUNT * (run->friction_error + yields * run->static_error) / peak : 0;
 }
 
+// Solves one state and takes its errors, its surface and its profile. SB_ERROR_NOT_CONVERGED with
+// what there is all the same.
+static SbStatus solve_state(SbRun *run, const SbModel *model, int seal, int chamber, int motion,
+                            SbReport *report) {
+  SbSummary *summary = &run->summary;
+  SbSlidingMemory *memory = run->memory[seal];
+  SbSealPressure pressure = sb_model_seal_pressure(model, seal, (SbChamber)chamber);
+  double speed = motion == SB_CYCLE_IN ? run->speed : motion == SB_RUN_REST ? 0 : -run->speed;
+  SbSliding rest;
+  SbSliding *state =
+      motion == SB_RUN_REST ? &rest : &run->cycle.states.state[seal][chamber][motion];
+  bool fitment = run->plan.seal[seal] == SB_DEPTH_FITMENT;
+  SbStatus status = fitment ? sb_sliding_fitment(state, model, seal, pressure, memory,
+                                                 &summary->counters, &summary->warnings, report)
+                            : sb_sliding_solve(state, model, seal, pressure, speed, memory,
+                                               &summary->counters, &summary->warnings, report);
+  if (status == SB_ERROR_NOT_CONVERGED) {
+    tell_failure(run, seal, chamber, motion, state, pressure, report);
+  } else if (status != SB_OK) {
+    return status;
+  } else if (!fitment && motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state))) {
+    sb_run_lacks_motion(run,
+                        "the fluid opens the contact of the %s seal or carries it alone: no law "
+                        "gives film and friction",
+                        sb_seal_name(seal));
+  }
+  const SbFit *fit = sb_sliding_fit(memory);
+  SbRunSurface *surface = &run->surface[seal][chamber];
+  if (state->film_fitted && run->plan.film_history) {
+    surface->known = sb_sliding_surface(&surface->compliance, &surface->load, fit, model, seal,
+                                        pressure, NULL, NULL) == SB_OK;
+  }
+  if (isfinite(state->load)) {
+    summary->error_load = fmax(summary->error_load, fit->solver.error_estimate.load);
+    summary->error_width = fmax(summary->error_width, fit->solver.error_estimate.contact_width);
+  }
+  // fmax() leaves out what was not computed.
+  run->friction_error = fmax(run->friction_error, state->friction_error);
+  run->static_error = fmax(run->static_error, state->static_error);
+  summary->error_film = fmax(summary->error_film, state->film_error);
+  SbStatus kept =
+      run->plan.profiles ? make_profile(run, seal, chamber, motion, state, report) : SB_OK;
+  return kept != SB_OK ? kept : status;
+}
+
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
-  SbSlidingCounts counts = {0};
   SbStatus worst = SB_OK;
   summary->error_film = NAN;
   summary->error_load = summary->error_width = 0;
@@ -219,97 +273,32 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   SbModel model = run->model;
   model.speed = run->speed;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    sb_sliding_memory_poll(run->memory[seal], hooks != NULL ? hooks->cancelled : NULL,
-                           hooks != NULL ? hooks->data : NULL);
+    sb_sliding_memory_poll(run->memory[seal], hooks->cancelled, hooks->data);
     // At least what the figures are taken from is unknown until it is solved.
     sb_sliding_clear(&run->cycle.states.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN]);
   }
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
-      SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, (SbChamber)chamber);
-      const SbSealPressure at_rest = sb_model_seal_pressure(&run->model, seal, SB_CHAMBER_AT_REST);
-      if (run->plan.seal[seal] == SB_DEPTH_LEAK && chamber != (int)SB_CHAMBER_AT_REST &&
-          pressure.left == at_rest.left && pressure.right == at_rest.right) {
-        SbSliding(*states)[SB_CYCLE_DIRECTIONS] = run->cycle.states.state[seal];
-        states[chamber][SB_CYCLE_IN] = states[SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-        continue;
-      }
-      for (int motion = 0; motion < SB_RUN_MOTIONS; motion++) {
-        if (!state_needed(run, seal, chamber, motion)) {
-          continue;
-        }
-        if (sb_run_cancelled(hooks, report)) {
-          return SB_ERROR_CANCELLED;
-        }
-        sb_run_progress(
-            run, hooks,
-            0.3 * (seal * SB_CYCLE_CHAMBERS + chamber) / (SB_SEAL_COUNT * SB_CYCLE_CHAMBERS), 0);
-        double speed = motion == SB_CYCLE_IN ? run->speed : motion == SB_RUN_REST ? 0 : -run->speed;
-        SbSliding rest;
-        SbSliding *state =
-            motion == SB_RUN_REST ? &rest : &run->cycle.states.state[seal][chamber][motion];
-        SbReport own = {0};
-        bool fitment = run->plan.seal[seal] == SB_DEPTH_FITMENT;
-        SbStatus status =
-            fitment ? sb_sliding_fitment(state, &model, seal, pressure, run->memory[seal], &counts,
-                                         &summary->warnings, &own)
-                    : sb_sliding_solve(state, &model, seal, pressure, speed, run->memory[seal],
-                                       &counts, &summary->warnings, &own);
-        if (status == SB_ERROR_NOT_CONVERGED) {
-          tell_failure(run, seal, chamber, motion, state, pressure, &own);
-        }
-        bool fatal = status != SB_OK && status != SB_ERROR_NOT_CONVERGED;
-        if (report != NULL && (fatal || (status != SB_OK && worst == SB_OK))) {
-          *report = own; // of failures to converge the first is told
-        }
-        if (status == SB_ERROR_NOT_CONVERGED) {
-          worst = status;
-        } else if (status != SB_OK) {
-          return status;
-        } else if (!fitment && motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state))) {
-          char text[160];
-          snprintf(text, sizeof text,
-                   "the fluid opens the contact of the %s seal or carries it alone: no law gives "
-                   "film and friction",
-                   sb_seal_name(seal));
-          sb_run_lacks_motion(run, text);
-        }
-        SbRunSurface *surface = &run->surface[seal][chamber];
-        if (state->film_fitted && run->plan.film_history) {
-          surface->known = sb_sliding_surface(&surface->compliance, &surface->load,
-                                              sb_sliding_fit(run->memory[seal]), &run->model, seal,
-                                              pressure, NULL, NULL) == SB_OK;
-        }
-        if (isfinite(state->load)) {
-          const SbFit *fit = sb_sliding_fit(run->memory[seal]);
-          summary->error_load = fmax(summary->error_load, fit->solver.error_estimate.load);
-          summary->error_width =
-              fmax(summary->error_width, fit->solver.error_estimate.contact_width);
-        }
-        // fmax() leaves out what was not computed.
-        run->friction_error = fmax(run->friction_error, state->friction_error);
-        run->static_error = fmax(run->static_error, state->static_error);
-        if (!isnan(state->film_error)) {
-          summary->error_film =
-              fmax(isnan(summary->error_film) ? 0 : summary->error_film, state->film_error);
-        }
-        if (run->plan.profiles) {
-          status = make_profile(
-              run, seal, pressure, state,
-              &run->profile[sb_run_profile_slot(seal, (SbChamber)chamber, motion)], report);
-          if (status != SB_OK) {
-            return status;
-          }
-        }
-      }
+  for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
+    const int seal = i / (SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS);
+    const int chamber = i / SB_RUN_MOTIONS % SB_CYCLE_CHAMBERS, motion = i % SB_RUN_MOTIONS;
+    if (!state_needed(run, seal, chamber, motion)) {
+      continue;
     }
+    if (sb_run_cancelled(hooks, report)) {
+      return SB_ERROR_CANCELLED;
+    }
+    sb_run_progress(run, hooks, 0.3 * (i / SB_RUN_MOTIONS) / (SB_SEAL_COUNT * SB_CYCLE_CHAMBERS),
+                    0);
+    SbReport own = {0};
+    SbStatus status = solve_state(run, &model, seal, chamber, motion, &own);
+    bool fatal = status != SB_OK && status != SB_ERROR_NOT_CONVERGED;
+    if (report != NULL && (fatal || (status != SB_OK && worst == SB_OK))) {
+      *report = own; // of failures to converge the first is told
+    }
+    if (fatal) {
+      return status;
+    }
+    worst = status != SB_OK ? status : worst;
   }
-  // Added up over the rounds of a run that looks for its own speed.
-  summary->counters.fit_solves += counts.fit_solves;
-  summary->counters.disc_solves += counts.disc_solves;
-  summary->counters.ring_solves += counts.ring_solves;
-  summary->counters.reynolds_solves += counts.reynolds_solves;
-  summary->newton_iterations += counts.newton_iterations;
   return worst;
 }
 

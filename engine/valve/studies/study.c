@@ -69,9 +69,8 @@ static void put_design(SbStudy *out, const SbStudyDesign *design) {
   sb_text(out->row_heading, sizeof out->row_heading, "%s",
           design->row_heading != NULL ? design->row_heading : "");
   while (out->column_count < SB_STUDY_COLUMNS && design->column[out->column_count].name[0] != 0) {
-    SbStudyColumn *column = &out->column[out->column_count];
-    *column = design->column[out->column_count++];
-    column->digits = column->digits > 0 ? column->digits : 3;
+    out->column[out->column_count] = design->column[out->column_count];
+    out->column_count++;
   }
   sb_text(out->models, sizeof out->models, "%s", design->models != NULL ? design->models : "");
   sb_text(out->validity, sizeof out->validity, "%s",

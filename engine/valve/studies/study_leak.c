@@ -231,10 +231,10 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_leak = {
-    .x = {"squeeze of the free section", "1", "%"},
-    .panel = {{"pressure of the rubber on the bore", "Pa", "MPa"},
+    .x = {"squeeze of the free section", "1", "%", false},
+    .panel = {{"pressure of the rubber on the bore", "Pa", "MPa", false},
               {"leak at rest", "m3/s", "\xc2\xb5l/h", true},
-              {"carried out per stroke", "m3", "nl"}},
+              {"carried out per stroke", "m3", "nl", false}},
     .range = offsetof(SbStudyRange, squeeze_min),
     .row_heading = "squeeze, pressure",
     .validity = "mean contact pressure, liquid without vapour; gaps below 3 \xcf\x83; no figure "

@@ -28,7 +28,7 @@ typedef struct {
   SbStudyAxis panel[SB_STUDY_PANELS]; // up to the first without a quantity
   size_t range;            // place in SbStudyRange of the least x; the largest stands behind it
   const char *row_heading; // of the table; NULL: there is none
-  SbStudyColumn column[SB_STUDY_COLUMNS]; // up to the first without a name; 0 digits: three
+  SbStudyColumn column[SB_STUDY_COLUMNS]; // up to the first without a name
   const char *models, *validity;          // NULL: make() says it
   SbStudySolves solves;
   // Values of one line of the study (a model, a seal, a size) at x, those of the panels first; NULL
