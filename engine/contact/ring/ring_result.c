@@ -360,7 +360,9 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   }
   out->axial_imbalance = axial_most > 0.0 ? fabs(axial) / axial_most : 0.0;
   out->friction_excess = contact->slip_excess * f;
-  double reference, deformed;
-  sb_ring_fem_volume(ring->fem, &reference, &deformed);
-  out->volume_change = deformed / reference - 1.0;
+  double reference = 0.0;
+  for (int i = 0; i < ring->mesh->nodes; i++) {
+    reference += ring->fem->mass[i];
+  }
+  out->volume_change = ring->fem->volume / reference - 1.0;
 }
