@@ -59,47 +59,49 @@ void sb_compliance_integrals(const SbSurfaceCompliance *c, double from, double t
   }
 }
 
-double sb_compliance_gap(const SbSurfaceCompliance *c, double x, double *slope) {
+// The sum of coefficients times polynomials at x, and its slope.
+static double sum_at(const SbSurfaceCompliance *c, const double *coefficient, double x,
+                     double *slope) {
   double value[SB_COMPLIANCE_MODES];
   double derivative[SB_COMPLIANCE_MODES];
-  const double inside = fmin(fmax(x, c->left), c->right);
-  sb_compliance_modes(c, inside, value, derivative);
+  sb_compliance_modes(c, x, value, derivative);
   double sum = 0.0;
-  double sum_slope = 0.0;
+  *slope = 0.0;
   for (int k = 0; k < c->modes; k++) {
-    sum += c->gap[k] * value[k];
-    sum_slope += c->gap[k] * derivative[k];
+    sum += coefficient[k] * value[k];
+    *slope += coefficient[k] * derivative[k];
   }
-  const double rest = x - inside;
+  return sum;
+}
+
+double sb_compliance_gap(const SbSurfaceCompliance *c, double x, double *slope) {
+  const double inside = fmin(fmax(x, c->left), c->right), rest = x - inside;
+  double here;
+  double sum = sum_at(c, c->gap, inside, &here);
   if (rest != 0.0) {
     const double start = c->beyond[rest > 0.0 ? 1 : 0];
     const double bend = start / (inside - 0.5 * (c->left + c->right));
     sum += rest * (start + 0.5 * bend * rest);
-    sum_slope = start + bend * rest;
+    here = start + bend * rest;
   }
   if (slope != NULL) {
-    *slope = sum_slope;
+    *slope = here;
   }
   return sum;
 }
 
 double sb_compliance_smooth(const SbSurfaceCompliance *c, double x, const double *moment,
                             double *slope) {
-  double value[SB_COMPLIANCE_MODES];
-  double derivative[SB_COMPLIANCE_MODES];
-  sb_compliance_modes(c, x, value, derivative);
-  double sum = 0.0;
-  double sum_slope = 0.0;
+  double coefficient[SB_COMPLIANCE_MODES], here;
   for (int k = 0; k < c->modes; k++) {
-    double row = 0.0;
+    coefficient[k] = 0.0;
     for (int l = 0; l < c->modes; l++) {
-      row += c->smooth[k][l] * moment[l];
+      coefficient[k] += c->smooth[k][l] * moment[l];
     }
-    sum += value[k] * row;
-    sum_slope += derivative[k] * row;
   }
+  const double sum = sum_at(c, coefficient, x, &here);
   if (slope != NULL) {
-    *slope = sum_slope;
+    *slope = here;
   }
   return sum;
 }

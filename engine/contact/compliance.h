@@ -42,14 +42,6 @@ typedef struct {
 SbStatus sb_compliance_disc(SbSurfaceCompliance *out, double radius, double modulus,
                             double poisson_ratio, double reach, SbReport *report);
 
-// Replaces the gap by the one whose dry contact has the given pressure: `n` pairs x [m] and p [Pa]
-// from one edge of the contact to the other, above the lower ambient pressure, between the ambient
-// pressures. `order` coefficients (1 to 12) smooth the pressure. For fitments that know no gap of
-// their own; with S = 0 the film's layers still see the right edges and slopes. SB_ERROR_INPUT.
-SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const double *x,
-                             const double *p, double pressure_left, double pressure_right,
-                             SbReport *report);
-
 // C = 4/(pi E') of the half-plane's part [1/Pa].
 double sb_compliance_half_plane(const SbSurfaceCompliance *c);
 
@@ -96,3 +88,18 @@ double sb_dry_contact_pressure(const SbDryContact *dry, double x);
 
 // Gap [m] at x, 0 inside the contact.
 double sb_dry_contact_gap(const SbDryContact *dry, const SbSurfaceCompliance *c, double x);
+
+// Fills the pressure's slopes at the edges from its coefficients.
+void sb_dry_contact_edges(SbDryContact *dry);
+
+// Replaces the gap by the one whose dry contact has that pressure: edges, ambient pressures and
+// coefficients, at most two less than the surface's modes.
+void sb_compliance_of_pressure(SbSurfaceCompliance *c, const SbDryContact *pressure);
+
+// The same for a given profile of pressure: `n` pairs x [m] and p [Pa]
+// from one edge of the contact to the other, above the lower ambient pressure, between the ambient
+// pressures. `order` coefficients (1 to 12) smooth the pressure. For fitments that know no gap of
+// their own; with S = 0 the film's layers still see the right edges and slopes. SB_ERROR_INPUT.
+SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const double *x,
+                             const double *p, double pressure_left, double pressure_right,
+                             SbReport *report);

@@ -158,7 +158,7 @@ static bool edge_residuals(double *r, const double *x, void *context) {
 }
 
 // U_k at z = -1 and 1: (-1)^k (k + 1) and k + 1.
-static void edge_factors(SbDryContact *d) {
+void sb_dry_contact_edges(SbDryContact *d) {
   d->edge_left = -(d->pressure_left - d->pressure_right) / M_PI;
   d->edge_right = -d->edge_left;
   for (int k = 0; k < d->count; k++) {
@@ -272,7 +272,7 @@ SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double 
   *out = problem.dry;
   out->iterations = (int)broyden.iterations;
   out->residual = broyden.residual;
-  edge_factors(out);
+  sb_dry_contact_edges(out);
   if (!solved) {
     return fmin(x[0], x[1]) < 1e-3
                ? sb_fail(report, SB_ERROR_INFEASIBLE, "dry contact: it leaves its window")
@@ -308,44 +308,19 @@ double sb_dry_contact_gap(const SbDryContact *d, const SbSurfaceCompliance *c, d
   return gap_outside(d, &rules, c, x);
 }
 
-SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const double *x,
-                             const double *p, double pressure_left, double pressure_right,
-                             SbReport *report) {
-  enum { ORDER = 12, ANGLES = 400 };
-  if (order < 1 || order > ORDER || n < (size_t)order + 2 || !(x[n - 1] > x[0]) ||
-      !(x[0] > c->left && x[n - 1] < c->right) || c->modes < order + 2) {
-    return sb_fail(report, SB_ERROR_INPUT, "compliance: a pressure of %zu points cannot be matched",
-                   n);
-  }
-  const double left = x[0];
-  const double right = x[n - 1];
-  const double half = 0.5 * (right - left);
-  const double middle = 0.5 * (left + right);
-  const double low = fmin(pressure_left, pressure_right);
-  const double p_left = pressure_left - low;
-  const double p_right = pressure_right - low;
-  // Least squares over equal steps of the angle, where the sines are orthogonal, by straight lines
-  // between the points.
-  double a[ORDER] = {0};
-  for (int i = 0; i < ANGLES; i++) {
-    const double theta = M_PI * (i + 0.5) / ANGLES, step = theta / M_PI;
-    const double s = middle - half * cos(theta);
-    const size_t at = sb_interval(x, n, s);
-    const double t = (s - x[at]) / (x[at + 1] - x[at]);
-    const double rest = p[at] + t * (p[at + 1] - p[at]) - p_left * (1.0 - step) - p_right * step;
-    for (int k = 0; k < order; k++) {
-      a[k] += 2.0 / ANGLES * rest * sin((k + 1) * (M_PI - theta));
-    }
-  }
+void sb_compliance_of_pressure(SbSurfaceCompliance *c, const SbDryContact *d) {
+  const double half = 0.5 * (d->right - d->left);
+  const double middle = 0.5 * (d->left + d->right);
+  const double low = fmin(d->pressure_left, d->pressure_right);
   Moments split;
   Rules rules;
   make_rules(&rules);
-  moments_of(&split, &rules, c, left, right, order, p_left, p_right);
-  double moment[SB_COMPLIANCE_MODES];
-  memcpy(moment, split.known, sizeof moment);
-  for (int k = 0; k < order; k++) {
+  moments_of(&split, &rules, c, d->left, d->right, d->count, d->pressure_left - low,
+             d->pressure_right - low);
+  double *moment = split.known;
+  for (int k = 0; k < d->count; k++) {
     for (int l = 0; l < c->modes; l++) {
-      moment[l] += a[k] * split.basis[k][l];
+      moment[l] += d->a[k] * split.basis[k][l];
     }
   }
   // The gap whose slope under these pressures is zero, a polynomial up to the smooth part: gap =
@@ -357,15 +332,13 @@ SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const 
   for (int i = 0; i < c->modes; i++) {
     const double s = centre - window * cos(M_PI * (i + 0.5) / c->modes);
     const double z = (s - middle) / half;
-    double t[ORDER + 3] = {1.0, z};
-    for (int k = 2; k < order + 2; k++) {
-      t[k] = 2.0 * z * t[k - 1] - t[k - 2];
-    }
-    double sum = -C * (p_left - p_right) * log(half / window) * s;
-    for (int k = 0; k < order; k++) {
+    double t[SB_COMPLIANCE_PRESSURES + 2] = {1.0, z};
+    double sum = -C * (d->pressure_left - d->pressure_right) * log(half / window) * s;
+    for (int k = 0; k < d->count; k++) {
       // int T_1 = T_2/4, int T_n = T_{n+1}/(2 (n + 1)) - T_{n-1}/(2 (n - 1)).
+      t[k + 2] = 2.0 * z * t[k + 1] - t[k];
       const double integral = k == 0 ? 0.25 * t[2] : t[k + 2] / (2.0 * (k + 2)) - t[k] / (2.0 * k);
-      sum += C * M_PI * half * a[k] * integral;
+      sum += C * M_PI * half * d->a[k] * integral;
     }
     value[i] = sum - sb_compliance_smooth(c, s, moment, NULL);
   }
@@ -377,5 +350,36 @@ SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const 
     sb_compliance_smooth(c, end == 0 ? c->left : c->right, moment, &slope);
     c->beyond[end] += slope;
   }
+}
+
+SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const double *x,
+                             const double *p, double pressure_left, double pressure_right,
+                             SbReport *report) {
+  enum { ORDER = 12, ANGLES = 400 };
+  if (order < 1 || order > ORDER || n < (size_t)order + 2 || !(x[n - 1] > x[0]) ||
+      !(x[0] > c->left && x[n - 1] < c->right) || c->modes < order + 2) {
+    return sb_fail(report, SB_ERROR_INPUT, "compliance: a pressure of %zu points cannot be matched",
+                   n);
+  }
+  SbDryContact d = {.left = x[0],
+                    .right = x[n - 1],
+                    .pressure_left = pressure_left,
+                    .pressure_right = pressure_right,
+                    .count = order};
+  // Least squares over equal steps of the angle, where the sines are orthogonal, by straight lines
+  // between the points.
+  const double low = fmin(pressure_left, pressure_right);
+  for (int i = 0; i < ANGLES; i++) {
+    const double angle = M_PI * (i + 0.5) / ANGLES, step = 1.0 - angle / M_PI;
+    const double s = 0.5 * (d.left + d.right + (d.right - d.left) * cos(angle));
+    const size_t at = sb_interval(x, n, s);
+    const double t = (s - x[at]) / (x[at + 1] - x[at]);
+    const double rest = p[at] + t * (p[at + 1] - p[at]) + low - pressure_left * (1.0 - step) -
+                        pressure_right * step;
+    for (int k = 0; k < order; k++) {
+      d.a[k] += 2.0 / ANGLES * rest * sin((k + 1) * angle);
+    }
+  }
+  sb_compliance_of_pressure(c, &d);
   return sb_succeed(report);
 }

@@ -8,7 +8,6 @@
 #include "engine/contact/fit_models.h"
 
 #include <math.h>
-#include <string.h>
 
 void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem *in) {
   *body = (SbRingBody){.section_diameter = in->section_diameter,
@@ -32,28 +31,19 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   SbRingBody body;
   SbRingLoad load;
   sb_fit_ring_problem(&body, &load, in);
-  const SbRingOptions options = {.poll = in->cancel, .poll_data = in->cancel_data};
   const double wanted = in->tolerance > 0.0 ? in->tolerance : 1e-3;
   // A film hangs on the root of the pressure at the contact's ends, which scatters with the mesh
   // about ten times as much as the load does.
   const double aim = in->surface_wanted ? 0.1 * wanted : wanted;
-  const double tolerance = fmin(0.1, fmax(1e-5, aim));
-
+  const SbRingOptions options = {.tolerance = fmin(0.1, fmax(1e-5, aim)),
+                                 .wanted = wanted,
+                                 .poll = in->cancel,
+                                 .poll_data = in->cancel_data};
   SbRing *ring = NULL;
   SbRingResult result;
-  SbRingError error;
-  SbWarnings warnings = {0};
-  SbStatus status =
-      sb_ring_fit(&ring, &result, &error, &body, &load, tolerance, &options, &warnings, report);
+  SbStatus status = sb_ring_fit(&ring, &result, &body, &load, &options, &out->warnings, report);
   if (status != SB_OK) {
     return status;
-  }
-  for (size_t i = 0; i < warnings.count; i++) {
-    const SbWarning *w = &warnings.item[i];
-    if (strcmp(w->code, "ring-tolerance") == 0 && error.load <= wanted) {
-      continue; // as well as was asked for
-    }
-    sb_warn(&out->warnings, w->code, w->parameter, "%s", w->text);
   }
   const double width = result.axial_right - result.axial_left;
   if (width > in->gland_width) {
@@ -81,9 +71,9 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
     out->load = result.bore_force;
     out->load_per_length = result.bore_force / out->circumference;
     out->pressure_peak = result.pressure_peak;
-    out->solver.error_estimate.load = error.load;
-    out->solver.error_estimate.pressure_peak = error.peak;
-    out->solver.error_estimate.contact_width = error.width;
+    out->solver.error_estimate.load = result.error.load;
+    out->solver.error_estimate.pressure_peak = result.error.peak;
+    out->solver.error_estimate.contact_width = result.error.width;
     const int points =
         sb_ring_profile(ring, out->profile_x, out->profile_p, NULL, SB_FIT_PROFILE_MAX);
     out->profile_count = points < SB_FIT_PROFILE_MAX ? (size_t)points : SB_FIT_PROFILE_MAX;

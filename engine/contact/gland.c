@@ -3,48 +3,58 @@
 
 #include <math.h>
 
-enum { SIZES = 6, CORNERS = 1 << SIZES };
+// The toleranced sizes: catalogue key, value and half-width of the tolerance band.
+static const struct {
+  const char *key;
+  size_t value, tolerance;
+} SIZE[] = {
+#define SIZE_OF(key, field)                                                                        \
+  { key, offsetof(SbGland, field), offsetof(SbGland, field##_tolerance) }
+    SIZE_OF("seal.section_diameter", section_diameter),
+    SIZE_OF("seal.inner_diameter", inner_diameter),
+    SIZE_OF("gland.radial_space", radial_space),
+    SIZE_OF("gland.axial_width", axial_width),
+    SIZE_OF("bore.diameter", bore_diameter),
+    SIZE_OF("stem.land_diameter", land_diameter),
+#undef SIZE_OF
+};
+enum { SIZES = sizeof SIZE / sizeof SIZE[0], CORNERS = 1 << SIZES };
 
-// d, ID, g, b, D, land.
-typedef struct {
-  double v[SIZES];
-} Sizes;
+static double number(const SbGland *gland, size_t at) {
+  return *(const double *)((const char *)gland + at);
+}
 
-static void evaluate(double *q, const Sizes *s, const SbGland *gland) {
-  const double d = s->v[0];
-  const double id = s->v[1];
-  const double g = s->v[2];
-  const double b = s->v[3];
-  const double bore = s->v[4];
-  const double land = s->v[5];
+// A size moved by its tolerance, up (sign 1) or down (-1).
+static void move(SbGland *gland, int size, double sign) {
+  *(double *)((char *)gland + SIZE[size].value) += sign * number(gland, SIZE[size].tolerance);
+}
+
+static void evaluate(double *q, const SbGland *s) {
+  const double d = s->section_diameter, id = s->inner_diameter;
+  const double g = s->radial_space, bore = s->bore_diameter;
   const double mean = (bore - g) / (id + d) - 1.0;
   q[SB_GLAND_STRETCH_INNER] = (bore - 2.0 * g) / id - 1.0;
   q[SB_GLAND_STRETCH_MEAN] = mean;
   q[SB_GLAND_SQUEEZE] = (d - g) / d;
-  q[SB_GLAND_SECTION_FITTED] = d * (1.0 - gland->poisson_ratio * mean);
+  q[SB_GLAND_SECTION_FITTED] = d * (1.0 - s->poisson_ratio * mean);
   q[SB_GLAND_INTERFERENCE] = q[SB_GLAND_SECTION_FITTED] - g;
   q[SB_GLAND_SQUEEZE_FITTED] = q[SB_GLAND_INTERFERENCE] / q[SB_GLAND_SECTION_FITTED];
-  q[SB_GLAND_FILL] = 0.25 * M_PI * d * d * (id + d) / (g * (bore - g) * b);
-  q[SB_GLAND_FILL_SWOLLEN] = q[SB_GLAND_FILL] * (1.0 + gland->volume_swell);
-  const double growth = cbrt(1.0 + gland->volume_swell);
+  q[SB_GLAND_FILL] = 0.25 * M_PI * d * d * (id + d) / (g * (bore - g) * s->axial_width);
+  q[SB_GLAND_FILL_SWOLLEN] = q[SB_GLAND_FILL] * (1.0 + s->volume_swell);
+  const double growth = cbrt(1.0 + s->volume_swell);
   const double mean_swollen = (bore - g) / (growth * (id + d)) - 1.0;
-  q[SB_GLAND_SECTION_SWOLLEN] = growth * d * (1.0 - gland->poisson_ratio * mean_swollen);
+  q[SB_GLAND_SECTION_SWOLLEN] = growth * d * (1.0 - s->poisson_ratio * mean_swollen);
   q[SB_GLAND_SQUEEZE_SWOLLEN] = 1.0 - g / (growth * d);
-  q[SB_GLAND_SWELL] = gland->volume_swell;
-  q[SB_GLAND_EXTRUSION_GAP] = bore - land;
+  q[SB_GLAND_SWELL] = s->volume_swell;
+  q[SB_GLAND_EXTRUSION_GAP] = bore - s->land_diameter;
 }
 
 const char *sb_band_text(SbBand band) {
-  switch (band) {
-  case SB_BAND_BELOW:
-    return "below";
-  case SB_BAND_WITHIN:
-    return "within";
-  case SB_BAND_ABOVE:
-    return "above";
-  default:
-    return "";
-  }
+  static const char *const text[] = {[SB_BAND_NONE] = "",
+                                     [SB_BAND_BELOW] = "below",
+                                     [SB_BAND_WITHIN] = "within",
+                                     [SB_BAND_ABOVE] = "above"};
+  return (size_t)band < sizeof text / sizeof text[0] ? text[band] : "";
 }
 
 SbBand sb_band_of(double value, double low, double high) {
@@ -63,20 +73,11 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
       SB_GLAND_LIST(ENTRY)
 #undef ENTRY
   };
-  static const char *const keys[SIZES] = {"seal.section_diameter", "seal.inner_diameter",
-                                          "gland.radial_space",    "gland.axial_width",
-                                          "bore.diameter",         "stem.land_diameter"};
-  const Sizes nominal = {{gland->section_diameter, gland->inner_diameter, gland->radial_space,
-                          gland->axial_width, gland->bore_diameter, gland->land_diameter}};
-  const Sizes tolerance = {{gland->section_diameter_tolerance, gland->inner_diameter_tolerance,
-                            gland->radial_space_tolerance, gland->axial_width_tolerance,
-                            gland->bore_diameter_tolerance, gland->land_diameter_tolerance}};
   for (int i = 0; i < SIZES; i++) {
-    if (!(nominal.v[i] > 0.0 && isfinite(nominal.v[i]) && tolerance.v[i] >= 0.0 &&
-          tolerance.v[i] < nominal.v[i])) {
-      return sb_fail_parameter(report, SB_ERROR_RANGE, keys[i],
-                               "size %g m with a tolerance of %g m makes no sense", nominal.v[i],
-                               tolerance.v[i]);
+    const double size = number(gland, SIZE[i].value), wide = number(gland, SIZE[i].tolerance);
+    if (!(size > 0.0 && isfinite(size) && wide >= 0.0 && wide < size)) {
+      return sb_fail_parameter(report, SB_ERROR_RANGE, SIZE[i].key,
+                               "size %g m with a tolerance of %g m makes no sense", size, wide);
     }
   }
   if (!(gland->poisson_ratio >= 0.0 && gland->poisson_ratio <= 0.5 && gland->volume_swell >= 0.0 &&
@@ -85,14 +86,15 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
                              "Poisson's ratio %g or swell %g makes no sense", gland->poisson_ratio,
                              gland->volume_swell);
   }
-  if (!(nominal.v[4] - tolerance.v[4] > 2.0 * (nominal.v[2] + tolerance.v[2]))) {
+  if (!(gland->bore_diameter - gland->bore_diameter_tolerance >
+        2.0 * (gland->radial_space + gland->radial_space_tolerance))) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "bore.diameter",
                              "with its tolerances the bore leaves no stem inside the radial space");
   }
 
   // Nominal, and each corner of the tolerances: the read-outs are monotonic in every size.
   double value[SB_GLAND_COUNT];
-  evaluate(value, &nominal, gland);
+  evaluate(value, gland);
   for (int k = 0; k < SB_GLAND_COUNT; k++) {
     out[k] = (SbGlandReadout){
         .name = list[k].name,
@@ -106,11 +108,11 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
     };
   }
   for (int corner = 0; corner < CORNERS; corner++) {
-    Sizes at = nominal;
+    SbGland at = *gland;
     for (int i = 0; i < SIZES; i++) {
-      at.v[i] += (corner >> i & 1) ? tolerance.v[i] : -tolerance.v[i];
+      move(&at, i, (corner >> i & 1) ? 1.0 : -1.0);
     }
-    evaluate(value, &at, gland);
+    evaluate(value, &at);
     for (int k = 0; k < SB_GLAND_COUNT; k++) {
       out[k].worst_low = fmin(out[k].worst_low, value[k]);
       out[k].worst_high = fmax(out[k].worst_high, value[k]);
@@ -120,14 +122,12 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
   // Root sum of squares of each tolerance alone.
   double square[SB_GLAND_COUNT] = {0.0};
   for (int i = 0; i < SIZES; i++) {
-    Sizes up = nominal;
-    Sizes down = nominal;
-    up.v[i] += tolerance.v[i];
-    down.v[i] -= tolerance.v[i];
-    double high[SB_GLAND_COUNT];
-    double low[SB_GLAND_COUNT];
-    evaluate(high, &up, gland);
-    evaluate(low, &down, gland);
+    SbGland up = *gland, down = *gland;
+    move(&up, i, 1.0);
+    move(&down, i, -1.0);
+    double high[SB_GLAND_COUNT], low[SB_GLAND_COUNT];
+    evaluate(high, &up);
+    evaluate(low, &down);
     for (int k = 0; k < SB_GLAND_COUNT; k++) {
       square[k] += 0.25 * (high[k] - low[k]) * (high[k] - low[k]);
     }

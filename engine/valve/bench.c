@@ -185,14 +185,13 @@ static SbStatus run_ring(SbBenchCase *out, const Case *c, SbReport *report) {
   SbRingBody body = ring_body();
   SbRingLoad load = ring_load(c->parameter);
   SbRingResult result = {0};
-  SbRingError error;
+  SbRingOptions options = {.tolerance = c->tolerance};
   SbWarnings warnings = {0};
-  SbStatus status =
-      sb_ring_fit(NULL, &result, &error, &body, &load, c->tolerance, NULL, &warnings, report);
+  SbStatus status = sb_ring_fit(NULL, &result, &body, &load, &options, &warnings, report);
   out->error = relative(result.bore_force, c->expected[0]);
   out->unknowns = (size_t)result.unknowns;
   out->iterations = (size_t)result.newton_iterations;
-  out->error_estimate = error.load;
+  out->error_estimate = result.error.load;
   snprintf(out->name, sizeof out->name, "%.2f MPa, tolerance %g, %d load step%s",
            1e-6 * c->parameter, c->tolerance, result.load_steps, result.load_steps == 1 ? "" : "s");
   return status;

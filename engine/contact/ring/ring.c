@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double SIZE_DEFAULT = 0.05, SQUEEZE_MOST = 0.6;
+static const double SIZE_DEFAULT = 0.05, SQUEEZE_MOST = 0.6, STRETCH_MOST = 0.6;
 
 // Arc of a bore contact, in section diameters, below which its elements shrink with it, and the
 // least share of their size that is left.
@@ -56,21 +56,14 @@ static SbStatus check_load(const SbRingBody *body, const SbRingLoad *load, SbRep
                              "(radius %.4g m)",
                              load->bore_radius, load->floor_radius);
   }
-  if (!body->plane_strain && !(load->floor_radius > 0.0)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "gland.radial_space",
-                             "the groove floor's radius %.4g m is not positive",
-                             load->floor_radius);
-  }
+  double floor = body->plane_strain ? 1.0 : load->floor_radius, d = body->section_diameter;
   double stretch = body->plane_strain ? 0.0 : 2.0 * load->floor_radius / body->inner_diameter - 1.0;
-  if (stretch > 0.6) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.inner_diameter",
-                             "the ring would be stretched by %.0f %%; the model ends at 60 %%",
-                             100.0 * stretch);
-  }
-  if (1.0 - space / body->section_diameter > SQUEEZE_MOST) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "gland.radial_space",
-                             "the ring would be squeezed by %.0f %%; the model ends at %.0f %%",
-                             100.0 * (1.0 - space / body->section_diameter), 100.0 * SQUEEZE_MOST);
+  status = SB_CHECK(
+      report, {"gland.radial_space", "the groove floor's radius [m]", floor, SB_ABOVE_ZERO},
+      {"seal.inner_diameter", "the ring's stretch on the floor", stretch, -DBL_MAX, STRETCH_MOST},
+      {"gland.radial_space", "the ring's squeeze", 1.0 - space / d, -DBL_MAX, SQUEEZE_MOST});
+  if (status != SB_OK) {
+    return status;
   }
   double width = load->wall_right - load->wall_left;
   if (!(width > 0.0)) {
@@ -78,7 +71,6 @@ static SbStatus check_load(const SbRingBody *body, const SbRingLoad *load, SbRep
                              "the groove has no width");
   }
   // A nearly incompressible section cannot be larger than its groove; its volume is kept.
-  double d = body->section_diameter;
   double area = 0.25 * M_PI * d * d;
   if (!body->plane_strain) {
     area *= (body->inner_diameter + d) / (load->floor_radius + load->bore_radius);

@@ -57,6 +57,8 @@ typedef struct {
   bool fit_mesh;            // after the first solution, remesh with nodes at the contact edges
   int iterations_max;       // Newton iterations per load step [24]
   double step_least;        // least share of a load step before it is given up [1/64]
+  double tolerance;         // of sb_ring_fit, relative on the load, 1e-5 .. 0.1 [1e-3]
+  double wanted;            // estimate of that error above which it warns [tolerance]
   bool (*poll)(void *data); // returns true to cancel; called every Newton iteration
   void *poll_data;
 } SbRingOptions;
@@ -88,6 +90,9 @@ typedef struct {
   double friction_excess; // N of departure from Coulomb's law at nodes that cannot settle, 0
   double axial_imbalance; // sum of all axial forces over the largest one
   int unknowns, newton_iterations, load_steps, rejected_steps;
+  struct {
+    double load, peak, width; // relative
+  } error;                    // estimated by sb_ring_fit; 0 without it
 } SbRingResult;
 
 // Fits the free ring into its groove: stretched over the floor, squeezed by the bore, then pressed
@@ -138,16 +143,11 @@ void sb_ring_fields(const SbRing *ring, const SbRingFields *out);
 // window.
 SbStatus sb_ring_surface(SbRing *ring, SbSurfaceCompliance *out, SbReport *report);
 
-// Relative errors by comparing two meshes.
-typedef struct {
-  double load, peak, width;
-} SbRingError;
-
-// One fitment to a tolerance: solves on a coarse and on a finer mesh with nodes at the contact
-// edges, and estimates the error of load, peak and width from the two. `out` may be NULL if only
-// the figures are wanted. tolerance is relative on the load, 1e-5 .. 1e-1. Warnings:
-// "no-contact" (loads are then 0; also for a ring under pressure that does not touch without it:
-// the fluid goes past it), "ring-tolerance" if the estimate stays above the tolerance.
-SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, SbRingError *error, const SbRingBody *body,
-                     const SbRingLoad *load, double tolerance, const SbRingOptions *options,
-                     SbWarnings *warnings, SbReport *report);
+// One fitment to the options' tolerance: solves on a coarse and on a finer mesh with nodes at the
+// contact edges, and estimates the error of load, peak and width from the two. `out` may be NULL if
+// only the figures are wanted. Warnings: "no-contact" (loads are then 0; also for a ring under
+// pressure that does not touch without it: the fluid goes past it), "ring-tolerance" if the
+// estimate stays above what is wanted.
+SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
+                     const SbRingLoad *load, const SbRingOptions *options, SbWarnings *warnings,
+                     SbReport *report);

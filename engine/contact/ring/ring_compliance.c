@@ -229,34 +229,34 @@ static void smooth_part(SbSurfaceCompliance *out, double half,
 // contact, fewer.
 static SbStatus dry_gap(const SbRing *ring, SbRingPatch *patch, SbSurfaceCompliance *c,
                         SbReport *report) {
-  SbRingPressure smooth;
-  if (!sb_ring_ends(ring, SB_RING_BORE, patch, &smooth)) {
+  SbDryContact p, dry;
+  if (!sb_ring_ends(ring, SB_RING_BORE, patch, &p)) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED,
                    "no smooth pressure fits the ring's bore contact");
   }
-  double x[PROFILE], p[PROFILE], low = fmin(smooth.end_pressure[0], smooth.end_pressure[1]);
-  double left = patch->place[0] * ring->length, width = patch->place[1] * ring->length - left;
-  double load = 0.0, peak = 0.0;
-  for (int i = 0; i < PROFILE; i++) {
-    double share = 0.5 * (1.0 - cos(M_PI * i / (PROFILE - 1)));
-    x[i] = left + share * width;
-    p[i] = (sb_ring_pressure_at(&smooth, share) - low) * ring->stress;
-    peak = fmax(peak, p[i]);
-    load += i > 0 ? 0.5 * (p[i] + p[i - 1]) * (x[i] - x[i - 1]) : 0.0;
+  // In SI units, above the lower ambient pressure.
+  double low = fmin(p.pressure_left, p.pressure_right);
+  p.left *= ring->length;
+  p.right *= ring->length;
+  p.pressure_left = (p.pressure_left - low) * ring->stress;
+  p.pressure_right = (p.pressure_right - low) * ring->stress;
+  for (int k = 0; k < p.count; k++) {
+    p.a[k] *= ring->stress;
   }
-  double ends[2] = {(smooth.end_pressure[0] - low) * ring->stress,
-                    (smooth.end_pressure[1] - low) * ring->stress};
-  load += ends[0] * left - ends[1] * (left + width);
-  for (int order = smooth.terms; order >= ORDER_LEAST; order--) {
-    SbDryContact dry;
-    // An order that gives no contact is as unfit as one that gives another: the next is lower.
-    if (sb_compliance_match(c, order, PROFILE, x, p, ends[0], ends[1], report) != SB_OK ||
-        sb_dry_contact(&dry, c, load, ends[0], ends[1], report) != SB_OK) {
-      continue;
-    }
-    double off = fabs(dry.left - left) / width + fabs(dry.right - left - width) / width +
-                 fabs(dry.peak / peak - 1.0);
-    if (off < DRY_MOST) {
+  double width = p.right - p.left;
+  p.load = 0.25 * M_PI * width * p.a[0] +
+           0.5 * (p.pressure_left - p.pressure_right) * (p.left + p.right);
+  for (int i = 0; i < PROFILE; i++) {
+    double at = p.left + 0.5 * width * (1.0 - cos(M_PI * i / (PROFILE - 1)));
+    p.peak = fmax(p.peak, sb_dry_contact_pressure(&p, at));
+  }
+  // An order that gives no contact is as unfit as one that gives another: the next is lower.
+  for (; p.count >= ORDER_LEAST; p.count--) {
+    sb_compliance_of_pressure(c, &p);
+    if (sb_dry_contact(&dry, c, p.load, p.pressure_left, p.pressure_right, report) == SB_OK &&
+        fabs(dry.left - p.left) + fabs(dry.right - p.right) +
+                fabs(dry.peak / p.peak - 1.0) * width <
+            DRY_MOST * width) {
       return sb_succeed(report);
     }
   }

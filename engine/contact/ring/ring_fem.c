@@ -13,9 +13,11 @@
 
 enum {
   NODES = 6,
-  SHAPES = 7,                                      // six nodes and the bubble
-  POINT_SIZE = 3 * SHAPES + 1,                     // dR, dZ, N/R of each shape; weight
-  CONDENSED_SIZE = SB_RING_INNER * (2 * NODES + 1) // inner response to nodes and load
+  SHAPES = 7,                  // six nodes and the bubble
+  POINT_SIZE = 3 * SHAPES + 1, // dR, dZ, N/R of each shape; weight
+  INNER = SB_RING_INNER,       // bubble and pressure
+  OUTER = 2 * NODES,           // displacements of the nodes
+  RIGHT = OUTER + 1,           // what the inner unknowns respond to: nodes and load
 };
 
 // Degree-5 rule: area coordinates l1, l2 of each point and its weight (sum 1).
@@ -119,7 +121,7 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->condition = calloc(n, sizeof(SbRingCondition));
   fem->raw_place = calloc(2 * n, sizeof(int));
   fem->gauss = malloc(sizeof(double) * POINT_SIZE * SB_RING_FEM_POINTS * m);
-  fem->condensed = calloc(CONDENSED_SIZE * m, sizeof(double));
+  fem->condensed = calloc(INNER * RIGHT * m, sizeof(double));
   if (fem->u == NULL || fem->condition == NULL || fem->raw_place == NULL || fem->gauss == NULL ||
       fem->condensed == NULL) {
     sb_ring_fem_destroy(fem);
@@ -195,7 +197,6 @@ static void gather(const SbRingFem *fem, int element, double local[2 * SHAPES]) 
 
 // Turns the rows of [A | B], A the inner system, into [1 | A^-1 B], by Gauss and Jordan with row
 // pivoting.
-enum { INNER = SB_RING_INNER, RIGHT = 2 * NODES + 1 };
 static void solve_inner(double m[INNER][INNER + RIGHT]) {
   for (int k = 0; k < INNER; k++) {
     int pivot = k;
@@ -217,13 +218,34 @@ static void solve_inner(double m[INNER][INNER + RIGHT]) {
   }
 }
 
-// Tangent and residual of one element before condensation; false if turned inside out.
-static bool element_system(SbRingFem *fem, int e, double k[2 * SHAPES][2 * SHAPES],
-                           double kp[2 * SHAPES][3], double kpp[3][3], double r[2 * SHAPES],
-                           double rp[3]) {
+// First Piola stress rr, rz, zr, zz, hoop of a gradient and a pressure, with the derivatives and
+// the cofactors of the gradient that it comes from.
+static void piola(const SbRingFem *fem, const double f[5], double p, Slopes *w, double cof[4],
+                  double stress[5]) {
+  double square = f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3];
+  differentiate(&fem->material, square, f[0] * f[3] - f[1] * f[2], f[4], p, w);
+  cof[0] = f[3];
+  cof[1] = -f[2];
+  cof[2] = -f[1];
+  cof[3] = f[0];
+  for (int i = 0; i < 4; i++) {
+    stress[i] = 2.0 * w->a * f[i] + w->d * cof[i];
+  }
+  stress[4] = w->f;
+}
+
+// One element's tangent (upper half) and residual: nodes, bubble, pressure.
+typedef struct {
+  double k[OUTER + INNER][OUTER + INNER], r[OUTER + INNER];
+} System;
+
+// False if the element is turned inside out.
+static bool element_system(SbRingFem *fem, int e, System *s) {
+  enum { PRESSURE = 2 * SHAPES };
   double local[2 * SHAPES];
   gather(fem, e, local);
-  const double *pressure = &fem->inner[SB_RING_INNER * e + 2];
+  const double *pressure = &fem->inner[INNER * e + 2];
+  memset(s, 0, sizeof *s);
   for (int q = 0; q < SB_RING_FEM_POINTS; q++) {
     const double *g = &fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q)];
     double weight = g[3 * SHAPES];
@@ -232,26 +254,22 @@ static bool element_system(SbRingFem *fem, int e, double k[2 * SHAPES][2 * SHAPE
     double f[5];
     point_strain(g, local, f);
     double d = f[0] * f[3] - f[1] * f[2];
-    double jacobian = d * f[4];
+    fem->volume += weight * d * f[4];
     fem->det_min = fmin(fem->det_min, fmin(d, f[4]));
     if (!(d > 0.0 && f[4] > 0.0)) {
       return false;
     }
+    // Stress and its derivative.
     Slopes w;
-    differentiate(&fem->material, f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3], d, f[4], p,
-                  &w);
-    // First Piola stress and its derivative in the order rr, rz, zr, zz, hoop.
-    double cof[4] = {f[3], -f[2], -f[1], f[0]};
-    double stress[5], a[5][5];
+    double cof[4], stress[5], a[5][5];
+    piola(fem, f, p, &w, cof, stress);
     for (int i = 0; i < 4; i++) {
-      stress[i] = weight * (2.0 * w.a * f[i] + w.d * cof[i]);
       for (int j = 0; j < 4; j++) {
         a[i][j] = weight * (2.0 * w.ad * (f[i] * cof[j] + cof[i] * f[j]) + w.dd * cof[i] * cof[j]);
       }
       a[i][i] += weight * 2.0 * w.a;
       a[i][4] = a[4][i] = weight * (2.0 * w.af * f[i] + w.df * cof[i]);
     }
-    stress[4] = weight * w.f;
     a[4][4] = weight * w.ff;
     a[0][3] += weight * w.d;
     a[3][0] += weight * w.d;
@@ -267,25 +285,25 @@ static bool element_system(SbRingFem *fem, int e, double k[2 * SHAPES][2 * SHAPE
       }
       for (int c = 0; c <= b; c++) {
         const double *gc = &g[3 * c];
-        k[2 * c][2 * b] += v[0] * gc[0] + v[1] * gc[1] + v[4] * gc[2];
-        k[2 * c + 1][2 * b] += v[2] * gc[0] + v[3] * gc[1];
-        k[2 * c][2 * b + 1] += t[0] * gc[0] + t[1] * gc[1] + t[4] * gc[2];
-        k[2 * c + 1][2 * b + 1] += t[2] * gc[0] + t[3] * gc[1];
+        s->k[2 * c][2 * b] += v[0] * gc[0] + v[1] * gc[1] + v[4] * gc[2];
+        s->k[2 * c + 1][2 * b] += v[2] * gc[0] + v[3] * gc[1];
+        s->k[2 * c][2 * b + 1] += t[0] * gc[0] + t[1] * gc[1] + t[4] * gc[2];
+        s->k[2 * c + 1][2 * b + 1] += t[2] * gc[0] + t[3] * gc[1];
       }
-      r[2 * b] += stress[0] * gb[0] + stress[1] * gb[1] + stress[4] * gb[2];
-      r[2 * b + 1] += stress[2] * gb[0] + stress[3] * gb[1];
+      s->r[2 * b] += weight * (stress[0] * gb[0] + stress[1] * gb[1] + stress[4] * gb[2]);
+      s->r[2 * b + 1] += weight * (stress[2] * gb[0] + stress[3] * gb[1]);
       double div_r = weight * (f[4] * (cof[0] * gb[0] + cof[1] * gb[1]) + d * gb[2]);
       double div_z = weight * f[4] * (cof[2] * gb[0] + cof[3] * gb[1]);
       for (int i = 0; i < 3; i++) {
-        kp[2 * b][i] += phi[i] * div_r;
-        kp[2 * b + 1][i] += phi[i] * div_z;
+        s->k[2 * b][PRESSURE + i] += phi[i] * div_r;
+        s->k[2 * b + 1][PRESSURE + i] += phi[i] * div_z;
       }
     }
     double inverse_bulk = weight / fem->material.bulk;
     for (int i = 0; i < 3; i++) {
-      rp[i] += phi[i] * (weight * (jacobian - 1.0) - p * inverse_bulk);
-      for (int j = 0; j < 3; j++) {
-        kpp[i][j] -= phi[i] * phi[j] * inverse_bulk;
+      s->r[PRESSURE + i] += phi[i] * (weight * (d * f[4] - 1.0) - p * inverse_bulk);
+      for (int j = i; j < 3; j++) {
+        s->k[PRESSURE + i][PRESSURE + j] -= phi[i] * phi[j] * inverse_bulk;
       }
     }
   }
@@ -296,55 +314,46 @@ bool sb_ring_fem_assemble(SbRingFem *fem) {
   const SbRingMesh *mesh = fem->mesh;
   memset(fem->value, 0, sizeof(double) * (size_t)fem->row_start[2 * mesh->nodes]);
   memset(fem->residual, 0, sizeof(double) * 2 * (size_t)mesh->nodes);
-  fem->residual_inner = 0.0;
+  fem->residual_inner = fem->volume = 0.0;
   fem->det_min = INFINITY;
   for (int e = 0; e < mesh->elements; e++) {
-    double k[2 * SHAPES][2 * SHAPES] = {{0.0}}, kp[2 * SHAPES][3] = {{0.0}}, kpp[3][3] = {{0.0}};
-    double r[2 * SHAPES] = {0.0}, rp[3] = {0.0};
-    if (!element_system(fem, e, k, kp, kpp, r, rp)) {
+    System s;
+    if (!element_system(fem, e, &s)) {
       return false;
     }
-    // Inner unknowns: bubble (shape 6) and pressure.
-    double inner[INNER][INNER + RIGHT], coupling[INNER][2 * NODES];
+    double inner[INNER][INNER + RIGHT];
     for (int i = 0; i < INNER; i++) {
       for (int j = 0; j < INNER; j++) {
-        int lo = i < j ? i : j, hi = i < j ? j : i;
-        inner[i][j] = hi < 2   ? k[2 * NODES + lo][2 * NODES + hi]
-                      : lo < 2 ? kp[2 * NODES + lo][hi - 2]
-                               : kpp[lo - 2][hi - 2];
+        inner[i][j] = s.k[OUTER + (i < j ? i : j)][OUTER + (i < j ? j : i)];
       }
-      for (int j = 0; j < 2 * NODES; j++) {
-        coupling[i][j] = inner[i][INNER + j] = i < 2 ? k[j][2 * NODES + i] : kp[j][i - 2];
+      for (int j = 0; j < OUTER; j++) {
+        inner[i][INNER + j] = s.k[j][OUTER + i];
       }
-      double residual = i < 2 ? r[2 * NODES + i] : rp[i - 2];
-      inner[i][INNER + 2 * NODES] = residual;
-      fem->residual_inner = fmax(fem->residual_inner, fabs(residual));
+      inner[i][INNER + OUTER] = s.r[OUTER + i];
+      fem->residual_inner = fmax(fem->residual_inner, fabs(s.r[OUTER + i]));
     }
     solve_inner(inner);
-    double(*x)[RIGHT] = (double(*)[RIGHT])(void *)&fem->condensed[CONDENSED_SIZE * e];
+    double *x = &fem->condensed[INNER * RIGHT * e];
     for (int i = 0; i < INNER; i++) {
-      memcpy(x[i], &inner[i][INNER], sizeof x[i]);
+      memcpy(&x[RIGHT * i], &inner[i][INNER], sizeof(double[RIGHT]));
     }
 
     // Condense and scatter both halves of the symmetric block.
-    const int *tri = &mesh->tri[6 * e];
-    for (int i = 0; i < 2 * NODES; i++) {
-      int node = tri[i / 2];
-      for (int m = 0; m < SB_RING_INNER; m++) {
-        r[i] -= coupling[m][i] * x[m][2 * NODES];
-      }
-      fem->residual[2 * node + i % 2] += r[i];
-      for (int j = i; j < 2 * NODES; j++) {
-        double sum = k[i][j];
-        for (int m = 0; m < SB_RING_INNER; m++) {
-          sum -= coupling[m][i] * x[m][j];
+    const int *tri = &mesh->tri[6 * e], *scatter = &fem->scatter[36 * e];
+    for (int i = 0; i < OUTER; i++) {
+      for (int m = 0; m < INNER; m++) {
+        s.r[i] -= s.k[i][OUTER + m] * inner[m][INNER + OUTER];
+        for (int j = i; j < OUTER; j++) {
+          s.k[i][j] -= s.k[i][OUTER + m] * inner[m][INNER + j];
         }
-        const int *scatter = &fem->scatter[36 * e];
-        int other = tri[j / 2];
-        fem->value[fem->row_start[2 * node + i % 2] + scatter[6 * (i / 2) + j / 2] + j % 2] += sum;
+      }
+      int row = 2 * tri[i / 2] + i % 2;
+      fem->residual[row] += s.r[i];
+      for (int j = i; j < OUTER; j++) {
+        int other = 2 * tri[j / 2] + j % 2;
+        fem->value[fem->row_start[row] + scatter[6 * (i / 2) + j / 2] + j % 2] += s.k[i][j];
         if (j > i) {
-          fem->value[fem->row_start[2 * other + j % 2] + scatter[6 * (j / 2) + i / 2] + i % 2] +=
-              sum;
+          fem->value[fem->row_start[other] + scatter[6 * (j / 2) + i / 2] + i % 2] += s.k[i][j];
         }
       }
     }
@@ -366,11 +375,11 @@ bool sb_ring_fem_assemble(SbRingFem *fem) {
 void sb_ring_fem_advance(SbRingFem *fem, double step) {
   const SbRingMesh *mesh = fem->mesh;
   for (int e = 0; e < mesh->elements; e++) {
-    const double *x = &fem->condensed[CONDENSED_SIZE * e];
+    const double *x = &fem->condensed[INNER * RIGHT * e];
     for (int m = 0; m < SB_RING_INNER; m++) {
-      double change = x[(2 * NODES + 1) * m + 2 * NODES];
-      for (int j = 0; j < 2 * NODES; j++) {
-        change += x[(2 * NODES + 1) * m + j] * fem->du[2 * mesh->tri[6 * e + j / 2] + j % 2];
+      double change = x[RIGHT * m + OUTER];
+      for (int j = 0; j < OUTER; j++) {
+        change += x[RIGHT * m + j] * fem->du[2 * mesh->tri[6 * e + j / 2] + j % 2];
       }
       fem->inner[SB_RING_INNER * e + m] -= step * change;
     }
@@ -394,43 +403,24 @@ void sb_ring_fem_restore(SbRingFem *fem, int place) {
   memcpy(fem->u, fem->saved[place], state_size(fem));
 }
 
-void sb_ring_fem_volume(const SbRingFem *fem, double *reference, double *deformed) {
-  *reference = *deformed = 0.0;
-  for (int e = 0; e < fem->mesh->elements; e++) {
-    double local[2 * SHAPES];
-    gather(fem, e, local);
-    for (int q = 0; q < SB_RING_FEM_POINTS; q++) {
-      const double *g = &fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q)];
-      double f[5];
-      point_strain(g, local, f);
-      *reference += g[3 * SHAPES];
-      *deformed += g[3 * SHAPES] * (f[0] * f[3] - f[1] * f[2]) * f[4];
-    }
-  }
-}
-
 void sb_ring_fem_stress(const SbRingFem *fem, int element, double l1, double l2, double cauchy[4],
                         double *jacobian) {
   double g[POINT_SIZE], local[2 * SHAPES], f[5];
   point_geometry(fem, element, l1, l2, 0.0, g);
   gather(fem, element, local);
   point_strain(g, local, f);
-  double d = fmax(1e-12, f[0] * f[3] - f[1] * f[2]), hoop = fmax(1e-12, f[4]);
-  const double *inner = &fem->inner[SB_RING_INNER * element];
+  f[4] = fmax(1e-12, f[4]);
+  const double *inner = &fem->inner[INNER * element];
   double p = inner[2] + (l1 - 1.0 / 3.0) * inner[3] + (l2 - 1.0 / 3.0) * inner[4];
   Slopes w;
-  differentiate(&fem->material, f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3], d, hoop, p,
-                &w);
-  double cof[4] = {f[3], -f[2], -f[1], f[0]}, stress[4];
-  for (int i = 0; i < 4; i++) {
-    stress[i] = 2.0 * w.a * f[i] + w.d * cof[i];
-  }
+  double cof[4], stress[5];
+  piola(fem, f, p, &w, cof, stress);
   // Cauchy = P F^T / J.
-  *jacobian = d * hoop;
+  *jacobian = (f[0] * f[3] - f[1] * f[2]) * f[4];
   cauchy[0] = (stress[0] * f[0] + stress[1] * f[1]) / *jacobian;
   cauchy[1] = (stress[2] * f[2] + stress[3] * f[3]) / *jacobian;
   cauchy[2] = (stress[0] * f[2] + stress[1] * f[3]) / *jacobian;
-  cauchy[3] = w.f * hoop / *jacobian;
+  cauchy[3] = stress[4] * f[4] / *jacobian;
 }
 
 void sb_ring_fem_transfer(SbRingFem *to, const SbRingFem *from) {

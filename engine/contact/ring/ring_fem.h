@@ -51,6 +51,7 @@ struct SbRingFem {
 
   double residual_inner; // largest residual of an element's own equations
   double det_min;        // least det F at the last assembly
+  double volume;         // deformed, at the last assembly; the area in the plane
 
   // Private: quadrature data, condensation, sparse rows, factor.
   double *gauss, *condensed;
@@ -104,9 +105,6 @@ double sb_ring_fem_free_residual(const SbRingFem *fem);
 // viscous steps.
 void sb_ring_fem_save(SbRingFem *fem, int place);
 void sb_ring_fem_restore(SbRingFem *fem, int place);
-
-// Reference and deformed volume (area in the plane).
-void sb_ring_fem_volume(const SbRingFem *fem, double *reference, double *deformed);
 
 // Stress at area coordinates of one element: Cauchy (rr, zz, rz, hoop), and J.
 void sb_ring_fem_stress(const SbRingFem *fem, int element, double l1, double l2, double cauchy[4],

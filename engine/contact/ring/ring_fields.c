@@ -14,49 +14,33 @@ void sb_ring_sizes(const SbRing *ring, int *nodes, int *triangles, int *outline)
   *outline = ring->mesh->loop_count;
 }
 
-// Adds one node's stresses from one element and counts the visit in `visits`.
-static void add_stress(const SbRing *ring, const SbRingFields *out, int element, int corner) {
+static void stresses(const SbRing *ring, const SbRingFields *out) {
   static const double L1[6] = {0.0, 1.0, 0.0, 0.5, 0.5, 0.0};
   static const double L2[6] = {0.0, 0.0, 1.0, 0.0, 0.5, 0.5};
-  double s[4], jacobian;
-  sb_ring_fem_stress(ring->fem, element, L1[corner], L2[corner], s, &jacobian);
-  int node = ring->mesh->tri[6 * element + corner];
-  double mean = (s[0] + s[1] + s[3]) / 3.0;
-  double d0 = s[0] - mean, d1 = s[1] - mean, d3 = s[3] - mean;
-  double mises = sqrt(1.5 * (d0 * d0 + d1 * d1 + d3 * d3 + 2.0 * s[2] * s[2]));
-  if (out->mises != NULL) {
-    out->mises[node] += mises * ring->stress;
-  }
-  if (out->hydrostatic != NULL) {
-    out->hydrostatic[node] += mean * ring->stress;
-  }
-  if (out->shear != NULL) {
-    out->shear[node] += s[2] * ring->stress;
-  }
-}
-
-static void stresses(const SbRing *ring, const SbRingFields *out) {
   const SbRingMesh *mesh = ring->mesh;
   double *field[3] = {out->mises, out->hydrostatic, out->shear};
-  for (int k = 0; k < 3; k++) {
-    if (field[k] != NULL) {
-      memset(field[k], 0, sizeof(double) * (size_t)mesh->nodes);
-    }
-  }
-  for (int e = 0; e < mesh->elements; e++) {
-    for (int a = 0; a < 6; a++) {
-      add_stress(ring, out, e, a);
-    }
-  }
-  // Number of elements at each node: the element list is short enough to count again.
-  int *visits = ring->fem->work_int; // scratch, one per node
+  int *visits = ring->fem->work_int; // elements at each node
   memset(visits, 0, sizeof(int) * (size_t)mesh->nodes);
   for (int i = 0; i < 6 * mesh->elements; i++) {
     visits[mesh->tri[i]]++;
   }
   for (int k = 0; k < 3; k++) {
-    for (int i = 0; i < mesh->nodes && field[k] != NULL; i++) {
-      field[k][i] /= visits[i] > 0 ? visits[i] : 1;
+    if (field[k] != NULL) {
+      memset(field[k], 0, sizeof(double) * (size_t)mesh->nodes);
+    }
+  }
+  for (int i = 0; i < 6 * mesh->elements; i++) {
+    double s[4], jacobian;
+    sb_ring_fem_stress(ring->fem, i / 6, L1[i % 6], L2[i % 6], s, &jacobian);
+    double mean = (s[0] + s[1] + s[3]) / 3.0;
+    double d0 = s[0] - mean, d1 = s[1] - mean, d3 = s[3] - mean;
+    double mises = sqrt(1.5 * (d0 * d0 + d1 * d1 + d3 * d3 + 2.0 * s[2] * s[2]));
+    double value[3] = {mises, mean, s[2]};
+    int node = mesh->tri[i];
+    for (int k = 0; k < 3; k++) {
+      if (field[k] != NULL) {
+        field[k][node] += value[k] * ring->stress / visits[node];
+      }
     }
   }
 }

@@ -36,16 +36,16 @@ static double change(double fine, double coarse) {
   return fine != 0.0 ? fabs(coarse / fine - 1.0) : 0.0;
 }
 
-static void estimate(SbRingError *error, const SbRingResult *fine, const SbRingResult *coarse,
-                     double size, double floor_load) {
+static void estimate(SbRingResult *fine, const SbRingResult *coarse, double size,
+                     double floor_load) {
   double relative = size / SIZE;
   double load = change(fine->bore_force, coarse->bore_force);
   double peak = change(fine->pressure_peak, coarse->pressure_peak);
   double width = change(fine->contact_right - fine->contact_left,
                         coarse->contact_right - coarse->contact_left);
-  error->load = fmax(SHARE * load, floor_load * relative);
-  error->peak = fmax(SHARE * peak, 4e-4 * relative);
-  error->width = fmax(SHARE * width, 1.5e-3 * relative);
+  fine->error.load = fmax(SHARE * load, floor_load * relative);
+  fine->error.peak = fmax(SHARE * peak, 4e-4 * relative);
+  fine->error.width = fmax(SHARE * width, 1.5e-3 * relative);
 }
 
 // Whether the ring touches the bore by itself, on a coarse mesh and without the fluid; only asked
@@ -76,13 +76,15 @@ static SbStatus touches_alone(bool *touches, const SbRingBody *body, const SbRin
   return status;
 }
 
-SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, SbRingError *error, const SbRingBody *body,
-                     const SbRingLoad *load, double tolerance, const SbRingOptions *options,
-                     SbWarnings *warnings, SbReport *report) {
+SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
+                     const SbRingLoad *load, const SbRingOptions *options, SbWarnings *warnings,
+                     SbReport *report) {
   if (out != NULL) {
     *out = NULL;
   }
-  *error = (SbRingError){0};
+  SbRingOptions first = options != NULL ? *options : (SbRingOptions){0};
+  double tolerance = first.tolerance > 0.0 ? first.tolerance : 1e-3;
+  double wanted = first.wanted > 0.0 ? first.wanted : tolerance;
   if (!(tolerance >= 1e-5 && tolerance <= 0.1)) {
     return sb_fail(report, SB_ERROR_RANGE, "the ring's tolerance %g lies outside 1e-5 .. 0.1",
                    tolerance);
@@ -90,7 +92,6 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, SbRingError *error, con
   double floor_load = load_floor(body, load);
   double size = SIZE * fmin(sqrt(tolerance / 1e-3), tolerance / floor_load);
   size = fmin(SIZE_MOST, fmax(SIZE_LEAST, size));
-  SbRingOptions first = options != NULL ? *options : (SbRingOptions){0};
   first.element_size = fmin(0.08, fmax(SIZE, size) / RATIO);
   first.fit_mesh = false;
   // A ring that does not touch lets the fluid past: no pressure rests on it.
@@ -123,23 +124,22 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, SbRingError *error, con
         break;
       }
       sb_ring_result(ring, result);
-      estimate(error, result, &coarse, size, floor_load);
-      if (error->load <= tolerance || size <= SIZE_LEAST) {
+      estimate(result, &coarse, size, floor_load);
+      if (result->error.load <= tolerance || size <= SIZE_LEAST) {
         break;
       }
       size = fmax(SIZE_LEAST, RATIO * size);
     }
     if (status == SB_ERROR_NOT_CONVERGED) {
       // The finer mesh stumbled: the coarser solution stands, with what it is worth.
-      sb_ring_result(ring, result);
-      error->load = fmax(error->load, 4.0 * floor_load * size / SIZE);
-      error->peak = fmax(error->peak, 4e-3 * size / SIZE);
-      error->width = fmax(error->width, 6e-3 * size / SIZE);
+      result->error.load = fmax(result->error.load, 4.0 * floor_load * size / SIZE);
+      result->error.peak = fmax(result->error.peak, 4e-3 * size / SIZE);
+      result->error.width = fmax(result->error.width, 6e-3 * size / SIZE);
       status = SB_OK;
     }
-    if (status == SB_OK && error->load > tolerance) {
+    if (status == SB_OK && result->error.load > wanted) {
       sb_warn(warnings, "ring-tolerance", "", "the ring's load is known to %.2g only, not to %.2g",
-              error->load, tolerance);
+              result->error.load, wanted);
     }
   }
   if (status != SB_OK) {

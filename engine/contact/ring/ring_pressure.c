@@ -22,7 +22,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROWS_MAX = 640, TERMS_LEAST = 3, POINTS = 4, ENDS_MAX = 12 };
+enum { ROWS_MAX = 640, TERMS_LEAST = 3, TERMS_MOST = 8, POINTS = 4, ENDS_MAX = 12 };
 
 // Largest root mean square of what the curve leaves of the nodal pressures, over theirs; above the
 // zigzag of a coarse mesh, below what a corner or a second contact leaves.
@@ -39,8 +39,8 @@ typedef struct SbRingRecovery {
   double turn, end_pressure[2];
   double range[2][2]; // what either end may be
   // Of the last fit.
-  double matrix[ROWS_MAX][SB_RING_PRESSURE_TERMS], known[ROWS_MAX];
-  double a[SB_RING_PRESSURE_TERMS];
+  double matrix[ROWS_MAX][TERMS_MOST], known[ROWS_MAX];
+  double a[TERMS_MOST];
   // Residuals at the ends, beside them, and their slopes to both.
   double here[ROWS_MAX], there[ROWS_MAX], slope[2][ROWS_MAX];
 } Fit;
@@ -93,10 +93,10 @@ static bool collect(Fit *fit, const SbRing *ring, SbRingSurface surface, const S
 // Coefficients for given ends; the residual per root of the area, and its mean square over that of
 // the nodal pressures. Negative if there is none.
 static double solve(Fit *fit, const double end[2], double *residual) {
-  enum { N = SB_RING_PRESSURE_TERMS + 1 };
+  enum { N = TERMS_MOST + 1 };
   int terms = fit->terms, order = terms + 1;
   double middle = 0.5 * (end[0] + end[1]), half = 0.5 * (end[1] - end[0]);
-  double total[SB_RING_PRESSURE_TERMS] = {0.0}, load = 0.0;
+  double total[TERMS_MOST] = {0.0}, load = 0.0;
   memset(fit->matrix, 0, sizeof fit->matrix[0] * (size_t)fit->rows);
   memcpy(fit->known, fit->force, sizeof fit->known[0] * (size_t)fit->rows);
   for (int i = 0; i < fit->rows; i++) {
@@ -122,7 +122,7 @@ static double solve(Fit *fit, const double end[2], double *residual) {
         known -= fit->end_pressure[at < middle ? 0 : 1];
       }
       // sin((k + 1) t) by its recurrence.
-      double wave[SB_RING_PRESSURE_TERMS], before = 0.0, now = s;
+      double wave[TERMS_MOST], before = 0.0, now = s;
       for (int k = 0; k < terms; k++) {
         wave[k] = area * now;
         total[k] += wave[k];
@@ -221,36 +221,21 @@ static double find_ends(Fit *fit, double end[2]) {
   return solve(fit, end, here);
 }
 
-double sb_ring_pressure_at(const SbRingPressure *p, double share) {
-  if (share <= 0.0 || share >= 1.0) {
-    return p->end_pressure[share <= 0.0 ? 0 : 1];
-  }
-  double t = acos(fmin(1.0, fmax(-1.0, 1.0 - 2.0 * share))), sum = 0.0;
-  for (int k = 0; k < p->terms; k++) {
-    sum += p->a[k] * sin((k + 1) * t);
-  }
-  return sum + p->end_pressure[0] * (1.0 - t / M_PI) + p->end_pressure[1] * t / M_PI;
-}
-
 // Whether the curve rises from both ends and nowhere falls below the lower of their pressures.
-static bool presses(const SbRingPressure *p) {
+static bool presses(SbDryContact *p) {
   enum { SAMPLES = 320 }; // those of the profile
-  double slope[2] = {(p->end_pressure[1] - p->end_pressure[0]) / M_PI,
-                     (p->end_pressure[0] - p->end_pressure[1]) / M_PI};
-  for (int k = 0; k < p->terms; k++) {
-    slope[0] += (k + 1) * p->a[k];
-    slope[1] += (k % 2 == 0 ? 1.0 : -1.0) * (k + 1) * p->a[k];
-  }
-  double low = fmin(p->end_pressure[0], p->end_pressure[1]);
-  bool good = slope[0] >= 0.0 && slope[1] >= 0.0;
+  sb_dry_contact_edges(p);
+  double low = fmin(p->pressure_left, p->pressure_right);
+  bool good = p->edge_left >= 0.0 && p->edge_right >= 0.0;
   for (int i = 0; i <= SAMPLES && good; i++) {
-    good = sb_ring_pressure_at(p, 0.5 * (1.0 - cos(M_PI * i / SAMPLES))) >= low;
+    double x = p->left + 0.5 * (p->right - p->left) * (1.0 - cos(M_PI * i / SAMPLES));
+    good = sb_dry_contact_pressure(p, x) >= low;
   }
   return good;
 }
 
 bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
-                  SbRingPressure *out) {
+                  SbDryContact *out) {
   Fit *fit = ring->recovery;
   if (!collect(fit, ring, surface, patch)) {
     return false;
@@ -259,19 +244,20 @@ bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
   double least = HUGE_VAL, end[2] = {sign * patch->place[0], sign * patch->place[1]};
   int held = patch->last - patch->first - 1, worse = 0;
   // A term of the wrong parity changes nothing: two that do not help end the search.
-  for (int terms = TERMS_LEAST; terms <= SB_RING_PRESSURE_TERMS && terms + 3 < held && worse < 2;
-       terms++) {
+  for (int terms = TERMS_LEAST; terms <= TERMS_MOST && terms + 3 < held && worse < 2; terms++) {
     fit->terms = terms;
     worse++;
     double left = find_ends(fit, end);
     double free = 1.0 - (double)(terms + 2) / held;
     if (left >= 0.0 && left < MISFIT * MISFIT && left / (free * free) < least) {
-      SbRingPressure trial = {.terms = terms};
-      for (int k = 0; k < 2; k++) {
-        trial.place[k] = sign * end[k];
-        trial.end_pressure[k] = patch->end_pressure[k];
+      SbDryContact trial = {.left = end[0],
+                            .right = end[1],
+                            .pressure_left = patch->end_pressure[0],
+                            .pressure_right = patch->end_pressure[1],
+                            .count = terms};
+      for (int k = 0; k < terms; k++) {
+        trial.a[k] = k % 2 == 0 ? fit->a[k] : -fit->a[k]; // from the other end
       }
-      memcpy(trial.a, fit->a, sizeof fit->a[0] * (size_t)terms);
       if (presses(&trial)) {
         least = left / (free * free);
         worse = 0;
@@ -280,7 +266,8 @@ bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
     }
   }
   if (least < HUGE_VAL) {
-    memcpy(patch->place, out->place, sizeof patch->place);
+    patch->place[0] = sign * out->left;
+    patch->place[1] = sign * out->right;
   }
   return least < HUGE_VAL;
 }

@@ -35,22 +35,13 @@ SB_CHECKED bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingP
 // Contact pressure at a loop node (element solver's units), from the excess over the fluid's.
 double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface);
 
-enum { SB_RING_PRESSURE_TERMS = 8 };
-
-// A contact's pressure as a smooth curve with the load of the nodal forces (ring_pressure.c).
-typedef struct {
-  double place[2], end_pressure[2]; // in the order of the loop, as of a patch
-  int terms;
-  double a[SB_RING_PRESSURE_TERMS];
-} SbRingPressure;
-
-// Recovers the pressure of the contact that sb_ring_patch has found, and replaces the places of its
-// ends by the recovered ones. False, with the ends as they are, where no smooth curve fits it.
+// Recovers the pressure of the contact that sb_ring_patch has found, a smooth curve with the load
+// of the nodal forces, and replaces the places of its ends by the recovered ones. The curve (edges,
+// ambient pressures and coefficients, element solver's units) runs over the place along the
+// surface, its negative where that falls along the loop. False, with the ends as they are, where no
+// smooth curve fits it.
 bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
-                  SbRingPressure *pressure);
-
-// Its value at a share (0 .. 1) of the way from the first to the last end.
-double sb_ring_pressure_at(const SbRingPressure *pressure, double share);
+                  SbDryContact *pressure);
 
 // Replaces the mesh by one fitted to the present contacts and solves on it; the state before is
 // kept if that fails.

@@ -192,7 +192,7 @@ static double shear_at(const SbRing *ring, const SbRingPatch *patch, double z) {
 
 int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *shear, int capacity) {
   SbRingPatch patch;
-  SbRingPressure smooth;
+  SbDryContact smooth;
   if (!sb_ring_patch(ring, SB_RING_BORE, &patch)) {
     return 0;
   }
@@ -205,7 +205,7 @@ int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *she
     double share = last ? 1.0 : 0.5 * (1.0 - cos(M_PI * i / (PROFILE_POINTS - 1)));
     double at = patch.place[0] + share * (patch.place[1] - patch.place[0]);
     x[i] = at * ring->length;
-    pressure[i] = sb_ring_pressure_at(&smooth, share) * ring->stress;
+    pressure[i] = sb_dry_contact_pressure(&smooth, at) * ring->stress;
     if (shear != NULL) {
       shear[i] = shear_at(ring, &patch, at) * ring->stress;
     }
@@ -290,7 +290,7 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   }
   SbRingPatch patch[SB_RING_SURFACES];
   bool touches[SB_RING_SURFACES];
-  SbRingPressure smooth;
+  SbDryContact smooth;
   for (int s = 0; s < SB_RING_SURFACES; s++) {
     touches[s] = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
     if (touches[s]) {
@@ -360,7 +360,9 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   }
   out->axial_imbalance = axial_most > 0.0 ? fabs(axial) / axial_most : 0.0;
   out->friction_excess = contact->slip_excess * f;
-  double reference, deformed;
-  sb_ring_fem_volume(ring->fem, &reference, &deformed);
-  out->volume_change = deformed / reference - 1.0;
+  double reference = 0.0;
+  for (int i = 0; i < ring->mesh->nodes; i++) {
+    reference += ring->fem->mass[i];
+  }
+  out->volume_change = ring->fem->volume / reference - 1.0;
 }
