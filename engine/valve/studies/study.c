@@ -153,9 +153,8 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   if (work->status == SB_OK) {
     design->make(work);
   }
-  if (out->load_largest > 0) {
-    out->error = fmax(out->error, out->load_error / out->load_largest);
-    out->error = fmax(out->error, out->width_error / out->width_largest);
+  for (int i = 0; i < 2 && work->largest[i] > 0; i++) {
+    out->error = fmax(out->error, work->error[i] / work->largest[i]);
   }
   sb_study_step(work, 1);
   sb_evaluator_destroy(work->evaluator);
@@ -311,16 +310,13 @@ static void account(SbStudyWork *work, SbStatus status) {
   if (status != SB_OK) {
     return;
   }
-  double load = 0, width = 0; // fmax() leaves out the seal that was not asked for
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    load = fmax(load, summary->seal[seal].load);
-    width = fmax(width, summary->seal[seal].contact_width);
-  }
-  if (fits > 0) {
-    out->load_error = fmax(out->load_error, summary->error_load * load);
-    out->load_largest = fmax(out->load_largest, load);
-    out->width_error = fmax(out->width_error, summary->error_width * width);
-    out->width_largest = fmax(out->width_largest, width);
+  for (int seal = 0; fits > 0 && seal < SB_SEAL_COUNT; seal++) {
+    const double size[] = {summary->seal[seal].load, summary->seal[seal].contact_width};
+    const double error[] = {summary->error_load, summary->error_width};
+    for (int i = 0; i < 2; i++) { // fmax() leaves out the seal that was not asked for
+      work->error[i] = fmax(work->error[i], error[i] * size[i]);
+      work->largest[i] = fmax(work->largest[i], size[i]);
+    }
   }
   out->error = fmax(out->error, summary->error_film);
 }

@@ -63,7 +63,8 @@ struct SbStudyWork {
   SbStudyHooks hooks;
   SbReport *report;
   SbStatus status;
-  double spent, total; // [s] what questions have cost, and what the study will
+  double spent, total;         // [s] what questions have cost, and what the study will
+  double error[2], largest[2]; // of loads [N] and contact widths [m]: largest errors and values
   size_t answers;
   SbStudyAnswer answer[SB_STUDY_ANSWERS];
 };
