@@ -15,9 +15,9 @@
 
 typedef struct SbRun SbRun;
 
-// What the run tells and asks while it works. Both may be NULL. `progress` is called at most every
-// few milliseconds with the fraction done; a true answer of `cancelled` ends the run within 50 ms
-// with SB_ERROR_CANCELLED, its frames so far kept.
+// Callbacks of a run at work. Both may be NULL. `progress` is called at most every few milliseconds
+// with the fraction done, 0 to 1; a true answer of `cancelled` ends the run within 50 ms with
+// SB_ERROR_CANCELLED, its frames so far kept.
 typedef struct {
   void (*progress)(void *data, double fraction, size_t frames);
   bool (*cancelled)(void *data);
@@ -26,8 +26,11 @@ typedef struct {
 
 typedef struct {
   bool reached;
-  double time, displacement, force; // just before the event; NaN: not reached
-  size_t frame;                     // index of the frame that sits on it
+  // Just before the event; NaN: not reached.
+  double time;         // [s]
+  double displacement; // of the stem [m]
+  double force;        // of the drive [N]
+  size_t frame;        // index of the frame that sits on it
 } SbStageMark;
 
 // Whether anything can pass a seal at rest under its pressures.
@@ -54,7 +57,7 @@ typedef struct {
 typedef struct {
   bool found; // whether the force has a first peak; else the coefficients mean nothing
   SbRigCoefficients of;
-  double contact_coefficient; // what the valve's surface model gives under the rig's load
+  double contact_coefficient; // of friction by the valve's surface model under the rig's load [1]
   double contact_load;        // load under which that model gives the sliding coefficient [N]
 } SbRigSummary;
 
@@ -73,7 +76,7 @@ typedef struct {
   char text[256];
   double moving_mass;        // that the stroke sees, by the joints' conditions [kg]
   double acceleration_error; // largest difference of a part's acceleration from the stroke's,
-                             // relative to all forces over the mass
+                             // relative to all forces over the mass [1]
   double joint_error;        // most that a step of the motion left a joint violated [m]
   size_t joints;             // 0: not asked for
   SbJointSummary joint[SB_VALVE_JOINTS];
@@ -102,7 +105,7 @@ typedef enum { SB_ANSWER_UNKNOWN, SB_ANSWER_NO, SB_ANSWER_YES } SbAnswer;
 typedef struct {
   SbAnswer ok;
   int figure;          // index, -1: none
-  double value, limit; // NaN: none
+  double value, limit; // in the figure's SI unit; NaN: none
   char reason[256];    // one sentence; empty where there is nothing to say
 } SbVerdict;
 
@@ -124,8 +127,8 @@ typedef struct {
   SbVerdict verdict[SB_VERDICT_COUNT];
   bool converged;
   size_t frames, steps, rejected_steps;
-  double wall_s;
-  double error_width; // of contact widths, relative as error_load; NaN: does not apply
+  double wall_s;      // elapsed time of the computation [s]
+  double error_width; // of contact widths, relative as error_load [1]; NaN: does not apply
   SbCounters counters;
 } SbSummary;
 

@@ -11,31 +11,12 @@ static double time_of(const SbRun *run, const SbCycleSegment *segment, double X)
   return (segment->platen > 0 ? X : 2 * top - X) / run->model.speed;
 }
 
-static void fill_seal(SbSealFrame *out, const SbRun *run, int seal, const SbCycleSegment *segment,
-                      double s, double stuck_friction) {
-  SbChamber chamber = segment->chamber;
-  bool moving = segment->mode != SB_CYCLE_STICK;
-  sb_run_fill_contact(out, run, seal, chamber, segment->direction, moving, s);
-  if (!moving) {
-    out->friction = stuck_friction;
-    out->friction_boundary = stuck_friction;
-    if (stuck_friction != 0) {
-      // A stuck ring keeps the shear of the friction that holds it.
-      out->shape = sb_run_shape_index(run, seal, chamber,
-                                      stuck_friction > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT, s);
-    }
-    return;
-  }
-  double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
-  const SbSliding *state = &run->cycle.states.state[seal][chamber][segment->direction];
-  out->friction_viscous = sign * state->viscous * out->land_fraction;
-  out->friction = sign * sb_cycle_seal_friction(&run->cycle, seal, chamber, segment->direction, s);
-  out->friction_boundary = out->friction - out->friction_viscous;
-}
-
 static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *segment, double X,
                        double s) {
   const SbCycle *cycle = &run->cycle;
+  const SbChamber chamber = segment->chamber;
+  const int direction = segment->direction;
+  const bool moving = segment->mode != SB_CYCLE_STICK;
   double stop_force;
   double friction = sb_cycle_balance(cycle, segment, X, s, &stop_force);
   *out = (SbFrame){
@@ -45,30 +26,41 @@ static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *seg
       .force = sb_cycle_force(cycle, X, s),
       .pressure_force = run->model.pressure_force,
       .stop_force = stop_force,
-      .chamber_pressure = sb_model_seal_pressure(&run->model, SB_OUTER, segment->chamber).left,
+      .chamber_pressure = sb_model_seal_pressure(&run->model, SB_OUTER, chamber).left,
       .stage = (uint8_t)segment->stage,
-      .chamber = (uint8_t)segment->chamber,
+      .chamber = (uint8_t)chamber,
   };
   if (segment->mode == SB_CYCLE_SLIP && segment->platen1 != segment->platen0) {
     out->velocity = segment->platen * run->model.speed * sb_cycle_stem_rate(cycle, segment, s);
   }
-
-  // A stuck stem's friction is split between the seals in proportion to what each can bear.
-  double total = sb_cycle_friction(cycle, segment->chamber, segment->direction, s);
+  double total = sb_cycle_friction(cycle, chamber, direction, s);
+  double sign = direction == SB_CYCLE_IN ? 1 : -1;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    double own = sb_cycle_seal_friction(cycle, seal, segment->chamber, segment->direction, s);
-    fill_seal(&out->seal[seal], run, seal, segment, s, total > 0 ? friction * own / total : 0);
+    SbSealFrame *at = &out->seal[seal];
+    double own = sb_cycle_seal_friction(cycle, seal, chamber, direction, s);
+    sb_run_fill_contact(at, run, seal, chamber, direction, moving, s);
+    if (moving) {
+      at->friction = sign * own;
+      at->friction_viscous =
+          sign * cycle->states.state[seal][chamber][direction].viscous * at->land_fraction;
+    } else if (total > 0 && friction * own != 0) {
+      // A stuck stem's friction is split between the seals in proportion to what each can bear; the
+      // rings keep the shear of the friction that holds them.
+      at->friction = friction * own / total;
+      at->shape =
+          sb_run_shape_index(run, seal, chamber, at->friction > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT, s);
+    }
+    at->friction_boundary = at->friction - at->friction_viscous;
   }
 }
 
 // Evenly spaced frames, and one at the end of every segment so that corners are sharp.
 static SbStatus emit_frames(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbCycle *cycle = &run->cycle;
-  SbSummary *summary = &run->summary;
+  const double speed = run->model.speed, duration = 2 * cycle->platen_top / speed;
   size_t total = (size_t)run->model.frames;
   size_t next = 0;  // evenly spaced frame to come
   size_t count = 0; // frames written
-  double duration = 2 * cycle->platen_top / run->model.speed;
   for (size_t i = 0; i < cycle->count; i++) {
     const SbCycleSegment *segment = &cycle->segment[i];
     double end = time_of(run, segment, segment->platen1);
@@ -77,12 +69,10 @@ static SbStatus emit_frames(SbRun *run, const SbRunHooks *hooks, SbReport *repor
       if (t >= end) {
         break;
       }
-      double X =
-          segment->platen > 0 ? run->model.speed * t : 2 * cycle->platen_top - run->model.speed * t;
+      double X = segment->platen > 0 ? speed * t : 2 * cycle->platen_top - speed * t;
       X = fmin(fmax(X, fmin(segment->platen0, segment->platen1)),
                fmax(segment->platen0, segment->platen1));
-      fill_frame(&run->frames[count], run, segment, X, sb_cycle_stem(cycle, segment, X));
-      count++;
+      fill_frame(&run->frames[count++], run, segment, X, sb_cycle_stem(cycle, segment, X));
       if (count % 256 == 0) {
         sb_run_publish(run, count);
         if (sb_run_cancelled(hooks, report)) {
@@ -94,50 +84,34 @@ static SbStatus emit_frames(SbRun *run, const SbRunHooks *hooks, SbReport *repor
       }
     }
     // The corner. An event's figures are those just before it.
-    fill_frame(&run->frames[count], run, segment, segment->platen1, segment->stem1);
-    if (count == 0) {
-      sb_run_mark_stage(run, SB_STAGE_A, &run->frames[0], 0);
-    }
+    SbFrame *corner = &run->frames[count++];
+    fill_frame(corner, run, segment, segment->platen1, segment->stem1);
     if (segment->event >= 0) {
-      run->frames[count].on_event = 1;
-      sb_run_mark_stage(run, (SbStage)segment->event, &run->frames[count], count);
+      corner->on_event = 1;
+      sb_run_mark_stage(run, (SbStage)segment->event, corner, count - 1);
     }
-    count++;
     sb_run_publish(run, count);
   }
-  if (count > 0 && !summary->stage[SB_STAGE_A].reached) {
+  if (count > 0) {
     sb_run_mark_stage(run, SB_STAGE_A, &run->frames[0], 0);
   }
-  summary->frames = count;
-  summary->duration = duration;
+  run->summary.duration = duration;
   return SB_OK;
-}
-
-// Film dragged out under the outer seal on the way in, less what comes back (thesis equation 5.21).
-static double cycle_leakage(const SbRun *run) {
-  double net = 0;
-  for (size_t i = 0; i < run->cycle.count; i++) {
-    const SbCycleSegment *segment = &run->cycle.segment[i];
-    const SbSliding *outer =
-        &run->cycle.states.state[SB_OUTER][segment->chamber][segment->direction];
-    net += sb_leak_stroke(run->model.bore_diameter, outer->film_central,
-                          segment->stem1 - segment->stem0);
-  }
-  return net;
 }
 
 SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
+  const SbCycle *cycle = &run->cycle;
   SbStatus status = sb_cycle_build(&run->cycle, report);
   SbStatus frames = emit_frames(run, hooks, status == SB_OK ? report : NULL);
   status = status != SB_OK ? status : frames;
-  sb_cycle_energy(&run->cycle, &summary->energy);
-  summary->returns = run->cycle.returns;
-  summary->force_return_min = run->cycle.force_return_min;
-  // Here the stem keeps its film where it stops (motion/cycle.h). Held at the stop for longer it
-  // would not.
+  sb_cycle_energy(cycle, &summary->energy);
+  summary->returns = cycle->returns;
+  summary->force_return_min = cycle->force_return_min;
+  // Here the stem keeps its film where it stops (cycle.h). Held at the stop for longer it would
+  // not.
   if (summary->returns && summary->stage[SB_STAGE_D].reached) {
-    double held = sb_cycle_least_return(&run->cycle, run->model.stroke, SB_CHAMBER_OPEN, true);
+    double held = sb_cycle_least_return(cycle, run->model.stroke, SB_CHAMBER_OPEN, true);
     if (held < 0) {
       sb_warn(&summary->warnings, "static-hold", "friction.static_ratio",
               "the stem returns because it keeps its film at the stop; after a rest there static "
@@ -145,14 +119,17 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
               -held);
     }
   }
+  // Film dragged out under the outer seal on the way in, less what comes back (thesis equation
+  // 5.21).
+  double net = 0;
   summary->force_peak = 0;
-  for (size_t i = 0; i < run->cycle.count; i++) {
-    const SbCycleSegment *segment = &run->cycle.segment[i];
-    summary->force_peak =
-        fmax(summary->force_peak, sb_cycle_force(&run->cycle, segment->platen1, segment->stem1));
+  for (const SbCycleSegment *at = cycle->segment; at < cycle->segment + cycle->count; at++) {
+    const SbSliding *outer = &cycle->states.state[SB_OUTER][at->chamber][at->direction];
+    net += sb_leak_stroke(run->model.bore_diameter, outer->film_central, at->stem1 - at->stem0);
+    summary->force_peak = fmax(summary->force_peak, sb_cycle_force(cycle, at->platen1, at->stem1));
   }
-  summary->leakage_per_cycle = sb_run_cycle_leakage(summary, cycle_leakage(run), summary->returns);
-  summary->steps = run->cycle.count;
+  summary->leakage_per_cycle = sb_run_cycle_leakage(summary, net, summary->returns);
+  summary->steps = cycle->count;
   summary->error_force = summary->error_load + sb_run_error_friction(run);
   summary->error_energy =
       fmax(summary->energy.closure, summary->error_load + sb_run_error_work(run));

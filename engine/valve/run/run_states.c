@@ -79,38 +79,25 @@ static SbStatus make_profile(SbRun *run, int seal, int chamber, int motion, cons
   bool fitted = state->touches && isfinite(state->load);
   bool own_pressure = run->model.fit == SB_FIT_DISC || run->model.fit == SB_FIT_DISC_THESIS ||
                       run->model.fit == SB_FIT_RING;
-  size_t capacity = solved ? film->points : (size_t)PROFILE_POINTS;
-  double *data = calloc(4 * capacity, sizeof *data);
-  if (data == NULL) {
+  // No film on the fitted body: the half-plane's is scaled from its contact to the fitted one.
+  const bool scaled = solved && own_pressure && !state->film_fitted;
+  size_t capacity = solved ? film->points : (size_t)PROFILE_POINTS, n = 0;
+  double *x = calloc(4 * capacity, sizeof *x);
+  if (x == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a profile");
   }
-  double *x = data;
-  double *p = data + capacity;
-  double *h = data + 2 * capacity;
-  size_t n = 0;
-  double low = fmin(pressure.left, pressure.right);
-  double left = pressure.left - low;
-  double right = pressure.right - low;
-  if (solved && own_pressure && !state->film_fitted) {
-    // No film on the fitted body: the half-plane's is scaled from its contact to the fitted one.
-    double middle = (fit->contact_left + fit->contact_right) / 2;
-    double stretch = fit->contact_width / 2 / film->hertz_half_width;
-    n = film->points;
-    for (size_t i = 0; i < n; i++) {
-      x[i] = middle + stretch * film->x[i];
-      p[i] = fit_pressure(fit, x[i], left, right);
-      h[i] = film->film[i];
-    }
-  } else if (solved) {
-    n = film->points;
-    memcpy(x, film->x, n * sizeof *x);
-    memcpy(h, film->film, n * sizeof *h);
-    for (size_t i = 0; i < n; i++) {
-      p[i] = film->pressure[i] - low;
+  double *p = x + capacity, *h = x + 2 * capacity, *asperities = x + 3 * capacity;
+  const double low = fmin(pressure.left, pressure.right);
+  const double left = pressure.left - low, right = pressure.right - low;
+  const double middle = (fit->contact_left + fit->contact_right) / 2, a = fit->contact_width / 2;
+  if (solved) {
+    const double stretch = a / film->hertz_half_width;
+    for (n = 0; n < film->points; n++) {
+      x[n] = scaled ? middle + stretch * film->x[n] : film->x[n];
+      p[n] = scaled ? fit_pressure(fit, x[n], left, right) : film->pressure[n] - low;
+      h[n] = film->film[n];
     }
   } else if (fitted) {
-    double a = fit->contact_width / 2;
-    double middle = (fit->contact_left + fit->contact_right) / 2;
     double scale = a * a / run->model.seal[seal].radius;
     for (int i = -OUTSIDE_POINTS; i <= OUTSIDE_POINTS; i++) {
       double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
@@ -127,20 +114,19 @@ static SbStatus make_profile(SbRun *run, int seal, int chamber, int motion, cons
     }
   }
   if (solved && coupled) {
-    memcpy(data + 3 * capacity, film->asperity_pressure, n * sizeof *data);
+    memcpy(asperities, film->asperity_pressure, n * sizeof *asperities);
   } else if (fitted && run->model.surface == SB_ROUGH_GREENWOOD_TRIPP) {
-    asperity_pressure(&run->model, seal, h, data + 3 * capacity, n);
+    asperity_pressure(&run->model, seal, h, asperities, n);
   }
   free(profile->data);
-  profile->data = data;
+  profile->data = x;
   profile->view = (SbContactProfile){
       .count = n,
       .x = x,
       .pressure = p,
       .film = h,
-      .asperity_pressure = data + 3 * capacity,
-      .model = solved && (!own_pressure || state->film_fitted) ? "reynolds"
-                                                               : sb_fit_model_name(run->model.fit),
+      .asperity_pressure = asperities,
+      .model = solved && !scaled ? "reynolds" : sb_fit_model_name(run->model.fit),
   };
   run->summary.counters.profile_evaluations++;
   return SB_OK;

@@ -77,6 +77,49 @@ static void put_design(SbStudy *out, const SbStudyDesign *design) {
           design->validity != NULL ? design->validity : "");
 }
 
+static void fix(SbStudyWork *work, const SbOverride *override, size_t count) {
+  SbReport report;
+  if (work->status == SB_OK) {
+    (void)sb_study_goes_on(
+        work, sb_model_override(&work->base, &work->base, override, count, &report), &report);
+  }
+}
+
+// Gives the base what the study holds fixed.
+static void fix_base(SbStudyWork *work) {
+  const SbModel *scene = work->scene;
+  const SbSealModel *ring = &scene->seal[SB_OUTER];
+  const SbOverride machine[] = {
+      {SB_P_MODELS_MOTION, SB_MODEL_MOTION_QUASI_STATIC},
+      {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_MACHINE},
+      // What only the motion with inertia knows, and this cycle has not.
+      {SB_P_DRIVE_CYCLES, 1},
+      {SB_P_FRICTION_DWELL_GAIN, 0},
+      {SB_P_FRICTION_STRIBECK_SPEED, 0},
+      {SB_P_FRICTION_TANGENTIAL_STIFFNESS, 0},
+      {SB_P_STEM_SPRING_STIFFNESS, 0},
+      {SB_P_STEM_SPRING_PRELOAD, 0},
+      {SB_P_CANISTER_PRESSURE_MAP,
+       scene->pressure_map == SB_MAP_PORTS ? SB_MAP_CHAMBER_VENTED : scene->pressure_map},
+  };
+  const SbOverride outer[] = {
+      {SB_P_STORAGE_TIME, 0},
+      {SB_P_STORAGE_TEMPERATURE, scene->rubber.reference_temperature},
+      {SB_P_SEAL_OUTER_SECTION_DIAMETER, ring->section_diameter},
+      {SB_P_SEAL_OUTER_INNER_DIAMETER, ring->inner_diameter},
+      {SB_P_SEAL_OUTER_MODULUS, ring->modulus},
+      {SB_P_SEAL_INNER_SECTION_DIAMETER, ring->section_diameter},
+      {SB_P_SEAL_INNER_INNER_DIAMETER, ring->inner_diameter},
+      {SB_P_SEAL_INNER_MODULUS, ring->modulus},
+      {SB_P_CANISTER_PRESSURE_MAP, SB_MAP_CHAMBER_FILLED},
+  };
+  const SbOverride smooth[] = {{SB_P_MODELS_FILM, SB_FILM_THESIS},
+                               {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE}};
+  fix(work, machine, sizeof machine / sizeof machine[0]);
+  fix(work, outer, work->design->outer ? sizeof outer / sizeof outer[0] : 0);
+  fix(work, smooth, work->design->smooth ? sizeof smooth / sizeof smooth[0] : 0);
+}
+
 SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
                        const SbStudyHooks *hooks, SbReport *report) {
   const SbStudyDesign *design = find(kind)->design;
@@ -106,12 +149,12 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
     work->status = sb_film_solver_create(&work->solver, report);
   }
   sb_study_step(work, 0);
+  fix_base(work);
   if (work->status == SB_OK) {
     design->make(work);
   }
-  if (out->load_largest > 0) {
-    out->error = fmax(out->error, out->load_error / out->load_largest);
-    out->error = fmax(out->error, out->width_error / out->width_largest);
+  for (int i = 0; i < 2 && work->largest[i] > 0; i++) {
+    out->error = fmax(out->error, work->error[i] / work->largest[i]);
   }
   sb_study_step(work, 1);
   sb_evaluator_destroy(work->evaluator);
@@ -241,48 +284,6 @@ void sb_study_step(SbStudyWork *work, double fraction) {
   }
 }
 
-void sb_study_fix(SbStudyWork *work, const SbOverride *override, size_t count) {
-  SbReport report;
-  if (work->status == SB_OK) {
-    (void)sb_study_goes_on(
-        work, sb_model_override(&work->base, &work->base, override, count, &report), &report);
-  }
-}
-
-void sb_study_fix_machine(SbStudyWork *work) {
-  bool ports = work->base.pressure_map == SB_MAP_PORTS;
-  const SbOverride machine[] = {
-      {SB_P_MODELS_MOTION, SB_MODEL_MOTION_QUASI_STATIC},
-      {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_MACHINE},
-      // What only the motion with inertia knows, and this cycle has not.
-      {SB_P_DRIVE_CYCLES, 1},
-      {SB_P_FRICTION_DWELL_GAIN, 0},
-      {SB_P_FRICTION_STRIBECK_SPEED, 0},
-      {SB_P_FRICTION_TANGENTIAL_STIFFNESS, 0},
-      {SB_P_STEM_SPRING_STIFFNESS, 0},
-      {SB_P_STEM_SPRING_PRELOAD, 0},
-      {SB_P_CANISTER_PRESSURE_MAP, ports ? SB_MAP_CHAMBER_VENTED : work->base.pressure_map},
-  };
-  sb_study_fix(work, machine, sizeof machine / sizeof machine[0]);
-}
-
-void sb_study_fix_outer(SbStudyWork *work) {
-  const SbSealModel *ring = &work->scene->seal[SB_OUTER];
-  const SbOverride outer[] = {
-      {SB_P_STORAGE_TIME, 0},
-      {SB_P_STORAGE_TEMPERATURE, work->scene->rubber.reference_temperature},
-      {SB_P_SEAL_OUTER_SECTION_DIAMETER, ring->section_diameter},
-      {SB_P_SEAL_OUTER_INNER_DIAMETER, ring->inner_diameter},
-      {SB_P_SEAL_OUTER_MODULUS, ring->modulus},
-      {SB_P_SEAL_INNER_SECTION_DIAMETER, ring->section_diameter},
-      {SB_P_SEAL_INNER_INNER_DIAMETER, ring->inner_diameter},
-      {SB_P_SEAL_INNER_MODULUS, ring->modulus},
-      {SB_P_CANISTER_PRESSURE_MAP, SB_MAP_CHAMBER_FILLED},
-  };
-  sb_study_fix_machine(work);
-  sb_study_fix(work, outer, sizeof outer / sizeof outer[0]);
-}
-
 void sb_study_squeezed(SbOverride out[SB_STUDY_SQUEEZED], const SbStudyWork *work, double squeeze) {
   const SbModel *scene = work->scene;
   double space = scene->seal[SB_OUTER].section_diameter * (1 - squeeze);
@@ -309,16 +310,13 @@ static void account(SbStudyWork *work, SbStatus status) {
   if (status != SB_OK) {
     return;
   }
-  double load = 0, width = 0; // fmax() leaves out the seal that was not asked for
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    load = fmax(load, summary->seal[seal].load);
-    width = fmax(width, summary->seal[seal].contact_width);
-  }
-  if (fits > 0) {
-    out->load_error = fmax(out->load_error, summary->error_load * load);
-    out->load_largest = fmax(out->load_largest, load);
-    out->width_error = fmax(out->width_error, summary->error_width * width);
-    out->width_largest = fmax(out->width_largest, width);
+  for (int seal = 0; fits > 0 && seal < SB_SEAL_COUNT; seal++) {
+    const double size[] = {summary->seal[seal].load, summary->seal[seal].contact_width};
+    const double error[] = {summary->error_load, summary->error_width};
+    for (int i = 0; i < 2; i++) { // fmax() leaves out the seal that was not asked for
+      work->error[i] = fmax(work->error[i], error[i] * size[i]);
+      work->largest[i] = fmax(work->largest[i], size[i]);
+    }
   }
   out->error = fmax(out->error, summary->error_film);
 }

@@ -43,7 +43,7 @@ enum {
   SB_STUDY_NOTES = 8
 };
 
-// A quantity and its unit: values are SI, `unit` is what people read.
+// A quantity and its unit: values are in the SI unit `si`, people read `unit`.
 typedef struct {
   char quantity[48];
   char si[16], unit[16]; // "1" and "" without unit
@@ -61,7 +61,7 @@ typedef struct {
   char name[40]; // equal names in several panels are the same thing
   SbStudyStyle style;
   size_t count;
-  double x[SB_STUDY_POINTS], y[SB_STUDY_POINTS];
+  double x[SB_STUDY_POINTS], y[SB_STUDY_POINTS]; // in the axes' SI units
 } SbStudySeries;
 
 typedef struct {
@@ -73,7 +73,7 @@ typedef struct {
 
 // A place on the abscissa worth a line across all panels: "as designed".
 typedef struct {
-  double x;
+  double x; // in the abscissa's SI unit
   char text[40];
 } SbStudyMark;
 
@@ -83,11 +83,11 @@ typedef struct {
   int digits; // significant ones shown, 0 for a count
 } SbStudyColumn;
 
-// A row's own unit, if it has one, stands for those of the columns. NaN: no value.
+// A row's own unit, if it has one, stands for those of the columns.
 typedef struct {
   char name[64];
   char si[16], unit[16];
-  double value[SB_STUDY_COLUMNS];
+  double value[SB_STUDY_COLUMNS]; // in SI units; NaN: no value
 } SbStudyRow;
 
 // A finished study. Plain data without pointers, about 90 kB.
@@ -104,12 +104,10 @@ typedef struct {
   SbStudyRow row[SB_STUDY_ROWS];
   char models[160];   // what made it: "ring, disc, lindley"
   char validity[200]; // where it holds
-  // Largest error estimate of what was solved: of a film relative to itself, of a load relative to
-  // the largest load, because a ring that barely touches has none to speak of. 0: closed forms
-  // alone.
+  // Largest error estimate of what was solved [1]: of a film relative to itself, of a load or a
+  // contact width relative to the largest one, because a ring that barely touches has none to speak
+  // of. 0: closed forms alone.
   double error;
-  double load_error, load_largest;   // [N], what it is made from
-  double width_error, width_largest; // [m], of contacts alike
   size_t note_count;
   char note[SB_STUDY_NOTES][200]; // what the numbers say, definitions, sources
   SbWarnings warnings;

@@ -150,7 +150,6 @@ static void make(SbStudyWork *work) {
   const SbSealModel *seal = &model->seal[SB_OUTER];
   const Scale scale = scale_of(model);
   // The scene's own point: the net load of its outer seal at the drive's speed.
-  sb_study_fix_machine(work);
   double own = sb_study_net_load(work);
   work->load = own > 0 ? own : load_of(work, MIDDLE);
   Regression ours;

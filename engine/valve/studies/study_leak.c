@@ -212,7 +212,6 @@ static void make(SbStudyWork *work) {
   if (!sb_study_goes_on(work, status, &report)) {
     return;
   }
-  sb_study_fix_outer(work);
   int lines[LINES];
   int count = choose_lines(lines, model);
   draw(work, lines, count, closed.closing_pressure);
@@ -237,6 +236,7 @@ const SbStudyDesign sb_study_leak = {
               {"carried out per stroke", "m3", "nl", false}},
     .range = offsetof(SbStudyRange, squeeze_min),
     .row_heading = "squeeze, pressure",
+    .outer = true,
     .validity = "mean contact pressure, liquid without vapour; gaps below 3 \xcf\x83; no figure "
                 "where the ring does not touch by itself",
     .solves = {.rings = 2 * (2 * (RING_POINTS + FINE) + ROWS),

@@ -152,10 +152,6 @@ static void put_table(SbStudyWork *work) {
 static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
-  const SbOverride smooth[] = {{SB_P_MODELS_FILM, SB_FILM_THESIS},
-                               {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE}};
-  sb_study_fix_outer(work);
-  sb_study_fix(work, smooth, sizeof smooth / sizeof smooth[0]);
   work->lo = pressures[0];
   work->hi = pressures[PRESSURES - 1];
   for (int m = 0; m < MODELS; m++) {
@@ -197,6 +193,8 @@ const SbStudyDesign sb_study_models = {
                {"width ring", "m", "mm", 3}},
     .validity = "disc-thesis: pressure on both flanks; disc: linear strain; ring: neo-Hookean, "
                 "pressure from the canister against the groove wall",
+    .outer = true,
+    .smooth = true,
     .solves = {.rings = PRESSURES + SIZES, .discs = 2 * (PRESSURES + SIZES)},
     .solve = solve,
     .make = make,

@@ -30,6 +30,11 @@ typedef struct {
   const char *row_heading; // of the table; NULL: there is none
   SbStudyColumn column[SB_STUDY_COLUMNS]; // up to the first without a name
   const char *models, *validity;          // NULL: make() says it
+  // Beside the cycle of the test machine, quasi-static, whatever drives the scene, all questions
+  // have fixed: the outer ring as the scene's storage left it, from now on without any, the inner
+  // one like it, so that no gland suits but one of them, and the chamber filled.
+  bool outer;
+  bool smooth; // a film in closed form that leaves the fitment its own tolerance
   SbStudySolves solves;
   // Values of one line of the study (a model, a seal, a size) at x, those of the panels first; NULL
   // for a study that asks for nothing by sb_study_at().
@@ -58,7 +63,8 @@ struct SbStudyWork {
   SbStudyHooks hooks;
   SbReport *report;
   SbStatus status;
-  double spent, total; // [s] what questions have cost, and what the study will
+  double spent, total;         // [s] what questions have cost, and what the study will
+  double error[2], largest[2]; // of loads [N] and contact widths [m]: largest errors and values
   size_t answers;
   SbStudyAnswer answer[SB_STUDY_ANSWERS];
 };
@@ -68,20 +74,9 @@ struct SbStudyWork {
 SB_STUDY_LIST(SB_STUDY_DECLARE)
 #undef SB_STUDY_DECLARE
 
-// Holds parameters fixed for all questions that follow. Values that do not go together end the
-// study.
-void sb_study_fix(SbStudyWork *work, const SbOverride *override, size_t count);
-
-// The cycle of the test machine, quasi-static, whatever drives the scene.
-void sb_study_fix_machine(SbStudyWork *work);
-
-// The outer ring as the scene's storage left it, from now on without any; the inner one like it, so
-// that no gland suits but one of them. The chamber is filled.
-void sb_study_fix_outer(SbStudyWork *work);
-
 // Values that give the outer ring a squeeze: the bore moves and the groove floor stays, D = D_floor
 // + 2 g with g = d (1 - s), so that the stretch on the floor stays as it is. The stem's land keeps
-// its share of the gap. For a base with sb_study_fix_outer().
+// its share of the gap. For a study of the outer ring.
 enum { SB_STUDY_SQUEEZED = 3 };
 void sb_study_squeezed(SbOverride out[SB_STUDY_SQUEEZED], const SbStudyWork *work, double squeeze);
 

@@ -63,7 +63,6 @@ static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
   const double scene_time = model->seal[SB_OUTER].stored.storage_time;
-  sb_study_fix_machine(work);
   sb_study_curves(work, SB_STUDY_CURVE, "outer seal", SB_OUTER, NULL, POINTS);
   sb_study_curves(work, SB_STUDY_CURVE, "inner seal", SB_INNER, NULL, POINTS);
   for (int i = 0; i < TIMES; i++) {

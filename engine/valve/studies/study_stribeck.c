@@ -66,7 +66,6 @@ static void make(SbStudyWork *work) {
   static const int columns[] = {CENTRAL, LEAST, RATIO, BOUNDARY, VISCOUS, COEFFICIENT, SHARE, AREA};
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
-  sb_study_fix_machine(work);
   work->load = sb_study_net_load(work);
   if (work->status == SB_OK && !(work->load > 0)) {
     work->status = sb_fail_parameter(work->report, SB_ERROR_INFEASIBLE, "seal.section_diameter",

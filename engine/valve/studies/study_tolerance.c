@@ -88,7 +88,6 @@ static void make(SbStudyWork *work) {
                                      "the rig has no valve whose sizes could vary");
     return;
   }
-  sb_study_fix_machine(work);
   work->lo = -1;
   work->hi = 1;
   double band[SIZES]; // [mm]
