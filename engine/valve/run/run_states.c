@@ -215,9 +215,6 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   run->lacks[0] = '\0';
   run->friction_error = run->static_error = 0;
   run->cycle.states.model = &run->model;
-  // A carried inlet is left by an in-stroke at the model's speed.
-  SbModel model = run->model;
-  model.speed = run->speed;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     sb_sliding_memory_poll(run->memory[seal], hooks != NULL ? hooks->cancelled : NULL,
                            hooks != NULL ? hooks->data : NULL);
@@ -250,11 +247,11 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
             motion == SB_RUN_REST ? &rest : &run->cycle.states.state[seal][chamber][motion];
         SbReport own = {0};
         bool fitment = run->plan.seal[seal] == SB_DEPTH_FITMENT;
+        const SbSlidingTask task = {
+            &run->model,       seal,    pressure,          speed, run->speed,
+            run->memory[seal], &counts, &summary->warnings};
         SbStatus status =
-            fitment ? sb_sliding_fitment(state, &model, seal, pressure, run->memory[seal], &counts,
-                                         &summary->warnings, &own)
-                    : sb_sliding_solve(state, &model, seal, pressure, speed, run->memory[seal],
-                                       &counts, &summary->warnings, &own);
+            fitment ? sb_sliding_fitment(state, &task, &own) : sb_sliding_solve(state, &task, &own);
         if (status == SB_ERROR_NOT_CONVERGED) {
           tell_failure(run, seal, chamber, motion, state, pressure, &own);
         }
