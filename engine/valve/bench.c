@@ -11,57 +11,21 @@
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/film/film.h"
 #include "engine/film/wedge.h"
-#include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
 
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-typedef enum { ASPERITY, WEDGE, FILM, DISC, PRESSED_DISC, RING, RING_STEP, CYCLE, FILM_CYCLE } Kind;
-
-typedef struct {
-  Kind kind;
-  double parameter; // M of a film, squeeze of a disc, pressure of a ring or of a disc of 10 %
-                    // squeeze [Pa], motion of a cycle
+typedef struct Case Case;
+struct Case {
+  const char *solver;
+  SbStatus (*run)(SbBenchCase *out, const Case *c, SbReport *report);
+  double parameter; // M of a film, squeeze of a disc, pressure of a ring [Pa], motion of a cycle
   double tolerance;
   double expected[3]; // films: H* minimum, centre, flux; fits: load per length or load
-} Case;
-
-#define FILM_CASES(M, least, centre, flux)                                                         \
-  {FILM, M, 1e-3, {least, centre, flux}}, {                                                        \
-    FILM, M, 1e-7, {                                                                               \
-      least, centre, flux                                                                          \
-    }                                                                                              \
-  }
-
-static const Case cases[] = {
-    {ASPERITY, -4, 0, {0, 0, 0}},
-    {WEDGE, 0, 0, {4.894968, 0, 0}},
-    FILM_CASES(1, 3.06313643, 3.27656797, 3.79061479),
-    FILM_CASES(5, 1.59060139, 2.03650729, 2.01593519),
-    FILM_CASES(20, 1.12468687, 1.42051119, 1.41937373),
-    FILM_CASES(100, 0.796100592, 1.00142813, 1.00138870),
-    FILM_CASES(1000, 0.498582133, 0.626358505, 0.626358192),
-    FILM_CASES(10000, 0.314215466, 0.394658764, 0.394658762),
-    {DISC, 0.02, 1e-2, {27.20480692135, 0, 0}},
-    {DISC, 0.02, 1e-3, {27.20480692135, 0, 0}},
-    {DISC, 0.04, 1e-3, {62.94421156184, 0, 0}},
-    {DISC, 0.10, 1e-3, {199.5995305575, 0, 0}},
-    {PRESSED_DISC, 0.55e6, 1e-3, {607.3427, 0, 0}},
-    {RING, 0, 1e-2, {4.772, 0, 0}},
-    {RING, 0, 1e-3, {4.772, 0, 0}},
-    {RING, 0.55e6, 1e-3, {13.493, 0, 0}},
-    {RING_STEP, 0.29e6, 0, {0, 0, 0}},
-    {CYCLE, SB_MODEL_MOTION_QUASI_STATIC, 0, {0, 0, 0}},
-    {CYCLE, SB_MODEL_MOTION_DYNAMIC, 0, {0, 0, 0}},
-    {FILM_CYCLE, SB_MODEL_MOTION_QUASI_STATIC, 0, {0, 0, 0}},
 };
-
-size_t sb_bench_count(void) {
-  return sizeof cases / sizeof cases[0];
-}
 
 static double relative(double value, double expected) {
   return fabs(value / expected - 1);
@@ -131,83 +95,90 @@ static SbStatus run_film(SbBenchCase *out, const Case *c, SbReport *report) {
   return status;
 }
 
-static SbStatus run_disc(SbBenchCase *out, const Case *c, SbReport *report) {
+static SbStatus run_fit(SbBenchCase *out, const Case *c, const SbFitProblem *problem,
+                        SbReport *report) {
   SbFit *fit = malloc(sizeof *fit);
   if (fit == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a fit");
   }
-  double d = 1.61e-3;
-  double D = 6e-3;
-  bool pressed = c->kind == PRESSED_DISC;
-  double squeeze = pressed ? 0.1 : c->parameter;
-  double g = d * (1 - squeeze);
-  SbFitProblem problem = {
-      .model = SB_FIT_DISC,
-      .section_diameter = d,
-      .inner_diameter = D - g - d, // no stretch
-      .modulus = 2.5e6,
-      .poisson_ratio = 0.49,
-      .radial_space = g,
-      .bore_diameter = D,
-      .gland_width = 3e-3,
-      .tolerance = c->tolerance,
-      .pressure = pressed ? c->parameter : 0,
-  };
-  SbStatus status = sb_fit_solve(fit, &problem, report);
-  out->error = relative(fit->load_per_length, c->expected[0]);
+  SbStatus status = sb_fit_solve(fit, problem, report);
+  bool ring = problem->model == SB_FIT_RING;
+  out->error = relative(ring ? fit->load : fit->load_per_length, c->expected[0]);
   out->unknowns = fit->solver.unknowns;
   out->iterations = fit->solver.newton_iterations;
   out->error_estimate = fit->solver.error_estimate.load;
-  snprintf(out->name, sizeof out->name, "squeeze %.4g %%, %s%g", 100 * squeeze,
-           pressed ? "0.55 MPa, tolerance " : "tolerance ", c->tolerance);
+  if (ring) {
+    size_t steps = fit->ring.load_steps;
+    snprintf(out->name, sizeof out->name, "%.2f MPa, tolerance %g, %zu load step%s",
+             1e-6 * problem->pressure, c->tolerance, steps, steps == 1 ? "" : "s");
+  }
   free(fit);
   return status;
 }
 
-// The thesis valve's ring, 15.5 % squeezed, against its groove's wall if pressed.
-static SbRingBody ring_body(void) {
-  return (SbRingBody){.section_diameter = 1.61e-3,
-                      .inner_diameter = 2.84e-3,
-                      .modulus = 2.5e6,
-                      .poisson_ratio = 0.49};
+// Without stretch.
+static SbStatus fit_disc(SbBenchCase *out, const Case *c, double squeeze, double pressure,
+                         SbReport *report) {
+  const double d = 1.61e-3, D = 6e-3, g = d * (1 - squeeze);
+  snprintf(out->name, sizeof out->name, "squeeze %.4g %%, %.4g MPa, tolerance %g", 100 * squeeze,
+           1e-6 * pressure, c->tolerance);
+  return run_fit(out, c,
+                 &(SbFitProblem){.model = SB_FIT_DISC,
+                                 .section_diameter = d,
+                                 .inner_diameter = D - g - d,
+                                 .modulus = 2.5e6,
+                                 .poisson_ratio = 0.49,
+                                 .radial_space = g,
+                                 .bore_diameter = D,
+                                 .gland_width = 3e-3,
+                                 .pressure = pressure,
+                                 .tolerance = c->tolerance},
+                 report);
 }
 
-static SbRingLoad ring_load(double pressure) {
-  SbRingLoad load = SB_RING_LOAD_INIT;
-  load.floor_radius = 1.64e-3;
-  load.bore_radius = 3e-3;
-  load.pressure_left = pressure;
-  load.wall_right = pressure > 0 ? 1e-3 : HUGE_VAL;
-  return load;
+static SbStatus run_disc(SbBenchCase *out, const Case *c, SbReport *report) {
+  return fit_disc(out, c, c->parameter, 0, report);
 }
+
+static SbStatus run_pressed_disc(SbBenchCase *out, const Case *c, SbReport *report) {
+  return fit_disc(out, c, 0.1, c->parameter, report);
+}
+
+// The thesis valve's ring, 15.5 % squeezed, against its groove's wall if pressed.
+static const SbRingBody thesis_ring = {.section_diameter = 1.61e-3,
+                                       .inner_diameter = 2.84e-3,
+                                       .modulus = 2.5e6,
+                                       .poisson_ratio = 0.49};
 
 static SbStatus run_ring(SbBenchCase *out, const Case *c, SbReport *report) {
-  SbRingBody body = ring_body();
-  SbRingLoad load = ring_load(c->parameter);
-  SbRingResult result = {0};
-  SbRingOptions options = {.tolerance = c->tolerance};
-  SbWarnings warnings = {0};
-  SbStatus status = sb_ring_fit(NULL, &result, &body, &load, &options, &warnings, report);
-  out->error = relative(result.bore_force, c->expected[0]);
-  out->unknowns = (size_t)result.unknowns;
-  out->iterations = (size_t)result.newton_iterations;
-  out->error_estimate = result.error.load;
-  snprintf(out->name, sizeof out->name, "%.2f MPa, tolerance %g, %d load step%s",
-           1e-6 * c->parameter, c->tolerance, result.load_steps, result.load_steps == 1 ? "" : "s");
-  return status;
+  return run_fit(out, c,
+                 &(SbFitProblem){.model = SB_FIT_RING,
+                                 .section_diameter = thesis_ring.section_diameter,
+                                 .inner_diameter = thesis_ring.inner_diameter,
+                                 .modulus = thesis_ring.modulus,
+                                 .poisson_ratio = thesis_ring.poisson_ratio,
+                                 .radial_space = 1.36e-3,
+                                 .bore_diameter = 6e-3,
+                                 .gland_width = 2e-3,
+                                 .pressure = c->parameter,
+                                 .tolerance = c->tolerance},
+                 report);
 }
 
 // Steps of a cycle from one equilibrium to the next: bore and pressure move, friction on all
 // surfaces. The time is one step's; the error is that of its axial balance.
 static SbStatus run_ring_step(SbBenchCase *out, const Case *c, SbReport *report) {
   enum { STEPS = 10 };
-  SbRingBody body = ring_body();
-  SbRingLoad load = ring_load(c->parameter);
+  SbRingLoad load = SB_RING_LOAD_INIT;
+  load.floor_radius = 1.64e-3;
+  load.bore_radius = 3e-3;
+  load.pressure_left = c->parameter;
   load.wall_left = -1e-3;
+  load.wall_right = 1e-3;
   load.friction_bore = load.friction_floor = load.friction_wall = 0.2;
   SbRingOptions options = {.fit_mesh = true};
   SbRing *ring = NULL;
-  SbStatus status = sb_ring_create(&ring, &body, &load, &options, report);
+  SbStatus status = sb_ring_create(&ring, &thesis_ring, &load, &options, report);
   SbRingResult before = {0};
   SbRingResult after = {0};
   if (status == SB_OK) {
@@ -233,29 +204,24 @@ static SbStatus run_ring_step(SbBenchCase *out, const Case *c, SbReport *report)
 
 // The whole cycle, by closed forms or with solved films; its error is what the energy balance does
 // not close.
-static SbStatus run_cycle(SbBenchCase *out, const Case *c, SbReport *report) {
-  struct {
-    SbParams params;
-    SbModel model;
-    SbPlan plan;
-  } *made = malloc(sizeof *made); // too large for a small stack
-  if (made == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a model");
-  }
-  sb_params_init(&made->params);
+static SbStatus cycle(SbBenchCase *out, const Case *c, SbFilmModel film, SbReport *report) {
+  SbParams params;
+  sb_params_init(&params);
+  SbModel *model = NULL;
   SbRun *run = NULL;
-  SbStatus status = sb_params_set(&made->params, SB_P_MODELS_MOTION, c->parameter, report);
-  if (status == SB_OK && c->kind == FILM_CYCLE) {
-    status = sb_params_set(&made->params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, report);
+  SbStatus status = sb_params_set(&params, SB_P_MODELS_MOTION, c->parameter, report);
+  if (status == SB_OK) {
+    status = sb_params_set(&params, SB_P_MODELS_FILM, film, report);
   }
-  if (status == SB_OK && sb_model_compile(&made->model, &made->params, NULL) != SB_OK) {
+  if (status == SB_OK && sb_model_create(&model, &params, NULL, NULL, NULL) != SB_OK) {
     status = sb_fail(report, SB_ERROR_INPUT, "the default valve does not compile");
   }
   if (status == SB_OK) {
-    sb_plan_make(&made->plan, &made->model);
-    status = sb_run_create(&run, &made->model, &made->plan, report);
+    SbPlan plan;
+    sb_plan_make(&plan, model);
+    status = sb_run_create(&run, model, &plan, report);
   }
-  free(made);
+  sb_model_destroy(model);
   if (status == SB_OK) {
     status = sb_run_execute(run, NULL, report);
     const SbSummary *summary = sb_run_summary(run);
@@ -263,59 +229,51 @@ static SbStatus run_cycle(SbBenchCase *out, const Case *c, SbReport *report) {
     out->error_estimate = summary->error_energy;
     out->iterations = summary->steps;
     snprintf(out->name, sizeof out->name, "energy of the thesis cycle, %zu frames%s",
-             summary->frames, c->kind == FILM_CYCLE ? ", films" : "");
+             summary->frames, film == SB_FILM_REYNOLDS ? ", films" : "");
   }
   sb_run_destroy(run);
   return status;
 }
 
-static SbStatus run_once(SbBenchCase *out, const Case *c, SbReport *report) {
-  switch (c->kind) {
-  case ASPERITY:
-    return run_asperity(out, c, report);
-  case WEDGE:
-    return run_wedge(out, c, report);
-  case FILM:
-    return run_film(out, c, report);
-  case DISC:
-  case PRESSED_DISC:
-    return run_disc(out, c, report);
-  case RING:
-    return run_ring(out, c, report);
-  case RING_STEP:
-    return run_ring_step(out, c, report);
-  case CYCLE:
-  case FILM_CYCLE:
-    break;
-  }
-  return run_cycle(out, c, report);
+static SbStatus run_cycle(SbBenchCase *out, const Case *c, SbReport *report) {
+  return cycle(out, c, SB_FILM_THESIS, report);
 }
 
-static int compare(const void *a, const void *b) {
-  double x = *(const double *)a;
-  double y = *(const double *)b;
-  return (x > y) - (x < y);
+static SbStatus run_film_cycle(SbBenchCase *out, const Case *c, SbReport *report) {
+  return cycle(out, c, SB_FILM_REYNOLDS, report);
 }
 
-static const char *solver_name(const Case *c) {
-  switch (c->kind) {
-  case ASPERITY:
-    return "greenwood-tripp";
-  case WEDGE:
-    return "wedge";
-  case FILM:
-    return "reynolds";
-  case DISC:
-  case PRESSED_DISC:
-    return "disc";
-  case RING:
-  case RING_STEP:
-    return "ring";
-  case CYCLE:
-  case FILM_CYCLE:
-    break;
-  }
-  return c->parameter == (double)SB_MODEL_MOTION_QUASI_STATIC ? "quasi-static" : "dynamic";
+static const Case cases[] = {
+    {"greenwood-tripp", run_asperity, -4, 0, {0}},
+    {"wedge", run_wedge, 0, 0, {4.894968}},
+    {"reynolds", run_film, 1, 1e-3, {3.06313643, 3.27656797, 3.79061479}},
+    {"reynolds", run_film, 1, 1e-7, {3.06313643, 3.27656797, 3.79061479}},
+    {"reynolds", run_film, 5, 1e-3, {1.59060139, 2.03650729, 2.01593519}},
+    {"reynolds", run_film, 5, 1e-7, {1.59060139, 2.03650729, 2.01593519}},
+    {"reynolds", run_film, 20, 1e-3, {1.12468687, 1.42051119, 1.41937373}},
+    {"reynolds", run_film, 20, 1e-7, {1.12468687, 1.42051119, 1.41937373}},
+    {"reynolds", run_film, 100, 1e-3, {0.796100592, 1.00142813, 1.00138870}},
+    {"reynolds", run_film, 100, 1e-7, {0.796100592, 1.00142813, 1.00138870}},
+    {"reynolds", run_film, 1000, 1e-3, {0.498582133, 0.626358505, 0.626358192}},
+    {"reynolds", run_film, 1000, 1e-7, {0.498582133, 0.626358505, 0.626358192}},
+    {"reynolds", run_film, 10000, 1e-3, {0.314215466, 0.394658764, 0.394658762}},
+    {"reynolds", run_film, 10000, 1e-7, {0.314215466, 0.394658764, 0.394658762}},
+    {"disc", run_disc, 0.02, 1e-2, {27.20480692135}},
+    {"disc", run_disc, 0.02, 1e-3, {27.20480692135}},
+    {"disc", run_disc, 0.04, 1e-3, {62.94421156184}},
+    {"disc", run_disc, 0.10, 1e-3, {199.5995305575}},
+    {"disc", run_pressed_disc, 0.55e6, 1e-3, {607.3427}},
+    {"ring", run_ring, 0, 1e-2, {4.772}},
+    {"ring", run_ring, 0, 1e-3, {4.772}},
+    {"ring", run_ring, 0.55e6, 1e-3, {13.493}},
+    {"ring", run_ring_step, 0.29e6, 0, {0}},
+    {"quasi-static", run_cycle, SB_MODEL_MOTION_QUASI_STATIC, 0, {0}},
+    {"dynamic", run_cycle, SB_MODEL_MOTION_DYNAMIC, 0, {0}},
+    {"quasi-static", run_film_cycle, SB_MODEL_MOTION_QUASI_STATIC, 0, {0}},
+};
+
+size_t sb_bench_count(void) {
+  return sizeof cases / sizeof cases[0];
 }
 
 SbStatus sb_bench_run(SbBenchCase *out, size_t index, int repeats, const SbBenchCase *previous,
@@ -323,9 +281,9 @@ SbStatus sb_bench_run(SbBenchCase *out, size_t index, int repeats, const SbBench
   enum { REPEATS_MAX = 50 };
   const Case *c = &cases[index];
   *out = (SbBenchCase){.error = NAN, .error_estimate = NAN, .order = NAN};
-  snprintf(out->solver, sizeof out->solver, "%s", solver_name(c));
+  snprintf(out->solver, sizeof out->solver, "%s", c->solver);
   SbReport first = {0};
-  SbStatus status = run_once(out, c, report != NULL ? report : &first);
+  SbStatus status = c->run(out, c, report != NULL ? report : &first);
   if (status != SB_OK) {
     out->error = NAN;
     return status;
@@ -335,16 +293,15 @@ SbStatus sb_bench_run(SbBenchCase *out, size_t index, int repeats, const SbBench
   for (int i = 0; i < n && status == SB_OK; i++) {
     double start = sb_clock_seconds();
     out->wall_s = 0;
-    status = run_once(out, c, report);
+    status = c->run(out, c, report);
     // A case that times a part of itself has said so.
     wall[i] = out->wall_s > 0 ? out->wall_s : sb_clock_seconds() - start;
   }
-  qsort(wall, (size_t)n, sizeof *wall, compare);
-  out->wall_s = wall[n / 2];
+  out->wall_s = gsl_stats_median(wall, 1, (size_t)n);
 
   // Order between two meshes of one case, where the digits of the ring's reference show one.
-  const double resolved = c->kind == RING ? 1e-4 : 0;
-  if (previous != NULL && index > 0 && cases[index - 1].kind == c->kind &&
+  const double resolved = c->run == run_ring ? 1e-4 : 0;
+  if (previous != NULL && index > 0 && cases[index - 1].run == c->run &&
       cases[index - 1].parameter == c->parameter && out->unknowns != previous->unknowns &&
       out->error > resolved && previous->error > resolved) {
     out->order = -log(out->error / previous->error) /

@@ -18,40 +18,30 @@ static bool inner_touches(const SbCycle *cycle, SbChamber chamber, int direction
   return cycle->states.state[SB_INNER][chamber][direction].touches;
 }
 
-// Stem displacements at which the inner contact begins and ends to leave the land.
+// Stem displacement at which the inner contact begins to leave the land.
 static double edge_start(const SbCycle *cycle) {
   return cycle->states.model->land_edge;
 }
 
 double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction) {
   const SbSliding *inner = &cycle->states.state[SB_INNER][chamber][direction];
-  return cycle->states.model->land_edge + inner->contact_right - inner->contact_left;
+  return edge_start(cycle) + inner->contact_right - inner->contact_left;
+}
+
+// Share of a seal's contact that the edge has passed; without contact all of it.
+static double passed(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s) {
+  const SbSliding *state = &cycle->states.state[seal][chamber][direction];
+  if (!state->touches || (seal == SB_INNER && chamber == SB_CHAMBER_OPEN)) {
+    return 1;
+  }
+  double width = state->contact_right - state->contact_left;
+  return seal == SB_OUTER ? 0 : fmin(fmax((s - edge_start(cycle)) / width, 0), 1);
 }
 
 void sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s,
                          double *width_share, double *load_share) {
-  const SbSliding *state = &cycle->states.state[seal][chamber][direction];
-  *width_share = 1;
-  *load_share = 1;
-  if (!state->touches) {
-    *width_share = 0;
-    *load_share = 0;
-    return;
-  }
-  if (seal == SB_OUTER) {
-    return;
-  }
-  if (chamber == SB_CHAMBER_OPEN) {
-    *width_share = 0;
-    *load_share = 0;
-    return;
-  }
-
-  // Share of the contact that the edge has passed, t in [0, 1], and of the elliptic pressure over
-  // it.
-  double width = state->contact_right - state->contact_left;
-  double t = fmin(fmax((s - edge_start(cycle)) / width, 0), 1);
-  double c = 1 - 2 * t;
+  double t = passed(cycle, seal, chamber, direction, s);
+  double c = 1 - 2 * t; // of the elliptic pressure
   *width_share = 1 - t;
   *load_share = 1 - (acos(c) - c * sqrt(fmax(1 - c * c, 0))) / M_PI;
 }
@@ -59,8 +49,7 @@ void sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int 
 double sb_cycle_seal_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
                               double s) {
   const SbSliding *state = &cycle->states.state[seal][chamber][direction];
-  double width_share;
-  double load_share;
+  double width_share, load_share;
   sb_cycle_land_share(cycle, seal, chamber, direction, s, &width_share, &load_share);
   return (state->boundary_area + state->viscous) * width_share + state->boundary_load * load_share;
 }
@@ -84,27 +73,6 @@ static double static_limit(const SbCycle *cycle, SbChamber chamber, int directio
          sb_cycle_static_friction(cycle, SB_INNER, chamber, direction, s);
 }
 
-// d f/d s of the inner seal while the edge passes, from the same ellipse [N/m].
-static double friction_slope(const SbCycle *cycle, SbChamber chamber, int direction, double s) {
-  const SbSliding *state = &cycle->states.state[SB_INNER][chamber][direction];
-  double width = state->contact_right - state->contact_left;
-  double t = state->touches && chamber != SB_CHAMBER_OPEN ? (s - edge_start(cycle)) / width : -1;
-  if (t <= 0 || t >= 1) {
-    return 0;
-  }
-  double c = 1 - 2 * t;
-  return -((state->boundary_area + state->viscous) +
-           state->boundary_load * 4 / M_PI * sqrt(fmax(1 - c * c, 0))) /
-         width;
-}
-
-// Force that balances sliding: F_p + f on the way in, F_p - f on the way out.
-static double balance_force(const SbCycle *cycle, SbChamber chamber, int direction, double s) {
-  double sign = direction == SB_CYCLE_IN ? 1 : -1;
-  return cycle->states.model->pressure_force +
-         sign * sb_cycle_friction(cycle, chamber, direction, s);
-}
-
 // A platen's position and where in the cycle it stands.
 typedef struct {
   const SbCycle *cycle;
@@ -113,11 +81,43 @@ typedef struct {
   double platen;
 } Place;
 
-// dX/ds of balanced sliding at s.
-static double platen_rate(const Place *p, double s) {
-  double sign = p->direction == SB_CYCLE_IN ? 1 : -1;
-  return 1 + sign * friction_slope(p->cycle, p->chamber, p->direction, s) /
-                 p->cycle->states.model->stiffness;
+static double sign_of(int direction) {
+  return direction == SB_CYCLE_IN ? 1 : -1;
+}
+
+// Magnitude of the seals' kinetic friction [N].
+static double friction_at(double s, const void *context) {
+  const Place *p = context;
+  return sb_cycle_friction(p->cycle, p->chamber, p->direction, s);
+}
+
+// Force that balances sliding: F_p + f on the way in, F_p - f on the way out.
+static double balance_at(double s, const void *context) {
+  const Place *p = context;
+  return p->cycle->states.model->pressure_force + sign_of(p->direction) * friction_at(s, p);
+}
+
+// Force on a stem at s beyond the balance, in the direction of sliding.
+static double excess_force(double s, const void *context) {
+  const Place *p = context;
+  return sign_of(p->direction) *
+         (p->cycle->states.model->stiffness * (p->platen - s) - balance_at(s, p));
+}
+
+// dX/ds of balanced sliding at s; the inner seal's friction falls while the edge passes, by the
+// same ellipse as its share of the load.
+static double rate_at(double s, const void *context) {
+  const Place *p = context;
+  const SbSliding *inner = &p->cycle->states.state[SB_INNER][p->chamber][p->direction];
+  double t = passed(p->cycle, SB_INNER, p->chamber, p->direction, s);
+  if (t <= 0 || t >= 1) {
+    return 1;
+  }
+  double c = 1 - 2 * t;
+  double slope = -((inner->boundary_area + inner->viscous) +
+                   inner->boundary_load * 4 / M_PI * sqrt(fmax(1 - c * c, 0))) /
+                 (inner->contact_right - inner->contact_left);
+  return 1 + sign_of(p->direction) * slope / p->cycle->states.model->stiffness;
 }
 
 double sb_cycle_force(const SbCycle *cycle, double X, double s) {
@@ -130,9 +130,8 @@ double sb_cycle_force(const SbCycle *cycle, double X, double s) {
 // How far the balance of a stem at s needs the platen beyond X, rising with s.
 static double platen_beyond(double *slope, double s, const void *context) {
   const Place *p = context;
-  double k = p->cycle->states.model->stiffness;
-  *slope = platen_rate(p, s);
-  return s + balance_force(p->cycle, p->chamber, p->direction, s) / k - p->platen;
+  *slope = rate_at(s, p);
+  return s + balance_at(s, p) / p->cycle->states.model->stiffness - p->platen;
 }
 
 double sb_cycle_stem(const SbCycle *cycle, const SbCycleSegment *segment, double X) {
@@ -155,7 +154,7 @@ double sb_cycle_stem_rate(const SbCycle *cycle, const SbCycleSegment *segment, d
   }
   const Place place = {cycle, segment->chamber, segment->direction, 0};
   // On the brink of a jump the rate has no bound; a thousand times the platen's stands for it.
-  return 1 / fmax(platen_rate(&place, s), 1e-3);
+  return 1 / fmax(rate_at(s, &place), 1e-3);
 }
 
 double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, double X, double s,
@@ -164,21 +163,16 @@ double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, dou
   double force = sb_cycle_force(cycle, X, s);
   *stop_force = 0;
   if (segment->mode != SB_CYCLE_STICK) {
-    double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
-    return sign * sb_cycle_friction(cycle, segment->chamber, segment->direction, s);
+    return sign_of(segment->direction) *
+           sb_cycle_friction(cycle, segment->chamber, segment->direction, s);
   }
 
   // At a stop the friction keeps the value it came with until the stop is unloaded.
   double needed = force - model->pressure_force;
-  double friction = needed;
-  if (s >= model->stroke && needed > segment->friction0) {
-    friction = segment->friction0;
-    *stop_force = needed - friction;
-  } else if (s <= 0 && needed < segment->friction0) {
-    friction = segment->friction0;
-    *stop_force = needed - friction;
-  }
-  return friction;
+  bool stopped = (s >= model->stroke && needed > segment->friction0) ||
+                 (s <= 0 && needed < segment->friction0);
+  *stop_force = stopped ? needed - segment->friction0 : 0;
+  return needed - *stop_force;
 }
 
 // ---------------------------------------------------------------------------------------------------
@@ -238,32 +232,13 @@ static double piece_end(const Planner *p) {
   }
   double end = sb_cycle_edge_end(p->cycle, chamber, p->direction);
   double marks[] = {start, (start + end) / 2, end};
+  double sign = sign_of(p->direction);
   double best = p->direction == SB_CYCLE_IN ? model->stroke : 0;
   for (int i = 0; i < 3; i++) {
-    if (p->direction == SB_CYCLE_IN && marks[i] > p->s && marks[i] < best) {
-      best = marks[i];
-    } else if (p->direction == SB_CYCLE_OUT && marks[i] < p->s && marks[i] > best) {
-      best = marks[i];
-    }
+    bool nearer = sign * marks[i] > sign * p->s && sign * marks[i] < sign * best;
+    best = nearer ? marks[i] : best;
   }
   return best;
-}
-
-// Force on a stem at s beyond the balance, in the direction of sliding.
-static double excess_force(double s, const void *context) {
-  const Place *p = context;
-  double sign = p->direction == SB_CYCLE_IN ? 1 : -1;
-  return sign * (p->cycle->states.model->stiffness * (p->platen - s) -
-                 balance_force(p->cycle, p->chamber, p->direction, s));
-}
-
-static double rate_at(double s, const void *context) {
-  return platen_rate(context, s);
-}
-
-static double balance_at(double s, const void *context) {
-  const Place *p = context;
-  return balance_force(p->cycle, p->chamber, p->direction, s);
 }
 
 // The stage that lies at the end of a piece, or -1; also switches the chamber after it.
@@ -314,7 +289,7 @@ static void slide(Planner *p) {
   while (!p->full && p->s != (out ? 0 : model->stroke)) {
     const Place place = {p->cycle, p->chamber, p->direction, p->X};
     double balance = balance_at(p->s, &place);
-    double excess = (out ? -1 : 1) * (sb_cycle_force(p->cycle, p->X, p->s) - balance);
+    double excess = sign_of(p->direction) * (sb_cycle_force(p->cycle, p->X, p->s) - balance);
     double noise =
         1e-12 * (fabs(balance) + model->pressure_force) + 8 * 2.3e-16 * k * (p->X + p->s);
     double end = piece_end(p);
@@ -355,7 +330,7 @@ static void slide(Planner *p) {
 }
 
 double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, bool rested) {
-  double least = balance_force(cycle, chamber, SB_CYCLE_OUT, s);
+  double least = balance_at(s, &(Place){cycle, chamber, SB_CYCLE_OUT, 0});
   if (rested) {
     least = fmin(least, cycle->states.model->pressure_force -
                             static_limit(cycle, chamber, SB_CYCLE_OUT, s));
@@ -364,7 +339,7 @@ double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, 
     chamber = SB_CHAMBER_CLOSED;
   }
   // Friction only grows on the way back to the land, so the ends of each state hold the least.
-  return fmin(least, balance_force(cycle, chamber, SB_CYCLE_OUT, 0));
+  return fmin(least, balance_at(0, &(Place){cycle, chamber, SB_CYCLE_OUT, 0}));
 }
 
 SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
@@ -400,7 +375,7 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   double s_return = p.s;
   SbChamber chamber_return = p.chamber;
   while (!p.full && p.X > 0) {
-    double limit = balance_force(cycle, p.chamber, SB_CYCLE_OUT, p.s);
+    double limit = balance_at(p.s, &(Place){cycle, p.chamber, SB_CYCLE_OUT, 0});
     double X_slip = p.s + limit / k;
     // Where friction has caught up with the pressure the root is known to rounding only.
     bool stalled = limit <= 1e-9 * model->pressure_force;
@@ -428,40 +403,28 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
 // ---------------------------------------------------------------------------------------------------
 // Energy
 
-// Gauss points of a segment and what is integrated over it.
 enum { POINTS = 16 };
 
+// Gauss' rule over a segment.
 typedef struct {
   const SbCycle *cycle;
+  const SbCycleSegment *segment;
   double node[POINTS], weight[POINTS];
 } Rule;
 
-typedef double Integrand(const SbCycle *, const SbCycleSegment *, double);
-
-static double quadrature(const Rule *rule, const SbCycleSegment *segment, double a, double b,
-                         Integrand *f) {
+static double integral(const Rule *rule, double a, double b, SbFunction f, const void *context) {
   double sum = 0;
   for (int i = 0; i < POINTS; i++) {
-    sum += rule->weight[i] * f(rule->cycle, segment, (a + b) / 2 + (b - a) / 2 * rule->node[i]);
+    sum += rule->weight[i] * f((a + b) / 2 + (b - a) / 2 * rule->node[i], context);
   }
   return sum * (b - a) / 2;
 }
 
 // The platen's work and the loop are integrated over X, friction over s: separate evaluations of
 // separate functions, so that the closure tests the motion and not an identity.
-static double force_of_platen(const SbCycle *cycle, const SbCycleSegment *segment, double X) {
-  return sb_cycle_force(cycle, X, sb_cycle_stem(cycle, segment, X));
-}
-
-static double friction_of_stem(const SbCycle *cycle, const SbCycleSegment *segment, double s) {
-  return sb_cycle_friction(cycle, segment->chamber, segment->direction, s);
-}
-
-static double jump_excess(const SbCycle *cycle, const SbCycleSegment *segment, double s) {
-  double sign = segment->direction == SB_CYCLE_IN ? 1 : -1;
-  return cycle->states.model->stiffness * (segment->platen0 - s) -
-         cycle->states.model->pressure_force -
-         sign * sb_cycle_friction(cycle, segment->chamber, segment->direction, s);
+static double force_of_platen(double X, const void *context) {
+  const Rule *rule = context;
+  return sb_cycle_force(rule->cycle, X, sb_cycle_stem(rule->cycle, rule->segment, X));
 }
 
 void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
@@ -471,7 +434,8 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
   sb_legendre_gauss(rule.node, rule.weight, POINTS);
   *out = (SbEnergy){0};
   for (size_t i = 0; i < cycle->count; i++) {
-    const SbCycleSegment *segment = &cycle->segment[i];
+    const SbCycleSegment *segment = rule.segment = &cycle->segment[i];
+    const Place place = {cycle, segment->chamber, segment->direction, segment->platen0};
     double ds = segment->stem1 - segment->stem0;
     double X0 = segment->platen0;
     double X1 = segment->platen1;
@@ -480,13 +444,13 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
     double corner = segment->mode == SB_CYCLE_STICK
                         ? fmin(fmax(segment->stem0, fmin(X0, X1)), fmax(X0, X1))
                         : X1;
-    double rubbed =
-        fabs(quadrature(&rule, segment, segment->stem0, segment->stem1, friction_of_stem));
+    double rubbed = fabs(integral(&rule, segment->stem0, segment->stem1, friction_at, &place));
     if (segment->mode == SB_CYCLE_JUMP) {
-      out->seal += quadrature(&rule, segment, segment->stem0, segment->stem1, jump_excess);
+      out->seal += sign_of(place.direction) *
+                   integral(&rule, segment->stem0, segment->stem1, excess_force, &place);
     } else {
-      out->external += quadrature(&rule, segment, X0, corner, force_of_platen) +
-                       quadrature(&rule, segment, corner, X1, force_of_platen);
+      out->external += integral(&rule, X0, corner, force_of_platen, &rule) +
+                       integral(&rule, corner, X1, force_of_platen, &rule);
     }
     out->friction += rubbed;
     out->external -= model->pressure_force * ds;

@@ -26,30 +26,31 @@ enum { FILM_STATES = 10, PROFILE_STATES = 15, CHAMBERS = 3 };
 // Times that a motion is run to find its own speed, where no machine gives one.
 enum { OWN_SPEED_ROUNDS = 3 };
 
-static void SB_PRINTF(7, 8)
-    add(SbPlanItem *items, size_t *count, const char *name, const char *model, double cost,
-        double error, const char *format, ...) {
+// Adds a field that is computed, or one that is skipped, of which only name and reason are told.
+static void SB_PRINTF(7, 8) add(SbPlan *plan, bool wanted, const char *name, const char *model,
+                                double cost, double error, const char *format, ...) {
+  size_t *count = wanted ? &plan->field_count : &plan->skipped_count;
   assert(*count < SB_PLAN_ITEMS_MAX);
-  SbPlanItem *item = &items[(*count)++];
+  SbPlanItem *item = &(wanted ? plan->field : plan->skipped)[(*count)++];
   sb_text(item->name, sizeof item->name, "%s", name);
-  sb_text(item->model, sizeof item->model, "%s", model);
-  item->cost_s = cost;
-  item->error = error;
+  sb_text(item->model, sizeof item->model, "%s", wanted ? model : "");
+  item->cost_s = wanted ? cost : 0;
+  item->error = wanted ? error : 0;
   va_list arguments;
   va_start(arguments, format);
   sb_text_v(item->reason, sizeof item->reason, format, arguments);
   va_end(arguments);
 }
 
-// Names of the views that want something, "profiles, section".
-static void view_names(unsigned views, char *text, size_t size) {
-  static const char *const names[] = {"hysteresis", "profiles", "section",
-                                      "dashboard",  "rig",      "life"};
+// Names of those bits of a mask whose parameter is `id`, "profiles, section".
+static void mask_names(SbParamId id, unsigned mask, char *text, size_t size) {
   size_t used = 0;
   text[0] = '\0';
-  for (unsigned i = 0; i < sizeof names / sizeof names[0]; i++) {
-    if ((views & (1u << i)) != 0 && used < size) {
-      used += (size_t)snprintf(text + used, size - used, "%s%s", used > 0 ? ", " : "", names[i]);
+  for (int i = 0; i < sb_param_choice_count(sb_param(id)) && used < size; i++) {
+    char name[32];
+    sb_param_choice_name(sb_param(id), i, name, sizeof name);
+    if ((mask & (1u << i)) != 0) {
+      used += (size_t)snprintf(text + used, size - used, "%s%s", used > 0 ? ", " : "", name);
     }
   }
 }
@@ -108,13 +109,12 @@ static void plan_fit(SbPlan *plan, const SbModel *model) {
   SbFitModel fit = model->fit;
   int fits = count_fits(model);
   bool surface = model->film == SB_FILM_REYNOLDS && fit == SB_FIT_RING;
-  plan->ring = fit == SB_FIT_RING;
-  add(plan->field, &plan->field_count, "contact load and width", sb_fit_model_name(fit),
+  add(plan, true, "contact load and width", sb_fit_model_name(fit),
       fits * (sb_cost_fit(fit) + (surface ? SB_COST_RING_SURFACE : 0)), fit_error(model),
       "friction and film need them; %d pressure differences over two seals", fits);
   if (!plan->ring) {
-    add(plan->skipped, &plan->skipped_count, "ring", "", 0, 0,
-        "models.fit = %s already gives load and width", sb_fit_model_name(fit));
+    add(plan, false, "ring", "", 0, 0, "models.fit = %s already gives load and width",
+        sb_fit_model_name(fit));
   }
 }
 
@@ -123,101 +123,113 @@ static void plan_film(SbPlan *plan, const SbModel *model) {
   // A machine's speed is known; a finger's is found by running the motion, films and all.
   int rounds = finds_speed(model) && model->fit != SB_FIT_RING ? OWN_SPEED_ROUNDS : 1;
   bool body = model->fit == SB_FIT_DISC || model->fit == SB_FIT_RING;
+  double cost = plan->reynolds && body ? SB_COST_FILM_FITTED : 0;
   if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
-    plan->reynolds = true;
-    add(plan->field, &plan->field_count, "film", "reynolds with asperities",
-        rounds * FILM_STATES * (SB_COST_FILM_MIXED + (body ? SB_COST_FILM_FITTED : 0)),
-        film_error(model), "models.asperities = coupled: film and asperities share the load");
+    add(plan, true, "film", "reynolds with asperities",
+        rounds * FILM_STATES * (SB_COST_FILM_MIXED + cost), film_error(model),
+        "models.asperities = coupled: film and asperities share the load");
     return;
   }
-  plan->reynolds = model->film == SB_FILM_REYNOLDS;
-  bool fitted = plan->reynolds && body;
-  sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model->film, name, sizeof name);
-  add(plan->field, &plan->field_count, "film", name,
-      rounds * FILM_STATES * (sb_cost_film(model->film) + (fitted ? SB_COST_FILM_FITTED : 0)),
+  sb_model_choice_name(model, SB_P_MODELS_FILM, name, sizeof name);
+  add(plan, true, "film", name, rounds * FILM_STATES * (sb_cost_film(model->film) + cost),
       film_error(model), "boundary share, viscous friction and leakage need it%s",
-      fitted ? "; on the half-plane and on the fitted ring" : "");
+      cost > 0 ? "; on the half-plane and on the fitted ring" : "");
   if (!plan->reynolds) {
-    add(plan->skipped, &plan->skipped_count, "reynolds film", "", 0, 0,
-        "models.film = %s meets what the friction needs", name);
+    add(plan, false, "reynolds film", "", 0, 0, "models.film = %s meets what the friction needs",
+        name);
   }
   plan->film_history = plan->reynolds && model->film_history;
-  if (plan->film_history) {
-    // Fronts that cross the contact set its steps, hardly the frames.
-    add(plan->field, &plan->field_count, "film history", "finite volumes",
-        SB_SEAL_COUNT * SB_COST_FILM_HISTORY, 0.03,
-        "models.film_time = transient; friction keeps to the steady film");
-  } else {
-    add(plan->skipped, &plan->skipped_count, "film history", "", 0, 0, "%s",
-        model->film_history ? "models.film has no history, only reynolds"
+  // Fronts that cross the contact set its steps, hardly the frames.
+  add(plan, plan->film_history, "film history", "finite volumes",
+      SB_SEAL_COUNT * SB_COST_FILM_HISTORY, 0.03, "%s",
+      plan->film_history    ? "models.film_time = transient; friction keeps to the steady film"
+      : model->film_history ? "models.film has no history, only reynolds"
                             : "models.film_time = steady: every frame has the film of its speed");
-  }
-}
-
-static void plan_bodies(SbPlan *plan, const SbModel *model) {
-  plan->bodies = model->motion == SB_MODEL_MOTION_BODIES;
-  if (plan->bodies) {
-    add(plan->field, &plan->field_count, "joint reactions", "constrained bodies",
-        0.1 + model->frames * 1e-4, 0, "models.motion = bodies asks for them, %d joints",
-        SB_VALVE_JOINTS);
-  } else {
-    add(plan->skipped, &plan->skipped_count, "joint reactions", "", 0, 0,
-        "nobody asks for them: one coordinate gives the same motion");
-  }
 }
 
 static void plan_motion(SbPlan *plan, const SbModel *model) {
   char motion[32];
-  sb_param_choice_name(sb_param(SB_P_MODELS_MOTION), (int)model->motion, motion, sizeof motion);
+  sb_model_choice_name(model, SB_P_MODELS_MOTION, motion, sizeof motion);
   bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
   double once = !inertia             ? 0
                 : finds_speed(model) ? (1 + OWN_SPEED_ROUNDS) * SB_COST_DYNAMICS_OWN
                                      : SB_COST_DYNAMICS;
-  add(plan->field, &plan->field_count, "force and displacement", motion,
+  add(plan, true, "force and displacement", motion,
       model->cycles * once + model->frames * SB_COST_FRAME,
       fmax(fit_error(model), inertia ? model->motion_tolerance : 0),
       "figures of the cycle, %d frames", model->frames);
   if (plan->life) {
-    add(plan->field, &plan->field_count, "life", motion,
+    add(plan, true, "life", motion,
         model->life_actuations * (inertia ? SB_COST_DYNAMICS : SB_COST_ACTUATION), 0,
         "%d actuations while the roughness runs in; fitment and film are the first's",
         model->life_actuations);
   } else {
-    add(plan->skipped, &plan->skipped_count, "life", "", 0, 0, "life.actuations = 1");
+    add(plan, false, "life", "", 0, 0, "life.actuations = 1");
+  }
+  if (plan->bodies) {
+    add(plan, true, "joint reactions", "constrained bodies", 0.1 + model->frames * 1e-4, 0,
+        "models.motion = bodies asks for them, %d joints", SB_VALVE_JOINTS);
+  } else {
+    add(plan, false, "joint reactions", "", 0, 0,
+        "nobody asks for them: one coordinate gives the same motion");
   }
 }
 
 static void plan_rig(SbPlan *plan, const SbModel *model) {
   size_t samples = sb_rig_samples(&model->rig);
-  add(plan->field, &plan->field_count, "thread force and plate", "rig",
-      (double)samples * SB_COST_SAMPLE, 0, "the coefficients come from its %zu samples", samples);
-  add(plan->field, &plan->field_count, "real contact area", "greenwood-tripp", SB_COST_ROUGH, 0,
+  add(plan, true, "thread force and plate", "rig", (double)samples * SB_COST_SAMPLE, 0,
+      "the coefficients come from its %zu samples", samples);
+  add(plan, true, "real contact area", "greenwood-tripp", SB_COST_ROUGH, 0,
       "what the valve's surface model says under the plate's load");
-  add(plan->skipped, &plan->skipped_count, "contact load and width", "", 0, 0,
-      "the rig gives its load; there is no valve");
-  add(plan->skipped, &plan->skipped_count, "film", "", 0, 0, "the rig's friction is its input");
+  add(plan, false, "contact load and width", "", 0, 0, "the rig gives its load; there is no valve");
+  add(plan, false, "film", "", 0, 0, "the rig's friction is its input");
 }
 
 // Studies are asked for one by one; the others share a line.
 static void plan_studies(SbPlan *plan, const SbModel *model, unsigned studies) {
-  char others[160] = "";
-  size_t used = 0;
+  const unsigned all = (1u << SB_STUDY_COUNT) - 1;
   plan->studies = studies;
   for (int i = 0; i < SB_STUDY_COUNT; i++) {
-    const char *name = sb_study_name((SbStudyKind)i);
     if ((studies & (1u << i)) != 0) {
       char item[40];
-      sb_text(item, sizeof item, "study %s", name);
-      add(plan->field, &plan->field_count, item, "several", sb_study_cost((SbStudyKind)i, model),
-          model->tolerance, "output.studies asks for it");
-    } else if (used < sizeof others) {
-      used +=
-          (size_t)snprintf(others + used, sizeof others - used, "%s%s", used > 0 ? ", " : "", name);
+      sb_text(item, sizeof item, "study %s", sb_study_name((SbStudyKind)i));
+      add(plan, true, item, "several", sb_study_cost((SbStudyKind)i, model), model->tolerance,
+          "output.studies asks for it");
     }
   }
-  if (used > 0) {
-    add(plan->skipped, &plan->skipped_count, "studies", "", 0, 0,
-        "output.studies does not ask for %s", others);
+  if ((studies & all) != all) {
+    char others[160];
+    mask_names(SB_P_OUTPUT_STUDIES, ~studies, others, sizeof others);
+    add(plan, false, "studies", "", 0, 0, "output.studies does not ask for %s", others);
+  }
+}
+
+// What is drawn: profiles over x, and interior fields, only where the fitment model has an
+// interior.
+static void plan_views(SbPlan *plan, const SbModel *model, unsigned views) {
+  char who[80];
+  unsigned sections = views & (SB_VIEW_SECTION | SB_VIEW_DASHBOARD);
+  unsigned drawn = sections | (views & SB_VIEW_PROFILES);
+  plan->profiles = drawn != 0;
+  mask_names(SB_P_OUTPUT_VIEWS, drawn, who, sizeof who);
+  if (plan->profiles) {
+    add(plan, true, "contact profiles", plan->reynolds ? "reynolds" : sb_fit_model_name(model->fit),
+        PROFILE_STATES * (plan->reynolds ? SB_COST_FILM_PROFILE : SB_COST_CLOSED),
+        fmax(fit_error(model), film_error(model)), "drawn by %s; each seal's states and at rest",
+        who);
+  } else {
+    add(plan, false, "contact profiles", "", 0, 0, "no view draws them");
+  }
+  mask_names(SB_P_OUTPUT_VIEWS, sections, who, sizeof who);
+  plan->section_fields = sections != 0 && plan->ring;
+  if (plan->section_fields) {
+    int shapes = SB_RUN_MOTIONS * count_fits(model) + SB_RUN_EDGES + 1;
+    add(plan, true, "interior fields", "ring", shapes * SB_COST_RING_SHAPE, fit_error(model),
+        "drawn by %s: %d shapes, dragged and over the land's edge", who, shapes);
+  } else {
+    add(plan, false, "interior fields", "", 0, 0, "%s",
+        sections == 0 ? "no view draws a section"
+                      : "only models.fit = ring has them: the rings are drawn schematically");
   }
 }
 
@@ -250,11 +262,16 @@ static SbSealDepth seal_need(const char *name) {
   return SB_DEPTH_WHOLE;
 }
 
+// What the model alone decides.
+static SbPlan basis(const SbModel *model, bool life) {
+  bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  return (SbPlan){.ring = model->fit == SB_FIT_RING,
+                  .reynolds = model->film == SB_FILM_REYNOLDS || coupled,
+                  .life = life && model->life_actuations > 1};
+}
+
 void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size_t count) {
-  *out = (SbPlan){.ring = model->fit == SB_FIT_RING,
-                  .reynolds = model->film == SB_FILM_REYNOLDS ||
-                              model->asperities == SB_MODEL_ASPERITIES_COUPLED,
-                  .life = model->life_actuations > 1};
+  *out = basis(model, true);
   for (size_t i = 0; i < count; i++) {
     const char *path = sb_figure(figures[i])->path;
     int seal = begins(path, "seals.inner.") ? SB_INNER : SB_OUTER;
@@ -287,52 +304,22 @@ void sb_plan_make(SbPlan *out, const SbModel *model) {
 }
 
 void sb_plan_wished(SbPlan *out, const SbModel *model, const SbPlanWishes *wishes) {
-  *out = (SbPlan){.seal = {SB_DEPTH_WHOLE, SB_DEPTH_WHOLE},
-                  .film_laws = true,
-                  .motion = true,
-                  .life = wishes->life && model->life_actuations > 1};
+  *out = basis(model, wishes->life);
+  out->seal[SB_OUTER] = out->seal[SB_INNER] = SB_DEPTH_WHOLE;
+  out->film_laws = out->motion = true;
   if (model->motion == SB_MODEL_MOTION_RIG) {
+    out->ring = out->reynolds = false;
     plan_rig(out, model);
-    plan_studies(out, model, wishes->studies);
-    return;
-  }
-  plan_fit(out, model);
-  plan_film(out, model);
-  add(out->field, &out->field_count, "real contact area", sb_rough_model_name(model->surface),
-      FILM_STATES * SB_COST_ROUGH, 0, "boundary friction needs it");
-  add(out->field, &out->field_count, "leak at rest", "percolation", SB_SEAL_COUNT * SB_COST_LEAK, 0,
-      "part of each seal's figures");
-  plan_motion(out, model);
-  plan_bodies(out, model);
-
-  // Profiles over x, for whoever draws them.
-  char who[80];
-  unsigned drawn = SB_VIEW_PROFILES | SB_VIEW_SECTION | SB_VIEW_DASHBOARD;
-  out->profiles = (wishes->views & drawn) != 0;
-  view_names(wishes->views & drawn, who, sizeof who);
-  if (out->profiles) {
-    add(out->field, &out->field_count, "contact profiles",
-        out->reynolds ? "reynolds" : sb_fit_model_name(model->fit),
-        PROFILE_STATES * (out->reynolds ? SB_COST_FILM_PROFILE : SB_COST_CLOSED),
-        fmax(fit_error(model), film_error(model)), "drawn by %s; each seal's states and at rest",
-        who);
   } else {
-    add(out->skipped, &out->skipped_count, "contact profiles", "", 0, 0, "no view draws them");
-  }
-
-  // Interior fields, only for a drawn section and only where the fitment model has an interior.
-  unsigned sections = wishes->views & (SB_VIEW_SECTION | SB_VIEW_DASHBOARD);
-  bool interior = model->fit == SB_FIT_RING;
-  view_names(sections, who, sizeof who);
-  out->section_fields = sections != 0 && interior;
-  if (out->section_fields) {
-    int shapes = SB_RUN_MOTIONS * count_fits(model) + SB_RUN_EDGES + 1;
-    add(out->field, &out->field_count, "interior fields", "ring", shapes * SB_COST_RING_SHAPE,
-        fit_error(model), "drawn by %s: %d shapes, dragged and over the land's edge", who, shapes);
-  } else {
-    add(out->skipped, &out->skipped_count, "interior fields", "", 0, 0, "%s",
-        sections == 0 ? "no view draws a section"
-                      : "only models.fit = ring has them: the rings are drawn schematically");
+    out->bodies = model->motion == SB_MODEL_MOTION_BODIES;
+    plan_fit(out, model);
+    plan_film(out, model);
+    add(out, true, "real contact area", sb_rough_model_name(model->surface),
+        FILM_STATES * SB_COST_ROUGH, 0, "boundary friction needs it");
+    add(out, true, "leak at rest", "percolation", SB_SEAL_COUNT * SB_COST_LEAK, 0,
+        "part of each seal's figures");
+    plan_motion(out, model);
+    plan_views(out, model, wishes->views);
   }
   plan_studies(out, model, wishes->studies);
 }

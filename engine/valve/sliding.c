@@ -15,35 +15,30 @@
 #include <stdlib.h>
 #include <string.h>
 
+// A film with what is drawn of it.
+typedef struct {
+  SbFilm film;
+  SbFilmProfile profile;
+  bool fitted; // on the fitted body, not on the half-plane
+} Solved;
+
 struct SbSlidingMemory {
   SbFit fit;
-  SbFilm film;        // of the half-plane, or of a law
-  SbFilm fitted_film; // of the fitted body
-  bool fitted_last;   // which of them the last evaluation gave
-  SbFilm rest;        // dry rough contact, coupled asperities only
-  SbFilmProfile film_profile, fitted_profile, rest_profile;
-  bool rest_fitted; // on the fitted body
+  Solved plane, fitted; // on the half-plane (or of a law), and on the fitted body
+  Solved rest;          // dry rough contact, coupled asperities only
+  const Solved *last;   // which of them the last evaluation gave
   double rest_load;
   SbSealPressure rest_pressure;
   bool rested;
   SbFilmSolver *solver; // NULL until a film is solved: laws need none
-  bool fitted;
-  double fitted_pressure; // difference for which `fit` stands
-  int fitted_seal;
+  bool fit_known;
+  double fit_pressure; // difference for which `fit` stands
+  int fit_seal;
   bool (*cancelled)(void *); // NULL: nobody asks to stop
   void *cancelled_data;
 };
 
-// One evaluation: what is asked for, with what memory, and where counts and warnings go.
-typedef struct {
-  const SbModel *model;
-  int seal;
-  SbSealPressure pressure;
-  double speed;
-  SbSlidingMemory *memory;
-  SbCounters *counts;
-  SbWarnings *warnings;
-} Task;
+typedef SbSlidingTask Task;
 
 double sb_sliding_friction(const SbSliding *state) {
   return state->boundary_area + state->boundary_load + state->viscous;
@@ -54,6 +49,7 @@ SbStatus sb_sliding_memory_create(SbSlidingMemory **out, SbReport *report) {
   if (*out == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a seal's workspace");
   }
+  (*out)->last = &(*out)->plane;
   return sb_succeed(report);
 }
 
@@ -65,9 +61,8 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
 }
 
 void sb_sliding_memory_forget(SbSlidingMemory *memory) {
-  memory->fitted = false;
-  memory->rested = false;
-  memory->fitted_last = false;
+  memory->fit_known = memory->rested = false;
+  memory->last = &memory->plane;
   if (memory->solver != NULL) {
     sb_film_solver_forget(memory->solver);
   }
@@ -83,14 +78,14 @@ const SbFit *sb_sliding_fit(const SbSlidingMemory *memory) {
 }
 
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory) {
-  return memory->fitted_last ? &memory->fitted_film : &memory->film;
+  return &memory->last->film;
 }
 
 static SbStatus solve_fit(const Task *task, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   const SbModel *model = task->model;
   double pressure = task->pressure.left - task->pressure.right;
-  if (memory->fitted && memory->fitted_pressure == pressure && memory->fitted_seal == task->seal) {
+  if (memory->fit_known && memory->fit_pressure == pressure && memory->fit_seal == task->seal) {
     return SB_OK;
   }
   SbFitProblem problem;
@@ -104,9 +99,9 @@ static SbStatus solve_fit(const Task *task, SbReport *report) {
   task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
   task->counts->ring_solves += problem.model == SB_FIT_RING;
   task->counts->newton_iterations += memory->fit.solver.newton_iterations;
-  memory->fitted = status == SB_OK;
-  memory->fitted_pressure = pressure;
-  memory->fitted_seal = task->seal;
+  memory->fit_known = status == SB_OK;
+  memory->fit_pressure = pressure;
+  memory->fit_seal = task->seal;
   return status;
 }
 
@@ -129,8 +124,8 @@ void sb_sliding_film_problem(SbFilmProblem *out, const SbModel *model, int seal,
   out->profile_points = 1500; // drawn and written, not differentiated
 }
 
-static SbStatus solve_counted(const Task *task, SbFilm *film, const SbFilmProblem *problem,
-                              SbReport *report) {
+static SbStatus solve_on(const Task *task, Solved *out, const SbFilmProblem *problem,
+                         SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   bool solved = problem->model == SB_FILM_REYNOLDS;
   if (solved && memory->solver == NULL) {
@@ -140,21 +135,20 @@ static SbStatus solve_counted(const Task *task, SbFilm *film, const SbFilmProble
     }
   }
   SbFilmProblem lent = *problem;
-  lent.profile = film == &memory->film          ? &memory->film_profile
-                 : film == &memory->fitted_film ? &memory->fitted_profile
-                                                : &memory->rest_profile;
+  lent.profile = &out->profile;
   lent.cancelled = memory->cancelled;
   lent.cancelled_data = memory->cancelled_data;
-  SbStatus status = sb_film_solve(film, &lent, memory->solver, report);
+  out->fitted = problem->compliance != NULL;
+  SbStatus status = sb_film_solve(&out->film, &lent, memory->solver, report);
   if (solved) {
     task->counts->reynolds_solves++;
-    task->counts->newton_iterations += (size_t)film->solver.newton_iterations;
+    task->counts->newton_iterations += (size_t)out->film.solver.newton_iterations;
   }
   return status;
 }
 
 // The film on the fitted body in place of the half-plane's; false where there is none or it fails.
-static bool solve_fitted(const Task *task, SbFilm *film, const SbFilmProblem *plane) {
+static bool solve_fitted(const Task *task, Solved *out, const SbFilmProblem *plane) {
   const SbFit *fit = &task->memory->fit;
   if (fit->model != SB_FIT_DISC && fit->model != SB_FIT_RING) {
     return false;
@@ -167,7 +161,7 @@ static bool solve_fitted(const Task *task, SbFilm *film, const SbFilmProblem *pl
                                        task->pressure, task->warnings, &report);
   if (status == SB_OK) {
     problem.modulus = surface.modulus;
-    status = solve_counted(task, film, &problem, &report);
+    status = solve_on(task, out, &problem, &report);
   }
   if (status != SB_OK) {
     sb_warn(task->warnings, "film-half-plane", "models.fit",
@@ -177,24 +171,23 @@ static bool solve_fitted(const Task *task, SbFilm *film, const SbFilmProblem *pl
   return status == SB_OK;
 }
 
-// A solver that stopped before its first solution has no figures; one that stopped above the
-// tolerance has those of its last, with their error.
-static bool has_film(const SbFilm *film, SbStatus status) {
-  return status == SB_OK || (status == SB_ERROR_NOT_CONVERGED && film->film_central > 0);
+// A solver that stopped above the tolerance has the figures of its last solution, with their error.
+static bool usable(SbStatus status) {
+  return status == SB_OK || status == SB_ERROR_NOT_CONVERGED;
 }
 
-// A seal's film figures are those of `film`, solved on the half-plane or on the fitted body; NaN
-// stays where it has none.
-static void take_film(SbSliding *out, const SbFilm *film, SbStatus status, bool fitted,
-                      const SbFit *fit) {
-  if (!has_film(film, status)) {
-    return;
+// A seal's film figures are those of `solved`; NaN stays where the solver stopped before its first
+// solution (false).
+static bool take_film(SbSliding *out, const Solved *solved, SbStatus status, const SbFit *fit) {
+  const SbFilm *film = &solved->film;
+  if (status != SB_OK && !(film->film_central > 0)) {
+    return false;
   }
-  out->film_fitted = fitted;
+  out->film_fitted = solved->fitted;
   out->film_min = film->film_min;
   out->film_central = film->film_central;
   double ring = 0;
-  if (fitted && fit->model == SB_FIT_RING) {
+  if (solved->fitted && fit->model == SB_FIT_RING) {
     // A thin film goes with the power -0.8 of the strength of the pressure's root at its inlet,
     // which goes with peak over root of width but hangs on few nodes of the ring's mesh: measured,
     // it is out by up to five times their relative errors.
@@ -204,24 +197,26 @@ static void take_film(SbSliding *out, const SbFilm *film, SbStatus status, bool 
   }
   out->central_error = film->solver.error_film_central + ring;
   out->film_error = fmax(film->solver.error_film_min + ring, out->central_error);
+  return true;
 }
 
 // Layer that the return stroke finds on the bore: what the in-stroke carried through the contact,
 // flow over the wall's speed, at the drive's speed and the same pressures. 0 floods the inlet.
 static SbStatus carried_layer(const Task *task, double *layer, const SbFilmProblem *back,
                               SbReport *report) {
-  SbFilm *film = &task->memory->film;
+  Solved *plane = &task->memory->plane;
   SbFilmProblem in = *back;
-  in.speed = task->model->speed;
+  in.speed = task->drive_speed;
   in.inlet_film = 0;
-  SbStatus status = solve_counted(task, film, &in, report);
-  *layer = status == SB_OK ? fabs(film->flow / in.speed) : 0;
+  SbStatus status = solve_on(task, plane, &in, report);
+  *layer = status == SB_OK ? fabs(plane->film.flow / in.speed) : 0;
   return status;
 }
 
 // What a run's options cannot reach, told once.
 static void option_warnings(const Task *task, const SbFilmProblem *problem) {
   const SbModel *model = task->model;
+  bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   bool asked = model->pressure_viscosity > 0 || model->eyring_stress > 0 ||
                model->rupture_pressure != 0 || model->inlet_carried;
   if (asked && problem->model != SB_FILM_REYNOLDS) {
@@ -235,10 +230,15 @@ static void option_warnings(const Task *task, const SbFilmProblem *problem) {
             sb_seal_name(task->seal), 1e-6 * problem->rupture_pressure,
             1e-6 * model->rupture_pressure);
   }
-  if (model->hamaker > 0 && model->asperities != SB_MODEL_ASPERITIES_COUPLED) {
+  if (model->hamaker > 0 && !coupled) {
     sb_warn(task->warnings, "adhesion-beside", "models.adhesion",
             "adhesion acts in the solve of film and asperities together only (models.asperities = "
             "coupled): left out here");
+  }
+  if (model->inlet_carried && coupled) {
+    sb_warn(task->warnings, "inlet-flooded", "models.inlet",
+            "with coupled asperities the inlet is flooded both ways: what a rough contact leaves "
+            "on the bore is not known");
   }
 }
 
@@ -256,91 +256,81 @@ static SbStatus solve_film(const Task *task, SbSliding *out, SbReport *report) {
       return carried;
     }
   }
-  SbStatus status = solve_counted(task, &memory->film, &problem, report);
-  memory->fitted_last = false;
-  if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
+  SbStatus status = solve_on(task, &memory->plane, &problem, report);
+  memory->last = &memory->plane;
+  if (!usable(status)) {
     return status;
   }
-  take_film(out, &memory->film, status, false, &memory->fit);
+  take_film(out, &memory->plane, status, &memory->fit);
   if (solved) {
     out->film_reynolds = out->film_central;
   } else {
     out->film_error = out->central_error = NAN;
   }
-  if (solved && status == SB_OK && solve_fitted(task, &memory->fitted_film, &problem)) {
-    take_film(out, &memory->fitted_film, SB_OK, true, &memory->fit);
-    memory->fitted_last = true;
+  if (solved && status == SB_OK && solve_fitted(task, &memory->fitted, &problem)) {
+    take_film(out, &memory->fitted, SB_OK, &memory->fit);
+    memory->last = &memory->fitted;
   }
-  sb_warnings_merge(task->warnings, &sb_sliding_film(memory)->warnings);
+  sb_warnings_merge(task->warnings, &memory->last->film.warnings);
   return status;
 }
 
-// The film problem with asperities in it.
-static void coupled_problem(SbFilmProblem *out, const SbModel *model, int seal,
-                            SbSealPressure pressure, double load_net, double speed) {
-  sb_sliding_film_problem(out, model, seal, pressure, load_net, speed);
-  out->surface = model->surface;
-  out->gt_product = model->gt_product;
-  out->sigma = model->sigma;
-  out->sigma_over_beta = model->sigma_over_beta;
-  out->hamaker = model->hamaker;
-  out->shear_strength = model->shear_strength;
-  out->load_coefficient = model->load_coefficient;
+// The film with asperities in it: on the fitted body, or on the half-plane where that cannot be.
+static SbStatus solve_rough(const Task *task, Solved *out, double load_net, double speed,
+                            SbReport *report) {
+  const SbModel *model = task->model;
+  SbFilmProblem problem;
+  sb_sliding_film_problem(&problem, model, task->seal, task->pressure, load_net, speed);
+  problem.surface = model->surface;
+  problem.gt_product = model->gt_product;
+  problem.sigma = model->sigma;
+  problem.sigma_over_beta = model->sigma_over_beta;
+  problem.hamaker = model->hamaker;
+  problem.shear_strength = model->shear_strength;
+  problem.load_coefficient = model->load_coefficient;
+  if (speed != 0) {
+    option_warnings(task, &problem);
+  }
+  return solve_fitted(task, out, &problem) ? SB_OK : solve_on(task, out, &problem, report);
 }
 
-// Film, rough contact and friction from one solution each, sliding and at rest: on the fitted body,
-// or on the half-plane where that cannot be.
+// Film, rough contact and friction from one solution each, sliding and at rest.
 static SbStatus solve_coupled(const Task *task, SbSliding *out, SbReport *report) {
   const SbModel *model = task->model;
   SbSlidingMemory *memory = task->memory;
   SbSealPressure pressure = task->pressure;
-  SbFilmProblem problem;
-  SbStatus worst = SB_OK, last = SB_OK;
+  SbStatus at_rest = SB_OK;
   bool same = memory->rested && memory->rest_load == out->load_net &&
               memory->rest_pressure.left == pressure.left &&
               memory->rest_pressure.right == pressure.right;
   if (!same) {
-    coupled_problem(&problem, model, task->seal, pressure, out->load_net, 0);
-    memory->rest_fitted = solve_fitted(task, &memory->rest, &problem);
-    last = memory->rest_fitted ? SB_OK : solve_counted(task, &memory->rest, &problem, report);
-    if (last != SB_OK && last != SB_ERROR_NOT_CONVERGED) {
-      return last;
+    at_rest = solve_rough(task, &memory->rest, out->load_net, 0, report);
+    if (!usable(at_rest)) {
+      return at_rest;
     }
-    worst = last;
-    memory->rested = last == SB_OK;
+    memory->rested = at_rest == SB_OK;
     memory->rest_load = out->load_net;
     memory->rest_pressure = pressure;
   }
-  memory->fitted_last = false;
-  bool fitted = memory->rest_fitted;
+  memory->last = &memory->rest;
+  SbStatus status = at_rest;
   if (task->speed != 0) {
-    coupled_problem(&problem, model, task->seal, pressure, out->load_net, task->speed);
-    option_warnings(task, &problem);
-    if (model->inlet_carried) {
-      sb_warn(task->warnings, "inlet-flooded", "models.inlet",
-              "with coupled asperities the inlet is flooded both ways: what a rough contact leaves "
-              "on the bore is not known");
+    memory->last = &memory->plane;
+    status = solve_rough(task, &memory->plane, out->load_net, task->speed,
+                         at_rest == SB_OK ? report : NULL);
+    if (!usable(status)) {
+      return status;
     }
-    fitted = solve_fitted(task, &memory->film, &problem);
-    last = fitted ? SB_OK
-                  : solve_counted(task, &memory->film, &problem, worst == SB_OK ? report : NULL);
-    if (last != SB_OK && last != SB_ERROR_NOT_CONVERGED) {
-      return last;
-    }
-    worst = last != SB_OK ? last : worst;
-  } else {
-    memory->film = memory->rest;
   }
-  const SbFilm *film = &memory->film;
+  const SbFilm *film = &memory->last->film, *rest = &memory->rest.film;
   sb_warnings_merge(task->warnings, &film->warnings);
   // Lengths of the half-plane's contact over the fitted one's; forces over its circumference.
   double fit_width = out->contact_right - out->contact_left;
   double area = fit_width * model->bore_circumference;
-  double width = fitted ? fit_width : 2 * film->hertz_half_width;
-  double rest_width = memory->rest_fitted ? fit_width : 2 * memory->rest.hertz_half_width;
+  double width = memory->last->fitted ? fit_width : 2 * film->hertz_half_width;
+  double rest_width = memory->rest.fitted ? fit_width : 2 * rest->hertz_half_width;
   double circumference = out->load / out->load_per_length;
-  take_film(out, film, last, fitted, &memory->fit);
-  if (has_film(film, last)) {
+  if (take_film(out, memory->last, status, &memory->fit)) {
     out->lambda = film->film_ratio;
     out->area_share = fmin(film->real_area / width, 1);
     out->asperity_share = film->asperity_share;
@@ -348,7 +338,6 @@ static SbStatus solve_coupled(const Task *task, SbSliding *out, SbReport *report
     out->boundary_load = model->load_coefficient * film->asperity_load * circumference;
     out->viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
   }
-  const SbFilm *rest = &memory->rest;
   if (memory->rested || rest->film_central > 0) {
     out->friction_static = model->static_ratio *
                            (model->shear_strength * fmin(rest->real_area / rest_width, 1) * area +
@@ -357,7 +346,15 @@ static SbStatus solve_coupled(const Task *task, SbSliding *out, SbReport *report
   out->friction_error = film->solver.error_contact * (out->boundary_area + out->boundary_load) +
                         out->central_error * out->viscous;
   out->static_error = rest->solver.error_contact * out->friction_static;
-  return worst;
+  return status != SB_OK ? status : at_rest;
+}
+
+// Greenwood and Tripp's share of the area in real contact at film over roughness `lambda`.
+static SbStatus gt_share(double *share, const SbModel *model, double lambda) {
+  SbGtIntegrals integrals;
+  SbStatus status = sb_gt_integrals(&integrals, lambda, NULL);
+  *share = status == SB_OK ? sb_gt_area_share(model->gt_product, integrals.F2) : NAN;
+  return status;
 }
 
 // Share of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
@@ -382,16 +379,11 @@ static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *mod
         100 * out->area_share);
     return SB_OK;
   }
-  SbGtIntegrals integrals;
-  SbStatus status = sb_gt_integrals(&integrals, 0, NULL);
-  if (status == SB_OK) {
-    *rest_share = sb_gt_area_share(model->gt_product, integrals.F2);
-  }
+  SbStatus status = gt_share(rest_share, model, 0);
   // Without a film there is no real contact under it either.
   out->area_share = NAN;
   if (status == SB_OK && !isnan(out->lambda)) {
-    status = sb_gt_integrals(&integrals, out->lambda, NULL);
-    out->area_share = status == SB_OK ? sb_gt_area_share(model->gt_product, integrals.F2) : NAN;
+    status = gt_share(&out->area_share, model, out->lambda);
   }
   if (status != SB_OK) {
     return sb_fail(report, status, "no asperity contact of the %s seal at λ = %g",
@@ -426,14 +418,12 @@ static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, do
     shear = shear > model->shear_strength ? model->shear_strength : shear;
     out->viscous = shear * (1 - out->area_share) * area;
     if (out->central_error > 0) {
-      SbGtIntegrals thinner;
+      double thinner;
+      (void)gt_share(&thinner, model, out->lambda * (1 - out->central_error));
       bool persson = model->surface == SB_ROUGH_PERSSON;
-      double share = NAN;
-      if (sb_gt_integrals(&thinner, out->lambda * (1 - out->central_error), NULL) == SB_OK) {
-        share = sb_gt_area_share(model->gt_product, thinner.F2) - out->area_share;
-      }
-      out->friction_error = out->central_error * out->viscous +
-                            (persson ? 0 : model->shear_strength * fabs(share) * area);
+      out->friction_error =
+          out->central_error * out->viscous +
+          (persson ? 0 : model->shear_strength * fabs(thinner - out->area_share) * area);
     }
   }
   out->friction_static =
@@ -500,7 +490,7 @@ static SbStatus fit_contact(const Task *task, SbSliding *out, bool *known, SbRep
   *known = false;
   // The fit takes the difference; the common part only shifts the fluid's level.
   SbStatus status = solve_fit(task, report);
-  if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
+  if (!usable(status)) {
     return status;
   }
   const SbFit *fit = &task->memory->fit;
@@ -557,7 +547,7 @@ static SbStatus solve(const Task *task, SbSliding *out, SbReport *report) {
   } else {
     SbStatus film = solve_film(task, out, &own);
     film = opened_by_fluid(out, film, &own, seal, warnings, first);
-    if (film != SB_OK && film != SB_ERROR_NOT_CONVERGED) {
+    if (!usable(film)) {
       return film;
     }
     status = film != SB_OK ? film : status;
@@ -578,23 +568,17 @@ static SbStatus solve(const Task *task, SbSliding *out, SbReport *report) {
   return status;
 }
 
-SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                          double speed, SbSlidingMemory *memory, SbCounters *counts,
-                          SbWarnings *warnings, SbReport *report) {
-  const Task task = {model, seal, pressure, speed, memory, counts, warnings};
-  sb_warn_about(warnings, about(seal));
-  SbStatus status = solve(&task, out, report);
-  sb_warn_about(warnings, NULL);
+SbStatus sb_sliding_solve(SbSliding *out, const SbSlidingTask *task, SbReport *report) {
+  sb_warn_about(task->warnings, about(task->seal));
+  SbStatus status = solve(task, out, report);
+  sb_warn_about(task->warnings, NULL);
   return status;
 }
 
-SbStatus sb_sliding_fitment(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                            SbSlidingMemory *memory, SbCounters *counts, SbWarnings *warnings,
-                            SbReport *report) {
-  const Task task = {model, seal, pressure, 0, memory, counts, warnings};
+SbStatus sb_sliding_fitment(SbSliding *out, const SbSlidingTask *task, SbReport *report) {
   bool known;
-  sb_warn_about(warnings, about(seal));
-  SbStatus status = fit_contact(&task, out, &known, report);
-  sb_warn_about(warnings, NULL);
+  sb_warn_about(task->warnings, about(task->seal));
+  SbStatus status = fit_contact(task, out, &known, report);
+  sb_warn_about(task->warnings, NULL);
   return status;
 }

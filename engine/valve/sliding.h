@@ -68,19 +68,26 @@ const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
 // A state of which nothing is known: all NaN.
 void sb_sliding_clear(SbSliding *out);
 
-// Evaluates `seal` of `model` between `pressure`, sliding at `speed` (> 0: bore moves to +x, the
-// in-stroke; 0: at rest). The fitment is reused from the last call when the pressure has not
-// changed. A ring that does not touch has touches = false. SB_ERROR_NOT_CONVERGED with what was
-// computed, the rest NaN; the report names solver and cause.
-SbStatus sb_sliding_solve(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                          double speed, SbSlidingMemory *memory, SbCounters *counts,
-                          SbWarnings *warnings, SbReport *report);
+// One evaluation: what is asked for, with what memory, and where counts and warnings go.
+typedef struct {
+  const SbModel *model;
+  int seal;
+  SbSealPressure pressure;
+  double speed;       // of sliding; > 0: bore moves to +x, the in-stroke; 0: at rest [m/s]
+  double drive_speed; // of the in-stroke that leaves the layer of a carried inlet [m/s]
+  SbSlidingMemory *memory;
+  SbCounters *counts;
+  SbWarnings *warnings;
+} SbSlidingTask;
+
+// Evaluates a task. The fitment is reused from the last call when the pressure has not changed. A
+// ring that does not touch has touches = false. SB_ERROR_NOT_CONVERGED with what was computed, the
+// rest NaN; the report names solver and cause.
+SbStatus sb_sliding_solve(SbSliding *out, const SbSlidingTask *task, SbReport *report);
 
 // The fitment alone, as sb_sliding_solve() has it: contact, loads and peak; the rest stays NaN, or
 // 0 where the seal does not touch.
-SbStatus sb_sliding_fitment(SbSliding *out, const SbModel *model, int seal, SbSealPressure pressure,
-                            SbSlidingMemory *memory, SbCounters *counts, SbWarnings *warnings,
-                            SbReport *report);
+SbStatus sb_sliding_fitment(SbSliding *out, const SbSlidingTask *task, SbReport *report);
 
 // Surface of a fitted body for the film: the ring's own by static condensation (ring.h), with its
 // own modulus, or the disc's, and the gap whose dry contact has the pressure of `fit`. Where the

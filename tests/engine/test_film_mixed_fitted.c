@@ -155,8 +155,10 @@ static void run_seal(int fit_model) {
     SbSliding state;
     SbCounters counts = {0};
     SbWarnings warnings = {0};
-    g_assert_cmpint(sb_sliding_solve(&state, &model, seal_side, pressure, -1e-2, memory, &counts,
-                                     &warnings, NULL),
+    g_assert_cmpint(sb_sliding_solve(&state,
+                                     &(SbSlidingTask){&model, seal_side, pressure, -1e-2,
+                                                      model.speed, memory, &counts, &warnings},
+                                     NULL),
                     ==, SB_OK);
     g_assert_true(state.film_fitted);
     g_assert_cmpuint(counts.reynolds_solves, ==, 2); // sliding and at rest

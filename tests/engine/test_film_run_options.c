@@ -34,9 +34,11 @@ static void solve(SbFilm *film, const SbModel *model, SbSealPressure pressure, d
   SbCounters counts = {0};
   *warnings = (SbWarnings){0};
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
-  g_assert_cmpint(
-      sb_sliding_solve(&state, model, SB_OUTER, pressure, speed, memory, &counts, warnings, NULL),
-      ==, SB_OK);
+  g_assert_cmpint(sb_sliding_solve(&state,
+                                   &(SbSlidingTask){model, SB_OUTER, pressure, speed, model->speed,
+                                                    memory, &counts, warnings},
+                                   NULL),
+                  ==, SB_OK);
   *film = *sb_sliding_film(memory);
   sb_sliding_memory_destroy(memory);
 }

@@ -204,9 +204,9 @@ double sb_run_error_work(const SbRun *run) {
 
 // Solves one state and takes its errors, its surface and its profile. SB_ERROR_NOT_CONVERGED with
 // what there is all the same.
-static SbStatus solve_state(SbRun *run, const SbModel *model, int seal, int chamber, int motion,
-                            SbReport *report) {
+static SbStatus solve_state(SbRun *run, int seal, int chamber, int motion, SbReport *report) {
   SbSummary *summary = &run->summary;
+  const SbModel *model = &run->model;
   SbSlidingMemory *memory = run->memory[seal];
   SbSealPressure pressure = sb_model_seal_pressure(model, seal, (SbChamber)chamber);
   double speed = motion == SB_CYCLE_IN ? run->speed : motion == SB_RUN_REST ? 0 : -run->speed;
@@ -214,10 +214,10 @@ static SbStatus solve_state(SbRun *run, const SbModel *model, int seal, int cham
   SbSliding *state =
       motion == SB_RUN_REST ? &rest : &run->cycle.states.state[seal][chamber][motion];
   bool fitment = run->plan.seal[seal] == SB_DEPTH_FITMENT;
-  SbStatus status = fitment ? sb_sliding_fitment(state, model, seal, pressure, memory,
-                                                 &summary->counters, &summary->warnings, report)
-                            : sb_sliding_solve(state, model, seal, pressure, speed, memory,
-                                               &summary->counters, &summary->warnings, report);
+  const SbSlidingTask task = {model,      seal,   pressure,           speed,
+                              run->speed, memory, &summary->counters, &summary->warnings};
+  SbStatus status =
+      fitment ? sb_sliding_fitment(state, &task, report) : sb_sliding_solve(state, &task, report);
   if (status == SB_ERROR_NOT_CONVERGED) {
     tell_failure(run, seal, chamber, motion, state, pressure, report);
   } else if (status != SB_OK) {
@@ -255,9 +255,6 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   run->lacks[0] = '\0';
   run->friction_error = run->static_error = 0;
   run->cycle.states.model = &run->model;
-  // A carried inlet is left by an in-stroke at the model's speed.
-  SbModel model = run->model;
-  model.speed = run->speed;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     sb_sliding_memory_poll(run->memory[seal], hooks->cancelled, hooks->data);
     // At least what the figures are taken from is unknown until it is solved.
@@ -275,7 +272,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     sb_run_progress(run, hooks, 0.3 * (i / SB_RUN_MOTIONS) / (SB_SEAL_COUNT * SB_CYCLE_CHAMBERS),
                     0);
     SbReport own = {0};
-    SbStatus status = solve_state(run, &model, seal, chamber, motion, &own);
+    SbStatus status = solve_state(run, seal, chamber, motion, &own);
     bool fatal = status != SB_OK && status != SB_ERROR_NOT_CONVERGED;
     if (report != NULL && (fatal || (status != SB_OK && worst == SB_OK))) {
       *report = own; // of failures to converge the first is told
