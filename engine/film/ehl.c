@@ -90,8 +90,7 @@ static SbEhlCase scaled_case(const SbFilmProblem *problem, const SbFilmScale *sc
                  .starvation = 1.0,
                  .meniscus = -INFINITY,
                  .end = outlet > 0.0 ? SB_EHL_FULL : SB_EHL_RUPTURE,
-                 .degree = DEGREE_FIRST,
-                 .steps = {-1, -1}},
+                 .degree = DEGREE_FIRST},
   };
   memcpy(c.layers.bow, scale->bow, sizeof c.layers.bow);
   return c;

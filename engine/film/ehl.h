@@ -26,13 +26,34 @@
 #pragma once
 
 #include "engine/contact/rough/rough_law.h"
-#include "engine/film/ehl_layers.h"
 #include "engine/film/ehl_mesh.h"
 #include "engine/film/fluid.h"
 #include "engine/film/scale.h"
 
 // Scaled gaps below this are closed for all that double precision tells.
 #define SB_EHL_CLOSED 1e-11
+
+// How the film ends.
+typedef enum {
+  SB_EHL_RUPTURE, // breaks at the end of the mesh, p = 0 and p' = 0 there
+  SB_EHL_FULL,    // flooded outlet under pressure
+  SB_EHL_REFORM   // breaks, and forms again at `reform` before the flooded outlet
+} SbEhlEnd;
+
+// The layers of a film, scaled, and what else fixes a mesh.
+typedef struct {
+  double lambda;
+  double inlet, outlet; // end pressures over the rupture pressure, scaled
+  double starvation;    // flux over the flooded flux, 1 when flooded
+  double meniscus;      // where the film begins; -infinity when flooded
+  double reform;        // where it forms again
+  SbEhlEnd end;
+  int degree;
+  // Of a fitted body (scale.h), zero on a half-plane: middle of the contact, rest of its dry
+  // pressure.
+  double middle;
+  double bow[SB_COMPLIANCE_PRESSURES];
+} SbEhlLayers;
 
 // Unknowns on a mesh, scaled: nodal pressures, H0, shift c of the axis, flux film.
 typedef struct {
@@ -164,6 +185,36 @@ static inline bool sb_ehl_cancelled(const SbFilmSolver *solver) {
   const SbFilmProblem *p = solver->problem;
   return p->cancelled != NULL && p->cancelled(p->cancelled_data);
 }
+
+// Flux film (h where dp/dx = 0) of a flooded contact, scaled, to a few per cent.
+double sb_ehl_layers_flux(const SbEhlLayers *layers);
+
+// Width of the inlet layer, about lambda^0.4.
+double sb_ehl_layers_width(const SbEhlLayers *layers);
+
+// Slope factor of the dry pressure at the inlet edge: 1 for Hertz's.
+double sb_ehl_layers_inlet_slope(const SbEhlLayers *layers);
+
+// Pressure of the dry contact at X, the end pressures outside it.
+double sb_ehl_layers_dry_pressure(const SbEhlLayers *layers, double X);
+
+// Dry gap of Hertz's contact, with the bend that unequal end pressures add outside it.
+double sb_ehl_layers_dry_gap(const SbEhlLayers *layers, double X);
+
+// Pressure and film of the joined layers of a thin film at X.
+void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *layers, double flux,
+                         double X);
+
+// Builds the mesh of smooth rows. False if it does not fit.
+SB_CHECKED bool sb_ehl_layers_mesh(SbEhlSolution *s);
+
+// Starting state of smooth rows on the solution's mesh.
+void sb_ehl_layers_guess(SbEhlSolution *s);
+
+// Where the film forms again, by Reynolds' equation on the dry gap, and a start of pressure and gap
+// behind the cavity.
+double sb_ehl_layers_reform(const SbEhlLayers *layers, double flux);
+void sb_ehl_layers_guess_reformed(SbEhlSolution *s, double flux);
 
 // Newton's method of smooth rows. `independent`: state.gap is a guess of its own, to be made
 // consistent by the first step; otherwise it is computed from the pressure.

@@ -20,7 +20,7 @@ static SbStatus iterate(SbEhlSolution *s, bool independent) {
 }
 
 static bool lay_out(SbEhlSolution *s) {
-  return s->c.rough.rows ? sb_ehl_rough_mesh(s) : sb_ehl_layers_mesh(&s->mesh, &s->c.layers);
+  return s->c.rough.rows ? sb_ehl_rough_mesh(s) : sb_ehl_layers_mesh(s);
 }
 
 static bool has_free_end(const SbEhlCase *c) {
@@ -50,13 +50,11 @@ static SbStatus start_at(SbFilmSolver *solver, const SbEhlCase *c) {
   if (!lay_out(s)) {
     return SB_ERROR_NOT_CONVERGED;
   }
-  s->state.H0 = 0.0;
   if (c->rough.rows) {
     sb_ehl_rough_guess(s);
     return iterate(s, false);
   }
-  sb_ehl_layers_guess(s->state.nodal, s->state.gap, &s->state.shift, &s->state.flux, &s->mesh,
-                      &c->layers);
+  sb_ehl_layers_guess(s);
   SbStatus status = iterate(s, true);
   // The lowest degree has a false solution now and then where M is near 1: a film many times as
   // thick as the layers let expect, lost on finer meshes. Continuation does not meet it.
@@ -75,9 +73,7 @@ static double expected(const SbEhlCase *c) {
                    : sb_ehl_layers_flux(&c->layers);
 }
 
-// From the last solution to a case near it; on failure that solution stands. The mesh has as many
-// elements as before, if they fit, so that the layers carry the solution along, and with it its
-// free end.
+// From the last solution to a case near it; on failure that solution stands.
 static SbStatus take(SbFilmSolver *solver, const SbEhlCase *c) {
   const SbEhlSolution *from = solver->now;
   SbEhlSolution *to = sb_ehl_other(solver);
@@ -88,17 +84,12 @@ static SbStatus take(SbFilmSolver *solver, const SbEhlCase *c) {
   if (new->end == SB_EHL_REFORM) {
     new->reform = forms ? sb_ehl_layers_reform(new, from->state.flux) : old->reform;
   }
-  new->steps[0] = from->mesh.steps[0];
-  new->steps[1] = from->mesh.steps[1];
   if (!lay_out(to)) {
-    new->steps[0] = new->steps[1] = -1;
-    if (!lay_out(to)) {
-      return SB_ERROR_NOT_CONVERGED;
-    }
+    return SB_ERROR_NOT_CONVERGED;
   }
   sb_ehl_carry(to, from, forms ? 1.0 : expected(c) / expected(&from->c));
   if (forms) {
-    sb_ehl_layers_fill_reformed(to->state.nodal, to->state.gap, &to->mesh, new, from->state.flux);
+    sb_ehl_layers_guess_reformed(to, from->state.flux);
   }
   SbStatus status = iterate_held(to);
   if (status == SB_OK) {
@@ -142,7 +133,7 @@ static SbStatus follow_path(SbFilmSolver *solver, const SbEhlCase *start, const 
       return status;
     }
     done = status == SB_OK ? t : done;
-    step *= status == SB_OK ? 1.5 : 0.4;
+    step *= status == SB_OK ? 1.8 : 0.4;
     if (step < least || i > STEPS_MAX) {
       return SB_ERROR_NOT_CONVERGED;
     }

@@ -6,10 +6,10 @@
 // the length of the rigid wedge, sqrt(2 H_min). The guess joins the layers' shapes, read off our
 // own solution at M = 1e4, or takes the rigid wedge (thesis eq. 6.17-6.19). It only starts Newton's
 // method: its digits do not reach the result.
-#include "engine/film/ehl_layers.h"
+#include "engine/film/ehl.h"
 
-#include "engine/film/scale.h"
 #include "engine/film/wedge.h"
+#include "engine/numeric/root.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -43,16 +43,9 @@ static const double THICK = 0.86;
 static const double RUPTURE_ANGLE = 0.44355; // thesis eq. 6.19
 
 static double interpolate(double z, const double *node, const double *value, int count) {
-  if (z <= node[0]) {
-    return value[0];
-  }
-  for (int i = 1; i < count; i++) {
-    if (z <= node[i]) {
-      double t = (z - node[i - 1]) / (node[i] - node[i - 1]);
-      return value[i - 1] + t * (value[i] - value[i - 1]);
-    }
-  }
-  return value[count - 1];
+  size_t i = sb_interval(node, (size_t)count, z);
+  double t = (z - node[i]) / (node[i + 1] - node[i]);
+  return value[i] + fmin(fmax(t, 0.0), 1.0) * (value[i + 1] - value[i]);
 }
 
 // A fitted body's dry pressure over Hertz's.
@@ -89,7 +82,7 @@ double sb_ehl_layers_width(const SbEhlLayers *l) {
 
 // A flux below what the outlet's own slope would carry narrows its layer as starving does, to the
 // inlet's width.
-double sb_ehl_layers_outlet_width(const SbEhlLayers *l) {
+static double outlet_width(const SbEhlLayers *l) {
   return pow(l->lambda, 0.4) * pow(fmax(sb_ehl_layers_inlet_slope(l), outlet_slope(l)), -1.2) *
          starved(l);
 }
@@ -107,7 +100,7 @@ double sb_ehl_layers_flux(const SbEhlLayers *l) {
 
 // Distance from the axis to the rupture, well enough to place the mesh.
 static double rupture_guess(const SbEhlLayers *l) {
-  double width = sb_ehl_layers_outlet_width(l);
+  double width = outlet_width(l);
   double elastic = 1.0 + 0.16406 * width - 0.25 * fmin(width, 0.3) * width;
   if (sb_ehl_layers_width(l) <= THICK) {
     return elastic;
@@ -130,13 +123,12 @@ static double flooded_outlet(const SbEhlLayers *l) {
 // Length over which the gap opens behind a flooded outlet: the flux film against the dry gap.
 static double opening(const SbEhlLayers *l) {
   double film = pow(sb_ehl_layers_inlet_slope(l), -0.8);
-  return fmax(sb_ehl_layers_outlet_width(l),
-              pow(l->lambda, 0.4) * pow(film / outlet_slope(l), 2.0 / 3.0));
+  return fmax(outlet_width(l), pow(l->lambda, 0.4) * pow(film / outlet_slope(l), 2.0 / 3.0));
 }
 
 // Edge of the contact that the outlet layer's shape belongs to.
 static double outlet_edge(const SbEhlLayers *l) {
-  return l->end == SB_EHL_FULL ? flooded_outlet(l) + 0.17 * sb_ehl_layers_outlet_width(l) : 1.0;
+  return l->end == SB_EHL_FULL ? flooded_outlet(l) + 0.17 * outlet_width(l) : 1.0;
 }
 
 // The flooded outlet beyond `from`: elements of growing size up to `reach`, then the infinite one.
@@ -184,15 +176,14 @@ static void thick_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   }
 }
 
-static const double MIDDLE = 0.6; // theta where growing steps end
-
-// Steps in theta from a layer at `begin` to MIDDLE, those asked for if there are any.
-static int inner_steps(SbEhlMesh *mesh, const SbEhlLayers *l, int side, double begin) {
-  static const double GROWTH = 4.0;
+// Steps in theta that grow from a layer at `begin` to the middle, into theta[]; their number.
+static int inner_steps(double *theta, double begin) {
+  static const double MIDDLE = 0.6, GROWTH = 4.0;
   int steps = begin < MIDDLE ? (int)ceil(log(MIDDLE / begin) / log(GROWTH)) : 0;
-  mesh->steps[side] = l->steps[side] >= 0 ? l->steps[side] : steps;
-  // Followed too far, elements would be too wide or needlessly narrow.
-  return abs(mesh->steps[side] - steps) <= 1 ? mesh->steps[side] : -1;
+  for (int i = 0; i <= steps; i++) {
+    theta[i] = begin * pow(MIDDLE / begin, steps > 0 ? (double)i / steps : 0.0);
+  }
+  return steps;
 }
 
 // Elements that follow the two layers.
@@ -200,7 +191,7 @@ static void thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   static const double inlet_step[] = {-4.0, -1.0, 1.5, 4.0};
   static const double outlet_step[] = {-8.0, -2.5, -0.8, -0.1};
   double in = sb_ehl_layers_width(l);
-  double out = sb_ehl_layers_outlet_width(l);
+  double out = outlet_width(l);
   enum { RIGHTS_MAX = 8 };
   double left[4], right[RIGHTS_MAX];
   int lefts = 0;
@@ -246,23 +237,10 @@ static void thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   }
 
   // Inside the contact, steps growing from both layers to the middle.
-  double begin = acos(-left[lefts - 1]);
-  double end = acos(right[0]);
-  double theta[SB_EHL_ELEMENTS_MAX];
-  int thetas = 0;
-  int steps = inner_steps(mesh, l, 0, begin);
-  int steps_right = inner_steps(mesh, l, 1, end);
-  if (steps < 0 || steps_right < 0 || (begin < MIDDLE) != (steps > 0) ||
-      (end < MIDDLE) != (steps_right > 0)) {
-    mesh->fits = false;
-    return;
-  }
-  for (int i = 0; i <= steps; i++) {
-    theta[thetas++] = begin * pow(MIDDLE / begin, steps > 0 ? (double)i / steps : 0.0);
-  }
-  steps = steps_right;
-  for (int i = steps; i >= 0; i--) {
-    theta[thetas++] = M_PI - end * pow(MIDDLE / end, steps > 0 ? (double)i / steps : 0.0);
+  double theta[SB_EHL_ELEMENTS_MAX], back[SB_EHL_ELEMENTS_MAX];
+  int thetas = inner_steps(theta, acos(-left[lefts - 1])) + 1;
+  for (int i = inner_steps(back, acos(right[0])); i >= 0; i--) {
+    theta[thetas++] = M_PI - back[i];
   }
   SbEhlMap map = in > 0.25 ? SB_EHL_AFFINE : SB_EHL_COSINE;
   double x0 = left[lefts - 1];
@@ -284,14 +262,15 @@ static void thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   }
 }
 
-bool sb_ehl_layers_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
+bool sb_ehl_layers_mesh(SbEhlSolution *s) {
+  SbEhlMesh *mesh = &s->mesh;
+  const SbEhlLayers *l = &s->c.layers;
   sb_ehl_mesh_begin(mesh, l->inlet, l->outlet);
-  mesh->steps[0] = mesh->steps[1] = -1;
   bool thick = sb_ehl_layers_width(l) > THICK && !isfinite(l->meniscus);
   (thick ? thick_mesh : thin_mesh)(mesh, l);
   if (l->end == SB_EHL_REFORM) {
-    double unit = sb_ehl_layers_width(l) > THICK ? 0.3 * sqrt(1.44 + 0.52 * l->lambda)
-                                                 : sb_ehl_layers_outlet_width(l);
+    double unit =
+        sb_ehl_layers_width(l) > THICK ? 0.3 * sqrt(1.44 + 0.52 * l->lambda) : outlet_width(l);
     unit = 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0);
     add_outlet(mesh, l->reform, unit, 0.0, l->degree, true);
   }
@@ -317,7 +296,7 @@ double sb_ehl_layers_dry_gap(const SbEhlLayers *l, double X) {
 void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *l, double flux,
                          double X) {
   double in = sb_ehl_layers_width(l);
-  double out = sb_ehl_layers_outlet_width(l);
+  double out = outlet_width(l);
   double inside = fmin(fmax(X, -1.0), 1.0);
   double ends = sb_film_ends(X, l->inlet, l->outlet);
   if (X < 0.0) {
@@ -346,52 +325,6 @@ static double rigid_pressure(const SbEhlLayers *l, double X) {
   return l->lambda * length / (film * film) * fmax(sb_wedge_shape(t, RUPTURE_ANGLE), 0.0);
 }
 
-void sb_ehl_layers_guess(double *nodal, double *gap, double *shift, double *flux,
-                         const SbEhlMesh *mesh, const SbEhlLayers *l) {
-  bool thick = sb_ehl_layers_width(l) > THICK;
-  *flux = thick ? 1.225748 * rigid_film(l) : sb_ehl_layers_flux(l);
-  *shift =
-      l->middle + (thick ? tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l)) - rupture_guess(l) : 0.0);
-  for (int i = 0; i < mesh->count; i++) {
-    const SbEhlElement *e = &mesh->element[i];
-    const SbEhlTable *t = e->table;
-    for (int k = 0; k <= e->degree; k++) {
-      double r = t->node[k];
-      bool inlet = e->map == SB_EHL_INLET;
-      bool outlet = e->map == SB_EHL_OUTLET;
-      // At infinity the nodal value is that of the neighbouring node.
-      if (inlet && k == 0) {
-        r = t->node[1];
-      } else if (outlet && k == e->degree) {
-        r = t->node[e->degree - 1];
-      }
-      double X = sb_ehl_position(e, r);
-      double pressure, film;
-      if (thick) {
-        pressure = rigid_pressure(l, X + *shift - l->middle) + (X < 0.0 ? l->inlet : l->outlet);
-      } else {
-        sb_ehl_layers_shape(&pressure, &film, l, *flux, X);
-      }
-      double s = sb_ehl_inverse(e, r);
-      bool touching = (inlet && k == e->degree) || (outlet && k == 0);
-      if ((inlet || outlet) && !touching) {
-        pressure = (pressure - e->far_pressure) / (s * s * s * s);
-      }
-      nodal[e->first_dof + k] = pressure;
-    }
-  }
-  for (int i = 0; i < mesh->targets; i++) {
-    double X = mesh->x[i];
-    double pressure;
-    if (thick) {
-      double x = X + *shift - l->middle;
-      gap[i] = rigid_film(l) + 0.5 * x * x;
-    } else {
-      sb_ehl_layers_shape(&pressure, &gap[i], l, *flux, X);
-    }
-  }
-}
-
 // Gap behind the rupture less the flux film.
 static double gap_beyond(const SbEhlLayers *l, double X) {
   if (sb_ehl_layers_width(l) > THICK) {
@@ -402,11 +335,11 @@ static double gap_beyond(const SbEhlLayers *l, double X) {
   return sb_ehl_layers_dry_gap(l, X);
 }
 
-double sb_ehl_layers_gain(const SbEhlLayers *l, double flux, double X) {
+// Pressure that a film formed again at X gains until infinity.
+static double gain(const SbEhlLayers *l, double flux, double X) {
   // X' = X + t / (1 - t)^2 in units of the film's own length, midpoint rule.
   enum { POINTS = 200 };
-  double end = rupture_guess(l);
-  double unit = sqrt(2.0 * flux) + 0.1 * (X - end);
+  double unit = sqrt(2.0 * flux) + 0.1 * (X - rupture_guess(l));
   double sum = 0.0;
   for (int i = 0; i < POINTS; i++) {
     double t = (i + 0.5) / POINTS;
@@ -418,41 +351,74 @@ double sb_ehl_layers_gain(const SbEhlLayers *l, double flux, double X) {
   return sum;
 }
 
-double sb_ehl_layers_reform(const SbEhlLayers *l, double flux) {
-  double begin = rupture_guess(l);
-  double low = begin;
-  double high = begin + 10.0 * (sqrt(1.44 + 0.52 * l->lambda) + cbrt(l->lambda / l->outlet));
-  for (int pass = 0; pass < 60; pass++) {
-    double X = 0.5 * (low + high);
-    if (sb_ehl_layers_gain(l, flux, X) > l->outlet) {
-      low = X;
-    } else {
-      high = X;
-    }
-  }
-  return 0.5 * (low + high);
+typedef struct {
+  const SbEhlLayers *layers;
+  double flux;
+} Reform;
+
+static double excess_gain(double X, const void *context) {
+  const Reform *r = context;
+  return gain(r->layers, r->flux, X) - r->layers->outlet;
 }
 
-void sb_ehl_layers_fill_reformed(double *nodal, double *gap, const SbEhlMesh *mesh,
-                                 const SbEhlLayers *l, double flux) {
-  int begin = mesh->count;
-  for (int i = 0; i < mesh->count; i++) {
+double sb_ehl_layers_reform(const SbEhlLayers *l, double flux) {
+  double begin = rupture_guess(l);
+  double reach = 10.0 * (sqrt(1.44 + 0.52 * l->lambda) + cbrt(l->lambda / l->outlet));
+  return sb_bisect(excess_gain, &(Reform){l, flux}, begin, begin + reach);
+}
+
+// Start of pressure and gap at X.
+static void start_at(double *pressure, double *film, const SbEhlSolution *s, double X) {
+  const SbEhlLayers *l = &s->c.layers;
+  if (sb_ehl_layers_width(l) > THICK) {
+    double x = X + s->state.shift - l->middle;
+    *pressure = rigid_pressure(l, x) + (X < 0.0 ? l->inlet : l->outlet);
+    *film = rigid_film(l) + 0.5 * x * x;
+  } else {
+    sb_ehl_layers_shape(pressure, film, l, s->state.flux, X);
+  }
+}
+
+static void reformed_at(double *pressure, double *film, const SbEhlSolution *s, double X) {
+  const SbEhlLayers *l = &s->c.layers;
+  *pressure = l->outlet - gain(l, s->state.flux, X);
+  *film = s->state.flux + gap_beyond(l, X);
+}
+
+// Fills a state from element `first` on.
+static void fill_from(SbEhlSolution *s, int first,
+                      void (*at)(double *, double *, const SbEhlSolution *, double)) {
+  const SbEhlMesh *mesh = &s->mesh;
+  double pressure, film;
+  for (int i = first; i < mesh->count; i++) {
     const SbEhlElement *e = &mesh->element[i];
-    const SbEhlTable *t = e->table;
-    if (e->apart) {
-      begin = i;
-    }
-    for (int k = 0; i >= begin && k <= e->degree; k++) {
-      bool outlet = e->map == SB_EHL_OUTLET;
-      double r = outlet && k == e->degree ? t->node[k - 1] : t->node[k];
-      double gain = sb_ehl_layers_gain(l, flux, sb_ehl_position(e, r));
-      double s = 0.5 * (1.0 - r);
-      nodal[e->first_dof + k] = outlet && k > 0 ? -gain / (s * s * s * s) : l->outlet - gain;
+    for (int k = 0; k <= e->degree; k++) {
+      at(&pressure, &film, s, sb_ehl_node(e, k));
+      s->state.nodal[e->first_dof + k] = sb_ehl_nodal(e, k, pressure);
     }
   }
   for (int i = 0; i < mesh->targets; i++) {
-    if (mesh->owner[i] >= begin) {
-      gap[i] = flux + gap_beyond(l, mesh->x[i]);
+    if (mesh->owner[i] >= first) {
+      at(&pressure, &s->state.gap[i], s, mesh->x[i]);
     }
   }
+}
+
+void sb_ehl_layers_guess(SbEhlSolution *s) {
+  const SbEhlLayers *l = &s->c.layers;
+  bool thick = sb_ehl_layers_width(l) > THICK;
+  s->state.H0 = 0.0;
+  s->state.flux = thick ? 1.225748 * rigid_film(l) : sb_ehl_layers_flux(l);
+  s->state.shift =
+      l->middle + (thick ? tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l)) - rupture_guess(l) : 0.0);
+  fill_from(s, 0, start_at);
+}
+
+void sb_ehl_layers_guess_reformed(SbEhlSolution *s, double flux) {
+  int first = s->mesh.count;
+  for (int i = 0; i < s->mesh.count; i++) {
+    first = s->mesh.element[i].apart ? i : first;
+  }
+  s->state.flux = flux;
+  fill_from(s, first, reformed_at);
 }

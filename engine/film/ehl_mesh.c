@@ -139,14 +139,6 @@ double sb_ehl_coordinate(const SbEhlElement *e, double X) {
   }
 }
 
-bool sb_ehl_same_elements(const SbEhlMesh *a, const SbEhlMesh *b) {
-  bool same = a->count == b->count;
-  for (int i = 0; same && i < a->count; i++) {
-    same = a->element[i].map == b->element[i].map && a->element[i].apart == b->element[i].apart;
-  }
-  return same;
-}
-
 int sb_ehl_find(const SbEhlMesh *mesh, double X) {
   int i = 0;
   while (i < mesh->count - 1 && !(X < mesh->element[i].x1)) {
@@ -159,6 +151,23 @@ int sb_ehl_find(const SbEhlMesh *mesh, double X) {
 static double factor_at(const SbEhlElement *e, double r) {
   double s = sb_ehl_inverse(e, r);
   return sb_ehl_infinite(e) ? s * s * s * s : 1.0;
+}
+
+// Coordinate of a node, for the one at infinity that of its neighbour.
+static double node_at(const SbEhlElement *e, int k) {
+  bool inlet = e->map == SB_EHL_INLET && k == 0;
+  bool outlet = e->map == SB_EHL_OUTLET && k == e->degree;
+  return e->table->node[inlet ? 1 : outlet ? k - 1 : k];
+}
+
+double sb_ehl_node(const SbEhlElement *e, int k) {
+  return sb_ehl_position(e, node_at(e, k));
+}
+
+double sb_ehl_nodal(const SbEhlElement *e, int k, double pressure) {
+  // The node that touches the neighbour holds the full pressure.
+  bool touching = k == (e->map == SB_EHL_INLET ? e->degree : 0);
+  return touching ? pressure : (pressure - e->far_pressure) / factor_at(e, node_at(e, k));
 }
 
 void sb_ehl_local(SbEhlLocal *out, const SbEhlElement *e, const double *basis, const double *rise,

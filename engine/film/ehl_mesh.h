@@ -97,9 +97,8 @@ typedef struct {
 typedef struct {
   SbEhlTables *tables;
   int count;
-  bool fits;    // so far
-  int steps[2]; // of the layout that made it (ehl_layers.h)
-  int outlet;   // first element of a flooded outlet, if the last is infinite
+  bool fits;  // so far
+  int outlet; // first element of a flooded outlet, if the last is infinite
   SbEhlElement element[SB_EHL_ELEMENTS_MAX];
   int dofs, rows, targets;
   double inlet_pressure, outlet_pressure; // constant pressure beyond the two ends of the mesh
@@ -136,8 +135,10 @@ double sb_ehl_ambient_gap(double X, double left, double right, double inlet, dou
 // `nodal`: with the nodes for targets, on affine elements without cavities.
 SB_CHECKED bool sb_ehl_mesh_build(SbEhlMesh *mesh, bool nodal);
 
-// Whether both meshes have the same elements up to their places and degrees.
-bool sb_ehl_same_elements(const SbEhlMesh *a, const SbEhlMesh *b);
+// Place of node k of an element, of one at infinity a place far away; and the nodal value that
+// gives the pressure there.
+double sb_ehl_node(const SbEhlElement *e, int k);
+double sb_ehl_nodal(const SbEhlElement *e, int k, double pressure);
 
 // Element that holds X (a cavity belongs to the element after it), and the coordinate of X in an
 // element.

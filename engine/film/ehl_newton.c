@@ -225,7 +225,7 @@ static bool move_free_end(SbEhlSolution *s, const Layout *layout, double place) 
   if (allowed) {
     *free_end(layers) = place;
   }
-  return allowed && sb_ehl_layers_mesh(&s->mesh, layers);
+  return allowed && sb_ehl_layers_mesh(s);
 }
 
 // Derivative of the residuals to the free end: the mesh is moved a little and put back.

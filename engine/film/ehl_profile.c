@@ -86,7 +86,7 @@ static Point rough_point(const SbEhlSolution *s, const SbEhlElement *e, double r
   SbEhlRoughPoint at;
   sb_ehl_rough_point(&at, &s->c, sb_ehl_interpolate(e->table, &s->state.t[e->first_dof], r));
   return (Point){.X = sb_ehl_position(e, r),
-                 .pressure = sb_ehl_pressure(NULL, e, s->state.nodal, r),
+                 .pressure = sb_ehl_interpolate(e->table, &s->state.nodal[e->first_dof], r),
                  .film = at.h,
                  .asperity = at.asperity};
 }
@@ -118,7 +118,7 @@ void sb_ehl_profile(SbFilm *out, const SbEhlSolution *s, const SbFilmScale *scal
   for (int i = 0; i < mesh->count; i++) {
     parts += parts_of(&far, &mesh->element[i], &s->c, drawn);
   }
-  size_t room = SB_FILM_POINTS - 1 - SB_EHL_ELEMENTS_MAX;
+  size_t room = rough ? 5200 : SB_FILM_POINTS - 1 - SB_EHL_ELEMENTS_MAX;
   size_t most = drawn && wanted->profile_points < room ? wanted->profile_points : room;
   size_t per = most / (size_t)parts / 2 * 2; // even, for who integrates by parabolas
   per = per < 4 ? 4 : per;

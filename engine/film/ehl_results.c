@@ -3,15 +3,18 @@
 // by its nodal polynomials, the gap through the collocation points and ends of an element.
 #include "engine/film/ehl.h"
 
+#include "engine/numeric/root.h"
+
 #include <math.h>
 #include <string.h>
 
-// A node or a target of a new mesh in the old one: the same r of the same element if the two meshes
-// have the same elements, else its place, but not beyond the old mesh.
-static const SbEhlElement *source(double *r, const SbEhlMesh *from, int element, bool same,
-                                  double X) {
-  const SbEhlElement *e = &from->element[same ? element : sb_ehl_find(from, X)];
-  *r = same ? *r : fmin(fmax(sb_ehl_coordinate(e, X), -1.0), 1.0);
+// Where an element of the new mesh takes its value at X from in the old one: from the same element,
+// moved with the layers, if the two have the same elements, else from its place, not beyond the
+// mesh.
+static const SbEhlElement *source(double *r, const SbEhlMesh *old, const SbEhlMesh *new, int i,
+                                  bool same, double X) {
+  const SbEhlElement *e = &old->element[same ? i : sb_ehl_find(old, X)];
+  *r = fmin(fmax(sb_ehl_coordinate(same ? &new->element[i] : e, X), -1.0), 1.0);
   return e;
 }
 
@@ -37,7 +40,6 @@ void sb_ehl_carry(SbEhlSolution *to, const SbEhlSolution *from, double scale) {
   const SbEhlState *old = &from->state;
   SbEhlState *new = &to->state;
   const bool rough = to->c.rough.rows;
-  const bool same = !rough && sb_ehl_same_elements(a, b);
   // Towards infinity the gap grows by decades and has no polynomial: its excess over the dry one.
   double *excess = to->solver->gaps;
   for (int i = 0; i < a->targets && !rough; i++) {
@@ -45,40 +47,30 @@ void sb_ehl_carry(SbEhlSolution *to, const SbEhlSolution *from, double scale) {
   }
   // New end pressures change the dry contact's pressure, unless a cavity holds one of them off.
   bool whole = true;
+  bool same = !rough && a->count == b->count;
   for (int i = 0; i < b->count; i++) {
     whole = whole && !b->element[i].apart;
+    same = same && a->element[i].map == b->element[i].map;
   }
   for (int i = 0; i < b->count; i++) {
     const SbEhlElement *f = &b->element[i];
-    bool infinite = sb_ehl_infinite(f);
     for (int k = 0; k <= f->degree; k++) {
-      // For the node at infinity a place near it, if there is no such node to take.
-      double r = f->table->node[k];
-      bool far = (f->map == SB_EHL_INLET && k == 0) || (f->map == SB_EHL_OUTLET && k == f->degree);
-      r = far ? 0.98 * r : r;
-      double s = sb_ehl_inverse(f, r);
-      double X = sb_ehl_position(f, r);
-      const SbEhlElement *e = source(&r, a, i, same, X);
-      if (far && e->map == f->map && e->B == f->B) {
-        new->nodal[f->first_dof + k] = old->nodal[e->first_dof + (k == 0 ? 0 : e->degree)];
-        continue;
-      }
+      double X = sb_ehl_node(f, k);
+      double r;
+      const SbEhlElement *e = source(&r, a, b, i, same, X);
       double value = sb_ehl_pressure(NULL, e, old->nodal, r);
       value += whole ? sb_film_dry_pressure(X, b->inlet_pressure, b->outlet_pressure) -
                            sb_film_dry_pressure(X, a->inlet_pressure, a->outlet_pressure)
                      : 0.0;
-      bool touching = f->map == SB_EHL_INLET ? k == f->degree : k == 0;
-      new->nodal[f->first_dof + k] =
-          infinite && !touching ? (value - f->far_pressure) / (s * s * s * s) : value;
+      new->nodal[f->first_dof + k] = sb_ehl_nodal(f, k, value);
       if (rough) {
         carry_rough(new, old, f->first_dof + k, e, r);
       }
     }
   }
   for (int i = 0; i < b->targets && !rough; i++) {
-    const SbEhlElement *f = &b->element[b->owner[i]];
-    double r = fmin(sb_ehl_coordinate(f, b->x[i]), 1.0);
-    const SbEhlElement *e = source(&r, a, b->owner[i], same, b->x[i]);
+    double r;
+    const SbEhlElement *e = source(&r, a, b, b->owner[i], same, b->x[i]);
     bool infinite = sb_ehl_infinite(e);
     double gap = sb_ehl_gap(e, infinite ? excess : old->gap, r);
     new->gap[i] = scale *gap + (infinite ? sb_ehl_layers_dry_gap(&to->c.layers, b->x[i]) : 0.0);
@@ -89,61 +81,43 @@ void sb_ehl_carry(SbEhlSolution *to, const SbEhlSolution *from, double scale) {
   new->flow = old->flow;
 }
 
-// Value of the pressure (negative) or of what the gap grows with, at r of an element: the gap
-// itself, or the parameter of rough rows.
-static double sampled(const SbEhlSolution *s, int element, bool pressure, double r) {
-  const SbEhlElement *e = &s->mesh.element[element];
-  return pressure          ? -sb_ehl_pressure(NULL, e, s->state.nodal, r)
-         : s->c.rough.rows ? sb_ehl_interpolate(e->table, &s->state.t[e->first_dof], r)
-                           : sb_ehl_gap(e, s->state.gap, r);
+// What is sampled over an element: the pressure (negative), or what the gap grows with, the gap
+// itself or the parameter of rough rows.
+typedef struct {
+  const SbEhlSolution *s;
+  const SbEhlElement *e;
+  bool pressure;
+} Sample;
+
+static double sampled(double r, const void *context) {
+  const Sample *of = context;
+  const SbEhlState *state = &of->s->state;
+  return of->pressure          ? -sb_ehl_pressure(NULL, of->e, state->nodal, r)
+         : of->s->c.rough.rows ? sb_ehl_interpolate(of->e->table, &state->t[of->e->first_dof], r)
+                               : sb_ehl_gap(of->e, state->gap, r);
 }
 
-// Least value over an element by sampling and golden section.
-static double minimum(double *place, const SbEhlSolution *s, int element, bool pressure) {
+// Least value over the element of a target and its neighbours, and its place.
+static double least_about(double *place, const SbEhlSolution *s, int target, bool pressure) {
   enum { SAMPLES = 16 };
-  const SbEhlElement *e = &s->mesh.element[element];
-  double begin = e->map == SB_EHL_INLET ? -0.9 : -1.0;
-  double end = e->map == SB_EHL_OUTLET ? 0.9 : 1.0;
-  double step = (end - begin) / SAMPLES;
-  double best = begin;
+  const int around = s->mesh.owner[target];
   double least = INFINITY;
-  for (int i = 0; i <= SAMPLES; i++) {
-    double r = begin + step * i;
-    double value = sampled(s, element, pressure, r);
-    if (value < least) {
-      least = value;
-      best = r;
+  for (int i = around > 0 ? around - 1 : 0; i <= around + 1 && i < s->mesh.count; i++) {
+    const Sample of = {s, &s->mesh.element[i], pressure};
+    double begin = of.e->map == SB_EHL_INLET ? -0.9 : -1.0;
+    double end = of.e->map == SB_EHL_OUTLET ? 0.9 : 1.0;
+    double step = (end - begin) / SAMPLES;
+    double best = begin;
+    for (int k = 1; k <= SAMPLES; k++) {
+      best = sampled(begin + step * k, &of) < sampled(best, &of) ? begin + step * k : best;
+    }
+    double r = sb_minimum(sampled, &of, fmax(begin, best - step), fmin(end, best + step), 1e-8);
+    best = sampled(r, &of) < sampled(best, &of) ? r : best;
+    if (sampled(best, &of) < least) {
+      least = sampled(best, &of);
+      *place = sb_ehl_position(of.e, best);
     }
   }
-  static const double RATIO = 0.6180339887498949;
-  double a = fmax(begin, best - step);
-  double b = fmin(end, best + step);
-  double c = b - RATIO * (b - a);
-  double d = a + RATIO * (b - a);
-  double at_c = sampled(s, element, pressure, c);
-  double at_d = sampled(s, element, pressure, d);
-  for (int i = 0; i < 36; i++) {
-    if (at_c < at_d) {
-      b = d;
-      d = c;
-      at_d = at_c;
-      c = b - RATIO * (b - a);
-      at_c = sampled(s, element, pressure, c);
-    } else {
-      a = c;
-      c = d;
-      at_c = at_d;
-      d = a + RATIO * (b - a);
-      at_d = sampled(s, element, pressure, d);
-    }
-  }
-  double r = 0.5 * (a + b);
-  double value = sampled(s, element, pressure, r);
-  if (value < least) {
-    least = value;
-    best = r;
-  }
-  *place = sb_ehl_position(e, best);
   return least;
 }
 
@@ -165,12 +139,13 @@ double sb_ehl_flat_film(const SbEhlCase *c, double flux, double film, double pre
 // small differences of large deflections between the collocation points, and Reynolds' equation
 // gives them from the slope of the pressure with far less noise.
 static double film_at(const SbEhlSolution *s, int element, bool middle, double r) {
-  double film = sampled(s, element, false, r);
+  const Sample of = {s, &s->mesh.element[element], false};
+  double film = sampled(r, &of);
   if (!middle || s->c.rough.rows || sb_ehl_layers_width(&s->c.layers) >= 0.3) {
     return film;
   }
   double slope;
-  double pressure = sb_ehl_pressure(&slope, &s->mesh.element[element], s->state.nodal, r);
+  double pressure = sb_ehl_pressure(&slope, of.e, s->state.nodal, r);
   return sb_ehl_flat_film(&s->c, s->state.flux, film, pressure, slope);
 }
 
@@ -319,18 +294,10 @@ void sb_ehl_results(SbEhlResults *out, const SbEhlSolution *s) {
   (rough ? add_rough : add_smooth)(out, &thinnest, &highest, s);
   out->position_rupture += shift;
 
-  // Least film and largest pressure: search around the best points.
-  double place = 0.0, least = INFINITY;
-  int around = mesh->owner[thinnest];
-  for (int i = around > 0 ? around - 1 : 0; i <= around + 1 && i < mesh->count; i++) {
-    double value = minimum(&place, s, i, false);
-    out->position_min = value < least ? place + shift : out->position_min;
-    least = fmin(least, value);
-  }
-  around = mesh->owner[highest];
-  for (int i = around > 0 ? around - 1 : 0; i <= around + 1 && i < mesh->count; i++) {
-    out->pressure_max = fmax(out->pressure_max, -minimum(&place, s, i, true));
-  }
+  double place;
+  double least = least_about(&place, s, thinnest, false);
+  out->position_min = place + shift;
+  out->pressure_max = -least_about(&place, s, highest, true);
   // At the axis, or in the middle of a fitted body's dry contact.
   double middle = s->c.layers.middle - shift;
   int axis = sb_ehl_find(mesh, middle);

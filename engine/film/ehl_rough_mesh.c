@@ -1,7 +1,7 @@
 // Elements of rough rows.
 //
 // Element sizes grow with the distance from the contact's two edges, where the layers of the film
-// (lambda^0.4, ehl_layers.h) or the tail of the asperities (sigma^(2/3): the dry gap opens with the
+// (lambda^0.4, ehl_layers.c) or the tail of the asperities (sigma^(2/3): the dry gap opens with the
 // power 3/2) sit, and with that from the film's ends between asperities.
 #include "engine/film/ehl.h"
 

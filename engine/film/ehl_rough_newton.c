@@ -13,6 +13,7 @@
 #include "engine/film/ehl.h"
 
 #include "engine/numeric/dense.h"
+#include "engine/numeric/root.h"
 
 #include <cblas.h>
 #include <math.h>
@@ -54,23 +55,21 @@ double sb_ehl_rough_of_gap(const SbEhlCase *c, double gap) {
   return t >= 1 ? t : 1 + log(t);
 }
 
+typedef struct {
+  const SbEhlTable *rule;
+  const double *slope; // at the element's nodes
+} Slopes;
+
+static double fall_at(double r, const void *context) {
+  const Slopes *of = context;
+  return -sb_ehl_interpolate(of->rule, of->slope, r);
+}
+
 double sb_ehl_rough_film_end(const SbEhlTable *rule, const double *s, int j) {
   double low = rule->node[j], high = rule->node[j + 1];
-  if (!(s[j] < 0)) {
-    return low;
-  }
-  if (!(s[j + 1] > 0)) {
-    return high;
-  }
-  for (int k = 0; k < 30; k++) {
-    double middle = 0.5 * (low + high);
-    if (sb_ehl_interpolate(rule, s, middle) < 0) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
-  return 0.5 * (low + high);
+  return !(s[j] < 0)       ? low
+         : !(s[j + 1] > 0) ? high
+                           : sb_bisect(fall_at, &(Slopes){rule, s}, low, high);
 }
 
 // The linear elastic equation's gap into solver->gaps, and everything at the nodes.

@@ -37,6 +37,29 @@ double sb_newton_bracketed(SbSlopedFunction f, const void *context, double low, 
   return x;
 }
 
+double sb_minimum(SbFunction f, const void *context, double low, double high, double digits) {
+  const double ratio = 0.6180339887498949;
+  const double least = digits * (high - low);
+  double a = high - ratio * (high - low), b = low + ratio * (high - low);
+  double at_a = f(a, context), at_b = f(b, context);
+  while (high - low > least) {
+    if (at_a < at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      a = high - ratio * (high - low);
+      at_a = f(a, context);
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      b = low + ratio * (high - low);
+      at_b = f(b, context);
+    }
+  }
+  return 0.5 * (low + high);
+}
+
 size_t sb_interval(const double *x, size_t count, double at) {
   size_t low = 0, high = count - 1;
   while (high - low > 1) {

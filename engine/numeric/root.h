@@ -1,5 +1,5 @@
-// Roots of functions of one variable inside a bracket and of small systems, and the interval of a
-// table.
+// Roots and minima of functions of one variable inside a bracket, roots of small systems, and the
+// interval of a table.
 #pragma once
 
 #include "engine/base/status.h"
@@ -17,6 +17,10 @@ typedef double (*SbSlopedFunction)(double *slope, double x, const void *context)
 // bisection where that leaves the bracket.
 double sb_newton_bracketed(SbSlopedFunction f, const void *context, double low, double high,
                            double guess);
+
+// Place of the minimum of f in [low, high], where it has one, to `digits` of the bracket (1e-8:
+// more a minimum does not hold); golden section.
+double sb_minimum(SbFunction f, const void *context, double low, double high, double digits);
 
 // Greatest i <= count - 2 with x[i] <= at, 0 if there is none; x increasing, count >= 2.
 size_t sb_interval(const double *x, size_t count, double at);

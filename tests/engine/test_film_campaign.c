@@ -218,8 +218,8 @@ static void test_starved_to_rounding(void) {
   g_assert_true(film.starved);
 }
 
-// A contact that continuation reaches on another number of elements than its own mesh would have:
-// the levels keep them, few steps suffice, and what the solver did before does not show.
+// A contact that continuation reaches over meshes of other numbers of elements: few steps suffice,
+// and what the solver did before does not show.
 static void test_kept_elements(void) {
   SbFilmProblem p = contact(1.0, 3.4907142162813742);
   p.speed = 3.1699421633600248e-10; // M = 3.0e3
