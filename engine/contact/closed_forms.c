@@ -130,9 +130,7 @@ SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report) {
   out->circumference = M_PI * (in->inner_diameter + in->section_diameter);
   // Closed forms hold to rounding and have no unknowns.
   out->solver.converged = true;
-  out->solver.error_estimate.load = 16.0 * DBL_EPSILON;
-  out->solver.error_estimate.pressure_peak = 16.0 * DBL_EPSILON;
-  out->solver.error_estimate.contact_width = 16.0 * DBL_EPSILON;
+  sb_fit_errors(out, 16.0 * DBL_EPSILON, 16.0 * DBL_EPSILON, 16.0 * DBL_EPSILON);
   if (!(out->squeeze > 0.0)) {
     sb_warn(&out->warnings, "no-contact", "seal.section_diameter",
             "the ring does not touch the bore (squeeze %.3g %%): load 0", 100.0 * out->squeeze);

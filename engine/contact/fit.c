@@ -139,6 +139,12 @@ void sb_fit_contact(SbFit *out, double left, double right) {
   }
 }
 
+void sb_fit_errors(SbFit *out, double load, double peak, double width) {
+  out->solver.error_estimate.load = load;
+  out->solver.error_estimate.pressure_peak = peak;
+  out->solver.error_estimate.contact_width = width;
+}
+
 // Any warning but that of a ring that does not touch means that a model is outside its range.
 static void judge_validity(SbFit *out) {
   out->valid = true;

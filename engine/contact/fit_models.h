@@ -15,3 +15,6 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report);
 // towards the edges.
 enum { SB_FIT_POINTS = 257 };
 void sb_fit_contact(SbFit *out, double left, double right);
+
+// Relative errors of load, peak and width.
+void sb_fit_errors(SbFit *out, double load, double peak, double width);

@@ -71,9 +71,7 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
     out->load = result.bore_force;
     out->load_per_length = result.bore_force / out->circumference;
     out->pressure_peak = result.pressure_peak;
-    out->solver.error_estimate.load = result.error.load;
-    out->solver.error_estimate.pressure_peak = result.error.peak;
-    out->solver.error_estimate.contact_width = result.error.width;
+    sb_fit_errors(out, result.error.load, result.error.peak, result.error.width);
     const int points =
         sb_ring_profile(ring, out->profile_x, out->profile_p, NULL, SB_FIT_PROFILE_MAX);
     out->profile_count = points < SB_FIT_PROFILE_MAX ? (size_t)points : SB_FIT_PROFILE_MAX;

@@ -327,10 +327,9 @@ SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report) {
     fill(out, &found[levels - 1], compliance, both, in->pressure < 0.0);
   }
   const bool lost = reached != target;
-  out->solver.error_estimate.load = lost ? 1.0 : error[LOAD];
-  out->solver.error_estimate.pressure_peak = lost ? 1.0 : error[PEAK];
-  out->solver.error_estimate.contact_width = lost ? 1.0 : error[WIDTH];
+  sb_fit_errors(out, error[LOAD], error[PEAK], error[WIDTH]);
   if (lost) {
+    sb_fit_errors(out, 1.0, 1.0, 1.0);
     status = sb_fail_parameter(
         report, SB_ERROR_NOT_CONVERGED, reached < 0.0 ? "gland.radial_space" : "canister.pressure",
         "the linear disc found no contact state beyond %.3g MPa (edge residual %.2g)",

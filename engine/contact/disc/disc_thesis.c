@@ -238,21 +238,19 @@ SbStatus sb_fit_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report
   // edge is known to half a node, which leaves its square where the difference happens to vanish.
   const double half_node =
       0.5 * degree * cos(asin(own.width / in->section_diameter)) * in->section_diameter / own.width;
-  out->solver.error_estimate.load =
-      2.0 * fabs(fine.load / own.load - 1.0) + 0.25 * half_node * half_node;
-  out->solver.error_estimate.pressure_peak =
-      2.0 * fabs(fine.peak / own.peak - 1.0) + 0.25 * half_node * half_node;
-  out->solver.error_estimate.contact_width =
-      fmax(half_node, 2.0 * fabs(fine.width / own.width - 1.0));
+  const double edge = 0.25 * half_node * half_node;
+  sb_fit_errors(out, 2.0 * fabs(fine.load / own.load - 1.0) + edge,
+                2.0 * fabs(fine.peak / own.peak - 1.0) + edge,
+                fmax(half_node, 2.0 * fabs(fine.width / own.width - 1.0)));
 
   // Nodal pressures, on the free circle as the thesis plots them, and zero at the edges.
   const size_t side = own.loaded;
   out->profile_count = 2 * side + 1;
   for (size_t i = 0; i < out->profile_count; i++) {
     const double k = (double)i - (double)side;
-    const bool edge = i == 0 || i == 2 * side;
+    const bool last = i == 0 || i == 2 * side;
     out->profile_x[i] = 0.5 * in->section_diameter * sin(k * degree);
-    out->profile_p[i] = edge ? 0.0 : w->pressure[(size_t)fabs(k)];
+    out->profile_p[i] = last ? 0.0 : w->pressure[(size_t)fabs(k)];
   }
   out->profile_x[0] = out->contact_left;
   out->profile_x[2 * side] = out->contact_right;

@@ -145,8 +145,7 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *target, SbReport *
     status = sb_ring_refit(ring, ring->options.element_size, report);
   }
   if (status == SB_OK && sb_ring_rubs(target)) {
-    SbRingNewton newton = sb_ring_newton_options(ring);
-    status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
+    status = sb_ring_advance(ring, target, SB_RING_FOLLOW, report);
   }
   return status;
 }
@@ -214,7 +213,6 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
     return status;
   }
   SbRingLoad target = sb_ring_load_in(load, ring->length, ring->stress);
-  SbRingNewton newton = sb_ring_newton_options(ring);
   const SbRingLoad *now = &ring->contact->is.now;
   double before = now->pressure_left - now->pressure_right;
   double after = target.pressure_left - target.pressure_right;
@@ -222,7 +220,7 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
     // The pressure changes sides: by way of equal pressures, where the ring may cross the groove.
     SbRingLoad even = *now;
     even.pressure_left = even.pressure_right = fmin(target.pressure_left, target.pressure_right);
-    status = sb_ring_advance(ring->contact, &even, &newton, &ring->count, report);
+    status = sb_ring_advance(ring, &even, SB_RING_FOLLOW, report);
   }
   if (status == SB_OK) {
     status = sb_ring_press(ring, &target, report);
@@ -288,8 +286,7 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
       sb_ring_touch(contact, i, s)->held = held;
     }
   }
-  SbRingNewton newton = sb_ring_newton_options(ring);
-  status = sb_ring_newton(contact, &newton, &fresh.count, report);
+  status = sb_ring_newton(&fresh, fresh.options.iterations_max, report);
   if (status == SB_ERROR_NOT_CONVERGED) {
     // Too far from the transferred state: walk the whole way again on the new mesh.
     SbRingLoad setting = ring->contact->is.now;

@@ -374,19 +374,6 @@ void sb_ring_contact_settle(SbRingContact *contact) {
   contact->settled = false;
 }
 
-void sb_ring_contact_total(const SbRingContact *contact, SbRingSurface surface, double force[2]) {
-  force[0] = force[1] = 0.0;
-  for (int i = 0; i < contact->count; i++) {
-    const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
-    if (touch->held) {
-      SbRingFrame frame = sb_ring_frame_at(contact, i, surface);
-      for (int k = 0; k < 2; k++) {
-        force[k] += touch->force * frame.n[k] + touch->tangent * frame.t[k];
-      }
-    }
-  }
-}
-
 // Copies a state into the memory of another.
 static void copy_state(SbRingContactState *to, const SbRingContactState *from, int count) {
   SbRingTouch *touch = to->touch;

@@ -146,9 +146,6 @@ void sb_ring_contact_forces(SbRingContact *contact);
 // attempts to go on from it have left behind.
 void sb_ring_contact_settle(SbRingContact *contact);
 
-// Sum of a surface's force on the ring, (r, z).
-void sb_ring_contact_total(const SbRingContact *contact, SbRingSurface surface, double force[2]);
-
 // The whole state, displacements too, to and from one of the places above.
 void sb_ring_save(SbRingContact *contact, int place);
 void sb_ring_restore(SbRingContact *contact, int place);

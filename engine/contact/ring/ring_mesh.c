@@ -13,6 +13,7 @@
 #include <string.h>
 
 enum { LAYERS_MAX = 24, ROW_MAX = 2000, SAMPLES = 720, SMOOTHINGS = 4 };
+enum { VERTEX_MAX = 2 * LAYERS_MAX * ROW_MAX };
 
 // Least shape of a triangle that a mesh may have, and how rows are tried: number of rows added and
 // how strongly their depth follows the surface size.
@@ -80,16 +81,16 @@ typedef struct {
   const SbRingMeshPlan *plan;
   double follow; // share of the surface's growth that the rows' depth follows
   SbRingMesh *mesh;
-  int vertex_count, vertex_max;
-  double *vertex;         // [2 * vertex_max]
-  double *vertex_angle;   // [vertex_max]
-  Neighbours *neighbours; // [vertex_max]
-  bool *fixed, *on_axis;  // [vertex_max] on the surface; on the axis of symmetry
+  int vertex_count;
+  double vertex[2 * VERTEX_MAX];
+  double vertex_angle[VERTEX_MAX];
+  Neighbours neighbours[VERTEX_MAX];
+  bool fixed[VERTEX_MAX]; // on the surface
+  int place[VERTEX_MAX];  // in the loop, -1: none
   double size[SAMPLES + 1], cumulative[SAMPLES + 1];
   double depth[SAMPLES + 1][LAYERS_MAX + 1];
   int row_count[2][LAYERS_MAX + 1];
-  int *rows, *place;
-  int *row[2][LAYERS_MAX + 1]; // vertices of each row and half, from bore to floor
+  int row[2][LAYERS_MAX + 1][ROW_MAX + 1]; // vertices of each row and half, from bore to floor
 } Builder;
 
 static int add_vertex(Builder *b, double r, double z, double angle) {
@@ -261,7 +262,7 @@ static void smooth(Builder *b) {
     for (int v = 0; v < b->vertex_count; v++) {
       const Neighbours *n = &b->neighbours[v];
       moved[2 * v] = 0.5 * (x[2 * v] + n->sum[0] / n->spokes);
-      moved[2 * v + 1] = b->on_axis[v] ? 0.0 : 0.5 * (x[2 * v + 1] + n->sum[1] / n->spokes);
+      moved[2 * v + 1] = x[2 * v + 1] == 0.0 ? 0.0 : 0.5 * (x[2 * v + 1] + n->sum[1] / n->spokes);
     }
     for (int e = 0; e < mesh->elements; e++) {
       for (int a = 0; a < 3; a++) {
@@ -383,28 +384,8 @@ static void close_loop(Builder *b) {
   }
 }
 
-static SbStatus build(SbRingMesh **out, Builder *b, SbReport *report) {
+static SbStatus build(SbRingMesh **out, Builder *b) {
   const SbRingMeshPlan *plan = b->plan;
-  int rows_max = 2 * (plan->layers + 1);
-  b->vertex_max = ROW_MAX * rows_max;
-  b->vertex = malloc(sizeof(double) * 2 * (size_t)b->vertex_max);
-  b->vertex_angle = malloc(sizeof(double) * (size_t)b->vertex_max);
-  b->fixed = calloc(2 * (size_t)b->vertex_max, sizeof(bool));
-  b->rows = malloc(sizeof(int) * ((size_t)rows_max * (ROW_MAX + 1) + (size_t)b->vertex_max));
-  b->neighbours = malloc(sizeof(Neighbours) * (size_t)b->vertex_max);
-  if (b->vertex == NULL || b->neighbours == NULL || b->fixed == NULL || b->vertex_angle == NULL ||
-      b->rows == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
-  }
-  int slot = 0;
-  for (int half = 0; half < 2; half++) {
-    for (int k = 0; k <= plan->layers; k++) {
-      b->row[half][k] = &b->rows[(size_t)(ROW_MAX + 1) * (size_t)slot++];
-    }
-  }
-  b->on_axis = b->fixed + b->vertex_max;
-  b->place = &b->rows[(size_t)(ROW_MAX + 1) * (size_t)slot];
-
   // Vertices, row by row; the left half borrows the right half's vertices on the axis.
   int segments = 0;
   for (int half = 0; half < 2; half++) {
@@ -425,7 +406,7 @@ static SbStatus build(SbRingMesh **out, Builder *b, SbReport *report) {
   int loop = 2 * (b->row_count[0][0] + b->row_count[1][0]);
   SbRingMesh *mesh = b->mesh = sb_ring_mesh_allocate(b->vertex_count, 2 * segments, loop);
   if (mesh == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
+    return SB_ERROR_MEMORY;
   }
   for (int half = 0; half < 2; half++) {
     for (int k = 0; k < plan->layers; k++) {
@@ -438,20 +419,15 @@ static SbStatus build(SbRingMesh **out, Builder *b, SbReport *report) {
     for (int i = 0; i < b->row_count[half][0]; i++) {
       b->fixed[b->row[half][0][i]] = true;
     }
-    for (int k = 0; k <= plan->layers; k++) {
-      b->on_axis[b->row[half][k][0]] = b->on_axis[b->row[half][k][b->row_count[half][k] - 1]] =
-          true;
-    }
   }
   smooth(b);
-  SbStatus status = sb_ring_mesh_add_midsides(mesh, report);
-  if (status != SB_OK) {
+  if (sb_ring_mesh_add_midsides(mesh, NULL) != SB_OK) {
     sb_ring_mesh_destroy(mesh);
-    return status;
+    return SB_ERROR_MEMORY;
   }
   close_loop(b);
   *out = mesh;
-  return sb_succeed(report);
+  return SB_OK;
 }
 
 // Least triangle shape; 0 if the triangles overlap, that is, cover more than the outline.
@@ -471,24 +447,6 @@ static double worst_quality(const SbRingMesh *mesh) {
   return covered > outline * (1.0 + 1e-9) ? 0.0 : worst;
 }
 
-static SbStatus attempt(SbRingMesh **out, const SbRingMeshPlan *plan, double follow,
-                        SbReport *report) {
-  Builder *b = calloc(1, sizeof *b);
-  if (b == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
-  }
-  b->plan = plan;
-  b->follow = follow;
-  SbStatus status = build(out, b, report);
-  free(b->vertex);
-  free(b->vertex_angle);
-  free(b->neighbours);
-  free(b->fixed);
-  free(b->rows);
-  free(b);
-  return status;
-}
-
 SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbReport *report) {
   *out = NULL;
   if (plan->layers < 3 || plan->layers + 3 >= LAYERS_MAX || !(plan->size_max > 0.0)) {
@@ -501,11 +459,18 @@ SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbRep
     SbRingMeshPlan trial = *plan;
     trial.layers += TRIAL[i].rows;
     SbRingMesh *mesh = NULL;
-    SbStatus status = attempt(&mesh, &trial, TRIAL[i].follow, report);
+    Builder *b = calloc(1, sizeof *b);
+    SbStatus status = SB_ERROR_MEMORY;
+    if (b != NULL) {
+      b->plan = &trial;
+      b->follow = TRIAL[i].follow;
+      status = build(&mesh, b);
+    }
+    free(b);
     if (status != SB_OK) {
       sb_ring_mesh_destroy(*out);
       *out = NULL;
-      return status;
+      return sb_fail(report, status, "no memory for the ring's mesh");
     }
     double worst = worst_quality(mesh);
     bool better = worst > best;

@@ -3,7 +3,7 @@
 // One iteration assembles, factorises once, takes the correction (shortened if a node would move
 // too far or a point turn inside out) and renews the held set from the linear model's reactions. It
 // has converged when the balance holds on all free rows, held nodes lie on their surfaces and the
-// held set is steady. Load steps and what to do where it fails: ring_newton.c.
+// held set is steady.
 //
 // A load step is taken in parts whose largest change is moderate, halved where Newton fails. Where
 // that is not enough the equilibrium is unstable or far (the land's edge lets the section snap
@@ -21,7 +21,7 @@
 // of the bore still, but rolls on with it at a falling drag: no sliding state, and the step is
 // refused. The turn is the mean one of the section's points, followed along the path so that it
 // does not wrap.
-#include "engine/contact/ring/ring_newton.h"
+#include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
 
@@ -37,8 +37,10 @@ static const double RESIDUAL_TOLERANCE = 1e-10, GAP_TOLERANCE = 1e-11, DRIFT_FOR
 // friction holds.
 static const double AXIAL_SPRING = 1e-7;
 
-// A correction that has to be cut shorter than this is a stumble.
-static const double STUMBLE = 0.1;
+// Largest nodal correction of one iteration, in section diameters. One that has to be cut shorter
+// than STUMBLE of it is a stumble; after so many the solve is given up.
+static const double CORRECTION_MAX = 0.15, STUMBLE = 0.1;
+enum { STUMBLES_MAX = 4 };
 
 // Whether something holds the ring axially.
 static bool leans(const SbRingContact *contact) {
@@ -96,9 +98,9 @@ static void fail(const SbRingContact *contact, double residual, int changes, int
                 wall ? "above the floor" : "from its middle", residual);
 }
 
-SbStatus sb_ring_newton(SbRingContact *contact, const SbRingNewton *options, SbRingCount *count,
-                        SbReport *report) {
-  SbRingFem *fem = contact->fem;
+SbStatus sb_ring_newton(SbRing *ring, int iterations_max, SbReport *report) {
+  SbRingContact *contact = ring->contact;
+  SbRingFem *fem = ring->fem;
   int changes = 0, stumbles = 0, recentres = 0;
   bool slack = false;
   double step = 1.0, det_before = 1.0;
@@ -106,7 +108,7 @@ SbStatus sb_ring_newton(SbRingContact *contact, const SbRingNewton *options, SbR
   fem->axial_rest = 0.0;
   fem->axial_damping = DAMPING / fem->mesh->nodes;
   for (int it = 0;; it++) {
-    if (options->poll != NULL && options->poll(options->poll_data)) {
+    if (ring->options.poll != NULL && ring->options.poll(ring->options.poll_data)) {
       return sb_fail(report, SB_ERROR_CANCELLED, "cancelled");
     }
     // Assemble; shorten the step while a point is turned inside out or nearly so.
@@ -128,7 +130,6 @@ SbStatus sb_ring_newton(SbRingContact *contact, const SbRingNewton *options, SbR
     det_before = fem->det_min;
     double gap = sb_ring_contact_apply(contact);
     double residual = sb_ring_fem_free_residual(fem) / contact->force_scale;
-    count->residual = residual;
     if (it > 0 && changes == 0 && !slack && residual <= RESIDUAL_TOLERANCE &&
         gap <= GAP_TOLERANCE) {
       slack = recentres++ < RECENTRES_MAX && recentre(fem, contact->force_scale);
@@ -140,11 +141,10 @@ SbStatus sb_ring_newton(SbRingContact *contact, const SbRingNewton *options, SbR
     }
     slack = false;
     stumbles += step < STUMBLE ? 1 : 0;
-    bool hopeless = options->stumbles_max > 0 && stumbles > options->stumbles_max;
     // A steady contact near its balance may take a little longer.
-    bool near = changes == 0 && residual < NEARLY && it < options->iterations_max + MORE;
-    bool spent = it >= options->iterations_max && !near;
-    if (spent || hopeless || !isfinite(residual)) {
+    bool near = changes == 0 && residual < NEARLY && it < iterations_max + MORE;
+    bool spent = it >= iterations_max && !near;
+    if (spent || stumbles > STUMBLES_MAX || !isfinite(residual)) {
       fail(contact, residual, changes, it, report);
       if (report != NULL) {
         report->residual = residual;
@@ -152,13 +152,13 @@ SbStatus sb_ring_newton(SbRingContact *contact, const SbRingNewton *options, SbR
       }
       return SB_ERROR_NOT_CONVERGED;
     }
-    count->iterations++;
+    ring->count.iterations++;
     SbStatus status = sb_ring_fem_solve(fem, report);
     if (status != SB_OK) {
       return status;
     }
     double length = largest(fem->du, 2 * fem->mesh->nodes);
-    step = length > options->correction_max ? options->correction_max / length : 1.0;
+    step = length > CORRECTION_MAX ? CORRECTION_MAX / length : 1.0;
     step = fmin(step, sb_ring_contact_limit(contact));
     sb_ring_fem_save(fem, 0);
     sb_ring_fem_advance(fem, step);
@@ -180,6 +180,11 @@ enum { VISCOUS_STEPS = 50, DROPS_MAX = 4, WALKS_MAX = 3 };
 
 // Newton iterations after which a load step is given up at its next failure.
 enum { ITERATIONS_MOST = 1000 };
+
+// A sealed path: short of its fold Newton's method takes few iterations, and a step that loses the
+// contact went past. Parts at least, and the least share of a part.
+enum { SEALED_ITERATIONS = 14 };
+static const double SEALED_PARTS = 4.0, SEALED_LEAST = 1.0 / 8.0;
 
 // A motion beyond which the ring counts as gone, in section diameters; the turn beyond which it
 // rolls and the largest one of a part, in radians.
@@ -247,12 +252,14 @@ static SbStatus take_turn(SbRingContact *contact, SbReport *report) {
 }
 
 // Solves at the present load; back to the start of the part where that fails.
-static SbStatus attempt(SbRingContact *contact, const SbRingNewton *options, SbRingCount *count,
-                        SbReport *report) {
-  SbStatus status = sb_ring_newton(contact, options, count, report);
-  contact->fem->viscosity = 0.0;
+static SbStatus attempt(SbRing *ring, SbRingPath path, SbReport *report) {
+  SbRingContact *contact = ring->contact;
+  SbRingPatch patch;
+  SbStatus status = sb_ring_newton(
+      ring, path == SB_RING_SEALED ? SEALED_ITERATIONS : ring->options.iterations_max, report);
+  ring->fem->viscosity = 0.0;
   status = status == SB_OK ? take_turn(contact, report) : status;
-  if (status == SB_OK && options->keeps != NULL && !options->keeps(options->keeps_data)) {
+  if (status == SB_OK && path == SB_RING_SEALED && !sb_ring_patch(ring, SB_RING_BORE, &patch)) {
     status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the contact is lost");
   }
   if (status != SB_OK) {
@@ -262,19 +269,19 @@ static SbStatus attempt(SbRingContact *contact, const SbRingNewton *options, SbR
 }
 
 // Follows the ring at another load from the present state to an equilibrium.
-static SbStatus walk(SbRingContact *contact, const SbRingLoad *load, const SbRingNewton *options,
-                     SbRingCount *count, SbReport *report) {
+static SbStatus walk(SbRing *ring, const SbRingLoad *load, SbReport *report) {
+  SbRingContact *contact = ring->contact;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   double c = VISCOSITY;
   int drops = 0;
   double turn, from = place_of_section(contact, &turn);
   for (int i = 0; i < VISCOUS_STEPS && c <= VISCOSITY_MOST; i++) {
     bool drop = c < VISCOSITY_LEAST;
-    contact->fem->viscosity = drop ? 0.0 : c;
+    ring->fem->viscosity = drop ? 0.0 : c;
     sb_ring_save(contact, SB_RING_START);
     contact->is.now = *load;
-    int before = count->iterations;
-    status = attempt(contact, options, count, report);
+    int before = ring->count.iterations;
+    status = attempt(ring, SB_RING_FOLLOW, report);
     if (contact->rolls || status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY ||
         (status == SB_OK && drop)) {
       return status;
@@ -284,7 +291,7 @@ static SbStatus walk(SbRingContact *contact, const SbRingLoad *load, const SbRin
         return sb_fail(report, SB_ERROR_NOT_CONVERGED,
                        "the ring leaves its place, nothing holds it axially");
       }
-      int used = count->iterations - before;
+      int used = ring->count.iterations - before;
       c *= used <= 6 ? 0.3 : used <= 12 ? 0.6 : 1.0;
       continue;
     }
@@ -315,10 +322,14 @@ static bool gives_up(const SbRingContact *contact, SbStatus status, int iteratio
          iterations > ITERATIONS_MOST;
 }
 
-SbStatus sb_ring_advance(SbRingContact *contact, const SbRingLoad *target,
-                         const SbRingNewton *options, SbRingCount *count, SbReport *report) {
+SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path,
+                         SbReport *report) {
+  SbRingContact *contact = ring->contact;
+  SbRingCount *count = &ring->count;
   SbRingLoad start = contact->is.now;
-  double part = 1.0 / fmax(options->parts_least, parts(&start, target));
+  bool sealed = path == SB_RING_SEALED;
+  double part = 1.0 / fmax(sealed ? SEALED_PARTS : 1.0, parts(&start, target));
+  double least = part * (sealed ? SEALED_LEAST : ring->options.step_least);
   double done = 0.0, share = part;
   int walks = 0, first = count->iterations;
   contact->rolls = false;
@@ -328,17 +339,18 @@ SbStatus sb_ring_advance(SbRingContact *contact, const SbRingLoad *target,
     sb_ring_save(contact, SB_RING_START);
     contact->is.now = load;
     int before = count->iterations;
-    SbStatus status = attempt(contact, options, count, report);
+    SbStatus status = attempt(ring, path, report);
     if (status == SB_OK) {
       share = count->iterations - before <= 8 ? 2.0 * share : share;
     } else {
       count->rejected++;
     }
     bool stop = status != SB_OK && gives_up(contact, status, count->iterations - first);
-    if (status != SB_OK && !stop && options->walks && share <= 0.25 * part && walks < WALKS_MAX) {
+    if (status != SB_OK && !stop && path == SB_RING_FOLLOW && share <= 0.25 * part &&
+        walks < WALKS_MAX) {
       walks++;
       sb_ring_save(contact, SB_RING_BEFORE);
-      status = walk(contact, &load, options, count, report);
+      status = walk(ring, &load, report);
       if (status == SB_OK) {
         share = 0.5 * part;
       } else {
@@ -352,7 +364,7 @@ SbStatus sb_ring_advance(SbRingContact *contact, const SbRingLoad *target,
       continue;
     }
     share *= 0.5;
-    if (stop || share < options->step_least * part) {
+    if (stop || share < least) {
       if (status == SB_ERROR_NOT_CONVERGED) {
         explain(done, report);
       }

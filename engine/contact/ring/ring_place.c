@@ -10,19 +10,6 @@
 #include <math.h>
 #include <string.h>
 
-SbRingNewton sb_ring_newton_options(const SbRing *ring) {
-  SbRingNewton newton = {
-      .iterations_max = ring->options.iterations_max,
-      .step_least = ring->options.step_least,
-      .stumbles_max = 4,
-      .walks = true,
-      .correction_max = 0.15,
-      .poll = ring->options.poll,
-      .poll_data = ring->options.poll_data,
-  };
-  return newton;
-}
-
 // Volume-preserving guess: uniform stretch and a share of the squeeze, sunk into the floor by what
 // a stretched ring flattens there (about 0.3 of its inner stretch, measured), so that the contacts
 // start with some width.
@@ -108,7 +95,6 @@ static SbStatus lean(SbRing *ring, const SbRingLoad *s, bool *leaned, SbReport *
 // To another load, leaning first where that is wanted. If pushing the ring to its wall was too
 // rough, it is followed there instead.
 SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report) {
-  SbRingNewton newton = sb_ring_newton_options(ring);
   bool leaned;
   sb_ring_save(ring->contact, SB_RING_BEFORE);
   SbStatus status = lean(ring, target, &leaned, report);
@@ -116,21 +102,14 @@ SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report)
     return status;
   }
   int steps = ring->count.steps;
-  newton.walks = !leaned;
-  status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
+  status = sb_ring_advance(ring, target, leaned ? SB_RING_DIRECT : SB_RING_FOLLOW, report);
   if (leaned && status == SB_ERROR_NOT_CONVERGED) {
     if (ring->count.steps == steps) {
       sb_ring_restore(ring->contact, SB_RING_BEFORE);
     }
-    newton.walks = true;
-    status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
+    status = sb_ring_advance(ring, target, SB_RING_FOLLOW, report);
   }
   return status;
-}
-
-static bool touches_bore(void *ring) {
-  SbRingPatch patch;
-  return sb_ring_patch(ring, SB_RING_BORE, &patch);
 }
 
 // Presses a ring that does not touch the bore by itself. The sealed state, which the fluid holds
@@ -139,7 +118,6 @@ static bool touches_bore(void *ring) {
 // fluid passes the ring.
 static SbStatus press_open(SbRing *ring, const SbRingLoad *target, SbReport *report) {
   static const double CLOSED = 0.05;
-  SbRingNewton newton = sb_ring_newton_options(ring);
   double top = 0.0;
   for (int i = 0; i < ring->contact->count; i++) {
     double x[2];
@@ -150,22 +128,14 @@ static SbStatus press_open(SbRing *ring, const SbRingLoad *target, SbReport *rep
   tight.bore_radius = fmin(target->bore_radius, top - CLOSED);
   SbRingLoad dry = tight;
   dry.pressure_left = dry.pressure_right = 0.0;
-  SbStatus status = sb_ring_advance(ring->contact, &dry, &newton, &ring->count, report);
+  SbStatus status = sb_ring_advance(ring, &dry, SB_RING_FOLLOW, report);
   if (status == SB_OK) {
     status = sb_ring_press(ring, &tight, report);
   }
   if (status != SB_OK) {
     return status;
   }
-  // Short of the fold Newton's method takes few iterations; a step that loses the contact went
-  // past.
-  newton.walks = false;
-  newton.iterations_max = 14;
-  newton.parts_least = 4.0;
-  newton.step_least = 1.0 / 8.0;
-  newton.keeps = touches_bore;
-  newton.keeps_data = ring;
-  status = sb_ring_advance(ring->contact, target, &newton, &ring->count, report);
+  status = sb_ring_advance(ring, target, SB_RING_SEALED, report);
   if (status != SB_ERROR_NOT_CONVERGED) {
     return status;
   }
@@ -179,37 +149,36 @@ static SbStatus press_open(SbRing *ring, const SbRingLoad *target, SbReport *rep
       1e3 * l * (target->bore_radius - target->floor_radius));
 }
 
+// Solves at a load from a guess.
+static SbStatus start(SbRing *ring, const SbRingLoad *load, double share, SbReport *report) {
+  ring->contact->is.now = *load;
+  guess(ring, load, share);
+  sb_ring_contact_detect(ring->contact);
+  return sb_ring_newton(ring, ring->options.iterations_max, report);
+}
+
 // Fits the ring without fluid and friction, then brings on the fluid.
 SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport *report) {
-  SbRingNewton newton = sb_ring_newton_options(ring);
   SbRingLoad dry = *smooth;
   dry.pressure_left = dry.pressure_right = 0.0;
-  SbStatus status = SB_ERROR_NOT_CONVERGED;
-  // Guesses with different shares of the squeeze, then a small squeeze that grows.
-  static const double SHARE[] = {0.4, 0.0};
-  for (size_t i = 0; i < sizeof SHARE / sizeof SHARE[0] && status == SB_ERROR_NOT_CONVERGED; i++) {
-    ring->contact->is.now = dry;
-    guess(ring, &dry, SHARE[i]);
-    sb_ring_contact_detect(ring->contact);
-    status = sb_ring_newton(ring->contact, &newton, &ring->count, report);
+  // Guesses with different shares of the squeeze, then a small squeeze that grows, and the ends of
+  // the land that come in from outside.
+  SbStatus status = start(ring, &dry, 0.4, report);
+  if (status == SB_ERROR_NOT_CONVERGED) {
+    status = start(ring, &dry, 0.0, report);
   }
   if (status == SB_ERROR_NOT_CONVERGED) {
     SbRingLoad wide = dry;
     wide.bore_radius = fmax(dry.bore_radius, dry.floor_radius + 0.85);
-    guess(ring, &wide, 0.4);
-    // The ends of the land come in from outside.
     wide.land_right = fmax(dry.land_right, SB_RING_REACH);
     wide.land_left = fmin(dry.land_left, -SB_RING_REACH);
-    ring->contact->is.now = wide;
-    sb_ring_contact_detect(ring->contact);
-    status = sb_ring_newton(ring->contact, &newton, &ring->count, report);
-    SbRingLoad squeezed = wide;
-    squeezed.bore_radius = dry.bore_radius;
+    status = start(ring, &wide, 0.4, report);
+    wide.bore_radius = dry.bore_radius;
     if (status == SB_OK) {
-      status = sb_ring_advance(ring->contact, &squeezed, &newton, &ring->count, report);
+      status = sb_ring_advance(ring, &wide, SB_RING_FOLLOW, report);
     }
     if (status == SB_OK) {
-      status = sb_ring_advance(ring->contact, &dry, &newton, &ring->count, report);
+      status = sb_ring_advance(ring, &dry, SB_RING_FOLLOW, report);
     }
   }
   if (status != SB_OK) {

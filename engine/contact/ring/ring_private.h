@@ -2,7 +2,13 @@
 #pragma once
 
 #include "engine/contact/ring/ring.h"
-#include "engine/contact/ring/ring_newton.h"
+#include "engine/contact/ring/ring_contact.h"
+
+typedef struct {
+  int iterations; // Newton iterations, rejected attempts included
+  int steps;      // accepted load steps
+  int rejected;   // attempts that were halved
+} SbRingCount;
 
 // Work memory of sb_ring_ends(); of no content between calls (ring_pressure.c).
 typedef struct SbRingRecovery SbRingRecovery;
@@ -47,8 +53,17 @@ bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
 // kept if that fails.
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
 
-// Newton's method as the ring's options want it.
-SbRingNewton sb_ring_newton_options(const SbRing *ring);
+// Newton's method with the contact's active set at the load `contact->is.now`; the state is left at
+// the last iterate on failure.
+SbStatus sb_ring_newton(SbRing *ring, int iterations_max, SbReport *report);
+
+// How load steps are taken: followed in viscous steps where the next equilibrium is not near, never
+// so, or as long as the bore is touched.
+typedef enum { SB_RING_FOLLOW, SB_RING_DIRECT, SB_RING_SEALED } SbRingPath;
+
+// Moves from the present converged load to `target`, in as many steps as it takes. On failure the
+// last converged load and state remain, and the report says where equilibrium ended.
+SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path, SbReport *report);
 
 // Fits the ring anew without friction at a load, fluid last, on its present mesh. Errors as
 // sb_ring_create.

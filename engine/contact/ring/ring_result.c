@@ -284,22 +284,41 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
                         .newton_iterations = ring->count.iterations,
                         .load_steps = ring->count.steps,
                         .rejected_steps = ring->count.rejected};
-  double l = ring->length, f = ring->force, force[SB_RING_SURFACES][2];
-  for (int s = 0; s < SB_RING_SURFACES; s++) {
-    sb_ring_contact_total(contact, (SbRingSurface)s, force[s]);
-  }
-  SbRingPatch patch[SB_RING_SURFACES];
-  bool touches[SB_RING_SURFACES];
-  SbDryContact smooth;
-  for (int s = 0; s < SB_RING_SURFACES; s++) {
-    touches[s] = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
-    if (touches[s]) {
-      sb_ring_ends(ring, (SbRingSurface)s, &patch[s], &smooth);
+  double l = ring->length, f = ring->force, force[SB_RING_SURFACES][2] = {{0.0}};
+  // Forces, extents, penetration, least excess pressure.
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, least = HUGE_VAL;
+  double axial = 0.0;
+  for (int i = 0; i < contact->count; i++) {
+    double x[2];
+    sb_ring_contact_place(contact, i, x);
+    for (int k = 0; k < 2; k++) {
+      low[k] = fmin(low[k], x[k]);
+      high[k] = fmax(high[k], x[k]);
+    }
+    axial += contact->fluid[2 * i + 1];
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      SbRingFrame frame = sb_ring_frame(&contact->is.now, (SbRingSurface)s, x);
+      const SbRingTouch *touch = sb_ring_touch(contact, i, s);
+      out->penetration = fmax(out->penetration, -frame.gap * l);
+      if (touch->held) {
+        least = fmin(least, excess(contact, i, (SbRingSurface)s) / contact->weight[i]);
+        for (int k = 0; k < 2; k++) {
+          force[s][k] += touch->force * frame.n[k] + touch->tangent * frame.t[k];
+        }
+      }
     }
   }
-  for (int s = SB_RING_BORE; s <= SB_RING_FLOOR; s++) {
-    double share = touches[s] ? end_share(ring, &patch[s]) : 0.0;
-    force[s][0] += s == SB_RING_BORE ? -share : share;
+  SbRingPatch patch[SB_RING_SURFACES] = {0};
+  SbDryContact smooth;
+  for (int s = 0; s < SB_RING_SURFACES; s++) {
+    bool touches = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
+    if (touches) {
+      sb_ring_ends(ring, (SbRingSurface)s, &patch[s], &smooth);
+    }
+    if (touches && s <= SB_RING_FLOOR) {
+      force[s][0] += (s == SB_RING_BORE ? -1.0 : 1.0) * end_share(ring, &patch[s]);
+    }
+    out->touching = out->touching || (touches && s == SB_RING_BORE);
   }
   out->bore_force = 0.0 - force[SB_RING_BORE][0] * f; // not -0
   out->bore_drag = force[SB_RING_BORE][1] * f;
@@ -310,50 +329,24 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   out->wall_left_force = force[SB_RING_WALL_LEFT][1] * f;
   out->wall_left_drag = force[SB_RING_WALL_LEFT][0] * f;
 
-  out->touching = touches[SB_RING_BORE];
   out->state = contact->rolls ? SB_RING_ROLLS : out->touching ? SB_RING_SLIDES : SB_RING_NO_CONTACT;
   if (out->touching) {
-    const SbRingPatch *bore = &patch[SB_RING_BORE];
-    out->contact_left = bore->place[0] * l;
-    out->contact_right = bore->place[1] * l;
     double peak, place;
-    find_peak(ring, bore, &peak, &place);
+    find_peak(ring, &patch[SB_RING_BORE], &peak, &place);
     out->pressure_peak = peak * ring->stress;
     out->position_peak = place * l;
   }
-  if (touches[SB_RING_FLOOR]) {
-    out->floor_left = patch[SB_RING_FLOOR].place[1] * l;
-    out->floor_right = patch[SB_RING_FLOOR].place[0] * l;
-  }
-  if (touches[SB_RING_WALL_RIGHT]) {
-    out->wall_inner = patch[SB_RING_WALL_RIGHT].place[1] * l;
-    out->wall_outer = patch[SB_RING_WALL_RIGHT].place[0] * l;
-  }
-
-  // Extents, penetration, least excess pressure.
-  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, least = HUGE_VAL;
-  double axial = 0.0, axial_most = 0.0;
-  for (int i = 0; i < contact->count; i++) {
-    double x[2];
-    sb_ring_contact_place(ring->contact, i, x);
-    for (int k = 0; k < 2; k++) {
-      low[k] = fmin(low[k], x[k]);
-      high[k] = fmax(high[k], x[k]);
-    }
-    axial += contact->fluid[2 * i + 1];
-    for (int s = 0; s < SB_RING_SURFACES; s++) {
-      double gap = sb_ring_frame(&contact->is.now, (SbRingSurface)s, x).gap;
-      out->penetration = fmax(out->penetration, -gap * l);
-      if (sb_ring_touch(contact, i, s)->held) {
-        least = fmin(least, excess(contact, i, (SbRingSurface)s) / contact->weight[i]);
-      }
-    }
-  }
+  out->contact_left = patch[SB_RING_BORE].place[0] * l;
+  out->contact_right = patch[SB_RING_BORE].place[1] * l;
+  out->floor_left = patch[SB_RING_FLOOR].place[1] * l;
+  out->floor_right = patch[SB_RING_FLOOR].place[0] * l;
+  out->wall_inner = patch[SB_RING_WALL_RIGHT].place[1] * l;
+  out->wall_outer = patch[SB_RING_WALL_RIGHT].place[0] * l;
   out->pressure_least = isfinite(least) ? least * ring->stress : 0.0;
   out->thickness = (high[0] - low[0]) * l;
   out->axial_left = low[1] * l;
   out->axial_right = high[1] * l;
-  axial_most = fabs(axial);
+  double axial_most = fabs(axial);
   for (int s = 0; s < SB_RING_SURFACES; s++) {
     axial += force[s][1];
     axial_most = fmax(axial_most, fmax(fabs(force[s][1]), fabs(force[s][0])));
