@@ -196,7 +196,7 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
   // Solved rings take seconds, everything else before the frames milliseconds.
   run->before_frames = plan->section_fields ? 0.95 : plan->ring ? 0.9 : 0;
   run->after_frames = run->life != NULL ? 0.9 * (1 - run->before_frames) : 0;
-  SbStatus status = sb_run_solve_states_at_speed(run, hooks, report);
+  SbStatus status = sb_run_solve_states(run, hooks, report);
   if (status == SB_OK && plan->section_fields) {
     status = sb_run_solve_shapes(run, hooks, report);
   }

@@ -76,8 +76,9 @@ struct SbRun {
   atomic_size_t published;
 };
 
-// Solves every steady sliding state the cycle can need, and the profiles if the plan wants them
-// (run_states.c).
+// Solves every steady sliding state the cycle can need, and the profiles if the plan wants them, at
+// the speed of the machine or, where something else drives the stem, at the stem's own mean speed
+// from B to C, which follows from them: repeated until they agree (run_states.c).
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // Solves the rings' deformed sections for drawing (run_shapes.c). A shape that cannot be found is
@@ -92,9 +93,6 @@ uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int m
 // The first chamber state with the pressures of this one on a seal that touches then: one solution
 // serves both (run_states.c).
 int sb_run_first_alike(const SbRun *run, int seal, int chamber);
-
-// Where the profile of a state is kept; `motion` is SB_CYCLE_IN, SB_CYCLE_OUT or SB_RUN_REST.
-uint32_t sb_run_profile_slot(int seal, SbChamber chamber, int motion);
 
 // Contact, load, film of one seal of a frame, at stem displacement s (run_states.c). Friction is
 // left to the caller.
@@ -114,11 +112,6 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
                         const SbDynamicsCounters *counters);
 
-// Solves the sliding states, at the speed of the machine or, where something else drives the stem,
-// at the stem's own mean speed from B to C, which follows from them: repeated until they agree
-// (run_speed.c).
-SbStatus sb_run_solve_states_at_speed(SbRun *run, const SbRunHooks *hooks, SbReport *report);
-
 // Mean speed of the stem from B to C [m/s], or from B to D, or from E to F, whichever it passes
 // first, by the present sliding states; of a sinusoid that passes none, its own. 0 if there is
 // none. *slips tells whether the stem slides at all (run_dynamic.c).
@@ -135,20 +128,20 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 // (run_film.c). From where a seal's film fails its frames have none (NaN), with a warning.
 SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, SbReport *report);
 
-// Notes why there can be no motion; the first reason stays (run_reasons.c).
+// Notes why there can be no motion; the first reason stays (run_figures.c).
 void sb_run_lacks_motion(SbRun *run, const char *format, ...) SB_PRINTF(2, 3);
 
-// Takes back what only a whole motion tells, of one that ended early (run_reasons.c).
+// Takes back what only a whole motion tells, of one that ended early (run_figures.c).
 void sb_run_clear_motion(SbRun *run, const char *why);
 
 // The net leak of a stem that came back to where it began; else NaN, with the reason.
 double sb_run_cycle_leakage(SbSummary *summary, double carried, bool back);
 
 // Gives the figures that are missing by the choice of models or by what happened their reasons
-// (run_reasons.c). The last step of a run.
+// (run_figures.c). The last step of a run.
 void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report);
 
-// Figures of each seal at the middle of B-C (run_seals.c).
+// Figures of each seal at the middle of B-C (run_figures.c).
 void sb_run_summarise_seals(SbRun *run);
 
 // Makes the first `count` frames visible to other threads.
