@@ -2,6 +2,7 @@
 #include "engine/numeric/root.h"
 
 #include <float.h>
+#include <gsl/gsl_interp.h>
 #include <math.h>
 
 double sb_bisect(SbFunction f, const void *context, double above, double below) {
@@ -34,10 +35,5 @@ double sb_newton_bracketed(SbSlopedFunction f, const void *context, double low, 
 }
 
 size_t sb_interval(const double *x, size_t count, double at) {
-  size_t low = 0, high = count - 1;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    *(x[middle] <= at ? &low : &high) = middle;
-  }
-  return low;
+  return gsl_interp_bsearch(x, at, 0, count - 1);
 }
