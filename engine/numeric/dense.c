@@ -1,8 +1,8 @@
-// Gaussian elimination with row exchanges; Jacobi's eigenvalues (Golub and Van Loan, Matrix
-// Computations, 3.4 and 8.5).
+// Gaussian elimination with row exchanges (Golub and Van Loan, Matrix Computations, 3.4).
 #include "engine/numeric/dense.h"
 
 #include <assert.h>
+#include <gsl/gsl_eigen.h>
 #include <lapacke.h>
 #include <math.h>
 
@@ -70,39 +70,18 @@ bool sb_eliminate(double *a, double *b, size_t n) {
   return true;
 }
 
-// Rows or columns p and q of m, `step` apart, turned by an angle of cosine c and sine s.
-static void rotate(double *p, double *q, size_t step, size_t n, double c, double s) {
-  for (size_t k = 0; k < n * step; k += step) {
-    const double before = p[k];
-    p[k] = c * before - s * q[k];
-    q[k] = s * before + c * q[k];
-  }
-}
-
 void sb_eigen_symmetric(double *a, double *v, size_t n) {
-  for (size_t i = 0; v != NULL && i < n * n; i++) {
-    v[i] = i % (n + 1) == 0 ? 1.0 : 0.0;
-  }
-  bool rotated = true;
-  for (int sweep = 0; sweep < 60 && rotated; sweep++) {
-    rotated = false;
-    for (size_t p = 0; p + 1 < n; p++) {
-      for (size_t q = p + 1; q < n; q++) {
-        const double off = a[p + q * n], low = a[p + p * n], high = a[q + q * n];
-        if (fabs(off) <= 1e-17 * (fabs(low) + fabs(high))) {
-          continue;
-        }
-        rotated = true;
-        const double theta = 0.5 * (high - low) / off;
-        const double t = copysign(1.0, theta) / (fabs(theta) + hypot(theta, 1.0));
-        const double c = 1.0 / hypot(t, 1.0), s = t * c;
-        rotate(&a[p * n], &a[q * n], 1, n, c, s);
-        rotate(&a[p], &a[q], n, n, c, s);
-        if (v != NULL) {
-          rotate(&v[p * n], &v[q * n], 1, n, c, s);
-        }
-      }
-    }
+  double value[SB_EIGEN_MAX], own[SB_EIGEN_MAX * SB_EIGEN_MAX];
+  unsigned rotations;
+  assert(n <= SB_EIGEN_MAX);
+  v = v != NULL ? v : own;
+  gsl_matrix_view matrix = gsl_matrix_view_array(a, n, n), vectors = gsl_matrix_view_array(v, n, n);
+  gsl_vector_view values = gsl_vector_view_array(value, n);
+  // What is left of the others after 60 sweeps is below rounding.
+  (void)gsl_eigen_jacobi(&matrix.matrix, &values.vector, &vectors.matrix, 60, &rotations);
+  gsl_matrix_transpose(&vectors.matrix); // GSL's rows are our columns
+  for (size_t i = 0; i < n; i++) {
+    a[i + i * n] = value[i];
   }
 }
 

@@ -15,8 +15,11 @@ enum { SB_ELIMINATE_MAX = 256 };
 // Both at once for n <= SB_ELIMINATE_MAX: a is lost.
 SB_CHECKED bool sb_eliminate(double *a, double *b, size_t n);
 
-// Eigenvalues of a symmetric matrix onto its diagonal, by Jacobi's rotations, which keep the small
-// ones' digits; its rest is lost. Eigenvectors as the columns of v, NULL: not wanted.
+enum { SB_EIGEN_MAX = 12 };
+
+// Eigenvalues of a symmetric matrix, n <= SB_EIGEN_MAX, onto its diagonal, by Jacobi's rotations,
+// which keep the small ones' digits; its rest is lost. Eigenvectors as the columns of v, NULL: not
+// wanted.
 void sb_eigen_symmetric(double *a, double *v, size_t n);
 
 // Solves a x = b in place by LAPACK: `a` is n x n by rows. `fresh` replaces it by its factors, with

@@ -5,6 +5,7 @@
 
 #include <assert.h>
 #include <float.h>
+#include <gsl/gsl_interp.h>
 #include <math.h>
 #include <string.h>
 
@@ -61,12 +62,7 @@ double sb_minimum(SbFunction f, const void *context, double low, double high, do
 }
 
 size_t sb_interval(const double *x, size_t count, double at) {
-  size_t low = 0, high = count - 1;
-  while (high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    *(x[middle] <= at ? &low : &high) = middle;
-  }
-  return low;
+  return gsl_interp_bsearch(x, at, 0, count - 1);
 }
 
 double sb_hermite(double *slope, double f, double width, const double value[2],

@@ -134,3 +134,8 @@ const char *sb_leak_state_name(SbLeakState state) {
   static const char *const names[] = {"not-computed", "closed", "percolating", "open"};
   return names[state];
 }
+
+const char *sb_stage_name(SbStage stage) {
+  static const char *const names[SB_STAGE_COUNT] = {"A", "B", "C", "D", "E", "F"};
+  return (unsigned)stage < SB_STAGE_COUNT ? names[stage] : "?";
+}

@@ -579,25 +579,6 @@ void sb_model_gland(SbGland *out, const SbModel *model, int seal) {
   };
 }
 
-void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure) {
-  const SbSealModel *ring = &model->seal[seal];
-  *out = (SbFitProblem){
-      .model = model->fit,
-      .section_diameter = ring->section_diameter,
-      .inner_diameter = ring->inner_diameter,
-      .modulus = ring->modulus,
-      .poisson_ratio = ring->poisson_ratio,
-      .mooney_share = ring->mooney_share,
-      .housing_modulus = model->housing_modulus,
-      .housing_poisson = model->housing_poisson_ratio,
-      .radial_space = model->radial_space,
-      .bore_diameter = model->bore_diameter,
-      .gland_width = model->axial_width,
-      .pressure = pressure,
-      .tolerance = model->tolerance,
-  };
-}
-
 SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber) {
   double canister = model->canister_pressure;
   // With ports the pressure lies between: vented stands for none, closed for all of it.

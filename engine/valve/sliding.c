@@ -105,25 +105,6 @@ static SbStatus solve_fit(const Task *task, SbReport *report) {
   return status;
 }
 
-void sb_sliding_film_problem(SbFilmProblem *out, const SbModel *model, int seal,
-                             SbSealPressure pressure, double load_net, double speed) {
-  sb_film_problem_init(out);
-  out->load = load_net;
-  out->speed = speed;
-  out->radius = model->seal[seal].radius;
-  out->modulus = model->seal[seal].reduced_modulus;
-  out->viscosity = model->viscosity;
-  out->pressure_left = pressure.left;
-  out->pressure_right = pressure.right;
-  out->pressure_viscosity = model->pressure_viscosity;
-  out->eyring_stress = model->eyring_stress;
-  // A fluid beside the seal that is below its vapour pressure has boiled away: the film then
-  // breaks at the pressure around it.
-  out->rupture_pressure = fmin(model->rupture_pressure, fmin(pressure.left, pressure.right));
-  out->tolerance = model->tolerance;
-  out->profile_points = 1500; // drawn and written, not differentiated
-}
-
 static SbStatus solve_on(const Task *task, Solved *out, const SbFilmProblem *problem,
                          SbReport *report) {
   SbSlidingMemory *memory = task->memory;

@@ -1,7 +1,45 @@
-// The surface of a fitted body as the film takes it; see sb_sliding_surface() in sliding.h.
+// What the solvers of fitment and film are asked of a seal; see sliding.h.
 #include "engine/valve/sliding.h"
 
 #include <math.h>
+
+void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure) {
+  const SbSealModel *ring = &model->seal[seal];
+  *out = (SbFitProblem){
+      .model = model->fit,
+      .section_diameter = ring->section_diameter,
+      .inner_diameter = ring->inner_diameter,
+      .modulus = ring->modulus,
+      .poisson_ratio = ring->poisson_ratio,
+      .mooney_share = ring->mooney_share,
+      .housing_modulus = model->housing_modulus,
+      .housing_poisson = model->housing_poisson_ratio,
+      .radial_space = model->radial_space,
+      .bore_diameter = model->bore_diameter,
+      .gland_width = model->axial_width,
+      .pressure = pressure,
+      .tolerance = model->tolerance,
+  };
+}
+
+void sb_sliding_film_problem(SbFilmProblem *out, const SbModel *model, int seal,
+                             SbSealPressure pressure, double load_net, double speed) {
+  sb_film_problem_init(out);
+  out->load = load_net;
+  out->speed = speed;
+  out->radius = model->seal[seal].radius;
+  out->modulus = model->seal[seal].reduced_modulus;
+  out->viscosity = model->viscosity;
+  out->pressure_left = pressure.left;
+  out->pressure_right = pressure.right;
+  out->pressure_viscosity = model->pressure_viscosity;
+  out->eyring_stress = model->eyring_stress;
+  // A fluid beside the seal that is below its vapour pressure has boiled away: the film then
+  // breaks at the pressure around it.
+  out->rupture_pressure = fmin(model->rupture_pressure, fmin(pressure.left, pressure.right));
+  out->tolerance = model->tolerance;
+  out->profile_points = 1500; // drawn and written, not differentiated
+}
 
 // Gives a surface the gap whose dry contact has the fitment's pressure, and solves that for a
 // check. A gap of many polynomials may touch again outside the contact; then fewer do.
