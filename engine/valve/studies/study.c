@@ -66,15 +66,40 @@ static void put_design(SbStudy *out, const SbStudyDesign *design) {
     panel->y = design->panel[out->panel_count++];
     sb_text(panel->empty, sizeof panel->empty, "no value in this range");
   }
-  sb_text(out->row_heading, sizeof out->row_heading, "%s",
-          design->row_heading != NULL ? design->row_heading : "");
-  while (out->column_count < SB_STUDY_COLUMNS && design->column[out->column_count].name[0] != 0) {
-    out->column[out->column_count] = design->column[out->column_count];
+  memcpy(out->column, design->column, sizeof out->column);
+  while (out->column_count < SB_STUDY_COLUMNS && out->column[out->column_count].name[0] != 0) {
     out->column_count++;
   }
-  sb_text(out->models, sizeof out->models, "%s", design->models != NULL ? design->models : "");
-  sb_text(out->validity, sizeof out->validity, "%s",
-          design->validity != NULL ? design->validity : "");
+  memcpy(out->row_heading, design->row_heading, sizeof out->row_heading);
+  memcpy(out->models, design->models, sizeof out->models);
+  memcpy(out->validity, design->validity, sizeof out->validity);
+}
+
+bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report) {
+  if (work->status == SB_OK && status != SB_OK) {
+    work->status = status;
+    if (status == SB_ERROR_CANCELLED) {
+      // Said alike wherever it struck.
+      (void)sb_fail(work->report, status, "the study was cancelled");
+    } else if (work->report != NULL) {
+      *work->report = *report;
+    }
+  }
+  return work->status == SB_OK;
+}
+
+// Tells the progress and looks for a cancel.
+static void step(SbStudyWork *work, double fraction) {
+  const SbStudyHooks *hooks = &work->hooks;
+  if (work->status != SB_OK) {
+    return;
+  }
+  if (hooks->progress != NULL) {
+    hooks->progress(hooks->data, fraction);
+  }
+  if (hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
+    (void)sb_study_goes_on(work, SB_ERROR_CANCELLED, NULL);
+  }
 }
 
 static void fix(SbStudyWork *work, const SbOverride *override, size_t count) {
@@ -148,7 +173,7 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   if (work->status == SB_OK) {
     work->status = sb_film_solver_create(&work->solver, report);
   }
-  sb_study_step(work, 0);
+  step(work, 0);
   fix_base(work);
   if (work->status == SB_OK) {
     design->make(work);
@@ -156,7 +181,7 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   for (int i = 0; i < 2 && work->largest[i] > 0; i++) {
     out->error = fmax(out->error, work->error[i] / work->largest[i]);
   }
-  sb_study_step(work, 1);
+  step(work, 1);
   sb_evaluator_destroy(work->evaluator);
   sb_film_solver_destroy(work->solver);
   SbStatus status = work->status;
@@ -204,16 +229,15 @@ double sb_study_place(const SbStudyWork *work, int index, int count) {
 
 const double *sb_study_at(SbStudyWork *work, int line, double x) {
   for (size_t i = 0; i < work->answers; i++) {
-    const SbStudyAnswer *known = &work->answer[i];
-    if (known->line == line && fabs(known->x - x) <= 1e-9 * fabs(x)) {
-      return known->value;
+    if (work->answer[i].line == line && fabs(work->answer[i].x - x) <= 1e-9 * fabs(x)) {
+      return work->answer[i].value;
     }
   }
-  SbStudyAnswer *answer = &work->answer[next(&work->answers, SB_STUDY_ANSWERS)];
-  answer->line = line;
-  answer->x = x;
-  work->design->solve(answer->value, work, line, x);
-  return answer->value;
+  size_t at = next(&work->answers, SB_STUDY_ANSWERS);
+  work->answer[at].line = line;
+  work->answer[at].x = x;
+  work->design->solve(work->answer[at].value, work, line, x);
+  return work->answer[at].value;
 }
 
 void sb_study_curves(SbStudyWork *work, SbStudyStyle style, const char *name, int line,
@@ -257,32 +281,6 @@ void sb_study_note(SbStudy *out, const char *format, ...) {
 }
 
 // ---- asking ----
-
-bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report) {
-  if (work->status == SB_OK && status != SB_OK) {
-    work->status = status;
-    if (status == SB_ERROR_CANCELLED) {
-      // Said alike wherever it struck.
-      (void)sb_fail(work->report, status, "the study was cancelled");
-    } else if (work->report != NULL) {
-      *work->report = *report;
-    }
-  }
-  return work->status == SB_OK;
-}
-
-void sb_study_step(SbStudyWork *work, double fraction) {
-  const SbStudyHooks *hooks = &work->hooks;
-  if (work->status != SB_OK) {
-    return;
-  }
-  if (hooks->progress != NULL) {
-    hooks->progress(hooks->data, fraction);
-  }
-  if (hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
-    (void)sb_study_goes_on(work, SB_ERROR_CANCELLED, NULL);
-  }
-}
 
 void sb_study_squeezed(SbOverride out[SB_STUDY_SQUEEZED], const SbStudyWork *work, double squeeze) {
   const SbModel *scene = work->scene;
@@ -357,7 +355,7 @@ void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, siz
             what, report.text);
     work->out->complete = work->out->complete && status != SB_ERROR_NOT_CONVERGED;
   }
-  sb_study_step(work, fmin(work->spent / work->total, 1));
+  step(work, fmin(work->spent / work->total, 1));
 }
 
 void sb_study_contact(double value[SB_STUDY_CONTACT], SbStudyWork *work, const SbOverride *override,
@@ -393,6 +391,6 @@ SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport
     const SbFilmSolverInfo *info = &work->film.solver;
     work->out->error = fmax(work->out->error, fmax(info->error_film_min, info->error_film_central));
   }
-  sb_study_step(work, fmin(work->spent / work->total, 1));
+  step(work, fmin(work->spent / work->total, 1));
   return status;
 }
