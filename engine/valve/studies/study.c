@@ -58,13 +58,24 @@ double sb_study_cost(SbStudyKind kind, const SbModel *model) {
          solves->cycles * SB_COST_ACTUATION;
 }
 
+// Index for one more. A study that asks for more than its struct holds is wrong.
+static size_t next(size_t *count, size_t capacity) {
+  assert(*count < capacity);
+  return *count < capacity ? (*count)++ : capacity - 1;
+}
+
+SbStudyPanel *sb_study_panel(SbStudy *out, const SbStudyAxis *y, const char *empty) {
+  SbStudyPanel *panel = &out->panel[next(&out->panel_count, SB_STUDY_PANELS)];
+  panel->y = *y;
+  sb_text(panel->empty, sizeof panel->empty, "%s", empty);
+  return panel;
+}
+
 // Axes, columns and texts that the scene does not change.
 static void put_design(SbStudy *out, const SbStudyDesign *design) {
   out->x = design->x;
-  while (out->panel_count < SB_STUDY_PANELS && design->panel[out->panel_count].quantity[0] != 0) {
-    SbStudyPanel *panel = &out->panel[out->panel_count];
-    panel->y = design->panel[out->panel_count++];
-    sb_text(panel->empty, sizeof panel->empty, "no value in this range");
+  for (int p = 0; p < SB_STUDY_PANELS && design->panel[p].quantity[0] != 0; p++) {
+    sb_study_panel(out, &design->panel[p], "no value in this range");
   }
   memcpy(out->column, design->column, sizeof out->column);
   while (out->column_count < SB_STUDY_COLUMNS && out->column[out->column_count].name[0] != 0) {
@@ -190,12 +201,6 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
 }
 
 // ---- building blocks ----
-
-// Index for one more. A study that asks for more than its struct holds is wrong.
-static size_t next(size_t *count, size_t capacity) {
-  assert(*count < capacity);
-  return *count < capacity ? (*count)++ : capacity - 1;
-}
 
 SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const char *name) {
   SbStudySeries *series = &panel->series[next(&panel->series_count, SB_STUDY_SERIES)];

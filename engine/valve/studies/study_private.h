@@ -111,10 +111,8 @@ SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport
 // Passes on how the work on something else than a question ended; true: well.
 bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report);
 
-// Adds a series, a point, a table's row (all values NaN), a mark, a note; borrowed from `out`. They
-// never fail: no study asks for more than SbStudy holds.
-SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const char *name);
-void sb_study_point(SbStudySeries *series, double x, double y);
+// Adds a table's row (all values NaN), a mark, a note; borrowed from `out`. They never fail, like
+// those of study.h.
 SbStudyRow *sb_study_row(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);
 void sb_study_mark(SbStudy *out, double x, const char *format, ...) SB_PRINTF(3, 4);
 void sb_study_note(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);
