@@ -5,41 +5,20 @@
 
 #include <glib.h>
 #include <math.h>
-#include <string.h>
-
-static SbStudySeries *add_series(SbStudyPanel *panel, const char *name, SbStudyStyle style) {
-  SbStudySeries *series = &panel->series[panel->series_count++];
-  g_strlcpy(series->name, name, sizeof series->name);
-  series->style = style;
-  return series;
-}
-
-static void put(SbStudySeries *series, double x, double y) {
-  series->x[series->count] = x;
-  series->y[series->count++] = y;
-}
-
-static SbStudyPanel *add_panel(SbStudy *study, const char *quantity, const char *si,
-                               const char *unit) {
-  SbStudyPanel *panel = &study->panel[study->panel_count++];
-  g_strlcpy(panel->y.quantity, quantity, sizeof panel->y.quantity);
-  g_strlcpy(panel->y.si, si, sizeof panel->y.si);
-  g_strlcpy(panel->y.unit, unit, sizeof panel->y.unit);
-  return panel;
-}
 
 static void fill(SbStudy *study, const SbChartRun *run) {
-  g_strlcpy(study->x.quantity, "actuation", sizeof study->x.quantity);
-  g_strlcpy(study->x.si, "1", sizeof study->x.si);
-  SbStudyPanel *force = add_panel(study, "force", "N", "N");
-  SbStudyPanel *film = add_panel(study, "over the given roughness", "1", "");
-  SbStudyPanel *leak = add_panel(study, "leakage, summed", "m3", "nl");
-  SbStudySeries *breakaway = add_series(force, "break-away", SB_STUDY_CURVE);
-  SbStudySeries *back = add_series(force, "least return", SB_STUDY_CURVE);
-  SbStudySeries *rough = add_series(film, "roughness", SB_STUDY_CURVE);
-  SbStudySeries *lambda = add_series(film, "λ against the first", SB_STUDY_CURVE);
-  SbStudySeries *carried = add_series(leak, "carried out", SB_STUDY_CURVE);
-  SbStudySeries *net = add_series(leak, "net", SB_STUDY_CURVE);
+  study->x = (SbStudyAxis){"actuation", "1", "", false};
+  SbStudyPanel *force = sb_study_panel(study, &(SbStudyAxis){"force", "N", "N", false}, "");
+  SbStudyPanel *film =
+      sb_study_panel(study, &(SbStudyAxis){"over the given roughness", "1", "", false}, "");
+  SbStudyPanel *leak =
+      sb_study_panel(study, &(SbStudyAxis){"leakage, summed", "m3", "nl", false}, "");
+  SbStudySeries *breakaway = sb_study_series(force, SB_STUDY_CURVE, "break-away");
+  SbStudySeries *back = sb_study_series(force, SB_STUDY_CURVE, "least return");
+  SbStudySeries *rough = sb_study_series(film, SB_STUDY_CURVE, "roughness");
+  SbStudySeries *lambda = sb_study_series(film, SB_STUDY_CURVE, "λ against the first");
+  SbStudySeries *carried = sb_study_series(leak, SB_STUDY_CURVE, "carried out");
+  SbStudySeries *net = sb_study_series(leak, SB_STUDY_CURVE, "net");
   double sum[2] = {0, 0};
   size_t points = MIN(run->life_count, SB_STUDY_POINTS), drawn = 0;
   for (size_t i = 0; i < run->life_count; i++) {
@@ -52,12 +31,12 @@ static void fill(SbStudy *study, const SbChartRun *run) {
     }
     drawn++;
     double n = (double)i + 1;
-    put(breakaway, n, one->force_breakaway);
-    put(back, n, one->force_return);
-    put(rough, n, one->roughness);
-    put(lambda, n, run->life[0].lambda > 0 ? one->lambda / run->life[0].lambda : NAN);
-    put(carried, n, sum[0]);
-    put(net, n, sum[1]);
+    sb_study_point(breakaway, n, one->force_breakaway);
+    sb_study_point(back, n, one->force_return);
+    sb_study_point(rough, n, one->roughness);
+    sb_study_point(lambda, n, run->life[0].lambda > 0 ? one->lambda / run->life[0].lambda : NAN);
+    sb_study_point(carried, n, sum[0]);
+    sb_study_point(net, n, sum[1]);
   }
   study->complete = true;
 }

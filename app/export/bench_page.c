@@ -12,42 +12,24 @@
 #include <math.h>
 #include <string.h>
 
-static void name_axis(SbStudyAxis *out, const char *quantity, const char *si, const char *unit) {
-  g_strlcpy(out->quantity, quantity, sizeof out->quantity);
-  g_strlcpy(out->si, si, sizeof out->si);
-  g_strlcpy(out->unit, unit, sizeof out->unit);
-  out->logarithmic = true;
-}
-
 // One solver's true errors over the time of a solve.
 static void add_series(SbStudyPanel *panel, const char *solver, const SbBenchCase *cases,
                        size_t count) {
-  SbStudySeries *series = &panel->series[panel->series_count++];
-  g_strlcpy(series->name, solver, sizeof series->name);
-  series->style = SB_STUDY_DOTS;
+  SbStudySeries *series = sb_study_series(panel, SB_STUDY_DOTS, solver);
   for (size_t i = 0; i < count && series->count < SB_STUDY_POINTS; i++) {
     if (strcmp(cases[i].solver, solver) == 0 && isfinite(cases[i].error_estimate)) {
-      series->x[series->count] = cases[i].wall_s;
-      series->y[series->count++] = cases[i].error;
+      sb_study_point(series, cases[i].wall_s, cases[i].error);
     }
   }
 }
 
 static void add_table(SbStudy *study, const SbBenchCase *cases, size_t count) {
-  static const struct {
-    const char *name, *si, *unit;
-    int digits;
-  } columns[] = {{"unknowns", "1", "", 0}, {"iterations", "1", "", 0},
-                 {"time", "s", "ms", 3},   {"error", "1", "", 2},
-                 {"estimate", "1", "", 2}, {"observed order", "1", "", 2}};
+  static const SbStudyColumn columns[] = {{"unknowns", "1", "", 0}, {"iterations", "1", "", 0},
+                                          {"time", "s", "ms", 3},   {"error", "1", "", 2},
+                                          {"estimate", "1", "", 2}, {"observed order", "1", "", 2}};
   g_strlcpy(study->row_heading, "solver and case", sizeof study->row_heading);
-  for (size_t k = 0; k < G_N_ELEMENTS(columns); k++) {
-    SbStudyColumn *column = &study->column[study->column_count++];
-    g_strlcpy(column->name, columns[k].name, sizeof column->name);
-    g_strlcpy(column->si, columns[k].si, sizeof column->si);
-    g_strlcpy(column->unit, columns[k].unit, sizeof column->unit);
-    column->digits = columns[k].digits;
-  }
+  study->column_count = G_N_ELEMENTS(columns);
+  memcpy(study->column, columns, sizeof columns);
   for (size_t i = 0; i < MIN(count, (size_t)SB_STUDY_ROWS); i++) {
     const SbBenchCase *c = &cases[i];
     SbStudyRow *row = &study->row[study->row_count++];
@@ -82,11 +64,9 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
 
 bool sb_bench_put(FILE *stream, const SbBenchCase *cases, size_t count, GError **error) {
   g_autofree SbStudy *study = g_new0(SbStudy, 1);
-  name_axis(&study->x, "time of one solve", "s", "ms");
-  study->panel_count = 1;
-  SbStudyPanel *panel = &study->panel[0];
-  name_axis(&panel->y, "relative error", "1", "");
-  g_strlcpy(panel->empty, "no case finished", sizeof panel->empty);
+  study->x = (SbStudyAxis){"time of one solve", "s", "ms", true};
+  SbStudyPanel *panel =
+      sb_study_panel(study, &(SbStudyAxis){"relative error", "1", "", true}, "no case finished");
   add_series(panel, "reynolds", cases, count);
   add_series(panel, "disc", cases, count);
   add_series(panel, "ring", cases, count);

@@ -14,7 +14,7 @@
 #include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 
-// A seal's way through the frames.
+// One seal's film through the frames.
 typedef struct {
   SbRun *run;
   int seal;
@@ -23,35 +23,37 @@ typedef struct {
   int chamber;           // of the stretch
   double central;        // last film [m], what the next stretch begins with
   SbFilm *result;
-  size_t frame; // that the way has come to
+  size_t frame; // that it has come to
   double error; // largest estimate of the least film
-} Way;
+} History;
 
 static bool whole_contact(const SbFrame *frame, int seal) {
   const SbSealFrame *s = &frame->seal[seal];
   return s->land_fraction > 0.999F && s->contact_right > s->contact_left;
 }
 
-static void leave(Way *way) {
-  if (way->film != NULL) {
-    const SbFilmTransientInfo info = sb_film_transient_info(way->film);
-    SbSummary *summary = &way->run->summary;
+static void end_stretch(History *history) {
+  if (history->film != NULL) {
+    const SbFilmTransientInfo info = sb_film_transient_info(history->film);
+    SbSummary *summary = &history->run->summary;
     summary->counters.film_steps += info.steps;
     summary->counters.newton_iterations += info.newton_iterations;
   }
-  sb_film_transient_destroy(way->film);
-  way->film = NULL;
+  sb_film_transient_destroy(history->film);
+  history->film = NULL;
 }
 
 // Begins a stretch at rest.
-static SbStatus enter(Way *way, int chamber, const SbRunHooks *hooks, SbReport *report) {
-  const SbRun *run = way->run;
-  const SbSliding *state = &run->cycle.states.state[way->seal][chamber][SB_CYCLE_IN];
+static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *hooks,
+                              SbReport *report) {
+  const SbRun *run = history->run;
+  const SbSliding *state = &run->cycle.states.state[history->seal][chamber][SB_CYCLE_IN];
   const SbSealPressure pressure =
-      sb_model_seal_pressure(&run->model, way->seal, (SbChamber)chamber);
-  SbFilmTransientProblem problem = {.speed_scale = way->speed_scale, .rest_film = way->central};
-  sb_sliding_film_problem(&problem.film, &run->model, way->seal, pressure, state->load_net, 0);
-  const SbRunSurface *surface = &run->surface[way->seal][chamber];
+      sb_model_seal_pressure(&run->model, history->seal, (SbChamber)chamber);
+  SbFilmTransientProblem problem = {.speed_scale = history->speed_scale,
+                                    .rest_film = history->central};
+  sb_sliding_film_problem(&problem.film, &run->model, history->seal, pressure, state->load_net, 0);
+  const SbRunSurface *surface = &run->surface[history->seal][chamber];
   if (state->film_fitted && surface->known) {
     problem.film.compliance = &surface->compliance;
     problem.film.load = surface->load;
@@ -63,47 +65,47 @@ static SbStatus enter(Way *way, int chamber, const SbRunHooks *hooks, SbReport *
   // A front in the middle of the contact is smeared over a few hundredths of it; finer costs more
   // than a drawing gains.
   problem.film.tolerance = fmax(run->model.tolerance, 3e-3);
-  way->chamber = chamber;
-  return sb_film_transient_create(&way->film, &problem, report);
+  history->chamber = chamber;
+  return sb_film_transient_create(&history->film, &problem, report);
 }
 
 // One seal through all frames.
-static SbStatus replay(Way *way, size_t count, const SbRunHooks *hooks, SbReport *report) {
-  SbRun *run = way->run;
+static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, SbReport *report) {
+  SbRun *run = history->run;
   for (size_t i = 0; i < count; i++) {
     SbFrame *frame = &run->frames[i];
-    way->frame = i;
+    history->frame = i;
     const double dt = i > 0 ? frame->time - run->frames[i - 1].time : 0;
-    if (!whole_contact(frame, way->seal) ||
-        (way->film != NULL && way->chamber != (int)frame->chamber)) {
-      leave(way);
+    if (!whole_contact(frame, history->seal) ||
+        (history->film != NULL && history->chamber != (int)frame->chamber)) {
+      end_stretch(history);
     }
-    if (!whole_contact(frame, way->seal)) {
+    if (!whole_contact(frame, history->seal)) {
       continue;
     }
     if (i % 16 == 0 && sb_run_cancelled(hooks, report)) {
       return SB_ERROR_CANCELLED;
     }
     SbStatus status = SB_OK;
-    if (way->film == NULL) {
-      status = enter(way, frame->chamber, hooks, report);
+    if (history->film == NULL) {
+      status = begin_stretch(history, frame->chamber, hooks, report);
     } else if (dt > 0) {
-      status = sb_film_transient_step(way->film, dt, frame->velocity,
-                                      sb_film_transient_info(way->film).load, report);
+      status = sb_film_transient_step(history->film, dt, frame->velocity,
+                                      sb_film_transient_info(history->film).load, report);
     }
     if (status != SB_OK) {
       return status;
     }
-    sb_film_transient_result(way->result, way->film);
-    way->central = way->result->film_central;
+    sb_film_transient_result(history->result, history->film);
+    history->central = history->result->film_central;
     // Least film of the coarse setting: the companion's difference and the bend of what its spacing
     // does not know. Without the companion nothing is known.
-    const double least = way->result->solver.error_film_min;
-    way->error = isnan(least) ? INFINITY : fmax(way->error, least);
-    SbSealFrame *out = &frame->seal[way->seal];
-    out->film_min = way->result->film_min;
-    out->film_central = way->result->film_central;
-    out->lambda = way->result->film_central / run->model.sigma;
+    const double least = history->result->solver.error_film_min;
+    history->error = isnan(least) ? INFINITY : fmax(history->error, least);
+    SbSealFrame *out = &frame->seal[history->seal];
+    out->film_min = history->result->film_min;
+    out->film_central = history->result->film_central;
+    out->lambda = history->result->film_central / run->model.sigma;
   }
   return SB_OK;
 }
@@ -117,26 +119,26 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
   double error = 0;
   run->summary.error_film_history = 0;
   for (int seal = 0; seal < SB_SEAL_COUNT && worst != SB_ERROR_CANCELLED; seal++) {
-    Way way = {.run = run, .seal = seal, .central = run->model.rest_film, .result = result};
+    History history = {.run = run, .seal = seal, .central = run->model.rest_film, .result = result};
     for (size_t i = 0; i < count; i++) {
-      way.speed_scale = fmax(way.speed_scale, fabs(run->frames[i].velocity));
+      history.speed_scale = fmax(history.speed_scale, fabs(run->frames[i].velocity));
     }
-    if (way.speed_scale == 0) {
+    if (history.speed_scale == 0) {
       continue;
     }
     SbReport own = {0};
-    const SbStatus status = replay(&way, count, hooks, &own);
-    leave(&way);
-    if (isinf(way.error)) {
+    const SbStatus status = replay(&history, count, hooks, &own);
+    end_stretch(&history);
+    if (isinf(history.error)) {
       error = NAN;
       sb_reason(&run->summary, "solver.error_estimate.film_history",
                 "%s seal: the film of half the resolution did not converge", sb_seal_name(seal));
     }
-    run->summary.error_film_history = fmax(run->summary.error_film_history, way.error);
+    run->summary.error_film_history = fmax(run->summary.error_film_history, history.error);
     if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
       worst = sb_fail(report, status, "%s", own.text);
     } else if (status != SB_OK) {
-      SbFrame *at = &run->frames[way.frame];
+      SbFrame *at = &run->frames[history.frame];
       SbReport whole;
       (void)sb_fail(
           &whole, status,

@@ -18,20 +18,17 @@
 
 // Gives the model and its solved sliding states a surface `factor` times as rough.
 static SbStatus resurface(SbRun *run, double factor, SbReport *report) {
+  enum { STATES = SB_CYCLE_CHAMBERS * SB_CYCLE_DIRECTIONS }; // of a seal
   SbModel *model = &run->model;
   model->gt_product *= factor;
   model->sigma *= factor;
   model->sigma_over_beta *= factor;
   SbStatus status = SB_OK;
-  for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_CYCLE_DIRECTIONS; i++) {
-    int seal = i / (SB_CYCLE_CHAMBERS * SB_CYCLE_DIRECTIONS), direction = i % SB_CYCLE_DIRECTIONS;
-    SbSliding *state =
-        &run->cycle.states.state[seal][i / SB_CYCLE_DIRECTIONS % SB_CYCLE_CHAMBERS][direction];
-    if (status == SB_OK) {
-      status = sb_sliding_resurface(state, model, seal,
-                                    direction == SB_CYCLE_IN ? run->speed : -run->speed,
-                                    &run->summary.warnings, report);
-    }
+  SbSliding *state = &run->cycle.states.state[0][0][0];
+  for (int i = 0; i < SB_SEAL_COUNT * STATES && status == SB_OK; i++) {
+    double speed = i % SB_CYCLE_DIRECTIONS == SB_CYCLE_IN ? run->speed : -run->speed;
+    status =
+        sb_sliding_resurface(&state[i], model, i / STATES, speed, &run->summary.warnings, report);
   }
   return status;
 }

@@ -165,8 +165,8 @@ static bool state_needed(const SbRun *run, int seal, int chamber, int motion) {
 
 // Names what failed and where: solver, seal, stages, place; and what there is all the same. Figures
 // that need it say so, too.
-static void tell_failure(SbRun *run, int seal, int chamber, int motion, const SbSliding *state,
-                         SbSealPressure pressure, SbReport *report) {
+static void report_failure(SbRun *run, int seal, int chamber, int motion, const SbSliding *state,
+                           SbSealPressure pressure, SbReport *report) {
   static const char *const stages[] = {"A to C", "C to F", "F to A"};
   static const char *const ways[] = {"in-stroke", "return", "at rest"};
   const SbModel *model = &run->model;
@@ -230,7 +230,7 @@ static SbStatus solve_state(SbRun *run, int seal, int chamber, int motion, SbRep
   SbStatus status =
       fitment ? sb_sliding_fitment(state, &task, report) : sb_sliding_solve(state, &task, report);
   if (status == SB_ERROR_NOT_CONVERGED) {
-    tell_failure(run, seal, chamber, motion, state, pressure, report);
+    report_failure(run, seal, chamber, motion, state, pressure, report);
   } else if (status != SB_OK) {
     return status;
   } else if (!fitment && motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state))) {

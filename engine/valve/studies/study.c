@@ -58,23 +58,59 @@ double sb_study_cost(SbStudyKind kind, const SbModel *model) {
          solves->cycles * SB_COST_ACTUATION;
 }
 
+// Index for one more. A study that asks for more than its struct holds is wrong.
+static size_t next(size_t *count, size_t capacity) {
+  assert(*count < capacity);
+  return *count < capacity ? (*count)++ : capacity - 1;
+}
+
+SbStudyPanel *sb_study_panel(SbStudy *out, const SbStudyAxis *y, const char *empty) {
+  SbStudyPanel *panel = &out->panel[next(&out->panel_count, SB_STUDY_PANELS)];
+  panel->y = *y;
+  sb_text(panel->empty, sizeof panel->empty, "%s", empty);
+  return panel;
+}
+
 // Axes, columns and texts that the scene does not change.
 static void put_design(SbStudy *out, const SbStudyDesign *design) {
   out->x = design->x;
-  while (out->panel_count < SB_STUDY_PANELS && design->panel[out->panel_count].quantity[0] != 0) {
-    SbStudyPanel *panel = &out->panel[out->panel_count];
-    panel->y = design->panel[out->panel_count++];
-    sb_text(panel->empty, sizeof panel->empty, "no value in this range");
+  for (int p = 0; p < SB_STUDY_PANELS && design->panel[p].quantity[0] != 0; p++) {
+    sb_study_panel(out, &design->panel[p], "no value in this range");
   }
-  sb_text(out->row_heading, sizeof out->row_heading, "%s",
-          design->row_heading != NULL ? design->row_heading : "");
-  while (out->column_count < SB_STUDY_COLUMNS && design->column[out->column_count].name[0] != 0) {
-    out->column[out->column_count] = design->column[out->column_count];
+  memcpy(out->column, design->column, sizeof out->column);
+  while (out->column_count < SB_STUDY_COLUMNS && out->column[out->column_count].name[0] != 0) {
     out->column_count++;
   }
-  sb_text(out->models, sizeof out->models, "%s", design->models != NULL ? design->models : "");
-  sb_text(out->validity, sizeof out->validity, "%s",
-          design->validity != NULL ? design->validity : "");
+  memcpy(out->row_heading, design->row_heading, sizeof out->row_heading);
+  memcpy(out->models, design->models, sizeof out->models);
+  memcpy(out->validity, design->validity, sizeof out->validity);
+}
+
+bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report) {
+  if (work->status == SB_OK && status != SB_OK) {
+    work->status = status;
+    if (status == SB_ERROR_CANCELLED) {
+      // Said alike wherever it struck.
+      (void)sb_fail(work->report, status, "the study was cancelled");
+    } else if (work->report != NULL) {
+      *work->report = *report;
+    }
+  }
+  return work->status == SB_OK;
+}
+
+// Tells the progress and looks for a cancel.
+static void step(SbStudyWork *work, double fraction) {
+  const SbStudyHooks *hooks = &work->hooks;
+  if (work->status != SB_OK) {
+    return;
+  }
+  if (hooks->progress != NULL) {
+    hooks->progress(hooks->data, fraction);
+  }
+  if (hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
+    (void)sb_study_goes_on(work, SB_ERROR_CANCELLED, NULL);
+  }
 }
 
 static void fix(SbStudyWork *work, const SbOverride *override, size_t count) {
@@ -148,7 +184,7 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   if (work->status == SB_OK) {
     work->status = sb_film_solver_create(&work->solver, report);
   }
-  sb_study_step(work, 0);
+  step(work, 0);
   fix_base(work);
   if (work->status == SB_OK) {
     design->make(work);
@@ -156,7 +192,7 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   for (int i = 0; i < 2 && work->largest[i] > 0; i++) {
     out->error = fmax(out->error, work->error[i] / work->largest[i]);
   }
-  sb_study_step(work, 1);
+  step(work, 1);
   sb_evaluator_destroy(work->evaluator);
   sb_film_solver_destroy(work->solver);
   SbStatus status = work->status;
@@ -165,12 +201,6 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
 }
 
 // ---- building blocks ----
-
-// Index for one more. A study that asks for more than its struct holds is wrong.
-static size_t next(size_t *count, size_t capacity) {
-  assert(*count < capacity);
-  return *count < capacity ? (*count)++ : capacity - 1;
-}
 
 SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const char *name) {
   SbStudySeries *series = &panel->series[next(&panel->series_count, SB_STUDY_SERIES)];
@@ -204,16 +234,15 @@ double sb_study_place(const SbStudyWork *work, int index, int count) {
 
 const double *sb_study_at(SbStudyWork *work, int line, double x) {
   for (size_t i = 0; i < work->answers; i++) {
-    const SbStudyAnswer *known = &work->answer[i];
-    if (known->line == line && fabs(known->x - x) <= 1e-9 * fabs(x)) {
-      return known->value;
+    if (work->answer[i].line == line && fabs(work->answer[i].x - x) <= 1e-9 * fabs(x)) {
+      return work->answer[i].value;
     }
   }
-  SbStudyAnswer *answer = &work->answer[next(&work->answers, SB_STUDY_ANSWERS)];
-  answer->line = line;
-  answer->x = x;
-  work->design->solve(answer->value, work, line, x);
-  return answer->value;
+  size_t at = next(&work->answers, SB_STUDY_ANSWERS);
+  work->answer[at].line = line;
+  work->answer[at].x = x;
+  work->design->solve(work->answer[at].value, work, line, x);
+  return work->answer[at].value;
 }
 
 void sb_study_curves(SbStudyWork *work, SbStudyStyle style, const char *name, int line,
@@ -257,32 +286,6 @@ void sb_study_note(SbStudy *out, const char *format, ...) {
 }
 
 // ---- asking ----
-
-bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report) {
-  if (work->status == SB_OK && status != SB_OK) {
-    work->status = status;
-    if (status == SB_ERROR_CANCELLED) {
-      // Said alike wherever it struck.
-      (void)sb_fail(work->report, status, "the study was cancelled");
-    } else if (work->report != NULL) {
-      *work->report = *report;
-    }
-  }
-  return work->status == SB_OK;
-}
-
-void sb_study_step(SbStudyWork *work, double fraction) {
-  const SbStudyHooks *hooks = &work->hooks;
-  if (work->status != SB_OK) {
-    return;
-  }
-  if (hooks->progress != NULL) {
-    hooks->progress(hooks->data, fraction);
-  }
-  if (hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {
-    (void)sb_study_goes_on(work, SB_ERROR_CANCELLED, NULL);
-  }
-}
 
 void sb_study_squeezed(SbOverride out[SB_STUDY_SQUEEZED], const SbStudyWork *work, double squeeze) {
   const SbModel *scene = work->scene;
@@ -357,7 +360,7 @@ void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, siz
             what, report.text);
     work->out->complete = work->out->complete && status != SB_ERROR_NOT_CONVERGED;
   }
-  sb_study_step(work, fmin(work->spent / work->total, 1));
+  step(work, fmin(work->spent / work->total, 1));
 }
 
 void sb_study_contact(double value[SB_STUDY_CONTACT], SbStudyWork *work, const SbOverride *override,
@@ -393,6 +396,6 @@ SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport
     const SbFilmSolverInfo *info = &work->film.solver;
     work->out->error = fmax(work->out->error, fmax(info->error_film_min, info->error_film_central));
   }
-  sb_study_step(work, fmin(work->spent / work->total, 1));
+  step(work, fmin(work->spent / work->total, 1));
   return status;
 }

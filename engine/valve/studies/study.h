@@ -115,6 +115,12 @@ typedef struct {
   bool complete; // false: some points are gaps because a solver did not converge
 } SbStudy;
 
+// Adds a panel, a series, a point; borrowed from `out`. They never fail: nobody asks for more than
+// SbStudy holds. Charts that are no study are drawn from an SbStudy filled by these, too.
+SbStudyPanel *sb_study_panel(SbStudy *out, const SbStudyAxis *y, const char *empty);
+SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const char *name);
+void sb_study_point(SbStudySeries *series, double x, double y);
+
 // Both functions may be NULL. `progress` is told the fraction done; a true answer of `cancelled`
 // ends the study within one solve.
 typedef struct {

@@ -58,19 +58,20 @@ static void solve(double *value, SbStudyWork *work, int line, double squeeze) {
 }
 
 // What a curve of pressure says: where the ring touches and where channels open.
-static void tell(SbStudy *out, const SbStudySeries *series, double closing) {
-  double touches = NAN, closes = NAN;
-  for (size_t i = 0; i < series->count; i++) {
-    bool known = isfinite(series->y[i]);
-    touches = known && isnan(touches) ? series->x[i] : touches;
-    if (known && series->y[i] >= closing && isnan(closes)) {
-      closes = series->x[i];
-      // On a straight line from the point before, if that had a value.
-      if (i > 0 && series->y[i - 1] < closing) {
-        double share = (closing - series->y[i - 1]) / (series->y[i] - series->y[i - 1]);
-        closes = series->x[i - 1] + share * (series->x[i] - series->x[i - 1]);
-      }
-    }
+static void note_closing(SbStudy *out, const SbStudySeries *series, double closing) {
+  const double *x = series->x, *y = series->y;
+  size_t first = 0, closed = 0;
+  while (first < series->count && !isfinite(y[first])) {
+    first++;
+  }
+  while (closed < series->count && !(y[closed] >= closing)) {
+    closed++;
+  }
+  double touches = first < series->count ? x[first] : NAN;
+  double closes = closed < series->count ? x[closed] : NAN;
+  if (closed > 0 && closed < series->count && y[closed - 1] < closing) {
+    // On a straight line from the point before, which has a value.
+    closes -= (y[closed] - closing) / (y[closed] - y[closed - 1]) * (closes - x[closed - 1]);
   }
   if (isnan(touches)) {
     sb_study_note(out, "%s: does not touch in this range.", series->name);
@@ -156,7 +157,7 @@ static void draw(SbStudyWork *work, const int *lines, int count, double closing)
     for (int i = 0; i < points; i++) {
       leak->y[i] = leak->y[i] > 0 ? leak->y[i] : NAN;
     }
-    tell(out, &pressure->series[pressure->series_count - 1], closing);
+    note_closing(out, &pressure->series[pressure->series_count - 1], closing);
     for (int q = 0; q < FIGURES && share == 0; q++) {
       SbStudyColumn *column = &out->column[out->column_count++];
       *column = (SbStudyColumn){.digits = 3};

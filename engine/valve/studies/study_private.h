@@ -26,27 +26,20 @@ typedef struct {
 typedef struct {
   SbStudyAxis x;
   SbStudyAxis panel[SB_STUDY_PANELS]; // up to the first without a quantity
-  size_t range;            // place in SbStudyRange of the least x; the largest stands behind it
-  const char *row_heading; // of the table; NULL: there is none
+  size_t range;         // place in SbStudyRange of the least x; the largest stands behind it
+  char row_heading[40]; // of the table; empty: there is none, or make() gives it
   SbStudyColumn column[SB_STUDY_COLUMNS]; // up to the first without a name
-  const char *models, *validity;          // NULL: make() says it
+  char models[160], validity[200];        // empty: make() gives it
   // Beside the cycle of the test machine, quasi-static, whatever drives the scene, all questions
   // have fixed: the outer ring as the scene's storage left it, from now on without any, the inner
   // one like it, so that no gland suits but one of them, and the chamber filled.
   bool outer;
   bool smooth; // a film in closed form that leaves the fitment its own tolerance
   SbStudySolves solves;
-  // Values of one line of the study (a model, a seal, a size) at x, those of the panels first; NULL
-  // for a study that asks for nothing by sb_study_at().
+  // Values of one line of the study (a model, a seal, a size) at x, those of the panels first.
   void (*solve)(double value[SB_STUDY_VALUES], SbStudyWork *work, int line, double x);
   void (*make)(SbStudyWork *work);
 } SbStudyDesign;
-
-// What is known of one line at one x.
-typedef struct {
-  int line;
-  double x, value[SB_STUDY_VALUES];
-} SbStudyAnswer;
 
 // A study at work. A failure that ends it stays in `status`: whoever asks on gets NaN at no cost,
 // so that loops need not look.
@@ -66,7 +59,10 @@ struct SbStudyWork {
   double spent, total;         // [s] what questions have cost, and what the study will
   double error[2], largest[2]; // of loads [N] and contact widths [m]: largest errors and values
   size_t answers;
-  SbStudyAnswer answer[SB_STUDY_ANSWERS];
+  struct {
+    int line;
+    double x, value[SB_STUDY_VALUES]; // of it there
+  } answer[SB_STUDY_ANSWERS];
 };
 
 #define SB_STUDY_DECLARE(code, function, name, title, help)                                        \
@@ -115,10 +111,8 @@ SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport
 // Passes on how the work on something else than a question ended; true: well.
 bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report);
 
-// Adds a series, a point, a table's row (all values NaN), a mark, a note; borrowed from `out`. They
-// never fail: no study asks for more than SbStudy holds.
-SbStudySeries *sb_study_series(SbStudyPanel *panel, SbStudyStyle style, const char *name);
-void sb_study_point(SbStudySeries *series, double x, double y);
+// Adds a table's row (all values NaN), a mark, a note; borrowed from `out`. They never fail, like
+// those of study.h.
 SbStudyRow *sb_study_row(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);
 void sb_study_mark(SbStudy *out, double x, const char *format, ...) SB_PRINTF(3, 4);
 void sb_study_note(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);
@@ -128,6 +122,3 @@ void sb_study_level(SbStudyWork *work, SbStudyPanel *panel, const char *name, do
 
 // Marks a value of the scene, if the abscissa has it.
 void sb_study_mark_scene(SbStudyWork *work, double x, const char *text);
-
-// Tells the progress and looks for a cancel.
-void sb_study_step(SbStudyWork *work, double fraction);
