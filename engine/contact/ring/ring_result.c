@@ -202,8 +202,8 @@ int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *she
   for (int i = 0; i < PROFILE_POINTS && i < capacity; i++) {
     // Dense at both ends, where the pressure rises with the root of the distance.
     bool last = i == PROFILE_POINTS - 1;
-    double share = last ? 1.0 : 0.5 * (1.0 - cos(M_PI * i / (PROFILE_POINTS - 1)));
-    double at = patch.place[0] + share * (patch.place[1] - patch.place[0]);
+    double share = 0.5 * (1.0 - cos(M_PI * i / (PROFILE_POINTS - 1)));
+    double at = last ? patch.place[1] : patch.place[0] + share * (patch.place[1] - patch.place[0]);
     x[i] = at * ring->length;
     pressure[i] = sb_dry_contact_pressure(&smooth, at) * ring->stress;
     if (shear != NULL) {
