@@ -76,12 +76,8 @@ typedef struct {
   double bore_force, bore_drag;   // radial (compression > 0) and axial (+x on the ring) force
   double floor_force, floor_drag; // the same at the groove floor
   double wall_right_force, wall_left_force; // axial, compression > 0
-  double wall_right_drag, wall_left_drag;   // radial friction on the ring, outwards > 0
   double contact_left, contact_right;       // ends of the bore contact, m
-  double floor_left, floor_right;           // ends of the floor contact, m
-  double wall_inner, wall_outer;            // ends of the right wall's contact, radii, m
   double pressure_peak;                     // of the bore contact, Pa
-  double position_peak;                     // m
   double thickness;                         // radial extent of the deformed section, m
   double axial_left, axial_right;           // axial extent of the deformed section, m
   double volume_change;                     // relative to the free ring
@@ -115,14 +111,14 @@ const SbRingLoad *sb_ring_load(const SbRing *ring);
 
 void sb_ring_result(const SbRing *ring, SbRingResult *out);
 
-// Contact pressure (and shear, may be NULL) of the bore contact from its left to its right end,
+// Contact pressure p [Pa] at x [m] of the bore contact from its left to its right end,
 // where it equals the fluid's. Returns the number of points; writes at most `capacity`.
-int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *shear, int capacity);
+int sb_ring_profile(const SbRing *ring, double *x, double *pressure, int capacity);
 
 // Sizes for drawing: nodes, triangles, points of the outline.
 void sb_ring_sizes(const SbRing *ring, int *nodes, int *triangles, int *outline);
 
-// For drawing, on request only. Any array may be NULL.
+// For drawing, on request only.
 typedef struct {
   double *place;        // [2 nodes] deformed (x axial, r), m
   double *displacement; // [2 nodes] (axial, radial) from the free ring, m
