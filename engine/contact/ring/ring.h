@@ -71,18 +71,18 @@ typedef struct {
   SbRingState state;
   double turn;   // of the section since it was free, rad; > 0 as the bore's motion to +x drives it
   bool touching; // the bore is touched
-  double bore_force, bore_drag;   // radial (compression > 0) and axial (+x on the ring) force
-  double floor_force, floor_drag; // the same at the groove floor
-  double wall_right_force, wall_left_force; // axial, compression > 0
+  double bore_force, bore_drag;   // N, radial (compression > 0) and axial (+x on the ring)
+  double floor_force, floor_drag; // N, the same at the groove floor
+  double wall_right_force, wall_left_force; // N, axial, compression > 0
   double contact_left, contact_right;       // ends of the bore contact, m
   double pressure_peak;                     // of the bore contact, Pa
   double thickness;                         // radial extent of the deformed section, m
   double axial_left, axial_right;           // axial extent of the deformed section, m
-  double volume_change;                     // relative to the free ring
+  double volume_change;                     // relative to the free ring [-]
   double penetration;                       // largest over the boundary nodes, m
   double pressure_least;                    // least nodal contact pressure above the fluid's, Pa
   double friction_excess; // N of departure from Coulomb's law at nodes that cannot settle, 0
-  double axial_imbalance; // sum of all axial forces over the largest one
+  double axial_imbalance; // sum of all axial forces over the largest one [-]
   int unknowns, newton_iterations, load_steps, rejected_steps;
   struct {
     double load, peak, width; // relative
