@@ -32,7 +32,7 @@ typedef struct {
   double left, right;              // window [m], x in the seal's frame
   double modulus;                  // reduced, E' of the half-plane's part [Pa]
   double gap[SB_COMPLIANCE_MODES]; // g(x) = sum gap[k] T_k(z), up to a constant [m]
-  double beyond[2];                // slope with which the gap goes on beyond its left, right end
+  double beyond[2]; // slope with which the gap goes on beyond its left, right end [-]
   // S(x, s) = sum smooth[k][l] T_k(z(x)) T_l(z(s)) [1/Pa], symmetric in k and l.
   double smooth[SB_COMPLIANCE_MODES][SB_COMPLIANCE_MODES];
 } SbSurfaceCompliance;
@@ -68,8 +68,8 @@ typedef struct {
   double load;                          // int (p - ambient), left ambient for x < 0 [N/m]
   double peak;                          // largest pressure, gauge [Pa]
   int count;
-  double a[SB_COMPLIANCE_PRESSURES]; // [Pa]
-  double moment[SB_COMPLIANCE_MODES];
+  double a[SB_COMPLIANCE_PRESSURES];  // [Pa]
+  double moment[SB_COMPLIANCE_MODES]; // int p T_l(z) ds over the window [N/m]
   // Slope of the pressure at the edges: p - ambient -> edge sqrt(1 - z^2) there [Pa].
   double edge_left, edge_right;
   int iterations;

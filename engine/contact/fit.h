@@ -96,8 +96,8 @@ typedef struct {
     double floor_load;      // on the groove floor [N]
     double wall_load;       // on the groove wall that the fluid presses it on [N], axial
     double thickness;       // radial extent of the fitted section [m]
-    double volume_change;   // of the whole ring, relative to the free one
-    double axial_imbalance; // sum of all axial forces over the largest force
+    double volume_change;   // of the whole ring, relative to the free one [-]
+    double axial_imbalance; // sum of all axial forces over the largest force [-]
     size_t load_steps, rejected_steps;
   } ring;
   struct {
@@ -107,7 +107,7 @@ typedef struct {
     struct {
       double load, pressure_peak, contact_width; // relative, discretisation and iteration
     } error_estimate;
-    double wall_s;
+    double wall_s; // time of the solve [s]
   } solver;
   // Contact pressure p [Pa] at `profile_count` abscissae x [m], increasing from contact_left to
   // contact_right; none without contact.

@@ -72,8 +72,7 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
     out->load_per_length = result.bore_force / out->circumference;
     out->pressure_peak = result.pressure_peak;
     sb_fit_errors(out, result.error.load, result.error.peak, result.error.width);
-    const int points =
-        sb_ring_profile(ring, out->profile_x, out->profile_p, NULL, SB_FIT_PROFILE_MAX);
+    const int points = sb_ring_profile(ring, out->profile_x, out->profile_p, SB_FIT_PROFILE_MAX);
     out->profile_count = points < SB_FIT_PROFILE_MAX ? (size_t)points : SB_FIT_PROFILE_MAX;
     // Without one the film has to do with another model's, and says so.
     if (in->surface_wanted && sb_ring_surface(ring, &out->surface, NULL) != SB_OK) {

@@ -56,8 +56,8 @@ typedef struct {
   double axial_width, axial_width_tolerance;
   double bore_diameter, bore_diameter_tolerance;
   double land_diameter, land_diameter_tolerance; // of the stem beside the groove
-  double poisson_ratio;
-  double volume_swell; // v of rubber_time.h, 0 dry
+  double poisson_ratio;                          // [-]
+  double volume_swell;                           // v of rubber_time.h, 0 dry [-]
 } SbGland;
 
 typedef enum { SB_BAND_NONE, SB_BAND_BELOW, SB_BAND_WITHIN, SB_BAND_ABOVE } SbBand;

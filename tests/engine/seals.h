@@ -55,3 +55,28 @@ static inline SbRing *fitted(const SbRingBody *body, const SbRingLoad *load, dou
   g_assert_cmpint(status, ==, SB_OK);
   return ring;
 }
+
+// All drawing data of a ring; free with fields_free.
+static inline SbRingFields fields_of(const SbRing *ring, int *nodes, int *triangles, int *outline) {
+  sb_ring_sizes(ring, nodes, triangles, outline);
+  SbRingFields fields = {
+      .place = g_new(double, 2 * *nodes),
+      .displacement = g_new(double, 2 * *nodes),
+      .mises = g_new(double, *nodes),
+      .hydrostatic = g_new(double, *nodes),
+      .shear = g_new(double, *nodes),
+      .contact = g_new(double, *nodes),
+      .triangle = g_new(int, 3 * *triangles),
+      .outline = g_new(int, *outline),
+  };
+  sb_ring_fields(ring, &fields);
+  return fields;
+}
+
+static inline void fields_free(const SbRingFields *fields) {
+  void *owned[] = {fields->place, fields->displacement, fields->mises,    fields->hydrostatic,
+                   fields->shear, fields->contact,      fields->triangle, fields->outline};
+  for (size_t i = 0; i < G_N_ELEMENTS(owned); i++) {
+    g_free(owned[i]);
+  }
+}

@@ -136,7 +136,7 @@ static void test_pressure(void) {
     width = r.contact_right - r.contact_left;
     // The profile starts from the fluid's pressure and ends at zero, and is never negative.
     double x[512], p[512];
-    int n = sb_ring_profile(ring, x, p, NULL, 512);
+    int n = sb_ring_profile(ring, x, p, 512);
     g_assert_cmpint(n, >, 12);
     g_assert_cmpint(n, <=, 512);
     near(p[0], PRESSURE[i], 1e-12);
@@ -229,31 +229,6 @@ static void test_cancel(void) {
   SbRingOptions options = {.poll = stop};
   g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, &options, &report), ==, SB_ERROR_CANCELLED);
   g_assert_null(ring);
-}
-
-// All of a ring's fields; fields_free() them.
-static SbRingFields fields_of(SbRing *ring, int *nodes, int *triangles, int *outline) {
-  sb_ring_sizes(ring, nodes, triangles, outline);
-  SbRingFields fields = {
-      .place = g_new(double, 2 * *nodes),
-      .displacement = g_new(double, 2 * *nodes),
-      .mises = g_new(double, *nodes),
-      .hydrostatic = g_new(double, *nodes),
-      .shear = g_new(double, *nodes),
-      .contact = g_new(double, *nodes),
-      .triangle = g_new(int, 3 * *triangles),
-      .outline = g_new(int, *outline),
-  };
-  sb_ring_fields(ring, &fields);
-  return fields;
-}
-
-static void fields_free(const SbRingFields *fields) {
-  void *owned[] = {fields->place, fields->displacement, fields->mises,    fields->hydrostatic,
-                   fields->shear, fields->contact,      fields->triangle, fields->outline};
-  for (size_t i = 0; i < G_N_ELEMENTS(owned); i++) {
-    g_free(owned[i]);
-  }
 }
 
 // Drawing data: sizes agree, the outline lies on the triangles' boundary, stresses are finite.

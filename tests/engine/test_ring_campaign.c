@@ -9,6 +9,7 @@
 // test-engine-ring-campaign [COUNT [FIRST]]: COUNT rings of each kind from number FIRST on; without
 // them a few, and many with -m slow.
 #include "engine/contact/ring/ring.h"
+#include "tests/engine/seals.h"
 
 #include <glib.h>
 #include <math.h>
@@ -77,11 +78,7 @@ static Case make(Kind kind, int index) {
 // Mean of the mean stress over the section's volume, from the drawing's nodal values.
 static double mean_stress(const SbRing *ring, double *most) {
   int nodes, triangles, outline;
-  sb_ring_sizes(ring, &nodes, &triangles, &outline);
-  SbRingFields fields = {.place = g_new(double, 2 * nodes),
-                         .hydrostatic = g_new(double, nodes),
-                         .triangle = g_new(int, 3 * triangles)};
-  sb_ring_fields(ring, &fields);
+  SbRingFields fields = fields_of(ring, &nodes, &triangles, &outline);
   double sum = 0.0, volume = 0.0;
   *most = 0.0;
   for (int i = 0; i < triangles; i++) {
@@ -96,9 +93,7 @@ static double mean_stress(const SbRing *ring, double *most) {
     volume += weight;
     *most = fmax(*most, fabs(stress));
   }
-  g_free(fields.place);
-  g_free(fields.hydrostatic);
-  g_free(fields.triangle);
+  fields_free(&fields);
   return sum / volume;
 }
 
@@ -137,7 +132,7 @@ static void check(const SbRing *ring, const Case *c) {
   // The profile starts and ends with the fluid's pressure and is nowhere negative.
   if (r.touching) {
     double x[1024], p[1024];
-    int n = sb_ring_profile(ring, x, p, NULL, 1024);
+    int n = sb_ring_profile(ring, x, p, 1024);
     g_assert_cmpint(n, >=, 2);
     g_assert_cmpfloat(fabs(p[0] - load->pressure_left), <=, 1e-12 * body->modulus);
     g_assert_cmpfloat(fabs(p[n - 1] - load->pressure_right), <=, 1e-12 * body->modulus);

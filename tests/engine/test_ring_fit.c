@@ -93,7 +93,7 @@ static void test_narrow(void) {
     g_assert_cmpint(sb_ring_fit(&ring, &r, &body, &load, NULL, &warnings, &report), ==, SB_OK);
     g_assert_cmpuint(warnings.count, ==, 0);
     double x[512], p[512], sum = 0.0;
-    int n = sb_ring_profile(ring, x, p, NULL, 512);
+    int n = sb_ring_profile(ring, x, p, 512);
     for (int k = 1; k < n; k++) {
       sum += 0.5 * (p[k] + p[k - 1]) * (x[k] - x[k - 1]);
     }

@@ -22,7 +22,7 @@ static SbSurfaceCompliance surface(SbRing *ring) {
 // right one for x > 0, from the profile.
 static double net_load(const SbRing *ring) {
   double x[1024], p[1024], sum = 0.0;
-  int n = sb_ring_profile(ring, x, p, NULL, 1024);
+  int n = sb_ring_profile(ring, x, p, 1024);
   for (int i = 1; i < n; i++) {
     sum += 0.5 * (p[i] + p[i - 1]) * (x[i] - x[i - 1]);
   }
@@ -113,7 +113,7 @@ static void test_pressure(void) {
       SbRingResult r;
       sb_ring_result(ring, &r);
       double x[1024], p[1024], sum = 0.0;
-      int n = sb_ring_profile(ring, x, p, NULL, 1024), turns = 0;
+      int n = sb_ring_profile(ring, x, p, 1024), turns = 0;
       double before = 0.0;
       for (int j = 1; j < n; j++) {
         sum += 0.5 * (p[j] + p[j - 1]) * (x[j] - x[j - 1]);

@@ -62,13 +62,14 @@ void sb_disc_system_points(SbDiscSystem *system, size_t n) {
   }
 }
 
-// ---- directions
+// ---- directions: of the contact force per unit projected length (vertical or radial, inward), and
+// of the measured displacement
 
-SbDiscVector sb_disc_system_force(const SbDiscSystem *system, SbDiscPoint point) {
+static SbDiscVector force_at(const SbDiscSystem *system, SbDiscPoint point) {
   return system->radial ? (SbDiscVector){-point.sin / point.cos, -1.0} : (SbDiscVector){0.0, -1.0};
 }
 
-SbDiscVector sb_disc_system_measure(const SbDiscSystem *system, SbDiscPoint point) {
+static SbDiscVector measure_at(const SbDiscSystem *system, SbDiscPoint point) {
   return system->radial ? (SbDiscVector){-point.sin, -point.cos} : (SbDiscVector){0.0, -1.0};
 }
 
@@ -118,7 +119,7 @@ static double known_displacement(const SbDiscSystem *s, SbDiscEdges edges, SbDis
       const double tau = split + side * length * grade;
       const SbDiscPoint on_flat = sb_disc_point_at(centre + half * tau);
       sum += weight * length * half * sb_disc_system_step(tau) *
-             sb_disc_kernel_pair(&s->kernel, to, m, on_flat, sb_disc_system_force(s, on_flat));
+             sb_disc_kernel_pair(&s->kernel, to, m, on_flat, force_at(s, on_flat));
     }
   }
   return s->pressure * sum;
@@ -133,9 +134,9 @@ static void add_self(SbDiscSystem *s, const SbDiscPoint *point, double half, siz
   const size_t n = s->n;
   const double log_half = log(half);
   for (size_t i = 0; i < n; i++) {
-    const SbDiscVector m = sb_disc_system_measure(s, point[i]);
+    const SbDiscVector m = measure_at(s, point[i]);
     for (size_t j = 0; j < n; j++) {
-      const SbDiscVector f = sb_disc_system_force(s, point[j]);
+      const SbDiscVector f = force_at(s, point[j]);
       const double dot = m.x * f.x + m.y * f.y;
       double kink;
       double smooth = sb_disc_kernel_smooth(&s->kernel, point[i], m, point[j], f,
@@ -181,16 +182,16 @@ bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double residual[3]
     add_self(s, side, edges.wall, n, rows, false);
     for (size_t i = 0; i < n; i++) {
       const SbDiscPoint to = turn_point(side[i]);
-      const SbDiscVector m_wall = turn(sb_disc_system_measure(s, side[i]));
-      const SbDiscVector m_bore = sb_disc_system_measure(s, bore[i]);
+      const SbDiscVector m_wall = turn(measure_at(s, side[i]));
+      const SbDiscVector m_bore = measure_at(s, bore[i]);
       for (size_t j = 0; j < n; j++) {
         s->matrix[n + i + j * rows] =
             M_PI / (double)n *
-            sb_disc_kernel_pair(&s->kernel, to, m_wall, bore[j], sb_disc_system_force(s, bore[j]));
+            sb_disc_kernel_pair(&s->kernel, to, m_wall, bore[j], force_at(s, bore[j]));
         s->matrix[i + (n + j) * rows] =
             M_PI / (double)n *
             sb_disc_kernel_value(&s->kernel, bore[i], m_bore, turn_point(side[j]),
-                                 turn(sb_disc_system_force(s, side[j])));
+                                 turn(force_at(s, side[j])));
       }
       const double c = side[i].cos;
       s->matrix[i + 2 * n * rows] = 0.0;
@@ -248,8 +249,7 @@ double sb_disc_system_bulge(const SbDiscSystem *s, SbDiscEdges edges) {
   for (size_t j = 0; j < s->n; j++) {
     const SbDiscPoint p = sb_disc_point_at(centre + half * s->tau[j]);
     sum += M_PI / (double)s->n * s->solution[j] *
-           sb_disc_kernel_pair(&s->kernel, end, (SbDiscVector){1.0, 0.0}, p,
-                               sb_disc_system_force(s, p));
+           sb_disc_kernel_pair(&s->kernel, end, (SbDiscVector){1.0, 0.0}, p, force_at(s, p));
   }
   return sum;
 }

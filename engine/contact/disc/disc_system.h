@@ -50,11 +50,6 @@ void sb_disc_system_points(SbDiscSystem *system, size_t n);
 // all edges are smooth.
 SB_CHECKED bool sb_disc_system_solve(SbDiscSystem *system, SbDiscEdges edges, double residual[3]);
 
-// Direction of the contact force per unit projected length at a point of the bore contact (vertical
-// or radial, inward), and of the measured displacement.
-SbDiscVector sb_disc_system_force(const SbDiscSystem *system, SbDiscPoint point);
-SbDiscVector sb_disc_system_measure(const SbDiscSystem *system, SbDiscPoint point);
-
 // The smooth step of the known part, 1 at tau = -1 and 0 at 1.
 double sb_disc_system_step(double tau);
 

@@ -93,8 +93,8 @@ static void fill_fluid(Work *w, size_t nodes, double alpha, double pressure) {
     const double high = alpha + arc * pow((panel + 1.0) / PANELS, 2.0);
     for (int k = 0; k < GAUSS; k++) {
       const double half = 0.5 * (high - low);
-      const SbDiscPoint right = sb_disc_point(0.5 * (low + high) + half * w->gauss_x[k]);
-      const SbDiscPoint left = {.angle = -right.angle, .sin = -right.sin, .cos = right.cos};
+      const double angle = 0.5 * (low + high) + half * w->gauss_x[k];
+      const SbDiscPoint right = sb_disc_point(angle), left = sb_disc_point(-angle);
       const double weight = pressure * half * w->gauss_w[k];
       for (size_t i = 0; i < nodes; i++) {
         const SbDiscPoint to = w->node[i];
@@ -177,9 +177,9 @@ static Figures solve(Work *w, const SbFitProblem *in, double section, double ste
   const double pressure = fabs(in->pressure) * compliance;
   w->step = step;
   // Most contacts end within 45 degrees, which costs a third of the full table.
-  Figures out = {.loaded = find_contact(w, 0.6 * nodes_limit, pressure, iterations)};
-  if (out.loaded == 0) {
-    out.loaded = find_contact(w, nodes_limit, pressure, iterations);
+  Figures out = {0};
+  for (int i = 0; i < 2 && out.loaded == 0; i++) {
+    out.loaded = find_contact(w, (i == 0 ? 0.6 : 1.0) * nodes_limit, pressure, iterations);
   }
   for (size_t j = 0; j < out.loaded; j++) {
     w->pressure[j] /= compliance;

@@ -89,23 +89,27 @@ static double contact_angle(double squeeze) {
   return asin(fmin(0.93, 1.15 * sqrt(fmax(0.0, squeeze)) + 0.04));
 }
 
+static SbRingMeshPlan empty_plan(const SbRing *ring, double size_max, double size) {
+  return (SbRingMeshPlan){.centre = ring->centre,
+                          .radius = 0.5,
+                          .size_max = size_max,
+                          .growth = 0.5,
+                          .layers = (int)fmax(4.0, floor(0.5 + 1.76 * log2(0.5 / size)))};
+}
+
 // First mesh: fine where bore, floor and, under pressure, the low-pressure flank will touch.
-static void first_plan(SbRingMeshPlan *plan, const SbRing *ring, const SbRingLoad *s, double size) {
-  memset(plan, 0, sizeof *plan);
-  plan->centre = ring->centre;
-  plan->radius = 0.5;
-  plan->size_max = 0.16;
-  plan->growth = 0.5;
-  plan->layers = (int)fmax(4.0, floor(0.5 + 2.2 * log(0.5 / size) / log(2.0) * 0.8));
+static SbRingMeshPlan first_plan(const SbRing *ring, const SbRingLoad *s, double size) {
+  SbRingMeshPlan plan = empty_plan(ring, 0.16, size);
   double angle = contact_angle(1.0 - (s->bore_radius - s->floor_radius));
-  plan->zone[plan->zone_count++] = (SbRingZone){-angle, angle, size};
-  plan->zone[plan->zone_count++] = (SbRingZone){M_PI - angle, M_PI + angle, size};
+  plan.zone[plan.zone_count++] = (SbRingZone){-angle, angle, size};
+  plan.zone[plan.zone_count++] = (SbRingZone){M_PI - angle, M_PI + angle, size};
   if (s->pressure_left > s->pressure_right && s->wall_right < INFINITY) {
-    plan->zone[plan->zone_count++] = (SbRingZone){0.0, M_PI, 1.5 * size};
+    plan.zone[plan.zone_count++] = (SbRingZone){0.0, M_PI, 1.5 * size};
   }
   if (s->pressure_left < s->pressure_right && s->wall_left > -INFINITY) {
-    plan->zone[plan->zone_count++] = (SbRingZone){-M_PI, 0.0, 1.5 * size};
+    plan.zone[plan.zone_count++] = (SbRingZone){-M_PI, 0.0, 1.5 * size};
   }
+  return plan;
 }
 
 static SbStatus build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report) {
@@ -170,8 +174,6 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
   ring->options = options != NULL ? *options : (SbRingOptions){0};
   SbRingOptions *o = &ring->options;
   o->element_size = o->element_size > 0.0 ? fmin(0.1, fmax(0.004, o->element_size)) : SIZE_DEFAULT;
-  o->iterations_max = o->iterations_max > 0 ? o->iterations_max : 24;
-  o->step_least = o->step_least > 0.0 ? o->step_least : 1.0 / 64.0;
   double d = body->section_diameter;
   ring->length = d;
   ring->stress = body->modulus / (2.0 * (1.0 + body->poisson_ratio));
@@ -183,8 +185,7 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
   static const double FINER[] = {1.0, 0.8, 0.6};
   status = SB_ERROR_NOT_CONVERGED;
   for (size_t i = 0; i < sizeof FINER / sizeof FINER[0] && status == SB_ERROR_NOT_CONVERGED; i++) {
-    SbRingMeshPlan plan;
-    first_plan(&plan, ring, &target, FINER[i] * o->element_size);
+    SbRingMeshPlan plan = first_plan(ring, &target, FINER[i] * o->element_size);
     drop(ring);
     status = build(ring, &plan, report);
     if (status == SB_OK) {
@@ -249,11 +250,7 @@ static void plan_patch(SbRingMeshPlan *plan, const SbRingPatch *patch, double si
 
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
   SbRing fresh = *ring;
-  SbRingMeshPlan plan = {.centre = ring->centre,
-                         .radius = 0.5,
-                         .size_max = fmin(0.16, 3.2 * element_size),
-                         .growth = 0.5};
-  plan.layers = (int)fmax(4.0, floor(0.5 + 2.2 * log(0.5 / element_size) / log(2.0) * 0.8));
+  SbRingMeshPlan plan = empty_plan(ring, fmin(0.16, 3.2 * element_size), element_size);
   SbRingPatch patch[SB_RING_SURFACES];
   bool touches[SB_RING_SURFACES];
   for (int s = 0; s < SB_RING_SURFACES; s++) {
@@ -286,7 +283,7 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
       sb_ring_touch(contact, i, s)->held = held;
     }
   }
-  status = sb_ring_newton(&fresh, fresh.options.iterations_max, report);
+  status = sb_ring_newton(&fresh, SB_RING_FOLLOW, report);
   if (status == SB_ERROR_NOT_CONVERGED) {
     // Too far from the transferred state: walk the whole way again on the new mesh.
     SbRingLoad setting = ring->contact->is.now;

@@ -55,8 +55,6 @@ typedef struct {
 typedef struct {
   double element_size;      // side of the contact's elements over section diameter [0.05]
   bool fit_mesh;            // after the first solution, remesh with nodes at the contact edges
-  int iterations_max;       // Newton iterations per load step [24]
-  double step_least;        // least share of a load step before it is given up [1/64]
   double tolerance;         // of sb_ring_fit, relative on the load, 1e-5 .. 0.1 [1e-3]
   double wanted;            // estimate of that error above which it warns [tolerance]
   bool (*poll)(void *data); // returns true to cancel; called every Newton iteration
@@ -73,22 +71,18 @@ typedef struct {
   SbRingState state;
   double turn;   // of the section since it was free, rad; > 0 as the bore's motion to +x drives it
   bool touching; // the bore is touched
-  double bore_force, bore_drag;   // radial (compression > 0) and axial (+x on the ring) force
-  double floor_force, floor_drag; // the same at the groove floor
-  double wall_right_force, wall_left_force; // axial, compression > 0
-  double wall_right_drag, wall_left_drag;   // radial friction on the ring, outwards > 0
+  double bore_force, bore_drag;   // N, radial (compression > 0) and axial (+x on the ring)
+  double floor_force, floor_drag; // N, the same at the groove floor
+  double wall_right_force, wall_left_force; // N, axial, compression > 0
   double contact_left, contact_right;       // ends of the bore contact, m
-  double floor_left, floor_right;           // ends of the floor contact, m
-  double wall_inner, wall_outer;            // ends of the right wall's contact, radii, m
   double pressure_peak;                     // of the bore contact, Pa
-  double position_peak;                     // m
   double thickness;                         // radial extent of the deformed section, m
   double axial_left, axial_right;           // axial extent of the deformed section, m
-  double volume_change;                     // relative to the free ring
+  double volume_change;                     // relative to the free ring [-]
   double penetration;                       // largest over the boundary nodes, m
   double pressure_least;                    // least nodal contact pressure above the fluid's, Pa
   double friction_excess; // N of departure from Coulomb's law at nodes that cannot settle, 0
-  double axial_imbalance; // sum of all axial forces over the largest one
+  double axial_imbalance; // sum of all axial forces over the largest one [-]
   int unknowns, newton_iterations, load_steps, rejected_steps;
   struct {
     double load, peak, width; // relative
@@ -115,14 +109,14 @@ const SbRingLoad *sb_ring_load(const SbRing *ring);
 
 void sb_ring_result(const SbRing *ring, SbRingResult *out);
 
-// Contact pressure (and shear, may be NULL) of the bore contact from its left to its right end,
+// Contact pressure p [Pa] at x [m] of the bore contact from its left to its right end,
 // where it equals the fluid's. Returns the number of points; writes at most `capacity`.
-int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *shear, int capacity);
+int sb_ring_profile(const SbRing *ring, double *x, double *pressure, int capacity);
 
 // Sizes for drawing: nodes, triangles, points of the outline.
 void sb_ring_sizes(const SbRing *ring, int *nodes, int *triangles, int *outline);
 
-// For drawing, on request only. Any array may be NULL.
+// For drawing, on request only.
 typedef struct {
   double *place;        // [2 nodes] deformed (x axial, r), m
   double *displacement; // [2 nodes] (axial, radial) from the free ring, m

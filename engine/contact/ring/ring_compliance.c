@@ -181,35 +181,25 @@ static void half_plane(double half, int l, double *value) {
   }
 }
 
-// A ring that nothing holds axially drifts by any amount under a lopsided pressure, and its free
-// surface beside the contact with it. What of that an answer holds is taken out: as much drift as
-// leaves the least beside the half-plane's answer.
-static void remove_drift(const SbSurfaceCompliance *c, double half,
-                         double answer[WAVES][SB_COMPLIANCE_MODES], const double *slope) {
-  double compliance = sb_compliance_half_plane(c);
-  for (int l = 0; l < WAVES; l++) {
-    double plane[SB_COMPLIANCE_MODES], up = 0.0, down = 1e-30;
-    half_plane(half, l, plane);
-    for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
-      up += (answer[l][i] - compliance * plane[i]) * slope[i];
-      down += slope[i] * slope[i];
-    }
-    for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
-      answer[l][i] -= up / down * slope[i];
-    }
-  }
-}
-
 // Chebyshev coefficients of the smooth part from the answers, less the half-plane's.
+//
+// A ring that nothing holds axially drifts by any amount under a lopsided pressure, and its free
+// surface beside the contact with it. What of that the rest of an answer holds is taken out by the
+// surface's slope: as much drift as leaves the least. `slope` NULL: the ring is held.
 static void smooth_part(SbSurfaceCompliance *out, double half,
-                        double answer[WAVES][SB_COMPLIANCE_MODES]) {
+                        double answer[WAVES][SB_COMPLIANCE_MODES], const double *slope) {
   enum { N = SB_COMPLIANCE_MODES };
   double compliance = sb_compliance_half_plane(out), s[WAVES][WAVES + 2] = {{0.0}};
   for (int l = WAVES - 1; l >= 0; l--) {
-    double plane[N], rest[N], v[N];
+    double plane[N], rest[N], v[N], up = 0.0, down = 1e-30;
     half_plane(half, l, plane);
     for (int i = 0; i < N; i++) {
       rest[i] = answer[l][i] - compliance * plane[i];
+      up += slope != NULL ? rest[i] * slope[i] : 0.0;
+      down += slope != NULL ? slope[i] * slope[i] : 0.0;
+    }
+    for (int i = 0; i < N && slope != NULL; i++) {
+      rest[i] -= up / down * slope[i];
     }
     sb_chebyshev_coefficients(v, rest, N);
     for (int k = 0; k < WAVES; k++) {
@@ -305,11 +295,7 @@ static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
     return sb_fail(report, SB_ERROR_INFEASIBLE,
                    "the ring's surface is too steep beside the bore contact");
   }
-  if (ring->fem->axial_spring > 0.0) {
-    remove_drift(out, length, answer, slope);
-  }
-  smooth_part(out, length, answer);
-
+  smooth_part(out, length, answer, ring->fem->axial_spring > 0.0 ? slope : NULL);
   return dry_gap(ring, &patch, out, report);
 }
 

@@ -119,10 +119,10 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   size_t state = 2 * n + SB_RING_INNER * m;
   fem->u = calloc(4 * state + 7 * n, sizeof(double)); // and what follows it
   fem->condition = calloc(n, sizeof(SbRingCondition));
-  fem->raw_place = calloc(2 * n, sizeof(int));
+  fem->work_int = calloc(n, sizeof(int));
   fem->gauss = malloc(sizeof(double) * POINT_SIZE * SB_RING_FEM_POINTS * m);
   fem->condensed = calloc(INNER * RIGHT * m, sizeof(double));
-  if (fem->u == NULL || fem->condition == NULL || fem->raw_place == NULL || fem->gauss == NULL ||
+  if (fem->u == NULL || fem->condition == NULL || fem->work_int == NULL || fem->gauss == NULL ||
       fem->condensed == NULL) {
     sb_ring_fem_destroy(fem);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's elements");
@@ -135,7 +135,6 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->rhs = fem->residual + 2 * n;
   fem->du = fem->residual + 4 * n;
   fem->mass = fem->residual + 6 * n;
-  fem->work_int = fem->raw_place + n;
   for (int e = 0; e < mesh->elements; e++) {
     for (int q = 0; q < SB_RING_FEM_POINTS; q++) {
       if (!point_geometry(fem, e, POINT[q][0], POINT[q][1], POINT[q][2],
@@ -163,8 +162,8 @@ void sb_ring_fem_destroy(SbRingFem *fem) {
     return;
   }
   sb_ring_sparse_finish(fem);
-  void *owned[] = {fem->u,         fem->condition, fem->raw_place, fem->gauss,
-                   fem->condensed, fem->row_start, fem->column,    fem->value,
+  void *owned[] = {fem->u,         fem->condition, fem->work_int, fem->gauss,
+                   fem->condensed, fem->row_start, fem->column,   fem->value,
                    fem->raw,       fem->scatter,   fem->diagonal};
   for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
     free(owned[i]);

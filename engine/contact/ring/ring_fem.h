@@ -57,7 +57,6 @@ struct SbRingFem {
   double *gauss, *condensed;
   int *row_start, *column, *scatter, *diagonal;
   double *value, *raw, *rhs;
-  int *raw_place;
   SbRingFactor *factor;
   int *work_int; // [nodes] scratch
 };

@@ -25,9 +25,7 @@ static void stresses(const SbRing *ring, const SbRingFields *out) {
     visits[mesh->tri[i]]++;
   }
   for (int k = 0; k < 3; k++) {
-    if (field[k] != NULL) {
-      memset(field[k], 0, sizeof(double) * (size_t)mesh->nodes);
-    }
+    memset(field[k], 0, sizeof(double) * (size_t)mesh->nodes);
   }
   for (int i = 0; i < 6 * mesh->elements; i++) {
     double s[4], jacobian;
@@ -38,9 +36,7 @@ static void stresses(const SbRing *ring, const SbRingFields *out) {
     double value[3] = {mises, mean, s[2]};
     int node = mesh->tri[i];
     for (int k = 0; k < 3; k++) {
-      if (field[k] != NULL) {
-        field[k][node] += value[k] * ring->stress / visits[node];
-      }
+      field[k][node] += value[k] * ring->stress / visits[node];
     }
   }
 }
@@ -62,35 +58,21 @@ static void boundary_pressure(const SbRing *ring, double *contact) {
 }
 
 void sb_ring_fields(const SbRing *ring, const SbRingFields *out) {
+  static const int PART[12] = {0, 5, 3, 3, 4, 1, 5, 2, 4, 3, 5, 4};
   const SbRingMesh *mesh = ring->mesh;
   const double *u = ring->fem->u;
   for (int i = 0; i < mesh->nodes; i++) {
     for (int k = 0; k < 2; k++) {
-      if (out->place != NULL) {
-        out->place[2 * i + k] = (mesh->x[2 * i + 1 - k] + u[2 * i + 1 - k]) * ring->length;
-      }
-      if (out->displacement != NULL) {
-        out->displacement[2 * i + k] = u[2 * i + 1 - k] * ring->length;
-      }
+      out->place[2 * i + k] = (mesh->x[2 * i + 1 - k] + u[2 * i + 1 - k]) * ring->length;
+      out->displacement[2 * i + k] = u[2 * i + 1 - k] * ring->length;
     }
   }
-  if (out->mises != NULL || out->hydrostatic != NULL || out->shear != NULL) {
-    stresses(ring, out);
+  stresses(ring, out);
+  boundary_pressure(ring, out->contact);
+  for (int i = 0; i < 12 * mesh->elements; i++) {
+    out->triangle[i] = mesh->tri[i / 12 * 6 + PART[i % 12]];
   }
-  if (out->contact != NULL) {
-    boundary_pressure(ring, out->contact);
-  }
-  if (out->triangle != NULL) {
-    static const int PART[12] = {0, 5, 3, 3, 4, 1, 5, 2, 4, 3, 5, 4};
-    for (int e = 0; e < mesh->elements; e++) {
-      for (int k = 0; k < 12; k++) {
-        out->triangle[12 * e + k] = mesh->tri[6 * e + PART[k]];
-      }
-    }
-  }
-  if (out->outline != NULL) {
-    for (int i = 0; i < mesh->loop_count; i++) {
-      out->outline[i] = mesh->loop[mesh->loop_count - 1 - i];
-    }
+  for (int i = 0; i < mesh->loop_count; i++) {
+    out->outline[i] = mesh->loop[mesh->loop_count - 1 - i];
   }
 }

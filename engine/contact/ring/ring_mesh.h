@@ -1,7 +1,7 @@
 // Graded triangle meshes of a circular section, and the order of their boundary.
 //
 // Internal to the ring. Six-node triangles (vertices 0-2, mid-sides 3 = 0-1, 4 = 1-2, 5 = 2-0) with
-// curved boundary sides. Lengths are in any one unit; the ring uses the section diameter.
+// curved boundary sides. Lengths are in any one unit [L]; the ring uses the section diameter.
 #pragma once
 
 #include "engine/base/status.h"
@@ -12,31 +12,32 @@ enum { SB_RING_ZONES_MAX = 24, SB_RING_VERTICES_MAX = 8 };
 // from the bore (0) over the right flank (pi/2) to the floor (pi); the left half has negative
 // angles.
 typedef struct {
-  double from, to; // from <= to, rad
-  double size;     // side length of the elements there
+  double from, to; // from <= to [rad]
+  double size;     // side length of the elements there [L]
 } SbRingZone;
 
 typedef struct {
   int nodes;      // vertices and mid-sides
   int elements;   // triangles
   int loop_count; // boundary nodes: vertex, mid-side, vertex, ...
-  double *x;      // [2 * nodes] reference position (r, z)
-  int *tri;       // [6 * elements]
+  double *x;      // [2 * nodes] reference position (r, z) [L]
+  int *tri;       // [6 * elements] nodes
   int *loop;      // [loop_count] in the order of the angle, even places are vertices
-  double *angle;  // [loop_count] rad, rising
+  double *angle;  // [loop_count] rising [rad]
 } SbRingMesh;
 
 // What to mesh: a disc of `radius` whose centre lies at r = `centre`. The size grows from each zone
 // by `growth` per unit of arc, up to `size_max`. Surface vertices are put exactly at the `vertex`
 // angles (contact edges).
 typedef struct {
-  double centre, radius;
-  double size_max, growth;
-  int layers; // rows of elements from surface to centre
+  double centre, radius; // [L]
+  double size_max;       // [L]
+  double growth;         // [-]
+  int layers;            // rows of elements from surface to centre
   int zone_count;
   SbRingZone zone[SB_RING_ZONES_MAX];
   int vertex_count;
-  double vertex[SB_RING_VERTICES_MAX];
+  double vertex[SB_RING_VERTICES_MAX]; // [rad]
 } SbRingMeshPlan;
 
 // Builds the mesh; owned, free with sb_ring_mesh_destroy. SB_ERROR_MEMORY if it does not fit.

@@ -25,6 +25,8 @@
 
 #include <math.h>
 
+// Iterations per load step; few on a sealed path, short of its fold.
+enum { ITERATIONS_MAX = 24, SEALED_ITERATIONS = 14 };
 enum { SINGLE_AFTER = 14, RECENTRES_MAX = 6, MORE = 10 };
 
 static const double NEARLY = 1e-2;
@@ -98,7 +100,8 @@ static void fail(const SbRingContact *contact, double residual, int changes, int
                 wall ? "above the floor" : "from its middle", residual);
 }
 
-SbStatus sb_ring_newton(SbRing *ring, int iterations_max, SbReport *report) {
+SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
+  const int iterations_max = path == SB_RING_SEALED ? SEALED_ITERATIONS : ITERATIONS_MAX;
   SbRingContact *contact = ring->contact;
   SbRingFem *fem = ring->fem;
   int changes = 0, stumbles = 0, recentres = 0;
@@ -181,10 +184,9 @@ enum { VISCOUS_STEPS = 50, DROPS_MAX = 4, WALKS_MAX = 3 };
 // Newton iterations after which a load step is given up at its next failure.
 enum { ITERATIONS_MOST = 1000 };
 
-// A sealed path: short of its fold Newton's method takes few iterations, and a step that loses the
-// contact went past. Parts at least, and the least share of a part.
-enum { SEALED_ITERATIONS = 14 };
-static const double SEALED_PARTS = 4.0, SEALED_LEAST = 1.0 / 8.0;
+// Least share of a part before it is given up. Parts of a sealed path at least, and their least
+// share: a step that loses the contact went past its fold.
+static const double STEP_LEAST = 1.0 / 64.0, SEALED_PARTS = 4.0, SEALED_LEAST = 1.0 / 8.0;
 
 // A motion beyond which the ring counts as gone, in section diameters; the turn beyond which it
 // rolls and the largest one of a part, in radians.
@@ -255,8 +257,7 @@ static SbStatus take_turn(SbRingContact *contact, SbReport *report) {
 static SbStatus attempt(SbRing *ring, SbRingPath path, SbReport *report) {
   SbRingContact *contact = ring->contact;
   SbRingPatch patch;
-  SbStatus status = sb_ring_newton(
-      ring, path == SB_RING_SEALED ? SEALED_ITERATIONS : ring->options.iterations_max, report);
+  SbStatus status = sb_ring_newton(ring, path, report);
   ring->fem->viscosity = 0.0;
   status = status == SB_OK ? take_turn(contact, report) : status;
   if (status == SB_OK && path == SB_RING_SEALED && !sb_ring_patch(ring, SB_RING_BORE, &patch)) {
@@ -329,7 +330,7 @@ SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path
   SbRingLoad start = contact->is.now;
   bool sealed = path == SB_RING_SEALED;
   double part = 1.0 / fmax(sealed ? SEALED_PARTS : 1.0, parts(&start, target));
-  double least = part * (sealed ? SEALED_LEAST : ring->options.step_least);
+  double least = part * (sealed ? SEALED_LEAST : STEP_LEAST);
   double done = 0.0, share = part;
   int walks = 0, first = count->iterations;
   contact->rolls = false;

@@ -154,7 +154,7 @@ static SbStatus start(SbRing *ring, const SbRingLoad *load, double share, SbRepo
   ring->contact->is.now = *load;
   guess(ring, load, share);
   sb_ring_contact_detect(ring->contact);
-  return sb_ring_newton(ring, ring->options.iterations_max, report);
+  return sb_ring_newton(ring, SB_RING_FOLLOW, report);
 }
 
 // Fits the ring without fluid and friction, then brings on the fluid.

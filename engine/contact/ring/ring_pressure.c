@@ -227,7 +227,7 @@ static bool presses(SbDryContact *p) {
   sb_dry_contact_edges(p);
   double low = fmin(p->pressure_left, p->pressure_right);
   bool good = p->edge_left >= 0.0 && p->edge_right >= 0.0;
-  for (int i = 0; i <= SAMPLES && good; i++) {
+  for (int i = 1; i < SAMPLES && good; i++) {
     double x = p->left + 0.5 * (p->right - p->left) * (1.0 - cos(M_PI * i / SAMPLES));
     good = sb_dry_contact_pressure(p, x) >= low;
   }

@@ -53,13 +53,13 @@ bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
 // kept if that fails.
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
 
-// Newton's method with the contact's active set at the load `contact->is.now`; the state is left at
-// the last iterate on failure.
-SbStatus sb_ring_newton(SbRing *ring, int iterations_max, SbReport *report);
-
 // How load steps are taken: followed in viscous steps where the next equilibrium is not near, never
 // so, or as long as the bore is touched.
 typedef enum { SB_RING_FOLLOW, SB_RING_DIRECT, SB_RING_SEALED } SbRingPath;
+
+// Newton's method with the contact's active set at the load `contact->is.now`; the state is left at
+// the last iterate on failure.
+SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report);
 
 // Moves from the present converged load to `target`, in as many steps as it takes. On failure the
 // last converged load and state remain, and the report says where equilibrium ended.

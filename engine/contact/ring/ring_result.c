@@ -128,18 +128,13 @@ double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface) {
   return patch.end_pressure[nearer_last ? 1 : 0] + fmax(0.0, excess(contact, i, surface)) / weight;
 }
 
-static double node_shear(const SbRing *ring, int i) {
-  const SbRingTouch *touch = sb_ring_touch(ring->contact, i, SB_RING_BORE);
-  return touch->held ? touch->tangent / ring->contact->weight[sb_ring_wrap(ring->contact, i)] : 0.0;
-}
-
 // Nodal pressures as they are, for a contact that no smooth curve fits.
 static int nodal_profile(const SbRing *ring, const SbRingPatch *patch, double *x, double *pressure,
-                         double *shear, int capacity) {
+                         int capacity) {
   int n = 0;
   double before = -HUGE_VAL;
   for (int i = patch->first - 1; i <= patch->last + 1; i++) {
-    double at[2], p = 0.0, t = 0.0;
+    double at[2], p = 0.0;
     if (i < patch->first || i > patch->last) {
       int end = i < patch->first ? 0 : 1;
       at[1] = patch->place[end];
@@ -156,14 +151,10 @@ static int nodal_profile(const SbRing *ring, const SbRingPatch *patch, double *x
         continue;
       }
       p = sb_ring_node_pressure(ring, i, SB_RING_BORE);
-      t = node_shear(ring, i);
     }
     if (n < capacity) {
       x[n] = at[1] * ring->length;
       pressure[n] = p * ring->stress;
-      if (shear != NULL) {
-        shear[n] = t * ring->stress;
-      }
     }
     n++;
     before = at[1];
@@ -171,76 +162,54 @@ static int nodal_profile(const SbRing *ring, const SbRingPatch *patch, double *x
   return n;
 }
 
-// Nodal shear at an axial place, by straight lines between the mid-sides, whose nodal value is the
-// accurate one; level beyond the outermost.
-static double shear_at(const SbRing *ring, const SbRingPatch *patch, double z) {
-  double before = 0.0, value = 0.0;
-  bool any = false;
-  for (int i = patch->first + (patch->first + 1) % 2; i <= patch->last; i += 2) {
-    double at[2];
-    sb_ring_contact_place(ring->contact, i, at);
-    double here = node_shear(ring, i);
-    if (z <= at[1]) {
-      return any ? value + (z - before) / (at[1] - before) * (here - value) : here;
-    }
-    before = at[1];
-    value = here;
-    any = true;
-  }
-  return value;
-}
-
-int sb_ring_profile(const SbRing *ring, double *x, double *pressure, double *shear, int capacity) {
+int sb_ring_profile(const SbRing *ring, double *x, double *pressure, int capacity) {
   SbRingPatch patch;
   SbDryContact smooth;
   if (!sb_ring_patch(ring, SB_RING_BORE, &patch)) {
     return 0;
   }
   if (!sb_ring_ends(ring, SB_RING_BORE, &patch, &smooth)) {
-    return nodal_profile(ring, &patch, x, pressure, shear, capacity);
+    return nodal_profile(ring, &patch, x, pressure, capacity);
   }
   for (int i = 0; i < PROFILE_POINTS && i < capacity; i++) {
     // Dense at both ends, where the pressure rises with the root of the distance.
     bool last = i == PROFILE_POINTS - 1;
-    double share = last ? 1.0 : 0.5 * (1.0 - cos(M_PI * i / (PROFILE_POINTS - 1)));
-    double at = patch.place[0] + share * (patch.place[1] - patch.place[0]);
+    double share = 0.5 * (1.0 - cos(M_PI * i / (PROFILE_POINTS - 1)));
+    double at = last ? patch.place[1] : patch.place[0] + share * (patch.place[1] - patch.place[0]);
     x[i] = at * ring->length;
     pressure[i] = sb_dry_contact_pressure(&smooth, at) * ring->stress;
-    if (shear != NULL) {
-      shear[i] = shear_at(ring, &patch, at) * ring->stress;
-    }
   }
   return PROFILE_POINTS;
 }
 
 // Greatest nodal pressure, refined by a parabola through the nodes around it.
-static void find_peak(const SbRing *ring, const SbRingPatch *patch, double *peak, double *place) {
-  *peak = *place = 0.0;
+static double find_peak(const SbRing *ring, const SbRingPatch *patch) {
+  double peak = 0.0;
   int best = patch->first;
   for (int i = patch->first; i <= patch->last; i++) {
     double p = sb_ring_node_pressure(ring, i, SB_RING_BORE);
-    if (p > *peak) {
-      *peak = p;
+    if (p > peak) {
+      peak = p;
       best = i;
     }
   }
   double x[2];
   sb_ring_contact_place(ring->contact, best, x);
-  *place = x[1];
+  double place = x[1];
   // Least squares over two nodes either side smooths the vertex/mid-side pattern.
   int reach = best - patch->first < patch->last - best ? best - patch->first : patch->last - best;
   reach = reach > 3 ? 3 : reach;
   if (reach < 2) {
-    return;
+    return peak;
   }
   double normal[9] = {0.0}, b[3] = {0.0}, scale = 0.0;
   for (int i = best - reach; i <= best + reach; i++) {
     sb_ring_contact_place(ring->contact, i, x);
-    scale = fmax(scale, fabs(x[1] - *place));
+    scale = fmax(scale, fabs(x[1] - place));
   }
   for (int i = best - reach; i <= best + reach; i++) {
     sb_ring_contact_place(ring->contact, i, x);
-    double t = (x[1] - *place) / scale, power[3] = {1.0, t, t * t};
+    double t = (x[1] - place) / scale, power[3] = {1.0, t, t * t};
     double p = sb_ring_node_pressure(ring, i, SB_RING_BORE);
     for (int k = 0; k < 3; k++) {
       b[k] += power[k] * p;
@@ -251,9 +220,9 @@ static void find_peak(const SbRing *ring, const SbRingPatch *patch, double *peak
   }
   if (sb_eliminate(normal, b, 3) && b[2] < 0.0) {
     double t = fmin(1.0, fmax(-1.0, -0.5 * b[1] / b[2]));
-    *peak = b[0] + t * (b[1] + b[2] * t);
-    *place += t * scale;
+    peak = b[0] + t * (b[1] + b[2] * t);
   }
+  return peak;
 }
 
 // Normal force that the fluid still carries in the balance on sides that are only partly within
@@ -308,14 +277,12 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
       }
     }
   }
-  SbRingPatch patch[SB_RING_SURFACES] = {0};
+  SbRingPatch patch[2] = {0}; // bore and floor
   SbDryContact smooth;
-  for (int s = 0; s < SB_RING_SURFACES; s++) {
+  for (int s = SB_RING_BORE; s <= SB_RING_FLOOR; s++) {
     bool touches = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
     if (touches) {
       sb_ring_ends(ring, (SbRingSurface)s, &patch[s], &smooth);
-    }
-    if (touches && s <= SB_RING_FLOOR) {
       force[s][0] += (s == SB_RING_BORE ? -1.0 : 1.0) * end_share(ring, &patch[s]);
     }
     out->touching = out->touching || (touches && s == SB_RING_BORE);
@@ -325,23 +292,14 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   out->floor_force = force[SB_RING_FLOOR][0] * f;
   out->floor_drag = force[SB_RING_FLOOR][1] * f;
   out->wall_right_force = 0.0 - force[SB_RING_WALL_RIGHT][1] * f;
-  out->wall_right_drag = force[SB_RING_WALL_RIGHT][0] * f;
   out->wall_left_force = force[SB_RING_WALL_LEFT][1] * f;
-  out->wall_left_drag = force[SB_RING_WALL_LEFT][0] * f;
 
   out->state = contact->rolls ? SB_RING_ROLLS : out->touching ? SB_RING_SLIDES : SB_RING_NO_CONTACT;
   if (out->touching) {
-    double peak, place;
-    find_peak(ring, &patch[SB_RING_BORE], &peak, &place);
-    out->pressure_peak = peak * ring->stress;
-    out->position_peak = place * l;
+    out->pressure_peak = find_peak(ring, &patch[SB_RING_BORE]) * ring->stress;
   }
   out->contact_left = patch[SB_RING_BORE].place[0] * l;
   out->contact_right = patch[SB_RING_BORE].place[1] * l;
-  out->floor_left = patch[SB_RING_FLOOR].place[1] * l;
-  out->floor_right = patch[SB_RING_FLOOR].place[0] * l;
-  out->wall_inner = patch[SB_RING_WALL_RIGHT].place[1] * l;
-  out->wall_outer = patch[SB_RING_WALL_RIGHT].place[0] * l;
   out->pressure_least = isfinite(least) ? least * ring->stress : 0.0;
   out->thickness = (high[0] - low[0]) * l;
   out->axial_left = low[1] * l;

@@ -128,43 +128,38 @@ void sb_ring_fem_add(SbRingFem *fem, int a, int i, int b, int j, double k) {
 }
 
 // Replaces the two rows of a conditioned node; the raw rows are kept for its reaction.
-static void apply_condition(SbRingFem *fem, int node, int raw_at) {
+static void apply_condition(SbRingFem *fem, int node) {
   const SbRingCondition *c = &fem->condition[node];
   int start = fem->row_start[2 * node], width = fem->row_start[2 * node + 1] - start;
   double *row[2] = {&fem->value[start], &fem->value[start + width]};
-  memcpy(&fem->raw[raw_at], row[0], sizeof(double) * 2 * (size_t)width);
-  fem->raw_place[node] = raw_at;
+  memcpy(&fem->raw[start], row[0], sizeof(double) * 2 * (size_t)width);
   int diagonal = fem->diagonal[node];
   double scale = fmax(fabs(row[0][diagonal]), fabs(row[1][diagonal + 1]));
   double r0 = fem->residual[2 * node], r1 = fem->residual[2 * node + 1];
   double *rhs = &fem->rhs[2 * node];
-  if (c->count == 2) {
-    memset(row[0], 0, sizeof(double) * 2 * (size_t)width);
-    // Either takes the row of its larger component, so that no pivot vanishes.
-    bool swap = fabs(c->direction[0][0]) < fabs(c->direction[0][1]);
-    for (int k = 0; k < 2; k++) {
-      int to = swap ? 1 - k : k;
-      row[to][diagonal] = scale * c->direction[k][0];
-      row[to][diagonal + 1] = scale * c->direction[k][1];
-      rhs[to] = scale * c->gap[k];
-    }
-    return;
-  }
-  // The constraint takes the row of its larger component, the tangential balance the other.
+  // The constraint takes the row of its larger component, so that no pivot vanishes, the tangential
+  // balance or the other constraint that of the other.
   const double *n = c->direction[0], *t = c->direction[1];
-  int fixed = fabs(n[0]) >= fabs(n[1]) ? 0 : 1;
-  double w0 = t[0] + c->mix * n[0], w1 = t[1] + c->mix * n[1];
+  int fixed = fabs(n[0]) >= fabs(n[1]) ? 0 : 1, other = 1 - fixed;
+  double w0 = c->count == 1 ? t[0] + c->mix * n[0] : 0.0;
+  double w1 = c->count == 1 ? t[1] + c->mix * n[1] : 0.0;
   for (int k = 0; k < width; k++) {
     double balance = w0 * row[0][k] + w1 * row[1][k];
     row[fixed][k] = 0.0;
-    row[1 - fixed][k] = balance;
+    row[other][k] = balance;
   }
-  row[1 - fixed][diagonal + 1] +=
-      c->curve * (c->mix * (t[0] * r0 + t[1] * r1) - (n[0] * r0 + n[1] * r1));
   row[fixed][diagonal] = scale * n[0];
   row[fixed][diagonal + 1] = scale * n[1];
   rhs[fixed] = scale * c->gap[0];
-  rhs[1 - fixed] = c->drive - (w0 * r0 + w1 * r1);
+  if (c->count == 2) {
+    row[other][diagonal] = scale * t[0];
+    row[other][diagonal + 1] = scale * t[1];
+    rhs[other] = scale * c->gap[1];
+  } else {
+    row[other][diagonal + 1] +=
+        c->curve * (c->mix * (t[0] * r0 + t[1] * r1) - (n[0] * r0 + n[1] * r1));
+    rhs[other] = c->drive - (w0 * r0 + w1 * r1);
+  }
 }
 
 // Factorises with new pivots.
@@ -184,14 +179,13 @@ static SbStatus choose_pivots(SbRingFem *fem, SbReport *report) {
 
 SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report) {
   SbRingFactor *factor = fem->factor;
-  int nodes = fem->mesh->nodes, raw_at = 0;
+  int nodes = fem->mesh->nodes;
   for (int i = 0; i < 2 * nodes; i++) {
     fem->rhs[i] = -fem->residual[i];
   }
   for (int i = 0; i < nodes; i++) {
     if (fem->condition[i].count > 0) {
-      apply_condition(fem, i, raw_at);
-      raw_at += 2 * (fem->row_start[2 * i + 1] - fem->row_start[2 * i]);
+      apply_condition(fem, i);
     }
   }
   bool good =
@@ -247,7 +241,7 @@ SbStatus sb_ring_fem_solve(SbRingFem *fem, SbReport *report) {
 
 void sb_ring_fem_reaction(const SbRingFem *fem, int node, double force[2]) {
   int start = fem->row_start[2 * node], width = fem->row_start[2 * node + 1] - start;
-  const double *raw = &fem->raw[fem->raw_place[node]];
+  const double *raw = &fem->raw[start];
   for (int c = 0; c < 2; c++) {
     double sum = fem->residual[2 * node + c];
     for (int k = 0; k < width; k++) {

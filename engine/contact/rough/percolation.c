@@ -47,7 +47,6 @@ static void constriction(SbPercolation *out, const SbPercolationProblem *p, doub
   }
   const Slope slope = {s, critical};
   out->constriction_q = exp(sb_bisect(missing_slope, &slope, log(s->q0), log(s->q1)));
-  out->constriction_size = 2 * M_PI / out->constriction_q;
   out->constriction_gap = local_gap(p, out->constriction_q, pressure);
   out->leak_rate = pow(out->constriction_gap, 3) / (12 * p->viscosity) * p->pressure_drop *
                    p->circumference / p->width;

@@ -36,13 +36,12 @@ typedef struct {
 
 typedef struct {
   bool percolates;
-  double real_share;        // A/A0 with all roughness
-  double constriction_q;    // q_c [1/m], 0 if closed
-  double constriction_size; // 2 pi/q_c [m]
-  double constriction_gap;  // u_c [m]
-  double leak_rate;         // [m3/s]
-  double sensitivity;       // d ln Q/d ln contact pressure, negative; 0 if closed
-  double closing_pressure;  // contact pressure at which the last channel closes [Pa]
+  double real_share;       // A/A0 with all roughness
+  double constriction_q;   // q_c [1/m], 0 if closed
+  double constriction_gap; // u_c [m]
+  double leak_rate;        // [m3/s]
+  double sensitivity;      // d ln Q/d ln contact pressure, negative; 0 if closed
+  double closing_pressure; // contact pressure at which the last channel closes [Pa]
 } SbPercolation;
 
 // SB_ERROR_RANGE for a modulus, viscosity, width that is not positive or a pressure below 0.
