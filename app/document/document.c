@@ -231,11 +231,8 @@ static void read_valve(SbDocument *document, const char *directory, const char *
 }
 
 static SbModelData *data_of(SbDocument *document) {
-  if (document->data == NULL) {
-    document->data = sb_model_data_create();
-    if (document->data == NULL) {
-      g_error("no memory for a document"); // as g_malloc() does
-    }
+  if (document->data == NULL && sb_model_data_create(&document->data) != SB_OK) {
+    g_error("no memory for a document"); // as g_malloc() does
   }
   return document->data;
 }

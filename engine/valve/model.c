@@ -393,12 +393,13 @@ SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *
   return status == SB_OK ? sb_succeed(report) : sb_fail(report, status, "no memory for a model");
 }
 
-SbModelData *sb_model_data_create(void) {
-  SbModelData *data = calloc(1, sizeof *data);
-  if (data != NULL) {
-    atomic_init(&data->holders, 1);
+SbStatus sb_model_data_create(SbModelData **out) {
+  *out = calloc(1, sizeof **out);
+  if (*out == NULL) {
+    return SB_ERROR_MEMORY;
   }
-  return data;
+  atomic_init(&(*out)->holders, 1);
+  return SB_OK;
 }
 
 // The count alone changes behind the const.
@@ -452,15 +453,16 @@ SbStatus sb_model_derive(SbModel **out, const SbModel *base, const SbOverride *o
   return status;
 }
 
-SbModel *sb_model_create_resting(const SbModel *base) {
-  SbModel *model = sb_model_copy(base);
-  if (model != NULL) {
-    model->fit = SB_FIT_KARASZKIEWICZ;
-    model->film = SB_FILM_THESIS;
-    model->motion = SB_MODEL_MOTION_QUASI_STATIC;
-    model->frames = 2; // the least that there may be
+SbStatus sb_model_create_resting(SbModel **out, const SbModel *base) {
+  SbModel *model = *out = sb_model_copy(base);
+  if (model == NULL) {
+    return SB_ERROR_MEMORY;
   }
-  return model;
+  model->fit = SB_FIT_KARASZKIEWICZ;
+  model->film = SB_FILM_THESIS;
+  model->motion = SB_MODEL_MOTION_QUASI_STATIC;
+  model->frames = 2; // the least that there may be
+  return SB_OK;
 }
 
 SbModel *sb_model_copy(const SbModel *model) {

@@ -157,8 +157,8 @@ typedef struct {
   SbValveOutlines outlines;
 } SbModelData;
 
-// All zero and held once, or NULL without memory. To be filled before a model is made with it.
-SbModelData *sb_model_data_create(void);
+// *out is all zero and held once; to be filled before a model is made with it. SB_ERROR_MEMORY.
+SbStatus sb_model_data_create(SbModelData **out);
 
 // Lets go of it; with the last holder it goes. From any thread; takes NULL.
 void sb_model_data_release(const SbModelData *data);
@@ -176,9 +176,9 @@ SbStatus sb_model_create(SbModel **out, const SbParams *params, const SbModelDat
 SbStatus sb_model_derive(SbModel **out, const SbModel *base, const SbOverride *overrides,
                          size_t count, SbReport *report);
 
-// The same valve by closed forms and the balance of forces, for a picture of it at rest; NULL
-// without memory.
-SbModel *sb_model_create_resting(const SbModel *base);
+// The same valve by closed forms and the balance of forces, for a picture of it at rest.
+// SB_ERROR_MEMORY.
+SbStatus sb_model_create_resting(SbModel **out, const SbModel *base);
 
 // One of its own for somebody who keeps it (another thread, a drawing); NULL without memory.
 SbModel *sb_model_copy(const SbModel *model);

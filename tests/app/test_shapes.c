@@ -272,7 +272,8 @@ static cairo_surface_t *picture(const SbModel *model, bool dark, double displace
 static void test_golden(void) {
   g_autoptr(SbModel) model = compile("valves", "piston-profiles.valve"), wrong = NULL;
   // The nose a fiftieth of a millimetre shorter.
-  SbModelData *shorter = sb_model_data_create();
+  SbModelData *shorter = NULL;
+  g_assert_cmpint(sb_model_data_create(&shorter), ==, SB_OK);
   shorter->outlines = *sb_model_outlines(model);
   SbOutline *nose = &shorter->outlines.part[SB_VALVE_STEM_TOP];
   for (size_t i = 0; i < nose->count; i++) {

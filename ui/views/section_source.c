@@ -20,7 +20,10 @@ struct SbSectionSource {
 
 // Whatever the models of the scene are, closed forms do for a picture at rest.
 static SbRun *make_rest(const SbModel *model) {
-  g_autoptr(SbModel) quick = sb_model_create_resting(model);
+  g_autoptr(SbModel) quick = NULL;
+  if (sb_model_create_resting(&quick, model) != SB_OK) {
+    return NULL;
+  }
   const SbPlanWishes wishes = {.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION};
   SbPlan plan;
   sb_plan_wished(&plan, quick, &wishes);
