@@ -9,7 +9,6 @@
 // with z = (X - c)/h.
 #include "engine/film/ehl_mesh.h"
 
-#include <complex.h>
 #include <math.h>
 #include <string.h>
 
@@ -24,33 +23,24 @@ static const double DIGITS = 37.0; // ln of what is left out, negative
 
 // ---------------------------------------------------------------- logarithmic moments
 
-// out[k] = Re integral over [-1, 1] of P_k(r) ln(z - r), k = 0 .. n, for real z near the element.
-static void moments_real(double *out, double z, int n) {
-  double plus = log(fmax(fabs(z + 1.0), 1e-40));
-  double minus = log(fmax(fabs(z - 1.0), 1e-40));
-  double before = 0.5 * (plus - minus);
-  double now = z * before - 1.0;
-  out[0] = (z + 1.0) * plus - (z - 1.0) * minus - 2.0;
+// out[k] = Re integral over [-1, 1] of P_k(r) ln(z - r), k = 0 .. n, for z = x + i y near the
+// element. Legendre's recurrence by real and imaginary part; these do not mix for real z.
+static void moments(double *out, double x, double y, int n) {
+  double plus = log(fmax(y == 0.0 ? fabs(x + 1.0) : hypot(x + 1.0, y), 1e-40));
+  double minus = log(fmax(y == 0.0 ? fabs(x - 1.0) : hypot(x - 1.0, y), 1e-40));
+  double plus_angle = y == 0.0 ? 0.0 : atan2(y, x + 1.0);
+  double minus_angle = y == 0.0 ? 0.0 : atan2(y, x - 1.0);
+  double before = 0.5 * (plus - minus), before_i = 0.5 * (plus_angle - minus_angle);
+  double now = x * before - y * before_i - 1.0, now_i = x * before_i + y * before;
+  out[0] = (x + 1.0) * plus - (x - 1.0) * minus - y * (plus_angle - minus_angle) - 2.0;
   for (int k = 1; k <= n; k++) {
-    double next = ((2 * k + 1) * z * now - k * before) / (k + 1);
+    double next = ((2 * k + 1) * (x * now - y * now_i) - k * before) / (k + 1);
+    double next_i = ((2 * k + 1) * (x * now_i + y * now) - k * before_i) / (k + 1);
     out[k] = 2.0 / (2 * k + 1) * (next - before);
     before = now;
+    before_i = now_i;
     now = next;
-  }
-}
-
-static void moments_complex(double *out, double real, double imaginary, int n) {
-  double complex z = real + imaginary * I;
-  double complex plus = clog(z + 1.0);
-  double complex minus = clog(z - 1.0);
-  double complex before = 0.5 * (plus - minus);
-  double complex now = z * before - 1.0;
-  out[0] = creal((z + 1.0) * plus - (z - 1.0) * minus - 2.0);
-  for (int k = 1; k <= n; k++) {
-    double complex next = ((2 * k + 1) * z * now - k * before) / (k + 1);
-    out[k] = 2.0 / (2 * k + 1) * creal(next - before);
-    before = now;
-    now = next;
+    now_i = next_i;
   }
 }
 
@@ -124,7 +114,7 @@ void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables) {
   }
   // Integral with ln s, the distance from the infinite end.
   double moment[SB_EHL_PROJECT + 1];
-  moments_real(moment, e->map == SB_EHL_INLET ? -1.0 : 1.0, e->modes);
+  moments(moment, e->map == SB_EHL_INLET ? -1.0 : 1.0, 0.0, e->modes);
   for (int j = 0; j < columns; j++) {
     e->log_s[j] = -log(2.0) * e->integral[j];
   }
@@ -185,11 +175,7 @@ static void row_finite(double *row, const SbEhlElement *e, const double *fine, d
     return;
   }
   double moment[SB_EHL_PROJECT + 1];
-  if (imaginary == 0.0) {
-    moments_real(moment, real, e->modes);
-  } else {
-    moments_complex(moment, real, imaginary, e->modes);
-  }
+  moments(moment, real, imaginary, e->modes);
   add_moments(row, e, moment);
   if (e->map == SB_EHL_AFFINE) {
     add_constant(row, e, log(e->h));
@@ -224,10 +210,10 @@ static void row_infinite(double *row, const SbEhlElement *e, double X) {
   }
   double moment[SB_EHL_PROJECT + 1];
   if (a < 0.0) {
-    moments_real(moment, side * (2.0 * y - 1.0), e->modes);
+    moments(moment, side * (2.0 * y - 1.0), 0.0, e->modes);
     add_moments(row, e, moment);
     if (2.0 * y + 1.0 < NEAR) {
-      moments_real(moment, -side * (2.0 * y + 1.0), e->modes);
+      moments(moment, -side * (2.0 * y + 1.0), 0.0, e->modes);
       add_moments(row, e, moment);
     } else {
       for (int q = 0; q < SB_EHL_QUAD; q++) {
@@ -236,7 +222,7 @@ static void row_infinite(double *row, const SbEhlElement *e, double X) {
       add_values(row, e, value);
     }
   } else {
-    moments_complex(moment, -side, 2.0 * y, e->modes);
+    moments(moment, -side, 2.0 * y, e->modes);
     for (int k = 0; k <= e->modes; k++) {
       moment[k] *= 2.0;
     }

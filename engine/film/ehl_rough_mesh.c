@@ -5,24 +5,18 @@
 // power 3/2) sit, and with that from the film's ends between asperities.
 #include "engine/film/ehl.h"
 
+#include "engine/numeric/root.h"
+
 #include <math.h>
 #include <string.h>
 
-// X > 1 where the dry gap reaches `gap`.
+static double lacking_gap(double X, const void *gap) {
+  return *(const double *)gap - sb_film_dry_gap(X);
+}
+
+// X > 1 where the dry gap, at least (2 sqrt(2) / 3) (X - 1)^(3/2), reaches `gap`.
 static double dry_reach(double gap) {
-  double low = 1, high = 2;
-  while (sb_film_dry_gap(high) < gap) {
-    high *= 2;
-  }
-  for (int i = 0; i < 60; i++) {
-    double middle = 0.5 * (low + high);
-    if (sb_film_dry_gap(middle) < gap) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
-  return high;
+  return sb_bisect(lacking_gap, &gap, 1, 1.1 + pow(3 / sqrt(8.0) * gap, 2.0 / 3));
 }
 
 // Width of what has to be resolved at the edges: of the film's layer, or of the asperities' tail.
