@@ -22,17 +22,19 @@ static size_t pieces_of(const SbProfile *p) {
   return by_axis(p) ? p->count - 1 : p->count;
 }
 
-static void piece_at(Piece *s, const SbProfile *p, size_t i) {
+// Piece i of an outline whose x counts from `origin`.
+static void piece_at(Piece *s, const SbProfile *p, size_t i, double origin) {
   const SbProfilePoint *a = &p->point[i], *b = &p->point[(i + 1) % p->count];
-  *s = (Piece){.x0 = a->x, .r0 = a->r, .x1 = b->x, .r1 = b->r, .arc = a->bulge != 0.0};
+  *s = (Piece){.x0 = a->x - origin, .r0 = a->r, .x1 = b->x - origin, .r1 = b->r};
+  s->arc = a->bulge != 0.0;
   if (s->arc) {
-    double dx = b->x - a->x, dr = b->r - a->r, t = a->bulge;
+    double dx = s->x1 - s->x0, dr = s->r1 - s->r0, t = a->bulge;
     // Centre to the left of the chord for a left turn below a half circle.
     double off = (1.0 - t * t) / (4.0 * t);
-    s->cx = 0.5 * (a->x + b->x) - off * dr;
-    s->cr = 0.5 * (a->r + b->r) + off * dx;
+    s->cx = 0.5 * (s->x0 + s->x1) - off * dr;
+    s->cr = 0.5 * (s->r0 + s->r1) + off * dx;
     s->radius = hypot(dx, dr) * (1.0 + t * t) / (4.0 * fabs(t));
-    s->from = atan2(a->r - s->cr, a->x - s->cx);
+    s->from = atan2(s->r0 - s->cr, s->x0 - s->cx);
     s->sweep = 4.0 * atan(t);
   }
 }
@@ -118,8 +120,8 @@ static bool crosses(const SbProfile *p, size_t i, size_t j, double tiny) {
   Piece a, b;
   double at[4][2];
   size_t total = pieces_of(p);
-  piece_at(&a, p, i);
-  piece_at(&b, p, j);
+  piece_at(&a, p, i, 0.0);
+  piece_at(&b, p, j, 0.0);
   size_t n = meet(at, &a, &b);
   // Where pieces are tangent to each other their meeting is only known to the root of rounding.
   double la = piece_length(&a), lb = piece_length(&b), near = 1e3 * tiny;
@@ -147,14 +149,12 @@ typedef struct {
   double area, volume, first, third, second; // A, and integrals of r, r x, r^3, r x^2 over it
 } Moments;
 
-static void add_piece(Moments *m, const Piece *s, double middle, const double *node,
-                      const double *weight) {
+static void add_piece(Moments *m, const Piece *s, const double *node, const double *weight) {
   int panels = s->arc ? 1 + (int)(fabs(s->sweep) / 0.6) : 1;
   for (int panel = 0; panel < panels; panel++) {
     for (int i = 0; i < POINTS; i++) {
       double f = (panel + 0.5 + 0.5 * node[i]) / panels, x, r, dx;
       point_on(s, f, &x, &r);
-      x -= middle;
       dx = s->arc ? -s->sweep * (r - s->cr) : s->x1 - s->x0;
       double w = -0.5 * weight[i] / panels * dx;
       m->area += w * r;
@@ -166,16 +166,15 @@ static void add_piece(Moments *m, const Piece *s, double middle, const double *n
   }
 }
 
-// About x = middle.
-static void moments_of(Moments *m, const SbProfile *p, double middle) {
+static void moments_of(Moments *m, const SbProfile *p, double origin) {
   double node[POINTS], weight[POINTS];
   sb_legendre_gauss(node, weight, POINTS);
   *m = (Moments){0};
   size_t n = pieces_of(p);
   for (size_t i = 0; i < n; i++) {
     Piece s;
-    piece_at(&s, p, i);
-    add_piece(m, &s, middle, node, weight);
+    piece_at(&s, p, i, origin);
+    add_piece(m, &s, node, weight);
   }
 }
 
@@ -203,7 +202,7 @@ SbStatus sb_profile_check(const SbProfile *p, SbReport *report) {
   double tiny = 1e-9 * extent;
   for (size_t i = 0; i < n; i++) {
     Piece s;
-    piece_at(&s, p, i);
+    piece_at(&s, p, i, 0.0);
     if (hypot(s.x1 - s.x0, s.r1 - s.r0) <= tiny) {
       return sb_fail(report, SB_ERROR_INPUT, "piece %zu of the profile has no length", i);
     }
@@ -272,7 +271,7 @@ static void radii_at(const SbProfile *p, double x, double *low, double *high) {
   for (size_t i = 0; i < n; i++) {
     Piece s;
     double at[4][2];
-    piece_at(&s, p, i);
+    piece_at(&s, p, i, 0.0);
     for (size_t k = meet(at, &across, &s); k-- > 0;) {
       double place = place_on(&s, at[k]);
       if (place >= 0.0 && place <= 1.0) {
@@ -321,7 +320,7 @@ static SbStatus look_along(Radii *radii, const SbProfile *p, double x0, double x
   look_at(p, x1 - side, radii);
   for (size_t i = 0; i < n; i++) {
     Piece s;
-    piece_at(&s, p, i);
+    piece_at(&s, p, i, 0.0);
     double at[2] = {s.x0, s.arc ? s.cx : s.x0};
     for (int k = 0; k < 2; k++) {
       for (int way = -1; way <= 1; way += 2) {
