@@ -3,6 +3,7 @@
 #include "engine/mechanism/dynamics_internal.h"
 #include "engine/numeric/root.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -26,25 +27,23 @@ static double too_springy(double zeta, const void *restitution) {
 }
 
 static double damping_for(double mass, double stiffness, double restitution) {
-  if (restitution >= 1.0 || stiffness > 1e300) {
+  if (restitution >= 1.0 || rigid(stiffness)) {
     return 0.0;
   }
   return 2.0 * sb_bisect(too_springy, &restitution, 0.0, 100.0) * sqrt(stiffness * mass);
 }
 
-// Makes the state at t the new anchor.
-static void anchor(SbDynamics *s, double t) {
-  double x, v, d[SB_DYNAMICS_CONTACTS], extra[SB_DYNAMICS_EXTRAS];
+// Makes the end of the segment the new anchor.
+static void anchor(SbDynamics *s) {
+  SbDynamicsState z;
   SbDynamicsEnergy energy;
+  double tau = s->t_end - s->t;
   s->force_peak = sb_motion_force_peak(s, s->force_peak);
-  sb_motion_state_at(s, t, &x, &v, d, extra);
-  sb_motion_energy_at(s, t, x, v, d, &energy);
+  sb_motion_state_at(s, tau, &z);
+  sb_motion_energy_at(s, tau, &z, &energy);
   s->energy = energy;
-  s->t = t;
-  s->x = x;
-  s->v = v;
-  memcpy(s->d, d, sizeof d);
-  memcpy(s->extra, extra, sizeof extra);
+  s->t = s->now = s->t_end;
+  s->at = z;
   s->ready = false;
 }
 
@@ -52,13 +51,15 @@ static void anchor(SbDynamics *s, double t) {
 
 static void tell(SbDynamics *s, SbMotionEventKind kind, int index, int sign) {
   if (s->listener != NULL) {
+    Point p;
+    sb_motion_point(&p, s, s->t, &s->at);
     SbMotionEvent event = {.kind = kind,
                            .index = index,
                            .sign = sign,
                            .time = s->t,
-                           .position = s->x,
-                           .speed = s->v,
-                           .drive_force = sb_motion_drive_force(s, s->t, s->x, s->v)};
+                           .position = s->at.x,
+                           .speed = s->at.v,
+                           .drive_force = force_of(&p.wall[SB_DYNAMICS_PLATEN], &p)};
     s->listener(&event, s->listener_user);
   }
 }
@@ -68,23 +69,23 @@ static void update_held(SbDynamics *s) {
   for (size_t i = 0; i < s->model->contacts; i++) {
     s->held = s->held || (is_rigid(s->model, i) && s->state[i] == SB_CONTACT_STUCK);
   }
-  for (size_t i = 0; i < s->model->stops; i++) {
-    s->held = s->held || (s->touch[i].on && s->model->stop[i].stiffness > 1e300);
+  for (size_t w = 0; w < SB_DYNAMICS_WALLS; w++) {
+    s->held = s->held || (s->wall[w].on && rigid(s->wall[w].stiffness));
   }
 }
 
 // A contact whose deflection changes at once (no damper): the difference is rubbed away.
 static void jump_deflection(SbDynamics *s, size_t i, double to) {
   double k = s->model->contact[i].stiffness;
-  s->energy.friction += 0.5 * k * (s->d[i] - to) * (s->d[i] + to);
-  s->d[i] = to;
+  s->energy.friction += 0.5 * k * (s->at.d[i] - to) * (s->at.d[i] + to);
+  s->at.d[i] = to;
 }
 
 static void load_region(SbDynamics *s) {
   s->loads = (SbDynamicsLoads){.constant = true};
   if (s->model->loads != NULL) {
     s->loads = (SbDynamicsLoads){0};
-    s->model->loads(&s->loads, s->x, s->region, s->extra, s->model->user);
+    s->model->loads(&s->loads, s->at.x, s->region, &s->at.extra, s->model->user);
   }
 }
 
@@ -95,15 +96,31 @@ static void rest(SbDynamics *s, size_t i, bool fresh) {
   s->fresh[i] = fresh;
 }
 
+// Speed of the patch of contact i over the bore [m/s].
+static double patch_speed(const SbDynamics *s, size_t i) {
+  Point p;
+  sb_motion_point(&p, s, s->t, &s->at);
+  return p.v - sb_motion_deflection_rate(s, &p, i);
+}
+
+// A sliding contact without a damper has the deflection of its level at once, if that is not more
+// than it has (false).
+static bool spring_back(SbDynamics *s, size_t i) {
+  double level = sb_motion_sliding_level(s, i, s->loads.level[i], fabs(s->at.v));
+  double to = s->sign[i] * level / s->model->contact[i].stiffness;
+  if (fabs(to) < fabs(s->at.d[i])) {
+    jump_deflection(s, i, to);
+  }
+  return fabs(to) <= fabs(s->at.d[i]);
+}
+
 // Loads have changed at once: which contacts appear, vanish, hold or let go.
 static void reload(SbDynamics *s) {
   const SbDynamicsModel *m = s->model;
   load_region(s);
   for (size_t i = 0; i < m->contacts; i++) {
     const SbDynamicsContact *c = &m->contact[i];
-    double level = s->loads.level[i];
-    bool active = level > 0.0 || !s->loads.constant;
-    if (!active) {
+    if (!(s->loads.level[i] > 0.0) && s->loads.constant) {
       if (s->state[i] != SB_CONTACT_OFF && !is_rigid(m, i)) {
         jump_deflection(s, i, 0.0);
       }
@@ -112,25 +129,18 @@ static void reload(SbDynamics *s) {
     }
     if (s->state[i] == SB_CONTACT_OFF) {
       s->since[i] = s->t;
-      s->sign[i] = s->v < 0.0 ? -1 : 1;
-      s->d[i] = 0.0;
+      s->sign[i] = s->at.v < 0.0 ? -1 : 1;
+      s->at.d[i] = 0.0;
       s->fresh[i] = !is_rigid(m, i);
-      s->state[i] = is_rigid(m, i) && s->v != 0.0 ? SB_CONTACT_SLIP : SB_CONTACT_STUCK;
+      s->state[i] = is_rigid(m, i) && s->at.v != 0.0 ? SB_CONTACT_SLIP : SB_CONTACT_STUCK;
     } else if (s->state[i] == SB_CONTACT_SLIP && !is_rigid(m, i) && c->damping == 0.0) {
       // A higher level must be built up by travel; a lower one lets the seal spring back.
-      double to = s->sign[i] * sb_motion_sliding_level(s, i, level, fabs(s->v)) / c->stiffness;
-      if (fabs(to) < fabs(s->d[i])) {
-        jump_deflection(s, i, to);
-      } else if (fabs(to) > fabs(s->d[i])) {
+      if (!spring_back(s, i)) {
         rest(s, i, true);
       }
-    } else if (s->state[i] == SB_CONTACT_SLIP && !is_rigid(m, i)) {
-      double rate =
-          (s->sign[i] * sb_motion_sliding_level(s, i, level, fabs(s->v)) - c->stiffness * s->d[i]) /
-          c->damping;
-      if (s->sign[i] * (s->v - rate) < 0.0) {
-        rest(s, i, true);
-      }
+    } else if (s->state[i] == SB_CONTACT_SLIP && !is_rigid(m, i) &&
+               s->sign[i] * patch_speed(s, i) < 0.0) {
+      rest(s, i, true);
     }
   }
   update_held(s);
@@ -139,26 +149,13 @@ static void reload(SbDynamics *s) {
 static void cross_edge(SbDynamics *s, int direction) {
   const SbDynamicsModel *m = s->model;
   size_t edge = direction > 0 ? s->region : s->region - 1;
-  s->x = m->edge[edge];
+  s->at.x = m->edge[edge];
   tell(s, SB_MOTION_EDGE, (int)edge, direction);
   s->region = direction > 0 ? s->region + 1 : s->region - 1;
   if (m->cross != NULL) {
-    m->cross(edge, direction, s->extra, m->user);
+    m->cross(edge, direction, &s->at.extra, m->user);
   }
   reload(s);
-}
-
-static void switch_drive(SbDynamics *s) {
-  const SbDynamicsModel *m = s->model;
-  tell(s, s->push.on ? SB_MOTION_LEAVE_DRIVE : SB_MOTION_TOUCH_DRIVE, 0, 0);
-  s->push.residual = 0.0;
-  if (s->push.on && m->drive.quantity == SB_DRIVE_OF_POSITION) {
-    double y, rate;
-    sb_motion_drive_at(s, s->t, &y, &rate);
-    s->push.residual = m->drive_damping > 0.0 ? fmax(0.0, y - s->x) : 0.0;
-    s->push.since = s->t;
-  }
-  s->push.on = !s->push.on;
 }
 
 // Rigid contacts slide, stick or turn after the stem's speed was set.
@@ -167,9 +164,9 @@ static void turn_rigid(SbDynamics *s) {
     if (!is_rigid(s->model, i) || s->state[i] == SB_CONTACT_OFF) {
       continue;
     }
-    if (s->v != 0.0) {
+    if (s->at.v != 0.0) {
       s->state[i] = SB_CONTACT_SLIP;
-      s->sign[i] = s->v > 0.0 ? 1 : -1;
+      s->sign[i] = s->at.v > 0.0 ? 1 : -1;
     } else if (s->state[i] != SB_CONTACT_STUCK) {
       rest(s, i, false);
     }
@@ -177,37 +174,48 @@ static void turn_rigid(SbDynamics *s) {
   update_held(s);
 }
 
-static void meet_stop(SbDynamics *s, size_t i) {
-  const SbDynamicsStop *p = &s->model->stop[i];
-  bool rigid = p->stiffness > 1e300;
-  SbDynamicsTouch *touch = &s->touch[i];
-  if (touch->on) {
-    tell(s, SB_MOTION_LEAVE_STOP, (int)i, 0);
-    touch->on = false;
-    double e = p->side * (s->x - p->position);
-    touch->residual = !rigid && s->stop_damping[i] > 0.0 ? fmax(0.0, e) : 0.0;
-    touch->since = s->t;
+// Force on a stem at rest at x, less what rigid contacts and stops do to it.
+static double demand_at(const SbDynamics *s, double x) {
+  SbDynamicsState z = s->at;
+  Point p;
+  z.x = x;
+  z.v = 0.0;
+  sb_motion_point(&p, s, s->t, &z);
+  return p.sum.f0 - p.rigid;
+}
+
+// A wall is met, or left.
+static void wall_event(SbDynamics *s, size_t w) {
+  static const SbMotionEventKind kind[2][2] = {{SB_MOTION_TOUCH_STOP, SB_MOTION_LEAVE_STOP},
+                                               {SB_MOTION_TOUCH_DRIVE, SB_MOTION_LEAVE_DRIVE}};
+  SbDynamicsWall *wall = &s->wall[w];
+  bool platen = w == SB_DYNAMICS_PLATEN;
+  tell(s, kind[platen][wall->on], platen ? 0 : (int)w, 0);
+  if (wall->on) {
+    double left = wall->push * sb_motion_deflection(s, w, s->t, s->at.x);
+    wall->residual = wall->damping > 0.0 ? fmax(0.0, left) : 0.0;
+    wall->since = s->t;
+    wall->on = false;
     update_held(s);
     return;
   }
-  tell(s, SB_MOTION_TOUCH_STOP, (int)i, 0);
-  if (!rigid) {
-    touch->on = true;
-    touch->residual = 0.0;
+  wall->residual = 0.0;
+  if (!rigid(wall->stiffness)) {
+    wall->on = true;
     return;
   }
-  double rest = sb_motion_rest_speed(s->model);
-  double back = -p->restitution * s->v;
+  const SbDynamicsStop *stop = &s->model->stop[w];
+  double back = -stop->restitution * s->at.v;
   // A rebound lower than a picometre is none either: bounces would go on below what is resolved.
-  double press = p->side * sb_motion_demand(s, s->t, p->position, s->d, &s->loads);
-  bool low = press > 0.0 && s->model->mass * back * back < 2e-12 * press;
-  if (fabs(back) < rest || low) {
+  double press = -wall->push * demand_at(s, stop->position);
+  bool low = press > 0.0 && s->mass * back * back < 2e-12 * press;
+  if (fabs(back) < sb_motion_rest_speed(s->model) || low) {
     back = 0.0;
-    touch->on = true;
+    wall->on = true;
   }
-  s->energy.stop += 0.5 * s->model->mass * (s->v - back) * (s->v + back);
-  s->x = p->position;
-  s->v = back;
+  s->energy.stop += 0.5 * s->mass * (s->at.v - back) * (s->at.v + back);
+  s->at.x = stop->position;
+  s->at.v = back;
   turn_rigid(s);
 }
 
@@ -226,19 +234,19 @@ static void rigid_event(SbDynamics *s, int direction) {
     return;
   }
   // Comes to rest, or turns if the forces are too large to hold it.
-  s->energy.friction += 0.5 * m->mass * s->v * s->v;
-  s->v = 0.0;
+  s->energy.friction += 0.5 * s->mass * s->at.v * s->at.v;
+  s->at.v = 0.0;
   tell(s, SB_MOTION_STICK, -1, 0);
   turn_rigid(s);
+  Point p;
   double hold = 0.0;
+  sb_motion_point(&p, s, s->t, &s->at);
   for (size_t i = 0; i < m->contacts; i++) {
-    if (is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK) {
-      hold += sb_motion_holding_level(s, i, s->loads.level[i], s->t);
-    }
+    bool holds = is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK;
+    hold += holds ? sb_motion_holding(s, &p, i) : 0.0;
   }
-  double pull = sb_motion_demand(s, s->t, s->x, s->d, &s->loads);
-  if (fabs(pull) > hold) {
-    rigid_event(s, pull > 0.0 ? 1 : -1);
+  if (fabs(p.sum.f0) > hold) {
+    rigid_event(s, p.sum.f0 > 0.0 ? 1 : -1);
   }
 }
 
@@ -248,7 +256,7 @@ static void contact_event(SbDynamics *s, size_t i, int direction) {
     tell(s, SB_MOTION_STICK, (int)i, 0);
     if (c->damping > 0.0 && s->brisk[i]) {
       // It still crept a little: the spring takes what the damper carried of it.
-      jump_deflection(s, i, s->d[i] - c->damping / c->stiffness * sb_motion_patch_speed(s, i));
+      jump_deflection(s, i, s->at.d[i] - c->damping / c->stiffness * patch_speed(s, i));
     }
     rest(s, i, false);
     if (s->t > s->slipped[i] * (1.0 + 1e-14)) {
@@ -265,43 +273,24 @@ static void contact_event(SbDynamics *s, size_t i, int direction) {
   s->sign[i] = direction;
   s->fresh[i] = false;
   if (c->damping == 0.0) {
-    double to =
-        direction * sb_motion_sliding_level(s, i, s->loads.level[i], fabs(s->v)) / c->stiffness;
-    if (fabs(to) < fabs(s->d[i])) {
-      jump_deflection(s, i, to);
-    }
+    (void)spring_back(s, i);
   }
 }
 
 static void apply(SbDynamics *s, int event) {
   s->counters.events += event != EVENT_BREAK;
-  switch (event) {
-  case EVENT_BREAK:
-    return;
-  case EVENT_EDGE_UP:
-    cross_edge(s, 1);
-    return;
-  case EVENT_EDGE_DOWN:
-    cross_edge(s, -1);
-    return;
-  case EVENT_DRIVE:
-    switch_drive(s);
-    return;
-  case EVENT_RIGID_UP:
-    rigid_event(s, 1);
-    return;
-  case EVENT_RIGID_DOWN:
-    rigid_event(s, -1);
-    return;
-  default:
-    break;
-  }
   if (event >= EVENT_CONTACT_DOWN) {
     contact_event(s, (size_t)(event - EVENT_CONTACT_DOWN), -1);
   } else if (event >= EVENT_CONTACT_UP) {
     contact_event(s, (size_t)(event - EVENT_CONTACT_UP), 1);
-  } else {
-    meet_stop(s, (size_t)(event - EVENT_STOP));
+  } else if (event >= EVENT_STOP) {
+    wall_event(s, (size_t)(event - EVENT_STOP));
+  } else if (event >= EVENT_RIGID_UP) {
+    rigid_event(s, event == EVENT_RIGID_UP ? 1 : -1);
+  } else if (event == EVENT_PLATEN) {
+    wall_event(s, SB_DYNAMICS_PLATEN);
+  } else if (event >= EVENT_EDGE_UP) {
+    cross_edge(s, event == EVENT_EDGE_UP ? 1 : -1);
   }
 }
 
@@ -312,54 +301,57 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
   if (status != SB_OK) {
     return status;
   }
-  *s = (SbDynamics){.model = m, .x = m->start_position, .v = m->start_speed, .event = EVENT_NONE};
-  s->parts = (SbDynamicsParts){m->mass, 1.0, 1.0, 1.0, {1.0, 1.0, 1.0, 1.0}};
-  memcpy(s->extra, m->extra_start, sizeof s->extra);
+  *s = (SbDynamics){.model = m,
+                    .mass = m->mass,
+                    .at = {{.x = m->start_position, .v = m->start_speed, .extra = m->extra_start}},
+                    .event = EVENT_NONE};
   // An edge exactly under the stem counts as crossed.
-  while (s->region < m->edges && m->edge[s->region] <= s->x) {
+  while (s->region < m->edges && m->edge[s->region] <= s->at.x) {
     s->region++;
   }
   for (size_t i = 0; i < m->stops; i++) {
     const SbDynamicsStop *p = &m->stop[i];
-    s->stop_damping[i] = damping_for(m->mass, p->stiffness, p->restitution);
-    s->touch[i].on = p->stiffness < 1e300 && p->side * (s->x - p->position) > 0.0;
+    s->wall[i] =
+        (SbDynamicsWall){.push = -p->side,
+                         .stiffness = p->stiffness,
+                         .damping = damping_for(m->mass, p->stiffness, p->restitution),
+                         .on = !rigid(p->stiffness) && p->side * (s->at.x - p->position) > 0.0};
   }
   sb_drive_start(&s->drive, &m->drive);
   sb_drive_piece(&s->piece, &s->drive, &m->drive, 0.0);
-  s->push.on = m->drive_bonded;
-  if (m->drive.kind != SB_DRIVE_NONE && m->drive.quantity == SB_DRIVE_OF_POSITION) {
+  if (m->drive.kind != SB_DRIVE_NONE) {
     // A platen that starts in the stem's place is already pressed.
-    s->push.on = s->push.on || s->piece.value > s->x;
+    bool pressed = !sb_motion_by_force(m) && s->piece.value > s->at.x;
+    s->wall[SB_DYNAMICS_PLATEN] =
+        (SbDynamicsWall){.push = 1,
+                         .stiffness = sb_motion_by_force(m) ? 0.0 : m->drive_stiffness,
+                         .damping = m->drive_damping,
+                         .on = m->drive_bonded || pressed};
   }
   reload(s);
   // A stem pressed onto a rigid stop rests on it from the start.
   for (size_t i = 0; i < m->stops; i++) {
     const SbDynamicsStop *p = &m->stop[i];
-    s->touch[i].on =
-        s->touch[i].on || (p->stiffness > 1e300 && s->x == p->position && s->v == 0.0 &&
-                           p->side * sb_motion_demand(s, 0.0, s->x, s->d, &s->loads) > 0.0);
+    bool rests = rigid(p->stiffness) && s->at.x == p->position && s->at.v == 0.0;
+    s->wall[i].on = s->wall[i].on || (rests && p->side * demand_at(s, s->at.x) > 0.0);
   }
   update_held(s);
+  s->system = (SbRadauSystem){.n = m->extra_rate != NULL ? 3 : 2,
+                              .powers = SB_DYNAMICS_TERMS,
+                              .rates = sb_motion_numerical_rates,
+                              .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9};
+  // The speed's at least; see dynamics_path.c.
+  SbDynamicsState size = {{.x = 1e-3, .v = 1e-3, .extra = fmax(m->extra_scale, DBL_MIN)}};
   for (size_t i = 0; i < m->contacts; i++) {
     s->fresh[i] = false;
     s->since[i] = -m->start_dwell;
     s->slipped[i] = -1.0;
+    size.d[i] = 1e-5;
+    s->system.n = is_rigid(m, i) ? s->system.n : 3 + m->contacts;
   }
-  size_t patches = sb_motion_patches(m);
-  s->system = (SbRadauSystem){.n = 2 + patches + m->extras,
-                              .powers = SB_DYNAMICS_TERMS,
-                              .rates = sb_motion_numerical_rates,
-                              .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9};
-  s->system.floor[0] = 1e-3;
-  s->system.floor[1] = 1e-3; // at least; see dynamics_path.c
-  for (size_t i = 0; i < patches; i++) {
-    s->system.floor[2 + i] = 1e-5;
-  }
-  for (size_t i = 0; i < m->extras; i++) {
-    s->system.floor[2 + patches + i] = m->extra_scale[i];
-  }
-  s->kinetic_start = 0.5 * m->mass * s->v * s->v;
-  s->stored_start = sb_motion_stored_energy(s, 0.0, s->x, s->d);
+  memcpy(s->system.floor, size.z, sizeof size);
+  s->kinetic_start = 0.5 * m->mass * s->at.v * s->at.v;
+  s->stored_start = sb_motion_stored_energy(s, 0.0, &s->at);
   s->accumulated_at = -1.0;
   return sb_succeed(report);
 }
@@ -389,12 +381,12 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
   for (;;) {
     if (!s->ready) {
       sb_drive_piece(&s->piece, &s->drive, &s->model->drive, s->t);
-      if (s->push.on && sb_motion_finger_gone(s)) {
-        switch_drive(s);
+      if (s->wall[SB_DYNAMICS_PLATEN].on && sb_motion_finger_gone(s)) {
+        wall_event(s, SB_DYNAMICS_PLATEN);
       }
       SbStatus status = SB_OK;
-      if (s->model->parts != NULL) {
-        status = s->model->parts(&s->parts, s->x, s->v, s->model->user, report);
+      if (s->model->mass_at != NULL) {
+        status = s->model->mass_at(&s->mass, s->at.x, s->at.v, s->model->user, report);
       }
       status = status != SB_OK ? status : sb_motion_find_path(s, report);
       if (status != SB_OK) {
@@ -415,8 +407,7 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
       return sb_succeed(report);
     }
     int event = s->event;
-    anchor(s, s->t_end);
-    s->now = s->t;
+    anchor(s);
     if (!s->loads.constant) {
       // Loads that vary in a region may settle there (a chamber that has emptied).
       load_region(s);
@@ -445,69 +436,50 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
 
 void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEnergy *energy) {
   const SbDynamicsModel *m = s->model;
-  double x, v, d[SB_DYNAMICS_CONTACTS], extra[SB_DYNAMICS_EXTRAS], t = s->now;
-  sb_motion_state_at(s, t, &x, &v, d, extra);
+  SbDynamicsState z;
+  sb_motion_state_at(s, s->now - s->t, &z);
   if (energy != NULL) {
-    sb_motion_energy_at(s, t, x, v, d, energy);
+    sb_motion_energy_at(s, s->now - s->t, &z, energy);
   }
   if (out == NULL) {
     return;
   }
-  SbDynamicsLoads loads;
-  sb_motion_loads_at(s, x, extra, &loads);
-  *out = (SbDynamicsSample){.time = t, .position = x, .speed = v, .region = s->region};
-  double rate;
+  Point p;
+  double rate, holding = 0.0, total = 0.0;
+  sb_motion_point(&p, s, s->now, &z);
+  *out = (SbDynamicsSample){.time = s->now,
+                            .position = z.x,
+                            .speed = z.v,
+                            .acceleration = s->held ? 0.0 : force_of(&p.sum, &p) / s->mass,
+                            .drive_force = force_of(&p.wall[SB_DYNAMICS_PLATEN], &p),
+                            .loads_force = p.loads.force,
+                            .spring_force = -m->spring_preload - m->spring_stiffness * z.x,
+                            .extra = z.extra,
+                            .region = s->region};
   if (m->drive.kind != SB_DRIVE_NONE) {
-    sb_motion_drive_at(s, t, &out->drive_position, &rate);
-    if (m->drive.quantity == SB_DRIVE_OF_FORCE) {
-      out->drive_position = x;
-    }
-  }
-  out->drive_force = sb_motion_drive_force(s, t, x, v);
-  out->loads_force = loads.force;
-  out->spring_force = -m->spring_preload - m->spring_stiffness * x;
-  double total = s->parts.drive * out->drive_force +
-                 s->parts.loads * (out->loads_force + out->spring_force - m->damping * v);
-  double holding = 0.0, rigid_stop = 0.0;
-  for (size_t i = 0; i < m->contacts; i++) {
-    out->contact[i] = s->state[i];
-    out->deflection[i] = d[i];
-    if (s->state[i] == SB_CONTACT_OFF) {
-      continue;
-    }
-    out->viscous[i] = -m->contact[i].viscous * v;
-    out->friction[i] = sb_motion_contact_force(s, i, x, v, d[i], loads.level[i]) + out->viscous[i];
-    total += s->parts.contact[i] * out->friction[i];
-    if (is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK) {
-      holding += sb_motion_holding_level(s, i, loads.level[i], t);
-    }
-  }
-  for (size_t i = 0; i < m->stops; i++) {
-    if (s->touch[i].on && m->stop[i].stiffness > 1e300) {
-      rigid_stop = m->stop[i].side;
-      continue;
-    }
-    out->stop_force[i] = sb_motion_stop_force(s, i, t, x, v);
-    total -= s->parts.stop * m->stop[i].side * out->stop_force[i];
+    sb_motion_drive_at(s, s->now, &out->drive_position, &rate);
+    out->drive_position = sb_motion_by_force(m) ? z.x : out->drive_position;
   }
   // What holds a stem at rest: a rigid stop first, else the rigid contacts by their strength.
-  if (s->held && rigid_stop != 0.0) {
-    for (size_t i = 0; i < m->stops; i++) {
-      if (s->touch[i].on && m->stop[i].stiffness > 1e300) {
-        out->stop_force[i] = m->stop[i].side * total;
-      }
-    }
-    total = 0.0;
-  } else if (s->held) {
-    for (size_t i = 0; i < m->contacts && holding > 0.0; i++) {
-      if (is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK) {
-        out->friction[i] = -total * sb_motion_holding_level(s, i, loads.level[i], t) / holding;
-      }
-    }
-    total = 0.0;
+  total = s->held ? p.sum.f0 : 0.0;
+  for (size_t i = 0; i < m->stops; i++) {
+    bool holds = s->wall[i].on && rigid(s->wall[i].stiffness);
+    out->stop_force[i] = s->wall[i].push * (holds ? -total : force_of(&p.wall[i], &p));
+    total = holds ? 0.0 : total;
   }
-  out->acceleration = total / s->parts.mass;
-  memcpy(out->extra, extra, sizeof extra);
+  for (size_t i = 0; i < m->contacts; i++) {
+    out->contact[i] = s->state[i];
+    out->deflection[i] = z.d[i];
+    out->viscous[i] = s->state[i] == SB_CONTACT_OFF ? 0.0 : -m->contact[i].viscous * z.v;
+    out->friction[i] = force_of(&p.contact[i], &p) + out->viscous[i];
+    bool holds = is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK;
+    holding += holds ? sb_motion_holding(s, &p, i) : 0.0;
+  }
+  for (size_t i = 0; i < m->contacts && total != 0.0 && holding > 0.0; i++) {
+    if (is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK) {
+      out->friction[i] = -total * sb_motion_holding(s, &p, i) / holding;
+    }
+  }
 }
 
 bool sb_dynamics_at_rest(const SbDynamics *s) {
@@ -524,8 +496,5 @@ double sb_dynamics_force_peak(const SbDynamics *s) {
 }
 
 SbDynamicsCounters sb_dynamics_counters(const SbDynamics *s) {
-  SbDynamicsCounters c = s->counters;
-  c.newton_iterations = s->radau.newton_iterations;
-  c.evaluations = s->radau.evaluations;
-  return c;
+  return s->counters;
 }

@@ -37,7 +37,6 @@ enum {
   SB_DYNAMICS_CONTACTS = 4,
   SB_DYNAMICS_STOPS = 2,
   SB_DYNAMICS_EDGES = 8,
-  SB_DYNAMICS_EXTRAS = 4,
 };
 
 typedef struct {
@@ -62,22 +61,15 @@ typedef struct {
 typedef struct {
   double force;
   double level[SB_DYNAMICS_CONTACTS];
-  bool constant; // neither changes before the next edge is crossed, nor do the extra states
-  bool settled;  // the extra states do not change while the stem does not move
+  bool constant; // neither changes before the next edge is crossed, nor does the extra state
+  bool settled;  // the extra state does not change while the stem does not move
 } SbDynamicsLoads;
-
-// How the parts of a mechanism follow the one coordinate: the mass it sees [kg] and, by virtual
-// work, what 1 N counts where it acts. Parts that move as one: levers of 1 to rounding, which is
-// what the laws here mean by travel and speed.
-typedef struct {
-  double mass, drive, loads, stop, contact[SB_DYNAMICS_CONTACTS];
-} SbDynamicsParts;
 
 typedef struct {
   double mass;                             // kg, > 0
   double damping;                          // N s/m, of the stem against ground
-  double spring_preload, spring_stiffness; // return spring: force -(preload + stiffness x)
-  size_t contacts, stops, edges, extras;
+  double spring_preload, spring_stiffness; // N, N/m; return spring: -(preload + stiffness x)
+  size_t contacts, stops, edges;
   SbDynamicsContact contact[SB_DYNAMICS_CONTACTS];
   SbDynamicsStop stop[SB_DYNAMICS_STOPS];
   double edge[SB_DYNAMICS_EDGES]; // m, increasing; region r lies between edge[r-1] and edge[r]
@@ -85,14 +77,15 @@ typedef struct {
   void (*loads)(SbDynamicsLoads *loads, double x, size_t region, const double *extra, void *user);
   // The stem crosses edge[i] in direction +1 or -1: the caller may change `extra` or its own state.
   void (*cross)(size_t edge, int direction, double *extra, void *user);
-  // Rates of the extra states (a chamber pressure); needed if extras > 0 and loads not constant.
-  void (*extra_rates)(double *rate, double x, double v, size_t region, const double *extra,
-                      void *user);
-  double extra_start[SB_DYNAMICS_EXTRAS], extra_scale[SB_DYNAMICS_EXTRAS]; // scale > 0
+  // Rate of the extra state (a chamber pressure), asked for while loads vary; NULL: there is none.
+  void (*extra_rate)(double *rate, double x, double v, size_t region, const double *extra,
+                     void *user);
+  double extra_start, extra_scale; // in the unit of that state; scale > 0: its size
   // Sliding friction over level at a speed >= 0 (replaces the Stribeck curve); NULL: none.
   double (*speed_factor)(size_t contact, double speed, void *user);
-  // The parts at (x, v), asked for at the start of every segment; NULL: one mass.
-  SbStatus (*parts)(SbDynamicsParts *parts, double x, double v, void *user, SbReport *report);
+  // The mass that the stroke sees at (x, v) [kg], asked for at the start of every segment; NULL:
+  // always `mass`.
+  SbStatus (*mass_at)(double *mass, double x, double v, void *user, SbReport *report);
   void *user;
   SbDrive drive;
   // N/m, N s/m. A force drive has no stiffness; its push falls by drive_damping times the speed, as
@@ -148,28 +141,43 @@ typedef struct {
 typedef enum { SB_CONTACT_OFF, SB_CONTACT_STUCK, SB_CONTACT_SLIP } SbContactState;
 
 typedef struct {
-  double time, position, speed, acceleration;
-  double drive_position, drive_force, loads_force, spring_force;
-  double stop_force[SB_DYNAMICS_STOPS];    // reaction, >= 0
-  double friction[SB_DYNAMICS_CONTACTS];   // force on the stem, + along x, viscous part included
-  double viscous[SB_DYNAMICS_CONTACTS];    // that part
-  double deflection[SB_DYNAMICS_CONTACTS]; // of the tangential spring, m
+  double time, position, speed, acceleration;    // s, m, m/s, m/s2
+  double drive_position;                         // m
+  double drive_force, loads_force, spring_force; // on the stem, N
+  double stop_force[SB_DYNAMICS_STOPS];          // reaction, >= 0, N
+  double friction[SB_DYNAMICS_CONTACTS];         // force on the stem, viscous part included, N
+  double viscous[SB_DYNAMICS_CONTACTS];          // that part, N
+  double deflection[SB_DYNAMICS_CONTACTS];       // of the tangential spring, m
   SbContactState contact[SB_DYNAMICS_CONTACTS];
-  double extra[SB_DYNAMICS_EXTRAS];
+  double extra;
   size_t region;
 } SbDynamicsSample;
 
 typedef struct {
-  long events, segments, steps, rejected, newton_iterations, evaluations;
+  long events, segments, steps, rejected, newton_iterations;
   long repeated;      // cycles of stick-slip that were not stepped through: equal to the one before
   double local_error; // sum of the numerical path's local errors of position, over |x| + 1 mm
 } SbDynamicsCounters;
 
-// One of stop or platen as a spring and damper in one direction.
+// The unknowns of the motion, for the numerical path in a row.
+typedef union {
+  struct {
+    double x, v;                    // m, m/s
+    double extra;                   // the caller's
+    double d[SB_DYNAMICS_CONTACTS]; // deflections of the tangential springs, m; 0 if rigid
+  };
+  double z[3 + SB_DYNAMICS_CONTACTS];
+} SbDynamicsState;
+
+// What pushes the stem in one direction by a spring and damper: a stop or, with a place that moves,
+// the platen. A finger has no spring.
 typedef struct {
   bool on;
-  double residual, since; // deflection left when it was last left, and when
-} SbDynamicsTouch;
+  int push;                  // direction of its force, +1 or -1
+  double stiffness, damping; // N/m (INFINITY: rigid), N s/m
+  double residual, since;    // deflection [m] left when it was last left [s]
+} SbDynamicsWall;
+enum { SB_DYNAMICS_PLATEN = SB_DYNAMICS_STOPS, SB_DYNAMICS_WALLS };
 
 // Where rigid contacts last broke away.
 typedef struct {
@@ -183,9 +191,10 @@ typedef struct {
 // Working state; on the caller's memory, no pointers owned. Fields are private.
 typedef struct {
   const SbDynamicsModel *model;
-  double t, x, v, t_end; // anchor of the segment, and its end
-  double now;            // time last advanced to, within the segment
-  double d[SB_DYNAMICS_CONTACTS], extra[SB_DYNAMICS_EXTRAS];
+  double t, t_end;    // anchor of the segment, and its end [s]
+  SbDynamicsState at; // at the anchor
+  double now;         // time last advanced to, within the segment [s]
+  double mass;        // kg
   SbContactState state[SB_DYNAMICS_CONTACTS];
   int sign[SB_DYNAMICS_CONTACTS];
   double since[SB_DYNAMICS_CONTACTS]; // start of the rest
@@ -194,9 +203,7 @@ typedef struct {
   bool fresh[SB_DYNAMICS_CONTACTS]; // newly loaded: sticks up to the sliding level only
   size_t region;
   SbDynamicsLoads loads;
-  SbDynamicsParts parts;
-  SbDynamicsTouch touch[SB_DYNAMICS_STOPS], push;
-  double stop_damping[SB_DYNAMICS_STOPS];
+  SbDynamicsWall wall[SB_DYNAMICS_WALLS]; // the stops, and the platen
   SbDriveState drive;
   SbDrivePiece piece;
   SbDynamicsEnergy energy;
@@ -212,11 +219,10 @@ typedef struct {
   SbOscillator motion;
   SbRadauSystem system;
   SbRadauStep step[2];
-  double middle, h; // end of the first step; next step size
+  double h; // next step size [s]
   double accumulated_at;
   int accumulated;
   SbDynamicsCounters counters;
-  SbRadauCounters radau;
   void (*listener)(const SbMotionEvent *event, void *user);
   void *listener_user;
 } SbDynamics;

@@ -37,12 +37,11 @@ static SbStatus check_contact(const SbDynamicsModel *m, size_t i, SbReport *repo
 }
 
 static SbStatus check_stop(const SbDynamicsStop *p, size_t i, SbReport *report) {
-  bool rigid = p->stiffness > 1e300;
   if (!isfinite(p->position) || (p->side != 1 && p->side != -1)) {
     return sb_fail(report, SB_ERROR_INPUT, "stop %zu needs a position and a side of +1 or -1", i);
   }
   return SB_CHECK(report, {"", "a stop's stiffness [N/m]", p->stiffness, DBL_MIN, INFINITY},
-                  {"", "its restitution", p->restitution, rigid ? 0.0 : 0.01, 1.0});
+                  {"", "its restitution", p->restitution, rigid(p->stiffness) ? 0.0 : 0.01, 1.0});
 }
 
 SbStatus sb_dynamics_check(const SbDynamicsModel *m, SbReport *report) {
@@ -65,8 +64,8 @@ SbStatus sb_dynamics_check(const SbDynamicsModel *m, SbReport *report) {
     return status;
   }
   if (m->contacts > SB_DYNAMICS_CONTACTS || m->stops > SB_DYNAMICS_STOPS ||
-      m->edges > SB_DYNAMICS_EDGES || m->extras > SB_DYNAMICS_EXTRAS) {
-    return sb_fail(report, SB_ERROR_RANGE, "too many contacts, stops, edges or extra states");
+      m->edges > SB_DYNAMICS_EDGES) {
+    return sb_fail(report, SB_ERROR_RANGE, "too many contacts, stops or edges");
   }
   for (size_t i = 0; i < m->contacts && status == SB_OK; i++) {
     status = check_contact(m, i, report);
@@ -82,11 +81,8 @@ SbStatus sb_dynamics_check(const SbDynamicsModel *m, SbReport *report) {
       return sb_fail(report, SB_ERROR_INPUT, "edges must increase (edge %zu)", i);
     }
   }
-  for (size_t i = 0; i < m->extras; i++) {
-    if (!(m->extra_scale[i] > 0.0) || !isfinite(m->extra_start[i])) {
-      return sb_fail(report, SB_ERROR_RANGE, "extra state %zu needs a start and a scale above 0",
-                     i);
-    }
+  if (m->extra_rate != NULL && (!(m->extra_scale > 0.0) || !isfinite(m->extra_start))) {
+    return sb_fail(report, SB_ERROR_RANGE, "the extra state needs a start and a scale above 0");
   }
   return sb_drive_check(&m->drive, report);
 }

@@ -6,159 +6,132 @@
 #include <math.h>
 #include <string.h>
 
-double sb_motion_stored_energy(const SbDynamics *s, double t, double x, const double *d) {
+double sb_motion_stored_energy(const SbDynamics *s, double t, const SbDynamicsState *z) {
   const SbDynamicsModel *m = s->model;
-  double sum = m->spring_preload * x + 0.5 * m->spring_stiffness * x * x, fading;
+  double sum = m->spring_preload * z->x + 0.5 * m->spring_stiffness * z->x * z->x;
   for (size_t i = 0; i < m->contacts; i++) {
-    if (!is_rigid(m, i)) {
-      sum += 0.5 * m->contact[i].stiffness * d[i] * d[i];
-    }
+    sum += is_rigid(m, i) ? 0.0 : 0.5 * m->contact[i].stiffness * z->d[i] * z->d[i];
   }
-  for (size_t i = 0; i < m->stops; i++) {
-    const SbDynamicsStop *p = &m->stop[i];
-    if (p->stiffness < 1e300) {
-      double e = s->touch[i].on ? x - p->position
-                                : sb_motion_touch_residual(&s->touch[i], p->stiffness,
-                                                           s->stop_damping[i], t, &fading);
-      sum += 0.5 * p->stiffness * e * e;
-    }
-  }
-  if (m->drive.kind != SB_DRIVE_NONE && m->drive.quantity == SB_DRIVE_OF_POSITION) {
-    double y, rate, e;
-    if (s->push.on) {
-      sb_motion_drive_at(s, t, &y, &rate);
-      e = y - x;
-    } else {
-      e = sb_motion_touch_residual(&s->push, m->drive_stiffness, m->drive_damping, t, &fading);
-    }
-    sum += 0.5 * m->drive_stiffness * e * e;
+  for (size_t w = 0; w < SB_DYNAMICS_WALLS; w++) {
+    double e = sb_motion_deflection(s, w, t, z->x);
+    sum += e != 0.0 ? 0.5 * s->wall[w].stiffness * e * e : 0.0;
   }
   return sum;
 }
 
-static double residual_loss(const SbDynamicsTouch *touch, double k, double c, double t0,
-                            double t1) {
-  double fading;
-  if (touch->on || touch->residual == 0.0) {
+double sb_motion_relaxed(const SbDynamics *s, size_t w, double t0, double t1) {
+  if (s->wall[w].on || s->wall[w].residual == 0.0) {
     return 0.0;
   }
-  double a = sb_motion_touch_residual(touch, k, c, t0, &fading),
-         b = sb_motion_touch_residual(touch, k, c, t1, &fading);
-  return 0.5 * k * (a - b) * (a + b);
+  double a = sb_motion_deflection(s, w, t0, 0.0), b = sb_motion_deflection(s, w, t1, 0.0);
+  return 0.5 * s->wall[w].stiffness * (a - b) * (a + b);
 }
 
-double sb_motion_stops_relax(const SbDynamics *s, double t0, double t1) {
-  double sum = 0.0;
-  for (size_t i = 0; i < s->model->stops; i++) {
-    sum += residual_loss(&s->touch[i], s->model->stop[i].stiffness, s->stop_damping[i], t0, t1);
-  }
-  return sum;
-}
+// In the order of SbDynamicsEnergy.
+enum { DRIVE, PRESSURE, FRICTION, VISCOUS, SEAL, STOP, MACHINE };
 
-// Adds what the closed-form motion does over (0, tau).
-static void closed_energy(const SbDynamics *s, double tau, double x, double v,
-                          SbDynamicsEnergy *e) {
+void sb_motion_add_energy(double *term, const SbDynamics *s, const Point *p, const Stretch *over) {
   const SbDynamicsModel *m = s->model;
-  double travel = 0.0;
-  sb_oscillator_at(&s->motion, tau, &travel, NULL, NULL);
-  double v2 = s->held ? 0.0 : sb_oscillator_integral_v2(&s->motion, tau);
-  double area = sb_oscillator_integral_x(&s->motion, tau);
-  e->pressure += s->loads.force * travel;
-  e->viscous += m->damping * v2;
-  if (s->push.on && m->drive.kind != SB_DRIVE_NONE) {
-    double y, rate, c = m->drive_damping;
-    sb_motion_drive_at(s, s->t, &y, &rate);
-    if (m->drive.quantity == SB_DRIVE_OF_FORCE) {
-      e->drive += y * travel + rate * (tau * x - area) - c * v2;
-    } else {
-      double impulse =
-          m->drive_stiffness * (tau * (y + 0.5 * rate * tau) - area) + c * (rate * tau - travel);
-      e->drive += rate * impulse;
-      e->machine += c * (rate * rate * tau - 2.0 * rate * travel + v2);
-    }
+  term[PRESSURE] += p->loads.force * over->travel;
+  term[VISCOUS] += m->damping * over->square;
+  for (size_t w = 0; w < SB_DYNAMICS_PLATEN; w++) {
+    term[STOP] += p->wall[w].c * over->square;
   }
-  for (size_t i = 0; i < m->stops; i++) {
-    if (s->touch[i].on) {
-      e->stop += s->stop_damping[i] * v2;
-    }
+  const Force *f = &p->wall[SB_DYNAMICS_PLATEN];
+  if (s->wall[SB_DYNAMICS_PLATEN].on && sb_motion_by_force(m)) {
+    term[DRIVE] += f->f0 * over->travel + f->f1 * over->ramp - f->c * over->square;
+  } else if (s->wall[SB_DYNAMICS_PLATEN].on) {
+    double y, rate;
+    sb_motion_drive_at(s, p->t, &y, &rate);
+    // The platen moves at its own speed against the integral of the force.
+    term[DRIVE] +=
+        rate * (f->f0 * over->time + f->f1 * over->late - f->k * over->area - f->c * over->travel);
+    term[MACHINE] += f->c * (rate * (rate * over->time - 2.0 * over->travel) + over->square);
   }
   for (size_t i = 0; i < m->contacts; i++) {
-    const SbDynamicsContact *c = &m->contact[i];
     if (s->state[i] == SB_CONTACT_OFF) {
       continue;
     }
-    e->viscous += c->viscous * v2;
-    if (s->state[i] == SB_CONTACT_STUCK) {
-      e->seal += is_rigid(m, i) ? 0.0 : c->damping * v2;
+    term[VISCOUS] += m->contact[i].viscous * over->square;
+    term[SEAL] += m->contact[i].damping * over->fade[i];
+    if (s->state[i] == SB_CONTACT_SLIP) {
+      term[FRICTION] -= p->contact[i].f0 * (over->travel - over->shift[i]);
+    }
+  }
+}
+
+// The closed-form motion over tau, which ends in z.
+static void stretch_to(Stretch *over, const SbDynamics *s, double tau, const SbDynamicsState *z) {
+  *over = (Stretch){.time = tau, .late = 0.5 * tau * tau};
+  sb_oscillator_at(&s->motion, tau, &over->travel, NULL, NULL);
+  over->area = sb_oscillator_integral_u(&s->motion, tau);
+  over->square = sb_oscillator_integral_v2(&s->motion, tau);
+  over->ramp = tau * over->travel - over->area;
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    const SbDynamicsContact *c = &s->model->contact[i];
+    double rate0, rate1;
+    over->shift[i] = z->d[i] - s->at.d[i];
+    if (is_rigid(s->model, i) || s->state[i] == SB_CONTACT_STUCK) {
+      over->fade[i] = is_rigid(s->model, i) ? 0.0 : over->square;
       continue;
     }
-    double rate0, rate1, level = s->sign[i] * s->loads.level[i];
-    double d0 = sb_motion_deflection_at(s, i, 0.0, 0.0, &rate0);
-    double d1 = sb_motion_deflection_at(s, i, tau, travel, &rate1);
-    e->friction += level * (travel - (d1 - d0));
-    if (c->damping > 0.0 && !is_rigid(m, i)) {
-      // The damper of a relaxing patch: integral of c d'^2 with d' = rate0 exp(-fading tau).
-      double fading = c->stiffness / c->damping;
-      e->seal += 0.5 * c->damping / fading * (rate0 - rate1) * (rate0 + rate1);
-    }
+    // d' of a patch that relaxes falls as exp(-stiffness/damping tau).
+    (void)sb_motion_deflection_at(s, i, 0.0, 0.0, &rate0);
+    (void)sb_motion_deflection_at(s, i, tau, over->travel, &rate1);
+    over->fade[i] = 0.5 * c->damping / c->stiffness * (rate0 - rate1) * (rate0 + rate1);
   }
 }
 
-void sb_motion_state_at(const SbDynamics *s, double t, double *x, double *v, double *d,
-                        double *extra) {
-  const SbDynamicsModel *m = s->model;
-  if (t <= s->t) {
-    *x = s->x;
-    *v = s->v;
-    memcpy(d, s->d, sizeof s->d);
-    memcpy(extra, s->extra, sizeof s->extra);
+void sb_motion_state_at(const SbDynamics *s, double tau, SbDynamicsState *z) {
+  *z = s->at;
+  if (tau <= 0.0) {
     return;
   }
-  memcpy(extra, s->extra, sizeof s->extra);
-  memcpy(d, s->d, sizeof s->d);
   if (s->linear) {
-    double tau = t - s->t, rate, travel;
-    sb_oscillator_at(&s->motion, tau, &travel, v, NULL);
-    *x = s->x + travel;
-    for (size_t i = 0; i < m->contacts; i++) {
-      d[i] = sb_motion_deflection_at(s, i, tau, travel, &rate);
+    double rate, travel;
+    sb_oscillator_at(&s->motion, tau, &travel, &z->v, NULL);
+    z->x = s->at.x + travel;
+    for (size_t i = 0; i < s->model->contacts; i++) {
+      z->d[i] = sb_motion_deflection_at(s, i, tau, travel, &rate);
     }
     return;
   }
-  double z[SB_RADAU_MAX];
-  const SbRadauStep *step = t <= s->middle ? &s->step[0] : &s->step[1];
-  sb_radau_dense(step, &s->system, step->h > 0.0 ? fmin(1.0, (t - step->t) / step->h) : 1.0, z,
-                 NULL);
-  *x = s->held ? s->x : z[0];
-  *v = s->held ? 0.0 : z[1];
-  size_t patches = sb_motion_patches(m);
-  memcpy(d, z + 2, patches * sizeof *d);
-  memcpy(extra, z + 2 + patches, m->extras * sizeof *extra);
+  const SbRadauStep *step = tau <= s->step[0].h ? &s->step[0] : &s->step[1];
+  tau -= step == s->step ? 0.0 : s->step[0].h;
+  sb_radau_dense(step, &s->system, step->h > 0.0 ? fmin(1.0, tau / step->h) : 1.0, z->z, NULL);
+  if (s->held) {
+    z->x = s->at.x;
+    z->v = 0.0;
+  }
 }
 
-void sb_motion_energy_at(const SbDynamics *s, double t, double x, double v, const double *d,
+void sb_motion_energy_at(const SbDynamics *s, double tau, const SbDynamicsState *z,
                          SbDynamicsEnergy *e) {
-  const SbDynamicsModel *m = s->model;
   *e = s->energy;
-  if (t > s->t && s->linear) {
-    closed_energy(s, t - s->t, x, v, e);
-  } else if (t > s->t) {
-    for (int i = 0; i < 2; i++) {
-      const SbRadauStep *step = &s->step[i];
-      double q[SB_RADAU_POWERS];
-      if (step->h <= 0.0 || t <= step->t) {
-        continue;
+  if (tau > 0.0 && s->linear) {
+    Point p;
+    Stretch over;
+    sb_motion_point(&p, s, s->t, &s->at);
+    stretch_to(&over, s, tau, z);
+    sb_motion_add_energy(e->term, s, &p, &over);
+  } else if (tau > 0.0) {
+    double from = 0.0, q[SB_RADAU_POWERS];
+    for (const SbRadauStep *step = s->step; step < s->step + 2; step++) {
+      if (step->h > 0.0 && tau > from) {
+        sb_radau_dense(step, &s->system, fmin(1.0, (tau - from) / step->h), NULL, q);
+        for (int k = 0; k < SB_DYNAMICS_TERMS; k++) {
+          e->term[k] += q[k];
+        }
       }
-      sb_radau_dense(step, &s->system, fmin(1.0, (t - step->t) / step->h), NULL, q);
-      for (int k = 0; k < SB_DYNAMICS_TERMS; k++) {
-        e->term[k] += q[k];
-      }
+      from += step->h;
     }
   }
-  e->stop += sb_motion_stops_relax(s, s->t, t);
-  e->machine += residual_loss(&s->push, m->drive_stiffness, m->drive_damping, s->t, t);
-  e->kinetic = 0.5 * s->parts.mass * v * v - s->kinetic_start;
-  e->stored = sb_motion_stored_energy(s, t, x, d) - s->stored_start;
+  for (size_t w = 0; w < SB_DYNAMICS_WALLS; w++) {
+    *(w == SB_DYNAMICS_PLATEN ? &e->machine : &e->stop) +=
+        sb_motion_relaxed(s, w, s->t, s->t + tau);
+  }
+  e->kinetic = 0.5 * s->mass * z->v * z->v - s->kinetic_start;
+  e->stored = sb_motion_stored_energy(s, s->t + tau, z) - s->stored_start;
   double external = e->drive + e->pressure;
   e->largest = fmax(e->largest, fabs(external));
   double rest =

@@ -1,16 +1,18 @@
 // What the files of dynamics share: _check (input), _forces (forces, event functions), _path
-// (motion between events), _energy, and dynamics.c (what events do). Private to this folder.
+// (motion between events), _energy, _repeat, and dynamics.c (what events do). Private to this
+// folder.
 #pragma once
 
 #include "engine/mechanism/dynamics.h"
 
-// Everything that can end a segment. Contacts and stops follow each other by index.
+// Everything that can end a segment; of those at one time the first counts. Stops and contacts
+// follow each other by index.
 enum {
   EVENT_NONE = -1,
   EVENT_BREAK, // the drive's next piece
   EVENT_EDGE_UP,
   EVENT_EDGE_DOWN,
-  EVENT_DRIVE,    // platen or finger touches or is left
+  EVENT_PLATEN,   // platen or finger touches or is left
   EVENT_RIGID_UP, // rigid contacts: slip forward, or come to rest
   EVENT_RIGID_DOWN,
   EVENT_STOP,
@@ -19,101 +21,107 @@ enum {
   EVENT_COUNT = EVENT_CONTACT_DOWN + SB_DYNAMICS_CONTACTS,
 };
 
-// Forces on the stem that are linear in its state: f0 + f1 tau - k (x - x0) - c v, sliding contacts
-// included at their level, rigid sticking ones and the rigid stop that holds it left out.
+// Force on the stem about a point of its motion: f0 + f1 tau - k (x - x0) - c v, tau since then.
 typedef struct {
-  double f0, f1, k, c;
-  double size; // sum of the magnitudes in f0: its rounding
-} Linear;
+  double f0, f1, k, c; // N, N/s, N/m, N s/m
+  double size;         // sum of the magnitudes in f0: its rounding [N]
+} Force;
+
+// A point of the motion, and what acts on the stem there: the one description of forces, which the
+// closed form takes as coefficients and the numerical path as numbers.
+typedef struct {
+  double t;                 // s
+  const SbDynamicsState *z; // borrowed
+  double v;                 // speed, 0 if held [m/s]
+  SbDynamicsLoads loads;
+  Force wall[SB_DYNAMICS_WALLS], contact[SB_DYNAMICS_CONTACTS]; // 0 where nothing acts
+  Force sum;    // of these, the loads, the return spring and what is viscous
+  double rigid; // of sum.f0, rigid contacts that slide [N]; at rest they, like rigid stops, are 0
+} Point;
+
+// Integrals over a stretch of the motion, or, with a time of 1, their rates at its start.
+typedef struct {
+  double time, late;                                              // of 1 and tau [s, s2]
+  double travel, area;                                            // of v and x - x0 [m, m s]
+  double square, ramp;                                            // of v^2 and tau v [m2/s, m s]
+  double shift[SB_DYNAMICS_CONTACTS], fade[SB_DYNAMICS_CONTACTS]; // of d' and d'^2 [m, m2/s]
+} Stretch;
 
 // Positions closer than rounding of this are the same [m].
 static const double length_noise = 1e-6;
 
 // Stiffness INFINITY.
-static inline bool is_rigid(const SbDynamicsModel *m, size_t i) {
-  return m->contact[i].stiffness > 1e300;
+static inline bool rigid(double stiffness) {
+  return stiffness > 1e300;
 }
 
-// Deflections among the states of the numerical path: none if every contact is rigid.
-static inline size_t sb_motion_patches(const SbDynamicsModel *m) {
-  for (size_t i = 0; i < m->contacts; i++) {
-    if (!is_rigid(m, i)) {
-      return m->contacts;
-    }
-  }
-  return 0;
+static inline bool is_rigid(const SbDynamicsModel *m, size_t i) {
+  return rigid(m->contact[i].stiffness);
 }
 
 static inline double sb_motion_rest_speed(const SbDynamicsModel *m) {
   return m->rest_speed > 0.0 ? m->rest_speed : 1e-9;
 }
 
+// The drive prescribes a force on the stem, not a place.
+static inline bool sb_motion_by_force(const SbDynamicsModel *m) {
+  return m->drive.quantity == SB_DRIVE_OF_FORCE;
+}
+
 // A force that stays at zero: the finger has been taken away, damper and all.
 static inline bool sb_motion_finger_gone(const SbDynamics *s) {
-  return s->model->drive.kind != SB_DRIVE_NONE && s->model->drive.quantity == SB_DRIVE_OF_FORCE &&
+  return s->model->drive.kind != SB_DRIVE_NONE && sb_motion_by_force(s->model) &&
          !s->model->drive_bonded && !s->piece.curved && s->piece.value == 0.0 &&
          s->piece.rate == 0.0;
 }
 
-// Position of the drive's moving end, and its rate, or its force and rate, at time t.
+// Value of the drive (place of its moving end, or its force), and its rate, at time t.
 void sb_motion_drive_at(const SbDynamics *s, double t, double *value, double *rate);
 
-// Deflection a released stop or platen still has at time t, and the rate at which it fades.
-double sb_motion_touch_residual(const SbDynamicsTouch *touch, double stiffness, double damping,
-                                double t, double *fading);
+// Place of wall w [m], or the finger's force [N], and its rate at time t.
+void sb_motion_wall_at(const SbDynamics *s, size_t w, double t, double *place, double *rate);
 
-// Force of the drive on the stem (it pushes or is bonded and on), for a stem at (x, v) at t.
-double sb_motion_drive_force(const SbDynamics *s, double t, double x, double v);
-
-// Reaction of stop i, >= 0; a rigid one reacts to what presses it.
-double sb_motion_stop_force(const SbDynamics *s, size_t i, double t, double x, double v);
-
-// Force that a sticking or sliding elastic contact, or a sliding rigid one, exerts on the stem.
-double sb_motion_contact_force(const SbDynamics *s, size_t i, double x, double v, double deflection,
-                               double level);
+// Deflection that wall w has at (t, x); of one that was left what remains of it [m].
+double sb_motion_deflection(const SbDynamics *s, size_t w, double t, double x);
 
 // Level times the factor of the sliding speed.
 double sb_motion_sliding_level(const SbDynamics *s, size_t i, double level, double speed);
 
-// Largest force that contact i holds after resting until t.
-double sb_motion_holding_level(const SbDynamics *s, size_t i, double level, double t);
-
 // Whether the law of contact i depends on the speed.
 bool sb_motion_speed_dependent(const SbDynamicsModel *m, size_t i);
 
-// Linear forces of the present mode about the anchor (tau = 0 at s->t).
-void sb_motion_linear_forces(const SbDynamics *s, Linear *linear);
+// Force of wall w, as if it touched a stem at x.
+void sb_motion_wall_force(Force *force, const SbDynamics *s, size_t w, double t, double x);
 
-// All forces on a stem at rest at x save rigid friction and rigid stops [N].
-double sb_motion_demand(const SbDynamics *s, double t, double x, const double *deflection,
-                        const SbDynamicsLoads *loads);
+// The point at time t and state z, in the present mode.
+void sb_motion_point(Point *p, const SbDynamics *s, double t, const SbDynamicsState *z);
+
+// A force at the point's own speed [N].
+static inline double force_of(const Force *force, const Point *p) {
+  return force->f0 - force->c * p->v;
+}
+
+// Largest force that contact i can hold at p.
+double sb_motion_holding(const SbDynamics *s, const Point *p, size_t i);
+
+// Rate of the deflection of contact i at p [m/s]; the rest of the stem's speed is its patch's.
+double sb_motion_deflection_rate(const SbDynamics *s, const Point *p, size_t i);
 
 // Tangential deflection of contact i at tau and `travel` after the anchor in the closed-form path,
 // and how fast it relaxes if it slides.
 double sb_motion_deflection_at(const SbDynamics *s, size_t i, double tau, double travel,
                                double *rate);
 
-// Speed of the sliding patch of contact i over the bore, at the anchor.
-double sb_motion_patch_speed(const SbDynamics *s, size_t i);
+// Function of an event about a point; false if it cannot happen in this mode.
+bool sb_motion_event_function(const SbDynamics *s, const Point *p, int event, SbEventFunction *g);
 
-// Function of an event in the closed-form path; false if it cannot happen in this mode.
-bool sb_motion_event_function(const SbDynamics *s, int event, const Linear *linear,
-                              SbEventFunction *function);
-
-// Numerical path: a copy of the state anchored at z (x, v, deflections, extra states) at time t,
-// and the linear forces there; for a held stem what it must bear.
-void sb_motion_anchor_at(SbDynamics *at, Linear *linear, const SbDynamics *s, double t,
-                         const double *z);
-
-// The function's value at an anchor, and a size below which its sign means nothing; false as above.
-bool sb_motion_event_value(const SbDynamics *at, int event, const Linear *linear, double *value,
+// The function's value at the point, and a size below which its sign means nothing in the numerical
+// path; false as above.
+bool sb_motion_event_value(const SbDynamics *s, const Point *p, int event, double *value,
                            double *noise);
 
-// Rates and integrands at z; `user` is the SbDynamics.
+// Rates and integrands of the numerical path at z; `user` is the SbDynamics.
 void sb_motion_numerical_rates(double *dz, double *power, double t, const double *z, void *user);
-
-// Loads at a place (those of the segment if constant there).
-void sb_motion_loads_at(const SbDynamics *s, double x, const double *extra, SbDynamicsLoads *loads);
 
 // Finds the motion from the anchor and the event that ends it (s->t_end, s->event).
 SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report);
@@ -122,19 +130,21 @@ SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report);
 // equal (dynamics_repeat.c). SB_ERROR_NOT_CONVERGED if too many unequal ones lie ahead.
 SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report);
 
-// Position, speed, deflections and extra states at time t of the present segment.
-void sb_motion_state_at(const SbDynamics *s, double t, double *x, double *v, double *d,
-                        double *extra);
+// The state at tau after the anchor, within the segment.
+void sb_motion_state_at(const SbDynamics *s, double tau, SbDynamicsState *z);
 
 // Largest force of the drive over the present segment [N], no less than `known`.
 double sb_motion_force_peak(const SbDynamics *s, double known);
 
 // Energy in seals, stops, return spring and drive [J].
-double sb_motion_stored_energy(const SbDynamics *s, double t, double x, const double *d);
+double sb_motion_stored_energy(const SbDynamics *s, double t, const SbDynamicsState *z);
 
-// What the dampers of stops that were left take from t0 to t1 [J].
-double sb_motion_stops_relax(const SbDynamics *s, double t0, double t1);
+// What the damper of wall w takes from t0 to t1 once it was left [J].
+double sb_motion_relaxed(const SbDynamics *s, size_t w, double t0, double t1);
 
-// Energies up to time t of the present segment, whose state is given.
-void sb_motion_energy_at(const SbDynamics *s, double t, double x, double v, const double *d,
+// Adds to the terms of SbDynamicsEnergy what the forces at p do over a stretch from there on.
+void sb_motion_add_energy(double *term, const SbDynamics *s, const Point *p, const Stretch *over);
+
+// Energies up to tau after the anchor, where the state is z.
+void sb_motion_energy_at(const SbDynamics *s, double tau, const SbDynamicsState *z,
                          SbDynamicsEnergy *e);

@@ -19,12 +19,12 @@ static const double worth = 10.0;
 static bool comparable(const SbDynamics *s, const SbDynamicsBreak *was) {
   const SbDynamicsModel *m = s->model;
   const SbDynamicsBreak *now = &s->broke;
-  if (sb_motion_patches(m) > 0 || m->extras > 0 || !s->push.on || s->piece.curved ||
-      m->drive.kind == SB_DRIVE_NONE || m->drive.quantity != SB_DRIVE_OF_POSITION) {
+  if (s->system.n > 2 || !s->wall[SB_DYNAMICS_PLATEN].on || s->piece.curved ||
+      sb_motion_by_force(m)) {
     return false;
   }
   for (size_t i = 0; i < m->stops; i++) {
-    if (s->touch[i].on) {
+    if (s->wall[i].on) {
       return false;
     }
   }
@@ -38,13 +38,13 @@ static double way_ahead(const SbDynamics *s) {
   const SbDynamicsModel *m = s->model;
   double way = INFINITY;
   if (s->broke.direction > 0 && s->region < m->edges) {
-    way = m->edge[s->region] - s->x;
+    way = m->edge[s->region] - s->at.x;
   } else if (s->broke.direction < 0 && s->region > 0) {
-    way = s->x - m->edge[s->region - 1];
+    way = s->at.x - m->edge[s->region - 1];
   }
   for (size_t i = 0; i < m->stops; i++) {
     if (m->stop[i].side == s->broke.direction) {
-      way = fmin(way, m->stop[i].side * (m->stop[i].position - s->x));
+      way = fmin(way, m->stop[i].side * (m->stop[i].position - s->at.x));
     }
   }
   return way;
@@ -60,15 +60,15 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
                                .events = s->counters.events,
                                .segments = s->counters.segments,
                                .t = s->t,
-                               .x = s->x,
-                               .stretch = y - s->x,
+                               .x = s->at.x,
+                               .stretch = y - s->at.x,
                                .piece = s->piece.at,
                                .energy = s->energy};
   if (!comparable(s, &was)) {
     return SB_OK;
   }
-  double period = s->t - was.t, step = fabs(s->x - was.x), way = way_ahead(s);
-  double noise = 4e-16 * (fabs(y) + fabs(s->x));
+  double period = s->t - was.t, step = fabs(s->at.x - was.x), way = way_ahead(s);
+  double noise = 4e-16 * (fabs(y) + fabs(s->at.x));
   bool same = fabs(s->broke.stretch - was.stretch) <= 1e-9 * fabs(was.stretch) + noise;
   for (size_t i = 0; i < m->contacts; i++) {
     same = same && (s->state[i] == SB_CONTACT_OFF || !sb_motion_speed_dependent(m, i));
@@ -82,9 +82,12 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
     double before = s->t, there;
     s->t += times * period;
     sb_motion_drive_at(s, s->t, &there, &rate);
-    s->x += there - y;
+    s->at.x += there - y;
     // A stop's fades, and is no part of a cycle.
-    double stop = s->energy.stop + sb_motion_stops_relax(s, before, s->t);
+    double stop = s->energy.stop;
+    for (size_t i = 0; i < m->stops; i++) {
+      stop += sb_motion_relaxed(s, i, before, s->t);
+    }
     for (int i = 0; i < SB_DYNAMICS_TERMS; i++) {
       s->energy.term[i] += times * (s->energy.term[i] - was.energy.term[i]);
     }
@@ -93,7 +96,7 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
       s->since[i] += s->t - before;
     }
     s->broke.t = s->t;
-    s->broke.x = s->x;
+    s->broke.x = s->at.x;
     s->broke.energy = s->energy;
     s->counters.repeated += (long)fmin(times, 1e15);
     return SB_OK;

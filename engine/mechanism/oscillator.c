@@ -1,8 +1,8 @@
-// See oscillator.h. With z = x - trend and s, c the (hyperbolic) sine over split and cosine:
+// See oscillator.h. With z = u - trend and s, c the (hyperbolic) sine over split and cosine:
 //   z = exp(-beta tau) [z0 (c + beta s) + w0 s],  z' = exp(-beta tau) [w0 (c - beta s) - z0
 //   omega0^2 s]
 // Without a spring the phi functions phi_k(u) = (phi_{k-1}(u) - 1/(k-1)!)/u, phi_0 = exp, give
-//   v = v0 phi_0 + f0/m tau phi_1 + f1/m tau^2 phi_2 at u = -C tau/m, and x one order up.
+//   v = v0 phi_0 + f0/m tau phi_1 + f1/m tau^2 phi_2 at -C tau/m, and u one order up.
 #include "engine/mechanism/oscillator.h"
 
 #include "engine/numeric/legendre.h"
@@ -37,19 +37,14 @@ static void phi(double u, double p[PHI_MAX + 1]) {
   }
 }
 
-void sb_oscillator_hold(SbOscillator *o, double x0) {
-  *o = (SbOscillator){.kind = SB_OSCILLATOR_HELD, .mass = 1.0, .x0 = x0};
+void sb_oscillator_hold(SbOscillator *o) {
+  *o = (SbOscillator){.kind = SB_OSCILLATOR_HELD, .mass = 1.0};
 }
 
 void sb_oscillator_init(SbOscillator *o, double mass, double damping, double stiffness, double f0,
-                        double f1, double x0, double v0) {
-  *o = (SbOscillator){.mass = mass,
-                      .damping = damping,
-                      .stiffness = stiffness,
-                      .f0 = f0,
-                      .f1 = f1,
-                      .x0 = x0,
-                      .v0 = v0};
+                        double f1, double v0) {
+  *o = (SbOscillator){
+      .mass = mass, .damping = damping, .stiffness = stiffness, .f0 = f0, .f1 = f1, .v0 = v0};
   if (stiffness <= 0.0) {
     o->kind = SB_OSCILLATOR_DRIFT;
     return;
@@ -157,21 +152,21 @@ void sb_oscillator_at(const SbOscillator *o, double tau, double *travel, double 
   }
 }
 
-double sb_oscillator_integral_x(const SbOscillator *o, double tau) {
+double sb_oscillator_integral_u(const SbOscillator *o, double tau) {
   if (o->kind == SB_OSCILLATOR_HELD) {
-    return o->x0 * tau;
+    return 0.0;
   }
   if (o->kind == SB_OSCILLATOR_DRIFT) {
     double p[PHI_MAX + 1];
     phi(-o->damping * tau / o->mass, p);
     double g0 = o->f0 / o->mass, g1 = o->f1 / o->mass;
-    return tau * (o->x0 + tau * (o->v0 * p[2] + tau * (g0 * p[3] + tau * g1 * p[4])));
+    return tau * tau * (o->v0 * p[2] + tau * (g0 * p[3] + tau * g1 * p[4]));
   }
   // The transient obeys z'' + 2 beta z' + omega0^2 z = 0: integrate it once.
   double z, w, moved;
   transient_at(o, tau, &z, &w, &moved);
   double area = -((w - o->w0) + 2.0 * o->beta * moved) / (o->omega0 * o->omega0);
-  return tau * (o->x0 + o->trend0 + 0.5 * o->trend1 * tau) + area;
+  return tau * (o->trend0 + 0.5 * o->trend1 * tau) + area;
 }
 
 // Integral of v^2 over (0, tau) or, for `transient`, of z'^2: Gauss points in panels that grow from

@@ -12,7 +12,7 @@
 #include <stdbool.h>
 
 typedef enum {
-  SB_OSCILLATOR_HELD,  // x = x0 for ever
+  SB_OSCILLATOR_HELD,  // u = 0 for ever
   SB_OSCILLATOR_DRIFT, // K = 0
   SB_OSCILLATOR_UNDER, // oscillates
   SB_OSCILLATOR_OVER,  // overdamped or critical
@@ -20,8 +20,8 @@ typedef enum {
 
 typedef struct {
   SbOscillatorKind kind;
-  double mass, damping, stiffness, f0, f1, x0, v0;
-  double trend0, trend1; // x follows trend0 + trend1 tau once the transient z is gone (K > 0)
+  double mass, damping, stiffness, f0, f1, v0;
+  double trend0, trend1; // u follows trend0 + trend1 tau once the transient z is gone (K > 0)
   double z0, w0;         // transient and its rate at the start
   double beta, omega0;   // C/(2m), sqrt(K/m)
   double split;          // sqrt|beta^2 - omega0^2|
@@ -32,21 +32,21 @@ typedef struct {
 
 // mass > 0, damping >= 0, stiffness >= 0, all finite; f0 is the force at x0 and rest.
 void sb_oscillator_init(SbOscillator *o, double mass, double damping, double stiffness, double f0,
-                        double f1, double x0, double v0);
+                        double f1, double v0);
 
-// A mass held at x0 (stuck, or on a rigid stop).
-void sb_oscillator_hold(SbOscillator *o, double x0);
+// A mass that is held (stuck, or on a rigid stop).
+void sb_oscillator_hold(SbOscillator *o);
 
-// Travel x - x0 [m], free of the rounding of x0; velocity [m/s] and acceleration [m/s^2] at tau >=
+// Travel u [m]; velocity [m/s] and acceleration [m/s^2] at tau >=
 // 0; any may be NULL.
 void sb_oscillator_at(const SbOscillator *o, double tau, double *travel, double *v, double *a);
 
-// Integral of x [m s] and of v^2 [m^2/s] over (0, tau).
-double sb_oscillator_integral_x(const SbOscillator *o, double tau);
+// Integral of u [m s] and of v^2 [m^2/s] over (0, tau).
+double sb_oscillator_integral_u(const SbOscillator *o, double tau);
 double sb_oscillator_integral_v2(const SbOscillator *o, double tau);
 
 // A quantity that must stay >= 0; the event is where it first turns negative:
-//   g = constant + rate tau + of_x (x - x0) + of_v v + relax exp(-relax_rate tau)
+//   g = constant + rate tau + of_x u + of_v v + relax exp(-relax_rate tau)
 //       + log_gain ln(1 + (log_start + tau)/log_time)          (log_gain >= 0, log_time > 0)
 typedef struct {
   double constant, rate, of_x, of_v;

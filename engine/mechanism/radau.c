@@ -37,8 +37,8 @@ static double scale(const SbRadauSystem *s, size_t i, double value) {
 
 // Forward differences of the rates; `base` are the rates at z.
 static void jacobian(double j[N][N], double *base, const SbRadauSystem *s, double t,
-                     const double *z, SbRadauCounters *counters) {
-  double power[SB_RADAU_POWERS], moved[N], dz[N];
+                     const double *z) {
+  double power[SB_RADAU_POWERS], moved[N] = {0}, dz[N];
   s->rates(base, power, t, z, s->user);
   memcpy(moved, z, s->n * sizeof *z);
   for (size_t c = 0; c < s->n; c++) {
@@ -51,7 +51,6 @@ static void jacobian(double j[N][N], double *base, const SbRadauSystem *s, doubl
     }
     moved[c] = z[c];
   }
-  counters->evaluations += (long)s->n + 1;
 }
 
 // Rates of a solved step at a fraction theta of it: the parabola through its stages.
@@ -67,7 +66,7 @@ static void rates_at(double *k, const SbRadauStep *step, size_t n, double theta)
 }
 
 // I - h A (x) J, factorised.
-static bool prepare(Factors *f, size_t n, double h, double j[N][N], SbRadauCounters *counters) {
+static bool prepare(Factors *f, size_t n, double h, double j[N][N]) {
   f->size = S * n;
   for (size_t a = 0; a < S; a++) {
     for (size_t r = 0; r < n; r++) {
@@ -80,7 +79,6 @@ static bool prepare(Factors *f, size_t n, double h, double j[N][N], SbRadauCount
       f->m[(a * n + r) * (f->size + 1)] += 1.0;
     }
   }
-  counters->factorisations++;
   return sb_lu_factor(f->m, f->pivot, f->size);
 }
 
@@ -88,7 +86,7 @@ static bool prepare(Factors *f, size_t n, double h, double j[N][N], SbRadauCount
 // taken one update before the rates: only if they are `wanted` must that update be small, else what
 // is left after it.
 static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const double *z, double h,
-                  const Factors *f, bool wanted, SbRadauCounters *counters) {
+                  const Factors *f, bool wanted, long *iterations) {
   step->t = t;
   step->h = h;
   memcpy(step->z0, z, s->n * sizeof *z);
@@ -96,7 +94,7 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
   for (int iteration = 0; iteration < 12; iteration++) {
     double residual[UNKNOWNS];
     for (size_t a = 0; a < S; a++) {
-      double at[N], dz[N];
+      double at[N] = {0}, dz[N];
       for (size_t i = 0; i < s->n; i++) {
         at[i] = z[i] + h * (butcher[a][0] * step->k[0][i] + butcher[a][1] * step->k[1][i] +
                             butcher[a][2] * step->k[2][i]);
@@ -106,8 +104,7 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
         residual[a * s->n + i] = dz[i] - step->k[a][i];
       }
     }
-    counters->evaluations += S;
-    counters->newton_iterations++;
+    ++*iterations;
     sb_lu_solve(f->m, f->pivot, residual, f->size);
     double size = 0.0;
     bool rounding = true;
@@ -142,31 +139,17 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
   return false;
 }
 
-static void start_with(SbRadauStep *step, const double *rates, size_t n) {
-  for (size_t a = 0; a < S; a++) {
-    memcpy(step->k[a], rates, n * sizeof *rates);
-  }
-}
-
-bool sb_radau_step(SbRadauStep *step, const SbRadauSystem *system, double t, const double *z,
-                   double h, SbRadauCounters *counters) {
-  double j[N][N], base[N];
-  jacobian(j, base, system, t, z, counters);
-  start_with(step, base, system->n);
-  Factors f;
-  return prepare(&f, system->n, h, j, counters) && solve(step, system, t, z, h, &f, true, counters);
-}
-
 bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local, const SbRadauSystem *system,
-                   double t, const double *z, double h, SbRadauCounters *counters) {
+                   double t, const double *z, double h, long *iterations) {
   double j[N][N], base[N];
   SbRadauStep whole;
-  jacobian(j, base, system, t, z, counters);
-  start_with(&whole, base, system->n);
+  jacobian(j, base, system, t, z);
+  for (size_t a = 0; a < S; a++) {
+    memcpy(whole.k[a], base, system->n * sizeof *base);
+  }
   Factors f;
-  if (!prepare(&f, system->n, h, j, counters) ||
-      !solve(&whole, system, t, z, h, &f, false, counters) ||
-      !prepare(&f, system->n, 0.5 * h, j, counters)) {
+  if (!prepare(&f, system->n, h, j) || !solve(&whole, system, t, z, h, &f, false, iterations) ||
+      !prepare(&f, system->n, 0.5 * h, j)) {
     return false;
   }
   for (int half = 0; half < 2; half++) {
@@ -174,17 +157,15 @@ bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local, const SbRa
       rates_at(pair[half].k[a], &whole, system->n, 0.5 * (half + node[a]));
     }
     double from = t + 0.5 * half * h;
-    if (!solve(&pair[half], system, from, half > 0 ? pair[0].z1 : z, 0.5 * h, &f, true, counters)) {
+    if (!solve(&pair[half], system, from, half > 0 ? pair[0].z1 : z, 0.5 * h, &f, true,
+               iterations)) {
       return false;
     }
   }
   *error = 0.0;
   for (size_t i = 0; i < system->n; i++) {
     local[i] = fabs(whole.z1[i] - pair[1].z1[i]) / 31.0;
-  }
-  for (size_t i = 0; i < system->n; i++) {
-    double allowed = scale(system, i, fmax(fabs(z[i]), fabs(pair[1].z1[i])));
-    *error = fmax(*error, fabs(whole.z1[i] - pair[1].z1[i]) / (31.0 * allowed));
+    *error = fmax(*error, local[i] / scale(system, i, fmax(fabs(z[i]), fabs(pair[1].z1[i]))));
   }
   return isfinite(*error);
 }

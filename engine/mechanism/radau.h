@@ -2,7 +2,7 @@
 //
 // Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5 and IV.8 (3 stages,
 // L-stable). The caller doubles steps for the error estimate (sb_radau_pair), which then is of the
-// order of the result, and locates events by stepping to them again. Nothing is allocated. Leaves
+// order of the result, and ends them on events by stepping again. Nothing is allocated. Leaves
 // out: mass matrices, systems larger than SB_RADAU_MAX.
 #pragma once
 
@@ -11,9 +11,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { SB_RADAU_MAX = 10, SB_RADAU_POWERS = 10, SB_RADAU_STAGES = 3 };
+enum { SB_RADAU_MAX = 7, SB_RADAU_POWERS = 7, SB_RADAU_STAGES = 3 };
 
-// dz[n] = rates of the state, power[powers] = integrands that do not feed back.
+// dz[n] = rates of the state, power[powers] = integrands that do not feed back. z and dz have room
+// for SB_RADAU_MAX.
 typedef void (*SbRadauRates)(double *dz, double *power, double t, const double *z, void *user);
 
 typedef struct {
@@ -34,19 +35,13 @@ typedef struct {
   double q[SB_RADAU_STAGES][SB_RADAU_POWERS];
 } SbRadauStep;
 
-typedef struct {
-  long evaluations, newton_iterations, factorisations;
-} SbRadauCounters;
-
-// From (t, z) over h > 0. False if Newton's iteration did not converge (take a smaller h).
-SB_CHECKED bool sb_radau_step(SbRadauStep *step, const SbRadauSystem *system, double t,
-                              const double *z, double h, SbRadauCounters *counters);
-
-// Two steps of h/2 and, against one of h, the scaled error of the pair (accept below 1). The pair
-// is more accurate than that by about 31. False as above.
+// From (t, z) over h > 0 in two steps of h/2; against one of h the difference of every component,
+// over 31, as `local`, and the greatest scaled one as `error` (accept below 1). The pair is more
+// accurate than that by about 31. False if Newton's iteration, counted in *iterations, did not
+// converge (take a smaller h).
 SB_CHECKED bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local,
                               const SbRadauSystem *system, double t, const double *z, double h,
-                              SbRadauCounters *counters);
+                              long *iterations);
 
 // State z[n] at t + theta h, 0 <= theta <= 1, and the quadratures over (t, t + theta h); either may
 // be NULL.

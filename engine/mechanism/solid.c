@@ -1,10 +1,10 @@
 // Revolved profiles. See solid.h; meshes are in solid_mesh.c.
 #include "engine/mechanism/solid.h"
-#include "engine/mechanism/solid_internal.h"
 #include "engine/numeric/legendre.h"
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 // One piece of the outline.
 typedef struct {
@@ -13,23 +13,28 @@ typedef struct {
   double cx, cr, radius, from, sweep; // arc: centre, radius, start angle, signed angle
 } Piece;
 
-static size_t pieces_of(const SbProfile *p) {
-  // An outline that starts and ends on the axis is closed by the axis, which encloses no area.
-  bool by_axis = p->point[0].r == 0.0 && p->point[p->count - 1].r == 0.0;
-  return by_axis ? p->count - 1 : p->count;
+// An outline that starts and ends on the axis is closed by the axis, which encloses no area.
+static bool by_axis(const SbProfile *p) {
+  return p->point[0].r == 0.0 && p->point[p->count - 1].r == 0.0;
 }
 
-static void piece_at(Piece *s, const SbProfile *p, size_t i) {
+static size_t pieces_of(const SbProfile *p) {
+  return by_axis(p) ? p->count - 1 : p->count;
+}
+
+// Piece i of an outline whose x counts from `origin`.
+static void piece_at(Piece *s, const SbProfile *p, size_t i, double origin) {
   const SbProfilePoint *a = &p->point[i], *b = &p->point[(i + 1) % p->count];
-  *s = (Piece){.x0 = a->x, .r0 = a->r, .x1 = b->x, .r1 = b->r, .arc = a->bulge != 0.0};
+  *s = (Piece){.x0 = a->x - origin, .r0 = a->r, .x1 = b->x - origin, .r1 = b->r};
+  s->arc = a->bulge != 0.0;
   if (s->arc) {
-    double dx = b->x - a->x, dr = b->r - a->r, t = a->bulge;
+    double dx = s->x1 - s->x0, dr = s->r1 - s->r0, t = a->bulge;
     // Centre to the left of the chord for a left turn below a half circle.
     double off = (1.0 - t * t) / (4.0 * t);
-    s->cx = 0.5 * (a->x + b->x) - off * dr;
-    s->cr = 0.5 * (a->r + b->r) + off * dx;
+    s->cx = 0.5 * (s->x0 + s->x1) - off * dr;
+    s->cr = 0.5 * (s->r0 + s->r1) + off * dx;
     s->radius = hypot(dx, dr) * (1.0 + t * t) / (4.0 * fabs(t));
-    s->from = atan2(a->r - s->cr, a->x - s->cx);
+    s->from = atan2(s->r0 - s->cr, s->x0 - s->cx);
     s->sweep = 4.0 * atan(t);
   }
 }
@@ -44,107 +49,66 @@ static void point_on(const Piece *s, double f, double *x, double *r) {
   }
 }
 
-// Whether an angle lies on the arc, as a fraction of it.
-static bool on_arc(const Piece *s, double angle, double slack, double *f) {
-  double turn = (angle - s->from) * (s->sweep > 0.0 ? 1.0 : -1.0);
-  turn -= 2.0 * M_PI * floor(turn / (2.0 * M_PI));
-  if (turn > 2.0 * M_PI - slack) {
-    turn -= 2.0 * M_PI;
+// Place along a piece, 0 .. 1 on it, of a point of its line or circle; just before an arc's start
+// it is below 0, too.
+static double place_on(const Piece *s, const double at[2]) {
+  if (!s->arc) {
+    double dx = s->x1 - s->x0, dr = s->r1 - s->r0;
+    return ((at[0] - s->x0) * dx + (at[1] - s->r0) * dr) / (dx * dx + dr * dr);
   }
-  *f = turn / fabs(s->sweep);
-  return turn <= fabs(s->sweep) + slack;
+  double turn = (atan2(at[1] - s->cr, at[0] - s->cx) - s->from) * (s->sweep > 0.0 ? 1.0 : -1.0);
+  turn -= 2.0 * M_PI * floor(turn / (2.0 * M_PI));
+  return (turn > 2.0 * M_PI - 1e-9 ? turn - 2.0 * M_PI : turn) / fabs(s->sweep);
 }
 
 // ---- crossings ----
 
-static size_t line_line(const Piece *a, const Piece *b, double f[2], double g[2]) {
-  double ax = a->x1 - a->x0, ar = a->r1 - a->r0, bx = b->x1 - b->x0, br = b->r1 - b->r0;
-  double det = ax * br - ar * bx, dx = b->x0 - a->x0, dr = b->r0 - a->r0;
-  double size = hypot(ax, ar) * hypot(bx, br);
-  if (fabs(det) > 1e-12 * size) {
-    f[0] = (dx * br - dr * bx) / det;
-    g[0] = (dx * ar - dr * ax) / det;
-    return 1;
+// Points that the lines and circles of two pieces have in common, four at most; of the same line or
+// circle the pieces' ends, between which they may overlap.
+static size_t meet(double at[4][2], const Piece *a, const Piece *b) {
+  if (!a->arc && b->arc) {
+    return meet(at, b, a);
   }
-  // Parallel: on one line they may overlap; both ends of the common stretch count.
-  if (fabs(dx * ar - dr * ax) > 1e-12 * hypot(ax, ar) * (hypot(dx, dr) + hypot(ax, ar))) {
-    return 0;
-  }
-  double aa = ax * ax + ar * ar;
-  double g0 = (dx * ax + dr * ar) / aa, g1 = ((b->x1 - a->x0) * ax + (b->r1 - a->r0) * ar) / aa;
-  double low = fmax(0.0, fmin(g0, g1)), high = fmin(1.0, fmax(g0, g1));
-  if (low > high) {
-    return 0;
-  }
-  f[0] = low;
-  f[1] = high;
-  g[0] = (low - g0) / (g1 - g0);
-  g[1] = (high - g0) / (g1 - g0);
-  return 2;
-}
-
-static size_t line_arc(const Piece *a, const Piece *b, double f[2], double g[2]) {
-  double ax = a->x1 - a->x0, ar = a->r1 - a->r0, ox = a->x0 - b->cx, orr = a->r0 - b->cr;
-  double aa = ax * ax + ar * ar, half = ox * ax + orr * ar;
-  double rest = ox * ox + orr * orr - b->radius * b->radius, d = half * half - aa * rest;
-  size_t n = 0;
-  if (d < -1e-14 * aa * b->radius * b->radius) {
-    return 0;
-  }
-  for (int side = -1; side <= 1; side += 2) {
-    double at = (-half + side * sqrt(fmax(d, 0.0))) / aa;
-    double angle = atan2(orr + at * ar, ox + at * ax);
-    f[n] = at;
-    if (on_arc(b, angle, 1e-9, &g[n])) {
-      n++;
+  const double end[4][2] = {{a->x0, a->r0}, {a->x1, a->r1}, {b->x0, b->r0}, {b->x1, b->r1}};
+  double bx = b->x1 - b->x0, br = b->r1 - b->r0, lb = hypot(bx, br);
+  if (!a->arc) {
+    double ax = a->x1 - a->x0, ar = a->r1 - a->r0, la = hypot(ax, ar);
+    double det = ax * br - ar * bx, dx = b->x0 - a->x0, dr = b->r0 - a->r0;
+    if (fabs(det) > 1e-12 * la * lb) {
+      double f = (dx * br - dr * bx) / det;
+      at[0][0] = a->x0 + f * ax;
+      at[0][1] = a->r0 + f * ar;
+      return 1;
     }
+    bool apart = fabs(dx * ar - dr * ax) > 1e-12 * la * (hypot(dx, dr) + la);
+    memcpy(at, end, sizeof end);
+    return apart ? 0 : 4;
   }
-  return n;
-}
-
-static size_t arc_arc(const Piece *a, const Piece *b, double f[2], double g[2]) {
-  double dx = b->cx - a->cx, dr = b->cr - a->cr, d = hypot(dx, dr);
-  double size = fmax(a->radius, b->radius);
-  if (d < 1e-12 * size) {
-    if (fabs(a->radius - b->radius) > 1e-12 * size) {
-      return 0;
+  // A circle and a line, which of two circles is that through their common points: `foot` is the
+  // line's nearest point to a's centre, (ux, ur) its direction.
+  double size = a->radius, ux = bx / lb, ur = br / lb;
+  double foot = (b->r0 - a->cr) * ux - (b->x0 - a->cx) * ur;
+  if (b->arc) {
+    double dx = b->cx - a->cx, dr = b->cr - a->cr, d = hypot(dx, dr);
+    size = fmax(a->radius, b->radius);
+    if (d < 1e-12 * size) {
+      memcpy(at, end, sizeof end);
+      return fabs(a->radius - b->radius) > 1e-12 * size ? 0 : 4;
     }
-    // The same circle: ends of one on the other.
-    size_t n = 0;
-    for (int end = 0; end < 2; end++) {
-      double angle = b->from + end * b->sweep;
-      if (n < 2 && on_arc(a, angle, 1e-9, &f[n])) {
-        g[n++] = end;
-      }
-    }
-    return n;
+    foot = (d * d + (a->radius - b->radius) * (a->radius + b->radius)) / (2.0 * d);
+    ux = dr / d;
+    ur = -dx / d;
   }
-  double along = (d * d + a->radius * a->radius - b->radius * b->radius) / (2.0 * d);
-  double across = a->radius * a->radius - along * along;
+  double across = (a->radius - foot) * (a->radius + foot);
   if (across < -1e-14 * size * size) {
     return 0;
   }
-  across = sqrt(fmax(across, 0.0));
-  size_t n = 0;
-  for (int side = -1; side <= 1; side += 2) {
-    double x = a->cx + (along * dx - side * across * dr) / d;
-    double r = a->cr + (along * dr + side * across * dx) / d;
-    if (on_arc(a, atan2(r - a->cr, x - a->cx), 1e-9, &f[n]) &&
-        on_arc(b, atan2(r - b->cr, x - b->cx), 1e-9, &g[n])) {
-      n++;
-    }
+  for (int side = 0; side < 2; side++) {
+    double along = (side == 0 ? -1.0 : 1.0) * sqrt(fmax(across, 0.0));
+    at[side][0] = a->cx - foot * ur + along * ux;
+    at[side][1] = a->cr + foot * ux + along * ur;
   }
-  return n;
-}
-
-static size_t meet(const Piece *a, const Piece *b, double f[2], double g[2]) {
-  if (!a->arc && !b->arc) {
-    return line_line(a, b, f, g);
-  }
-  if (!a->arc) {
-    return line_arc(a, b, f, g);
-  }
-  return b->arc ? arc_arc(a, b, f, g) : line_arc(b, a, g, f);
+  return 2;
 }
 
 static double piece_length(const Piece *s) {
@@ -154,21 +118,22 @@ static double piece_length(const Piece *s) {
 // Whether two pieces touch other than where one goes over into the next.
 static bool crosses(const SbProfile *p, size_t i, size_t j, double tiny) {
   Piece a, b;
-  double f[2], g[2];
+  double at[4][2];
   size_t total = pieces_of(p);
-  piece_at(&a, p, i);
-  piece_at(&b, p, j);
-  size_t n = meet(&a, &b, f, g);
+  piece_at(&a, p, i, 0.0);
+  piece_at(&b, p, j, 0.0);
+  size_t n = meet(at, &a, &b);
   // Where pieces are tangent to each other their meeting is only known to the root of rounding.
   double la = piece_length(&a), lb = piece_length(&b), near = 1e3 * tiny;
   bool follows = j == i + 1, precedes = i == 0 && j + 1 == p->count && total == p->count;
   for (size_t k = 0; k < n; k++) {
-    if (f[k] * la < -tiny || (f[k] - 1.0) * la > tiny || g[k] * lb < -tiny ||
-        (g[k] - 1.0) * lb > tiny) {
+    // From the start of each piece.
+    double f = la * place_on(&a, at[k]), g = lb * place_on(&b, at[k]);
+    if (f < -tiny || f - la > tiny || g < -tiny || g - lb > tiny) {
       continue;
     }
-    bool joint = follows && (1.0 - f[k]) * la <= near && g[k] * lb <= near;
-    joint = joint || (precedes && f[k] * la <= near && (1.0 - g[k]) * lb <= near);
+    bool joint =
+        (follows && la - f <= near && g <= near) || (precedes && f <= near && lb - g <= near);
     if (!joint) {
       return true;
     }
@@ -201,14 +166,14 @@ static void add_piece(Moments *m, const Piece *s, const double *node, const doub
   }
 }
 
-static void moments_of(Moments *m, const SbProfile *p) {
+static void moments_of(Moments *m, const SbProfile *p, double origin) {
   double node[POINTS], weight[POINTS];
   sb_legendre_gauss(node, weight, POINTS);
   *m = (Moments){0};
   size_t n = pieces_of(p);
   for (size_t i = 0; i < n; i++) {
     Piece s;
-    piece_at(&s, p, i);
+    piece_at(&s, p, i, origin);
     add_piece(m, &s, node, weight);
   }
 }
@@ -229,8 +194,7 @@ SbStatus sb_profile_check(const SbProfile *p, SbReport *report) {
     }
     extent = fmax(extent, hypot(a->x - p->point[0].x, a->r - p->point[0].r));
   }
-  bool by_axis = p->point[0].r == 0.0 && p->point[p->count - 1].r == 0.0;
-  if (!by_axis && !p->closed) {
+  if (!by_axis(p) && !p->closed) {
     return sb_fail(report, SB_ERROR_INPUT,
                    "the profile is open: it must close or start and end on the axis");
   }
@@ -238,12 +202,13 @@ SbStatus sb_profile_check(const SbProfile *p, SbReport *report) {
   double tiny = 1e-9 * extent;
   for (size_t i = 0; i < n; i++) {
     Piece s;
-    piece_at(&s, p, i);
+    piece_at(&s, p, i, 0.0);
     if (hypot(s.x1 - s.x0, s.r1 - s.r0) <= tiny) {
       return sb_fail(report, SB_ERROR_INPUT, "piece %zu of the profile has no length", i);
     }
-    double bottom;
-    if (s.arc && s.cr - s.radius < -tiny && on_arc(&s, -0.5 * M_PI, 1e-9, &bottom)) {
+    const double bottom[2] = {s.cx, s.cr - s.radius};
+    if (s.arc && bottom[1] < -tiny &&
+        place_on(&s, bottom) * fabs(s.sweep) <= fabs(s.sweep) + 1e-9) {
       return sb_fail(report, SB_ERROR_INPUT, "arc %zu of the profile dips below the axis", i);
     }
   }
@@ -256,7 +221,7 @@ SbStatus sb_profile_check(const SbProfile *p, SbReport *report) {
     }
   }
   Moments m;
-  moments_of(&m, p);
+  moments_of(&m, p, 0.0);
   if (!(fabs(m.area) > 1e-12 * extent * extent)) {
     return sb_fail(report, SB_ERROR_INPUT, "the profile encloses no area");
   }
@@ -276,19 +241,13 @@ SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *p, double density, Sb
     return status;
   }
   // About the profile's own middle, so that a part far from the origin keeps its digits.
-  SbProfilePoint shifted[SB_PROFILE_MAX];
-  SbProfile near = {shifted, p->count, p->closed};
   double low = INFINITY, high = -INFINITY;
   for (size_t i = 0; i < p->count; i++) {
     low = fmin(low, p->point[i].x);
     high = fmax(high, p->point[i].x);
   }
-  for (size_t i = 0; i < p->count; i++) {
-    shifted[i] = p->point[i];
-    shifted[i].x -= 0.5 * (low + high);
-  }
   Moments m;
-  moments_of(&m, &near);
+  moments_of(&m, p, 0.5 * (low + high));
   *solid = (SbSolid){.volume = 2.0 * M_PI * m.volume};
   solid->mass = density * solid->volume;
   double at = m.first / m.volume;
@@ -298,7 +257,6 @@ SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *p, double density, Sb
   solid->inertia[0][0] = axial;
   solid->inertia[1][1] = across;
   solid->inertia[2][2] = across;
-  sb_solid_principal(solid);
   return sb_succeed(report);
 }
 
@@ -306,37 +264,25 @@ SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *p, double density, Sb
 
 // Least and largest radius of the outline at x; high -1 if there is none.
 static void radii_at(const SbProfile *p, double x, double *low, double *high) {
+  const Piece across = {.x0 = x, .x1 = x, .r1 = 1.0};
+  size_t n = pieces_of(p);
   *low = INFINITY;
   *high = -1.0;
-  size_t n = pieces_of(p);
   for (size_t i = 0; i < n; i++) {
     Piece s;
-    piece_at(&s, p, i);
-    if (!s.arc) {
-      double left = fmin(s.x0, s.x1), right = fmax(s.x0, s.x1);
-      if (x >= left && x <= right) {
-        double f = right > left ? (x - s.x0) / (s.x1 - s.x0) : 0.0;
-        double r = s.r0 + f * (s.r1 - s.r0), other = right > left ? r : s.r1;
-        *low = fmin(*low, fmin(r, other));
-        *high = fmax(*high, fmax(r, other));
-      }
-      continue;
-    }
-    double c = (x - s.cx) / s.radius, f;
-    if (fabs(c) <= 1.0) {
-      for (int side = -1; side <= 1; side += 2) {
-        if (on_arc(&s, side * acos(c), 0.0, &f)) {
-          double r = s.cr + side * s.radius * sqrt(1.0 - c * c);
-          *low = fmin(*low, r);
-          *high = fmax(*high, r);
-        }
+    double at[4][2];
+    piece_at(&s, p, i, 0.0);
+    for (size_t k = meet(at, &across, &s); k-- > 0;) {
+      double place = place_on(&s, at[k]);
+      if (place >= 0.0 && place <= 1.0) {
+        *low = fmin(*low, at[k][1]);
+        *high = fmax(*high, at[k][1]);
       }
     }
   }
   // Solid down to the axis, which the outline does not follow.
-  bool by_axis = p->point[0].r == 0.0 && p->point[p->count - 1].r == 0.0;
   double a = p->point[0].x, b = p->point[p->count - 1].x;
-  if (by_axis && x >= fmin(a, b) && x <= fmax(a, b)) {
+  if (by_axis(p) && x >= fmin(a, b) && x <= fmax(a, b)) {
     *low = 0.0;
   }
 }
@@ -374,7 +320,7 @@ static SbStatus look_along(Radii *radii, const SbProfile *p, double x0, double x
   look_at(p, x1 - side, radii);
   for (size_t i = 0; i < n; i++) {
     Piece s;
-    piece_at(&s, p, i);
+    piece_at(&s, p, i, 0.0);
     double at[2] = {s.x0, s.arc ? s.cx : s.x0};
     for (int k = 0; k < 2; k++) {
       for (int way = -1; way <= 1; way += 2) {

@@ -31,7 +31,6 @@ typedef struct {
   double volume, mass;  // m3, kg
   double centre[3];     // m
   double inertia[3][3]; // about the centre, kg m2, ground axes (profile: x is the axis)
-  double principal[3];  // its eigenvalues, increasing
 } SbSolid;
 
 // Refuses an outline that bounds no body, naming the fault and the piece.

@@ -1,21 +1,10 @@
 // Closed triangle meshes. See solid.h. A mesh bounds a body if every edge is run once each way; it
 // is inside out if its signed volume is negative.
-#include "engine/mechanism/solid_internal.h"
+#include "engine/mechanism/solid.h"
 #include "engine/mechanism/vector3.h"
-#include "engine/numeric/dense.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-void sb_solid_principal(SbSolid *solid) {
-  double a[9];
-  memcpy(a, solid->inertia, sizeof a);
-  sb_eigen_symmetric(a, NULL, 3);
-  double low = fmin(a[0], fmin(a[4], a[8])), high = fmax(a[0], fmax(a[4], a[8]));
-  solid->principal[0] = low;
-  solid->principal[1] = fmax(fmin(a[0], a[4]), fmin(fmax(a[0], a[4]), a[8]));
-  solid->principal[2] = high;
-}
 
 // ---- closed? ----
 
@@ -240,6 +229,5 @@ SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_cou
       solid->inertia[k][l] = (k == l ? trace : 0.0) - about[k][l];
     }
   }
-  sb_solid_principal(solid);
   return sb_succeed(report);
 }

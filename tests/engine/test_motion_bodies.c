@@ -311,7 +311,7 @@ static void test_valve_motion(void) {
         ==, SB_OK);
     SbOscillator o;
     sb_oscillator_init(&o, tangent.mass, 5.0, 1e5, 1e5 * 2.8e-4 + 5.0 * 0.02 - 27.5, 1e5 * 0.02,
-                       0.0, 0.0);
+                       0.0);
     double h = 2e-3 / n, travel;
     worst = 0.0;
     for (int i = 0; i < n; i++) {

@@ -152,12 +152,11 @@ static void test_valve(void) {
           .stops = 2,
           .stop = {{.position = 6.6e-3, .side = 1, .stiffness = 1e7, .restitution = 0.3},
                    {.position = 1.45e-6, .side = -1, .stiffness = 1e7, .restitution = 0.3}},
-          .extras = 1,
-          .extra_start = {start},
-          .extra_scale = {1e5},
+          .extra_start = start,
+          .extra_scale = 1e5,
           .edges = v.edges,
           .loads = loads,
-          .extra_rates = rates,
+          .extra_rate = rates,
           .cross = crossed,
           .user = &v,
           .drive =
@@ -175,18 +174,18 @@ static void test_valve(void) {
       for (int i = 1; i <= 200; i++) {
         g_assert_cmpint(sb_dynamics_advance(&s, i * 1e-2, &report), ==, SB_OK);
         sb_dynamics_sample(&s, &sample, &e);
-        g_assert_cmpfloat(sample.extra[0], >=, -1.0);
-        g_assert_cmpfloat(sample.extra[0], <=, pc + 1.0);
+        g_assert_cmpfloat(sample.extra, >=, -1.0);
+        g_assert_cmpfloat(sample.extra, <=, pc + 1.0);
         if (i == 30) {
           in_force = sample.drive_force;
         }
         if (i == 65) {
-          open_pressure = sample.extra[0];
+          open_pressure = sample.extra;
         }
       }
       ASSERT_NEAR(open_pressure, pc, 1e-3 * pc);
       ASSERT_NEAR(sample.position, 0.0, 1e-5);
-      ASSERT_NEAR(sample.extra[0], start, 1e-3 * pc);
+      ASSERT_NEAR(sample.extra, start, 1e-3 * pc);
       g_assert_cmpfloat(v.lowest, <, 1.0);
       g_assert_cmpfloat(e.closure, <, 1e-6);
       g_assert_cmpint(sb_dynamics_counters(&s).steps, <, 5000);

@@ -231,11 +231,10 @@ static void test_chamber(void) {
   SbDynamicsModel m = {.mass = mass,
                        .edges = 1,
                        .edge = {5.0e-2},
-                       .extras = 1,
-                       .extra_start = {p0},
-                       .extra_scale = {1e5},
+                       .extra_start = p0,
+                       .extra_scale = 1e5,
                        .loads = chamber_loads,
-                       .extra_rates = chamber_rates,
+                       .extra_rate = chamber_rates,
                        .cross = chamber_cross,
                        .user = &chamber,
                        .tolerance = 1e-11};
@@ -245,12 +244,12 @@ static void test_chamber(void) {
   start(&s, &m);
   double push = chamber.area * p0 / mass, tau = chamber.time, t = 4e-3, fade = exp(-t / tau);
   advance(&s, t, &a, &e);
-  ASSERT_NEAR(a.extra[0], p0 * fade, 1e-8 * p0);
+  ASSERT_NEAR(a.extra, p0 * fade, 1e-8 * p0);
   ASSERT_NEAR(a.speed, push * tau * (1.0 - fade), 1e-8 * a.speed);
   ASSERT_NEAR(a.position, push * tau * (t - tau * (1.0 - fade)), 1e-8 * a.position);
   g_assert_cmpfloat(e.closure, <, 1e-8);
   advance(&s, 0.2, &a, &e);
-  g_assert_true(a.extra[0] == 0.0);
+  g_assert_true(a.extra == 0.0);
   g_assert_true(a.region == 1);
   g_assert_cmpfloat(e.closure, <, 1e-8);
 }

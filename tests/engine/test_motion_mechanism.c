@@ -263,14 +263,14 @@ static void part_loads(SbAssembly *a, double time, void *user) {
   const SbDynamicsModel *m = s->model;
   SbBody *b = a->body;
   double drive = 0.0, stop = 0.0;
-  if (s->push.on) {
+  if (s->wall[SB_DYNAMICS_PLATEN].on) {
     double y = s->piece.value + s->piece.rate * (time - s->piece.at);
     drive = m->drive_stiffness * (y - (b[SB_VALVE_BLOCK].position[0] - l->block)) +
             m->drive_damping * (s->piece.rate - b[SB_VALVE_BLOCK].velocity[0]);
   }
-  if (s->touch[0].on) {
+  if (s->wall[0].on) {
     double into = b[SB_VALVE_STEM_BOTTOM].position[0] - l->bottom - m->stop[0].position;
-    stop = -m->stop[0].stiffness * into - s->stop_damping[0] * b[SB_VALVE_STEM_BOTTOM].velocity[0];
+    stop = -m->stop[0].stiffness * into - s->wall[0].damping * b[SB_VALVE_STEM_BOTTOM].velocity[0];
   }
   double back = 0.0;
   const int seal[2] = {SB_VALVE_INNER_SEAL, SB_VALVE_OUTER_SEAL};
@@ -331,7 +331,7 @@ static void test_cycle(void) {
     bool sample = every > 1 || segments <= first || !chosen;
     if (s.held || sample) {
       // At rest, or a sample: where the reduced form is.
-      double speed = s.held ? 0.0 : s.v, x = sample ? s.x : at;
+      double speed = s.held ? 0.0 : s.at.v, x = sample ? s.at.x : at;
       g_assert_cmpint(sb_assembly_slide(&a, &t, x - at, speed, NULL, &assembly_work, &report), ==,
                       SB_OK);
       at = x;
@@ -339,7 +339,7 @@ static void test_cycle(void) {
     segments += !s.held;
     double until = s.t_end, span = until - s.t;
     if (taken) {
-      double k = (s.push.on ? 1e5 : 0.0) + (s.touch[0].on ? 1e6 : 0.0);
+      double k = (s.wall[SB_DYNAMICS_PLATEN].on ? 1e5 : 0.0) + (s.wall[0].on ? 1e6 : 0.0);
       double w = sqrt(k / m.mass) + 1.0, time = s.t;
       double ringing = fmin(span, 60.0 / w);
       int fine = (int)ceil(ringing * w / 0.025), coarse = (int)ceil((span - ringing) * w / 0.3);
@@ -354,7 +354,7 @@ static void test_cycle(void) {
       // Against the reduced form just before the event.
       double x, slip;
       sb_oscillator_at(&s.motion, span, &x, &slip, NULL);
-      x += s.x;
+      x += s.at.x;
       double block = a.body[SB_VALVE_BLOCK].position[0] - home[SB_VALVE_BLOCK];
       at = a.body[SB_VALVE_STEM_CENTRE].position[0] - home[SB_VALVE_STEM_CENTRE];
       for (size_t b = SB_VALVE_STEM_CENTRE; b <= SB_VALVE_BLOCK; b++) {
@@ -362,7 +362,7 @@ static void test_cycle(void) {
         place = fmax(place, hypot(a.body[b].position[1], a.body[b].position[2]));
       }
       place = fmax(place, fabs(a.body[SB_VALVE_HOUSING].position[0]));
-      force = fmax(force, s.push.on ? 1e5 * fabs(block - x) : 0.0);
+      force = fmax(force, s.wall[SB_DYNAMICS_PLATEN].on ? 1e5 * fabs(block - x) : 0.0);
       furthest = fmax(furthest, x);
       g_assert_cmpint(
           sb_assembly_tangent(&t, &a, SB_VALVE_STEM_CENTRE, x_axis, &assembly_work, &report), ==,

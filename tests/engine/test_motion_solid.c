@@ -1,5 +1,6 @@
 // Mass, centre and inertia of revolved profiles and meshes against closed forms; what is refused.
 #include "engine/mechanism/solid.h"
+#include "engine/numeric/dense.h"
 #include "tests/engine/near.h"
 
 #include <glib.h>
@@ -36,7 +37,6 @@ static void test_profiles(void) {
   SbSolid s = revolve(cylinder, 4, false);
   double m = rho * G_PI * r * r * l;
   compare(&s, m, x + 0.5 * l, 0.5 * m * r * r, m * (3.0 * r * r + l * l) / 12.0, 1e-12);
-  ASSERT_NEAR(s.principal[0], 0.5 * m * r * r, 1e-12 * m * r * r);
   // The same, closed with its axis as a piece.
   s = revolve(cylinder, 4, true);
   compare(&s, m, x + 0.5 * l, 0.5 * m * r * r, m * (3.0 * r * r + l * l) / 12.0, 1e-12);
@@ -214,8 +214,13 @@ static void test_box(void) {
   double m = rho * 30e-9;
   ASSERT_NEAR(s.mass, m, 1e-12 * m);
   double want[3] = {m * (4e-6 + 9e-6) / 12, m * (4e-6 + 25e-6) / 12, m * (9e-6 + 25e-6) / 12};
+  double a[9];
+  memcpy(a, s.inertia, sizeof a);
+  sb_eigen_symmetric(a, NULL, 3);
+  double got[3] = {fmin(a[0], fmin(a[4], a[8])), 0.0, fmax(a[0], fmax(a[4], a[8]))};
+  got[1] = a[0] + a[4] + a[8] - got[0] - got[2];
   for (int k = 0; k < 3; k++) {
-    ASSERT_NEAR(s.principal[k], want[k], 1e-10 * want[k]);
+    ASSERT_NEAR(got[k], want[k], 1e-10 * want[k]);
   }
 }
 

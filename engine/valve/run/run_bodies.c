@@ -4,13 +4,13 @@
 // The parts of thesis table 4.1 in the joints of table 4.3. At the start of every segment of the
 // motion (motion/dynamics.h) all parts are brought to where the stem is, onto the joints, and the
 // Jacobian of the joints' conditions is factored there: its null vector is the motion they leave,
-// and gives the mass that the stroke sees and, by virtual work, what each force counts. The loads
-// act where they arise: the drive on the block, friction on each seal, pressure and return spring
-// on the stem top, the stops on the stem bottom; all but the drive push the housing (with the
-// canister, which is sealed to it) back. At every frame the multipliers' system is solved with the
-// loads on their parts, for the reactions, and every moving part's acceleration is compared with
-// the stroke's. Leaves out: parts that move by levers against each other (refused), whose loads
-// dynamics.h does not know.
+// and gives the mass that the stroke sees; the parts must move as one, so that each force counts in
+// full. The loads act where they arise: the drive on the block, friction on each seal, pressure and
+// return spring on the stem top, the stops on the stem bottom; all but the drive push the housing
+// (with the canister, which is sealed to it) back. At every frame the multipliers' system is solved
+// with the loads on their parts, for the reactions, and every moving part's acceleration is
+// compared with the stroke's. Leaves out: parts that move by levers against each other (refused),
+// whose loads dynamics.h does not know.
 #include "engine/valve/run/run_dynamic.h"
 
 #include <math.h>
@@ -34,15 +34,9 @@ struct SbRunBodies {
 
 static const double axis[3] = {1, 0, 0};
 
-// Travel of what feels a load, per the stem's.
-static double lever(const SbAssemblyTangent *tangent, int load) {
-  double travel = tangent->velocity[loaded[load]][0];
-  return load == DRIVE ? travel : travel - tangent->velocity[SB_VALVE_HOUSING][0];
-}
-
-// Brings the parts to displacement x with the stem at speed v.
-static SbStatus place(SbRun *run, double x, double v, SbReport *report) {
+SbStatus sb_run_bodies_move(double *mass, SbRun *run, double x, double v, SbReport *report) {
   SbRunBodies *bodies = run->bodies;
+  const SbAssemblyTangent *tangent = &bodies->tangent;
   double error;
   SbStatus status = sb_assembly_slide(&bodies->assembly, &bodies->tangent, x - bodies->at, v,
                                       &error, &bodies->work, report);
@@ -52,7 +46,9 @@ static SbStatus place(SbRun *run, double x, double v, SbReport *report) {
   bodies->at = x;
   run->summary.bodies.joint_error = fmax(run->summary.bodies.joint_error, error);
   for (int load = 0; load < LOADS; load++) {
-    double travel = lever(&bodies->tangent, load);
+    // Travel of what feels a load, per the stem's: what 1 N counts there by virtual work.
+    double housing = load == DRIVE ? 0 : tangent->velocity[SB_VALVE_HOUSING][0];
+    double travel = tangent->velocity[loaded[load]][0] - housing;
     if (fabs(travel - 1) > 1e-9) {
       return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "models.motion",
                                "'%s' moves %.9g times as far as the stem: the parts must move as "
@@ -60,27 +56,13 @@ static SbStatus place(SbRun *run, double x, double v, SbReport *report) {
                                bodies->assembly.body[loaded[load]].name, travel);
     }
   }
-  if (fabs(bodies->tangent.mass - bodies->mass) > 1e-9 * bodies->mass) {
+  if (fabs(tangent->mass - bodies->mass) > 1e-9 * bodies->mass) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "models.motion",
                              "the mass that the stroke sees changes from %.9g to %.9g kg",
-                             bodies->mass, bodies->tangent.mass);
+                             bodies->mass, tangent->mass);
   }
+  *mass = tangent->mass;
   return SB_OK;
-}
-
-SbStatus sb_run_bodies_parts(SbDynamicsParts *out, SbRun *run, double x, double v,
-                             SbReport *report) {
-  SbStatus status = place(run, x, v, report);
-  if (status == SB_OK) {
-    const SbAssemblyTangent *tangent = &run->bodies->tangent;
-    *out = (SbDynamicsParts){.mass = tangent->mass,
-                             .drive = lever(tangent, DRIVE),
-                             .loads = lever(tangent, PRESSURE),
-                             .stop = lever(tangent, STOPS)};
-    out->contact[SB_INNER] = lever(tangent, INNER_FRICTION);
-    out->contact[SB_OUTER] = lever(tangent, OUTER_FRICTION);
-  }
-  return status;
 }
 
 SbStatus sb_run_bodies_create(SbRun *run, SbReport *report) {
@@ -148,7 +130,8 @@ SbStatus sb_run_bodies_frame(SbRun *run, size_t index, const SbDynamicsSample *s
       [PRESSURE] = sample->loads_force + sample->spring_force,
       [STOPS] = sample->stop_force[SB_REST_STOP] - sample->stop_force[SB_END_STOP],
   };
-  SbStatus status = place(run, sample->position, sample->speed, report);
+  double mass;
+  SbStatus status = sb_run_bodies_move(&mass, run, sample->position, sample->speed, report);
   if (status != SB_OK) {
     return status;
   }

@@ -17,7 +17,7 @@ typedef struct {
   double edge_closed; // and closes on the way out
   bool varies[SB_DYNAMICS_EDGES + 1]; // regions in which the land's edge lies under the contact
   double edge[SB_DYNAMICS_EDGES];     // those of the mechanism
-  bool ports;                         // the chamber's pressure is a state, extra[0]
+  bool ports;                         // the chamber's pressure is a state, the extra one
   SbChamberModel chamber_model;
   SbDoseChamber dose;
 } SbValve;
@@ -31,7 +31,7 @@ void sb_valve_fill_seal(SbSealFrame *out, const SbValve *valve, int seal, int di
                         bool moving, double s, double pressure);
 
 // Chamber pressure [Pa] in a frame, given the mechanism's extra state.
-double sb_valve_chamber_pressure(const SbValve *valve, const double *extra);
+double sb_valve_chamber_pressure(const SbValve *valve, double extra);
 
 // The sliding state of a seal that stands for the present chamber and direction.
 const SbSliding *sb_valve_state(const SbValve *valve, int seal, int direction, double pressure);
@@ -43,10 +43,9 @@ SbStatus sb_run_bodies_create(SbRun *run, SbReport *report);
 // Mass that the stroke sees as assembled [kg].
 double sb_run_bodies_mass(const SbRunBodies *bodies);
 
-// Moves the parts to displacement x [m] with the stem at speed v [m/s]; the mass and the levers
-// there. SB_ERROR_INFEASIBLE where the parts do not move as one.
-SbStatus sb_run_bodies_parts(SbDynamicsParts *out, SbRun *run, double x, double v,
-                             SbReport *report);
+// Moves the parts to displacement x [m] with the stem at speed v [m/s]; the mass that the stroke
+// sees there [kg]. SB_ERROR_INFEASIBLE where the parts do not move as one.
+SbStatus sb_run_bodies_move(double *mass, SbRun *run, double x, double v, SbReport *report);
 
 // Reactions of the joints for the frame at `index`; adds to the summary. Moves the parts there.
 SbStatus sb_run_bodies_frame(SbRun *run, size_t index, const SbDynamicsSample *sample,

@@ -75,9 +75,9 @@ static void valve_cross(size_t edge, int direction, double *extra, void *user) {
   }
 }
 
-static void valve_rates(double *rate, double x, double v, size_t region, const double *extra,
-                        void *user) {
-  rate[0] = sb_chamber_rate(&((SbValve *)user)->dose, extra[0]);
+static void valve_rate(double *rate, double x, double v, size_t region, const double *extra,
+                       void *user) {
+  *rate = sb_chamber_rate(&((SbValve *)user)->dose, extra[0]);
 }
 
 // ---------------------------------------------------------------------------------------------------
@@ -169,12 +169,11 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
     add_edge(out, chamber->port[i].low);
     add_edge(out, chamber->port[i].high);
   }
-  out->extras = 1;
-  out->extra_rates = valve_rates;
-  out->extra_scale[0] = fmax(canister, 1e3);
+  out->extra_rate = valve_rate;
+  out->extra_scale = fmax(canister, 1e3);
   double pressure = canister;
   sb_chamber_start(&valve->dose, chamber, out->start_position, &pressure);
-  out->extra_start[0] = sb_chamber_rest_pressure(&valve->dose, pressure);
+  out->extra_start = sb_chamber_rest_pressure(&valve->dose, pressure);
   return SB_OK;
 }
 
@@ -190,10 +189,9 @@ static void warn_flow(SbRun *run, const SbValve *valve) {
   }
 }
 
-static SbStatus valve_parts(SbDynamicsParts *parts, double x, double v, void *user,
-                            SbReport *report) {
+static SbStatus valve_mass(double *mass, double x, double v, void *user, SbReport *report) {
   const SbValve *valve = user;
-  return sb_run_bodies_parts(parts, valve->run, x, v, report);
+  return sb_run_bodies_move(mass, valve->run, x, v, report);
 }
 
 SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbReport *report) {
@@ -208,7 +206,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
       .stops = 2,
       .loads = valve_loads,
       .cross = valve_cross,
-      .parts = run->bodies != NULL ? valve_parts : NULL,
+      .mass_at = run->bodies != NULL ? valve_mass : NULL,
       .user = valve,
       .start_dwell = model->rest,
       .tolerance = model->motion_tolerance,
@@ -277,8 +275,8 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
 // ---------------------------------------------------------------------------------------------------
 // Frames
 
-double sb_valve_chamber_pressure(const SbValve *valve, const double *extra) {
-  return valve->ports ? extra[0]
+double sb_valve_chamber_pressure(const SbValve *valve, double extra) {
+  return valve->ports ? extra
                       : sb_model_seal_pressure(&valve->run->model, SB_OUTER, valve->chamber).left;
 }
 
