@@ -143,15 +143,23 @@ static SbStatus climb(SbEhlResults *results, int *levels, int *which, SbFilmSolv
   int least = problem->tolerance >= 5e-3 ? LEVELS_LEAST - 1 : LEVELS_LEAST;
   for (int level = 0; level < LEVELS; level++) {
     bool flooded = true;
-    const SbEhlRun run = {level + 1 < least ? LEVEL_RESIDUAL[level] : RESIDUAL, info, problem};
-    SbStatus status = level == 0 ? sb_ehl_start(&flooded, solver, which, c, supply, &run)
-                                 : sb_ehl_refine(solver, which, c, level_degree[level], &run);
-    bool anew = level > 0 && status == SB_ERROR_NOT_CONVERGED;
+    const int at = *levels;
+    const SbEhlRun run = {at + 1 < least ? LEVEL_RESIDUAL[at] : RESIDUAL, info, problem};
+    c->layers.degree = at == 0 ? level_degree[level] : c->layers.degree;
+    SbStatus status = at == 0 ? sb_ehl_start(&flooded, solver, which, c, supply, &run)
+                              : sb_ehl_refine(solver, which, c, level_degree[level], &run);
+    bool anew = at > 0 && status == SB_ERROR_NOT_CONVERGED;
     if (anew) {
       // The level below may be too coarse a guess: this one from nothing.
       *c = cold;
       c->layers.degree = level_degree[level];
       status = sb_ehl_start(&flooded, solver, which, c, supply, &run);
+    }
+    if (status == SB_ERROR_NOT_CONVERGED && at <= 1 && level + 1 < LEVELS) {
+      // So coarse a mesh may hide the load in its own errors: on a finer one from nothing.
+      *c = cold;
+      *levels = 0;
+      continue;
     }
     if (status == SB_ERROR_INFEASIBLE) {
       return sb_fail(report, status,
@@ -169,11 +177,11 @@ static SbStatus climb(SbEhlResults *results, int *levels, int *which, SbFilmSolv
       }
       return status;
     }
-    sb_ehl_results(&results[level], solver, *which, c);
-    *levels = level + 1;
-    if (*levels >= 2) {
-      sb_ehl_change(change[level], solver, *which, c, &results[level], &results[level - 1], !anew);
-      estimate(info, change, *levels, rounding(&results[level]) + info->residual);
+    sb_ehl_results(&results[at], solver, *which, c);
+    *levels = at + 1;
+    if (at > 0) {
+      sb_ehl_change(change[at], solver, *which, c, &results[at], &results[at - 1], !anew);
+      estimate(info, change, *levels, rounding(&results[at]) + info->residual);
     }
     double worst = fmax(info->error_film_min, info->error_film_central);
     if (*levels >= least && worst <= 0.1 * problem->tolerance) {

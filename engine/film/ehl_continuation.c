@@ -45,8 +45,8 @@ static SbStatus iterate_held(SbFilmSolver *solver, int which, SbEhlCase *c, cons
   return status;
 }
 
-// Cold start on the lowest degree.
-static SbStatus cold_start(SbFilmSolver *solver, int which, SbEhlCase *c, const SbEhlRun *run) {
+// Mesh and first guess.
+static SbStatus guess(SbFilmSolver *solver, int which, SbEhlCase *c) {
   SbEhlState *state = &solver->state[which];
   if (!sb_ehl_layers_mesh(&solver->mesh[which], &solver->tables, &c->layers)) {
     return SB_ERROR_NOT_CONVERGED;
@@ -54,7 +54,14 @@ static SbStatus cold_start(SbFilmSolver *solver, int which, SbEhlCase *c, const 
   state->H0 = 0.0;
   sb_ehl_layers_guess(state->nodal, state->gap, &state->shift, &state->flux, &solver->mesh[which],
                       &solver->tables, &c->layers);
-  SbStatus status = sb_ehl_iterate(solver, which, c, true, run);
+  return SB_OK;
+}
+
+// Cold start on the lowest degree.
+static SbStatus cold_start(SbFilmSolver *solver, int which, SbEhlCase *c, const SbEhlRun *run) {
+  const SbEhlState *state = &solver->state[which];
+  SbStatus status = guess(solver, which, c);
+  status = status == SB_OK ? sb_ehl_iterate(solver, which, c, true, run) : status;
   // The lowest degree has a false solution now and then where M is near 1: a film many times as
   // thick as the layers let expect, lost on finer meshes. Continuation does not meet it.
   if (status == SB_OK && state->flux > 8.0 * sb_ehl_layers_flux(&c->layers)) {
@@ -222,6 +229,16 @@ static SbStatus open_cavity(SbFilmSolver *solver, int *which, SbEhlCase *target,
                             const SbEhlRun *run) {
   enum { STEPS_MAX = 40 };
   SbEhlCase c = *target;
+  c.layers.end = SB_EHL_REFORM;
+  if (sb_ehl_layers_wedge(&c.layers) > 0.0) {
+    c.layers.reform = sb_ehl_layers_reform(&c.layers, 0.0);
+    SbStatus status = guess(solver, *which, &c);
+    status = status == SB_OK ? iterate_held(solver, *which, &c, run) : status;
+    if (status != SB_ERROR_NOT_CONVERGED) {
+      *target = status == SB_OK ? c : *target;
+      return status;
+    }
+  }
   c.layers.end = SB_EHL_RUPTURE;
   c.layers.outlet = 0.0;
   SbStatus status = cold_start(solver, *which, &c, run);

@@ -237,9 +237,9 @@ static double free_end(const SbEhlCase *problem) {
 // A film cannot form again before it breaks, nor begin behind the middle of the contact.
 static bool allowed(const SbEhlMesh *mesh, const SbEhlCase *problem, const Layout *layout,
                     double place) {
-  double width = sb_ehl_layers_width(&problem->layers);
+  double least = 1e-4 * sb_ehl_layers_length(&problem->layers);
   return problem->layers.end == SB_EHL_REFORM
-             ? place > mesh->element[layout->last].x1 + 1e-3 * width
+             ? place > mesh->element[layout->last].x1 + least
              : place < -0.5;
 }
 
@@ -249,7 +249,7 @@ static bool difference_column(SbFilmSolver *solver, int which, SbEhlCase *proble
   SbEhlMesh *mesh = &solver->mesh[which];
   SbEhlState *state = &solver->state[which];
   double place = free_end(problem);
-  double step = 1e-6 * sb_ehl_layers_width(&problem->layers);
+  double step = 1e-6 * sb_ehl_layers_length(&problem->layers);
   if (!move_free_end(solver, which, problem, place + step)) {
     return false;
   }

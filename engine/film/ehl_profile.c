@@ -82,9 +82,9 @@ static Spread spread_points(const SbEhlMesh *mesh, const SbEhlLayers *layers, do
       .outlet_unit = sb_ehl_layers_outlet_width(layers),
       .fineness = 1.0,
   };
-  if (width > 0.86) {
-    // Thick films live on the rigid wedge's length.
-    s.inlet_unit = s.outlet_unit = 0.4 * sqrt(1.44 + 0.52 * layers->lambda);
+  double wedge = sb_ehl_layers_wedge(layers);
+  if (wedge > 0.0) {
+    s.inlet_unit = s.outlet_unit = 0.4 * wedge;
     s.inlet = edge - 3.0 * s.inlet_unit;
   }
   double layer = count_to(&s, end) - count_to(&s, begin);
