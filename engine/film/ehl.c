@@ -96,7 +96,7 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   out->asperity_share = out->asperity_load / problem->load;
   out->real_area = r->real_area * scale->half_width;
   out->real_area_share = r->central_share;
-  out->film_ratio = c->rough.law != NULL ? out->film_central / problem->sigma : 0.0;
+  out->film_ratio = c->rough.law != NULL ? out->film_central / problem->sigma : NAN;
   out->friction_boundary = sign * (problem->shear_strength * out->real_area +
                                    problem->load_coefficient * out->asperity_load);
   out->solver.load_error = r->load_error;

@@ -22,8 +22,8 @@ SbStatus sb_film_stribeck(SbStribeckPoint *out, size_t count, const SbFilmProble
     SbFilmProblem at = *problem;
     at.speed = slowest * pow(fastest / slowest, (double)i / (double)(count - 1));
     status = sb_film_solve(film, &at, solver, report);
-    out[i] = (SbStribeckPoint){.speed = at.speed};
     if (status == SB_ERROR_NOT_CONVERGED) {
+      out[i] = (SbStribeckPoint){at.speed, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, false};
       status = SB_OK;
       continue;
     }
