@@ -152,36 +152,31 @@ SbStatus sb_wedge_solve(SbWedge *out, const SbWedgeProblem *problem, SbReport *r
   return sb_succeed(report);
 }
 
+// What a film of that logarithm carries beyond a load; where the outlet's pressure drives it back
+// it carries too little.
+typedef struct {
+  SbWedgeProblem problem;
+  double load;
+} LoadProblem;
+
+static double load_excess(double log_film, const void *context) {
+  LoadProblem at = *(const LoadProblem *)context;
+  at.problem.film_min = exp(log_film);
+  SbWedge wedge;
+  return sb_wedge_solve(&wedge, &at.problem, NULL) == SB_OK ? wedge.load - at.load : -at.load;
+}
+
 SbStatus sb_wedge_solve_load(SbWedge *out, double *film_min, const SbWedgeProblem *problem,
                              double load, SbReport *report) {
   *out = (SbWedge){0};
   if (!(load > 0)) {
     return sb_fail(report, SB_ERROR_RANGE, "the load must be positive");
   }
-
   // w = 3 eta u R cos^2(te)/h0 with cos^2 between 0 and 1 brackets h0 from above.
-  SbWedgeProblem trial = *problem;
-  double top = 6 * problem->viscosity * problem->speed * 2 * problem->radius / (4 * load);
-  double low = log(top) - 60;
-  double high = log(top);
-  for (int i = 0; i < 200 && high - low > 1e-15 * fabs(high); i++) {
-    double middle = (low + high) / 2;
-    trial.film_min = exp(middle);
-    SbStatus status = sb_wedge_solve(out, &trial, report);
-    if (status == SB_ERROR_RANGE) {
-      return status;
-    }
-    // A thicker film carries less; where the outlet's pressure drives it back it carries too
-    // little.
-    if (status == SB_OK && out->load > load) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
-  trial.film_min = exp(low);
-  *film_min = trial.film_min;
-  SbStatus status = sb_wedge_solve(out, &trial, report);
+  LoadProblem at = {*problem, load};
+  double top = log(3 * problem->viscosity * problem->speed * problem->radius / load);
+  *film_min = at.problem.film_min = exp(sb_bisect(load_excess, &at, top - 60, top));
+  SbStatus status = sb_wedge_solve(out, &at.problem, report);
   if (status == SB_OK && fabs(out->load / load - 1) > 1e-9) {
     return sb_fail(report, SB_ERROR_INFEASIBLE, "no rigid film carries %g N/m at these pressures",
                    load);
