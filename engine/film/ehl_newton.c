@@ -238,9 +238,8 @@ static double free_end(const SbEhlCase *problem) {
 static bool allowed(const SbEhlMesh *mesh, const SbEhlCase *problem, const Layout *layout,
                     double place) {
   double least = 1e-4 * sb_ehl_layers_length(&problem->layers);
-  return problem->layers.end == SB_EHL_REFORM
-             ? place > mesh->element[layout->last].x1 + least
-             : place < -0.5;
+  return problem->layers.end == SB_EHL_REFORM ? place > mesh->element[layout->last].x1 + least
+                                              : place < -0.5;
 }
 
 // Derivative of the residuals to the free end: the mesh is moved a little and put back.

@@ -90,8 +90,7 @@ static SbStatus replay(Way *way, size_t count, const SbRunHooks *hooks, SbReport
     if (way->film == NULL) {
       status = enter(way, frame->chamber, hooks, report);
     } else if (dt > 0) {
-      status = sb_film_transient_step(way->film, dt, frame->velocity,
-                                      sb_film_transient_info(way->film).load, report);
+      status = sb_film_transient_step(way->film, dt, frame->velocity, report);
     }
     if (status != SB_OK) {
       return status;
