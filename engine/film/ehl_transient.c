@@ -75,6 +75,26 @@ static SbStatus lay_steady(SbFilmTransient *t, SbTransientState *s, const SbFilm
   return SB_OK;
 }
 
+// Contact at rest, parted by the film `rest`: the pressure of the dry contact; the first step finds
+// the mesh's own for that film.
+static void lay_rest(SbFilmTransient *t, SbTransientState *s, double rest) {
+  SbEhlLayers layers = sb_transient_layers(t);
+  layers.inlet = t->inlet;
+  layers.outlet = t->outlet;
+  for (int i = 0; i < t->nodes; i++) {
+    s->P[i] = sb_ehl_layers_dry_pressure(&layers, t->X[i]);
+    s->void_[i] = 0.0;
+    s->cavity[i] = false;
+  }
+  s->speed = 0.0;
+  s->H0 = 0.0;
+  sb_transient_gap(s->H, t, s);
+  s->H0 = rest - s->H[t->nodes / 2];
+  for (int i = 0; i < t->nodes; i++) {
+    s->H[i] = fabs(t->X[i]) < 1.0 ? rest : fmax(s->H[i] + s->H0, rest);
+  }
+}
+
 // Least film: a parabola through the lowest node and its neighbours, in units of the film.
 static double least_film(double *place, const SbFilmTransient *t, const SbTransientState *s) {
   int at = 1;
@@ -189,11 +209,7 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
                        fmax(largest->solver.error_film_min, largest->solver.error_film_central);
   t->info.error_film_min = t->info.error_film_central = t->info.error_mesh;
   if (problem->rest_film > 0.0) {
-    t->now.speed = 0.0;
-    status = sb_transient_rest(t, &t->now, problem->rest_film / t->scale.film);
-    if (status != SB_OK) {
-      return sb_fail(report, status, "transient film: no dry contact to start from");
-    }
+    lay_rest(t, &t->now, problem->rest_film / t->scale.film);
   } else if (problem->film.speed != scaled.speed) {
     status = lay_steady(t, &t->now, &steady[1], problem->film.speed, report);
   }

@@ -1,6 +1,7 @@
 // Inside of the transient film (private to engine/film): mesh, state, and one implicit step.
 #pragma once
 
+#include "engine/film/ehl.h"
 #include "engine/film/scale.h"
 #include "engine/film/transient.h"
 
@@ -79,6 +80,9 @@ struct SbFilmTransient {
   SbFilmTransientInfo info;
 };
 
+// Layers of the contact at speed_scale.
+SbEhlLayers sb_transient_layers(const SbFilmTransient *t);
+
 // Mesh and kernel for films up to `rest`; the arrays and the place of the contact stand. Takes the
 // solver's tables and a mesh.
 void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest);
@@ -106,6 +110,3 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
 // unknown. Then takes `next` for `now`.
 SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, double speed);
 void sb_transient_accept(SbFilmTransient *t, double error);
-
-// Contact at rest with the film `rest` (scaled) between the surfaces.
-SbStatus sb_transient_rest(SbFilmTransient *t, SbTransientState *s, double rest);

@@ -123,10 +123,15 @@ static void build_kernel(SbFilmTransient *t, SbFilmSolver *solver) {
   }
 }
 
-// Half of the mesh from the middle outward, mirrored: spacing a share of the distance to the edge.
-void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest) {
+SbEhlLayers sb_transient_layers(const SbFilmTransient *t) {
   SbEhlLayers layers = {.lambda = t->scale.lambda, .starvation = 1.0};
   memcpy(layers.bow, t->scale.bow, sizeof layers.bow);
+  return layers;
+}
+
+// Half of the mesh from the middle outward, mirrored: spacing a share of the distance to the edge.
+void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest) {
+  const SbEhlLayers layers = sb_transient_layers(t);
   const double width = fmin(sb_ehl_layers_width(&layers), 2.0);
   const double fine =
       t->coarseness * cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
