@@ -331,7 +331,7 @@ static SbStatus follow(SbResultsHistory *out, const SbFilmProblem *problem,
   for (size_t i = 0; i < series->count && status == SB_OK; i++) {
     if (i > 0) {
       status = sb_film_transient_step(solver, series->time[i] - series->time[i - 1],
-                                      series->value[i], problem->load, report);
+                                      series->value[i], report);
     }
     if (status == SB_OK) {
       sb_film_transient_result(film, solver);

@@ -98,6 +98,21 @@ static const SbResultRow storage_rows[] = {
     {"linear_swell", NULL, "", "", offsetof(SbRubberState, linear_swell)},
     {0}};
 
+// Why figures of a film are null, by path; a solver that found nothing has none of them.
+static void put_film_reasons(SbJson *json, const SbFilm *film, bool none) {
+  const SbResultRow *const rows[] = {sb_film_rows, sb_film_rough_rows};
+  sb_json_object(json, "reasons");
+  for (size_t k = 0; none && k < G_N_ELEMENTS(rows); k++) {
+    for (const SbResultRow *row = rows[k]; row->key != NULL; row++) {
+      sb_json_string(json, row->key, "the solver found no film");
+    }
+  }
+  if (!none && isnan(film->film_ratio)) {
+    sb_json_string(json, "film_ratio", "the film is that of smooth surfaces");
+  }
+  sb_json_object_end(json);
+}
+
 char *sb_results_film(const SbFilm *film, const SbResultsHistory *history) {
   // A solver that found nothing has no figures; what describes the problem stays.
   const bool none = !film->solver.converged && film->film_central == 0;
@@ -113,6 +128,7 @@ char *sb_results_film(const SbFilm *film, const SbResultsHistory *history) {
   sb_json_string(&json, "regime", film->regime);
   sb_json_number(&json, "expected_model_error", film->expected_error);
   sb_json_bool(&json, "valid", film->valid);
+  put_film_reasons(&json, film, none);
   sb_json_warnings(&json, &film->warnings);
   const SbFilmSolverInfo *solver = &film->solver;
   sb_json_object(&json, "solver");

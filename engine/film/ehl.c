@@ -156,16 +156,23 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
   const int least = rough || wanted >= 5e-3 ? 2 : 3;
   bool again = false; // rough rows whose film has sharp ends follow these on the first degree
   *levels = 0;
-  for (int degree = DEGREE_FIRST; degree <= (rough ? DEGREE_LAST_ROUGH : DEGREE_LAST);) {
+  const int last = rough ? DEGREE_LAST_ROUGH : DEGREE_LAST;
+  for (int degree = DEGREE_FIRST; degree <= last;) {
+    SbEhlCase c = *cold;
+    c.layers.degree = degree;
     solver->tolerance = *levels + 1 < least ? LEVEL_RESIDUAL[*levels] : RESIDUAL;
     SbStatus status =
-        *levels == 0 ? sb_ehl_start(solver, cold, supply) : sb_ehl_refine(solver, degree);
+        *levels == 0 ? sb_ehl_start(solver, &c, supply) : sb_ehl_refine(solver, degree);
     bool anew = *levels > 0 && status == SB_ERROR_NOT_CONVERGED && !rough;
     if (anew) {
       // The level below may be too coarse a guess: this one from nothing.
-      SbEhlCase c = *cold;
-      c.layers.degree = degree;
       status = sb_ehl_start(solver, &c, supply);
+    }
+    if (status == SB_ERROR_NOT_CONVERGED && !rough && *levels <= 1 && degree < last) {
+      // So coarse a mesh may hide the load in its own errors: on a finer one from nothing.
+      *levels = 0;
+      degree += 2;
+      continue;
     }
     if (status != SB_OK) {
       return status;

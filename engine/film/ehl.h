@@ -192,6 +192,13 @@ double sb_ehl_layers_flux(const SbEhlLayers *layers);
 // Width of the inlet layer, about lambda^0.4.
 double sb_ehl_layers_width(const SbEhlLayers *layers);
 
+// Length that a thick film lives on, that of the rigid wedge between the end pressures; 0 where the
+// film is thin.
+double sb_ehl_layers_wedge(const SbEhlLayers *layers);
+
+// That, or the width of a thin film's inlet layer.
+double sb_ehl_layers_length(const SbEhlLayers *layers);
+
 // Slope factor of the dry pressure at the inlet edge: 1 for Hertz's.
 double sb_ehl_layers_inlet_slope(const SbEhlLayers *layers);
 

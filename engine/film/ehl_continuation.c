@@ -195,9 +195,22 @@ static bool torn(const SbEhlSolution *s) {
 // pressure, the outlet's pressure is raised.
 static SbStatus open_cavity(SbFilmSolver *solver, const SbEhlCase *target) {
   SbEhlCase start = *target, end = *target;
+  end.layers.end = SB_EHL_REFORM;
+  if (sb_ehl_layers_wedge(&end.layers) > 0.0) {
+    // A thick film starts with the cavity of its rigid wedge.
+    end.layers.reform = sb_ehl_layers_reform(&end.layers, 0.0);
+    SbEhlSolution *s = solver->now;
+    s->c = end;
+    if (lay_out(s)) {
+      sb_ehl_layers_guess(s);
+      SbStatus status = iterate_held(s);
+      if (status != SB_ERROR_NOT_CONVERGED) {
+        return status;
+      }
+    }
+  }
   start.layers.end = SB_EHL_RUPTURE;
   start.layers.outlet = 0.0;
-  end.layers.end = SB_EHL_REFORM;
   SbStatus status = start_flooded(solver, &start);
   return status == SB_OK ? follow_path(solver, &start, &end, 1.0) : status;
 }

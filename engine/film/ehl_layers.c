@@ -40,7 +40,6 @@ enum {
 
 // Films thicker than this layer width start from the rigid wedge and have its mesh.
 static const double THICK = 0.86;
-static const double RUPTURE_ANGLE = 0.44355; // thesis eq. 6.19
 
 static double interpolate(double z, const double *node, const double *value, int count) {
   size_t i = sb_interval(node, (size_t)count, z);
@@ -92,6 +91,28 @@ static double rigid_film(const SbEhlLayers *l) {
   return 4.894968 * l->lambda / (6.0 * M_PI);
 }
 
+static SbWedgePools wedge_of(const SbEhlLayers *l) {
+  return sb_wedge_pools(l->lambda, l->inlet, l->end == SB_EHL_RUPTURE ? 0.0 : l->outlet);
+}
+
+// Length of the rigid wedge, no shorter than the contact.
+static double wedge_unit(const SbWedgePools *w) {
+  return sqrt(1.44 + w->length * w->length);
+}
+
+double sb_ehl_layers_wedge(const SbEhlLayers *l) {
+  if (!(sb_ehl_layers_width(l) > THICK)) {
+    return 0.0;
+  }
+  SbWedgePools wedge = wedge_of(l);
+  return wedge_unit(&wedge);
+}
+
+double sb_ehl_layers_length(const SbEhlLayers *l) {
+  double wedge = sb_ehl_layers_wedge(l);
+  return wedge > 0.0 ? wedge : sb_ehl_layers_width(l);
+}
+
 double sb_ehl_layers_flux(const SbEhlLayers *l) {
   double elastic = 0.44582 * pow(l->lambda, 0.6) * pow(sb_ehl_layers_inlet_slope(l), -0.8);
   double rigid = 1.225748 * rigid_film(l);
@@ -105,7 +126,8 @@ static double rupture_guess(const SbEhlLayers *l) {
   if (sb_ehl_layers_width(l) <= THICK) {
     return elastic;
   }
-  double rigid = tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l)) + 0.8;
+  SbWedgePools wedge = wedge_of(l);
+  double rigid = tan(wedge.end) * wedge.length + 0.8;
   elastic = 1.0 + 0.164 * width;
   return 1.0 / sqrt(1.0 / (elastic * elastic) + 1.0 / (rigid * rigid));
 }
@@ -159,20 +181,37 @@ static void add_meniscus(SbEhlMesh *mesh, const SbEhlLayers *l, double unit, dou
   }
 }
 
+// A thick film that is full everywhere: elements mirrored about the axis. Its pressure is nearly
+// odd and its load the small rest, to which the error of the discretisation must not add.
+static void full_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
+  static const double step[] = {-4.0, -2.0, -1.2, -0.7, -0.3, 0.3, 0.7, 1.2, 2.0, 4.0};
+  enum { STEPS = sizeof step / sizeof step[0] };
+  SbWedgePools wedge = wedge_of(l);
+  double unit = wedge_unit(&wedge), end = unit * step[STEPS - 1];
+  sb_ehl_mesh_add(mesh, SB_EHL_INLET, 0.0, -end, unit - end, l->degree, false);
+  for (int i = 1; i < STEPS; i++) {
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, unit * step[i - 1], unit * step[i], 0.0, l->degree, false);
+  }
+  sb_ehl_mesh_add(mesh, SB_EHL_OUTLET, end, 0.0, end - unit, l->degree, false);
+  mesh->outlet = 7; // from 0.7
+}
+
 // Elements on the scale of the rigid wedge.
 static void thick_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
+  if (l->end == SB_EHL_FULL) {
+    full_mesh(mesh, l);
+    return;
+  }
   static const double step[] = {5.0, 2.6, 1.9, 1.3, 0.75, 0.35, 0.1, 0.0};
   enum { STEPS = sizeof step / sizeof step[0] };
-  double unit = sqrt(1.44 + 0.52 * l->lambda);
+  SbWedgePools wedge = wedge_of(l);
+  double unit = wedge_unit(&wedge);
   double end = rupture_guess(l);
   double from = end - unit * step[0];
   sb_ehl_mesh_add(mesh, SB_EHL_INLET, 0.0, from, from + unit, l->degree, false);
   for (int i = 1; i < STEPS; i++) {
     sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, end - unit * step[i - 1], end - unit * step[i], 0.0,
                     l->degree, false);
-  }
-  if (l->end == SB_EHL_FULL) {
-    add_outlet(mesh, end, 0.5 * unit, 0.0, l->degree, false);
   }
 }
 
@@ -220,7 +259,8 @@ static void thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   right[rights++] = last;
   // A layer pushed out of the dry contact: elements back into it, each twice as far from the edge.
   while (full && right[0] > 1.0 - out && rights < RIGHTS_MAX) {
-    double x = fmax(edge - 2.2 * (edge - right[0]), 0.5 * (left[lefts - 1] + right[0]));
+    double back = fmax(2.2 * (edge - right[0]), -outlet_step[2] * out);
+    double x = fmax(edge - back, 0.5 * (left[lefts - 1] + right[0]));
     memmove(&right[1], &right[0], (size_t)rights * sizeof right[0]);
     right[0] = x;
     rights++;
@@ -269,8 +309,8 @@ bool sb_ehl_layers_mesh(SbEhlSolution *s) {
   bool thick = sb_ehl_layers_width(l) > THICK && !isfinite(l->meniscus);
   (thick ? thick_mesh : thin_mesh)(mesh, l);
   if (l->end == SB_EHL_REFORM) {
-    double unit =
-        sb_ehl_layers_width(l) > THICK ? 0.3 * sqrt(1.44 + 0.52 * l->lambda) : outlet_width(l);
+    double wedge = sb_ehl_layers_wedge(l);
+    double unit = wedge > 0.0 ? 0.3 * wedge : outlet_width(l);
     unit = 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0);
     add_outlet(mesh, l->reform, unit, 0.0, l->degree, true);
   }
@@ -317,24 +357,6 @@ void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *l, d
   }
 }
 
-// Rigid parabola with its rupture (wedge.h).
-static double rigid_pressure(const SbEhlLayers *l, double X) {
-  double film = rigid_film(l);
-  double length = sqrt(2.0 * film);
-  double t = fmin(atan(X / length), RUPTURE_ANGLE);
-  return l->lambda * length / (film * film) * fmax(sb_wedge_shape(t, RUPTURE_ANGLE), 0.0);
-}
-
-// Gap behind the rupture less the flux film.
-static double gap_beyond(const SbEhlLayers *l, double X) {
-  if (sb_ehl_layers_width(l) > THICK) {
-    double end = tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l));
-    double x = X - rupture_guess(l) + end;
-    return 0.5 * (x * x - end * end);
-  }
-  return sb_ehl_layers_dry_gap(l, X);
-}
-
 // Pressure that a film formed again at X gains until infinity.
 static double gain(const SbEhlLayers *l, double flux, double X) {
   // X' = X + t / (1 - t)^2 in units of the film's own length, midpoint rule.
@@ -345,7 +367,7 @@ static double gain(const SbEhlLayers *l, double flux, double X) {
     double t = (i + 0.5) / POINTS;
     double x = X + unit * t / ((1.0 - t) * (1.0 - t));
     double stretch = unit * (1.0 + t) / ((1.0 - t) * (1.0 - t) * (1.0 - t));
-    double film = flux + gap_beyond(l, x);
+    double film = flux + sb_ehl_layers_dry_gap(l, x);
     sum += l->lambda * (film - flux) / (film * film * film) * stretch / POINTS;
   }
   return sum;
@@ -363,55 +385,63 @@ static double excess_gain(double X, const void *context) {
 
 double sb_ehl_layers_reform(const SbEhlLayers *l, double flux) {
   double begin = rupture_guess(l);
+  if (sb_ehl_layers_width(l) > THICK) {
+    SbWedgePools wedge = wedge_of(l);
+    return begin + (tan(wedge.reform) - tan(wedge.end)) * wedge.length;
+  }
   double reach = 10.0 * (sqrt(1.44 + 0.52 * l->lambda) + cbrt(l->lambda / l->outlet));
   return sb_bisect(excess_gain, &(Reform){l, flux}, begin, begin + reach);
 }
 
-// Start of pressure and gap at X.
-static void start_at(double *pressure, double *film, const SbEhlSolution *s, double X) {
+// Start of pressure and gap at X; `wedge` where the film is thick.
+static void start_at(double *pressure, double *film, const SbEhlSolution *s,
+                     const SbWedgePools *wedge, double X) {
   const SbEhlLayers *l = &s->c.layers;
-  if (sb_ehl_layers_width(l) > THICK) {
+  if (wedge != NULL) {
     double x = X + s->state.shift - l->middle;
-    *pressure = rigid_pressure(l, x) + (X < 0.0 ? l->inlet : l->outlet);
-    *film = rigid_film(l) + 0.5 * x * x;
+    *pressure = sb_wedge_pools_pressure(wedge, l->lambda, l->inlet, l->outlet, x);
+    *film = wedge->film + 0.5 * x * x;
   } else {
     sb_ehl_layers_shape(pressure, film, l, s->state.flux, X);
   }
 }
 
-static void reformed_at(double *pressure, double *film, const SbEhlSolution *s, double X) {
+static void reformed_at(double *pressure, double *film, const SbEhlSolution *s,
+                        const SbWedgePools *wedge, double X) {
   const SbEhlLayers *l = &s->c.layers;
   *pressure = l->outlet - gain(l, s->state.flux, X);
-  *film = s->state.flux + gap_beyond(l, X);
+  *film = s->state.flux + sb_ehl_layers_dry_gap(l, X);
 }
 
 // Fills a state from element `first` on.
-static void fill_from(SbEhlSolution *s, int first,
-                      void (*at)(double *, double *, const SbEhlSolution *, double)) {
+static void fill_from(SbEhlSolution *s, int first, const SbWedgePools *wedge,
+                      void (*at)(double *, double *, const SbEhlSolution *, const SbWedgePools *,
+                                 double)) {
   const SbEhlMesh *mesh = &s->mesh;
   double pressure, film;
   for (int i = first; i < mesh->count; i++) {
     const SbEhlElement *e = &mesh->element[i];
     for (int k = 0; k <= e->degree; k++) {
-      at(&pressure, &film, s, sb_ehl_node(e, k));
+      at(&pressure, &film, s, wedge, sb_ehl_node(e, k));
       s->state.nodal[e->first_dof + k] = sb_ehl_nodal(e, k, pressure);
     }
   }
   for (int i = 0; i < mesh->targets; i++) {
     if (mesh->owner[i] >= first) {
-      at(&pressure, &s->state.gap[i], s, mesh->x[i]);
+      at(&pressure, &s->state.gap[i], s, wedge, mesh->x[i]);
     }
   }
 }
 
 void sb_ehl_layers_guess(SbEhlSolution *s) {
   const SbEhlLayers *l = &s->c.layers;
-  bool thick = sb_ehl_layers_width(l) > THICK;
+  const bool thick = sb_ehl_layers_width(l) > THICK;
+  const SbWedgePools wedge = wedge_of(l);
+  const bool broken = thick && l->end != SB_EHL_FULL;
   s->state.H0 = 0.0;
-  s->state.flux = thick ? 1.225748 * rigid_film(l) : sb_ehl_layers_flux(l);
-  s->state.shift =
-      l->middle + (thick ? tan(RUPTURE_ANGLE) * sqrt(2.0 * rigid_film(l)) - rupture_guess(l) : 0.0);
-  fill_from(s, 0, start_at);
+  s->state.flux = thick ? wedge.stretch * wedge.film : sb_ehl_layers_flux(l);
+  s->state.shift = l->middle + (broken ? tan(wedge.end) * wedge.length - rupture_guess(l) : 0.0);
+  fill_from(s, 0, thick ? &wedge : NULL, start_at);
 }
 
 void sb_ehl_layers_guess_reformed(SbEhlSolution *s, double flux) {
@@ -420,5 +450,5 @@ void sb_ehl_layers_guess_reformed(SbEhlSolution *s, double flux) {
     first = s->mesh.element[i].apart ? i : first;
   }
   s->state.flux = flux;
-  fill_from(s, first, reformed_at);
+  fill_from(s, first, NULL, reformed_at);
 }

@@ -219,9 +219,9 @@ static double *free_end(SbEhlLayers *layers) {
 // nor begin behind the middle of the contact.
 static bool move_free_end(SbEhlSolution *s, const Layout *layout, double place) {
   SbEhlLayers *layers = &s->c.layers;
-  bool allowed = layers->end == SB_EHL_REFORM
-                     ? place > s->mesh.element[layout->last].x1 + 1e-3 * sb_ehl_layers_width(layers)
-                     : place < -0.5;
+  bool allowed = layers->end == SB_EHL_REFORM ? place > s->mesh.element[layout->last].x1 +
+                                                            1e-4 * sb_ehl_layers_length(layers)
+                                              : place < -0.5;
   if (allowed) {
     *free_end(layers) = place;
   }
@@ -232,7 +232,7 @@ static bool move_free_end(SbEhlSolution *s, const Layout *layout, double place) 
 static bool difference_column(SbEhlSolution *s, const Layout *layout) {
   SbFilmSolver *solver = s->solver;
   double place = *free_end(&s->c.layers);
-  double step = 1e-6 * sb_ehl_layers_width(&s->c.layers);
+  double step = 1e-6 * sb_ehl_layers_length(&s->c.layers);
   if (!move_free_end(s, layout, place + step)) {
     return false;
   }

@@ -1,7 +1,7 @@
 // Initial states, time steps and results of the transient film; equations in transient.h.
 //
-// BDF2 on the content half m of the cells with uneven steps; the difference to the parabola
-// through the last three contents gives the step's own error (of the third order), whose mean over
+// BDF2 on the fluid height m of the cells with uneven steps; the difference to the parabola
+// through the last three heights gives the step's own error (of the third order), whose mean over
 // the contact is held to a share of the tolerance.
 #include "engine/film/transient.h"
 
@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "engine/film/ehl_transient.h"
+#include "engine/numeric/legendre.h"
 
 static const double TRAVEL = 1.0; // largest way of the fluid in a step, in cells
 // Of the largest local error of a step against the mean's: the least film is local.
@@ -50,7 +51,7 @@ static SbStatus lay_steady(SbFilmTransient *t, SbTransientState *s, const SbFilm
     s->void_[i] = 0.0;
     s->P[i] = (X < 0.0 ? t->inlet : t->outlet);
     s->H[i] = flux + sb_film_dry_gap(X);
-    const double x = (s->middle + s->half * X) * t->scale.half_width;
+    const double x = (t->middle + X) * t->scale.half_width;
     if (sample(&film, &pressure, steady, x)) {
       s->P[i] = fmax((pressure - rupture) / t->scale.pressure, 0.0);
       s->H[i] = film / t->scale.film;
@@ -74,6 +75,26 @@ static SbStatus lay_steady(SbFilmTransient *t, SbTransientState *s, const SbFilm
   return SB_OK;
 }
 
+// Contact at rest, parted by the film `rest`: the pressure of the dry contact; the first step finds
+// the mesh's own for that film.
+static void lay_rest(SbFilmTransient *t, SbTransientState *s, double rest) {
+  SbEhlLayers layers = sb_transient_layers(t);
+  layers.inlet = t->inlet;
+  layers.outlet = t->outlet;
+  for (int i = 0; i < t->nodes; i++) {
+    s->P[i] = sb_ehl_layers_dry_pressure(&layers, t->X[i]);
+    s->void_[i] = 0.0;
+    s->cavity[i] = false;
+  }
+  s->speed = 0.0;
+  s->H0 = 0.0;
+  sb_transient_gap(s->H, t, s);
+  s->H0 = rest - s->H[t->nodes / 2];
+  for (int i = 0; i < t->nodes; i++) {
+    s->H[i] = fabs(t->X[i]) < 1.0 ? rest : fmax(s->H[i] + s->H0, rest);
+  }
+}
+
 // Least film: a parabola through the lowest node and its neighbours, in units of the film.
 static double least_film(double *place, const SbFilmTransient *t, const SbTransientState *s) {
   int at = 1;
@@ -91,23 +112,10 @@ static double least_film(double *place, const SbFilmTransient *t, const SbTransi
   return s->H[at] + dx * (b + a * dx);
 }
 
-// Film at X by the cubic through four nodes.
-static double film_at(const SbFilmTransient *t, const SbTransientState *s, double X) {
-  int i = 1;
-  while (i + 3 < t->nodes && t->X[i + 1] < X) {
-    i++;
-  }
-  double sum = 0.0;
-  for (int k = 0; k < 4; k++) {
-    sum += sb_transient_lagrange(&t->X[i - 1], 4, k, X) * s->H[i - 1 + k];
-  }
-  return sum;
-}
-
-// Least and central film, scaled.
+// Least and central film, scaled; X = 0 is the node in the middle.
 static void read_figures(double out[2], double *place, const SbFilmTransient *t) {
   out[0] = least_film(place, t, &t->now);
-  out[1] = film_at(t, &t->now, t->compliance.modes > 0 ? 0.0 : -t->now.middle / t->now.half);
+  out[1] = t->now.H[t->nodes / 2];
 }
 
 static void remember(SbFilmTransient *t) {
@@ -115,9 +123,8 @@ static void remember(SbFilmTransient *t) {
   SbTransientPast *past = t->past;
   memmove(&past[1], &past[0], 2 * sizeof *past);
   past[0].time = s->time, past[0].travel = s->travel;
-  past[0].half = s->half, past[0].middle = s->middle;
   for (int i = 0; i < t->nodes; i++) {
-    past[0].content[i] = s->half * sb_transient_height(s, i);
+    past[0].height[i] = sb_transient_height(s, i);
   }
   t->known_times = t->known_times < 3 ? t->known_times + 1 : 3;
 }
@@ -126,7 +133,6 @@ void sb_film_transient_destroy(SbFilmTransient *t) {
   if (t != NULL) {
     sb_film_transient_destroy(t->companion);
     free(t->kernel);
-    free(t->present);
     free(t->matrix);
     free(t);
   }
@@ -135,9 +141,8 @@ void sb_film_transient_destroy(SbFilmTransient *t) {
 static bool allocate(SbFilmTransient *t) {
   const size_t size = (size_t)SB_TRANSIENT_NODES_MAX * SB_TRANSIENT_NODES_MAX * sizeof(double);
   t->kernel = malloc(size);
-  t->present = malloc(size);
   t->matrix = malloc(size);
-  return t->kernel != NULL && t->present != NULL && t->matrix != NULL;
+  return t->kernel != NULL && t->matrix != NULL;
 }
 
 static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
@@ -191,33 +196,25 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   t->diffusion = t->scale.film * t->scale.film * t->scale.pressure /
                  (12.0 * problem->film.viscosity * t->scale.half_width * t->scale.half_width);
   t->flow = 0.5 * problem->speed_scale / t->scale.half_width * largest->film_flux / t->scale.film;
-  t->now.load = 0.5 * M_PI;
-  t->now.half = 1.0;
-  t->now.middle = scaled.speed < 0.0 ? -t->scale.middle : t->scale.middle;
+  t->middle = scaled.speed < 0.0 ? -t->scale.middle : t->scale.middle;
   sb_transient_mesh(t, solver, problem->rest_film / t->scale.film);
   SbStatus status = lay_steady(t, &t->now, largest, scaled.speed, report);
   if (status != SB_OK) {
     return status;
   }
-  double place;
-  const double least = least_film(&place, t, &t->now) * t->scale.film;
-  const double central = film_at(t, &t->now, 0.0) * t->scale.film;
-  t->info.error_mesh =
-      fmax(fabs(least / largest->film_min - 1.0), fabs(central / largest->film_central - 1.0)) +
-      fmax(largest->solver.error_film_min, largest->solver.error_film_central);
+  double place, figure[2];
+  read_figures(figure, &place, t);
+  t->info.error_mesh = fmax(fabs(figure[0] * t->scale.film / largest->film_min - 1.0),
+                            fabs(figure[1] * t->scale.film / largest->film_central - 1.0)) +
+                       fmax(largest->solver.error_film_min, largest->solver.error_film_central);
   t->info.error_film_min = t->info.error_film_central = t->info.error_mesh;
   if (problem->rest_film > 0.0) {
-    t->now.speed = 0.0;
-    status = sb_transient_rest(t, &t->now, problem->rest_film / t->scale.film);
-    if (status != SB_OK) {
-      return sb_fail(report, status, "transient film: no dry contact to start from");
-    }
+    lay_rest(t, &t->now, problem->rest_film / t->scale.film);
   } else if (problem->film.speed != scaled.speed) {
     status = lay_steady(t, &t->now, &steady[1], problem->film.speed, report);
   }
   t->info.unknowns = (size_t)t->nodes - 1;
   t->info.speed = problem->film.speed;
-  t->info.load = problem->film.load;
   remember(t);
   return status;
 }
@@ -293,25 +290,20 @@ static void derivative(double c[3], double h, const SbTransientPast *past, int c
   c[2] = h / (before * (h + before));
 }
 
-SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, double speed,
-                              double load) {
+SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, double speed) {
   double c[3];
   const SbTransientPast *past = t->past;
   const double time[] = {past[0].time, past[1].time, past[2].time};
   derivative(c, h, past, t->known_times);
+  // Of the polynomial through the last heights, at the new time.
+  double bary[3], ahead[3];
+  sb_barycentric_weights(bary, time, t->known_times);
+  sb_barycentric_basis(ahead, time[0] + h, time, bary, t->known_times);
   SbTransientState *s = &t->next;
   *s = t->now;
   s->time = t->now.time + h;
   s->travel = t->now.travel + 0.5 * h * (t->now.speed + speed);
   s->speed = speed;
-  s->load = load;
-  SbStatus status = SB_OK;
-  if (load != t->now.load) { // else the contact stays where it is
-    status = sb_transient_place(&s->half, &s->middle, t, load, NULL);
-  }
-  if (status != SB_OK) {
-    return status;
-  }
   // First guess: straight on from the last two states.
   const double ratio = t->known_times >= 2 && t->now.time > t->before.time
                            ? h / (t->now.time - t->before.time)
@@ -328,28 +320,24 @@ SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, doubl
   double *old = t->work[0], *guess = t->work[1], *earlier = t->work[2];
   memset(t->work, 0, sizeof t->work);
   double carried_rate = 0.0;
-  const bool carry = fabs(s->travel - t->now.travel) < t->reach * s->half;
+  const bool carry = fabs(s->travel - t->now.travel) < t->reach;
   for (int k = 0; k < t->known_times; k++) {
-    const double way = carry ? (s->travel - past[k].travel) / s->half : 0.0;
-    sb_transient_carry(earlier, t, past[k].content, way);
+    const double way = carry ? s->travel - past[k].travel : 0.0;
+    sb_transient_carry(earlier, t, past[k].height, way);
     const double weight = k < 2 ? c[k + 1] : 0.0;
-    // Of the polynomial through the last contents, at the new time.
-    const double ahead = sb_transient_lagrange(time, t->known_times, k, time[0] + h);
-    carried_rate -= weight * past[k].half * way;
+    carried_rate -= weight * way;
     for (int i = 0; i < t->nodes; i++) {
       old[i] += weight * earlier[i];
-      guess[i] += ahead * earlier[i];
+      guess[i] += ahead[k] * earlier[i];
     }
   }
   const SbTransientStep step = {
       .c0 = c[0],
       .old = old,
-      .half_rate = c[0] * s->half + c[1] * past[0].half + c[2] * past[1].half,
       .carried_rate = carried_rate,
-      .middle_rate = c[0] * s->middle + c[1] * past[0].middle + c[2] * past[1].middle,
   };
   SbTransientTrace trace;
-  status = sb_transient_newton(&trace, t, s, &step);
+  const SbStatus status = sb_transient_newton(&trace, t, s, &step);
   t->info.newton_iterations += (size_t)trace.iterations;
   t->info.factorisations += (size_t)trace.factorisations;
   if (status != SB_OK) {
@@ -373,10 +361,10 @@ SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, doubl
   double largest = 0.0;
   for (int i = 0; i < t->nodes; i++) {
     if (fabs(t->X[i]) < 1.0) {
-      const double content = s->half * sb_transient_height(s, i);
-      sum += t->volume[i] * fabs(content - guess[i]);
-      whole += t->volume[i] * content;
-      largest = fmax(largest, fabs(content - guess[i]) / content);
+      const double height = sb_transient_height(s, i);
+      sum += t->volume[i] * fabs(height - guess[i]);
+      whole += t->volume[i] * height;
+      largest = fmax(largest, fabs(height - guess[i]) / height);
     }
   }
   *error = t->known_times >= 2
@@ -390,7 +378,7 @@ SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, doubl
 void sb_transient_accept(SbFilmTransient *t, double error) {
   // Fluid that leaves the contact takes its error with it.
   const double h = t->next.time - t->now.time;
-  const double left = fmin(1.0, 0.5 * h * fabs(t->next.speed) / t->next.half);
+  const double left = fmin(1.0, 0.5 * h * fabs(t->next.speed));
   t->info.error_time = t->info.error_time * (1.0 - left) + (isfinite(error) ? error : 0.0);
   t->before = t->now;
   t->now = t->next;
@@ -398,24 +386,12 @@ void sb_transient_accept(SbFilmTransient *t, double error) {
   t->info.steps++;
   t->info.time = t->now.time;
   t->info.speed = 2.0 * t->now.speed * t->scale.half_width;
-  t->info.load = t->now.load / (0.5 * M_PI) * t->problem.film.load;
 }
 
-static SbStatus check_step(double dt, double speed, double load, const SbFilmTransient *t,
-                           SbReport *report) {
-  if (!(dt > 0.0) || !(fabs(speed) <= 1.0001 * t->problem.speed_scale) ||
-      !(load > 0.05 * t->problem.film.load && load < 20.0 * t->problem.film.load)) {
-    return sb_fail(report, SB_ERROR_RANGE,
-                   "transient film: step %g s to %g m/s (scale %g) and %g N/m (start %g)", dt,
-                   speed, t->problem.speed_scale, load, t->problem.film.load);
-  }
-  return SB_OK;
-}
-
-// On to `end` with speed and load going evenly to v1 and load1.
-static SbStatus follow(SbFilmTransient *t, double end, double v1, double load1, SbReport *report) {
+// On to `end` with the speed going evenly to v1.
+static SbStatus follow(SbFilmTransient *t, double end, double v1, SbReport *report) {
   const double begin = t->now.time, dt = end - begin;
-  const double v0 = t->now.speed, load0 = t->now.load;
+  const double v0 = t->now.speed;
   const double limit = 0.1 * t->problem.film.tolerance * pow(t->coarseness, 3.0);
   const double transit = 2.0 * t->scale.half_width / (0.5 * t->problem.speed_scale);
   double h = t->step > 0.0 ? t->step : 1e-5 * transit;
@@ -434,8 +410,7 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, double load1, 
     h = h >= rest ? rest : h > 0.5 * rest ? 0.5 * rest : h;
     const double share = (t->now.time + h - begin) / dt;
     double error;
-    const SbStatus status =
-        sb_transient_advance(&error, t, h, v0 + share * (v1 - v0), load0 + share * (load1 - load0));
+    const SbStatus status = sb_transient_advance(&error, t, h, v0 + share * (v1 - v0));
     if (status == SB_ERROR_NOT_CONVERGED ||
         (status == SB_OK && error > limit && t->known_times >= 2)) {
       t->info.rejected++;
@@ -468,7 +443,7 @@ static SbStatus compare(SbFilmTransient *t, double way) {
   SbFilmTransient *other = t->companion;
   double *error[2] = {&t->info.error_film_min, &t->info.error_film_central};
   if (other != NULL) {
-    const SbStatus status = follow(other, t->now.time, t->now.speed, t->now.load, NULL);
+    const SbStatus status = follow(other, t->now.time, t->now.speed, NULL);
     if (status == SB_ERROR_CANCELLED) {
       return status;
     }
@@ -489,7 +464,7 @@ static SbStatus compare(SbFilmTransient *t, double way) {
       // A spacing for the mean film alone finds the least one with the first order.
       const double share = k == 0 && !t->problem.resolve ? 1.0 : 0.5;
       const double apart = share * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);
-      if (apart > t->apart[k] || t->way - t->apart_way[k] > 2.0 * t->now.half) {
+      if (apart > t->apart[k] || t->way - t->apart_way[k] > 2.0) {
         t->apart[k] = apart;
         t->apart_way[k] = t->way;
       }
@@ -503,19 +478,20 @@ static SbStatus compare(SbFilmTransient *t, double way) {
   return SB_OK;
 }
 
-SbStatus sb_film_transient_step(SbFilmTransient *t, double dt, double speed, double load,
-                                SbReport *report) {
+SbStatus sb_film_transient_step(SbFilmTransient *t, double dt, double speed, SbReport *report) {
   enum { PIECES_MAX = 20 };
-  SbStatus status = check_step(dt, speed, load, t, report);
+  if (!(dt > 0.0) || !(fabs(speed) <= 1.0001 * t->problem.speed_scale)) {
+    return sb_fail(report, SB_ERROR_RANGE, "transient film: step %g s to %g m/s (scale %g)", dt,
+                   speed, t->problem.speed_scale);
+  }
+  SbStatus status = SB_OK;
   const double begin = t->now.time;
   const double v0 = t->now.speed, v1 = 0.5 * speed / t->scale.half_width;
-  const double load0 = t->now.load, load1 = load / t->problem.film.load * 0.5 * M_PI;
   const double way = 0.5 * dt * (fabs(v0) + fabs(v1));
   const int pieces = (int)ceil(fmin(fmax(way / 0.1, 1.0), PIECES_MAX));
   for (int k = 1; k <= pieces && status == SB_OK; k++) {
     const double share = (double)k / pieces;
-    status = follow(t, begin + share * dt, v0 + share * (v1 - v0), load0 + share * (load1 - load0),
-                    report);
+    status = follow(t, begin + share * dt, v0 + share * (v1 - v0), report);
     if (status == SB_OK) {
       status = compare(t, way / pieces);
     }
@@ -533,22 +509,20 @@ void sb_film_transient_result(SbFilm *out, const SbFilmTransient *t) {
   const SbTransientState *s = &t->now;
   SbFilmProblem problem = t->problem.film;
   problem.speed = t->info.speed;
-  problem.load = t->info.load;
   const SbFilmScale scale = sb_film_scale(&problem);
   sb_film_begin(out, &problem, &scale);
   const double unit = t->scale.half_width;
-  double place;
-  out->film_min = least_film(&place, t, s) * t->scale.film;
-  out->position_film_min = (s->middle + s->half * place) * unit;
-  const double axis = t->compliance.modes > 0 ? 0.0 : -s->middle / s->half;
-  out->film_central = film_at(t, s, axis) * t->scale.film;
-  int at_axis = 1;
+  double place, figure[2];
+  read_figures(figure, &place, t);
+  out->film_min = figure[0] * t->scale.film;
+  out->film_central = figure[1] * t->scale.film;
+  out->position_film_min = (t->middle + place) * unit;
+  const int at_axis = t->nodes / 2;
   int highest = 0;
   double couette = 0.0;
   double poiseuille = 0.0;
   for (int i = 0; i + 1 < t->nodes; i++) {
-    const double dx = s->half * (t->X[i + 1] - t->X[i]);
-    at_axis = t->X[i] <= axis ? i : at_axis;
+    const double dx = t->X[i + 1] - t->X[i];
     highest = s->P[i] > s->P[highest] ? i : highest;
     if (!s->cavity[i] && !s->cavity[i + 1]) {
       couette += dx * 0.5 * (1.0 / s->H[i] + 1.0 / s->H[i + 1]);
@@ -567,9 +541,8 @@ void sb_film_transient_result(SbFilm *out, const SbFilmTransient *t) {
     i += step;
   }
   out->ruptured = i > 0 && i + 1 < t->nodes;
-  out->position_rupture =
-      out->ruptured ? (s->middle + s->half * (t->X[i] - 0.5 * (t->X[i] - t->X[i - step]))) * unit
-                    : (s->middle + step * s->half) * unit;
+  out->position_rupture = out->ruptured ? (t->middle + 0.5 * (t->X[i] + t->X[i - step])) * unit
+                                        : (t->middle + step) * unit;
   out->solver = (SbFilmSolverInfo){
       .converged = true,
       .unknowns = t->info.unknowns,
@@ -582,7 +555,7 @@ void sb_film_transient_result(SbFilm *out, const SbFilmTransient *t) {
       .flux_error = t->info.mass_error,
   };
   for (int k = 0; k < t->nodes; k++) {
-    sb_film_put(out, (size_t)k, (s->middle + s->half * t->X[k]) * unit,
+    sb_film_put(out, (size_t)k, (t->middle + t->X[k]) * unit,
                 s->P[k] * t->scale.pressure + problem.rupture_pressure, s->H[k] * t->scale.film);
   }
   sb_film_warn_common(out, &problem);

@@ -1,19 +1,18 @@
 // Inside of the transient film (private to engine/film): mesh, state, and one implicit step.
 #pragma once
 
+#include "engine/film/ehl.h"
 #include "engine/film/scale.h"
 #include "engine/film/transient.h"
 
 enum { SB_TRANSIENT_NODES_MAX = 1000 };
 
 // Everything is scaled by the steady problem's b, p_H and b^2/R; time stays in seconds. Nodes are
-// at x = middle + half X, in units of b.
+// at x = middle + X, in units of b.
 typedef struct {
   double time;
   double speed;  // v = u/(2 b) [1/s]
-  double load;   // pi/2 at the start's load
   double travel; // of the fluid at v since the start
-  double half, middle;
   double H0;
   double P[SB_TRANSIENT_NODES_MAX];     // above the rupture pressure
   double H[SB_TRANSIENT_NODES_MAX];     // gap
@@ -23,15 +22,15 @@ typedef struct {
 
 // An earlier time.
 typedef struct {
-  double time, travel, half, middle;
-  double content[SB_TRANSIENT_NODES_MAX]; // half m
+  double time, travel;
+  double height[SB_TRANSIENT_NODES_MAX]; // m
 } SbTransientPast;
 
-// A step: content' = c0 content + old, and the mesh's velocity.
+// A step: m' = c0 m + old, and the faces' velocity over their carried share.
 typedef struct {
   double c0;
-  const double *old; // [nodes] combination of earlier contents; NULL when steady
-  double half_rate, middle_rate, carried_rate;
+  const double *old; // [nodes] combination of earlier heights; NULL when steady
+  double carried_rate;
 } SbTransientStep;
 
 typedef struct {
@@ -43,6 +42,7 @@ struct SbFilmTransient {
   SbFilmTransientProblem problem;
   SbFilmScale scale;
   int nodes;
+  double middle;              // of the contact
   double layer;               // width of the layers at the edges
   double cell;                // spacing between the layers
   double coarseness;          // of mesh and steps: 1, the companion's 2
@@ -59,12 +59,9 @@ struct SbFilmTransient {
   double diffusion;                           // kappa = film^2 p_H / (12 eta b^2) [1/s]
   double flow;                                // scale of v m
   double inlet, outlet;                       // left and right ambient pressure above the rupture's
-  double *kernel;                             // [nodes][nodes] of the half-plane at half = 1
-  double *present; // [nodes][nodes] kernel at present_half, present_middle
-  double present_known[SB_TRANSIENT_NODES_MAX]; // undeformed gap and known pressures there
-  double present_half, present_middle;
-  SbSurfaceCompliance compliance;       // modes = 0: half-plane and parabola
-  double known[SB_TRANSIENT_NODES_MAX]; // ambient pressures to infinity
+  double *kernel;                             // [nodes][nodes]
+  double known[SB_TRANSIENT_NODES_MAX];       // undeformed gap and that of ambient pressures
+  SbSurfaceCompliance compliance;             // modes = 0: half-plane and parabola
   double *matrix;
   double right[SB_TRANSIENT_NODES_MAX];
   int pivot[SB_TRANSIENT_NODES_MAX];
@@ -83,34 +80,22 @@ struct SbFilmTransient {
   SbFilmTransientInfo info;
 };
 
-// Mesh and kernel for films up to `rest`; the arrays stand. Takes the solver's tables and a mesh.
+// Layers of the contact at speed_scale.
+SbEhlLayers sb_transient_layers(const SbFilmTransient *t);
+
+// Mesh and kernel for films up to `rest`; the arrays and the place of the contact stand. Takes the
+// solver's tables and a mesh.
 void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest);
 
-// Mean over each cell, displaced back by the carried share of `way`, of an earlier content: the
-// derivatives of the content's integral over the mesh, which keeps the mass exactly.
-void sb_transient_carry(double *out, const SbFilmTransient *t, const double *content, double way);
-
-// Lagrange's polynomial of node k of `count`, at x.
-static inline double sb_transient_lagrange(const double *node, int count, int k, double x) {
-  double value = 1.0;
-  for (int j = 0; j < count; j++) {
-    value *= j == k ? 1.0 : (x - node[j]) / (node[k] - node[j]);
-  }
-  return value;
-}
+// Mean over each cell, displaced back by the carried share of `way`, of earlier heights: the
+// derivatives of their integral over the mesh, which keeps the mass exactly.
+void sb_transient_carry(double *out, const SbFilmTransient *t, const double *height, double way);
 
 // Fluid height of a node.
 double sb_transient_height(const SbTransientState *s, int i);
 
 // Elastic gap of the state's pressure at all nodes.
 void sb_transient_gap(double *out, const SbFilmTransient *t, const SbTransientState *s);
-
-// Brings `present` to a place of the contact.
-void sb_transient_present(SbFilmTransient *t, double half, double middle);
-
-// Places the contact of a load: half-width and middle over b.
-SbStatus sb_transient_place(double *half, double *middle, const SbFilmTransient *t, double load,
-                            SbReport *report);
 
 // Flow v m - kappa H^3 P' through the face between i and i + 1, relative to the wall's frame.
 double sb_transient_flow(const SbFilmTransient *t, const SbTransientState *s, int face);
@@ -120,12 +105,8 @@ double sb_transient_flow(const SbFilmTransient *t, const SbTransientState *s, in
 SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTransientState *s,
                              const SbTransientStep *step);
 
-// One implicit step of length h to the given speed (SbTransientState's) and load, from `now` to
-// `next`; *error is the step's own, the mean over the contact against the mean film, infinite while
+// One implicit step of length h to the given speed (SbTransientState's), from `now` to `next`;
+// *error is the step's own, the mean over the contact against the mean film, infinite while
 // unknown. Then takes `next` for `now`.
-SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, double speed,
-                              double load);
+SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, double speed);
 void sb_transient_accept(SbFilmTransient *t, double error);
-
-// Contact at rest with the film `rest` (scaled) between the surfaces.
-SbStatus sb_transient_rest(SbFilmTransient *t, SbTransientState *s, double rest);

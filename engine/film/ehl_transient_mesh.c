@@ -42,6 +42,55 @@ static void add_interval(double *row, const SbFilmTransient *t, int j, const dou
   }
 }
 
+// Smooth part of a fitted body on the nodes, added to the kernel and the known gap, as in
+// ehl_fitted.c: moments of the nodes' hats inside the window, S, and the polynomials at the nodes.
+// The constant is H0's.
+static void add_smooth(SbFilmTransient *t) {
+  enum { POINTS = 3, MODES = SB_COMPLIANCE_MODES };
+  const SbSurfaceCompliance *c = &t->compliance;
+  const int n = t->nodes;
+  const double b = t->scale.half_width;
+  double node[POINTS];
+  double weight[POINTS];
+  sb_legendre_gauss(node, weight, POINTS);
+  memset(t->moment, 0, sizeof t->moment);
+  double value[MODES];
+  for (int j = 0; j + 1 < n; j++) {
+    const double x = b * (t->middle + t->X[j]);
+    const double h = t->X[j + 1] - t->X[j];
+    const double from = fmax((c->left - x) / (b * h), 0.0);
+    const double to = fmin((c->right - x) / (b * h), 1.0);
+    for (int q = 0; q < POINTS && from < to; q++) {
+      const double s = 0.5 * (from + to) + 0.5 * (to - from) * node[q];
+      sb_compliance_modes(c, x + s * b * h, value, NULL);
+      for (int k = 0; k < c->modes; k++) {
+        const double part = 0.5 * (to - from) * h * weight[q] * value[k];
+        t->moment[k][j] += part * (1.0 - s);
+        t->moment[k][j + 1] += part * s;
+      }
+    }
+  }
+  double known[MODES] = {0}, by_axis[MODES] = {0};
+  const SbFilmBody body = {c, 1.0, b, t->scale.film};
+  sb_film_ambient(known, by_axis, &body, t->inlet, t->outlet, t->middle + t->X[0],
+                  t->middle + t->X[n - 1]);
+  const double tilt = sb_film_window_tilt(&body, t->inlet, t->outlet);
+  const double factor = 0.25 * c->modulus; // p_H b over the film's scale
+  for (int i = 0; i < n; i++) {
+    sb_compliance_modes(c, b * (t->middle + t->X[i]), value, NULL);
+    double *row = t->kernel + (size_t)i * (size_t)n;
+    t->known[i] += tilt * t->X[i];
+    for (int l = 0; l < c->modes; l++) {
+      double sum = 0.0;
+      for (int k = 1; k < c->modes; k++) {
+        sum += factor * value[k] * c->smooth[k][l];
+      }
+      t->known[i] += sum * known[l];
+      cblas_daxpy(n, sum, t->moment[l], 1, row, 1);
+    }
+  }
+}
+
 // Kernel and weights of the load, interval by interval as an element of `solver`'s meshes.
 static void build_kernel(SbFilmTransient *t, SbFilmSolver *solver) {
   enum { QUADRATIC = 2 };
@@ -62,14 +111,27 @@ static void build_kernel(SbFilmTransient *t, SbFilmSolver *solver) {
     }
   }
   for (size_t i = 0; i < n; i++) {
+    const double x = t->middle + t->X[i];
     t->known[i] = sb_ehl_ambient_gap(t->X[i], t->X[0], t->X[n - 1], t->inlet, t->outlet);
+    t->known[i] +=
+        t->compliance.modes > 0
+            ? sb_compliance_gap(&t->compliance, t->scale.half_width * x, NULL) / t->scale.film
+            : 0.5 * x * x;
   }
+  if (t->compliance.modes > 0) {
+    add_smooth(t);
+  }
+}
+
+SbEhlLayers sb_transient_layers(const SbFilmTransient *t) {
+  SbEhlLayers layers = {.lambda = t->scale.lambda, .starvation = 1.0};
+  memcpy(layers.bow, t->scale.bow, sizeof layers.bow);
+  return layers;
 }
 
 // Half of the mesh from the middle outward, mirrored: spacing a share of the distance to the edge.
 void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest) {
-  SbEhlLayers layers = {.lambda = t->scale.lambda, .starvation = 1.0};
-  memcpy(layers.bow, t->scale.bow, sizeof layers.bow);
+  const SbEhlLayers layers = sb_transient_layers(t);
   const double width = fmin(sb_ehl_layers_width(&layers), 2.0);
   const double fine =
       t->coarseness * cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
@@ -111,99 +173,10 @@ void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest) {
   build_kernel(t, solver);
 }
 
-// Smooth part of a fitted body on the nodes, added to `present` and its known gap, as in
-// ehl_fitted.c: moments of the nodes' hats inside the window, S, and the polynomials at the nodes.
-// The constant is H0's.
-static void add_smooth(SbFilmTransient *t, double half, double middle) {
-  enum { POINTS = 3, MODES = SB_COMPLIANCE_MODES };
-  const SbSurfaceCompliance *c = &t->compliance;
-  const int n = t->nodes;
-  const double b = t->scale.half_width;
-  double node[POINTS];
-  double weight[POINTS];
-  sb_legendre_gauss(node, weight, POINTS);
-  memset(t->moment, 0, sizeof t->moment);
-  double value[MODES];
-  for (int j = 0; j + 1 < n; j++) {
-    const double x = b * (middle + half * t->X[j]);
-    const double h = half * (t->X[j + 1] - t->X[j]);
-    const double from = fmax((c->left - x) / (b * h), 0.0);
-    const double to = fmin((c->right - x) / (b * h), 1.0);
-    for (int q = 0; q < POINTS && from < to; q++) {
-      const double s = 0.5 * (from + to) + 0.5 * (to - from) * node[q];
-      sb_compliance_modes(c, x + s * b * h, value, NULL);
-      for (int k = 0; k < c->modes; k++) {
-        const double part = 0.5 * (to - from) * h * weight[q] * value[k];
-        t->moment[k][j] += part * (1.0 - s);
-        t->moment[k][j + 1] += part * s;
-      }
-    }
-  }
-  double known[MODES] = {0}, by_axis[MODES] = {0};
-  const SbFilmBody body = {c, 1.0, b, t->scale.film};
-  const SbFilmBody breathing = {c, 1.0, half * b, t->scale.film};
-  sb_film_ambient(known, by_axis, &body, t->inlet, t->outlet, middle + half * t->X[0],
-                  middle + half * t->X[n - 1]);
-  const double tilt = half * sb_film_window_tilt(&breathing, t->inlet, t->outlet);
-  const double factor = 0.25 * c->modulus; // p_H b over the film's scale
-  for (int i = 0; i < n; i++) {
-    sb_compliance_modes(c, b * (middle + half * t->X[i]), value, NULL);
-    double *row = t->present + (size_t)i * (size_t)n;
-    t->present_known[i] += tilt * t->X[i];
-    for (int l = 0; l < c->modes; l++) {
-      double sum = 0.0;
-      for (int k = 1; k < c->modes; k++) {
-        sum += factor * value[k] * c->smooth[k][l];
-      }
-      t->present_known[i] += sum * known[l];
-      cblas_daxpy(n, sum, t->moment[l], 1, row, 1);
-    }
-  }
-}
-
-void sb_transient_present(SbFilmTransient *t, double half, double middle) {
-  if (half == t->present_half && middle == t->present_middle) {
-    return;
-  }
-  const size_t n = (size_t)t->nodes;
-  t->present_half = half;
-  t->present_middle = middle;
-  for (size_t i = 0; i < n * n; i++) {
-    t->present[i] = half * t->kernel[i];
-  }
-  for (size_t i = 0; i < n; i++) {
-    const double x = middle + half * t->X[i];
-    t->present_known[i] = half * t->known[i];
-    t->present_known[i] +=
-        t->compliance.modes > 0
-            ? sb_compliance_gap(&t->compliance, t->scale.half_width * x, NULL) / t->scale.film
-            : 0.5 * x * x;
-  }
-  if (t->compliance.modes > 0) {
-    add_smooth(t, half, middle);
-  }
-}
-
 void sb_transient_gap(double *out, const SbFilmTransient *t, const SbTransientState *s) {
   for (int i = 0; i < t->nodes; i++) {
-    out[i] = s->H0 + t->present_known[i];
+    out[i] = s->H0 + t->known[i];
   }
-  cblas_dgemv(CblasRowMajor, CblasNoTrans, t->nodes, t->nodes, 1.0, t->present, t->nodes, s->P, 1,
+  cblas_dgemv(CblasRowMajor, CblasNoTrans, t->nodes, t->nodes, 1.0, t->kernel, t->nodes, s->P, 1,
               1.0, out, 1);
-}
-
-SbStatus sb_transient_place(double *half, double *middle, const SbFilmTransient *t, double load,
-                            SbReport *report) {
-  *half = sqrt(load / (0.5 * M_PI));
-  *middle = 0.0;
-  if (t->compliance.modes == 0) {
-    return sb_succeed(report);
-  }
-  SbDryContact dry;
-  const SbFilmProblem *p = &t->problem.film;
-  const SbStatus status = sb_dry_contact(&dry, &t->compliance, load / (0.5 * M_PI) * p->load,
-                                         p->pressure_left, p->pressure_right, report);
-  *half = 0.5 * (dry.right - dry.left) / t->scale.half_width;
-  *middle = 0.5 * (dry.right + dry.left) / t->scale.half_width;
-  return status;
 }

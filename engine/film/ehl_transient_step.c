@@ -8,6 +8,7 @@
 #include "engine/film/ehl_transient.h"
 
 #include "engine/numeric/dense.h"
+#include "engine/numeric/legendre.h"
 
 #include <cblas.h>
 #include <math.h>
@@ -41,17 +42,19 @@ static Face face_height(const SbFilmTransient *t, const SbTransientState *s, int
     return f;
   }
   f.first = forward ? i - 1 : i;
+  if (!t->limited[i] && !t->steep[i] && !t->beside_cavity[i]) {
+    double bary[3];
+    sb_barycentric_weights(bary, &t->X[f.first], 3);
+    sb_barycentric_basis(f.by, at, &t->X[f.first], bary, 3);
+    for (int k = 0; k < 3; k++) {
+      f.value += f.by[k] * sb_transient_height(s, f.first + k);
+    }
+    return f;
+  }
   const double u = t->X[U], c = t->X[C], d = t->X[D];
   const double m_u = sb_transient_height(s, U);
   const double m_c = sb_transient_height(s, C);
   const double m_d = sb_transient_height(s, D);
-  if (!t->limited[i] && !t->steep[i] && !t->beside_cavity[i]) {
-    f.by[U - f.first] = (at - c) * (at - d) / ((u - c) * (u - d));
-    f.by[C - f.first] = (at - u) * (at - d) / ((c - u) * (c - d));
-    f.by[D - f.first] = (at - u) * (at - c) / ((d - u) * (d - c));
-    f.value = f.by[U - f.first] * m_u + f.by[C - f.first] * m_c + f.by[D - f.first] * m_d;
-    return f;
-  }
   // Van Albada's mean of the two slopes, smooth where both vanish.
   const double a = (m_c - m_u) / (c - u);
   const double b = (m_d - m_c) / (d - c);
@@ -82,19 +85,10 @@ static Stencil stencil(const SbFilmTransient *t, int face) {
     out.first = face - 1;
     out.count = 4;
   }
-  for (int k = 0; k < out.count; k++) {
-    const double own = t->X[out.first + k];
-    out.value[k] = 1.0;
-    out.slope[k] = 0.0;
-    for (int m = 0; m < out.count; m++) {
-      if (m == k) {
-        continue;
-      }
-      const double other = t->X[out.first + m];
-      out.slope[k] = (out.slope[k] * (at - other) + out.value[k]) / (own - other);
-      out.value[k] *= (at - other) / (own - other);
-    }
-  }
+  double bary[4];
+  sb_barycentric_weights(bary, &t->X[out.first], out.count);
+  sb_barycentric_basis(out.value, at, &t->X[out.first], bary, out.count);
+  sb_barycentric_slope(out.slope, at, &t->X[out.first], bary, out.count);
   return out;
 }
 
@@ -102,13 +96,13 @@ double sb_transient_flow(const SbFilmTransient *t, const SbTransientState *s, in
   const Face f = face_height(t, s, i, s->speed);
   const double H = 0.5 * (s->H[i] + s->H[i + 1]);
   return s->speed * f.value -
-         t->diffusion * H * H * H * (s->P[i + 1] - s->P[i]) / (s->half * (t->X[i + 1] - t->X[i]));
+         t->diffusion * H * H * H * (s->P[i + 1] - s->P[i]) / (t->X[i + 1] - t->X[i]);
 }
 
-void sb_transient_carry(double *out, const SbFilmTransient *t, const double *content, double way) {
+void sb_transient_carry(double *out, const SbFilmTransient *t, const double *height, double way) {
   enum { SIDE = 3, FACES = 2 * SIDE };
   const int n = t->nodes;
-  memcpy(out, content, (size_t)n * sizeof *out);
+  memcpy(out, height, (size_t)n * sizeof *out);
   int first = 0;
   while (first < n && t->carried[first] == 0.0) {
     first++;
@@ -122,7 +116,7 @@ void sb_transient_carry(double *out, const SbFilmTransient *t, const double *con
   double place[SB_TRANSIENT_NODES_MAX], integral[SB_TRANSIENT_NODES_MAX];
   for (int i = from; i <= to; i++) {
     place[i] = 0.5 * (t->X[i] + t->X[i + 1]);
-    integral[i] = i > from ? integral[i - 1] + t->volume[i] * content[i] : 0.0;
+    integral[i] = i > from ? integral[i - 1] + t->volume[i] * height[i] : 0.0;
   }
   double before = integral[first - 1];
   for (int i = first; i <= n - 1 - first; i++) {
@@ -137,13 +131,13 @@ void sb_transient_carry(double *out, const SbFilmTransient *t, const double *con
     double least = INFINITY;
     double most = 0.0;
     for (int j = k - SIDE + 2; j <= k + SIDE; j++) {
-      least = fmin(least, content[j]);
-      most = fmax(most, content[j]);
+      least = fmin(least, height[j]);
+      most = fmax(most, height[j]);
     }
     double value = 0.0;
     if (most > 6.0 * least) {
       // A front: Hermite's cubic with harmonic means for slopes rises throughout.
-      const double *m = content + k;
+      const double *m = height + k;
       const double h = t->volume[k + 1];
       const double s = (at - place[k]) / h;
       const double left = 2.0 * m[0] * m[1] / (m[0] + m[1]);
@@ -152,9 +146,12 @@ void sb_transient_carry(double *out, const SbFilmTransient *t, const double *con
           integral[k] +
           h * s * (left + s * (3.0 * m[1] - 2.0 * left - right + s * (left + right - 2.0 * m[1])));
     } else {
-      for (int j = k - SIDE + 1; j <= k + SIDE; j++) {
-        value += sb_transient_lagrange(&place[k - SIDE + 1], FACES, j - (k - SIDE + 1), at) *
-                 integral[j];
+      const double *node = &place[k - SIDE + 1];
+      double bary[FACES], basis[FACES];
+      sb_barycentric_weights(bary, node, FACES);
+      sb_barycentric_basis(basis, at, node, bary, FACES);
+      for (int j = 0; j < FACES; j++) {
+        value += basis[j] * integral[k - SIDE + 1 + j];
       }
     }
     out[i] = (value - before) / t->volume[i];
@@ -172,9 +169,7 @@ typedef struct {
 
 static void add_face(Row *row, const SbFilmTransient *t, const SbTransientState *s,
                      const SbTransientStep *step, int i, int face, double sign) {
-  const double at = 0.5 * (t->X[face] + t->X[face + 1]);
-  const double velocity =
-      s->speed - step->half_rate * at - step->middle_rate - step->carried_rate * t->carried[face];
+  const double velocity = s->speed - step->carried_rate * t->carried[face];
   const Face f = face_height(t, s, face, velocity);
   row->residual += sign * velocity * f.value;
   for (int k = 0; k < 3; k++) {
@@ -184,7 +179,7 @@ static void add_face(Row *row, const SbFilmTransient *t, const SbTransientState 
     }
   }
   const Stencil local = stencil(t, face);
-  const double g = t->diffusion / s->half;
+  const double g = t->diffusion;
   double H = 0.0;
   double slope = 0.0;
   for (int k = 0; k < local.count; k++) {
@@ -202,24 +197,24 @@ static void add_face(Row *row, const SbFilmTransient *t, const SbTransientState 
 static Row equation(const SbFilmTransient *t, const SbTransientState *s,
                     const SbTransientStep *step, int i) {
   Row row = {0};
-  row.residual = t->volume[i] * step->c0 * s->half * sb_transient_height(s, i);
+  row.residual = t->volume[i] * step->c0 * sb_transient_height(s, i);
   if (step->old != NULL) {
     row.residual += t->volume[i] * step->old[i];
   }
-  row.by_m[2] += t->volume[i] * step->c0 * s->half;
+  row.by_m[2] += t->volume[i] * step->c0;
   add_face(&row, t, s, step, i, i, 1.0);
   add_face(&row, t, s, step, i, i - 1, -1.0);
   return row;
 }
 
-static double load_of(const SbFilmTransient *t, const SbTransientState *s) {
+// Load above the ambient step less its target pi/2.
+static double load_excess(const SbFilmTransient *t, const SbTransientState *s) {
   double sum = 0.0;
   for (int i = 0; i < t->nodes; i++) {
     sum += t->weight[i] * s->P[i];
   }
-  const double left = s->middle + s->half * t->X[0];
-  const double right = s->middle + s->half * t->X[t->nodes - 1];
-  return s->half * sum + t->inlet * left - t->outlet * right;
+  const double left = t->middle + t->X[0], right = t->middle + t->X[t->nodes - 1];
+  return sum + t->inlet * left - t->outlet * right - 0.5 * M_PI;
 }
 
 // Fills the right-hand side and, if `whole`, the matrix for the present active set; H is linearised
@@ -247,7 +242,7 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const SbTran
       by_H0 += by_gap;
       scale = fmax(scale, fmax(fabs(by_gap), fabs(row.by_P[k])));
       if (whole && by_gap != 0.0) {
-        cblas_daxpy(n - 2, by_gap, t->present + (size_t)j * (size_t)n + 1, 1, out, 1);
+        cblas_daxpy(n - 2, by_gap, t->kernel + (size_t)j * (size_t)n + 1, 1, out, 1);
       }
     }
     if (!whole) {
@@ -274,11 +269,11 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const SbTran
     t->right[i - 1] = right / scale;
     t->row_scale[i] = scale;
   }
-  t->right[order - 1] = load_of(t, s) - s->load;
+  t->right[order - 1] = load_excess(t, s);
   if (whole) {
     double *out = t->matrix + (order - 1) * order;
     for (int j = 1; j + 1 < n; j++) {
-      out[j - 1] = s->cavity[j] ? 0.0 : s->half * t->weight[j];
+      out[j - 1] = s->cavity[j] ? 0.0 : t->weight[j];
     }
     out[order - 1] = 0.0;
   }
@@ -347,7 +342,6 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
   const int n = t->nodes;
   const int order = n - 1;
   double *elastic = t->newton[0], *change = t->newton[1];
-  sb_transient_present(t, s->half, s->middle);
   *trace = (SbTransientTrace){.mass_error = INFINITY, .load_error = INFINITY};
   s->P[0] = t->inlet;
   s->P[n - 1] = t->outlet;
@@ -401,7 +395,7 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
     for (int i = 1; i + 1 < n; i++) {
       change[i] = s->cavity[i] ? 0.0 : -t->right[i - 1];
     }
-    cblas_dgemv(CblasRowMajor, CblasNoTrans, n, n, 1.0, t->present, n, change, 1, 1.0, wanted, 1);
+    cblas_dgemv(CblasRowMajor, CblasNoTrans, n, n, 1.0, t->kernel, n, change, 1, 1.0, wanted, 1);
     double factor = 1.0;
     for (int i = 0; i < n; i++) {
       wanted[i] -= t->right[order - 1];
@@ -439,69 +433,6 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
       return SB_ERROR_NOT_CONVERGED;
     }
   }
-  trace->load_error = fabs(load_of(t, s) - s->load) / s->load;
+  trace->load_error = fabs(load_excess(t, s)) / (0.5 * M_PI);
   return SB_OK;
-}
-
-SbStatus sb_transient_rest(SbFilmTransient *t, SbTransientState *s, double rest) {
-  enum { ITERATIONS_MAX = 30 };
-  const int n = t->nodes;
-  const size_t order = (size_t)n - 1;
-  sb_transient_present(t, s->half, s->middle);
-  t->factored = false;
-  for (int i = 0; i < n; i++) {
-    s->cavity[i] = fabs(t->X[i]) >= 1.0; // here: apart
-    s->P[i] = i == 0 ? t->inlet : i == n - 1 ? t->outlet : t->X[i] < 0.0 ? t->inlet : t->outlet;
-    s->void_[i] = 0.0;
-  }
-  s->H0 = 0.0;
-  for (int iteration = 0; iteration < ITERATIONS_MAX; iteration++) {
-    for (int i = 1; i + 1 < n; i++) {
-      double *out = t->matrix + (size_t)(i - 1) * order;
-      memset(out, 0, order * sizeof *out);
-      if (s->cavity[i]) {
-        out[i - 1] = 1.0;
-        t->right[i - 1] = 0.0;
-        s->P[i] = t->X[i] < 0.0 ? t->inlet : t->outlet;
-        continue;
-      }
-      cblas_daxpy(n - 2, 1.0, t->present + (size_t)i * (size_t)n + 1, 1, out, 1);
-      out[order - 1] = 1.0;
-    }
-    sb_transient_gap(s->H, t, s);
-    for (int i = 1; i + 1 < n; i++) {
-      t->right[i - 1] = s->cavity[i] ? 0.0 : s->H[i] - rest;
-    }
-    double *out = t->matrix + (order - 1) * order;
-    for (int j = 1; j + 1 < n; j++) {
-      out[j - 1] = s->half * t->weight[j];
-    }
-    out[order - 1] = 0.0;
-    t->right[order - 1] = load_of(t, s) - s->load;
-    if (!sb_factor_solve(t->matrix, t->pivot, t->right, n - 1, true)) {
-      return SB_ERROR_NOT_CONVERGED;
-    }
-    for (int i = 1; i + 1 < n; i++) {
-      s->P[i] -= t->right[i - 1];
-    }
-    s->H0 -= t->right[order - 1];
-    sb_transient_gap(s->H, t, s);
-    int switched = 0;
-    for (int i = 1; i + 1 < n; i++) {
-      const double ambient = t->X[i] < 0.0 ? t->inlet : t->outlet;
-      if (s->cavity[i] && s->H[i] < rest * (1.0 - 1e-9)) {
-        s->cavity[i] = false;
-        switched++;
-      } else if (!s->cavity[i] && s->P[i] < fmin(t->inlet, t->outlet) - 1e-12) {
-        s->cavity[i] = true;
-        s->P[i] = ambient;
-        switched++;
-      }
-    }
-    if (switched == 0) {
-      memset(s->cavity, 0, sizeof s->cavity);
-      return SB_OK;
-    }
-  }
-  return SB_ERROR_NOT_CONVERGED;
 }

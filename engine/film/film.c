@@ -254,6 +254,7 @@ void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale 
                        : scale->M < 20.0 ? "transition"
                                          : "isoviscous-elastic";
   strncpy(out->regime, regime, sizeof out->regime - 1);
+  out->film_ratio = NAN;
   out->valid = true;
 }
 

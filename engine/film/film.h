@@ -145,7 +145,7 @@ typedef struct {
   double asperity_share;      // of the net load
   double real_area;           // integral of the real contact's share over x [m]
   double real_area_share;     // real contact over nominal at the axis
-  double film_ratio;          // film_central / sigma; 0 without roughness
+  double film_ratio;          // film_central / sigma; NAN without roughness
   double moes_M;              // W / sqrt(2 U)
   double moes_U;              // U = eta |speed| / (2 E' R)
   double moes_W;              // W = load / (E' R)

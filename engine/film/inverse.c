@@ -13,10 +13,11 @@
 #include "engine/film/scale.h"
 
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_poly.h>
 #include <gsl/gsl_spline.h>
 #include <math.h>
 
-enum { TABLE_LEAST = 9, SAMPLES = 1101, SEARCH = 8 };
+enum { TABLE_LEAST = 9, SAMPLES = 1101 };
 
 // Every `stride`-th point of the problem's table as a spline in the flow frame, turned round for
 // reversed flow; NULL when out of memory.
@@ -41,53 +42,38 @@ static double slope_at(const gsl_spline *t, double x) {
   return gsl_spline_eval_deriv_e(t, x, NULL, &slope) == GSL_SUCCESS ? slope : 0.0;
 }
 
-// Steepest rise and its place: by search, then by golden section beside the best.
+// Steepest rise and its place: at a knot, or where p'', straight between knots, turns negative.
 static double steepest(double *place, const gsl_spline *t) {
-  double best = 0.0, beside = 0.0;
+  double best = 0.0, before = 0.0;
   *place = t->x[0];
-  for (size_t i = 1; i < t->size; i++) {
-    for (int k = 0; k < SEARCH; k++) {
-      double x = t->x[i - 1] + (t->x[i] - t->x[i - 1]) * k / SEARCH;
-      double slope = slope_at(t, x);
-      if (slope > best) {
-        best = slope;
-        *place = x;
-        beside = (t->x[i] - t->x[i - 1]) / SEARCH;
-      }
+  for (size_t i = 0; i < t->size; i++) {
+    double x = t->x[i], bend = 0.0;
+    (void)gsl_spline_eval_deriv2_e(t, x, NULL, &bend);
+    if (i > 0 && before > 0.0 && bend < 0.0) {
+      x = t->x[i - 1] + (x - t->x[i - 1]) * before / (before - bend);
     }
+    double slope = slope_at(t, x);
+    if (slope > best) {
+      best = slope;
+      *place = x;
+    }
+    before = bend;
   }
-  double low = fmax(*place - beside, t->x[0]), high = fmin(*place + beside, t->x[t->size - 1]);
-  for (int k = 0; k < 40; k++) {
-    double x1 = high - 0.6180339887498949 * (high - low), x2 = low + high - x1;
-    bool left = slope_at(t, x1) > slope_at(t, x2);
-    low = left ? low : x1;
-    high = left ? x2 : high;
-  }
-  double slope = slope_at(t, 0.5 * (low + high));
-  *place = slope > best ? 0.5 * (low + high) : *place;
-  return fmax(slope, best);
+  return best;
 }
 
-// h / h* at a slope k = p' h*^2 / (12 eta u_m) <= 4/27: root of k y^3 - y + 1.
+// h / h* at a slope k = p' h*^2 / (12 eta u_m) <= 4/27: root of k y^3 - y + 1, from z^3 - z^2 + k
+// with z = 1/y, whose two positive roots meet at 2/3.
 static double root(double k, bool upstream) {
-  k = fmin(k, 4.0 / 27.0);
   if (k <= 0.0 && upstream) {
     return INFINITY;
   }
-  double y = upstream ? 1.0 / sqrt(k) : 1.0;
-  for (int i = 0; i < 60; i++) {
-    double value = (k * y * y - 1.0) * y + 1.0;
-    double derivative = 3.0 * k * y * y - 1.0;
-    if (fabs(derivative) < 1e-9) {
-      return 1.5;
-    }
-    double step = value / derivative;
-    y -= step;
-    if (fabs(step) < 1e-14 * y) {
-      break;
-    }
+  if (k > 4.0 / 27.0 * (1.0 - 1e-14)) {
+    return 1.5;
   }
-  return upstream ? fmax(y, 1.5) : fmin(y, 1.5);
+  double z[3];
+  int count = gsl_poly_solve_cubic(-1.0, 0.0, k, &z[0], &z[1], &z[2]);
+  return 1.0 / (upstream ? z[1] : z[count - 1]);
 }
 
 static SbStatus check(const SbFilmProblem *problem, SbReport *report) {

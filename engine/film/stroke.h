@@ -6,5 +6,9 @@
 // not a rough gap.
 #pragma once
 
+#include <math.h>
+
 // Volume [m3] over a signed stroke `length` [m] at film `film` [m] on a bore of `diameter` [m].
-double sb_leak_stroke(double diameter, double film, double length);
+static inline double sb_leak_stroke(double diameter, double film, double length) {
+  return M_PI * diameter * film * length / 2;
+}

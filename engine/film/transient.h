@@ -1,6 +1,6 @@
-// Transient film: start, stop and reversal of a sliding seal with given speed and load histories.
+// Transient film: start, stop and reversal of a sliding seal with a given history of its speed.
 //
-//   dm/dt + d/dx (u m/2 - h^3/(12 eta) dp/dx) = 0,   int (p - ambient) dx = W(t)
+//   dm/dt + d/dx (u m/2 - h^3/(12 eta) dp/dx) = 0,   int (p - ambient) dx = W
 //
 // with the gap h of film.h (half-plane and parabola, or a fitted body's compliance), m = h where
 // the film is full and p > rupture pressure, m < h and p = rupture pressure in a cavity: mass is
@@ -9,15 +9,15 @@
 // ends of the mesh on; what has left the contact as a thin layer comes back as a starved inlet
 // after a reversal until the liquid has followed.
 //
-// Space: finite volumes on a mesh refined at both edges of the contact that breathes with the
-// Hertz contact of W(t), second order; pressure by straight lines, the elastic kernel exact for
-// these. Time: BDF2 with steps chosen from its own error, Newton's method with the cavity's
-// complementarity as an active set. Between the edges' layers the cells move with the fluid, at
-// u/2: what the wall carries through the contact keeps its form whatever the step. A companion at
-// twice the spacing and twice the step runs beside: the estimates of least and central film are
-// half the largest difference between the two that the fluid still in the contact has seen,
-// and the mesh's own error in steady sliding. Range: isoviscous (Barus' and Eyring's options are
-// refused), flooded surroundings, M >= 1; the pressure must stay that of one contact.
+// Space: finite volumes on a mesh refined at both edges of the contact, second order; pressure by
+// straight lines, the elastic kernel exact for these. Time: BDF2 with steps chosen from its own
+// error, Newton's method with the cavity's complementarity as an active set. Between the edges'
+// layers the cells move with the fluid, at u/2: what the wall carries through the contact keeps its
+// form whatever the step. A companion at twice the spacing and twice the step runs beside: the
+// estimates of least and central film are half the largest difference between the two that the
+// fluid still in the contact has seen, and the mesh's own error in steady sliding. Range:
+// isoviscous (Barus' and Eyring's options are refused), flooded surroundings, M >= 1; the pressure
+// must stay that of one contact.
 #pragma once
 
 #include "engine/film/film.h"
@@ -34,11 +34,11 @@ typedef struct {
 
 // Counters and checks since the start.
 typedef struct {
-  double time;        // [s]
-  double speed, load; // present values
-  size_t unknowns;    // of each Newton step
-  size_t steps;       // accepted
-  size_t rejected;    // steps
+  double time;     // [s]
+  double speed;    // present [m/s]
+  size_t unknowns; // of each Newton step
+  size_t steps;    // accepted
+  size_t rejected; // steps
   size_t newton_iterations;
   size_t factorisations;
   double load_error; // largest |integral of p - W| / W of any step
@@ -59,11 +59,11 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
 // Takes NULL.
 void sb_film_transient_destroy(SbFilmTransient *transient);
 
-// Advances by `dt` > 0 [s], speed and load going evenly from their present values to the given
-// ones, in as many steps as the tolerance needs. SB_ERROR_NOT_CONVERGED: the state stands at the
+// Advances by `dt` > 0 [s], the speed going evenly from its present value to the given one, in as
+// many steps as the tolerance needs. SB_ERROR_NOT_CONVERGED: the state stands at the
 // last good time (see info). SB_ERROR_RANGE: nothing done. SB_ERROR_CANCELLED by the problem's
 // callback.
-SbStatus sb_film_transient_step(SbFilmTransient *transient, double dt, double speed, double load,
+SbStatus sb_film_transient_step(SbFilmTransient *transient, double dt, double speed,
                                 SbReport *report);
 
 // The present film in SI and in the seal's frame; film_flux is the film where the pressure is

@@ -1,12 +1,116 @@
 // The analytical wedge; equations and validity in wedge.h.
 #include "engine/film/wedge.h"
 
+#include "engine/numeric/root.h"
+
 #include <math.h>
 
-double sb_wedge_shape(double t, double te) {
-  double sec2 = 1 / (cos(te) * cos(te));
+double sb_wedge_shape(double t, double stretch) {
   return t / 2 + M_PI / 4 + sin(2 * t) / 4 -
-         sec2 * (3 * t / 8 + 3 * M_PI / 16 + sin(2 * t) / 4 + sin(4 * t) / 32);
+         stretch * (3 * t / 8 + 3 * M_PI / 16 + sin(2 * t) / 4 + sin(4 * t) / 32);
+}
+
+static double sec2(double t) {
+  return 1 / (cos(t) * cos(t));
+}
+
+// Pressure at an end te above `context` P*, negative, with its slope.
+static double fall(double *slope, double te, const void *context) {
+  double stretch = sec2(te);
+  *slope =
+      2 * stretch * tan(te) * (3 * te / 8 + 3 * M_PI / 16 + sin(2 * te) / 4 + sin(4 * te) / 32);
+  return *(const double *)context - sb_wedge_shape(te, stretch);
+}
+
+// Where the film ends at `step` P* above the inlet: sb_wedge_shape(te, te) falls from pi/16 at 0
+// without bound towards pi/2.
+static double end_at(double step) {
+  return sb_newton_bracketed(fall, &step, 0, 0.5 * M_PI, 0.5);
+}
+
+// Rise from the cavity's end t to the outlet, less what the outlet has.
+typedef struct {
+  double stretch, outlet;
+} Rise;
+
+static double rise(double *slope, double t, const void *context) {
+  const Rise *r = context;
+  double c2 = cos(t) * cos(t);
+  *slope = c2 * (1 - r->stretch * c2);
+  return r->outlet - sb_wedge_shape(0.5 * M_PI, r->stretch) + sb_wedge_shape(t, r->stretch);
+}
+
+typedef struct {
+  double lambda, inlet, outlet;
+} Pools;
+
+// The state of a film, and its load.
+static double pools_load(SbWedgePools *w, const Pools *p, double film) {
+  double length = sqrt(2 * film);
+  double unit = p->lambda * length / (film * film); // of P*
+  double inlet = p->inlet / unit, outlet = p->outlet / unit;
+  double d = outlet - inlet;
+  double s = 8 / (3 * M_PI) * (0.5 * M_PI - d);
+  *w = (SbWedgePools){.film = film, .length = length, .full = true};
+  w->end = s > 1 ? acos(sqrt(1 / s)) : 0;
+  w->reform = w->end;
+  if (inlet + sb_wedge_shape(w->end, s) < 0) {
+    double end = end_at(-inlet);
+    double most = inlet + sb_wedge_shape(0.5 * M_PI, sec2(end));
+    if (outlet < most) {
+      Rise r = {sec2(end), outlet};
+      w->full = false;
+      w->end = end;
+      w->reform =
+          outlet > 0 ? sb_newton_bracketed(rise, &r, end, 0.5 * M_PI, end + 0.1) : 0.5 * M_PI;
+      s = r.stretch;
+    }
+  }
+  w->stretch = s;
+  // -int x dp over the full film; and the integral of the deflection's slope, its tilt by unequal
+  // ends taken out as in docs/verification.md.
+  double begin = cos(w->end) * cos(w->end), again = cos(w->reform) * cos(w->reform);
+  double rigid =
+      -0.5 * again + 0.25 * s * again * again - (-0.5 * begin + 0.25 * s * begin * begin);
+  double elastic = d / 4 * (1 - log(4) - s / 8 * (7 - 12 * log(2))) +
+                   (1 - s) / 2 * M_PI * (3.0 / 8 - 5.0 / 16 * s) +
+                   s / 4 * M_PI / 16 * (1 - 5.0 / 8 * s) - d * d / M_PI * log(2 * length);
+  return unit * length * rigid + unit * unit * elastic;
+}
+
+typedef struct {
+  SbWedgePools *wedge;
+  Pools pools;
+} PoolsProblem;
+
+static double pools_excess(double log_film, const void *context) {
+  const PoolsProblem *p = context;
+  return pools_load(p->wedge, &p->pools, exp(log_film)) - 0.5 * M_PI;
+}
+
+SbWedgePools sb_wedge_pools(double lambda, double inlet, double outlet) {
+  SbWedgePools out;
+  const PoolsProblem problem = {&out, {lambda, inlet, outlet}};
+  double thick = log(4.894968 * lambda / (6 * M_PI)); // without end pressures
+  if (inlet == 0 && outlet == 0) {
+    double film = exp(thick), end = end_at(0);
+    return (SbWedgePools){film, sec2(end), sqrt(2 * film), end, 0.5 * M_PI, false};
+  }
+  double film = exp(sb_bisect(pools_excess, &problem, thick - 60, thick + 10));
+  pools_load(&out, &problem.pools, film);
+  return out;
+}
+
+double sb_wedge_pools_pressure(const SbWedgePools *w, double lambda, double inlet, double outlet,
+                               double x) {
+  double t = atan(x / w->length);
+  double unit = lambda * w->length / (w->film * w->film);
+  if (w->full || t < w->end) {
+    return inlet + unit * sb_wedge_shape(t, w->stretch);
+  }
+  return t < w->reform ? 0
+                       : outlet - unit * (sb_wedge_shape(0.5 * M_PI, w->stretch) -
+                                          sb_wedge_shape(t, w->stretch));
 }
 
 // Pressure in Pa per unit of P*.
@@ -29,19 +133,7 @@ SbStatus sb_wedge_solve(SbWedge *out, const SbWedgeProblem *problem, SbReport *r
                    "the outlet pressure drives the film back: no end with zero gradient");
   }
 
-  // sb_wedge_shape(te, te) falls from pi/16 at 0 without bound towards pi/2, so one root lies
-  // between.
-  double low = 0;
-  double high = M_PI / 2;
-  for (int i = 0; i < 200 && high - low > 1e-16; i++) {
-    double te = (low + high) / 2;
-    if (sb_wedge_shape(te, te) > step) {
-      low = te;
-    } else {
-      high = te;
-    }
-  }
-  double te = (low + high) / 2;
+  double te = end_at(step);
   double c2 = cos(te) * cos(te);
   double root = sqrt(2 * R / h0);
   out->rupture_angle = te;
@@ -52,12 +144,26 @@ SbStatus sb_wedge_solve(SbWedge *out, const SbWedgeProblem *problem, SbReport *r
   out->load = scale * sqrt(2 * R * h0) * c2 / 4;
 
   // The pressure gradient vanishes at -te as well: there the pressure is greatest.
-  out->pressure_max = problem->pressure_left + scale * sb_wedge_shape(-te, te);
+  out->pressure_max = problem->pressure_left + scale * sb_wedge_shape(-te, 1 / c2);
   double eta_u = problem->viscosity * problem->speed;
   double span = te + M_PI / 2;
   out->friction_couette = eta_u * root * span;
   out->friction_poiseuille = 3 * eta_u * root * (span - (span / 2 + sin(2 * te) / 4) / c2);
   return sb_succeed(report);
+}
+
+// What a film of that logarithm carries beyond a load; where the outlet's pressure drives it back
+// it carries too little.
+typedef struct {
+  SbWedgeProblem problem;
+  double load;
+} LoadProblem;
+
+static double load_excess(double log_film, const void *context) {
+  LoadProblem at = *(const LoadProblem *)context;
+  at.problem.film_min = exp(log_film);
+  SbWedge wedge;
+  return sb_wedge_solve(&wedge, &at.problem, NULL) == SB_OK ? wedge.load - at.load : -at.load;
 }
 
 SbStatus sb_wedge_solve_load(SbWedge *out, double *film_min, const SbWedgeProblem *problem,
@@ -66,30 +172,11 @@ SbStatus sb_wedge_solve_load(SbWedge *out, double *film_min, const SbWedgeProble
   if (!(load > 0)) {
     return sb_fail(report, SB_ERROR_RANGE, "the load must be positive");
   }
-
   // w = 3 eta u R cos^2(te)/h0 with cos^2 between 0 and 1 brackets h0 from above.
-  SbWedgeProblem trial = *problem;
-  double top = 6 * problem->viscosity * problem->speed * 2 * problem->radius / (4 * load);
-  double low = log(top) - 60;
-  double high = log(top);
-  for (int i = 0; i < 200 && high - low > 1e-15 * fabs(high); i++) {
-    double middle = (low + high) / 2;
-    trial.film_min = exp(middle);
-    SbStatus status = sb_wedge_solve(out, &trial, report);
-    if (status == SB_ERROR_RANGE) {
-      return status;
-    }
-    // A thicker film carries less; where the outlet's pressure drives it back it carries too
-    // little.
-    if (status == SB_OK && out->load > load) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
-  trial.film_min = exp(low);
-  *film_min = trial.film_min;
-  SbStatus status = sb_wedge_solve(out, &trial, report);
+  LoadProblem at = {*problem, load};
+  double top = log(3 * problem->viscosity * problem->speed * problem->radius / load);
+  *film_min = at.problem.film_min = exp(sb_bisect(load_excess, &at, top - 60, top));
+  SbStatus status = sb_wedge_solve(out, &at.problem, report);
   if (status == SB_OK && fabs(out->load / load - 1) > 1e-9) {
     return sb_fail(report, SB_ERROR_INFEASIBLE, "no rigid film carries %g N/m at these pressures",
                    load);
@@ -102,7 +189,8 @@ double sb_wedge_pressure(const SbWedge *wedge, const SbWedgeProblem *problem, do
   if (t >= wedge->rupture_angle) {
     return problem->pressure_right;
   }
-  return problem->pressure_left + pressure_scale(problem) * sb_wedge_shape(t, wedge->rupture_angle);
+  return problem->pressure_left +
+         pressure_scale(problem) * sb_wedge_shape(t, sec2(wedge->rupture_angle));
 }
 
 double sb_taper_factor(double ratio) {

@@ -17,6 +17,8 @@
 
 #include "engine/base/status.h"
 
+#include <stdbool.h>
+
 typedef struct {
   double film_min;       // h0 > 0 [m]
   double speed;          // sliding speed U = u1 + u2 > 0, inlet left [m/s]
@@ -44,8 +46,30 @@ SbStatus sb_wedge_solve(SbWedge *out, const SbWedgeProblem *problem, SbReport *r
 SbStatus sb_wedge_solve_load(SbWedge *out, double *film_min, const SbWedgeProblem *problem,
                              double load, SbReport *report);
 
-// P* - P*_in at angle t for an end at te.
-double sb_wedge_shape(double t, double te);
+// P* - P*_in at angle t for a flux film of `stretch` least films: sec^2(te) where the film ends at
+// te.
+double sb_wedge_shape(double t, double stretch);
+
+// The wedge between two pools of liquid, scaled: h = film + x^2/2, h^3 p' = lambda (h - flux). The
+// end pressures are above the rupture pressure; the film breaks with zero gradient where it would
+// fall below that, carries its flux through a cavity and forms again where the outlet's pressure
+// reaches. A film that is full everywhere bears no load by itself, its pressure being odd about
+// the middle: it is thin enough for the deflection by that pressure to turn it into load, to first
+// order int p' v' dx with v' the deflection's slope (Hilbert's transform of the pressure), which
+// for equal end pressures is lambda^2 pi/(48 film^3): film = (lambda^2/24)^(1/3), and the pressure
+// goes 0.75 above and below that of the ends.
+typedef struct {
+  double film, stretch, length; // least film, flux film over it, sqrt(2 film)
+  double end, reform;           // angles where it breaks and forms again, pi/2 if not
+  bool full;                    // does not break; `end` is where the pressure is least
+} SbWedgePools;
+
+// The wedge of load pi/2.
+SbWedgePools sb_wedge_pools(double lambda, double inlet, double outlet);
+
+// Its pressure at x.
+double sb_wedge_pools_pressure(const SbWedgePools *wedge, double lambda, double inlet,
+                               double outlet, double x);
 
 // Pressure at x for a solved wedge [Pa]; p_out behind the end of the film.
 double sb_wedge_pressure(const SbWedge *wedge, const SbWedgeProblem *problem, double x);

@@ -98,6 +98,9 @@ static void test_film_options(void) {
   g_assert_cmpint(starved.code, ==, 0);
   JsonNode *one = cli_parse(flooded.out);
   JsonNode *two = cli_parse(starved.out);
+  // No roughness, no ratio to it: null with its reason.
+  g_assert_true(json_node_is_null(cli_at(one, "film_ratio")));
+  g_assert_nonnull(strstr(json_node_get_string(cli_at(one, "reasons.film_ratio")), "smooth"));
   g_assert_false(json_node_get_boolean(cli_at(one, "starved")));
   g_assert_true(json_node_get_boolean(cli_at(two, "starved")));
   g_assert_cmpfloat(cli_number(two, "film_central_m"), <, cli_number(one, "film_central_m"));
@@ -130,6 +133,9 @@ static void test_film_options(void) {
     g_assert_cmpint(open.code, ==, 2);
     bool none = json_node_is_null(cli_at(one, "film_min_m"));
     g_assert_cmpint(json_node_is_null(cli_at(one, "solver.error_estimate.film_min")), ==, none);
+    g_assert_cmpint(
+        json_object_has_member(json_node_get_object(cli_at(one, "reasons")), "film_min_m"), ==,
+        none);
     g_assert_true(none || cli_number(one, "solver.error_estimate.film_min") > 1e-4);
     g_assert_false(json_node_get_boolean(cli_at(one, "valid")));
     g_assert_false(json_node_get_boolean(cli_at(one, "solver.converged")));

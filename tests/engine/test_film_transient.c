@@ -34,9 +34,9 @@ static SbFilmTransient *begin(const SbFilmTransientProblem *p) {
   return t;
 }
 
-static void step(SbFilmTransient *t, double dt, double speed, double load) {
+static void step(SbFilmTransient *t, double dt, double speed) {
   SbReport report = {0};
-  SbStatus status = sb_film_transient_step(t, dt, speed, load, &report);
+  SbStatus status = sb_film_transient_step(t, dt, speed, &report);
   g_assert_cmpstr(status == SB_OK ? "" : report.text, ==, "");
 }
 
@@ -51,7 +51,7 @@ static void test_steady(void) {
     p.film.pressure_left = i == 3 ? 0.4e6 : 0.0;
     p.film.pressure_right = i == 4 ? 0.4e6 : 0.0;
     SbFilmTransient *t = begin(&p);
-    step(t, 0.5 * half_width(&p) / p.film.speed, p.film.speed, p.film.load);
+    step(t, 0.5 * half_width(&p) / p.film.speed, p.film.speed);
     sb_film_transient_result(film, t);
     g_assert_cmpint(sb_film_solve(steady, &p.film, NULL, NULL), ==, SB_OK);
     const SbFilmTransientInfo info = sb_film_transient_info(t);
@@ -109,13 +109,13 @@ static void test_reversal(void) {
   const double transit = 4.0 * b / U;
   SbFilmTransient *t = begin(&p);
   SbFilm *film = g_new(SbFilm, 1);
-  step(t, 0.2 * transit, 0.0, p.film.load);
-  step(t, 0.3 * transit, 0.0, p.film.load);
+  step(t, 0.2 * transit, 0.0);
+  step(t, 0.3 * transit, 0.0);
   sb_film_transient_result(film, t);
   // Squeezed at both edges, trapped between them.
   g_assert_cmpfloat(film->film_min, <, 0.4 * film->film_central);
-  step(t, 0.02 * transit, -U, p.film.load);
-  step(t, 0.25 * transit, -U, p.film.load);
+  step(t, 0.02 * transit, -U);
+  step(t, 0.25 * transit, -U);
 
   sb_film_transient_result(film, t);
   const double place = neck(film, b);
@@ -126,7 +126,7 @@ static void test_reversal(void) {
     const double dt = 0.02 * transit;
     const double left = profile_flow(film, from, -U, p.film.viscosity);
     const double right = profile_flow(film, to, -U, p.film.viscosity);
-    step(t, dt, -U, p.film.load);
+    step(t, dt, -U);
     sb_film_transient_result(film, t);
     const double now = profile_content(film, from, to);
     const double new_left = profile_flow(film, from, -U, p.film.viscosity);
@@ -141,7 +141,7 @@ static void test_reversal(void) {
   g_assert_cmpfloat(fabs(change - through), <, 0.05 * largest);
   g_assert_cmpfloat(fabs(moved / (-0.5 * U * 0.3 * transit) - 1.0), <, 0.05);
 
-  step(t, 2.5 * transit, -U, p.film.load);
+  step(t, 2.5 * transit, -U);
   sb_film_transient_result(film, t);
   SbFilm *steady = g_new(SbFilm, 1);
   p.film.speed = -U;
@@ -158,7 +158,7 @@ static void test_reversal(void) {
   g_free(steady);
 }
 
-// Second order in time, observed on film and shear at the end of a slow-down under growing load.
+// Second order in time, observed on film and shear at the end of a slow-down.
 static void test_order(void) {
   SbFilm *film = g_new(SbFilm, 1);
   double value[4][2];
@@ -167,13 +167,13 @@ static void test_order(void) {
     const double transit = 4.0 * half_width(&p) / p.film.speed;
     SbFilmTransient *t = begin(&p);
     const int steps = 20 << level;
-    const double v = t->now.speed, load = t->now.load;
+    const double v = t->now.speed;
     for (int k = 1; k <= steps; k++) {
       const double share = (double)k / steps;
       double error;
-      g_assert_cmpint(sb_transient_advance(&error, t, 0.4 * transit / steps,
-                                           v * (1.0 - 0.6 * share), load * (1.0 + 0.1 * share)),
-                      ==, SB_OK);
+      g_assert_cmpint(
+          sb_transient_advance(&error, t, 0.4 * transit / steps, v * (1.0 - 0.6 * share)), ==,
+          SB_OK);
       sb_transient_accept(t, error);
     }
     sb_film_transient_result(film, t);
@@ -203,7 +203,7 @@ static void test_steps(void) {
     const int steps = k == 0 ? 3 : 50;
     for (int i = 1; i <= steps; i++) {
       const double s = (double)i / steps;
-      step(t, 0.5 * transit / steps, p.film.speed * (1.0 - s), p.film.load * (1.0 + 0.05 * s));
+      step(t, 0.5 * transit / steps, p.film.speed * (1.0 - s));
     }
     sb_film_transient_result(film, t);
     central[k] = film->film_central;
@@ -234,10 +234,10 @@ static void test_squeeze(void) {
   const double unit = 1.0 / sqrt(p.rest_film) / rate;
   SbFilmTransient *t = begin(&p);
   SbFilm *film = g_new(SbFilm, 1);
-  step(t, 0.3 * unit, 0.0, p.film.load);
+  step(t, 0.3 * unit, 0.0);
   sb_film_transient_result(film, t);
   const double before = 1.0 / sqrt(film->film_min);
-  step(t, 0.5 * unit, 0.0, p.film.load);
+  step(t, 0.5 * unit, 0.0);
   sb_film_transient_result(film, t);
   g_assert_cmpfloat(film->film_min, <, 0.5 * p.rest_film);
   g_assert_cmpfloat_with_epsilon((1.0 / sqrt(film->film_min) - before) / (0.5 * unit * rate), 1.0,
@@ -257,14 +257,14 @@ static void test_start(void) {
   p.film.speed = 0.0;
   p.rest_film = 0.1 * steady->film_central;
   SbFilmTransient *t = begin(&p);
-  step(t, 0.01 * transit, U, p.film.load);
-  step(t, 0.34 * transit, U, p.film.load);
+  step(t, 0.01 * transit, U);
+  step(t, 0.34 * transit, U);
   sb_film_transient_result(film, t);
   g_assert_cmpfloat_with_epsilon(film->film_central / p.rest_film, 1.0, 0.02);
-  step(t, 0.3 * transit, U, p.film.load);
+  step(t, 0.3 * transit, U);
   sb_film_transient_result(film, t);
   g_assert_cmpfloat_with_epsilon(film->film_central / steady->film_central, 1.0, 0.02);
-  step(t, 1.0 * transit, U, p.film.load);
+  step(t, 1.0 * transit, U);
   sb_film_transient_result(film, t);
   g_assert_cmpfloat_with_epsilon(film->film_min / steady->film_min, 1.0, 2e-3);
   g_assert_cmpfloat_with_epsilon(film->film_central / steady->film_central, 1.0, 2e-3);
@@ -288,7 +288,7 @@ static void history(const Known *row, int rows, bool resolve) {
   SbFilmTransient *t = begin(&p);
   SbFilm *film = g_new(SbFilm, 1);
   for (int i = 0; i < rows; i++) {
-    step(t, row[i].time - (i > 0 ? row[i - 1].time : 0.0), row[i].speed, p.film.load);
+    step(t, row[i].time - (i > 0 ? row[i - 1].time : 0.0), row[i].speed);
     sb_film_transient_result(film, t);
     if (row[i].least == 0.0) {
       continue;
@@ -350,11 +350,9 @@ static void test_refused(void) {
   g_assert_cmpint(sb_film_transient_create(&t, &p, NULL), ==, SB_ERROR_RANGE);
   p = seal(1000.0);
   t = begin(&p);
-  g_assert_cmpint(sb_film_transient_step(t, 1.0, 2.0 * p.film.speed, p.film.load, NULL), ==,
-                  SB_ERROR_RANGE);
-  g_assert_cmpint(sb_film_transient_step(t, -1.0, p.film.speed, p.film.load, NULL), ==,
-                  SB_ERROR_RANGE);
-  g_assert_cmpint(sb_film_transient_step(t, 1.0, NAN, p.film.load, NULL), ==, SB_ERROR_RANGE);
+  g_assert_cmpint(sb_film_transient_step(t, 1.0, 2.0 * p.film.speed, NULL), ==, SB_ERROR_RANGE);
+  g_assert_cmpint(sb_film_transient_step(t, -1.0, p.film.speed, NULL), ==, SB_ERROR_RANGE);
+  g_assert_cmpint(sb_film_transient_step(t, 1.0, NAN, NULL), ==, SB_ERROR_RANGE);
   sb_film_transient_destroy(t);
 }
 

@@ -90,8 +90,7 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
     if (history->film == NULL) {
       status = begin_stretch(history, frame->chamber, hooks, report);
     } else if (dt > 0) {
-      status = sb_film_transient_step(history->film, dt, frame->velocity,
-                                      sb_film_transient_info(history->film).load, report);
+      status = sb_film_transient_step(history->film, dt, frame->velocity, report);
     }
     if (status != SB_OK) {
       return status;
