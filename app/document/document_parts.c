@@ -292,22 +292,23 @@ static void derive_land(const Part *part, double diameter, double from) {
 
 // One groove, wall to wall.
 static void derive_groove(const Part *part, const SbProfile *profile, int seal, const char *name) {
-  double from, to, least, most;
+  double from, to;
+  SbProfileDiameters found;
   SbReport report = {0};
   if (!read_stretch(part, name, &from, &to)) {
     return;
   }
-  if (sb_profile_diameters(&least, &most, profile, from, to, &report) != SB_OK) {
+  if (sb_profile_diameters(&found, profile, from, to, &report) != SB_OK) {
     complain(part, name, NULL, "%s", report.text);
     return;
   }
-  derive_size(part, SB_P_GLAND_RADIAL_SPACE, (in_force(part, SB_P_BORE_DIAMETER) - least) / 2,
-              name);
+  derive_size(part, SB_P_GLAND_RADIAL_SPACE,
+              (in_force(part, SB_P_BORE_DIAMETER) - found.smallest) / 2, name);
   derive_size(part, SB_P_GLAND_AXIAL_WIDTH, to - from, name);
   SbValveOutlines *outlines = &part->shapes->outlines;
   outlines->groove_left[seal] = from;
   outlines->groove_right[seal] = to;
-  outlines->floor = least / 2;
+  outlines->floor = found.smallest / 2;
   part->shapes->has_groove[seal] = true;
 }
 
@@ -345,31 +346,32 @@ static void derive_chamber(const Part *part) {
 }
 
 static void derive_sizes(const Part *part, const SbProfile *profile) {
-  double from, to, least, most;
+  double from, to;
+  SbProfileDiameters found;
   SbReport report = {0};
   bool stem = part->index >= SB_VALVE_STEM_CENTRE && part->index <= SB_VALVE_STEM_BOTTOM;
   if (read_stretch(part, "bore", &from, &to)) {
-    if (sb_profile_bore(&least, profile, from, to, &report) == SB_OK) {
-      derive_size(part, SB_P_BORE_DIAMETER, least, "bore");
+    if (sb_profile_diameters(&found, profile, from, to, &report) == SB_OK) {
+      derive_size(part, SB_P_BORE_DIAMETER, found.bore, "bore");
       if (part->index == SB_VALVE_HOUSING) {
-        derive_land(part, least, from);
+        derive_land(part, found.bore, from);
       }
     } else {
       complain(part, "bore", NULL, "%s", report.text);
     }
   }
   if (read_stretch(part, "land", &from, &to)) {
-    if (sb_profile_diameters(&least, &most, profile, from, to, &report) == SB_OK) {
-      derive_size(part, SB_P_STEM_PRESSURE_DIAMETER, most, "land");
-      part->shapes->outlines.land = most / 2;
+    if (sb_profile_diameters(&found, profile, from, to, &report) == SB_OK) {
+      derive_size(part, SB_P_STEM_PRESSURE_DIAMETER, found.largest, "land");
+      part->shapes->outlines.land = found.largest / 2;
     } else {
       complain(part, "land", NULL, "%s", report.text);
     }
   }
   if (read_stretch(part, "groove", &from, &to)) {
-    if (sb_profile_diameters(&least, &most, profile, from, to, &report) == SB_OK) {
+    if (sb_profile_diameters(&found, profile, from, to, &report) == SB_OK) {
       double bore = in_force(part, SB_P_BORE_DIAMETER);
-      derive_size(part, SB_P_GLAND_RADIAL_SPACE, (bore - least) / 2, "groove");
+      derive_size(part, SB_P_GLAND_RADIAL_SPACE, (bore - found.smallest) / 2, "groove");
     } else {
       complain(part, "groove", NULL, "%s", report.text);
     }

@@ -41,9 +41,10 @@ typedef enum {
 typedef struct {
   SbJointKind kind;
   size_t i, j;
-  double point[3], axis[3];
-  double local_i[3], local_j[3], frame_j[9]; // set by sb_assembly_join
-  double twist[4];                           // orientation of i in j as assembled
+  double point[3], axis[3];      // m, unit vector
+  double local_i[3], local_j[3]; // the point in either body's axes, from its centre [m]
+  double frame_j[9];             // unit vectors in body j, the joint's axis first
+  double twist[4];               // orientation of i in j as assembled
 } SbJoint;
 
 typedef struct {
@@ -62,7 +63,7 @@ enum {
 typedef struct {
   size_t rows;
   double jacobian[SB_ASSEMBLY_ROWS][SB_ASSEMBLY_COLUMNS]; // of (velocity, length x spin)
-  double rate[SB_ASSEMBLY_ROWS];  // what the rows' second derivative has beside J a
+  double rate[SB_ASSEMBLY_ROWS];  // what the rows' second derivative has beside J a [m/s2]
   double error[SB_ASSEMBLY_ROWS]; // violation of the position conditions [m]
   size_t joint[SB_ASSEMBLY_ROWS];
 } SbAssemblyConditions;
@@ -85,11 +86,11 @@ typedef struct {
 
 // What a joint does to body i (body j gets the opposite), at the joint's point.
 typedef struct {
-  double force[3], torque[3];
+  double force[3], torque[3]; // N, N m
 } SbReaction;
 
 typedef struct {
-  double acceleration[SB_BODIES_MAX][3], spin_rate[SB_BODIES_MAX][3];
+  double acceleration[SB_BODIES_MAX][3], spin_rate[SB_BODIES_MAX][3]; // m/s2, rad/s2
   SbReaction reaction[SB_JOINTS_MAX];
 } SbAssemblyForces;
 

@@ -3,6 +3,7 @@
 #include "engine/mechanism/bodies_internal.h"
 #include "engine/mechanism/vector3.h"
 
+#include <lapacke.h>
 #include <stdio.h>
 
 // One row: e . (rate of the points' distance), with e turning with body j.
@@ -124,39 +125,37 @@ double sb_bodies_extent(const SbAssembly *a) {
   return most > 0.0 ? most : 1e-3;
 }
 
-// Orthogonalises the rows one by one (twice, for rounding). Independent rows stay in `basis`.
-static size_t independent_rows(double basis[ROWS][COLUMNS], bool *repeated, const Conditions *c,
-                               size_t columns) {
-  size_t rank = 0;
-  for (size_t r = 0; r < c->rows; r++) {
-    double v[COLUMNS], before = 0.0, after = 0.0;
-    memcpy(v, c->jacobian[r], sizeof v);
-    for (size_t k = 0; k < columns; k++) {
-      before += v[k] * v[k];
-    }
-    for (int pass = 0; pass < 2; pass++) {
-      for (size_t b = 0; b < rank; b++) {
-        double s = 0.0;
-        for (size_t k = 0; k < columns; k++) {
-          s += v[k] * basis[b][k];
-        }
-        for (size_t k = 0; k < columns; k++) {
-          v[k] -= s * basis[b][k];
-        }
+size_t sb_bodies_rank(SbAssemblyWork *work, const SbAssembly *a, size_t rows) {
+  const Conditions *c = &work->conditions;
+  lapack_int n = 6 * (lapack_int)(a->bodies - 1), *pivot = work->pivot;
+  double *out = work->matrix;
+  for (size_t r = 0; r < rows; r++) {
+    pivot[r] = 0;
+    for (size_t b = 0; b < a->bodies; b++) {
+      if (!a->body[b].ground) {
+        memcpy(out, &c->jacobian[r][6 * b], 6 * sizeof *out);
+        out += 6;
       }
     }
-    for (size_t k = 0; k < columns; k++) {
-      after += v[k] * v[k];
-    }
-    repeated[r] = !(after > 1e-18 * before);
-    if (!repeated[r]) {
-      for (size_t k = 0; k < columns; k++) {
-        basis[rank][k] = v[k] / sqrt(after);
-      }
+  }
+  lapack_int most = (lapack_int)rows < n ? (lapack_int)rows : n, rank = 0;
+  if (LAPACKE_dgeqp3(LAPACK_COL_MAJOR, n, (lapack_int)rows, work->matrix, n, pivot, work->right) ==
+      0) {
+    while (rank < most && fabs(work->matrix[rank * (n + 1)]) > 1e-9) {
       rank++;
     }
   }
-  return rank;
+  return (size_t)rank;
+}
+
+void sb_bodies_free_motion(double *motion, SbAssemblyWork *work, const SbAssembly *a, size_t rank,
+                           size_t index) {
+  lapack_int n = 6 * (lapack_int)(a->bodies - 1);
+  memset(motion, 0, (size_t)n * sizeof *motion);
+  motion[rank + index] = 1.0;
+  // The columns of Q behind the rank are orthogonal to all conditions.
+  (void)LAPACKE_dormqr(LAPACK_COL_MAJOR, 'L', 'N', n, 1, (lapack_int)rank, work->matrix, n,
+                       work->right, motion, n);
 }
 
 const char *sb_joint_kind_name(SbJointKind kind) {
@@ -168,20 +167,20 @@ const char *sb_joint_kind_name(SbJointKind kind) {
 }
 
 // The body that what remains free moves most, judged by how much of its six motions is left.
-static size_t freest(const SbAssembly *a, double basis[ROWS][COLUMNS], size_t rank) {
+static size_t freest(const SbAssembly *a, SbAssemblyWork *work, size_t rank) {
+  double motion[COLUMNS], left[SB_BODIES_MAX] = {0};
   size_t best = 0;
-  double most = -1.0;
-  for (size_t b = 0; b < a->bodies; b++) {
-    double left = a->body[b].ground ? -1.0 : 6.0;
-    for (size_t k = 6 * b; k < 6 * b + 6; k++) {
-      for (size_t r = 0; r < rank; r++) {
-        left -= basis[r][k] * basis[r][k];
+  for (size_t i = 0; rank + i < 6 * (a->bodies - 1); i++) {
+    const double *at = motion;
+    sb_bodies_free_motion(motion, work, a, rank, i);
+    for (size_t b = 0; b < a->bodies; b++) {
+      for (int k = 0; k < 6 && !a->body[b].ground; k++, at++) {
+        left[b] += *at * *at;
       }
     }
-    if (left > most) {
-      most = left;
-      best = b;
-    }
+  }
+  for (size_t b = 1; b < a->bodies; b++) {
+    best = left[b] > left[best] ? b : best;
   }
   return best;
 }
@@ -199,9 +198,7 @@ SbStatus sb_assembly_mobility(SbMobility *m, const SbAssembly *a, int expected,
   }
   Conditions *c = &work->conditions;
   sb_bodies_conditions(c, a, sb_bodies_extent(a));
-  double(*basis)[COLUMNS] = (double(*)[COLUMNS])work->matrix; // ROWS of them
-  bool repeated[ROWS] = {false};
-  size_t rank = independent_rows(basis, repeated, c, 6 * a->bodies);
+  size_t rank = sb_bodies_rank(work, a, c->rows);
   m->constraints = (int)c->rows;
   m->gruebler = 6 * ((int)a->bodies - 1) - m->constraints;
   m->redundant = m->constraints - (int)rank;
@@ -210,11 +207,12 @@ SbStatus sb_assembly_mobility(SbMobility *m, const SbAssembly *a, int expected,
                    a->bodies, m->constraints, m->freedom, m->freedom == 1 ? "" : "s");
   size_t used = (size_t)n;
   if (m->redundant > 0) {
-    size_t r = 0;
-    while (!repeated[r]) {
+    // The first row that those before it imply.
+    size_t r = 1;
+    while (sb_bodies_rank(work, a, r) == r) {
       r++;
     }
-    const SbJoint *joint = &a->joint[c->joint[r]];
+    const SbJoint *joint = &a->joint[c->joint[r - 1]];
     snprintf(m->text + used, sizeof m->text - used,
              "; over-constrained: %d condition%s repeated, first by the %s joint of '%s' and '%s'",
              m->redundant, m->redundant == 1 ? " is" : "s are", sb_joint_kind_name(joint->kind),
@@ -224,7 +222,7 @@ SbStatus sb_assembly_mobility(SbMobility *m, const SbAssembly *a, int expected,
   if (expected >= 0 && m->freedom > expected) {
     snprintf(m->text + used, sizeof m->text - used,
              "; under-constrained: %d expected, '%s' is the freest part", expected,
-             a->body[freest(a, basis, rank)].name);
+             a->body[freest(a, work, rank)].name);
     return sb_fail(report, SB_ERROR_INFEASIBLE, "%s", m->text);
   }
   if (expected >= 0 && m->freedom < expected) {

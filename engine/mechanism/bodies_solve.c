@@ -7,19 +7,36 @@
 #include <lapacke.h>
 #include <stdio.h>
 
+void sb_bodies_momentum(double momentum[3], const SbBody *b, const double spin[3]) {
+  double r[9], local[3];
+  rotation(r, b->orientation);
+  turn_back(local, r, spin);
+  for (int k = 0; k < 3; k++) {
+    local[k] *= b->inertia[k];
+  }
+  turn(momentum, r, local);
+}
+
+void sb_bodies_move(SbBody *b, const double displacement[3], const double angle[3], double share) {
+  double q[4] = {1.0};
+  for (int k = 0; k < 3; k++) {
+    b->position[k] += share * displacement[k];
+    q[k + 1] = 0.5 * share * angle[k];
+  }
+  multiply(b->orientation, q, b->orientation);
+  normalise(b->orientation);
+}
+
 // Mass matrix block of a body in (m a, I spin_rate/length) per unit of `mass`, ground axes.
 static void mass_block(double block[6][6], const SbBody *b, double mass, double length) {
-  double r[9];
   memset(block, 0, 36 * sizeof(double));
-  rotation(r, b->orientation);
   for (int k = 0; k < 3; k++) {
+    double unit[3] = {0}, momentum[3];
+    unit[k] = 1.0;
+    sb_bodies_momentum(momentum, b, unit);
     block[k][k] = b->mass / mass;
     for (int l = 0; l < 3; l++) {
-      double sum = 0.0;
-      for (int p = 0; p < 3; p++) {
-        sum += r[3 * k + p] * b->inertia[p] * r[3 * l + p];
-      }
-      block[3 + k][3 + l] = sum / (mass * length * length);
+      block[3 + k][3 + l] = momentum[l] / (mass * length * length);
     }
   }
 }
@@ -85,13 +102,8 @@ SbStatus sb_bodies_forces(SbAssemblyForces *out, const SbAssembly *a, SbAssembly
       continue;
     }
     // Euler: torque - spin x (I spin).
-    double r[9], local[3], momentum[3], gyro[3];
-    rotation(r, body->orientation);
-    turn_back(local, r, body->spin);
-    for (int k = 0; k < 3; k++) {
-      local[k] *= body->inertia[k];
-    }
-    turn(momentum, r, local);
+    double momentum[3], gyro[3];
+    sb_bodies_momentum(momentum, body, body->spin);
     cross(gyro, body->spin, momentum);
     for (size_t k = 0; k < 3; k++) {
       top[6 * b + k] = body->force[k] / mass;
@@ -159,14 +171,9 @@ SbStatus sb_bodies_settle_positions(SbAssembly *a, double *error, SbAssemblyWork
       return status;
     }
     for (size_t b = 0; b < a->bodies; b++) {
-      SbBody *body = &a->body[b];
-      double q[4] = {1.0};
-      for (size_t k = 0; k < 3 && !body->ground; k++) {
-        body->position[k] += top[6 * b + k];
-        q[k + 1] = 0.5 * top[6 * b + 3 + k] / length;
-      }
-      multiply(body->orientation, q, body->orientation);
-      normalise(body->orientation);
+      double *move = &top[6 * b];
+      double angle[3] = {move[3] / length, move[4] / length, move[5] / length};
+      sb_bodies_move(&a->body[b], move, angle, a->body[b].ground ? 0.0 : 1.0);
     }
   }
   if (!(worst < 1e-9 * length)) {

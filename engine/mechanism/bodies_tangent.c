@@ -3,8 +3,6 @@
 #include "engine/mechanism/bodies_internal.h"
 #include "engine/mechanism/vector3.h"
 
-#include <lapacke.h>
-
 static SbStatus not_one(const SbAssembly *a, SbAssemblyWork *work, SbReport *report) {
   SbMobility mobility;
   SbStatus status = sb_assembly_mobility(&mobility, a, 1, work, report);
@@ -19,16 +17,10 @@ static SbStatus not_one(const SbAssembly *a, SbAssemblyWork *work, SbReport *rep
 static double mass_of(const SbAssembly *a, const SbAssemblyTangent *t) {
   double sum = 0.0;
   for (size_t b = 0; b < a->bodies; b++) {
-    const SbBody *body = &a->body[b];
-    if (body->ground) {
-      continue;
-    }
-    double r[9], local[3];
-    rotation(r, body->orientation);
-    turn_back(local, r, t->spin[b]);
-    sum += body->mass * dot(t->velocity[b], t->velocity[b]);
-    for (int k = 0; k < 3; k++) {
-      sum += body->inertia[k] * local[k] * local[k];
+    if (!a->body[b].ground) {
+      double momentum[3];
+      sb_bodies_momentum(momentum, &a->body[b], t->spin[b]);
+      sum += a->body[b].mass * dot(t->velocity[b], t->velocity[b]) + dot(t->spin[b], momentum);
     }
   }
   return sum;
@@ -39,38 +31,16 @@ SbStatus sb_assembly_tangent(SbAssemblyTangent *t, const SbAssembly *a, size_t b
   Conditions *c = &work->conditions;
   double length = sb_bodies_extent(a);
   sb_bodies_conditions(c, a, length);
-  // The transpose of J, column by column, without the ground's rows.
-  double *matrix = work->matrix, tau[COLUMNS], null[COLUMNS] = {0};
+  double motion[COLUMNS];
   size_t size = 6 * (a->bodies - 1);
-  if (c->rows + 1 != size) {
+  if (c->rows + 1 != size || sb_bodies_rank(work, a, c->rows) != c->rows) {
     return not_one(a, work, report);
   }
-  for (size_t r = 0; r < c->rows; r++) {
-    double *out = matrix + r * size;
-    for (size_t b = 0; b < a->bodies; b++) {
-      if (!a->body[b].ground) {
-        memcpy(out, &c->jacobian[r][6 * b], 6 * sizeof *out);
-        out += 6;
-      }
-    }
-  }
-  lapack_int n = (lapack_int)size;
-  lapack_int rows = (lapack_int)c->rows;
-  bool whole = LAPACKE_dgeqrf(LAPACK_COL_MAJOR, n, rows, matrix, n, tau) == 0;
-  for (size_t r = 0; r < c->rows && whole; r++) {
-    whole = fabs(matrix[r * size + r]) > 1e-9;
-  }
-  // The last column of Q is orthogonal to all conditions.
-  null[size - 1] = 1.0;
-  whole =
-      whole && LAPACKE_dormqr(LAPACK_COL_MAJOR, 'L', 'N', n, 1, rows, matrix, n, tau, null, n) == 0;
-  if (!whole) {
-    return not_one(a, work, report);
-  }
+  sb_bodies_free_motion(motion, work, a, c->rows, 0);
   // `axis` may be that of *t.
   double unit = sqrt(dot(axis, axis));
   *t = (SbAssemblyTangent){.body = body, .axis = {axis[0] / unit, axis[1] / unit, axis[2] / unit}};
-  const double *from = null;
+  const double *from = motion;
   for (size_t b = 0; b < a->bodies; b++) {
     for (size_t k = 0; k < 3 && !a->body[b].ground; k++) {
       t->velocity[b][k] = from[k];
@@ -114,14 +84,7 @@ SbStatus sb_assembly_slide(SbAssembly *a, SbAssemblyTangent *t, double distance,
     }
     before = fabs(left);
     for (size_t b = 0; b < a->bodies; b++) {
-      SbBody *body = &a->body[b];
-      double q[4] = {1.0};
-      for (int k = 0; k < 3; k++) {
-        body->position[k] += left * t->velocity[b][k];
-        q[k + 1] = 0.5 * left * t->spin[b][k];
-      }
-      multiply(body->orientation, q, body->orientation);
-      normalise(body->orientation);
+      sb_bodies_move(&a->body[b], t->velocity[b], t->spin[b], left);
     }
     SbStatus status = sb_bodies_settle_positions(a, &off, work, report);
     status = status != SB_OK ? status : sb_assembly_tangent(t, a, t->body, t->axis, work, report);

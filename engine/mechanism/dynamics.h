@@ -59,8 +59,8 @@ typedef struct {
 
 // What the valve does to the stem at one place: net force on it [N] and the contacts' levels [N].
 typedef struct {
-  double force;
-  double level[SB_DYNAMICS_CONTACTS];
+  double force;                       // N
+  double level[SB_DYNAMICS_CONTACTS]; // N
   bool constant; // neither changes before the next edge is crossed, nor does the extra state
   bool settled;  // the extra state does not change while the stem does not move
 } SbDynamicsLoads;
@@ -113,7 +113,7 @@ typedef enum {
 typedef struct {
   SbMotionEventKind kind;
   int index, sign;
-  double time, position, speed, drive_force;
+  double time, position, speed, drive_force; // s, m, m/s, N
 } SbMotionEvent;
 
 enum { SB_DYNAMICS_TERMS = 7 };
@@ -184,7 +184,7 @@ typedef struct {
   int direction; // 0: not yet
   size_t region;
   long events, segments;
-  double t, x, stretch, piece; // stretch of the drive's spring [m]; start of its piece [s]
+  double t, x, stretch, piece; // s, m; stretch of the drive's spring [m]; start of its piece [s]
   SbDynamicsEnergy energy;
 } SbDynamicsBreak;
 

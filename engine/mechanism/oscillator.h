@@ -20,13 +20,15 @@ typedef enum {
 
 typedef struct {
   SbOscillatorKind kind;
-  double mass, damping, stiffness, f0, f1, v0;
-  double trend0, trend1; // u follows trend0 + trend1 tau once the transient z is gone (K > 0)
-  double z0, w0;         // transient and its rate at the start
-  double beta, omega0;   // C/(2m), sqrt(K/m)
-  double split;          // sqrt|beta^2 - omega0^2|
-  double slow, fast;     // decay rates of the overdamped transient
-  double c_slow, c_fast; // z = c_slow exp(-slow tau) + c_fast exp(-fast tau); only if `apart`
+  double mass, damping, stiffness; // kg, N s/m, N/m
+  double f0, f1, v0;               // N, N/s, m/s
+  double trend0,
+      trend1;    // u follows trend0 + trend1 tau once the transient z is gone (K > 0) [m, m/s]
+  double z0, w0; // transient and its rate at the start [m, m/s]
+  double beta, omega0;   // C/(2m), sqrt(K/m) [1/s]
+  double split;          // sqrt|beta^2 - omega0^2| [1/s]
+  double slow, fast;     // decay rates of the overdamped transient [1/s]
+  double c_slow, c_fast; // z = c_slow exp(-slow tau) + c_fast exp(-fast tau) [m]; only if `apart`
   bool apart;
 } SbOscillator;
 

@@ -29,7 +29,7 @@ typedef struct {
 
 // One step, enough for dense output.
 typedef struct {
-  double t, h;
+  double t, h; // s
   double z0[SB_RADAU_MAX], z1[SB_RADAU_MAX];
   double k[SB_RADAU_STAGES][SB_RADAU_MAX];
   double q[SB_RADAU_STAGES][SB_RADAU_POWERS];

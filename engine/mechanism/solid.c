@@ -287,23 +287,18 @@ static void radii_at(const SbProfile *p, double x, double *low, double *high) {
   }
 }
 
-// What the stretch has: least and largest outer radius, least inner one.
-typedef struct {
-  double low, high, hole;
-} Radii;
-
-static void look_at(const SbProfile *p, double x, Radii *radii) {
+static void look_at(const SbProfile *p, double x, SbProfileDiameters *out) {
   double low, high;
   radii_at(p, x, &low, &high);
   if (high >= 0.0) {
-    radii->low = fmin(radii->low, high);
-    radii->high = fmax(radii->high, high);
-    radii->hole = fmin(radii->hole, low);
+    out->smallest = fmin(out->smallest, 2.0 * high);
+    out->largest = fmax(out->largest, 2.0 * high);
+    out->bore = fmin(out->bore, 2.0 * low);
   }
 }
 
-static SbStatus look_along(Radii *radii, const SbProfile *p, double x0, double x1,
-                           SbReport *report) {
+SbStatus sb_profile_diameters(SbProfileDiameters *out, const SbProfile *p, double x0, double x1,
+                              SbReport *report) {
   SbStatus status = sb_profile_check(p, report);
   if (status != SB_OK) {
     return status;
@@ -313,47 +308,24 @@ static SbStatus look_along(Radii *radii, const SbProfile *p, double x0, double x
   }
   // The surfaces turn only at ends, points and the tops and bottoms of arcs; walls across the axis
   // are looked at from both sides.
-  *radii = (Radii){INFINITY, -1.0, INFINITY};
+  *out = (SbProfileDiameters){INFINITY, -1.0, INFINITY};
   double side = 1e-10 * (x1 - x0);
   size_t n = pieces_of(p);
-  look_at(p, x0 + side, radii);
-  look_at(p, x1 - side, radii);
+  look_at(p, x0 + side, out);
+  look_at(p, x1 - side, out);
   for (size_t i = 0; i < n; i++) {
     Piece s;
     piece_at(&s, p, i, 0.0);
     double at[2] = {s.x0, s.arc ? s.cx : s.x0};
-    for (int k = 0; k < 2; k++) {
-      for (int way = -1; way <= 1; way += 2) {
-        double x = at[k] + way * side;
-        if (x > x0 && x < x1) {
-          look_at(p, x, radii);
-        }
+    for (int k = 0; k < 4; k++) {
+      double x = at[k / 2] + (k % 2 == 0 ? -side : side);
+      if (x > x0 && x < x1) {
+        look_at(p, x, out);
       }
     }
   }
-  if (radii->high < 0.0) {
+  if (out->largest < 0.0) {
     return sb_fail(report, SB_ERROR_RANGE, "the part does not reach %g .. %g m", x0, x1);
   }
   return sb_succeed(report);
-}
-
-SbStatus sb_profile_diameters(double *smallest, double *largest, const SbProfile *p, double x0,
-                              double x1, SbReport *report) {
-  Radii radii;
-  SbStatus status = look_along(&radii, p, x0, x1, report);
-  if (status == SB_OK) {
-    *smallest = 2.0 * radii.low;
-    *largest = 2.0 * radii.high;
-  }
-  return status;
-}
-
-SbStatus sb_profile_bore(double *diameter, const SbProfile *p, double x0, double x1,
-                         SbReport *report) {
-  Radii radii;
-  SbStatus status = look_along(&radii, p, x0, x1, report);
-  if (status == SB_OK) {
-    *diameter = 2.0 * radii.hole;
-  }
-  return status;
 }

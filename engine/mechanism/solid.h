@@ -40,15 +40,15 @@ SbStatus sb_profile_check(const SbProfile *profile, SbReport *report);
 SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *profile, double density,
                           SbReport *report);
 
-// Smallest and largest outer diameter between x0 and x1 (groove floor and land); the outermost
-// surface counts. SB_ERROR_RANGE if the part has nothing there.
-SbStatus sb_profile_diameters(double *smallest, double *largest, const SbProfile *profile,
-                              double x0, double x1, SbReport *report);
+// Diameters between two places of a profile [m].
+typedef struct {
+  double smallest, largest; // of the outermost surface: groove floor, land
+  double bore;              // smallest of the innermost surface; 0 where the part is solid
+} SbProfileDiameters;
 
-// Smallest diameter of the hole along the axis between x0 and x1; the innermost surface counts, 0
-// where the part is solid. SB_ERROR_RANGE if the part has nothing there.
-SbStatus sb_profile_bore(double *diameter, const SbProfile *profile, double x0, double x1,
-                         SbReport *report);
+// SB_ERROR_RANGE if the part has nothing between x0 and x1.
+SbStatus sb_profile_diameters(SbProfileDiameters *out, const SbProfile *profile, double x0,
+                              double x1, SbReport *report);
 
 // Properties of the body inside a closed mesh: vertices[3 n], triangles[3 m] of vertex indices,
 // counter-clockwise seen from outside. Allocates and frees scratch of the order of the mesh.

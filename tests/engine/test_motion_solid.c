@@ -84,15 +84,15 @@ static void test_diameters(void) {
                            {0, 0, 0}};
   SbProfile p = {stem, G_N_ELEMENTS(stem), false};
   SbReport report = {0};
-  double low, high;
-  g_assert_cmpint(sb_profile_diameters(&low, &high, &p, 0.0, 10e-3, &report), ==, SB_OK);
-  ASSERT_NEAR(low, 3.28e-3, 1e-12);
-  ASSERT_NEAR(high, 5.8e-3, 1e-12);
-  g_assert_cmpint(sb_profile_diameters(&low, &high, &p, 7e-3, 9e-3, &report), ==, SB_OK);
-  ASSERT_NEAR(low, 5.8e-3, 1e-12);
-  g_assert_cmpint(sb_profile_diameters(&low, &high, &p, 4.5e-3, 5e-3, &report), ==, SB_OK);
-  ASSERT_NEAR(high, 3.28e-3, 1e-12);
-  g_assert_cmpint(sb_profile_diameters(&low, &high, &p, 0.02, 0.03, &report), ==, SB_ERROR_RANGE);
+  SbProfileDiameters d;
+  g_assert_cmpint(sb_profile_diameters(&d, &p, 0.0, 10e-3, &report), ==, SB_OK);
+  ASSERT_NEAR(d.smallest, 3.28e-3, 1e-12);
+  ASSERT_NEAR(d.largest, 5.8e-3, 1e-12);
+  g_assert_cmpint(sb_profile_diameters(&d, &p, 7e-3, 9e-3, &report), ==, SB_OK);
+  ASSERT_NEAR(d.smallest, 5.8e-3, 1e-12);
+  g_assert_cmpint(sb_profile_diameters(&d, &p, 4.5e-3, 5e-3, &report), ==, SB_OK);
+  ASSERT_NEAR(d.largest, 3.28e-3, 1e-12);
+  g_assert_cmpint(sb_profile_diameters(&d, &p, 0.02, 0.03, &report), ==, SB_ERROR_RANGE);
 }
 
 static void refuse(const SbProfilePoint *point, size_t count, bool closed, const char *why) {
