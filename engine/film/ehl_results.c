@@ -177,14 +177,14 @@ static double reynolds_film(SbFilmSolver *solver, int which, const SbEhlCase *pr
 // 0 for an infinite one. Flat films go by Reynolds' equation, as the central film does.
 static double element_change(SbFilmSolver *solver, int which, const SbEhlCase *problem, int element,
                              bool flat) {
-  enum { SAMPLES = 9 };
+  enum { SAMPLES = 9, MIDDLE = SAMPLES / 2 };
   const SbEhlElement *e = &solver->mesh[which].element[element];
   if (sb_ehl_infinite(e)) {
     return 0.0;
   }
   double sum = 0.0;
   for (int i = 0; i < SAMPLES; i++) {
-    double r = 0.24 * (i - SAMPLES / 2);
+    double r = 0.24 * (i - MIDDLE);
     double film[2];
     for (int k = 0; k < 2; k++) {
       int mesh = k == 0 ? which : 1 - which;
