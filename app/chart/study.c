@@ -58,8 +58,9 @@ void sb_study_layout(SbStudyLayout *out, SbRect rect, const SbStudy *study) {
     double width = floor((rect.width - gap * (columns - 1)) / columns);
     double height = floor((charts - gap * (rows - 1)) / rows);
     for (int i = 0; i < (int)study->panel_count; i++) {
-      out->panel[i] = (SbRect){rect.x + (width + gap) * (i % columns),
-                               y + (height + gap) * (i / columns), width, height};
+      int row = i / columns, column = i % columns;
+      out->panel[i] =
+          (SbRect){rect.x + (width + gap) * column, y + (height + gap) * row, width, height};
     }
     y += charts + gap;
   }

@@ -1,8 +1,9 @@
 // Ten thousand pictures of a run, drawn as a film draws them, take no more memory than a thousand:
 // what is allocated (malloc's own count) and what is resident stay. A leak grows with every sweep
 // over the run; the GL below us grows its caches in a few steps, whose moment depends on how its
-// threads are scheduled: so the median sweep is judged. Quick runs look at fewer pictures. The
-// address sanitizer holds freed memory back, so there only the drawing is exercised.
+// threads are scheduled: so the median sweep is judged. Quick runs look at fewer pictures, the
+// argument's at any number: test-app-steady [PICTURES]. The address sanitizer holds freed memory
+// back, so there only the drawing is exercised.
 #include "app/export/movie_pictures.h"
 #include "app/section/painter.h"
 #include "tests/executed.h"
@@ -11,6 +12,8 @@
 #include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+static size_t asked; // pictures, by the argument
 
 enum { WIDTH = 320, HEIGHT = 180, SWEEPS = 10, SETTLED = 3 };
 
@@ -52,7 +55,7 @@ static void test_section(void) {
                              .height = HEIGHT,
                              .section = sb_section_painter_draw,
                              .section_data = painter};
-  const size_t pictures = g_test_slow() ? 10000 : 500;
+  const size_t pictures = asked > 0 ? asked : g_test_slow() ? 3000 : 500;
   const size_t sweep = pictures / SWEEPS;
   // Back and forth over the run: the film is one sweep of a tenth of the pictures.
   SbRenderMovie movie = {.fps = 100, .duration = (double)pictures / 1000};
@@ -99,6 +102,9 @@ static void test_section(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
+  if (argc > 1) {
+    asked = (size_t)atol(argv[1]);
+  }
   g_test_add_func("/steady/section", test_section);
   return g_test_run();
 }

@@ -142,6 +142,6 @@ SbDriveTimes sb_drive_times(const SbRun *run) {
 
 double sb_drive_corner(const SbDriveTimes *times, int index) {
   int each = times->first[1] > 0 ? 2 : 1; // in a period
-  return index < times->corners ? index / each * times->period + times->first[index % each]
-                                : INFINITY;
+  int period = index / each;
+  return index < times->corners ? period * times->period + times->first[index % each] : INFINITY;
 }
