@@ -116,7 +116,7 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   out->asperity_share = out->asperity_load / problem->load;
   out->real_area = r->real_area * scale->half_width;
   out->real_area_share = r->central_share;
-  out->film_ratio = c->rough.law != NULL ? out->film_central / problem->sigma : 0.0;
+  out->film_ratio = c->rough.law != NULL ? out->film_central / problem->sigma : NAN;
   out->friction_boundary = sign * (problem->shear_strength * out->real_area +
                                    problem->load_coefficient * out->asperity_load);
   out->solver.load_error = r->load_error;
@@ -182,6 +182,11 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
     info->error_film_min = info->error_film_central = info->error_film_flux = 1.0;
     if (++*levels >= 2) {
       sb_ehl_change(change[*levels - 1], solver, now, now - 1, !anew);
+      if (isfinite(supply) && !rough) {
+        // The supply holds the centre of a starved film: two levels agree there by chance.
+        double *last_change = change[*levels - 1];
+        last_change[1] = fmax(last_change[1], 0.05 * last_change[0]);
+      }
       estimate(solver, change, *levels, results);
     }
     bool sharp = rough && sb_ehl_rough_fronts(solver->now, now);
