@@ -149,10 +149,11 @@ static SbStatus press_open(SbRing *ring, const SbRingLoad *target, SbReport *rep
       1e3 * l * (target->bore_radius - target->floor_radius));
 }
 
-// Solves at a load from a guess.
-static SbStatus start(SbRing *ring, const SbRingLoad *load, double share, SbReport *report) {
+// Solves at a load from the guess of another.
+static SbStatus start(SbRing *ring, const SbRingLoad *load, const SbRingLoad *guessed, double share,
+                      SbReport *report) {
   ring->contact->is.now = *load;
-  guess(ring, load, share);
+  guess(ring, guessed, share);
   sb_ring_contact_detect(ring->contact);
   return sb_ring_newton(ring, SB_RING_FOLLOW, report);
 }
@@ -163,16 +164,17 @@ SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport 
   dry.pressure_left = dry.pressure_right = 0.0;
   // Guesses with different shares of the squeeze, then a small squeeze that grows, and the ends of
   // the land that come in from outside.
-  SbStatus status = start(ring, &dry, 0.4, report);
+  SbStatus status = start(ring, &dry, &dry, 0.4, report);
   if (status == SB_ERROR_NOT_CONVERGED) {
-    status = start(ring, &dry, 0.0, report);
+    status = start(ring, &dry, &dry, 0.0, report);
   }
   if (status == SB_ERROR_NOT_CONVERGED) {
     SbRingLoad wide = dry;
     wide.bore_radius = fmax(dry.bore_radius, dry.floor_radius + 0.85);
+    SbRingLoad guessed = wide; // with the ring at the wall that the land's end will push it to
     wide.land_right = fmax(dry.land_right, SB_RING_REACH);
     wide.land_left = fmin(dry.land_left, -SB_RING_REACH);
-    status = start(ring, &wide, 0.4, report);
+    status = start(ring, &wide, &guessed, 0.4, report);
     wide.bore_radius = dry.bore_radius;
     if (status == SB_OK) {
       status = sb_ring_advance(ring, &wide, SB_RING_FOLLOW, report);
