@@ -401,8 +401,7 @@ void sb_ehl_layers_guess(double *nodal, double *gap, double *shift, double *flux
       double X = sb_ehl_position(e, r);
       double pressure, film;
       if (thick) {
-        pressure =
-            sb_wedge_pools_pressure(&wedge, l->lambda, l->inlet, l->outlet, X + *shift - l->middle);
+        pressure = sb_wedge_pools_pressure(&wedge, X + *shift - l->middle);
       } else {
         sb_ehl_layers_shape(&pressure, &film, l, *flux, X);
       }
