@@ -266,7 +266,7 @@ void sb_ehl_profile(SbFilm *out, const SbEhlSolution *s, const SbFilmScale *scal
 // case, with the cavity or the meniscus that the case needs; `supply` is the flux film supplied.
 SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply);
 
-// The last solution on another degree.
+// The last solution on another degree; SB_ERROR_RANGE if rough rows have no room for its mesh.
 SbStatus sb_ehl_refine(SbFilmSolver *solver, int degree);
 
 // Solves a case near the last solution's on the same degree. Anything but SB_OK asks for a cold

@@ -307,7 +307,9 @@ SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply) {
 SbStatus sb_ehl_refine(SbFilmSolver *solver, int degree) {
   SbEhlCase next = solver->now->c;
   next.layers.degree = degree;
-  return take(solver, &next);
+  SbEhlSolution *to = sb_ehl_other(solver);
+  to->c = next;
+  return next.rough.rows && !lay_out(to) ? SB_ERROR_RANGE : take(solver, &next);
 }
 
 SbStatus sb_ehl_follow(SbFilmSolver *solver, const SbEhlCase *c) {

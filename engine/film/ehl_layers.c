@@ -399,7 +399,7 @@ static void start_at(double *pressure, double *film, const SbEhlSolution *s,
   const SbEhlLayers *l = &s->c.layers;
   if (wedge != NULL) {
     double x = X + s->state.shift - l->middle;
-    *pressure = sb_wedge_pools_pressure(wedge, l->lambda, l->inlet, l->outlet, x);
+    *pressure = sb_wedge_pools_pressure(wedge, x);
     *film = wedge->film + 0.5 * x * x;
   } else {
     sb_ehl_layers_shape(pressure, film, l, s->state.flux, X);

@@ -68,7 +68,6 @@ static SbStatus lay_steady(SbFilmTransient *t, SbTransientState *s, const SbFilm
   SbTransientTrace trace;
   const SbStatus status = sb_transient_newton(&trace, t, s, &none);
   t->info.newton_iterations += (size_t)trace.iterations;
-  t->info.factorisations += (size_t)trace.factorisations;
   if (status != SB_OK) {
     return sb_fail(report, status, "transient film: no steady state on the mesh of finite volumes");
   }
@@ -213,8 +212,6 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   } else if (problem->film.speed != scaled.speed) {
     status = lay_steady(t, &t->now, &steady[1], problem->film.speed, report);
   }
-  t->info.unknowns = (size_t)t->nodes - 1;
-  t->info.speed = problem->film.speed;
   remember(t);
   return status;
 }
@@ -339,7 +336,6 @@ SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, doubl
   SbTransientTrace trace;
   const SbStatus status = sb_transient_newton(&trace, t, s, &step);
   t->info.newton_iterations += (size_t)trace.iterations;
-  t->info.factorisations += (size_t)trace.factorisations;
   if (status != SB_OK) {
     return status;
   }
@@ -384,8 +380,6 @@ void sb_transient_accept(SbFilmTransient *t, double error) {
   t->now = t->next;
   remember(t);
   t->info.steps++;
-  t->info.time = t->now.time;
-  t->info.speed = 2.0 * t->now.speed * t->scale.half_width;
 }
 
 // On to `end` with the speed going evenly to v1.
@@ -413,7 +407,6 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, SbReport *repo
     const SbStatus status = sb_transient_advance(&error, t, h, v0 + share * (v1 - v0));
     if (status == SB_ERROR_NOT_CONVERGED ||
         (status == SB_OK && error > limit && t->known_times >= 2)) {
-      t->info.rejected++;
       const double shrink = status == SB_OK ? fmax(0.2, 0.85 * cbrt(limit / error)) : 0.3;
       h *= shrink;
       if (h < 1e-12 * transit) {
@@ -508,7 +501,7 @@ SbFilmTransientInfo sb_film_transient_info(const SbFilmTransient *t) {
 void sb_film_transient_result(SbFilm *out, const SbFilmTransient *t) {
   const SbTransientState *s = &t->now;
   SbFilmProblem problem = t->problem.film;
-  problem.speed = t->info.speed;
+  problem.speed = 2.0 * t->now.speed * t->scale.half_width;
   const SbFilmScale scale = sb_film_scale(&problem);
   sb_film_begin(out, &problem, &scale);
   const double unit = t->scale.half_width;
@@ -545,7 +538,7 @@ void sb_film_transient_result(SbFilm *out, const SbFilmTransient *t) {
                                         : (t->middle + step) * unit;
   out->solver = (SbFilmSolverInfo){
       .converged = true,
-      .unknowns = t->info.unknowns,
+      .unknowns = (size_t)t->nodes - 1,
       .newton_iterations = (int)t->info.newton_iterations,
       .continuation_steps = (int)t->info.steps,
       .error_film_min = t->info.error_film_min,

@@ -34,7 +34,7 @@ typedef struct {
 } SbTransientStep;
 
 typedef struct {
-  int iterations, factorisations;
+  int iterations;
   double mass_error, load_error;
 } SbTransientTrace;
 

@@ -385,7 +385,6 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
     if (fresh) {
       t->factored_c0 = step->c0;
       memcpy(t->factored_cavity, s->cavity, (size_t)n * sizeof(bool));
-      trace->factorisations++;
     }
     trace->iterations++;
     // New gap by the linear elastic relation; no film may shrink below a fifth at once.

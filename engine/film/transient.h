@@ -34,13 +34,8 @@ typedef struct {
 
 // Counters and checks since the start.
 typedef struct {
-  double time;     // [s]
-  double speed;    // present [m/s]
-  size_t unknowns; // of each Newton step
-  size_t steps;    // accepted
-  size_t rejected; // steps
+  size_t steps; // accepted
   size_t newton_iterations;
-  size_t factorisations;
   double load_error; // largest |integral of p - W| / W of any step
   double mass_error; // largest |d/dt content + outflow| of any step over the flow scale
   double error_time; // estimate, relative, of the film in the contact by the time steps

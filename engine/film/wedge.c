@@ -40,20 +40,17 @@ static double rise(double *slope, double t, const void *context) {
   return r->outlet - sb_wedge_shape(0.5 * M_PI, r->stretch) + sb_wedge_shape(t, r->stretch);
 }
 
-typedef struct {
-  double lambda, inlet, outlet;
-} Pools;
-
 // The state of a film, and its load.
-static double pools_load(SbWedgePools *w, const Pools *p, double film) {
+static double pools_load(SbWedgePools *w, double film) {
   double length = sqrt(2 * film);
-  double unit = p->lambda * length / (film * film); // of P*
-  double inlet = p->inlet / unit, outlet = p->outlet / unit;
+  double unit = w->lambda * length / (film * film); // of P*
+  double inlet = w->inlet / unit, outlet = w->outlet / unit;
   double d = outlet - inlet;
   double s = 8 / (3 * M_PI) * (0.5 * M_PI - d);
-  *w = (SbWedgePools){.film = film, .length = length, .full = true};
-  w->end = s > 1 ? acos(sqrt(1 / s)) : 0;
-  w->reform = w->end;
+  w->film = film;
+  w->length = length;
+  w->full = true;
+  w->end = w->reform = s > 1 ? acos(sqrt(1 / s)) : 0;
   if (inlet + sb_wedge_shape(w->end, s) < 0) {
     double end = end_at(-inlet);
     double most = inlet + sb_wedge_shape(0.5 * M_PI, sec2(end));
@@ -78,39 +75,29 @@ static double pools_load(SbWedgePools *w, const Pools *p, double film) {
   return unit * length * rigid + unit * unit * elastic;
 }
 
-typedef struct {
-  SbWedgePools *wedge;
-  Pools pools;
-} PoolsProblem;
-
 static double pools_excess(double log_film, const void *context) {
-  const PoolsProblem *p = context;
-  return pools_load(p->wedge, &p->pools, exp(log_film)) - 0.5 * M_PI;
+  SbWedgePools w = *(const SbWedgePools *)context;
+  return pools_load(&w, exp(log_film)) - 0.5 * M_PI;
 }
 
 SbWedgePools sb_wedge_pools(double lambda, double inlet, double outlet) {
-  SbWedgePools out;
-  const PoolsProblem problem = {&out, {lambda, inlet, outlet}};
-  double thick = log(4.894968 * lambda / (6 * M_PI)); // without end pressures
-  if (inlet == 0 && outlet == 0) {
-    double film = exp(thick), end = end_at(0);
-    return (SbWedgePools){film, sec2(end), sqrt(2 * film), end, 0.5 * M_PI, false};
+  SbWedgePools out = {.lambda = lambda, .inlet = inlet, .outlet = outlet};
+  double film = 4.894968 * lambda / (6 * M_PI); // without end pressures, nor any deflection
+  if (inlet != 0 || outlet != 0) {
+    film = exp(sb_bisect(pools_excess, &out, log(film) - 60, log(film) + 10));
   }
-  double film = exp(sb_bisect(pools_excess, &problem, thick - 60, thick + 10));
-  pools_load(&out, &problem.pools, film);
+  pools_load(&out, film);
   return out;
 }
 
-double sb_wedge_pools_pressure(const SbWedgePools *w, double lambda, double inlet, double outlet,
-                               double x) {
-  double t = atan(x / w->length);
-  double unit = lambda * w->length / (w->film * w->film);
+double sb_wedge_pools_pressure(const SbWedgePools *w, double x) {
+  double t = atan(x / w->length), s = w->stretch;
+  double unit = w->lambda * w->length / (w->film * w->film);
   if (w->full || t < w->end) {
-    return inlet + unit * sb_wedge_shape(t, w->stretch);
+    return w->inlet + unit * sb_wedge_shape(t, s);
   }
-  return t < w->reform ? 0
-                       : outlet - unit * (sb_wedge_shape(0.5 * M_PI, w->stretch) -
-                                          sb_wedge_shape(t, w->stretch));
+  double rise = sb_wedge_shape(0.5 * M_PI, s) - sb_wedge_shape(t, s);
+  return t < w->reform ? 0 : w->outlet - unit * rise;
 }
 
 // Pressure in Pa per unit of P*.

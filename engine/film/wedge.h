@@ -59,6 +59,7 @@ double sb_wedge_shape(double t, double stretch);
 // for equal end pressures is lambda^2 pi/(48 film^3): film = (lambda^2/24)^(1/3), and the pressure
 // goes 0.75 above and below that of the ends.
 typedef struct {
+  double lambda, inlet, outlet;
   double film, stretch, length; // least film, flux film over it, sqrt(2 film)
   double end, reform;           // angles where it breaks and forms again, pi/2 if not
   bool full;                    // does not break; `end` is where the pressure is least
@@ -68,8 +69,7 @@ typedef struct {
 SbWedgePools sb_wedge_pools(double lambda, double inlet, double outlet);
 
 // Its pressure at x.
-double sb_wedge_pools_pressure(const SbWedgePools *wedge, double lambda, double inlet,
-                               double outlet, double x);
+double sb_wedge_pools_pressure(const SbWedgePools *wedge, double x);
 
 // Pressure at x for a solved wedge [Pa]; p_out behind the end of the film.
 double sb_wedge_pressure(const SbWedge *wedge, const SbWedgeProblem *problem, double x);
