@@ -35,12 +35,14 @@ static void moments(double *out, double x, double y, int n) {
   out[0] = (x + 1.0) * plus - (x - 1.0) * minus - y * (plus_angle - minus_angle) - 2.0;
   for (int k = 1; k <= n; k++) {
     double next = ((2 * k + 1) * (x * now - y * now_i) - k * before) / (k + 1);
-    double next_i = ((2 * k + 1) * (x * now_i + y * now) - k * before_i) / (k + 1);
     out[k] = 2.0 / (2 * k + 1) * (next - before);
+    if (y != 0.0) {
+      double next_i = ((2 * k + 1) * (x * now_i + y * now) - k * before_i) / (k + 1);
+      before_i = now_i;
+      now_i = next_i;
+    }
     before = now;
-    before_i = now_i;
     now = next;
-    now_i = next_i;
   }
 }
 

@@ -153,47 +153,29 @@ static double outlet_edge(const SbEhlLayers *l) {
   return l->end == SB_EHL_FULL ? flooded_outlet(l) + 0.17 * outlet_width(l) : 1.0;
 }
 
-// The flooded outlet beyond `from`: elements of growing size up to `reach`, then the infinite one.
-static void add_outlet(SbEhlMesh *mesh, double from, double unit, double reach, int degree,
-                       bool apart) {
-  static const double step[] = {0.0, 0.4, 1.5, 4.0};
-  mesh->outlet = mesh->count;
-  double begin = from;
-  for (int i = 1; i < 4 || begin - from < reach; i++) {
-    double end = i < 4 ? from + unit * step[i] : from + 2.5 * (begin - from);
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, begin, end, 0.0, degree + 4, apart && i == 1);
-    begin = end;
+// A flooded outlet: elements of growing size up to `reach`, then the infinite one.
+static void add_outlet(SbEhlMesh *mesh, double unit, double reach, int degree) {
+  static const double step[] = {0.4, 1.5, 4.0};
+  const double from = mesh->end;
+  for (int i = 0; i < 3 || mesh->end - from < reach; i++) {
+    double end = i < 3 ? from + unit * step[i] : from + 2.5 * (mesh->end - from);
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, end, degree + 4);
   }
-  sb_ehl_mesh_add(mesh, SB_EHL_OUTLET, begin, 0.0, begin - 1.125 * (begin - from), degree + 4,
-                  false);
-}
-
-// A film that begins at a meniscus: five elements from there to `last`, evenly in asinh z.
-static void add_meniscus(SbEhlMesh *mesh, const SbEhlLayers *l, double unit, double last) {
-  enum { COUNT = 5 };
-  double begin = asinh((l->meniscus + 1.0) / unit);
-  double end = asinh((last + 1.0) / unit);
-  double x0 = l->meniscus;
-  for (int i = 1; i <= COUNT; i++) {
-    double x1 = i == COUNT ? last : -1.0 + unit * sinh(begin + (end - begin) * i / COUNT);
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, x0, x1, 0.0, l->degree, false);
-    x0 = x1;
-  }
+  sb_ehl_mesh_add_far(mesh, SB_EHL_OUTLET, mesh->end, mesh->end - 1.125 * (mesh->end - from),
+                      degree + 4);
 }
 
 // A thick film that is full everywhere: elements mirrored about the axis. Its pressure is nearly
 // odd and its load the small rest, to which the error of the discretisation must not add.
 static void full_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
-  static const double step[] = {-4.0, -2.0, -1.2, -0.7, -0.3, 0.3, 0.7, 1.2, 2.0, 4.0};
-  enum { STEPS = sizeof step / sizeof step[0] };
+  static const double step[] = {-2.0, -1.2, -0.7, -0.3, 0.3, 0.7, 1.2, 2.0, 4.0};
   SbWedgePools wedge = wedge_of(l);
-  double unit = wedge_unit(&wedge), end = unit * step[STEPS - 1];
-  sb_ehl_mesh_add(mesh, SB_EHL_INLET, 0.0, -end, unit - end, l->degree, false);
-  for (int i = 1; i < STEPS; i++) {
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, unit * step[i - 1], unit * step[i], 0.0, l->degree, false);
+  double unit = wedge_unit(&wedge), end = 4.0 * unit;
+  sb_ehl_mesh_add_far(mesh, SB_EHL_INLET, -end, unit - end, l->degree);
+  for (size_t i = 0; i < sizeof step / sizeof step[0]; i++) {
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, unit * step[i], l->degree);
   }
-  sb_ehl_mesh_add(mesh, SB_EHL_OUTLET, end, 0.0, end - unit, l->degree, false);
-  mesh->outlet = 7; // from 0.7
+  sb_ehl_mesh_add_far(mesh, SB_EHL_OUTLET, end, end - unit, l->degree);
 }
 
 // Elements on the scale of the rigid wedge.
@@ -203,16 +185,62 @@ static void thick_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
     return;
   }
   static const double step[] = {5.0, 2.6, 1.9, 1.3, 0.75, 0.35, 0.1, 0.0};
-  enum { STEPS = sizeof step / sizeof step[0] };
   SbWedgePools wedge = wedge_of(l);
   double unit = wedge_unit(&wedge);
   double end = rupture_guess(l);
   double from = end - unit * step[0];
-  sb_ehl_mesh_add(mesh, SB_EHL_INLET, 0.0, from, from + unit, l->degree, false);
-  for (int i = 1; i < STEPS; i++) {
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, end - unit * step[i - 1], end - unit * step[i], 0.0,
-                    l->degree, false);
+  sb_ehl_mesh_add_far(mesh, SB_EHL_INLET, from, from + unit, l->degree);
+  for (size_t i = 1; i < sizeof step / sizeof step[0]; i++) {
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, end - unit * step[i], l->degree);
   }
+}
+
+// Inlet and its layer: higher degree, as the flux there is a small difference. From a meniscus on
+// five elements, evenly in asinh z.
+static void add_inlet(SbEhlMesh *mesh, const SbEhlLayers *l) {
+  enum { COUNT = 5 };
+  static const double step[] = {-1.0, 1.5, 4.0};
+  double in = sb_ehl_layers_width(l);
+  if (isfinite(l->meniscus)) {
+    double last = fmin(-1.0 + 4.0 * in, 0.0);
+    double begin = asinh((l->meniscus + 1.0) / in);
+    double end = asinh((last + 1.0) / in);
+    for (int i = 1; i <= COUNT; i++) {
+      double x = -1.0 + in * sinh(begin + (end - begin) * i / COUNT);
+      sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, i == COUNT ? last : x, l->degree);
+    }
+    return;
+  }
+  sb_ehl_mesh_add_far(mesh, SB_EHL_INLET, -1.0 - 4.0 * in, -1.0 + 0.5 * in, l->degree + 4);
+  for (int i = 0; i < 3 && (i == 0 || -1.0 + in * step[i] < 0.3); i++) {
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, -1.0 + in * step[i], l->degree + 4);
+  }
+}
+
+// Element ends of the outlet's layer from the left; their number.
+static int outlet_ends(double *right, int most, const SbEhlLayers *l, double from) {
+  static const double step[] = {-8.0, -2.5, -0.8, -0.1};
+  double in = sb_ehl_layers_width(l);
+  double out = outlet_width(l);
+  bool full = l->end == SB_EHL_FULL;
+  double edge = full ? flooded_outlet(l) : 1.0;
+  double last = full ? edge : rupture_guess(l);
+  int count = 0;
+  for (int i = 0; i < (full ? 3 : 4); i++) {
+    double x = edge + out * step[i];
+    // A starved film near M = 1 breaks before the last of them.
+    if (x > from + 0.6 * fmax(in, out) && x > (i == 0 ? 0.05 : -0.3) && x < last - 0.1 * out) {
+      right[count++] = x;
+    }
+  }
+  right[count++] = last;
+  // A layer pushed out of the dry contact: elements back into it, each twice as far from the edge.
+  while (full && right[0] > 1.0 - out && count < most) {
+    memmove(&right[1], &right[0], (size_t)count++ * sizeof right[0]);
+    double back = fmax(2.2 * (edge - right[0]), -step[2] * out);
+    right[0] = fmax(edge - back, 0.5 * (from + right[0]));
+  }
+  return count;
 }
 
 // Steps in theta that grow from a layer at `begin` to the middle, into theta[]; their number.
@@ -227,92 +255,40 @@ static int inner_steps(double *theta, double begin) {
 
 // Elements that follow the two layers.
 static void thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
-  static const double inlet_step[] = {-4.0, -1.0, 1.5, 4.0};
-  static const double outlet_step[] = {-8.0, -2.5, -0.8, -0.1};
-  double in = sb_ehl_layers_width(l);
-  double out = outlet_width(l);
   enum { RIGHTS_MAX = 8 };
-  double left[4], right[RIGHTS_MAX];
-  int lefts = 0;
-  for (int i = 0; i < 4; i++) {
-    double x = -1.0 + in * inlet_step[i];
-    if (i < 2 || x < 0.3) {
-      left[lefts++] = x;
-    }
-  }
-  if (isfinite(l->meniscus)) {
-    left[0] = fmin(-1.0 + 4.0 * in, 0.0);
-    lefts = 1;
-  }
-  int rights = 0;
-  bool full = l->end == SB_EHL_FULL;
-  double edge = full ? flooded_outlet(l) : 1.0;
-  double last = full ? edge : rupture_guess(l);
-  for (int i = 0; i < (full ? 3 : 4); i++) {
-    double x = edge + out * outlet_step[i];
-    // A starved film near M = 1 breaks before the last of them.
-    if (x > left[lefts - 1] + 0.6 * fmax(in, out) && x > (i == 0 ? 0.05 : -0.3) &&
-        x < last - 0.1 * out) {
-      right[rights++] = x;
-    }
-  }
-  right[rights++] = last;
-  // A layer pushed out of the dry contact: elements back into it, each twice as far from the edge.
-  while (full && right[0] > 1.0 - out && rights < RIGHTS_MAX) {
-    double back = fmax(2.2 * (edge - right[0]), -outlet_step[2] * out);
-    double x = fmax(edge - back, 0.5 * (left[lefts - 1] + right[0]));
-    memmove(&right[1], &right[0], (size_t)rights * sizeof right[0]);
-    right[0] = x;
-    rights++;
-  }
-
-  // Inlet and its layer: higher degree, as the flux there is a small difference.
-  if (isfinite(l->meniscus)) {
-    add_meniscus(mesh, l, in, left[lefts - 1]);
-  } else {
-    sb_ehl_mesh_add(mesh, SB_EHL_INLET, 0.0, left[0], -1.0 + 0.5 * in, l->degree + 4, false);
-    for (int i = 1; i < lefts; i++) {
-      sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, left[i - 1], left[i], 0.0, l->degree + 4, false);
-    }
-  }
-
+  double right[RIGHTS_MAX];
+  add_inlet(mesh, l);
+  int rights = outlet_ends(right, RIGHTS_MAX, l, mesh->end);
   // Inside the contact, steps growing from both layers to the middle.
   double theta[SB_EHL_ELEMENTS_MAX], back[SB_EHL_ELEMENTS_MAX];
-  int thetas = inner_steps(theta, acos(-left[lefts - 1])) + 1;
+  int thetas = inner_steps(theta, acos(-mesh->end)) + 1;
   for (int i = inner_steps(back, acos(right[0])); i >= 0; i--) {
     theta[thetas++] = M_PI - back[i];
   }
-  SbEhlMap map = in > 0.25 ? SB_EHL_AFFINE : SB_EHL_COSINE;
-  double x0 = left[lefts - 1];
+  SbEhlMap map = sb_ehl_layers_width(l) > 0.25 ? SB_EHL_AFFINE : SB_EHL_COSINE;
   for (int i = 1; i < thetas; i++) {
-    double x1 = i == thetas - 1 ? right[0] : -cos(theta[i]);
     // The widest element lies over the middle; more degrees keep the film between its points.
     int degree = l->degree + (theta[i] - theta[i - 1] > 0.8 ? 6 : 4);
-    sb_ehl_mesh_add(mesh, map, x0, x1, 0.0, degree < SB_EHL_DEGREE_MAX ? degree : SB_EHL_DEGREE_MAX,
-                    false);
-    x0 = x1;
+    sb_ehl_mesh_add(mesh, map, i == thetas - 1 ? right[0] : -cos(theta[i]),
+                    degree < SB_EHL_DEGREE_MAX ? degree : SB_EHL_DEGREE_MAX);
   }
-
-  // Outlet layer.
   for (int i = 1; i < rights; i++) {
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, right[i - 1], right[i], 0.0, l->degree, false);
-  }
-  if (l->end == SB_EHL_FULL) {
-    add_outlet(mesh, right[rights - 1], out, 2.0 * opening(l), l->degree, false);
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, right[i], l->degree);
   }
 }
 
 bool sb_ehl_layers_mesh(SbEhlSolution *s) {
   SbEhlMesh *mesh = &s->mesh;
   const SbEhlLayers *l = &s->c.layers;
-  sb_ehl_mesh_begin(mesh, l->inlet, l->outlet);
-  bool thick = sb_ehl_layers_width(l) > THICK && !isfinite(l->meniscus);
-  (thick ? thick_mesh : thin_mesh)(mesh, l);
-  if (l->end == SB_EHL_REFORM) {
-    double wedge = sb_ehl_layers_wedge(l);
+  const double wedge = isfinite(l->meniscus) ? 0.0 : sb_ehl_layers_wedge(l);
+  sb_ehl_mesh_begin(mesh, l->meniscus, l->inlet, l->outlet);
+  (wedge > 0.0 ? thick_mesh : thin_mesh)(mesh, l);
+  if (l->end == SB_EHL_FULL && !(wedge > 0.0)) {
+    add_outlet(mesh, outlet_width(l), 2.0 * opening(l), l->degree);
+  } else if (l->end == SB_EHL_REFORM) {
     double unit = wedge > 0.0 ? 0.3 * wedge : outlet_width(l);
-    unit = 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0);
-    add_outlet(mesh, l->reform, unit, 0.0, l->degree, true);
+    sb_ehl_mesh_break(mesh, l->reform);
+    add_outlet(mesh, 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0), 0.0, l->degree);
   }
   return sb_ehl_mesh_build(mesh, false);
 }

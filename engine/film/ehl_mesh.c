@@ -196,59 +196,70 @@ void sb_ehl_local(SbEhlLocal *out, const SbEhlElement *e, const double *basis, c
 
 // ---------------------------------------------------------------- meshes
 
-void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure) {
+void sb_ehl_mesh_begin(SbEhlMesh *mesh, double start, double inlet_pressure,
+                       double outlet_pressure) {
   mesh->count = 0;
   mesh->fits = true;
+  mesh->end = start;
+  mesh->apart = true;
   mesh->dofs = 0;
   mesh->rows = 0;
   mesh->inlet_pressure = inlet_pressure;
   mesh->outlet_pressure = outlet_pressure;
 }
 
-void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
-                     bool apart) {
-  int shared = mesh->count > 0 && !apart ? 1 : 0;
+void sb_ehl_mesh_break(SbEhlMesh *mesh, double start) {
+  mesh->end = start;
+  mesh->apart = true;
+}
+
+// The next element, with its unknowns; NULL if it does not fit.
+static SbEhlElement *next_element(SbEhlMesh *mesh, SbEhlMap map, int degree) {
+  int first = mesh->apart ? mesh->dofs : mesh->dofs - 1;
   int points = degree + (map == SB_EHL_INLET || map == SB_EHL_OUTLET ? 1 : 0);
-  if (degree > SB_EHL_DEGREE_MAX || mesh->count >= SB_EHL_ELEMENTS_MAX ||
-      mesh->dofs - shared + degree + 1 > SB_EHL_DOFS_MAX || mesh->rows + points > SB_EHL_DOFS_MAX) {
-    mesh->fits = false;
-    return;
+  mesh->fits = mesh->fits && degree <= SB_EHL_DEGREE_MAX && mesh->count < SB_EHL_ELEMENTS_MAX &&
+               first + degree + 1 <= SB_EHL_DOFS_MAX && mesh->rows + points <= SB_EHL_DOFS_MAX;
+  if (!mesh->fits) {
+    return NULL;
   }
-  SbEhlElement *e = &mesh->element[mesh->count++];
+  SbEhlElement *e = &mesh->element[mesh->count];
   e->map = map;
   e->degree = degree;
   e->table = sb_ehl_table(mesh->tables, degree);
   e->points = points;
-  e->apart = apart;
-  e->x0 = x0;
-  e->x1 = x1;
-  e->A = A;
-  e->first_dof = mesh->dofs - shared;
+  e->apart = mesh->apart && mesh->count > 0;
+  e->first_dof = first;
   e->first_row = mesh->rows;
   e->far_pressure = 0.0;
-  mesh->dofs = e->first_dof + degree + 1;
+  mesh->count++;
+  mesh->apart = false;
+  mesh->dofs = first + degree + 1;
   mesh->rows += points;
-  switch (map) {
-  case SB_EHL_AFFINE:
-    e->m = 0.5 * (x0 + x1);
-    e->h = 0.5 * (x1 - x0);
-    break;
-  case SB_EHL_COSINE: {
-    double begin = acos(-x0);
-    double end = acos(-x1);
-    e->m = 0.5 * (begin + end);
-    e->h = 0.5 * (end - begin);
-    break;
+  return e;
+}
+
+void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double end, int degree) {
+  SbEhlElement *e = next_element(mesh, map, degree);
+  if (e != NULL) {
+    e->x0 = mesh->end;
+    e->x1 = end;
+    double begin = map == SB_EHL_COSINE ? acos(-e->x0) : e->x0;
+    double last = map == SB_EHL_COSINE ? acos(-e->x1) : e->x1;
+    e->m = 0.5 * (begin + last);
+    e->h = 0.5 * (last - begin);
   }
-  case SB_EHL_INLET:
-    e->B = A - x1;
-    e->far_pressure = mesh->inlet_pressure;
-    break;
-  case SB_EHL_OUTLET:
-    e->B = x0 - A;
-    e->far_pressure = mesh->outlet_pressure;
-    break;
+  mesh->end = end;
+}
+
+void sb_ehl_mesh_add_far(SbEhlMesh *mesh, SbEhlMap map, double x, double A, int degree) {
+  SbEhlElement *e = next_element(mesh, map, degree);
+  if (e != NULL) {
+    e->x0 = e->x1 = x;
+    e->A = A;
+    e->B = fabs(A - x);
+    e->far_pressure = map == SB_EHL_INLET ? mesh->inlet_pressure : mesh->outlet_pressure;
   }
+  mesh->end = x;
 }
 
 // Position and owner of every target: collocation points, then ends.

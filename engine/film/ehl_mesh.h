@@ -98,7 +98,8 @@ typedef struct {
   SbEhlTables *tables;
   int count;
   bool fits;  // so far
-  int outlet; // first element of a flooded outlet, if the last is infinite
+  double end; // so far
+  bool apart; // a cavity lies before the next element
   SbEhlElement element[SB_EHL_ELEMENTS_MAX];
   int dofs, rows, targets;
   double inlet_pressure, outlet_pressure; // constant pressure beyond the two ends of the mesh
@@ -122,10 +123,14 @@ const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree);
 const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree);
 void sb_ehl_partial(double *weight, const SbEhlTable *table, int j, double r);
 
-// Empties the mesh, whose tables stand, and adds elements from left to right.
-void sb_ehl_mesh_begin(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure);
-void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double x0, double x1, double A, int degree,
-                     bool apart);
+// Empties the mesh, whose tables stand, to begin at `start`; adds elements from its end to `end`;
+// adds an infinite element up to X = x or from there, with X = A -+ B / s^2; opens a cavity up to
+// `start`.
+void sb_ehl_mesh_begin(SbEhlMesh *mesh, double start, double inlet_pressure,
+                       double outlet_pressure);
+void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double end, int degree);
+void sb_ehl_mesh_add_far(SbEhlMesh *mesh, SbEhlMap map, double x, double A, int degree);
+void sb_ehl_mesh_break(SbEhlMesh *mesh, double start);
 
 // Gap by pressures that are constant beyond the ends of a mesh, up to a constant, with the tilt
 // that leaves the dry contact |X| < 1 (docs/verification.md).

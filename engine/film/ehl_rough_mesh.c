@@ -139,10 +139,10 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
     }
   }
   SbEhlMesh *mesh = &s->mesh;
-  sb_ehl_mesh_begin(mesh, l->inlet, l->outlet);
+  sb_ehl_mesh_begin(mesh, edge[0], l->inlet, l->outlet);
   sb_ehl_steps(mesh->tables, l->degree);
-  for (int e = 0; e < n - 1; e++) {
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, edge[e], edge[e + 1], 0, l->degree, false);
+  for (int e = 1; e < n; e++) {
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, edge[e], l->degree);
   }
   if (!sb_ehl_mesh_build(mesh, true)) {
     return false;

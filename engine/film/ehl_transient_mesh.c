@@ -100,8 +100,8 @@ static void build_kernel(SbFilmTransient *t, SbFilmSolver *solver) {
   memset(t->kernel, 0, n * n * sizeof *t->kernel);
   memset(t->weight, 0, sizeof t->weight);
   for (int j = 0; j + 1 < t->nodes; j++) {
-    sb_ehl_mesh_begin(mesh, 0.0, 0.0);
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, t->X[j], t->X[j + 1], 0.0, QUADRATIC, false);
+    sb_ehl_mesh_begin(mesh, t->X[j], 0.0, 0.0);
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, t->X[j + 1], QUADRATIC);
     sb_ehl_kernel_prepare(e, &solver->tables);
     add_interval(t->weight, t, j, e->integral, 1.0);
     for (size_t i = 0; i < n; i++) {
