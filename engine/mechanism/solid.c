@@ -264,8 +264,12 @@ SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *p, double density, Sb
 
 // Least and largest radius of the outline at x; high -1 if there is none.
 static void radii_at(const SbProfile *p, double x, double *low, double *high) {
-  const Piece across = {.x0 = x, .x1 = x, .r1 = 1.0};
   size_t n = pieces_of(p);
+  double top = 0.0; // lines count as one by their lengths
+  for (size_t i = 0; i < p->count; i++) {
+    top = fmax(top, p->point[i].r);
+  }
+  const Piece across = {.x0 = x, .x1 = x, .r1 = top};
   *low = INFINITY;
   *high = -1.0;
   for (size_t i = 0; i < n; i++) {

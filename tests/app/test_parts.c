@@ -90,7 +90,7 @@ static void test_diameters(void) {
   assert_relative(sb_model_pressure_force(model), 0.55e6 * G_PI / 4 * 5.8e-3 * 5.8e-3, 1e-12);
 }
 
-// In one file the shape has the last word: a key that says otherwise is an error naming file,
+// In one file the shape takes precedence: a key that says otherwise is an error naming file,
 // group, key and both values. A key that agrees is silent, and so is a mass beside it.
 static void test_clash(void) {
   static const struct {
