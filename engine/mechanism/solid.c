@@ -75,9 +75,9 @@ static size_t meet(double at[4][2], const Piece *a, const Piece *b) {
     double ax = a->x1 - a->x0, ar = a->r1 - a->r0, la = hypot(ax, ar);
     double det = ax * br - ar * bx, dx = b->x0 - a->x0, dr = b->r0 - a->r0;
     if (fabs(det) > 1e-12 * la * lb) {
-      double f = (dx * br - dr * bx) / det;
-      at[0][0] = a->x0 + f * ax;
-      at[0][1] = a->r0 + f * ar;
+      double f = (dx * ar - dr * ax) / det; // along b: exact on a cylinder
+      at[0][0] = b->x0 + f * bx;
+      at[0][1] = b->r0 + f * br;
       return 1;
     }
     bool apart = fabs(dx * ar - dr * ax) > 1e-12 * la * (hypot(dx, dr) + la);
