@@ -153,10 +153,10 @@ static double film_at(const SbEhlSolution *s, int element, bool middle, double r
 // infinite one.
 static double element_change(const SbEhlSolution *a, const SbEhlSolution *b, int element,
                              bool middle) {
-  enum { SAMPLES = 9 };
+  enum { SAMPLES = 9, MIDDLE = SAMPLES / 2 };
   double sum = 0.0;
   for (int i = 0; i < SAMPLES && !sb_ehl_infinite(&a->mesh.element[element]); i++) {
-    double r = 0.24 * (i - SAMPLES / 2);
+    double r = 0.24 * (i - MIDDLE);
     double change = film_at(a, element, middle, r) / film_at(b, element, middle, r) - 1.0;
     sum += change * change;
   }

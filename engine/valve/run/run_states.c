@@ -280,8 +280,8 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     if (sb_run_cancelled(hooks, report)) {
       return SB_ERROR_CANCELLED;
     }
-    sb_run_progress(run, hooks, 0.3 * (i / SB_RUN_MOTIONS) / (SB_SEAL_COUNT * SB_CYCLE_CHAMBERS),
-                    0);
+    const int chambers = i / SB_RUN_MOTIONS; // begun, of both seals
+    sb_run_progress(run, hooks, 0.3 * chambers / (SB_SEAL_COUNT * SB_CYCLE_CHAMBERS), 0);
     SbReport own = {0};
     SbStatus status = solve_state(run, seal, chamber, motion, &own);
     bool fatal = status != SB_OK && status != SB_ERROR_NOT_CONVERGED;
