@@ -285,7 +285,7 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
   }
   status = sb_ring_newton(&fresh, SB_RING_FOLLOW, report);
   if (status == SB_ERROR_NOT_CONVERGED) {
-    // Too far from the transferred state: walk the whole way again on the new mesh.
+    // Too far from the transferred state: follow the whole path again on the new mesh.
     SbRingLoad setting = ring->contact->is.now;
     status = sb_ring_fit_and_press(&fresh, &setting, report);
   }

@@ -100,8 +100,8 @@ void sb_ring_fem_advance(SbRingFem *fem, double step);
 // Largest residual over the rows that the conditions leave free.
 double sb_ring_fem_free_residual(const SbRingFem *fem);
 
-// Three places for a state: 0 is Newton's own, 1 the load stepper's, 2 the state before a walk in
-// viscous steps.
+// Three places for a state: 0 is Newton's own, 1 the load stepper's, 2 the state before
+// pseudo-transient continuation.
 void sb_ring_fem_save(SbRingFem *fem, int place);
 void sb_ring_fem_restore(SbRingFem *fem, int place);
 

@@ -179,7 +179,7 @@ static const double PRESSURE_STEP = 0.8, LAND_STEP = 0.15;
 // Viscosities, in shear moduli per section diameter squared: first, least before it is dropped,
 // most; and how many steps and droppings are tried.
 static const double VISCOSITY = 30.0, VISCOSITY_LEAST = 0.3, VISCOSITY_MOST = 3e4;
-enum { VISCOUS_STEPS = 50, DROPS_MAX = 4, WALKS_MAX = 3 };
+enum { TRANSIENT_STEPS = 50, DROPS_MAX = 4, TRANSIENTS_MAX = 3 };
 
 // Newton iterations after which a load step is given up at its next failure.
 enum { ITERATIONS_MOST = 1000 };
@@ -270,13 +270,13 @@ static SbStatus attempt(SbRing *ring, SbRingPath path, SbReport *report) {
 }
 
 // Follows the ring at another load from the present state to an equilibrium.
-static SbStatus walk(SbRing *ring, const SbRingLoad *load, SbReport *report) {
+static SbStatus pseudo_transient(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   SbRingContact *contact = ring->contact;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   double c = VISCOSITY;
   int drops = 0;
   double turn, from = place_of_section(contact, &turn);
-  for (int i = 0; i < VISCOUS_STEPS && c <= VISCOSITY_MOST; i++) {
+  for (int i = 0; i < TRANSIENT_STEPS && c <= VISCOSITY_MOST; i++) {
     bool drop = c < VISCOSITY_LEAST;
     ring->fem->viscosity = drop ? 0.0 : c;
     sb_ring_save(contact, SB_RING_START);
@@ -332,7 +332,7 @@ SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path
   double part = 1.0 / fmax(sealed ? SEALED_PARTS : 1.0, parts(&start, target));
   double least = part * (sealed ? SEALED_LEAST : STEP_LEAST);
   double done = 0.0, share = part;
-  int walks = 0, first = count->iterations;
+  int transients = 0, first = count->iterations;
   contact->rolls = false;
   while (done < 1.0) {
     double next = fmin(1.0, done + share);
@@ -348,10 +348,10 @@ SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path
     }
     bool stop = status != SB_OK && gives_up(contact, status, count->iterations - first);
     if (status != SB_OK && !stop && path == SB_RING_FOLLOW && share <= 0.25 * part &&
-        walks < WALKS_MAX) {
-      walks++;
+        transients < TRANSIENTS_MAX) {
+      transients++;
       sb_ring_save(contact, SB_RING_BEFORE);
-      status = walk(ring, &load, report);
+      status = pseudo_transient(ring, &load, report);
       if (status == SB_OK) {
         share = 0.5 * part;
       } else {
