@@ -85,7 +85,7 @@ static SbStatus take(SbFilmSolver *solver, const SbEhlCase *c) {
     new->reform = forms ? sb_ehl_layers_reform(new, from->state.flux) : old->reform;
   }
   if (!lay_out(to)) {
-    return SB_ERROR_NOT_CONVERGED;
+    return c->rough.rows ? SB_ERROR_RANGE : SB_ERROR_NOT_CONVERGED; // no room for it
   }
   sb_ehl_carry(to, from, forms ? 1.0 : expected(c) / expected(&from->c));
   if (forms) {
@@ -307,9 +307,7 @@ SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply) {
 SbStatus sb_ehl_refine(SbFilmSolver *solver, int degree) {
   SbEhlCase next = solver->now->c;
   next.layers.degree = degree;
-  SbEhlSolution *to = sb_ehl_other(solver);
-  to->c = next;
-  return next.rough.rows && !lay_out(to) ? SB_ERROR_RANGE : take(solver, &next);
+  return take(solver, &next);
 }
 
 SbStatus sb_ehl_follow(SbFilmSolver *solver, const SbEhlCase *c) {
