@@ -326,7 +326,6 @@ static SbStatus follow(SbResultsHistory *out, const SbFilmProblem *problem,
     out->film_min[i] = out->film_central[i] = out->error_min[i] = out->error_central[i] = NAN;
   }
   SbFilmTransient *solver = NULL;
-  SbFilm *film = g_new0(SbFilm, 1);
   SbStatus status = sb_film_transient_create(&solver, &transient, report);
   for (size_t i = 0; i < series->count && status == SB_OK; i++) {
     if (i > 0) {
@@ -334,14 +333,13 @@ static SbStatus follow(SbResultsHistory *out, const SbFilmProblem *problem,
                                       series->value[i], report);
     }
     if (status == SB_OK) {
-      sb_film_transient_result(film, solver);
-      out->film_min[i] = film->film_min;
-      out->film_central[i] = film->film_central;
-      out->error_min[i] = film->solver.error_film_min;
-      out->error_central[i] = film->solver.error_film_central;
+      const SbFilmTransientResult film = sb_film_transient_result(solver);
+      out->film_min[i] = film.film_min;
+      out->film_central[i] = film.film_central;
+      out->error_min[i] = film.error_film_min;
+      out->error_central[i] = film.error_film_central;
     }
   }
-  g_free(film);
   sb_film_transient_destroy(solver);
   return status;
 }

@@ -3,15 +3,15 @@
 // BDF2 on the fluid height m of the cells with uneven steps; the difference to the parabola
 // through the last three heights gives the step's own error (of the third order), whose mean over
 // the contact is held to a share of the tolerance.
-#include "engine/film/transient.h"
+#include "engine/film/ehl_transient.h"
 
-#include <gsl/gsl_interp.h>
+#include "engine/numeric/legendre.h"
+#include "engine/numeric/root.h"
+
+#include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "engine/film/ehl_transient.h"
-#include "engine/numeric/legendre.h"
 
 static const double TRAVEL = 1.0; // largest way of the fluid in a step, in cells
 // Of the largest local error of a step against the mean's: the least film is local.
@@ -24,65 +24,45 @@ static bool cancelled(const SbFilmTransient *t) {
 
 // ---------------------------------------------------------------- initial states
 
-// Scaled film and pressure of a steady profile at X; false outside it.
-static bool sample(double *film, double *pressure, const SbFilm *profile, double x) {
-  if (profile->points < 2 || x < profile->x[0] || x > profile->x[profile->points - 1]) {
-    return false;
-  }
-  const size_t i = gsl_interp_bsearch(profile->x, x, 0, profile->points - 1);
-  const double span = profile->x[i + 1] - profile->x[i];
-  const double s = span > 0.0 ? (x - profile->x[i]) / span : 0.0;
-  *film = profile->film[i] + s * (profile->film[i + 1] - profile->film[i]);
-  *pressure = profile->pressure[i] + s * (profile->pressure[i + 1] - profile->pressure[i]);
-  return true;
-}
-
 // Steady state from the spectral solution at `speed` [m/s].
-static SbStatus lay_steady(SbFilmTransient *t, SbTransientState *s, const SbFilm *steady,
-                           double speed, SbReport *report) {
-  const double flux = steady->film_flux / t->scale.film;
-  const double end = speed > 0.0 ? 1.0 : -1.0;
-  const double rupture = t->problem.film.rupture_pressure;
-  s->speed = 0.5 * speed / t->scale.half_width;
+static SbStatus lay_steady(SbFilmTransient *t, const SbFilm *steady, double speed,
+                           SbReport *report) {
+  SbTransientState *s = &t->now;
+  const SbFilmScale *scale = &t->scale;
+  const double flux = steady->film_flux / scale->film;
+  s->speed = 0.5 * speed / scale->half_width;
   for (int i = 0; i < t->nodes; i++) {
-    const double X = t->X[i];
-    double film, pressure;
-    s->cavity[i] = false;
-    s->void_[i] = 0.0;
-    s->P[i] = (X < 0.0 ? t->inlet : t->outlet);
+    const double X = t->X[i], x = (scale->middle + X) * scale->half_width;
+    s->P[i] = X < 0.0 ? scale->inlet : scale->outlet;
     s->H[i] = flux + sb_film_dry_gap(X);
-    const double x = (t->middle + X) * t->scale.half_width;
-    if (sample(&film, &pressure, steady, x)) {
-      s->P[i] = fmax((pressure - rupture) / t->scale.pressure, 0.0);
-      s->H[i] = film / t->scale.film;
+    if (x >= steady->x[0] && x <= steady->x[steady->points - 1]) {
+      const size_t k = sb_interval(steady->x, steady->points, x);
+      const double share = (x - steady->x[k]) / (steady->x[k + 1] - steady->x[k]);
+      const double *p = &steady->pressure[k], *h = &steady->film[k];
+      const double pressure = p[0] + share * (p[1] - p[0]) - t->problem.film.rupture_pressure;
+      s->P[i] = fmax(pressure / scale->pressure, 0.0);
+      s->H[i] = (h[0] + share * (h[1] - h[0])) / scale->film;
     }
-    const bool beyond = (x - steady->position_rupture) * end > 0.0;
-    if (steady->ruptured && beyond && i > 0 && i + 1 < t->nodes && s->P[i] <= 0.0) {
-      s->cavity[i] = true;
-      s->P[i] = 0.0;
-      s->void_[i] = s->H[i] - flux;
-    }
+    const bool beyond = (x - steady->position_rupture) * speed > 0.0;
+    s->cavity[i] = steady->ruptured && beyond && i > 0 && i + 1 < t->nodes && s->P[i] <= 0.0;
+    s->m[i] = s->cavity[i] ? flux : s->H[i];
   }
   s->H0 = 0.0;
-  const SbTransientStep none = {0};
-  SbTransientTrace trace;
-  const SbStatus status = sb_transient_newton(&trace, t, s, &none);
-  t->info.newton_iterations += (size_t)trace.iterations;
-  if (status != SB_OK) {
-    return sb_fail(report, status, "transient film: no steady state on the mesh of finite volumes");
-  }
-  return SB_OK;
+  const SbStatus status = sb_transient_newton(t, s);
+  return status == SB_OK ? status
+                         : sb_fail(report, status,
+                                   "transient film: no steady state on the mesh of finite volumes");
 }
 
 // Contact at rest, parted by the film `rest`: the pressure of the dry contact; the first step finds
 // the mesh's own for that film.
-static void lay_rest(SbFilmTransient *t, SbTransientState *s, double rest) {
-  SbEhlLayers layers = sb_transient_layers(t);
-  layers.inlet = t->inlet;
-  layers.outlet = t->outlet;
+static void lay_rest(SbFilmTransient *t, double rest) {
+  SbTransientState *s = &t->now;
+  SbEhlLayers layers = t->layers;
+  layers.inlet = t->scale.inlet;
+  layers.outlet = t->scale.outlet;
   for (int i = 0; i < t->nodes; i++) {
     s->P[i] = sb_ehl_layers_dry_pressure(&layers, t->X[i]);
-    s->void_[i] = 0.0;
     s->cavity[i] = false;
   }
   s->speed = 0.0;
@@ -90,65 +70,39 @@ static void lay_rest(SbFilmTransient *t, SbTransientState *s, double rest) {
   sb_transient_gap(s->H, t, s);
   s->H0 = rest - s->H[t->nodes / 2];
   for (int i = 0; i < t->nodes; i++) {
-    s->H[i] = fabs(t->X[i]) < 1.0 ? rest : fmax(s->H[i] + s->H0, rest);
+    s->m[i] = s->H[i] = fabs(t->X[i]) < 1.0 ? rest : fmax(s->H[i] + s->H0, rest);
   }
 }
 
-// Least film: a parabola through the lowest node and its neighbours, in units of the film.
-static double least_film(double *place, const SbFilmTransient *t, const SbTransientState *s) {
+// Least film, by a parabola through the lowest node and its neighbours, and the central one,
+// scaled; X = 0 is the node in the middle. Returns the place of the least one.
+static double read_films(double out[2], const SbFilmTransient *t) {
+  const double *X = t->X, *H = t->now.H;
   int at = 1;
   for (int i = 1; i + 1 < t->nodes; i++) {
-    if (s->H[i] < s->H[at]) {
-      at = i;
-    }
+    at = H[i] < H[at] ? i : at;
   }
-  const double x0 = t->X[at - 1] - t->X[at], x1 = t->X[at + 1] - t->X[at];
-  const double h0 = s->H[at - 1] - s->H[at], h1 = s->H[at + 1] - s->H[at];
+  const double x0 = X[at - 1] - X[at], x1 = X[at + 1] - X[at];
+  const double h0 = H[at - 1] - H[at], h1 = H[at + 1] - H[at];
   const double a = (h1 / x1 - h0 / x0) / (x1 - x0);
   const double b = h0 / x0 - a * x0;
   const double dx = a > 0.0 ? fmin(fmax(-0.5 * b / a, x0), x1) : 0.0;
-  *place = t->X[at] + dx;
-  return s->H[at] + dx * (b + a * dx);
-}
-
-// Least and central film, scaled; X = 0 is the node in the middle.
-static void read_figures(double out[2], double *place, const SbFilmTransient *t) {
-  out[0] = least_film(place, t, &t->now);
-  out[1] = t->now.H[t->nodes / 2];
-}
-
-static void remember(SbFilmTransient *t) {
-  const SbTransientState *s = &t->now;
-  SbTransientPast *past = t->past;
-  memmove(&past[1], &past[0], 2 * sizeof *past);
-  past[0].time = s->time, past[0].travel = s->travel;
-  for (int i = 0; i < t->nodes; i++) {
-    past[0].height[i] = sb_transient_height(s, i);
-  }
-  t->known_times = t->known_times < 3 ? t->known_times + 1 : 3;
+  out[0] = H[at] + dx * (b + a * dx);
+  out[1] = H[t->nodes / 2];
+  return X[at] + dx;
 }
 
 void sb_film_transient_destroy(SbFilmTransient *t) {
   if (t != NULL) {
     sb_film_transient_destroy(t->companion);
-    free(t->kernel);
-    free(t->matrix);
     free(t);
   }
-}
-
-static bool allocate(SbFilmTransient *t) {
-  const size_t size = (size_t)SB_TRANSIENT_NODES_MAX * SB_TRANSIENT_NODES_MAX * sizeof(double);
-  t->kernel = malloc(size);
-  t->matrix = malloc(size);
-  return t->kernel != NULL && t->matrix != NULL;
 }
 
 static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
   const SbFilmProblem *film = &problem->film;
   if (film->model != SB_FILM_REYNOLDS || film->pressure_viscosity != 0.0 ||
-      film->eyring_stress != 0.0 || film->inlet_film != 0.0 || film->surface != SB_ROUGH_NONE ||
-      film->hamaker != 0.0) {
+      film->eyring_stress != 0.0 || film->inlet_film != 0.0 || sb_film_rough(film)) {
     return sb_fail(report, SB_ERROR_INPUT,
                    "transient film: only the isoviscous, flooded, smooth reynolds model");
   }
@@ -166,53 +120,79 @@ static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
   return SB_OK;
 }
 
-// One resolution from the steady films at speed_scale and, unless it is at rest, at the start.
+// The steady films at speed_scale and, unless it is at rest, at the start.
+typedef struct {
+  double speed[2];
+  SbFilm film[2];
+  SbFilmProfile profile[2];
+} Steady;
+
+static SbStatus solve_steady(Steady *out, const SbFilmTransientProblem *problem,
+                             SbFilmSolver *solver, SbReport *report) {
+  out->speed[0] = (problem->film.speed < 0.0 ? -1.0 : 1.0) * problem->speed_scale;
+  out->speed[1] = problem->film.speed;
+  SbStatus status = SB_OK;
+  const int count = out->speed[1] == 0.0 || out->speed[1] == out->speed[0] ? 1 : 2;
+  for (int k = 0; k < count && status == SB_OK; k++) {
+    SbFilmProblem film = problem->film;
+    film.speed = out->speed[k];
+    film.profile = &out->profile[k];
+    status = sb_film_solve(&out->film[k], &film, solver, report);
+    if (status == SB_OK && k == 0 && out->film[0].moes_M < 1.0) {
+      status = sb_fail_parameter(report, SB_ERROR_RANGE, "drive.speed",
+                                 "transient film: M = %.3g is below 1", out->film[0].moes_M);
+    }
+  }
+  return status;
+}
+
+// One resolution from the steady films.
 static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *problem,
-                      double coarseness, const SbFilm steady[2], SbFilmSolver *solver,
+                      double coarseness, const Steady *steady, SbFilmSolver *solver,
                       SbReport *report) {
-  const SbFilm *largest = &steady[0];
+  const SbFilm *largest = &steady->film[0];
   SbFilmTransient *t = *out = calloc(1, sizeof *t);
-  if (t == NULL || !allocate(t)) {
+  if (t == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "transient film: out of memory");
   }
   t->problem = *problem;
   t->coarseness = coarseness;
   SbFilmProblem scaled = problem->film;
-  scaled.speed = (problem->film.speed < 0.0 ? -1.0 : 1.0) * problem->speed_scale;
-  t->scale = sb_film_scale(&scaled);
-  if (problem->film.compliance != NULL) {
-    t->compliance = *problem->film.compliance;
-    t->problem.film.compliance = &t->compliance;
+  scaled.speed = problem->speed_scale;
+  SbFilmScale *scale = &t->scale;
+  *scale = sb_film_scale(&scaled);
+  if (scaled.compliance != NULL) {
+    t->compliance = *scaled.compliance;
     SbDryContact dry;
-    const SbStatus status = sb_film_scale_fitted(&t->scale, &dry, &scaled, report);
+    const SbStatus status = sb_film_scale_fitted(scale, &dry, &scaled, report);
     if (status != SB_OK) {
       return status;
     }
   }
-  const double rupture = problem->film.rupture_pressure;
-  t->inlet = (problem->film.pressure_left - rupture) / t->scale.pressure;
-  t->outlet = (problem->film.pressure_right - rupture) / t->scale.pressure;
-  t->diffusion = t->scale.film * t->scale.film * t->scale.pressure /
-                 (12.0 * problem->film.viscosity * t->scale.half_width * t->scale.half_width);
-  t->flow = 0.5 * problem->speed_scale / t->scale.half_width * largest->film_flux / t->scale.film;
-  t->middle = scaled.speed < 0.0 ? -t->scale.middle : t->scale.middle;
-  sb_transient_mesh(t, solver, problem->rest_film / t->scale.film);
-  SbStatus status = lay_steady(t, &t->now, largest, scaled.speed, report);
+  t->layers = (SbEhlLayers){.lambda = scale->lambda, .starvation = 1.0};
+  memcpy(t->layers.bow, scale->bow, sizeof t->layers.bow);
+  const double rest = problem->rest_film / scale->film;
+  const double length = scale->film / scale->half_width;
+  t->diffusion = length * length * scale->pressure / (12.0 * scaled.viscosity);
+  t->flow = 0.5 * problem->speed_scale / scale->half_width * largest->film_flux / scale->film;
+  sb_transient_mesh(t, solver, rest);
+  SbStatus status = lay_steady(t, largest, steady->speed[0], report);
   if (status != SB_OK) {
     return status;
   }
-  double place, figure[2];
-  read_figures(figure, &place, t);
-  t->info.error_mesh = fmax(fabs(figure[0] * t->scale.film / largest->film_min - 1.0),
-                            fabs(figure[1] * t->scale.film / largest->film_central - 1.0)) +
+  double film[2];
+  (void)read_films(film, t);
+  SbFilmTransientResult *result = &t->result;
+  result->error_mesh = fmax(fabs(film[0] * scale->film / largest->film_min - 1.0),
+                            fabs(film[1] * scale->film / largest->film_central - 1.0)) +
                        fmax(largest->solver.error_film_min, largest->solver.error_film_central);
-  t->info.error_film_min = t->info.error_film_central = t->info.error_mesh;
-  if (problem->rest_film > 0.0) {
-    lay_rest(t, &t->now, problem->rest_film / t->scale.film);
-  } else if (problem->film.speed != scaled.speed) {
-    status = lay_steady(t, &t->now, &steady[1], problem->film.speed, report);
+  result->error_film_min = result->error_film_central = result->error_mesh;
+  t->known_times = 1;
+  if (rest > 0.0) {
+    lay_rest(t, rest);
+  } else if (steady->speed[1] != steady->speed[0]) {
+    status = lay_steady(t, &steady->film[1], steady->speed[1], report);
   }
-  remember(t);
   return status;
 }
 
@@ -223,41 +203,23 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
   if (status != SB_OK) {
     return status;
   }
-  struct {
-    SbFilm film[2];
-    SbFilmProfile profile[2];
-  } *steady = malloc(sizeof *steady);
+  Steady *steady = malloc(sizeof *steady);
   SbFilmSolver *solver = NULL;
+  SbFilmTransient *t = NULL;
   status = steady != NULL ? sb_film_solver_create(&solver, report)
                           : sb_fail(report, SB_ERROR_MEMORY, "transient film: out of memory");
-  // The steady film at the largest speed checks the problem, and the mesh's error by its own.
-  SbFilmProblem film = problem->film;
-  film.speed = (film.speed < 0.0 ? -1.0 : 1.0) * problem->speed_scale;
   if (status == SB_OK) {
-    film.profile = &steady->profile[0];
-    status = sb_film_solve(&steady->film[0], &film, solver, report);
-  }
-  if (status == SB_OK && steady->film[0].moes_M < 1.0) {
-    status = sb_fail_parameter(report, SB_ERROR_RANGE, "drive.speed",
-                               "transient film: M = %.3g is below 1", steady->film[0].moes_M);
-  }
-  if (status == SB_OK && problem->rest_film == 0.0 && problem->film.speed != film.speed) {
-    film.speed = problem->film.speed;
-    film.profile = &steady->profile[1];
-    film.tolerance = fmin(film.tolerance, 1e-3);
-    sb_film_solver_forget(solver);
-    status = sb_film_solve(&steady->film[1], &film, solver, report);
-  }
-  SbFilmTransient *t = NULL;
-  if (status == SB_OK) {
-    status = begin(&t, problem, 1.0, steady->film, solver, report);
+    status = solve_steady(steady, problem, solver, report);
   }
   if (status == SB_OK) {
-    status = begin(&t->companion, problem, 2.0, steady->film, solver, report);
+    status = begin(&t, problem, 1.0, steady, solver, report);
+  }
+  if (status == SB_OK) {
+    status = begin(&t->companion, problem, 2.0, steady, solver, report);
     if (status == SB_ERROR_NOT_CONVERGED) {
       sb_film_transient_destroy(t->companion);
       t->companion = NULL;
-      t->info.error_film_min = t->info.error_film_central = NAN;
+      t->result.error_film_min = t->result.error_film_central = NAN;
       status = SB_OK;
     }
   }
@@ -273,113 +235,99 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
 
 // ---------------------------------------------------------------- steps
 
-// Weights of the derivative at the new time by the new and the `count` last values, newest first.
-static void derivative(double c[3], double h, const SbTransientPast *past, int count) {
-  if (count < 2) {
-    c[0] = 1.0 / h;
-    c[1] = -1.0 / h;
-    c[2] = 0.0;
-    return;
+// First guess of the next state: straight on from the last two.
+static void go_on(SbFilmTransient *t, double h) {
+  SbTransientState *s = &t->next;
+  const SbTransientState *before = &t->before;
+  const double ratio = t->known_times >= 2 ? h / (t->now.time - before->time) : 0.0;
+  for (int i = 0; i < t->nodes && ratio > 0.0; i++) {
+    if (s->cavity[i] == before->cavity[i]) {
+      const double m = fmax(s->m[i] + ratio * (s->m[i] - before->m[i]), 0.3 * s->m[i]);
+      s->P[i] = fmax(s->P[i] + ratio * (s->P[i] - before->P[i]), s->cavity[i] ? 0.0 : 1e-300);
+      s->H[i] = fmax(s->H[i] + ratio * (s->H[i] - before->H[i]), 0.3 * s->H[i]);
+      s->m[i] = s->cavity[i] ? fmin(m, s->H[i]) : s->H[i];
+    }
   }
-  const double before = past[0].time - past[1].time;
-  c[0] = (2.0 * h + before) / (h * (h + before));
-  c[1] = -(h + before) / (h * before);
-  c[2] = h / (before * (h + before));
+  s->H0 += ratio * (s->H0 - before->H0);
 }
 
-SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, double speed) {
-  double c[3];
-  const SbTransientPast *past = t->past;
-  const double time[] = {past[0].time, past[1].time, past[2].time};
-  derivative(c, h, past, t->known_times);
-  // Of the polynomial through the last heights, at the new time.
-  double bary[3], ahead[3];
-  sb_barycentric_weights(bary, time, t->known_times);
-  sb_barycentric_basis(ahead, time[0] + h, time, bary, t->known_times);
-  SbTransientState *s = &t->next;
-  *s = t->now;
-  s->time = t->now.time + h;
-  s->travel = t->now.travel + 0.5 * h * (t->now.speed + speed);
-  s->speed = speed;
-  // First guess: straight on from the last two states.
-  const double ratio = t->known_times >= 2 && t->now.time > t->before.time
-                           ? h / (t->now.time - t->before.time)
-                           : 0.0;
-  for (int i = 0; i < t->nodes && ratio > 0.0; i++) {
-    if (s->cavity[i] == t->before.cavity[i]) {
-      const double m = sb_transient_height(s, i), rise = m - sb_transient_height(&t->before, i);
-      s->P[i] = fmax(s->P[i] + ratio * (s->P[i] - t->before.P[i]), s->cavity[i] ? 0.0 : 1e-300);
-      s->H[i] = fmax(s->H[i] + ratio * (s->H[i] - t->before.H[i]), 0.3 * s->H[i]);
-      s->void_[i] = s->cavity[i] ? fmax(s->H[i] - fmax(m + ratio * rise, 0.3 * m), 0.0) : 0.0;
-    }
-  }
-  s->H0 += ratio * (s->H0 - t->before.H0);
-  double *old = t->work[0], *guess = t->work[1], *earlier = t->work[2];
-  memset(t->work, 0, sizeof t->work);
-  double carried_rate = 0.0;
-  const bool carry = fabs(s->travel - t->now.travel) < t->reach;
-  for (int k = 0; k < t->known_times; k++) {
-    const double way = carry ? s->travel - past[k].travel : 0.0;
-    sb_transient_carry(earlier, t, past[k].height, way);
-    const double weight = k < 2 ? c[k + 1] : 0.0;
-    carried_rate -= weight * way;
-    for (int i = 0; i < t->nodes; i++) {
-      old[i] += weight * earlier[i];
-      guess[i] += ahead[k] * earlier[i];
-    }
-  }
-  const SbTransientStep step = {
-      .c0 = c[0],
-      .old = old,
-      .carried_rate = carried_rate,
-  };
-  SbTransientTrace trace;
-  const SbStatus status = sb_transient_newton(&trace, t, s, &step);
-  t->info.newton_iterations += (size_t)trace.iterations;
-  if (status != SB_OK) {
-    return status;
+// The step's own error by the distance of the new heights from those guessed.
+static double step_error(const SbFilmTransient *t, const double *time) {
+  if (t->known_times < 2) {
+    return INFINITY;
   }
   // Local error over the distance to the extrapolation: for BDF1 y'' h^2/2 against y'' h (h +
-  // h1)/2, for BDF2 y'''/6 times the two products.
-  double share = INFINITY;
-  if (t->known_times >= 3) {
-    const double h1 = past[0].time - past[1].time;
-    const double h2 = past[1].time - past[2].time;
+  // h1)/2, for BDF2 y'''/6 times the two products. While the parabola is not known the straight
+  // line's error bounds the step's.
+  double share = 0.5;
+  if (t->known_times > 2) {
+    const double h = time[0] - time[1], h1 = time[1] - time[2], h2 = time[2] - time[3];
     const double own = h * h * (h + h1) * (h + h1) / (2.0 * h + h1);
-    const double other = h * (h + h1) * (h + h1 + h2);
-    share = own / (own + other);
-  } else if (t->known_times == 2) {
-    // The parabola is not known yet: the straight line's error bounds the step's.
-    share = 0.5;
+    share = own / (own + h * (h + h1) * (h + h1 + h2));
   }
   double sum = 0.0;
   double whole = 0.0;
   double largest = 0.0;
   for (int i = 0; i < t->nodes; i++) {
     if (fabs(t->X[i]) < 1.0) {
-      const double height = sb_transient_height(s, i);
-      sum += t->volume[i] * fabs(height - guess[i]);
+      const double height = t->next.m[i], off = fabs(height - t->guess[i]);
+      sum += t->volume[i] * off;
       whole += t->volume[i] * height;
-      largest = fmax(largest, fabs(height - guess[i]) / height);
+      largest = fmax(largest, off / height);
     }
   }
-  *error = t->known_times >= 2
-               ? share * fmax(sum / whole, t->problem.resolve ? LOCAL * largest : 0.0)
-               : INFINITY;
-  t->info.load_error = fmax(t->info.load_error, trace.load_error);
-  t->info.mass_error = fmax(t->info.mass_error, trace.mass_error);
-  return SB_OK;
+  return share * fmax(sum / whole, t->problem.resolve ? LOCAL * largest : 0.0);
+}
+
+SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, double speed) {
+  enum { ORDER = 2, TIMES = 4 };
+  SbTransientState *s = &t->next;
+  *s = t->now;
+  s->time = t->now.time + h;
+  s->travel = t->now.travel + 0.5 * h * (t->now.speed + speed);
+  s->speed = speed;
+  go_on(t, h);
+  const SbTransientState *past[] = {s, &t->now, &t->before, &t->earlier};
+  const int known = t->known_times, order = known < ORDER ? known : ORDER;
+  double time[TIMES], bary[TIMES], rate[TIMES] = {0}, ahead[TIMES];
+  for (int k = 0; k < TIMES; k++) {
+    time[k] = past[k]->time;
+  }
+  // Weights of the derivative at the new time, and of the polynomial through the last heights.
+  sb_barycentric_weights(bary, time, order + 1);
+  sb_barycentric_slope(rate, time[0], time, bary, order + 1);
+  sb_barycentric_weights(bary, time + 1, known);
+  sb_barycentric_basis(ahead, time[0], time + 1, bary, known);
+  const bool carry = fabs(s->travel - t->now.travel) < t->reach;
+  memset(t->old, 0, sizeof t->old);
+  memset(t->guess, 0, sizeof t->guess);
+  t->c0 = rate[0];
+  t->carried_rate = 0.0;
+  for (int k = 1; k <= known; k++) {
+    const double way = carry ? s->travel - past[k]->travel : 0.0;
+    sb_transient_carry(t->work[0], t, past[k]->m, way);
+    t->carried_rate -= rate[k] * way;
+    cblas_daxpy(t->nodes, rate[k], t->work[0], 1, t->old, 1);
+    cblas_daxpy(t->nodes, ahead[k - 1], t->work[0], 1, t->guess, 1);
+  }
+  const SbStatus status = sb_transient_newton(t, s);
+  if (status == SB_OK) {
+    *error = step_error(t, time);
+  }
+  return status;
 }
 
 void sb_transient_accept(SbFilmTransient *t, double error) {
   // Fluid that leaves the contact takes its error with it.
   const double h = t->next.time - t->now.time;
   const double left = fmin(1.0, 0.5 * h * fabs(t->next.speed));
-  t->info.error_time = t->info.error_time * (1.0 - left) + (isfinite(error) ? error : 0.0);
+  SbFilmTransientResult *result = &t->result;
+  result->error_time = result->error_time * (1.0 - left) + (isfinite(error) ? error : 0.0);
+  result->steps++;
+  t->earlier = t->before;
   t->before = t->now;
   t->now = t->next;
-  remember(t);
-  t->info.steps++;
+  t->known_times = t->known_times < 3 ? t->known_times + 1 : 3;
 }
 
 // On to `end` with the speed going evenly to v1.
@@ -434,39 +382,39 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, SbReport *repo
 // it is the error of a method of first order, a third of second order; fronts lie between.
 static SbStatus compare(SbFilmTransient *t, double way) {
   SbFilmTransient *other = t->companion;
-  double *error[2] = {&t->info.error_film_min, &t->info.error_film_central};
-  if (other != NULL) {
-    const SbStatus status = follow(other, t->now.time, t->now.speed, NULL);
-    if (status == SB_ERROR_CANCELLED) {
-      return status;
+  double *error[2] = {&t->result.error_film_min, &t->result.error_film_central};
+  if (other == NULL) {
+    return SB_OK;
+  }
+  const SbStatus status = follow(other, t->now.time, t->now.speed, NULL);
+  if (status != SB_OK) {
+    sb_film_transient_destroy(other);
+    t->companion = NULL;
+    *error[0] = *error[1] = NAN;
+    return status == SB_ERROR_CANCELLED ? status : SB_OK;
+  }
+  double fine[2], coarse[2];
+  (void)read_films(coarse, other);
+  const double place = read_films(fine, t);
+  // A dip that the coarse spacing does not know may go twice as deep again as its node lies below
+  // the neighbours, for all that the two know.
+  int at = 1;
+  while (t->X[at] < place) {
+    at++;
+  }
+  const double *H = t->now.H;
+  const bool unknown = !t->problem.resolve && t->face[at].carried > 0.0;
+  const double bend = unknown ? fabs((H[at - 2] + H[at + 1]) / fine[0] - 2.0) : 0.0;
+  t->way += way;
+  for (int k = 0; k < 2; k++) {
+    // A spacing for the mean film alone finds the least one with the first order.
+    const double share = k == 0 && !t->problem.resolve ? 1.0 : 0.5;
+    const double apart = share * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);
+    if (apart > t->apart[k] || t->way - t->apart_way[k] > 2.0) {
+      t->apart[k] = apart;
+      t->apart_way[k] = t->way;
     }
-    double fine[2], coarse[2], place;
-    read_figures(coarse, &place, other);
-    read_figures(fine, &place, t);
-    // A dip that the coarse spacing does not know may go twice as deep again as its node lies below
-    // the neighbours, for all that the two know.
-    int at = 1;
-    while (t->X[at] < place) {
-      at++;
-    }
-    const double *H = t->now.H;
-    const bool unknown = !t->problem.resolve && t->carried[at] > 0.0;
-    const double bend = unknown ? fabs((H[at - 2] + H[at + 1]) / fine[0] - 2.0) : 0.0;
-    t->way += way;
-    for (int k = 0; k < 2; k++) {
-      // A spacing for the mean film alone finds the least one with the first order.
-      const double share = k == 0 && !t->problem.resolve ? 1.0 : 0.5;
-      const double apart = share * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);
-      if (apart > t->apart[k] || t->way - t->apart_way[k] > 2.0) {
-        t->apart[k] = apart;
-        t->apart_way[k] = t->way;
-      }
-      *error[k] = status == SB_OK ? t->info.error_mesh + t->apart[k] : NAN;
-    }
-    if (status != SB_OK) {
-      sb_film_transient_destroy(other);
-      t->companion = NULL;
-    }
+    *error[k] = t->result.error_mesh + t->apart[k];
   }
   return SB_OK;
 }
@@ -492,64 +440,11 @@ SbStatus sb_film_transient_step(SbFilmTransient *t, double dt, double speed, SbR
   return status;
 }
 
-// ---------------------------------------------------------------- results
-
-SbFilmTransientInfo sb_film_transient_info(const SbFilmTransient *t) {
-  return t->info;
-}
-
-void sb_film_transient_result(SbFilm *out, const SbFilmTransient *t) {
-  const SbTransientState *s = &t->now;
-  SbFilmProblem problem = t->problem.film;
-  problem.speed = 2.0 * t->now.speed * t->scale.half_width;
-  const SbFilmScale scale = sb_film_scale(&problem);
-  sb_film_begin(out, &problem, &scale);
-  const double unit = t->scale.half_width;
-  double place, figure[2];
-  read_figures(figure, &place, t);
-  out->film_min = figure[0] * t->scale.film;
-  out->film_central = figure[1] * t->scale.film;
-  out->position_film_min = (t->middle + place) * unit;
-  const int at_axis = t->nodes / 2;
-  int highest = 0;
-  double couette = 0.0;
-  double poiseuille = 0.0;
-  for (int i = 0; i + 1 < t->nodes; i++) {
-    const double dx = t->X[i + 1] - t->X[i];
-    highest = s->P[i] > s->P[highest] ? i : highest;
-    if (!s->cavity[i] && !s->cavity[i + 1]) {
-      couette += dx * 0.5 * (1.0 / s->H[i] + 1.0 / s->H[i + 1]);
-      poiseuille += 0.25 * (s->H[i] + s->H[i + 1]) * (s->P[i + 1] - s->P[i]);
-    }
-  }
-  out->film_flux = s->H[highest] * t->scale.film;
-  out->flow = sb_transient_flow(t, s, at_axis) * unit * t->scale.film;
-  out->pressure_max = s->P[highest] * t->scale.pressure + problem.rupture_pressure;
-  out->friction_couette = problem.viscosity * problem.speed * couette * unit / t->scale.film;
-  out->friction_poiseuille = poiseuille * t->scale.film * t->scale.pressure;
-  // Where the film ends downstream: the first node in a cavity from the middle on.
-  const int step = problem.speed >= 0.0 ? 1 : -1;
-  int i = at_axis;
-  while (i > 0 && i + 1 < t->nodes && !s->cavity[i]) {
-    i += step;
-  }
-  out->ruptured = i > 0 && i + 1 < t->nodes;
-  out->position_rupture = out->ruptured ? (t->middle + 0.5 * (t->X[i] + t->X[i - step])) * unit
-                                        : (t->middle + step) * unit;
-  out->solver = (SbFilmSolverInfo){
-      .converged = true,
-      .unknowns = (size_t)t->nodes - 1,
-      .newton_iterations = (int)t->info.newton_iterations,
-      .continuation_steps = (int)t->info.steps,
-      .error_film_min = t->info.error_film_min,
-      .error_film_central = t->info.error_film_central,
-      .error_film_flux = t->info.error_film_central,
-      .load_error = t->info.load_error,
-      .flux_error = t->info.mass_error,
-  };
-  for (int k = 0; k < t->nodes; k++) {
-    sb_film_put(out, (size_t)k, (t->middle + t->X[k]) * unit,
-                s->P[k] * t->scale.pressure + problem.rupture_pressure, s->H[k] * t->scale.film);
-  }
-  sb_film_warn_common(out, &problem);
+SbFilmTransientResult sb_film_transient_result(const SbFilmTransient *t) {
+  SbFilmTransientResult result = t->result;
+  double film[2];
+  (void)read_films(film, t);
+  result.film_min = film[0] * t->scale.film;
+  result.film_central = film[1] * t->scale.film;
+  return result;
 }

@@ -1,138 +1,125 @@
 // Mesh and elastic kernel of the transient film.
 //
-// Nodes crowd at both edges of the contact. The pressure is a straight line between nodes with the
-// bend of its second differences; both are integrated against the logarithm exactly. A fitted body
-// adds its smooth part through the moments of the nodes' hats (elastic/compliance.h).
+// Nodes crowd at both edges of the contact. Between two nodes the pressure is the parabola through
+// them and the value at the face, which four nodes give; it is integrated against the logarithm
+// exactly, as an element of the steady solver. A fitted body adds its smooth part through the
+// moments of the pressure (contact/compliance.h).
+#include "engine/film/ehl_transient.h"
+
+#include "engine/numeric/legendre.h"
+
 #include <cblas.h>
 #include <math.h>
 #include <string.h>
 
-#include "engine/film/ehl.h"
-#include "engine/film/ehl_transient.h"
-#include "engine/numeric/legendre.h"
-
 static const double RESOLVED = 4.5e-3; // spacing for the dip of a reversal, 0.02 b wide
 static const double CARRIED = 3.0;     // layers
 
-// Second difference of the pressure at node j: factors of j - 1, j, j + 1.
-static void second_difference(double out[3], const SbFilmTransient *t, int j) {
-  const double left = t->X[j] - t->X[j - 1];
-  const double right = t->X[j + 1] - t->X[j];
-  out[0] = 2.0 / (left * (left + right));
-  out[2] = 2.0 / (right * (left + right));
-  out[1] = -out[0] - out[2];
+// Smooth part of a fitted body on the nodes, added to the kernel and the known gap, as in
+// ehl_fitted.c. The constant is H0's.
+static void add_smooth(SbFilmTransient *t) {
+  enum { MODES = SB_COMPLIANCE_MODES };
+  const SbSurfaceCompliance *c = &t->compliance;
+  const int n = t->nodes, modes = c->modes;
+  const double b = t->scale.half_width, middle = t->scale.middle;
+  const SbFilmBody body = {c, 1.0, b, t->scale.film};
+  const double tilt = sb_film_window_tilt(&body, t->scale.inlet, t->scale.outlet);
+  double *value = t->mode[0][0], *smooth = t->mode[1][0];
+  for (int i = 0; i < n; i++) {
+    sb_compliance_modes(c, b * (middle + t->X[i]), value + i * MODES, NULL);
+    t->known[i] += tilt * t->X[i];
+  }
+  // p_H b over the film's scale is a quarter of the modulus.
+  cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, n, modes, modes - 1, 0.25 * c->modulus,
+              value + 1, MODES, c->smooth[1], MODES, 0.0, smooth, MODES);
+  double known[MODES] = {0}, by_axis[MODES] = {0};
+  sb_film_ambient(known, by_axis, &body, t->scale.inlet, t->scale.outlet, middle + t->X[0],
+                  middle + t->X[n - 1]);
+  cblas_dgemv(CblasRowMajor, CblasNoTrans, n, modes, 1.0, smooth, MODES, known, 1, 1.0, t->known,
+              1);
+  // Moments of the pressure by the weights of the load, inside the window.
+  for (int i = 0; i < n; i++) {
+    const double left = i > 0 ? t->face[i - 1].X : t->X[0];
+    const double right = i + 1 < n ? t->face[i].X : t->X[i];
+    const double from = fmax(left, c->left / b - middle), to = fmin(right, c->right / b - middle);
+    cblas_dscal(modes, t->weight[i] * fmax(to - from, 0.0) / (right - left), value + i * MODES, 1);
+  }
+  cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasTrans, n, n, modes, 1.0, smooth, MODES, value,
+              MODES, 1.0, t->kernel, n);
 }
 
-// Adds to `row` the integral over the interval after node j, whose quadratic polynomials through
-// its ends and its middle have the integrals `part`: there the pressure is the ends' mean less
-// p'' h^2 / 8 with the mean p'' of the ends.
+// Adds to `row` the integral over the interval of a face, whose quadratic polynomials through its
+// ends and its middle have the integrals `part`.
 static void add_interval(double *row, const SbFilmTransient *t, int j, const double *part,
                          double factor) {
-  const double h = t->X[j + 1] - t->X[j];
-  row[j] += factor * (part[0] + 0.5 * part[1]);
-  row[j + 1] += factor * (part[2] + 0.5 * part[1]);
-  for (int k = j; k <= j + 1; k++) {
-    if (k > 0 && k + 1 < t->nodes) {
-      double d[3];
-      second_difference(d, t, k);
-      for (int m = 0; m < 3; m++) {
-        row[k - 1 + m] -= factor * part[1] * h * h / 16.0 * d[m];
-      }
-    }
-  }
-}
-
-// Smooth part of a fitted body on the nodes, added to the kernel and the known gap, as in
-// ehl_fitted.c: moments of the nodes' hats inside the window, S, and the polynomials at the nodes.
-// The constant is H0's.
-static void add_smooth(SbFilmTransient *t) {
-  enum { POINTS = 3, MODES = SB_COMPLIANCE_MODES };
-  const SbSurfaceCompliance *c = &t->compliance;
-  const int n = t->nodes;
-  const double b = t->scale.half_width;
-  double node[POINTS];
-  double weight[POINTS];
-  sb_legendre_gauss(node, weight, POINTS);
-  memset(t->moment, 0, sizeof t->moment);
-  double value[MODES];
-  for (int j = 0; j + 1 < n; j++) {
-    const double x = b * (t->middle + t->X[j]);
-    const double h = t->X[j + 1] - t->X[j];
-    const double from = fmax((c->left - x) / (b * h), 0.0);
-    const double to = fmin((c->right - x) / (b * h), 1.0);
-    for (int q = 0; q < POINTS && from < to; q++) {
-      const double s = 0.5 * (from + to) + 0.5 * (to - from) * node[q];
-      sb_compliance_modes(c, x + s * b * h, value, NULL);
-      for (int k = 0; k < c->modes; k++) {
-        const double part = 0.5 * (to - from) * h * weight[q] * value[k];
-        t->moment[k][j] += part * (1.0 - s);
-        t->moment[k][j + 1] += part * s;
-      }
-    }
-  }
-  double known[MODES] = {0}, by_axis[MODES] = {0};
-  const SbFilmBody body = {c, 1.0, b, t->scale.film};
-  sb_film_ambient(known, by_axis, &body, t->inlet, t->outlet, t->middle + t->X[0],
-                  t->middle + t->X[n - 1]);
-  const double tilt = sb_film_window_tilt(&body, t->inlet, t->outlet);
-  const double factor = 0.25 * c->modulus; // p_H b over the film's scale
-  for (int i = 0; i < n; i++) {
-    sb_compliance_modes(c, b * (t->middle + t->X[i]), value, NULL);
-    double *row = t->kernel + (size_t)i * (size_t)n;
-    t->known[i] += tilt * t->X[i];
-    for (int l = 0; l < c->modes; l++) {
-      double sum = 0.0;
-      for (int k = 1; k < c->modes; k++) {
-        sum += factor * value[k] * c->smooth[k][l];
-      }
-      t->known[i] += sum * known[l];
-      cblas_daxpy(n, sum, t->moment[l], 1, row, 1);
-    }
-  }
+  const SbTransientFace *f = &t->face[j];
+  row[j] += factor * part[0];
+  row[j + 1] += factor * part[2];
+  cblas_daxpy(4, factor * part[1], f->value, 1, row + f->first, 1);
 }
 
 // Kernel and weights of the load, interval by interval as an element of `solver`'s meshes.
 static void build_kernel(SbFilmTransient *t, SbFilmSolver *solver) {
   enum { QUADRATIC = 2 };
-  const size_t n = (size_t)t->nodes;
+  const int n = t->nodes;
+  const SbFilmScale *scale = &t->scale;
   SbEhlMesh *mesh = &solver->solution[0].mesh;
   SbEhlElement *e = &mesh->element[0];
-  memset(t->kernel, 0, n * n * sizeof *t->kernel);
-  memset(t->weight, 0, sizeof t->weight);
-  for (int j = 0; j + 1 < t->nodes; j++) {
+  for (int j = 0; j + 1 < n; j++) {
     sb_ehl_mesh_begin(mesh, t->X[j], 0.0, 0.0);
     sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, t->X[j + 1], QUADRATIC);
     sb_ehl_kernel_prepare(e, &solver->tables);
     add_interval(t->weight, t, j, e->integral, 1.0);
-    for (size_t i = 0; i < n; i++) {
+    for (int i = 0; i < n; i++) {
       double part[SB_EHL_DEGREE_MAX + 2] = {0};
       sb_ehl_kernel_row(part, e, &solver->tables, t->X[i], 0.0);
-      add_interval(t->kernel + i * n, t, j, part, -1.0 / M_PI);
+      add_interval(t->kernel + (size_t)i * (size_t)n, t, j, part, -1.0 / M_PI);
     }
   }
-  for (size_t i = 0; i < n; i++) {
-    const double x = t->middle + t->X[i];
-    t->known[i] = sb_ehl_ambient_gap(t->X[i], t->X[0], t->X[n - 1], t->inlet, t->outlet);
+  const bool fitted = t->compliance.modes > 0;
+  for (int i = 0; i < n; i++) {
+    const double x = scale->middle + t->X[i];
+    t->known[i] = sb_ehl_ambient_gap(t->X[i], t->X[0], t->X[n - 1], scale->inlet, scale->outlet);
     t->known[i] +=
-        t->compliance.modes > 0
-            ? sb_compliance_gap(&t->compliance, t->scale.half_width * x, NULL) / t->scale.film
-            : 0.5 * x * x;
+        fitted ? sb_compliance_gap(&t->compliance, scale->half_width * x, NULL) / scale->film
+               : 0.5 * x * x;
   }
-  if (t->compliance.modes > 0) {
+  if (fitted) {
     add_smooth(t);
   }
 }
 
-SbEhlLayers sb_transient_layers(const SbFilmTransient *t) {
-  SbEhlLayers layers = {.lambda = t->scale.lambda, .starvation = 1.0};
-  memcpy(layers.bow, t->scale.bow, sizeof layers.bow);
-  return layers;
+// Lagrange's polynomials at a face, of four nodes and of three with two upstream of it. At an end
+// of the mesh, where there are none, transport is by the mean of the nodes beside.
+static void lay_face(SbFilmTransient *t, int i) {
+  SbTransientFace *f = &t->face[i];
+  const int n = t->nodes;
+  double bary[4];
+  f->X = 0.5 * (t->X[i] + t->X[i + 1]);
+  f->first = i < 1 ? 0 : i + 3 > n - 1 ? n - 4 : i - 1;
+  sb_barycentric_weights(bary, &t->X[f->first], 4);
+  sb_barycentric_basis(f->value, f->X, &t->X[f->first], bary, 4);
+  sb_barycentric_slope(f->slope, f->X, &t->X[f->first], bary, 4);
+  for (int back = 0; back < 2; back++) {
+    const int from = i - 1 + back;
+    if (from < 0 || from + 2 >= n) {
+      f->upwind[back][i - f->first] = f->upwind[back][i + 1 - f->first] = 0.5;
+      continue;
+    }
+    sb_barycentric_weights(bary, &t->X[from], 3);
+    sb_barycentric_basis(&f->upwind[back][from - f->first], f->X, &t->X[from], bary, 3);
+  }
+  const double right = t->X[i + 1] - t->X[i];
+  f->limited = !t->problem.resolve && right > t->layer && fabs(t->X[i]) < 1.0;
+  // From CARRIED layers inside the edges on the faces move, after as many again with the fluid.
+  const double inside = (1.0 - fabs(f->X)) / (CARRIED * t->layer) - 1.0;
+  const double ramp = fmin(fmax(inside, 0.0), 1.0);
+  f->carried = 2.0 * CARRIED * t->layer < 0.7 ? ramp * ramp * (3.0 - 2.0 * ramp) : 0.0;
 }
 
 // Half of the mesh from the middle outward, mirrored: spacing a share of the distance to the edge.
 void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest) {
-  const SbEhlLayers layers = sb_transient_layers(t);
-  const double width = fmin(sb_ehl_layers_width(&layers), 2.0);
+  const double width = fmin(sb_ehl_layers_width(&t->layers), 2.0);
   const double fine =
       t->coarseness * cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
   const double share = 0.15 * fine;
@@ -155,21 +142,16 @@ void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest) {
   }
   t->nodes = 2 * n - 1;
   t->layer = width;
+  t->reach = 0.3 * CARRIED * width;
   for (int i = 0; i < n; i++) {
     t->X[n - 1 + i] = X[i];
     t->X[n - 1 - i] = -X[i];
   }
-  for (int i = 0; i < t->nodes; i++) {
-    const double left = i > 0 ? t->X[i] - t->X[i - 1] : 0.0;
-    const double right = i + 1 < t->nodes ? t->X[i + 1] - t->X[i] : 0.0;
-    t->volume[i] = 0.5 * (left + right);
-    t->limited[i] = !t->problem.resolve && right > width && fabs(t->X[i]) < 1.0;
-    // From CARRIED layers inside the edges on the faces move, after as many again with the fluid.
-    const double inside = (1.0 - fabs(t->X[i] + 0.5 * right)) / (CARRIED * width) - 1.0;
-    const double ramp = fmin(fmax(inside, 0.0), 1.0);
-    t->carried[i] = 2.0 * CARRIED * width < 0.7 ? ramp * ramp * (3.0 - 2.0 * ramp) : 0.0;
+  for (int i = 0; i + 1 < t->nodes; i++) {
+    lay_face(t, i);
+    t->volume[i] += t->face[i].X - t->X[i];
+    t->volume[i + 1] += t->X[i + 1] - t->face[i].X;
   }
-  t->reach = 0.3 * CARRIED * width;
   build_kernel(t, solver);
 }
 

@@ -4,107 +4,24 @@
 // upwind interpolation, and with van Albada's limited slope where a
 // front stands, a coarse cell is wider than the layers or the upwind node
 // lies in a cavity, so that fronts stay monotonic; faces that move with the fluid let none through.
-// Unknown of a node is its pressure or its void, whichever is not zero.
+// Unknown of a node is its pressure or its fluid's height: where one of them is free, the other is
+// the rupture pressure or the gap.
 #include "engine/film/ehl_transient.h"
 
 #include "engine/numeric/dense.h"
 #include "engine/numeric/legendre.h"
+#include "engine/numeric/root.h"
 
 #include <cblas.h>
 #include <math.h>
 #include <string.h>
-
-double sb_transient_height(const SbTransientState *s, int i) {
-  return s->H[i] - s->void_[i];
-}
-
-// Fluid height at the face between i and i + 1 for a transport to the side of `velocity`; the
-// derivatives go to nodes first .. first + 2.
-typedef struct {
-  double value;
-  int first;
-  double by[3];
-} Face;
-
-static Face face_height(const SbFilmTransient *t, const SbTransientState *s, int i,
-                        double velocity) {
-  const double at = 0.5 * (t->X[i] + t->X[i + 1]);
-  const bool forward = velocity >= 0.0;
-  const int C = forward ? i : i + 1;
-  const int D = forward ? i + 1 : i;
-  const int U = forward ? i - 1 : i + 2;
-  Face f = {0};
-  if (U < 0 || U >= t->nodes) {
-    f.first = forward ? i : i - 1;
-    f.by[C - f.first] = 0.5;
-    f.by[D - f.first] = 0.5;
-    f.value = 0.5 * (sb_transient_height(s, C) + sb_transient_height(s, D));
-    return f;
-  }
-  f.first = forward ? i - 1 : i;
-  if (!t->limited[i] && !t->steep[i] && !t->beside_cavity[i]) {
-    double bary[3];
-    sb_barycentric_weights(bary, &t->X[f.first], 3);
-    sb_barycentric_basis(f.by, at, &t->X[f.first], bary, 3);
-    for (int k = 0; k < 3; k++) {
-      f.value += f.by[k] * sb_transient_height(s, f.first + k);
-    }
-    return f;
-  }
-  const double u = t->X[U], c = t->X[C], d = t->X[D];
-  const double m_u = sb_transient_height(s, U);
-  const double m_c = sb_transient_height(s, C);
-  const double m_d = sb_transient_height(s, D);
-  // Van Albada's mean of the two slopes, smooth where both vanish.
-  const double a = (m_c - m_u) / (c - u);
-  const double b = (m_d - m_c) / (d - c);
-  const double e = 1e-3 * m_c / (d - c);
-  const double sum = a * a + b * b + 2.0 * e * e;
-  const double slope = ((a * a + e * e) * b + (b * b + e * e) * a) / sum;
-  const double by_a = (2.0 * a * b + b * b + e * e - 2.0 * a * slope) / sum;
-  const double by_b = (2.0 * a * b + a * a + e * e - 2.0 * b * slope) / sum;
-  f.value = m_c + slope * (at - c);
-  f.by[U - f.first] = -by_a / (c - u) * (at - c);
-  f.by[C - f.first] = 1.0 + (by_a / (c - u) - by_b / (d - c)) * (at - c);
-  f.by[D - f.first] = by_b / (d - c) * (at - c);
-  return f;
-}
-
-// Gap and pressure gradient at a face from `count` nodes beginning at `first`: the two beside it,
-// or four by a cubic in the full film.
-typedef struct {
-  int first, count;
-  double value[4], slope[4];
-} Stencil;
-
-static Stencil stencil(const SbFilmTransient *t, int face) {
-  Stencil out = {.first = face, .count = 2};
-  const double at = 0.5 * (t->X[face] + t->X[face + 1]);
-  if (face > 0 && face + 2 < t->nodes && !t->beside_cavity[face - 1] && !t->beside_cavity[face] &&
-      !t->beside_cavity[face + 1]) {
-    out.first = face - 1;
-    out.count = 4;
-  }
-  double bary[4];
-  sb_barycentric_weights(bary, &t->X[out.first], out.count);
-  sb_barycentric_basis(out.value, at, &t->X[out.first], bary, out.count);
-  sb_barycentric_slope(out.slope, at, &t->X[out.first], bary, out.count);
-  return out;
-}
-
-double sb_transient_flow(const SbFilmTransient *t, const SbTransientState *s, int i) {
-  const Face f = face_height(t, s, i, s->speed);
-  const double H = 0.5 * (s->H[i] + s->H[i + 1]);
-  return s->speed * f.value -
-         t->diffusion * H * H * H * (s->P[i + 1] - s->P[i]) / (t->X[i + 1] - t->X[i]);
-}
 
 void sb_transient_carry(double *out, const SbFilmTransient *t, const double *height, double way) {
   enum { SIDE = 3, FACES = 2 * SIDE };
   const int n = t->nodes;
   memcpy(out, height, (size_t)n * sizeof *out);
   int first = 0;
-  while (first < n && t->carried[first] == 0.0) {
+  while (first < n && t->face[first].carried == 0.0) {
     first++;
   }
   if (first == n || way == 0.0) {
@@ -115,12 +32,12 @@ void sb_transient_carry(double *out, const SbFilmTransient *t, const double *hei
   const int from = first - 2 * SIDE, to = n - 2 - from;
   double place[SB_TRANSIENT_NODES_MAX], integral[SB_TRANSIENT_NODES_MAX];
   for (int i = from; i <= to; i++) {
-    place[i] = 0.5 * (t->X[i] + t->X[i + 1]);
+    place[i] = t->face[i].X;
     integral[i] = i > from ? integral[i - 1] + t->volume[i] * height[i] : 0.0;
   }
   double before = integral[first - 1];
   for (int i = first; i <= n - 1 - first; i++) {
-    const double at = place[i] - t->carried[i] * way;
+    const double at = place[i] - t->face[i].carried * way;
     int k = i; // at lies between faces k and k + 1
     while (k > from + SIDE && place[k] > at) {
       k--;
@@ -138,109 +55,124 @@ void sb_transient_carry(double *out, const SbFilmTransient *t, const double *hei
     if (most > 6.0 * least) {
       // A front: Hermite's cubic with harmonic means for slopes rises throughout.
       const double *m = height + k;
+      const double end[] = {2.0 * m[0] * m[1] / (m[0] + m[1]), 2.0 * m[2] * m[1] / (m[2] + m[1])};
       const double h = t->volume[k + 1];
-      const double s = (at - place[k]) / h;
-      const double left = 2.0 * m[0] * m[1] / (m[0] + m[1]);
-      const double right = 2.0 * m[2] * m[1] / (m[2] + m[1]);
-      value =
-          integral[k] +
-          h * s * (left + s * (3.0 * m[1] - 2.0 * left - right + s * (left + right - 2.0 * m[1])));
+      double slope;
+      value = sb_hermite(&slope, (at - place[k]) / h, h, &integral[k], end);
     } else {
       const double *node = &place[k - SIDE + 1];
       double bary[FACES], basis[FACES];
       sb_barycentric_weights(bary, node, FACES);
       sb_barycentric_basis(basis, at, node, bary, FACES);
-      for (int j = 0; j < FACES; j++) {
-        value += basis[j] * integral[k - SIDE + 1 + j];
-      }
+      value = cblas_ddot(FACES, basis, 1, &integral[k - SIDE + 1], 1);
     }
     out[i] = (value - before) / t->volume[i];
     before = value;
   }
 }
 
-enum { BAND = 5 }; // derivatives of a row go to nodes i - 2 .. i + 2
-
-// A node's equation: residual and its derivatives to fluid heights, gaps and pressures.
-typedef struct {
-  double residual;
-  double by_m[BAND], by_H[BAND], by_P[BAND];
-} Row;
-
-static void add_face(Row *row, const SbFilmTransient *t, const SbTransientState *s,
-                     const SbTransientStep *step, int i, int face, double sign) {
-  const double velocity = s->speed - step->carried_rate * t->carried[face];
-  const Face f = face_height(t, s, face, velocity);
-  row->residual += sign * velocity * f.value;
-  for (int k = 0; k < 3; k++) {
-    const int place = f.first + k - i + 2;
-    if (f.by[k] != 0.0) {
-      row->by_m[place] += sign * velocity * f.by[k];
-    }
+// Height that the fluid goes through a face with, by van Albada's mean of the slopes between its
+// upstream nodes and across it, smooth where both vanish; derivatives into by_m. False where there
+// are no such nodes.
+static bool limited_height(double *height, SbTransientFace *f, const SbFilmTransient *t,
+                           const double *m, int i, bool back) {
+  const int C = back ? i + 1 : i;
+  const int D = back ? i : i + 1;
+  const int U = back ? i + 2 : i - 1;
+  if (U < 0 || U >= t->nodes) {
+    return false;
   }
-  const Stencil local = stencil(t, face);
-  const double g = t->diffusion;
-  double H = 0.0;
-  double slope = 0.0;
-  for (int k = 0; k < local.count; k++) {
-    H += local.value[k] * s->H[local.first + k];
-    slope += local.slope[k] * s->P[local.first + k];
+  const double u = t->X[U], c = t->X[C], d = t->X[D];
+  const double a = (m[C] - m[U]) / (c - u);
+  const double b = (m[D] - m[C]) / (d - c);
+  const double e = 1e-3 * m[C] / (d - c);
+  const double sum = a * a + b * b + 2.0 * e * e;
+  const double slope = ((a * a + e * e) * b + (b * b + e * e) * a) / sum;
+  const double by_a = (2.0 * a * b + b * b + e * e - 2.0 * a * slope) / sum;
+  const double by_b = (2.0 * a * b + a * a + e * e - 2.0 * b * slope) / sum;
+  memset(f->by_m, 0, sizeof f->by_m);
+  f->by_m[U - f->first] = -by_a / (c - u) * (f->X - c);
+  f->by_m[C - f->first] = 1.0 + (by_a / (c - u) - by_b / (d - c)) * (f->X - c);
+  f->by_m[D - f->first] = by_b / (d - c) * (f->X - c);
+  *height = m[C] + slope * (f->X - c);
+  return true;
+}
+
+// Flow through the face behind node i. Beside a cavity its gap and the slope of the pressure are
+// those of the two nodes, elsewhere of a cubic through four.
+static void flow_through(SbFilmTransient *t, const SbTransientState *s, int i) {
+  SbTransientFace *f = &t->face[i];
+  const double velocity = s->speed - t->carried_rate * f->carried;
+  const bool back = velocity < 0.0;
+  double height;
+  if (!f->monotonic || !limited_height(&height, f, t, s->m, i, back)) {
+    memcpy(f->by_m, f->upwind[back], sizeof f->by_m);
+    height = cblas_ddot(4, f->by_m, 1, s->m + f->first, 1);
   }
-  row->residual -= sign * g * H * H * H * slope;
-  for (int k = 0; k < local.count; k++) {
-    const int place = local.first + k - i + 2;
-    row->by_H[place] -= sign * 3.0 * g * H * H * slope * local.value[k];
-    row->by_P[place] -= sign * g * H * H * H * local.slope[k];
+  const bool beside = f->beside_cavity || (i > 0 && f[-1].beside_cavity) || f[1].beside_cavity;
+  const int at = i - f->first;
+  double two[4] = {0}, rise[4] = {0};
+  two[at] = two[at + 1] = 0.5;
+  rise[at + 1] = 1.0 / (t->X[i + 1] - t->X[i]);
+  rise[at] = -rise[at + 1];
+  const double *value = beside ? two : f->value, *slope = beside ? rise : f->slope;
+  const double H = cblas_ddot(4, value, 1, s->H + f->first, 1);
+  const double P_slope = cblas_ddot(4, slope, 1, s->P + f->first, 1);
+  f->flow = velocity * height - t->diffusion * H * H * H * P_slope;
+  for (int k = 0; k < 4; k++) {
+    f->by_m[k] *= velocity;
+    f->by_H[k] = -3.0 * t->diffusion * H * H * P_slope * value[k];
+    f->by_P[k] = -t->diffusion * H * H * H * slope[k];
   }
 }
 
-static Row equation(const SbFilmTransient *t, const SbTransientState *s,
-                    const SbTransientStep *step, int i) {
-  Row row = {0};
-  row.residual = t->volume[i] * step->c0 * sb_transient_height(s, i);
-  if (step->old != NULL) {
-    row.residual += t->volume[i] * step->old[i];
-  }
-  row.by_m[2] += t->volume[i] * step->c0;
-  add_face(&row, t, s, step, i, i, 1.0);
-  add_face(&row, t, s, step, i, i - 1, -1.0);
-  return row;
+// What a cell's content grows by beside the flows through its faces.
+static double residual(const SbFilmTransient *t, const SbTransientState *s, int i) {
+  return t->volume[i] * (t->c0 * s->m[i] + t->old[i]) + t->face[i].flow - t->face[i - 1].flow;
 }
 
 // Load above the ambient step less its target pi/2.
 static double load_excess(const SbFilmTransient *t, const SbTransientState *s) {
-  double sum = 0.0;
-  for (int i = 0; i < t->nodes; i++) {
-    sum += t->weight[i] * s->P[i];
-  }
-  const double left = t->middle + t->X[0], right = t->middle + t->X[t->nodes - 1];
-  return sum + t->inlet * left - t->outlet * right - 0.5 * M_PI;
+  const double left = t->scale.middle + t->X[0], right = t->scale.middle + t->X[t->nodes - 1];
+  return cblas_ddot(t->nodes, t->weight, 1, s->P, 1) + t->scale.inlet * left -
+         t->scale.outlet * right - 0.5 * M_PI;
 }
+
+enum { BAND = 5, MIDDLE = 2 }; // derivatives of a row go to nodes i - 2 .. i + 2
 
 // Fills the right-hand side and, if `whole`, the matrix for the present active set; H is linearised
 // about. Rows are divided by the scale that they had with the matrix.
-static void assemble(SbFilmTransient *t, const SbTransientState *s, const SbTransientStep *step,
-                     const double *elastic, bool whole) {
+static void assemble(SbFilmTransient *t, const SbTransientState *s, const double *elastic,
+                     bool whole) {
   const int n = t->nodes;
   const size_t order = (size_t)n - 1;
   for (int i = 1; i + 1 < n; i++) {
-    Row row = equation(t, s, step, i);
-    double right = row.residual;
+    double by_m[BAND] = {0}, by_H[BAND] = {0}, by_P[BAND] = {0};
+    by_m[MIDDLE] = t->volume[i] * t->c0;
+    for (int side = 0; side < 2; side++) {
+      const SbTransientFace *f = &t->face[i - side];
+      for (int k = 0; k < 4; k++) {
+        const int place = f->first + k - i + MIDDLE;
+        by_m[place] += side == 0 ? f->by_m[k] : -f->by_m[k];
+        by_H[place] += side == 0 ? f->by_H[k] : -f->by_H[k];
+        by_P[place] += side == 0 ? f->by_P[k] : -f->by_P[k];
+      }
+    }
+    double right = residual(t, s, i);
     double by_H0 = 0.0;
     double scale = 0.0;
     double *out = t->matrix + (size_t)(i - 1) * order;
     if (whole) {
       memset(out, 0, order * sizeof *out);
     }
-    for (int k = 0; k < BAND; k++) {
-      const int j = i + k - 2;
-      if (j < 0 || j >= n) {
-        continue;
-      }
-      const double by_gap = row.by_m[k] + row.by_H[k];
+    const int first = i < MIDDLE ? 0 : i - MIDDLE, last = i + MIDDLE < n ? i + MIDDLE : n - 1;
+    for (int j = first; j <= last; j++) {
+      const int k = j - i + MIDDLE;
+      // Where the film is full its gap is the fluid's height.
+      const double by_gap = by_H[k] + (s->cavity[j] ? 0.0 : by_m[k]);
       right += by_gap * (elastic[j] - s->H[j]);
       by_H0 += by_gap;
-      scale = fmax(scale, fmax(fabs(by_gap), fabs(row.by_P[k])));
+      scale = fmax(scale, fmax(fabs(by_m[k] + by_H[k]), fabs(by_P[k])));
       if (whole && by_gap != 0.0) {
         cblas_daxpy(n - 2, by_gap, t->kernel + (size_t)j * (size_t)n + 1, 1, out, 1);
       }
@@ -249,23 +181,12 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const SbTran
       t->right[i - 1] = right / t->row_scale[i];
       continue;
     }
-    for (int k = 0; k < BAND; k++) {
-      const int j = i + k - 2;
-      if (j >= 1 && j + 1 < n) {
-        out[j - 1] += row.by_P[k];
-      }
-    }
-    // A node in a cavity has its void for an unknown.
     for (int j = 1; j + 1 < n; j++) {
-      if (s->cavity[j]) {
-        const int k = j - i + 2;
-        out[j - 1] = k >= 0 && k < BAND ? -row.by_m[k] : 0.0;
-      }
+      const bool near = j >= first && j <= last;
+      const double own = !near ? 0.0 : s->cavity[j] ? by_m[j - i + MIDDLE] : by_P[j - i + MIDDLE];
+      out[j - 1] = (s->cavity[j] ? own : out[j - 1] + own) / scale;
     }
-    out[order - 1] = by_H0;
-    for (size_t j = 0; j < order; j++) {
-      out[j] /= scale;
-    }
+    out[order - 1] = by_H0 / scale;
     t->right[i - 1] = right / scale;
     t->row_scale[i] = scale;
   }
@@ -280,40 +201,35 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const SbTran
 }
 
 // Whether the last factors may serve again: the same cavity and nearly the same step.
-static bool factors_serve(const SbFilmTransient *t, const SbTransientState *s,
-                          const SbTransientStep *step) {
-  return t->factored && step->c0 > 0.0 && fabs(log(step->c0 / t->factored_c0)) < 0.3 &&
+static bool factors_serve(const SbFilmTransient *t, const SbTransientState *s) {
+  return fabs(log(t->c0 / t->factored_c0)) < 0.3 &&
          memcmp(t->factored_cavity, s->cavity, (size_t)t->nodes * sizeof(bool)) == 0;
 }
 
 // Largest error of the balance of mass between the contact's left edge and any node up to its right
 // one, over the larger of the flow's scale and the present flows. The surroundings hold so much
 // more liquid that rounding hides theirs.
-static double mass_error(const SbFilmTransient *t, const SbTransientState *s,
-                         const SbTransientStep *step) {
+static double mass_error(const SbFilmTransient *t, const SbTransientState *s) {
   double sum = 0.0;
   double largest = 0.0;
   double flow = t->flow;
   for (int i = 1; i + 1 < t->nodes; i++) {
     if (fabs(t->X[i]) < 1.0 + t->layer) {
-      sum += equation(t, s, step, i).residual;
+      sum += residual(t, s, i);
       largest = fmax(largest, fabs(sum));
-      flow = fmax(flow, fabs(sb_transient_flow(t, s, i)));
+      flow = fmax(flow, fabs(t->face[i].flow));
     }
   }
   return largest / flow;
 }
 
-// Switches nodes whose pressure or void has the wrong sign; returns their number.
+// Switches nodes with a negative pressure or with more fluid than the gap holds; their number.
 static int switch_nodes(const SbFilmTransient *t, SbTransientState *s) {
   int count = 0;
   for (int i = 1; i + 1 < t->nodes; i++) {
-    if (s->cavity[i] && s->void_[i] < 0.0) {
-      s->cavity[i] = false;
-      s->void_[i] = 0.0;
-      count++;
-    } else if (!s->cavity[i] && s->P[i] < 0.0) {
-      s->cavity[i] = true;
+    if (s->cavity[i] ? s->m[i] > s->H[i] : s->P[i] < 0.0) {
+      s->cavity[i] = !s->cavity[i];
+      s->m[i] = s->H[i];
       s->P[i] = 0.0;
       count++;
     }
@@ -321,40 +237,76 @@ static int switch_nodes(const SbFilmTransient *t, SbTransientState *s) {
   return count;
 }
 
-// A front that quadratic interpolation would undershoot, down to no film at all: steeper than the
-// gap of a dry contact or of the parabola on this mesh.
-static bool is_steep(const SbFilmTransient *t, const SbTransientState *s, int face) {
-  if (face < 1 || face + 2 >= t->nodes) {
-    return false;
-  }
+// What a front or a cavity makes of the scheme at a face. Quadratic interpolation would undershoot,
+// down to no film at all, a front steeper than the gap of a dry contact or of the parabola on this
+// mesh.
+static void choose_scheme(SbFilmTransient *t, const SbTransientState *s, int i) {
+  SbTransientFace *f = &t->face[i];
   double least = INFINITY;
   double most = 0.0;
-  for (int i = face - 1; i <= face + 2; i++) {
-    least = fmin(least, sb_transient_height(s, i));
-    most = fmax(most, sb_transient_height(s, i));
+  for (int k = 0; k < 4; k++) {
+    least = fmin(least, s->m[f->first + k]);
+    most = fmax(most, s->m[f->first + k]);
   }
-  return most > (t->problem.resolve ? 6.0 : 2.5) * least;
+  f->beside_cavity = s->cavity[i] || s->cavity[i + 1];
+  f->monotonic = f->limited || f->beside_cavity || most > (t->problem.resolve ? 6.0 : 2.5) * least;
 }
 
-SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTransientState *s,
-                             const SbTransientStep *step) {
+// Takes the step in t->right; no film may shrink below a fifth at once, *factor is the share taken.
+// Returns the largest relative change of the fluid's height, NAN where there is no step.
+static double take_step(double *factor, SbFilmTransient *t, SbTransientState *s,
+                        const double *elastic) {
+  const int n = t->nodes;
+  const double rise = -t->right[n - 2];
+  double *change = t->work[0], *wanted = t->work[1];
+  change[0] = change[n - 1] = 0.0;
+  for (int i = 0; i < n; i++) {
+    wanted[i] = elastic[i] + rise;
+    if (i > 0 && i + 1 < n) {
+      change[i] = s->cavity[i] ? 0.0 : -t->right[i - 1];
+    }
+  }
+  // New gap by the linear elastic relation.
+  cblas_dgemv(CblasRowMajor, CblasNoTrans, n, n, 1.0, t->kernel, n, change, 1, 1.0, wanted, 1);
+  *factor = 1.0;
+  for (int i = 0; i < n; i++) {
+    if (!isfinite(wanted[i])) {
+      return NAN;
+    }
+    if (wanted[i] < 0.2 * s->H[i]) {
+      *factor = fmin(*factor, 0.8 * s->H[i] / (s->H[i] - wanted[i]));
+    }
+  }
+  double largest = 0.0;
+  for (int i = 0; i < n; i++) {
+    const double before = s->m[i];
+    s->H[i] += *factor * (wanted[i] - s->H[i]);
+    s->P[i] += *factor * change[i];
+    s->m[i] = s->cavity[i] ? before - *factor * t->right[i - 1] : s->H[i];
+    largest = fmax(largest, fabs(s->m[i] - before) / fmax(fabs(s->m[i]), 1e-300));
+  }
+  s->H0 += *factor * rise;
+  return largest;
+}
+
+SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
   enum { ITERATIONS_MAX = 30 };
   const int n = t->nodes;
-  const int order = n - 1;
-  double *elastic = t->newton[0], *change = t->newton[1];
-  *trace = (SbTransientTrace){.mass_error = INFINITY, .load_error = INFINITY};
-  s->P[0] = t->inlet;
-  s->P[n - 1] = t->outlet;
-  bool done = false;
-  bool fresh = !factors_serve(t, s, step);
+  double elastic[SB_TRANSIENT_NODES_MAX];
+  SbFilmTransientResult *result = &t->result;
+  s->P[0] = t->scale.inlet;
+  s->P[n - 1] = t->scale.outlet;
+  bool fresh = !factors_serve(t, s);
   bool settled = false;
   double before_largest = INFINITY;
   double before_mass = INFINITY;
-  for (int iteration = 0; iteration < ITERATIONS_MAX && !done; iteration++) {
+  for (int iteration = 0; iteration < ITERATIONS_MAX; iteration++) {
     // The scheme follows the cavity at first only: with the active set it could go in circles.
     for (int i = 0; iteration < 3 && i + 1 < n; i++) {
-      t->beside_cavity[i] = s->cavity[i] || s->cavity[i + 1];
-      t->steep[i] = is_steep(t, s, i);
+      choose_scheme(t, s, i);
+    }
+    for (int i = 0; i + 1 < n; i++) {
+      flow_through(t, s, i);
     }
     // The gap of the pressure, unless the two agree to the rounding of deflections of size one: H
     // itself then carries more digits of a thin film.
@@ -370,68 +322,32 @@ SbStatus sb_transient_newton(SbTransientTrace *trace, SbFilmTransient *t, SbTran
       memcpy(elastic, s->H, (size_t)n * sizeof *elastic);
     }
     if (settled && agree) {
-      const double mass = mass_error(t, s, step);
-      done = mass < 1e-11 || (mass < 1e-10 && mass > 0.1 * before_mass) || before_largest < 1e-13;
-      if (done) {
-        break;
+      const double mass = mass_error(t, s);
+      if (mass < 1e-11 || (mass < 1e-10 && mass > 0.1 * before_mass) || before_largest < 1e-13) {
+        result->mass_error = fmax(result->mass_error, mass);
+        result->load_error = fmax(result->load_error, fabs(load_excess(t, s)) / (0.5 * M_PI));
+        return SB_OK;
       }
       before_mass = mass;
     }
-    assemble(t, s, step, elastic, fresh);
-    t->factored = sb_factor_solve(t->matrix, t->pivot, t->right, order, fresh);
-    if (!t->factored) {
-      return SB_ERROR_NOT_CONVERGED;
-    }
+    assemble(t, s, elastic, fresh);
     if (fresh) {
-      t->factored_c0 = step->c0;
+      t->factored_c0 = t->c0;
       memcpy(t->factored_cavity, s->cavity, (size_t)n * sizeof(bool));
     }
-    trace->iterations++;
-    // New gap by the linear elastic relation; no film may shrink below a fifth at once.
-    const double old_H0 = s->H0;
-    double *wanted = elastic; // reused
-    change[0] = change[n - 1] = 0.0;
-    for (int i = 1; i + 1 < n; i++) {
-      change[i] = s->cavity[i] ? 0.0 : -t->right[i - 1];
+    result->newton_iterations++;
+    double factor, largest = NAN;
+    if (sb_factor_solve(t->matrix, t->pivot, t->right, n - 1, fresh)) {
+      largest = take_step(&factor, t, s, elastic);
     }
-    cblas_dgemv(CblasRowMajor, CblasNoTrans, n, n, 1.0, t->kernel, n, change, 1, 1.0, wanted, 1);
-    double factor = 1.0;
-    for (int i = 0; i < n; i++) {
-      wanted[i] -= t->right[order - 1];
-      if (!isfinite(wanted[i])) {
-        return SB_ERROR_NOT_CONVERGED;
-      }
-      if (wanted[i] < 0.2 * s->H[i]) {
-        factor = fmin(factor, 0.8 * s->H[i] / (s->H[i] - wanted[i]));
-      }
+    if (isnan(largest)) {
+      break;
     }
-    double largest = 0.0;
-    for (int i = 0; i < n; i++) {
-      const double before = sb_transient_height(s, i);
-      s->H[i] += factor * (wanted[i] - s->H[i]);
-      s->P[i] += factor * change[i];
-      if (i > 0 && i + 1 < n && s->cavity[i]) {
-        s->void_[i] -= factor * t->right[i - 1];
-      }
-      const double after = sb_transient_height(s, i);
-      largest = fmax(largest, fabs(after - before) / fmax(fabs(after), 1e-300));
-    }
-    s->H0 = old_H0 - factor * t->right[order - 1];
     const int switched = switch_nodes(t, s);
     settled = factor == 1.0 && switched == 0 && largest < 1e-4;
     fresh = switched > 0 || factor < 1.0 || largest > 0.1 * before_largest || largest > 0.05;
     before_largest = largest;
   }
-  if (!done) {
-    t->factored = false;
-    return SB_ERROR_NOT_CONVERGED;
-  }
-  trace->mass_error = mass_error(t, s, step);
-  for (int i = 0; i < n; i++) {
-    if (!(s->H[i] > 0.0)) {
-      return SB_ERROR_NOT_CONVERGED;
-    }
-  }
-  trace->load_error = fabs(load_excess(t, s)) / (0.5 * M_PI);
-  return SB_OK;
+  t->factored_c0 = 0.0;
+  return SB_ERROR_NOT_CONVERGED;
 }

@@ -23,8 +23,7 @@
 #include "engine/film/film.h"
 
 typedef struct {
-  SbFilmProblem film; // sizes, load and speed at the start; tolerance of the film history; a
-                      // profile lent is that of every result
+  SbFilmProblem film; // sizes, load and speed at the start; tolerance of the film history
   double speed_scale; // greatest |speed| to come [m/s]: lays the mesh
   double rest_film;   // 0: start in the steady state of film.speed; else at rest, the contact
                       // parted by this film [m] and the surroundings full
@@ -32,16 +31,18 @@ typedef struct {
                       // contact; else for the mean film
 } SbFilmTransientProblem;
 
-// Counters and checks since the start.
+// The present film with its error estimates; counters and checks since the start.
 typedef struct {
-  size_t steps; // accepted
+  double film_min;     // [m]
+  double film_central; // at x = 0, or in the middle of a fitted body's contact [m]
+  double error_film_min, error_film_central; // relative; NaN: the companion failed
+  double error_time; // estimate, relative, of the film in the contact by the time steps
+  double error_mesh; // the same by the mesh: against the spectral steady film at speed_scale
+  size_t steps;      // accepted
   size_t newton_iterations;
   double load_error; // largest |integral of p - W| / W of any step
   double mass_error; // largest |d/dt content + outflow| of any step over the flow scale
-  double error_time; // estimate, relative, of the film in the contact by the time steps
-  double error_mesh; // the same by the mesh: against the spectral steady film at speed_scale
-  double error_film_min, error_film_central; // of the present figures; NaN: the companion failed
-} SbFilmTransientInfo;
+} SbFilmTransientResult;
 
 typedef struct SbFilmTransient SbFilmTransient;
 
@@ -56,14 +57,9 @@ void sb_film_transient_destroy(SbFilmTransient *transient);
 
 // Advances by `dt` > 0 [s], the speed going evenly from its present value to the given one, in as
 // many steps as the tolerance needs. SB_ERROR_NOT_CONVERGED: the state stands at the
-// last good time (see info). SB_ERROR_RANGE: nothing done. SB_ERROR_CANCELLED by the problem's
+// last good time. SB_ERROR_RANGE: nothing done. SB_ERROR_CANCELLED by the problem's
 // callback.
 SbStatus sb_film_transient_step(SbFilmTransient *transient, double dt, double speed,
                                 SbReport *report);
 
-// The present film in SI and in the seal's frame; film_flux is the film where the pressure is
-// greatest, flow that through x = 0, `solver` counts since the start.
-void sb_film_transient_result(SbFilm *out, const SbFilmTransient *transient);
-
-// Counters and checks.
-SbFilmTransientInfo sb_film_transient_info(const SbFilmTransient *transient);
+SbFilmTransientResult sb_film_transient_result(const SbFilmTransient *transient);

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "engine/contact/compliance.h"
-#include "engine/film/transient.h"
+#include "engine/film/ehl_transient.h"
 #include "engine/valve/sliding.h"
 
 static const double RADIUS = 0.75e-3, YOUNG = 2.5e6, NU = 0.49;
@@ -81,10 +81,14 @@ static void test_disc(void) {
     solve(film, &t.film);
     SbFilmTransient *transient = NULL;
     g_assert_cmpint(sb_film_transient_create(&transient, &t, NULL), ==, SB_OK);
-    sb_film_transient_result(other, transient);
-    g_assert_cmpfloat_with_epsilon(other->film_min / film->film_min, 1.0, 1e-3);
-    g_assert_cmpfloat_with_epsilon(other->film_central / film->film_central, 1.0, 2e-4);
-    g_assert_cmpfloat_with_epsilon(other->pressure_max / film->pressure_max, 1.0, 1e-4);
+    const SbFilmTransientResult result = sb_film_transient_result(transient);
+    g_assert_cmpfloat_with_epsilon(result.film_min / film->film_min, 1.0, 1e-3);
+    g_assert_cmpfloat_with_epsilon(result.film_central / film->film_central, 1.0, 2e-4);
+    double peak = 0.0;
+    for (int k = 0; k < transient->nodes; k++) {
+      peak = fmax(peak, transient->now.P[k] * transient->scale.pressure);
+    }
+    g_assert_cmpfloat_with_epsilon(peak / film->pressure_max, 1.0, 1e-4);
     g_assert_cmpfloat(film->solver.load_error, <, 1e-10);
     // The film presses on the contact of the dry disc.
     SbDryContact dry;

@@ -8,7 +8,6 @@
 // what the motion was solved with. From where a film fails its frames have none. Left out: the
 // land's edge under the contact and the step of the pressures themselves.
 #include <math.h>
-#include <stdlib.h>
 
 #include "engine/film/transient.h"
 #include "engine/valve/figures.h"
@@ -22,9 +21,8 @@ typedef struct {
   SbFilmTransient *film; // of the present stretch, NULL between stretches
   int chamber;           // of the stretch
   double central;        // last film [m], what the next stretch begins with
-  SbFilm *result;
-  size_t frame; // that it has come to
-  double error; // largest estimate of the least film
+  size_t frame;          // that it has come to
+  double error;          // largest estimate of the least film
 } History;
 
 static bool whole_contact(const SbFrame *frame, int seal) {
@@ -34,10 +32,10 @@ static bool whole_contact(const SbFrame *frame, int seal) {
 
 static void end_stretch(History *history) {
   if (history->film != NULL) {
-    const SbFilmTransientInfo info = sb_film_transient_info(history->film);
+    const SbFilmTransientResult result = sb_film_transient_result(history->film);
     SbSummary *summary = &history->run->summary;
-    summary->counters.film_steps += info.steps;
-    summary->counters.newton_iterations += info.newton_iterations;
+    summary->counters.film_steps += result.steps;
+    summary->counters.newton_iterations += result.newton_iterations;
   }
   sb_film_transient_destroy(history->film);
   history->film = NULL;
@@ -95,30 +93,26 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
     if (status != SB_OK) {
       return status;
     }
-    sb_film_transient_result(history->result, history->film);
-    history->central = history->result->film_central;
+    const SbFilmTransientResult result = sb_film_transient_result(history->film);
+    history->central = result.film_central;
     // Least film of the coarse setting: the companion's difference and the bend of what its spacing
     // does not know. Without the companion nothing is known.
-    const double least = history->result->solver.error_film_min;
+    const double least = result.error_film_min;
     history->error = isnan(least) ? INFINITY : fmax(history->error, least);
     SbSealFrame *out = &frame->seal[history->seal];
-    out->film_min = history->result->film_min;
-    out->film_central = history->result->film_central;
-    out->lambda = history->result->film_central / run->model.sigma;
+    out->film_min = result.film_min;
+    out->film_central = result.film_central;
+    out->lambda = result.film_central / run->model.sigma;
   }
   return SB_OK;
 }
 
 SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, SbReport *report) {
   SbStatus worst = SB_OK;
-  SbFilm *result = malloc(sizeof *result);
-  if (result == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a film");
-  }
   double error = 0;
   run->summary.error_film_history = 0;
   for (int seal = 0; seal < SB_SEAL_COUNT && worst != SB_ERROR_CANCELLED; seal++) {
-    History history = {.run = run, .seal = seal, .central = run->model.rest_film, .result = result};
+    History history = {.run = run, .seal = seal, .central = run->model.rest_film};
     for (size_t i = 0; i < count; i++) {
       history.speed_scale = fmax(history.speed_scale, fabs(run->frames[i].velocity));
     }
@@ -156,7 +150,6 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
       }
     }
   }
-  free(result);
   run->summary.error_film_history = isnan(error) ? NAN : run->summary.error_film_history;
   return worst;
 }
