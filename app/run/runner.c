@@ -206,7 +206,8 @@ void sb_runner_destroy(SbRunner *runner) {
 }
 
 unsigned sb_runner_submit(SbRunner *runner, const SbModel *model, unsigned views) {
-  SbModel *copy = sb_model_copy(model);
+  SbModel *copy;
+  (void)sb_model_copy(&copy, model);
   pthread_mutex_lock(&runner->mutex);
   atomic_store_explicit(&runner->void_up_to, runner->ticket, memory_order_relaxed);
   unsigned ticket = ++runner->ticket;

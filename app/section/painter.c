@@ -117,7 +117,7 @@ static void prepare(SbSectionPainter *painter, const SbChartRun *run) {
   painter->section = sb_section_create(run->model, &limits);
   painter->limits = limits;
   sb_model_destroy(painter->model);
-  painter->model = sb_model_copy(run->model);
+  (void)sb_model_copy(&painter->model, run->model);
 }
 
 // The list through GL onto the context; false if GL cannot (size).

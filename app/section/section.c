@@ -14,7 +14,7 @@ static const double RIGHT_ROOM = 0.26;
 
 SbSection *sb_section_create(const SbModel *model, const SbSectionLimits *limits) {
   SbSection *section = g_new0(SbSection, 1);
-  section->model = sb_model_copy(model);
+  (void)sb_model_copy(&section->model, model);
   section->limits = *limits;
   section->text = sb_text_create();
   double top = 2 * sb_model_value(model, SB_P_BORE_DIAMETER);

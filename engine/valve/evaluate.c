@@ -1,7 +1,6 @@
 // Answers by a run whose plan has no more than the figures need; see the header.
 #include "engine/valve/evaluate.h"
 
-#include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
 
 #include <math.h>
@@ -11,8 +10,7 @@ struct SbEvaluator {
   SbRun *run;    // NULL before the first question
   bool answered; // the run is that of the last question
   SbReport why;  // there was none
-  SbModel model; // of the question; with its plan too large for a stack
-  SbPlan plan;
+  SbPlan plan;   // of the question; too large for a stack
 };
 
 SbStatus sb_evaluator_create(SbEvaluator **out, SbReport *report) {
@@ -31,19 +29,17 @@ void sb_evaluator_destroy(SbEvaluator *evaluator) {
 }
 
 static SbStatus prepare(SbEvaluator *evaluator, const SbQuestion *question, SbReport *report) {
-  SbModel *model = &evaluator->model;
   SbPlan *plan = &evaluator->plan;
-  SbStatus status = sb_model_override(model, question->base, question->override,
-                                      question->override_count, report);
-  if (status != SB_OK) {
-    return status;
+  SbModel *model;
+  SbStatus status =
+      sb_model_derive(&model, question->base, question->override, question->override_count, report);
+  if (status == SB_OK) {
+    sb_plan_figures(plan, model, question->figure, question->figure_count);
+    status = evaluator->run == NULL ? sb_run_create(&evaluator->run, model, plan, report)
+                                    : sb_run_renew(evaluator->run, model, plan, report);
   }
-  sb_plan_figures(plan, model, question->figure, question->figure_count);
-  if (model->motion == SB_MODEL_MOTION_QUASI_STATIC && !plan->film_history) {
-    model->frames = 2; // its frames are looked at and nothing else; the least that there may be
-  }
-  return evaluator->run == NULL ? sb_run_create(&evaluator->run, model, plan, report)
-                                : sb_run_renew(evaluator->run, model, plan, report);
+  sb_model_destroy(model);
+  return status;
 }
 
 SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestion *question,

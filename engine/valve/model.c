@@ -413,18 +413,15 @@ void sb_model_data_release(const SbModelData *data) {
   }
 }
 
-void sb_model_keep(SbModel *kept, const SbModel *model) {
-  const SbModelData *before = kept->data;
-  if (model->data != NULL) {
+// Hands a model that was made over, holding its data, or none.
+static SbStatus hand_over(SbModel **out, SbModel *model, SbStatus status) {
+  if (status != SB_OK) {
+    free(model);
+  } else if (model->data != NULL) {
     atomic_fetch_add_explicit(holders(model->data), 1, memory_order_relaxed);
   }
-  memcpy(kept, model, sizeof *kept); // with its padding: copies are compared as bytes
-  sb_model_data_release(before);
-}
-
-void sb_model_clear(SbModel *kept) {
-  sb_model_data_release(kept->data);
-  *kept = (SbModel){0};
+  *out = status == SB_OK ? model : NULL;
+  return status;
 }
 
 // ---- From outside
@@ -432,51 +429,31 @@ void sb_model_clear(SbModel *kept) {
 SbStatus sb_model_create(SbModel **out, const SbParams *params, const SbModelData *data,
                          const SbLimits *limits, SbProblems *problems) {
   SbModel *model = calloc(1, sizeof *model);
-  SbStatus status =
-      model != NULL ? complete(model, params, data, limits, problems) : SB_ERROR_MEMORY;
-  *out = status == SB_OK ? sb_model_copy(model) : NULL; // which holds the data
-  free(model);
-  return status == SB_OK && *out == NULL ? SB_ERROR_MEMORY : status;
+  return hand_over(out, model,
+                   model != NULL ? complete(model, params, data, limits, problems)
+                                 : SB_ERROR_MEMORY);
 }
 
 SbStatus sb_model_derive(SbModel **out, const SbModel *base, const SbOverride *overrides,
                          size_t count, SbReport *report) {
-  *out = sb_model_copy(base);
-  if (*out == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a model");
-  }
-  SbStatus status = sb_model_override(*out, *out, overrides, count, report);
-  if (status != SB_OK) {
-    sb_model_destroy(*out);
-    *out = NULL;
-  }
-  return status;
+  SbModel *model = calloc(1, sizeof *model);
+  return hand_over(out, model,
+                   model != NULL ? sb_model_override(model, base, overrides, count, report)
+                                 : sb_fail(report, SB_ERROR_MEMORY, "no memory for a model"));
 }
 
-SbStatus sb_model_create_resting(SbModel **out, const SbModel *base) {
-  SbModel *model = *out = sb_model_copy(base);
-  if (model == NULL) {
-    return SB_ERROR_MEMORY;
-  }
-  model->fit = SB_FIT_KARASZKIEWICZ;
-  model->film = SB_FILM_THESIS;
-  model->motion = SB_MODEL_MOTION_QUASI_STATIC;
-  model->frames = 2; // the least that there may be
-  return SB_OK;
-}
-
-SbModel *sb_model_copy(const SbModel *model) {
+SbStatus sb_model_copy(SbModel **out, const SbModel *model) {
   SbModel *copy = calloc(1, sizeof *copy);
   if (copy != NULL) {
-    sb_model_keep(copy, model);
+    memcpy(copy, model, sizeof *copy); // with its padding: copies are compared as bytes
   }
-  return copy;
+  return hand_over(out, copy, copy != NULL ? SB_OK : SB_ERROR_MEMORY);
 }
 
-void sb_model_destroy(SbModel *model) {
+void sb_model_destroy(const SbModel *model) {
   if (model != NULL) {
-    sb_model_clear(model);
-    free(model);
+    sb_model_data_release(model->data);
+    free((SbModel *)model);
   }
 }
 

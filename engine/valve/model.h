@@ -49,11 +49,6 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
 SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *overrides,
                            size_t count, SbReport *report);
 
-// Copies a model into `kept`, which holds what it refers to until the next keep or clear. `kept` is
-// all zero before the first.
-void sb_model_keep(SbModel *kept, const SbModel *model);
-void sb_model_clear(SbModel *kept);
-
 // Pressures on the two sides of a seal [Pa gauge]: canister side (left, x < 0) and ambient side
 // (right).
 typedef struct {

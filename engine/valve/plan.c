@@ -267,7 +267,9 @@ static SbPlan basis(const SbModel *model, bool life) {
   bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   return (SbPlan){.ring = model->fit == SB_FIT_RING,
                   .reynolds = model->film == SB_FILM_REYNOLDS || coupled,
-                  .life = life && model->life_actuations > 1};
+                  .life = life && model->life_actuations > 1,
+                  .inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC,
+                  .frames = model->frames};
 }
 
 void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size_t count) {
@@ -294,17 +296,24 @@ void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size
     out->motion = out->motion || out->seal[seal] == SB_DEPTH_WHOLE ||
                   (out->seal[seal] > SB_DEPTH_FITMENT && finds_speed(model));
   }
+  if (!out->inertia && !out->film_history) {
+    out->frames = 2; // they are looked at and nothing else; the least that there may be
+  }
   if (out->motion) {
     out->seal[SB_OUTER] = out->seal[SB_INNER] = SB_DEPTH_WHOLE;
   }
 }
 
 void sb_plan_make(SbPlan *out, const SbModel *model) {
-  sb_plan_wished(out, model, &(SbPlanWishes){model->views, model->studies, true});
+  sb_plan_wished(out, model, &(SbPlanWishes){model->views, model->studies, true, false});
 }
 
 void sb_plan_wished(SbPlan *out, const SbModel *model, const SbPlanWishes *wishes) {
   *out = basis(model, wishes->life);
+  if (wishes->resting) {
+    out->inertia = false;
+    out->frames = 2;
+  }
   out->seal[SB_OUTER] = out->seal[SB_INNER] = SB_DEPTH_WHOLE;
   out->film_laws = out->motion = true;
   if (model->motion == SB_MODEL_MOTION_RIG) {

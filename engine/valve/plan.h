@@ -42,6 +42,8 @@ typedef struct {
   SbSealDepth seal[SB_SEAL_COUNT];
   bool film_laws; // films by the laws that are not the model's own, too
   bool motion;    // the cycle is run; needs both seals' whole depth
+  bool inertia;   // with it; else by the balance of forces at every instant
+  int frames;     // evenly spaced over the cycle
   bool life;      // and the actuations after the first
 } SbPlan;
 
@@ -49,6 +51,7 @@ typedef struct {
 typedef struct {
   unsigned views, studies; // bit masks of SbView and 1 << SbStudyKind
   bool life;               // the actuations after the first, where the model has any
+  bool resting;            // a picture at rest will do: the balance of forces, few frames
 } SbPlanWishes;
 
 // Plans `model` for all figures and what is wished; sb_plan_make(): what its own parameters ask

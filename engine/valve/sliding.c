@@ -330,77 +330,82 @@ static SbStatus solve_coupled(const Task *task, SbSliding *out, SbReport *report
   return status != SB_OK ? status : at_rest;
 }
 
-// Greenwood and Tripp's share of the area in real contact at film over roughness `lambda`.
-static SbStatus gt_share(double *share, const SbModel *model, double lambda) {
+// Greenwood and Tripp's share of the area in real contact at film over roughness `lambda`, for
+// asperities of the product `gt_product`.
+static SbStatus gt_share(double *share, double gt_product, double lambda) {
   SbGtIntegrals integrals;
   SbStatus status = sb_gt_integrals(&integrals, lambda, NULL);
-  *share = status == SB_OK ? sb_gt_area_share(model->gt_product, integrals.F2) : NAN;
+  *share = status == SB_OK ? sb_gt_area_share(gt_product, integrals.F2) : NAN;
   return status;
 }
 
 // Share of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
 // film, Persson's on the net pressure that the solids must carry.
-static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *model, int seal,
-                          SbWarnings *warnings, SbReport *report) {
+static SbStatus real_area(SbSliding *out, double *rest_share, const Task *task, double roughness,
+                          SbReport *report) {
+  const SbModel *model = task->model;
+  const double gt_product = roughness * model->gt_product;
   if (model->surface == SB_ROUGH_PERSSON) {
     SbSpectrum spectrum;
-    SbStatus status = sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
-                                                  model->gt_product, report);
+    SbStatus status =
+        sb_spectrum_from_asperities(&spectrum, roughness * model->sigma,
+                                    roughness * model->sigma_over_beta, gt_product, report);
     if (status != SB_OK) {
       return status;
     }
     double pressure = fmax(out->load_net, 0) / (out->contact_right - out->contact_left);
-    out->area_share =
-        sb_persson_area_share(&spectrum, spectrum.q1, model->seal[seal].reduced_modulus, pressure);
-    *rest_share = out->area_share;
+    out->area_share = *rest_share = sb_persson_area_share(
+        &spectrum, spectrum.q1, model->seal[task->seal].reduced_modulus, pressure);
     sb_warn(
-        warnings, "persson-shear-strength", "friction.shear_strength",
+        task->warnings, "persson-shear-strength", "friction.shear_strength",
         "Persson's real contact is %.0f %% here; the default shear strength was set with Greenwood "
         "and Tripp's few per cent",
         100 * out->area_share);
     return SB_OK;
   }
-  SbStatus status = gt_share(rest_share, model, 0);
+  SbStatus status = gt_share(rest_share, gt_product, 0);
   // Without a film there is no real contact under it either.
   out->area_share = NAN;
   if (status == SB_OK && !isnan(out->lambda)) {
-    status = gt_share(&out->area_share, model, out->lambda);
+    status = gt_share(&out->area_share, gt_product, out->lambda);
   }
   if (status != SB_OK) {
     return sb_fail(report, status, "no asperity contact of the %s seal at λ = %g",
-                   sb_seal_name(seal), out->lambda);
+                   sb_seal_name(task->seal), out->lambda);
   }
   if (out->area_share > 0.3) {
     sb_warn(
-        warnings, "real-area-large", "surface.gt_product",
+        task->warnings, "real-area-large", "surface.gt_product",
         "asperities of the %s seal touch on %.0f %% of the area: Greenwood and Tripp's asperities "
         "are no longer independent",
-        sb_seal_name(seal), 100 * out->area_share);
+        sb_seal_name(task->seal), 100 * out->area_share);
   }
   return SB_OK;
 }
 
 // What the surfaces make of a contact whose load, width and film are known: real area, friction.
-static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, double speed,
-                              SbWarnings *warnings, SbReport *report) {
+static SbStatus rough_contact(SbSliding *out, const Task *task, double roughness,
+                              SbReport *report) {
+  const SbModel *model = task->model;
   double area = (out->contact_right - out->contact_left) * model->bore_circumference;
   double rest_share = NAN;
-  out->lambda = out->film_central / model->sigma;
-  SbStatus status = real_area(out, &rest_share, model, seal, warnings, report);
+  out->lambda = out->film_central / (roughness * model->sigma);
+  SbStatus status = real_area(out, &rest_share, task, roughness, report);
   if (status != SB_OK) {
     return status;
   }
   out->boundary_area = model->shear_strength * out->area_share * area;
   out->boundary_load = model->load_coefficient * out->load;
   out->viscous = 0;
-  if (speed != 0) {
+  if (task->speed != 0) {
     // fmin() would take a film that was not computed for the greatest shear.
-    double shear = model->viscosity * fabs(speed) / out->film_central;
+    double shear = model->viscosity * fabs(task->speed) / out->film_central;
     shear = shear > model->shear_strength ? model->shear_strength : shear;
     out->viscous = shear * (1 - out->area_share) * area;
     if (out->central_error > 0) {
       double thinner;
-      (void)gt_share(&thinner, model, out->lambda * (1 - out->central_error));
+      (void)gt_share(&thinner, roughness * model->gt_product,
+                     out->lambda * (1 - out->central_error));
       bool persson = model->surface == SB_ROUGH_PERSSON;
       out->friction_error =
           out->central_error * out->viscous +
@@ -433,12 +438,12 @@ static SbStatus opened_by_fluid(SbSliding *out, SbStatus status, const SbReport 
   return SB_OK;
 }
 
-SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, double speed,
-                              SbWarnings *warnings, SbReport *report) {
-  sb_warn_about(warnings, about(seal));
-  SbStatus status = state->touches ? rough_contact(state, model, seal, speed, warnings, report)
-                                   : sb_succeed(report);
-  sb_warn_about(warnings, NULL);
+SbStatus sb_sliding_resurface(SbSliding *state, const SbSlidingTask *task, double roughness,
+                              SbReport *report) {
+  sb_warn_about(task->warnings, about(task->seal));
+  SbStatus status =
+      state->touches ? rough_contact(state, task, roughness, report) : sb_succeed(report);
+  sb_warn_about(task->warnings, NULL);
   return status;
 }
 
@@ -534,8 +539,7 @@ static SbStatus solve(const Task *task, SbSliding *out, SbReport *report) {
     status = film != SB_OK ? film : status;
   }
 
-  SbStatus area_status =
-      rough_contact(out, task->model, seal, task->speed, warnings, status == SB_OK ? report : NULL);
+  SbStatus area_status = rough_contact(out, task, 1, status == SB_OK ? report : NULL);
   if (area_status != SB_OK) {
     return area_status;
   }

@@ -98,10 +98,10 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
                             const SbModel *model, int seal, SbSealPressure pressure,
                             SbWarnings *warnings, SbReport *report);
 
-// Gives a solved state the surface of `model` (roughness, shear strength): neither fitment nor film
-// depend on it, so that nothing is solved again.
-SbStatus sb_sliding_resurface(SbSliding *state, const SbModel *model, int seal, double speed,
-                              SbWarnings *warnings, SbReport *report);
+// Gives the solved state of a task a surface `roughness` times as rough as the model's: neither
+// fitment nor film depend on it, so that nothing is solved again.
+SbStatus sb_sliding_resurface(SbSliding *state, const SbSlidingTask *task, double roughness,
+                              SbReport *report);
 
 // The film problem of a seal in a run: net load, reduced modulus, radius, pressures (thesis
 // sections 5.2 and 7.1; entrainment is half the sliding speed). `model` of the problem is left at

@@ -176,15 +176,11 @@ SbStatus sb_model_create(SbModel **out, const SbParams *params, const SbModelDat
 SbStatus sb_model_derive(SbModel **out, const SbModel *base, const SbOverride *overrides,
                          size_t count, SbReport *report);
 
-// The same valve by closed forms and the balance of forces, for a picture of it at rest.
-// SB_ERROR_MEMORY.
-SbStatus sb_model_create_resting(SbModel **out, const SbModel *base);
-
-// One of its own for somebody who keeps it (another thread, a drawing); NULL without memory.
-SbModel *sb_model_copy(const SbModel *model);
+// One of its own for somebody who keeps it (another thread, a drawing). SB_ERROR_MEMORY.
+SbStatus sb_model_copy(SbModel **out, const SbModel *model);
 
 // Takes NULL.
-void sb_model_destroy(SbModel *model);
+void sb_model_destroy(const SbModel *model);
 
 // Whether two are of the same values and data; NULL is like NULL only.
 bool sb_model_same(const SbModel *a, const SbModel *b);

@@ -317,11 +317,40 @@ static void test_threads(void) {
   }
 }
 
+// The model that answered is that of its parameters, whatever the plan spares; a valve that is only
+// looked at keeps its own, too.
+static void test_model(void) {
+  static const SbOverride hand[] = {{SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC},
+                                    {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND}};
+  SbModel base = base_model();
+  SbModel *derived;
+  SbEvaluator *evaluator = evaluator_new();
+  const int peak = sb_figure_find("cycle.force_peak_N");
+  double value;
+  ask(&value, evaluator, &base, NULL, 0, &peak, 1, SB_OK);
+  g_assert_true(sb_model_same(sb_evaluator_model(evaluator), &base));
+  g_assert_cmpint(sb_model_derive(&derived, &base, hand, G_N_ELEMENTS(hand), NULL), ==, SB_OK);
+  SbPlan plan;
+  SbRun *run;
+  size_t count;
+  sb_plan_wished(&plan, derived, &(SbPlanWishes){.resting = true});
+  g_assert_cmpint(sb_run_create(&run, derived, &plan, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, NULL), ==, SB_OK);
+  g_assert_true(sb_model_same(sb_run_model(run), derived));
+  const SbFrame *frame = sb_run_frames(run, &count);
+  g_assert_cmpuint(count, <, 20);
+  g_assert_cmpfloat(frame[0].displacement, ==, 0);
+  sb_run_destroy(run);
+  sb_model_destroy(derived);
+  sb_evaluator_destroy(evaluator);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/evaluate/bits", test_bits);
   g_test_add_func("/evaluate/ring", test_ring);
   g_test_add_func("/evaluate/least", test_least);
+  g_test_add_func("/evaluate/model", test_model);
   g_test_add_func("/evaluate/refused", test_refused);
   g_test_add_func("/evaluate/cancel", test_cancel);
   g_test_add_func("/evaluate/threads", test_threads);

@@ -20,11 +20,14 @@ struct SbSectionSource {
 
 // Whatever the models of the scene are, closed forms do for a picture at rest.
 static SbRun *make_rest(const SbModel *model) {
+  static const SbOverride closed[] = {{SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ},
+                                      {SB_P_MODELS_FILM, SB_FILM_THESIS}};
   g_autoptr(SbModel) quick = NULL;
-  if (sb_model_create_resting(&quick, model) != SB_OK) {
+  if (sb_model_derive(&quick, model, closed, G_N_ELEMENTS(closed), NULL) != SB_OK) {
     return NULL;
   }
-  const SbPlanWishes wishes = {.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION};
+  const SbPlanWishes wishes = {.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION,
+                               .resting = true};
   SbPlan plan;
   sb_plan_wished(&plan, quick, &wishes);
   SbRun *run = NULL;

@@ -33,7 +33,7 @@ SbStudyJob *sb_study_job_start(SbStudyKind kind, const SbModel *model, void (*do
                                void *data) {
   SbStudyJob *job = g_new0(SbStudyJob, 1);
   job->kind = kind;
-  job->model = sb_model_copy(model);
+  (void)sb_model_copy(&job->model, model);
   job->study = g_new(SbStudy, 1);
   sb_worker_start(&job->worker, "study", work, job, done, data);
   return job;

@@ -176,7 +176,7 @@ static void compute(Studies *studies) {
   const SbDocument *document = sb_session_document(studies->session);
   studies->asked = chosen(studies);
   sb_model_destroy(studies->asked_model);
-  studies->asked_model = sb_model_copy(model);
+  (void)sb_model_copy(&studies->asked_model, model);
   g_free(studies->asked_hash);
   g_free(studies->asked_scene);
   studies->asked_hash = sb_document_sha256(document);

@@ -19,7 +19,7 @@ static size_t frames_at_most(const SbModel *model, const SbPlan *plan) {
   if (model->motion == SB_MODEL_MOTION_RIG) {
     return sb_rig_samples(&model->rig);
   }
-  size_t one = (size_t)model->frames + SB_RUN_EVENT_FRAMES + 2 * (size_t)model->cycles;
+  size_t one = (size_t)plan->frames + SB_RUN_EVENT_FRAMES + 2 * (size_t)model->cycles;
   return plan->life && model->life_shown > 1 ? 2 * one : one;
 }
 
@@ -48,15 +48,17 @@ static void free_results(SbRun *run) {
   }
   sb_run_bodies_destroy(run->bodies);
   free(run->life);
-  sb_model_clear(&run->model);
+  sb_model_destroy(run->model);
 }
 
 SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbReport *report) {
-  SbModel kept = {0};
-  sb_model_keep(&kept, model); // what the run held may be this model's
+  SbModel *kept; // before what the run held goes: it may be this model
+  if (sb_model_copy(&kept, model) != SB_OK) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a run");
+  }
   free_results(run);
   memset((char *)run + offsetof(SbRun, model), 0, sizeof *run - offsetof(SbRun, model));
-  memcpy(&run->model, &kept, sizeof kept); // with its padding
+  run->model = kept;
   run->plan = *plan;
   run->speed = model->speed;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
@@ -72,7 +74,7 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
   run->life = plan->life ? calloc((size_t)model->life_actuations, sizeof *run->life) : NULL;
   if (run->frames == NULL || (plan->life && run->life == NULL)) {
     return sb_fail_parameter(report, SB_ERROR_MEMORY, "output.frames", "no memory for %d frames",
-                             model->frames);
+                             plan->frames);
   }
   return sb_succeed(report);
 }
@@ -130,12 +132,11 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     return SB_OK;
   }
   SbReport own = {0};
-  bool inertia = run->model.motion != SB_MODEL_MOTION_QUASI_STATIC;
   SbStatus status =
-      inertia ? sb_run_dynamic(run, hooks, &own) : sb_run_quasi_static(run, hooks, &own);
+      run->plan.inertia ? sb_run_dynamic(run, hooks, &own) : sb_run_quasi_static(run, hooks, &own);
   summary->returned = summary->returns;
   // The balance of energies is a check of the motion: open, it is not solved.
-  if (status == SB_OK && summary->energy.closure > fmax(1e-6, run->model.motion_tolerance)) {
+  if (status == SB_OK && summary->energy.closure > fmax(1e-6, run->model->motion_tolerance)) {
     status = sb_fail(&own, SB_ERROR_NOT_CONVERGED, "the energies' balance is open by %.2g",
                      summary->energy.closure);
   }
@@ -147,7 +148,7 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
         &own, status, cause.parameter,
         "motion (%s), both seals, stage %s, stem at %.4g mm, %.4g s: %.110s; kept: "
         "the seals, the frames and stages before",
-        names[run->model.motion], sb_stage_name((SbStage)last->stage), 1e3 * last->displacement,
+        names[run->model->motion], sb_stage_name((SbStage)last->stage), 1e3 * last->displacement,
         last->time, cause.text);
   }
   if (status != SB_OK) {
@@ -169,9 +170,9 @@ static bool usable(SbStatus status) {
 // What the whole motion says of the valve beside its own figures.
 static void conclude(SbRun *run, bool moved) {
   SbSummary *summary = &run->summary;
-  const SbDriveChoice drive = run->model.drive;
-  summary->leakage_carried = run->model.actuations * summary->seal[SB_OUTER].leakage_per_stroke;
-  summary->leakage_net = run->model.actuations * summary->leakage_per_cycle;
+  const SbDriveChoice drive = run->model->drive;
+  summary->leakage_carried = run->model->actuations * summary->seal[SB_OUTER].leakage_per_stroke;
+  summary->leakage_net = run->model->actuations * summary->leakage_per_cycle;
   if (summary->stage[SB_STAGE_B].reached) {
     summary->force_breakaway = summary->stage[SB_STAGE_B].force;
   }
@@ -192,7 +193,7 @@ static void conclude(SbRun *run, bool moved) {
 // The valve's actuation: sliding states, shapes to draw, then the motion.
 static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbPlan *plan = &run->plan;
-  sb_model_warn_storage(&run->model, &run->summary.warnings);
+  sb_model_warn_storage(run->model, &run->summary.warnings);
   // Solved rings take seconds, everything else before the frames milliseconds.
   run->before_frames = plan->section_fields ? 0.95 : plan->ring ? 0.9 : 0;
   run->after_frames = run->life != NULL ? 0.9 * (1 - run->before_frames) : 0;
@@ -232,7 +233,7 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   hooks = hooks != NULL ? hooks : &none;
   memset(summary, 0, sizeof *summary); // too large for a temporary on a small stack
   sb_figures_clear(summary);
-  sb_figures_of_model(summary, &run->model);
+  sb_figures_of_model(summary, run->model);
   run->lacks[0] = '\0';
   sb_run_publish(run, 0);
   run->before_frames = run->after_frames = 0;
@@ -240,10 +241,10 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   run->held = 0;
   SbReport local = {0};
   report = report != NULL ? report : &local;
-  SbStatus status = run->model.motion == SB_MODEL_MOTION_RIG ? sb_run_rig(run, hooks, report)
-                                                             : execute_valve(run, hooks, report);
+  SbStatus status = run->model->motion == SB_MODEL_MOTION_RIG ? sb_run_rig(run, hooks, report)
+                                                              : execute_valve(run, hooks, report);
   sb_run_give_reasons(run, status, report);
-  sb_verdict_fill(summary, &run->model);
+  sb_verdict_fill(summary, run->model);
   summary->frames = atomic_load_explicit(&run->published, memory_order_relaxed);
   if (hooks->progress != NULL && status == SB_OK) {
     hooks->progress(hooks->data, 1, summary->frames);
@@ -283,7 +284,7 @@ const SbSummary *sb_run_summary(const SbRun *run) {
 }
 
 const SbModel *sb_run_model(const SbRun *run) {
-  return &run->model;
+  return run->model;
 }
 
 const SbPlan *sb_run_plan(const SbRun *run) {

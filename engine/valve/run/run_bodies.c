@@ -74,7 +74,7 @@ SbStatus sb_run_bodies_create(SbRun *run, SbReport *report) {
   }
   SbAssembly *assembly = &bodies->assembly;
   SbMobility mobility;
-  SbStatus status = sb_assembly_valve(assembly, &run->model.parts, report);
+  SbStatus status = sb_assembly_valve(assembly, &run->model->parts, report);
   status = status != SB_OK ? status
                            : sb_assembly_mobility(&mobility, assembly, 1, &bodies->work, report);
   status = status != SB_OK ? status
@@ -86,7 +86,7 @@ SbStatus sb_run_bodies_create(SbRun *run, SbReport *report) {
   bodies->reaction = malloc(run->capacity * assembly->joints * sizeof *bodies->reaction);
   if (bodies->reaction == NULL) {
     return sb_fail_parameter(report, SB_ERROR_MEMORY, "output.frames",
-                             "no memory for the joints' reactions of %d frames", run->model.frames);
+                             "no memory for the joints' reactions of %d frames", run->plan.frames);
   }
   bodies->mass = bodies->tangent.mass;
   summary->joint_error = 0;

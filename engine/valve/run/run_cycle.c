@@ -8,7 +8,7 @@
 // Time at platen position X of a segment: the platen moves at constant speed, up and back.
 static double time_of(const SbRun *run, const SbCycleSegment *segment, double X) {
   double top = run->cycle.platen_top;
-  return (segment->platen > 0 ? X : 2 * top - X) / run->model.speed;
+  return (segment->platen > 0 ? X : 2 * top - X) / run->model->speed;
 }
 
 static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *segment, double X,
@@ -24,14 +24,14 @@ static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *seg
       .displacement = s,
       .platen = X,
       .force = sb_cycle_force(cycle, X, s),
-      .pressure_force = run->model.pressure_force,
+      .pressure_force = run->model->pressure_force,
       .stop_force = stop_force,
-      .chamber_pressure = sb_model_seal_pressure(&run->model, SB_OUTER, chamber).left,
+      .chamber_pressure = sb_model_seal_pressure(run->model, SB_OUTER, chamber).left,
       .stage = (uint8_t)segment->stage,
       .chamber = (uint8_t)chamber,
   };
   if (segment->mode == SB_CYCLE_SLIP && segment->platen1 != segment->platen0) {
-    out->velocity = segment->platen * run->model.speed * sb_cycle_stem_rate(cycle, segment, s);
+    out->velocity = segment->platen * run->model->speed * sb_cycle_stem_rate(cycle, segment, s);
   }
   double total = sb_cycle_friction(cycle, chamber, direction, s);
   double sign = direction == SB_CYCLE_IN ? 1 : -1;
@@ -57,8 +57,8 @@ static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *seg
 // Evenly spaced frames, and one at the end of every segment so that corners are sharp.
 static SbStatus emit_frames(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbCycle *cycle = &run->cycle;
-  const double speed = run->model.speed, duration = 2 * cycle->platen_top / speed;
-  size_t total = (size_t)run->model.frames;
+  const double speed = run->model->speed, duration = 2 * cycle->platen_top / speed;
+  size_t total = (size_t)run->plan.frames;
   size_t next = 0;  // evenly spaced frame to come
   size_t count = 0; // frames written
   for (size_t i = 0; i < cycle->count; i++) {
@@ -111,7 +111,7 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   // Here the stem keeps its film where it stops (cycle.h). Held at the stop for longer it would
   // not.
   if (summary->returns && summary->stage[SB_STAGE_D].reached) {
-    double held = sb_cycle_least_return(cycle, run->model.stroke, SB_CHAMBER_OPEN, true);
+    double held = sb_cycle_least_return(cycle, run->model->stroke, SB_CHAMBER_OPEN, true);
     if (held < 0) {
       sb_warn(&summary->warnings, "static-hold", "friction.static_ratio",
               "the stem returns because it keeps its film at the stop; after a rest there static "
@@ -125,7 +125,7 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   summary->force_peak = 0;
   for (const SbCycleSegment *at = cycle->segment; at < cycle->segment + cycle->count; at++) {
     const SbSliding *outer = &cycle->states.state[SB_OUTER][at->chamber][at->direction];
-    net += sb_leak_stroke(run->model.bore_diameter, outer->film_central, at->stem1 - at->stem0);
+    net += sb_leak_stroke(run->model->bore_diameter, outer->film_central, at->stem1 - at->stem0);
     summary->force_peak = fmax(summary->force_peak, sb_cycle_force(cycle, at->platen1, at->stem1));
   }
   summary->leakage_per_cycle = sb_run_cycle_leakage(summary, net, summary->returns);

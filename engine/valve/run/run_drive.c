@@ -21,7 +21,7 @@ static void set_machine(SbDynamicsModel *out, const SbModel *model) {
 }
 
 void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run) {
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   SbDrive *drive = &out->drive;
   const SbModelSeries *measured = sb_model_measured(model);
   drive->cycles = model->cycles;
@@ -91,7 +91,7 @@ static size_t highest_row(const SbModelSeries *series) {
 // A stem that pressure and spring alone push back: the time of the whole way under the least net
 // force, and half as long again.
 static double free_return_time(const SbRun *run) {
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   double least = sb_cycle_least_return(&run->cycle, model->stroke, SB_CHAMBER_OPEN, true) +
                  model->spring_preload;
   double force = fmax(least, 1e-3 * (model->pressure_force + 1e-3));
@@ -99,7 +99,7 @@ static double free_return_time(const SbRun *run) {
 }
 
 SbDriveTimes sb_drive_times(const SbRun *run) {
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   const SbModelSeries *measured = sb_model_measured(model);
   double rise = model->rise_time, hold = model->hold_time, once;
   switch (model->drive) {

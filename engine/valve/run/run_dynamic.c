@@ -55,7 +55,7 @@ static void leak(Recorder *r, double time, double x, double pressure) {
   double way = x - r->leak_from;
   double speed = time > r->leak_since ? way / (time - r->leak_since) : r->run->speed;
   double film = outer->film_central * film_at(r->run, speed);
-  double volume = sb_leak_stroke(r->run->model.bore_diameter, film, way);
+  double volume = sb_leak_stroke(r->run->model->bore_diameter, film, way);
   r->leak += volume;
   r->carried += fabs(volume);
   r->leak_from = x;
@@ -79,7 +79,7 @@ static SbFrame *add_frame(Recorder *r) {
       .velocity = sample.speed,
       .platen = sample.drive_position,
       .force = sample.drive_force,
-      .pressure_force = r->run->model.pressure_force,
+      .pressure_force = r->run->model->pressure_force,
       .stop_force = sample.stop_force[SB_END_STOP] - sample.stop_force[SB_REST_STOP],
       .spring_force = -sample.spring_force,
       .chamber_pressure = pressure,
@@ -171,7 +171,7 @@ static void valve_event(const SbMotionEvent *event, void *user) {
     sb_dynamics_sample(r->motion, &sample, NULL);
     leak(r, sample.time, sample.position, sb_valve_chamber_pressure(valve, sample.extra));
     double edge = valve->edge[event->index];
-    if (valve->touches && edge == r->run->model.land_edge && event->sign > 0 &&
+    if (valve->touches && edge == r->run->model->land_edge && event->sign > 0 &&
         r->stage == SB_STAGE_B) {
       mark(r, SB_STAGE_C, event);
     } else if (valve->touches && edge == valve->edge_closed && event->sign < 0 &&
@@ -228,7 +228,7 @@ static SbStatus run_motion(Recorder *r, SbDynamics *motion, const SbDynamicsMode
   r->turn = times.turn;
   sb_dynamics_listen(motion, valve_event, r);
   double drive = times.duration;
-  size_t total = (size_t)run->model.frames;
+  size_t total = (size_t)run->plan.frames;
   if (!r->frames) {
     total = WITHOUT_FRAMES;
   }
@@ -311,17 +311,17 @@ static SbStatus estimate_error(SbRun *run, const Recorder *fine, const SbDynamic
   }
   SbDynamicsEnergy other;
   sb_dynamics_sample(&motion, NULL, &other);
-  double share = 0.5 * fmax(1, run->model.motion_tolerance * 10 / model.tolerance);
+  double share = 0.5 * fmax(1, run->model->motion_tolerance * 10 / model.tolerance);
   *force = relative(fine->force_peak, coarse.force_peak, fine->force_peak);
   for (int stage = 0; stage < SB_STAGE_COUNT; stage++) {
     *force = fmax(*force, relative(fine->force[stage], coarse.force[stage], fine->force_peak));
   }
   if (isfinite(fine->return_least) && isfinite(coarse.return_least)) {
     *force = fmax(*force, relative(fine->return_least, coarse.return_least,
-                                   fmax(fine->force_peak, run->model.pressure_force)));
+                                   fmax(fine->force_peak, run->model->pressure_force)));
   }
-  *force = fmax(share * *force, run->model.motion_tolerance);
-  *work = fmax(run->model.motion_tolerance,
+  *force = fmax(share * *force, run->model->motion_tolerance);
+  *work = fmax(run->model->motion_tolerance,
                share * fmax(relative(energy->drive, other.drive, energy->largest),
                             relative(energy->friction, other.friction, energy->largest)));
   return SB_OK;
@@ -368,8 +368,8 @@ SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRu
   if (*speed == 0 && recorder.home > recorder.time[SB_STAGE_E]) {
     *speed = recorder.place[SB_STAGE_E] / (recorder.home - recorder.time[SB_STAGE_E]);
   }
-  if (*speed == 0 && *slips && run->model.drive == SB_MODEL_DRIVE_SINUSOID) {
-    *speed = 4 * run->model.amplitude * run->model.frequency;
+  if (*speed == 0 && *slips && run->model->drive == SB_MODEL_DRIVE_SINUSOID) {
+    *speed = 4 * run->model->amplitude * run->model->frequency;
   }
   return status;
 }
@@ -386,13 +386,13 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     return status;
   }
   summary->force_return_min =
-      sb_cycle_least_return(&run->cycle, run->model.stroke, SB_CHAMBER_OPEN, true) +
-      run->model.spring_preload;
-  if (run->model.stribeck_speed > 0) {
+      sb_cycle_least_return(&run->cycle, run->model->stroke, SB_CHAMBER_OPEN, true) +
+      run->model->spring_preload;
+  if (run->model->stribeck_speed > 0) {
     // Slow sliding rubs nearly as rest does, on both seals.
     summary->force_return_min = fmin(
-        summary->force_return_min,
-        sb_cycle_least_return(&run->cycle, 0, SB_CHAMBER_CLOSED, true) + run->model.spring_preload);
+        summary->force_return_min, sb_cycle_least_return(&run->cycle, 0, SB_CHAMBER_CLOSED, true) +
+                                       run->model->spring_preload);
   }
   SbDynamics motion = {0};
   Recorder recorder = {.run = run, .valve = &valve, .frames = true};
@@ -409,15 +409,16 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   summary->force_peak = recorder.force_peak;
   // What a fast return's viscous friction takes, beyond that at the films' speed.
   summary->force_return_min = fmin(summary->force_return_min, recorder.return_least);
-  summary->returns = status == SB_OK && fabs(last->displacement) < 1e-6 * run->model.stroke;
+  summary->returns = status == SB_OK && fabs(last->displacement) < 1e-6 * run->model->stroke;
   // Films alike on both ways leave nothing but rounding.
   double net = fabs(recorder.leak) <= 1e-12 * recorder.carried ? 0 : recorder.leak;
-  bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * run->model.stroke;
+  bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * run->model->stroke;
   summary->leakage_per_cycle = sb_run_cycle_leakage(summary, net, back);
   sb_run_fill_motion(summary, &energy, &counters);
   // Work over less than the rounding of places is none: a stem that is pushed and does not move.
-  double pushed = fmax(recorder.force_peak, run->model.pressure_force + run->model.spring_preload);
-  if (energy.largest < 1e-12 * pushed * run->model.stroke) {
+  double pushed =
+      fmax(recorder.force_peak, run->model->pressure_force + run->model->spring_preload);
+  if (energy.largest < 1e-12 * pushed * run->model->stroke) {
     summary->energy.closure = 0;
   }
   summary->counters.newton_iterations += (size_t)counters.newton_iterations;

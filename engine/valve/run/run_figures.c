@@ -15,8 +15,8 @@ static double film_by(SbRun *run, int seal, const SbSliding *state, SbFilmModel 
   SbFilm *film = run->plan.film_laws ? calloc(1, sizeof *film) : NULL;
   double central = NAN;
   if (film != NULL && state->touches && state->load_net > 0) {
-    SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, SB_CHAMBER_AT_REST);
-    sb_sliding_film_problem(&problem, &run->model, seal, pressure, state->load_net, run->speed);
+    SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, SB_CHAMBER_AT_REST);
+    sb_sliding_film_problem(&problem, run->model, seal, pressure, state->load_net, run->speed);
     problem.model = film_model;
     run->summary.counters.reynolds_solves += film_model == SB_FILM_REYNOLDS;
     SbReport report = {0};
@@ -49,7 +49,7 @@ static bool presses(const SbRun *run, int seal) {
 // Leak at rest under the pressure that the rubber itself exerts on the bore (net of the fluid's
 // step).
 static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   const SbSliding *state = &run->cycle.states.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   SbSealPressure pressure = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
   SbSpectrum spectrum;
@@ -137,7 +137,7 @@ static void summarise_seal(SbRun *run, int seal) {
   out->film_karaszkiewicz = film_by(run, seal, state, SB_FILM_KARASZKIEWICZ);
   out->film_thesis = film_by(run, seal, state, SB_FILM_THESIS);
   out->film_asymptotic = film_by(run, seal, state, SB_FILM_ASYMPTOTIC);
-  out->film_reynolds = run->model.asperities == SB_MODEL_ASPERITIES_COUPLED
+  out->film_reynolds = run->model->asperities == SB_MODEL_ASPERITIES_COUPLED
                            ? film_by(run, seal, state, SB_FILM_REYNOLDS)
                            : state->film_reynolds;
   out->real_area_share = state->area_share;
@@ -150,7 +150,7 @@ static void summarise_seal(SbRun *run, int seal) {
   double friction = sb_sliding_friction(state);
   out->coefficient_of_friction = state->load > 0 ? friction / state->load : NAN;
   out->leakage_per_stroke =
-      sb_leak_stroke(run->model.bore_diameter, state->film_central, run->model.stroke);
+      sb_leak_stroke(run->model->bore_diameter, state->film_central, run->model->stroke);
   if (run->plan.seal[seal] >= SB_DEPTH_LEAK) {
     static_leak(run, seal, out);
   }
@@ -214,7 +214,7 @@ static void give(SbSummary *summary, int seal, const Reason *reasons, size_t cou
 
 void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   SbSummary *summary = &run->summary;
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   const SbLife *life = &summary->life;
   const bool rig = model->motion == SB_MODEL_MOTION_RIG, well = status == SB_OK;
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;

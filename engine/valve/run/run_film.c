@@ -47,10 +47,10 @@ static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *h
   const SbRun *run = history->run;
   const SbSliding *state = &run->cycle.states.state[history->seal][chamber][SB_CYCLE_IN];
   const SbSealPressure pressure =
-      sb_model_seal_pressure(&run->model, history->seal, (SbChamber)chamber);
+      sb_model_seal_pressure(run->model, history->seal, (SbChamber)chamber);
   SbFilmTransientProblem problem = {.speed_scale = history->speed_scale,
                                     .rest_film = history->central};
-  sb_sliding_film_problem(&problem.film, &run->model, history->seal, pressure, state->load_net, 0);
+  sb_sliding_film_problem(&problem.film, run->model, history->seal, pressure, state->load_net, 0);
   const SbRunSurface *surface = &run->surface[history->seal][chamber];
   if (state->film_fitted && surface->known) {
     problem.film.compliance = &surface->compliance;
@@ -62,7 +62,7 @@ static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *h
 
   // A front in the middle of the contact is smeared over a few hundredths of it; finer costs more
   // than a drawing gains.
-  problem.film.tolerance = fmax(run->model.tolerance, 3e-3);
+  problem.film.tolerance = fmax(run->model->tolerance, 3e-3);
   history->chamber = chamber;
   return sb_film_transient_create(&history->film, &problem, report);
 }
@@ -102,7 +102,7 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
     SbSealFrame *out = &frame->seal[history->seal];
     out->film_min = result.film_min;
     out->film_central = result.film_central;
-    out->lambda = result.film_central / run->model.sigma;
+    out->lambda = result.film_central / run->model->sigma;
   }
   return SB_OK;
 }
@@ -112,7 +112,7 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
   double error = 0;
   run->summary.error_film_history = 0;
   for (int seal = 0; seal < SB_SEAL_COUNT && worst != SB_ERROR_CANCELLED; seal++) {
-    History history = {.run = run, .seal = seal, .central = run->model.rest_film};
+    History history = {.run = run, .seal = seal, .central = run->model->rest_film};
     for (size_t i = 0; i < count; i++) {
       history.speed_scale = fmax(history.speed_scale, fabs(run->frames[i].velocity));
     }

@@ -16,19 +16,19 @@
 #include <math.h>
 #include <string.h>
 
-// Gives the model and its solved sliding states a surface `factor` times as rough.
+// Gives the solved sliding states a surface `factor` times as rough as the model's.
 static SbStatus resurface(SbRun *run, double factor, SbReport *report) {
   enum { STATES = SB_CYCLE_CHAMBERS * SB_CYCLE_DIRECTIONS }; // of a seal
-  SbModel *model = &run->model;
-  model->gt_product *= factor;
-  model->sigma *= factor;
-  model->sigma_over_beta *= factor;
   SbStatus status = SB_OK;
   SbSliding *state = &run->cycle.states.state[0][0][0];
   for (int i = 0; i < SB_SEAL_COUNT * STATES && status == SB_OK; i++) {
-    double speed = i % SB_CYCLE_DIRECTIONS == SB_CYCLE_IN ? run->speed : -run->speed;
-    status =
-        sb_sliding_resurface(&state[i], model, i / STATES, speed, &run->summary.warnings, report);
+    const SbSlidingTask task = {
+        .model = run->model,
+        .seal = i / STATES,
+        .speed = i % SB_CYCLE_DIRECTIONS == SB_CYCLE_IN ? run->speed : -run->speed,
+        .warnings = &run->summary.warnings,
+    };
+    status = sb_sliding_resurface(&state[i], &task, factor, report);
   }
   return status;
 }
@@ -37,17 +37,15 @@ static SbStatus resurface(SbRun *run, double factor, SbReport *report) {
 // the first, the surface is not.
 static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const SbRunHooks *hooks,
                         SbReport *report) {
-  one->model = run->model;
   one->cycle = run->cycle;
-  one->cycle.states.model = &one->model;
   // Reactions are for frames, and only those of the actuation shown are kept.
-  one->plan.bodies = run->plan.bodies && n + 1 == run->model.life_shown;
+  one->plan.bodies = run->plan.bodies && n + 1 == run->model->life_shown;
   one->speed = run->speed;
   one->film_exponent = run->film_exponent;
   memset(&one->summary, 0, sizeof one->summary);
   sb_figures_clear(&one->summary);
   sb_run_publish(one, 0);
-  SbStatus status = resurface(one, roughness / run->model.running_in.start, report);
+  SbStatus status = resurface(one, roughness / run->model->running_in.start, report);
   if (status == SB_OK) {
     const SbRunHooks quiet = {NULL, hooks->cancelled, hooks->data};
     SbReport own = {0};
@@ -72,7 +70,7 @@ static SbLifeActuation yield_of(const SbRun *run, double roughness) {
       .roughness = roughness,
       .lambda = outer->lambda,
       .leakage = summary->leakage_per_cycle,
-      .carried = sb_leak_stroke(run->model.bore_diameter, outer->film_central, run->model.stroke),
+      .carried = sb_leak_stroke(run->model->bore_diameter, outer->film_central, run->model->stroke),
       .force_peak = summary->force_peak,
       .force_breakaway = slip->reached ? slip->force : NAN,
       .force_return = summary->force_return_min,
@@ -123,7 +121,7 @@ static void fill_figures(SbSummary *summary, const SbLifeActuation *each, long c
 }
 
 SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   const SbRunningIn *law = &model->running_in;
   const long count = model->life_actuations;
   const size_t shown = atomic_load_explicit(&run->published, memory_order_relaxed);

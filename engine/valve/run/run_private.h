@@ -51,8 +51,8 @@ struct SbRun {
   // Kept from one model to the next; what follows is one execution's.
   SbSlidingMemory *memory[SB_SEAL_COUNT];
   SbFrame *frames;
-  size_t room; // of the array
-  SbModel model;
+  size_t room;          // of the array
+  const SbModel *model; // its own
   SbPlan plan;
   size_t capacity; // frames at most
   SbCycle cycle;   // its states serve every motion model

@@ -50,7 +50,7 @@ static void mark_stages(SbRun *run, const SbMotionEvent *slip, size_t count) {
   if (slip->time < 0) {
     return;
   }
-  size_t before = (size_t)fmin(floor(slip->time * run->model.rig.rate), (double)(count - 1));
+  size_t before = (size_t)fmin(floor(slip->time * run->model->rig.rate), (double)(count - 1));
   run->summary.stage[SB_STAGE_B] =
       (SbStageMark){true, slip->time, slip->position, slip->drive_force, before};
   run->frames[before].on_event = 1;
@@ -63,14 +63,14 @@ static void mark_stages(SbRun *run, const SbMotionEvent *slip, size_t count) {
 // Marks the peaks of the signal and takes the coefficients from them.
 static SbStatus find_peaks(SbRun *run, const double *force, size_t count, SbReport *report) {
   SbRigSummary *out = &run->summary.rig;
-  const SbRig *rig = &run->model.rig;
+  const SbRig *rig = &run->model->rig;
   size_t most = count / 2 + 1;
   size_t *peak = malloc(most * sizeof *peak);
   if (peak == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the peaks");
   }
   SbStatus status = sb_rig_coefficients(&out->of, force, count, rig->rate, rig->load,
-                                        run->model.rig_prominence, peak, most, NULL);
+                                        run->model->rig_prominence, peak, most, NULL);
   out->found = status == SB_OK;
   size_t marked = out->found ? out->of.peaks + 1 : 0;
   for (size_t i = 0; i < marked; i++) {
@@ -90,7 +90,7 @@ static SbStatus find_peaks(SbRun *run, const double *force, size_t count, SbRepo
 
 // What the surface model of the valve says of the rig.
 static void compare_contact(SbRun *run) {
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   const SbSealModel *ring = &model->seal[SB_OUTER];
   SbGtIntegrals integrals;
   SbRigSummary *out = &run->summary.rig;
@@ -110,7 +110,7 @@ static void compare_contact(SbRun *run) {
 
 SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
-  const SbRig *rig = &run->model.rig;
+  const SbRig *rig = &run->model->rig;
   run->before_frames = 1; // all frames appear at once
   Record r = {.run = run, .hooks = hooks, .force = malloc(run->capacity * sizeof(double))};
   if (r.force == NULL) {

@@ -54,7 +54,7 @@ static uint32_t slot(int seal, int index) {
 static int edge_of(const SbRun *run, double s) {
   double begin = run->edge_begin;
   double end = run->edge_end;
-  double edge = begin + s - run->model.land_edge;
+  double edge = begin + s - run->model->land_edge;
   if (!(end > begin) || edge < begin) {
     return -1;
   }
@@ -159,7 +159,7 @@ static SbStatus drag(Task *task, double force) {
   SbRingLoad load = *sb_ring_load(task->ring);
   load.use_bore_traction = true;
   double width = at.contact_right - at.contact_left;
-  double rate = 1 / (task->run->model.bore_circumference * width), shear = 0, borne = 0;
+  double rate = 1 / (task->run->model->bore_circumference * width), shear = 0, borne = 0;
   bool goes_on = at.touching;
   SbStatus status = SB_OK;
   for (size_t i = 0; i < sizeof shares / sizeof *shares && goes_on && status == SB_OK; i++) {
@@ -222,7 +222,7 @@ static double clear_of(const SbSealShape *free_ring, double height, const SbRing
 // is free.
 static SbStatus solve_edge(Task *task) {
   SbRun *run = task->run;
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   const SbRingLoad fitted = task->load;
   task->load.bore_radius += model->seal[task->seal].section_diameter;
   task->load.pressure_left = task->load.pressure_right = 0;
@@ -252,7 +252,7 @@ static SbStatus solve_edge(Task *task) {
 // All shapes of a seal that a chamber state needs.
 static SbStatus solve_chamber(SbRun *run, int seal, int chamber, const SbRunHooks *hooks,
                               SbReport *report) {
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   SbFitProblem problem;
   SbSealPressure pressure = sb_model_seal_pressure(model, seal, (SbChamber)chamber);
   sb_model_fit_problem(&problem, model, seal, pressure.left - pressure.right);

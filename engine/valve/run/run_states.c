@@ -24,9 +24,9 @@
 enum { OUTSIDE_POINTS = 60, PROFILE_POINTS = SB_FIT_PROFILE_MAX + 2 * OUTSIDE_POINTS };
 
 int sb_run_first_alike(const SbRun *run, int seal, int chamber) {
-  SbSealPressure p = sb_model_seal_pressure(&run->model, seal, (SbChamber)chamber);
+  SbSealPressure p = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber);
   for (int c = 0; c < chamber; c++) {
-    SbSealPressure q = sb_model_seal_pressure(&run->model, seal, (SbChamber)c);
+    SbSealPressure q = sb_model_seal_pressure(run->model, seal, (SbChamber)c);
     if (run->cycle.states.state[seal][c][SB_CYCLE_IN].touches && p.left == q.left &&
         p.right == q.right) {
       return c;
@@ -82,14 +82,14 @@ static void asperity_pressure(const SbModel *model, int seal, const double *film
 static SbStatus make_profile(SbRun *run, int seal, int chamber, int motion, const SbSliding *state,
                              SbReport *report) {
   SbRunProfile *profile = &run->profile[profile_slot(seal, chamber, motion)];
-  const SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, (SbChamber)chamber);
+  const SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber);
   const SbFit *fit = sb_sliding_fit(run->memory[seal]);
   const SbFilm *film = sb_sliding_film(run->memory[seal]);
-  bool coupled = run->model.asperities == SB_MODEL_ASPERITIES_COUPLED;
-  bool solved = (coupled || run->model.film == SB_FILM_REYNOLDS) && state->film_central > 0;
+  bool coupled = run->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  bool solved = (coupled || run->model->film == SB_FILM_REYNOLDS) && state->film_central > 0;
   bool fitted = state->touches && isfinite(state->load);
-  bool own_pressure = run->model.fit == SB_FIT_DISC || run->model.fit == SB_FIT_DISC_THESIS ||
-                      run->model.fit == SB_FIT_RING;
+  bool own_pressure = run->model->fit == SB_FIT_DISC || run->model->fit == SB_FIT_DISC_THESIS ||
+                      run->model->fit == SB_FIT_RING;
   // No film on the fitted body: the half-plane's is scaled from its contact to the fitted one.
   const bool scaled = solved && own_pressure && !state->film_fitted;
   size_t capacity = solved ? film->points : (size_t)PROFILE_POINTS, n = 0;
@@ -109,7 +109,7 @@ static SbStatus make_profile(SbRun *run, int seal, int chamber, int motion, cons
       h[n] = film->film[n];
     }
   } else if (fitted) {
-    double scale = a * a / run->model.seal[seal].radius;
+    double scale = a * a / run->model->seal[seal].radius;
     for (int i = -OUTSIDE_POINTS; i <= OUTSIDE_POINTS; i++) {
       double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
       for (size_t k = 0; i == 0 && k < fit->profile_count; k++) {
@@ -126,8 +126,8 @@ static SbStatus make_profile(SbRun *run, int seal, int chamber, int motion, cons
   }
   if (solved && coupled) {
     memcpy(asperities, film->asperity_pressure, n * sizeof *asperities);
-  } else if (fitted && run->model.surface == SB_ROUGH_GREENWOOD_TRIPP) {
-    asperity_pressure(&run->model, seal, h, asperities, n);
+  } else if (fitted && run->model->surface == SB_ROUGH_GREENWOOD_TRIPP) {
+    asperity_pressure(run->model, seal, h, asperities, n);
   }
   free(profile->data);
   profile->data = x;
@@ -137,7 +137,7 @@ static SbStatus make_profile(SbRun *run, int seal, int chamber, int motion, cons
       .pressure = p,
       .film = h,
       .asperity_pressure = asperities,
-      .model = solved && !scaled ? "reynolds" : sb_fit_model_name(run->model.fit),
+      .model = solved && !scaled ? "reynolds" : sb_fit_model_name(run->model->fit),
   };
   run->summary.counters.profile_evaluations++;
   return SB_OK;
@@ -169,7 +169,7 @@ static void report_failure(SbRun *run, int seal, int chamber, int motion, const 
                            SbSealPressure pressure, SbReport *report) {
   static const char *const stages[] = {"A to C", "C to F", "F to A"};
   static const char *const ways[] = {"in-stroke", "return", "at rest"};
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   bool fitted = sb_sliding_fit(run->memory[seal])->solver.converged;
   bool complete = isfinite(sb_sliding_friction(state));
   char solver[64], place[96], cause[128];
@@ -209,7 +209,7 @@ double sb_run_error_friction(const SbRun *run) {
 double sb_run_error_work(const SbRun *run) {
   double peak = run->summary.force_peak;
   // Static friction works only over the way that the machine yields before the stem slips.
-  double yields = fmin(1, peak / (run->model.stiffness * run->model.stroke));
+  double yields = fmin(1, peak / (run->model->stiffness * run->model->stroke));
   return peak > 0 ? SB_SEAL_COUNT * (run->friction_error + yields * run->static_error) / peak : 0;
 }
 
@@ -217,7 +217,7 @@ double sb_run_error_work(const SbRun *run) {
 // what there is all the same.
 static SbStatus solve_state(SbRun *run, int seal, int chamber, int motion, SbReport *report) {
   SbSummary *summary = &run->summary;
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   SbSlidingMemory *memory = run->memory[seal];
   SbSealPressure pressure = sb_model_seal_pressure(model, seal, (SbChamber)chamber);
   double speed = motion == SB_CYCLE_IN ? run->speed : motion == SB_RUN_REST ? 0 : -run->speed;
@@ -265,7 +265,7 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   summary->error_load = summary->error_width = 0;
   run->lacks[0] = '\0';
   run->friction_error = run->static_error = 0;
-  run->cycle.states.model = &run->model;
+  run->cycle.states.model = run->model;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     sb_sliding_memory_poll(run->memory[seal], hooks->cancelled, hooks->data);
     // At least what the figures are taken from is unknown until it is solved.
@@ -299,7 +299,7 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
 void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber chamber,
                          int direction, bool moving, double s) {
   const SbSliding *state = &run->cycle.states.state[seal][chamber][direction];
-  SbSealPressure pressure = sb_model_seal_pressure(&run->model, seal, chamber);
+  SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, chamber);
   double width_share;
   double load_share;
   sb_cycle_land_share(&run->cycle, seal, chamber, direction, s, &width_share, &load_share);
@@ -348,11 +348,13 @@ static double exponent(SbFilmModel film) {
 
 // Speed of the same valve with closed forms, for a run of solved rings.
 static SbStatus proxy_speed(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
-  SbModel model = run->model;
-  model.fit = SB_FIT_KARASZKIEWICZ;
-  model.film = SB_FILM_THESIS;
-  SbRun *proxy;
-  SbStatus status = sb_run_create(&proxy, &model, &run->plan, report);
+  static const SbOverride closed[] = {{SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ},
+                                      {SB_P_MODELS_FILM, SB_FILM_THESIS}};
+  SbModel *model;
+  SbRun *proxy = NULL;
+  SbStatus status = sb_model_derive(&model, run->model, closed, 2, report);
+  status = status == SB_OK ? sb_run_create(&proxy, model, &run->plan, report) : status;
+  sb_model_destroy(model);
   if (status != SB_OK) {
     return status;
   }
@@ -360,19 +362,18 @@ static SbStatus proxy_speed(SbRun *run, const SbRunHooks *hooks, SbReport *repor
   plan->ring = plan->section_fields = plan->profiles = plan->film_history = false;
   status = sb_run_solve_states(proxy, hooks, report);
   run->speed = proxy->speed;
-  run->film_exponent = proxy->film_exponent > 0 ? exponent(run->model.film) : 0;
+  run->film_exponent = proxy->film_exponent > 0 ? exponent(run->model->film) : 0;
   sb_run_destroy(proxy);
   return status == SB_ERROR_CANCELLED ? status : SB_OK;
 }
 
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   enum { ROUNDS = 8 };
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   SbWarnings *warnings = &run->summary.warnings;
   run->speed = model->speed;
   run->film_exponent = 0;
-  bool own = run->plan.motion && model->motion != SB_MODEL_MOTION_QUASI_STATIC &&
-             model->drive != SB_MODEL_DRIVE_MACHINE;
+  bool own = run->plan.motion && run->plan.inertia && model->drive != SB_MODEL_DRIVE_MACHINE;
   if (own && run->plan.ring) {
     SbStatus status = proxy_speed(run, hooks, report);
     return status != SB_OK ? status : solve_states(run, hooks, report);

@@ -25,7 +25,7 @@ static int direction_of(SbChamber chamber) {
 
 // How full of pressure the chamber is, 0 vented, 1 at the canister's.
 static double filling(const SbValve *valve, double pressure) {
-  double canister = valve->run->model.canister_pressure;
+  double canister = valve->run->model->canister_pressure;
   return canister > 0 ? fmin(fmax(pressure / canister, 0), 1) : 1;
 }
 
@@ -43,7 +43,7 @@ static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const d
   const SbValve *valve = user;
   const SbCycle *cycle = &valve->run->cycle;
   // Bore and stem are the same on either side of the chamber, so that its pressure cancels.
-  loads->force = -valve->run->model.pressure_force;
+  loads->force = -valve->run->model->pressure_force;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     if (valve->ports) {
       double q = filling(valve, extra[0]);
@@ -100,7 +100,7 @@ static void add_edge(SbDynamicsModel *out, double x) {
 }
 
 static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report) {
-  const SbModel *model = &valve->run->model;
+  const SbModel *model = valve->run->model;
   const SbCycleStates *states = &valve->run->cycle.states;
   const SbSliding *inner = &states->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   const SbSliding *outer = &states->state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
@@ -179,7 +179,7 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
 
 static void warn_flow(SbRun *run, const SbValve *valve) {
   // The orifice law holds for turbulent jets of liquid.
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   double speed = sqrt(2 * model->canister_pressure / model->density);
   double reynolds = model->density * speed * model->shape.vent_diameter / model->viscosity;
   if (valve->chamber_model.ports > 1 && !model->chamber_at_once && reynolds < 1e3) {
@@ -195,7 +195,7 @@ static SbStatus valve_mass(double *mass, double x, double v, void *user, SbRepor
 }
 
 SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbReport *report) {
-  const SbModel *model = &run->model;
+  const SbModel *model = run->model;
   const SbCycle *cycle = &run->cycle;
   *valve = (SbValve){.run = run, .ports = model->pressure_map == SB_MAP_PORTS};
   *out = (SbDynamicsModel){
@@ -277,7 +277,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
 
 double sb_valve_chamber_pressure(const SbValve *valve, double extra) {
   return valve->ports ? extra
-                      : sb_model_seal_pressure(&valve->run->model, SB_OUTER, valve->chamber).left;
+                      : sb_model_seal_pressure(valve->run->model, SB_OUTER, valve->chamber).left;
 }
 
 // The solved state nearest to what the chamber holds.
