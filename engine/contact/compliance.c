@@ -36,26 +36,13 @@ void sb_compliance_modes(const SbSurfaceCompliance *c, double x, double *value, 
   }
 }
 
-// int T_0 = z, int T_1 = z^2/2, int T_k = T_{k+1}/(2 (k + 1)) - T_{k-1}/(2 (k - 1)).
-static void antiderivatives(double *out, int modes, double z) {
-  double t[SB_COMPLIANCE_MODES + 1] = {1.0, z};
-  for (int k = 2; k <= modes; k++) {
-    t[k] = 2.0 * z * t[k - 1] - t[k - 2];
-  }
-  for (int k = 0; k < modes; k++) {
-    out[k] = k == 0 ? z : k == 1 ? 0.5 * z * z : 0.5 * (t[k + 1] / (k + 1) - t[k - 1] / (k - 1));
-  }
-}
-
 void sb_compliance_integrals(const SbSurfaceCompliance *c, double from, double to, double *out) {
-  const double half = 0.5 * (c->right - c->left);
-  const double middle = 0.5 * (c->left + c->right);
+  const double half = 0.5 * (c->right - c->left), middle = 0.5 * (c->left + c->right);
   double before[SB_COMPLIANCE_MODES];
-  double after[SB_COMPLIANCE_MODES];
-  antiderivatives(before, c->modes, fmin(fmax((from - middle) / half, -1.0), 1.0));
-  antiderivatives(after, c->modes, fmin(fmax((to - middle) / half, -1.0), 1.0));
+  sb_chebyshev_integrals(before, fmin(fmax((from - middle) / half, -1.0), 1.0), c->modes);
+  sb_chebyshev_integrals(out, fmin(fmax((to - middle) / half, -1.0), 1.0), c->modes);
   for (int k = 0; k < c->modes; k++) {
-    out[k] = half * (after[k] - before[k]);
+    out[k] = half * (out[k] - before[k]);
   }
 }
 

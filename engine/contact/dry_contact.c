@@ -13,18 +13,9 @@
 #include "engine/numeric/legendre.h"
 #include "engine/numeric/root.h"
 
-enum { QUADRATURE = 48, GAP_POINTS = 16, COUNT = 16 };
-
-// Gauss' rules of moments and of gaps, made once for a contact.
-typedef struct {
-  double node[QUADRATURE], weight[QUADRATURE];
-  double gap_node[GAP_POINTS], gap_weight[GAP_POINTS];
-} Rules;
-
-static void make_rules(Rules *r) {
-  sb_legendre_gauss(r->node, r->weight, QUADRATURE);
-  sb_legendre_gauss(r->gap_node, r->gap_weight, GAP_POINTS);
-}
+// Midpoints in the angle integrate a polynomial of cos(angle) exactly up to degree 2 POINTS - 1:
+// here the product of two Chebyshev polynomials.
+enum { POINTS = SB_COMPLIANCE_MODES, COUNT = 16 };
 
 // Moments of the pressure over the window, split: of each U_k, and of the ambient pressures.
 typedef struct {
@@ -32,35 +23,27 @@ typedef struct {
   double basis[SB_COMPLIANCE_PRESSURES][SB_COMPLIANCE_MODES];
 } Moments;
 
-// Integrals of T_l(z) over [from, to] times `factor`, added to `out`.
-static void add_constant(double *out, const SbSurfaceCompliance *c, double from, double to,
-                         double factor) {
-  double integral[SB_COMPLIANCE_MODES];
-  sb_compliance_integrals(c, from, to, integral);
-  for (int l = 0; l < c->modes; l++) {
-    out[l] += factor * integral[l];
-  }
-}
-
-static void moments_of(Moments *out, const Rules *rules, const SbSurfaceCompliance *c, double left,
-                       double right, int count, double p_left, double p_right) {
+static void moments_of(Moments *out, const SbSurfaceCompliance *c, const SbDryContact *d) {
   memset(out, 0, sizeof *out);
-  const double middle = 0.5 * (left + right);
-  const double half = 0.5 * (right - left);
-  for (int q = 0; q < QUADRATURE; q++) {
+  const double middle = 0.5 * (d->left + d->right), half = 0.5 * (d->right - d->left);
+  const double low = fmin(d->pressure_left, d->pressure_right);
+  // The step is even in the angle, so that its moments are the mean of those of sharp steps there.
+  double below[SB_COMPLIANCE_MODES], above[SB_COMPLIANCE_MODES];
+  for (int i = 0; i < POINTS; i++) {
     // z = -cos(theta): everything is smooth in theta.
-    const double theta = 0.5 * M_PI * (1.0 + rules->node[q]);
-    const double w = 0.5 * M_PI * rules->weight[q] * half * sin(theta);
+    const double theta = M_PI * (i + 0.5) / POINTS, at = middle - half * cos(theta);
     double value[SB_COMPLIANCE_MODES];
-    sb_compliance_modes(c, middle - half * cos(theta), value, NULL);
-    const double step = theta / M_PI; // 1/2 + asin(z)/pi
+    sb_compliance_integrals(c, c->left, at, below);
+    sb_compliance_integrals(c, at, c->right, above);
     for (int l = 0; l < c->modes; l++) {
-      out->known[l] += w * (p_left * (1.0 - step) + p_right * step) * value[l];
+      out->known[l] +=
+          ((d->pressure_left - low) * below[l] + (d->pressure_right - low) * above[l]) / POINTS;
     }
+    sb_compliance_modes(c, at, value, NULL);
     // sqrt(1 - z^2) U_k(z) = sin((k + 1) (pi - theta)), by its recurrence.
-    double basis = w * sin(theta);
+    double basis = M_PI / POINTS * half * sin(theta) * sin(theta);
     double before = 0.0;
-    for (int k = 0; k < count; k++) {
+    for (int k = 0; k < d->count; k++) {
       for (int l = 0; l < c->modes; l++) {
         out->basis[k][l] += basis * value[l];
       }
@@ -69,15 +52,12 @@ static void moments_of(Moments *out, const Rules *rules, const SbSurfaceComplian
       basis = next;
     }
   }
-  add_constant(out->known, c, c->left, left, p_left);
-  add_constant(out->known, c, right, c->right, p_right);
 }
 
 // A contact on the surface c under a load, with the coefficients and moments of the last edges that
 // were tried. Edges are unknown as their distances from the ends of the window, over its half.
 typedef struct {
   const SbSurfaceCompliance *c;
-  Rules rules;
   SbDryContact dry;
 } Problem;
 
@@ -98,11 +78,11 @@ static bool edge_residuals(double *r, const double *x, void *context) {
   }
   const double C = sb_compliance_half_plane(c);
   const double half = 0.5 * (right - left), middle = 0.5 * (left + right);
-  const double low = fmin(d->pressure_left, d->pressure_right);
   const double unit = 2.0 * d->load / (M_PI * half); // of pressure
   Moments m;
-  moments_of(&m, &problem->rules, c, left, right, COUNT, d->pressure_left - low,
-             d->pressure_right - low);
+  d->left = left;
+  d->right = right;
+  moments_of(&m, c, d);
   // Rows by the polynomials of the slope: [COUNT + 1][known, coefficients], over C pi unit.
   double row[COUNT + 1][COUNT + 1] = {{0.0}};
   for (int i = 0; i <= COUNT; i++) {
@@ -144,8 +124,6 @@ static bool edge_residuals(double *r, const double *x, void *context) {
   }
   r[0] = row[0][0];
   r[1] = a[0] + ((d->pressure_left - d->pressure_right) * middle - d->load) / d->load;
-  d->left = left;
-  d->right = right;
   memcpy(d->moment, m.known, sizeof d->moment);
   for (int k = 0; k < COUNT; k++) {
     r[0] += row[0][k + 1] * a[k];
@@ -167,69 +145,52 @@ void sb_dry_contact_edges(SbDryContact *d) {
   }
 }
 
+static double falling_slope(double x, const void *c) {
+  double slope;
+  sb_compliance_gap(c, x, &slope);
+  return -slope;
+}
+
 // First guess of the edges: Hertz on the parabola at the lowest point of the gap.
 static bool first_edges(double *left, double *right, const SbSurfaceCompliance *c, double load) {
-  enum { SAMPLES = 64 };
-  double lowest = INFINITY;
-  double at = 0.0;
-  const double step = (c->right - c->left) / SAMPLES;
-  for (int i = 1; i < SAMPLES; i++) {
-    const double x = c->left + step * i;
-    const double value = sb_compliance_gap(c, x, NULL);
-    if (value < lowest) {
-      lowest = value;
-      at = x;
-    }
-  }
-  const double here = sb_compliance_gap(c, at, NULL);
+  const double width = c->right - c->left, step = width / 64;
+  const double at = sb_bisect(falling_slope, c, c->left, c->right);
   const double curvature =
-      (sb_compliance_gap(c, at - step, NULL) - 2.0 * here + sb_compliance_gap(c, at + step, NULL)) /
-      (step * step);
+      (falling_slope(at - step, c) - falling_slope(at + step, c)) / (2.0 * step);
   if (!(curvature > 0.0)) {
     return false;
   }
-  double half = sqrt(8.0 * load / (M_PI * c->modulus * curvature));
-  half = fmin(half, 0.45 * (c->right - c->left));
-  *left = fmax(at - half, c->left + 0.02 * (c->right - c->left));
-  *right = fmin(at + half, c->right - 0.02 * (c->right - c->left));
+  const double half = fmin(sqrt(8.0 * load / (M_PI * c->modulus * curvature)), 0.45 * width);
+  *left = fmax(at - half, c->left + 0.02 * width);
+  *right = fmin(at + half, c->right - 0.02 * width);
   return true;
 }
 
-// Gap beyond an edge: the integral of its slope from there.
-static double gap_outside(const SbDryContact *d, const Rules *rules, const SbSurfaceCompliance *c,
-                          double x) {
-  const double C = sb_compliance_half_plane(c);
-  const double half = 0.5 * (d->right - d->left);
-  const double middle = 0.5 * (d->left + d->right);
-  const double window = window_of(c);
-  const double edge = x < d->left ? d->left : d->right;
-  double sum = 0.0;
-  for (int q = 0; q < GAP_POINTS; q++) {
-    // From the edge, where the slope starts like a square root: s = edge + t^2 (x - edge).
-    const double t = 0.5 * (1.0 + rules->gap_node[q]);
-    const double s = edge + t * t * (x - edge);
-    const double z = (s - middle) / half;
-    const double root = sqrt((fabs(z) - 1.0) * (fabs(z) + 1.0));
-    const double small = z < 0.0 ? z + root : z - root;
-    double slope;
-    sb_compliance_gap(c, s, &slope);
-    double smooth;
-    sb_compliance_smooth(c, s, d->moment, &smooth);
-    slope +=
-        smooth + C * (d->pressure_left - d->pressure_right) * (log(half / window) + acosh(fabs(z)));
-    double power = 1.0;
-    for (int k = 0; k < d->count; k++) {
-      power *= small;
-      slope -= C * M_PI * d->a[k] * power;
-    }
-    sum += 0.5 * rules->gap_weight[q] * 2.0 * t * (x - edge) * slope;
+// The integral of the slope from the edge on, with z = +-cosh(u) there: z -+ sqrt(z^2 - 1) is
+// +-exp(-u).
+double sb_dry_contact_gap(const SbDryContact *d, const SbSurfaceCompliance *c, double x) {
+  if (x >= d->left && x <= d->right) {
+    return 0.0;
   }
-  return sum;
+  const double C = sb_compliance_half_plane(c), half = 0.5 * (d->right - d->left);
+  const double side = x < d->left ? -1.0 : 1.0, edge = x < d->left ? d->left : d->right;
+  const double t = fabs(x - edge) / half, root = sqrt(t * (2.0 + t)), u = log1p(t + root);
+  double tails = 0.0;
+  for (int k = 0; k < d->count; k++) {
+    const double integral =
+        0.5 * ((k == 0 ? u : -expm1(-k * u) / k) + expm1(-(k + 2) * u) / (k + 2));
+    tails += (side > 0.0 || k % 2 == 0 ? 1.0 : -1.0) * d->a[k] * integral;
+  }
+  const double tilt = log(half / window_of(c)) * (x - edge) + side * half * ((1.0 + t) * u - root);
+  const double gap = sb_compliance_gap(c, x, NULL) - sb_compliance_gap(c, edge, NULL) +
+                     sb_compliance_smooth(c, x, d->moment, NULL) -
+                     sb_compliance_smooth(c, edge, d->moment, NULL) +
+                     C * ((d->pressure_left - d->pressure_right) * tilt - M_PI * half * tails);
+  return fabs(gap) > 1e-14 * half ? gap : 0.0; // less is the sum's rounding
 }
 
 // No tension inside, no penetration outside.
-static SbStatus check_signs(SbDryContact *d, const Rules *rules, const SbSurfaceCompliance *c,
-                            SbReport *report) {
+static SbStatus check_signs(SbDryContact *d, const SbSurfaceCompliance *c, SbReport *report) {
   enum { SAMPLES = 200 };
   const double low = fmin(d->pressure_left, d->pressure_right);
   d->peak = fmax(d->pressure_left, d->pressure_right);
@@ -243,8 +204,8 @@ static SbStatus check_signs(SbDryContact *d, const Rules *rules, const SbSurface
   }
   const double limit = 1e-7 * (d->right - d->left);
   for (int i = 1; i <= 16; i++) {
-    if (gap_outside(d, rules, c, d->left - (d->left - c->left) * i / 16.0) < -limit ||
-        gap_outside(d, rules, c, d->right + (c->right - d->right) * i / 16.0) < -limit) {
+    if (sb_dry_contact_gap(d, c, d->left - (d->left - c->left) * i / 16.0) < -limit ||
+        sb_dry_contact_gap(d, c, d->right + (c->right - d->right) * i / 16.0) < -limit) {
       return sb_fail(report, SB_ERROR_INFEASIBLE,
                      "dry contact: the surface touches outside the contact");
     }
@@ -264,7 +225,6 @@ SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double 
                              .pressure_right = pressure_right,
                              .load = load,
                              .count = COUNT}};
-  make_rules(&problem.rules);
   const double window = window_of(c);
   double x[2] = {(left - c->left) / window, (c->right - right) / window};
   SbBroyden broyden = {0};
@@ -279,7 +239,7 @@ SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double 
                : sb_fail(report, SB_ERROR_NOT_CONVERGED, "dry contact: residual %.2g",
                          out->residual);
   }
-  return check_signs(out, &problem.rules, c, report);
+  return check_signs(out, c, report);
 }
 
 double sb_dry_contact_pressure(const SbDryContact *d, double x) {
@@ -299,24 +259,11 @@ double sb_dry_contact_pressure(const SbDryContact *d, double x) {
   return p;
 }
 
-double sb_dry_contact_gap(const SbDryContact *d, const SbSurfaceCompliance *c, double x) {
-  if (x >= d->left && x <= d->right) {
-    return 0.0;
-  }
-  Rules rules;
-  sb_legendre_gauss(rules.gap_node, rules.gap_weight, GAP_POINTS);
-  return gap_outside(d, &rules, c, x);
-}
-
 void sb_compliance_of_pressure(SbSurfaceCompliance *c, const SbDryContact *d) {
   const double half = 0.5 * (d->right - d->left);
   const double middle = 0.5 * (d->left + d->right);
-  const double low = fmin(d->pressure_left, d->pressure_right);
   Moments split;
-  Rules rules;
-  make_rules(&rules);
-  moments_of(&split, &rules, c, d->left, d->right, d->count, d->pressure_left - low,
-             d->pressure_right - low);
+  moments_of(&split, c, d);
   double *moment = split.known;
   for (int k = 0; k < d->count; k++) {
     for (int l = 0; l < c->modes; l++) {
@@ -332,13 +279,11 @@ void sb_compliance_of_pressure(SbSurfaceCompliance *c, const SbDryContact *d) {
   for (int i = 0; i < c->modes; i++) {
     const double s = centre - window * cos(M_PI * (i + 0.5) / c->modes);
     const double z = (s - middle) / half;
-    double t[SB_COMPLIANCE_PRESSURES + 2] = {1.0, z};
+    double integral[SB_COMPLIANCE_MODES]; // of T_k
+    sb_chebyshev_integrals(integral, z, d->count + 1);
     double sum = -C * (d->pressure_left - d->pressure_right) * log(half / window) * s;
     for (int k = 0; k < d->count; k++) {
-      // int T_1 = T_2/4, int T_n = T_{n+1}/(2 (n + 1)) - T_{n-1}/(2 (n - 1)).
-      t[k + 2] = 2.0 * z * t[k + 1] - t[k];
-      const double integral = k == 0 ? 0.25 * t[2] : t[k + 2] / (2.0 * (k + 2)) - t[k] / (2.0 * k);
-      sum += C * M_PI * half * d->a[k] * integral;
+      sum += C * M_PI * half * d->a[k] * integral[k + 1];
     }
     value[i] = sum - sb_compliance_smooth(c, s, moment, NULL);
   }

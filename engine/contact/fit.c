@@ -10,44 +10,24 @@
 #include "engine/contact/closed_forms.h"
 #include "engine/contact/fit_models.h"
 
-static const char *const lindley_names[] = {
-    [SB_LINDLEY_EXTENDED] = "extended",
-    [SB_LINDLEY_INITIAL] = "initial",
-    [SB_LINDLEY_SIMPLE_WIDTH] = "simple-width",
-    [SB_LINDLEY_KURAN] = "kuran",
-    [SB_LINDLEY_COUNT] = NULL,
-};
-static const char *const green_english_names[] = {
-    [SB_GREEN_ENGLISH_RADIAL] = "radial-unrestrained",
-    [SB_GREEN_ENGLISH_PLANE] = "plane-strain-unrestrained",
-    [SB_GREEN_ENGLISH_AXIAL_LUBRICATED] = "axial-unrestrained-lubricated",
-    [SB_GREEN_ENGLISH_AXIAL] = "axial-unrestrained-unlubricated",
-    [SB_GREEN_ENGLISH_AXIAL_RESTRAINED] = "axial-restrained",
-    [SB_GREEN_ENGLISH_RADIAL_RESTRAINED] = "radial-restrained",
-    [SB_GREEN_ENGLISH_PLANE_RESTRAINED] = "plane-strain-restrained",
-    [SB_GREEN_ENGLISH_COUNT] = NULL,
-};
-static const char *const disc_names[] = {
-    [SB_DISC_VERTICAL] = "vertical",
-    [SB_DISC_RADIAL] = "radial",
-    [SB_DISC_VERTICAL_BOTH] = "vertical-both-flanks",
-    [SB_DISC_RADIAL_BOTH] = "radial-both-flanks",
-    [SB_DISC_VARIANT_COUNT] = NULL,
-};
-static const char *const no_names[] = {"default", NULL};
-
 static const struct {
   const char *name;
   SbStatus (*solve)(SbFit *, const SbFitProblem *, SbReport *);
-  const char *const *variants; // NULL-terminated
+  const char *variant[8]; // up to the first NULL, in the order of their enumeration
 } models[SB_FIT_MODEL_COUNT] = {
-    [SB_FIT_KARASZKIEWICZ] = {"karaszkiewicz", sb_fit_closed, no_names},
-    [SB_FIT_HERTZ] = {"hertz", sb_fit_closed, no_names},
-    [SB_FIT_LINDLEY] = {"lindley", sb_fit_closed, lindley_names},
-    [SB_FIT_GREEN_ENGLISH] = {"green-english", sb_fit_closed, green_english_names},
-    [SB_FIT_DISC_THESIS] = {"disc-thesis", sb_fit_disc_thesis, no_names},
-    [SB_FIT_DISC] = {"disc", sb_fit_disc, disc_names},
-    [SB_FIT_RING] = {"ring", sb_fit_ring, no_names},
+    [SB_FIT_KARASZKIEWICZ] = {"karaszkiewicz", sb_fit_closed, {"default"}},
+    [SB_FIT_HERTZ] = {"hertz", sb_fit_closed, {"default"}},
+    [SB_FIT_LINDLEY] = {"lindley", sb_fit_closed, {"extended", "initial", "simple-width", "kuran"}},
+    [SB_FIT_GREEN_ENGLISH] = {"green-english",
+                              sb_fit_closed,
+                              {"radial-unrestrained", "plane-strain-unrestrained",
+                               "axial-unrestrained-lubricated", "axial-unrestrained-unlubricated",
+                               "axial-restrained", "radial-restrained", "plane-strain-restrained"}},
+    [SB_FIT_DISC_THESIS] = {"disc-thesis", sb_fit_disc, {"default"}},
+    [SB_FIT_DISC] = {"disc",
+                     sb_fit_disc,
+                     {"vertical", "radial", "vertical-both-flanks", "radial-both-flanks"}},
+    [SB_FIT_RING] = {"ring", sb_fit_ring, {"default"}},
 };
 
 const char *sb_fit_model_name(SbFitModel model) {
@@ -68,7 +48,7 @@ const char *sb_fit_variant_name(SbFitModel model, int variant) {
   if ((unsigned)model >= SB_FIT_MODEL_COUNT || variant < 0) {
     return NULL;
   }
-  const char *const *names = models[model].variants;
+  const char *const *names = models[model].variant;
   for (; *names != NULL && variant > 0; variant--) {
     names++;
   }

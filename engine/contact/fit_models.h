@@ -6,8 +6,8 @@
 
 // The closed forms, all four (closed_forms.h).
 SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report);
+// The linear disc, the thesis' own too (disc/).
 SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report);
-SbStatus sb_fit_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report);
 SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report);
 
 // A contact between two edges [m] with the circumference and the load per length that stand in

@@ -75,6 +75,18 @@ void sb_chebyshev_coefficients(double *out, const double *value, int n) {
   }
 }
 
+// int T_1 = z^2/2, int T_k = T_{k+1}/(2 (k + 1)) - T_{k-1}/(2 (k - 1)).
+void sb_chebyshev_integrals(double *out, double z, int n) {
+  out[0] = z;
+  double before = 1.0, now = z; // T_{k-1}, T_k
+  for (int k = 1; k < n; k++) {
+    const double next = 2.0 * z * now - before;
+    out[k] = k == 1 ? 0.5 * z * z : 0.5 * (next / (k + 1) - before / (k - 1));
+    before = now;
+    now = next;
+  }
+}
+
 void sb_barycentric_weights(double *weight, const double *node, int count) {
   for (int i = 0; i < count; i++) {
     double product = 1.0;

@@ -14,6 +14,9 @@ void sb_legendre_lobatto(double *node, int n);
 // Coefficients of Chebyshev's polynomials T_0 .. T_(n-1) for values at z_i = -cos(pi (i + 1/2)/n).
 void sb_chebyshev_coefficients(double *out, const double *value, int n);
 
+// Integrals of T_0 .. T_(n-1) up to z, from 0 for even orders.
+void sb_chebyshev_integrals(double *out, double z, int n);
+
 // Barycentric weights of `count` distinct nodes, for sb_barycentric_basis.
 void sb_barycentric_weights(double *weight, const double *node, int count);
 

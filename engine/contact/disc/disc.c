@@ -37,9 +37,9 @@ enum { LOAD, PEAK, WIDTH, FIGURES }; // load C/R, peak C, width/R
 typedef struct {
   SbDiscEdges edges;
   size_t points, unknowns;
-  double pressure; // of the fluid on one side, times C
-  double shift;    // of the section's centre to the wall by that pressure, over R
-  double excess[SB_DISC_POINTS_MAX];
+  double pressure;                   // of the fluid on one side, times C
+  double shift;                      // of the section's centre to the wall by that pressure, over R
+  double excess[SB_DISC_POINTS_MAX]; // the system's series
   double figure[FIGURES];
 } Solution;
 
@@ -125,61 +125,31 @@ static double solve_pressure(Work *w, double target) {
 
 // ---- results of one resolution
 
-// Excess pressure times C at tau from nodal values (Clenshaw for F, edges regular).
-static double excess_at(const double *nodal, size_t n, double half, double tau) {
-  const double eta = acos(fmax(-1.0, fmin(1.0, tau)));
-  const double sine = sin(eta);
-  if (sine < 1e-6) {
-    return 0.0;
+// Total pressure times C over that on both sides at tau = cos(angle), the edges regular.
+static double total_at(const Solution *s, double angle) {
+  const double half = 0.5 * (s->edges.right - s->edges.left);
+  double sum = 0.0;
+  for (size_t k = 0; k < s->points; k++) {
+    sum += s->excess[k] * cos((double)k * (M_PI - angle));
   }
-  // F(tau) by barycentric interpolation at Chebyshev points of the first kind.
-  double above = 0.0;
-  double below = 0.0;
-  for (size_t j = 0; j < n; j++) {
-    const double node = M_PI * ((double)j + 0.5) / (double)n;
-    const double difference = tau - cos(node);
-    if (fabs(difference) < 1e-14) {
-      return nodal[j] / (half * sine);
-    }
-    const double w = (j % 2 == 0 ? 1.0 : -1.0) * sin(node) / difference;
-    above += w * nodal[j];
-    below += w;
-  }
-  return above / below / (half * sine);
+  return (sin(angle) < 1e-6 ? 0.0 : sum / (half * sin(angle))) +
+         s->pressure * sb_disc_system_step(cos(angle));
 }
 
-// Total pressure times C over that on both sides.
-static double total_at(const Solution *s, double tau) {
-  return excess_at(s->excess, s->points, 0.5 * (s->edges.right - s->edges.left), tau) +
-         s->pressure * sb_disc_system_step(tau);
+static double negative_at(double angle, const void *solution) {
+  return -total_at(solution, angle);
 }
 
-// Largest pressure, by golden section in the angle around the greatest of some samples.
+// Largest pressure: in the middle, or around the greatest of some samples.
 static double peak_of(const Solution *s) {
   enum { SCAN = 32 };
-  double low = 0.0;
-  double high = M_PI;
-  if (s->pressure != 0.0) {
-    int best = 1;
-    for (int i = 1; i < SCAN; i++) {
-      if (total_at(s, cos(M_PI * i / SCAN)) > total_at(s, cos(M_PI * best / SCAN))) {
-        best = i;
-      }
-    }
-    low = M_PI * (best - 1) / SCAN;
-    high = M_PI * (best + 1) / SCAN;
-    const double golden = 0.5 * (sqrt(5.0) - 1.0);
-    for (int i = 0; i < 40; i++) {
-      const double a = high - golden * (high - low);
-      const double b = low + golden * (high - low);
-      if (total_at(s, cos(a)) > total_at(s, cos(b))) {
-        high = b;
-      } else {
-        low = a;
-      }
-    }
+  int best = SCAN / 2;
+  for (int i = 1; i < SCAN && s->pressure != 0.0; i++) {
+    best = total_at(s, M_PI * i / SCAN) > total_at(s, M_PI * best / SCAN) ? i : best;
   }
-  return total_at(s, cos(0.5 * (low + high)));
+  return total_at(s, s->pressure == 0.0 ? 0.5 * M_PI
+                                        : sb_minimum(negative_at, s, M_PI * (best - 1) / SCAN,
+                                                     M_PI * (best + 1) / SCAN, 1e-8));
 }
 
 static void keep(Solution *out, const Work *w) {
@@ -190,13 +160,10 @@ static void keep(Solution *out, const Work *w) {
                     .unknowns = wet ? 2 * s->n + 4 : s->n + 1,
                     .pressure = s->pressure,
                     .shift = wet ? s->solution[2 * s->n] + w->free_bulge : 0.0};
-  memcpy(out->excess, s->solution, s->n * sizeof out->excess[0]);
+  memcpy(out->excess, s->series[0], s->n * sizeof out->excess[0]);
   // The step's mean over the contact is one half: p half x 2 x 1/2.
   out->figure[WIDTH] = out->edges.right - out->edges.left;
-  out->figure[LOAD] = 0.5 * s->pressure * out->figure[WIDTH];
-  for (size_t j = 0; j < s->n; j++) {
-    out->figure[LOAD] += M_PI / (double)s->n * out->excess[j];
-  }
+  out->figure[LOAD] = 0.5 * s->pressure * out->figure[WIDTH] + M_PI * out->excess[0];
   out->figure[PEAK] = peak_of(out);
 }
 
@@ -249,44 +216,20 @@ static void fill(SbFit *out, const Solution *s, double compliance, double both, 
   for (size_t i = 0; i < out->profile_count; i++) {
     const double tau =
         (2.0 * out->profile_x[i] - out->contact_left - out->contact_right) / out->contact_width;
-    out->profile_p[i] =
-        both + total_at(s, fmin(1.0, fmax(-1.0, mirrored ? -tau : tau))) / compliance;
+    const double angle = acos(fmin(1.0, fmax(-1.0, mirrored ? -tau : tau)));
+    out->profile_p[i] = both + total_at(s, angle) / compliance;
   }
 }
 
-SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report) {
-  const double diameter = out->section_diameter_fitted;
-  SbStatus status = SB_CHECK(
-      report, {"seal.section_diameter", "the fitted section [m]", diameter, SB_ABOVE_ZERO});
-  if (status != SB_OK) {
-    return status;
-  }
-  const bool both_flanks =
-      in->variant == SB_DISC_VERTICAL_BOTH || in->variant == SB_DISC_RADIAL_BOTH;
-  const double both = both_flanks ? fabs(in->pressure) : 0.0;
-  const double difference = both_flanks ? 0.0 : fabs(in->pressure);
-  const double nu = in->poisson_ratio;
-  const double approach = 2.0 * (1.0 - in->radial_space / diameter); // over the radius
-  const double compliance = sb_disc_compliance(in->modulus, nu);
-  // Uniform pressure shrinks the disc: u_r = -p R (1 + nu)(1 - 2 nu)/E.
-  const double hydrostatic = both * (1.0 + nu) * (1.0 - 2.0 * nu) / in->modulus;
-  out->circumference = M_PI * (in->bore_diameter - in->radial_space);
-  if (!(approach - 2.0 * hydrostatic > 0.0)) {
-    sb_warn(&out->warnings, "no-contact", "seal.section_diameter",
-            "the disc does not touch the flats (squeeze %.3g %%): load 0", 50.0 * approach);
-    out->solver.converged = true;
-    return sb_succeed(report);
-  }
-  if (approach > 0.2) {
-    sb_warn(&out->warnings, "disc-strain", "seal.section_diameter",
-            "squeeze %.3g %% is beyond 10 %%: linear elasticity is an estimate", 50.0 * approach);
-  }
-  if (difference > 0.25 * in->modulus) {
-    sb_warn(&out->warnings, "disc-pressure", "canister.pressure",
-            "pressure difference is %.2g of the modulus: linear elasticity is an estimate",
-            difference / in->modulus);
-  }
+// Uniform pressure p shrinks the disc: u_r/R = -p (1 + nu)(1 - 2 nu)/E.
+static double hydrostatic_of(const SbFitProblem *in, double p) {
+  return p * (1.0 + in->poisson_ratio) * (1.0 - 2.0 * in->poisson_ratio) / in->modulus;
+}
 
+// Resolutions until the estimate is a tenth of the tolerance; each starts from the last.
+static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, SbReport *report) {
+  const double diameter = out->section_diameter_fitted, nu = in->poisson_ratio;
+  const double compliance = sb_disc_compliance(in->modulus, nu);
   Work *w = calloc(1, sizeof *w);
   if (w == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the disc");
@@ -294,14 +237,13 @@ SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report) {
   w->system.kernel = sb_disc_kernel(nu);
   w->system.radial = in->variant == SB_DISC_RADIAL || in->variant == SB_DISC_RADIAL_BOTH;
   w->system.half_space = in->radial_space / diameter;
-  w->system.hydrostatic = hydrostatic;
-  w->dry = fmin(0.9, sb_hertz_width_of_approach(approach, 2.0));
+  w->system.hydrostatic = hydrostatic_of(in, both);
+  w->dry = fmin(0.9, sb_hertz_width_of_approach(2.0 * (1.0 - w->system.half_space), 2.0));
 
-  // Resolutions until the estimate is a tenth of the tolerance; each starts from the last.
   static const size_t points[] = {4, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48};
   enum { LEVELS = sizeof points / sizeof points[0] };
   const double wanted = 0.1 * (in->tolerance > 0.0 ? in->tolerance : 1e-3);
-  const double target = difference * compliance;
+  const double target = (fabs(in->pressure) - both) * compliance;
   Solution found[LEVELS];
   size_t levels = 0;
   double reached = target;
@@ -328,6 +270,7 @@ SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report) {
   }
   const bool lost = reached != target;
   sb_fit_errors(out, error[LOAD], error[PEAK], error[WIDTH]);
+  SbStatus status = SB_OK;
   if (lost) {
     sb_fit_errors(out, 1.0, 1.0, 1.0);
     status = sb_fail_parameter(
@@ -344,4 +287,36 @@ SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report) {
   }
   free(w);
   return status == SB_OK ? sb_succeed(report) : status;
+}
+
+SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report) {
+  const double diameter = out->section_diameter_fitted;
+  SbStatus status = SB_CHECK(
+      report, {"seal.section_diameter", "the fitted section [m]", diameter, SB_ABOVE_ZERO});
+  if (status != SB_OK) {
+    return status;
+  }
+  const bool thesis = in->model == SB_FIT_DISC_THESIS;
+  const bool both_flanks =
+      in->variant == SB_DISC_VERTICAL_BOTH || in->variant == SB_DISC_RADIAL_BOTH;
+  const double both = both_flanks ? fabs(in->pressure) : 0.0;
+  const double difference = fabs(in->pressure) - both;
+  const double squeeze = 1.0 - in->radial_space / diameter;
+  out->circumference = M_PI * (in->bore_diameter - in->radial_space);
+  if (!(squeeze > hydrostatic_of(in, both))) {
+    sb_warn(&out->warnings, "no-contact", "seal.section_diameter",
+            "the disc does not touch the flats (squeeze %.3g %%): load 0", 100.0 * squeeze);
+    out->solver.converged = true;
+    return sb_succeed(report);
+  }
+  if (squeeze > 0.1) {
+    sb_warn(&out->warnings, "disc-strain", "seal.section_diameter",
+            "squeeze %.3g %% is beyond 10 %%: linear elasticity is an estimate", 100.0 * squeeze);
+  }
+  if (difference > 0.25 * in->modulus && !thesis) {
+    sb_warn(&out->warnings, "disc-pressure", "canister.pressure",
+            "pressure difference is %.2g of the modulus: linear elasticity is an estimate",
+            difference / in->modulus);
+  }
+  return thesis ? sb_disc_thesis(out, in, report) : solve_spectral(out, in, both, report);
 }

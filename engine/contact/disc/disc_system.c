@@ -39,15 +39,6 @@ void sb_disc_system_points(SbDiscSystem *system, size_t n) {
   // T_k/sqrt(1 - tau^2) into pi/k T_k, or pi ln 2 for k = 0.
   memset(system->log_weight, 0, sizeof system->log_weight);
   memset(system->kink_weight, 0, sizeof system->kink_weight);
-  for (size_t j = 0; j < n; j++) {
-    system->edge_plus[j] = 0.0;
-    system->edge_minus[j] = 0.0;
-    for (size_t k = 0; k < n; k++) {
-      double c = (k == 0 ? 1.0 : 2.0) / (double)n * circle[k * (2 * j + 1) % (4 * n)];
-      system->edge_plus[j] += c;
-      system->edge_minus[j] += k % 2 == 0 ? c : -c;
-    }
-  }
   for (size_t i = 0; i < n; i++) {
     for (size_t k = 0; k < n; k++) {
       double scale = (k == 0 ? 1.0 : 2.0) / (double)n;
@@ -89,6 +80,20 @@ double sb_disc_system_step(double tau) {
 
 // ---- known loads
 
+double sb_disc_system_arc(const SbDiscSystem *s, SbDiscPoint to, SbDiscVector m, double from,
+                          double length, bool normal) {
+  double sum = 0.0;
+  for (int i = 0; i < SB_DISC_GAUSS; i++) {
+    const double x = s->gauss_x[i];
+    const SbDiscPoint p = sb_disc_point(from + length * x * x * x);
+    const SbDiscVector inward =
+        normal ? (SbDiscVector){-p.sin, -p.cos} : (SbDiscVector){copysign(1.0, -p.sin), 0.0};
+    sum += 3.0 * x * x * s->gauss_w[i] * fabs(length) *
+           sb_disc_kernel_pair(&s->kernel, to, m, p, inward);
+  }
+  return sum;
+}
+
 // Inward displacement at `to` along m by the fluid on the left arc and by the known step over the
 // contact. The logarithm at tau_to (inside the contact if |tau_to| < 1) and the near one at the
 // left edge are met by cubic grading.
@@ -98,17 +103,11 @@ static double known_displacement(const SbDiscSystem *s, SbDiscEdges edges, SbDis
   const double half = 0.5 * (edges.right - edges.left);
   const double split = fmax(-1.0, fmin(1.0, tau_to));
   const double theta_left = asin(edges.left);
-  double sum = 0.0;
+  double sum = sb_disc_system_arc(s, to, m, theta_left, -(theta_left + 0.5 * M_PI), true);
   for (int i = 0; i < SB_DISC_GAUSS; i++) {
     const double x = s->gauss_x[i];
     const double grade = x * x * x;
     const double weight = 3.0 * x * x * s->gauss_w[i];
-
-    // Fluid, normal to the arc, from the left edge to the end of the diameter.
-    const double arc = theta_left + 0.5 * M_PI;
-    const SbDiscPoint on_arc = sb_disc_point(theta_left - arc * grade);
-    sum += weight * arc *
-           sb_disc_kernel_pair(&s->kernel, to, m, on_arc, (SbDiscVector){-on_arc.sin, -on_arc.cos});
 
     // The step, left and right of the target.
     for (int side = -1; side <= 1; side += 2) {
@@ -223,21 +222,19 @@ bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double residual[3]
   }
 
   // Values at the edges.
-  double mean = 0.0;
-  double mean_wall = 0.0;
-  residual[0] = residual[1] = residual[2] = 0.0;
-  for (size_t j = 0; j < n; j++) {
-    mean += fabs(s->solution[j]) / (double)n;
-    residual[0] += s->edge_minus[j] * s->solution[j];
-    residual[1] += s->edge_plus[j] * s->solution[j];
-    if (wall) {
-      mean_wall += fabs(s->solution[n + j]) / (double)n;
-      residual[2] += s->edge_plus[j] * s->solution[n + j];
+  residual[2] = 0.0;
+  for (int contact = 0; contact < (wall ? 2 : 1); contact++) {
+    const double *F = &s->solution[contact == 0 ? 0 : n];
+    double mean = 0.0, left = 0.0, right = 0.0;
+    sb_chebyshev_coefficients(s->series[contact], F, (int)n);
+    for (size_t j = 0; j < n; j++) {
+      mean += fabs(F[j]) / (double)n;
+      left += s->series[contact][j];
+      right += (j % 2 == 0 ? 1.0 : -1.0) * s->series[contact][j];
     }
+    residual[0] = contact == 0 ? left / mean : residual[0];
+    residual[1 + contact] = right / mean;
   }
-  residual[0] /= mean;
-  residual[1] /= mean;
-  residual[2] = wall ? residual[2] / mean_wall : 0.0;
   return isfinite(residual[0]) && isfinite(residual[1]) && isfinite(residual[2]);
 }
 

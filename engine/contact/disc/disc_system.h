@@ -10,6 +10,7 @@
 
 #include "engine/base/status.h"
 #include "engine/contact/disc/disc_kernel.h"
+#include "engine/contact/fit.h"
 
 enum {
   SB_DISC_POINTS_MAX = 48, // Chebyshev points over a contact, at most
@@ -31,14 +32,13 @@ typedef struct {
   // Rule with n points; weights of the logarithm and of the kink, n x n by rows.
   size_t n;
   double tau[SB_DISC_POINTS_MAX];
-  double edge_plus[SB_DISC_POINTS_MAX];  // F(1) from the nodal values
-  double edge_minus[SB_DISC_POINTS_MAX]; // F(-1)
   double log_weight[SB_DISC_POINTS_MAX * SB_DISC_POINTS_MAX];
   double kink_weight[SB_DISC_POINTS_MAX * SB_DISC_POINTS_MAX];
   double gauss_x[SB_DISC_GAUSS]; // on [0, 1]
   double gauss_w[SB_DISC_GAUSS];
   // Solution for the last edges: n bore values, n wall values, depth of the wall.
   double solution[SB_DISC_ROWS_MAX];
+  double series[2][SB_DISC_POINTS_MAX]; // F of bore and wall = sum series[][k] T_k(-tau)
   double matrix[SB_DISC_ROWS_MAX * SB_DISC_ROWS_MAX]; // by columns
 } SbDiscSystem;
 
@@ -49,6 +49,15 @@ void sb_disc_system_points(SbDiscSystem *system, size_t n);
 // residual[0..2]: F at the left and right edge and at the wall's, over the mean of |F|; zero when
 // all edges are smooth.
 SB_CHECKED bool sb_disc_system_solve(SbDiscSystem *system, SbDiscEdges edges, double residual[3]);
+
+// Displacement at `to` along m by unit pressure on the arc of a length (negative: to the left) from
+// an angle on and on its mirror image below: normal to it, or horizontal. At the arc's beginning
+// the logarithm is met by cubic grading.
+double sb_disc_system_arc(const SbDiscSystem *system, SbDiscPoint to, SbDiscVector m, double from,
+                          double length, bool normal);
+
+// The thesis' own disc (disc_thesis.c), checked and in contact.
+SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report);
 
 // The smooth step of the known part, 1 at tau = -1 and 0 at 1.
 double sb_disc_system_step(double tau);

@@ -15,24 +15,21 @@
 // finite-strain ring its pressurised loads are 8-9 % low and its widths 7-20 % high.
 //
 // Inside, lengths are in the fitted radius, pressures times C.
-#include "engine/contact/fit_models.h"
+#include "engine/contact/disc/disc_system.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/base/check.h"
-#include "engine/contact/disc/disc_kernel.h"
+#include "engine/contact/fit_models.h"
 #include "engine/numeric/dense.h"
-#include "engine/numeric/legendre.h"
 
-// Nodes on one side of the centre, at most (the centre included); of the quadrature.
-enum { MAX = 160, GAUSS = 5 };
+enum { MAX = 160 }; // nodes on one side of the centre, at most (the centre included)
 
 // Workspace: influence of each cell on each node, the factorised part of it, right-hand side.
 typedef struct {
-  SbDiscKernel kernel;
-  size_t count; // nodes within 75 degrees
+  SbDiscSystem disc; // its kernel and rule
+  size_t count;      // nodes within 75 degrees
   double step;
   double space;                // radial space over the fitted section
   double influence[MAX * MAX]; // by columns: inward displacement at i by unit pressure on cell j
@@ -41,75 +38,53 @@ typedef struct {
   SbDiscPoint node[MAX];
   double fluid[MAX]; // inward displacement by the fluid
   double pressure[MAX];
-  double gauss_x[GAUSS], gauss_w[GAUSS];
 } Work;
 
 static const SbDiscVector down = {0.0, -1.0};
 static const double nodes_limit = 75.0 / 180.0 * M_PI;
 
-// Inward displacement at `to` of unit pressure per projected width on the cell [a, b] and its image
-// below: two Gauss points for what is smooth over a degree, the logarithm exactly.
-static double cell(const Work *w, SbDiscPoint to, double a, double b) {
-  const double sine_a = sin(a);
-  const double sine_b = sin(b);
-  const double half = 0.5 * (sine_b - sine_a);
-  double sum = 0.0;
-  for (int side = -1; side <= 1; side += 2) {
-    const SbDiscPoint p = sb_disc_point_at(0.5 * (sine_a + sine_b) + side * half / sqrt(3.0));
-    double kink;
-    sum += half * (sb_disc_kernel_smooth(&w->kernel, to, down, p, down, 0.0, &kink) +
-                   sb_disc_kernel_mirror(&w->kernel, to, down, p, down));
-  }
-  // Minus the integral of ln|xi - xi'|.
-  const double ra = to.sin - sine_a;
-  const double rb = to.sin - sine_b;
-  sum -= (ra != 0.0 ? ra * log(fabs(ra)) : 0.0) - (rb != 0.0 ? rb * log(fabs(rb)) : 0.0) -
-         (sine_b - sine_a);
-  return sum;
-}
-
+// Inward displacement at each node by unit pressure per projected width on each cell, its image
+// below, and the same left of the centre: two Gauss points for what is smooth over a degree, the
+// logarithm exactly.
 static void fill_influence(Work *w) {
   for (size_t j = 0; j < w->count; j++) {
-    const double centre = (double)j * w->step;
+    const double low = sin(((double)j - 0.5) * w->step), high = sin(((double)j + 0.5) * w->step);
+    const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
+    const SbDiscPoint gauss[2] = {sb_disc_point_at(middle - half / sqrt(3.0)),
+                                  sb_disc_point_at(middle + half / sqrt(3.0))};
     for (size_t i = 0; i < w->count; i++) {
-      const SbDiscPoint to = w->node[i];
-      double sum = cell(w, to, centre - 0.5 * w->step, centre + 0.5 * w->step);
-      if (j > 0) {
-        sum += cell(w, to, -centre - 0.5 * w->step, -centre + 0.5 * w->step);
+      double sum = 0.0;
+      SbDiscPoint to = w->node[i];
+      for (int side = 0; side < (j > 0 ? 2 : 1); side++) {
+        for (int k = 0; k < 2; k++) {
+          double kink;
+          sum +=
+              half * (sb_disc_kernel_smooth(&w->disc.kernel, to, down, gauss[k], down, 0.0, &kink) +
+                      sb_disc_kernel_mirror(&w->disc.kernel, to, down, gauss[k], down));
+        }
+        // Minus the integral of ln|xi - xi'|.
+        const double from_low = to.sin - low, from_high = to.sin - high;
+        sum += high - low - (from_low != 0.0 ? from_low * log(fabs(from_low)) : 0.0) +
+               (from_high != 0.0 ? from_high * log(fabs(from_high)) : 0.0);
+        to.angle = -to.angle; // the left cell lies to it as this one to its image
+        to.sin = -to.sin;
       }
       w->influence[i + j * w->count] = sum;
     }
   }
 }
 
-// Inward displacement at the first `nodes` nodes by horizontal forces p dbeta on both flanks beyond
-// angle alpha, on panels that widen away from it.
-static void fill_fluid(Work *w, size_t nodes, double alpha, double pressure) {
-  enum { PANELS = 6 };
-  const double arc = 0.5 * M_PI - alpha;
-  memset(w->fluid, 0, nodes * sizeof(double));
-  for (int panel = 0; pressure > 0.0 && panel < PANELS; panel++) {
-    const double low = alpha + arc * pow((double)panel / PANELS, 2.0);
-    const double high = alpha + arc * pow((panel + 1.0) / PANELS, 2.0);
-    for (int k = 0; k < GAUSS; k++) {
-      const double half = 0.5 * (high - low);
-      const double angle = 0.5 * (low + high) + half * w->gauss_x[k];
-      const SbDiscPoint right = sb_disc_point(angle), left = sb_disc_point(-angle);
-      const double weight = pressure * half * w->gauss_w[k];
-      for (size_t i = 0; i < nodes; i++) {
-        const SbDiscPoint to = w->node[i];
-        w->fluid[i] +=
-            weight * (sb_disc_kernel_pair(&w->kernel, to, down, right, (SbDiscVector){-1.0, 0.0}) +
-                      sb_disc_kernel_pair(&w->kernel, to, down, left, (SbDiscVector){1.0, 0.0}));
-      }
-    }
-  }
-}
-
 // Pressure with the first `loaded` nodes on the flat; false if singular. The fluid begins at the
-// first node whose cell is wholly outside the contact.
+// first node whose cell is wholly outside the contact, with horizontal forces on both flanks.
 static bool solve_set(Work *w, size_t loaded, double pressure) {
-  fill_fluid(w, loaded + 1, ((double)loaded + 0.5) * w->step, pressure);
+  const double alpha = ((double)loaded + 0.5) * w->step, arc = 0.5 * M_PI - alpha;
+  for (size_t i = 0; i <= loaded; i++) {
+    w->fluid[i] =
+        pressure > 0.0
+            ? pressure * (sb_disc_system_arc(&w->disc, w->node[i], down, alpha, arc, false) +
+                          sb_disc_system_arc(&w->disc, w->node[i], down, -alpha, -arc, false))
+            : 0.0;
+  }
   for (size_t j = 0; j < loaded; j++) {
     memcpy(&w->matrix[j * loaded], &w->influence[j * w->count], loaded * sizeof(double));
     w->pressure[j] = w->wanted[j] - w->fluid[j];
@@ -192,40 +167,22 @@ static Figures solve(Work *w, const SbFitProblem *in, double section, double ste
 }
 
 // Solves with half-degree nodes, which show what the nodes cost, then with the thesis' own.
-SbStatus sb_fit_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report) {
+SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report) {
   const double section = out->section_diameter_fitted;
-  SbStatus status =
-      SB_CHECK(report, {"seal.section_diameter", "the fitted section [m]", section, SB_ABOVE_ZERO});
-  if (status != SB_OK) {
-    return status;
-  }
-  const double squeeze = 1.0 - in->radial_space / section;
-  out->circumference = M_PI * (in->bore_diameter - in->radial_space);
-  out->solver.converged = true;
-  if (!(squeeze > 0.0)) {
-    sb_warn(&out->warnings, "no-contact", "seal.section_diameter",
-            "the stretched ring does not touch the bore (squeeze %.3g %%): load 0",
-            100.0 * squeeze);
-    return sb_succeed(report);
-  }
-  if (squeeze > 0.1) {
-    sb_warn(&out->warnings, "disc-strain", "seal.section_diameter",
-            "squeeze %.3g %% is beyond 10 %%: linear elasticity is an estimate", 100.0 * squeeze);
-  }
   Work *w = malloc(sizeof *w);
   if (w == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the disc");
   }
-  w->kernel = sb_disc_kernel(in->poisson_ratio);
+  w->disc.kernel = sb_disc_kernel(in->poisson_ratio);
+  sb_disc_system_points(&w->disc, 2);
   w->space = in->radial_space / section;
-  sb_legendre_gauss(w->gauss_x, w->gauss_w, GAUSS);
   const double degree = M_PI / 180.0;
   size_t fine_iterations = 0;
   const Figures fine = solve(w, in, section, 0.5 * degree, &fine_iterations);
   const Figures own = solve(w, in, section, degree, &out->solver.newton_iterations);
-  if (own.loaded == 0 || fine.loaded == 0) {
+  out->solver.converged = own.loaded > 0 && fine.loaded > 0;
+  if (!out->solver.converged) {
     free(w);
-    out->solver.converged = false;
     return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "gland.radial_space",
                              "no contact within 75 degrees satisfies the thesis' disc");
   }
