@@ -236,9 +236,12 @@ static void test_edge_pressed(void) {
   few_lost(&tally, 7);
 }
 
-// With friction to 1 equilibrium may end; seldom.
+// With friction to 1 equilibrium may end; seldom. Ring 841298 has its highest nodal pressure at the
+// middle node of the last side of its bore contact, which is held in part: the fluid reaches all
+// the same as far as the last held node.
 static void test_sliding(void) {
   Tally tally = {0};
+  follow(SLIDING, 841298, &tally);
   campaign(SLIDING, 2, 30, &tally);
   few_lost(&tally, 20);
 }

@@ -28,8 +28,8 @@ static SbStatus create_rectangle(SbRingMesh **out, double r0, double r1, double 
   for (int j = 0; j < nz; j++) {
     for (int i = 0; i < nr; i++) {
       int v = j * (nr + 1) + i;
-      sb_ring_mesh_add(mesh, mesh->x, v, v + 1, v + nr + 2);
-      sb_ring_mesh_add(mesh, mesh->x, v, v + nr + 2, v + nr + 1);
+      sb_ring_mesh_add(mesh, v, v + 1, v + nr + 2);
+      sb_ring_mesh_add(mesh, v, v + nr + 2, v + nr + 1);
     }
   }
   SbStatus status = sb_ring_mesh_add_midsides(mesh, report);

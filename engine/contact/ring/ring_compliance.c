@@ -79,9 +79,9 @@ SbStatus sb_ring_free_bore(SbRing *ring, SbReport *report) {
 }
 
 // Waves of pressure that are tried, and those that tell the half-plane's modulus; share of the
-// contact's width that the window reaches beyond it, less where the surface turns away; points of
-// the dry pressure, least order of its fit.
-enum { WAVES = 10, WAVE_SHORT = 5, PROFILE = 161, ORDER_LEAST = 2, REACHES = 3 };
+// contact's width that the window reaches beyond it, less where the surface turns away; least order
+// of the dry pressure's fit.
+enum { WAVES = 10, WAVE_SHORT = 5, ORDER_LEAST = 2, REACHES = 3 };
 static const double REACH[REACHES] = {0.2, 0.12, 0.07};
 
 // The squeezed rubber's modulus over the unstrained one's: 1 to 1.5 from 3 to 40 % squeeze. Others
@@ -225,21 +225,18 @@ static SbStatus dry_gap(const SbRing *ring, SbRingPatch *patch, SbSurfaceComplia
                    "no smooth pressure fits the ring's bore contact");
   }
   // In SI units, above the lower ambient pressure.
-  double low = fmin(p.pressure_left, p.pressure_right);
+  double low = fmin(p.pressure_left, p.pressure_right) * ring->stress;
   p.left *= ring->length;
   p.right *= ring->length;
-  p.pressure_left = (p.pressure_left - low) * ring->stress;
-  p.pressure_right = (p.pressure_right - low) * ring->stress;
+  p.pressure_left = p.pressure_left * ring->stress - low;
+  p.pressure_right = p.pressure_right * ring->stress - low;
   for (int k = 0; k < p.count; k++) {
     p.a[k] *= ring->stress;
   }
+  p.peak = p.peak * ring->stress - low;
   double width = p.right - p.left;
   p.load = 0.25 * M_PI * width * p.a[0] +
            0.5 * (p.pressure_left - p.pressure_right) * (p.left + p.right);
-  for (int i = 0; i < PROFILE; i++) {
-    double at = p.left + 0.5 * width * (1.0 - cos(M_PI * i / (PROFILE - 1)));
-    p.peak = fmax(p.peak, sb_dry_contact_pressure(&p, at));
-  }
   // An order that gives no contact is as unfit as one that gives another: the next is lower.
   for (; p.count >= ORDER_LEAST; p.count--) {
     sb_compliance_of_pressure(c, &p);

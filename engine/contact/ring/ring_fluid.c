@@ -9,18 +9,21 @@
 #include <math.h>
 #include <string.h>
 
-// The boundary place where a surface pushes hardest; without contact the one nearest to an angle.
+// The vertex where a surface pushes hardest; without contact the one nearest to an angle. A vertex,
+// since each side has one fluid: parted at the middle node of a side that is held in part, its open
+// part would have the other flank's fluid. A contact of a middle node alone is parted after it.
 static int crest(const SbRingContact *contact, SbRingSurface surface, double angle) {
   const double *angles = contact->fem->mesh->angle;
   int best = -1, nearest = 0;
   double most = -1.0;
-  for (int i = 0; i < contact->count; i++) {
+  for (int i = 0; i < contact->count; i += 2) {
     const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
     double pressure = touch->held ? touch->force / fmax(contact->weight[i], 1e-30) : -1.0;
     if (pressure > most) {
       most = pressure;
       best = i;
     }
+    best = best < 0 && sb_ring_touch(contact, i - 1, surface)->held ? i : best;
     nearest = fabs(angles[i] - angle) < fabs(angles[nearest] - angle) ? i : nearest;
   }
   return best >= 0 ? best : nearest;

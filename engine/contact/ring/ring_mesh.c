@@ -81,22 +81,18 @@ typedef struct {
   const SbRingMeshPlan *plan;
   double follow; // share of the surface's growth that the rows' depth follows
   SbRingMesh *mesh;
-  int vertex_count;
+  int vertex_count, surface_count; // the first vertices are those on the surface
   double vertex[2 * VERTEX_MAX];
-  double vertex_angle[VERTEX_MAX];
   Neighbours neighbours[VERTEX_MAX];
-  bool fixed[VERTEX_MAX]; // on the surface
-  int place[VERTEX_MAX];  // in the loop, -1: none
-  double size[SAMPLES + 1], cumulative[SAMPLES + 1];
-  double depth[SAMPLES + 1][LAYERS_MAX + 1];
+  double size[2][SAMPLES + 1], depth[2][SAMPLES + 1][LAYERS_MAX + 1], cumulative[SAMPLES + 1];
   int row_count[2][LAYERS_MAX + 1];
   int row[2][LAYERS_MAX + 1][ROW_MAX + 1]; // vertices of each row and half, from bore to floor
+  int element[2][ROW_MAX];                 // at the surface, between two of these vertices
 } Builder;
 
-static int add_vertex(Builder *b, double r, double z, double angle) {
+static int add_vertex(Builder *b, double r, double z) {
   b->vertex[2 * b->vertex_count] = r;
   b->vertex[2 * b->vertex_count + 1] = z;
-  b->vertex_angle[b->vertex_count] = angle;
   return b->vertex_count++;
 }
 
@@ -106,13 +102,13 @@ static void sample_depths(Builder *b, int half) {
   double last = -1.0;
   for (int i = 0; i <= SAMPLES; i++) {
     double angle = (half == 0 ? M_PI : -M_PI) * i / SAMPLES;
-    b->size[i] = surface_size(plan, angle, plan->growth);
+    b->size[half][i] = surface_size(plan, angle, plan->growth);
     // Rows must not follow every change of the surface size, or coarse inner rows would cross them.
     double size = surface_size(plan, angle, b->follow * plan->growth);
     if (size == last) {
-      memcpy(b->depth[i], b->depth[i - 1], sizeof b->depth[i]);
+      memcpy(b->depth[half][i], b->depth[half][i - 1], sizeof b->depth[half][i]);
     } else {
-      row_depths(b->depth[i], size, plan->radius, plan->layers);
+      row_depths(b->depth[half][i], size, plan->radius, plan->layers);
     }
     last = size;
   }
@@ -144,15 +140,16 @@ static double cumulative_at(const double *cumulative, double angle) {
 }
 
 // Places the vertices of one row of one half by equal shares of the integral of 1/size.
-static void place_row(Builder *b, int half, int k, int share_top, int share_bottom) {
+// The left half borrows the right half's vertices on the axis.
+static void place_row(Builder *b, int half, int k) {
   const SbRingMeshPlan *plan = b->plan;
   double sign = half == 0 ? 1.0 : -1.0;
   double *cumulative = b->cumulative;
   double before = 0.0;
   cumulative[0] = 0.0;
   for (int i = 0; i <= SAMPLES; i++) {
-    const double *depth = b->depth[i];
-    double size = k == 0 ? b->size[i] : 0.5 * (depth[k + 1] - depth[k - 1]);
+    const double *depth = b->depth[half][i];
+    double size = k == 0 ? b->size[half][i] : 0.5 * (depth[k + 1] - depth[k - 1]);
     double density = (plan->radius - depth[k]) / size;
     if (i > 0) {
       cumulative[i] = cumulative[i - 1] + 0.5 * (density + before) * M_PI / SAMPLES;
@@ -175,38 +172,32 @@ static void place_row(Builder *b, int half, int k, int share_top, int share_bott
       double part = (want - cumulative[at]) / (cumulative[at + 1] - cumulative[at]);
       double angle = j == 0 ? breaks[s] : M_PI * (at + fmin(1.0, fmax(0.0, part))) / SAMPLES;
       part = angle / M_PI * SAMPLES - at;
-      double radius =
-          plan->radius - b->depth[at][k] - part * (b->depth[at + 1][k] - b->depth[at][k]);
+      double radius = plan->radius - b->depth[half][at][k] -
+                      part * (b->depth[half][at + 1][k] - b->depth[half][at][k]);
       bool axis = s == 0 && j == 0;
-      row[count++] = axis && half == 1
-                         ? share_top
-                         : add_vertex(b, plan->centre + radius * cos(angle),
-                                      axis ? 0.0 : sign * radius * sin(angle), sign * angle);
+      row[count++] = axis && half == 1 ? b->row[0][k][0]
+                                       : add_vertex(b, plan->centre + radius * cos(angle),
+                                                    axis ? 0.0 : sign * radius * sin(angle));
     }
   }
   row[count++] = half == 1
-                     ? share_bottom
-                     : add_vertex(b, plan->centre - plan->radius + b->depth[SAMPLES][k], 0.0, M_PI);
+                     ? b->row[0][k][b->row_count[0][k] - 1]
+                     : add_vertex(b, plan->centre - plan->radius + b->depth[half][SAMPLES][k], 0.0);
   b->row_count[half][k] = count;
 }
 
-// Shape of a triangle: 1 equilateral, 0 flat, negative if wound the other way than `sign`.
-static double quality(const double *a, const double *b, const double *c, double sign) {
+// Shape of a triangle: 1 equilateral, 0 flat, negative if wound clockwise in (r, z).
+static double quality(const double *a, const double *b, const double *c) {
   double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
   double sides = (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) +
                  (c[0] - b[0]) * (c[0] - b[0]) + (c[1] - b[1]) * (c[1] - b[1]) +
                  (a[0] - c[0]) * (a[0] - c[0]) + (a[1] - c[1]) * (a[1] - c[1]);
-  return sign * 2.0 * sqrt(3.0) * area / sides;
+  return 2.0 * sqrt(3.0) * area / sides;
 }
 
-void sb_ring_mesh_add(SbRingMesh *mesh, const double *vertex, int a, int b, int c) {
-  // Counter-clockwise in (r, z) so that the area is positive.
-  double area = (vertex[2 * b] - vertex[2 * a]) * (vertex[2 * c + 1] - vertex[2 * a + 1]) -
-                (vertex[2 * c] - vertex[2 * a]) * (vertex[2 * b + 1] - vertex[2 * a + 1]);
-  int *tri = &mesh->tri[6 * mesh->elements++];
-  tri[0] = a;
-  tri[1] = area > 0.0 ? b : c;
-  tri[2] = area > 0.0 ? c : b;
+int sb_ring_mesh_add(SbRingMesh *mesh, int a, int b, int c) {
+  memcpy(&mesh->tri[6 * mesh->elements], (int[3]){a, b, c}, sizeof(int[3]));
+  return mesh->elements++;
 }
 
 static double distance2(const double *a, const double *b) {
@@ -223,19 +214,21 @@ static void stitch(Builder *b, int half, int k) {
   int i = 0, j = 0;
   while (i < no - 1 || j < ni - 1) {
     bool step_outer = j == ni - 1;
+    const double *o = &v[2 * outer[i]], *n = &v[2 * inner[j]];
     if (i < no - 1 && j < ni - 1) {
-      const double *o = &v[2 * outer[i]], *n = &v[2 * inner[j]];
       const double *o1 = &v[2 * outer[i + 1]], *n1 = &v[2 * inner[j + 1]];
-      bool outer_flat = quality(o, o1, n, sign) < 0.1, inner_flat = quality(o, n1, n, sign) < 0.1;
+      bool outer_flat = sign * quality(o, o1, n) < 0.1, inner_flat = sign * quality(o, n1, n) < 0.1;
       step_outer = outer_flat == inner_flat ? distance2(o1, n) <= distance2(o, n1) : inner_flat;
     }
-    if (step_outer) {
-      sb_ring_mesh_add(b->mesh, v, outer[i], outer[i + 1], inner[j]);
-      i++;
-    } else {
-      sb_ring_mesh_add(b->mesh, v, outer[i], inner[j + 1], inner[j]);
-      j++;
+    // Counter-clockwise in (r, z).
+    int next = step_outer ? outer[i + 1] : inner[j + 1];
+    int element = half == 0 ? sb_ring_mesh_add(b->mesh, outer[i], next, inner[j])
+                            : sb_ring_mesh_add(b->mesh, outer[i], inner[j], next);
+    if (k == 0 && step_outer) {
+      b->element[half][i] = element;
     }
+    i += step_outer ? 1 : 0;
+    j += step_outer ? 0 : 1;
   }
 }
 
@@ -248,71 +241,62 @@ static void smooth(Builder *b) {
     for (int v = 0; v < b->vertex_count; v++) {
       b->neighbours[v] = (Neighbours){.worst = {1.0, 1.0}};
     }
-    for (int e = 0; e < mesh->elements; e++) {
-      for (int a = 0; a < 3; a++) {
-        int v = mesh->tri[6 * e + a], p = mesh->tri[6 * e + (a + 1) % 3];
-        int q = mesh->tri[6 * e + (a + 2) % 3];
+    for (int pass = 0; pass < 2; pass++) {
+      for (int i = 0; i < 3 * mesh->elements; i++) {
+        const int *tri = &mesh->tri[i / 3 * 6];
+        int v = tri[i % 3];
+        const double *at = pass == 0 ? &x[2 * v] : &moved[2 * v];
+        const double *p = &x[2 * tri[(i + 1) % 3]], *q = &x[2 * tri[(i + 2) % 3]];
         Neighbours *n = &b->neighbours[v];
         n->spokes += 2;
-        n->sum[0] += x[2 * p] + x[2 * q];
-        n->sum[1] += x[2 * p + 1] + x[2 * q + 1];
-        n->worst[0] = fmin(n->worst[0], quality(&x[2 * v], &x[2 * p], &x[2 * q], 1.0));
+        n->sum[0] += p[0] + q[0];
+        n->sum[1] += p[1] + q[1];
+        n->worst[pass] = fmin(n->worst[pass], quality(at, p, q));
+      }
+      for (int v = 0; v < b->vertex_count && pass == 0; v++) {
+        const Neighbours *n = &b->neighbours[v];
+        moved[2 * v] = 0.5 * (x[2 * v] + n->sum[0] / n->spokes);
+        moved[2 * v + 1] = x[2 * v + 1] == 0.0 ? 0.0 : 0.5 * (x[2 * v + 1] + n->sum[1] / n->spokes);
       }
     }
-    for (int v = 0; v < b->vertex_count; v++) {
-      const Neighbours *n = &b->neighbours[v];
-      moved[2 * v] = 0.5 * (x[2 * v] + n->sum[0] / n->spokes);
-      moved[2 * v + 1] = x[2 * v + 1] == 0.0 ? 0.0 : 0.5 * (x[2 * v + 1] + n->sum[1] / n->spokes);
-    }
-    for (int e = 0; e < mesh->elements; e++) {
-      for (int a = 0; a < 3; a++) {
-        int v = mesh->tri[6 * e + a], p = mesh->tri[6 * e + (a + 1) % 3];
-        int q = mesh->tri[6 * e + (a + 2) % 3];
-        double *worst = &b->neighbours[v].worst[1];
-        *worst = fmin(*worst, quality(&moved[2 * v], &x[2 * p], &x[2 * q], 1.0));
-      }
-    }
-    for (int v = 0; v < b->vertex_count; v++) {
-      if (!b->fixed[v] && b->neighbours[v].worst[1] > b->neighbours[v].worst[0]) {
+    for (int v = b->surface_count; v < b->vertex_count; v++) {
+      if (b->neighbours[v].worst[1] > b->neighbours[v].worst[0]) {
         memcpy(&x[2 * v], &moved[2 * v], sizeof(double[2]));
       }
     }
   }
 }
 
+// A triangle's side: its two vertices and the place of its mid-side node.
+typedef struct {
+  int vertex[2], at;
+} Side;
+
 static int compare_sides(const void *a, const void *b) {
-  const int *p = a, *q = b;
+  const int *p = ((const Side *)a)->vertex, *q = ((const Side *)b)->vertex;
   return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
 // Adds the mid-side nodes of all triangles; straight ones, the caller bends the boundary.
 SbStatus sb_ring_mesh_add_midsides(SbRingMesh *mesh, SbReport *report) {
   int sides = 3 * mesh->elements;
-  int(*side)[4] = malloc(sizeof(int[4]) * (size_t)sides);
+  Side *side = malloc(sizeof *side * (size_t)sides);
   if (side == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
   }
-  for (int e = 0; e < mesh->elements; e++) {
-    for (int s = 0; s < 3; s++) {
-      int a = mesh->tri[6 * e + s], c = mesh->tri[6 * e + (s + 1) % 3];
-      side[3 * e + s][0] = a < c ? a : c;
-      side[3 * e + s][1] = a < c ? c : a;
-      side[3 * e + s][2] = e;
-      side[3 * e + s][3] = s;
-    }
-  }
-  qsort(side, (size_t)sides, sizeof(int[4]), compare_sides);
   for (int i = 0; i < sides; i++) {
-    int node = mesh->nodes;
-    if (i > 0 && compare_sides(side[i], side[i - 1]) == 0) {
-      node--;
-    } else {
-      mesh->nodes++;
-      for (int k = 0; k < 2; k++) {
-        mesh->x[2 * node + k] = 0.5 * (mesh->x[2 * side[i][0] + k] + mesh->x[2 * side[i][1] + k]);
-      }
+    const int *tri = &mesh->tri[i / 3 * 6];
+    int a = tri[i % 3], c = tri[(i + 1) % 3];
+    side[i] = (Side){{a < c ? a : c, a < c ? c : a}, i / 3 * 6 + 3 + i % 3};
+  }
+  qsort(side, (size_t)sides, sizeof *side, compare_sides);
+  for (int i = 0; i < sides; i++) {
+    if (i == 0 || compare_sides(&side[i], &side[i - 1]) != 0) {
+      const double *a = &mesh->x[2 * side[i].vertex[0]], *c = &mesh->x[2 * side[i].vertex[1]];
+      mesh->x[2 * mesh->nodes] = 0.5 * (a[0] + c[0]);
+      mesh->x[2 * mesh->nodes++ + 1] = 0.5 * (a[1] + c[1]);
     }
-    mesh->tri[6 * side[i][2] + 3 + side[i][3]] = node;
+    mesh->tri[side[i].at] = mesh->nodes - 1;
   }
   free(side);
   return SB_OK;
@@ -349,61 +333,46 @@ void sb_ring_mesh_destroy(SbRingMesh *mesh) {
 // Lists the boundary from the floor over the left flank to the bore and on, and bends its sides.
 static void close_loop(Builder *b) {
   SbRingMesh *mesh = b->mesh;
-  int nl = b->row_count[1][0], nr = b->row_count[0][0];
-  int count = nl + nr - 2;
-  for (int i = 0; i < count; i++) {
-    int vertex = i < nl ? b->row[1][0][nl - 1 - i] : b->row[0][0][i - nl + 1];
-    mesh->loop[2 * i] = vertex;
-    mesh->angle[2 * i] = i == 0 ? -M_PI : b->vertex_angle[vertex];
-  }
+  int left = b->row_count[1][0] - 1, count = left + b->row_count[0][0] - 1;
   mesh->loop_count = 2 * count;
-  // Boundary sides belong to one triangle each: find them through the vertices' place in the loop.
-  int *place = b->place;
-  for (int v = 0; v < b->vertex_count; v++) {
-    place[v] = -1;
-  }
   for (int i = 0; i < count; i++) {
-    place[mesh->loop[2 * i]] = i;
+    int half = i < left ? 1 : 0, side = half == 1 ? left - 1 - i : i - left;
+    int vertex = b->row[half][0][side + half];
+    const int *tri = &mesh->tri[6 * b->element[half][side]];
+    mesh->loop[2 * i] = vertex;
+    mesh->loop[2 * i + 1] = half == 0 ? tri[3] : tri[5];
+    const double *x = &mesh->x[2 * vertex];
+    mesh->angle[2 * i] = i == 0 ? -M_PI : atan2(x[1], x[0] - b->plan->centre);
   }
-  for (int e = 0; e < mesh->elements; e++) {
-    for (int s = 0; s < 3; s++) {
-      int p = place[mesh->tri[6 * e + s]], q = place[mesh->tri[6 * e + (s + 1) % 3]];
-      if (p < 0 || q < 0 || ((p + 1) % count != q && (q + 1) % count != p)) {
-        continue;
-      }
-      int first = (p + 1) % count == q ? p : q;
-      double from = mesh->angle[2 * first];
-      double to = first + 1 < count ? mesh->angle[2 * first + 2] : M_PI;
-      int node = mesh->tri[6 * e + 3 + s];
-      double angle = 0.5 * (from + to);
-      mesh->loop[2 * first + 1] = node;
-      mesh->angle[2 * first + 1] = angle;
-      mesh->x[2 * node] = b->plan->centre + b->plan->radius * cos(angle);
-      mesh->x[2 * node + 1] = b->plan->radius * sin(angle);
-    }
+  for (int i = 1; i < 2 * count; i += 2) {
+    double next = i + 1 < 2 * count ? mesh->angle[i + 1] : M_PI;
+    double angle = mesh->angle[i] = 0.5 * (mesh->angle[i - 1] + next);
+    mesh->x[2 * mesh->loop[i]] = b->plan->centre + b->plan->radius * cos(angle);
+    mesh->x[2 * mesh->loop[i] + 1] = b->plan->radius * sin(angle);
   }
 }
 
 static SbStatus build(SbRingMesh **out, Builder *b) {
   const SbRingMeshPlan *plan = b->plan;
-  // Vertices, row by row; the left half borrows the right half's vertices on the axis.
+  // Vertices, row by row.
   int segments = 0;
-  for (int half = 0; half < 2; half++) {
-    sample_depths(b, half);
-    for (int k = 0; k < plan->layers; k++) {
-      int last = half == 1 ? b->row_count[0][k] - 1 : 0;
-      place_row(b, half, k, b->row[0][k][0], b->row[0][k][last]);
+  for (int k = 0; k < plan->layers; k++) {
+    for (int half = 0; half < 2; half++) {
+      if (k == 0) {
+        sample_depths(b, half);
+      }
+      place_row(b, half, k);
       segments += b->row_count[half][k];
     }
+    b->surface_count = k == 0 ? b->vertex_count : b->surface_count;
   }
-  int centre = add_vertex(b, plan->centre, 0.0, 0.0);
+  int centre = add_vertex(b, plan->centre, 0.0), loop = 2 * b->surface_count + 4;
   for (int half = 0; half < 2; half++) {
     b->row[half][plan->layers][0] = centre;
     b->row_count[half][plan->layers] = 1;
   }
 
   // Triangles, mid-sides, boundary.
-  int loop = 2 * (b->row_count[0][0] + b->row_count[1][0]);
   SbRingMesh *mesh = b->mesh = sb_ring_mesh_allocate(b->vertex_count, 2 * segments, loop);
   if (mesh == NULL) {
     return SB_ERROR_MEMORY;
@@ -415,11 +384,6 @@ static SbStatus build(SbRingMesh **out, Builder *b) {
   }
   memcpy(mesh->x, b->vertex, sizeof(double) * 2 * (size_t)b->vertex_count);
   mesh->nodes = b->vertex_count;
-  for (int half = 0; half < 2; half++) {
-    for (int i = 0; i < b->row_count[half][0]; i++) {
-      b->fixed[b->row[half][0][i]] = true;
-    }
-  }
   smooth(b);
   if (sb_ring_mesh_add_midsides(mesh, NULL) != SB_OK) {
     sb_ring_mesh_destroy(mesh);
@@ -430,21 +394,15 @@ static SbStatus build(SbRingMesh **out, Builder *b) {
   return SB_OK;
 }
 
-// Least triangle shape; 0 if the triangles overlap, that is, cover more than the outline.
+// Least triangle shape, negative if one is turned over.
 static double worst_quality(const SbRingMesh *mesh) {
-  double worst = 1.0, covered = 0.0, outline = 0.0;
-  const double *x = mesh->x;
+  double worst = 1.0;
   for (int e = 0; e < mesh->elements; e++) {
     const int *tri = &mesh->tri[6 * e];
-    const double *a = &x[2 * tri[0]], *b = &x[2 * tri[1]], *c = &x[2 * tri[2]];
-    worst = fmin(worst, quality(a, b, c, 1.0));
-    covered += (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+    const double *x = mesh->x;
+    worst = fmin(worst, quality(&x[2 * tri[0]], &x[2 * tri[1]], &x[2 * tri[2]]));
   }
-  for (int i = 0; i < mesh->loop_count; i += 2) {
-    const double *a = &x[2 * mesh->loop[i]], *b = &x[2 * mesh->loop[(i + 2) % mesh->loop_count]];
-    outline += a[0] * b[1] - a[1] * b[0];
-  }
-  return covered > outline * (1.0 + 1e-9) ? 0.0 : worst;
+  return worst;
 }
 
 SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbReport *report) {

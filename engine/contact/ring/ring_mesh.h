@@ -45,9 +45,9 @@ SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbRep
 
 // Parts of building one, for meshes of other bodies (tests of the elements against closed forms):
 // an empty mesh with room for so many vertices, triangles and boundary nodes; a triangle of three
-// vertices; the mid-side nodes of all triangles, straight ones.
+// vertices, counter-clockwise in (r, z), with its place; the mid-side nodes of all, straight ones.
 SbRingMesh *sb_ring_mesh_allocate(int vertices, int triangles, int loop);
-void sb_ring_mesh_add(SbRingMesh *mesh, const double *vertex, int a, int b, int c);
+int sb_ring_mesh_add(SbRingMesh *mesh, int a, int b, int c);
 SbStatus sb_ring_mesh_add_midsides(SbRingMesh *mesh, SbReport *report);
 
 void sb_ring_mesh_destroy(SbRingMesh *mesh);

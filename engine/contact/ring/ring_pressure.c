@@ -221,15 +221,21 @@ static double find_ends(Fit *fit, double end[2]) {
   return solve(fit, end, here);
 }
 
-// Whether the curve rises from both ends and nowhere falls below the lower of their pressures.
+double sb_ring_profile_place(const SbDryContact *p, int i) {
+  double share = 0.5 * (1.0 - cos(M_PI * i / (SB_RING_PROFILE - 1)));
+  return i == SB_RING_PROFILE - 1 ? p->right : p->left + share * (p->right - p->left);
+}
+
+// Whether the curve rises from both ends and nowhere falls below the lower of their pressures;
+// finds its peak.
 static bool presses(SbDryContact *p) {
-  enum { SAMPLES = 320 }; // those of the profile
   sb_dry_contact_edges(p);
   double low = fmin(p->pressure_left, p->pressure_right);
   bool good = p->edge_left >= 0.0 && p->edge_right >= 0.0;
-  for (int i = 1; i < SAMPLES && good; i++) {
-    double x = p->left + 0.5 * (p->right - p->left) * (1.0 - cos(M_PI * i / SAMPLES));
-    good = sb_dry_contact_pressure(p, x) >= low;
+  for (int i = 1; i < SB_RING_PROFILE - 1 && good; i++) {
+    double pressure = sb_dry_contact_pressure(p, sb_ring_profile_place(p, i));
+    good = pressure >= low;
+    p->peak = fmax(p->peak, pressure);
   }
   return good;
 }

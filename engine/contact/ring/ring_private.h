@@ -43,11 +43,16 @@ double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface);
 
 // Recovers the pressure of the contact that sb_ring_patch has found, a smooth curve with the load
 // of the nodal forces, and replaces the places of its ends by the recovered ones. The curve (edges,
-// ambient pressures and coefficients, element solver's units) runs over the place along the
+// ambient pressures, coefficients and peak, element solver's units) runs over the place along the
 // surface, its negative where that falls along the loop. False, with the ends as they are, where no
 // smooth curve fits it.
 bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
                   SbDryContact *pressure);
+
+// Points of a smooth profile, from its left to its right end: dense at both, where the pressure
+// rises with the root of the distance.
+enum { SB_RING_PROFILE = 321 };
+double sb_ring_profile_place(const SbDryContact *pressure, int i);
 
 // Replaces the mesh by one fitted to the present contacts and solves on it; the state before is
 // kept if that fails.
