@@ -116,7 +116,7 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem,
     SbChartPoint chart = sb_regime_chart(problem->load, entrainment, problem->radius,
                                          problem->modulus, problem->viscosity, alpha);
     printf("Greenwood's chart (alpha %.4g/GPa): g_E %.4g, g_V %.4g, %s\n", alpha * 1e9, chart.g_E,
-           chart.g_V, sb_regime_name(chart.regime));
+           chart.g_V, chart.regime);
   }
   // Equations 5.9 and 5.17 at this film: the drag of a plane taper from central to least film over
   // the Hertz width, and the attraction across the least film.

@@ -77,9 +77,8 @@ void sb_warn_about(SbWarnings *list, const char *subject) {
   }
 }
 
-SB_PRINTF(5, 0)
 static void add(SbWarnings *list, const char *code, const char *parameter, const char *subject,
-                const char *format, va_list arguments) {
+                const char *text) {
   for (size_t i = 0; i < list->count; i++) {
     const SbWarning *there = &list->item[i];
     if (strcmp(there->code, code) == 0 && strcmp(there->parameter, parameter) == 0 &&
@@ -92,33 +91,23 @@ static void add(SbWarnings *list, const char *code, const char *parameter, const
     return;
   }
   SbWarning *warning = &list->item[list->count++];
+  const bool told = strstr(text, subject) != NULL;
   sb_text(warning->code, sizeof warning->code, "%s", code);
   sb_text(warning->parameter, sizeof warning->parameter, "%s", parameter);
   sb_text(warning->subject, sizeof warning->subject, "%s", subject);
-  sb_text_v(warning->text, sizeof warning->text, format, arguments);
-  if (strstr(warning->text, subject) == NULL) {
-    char plain[sizeof warning->text];
-    memcpy(plain, warning->text, sizeof plain);
-    sb_text(warning->text, sizeof warning->text, "%s: %s", subject, plain);
-  }
+  sb_text(warning->text, sizeof warning->text, "%s%s%s", told ? "" : subject, told ? "" : ": ",
+          text);
 }
 
 void sb_warn(SbWarnings *list, const char *code, const char *parameter, const char *format, ...) {
   if (list != NULL) {
+    char text[sizeof list->item->text];
     va_list arguments;
     va_start(arguments, format);
-    add(list, code, parameter, list->subject != NULL ? list->subject : "", format, arguments);
+    sb_text_v(text, sizeof text, format, arguments);
     va_end(arguments);
+    add(list, code, parameter, list->subject != NULL ? list->subject : "", text);
   }
-}
-
-SB_PRINTF(5, 6)
-static void add_text(SbWarnings *list, const char *code, const char *parameter, const char *subject,
-                     const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  add(list, code, parameter, subject, format, arguments);
-  va_end(arguments);
 }
 
 bool sb_warning_is_serious(const char *code) {
@@ -140,7 +129,7 @@ void sb_warnings_merge(SbWarnings *list, const SbWarnings *from) {
   for (size_t i = 0; list != NULL && i < from->count; i++) {
     const SbWarning *w = &from->item[i];
     bool own = w->subject[0] != '\0' || list->subject == NULL;
-    add_text(list, w->code, w->parameter, own ? w->subject : list->subject, "%s", w->text);
+    add(list, w->code, w->parameter, own ? w->subject : list->subject, w->text);
   }
   if (list != NULL) {
     list->dropped += from->dropped;

@@ -10,6 +10,7 @@
 
 #include "engine/numeric/legendre.h"
 
+#include <gsl/gsl_sf_legendre.h>
 #include <math.h>
 #include <string.h>
 
@@ -20,7 +21,7 @@ static const double INVERSE_PI = 0.31830988618379067;
 void sb_ehl_tables_init(SbEhlTables *tables) {
   sb_legendre_gauss(tables->fine, tables->fine_weight, SB_EHL_QUAD);
   for (int q = 0; q < SB_EHL_QUAD; q++) {
-    sb_legendre_values(tables->fine_legendre[q], tables->fine[q], SB_EHL_PROJECT);
+    (void)gsl_sf_legendre_Pl_array(SB_EHL_PROJECT, tables->fine[q], tables->fine_legendre[q]);
   }
 }
 

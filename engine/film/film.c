@@ -13,26 +13,37 @@
 #include <stdlib.h>
 #include <string.h>
 
+typedef SbStatus Solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                       SbReport *report);
+
+// Name on the command line, one line of help, the closed form; NULL: the coupled solver.
 static const struct {
-  const char *name;
-  const char *help;
-} model_text[SB_FILM_MODEL_COUNT] = {
-#define SB_FILM_MODEL_TEXT(model, name, help) {name, help},
-    SB_FILM_MODEL_LIST(SB_FILM_MODEL_TEXT)
-#undef SB_FILM_MODEL_TEXT
+  const char *name, *help;
+  Solve *closed;
+} models[SB_FILM_MODEL_COUNT] = {
+    [SB_FILM_THESIS] = {"thesis", "power law of the thesis, eq. 7.5", sb_film_solve_law},
+    [SB_FILM_KARASZKIEWICZ] = {"karaszkiewicz", "power law of Karaszkiewicz, thesis eq. 7.6",
+                               sb_film_solve_law},
+    [SB_FILM_ASYMPTOTIC] = {"asymptotic", "exact limit of thin films on a half-plane",
+                            sb_film_solve_law},
+    [SB_FILM_REYNOLDS] = {"reynolds", "coupled elastohydrodynamic solution", NULL},
+    [SB_FILM_INVERSE] = {"inverse", "Blok's inverse film of a smooth dry pressure",
+                         sb_film_solve_inverse},
+    [SB_FILM_MOES] = {"moes", "blend of the rigid and the elastic limit", sb_film_solve_law},
+    [SB_FILM_RIGID] = {"rigid", "rigid analytical wedge, thesis section 6.1", sb_film_solve_rigid},
 };
 
 const char *sb_film_model_name(SbFilmModel model) {
-  return (int)model >= 0 && model < SB_FILM_MODEL_COUNT ? model_text[model].name : "unknown";
+  return (int)model >= 0 && model < SB_FILM_MODEL_COUNT ? models[model].name : "unknown";
 }
 
 const char *sb_film_model_help(SbFilmModel model) {
-  return (int)model >= 0 && model < SB_FILM_MODEL_COUNT ? model_text[model].help : "";
+  return (int)model >= 0 && model < SB_FILM_MODEL_COUNT ? models[model].help : "";
 }
 
 bool sb_film_model_from_name(SbFilmModel *out, const char *name) {
   for (int i = 0; name != NULL && i < SB_FILM_MODEL_COUNT; i++) {
-    if (strcmp(model_text[i].name, name) == 0) {
+    if (strcmp(models[i].name, name) == 0) {
       *out = (SbFilmModel)i;
       return true;
     }
@@ -272,7 +283,8 @@ void sb_film_mirror(SbFilm *out) {
   }
 }
 
-void sb_film_warn_common(SbFilm *out, const SbFilmProblem *problem) {
+// Flags films thinner than a few molecules and shapes that the models do not cover.
+static void warn_common(SbFilm *out, const SbFilmProblem *problem) {
   // The circle departs from its parabola by (x/R)^2/4, and the film builds up over sqrt(2 R h).
   if (problem->compliance == NULL && problem->speed != 0.0 &&
       out->film_min > SB_FILM_THICK * problem->radius) {
@@ -299,7 +311,8 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
   }
   SbFilmScale scale = sb_film_scale(problem);
   sb_film_begin(out, problem, &scale);
-  const bool fitted = problem->compliance != NULL && problem->model == SB_FILM_REYNOLDS;
+  Solve *closed = models[problem->model].closed;
+  const bool fitted = problem->compliance != NULL && closed == NULL;
   SbDryContact dry;
   if (fitted) {
     status = sb_film_scale_fitted(&scale, &dry, problem, report);
@@ -313,51 +326,35 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
                              "pi they open the contact",
                              fabs(scale.inlet - scale.outlet));
   }
-  if (scale.U <= 0.0 && !(sb_film_rough(problem) && problem->surface != SB_ROUGH_NONE)) {
+  if (scale.U <= 0.0 && problem->surface == SB_ROUGH_NONE) {
     if (fitted) {
       sb_film_rest_fitted(out, problem, &dry);
       status = sb_succeed(report);
     } else {
       status = sb_film_solve_dry(out, problem, &scale, report);
     }
-    if (status == SB_OK &&
-        sb_film_rough(problem)) { // no film at all between smooth surfaces at rest
+    if (sb_film_rough(problem)) { // no film at all between smooth surfaces at rest
       snap_in(out, problem, snap_gap(NULL, problem, &scale));
     }
+  } else if (closed != NULL) {
+    status = closed(out, problem, &scale, report);
+    out->flow = 0.5 * problem->speed * out->film_flux;
+    out->solver.converged = status == SB_OK;
   } else {
-    switch (problem->model) {
-    case SB_FILM_KARASZKIEWICZ:
-    case SB_FILM_THESIS:
-    case SB_FILM_ASYMPTOTIC:
-    case SB_FILM_MOES:
-      status = sb_film_solve_law(out, problem, &scale, report);
-      break;
-    case SB_FILM_REYNOLDS: {
-      SbFilmSolver *own = NULL;
-      if (memory == NULL) {
-        status = sb_film_solver_create(&own, report);
-      }
-      if (status == SB_OK) {
-        status = solve_coupled(out, problem, &scale, memory != NULL ? memory : own, report);
-      }
-      sb_film_solver_destroy(own);
-      break;
+    SbFilmSolver *own = NULL;
+    if (memory == NULL) {
+      status = sb_film_solver_create(&own, report);
     }
-    case SB_FILM_RIGID:
-      status = sb_film_solve_rigid(out, problem, &scale, report);
-      break;
-    case SB_FILM_INVERSE:
-      status = sb_film_solve_inverse(out, problem, &scale, report);
-      break;
-    case SB_FILM_MODEL_COUNT:
-      break; // refused by check()
+    if (status == SB_OK) {
+      status = solve_coupled(out, problem, &scale, memory != NULL ? memory : own, report);
     }
+    sb_film_solver_destroy(own);
   }
   if (status == SB_ERROR_NOT_CONVERGED) {
     out->valid = false;
   }
   if (status == SB_OK || (status == SB_ERROR_NOT_CONVERGED && out->film_central > 0.0)) {
-    sb_film_warn_common(out, problem);
+    warn_common(out, problem);
   }
   return status;
 }

@@ -26,22 +26,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// model, name on the command line, one line of help; those of models.film (params.def) first, in
-// its order
-#define SB_FILM_MODEL_LIST(X)                                                                      \
-  X(SB_FILM_THESIS, "thesis", "power law of the thesis, eq. 7.5")                                  \
-  X(SB_FILM_KARASZKIEWICZ, "karaszkiewicz", "power law of Karaszkiewicz, thesis eq. 7.6")          \
-  X(SB_FILM_ASYMPTOTIC, "asymptotic", "exact limit of thin films on a half-plane")                 \
-  X(SB_FILM_REYNOLDS, "reynolds", "coupled elastohydrodynamic solution")                           \
-  X(SB_FILM_INVERSE, "inverse", "Blok's inverse film of a smooth dry pressure")                    \
-  X(SB_FILM_MOES, "moes", "blend of the rigid and the elastic limit")                              \
-  X(SB_FILM_RIGID, "rigid", "rigid analytical wedge, thesis section 6.1")
-
+// Those of models.film (params.def) first, in its order.
 typedef enum {
-#define SB_FILM_MODEL_ENUM(model, name, help) model,
-  SB_FILM_MODEL_LIST(SB_FILM_MODEL_ENUM)
-#undef SB_FILM_MODEL_ENUM
-      SB_FILM_MODEL_COUNT
+  SB_FILM_THESIS,
+  SB_FILM_KARASZKIEWICZ,
+  SB_FILM_ASYMPTOTIC,
+  SB_FILM_REYNOLDS,
+  SB_FILM_INVERSE,
+  SB_FILM_MOES,
+  SB_FILM_RIGID,
+  SB_FILM_MODEL_COUNT
 } SbFilmModel;
 
 enum { SB_FILM_POINTS = 7800 }; // capacity of a profile

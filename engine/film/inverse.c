@@ -102,7 +102,6 @@ static void evaluate(SbFilm *out, const SbFilmProblem *problem, const gsl_spline
   double end = t->x[t->size - 1];
   double axis = 0.0 > begin && 0.0 < end ? 0.0 : 0.5 * (begin + end);
   out->film_flux = flux;
-  out->flow = 0.5 * problem->speed * flux;
   out->film_min = INFINITY;
   out->film_central = flux * root(slope_at(t, axis) * flux * flux / (12.0 * eta_u), axis < place);
   out->position_rupture = sign * end;
@@ -172,7 +171,6 @@ SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const 
                        200.0 * change);
     } else {
       evaluate(out, problem, fine, place, steep);
-      out->solver.converged = true;
       out->solver.unknowns = fine->size;
       // The spline's slope is of third order at least: half the points are out by seven times more.
       double estimate = 0.25 * change + 1e-12;

@@ -13,7 +13,6 @@
 #include "engine/film/scale.h"
 
 #include <math.h>
-#include <string.h>
 
 // Blend of the rigid and the elastic limit: (rigid^s + elastic^s)^(1/s).
 static double blend(double rigid, double elastic, double s) {
@@ -60,65 +59,69 @@ SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmProblem *problem, const SbFi
   return sb_succeed(report);
 }
 
+// Films over R by k U^a W^b of the models, times the end pressures' factor.
+static const struct Law {
+  double least, flux; // k
+  double a, b, kappa;
+} laws[SB_FILM_MODEL_COUNT] = {
+    [SB_FILM_THESIS] = {1.492, 1.492, 0.5434, -0.2893, 0.0},
+    [SB_FILM_KARASZKIEWICZ] = {4.4, 4.4, 0.65, -0.21, 0.0},
+    [SB_FILM_ASYMPTOTIC] = {3.00434, 3.77334, 0.6, -0.2, -0.8},
+};
+
 SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                            SbReport *report) {
+  const SbFilmModel model = problem->model;
+  const struct Law *law = &laws[model];
   double U = scale->U;
   double W = scale->W;
   double R = problem->radius;
   double direction = problem->speed >= 0.0 ? 1.0 : -1.0;
   double width = scale->half_width;
+  double minimum, central, flux; // of the blend, over R
+  blended(&minimum, &central, &flux, scale);
   out->position_rupture = direction * width;
-
-  if (problem->model == SB_FILM_ASYMPTOTIC) {
+  if (model == SB_FILM_MOES) {
+    out->film_min = R * minimum;
+    out->film_central = R * central;
+    out->film_flux = R * flux;
+  } else {
+    double unit = R * pow(U, law->a) * pow(W, law->b) * pow(scale->kappa, law->kappa);
+    out->film_min = law->least * unit;
+    out->film_central = out->film_flux = law->flux * unit;
+  }
+  if (model == SB_FILM_ASYMPTOTIC) {
     double layer = pow(scale->lambda, 0.4);
-    double unit = R * pow(U, 0.6) * pow(W, -0.2) * pow(scale->kappa, -0.8);
-    out->film_min = 3.00434 * unit;
-    out->film_flux = 3.77334 * unit;
-    out->film_central = out->film_flux;
     out->position_film_min = direction * width * (1.0 - 0.17041 * layer);
     out->position_rupture = direction * width * (1.0 + 0.16406 * layer);
     out->ruptured = scale->outlet <= 0.0;
-  } else if (problem->model == SB_FILM_MOES) {
-    blended(&out->film_min, &out->film_central, &out->film_flux, scale);
-    out->film_min *= R;
-    out->film_central *= R;
-    out->film_flux *= R;
-  } else {
-    bool thesis = problem->model == SB_FILM_THESIS;
-    double H =
-        thesis ? 1.492 * pow(U, 0.5434) * pow(W, -0.2893) : 4.4 * pow(U, 0.65) * pow(W, -0.21);
-    out->film_min = out->film_central = out->film_flux = R * H;
-    // The data behind eq. 7.5: Tables 7.9 and 7.10.
-    if (thesis && (U < 5.9e-10 || U > 1.6e-7 || W < 0.0566 || W > 0.1906)) {
-      out->valid = false;
-      sb_warn(&out->warnings, "film-law-range", "models.film",
-              "eq. 7.5 was fitted for U 5.9e-10 ... 1.6e-7, W 0.057 ... 0.191; here %.3g, %.3g", U,
-              W);
-    }
+  }
+  // The data behind eq. 7.5: Tables 7.9 and 7.10.
+  if (model == SB_FILM_THESIS && (U < 5.9e-10 || U > 1.6e-7 || W < 0.0566 || W > 0.1906)) {
+    out->valid = false;
+    sb_warn(&out->warnings, "film-law-range", "models.film",
+            "eq. 7.5 was fitted for U 5.9e-10 ... 1.6e-7, W 0.057 ... 0.191; here %.3g, %.3g", U,
+            W);
   }
 
   // How far the law is from the blend, which is good to a few per cent: its expected error.
-  double minimum, central, flux;
-  blended(&minimum, &central, &flux, scale);
   double expected = fabs(out->film_flux / R / flux - 1.0) + 0.02;
   out->expected_error = expected;
   if (expected > 0.1) {
     out->valid = false;
     sb_warn(&out->warnings, "film-law-error", "models.film",
-            "model %s is about %.0f %% from the solved film here",
-            sb_film_model_name(problem->model), 100.0 * expected);
+            "model %s is about %.0f %% from the solved film here", sb_film_model_name(model),
+            100.0 * expected);
   }
-  if ((problem->model == SB_FILM_THESIS || problem->model == SB_FILM_KARASZKIEWICZ) &&
+  if ((model == SB_FILM_THESIS || model == SB_FILM_KARASZKIEWICZ) &&
       (scale->inlet > 0.0 || scale->outlet > 0.0)) {
     sb_warn(&out->warnings, "film-law-pressure", "models.film",
             "the power law knows end pressures only through the load");
   }
 
   dry_profile(out, problem, scale, out->film_flux);
-  out->flow = out->film_flux * problem->speed / 2.0;
   out->friction_couette = problem->viscosity * problem->speed * 2.0 * width / out->film_flux;
   out->friction_poiseuille =
       0.5 * out->film_flux * (problem->pressure_right - problem->pressure_left);
-  out->solver.converged = true;
   return sb_succeed(report);
 }

@@ -14,24 +14,21 @@ SbChartPoint sb_regime_chart(double load, double entrainment, double radius, dou
   point.g_V = point.G * pow(point.W, 1.5) / sqrt(point.U);
 
   // Film parameter h W/(R U) of each corner.
-  double film[] = {
-      [SB_REGIME_RIGID_ISOVISCOUS] = 4.894968,
-      [SB_REGIME_ELASTIC_ISOVISCOUS] = 3.00434 * pow(point.g_E, 0.8),
-      [SB_REGIME_RIGID_PIEZOVISCOUS] = 1.05 * pow(point.g_V, 2.0 / 3),
-      [SB_REGIME_ELASTIC_PIEZOVISCOUS] = 2.05 * pow(point.g_V, 0.54) * pow(point.g_E, 0.06),
+  const struct {
+    const char *name;
+    double film;
+  } corner[] = {
+      {"isoviscous-rigid", 4.894968},
+      {"isoviscous-elastic", 3.00434 * pow(point.g_E, 0.8)},
+      {"piezoviscous-rigid", 1.05 * pow(point.g_V, 2.0 / 3)},
+      {"piezoviscous-elastic", 2.05 * pow(point.g_V, 0.54) * pow(point.g_E, 0.06)},
   };
+  int thickest = 0;
   for (int i = 1; i < 4; i++) {
-    if (film[i] > film[point.regime]) {
-      point.regime = (SbRegime)i;
-    }
+    thickest = corner[i].film > corner[thickest].film ? i : thickest;
   }
+  point.regime = corner[thickest].name;
   return point;
-}
-
-const char *sb_regime_name(SbRegime regime) {
-  static const char *const names[] = {"isoviscous-rigid", "isoviscous-elastic",
-                                      "piezoviscous-rigid", "piezoviscous-elastic"};
-  return names[regime];
 }
 
 const char *sb_regime_of_lambda(double lambda) {

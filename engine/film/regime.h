@@ -7,26 +7,16 @@
 // isoviscous-elastic one, which is this program's exact limit, 3.00434 g_E^0.8 (commonly 3.10).
 #pragma once
 
-typedef enum {
-  SB_REGIME_RIGID_ISOVISCOUS,
-  SB_REGIME_ELASTIC_ISOVISCOUS,
-  SB_REGIME_RIGID_PIEZOVISCOUS,
-  SB_REGIME_ELASTIC_PIEZOVISCOUS
-} SbRegime;
-
 typedef struct {
-  double U, W, G;  // Dowson's groups: eta u_m/(E'R), w/(E'R), alpha E'
-  double g_E, g_V; // chart coordinates
-  SbRegime regime;
+  double U, W, G;     // Dowson's groups: eta u_m/(E'R), w/(E'R), alpha E'
+  double g_E, g_V;    // chart coordinates
+  const char *regime; // "isoviscous-elastic" and so on; borrowed
 } SbChartPoint;
 
 // Chart coordinates and regime. `entrainment` is u_m = u/2 [m/s], load per length [N/m], `modulus`
 // E' [Pa], `pressure_viscosity` alpha [1/Pa]. All but alpha positive.
 SbChartPoint sb_regime_chart(double load, double entrainment, double radius, double modulus,
                              double viscosity, double pressure_viscosity);
-
-// "isoviscous-elastic" and so on; borrowed.
-const char *sb_regime_name(SbRegime regime);
 
 // "boundary", "mixed" or "full film"; borrowed.
 const char *sb_regime_of_lambda(double lambda);

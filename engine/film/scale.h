@@ -67,7 +67,8 @@ double sb_film_dry_pressure(double X, double inlet, double outlet);
 // Fills the scales, numbers of Moes and the sign-dependent parts common to every model.
 void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale);
 
-// The closed-form models, Blok's inverse film, and the dry contact at zero speed.
+// The closed-form models, Blok's inverse film and the rigid wedge (wedge.h), but for the flow; the
+// dry contact at zero speed.
 SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                            SbReport *report);
 SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
@@ -90,6 +91,3 @@ static inline void sb_film_put(SbFilm *out, size_t n, double x, double pressure,
 
 // Turns a profile between the flow frame and the seal's where their x differ in sign.
 void sb_film_mirror(SbFilm *out);
-
-// Flags films thinner than a few molecules and pressures that the models do not cover.
-void sb_film_warn_common(SbFilm *out, const SbFilmProblem *problem);

@@ -1,11 +1,14 @@
 // The analytical wedge; equations and validity in wedge.h.
 #include "engine/film/wedge.h"
 
+#include "engine/film/scale.h"
 #include "engine/numeric/root.h"
 
 #include <math.h>
 
-double sb_wedge_shape(double t, double stretch) {
+// P* - P*_in at angle t for a flux film of `stretch` least films: sec^2(te) where the film ends at
+// te.
+static double shape(double t, double stretch) {
   return t / 2 + M_PI / 4 + sin(2 * t) / 4 -
          stretch * (3 * t / 8 + 3 * M_PI / 16 + sin(2 * t) / 4 + sin(4 * t) / 32);
 }
@@ -19,10 +22,10 @@ static double fall(double *slope, double te, const void *context) {
   double stretch = sec2(te);
   *slope =
       2 * stretch * tan(te) * (3 * te / 8 + 3 * M_PI / 16 + sin(2 * te) / 4 + sin(4 * te) / 32);
-  return *(const double *)context - sb_wedge_shape(te, stretch);
+  return *(const double *)context - shape(te, stretch);
 }
 
-// Where the film ends at `step` P* above the inlet: sb_wedge_shape(te, te) falls from pi/16 at 0
+// Where the film ends at `step` P* above the inlet: shape(te, sec^2(te)) falls from pi/16 at 0
 // without bound towards pi/2.
 static double end_at(double step) {
   return sb_newton_bracketed(fall, &step, 0, 0.5 * M_PI, 0.5);
@@ -37,7 +40,7 @@ static double rise(double *slope, double t, const void *context) {
   const Rise *r = context;
   double c2 = cos(t) * cos(t);
   *slope = c2 * (1 - r->stretch * c2);
-  return r->outlet - sb_wedge_shape(0.5 * M_PI, r->stretch) + sb_wedge_shape(t, r->stretch);
+  return r->outlet - shape(0.5 * M_PI, r->stretch) + shape(t, r->stretch);
 }
 
 // The state of a film, and its load.
@@ -51,9 +54,9 @@ static double pools_load(SbWedgePools *w, double film) {
   w->length = length;
   w->full = true;
   w->end = w->reform = s > 1 ? acos(sqrt(1 / s)) : 0;
-  if (inlet + sb_wedge_shape(w->end, s) < 0) {
+  if (inlet + shape(w->end, s) < 0) {
     double end = end_at(-inlet);
-    double most = inlet + sb_wedge_shape(0.5 * M_PI, sec2(end));
+    double most = inlet + shape(0.5 * M_PI, sec2(end));
     if (outlet < most) {
       Rise r = {sec2(end), outlet};
       w->full = false;
@@ -94,90 +97,79 @@ double sb_wedge_pools_pressure(const SbWedgePools *w, double x) {
   double t = atan(x / w->length), s = w->stretch;
   double unit = w->lambda * w->length / (w->film * w->film);
   if (w->full || t < w->end) {
-    return w->inlet + unit * sb_wedge_shape(t, s);
+    return w->inlet + unit * shape(t, s);
   }
-  double rise = sb_wedge_shape(0.5 * M_PI, s) - sb_wedge_shape(t, s);
+  double rise = shape(0.5 * M_PI, s) - shape(t, s);
   return t < w->reform ? 0 : w->outlet - unit * rise;
 }
 
-// Pressure in Pa per unit of P*.
-static double pressure_scale(const SbWedgeProblem *problem) {
-  double h0 = problem->film_min;
-  return 6 * problem->speed * problem->viscosity * sqrt(2 * problem->radius * h0) / (h0 * h0);
+// ---------------------------------------------------------------- the model "rigid"
+
+// Outlet's pressure above the inlet's with which a film of given load ends at te, less `context`:
+// its least film goes with cos^2(te), and the unit is its P* at te = 0.
+static double step_of_end(double te, const void *context) {
+  return shape(te, sec2(te)) / pow(cos(te), 3) - *(const double *)context;
 }
 
-SbStatus sb_wedge_solve(SbWedge *out, const SbWedgeProblem *problem, SbReport *report) {
-  *out = (SbWedge){0};
-  double h0 = problem->film_min;
-  double R = problem->radius;
-  if (!(h0 > 0 && problem->speed > 0 && R > 0 && problem->viscosity > 0)) {
-    return sb_fail(report, SB_ERROR_RANGE, "film, speed, radius and viscosity must be positive");
+// Pressure and gap over the wedge, dense about its throat, in increasing x of the seal's frame;
+// `scale` is P* in Pa.
+static void wedge_profile(SbFilm *out, const SbFilmProblem *problem, double te, double scale,
+                          const double pressure[2]) {
+  enum { POINTS = 801 };
+  bool forward = problem->speed >= 0;
+  double unit = sqrt(2 * problem->radius * out->film_min);
+  for (int i = 0; i < POINTS && out->x != NULL; i++) {
+    // tan runs from -30 to 2 throats: the pressure has gone to a ten-thousandth of its peak there.
+    double x = i == POINTS - 1 ? 2 : tan(-1.5375 + 2.6446 * i / (POINTS - 1));
+    double t = atan(x);
+    double p = t < te ? pressure[0] + scale * shape(t, sec2(te)) : pressure[1];
+    size_t at = (size_t)(forward ? i : POINTS - 1 - i);
+    sb_film_put(out, at, forward ? x * unit : -x * unit, p, out->film_min * (1 + x * x));
   }
-  double scale = pressure_scale(problem);
-  double step = (problem->pressure_right - problem->pressure_left) / scale;
+}
+
+SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                             SbReport *report) {
+  bool forward = problem->speed >= 0;
+  double sign = forward ? 1 : -1;
+  double pressure[] = {forward ? problem->pressure_left : problem->pressure_right,
+                       forward ? problem->pressure_right : problem->pressure_left};
+  double R = problem->radius;
+  double eta_u = problem->viscosity * fabs(problem->speed);
+  // Net load by parts: integral of (P* - ambient) sec^2 t dt = cos^2(te)/4, whatever the pressures.
+  double top = 3 * eta_u * R / problem->load;
+  double step = (pressure[1] - pressure[0]) / (6 * eta_u * sqrt(2 * R / top) / top);
   if (!(step < M_PI / 16)) {
     return sb_fail(report, SB_ERROR_INFEASIBLE,
-                   "the outlet pressure drives the film back: no end with zero gradient");
+                   "no rigid film carries %g N/m at these pressures: the outlet's drives it back",
+                   problem->load);
   }
-
-  double te = end_at(step);
+  double te = sb_bisect(step_of_end, &step, 0, 0.5 * M_PI);
   double c2 = cos(te) * cos(te);
-  double root = sqrt(2 * R / h0);
-  out->rupture_angle = te;
-  out->position_rupture = sqrt(2 * R * h0) * tan(te);
-  out->film_flux = h0 / c2;
-
-  // Net load by parts: integral of (P* - ambient) sec^2 t dt = cos^2(te)/4, whatever the pressures.
-  out->load = scale * sqrt(2 * R * h0) * c2 / 4;
-
+  double h0 = out->film_min = out->film_central = top * c2; // the throat lies on the axis
+  double root = sqrt(2 * R / h0), unit = 6 * eta_u * root / h0;
+  out->film_flux = top;
+  out->position_rupture = sign * root * h0 * tan(te);
+  out->ruptured = true;
   // The pressure gradient vanishes at -te as well: there the pressure is greatest.
-  out->pressure_max = problem->pressure_left + scale * sb_wedge_shape(-te, 1 / c2);
-  double eta_u = problem->viscosity * problem->speed;
+  out->pressure_max = pressure[0] + unit * shape(-te, 1 / c2);
   double span = te + M_PI / 2;
-  out->friction_couette = eta_u * root * span;
-  out->friction_poiseuille = 3 * eta_u * root * (span - (span / 2 + sin(2 * te) / 4) / c2);
+  out->friction_couette = sign * eta_u * root * span;
+  out->friction_poiseuille = sign * 3 * eta_u * root * (span - (span / 2 + sin(2 * te) / 4) / c2);
+  wedge_profile(out, problem, te, unit, pressure);
+
+  // How far the elastic limit says the film really is.
+  double elastic = 3.77334 * R * pow(scale->U, 0.6) * pow(scale->W, -0.2);
+  out->expected_error =
+      scale->M < 0.5 ? 0.03 : fabs(out->film_flux / fmax(elastic, out->film_flux) - 1);
+  if (scale->M >= 0.5) {
+    out->valid = false;
+    sb_warn(
+        &out->warnings, "film-rigid", "models.film",
+        "rigid surfaces need M below 0.5; here M = %.3g and the bodies deform more than the film",
+        scale->M);
+  }
   return sb_succeed(report);
-}
-
-// What a film of that logarithm carries beyond a load; where the outlet's pressure drives it back
-// it carries too little.
-typedef struct {
-  SbWedgeProblem problem;
-  double load;
-} LoadProblem;
-
-static double load_excess(double log_film, const void *context) {
-  LoadProblem at = *(const LoadProblem *)context;
-  at.problem.film_min = exp(log_film);
-  SbWedge wedge;
-  return sb_wedge_solve(&wedge, &at.problem, NULL) == SB_OK ? wedge.load - at.load : -at.load;
-}
-
-SbStatus sb_wedge_solve_load(SbWedge *out, double *film_min, const SbWedgeProblem *problem,
-                             double load, SbReport *report) {
-  *out = (SbWedge){0};
-  if (!(load > 0)) {
-    return sb_fail(report, SB_ERROR_RANGE, "the load must be positive");
-  }
-  // w = 3 eta u R cos^2(te)/h0 with cos^2 between 0 and 1 brackets h0 from above.
-  LoadProblem at = {*problem, load};
-  double top = log(3 * problem->viscosity * problem->speed * problem->radius / load);
-  *film_min = at.problem.film_min = exp(sb_bisect(load_excess, &at, top - 60, top));
-  SbStatus status = sb_wedge_solve(out, &at.problem, report);
-  if (status == SB_OK && fabs(out->load / load - 1) > 1e-9) {
-    return sb_fail(report, SB_ERROR_INFEASIBLE, "no rigid film carries %g N/m at these pressures",
-                   load);
-  }
-  return status;
-}
-
-double sb_wedge_pressure(const SbWedge *wedge, const SbWedgeProblem *problem, double x) {
-  double t = atan(x / sqrt(2 * problem->radius * problem->film_min));
-  if (t >= wedge->rupture_angle) {
-    return problem->pressure_right;
-  }
-  return problem->pressure_left +
-         pressure_scale(problem) * sb_wedge_shape(t, sec2(wedge->rupture_angle));
 }
 
 double sb_taper_factor(double ratio) {

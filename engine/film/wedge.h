@@ -8,47 +8,17 @@
 //   dP*/dt = cos^2 t - sec^2(te) cos^4 t
 //   P*(t)  = P*_in + t/2 + pi/4 + sin 2t/4 - sec^2(te) (3t/8 + 3 pi/16 + sin 2t/4 + sin 4t/32)
 //
-// The inlet is flooded at pressure p_in; the film ends at te, where it reaches p_out with zero
-// gradient (Reynolds' condition at the outlet's own pressure). Load is net of the ambient step
-// (p_in for x < 0, p_out for x > 0): w = 3 eta U R cos^2(te)/h0, which is 4.894968 eta u_m R/h0
-// without pressures (u_m = U/2). Validity: rigid surfaces (Moes M < 1), and P*_out - P*_in < pi/16;
-// beyond, the outlet's pressure drives the film back and no such end exists (SB_ERROR_INFEASIBLE).
+// The film model "rigid" (sb_film_solve_rigid): the inlet is flooded at pressure p_in; the film
+// ends at te, where it reaches p_out with zero gradient (Reynolds' condition at the outlet's own
+// pressure). Load is net of the ambient step (p_in for x < 0, p_out for x > 0): w = 3 eta U R
+// cos^2(te)/h0, which is 4.894968 eta u_m R/h0 without pressures (u_m = U/2). Validity: both bodies
+// keep their shape, so the film must be much thicker than the deflection: Moes' M below about 0.5,
+// where the solved film is within a few per cent; beyond, the distance is told from the elastic
+// limit. P*_out - P*_in < pi/16: beyond, the outlet's pressure drives the film back and no such end
+// exists (SB_ERROR_INFEASIBLE).
 #pragma once
 
-#include "engine/base/status.h"
-
 #include <stdbool.h>
-
-typedef struct {
-  double film_min;       // h0 > 0 [m]
-  double speed;          // sliding speed U = u1 + u2 > 0, inlet left [m/s]
-  double radius;         // R [m]
-  double viscosity;      // eta [Pa s]
-  double pressure_left;  // p_in [Pa]
-  double pressure_right; // p_out [Pa]
-} SbWedgeProblem;
-
-typedef struct {
-  double rupture_angle;       // te [rad]
-  double position_rupture;    // x of te [m]
-  double load;                // net, per length [N/m]
-  double film_flux;           // film where dp/dx = 0, h0 sec^2 te [m]
-  double pressure_max;        // [Pa]
-  double friction_couette;    // integral of eta U/h [N/m]
-  double friction_poiseuille; // integral of (h/2) dp/dx [N/m]
-} SbWedge;
-
-// Solves the problem for a given least film. SB_ERROR_RANGE for sizes that are not positive,
-// SB_ERROR_INFEASIBLE beyond the outlet pressure above.
-SbStatus sb_wedge_solve(SbWedge *out, const SbWedgeProblem *problem, SbReport *report);
-
-// Finds the least film that carries `load` [N/m] (problem->film_min is ignored), then as above.
-SbStatus sb_wedge_solve_load(SbWedge *out, double *film_min, const SbWedgeProblem *problem,
-                             double load, SbReport *report);
-
-// P* - P*_in at angle t for a flux film of `stretch` least films: sec^2(te) where the film ends at
-// te.
-double sb_wedge_shape(double t, double stretch);
 
 // The wedge between two pools of liquid, scaled: h = film + x^2/2, h^3 p' = lambda (h - flux). The
 // end pressures are above the rupture pressure; the film breaks with zero gradient where it would
@@ -70,9 +40,6 @@ SbWedgePools sb_wedge_pools(double lambda, double inlet, double outlet);
 
 // Its pressure at x.
 double sb_wedge_pools_pressure(const SbWedgePools *wedge, double x);
-
-// Pressure at x for a solved wedge [Pa]; p_out behind the end of the film.
-double sb_wedge_pressure(const SbWedge *wedge, const SbWedgeProblem *problem, double x);
 
 // Viscous drag factor beta of a plane tapered film (thesis equation 5.9): F = A eta u/h_min
 // beta(xi) with xi = h_inlet/h_min >= 1, beta = [4 ln xi - 6 (xi - 1)/(xi + 1)]/(xi - 1); beta(1)

@@ -2,7 +2,6 @@
 #include "engine/numeric/dense.h"
 
 #include <assert.h>
-#include <gsl/gsl_eigen.h>
 #include <lapacke.h>
 #include <math.h>
 
@@ -68,21 +67,6 @@ bool sb_eliminate(double *a, double *b, size_t n) {
   }
   sb_lu_solve(a, pivot, b, n);
   return true;
-}
-
-void sb_eigen_symmetric(double *a, double *v, size_t n) {
-  double value[SB_EIGEN_MAX], own[SB_EIGEN_MAX * SB_EIGEN_MAX];
-  unsigned rotations;
-  assert(n <= SB_EIGEN_MAX);
-  v = v != NULL ? v : own;
-  gsl_matrix_view matrix = gsl_matrix_view_array(a, n, n), vectors = gsl_matrix_view_array(v, n, n);
-  gsl_vector_view values = gsl_vector_view_array(value, n);
-  // What is left of the others after 60 sweeps is below rounding.
-  (void)gsl_eigen_jacobi(&matrix.matrix, &values.vector, &vectors.matrix, 60, &rotations);
-  gsl_matrix_transpose(&vectors.matrix); // GSL's rows are our columns
-  for (size_t i = 0; i < n; i++) {
-    a[i + i * n] = value[i];
-  }
 }
 
 bool sb_factor_solve(double *a, int *pivot, double *b, int n, bool fresh) {

@@ -1,4 +1,4 @@
-// Small dense matrices: linear systems and eigenvalues. For some dozens of rows, where a threaded
+// Small dense systems. For some dozens of rows, where a threaded
 // library costs more than the work. Matrices are n x n by columns; nothing is allocated.
 #pragma once
 
@@ -14,13 +14,6 @@ enum { SB_ELIMINATE_MAX = 256 };
 
 // Both at once for n <= SB_ELIMINATE_MAX: a is lost.
 SB_CHECKED bool sb_eliminate(double *a, double *b, size_t n);
-
-enum { SB_EIGEN_MAX = 12 };
-
-// Eigenvalues of a symmetric matrix, n <= SB_EIGEN_MAX, onto its diagonal, by Jacobi's rotations,
-// which keep the small ones' digits; its rest is lost. Eigenvectors as the columns of v, NULL: not
-// wanted.
-void sb_eigen_symmetric(double *a, double *v, size_t n);
 
 // Solves a x = b in place by LAPACK: `a` is n x n by rows. `fresh` replaces it by its factors, with
 // `pivot` [n]; else it holds those of an earlier call. False if singular.

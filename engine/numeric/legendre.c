@@ -2,46 +2,31 @@
 // barycentric form (Berrut and Trefethen, SIAM Review 46, 2004). Meant for degrees below about 60.
 #include "engine/numeric/legendre.h"
 
+#include <assert.h>
+#include <gsl/gsl_sf_legendre.h>
 #include <math.h>
+#include <stdbool.h>
 
-void sb_legendre_values(double *out, double r, int degree) {
-  out[0] = 1.0;
-  if (degree > 0) {
-    out[1] = r;
+// Newton's method from r for a root of P_n, or of its derivative where `extremum`, by Legendre's
+// equation for the second one; *slope is that of P_n there.
+static double refine(double *slope, double r, int n, bool extremum) {
+  enum { DEGREE_MAX = 128 };
+  double value[DEGREE_MAX + 1], rise[DEGREE_MAX + 1], step = 1.0;
+  assert(n <= DEGREE_MAX);
+  for (int pass = 0; pass < 12 && fabs(step) >= 1e-16; pass++) {
+    (void)gsl_sf_legendre_Pl_deriv_array(n, r, value, rise);
+    const double bend = (2.0 * r * rise[n] - n * (n + 1.0) * value[n]) / ((1.0 - r) * (1.0 + r));
+    step = extremum ? rise[n] / bend : value[n] / rise[n];
+    r -= step;
   }
-  for (int k = 1; k < degree; k++) {
-    out[k + 1] = ((2 * k + 1) * r * out[k] - k * out[k - 1]) / (k + 1);
-  }
-}
-
-// P_n and its derivative at |r| < 1.
-static void value_and_slope(double *value, double *slope, double r, int n) {
-  double before = 1.0;
-  double now = r;
-  for (int k = 1; k < n; k++) {
-    double next = ((2 * k + 1) * r * now - k * before) / (k + 1);
-    before = now;
-    now = next;
-  }
-  *value = now;
-  *slope = n * (before - r * now) / ((1.0 - r) * (1.0 + r));
+  *slope = rise[n];
+  return r;
 }
 
 void sb_legendre_gauss(double *node, double *weight, int n) {
   for (int i = 0; i < n; i++) {
-    double r = -cos(M_PI * (i + 0.75) / (n + 0.5));
-    double value = 0.0;
-    double slope = 1.0;
-    for (int pass = 0; pass < 8; pass++) {
-      value_and_slope(&value, &slope, r, n);
-      double step = value / slope;
-      r -= step;
-      if (fabs(step) < 1e-16) {
-        break;
-      }
-    }
-    value_and_slope(&value, &slope, r, n);
-    node[i] = r;
+    double slope;
+    const double r = node[i] = refine(&slope, -cos(M_PI * (i + 0.75) / (n + 0.5)), n, false);
     weight[i] = 2.0 / ((1.0 - r) * (1.0 + r) * slope * slope);
   }
 }
@@ -50,19 +35,8 @@ void sb_legendre_lobatto(double *node, int n) {
   node[0] = -1.0;
   node[n] = 1.0;
   for (int i = 1; i < n; i++) {
-    double r = -cos(M_PI * i / n);
-    for (int pass = 0; pass < 12; pass++) {
-      // Newton on P_n', with Legendre's equation for P_n''.
-      double value, slope;
-      value_and_slope(&value, &slope, r, n);
-      double curve = (2.0 * r * slope - n * (n + 1.0) * value) / ((1.0 - r) * (1.0 + r));
-      double step = slope / curve;
-      r -= step;
-      if (fabs(step) < 1e-16) {
-        break;
-      }
-    }
-    node[i] = r;
+    double slope;
+    node[i] = refine(&slope, -cos(M_PI * i / n), n, true);
   }
 }
 

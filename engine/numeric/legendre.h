@@ -2,9 +2,6 @@
 // Arrays hold as many numbers as the comment of each function says; r and the nodes lie in [-1, 1].
 #pragma once
 
-// Values P_0 .. P_degree at r in out[0..degree].
-void sb_legendre_values(double *out, double r, int degree);
-
 // Gauss rule node[n], weight[n] with n >= 1 points, increasing; exact to degree 2n - 1.
 void sb_legendre_gauss(double *node, double *weight, int n);
 

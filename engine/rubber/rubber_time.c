@@ -3,8 +3,8 @@
 #include "engine/rubber/rubber_time.h"
 
 #include "engine/base/check.h"
-#include "engine/numeric/dense.h"
 
+#include <gsl/gsl_eigen.h>
 #include <gsl/gsl_sf_bessel.h>
 #include <math.h>
 
@@ -40,7 +40,8 @@ double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t ter
   // Free of stress the strain is e = sum g_j e_j and e_i' = (e - e_i)/tau_i. With y_i = sqrt(g_i
   // tau_i) e_i the matrix v v^T - diag(1/tau), v_i = sqrt(g_i/tau_i), is symmetric and negative.
   double a[SB_RUBBER_TERMS * SB_RUBBER_TERMS];
-  double vectors[SB_RUBBER_TERMS * SB_RUBBER_TERMS];
+  double vector[SB_RUBBER_TERMS * SB_RUBBER_TERMS];
+  double value[SB_RUBBER_TERMS];
   double start[SB_RUBBER_TERMS];
   size_t n = 0;
   double v[SB_RUBBER_TERMS];
@@ -58,17 +59,23 @@ double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t ter
       a[i + j * n] = v[i] * v[j] - (i == j ? rate[i] : 0.0);
     }
   }
-  sb_eigen_symmetric(a, vectors, n);
+  gsl_matrix_view matrix = gsl_matrix_view_array(a, n, n);
+  gsl_matrix_view vectors = gsl_matrix_view_array(vector, n, n);
+  gsl_vector_view values = gsl_vector_view_array(value, n);
+  unsigned rotations;
+  // Jacobi's rotations keep the small values' digits; what is left beside the diagonal after 60
+  // sweeps is below rounding.
+  (void)gsl_eigen_jacobi(&matrix.matrix, &values.vector, &vectors.matrix, 60, &rotations);
   // e(recovery) = sum g_j e_j = sum_j sqrt(g_j/tau_j) y_j.
   double strain = 0.0;
   for (size_t k = 0; k < n; k++) {
     double from = 0.0;
     double to = 0.0;
     for (size_t i = 0; i < n; i++) {
-      from += vectors[i + k * n] * start[i];
-      to += vectors[i + k * n] * v[i];
+      from += vector[i * n + k] * start[i];
+      to += vector[i * n + k] * v[i];
     }
-    strain += to * exp(a[k + k * n] * recovery) * from;
+    strain += to * exp(value[k] * recovery) * from;
   }
   return fmax(0.0, strain);
 }
