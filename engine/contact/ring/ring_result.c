@@ -67,7 +67,7 @@ double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface) {
   // At an end the fluid presses the node as well, on the open side.
   const double *fluid = &contact->pressed[2 * i];
   double force = touch->force + frame.n[0] * fluid[0] + frame.n[1] * fluid[1];
-  return touch->held && contact->weight[i] > 0.0 ? force / contact->weight[i] : 0.0;
+  return touch->held && contact->weight[i] > 0.0 ? fmax(0.0, force) / contact->weight[i] : 0.0;
 }
 
 // Nodal pressures as they are, for a contact that no smooth curve fits.

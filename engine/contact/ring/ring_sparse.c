@@ -27,83 +27,61 @@ struct SbRingFactor {
 // Sparse rows: node neighbours, where each element block goes, where the diagonal blocks are.
 SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
   const SbRingMesh *mesh = fem->mesh;
-  int nodes = mesh->nodes, corners = 6 * mesh->elements;
-  // The corners of elements at each node, after a count of them; of a row's neighbours, which row
-  // last had each and where.
-  int *start = calloc((size_t)nodes + 2, sizeof(int));
-  int *corner = malloc(sizeof(int) * (size_t)corners);
-  int *seen = malloc(sizeof(int) * 2 * (size_t)nodes), *place = seen + nodes;
-  SbStatus status = SB_ERROR_MEMORY;
-  fem->row_start = malloc(sizeof(int) * (2 * (size_t)nodes + 1));
-  fem->scatter = malloc(sizeof(int) * 6 * (size_t)corners);
-  fem->diagonal = malloc(sizeof(int) * (size_t)nodes);
-  if (start == NULL || corner == NULL || seen == NULL || fem->row_start == NULL ||
-      fem->scatter == NULL || fem->diagonal == NULL) {
-    goto done;
+  size_t nodes = (size_t)mesh->nodes, corners = 6 * (size_t)mesh->elements;
+  // Room for rows in which each element has its own entries, though neighbours share theirs.
+  size_t most = 24 * corners;
+  fem->row_start = malloc(sizeof(int) * (2 * nodes + 1));
+  fem->scatter = malloc(sizeof(int) * 6 * corners);
+  fem->diagonal = malloc(sizeof(int) * nodes);
+  fem->column = malloc(sizeof(int) * most);
+  fem->value = malloc(sizeof(double) * most);
+  fem->raw = malloc(sizeof(double) * most);
+  fem->factor = calloc(1, sizeof *fem->factor);
+  // The elements' corners at each node, as lists; of a row's neighbours, which row last had each
+  // and where.
+  int *next = malloc(sizeof(int) * (corners + 3 * nodes));
+  int *first = next + corners, *seen = first + nodes, *place = seen + nodes, at = 0;
+  if (fem->row_start == NULL || fem->scatter == NULL || fem->diagonal == NULL ||
+      fem->column == NULL || fem->value == NULL || fem->raw == NULL || fem->factor == NULL ||
+      next == NULL) {
+    free(next);
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
   }
-  for (int i = 0; i < corners; i++) {
-    start[mesh->tri[i] + 2]++;
+  memset(first, -1, sizeof(int) * 2 * nodes);
+  for (int i = (int)corners - 1; i >= 0; i--) {
+    next[i] = first[mesh->tri[i]];
+    first[mesh->tri[i]] = i;
   }
-  for (int i = 0; i < nodes; i++) {
-    start[i + 2] += start[i + 1];
-  }
-  for (int i = 0; i < corners; i++) {
-    corner[start[mesh->tri[i] + 1]++] = i;
-  }
-  // Each row in the first pass to see how long it is: two columns for each neighbour, and the same
-  // for the other component.
-  for (int pass = 0; pass < 2; pass++) {
-    int at = 0;
-    memset(seen, -1, sizeof(int) * (size_t)nodes);
-    for (int i = 0; i < nodes; i++) {
-      int width = 0;
-      for (int c = start[i]; c < start[i + 1]; c++) {
-        const int *tri = &mesh->tri[corner[c] / 6 * 6];
-        for (int b = 0; b < 6; b++) {
-          int other = tri[b];
-          if (seen[other] != i) {
-            seen[other] = i;
-            place[other] = width;
-            for (int k = 0; k < 2 && pass == 1; k++) {
-              fem->column[at + width + k] = 2 * other + k;
-            }
-            width += 2;
-          }
-          fem->scatter[6 * corner[c] + b] = place[other];
+  for (int i = 0; i < mesh->nodes; i++) {
+    int width = 0;
+    for (int c = first[i]; c >= 0; c = next[c]) {
+      for (int b = 0; b < 6; b++) {
+        int other = mesh->tri[c / 6 * 6 + b];
+        if (seen[other] != i) {
+          seen[other] = i;
+          place[other] = width;
+          fem->column[at + width++] = 2 * other;
+          fem->column[at + width++] = 2 * other + 1;
         }
-      }
-      fem->diagonal[i] = place[i];
-      fem->row_start[2 * i] = at;
-      fem->row_start[2 * i + 1] = at + width;
-      if (pass == 1) {
-        memcpy(&fem->column[at + width], &fem->column[at], sizeof(int) * (size_t)width);
-      }
-      at += 2 * width;
-    }
-    fem->row_start[2 * nodes] = at;
-    if (pass == 0) {
-      fem->column = malloc(sizeof(int) * (size_t)at);
-      fem->value = calloc((size_t)at, sizeof(double));
-      fem->raw = malloc(sizeof(double) * (size_t)at);
-      if (fem->column == NULL || fem->value == NULL || fem->raw == NULL) {
-        goto done;
+        fem->scatter[6 * c + b] = place[other];
       }
     }
+    fem->diagonal[i] = place[i];
+    fem->row_start[2 * i] = at;
+    fem->row_start[2 * i + 1] = at + width;
+    memcpy(&fem->column[at + width], &fem->column[at], sizeof(int) * (size_t)width);
+    at += 2 * width;
   }
-  SbRingFactor *factor = fem->factor = calloc(1, sizeof *fem->factor);
-  if (factor == NULL) {
-    goto done;
-  }
+  fem->row_start[2 * nodes] = at;
+  free(next);
+  SbRingFactor *factor = fem->factor;
   klu_defaults(&factor->common);
   factor->common.btf = 0;   // the pattern is that of one connected body
   factor->common.scale = 0; // conditions are scaled to their rows
-  factor->symbolic = klu_analyze(2 * nodes, fem->row_start, fem->column, &factor->common);
-  status = factor->symbolic != NULL ? SB_OK : SB_ERROR_MEMORY;
-done:
-  free(start);
-  free(corner);
-  free(seen);
-  return status == SB_OK ? SB_OK : sb_fail(report, status, "no memory for the ring's matrix");
+  factor->symbolic = klu_analyze(2 * mesh->nodes, fem->row_start, fem->column, &factor->common);
+  return factor->symbolic != NULL
+             ? SB_OK
+             : sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
 }
 
 void sb_ring_sparse_finish(SbRingFem *fem) {
