@@ -62,10 +62,12 @@ void sb_motion_add_energy(double *term, const SbDynamics *s, const Point *p, con
 
 // The closed-form motion over tau, which ends in z.
 static void stretch_to(Stretch *over, const SbDynamics *s, double tau, const SbDynamicsState *z) {
-  *over = (Stretch){.time = tau, .late = 0.5 * tau * tau};
-  sb_oscillator_at(&s->motion, tau, &over->travel, NULL, NULL);
-  over->area = sb_oscillator_integral_u(&s->motion, tau);
-  over->square = sb_oscillator_integral_v2(&s->motion, tau);
+  SbOscillatorState end = sb_oscillator_at(&s->motion, tau);
+  *over = (Stretch){.time = tau,
+                    .late = 0.5 * tau * tau,
+                    .travel = end.travel,
+                    .area = end.area,
+                    .square = sb_oscillator_square(&s->motion, tau)};
   over->ramp = tau * over->travel - over->area;
   for (size_t i = 0; i < s->model->contacts; i++) {
     const SbDynamicsContact *c = &s->model->contact[i];
@@ -88,11 +90,12 @@ void sb_motion_state_at(const SbDynamics *s, double tau, SbDynamicsState *z) {
     return;
   }
   if (s->linear) {
-    double rate, travel;
-    sb_oscillator_at(&s->motion, tau, &travel, &z->v, NULL);
-    z->x = s->at.x + travel;
+    double rate;
+    SbOscillatorState at = sb_oscillator_at(&s->motion, tau);
+    z->x = s->at.x + at.travel;
+    z->v = at.v;
     for (size_t i = 0; i < s->model->contacts; i++) {
-      z->d[i] = sb_motion_deflection_at(s, i, tau, travel, &rate);
+      z->d[i] = sb_motion_deflection_at(s, i, tau, at.travel, &rate);
     }
     return;
   }

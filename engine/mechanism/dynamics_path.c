@@ -32,9 +32,8 @@ static bool has_closed_form(const SbDynamics *s) {
 }
 
 static void closed_path(SbDynamics *s, const Point *p) {
-  if (s->held) {
-    sb_oscillator_hold(&s->motion);
-  } else {
+  s->motion = (SbOscillator){0};
+  if (!s->held) {
     sb_oscillator_init(&s->motion, s->mass, p->sum.c, p->sum.k, p->sum.f0, p->sum.f1, p->v);
   }
   double horizon = fmin(s->piece.until - s->t, horizon_max);
@@ -311,7 +310,8 @@ double sb_motion_force_peak(const SbDynamics *s, double known) {
                             .of_x = f->c * all->k / s->mass,
                             .of_v = f->c * all->c / s->mass - f->k};
   const SbOscillator *o = &s->motion;
-  double swing = (f->k + f->c * o->omega0) * hypot(o->z0, o->w0 / fmax(o->omega0, 1e-300));
+  double swing =
+      (f->k + f->c * o->omega) * hypot(o->trend0, (o->v0 - o->trend1) / fmax(o->omega, 1e-300));
   double trend = fmax(0.0, f->f1 - f->k * o->trend1) * lasts;
   if (!(rising.constant + rising.of_v * p.v > 0.0) || first + 2.0 * swing + trend < peak) {
     return peak;
