@@ -40,11 +40,6 @@ void sb_oscillator_init(SbOscillator *o, double mass, double damping, double sti
   }
 }
 
-// Neither damping nor spring has done much yet: power series serve.
-static bool early(const SbOscillator *o, double tau) {
-  return tau * (o->damping + o->stiffness * tau) < 2.0;
-}
-
 // exp(-rate tau), its slope (first) and its integrals from 0; power[k] is tau^k/k!. Upwards digits
 // are lost for a small rate tau: there the highest integral by its series, then downwards.
 static void decay(double e[ORDERS], double rate, double tau, const double power[ORDERS]) {
@@ -74,8 +69,8 @@ static void answers(double h[ORDERS], const SbOscillator *o, double tau) {
   for (int i = 1; i < ORDERS; i++) {
     power[i] = power[i - 1] * tau / i;
   }
-  if (early(o, tau)) {
-    // The two highest by their series, then downwards.
+  if (tau * (c + k * tau) < 2.0) {
+    // Neither damper nor spring has done much: the two highest by their series, then downwards.
     double before = 0.0, now = 1.0, weight[2] = {power[3], power[4]};
     h[3] = h[4] = 0.0;
     for (int n = 4; (fabs(before) + fabs(now)) * weight[0] > 0.1 * DBL_EPSILON * h[3]; n++) {
@@ -147,7 +142,10 @@ static double complex faded(double complex rate, double tau) {
 
 double sb_oscillator_square(const SbOscillator *o, double tau) {
   enum { POINTS = 10 };
-  if (o->stiffness > 0.0 && o->apart && !early(o, tau)) {
+  if (o->v0 == 0.0 && o->g0 == 0.0 && o->g1 == 0.0) {
+    return 0.0; // held
+  }
+  if (o->stiffness > 0.0 && o->apart) {
     // v is the trend's and two exponentials, conjugate if it swings.
     double complex p = o->slow, q = o->fast, gap;
     if (o->swings) {
