@@ -41,9 +41,8 @@ void sb_motion_add_energy(double *term, const SbDynamics *s, const Point *p, con
   if (s->wall[SB_DYNAMICS_PLATEN].on && sb_motion_by_force(m)) {
     term[DRIVE] += f->f0 * over->travel + f->f1 * over->ramp - f->c * over->square;
   } else if (s->wall[SB_DYNAMICS_PLATEN].on) {
-    double y, rate;
-    sb_motion_drive_at(s, p->t, &y, &rate);
     // The platen moves at its own speed against the integral of the force.
+    double rate = f->f1 / f->k;
     term[DRIVE] +=
         rate * (f->f0 * over->time + f->f1 * over->late - f->k * over->area - f->c * over->travel);
     term[MACHINE] += f->c * (rate * (rate * over->time - 2.0 * over->travel) + over->square);
@@ -62,10 +61,12 @@ void sb_motion_add_energy(double *term, const SbDynamics *s, const Point *p, con
 
 // The closed-form motion over tau, which ends in z.
 static void stretch_to(Stretch *over, const SbDynamics *s, double tau, const SbDynamicsState *z) {
-  *over = (Stretch){.time = tau, .late = 0.5 * tau * tau};
-  sb_oscillator_at(&s->motion, tau, &over->travel, NULL, NULL);
-  over->area = sb_oscillator_integral_u(&s->motion, tau);
-  over->square = sb_oscillator_integral_v2(&s->motion, tau);
+  SbOscillatorState end = sb_oscillator_at(&s->motion, tau);
+  *over = (Stretch){.time = tau,
+                    .late = 0.5 * tau * tau,
+                    .travel = end.travel,
+                    .area = end.area,
+                    .square = sb_oscillator_square(&s->motion, tau)};
   over->ramp = tau * over->travel - over->area;
   for (size_t i = 0; i < s->model->contacts; i++) {
     const SbDynamicsContact *c = &s->model->contact[i];
@@ -88,17 +89,18 @@ void sb_motion_state_at(const SbDynamics *s, double tau, SbDynamicsState *z) {
     return;
   }
   if (s->linear) {
-    double rate, travel;
-    sb_oscillator_at(&s->motion, tau, &travel, &z->v, NULL);
-    z->x = s->at.x + travel;
+    double rate;
+    SbOscillatorState at = sb_oscillator_at(&s->motion, tau);
+    z->x = s->at.x + at.travel;
+    z->v = at.v;
     for (size_t i = 0; i < s->model->contacts; i++) {
-      z->d[i] = sb_motion_deflection_at(s, i, tau, travel, &rate);
+      z->d[i] = sb_motion_deflection_at(s, i, tau, at.travel, &rate);
     }
     return;
   }
   const SbRadauStep *step = tau <= s->step[0].h ? &s->step[0] : &s->step[1];
   tau -= step == s->step ? 0.0 : s->step[0].h;
-  sb_radau_dense(step, &s->system, step->h > 0.0 ? fmin(1.0, tau / step->h) : 1.0, z->z, NULL);
+  sb_radau_dense(step, &s->system, step->h > 0.0 ? tau / step->h : 1.0, z->z, NULL);
   if (s->held) {
     z->x = s->at.x;
     z->v = 0.0;
@@ -118,7 +120,8 @@ void sb_motion_energy_at(const SbDynamics *s, double tau, const SbDynamicsState 
     double from = 0.0, q[SB_RADAU_POWERS];
     for (const SbRadauStep *step = s->step; step < s->step + 2; step++) {
       if (step->h > 0.0 && tau > from) {
-        sb_radau_dense(step, &s->system, fmin(1.0, (tau - from) / step->h), NULL, q);
+        double theta = (tau - from) / step->h;
+        sb_radau_dense(step, &s->system, step == s->step ? fmin(1.0, theta) : theta, NULL, q);
         for (int k = 0; k < SB_DYNAMICS_TERMS; k++) {
           e->term[k] += q[k];
         }

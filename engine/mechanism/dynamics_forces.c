@@ -62,9 +62,6 @@ double sb_motion_sliding_level(const SbDynamics *s, size_t i, double level, doub
 void sb_motion_wall_force(Force *force, const SbDynamics *s, size_t w, double t, double x) {
   double place, rate, k = s->wall[w].stiffness;
   sb_motion_wall_at(s, w, t, &place, &rate);
-  // The drive's value carries the rounding of the time since its piece began.
-  force->size = fabs(place) + fabs(rate * t);
-  force->size += w == SB_DYNAMICS_PLATEN ? fabs(s->piece.value) : 0.0;
   force->c = s->wall[w].damping;
   if (w == SB_DYNAMICS_PLATEN && sb_motion_by_force(s->model)) {
     force->f0 = place;
@@ -75,19 +72,16 @@ void sb_motion_wall_force(Force *force, const SbDynamics *s, size_t w, double t,
   force->f0 = k * (place - x) + force->c * rate;
   force->f1 = k * rate;
   force->k = k;
-  force->size = k * (force->size + fabs(x) + length_noise);
 }
 
 static void contact_force(Force *force, const SbDynamics *s, size_t i, const Point *p) {
   const SbDynamicsContact *c = &s->model->contact[i];
   if (s->state[i] == SB_CONTACT_SLIP) {
-    force->size = sb_motion_sliding_level(s, i, p->loads.level[i], s->sign[i] * p->v);
-    force->f0 = -s->sign[i] * force->size;
+    force->f0 = -s->sign[i] * sb_motion_sliding_level(s, i, p->loads.level[i], s->sign[i] * p->v);
   } else if (s->state[i] == SB_CONTACT_STUCK && !is_rigid(s->model, i)) {
     force->f0 = -c->stiffness * p->z->d[i];
     force->k = c->stiffness;
     force->c = c->damping;
-    force->size = fabs(force->f0);
   }
 }
 
@@ -96,7 +90,6 @@ static void add(Force *sum, const Force *f) {
   sum->f1 += f->f1;
   sum->k += f->k;
   sum->c += f->c;
-  sum->size += f->size;
 }
 
 void sb_motion_point(Point *p, const SbDynamics *s, double t, const SbDynamicsState *z) {
@@ -114,7 +107,6 @@ void sb_motion_point(Point *p, const SbDynamics *s, double t, const SbDynamicsSt
   p->sum.f0 = p->loads.force - m->spring_preload - m->spring_stiffness * z->x;
   p->sum.k = m->spring_stiffness;
   p->sum.c = m->damping;
-  p->sum.size = fabs(p->loads.force) + fabs(m->spring_preload);
   // Piece by piece: this is called most of all.
   for (size_t w = 0; w < SB_DYNAMICS_WALLS; w++) {
     p->wall[w] = (Force){0};
@@ -171,11 +163,6 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
   SbDynamicsState *rate = (SbDynamicsState *)dz;
   Point p;
   sb_motion_point(&p, s, t, at);
-  Stretch now;
-  now.time = 1.0;
-  now.travel = p.v;
-  now.square = p.v * p.v;
-  now.late = now.area = now.ramp = 0.0;
   rate->x = p.v;
   rate->v = s->held ? 0.0 : force_of(&p.sum, &p) / s->mass;
   rate->extra = 0.0;
@@ -183,24 +170,56 @@ void sb_motion_numerical_rates(double *dz, double *power, double t, const double
     s->model->extra_rate(&rate->extra, at->x, p.v, s->region, &at->extra, s->model->user);
   }
   for (size_t i = 0; i < s->model->contacts; i++) {
-    rate->d[i] = now.shift[i] = sb_motion_deflection_rate(s, &p, i);
-    now.fade[i] = rate->d[i] * rate->d[i];
+    rate->d[i] = sb_motion_deflection_rate(s, &p, i);
   }
-  for (int i = 0; i < SB_DYNAMICS_TERMS; i++) {
-    power[i] = 0.0;
+  if (power != NULL) {
+    Stretch now = {.time = 1.0, .travel = p.v, .square = p.v * p.v};
+    for (size_t i = 0; i < s->model->contacts; i++) {
+      now.shift[i] = rate->d[i];
+      now.fade[i] = rate->d[i] * rate->d[i];
+    }
+    memset(power, 0, SB_DYNAMICS_TERMS * sizeof *power);
+    sb_motion_add_energy(power, s, &p, &now);
   }
-  sb_motion_add_energy(power, s, &p, &now);
 }
 
 // ---- event functions ----
 
-// `side` times a force.
-static SbEventFunction function_of(const Force *f, double side) {
+// `side` times a force, f0 of which is the rest of terms of `size` [N].
+static SbEventFunction function_of(const Force *f, double side, double size) {
   return (SbEventFunction){.constant = side * f->f0,
                            .rate = side * f->f1,
                            .of_x = -side * f->k,
                            .of_v = -side * f->c,
-                           .noise = f->size};
+                           .noise = size};
+}
+
+// Terms in the place of wall w, or the finger's force: the drive's value carries the rounding of
+// the time since its piece began.
+static double place_size(const SbDynamics *s, const Point *p, size_t w) {
+  double place, rate;
+  sb_motion_wall_at(s, w, p->t, &place, &rate);
+  return fabs(place) + fabs(rate * p->t) + (w == SB_DYNAMICS_PLATEN ? fabs(s->piece.value) : 0.0);
+}
+
+// Terms in the force of wall w [N].
+static double wall_size(const SbDynamics *s, const Point *p, size_t w) {
+  double place = place_size(s, p, w);
+  return w == SB_DYNAMICS_PLATEN && sb_motion_by_force(s->model)
+             ? place
+             : s->wall[w].stiffness * (place + fabs(p->z->x) + length_noise);
+}
+
+// Terms in all forces together [N].
+static double sum_size(const SbDynamics *s, const Point *p) {
+  double size = fabs(p->loads.force) + fabs(s->model->spring_preload);
+  for (size_t w = 0; w < SB_DYNAMICS_WALLS; w++) {
+    size += s->wall[w].on && !rigid(s->wall[w].stiffness) ? wall_size(s, p, w) : 0.0;
+  }
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    size += fabs(p->contact[i].f0);
+  }
+  return size;
 }
 
 static bool wall_function(const SbDynamics *s, const Point *p, size_t w, SbEventFunction *g) {
@@ -213,12 +232,12 @@ static bool wall_function(const SbDynamics *s, const Point *p, size_t w, SbEvent
   }
   if (wall->on) {
     // A rigid stop bears all that presses the stem on it.
-    bool hard = rigid(wall->stiffness);
-    *g = function_of(hard ? &p->sum : &p->wall[w], hard ? -wall->push : wall->push);
+    *g = rigid(wall->stiffness) ? function_of(&p->sum, -wall->push, sum_size(s, p))
+                                : function_of(&p->wall[w], wall->push, wall_size(s, p, w));
   } else if (platen && sb_motion_by_force(m)) {
     Force force;
     sb_motion_wall_force(&force, s, w, p->t, p->z->x);
-    *g = function_of(&force, -wall->push);
+    *g = function_of(&force, -wall->push, wall_size(s, p, w));
   } else {
     // Left behind: met again when the gap closes on what is still deflected, a stop also by a stem
     // that friction holds meanwhile.
@@ -232,7 +251,7 @@ static bool wall_function(const SbDynamics *s, const Point *p, size_t w, SbEvent
                            .of_x = wall->push,
                            .relax = sb_motion_deflection(s, w, p->t, p->z->x),
                            .relax_rate = wall->damping > 0.0 ? wall->stiffness / wall->damping : 0,
-                           .noise = fabs(place) + fabs(rate * p->t) + fabs(p->z->x) + length_noise};
+                           .noise = place_size(s, p, w) + fabs(p->z->x) + length_noise};
   }
   return true;
 }
@@ -284,7 +303,7 @@ static SbEventFunction patch_function(const SbDynamics *s, const Point *p, size_
 static bool rigid_function(const SbDynamics *s, const Point *p, int side, SbEventFunction *g) {
   const SbDynamicsModel *m = s->model;
   bool any = false;
-  *g = function_of(&p->sum, -side);
+  *g = function_of(&p->sum, -side, sum_size(s, p));
   for (size_t i = 0; i < m->contacts; i++) {
     if (!is_rigid(m, i) || s->state[i] == SB_CONTACT_OFF) {
       continue;
@@ -312,7 +331,7 @@ static bool contact_function(const SbDynamics *s, const Point *p, size_t i, int 
     *g = patch_function(s, p, i);
     return side > 0 && !(s->held && s->model->contact[i].damping == 0.0);
   }
-  *g = function_of(&p->contact[i], side);
+  *g = function_of(&p->contact[i], side, fabs(p->contact[i].f0));
   add_holding(s, p, i, g);
   return true;
 }

@@ -24,7 +24,6 @@ enum {
 // Force on the stem about a point of its motion: f0 + f1 tau - k (x - x0) - c v, tau since then.
 typedef struct {
   double f0, f1, k, c; // N, N/s, N/m, N s/m
-  double size;         // sum of the magnitudes in f0: its rounding [N]
 } Force;
 
 // A point of the motion, and what acts on the stem there: the one description of forces, which the

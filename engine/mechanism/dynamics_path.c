@@ -32,9 +32,8 @@ static bool has_closed_form(const SbDynamics *s) {
 }
 
 static void closed_path(SbDynamics *s, const Point *p) {
-  if (s->held) {
-    sb_oscillator_hold(&s->motion);
-  } else {
+  s->motion = (SbOscillator){0};
+  if (!s->held) {
     sb_oscillator_init(&s->motion, s->mass, p->sum.c, p->sum.k, p->sum.f0, p->sum.f1, p->v);
   }
   double horizon = fmin(s->piece.until - s->t, horizon_max);
@@ -136,11 +135,14 @@ static int first_event(const SbDynamics *s, double h, double *at) {
   return found;
 }
 
-// By how much steps over h, made to end on an event, are short of it, by Newton's method.
-static double short_of(const SbDynamics *s, int event, double h) {
-  double slope, value = fall_at(&slope, h, &(Search){s, event});
-  double change = slope > 0.0 ? -value / slope : 0.0;
-  return fmin(fmax(change, -0.25 * h), 0.25 * h);
+// Where in steps over h, made to end near an event, or just behind them it is, by Newton's method.
+static double place_of(const SbDynamics *s, int event, double h) {
+  double at = h, slope;
+  for (int i = 0; i < 3; i++) {
+    double value = fall_at(&slope, at, &(Search){s, event});
+    at = slope > 0.0 ? fmin(fmax(at - value / slope, 0.75 * h), 1.25 * h) : at;
+  }
+  return at;
 }
 
 // Rate [1/s] at which the stem swings or settles.
@@ -169,6 +171,10 @@ static void set_scales(SbDynamics *s, const Point *p, double *noise, double *spe
   s->system.floor[1] = fmax(speed_size, 10.0 * *speed / s->system.tolerance);
 }
 
+// Steps that end as near as this share of them to an event are not taken again: at their end dense
+// output has the solution's slope, so that its error grows with the square of the way from there.
+static const double near_end = 1e-4;
+
 // Steps with error control; one that an event ends is taken again so that it ends there: the event
 // is then as accurate as the solution, not as its dense output, and the step's error that of the
 // way to the event (loads may have a corner behind it).
@@ -176,7 +182,7 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, SbReport *report) 
   double noise, speed;
   set_scales(s, p, &noise, &speed);
   s->system.user = s;
-  double quickest = quickest_rate(s, p), first = quickest > 0.0 ? 0.05 / quickest : 1e-5;
+  double quickest = quickest_rate(s, p), first = quickest > 0.0 ? 0.2 / quickest : 1e-5;
   double left = fmin(s->piece.until - s->t, horizon_max), h = s->h > 0.0 ? s->h : first;
   if (s->piece.curved) {
     h = fmin(h, s->piece.step);
@@ -208,17 +214,17 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, SbReport *report) 
       landing = first_event(s, h, &at);
       landings = 0;
     } else {
-      at = h + short_of(s, landing, h);
+      at = place_of(s, landing, h);
     }
     if (landing != EVENT_NONE && (s->t + at <= s->t || at < 1e-14 * h)) {
-      h = s->step[0].h = s->step[1].h = 0.0; // at once
-    } else if (fabs(at - h) > 1e-13 * h && landings < 6) {
+      at = s->step[0].h = s->step[1].h = 0.0; // at once
+    } else if (fabs(at - h) > near_end * h && landings < 6) {
       h = at;
       landings++;
       continue;
     }
-    bool last = landing == EVENT_NONE && h >= left && isfinite(s->piece.until);
-    s->t_end = last ? s->piece.until : s->t + h;
+    bool last = at >= left && isfinite(s->piece.until);
+    s->t_end = last ? s->piece.until : s->t + at;
     s->event = landing == EVENT_NONE ? EVENT_BREAK : landing;
     s->counters.steps++;
     s->counters.local_error += local[0] / (fabs(s->at.x) + s->system.floor[0]);
@@ -311,7 +317,8 @@ double sb_motion_force_peak(const SbDynamics *s, double known) {
                             .of_x = f->c * all->k / s->mass,
                             .of_v = f->c * all->c / s->mass - f->k};
   const SbOscillator *o = &s->motion;
-  double swing = (f->k + f->c * o->omega0) * hypot(o->z0, o->w0 / fmax(o->omega0, 1e-300));
+  double swing =
+      (f->k + f->c * o->omega) * hypot(o->trend0, (o->v0 - o->trend1) / fmax(o->omega, 1e-300));
   double trend = fmax(0.0, f->f1 - f->k * o->trend1) * lasts;
   if (!(rising.constant + rising.of_v * p.v > 0.0) || first + 2.0 * swing + trend < peak) {
     return peak;

@@ -1,291 +1,227 @@
-// See oscillator.h. With z = u - trend and s, c the (hyperbolic) sine over split and cosine:
-//   z = exp(-beta tau) [z0 (c + beta s) + w0 s],  z' = exp(-beta tau) [w0 (c - beta s) - z0
-//   omega0^2 s]
-// Without a spring the phi functions phi_k(u) = (phi_{k-1}(u) - 1/(k-1)!)/u, phi_0 = exp, give
-//   v = v0 phi_0 + f0/m tau phi_1 + f1/m tau^2 phi_2 at -C tau/m, and u one order up.
+// See oscillator.h. The motion is made of an impulse's answer H_1 and its integrals
+// H_k = integral of H_(k-1) over (0, tau), H_0 = H_1':
+//
+//   u = v0 H_1 + g0 H_2 + g1 H_3,   H_1'' + C/m H_1' + K/m H_1 = 0,   H_1(0) = 0, H_1'(0) = 1
+//
+// whose equation, integrated, joins three of them in a row:
+//
+//   H_(k-2) + C/m H_(k-1) + K/m H_k = tau^(k-2)/(k-2)!
 #include "engine/mechanism/oscillator.h"
 
 #include "engine/numeric/legendre.h"
 
+#include <complex.h>
 #include <float.h>
 #include <math.h>
-#include <stddef.h>
 
-enum { PHI_MAX = 5 };
-
-// phi_0 .. phi_PHI_MAX at u <= 0. The upward recurrence loses digits for small |u|: series there.
-static void phi(double u, double p[PHI_MAX + 1]) {
-  static const double inverse_factorial[PHI_MAX + 1] = {1.0,       1.0,        0.5,
-                                                        1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0};
-  if (fabs(u) < 2.0) {
-    // Highest order by its series, then downwards, which is stable.
-    double term = inverse_factorial[PHI_MAX];
-    double sum = term;
-    for (int k = PHI_MAX + 1; k < 40; k++) {
-      term *= u / k;
-      sum += term;
-    }
-    p[PHI_MAX] = sum;
-    for (int k = PHI_MAX; k > 0; k--) {
-      p[k - 1] = u * p[k] + inverse_factorial[k - 1];
-    }
-  } else {
-    p[0] = exp(u);
-    for (int k = 1; k <= PHI_MAX; k++) {
-      p[k] = (p[k - 1] - inverse_factorial[k - 1]) / u;
-    }
-  }
-}
-
-void sb_oscillator_hold(SbOscillator *o) {
-  *o = (SbOscillator){.kind = SB_OSCILLATOR_HELD, .mass = 1.0};
-}
+enum { ORDERS = 5 };
 
 void sb_oscillator_init(SbOscillator *o, double mass, double damping, double stiffness, double f0,
                         double f1, double v0) {
-  *o = (SbOscillator){
-      .mass = mass, .damping = damping, .stiffness = stiffness, .f0 = f0, .f1 = f1, .v0 = v0};
-  if (stiffness <= 0.0) {
-    o->kind = SB_OSCILLATOR_DRIFT;
-    return;
+  *o = (SbOscillator){.damping = damping / mass,
+                      .stiffness = stiffness / mass,
+                      .v0 = v0,
+                      .g0 = f0 / mass,
+                      .g1 = f1 / mass,
+                      .omega = sqrt(stiffness / mass),
+                      .trend1 = v0};
+  if (stiffness > 0.0) {
+    o->trend1 = f1 / stiffness;
+    o->trend0 = (f0 - damping * o->trend1) / stiffness;
   }
-  o->trend1 = f1 / stiffness;
-  o->trend0 = (f0 - damping * o->trend1) / stiffness;
-  o->z0 = -o->trend0;
-  o->w0 = v0 - o->trend1;
-  o->beta = 0.5 * damping / mass;
-  o->omega0 = sqrt(stiffness / mass);
-  double difference = (o->beta - o->omega0) * (o->beta + o->omega0);
+  double beta = 0.5 * o->damping, difference = (beta - o->omega) * (beta + o->omega);
   o->split = sqrt(fabs(difference));
-  if (difference < 0.0) {
-    o->kind = SB_OSCILLATOR_UNDER;
-    return;
-  }
-  o->kind = SB_OSCILLATOR_OVER;
-  o->fast = o->beta + o->split;
-  o->slow = o->omega0 / o->fast * o->omega0;
-  o->apart = o->split > 0.05 * o->beta;
-  if (o->apart) {
-    double gap = 2.0 * o->split;
-    o->c_slow = (o->w0 + o->fast * o->z0) / gap;
-    o->c_fast = -(o->w0 + o->slow * o->z0) / gap;
+  o->swings = difference < 0.0;
+  o->apart = o->split > 0.05 * beta;
+  o->slow = o->fast = beta;
+  if (difference > 0.0) {
+    o->fast = beta + o->split;
+    o->slow = o->omega / o->fast * o->omega;
   }
 }
 
-// exp(-beta tau) times the sine over split and the cosine, circular or hyperbolic.
-static void decayed(const SbOscillator *o, double tau, double *s, double *c) {
-  if (o->kind == SB_OSCILLATOR_UNDER) {
-    double e = exp(-o->beta * tau);
-    double angle = o->split * tau;
-    // Close to critical damping sin(angle)/split loses nothing as long as split > 0.
-    *s = e * sin(angle) / o->split;
-    *c = e * cos(angle);
-    return;
-  }
-  double gap = 2.0 * o->split * tau;
-  double slow = exp(-o->slow * tau);
-  // slow (1 - exp(-gap))/(2 split), with its limit slow tau for a gap of zero
-  *s = gap > 1e-8 ? slow * -expm1(-gap) / (2.0 * o->split) : slow * tau * (1.0 - 0.5 * gap);
-  *c = 0.5 * slow * (1.0 + exp(-gap));
-}
-
-// The transient, its rate, and how far it has come from z0 without cancellation.
-static void transient_at(const SbOscillator *o, double tau, double *z, double *w, double *travel) {
-  if (o->apart) {
-    // The two exponentials apart: no cancellation in c - beta s for a strongly damped mass.
-    double slow = o->c_slow * exp(-o->slow * tau), fast = o->c_fast * exp(-o->fast * tau);
-    *z = slow + fast;
-    *w = -o->slow * slow - o->fast * fast;
-    *travel = o->c_slow * expm1(-o->slow * tau) + o->c_fast * expm1(-o->fast * tau);
-    return;
-  }
-  double s, c;
-  decayed(o, tau, &s, &c);
-  *z = o->z0 * (c + o->beta * s) + o->w0 * s;
-  *w = o->w0 * (c - o->beta * s) - o->z0 * o->omega0 * o->omega0 * s;
-  double near = o->omega0 * tau;
-  if (near < 1e-3) {
-    // c + beta s - 1 = -(omega0 tau)^2/2 (1 - 2 beta tau/3 + (4 beta^2 - omega0^2) tau^2/12 - ...)
-    double b = o->beta * tau, n2 = near * near;
-    double series = 1.0 - 2.0 * b / 3.0 + (4.0 * b * b - n2) / 12.0 - (2.0 * b * b - n2) * b / 15.0;
-    *travel = o->w0 * s - 0.5 * n2 * series * o->z0;
+// exp(-rate tau), its slope (first) and its integrals from 0; power[k] is tau^k/k!. Upwards digits
+// are lost for a small rate tau: there the highest integral by its series, then downwards.
+static void decay(double e[ORDERS], double rate, double tau, const double power[ORDERS]) {
+  enum { TOP = ORDERS - 1 };
+  if (rate * tau < 2.0) {
+    double term = power[TOP - 1];
+    e[TOP] = 0.0;
+    for (int k = TOP; fabs(term) > 0.1 * DBL_EPSILON * e[TOP]; k++) {
+      e[TOP] += term;
+      term *= -rate * tau / k;
+    }
+    for (int k = TOP; k > 1; k--) {
+      e[k - 1] = power[k - 2] - rate * e[k];
+    }
   } else {
-    *travel = *z - o->z0;
+    e[1] = exp(-rate * tau);
+    for (int k = 2; k <= TOP; k++) {
+      e[k] = (power[k - 2] - e[k - 1]) / rate;
+    }
+  }
+  e[0] = -rate * e[1];
+}
+
+// H_0 .. H_4 at tau.
+static void answers(double h[ORDERS], const SbOscillator *o, double tau) {
+  double power[ORDERS] = {1.0}, c = o->damping, k = o->stiffness;
+  for (int i = 1; i < ORDERS; i++) {
+    power[i] = power[i - 1] * tau / i;
+  }
+  if (tau * (c + k * tau) < 2.0) {
+    // Neither damper nor spring has done much: the two highest by their series, then downwards.
+    double before = 0.0, now = 1.0, weight[2] = {power[3], power[4]};
+    h[3] = h[4] = 0.0;
+    for (int n = 4; (fabs(before) + fabs(now)) * weight[0] > 0.1 * DBL_EPSILON * h[3]; n++) {
+      h[3] += now * weight[0];
+      h[4] += now * weight[1];
+      double next = -tau * (c * now + k * tau * before);
+      before = now;
+      now = next;
+      weight[0] /= n;
+      weight[1] /= n + 1;
+    }
+    for (int i = 4; i > 1; i--) {
+      h[i - 2] = power[i - 2] - c * h[i - 1] - k * h[i];
+    }
+  } else if (o->apart && !o->swings) {
+    double slow[ORDERS], fast[ORDERS];
+    decay(slow, o->slow, tau, power);
+    decay(fast, o->fast, tau, power);
+    for (int i = 0; i < ORDERS; i++) {
+      h[i] = (slow[i] - fast[i]) / (o->fast - o->slow);
+    }
+  } else {
+    // Sine over split, circular or hyperbolic, and cosine; at critical damping the sine's limit.
+    double e = exp(-o->slow * tau), gap = 2.0 * o->split * tau, sine, cosine;
+    if (o->swings) {
+      sine = e * sin(o->split * tau) / o->split;
+      cosine = e * cos(o->split * tau);
+    } else {
+      sine = gap > 1e-8 ? e * -expm1(-gap) / (2.0 * o->split) : e * tau * (1.0 - 0.5 * gap);
+      cosine = 0.5 * e * (1.0 + exp(-gap));
+    }
+    h[0] = cosine - 0.5 * c * sine;
+    h[1] = sine;
+    for (int i = 2; i < ORDERS; i++) {
+      h[i] = (power[i - 2] - h[i - 2] - c * h[i - 1]) / k;
+    }
   }
 }
 
-// The state at one time: what a function, its rounding and its bounds all ask for.
-typedef struct {
-  double tau, travel, v, a;
-  double z, w; // transient and its rate; 0 without a spring
-} State;
-
-static State state_at(const SbOscillator *o, double tau) {
-  State s = {.tau = tau};
-  if (o->kind == SB_OSCILLATOR_DRIFT) {
-    double p[PHI_MAX + 1];
-    phi(-o->damping * tau / o->mass, p);
-    double g0 = o->f0 / o->mass, g1 = o->f1 / o->mass;
-    s.v = o->v0 * p[0] + tau * (g0 * p[1] + tau * g1 * p[2]);
-    s.travel = tau * (o->v0 * p[1] + tau * (g0 * p[2] + tau * g1 * p[3]));
-    s.a = g0 + g1 * tau - o->damping * s.v / o->mass;
-  } else if (o->kind != SB_OSCILLATOR_HELD) {
-    double moved;
-    transient_at(o, tau, &s.z, &s.w, &moved);
-    s.travel = tau > 0.0 ? moved + o->trend1 * tau : 0.0;
-    s.v = tau > 0.0 ? o->trend1 + s.w : o->v0;
-    s.a = -2.0 * o->beta * s.w - o->omega0 * o->omega0 * s.z;
-  }
-  return s;
+SbOscillatorState sb_oscillator_at(const SbOscillator *o, double tau) {
+  double h[ORDERS], v0 = o->v0, g0 = o->g0, g1 = o->g1;
+  answers(h, o, tau);
+  // The acceleration has the answers' equation, without a force.
+  double a0 = g0 - o->damping * v0, pull = g1 - o->stiffness * v0;
+  return (SbOscillatorState){
+      .tau = tau,
+      .travel = v0 * h[1] + g0 * h[2] + g1 * h[3],
+      .v = v0 * h[0] + g0 * h[1] + g1 * h[2],
+      .a = a0 * h[0] + pull * h[1],
+      .jerk = (pull - o->damping * a0) * h[0] - o->stiffness * a0 * h[1],
+      .area = v0 * h[2] + g0 * h[3] + g1 * h[4],
+      .size_u = fabs(v0 * h[1]) + fabs(g0 * h[2]) + fabs(g1 * h[3]),
+      .size_v = fabs(v0) + fabs(g0 * h[1]) + fabs(g1 * h[2]),
+  };
 }
 
-void sb_oscillator_at(const SbOscillator *o, double tau, double *travel, double *v, double *a) {
-  State s = state_at(o, tau);
-  if (travel != NULL) {
-    *travel = s.travel;
+// Integral of exp(-rate t) over (0, tau).
+static double complex faded(double complex rate, double tau) {
+  double complex u = rate * tau, term = tau, sum = 0.0;
+  if (cabs(u) > 0.5) {
+    return (1.0 - cexp(-u)) / rate;
   }
-  if (v != NULL) {
-    *v = s.v;
+  for (int k = 2; k < 16; k++) {
+    sum += term;
+    term *= -u / k;
   }
-  if (a != NULL) {
-    *a = s.a;
-  }
+  return sum;
 }
 
-double sb_oscillator_integral_u(const SbOscillator *o, double tau) {
-  if (o->kind == SB_OSCILLATOR_HELD) {
-    return 0.0;
-  }
-  if (o->kind == SB_OSCILLATOR_DRIFT) {
-    double p[PHI_MAX + 1];
-    phi(-o->damping * tau / o->mass, p);
-    double g0 = o->f0 / o->mass, g1 = o->f1 / o->mass;
-    return tau * tau * (o->v0 * p[2] + tau * (g0 * p[3] + tau * g1 * p[4]));
-  }
-  // The transient obeys z'' + 2 beta z' + omega0^2 z = 0: integrate it once.
-  double z, w, moved;
-  transient_at(o, tau, &z, &w, &moved);
-  double area = -((w - o->w0) + 2.0 * o->beta * moved) / (o->omega0 * o->omega0);
-  return tau * (o->trend0 + 0.5 * o->trend1 * tau) + area;
-}
-
-// Integral of v^2 over (0, tau) or, for `transient`, of z'^2: Gauss points in panels that grow from
-// the fastest decay to tau.
-static double graded_v2(const SbOscillator *o, double tau, double rate, bool transient) {
+double sb_oscillator_square(const SbOscillator *o, double tau) {
   enum { POINTS = 10 };
-  double node[POINTS], weight[POINTS], a = 0.0, sum = 0.0;
+  if (o->v0 == 0.0 && o->g0 == 0.0 && o->g1 == 0.0) {
+    return 0.0; // held
+  }
+  if (o->stiffness > 0.0 && o->apart) {
+    // v is the trend's and two exponentials, conjugate if it swings.
+    double complex p = o->slow, q = o->fast, gap;
+    if (o->swings) {
+      p += I * o->split;
+      q -= I * o->split;
+    }
+    gap = q - p;
+    double w = o->v0 - o->trend1, a = o->g0 - o->damping * o->v0;
+    double complex b = (a + q * w) / gap, c = -(a + p * w) / gap;
+    double complex square =
+        b * b * faded(2.0 * p, tau) + c * c * faded(2.0 * q, tau) + 2.0 * b * c * faded(p + q, tau);
+    return creal(square) + o->trend1 * (2.0 * sb_oscillator_at(o, tau).travel - o->trend1 * tau);
+  }
+  // Gauss points in panels that grow from the fastest decay to tau.
+  double node[POINTS], weight[POINTS], from = 0.0, sum = 0.0, rate = fmax(o->fast, o->omega);
   double step = rate > 0.0 ? 0.5 / rate : tau;
   sb_legendre_gauss(node, weight, POINTS);
-  while (a < tau) {
-    double b = fmin(tau, a + step);
+  while (from < tau) {
+    double to = fmin(tau, from + step);
     for (int i = 0; i < POINTS; i++) {
-      State s = state_at(o, 0.5 * (a + b) + 0.5 * (b - a) * node[i]);
-      double v = transient ? s.w : s.v;
-      sum += 0.5 * (b - a) * weight[i] * v * v;
+      double v = sb_oscillator_at(o, 0.5 * (from + to) + 0.5 * (to - from) * node[i]).v;
+      sum += 0.5 * (to - from) * weight[i] * v * v;
     }
-    a = b;
+    from = to;
     step *= 1.5;
   }
   return sum;
 }
 
-// (1 - exp(-u))/u
-static double fading(double u) {
-  return u > 1e-12 ? -expm1(-u) / u : 1.0 - 0.5 * u;
-}
+// ---- events ----
 
-double sb_oscillator_integral_v2(const SbOscillator *o, double tau) {
-  if (o->kind == SB_OSCILLATOR_HELD || tau <= 0.0) {
-    return 0.0;
-  }
-  if (o->kind == SB_OSCILLATOR_DRIFT) {
-    return graded_v2(o, tau, o->damping / o->mass, false);
-  }
-  double z, w, moved, square;
-  transient_at(o, tau, &z, &w, &moved);
-  if (o->kind == SB_OSCILLATOR_UNDER) {
-    // z' = exp(-beta tau) (p cos + q sin): its square by the double angle.
-    double p = o->w0;
-    double q = -(o->beta * o->w0 + o->omega0 * o->omega0 * o->z0) / o->split;
-    double b = 2.0 * o->beta, k = 2.0 * o->split;
-    double e = exp(-b * tau), norm = b * b + k * k;
-    double cosine = (e * (-b * cos(k * tau) + k * sin(k * tau)) + b) / norm;
-    double sine = (e * (-b * sin(k * tau) - k * cos(k * tau)) + k) / norm;
-    square = 0.5 * (p * p + q * q) * tau * fading(b * tau) + 0.5 * (p * p - q * q) * cosine +
-             p * q * sine;
-  } else if (o->apart) {
-    double s = -o->slow * o->c_slow, f = -o->fast * o->c_fast, both = o->slow + o->fast;
-    square = s * s * tau * fading(2.0 * o->slow * tau) + f * f * tau * fading(2.0 * o->fast * tau) +
-             2.0 * s * f * tau * fading(both * tau);
-  } else {
-    square = graded_v2(o, tau, o->beta, true);
-  }
-  return o->trend1 * (o->trend1 * tau + 2.0 * moved) + square;
-}
+// A function at tau: its value, rate, the size below which the value is rounding, and the motion.
+typedef struct {
+  double value, rate, tiny;
+  SbOscillatorState at;
+} Look;
 
-static double value_at(const SbEventFunction *g, const State *s, double *rate) {
-  double value = g->constant + g->rate * s->tau + g->of_x * s->travel + g->of_v * s->v;
-  *rate = g->rate + g->of_x * s->v + g->of_v * s->a;
+static Look look(const SbEventFunction *g, const SbOscillator *o, double tau) {
+  SbOscillatorState s = sb_oscillator_at(o, tau);
+  Look out = {.value = g->constant + g->rate * tau + g->of_x * s.travel + g->of_v * s.v,
+              .rate = g->rate + g->of_x * s.v + g->of_v * s.a,
+              .tiny = 4.0 * DBL_EPSILON *
+                      (g->noise + fabs(g->constant) + fabs(g->rate * tau) + fabs(g->relax) +
+                       fabs(g->of_x) * s.size_u + fabs(g->of_v) * s.size_v),
+              .at = s};
   if (g->relax != 0.0) {
-    double e = g->relax * exp(-g->relax_rate * s->tau);
-    value += e;
-    *rate -= g->relax_rate * e;
+    double e = g->relax * exp(-g->relax_rate * tau);
+    out.value += e;
+    out.rate -= g->relax_rate * e;
   }
   if (g->log_gain != 0.0) {
-    value += g->log_gain * log1p((g->log_start + s->tau) / g->log_time);
-    *rate += g->log_gain / (g->log_time + g->log_start + s->tau);
+    out.value += g->log_gain * log1p((g->log_start + tau) / g->log_time);
+    out.rate += g->log_gain / (g->log_time + g->log_start + tau);
   }
-  return value;
+  return out;
 }
 
-double sb_event_at(const SbEventFunction *g, const SbOscillator *o, double tau, double *rate) {
-  State s = state_at(o, tau);
-  double slope;
-  double value = value_at(g, &s, &slope);
-  if (rate != NULL) {
-    *rate = slope;
-  }
-  return value;
-}
-
-// Size below which a value of g is rounding.
-static double noise(const SbEventFunction *g, const SbOscillator *o, const State *s) {
-  double size = g->noise + fabs(g->constant) + fabs(g->rate * s->tau) + fabs(g->relax) +
-                fabs(g->of_x * s->travel) +
-                fabs(g->of_v) * (fabs(s->v) + fabs(o->v0) + fabs(o->w0));
-  if (o->omega0 * s->tau >= 1e-3) {
-    size += fabs(g->of_x * o->z0);
-  }
-  return 4.0 * DBL_EPSILON * size;
-}
-
-// Bounds over `window` from the state on: |g''|, and how far the fading parts can pull g below its
+// Bounds over `window` from a look on: |g''|, and how far the fading parts can pull g below its
 // trend.
-static void bounds(const SbEventFunction *g, const SbOscillator *o, const State *at, double window,
+static void bounds(const SbEventFunction *g, const SbOscillator *o, const Look *now, double window,
                    double *curvature, double *swing) {
-  double tau = at->tau;
+  double tau = now->at.tau, a = now->at.a, jerk = now->at.jerk;
   double px = fabs(g->of_x), pv = fabs(g->of_v);
-  *curvature = 0.0;
-  *swing = 0.0;
-  if (o->kind == SB_OSCILLATOR_DRIFT) {
-    double a = at->a, gamma = o->damping / o->mass, jerk0 = o->f1 / o->mass;
-    // a' = f1/m - gamma a fades; a grows at most by its integral, and not at all without a ramp.
-    double jerk = fabs(jerk0 - gamma * a);
-    double reach = gamma * window > 1.0 ? 1.0 / gamma : window;
-    *curvature = px * (fabs(a) + (jerk0 != 0.0 ? jerk * reach : 0.0)) + pv * jerk;
-  } else if (o->kind != SB_OSCILLATOR_HELD) {
-    if (o->apart) {
-      double s = fabs(o->c_slow) * exp(-o->slow * tau), f = fabs(o->c_fast) * exp(-o->fast * tau);
-      *curvature =
-          s * o->slow * o->slow * (px + pv * o->slow) + f * o->fast * o->fast * (px + pv * o->fast);
-      *swing = s * (px + pv * o->slow) + f * (px + pv * o->fast);
-    } else {
-      // The transient's energy never grows: |z'| <= size, |z| <= size/omega0 from here on.
-      double size = hypot(o->omega0 * at->z, at->w), b = 2.0 * o->beta;
-      double second = (b + o->omega0) * size;
-      *curvature = px * second + pv * (b * second + o->omega0 * o->omega0 * size);
-      *swing = (px / o->omega0 + pv) * size;
-    }
+  *curvature = *swing = 0.0;
+  if (o->apart && !o->swings) {
+    // Shares of the acceleration that fade slowly and fast.
+    double gap = o->fast - o->slow;
+    double s = fabs(jerk + o->fast * a) / gap, f = fabs(jerk + o->slow * a) / gap;
+    *curvature = s * (px + pv * o->slow) + f * (px + pv * o->fast);
+    *swing = s * (px / o->slow + pv) / o->slow + f * (px / o->fast + pv) / o->fast;
+  } else if (a != 0.0 || jerk != 0.0) {
+    // The energy jerk^2 + (omega a)^2 never grows, nor does that of the transient.
+    double most = hypot(jerk, o->omega * a);
+    double w = (jerk + o->damping * a) / o->stiffness, z = (a - o->damping * w) / o->stiffness;
+    *curvature = px * fmin(most / o->omega, fabs(a) + most * window) + pv * most;
+    *swing = hypot(o->omega * z, w) * (px / o->omega + pv);
   }
   if (g->relax != 0.0) {
     double e = fabs(g->relax) * exp(-g->relax_rate * tau);
@@ -301,14 +237,8 @@ static void bounds(const SbEventFunction *g, const SbOscillator *o, const State 
 // Until when the straight trend of g, lowered by all that still swings, stays positive.
 static double trend_clear(const SbEventFunction *g, const SbOscillator *o, double tau,
                           double swing) {
-  if (o->kind == SB_OSCILLATOR_DRIFT) {
-    return tau;
-  }
-  double level = g->constant - swing, rate = g->rate;
-  if (o->kind != SB_OSCILLATOR_HELD) {
-    level += g->of_x * o->trend0 + g->of_v * o->trend1;
-    rate += g->of_x * o->trend1;
-  }
+  double level = g->constant - swing + g->of_x * o->trend0 + g->of_v * o->trend1;
+  double rate = g->rate + g->of_x * o->trend1;
   if (g->log_gain != 0.0) {
     level += g->log_gain * log1p((g->log_start + tau) / g->log_time);
   }
@@ -319,98 +249,74 @@ static double trend_clear(const SbEventFunction *g, const SbOscillator *o, doubl
   return rate >= 0.0 ? INFINITY : fmax(tau, (1.0 - 8.0 * DBL_EPSILON) * (level / -rate));
 }
 
-// From tau, where g is small and falls: Newton's method kept in the bracket of the sign change.
+// From tau, where g is small and falls: Newton's method as long as it comes nearer.
 static double polish(const SbEventFunction *g, const SbOscillator *o, double tau, double horizon) {
-  double rate;
-  double value = sb_event_at(g, o, tau, &rate);
-  for (int i = 0; i < 8 && rate < 0.0; i++) {
-    double next = fmin(horizon, fmax(0.0, tau - value / rate));
+  Look now = look(g, o, tau);
+  for (int i = 0; i < 8 && now.rate < 0.0; i++) {
+    double next = fmin(horizon, fmax(0.0, tau - now.value / now.rate));
     if (fabs(next - tau) <= DBL_EPSILON * tau) {
       return next;
     }
-    double r;
-    double v = sb_event_at(g, o, next, &r);
-    if (fabs(v) > fabs(value)) {
+    Look then = look(g, o, next);
+    if (fabs(then.value) > fabs(now.value)) {
       break;
     }
     tau = next;
-    value = v;
-    rate = r;
+    now = then;
   }
   return tau;
 }
 
 double sb_event_first(const SbEventFunction *g, const SbOscillator *o, double horizon,
                       bool *found) {
-  double tau = 0.0, rate;
-  State at = state_at(o, 0.0);
-  double value = value_at(g, &at, &rate);
-  double tiny = noise(g, o, &at);
-  *found = false;
+  double tau = 0.0, window = horizon, curvature, swing;
+  Look now = look(g, o, 0.0);
+  *found = true;
   // Already past it: something jumped.
-  if (value < -64.0 * tiny) {
-    *found = true;
+  if (now.value < -64.0 * now.tiny) {
     return 0.0;
   }
   // At the limit from the start: look which way it goes.
-  if (value <= tiny) {
-    double curvature, swing;
-    bounds(g, o, &at, horizon, &curvature, &swing);
-    double lift = fabs(curvature) > 0.0 ? 2.0 * fabs(rate) / curvature : horizon;
-    if (rate > 0.0 && rate * lift > 16.0 * tiny) {
+  if (now.value <= now.tiny) {
+    bounds(g, o, &now, horizon, &curvature, &swing);
+    double lift = curvature > 0.0 ? 2.0 * fabs(now.rate) / curvature : horizon;
+    if (now.rate < 0.0 && -now.rate * lift > 16.0 * now.tiny) {
+      return 0.0;
+    }
+    if (now.rate * lift > 16.0 * now.tiny) {
       // Rising: nothing can happen before curvature has bent it back.
       tau = fmin(0.999 * lift, horizon);
-    } else if (rate < 0.0 && -rate * lift > 16.0 * tiny) {
-      *found = true;
-      return 0.0;
     } else {
       // Flat to rounding: probe ahead, wider and wider, until the sign shows.
-      double step = horizon * 1e-15;
-      if (o->omega0 > 0.0) {
-        step = fmin(step, 1e-9 / o->omega0);
-      }
-      for (step = fmax(step, 1e-300);; step *= 4.0) {
+      double step = fmax(fmin(horizon * 1e-15, 1e-9 / o->omega), 1e-300);
+      for (; tau < horizon && now.value <= 16.0 * now.tiny; step *= 4.0) {
         tau = fmin(step, horizon);
-        at = state_at(o, tau);
-        value = value_at(g, &at, &rate);
-        tiny = noise(g, o, &at);
-        if (value > 16.0 * tiny || tau >= horizon) {
-          break;
-        }
-        if (value < -16.0 * tiny) {
-          *found = true;
+        now = look(g, o, tau);
+        if (tau < horizon && now.value < -16.0 * now.tiny) {
           return 0.0;
         }
       }
     }
   }
-  double window = horizon;
   for (int i = 0; i < 200000 && tau < horizon; i++) {
-    at = state_at(o, tau);
-    value = value_at(g, &at, &rate);
-    tiny = noise(g, o, &at);
-    if (value <= tiny) {
-      if (rate < 0.0) {
-        *found = true;
-        return polish(g, o, tau, horizon);
-      }
-      if (value < -16.0 * tiny) {
-        *found = true;
-        return tau;
-      }
-      value = tiny;
+    now = look(g, o, tau);
+    if (now.value <= now.tiny && now.rate < 0.0) {
+      return polish(g, o, tau, horizon);
     }
-    double curvature, swing;
-    bounds(g, o, &at, window, &curvature, &swing);
+    if (now.value < -16.0 * now.tiny) {
+      return tau;
+    }
+    now.value = fmax(now.value, now.tiny);
+    bounds(g, o, &now, window, &curvature, &swing);
     double clear = trend_clear(g, o, tau, swing);
     if (clear > tau * (1.0 + 4.0 * DBL_EPSILON)) {
       tau = fmin(clear, horizon);
       continue;
     }
     // Largest s with value + rate s - curvature s^2/2 >= 0 (written without cancellation).
-    double root = sqrt(rate * rate + 2.0 * curvature * value);
-    double step = rate < 0.0        ? 2.0 * value / (root - rate)
-                  : curvature > 0.0 ? (rate + root) / curvature
+    double root = sqrt(now.rate * now.rate + 2.0 * curvature * now.value);
+    double step = now.rate < 0.0    ? 2.0 * now.value / (root - now.rate)
+                  : curvature > 0.0 ? (now.rate + root) / curvature
                                     : horizon;
     if (step > window) {
       step = window;
@@ -418,8 +324,8 @@ double sb_event_first(const SbEventFunction *g, const SbOscillator *o, double ho
     } else {
       window = fmin(window, 16.0 * step);
     }
-    step = fmax(step, 4.0 * DBL_EPSILON * tau);
-    tau += step;
+    tau += fmax(step, 4.0 * DBL_EPSILON * tau);
   }
+  *found = false;
   return horizon;
 }

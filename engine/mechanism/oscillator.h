@@ -1,51 +1,44 @@
 // One mass under forces that are linear in its state: exact motion, exact integrals, first event.
 //
-//   m u'' + C u' + K u = f0 + f1 tau,   u = x - x0,  u(0) = 0, u'(0) = v0,  tau = time since then
+//   m u'' + C u' + K u = f0 + f1 tau,   u(0) = 0, u'(0) = v0,   tau = time since then
 //
-// Elementary mechanics; every branch (oscillating, overdamped, critical, no spring, no damper,
-// held) is written so that no digits are lost when a coefficient is small. Between two events of a
-// piecewise linear mechanism this is its whole motion, so a rest of an hour costs as much as a
-// microsecond. The first event is found with bounds, not by sampling: none can be stepped over.
-// SI units. Leaves out: forcing other than a ramp; any nonlinearity (see radau.h).
+// Elementary mechanics. Oscillating, overdamped, critical, without a spring, a damper or both: one
+// set of functions, written so that no digits are lost when a coefficient is small. Between two
+// events of a piecewise linear mechanism this is its whole motion, so that a rest of an hour costs
+// as much as a microsecond. The first event is found with bounds, not by sampling: none can be
+// stepped over. SI units. Leaves out: forcing other than a ramp; any nonlinearity (see radau.h).
 #pragma once
 
 #include <stdbool.h>
 
-typedef enum {
-  SB_OSCILLATOR_HELD,  // u = 0 for ever
-  SB_OSCILLATOR_DRIFT, // K = 0
-  SB_OSCILLATOR_UNDER, // oscillates
-  SB_OSCILLATOR_OVER,  // overdamped or critical
-} SbOscillatorKind;
-
+// One that is zero throughout is a mass that is held.
 typedef struct {
-  SbOscillatorKind kind;
-  double mass, damping, stiffness; // kg, N s/m, N/m
-  double f0, f1, v0;               // N, N/s, m/s
-  double trend0,
-      trend1;    // u follows trend0 + trend1 tau once the transient z is gone (K > 0) [m, m/s]
-  double z0, w0; // transient and its rate at the start [m, m/s]
-  double beta, omega0;   // C/(2m), sqrt(K/m) [1/s]
-  double split;          // sqrt|beta^2 - omega0^2| [1/s]
-  double slow, fast;     // decay rates of the overdamped transient [1/s]
-  double c_slow, c_fast; // z = c_slow exp(-slow tau) + c_fast exp(-fast tau) [m]; only if `apart`
-  bool apart;
+  double damping, stiffness; // C/m [1/s], K/m [1/s2]
+  double v0, g0, g1;         // m/s, and f0 and f1 over m [m/s2, m/s3]
+  double omega;              // sqrt(K/m) [1/s]
+  double slow, fast;         // decay rates if overdamped, else C/(2m) [1/s]
+  double split;              // sqrt|(C/2m)^2 - K/m| [1/s]
+  bool swings, apart;        // underdamped; not near critical damping
+  // With a spring u follows trend0 + trend1 tau once the transient is gone [m, m/s].
+  double trend0, trend1;
 } SbOscillator;
 
 // mass > 0, damping >= 0, stiffness >= 0, all finite; f0 is the force at x0 and rest.
 void sb_oscillator_init(SbOscillator *o, double mass, double damping, double stiffness, double f0,
                         double f1, double v0);
 
-// A mass that is held (stuck, or on a rigid stop).
-void sb_oscillator_hold(SbOscillator *o);
+typedef struct {
+  double tau;                // s
+  double travel, v, a, jerk; // u and its rates [m, m/s, m/s2, m/s3]
+  double area;               // integral of u from 0 on [m s]
+  double size_u, size_v;     // sums of the magnitudes in u and v: their rounding
+} SbOscillatorState;
 
-// Travel u [m]; velocity [m/s] and acceleration [m/s^2] at tau >=
-// 0; any may be NULL.
-void sb_oscillator_at(const SbOscillator *o, double tau, double *travel, double *v, double *a);
+// The motion at tau >= 0.
+SbOscillatorState sb_oscillator_at(const SbOscillator *o, double tau);
 
-// Integral of u [m s] and of v^2 [m^2/s] over (0, tau).
-double sb_oscillator_integral_u(const SbOscillator *o, double tau);
-double sb_oscillator_integral_v2(const SbOscillator *o, double tau);
+// Integral of v^2 over (0, tau) [m^2/s].
+double sb_oscillator_square(const SbOscillator *o, double tau);
 
 // A quantity that must stay >= 0; the event is where it first turns negative:
 //   g = constant + rate tau + of_x u + of_v v + relax exp(-relax_rate tau)
@@ -56,9 +49,6 @@ typedef struct {
   double log_gain, log_start, log_time;
   double noise; // size of terms that have cancelled in the coefficients: sets the rounding error
 } SbEventFunction;
-
-// Value at tau, and its rate (may be NULL).
-double sb_event_at(const SbEventFunction *g, const SbOscillator *o, double tau, double *rate);
 
 // First tau in [0, horizon] at which g turns negative; `horizon` if none (then *found = false).
 // A g that is zero at 0 and rises is not an event; one that is zero and falls is one, at 0.

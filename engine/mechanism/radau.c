@@ -38,14 +38,14 @@ static double scale(const SbRadauSystem *s, size_t i, double value) {
 // Forward differences of the rates; `base` are the rates at z.
 static void jacobian(double j[N][N], double *base, const SbRadauSystem *s, double t,
                      const double *z) {
-  double power[SB_RADAU_POWERS], moved[N] = {0}, dz[N];
-  s->rates(base, power, t, z, s->user);
+  double moved[N] = {0}, dz[N];
+  s->rates(base, NULL, t, z, s->user);
   memcpy(moved, z, s->n * sizeof *z);
   for (size_t c = 0; c < s->n; c++) {
     double step = sqrt(DBL_EPSILON) * (fabs(z[c]) + s->floor[c]);
     moved[c] = z[c] + step;
     step = moved[c] - z[c];
-    s->rates(dz, power, t, moved, s->user);
+    s->rates(dz, NULL, t, moved, s->user);
     for (size_t r = 0; r < s->n; r++) {
       j[r][c] = (dz[r] - base[r]) / step;
     }
@@ -83,8 +83,8 @@ static bool prepare(Factors *f, size_t n, double h, double j[N][N]) {
 }
 
 // The stage rates in `step` are where the iteration starts; `f` is prepared for h. The powers are
-// taken one update before the rates: only if they are `wanted` must that update be small, else what
-// is left after it.
+// taken, if they are `wanted`, one update before the rates: that update must then be small, else
+// what is left after it.
 static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const double *z, double h,
                   const Factors *f, bool wanted, long *iterations) {
   step->t = t;
@@ -99,7 +99,7 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
         at[i] = z[i] + h * (butcher[a][0] * step->k[0][i] + butcher[a][1] * step->k[1][i] +
                             butcher[a][2] * step->k[2][i]);
       }
-      s->rates(dz, step->q[a], t + node[a] * h, at, s->user);
+      s->rates(dz, wanted ? step->q[a] : NULL, t + node[a] * h, at, s->user);
       for (size_t i = 0; i < s->n; i++) {
         residual[a * s->n + i] = dz[i] - step->k[a][i];
       }

@@ -13,8 +13,8 @@
 
 enum { SB_RADAU_MAX = 7, SB_RADAU_POWERS = 7, SB_RADAU_STAGES = 3 };
 
-// dz[n] = rates of the state, power[powers] = integrands that do not feed back. z and dz have room
-// for SB_RADAU_MAX.
+// dz[n] = rates of the state, power[powers] = integrands that do not feed back, unless
+// NULL. z and dz have room for SB_RADAU_MAX.
 typedef void (*SbRadauRates)(double *dz, double *power, double t, const double *z, void *user);
 
 typedef struct {

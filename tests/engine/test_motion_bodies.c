@@ -317,7 +317,7 @@ static void test_valve_motion(void) {
     for (int i = 0; i < n; i++) {
       g_assert_cmpint(assembly_step(&a, i * h, h, valve_push, NULL, &report), ==, SB_OK);
       g_assert_cmpstr(report.text, ==, "");
-      sb_oscillator_at(&o, (i + 1) * h, &travel, NULL, NULL);
+      travel = sb_oscillator_at(&o, (i + 1) * h).travel;
       worst = fmax(worst, fabs(a.body[SB_VALVE_STEM_TOP].position[0] - 10e-3 - travel));
     }
     if (previous > 0.0) {

@@ -352,9 +352,8 @@ static void test_cycle(void) {
         stepped++;
       }
       // Against the reduced form just before the event.
-      double x, slip;
-      sb_oscillator_at(&s.motion, span, &x, &slip, NULL);
-      x += s.at.x;
+      SbOscillatorState end = sb_oscillator_at(&s.motion, span);
+      double x = s.at.x + end.travel;
       double block = a.body[SB_VALVE_BLOCK].position[0] - home[SB_VALVE_BLOCK];
       at = a.body[SB_VALVE_STEM_CENTRE].position[0] - home[SB_VALVE_STEM_CENTRE];
       for (size_t b = SB_VALVE_STEM_CENTRE; b <= SB_VALVE_BLOCK; b++) {
