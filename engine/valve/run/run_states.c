@@ -35,7 +35,7 @@ int sb_run_first_alike(const SbRun *run, int seal, int chamber) {
   return chamber;
 }
 
-static uint32_t profile_slot(int seal, int chamber, int motion) {
+uint32_t sb_run_profile_slot(int seal, int chamber, int motion) {
   return (uint32_t)((seal * SB_CYCLE_CHAMBERS + chamber) * SB_RUN_MOTIONS + motion);
 }
 
@@ -81,7 +81,7 @@ static void asperity_pressure(const SbModel *model, int seal, const double *film
 // and the dry gap outside.
 static SbStatus make_profile(SbRun *run, int seal, int chamber, int motion, const SbSliding *state,
                              SbReport *report) {
-  SbRunProfile *profile = &run->profile[profile_slot(seal, chamber, motion)];
+  SbRunProfile *profile = &run->profile[sb_run_profile_slot(seal, chamber, motion)];
   const SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber);
   const SbFit *fit = sb_sliding_fit(run->memory[seal]);
   const SbFilm *film = sb_sliding_film(run->memory[seal]);
@@ -294,44 +294,6 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     worst = status != SB_OK ? status : worst;
   }
   return worst;
-}
-
-void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber chamber,
-                         int direction, bool moving, double s) {
-  const SbSliding *state = &run->cycle.states.state[seal][chamber][direction];
-  SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, chamber);
-  double width_share;
-  double load_share;
-  sb_cycle_land_share(&run->cycle, seal, chamber, direction, s, &width_share, &load_share);
-  double width = state->contact_right - state->contact_left;
-
-  // The edge takes the contact away from the canister side.
-  *out = (SbSealFrame){
-      .land_fraction = (float)width_share,
-      .pressure_left = (float)pressure.left,
-      .pressure_right = (float)pressure.right,
-      .profile = run->plan.profiles && state->touches
-                     ? profile_slot(seal, (int)chamber, moving ? direction : SB_RUN_REST)
-                     : UINT32_MAX,
-      .contact_left = state->contact_right - width_share * width,
-      .contact_right = state->contact_right,
-      .load = load_share * state->load,
-      .pressure_peak = width_share > 0.5 ? state->pressure_peak : 0,
-  };
-  if (width_share > 0 && width_share <= 0.5) {
-    // The elliptic profile's greatest remaining value, at the edge.
-    double c = 1 - 2 * (1 - width_share);
-    out->pressure_peak = state->pressure_peak * sqrt(fmax(1 - c * c, 0));
-  }
-  out->shape = sb_run_shape_index(run, seal, chamber, moving ? direction : SB_RUN_REST, s);
-  // At rest the surfaces meet; off the land there is no film.
-  if (!state->touches || !(width_share > 0)) {
-    out->film_min = out->film_central = out->lambda = NAN;
-  } else if (moving) {
-    out->film_min = state->film_min;
-    out->film_central = state->film_central;
-    out->lambda = state->lambda;
-  }
 }
 
 // Power of the speed in the film's law.
