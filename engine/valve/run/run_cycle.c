@@ -41,7 +41,7 @@ static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *seg
     if (at.moving) {
       sample->friction[seal] = sign * own;
       sample->viscous[seal] =
-          sign * cycle->states.state[seal][chamber][direction].viscous * width_share;
+          sign * cycle->state[seal][chamber][direction].friction_viscous * width_share;
     } else if (total > 0) {
       // A stuck stem's friction is split between the seals in proportion to what each can bear.
       sample->friction[seal] = -friction * own / total;
@@ -122,7 +122,7 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   double net = 0;
   summary->force_peak = 0;
   for (const SbCycleSegment *at = cycle->segment; at < cycle->segment + cycle->count; at++) {
-    const SbSliding *outer = &cycle->states.state[SB_OUTER][at->chamber][at->direction];
+    const SbSealState *outer = &cycle->state[SB_OUTER][at->chamber][at->direction];
     net += sb_leak_stroke(run->model->bore_diameter, outer->film_central, at->stem1 - at->stem0);
     summary->force_peak = fmax(summary->force_peak, sb_cycle_force(cycle, at->platen1, at->stem1));
   }

@@ -6,7 +6,7 @@
 // Where the machine turns: a rigid stop would then bear the reversal force, or a fiftieth more than
 // what it takes to hold the stem there if that is greater.
 static double platen_top(const SbCycle *cycle) {
-  const SbModel *model = cycle->states.model;
+  const SbModel *model = cycle->model;
   double hold =
       model->pressure_force + model->spring_preload + model->spring_stiffness * model->stroke;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {

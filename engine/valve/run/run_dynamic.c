@@ -51,7 +51,7 @@ static void leak(Recorder *r, double time, double x, double pressure) {
       sb_valve_solved(&r->valve, x > r->leak_from ? SB_CYCLE_IN : SB_CYCLE_OUT, pressure);
   double way = x - r->leak_from;
   double speed = time > r->leak_since ? way / (time - r->leak_since) : run->speed;
-  double film = run->cycle.states.state[SB_OUTER][at.chamber][at.direction].film_central *
+  double film = run->cycle.state[SB_OUTER][at.chamber][at.direction].film_central *
                 sb_run_film_at(run, speed);
   double volume = sb_leak_stroke(run->model->bore_diameter, film, way);
   r->leak += volume;

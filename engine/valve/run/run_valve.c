@@ -31,7 +31,7 @@ static double filling(const SbRun *run, double pressure) {
 
 static double level_of(const SbCycle *cycle, int seal, SbChamber chamber, double s) {
   int direction = direction_of(chamber);
-  const SbSliding *state = &cycle->states.state[seal][chamber][direction];
+  const SbSealState *state = &cycle->state[seal][chamber][direction];
   double width_share;
   double load_share;
   sb_cycle_land_share(cycle, seal, chamber, direction, s, &width_share, &load_share);
@@ -101,9 +101,9 @@ static void add_edge(SbDynamicsModel *out, double x) {
 
 static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report) {
   const SbModel *model = valve->run->model;
-  const SbCycleStates *states = &valve->run->cycle.states;
-  const SbSliding *inner = &states->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-  const SbSliding *outer = &states->state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbCycle *cycle = &valve->run->cycle;
+  const SbSealState *inner = &cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbSealState *outer = &cycle->state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   const SbValveShape *shape = &model->shape;
   bool at_once = model->chamber_at_once;
   double coefficient = model->discharge_coefficient;
@@ -212,7 +212,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
       .tolerance = model->motion_tolerance,
   };
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    const SbSliding *state = &cycle->states.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+    const SbSealState *state = &cycle->state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
     double level = state->boundary_area + state->boundary_load;
     out->contact[seal] = (SbDynamicsContact){
         .static_ratio = level > 0 ? fmax(state->friction_static / level, 1) : 1,
@@ -220,7 +220,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
         .dwell_time = model->dwell_time,
         .stribeck_speed = model->stribeck_speed,
         .stribeck_exponent = 1,
-        .viscous = state->viscous / run->speed,
+        .viscous = state->friction_viscous / run->speed,
         .stiffness = INFINITY,
     };
     if (model->tangential_stiffness > 0) {
@@ -235,7 +235,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   sb_valve_set_drive(out, &valve->times, run);
 
   // Edges: where the contact meets the land's end, where it has left, where it comes back.
-  valve->touches = cycle->states.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].touches;
+  valve->touches = cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].touches;
   double far = -INFINITY;
   if (valve->touches) {
     valve->edge_open = sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
@@ -301,7 +301,7 @@ static void fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbSolvedS
                          bool moving, double s) {
   const SbChamber chamber = solved.chamber;
   const int direction = solved.direction, motion = moving ? direction : SB_RUN_REST;
-  const SbSliding *state = &run->cycle.states.state[seal][chamber][direction];
+  const SbSealState *state = &run->cycle.state[seal][chamber][direction];
   const SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, chamber);
   double width_share, load_share;
   sb_cycle_land_share(&run->cycle, seal, chamber, direction, s, &width_share, &load_share);
