@@ -75,7 +75,7 @@ static void put_verdict(SbJson *json, const SbCaseVerdict *verdicts) {
 }
 
 static void put_seal(SbJson *json, const SbSummary *summary, int seal) {
-  const SbSealSummary *of = &summary->seal[seal];
+  const SbSealState *of = &summary->seal[seal];
   g_autofree char *scope = g_strdup_printf("seals.%s.", sb_seal_name(seal));
   sb_json_object(json, sb_seal_name(seal));
   put_figures(json, summary, scope);

@@ -15,22 +15,22 @@ static bool inner_touches(const SbCycle *cycle, SbChamber chamber, int direction
   if (chamber == SB_CHAMBER_OPEN) {
     chamber = direction == SB_CYCLE_OUT ? SB_CHAMBER_CLOSED : SB_CHAMBER_AT_REST;
   }
-  return cycle->states.state[SB_INNER][chamber][direction].touches;
+  return cycle->state[SB_INNER][chamber][direction].touches;
 }
 
 // Stem displacement at which the inner contact begins to leave the land.
 static double edge_start(const SbCycle *cycle) {
-  return cycle->states.model->land_edge;
+  return cycle->model->land_edge;
 }
 
 double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction) {
-  const SbSliding *inner = &cycle->states.state[SB_INNER][chamber][direction];
+  const SbSealState *inner = &cycle->state[SB_INNER][chamber][direction];
   return edge_start(cycle) + inner->contact_right - inner->contact_left;
 }
 
 // Share of a seal's contact that the edge has passed; without contact all of it.
 static double passed(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s) {
-  const SbSliding *state = &cycle->states.state[seal][chamber][direction];
+  const SbSealState *state = &cycle->state[seal][chamber][direction];
   if (!state->touches || (seal == SB_INNER && chamber == SB_CHAMBER_OPEN)) {
     return 1;
   }
@@ -48,10 +48,11 @@ void sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int 
 
 double sb_cycle_seal_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
                               double s) {
-  const SbSliding *state = &cycle->states.state[seal][chamber][direction];
+  const SbSealState *state = &cycle->state[seal][chamber][direction];
   double width_share, load_share;
   sb_cycle_land_share(cycle, seal, chamber, direction, s, &width_share, &load_share);
-  return (state->boundary_area + state->viscous) * width_share + state->boundary_load * load_share;
+  return (state->boundary_area + state->friction_viscous) * width_share +
+         state->boundary_load * load_share;
 }
 
 double sb_cycle_friction(const SbCycle *cycle, SbChamber chamber, int direction, double s) {
@@ -61,7 +62,7 @@ double sb_cycle_friction(const SbCycle *cycle, SbChamber chamber, int direction,
 
 double sb_cycle_static_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
                                 double s) {
-  const SbSliding *state = &cycle->states.state[seal][chamber][direction];
+  const SbSealState *state = &cycle->state[seal][chamber][direction];
   double kinetic = sb_sliding_friction(state);
   double ratio = kinetic > 0 ? state->friction_static / kinetic : 1;
   return ratio * sb_cycle_seal_friction(cycle, seal, chamber, direction, s);
@@ -94,34 +95,33 @@ static double friction_at(double s, const void *context) {
 // Force that balances sliding: F_p + f on the way in, F_p - f on the way out.
 static double balance_at(double s, const void *context) {
   const Place *p = context;
-  return p->cycle->states.model->pressure_force + sign_of(p->direction) * friction_at(s, p);
+  return p->cycle->model->pressure_force + sign_of(p->direction) * friction_at(s, p);
 }
 
 // Force on a stem at s beyond the balance, in the direction of sliding.
 static double excess_force(double s, const void *context) {
   const Place *p = context;
-  return sign_of(p->direction) *
-         (p->cycle->states.model->stiffness * (p->platen - s) - balance_at(s, p));
+  return sign_of(p->direction) * (p->cycle->model->stiffness * (p->platen - s) - balance_at(s, p));
 }
 
 // dX/ds of balanced sliding at s; the inner seal's friction falls while the edge passes, by the
 // same ellipse as its share of the load.
 static double rate_at(double s, const void *context) {
   const Place *p = context;
-  const SbSliding *inner = &p->cycle->states.state[SB_INNER][p->chamber][p->direction];
+  const SbSealState *inner = &p->cycle->state[SB_INNER][p->chamber][p->direction];
   double t = passed(p->cycle, SB_INNER, p->chamber, p->direction, s);
   if (t <= 0 || t >= 1) {
     return 1;
   }
   double c = 1 - 2 * t;
-  double slope = -((inner->boundary_area + inner->viscous) +
+  double slope = -((inner->boundary_area + inner->friction_viscous) +
                    inner->boundary_load * 4 / M_PI * sqrt(fmax(1 - c * c, 0))) /
                  (inner->contact_right - inner->contact_left);
-  return 1 + sign_of(p->direction) * slope / p->cycle->states.model->stiffness;
+  return 1 + sign_of(p->direction) * slope / p->cycle->model->stiffness;
 }
 
 double sb_cycle_force(const SbCycle *cycle, double X, double s) {
-  return fmax(cycle->states.model->stiffness * (X - s), 0);
+  return fmax(cycle->model->stiffness * (X - s), 0);
 }
 
 // ---------------------------------------------------------------------------------------------------
@@ -131,7 +131,7 @@ double sb_cycle_force(const SbCycle *cycle, double X, double s) {
 static double platen_beyond(double *slope, double s, const void *context) {
   const Place *p = context;
   *slope = rate_at(s, p);
-  return s + balance_at(s, p) / p->cycle->states.model->stiffness - p->platen;
+  return s + balance_at(s, p) / p->cycle->model->stiffness - p->platen;
 }
 
 double sb_cycle_stem(const SbCycle *cycle, const SbCycleSegment *segment, double X) {
@@ -159,7 +159,7 @@ double sb_cycle_stem_rate(const SbCycle *cycle, const SbCycleSegment *segment, d
 
 double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, double X, double s,
                         double *stop_force) {
-  const SbModel *model = cycle->states.model;
+  const SbModel *model = cycle->model;
   double force = sb_cycle_force(cycle, X, s);
   *stop_force = 0;
   if (segment->mode != SB_CYCLE_STICK) {
@@ -224,7 +224,7 @@ static void emit(Planner *p, SbCycleMode mode, double X1, double s1, int event) 
 // middle and end, or the stop. On the way in at the edge's end the chamber opens; on the way out it
 // closes there.
 static double piece_end(const Planner *p) {
-  const SbModel *model = p->cycle->states.model;
+  const SbModel *model = p->cycle->model;
   double start = edge_start(p->cycle);
   SbChamber chamber = p->chamber;
   if (p->direction == SB_CYCLE_OUT && chamber == SB_CHAMBER_OPEN) {
@@ -249,7 +249,7 @@ static int event_at(const Planner *p, double s) {
     if (s == edge_start(cycle) && touches && p->stage == SB_STAGE_B) {
       return SB_STAGE_C;
     }
-    if (s == cycle->states.model->stroke && p->stage < SB_STAGE_D) {
+    if (s == cycle->model->stroke && p->stage < SB_STAGE_D) {
       return SB_STAGE_D;
     }
   } else if (p->chamber == SB_CHAMBER_OPEN && touches &&
@@ -283,7 +283,7 @@ static void jump(Planner *p, const Place *place, double end) {
 // Slides from the present point in the present direction until the stem sticks, stops, or (on the
 // way out) is left by the platen. Forces balance at entry unless a jump is due.
 static void slide(Planner *p) {
-  const SbModel *model = p->cycle->states.model;
+  const SbModel *model = p->cycle->model;
   double k = model->stiffness;
   bool out = p->direction == SB_CYCLE_OUT;
   while (!p->full && p->s != (out ? 0 : model->stroke)) {
@@ -332,8 +332,8 @@ static void slide(Planner *p) {
 double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, bool rested) {
   double least = balance_at(s, &(Place){cycle, chamber, SB_CYCLE_OUT, 0});
   if (rested) {
-    least = fmin(least, cycle->states.model->pressure_force -
-                            static_limit(cycle, chamber, SB_CYCLE_OUT, s));
+    least =
+        fmin(least, cycle->model->pressure_force - static_limit(cycle, chamber, SB_CYCLE_OUT, s));
   }
   if (chamber == SB_CHAMBER_OPEN) {
     chamber = SB_CHAMBER_CLOSED;
@@ -343,7 +343,7 @@ double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, 
 }
 
 SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
-  const SbModel *model = cycle->states.model;
+  const SbModel *model = cycle->model;
   cycle->count = 0;
   double k = model->stiffness;
   Planner p = {.cycle = cycle, .platen = 1, .direction = SB_CYCLE_IN, .stage = SB_STAGE_A};
@@ -428,7 +428,7 @@ static double force_of_platen(double X, const void *context) {
 }
 
 void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
-  const SbModel *model = cycle->states.model;
+  const SbModel *model = cycle->model;
   double k = model->stiffness;
   Rule rule = {.cycle = cycle};
   sb_legendre_gauss(rule.node, rule.weight, POINTS);

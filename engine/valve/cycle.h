@@ -27,12 +27,6 @@
 enum { SB_CYCLE_IN = 0, SB_CYCLE_OUT = 1, SB_CYCLE_DIRECTIONS = 2 };
 enum { SB_CYCLE_CHAMBERS = 3, SB_CYCLE_SEGMENTS_MAX = 96 };
 
-// Steady sliding states the cycle is made of: seal x chamber state x direction.
-typedef struct {
-  const SbModel *model;
-  SbSliding state[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_CYCLE_DIRECTIONS];
-} SbCycleStates;
-
 typedef enum {
   SB_CYCLE_STICK, // the stem does not move; s0 = s1
   SB_CYCLE_SLIP,  // the stem slides in balance
@@ -52,7 +46,9 @@ typedef struct {
 } SbCycleSegment;
 
 typedef struct {
-  SbCycleStates states;
+  const SbModel *model;
+  // Steady states that it is made of.
+  SbSealState state[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_CYCLE_DIRECTIONS];
   size_t count;
   SbCycleSegment segment[SB_CYCLE_SEGMENTS_MAX];
   double platen_top;       // X at reversal [m]
@@ -61,7 +57,8 @@ typedef struct {
                            // not [N]
 } SbCycle;
 
-// Plans the segments for `states` (filled by the caller for every entry that can be needed).
+// Plans the segments for `model` and `state` (filled by the caller for every entry that can be
+// needed).
 // SB_ERROR_NOT_CONVERGED if the events do not end within SB_CYCLE_SEGMENTS_MAX.
 SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report);
 

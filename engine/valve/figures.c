@@ -10,8 +10,9 @@
 #include <string.h>
 
 // From a row's unit on the columns are those of SbFigure.
-#define COLUMNS(si, shown, digits, better, estimate, verdict, brief, label, help)                  \
-  si, shown, digits, SB_BETTER_##better, estimate, SB_VERDICT_##verdict, brief, label, help
+#define COLUMNS(si, shown, digits, better, estimate, needs, verdict, brief, label, help)           \
+  si, shown, digits, SB_BETTER_##better, estimate, SB_DEPTH_##needs, SB_VERDICT_##verdict, brief,  \
+      label, help
 #define SEAL(name, index, path, member, ...)                                                       \
   {"seals." name "." path, offsetof(SbSummary, seal[index].member), name " seal",                  \
    COLUMNS(__VA_ARGS__)},

@@ -16,6 +16,7 @@ typedef struct {
   int digits;             // significant ones in tables; 0: a yes or no, 1 or 0
   SbBetter better;
   const char *estimate;  // name of its error estimate below "solver.error_estimate."; "": none
+  SbSealDepth needs;     // of its seal; of the outer one for a figure of no seal
   SbVerdictKind verdict; // what a limit on it decides
   bool brief;            // a short table lists it
   const char *label, *help;

@@ -24,7 +24,7 @@ typedef struct {
   long done;      // actuations computed
   double leakage; // sum [m3]; NaN like `carried` for a life that ended before its time
   double carried; // sum [m3]
-  double peak_first, peak_last; // [N]; the last NaN for such a life
+  SbLifeActuation first, last; // figures of the last NaN for such a life
   double return_least;          // over the life [N]; NaN if no actuation has one
   long failure;                 // number from 1 of the actuation without return, 0 if none
 } SbLife;

@@ -233,35 +233,6 @@ static void plan_views(SbPlan *plan, const SbModel *model, unsigned views) {
   }
 }
 
-// What figures need of their seal, by the beginnings of their names; the first that fits. Any other
-// figure needs the whole cycle.
-static const struct {
-  const char *name;
-  SbSealDepth depth;
-} seal_needs[] = {
-    {"squeeze", SB_DEPTH_SIZES},         {"stretch_inner", SB_DEPTH_SIZES},
-    {"gland_fill", SB_DEPTH_SIZES},      {"contact_", SB_DEPTH_FITMENT},
-    {"load_N", SB_DEPTH_FITMENT},        {"pressure_peak", SB_DEPTH_FITMENT},
-    {"leakage_static", SB_DEPTH_LEAK},   {"closing_pressure", SB_DEPTH_LEAK},
-    {"leak_sensitivity", SB_DEPTH_LEAK}, {"leakage_per_stroke", SB_DEPTH_SLIDING},
-    {"film_", SB_DEPTH_SLIDING},         {"lambda", SB_DEPTH_SLIDING},
-    {"real_area", SB_DEPTH_SLIDING},     {"asperity_load", SB_DEPTH_SLIDING},
-    {"friction_", SB_DEPTH_SLIDING},     {"coefficient_of", SB_DEPTH_SLIDING},
-};
-
-static bool begins(const char *text, const char *with) {
-  return strncmp(text, with, strlen(with)) == 0;
-}
-
-static SbSealDepth seal_need(const char *name) {
-  for (size_t i = 0; i < sizeof seal_needs / sizeof seal_needs[0]; i++) {
-    if (begins(name, seal_needs[i].name)) {
-      return seal_needs[i].depth;
-    }
-  }
-  return SB_DEPTH_WHOLE;
-}
-
 // What the model alone decides.
 static SbPlan basis(const SbModel *model, bool life) {
   bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
@@ -275,21 +246,13 @@ static SbPlan basis(const SbModel *model, bool life) {
 void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size_t count) {
   *out = basis(model, true);
   for (size_t i = 0; i < count; i++) {
-    const char *path = sb_figure(figures[i])->path;
-    int seal = begins(path, "seals.inner.") ? SB_INNER : SB_OUTER;
-    SbSealDepth depth = SB_DEPTH_WHOLE;
-    if (begins(path, "seals.")) {
-      const char *name = path + strlen("seals.outer.");
-      depth = seal_need(name);
-      out->film_laws = out->film_laws || begins(name, "film_by_model");
-    } else if (strcmp(path, "cycle.dose_mass_kg") == 0) {
-      depth = SB_DEPTH_SIZES;
-    } else if (begins(path, "cycle.leakage_carried")) {
-      depth = SB_DEPTH_SLIDING;
-    } else if (strcmp(path, "solver.error_estimate.film_history") == 0) {
+    const SbFigure *figure = sb_figure(figures[i]);
+    int seal = strcmp(figure->where, "inner seal") == 0 ? SB_INNER : SB_OUTER;
+    out->seal[seal] = figure->needs > out->seal[seal] ? figure->needs : out->seal[seal];
+    out->film_laws = out->film_laws || strstr(figure->path, ".film_by_model.") != NULL;
+    if (strcmp(figure->path, "solver.error_estimate.film_history") == 0) {
       out->film_history = out->reynolds && model->film_history;
     }
-    out->seal[seal] = depth > out->seal[seal] ? depth : out->seal[seal];
   }
   // Films at a speed that the motion decides need the motion.
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {

@@ -40,8 +40,8 @@ struct SbSlidingMemory {
 
 typedef SbSlidingTask Task;
 
-double sb_sliding_friction(const SbSliding *state) {
-  return state->boundary_area + state->boundary_load + state->viscous;
+double sb_sliding_friction(const SbSealState *state) {
+  return state->boundary_area + state->boundary_load + state->friction_viscous;
 }
 
 SbStatus sb_sliding_memory_create(SbSlidingMemory **out, SbReport *report) {
@@ -159,7 +159,7 @@ static bool usable(SbStatus status) {
 
 // A seal's film figures are those of `solved`; NaN stays where the solver stopped before its first
 // solution (false).
-static bool take_film(SbSliding *out, const Solved *solved, SbStatus status, const SbFit *fit) {
+static bool take_film(SbSealState *out, const Solved *solved, SbStatus status, const SbFit *fit) {
   const SbFilm *film = &solved->film;
   if (status != SB_OK && !(film->film_central > 0)) {
     return false;
@@ -223,7 +223,7 @@ static void option_warnings(const Task *task, const SbFilmProblem *problem) {
   }
 }
 
-static SbStatus solve_film(const Task *task, SbSliding *out, SbReport *report) {
+static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   SbFilmProblem problem;
   sb_sliding_film_problem(&problem, task->model, task->seal, task->pressure, out->load_net,
@@ -276,7 +276,7 @@ static SbStatus solve_rough(const Task *task, Solved *out, double load_net, doub
 }
 
 // Film, rough contact and friction from one solution each, sliding and at rest.
-static SbStatus solve_coupled(const Task *task, SbSliding *out, SbReport *report) {
+static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *report) {
   const SbModel *model = task->model;
   SbSlidingMemory *memory = task->memory;
   SbSealPressure pressure = task->pressure;
@@ -313,11 +313,11 @@ static SbStatus solve_coupled(const Task *task, SbSliding *out, SbReport *report
   double circumference = out->load / out->load_per_length;
   if (take_film(out, memory->last, status, &memory->fit)) {
     out->lambda = film->film_ratio;
-    out->area_share = fmin(film->real_area / width, 1);
+    out->real_area_share = fmin(film->real_area / width, 1);
     out->asperity_share = film->asperity_share;
-    out->boundary_area = model->shear_strength * out->area_share * area;
+    out->boundary_area = model->shear_strength * out->real_area_share * area;
     out->boundary_load = model->load_coefficient * film->asperity_load * circumference;
-    out->viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
+    out->friction_viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
   }
   if (memory->rested || rest->film_central > 0) {
     out->friction_static = model->static_ratio *
@@ -325,7 +325,7 @@ static SbStatus solve_coupled(const Task *task, SbSliding *out, SbReport *report
                             model->load_coefficient * rest->asperity_load * circumference);
   }
   out->friction_error = film->solver.error_contact * (out->boundary_area + out->boundary_load) +
-                        out->central_error * out->viscous;
+                        out->central_error * out->friction_viscous;
   out->static_error = rest->solver.error_contact * out->friction_static;
   return status != SB_OK ? status : at_rest;
 }
@@ -341,7 +341,7 @@ static SbStatus gt_share(double *share, double gt_product, double lambda) {
 
 // Share of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
 // film, Persson's on the net pressure that the solids must carry.
-static SbStatus real_area(SbSliding *out, double *rest_share, const Task *task, double roughness,
+static SbStatus real_area(SbSealState *out, double *rest_share, const Task *task, double roughness,
                           SbReport *report) {
   const SbModel *model = task->model;
   const double gt_product = roughness * model->gt_product;
@@ -354,37 +354,37 @@ static SbStatus real_area(SbSliding *out, double *rest_share, const Task *task, 
       return status;
     }
     double pressure = fmax(out->load_net, 0) / (out->contact_right - out->contact_left);
-    out->area_share = *rest_share = sb_persson_area_share(
+    out->real_area_share = *rest_share = sb_persson_area_share(
         &spectrum, spectrum.q1, model->seal[task->seal].reduced_modulus, pressure);
     sb_warn(
         task->warnings, "persson-shear-strength", "friction.shear_strength",
         "Persson's real contact is %.0f %% here; the default shear strength was set with Greenwood "
         "and Tripp's few per cent",
-        100 * out->area_share);
+        100 * out->real_area_share);
     return SB_OK;
   }
   SbStatus status = gt_share(rest_share, gt_product, 0);
   // Without a film there is no real contact under it either.
-  out->area_share = NAN;
+  out->real_area_share = NAN;
   if (status == SB_OK && !isnan(out->lambda)) {
-    status = gt_share(&out->area_share, gt_product, out->lambda);
+    status = gt_share(&out->real_area_share, gt_product, out->lambda);
   }
   if (status != SB_OK) {
     return sb_fail(report, status, "no asperity contact of the %s seal at λ = %g",
                    sb_seal_name(task->seal), out->lambda);
   }
-  if (out->area_share > 0.3) {
+  if (out->real_area_share > 0.3) {
     sb_warn(
         task->warnings, "real-area-large", "surface.gt_product",
         "asperities of the %s seal touch on %.0f %% of the area: Greenwood and Tripp's asperities "
         "are no longer independent",
-        sb_seal_name(task->seal), 100 * out->area_share);
+        sb_seal_name(task->seal), 100 * out->real_area_share);
   }
   return SB_OK;
 }
 
 // What the surfaces make of a contact whose load, width and film are known: real area, friction.
-static SbStatus rough_contact(SbSliding *out, const Task *task, double roughness,
+static SbStatus rough_contact(SbSealState *out, const Task *task, double roughness,
                               SbReport *report) {
   const SbModel *model = task->model;
   double area = (out->contact_right - out->contact_left) * model->bore_circumference;
@@ -394,22 +394,22 @@ static SbStatus rough_contact(SbSliding *out, const Task *task, double roughness
   if (status != SB_OK) {
     return status;
   }
-  out->boundary_area = model->shear_strength * out->area_share * area;
+  out->boundary_area = model->shear_strength * out->real_area_share * area;
   out->boundary_load = model->load_coefficient * out->load;
-  out->viscous = 0;
+  out->friction_viscous = 0;
   if (task->speed != 0) {
     // fmin() would take a film that was not computed for the greatest shear.
     double shear = model->viscosity * fabs(task->speed) / out->film_central;
     shear = shear > model->shear_strength ? model->shear_strength : shear;
-    out->viscous = shear * (1 - out->area_share) * area;
+    out->friction_viscous = shear * (1 - out->real_area_share) * area;
     if (out->central_error > 0) {
       double thinner;
       (void)gt_share(&thinner, roughness * model->gt_product,
                      out->lambda * (1 - out->central_error));
       bool persson = model->surface == SB_ROUGH_PERSSON;
       out->friction_error =
-          out->central_error * out->viscous +
-          (persson ? 0 : model->shear_strength * fabs(thinner - out->area_share) * area);
+          out->central_error * out->friction_viscous +
+          (persson ? 0 : model->shear_strength * fabs(thinner - out->real_area_share) * area);
     }
   }
   out->friction_static =
@@ -423,7 +423,7 @@ static const char *about(int seal) {
 
 // A film that cannot be, because the fluid opens the contact, is a result, not a failure. Otherwise
 // passes on the report.
-static SbStatus opened_by_fluid(SbSliding *out, SbStatus status, const SbReport *own, int seal,
+static SbStatus opened_by_fluid(SbSealState *out, SbStatus status, const SbReport *own, int seal,
                                 SbWarnings *warnings, SbReport *report) {
   if (status != SB_ERROR_INFEASIBLE || strcmp(own->parameter, "canister.pressure") != 0) {
     if (status != SB_OK && report != NULL) {
@@ -438,7 +438,7 @@ static SbStatus opened_by_fluid(SbSliding *out, SbStatus status, const SbReport 
   return SB_OK;
 }
 
-SbStatus sb_sliding_resurface(SbSliding *state, const SbSlidingTask *task, double roughness,
+SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report) {
   sb_warn_about(task->warnings, about(task->seal));
   SbStatus status =
@@ -447,29 +447,18 @@ SbStatus sb_sliding_resurface(SbSliding *state, const SbSlidingTask *task, doubl
   return status;
 }
 
-void sb_sliding_clear(SbSliding *out) {
-  *out = (SbSliding){.contact_left = NAN,
-                     .contact_right = NAN,
-                     .load = NAN,
-                     .load_per_length = NAN,
-                     .load_net = NAN,
-                     .pressure_peak = NAN,
-                     .film_min = NAN,
-                     .film_central = NAN,
-                     .film_reynolds = NAN,
-                     .film_error = NAN,
-                     .central_error = NAN,
-                     .lambda = NAN,
-                     .area_share = NAN,
-                     .asperity_share = NAN,
-                     .boundary_area = NAN,
-                     .boundary_load = NAN,
-                     .viscous = NAN,
-                     .friction_static = NAN};
+void sb_sliding_clear(SbSealState *out) {
+  *out = (SbSealState){.load_net = NAN,
+                       .film_error = NAN,
+                       .central_error = NAN,
+                       .boundary_area = NAN,
+                       .boundary_load = NAN};
+#define SB_SEAL_FIGURE(path, member, ...) out->member = NAN;
+#include "engine/valve/figures.def"
 }
 
 // Fitment: contact and loads. *known tells whether there is a contact to go on with.
-static SbStatus fit_contact(const Task *task, SbSliding *out, bool *known, SbReport *report) {
+static SbStatus fit_contact(const Task *task, SbSealState *out, bool *known, SbReport *report) {
   SbSealPressure pressure = task->pressure;
   (void)sb_succeed(report);
   sb_sliding_clear(out);
@@ -490,7 +479,7 @@ static SbStatus fit_contact(const Task *task, SbSliding *out, bool *known, SbRep
   if (!fit->touches) {
     out->contact_left = out->contact_right = 0;
     out->load = out->load_per_length = out->load_net = out->pressure_peak = 0;
-    out->boundary_area = out->boundary_load = out->viscous = out->friction_static = 0;
+    out->boundary_area = out->boundary_load = out->friction_viscous = out->friction_static = 0;
     return status;
   }
   out->contact_left = fit->contact_left;
@@ -507,7 +496,7 @@ static SbStatus fit_contact(const Task *task, SbSliding *out, bool *known, SbRep
   return status;
 }
 
-static SbStatus solve(const Task *task, SbSliding *out, SbReport *report) {
+static SbStatus solve(const Task *task, SbSealState *out, SbReport *report) {
   SbWarnings *warnings = task->warnings;
   int seal = task->seal;
   bool known;
@@ -553,14 +542,14 @@ static SbStatus solve(const Task *task, SbSliding *out, SbReport *report) {
   return status;
 }
 
-SbStatus sb_sliding_solve(SbSliding *out, const SbSlidingTask *task, SbReport *report) {
+SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   sb_warn_about(task->warnings, about(task->seal));
   SbStatus status = solve(task, out, report);
   sb_warn_about(task->warnings, NULL);
   return status;
 }
 
-SbStatus sb_sliding_fitment(SbSliding *out, const SbSlidingTask *task, SbReport *report) {
+SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   bool known;
   sb_warn_about(task->warnings, about(task->seal));
   SbStatus status = fit_contact(task, out, &known, report);

@@ -22,32 +22,10 @@
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
 #include "engine/valve/model.h"
-
-typedef struct {
-  bool touches;
-  bool opened; // by the fluid: the rubber does not press, or the film's ends differ too much
-  double contact_left, contact_right; // seal's frame [m]
-  double load, load_per_length;       // total, fluid's share included [N], [N/m]
-  double load_net;               // per length, above the ambient step: what the film carries [N/m]
-  double pressure_peak;          // [Pa]
-  double film_min, film_central; // [m]; 0 at rest, NaN without contact
-  double film_reynolds;          // central, solved on the half-plane; NaN if not solved
-  bool film_fitted;              // film_min and film_central are solved on the fitted body
-  double film_error;             // relative error estimate of the solved film; NaN if closed form
-  double central_error;          // the same of film_central alone, on which friction hangs
-  double lambda;                 // film_central / sigma
-  double area_share;             // A_a / A
-  double asperity_share;         // of the net load, on the asperities; NaN unless coupled
-  double boundary_area;          // tau_0 A_a, the part of F_b in proportion to the width [N]
-  double boundary_load;          // m W, the part in proportion to the load [N]
-  double viscous;                // [N]
-  double friction_static;        // [N]
-  double friction_error;         // of kinetic friction by the solved film's error [N]
-  double static_error;           // the same of static friction [N]
-} SbSliding;
+#include "engine/valve/run/run.h"
 
 // Kinetic friction of a whole contact [N].
-double sb_sliding_friction(const SbSliding *state);
+double sb_sliding_friction(const SbSealState *state);
 
 // Workspaces that one seal's evaluations share; plain create and destroy (NULL allowed).
 typedef struct SbSlidingMemory SbSlidingMemory;
@@ -65,8 +43,8 @@ void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), 
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory);
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
 
-// A state of which nothing is known: all NaN.
-void sb_sliding_clear(SbSliding *out);
+// A state of which nothing is known: its figures are NaN.
+void sb_sliding_clear(SbSealState *out);
 
 // One evaluation: what is asked for, with what memory, and where counts and warnings go.
 typedef struct {
@@ -83,11 +61,11 @@ typedef struct {
 // Evaluates a task. The fitment is reused from the last call when the pressure has not changed. A
 // ring that does not touch has touches = false. SB_ERROR_NOT_CONVERGED with what was computed, the
 // rest NaN; the report names solver and cause.
-SbStatus sb_sliding_solve(SbSliding *out, const SbSlidingTask *task, SbReport *report);
+SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
 // The fitment alone, as sb_sliding_solve() has it: contact, loads and peak; the rest stays NaN, or
 // 0 where the seal does not touch.
-SbStatus sb_sliding_fitment(SbSliding *out, const SbSlidingTask *task, SbReport *report);
+SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
 // Surface of a fitted body for the film: the ring's own by static condensation (ring.h), with its
 // own modulus, or the disc's, and the gap whose dry contact has the pressure of `fit`. Where the
@@ -100,7 +78,7 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
 
 // Gives the solved state of a task a surface `roughness` times as rough as the model's: neither
 // fitment nor film depend on it, so that nothing is solved again.
-SbStatus sb_sliding_resurface(SbSliding *state, const SbSlidingTask *task, double roughness,
+SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report);
 
 // The film problem of a seal in a run: net load, reduced modulus, radius, pressures (thesis

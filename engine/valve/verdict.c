@@ -48,7 +48,7 @@ bool sb_verdict_take_worse(SbVerdict *worst, const SbVerdict *next) {
 }
 
 static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int seal) {
-  const SbSealSummary *of = &summary->seal[seal];
+  const SbSealState *of = &summary->seal[seal];
   SbSealPressure side = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
   int figure = seal_figure(seal, "pressure_peak_Pa");
   SbVerdict out = {SB_ANSWER_YES, figure, of->pressure_peak, fabs(side.left - side.right), ""};

@@ -311,7 +311,7 @@ static void test_leakage(void) {
 // The thesis valve is tight at rest with a wide margin; a bare touch leaks, and the user is told.
 static void test_static_leak(void) {
   SbRun *run = run_cycle(NULL, 0);
-  const SbSealSummary *outer = &sb_run_summary(run)->seal[SB_OUTER];
+  const SbSealState *outer = &sb_run_summary(run)->seal[SB_OUTER];
   g_assert_cmpfloat(outer->leakage_static, ==, 0);
   g_assert_cmpfloat(outer->closing_pressure, <, 0.5e6);
   sb_run_destroy(run);

@@ -130,8 +130,8 @@ static void compare(const SbSummary *coarse, const SbSummary *fine) {
     within(sb_stage_name((SbStage)i), coarse->stage[i].force, fine->stage[i].force, BOUND);
   }
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    const SbSealSummary *a = &coarse->seal[i];
-    const SbSealSummary *b = &fine->seal[i];
+    const SbSealState *a = &coarse->seal[i];
+    const SbSealState *b = &fine->seal[i];
     within("least film", a->film_min, b->film_min, BOUND);
     within("central film", a->film_central, b->film_central, BOUND);
     within("viscous friction", a->friction_viscous, b->friction_viscous, BOUND);

@@ -203,7 +203,7 @@ static void test_run(void) {
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
   for (int chamber = 0; chamber < 3; chamber++) {
     const SbSealPressure pressure = sb_model_seal_pressure(&model, SB_OUTER, (SbChamber)chamber);
-    SbSliding state;
+    SbSealState state;
     SbCounters counts = {0};
     SbWarnings warnings = {0};
     g_assert_cmpint(sb_sliding_solve(&state,
@@ -233,7 +233,7 @@ static void test_run(void) {
   sb_sliding_memory_destroy(memory);
 }
 
-static void solve_ring(SbSliding *out, SbDryContact *dry, double *modulus, double tolerance,
+static void solve_ring(SbSealState *out, SbDryContact *dry, double *modulus, double tolerance,
                        int chamber, double speed) {
   SbParams params;
   sb_params_init(&params);
@@ -280,7 +280,7 @@ static void test_ring(void) {
   for (int k = 0; k < 4; k++) {
     const int chamber = k / 2;
     const double speed = SPEED[k % 2];
-    SbSliding coarse, fine;
+    SbSealState coarse, fine;
     SbDryContact dry;
     double modulus;
     solve_ring(&fine, &dry, &modulus, 3e-4, chamber, speed);

@@ -491,7 +491,7 @@ static void test_sliding(void) {
   SbSlidingMemory *memory = NULL;
   SbCounters counts = {0};
   SbWarnings warnings = {0};
-  SbSliding state;
+  SbSealState state;
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
   SbSealPressure pressure = {5.5e5, 0};
   g_assert_cmpint(sb_sliding_solve(&state,
@@ -512,7 +512,7 @@ static void test_sliding(void) {
   // Breaking away takes the dry contact, so more than sliding over the film.
   g_assert_cmpfloat(state.friction_static, >, sb_sliding_friction(&state));
   // Faster: more film, less friction at the boundary.
-  SbSliding faster;
+  SbSealState faster;
   g_assert_cmpint(sb_sliding_solve(&faster,
                                    &(SbSlidingTask){&model, SB_OUTER, pressure, 1, model.speed,
                                                     memory, &counts, &warnings},
@@ -525,7 +525,7 @@ static void test_sliding(void) {
   g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_ADHESION, 1, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_SURFACE_HAMAKER_CONSTANT, 1e-18, NULL), ==, SB_OK);
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
-  SbSliding pulled;
+  SbSealState pulled;
   g_assert_cmpint(sb_sliding_solve(&pulled,
                                    &(SbSlidingTask){&model, SB_OUTER, pressure, 1e-2, model.speed,
                                                     memory, &counts, &warnings},

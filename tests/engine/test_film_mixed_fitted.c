@@ -152,7 +152,7 @@ static void run_seal(int fit_model) {
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
   for (int seal_side = 0; seal_side < SB_SEAL_COUNT; seal_side++) {
     const SbSealPressure pressure = sb_model_seal_pressure(&model, seal_side, SB_CHAMBER_AT_REST);
-    SbSliding state;
+    SbSealState state;
     SbCounters counts = {0};
     SbWarnings warnings = {0};
     g_assert_cmpint(sb_sliding_solve(&state,
@@ -168,7 +168,7 @@ static void run_seal(int fit_model) {
     close_to("largest pressure", solved->pressure_max - low, fit->pressure_peak, 0.02);
     g_assert_cmpfloat(state.asperity_share, >, 0.05);
     g_assert_cmpfloat(state.asperity_share, <, 1);
-    g_assert_cmpfloat(state.area_share, <, 1);
+    g_assert_cmpfloat(state.real_area_share, <, 1);
     g_assert_cmpfloat(state.friction_static, >, sb_sliding_friction(&state));
     // The half-plane's film is another, but of the same size.
     SbFilmProblem plane;

@@ -30,7 +30,7 @@ static SbModel model_with(const Setting *setting, size_t count) {
 static void solve(SbFilm *film, const SbModel *model, SbSealPressure pressure, double speed,
                   SbWarnings *warnings) {
   SbSlidingMemory *memory = NULL;
-  SbSliding state;
+  SbSealState state;
   SbCounters counts = {0};
   *warnings = (SbWarnings){0};
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);

@@ -184,7 +184,7 @@ static void test_friction_keys(void) {
     const SbFrame *late = &frames[sb_run_summary(run)->stage[SB_STAGE_D].frame];
     assert_near(late->velocity, 0.1, 1e-3);
     force[i] = late->seal[SB_OUTER].friction_boundary;
-    const SbSealSummary *outer = &sb_run_summary(run)->seal[SB_OUTER];
+    const SbSealState *outer = &sb_run_summary(run)->seal[SB_OUTER];
     ratio = outer->friction_static / outer->friction_boundary;
     sb_run_destroy(run);
   }
@@ -301,7 +301,7 @@ static void test_own_speed(void) {
   g_assert_cmpfloat(speed, >, 0.1);
   const SbModel *model = sb_run_model(a);
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    const SbSealSummary *own = &summary->seal[seal];
+    const SbSealState *own = &summary->seal[seal];
     const SbSealModel *ring = &model->seal[seal];
     // Thesis equation 7.5 at half the sliding speed, and the net load: the fluid's share, pressure
     // difference times half the width, is off.

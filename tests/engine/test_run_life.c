@@ -111,7 +111,7 @@ static void test_failures(void) {
     g_assert_true(isnan(each[i].leakage) == (each[i].returned == 0));
   }
   g_assert_cmpint(s->life.failure, ==, (long)count);
-  g_assert_true(isnan(s->life.leakage) && isnan(s->life.peak_last));
+  g_assert_true(isnan(s->life.leakage) && isnan(s->life.last.force_peak));
   g_assert_cmpint(s->status, ==, SB_OK);
   bool told = false;
   for (size_t i = 0; i < s->warnings.count; i++) {

@@ -7,7 +7,7 @@
 // read while this one writes.
 #include "engine/base/clock.h"
 #include "engine/valve/figures.h"
-#include "engine/valve/run/run_private.h"
+#include "engine/valve/run/run_dynamic.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -122,6 +122,18 @@ bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report) {
     return true;
   }
   return false;
+}
+
+bool sb_run_poll(SbRun *run, const SbRunHooks *hooks, size_t count, double fraction,
+                 SbReport *report) {
+  if (count % 64 != 0) {
+    return false;
+  }
+  sb_run_publish(run, count);
+  if (count % 4096 == 0) {
+    sb_run_progress(run, hooks, fraction, count);
+  }
+  return sb_run_cancelled(hooks, report);
 }
 
 SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {

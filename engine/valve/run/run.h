@@ -44,14 +44,25 @@ typedef enum {
 // "not-computed", "closed", "percolating", "open"; borrowed.
 const char *sb_leak_state_name(SbLeakState state);
 
-// One seal's figures, one member for each SB_SEAL_FIGURE (meaning and unit there): at the middle of
-// B-C, friction_static at B. NaN: not computed.
+// One seal in a steady state, sliding or at rest, by one member for each SB_SEAL_FIGURE (meaning
+// and unit there; NaN: not computed) and what they come from. A run's summary has that in the
+// middle of B-C, friction_static at B.
 typedef struct {
-  SbLeakState leak_state;
-  double contact_pressure; // mean, of the rubber alone: net load over width [Pa]
 #define SB_SEAL_FIGURE(path, member, ...) double member;
 #include "engine/valve/figures.def"
-} SbSealSummary;
+  SbLeakState leak_state;
+  bool touches;
+  bool opened;      // by the fluid: the rubber does not press, or the film's ends differ too much
+  bool film_fitted; // film_min and film_central are solved on the fitted body
+  double load_net;  // per length, above the ambient step: what the film carries [N/m]
+  double contact_pressure; // mean, of the rubber alone: net load over width [Pa]
+  double film_error;       // of the solved film, relative [1]; NaN if closed form
+  double central_error;    // the same of film_central alone, on which friction hangs [1]
+  double boundary_area;    // tau_0 A_a, the part of F_b in proportion to the width [N]
+  double boundary_load;    // m W, the part in proportion to the load [N]
+  double friction_error;   // of kinetic friction by the solved film's error [N]
+  double static_error;     // the same of static friction [N]
+} SbSealState;
 
 // What the sliding-plate rig reports (motion/rig.h).
 typedef struct {
@@ -117,7 +128,7 @@ typedef struct {
   SbStatus status;
   bool returns; // as `returned`; false where that is not known
   SbStageMark stage[SB_STAGE_COUNT];
-  SbSealSummary seal[SB_SEAL_COUNT];
+  SbSealState seal[SB_SEAL_COUNT];
   SbBodiesSummary bodies;
   SbEnergy energy;
   SbRigSummary rig; // motion RIG

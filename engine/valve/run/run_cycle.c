@@ -1,7 +1,7 @@
 // Frames and figures of the quasi-static cycle: evaluations of its segments, none of them a step in
 // time.
 #include "engine/film/stroke.h"
-#include "engine/valve/run/run_private.h"
+#include "engine/valve/run/run_dynamic.h"
 
 #include <math.h>
 
@@ -16,41 +16,45 @@ static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *seg
   const SbCycle *cycle = &run->cycle;
   const SbChamber chamber = segment->chamber;
   const int direction = segment->direction;
-  const bool moving = segment->mode != SB_CYCLE_STICK;
-  double stop_force;
-  double friction = sb_cycle_balance(cycle, segment, X, s, &stop_force);
-  *out = (SbFrame){
-      .time = time_of(run, segment, X),
-      .displacement = s,
-      .platen = X,
-      .force = sb_cycle_force(cycle, X, s),
-      .pressure_force = run->model->pressure_force,
-      .stop_force = stop_force,
-      .chamber_pressure = sb_model_seal_pressure(run->model, SB_OUTER, chamber).left,
-      .stage = (uint8_t)segment->stage,
-      .chamber = (uint8_t)chamber,
+  SbInstant at = {
+      .sample = {.time = time_of(run, segment, X),
+                 .position = s,
+                 .drive_position = X,
+                 .drive_force = sb_cycle_force(cycle, X, s)},
+      .stage = segment->stage,
+      .chamber = chamber,
+      .solved = {chamber, direction},
+      .moving = segment->mode != SB_CYCLE_STICK,
+      .pressure = sb_model_seal_pressure(run->model, SB_OUTER, chamber).left,
   };
+  SbDynamicsSample *sample = &at.sample;
+  double friction = sb_cycle_balance(cycle, segment, X, s, &sample->stop_force[SB_END_STOP]);
   if (segment->mode == SB_CYCLE_SLIP && segment->platen1 != segment->platen0) {
-    out->velocity = segment->platen * run->model->speed * sb_cycle_stem_rate(cycle, segment, s);
+    sample->speed = segment->platen * run->model->speed * sb_cycle_stem_rate(cycle, segment, s);
   }
   double total = sb_cycle_friction(cycle, chamber, direction, s);
-  double sign = direction == SB_CYCLE_IN ? 1 : -1;
+  double sign = direction == SB_CYCLE_IN ? -1 : 1;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    SbSealFrame *at = &out->seal[seal];
     double own = sb_cycle_seal_friction(cycle, seal, chamber, direction, s);
-    sb_run_fill_contact(at, run, seal, chamber, direction, moving, s);
-    if (moving) {
-      at->friction = sign * own;
-      at->friction_viscous =
-          sign * cycle->states.state[seal][chamber][direction].viscous * at->land_fraction;
-    } else if (total > 0 && friction * own != 0) {
-      // A stuck stem's friction is split between the seals in proportion to what each can bear; the
-      // rings keep the shear of the friction that holds them.
-      at->friction = friction * own / total;
-      at->shape =
-          sb_run_shape_index(run, seal, chamber, at->friction > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT, s);
+    double width_share, load_share;
+    sb_cycle_land_share(cycle, seal, chamber, direction, s, &width_share, &load_share);
+    if (at.moving) {
+      sample->friction[seal] = sign * own;
+      sample->viscous[seal] =
+          sign * cycle->state[seal][chamber][direction].friction_viscous * width_share;
+    } else if (total > 0) {
+      // A stuck stem's friction is split between the seals in proportion to what each can bear.
+      sample->friction[seal] = -friction * own / total;
     }
-    at->friction_boundary = at->friction - at->friction_viscous;
+  }
+  sb_run_fill_frame(out, run, &at);
+  for (int seal = 0; seal < SB_SEAL_COUNT && !at.moving; seal++) {
+    // The rings keep the shear of the friction that holds them.
+    SbSealFrame *of = &out->seal[seal];
+    if (of->friction != 0) {
+      of->shape =
+          sb_run_shape_index(run, seal, chamber, of->friction > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT, s);
+    }
   }
 }
 
@@ -73,14 +77,8 @@ static SbStatus emit_frames(SbRun *run, const SbRunHooks *hooks, SbReport *repor
       X = fmin(fmax(X, fmin(segment->platen0, segment->platen1)),
                fmax(segment->platen0, segment->platen1));
       fill_frame(&run->frames[count++], run, segment, X, sb_cycle_stem(cycle, segment, X));
-      if (count % 256 == 0) {
-        sb_run_publish(run, count);
-        if (sb_run_cancelled(hooks, report)) {
-          return SB_ERROR_CANCELLED;
-        }
-        if (count % 4096 == 0) {
-          sb_run_progress(run, hooks, (double)next / (double)total, count);
-        }
+      if (sb_run_poll(run, hooks, count, (double)next / (double)total, report)) {
+        return SB_ERROR_CANCELLED;
       }
     }
     // The corner. An event's figures are those just before it.
@@ -124,7 +122,7 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   double net = 0;
   summary->force_peak = 0;
   for (const SbCycleSegment *at = cycle->segment; at < cycle->segment + cycle->count; at++) {
-    const SbSliding *outer = &cycle->states.state[SB_OUTER][at->chamber][at->direction];
+    const SbSealState *outer = &cycle->state[SB_OUTER][at->chamber][at->direction];
     net += sb_leak_stroke(run->model->bore_diameter, outer->film_central, at->stem1 - at->stem0);
     summary->force_peak = fmax(summary->force_peak, sb_cycle_force(cycle, at->platen1, at->stem1));
   }

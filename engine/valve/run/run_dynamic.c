@@ -21,41 +21,39 @@
 // Instants at which a motion without frames halts: for a cancel, no more.
 enum { WITHOUT_FRAMES = 9 };
 
+// A motion and what is noted of it on the way.
 typedef struct {
   SbRun *run;
-  SbValve *valve;
-  const SbDynamics *motion;
-  bool frames;   // record them; a run for the error estimate does not
-  size_t count;  // frames written
-  SbStage stage; // last passed
-  bool passed[SB_STAGE_COUNT];
-  double force[SB_STAGE_COUNT]; // at the stages
-  double time[SB_STAGE_COUNT], place[SB_STAGE_COUNT];
-  int direction; // of the last sliding
-  bool stopped;  // the stem touches the end stop
-  double turn;   // time after which a reverse slip is the return [s]
-  double force_peak, leak, leak_from, leak_since;
-  double return_least; // least force that pushed the stem out while it slid back [N]
-  double carried;      // film dragged along, whichever way
-  double home;         // time at which the stem is back on its rest stop, 0: not yet
-  bool slips;          // some contact has slid
-  SbStatus status;     // of the frames' reactions
+  SbValve valve;
+  SbDynamicsModel model;
+  SbDynamics motion;
+  SbDynamicsEnergy energy; // at its end
+  bool frames;             // record them; a run for the error estimate does not
+  size_t count;            // frames written
+  SbStage stage;           // last passed
+  SbStageMark mark[SB_STAGE_COUNT];
+  int direction;                // of the last sliding
+  bool stopped;                 // the stem touches the end stop
+  double force_peak;            // [N]
+  double return_least;          // least force that pushed the stem out while it slid back [N]
+  double leak, carried;         // film dragged along, signed and whichever way [m3]
+  double leak_from, leak_since; // place [m] and time [s] up to which it is known
+  double home;                  // time at which the stem is back on its rest stop [s], 0: not yet
+  bool slips;                   // some contact has slid
+  SbStatus status;              // of the frames' reactions
   SbReport *report;
 } Recorder;
 
-// Film at a speed over that of the states, by the law's exponent about it.
-static double film_at(const SbRun *run, double speed) {
-  return run->film_exponent > 0 ? pow(fabs(speed) / run->speed, run->film_exponent) : 1;
-}
-
 // Film dragged along since the last call, at the film of the present state and of the mean speed.
 static void leak(Recorder *r, double time, double x, double pressure) {
-  int direction = x > r->leak_from ? SB_CYCLE_IN : SB_CYCLE_OUT;
-  const SbSliding *outer = sb_valve_state(r->valve, SB_OUTER, direction, pressure);
+  const SbRun *run = r->run;
+  const SbSolvedState at =
+      sb_valve_solved(&r->valve, x > r->leak_from ? SB_CYCLE_IN : SB_CYCLE_OUT, pressure);
   double way = x - r->leak_from;
-  double speed = time > r->leak_since ? way / (time - r->leak_since) : r->run->speed;
-  double film = outer->film_central * film_at(r->run, speed);
-  double volume = sb_leak_stroke(r->run->model->bore_diameter, film, way);
+  double speed = time > r->leak_since ? way / (time - r->leak_since) : run->speed;
+  double film = run->cycle.state[SB_OUTER][at.chamber][at.direction].film_central *
+                sb_run_film_at(run, speed);
+  double volume = sb_leak_stroke(run->model->bore_diameter, film, way);
   r->leak += volume;
   r->carried += fabs(volume);
   r->leak_from = x;
@@ -64,56 +62,33 @@ static void leak(Recorder *r, double time, double x, double pressure) {
 
 // Adds a frame of the motion as it is now.
 static SbFrame *add_frame(Recorder *r) {
-  SbDynamicsSample sample;
-  sb_dynamics_sample(r->motion, &sample, NULL);
-  double pressure = sb_valve_chamber_pressure(r->valve, sample.extra);
-  leak(r, sample.time, sample.position, pressure);
-  r->force_peak = fmax(r->force_peak, sample.drive_force);
-  if (!r->frames || r->count == r->run->capacity) {
+  SbRun *run = r->run;
+  SbInstant at = {.stage = r->stage, .chamber = r->valve.chamber};
+  SbDynamicsSample *sample = &at.sample;
+  sb_dynamics_sample(&r->motion, sample, NULL);
+  at.pressure = sb_valve_chamber_pressure(&r->valve, sample->extra);
+  leak(r, sample->time, sample->position, at.pressure);
+  r->force_peak = fmax(r->force_peak, sample->drive_force);
+  if (!r->frames || r->count == run->capacity) {
     return NULL;
   }
-  SbFrame *out = &r->run->frames[r->count++];
-  *out = (SbFrame){
-      .time = sample.time,
-      .displacement = sample.position,
-      .velocity = sample.speed,
-      .platen = sample.drive_position,
-      .force = sample.drive_force,
-      .pressure_force = r->run->model->pressure_force,
-      .stop_force = sample.stop_force[SB_END_STOP] - sample.stop_force[SB_REST_STOP],
-      .spring_force = -sample.spring_force,
-      .chamber_pressure = pressure,
-      .stage = (uint8_t)r->stage,
-      .chamber = (uint8_t)r->valve->chamber,
-  };
-  if (r->run->bodies != NULL && r->status == SB_OK) {
-    r->status = sb_run_bodies_frame(r->run, r->count - 1, &sample, r->report);
-  }
-  bool moving = sample.speed != 0;
-  int direction = moving ? (sample.speed > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT) : r->direction;
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    sb_valve_fill_seal(&out->seal[seal], r->valve, seal, direction, moving, sample.position,
-                       pressure);
-    double film = film_at(r->run, sample.speed);
-    out->seal[seal].film_min *= film;
-    out->seal[seal].film_central *= film;
-    out->seal[seal].lambda *= film;
-    out->seal[seal].friction = -sample.friction[seal];
-    out->seal[seal].friction_viscous = -sample.viscous[seal];
-    out->seal[seal].friction_boundary = sample.viscous[seal] - sample.friction[seal];
+  at.moving = sample->speed != 0;
+  int sliding = sample->speed > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT;
+  at.solved = sb_valve_solved(&r->valve, at.moving ? sliding : r->direction, at.pressure);
+  SbFrame *out = &run->frames[r->count++];
+  sb_run_fill_frame(out, run, &at);
+  if (run->bodies != NULL && r->status == SB_OK) {
+    r->status = sb_run_bodies_frame(run, r->count - 1, sample, r->report);
   }
   return out;
 }
 
 // The first time of each stage counts. Its frame shows the state just before the event.
 static void mark(Recorder *r, SbStage stage, const SbMotionEvent *event) {
-  if (r->passed[stage]) {
+  if (r->mark[stage].reached) {
     return;
   }
-  r->passed[stage] = true;
-  r->time[stage] = event->time;
-  r->place[stage] = event->position;
-  r->force[stage] = event->drive_force;
+  r->mark[stage] = (SbStageMark){true, event->time, event->position, event->drive_force, 0};
   SbFrame *frame = add_frame(r);
   if (frame != NULL) {
     frame->on_event = 1;
@@ -123,37 +98,26 @@ static void mark(Recorder *r, SbStage stage, const SbMotionEvent *event) {
   r->stage = stage;
 }
 
-// Whether any seal rubs here.
-static bool rubs(const Recorder *r) {
-  SbDynamicsSample sample;
-  sb_dynamics_sample(r->motion, &sample, NULL);
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    if (sample.contact[seal] != SB_CONTACT_OFF) {
-      return true;
-    }
-  }
-  return false;
-}
-
 // Pressure and spring less friction of a stem that slides back. Events see the greatest speeds of a
 // return that nothing holds: at the land's edge and at the rest stop.
-static void note_return(Recorder *r) {
-  SbDynamicsSample sample;
-  sb_dynamics_sample(r->motion, &sample, NULL);
-  double force = -sample.loads_force - sample.spring_force;
-  bool slides = sample.speed < 0;
+static void note_return(Recorder *r, const SbDynamicsSample *sample) {
+  double force = -sample->loads_force - sample->spring_force;
+  bool slides = sample->speed < 0;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    slides = slides && sample.contact[seal] != SB_CONTACT_STUCK;
-    force -= sample.friction[seal];
+    slides = slides && sample->contact[seal] != SB_CONTACT_STUCK;
+    force -= sample->friction[seal];
   }
   r->return_least = slides ? fmin(r->return_least, force) : r->return_least;
 }
 
 static void valve_event(const SbMotionEvent *event, void *user) {
   Recorder *r = user;
-  SbValve *valve = r->valve;
-  if (r->passed[SB_STAGE_E] && event->speed < 0) {
-    note_return(r);
+  const SbValve *valve = &r->valve;
+  const double turn = valve->times.turn;
+  SbDynamicsSample sample;
+  sb_dynamics_sample(&r->motion, &sample, NULL);
+  if (r->mark[SB_STAGE_E].reached && event->speed < 0) {
+    note_return(r, &sample);
   }
   r->force_peak = fmax(r->force_peak, event->drive_force);
   switch (event->kind) {
@@ -161,21 +125,19 @@ static void valve_event(const SbMotionEvent *event, void *user) {
     r->slips = true;
     if (event->sign > 0 && r->stage == SB_STAGE_A) {
       mark(r, SB_STAGE_B, event);
-    } else if (event->sign < 0 && event->time >= r->turn && !r->stopped) {
+    } else if (event->sign < 0 && event->time >= turn && !r->stopped) {
       mark(r, SB_STAGE_E, event);
     }
     r->direction = event->sign > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT;
     break;
   case SB_MOTION_EDGE: {
-    SbDynamicsSample sample;
-    sb_dynamics_sample(r->motion, &sample, NULL);
     leak(r, sample.time, sample.position, sb_valve_chamber_pressure(valve, sample.extra));
     double edge = valve->edge[event->index];
     if (valve->touches && edge == r->run->model->land_edge && event->sign > 0 &&
         r->stage == SB_STAGE_B) {
       mark(r, SB_STAGE_C, event);
     } else if (valve->touches && edge == valve->edge_closed && event->sign < 0 &&
-               event->time >= r->turn && valve->chamber != SB_CHAMBER_AT_REST) {
+               event->time >= turn && valve->chamber != SB_CHAMBER_AT_REST) {
       // A rebound that passes the edge on the way in is no return.
       mark(r, SB_STAGE_F, event);
     }
@@ -185,7 +147,7 @@ static void valve_event(const SbMotionEvent *event, void *user) {
     if (event->index == SB_END_STOP) {
       r->stopped = true;
       mark(r, SB_STAGE_D, event);
-    } else if (r->passed[SB_STAGE_E] && r->home == 0) {
+    } else if (r->mark[SB_STAGE_E].reached && r->home == 0) {
       r->home = event->time;
     }
     break;
@@ -194,10 +156,11 @@ static void valve_event(const SbMotionEvent *event, void *user) {
       // While the stop unloads it takes the stem back with it by a micrometre or two; the stem's
       // own way back begins here.
       r->stopped = false;
-      if (event->time >= r->turn) {
+      if (event->time >= turn) {
         mark(r, SB_STAGE_E, event);
       }
-    } else if (!rubs(r) && r->stage == SB_STAGE_A) {
+    } else if (sample.contact[SB_OUTER] == SB_CONTACT_OFF &&
+               sample.contact[SB_INNER] == SB_CONTACT_OFF && r->stage == SB_STAGE_A) {
       // Without friction nothing slips: the stem starts where it leaves its stop.
       mark(r, SB_STAGE_B, event);
     }
@@ -212,27 +175,29 @@ static double patience(double drive) {
   return drive + fmax(drive, 10);
 }
 
-// Runs the motion to its end. The recorder's valve and model are freshly made by the caller.
-static SbStatus run_motion(Recorder *r, SbDynamics *motion, const SbDynamicsModel *model,
+// Makes the valve's mechanism and runs it to its end, to the model's tolerance or `coarser`, 0 for
+// none. A motion without frames leaves its warnings to the one that has them.
+static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double coarser,
                            const SbRunHooks *hooks, SbReport *report) {
-  SbRun *run = r->run;
-  SbStatus status = sb_dynamics_init(motion, model, report);
+  SbWarnings *warnings = &run->summary.warnings;
+  const size_t told = warnings->count, dropped = warnings->dropped;
+  *r = (Recorder){.run = run, .frames = frames, .report = report, .return_least = INFINITY};
+  SbStatus status = sb_valve_set_up(&r->model, &r->valve, run, report);
+  if (!frames) {
+    warnings->count = told;
+    warnings->dropped = dropped;
+  }
+  r->model.tolerance = fmax(r->model.tolerance, coarser);
+  status = status == SB_OK ? sb_dynamics_init(&r->motion, &r->model, report) : status;
   if (status != SB_OK) {
     return status;
   }
-  r->motion = motion;
-  r->report = report;
-  r->leak_from = model->start_position;
-  r->return_least = INFINITY;
-  const SbDriveTimes times = sb_drive_times(run);
-  r->turn = times.turn;
-  sb_dynamics_listen(motion, valve_event, r);
-  double drive = times.duration;
-  size_t total = (size_t)run->plan.frames;
-  if (!r->frames) {
-    total = WITHOUT_FRAMES;
-  }
-  double step = drive / (double)(total - 1);
+  r->leak_from = r->model.start_position;
+  sb_dynamics_listen(&r->motion, valve_event, r);
+  const SbDriveTimes *times = &r->valve.times;
+  const double drive = times->duration;
+  const size_t total = frames ? (size_t)run->plan.frames : WITHOUT_FRAMES;
+  const double step = drive / (double)(total - 1);
   int corner = 0;
   size_t next = 1;
   double time = 0;
@@ -240,15 +205,12 @@ static SbStatus run_motion(Recorder *r, SbDynamics *motion, const SbDynamicsMode
   if (first != NULL) {
     sb_run_mark_stage(run, SB_STAGE_A, first, 0);
   }
-  while (status == SB_OK) {
-    if (next == total &&
-        (times.ends_run || sb_dynamics_at_rest(motion) || time >= patience(drive))) {
-      break;
-    }
+  while (status == SB_OK && (next < total || (!times->ends_run && time < patience(drive) &&
+                                              !sb_dynamics_at_rest(&r->motion)))) {
     // The next even instant or a corner of the drive before it; behind the drive, wider and wider.
     double even = next < total ? (next + 1 == total ? drive : (double)next * step)
                                : time + fmax(step, (time - drive) / 32);
-    double turn = sb_drive_corner(&times, corner);
+    double turn = sb_drive_corner(times, corner);
     if (turn < even) {
       corner++;
     } else if (next < total) {
@@ -256,22 +218,16 @@ static SbStatus run_motion(Recorder *r, SbDynamics *motion, const SbDynamicsMode
     }
     corner += turn == even;
     time = fmin(turn, even);
-    status = sb_dynamics_advance(motion, time, report);
+    status = sb_dynamics_advance(&r->motion, time, report);
     add_frame(r);
     status = status != SB_OK ? status : r->status;
-    if (r->count % 64 == 0 || !r->frames) {
-      if (r->frames) {
-        sb_run_publish(run, r->count);
-      }
-      if (sb_run_cancelled(hooks, report)) {
-        return SB_ERROR_CANCELLED;
-      }
-      if (r->count % 4096 == 0 && r->frames) {
-        sb_run_progress(run, hooks, (double)next / (double)total, r->count);
-      }
+    if (frames ? sb_run_poll(run, hooks, r->count, (double)next / (double)total, report)
+               : sb_run_cancelled(hooks, report)) {
+      status = SB_ERROR_CANCELLED;
     }
   }
-  r->force_peak = fmax(r->force_peak, sb_dynamics_force_peak(motion));
+  r->force_peak = fmax(r->force_peak, sb_dynamics_force_peak(&r->motion));
+  sb_dynamics_sample(&r->motion, NULL, &r->energy);
   return status;
 }
 
@@ -279,51 +235,32 @@ static double relative(double a, double b, double scale) {
   return scale > 0 ? fabs(a - b) / scale : 0;
 }
 
-// Sets a motion up whose warnings are told elsewhere.
-static SbStatus set_up_again(SbDynamicsModel *model, SbValve *valve, SbRun *run, SbReport *report) {
-  SbWarnings *warnings = &run->summary.warnings;
-  size_t count = warnings->count, dropped = warnings->dropped;
-  SbStatus status = sb_valve_set_up(model, valve, run, report);
-  warnings->count = count;
-  warnings->dropped = dropped;
-  return status;
-}
-
 // The same motion at ten times the tolerance. With errors in proportion to the power 5/6 of the
 // tolerance (order 5 in the step, order 6 locally) the difference is 5.8 times the error of the
 // fine motion; a half of it is told, three times as much as that, and never less than the
 // tolerance: the coarse motion may be right by chance.
-static SbStatus estimate_error(SbRun *run, const Recorder *fine, const SbDynamicsEnergy *energy,
-                               double *force, double *work, const SbRunHooks *hooks,
-                               SbReport *report) {
-  SbDynamics motion;
-  SbDynamicsModel model;
-  SbValve valve;
-  Recorder coarse = {.run = run, .valve = &valve};
-  SbStatus status = set_up_again(&model, &valve, run, report);
+static SbStatus estimate_error(const Recorder *fine, double *force, double *work,
+                               const SbRunHooks *hooks, SbReport *report) {
+  SbRun *run = fine->run;
+  Recorder coarse;
+  const double tolerance = run->model->motion_tolerance, peak = fine->force_peak;
+  SbStatus status = run_motion(&coarse, run, false, fmin(10 * tolerance, 1e-5), hooks, report);
   if (status != SB_OK) {
     return status;
   }
-  model.tolerance = fmin(10 * model.tolerance, 1e-5);
-  status = run_motion(&coarse, &motion, &model, hooks, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  SbDynamicsEnergy other;
-  sb_dynamics_sample(&motion, NULL, &other);
-  double share = 0.5 * fmax(1, run->model->motion_tolerance * 10 / model.tolerance);
-  *force = relative(fine->force_peak, coarse.force_peak, fine->force_peak);
+  double share = 0.5 * fmax(1, tolerance * 10 / coarse.model.tolerance);
+  *force = relative(peak, coarse.force_peak, peak);
   for (int stage = 0; stage < SB_STAGE_COUNT; stage++) {
-    *force = fmax(*force, relative(fine->force[stage], coarse.force[stage], fine->force_peak));
+    *force = fmax(*force, relative(fine->mark[stage].force, coarse.mark[stage].force, peak));
   }
   if (isfinite(fine->return_least) && isfinite(coarse.return_least)) {
     *force = fmax(*force, relative(fine->return_least, coarse.return_least,
-                                   fmax(fine->force_peak, run->model->pressure_force)));
+                                   fmax(peak, run->model->pressure_force)));
   }
-  *force = fmax(share * *force, run->model->motion_tolerance);
-  *work = fmax(run->model->motion_tolerance,
-               share * fmax(relative(energy->drive, other.drive, energy->largest),
-                            relative(energy->friction, other.friction, energy->largest)));
+  *force = fmax(share * *force, tolerance);
+  const SbDynamicsEnergy *one = &fine->energy, *other = &coarse.energy;
+  *work = fmax(tolerance, share * fmax(relative(one->drive, other->drive, one->largest),
+                                       relative(one->friction, other->friction, one->largest)));
   return SB_OK;
 }
 
@@ -348,25 +285,20 @@ SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRu
                               SbReport *report) {
   static const struct {
     SbStage from, to;
-  } way[] = {{SB_STAGE_B, SB_STAGE_C}, {SB_STAGE_B, SB_STAGE_D}, {SB_STAGE_E, SB_STAGE_F}};
-  SbDynamics motion;
-  SbDynamicsModel model;
-  SbValve valve;
-  Recorder recorder = {.run = run, .valve = &valve};
+  } ways[] = {{SB_STAGE_B, SB_STAGE_C}, {SB_STAGE_B, SB_STAGE_D}, {SB_STAGE_E, SB_STAGE_F}};
+  Recorder r;
   *speed = 0;
-  SbStatus status = set_up_again(&model, &valve, run, report);
-  if (status == SB_OK) {
-    status = run_motion(&recorder, &motion, &model, hooks, report);
-  }
-  *slips = recorder.slips;
+  SbStatus status = run_motion(&r, run, false, 0, hooks, report);
+  *slips = r.slips;
   for (int i = 0; i < 3 && *speed == 0; i++) {
-    double time = recorder.time[way[i].to] - recorder.time[way[i].from];
-    if (recorder.passed[way[i].from] && recorder.passed[way[i].to] && time > 0) {
-      *speed = fabs(recorder.place[way[i].to] - recorder.place[way[i].from]) / time;
+    const SbStageMark *from = &r.mark[ways[i].from], *to = &r.mark[ways[i].to];
+    if (from->reached && to->reached && to->time > from->time) {
+      *speed = fabs(to->displacement - from->displacement) / (to->time - from->time);
     }
   }
-  if (*speed == 0 && recorder.home > recorder.time[SB_STAGE_E]) {
-    *speed = recorder.place[SB_STAGE_E] / (recorder.home - recorder.time[SB_STAGE_E]);
+  const SbStageMark *back = &r.mark[SB_STAGE_E];
+  if (*speed == 0 && r.home > back->time) {
+    *speed = back->displacement / (r.home - back->time);
   }
   if (*speed == 0 && *slips && run->model->drive == SB_MODEL_DRIVE_SINUSOID) {
     *speed = 4 * run->model->amplitude * run->model->frequency;
@@ -375,50 +307,40 @@ SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRu
 }
 
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+  const SbModel *model = run->model;
   SbSummary *summary = &run->summary;
-  SbDynamicsModel model;
-  SbValve valve;
+  Recorder r;
   sb_run_bodies_destroy(run->bodies);
   run->bodies = NULL;
   SbStatus status = run->plan.bodies ? sb_run_bodies_create(run, report) : SB_OK;
-  status = status != SB_OK ? status : sb_valve_set_up(&model, &valve, run, report);
   if (status != SB_OK) {
     return status;
   }
-  summary->force_return_min =
-      sb_cycle_least_return(&run->cycle, run->model->stroke, SB_CHAMBER_OPEN, true) +
-      run->model->spring_preload;
-  if (run->model->stribeck_speed > 0) {
-    // Slow sliding rubs nearly as rest does, on both seals.
-    summary->force_return_min = fmin(
-        summary->force_return_min, sb_cycle_least_return(&run->cycle, 0, SB_CHAMBER_CLOSED, true) +
-                                       run->model->spring_preload);
-  }
-  SbDynamics motion = {0};
-  Recorder recorder = {.run = run, .valve = &valve, .frames = true};
-  status = run_motion(&recorder, &motion, &model, hooks, report);
-  sb_run_publish(run, recorder.count);
-  if (recorder.count == 0) {
+  status = run_motion(&r, run, true, 0, hooks, report);
+  sb_run_publish(run, r.count);
+  if (r.count == 0) {
     return status;
   }
-  SbDynamicsEnergy energy;
-  sb_dynamics_sample(&motion, NULL, &energy);
-  SbDynamicsCounters counters = sb_dynamics_counters(&motion);
-  const SbFrame *last = &run->frames[recorder.count - 1];
-  summary->duration = last->time;
-  summary->force_peak = recorder.force_peak;
+  double least = sb_cycle_least_return(&run->cycle, model->stroke, SB_CHAMBER_OPEN, true);
+  if (model->stribeck_speed > 0) {
+    // Slow sliding rubs nearly as rest does, on both seals.
+    least = fmin(least, sb_cycle_least_return(&run->cycle, 0, SB_CHAMBER_CLOSED, true));
+  }
   // What a fast return's viscous friction takes, beyond that at the films' speed.
-  summary->force_return_min = fmin(summary->force_return_min, recorder.return_least);
-  summary->returns = status == SB_OK && fabs(last->displacement) < 1e-6 * run->model->stroke;
+  summary->force_return_min = fmin(least + model->spring_preload, r.return_least);
+  const SbDynamicsCounters counters = sb_dynamics_counters(&r.motion);
+  const SbFrame *last = &run->frames[r.count - 1];
+  summary->duration = last->time;
+  summary->force_peak = r.force_peak;
+  summary->returns = status == SB_OK && fabs(last->displacement) < 1e-6 * model->stroke;
   // Films alike on both ways leave nothing but rounding.
-  double net = fabs(recorder.leak) <= 1e-12 * recorder.carried ? 0 : recorder.leak;
-  bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * run->model->stroke;
+  double net = fabs(r.leak) <= 1e-12 * r.carried ? 0 : r.leak;
+  bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * model->stroke;
   summary->leakage_per_cycle = sb_run_cycle_leakage(summary, net, back);
-  sb_run_fill_motion(summary, &energy, &counters);
+  sb_run_fill_motion(summary, &r.energy, &counters);
   // Work over less than the rounding of places is none: a stem that is pushed and does not move.
-  double pushed =
-      fmax(recorder.force_peak, run->model->pressure_force + run->model->spring_preload);
-  if (energy.largest < 1e-12 * pushed * run->model->stroke) {
+  double pushed = fmax(r.force_peak, model->pressure_force + model->spring_preload);
+  if (r.energy.largest < 1e-12 * pushed * model->stroke) {
     summary->energy.closure = 0;
   }
   summary->counters.newton_iterations += (size_t)counters.newton_iterations;
@@ -427,7 +349,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   double work = 1e-12;
   if (status == SB_OK && counters.steps > 0 && !run->follows) {
     SbReport own = {0};
-    SbStatus estimate = estimate_error(run, &recorder, &energy, &force, &work, hooks, &own);
+    SbStatus estimate = estimate_error(&r, &force, &work, hooks, &own);
     if (estimate == SB_ERROR_NOT_CONVERGED) {
       // The motion itself stands.
       force = work = NAN;

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static double film_by(SbRun *run, int seal, const SbSliding *state, SbFilmModel film_model) {
+static double film_by(SbRun *run, int seal, const SbSealState *state, SbFilmModel film_model) {
   SbFilmProblem problem;
   SbFilm *film = run->plan.film_laws ? calloc(1, sizeof *film) : NULL;
   double central = NAN;
@@ -38,7 +38,7 @@ static bool presses(const SbRun *run, int seal) {
   for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
     bool needed = seal == SB_OUTER || chamber != SB_CHAMBER_OPEN;
     int alike = sb_run_first_alike(run, seal, chamber);
-    const SbSliding *state = &run->cycle.states.state[seal][alike][SB_CYCLE_IN];
+    const SbSealState *state = &run->cycle.state[seal][alike][SB_CYCLE_IN];
     if (needed && (!state->touches || state->load_net <= 0 || state->opened)) {
       return false;
     }
@@ -48,9 +48,9 @@ static bool presses(const SbRun *run, int seal) {
 
 // Leak at rest under the pressure that the rubber itself exerts on the bore (net of the fluid's
 // step).
-static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
+static void static_leak(SbRun *run, int seal, SbSealState *out) {
   const SbModel *model = run->model;
-  const SbSliding *state = &run->cycle.states.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   SbSealPressure pressure = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
   SbSpectrum spectrum;
   SbPercolation leak;
@@ -122,44 +122,32 @@ static void static_leak(SbRun *run, int seal, SbSealSummary *out) {
   }
 }
 
-static void summarise_seal(SbRun *run, int seal) {
-  const SbSliding *state = &run->cycle.states.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-  SbSealSummary *out = &run->summary.seal[seal];
-  out->contact_width = state->contact_right - state->contact_left;
-  out->contact_left = state->touches ? state->contact_left : NAN;
-  out->contact_right = state->touches ? state->contact_right : NAN;
-  out->load = state->load;
-  out->load_per_length = state->load_per_length;
-  out->contact_pressure = state->load_net / (state->contact_right - state->contact_left);
-  out->pressure_peak = state->pressure_peak;
-  out->film_min = state->film_min;
-  out->film_central = state->film_central;
-  out->film_karaszkiewicz = film_by(run, seal, state, SB_FILM_KARASZKIEWICZ);
-  out->film_thesis = film_by(run, seal, state, SB_FILM_THESIS);
-  out->film_asymptotic = film_by(run, seal, state, SB_FILM_ASYMPTOTIC);
-  out->film_reynolds = run->model->asperities == SB_MODEL_ASPERITIES_COUPLED
-                           ? film_by(run, seal, state, SB_FILM_REYNOLDS)
-                           : state->film_reynolds;
-  out->real_area_share = state->area_share;
-  out->asperity_share = state->asperity_share;
-  out->lambda = state->lambda;
-  out->friction_boundary = state->boundary_area + state->boundary_load;
-  out->friction_viscous = state->viscous;
-  out->friction_static = state->friction_static;
-  out->leakage_static = out->closing_pressure = out->leak_sensitivity = NAN;
-  double friction = sb_sliding_friction(state);
-  out->coefficient_of_friction = state->load > 0 ? friction / state->load : NAN;
-  out->leakage_per_stroke =
-      sb_leak_stroke(run->model->bore_diameter, state->film_central, run->model->stroke);
-  if (run->plan.seal[seal] >= SB_DEPTH_LEAK) {
-    static_leak(run, seal, out);
-  }
-}
-
 void sb_run_summarise_seals(SbRun *run) {
+  const SbModel *model = run->model;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    summarise_seal(run, seal);
+    SbSealState *out = &run->summary.seal[seal];
+    const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+    *out = *state;
+    out->contact_width = out->contact_right - out->contact_left;
+    out->contact_pressure = out->load_net / out->contact_width;
+    if (!out->touches) {
+      out->contact_left = out->contact_right = NAN;
+    }
+    out->film_karaszkiewicz = film_by(run, seal, state, SB_FILM_KARASZKIEWICZ);
+    out->film_thesis = film_by(run, seal, state, SB_FILM_THESIS);
+    out->film_asymptotic = film_by(run, seal, state, SB_FILM_ASYMPTOTIC);
+    if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
+      out->film_reynolds = film_by(run, seal, state, SB_FILM_REYNOLDS);
+    }
+    out->friction_boundary = out->boundary_area + out->boundary_load;
+    out->coefficient_of_friction = out->load > 0 ? sb_sliding_friction(out) / out->load : NAN;
+    out->leakage_per_stroke =
+        sb_leak_stroke(model->bore_diameter, out->film_central, model->stroke);
+    if (run->plan.seal[seal] >= SB_DEPTH_LEAK) {
+      static_leak(run, seal, out);
+    }
   }
+  sb_figures_of_model(&run->summary, model);
 }
 
 void sb_run_lacks_motion(SbRun *run, const char *format, ...) {

@@ -45,7 +45,7 @@ static void end_stretch(History *history) {
 static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *hooks,
                               SbReport *report) {
   const SbRun *run = history->run;
-  const SbSliding *state = &run->cycle.states.state[history->seal][chamber][SB_CYCLE_IN];
+  const SbSealState *state = &run->cycle.state[history->seal][chamber][SB_CYCLE_IN];
   const SbSealPressure pressure =
       sb_model_seal_pressure(run->model, history->seal, (SbChamber)chamber);
   SbFilmTransientProblem problem = {.speed_scale = history->speed_scale,

@@ -20,7 +20,7 @@
 static SbStatus resurface(SbRun *run, double factor, SbReport *report) {
   enum { STATES = SB_CYCLE_CHAMBERS * SB_CYCLE_DIRECTIONS }; // of a seal
   SbStatus status = SB_OK;
-  SbSliding *state = &run->cycle.states.state[0][0][0];
+  SbSealState *state = &run->cycle.state[0][0][0];
   for (int i = 0; i < SB_SEAL_COUNT * STATES && status == SB_OK; i++) {
     const SbSlidingTask task = {
         .model = run->model,
@@ -64,7 +64,7 @@ static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const 
 
 static SbLifeActuation yield_of(const SbRun *run, double roughness) {
   const SbSummary *summary = &run->summary;
-  const SbSliding *outer = &run->cycle.states.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbSealState *outer = &run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   const SbStageMark *slip = &summary->stage[SB_STAGE_B];
   return (SbLifeActuation){
       .roughness = roughness,
@@ -99,27 +99,6 @@ static void add_to(double *sum, double *lost, double value) {
   *sum = next;
 }
 
-// What is "last", and the sums, stand for the whole life: unknown for one that ended before its
-// time.
-static void fill_figures(SbSummary *summary, const SbLifeActuation *each, long count) {
-  SbLife *life = &summary->life;
-  if (life->done > 0) {
-    life->peak_first = each[0].force_peak;
-    summary->life_breakaway_first = each[0].force_breakaway;
-    summary->life_lambda_first = each[0].lambda;
-  }
-  if (life->done < count) {
-    life->leakage = life->carried = NAN;
-    return;
-  }
-  const SbLifeActuation *last = &each[count - 1];
-  life->peak_last = last->force_peak;
-  summary->life_roughness = last->roughness;
-  summary->life_breakaway_last = last->force_breakaway;
-  summary->life_return_last = last->force_return;
-  summary->life_lambda_last = last->lambda;
-}
-
 SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbModel *model = run->model;
   const SbRunningIn *law = &model->running_in;
@@ -136,8 +115,8 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   // Frames refer to the shapes of the first actuation: lent, not owned.
   memcpy(one->shape, run->shape, sizeof run->shape);
   SbLife *life = &run->summary.life;
-  *life = (SbLife){.peak_first = NAN, .peak_last = NAN, .return_least = NAN};
-  double lost[2] = {0, 0}; // rounding of the sums
+  life->leakage = life->carried = 0; // all else is NaN so far
+  double lost[2] = {0, 0};           // rounding of the sums
   for (long n = 0; n < count && status == SB_OK && life->failure == 0; n++) {
     double roughness = law->end + (law->start - law->end) * exp(-(double)n / law->actuations);
     if (sb_run_cancelled(hooks, NULL)) {
@@ -154,6 +133,7 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     add_to(&life->carried, &lost[1], now.carried);
     life->return_least = fmin(life->return_least, now.force_return); // without NaN
     life->failure = now.returned > 0 ? 0 : n + 1;
+    life->first = run->life[0];
     life->done = n + 1;
     if (n > 0 && n + 1 == model->life_shown) {
       show(run, one, shown);
@@ -164,7 +144,13 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   }
   memset(one->shape, 0, sizeof one->shape);
   sb_run_destroy(one);
-  fill_figures(&run->summary, run->life, count);
+  // What is "last", and the sums, stand for the whole life: unknown for one that ended before its
+  // time.
+  if (life->done == count) {
+    life->last = run->life[count - 1];
+  } else {
+    life->leakage = life->carried = NAN;
+  }
   if (life->failure > 0) {
     sb_warn(&run->summary.warnings, "life-no-return", "surface.gt_product",
             "the life ends at actuation %ld of %ld: its stem does not return", life->failure,

@@ -90,14 +90,12 @@ SbStatus sb_run_solve_shapes(SbRun *run, const SbRunHooks *hooks, SbReport *repo
 // UINT32_MAX if none was solved.
 uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion, double s);
 
+// Index of a profile, of a seal's states of contact in chamber and motion.
+uint32_t sb_run_profile_slot(int seal, int chamber, int motion);
+
 // The first chamber state with the pressures of this one on a seal that touches then: one solution
 // serves both (run_states.c).
 int sb_run_first_alike(const SbRun *run, int seal, int chamber);
-
-// Contact, load, film of one seal of a frame, at stem displacement s (run_states.c). Friction is
-// left to the caller.
-void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber chamber,
-                         int direction, bool moving, double s);
 
 // The motion by the model's choice, if there is all that it needs. One that ends early keeps its
 // frames and the stages it reached; the report says where it ended (run.c).

@@ -189,7 +189,7 @@ static SbStatus drag(Task *task, double force) {
 // fitted ring, so that one way of sliding does not carry the other's history.
 static SbStatus solve_dragged(Task *task, int chamber) {
   const int order[SB_RUN_MOTIONS] = {SB_RUN_REST, SB_CYCLE_IN, SB_CYCLE_OUT};
-  const SbSliding *state = task->run->cycle.states.state[task->seal][chamber];
+  const SbSealState *state = task->run->cycle.state[task->seal][chamber];
   task->options.fit_mesh = true;
   task->load.friction_floor = floor_friction;
   task->load.friction_wall = wall_friction;
@@ -232,7 +232,7 @@ static SbStatus solve_edge(Task *task) {
   task->load.friction_floor = edge_floor_friction;
   task->load.friction_bore = edge_bore_friction;
   status = status == SB_OK ? fit(task) : status;
-  double begin = run->cycle.states.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].contact_left;
+  double begin = run->cycle.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].contact_left;
   double end = clear_of(&run->shape[slot(task->seal, SB_RUN_SHAPE_FREE)].view, model->radial_space,
                         &task->load);
   for (int i = 0; i < SB_RUN_EDGES && status == SB_OK && end > begin; i++) {
@@ -276,7 +276,7 @@ SbStatus sb_run_solve_shapes(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   const double states = SB_SEAL_COUNT * SB_CYCLE_CHAMBERS;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
-      if (!run->cycle.states.state[seal][chamber][SB_CYCLE_IN].touches ||
+      if (!run->cycle.state[seal][chamber][SB_CYCLE_IN].touches ||
           sb_run_first_alike(run, seal, chamber) != chamber) {
         continue;
       }

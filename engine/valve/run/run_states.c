@@ -27,15 +27,14 @@ int sb_run_first_alike(const SbRun *run, int seal, int chamber) {
   SbSealPressure p = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber);
   for (int c = 0; c < chamber; c++) {
     SbSealPressure q = sb_model_seal_pressure(run->model, seal, (SbChamber)c);
-    if (run->cycle.states.state[seal][c][SB_CYCLE_IN].touches && p.left == q.left &&
-        p.right == q.right) {
+    if (run->cycle.state[seal][c][SB_CYCLE_IN].touches && p.left == q.left && p.right == q.right) {
       return c;
     }
   }
   return chamber;
 }
 
-static uint32_t profile_slot(int seal, int chamber, int motion) {
+uint32_t sb_run_profile_slot(int seal, int chamber, int motion) {
   return (uint32_t)((seal * SB_CYCLE_CHAMBERS + chamber) * SB_RUN_MOTIONS + motion);
 }
 
@@ -79,9 +78,9 @@ static void asperity_pressure(const SbModel *model, int seal, const double *film
 // film it is the solver's own profile, on the fitted body where the fitment gives one; with a
 // closed form it is the fitment's pressure, the central film held uniform (the law knows no shape)
 // and the dry gap outside.
-static SbStatus make_profile(SbRun *run, int seal, int chamber, int motion, const SbSliding *state,
-                             SbReport *report) {
-  SbRunProfile *profile = &run->profile[profile_slot(seal, chamber, motion)];
+static SbStatus make_profile(SbRun *run, int seal, int chamber, int motion,
+                             const SbSealState *state, SbReport *report) {
+  SbRunProfile *profile = &run->profile[sb_run_profile_slot(seal, chamber, motion)];
   const SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber);
   const SbFit *fit = sb_sliding_fit(run->memory[seal]);
   const SbFilm *film = sb_sliding_film(run->memory[seal]);
@@ -165,7 +164,7 @@ static bool state_needed(const SbRun *run, int seal, int chamber, int motion) {
 
 // Names what failed and where: solver, seal, stages, place; and what there is all the same. Figures
 // that need it say so, too.
-static void report_failure(SbRun *run, int seal, int chamber, int motion, const SbSliding *state,
+static void report_failure(SbRun *run, int seal, int chamber, int motion, const SbSealState *state,
                            SbSealPressure pressure, SbReport *report) {
   static const char *const stages[] = {"A to C", "C to F", "F to A"};
   static const char *const ways[] = {"in-stroke", "return", "at rest"};
@@ -221,9 +220,8 @@ static SbStatus solve_state(SbRun *run, int seal, int chamber, int motion, SbRep
   SbSlidingMemory *memory = run->memory[seal];
   SbSealPressure pressure = sb_model_seal_pressure(model, seal, (SbChamber)chamber);
   double speed = motion == SB_CYCLE_IN ? run->speed : motion == SB_RUN_REST ? 0 : -run->speed;
-  SbSliding rest;
-  SbSliding *state =
-      motion == SB_RUN_REST ? &rest : &run->cycle.states.state[seal][chamber][motion];
+  SbSealState rest;
+  SbSealState *state = motion == SB_RUN_REST ? &rest : &run->cycle.state[seal][chamber][motion];
   bool fitment = run->plan.seal[seal] == SB_DEPTH_FITMENT;
   const SbSlidingTask task = {model,      seal,   pressure,           speed,
                               run->speed, memory, &summary->counters, &summary->warnings};
@@ -265,11 +263,11 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   summary->error_load = summary->error_width = 0;
   run->lacks[0] = '\0';
   run->friction_error = run->static_error = 0;
-  run->cycle.states.model = run->model;
+  run->cycle.model = run->model;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     sb_sliding_memory_poll(run->memory[seal], hooks->cancelled, hooks->data);
     // At least what the figures are taken from is unknown until it is solved.
-    sb_sliding_clear(&run->cycle.states.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN]);
+    sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN]);
   }
   for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
     const int seal = i / (SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS);
@@ -294,44 +292,6 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     worst = status != SB_OK ? status : worst;
   }
   return worst;
-}
-
-void sb_run_fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbChamber chamber,
-                         int direction, bool moving, double s) {
-  const SbSliding *state = &run->cycle.states.state[seal][chamber][direction];
-  SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, chamber);
-  double width_share;
-  double load_share;
-  sb_cycle_land_share(&run->cycle, seal, chamber, direction, s, &width_share, &load_share);
-  double width = state->contact_right - state->contact_left;
-
-  // The edge takes the contact away from the canister side.
-  *out = (SbSealFrame){
-      .land_fraction = (float)width_share,
-      .pressure_left = (float)pressure.left,
-      .pressure_right = (float)pressure.right,
-      .profile = run->plan.profiles && state->touches
-                     ? profile_slot(seal, (int)chamber, moving ? direction : SB_RUN_REST)
-                     : UINT32_MAX,
-      .contact_left = state->contact_right - width_share * width,
-      .contact_right = state->contact_right,
-      .load = load_share * state->load,
-      .pressure_peak = width_share > 0.5 ? state->pressure_peak : 0,
-  };
-  if (width_share > 0 && width_share <= 0.5) {
-    // The elliptic profile's greatest remaining value, at the edge.
-    double c = 1 - 2 * (1 - width_share);
-    out->pressure_peak = state->pressure_peak * sqrt(fmax(1 - c * c, 0));
-  }
-  out->shape = sb_run_shape_index(run, seal, chamber, moving ? direction : SB_RUN_REST, s);
-  // At rest the surfaces meet; off the land there is no film.
-  if (!state->touches || !(width_share > 0)) {
-    out->film_min = out->film_central = out->lambda = NAN;
-  } else if (moving) {
-    out->film_min = state->film_min;
-    out->film_central = state->film_central;
-    out->lambda = state->lambda;
-  }
 }
 
 // Power of the speed in the film's law.

@@ -24,14 +24,14 @@ static int direction_of(SbChamber chamber) {
 }
 
 // How full of pressure the chamber is, 0 vented, 1 at the canister's.
-static double filling(const SbValve *valve, double pressure) {
-  double canister = valve->run->model->canister_pressure;
+static double filling(const SbRun *run, double pressure) {
+  double canister = run->model->canister_pressure;
   return canister > 0 ? fmin(fmax(pressure / canister, 0), 1) : 1;
 }
 
 static double level_of(const SbCycle *cycle, int seal, SbChamber chamber, double s) {
   int direction = direction_of(chamber);
-  const SbSliding *state = &cycle->states.state[seal][chamber][direction];
+  const SbSealState *state = &cycle->state[seal][chamber][direction];
   double width_share;
   double load_share;
   sb_cycle_land_share(cycle, seal, chamber, direction, s, &width_share, &load_share);
@@ -46,7 +46,7 @@ static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const d
   loads->force = -valve->run->model->pressure_force;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     if (valve->ports) {
-      double q = filling(valve, extra[0]);
+      double q = filling(valve->run, extra[0]);
       double vented = q < 1 ? level_of(cycle, seal, SB_CHAMBER_AT_REST, x) : 0;
       double filled = q > 0 ? level_of(cycle, seal, SB_CHAMBER_CLOSED, x) : 0;
       loads->level[seal] = (1 - q) * vented + q * filled;
@@ -101,9 +101,9 @@ static void add_edge(SbDynamicsModel *out, double x) {
 
 static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report) {
   const SbModel *model = valve->run->model;
-  const SbCycleStates *states = &valve->run->cycle.states;
-  const SbSliding *inner = &states->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-  const SbSliding *outer = &states->state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbCycle *cycle = &valve->run->cycle;
+  const SbSealState *inner = &cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbSealState *outer = &cycle->state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   const SbValveShape *shape = &model->shape;
   bool at_once = model->chamber_at_once;
   double coefficient = model->discharge_coefficient;
@@ -212,7 +212,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
       .tolerance = model->motion_tolerance,
   };
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    const SbSliding *state = &cycle->states.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+    const SbSealState *state = &cycle->state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
     double level = state->boundary_area + state->boundary_load;
     out->contact[seal] = (SbDynamicsContact){
         .static_ratio = level > 0 ? fmax(state->friction_static / level, 1) : 1,
@@ -220,7 +220,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
         .dwell_time = model->dwell_time,
         .stribeck_speed = model->stribeck_speed,
         .stribeck_exponent = 1,
-        .viscous = state->viscous / run->speed,
+        .viscous = state->friction_viscous / run->speed,
         .stiffness = INFINITY,
     };
     if (model->tangential_stiffness > 0) {
@@ -232,10 +232,10 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   out->stop[SB_REST_STOP] = (SbDynamicsStop){0, -1, INFINITY, 0};
   out->stop[SB_END_STOP] =
       (SbDynamicsStop){model->stroke, 1, model->stop_stiffness, model->stop_restitution};
-  sb_valve_set_drive(out, run);
+  sb_valve_set_drive(out, &valve->times, run);
 
   // Edges: where the contact meets the land's end, where it has left, where it comes back.
-  valve->touches = cycle->states.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].touches;
+  valve->touches = cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].touches;
   double far = -INFINITY;
   if (valve->touches) {
     valve->edge_open = sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
@@ -280,42 +280,108 @@ double sb_valve_chamber_pressure(const SbValve *valve, double extra) {
                       : sb_model_seal_pressure(valve->run->model, SB_OUTER, valve->chamber).left;
 }
 
-// The solved state nearest to what the chamber holds.
-static SbChamber nearest(const SbValve *valve, double pressure) {
-  if (!valve->ports || valve->chamber == SB_CHAMBER_OPEN) {
-    return valve->chamber;
+SbSolvedState sb_valve_solved(const SbValve *valve, int direction, double pressure) {
+  if (valve->chamber == SB_CHAMBER_OPEN) {
+    return (SbSolvedState){SB_CHAMBER_OPEN, direction};
   }
-  return filling(valve, pressure) < 0.5 ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
+  // With ports the nearest to what the chamber holds.
+  SbChamber chamber = valve->chamber;
+  if (valve->ports) {
+    chamber = filling(valve->run, pressure) < 0.5 ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
+  }
+  return (SbSolvedState){chamber, direction_of(chamber)};
 }
 
-static int direction_in(SbChamber chamber, int direction) {
-  return chamber == SB_CHAMBER_OPEN ? direction : direction_of(chamber);
+double sb_run_film_at(const SbRun *run, double speed) {
+  return run->film_exponent > 0 ? pow(fabs(speed) / run->speed, run->film_exponent) : 1;
 }
 
-const SbSliding *sb_valve_state(const SbValve *valve, int seal, int direction, double pressure) {
-  SbChamber chamber = nearest(valve, pressure);
-  return &valve->run->cycle.states.state[seal][chamber][direction_in(chamber, direction)];
+// Contact, load and film of one seal at stem displacement s.
+static void fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbSolvedState solved,
+                         bool moving, double s) {
+  const SbChamber chamber = solved.chamber;
+  const int direction = solved.direction, motion = moving ? direction : SB_RUN_REST;
+  const SbSealState *state = &run->cycle.state[seal][chamber][direction];
+  const SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, chamber);
+  double width_share, load_share;
+  sb_cycle_land_share(&run->cycle, seal, chamber, direction, s, &width_share, &load_share);
+  double width = state->contact_right - state->contact_left;
+
+  // The edge takes the contact away from the canister side.
+  *out = (SbSealFrame){
+      .land_fraction = (float)width_share,
+      .pressure_left = (float)pressure.left,
+      .pressure_right = (float)pressure.right,
+      .profile = run->plan.profiles && state->touches
+                     ? sb_run_profile_slot(seal, (int)chamber, motion)
+                     : UINT32_MAX,
+      .shape = sb_run_shape_index(run, seal, chamber, motion, s),
+      .contact_left = state->contact_right - width_share * width,
+      .contact_right = state->contact_right,
+      .load = load_share * state->load,
+      .pressure_peak = width_share > 0.5 ? state->pressure_peak : 0,
+  };
+  if (width_share > 0 && width_share <= 0.5) {
+    // The elliptic profile's greatest remaining value, at the edge.
+    double c = 1 - 2 * (1 - width_share);
+    out->pressure_peak = state->pressure_peak * sqrt(fmax(1 - c * c, 0));
+  }
+  // At rest the surfaces meet; off the land there is no film.
+  if (!state->touches || !(width_share > 0)) {
+    out->film_min = out->film_central = out->lambda = NAN;
+  } else if (moving) {
+    out->film_min = state->film_min;
+    out->film_central = state->film_central;
+    out->lambda = state->lambda;
+  }
 }
 
-void sb_valve_fill_seal(SbSealFrame *out, const SbValve *valve, int seal, int direction,
-                        bool moving, double s, double pressure) {
-  SbChamber chamber = nearest(valve, pressure);
-  sb_run_fill_contact(out, valve->run, seal, chamber, direction_in(chamber, direction), moving, s);
-  if (!valve->ports) {
-    return;
+// The contact of a seal between the vented and the filled chamber, as the friction is.
+static void blend_contact(SbSealFrame *out, const SbRun *run, int seal, const SbInstant *at) {
+  const SbSolvedState end[] = {{SB_CHAMBER_AT_REST, SB_CYCLE_IN},
+                               {SB_CHAMBER_CLOSED, SB_CYCLE_OUT}};
+  const double q = filling(run, at->pressure), share[] = {1 - q, q};
+  out->contact_left = out->contact_right = out->load = out->pressure_peak = 0;
+  for (int i = 0; i < 2; i++) {
+    SbSealFrame of;
+    fill_contact(&of, run, seal, end[i], at->moving, at->sample.position);
+    out->contact_left += share[i] * of.contact_left;
+    out->contact_right += share[i] * of.contact_right;
+    out->load += share[i] * of.load;
+    out->pressure_peak += share[i] * of.pressure_peak;
   }
-  *(seal == SB_INNER ? &out->pressure_right : &out->pressure_left) = (float)pressure;
-  if (chamber == SB_CHAMBER_OPEN) {
-    return;
+}
+
+void sb_run_fill_frame(SbFrame *out, const SbRun *run, const SbInstant *at) {
+  const SbDynamicsSample *sample = &at->sample;
+  *out = (SbFrame){
+      .time = sample->time,
+      .displacement = sample->position,
+      .velocity = sample->speed,
+      .platen = sample->drive_position,
+      .force = sample->drive_force,
+      .pressure_force = run->model->pressure_force,
+      .stop_force = sample->stop_force[SB_END_STOP] - sample->stop_force[SB_REST_STOP],
+      .spring_force = -sample->spring_force,
+      .chamber_pressure = at->pressure,
+      .stage = (uint8_t)at->stage,
+      .chamber = (uint8_t)at->chamber,
+  };
+  const double film = sb_run_film_at(run, sample->speed);
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    SbSealFrame *of = &out->seal[seal];
+    fill_contact(of, run, seal, at->solved, at->moving, sample->position);
+    if (run->model->pressure_map == SB_MAP_PORTS) {
+      *(seal == SB_INNER ? &of->pressure_right : &of->pressure_left) = (float)at->pressure;
+      if (at->chamber != SB_CHAMBER_OPEN) {
+        blend_contact(of, run, seal, at);
+      }
+    }
+    of->film_min *= film;
+    of->film_central *= film;
+    of->lambda *= film;
+    of->friction = -sample->friction[seal];
+    of->friction_viscous = -sample->viscous[seal];
+    of->friction_boundary = sample->viscous[seal] - sample->friction[seal];
   }
-  // Between vented and filled as the friction is.
-  SbSealFrame vented;
-  SbSealFrame filled;
-  double q = filling(valve, pressure);
-  sb_run_fill_contact(&vented, valve->run, seal, SB_CHAMBER_AT_REST, SB_CYCLE_IN, moving, s);
-  sb_run_fill_contact(&filled, valve->run, seal, SB_CHAMBER_CLOSED, SB_CYCLE_OUT, moving, s);
-  out->contact_left = (1 - q) * vented.contact_left + q * filled.contact_left;
-  out->contact_right = (1 - q) * vented.contact_right + q * filled.contact_right;
-  out->load = (1 - q) * vented.load + q * filled.load;
-  out->pressure_peak = (1 - q) * vented.pressure_peak + q * filled.pressure_peak;
 }
