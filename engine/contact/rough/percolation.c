@@ -11,6 +11,10 @@ static double threshold_argument(void) {
   return gsl_cdf_ugaussian_Pinv(0.5 * (1 + SB_PERCOLATION_THRESHOLD)) / M_SQRT2;
 }
 
+double sb_percolation_closing_pressure(const SbSpectrum *s, double modulus) {
+  return threshold_argument() * modulus / 2 * s->slope / M_SQRT2;
+}
+
 // Mean-square slope that is missing from the critical one up to wave number exp(x).
 typedef struct {
   const SbSpectrum *spectrum;
@@ -60,7 +64,7 @@ SbStatus sb_percolation_solve(SbPercolation *out, const SbPercolationProblem *p,
   }
   const SbSpectrum *s = p->spectrum;
   out->real_share = sb_persson_area_share(s, s->q1, p->modulus, p->contact_pressure);
-  out->closing_pressure = threshold_argument() * p->modulus / 2 * s->slope / M_SQRT2;
+  out->closing_pressure = sb_percolation_closing_pressure(s, p->modulus);
   constriction(out, p, p->contact_pressure);
   if (out->percolates && out->leak_rate > 0 && p->contact_pressure > 0) {
     SbPercolation less = *out;

@@ -44,7 +44,7 @@ typedef struct {
   SbRoughSurface surface;
   int count;
   double begin, step; // t of the first node, spacing
-  // ln(h/sigma), ln(p/E'), ln of the real area over the nominal, not yet limited; their slopes to
+  // ln(h/sigma), -ln(p/E'), ln of the real area over the nominal, not yet limited; their slopes to
   // t.
   double value[SB_ROUGH_QUANTITIES][SB_ROUGH_NODES_MAX];
   double slope[SB_ROUGH_QUANTITIES][SB_ROUGH_NODES_MAX];
