@@ -1,8 +1,6 @@
 // Critical constriction; see percolation.h.
 #include "engine/contact/rough/percolation.h"
 
-#include "engine/numeric/root.h"
-
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
@@ -13,17 +11,6 @@ static double threshold_argument(void) {
 
 double sb_percolation_closing_pressure(const SbSpectrum *s, double modulus) {
   return threshold_argument() * modulus / 2 * s->slope / M_SQRT2;
-}
-
-// Mean-square slope that is missing from the critical one up to wave number exp(x).
-typedef struct {
-  const SbSpectrum *spectrum;
-  double critical;
-} Slope;
-
-static double missing_slope(double x, const void *context) {
-  const Slope *s = context;
-  return s->critical * s->critical - sb_spectrum_slope2(s->spectrum, exp(x));
 }
 
 // Gap u_1 where surfaces just lose contact at wave number q: u + (du/dq) A/(dA/dq) with u the mean
@@ -49,8 +36,9 @@ static void constriction(SbPercolation *out, const SbPercolationProblem *p, doub
   if (!out->percolates) {
     return;
   }
-  const Slope slope = {s, critical};
-  out->constriction_q = exp(sb_bisect(missing_slope, &slope, log(s->q0), log(s->q1)));
+  // The mean-square slope grows as q^(2 - 2H), from nothing at q0 to all of it at q1.
+  double power = 2 - 2 * s->hurst, share = pow(critical / s->slope, 2);
+  out->constriction_q = pow((1 - share) * pow(s->q0, power) + share * pow(s->q1, power), 1 / power);
   out->constriction_gap = local_gap(p, out->constriction_q, pressure);
   out->leak_rate = pow(out->constriction_gap, 3) / (12 * p->viscosity) * p->pressure_drop *
                    p->circumference / p->width;

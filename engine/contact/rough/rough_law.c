@@ -163,10 +163,6 @@ double sb_vdw_attraction(double hamaker, double gap) {
   return hamaker / (6 * M_PI * h * h * h);
 }
 
-double sb_vdw_slope(double hamaker, double gap) {
-  return gap > SB_VDW_CUTOFF ? -3 * sb_vdw_attraction(hamaker, gap) / gap : 0;
-}
-
 double sb_rough_pull(double *slope, const SbRoughPoint *at, double hamaker) {
   double open = 1 - at->share;
   if (open <= 0) {
@@ -176,7 +172,8 @@ double sb_rough_pull(double *slope, const SbRoughPoint *at, double hamaker) {
   double gap = at->gap / open;
   double gap_slope = (at->gap_slope + gap * at->share_slope) / open;
   double pull = sb_vdw_attraction(hamaker, gap);
-  *slope = open * sb_vdw_slope(hamaker, gap) * gap_slope - at->share_slope * pull;
+  double pull_slope = gap > SB_VDW_CUTOFF ? -3 * pull / gap : 0; // to the gap
+  *slope = open * pull_slope * gap_slope - at->share_slope * pull;
   return open * pull;
 }
 
