@@ -139,8 +139,8 @@ static int choose_places(double at[POINTS + FINE], SbStudyWork *work, int line, 
 
 // A curve for each line, and at full pressure columns of the table.
 static void draw(SbStudyWork *work, const int *lines, int count, double closing) {
-  static const char *const quantity[] = {"pressure", "leak at rest", "per stroke"};
-  static const char *const unit[][2] = {{"Pa", "MPa"}, {"m3/s", "\xc2\xb5l/h"}, {"m3", "nl"}};
+  static const char *const column[][2] = {
+      {"pressure", "MPa"}, {"leak at rest", "\xc2\xb5l/h"}, {"per stroke", "nl"}};
   SbStudy *out = work->out;
   SbStudyPanel *pressure = &out->panel[PRESSURE], *rest = &out->panel[LEAK];
   sb_text(rest->empty, sizeof rest->empty, "no leak: every contact is closed");
@@ -159,11 +159,9 @@ static void draw(SbStudyWork *work, const int *lines, int count, double closing)
     }
     note_closing(out, &pressure->series[pressure->series_count - 1], closing);
     for (int q = 0; q < FIGURES && share == 0; q++) {
-      SbStudyColumn *column = &out->column[out->column_count++];
-      *column = (SbStudyColumn){.digits = 3};
-      sb_text(column->name, sizeof column->name, "%s %s", quantity[q], fit);
-      sb_text(column->si, sizeof column->si, "%s", unit[q][0]);
-      sb_text(column->unit, sizeof column->unit, "%s", unit[q][1]);
+      char text[64];
+      sb_text(text, sizeof text, "%s %s [%s]", column[q][0], fit, column[q][1]);
+      sb_study_column(work, text, 0, line, q);
     }
   }
   sb_study_level(work, pressure, "channels close", closing);
@@ -171,7 +169,7 @@ static void draw(SbStudyWork *work, const int *lines, int count, double closing)
 
 // Rows by squeeze at the canister's pressure, then at its tenth; the models at full pressure are
 // the columns.
-static void table(SbStudyWork *work, const int *lines, int count) {
+static void table(SbStudyWork *work) {
   double design = work->scene->seal[SB_OUTER].squeeze;
   const struct {
     double squeeze;
@@ -181,14 +179,7 @@ static void table(SbStudyWork *work, const int *lines, int count) {
   for (int r = 0; r < ROWS; r++) {
     SbStudyRow *row = sb_study_row(work->out, "%.3g %%, %.2g MPa", 100 * rows[r].squeeze,
                                    shares[rows[r].share] * work->scene->canister_pressure * 1e-6);
-    double *cell = row->value;
-    for (int l = 0; l < count; l++) {
-      if (lines[l] % 2 == 0) {
-        memcpy(cell, sb_study_at(work, line_of(fit_of(lines[l]), rows[r].share), rows[r].squeeze),
-               FIGURES * sizeof *cell);
-        cell += FIGURES;
-      }
-    }
+    sb_study_cells(row->value, work, rows[r].squeeze, rows[r].share);
   }
 }
 
@@ -207,7 +198,7 @@ static void make(SbStudyWork *work) {
   const double closing =
       sb_percolation_closing_pressure(&spectrum, model->seal[SB_OUTER].reduced_modulus);
   draw(work, lines, count, closing);
-  table(work, lines, count);
+  table(work);
   double design = model->seal[SB_OUTER].squeeze;
   sb_study_mark(out, design, "as designed, %.1f %%", 100 * design);
   bool own = model->fit != SB_FIT_DISC && model->fit != SB_FIT_RING;
@@ -221,10 +212,10 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_leak = {
-    .x = {"squeeze of the free section", "1", "%", false},
-    .panel = {{"pressure of the rubber on the bore", "Pa", "MPa", false},
-              {"leak at rest", "m3/s", "\xc2\xb5l/h", true},
-              {"carried out per stroke", "m3", "nl", false}},
+    .x = "squeeze of the free section [%]",
+    .panel = {"pressure of the rubber on the bore [MPa]", "leak at rest [\xc2\xb5l/h]",
+              "carried out per stroke [nl]"},
+    .logarithmic = {false, true, false},
     .range = offsetof(SbStudyRange, squeeze_min),
     .row_heading = "squeeze, pressure",
     .outer = true,

@@ -111,13 +111,11 @@ static void solve(double *value, SbStudyWork *work, int line, double pressure) {
 
 // Contacts with a size, or half their difference from those with another (`less` > 0).
 static void put_row(SbStudyWork *work, const char *name, int size, int less, double pressure) {
-  SbStudyRow *row = sb_study_row(work->out, "%s", name);
-  for (int m = 0; m < TABLE_MODELS; m++) {
-    const double *value = sb_study_at(work, line_of(m, size), pressure);
-    const double *other = sb_study_at(work, line_of(m, less), pressure);
-    for (int q = 0; q < SB_STUDY_CONTACT; q++) {
-      row->value[q * TABLE_MODELS + m] = less > 0 ? (value[q] - other[q]) / 2 : value[q];
-    }
+  double *value = sb_study_row(work->out, "%s", name)->value, other[SB_STUDY_COLUMNS];
+  sb_study_cells(value, work, pressure, line_of(0, size));
+  sb_study_cells(other, work, pressure, line_of(0, less));
+  for (size_t k = 0; less > 0 && k < work->out->column_count; k++) {
+    value[k] = (value[k] - other[k]) / 2;
   }
 }
 
@@ -173,24 +171,16 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_models = {
-    .x = {"pressure on the outer seal", "Pa", "MPa", false},
-    .panel = {{"load", "N", "N", false},
-              {"peak pressure", "Pa", "MPa", false},
-              {"contact width", "m", "mm", false},
-              {"friction coefficient by shear strength", "1", "", false}},
+    .x = "pressure on the outer seal [MPa]",
+    .panel = {"load [N]", "peak pressure [MPa]", "contact width [mm]",
+              "friction coefficient by shear strength"},
     .row_heading = "case",
-    .column = {{"load thesis", "N", "N", 3},
-               {"load disc-thesis", "N", "N", 3},
-               {"load disc", "N", "N", 3},
-               {"load ring", "N", "N", 3},
-               {"peak thesis", "Pa", "MPa", 3},
-               {"peak disc-thesis", "Pa", "MPa", 3},
-               {"peak disc", "Pa", "MPa", 3},
-               {"peak ring", "Pa", "MPa", 3},
-               {"width thesis", "m", "mm", 3},
-               {"width disc-thesis", "m", "mm", 3},
-               {"width disc", "m", "mm", 3},
-               {"width ring", "m", "mm", 3}},
+    .column = {"load thesis [N]", "load disc-thesis [N]", "load disc [N]", "load ring [N]",
+               "peak thesis [MPa]", "peak disc-thesis [MPa]", "peak disc [MPa]", "peak ring [MPa]",
+               "width thesis [mm]", "width disc-thesis [mm]", "width disc [mm]", "width ring [mm]"},
+    .line = {THESIS, DISC_THESIS, DISC, RING, THESIS, DISC_THESIS, DISC, RING, THESIS, DISC_THESIS,
+             DISC, RING},
+    .value = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2},
     .validity = "disc-thesis: pressure on both flanks; disc: linear strain; ring: neo-Hookean, "
                 "pressure from the canister against the groove wall",
     .outer = true,

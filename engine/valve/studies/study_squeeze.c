@@ -79,21 +79,13 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_squeeze = {
-    .x = {"squeeze of the free section", "1", "%", false},
-    .panel = {{"load", "N", "N", false},
-              {"peak pressure", "Pa", "MPa", false},
-              {"contact width", "m", "mm", false}},
+    .x = "squeeze of the free section [%]",
+    .panel = {"load [N]", "peak pressure [MPa]", "contact width [mm]"},
     .range = offsetof(SbStudyRange, squeeze_min),
-    .column = {{"load", "N", "N", 3},
-               {"load against ring", "1", "%", 3},
-               {"peak", "Pa", "MPa", 3},
-               {"peak against ring", "1", "%", 3},
-               {"width", "m", "mm", 3},
-               {"width against ring", "1", "%", 3},
-               {"load against ring at 10 %", "1", "%", 3},
-               {"load against ring at 20 %", "1", "%", 3},
-               {"load against ring at 30 %", "1", "%", 3},
-               {"load against ring at 40 %", "1", "%", 3}},
+    .column = {"load [N]", "load against ring [%]", "peak [MPa]", "peak against ring [%]",
+               "width [mm]", "width against ring [%]", "load against ring at 10 % [%]",
+               "load against ring at 20 % [%]", "load against ring at 30 % [%]",
+               "load against ring at 40 % [%]"},
     .models = "ring, disc, disc-thesis, Lindley (eq. 2.8, 2.10), Green & English (radial), Hertz, "
               "Karaszkiewicz",
     .validity = "Lindley to 25 %, Green & English to 32 %, Karaszkiewicz 7 to 25 %, discs: linear "
