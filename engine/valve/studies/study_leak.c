@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { POINTS = 39, RING_POINTS = 20, FINE = 9, ROWS = 11, LINES = 5, FULL = 3 };
+enum { POINTS = 39, RING_POINTS = 20, FINE = 9, ROWS = 11, LINES = 5 };
 enum { PRESSURE, LEAK, STROKE, FIGURES };
 
 // Shares of the canister's pressure.
@@ -88,25 +88,6 @@ static void note_closing(SbStudy *out, const SbStudySeries *series, double closi
   }
 }
 
-// Lines that are drawn, and how many: the scene's own model, disc and ring, each once; then the
-// scene's and the ring at a tenth of the pressure too.
-static int choose_lines(int lines[LINES], const SbModel *model) {
-  const int wanted[LINES] = {line_of(model->fit, 0), line_of(SB_FIT_DISC, 0),
-                             line_of(SB_FIT_RING, 0), line_of(model->fit, 1),
-                             line_of(SB_FIT_RING, 1)};
-  int count = 0;
-  for (int i = 0; i < LINES; i++) {
-    bool known = false;
-    for (int k = 0; k < count; k++) {
-      known = known || lines[k] == wanted[i];
-    }
-    if (!known) {
-      lines[count++] = wanted[i];
-    }
-  }
-  return count;
-}
-
 // Places of a line: even ones, and more between where the ring begins to touch and where its
 // channels close; the leak lies there.
 static int choose_places(double at[POINTS + FINE], SbStudyWork *work, int line, double closing) {
@@ -137,15 +118,24 @@ static int choose_places(double at[POINTS + FINE], SbStudyWork *work, int line, 
   return count;
 }
 
-// A curve for each line, and at full pressure columns of the table.
-static void draw(SbStudyWork *work, const int *lines, int count, double closing) {
+// A curve for each line, the scene's own model, disc and ring, each once, then the scene's and the
+// ring at a tenth of the pressure too; at full pressure columns of the table.
+static void draw(SbStudyWork *work, double closing) {
   static const char *const column[][2] = {
       {"pressure", "MPa"}, {"leak at rest", "\xc2\xb5l/h"}, {"per stroke", "nl"}};
   SbStudy *out = work->out;
   SbStudyPanel *pressure = &out->panel[PRESSURE], *rest = &out->panel[LEAK];
   sb_text(rest->empty, sizeof rest->empty, "no leak: every contact is closed");
-  for (int l = 0; l < count; l++) {
+  const SbFitModel own = work->scene->fit;
+  const int lines[LINES] = {line_of(own, 0), line_of(SB_FIT_DISC, 0), line_of(SB_FIT_RING, 0),
+                            line_of(own, 1), line_of(SB_FIT_RING, 1)};
+  unsigned drawn = 0;
+  for (int l = 0; l < LINES; l++) {
     const int line = lines[l], share = line % 2;
+    if ((drawn >> line & 1) != 0) {
+      continue;
+    }
+    drawn |= 1U << line;
     const char *fit = sb_fit_model_name(fit_of(line));
     char name[40];
     sb_text(name, sizeof name, "%s, %.2g MPa", fit,
@@ -193,11 +183,9 @@ static void make(SbStudyWork *work) {
   if (!sb_study_goes_on(work, status, &report)) {
     return;
   }
-  int lines[LINES];
-  int count = choose_lines(lines, model);
   const double closing =
       sb_percolation_closing_pressure(&spectrum, model->seal[SB_OUTER].reduced_modulus);
-  draw(work, lines, count, closing);
+  draw(work, closing);
   table(work);
   double design = model->seal[SB_OUTER].squeeze;
   sb_study_mark(out, design, "as designed, %.1f %%", 100 * design);

@@ -110,8 +110,8 @@ static void solve(double *value, SbStudyWork *work, int line, double pressure) {
 }
 
 // Contacts with a size, or half their difference from those with another (`less` > 0).
-static void put_row(SbStudyWork *work, const char *name, int size, int less, double pressure) {
-  double *value = sb_study_row(work->out, "%s", name)->value, other[SB_STUDY_COLUMNS];
+static void fill_row(double *value, SbStudyWork *work, int size, int less, double pressure) {
+  double other[SB_STUDY_COLUMNS];
   sb_study_cells(value, work, pressure, line_of(0, size));
   sb_study_cells(other, work, pressure, line_of(0, less));
   for (size_t k = 0; less > 0 && k < work->out->column_count; k++) {
@@ -123,20 +123,19 @@ static void put_table(SbStudyWork *work) {
   const SbModel *model = work->scene;
   const SbSealModel *ring = &model->seal[SB_OUTER];
   const double canister = model->canister_pressure;
-  char name[64];
   for (int p = 0; p < PRESSURES; p++) {
-    sb_text(name, sizeof name, "%.2f MPa", pressures[p] * 1e-6);
-    put_row(work, name, 0, 0, pressures[p]);
+    double *value = sb_study_row(work->out, "%.2f MPa", pressures[p] * 1e-6)->value;
+    fill_row(value, work, 0, 0, pressures[p]);
   }
   for (int size = 1; size < SIZES; size++) {
     bool section = sizes[size].section != 0;
     double diameter = section ? ring->section_diameter + sizes[size].section
                               : ring->inner_diameter + sizes[size].inner;
-    sb_text(name, sizeof name, "%s %.2f mm", section ? "d" : "ID", 1e3 * diameter);
-    put_row(work, name, size, 0, canister);
+    fill_row(sb_study_row(work->out, "%s %.2f mm", section ? "d" : "ID", 1e3 * diameter)->value,
+             work, size, 0, canister);
   }
-  put_row(work, "for d + 0.02 mm", 1, 2, canister);
-  put_row(work, "for ID + 0.02 mm", 3, 4, canister);
+  fill_row(sb_study_row(work->out, "for d + 0.02 mm")->value, work, 1, 2, canister);
+  fill_row(sb_study_row(work->out, "for ID + 0.02 mm")->value, work, 3, 4, canister);
   SbStudyRow *area = sb_study_row(work->out, "friction by shear strength");
   SbStudyRow *both = sb_study_row(work->out, "friction with m");
   sb_text(area->si, sizeof area->si, "1");

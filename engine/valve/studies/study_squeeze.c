@@ -47,6 +47,12 @@ static void solve(double *value, SbStudyWork *work, int line, double squeeze) {
   sb_study_contact(value, work, override, SB_STUDY_SQUEEZED + 3);
 }
 
+static double against_ring(SbStudyWork *work, int line, double squeeze, int quantity) {
+  const double value = sb_study_at(work, line, squeeze)[quantity];
+  const double ring = sb_study_at(work, RING, squeeze)[quantity];
+  return ring > 0 ? value / ring - 1 : NAN;
+}
+
 static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
@@ -55,19 +61,13 @@ static void make(SbStudyWork *work) {
   sb_text(out->row_heading, sizeof out->row_heading, "as designed, %.1f %%", 100 * design);
   for (int m = 0; m < MODELS; m++) {
     sb_study_curves(work, models[m].style, models[m].name, m, NULL, models[m].points);
-    SbStudyRow *row = sb_study_row(out, "%s", models[m].name);
-    for (int k = 0; k < SB_STUDY_CONTACT + TABLE; k++) {
-      const bool designed = k < SB_STUDY_CONTACT;
-      const double at = designed ? design : table_squeeze[k - SB_STUDY_CONTACT];
-      const double value = sb_study_at(work, m, at)[designed ? k : 0];
-      const double ring = sb_study_at(work, RING, at)[designed ? k : 0];
-      const double difference = ring > 0 ? value / ring - 1 : NAN;
-      if (designed) {
-        row->value[2 * k] = value;
-        row->value[2 * k + 1] = difference;
-      } else {
-        row->value[SB_STUDY_CONTACT + k] = difference;
-      }
+    double *value = sb_study_row(out, "%s", models[m].name)->value;
+    for (int q = 0; q < SB_STUDY_CONTACT; q++) {
+      value[2 * q] = sb_study_at(work, m, design)[q];
+      value[2 * q + 1] = against_ring(work, m, design, q);
+    }
+    for (int k = 0; k < TABLE; k++) {
+      value[2 * SB_STUDY_CONTACT + k] = against_ring(work, m, table_squeeze[k], 0);
     }
   }
   sb_study_note(out,
