@@ -151,19 +151,17 @@ static double falling_slope(double x, const void *c) {
   return -slope;
 }
 
-// First guess of the edges: Hertz on the parabola at the lowest point of the gap.
-static bool first_edges(double *left, double *right, const SbSurfaceCompliance *c, double load) {
-  const double width = c->right - c->left, step = width / 64;
+// First guess of the edges: Hertz on the parabola at the lowest point of the gap; false without
+// one.
+static bool first_edges(double x[2], const SbSurfaceCompliance *c, double load) {
+  const double window = window_of(c), step = window / 32.0;
   const double at = sb_bisect(falling_slope, c, c->left, c->right);
   const double curvature =
       (falling_slope(at - step, c) - falling_slope(at + step, c)) / (2.0 * step);
-  if (!(curvature > 0.0)) {
-    return false;
-  }
-  const double half = fmin(sqrt(8.0 * load / (M_PI * c->modulus * curvature)), 0.45 * width);
-  *left = fmax(at - half, c->left + 0.02 * width);
-  *right = fmin(at + half, c->right - 0.02 * width);
-  return true;
+  const double half = fmin(sqrt(8.0 * load / (M_PI * c->modulus * curvature)), 0.9 * window);
+  x[0] = fmax((at - half - c->left) / window, 0.04);
+  x[1] = fmax((c->right - at - half) / window, 0.04);
+  return curvature > 0.0;
 }
 
 // The integral of the slope from the edge on, with z = +-cosh(u) there: z -+ sqrt(z^2 - 1) is
@@ -216,8 +214,8 @@ static SbStatus check_signs(SbDryContact *d, const SbSurfaceCompliance *c, SbRep
 SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double load,
                         double pressure_left, double pressure_right, SbReport *report) {
   memset(out, 0, sizeof *out);
-  double left, right;
-  if (c->modes < 3 || !(load > 0.0) || !first_edges(&left, &right, c, load)) {
+  double x[2];
+  if (c->modes < 3 || !(load > 0.0) || !first_edges(x, c, load)) {
     return sb_fail(report, SB_ERROR_INPUT, "dry contact: no convex gap or no load");
   }
   Problem problem = {.c = c,
@@ -225,8 +223,6 @@ SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double 
                              .pressure_right = pressure_right,
                              .load = load,
                              .count = COUNT}};
-  const double window = window_of(c);
-  double x[2] = {(left - c->left) / window, (c->right - right) / window};
   SbBroyden broyden = {0};
   const bool solved = sb_solve_system(edge_residuals, &problem, x, 2, 1e-13, &broyden);
   *out = problem.dry;

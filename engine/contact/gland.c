@@ -24,11 +24,6 @@ static double number(const SbGland *gland, size_t at) {
   return *(const double *)((const char *)gland + at);
 }
 
-// A size moved by its tolerance, up (sign 1) or down (-1).
-static void move(SbGland *gland, int size, double sign) {
-  *(double *)((char *)gland + SIZE[size].value) += sign * number(gland, SIZE[size].tolerance);
-}
-
 static void evaluate(double *q, const SbGland *s) {
   const double d = s->section_diameter, id = s->inner_diameter;
   const double g = s->radial_space, bore = s->bore_diameter;
@@ -47,6 +42,16 @@ static void evaluate(double *q, const SbGland *s) {
   q[SB_GLAND_SQUEEZE_SWOLLEN] = 1.0 - g / (growth * d);
   q[SB_GLAND_SWELL] = s->volume_swell;
   q[SB_GLAND_EXTRUSION_GAP] = bore - s->land_diameter;
+}
+
+// The read-outs with sizes moved by their tolerances, a bit for each that goes up and down.
+static void evaluate_moved(double *q, const SbGland *gland, int up, int down) {
+  SbGland at = *gland;
+  for (int i = 0; i < SIZES; i++) {
+    *(double *)((char *)&at + SIZE[i].value) +=
+        ((up >> i & 1) - (down >> i & 1)) * number(gland, SIZE[i].tolerance);
+  }
+  evaluate(q, &at);
 }
 
 const char *sb_band_text(SbBand band) {
@@ -108,11 +113,7 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
     };
   }
   for (int corner = 0; corner < CORNERS; corner++) {
-    SbGland at = *gland;
-    for (int i = 0; i < SIZES; i++) {
-      move(&at, i, (corner >> i & 1) ? 1.0 : -1.0);
-    }
-    evaluate(value, &at);
+    evaluate_moved(value, gland, corner, ~corner);
     for (int k = 0; k < SB_GLAND_COUNT; k++) {
       out[k].worst_low = fmin(out[k].worst_low, value[k]);
       out[k].worst_high = fmax(out[k].worst_high, value[k]);
@@ -122,12 +123,9 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
   // Root sum of squares of each tolerance alone.
   double square[SB_GLAND_COUNT] = {0.0};
   for (int i = 0; i < SIZES; i++) {
-    SbGland up = *gland, down = *gland;
-    move(&up, i, 1.0);
-    move(&down, i, -1.0);
     double high[SB_GLAND_COUNT], low[SB_GLAND_COUNT];
-    evaluate(high, &up);
-    evaluate(low, &down);
+    evaluate_moved(high, gland, 1 << i, 0);
+    evaluate_moved(low, gland, 0, 1 << i);
     for (int k = 0; k < SB_GLAND_COUNT; k++) {
       square[k] += 0.25 * (high[k] - low[k]) * (high[k] - low[k]);
     }

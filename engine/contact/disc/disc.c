@@ -45,30 +45,19 @@ typedef struct {
 
 typedef struct {
   SbDiscSystem system;
-  double dry;    // half-width without pressure difference
-  double wet[3]; // edges under pressure
-  bool has_wet;
+  double dry;         // half-width without pressure difference
+  double wet[3];      // edges under pressure, the wall's 0: not yet known
   double free_bulge;  // of the dry flank
   SbBroyden edges[2]; // dry and under pressure
 } Work;
 
-// Unknown edges as a vector: the right one alone (symmetric), or left, right, wall.
+// Unknown edges as a vector: right, left, wall; the right one alone where all is symmetric.
 static SbDiscEdges edges_of(const SbDiscSystem *s, const double *v) {
-  return s->pressure == 0.0 ? (SbDiscEdges){-v[0], v[0], 0.0} : (SbDiscEdges){v[0], v[1], v[2]};
+  return s->pressure == 0.0 ? (SbDiscEdges){-v[0], v[0], 0.0} : (SbDiscEdges){v[1], v[0], v[2]};
 }
 
 static bool edge_residuals(double *r, const double *v, void *context) {
-  SbDiscSystem *s = context;
-  double all[3];
-  if (!sb_disc_system_solve(s, edges_of(s, v), all)) {
-    return false;
-  }
-  if (s->pressure == 0.0) {
-    r[0] = all[1];
-  } else {
-    memcpy(r, all, sizeof all);
-  }
-  return true;
+  return sb_disc_system_solve(context, edges_of(context, v), r);
 }
 
 // Smooth edges at a pressure from those in `v`; false leaves `v`.
@@ -97,18 +86,17 @@ static double solve_pressure(Work *w, double target) {
   double step = target;
   while (done < target && step > target / 128.0) {
     const double next = fmin(target, done + step);
-    if (!w->has_wet) {
+    const bool coarser = w->wet[2] > 0.0 && done == 0.0;
+    if (w->wet[2] == 0.0) {
       // The wall as wide as Hertz's contact under the fluid's force.
-      w->wet[0] = -w->dry;
-      w->wet[1] = w->dry;
+      w->wet[0] = w->dry;
+      w->wet[1] = -w->dry;
       w->wet[2] = fmin(0.8, sqrt(4.0 * next * sqrt(1.0 - w->dry * w->dry)));
     }
-    const bool coarser = w->has_wet && done == 0.0;
     if (find_edges(w, next, w->wet)) {
       done = next;
-      w->has_wet = true;
     } else {
-      w->has_wet = w->has_wet && !coarser;
+      w->wet[2] = done > 0.0 ? w->wet[2] : 0.0;
       step *= coarser ? 1.0 : 0.5;
     }
   }

@@ -101,25 +101,15 @@ static double known_displacement(const SbDiscSystem *s, SbDiscEdges edges, SbDis
                                  SbDiscVector m, double tau_to) {
   const double centre = 0.5 * (edges.left + edges.right);
   const double half = 0.5 * (edges.right - edges.left);
-  const double split = fmax(-1.0, fmin(1.0, tau_to));
-  const double theta_left = asin(edges.left);
+  const double split = fmax(-1.0, fmin(1.0, tau_to)), theta_left = asin(edges.left);
   double sum = sb_disc_system_arc(s, to, m, theta_left, -(theta_left + 0.5 * M_PI), true);
-  for (int i = 0; i < SB_DISC_GAUSS; i++) {
-    const double x = s->gauss_x[i];
-    const double grade = x * x * x;
-    const double weight = 3.0 * x * x * s->gauss_w[i];
-
-    // The step, left and right of the target.
-    for (int side = -1; side <= 1; side += 2) {
-      const double length = side < 0 ? split + 1.0 : 1.0 - split;
-      if (!(length > 0.0)) {
-        continue;
-      }
-      const double tau = split + side * length * grade;
-      const SbDiscPoint on_flat = sb_disc_point_at(centre + half * tau);
-      sum += weight * length * half * sb_disc_system_step(tau) *
-             sb_disc_kernel_pair(&s->kernel, to, m, on_flat, force_at(s, on_flat));
-    }
+  // The step, left and right of the target.
+  for (int i = 0; i < 2 * SB_DISC_GAUSS; i++) {
+    const double x = s->gauss_x[i / 2], length = i % 2 == 0 ? -1.0 - split : 1.0 - split;
+    const double tau = split + length * x * x * x;
+    const SbDiscPoint on_flat = sb_disc_point_at(centre + half * tau);
+    sum += 3.0 * x * x * s->gauss_w[i / 2] * fabs(length) * half * sb_disc_system_step(tau) *
+           sb_disc_kernel_pair(&s->kernel, to, m, on_flat, force_at(s, on_flat));
   }
   return s->pressure * sum;
 }
@@ -151,7 +141,7 @@ static void add_self(SbDiscSystem *s, const SbDiscPoint *point, double half, siz
   }
 }
 
-bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double residual[3]) {
+bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double *residual) {
   const size_t n = s->n;
   const bool wall = s->pressure != 0.0;
   const size_t rows = wall ? 2 * n + 1 : n;
@@ -192,29 +182,23 @@ bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double residual[3]
             sb_disc_kernel_value(&s->kernel, bore[i], m_bore, turn_point(side[j]),
                                  turn(force_at(s, side[j])));
       }
-      const double c = side[i].cos;
       s->matrix[i + 2 * n * rows] = 0.0;
       s->matrix[n + i + 2 * n * rows] = -1.0;
-      s->solution[n + i] = c - 1.0 - s->hydrostatic * (s->radial ? 1.0 : c);
       s->solution[i] -= known_displacement(s, edges, bore[i], m_bore, s->tau[i]);
-      s->solution[n + i] -= known_displacement(s, edges, to, m_wall, 2.0);
+      s->solution[n + i] = side[i].cos - 1.0 - known_displacement(s, edges, to, m_wall, 2.0);
       // Equilibrium along x: wall load = fluid on the height between the left edges, less what
       // radial contact forces carry.
-      s->matrix[2 * n + i * rows] =
-          s->radial ? M_PI / (double)n * 2.0 * bore[i].sin / bore[i].cos : 0.0;
+      s->matrix[2 * n + i * rows] = -2.0 * M_PI / (double)n * force_at(s, bore[i]).x;
       s->matrix[2 * n + (n + i) * rows] = M_PI / (double)n;
     }
     s->matrix[2 * n + 2 * n * rows] = 0.0;
-    double balance = 2.0 * s->pressure * sqrt(1.0 - edges.left * edges.left);
-    if (s->radial) {
-      for (int i = 0; i < SB_DISC_GAUSS; i++) {
-        const double tau = 2.0 * s->gauss_x[i] - 1.0;
-        const SbDiscPoint on_flat = sb_disc_point_at(centre + half * tau);
-        balance -= 2.0 * s->gauss_w[i] * half * s->pressure * sb_disc_system_step(tau) * 2.0 *
-                   on_flat.sin / on_flat.cos;
-      }
+    s->solution[2 * n] = 2.0 * s->pressure * sqrt(1.0 - edges.left * edges.left);
+    for (int i = 0; i < SB_DISC_GAUSS; i++) {
+      const double tau = 2.0 * s->gauss_x[i] - 1.0;
+      const SbDiscVector force = force_at(s, sb_disc_point_at(centre + half * tau));
+      s->solution[2 * n] +=
+          4.0 * s->gauss_w[i] * half * s->pressure * sb_disc_system_step(tau) * force.x;
     }
-    s->solution[2 * n] = balance;
   }
 
   if (!sb_eliminate(s->matrix, s->solution, rows)) {
@@ -222,7 +206,7 @@ bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double residual[3]
   }
 
   // Values at the edges.
-  residual[2] = 0.0;
+  bool finite = true;
   for (int contact = 0; contact < (wall ? 2 : 1); contact++) {
     const double *F = &s->solution[contact == 0 ? 0 : n];
     double mean = 0.0, left = 0.0, right = 0.0;
@@ -232,10 +216,13 @@ bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double residual[3]
       left += s->series[contact][j];
       right += (j % 2 == 0 ? 1.0 : -1.0) * s->series[contact][j];
     }
-    residual[0] = contact == 0 ? left / mean : residual[0];
-    residual[1 + contact] = right / mean;
+    residual[2 * contact] = right / mean;
+    if (wall && contact == 0) {
+      residual[1] = left / mean;
+    }
+    finite = finite && isfinite(left / mean) && isfinite(right / mean);
   }
-  return isfinite(residual[0]) && isfinite(residual[1]) && isfinite(residual[2]);
+  return finite;
 }
 
 double sb_disc_system_bulge(const SbDiscSystem *s, SbDiscEdges edges) {

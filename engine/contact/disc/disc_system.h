@@ -46,9 +46,9 @@ typedef struct {
 void sb_disc_system_points(SbDiscSystem *system, size_t n);
 
 // Solves for given edges; false if the matrix is singular or the edges leave (-1, 1).
-// residual[0..2]: F at the left and right edge and at the wall's, over the mean of |F|; zero when
-// all edges are smooth.
-SB_CHECKED bool sb_disc_system_solve(SbDiscSystem *system, SbDiscEdges edges, double residual[3]);
+// residual: F at the right edge and, with a wall, at the left one and at the wall's, over the mean
+// of |F|; zero when all edges are smooth.
+SB_CHECKED bool sb_disc_system_solve(SbDiscSystem *system, SbDiscEdges edges, double *residual);
 
 // Displacement at `to` along m by unit pressure on the arc of a length (negative: to the left) from
 // an angle on and on its mirror image below: normal to it, or horizontal. At the arc's beginning

@@ -1,8 +1,6 @@
 // Critical constriction; see percolation.h.
 #include "engine/contact/rough/percolation.h"
 
-#include "engine/numeric/root.h"
-
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
@@ -11,15 +9,8 @@ static double threshold_argument(void) {
   return gsl_cdf_ugaussian_Pinv(0.5 * (1 + SB_PERCOLATION_THRESHOLD)) / M_SQRT2;
 }
 
-// Mean-square slope that is missing from the critical one up to wave number exp(x).
-typedef struct {
-  const SbSpectrum *spectrum;
-  double critical;
-} Slope;
-
-static double missing_slope(double x, const void *context) {
-  const Slope *s = context;
-  return s->critical * s->critical - sb_spectrum_slope2(s->spectrum, exp(x));
+double sb_percolation_closing_pressure(const SbSpectrum *s, double modulus) {
+  return threshold_argument() * modulus / 2 * s->slope / M_SQRT2;
 }
 
 // Gap u_1 where surfaces just lose contact at wave number q: u + (du/dq) A/(dA/dq) with u the mean
@@ -45,8 +36,9 @@ static void constriction(SbPercolation *out, const SbPercolationProblem *p, doub
   if (!out->percolates) {
     return;
   }
-  const Slope slope = {s, critical};
-  out->constriction_q = exp(sb_bisect(missing_slope, &slope, log(s->q0), log(s->q1)));
+  // The mean-square slope grows as q^(2 - 2H), from nothing at q0 to all of it at q1.
+  double power = 2 - 2 * s->hurst, share = pow(critical / s->slope, 2);
+  out->constriction_q = pow((1 - share) * pow(s->q0, power) + share * pow(s->q1, power), 1 / power);
   out->constriction_gap = local_gap(p, out->constriction_q, pressure);
   out->leak_rate = pow(out->constriction_gap, 3) / (12 * p->viscosity) * p->pressure_drop *
                    p->circumference / p->width;
@@ -60,7 +52,7 @@ SbStatus sb_percolation_solve(SbPercolation *out, const SbPercolationProblem *p,
   }
   const SbSpectrum *s = p->spectrum;
   out->real_share = sb_persson_area_share(s, s->q1, p->modulus, p->contact_pressure);
-  out->closing_pressure = threshold_argument() * p->modulus / 2 * s->slope / M_SQRT2;
+  out->closing_pressure = sb_percolation_closing_pressure(s, p->modulus);
   constriction(out, p, p->contact_pressure);
   if (out->percolates && out->leak_rate > 0 && p->contact_pressure > 0) {
     SbPercolation less = *out;

@@ -47,3 +47,6 @@ typedef struct {
 // SB_ERROR_RANGE for a modulus, viscosity, width that is not positive or a pressure below 0.
 SbStatus sb_percolation_solve(SbPercolation *out, const SbPercolationProblem *problem,
                               SbReport *report);
+
+// Contact pressure [Pa] at which the last channel closes, for a modulus E' [Pa].
+double sb_percolation_closing_pressure(const SbSpectrum *spectrum, double modulus);

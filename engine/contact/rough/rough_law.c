@@ -30,7 +30,7 @@ bool sb_rough_model_from_name(SbRoughModel *out, const char *name) {
 
 // ---------------------------------------------------------------- Greenwood and Tripp
 
-static void table_greenwood_tripp(SbRoughLaw *law) {
+static SbStatus table_greenwood_tripp(SbRoughLaw *law, SbReport *report) {
   const SbRoughSurface *s = &law->surface;
   law->begin = -8;
   law->step = 0.1;
@@ -47,11 +47,12 @@ static void table_greenwood_tripp(SbRoughLaw *law) {
     sb_gt_log_integrals(log_closed, fabs(t));
     law->value[GAP][i] = t > 0 ? log(t * share + exp(-t * t / 2) / sqrt(2 * M_PI)) : log_closed[0];
     law->slope[GAP][i] = exp(log(share) - law->value[GAP][i]);
-    law->value[PRESSURE][i] = pressure + log_F[3];
-    law->slope[PRESSURE][i] = -2.5 * exp(log_F[1] - log_F[3]);
+    law->value[PRESSURE][i] = -pressure - log_F[3];
+    law->slope[PRESSURE][i] = 2.5 * exp(log_F[1] - log_F[3]);
     law->value[SHARE][i] = area + log_F[2];
     law->slope[SHARE][i] = -2 * exp(log_F[0] - log_F[2]);
   }
+  return sb_succeed(report);
 }
 
 // ---------------------------------------------------------------- Persson
@@ -80,13 +81,13 @@ static SbStatus table_persson(SbRoughLaw *law, SbReport *report) {
     double separation = sb_persson_gap_at(&slope, &gap, log_p);
     law->value[GAP][i] = log(separation / s->sigma);
     law->slope[GAP][i] = slope / separation * by_t;
-    law->value[PRESSURE][i] = log_p - M_LN2;
-    law->slope[PRESSURE][i] = by_t;
+    law->value[PRESSURE][i] = M_LN2 - log_p;
+    law->slope[PRESSURE][i] = -by_t;
     double z = M_SQRT2 * exp(log_p) / spectrum.slope;
     law->value[SHARE][i] = log(erf(z));
     law->slope[SHARE][i] = 2 / sqrt(M_PI) * z * exp(-z * z) / erf(z) * by_t;
   }
-  return SB_OK;
+  return sb_succeed(report);
 }
 
 // ---------------------------------------------------------------- both
@@ -99,21 +100,11 @@ SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbRep
     return sb_fail(report, SB_ERROR_RANGE,
                    "sigma, sigma/beta, the asperity product and the modulus must be positive");
   }
-  switch (surface->model) {
-  case SB_ROUGH_GREENWOOD_TRIPP:
-    table_greenwood_tripp(law);
-    break;
-  case SB_ROUGH_PERSSON: {
-    SbStatus status = table_persson(law, report);
-    if (status != SB_OK) {
-      return status;
-    }
-    break;
-  }
-  default:
-    return sb_fail(report, SB_ERROR_INPUT, "this surface has no asperities");
-  }
-  return sb_succeed(report);
+  static SbStatus (*const table[SB_ROUGH_COUNT])(SbRoughLaw *, SbReport *) = {
+      [SB_ROUGH_GREENWOOD_TRIPP] = table_greenwood_tripp, [SB_ROUGH_PERSSON] = table_persson};
+  return surface->model != SB_ROUGH_NONE
+             ? table[surface->model](law, report)
+             : sb_fail(report, SB_ERROR_INPUT, "this surface has no asperities");
 }
 
 void sb_rough_law_at(SbRoughPoint *out, const SbRoughLaw *law, double t) {
@@ -128,34 +119,28 @@ void sb_rough_law_at(SbRoughPoint *out, const SbRoughLaw *law, double t) {
   out->gap = law->surface.sigma * exp(v[GAP] + fmin(beyond, 0) * by[GAP]);
   out->gap_slope = out->gap * by[GAP];
   out->gap += out->gap_slope * fmax(beyond, 0);
-  out->pressure = law->surface.modulus * exp(v[PRESSURE] + beyond * by[PRESSURE]);
-  out->pressure_slope = out->pressure * by[PRESSURE];
+  out->pressure = law->surface.modulus * exp(-v[PRESSURE] - beyond * by[PRESSURE]);
+  out->pressure_slope = -out->pressure * by[PRESSURE];
   // Beyond the closed end the share stays.
   double log_share = v[SHARE] + fmax(beyond, 0) * by[SHARE];
   out->share = exp(fmin(log_share, 0));
   out->share_slope = log_share < 0 && f > 0 ? out->share * by[SHARE] : 0;
 }
 
-// Parameter where the tabled logarithm, rising (sign +1) or falling (-1), has the value wanted.
-static double invert(const SbRoughLaw *law, int quantity, double wanted, double sign) {
+// Parameter where a tabled quantity that rises has the value wanted.
+static double invert(const SbRoughLaw *law, int quantity, double wanted) {
   const double *value = law->value[quantity], *slope = law->slope[quantity];
-  int low = 0, high = law->count - 1;
-  for (int end = 0; end <= high; end += high) {
-    if (sign * (wanted - value[end]) * (end == 0 ? -1 : 1) >= 0) {
-      return law->begin + law->step * end + (wanted - value[end]) / slope[end];
-    }
+  size_t i = sb_interval(value, (size_t)law->count, wanted);
+  double f = (wanted - value[i]) / (value[i + 1] - value[i]), by;
+  if (f < 0 || f > 1) {
+    size_t end = f < 0 ? i : i + 1;
+    return law->begin + law->step * (double)end + (wanted - value[end]) / slope[end];
   }
-  while (high - low > 1) {
-    int middle = (low + high) / 2;
-    *(sign * (wanted - value[middle]) >= 0 ? &low : &high) = middle;
-  }
-  double f = (wanted - value[low]) / (value[high] - value[low]);
   for (int k = 0; k < 6; k++) {
-    double by;
-    double now = sb_hermite(&by, f, law->step, &value[low], &slope[low]);
+    double now = sb_hermite(&by, f, law->step, &value[i], &slope[i]);
     f = fmin(fmax(f + (wanted - now) / (by * law->step), 0), 1);
   }
-  return law->begin + law->step * (low + f);
+  return law->begin + law->step * ((double)i + f);
 }
 
 double sb_rough_law_of_gap(const SbRoughLaw *law, double gap) {
@@ -164,11 +149,11 @@ double sb_rough_law_of_gap(const SbRoughLaw *law, double gap) {
   if (gap >= most) { // straight in the gap itself there
     return law->begin + law->step * last + (gap - most) / (most * law->slope[GAP][last]);
   }
-  return invert(law, GAP, log(gap / law->surface.sigma), 1);
+  return invert(law, GAP, log(gap / law->surface.sigma));
 }
 
 double sb_rough_law_of_pressure(const SbRoughLaw *law, double pressure) {
-  return invert(law, PRESSURE, log(pressure / law->surface.modulus), -1);
+  return invert(law, PRESSURE, -log(pressure / law->surface.modulus));
 }
 
 // ---------------------------------------------------------------- adhesion
@@ -176,10 +161,6 @@ double sb_rough_law_of_pressure(const SbRoughLaw *law, double pressure) {
 double sb_vdw_attraction(double hamaker, double gap) {
   double h = fmax(gap, SB_VDW_CUTOFF);
   return hamaker / (6 * M_PI * h * h * h);
-}
-
-double sb_vdw_slope(double hamaker, double gap) {
-  return gap > SB_VDW_CUTOFF ? -3 * sb_vdw_attraction(hamaker, gap) / gap : 0;
 }
 
 double sb_rough_pull(double *slope, const SbRoughPoint *at, double hamaker) {
@@ -191,7 +172,8 @@ double sb_rough_pull(double *slope, const SbRoughPoint *at, double hamaker) {
   double gap = at->gap / open;
   double gap_slope = (at->gap_slope + gap * at->share_slope) / open;
   double pull = sb_vdw_attraction(hamaker, gap);
-  *slope = open * sb_vdw_slope(hamaker, gap) * gap_slope - at->share_slope * pull;
+  double pull_slope = gap > SB_VDW_CUTOFF ? -3 * pull / gap : 0; // to the gap
+  *slope = open * pull_slope * gap_slope - at->share_slope * pull;
   return open * pull;
 }
 

@@ -44,7 +44,7 @@ typedef struct {
   SbRoughSurface surface;
   int count;
   double begin, step; // t of the first node, spacing
-  // ln(h/sigma), ln(p/E'), ln of the real area over the nominal, not yet limited; their slopes to
+  // ln(h/sigma), -ln(p/E'), ln of the real area over the nominal, not yet limited; their slopes to
   // t.
   double value[SB_ROUGH_QUANTITIES][SB_ROUGH_NODES_MAX];
   double slope[SB_ROUGH_QUANTITIES][SB_ROUGH_NODES_MAX];
@@ -83,9 +83,6 @@ double sb_rough_law_of_pressure(const SbRoughLaw *law, double pressure);
 
 // Attraction [Pa], positive, at distance `gap` [m] for Hamaker constant `hamaker` [J].
 double sb_vdw_attraction(double hamaker, double gap);
-
-// Its derivative with respect to the gap [Pa/m]; 0 below the cut-off.
-double sb_vdw_slope(double hamaker, double gap);
 
 // Van der Waals' pull [Pa] at a point of the law and its slope to t: A_H/(6 pi d^3) over the part
 // of the area that is open, across the gap that is open there, d = h/(1 - share).

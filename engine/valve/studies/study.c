@@ -71,19 +71,52 @@ SbStudyPanel *sb_study_panel(SbStudy *out, const SbStudyAxis *y, const char *emp
   return panel;
 }
 
+// Splits "quantity [unit]" into its name, the unit, and the SI unit of that.
+static void put_quantity(const char *text, char name[], size_t size, char si[16], char unit[16]) {
+  static const char *const units[][2] = {
+      {"N", "N"},      {"N/m", "N/m"}, {"MPa", "Pa"},           {"mm", "m"}, {"nm", "m"},
+      {"mm/s", "m/s"}, {"day", "s"},   {"\xc2\xb5l/h", "m3/s"}, {"nl", "m3"}};
+  const char *bracket = strstr(text, " [");
+  const size_t length = bracket != NULL ? (size_t)(bracket - text) : strlen(text);
+  sb_text(name, size, "%.*s", (int)length, text);
+  sb_text(unit, 16, "%.*s", bracket != NULL ? (int)strcspn(bracket + 2, "]") : 0,
+          bracket != NULL ? bracket + 2 : "");
+  sb_text(si, 16, "1");
+  for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
+    if (strcmp(unit, units[i][0]) == 0) {
+      sb_text(si, 16, "%s", units[i][1]);
+    }
+  }
+}
+
+void sb_study_column(SbStudyWork *work, const char *quantity, int digits, int line, int value) {
+  const size_t at = next(&work->out->column_count, SB_STUDY_COLUMNS);
+  SbStudyColumn *column = &work->out->column[at];
+  put_quantity(quantity, column->name, sizeof column->name, column->si, column->unit);
+  column->digits = digits > 0 ? digits : 3;
+  work->line[at] = line;
+  work->value[at] = value;
+}
+
 // Axes, columns and texts that the scene does not change.
-static void put_design(SbStudy *out, const SbStudyDesign *design) {
-  out->x = design->x;
-  for (int p = 0; p < SB_STUDY_PANELS && design->panel[p].quantity[0] != 0; p++) {
-    sb_study_panel(out, &design->panel[p], "no value in this range");
+static void put_design(SbStudyWork *work) {
+  SbStudy *out = work->out;
+  const SbStudyDesign *design = work->design;
+  SbStudyAxis axis = {.logarithmic = design->x_logarithmic};
+  put_quantity(design->x, axis.quantity, sizeof axis.quantity, axis.si, axis.unit);
+  out->x = axis;
+  for (int p = 0; p < SB_STUDY_PANELS && design->panel[p] != NULL; p++) {
+    put_quantity(design->panel[p], axis.quantity, sizeof axis.quantity, axis.si, axis.unit);
+    axis.logarithmic = design->logarithmic[p];
+    sb_study_panel(out, &axis, "no value in this range");
   }
-  memcpy(out->column, design->column, sizeof out->column);
-  while (out->column_count < SB_STUDY_COLUMNS && out->column[out->column_count].name[0] != 0) {
-    out->column_count++;
+  for (int k = 0; k < SB_STUDY_COLUMNS && design->column[k] != NULL; k++) {
+    sb_study_column(work, design->column[k], design->digits[k], design->line[k], design->value[k]);
   }
-  memcpy(out->row_heading, design->row_heading, sizeof out->row_heading);
-  memcpy(out->models, design->models, sizeof out->models);
-  memcpy(out->validity, design->validity, sizeof out->validity);
+  const char *const text[] = {design->row_heading, design->models, design->validity};
+  sb_text(out->row_heading, sizeof out->row_heading, "%s", text[0] != NULL ? text[0] : "");
+  sb_text(out->models, sizeof out->models, "%s", text[1] != NULL ? text[1] : "");
+  sb_text(out->validity, sizeof out->validity, "%s", text[2] != NULL ? text[2] : "");
 }
 
 bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report) {
@@ -169,12 +202,12 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   }
   out->kind = kind;
   out->complete = true;
-  put_design(out, design);
   const double *range = (const double *)((const char *)&model->study + design->range);
   work->out = out;
   work->design = design;
   work->scene = model;
   work->base = *model;
+  put_design(work);
   work->report = report;
   work->lo = range[0];
   work->hi = range[1];
@@ -229,7 +262,7 @@ SbStudyRow *sb_study_row(SbStudy *out, const char *format, ...) {
 
 double sb_study_place(const SbStudyWork *work, int index, int count) {
   double lo = work->lo, hi = work->hi, t = index / (count - 1.0);
-  return work->design->x.logarithmic ? lo * pow(hi / lo, t) : lo + (hi - lo) * index / (count - 1);
+  return work->out->x.logarithmic ? lo * pow(hi / lo, t) : lo + (hi - lo) * index / (count - 1);
 }
 
 const double *sb_study_at(SbStudyWork *work, int line, double x) {
@@ -243,6 +276,12 @@ const double *sb_study_at(SbStudyWork *work, int line, double x) {
   work->answer[at].x = x;
   work->design->solve(work->answer[at].value, work, line, x);
   return work->answer[at].value;
+}
+
+void sb_study_cells(double *value, SbStudyWork *work, double x, int shift) {
+  for (size_t k = 0; k < work->out->column_count; k++) {
+    value[k] = sb_study_at(work, work->line[k] + shift, x)[work->value[k]];
+  }
 }
 
 void sb_study_curves(SbStudyWork *work, SbStudyStyle style, const char *name, int line,

@@ -12,45 +12,33 @@
 
 #include <math.h>
 
-enum { SPEEDS = 14, LOADS = 5, CURVE = 41, GIVEN = 4, DRAWN = 3, GRID = SPEEDS * LOADS };
+enum { SPEEDS = 14, LOADS = 5, CURVE = 41, GRID = SPEEDS * LOADS };
 enum { CENTRAL, LEAST, FILMS };
+enum { GIVEN = 4, LAWS = FILMS + GIVEN }; // ours first
 
 // A line of the study is a load of the grid, or the outer seal's own behind them.
 enum { MIDDLE = LOADS / 2, OWN = LOADS };
 
-static const struct {
-  const char *name;
-  SbFilmLaw law;
-  int film; // that it gives
-} given[GIVEN] = {
-    {"thesis, eq. 7.5", {.k = 1.492, .a = 0.5434, .b = -0.2893}, CENTRAL},
-    {"Karaszkiewicz, eq. 7.6", {.k = 4.4, .a = 0.65, .b = -0.21}, CENTRAL},
-    {"thin-film limit", {.k = 3.77334, .a = 0.6, .b = -0.2}, CENTRAL},
-    {"thin-film limit, least", {.k = 3.00434, .a = 0.6, .b = -0.2}, LEAST},
-};
-
-// A seal's numbers: U per speed [s/m], W per load [m/N], the length of h/R [m].
+// A law of one of the films, and its curve's name where it has one.
 typedef struct {
-  double U, W, R;
-} Scale;
+  const char *name, *curve;
+  int film;
+  SbFilmLaw law;
+} Law;
 
-static Scale scale_of(const SbModel *model) {
-  const SbSealModel *seal = &model->seal[SB_OUTER];
-  double unit = seal->reduced_modulus * seal->radius;
-  return (Scale){model->viscosity / 2 / unit, 1 / unit, seal->radius};
-}
+// The solutions and the laws, ours regressed on them; the outer seal's numbers: U per speed [s/m],
+// W per load [m/N], the length of h/R [m].
+typedef struct {
+  double speed[GRID], U[GRID], W[GRID], H[FILMS][GRID];
+  double U_speed, W_load, R;
+  Law laws[LAWS];
+} Regression;
 
 static double load_of(const SbStudyWork *work, int line) {
   const SbStudyRange *range = &work->scene->study;
   double t = line / (LOADS - 1.0);
   return line == OWN ? work->load : range->load_min * pow(range->load_max / range->load_min, t);
 }
-
-// The solutions, and the laws they give.
-typedef struct {
-  double U[GRID], W[GRID], H[FILMS][GRID];
-  SbFilmLaw law[FILMS];
-} Regression;
 
 // Films at a speed. The laws are those of an isoviscous fluid without end pressure.
 static void solve(double *value, SbStudyWork *work, int line, double speed) {
@@ -66,81 +54,93 @@ static void solve(double *value, SbStudyWork *work, int line, double speed) {
   value[LEAST] = good ? work->film.film_min : NAN;
 }
 
-static bool regress(Regression *out, SbStudyWork *work) {
-  const Scale scale = scale_of(work->scene);
+static Regression regress(SbStudyWork *work) {
+  const SbSealModel *seal = &work->scene->seal[SB_OUTER];
+  const double unit = seal->reduced_modulus * seal->radius;
+  Regression out = {
+      .U_speed = work->scene->viscosity / 2 / unit,
+      .W_load = 1 / unit,
+      .R = seal->radius,
+      .laws = {{"ours, central", "our law", CENTRAL, {0}},
+               {"ours, least", NULL, LEAST, {0}},
+               {"thesis, eq. 7.5", "thesis, eq. 7.5", CENTRAL, {1.492, 0.5434, -0.2893}},
+               {"Karaszkiewicz, eq. 7.6", "Karaszkiewicz, eq. 7.6", CENTRAL, {4.4, 0.65, -0.21}},
+               {"thin-film limit", "thin-film limit", CENTRAL, {3.77334, 0.6, -0.2}},
+               {"thin-film limit, least", NULL, LEAST, {3.00434, 0.6, -0.2}}}};
   SbReport report;
   for (int i = 0; i < GRID; i++) {
-    double speed = sb_study_place(work, i % SPEEDS, SPEEDS);
-    const double *film = sb_study_at(work, i / SPEEDS, speed);
-    out->U[i] = speed * scale.U;
-    out->W[i] = load_of(work, i / SPEEDS) * scale.W;
-    out->H[CENTRAL][i] = film[CENTRAL] / scale.R;
-    out->H[LEAST][i] = film[LEAST] / scale.R;
+    out.speed[i] = sb_study_place(work, i % SPEEDS, SPEEDS);
+    out.U[i] = out.speed[i] * out.U_speed;
+    out.W[i] = load_of(work, i / SPEEDS) * out.W_load;
+    for (int f = 0; f < FILMS; f++) {
+      out.H[f][i] = sb_study_at(work, i / SPEEDS, out.speed[i])[f] / out.R;
+    }
   }
   for (int f = 0; f < FILMS && work->status == SB_OK; f++) {
-    SbStatus status = sb_film_law_fit(&out->law[f], out->U, out->W, out->H[f], GRID, &report);
+    SbStatus status = sb_film_law_fit(&out.laws[f].law, out.U, out.W, out.H[f], GRID, &report);
     (void)sb_study_goes_on(work, status, &report);
   }
-  return work->status == SB_OK;
+  return out;
+}
+
+// What a solution of the grid is of a law's.
+static double over_law(const Regression *ours, const Law *law, int i) {
+  return ours->H[law->film][i] / sb_film_law(&law->law, ours->U[i], ours->W[i]);
 }
 
 static void draw(SbStudyWork *work, const Regression *ours) {
-  SbStudyPanel *film = &work->out->panel[0], *ratio = &work->out->panel[1];
-  SbStudyPanel *residual = &work->out->panel[2];
-  const Scale scale = scale_of(work->scene);
-  const double W = load_of(work, MIDDLE) * scale.W;
-  SbStudySeries *dots = sb_study_series(film, SB_STUDY_DOTS, "solved");
-  for (int l = 0; l <= DRAWN; l++) {
-    const SbFilmLaw *law = l == 0 ? &ours->law[CENTRAL] : &given[l - 1].law;
-    SbStudyStyle style = l == 0 ? SB_STUDY_CURVE : SB_STUDY_REFERENCE;
-    SbStudySeries *line = sb_study_series(film, style, l == 0 ? "our law" : given[l - 1].name);
-    SbStudySeries *over = sb_study_series(ratio, style, line->name);
+  SbStudyPanel *panel = work->out->panel;
+  const double W = load_of(work, MIDDLE) * ours->W_load;
+  SbStudySeries *dots = sb_study_series(&panel[0], SB_STUDY_DOTS, "solved");
+  for (int i = MIDDLE * SPEEDS; i < (MIDDLE + 1) * SPEEDS; i++) {
+    sb_study_point(dots, ours->speed[i], ours->R * ours->H[CENTRAL][i]);
+  }
+  for (const Law *law = ours->laws; law < ours->laws + LAWS; law++) {
+    if (law->curve == NULL) {
+      continue;
+    }
+    SbStudyStyle style = law == ours->laws ? SB_STUDY_CURVE : SB_STUDY_REFERENCE;
+    SbStudySeries *line = sb_study_series(&panel[0], style, law->curve);
     for (int i = 0; i < CURVE; i++) {
       double speed = sb_study_place(work, i, CURVE);
-      sb_study_point(line, speed, scale.R * sb_film_law(law, speed * scale.U, W));
+      sb_study_point(line, speed, ours->R * sb_film_law(&law->law, speed * ours->U_speed, W));
     }
-    for (int i = 0; i < SPEEDS; i++) {
-      double speed = sb_study_place(work, i, SPEEDS);
-      double solved = sb_study_at(work, MIDDLE, speed)[CENTRAL];
-      if (l == 0) {
-        sb_study_point(dots, speed, solved);
-      }
-      sb_study_point(over, speed, scale.R * sb_film_law(law, speed * scale.U, W) / solved);
+    SbStudySeries *over = sb_study_series(&panel[1], style, law->curve);
+    for (int i = MIDDLE * SPEEDS; i < (MIDDLE + 1) * SPEEDS; i++) {
+      sb_study_point(over, ours->speed[i], 1 / over_law(ours, law, i));
     }
   }
   for (int j = 0; j < LOADS; j += (LOADS - 1) / 2) {
     char name[40];
     sb_text(name, sizeof name, "%.0f N/m", load_of(work, j));
-    SbStudySeries *line = sb_study_series(residual, SB_STUDY_CURVE, name);
+    SbStudySeries *line = sb_study_series(&panel[2], SB_STUDY_CURVE, name);
     for (int k = j * SPEEDS; k < (j + 1) * SPEEDS; k++) {
-      sb_study_point(
-          line, ours->U[k] / scale.U,
-          ours->H[CENTRAL][k] / sb_film_law(&ours->law[CENTRAL], ours->U[k], ours->W[k]) - 1);
+      sb_study_point(line, ours->speed[k], over_law(ours, &ours->laws[CENTRAL], k) - 1);
     }
   }
 }
 
 // A law, and how far the solutions are from it: solved/law - 1.
-static void put_row(SbStudyWork *work, const Regression *ours, const char *name,
-                    const SbFilmLaw *law, int film) {
-  const Scale scale = scale_of(work->scene);
-  double *value = sb_study_row(work->out, "%s", name)->value, squares = 0, largest = 0;
+static void put_row(SbStudyWork *work, const Regression *ours, const Law *row) {
+  const SbFilmLaw *law = &row->law;
+  double *value = sb_study_row(work->out, "%s", row->name)->value, squares = 0, largest = 0;
   for (int i = 0; i < GRID; i++) {
-    double miss = ours->H[film][i] / sb_film_law(law, ours->U[i], ours->W[i]) - 1;
+    double miss = over_law(ours, row, i) - 1;
     squares += miss * miss;
     largest = fmax(largest, fabs(miss));
   }
   value[0] = law->k;
   value[2] = law->a;
   value[4] = law->b;
-  if (law == &ours->law[film]) {
+  if (row < ours->laws + FILMS) {
     value[1] = law->k_confidence;
     value[3] = law->a_confidence;
     value[5] = law->b_confidence;
   }
   value[6] = sqrt(squares / GRID);
   value[7] = largest;
-  value[8] = scale.R * sb_film_law(law, work->scene->speed * scale.U, work->load * scale.W);
+  value[8] =
+      ours->R * sb_film_law(law, work->scene->speed * ours->U_speed, work->load * ours->W_load);
 }
 
 static void make(SbStudyWork *work) {
@@ -148,28 +148,25 @@ static void make(SbStudyWork *work) {
   const SbModel *model = work->scene;
   const SbStudyRange *range = &model->study;
   const SbSealModel *seal = &model->seal[SB_OUTER];
-  const Scale scale = scale_of(model);
   // The scene's own point: the net load of its outer seal at the drive's speed.
   double own = sb_study_net_load(work);
   work->load = own > 0 ? own : load_of(work, MIDDLE);
-  Regression ours;
   const double *film = sb_study_at(work, OWN, model->speed);
-  if (!regress(&ours, work)) {
+  const Regression ours = regress(work);
+  if (work->status != SB_OK) {
     return;
   }
   draw(work, &ours);
-  put_row(work, &ours, "ours, central", &ours.law[CENTRAL], CENTRAL);
-  put_row(work, &ours, "ours, least", &ours.law[LEAST], LEAST);
-  for (int l = 0; l < GIVEN; l++) {
-    put_row(work, &ours, given[l].name, &given[l].law, given[l].film);
+  for (int l = 0; l < LAWS; l++) {
+    put_row(work, &ours, &ours.laws[l]);
   }
   sb_study_row(out, "solved, central")->value[8] = film[CENTRAL];
   sb_study_row(out, "solved, least")->value[8] = film[LEAST];
   sb_study_mark_scene(work, model->speed, "drive");
   sb_text(out->validity, sizeof out->validity,
           "our law: U %.2g to %.2g, W %.3g to %.3g only; the limit: thin films (M above 100)",
-          work->lo * scale.U, work->hi * scale.U, range->load_min * scale.W,
-          range->load_max * scale.W);
+          work->lo * ours.U_speed, work->hi * ours.U_speed, range->load_min * ours.W_load,
+          range->load_max * ours.W_load);
   sb_study_note(out,
                 "U = \xce\xb7 (u/2)/(E' R), W = w/(E' R); R %.4g mm, E' %.4g MPa, \xce\xb7 %.4g "
                 "mPa s. \xc2\xb1: 95 %% confidence in this range. Curves at %.0f N/m.",
@@ -182,21 +179,16 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_film_law = {
-    .x = {"sliding speed", "m/s", "mm/s", true},
-    .panel = {{"central film", "m", "nm", true},
-              {"law over the solved film", "1", "", true},
-              {"solved against our law", "1", "%", false}},
+    .x = "sliding speed [mm/s]",
+    .x_logarithmic = true,
+    .panel = {"central film [nm]", "law over the solved film", "solved against our law [%]"},
+    .logarithmic = {true, true, false},
     .range = offsetof(SbStudyRange, speed_min),
     .row_heading = "h/R = k U^\xce\xb2 W^\xce\xb1",
-    .column = {{"k", "1", "", 4},
-               {"\xc2\xb1 of k", "1", "%", 3},
-               {"\xce\xb2 of U", "1", "", 4},
-               {"\xc2\xb1 of \xce\xb2", "1", "", 3},
-               {"\xce\xb1 of W", "1", "", 4},
-               {"\xc2\xb1 of \xce\xb1", "1", "", 3},
-               {"residual, rms", "1", "%", 3},
-               {"residual, largest", "1", "%", 3},
-               {"film at the drive's speed", "m", "nm", 3}},
+    .column = {"k", "\xc2\xb1 of k [%]", "\xce\xb2 of U", "\xc2\xb1 of \xce\xb2", "\xce\xb1 of W",
+               "\xc2\xb1 of \xce\xb1", "residual, rms [%]", "residual, largest [%]",
+               "film at the drive's speed [nm]"},
+    .digits = {4, 3, 4, 3, 4, 3, 3, 3, 3},
     .models = "reynolds, half-plane, smooth, isoviscous; thesis eq. 7.5; Karaszkiewicz eq. 7.6; "
               "exact limit",
     .solves = {.reynolds = GRID + 2},

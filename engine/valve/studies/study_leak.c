@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { POINTS = 39, RING_POINTS = 20, FINE = 9, ROWS = 11, LINES = 5, FULL = 3 };
+enum { POINTS = 39, RING_POINTS = 20, FINE = 9, ROWS = 11, LINES = 5 };
 enum { PRESSURE, LEAK, STROKE, FIGURES };
 
 // Shares of the canister's pressure.
@@ -88,25 +88,6 @@ static void note_closing(SbStudy *out, const SbStudySeries *series, double closi
   }
 }
 
-// Lines that are drawn, and how many: the scene's own model, disc and ring, each once; then the
-// scene's and the ring at a tenth of the pressure too.
-static int choose_lines(int lines[LINES], const SbModel *model) {
-  const int wanted[LINES] = {line_of(model->fit, 0), line_of(SB_FIT_DISC, 0),
-                             line_of(SB_FIT_RING, 0), line_of(model->fit, 1),
-                             line_of(SB_FIT_RING, 1)};
-  int count = 0;
-  for (int i = 0; i < LINES; i++) {
-    bool known = false;
-    for (int k = 0; k < count; k++) {
-      known = known || lines[k] == wanted[i];
-    }
-    if (!known) {
-      lines[count++] = wanted[i];
-    }
-  }
-  return count;
-}
-
 // Places of a line: even ones, and more between where the ring begins to touch and where its
 // channels close; the leak lies there.
 static int choose_places(double at[POINTS + FINE], SbStudyWork *work, int line, double closing) {
@@ -137,15 +118,24 @@ static int choose_places(double at[POINTS + FINE], SbStudyWork *work, int line, 
   return count;
 }
 
-// A curve for each line, and at full pressure columns of the table.
-static void draw(SbStudyWork *work, const int *lines, int count, double closing) {
-  static const char *const quantity[] = {"pressure", "leak at rest", "per stroke"};
-  static const char *const unit[][2] = {{"Pa", "MPa"}, {"m3/s", "\xc2\xb5l/h"}, {"m3", "nl"}};
+// A curve for each line, the scene's own model, disc and ring, each once, then the scene's and the
+// ring at a tenth of the pressure too; at full pressure columns of the table.
+static void draw(SbStudyWork *work, double closing) {
+  static const char *const column[][2] = {
+      {"pressure", "MPa"}, {"leak at rest", "\xc2\xb5l/h"}, {"per stroke", "nl"}};
   SbStudy *out = work->out;
   SbStudyPanel *pressure = &out->panel[PRESSURE], *rest = &out->panel[LEAK];
   sb_text(rest->empty, sizeof rest->empty, "no leak: every contact is closed");
-  for (int l = 0; l < count; l++) {
+  const SbFitModel own = work->scene->fit;
+  const int lines[LINES] = {line_of(own, 0), line_of(SB_FIT_DISC, 0), line_of(SB_FIT_RING, 0),
+                            line_of(own, 1), line_of(SB_FIT_RING, 1)};
+  unsigned drawn = 0;
+  for (int l = 0; l < LINES; l++) {
     const int line = lines[l], share = line % 2;
+    if ((drawn >> line & 1) != 0) {
+      continue;
+    }
+    drawn |= 1U << line;
     const char *fit = sb_fit_model_name(fit_of(line));
     char name[40];
     sb_text(name, sizeof name, "%s, %.2g MPa", fit,
@@ -159,11 +149,9 @@ static void draw(SbStudyWork *work, const int *lines, int count, double closing)
     }
     note_closing(out, &pressure->series[pressure->series_count - 1], closing);
     for (int q = 0; q < FIGURES && share == 0; q++) {
-      SbStudyColumn *column = &out->column[out->column_count++];
-      *column = (SbStudyColumn){.digits = 3};
-      sb_text(column->name, sizeof column->name, "%s %s", quantity[q], fit);
-      sb_text(column->si, sizeof column->si, "%s", unit[q][0]);
-      sb_text(column->unit, sizeof column->unit, "%s", unit[q][1]);
+      char text[64];
+      sb_text(text, sizeof text, "%s %s [%s]", column[q][0], fit, column[q][1]);
+      sb_study_column(work, text, 0, line, q);
     }
   }
   sb_study_level(work, pressure, "channels close", closing);
@@ -171,7 +159,7 @@ static void draw(SbStudyWork *work, const int *lines, int count, double closing)
 
 // Rows by squeeze at the canister's pressure, then at its tenth; the models at full pressure are
 // the columns.
-static void table(SbStudyWork *work, const int *lines, int count) {
+static void table(SbStudyWork *work) {
   double design = work->scene->seal[SB_OUTER].squeeze;
   const struct {
     double squeeze;
@@ -181,14 +169,7 @@ static void table(SbStudyWork *work, const int *lines, int count) {
   for (int r = 0; r < ROWS; r++) {
     SbStudyRow *row = sb_study_row(work->out, "%.3g %%, %.2g MPa", 100 * rows[r].squeeze,
                                    shares[rows[r].share] * work->scene->canister_pressure * 1e-6);
-    double *cell = row->value;
-    for (int l = 0; l < count; l++) {
-      if (lines[l] % 2 == 0) {
-        memcpy(cell, sb_study_at(work, line_of(fit_of(lines[l]), rows[r].share), rows[r].squeeze),
-               FIGURES * sizeof *cell);
-        cell += FIGURES;
-      }
-    }
+    sb_study_cells(row->value, work, rows[r].squeeze, rows[r].share);
   }
 }
 
@@ -199,24 +180,13 @@ static void make(SbStudyWork *work) {
   SbReport report;
   SbStatus status = sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
                                                 model->gt_product, &report);
-  // Where channels close does not depend on the contact: any will do.
-  SbPercolation closed = {0};
-  SbPercolationProblem any = {.spectrum = &spectrum,
-                              .modulus = model->seal[SB_OUTER].reduced_modulus,
-                              .viscosity = model->viscosity,
-                              .width = 1,
-                              .circumference = 1,
-                              .contact_pressure = 1e9};
-  if (status == SB_OK) {
-    status = sb_percolation_solve(&closed, &any, &report);
-  }
   if (!sb_study_goes_on(work, status, &report)) {
     return;
   }
-  int lines[LINES];
-  int count = choose_lines(lines, model);
-  draw(work, lines, count, closed.closing_pressure);
-  table(work, lines, count);
+  const double closing =
+      sb_percolation_closing_pressure(&spectrum, model->seal[SB_OUTER].reduced_modulus);
+  draw(work, closing);
+  table(work);
   double design = model->seal[SB_OUTER].squeeze;
   sb_study_mark(out, design, "as designed, %.1f %%", 100 * design);
   bool own = model->fit != SB_FIT_DISC && model->fit != SB_FIT_RING;
@@ -226,15 +196,14 @@ static void make(SbStudyWork *work) {
   sb_study_note(out,
                 "Roughness %.3g \xc2\xb5m; channels close at %.3g MPa of solid pressure. Stroke "
                 "%.3g mm at %.4g mm/s. Karaszkiewicz holds from 7 to 25 %%.",
-                model->sigma * 1e6, closed.closing_pressure * 1e-6, model->stroke * 1e3,
-                model->speed * 1e3);
+                model->sigma * 1e6, closing * 1e-6, model->stroke * 1e3, model->speed * 1e3);
 }
 
 const SbStudyDesign sb_study_leak = {
-    .x = {"squeeze of the free section", "1", "%", false},
-    .panel = {{"pressure of the rubber on the bore", "Pa", "MPa", false},
-              {"leak at rest", "m3/s", "\xc2\xb5l/h", true},
-              {"carried out per stroke", "m3", "nl", false}},
+    .x = "squeeze of the free section [%]",
+    .panel = {"pressure of the rubber on the bore [MPa]", "leak at rest [\xc2\xb5l/h]",
+              "carried out per stroke [nl]"},
+    .logarithmic = {false, true, false},
     .range = offsetof(SbStudyRange, squeeze_min),
     .row_heading = "squeeze, pressure",
     .outer = true,

@@ -110,14 +110,12 @@ static void solve(double *value, SbStudyWork *work, int line, double pressure) {
 }
 
 // Contacts with a size, or half their difference from those with another (`less` > 0).
-static void put_row(SbStudyWork *work, const char *name, int size, int less, double pressure) {
-  SbStudyRow *row = sb_study_row(work->out, "%s", name);
-  for (int m = 0; m < TABLE_MODELS; m++) {
-    const double *value = sb_study_at(work, line_of(m, size), pressure);
-    const double *other = sb_study_at(work, line_of(m, less), pressure);
-    for (int q = 0; q < SB_STUDY_CONTACT; q++) {
-      row->value[q * TABLE_MODELS + m] = less > 0 ? (value[q] - other[q]) / 2 : value[q];
-    }
+static void fill_row(double *value, SbStudyWork *work, int size, int less, double pressure) {
+  double other[SB_STUDY_COLUMNS];
+  sb_study_cells(value, work, pressure, line_of(0, size));
+  sb_study_cells(other, work, pressure, line_of(0, less));
+  for (size_t k = 0; less > 0 && k < work->out->column_count; k++) {
+    value[k] = (value[k] - other[k]) / 2;
   }
 }
 
@@ -125,20 +123,19 @@ static void put_table(SbStudyWork *work) {
   const SbModel *model = work->scene;
   const SbSealModel *ring = &model->seal[SB_OUTER];
   const double canister = model->canister_pressure;
-  char name[64];
   for (int p = 0; p < PRESSURES; p++) {
-    sb_text(name, sizeof name, "%.2f MPa", pressures[p] * 1e-6);
-    put_row(work, name, 0, 0, pressures[p]);
+    double *value = sb_study_row(work->out, "%.2f MPa", pressures[p] * 1e-6)->value;
+    fill_row(value, work, 0, 0, pressures[p]);
   }
   for (int size = 1; size < SIZES; size++) {
     bool section = sizes[size].section != 0;
     double diameter = section ? ring->section_diameter + sizes[size].section
                               : ring->inner_diameter + sizes[size].inner;
-    sb_text(name, sizeof name, "%s %.2f mm", section ? "d" : "ID", 1e3 * diameter);
-    put_row(work, name, size, 0, canister);
+    fill_row(sb_study_row(work->out, "%s %.2f mm", section ? "d" : "ID", 1e3 * diameter)->value,
+             work, size, 0, canister);
   }
-  put_row(work, "for d + 0.02 mm", 1, 2, canister);
-  put_row(work, "for ID + 0.02 mm", 3, 4, canister);
+  fill_row(sb_study_row(work->out, "for d + 0.02 mm")->value, work, 1, 2, canister);
+  fill_row(sb_study_row(work->out, "for ID + 0.02 mm")->value, work, 3, 4, canister);
   SbStudyRow *area = sb_study_row(work->out, "friction by shear strength");
   SbStudyRow *both = sb_study_row(work->out, "friction with m");
   sb_text(area->si, sizeof area->si, "1");
@@ -173,24 +170,16 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_models = {
-    .x = {"pressure on the outer seal", "Pa", "MPa", false},
-    .panel = {{"load", "N", "N", false},
-              {"peak pressure", "Pa", "MPa", false},
-              {"contact width", "m", "mm", false},
-              {"friction coefficient by shear strength", "1", "", false}},
+    .x = "pressure on the outer seal [MPa]",
+    .panel = {"load [N]", "peak pressure [MPa]", "contact width [mm]",
+              "friction coefficient by shear strength"},
     .row_heading = "case",
-    .column = {{"load thesis", "N", "N", 3},
-               {"load disc-thesis", "N", "N", 3},
-               {"load disc", "N", "N", 3},
-               {"load ring", "N", "N", 3},
-               {"peak thesis", "Pa", "MPa", 3},
-               {"peak disc-thesis", "Pa", "MPa", 3},
-               {"peak disc", "Pa", "MPa", 3},
-               {"peak ring", "Pa", "MPa", 3},
-               {"width thesis", "m", "mm", 3},
-               {"width disc-thesis", "m", "mm", 3},
-               {"width disc", "m", "mm", 3},
-               {"width ring", "m", "mm", 3}},
+    .column = {"load thesis [N]", "load disc-thesis [N]", "load disc [N]", "load ring [N]",
+               "peak thesis [MPa]", "peak disc-thesis [MPa]", "peak disc [MPa]", "peak ring [MPa]",
+               "width thesis [mm]", "width disc-thesis [mm]", "width disc [mm]", "width ring [mm]"},
+    .line = {THESIS, DISC_THESIS, DISC, RING, THESIS, DISC_THESIS, DISC, RING, THESIS, DISC_THESIS,
+             DISC, RING},
+    .value = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2},
     .validity = "disc-thesis: pressure on both flanks; disc: linear strain; ring: neo-Hookean, "
                 "pressure from the canister against the groove wall",
     .outer = true,

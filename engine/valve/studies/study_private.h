@@ -22,14 +22,17 @@ typedef struct {
   int cycles;       // quasi-static
 } SbStudySolves;
 
-// A study as data. What depends on the scene its make() adds.
+// A study as data. What depends on the scene its make() adds. Quantities are texts with the unit
+// that people read: "central film [nm]".
 typedef struct {
-  SbStudyAxis x;
-  SbStudyAxis panel[SB_STUDY_PANELS]; // up to the first without a quantity
-  size_t range;         // place in SbStudyRange of the least x; the largest stands behind it
-  char row_heading[40]; // of the table; empty: there is none, or make() gives it
-  SbStudyColumn column[SB_STUDY_COLUMNS]; // up to the first without a name
-  char models[160], validity[200];        // empty: make() gives it
+  const char *x, *panel[SB_STUDY_PANELS];
+  bool x_logarithmic, logarithmic[SB_STUDY_PANELS];
+  size_t range;            // place in SbStudyRange of the least x; the largest stands behind it
+  const char *row_heading; // of the table; NULL: there is none, or make() gives it
+  const char *column[SB_STUDY_COLUMNS];
+  int digits[SB_STUDY_COLUMNS];                        // 0: three
+  int line[SB_STUDY_COLUMNS], value[SB_STUDY_COLUMNS]; // of each column, for sb_study_cells()
+  const char *models, *validity;                       // NULL: make() gives it
   // Beside the cycle of the test machine, quasi-static, whatever drives the scene, all questions
   // have fixed: the outer ring as the scene's storage left it, from now on without any, the inner
   // one like it, so that no gland suits but one of them, and the chamber filled.
@@ -58,6 +61,7 @@ struct SbStudyWork {
   SbStatus status;
   double spent, total;         // [s] what questions have cost, and what the study will
   double error[2], largest[2]; // of loads [N] and contact widths [m]: largest errors and values
+  int line[SB_STUDY_COLUMNS], value[SB_STUDY_COLUMNS]; // of the table's columns
   size_t answers;
   struct {
     int line;
@@ -116,6 +120,12 @@ bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report
 SbStudyRow *sb_study_row(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);
 void sb_study_mark(SbStudy *out, double x, const char *format, ...) SB_PRINTF(3, 4);
 void sb_study_note(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);
+
+// Adds a column of the table with the value of a line that stands in its cells.
+void sb_study_column(SbStudyWork *work, const char *quantity, int digits, int line, int value);
+
+// Values of all columns at x, of lines `shift` behind the columns' own.
+void sb_study_cells(double *value, SbStudyWork *work, double x, int shift);
 
 // A reference of one value over the whole abscissa.
 void sb_study_level(SbStudyWork *work, SbStudyPanel *panel, const char *name, double y);

@@ -47,6 +47,12 @@ static void solve(double *value, SbStudyWork *work, int line, double squeeze) {
   sb_study_contact(value, work, override, SB_STUDY_SQUEEZED + 3);
 }
 
+static double against_ring(SbStudyWork *work, int line, double squeeze, int quantity) {
+  const double value = sb_study_at(work, line, squeeze)[quantity];
+  const double ring = sb_study_at(work, RING, squeeze)[quantity];
+  return ring > 0 ? value / ring - 1 : NAN;
+}
+
 static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
@@ -55,19 +61,13 @@ static void make(SbStudyWork *work) {
   sb_text(out->row_heading, sizeof out->row_heading, "as designed, %.1f %%", 100 * design);
   for (int m = 0; m < MODELS; m++) {
     sb_study_curves(work, models[m].style, models[m].name, m, NULL, models[m].points);
-    SbStudyRow *row = sb_study_row(out, "%s", models[m].name);
-    for (int k = 0; k < SB_STUDY_CONTACT + TABLE; k++) {
-      const bool designed = k < SB_STUDY_CONTACT;
-      const double at = designed ? design : table_squeeze[k - SB_STUDY_CONTACT];
-      const double value = sb_study_at(work, m, at)[designed ? k : 0];
-      const double ring = sb_study_at(work, RING, at)[designed ? k : 0];
-      const double difference = ring > 0 ? value / ring - 1 : NAN;
-      if (designed) {
-        row->value[2 * k] = value;
-        row->value[2 * k + 1] = difference;
-      } else {
-        row->value[SB_STUDY_CONTACT + k] = difference;
-      }
+    double *value = sb_study_row(out, "%s", models[m].name)->value;
+    for (int q = 0; q < SB_STUDY_CONTACT; q++) {
+      value[2 * q] = sb_study_at(work, m, design)[q];
+      value[2 * q + 1] = against_ring(work, m, design, q);
+    }
+    for (int k = 0; k < TABLE; k++) {
+      value[2 * SB_STUDY_CONTACT + k] = against_ring(work, m, table_squeeze[k], 0);
     }
   }
   sb_study_note(out,
@@ -79,21 +79,13 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_squeeze = {
-    .x = {"squeeze of the free section", "1", "%", false},
-    .panel = {{"load", "N", "N", false},
-              {"peak pressure", "Pa", "MPa", false},
-              {"contact width", "m", "mm", false}},
+    .x = "squeeze of the free section [%]",
+    .panel = {"load [N]", "peak pressure [MPa]", "contact width [mm]"},
     .range = offsetof(SbStudyRange, squeeze_min),
-    .column = {{"load", "N", "N", 3},
-               {"load against ring", "1", "%", 3},
-               {"peak", "Pa", "MPa", 3},
-               {"peak against ring", "1", "%", 3},
-               {"width", "m", "mm", 3},
-               {"width against ring", "1", "%", 3},
-               {"load against ring at 10 %", "1", "%", 3},
-               {"load against ring at 20 %", "1", "%", 3},
-               {"load against ring at 30 %", "1", "%", 3},
-               {"load against ring at 40 %", "1", "%", 3}},
+    .column = {"load [N]", "load against ring [%]", "peak [MPa]", "peak against ring [%]",
+               "width [mm]", "width against ring [%]", "load against ring at 10 % [%]",
+               "load against ring at 20 % [%]", "load against ring at 30 % [%]",
+               "load against ring at 40 % [%]"},
     .models = "ring, disc, disc-thesis, Lindley (eq. 2.8, 2.10), Green & English (radial), Hertz, "
               "Karaszkiewicz",
     .validity = "Lindley to 25 %, Green & English to 32 %, Karaszkiewicz 7 to 25 %, discs: linear "

@@ -47,18 +47,6 @@ static void solve(double *value, SbStudyWork *work, int seal, double time) {
   }
 }
 
-static void put_row(SbStudyWork *work, SbStudyRow *row, double time) {
-  static const int columns[] = {SECTION, SQUEEZE, MODULUS,
-                                NETWORK, SET,     UPTAKE}; // behind the pairs
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    row->value[seal] = sb_study_at(work, seal, time)[LOAD];
-    row->value[2 + seal] = sb_study_at(work, seal, time)[FRICTION];
-  }
-  for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
-    row->value[4 + k] = sb_study_at(work, SB_OUTER, time)[columns[k]];
-  }
-}
-
 static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
@@ -67,15 +55,14 @@ static void make(SbStudyWork *work) {
   sb_study_curves(work, SB_STUDY_CURVE, "inner seal", SB_INNER, NULL, POINTS);
   for (int i = 0; i < TIMES; i++) {
     if (times[i].time <= work->hi) {
-      put_row(work, sb_study_row(out, "%s", times[i].name), times[i].time);
+      sb_study_cells(sb_study_row(out, "%s", times[i].name)->value, work, times[i].time, 0);
     }
   }
-  put_row(work, sb_study_row(out, "this scene, %.3g days", scene_time / 86400), scene_time);
+  SbStudyRow *scene = sb_study_row(out, "this scene, %.3g days", scene_time / 86400);
+  sb_study_cells(scene->value, work, scene_time, 0);
   sb_study_mark_scene(work, scene_time, "this scene");
-  char film[32];
-  sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model->film, film, sizeof film);
   sb_text(out->models, sizeof out->models, "fit %s, film %s; rubber: %d Prony terms, %s",
-          sb_fit_model_name(model->fit), film, (int)model->rubber.terms,
+          sb_fit_model_name(model->fit), sb_film_model_name(model->film), (int)model->rubber.terms,
           model->rubber.swell_mass > 0 ? "Fickian swell" : "no swell");
   sb_study_note(out,
                 "%.1f K. Sliding at %.4g mm/s, pressures of B to C; the ring of each time is "
@@ -93,23 +80,17 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_storage = {
-    .x = {"storage time", "s", "day", true},
-    .panel = {{"load", "N", "N", false},
-              {"sliding friction", "N", "N", false},
-              {"squeeze", "1", "%", false},
-              {"modulus as held", "Pa", "MPa", false}},
+    .x = "storage time [day]",
+    .x_logarithmic = true,
+    .panel = {"load [N]", "sliding friction [N]", "squeeze [%]", "modulus as held [MPa]"},
     .range = offsetof(SbStudyRange, time_min),
     .row_heading = "stored for",
-    .column = {{"load, outer seal", "N", "N", 3},
-               {"load, inner seal", "N", "N", 3},
-               {"friction, outer seal", "N", "N", 3},
-               {"friction, inner seal", "N", "N", 3},
-               {"section, free", "m", "mm", 3},
-               {"squeeze", "1", "%", 3},
-               {"modulus as held", "Pa", "MPa", 3},
-               {"network left", "1", "%", 3},
-               {"compression set", "1", "%", 3},
-               {"uptake of its equilibrium", "1", "%", 3}},
+    .column = {"load, outer seal [N]", "load, inner seal [N]", "friction, outer seal [N]",
+               "friction, inner seal [N]", "section, free [mm]", "squeeze [%]",
+               "modulus as held [MPa]", "network left [%]", "compression set [%]",
+               "uptake of its equilibrium [%]"},
+    .line = {SB_OUTER, SB_INNER, SB_OUTER, SB_INNER},
+    .value = {LOAD, LOAD, FRICTION, FRICTION, SECTION, SQUEEZE, MODULUS, NETWORK, SET, UPTAKE},
     .validity = "relaxation to ten times its longest time; swell below 50 % by volume; the "
                 "constants are the scene's, the thesis gives but table 2.2",
     .solves = {.fits = (POINTS + TIMES + 1) * SB_SEAL_COUNT,

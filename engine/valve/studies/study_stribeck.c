@@ -63,7 +63,6 @@ static void solve(double *value, SbStudyWork *work, int line, double speed) {
 
 static void make(SbStudyWork *work) {
   static const char *const cycle[] = {"seals.outer.coefficient_of_friction"};
-  static const int columns[] = {CENTRAL, LEAST, RATIO, BOUNDARY, VISCOUS, COEFFICIENT, SHARE, AREA};
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
   work->load = sb_study_net_load(work);
@@ -81,9 +80,7 @@ static void make(SbStudyWork *work) {
     const double speed = sb_study_place(work, i, POINTS);
     SbStudyRow *row = speed < 1 ? sb_study_row(out, "%.3g mm/s", speed * 1e3)
                                 : sb_study_row(out, "%.3g m/s", speed);
-    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
-      row->value[k] = sb_study_at(work, 0, speed)[columns[k]];
-    }
+    sb_study_cells(row->value, work, speed, 0);
   }
   // The cycle's friction at the same speeds, its parts independent of each other.
   SbStudySeries *friction =
@@ -104,20 +101,17 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_stribeck = {
-    .x = {"sliding speed", "m/s", "mm/s", true},
-    .panel = {{"coefficient of friction", "1", "", true},
-              {"load that asperities bear", "1", "%", false},
-              {"central film over roughness", "1", "", true}},
+    .x = "sliding speed [mm/s]",
+    .x_logarithmic = true,
+    .panel = {"coefficient of friction", "load that asperities bear [%]",
+              "central film over roughness"},
+    .logarithmic = {true, false, true},
     .range = offsetof(SbStudyRange, speed_min),
     .row_heading = "Greenwood & Tripp at",
-    .column = {{"central film", "m", "nm", 3},
-               {"least film", "m", "nm", 3},
-               {"film over roughness", "1", "", 3},
-               {"boundary friction", "N/m", "N/m", 3},
-               {"viscous friction", "N/m", "N/m", 3},
-               {"coefficient", "1", "", 3},
-               {"asperities bear", "1", "%", 3},
-               {"real area", "1", "%", 3}},
+    .column = {"central film [nm]", "least film [nm]", "film over roughness",
+               "boundary friction [N/m]", "viscous friction [N/m]", "coefficient",
+               "asperities bear [%]", "real area [%]"},
+    .value = {CENTRAL, LEAST, RATIO, BOUNDARY, VISCOUS, COEFFICIENT, SHARE, AREA},
     .models = "mixed film: reynolds with Greenwood & Tripp or Persson in one solve, half-plane",
     .validity = "isoviscous, no end pressures; Greenwood & Tripp: small real area; the shear "
                 "strength was set with Greenwood & Tripp's",

@@ -99,10 +99,8 @@ static void make(SbStudyWork *work) {
   put_row(work, "load of the inner seal", LOAD_INNER);
   put_row(work, "break-away force", BREAKAWAY);
   put_row(work, "least return force", RETURN);
-  char film[32];
-  sb_param_choice_name(sb_param(SB_P_MODELS_FILM), (int)model->film, film, sizeof film);
   sb_text(out->models, sizeof out->models, "fit %s, film %s, quasi-static cycle of the machine",
-          sb_fit_model_name(model->fit), film);
+          sb_fit_model_name(model->fit), sb_film_model_name(model->film));
   sb_study_note(out,
                 "Half-widths: d %.3g and %.3g mm, ID %.3g and %.3g mm (outer, inner), g %.3g mm, "
                 "D %.3g mm, stem %.3g mm. \"by\": half the difference between the band's ends.",
@@ -112,23 +110,13 @@ static void make(SbStudyWork *work) {
 enum { CYCLES = 2 * STEPS * SIZES + 1 + 2 * FIGURES };
 
 const SbStudyDesign sb_study_tolerance = {
-    .x = {"place in the size's tolerance band", "1", "", false},
-    .panel = {{"load of the outer seal", "N", "N", false},
-              {"break-away force", "N", "N", false},
-              {"least return force", "N", "N", false}},
+    .x = "place in the size's tolerance band",
+    .panel = {"load of the outer seal [N]", "break-away force [N]", "least return force [N]"},
     .row_heading = "figure",
-    .column = {{"nominal", "N", "N", 3},
-               {"worst case, least", "N", "N", 3},
-               {"worst case, most", "N", "N", 3},
-               {"root sum square, least", "N", "N", 3},
-               {"root sum square, most", "N", "N", 3},
-               {"by d, outer", "N", "N", 3},
-               {"by d, inner", "N", "N", 3},
-               {"by ID, outer", "N", "N", 3},
-               {"by ID, inner", "N", "N", 3},
-               {"by g", "N", "N", 3},
-               {"by bore", "N", "N", 3},
-               {"by stem", "N", "N", 3}},
+    .column = {"nominal [N]", "worst case, least [N]", "worst case, most [N]",
+               "root sum square, least [N]", "root sum square, most [N]", "by d, outer [N]",
+               "by d, inner [N]", "by ID, outer [N]", "by ID, inner [N]", "by g [N]", "by bore [N]",
+               "by stem [N]"},
     .validity = "worst case: where every figure rises or falls with every size; root sum of "
                 "squares: independent sizes, linear",
     .solves = {.fits = 2 * CYCLES, .films = 10 * CYCLES, .cycles = CYCLES},
