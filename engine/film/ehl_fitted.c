@@ -146,7 +146,7 @@ void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift) {
   const SbSurfaceCompliance *c = body->compliance;
   double *kernel = s->solver->kernel;
   double *gaps = s->solver->gaps;
-  double *slope = gaps + mesh->targets;
+  double *slope = s->solver->by_shift;
   const double unit = body->side * body->half_width;
   const int modes = c->modes;
   // p_H b over the film's scale.

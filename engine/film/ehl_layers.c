@@ -421,10 +421,6 @@ void sb_ehl_layers_guess(SbEhlSolution *s) {
 }
 
 void sb_ehl_layers_guess_reformed(SbEhlSolution *s, double flux) {
-  int first = s->mesh.count;
-  for (int i = 0; i < s->mesh.count; i++) {
-    first = s->mesh.element[i].apart ? i : first;
-  }
   s->state.flux = flux;
-  fill_from(s, first, NULL, reformed_at);
+  fill_from(s, s->mesh.film_end + 1, NULL, reformed_at);
 }

@@ -202,6 +202,7 @@ void sb_ehl_mesh_begin(SbEhlMesh *mesh, double start, double inlet_pressure,
   mesh->fits = true;
   mesh->end = start;
   mesh->apart = true;
+  mesh->film_end = -1;
   mesh->dofs = 0;
   mesh->rows = 0;
   mesh->inlet_pressure = inlet_pressure;
@@ -231,6 +232,7 @@ static SbEhlElement *next_element(SbEhlMesh *mesh, SbEhlMap map, int degree) {
   e->first_dof = first;
   e->first_row = mesh->rows;
   e->far_pressure = 0.0;
+  mesh->film_end += mesh->film_end + 1 == mesh->count && !e->apart;
   mesh->count++;
   mesh->apart = false;
   mesh->dofs = first + degree + 1;

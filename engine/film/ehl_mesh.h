@@ -97,9 +97,10 @@ typedef struct {
 typedef struct {
   SbEhlTables *tables;
   int count;
-  bool fits;  // so far
-  double end; // so far
-  bool apart; // a cavity lies before the next element
+  bool fits;    // so far
+  double end;   // so far
+  bool apart;   // a cavity lies before the next element
+  int film_end; // element before the cavity, the last one without
   SbEhlElement element[SB_EHL_ELEMENTS_MAX];
   int dofs, rows, targets;
   double inlet_pressure, outlet_pressure; // constant pressure beyond the two ends of the mesh

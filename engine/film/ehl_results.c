@@ -46,10 +46,9 @@ void sb_ehl_carry(SbEhlSolution *to, const SbEhlSolution *from, double scale) {
     excess[i] = old->gap[i] - sb_ehl_layers_dry_gap(&from->c.layers, a->x[i]);
   }
   // New end pressures change the dry contact's pressure, unless a cavity holds one of them off.
-  bool whole = true;
+  const bool whole = b->film_end + 1 == b->count;
   bool same = !rough && a->count == b->count;
   for (int i = 0; i < b->count; i++) {
-    whole = whole && !b->element[i].apart;
     same = same && a->element[i].map == b->element[i].map;
   }
   for (int i = 0; i < b->count; i++) {
@@ -209,12 +208,8 @@ static void add_smooth(SbEhlResults *out, int *thinnest, int *highest, const SbE
   // End of the film: the rupture, or the end of the contact.
   out->film_flux = state->flux;
   out->ruptured = s->c.layers.end != SB_EHL_FULL;
-  out->position_rupture = 1.0 + s->c.layers.middle - state->shift;
-  for (int i = mesh->count - 1; i >= 0 && out->ruptured; i--) {
-    if (i + 1 == mesh->count || mesh->element[i + 1].apart) {
-      out->position_rupture = mesh->element[i].x1;
-    }
-  }
+  out->position_rupture =
+      out->ruptured ? mesh->element[mesh->film_end].x1 : 1.0 + s->c.layers.middle - state->shift;
 }
 
 // Friction and loads of rough rows from node j to the next of element e, by the rule of the nodes.
@@ -227,14 +222,10 @@ static void add_step(SbEhlResults *out, const SbEhlSolution *s, const SbEhlEleme
   const double *full = rule->step[j];
   double film[SB_EHL_DEGREE_MAX + 1] = {0};
   if (!state->cavity[i]) {
-    memcpy(film, full, sizeof film);
-    if (state->cavity[i + 1]) {
-      double end = sb_ehl_rough_film_end(rule, &state->s[e->first_dof], j);
-      sb_ehl_partial(film, rule, j, end);
-      if (!out->ruptured && lambda > 0) {
-        out->position_rupture = sb_ehl_position(e, end);
-        out->ruptured = true;
-      }
+    double end = sb_ehl_rough_weights(film, s, e, j);
+    if (state->cavity[i + 1] && !out->ruptured && lambda > 0) {
+      out->position_rupture = sb_ehl_position(e, end);
+      out->ruptured = true;
     }
   }
   // The kink's error, measured: below 0.03 of the rectangle that it crosses.

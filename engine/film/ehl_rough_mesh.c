@@ -154,10 +154,6 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
     sb_ehl_fitted(s, none, l->middle);
     memcpy(mesh->gap, s->solver->kernel, targets * targets * sizeof(double));
     memcpy(mesh->gap_known, s->solver->gaps, targets * sizeof(double));
-  } else {
-    for (size_t i = 0; i < targets; i++) {
-      mesh->gap_known[i] += 0.5 * mesh->x[i] * mesh->x[i];
-    }
   }
   return true;
 }
