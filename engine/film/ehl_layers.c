@@ -161,8 +161,7 @@ static void add_outlet(SbEhlMesh *mesh, double unit, double reach, int degree) {
     double end = i < 3 ? from + unit * step[i] : from + 2.5 * (mesh->end - from);
     sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, end, degree + 4);
   }
-  sb_ehl_mesh_add_far(mesh, SB_EHL_OUTLET, mesh->end, mesh->end - 1.125 * (mesh->end - from),
-                      degree + 4);
+  sb_ehl_mesh_add_far(mesh, 1, mesh->end, 1.125 * (mesh->end - from), degree + 4);
 }
 
 // A thick film that is full everywhere: elements mirrored about the axis. Its pressure is nearly
@@ -171,11 +170,11 @@ static void full_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   static const double step[] = {-2.0, -1.2, -0.7, -0.3, 0.3, 0.7, 1.2, 2.0, 4.0};
   SbWedgePools wedge = wedge_of(l);
   double unit = wedge_unit(&wedge), end = 4.0 * unit;
-  sb_ehl_mesh_add_far(mesh, SB_EHL_INLET, -end, unit - end, l->degree);
+  sb_ehl_mesh_add_far(mesh, -1, -end, unit, l->degree);
   for (size_t i = 0; i < sizeof step / sizeof step[0]; i++) {
     sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, unit * step[i], l->degree);
   }
-  sb_ehl_mesh_add_far(mesh, SB_EHL_OUTLET, end, end - unit, l->degree);
+  sb_ehl_mesh_add_far(mesh, 1, end, unit, l->degree);
 }
 
 // Elements on the scale of the rigid wedge.
@@ -189,7 +188,7 @@ static void thick_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   double unit = wedge_unit(&wedge);
   double end = rupture_guess(l);
   double from = end - unit * step[0];
-  sb_ehl_mesh_add_far(mesh, SB_EHL_INLET, from, from + unit, l->degree);
+  sb_ehl_mesh_add_far(mesh, -1, from, unit, l->degree);
   for (size_t i = 1; i < sizeof step / sizeof step[0]; i++) {
     sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, end - unit * step[i], l->degree);
   }
@@ -211,7 +210,7 @@ static void add_inlet(SbEhlMesh *mesh, const SbEhlLayers *l) {
     }
     return;
   }
-  sb_ehl_mesh_add_far(mesh, SB_EHL_INLET, -1.0 - 4.0 * in, -1.0 + 0.5 * in, l->degree + 4);
+  sb_ehl_mesh_add_far(mesh, -1, -1.0 - 4.0 * in, 4.5 * in, l->degree + 4);
   for (int i = 0; i < 3 && (i == 0 || -1.0 + in * step[i] < 0.3); i++) {
     sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, -1.0 + in * step[i], l->degree + 4);
   }
@@ -287,7 +286,8 @@ bool sb_ehl_layers_mesh(SbEhlSolution *s) {
     add_outlet(mesh, outlet_width(l), 2.0 * opening(l), l->degree);
   } else if (l->end == SB_EHL_REFORM) {
     double unit = wedge > 0.0 ? 0.3 * wedge : outlet_width(l);
-    sb_ehl_mesh_break(mesh, l->reform);
+    mesh->end = l->reform;
+    mesh->apart = true;
     add_outlet(mesh, 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0), 0.0, l->degree);
   }
   return sb_ehl_mesh_build(mesh, false);

@@ -142,10 +142,10 @@ static double assemble(double *matrix, const SbEhlSolution *s) {
   if (s->c.layers.end != SB_EHL_FULL) {
     const SbEhlElement *e = &mesh->element[mesh->film_end];
     double scale = 1.0 / state->flux;
-    right[next++] = scale * (gaps[e->right_target] - state->flux);
+    right[next++] = scale * (gaps[e->gap_target[e->degree + 1]] - state->flux);
     right[next++] = state->nodal[e->first_dof + e->degree];
     if (matrix != NULL) {
-      sb_ehl_add_gap(row, s, e->right_target, scale);
+      sb_ehl_add_gap(row, s, e->gap_target[e->degree + 1], scale);
       row[dofs + 1] = -scale;
       row += order;
       row[e->first_dof + e->degree] = 1.0;

@@ -70,7 +70,7 @@ void sb_ehl_carry(SbEhlSolution *to, const SbEhlSolution *from, double scale) {
   for (int i = 0; i < b->targets && !rough; i++) {
     double r;
     const SbEhlElement *e = source(&r, a, b, b->owner[i], same, b->x[i]);
-    bool infinite = sb_ehl_infinite(e);
+    bool infinite = e->side != 0;
     double gap = sb_ehl_gap(e, infinite ? excess : old->gap, r);
     new->gap[i] = scale *gap + (infinite ? sb_ehl_layers_dry_gap(&to->c.layers, b->x[i]) : 0.0);
   }
@@ -103,8 +103,8 @@ static double least_about(double *place, const SbEhlSolution *s, int target, boo
   double least = INFINITY;
   for (int i = around > 0 ? around - 1 : 0; i <= around + 1 && i < s->mesh.count; i++) {
     const Sample of = {s, &s->mesh.element[i], pressure};
-    double begin = of.e->map == SB_EHL_INLET ? -0.9 : -1.0;
-    double end = of.e->map == SB_EHL_OUTLET ? 0.9 : 1.0;
+    double begin = of.e->side < 0 ? -0.9 : -1.0;
+    double end = of.e->side > 0 ? 0.9 : 1.0;
     double step = (end - begin) / SAMPLES;
     double best = begin;
     for (int k = 1; k <= SAMPLES; k++) {
@@ -154,7 +154,7 @@ static double element_change(const SbEhlSolution *a, const SbEhlSolution *b, int
                              bool middle) {
   enum { SAMPLES = 9, MIDDLE = SAMPLES / 2 };
   double sum = 0.0;
-  for (int i = 0; i < SAMPLES && !sb_ehl_infinite(&a->mesh.element[element]); i++) {
+  for (int i = 0; i < SAMPLES && a->mesh.element[element].side == 0; i++) {
     double r = 0.24 * (i - MIDDLE);
     double change = film_at(a, element, middle, r) / film_at(b, element, middle, r) - 1.0;
     sum += change * change;
