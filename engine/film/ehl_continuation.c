@@ -22,7 +22,7 @@ static bool lay_out(SbEhlSolution *s) {
 // where the film forms again, is moved until the film's pressure starts there from the one before
 // it, by the pressure's slope.
 static SbStatus iterate(SbEhlSolution *s) {
-  enum { STEPS_MAX = 20 };
+  enum { STEPS_MAX = 40 };
   SbFilmSolver *solver = s->solver;
   const SbEhlMesh *mesh = &s->mesh;
   SbEhlLayers *l = &s->c.layers;
@@ -40,10 +40,10 @@ static SbStatus iterate(SbEhlSolution *s) {
     if (fabs(excess) <= sb_ehl_tolerance(s)) {
       return SB_OK;
     }
-    // A film cannot form again before it breaks, nor begin behind the middle of the contact.
-    double bound =
-        reform ? mesh->element[mesh->film_end].x1 + 1e-4 * sb_ehl_layers_length(l) : -0.5;
-    double room = 0.5 * fabs(*place - bound);
+    // A film cannot form again before it breaks; the inlet changes over its layer.
+    double room = reform ? *place - mesh->element[mesh->film_end].x1
+                         : fmax(fabs(1.0 + *place), sb_ehl_layers_width(l));
+    room *= 0.5;
     *place += fmin(fmax(-excess / slope, -room), room);
     if (!lay_out(s)) {
       break;
@@ -225,49 +225,40 @@ static SbStatus open_cavity(SbFilmSolver *solver, const SbEhlCase *target) {
 }
 
 // Draws the meniscus in from a flooded inlet until the contact takes no more than `supply`: by
-// steps of the logarithm of its distance to the edge until the supply is bracketed, then by
-// secants; last, the supply is given.
+// secants of the flux over the logarithm of its distance to the edge; last, the supply is given.
 static SbStatus draw_meniscus(SbFilmSolver *solver, double supply, double full) {
   enum { STEPS_MAX = 80 };
   static const double FIRST = 30.0, FARTHEST = 1e5; // flooded layer widths
   const double close = 0.03 * (1.0 - supply / full) + 1e-5;
   const double width = sb_ehl_layers_width(&solver->now->c.layers);
-  double far = INFINITY, above = 0.0;  // where the flux is above the supply, and ln of the two
-  double near = INFINITY, below = 0.0; // where it is below
-  double x = log(FIRST), done = INFINITY;
-  bool settled = false; // the mesh is laid out for the supply
   SbEhlCase c = solver->now->c;
+  double x = log(FIRST), step = 0.0;
+  double done = NAN, before = NAN; // the last place, and ln of the flux over the supply there
   for (int i = 0; i < STEPS_MAX && x < log(FARTHEST); i++) {
     c.layers.meniscus = -1.0 - exp(x) * width;
     SbStatus status = take(solver, &c);
-    if (status == SB_ERROR_NOT_CONVERGED && fabs(x - done) > 0.005 && isfinite(done)) {
-      x = 0.5 * (x + done);
+    if (status == SB_ERROR_NOT_CONVERGED && fabs(step) > 0.005) {
+      step *= 0.5;
+      x = done + step;
       continue;
     }
     if (status != SB_OK) {
       return status;
     }
     SbEhlSolution *s = solver->now;
-    done = x;
     double excess = log(s->state.flux / supply);
+    bool settled = c.layers.starvation == supply / full; // near it the mesh is to stay
     if (settled && fabs(excess) < close) {
       s->c.supply = supply;
       return iterate(s);
     }
-    if (!settled) { // near the supply the bracket starts anew on the mesh that is then to stay
-      settled = excess < 0.18;
-      c.layers.starvation = settled ? supply / full : fmin(s->state.flux / full, 1.0);
-      x += settled ? 0.0 : -0.5;
-      continue;
-    }
-    *(excess > 0.0 ? &far : &near) = x;
-    *(excess > 0.0 ? &above : &below) = excess;
-    if (isfinite(far) && isfinite(near)) {
-      double t = below / (below - above); // kept inside the middle of the bracket
-      x = near + fmin(fmax(t, 0.1), 0.9) * (far - near);
-    } else {
-      x += excess > 0.0 ? -0.5 : 1.1;
-    }
+    c.layers.starvation =
+        settled || excess < 0.18 ? supply / full : fmin(s->state.flux / full, 1.0);
+    double rise = (excess - before) / (x - done);
+    step = rise > 0.0 ? fmin(fmax(-excess / rise, -0.5), 1.1) : excess > 0.0 ? -0.5 : 1.1;
+    before = excess;
+    done = x;
+    x += step;
   }
   // Farther away the supply is the flooded flux but for rounding.
   return x < log(FARTHEST) ? SB_ERROR_NOT_CONVERGED : SB_OK;

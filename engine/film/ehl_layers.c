@@ -164,33 +164,23 @@ static void add_outlet(SbEhlMesh *mesh, double unit, double reach, int degree) {
   sb_ehl_mesh_add_far(mesh, 1, mesh->end, 1.125 * (mesh->end - from), degree + 4);
 }
 
-// A thick film that is full everywhere: elements mirrored about the axis. Its pressure is nearly
-// odd and its load the small rest, to which the error of the discretisation must not add.
-static void full_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
-  static const double step[] = {-2.0, -1.2, -0.7, -0.3, 0.3, 0.7, 1.2, 2.0, 4.0};
-  SbWedgePools wedge = wedge_of(l);
-  double unit = wedge_unit(&wedge), end = 4.0 * unit;
-  sb_ehl_mesh_add_far(mesh, -1, -end, unit, l->degree);
-  for (size_t i = 0; i < sizeof step / sizeof step[0]; i++) {
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, unit * step[i], l->degree);
-  }
-  sb_ehl_mesh_add_far(mesh, 1, end, unit, l->degree);
-}
-
-// Elements on the scale of the rigid wedge.
+// Elements on the scale of the rigid wedge, up to the rupture. Of a film that is full everywhere
+// they are mirrored about the axis: its pressure is nearly odd and its load the small rest, to
+// which the error of the discretisation must not add.
 static void thick_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
-  if (l->end == SB_EHL_FULL) {
-    full_mesh(mesh, l);
-    return;
+  static const double broken[] = {-5.0, -2.6, -1.9, -1.3, -0.75, -0.35, -0.1, 0.0};
+  static const double mirrored[] = {-4.0, -2.0, -1.2, -0.7, -0.3, 0.3, 0.7, 1.2, 2.0, 4.0};
+  const bool full = l->end == SB_EHL_FULL;
+  const double *step = full ? mirrored : broken;
+  const size_t count = full ? sizeof mirrored / sizeof *step : sizeof broken / sizeof *step;
+  const double origin = full ? 0.0 : rupture_guess(l);
+  const double unit = sb_ehl_layers_wedge(l);
+  sb_ehl_mesh_add_far(mesh, -1, origin + unit * step[0], unit, l->degree);
+  for (size_t i = 1; i < count; i++) {
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, origin + unit * step[i], l->degree);
   }
-  static const double step[] = {5.0, 2.6, 1.9, 1.3, 0.75, 0.35, 0.1, 0.0};
-  SbWedgePools wedge = wedge_of(l);
-  double unit = wedge_unit(&wedge);
-  double end = rupture_guess(l);
-  double from = end - unit * step[0];
-  sb_ehl_mesh_add_far(mesh, -1, from, unit, l->degree);
-  for (size_t i = 1; i < sizeof step / sizeof step[0]; i++) {
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, end - unit * step[i], l->degree);
+  if (full) {
+    sb_ehl_mesh_add_far(mesh, 1, mesh->end, unit, l->degree);
   }
 }
 
