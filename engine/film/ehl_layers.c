@@ -323,20 +323,12 @@ void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *l, d
   }
 }
 
-// Pressure that a film formed again at X gains until infinity.
+// Pressure that a film formed again gains from X to infinity, by Reynolds' equation on the dry gap
+// well enough to start from: lambda / h^2 over the length on which the gap opens, 1/2 of the
+// product behind the contact's edge, 1/3 far away.
 static double gain(const SbEhlLayers *l, double flux, double X) {
-  // X' = X + t / (1 - t)^2 in units of the film's own length, midpoint rule.
-  enum { POINTS = 200 };
-  double unit = sqrt(2.0 * flux) + 0.1 * (X - rupture_guess(l));
-  double sum = 0.0;
-  for (int i = 0; i < POINTS; i++) {
-    double t = (i + 0.5) / POINTS;
-    double x = X + unit * t / ((1.0 - t) * (1.0 - t));
-    double stretch = unit * (1.0 + t) / ((1.0 - t) * (1.0 - t) * (1.0 - t));
-    double film = flux + sb_ehl_layers_dry_gap(l, x);
-    sum += l->lambda * (film - flux) / (film * film * film) * stretch / POINTS;
-  }
-  return sum;
+  double film = flux + sb_ehl_layers_dry_gap(l, X);
+  return 0.4 * l->lambda * (sqrt(2.0 * flux) + X - rupture_guess(l)) / (film * film);
 }
 
 typedef struct {
@@ -359,42 +351,38 @@ double sb_ehl_layers_reform(const SbEhlLayers *l, double flux) {
   return sb_bisect(excess_gain, &(Reform){l, flux}, begin, begin + reach);
 }
 
-// Start of pressure and gap at X; `wedge` where the film is thick.
+// Start of pressure and gap at X in an element.
 static void start_at(double *pressure, double *film, const SbEhlSolution *s,
-                     const SbWedgePools *wedge, double X) {
+                     const SbWedgePools *wedge, int element, double X) {
   const SbEhlLayers *l = &s->c.layers;
   if (wedge != NULL) {
     double x = X + s->state.shift - l->middle;
     *pressure = sb_wedge_pools_pressure(wedge, x);
     *film = wedge->film + 0.5 * x * x;
+  } else if (element > s->mesh.film_end) {
+    *pressure = l->outlet - gain(l, s->state.flux, X);
+    *film = s->state.flux + sb_ehl_layers_dry_gap(l, X);
   } else {
     sb_ehl_layers_shape(pressure, film, l, s->state.flux, X);
   }
 }
 
-static void reformed_at(double *pressure, double *film, const SbEhlSolution *s,
-                        const SbWedgePools *wedge, double X) {
-  const SbEhlLayers *l = &s->c.layers;
-  *pressure = l->outlet - gain(l, s->state.flux, X);
-  *film = s->state.flux + sb_ehl_layers_dry_gap(l, X);
-}
-
-// Fills a state from element `first` on.
-static void fill_from(SbEhlSolution *s, int first, const SbWedgePools *wedge,
-                      void (*at)(double *, double *, const SbEhlSolution *, const SbWedgePools *,
-                                 double)) {
+// Fills a state from element `first` on: by the rigid wedge where the film is thick, else by the
+// joined layers, behind a cavity by what the film gains there.
+static void fill_from(SbEhlSolution *s, int first, const SbWedgePools *wedge) {
   const SbEhlMesh *mesh = &s->mesh;
-  double pressure, film;
   for (int i = first; i < mesh->count; i++) {
     const SbEhlElement *e = &mesh->element[i];
     for (int k = 0; k <= e->degree; k++) {
-      at(&pressure, &film, s, wedge, sb_ehl_node(e, k));
+      double pressure, film;
+      start_at(&pressure, &film, s, wedge, i, sb_ehl_node(e, k));
       s->state.nodal[e->first_dof + k] = sb_ehl_nodal(e, k, pressure);
     }
   }
   for (int i = 0; i < mesh->targets; i++) {
     if (mesh->owner[i] >= first) {
-      at(&pressure, &s->state.gap[i], s, wedge, mesh->x[i]);
+      double pressure;
+      start_at(&pressure, &s->state.gap[i], s, wedge, mesh->owner[i], mesh->x[i]);
     }
   }
 }
@@ -407,10 +395,10 @@ void sb_ehl_layers_guess(SbEhlSolution *s) {
   s->state.H0 = 0.0;
   s->state.flux = thick ? wedge.stretch * wedge.film : sb_ehl_layers_flux(l);
   s->state.shift = l->middle + (broken ? tan(wedge.end) * wedge.length - rupture_guess(l) : 0.0);
-  fill_from(s, 0, thick ? &wedge : NULL, start_at);
+  fill_from(s, 0, thick ? &wedge : NULL);
 }
 
 void sb_ehl_layers_guess_reformed(SbEhlSolution *s, double flux) {
   s->state.flux = flux;
-  fill_from(s, s->mesh.film_end + 1, NULL, reformed_at);
+  fill_from(s, s->mesh.film_end + 1, NULL);
 }
