@@ -30,6 +30,8 @@
 #include "engine/film/fluid.h"
 #include "engine/film/scale.h"
 
+#include <math.h>
+
 // Scaled gaps below this are closed for all that double precision tells.
 #define SB_EHL_CLOSED 1e-11
 
@@ -87,7 +89,6 @@ typedef struct {
   SbFilmBody body;
   SbEhlLayers layers;
   double supply; // flux film of a starved inlet, scaled; infinite when flooded
-  bool hold;     // a free end stays where it is
   SbFilmFluid fluid;
   SbEhlRough rough;
 } SbEhlCase;
@@ -107,16 +108,11 @@ typedef struct {
   double solid_t;  // slope to t
   double asperity; // p_a
   double share;    // real area
+  // Of a Newton step (ehl_rough_newton.c):
+  double p;                    // film pressure
+  double k, r;                 // dp = dq + k dh; r: what the linear elastic equation lacks
+  double s0, s_h, s_p, s_flow; // ds = s0 + s_h dh + s_p dp + s_flow dkappa
 } SbEhlRoughPoint;
-
-// One Newton step's data at the nodes of rough rows, scaled (ehl_rough_newton.c).
-typedef struct {
-  double p[SB_EHL_DOFS_MAX], k[SB_EHL_DOFS_MAX], r[SB_EHL_DOFS_MAX];
-  // ds = s0 + s_h dh + s_p dp + s_kappa dkappa
-  double s0[SB_EHL_DOFS_MAX], s_h[SB_EHL_DOFS_MAX], s_p[SB_EHL_DOFS_MAX];
-  double s_kappa[SB_EHL_DOFS_MAX];
-  double step[SB_EHL_DOFS_MAX]; // p[i+1] - p[i] - integral of s
-} SbEhlRoughStep;
 
 // Quantities of a solution, scaled, in the flow frame with x from the axis.
 typedef struct {
@@ -147,14 +143,15 @@ struct SbFilmSolver {
   // Work memory.
   double matrix[SB_EHL_ORDER_MAX * SB_EHL_ORDER_MAX]; // of Newton's method, row after row
   double right[SB_EHL_ORDER_MAX];
-  double column[SB_EHL_ORDER_MAX]; // derivative to the free end
   int pivot[SB_EHL_ORDER_MAX];
-  double gaps[2 * SB_EHL_TARGETS_MAX]; // at all targets, and their derivatives to the shift
+  // At all targets: the gap by the pressure, its derivatives to the shift and to the nodal
+  // pressures [targets][dofs] (borrowed), and its change by a step.
+  double gaps[SB_EHL_TARGETS_MAX], by_shift[SB_EHL_TARGETS_MAX], change[SB_EHL_TARGETS_MAX];
+  const double *by_nodal;
   // [targets][dofs] of a fitted body: the half-plane's and the smooth part.
   double kernel[SB_EHL_TARGETS_MAX * SB_EHL_DOFS_MAX];
   SbEhlFittedWork fitted;
   SbEhlRoughPoint point[SB_EHL_DOFS_MAX]; // rough rows: at the nodes
-  SbEhlRoughStep step;
 
   // Whom a solve answers to.
   const SbFilmProblem *problem; // its callback
@@ -223,16 +220,35 @@ void sb_ehl_layers_guess(SbEhlSolution *s);
 double sb_ehl_layers_reform(const SbEhlLayers *layers, double flux);
 void sb_ehl_layers_guess_reformed(SbEhlSolution *s, double flux);
 
-// Newton's method of smooth rows. `independent`: state.gap is a guess of its own, to be made
-// consistent by the first step; otherwise it is computed from the pressure.
-SbStatus sb_ehl_newton(SbEhlSolution *s, bool independent);
+// Newton's method of smooth rows; state.gap is a guess of its own, made consistent by the first
+// step.
+SbStatus sb_ehl_newton(SbEhlSolution *s);
+
+// Where Newton's method of smooth rows ends: what the solver asks for, but no residual is smaller
+// than the rounding of deflections of size one against the film. A fitted body's have more terms.
+static inline double sb_ehl_tolerance(const SbEhlSolution *s) {
+  double rounding = s->c.body.compliance != NULL ? 8e-16 : 1.1e-16;
+  return fmax(s->solver->tolerance, rounding / s->state.flux);
+}
 
 // The same of rough rows.
 SbStatus sb_ehl_rough_newton(SbEhlSolution *s);
 
+// Number of unknowns: nodal pressures, H0, flux film or kappa, and the shift where smooth rows end
+// at a rupture.
+int sb_ehl_order(const SbEhlSolution *s);
+
+// Gap by the state's pressure, with its derivatives, in the solver.
+void sb_ehl_elastic(const SbEhlSolution *s);
+
+// Adds to a row of the matrix `by` times the derivatives of the gap at a target; adds the gaps'
+// changes by the step in solver->right.
+void sb_ehl_add_gap(double *row, const SbEhlSolution *s, int target, double by);
+void sb_ehl_gap_step(double *change, const SbEhlSolution *s);
+
 // Kernel of a fitted body with the axis at `shift`, into solver->kernel ([targets][dofs]), and the
 // gap that it gives at all targets into solver->gaps: the undeformed one and the deflection by the
-// nodal pressures, without H0; behind it the derivatives to the shift.
+// nodal pressures, without H0; into solver->by_shift the derivatives to the shift.
 void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift);
 
 // Load above the ambient step less its target pi/2.
@@ -300,9 +316,9 @@ bool sb_ehl_rough_fronts(SbEhlSolution *s, const SbEhlResults *results);
 void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t);
 double sb_ehl_rough_of_gap(const SbEhlCase *c, double gap);
 
-// Where the film of the sub-interval j of an element ends: the root of the slope, `s` at the
-// element's nodes, as a coordinate in it, or its end.
-double sb_ehl_rough_film_end(const SbEhlTable *rule, const double *s, int j);
+// Weights of the slopes at an element's nodes in the rise of the film pressure from its node j to
+// the next, or to the root of the slope where the film ends between them; coordinate of that end.
+double sb_ehl_rough_weights(double *weight, const SbEhlSolution *s, const SbEhlElement *e, int j);
 
 // The whole solve.
 SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,

@@ -14,33 +14,42 @@
 // the far inlet.
 static const double TENSION = -1e-6;
 
-static SbStatus iterate(SbEhlSolution *s, bool independent) {
-  s->solver->info->continuation_steps++;
-  return s->c.rough.rows ? sb_ehl_rough_newton(s) : sb_ehl_newton(s, independent);
-}
-
 static bool lay_out(SbEhlSolution *s) {
   return s->c.rough.rows ? sb_ehl_rough_mesh(s) : sb_ehl_layers_mesh(s);
 }
 
-static bool has_free_end(const SbEhlCase *c) {
-  return c->layers.end == SB_EHL_REFORM || isfinite(c->layers.meniscus);
-}
-
-// From a guess of pressure and gap, moving a free end last.
-static SbStatus iterate_held(SbEhlSolution *s) {
-  const double flux = s->state.flux;
-  bool release = has_free_end(&s->c) && !s->c.hold;
-  s->c.hold = s->c.hold || release;
-  SbStatus status = iterate(s, true);
-  if (release) {
-    s->c.hold = false;
-    if (isfinite(s->c.layers.meniscus)) {
-      s->state.flux = flux; // supplied
+// Newton's method on the solution's mesh. Of smooth rows a meniscus with its supply, or the place
+// where the film forms again, is moved until the film's pressure starts there from the one before
+// it, by the pressure's slope.
+static SbStatus iterate(SbEhlSolution *s) {
+  enum { STEPS_MAX = 40 };
+  SbFilmSolver *solver = s->solver;
+  const SbEhlMesh *mesh = &s->mesh;
+  SbEhlLayers *l = &s->c.layers;
+  const bool rough = s->c.rough.rows, reform = l->end == SB_EHL_REFORM;
+  double *place = reform ? &l->reform : &l->meniscus;
+  for (int i = 0; i < STEPS_MAX; i++) {
+    solver->info->continuation_steps++;
+    SbStatus status = rough ? sb_ehl_rough_newton(s) : sb_ehl_newton(s);
+    if (status != SB_OK || rough || !(reform || isfinite(s->c.supply))) {
+      return status;
     }
-    status = status == SB_OK ? iterate(s, false) : status;
+    const SbEhlElement *e = &mesh->element[reform ? mesh->film_end + 1 : 0];
+    double slope;
+    double excess = sb_ehl_pressure(&slope, e, s->state.nodal, -1.0) - (reform ? 0.0 : l->inlet);
+    if (fabs(excess) <= sb_ehl_tolerance(s)) {
+      return SB_OK;
+    }
+    // A film cannot form again before it breaks; the inlet changes over its layer.
+    double room = reform ? *place - mesh->element[mesh->film_end].x1
+                         : fmax(fabs(1.0 + *place), sb_ehl_layers_width(l));
+    room *= 0.5;
+    *place += fmin(fmax(-excess / slope, -room), room);
+    if (!lay_out(s)) {
+      break;
+    }
   }
-  return status;
+  return SB_ERROR_NOT_CONVERGED;
 }
 
 // Cold start.
@@ -52,10 +61,10 @@ static SbStatus start_at(SbFilmSolver *solver, const SbEhlCase *c) {
   }
   if (c->rough.rows) {
     sb_ehl_rough_guess(s);
-    return iterate(s, false);
+    return iterate(s);
   }
   sb_ehl_layers_guess(s);
-  SbStatus status = iterate(s, true);
+  SbStatus status = iterate(s);
   // The lowest degree has a false solution now and then where M is near 1: a film many times as
   // thick as the layers let expect, lost on finer meshes. Continuation does not meet it.
   if (status == SB_OK && s->state.flux > 8.0 * sb_ehl_layers_flux(&c->layers)) {
@@ -91,7 +100,7 @@ static SbStatus take(SbFilmSolver *solver, const SbEhlCase *c) {
   if (forms) {
     sb_ehl_layers_guess_reformed(to, from->state.flux);
   }
-  SbStatus status = iterate_held(to);
+  SbStatus status = iterate(to);
   if (status == SB_OK) {
     solver->now = to;
   }
@@ -203,7 +212,7 @@ static SbStatus open_cavity(SbFilmSolver *solver, const SbEhlCase *target) {
     s->c = end;
     if (lay_out(s)) {
       sb_ehl_layers_guess(s);
-      SbStatus status = iterate_held(s);
+      SbStatus status = iterate(s);
       if (status != SB_ERROR_NOT_CONVERGED) {
         return status;
       }
@@ -216,51 +225,40 @@ static SbStatus open_cavity(SbFilmSolver *solver, const SbEhlCase *target) {
 }
 
 // Draws the meniscus in from a flooded inlet until the contact takes no more than `supply`: by
-// steps of the logarithm of its distance to the edge until the supply is bracketed, then by
-// secants; last, the supply is given and the meniscus free.
+// secants of the flux over the logarithm of its distance to the edge; last, the supply is given.
 static SbStatus draw_meniscus(SbFilmSolver *solver, double supply, double full) {
   enum { STEPS_MAX = 80 };
   static const double FIRST = 30.0, FARTHEST = 1e5; // flooded layer widths
   const double close = 0.03 * (1.0 - supply / full) + 1e-5;
   const double width = sb_ehl_layers_width(&solver->now->c.layers);
-  double far = INFINITY, above = 0.0;  // where the flux is above the supply, and ln of the two
-  double near = INFINITY, below = 0.0; // where it is below
-  double x = log(FIRST), done = INFINITY;
-  bool settled = false; // the mesh is laid out for the supply
   SbEhlCase c = solver->now->c;
-  c.hold = true;
+  double x = log(FIRST), step = 0.0;
+  double done = NAN, before = NAN; // the last place, and ln of the flux over the supply there
   for (int i = 0; i < STEPS_MAX && x < log(FARTHEST); i++) {
     c.layers.meniscus = -1.0 - exp(x) * width;
     SbStatus status = take(solver, &c);
-    if (status == SB_ERROR_NOT_CONVERGED && fabs(x - done) > 0.005 && isfinite(done)) {
-      x = 0.5 * (x + done);
+    if (status == SB_ERROR_NOT_CONVERGED && fabs(step) > 0.005) {
+      step *= 0.5;
+      x = done + step;
       continue;
     }
     if (status != SB_OK) {
       return status;
     }
     SbEhlSolution *s = solver->now;
-    done = x;
     double excess = log(s->state.flux / supply);
+    bool settled = c.layers.starvation == supply / full; // near it the mesh is to stay
     if (settled && fabs(excess) < close) {
-      s->c.hold = false;
-      s->c.supply = s->state.flux = supply;
-      return iterate(s, false);
+      s->c.supply = supply;
+      return iterate(s);
     }
-    if (!settled) { // near the supply the bracket starts anew on the mesh that is then to stay
-      settled = excess < 0.18;
-      c.layers.starvation = settled ? supply / full : fmin(s->state.flux / full, 1.0);
-      x += settled ? 0.0 : -0.5;
-      continue;
-    }
-    *(excess > 0.0 ? &far : &near) = x;
-    *(excess > 0.0 ? &above : &below) = excess;
-    if (isfinite(far) && isfinite(near)) {
-      double t = below / (below - above); // kept inside the middle of the bracket
-      x = near + fmin(fmax(t, 0.1), 0.9) * (far - near);
-    } else {
-      x += excess > 0.0 ? -0.5 : 1.1;
-    }
+    c.layers.starvation =
+        settled || excess < 0.18 ? supply / full : fmin(s->state.flux / full, 1.0);
+    double rise = (excess - before) / (x - done);
+    step = rise > 0.0 ? fmin(fmax(-excess / rise, -0.5), 1.1) : excess > 0.0 ? -0.5 : 1.1;
+    before = excess;
+    done = x;
+    x += step;
   }
   // Farther away the supply is the flooded flux but for rounding.
   return x < log(FARTHEST) ? SB_ERROR_NOT_CONVERGED : SB_OK;
@@ -313,8 +311,8 @@ SbStatus sb_ehl_refine(SbFilmSolver *solver, int degree) {
 SbStatus sb_ehl_follow(SbFilmSolver *solver, const SbEhlCase *c) {
   const SbEhlCase *old = &solver->now->c;
   // Far from the old case a cold start is as good.
-  if (old->body.compliance != NULL || c->body.compliance != NULL || has_free_end(old) ||
-      has_free_end(c) || old->layers.end != c->layers.end ||
+  if (old->body.compliance != NULL || c->body.compliance != NULL ||
+      isfinite(old->layers.meniscus) || old->layers.end != c->layers.end ||
       fabs(log(c->layers.lambda / old->layers.lambda)) > 1.5 ||
       fabs(c->layers.inlet - old->layers.inlet) > 0.2 ||
       fabs(c->layers.outlet - old->layers.outlet) > 0.2) {

@@ -86,9 +86,7 @@ static void add_element(SbEhlFittedWork *work, double *state, double *state_slop
   const bool cut = e->map == SB_EHL_AFFINE && (from > -1.0 || to < 1.0);
   for (int q = 0; q < SB_EHL_QUAD && !(cut && to <= from); q++) {
     const double at = e->fine_x[q];
-    double X = e->map == SB_EHL_INLET    ? e->A - e->B / (at * at)
-               : e->map == SB_EHL_OUTLET ? e->A + e->B / (at * at)
-                                         : at;
+    double X = e->side != 0 ? e->A + e->side * e->B / (at * at) : at;
     double weight[SB_EHL_DEGREE_MAX + 2];
     memcpy(weight, e->fine_wb[q], sizeof weight);
     if (cut) {
@@ -146,7 +144,7 @@ void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift) {
   const SbSurfaceCompliance *c = body->compliance;
   double *kernel = s->solver->kernel;
   double *gaps = s->solver->gaps;
-  double *slope = gaps + mesh->targets;
+  double *slope = s->solver->by_shift;
   const double unit = body->side * body->half_width;
   const int modes = c->modes;
   // p_H b over the film's scale.

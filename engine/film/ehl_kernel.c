@@ -83,9 +83,6 @@ static void expand(SbEhlElement *e) {
 void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables) {
   const SbEhlTable *t = e->table;
   int columns = e->degree + 2;
-  for (int k = 0; k <= e->degree && e->map == SB_EHL_COSINE; k++) {
-    e->node_sine[k] = sin(e->m + e->h * t->node[k]);
-  }
   int extra = e->map == SB_EHL_AFFINE ? 0 : e->map == SB_EHL_COSINE ? 10 : 1;
   e->modes = e->degree + extra;
   memset(e->project, 0, sizeof e->project);
@@ -100,7 +97,7 @@ void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables) {
       e->fine_wb[q][k] = scale * local.value[k];
     }
     e->fine_wb[q][e->degree + 1] = scale * (local.known - e->far_pressure);
-    e->fine_x[q] = sb_ehl_infinite(e) ? sb_ehl_inverse(e, r) : sb_ehl_position(e, r);
+    e->fine_x[q] = e->side != 0 ? sb_ehl_inverse(e, r) : sb_ehl_position(e, r);
     value[q] = 1.0;
   }
   accumulate(e->integral, value, e->fine_wb[0], SB_EHL_QUAD, columns);
@@ -110,13 +107,13 @@ void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables) {
     }
     accumulate(e->project[k], value, e->fine_wb[0], SB_EHL_QUAD, columns);
   }
-  if (!sb_ehl_infinite(e)) {
+  if (e->side == 0) {
     expand(e);
     return;
   }
   // Integral with ln s, the distance from the infinite end.
   double moment[SB_EHL_PROJECT + 1];
-  moments(moment, e->map == SB_EHL_INLET ? -1.0 : 1.0, 0.0, e->modes);
+  moments(moment, e->side, 0.0, e->modes);
   for (int j = 0; j < columns; j++) {
     e->log_s[j] = -log(2.0) * e->integral[j];
   }
@@ -138,10 +135,8 @@ static void add_constant(double *row, const SbEhlElement *e, double value) {
   }
 }
 
-// Finite elements: row[j] = integral of column j times ln|X - X'|. `angle` is acos(-X) inside the
-// contact, acosh|X| outside.
-static void row_finite(double *row, const SbEhlElement *e, const double *fine, double X,
-                       double angle) {
+// Finite elements: row[j] = integral of column j times ln|X - X'|.
+static void row_finite(double *row, const SbEhlElement *e, const double *fine, double X) {
   double value[SB_EHL_QUAD];
   double z = fabs(X - e->middle) / e->half;
   if (z > FAR) {
@@ -161,10 +156,10 @@ static void row_finite(double *row, const SbEhlElement *e, const double *fine, d
   if (e->map == SB_EHL_AFFINE) {
     real = (X - e->m) / e->h;
   } else if (fabs(X) <= 1.0) {
-    real = (angle - e->m) / e->h;
+    real = (acos(-X) - e->m) / e->h;
   } else {
     real = ((X < 0.0 ? 0.0 : M_PI) - e->m) / e->h;
-    imaginary = angle / e->h;
+    imaginary = acosh(fabs(X)) / e->h;
   }
   double distance = imaginary == 0.0
                         ? fmax(1.0, fabs(real))
@@ -195,12 +190,11 @@ static void row_finite(double *row, const SbEhlElement *e, const double *fine, d
 // Infinite elements: |X - X'| = |B + a s^2| / s^2 with a = X - A (inlet) or A - X (outlet).
 static void row_infinite(double *row, const SbEhlElement *e, double X) {
   double value[SB_EHL_QUAD];
-  double side = e->map == SB_EHL_INLET ? 1.0 : -1.0;
-  double a = side * (X - e->A);
+  double a = e->side * (e->A - X);
   for (int j = 0; j < e->degree + 2; j++) {
     row[j] -= 2.0 * e->log_s[j];
   }
-  // Roots s = +-y or +-iy; in r they are side (2 s - 1).
+  // Roots s = +-y or +-iy; in r they are side (1 - 2 s).
   double y = a != 0.0 ? sqrt(e->B / fabs(a)) : 1e30;
   bool near = a < 0.0 ? 2.0 * y - 1.0 < NEAR : sqrt(1.0 + y * y) + y < NEAR;
   if (!near) {
@@ -212,10 +206,10 @@ static void row_infinite(double *row, const SbEhlElement *e, double X) {
   }
   double moment[SB_EHL_PROJECT + 1];
   if (a < 0.0) {
-    moments(moment, side * (2.0 * y - 1.0), 0.0, e->modes);
+    moments(moment, e->side * (1.0 - 2.0 * y), 0.0, e->modes);
     add_moments(row, e, moment);
     if (2.0 * y + 1.0 < NEAR) {
-      moments(moment, -side * (2.0 * y + 1.0), 0.0, e->modes);
+      moments(moment, e->side * (2.0 * y + 1.0), 0.0, e->modes);
       add_moments(row, e, moment);
     } else {
       for (int q = 0; q < SB_EHL_QUAD; q++) {
@@ -224,7 +218,7 @@ static void row_infinite(double *row, const SbEhlElement *e, double X) {
       add_values(row, e, value);
     }
   } else {
-    moments(moment, -side, 2.0 * y, e->modes);
+    moments(moment, e->side, 2.0 * y, e->modes);
     for (int k = 0; k <= e->modes; k++) {
       moment[k] *= 2.0;
     }
@@ -233,11 +227,10 @@ static void row_infinite(double *row, const SbEhlElement *e, double X) {
   add_constant(row, e, log(0.25 * fabs(a)));
 }
 
-void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *tables, double X,
-                       double angle) {
-  if (sb_ehl_infinite(e)) {
+void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *tables, double X) {
+  if (e->side != 0) {
     row_infinite(row, e, X);
   } else {
-    row_finite(row, e, tables->fine, X, angle);
+    row_finite(row, e, tables->fine, X);
   }
 }

@@ -161,37 +161,26 @@ static void add_outlet(SbEhlMesh *mesh, double unit, double reach, int degree) {
     double end = i < 3 ? from + unit * step[i] : from + 2.5 * (mesh->end - from);
     sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, end, degree + 4);
   }
-  sb_ehl_mesh_add_far(mesh, SB_EHL_OUTLET, mesh->end, mesh->end - 1.125 * (mesh->end - from),
-                      degree + 4);
+  sb_ehl_mesh_add_far(mesh, 1, mesh->end, 1.125 * (mesh->end - from), degree + 4);
 }
 
-// A thick film that is full everywhere: elements mirrored about the axis. Its pressure is nearly
-// odd and its load the small rest, to which the error of the discretisation must not add.
-static void full_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
-  static const double step[] = {-2.0, -1.2, -0.7, -0.3, 0.3, 0.7, 1.2, 2.0, 4.0};
-  SbWedgePools wedge = wedge_of(l);
-  double unit = wedge_unit(&wedge), end = 4.0 * unit;
-  sb_ehl_mesh_add_far(mesh, SB_EHL_INLET, -end, unit - end, l->degree);
-  for (size_t i = 0; i < sizeof step / sizeof step[0]; i++) {
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, unit * step[i], l->degree);
-  }
-  sb_ehl_mesh_add_far(mesh, SB_EHL_OUTLET, end, end - unit, l->degree);
-}
-
-// Elements on the scale of the rigid wedge.
+// Elements on the scale of the rigid wedge, up to the rupture. Of a film that is full everywhere
+// they are mirrored about the axis: its pressure is nearly odd and its load the small rest, to
+// which the error of the discretisation must not add.
 static void thick_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
-  if (l->end == SB_EHL_FULL) {
-    full_mesh(mesh, l);
-    return;
+  static const double broken[] = {-5.0, -2.6, -1.9, -1.3, -0.75, -0.35, -0.1, 0.0};
+  static const double mirrored[] = {-4.0, -2.0, -1.2, -0.7, -0.3, 0.3, 0.7, 1.2, 2.0, 4.0};
+  const bool full = l->end == SB_EHL_FULL;
+  const double *step = full ? mirrored : broken;
+  const size_t count = full ? sizeof mirrored / sizeof *step : sizeof broken / sizeof *step;
+  const double origin = full ? 0.0 : rupture_guess(l);
+  const double unit = sb_ehl_layers_wedge(l);
+  sb_ehl_mesh_add_far(mesh, -1, origin + unit * step[0], unit, l->degree);
+  for (size_t i = 1; i < count; i++) {
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, origin + unit * step[i], l->degree);
   }
-  static const double step[] = {5.0, 2.6, 1.9, 1.3, 0.75, 0.35, 0.1, 0.0};
-  SbWedgePools wedge = wedge_of(l);
-  double unit = wedge_unit(&wedge);
-  double end = rupture_guess(l);
-  double from = end - unit * step[0];
-  sb_ehl_mesh_add_far(mesh, SB_EHL_INLET, from, from + unit, l->degree);
-  for (size_t i = 1; i < sizeof step / sizeof step[0]; i++) {
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, end - unit * step[i], l->degree);
+  if (full) {
+    sb_ehl_mesh_add_far(mesh, 1, mesh->end, unit, l->degree);
   }
 }
 
@@ -211,7 +200,7 @@ static void add_inlet(SbEhlMesh *mesh, const SbEhlLayers *l) {
     }
     return;
   }
-  sb_ehl_mesh_add_far(mesh, SB_EHL_INLET, -1.0 - 4.0 * in, -1.0 + 0.5 * in, l->degree + 4);
+  sb_ehl_mesh_add_far(mesh, -1, -1.0 - 4.0 * in, 4.5 * in, l->degree + 4);
   for (int i = 0; i < 3 && (i == 0 || -1.0 + in * step[i] < 0.3); i++) {
     sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, -1.0 + in * step[i], l->degree + 4);
   }
@@ -287,7 +276,8 @@ bool sb_ehl_layers_mesh(SbEhlSolution *s) {
     add_outlet(mesh, outlet_width(l), 2.0 * opening(l), l->degree);
   } else if (l->end == SB_EHL_REFORM) {
     double unit = wedge > 0.0 ? 0.3 * wedge : outlet_width(l);
-    sb_ehl_mesh_break(mesh, l->reform);
+    mesh->end = l->reform;
+    mesh->apart = true;
     add_outlet(mesh, 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0), 0.0, l->degree);
   }
   return sb_ehl_mesh_build(mesh, false);
@@ -333,20 +323,12 @@ void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *l, d
   }
 }
 
-// Pressure that a film formed again at X gains until infinity.
+// Pressure that a film formed again gains from X to infinity, by Reynolds' equation on the dry gap
+// well enough to start from: lambda / h^2 over the length on which the gap opens, 1/2 of the
+// product behind the contact's edge, 1/3 far away.
 static double gain(const SbEhlLayers *l, double flux, double X) {
-  // X' = X + t / (1 - t)^2 in units of the film's own length, midpoint rule.
-  enum { POINTS = 200 };
-  double unit = sqrt(2.0 * flux) + 0.1 * (X - rupture_guess(l));
-  double sum = 0.0;
-  for (int i = 0; i < POINTS; i++) {
-    double t = (i + 0.5) / POINTS;
-    double x = X + unit * t / ((1.0 - t) * (1.0 - t));
-    double stretch = unit * (1.0 + t) / ((1.0 - t) * (1.0 - t) * (1.0 - t));
-    double film = flux + sb_ehl_layers_dry_gap(l, x);
-    sum += l->lambda * (film - flux) / (film * film * film) * stretch / POINTS;
-  }
-  return sum;
+  double film = flux + sb_ehl_layers_dry_gap(l, X);
+  return 0.4 * l->lambda * (sqrt(2.0 * flux) + X - rupture_guess(l)) / (film * film);
 }
 
 typedef struct {
@@ -369,42 +351,38 @@ double sb_ehl_layers_reform(const SbEhlLayers *l, double flux) {
   return sb_bisect(excess_gain, &(Reform){l, flux}, begin, begin + reach);
 }
 
-// Start of pressure and gap at X; `wedge` where the film is thick.
+// Start of pressure and gap at X in an element.
 static void start_at(double *pressure, double *film, const SbEhlSolution *s,
-                     const SbWedgePools *wedge, double X) {
+                     const SbWedgePools *wedge, int element, double X) {
   const SbEhlLayers *l = &s->c.layers;
   if (wedge != NULL) {
     double x = X + s->state.shift - l->middle;
     *pressure = sb_wedge_pools_pressure(wedge, x);
     *film = wedge->film + 0.5 * x * x;
+  } else if (element > s->mesh.film_end) {
+    *pressure = l->outlet - gain(l, s->state.flux, X);
+    *film = s->state.flux + sb_ehl_layers_dry_gap(l, X);
   } else {
     sb_ehl_layers_shape(pressure, film, l, s->state.flux, X);
   }
 }
 
-static void reformed_at(double *pressure, double *film, const SbEhlSolution *s,
-                        const SbWedgePools *wedge, double X) {
-  const SbEhlLayers *l = &s->c.layers;
-  *pressure = l->outlet - gain(l, s->state.flux, X);
-  *film = s->state.flux + sb_ehl_layers_dry_gap(l, X);
-}
-
-// Fills a state from element `first` on.
-static void fill_from(SbEhlSolution *s, int first, const SbWedgePools *wedge,
-                      void (*at)(double *, double *, const SbEhlSolution *, const SbWedgePools *,
-                                 double)) {
+// Fills a state from element `first` on: by the rigid wedge where the film is thick, else by the
+// joined layers, behind a cavity by what the film gains there.
+static void fill_from(SbEhlSolution *s, int first, const SbWedgePools *wedge) {
   const SbEhlMesh *mesh = &s->mesh;
-  double pressure, film;
   for (int i = first; i < mesh->count; i++) {
     const SbEhlElement *e = &mesh->element[i];
     for (int k = 0; k <= e->degree; k++) {
-      at(&pressure, &film, s, wedge, sb_ehl_node(e, k));
+      double pressure, film;
+      start_at(&pressure, &film, s, wedge, i, sb_ehl_node(e, k));
       s->state.nodal[e->first_dof + k] = sb_ehl_nodal(e, k, pressure);
     }
   }
   for (int i = 0; i < mesh->targets; i++) {
     if (mesh->owner[i] >= first) {
-      at(&pressure, &s->state.gap[i], s, wedge, mesh->x[i]);
+      double pressure;
+      start_at(&pressure, &s->state.gap[i], s, wedge, mesh->owner[i], mesh->x[i]);
     }
   }
 }
@@ -417,14 +395,10 @@ void sb_ehl_layers_guess(SbEhlSolution *s) {
   s->state.H0 = 0.0;
   s->state.flux = thick ? wedge.stretch * wedge.film : sb_ehl_layers_flux(l);
   s->state.shift = l->middle + (broken ? tan(wedge.end) * wedge.length - rupture_guess(l) : 0.0);
-  fill_from(s, 0, thick ? &wedge : NULL, start_at);
+  fill_from(s, 0, thick ? &wedge : NULL);
 }
 
 void sb_ehl_layers_guess_reformed(SbEhlSolution *s, double flux) {
-  int first = s->mesh.count;
-  for (int i = 0; i < s->mesh.count; i++) {
-    first = s->mesh.element[i].apart ? i : first;
-  }
   s->state.flux = flux;
-  fill_from(s, first, NULL, reformed_at);
+  fill_from(s, s->mesh.film_end + 1, NULL);
 }

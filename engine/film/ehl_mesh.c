@@ -99,45 +99,23 @@ double sb_ehl_interpolate(const SbEhlTable *t, const double *value, double r) {
 // ---------------------------------------------------------------- maps
 
 double sb_ehl_position(const SbEhlElement *e, double r) {
-  double s;
-  switch (e->map) {
-  case SB_EHL_AFFINE:
-    return e->m + e->h * r;
-  case SB_EHL_COSINE:
-    return -cos(e->m + e->h * r);
-  case SB_EHL_INLET:
-    s = sb_ehl_inverse(e, r);
-    return e->A - e->B / (s * s);
-  default:
-    s = sb_ehl_inverse(e, r);
-    return e->A + e->B / (s * s);
-  }
+  double s = sb_ehl_inverse(e, r);
+  return e->map == SB_EHL_AFFINE   ? e->m + e->h * r
+         : e->map == SB_EHL_COSINE ? -cos(e->m + e->h * r)
+                                   : e->A + e->side * e->B / (s * s);
 }
 
 double sb_ehl_stretch(const SbEhlElement *e, double r) {
-  switch (e->map) {
-  case SB_EHL_AFFINE:
-    return e->h;
-  case SB_EHL_COSINE:
-    return e->h * sin(e->m + e->h * r);
-  default: {
-    double s = sb_ehl_inverse(e, r);
-    return e->B / (s * s * s);
-  }
-  }
+  double s = sb_ehl_inverse(e, r);
+  return e->map == SB_EHL_AFFINE   ? e->h
+         : e->map == SB_EHL_COSINE ? e->h * sin(e->m + e->h * r)
+                                   : e->B / (s * s * s);
 }
 
 double sb_ehl_coordinate(const SbEhlElement *e, double X) {
-  switch (e->map) {
-  case SB_EHL_AFFINE:
-    return (X - e->m) / e->h;
-  case SB_EHL_COSINE:
-    return (acos(fmin(fmax(-X, -1.0), 1.0)) - e->m) / e->h;
-  case SB_EHL_INLET:
-    return 2.0 * sqrt(e->B / (e->A - X)) - 1.0;
-  default:
-    return 1.0 - 2.0 * sqrt(e->B / (X - e->A));
-  }
+  return e->map == SB_EHL_AFFINE   ? (X - e->m) / e->h
+         : e->map == SB_EHL_COSINE ? (acos(fmin(fmax(-X, -1.0), 1.0)) - e->m) / e->h
+                                   : e->side * (1.0 - 2.0 * sqrt(e->B / fabs(X - e->A)));
 }
 
 int sb_ehl_find(const SbEhlMesh *mesh, double X) {
@@ -151,14 +129,18 @@ int sb_ehl_find(const SbEhlMesh *mesh, double X) {
 // Factor of the nodal polynomial in the pressure.
 static double factor_at(const SbEhlElement *e, double r) {
   double s = sb_ehl_inverse(e, r);
-  return sb_ehl_infinite(e) ? s * s * s * s : 1.0;
+  return e->side != 0 ? s * s * s * s : 1.0;
+}
+
+// The node of an infinite element that touches the neighbour; it holds the full pressure.
+static int touching(const SbEhlElement *e) {
+  return e->side < 0 ? e->degree : 0;
 }
 
 // Coordinate of a node, for the one at infinity that of its neighbour.
 static double node_at(const SbEhlElement *e, int k) {
-  bool inlet = e->map == SB_EHL_INLET && k == 0;
-  bool outlet = e->map == SB_EHL_OUTLET && k == e->degree;
-  return e->table->node[inlet ? 1 : outlet ? k - 1 : k];
+  bool infinite = e->side != 0 && k == e->degree - touching(e);
+  return e->table->node[infinite ? k - e->side : k];
 }
 
 double sb_ehl_node(const SbEhlElement *e, int k) {
@@ -166,9 +148,7 @@ double sb_ehl_node(const SbEhlElement *e, int k) {
 }
 
 double sb_ehl_nodal(const SbEhlElement *e, int k, double pressure) {
-  // The node that touches the neighbour holds the full pressure.
-  bool touching = k == (e->map == SB_EHL_INLET ? e->degree : 0);
-  return touching ? pressure : (pressure - e->far_pressure) / factor_at(e, node_at(e, k));
+  return k == touching(e) ? pressure : (pressure - e->far_pressure) / factor_at(e, node_at(e, k));
 }
 
 void sb_ehl_local(SbEhlLocal *out, const SbEhlElement *e, const double *basis, const double *rise,
@@ -176,7 +156,7 @@ void sb_ehl_local(SbEhlLocal *out, const SbEhlElement *e, const double *basis, c
   double stretch = sb_ehl_stretch(e, r);
   double s = sb_ehl_inverse(e, r);
   double factor = factor_at(e, r);
-  double factor_rise = sb_ehl_infinite(e) ? (e->map == SB_EHL_INLET ? 2.0 : -2.0) * s * s * s : 0.0;
+  double factor_rise = -2.0 * e->side * s * s * s;
   out->known = e->far_pressure;
   out->known_slope = 0.0;
   if (e->map == SB_EHL_COSINE) {
@@ -186,12 +166,8 @@ void sb_ehl_local(SbEhlLocal *out, const SbEhlElement *e, const double *basis, c
   for (int k = 0; k <= e->degree; k++) {
     out->value[k] = factor * basis[k];
     out->slope[k] = rise != NULL ? (factor * rise[k] + factor_rise * basis[k]) / stretch : 0.0;
-    // The known part at a node is zero: of the sine, or of the far pressure where the node that
-    // touches the neighbour holds the full pressure.
-    bool touching = k == (e->map == SB_EHL_INLET ? e->degree : 0);
-    double at_node = e->map == SB_EHL_COSINE ? e->node_sine[k] : touching ? e->far_pressure : 0.0;
-    out->known -= out->value[k] * at_node;
-    out->known_slope -= out->slope[k] * at_node;
+    out->known -= out->value[k] * e->node_known[k];
+    out->known_slope -= out->slope[k] * e->node_known[k];
   }
 }
 
@@ -203,21 +179,17 @@ void sb_ehl_mesh_begin(SbEhlMesh *mesh, double start, double inlet_pressure,
   mesh->fits = true;
   mesh->end = start;
   mesh->apart = true;
+  mesh->film_end = -1;
   mesh->dofs = 0;
   mesh->rows = 0;
   mesh->inlet_pressure = inlet_pressure;
   mesh->outlet_pressure = outlet_pressure;
 }
 
-void sb_ehl_mesh_break(SbEhlMesh *mesh, double start) {
-  mesh->end = start;
-  mesh->apart = true;
-}
-
 // The next element, with its unknowns; NULL if it does not fit.
 static SbEhlElement *next_element(SbEhlMesh *mesh, SbEhlMap map, int degree) {
   int first = mesh->apart ? mesh->dofs : mesh->dofs - 1;
-  int points = degree + (map == SB_EHL_INLET || map == SB_EHL_OUTLET ? 1 : 0);
+  int points = degree + (map == SB_EHL_FAR);
   mesh->fits = mesh->fits && degree <= SB_EHL_DEGREE_MAX && mesh->count < SB_EHL_ELEMENTS_MAX &&
                first + degree + 1 <= SB_EHL_DOFS_MAX && mesh->rows + points <= SB_EHL_DOFS_MAX;
   if (!mesh->fits) {
@@ -225,6 +197,7 @@ static SbEhlElement *next_element(SbEhlMesh *mesh, SbEhlMap map, int degree) {
   }
   SbEhlElement *e = &mesh->element[mesh->count];
   e->map = map;
+  e->side = 0;
   e->degree = degree;
   e->table = sb_ehl_table(mesh->tables, degree);
   e->points = points;
@@ -232,6 +205,8 @@ static SbEhlElement *next_element(SbEhlMesh *mesh, SbEhlMap map, int degree) {
   e->first_dof = first;
   e->first_row = mesh->rows;
   e->far_pressure = 0.0;
+  memset(e->node_known, 0, sizeof e->node_known);
+  mesh->film_end += mesh->film_end + 1 == mesh->count && !e->apart;
   mesh->count++;
   mesh->apart = false;
   mesh->dofs = first + degree + 1;
@@ -248,55 +223,62 @@ void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double end, int degree) {
     double last = map == SB_EHL_COSINE ? acos(-e->x1) : e->x1;
     e->m = 0.5 * (begin + last);
     e->h = 0.5 * (last - begin);
+    for (int k = 0; k <= degree && map == SB_EHL_COSINE; k++) {
+      e->node_known[k] = sin(e->m + e->h * e->table->node[k]);
+    }
   }
   mesh->end = end;
 }
 
-void sb_ehl_mesh_add_far(SbEhlMesh *mesh, SbEhlMap map, double x, double A, int degree) {
-  SbEhlElement *e = next_element(mesh, map, degree);
+void sb_ehl_mesh_add_far(SbEhlMesh *mesh, int side, double x, double B, int degree) {
+  SbEhlElement *e = next_element(mesh, SB_EHL_FAR, degree);
   if (e != NULL) {
+    e->side = side;
     e->x0 = e->x1 = x;
-    e->A = A;
-    e->B = fabs(A - x);
-    e->far_pressure = map == SB_EHL_INLET ? mesh->inlet_pressure : mesh->outlet_pressure;
+    e->A = x - side * B;
+    e->B = B;
+    e->far_pressure = side < 0 ? mesh->inlet_pressure : mesh->outlet_pressure;
+    e->node_known[touching(e)] = e->far_pressure;
   }
   mesh->end = x;
 }
 
+// The next target, in an element.
+static int add_target(SbEhlMesh *mesh, int element, double X) {
+  mesh->owner[mesh->targets] = element;
+  mesh->x[mesh->targets] = X;
+  return mesh->targets++;
+}
+
 // Position and owner of every target: collocation points, then ends.
 static void place_targets(SbEhlMesh *mesh) {
-  int targets = mesh->rows;
+  mesh->targets = 0;
   for (int i = 0; i < mesh->count; i++) {
-    SbEhlElement *e = &mesh->element[i];
+    const SbEhlElement *e = &mesh->element[i];
     const SbEhlTable *t = e->table;
     int rule = e->points - e->degree;
     for (int k = 0; k < e->points; k++) {
       double r = t->gauss[rule][k];
-      int row = e->first_row + k;
-      mesh->x[row] = sb_ehl_position(e, r);
-      mesh->owner[row] = i;
+      int row = add_target(mesh, i, sb_ehl_position(e, r));
       mesh->weight[row] = t->weight[rule][k] * sb_ehl_stretch(e, r);
       sb_ehl_local(&mesh->local[row], e, t->value[rule][k], t->slope[rule][k], r);
     }
-    // Ends: the left one is the right one of the element before, unless apart or first.
-    e->left_target = -1;
-    if (e->map != SB_EHL_INLET) {
-      if (i > 0 && !e->apart) {
-        e->left_target = mesh->element[i - 1].right_target;
-      } else {
-        e->left_target = targets;
-        mesh->owner[targets] = i;
-        mesh->x[targets++] = e->x0;
-      }
+  }
+  // Ends: the left one is the right one of the element before, unless apart or first.
+  int before = -1;
+  for (int i = 0; i < mesh->count; i++) {
+    SbEhlElement *e = &mesh->element[i];
+    int *target = e->gap_target;
+    if (e->side >= 0) {
+      *target++ = before < 0 || e->apart ? add_target(mesh, i, e->x0) : before;
     }
-    e->right_target = -1;
-    if (e->map != SB_EHL_OUTLET) {
-      e->right_target = targets;
-      mesh->owner[targets] = i;
-      mesh->x[targets++] = e->x1;
+    for (int k = 0; k < e->points; k++) {
+      *target++ = e->first_row + k;
+    }
+    if (e->side <= 0) {
+      *target = before = add_target(mesh, i, e->x1);
     }
   }
-  mesh->targets = targets;
 }
 
 // The nodes for targets.
@@ -333,16 +315,13 @@ bool sb_ehl_mesh_build(SbEhlMesh *mesh, bool nodal) {
   (nodal ? place_nodes : place_targets)(mesh);
   const SbEhlElement *first = &mesh->element[0];
   const SbEhlElement *last = &mesh->element[mesh->count - 1];
-  mesh->left_end = first->map == SB_EHL_INLET ? first->x1 : first->x0;
-  mesh->right_end = last->map == SB_EHL_OUTLET ? last->x0 : last->x1;
+  mesh->left_end = first->x0;
+  mesh->right_end = last->x1;
 
   // Element by element, as its tables fill the nearest cache.
   memset(mesh->gap, 0, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *mesh->gap);
-  double angle[SB_EHL_TARGETS_MAX];
   for (int i = 0; i < mesh->targets; i++) {
-    double X = mesh->x[i];
-    angle[i] = fabs(X) <= 1.0 ? acos(-X) : acosh(fabs(X));
-    mesh->gap_known[i] = sb_ehl_ambient_gap(X, mesh->left_end, mesh->right_end,
+    mesh->gap_known[i] = sb_ehl_ambient_gap(mesh->x[i], mesh->left_end, mesh->right_end,
                                             mesh->inlet_pressure, mesh->outlet_pressure);
   }
   for (int k = 0; k < mesh->count; k++) {
@@ -350,7 +329,7 @@ bool sb_ehl_mesh_build(SbEhlMesh *mesh, bool nodal) {
     for (int i = 0; i < mesh->targets; i++) {
       double *gap = mesh->gap + (size_t)i * (size_t)mesh->dofs + e->first_dof;
       double row[COLUMNS] = {0};
-      sb_ehl_kernel_row(row, e, mesh->tables, mesh->x[i], angle[i]);
+      sb_ehl_kernel_row(row, e, mesh->tables, mesh->x[i]);
       for (int j = 0; j <= e->degree; j++) {
         gap[j] -= INVERSE_PI * row[j];
       }
@@ -398,16 +377,12 @@ double sb_ehl_pressure(double *slope, const SbEhlElement *e, const double *nodal
 
 double sb_ehl_gap(const SbEhlElement *e, const double *target_gap, double r) {
   const SbEhlTable *t = e->table;
-  int kind = e->map == SB_EHL_INLET ? 1 : e->map == SB_EHL_OUTLET ? 2 : 0;
+  int kind = e->side == 0 ? 0 : e->side < 0 ? 1 : 2;
   double basis[SB_EHL_DEGREE_MAX + 2];
   sb_barycentric_basis(basis, r, t->gap_node[kind], t->gap_bary[kind], e->degree + 2);
   double sum = 0.0;
   for (int k = 0; k < e->degree + 2; k++) {
-    int collocated = kind == 1 ? k : k - 1;
-    int target = collocated < 0           ? e->left_target
-                 : collocated < e->points ? e->first_row + collocated
-                                          : e->right_target;
-    sum += basis[k] * target_gap[target] * factor_at(e, t->gap_node[kind][k]);
+    sum += basis[k] * target_gap[e->gap_target[k]] * factor_at(e, t->gap_node[kind][k]);
   }
   return sum / factor_at(e, r);
 }

@@ -26,8 +26,7 @@ enum {
 typedef enum {
   SB_EHL_AFFINE, // X = m + h r
   SB_EHL_COSINE, // X = -cos(theta), theta = m + h r; pressure = sin(theta) + polynomial
-  SB_EHL_INLET,  // X = A - B / s^2, s = (1 + r) / 2, to minus infinity; p = far + s^4 polynomial
-  SB_EHL_OUTLET  // X = A + B / s^2, s = (1 - r) / 2, to infinity
+  SB_EHL_FAR     // X = A +- B / s^2 to infinity, s = (1 -+ r) / 2; pressure = far + s^4 polynomial
 } SbEhlMap;
 
 // Tables of one degree.
@@ -42,7 +41,7 @@ typedef struct {
   double slope[2][SB_EHL_DEGREE_MAX + 1][SB_EHL_DEGREE_MAX + 1];
   double fine[SB_EHL_QUAD][SB_EHL_DEGREE_MAX + 1]; // basis at the fine rule
   // Points from which the gap is interpolated: the collocation points and the finite ends.
-  // [0] finite elements, [1] inlet, [2] outlet; degree + 2 points each.
+  // [0] finite elements, [1] to minus infinity, [2] to infinity; degree + 2 points each.
   double gap_node[3][SB_EHL_DEGREE_MAX + 2];
   double gap_bary[3][SB_EHL_DEGREE_MAX + 2];
   bool ready;
@@ -63,18 +62,20 @@ typedef struct {
 // pressure (the sine, or the far pressure).
 typedef struct {
   SbEhlMap map;
+  int side; // of infinity: -1 left, 1 right, 0 of a finite element
   int degree;
   const SbEhlTable *table;
   int points;    // collocation points
   int first_dof; // of degree + 1; the first is shared with the element before unless `apart`
   int first_row;
-  int left_target, right_target; // targets at the ends, -1 at infinity
-  bool apart;                    // does not touch the element before: a cavity lies between
-  double x0, x1;                 // ends; the infinite one is unused
+  int gap_target[SB_EHL_DEGREE_MAX + 2]; // targets from which the gap is interpolated
+  bool apart;                            // does not touch the element before: a cavity lies between
+  double x0, x1;                         // ends; the infinite one is unused
   double m, h, A, B;
   double far_pressure;
-  double node_sine[SB_EHL_DEGREE_MAX + 1]; // sin(theta) at the nodes of the cosine map
-  int modes;                               // highest Legendre mode of the projected weight
+  double
+      node_known[SB_EHL_DEGREE_MAX + 1]; // what the known part would be at nodes that hold it too
+  int modes;                             // highest Legendre mode of the projected weight
   double project[SB_EHL_PROJECT + 1][SB_EHL_DEGREE_MAX + 2];
   double fine_x[SB_EHL_QUAD];
   double fine_wb[SB_EHL_QUAD][SB_EHL_DEGREE_MAX + 2];
@@ -97,9 +98,10 @@ typedef struct {
 typedef struct {
   SbEhlTables *tables;
   int count;
-  bool fits;  // so far
-  double end; // so far
-  bool apart; // a cavity lies before the next element
+  bool fits;    // so far
+  double end;   // so far
+  bool apart;   // a cavity lies before the next element
+  int film_end; // element before the cavity, the last one without
   SbEhlElement element[SB_EHL_ELEMENTS_MAX];
   int dofs, rows, targets;
   double inlet_pressure, outlet_pressure; // constant pressure beyond the two ends of the mesh
@@ -124,13 +126,11 @@ const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree);
 void sb_ehl_partial(double *weight, const SbEhlTable *table, int j, double r);
 
 // Empties the mesh, whose tables stand, to begin at `start`; adds elements from its end to `end`;
-// adds an infinite element up to X = x or from there, with X = A -+ B / s^2; opens a cavity up to
-// `start`.
+// adds an infinite element on a side, up to X = x or from there.
 void sb_ehl_mesh_begin(SbEhlMesh *mesh, double start, double inlet_pressure,
                        double outlet_pressure);
 void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double end, int degree);
-void sb_ehl_mesh_add_far(SbEhlMesh *mesh, SbEhlMap map, double x, double A, int degree);
-void sb_ehl_mesh_break(SbEhlMesh *mesh, double start);
+void sb_ehl_mesh_add_far(SbEhlMesh *mesh, int side, double x, double B, int degree);
 
 // Gap by pressures that are constant beyond the ends of a mesh, up to a constant, with the tilt
 // that leaves the dry contact |X| < 1 (docs/verification.md).
@@ -153,13 +153,9 @@ double sb_ehl_coordinate(const SbEhlElement *e, double X);
 // Polynomial through `value` at the nodes, at r.
 double sb_ehl_interpolate(const SbEhlTable *table, const double *value, double r);
 
-static inline bool sb_ehl_infinite(const SbEhlElement *e) {
-  return e->map == SB_EHL_INLET || e->map == SB_EHL_OUTLET;
-}
-
 // s of an infinite element: 1 at its finite end, 0 at infinity.
 static inline double sb_ehl_inverse(const SbEhlElement *e, double r) {
-  return e->map == SB_EHL_INLET ? 0.5 * (1.0 + r) : 0.5 * (1.0 - r);
+  return 0.5 * (1.0 - e->side * r);
 }
 
 // Pressure at r, where the nodes' Lagrange polynomials are `basis` with the slopes `rise` to r
@@ -174,10 +170,8 @@ double sb_ehl_sum(double *slope, const SbEhlLocal *local, const SbEhlElement *e,
 // Everything about an element that its integrals need, for every target alike.
 void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables);
 
-// Adds to row[j], j <= degree + 1, the integral of column j times ln|X - X'|. `angle` is acos(-X)
-// inside the contact, acosh|X| outside.
-void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *tables, double X,
-                       double angle);
+// Adds to row[j], j <= degree + 1, the integral of column j times ln|X - X'|.
+void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *tables, double X);
 
 // X of the element's coordinate, and dX/dr.
 double sb_ehl_position(const SbEhlElement *e, double r);

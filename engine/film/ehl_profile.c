@@ -41,20 +41,18 @@ static const double GROWTH = 2.0;
 // finite element.
 static int parts_of(double *s, const SbEhlElement *e, const SbEhlCase *c, bool drawn) {
   *s = 1.0;
-  if (!sb_ehl_infinite(e)) {
+  if (e->side == 0) {
     return 1;
   }
-  bool inlet = e->map == SB_EHL_INLET;
-  double reach =
-      1.0 + reach_of(c->layers.lambda, inlet ? c->layers.inlet : c->layers.outlet, drawn);
-  *s = sb_ehl_inverse(e, sb_ehl_coordinate(e, inlet ? -reach : reach));
+  double reach = 1.0 + reach_of(c->layers.lambda, e->far_pressure, drawn);
+  *s = sb_ehl_inverse(e, sb_ehl_coordinate(e, e->side * reach));
   return (int)fmax(1.0, ceil(-log(*s) / log(GROWTH)));
 }
 
 // Films this flat keep their polynomial: see the head of the file.
 static bool flat_element(const SbEhlSolution *s, const SbEhlElement *e) {
   static const double FLAT = 0.03;
-  bool flat = !sb_ehl_infinite(e);
+  bool flat = e->side == 0;
   for (int k = 0; k < e->points; k++) {
     flat = flat && fabs(s->state.gap[e->first_row + k] / s->state.flux - 1.0) < FLAT;
   }
@@ -73,7 +71,7 @@ static Point smooth_point(const SbEhlSolution *s, const SbEhlElement *e, bool fl
     p.film = sb_ehl_flat_film(&s->c, flux, flux, p.pressure, slope);
     return p;
   }
-  bool infinite = sb_ehl_infinite(e);
+  bool infinite = e->side != 0;
   p.film = sb_ehl_gap(e, infinite ? s->solver->gaps : s->state.gap, r) +
            (infinite ? sb_ehl_layers_dry_gap(l, p.X) : 0.0);
   double m, by_film, by_pressure;
@@ -131,7 +129,6 @@ void sb_ehl_profile(SbFilm *out, const SbEhlSolution *s, const SbFilmScale *scal
   for (int i = 0; i < mesh->count; i++) {
     const SbEhlElement *e = &mesh->element[i];
     size_t intervals = per * (size_t)parts_of(&far, e, &s->c, drawn);
-    bool inlet = e->map == SB_EHL_INLET, outlet = e->map == SB_EHL_OUTLET;
     bool flat = !rough && flat_element(s, e);
     bool fresh = i == 0 || e->apart;
     begin[i] = out->points;
@@ -143,9 +140,8 @@ void sb_ehl_profile(SbFilm *out, const SbEhlSolution *s, const SbFilmScale *scal
     }
     for (size_t k = 0; k <= intervals; k++) {
       double share = (double)k / (double)intervals;
-      double r = inlet    ? 2.0 * pow(far, 1.0 - share) - 1.0
-                 : outlet ? 1.0 - 2.0 * pow(far, share)
-                          : -1.0 + 2.0 * share;
+      double r = e->side != 0 ? e->side * (1.0 - 2.0 * pow(far, e->side < 0 ? 1.0 - share : share))
+                              : -1.0 + 2.0 * share;
       Point p = rough ? rough_point(s, e, r) : smooth_point(s, e, flat, r);
       correction += k > 0 ? 0.5 * (p.lack + last.lack) * (p.X - last.X) : 0.0;
       correction = k == 0 && fresh ? 0.0 : correction;

@@ -46,10 +46,9 @@ void sb_ehl_carry(SbEhlSolution *to, const SbEhlSolution *from, double scale) {
     excess[i] = old->gap[i] - sb_ehl_layers_dry_gap(&from->c.layers, a->x[i]);
   }
   // New end pressures change the dry contact's pressure, unless a cavity holds one of them off.
-  bool whole = true;
+  const bool whole = b->film_end + 1 == b->count;
   bool same = !rough && a->count == b->count;
   for (int i = 0; i < b->count; i++) {
-    whole = whole && !b->element[i].apart;
     same = same && a->element[i].map == b->element[i].map;
   }
   for (int i = 0; i < b->count; i++) {
@@ -71,7 +70,7 @@ void sb_ehl_carry(SbEhlSolution *to, const SbEhlSolution *from, double scale) {
   for (int i = 0; i < b->targets && !rough; i++) {
     double r;
     const SbEhlElement *e = source(&r, a, b, b->owner[i], same, b->x[i]);
-    bool infinite = sb_ehl_infinite(e);
+    bool infinite = e->side != 0;
     double gap = sb_ehl_gap(e, infinite ? excess : old->gap, r);
     new->gap[i] = scale *gap + (infinite ? sb_ehl_layers_dry_gap(&to->c.layers, b->x[i]) : 0.0);
   }
@@ -104,8 +103,8 @@ static double least_about(double *place, const SbEhlSolution *s, int target, boo
   double least = INFINITY;
   for (int i = around > 0 ? around - 1 : 0; i <= around + 1 && i < s->mesh.count; i++) {
     const Sample of = {s, &s->mesh.element[i], pressure};
-    double begin = of.e->map == SB_EHL_INLET ? -0.9 : -1.0;
-    double end = of.e->map == SB_EHL_OUTLET ? 0.9 : 1.0;
+    double begin = of.e->side < 0 ? -0.9 : -1.0;
+    double end = of.e->side > 0 ? 0.9 : 1.0;
     double step = (end - begin) / SAMPLES;
     double best = begin;
     for (int k = 1; k <= SAMPLES; k++) {
@@ -155,7 +154,7 @@ static double element_change(const SbEhlSolution *a, const SbEhlSolution *b, int
                              bool middle) {
   enum { SAMPLES = 9, MIDDLE = SAMPLES / 2 };
   double sum = 0.0;
-  for (int i = 0; i < SAMPLES && !sb_ehl_infinite(&a->mesh.element[element]); i++) {
+  for (int i = 0; i < SAMPLES && a->mesh.element[element].side == 0; i++) {
     double r = 0.24 * (i - MIDDLE);
     double change = film_at(a, element, middle, r) / film_at(b, element, middle, r) - 1.0;
     sum += change * change;
@@ -209,12 +208,8 @@ static void add_smooth(SbEhlResults *out, int *thinnest, int *highest, const SbE
   // End of the film: the rupture, or the end of the contact.
   out->film_flux = state->flux;
   out->ruptured = s->c.layers.end != SB_EHL_FULL;
-  out->position_rupture = 1.0 + s->c.layers.middle - state->shift;
-  for (int i = mesh->count - 1; i >= 0 && out->ruptured; i--) {
-    if (i + 1 == mesh->count || mesh->element[i + 1].apart) {
-      out->position_rupture = mesh->element[i].x1;
-    }
-  }
+  out->position_rupture =
+      out->ruptured ? mesh->element[mesh->film_end].x1 : 1.0 + s->c.layers.middle - state->shift;
 }
 
 // Friction and loads of rough rows from node j to the next of element e, by the rule of the nodes.
@@ -227,14 +222,10 @@ static void add_step(SbEhlResults *out, const SbEhlSolution *s, const SbEhlEleme
   const double *full = rule->step[j];
   double film[SB_EHL_DEGREE_MAX + 1] = {0};
   if (!state->cavity[i]) {
-    memcpy(film, full, sizeof film);
-    if (state->cavity[i + 1]) {
-      double end = sb_ehl_rough_film_end(rule, &state->s[e->first_dof], j);
-      sb_ehl_partial(film, rule, j, end);
-      if (!out->ruptured && lambda > 0) {
-        out->position_rupture = sb_ehl_position(e, end);
-        out->ruptured = true;
-      }
+    double end = sb_ehl_rough_weights(film, s, e, j);
+    if (state->cavity[i + 1] && !out->ruptured && lambda > 0) {
+      out->position_rupture = sb_ehl_position(e, end);
+      out->ruptured = true;
     }
   }
   // The kink's error, measured: below 0.03 of the rectangle that it crosses.

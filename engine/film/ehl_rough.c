@@ -2,8 +2,32 @@
 // dry gap, opened by the film of the layers (ehl_layers.c) and by the asperities.
 #include "engine/film/ehl.h"
 
+#include "engine/numeric/root.h"
+
 #include <math.h>
-#include <string.h>
+
+// What the asperities carry at a gap, at most Hertz's pressure, both scaled.
+static double carried(const SbEhlCase *c, double gap) {
+  SbRoughPoint at;
+  sb_rough_law_at(&at, c->rough.law, sb_rough_law_of_gap(c->rough.law, gap * c->rough.film));
+  return fmin(at.pressure / c->rough.pressure, 1);
+}
+
+// Gap at which they carry a pressure.
+static double gap_under(const SbEhlCase *c, double pressure) {
+  SbRoughPoint at;
+  sb_rough_law_at(&at, c->rough.law,
+                  sb_rough_law_of_pressure(c->rough.law, pressure * c->rough.pressure));
+  return at.gap / c->rough.film;
+}
+
+static double lacking_slope(double ln_gap, const void *context) {
+  const SbEhlCase *c = context;
+  double h = exp(ln_gap);
+  double p = carried(c, h);
+  return 4.0 / 27 * c->layers.lambda * p -
+         h * h * sb_ehl_layers_inlet_slope(&c->layers) * sqrt(1 - p * p);
+}
 
 // Flux film of a rough contact: inside, the fluid carries what Hertz's pressure has above p_a(h);
 // at the inlet, where the two meet, its slope is the largest that Reynolds allows, (4/27) lambda /
@@ -15,26 +39,9 @@ void sb_ehl_rough_flux(SbEhlCase *c) {
   if (c->rough.law == NULL || !(c->layers.lambda > 0)) {
     return;
   }
-  double slope = sb_ehl_layers_inlet_slope(&c->layers);
-  SbRoughPoint at;
-  sb_rough_law_at(&at, c->rough.law,
-                  sb_rough_law_of_pressure(c->rough.law, 0.999999 * c->rough.pressure));
-  double low = log(at.gap / c->rough.film), high = low + 40;
-  for (int i = 0; i < 50; i++) {
-    double middle = 0.5 * (low + high);
-    double h = exp(middle);
-    sb_rough_law_at(&at, c->rough.law, sb_rough_law_of_gap(c->rough.law, h * c->rough.film));
-    double p = fmin(at.pressure / c->rough.pressure, 1);
-    if (4.0 / 27 * c->layers.lambda * p > h * h * slope * sqrt(1 - p * p)) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
-  c->rough.flux = hypot(exp(low), smooth);
-  sb_rough_law_at(&at, c->rough.law,
-                  sb_rough_law_of_gap(c->rough.law, c->rough.flux * c->rough.film));
-  double p = fmin(at.pressure / c->rough.pressure, 1);
+  double low = log(gap_under(c, 0.999999));
+  c->rough.flux = hypot(exp(sb_bisect(lacking_slope, c, low, low + 40)), smooth);
+  double p = carried(c, c->rough.flux);
   c->rough.inlet = sqrt(1 - p * p);
 }
 
@@ -59,14 +66,7 @@ void sb_ehl_rough_guess(SbEhlSolution *solution) {
       sb_ehl_layers_shape(&q, &h, &c->layers, film, X);
       fluid = fmax(h - dry, 0.5 * film);
     }
-    double rough = 0;
-    if (c->rough.law != NULL) {
-      SbRoughPoint at;
-      sb_rough_law_at(
-          &at, c->rough.law,
-          sb_rough_law_of_pressure(c->rough.law, fmax(q - ambient, floor) * c->rough.pressure));
-      rough = at.gap / c->rough.film;
-    }
+    double rough = c->rough.law != NULL ? gap_under(c, fmax(q - ambient, floor)) : 0;
     double lift = pow(pow(fluid, 6) + pow(rough, 6), 1 / 6.0);
     state->nodal[i] = q;
     state->t[i] = fmax(sb_ehl_rough_of_gap(c, lift + dry), -3);

@@ -57,22 +57,22 @@ static int add_feature(Feature *feature, int count, double X, double width, doub
   return count + 1;
 }
 
-// Places of element ends from feature `f` to X, growing with the distance. Returns how many.
-static int march(double *edge, int room, const Feature *f, double to, double grow) {
+// Adds the elements between a feature and X, growing with the distance: the first has about the
+// feature's width times the growth.
+static void add_half(SbEhlMesh *mesh, const Feature *f, double to, int degree) {
+  static const double GROWTH = 0.75;
+  const bool before = to < f->X;
   double distance = fabs(to - f->X);
-  // ln(1 + d/w) grows evenly: the first element has about w times `grow`.
-  double total = log1p(distance / f->width);
-  int n = (int)ceil(total / log1p(grow) - 1e-9);
-  n = n < 1 ? 1 : n;
-  for (int i = 1; i <= n && i <= room; i++) {
-    double d = i == n ? distance : f->width * expm1(total * i / n);
-    edge[i - 1] = to > f->X ? f->X + d : f->X - d;
+  double total = log1p(distance / f->width); // ln(1 + d/w) grows evenly
+  int n = (int)fmax(1.0, ceil(total / log1p(GROWTH) - 1e-9));
+  for (int i = 1; i <= n; i++) {
+    int k = before ? n - i : i;
+    double d = k == n ? distance : f->width * expm1(total * k / n);
+    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, before ? f->X - d : f->X + d, degree);
   }
-  return n;
 }
 
 bool sb_ehl_rough_mesh(SbEhlSolution *s) {
-  static const double GROWTH = 0.75;
   const SbEhlCase *c = &s->c;
   const SbEhlLayers *l = &c->layers;
   double thin = sb_ehl_layers_width(l);
@@ -111,38 +111,19 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
   }
 
   // From every feature halfway to its neighbours.
-  int n = 0;
-  double piece[SB_EHL_ELEMENTS_MAX], edge[SB_EHL_ELEMENTS_MAX + 1];
-  edge[n++] = -left;
+  SbEhlMesh *mesh = &s->mesh;
+  sb_ehl_mesh_begin(mesh, -left, l->inlet, l->outlet);
+  sb_ehl_steps(mesh->tables, l->degree);
   for (int f = 0; f < features; f++) {
-    const Feature *here = &feature[f];
-    double from = edge[n - 1];
-    int count = march(piece, SB_EHL_ELEMENTS_MAX, here, from, GROWTH);
-    if (n + count >= SB_EHL_ELEMENTS_MAX) {
-      return false;
-    }
-    for (int i = count - 2; i >= 0; i--) {
-      edge[n++] = piece[i];
-    }
-    edge[n++] = here->X;
+    const Feature *here = &feature[f], *next = here + 1;
     double to = right;
     if (f < features - 1) {
-      const Feature *next = &feature[f + 1];
       to = 0.5 * (here->X + next->X + next->width - here->width);
       double margin = 0.05 * (next->X - here->X);
       to = fmin(fmax(to, here->X + margin), next->X - margin);
     }
-    count = march(&edge[n], SB_EHL_ELEMENTS_MAX - n, here, to, GROWTH);
-    n += count;
-    if (n > SB_EHL_ELEMENTS_MAX) {
-      return false;
-    }
-  }
-  SbEhlMesh *mesh = &s->mesh;
-  sb_ehl_mesh_begin(mesh, edge[0], l->inlet, l->outlet);
-  sb_ehl_steps(mesh->tables, l->degree);
-  for (int e = 1; e < n; e++) {
-    sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, edge[e], l->degree);
+    add_half(mesh, here, mesh->end, l->degree);
+    add_half(mesh, here, to, l->degree);
   }
   if (!sb_ehl_mesh_build(mesh, true)) {
     return false;
@@ -154,10 +135,6 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
     sb_ehl_fitted(s, none, l->middle);
     memcpy(mesh->gap, s->solver->kernel, targets * targets * sizeof(double));
     memcpy(mesh->gap_known, s->solver->gaps, targets * sizeof(double));
-  } else {
-    for (size_t i = 0; i < targets; i++) {
-      mesh->gap_known[i] += 0.5 * mesh->x[i] * mesh->x[i];
-    }
   }
   return true;
 }

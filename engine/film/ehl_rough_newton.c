@@ -65,186 +65,149 @@ static double fall_at(double r, const void *context) {
   return -sb_ehl_interpolate(of->rule, of->slope, r);
 }
 
-double sb_ehl_rough_film_end(const SbEhlTable *rule, const double *s, int j) {
-  double low = rule->node[j], high = rule->node[j + 1];
-  return !(s[j] < 0)       ? low
-         : !(s[j + 1] > 0) ? high
-                           : sb_bisect(fall_at, &(Slopes){rule, s}, low, high);
+double sb_ehl_rough_weights(double *weight, const SbEhlSolution *s, const SbEhlElement *e, int j) {
+  const SbEhlTable *t = e->table;
+  const double *slope = &s->state.s[e->first_dof];
+  double end = t->node[j + 1];
+  memcpy(weight, t->step[j], sizeof t->step[j]);
+  if (s->state.cavity[e->first_dof + j + 1]) {
+    end = !(slope[j] < 0)       ? t->node[j]
+          : !(slope[j + 1] > 0) ? end
+                                : sb_bisect(fall_at, &(Slopes){t, slope}, t->node[j], end);
+    sb_ehl_partial(weight, t, j, end);
+  }
+  return end;
 }
 
-// The linear elastic equation's gap into solver->gaps, and everything at the nodes.
+// Everything at the nodes.
 static void localise(const SbEhlSolution *s) {
-  const SbEhlMesh *mesh = &s->mesh;
   const SbEhlState *state = &s->state;
   const SbEhlCase *c = &s->c;
-  SbEhlRoughStep *l = &s->solver->step;
-  double *gaps = s->solver->gaps;
-  for (int i = 0; i < mesh->dofs; i++) {
-    gaps[i] = state->H0 + mesh->gap_known[i];
-  }
-  cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->dofs, mesh->dofs, 1.0, mesh->gap, mesh->dofs,
-              state->nodal, 1, 1.0, gaps, 1);
-  for (int i = 0; i < mesh->dofs; i++) {
+  sb_ehl_elastic(s);
+  for (int i = 0; i < s->mesh.dofs; i++) {
     SbEhlRoughPoint *at = &s->solver->point[i];
     sb_ehl_rough_point(at, c, state->t[i]);
-    l->p[i] = state->nodal[i] - at->solid;
-    l->k[i] = -at->solid_t / at->h_t;
-    l->r[i] = gaps[i] - at->h;
+    at->p = state->nodal[i] - at->solid;
+    at->k = -at->solid_t / at->h_t;
+    at->r = s->solver->gaps[i] - at->h;
     double m, m_h, m_p;
-    sb_film_mobility(&m, &m_h, &m_p, &c->fluid, at->h, l->p[i]);
+    sb_film_mobility(&m, &m_h, &m_p, &c->fluid, at->h, at->p);
     double h = at->h, slope = state->s[i];
     double G = h * h * h * m;
-    l->s0[i] = -slope + (c->layers.lambda * h - state->flow) / G;
-    l->s_h[i] = (c->layers.lambda - (3 * h * h * m + h * h * h * m_h) * slope) / G;
-    l->s_p[i] = -h * h * h * m_p * slope / G;
-    l->s_kappa[i] = -1 / G;
-  }
-}
-
-// What Reynolds' equation lacks from node to node.
-static void residuals(SbEhlRoughStep *l, const SbEhlMesh *mesh, const SbEhlTable *rule,
-                      const SbEhlState *state) {
-  for (int e = 0; e < mesh->count; e++) {
-    double half = mesh->element[e].h;
-    for (int j = 0; j < rule->degree; j++) {
-      int i = e * rule->degree + j;
-      double sum = 0;
-      for (int k = 0; k <= rule->degree; k++) {
-        sum += rule->step[j][k] * state->s[e * rule->degree + k];
-      }
-      l->step[i] = l->p[i + 1] - l->p[i] - half * sum;
-    }
+    at->s0 = -slope + (c->layers.lambda * h - state->flow) / G;
+    at->s_h = (c->layers.lambda - (3 * h * h * m + h * h * h * m_h) * slope) / G;
+    at->s_p = -h * h * h * m_p * slope / G;
+    at->s_flow = -1 / G;
   }
 }
 
 // Chooses between full film and cavity at every node; how many changed.
-static int choose(const SbEhlRoughStep *l, const SbEhlMesh *mesh, const SbEhlTable *rule,
-                  SbEhlState *state, const SbEhlRoughPoint *point, bool flooded, double doubt) {
+static int choose(SbEhlSolution *solution, double doubt) {
+  const SbEhlMesh *mesh = &solution->mesh;
+  const SbEhlRoughPoint *point = solution->solver->point;
+  SbEhlState *state = &solution->state;
   int changed = 0;
   // Against the flow, as the end of the film depends on what lies behind.
   state->cavity[mesh->dofs - 1] = state->cavity[mesh->dofs - 2];
   for (int i = mesh->dofs - 2; i >= 0; i--) {
-    double residual = l->step[i];
-    if (state->cavity[i + 1] && state->s[i] < 0 && state->s[i + 1] > 0) {
-      int e = i / rule->degree, j = i % rule->degree;
-      double end = sb_ehl_rough_film_end(rule, &state->s[e * rule->degree], j);
-      double weight[SB_EHL_DEGREE_MAX + 1];
-      sb_ehl_partial(weight, rule, j, end);
-      double sum = 0;
-      for (int k = 0; k <= rule->degree; k++) {
-        sum += weight[k] * state->s[e * rule->degree + k];
-      }
-      residual = -l->p[i] - mesh->element[e].h * sum;
+    const SbEhlElement *e = &mesh->element[mesh->owner[i]];
+    int j = i - e->first_dof;
+    bool ends = state->cavity[i + 1] && state->s[i] < 0 && state->s[i + 1] > 0;
+    double part[SB_EHL_DEGREE_MAX + 1];
+    if (ends) {
+      sb_ehl_rough_weights(part, solution, e, j);
+    }
+    const double *weight = ends ? part : e->table->step[j];
+    double sign = ends ? 0 : point[i + 1].p; // pressure at the node by what follows
+    for (int k = 0; k <= e->degree; k++) {
+      sign -= e->h * weight[k] * state->s[e->first_dof + k];
     }
     // Changed only where the last step leaves no doubt about the sign.
-    double sign = l->p[i] + residual;
     bool cavitated = fabs(sign) < doubt * point[i].asperity ? state->cavity[i] : sign < 0;
-    cavitated = cavitated && !(i == 0 && flooded);
+    cavitated = cavitated && !(i == 0 && !isfinite(solution->c.supply));
     changed += cavitated != state->cavity[i];
     state->cavity[i] = cavitated;
   }
   return changed;
 }
 
-// Adds coefficient times dh (and dp) of node n to a row (NULL: to the constant only).
-static void add_node(double *row, double *constant, const SbEhlMesh *mesh, const SbEhlRoughStep *l,
-                     int n, double by_h, double by_p) {
-  double gap = by_h + by_p * l->k[n];
-  *constant += gap * l->r[n];
-  if (row == NULL) {
-    return;
+// Adds to a row (NULL: to its right-hand side only) the coefficients of dh and dp at node n.
+static void add_node(double *row, double *right, const SbEhlSolution *s, int n, double by_h,
+                     double by_p) {
+  const SbEhlRoughPoint *at = &s->solver->point[n];
+  double gap = by_h + by_p * at->k;
+  *right -= gap * at->r;
+  if (row != NULL) {
+    row[n] += by_p;
+    if (gap != 0) {
+      sb_ehl_add_gap(row, s, n, gap);
+    }
   }
-  if (gap != 0) {
-    cblas_daxpy(mesh->dofs, gap, mesh->gap + (size_t)n * (size_t)mesh->dofs, 1, row, 1);
-  }
-  row[n] += by_p;
-  row[mesh->dofs] += gap; // H0
 }
 
-// Row i of the matrix, NULL without one.
-static double *row_of(double *matrix, int order, int i) {
-  return matrix != NULL ? matrix + (size_t)i * (size_t)order : NULL;
+// The row that gives the film pressure at node n.
+static void give_pressure(double *row, double *right, const SbEhlSolution *s, int n, double p) {
+  *right = p - s->solver->point[n].p;
+  add_node(row, right, s, n, 0, 1);
+}
+
+// Reynolds' equation from node i to the next, or to the end of the film between them.
+static void give_step(double *row, double *right, const SbEhlSolution *s, int i) {
+  const SbEhlElement *e = &s->mesh.element[s->mesh.owner[i]];
+  const SbEhlRoughPoint *point = s->solver->point;
+  double weight[SB_EHL_DEGREE_MAX + 1];
+  sb_ehl_rough_weights(weight, s, e, i - e->first_dof);
+  *right = point[i].p - point[i + 1].p;
+  for (int k = 0; k <= e->degree; k++) {
+    int n = e->first_dof + k;
+    double w = e->h * weight[k];
+    *right += w * (s->state.s[n] + point[n].s0);
+    add_node(row, right, s, n, -w * point[n].s_h, -w * point[n].s_p + (n == i + 1) - (n == i));
+    if (row != NULL) {
+      row[s->mesh.dofs + 1] -= w * point[n].s_flow;
+    }
+  }
 }
 
 // Right-hand side and, if `matrix` is not NULL, the matrix, whose rows get one size each; without
 // it the right-hand side is for the matrix of an earlier call.
-static void assemble(double *matrix, double *row_scale, const SbEhlSolution *s,
-                     const SbEhlTable *rule) {
-  const SbEhlMesh *mesh = &s->mesh;
+static void assemble(double *matrix, double *row_scale, const SbEhlSolution *s) {
   const SbEhlState *state = &s->state;
   const SbEhlCase *c = &s->c;
-  const SbEhlRoughStep *l = &s->solver->step;
-  double *right = s->solver->right;
-  int nodes = mesh->dofs;
-  int order = nodes + 2;
-  int d = rule->degree;
+  const int nodes = s->mesh.dofs, order = nodes + 2;
   if (matrix != NULL) {
     memset(matrix, 0, (size_t)order * (size_t)order * sizeof *matrix);
   }
-
-  // Inlet: its pressure, or the flux supplied.
-  double *row = matrix;
-  if (isfinite(c->supply) || c->rough.sealed) {
-    if (row != NULL) {
-      row[nodes + 1] = 1;
-    }
-    right[0] = (c->rough.sealed ? 0 : c->layers.lambda * c->supply) - state->flow;
-  } else {
-    double constant = 0;
-    add_node(row, &constant, mesh, l, 0, 0, 1);
-    right[0] = c->layers.inlet - l->p[0] - constant;
-  }
-  // Steps.
-  for (int i = 0; i < nodes - 1; i++) {
-    row = row_of(matrix, order, i + 1);
-    double constant = 0;
-    if (state->cavity[i]) {
-      add_node(row, &constant, mesh, l, i, 0, 1);
-      right[i + 1] =
-          (c->rough.sealed ? sb_film_ends(mesh->x[i], c->layers.inlet, c->layers.outlet) : 0) -
-          l->p[i] - constant;
-      continue;
-    }
-    int e = i / d, j = i % d;
-    double half = mesh->element[e].h;
-    double weight[SB_EHL_DEGREE_MAX + 1];
-    memcpy(weight, rule->step[j], sizeof weight);
-    if (state->cavity[i + 1]) {
-      sb_ehl_partial(weight, rule, j, sb_ehl_rough_film_end(rule, &state->s[e * rule->degree], j));
-    }
-    double residual = l->p[i + 1] - l->p[i];
-    for (int k = 0; k <= d; k++) {
-      int n = e * d + k;
-      double w = half * weight[k];
-      residual -= w * (state->s[n] + l->s0[n]);
-      double by_p = -w * l->s_p[n] + (k == j + 1 ? 1 : k == j ? -1 : 0);
-      add_node(row, &constant, mesh, l, n, -w * l->s_h[n], by_p);
-      if (row != NULL) {
-        row[nodes + 1] -= w * l->s_kappa[n];
-      }
-    }
-    right[i + 1] = -residual - constant;
-  }
-  // Outlet.
-  row = row_of(matrix, order, nodes);
-  double constant = 0;
-  add_node(row, &constant, mesh, l, nodes - 1, 0, 1);
-  right[nodes] = c->layers.outlet - l->p[nodes - 1] - constant;
-  // Load above the ambient step.
-  row = row_of(matrix, order, nodes + 1);
-  if (row != NULL) {
-    memcpy(row, mesh->load, (size_t)nodes * sizeof *row);
-  }
-  right[nodes + 1] = -sb_ehl_load(s);
-
   for (int i = 0; i < order; i++) {
-    if (matrix != NULL) {
-      row = row_of(matrix, order, i);
+    double *row = matrix != NULL ? matrix + (size_t)i * (size_t)order : NULL;
+    double *right = &s->solver->right[i];
+    if (i == 0 && (isfinite(c->supply) || c->rough.sealed)) { // flux supplied
+      *right = (c->rough.sealed ? 0 : c->layers.lambda * c->supply) - state->flow;
+      if (row != NULL) {
+        row[nodes + 1] = 1;
+      }
+    } else if (i == 0) {
+      give_pressure(row, right, s, 0, c->layers.inlet);
+    } else if (i == nodes) {
+      give_pressure(row, right, s, nodes - 1, c->layers.outlet);
+    } else if (i == nodes + 1) { // load above the ambient step
+      *right = -sb_ehl_load(s);
+      if (row != NULL) {
+        memcpy(row, s->mesh.load, (size_t)nodes * sizeof *row);
+      }
+    } else if (state->cavity[i - 1]) {
+      give_pressure(
+          row, right, s, i - 1,
+          c->rough.sealed ? sb_film_ends(s->mesh.x[i - 1], c->layers.inlet, c->layers.outlet) : 0);
+    } else {
+      give_step(row, right, s, i - 1);
+    }
+    if (row != NULL) {
       double largest = fabs(row[cblas_idamax(nodes + 1, row, 1)]);
       row_scale[i] = largest > 0 ? 1 / largest : 1; // the last column has a size of its own
       cblas_dscal(order, row_scale[i], row, 1);
     }
-    right[i] *= row_scale[i];
+    *right *= row_scale[i];
   }
 }
 
@@ -253,9 +216,7 @@ SbStatus sb_ehl_rough_newton(SbEhlSolution *s) {
   const SbEhlCase *c = &s->c;
   const SbEhlMesh *mesh = &s->mesh;
   SbEhlState *state = &s->state;
-  const SbEhlTable *rule = mesh->element[0].table;
-  int nodes = mesh->dofs;
-  SbEhlRoughStep *local = &solver->step;
+  const int nodes = mesh->dofs;
   double before = INFINITY;
   int settled = 0;       // small steps so far
   bool small = false;    // the last one
@@ -266,10 +227,9 @@ SbStatus sb_ehl_rough_newton(SbEhlSolution *s) {
       return SB_ERROR_CANCELLED;
     }
     localise(s);
-    residuals(local, mesh, rule, state);
     int changed = 0;
     if (c->layers.lambda > 0 && before < 0.3) {
-      changed = choose(local, mesh, rule, state, solver->point, !isfinite(c->supply), before);
+      changed = choose(s, before);
     }
     // Converged where no node wants to change sides after a last step that was small; one at the
     // very end of the film may go to and fro without any effect.
@@ -277,34 +237,31 @@ SbStatus sb_ehl_rough_newton(SbEhlSolution *s) {
       return SB_OK;
     }
     factored = factored && changed == 0;
-    assemble(factored ? NULL : solver->matrix, row_scale, s, rule);
+    assemble(factored ? NULL : solver->matrix, row_scale, s);
     if (!sb_factor_solve(solver->matrix, solver->pivot, solver->right, nodes + 2, !factored)) {
       return SB_ERROR_NOT_CONVERGED;
     }
     solver->info->newton_iterations++;
     const double *dq = solver->right;
-    double dH0 = dq[nodes], dkappa = dq[nodes + 1];
+    double dkappa = dq[nodes + 1];
 
-    // Changes of the gap, in `gap`, and how far they may go.
     for (int i = 0; i < nodes; i++) {
-      solver->gaps[i] = dH0 + local->r[i];
+      solver->change[i] = solver->point[i].r;
     }
-    cblas_dgemv(CblasRowMajor, CblasNoTrans, nodes, nodes, 1.0, mesh->gap, nodes, dq, 1, 1.0,
-                solver->gaps, 1);
+    sb_ehl_gap_step(solver->change, s);
     // An opening gap takes its change as it is, a closing one by the parameter, which it cannot
     // outrun: so neither overshoots on the exponential between film and contact.
     double largest = 0, least = INFINITY;
     bool cut = false;
     for (int i = 0; i < nodes; i++) {
       const SbEhlRoughPoint *at = &solver->point[i];
-      double dh = solver->gaps[i];
+      double dh = solver->change[i];
       double dt = dh / at->h_t;
       if (!isfinite(dt)) {
         return SB_ERROR_NOT_CONVERGED;
       }
-      double dp = dq[i] + local->k[i] * dh;
-      state->s[i] +=
-          local->s0[i] + local->s_h[i] * dh + local->s_p[i] * dp + local->s_kappa[i] * dkappa;
+      double dp = dq[i] + at->k * dh;
+      state->s[i] += at->s0 + at->s_h * dh + at->s_p * dp + at->s_flow * dkappa;
       // With pull the solids' pressure can have a near-plateau, half a unit of t wide.
       double down = fmax(c->rough.hamaker > 0 ? 0.3 : 1.5, 0.8 * state->t[i]);
       cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > SB_EHL_CLOSED);
@@ -313,7 +270,7 @@ SbStatus sb_ehl_rough_newton(SbEhlSolution *s) {
       largest = fmax(largest, fmax(fabs(dh) / (at->h + SB_EHL_CLOSED), fabs(dq[i])));
       least = fmin(least, at->h);
     }
-    state->H0 += dH0;
+    state->H0 += dq[nodes];
     state->flow += dkappa;
     solver->info->residual = largest;
 

@@ -72,7 +72,7 @@ static void build_kernel(SbFilmTransient *t, SbFilmSolver *solver) {
     add_interval(t->weight, t, j, e->integral, 1.0);
     for (int i = 0; i < n; i++) {
       double part[SB_EHL_DEGREE_MAX + 2] = {0};
-      sb_ehl_kernel_row(part, e, &solver->tables, t->X[i], 0.0);
+      sb_ehl_kernel_row(part, e, &solver->tables, t->X[i]);
       add_interval(t->kernel + (size_t)i * (size_t)n, t, j, part, -1.0 / M_PI);
     }
   }
