@@ -6,9 +6,8 @@
 #include "app/export/results.h"
 
 #include "engine/contact/rough/rough_law.h"
-#include "engine/film/regime.h"
+#include "engine/film/laws.h"
 #include "engine/film/transient.h"
-#include "engine/film/wedge.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -4,7 +4,7 @@
 #include "app/export/csv.h"
 #include "app/export/json.h"
 #include "app/export/studies.h"
-#include "engine/film/regime.h"
+#include "engine/film/laws.h"
 
 #include <math.h>
 #include <string.h>

@@ -37,22 +37,16 @@ static gsl_spline *table(const SbFilmProblem *problem, size_t stride) {
   return t;
 }
 
-static double slope_at(const gsl_spline *t, double x) {
-  double slope = 0.0;
-  return gsl_spline_eval_deriv_e(t, x, NULL, &slope) == GSL_SUCCESS ? slope : 0.0;
-}
-
 // Steepest rise and its place: at a knot, or where p'', straight between knots, turns negative.
 static double steepest(double *place, const gsl_spline *t) {
   double best = 0.0, before = 0.0;
   *place = t->x[0];
   for (size_t i = 0; i < t->size; i++) {
-    double x = t->x[i], bend = 0.0;
-    (void)gsl_spline_eval_deriv2_e(t, x, NULL, &bend);
+    double x = t->x[i], bend = gsl_spline_eval_deriv2(t, x, NULL);
     if (i > 0 && before > 0.0 && bend < 0.0) {
       x = t->x[i - 1] + (x - t->x[i - 1]) * before / (before - bend);
     }
-    double slope = slope_at(t, x);
+    double slope = gsl_spline_eval_deriv(t, x, NULL);
     if (slope > best) {
       best = slope;
       *place = x;
@@ -62,9 +56,11 @@ static double steepest(double *place, const gsl_spline *t) {
   return best;
 }
 
-// h / h* at a slope k = p' h*^2 / (12 eta u_m) <= 4/27: root of k y^3 - y + 1, from z^3 - z^2 + k
-// with z = 1/y, whose two positive roots meet at 2/3.
-static double root(double k, bool upstream) {
+// h / h* at x with k = p' h*^2 / (12 eta u_m) <= 4/27, p' times `unit`: root of k y^3 - y + 1, from
+// z^3 - z^2 + k with z = 1/y, whose two positive roots meet at 2/3. Infinite where the pressure
+// does not rise upstream.
+static double root(const gsl_spline *t, double x, double unit, bool upstream) {
+  double k = gsl_spline_eval_deriv(t, x, NULL) * unit;
   if (k <= 0.0 && upstream) {
     return INFINITY;
   }
@@ -101,45 +97,38 @@ static void evaluate(SbFilm *out, const SbFilmProblem *problem, const gsl_spline
   double begin = t->x[0];
   double end = t->x[t->size - 1];
   double axis = 0.0 > begin && 0.0 < end ? 0.0 : 0.5 * (begin + end);
+  double unit = flux * flux / (12.0 * eta_u);
   out->film_flux = flux;
   out->film_min = INFINITY;
-  out->film_central = flux * root(slope_at(t, axis) * flux * flux / (12.0 * eta_u), axis < place);
+  out->film_central = flux * root(t, axis, unit, axis < place);
   out->position_rupture = sign * end;
   out->ruptured = true;
-  double load = 0.0;
-  double before_x = 0.0, before_p = 0.0, before_shear = 0.0, before_h = 0.0;
+  double before_x = 0.0, before_p = 0.0, before_h = INFINITY;
   size_t n = 0;
   for (int i = 0; i < SAMPLES; i++) {
     double x = i == SAMPLES - 1 ? end : begin + (end - begin) * i / (SAMPLES - 1);
-    double p = 0.0;
-    if (gsl_spline_eval_e(t, x, NULL, &p) != GSL_SUCCESS) {
-      continue;
-    }
-    double y = root(slope_at(t, x) * flux * flux / (12.0 * eta_u), x < place);
-    if (!isfinite(y)) {
-      continue; // flat upstream: no film that fills the gap is defined
-    }
-    double h = flux * y;
-    double shear = problem->viscosity * problem->speed / h;
-    if (n > 0) {
-      load += 0.5 * (p + before_p) * (x - before_x);
-      out->friction_couette += 0.5 * (shear + before_shear) * (x - before_x);
+    double p = gsl_spline_eval(t, x, NULL), h = flux * root(t, x, unit, x < place);
+    if (isfinite(h) && isfinite(before_h)) {
+      double shear = 2.0 * sign * eta_u * (1.0 / h + 1.0 / before_h);
+      out->friction_couette += 0.5 * shear * (x - before_x);
       out->friction_poiseuille += sign * 0.25 * (h + before_h) * (p - before_p);
     }
     if (h < out->film_min) {
       out->film_min = h;
       out->position_film_min = sign * x;
     }
-    out->pressure_max = fmax(out->pressure_max, p);
-    sb_film_put(out, n++, x, p, h);
+    if (isfinite(h)) { // not flat upstream, where no film that fills the gap is defined
+      out->pressure_max = fmax(out->pressure_max, p);
+      sb_film_put(out, n++, x, p, h);
+    }
     before_x = x;
     before_p = p;
-    before_shear = shear;
     before_h = h;
   }
   if (sign < 0.0) {
     sb_film_mirror(out);
   }
+  double load = gsl_spline_eval_integ(t, begin, end, NULL);
   if (fabs(load / problem->load - 1.0) > 0.01) {
     sb_warn(&out->warnings, "film-dry-load", "",
             "the dry pressure carries %.4g N/m, the load is %.4g", load, problem->load);

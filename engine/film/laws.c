@@ -1,4 +1,4 @@
-// Closed-form films, and the dry contact at zero speed.
+// Closed-form films and the dry contact at zero speed; laws, regimes and other formulas of laws.h.
 //
 //   karaszkiewicz  H = 4.4 U^0.65 W^-0.21        thesis eq. 7.6 (= 5.5): a fitted O-ring
 //   thesis         H = 1.492 U^0.5434 W^-0.2893  thesis eq. 7.5, central film of tables 7.9, 7.10
@@ -10,8 +10,12 @@
 // profile is Hertz's dry pressure and gap raised by the film; friction is that of the flat film.
 // Left out: layers at the edges, so the profile is no solution of Reynolds' equation. The expected
 // error is the distance from a blend of the rigid and the elastic limit.
+#include "engine/film/laws.h"
+
 #include "engine/film/scale.h"
 
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_multifit.h>
 #include <math.h>
 
 // Blend of the rigid and the elastic limit: (rigid^s + elastic^s)^(1/s).
@@ -124,4 +128,87 @@ SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFi
   out->friction_poiseuille =
       0.5 * out->film_flux * (problem->pressure_right - problem->pressure_left);
   return sb_succeed(report);
+}
+
+// ---------------------------------------------------------------- formulas
+
+double sb_film_law(const SbFilmLaw *law, double U, double W) {
+  return law->k * pow(U, law->a) * pow(W, law->b);
+}
+
+SbStatus sb_film_law_fit(SbFilmLaw *out, const double *U, const double *W, const double *H,
+                         size_t count, SbReport *report) {
+  double rows[SB_FILM_LAW_POINTS][3], ln_H[SB_FILM_LAW_POINTS], c[3], covariance[3][3], chi2;
+  bool sane = count >= 3 && count <= SB_FILM_LAW_POINTS;
+  for (size_t i = 0; sane && i < count; i++) {
+    rows[i][0] = 1.0;
+    rows[i][1] = log(U[i]);
+    rows[i][2] = log(W[i]);
+    ln_H[i] = log(H[i]);
+    sane = isfinite(rows[i][1]) && isfinite(rows[i][2]) && isfinite(ln_H[i]);
+  }
+  if (!sane) {
+    return sb_fail(report, SB_ERROR_RANGE, "film law: 3 to %d films are wanted, all above zero",
+                   SB_FILM_LAW_POINTS);
+  }
+  gsl_matrix_view X = gsl_matrix_view_array(&rows[0][0], count, 3);
+  gsl_vector_view y = gsl_vector_view_array(ln_H, count);
+  gsl_vector_view coefficients = gsl_vector_view_array(c, 3);
+  gsl_matrix_view spread = gsl_matrix_view_array(&covariance[0][0], 3, 3);
+  gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(count, 3);
+  if (work == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "film law: out of memory");
+  }
+  const int failed =
+      gsl_multifit_linear(&X.matrix, &y.vector, &coefficients.vector, &spread.matrix, &chi2, work);
+  gsl_multifit_linear_free(work);
+  if (failed != 0) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "film law: the regression failed");
+  }
+  double quantile = count > 3 ? gsl_cdf_tdist_Pinv(0.975, (double)(count - 3)) : 0.0;
+  *out = (SbFilmLaw){.k = exp(c[0]),
+                     .a = c[1],
+                     .b = c[2],
+                     .k_confidence = quantile * sqrt(covariance[0][0]),
+                     .a_confidence = quantile * sqrt(covariance[1][1]),
+                     .b_confidence = quantile * sqrt(covariance[2][2])};
+  return sb_succeed(report);
+}
+
+SbChartPoint sb_regime_chart(double load, double entrainment, double radius, double modulus,
+                             double viscosity, double pressure_viscosity) {
+  // Dowson's groups; the third one is alpha E'.
+  const double U = viscosity * entrainment / (modulus * radius), W = load / (modulus * radius);
+  SbChartPoint point = {.g_E = W / sqrt(U),
+                        .g_V = pressure_viscosity * modulus * pow(W, 1.5) / sqrt(U)};
+
+  // Film parameter h W/(R U) of each corner.
+  const struct {
+    const char *name;
+    double film;
+  } corner[] = {
+      {"isoviscous-rigid", 4.894968},
+      {"isoviscous-elastic", 3.00434 * pow(point.g_E, 0.8)},
+      {"piezoviscous-rigid", 1.05 * pow(point.g_V, 2.0 / 3)},
+      {"piezoviscous-elastic", 2.05 * pow(point.g_V, 0.54) * pow(point.g_E, 0.06)},
+  };
+  int thickest = 0;
+  for (int i = 1; i < 4; i++) {
+    thickest = corner[i].film > corner[thickest].film ? i : thickest;
+  }
+  point.regime = corner[thickest].name;
+  return point;
+}
+
+const char *sb_regime_of_lambda(double lambda) {
+  return lambda < 1 ? "boundary" : lambda < 3 ? "mixed" : "full film";
+}
+
+double sb_taper_factor(double ratio) {
+  double e = ratio - 1;
+  if (fabs(e) < 1e-3) {
+    // Series about a parallel film, where the closed form cancels; the next term is 0.61 e^4.
+    return 1 - e / 2 + 7 * e * e / 12 - 5 * e * e * e / 8;
+  }
+  return (4 * log(ratio) - 6 * e / (ratio + 1)) / e;
 }

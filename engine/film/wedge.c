@@ -171,12 +171,3 @@ SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const Sb
   }
   return sb_succeed(report);
 }
-
-double sb_taper_factor(double ratio) {
-  double e = ratio - 1;
-  if (fabs(e) < 1e-3) {
-    // Series about a parallel film, where the closed form cancels; the next term is 0.61 e^4.
-    return 1 - e / 2 + 7 * e * e / 12 - 5 * e * e * e / 8;
-  }
-  return (4 * log(ratio) - 6 * e / (ratio + 1)) / e;
-}

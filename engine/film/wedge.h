@@ -40,8 +40,3 @@ SbWedgePools sb_wedge_pools(double lambda, double inlet, double outlet);
 
 // Its pressure at x.
 double sb_wedge_pools_pressure(const SbWedgePools *wedge, double x);
-
-// Viscous drag factor beta of a plane tapered film (thesis equation 5.9): F = A eta u/h_min
-// beta(xi) with xi = h_inlet/h_min >= 1, beta = [4 ln xi - 6 (xi - 1)/(xi + 1)]/(xi - 1); beta(1)
-// = 1.
-double sb_taper_factor(double ratio);

@@ -1,8 +1,7 @@
 // Rigid wedge, tapered film, regimes and attraction against quadrature and printed values.
 #include "engine/contact/rough/rough_law.h"
 #include "engine/film/film.h"
-#include "engine/film/regime.h"
-#include "engine/film/wedge.h"
+#include "engine/film/laws.h"
 
 #include <glib.h>
 #include <gsl/gsl_errno.h>

@@ -1,5 +1,5 @@
 // The cycle A to F against a hand calculation from the printed equations, and on its hard cases.
-#include "engine/film/stroke.h"
+#include "engine/film/laws.h"
 #include "engine/valve/cost.h"
 #include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"

@@ -1,7 +1,7 @@
 // The film law from our own solves: the exact exponents of thin films, the thesis' range beside its
 // eq. 7.5, an exact law and a bent one, refusals.
 #include "engine/film/film.h"
-#include "engine/film/law_fit.h"
+#include "engine/film/laws.h"
 
 #include <glib.h>
 #include <math.h>

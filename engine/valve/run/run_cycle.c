@@ -1,6 +1,6 @@
 // Frames and figures of the quasi-static cycle: evaluations of its segments, none of them a step in
 // time.
-#include "engine/film/stroke.h"
+#include "engine/film/laws.h"
 #include "engine/valve/run/run_dynamic.h"
 
 #include <math.h>

@@ -13,7 +13,7 @@
 // to the tolerance (tested: test_run_limits.c).
 #include "engine/valve/run/run_dynamic.h"
 
-#include "engine/film/stroke.h"
+#include "engine/film/laws.h"
 #include "engine/valve/figures.h"
 
 #include <math.h>

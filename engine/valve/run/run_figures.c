@@ -1,7 +1,7 @@
 // Figures of a run: those of each seal, sliding in the middle of B-C and its leak at rest; and why
 // figures are missing: what a run that ended early cannot tell, and what its models leave out.
 #include "engine/contact/rough/percolation.h"
-#include "engine/film/stroke.h"
+#include "engine/film/laws.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 

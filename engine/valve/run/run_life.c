@@ -9,7 +9,7 @@
 // follow those of the first, as if nothing lay between. Leaves out: wear and swelling of the
 // section, storage and loss of propellant between actuations, what the film's thickness owes to
 // roughness.
-#include "engine/film/stroke.h"
+#include "engine/film/laws.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 

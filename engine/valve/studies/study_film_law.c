@@ -4,10 +4,10 @@
 //   h/R = k U^beta W^alpha,   U = eta (u/2)/(E' R),  W = w/(E' R)
 //
 // over the range study.speed_* and study.load_* of the outer seal, on a grid even in ln U and ln W
-// (film/law_fit.h: least squares of the logarithms, 95 % confidence by Student's t; the residuals
+// (film/laws.h: least squares of the logarithms, 95 % confidence by Student's t; the residuals
 // are the law's lack of fit, not noise). What the thesis' exponent 0.5434 is: a mesh that is too
 // coarse at low speed (docs/thesis.md, 3); solved in the mesh it is 0.6.
-#include "engine/film/law_fit.h"
+#include "engine/film/laws.h"
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
