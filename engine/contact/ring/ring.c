@@ -140,16 +140,18 @@ static void drop(SbRing *ring) {
   ring->mesh = NULL;
 }
 
-static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *target, SbReport *report) {
-  SbRingLoad smooth = *target;
+static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *report) {
+  SbRingLoad target = *load, smooth = *load;
   smooth.use_bore_traction = false;
   smooth.friction_bore = smooth.friction_floor = smooth.friction_wall = 0.0;
   SbStatus status = sb_ring_fit_and_press(ring, &smooth, report);
   if (status == SB_OK && ring->options.fit_mesh) {
     status = sb_ring_refit(ring, ring->options.element_size, report);
   }
-  if (status == SB_OK && sb_ring_rubs(target)) {
-    status = sb_ring_advance(ring, target, SB_RING_FOLLOW, report);
+  if (status == SB_OK && sb_ring_rubs(&target)) {
+    target.pressure_left = ring->contact->is.now.pressure_left; // none where it passes the ring
+    target.pressure_right = ring->contact->is.now.pressure_right;
+    status = sb_ring_advance(ring, &target, SB_RING_FOLLOW, report);
   }
   return status;
 }

@@ -48,34 +48,6 @@ static void estimate(SbRingResult *fine, const SbRingResult *coarse, double size
   fine->error.width = fmax(SHARE * width, 1.5e-3 * relative);
 }
 
-// Whether the ring touches the bore by itself, on a coarse mesh and without the fluid; only asked
-// where the estimate of its section, shrunk by the stretch, leaves that in doubt.
-static SbStatus touches_alone(bool *touches, const SbRingBody *body, const SbRingLoad *load,
-                              const SbRingOptions *options, SbReport *report) {
-  *touches = true;
-  if (body->plane_strain || !(fmax(load->pressure_left, load->pressure_right) > 0.0)) {
-    return SB_OK;
-  }
-  double stretch =
-      (load->bore_radius + load->floor_radius) / (body->inner_diameter + body->section_diameter) -
-      1.0;
-  double section = body->section_diameter * (1.0 - body->poisson_ratio * stretch);
-  if (section - (load->bore_radius - load->floor_radius) > 0.1 * body->section_diameter) {
-    return SB_OK;
-  }
-  SbRingLoad dry = *load;
-  dry.pressure_left = dry.pressure_right = 0.0;
-  SbRing *ring = NULL;
-  SbStatus status = sb_ring_create(&ring, body, &dry, options, report);
-  if (status == SB_OK) {
-    SbRingResult result;
-    sb_ring_result(ring, &result);
-    *touches = result.touching;
-    sb_ring_destroy(ring);
-  }
-  return status;
-}
-
 SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
                      const SbRingLoad *load, const SbRingOptions *options, SbWarnings *warnings,
                      SbReport *report) {
@@ -95,15 +67,9 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   first.element_size = fmin(0.08, fmax(SIZE, size) / RATIO);
   first.fit_mesh = false;
   // A ring that does not touch lets the fluid past: no pressure rests on it.
-  bool alone = true;
-  SbStatus status = touches_alone(&alone, body, load, &first, report);
-  SbRingLoad dry = *load;
-  if (!alone) {
-    dry.pressure_left = dry.pressure_right = 0.0;
-    load = &dry;
-  }
+  first.alone = true;
   SbRing *ring = NULL;
-  status = status == SB_OK ? sb_ring_create(&ring, body, load, &first, report) : status;
+  SbStatus status = sb_ring_create(&ring, body, load, &first, report);
   if (status != SB_OK) {
     return status;
   }
@@ -113,8 +79,9 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   if (!result->touching) {
     sb_warn(warnings, "no-contact", "bore.diameter",
             "the fitted ring does not touch the bore%s: radial thickness %.4g mm in %.4g mm",
-            alone ? "" : " and lets the fluid past", 1e3 * result->thickness,
-            1e3 * (load->bore_radius - load->floor_radius));
+            load->pressure_left != 0.0 || load->pressure_right != 0.0 ? " and lets the fluid past"
+                                                                      : "",
+            1e3 * result->thickness, 1e3 * (load->bore_radius - load->floor_radius));
   } else {
     floor_load = fmax(floor_load, fluid_floor(result, body, load));
     for (int i = 0; status == SB_OK && i < REFINEMENTS; i++) {

@@ -187,9 +187,11 @@ SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport 
     return status;
   }
   ring->count.steps = ring->count.steps > 0 ? ring->count.steps : 1;
-  if (smooth->pressure_left != 0.0 || smooth->pressure_right != 0.0) {
-    SbRingPatch patch;
-    bool touches = sb_ring_patch(ring, SB_RING_BORE, &patch);
+  SbRingPatch patch;
+  bool touches = sb_ring_patch(ring, SB_RING_BORE, &patch), pass = ring->options.alone && !touches;
+  if (pass) {
+    ring->load.pressure_left = ring->load.pressure_right = 0.0;
+  } else if (smooth->pressure_left != 0.0 || smooth->pressure_right != 0.0) {
     bool differ = smooth->pressure_left != smooth->pressure_right;
     status =
         touches || !differ ? sb_ring_press(ring, smooth, report) : press_open(ring, smooth, report);
