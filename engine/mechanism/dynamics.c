@@ -336,20 +336,11 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
     s->wall[i].on = s->wall[i].on || (rests && p->side * demand_at(s, s->at.x) > 0.0);
   }
   update_held(s);
-  s->system = (SbRadauSystem){.n = m->extra_rate != NULL ? 3 : 2,
-                              .powers = SB_DYNAMICS_TERMS,
-                              .rates = sb_motion_numerical_rates,
-                              .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9};
-  // The speed's at least; see dynamics_path.c.
-  SbDynamicsState size = {{.x = 1e-3, .v = 1e-3, .extra = fmax(m->extra_scale, DBL_MIN)}};
   for (size_t i = 0; i < m->contacts; i++) {
     s->fresh[i] = false;
     s->since[i] = -m->start_dwell;
     s->slipped[i] = -1.0;
-    size.d[i] = 1e-5;
-    s->system.n = is_rigid(m, i) ? s->system.n : 3 + m->contacts;
   }
-  memcpy(s->system.floor, size.z, sizeof size);
   s->kinetic_start = 0.5 * m->mass * s->at.v * s->at.v;
   s->stored_start = sb_motion_stored_energy(s, 0.0, &s->at);
   s->accumulated_at = -1.0;

@@ -8,11 +8,11 @@
 // Friction. A contact carries a Coulomb level L [N] given by the caller for where the stem is. It
 // sticks up to L (static_ratio + dwell_gain ln(1 + dwell/dwell_time)); it slides at
 // L [1 + (static_ratio - 1) exp(-(speed/stribeck_speed)^stribeck_exponent)], or at L from the first
-// slip if stribeck_speed is 0, or at L times a caller's function of the speed; `viscous` times the
-// stem's speed acts beside it. A contact with finite `stiffness` joins stem and bore through the
-// seal's tangential spring and damper (pre-sliding, thesis slope A-B): its patch does not move at
-// all while it sticks. A rigid contact (stiffness INFINITY) holds the stem itself at rest, exactly.
-// Contacts that the land does not reach have level 0.
+// slip if stribeck_speed is 0; `viscous` times the stem's speed acts beside it. A contact with
+// finite `stiffness` joins stem and bore through the seal's tangential spring and damper
+// (pre-sliding, thesis slope A-B): its patch does not move at all while it sticks. A rigid contact
+// (stiffness INFINITY) holds the stem itself at rest, exactly. Contacts that the land does not
+// reach have level 0.
 //
 // Stops. Spring and damper in one direction, the damper from the restitution of a free impact that
 // ends when the force does (Schwager and Poeschel 2007); stiffness INFINITY is an impact law, at
@@ -81,8 +81,6 @@ typedef struct {
   void (*extra_rate)(double *rate, double x, double v, size_t region, const double *extra,
                      void *user);
   double extra_start, extra_scale; // in the unit of that state; scale > 0: its size
-  // Sliding friction over level at a speed >= 0 (replaces the Stribeck curve); NULL: none.
-  double (*speed_factor)(size_t contact, double speed, void *user);
   // The mass that the stroke sees at (x, v) [kg], asked for at the start of every segment; NULL:
   // always `mass`.
   SbStatus (*mass_at)(double *mass, double x, double v, void *user, SbReport *report);
@@ -218,6 +216,8 @@ typedef struct {
   int event; // that ends the segment, or -1
   SbOscillator motion;
   SbRadauSystem system;
+  size_t unknown[SB_RADAU_MAX]; // its unknowns' places in SbDynamicsState.z
+  double speed_size;            // of its tolerance [m/s]
   SbRadauStep step[2];
   double h; // next step size [s]
   double accumulated_at;

@@ -1,6 +1,5 @@
-// What the files of dynamics share: _check (input), _forces (forces, event functions), _path
-// (motion between events), _energy, _repeat, and dynamics.c (what events do). Private to this
-// folder.
+// What the files of dynamics share: _check (input), _forces (forces, energies, event functions),
+// _path (motion between events), and dynamics.c (what events do). Private to this folder.
 #pragma once
 
 #include "engine/mechanism/dynamics.h"
@@ -115,18 +114,14 @@ double sb_motion_deflection_at(const SbDynamics *s, size_t i, double tau, double
 bool sb_motion_event_function(const SbDynamics *s, const Point *p, int event, SbEventFunction *g);
 
 // The function's value at the point, and a size below which its sign means nothing in the numerical
-// path; false as above.
-bool sb_motion_event_value(const SbDynamics *s, const Point *p, int event, double *value,
-                           double *noise);
-
-// Rates and integrands of the numerical path at z; `user` is the SbDynamics.
-void sb_motion_numerical_rates(double *dz, double *power, double t, const double *z, void *user);
+// path.
+double sb_motion_event_value(const SbDynamics *s, const Point *p, int event, double *noise);
 
 // Finds the motion from the anchor and the event that ends it (s->t_end, s->event).
 SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report);
 
 // After rigid contacts broke away at the anchor: goes on by whole cycles of stick-slip if they are
-// equal (dynamics_repeat.c). SB_ERROR_NOT_CONVERGED if too many unequal ones lie ahead.
+// equal. SB_ERROR_NOT_CONVERGED if too many unequal ones lie ahead.
 SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report);
 
 // The state at tau after the anchor, within the segment.
