@@ -363,7 +363,6 @@ static bool accumulates(SbDynamics *s) {
 }
 
 SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
-  long most = s->model->max_events > 0 ? s->model->max_events : 1000000;
   if (!(time >= s->now)) {
     return sb_fail(report, SB_ERROR_RANGE, "the motion cannot go back from %g s to %g s", s->now,
                    time);
@@ -386,7 +385,7 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
       }
       s->ready = true;
       s->counters.segments++;
-      if (s->counters.segments > 4 * most) {
+      if (s->counters.segments > 4 * EVENTS_MAX) {
         return sb_fail(report, SB_ERROR_NOT_CONVERGED,
                        "too many steps at %.9g s (%ld): the motion is too quick for its duration, "
                        "as with a very stiff machine and a slow stroke",
@@ -416,10 +415,10 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
           return status;
         }
       }
-      if (event != EVENT_BREAK && (s->counters.events > most || accumulates(s))) {
+      if (event != EVENT_BREAK && (s->counters.events > EVENTS_MAX || accumulates(s))) {
         return sb_fail(report, SB_ERROR_NOT_CONVERGED, "%s at %.9g s (%ld events)",
-                       s->counters.events > most ? "too many events" : "events accumulate", s->t,
-                       s->counters.events);
+                       s->counters.events > EVENTS_MAX ? "too many events" : "events accumulate",
+                       s->t, s->counters.events);
       }
     }
   }
@@ -475,17 +474,9 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
 
 bool sb_dynamics_at_rest(const SbDynamics *s) {
   SbDynamicsSample sample;
-  if (!s->ready || !s->linear || s->event != EVENT_BREAK || !sb_drive_done(&s->drive)) {
+  if (!s->ready || !s->linear || s->event != EVENT_BREAK || isfinite(s->piece.until)) {
     return false;
   }
   sb_dynamics_sample(s, &sample, NULL);
   return s->held || fabs(sample.speed) < 1e-12;
-}
-
-double sb_dynamics_force_peak(const SbDynamics *s) {
-  return s->force_peak;
-}
-
-SbDynamicsCounters sb_dynamics_counters(const SbDynamics *s) {
-  return s->counters;
 }

@@ -94,7 +94,6 @@ typedef struct {
   double start_dwell;                 // s of rest before the start
   double tolerance;                   // relative, of the numerical path, <= 1e-5; 0: 1e-9
   double rest_speed; // m/s below which a slowing contact rests, a rigid stop keeps; 0: 1e-9
-  long max_events;   // 0: 1e6; four times as many steps
 } SbDynamicsModel;
 
 typedef enum {
@@ -186,8 +185,11 @@ typedef struct {
   SbDynamicsEnergy energy;
 } SbDynamicsBreak;
 
-// Working state; on the caller's memory, no pointers owned. Fields are private.
+// Working state; on the caller's memory, no pointers owned. Fields are private, but what is to be
+// read.
 typedef struct {
+  SbDynamicsCounters counters; // to be read: what the run cost so far
+  double force_peak;           // to be read: of the drive, up to the last event [N]
   const SbDynamicsModel *model;
   double t, t_end;    // anchor of the segment, and its end [s]
   SbDynamicsState at; // at the anchor
@@ -208,7 +210,6 @@ typedef struct {
   SbDynamicsBreak broke;
   double asked; // time that is being advanced to
   double stored_start, kinetic_start;
-  double force_peak; // of the drive, up to the anchor [N]
   bool ready, linear, held;
   // The patch started the segment clearly faster than rest_speed: falling below it is coming to
   // rest.
@@ -222,7 +223,6 @@ typedef struct {
   double h; // next step size [s]
   double accumulated_at;
   int accumulated;
-  SbDynamicsCounters counters;
   void (*listener)(const SbMotionEvent *event, void *user);
   void *listener_user;
 } SbDynamics;
@@ -248,9 +248,3 @@ void sb_dynamics_sample(const SbDynamics *dynamics, SbDynamicsSample *sample,
 
 // Whether the drive has ended and the stem rests: nothing more can happen.
 bool sb_dynamics_at_rest(const SbDynamics *dynamics);
-
-// Largest force of the drive up to the last event [N], between samples too.
-double sb_dynamics_force_peak(const SbDynamics *dynamics);
-
-// What the run cost so far.
-SbDynamicsCounters sb_dynamics_counters(const SbDynamics *dynamics);

@@ -217,20 +217,18 @@ static SbEventFunction function_of(const Force *f, double side, double size) {
                            .noise = size};
 }
 
-// Terms in the place of wall w, or the finger's force: the drive's value carries the rounding of
+// Terms in the gap to wall w [m], or in its force [N]: the drive's value carries the rounding of
 // the time since its piece began.
-static double place_size(const SbDynamics *s, const Point *p, size_t w) {
+static double gap_size(const SbDynamics *s, const Point *p, size_t w) {
   double place, rate;
   sb_motion_wall_at(s, w, p->t, &place, &rate);
-  return fabs(place) + fabs(rate * p->t) + (w == SB_DYNAMICS_PLATEN ? fabs(s->piece.value) : 0.0);
+  return fabs(place) + fabs(rate * p->t) + (w == SB_DYNAMICS_PLATEN ? fabs(s->piece.value) : 0.0) +
+         fabs(p->z->x) + length_noise;
 }
 
-// Terms in the force of wall w [N].
 static double wall_size(const SbDynamics *s, const Point *p, size_t w) {
-  double place = place_size(s, p, w);
-  return w == SB_DYNAMICS_PLATEN && sb_motion_by_force(s->model)
-             ? place
-             : s->wall[w].stiffness * (place + fabs(p->z->x) + length_noise);
+  double k = s->wall[w].stiffness; // a finger has none
+  return (k > 0.0 ? k : 1.0) * gap_size(s, p, w);
 }
 
 // Terms in all forces together [N].
@@ -274,7 +272,7 @@ static bool wall_function(const SbDynamics *s, const Point *p, size_t w, SbEvent
                            .of_x = wall->push,
                            .relax = sb_motion_deflection(s, w, p->t, p->z->x),
                            .relax_rate = wall->damping > 0.0 ? wall->stiffness / wall->damping : 0,
-                           .noise = place_size(s, p, w) + fabs(p->z->x) + length_noise};
+                           .noise = gap_size(s, p, w)};
   }
   return true;
 }

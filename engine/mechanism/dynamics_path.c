@@ -180,13 +180,20 @@ static double quickest_rate(const SbDynamics *s, const Point *p) {
   return fmax(sqrt(p->sum.k / s->mass), p->sum.c / s->mass);
 }
 
-// What changes in this segment, and the sizes to which its tolerance refers; the rounding of
-// acceleration [m/s2] and speed [m/s]: a very stiff drive turns that of its own place into them,
-// and less cannot be asked for.
+// Adds what is at `place` of the state to what changes in this segment. An error in it is one in
+// force, and in energy, by the springs that act.
+static void add_unknown(SbDynamics *s, size_t place, double size, double stiffness) {
+  size_t n = s->system.n++;
+  s->unknown[n] = place;
+  s->system.floor[n] = size;
+  s->system.ceiling[n] = stiffness > 0.0 ? force_size / stiffness : 0.0;
+}
+
+// The unknowns of this segment; the rounding of acceleration [m/s2] and speed [m/s]: a very stiff
+// drive turns that of its own place into them, and less cannot be asked for.
 static void set_system(SbDynamics *s, const Point *p, double *noise, double *speed) {
   enum { X, V, EXTRA, D };
   const SbDynamicsModel *m = s->model;
-  SbRadauSystem *system = &s->system;
   double square = p->sum.k / s->mass;
   *noise = 0.0;
   if (square > stiff_square && s->wall[SB_DYNAMICS_PLATEN].on && !sb_motion_by_force(m)) {
@@ -195,24 +202,22 @@ static void set_system(SbDynamics *s, const Point *p, double *noise, double *spe
     *noise = DBL_EPSILON * (fabs(place) + fabs(rate * s->t)) * square;
   }
   *speed = *noise / sqrt(fmax(square, 1.0));
-  *system = (SbRadauSystem){.powers = SB_DYNAMICS_TERMS,
-                            .rates = numerical_rates,
-                            .user = s,
-                            .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9};
-  s->speed_size = fmax(speed_size, 10.0 * *speed / system->tolerance);
-  for (size_t k = s->held ? EXTRA : X; k < D + m->contacts; k++) {
-    bool elastic = k >= D && !is_rigid(m, k - D) && s->state[k - D] != SB_CONTACT_OFF;
-    if (k == EXTRA ? m->extra_rate == NULL : k >= D && !elastic) {
-      continue;
+  s->system = (SbRadauSystem){.powers = SB_DYNAMICS_TERMS,
+                              .rates = numerical_rates,
+                              .user = s,
+                              .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9};
+  s->speed_size = fmax(speed_size, 10.0 * *speed / s->system.tolerance);
+  if (!s->held) {
+    add_unknown(s, X, place_size, p->sum.k);
+    add_unknown(s, V, s->speed_size, 0.0);
+  }
+  if (m->extra_rate != NULL) {
+    add_unknown(s, EXTRA, m->extra_scale, 0.0);
+  }
+  for (size_t i = 0; i < m->contacts; i++) {
+    if (!is_rigid(m, i) && s->state[i] != SB_CONTACT_OFF) {
+      add_unknown(s, D + i, deflection_size, m->contact[i].stiffness);
     }
-    // An error in place is one in force, and in energy, by the springs that act.
-    double stiffness = elastic ? m->contact[k - D].stiffness : k == X ? p->sum.k : 0.0;
-    s->unknown[system->n] = k;
-    system->ceiling[system->n] = stiffness > 0.0 ? force_size / stiffness : 0.0;
-    system->floor[system->n++] = k == X       ? place_size
-                                 : k == V     ? s->speed_size
-                                 : k == EXTRA ? m->extra_scale
-                                              : deflection_size;
   }
 }
 
@@ -577,9 +582,8 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
   }
   double cycles = fmin((s->piece.until - s->t) / period, way / step);
   double steps = cycles * (double)(s->counters.segments - was.segments);
-  double most = (double)(m->max_events > 0 ? m->max_events : 1000000);
-  if (isfinite(cycles) && (2.0 * cycles > most - (double)s->counters.events ||
-                           steps > 4.0 * most - (double)s->counters.segments)) {
+  if (isfinite(cycles) && (2.0 * cycles > (double)(EVENTS_MAX - s->counters.events) ||
+                           steps > (double)(4 * EVENTS_MAX - s->counters.segments))) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED,
                    "stick-slip at %.9g s: about %.2g slips, one every %.2g s, lie ahead where "
                    "friction changes with the place, too many to step through; a softer or a "

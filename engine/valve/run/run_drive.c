@@ -57,10 +57,11 @@ void sb_valve_set_drive(SbDynamicsModel *out, const SbRun *run) {
     out->start_position = model->stroke / 2;
     break;
   case SB_MODEL_DRIVE_RAMP:
-    drive->kind = SB_DRIVE_RAMP;
+    drive->kind = SB_DRIVE_PRESS;
     drive->quantity = SB_DRIVE_OF_FORCE;
     drive->end = model->peak_force;
-    drive->rate = model->peak_force / model->rise_time;
+    drive->rise = drive->fall = model->rise_time;
+    drive->hold = INFINITY;
     out->drive_damping = model->finger_damping;
     break;
   case SB_MODEL_DRIVE_MEASURED:

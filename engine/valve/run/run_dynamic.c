@@ -271,7 +271,7 @@ static SbStatus run_motion(Recorder *r, SbDynamics *motion, const SbDynamicsMode
       }
     }
   }
-  r->force_peak = fmax(r->force_peak, sb_dynamics_force_peak(motion));
+  r->force_peak = fmax(r->force_peak, motion->force_peak);
   return status;
 }
 
@@ -403,7 +403,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   }
   SbDynamicsEnergy energy;
   sb_dynamics_sample(&motion, NULL, &energy);
-  SbDynamicsCounters counters = sb_dynamics_counters(&motion);
+  SbDynamicsCounters counters = motion.counters;
   const SbFrame *last = &run->frames[recorder.count - 1];
   summary->duration = last->time;
   summary->force_peak = recorder.force_peak;
