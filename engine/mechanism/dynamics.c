@@ -435,7 +435,7 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
     return;
   }
   Point p;
-  double rate, holding = 0.0, total = 0.0;
+  double holding = 0.0, total = 0.0;
   sb_motion_point(&p, s, s->now, &z);
   *out = (SbDynamicsSample){.time = s->now,
                             .position = z.x,
@@ -447,8 +447,7 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
                             .extra = z.extra,
                             .region = s->region};
   if (m->drive.kind != SB_DRIVE_NONE) {
-    sb_motion_drive_at(s, s->now, &out->drive_position, &rate);
-    out->drive_position = sb_motion_by_force(m) ? z.x : out->drive_position;
+    out->drive_position = sb_motion_by_force(m) ? z.x : sb_motion_drive_at(s, s->now).value;
   }
   // What holds a stem at rest: a rigid stop first, else the rigid contacts by their strength.
   total = s->held ? p.sum.f0 : 0.0;
@@ -473,10 +472,10 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
 }
 
 bool sb_dynamics_at_rest(const SbDynamics *s) {
-  SbDynamicsSample sample;
+  SbDynamicsState z;
   if (!s->ready || !s->linear || s->event != EVENT_BREAK || isfinite(s->piece.until)) {
     return false;
   }
-  sb_dynamics_sample(s, &sample, NULL);
-  return s->held || fabs(sample.speed) < 1e-12;
+  sb_motion_state_at(s, s->now - s->t, &z);
+  return s->held || fabs(z.v) < 1e-12;
 }

@@ -5,30 +5,23 @@
 #include <math.h>
 #include <string.h>
 
-void sb_motion_drive_at(const SbDynamics *s, double t, double *value, double *rate) {
+Moving sb_motion_drive_at(const SbDynamics *s, double t) {
+  Moving at = {s->piece.value + s->piece.rate * (t - s->piece.at), s->piece.rate};
   if (s->piece.curved) {
-    sb_drive_sine(&s->model->drive, t, value, rate);
-  } else {
-    *value = s->piece.value + s->piece.rate * (t - s->piece.at);
-    *rate = s->piece.rate;
+    sb_drive_sine(&s->model->drive, t, &at.value, &at.rate);
   }
+  return at;
 }
 
-void sb_motion_wall_at(const SbDynamics *s, size_t w, double t, double *place, double *rate) {
-  if (w == SB_DYNAMICS_PLATEN) {
-    sb_motion_drive_at(s, t, place, rate);
-  } else {
-    *place = s->model->stop[w].position;
-    *rate = 0.0;
-  }
+Moving sb_motion_wall_at(const SbDynamics *s, size_t w, double t) {
+  return w == SB_DYNAMICS_PLATEN ? sb_motion_drive_at(s, t)
+                                 : (Moving){s->model->stop[w].position, 0.0};
 }
 
 double sb_motion_deflection(const SbDynamics *s, size_t w, double t, double x) {
   const SbDynamicsWall *wall = &s->wall[w];
   if (wall->on && wall->stiffness > 0.0 && !rigid(wall->stiffness)) {
-    double place, rate;
-    sb_motion_wall_at(s, w, t, &place, &rate);
-    return place - x;
+    return sb_motion_wall_at(s, w, t).value - x;
   }
   if (wall->on || wall->residual == 0.0) {
     return 0.0;
@@ -54,17 +47,17 @@ double sb_motion_sliding_level(const SbDynamics *s, size_t i, double level, doub
 // ---- forces ----
 
 void sb_motion_wall_force(Force *force, const SbDynamics *s, size_t w, double t, double x) {
-  double place, rate, k = s->wall[w].stiffness;
-  sb_motion_wall_at(s, w, t, &place, &rate);
+  const Moving at = sb_motion_wall_at(s, w, t);
+  double k = s->wall[w].stiffness;
   force->c = s->wall[w].damping;
   if (w == SB_DYNAMICS_PLATEN && sb_motion_by_force(s->model)) {
-    force->f0 = place;
-    force->f1 = rate;
+    force->f0 = at.value;
+    force->f1 = at.rate;
     force->k = 0.0;
     return;
   }
-  force->f0 = k * (place - x) + force->c * rate;
-  force->f1 = k * rate;
+  force->f0 = k * (at.value - x) + force->c * at.rate;
+  force->f1 = k * at.rate;
   force->k = k;
 }
 
@@ -220,10 +213,9 @@ static SbEventFunction function_of(const Force *f, double side, double size) {
 // Terms in the gap to wall w [m], or in its force [N]: the drive's value carries the rounding of
 // the time since its piece began.
 static double gap_size(const SbDynamics *s, const Point *p, size_t w) {
-  double place, rate;
-  sb_motion_wall_at(s, w, p->t, &place, &rate);
-  return fabs(place) + fabs(rate * p->t) + (w == SB_DYNAMICS_PLATEN ? fabs(s->piece.value) : 0.0) +
-         fabs(p->z->x) + length_noise;
+  const Moving at = sb_motion_wall_at(s, w, p->t);
+  return fabs(at.value) + fabs(at.rate * p->t) +
+         (w == SB_DYNAMICS_PLATEN ? fabs(s->piece.value) : 0.0) + fabs(p->z->x) + length_noise;
 }
 
 static double wall_size(const SbDynamics *s, const Point *p, size_t w) {
@@ -265,10 +257,9 @@ static bool wall_function(const SbDynamics *s, const Point *p, size_t w, SbEvent
     if (!platen && s->held && wall->residual == 0.0) {
       return false;
     }
-    double place, rate;
-    sb_motion_wall_at(s, w, p->t, &place, &rate);
-    *g = (SbEventFunction){.constant = wall->push * (p->z->x - place),
-                           .rate = -wall->push * rate,
+    const Moving at = sb_motion_wall_at(s, w, p->t);
+    *g = (SbEventFunction){.constant = wall->push * (p->z->x - at.value),
+                           .rate = -wall->push * at.rate,
                            .of_x = wall->push,
                            .relax = sb_motion_deflection(s, w, p->t, p->z->x),
                            .relax_rate = wall->damping > 0.0 ? wall->stiffness / wall->damping : 0,

@@ -76,11 +76,15 @@ static inline bool sb_motion_finger_gone(const SbDynamics *s) {
          s->piece.rate == 0.0;
 }
 
-// Value of the drive (place of its moving end, or its force), and its rate, at time t.
-void sb_motion_drive_at(const SbDynamics *s, double t, double *value, double *rate);
+// Place of a wall's or the drive's moving end [m], or the finger's force [N], and its rate.
+typedef struct {
+  double value, rate;
+} Moving;
 
-// Place of wall w [m], or the finger's force [N], and its rate at time t.
-void sb_motion_wall_at(const SbDynamics *s, size_t w, double t, double *place, double *rate);
+Moving sb_motion_drive_at(const SbDynamics *s, double t);
+
+// Of wall w at time t.
+Moving sb_motion_wall_at(const SbDynamics *s, size_t w, double t);
 
 // Deflection that wall w has at (t, x); of one that was left what remains of it [m].
 double sb_motion_deflection(const SbDynamics *s, size_t w, double t, double x);

@@ -197,9 +197,8 @@ static void set_system(SbDynamics *s, const Point *p, double *noise, double *spe
   double square = p->sum.k / s->mass;
   *noise = 0.0;
   if (square > stiff_square && s->wall[SB_DYNAMICS_PLATEN].on && !sb_motion_by_force(m)) {
-    double place, rate;
-    sb_motion_drive_at(s, s->t, &place, &rate);
-    *noise = DBL_EPSILON * (fabs(place) + fabs(rate * s->t)) * square;
+    const Moving at = sb_motion_drive_at(s, s->t);
+    *noise = DBL_EPSILON * (fabs(at.value) + fabs(at.rate * s->t)) * square;
   }
   *speed = *noise / sqrt(fmax(square, 1.0));
   s->system = (SbRadauSystem){.powers = SB_DYNAMICS_TERMS,
@@ -531,8 +530,7 @@ static double way_ahead(const SbDynamics *s) {
 
 SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
   const SbDynamicsModel *m = s->model;
-  double y, rate;
-  sb_motion_drive_at(s, s->t, &y, &rate);
+  double y = sb_motion_drive_at(s, s->t).value;
   SbDynamicsBreak was = s->broke;
   s->broke = (SbDynamicsBreak){.direction = direction,
                                .region = s->region,
@@ -558,10 +556,9 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
     if (!(times >= worth) || !isfinite(times)) {
       return SB_OK;
     }
-    double before = s->t, there;
+    double before = s->t;
     s->t += times * period;
-    sb_motion_drive_at(s, s->t, &there, &rate);
-    s->at.x += there - y;
+    s->at.x += sb_motion_drive_at(s, s->t).value - y;
     // A stop's fades, and is no part of a cycle.
     double stop = s->energy.stop;
     for (size_t i = 0; i < m->stops; i++) {
