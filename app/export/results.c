@@ -115,7 +115,7 @@ static void put_bodies(SbJson *json, const SbRun *run) {
   sb_json_number(json, "acceleration_error", bodies->acceleration_error);
   sb_json_number(json, "joint_error_m", bodies->joint_error);
   sb_json_array(json, "parts");
-  for (int i = 0; i < SB_VALVE_GROUND; i++) {
+  for (int i = 0; i < SB_VALVE_PARTS; i++) {
     const SbValvePart *part = &sb_model_parts(model)->part[i];
     sb_json_object(json, NULL);
     sb_json_string(json, "name", sb_valve_part_name(i));

@@ -15,11 +15,11 @@
 
 #include "engine/base/status.h"
 
-enum { SB_BODIES_MAX = 16, SB_JOINTS_MAX = 20, SB_BODY_NAME = 32 };
+// The ground is behind the parts that move.
+enum { SB_BODIES_MAX = 15, SB_GROUND = SB_BODIES_MAX, SB_JOINTS_MAX = 20, SB_BODY_NAME = 32 };
 
 typedef struct {
   char name[SB_BODY_NAME];
-  bool ground;                 // does not move; mass and inertia are not used
   double mass;                 // kg
   double inertia[3];           // principal moments about the centre of mass, body axes, kg m2
   double position[3];          // centre of mass, m
@@ -37,25 +37,23 @@ typedef enum {
   SB_JOINT_CYLINDRICAL,   // slides along the axis and turns about it
 } SbJointKind;
 
-// Joint between bodies i and j. `point` and `axis` are given in the ground frame as assembled.
+// Joint between two bodies.
 typedef struct {
   SbJointKind kind;
-  size_t i, j;
-  double point[3], axis[3];      // m, unit vector
-  double local_i[3], local_j[3]; // the point in either body's axes, from its centre [m]
-  double frame_j[9];             // unit vectors in body j, the joint's axis first
-  double twist[4];               // orientation of i in j as assembled
+  size_t body[2];
+  double point[2][3];    // its point in either body's axes, from the centre [m]
+  double frame[2][3][3]; // unit vectors in either body, the joint's axis first
 } SbJoint;
 
 typedef struct {
-  size_t bodies, joints;
-  SbBody body[SB_BODIES_MAX];
+  size_t bodies, joints; // bodies that move
+  SbBody body[SB_BODIES_MAX + 1];
   SbJoint joint[SB_JOINTS_MAX];
 } SbAssembly;
 
 enum {
   SB_ASSEMBLY_ROWS = 6 * SB_JOINTS_MAX,
-  SB_ASSEMBLY_COLUMNS = 6 * SB_BODIES_MAX,
+  SB_ASSEMBLY_COLUMNS = 6 * (SB_BODIES_MAX + 1),
   SB_ASSEMBLY_SIZE = SB_ASSEMBLY_ROWS + SB_ASSEMBLY_COLUMNS
 };
 
@@ -65,6 +63,7 @@ typedef struct {
   double jacobian[SB_ASSEMBLY_ROWS][SB_ASSEMBLY_COLUMNS]; // of (velocity, length x spin)
   double rate[SB_ASSEMBLY_ROWS];  // what the rows' second derivative has beside J a [m/s2]
   double error[SB_ASSEMBLY_ROWS]; // violation of the position conditions [m]
+  bool turns[SB_ASSEMBLY_ROWS];   // the condition is one on turns, not on the joint's point
   size_t joint[SB_ASSEMBLY_ROWS];
 } SbAssemblyConditions;
 
@@ -84,7 +83,7 @@ typedef struct {
   char text[256];  // one sentence: count, and what is over- or under-constrained
 } SbMobility;
 
-// What a joint does to body i (body j gets the opposite), at the joint's point.
+// What a joint does to its first body (the second gets the opposite), at the joint's point.
 typedef struct {
   double force[3], torque[3]; // N, N m
 } SbReaction;
@@ -94,13 +93,16 @@ typedef struct {
   SbReaction reaction[SB_JOINTS_MAX];
 } SbAssemblyForces;
 
-// Appends a body at rest, unrotated; *index tells where. Ground needs no mass.
-SbStatus sb_assembly_add(SbAssembly *assembly, size_t *index, const char *name, double mass,
-                         const double inertia[3], const double position[3], SbReport *report);
-SbStatus sb_assembly_add_ground(SbAssembly *assembly, size_t *index, SbReport *report);
+// Nothing but the ground.
+void sb_assembly_start(SbAssembly *assembly);
 
-// Appends a joint through `point`; `axis` is that of the sliding or turning (ignored if fixed).
-SbStatus sb_assembly_join(SbAssembly *assembly, size_t *index, SbJointKind kind, size_t i, size_t j,
+// Appends a body at rest, unrotated.
+SbStatus sb_assembly_add(SbAssembly *assembly, const char *name, double mass,
+                         const double inertia[3], const double position[3], SbReport *report);
+
+// Appends a joint of bodies i and j, one of which may be SB_GROUND, through `point`, ground frame,
+// as they stand; `axis` is that of the sliding or turning (any if fixed).
+SbStatus sb_assembly_join(SbAssembly *assembly, SbJointKind kind, size_t i, size_t j,
                           const double point[3], const double axis[3], SbReport *report);
 
 // Adds a force [N] at a point, ground frame, to what is applied to a body.
@@ -150,8 +152,7 @@ enum {
   SB_VALVE_INNER_SEAL,
   SB_VALVE_OUTER_SEAL,
   SB_VALVE_BLOCK,
-  SB_VALVE_GROUND,
-  SB_VALVE_BODIES,
+  SB_VALVE_PARTS,
 };
 
 // The joints of thesis table 4.3 in its order.
@@ -173,8 +174,8 @@ typedef struct {
 } SbValvePart;
 
 typedef struct {
-  SbValvePart part[SB_VALVE_GROUND]; // all but the ground
-  int joint[SB_VALVE_JOINTS];        // SbJointKind or SB_JOINT_NONE
+  SbValvePart part[SB_VALVE_PARTS];
+  int joint[SB_VALVE_JOINTS]; // SbJointKind or SB_JOINT_NONE
 } SbValveParts;
 
 // Eight parts (thesis table 4.1) and the joints between them, axis along x (in-stroke > 0),

@@ -27,13 +27,10 @@ SbStatus sb_drive_check(const SbDrive *d, SbReport *report) {
     return status;
   }
   switch (d->kind) {
-  case SB_DRIVE_RAMP:
-    return SB_CHECK(report, {"", "the ramp's rate", d->rate, SB_ABOVE_ZERO},
-                    {"", "the ramp's end", d->end, SB_FINITE});
   case SB_DRIVE_PRESS:
     return SB_CHECK(report, {"", "the press's rise [s]", d->rise, SB_ABOVE_ZERO},
                     {"", "the press's fall [s]", d->fall, SB_ABOVE_ZERO},
-                    {"", "the press's hold [s]", d->hold, SB_NOT_NEGATIVE},
+                    {"", "the press's hold [s]", d->hold, 0.0, INFINITY},
                     {"", "the pause between presses [s]", d->pause, SB_NOT_NEGATIVE},
                     {"", "the press's end", d->end, SB_FINITE},
                     {"", "the number of cycles", d->cycles, 1.0, DBL_MAX});
@@ -47,8 +44,7 @@ SbStatus sb_drive_check(const SbDrive *d, SbReport *report) {
 }
 
 void sb_drive_start(SbDriveState *state, const SbDrive *drive) {
-  *state = (SbDriveState){.phase = drive->kind == SB_DRIVE_NONE ? SB_DRIVE_DONE : SB_DRIVE_FORWARD,
-                          .from = drive->start};
+  *state = (SbDriveState){.phase = SB_DRIVE_FORWARD, .from = drive->start};
 }
 
 void sb_drive_sine(const SbDrive *d, double t, double *value, double *rate) {
@@ -65,7 +61,6 @@ static void table_piece(SbDrivePiece *p, SbDriveState *s, const SbDrive *d, doub
   if (i == 0) {
     *p = (SbDrivePiece){.at = t, .value = d->value[0], .until = d->time[0]};
   } else if (i >= d->count) {
-    s->phase = SB_DRIVE_DONE;
     *p = (SbDrivePiece){.at = t, .value = d->value[d->count - 1], .until = INFINITY};
   } else {
     double rate = (d->value[i] - d->value[i - 1]) / (d->time[i] - d->time[i - 1]);
@@ -89,11 +84,9 @@ void sb_drive_piece(SbDrivePiece *p, SbDriveState *s, const SbDrive *d, double t
     sb_drive_sine(d, t, &p->value, &p->rate);
     return;
   }
-  // Of a press; a ramp has the first only.
-  double first = d->kind == SB_DRIVE_RAMP ? fabs(d->end - d->start) / d->rate : d->rise;
   const struct {
     double lasts, to; // s, value at the end
-  } phase[] = {[SB_DRIVE_FORWARD] = {first, d->end},
+  } phase[] = {[SB_DRIVE_FORWARD] = {d->rise, d->end},
                [SB_DRIVE_HOLD] = {d->hold, d->end},
                [SB_DRIVE_BACK] = {d->fall, d->start},
                [SB_DRIVE_PAUSE] = {d->pause, d->start},
@@ -102,15 +95,11 @@ void sb_drive_piece(SbDrivePiece *p, SbDriveState *s, const SbDrive *d, double t
     s->since += phase[s->phase].lasts;
     s->from = phase[s->phase].to;
     bool last = s->phase == SB_DRIVE_BACK && s->cycle + 1 >= d->cycles;
-    s->phase = last || d->kind == SB_DRIVE_RAMP ? SB_DRIVE_DONE : (s->phase + 1) % SB_DRIVE_DONE;
+    s->phase = last ? SB_DRIVE_DONE : (s->phase + 1) % SB_DRIVE_DONE;
     s->cycle += s->phase == SB_DRIVE_FORWARD;
   }
   *p = (SbDrivePiece){.at = s->since,
                       .until = s->since + phase[s->phase].lasts,
                       .value = s->from,
                       .rate = (phase[s->phase].to - s->from) / phase[s->phase].lasts};
-}
-
-bool sb_drive_done(const SbDriveState *state) {
-  return state->phase == SB_DRIVE_DONE;
 }

@@ -10,8 +10,7 @@
 
 typedef enum {
   SB_DRIVE_NONE,  // nothing pushes: free return
-  SB_DRIVE_RAMP,  // `start`, then `rate` per second until `end`
-  SB_DRIVE_PRESS, // `start` to `end` in `rise`, `hold`, back in `fall`
+  SB_DRIVE_PRESS, // `start` to `end` in `rise`, `hold` (INFINITY: a ramp), back in `fall`
   SB_DRIVE_SINE,  // start + amplitude sin(2 pi frequency t + phase)
   SB_DRIVE_TABLE, // straight lines between measured points, the ends held
 } SbDriveKind;
@@ -22,7 +21,6 @@ typedef struct {
   SbDriveKind kind;
   SbDriveQuantity quantity;
   double start, end;                  // m or N
-  double rate;                        // RAMP: m/s or N/s, > 0 (its sign follows from start and end)
   double rise, hold, fall;            // PRESS: s
   int cycles;                         // PRESS: repeats, at least 1
   double pause;                       // PRESS: s between repeats
@@ -66,6 +64,3 @@ void sb_drive_piece(SbDrivePiece *piece, SbDriveState *state, const SbDrive *dri
 
 // Value and rate of a sinusoid at t.
 void sb_drive_sine(const SbDrive *drive, double t, double *value, double *rate);
-
-// Whether the drive has no more to do.
-bool sb_drive_done(const SbDriveState *state);

@@ -336,20 +336,11 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
     s->wall[i].on = s->wall[i].on || (rests && p->side * demand_at(s, s->at.x) > 0.0);
   }
   update_held(s);
-  s->system = (SbRadauSystem){.n = m->extra_rate != NULL ? 3 : 2,
-                              .powers = SB_DYNAMICS_TERMS,
-                              .rates = sb_motion_numerical_rates,
-                              .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9};
-  // The speed's at least; see dynamics_path.c.
-  SbDynamicsState size = {{.x = 1e-3, .v = 1e-3, .extra = fmax(m->extra_scale, DBL_MIN)}};
   for (size_t i = 0; i < m->contacts; i++) {
     s->fresh[i] = false;
     s->since[i] = -m->start_dwell;
     s->slipped[i] = -1.0;
-    size.d[i] = 1e-5;
-    s->system.n = is_rigid(m, i) ? s->system.n : 3 + m->contacts;
   }
-  memcpy(s->system.floor, size.z, sizeof size);
   s->kinetic_start = 0.5 * m->mass * s->at.v * s->at.v;
   s->stored_start = sb_motion_stored_energy(s, 0.0, &s->at);
   s->accumulated_at = -1.0;
@@ -372,7 +363,6 @@ static bool accumulates(SbDynamics *s) {
 }
 
 SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
-  long most = s->model->max_events > 0 ? s->model->max_events : 1000000;
   if (!(time >= s->now)) {
     return sb_fail(report, SB_ERROR_RANGE, "the motion cannot go back from %g s to %g s", s->now,
                    time);
@@ -395,7 +385,7 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
       }
       s->ready = true;
       s->counters.segments++;
-      if (s->counters.segments > 4 * most) {
+      if (s->counters.segments > 4 * EVENTS_MAX) {
         return sb_fail(report, SB_ERROR_NOT_CONVERGED,
                        "too many steps at %.9g s (%ld): the motion is too quick for its duration, "
                        "as with a very stiff machine and a slow stroke",
@@ -425,10 +415,10 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
           return status;
         }
       }
-      if (event != EVENT_BREAK && (s->counters.events > most || accumulates(s))) {
+      if (event != EVENT_BREAK && (s->counters.events > EVENTS_MAX || accumulates(s))) {
         return sb_fail(report, SB_ERROR_NOT_CONVERGED, "%s at %.9g s (%ld events)",
-                       s->counters.events > most ? "too many events" : "events accumulate", s->t,
-                       s->counters.events);
+                       s->counters.events > EVENTS_MAX ? "too many events" : "events accumulate",
+                       s->t, s->counters.events);
       }
     }
   }
@@ -445,7 +435,7 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
     return;
   }
   Point p;
-  double rate, holding = 0.0, total = 0.0;
+  double holding = 0.0, total = 0.0;
   sb_motion_point(&p, s, s->now, &z);
   *out = (SbDynamicsSample){.time = s->now,
                             .position = z.x,
@@ -457,8 +447,7 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
                             .extra = z.extra,
                             .region = s->region};
   if (m->drive.kind != SB_DRIVE_NONE) {
-    sb_motion_drive_at(s, s->now, &out->drive_position, &rate);
-    out->drive_position = sb_motion_by_force(m) ? z.x : out->drive_position;
+    out->drive_position = sb_motion_by_force(m) ? z.x : sb_motion_drive_at(s, s->now).value;
   }
   // What holds a stem at rest: a rigid stop first, else the rigid contacts by their strength.
   total = s->held ? p.sum.f0 : 0.0;
@@ -483,18 +472,10 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
 }
 
 bool sb_dynamics_at_rest(const SbDynamics *s) {
-  SbDynamicsSample sample;
-  if (!s->ready || !s->linear || s->event != EVENT_BREAK || !sb_drive_done(&s->drive)) {
+  SbDynamicsState z;
+  if (!s->ready || !s->linear || s->event != EVENT_BREAK || isfinite(s->piece.until)) {
     return false;
   }
-  sb_dynamics_sample(s, &sample, NULL);
-  return s->held || fabs(sample.speed) < 1e-12;
-}
-
-double sb_dynamics_force_peak(const SbDynamics *s) {
-  return s->force_peak;
-}
-
-SbDynamicsCounters sb_dynamics_counters(const SbDynamics *s) {
-  return s->counters;
+  sb_motion_state_at(s, s->now - s->t, &z);
+  return s->held || fabs(z.v) < 1e-12;
 }

@@ -8,11 +8,11 @@
 // Friction. A contact carries a Coulomb level L [N] given by the caller for where the stem is. It
 // sticks up to L (static_ratio + dwell_gain ln(1 + dwell/dwell_time)); it slides at
 // L [1 + (static_ratio - 1) exp(-(speed/stribeck_speed)^stribeck_exponent)], or at L from the first
-// slip if stribeck_speed is 0, or at L times a caller's function of the speed; `viscous` times the
-// stem's speed acts beside it. A contact with finite `stiffness` joins stem and bore through the
-// seal's tangential spring and damper (pre-sliding, thesis slope A-B): its patch does not move at
-// all while it sticks. A rigid contact (stiffness INFINITY) holds the stem itself at rest, exactly.
-// Contacts that the land does not reach have level 0.
+// slip if stribeck_speed is 0; `viscous` times the stem's speed acts beside it. A contact with
+// finite `stiffness` joins stem and bore through the seal's tangential spring and damper
+// (pre-sliding, thesis slope A-B): its patch does not move at all while it sticks. A rigid contact
+// (stiffness INFINITY) holds the stem itself at rest, exactly. Contacts that the land does not
+// reach have level 0.
 //
 // Stops. Spring and damper in one direction, the damper from the restitution of a free impact that
 // ends when the force does (Schwager and Poeschel 2007); stiffness INFINITY is an impact law, at
@@ -81,8 +81,6 @@ typedef struct {
   void (*extra_rate)(double *rate, double x, double v, size_t region, const double *extra,
                      void *user);
   double extra_start, extra_scale; // in the unit of that state; scale > 0: its size
-  // Sliding friction over level at a speed >= 0 (replaces the Stribeck curve); NULL: none.
-  double (*speed_factor)(size_t contact, double speed, void *user);
   // The mass that the stroke sees at (x, v) [kg], asked for at the start of every segment; NULL:
   // always `mass`.
   SbStatus (*mass_at)(double *mass, double x, double v, void *user, SbReport *report);
@@ -96,7 +94,6 @@ typedef struct {
   double start_dwell;                 // s of rest before the start
   double tolerance;                   // relative, of the numerical path, <= 1e-5; 0: 1e-9
   double rest_speed; // m/s below which a slowing contact rests, a rigid stop keeps; 0: 1e-9
-  long max_events;   // 0: 1e6; four times as many steps
 } SbDynamicsModel;
 
 typedef enum {
@@ -188,8 +185,11 @@ typedef struct {
   SbDynamicsEnergy energy;
 } SbDynamicsBreak;
 
-// Working state; on the caller's memory, no pointers owned. Fields are private.
+// Working state; on the caller's memory, no pointers owned. Fields are private, but what is to be
+// read.
 typedef struct {
+  SbDynamicsCounters counters; // to be read: what the run cost so far
+  double force_peak;           // to be read: of the drive, up to the last event [N]
   const SbDynamicsModel *model;
   double t, t_end;    // anchor of the segment, and its end [s]
   SbDynamicsState at; // at the anchor
@@ -210,7 +210,6 @@ typedef struct {
   SbDynamicsBreak broke;
   double asked; // time that is being advanced to
   double stored_start, kinetic_start;
-  double force_peak; // of the drive, up to the anchor [N]
   bool ready, linear, held;
   // The patch started the segment clearly faster than rest_speed: falling below it is coming to
   // rest.
@@ -218,11 +217,12 @@ typedef struct {
   int event; // that ends the segment, or -1
   SbOscillator motion;
   SbRadauSystem system;
+  size_t unknown[SB_RADAU_MAX]; // its unknowns' places in SbDynamicsState.z
+  double speed_size;            // of its tolerance [m/s]
   SbRadauStep step[2];
   double h; // next step size [s]
   double accumulated_at;
   int accumulated;
-  SbDynamicsCounters counters;
   void (*listener)(const SbMotionEvent *event, void *user);
   void *listener_user;
 } SbDynamics;
@@ -248,9 +248,3 @@ void sb_dynamics_sample(const SbDynamics *dynamics, SbDynamicsSample *sample,
 
 // Whether the drive has ended and the stem rests: nothing more can happen.
 bool sb_dynamics_at_rest(const SbDynamics *dynamics);
-
-// Largest force of the drive up to the last event [N], between samples too.
-double sb_dynamics_force_peak(const SbDynamics *dynamics);
-
-// What the run cost so far.
-SbDynamicsCounters sb_dynamics_counters(const SbDynamics *dynamics);

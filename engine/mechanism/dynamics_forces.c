@@ -1,34 +1,27 @@
-// Forces of dynamics.h at a point of the motion, each written once as coefficients about it, and
-// the quantities whose sign announces an event.
+// Forces of dynamics.h at a point of the motion, each written once as coefficients about it, what
+// they do, and the quantities whose sign announces an event.
 #include "engine/mechanism/dynamics_internal.h"
 
 #include <math.h>
 #include <string.h>
 
-void sb_motion_drive_at(const SbDynamics *s, double t, double *value, double *rate) {
+Moving sb_motion_drive_at(const SbDynamics *s, double t) {
+  Moving at = {s->piece.value + s->piece.rate * (t - s->piece.at), s->piece.rate};
   if (s->piece.curved) {
-    sb_drive_sine(&s->model->drive, t, value, rate);
-  } else {
-    *value = s->piece.value + s->piece.rate * (t - s->piece.at);
-    *rate = s->piece.rate;
+    sb_drive_sine(&s->model->drive, t, &at.value, &at.rate);
   }
+  return at;
 }
 
-void sb_motion_wall_at(const SbDynamics *s, size_t w, double t, double *place, double *rate) {
-  if (w == SB_DYNAMICS_PLATEN) {
-    sb_motion_drive_at(s, t, place, rate);
-  } else {
-    *place = s->model->stop[w].position;
-    *rate = 0.0;
-  }
+Moving sb_motion_wall_at(const SbDynamics *s, size_t w, double t) {
+  return w == SB_DYNAMICS_PLATEN ? sb_motion_drive_at(s, t)
+                                 : (Moving){s->model->stop[w].position, 0.0};
 }
 
 double sb_motion_deflection(const SbDynamics *s, size_t w, double t, double x) {
   const SbDynamicsWall *wall = &s->wall[w];
   if (wall->on && wall->stiffness > 0.0 && !rigid(wall->stiffness)) {
-    double place, rate;
-    sb_motion_wall_at(s, w, t, &place, &rate);
-    return place - x;
+    return sb_motion_wall_at(s, w, t).value - x;
   }
   if (wall->on || wall->residual == 0.0) {
     return 0.0;
@@ -39,19 +32,13 @@ double sb_motion_deflection(const SbDynamics *s, size_t w, double t, double x) {
 }
 
 bool sb_motion_speed_dependent(const SbDynamicsModel *m, size_t i) {
-  return m->speed_factor != NULL ||
-         (m->contact[i].stribeck_speed > 0.0 && m->contact[i].static_ratio != 1.0);
+  return m->contact[i].stribeck_speed > 0.0 && m->contact[i].static_ratio != 1.0;
 }
 
 double sb_motion_sliding_level(const SbDynamics *s, size_t i, double level, double speed) {
-  const SbDynamicsModel *m = s->model;
-  const SbDynamicsContact *c = &m->contact[i];
-  speed = fmax(speed, 0.0);
-  if (m->speed_factor != NULL) {
-    return level * m->speed_factor(i, speed, m->user);
-  }
+  const SbDynamicsContact *c = &s->model->contact[i];
   if (c->stribeck_speed > 0.0) {
-    double fall = exp(-pow(speed / c->stribeck_speed, c->stribeck_exponent));
+    double fall = exp(-pow(fmax(speed, 0.0) / c->stribeck_speed, c->stribeck_exponent));
     return level * (1.0 + (c->static_ratio - 1.0) * fall);
   }
   return level;
@@ -60,17 +47,17 @@ double sb_motion_sliding_level(const SbDynamics *s, size_t i, double level, doub
 // ---- forces ----
 
 void sb_motion_wall_force(Force *force, const SbDynamics *s, size_t w, double t, double x) {
-  double place, rate, k = s->wall[w].stiffness;
-  sb_motion_wall_at(s, w, t, &place, &rate);
+  const Moving at = sb_motion_wall_at(s, w, t);
+  double k = s->wall[w].stiffness;
   force->c = s->wall[w].damping;
   if (w == SB_DYNAMICS_PLATEN && sb_motion_by_force(s->model)) {
-    force->f0 = place;
-    force->f1 = rate;
+    force->f0 = at.value;
+    force->f1 = at.rate;
     force->k = 0.0;
     return;
   }
-  force->f0 = k * (place - x) + force->c * rate;
-  force->f1 = k * rate;
+  force->f0 = k * (at.value - x) + force->c * at.rate;
+  force->f1 = k * at.rate;
   force->k = k;
 }
 
@@ -157,29 +144,58 @@ double sb_motion_deflection_at(const SbDynamics *s, size_t i, double tau, double
   return end + left;
 }
 
-void sb_motion_numerical_rates(double *dz, double *power, double t, const double *z, void *user) {
-  const SbDynamics *s = user;
-  const SbDynamicsState *at = (const SbDynamicsState *)z;
-  SbDynamicsState *rate = (SbDynamicsState *)dz;
-  Point p;
-  sb_motion_point(&p, s, t, at);
-  rate->x = p.v;
-  rate->v = s->held ? 0.0 : force_of(&p.sum, &p) / s->mass;
-  rate->extra = 0.0;
-  if (!s->loads.constant && s->model->extra_rate != NULL) {
-    s->model->extra_rate(&rate->extra, at->x, p.v, s->region, &at->extra, s->model->user);
+// ---- energy ----
+
+double sb_motion_stored_energy(const SbDynamics *s, double t, const SbDynamicsState *z) {
+  const SbDynamicsModel *m = s->model;
+  double sum = m->spring_preload * z->x + 0.5 * m->spring_stiffness * z->x * z->x;
+  for (size_t i = 0; i < m->contacts; i++) {
+    sum += is_rigid(m, i) ? 0.0 : 0.5 * m->contact[i].stiffness * z->d[i] * z->d[i];
   }
-  for (size_t i = 0; i < s->model->contacts; i++) {
-    rate->d[i] = sb_motion_deflection_rate(s, &p, i);
+  for (size_t w = 0; w < SB_DYNAMICS_WALLS; w++) {
+    double e = sb_motion_deflection(s, w, t, z->x);
+    sum += e != 0.0 ? 0.5 * s->wall[w].stiffness * e * e : 0.0;
   }
-  if (power != NULL) {
-    Stretch now = {.time = 1.0, .travel = p.v, .square = p.v * p.v};
-    for (size_t i = 0; i < s->model->contacts; i++) {
-      now.shift[i] = rate->d[i];
-      now.fade[i] = rate->d[i] * rate->d[i];
+  return sum;
+}
+
+double sb_motion_relaxed(const SbDynamics *s, size_t w, double t0, double t1) {
+  if (s->wall[w].on || s->wall[w].residual == 0.0) {
+    return 0.0;
+  }
+  double a = sb_motion_deflection(s, w, t0, 0.0), b = sb_motion_deflection(s, w, t1, 0.0);
+  return 0.5 * s->wall[w].stiffness * (a - b) * (a + b);
+}
+
+// In the order of SbDynamicsEnergy.
+enum { DRIVE, PRESSURE, FRICTION, VISCOUS, SEAL, STOP, MACHINE };
+
+void sb_motion_add_energy(double *term, const SbDynamics *s, const Point *p, const Stretch *over) {
+  const SbDynamicsModel *m = s->model;
+  term[PRESSURE] += p->loads.force * over->travel;
+  term[VISCOUS] += m->damping * over->square;
+  for (size_t w = 0; w < SB_DYNAMICS_PLATEN; w++) {
+    term[STOP] += p->wall[w].c * over->square;
+  }
+  const Force *f = &p->wall[SB_DYNAMICS_PLATEN];
+  if (s->wall[SB_DYNAMICS_PLATEN].on && sb_motion_by_force(m)) {
+    term[DRIVE] += f->f0 * over->travel + f->f1 * over->ramp - f->c * over->square;
+  } else if (s->wall[SB_DYNAMICS_PLATEN].on) {
+    // The platen moves at its own speed against the integral of the force.
+    double rate = f->f1 / f->k;
+    term[DRIVE] +=
+        rate * (f->f0 * over->time + f->f1 * over->late - f->k * over->area - f->c * over->travel);
+    term[MACHINE] += f->c * (rate * (rate * over->time - 2.0 * over->travel) + over->square);
+  }
+  for (size_t i = 0; i < m->contacts; i++) {
+    if (s->state[i] == SB_CONTACT_OFF) {
+      continue;
     }
-    memset(power, 0, SB_DYNAMICS_TERMS * sizeof *power);
-    sb_motion_add_energy(power, s, &p, &now);
+    term[VISCOUS] += m->contact[i].viscous * over->square;
+    term[SEAL] += m->contact[i].damping * over->fade[i];
+    if (s->state[i] == SB_CONTACT_SLIP) {
+      term[FRICTION] -= p->contact[i].f0 * (over->travel - over->shift[i]);
+    }
   }
 }
 
@@ -194,20 +210,17 @@ static SbEventFunction function_of(const Force *f, double side, double size) {
                            .noise = size};
 }
 
-// Terms in the place of wall w, or the finger's force: the drive's value carries the rounding of
+// Terms in the gap to wall w [m], or in its force [N]: the drive's value carries the rounding of
 // the time since its piece began.
-static double place_size(const SbDynamics *s, const Point *p, size_t w) {
-  double place, rate;
-  sb_motion_wall_at(s, w, p->t, &place, &rate);
-  return fabs(place) + fabs(rate * p->t) + (w == SB_DYNAMICS_PLATEN ? fabs(s->piece.value) : 0.0);
+static double gap_size(const SbDynamics *s, const Point *p, size_t w) {
+  const Moving at = sb_motion_wall_at(s, w, p->t);
+  return fabs(at.value) + fabs(at.rate * p->t) +
+         (w == SB_DYNAMICS_PLATEN ? fabs(s->piece.value) : 0.0) + fabs(p->z->x) + length_noise;
 }
 
-// Terms in the force of wall w [N].
 static double wall_size(const SbDynamics *s, const Point *p, size_t w) {
-  double place = place_size(s, p, w);
-  return w == SB_DYNAMICS_PLATEN && sb_motion_by_force(s->model)
-             ? place
-             : s->wall[w].stiffness * (place + fabs(p->z->x) + length_noise);
+  double k = s->wall[w].stiffness; // a finger has none
+  return (k > 0.0 ? k : 1.0) * gap_size(s, p, w);
 }
 
 // Terms in all forces together [N].
@@ -244,14 +257,13 @@ static bool wall_function(const SbDynamics *s, const Point *p, size_t w, SbEvent
     if (!platen && s->held && wall->residual == 0.0) {
       return false;
     }
-    double place, rate;
-    sb_motion_wall_at(s, w, p->t, &place, &rate);
-    *g = (SbEventFunction){.constant = wall->push * (p->z->x - place),
-                           .rate = -wall->push * rate,
+    const Moving at = sb_motion_wall_at(s, w, p->t);
+    *g = (SbEventFunction){.constant = wall->push * (p->z->x - at.value),
+                           .rate = -wall->push * at.rate,
                            .of_x = wall->push,
                            .relax = sb_motion_deflection(s, w, p->t, p->z->x),
                            .relax_rate = wall->damping > 0.0 ? wall->stiffness / wall->damping : 0,
-                           .noise = place_size(s, p, w) + fabs(p->z->x) + length_noise};
+                           .noise = gap_size(s, p, w)};
   }
   return true;
 }
@@ -367,14 +379,17 @@ bool sb_motion_event_function(const SbDynamics *s, const Point *p, int event, Sb
   return live;
 }
 
-bool sb_motion_event_value(const SbDynamics *s, const Point *p, int event, double *value,
-                           double *noise) {
+double sb_motion_event_value(const SbDynamics *s, const Point *p, int event, double *noise) {
   SbEventFunction g;
-  if (!sb_motion_event_function(s, p, event, &g)) {
-    return false;
+  (void)sb_motion_event_function(s, p, event, &g);
+  *noise = 1e-12 * (fabs(g.constant) + g.noise + fabs(g.relax)) +
+           fabs(g.of_v) * 10.0 * s->system.tolerance * s->speed_size;
+  // What slows down to the speed of rest is at rest, whatever the tolerance leaves of its speed.
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    int own = is_rigid(s->model, i) ? EVENT_RIGID_UP : EVENT_CONTACT_UP + (int)i;
+    if (event == own && s->brisk[i] && s->state[i] == SB_CONTACT_SLIP) {
+      *noise = fmin(*noise, 0.1 * sb_motion_rest_speed(s->model));
+    }
   }
-  *value = value_of(&g, p->v);
-  double speed = 10.0 * s->system.tolerance * s->system.floor[1];
-  *noise = 1e-12 * (fabs(g.constant) + g.noise + fabs(g.relax)) + fabs(g.of_v) * speed;
-  return true;
+  return value_of(&g, p->v);
 }

@@ -1,6 +1,5 @@
-// What the files of dynamics share: _check (input), _forces (forces, event functions), _path
-// (motion between events), _energy, _repeat, and dynamics.c (what events do). Private to this
-// folder.
+// What the files of dynamics share: _check (input), _forces (forces, energies, event functions),
+// _path (motion between events), and dynamics.c (what events do). Private to this folder.
 #pragma once
 
 #include "engine/mechanism/dynamics.h"
@@ -46,6 +45,9 @@ typedef struct {
   double shift[SB_DYNAMICS_CONTACTS], fade[SB_DYNAMICS_CONTACTS]; // of d' and d'^2 [m, m2/s]
 } Stretch;
 
+// After so many events, or four times as many segments, a motion is given up.
+enum { EVENTS_MAX = 1000000 };
+
 // Positions closer than rounding of this are the same [m].
 static const double length_noise = 1e-6;
 
@@ -74,11 +76,15 @@ static inline bool sb_motion_finger_gone(const SbDynamics *s) {
          s->piece.rate == 0.0;
 }
 
-// Value of the drive (place of its moving end, or its force), and its rate, at time t.
-void sb_motion_drive_at(const SbDynamics *s, double t, double *value, double *rate);
+// Place of a wall's or the drive's moving end [m], or the finger's force [N], and its rate.
+typedef struct {
+  double value, rate;
+} Moving;
 
-// Place of wall w [m], or the finger's force [N], and its rate at time t.
-void sb_motion_wall_at(const SbDynamics *s, size_t w, double t, double *place, double *rate);
+Moving sb_motion_drive_at(const SbDynamics *s, double t);
+
+// Of wall w at time t.
+Moving sb_motion_wall_at(const SbDynamics *s, size_t w, double t);
 
 // Deflection that wall w has at (t, x); of one that was left what remains of it [m].
 double sb_motion_deflection(const SbDynamics *s, size_t w, double t, double x);
@@ -115,18 +121,14 @@ double sb_motion_deflection_at(const SbDynamics *s, size_t i, double tau, double
 bool sb_motion_event_function(const SbDynamics *s, const Point *p, int event, SbEventFunction *g);
 
 // The function's value at the point, and a size below which its sign means nothing in the numerical
-// path; false as above.
-bool sb_motion_event_value(const SbDynamics *s, const Point *p, int event, double *value,
-                           double *noise);
-
-// Rates and integrands of the numerical path at z; `user` is the SbDynamics.
-void sb_motion_numerical_rates(double *dz, double *power, double t, const double *z, void *user);
+// path.
+double sb_motion_event_value(const SbDynamics *s, const Point *p, int event, double *noise);
 
 // Finds the motion from the anchor and the event that ends it (s->t_end, s->event).
 SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report);
 
 // After rigid contacts broke away at the anchor: goes on by whole cycles of stick-slip if they are
-// equal (dynamics_repeat.c). SB_ERROR_NOT_CONVERGED if too many unequal ones lie ahead.
+// equal. SB_ERROR_NOT_CONVERGED if too many unequal ones lie ahead.
 SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report);
 
 // The state at tau after the anchor, within the segment.

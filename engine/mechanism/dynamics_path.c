@@ -1,9 +1,12 @@
-// Motion between two events of dynamics.h, and where the next one is.
+// Motion between two events of dynamics.h, where the next one is, and what the forces do on the
+// way. Every term of energy is integrated by itself, from the motion and the forces; kinetic and
+// stored energy are read from the state. Their balance is a check.
 #include "engine/mechanism/dynamics_internal.h"
 #include "engine/numeric/root.h"
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 // A rest of this length [s] is looked at again; it costs one segment.
 static const double horizon_max = 1e6;
@@ -11,8 +14,8 @@ static const double horizon_max = 1e6;
 // Force to which the tolerance of the numerical path refers where springs are stiff [N].
 static const double force_size = 400.0;
 
-// Speed to which it refers at least [m/s].
-static const double speed_size = 1e-3;
+// Place, speed and deflection to which it refers at least [m, m/s, m].
+static const double place_size = 1e-3, speed_size = 1e-3, deflection_size = 1e-5;
 
 // Stiffness over mass [1/s2] above which rounding outdoes the tolerance: 1e5 rad/s.
 static const double stiff_square = 1e10;
@@ -31,7 +34,15 @@ static bool has_closed_form(const SbDynamics *s) {
   return true;
 }
 
-static void closed_path(SbDynamics *s, const Point *p) {
+// What can end the segment: which of the events is the same throughout, its functions at the
+// anchor.
+typedef struct {
+  size_t count;
+  int event[EVENT_COUNT];
+  SbEventFunction function[EVENT_COUNT];
+} Live;
+
+static void closed_path(SbDynamics *s, const Point *p, Live *live) {
   s->motion = (SbOscillator){0};
   if (!s->held) {
     sb_oscillator_init(&s->motion, s->mass, p->sum.c, p->sum.k, p->sum.f0, p->sum.f1, p->v);
@@ -40,50 +51,69 @@ static void closed_path(SbDynamics *s, const Point *p) {
   s->t_end = isfinite(s->piece.until) && horizon < horizon_max ? s->piece.until : s->t + horizon;
   s->event = EVENT_BREAK;
   double a = s->held ? 0.0 : force_of(&p->sum, p) / s->mass;
-  for (int event = 0; event < EVENT_COUNT; event++) {
-    SbEventFunction function;
+  for (size_t i = 0; i < live->count; i++) {
+    SbEventFunction *g = &live->function[i];
     bool found;
-    if (!sb_motion_event_function(s, p, event, &function)) {
-      continue;
-    }
     // The time itself is rounded, and with it whatever changes fast. Not so the edges: crossing one
     // puts the stem on it.
-    if (event != EVENT_EDGE_UP && event != EVENT_EDGE_DOWN) {
-      function.noise +=
-          s->t * (fabs(function.rate) + fabs(function.of_x * p->v) + fabs(function.of_v * a) +
-                  fabs(function.relax * function.relax_rate));
+    if (live->event[i] != EVENT_EDGE_UP && live->event[i] != EVENT_EDGE_DOWN) {
+      g->noise += s->t * (fabs(g->rate) + fabs(g->of_x * p->v) + fabs(g->of_v * a) +
+                          fabs(g->relax * g->relax_rate));
     }
-    double at = sb_event_first(&function, &s->motion, horizon, &found);
+    double at = sb_event_first(g, &s->motion, horizon, &found);
     if (found && (at < horizon || s->event == EVENT_BREAK)) {
       horizon = at;
       s->t_end = s->t + at;
-      s->event = event;
+      s->event = live->event[i];
     }
   }
 }
 
 // ---- numerical path ----
 
+static void numerical_rates(double *dz, double *power, double t, const double *z, void *user) {
+  const SbDynamics *s = user;
+  SbDynamicsState at = s->at, rate;
+  for (size_t i = 0; i < s->system.n; i++) {
+    at.z[s->unknown[i]] = z[i];
+  }
+  Point p;
+  sb_motion_point(&p, s, t, &at);
+  rate.x = p.v;
+  rate.v = force_of(&p.sum, &p) / s->mass;
+  rate.extra = 0.0;
+  if (!s->loads.constant && s->model->extra_rate != NULL) {
+    s->model->extra_rate(&rate.extra, at.x, p.v, s->region, &at.extra, s->model->user);
+  }
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    rate.d[i] = sb_motion_deflection_rate(s, &p, i);
+  }
+  for (size_t i = 0; i < s->system.n; i++) {
+    dz[i] = rate.z[s->unknown[i]];
+  }
+  if (power != NULL) {
+    Stretch now = {.time = 1.0, .travel = p.v, .square = p.v * p.v};
+    for (size_t i = 0; i < s->model->contacts; i++) {
+      now.shift[i] = rate.d[i];
+      now.fade[i] = rate.d[i] * rate.d[i];
+    }
+    memset(power, 0, SB_DYNAMICS_TERMS * sizeof *power);
+    sb_motion_add_energy(power, s, &p, &now);
+  }
+}
+
 typedef struct {
   double value[EVENT_COUNT], noise[EVENT_COUNT];
-  bool live[EVENT_COUNT];
 } Values;
 
-// Values of the events from `first` to `last` at tau of the steps.
-static void values_at(const SbDynamics *s, double tau, int first, int last, Values *out) {
+// Values of the live events at tau of the steps.
+static void values_at(const SbDynamics *s, double tau, const Live *live, Values *out) {
   SbDynamicsState z;
   Point p;
   sb_motion_state_at(s, tau, &z);
   sb_motion_point(&p, s, s->t + tau, &z);
-  for (int event = first; event <= last; event++) {
-    out->live[event] = sb_motion_event_value(s, &p, event, &out->value[event], &out->noise[event]);
-  }
-  // What slows down to the speed of rest is at rest, whatever the tolerance leaves of its speed.
-  for (size_t i = 0; i < s->model->contacts; i++) {
-    size_t own = is_rigid(s->model, i) ? EVENT_RIGID_UP : EVENT_CONTACT_UP + i;
-    if (s->brisk[i] && s->state[i] == SB_CONTACT_SLIP) {
-      out->noise[own] = fmin(out->noise[own], 0.1 * sb_motion_rest_speed(s->model));
-    }
+  for (size_t i = 0; i < live->count; i++) {
+    out->value[i] = sb_motion_event_value(s, &p, live->event[i], &out->noise[i]);
   }
 }
 
@@ -99,38 +129,38 @@ static double fall_at(double *slope, double tau, const void *context) {
   double h = s->step[0].h + s->step[1].h, span = fmin(tau, fmax(1e-4 * h, 1e-12 * s->t));
   double value[2];
   for (int i = 0; i < 2; i++) {
-    Values at = {0};
-    values_at(s, tau - i * span, search->event, search->event, &at);
-    value[i] = at.live[search->event] ? -at.value[search->event] : -1.0;
+    const Live one = {.count = 1, .event = {search->event}};
+    Values at;
+    values_at(s, tau - i * span, &one, &at);
+    value[i] = -at.value[0];
   }
   *slope = (value[0] - value[1]) / span;
   return value[0];
 }
 
 // The earliest event in steps over h, found on their dense output, and when; else EVENT_NONE.
-static int first_event(const SbDynamics *s, double h, double *at) {
+static int first_event(const SbDynamics *s, double h, const Live *live, double *at) {
   enum { PARTS = 4 };
-  Values before = {0}, after = {0};
   int found = EVENT_NONE;
-  values_at(s, 0.0, 0, EVENT_COUNT - 1, &before);
+  Values now;
+  values_at(s, 0.0, live, &now);
   for (int part = 1; part <= PARTS && found == EVENT_NONE; part++) {
-    values_at(s, part * h / PARTS, 0, EVENT_COUNT - 1, &after);
-    for (int event = 0; event < EVENT_COUNT; event++) {
+    const Values before = now;
+    values_at(s, part * h / PARTS, live, &now);
+    for (size_t i = 0; i < live->count; i++) {
       // Armed once it was clearly positive; before that only a clear fall counts.
-      bool armed = before.live[event] && before.value[event] > before.noise[event];
-      if (!after.live[event] || !(after.value[event] < 0.0) ||
-          !(armed || after.value[event] < -after.noise[event])) {
+      bool armed = before.value[i] > before.noise[i];
+      if (!(now.value[i] < 0.0) || !(armed || now.value[i] < -now.noise[i])) {
         continue;
       }
-      Search search = {s, event};
+      Search search = {s, live->event[i]};
       double low = (part - 1) * h / PARTS, high = part * h / PARTS;
       double root = sb_newton_bracketed(fall_at, &search, low, high, 0.5 * (low + high));
       if (found == EVENT_NONE || root < *at) {
         *at = root;
-        found = event;
+        found = live->event[i];
       }
     }
-    before = after;
   }
   return found;
 }
@@ -150,25 +180,44 @@ static double quickest_rate(const SbDynamics *s, const Point *p) {
   return fmax(sqrt(p->sum.k / s->mass), p->sum.c / s->mass);
 }
 
-// Sizes to which the tolerance refers, and the rounding of acceleration [m/s2] and speed [m/s]: a
-// very stiff drive turns that of its own place into them, and less cannot be asked for.
-static void set_scales(SbDynamics *s, const Point *p, double *noise, double *speed) {
+// Adds what is at `place` of the state to what changes in this segment. An error in it is one in
+// force, and in energy, by the springs that act.
+static void add_unknown(SbDynamics *s, size_t place, double size, double stiffness) {
+  size_t n = s->system.n++;
+  s->unknown[n] = place;
+  s->system.floor[n] = size;
+  s->system.ceiling[n] = stiffness > 0.0 ? force_size / stiffness : 0.0;
+}
+
+// The unknowns of this segment; the rounding of acceleration [m/s2] and speed [m/s]: a very stiff
+// drive turns that of its own place into them, and less cannot be asked for.
+static void set_system(SbDynamics *s, const Point *p, double *noise, double *speed) {
+  enum { X, V, EXTRA, D };
   const SbDynamicsModel *m = s->model;
-  // An error in place is one in force, and in energy, by the springs that act.
-  s->system.ceiling[0] = p->sum.k > 0.0 ? force_size / p->sum.k : 0.0;
-  for (size_t i = 0; i < m->contacts; i++) {
-    const size_t d = offsetof(SbDynamicsState, d) / sizeof(double);
-    s->system.ceiling[d + i] = is_rigid(m, i) ? 0.0 : force_size / m->contact[i].stiffness;
-  }
   double square = p->sum.k / s->mass;
   *noise = 0.0;
   if (square > stiff_square && s->wall[SB_DYNAMICS_PLATEN].on && !sb_motion_by_force(m)) {
-    double place, rate;
-    sb_motion_drive_at(s, s->t, &place, &rate);
-    *noise = DBL_EPSILON * (fabs(place) + fabs(rate * s->t)) * square;
+    const Moving at = sb_motion_drive_at(s, s->t);
+    *noise = DBL_EPSILON * (fabs(at.value) + fabs(at.rate * s->t)) * square;
   }
   *speed = *noise / sqrt(fmax(square, 1.0));
-  s->system.floor[1] = fmax(speed_size, 10.0 * *speed / s->system.tolerance);
+  s->system = (SbRadauSystem){.powers = SB_DYNAMICS_TERMS,
+                              .rates = numerical_rates,
+                              .user = s,
+                              .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9};
+  s->speed_size = fmax(speed_size, 10.0 * *speed / s->system.tolerance);
+  if (!s->held) {
+    add_unknown(s, X, place_size, p->sum.k);
+    add_unknown(s, V, s->speed_size, 0.0);
+  }
+  if (m->extra_rate != NULL) {
+    add_unknown(s, EXTRA, m->extra_scale, 0.0);
+  }
+  for (size_t i = 0; i < m->contacts; i++) {
+    if (!is_rigid(m, i) && s->state[i] != SB_CONTACT_OFF) {
+      add_unknown(s, D + i, deflection_size, m->contact[i].stiffness);
+    }
+  }
 }
 
 // Steps that end as near as this share of them to an event are not taken again: at their end dense
@@ -178,14 +227,17 @@ static const double near_end = 1e-4;
 // Steps with error control; one that an event ends is taken again so that it ends there: the event
 // is then as accurate as the solution, not as its dense output, and the step's error that of the
 // way to the event (loads may have a corner behind it).
-static SbStatus numerical_path(SbDynamics *s, const Point *p, SbReport *report) {
+static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, SbReport *report) {
   double noise, speed;
-  set_scales(s, p, &noise, &speed);
-  s->system.user = s;
+  set_system(s, p, &noise, &speed);
   double quickest = quickest_rate(s, p), first = quickest > 0.0 ? 0.2 / quickest : 1e-5;
   double left = fmin(s->piece.until - s->t, horizon_max), h = s->h > 0.0 ? s->h : first;
   if (s->piece.curved) {
     h = fmin(h, s->piece.step);
+  }
+  double z[SB_RADAU_MAX];
+  for (size_t i = 0; i < s->system.n; i++) {
+    z[i] = s->at.z[s->unknown[i]];
   }
   int landing = EVENT_NONE, landings = 0;
   for (int attempt = 0; attempt < 80; attempt++) {
@@ -196,9 +248,11 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, SbReport *report) 
     }
     // A step that is long against the relaxation damps that rounding, too.
     double damped = fmax(1.0, h * quickest);
-    s->system.noise[0] = 8.0 * speed / damped;
-    s->system.noise[1] = 8.0 * noise / damped;
-    bool solved = sb_radau_pair(s->step, &error, local, &s->system, s->t, s->at.z, h,
+    if (!s->held) {
+      s->system.noise[0] = 8.0 * speed / damped;
+      s->system.noise[1] = 8.0 * noise / damped;
+    }
+    bool solved = sb_radau_pair(s->step, &error, local, &s->system, s->t, z, h,
                                 &s->counters.newton_iterations);
     double factor = error > 0.0 ? fmin(4.0, fmax(0.2, 0.85 * pow(error, -1.0 / 6.0))) : 4.0;
     if (!solved || error > 1.0) {
@@ -211,7 +265,7 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, SbReport *report) 
     if (landing == EVENT_NONE) {
       // A step that had to be shortened is not lengthened at once.
       s->h = h * (attempt > 0 ? fmin(factor, 1.0) : factor);
-      landing = first_event(s, h, &at);
+      landing = first_event(s, h, live, &at);
       landings = 0;
     } else {
       at = place_of(s, landing, h);
@@ -227,7 +281,7 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, SbReport *report) 
     s->t_end = last ? s->piece.until : s->t + at;
     s->event = landing == EVENT_NONE ? EVENT_BREAK : landing;
     s->counters.steps++;
-    s->counters.local_error += local[0] / (fabs(s->at.x) + s->system.floor[0]);
+    s->counters.local_error += s->held ? 0.0 : local[0] / (fabs(s->at.x) + place_size);
     if (landing != EVENT_NONE) {
       // What follows may be much quicker.
       s->h = fmin(s->h, first);
@@ -248,11 +302,103 @@ SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report) {
     double rest = sb_motion_rest_speed(s->model);
     s->brisk[i] = s->state[i] == SB_CONTACT_SLIP && slip > (s->brisk[i] ? rest : 2.0 * rest);
   }
+  Live live;
+  live.count = 0;
+  for (int event = 0; event < EVENT_COUNT; event++) {
+    if (sb_motion_event_function(s, &p, event, &live.function[live.count])) {
+      live.event[live.count++] = event;
+    }
+  }
   if (s->linear) {
-    closed_path(s, &p);
+    closed_path(s, &p, &live);
     return SB_OK;
   }
-  return numerical_path(s, &p, report);
+  return numerical_path(s, &p, &live, report);
+}
+
+// ---- state and energy in a segment ----
+
+// The closed-form motion over tau, which ends in z.
+static void stretch_to(Stretch *over, const SbDynamics *s, double tau, const SbDynamicsState *z) {
+  SbOscillatorState end = sb_oscillator_at(&s->motion, tau);
+  *over = (Stretch){.time = tau,
+                    .late = 0.5 * tau * tau,
+                    .travel = end.travel,
+                    .area = end.area,
+                    .square = sb_oscillator_square(&s->motion, tau)};
+  over->ramp = tau * over->travel - over->area;
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    const SbDynamicsContact *c = &s->model->contact[i];
+    double rate0, rate1;
+    over->shift[i] = z->d[i] - s->at.d[i];
+    if (is_rigid(s->model, i) || s->state[i] == SB_CONTACT_STUCK) {
+      over->fade[i] = is_rigid(s->model, i) ? 0.0 : over->square;
+      continue;
+    }
+    // d' of a patch that relaxes falls as exp(-stiffness/damping tau).
+    (void)sb_motion_deflection_at(s, i, 0.0, 0.0, &rate0);
+    (void)sb_motion_deflection_at(s, i, tau, over->travel, &rate1);
+    over->fade[i] = 0.5 * c->damping / c->stiffness * (rate0 - rate1) * (rate0 + rate1);
+  }
+}
+
+void sb_motion_state_at(const SbDynamics *s, double tau, SbDynamicsState *z) {
+  *z = s->at;
+  if (tau <= 0.0) {
+    return;
+  }
+  if (s->linear) {
+    double rate;
+    SbOscillatorState at = sb_oscillator_at(&s->motion, tau);
+    z->x = s->at.x + at.travel;
+    z->v = at.v;
+    for (size_t i = 0; i < s->model->contacts; i++) {
+      z->d[i] = sb_motion_deflection_at(s, i, tau, at.travel, &rate);
+    }
+    return;
+  }
+  const SbRadauStep *step = tau <= s->step[0].h ? &s->step[0] : &s->step[1];
+  double found[SB_RADAU_MAX];
+  tau -= step == s->step ? 0.0 : s->step[0].h;
+  sb_radau_dense(step, &s->system, step->h > 0.0 ? tau / step->h : 1.0, found, NULL);
+  for (size_t i = 0; i < s->system.n; i++) {
+    z->z[s->unknown[i]] = found[i];
+  }
+}
+
+void sb_motion_energy_at(const SbDynamics *s, double tau, const SbDynamicsState *z,
+                         SbDynamicsEnergy *e) {
+  *e = s->energy;
+  if (tau > 0.0 && s->linear) {
+    Point p;
+    Stretch over;
+    sb_motion_point(&p, s, s->t, &s->at);
+    stretch_to(&over, s, tau, z);
+    sb_motion_add_energy(e->term, s, &p, &over);
+  } else if (tau > 0.0) {
+    double from = 0.0, q[SB_RADAU_POWERS];
+    for (const SbRadauStep *step = s->step; step < s->step + 2; step++) {
+      if (step->h > 0.0 && tau > from) {
+        double theta = (tau - from) / step->h;
+        sb_radau_dense(step, &s->system, step == s->step ? fmin(1.0, theta) : theta, NULL, q);
+        for (int k = 0; k < SB_DYNAMICS_TERMS; k++) {
+          e->term[k] += q[k];
+        }
+      }
+      from += step->h;
+    }
+  }
+  for (size_t w = 0; w < SB_DYNAMICS_WALLS; w++) {
+    *(w == SB_DYNAMICS_PLATEN ? &e->machine : &e->stop) +=
+        sb_motion_relaxed(s, w, s->t, s->t + tau);
+  }
+  e->kinetic = 0.5 * s->mass * z->v * z->v - s->kinetic_start;
+  e->stored = sb_motion_stored_energy(s, s->t + tau, z) - s->stored_start;
+  double external = e->drive + e->pressure;
+  e->largest = fmax(e->largest, fabs(external));
+  double rest =
+      external - e->friction - e->viscous - e->seal - e->stop - e->machine - e->kinetic - e->stored;
+  e->closure = e->largest > 0.0 ? fabs(rest) / e->largest : 0.0;
 }
 
 // ---- the drive's greatest force ----
@@ -285,7 +431,7 @@ static double step_peak(const SbDynamics *s, double from, double to, double peak
   long iterations = 0;
   SbDynamics there = *s;
   return push_at(s, at) > (1.0 - 1e-3) * peak &&
-                 sb_radau_pair(there.step, &error, local, &s->system, s->t, s->at.z, at,
+                 sb_radau_pair(there.step, &error, local, &s->system, s->t, s->step[0].z0, at,
                                &iterations)
              ? fmax(peak, push_at(&there, at))
              : peak;
@@ -326,4 +472,120 @@ double sb_motion_force_peak(const SbDynamics *s, double known) {
   bool found;
   double at = sb_event_first(&rising, o, lasts, &found);
   return found ? fmax(peak, push_at(s, fmin(at, lasts))) : peak;
+}
+
+// ---- stick-slip that repeats itself ----
+
+// When rigid contacts break away the stem rests and the drive's spring holds what they bear: where
+// loads and drive's speed are constant, equal forces at two break-aways in a row make equal cycles
+// for ever. A stiff machine has millions of them. They are not stepped through: time goes on by a
+// whole number of periods T, the stem by as much as the drive, every energy by as many times what
+// it gained in one period. Exact, and never past a time that was asked for, an edge, a stop or the
+// drive's next piece. Where loads change with the place cycles differ, and must be stepped; more of
+// them than the limits allow are refused when they begin, not when the limit is reached. Leaves
+// out: elastic contacts (their patches take turns).
+
+// Cycles that are worth passing over: fewer are stepped through, and told to the listener.
+static const double worth = 10.0;
+
+// Break-aways since `was` that can be told ahead: a slip and a rest of all contacts, nothing else.
+static bool comparable(const SbDynamics *s, const SbDynamicsBreak *was) {
+  const SbDynamicsModel *m = s->model;
+  const SbDynamicsBreak *now = &s->broke;
+  if (m->extra_rate != NULL || !s->wall[SB_DYNAMICS_PLATEN].on || s->piece.curved ||
+      sb_motion_by_force(m)) {
+    return false;
+  }
+  for (size_t i = 0; i < m->contacts; i++) {
+    if (!is_rigid(m, i)) {
+      return false;
+    }
+  }
+  for (size_t i = 0; i < m->stops; i++) {
+    if (s->wall[i].on) {
+      return false;
+    }
+  }
+  return was->direction == now->direction && was->region == now->region &&
+         was->events + 2 == now->events && was->piece == now->piece && now->t > was->t &&
+         now->direction * (now->x - was->x) > 0.0;
+}
+
+// How far the stem can go on in its direction before something else happens [m].
+static double way_ahead(const SbDynamics *s) {
+  const SbDynamicsModel *m = s->model;
+  double way = INFINITY;
+  if (s->broke.direction > 0 && s->region < m->edges) {
+    way = m->edge[s->region] - s->at.x;
+  } else if (s->broke.direction < 0 && s->region > 0) {
+    way = s->at.x - m->edge[s->region - 1];
+  }
+  for (size_t i = 0; i < m->stops; i++) {
+    if (m->stop[i].side == s->broke.direction) {
+      way = fmin(way, m->stop[i].side * (m->stop[i].position - s->at.x));
+    }
+  }
+  return way;
+}
+
+SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
+  const SbDynamicsModel *m = s->model;
+  double y = sb_motion_drive_at(s, s->t).value;
+  SbDynamicsBreak was = s->broke;
+  s->broke = (SbDynamicsBreak){.direction = direction,
+                               .region = s->region,
+                               .events = s->counters.events,
+                               .segments = s->counters.segments,
+                               .t = s->t,
+                               .x = s->at.x,
+                               .stretch = y - s->at.x,
+                               .piece = s->piece.at,
+                               .energy = s->energy};
+  if (!comparable(s, &was)) {
+    return SB_OK;
+  }
+  double period = s->t - was.t, step = fabs(s->at.x - was.x), way = way_ahead(s);
+  double noise = 4e-16 * (fabs(y) + fabs(s->at.x));
+  bool same = fabs(s->broke.stretch - was.stretch) <= 1e-9 * fabs(was.stretch) + noise;
+  for (size_t i = 0; i < m->contacts; i++) {
+    same = same && (s->state[i] == SB_CONTACT_OFF || !sb_motion_speed_dependent(m, i));
+  }
+  if (same && s->loads.constant) {
+    double ahead = fmin((fmin(s->asked, s->piece.until) - s->t) / period, way / step);
+    double times = floor(ahead) - 2.0;
+    if (!(times >= worth) || !isfinite(times)) {
+      return SB_OK;
+    }
+    double before = s->t;
+    s->t += times * period;
+    s->at.x += sb_motion_drive_at(s, s->t).value - y;
+    // A stop's fades, and is no part of a cycle.
+    double stop = s->energy.stop;
+    for (size_t i = 0; i < m->stops; i++) {
+      stop += sb_motion_relaxed(s, i, before, s->t);
+    }
+    for (int i = 0; i < SB_DYNAMICS_TERMS; i++) {
+      s->energy.term[i] += times * (s->energy.term[i] - was.energy.term[i]);
+    }
+    s->energy.stop = stop;
+    for (size_t i = 0; i < m->contacts; i++) {
+      s->since[i] += s->t - before;
+    }
+    s->broke.t = s->t;
+    s->broke.x = s->at.x;
+    s->broke.energy = s->energy;
+    s->counters.repeated += (long)fmin(times, 1e15);
+    return SB_OK;
+  }
+  double cycles = fmin((s->piece.until - s->t) / period, way / step);
+  double steps = cycles * (double)(s->counters.segments - was.segments);
+  if (isfinite(cycles) && (2.0 * cycles > (double)(EVENTS_MAX - s->counters.events) ||
+                           steps > (double)(4 * EVENTS_MAX - s->counters.segments))) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                   "stick-slip at %.9g s: about %.2g slips, one every %.2g s, lie ahead where "
+                   "friction changes with the place, too many to step through; a softer or a "
+                   "damped machine (drive.stiffness, drive.damping_ratio) slips less often",
+                   s->t, cycles, period);
+  }
+  return SB_OK;
 }

@@ -249,24 +249,6 @@ static double trend_clear(const SbEventFunction *g, const SbOscillator *o, doubl
   return rate >= 0.0 ? INFINITY : fmax(tau, (1.0 - 8.0 * DBL_EPSILON) * (level / -rate));
 }
 
-// From tau, where g is small and falls: Newton's method as long as it comes nearer.
-static double polish(const SbEventFunction *g, const SbOscillator *o, double tau, double horizon) {
-  Look now = look(g, o, tau);
-  for (int i = 0; i < 8 && now.rate < 0.0; i++) {
-    double next = fmin(horizon, fmax(0.0, tau - now.value / now.rate));
-    if (fabs(next - tau) <= DBL_EPSILON * tau) {
-      return next;
-    }
-    Look then = look(g, o, next);
-    if (fabs(then.value) > fabs(now.value)) {
-      break;
-    }
-    tau = next;
-    now = then;
-  }
-  return tau;
-}
-
 double sb_event_first(const SbEventFunction *g, const SbOscillator *o, double horizon,
                       bool *found) {
   double tau = 0.0, window = horizon, curvature, swing;
@@ -301,7 +283,7 @@ double sb_event_first(const SbEventFunction *g, const SbOscillator *o, double ho
   for (int i = 0; i < 200000 && tau < horizon; i++) {
     now = look(g, o, tau);
     if (now.value <= now.tiny && now.rate < 0.0) {
-      return polish(g, o, tau, horizon);
+      return fmin(horizon, fmax(0.0, tau - now.value / now.rate));
     }
     if (now.value < -16.0 * now.tiny) {
       return tau;

@@ -1,57 +1,10 @@
-// Outlines of parts. See outline.h.
+// Surfaces of outlines. See outline.h; solid.c divides profiles into them.
 #include "engine/mechanism/outline.h"
 
 #include "engine/numeric/root.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-// Pieces that an arc of this chord and bulge needs.
-static size_t divisions(double chord, double bulge, double sagitta) {
-  double t = fabs(bulge);
-  if (t == 0.0) {
-    return 1;
-  }
-  double radius = chord * (1.0 + t * t) / (4.0 * t), sweep = 4.0 * atan(t);
-  double step = 2.0 * acos(1.0 - fmin(sagitta / radius, 1.0));
-  return (size_t)fmax(1.0, ceil(sweep / step));
-}
-
-SbStatus sb_outline_of_profile(SbOutline *out, const SbProfile *p, double sagitta,
-                               SbReport *report) {
-  SbStatus status = sb_profile_check(p, report);
-  out->count = 0;
-  if (status != SB_OK) {
-    return status;
-  }
-  size_t total;
-  for (;; sagitta *= 2.0) {
-    total = 0;
-    for (size_t i = 0; i < p->count; i++) {
-      const SbProfilePoint *a = &p->point[i], *b = &p->point[(i + 1) % p->count];
-      total += divisions(hypot(b->x - a->x, b->r - a->r), a->bulge, sagitta);
-    }
-    if (total <= SB_OUTLINE_MAX) {
-      break;
-    }
-  }
-  for (size_t i = 0; i < p->count; i++) {
-    const SbProfilePoint *a = &p->point[i], *b = &p->point[(i + 1) % p->count];
-    double dx = b->x - a->x, dr = b->r - a->r, t = a->bulge;
-    size_t n = divisions(hypot(dx, dr), t, sagitta);
-    out->point[out->count++] = (SbOutlinePoint){a->x, a->r};
-    // Centre and start of the arc as in solid.c; the ends stay the given points.
-    double off = n > 1 ? (1.0 - t * t) / (4.0 * t) : 0.0;
-    double cx = 0.5 * (a->x + b->x) - off * dr, cr = 0.5 * (a->r + b->r) + off * dx;
-    double radius = hypot(a->x - cx, a->r - cr), from = atan2(a->r - cr, a->x - cx);
-    for (size_t k = 1; k < n; k++) {
-      double angle = from + 4.0 * atan(t) * (double)k / (double)n;
-      double r = cr + radius * sin(angle);
-      out->point[out->count++] = (SbOutlinePoint){cx + radius * cos(angle), fmax(r, 0.0)};
-    }
-  }
-  return sb_succeed(report);
-}
 
 static int ascending(const void *a, const void *b) {
   double x = *(const double *)a, y = *(const double *)b;

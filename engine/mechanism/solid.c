@@ -1,5 +1,5 @@
-// Revolved profiles. See solid.h; meshes are in solid_mesh.c.
-#include "engine/mechanism/solid.h"
+// Revolved profiles. See solid.h and outline.h; meshes are in solid_mesh.c.
+#include "engine/mechanism/outline.h"
 #include "engine/numeric/legendre.h"
 
 #include <float.h>
@@ -330,6 +330,42 @@ SbStatus sb_profile_diameters(SbProfileDiameters *out, const SbProfile *p, doubl
   }
   if (out->largest < 0.0) {
     return sb_fail(report, SB_ERROR_RANGE, "the part does not reach %g .. %g m", x0, x1);
+  }
+  return sb_succeed(report);
+}
+
+// ---- outlines ----
+
+// Chords that keep within `sagitta` of a piece.
+static size_t divisions(const Piece *s, double sagitta) {
+  double step = s->arc ? 2.0 * acos(1.0 - fmin(sagitta / s->radius, 1.0)) : 1.0;
+  return (size_t)fmax(1.0, ceil(fabs(s->sweep) / step));
+}
+
+SbStatus sb_outline_of_profile(SbOutline *out, const SbProfile *p, double sagitta,
+                               SbReport *report) {
+  SbStatus status = sb_profile_check(p, report);
+  out->count = 0;
+  if (status != SB_OK) {
+    return status;
+  }
+  for (size_t i = 0; i < p->count;) {
+    Piece piece;
+    piece_at(&piece, p, i, 0.0);
+    size_t n = divisions(&piece, sagitta);
+    if (out->count + n > SB_OUTLINE_MAX) {
+      // From the start, coarser.
+      sagitta *= 2.0;
+      i = out->count = 0;
+      continue;
+    }
+    out->point[out->count++] = (SbOutlinePoint){p->point[i].x, p->point[i].r}; // exactly
+    for (size_t k = 1; k < n; k++) {
+      SbOutlinePoint *at = &out->point[out->count++];
+      point_on(&piece, (double)k / (double)n, &at->x, &at->r);
+      at->r = fmax(at->r, 0.0);
+    }
+    i++;
   }
   return sb_succeed(report);
 }

@@ -4,24 +4,23 @@
 #include "engine/mechanism/vector3.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 
 // ---- closed? ----
 
 typedef struct {
-  unsigned from, to;
+  uint64_t ends; // from and to
   size_t triangle;
 } Edge;
 
+static uint64_t ends_of(uint64_t from, uint64_t to) {
+  return from << 32 | to;
+}
+
 static int by_ends(const void *a, const void *b) {
   const Edge *e = a, *f = b;
-  if (e->from != f->from) {
-    return e->from < f->from ? -1 : 1;
-  }
-  if (e->to != f->to) {
-    return e->to < f->to ? -1 : 1;
-  }
-  return 0;
+  return (e->ends > f->ends) - (e->ends < f->ends);
 }
 
 static SbStatus check_edges(const unsigned *triangles, size_t count, SbReport *report) {
@@ -32,20 +31,20 @@ static SbStatus check_edges(const unsigned *triangles, size_t count, SbReport *r
   }
   for (size_t t = 0; t < count; t++) {
     for (size_t k = 0; k < 3; k++) {
-      edge[3 * t + k] = (Edge){triangles[3 * t + k], triangles[3 * t + (k + 1) % 3], t};
+      edge[3 * t + k] = (Edge){ends_of(triangles[3 * t + k], triangles[3 * t + (k + 1) % 3]), t};
     }
   }
   qsort(edge, n, sizeof *edge, by_ends);
   SbStatus status = SB_OK;
   for (size_t i = 0; i < n && status == SB_OK; i++) {
-    if (i + 1 < n && by_ends(&edge[i], &edge[i + 1]) == 0) {
+    if (i + 1 < n && edge[i].ends == edge[i + 1].ends) {
       status = sb_fail(report, SB_ERROR_INPUT,
                        "triangles %zu and %zu run along their common edge the same way: the mesh "
                        "has mixed handedness or branches",
                        edge[i].triangle, edge[i + 1].triangle);
       break;
     }
-    Edge back = {edge[i].to, edge[i].from, 0};
+    Edge back = {ends_of(edge[i].ends & UINT32_MAX, edge[i].ends >> 32), 0};
     if (bsearch(&back, edge, n, sizeof *edge, by_ends) == NULL) {
       status = sb_fail(report, SB_ERROR_INPUT, "the mesh is open at an edge of triangle %zu",
                        edge[i].triangle);
@@ -162,14 +161,11 @@ SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_cou
     }
     extent = fmax(extent, fabs(vertices[i] - origin[i % 3]));
   }
-  for (size_t i = 0; i < 3 * triangle_count; i++) {
-    if (triangles[i] >= vertex_count) {
-      return sb_fail(report, SB_ERROR_INPUT, "triangle %zu names a vertex that is not there",
-                     i / 3);
-    }
-  }
   for (size_t t = 0; t < triangle_count; t++) {
     const unsigned *v = triangles + 3 * t;
+    if (v[0] >= vertex_count || v[1] >= vertex_count || v[2] >= vertex_count) {
+      return sb_fail(report, SB_ERROR_INPUT, "triangle %zu names a vertex that is not there", t);
+    }
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
       return sb_fail(report, SB_ERROR_INPUT, "triangle %zu has two equal corners", t);
     }

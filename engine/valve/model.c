@@ -271,7 +271,7 @@ static void check_joints(const SbModel *model, SbAssemblyWork *work, SbProblems 
 // to each other; otherwise it is their sum.
 static void compile_parts(SbModel *model, SbProblems *problems) {
   SbValvePart *part = model->parts.part;
-  for (int i = 0; i < SB_VALVE_GROUND; i++) {
+  for (int i = 0; i < SB_VALVE_PARTS; i++) {
     if (part[i].axial > 2 * part[i].transverse * 1.001) {
       // The catalogue has mass, axial and transverse moment of each part in a row.
       refuse(problems, sb_param(SB_P_PART_HOUSING_INERTIA_AXIAL + 3 * i)->key, NAN,

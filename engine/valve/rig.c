@@ -39,7 +39,12 @@ SbStatus sb_rig_run(const SbRig *rig, SbRigEach each, void *user, SbMotionEvent 
                            .contacts = SB_RIG_RINGS,
                            .loads = rig_loads,
                            .user = &held,
-                           .drive = {.kind = SB_DRIVE_RAMP, .rate = rig->speed, .end = 1e3},
+                           .drive = {.kind = SB_DRIVE_PRESS,
+                                     .end = 1e3,
+                                     .rise = 1e3 / rig->speed,
+                                     .hold = INFINITY,
+                                     .fall = 1.0,
+                                     .cycles = 1},
                            .drive_stiffness = rig->thread_stiffness,
                            .drive_damping = rig->thread_damping,
                            .start_dwell = rig->rest};
@@ -66,7 +71,7 @@ SbStatus sb_rig_run(const SbRig *rig, SbRigEach each, void *user, SbMotionEvent 
     *slip = first;
   }
   if (counters != NULL) {
-    *counters = sb_dynamics_counters(&motion);
+    *counters = motion.counters;
   }
   return status;
 }

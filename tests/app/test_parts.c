@@ -35,7 +35,7 @@ static void assert_solid(const char *profile, double mass, double axial, double 
   const SbValvePart *part = sb_model_parts(model)->part;
   assert_relative(part[SB_VALVE_STEM_TOP].mass, mass, 1e-10);
   double moving = 0;
-  for (int i = SB_VALVE_STEM_CENTRE; i < SB_VALVE_GROUND; i++) {
+  for (int i = SB_VALVE_STEM_CENTRE; i < SB_VALVE_PARTS; i++) {
     moving += part[i].mass;
   }
   assert_relative(moving, mass + 1.12e-3 + 1.14e-3 + 2 * 3.23e-6 + 1e-10, 1e-10);

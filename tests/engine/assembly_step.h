@@ -44,9 +44,6 @@ static inline void move_bodies(SbAssembly *a, const SbAssembly *from, const Body
   for (size_t b = 0; b < a->bodies; b++) {
     SbBody *to = &a->body[b];
     const SbBody *was = &from->body[b];
-    if (to->ground) {
-      continue;
-    }
     double size = 0.0;
     for (int k = 0; k < 3; k++) {
       to->position[k] = was->position[k] + h * rates->position[b][k];
@@ -85,7 +82,7 @@ static inline SbStatus settle(SbAssembly *a, SbReport *report) {
   }
   status = sb_bodies_solve(a, &assembly_work, 1.0, length, top, bottom, report);
   for (size_t b = 0; b < a->bodies && status == SB_OK; b++) {
-    for (size_t k = 0; k < 3 && !a->body[b].ground; k++) {
+    for (size_t k = 0; k < 3; k++) {
       a->body[b].velocity[k] += top[6 * b + k];
       a->body[b].spin[k] += top[6 * b + 3 + k] / length;
     }

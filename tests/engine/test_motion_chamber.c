@@ -188,10 +188,10 @@ static void test_valve(void) {
       ASSERT_NEAR(sample.extra, start, 1e-3 * pc);
       g_assert_cmpfloat(v.lowest, <, 1.0);
       g_assert_cmpfloat(e.closure, <, 1e-6);
-      g_assert_cmpint(sb_dynamics_counters(&s).steps, <, 5000);
+      g_assert_cmpint(s.counters.steps, <, 5000);
       g_test_message("reading %d, %s: force at 3 mm %.2f N, closure %.1e, events %ld, steps %ld",
                      reading, at_once ? "at once" : "orifices", in_force, e.closure,
-                     sb_dynamics_counters(&s).events, sb_dynamics_counters(&s).steps);
+                     s.counters.events, s.counters.steps);
     }
   }
 }

@@ -2,6 +2,7 @@
 #include "engine/mechanism/dynamics.h"
 
 #include "tests/engine/near.h"
+#include "tests/engine/ramp.h"
 
 #include <glib.h>
 #include <math.h>
@@ -120,7 +121,7 @@ static void belt(bool numerical, double tolerance) {
       .contact = {{.static_ratio = ratio, .stiffness = INFINITY}},
       .loads = flat_loads,
       .user = &flat,
-      .drive = {.kind = SB_DRIVE_RAMP, .rate = speed, .end = 1.0},
+      .drive = ramp(0.0, 1.0, speed),
       .drive_stiffness = k,
       .drive_bonded = true,
       .tolerance = 1e-11,
@@ -163,7 +164,7 @@ static void test_stiff(void) {
                        .edges = 1,
                        .edge = {3e-3},
                        .loads = stiff_loads,
-                       .drive = {.kind = SB_DRIVE_RAMP, .rate = 20e-3 / 60.0, .end = 1.0},
+                       .drive = ramp(0.0, 1.0, 20e-3 / 60.0),
                        .drive_stiffness = 5e9};
   SbDynamics once, often;
   SbDynamicsSample a, b;
@@ -174,7 +175,7 @@ static void test_stiff(void) {
   for (int i = 1; i <= 2500; i++) {
     advance(&often, i * 2e-5);
   }
-  SbDynamicsCounters c = sb_dynamics_counters(&once), d = sb_dynamics_counters(&often);
+  SbDynamicsCounters c = once.counters, d = often.counters;
   sb_dynamics_sample(&once, &a, &e);
   sb_dynamics_sample(&often, &b, &f);
   g_test_message("%ld events and %ld cycles passed over, %ld events; place %.2e m, work %.2e off",
@@ -194,7 +195,7 @@ static void test_stiff(void) {
   g_assert_cmpint(sb_dynamics_advance(&once, 20.0, &report), ==, SB_ERROR_NOT_CONVERGED);
   g_assert_nonnull(strstr(report.text, "lie ahead where friction changes with the place"));
   g_assert_nonnull(strstr(report.text, "drive.damping_ratio"));
-  g_assert_cmpint(sb_dynamics_counters(&once).events, <, 2000);
+  g_assert_cmpint(once.counters.events, <, 2000);
   sb_dynamics_sample(&once, &a, &e);
   ASSERT_NEAR(a.position, 3e-3, 1e-7);
   g_assert_cmpfloat(e.closure, <, 1e-9);
@@ -202,7 +203,7 @@ static void test_stiff(void) {
   m.drive_damping = 0.05 * 2.0 * sqrt(m.drive_stiffness * m.mass);
   go(&once, &m, NULL);
   advance(&once, 20.0);
-  c = sb_dynamics_counters(&once);
+  c = once.counters;
   g_test_message("damped: %ld steps, %ld rejected", c.steps, c.rejected);
   g_assert_cmpint(c.steps + c.rejected, <, 5000);
   g_assert_cmpfloat(closure(&once), <, 1e-9);
@@ -227,11 +228,11 @@ static void test_incline(void) {
   g_assert_true(sample.position == 0.123456789);
   g_assert_true(sample.speed == 0.0);
   ASSERT_NEAR(sample.friction[0], -0.999 * 5.0, 1e-15);
-  g_assert_cmpint(sb_dynamics_counters(&s).events, ==, 0);
+  g_assert_cmpint(s.counters.events, ==, 0);
   // Through an elastic seal that was never overloaded the patch stays where it is, exactly.
   flat.loads.force = 0.0;
-  m.drive = (SbDrive){
-      .kind = SB_DRIVE_RAMP, .quantity = SB_DRIVE_OF_FORCE, .rate = 0.1, .end = 0.999 * 5.0};
+  m.drive = ramp(0.0, 0.999 * 5.0, 0.1);
+  m.drive.quantity = SB_DRIVE_OF_FORCE;
   m.contact[0].stiffness = 1e4;
   m.contact[0].damping = 20.0;
   go(&s, &m, NULL);
@@ -246,7 +247,7 @@ static void test_incline(void) {
   g_assert_true(sample.position - sample.deflection[0] == patch);
   ASSERT_NEAR(patch, 0.123456789, 1e-16);
   ASSERT_NEAR(sample.deflection[0], 0.999 * 5.0 / 1e4, 1e-15);
-  g_assert_cmpint(sb_dynamics_counters(&s).events, <=, 1);
+  g_assert_cmpint(s.counters.events, <=, 1);
 }
 
 // ---- stops ----
@@ -337,9 +338,9 @@ static void test_push(void) {
     SbDynamicsEnergy energy;
     sb_dynamics_sample(&s, &sample, &energy);
     g_test_message("push: %ld events, %ld segments, stop force %.12g N, friction %.12g N",
-                   sb_dynamics_counters(&s).events, sb_dynamics_counters(&s).segments,
-                   sample.stop_force[0], sample.friction[0]);
-    g_assert_cmpint(sb_dynamics_counters(&s).events, <=, 10);
+                   s.counters.events, s.counters.segments, sample.stop_force[0],
+                   sample.friction[0]);
+    g_assert_cmpint(s.counters.events, <=, 10);
     // Force balance at rest, and the stop's own law.
     ASSERT_NEAR(sample.stop_force[0], 20.0 + sample.friction[0], 1e-9);
     ASSERT_NEAR(sample.stop_force[0], 1e7 * (sample.position - 6.6e-3), 1e-9);
@@ -350,7 +351,7 @@ static void test_push(void) {
     go(&s, &m, NULL);
     advance(&s, 10.0);
     sb_dynamics_sample(&s, &sample, &energy);
-    g_assert_cmpint(sb_dynamics_counters(&s).events, <=, 10);
+    g_assert_cmpint(s.counters.events, <=, 10);
     ASSERT_NEAR(sample.stop_force[0], 20.0, 1e-9);
     g_assert_cmpfloat(energy.closure, <, 1e-9);
   }
@@ -401,14 +402,14 @@ static void test_repeat_beside_stop(void) {
       .loads = flat_loads,
       .user = &flat,
       .start_position = 1e-6,
-      .drive = {.kind = SB_DRIVE_RAMP, .start = 1e-6, .rate = 2e-3, .end = -1e-2},
+      .drive = ramp(1e-6, -1e-2, 2e-3),
       .drive_stiffness = 1e6,
       .drive_bonded = true,
   };
   SbDynamics s;
   go(&s, &m, NULL);
   advance(&s, 0.9);
-  g_assert_cmpint(sb_dynamics_counters(&s).repeated, >, 500);
+  g_assert_cmpint(s.counters.repeated, >, 500);
   g_assert_cmpfloat(closure(&s), <, 1e-10);
 }
 

@@ -2,6 +2,7 @@
 // the numerical path against itself at a tighter tolerance.
 #include "engine/mechanism/dynamics.h"
 #include "tests/engine/near.h"
+#include "tests/engine/ramp.h"
 
 #include <glib.h>
 #include <math.h>
@@ -110,7 +111,7 @@ static void test_stribeck(void) {
                                         .damping = elastic ? 10.0 : 0.0}},
                            .loads = flat_loads,
                            .user = &flat,
-                           .drive = {.kind = SB_DRIVE_RAMP, .rate = speed, .end = 10.0},
+                           .drive = ramp(0.0, 10.0, speed),
                            .drive_stiffness = 1e5,
                            .drive_damping = 800.0};
       SbDynamics s;
@@ -194,7 +195,7 @@ static void test_shaking(void) {
     start(&s, &m);
     advance(&s, 0.2, &sample, &e);
     g_test_message("shaking %d: closure %.2g, events %ld, friction work %.4g J", kind, e.closure,
-                   sb_dynamics_counters(&s).events, e.friction);
+                   s.counters.events, e.friction);
     g_assert_cmpfloat(e.closure, <, 1e-6);
     g_assert_cmpfloat(e.friction, >, 0.0);
   }
@@ -360,7 +361,7 @@ static void test_tolerance(void) {
                                     .damping = 3.0}},
                        .loads = flat_loads,
                        .user = &flat,
-                       .drive = {.kind = SB_DRIVE_RAMP, .rate = 5e-3, .end = 1.0},
+                       .drive = ramp(0.0, 1.0, 5e-3),
                        .drive_stiffness = 2e4,
                        .drive_damping = 5.0,
                        .rest_speed = 1e-12};
@@ -369,7 +370,7 @@ static void test_tolerance(void) {
   for (int kind = 0; kind < 8; kind++) {
     enum { TIGHT = 13, LOOSE = 5 };
     double at[TIGHT + 1][16];
-    m.drive.rate = kind % 2 ? 5e-3 : 1.3e-3;
+    m.drive = ramp(0.0, 1.0, kind % 2 ? 5e-3 : 1.3e-3);
     m.contact[0].static_ratio = kind & 2 ? 1.3 : 1.8;
     m.contact[0].stiffness = kind & 4 ? INFINITY : 3e4;
     m.contact[0].damping = kind & 4 ? 0.0 : 3.0;
@@ -380,7 +381,7 @@ static void test_tolerance(void) {
       SbDynamicsEnergy e;
       start(&s, &m);
       for (int i = 0; i < 16; i++) {
-        advance(&s, (1.0 + 0.1 * i) * 6e-3 / m.drive.rate, &a, &e);
+        advance(&s, (1.0 + 0.1 * i) * 6e-3 * m.drive.rise, &a, &e);
         at[power][i] = a.position;
       }
       g_assert_cmpfloat(e.closure, <, 1e-5 * pow(10.0, LOOSE - power + 1));
@@ -450,7 +451,7 @@ static void test_refusals(void) {
       bad.drive_stiffness = 1e5;
       break;
     case 8:
-      bad.drive = (SbDrive){.kind = SB_DRIVE_RAMP, .rate = 1.0, .end = 1.0};
+      bad.drive = ramp(0.0, 1.0, 1.0);
       bad.drive_stiffness = INFINITY;
       break;
     default:

@@ -34,7 +34,7 @@ static const double crank_mass = 0.3, rod_mass = 0.2, slider_mass = 0.5;
 static const double crank_inertia = 9e-5, rod_inertia = 4e-4;
 static const double spring = 400.0, spring_rest = 0.12; // on the slider
 
-enum { GROUND, CRANK, ROD, SLIDER };
+enum { CRANK, ROD, SLIDER };
 
 // Everything the crank's angle decides, and its derivatives by it.
 typedef struct {
@@ -84,27 +84,24 @@ static void slider_crank(SbAssembly *a, double q, double speed, bool flat) {
   double pin[3] = {radius * cos(q), radius * sin(q), 0.0}, end[3] = {c.slider, 0.0, 0.0};
   double crank_at_[3] = {0.5 * pin[0], 0.5 * pin[1], 0.0};
   double rod_at[3] = {0.5 * (pin[0] + end[0]), 0.5 * pin[1], 0.0};
-  *a = (SbAssembly){0};
-  g_assert_cmpint(sb_assembly_add_ground(a, NULL, &report), ==, SB_OK);
-  g_assert_cmpint(sb_assembly_add(a, NULL, "crank", crank_mass, crank, crank_at_, &report), ==,
-                  SB_OK);
-  g_assert_cmpint(sb_assembly_add(a, NULL, "rod", rod_mass, rod, rod_at, &report), ==, SB_OK);
-  g_assert_cmpint(sb_assembly_add(a, NULL, "slider", slider_mass, small, end, &report), ==, SB_OK);
+  sb_assembly_start(a);
+  g_assert_cmpint(sb_assembly_add(a, "crank", crank_mass, crank, crank_at_, &report), ==, SB_OK);
+  g_assert_cmpint(sb_assembly_add(a, "rod", rod_mass, rod, rod_at, &report), ==, SB_OK);
+  g_assert_cmpint(sb_assembly_add(a, "slider", slider_mass, small, end, &report), ==, SB_OK);
   a->body[CRANK].orientation[0] = cos(0.5 * q);
   a->body[CRANK].orientation[3] = sin(0.5 * q);
   a->body[ROD].orientation[0] = cos(0.5 * c.phi);
   a->body[ROD].orientation[3] = -sin(0.5 * c.phi);
-  g_assert_cmpint(
-      sb_assembly_join(a, NULL, SB_JOINT_REVOLUTE, CRANK, GROUND, origin, z_axis, &report), ==,
-      SB_OK);
-  g_assert_cmpint(sb_assembly_join(a, NULL, flat ? SB_JOINT_REVOLUTE : SB_JOINT_SPHERICAL, ROD,
-                                   CRANK, pin, z_axis, &report),
+  g_assert_cmpint(sb_assembly_join(a, SB_JOINT_REVOLUTE, CRANK, SB_GROUND, origin, z_axis, &report),
                   ==, SB_OK);
-  g_assert_cmpint(sb_assembly_join(a, NULL, flat ? SB_JOINT_REVOLUTE : SB_JOINT_CYLINDRICAL, ROD,
-                                   SLIDER, end, z_axis, &report),
+  g_assert_cmpint(sb_assembly_join(a, flat ? SB_JOINT_REVOLUTE : SB_JOINT_SPHERICAL, ROD, CRANK,
+                                   pin, z_axis, &report),
+                  ==, SB_OK);
+  g_assert_cmpint(sb_assembly_join(a, flat ? SB_JOINT_REVOLUTE : SB_JOINT_CYLINDRICAL, ROD, SLIDER,
+                                   end, z_axis, &report),
                   ==, SB_OK);
   g_assert_cmpint(
-      sb_assembly_join(a, NULL, SB_JOINT_TRANSLATIONAL, SLIDER, GROUND, end, x_axis, &report), ==,
+      sb_assembly_join(a, SB_JOINT_TRANSLATIONAL, SLIDER, SB_GROUND, end, x_axis, &report), ==,
       SB_OK);
   g_assert_cmpstr(report.text, ==, "");
   // Speeds of the motion that the joints leave.

@@ -100,8 +100,9 @@ SbStatus sb_run_bodies_create(SbRun *run, SbReport *report) {
   for (size_t i = 0; i < assembly->joints; i++) {
     SbJointSummary *joint = &summary->joint[i];
     *joint = (SbJointSummary){.axial_min = INFINITY, .axial_max = -INFINITY};
-    snprintf(joint->name, sizeof joint->name, "%s, %s", assembly->body[assembly->joint[i].i].name,
-             assembly->body[assembly->joint[i].j].name);
+    snprintf(joint->name, sizeof joint->name, "%s, %s",
+             assembly->body[assembly->joint[i].body[0]].name,
+             assembly->body[assembly->joint[i].body[1]].name);
     snprintf(joint->kind, sizeof joint->kind, "%s", sb_joint_kind_name(assembly->joint[i].kind));
   }
   return SB_OK;

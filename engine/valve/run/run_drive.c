@@ -72,10 +72,12 @@ void sb_valve_set_drive(SbDynamicsModel *out, SbDriveTimes *times, const SbRun *
     out->start_position = model->stroke / 2;
     break;
   case SB_MODEL_DRIVE_RAMP:
-    *drive = (SbDrive){.kind = SB_DRIVE_RAMP,
+    *drive = (SbDrive){.kind = SB_DRIVE_PRESS,
                        .quantity = SB_DRIVE_OF_FORCE,
                        .end = model->peak_force,
-                       .rate = model->peak_force / rise};
+                       .rise = rise,
+                       .hold = INFINITY,
+                       .fall = rise};
     *times = (SbDriveTimes){.duration = rise + hold,
                             .turn = rise + hold,
                             .ends_run = true,
@@ -102,7 +104,7 @@ void sb_valve_set_drive(SbDynamicsModel *out, SbDriveTimes *times, const SbRun *
   }
   }
   drive->cycles = cycles;
-  if (drive->kind == SB_DRIVE_RAMP || model->drive == SB_MODEL_DRIVE_HAND) {
+  if (model->drive == SB_MODEL_DRIVE_RAMP || model->drive == SB_MODEL_DRIVE_HAND) {
     out->drive_damping = model->finger_damping;
   } else if (drive->kind != SB_DRIVE_NONE && drive->quantity == SB_DRIVE_OF_POSITION) {
     out->drive_stiffness = model->stiffness;

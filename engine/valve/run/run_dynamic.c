@@ -226,7 +226,7 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double coarser,
       status = SB_ERROR_CANCELLED;
     }
   }
-  r->force_peak = fmax(r->force_peak, sb_dynamics_force_peak(&r->motion));
+  r->force_peak = fmax(r->force_peak, r->motion.force_peak);
   sb_dynamics_sample(&r->motion, NULL, &r->energy);
   return status;
 }
@@ -328,7 +328,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   }
   // What a fast return's viscous friction takes, beyond that at the films' speed.
   summary->force_return_min = fmin(least + model->spring_preload, r.return_least);
-  const SbDynamicsCounters counters = sb_dynamics_counters(&r.motion);
+  const SbDynamicsCounters counters = r.motion.counters;
   const SbFrame *last = &run->frames[r.count - 1];
   summary->duration = last->time;
   summary->force_peak = r.force_peak;
