@@ -24,7 +24,7 @@
 #include "engine/valve/sliding.h"
 
 // Directions of sliding, as indices: the in-stroke (speed > 0), the return.
-enum { SB_CYCLE_IN = 0, SB_CYCLE_OUT = 1, SB_CYCLE_DIRECTIONS = 2 };
+enum { SB_CYCLE_IN = 0, SB_CYCLE_OUT = 1 };
 enum { SB_CYCLE_CHAMBERS = 3, SB_CYCLE_SEGMENTS_MAX = 96 };
 
 typedef enum {
@@ -48,7 +48,7 @@ typedef struct {
 typedef struct {
   const SbModel *model;
   // Steady states that it is made of.
-  SbSealState state[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_CYCLE_DIRECTIONS];
+  SbSealState state[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_RUN_MOTIONS];
   size_t count;
   SbCycleSegment segment[SB_CYCLE_SEGMENTS_MAX];
   double platen_top;       // X at reversal [m]

@@ -18,17 +18,18 @@
 
 // Gives the solved sliding states a surface `factor` times as rough as the model's.
 static SbStatus resurface(SbRun *run, double factor, SbReport *report) {
-  enum { STATES = SB_CYCLE_CHAMBERS * SB_CYCLE_DIRECTIONS }; // of a seal
   SbStatus status = SB_OK;
-  SbSealState *state = &run->cycle.state[0][0][0];
-  for (int i = 0; i < SB_SEAL_COUNT * STATES && status == SB_OK; i++) {
+  for (int i = 0; i < SB_RUN_PROFILE_SLOTS && status == SB_OK; i++) {
+    const int motion = i % SB_RUN_MOTIONS;
     const SbSlidingTask task = {
         .model = run->model,
-        .seal = i / STATES,
-        .speed = i % SB_CYCLE_DIRECTIONS == SB_CYCLE_IN ? run->speed : -run->speed,
+        .seal = i / (SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS),
+        .speed = motion == SB_CYCLE_IN ? run->speed : -run->speed,
         .warnings = &run->summary.warnings,
     };
-    status = sb_sliding_resurface(&state[i], &task, factor, report);
+    if (motion != SB_RUN_REST) {
+      status = sb_sliding_resurface(&run->cycle.state[0][0][0] + i, &task, factor, report);
+    }
   }
   return status;
 }
