@@ -63,8 +63,11 @@ typedef struct {
 SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report);
 
 // Share of a seal's contact width and of its load that lie on the land, at stem displacement s.
-void sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s,
-                         double *width_share, double *load_share);
+typedef struct {
+  double width, load; // [1]
+} SbLandShare;
+SbLandShare sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
+                                double s);
 
 // Kinetic friction of one seal and of both, magnitude [N].
 double sb_cycle_seal_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,

@@ -4,8 +4,13 @@
 
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
-#include "engine/valve/life.h"
 #include "engine/valve/valve.h"
+
+// Roughness before actuation n, 0 the first: end + (start - end) exp(-n/actuations).
+typedef struct {
+  double start, end; // roughness over the given one, new and run in, > 0
+  double actuations; // e-folding number, > 0
+} SbRunningIn;
 
 // Ranges that studies cover.
 typedef struct {

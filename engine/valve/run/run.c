@@ -7,7 +7,7 @@
 // read while this one writes.
 #include "engine/base/clock.h"
 #include "engine/valve/figures.h"
-#include "engine/valve/run/run_dynamic.h"
+#include "engine/valve/run/run_private.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -11,7 +11,7 @@
 // motion at ten times that tolerance tells the error: with break-away in the cycle a sum of local
 // errors says little. Radau IIA is of order 5 in its step, so that errors fall about in proportion
 // to the tolerance (tested: test_run_limits.c).
-#include "engine/valve/run/run_dynamic.h"
+#include "engine/valve/run/run_private.h"
 
 #include "engine/film/stroke.h"
 #include "engine/valve/figures.h"

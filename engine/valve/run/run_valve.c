@@ -14,7 +14,7 @@
 // when the inner contact has left the land, the vent while any of the hole lies between the two
 // contacts (open wholly or not at all), and the canister through a by-pass below
 // bore.refill_travel.
-#include "engine/valve/run/run_dynamic.h"
+#include "engine/valve/run/run_private.h"
 
 #include <math.h>
 
@@ -32,10 +32,8 @@ static double filling(const SbRun *run, double pressure) {
 static double level_of(const SbCycle *cycle, int seal, SbChamber chamber, double s) {
   int direction = direction_of(chamber);
   const SbSealState *state = &cycle->state[seal][chamber][direction];
-  double width_share;
-  double load_share;
-  sb_cycle_land_share(cycle, seal, chamber, direction, s, &width_share, &load_share);
-  return state->boundary_area * width_share + state->boundary_load * load_share;
+  const SbLandShare on = sb_cycle_land_share(cycle, seal, chamber, direction, s);
+  return state->boundary_area * on.width + state->boundary_load * on.load;
 }
 
 static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const double *extra,
@@ -303,31 +301,30 @@ static void fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbSolvedS
   const int direction = solved.direction, motion = moving ? direction : SB_RUN_REST;
   const SbSealState *state = &run->cycle.state[seal][chamber][direction];
   const SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, chamber);
-  double width_share, load_share;
-  sb_cycle_land_share(&run->cycle, seal, chamber, direction, s, &width_share, &load_share);
+  const SbLandShare on = sb_cycle_land_share(&run->cycle, seal, chamber, direction, s);
   double width = state->contact_right - state->contact_left;
 
   // The edge takes the contact away from the canister side.
   *out = (SbSealFrame){
-      .land_fraction = (float)width_share,
+      .land_fraction = (float)on.width,
       .pressure_left = (float)pressure.left,
       .pressure_right = (float)pressure.right,
       .profile = run->plan.profiles && state->touches
                      ? sb_run_profile_slot(seal, (int)chamber, motion)
                      : UINT32_MAX,
       .shape = sb_run_shape_index(run, seal, chamber, motion, s),
-      .contact_left = state->contact_right - width_share * width,
+      .contact_left = state->contact_right - on.width * width,
       .contact_right = state->contact_right,
-      .load = load_share * state->load,
-      .pressure_peak = width_share > 0.5 ? state->pressure_peak : 0,
+      .load = on.load * state->load,
+      .pressure_peak = on.width > 0.5 ? state->pressure_peak : 0,
   };
-  if (width_share > 0 && width_share <= 0.5) {
+  if (on.width > 0 && on.width <= 0.5) {
     // The elliptic profile's greatest remaining value, at the edge.
-    double c = 1 - 2 * (1 - width_share);
+    double c = 1 - 2 * (1 - on.width);
     out->pressure_peak = state->pressure_peak * sqrt(fmax(1 - c * c, 0));
   }
   // At rest the surfaces meet; off the land there is no film.
-  if (!state->touches || !(width_share > 0)) {
+  if (!state->touches || !(on.width > 0)) {
     out->film_min = out->film_central = out->lambda = NAN;
   } else if (moving) {
     out->film_min = state->film_min;
