@@ -8,7 +8,6 @@
 // what the motion was solved with. From where a film fails its frames have none. Left out: the
 // land's edge under the contact and the step of the pressures themselves.
 #include <math.h>
-#include <stdlib.h>
 
 #include "engine/film/transient.h"
 #include "engine/valve/figures.h"
@@ -22,9 +21,8 @@ typedef struct {
   SbFilmTransient *film; // of the present stretch, NULL between stretches
   int chamber;           // of the stretch
   double central;        // last film [m], what the next stretch begins with
-  SbFilm *result;
-  size_t frame; // that it has come to
-  double error; // largest estimate of the least film
+  size_t frame;          // that it has come to
+  double error;          // largest estimate of the least film
 } History;
 
 static bool whole_contact(const SbFrame *frame, int seal) {
@@ -95,69 +93,65 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
     if (status != SB_OK) {
       return status;
     }
-    sb_film_transient_result(history->result, history->film);
-    history->central = history->result->film_central;
+    SbFilm *film = &run->film;
+    sb_film_transient_result(film, history->film);
+    history->central = film->film_central;
     // Least film of the coarse setting: the companion's difference and the bend of what its spacing
     // does not know. Without the companion nothing is known.
-    const double least = history->result->solver.error_film_min;
+    const double least = film->solver.error_film_min;
     history->error = isnan(least) ? INFINITY : fmax(history->error, least);
     SbSealFrame *out = &frame->seal[history->seal];
-    out->film_min = history->result->film_min;
-    out->film_central = history->result->film_central;
-    out->lambda = history->result->film_central / run->model->sigma;
+    out->film_min = film->film_min;
+    out->film_central = film->film_central;
+    out->lambda = film->film_central / run->model->sigma;
   }
   return SB_OK;
 }
 
 SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, SbReport *report) {
+  static const char figure[] = "solver.error_estimate.film_history";
+  SbSummary *summary = &run->summary;
   SbStatus worst = SB_OK;
-  SbFilm *result = malloc(sizeof *result);
-  if (result == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a film");
-  }
-  double error = 0;
-  run->summary.error_film_history = 0;
+  summary->error_film_history = 0;
   for (int seal = 0; seal < SB_SEAL_COUNT && worst != SB_ERROR_CANCELLED; seal++) {
-    History history = {
-        .run = run, .seal = seal, .central = run->model->rest_film, .result = result};
+    History history = {.run = run, .seal = seal, .central = run->model->rest_film};
     for (size_t i = 0; i < count; i++) {
       history.speed_scale = fmax(history.speed_scale, fabs(run->frames[i].velocity));
     }
     if (history.speed_scale == 0) {
       continue;
     }
-    SbReport own = {0};
+    SbReport own = {0}, whole = {0};
     const SbStatus status = replay(&history, count, hooks, &own);
     end_stretch(&history);
     if (isinf(history.error)) {
-      error = NAN;
-      sb_reason(&run->summary, "solver.error_estimate.film_history",
-                "%s seal: the film of half the resolution did not converge", sb_seal_name(seal));
+      sb_reason(summary, figure, "%s seal: the film of half the resolution did not converge",
+                sb_seal_name(seal));
     }
-    run->summary.error_film_history = fmax(run->summary.error_film_history, history.error);
     if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
       worst = sb_fail(report, status, "%s", own.text);
     } else if (status != SB_OK) {
       SbFrame *at = &run->frames[history.frame];
-      SbReport whole;
       (void)sb_fail(
           &whole, status,
           "film in time, %s seal, stage %s, stem at %.4g mm, %.4g s: %.100s; kept: the films "
           "before, the motion",
           sb_seal_name(seal), sb_stage_name((SbStage)at->stage), 1e3 * at->displacement, at->time,
           own.text);
-      sb_warn(&run->summary.warnings, "film-history", "models.film_time", "%s", whole.text);
+      sb_warn(&summary->warnings, "film-history", "models.film_time", "%s", whole.text);
       for (; at < run->frames + count; at++) {
         at->seal[seal].film_min = at->seal[seal].film_central = at->seal[seal].lambda = NAN;
       }
-      error = NAN;
-      sb_reason(&run->summary, "solver.error_estimate.film_history", "%s", whole.text);
+      history.error = INFINITY;
+      sb_reason(summary, figure, "%s", whole.text);
       if (status == SB_ERROR_NOT_CONVERGED && worst == SB_OK) {
         worst = sb_fail(report, status, "%s", whole.text);
       }
     }
+    summary->error_film_history = fmax(summary->error_film_history, history.error);
   }
-  free(result);
-  run->summary.error_film_history = isnan(error) ? NAN : run->summary.error_film_history;
+  if (isinf(summary->error_film_history)) {
+    summary->error_film_history = NAN;
+  }
   return worst;
 }

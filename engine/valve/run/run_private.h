@@ -60,6 +60,7 @@ struct SbRun {
   double speed; // sliding speed that the states stand for [m/s]: the machine's, or the stem's own
   double film_exponent; // of the film's speed law about it; 0: every frame slides at that speed
   SbSummary summary;
+  SbFilm film;                         // of whoever solves one beside the states
   double friction_error, static_error; // of any state's frictions by its films [N]
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
   SbRunSurface surface[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS];
