@@ -93,13 +93,6 @@ static void show(SbRun *run, const SbRun *one, size_t at) {
   sb_run_publish(run, at + count);
 }
 
-// Kahan's sum: `lost` is what rounding took from it.
-static void add_to(double *sum, double *lost, double value) {
-  double add = value - *lost, next = *sum + add;
-  *lost = (next - *sum) - add;
-  *sum = next;
-}
-
 SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbModel *model = run->model;
   const SbRunningIn *law = &model->running_in;
@@ -117,7 +110,6 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   memcpy(one->shape, run->shape, sizeof run->shape);
   SbLife *life = &run->summary.life;
   life->leakage = life->carried = 0; // all else is NaN so far
-  double lost[2] = {0, 0};           // rounding of the sums
   for (long n = 0; n < count && status == SB_OK && life->failure == 0; n++) {
     double roughness = law->end + (law->start - law->end) * exp(-(double)n / law->actuations);
     if (sb_run_cancelled(hooks, NULL)) {
@@ -130,8 +122,8 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     }
     const SbLifeActuation now = yield_of(n > 0 ? one : run, roughness);
     run->life[n] = now;
-    add_to(&life->leakage, &lost[0], now.leakage);
-    add_to(&life->carried, &lost[1], now.carried);
+    life->leakage += now.leakage;
+    life->carried += now.carried;
     life->return_least = fmin(life->return_least, now.force_return); // without NaN
     life->failure = now.returned > 0 ? 0 : n + 1;
     life->first = run->life[0];
