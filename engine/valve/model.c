@@ -65,23 +65,26 @@ static void take_values(SbModel *model, const SbParams *params) {
   }
 }
 
+SbDynamicsContact sb_model_contact(const SbModel *model, double static_ratio, double mass) {
+  const double stiffness = model->tangential_stiffness;
+  return (SbDynamicsContact){
+      .static_ratio = static_ratio,
+      .dwell_gain = model->dwell_gain,
+      .dwell_time = model->dwell_time,
+      .stribeck_speed = model->stribeck_speed,
+      .stribeck_exponent = 1,
+      .stiffness = stiffness > 0 ? stiffness : INFINITY,
+      .damping = model->damping_ratio * 2 * sqrt(stiffness * mass),
+  };
+}
+
 // The rig's rings obey the friction.* keys: the static ratio, its growth with rest, the loss with
 // speed and the shear stiffness of one ring. Dampers as drive.damping_ratio says.
 static void compile_rig(SbModel *model, SbProblems *problems) {
   SbRig *rig = &model->rig;
   rig->rest = model->rest;
-  rig->contact = (SbDynamicsContact){.static_ratio = model->static_ratio,
-                                     .dwell_gain = model->dwell_gain,
-                                     .dwell_time = model->dwell_time,
-                                     .stribeck_speed = model->stribeck_speed,
-                                     .stribeck_exponent = 1,
-                                     .stiffness = INFINITY};
+  rig->contact = sb_model_contact(model, model->static_ratio, rig->mass / SB_RIG_RINGS);
   rig->thread_damping = model->damping_ratio * 2 * sqrt(rig->thread_stiffness * rig->mass);
-  if (model->tangential_stiffness > 0) {
-    rig->contact.stiffness = model->tangential_stiffness;
-    rig->contact.damping =
-        model->damping_ratio * 2 * sqrt(model->tangential_stiffness * rig->mass / SB_RIG_RINGS);
-  }
   // As many samples as there may be frames.
   const double samples = rig->duration * rig->rate;
   if (model->motion == SB_MODEL_MOTION_RIG && !(samples >= 2 && samples <= 2e7)) {

@@ -93,14 +93,14 @@ typedef struct {
 
 // What one actuation yields.
 typedef struct {
-  double roughness;       // over the given one
-  double lambda;          // film over roughness
+  double roughness;       // over the given one [1]
+  double lambda;          // film over roughness [1]
   double leakage;         // net [m3]
   double carried;         // out under the film on the way in [m3]
   double force_peak;      // [N]
   double force_breakaway; // at the first slip [N]; NaN if there was none
   double force_return;    // least [N]
-  double returned;        // 1: the stem comes back to rest, 0: it does not
+  double returned;        // [1] 1: the stem comes back to rest, 0: it does not
 } SbLifeActuation;
 
 typedef struct {

@@ -81,7 +81,7 @@ static SbLifeActuation yield_of(const SbRun *run, double roughness) {
 
 // Puts the frames of `one` behind the first `at`, those of the first actuation.
 static void show(SbRun *run, const SbRun *one, size_t at) {
-  size_t count = atomic_load_explicit(&one->published, memory_order_relaxed);
+  size_t count = one->count;
   double start = at > 0 ? run->frames[at - 1].time : 0;
   count = at + count < run->capacity ? count : run->capacity - at;
   for (size_t i = 0; i < count; i++) {
@@ -97,7 +97,7 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   const SbModel *model = run->model;
   const SbRunningIn *law = &model->running_in;
   const long count = model->life_actuations;
-  const size_t shown = atomic_load_explicit(&run->published, memory_order_relaxed);
+  const size_t shown = run->count;
   SbPlan single = run->plan;
   single.life = false;
   SbRun *one;

@@ -73,8 +73,8 @@ struct SbRun {
   SbRunBodies *bodies;         // NULL: the reduced form is enough
   bool follows;                // a later actuation of a life: the first one's errors stand for all
   SbLifeActuation *life;       // [model.life_actuations], NULL without a life
-  bool hold;                   // frames wait for their films' history before they are published
-  size_t held;                 // how many do
+  size_t count;                // frames that are complete
+  bool hold;                   // they wait for their films' history before they are published
   atomic_size_t published;
 };
 

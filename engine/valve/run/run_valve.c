@@ -175,18 +175,6 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
   return SB_OK;
 }
 
-static void warn_flow(SbRun *run, const SbValve *valve) {
-  // The orifice law holds for turbulent jets of liquid.
-  const SbModel *model = run->model;
-  double speed = sqrt(2 * model->canister_pressure / model->density);
-  double reynolds = model->density * speed * model->shape.vent_diameter / model->viscosity;
-  if (valve->chamber_model.ports > 1 && !model->chamber_at_once && reynolds < 1e3) {
-    sb_warn(&run->summary.warnings, "vent-laminar", "bore.vent_diameter",
-            "the vent's jet has a Reynolds number of %.3g: the orifice law needs 1000 and more",
-            reynolds);
-  }
-}
-
 static SbStatus valve_mass(double *mass, double x, double v, void *user, SbReport *report) {
   const SbValve *valve = user;
   return sb_run_bodies_move(mass, valve->run, x, v, report);
@@ -212,20 +200,9 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const SbSealState *state = &cycle->state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
     double level = state->boundary_area + state->boundary_load;
-    out->contact[seal] = (SbDynamicsContact){
-        .static_ratio = level > 0 ? fmax(state->friction_static / level, 1) : 1,
-        .dwell_gain = model->dwell_gain,
-        .dwell_time = model->dwell_time,
-        .stribeck_speed = model->stribeck_speed,
-        .stribeck_exponent = 1,
-        .viscous = state->friction_viscous / run->speed,
-        .stiffness = INFINITY,
-    };
-    if (model->tangential_stiffness > 0) {
-      out->contact[seal].stiffness = model->tangential_stiffness;
-      out->contact[seal].damping =
-          model->damping_ratio * 2 * sqrt(model->tangential_stiffness * out->mass);
-    }
+    double ratio = level > 0 ? fmax(state->friction_static / level, 1) : 1;
+    out->contact[seal] = sb_model_contact(model, ratio, out->mass);
+    out->contact[seal].viscous = state->friction_viscous / run->speed;
   }
   out->stop[SB_REST_STOP] = (SbDynamicsStop){0, -1, INFINITY, 0};
   out->stop[SB_END_STOP] =
@@ -254,7 +231,14 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
     if (status != SB_OK) {
       return status;
     }
-    warn_flow(run, valve);
+    // The orifice law holds for turbulent jets of liquid.
+    double jet = sqrt(2 * model->canister_pressure / model->density);
+    double reynolds = model->density * jet * model->shape.vent_diameter / model->viscosity;
+    if (valve->chamber_model.ports > 1 && !model->chamber_at_once && reynolds < 1e3) {
+      sb_warn(&run->summary.warnings, "vent-laminar", "bore.vent_diameter",
+              "the vent's jet has a Reynolds number of %.3g: the orifice law needs 1000 and more",
+              reynolds);
+    }
   }
   // Nothing varies with the place where the inner seal does not rub.
   bool rubs = level_of(cycle, SB_INNER, SB_CHAMBER_AT_REST, 0) > 0 ||
