@@ -138,8 +138,8 @@ bool sb_run_poll(SbRun *run, const SbRunHooks *hooks, size_t count, double fract
 SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   static const char *const names[] = {"quasi-static", "dynamic", "rig", "bodies"};
   SbSummary *summary = &run->summary;
-  if (run->lacks[0] != '\0') {
-    sb_run_clear_motion(run, run->lacks);
+  if (run->lacks.status != SB_OK) {
+    sb_run_clear_motion(run, run->lacks.text);
     return SB_OK;
   }
   SbReport own = {0};
@@ -228,7 +228,7 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
     sb_run_publish(run, run->count);
   }
   sb_run_summarise_seals(run);
-  bool moved = plan->motion && run->lacks[0] == '\0';
+  bool moved = plan->motion && run->lacks.status == SB_OK;
   if (status == SB_OK && run->life != NULL && moved) {
     status = sb_run_rest_of_life(run, hooks, report);
   }
@@ -244,7 +244,7 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   memset(summary, 0, sizeof *summary); // too large for a temporary on a small stack
   sb_figures_clear(summary);
   sb_figures_of_model(summary, run->model);
-  run->lacks[0] = '\0';
+  (void)sb_succeed(&run->lacks);
   run->hold = false;
   sb_run_publish(run, 0);
   run->before_frames = run->after_frames = 0;

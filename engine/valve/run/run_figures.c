@@ -6,7 +6,6 @@
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 
 // Central film [m] at the middle of B-C by a model, whichever the run's own is.
@@ -147,15 +146,6 @@ void sb_run_summarise_seals(SbRun *run) {
   sb_figures_of_model(&run->summary, model);
 }
 
-void sb_run_lacks_motion(SbRun *run, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  if (run->lacks[0] == '\0') {
-    vsnprintf(run->lacks, sizeof run->lacks, format, arguments);
-  }
-  va_end(arguments);
-}
-
 void sb_run_clear_motion(SbRun *run, const char *why) {
   SbSummary *summary = &run->summary; // stages that were reached stand
   summary->force_peak = summary->force_return_min = summary->leakage_per_cycle = NAN;
@@ -212,7 +202,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   }
   const Reason before[] = {
       {!run->plan.life, "life.*", "life.actuations = 1: there is no life"},
-      {run->lacks[0] != '\0', "life.*", run->lacks},
+      {run->lacks.status != SB_OK, "life.*", run->lacks.text},
       {!rig, "rig.*", "models.motion is not rig: no plate is pulled"},
       {rig && well, "rig.*",
        "the force has no peak: the plate did not break away, or slid smoothly"},

@@ -67,7 +67,7 @@ struct SbRun {
   SbRunShape shape[SB_RUN_SHAPES];
   double edge_begin, edge_end; // of the land's edge in the inner seal's frame, where it shapes
                                // that ring [m]; equal: nowhere
-  char lacks[256];             // why there can be no motion, empty: nothing is missing
+  SbReport lacks;              // why there can be no motion; SB_OK: nothing is missing
   double before_frames;        // share of the work that lies before the first frame
   double after_frames;         // and behind the last: the rest of a life
   SbRunBodies *bodies;         // NULL: the reduced form is enough
@@ -127,9 +127,6 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 // Films of the first `count` frames, which nobody else may see yet, by the transient film
 // (run_film.c). From where a seal's film fails its frames have none (NaN), with a warning.
 SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, SbReport *report);
-
-// Notes why there can be no motion; the first reason stays (run_figures.c).
-void sb_run_lacks_motion(SbRun *run, const char *format, ...) SB_PRINTF(2, 3);
 
 // Takes back what only a whole motion tells, of one that ended early (run_figures.c).
 void sb_run_clear_motion(SbRun *run, const char *why);

@@ -205,8 +205,8 @@ static void report_failure(const Task *task, SbReport *report) {
                           : fitted ? "its fitment, the other states"
                                    : "the other states");
   sb_warn(&run->summary.warnings, "not-converged", report->parameter, "%s", report->text);
-  if (task->motion != SB_RUN_REST && !complete) {
-    sb_run_lacks_motion(run, "%s", report->text);
+  if (task->motion != SB_RUN_REST && !complete && run->lacks.status == SB_OK) {
+    run->lacks = *report;
   }
   if (task->chamber == SB_CHAMBER_AT_REST && task->motion == SB_CYCLE_IN) {
     sb_seal_reason(&run->summary, task->seal, "*", "%s", report->text);
@@ -243,11 +243,12 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
     report_failure(of, report);
   } else if (status != SB_OK) {
     return status;
-  } else if (!fitment && of->motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state))) {
-    sb_run_lacks_motion(run,
-                        "the fluid opens the contact of the %s seal or carries it alone: no law "
-                        "gives film and friction",
-                        sb_seal_name(of->seal));
+  } else if (!fitment && of->motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state)) &&
+             run->lacks.status == SB_OK) {
+    (void)sb_fail(&run->lacks, SB_ERROR_INFEASIBLE,
+                  "the fluid opens the contact of the %s seal or carries it alone: no law gives "
+                  "film and friction",
+                  sb_seal_name(of->seal));
   }
   const SbFit *fit = sb_sliding_fit(memory);
   SbRunSurface *surface = &run->surface[of->seal][of->chamber];
@@ -272,7 +273,7 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   SbStatus worst = SB_OK;
   summary->error_film = NAN;
   summary->error_load = summary->error_width = 0;
-  run->lacks[0] = '\0';
+  (void)sb_succeed(&run->lacks);
   run->friction_error = run->static_error = 0;
   run->cycle.model = run->model;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
@@ -355,7 +356,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   for (int round = 0; own && round < ROUNDS; round++) {
     double speed;
     bool slips;
-    if ((status != SB_OK && status != SB_ERROR_NOT_CONVERGED) || run->lacks[0] != '\0') {
+    if ((status != SB_OK && status != SB_ERROR_NOT_CONVERGED) || run->lacks.status != SB_OK) {
       return status;
     }
     // What goes wrong with the motion is told by the run itself.
