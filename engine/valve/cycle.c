@@ -18,14 +18,9 @@ static bool inner_touches(const SbCycle *cycle, SbChamber chamber, int direction
   return cycle->state[SB_INNER][chamber][direction].touches;
 }
 
-// Stem displacement at which the inner contact begins to leave the land.
-static double edge_start(const SbCycle *cycle) {
-  return cycle->model->land_edge;
-}
-
 double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction) {
   const SbSealState *inner = &cycle->state[SB_INNER][chamber][direction];
-  return edge_start(cycle) + inner->contact_right - inner->contact_left;
+  return cycle->model->land_edge + inner->contact_right - inner->contact_left;
 }
 
 // Share of a seal's contact that the edge has passed; without contact all of it.
@@ -35,24 +30,22 @@ static double passed(const SbCycle *cycle, int seal, SbChamber chamber, int dire
     return 1;
   }
   double width = state->contact_right - state->contact_left;
-  return seal == SB_OUTER ? 0 : fmin(fmax((s - edge_start(cycle)) / width, 0), 1);
+  return seal == SB_OUTER ? 0 : fmin(fmax((s - cycle->model->land_edge) / width, 0), 1);
 }
 
-void sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s,
-                         double *width_share, double *load_share) {
+SbLandShare sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
+                                double s) {
   double t = passed(cycle, seal, chamber, direction, s);
   double c = 1 - 2 * t; // of the elliptic pressure
-  *width_share = 1 - t;
-  *load_share = 1 - (acos(c) - c * sqrt(fmax(1 - c * c, 0))) / M_PI;
+  return (SbLandShare){1 - t, 1 - (acos(c) - c * sqrt(fmax(1 - c * c, 0))) / M_PI};
 }
 
 double sb_cycle_seal_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
                               double s) {
   const SbSealState *state = &cycle->state[seal][chamber][direction];
-  double width_share, load_share;
-  sb_cycle_land_share(cycle, seal, chamber, direction, s, &width_share, &load_share);
-  return (state->boundary_area + state->friction_viscous) * width_share +
-         state->boundary_load * load_share;
+  const SbLandShare on = sb_cycle_land_share(cycle, seal, chamber, direction, s);
+  return (state->boundary_area + state->friction_viscous) * on.width +
+         state->boundary_load * on.load;
 }
 
 double sb_cycle_friction(const SbCycle *cycle, SbChamber chamber, int direction, double s) {
@@ -190,13 +183,53 @@ typedef struct {
   bool full;
 } Planner;
 
+// Ends of the smooth pieces of the way from s in `direction`: the nearest of the edge's start,
+// middle and end, or the stop. On the way in at the edge's end the chamber opens; on the way out it
+// closes there.
+static double piece_end(const Planner *p) {
+  const SbModel *model = p->cycle->model;
+  const double start = model->land_edge, sign = sign_of(p->direction);
+  bool closes = p->direction == SB_CYCLE_OUT && p->chamber == SB_CHAMBER_OPEN;
+  double end = sb_cycle_edge_end(p->cycle, closes ? SB_CHAMBER_CLOSED : p->chamber, p->direction);
+  const double marks[] = {start, (start + end) / 2, end};
+  double best = p->direction == SB_CYCLE_IN ? model->stroke : 0;
+  for (int i = 0; i < 3; i++) {
+    bool nearer = sign * marks[i] > sign * p->s && sign * marks[i] < sign * best;
+    best = nearer ? marks[i] : best;
+  }
+  return best;
+}
+
+// The stage that a stem which moves to s reaches there, or -1, and the chamber from there on.
+static int reach(SbChamber *chamber, const Planner *p, double s) {
+  const SbCycle *cycle = p->cycle;
+  const bool in = p->direction == SB_CYCLE_IN;
+  int event = in && s == cycle->model->stroke && p->stage < SB_STAGE_D ? SB_STAGE_D : -1;
+  *chamber = p->chamber;
+  if (!inner_touches(cycle, p->chamber, p->direction)) {
+    return event;
+  }
+  if (in && p->chamber != SB_CHAMBER_OPEN) {
+    bool open = s >= sb_cycle_edge_end(cycle, p->chamber, p->direction);
+    *chamber = open ? SB_CHAMBER_OPEN : p->chamber;
+  } else if (!in && p->chamber == SB_CHAMBER_OPEN) {
+    const double end = sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
+    *chamber = s <= end ? SB_CHAMBER_CLOSED : SB_CHAMBER_OPEN;
+    event = s == end ? SB_STAGE_F : -1;
+  }
+  return in && s == cycle->model->land_edge && p->stage == SB_STAGE_B ? SB_STAGE_C : event;
+}
+
+// Adds a segment; `event` ends one at which the stem does not move, else where it comes to decides.
 static void emit(Planner *p, SbCycleMode mode, double X1, double s1, int event) {
   SbCycle *cycle = p->cycle;
   if (cycle->count == SB_CYCLE_SEGMENTS_MAX) {
     p->full = true;
     return;
   }
-  SbCycleSegment *segment = &cycle->segment[cycle->count];
+  SbChamber chamber = p->chamber;
+  event = mode != SB_CYCLE_STICK ? reach(&chamber, p, s1) : event;
+  SbCycleSegment *segment = &cycle->segment[cycle->count++];
   *segment = (SbCycleSegment){
       .mode = mode,
       .direction = p->direction,
@@ -212,72 +245,16 @@ static void emit(Planner *p, SbCycleMode mode, double X1, double s1, int event) 
   };
   double stop_force;
   p->friction = sb_cycle_balance(cycle, segment, X1, s1, &stop_force);
-  cycle->count++;
   p->X = X1;
   p->s = s1;
-  if (event >= 0) {
-    p->stage = (SbStage)event;
-  }
-}
-
-// Ends of the smooth pieces of the way from s in `direction`: the nearest of the edge's start,
-// middle and end, or the stop. On the way in at the edge's end the chamber opens; on the way out it
-// closes there.
-static double piece_end(const Planner *p) {
-  const SbModel *model = p->cycle->model;
-  double start = edge_start(p->cycle);
-  SbChamber chamber = p->chamber;
-  if (p->direction == SB_CYCLE_OUT && chamber == SB_CHAMBER_OPEN) {
-    chamber = SB_CHAMBER_CLOSED;
-  }
-  double end = sb_cycle_edge_end(p->cycle, chamber, p->direction);
-  double marks[] = {start, (start + end) / 2, end};
-  double sign = sign_of(p->direction);
-  double best = p->direction == SB_CYCLE_IN ? model->stroke : 0;
-  for (int i = 0; i < 3; i++) {
-    bool nearer = sign * marks[i] > sign * p->s && sign * marks[i] < sign * best;
-    best = nearer ? marks[i] : best;
-  }
-  return best;
-}
-
-// The stage that lies at the end of a piece, or -1; also switches the chamber after it.
-static int event_at(const Planner *p, double s) {
-  const SbCycle *cycle = p->cycle;
-  bool touches = inner_touches(cycle, p->chamber, p->direction);
-  if (p->direction == SB_CYCLE_IN) {
-    if (s == edge_start(cycle) && touches && p->stage == SB_STAGE_B) {
-      return SB_STAGE_C;
-    }
-    if (s == cycle->model->stroke && p->stage < SB_STAGE_D) {
-      return SB_STAGE_D;
-    }
-  } else if (p->chamber == SB_CHAMBER_OPEN && touches &&
-             s == sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT)) {
-    return SB_STAGE_F;
-  }
-  return -1;
-}
-
-static void switch_chamber(Planner *p) {
-  const SbCycle *cycle = p->cycle;
-  if (!inner_touches(cycle, p->chamber, p->direction)) {
-    return;
-  }
-  if (p->direction == SB_CYCLE_IN && p->chamber != SB_CHAMBER_OPEN &&
-      p->s >= sb_cycle_edge_end(cycle, p->chamber, p->direction)) {
-    p->chamber = SB_CHAMBER_OPEN;
-  } else if (p->direction == SB_CYCLE_OUT && p->chamber == SB_CHAMBER_OPEN &&
-             p->s <= sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT)) {
-    p->chamber = SB_CHAMBER_CLOSED;
-  }
+  p->chamber = chamber;
+  p->stage = event >= 0 ? (SbStage)event : p->stage;
 }
 
 // Jumps to the first balance ahead, or through the whole piece that ends at `end`.
 static void jump(Planner *p, const Place *place, double end) {
   double target = excess_force(end, place) > 0 ? end : sb_bisect(excess_force, place, p->s, end);
-  emit(p, SB_CYCLE_JUMP, p->X, target, target == end ? event_at(p, end) : -1);
-  switch_chamber(p);
+  emit(p, SB_CYCLE_JUMP, p->X, target, -1);
 }
 
 // Slides from the present point in the present direction until the stem sticks, stops, or (on the
@@ -323,9 +300,7 @@ static void slide(Planner *p) {
       jump(p, &place, end);
       continue;
     }
-    emit(p, SB_CYCLE_SLIP, turn + balance_at(turn, &place) / k, turn,
-         turn == end ? event_at(p, turn) : -1);
-    switch_chamber(p);
+    emit(p, SB_CYCLE_SLIP, turn + balance_at(turn, &place) / k, turn, -1);
   }
 }
 

@@ -24,7 +24,7 @@
 #include "engine/valve/sliding.h"
 
 // Directions of sliding, as indices: the in-stroke (speed > 0), the return.
-enum { SB_CYCLE_IN = 0, SB_CYCLE_OUT = 1, SB_CYCLE_DIRECTIONS = 2 };
+enum { SB_CYCLE_IN = 0, SB_CYCLE_OUT = 1 };
 enum { SB_CYCLE_CHAMBERS = 3, SB_CYCLE_SEGMENTS_MAX = 96 };
 
 typedef enum {
@@ -48,7 +48,7 @@ typedef struct {
 typedef struct {
   const SbModel *model;
   // Steady states that it is made of.
-  SbSealState state[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_CYCLE_DIRECTIONS];
+  SbSealState state[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_RUN_MOTIONS];
   size_t count;
   SbCycleSegment segment[SB_CYCLE_SEGMENTS_MAX];
   double platen_top;       // X at reversal [m]
@@ -63,8 +63,11 @@ typedef struct {
 SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report);
 
 // Share of a seal's contact width and of its load that lie on the land, at stem displacement s.
-void sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s,
-                         double *width_share, double *load_share);
+typedef struct {
+  double width, load; // [1]
+} SbLandShare;
+SbLandShare sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
+                                double s);
 
 // Kinetic friction of one seal and of both, magnitude [N].
 double sb_cycle_seal_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,

@@ -10,7 +10,6 @@ struct SbEvaluator {
   SbRun *run;    // NULL before the first question
   bool answered; // the run is that of the last question
   SbReport why;  // there was none
-  SbPlan plan;   // of the question; too large for a stack
 };
 
 SbStatus sb_evaluator_create(SbEvaluator **out, SbReport *report) {
@@ -29,14 +28,14 @@ void sb_evaluator_destroy(SbEvaluator *evaluator) {
 }
 
 static SbStatus prepare(SbEvaluator *evaluator, const SbQuestion *question, SbReport *report) {
-  SbPlan *plan = &evaluator->plan;
+  SbPlan plan;
   SbModel *model;
   SbStatus status =
       sb_model_derive(&model, question->base, question->override, question->override_count, report);
   if (status == SB_OK) {
-    sb_plan_figures(plan, model, question->figure, question->figure_count);
-    status = evaluator->run == NULL ? sb_run_create(&evaluator->run, model, plan, report)
-                                    : sb_run_renew(evaluator->run, model, plan, report);
+    sb_plan_figures(&plan, model, question->figure, question->figure_count);
+    status = evaluator->run == NULL ? sb_run_create(&evaluator->run, model, &plan, report)
+                                    : sb_run_renew(evaluator->run, model, &plan, report);
   }
   sb_model_destroy(model);
   return status;

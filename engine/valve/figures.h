@@ -2,7 +2,6 @@
 // the verdict. A figure is NaN until something computes it; then it needs no reason.
 #pragma once
 
-#include "engine/valve/limits.h"
 #include "engine/valve/run/run.h"
 
 typedef enum { SB_BETTER_NONE, SB_BETTER_LESS, SB_BETTER_MORE } SbBetter;

@@ -21,20 +21,20 @@ const char *sb_stage_name(SbStage stage);
 
 // One seal at one instant.
 typedef struct {
-  float land_fraction;  // share of the contact width on the land: 1 sliding on it, 0 off
+  float land_fraction;  // share of the contact width on the land [1]: 1 sliding on it, 0 off
   float pressure_left;  // fluid pressure, canister side [Pa]
   float pressure_right; // fluid pressure, ambient side [Pa]
   uint32_t profile;     // index into the run's contact profiles, UINT32_MAX: none
   uint32_t shape;       // index into the run's solved ring shapes, UINT32_MAX: none
   double contact_left;  // contact in the seal's frame [m], left < right; equal when there is none
-  double contact_right; //
+  double contact_right; // [m]
   double load;          // total contact load, around the circumference [N]
   double pressure_peak; // [Pa]
   double film_min;      // [m], 0 at rest unless the films' history is solved, NAN without contact
   double film_central;  // [m]
-  double lambda;        // film_central / sigma
+  double lambda;        // film_central / sigma [1]
   double friction_boundary; // signed as friction [N]
-  double friction_viscous;  //
+  double friction_viscous;  // [N]
   double friction;          // force on the stem, positive when it pushes the stem out (resists the
                             // in-stroke) [N]
 } SbSealFrame;
@@ -109,15 +109,16 @@ typedef struct {
   double drag;                        // friction of the bore on the ring, in-stroke > 0 [N]
 } SbSealShape;
 
-// Energy of the cycle, each term accumulated by itself [J].
+// Energy of the cycle, each term accumulated by itself.
 typedef struct {
-  double external;     // by the platen and the canister pressure on the stem
-  double external_max; // largest |external| on the way, the scale of the closure
-  double friction;     // by both seals
-  double stored;       // change of elastic energy (machine, stops)
-  double seal;    // released where the stem jumps (slip onset, land edge) or lost inside the rubber
-  double kinetic; // change
-  double stop;    // lost at the stops
-  double loop;    // area of the force-displacement loop: energy_loss_J
-  double closure; // |external - friction - stored - seal - kinetic - stop| / external_max
+  double external;     // by the platen and the canister pressure on the stem [J]
+  double external_max; // largest |external| on the way, the scale of the closure [J]
+  double friction;     // by both seals [J]
+  double stored;       // change of elastic energy (machine, stops) [J]
+  double seal;         // released where the stem jumps (slip onset, land edge) or lost inside the
+                       // rubber [J]
+  double kinetic;      // change [J]
+  double stop;         // lost at the stops [J]
+  double loop;         // area of the force-displacement loop: energy_loss_J [J]
+  double closure;      // |external - friction - stored - seal - kinetic - stop| / external_max [1]
 } SbEnergy;

@@ -65,23 +65,26 @@ static void take_values(SbModel *model, const SbParams *params) {
   }
 }
 
+SbDynamicsContact sb_model_contact(const SbModel *model, double static_ratio, double mass) {
+  const double stiffness = model->tangential_stiffness;
+  return (SbDynamicsContact){
+      .static_ratio = static_ratio,
+      .dwell_gain = model->dwell_gain,
+      .dwell_time = model->dwell_time,
+      .stribeck_speed = model->stribeck_speed,
+      .stribeck_exponent = 1,
+      .stiffness = stiffness > 0 ? stiffness : INFINITY,
+      .damping = model->damping_ratio * 2 * sqrt(stiffness * mass),
+  };
+}
+
 // The rig's rings obey the friction.* keys: the static ratio, its growth with rest, the loss with
 // speed and the shear stiffness of one ring. Dampers as drive.damping_ratio says.
 static void compile_rig(SbModel *model, SbProblems *problems) {
   SbRig *rig = &model->rig;
   rig->rest = model->rest;
-  rig->contact = (SbDynamicsContact){.static_ratio = model->static_ratio,
-                                     .dwell_gain = model->dwell_gain,
-                                     .dwell_time = model->dwell_time,
-                                     .stribeck_speed = model->stribeck_speed,
-                                     .stribeck_exponent = 1,
-                                     .stiffness = INFINITY};
+  rig->contact = sb_model_contact(model, model->static_ratio, rig->mass / SB_RIG_RINGS);
   rig->thread_damping = model->damping_ratio * 2 * sqrt(rig->thread_stiffness * rig->mass);
-  if (model->tangential_stiffness > 0) {
-    rig->contact.stiffness = model->tangential_stiffness;
-    rig->contact.damping =
-        model->damping_ratio * 2 * sqrt(model->tangential_stiffness * rig->mass / SB_RIG_RINGS);
-  }
   // As many samples as there may be frames.
   const double samples = rig->duration * rig->rate;
   if (model->motion == SB_MODEL_MOTION_RIG && !(samples >= 2 && samples <= 2e7)) {
@@ -165,46 +168,46 @@ static void check_sizes(const SbModel *model, SbProblems *problems) {
 
 // Combinations that no model has, and ranges that do not rise.
 static void check_combinations(const SbModel *model, SbProblems *problems) {
-  bool balance = model->motion == SB_MODEL_MOTION_QUASI_STATIC;
-  bool lives = model->life_actuations > 1;
-  // The quasi-static balance is not silently asked for what only the motion with inertia can do.
-  const char *needs_inertia =
+  // Each stands behind its range's least in the catalogue.
+  static const SbParamId largest[] = {SB_P_STUDY_SQUEEZE_MAX, SB_P_STUDY_SPEED_MAX,
+                                      SB_P_STUDY_LOAD_MAX, SB_P_STUDY_TIME_MAX};
+  // The quasi-static balance is not silently asked for what only the motion with inertia can do:
+  // it knows their least values.
+  static const SbParamId inertial[] = {SB_P_DRIVE_KIND,
+                                       SB_P_DRIVE_CYCLES,
+                                       SB_P_FRICTION_DWELL_GAIN,
+                                       SB_P_FRICTION_STRIBECK_SPEED,
+                                       SB_P_FRICTION_TANGENTIAL_STIFFNESS,
+                                       SB_P_STEM_SPRING_STIFFNESS,
+                                       SB_P_STEM_SPRING_PRELOAD};
+  static const char needs_inertia[] =
       "needs models.motion = dynamic; the quasi-static cycle knows only the machine";
-  const char *range = "the range of the study does not rise";
-  const SbStudyRange *study = &model->study;
-  const struct {
-    bool wrong;
-    const char *key;
-    double min, max;
-    const char *text;
-  } rules[] = {
-      {!(study->squeeze_max > study->squeeze_min), "study.squeeze_max", study->squeeze_min, NAN,
-       range},
-      {!(study->speed_max > study->speed_min), "study.speed_max", study->speed_min, NAN, range},
-      {!(study->load_max > study->load_min), "study.load_max", study->load_min, NAN, range},
-      {!(study->time_max > study->time_min), "study.time_max", study->time_min, NAN, range},
-      {balance && model->drive != SB_MODEL_DRIVE_MACHINE, "drive.kind", NAN, NAN, needs_inertia},
-      {balance && model->cycles > 1, "drive.cycles", NAN, NAN, needs_inertia},
-      {balance && model->pressure_map == SB_MAP_PORTS, "canister.pressure_map", NAN, NAN,
-       needs_inertia},
-      {balance && model->dwell_gain > 0, "friction.dwell_gain", NAN, NAN, needs_inertia},
-      {balance && model->stribeck_speed > 0, "friction.stribeck_speed", NAN, NAN, needs_inertia},
-      {balance && model->tangential_stiffness > 0, "friction.tangential_stiffness", NAN, NAN,
-       needs_inertia},
-      {balance && model->spring_stiffness > 0, "stem.spring_stiffness", NAN, NAN, needs_inertia},
-      {balance && model->spring_preload > 0, "stem.spring_preload", NAN, NAN, needs_inertia},
-      {!balance && model->stribeck_speed > 0 && model->tangential_stiffness > 0 &&
-           !(model->damping_ratio > 0),
-       "drive.damping_ratio", 1e-3, 2,
-       "must be above 0 where friction that depends on speed (friction.stribeck_speed) acts "
-       "through an elastic seal (friction.tangential_stiffness)"},
-      {lives && (model->motion == SB_MODEL_MOTION_RIG || model->motion == SB_MODEL_MOTION_BODIES),
-       "life.actuations", NAN, 1, "needs models.motion = quasi-static or dynamic"},
-  };
-  for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
-    if (rules[i].wrong) {
-      refuse(problems, rules[i].key, rules[i].min, rules[i].max, "%s", rules[i].text);
+  const bool balance = model->motion == SB_MODEL_MOTION_QUASI_STATIC;
+  const bool lives = model->life_actuations > 1;
+  for (size_t i = 0; i < sizeof largest / sizeof largest[0]; i++) {
+    double least = sb_params_get(&model->params, largest[i] - 1);
+    if (!(sb_params_get(&model->params, largest[i]) > least)) {
+      refuse(problems, sb_param(largest[i])->key, least, NAN,
+             "the range of the study does not rise");
     }
+  }
+  for (size_t i = 0; balance && i < sizeof inertial / sizeof inertial[0]; i++) {
+    const SbParam *param = sb_param(inertial[i]);
+    if (sb_params_get(&model->params, inertial[i]) > param->min) {
+      refuse(problems, param->key, NAN, NAN, "%s", needs_inertia);
+    }
+  }
+  if (balance && model->pressure_map == SB_MAP_PORTS) {
+    refuse(problems, "canister.pressure_map", NAN, NAN, "%s", needs_inertia);
+  }
+  if (!balance && model->stribeck_speed > 0 && model->tangential_stiffness > 0 &&
+      !(model->damping_ratio > 0)) {
+    refuse(problems, "drive.damping_ratio", 1e-3, 2,
+           "must be above 0 where friction that depends on speed (friction.stribeck_speed) acts "
+           "through an elastic seal (friction.tangential_stiffness)");
+  }
+  if (lives && (model->motion == SB_MODEL_MOTION_RIG || model->motion == SB_MODEL_MOTION_BODIES)) {
+    refuse(problems, "life.actuations", NAN, 1, "needs models.motion = quasi-static or dynamic");
   }
   if (model->life_shown > model->life_actuations) {
     refuse(problems, "life.shown", 0, model->life_actuations,

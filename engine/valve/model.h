@@ -4,8 +4,13 @@
 
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
-#include "engine/valve/life.h"
 #include "engine/valve/valve.h"
+
+// Roughness before actuation n, 0 the first: end + (start - end) exp(-n/actuations).
+typedef struct {
+  double start, end; // roughness over the given one, new and run in, > 0 [1]
+  double actuations; // e-folding number, > 0 [1]
+} SbRunningIn;
 
 // Ranges that studies cover.
 typedef struct {
@@ -48,6 +53,10 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
 // it fails. What else was written into `base` is left behind.
 SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *overrides,
                            size_t count, SbReport *report);
+
+// A contact's law of friction by the friction.* keys, but for its viscous part: `mass` [kg] swings
+// on its tangential spring, damped as drive.damping_ratio says.
+SbDynamicsContact sb_model_contact(const SbModel *model, double static_ratio, double mass);
 
 // Pressures on the two sides of a seal [Pa gauge]: canister side (left, x < 0) and ambient side
 // (right).

@@ -105,76 +105,6 @@ static bool finds_speed(const SbModel *model) {
   return model->motion != SB_MODEL_MOTION_QUASI_STATIC && model->drive != SB_MODEL_DRIVE_MACHINE;
 }
 
-static void plan_fit(SbPlan *plan, const SbModel *model) {
-  SbFitModel fit = model->fit;
-  int fits = count_fits(model);
-  bool surface = model->film == SB_FILM_REYNOLDS && fit == SB_FIT_RING;
-  add(plan, true, "contact load and width", sb_fit_model_name(fit),
-      fits * (sb_cost_fit(fit) + (surface ? SB_COST_RING_SURFACE : 0)), fit_error(model),
-      "friction and film need them; %d pressure differences over two seals", fits);
-  if (!plan->ring) {
-    add(plan, false, "ring", "", 0, 0, "models.fit = %s already gives load and width",
-        sb_fit_model_name(fit));
-  }
-}
-
-static void plan_film(SbPlan *plan, const SbModel *model) {
-  char name[32];
-  // A machine's speed is known; a finger's is found by running the motion, films and all.
-  int rounds = finds_speed(model) && model->fit != SB_FIT_RING ? OWN_SPEED_ROUNDS : 1;
-  bool body = model->fit == SB_FIT_DISC || model->fit == SB_FIT_RING;
-  double cost = plan->reynolds && body ? SB_COST_FILM_FITTED : 0;
-  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
-    add(plan, true, "film", "reynolds with asperities",
-        rounds * FILM_STATES * (SB_COST_FILM_MIXED + cost), film_error(model),
-        "models.asperities = coupled: film and asperities share the load");
-    return;
-  }
-  sb_model_choice_name(model, SB_P_MODELS_FILM, name, sizeof name);
-  add(plan, true, "film", name, rounds * FILM_STATES * (sb_cost_film(model->film) + cost),
-      film_error(model), "boundary share, viscous friction and leakage need it%s",
-      cost > 0 ? "; on the half-plane and on the fitted ring" : "");
-  if (!plan->reynolds) {
-    add(plan, false, "reynolds film", "", 0, 0, "models.film = %s meets what the friction needs",
-        name);
-  }
-  plan->film_history = plan->reynolds && model->film_history;
-  // Fronts that cross the contact set its steps, hardly the frames.
-  add(plan, plan->film_history, "film history", "finite volumes",
-      SB_SEAL_COUNT * SB_COST_FILM_HISTORY, 0.03, "%s",
-      plan->film_history    ? "models.film_time = transient; friction keeps to the steady film"
-      : model->film_history ? "models.film has no history, only reynolds"
-                            : "models.film_time = steady: every frame has the film of its speed");
-}
-
-static void plan_motion(SbPlan *plan, const SbModel *model) {
-  char motion[32];
-  sb_model_choice_name(model, SB_P_MODELS_MOTION, motion, sizeof motion);
-  bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
-  double once = !inertia             ? 0
-                : finds_speed(model) ? (1 + OWN_SPEED_ROUNDS) * SB_COST_DYNAMICS_OWN
-                                     : SB_COST_DYNAMICS;
-  add(plan, true, "force and displacement", motion,
-      model->cycles * once + model->frames * SB_COST_FRAME,
-      fmax(fit_error(model), inertia ? model->motion_tolerance : 0),
-      "figures of the cycle, %d frames", model->frames);
-  if (plan->life) {
-    add(plan, true, "life", motion,
-        model->life_actuations * (inertia ? SB_COST_DYNAMICS : SB_COST_ACTUATION), 0,
-        "%d actuations while the roughness runs in; fitment and film are the first's",
-        model->life_actuations);
-  } else {
-    add(plan, false, "life", "", 0, 0, "life.actuations = 1");
-  }
-  if (plan->bodies) {
-    add(plan, true, "joint reactions", "constrained bodies", 0.1 + model->frames * 1e-4, 0,
-        "models.motion = bodies asks for them, %d joints", SB_VALVE_JOINTS);
-  } else {
-    add(plan, false, "joint reactions", "", 0, 0,
-        "nobody asks for them: one coordinate gives the same motion");
-  }
-}
-
 static void plan_rig(SbPlan *plan, const SbModel *model) {
   size_t samples = sb_rig_samples(&model->rig);
   add(plan, true, "thread force and plate", "rig", (double)samples * SB_COST_SAMPLE, 0,
@@ -204,32 +134,101 @@ static void plan_studies(SbPlan *plan, const SbModel *model, unsigned studies) {
   }
 }
 
-// What is drawn: profiles over x, and interior fields, only where the fitment model has an
-// interior.
-static void plan_views(SbPlan *plan, const SbModel *model, unsigned views) {
-  char who[80];
-  unsigned sections = views & (SB_VIEW_SECTION | SB_VIEW_DASHBOARD);
-  unsigned drawn = sections | (views & SB_VIEW_PROFILES);
+// One row of the plan: what it computes and why, or why not; a row without that text is left out.
+typedef struct {
+  bool wanted;
+  const char *name, *model;
+  double cost, error;
+  const char *why, *why_not;
+} Row;
+
+// What the valve's views and figures need. Profiles over x where they are drawn, and interior
+// fields only where the fitment model has an interior.
+static void plan_valve(SbPlan *plan, const SbModel *model, unsigned views) {
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED, finds = finds_speed(model);
+  const bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
+  const bool solved = model->film == SB_FILM_REYNOLDS,
+             body = plan->ring || model->fit == SB_FIT_DISC;
+  const unsigned sections = views & (SB_VIEW_SECTION | SB_VIEW_DASHBOARD);
+  const unsigned drawn = sections | (views & SB_VIEW_PROFILES);
+  plan->film_history = solved && !coupled && model->film_history;
+  plan->bodies = model->motion == SB_MODEL_MOTION_BODIES;
   plan->profiles = drawn != 0;
-  mask_names(SB_P_OUTPUT_VIEWS, drawn, who, sizeof who);
-  if (plan->profiles) {
-    add(plan, true, "contact profiles", plan->reynolds ? "reynolds" : sb_fit_model_name(model->fit),
-        PROFILE_STATES * (plan->reynolds ? SB_COST_FILM_PROFILE : SB_COST_CLOSED),
-        fmax(fit_error(model), film_error(model)), "drawn by %s; each seal's states and at rest",
-        who);
-  } else {
-    add(plan, false, "contact profiles", "", 0, 0, "no view draws them");
-  }
-  mask_names(SB_P_OUTPUT_VIEWS, sections, who, sizeof who);
   plan->section_fields = sections != 0 && plan->ring;
-  if (plan->section_fields) {
-    int shapes = SB_RUN_MOTIONS * count_fits(model) + SB_RUN_EDGES + 1;
-    add(plan, true, "interior fields", "ring", shapes * SB_COST_RING_SHAPE, fit_error(model),
-        "drawn by %s: %d shapes, dragged and over the land's edge", who, shapes);
-  } else {
-    add(plan, false, "interior fields", "", 0, 0, "%s",
-        sections == 0 ? "no view draws a section"
-                      : "only models.fit = ring has them: the rings are drawn schematically");
+
+  const char *fit = sb_fit_model_name(model->fit);
+  const double fit_off = fit_error(model), film_off = film_error(model);
+  const int fits = count_fits(model), shapes = SB_RUN_MOTIONS * fits + SB_RUN_EDGES + 1;
+  // A machine's speed is known; a finger's is found by running the motion, films and all.
+  const int rounds = finds && !plan->ring ? OWN_SPEED_ROUNDS : 1;
+  const double on_body = plan->reynolds && body ? SB_COST_FILM_FITTED : 0;
+  const double film = coupled ? SB_COST_FILM_MIXED : sb_cost_film(model->film);
+  const double once = !inertia ? 0
+                      : finds  ? (1 + OWN_SPEED_ROUNDS) * SB_COST_DYNAMICS_OWN
+                               : SB_COST_DYNAMICS;
+  char law[32], motion[32], profiles_by[80], sections_by[80], text[6][160];
+  sb_model_choice_name(model, SB_P_MODELS_FILM, law, sizeof law);
+  sb_model_choice_name(model, SB_P_MODELS_MOTION, motion, sizeof motion);
+  mask_names(SB_P_OUTPUT_VIEWS, drawn, profiles_by, sizeof profiles_by);
+  mask_names(SB_P_OUTPUT_VIEWS, sections, sections_by, sizeof sections_by);
+  sb_text(text[0], sizeof text[0],
+          "friction and film need them; %d pressure differences over two seals", fits);
+  sb_text(text[1], sizeof text[1], "models.fit = %s already gives load and width", fit);
+  sb_text(text[2], sizeof text[2], "models.film = %s meets what the friction needs", law);
+  sb_text(text[3], sizeof text[3],
+          "%d actuations while the roughness runs in; fitment and film are the first's",
+          model->life_actuations);
+  sb_text(text[4], sizeof text[4], "drawn by %s; each seal's states and at rest", profiles_by);
+  sb_text(text[5], sizeof text[5], "drawn by %s: %d shapes, dragged and over the land's edge",
+          sections_by, shapes);
+  char frames[48], joints[80];
+  sb_text(frames, sizeof frames, "figures of the cycle, %d frames", model->frames);
+  sb_text(joints, sizeof joints, "models.motion = bodies asks for them, %d joints",
+          SB_VALVE_JOINTS);
+  const Row rows[] = {
+      {true, "contact load and width", fit,
+       fits * (sb_cost_fit(model->fit) + (solved && plan->ring ? SB_COST_RING_SURFACE : 0)),
+       fit_off, text[0], NULL},
+      {plan->ring, "ring", "", 0, 0, NULL, text[1]},
+      {true, "film", coupled ? "reynolds with asperities" : law,
+       rounds * FILM_STATES * (film + on_body), film_off,
+       coupled ? "models.asperities = coupled: film and asperities share the load"
+       : on_body > 0
+           ? "boundary share, viscous friction and leakage need it; on the half-plane and "
+             "on the fitted ring"
+           : "boundary share, viscous friction and leakage need it",
+       NULL},
+      {plan->reynolds, "reynolds film", "", 0, 0, NULL, text[2]},
+      // Fronts that cross the contact set its steps, hardly the frames.
+      {plan->film_history, "film history", "finite volumes", SB_SEAL_COUNT * SB_COST_FILM_HISTORY,
+       0.03, "models.film_time = transient; friction keeps to the steady film",
+       coupled               ? NULL
+       : model->film_history ? "models.film has no history, only reynolds"
+                             : "models.film_time = steady: every frame has the film of its speed"},
+      {true, "real contact area", sb_rough_model_name(model->surface), FILM_STATES * SB_COST_ROUGH,
+       0, "boundary friction needs it", NULL},
+      {true, "leak at rest", "percolation", SB_SEAL_COUNT * SB_COST_LEAK, 0,
+       "part of each seal's figures", NULL},
+      {true, "force and displacement", motion, model->cycles * once + model->frames * SB_COST_FRAME,
+       fmax(fit_off, inertia ? model->motion_tolerance : 0), frames, NULL},
+      {plan->life, "life", motion,
+       model->life_actuations * (inertia ? SB_COST_DYNAMICS : SB_COST_ACTUATION), 0, text[3],
+       "life.actuations = 1"},
+      {plan->bodies, "joint reactions", "constrained bodies", 0.1 + model->frames * 1e-4, 0, joints,
+       "nobody asks for them: one coordinate gives the same motion"},
+      {plan->profiles, "contact profiles", plan->reynolds ? "reynolds" : fit,
+       PROFILE_STATES * (plan->reynolds ? SB_COST_FILM_PROFILE : SB_COST_CLOSED),
+       fmax(fit_off, film_off), text[4], "no view draws them"},
+      {plan->section_fields, "interior fields", "ring", shapes * SB_COST_RING_SHAPE, fit_off,
+       text[5],
+       sections == 0 ? "no view draws a section"
+                     : "only models.fit = ring has them: the rings are drawn schematically"},
+  };
+  for (const Row *row = rows; row < rows + sizeof rows / sizeof rows[0]; row++) {
+    const char *reason = row->wanted ? row->why : row->why_not;
+    if (reason != NULL) {
+      add(plan, row->wanted, row->name, row->model, row->cost, row->error, "%s", reason);
+    }
   }
 }
 
@@ -283,15 +282,7 @@ void sb_plan_wished(SbPlan *out, const SbModel *model, const SbPlanWishes *wishe
     out->ring = out->reynolds = false;
     plan_rig(out, model);
   } else {
-    out->bodies = model->motion == SB_MODEL_MOTION_BODIES;
-    plan_fit(out, model);
-    plan_film(out, model);
-    add(out, true, "real contact area", sb_rough_model_name(model->surface),
-        FILM_STATES * SB_COST_ROUGH, 0, "boundary friction needs it");
-    add(out, true, "leak at rest", "percolation", SB_SEAL_COUNT * SB_COST_LEAK, 0,
-        "part of each seal's figures");
-    plan_motion(out, model);
-    plan_views(out, model, wishes->views);
+    plan_valve(out, model, wishes->views);
   }
   plan_studies(out, model, wishes->studies);
 }

@@ -27,9 +27,8 @@ struct SbSlidingMemory {
   Solved plane, fitted; // on the half-plane (or of a law), and on the fitted body
   Solved rest;          // dry rough contact, coupled asperities only
   const Solved *last;   // which of them the last evaluation gave
-  double rest_load;
-  SbSealPressure rest_pressure;
-  bool rested;
+  bool rested;          // it stands for the fit, with
+  double rest_left;     // this pressure on the left
   SbFilmSolver *solver; // NULL until a film is solved: laws need none
   bool fit_known;
   double fit_pressure; // difference for which `fit` stands
@@ -94,6 +93,7 @@ static SbStatus solve_fit(const Task *task, SbReport *report) {
   problem.cancel_data = memory->cancelled_data;
   problem.surface_wanted =
       model->film == SB_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  memory->rested = false;
   SbStatus status = sb_fit_solve(&memory->fit, &problem, report);
   task->counts->fit_solves++;
   task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
@@ -181,19 +181,6 @@ static bool take_film(SbSealState *out, const Solved *solved, SbStatus status, c
   return true;
 }
 
-// Layer that the return stroke finds on the bore: what the in-stroke carried through the contact,
-// flow over the wall's speed, at the drive's speed and the same pressures. 0 floods the inlet.
-static SbStatus carried_layer(const Task *task, double *layer, const SbFilmProblem *back,
-                              SbReport *report) {
-  Solved *plane = &task->memory->plane;
-  SbFilmProblem in = *back;
-  in.speed = task->drive_speed;
-  in.inlet_film = 0;
-  SbStatus status = solve_on(task, plane, &in, report);
-  *layer = status == SB_OK ? fabs(plane->film.flow / in.speed) : 0;
-  return status;
-}
-
 // What a run's options cannot reach, told once.
 static void option_warnings(const Task *task, const SbFilmProblem *problem) {
   const SbModel *model = task->model;
@@ -232,10 +219,15 @@ static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report)
   option_warnings(task, &problem);
   bool solved = problem.model == SB_FILM_REYNOLDS;
   if (task->model->inlet_carried && task->speed < 0 && solved) {
-    SbStatus carried = carried_layer(task, &problem.inlet_film, &problem, report);
+    // The return stroke finds a layer on the bore: what the in-stroke carried through the contact,
+    // flow over the wall's speed, at the drive's speed and the same pressures.
+    problem.speed = task->drive_speed;
+    SbStatus carried = solve_on(task, &memory->plane, &problem, report);
     if (carried != SB_OK) {
       return carried;
     }
+    problem.inlet_film = fabs(memory->plane.film.flow / problem.speed);
+    problem.speed = task->speed;
   }
   SbStatus status = solve_on(task, &memory->plane, &problem, report);
   memory->last = &memory->plane;
@@ -279,19 +271,14 @@ static SbStatus solve_rough(const Task *task, Solved *out, double load_net, doub
 static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *report) {
   const SbModel *model = task->model;
   SbSlidingMemory *memory = task->memory;
-  SbSealPressure pressure = task->pressure;
   SbStatus at_rest = SB_OK;
-  bool same = memory->rested && memory->rest_load == out->load_net &&
-              memory->rest_pressure.left == pressure.left &&
-              memory->rest_pressure.right == pressure.right;
-  if (!same) {
+  if (!memory->rested || memory->rest_left != task->pressure.left) {
     at_rest = solve_rough(task, &memory->rest, out->load_net, 0, report);
     if (!usable(at_rest)) {
       return at_rest;
     }
     memory->rested = at_rest == SB_OK;
-    memory->rest_load = out->load_net;
-    memory->rest_pressure = pressure;
+    memory->rest_left = task->pressure.left;
   }
   memory->last = &memory->rest;
   SbStatus status = at_rest;

@@ -7,7 +7,7 @@
 // read while this one writes.
 #include "engine/base/clock.h"
 #include "engine/valve/figures.h"
-#include "engine/valve/run/run_dynamic.h"
+#include "engine/valve/run/run_private.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -92,11 +92,10 @@ void sb_run_destroy(SbRun *run) {
 }
 
 void sb_run_publish(SbRun *run, size_t count) {
-  if (run->hold) {
-    run->held = count;
-    return;
+  run->count = count;
+  if (!run->hold) {
+    atomic_store_explicit(&run->published, count, memory_order_release);
   }
-  atomic_store_explicit(&run->published, count, memory_order_release);
 }
 
 void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t index) {
@@ -139,8 +138,8 @@ bool sb_run_poll(SbRun *run, const SbRunHooks *hooks, size_t count, double fract
 SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   static const char *const names[] = {"quasi-static", "dynamic", "rig", "bodies"};
   SbSummary *summary = &run->summary;
-  if (run->lacks[0] != '\0') {
-    sb_run_clear_motion(run, run->lacks);
+  if (run->lacks.status != SB_OK) {
+    sb_run_clear_motion(run, run->lacks.text);
     return SB_OK;
   }
   SbReport own = {0};
@@ -152,9 +151,8 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     status = sb_fail(&own, SB_ERROR_NOT_CONVERGED, "the energies' balance is open by %.2g",
                      summary->energy.closure);
   }
-  size_t count = run->hold ? run->held : atomic_load(&run->published);
-  if (status == SB_ERROR_NOT_CONVERGED && count > 0) {
-    const SbFrame *last = &run->frames[count - 1];
+  if (status == SB_ERROR_NOT_CONVERGED && run->count > 0) {
+    const SbFrame *last = &run->frames[run->count - 1];
     SbReport cause = own;
     (void)sb_fail_parameter(
         &own, status, cause.parameter,
@@ -224,13 +222,13 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
   if (run->hold) {
     run->hold = false;
     if (usable(status)) {
-      SbStatus film = sb_run_film_history(run, run->held, hooks, status == SB_OK ? report : NULL);
+      SbStatus film = sb_run_film_history(run, run->count, hooks, status == SB_OK ? report : NULL);
       status = film != SB_OK ? film : status;
     }
-    sb_run_publish(run, run->held);
+    sb_run_publish(run, run->count);
   }
   sb_run_summarise_seals(run);
-  bool moved = plan->motion && run->lacks[0] == '\0';
+  bool moved = plan->motion && run->lacks.status == SB_OK;
   if (status == SB_OK && run->life != NULL && moved) {
     status = sb_run_rest_of_life(run, hooks, report);
   }
@@ -246,18 +244,17 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   memset(summary, 0, sizeof *summary); // too large for a temporary on a small stack
   sb_figures_clear(summary);
   sb_figures_of_model(summary, run->model);
-  run->lacks[0] = '\0';
+  (void)sb_succeed(&run->lacks);
+  run->hold = false;
   sb_run_publish(run, 0);
   run->before_frames = run->after_frames = 0;
-  run->hold = false;
-  run->held = 0;
   SbReport local = {0};
   report = report != NULL ? report : &local;
   SbStatus status = run->model->motion == SB_MODEL_MOTION_RIG ? sb_run_rig(run, hooks, report)
                                                               : execute_valve(run, hooks, report);
   sb_run_give_reasons(run, status, report);
   sb_verdict_fill(summary, run->model);
-  summary->frames = atomic_load_explicit(&run->published, memory_order_relaxed);
+  summary->frames = run->count;
   if (hooks->progress != NULL && status == SB_OK) {
     hooks->progress(hooks->data, 1, summary->frames);
   }

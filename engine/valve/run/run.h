@@ -6,8 +6,6 @@
 #pragma once
 
 #include "engine/valve/frame.h"
-#include "engine/valve/life.h"
-#include "engine/valve/limits.h"
 #include "engine/valve/plan.h"
 #include "engine/valve/rig.h"
 
@@ -92,6 +90,27 @@ typedef struct {
   size_t joints;             // 0: not asked for
   SbJointSummary joint[SB_VALVE_JOINTS];
 } SbBodiesSummary;
+
+// What one actuation yields.
+typedef struct {
+  double roughness;       // over the given one [1]
+  double lambda;          // film over roughness [1]
+  double leakage;         // net [m3]
+  double carried;         // out under the film on the way in [m3]
+  double force_peak;      // [N]
+  double force_breakaway; // at the first slip [N]; NaN if there was none
+  double force_return;    // least [N]
+  double returned;        // [1] 1: the stem comes back to rest, 0: it does not
+} SbLifeActuation;
+
+typedef struct {
+  long done;                   // actuations computed
+  double leakage;              // sum [m3]; NaN like `carried` for a life that ended before its time
+  double carried;              // sum [m3]
+  SbLifeActuation first, last; // figures of the last NaN for such a life
+  double return_least;         // over the life [N]; NaN if no actuation has one
+  long failure;                // number from 1 of the actuation without return, 0 if none
+} SbLife;
 
 // One figure for each row of figures.def, the seals' twice.
 enum {

@@ -11,7 +11,7 @@
 // with the loads on their parts, for the reactions, and every moving part's acceleration is
 // compared with the stroke's. Leaves out: parts that move by levers against each other (refused),
 // whose loads dynamics.h does not know.
-#include "engine/valve/run/run_dynamic.h"
+#include "engine/valve/run/run_private.h"
 
 #include <math.h>
 #include <stdio.h>

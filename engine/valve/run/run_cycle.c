@@ -1,7 +1,7 @@
 // Frames and figures of the quasi-static cycle: evaluations of its segments, none of them a step in
 // time.
 #include "engine/film/laws.h"
-#include "engine/valve/run/run_dynamic.h"
+#include "engine/valve/run/run_private.h"
 
 #include <math.h>
 
@@ -36,12 +36,10 @@ static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *seg
   double sign = direction == SB_CYCLE_IN ? -1 : 1;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     double own = sb_cycle_seal_friction(cycle, seal, chamber, direction, s);
-    double width_share, load_share;
-    sb_cycle_land_share(cycle, seal, chamber, direction, s, &width_share, &load_share);
     if (at.moving) {
       sample->friction[seal] = sign * own;
-      sample->viscous[seal] =
-          sign * cycle->state[seal][chamber][direction].friction_viscous * width_share;
+      sample->viscous[seal] = sign * cycle->state[seal][chamber][direction].friction_viscous *
+                              sb_cycle_land_share(cycle, seal, chamber, direction, s).width;
     } else if (total > 0) {
       // A stuck stem's friction is split between the seals in proportion to what each can bear.
       sample->friction[seal] = -friction * own / total;

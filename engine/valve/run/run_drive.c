@@ -1,5 +1,5 @@
 // What drives the valve in a run with inertia: the catalogue's drive.* as mechanism/drive.h.
-#include "engine/valve/run/run_dynamic.h"
+#include "engine/valve/run/run_private.h"
 
 #include <math.h>
 

@@ -11,7 +11,7 @@
 // motion at ten times that tolerance tells the error: with break-away in the cycle a sum of local
 // errors says little. Radau IIA is of order 5 in its step, so that errors fall about in proportion
 // to the tolerance (tested: test_run_limits.c).
-#include "engine/valve/run/run_dynamic.h"
+#include "engine/valve/run/run_private.h"
 
 #include "engine/film/laws.h"
 #include "engine/valve/figures.h"
@@ -170,11 +170,6 @@ static void valve_event(const SbMotionEvent *event, void *user) {
   }
 }
 
-// How far behind the drive's end the motion is followed: as long again, ten seconds at least.
-static double patience(double drive) {
-  return drive + fmax(drive, 10);
-}
-
 // Makes the valve's mechanism and runs it to its end, to the model's tolerance or `coarser`, 0 for
 // none. A motion without frames leaves its warnings to the one that has them.
 static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double coarser,
@@ -196,6 +191,8 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double coarser,
   sb_dynamics_listen(&r->motion, valve_event, r);
   const SbDriveTimes *times = &r->valve.times;
   const double drive = times->duration;
+  // Behind the drive's end it is followed for as long again, ten seconds at least.
+  const double last = drive + fmax(drive, 10);
   const size_t total = frames ? (size_t)run->plan.frames : WITHOUT_FRAMES;
   const double step = drive / (double)(total - 1);
   int corner = 0;
@@ -205,8 +202,8 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double coarser,
   if (first != NULL) {
     sb_run_mark_stage(run, SB_STAGE_A, first, 0);
   }
-  while (status == SB_OK && (next < total || (!times->ends_run && time < patience(drive) &&
-                                              !sb_dynamics_at_rest(&r->motion)))) {
+  while (status == SB_OK &&
+         (next < total || (!times->ends_run && time < last && !sb_dynamics_at_rest(&r->motion)))) {
     // The next even instant or a corner of the drive before it; behind the drive, wider and wider.
     double even = next < total ? (next + 1 == total ? drive : (double)next * step)
                                : time + fmax(step, (time - drive) / 32);

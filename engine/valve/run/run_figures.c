@@ -6,31 +6,27 @@
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 
+// Central film [m] at the middle of B-C by a model, whichever the run's own is.
 static double film_by(SbRun *run, int seal, const SbSealState *state, SbFilmModel film_model) {
-  SbFilmProblem problem;
-  SbFilm *film = run->plan.film_laws ? calloc(1, sizeof *film) : NULL;
-  double central = NAN;
-  if (film != NULL && state->touches && state->load_net > 0) {
-    SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, SB_CHAMBER_AT_REST);
-    sb_sliding_film_problem(&problem, run->model, seal, pressure, state->load_net, run->speed);
-    problem.model = film_model;
-    run->summary.counters.reynolds_solves += film_model == SB_FILM_REYNOLDS;
-    SbReport report = {0};
-    if (sb_film_solve(film, &problem, NULL, &report) == SB_OK) {
-      central = film->film_central;
-    }
-    if (isnan(central)) {
-      char name[48];
-      snprintf(name, sizeof name, "film_by_model.%s", sb_film_model_name(film_model));
-      sb_seal_reason(&run->summary, seal, name, "%s", report.text);
-    }
+  if (!run->plan.film_laws || !state->touches || !(state->load_net > 0)) {
+    return NAN;
   }
-  free(film);
-  return central;
+  SbFilmProblem problem;
+  SbReport report = {0};
+  sb_sliding_film_problem(&problem, run->model, seal,
+                          sb_model_seal_pressure(run->model, seal, SB_CHAMBER_AT_REST),
+                          state->load_net, run->speed);
+  problem.model = film_model;
+  run->summary.counters.reynolds_solves += film_model == SB_FILM_REYNOLDS;
+  if (sb_film_solve(&run->film, &problem, NULL, &report) == SB_OK) {
+    return run->film.film_central;
+  }
+  char name[48];
+  snprintf(name, sizeof name, "film_by_model.%s", sb_film_model_name(film_model));
+  sb_seal_reason(&run->summary, seal, name, "%s", report.text);
+  return NAN;
 }
 
 // Whether a seal presses the bore in every state in which the cycle needs it to.
@@ -150,15 +146,6 @@ void sb_run_summarise_seals(SbRun *run) {
   sb_figures_of_model(&run->summary, model);
 }
 
-void sb_run_lacks_motion(SbRun *run, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  if (run->lacks[0] == '\0') {
-    vsnprintf(run->lacks, sizeof run->lacks, format, arguments);
-  }
-  va_end(arguments);
-}
-
 void sb_run_clear_motion(SbRun *run, const char *why) {
   SbSummary *summary = &run->summary; // stages that were reached stand
   summary->force_peak = summary->force_return_min = summary->leakage_per_cycle = NAN;
@@ -215,7 +202,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   }
   const Reason before[] = {
       {!run->plan.life, "life.*", "life.actuations = 1: there is no life"},
-      {run->lacks[0] != '\0', "life.*", run->lacks},
+      {run->lacks.status != SB_OK, "life.*", run->lacks.text},
       {!rig, "rig.*", "models.motion is not rig: no plate is pulled"},
       {rig && well, "rig.*",
        "the force has no peak: the plate did not break away, or slid smoothly"},

@@ -108,9 +108,10 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
 }
 
 SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, SbReport *report) {
+  static const char figure[] = "solver.error_estimate.film_history";
+  SbSummary *summary = &run->summary;
   SbStatus worst = SB_OK;
-  double error = 0;
-  run->summary.error_film_history = 0;
+  summary->error_film_history = 0;
   for (int seal = 0; seal < SB_SEAL_COUNT && worst != SB_ERROR_CANCELLED; seal++) {
     History history = {.run = run, .seal = seal, .central = run->model->rest_film};
     for (size_t i = 0; i < count; i++) {
@@ -119,37 +120,37 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
     if (history.speed_scale == 0) {
       continue;
     }
-    SbReport own = {0};
+    SbReport own = {0}, whole = {0};
     const SbStatus status = replay(&history, count, hooks, &own);
     end_stretch(&history);
     if (isinf(history.error)) {
-      error = NAN;
-      sb_reason(&run->summary, "solver.error_estimate.film_history",
-                "%s seal: the film of half the resolution did not converge", sb_seal_name(seal));
+      sb_reason(summary, figure, "%s seal: the film of half the resolution did not converge",
+                sb_seal_name(seal));
     }
-    run->summary.error_film_history = fmax(run->summary.error_film_history, history.error);
     if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
       worst = sb_fail(report, status, "%s", own.text);
     } else if (status != SB_OK) {
       SbFrame *at = &run->frames[history.frame];
-      SbReport whole;
       (void)sb_fail(
           &whole, status,
           "film in time, %s seal, stage %s, stem at %.4g mm, %.4g s: %.100s; kept: the films "
           "before, the motion",
           sb_seal_name(seal), sb_stage_name((SbStage)at->stage), 1e3 * at->displacement, at->time,
           own.text);
-      sb_warn(&run->summary.warnings, "film-history", "models.film_time", "%s", whole.text);
+      sb_warn(&summary->warnings, "film-history", "models.film_time", "%s", whole.text);
       for (; at < run->frames + count; at++) {
         at->seal[seal].film_min = at->seal[seal].film_central = at->seal[seal].lambda = NAN;
       }
-      error = NAN;
-      sb_reason(&run->summary, "solver.error_estimate.film_history", "%s", whole.text);
+      history.error = INFINITY;
+      sb_reason(summary, figure, "%s", whole.text);
       if (status == SB_ERROR_NOT_CONVERGED && worst == SB_OK) {
         worst = sb_fail(report, status, "%s", whole.text);
       }
     }
+    summary->error_film_history = fmax(summary->error_film_history, history.error);
   }
-  run->summary.error_film_history = isnan(error) ? NAN : run->summary.error_film_history;
+  if (isinf(summary->error_film_history)) {
+    summary->error_film_history = NAN;
+  }
   return worst;
 }

@@ -18,17 +18,18 @@
 
 // Gives the solved sliding states a surface `factor` times as rough as the model's.
 static SbStatus resurface(SbRun *run, double factor, SbReport *report) {
-  enum { STATES = SB_CYCLE_CHAMBERS * SB_CYCLE_DIRECTIONS }; // of a seal
   SbStatus status = SB_OK;
-  SbSealState *state = &run->cycle.state[0][0][0];
-  for (int i = 0; i < SB_SEAL_COUNT * STATES && status == SB_OK; i++) {
+  for (int i = 0; i < SB_RUN_PROFILE_SLOTS && status == SB_OK; i++) {
+    const int motion = i % SB_RUN_MOTIONS;
     const SbSlidingTask task = {
         .model = run->model,
-        .seal = i / STATES,
-        .speed = i % SB_CYCLE_DIRECTIONS == SB_CYCLE_IN ? run->speed : -run->speed,
+        .seal = i / (SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS),
+        .speed = motion == SB_CYCLE_IN ? run->speed : -run->speed,
         .warnings = &run->summary.warnings,
     };
-    status = sb_sliding_resurface(&state[i], &task, factor, report);
+    if (motion != SB_RUN_REST) {
+      status = sb_sliding_resurface(&run->cycle.state[0][0][0] + i, &task, factor, report);
+    }
   }
   return status;
 }
@@ -80,7 +81,7 @@ static SbLifeActuation yield_of(const SbRun *run, double roughness) {
 
 // Puts the frames of `one` behind the first `at`, those of the first actuation.
 static void show(SbRun *run, const SbRun *one, size_t at) {
-  size_t count = atomic_load_explicit(&one->published, memory_order_relaxed);
+  size_t count = one->count;
   double start = at > 0 ? run->frames[at - 1].time : 0;
   count = at + count < run->capacity ? count : run->capacity - at;
   for (size_t i = 0; i < count; i++) {
@@ -92,18 +93,11 @@ static void show(SbRun *run, const SbRun *one, size_t at) {
   sb_run_publish(run, at + count);
 }
 
-// Kahan's sum: `lost` is what rounding took from it.
-static void add_to(double *sum, double *lost, double value) {
-  double add = value - *lost, next = *sum + add;
-  *lost = (next - *sum) - add;
-  *sum = next;
-}
-
 SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbModel *model = run->model;
   const SbRunningIn *law = &model->running_in;
   const long count = model->life_actuations;
-  const size_t shown = atomic_load_explicit(&run->published, memory_order_relaxed);
+  const size_t shown = run->count;
   SbPlan single = run->plan;
   single.life = false;
   SbRun *one;
@@ -116,7 +110,6 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   memcpy(one->shape, run->shape, sizeof run->shape);
   SbLife *life = &run->summary.life;
   life->leakage = life->carried = 0; // all else is NaN so far
-  double lost[2] = {0, 0};           // rounding of the sums
   for (long n = 0; n < count && status == SB_OK && life->failure == 0; n++) {
     double roughness = law->end + (law->start - law->end) * exp(-(double)n / law->actuations);
     if (sb_run_cancelled(hooks, NULL)) {
@@ -129,8 +122,8 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     }
     const SbLifeActuation now = yield_of(n > 0 ? one : run, roughness);
     run->life[n] = now;
-    add_to(&life->leakage, &lost[0], now.leakage);
-    add_to(&life->carried, &lost[1], now.carried);
+    life->leakage += now.leakage;
+    life->carried += now.carried;
     life->return_least = fmin(life->return_least, now.force_return); // without NaN
     life->failure = now.returned > 0 ? 0 : n + 1;
     life->first = run->life[0];

@@ -38,6 +38,14 @@ uint32_t sb_run_profile_slot(int seal, int chamber, int motion) {
   return (uint32_t)((seal * SB_CYCLE_CHAMBERS + chamber) * SB_RUN_MOTIONS + motion);
 }
 
+// One state in work.
+typedef struct {
+  SbRun *run;
+  int seal, chamber, motion;
+  SbSealPressure pressure;
+  SbSealState *state;
+} Task;
+
 // Contact pressure of the fitment at x, by straight lines; the fluid's outside the contact.
 static double fit_pressure(const SbFit *fit, double x, double left, double right) {
   size_t n = fit->profile_count;
@@ -78,10 +86,12 @@ static void asperity_pressure(const SbModel *model, int seal, const double *film
 // film it is the solver's own profile, on the fitted body where the fitment gives one; with a
 // closed form it is the fitment's pressure, the central film held uniform (the law knows no shape)
 // and the dry gap outside.
-static SbStatus make_profile(SbRun *run, int seal, int chamber, int motion,
-                             const SbSealState *state, SbReport *report) {
-  SbRunProfile *profile = &run->profile[sb_run_profile_slot(seal, chamber, motion)];
-  const SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber);
+static SbStatus make_profile(const Task *task, SbReport *report) {
+  SbRun *run = task->run;
+  const int seal = task->seal;
+  const SbSealState *state = task->state;
+  const SbSealPressure pressure = task->pressure;
+  SbRunProfile *profile = &run->profile[sb_run_profile_slot(seal, task->chamber, task->motion)];
   const SbFit *fit = sb_sliding_fit(run->memory[seal]);
   const SbFilm *film = sb_sliding_film(run->memory[seal]);
   bool coupled = run->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
@@ -144,7 +154,9 @@ static SbStatus make_profile(SbRun *run, int seal, int chamber, int motion,
 
 // Whether the plan asks for this state and the cycle can visit it at all: the outer seal does in
 // every chamber state, the inner one slides only while it touches the land.
-static bool state_needed(const SbRun *run, int seal, int chamber, int motion) {
+static bool state_needed(const Task *task) {
+  const SbRun *run = task->run;
+  const int seal = task->seal, chamber = task->chamber, motion = task->motion;
   if (seal == SB_INNER && chamber == (int)SB_CHAMBER_OPEN) {
     return false;
   }
@@ -164,40 +176,41 @@ static bool state_needed(const SbRun *run, int seal, int chamber, int motion) {
 
 // Names what failed and where: solver, seal, stages, place; and what there is all the same. Figures
 // that need it say so, too.
-static void report_failure(SbRun *run, int seal, int chamber, int motion, const SbSealState *state,
-                           SbSealPressure pressure, SbReport *report) {
+static void report_failure(const Task *task, SbReport *report) {
   static const char *const stages[] = {"A to C", "C to F", "F to A"};
   static const char *const ways[] = {"in-stroke", "return", "at rest"};
+  SbRun *run = task->run;
   const SbModel *model = run->model;
-  bool fitted = sb_sliding_fit(run->memory[seal])->solver.converged;
+  const SbSealState *state = task->state;
+  bool fitted = sb_sliding_fit(run->memory[task->seal])->solver.converged;
   bool complete = isfinite(sb_sliding_friction(state));
-  char solver[64], place[96], cause[128];
-  snprintf(cause, sizeof cause, "%.127s",
-           strncmp(report->text, "film: ", 6) == 0 ? report->text + 6 : report->text);
+  bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  char place[96];
   if (fitted) {
-    bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-    snprintf(solver, sizeof solver, "film (%s)", coupled ? "with asperities" : "reynolds");
     snprintf(place, sizeof place, "x %.3g to %.3g mm", 1e3 * state->contact_left,
              1e3 * state->contact_right);
   } else {
-    snprintf(solver, sizeof solver, "fitment (%s)", sb_fit_model_name(model->fit));
-    snprintf(place, sizeof place, "%.4g MPa", 1e-6 * (pressure.left - pressure.right));
+    snprintf(place, sizeof place, "%.4g MPa", 1e-6 * (task->pressure.left - task->pressure.right));
   }
-  SbReport whole = *report;
-  (void)sb_fail_parameter(&whole, report->status, report->parameter,
-                          "%s, %s seal, stages %s, %s, %s: %s; kept: %s", solver,
-                          sb_seal_name(seal), stages[chamber], ways[motion], place, cause,
+  const SbReport cause = *report;
+  (void)sb_fail_parameter(report, cause.status, cause.parameter,
+                          "%s (%s), %s seal, stages %s, %s, %s: %.127s; kept: %s",
+                          fitted ? "film" : "fitment",
+                          !fitted   ? sb_fit_model_name(model->fit)
+                          : coupled ? "with asperities"
+                                    : "reynolds",
+                          sb_seal_name(task->seal), stages[task->chamber], ways[task->motion],
+                          place, cause.text + (strncmp(cause.text, "film: ", 6) == 0 ? 6 : 0),
                           complete ? "the last solution"
                           : fitted ? "its fitment, the other states"
                                    : "the other states");
-  sb_warn(&run->summary.warnings, "not-converged", report->parameter, "%s", whole.text);
-  if (motion != SB_RUN_REST && !complete) {
-    sb_run_lacks_motion(run, "%s", whole.text);
+  sb_warn(&run->summary.warnings, "not-converged", report->parameter, "%s", report->text);
+  if (task->motion != SB_RUN_REST && !complete && run->lacks.status == SB_OK) {
+    run->lacks = *report;
   }
-  if (chamber == SB_CHAMBER_AT_REST && motion == SB_CYCLE_IN) {
-    sb_seal_reason(&run->summary, seal, "*", "%s", whole.text);
+  if (task->chamber == SB_CHAMBER_AT_REST && task->motion == SB_CYCLE_IN) {
+    sb_seal_reason(&run->summary, task->seal, "*", "%s", report->text);
   }
-  *report = whole;
 }
 
 double sb_run_error_friction(const SbRun *run) {
@@ -214,34 +227,34 @@ double sb_run_error_work(const SbRun *run) {
 
 // Solves one state and takes its errors, its surface and its profile. SB_ERROR_NOT_CONVERGED with
 // what there is all the same.
-static SbStatus solve_state(SbRun *run, int seal, int chamber, int motion, SbReport *report) {
+static SbStatus solve_state(const Task *of, SbReport *report) {
+  SbRun *run = of->run;
   SbSummary *summary = &run->summary;
-  const SbModel *model = run->model;
-  SbSlidingMemory *memory = run->memory[seal];
-  SbSealPressure pressure = sb_model_seal_pressure(model, seal, (SbChamber)chamber);
-  double speed = motion == SB_CYCLE_IN ? run->speed : motion == SB_RUN_REST ? 0 : -run->speed;
-  SbSealState rest;
-  SbSealState *state = motion == SB_RUN_REST ? &rest : &run->cycle.state[seal][chamber][motion];
-  bool fitment = run->plan.seal[seal] == SB_DEPTH_FITMENT;
-  const SbSlidingTask task = {model,      seal,   pressure,           speed,
-                              run->speed, memory, &summary->counters, &summary->warnings};
+  SbSealState *state = of->state;
+  SbSlidingMemory *memory = run->memory[of->seal];
+  const bool fitment = run->plan.seal[of->seal] == SB_DEPTH_FITMENT;
+  const double way[SB_RUN_MOTIONS] = {[SB_CYCLE_IN] = 1, [SB_CYCLE_OUT] = -1};
+  const SbSlidingTask task = {
+      run->model, of->seal, of->pressure,       way[of->motion] * run->speed,
+      run->speed, memory,   &summary->counters, &summary->warnings};
   SbStatus status =
       fitment ? sb_sliding_fitment(state, &task, report) : sb_sliding_solve(state, &task, report);
   if (status == SB_ERROR_NOT_CONVERGED) {
-    report_failure(run, seal, chamber, motion, state, pressure, report);
+    report_failure(of, report);
   } else if (status != SB_OK) {
     return status;
-  } else if (!fitment && motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state))) {
-    sb_run_lacks_motion(run,
-                        "the fluid opens the contact of the %s seal or carries it alone: no law "
-                        "gives film and friction",
-                        sb_seal_name(seal));
+  } else if (!fitment && of->motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state)) &&
+             run->lacks.status == SB_OK) {
+    (void)sb_fail(&run->lacks, SB_ERROR_INFEASIBLE,
+                  "the fluid opens the contact of the %s seal or carries it alone: no law gives "
+                  "film and friction",
+                  sb_seal_name(of->seal));
   }
   const SbFit *fit = sb_sliding_fit(memory);
-  SbRunSurface *surface = &run->surface[seal][chamber];
+  SbRunSurface *surface = &run->surface[of->seal][of->chamber];
   if (state->film_fitted && run->plan.film_history) {
-    surface->known = sb_sliding_surface(&surface->compliance, &surface->load, fit, model, seal,
-                                        pressure, NULL, NULL) == SB_OK;
+    surface->known = sb_sliding_surface(&surface->compliance, &surface->load, fit, run->model,
+                                        of->seal, of->pressure, NULL, NULL) == SB_OK;
   }
   if (isfinite(state->load)) {
     summary->error_load = fmax(summary->error_load, fit->solver.error_estimate.load);
@@ -251,8 +264,7 @@ static SbStatus solve_state(SbRun *run, int seal, int chamber, int motion, SbRep
   run->friction_error = fmax(run->friction_error, state->friction_error);
   run->static_error = fmax(run->static_error, state->static_error);
   summary->error_film = fmax(summary->error_film, state->film_error);
-  SbStatus kept =
-      run->plan.profiles ? make_profile(run, seal, chamber, motion, state, report) : SB_OK;
+  SbStatus kept = run->plan.profiles ? make_profile(of, report) : SB_OK;
   return kept != SB_OK ? kept : status;
 }
 
@@ -261,7 +273,7 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   SbStatus worst = SB_OK;
   summary->error_film = NAN;
   summary->error_load = summary->error_width = 0;
-  run->lacks[0] = '\0';
+  (void)sb_succeed(&run->lacks);
   run->friction_error = run->static_error = 0;
   run->cycle.model = run->model;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
@@ -269,19 +281,20 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     // At least what the figures are taken from is unknown until it is solved.
     sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN]);
   }
-  for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
-    const int seal = i / (SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS);
-    const int chamber = i / SB_RUN_MOTIONS % SB_CYCLE_CHAMBERS, motion = i % SB_RUN_MOTIONS;
-    if (!state_needed(run, seal, chamber, motion)) {
+  for (int i = 0; i < SB_RUN_PROFILE_SLOTS; i++) {
+    const int chambers = i / SB_RUN_MOTIONS; // begun, of both seals
+    Task task = {run, chambers / SB_CYCLE_CHAMBERS, chambers % SB_CYCLE_CHAMBERS,
+                 i % SB_RUN_MOTIONS, .state = &run->cycle.state[0][0][0] + i};
+    if (!state_needed(&task)) {
       continue;
     }
     if (sb_run_cancelled(hooks, report)) {
       return SB_ERROR_CANCELLED;
     }
-    const int chambers = i / SB_RUN_MOTIONS; // begun, of both seals
     sb_run_progress(run, hooks, 0.3 * chambers / (SB_SEAL_COUNT * SB_CYCLE_CHAMBERS), 0);
+    task.pressure = sb_model_seal_pressure(run->model, task.seal, (SbChamber)task.chamber);
     SbReport own = {0};
-    SbStatus status = solve_state(run, seal, chamber, motion, &own);
+    SbStatus status = solve_state(&task, &own);
     bool fatal = status != SB_OK && status != SB_ERROR_NOT_CONVERGED;
     if (report != NULL && (fatal || (status != SB_OK && worst == SB_OK))) {
       *report = own; // of failures to converge the first is told
@@ -343,7 +356,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   for (int round = 0; own && round < ROUNDS; round++) {
     double speed;
     bool slips;
-    if ((status != SB_OK && status != SB_ERROR_NOT_CONVERGED) || run->lacks[0] != '\0') {
+    if ((status != SB_OK && status != SB_ERROR_NOT_CONVERGED) || run->lacks.status != SB_OK) {
       return status;
     }
     // What goes wrong with the motion is told by the run itself.

@@ -14,7 +14,7 @@
 // when the inner contact has left the land, the vent while any of the hole lies between the two
 // contacts (open wholly or not at all), and the canister through a by-pass below
 // bore.refill_travel.
-#include "engine/valve/run/run_dynamic.h"
+#include "engine/valve/run/run_private.h"
 
 #include <math.h>
 
@@ -32,10 +32,8 @@ static double filling(const SbRun *run, double pressure) {
 static double level_of(const SbCycle *cycle, int seal, SbChamber chamber, double s) {
   int direction = direction_of(chamber);
   const SbSealState *state = &cycle->state[seal][chamber][direction];
-  double width_share;
-  double load_share;
-  sb_cycle_land_share(cycle, seal, chamber, direction, s, &width_share, &load_share);
-  return state->boundary_area * width_share + state->boundary_load * load_share;
+  const SbLandShare on = sb_cycle_land_share(cycle, seal, chamber, direction, s);
+  return state->boundary_area * on.width + state->boundary_load * on.load;
 }
 
 static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const double *extra,
@@ -177,18 +175,6 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
   return SB_OK;
 }
 
-static void warn_flow(SbRun *run, const SbValve *valve) {
-  // The orifice law holds for turbulent jets of liquid.
-  const SbModel *model = run->model;
-  double speed = sqrt(2 * model->canister_pressure / model->density);
-  double reynolds = model->density * speed * model->shape.vent_diameter / model->viscosity;
-  if (valve->chamber_model.ports > 1 && !model->chamber_at_once && reynolds < 1e3) {
-    sb_warn(&run->summary.warnings, "vent-laminar", "bore.vent_diameter",
-            "the vent's jet has a Reynolds number of %.3g: the orifice law needs 1000 and more",
-            reynolds);
-  }
-}
-
 static SbStatus valve_mass(double *mass, double x, double v, void *user, SbReport *report) {
   const SbValve *valve = user;
   return sb_run_bodies_move(mass, valve->run, x, v, report);
@@ -214,20 +200,9 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const SbSealState *state = &cycle->state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
     double level = state->boundary_area + state->boundary_load;
-    out->contact[seal] = (SbDynamicsContact){
-        .static_ratio = level > 0 ? fmax(state->friction_static / level, 1) : 1,
-        .dwell_gain = model->dwell_gain,
-        .dwell_time = model->dwell_time,
-        .stribeck_speed = model->stribeck_speed,
-        .stribeck_exponent = 1,
-        .viscous = state->friction_viscous / run->speed,
-        .stiffness = INFINITY,
-    };
-    if (model->tangential_stiffness > 0) {
-      out->contact[seal].stiffness = model->tangential_stiffness;
-      out->contact[seal].damping =
-          model->damping_ratio * 2 * sqrt(model->tangential_stiffness * out->mass);
-    }
+    double ratio = level > 0 ? fmax(state->friction_static / level, 1) : 1;
+    out->contact[seal] = sb_model_contact(model, ratio, out->mass);
+    out->contact[seal].viscous = state->friction_viscous / run->speed;
   }
   out->stop[SB_REST_STOP] = (SbDynamicsStop){0, -1, INFINITY, 0};
   out->stop[SB_END_STOP] =
@@ -256,7 +231,14 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
     if (status != SB_OK) {
       return status;
     }
-    warn_flow(run, valve);
+    // The orifice law holds for turbulent jets of liquid.
+    double jet = sqrt(2 * model->canister_pressure / model->density);
+    double reynolds = model->density * jet * model->shape.vent_diameter / model->viscosity;
+    if (valve->chamber_model.ports > 1 && !model->chamber_at_once && reynolds < 1e3) {
+      sb_warn(&run->summary.warnings, "vent-laminar", "bore.vent_diameter",
+              "the vent's jet has a Reynolds number of %.3g: the orifice law needs 1000 and more",
+              reynolds);
+    }
   }
   // Nothing varies with the place where the inner seal does not rub.
   bool rubs = level_of(cycle, SB_INNER, SB_CHAMBER_AT_REST, 0) > 0 ||
@@ -303,31 +285,30 @@ static void fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbSolvedS
   const int direction = solved.direction, motion = moving ? direction : SB_RUN_REST;
   const SbSealState *state = &run->cycle.state[seal][chamber][direction];
   const SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, chamber);
-  double width_share, load_share;
-  sb_cycle_land_share(&run->cycle, seal, chamber, direction, s, &width_share, &load_share);
+  const SbLandShare on = sb_cycle_land_share(&run->cycle, seal, chamber, direction, s);
   double width = state->contact_right - state->contact_left;
 
   // The edge takes the contact away from the canister side.
   *out = (SbSealFrame){
-      .land_fraction = (float)width_share,
+      .land_fraction = (float)on.width,
       .pressure_left = (float)pressure.left,
       .pressure_right = (float)pressure.right,
       .profile = run->plan.profiles && state->touches
                      ? sb_run_profile_slot(seal, (int)chamber, motion)
                      : UINT32_MAX,
       .shape = sb_run_shape_index(run, seal, chamber, motion, s),
-      .contact_left = state->contact_right - width_share * width,
+      .contact_left = state->contact_right - on.width * width,
       .contact_right = state->contact_right,
-      .load = load_share * state->load,
-      .pressure_peak = width_share > 0.5 ? state->pressure_peak : 0,
+      .load = on.load * state->load,
+      .pressure_peak = on.width > 0.5 ? state->pressure_peak : 0,
   };
-  if (width_share > 0 && width_share <= 0.5) {
+  if (on.width > 0 && on.width <= 0.5) {
     // The elliptic profile's greatest remaining value, at the edge.
-    double c = 1 - 2 * (1 - width_share);
+    double c = 1 - 2 * (1 - on.width);
     out->pressure_peak = state->pressure_peak * sqrt(fmax(1 - c * c, 0));
   }
   // At rest the surfaces meet; off the land there is no film.
-  if (!state->touches || !(width_share > 0)) {
+  if (!state->touches || !(on.width > 0)) {
     out->film_min = out->film_central = out->lambda = NAN;
   } else if (moving) {
     out->film_min = state->film_min;
