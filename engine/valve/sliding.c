@@ -330,14 +330,6 @@ static SbStatus solve_coupled(const Task *task, SbSliding *out, SbReport *report
   return status != SB_OK ? status : at_rest;
 }
 
-// Greenwood and Tripp's share of the area in real contact at film over roughness `lambda`.
-static SbStatus gt_share(double *share, const SbModel *model, double lambda) {
-  SbGtIntegrals integrals;
-  SbStatus status = sb_gt_integrals(&integrals, lambda, NULL);
-  *share = status == SB_OK ? sb_gt_area_share(model->gt_product, integrals.F2) : NAN;
-  return status;
-}
-
 // Share of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
 // film, Persson's on the net pressure that the solids must carry.
 static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *model, int seal,
@@ -360,14 +352,11 @@ static SbStatus real_area(SbSliding *out, double *rest_share, const SbModel *mod
         100 * out->area_share);
     return SB_OK;
   }
-  SbStatus status = gt_share(rest_share, model, 0);
+  *rest_share = sb_gt_area_share(model->gt_product, 0);
   // Without a film there is no real contact under it either.
-  out->area_share = NAN;
-  if (status == SB_OK && !isnan(out->lambda)) {
-    status = gt_share(&out->area_share, model, out->lambda);
-  }
-  if (status != SB_OK) {
-    return sb_fail(report, status, "no asperity contact of the %s seal at λ = %g",
+  out->area_share = sb_gt_area_share(model->gt_product, out->lambda);
+  if (isnan(out->area_share) && !isnan(out->lambda)) {
+    return sb_fail(report, SB_ERROR_RANGE, "no asperity contact of the %s seal at λ = %g",
                    sb_seal_name(seal), out->lambda);
   }
   if (out->area_share > 0.3) {
@@ -399,8 +388,7 @@ static SbStatus rough_contact(SbSliding *out, const SbModel *model, int seal, do
     shear = shear > model->shear_strength ? model->shear_strength : shear;
     out->viscous = shear * (1 - out->area_share) * area;
     if (out->central_error > 0) {
-      double thinner;
-      (void)gt_share(&thinner, model, out->lambda * (1 - out->central_error));
+      double thinner = sb_gt_area_share(model->gt_product, out->lambda * (1 - out->central_error));
       bool persson = model->surface == SB_ROUGH_PERSSON;
       out->friction_error =
           out->central_error * out->viscous +

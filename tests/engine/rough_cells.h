@@ -29,9 +29,7 @@ static inline double average_gap(double sigma, double lambda) {
 
 // Pressure of the asperities [Pa] (Greenwood and Tripp).
 static inline double asperity_pressure(const SbFilmProblem *problem, double lambda) {
-  SbGtIntegrals F;
-  g_assert_cmpint(sb_gt_integrals(&F, lambda, NULL), ==, SB_OK);
-  return sb_gt_pressure(problem->gt_product, problem->sigma_over_beta, problem->modulus, F.F5_2);
+  return sb_gt_pressure(problem->gt_product, problem->sigma_over_beta, problem->modulus, lambda);
 }
 
 // Gap [m] at x of the undeformed body.

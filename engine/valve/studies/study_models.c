@@ -83,12 +83,8 @@ static void print(double *value, const SbModel *model, int size, double pressure
 
 // Share of the friction that the shear strength alone gives at rest, over the load.
 static double coefficient(const SbModel *model, double load, double width) {
-  SbGtIntegrals rest;
-  if (sb_gt_integrals(&rest, 0, NULL) != SB_OK || !(load > 0)) {
-    return NAN;
-  }
-  double area = width * model->bore_circumference;
-  return model->shear_strength * sb_gt_area_share(model->gt_product, rest.F2) * area / load;
+  double area = width * model->bore_circumference * sb_gt_area_share(model->gt_product, 0);
+  return load > 0 ? model->shear_strength * area / load : NAN;
 }
 
 // Contact and coefficient of a model with one of the sizes.
@@ -156,7 +152,7 @@ static void make(SbStudyWork *work) {
   }
   sb_study_level(work, &out->panel[3], "measured 0.51", 0.51);
   sb_study_level(work, &out->panel[3], "table 7.8: 0.4", 0.4);
-  sb_study_mark(out, model->canister_pressure, "canister");
+  sb_study_mark(work, model->canister_pressure, "canister");
   put_table(work);
   sb_text(out->models, sizeof out->models, "disc-thesis, disc, ring, Karaszkiewicz%s",
           is_thesis(model) ? "; printed: thesis tables 7.2 to 7.4, 7.8, 7.9" : "");
