@@ -5,20 +5,13 @@
 
 #include "engine/contact/compliance.h"
 #include "engine/contact/rough/greenwood_tripp.h"
-#include "engine/film/film.h"
+#include "tests/engine/films.h"
 
 #include <glib.h>
 #include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static inline void close_to(const char *what, double got, double want, double relative) {
-  if (!(fabs(got - want) <= relative * fabs(want))) {
-    g_test_message("%s: got %.9g, want %.9g within %g", what, got, want, relative);
-    g_test_fail();
-  }
-}
 
 // Mean gap [m] of surfaces whose mean planes stand lambda sigma apart undeformed, by its closed
 // form.
