@@ -91,18 +91,18 @@ static void note_closing(SbStudy *out, const SbStudySeries *series, double closi
 // Places of a line: even ones, and more between where the ring begins to touch and where its
 // channels close; the leak lies there.
 static int choose_places(double at[POINTS + FINE], SbStudyWork *work, int line, double closing) {
-  int even = fit_of(line) == SB_FIT_RING ? RING_POINTS : POINTS, closed = 0, count = 0;
+  int even = fit_of(line) == SB_FIT_RING ? RING_POINTS : POINTS, count = 0;
+  double pressure[POINTS];
   for (int i = 0; i < even; i++) {
     at[i] = sb_study_place(work, i, even);
+    pressure[i] = sb_study_at(work, line, at[i])[PRESSURE];
   }
-  while (closed < even && !(sb_study_at(work, line, at[closed])[PRESSURE] >= closing)) {
-    closed++;
-  }
+  const int closed = (int)first_at_least(pressure, (size_t)even, closing);
   if (closed == 0 || closed == even) {
     return even;
   }
   int open = closed - 1;
-  while (open > 0 && sb_study_at(work, line, at[open])[PRESSURE] > 0) {
+  while (open > 0 && pressure[open] > 0) {
     open--;
   }
   double from = at[open], to = at[closed];
