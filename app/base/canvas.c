@@ -108,6 +108,14 @@ static double alpha_of(const SbTextStyle *style) {
   return style->alpha > 0 ? style->alpha : 1;
 }
 
+// Draws what is laid out.
+static void show(SbCanvas *canvas, const SbTextStyle *style, double x, double y) {
+  sb_canvas_color(canvas, style->color, alpha_of(style));
+  place(canvas, x, y);
+  pango_cairo_show_layout(canvas->cr, canvas->layout);
+  cairo_new_path(canvas->cr);
+}
+
 double sb_canvas_text(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
                       double y, SbAlign align) {
   shape(canvas, text, style);
@@ -133,10 +141,7 @@ double sb_canvas_text_halo(SbCanvas *canvas, const char *text, const SbTextStyle
   pango_cairo_layout_path(canvas->cr, canvas->layout);
   cairo_stroke(canvas->cr);
   cairo_restore(canvas->cr);
-  sb_canvas_color(canvas, style->color, alpha_of(style));
-  place(canvas, left, y);
-  pango_cairo_show_layout(canvas->cr, canvas->layout);
-  cairo_new_path(canvas->cr);
+  show(canvas, style, left, y);
   return width;
 }
 
@@ -158,10 +163,7 @@ static double text_fit(SbCanvas *canvas, const char *text, const SbTextStyle *st
     pango_layout_set_ellipsize(canvas->layout, where);
     natural = width;
   }
-  sb_canvas_color(canvas, style->color, alpha_of(style));
-  place(canvas, x, y);
-  pango_cairo_show_layout(canvas->cr, canvas->layout);
-  cairo_new_path(canvas->cr);
+  show(canvas, style, x, y);
   return natural;
 }
 

@@ -2,6 +2,7 @@
 // most 2.5, so a range that shows nine marks at one step shows at least three at the next: three to
 // eight can always be had. Leaves out time axes and minor marks.
 #include "app/chart/axis.h"
+#include "app/base/format.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -160,5 +161,24 @@ void sb_axis_log_ticks(SbTicks *out, double lo, double hi) {
     if (log10(v) >= a - slack && log10(v) <= b + slack) {
       out->value[out->count++] = v;
     }
+  }
+}
+
+void sb_axis_draw(SbCanvas *c, SbRect plot, const SbScale *x, const SbTicks *x_ticks,
+                  const SbScale *y, const SbTicks *y_ticks) {
+  char text[SB_FORMAT_MAX];
+  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  double right = plot.x + plot.width, bottom = plot.y + plot.height;
+  for (int i = 0; i < y_ticks->count; i++) {
+    double at = sb_axis_at(y, y_ticks->value[i]);
+    sb_canvas_hairline(c, plot.x, at, right, at, sb_canvas_role(c, SB_ROLE_GRID));
+    sb_format_fixed(text, y_ticks->value[i], y_ticks->decimals);
+    sb_canvas_text(c, text, &label, plot.x - 8, at + 4.3, SB_RIGHT);
+  }
+  for (int i = 0; i < x_ticks->count; i++) {
+    double at = sb_axis_at(x, x_ticks->value[i]);
+    sb_canvas_hairline(c, at, bottom, at, bottom + 5, sb_canvas_role(c, SB_ROLE_AXIS));
+    sb_format_fixed(text, x_ticks->value[i], x_ticks->decimals);
+    sb_canvas_text(c, text, &label, floor(at) + 0.5, bottom + 18, SB_MIDDLE);
   }
 }

@@ -1,7 +1,7 @@
 // Scales and ticks: from data to pixels, and where to put the marks.
 #pragma once
 
-#include <stdbool.h>
+#include "app/base/canvas.h"
 
 enum { SB_TICKS_MAX = 12 };
 
@@ -40,3 +40,7 @@ void sb_axis_log_ticks(SbTicks *out, double lo, double hi);
 
 // Widens [lo, hi] outwards to whole steps of the 1-2-5 division that sb_axis_ticks() would use.
 void sb_axis_round_out(double *lo, double *hi, int wanted);
+
+// Lines across a plot at the marks of y, short ones below it at those of x, and their numbers.
+void sb_axis_draw(SbCanvas *c, SbRect plot, const SbScale *x, const SbTicks *x_ticks,
+                  const SbScale *y, const SbTicks *y_ticks);

@@ -113,27 +113,15 @@ static SbPoint *trace_pixels(const SbHysteresisLayout *at, const SbChartRun *run
 static void draw_axes(SbHysteresisView *v) {
   SbCanvas *c = &v->canvas;
   const SbHysteresisLayout *at = &v->at;
-  char text[SB_FORMAT_MAX];
   SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   double left = at->plot.x, right = at->plot.x + at->plot.width;
   double bottom = at->plot.y + at->plot.height;
-  for (int i = 0; i < at->y_ticks.count; i++) {
-    double y = sb_axis_at(&at->y, at->y_ticks.value[i]);
-    sb_canvas_hairline(c, left, y, right, y, sb_canvas_role(c, SB_ROLE_GRID));
-    sb_format_fixed(text, at->y_ticks.value[i], at->y_ticks.decimals);
-    sb_canvas_text(c, text, &label, left - 8, y + 4.3, SB_RIGHT);
-  }
+  sb_axis_draw(c, at->plot, &at->x, &at->x_ticks, &at->y, &at->y_ticks);
   double zero = sb_axis_at(&at->y, 0);
   sb_canvas_hairline(c, left, zero, right, zero, sb_canvas_role(c, SB_ROLE_AXIS));
   if (zero < bottom - 1) {
     // Forces below zero: the ticks stay at the bottom.
     sb_canvas_hairline(c, left, bottom, right, bottom, sb_canvas_role(c, SB_ROLE_AXIS));
-  }
-  for (int i = 0; i < at->x_ticks.count; i++) {
-    double x = sb_axis_at(&at->x, at->x_ticks.value[i]);
-    sb_canvas_hairline(c, x, bottom, x, bottom + 5, sb_canvas_role(c, SB_ROLE_AXIS));
-    sb_format_fixed(text, at->x_ticks.value[i], at->x_ticks.decimals);
-    sb_canvas_text(c, text, &label, floor(x) + 0.5, bottom + 18, SB_MIDDLE);
   }
   sb_canvas_text(c, "stem displacement / mm", &label, right, bottom + 36, SB_RIGHT);
 }

@@ -50,7 +50,6 @@ static void draw_axes(View *v, SbRect rect, unsigned flags) {
   SbCanvas *c = &v->canvas;
   bool compact = flags & SB_CHART_COMPACT;
   double pad = flags & SB_CHART_PANEL ? SB_GRID_PADDING : 0;
-  char text[SB_FORMAT_MAX];
   SbTextStyle title =
       sb_canvas_style(c, compact ? SB_TYPE_PANEL_WINDOW : SB_TYPE_PANEL, 700, SB_ROLE_INK);
   SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
@@ -68,19 +67,8 @@ static void draw_axes(View *v, SbRect rect, unsigned flags) {
   }
   sb_canvas_text(c, "force in the thread / N", &label, rect.x + pad,
                  rect.y + pad + (compact ? 34 : 64), SB_LEFT);
-  for (int i = 0; i < v->y_ticks.count; i++) {
-    double y = sb_axis_at(&v->y, v->y_ticks.value[i]);
-    sb_canvas_hairline(c, left, y, right, y, sb_canvas_role(c, SB_ROLE_GRID));
-    sb_format_fixed(text, v->y_ticks.value[i], v->y_ticks.decimals);
-    sb_canvas_text(c, text, &label, left - 8, y + 4.3, SB_RIGHT);
-  }
+  sb_axis_draw(c, v->plot, &v->x, &v->x_ticks, &v->y, &v->y_ticks);
   sb_canvas_hairline(c, left, bottom, right, bottom, sb_canvas_role(c, SB_ROLE_AXIS));
-  for (int i = 0; i < v->x_ticks.count; i++) {
-    double x = sb_axis_at(&v->x, v->x_ticks.value[i]);
-    sb_canvas_hairline(c, x, bottom, x, bottom + 5, sb_canvas_role(c, SB_ROLE_AXIS));
-    sb_format_fixed(text, v->x_ticks.value[i], v->x_ticks.decimals);
-    sb_canvas_text(c, text, &label, floor(x) + 0.5, bottom + 18, SB_MIDDLE);
-  }
   sb_canvas_text(c, "time / s", &label, right, bottom + 36, SB_RIGHT);
 }
 

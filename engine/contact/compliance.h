@@ -72,7 +72,6 @@ typedef struct {
   double moment[SB_COMPLIANCE_MODES]; // int p T_l(z) ds over the window [N/m]
   // Slope of the pressure at the edges: p - ambient -> edge sqrt(1 - z^2) there [Pa].
   double edge_left, edge_right;
-  int iterations;
   double residual; // largest slope of the gap inside the contact over the contact's own
 } SbDryContact;
 

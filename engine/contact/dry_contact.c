@@ -28,11 +28,10 @@ static void moments_of(Moments *out, const SbSurfaceCompliance *c, const SbDryCo
   const double middle = 0.5 * (d->left + d->right), half = 0.5 * (d->right - d->left);
   const double low = fmin(d->pressure_left, d->pressure_right);
   // The step is even in the angle, so that its moments are the mean of those of sharp steps there.
-  double below[SB_COMPLIANCE_MODES], above[SB_COMPLIANCE_MODES];
+  double below[SB_COMPLIANCE_MODES], above[SB_COMPLIANCE_MODES], value[SB_COMPLIANCE_MODES];
   for (int i = 0; i < POINTS; i++) {
     // z = -cos(theta): everything is smooth in theta.
     const double theta = M_PI * (i + 0.5) / POINTS, at = middle - half * cos(theta);
-    double value[SB_COMPLIANCE_MODES];
     sb_compliance_integrals(c, c->left, at, below);
     sb_compliance_integrals(c, at, c->right, above);
     for (int l = 0; l < c->modes; l++) {
@@ -72,16 +71,15 @@ static bool edge_residuals(double *r, const double *x, void *context) {
   const SbSurfaceCompliance *c = problem->c;
   SbDryContact *d = &problem->dry;
   const double window = window_of(c);
-  const double left = c->left + x[0] * window, right = c->right - x[1] * window;
-  if (!(x[0] > 0.0 && x[1] > 0.0 && right > left)) {
+  d->left = c->left + x[0] * window;
+  d->right = c->right - x[1] * window;
+  if (!(x[0] > 0.0 && x[1] > 0.0 && d->right > d->left)) {
     return false;
   }
   const double C = sb_compliance_half_plane(c);
-  const double half = 0.5 * (right - left), middle = 0.5 * (left + right);
+  const double half = 0.5 * (d->right - d->left), middle = 0.5 * (d->left + d->right);
   const double unit = 2.0 * d->load / (M_PI * half); // of pressure
   Moments m;
-  d->left = left;
-  d->right = right;
   moments_of(&m, c, d);
   // Rows by the polynomials of the slope: [COUNT + 1][known, coefficients], over C pi unit.
   double row[COUNT + 1][COUNT + 1] = {{0.0}};
@@ -226,7 +224,6 @@ SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double 
   SbBroyden broyden = {0};
   const bool solved = sb_solve_system(edge_residuals, &problem, x, 2, 1e-13, &broyden);
   *out = problem.dry;
-  out->iterations = (int)broyden.iterations;
   out->residual = broyden.residual;
   sb_dry_contact_edges(out);
   if (!solved) {
@@ -269,8 +266,7 @@ void sb_compliance_of_pressure(SbSurfaceCompliance *c, const SbDryContact *d) {
   // The gap whose slope under these pressures is zero, a polynomial up to the smooth part: gap =
   // C pi sum a_k int T_{k+1} - tilt - S p, at Chebyshev's points of the window.
   const double C = sb_compliance_half_plane(c);
-  const double window = window_of(c);
-  const double centre = 0.5 * (c->right + c->left);
+  const double window = window_of(c), centre = 0.5 * (c->right + c->left);
   double value[SB_COMPLIANCE_MODES];
   for (int i = 0; i < c->modes; i++) {
     const double s = centre - window * cos(M_PI * (i + 0.5) / c->modes);

@@ -70,11 +70,13 @@ SbBand sb_band_of(double value, double low, double high) {
 }
 
 SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *report) {
-  static const struct {
-    const char *name, *unit, *source;
-    double low, high;
-  } list[SB_GLAND_COUNT] = {
-#define ENTRY(code, text, unit, low, high, source) [code] = {text, unit, source, low, high},
+  static const SbGlandReadout list[SB_GLAND_COUNT] = {
+#define ENTRY(code, text, of_unit, low, high, of_band)                                             \
+  [code] = {.name = text,                                                                          \
+            .unit = of_unit,                                                                       \
+            .source = of_band,                                                                     \
+            .band_low = (low) < 0.0 ? -INFINITY : (low),                                           \
+            .band_high = (high) > 1e3 ? INFINITY : (high)},
       SB_GLAND_LIST(ENTRY)
 #undef ENTRY
   };
@@ -101,16 +103,8 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
   double value[SB_GLAND_COUNT];
   evaluate(value, gland);
   for (int k = 0; k < SB_GLAND_COUNT; k++) {
-    out[k] = (SbGlandReadout){
-        .name = list[k].name,
-        .unit = list[k].unit,
-        .source = list[k].source,
-        .nominal = value[k],
-        .worst_low = value[k],
-        .worst_high = value[k],
-        .band_low = list[k].low < 0.0 ? -INFINITY : list[k].low,
-        .band_high = list[k].high > 1e3 ? INFINITY : list[k].high,
-    };
+    out[k] = list[k];
+    out[k].nominal = out[k].worst_low = out[k].worst_high = value[k];
   }
   for (int corner = 0; corner < CORNERS; corner++) {
     evaluate_moved(value, gland, corner, ~corner);

@@ -317,15 +317,6 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
   return status != SB_OK ? status : at_rest;
 }
 
-// Greenwood and Tripp's share of the area in real contact at film over roughness `lambda`, for
-// asperities of the product `gt_product`.
-static SbStatus gt_share(double *share, double gt_product, double lambda) {
-  SbGtIntegrals integrals;
-  SbStatus status = sb_gt_integrals(&integrals, lambda, NULL);
-  *share = status == SB_OK ? sb_gt_area_share(gt_product, integrals.F2) : NAN;
-  return status;
-}
-
 // Share of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
 // film, Persson's on the net pressure that the solids must carry.
 static SbStatus real_area(SbSealState *out, double *rest_share, const Task *task, double roughness,
@@ -350,14 +341,11 @@ static SbStatus real_area(SbSealState *out, double *rest_share, const Task *task
         100 * out->real_area_share);
     return SB_OK;
   }
-  SbStatus status = gt_share(rest_share, gt_product, 0);
+  *rest_share = sb_gt_area_share(gt_product, 0);
   // Without a film there is no real contact under it either.
-  out->real_area_share = NAN;
-  if (status == SB_OK && !isnan(out->lambda)) {
-    status = gt_share(&out->real_area_share, gt_product, out->lambda);
-  }
-  if (status != SB_OK) {
-    return sb_fail(report, status, "no asperity contact of the %s seal at λ = %g",
+  out->real_area_share = sb_gt_area_share(gt_product, out->lambda);
+  if (isnan(out->real_area_share) && !isnan(out->lambda)) {
+    return sb_fail(report, SB_ERROR_RANGE, "no asperity contact of the %s seal at λ = %g",
                    sb_seal_name(task->seal), out->lambda);
   }
   if (out->real_area_share > 0.3) {
@@ -390,9 +378,8 @@ static SbStatus rough_contact(SbSealState *out, const Task *task, double roughne
     shear = shear > model->shear_strength ? model->shear_strength : shear;
     out->friction_viscous = shear * (1 - out->real_area_share) * area;
     if (out->central_error > 0) {
-      double thinner;
-      (void)gt_share(&thinner, roughness * model->gt_product,
-                     out->lambda * (1 - out->central_error));
+      double thinner =
+          sb_gt_area_share(roughness * model->gt_product, out->lambda * (1 - out->central_error));
       bool persson = model->surface == SB_ROUGH_PERSSON;
       out->friction_error =
           out->central_error * out->friction_viscous +

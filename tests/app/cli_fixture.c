@@ -29,6 +29,11 @@ void cli_clear(CliResult *result) {
 }
 
 CliResult cli_run(const char *const *arguments, char **environment, GSpawnChildSetupFunc setup) {
+  return cli_run_in(NULL, arguments, environment, 0, setup);
+}
+
+CliResult cli_run_in(const char *folder, const char *const *arguments, char **environment,
+                     GSpawnFlags flags, GSpawnChildSetupFunc setup) {
   GPtrArray *argv = g_ptr_array_new();
   g_ptr_array_add(argv, (gpointer)cli.program);
   for (const char *const *a = arguments; *a != NULL; a++) {
@@ -38,8 +43,8 @@ CliResult cli_run(const char *const *arguments, char **environment, GSpawnChildS
   CliResult result = {0};
   int status = 0;
   GError *error = NULL;
-  g_spawn_sync(NULL, (char **)argv->pdata, environment, 0, setup, NULL, &result.out, &result.err,
-               &status, &error);
+  g_spawn_sync(folder, (char **)argv->pdata, environment, flags, setup, NULL, &result.out,
+               &result.err, &status, &error);
   g_assert_no_error(error);
   result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   g_ptr_array_unref(argv);

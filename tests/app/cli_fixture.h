@@ -27,6 +27,10 @@ void cli_clear(CliResult *result);
 // Runs the program with arguments up to NULL; `environment` NULL: ours; `setup` runs in the child.
 CliResult cli_run(const char *const *arguments, char **environment, GSpawnChildSetupFunc setup);
 
+// The same in a folder (NULL: this one) and with flags of its start.
+CliResult cli_run_in(const char *folder, const char *const *arguments, char **environment,
+                     GSpawnFlags flags, GSpawnChildSetupFunc setup);
+
 #define CLI(...) cli_run((const char *const[]){__VA_ARGS__, NULL}, NULL, NULL)
 
 // Strict JSON; fails the test on anything else.

@@ -103,20 +103,8 @@ static void from_input(gpointer data) {
 
 static CliResult with_input(const char *const *arguments, const char *path) {
   input = path;
-  GPtrArray *argv = g_ptr_array_new();
-  g_ptr_array_add(argv, (gpointer)cli.program);
-  for (const char *const *a = arguments; *a != NULL; a++) {
-    g_ptr_array_add(argv, (gpointer)*a);
-  }
-  g_ptr_array_add(argv, NULL);
-  CliResult result = {0};
-  int status = 0;
   g_autofree char *folder = g_path_get_dirname(cli.scene);
-  g_assert_true(g_spawn_sync(folder, (char **)argv->pdata, NULL, G_SPAWN_CHILD_INHERITS_STDIN,
-                             from_input, NULL, &result.out, &result.err, &status, NULL));
-  result.code = g_spawn_check_wait_status(status, NULL) ? 0 : status >> 8;
-  g_ptr_array_unref(argv);
-  return result;
+  return cli_run_in(folder, arguments, NULL, G_SPAWN_CHILD_INHERITS_STDIN, from_input);
 }
 #define WITH(path, ...) with_input((const char *const[]){__VA_ARGS__, NULL}, path)
 

@@ -5,6 +5,7 @@
 #include "app/section/gl_renderer.h"
 #include "app/section/section.h"
 #include "tests/app/picture.h"
+#include "tests/gl_picture.h"
 
 #include "tests/sanitized.h"
 
@@ -168,19 +169,7 @@ static cairo_surface_t *render(SbGlBackend backend, const SbDrawList *list, doub
     g_test_message("%s", report.text);
     return NULL;
   }
-  SbGlRenderer *renderer;
-  g_assert_cmpint(sb_gl_renderer_create(&renderer, context, &report), ==, SB_OK);
-  int width = (int)lround((double)list->width * scale);
-  int height = (int)lround((double)list->height * scale);
-  cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
-  g_assert_cmpint(sb_gl_renderer_draw(renderer, list, width, height, scale, &report), ==, SB_OK);
-  cairo_surface_flush(surface);
-  sb_gl_renderer_read(renderer, cairo_image_surface_get_data(surface),
-                      (size_t)cairo_image_surface_get_stride(surface));
-  cairo_surface_mark_dirty(surface);
-  sb_gl_renderer_destroy(renderer);
-  sb_gl_context_destroy(context);
-  return surface;
+  return gl_picture(context, list, CAIRO_FORMAT_ARGB32, scale);
 }
 
 static void test_backends(void) {

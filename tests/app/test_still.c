@@ -4,6 +4,7 @@
 #include "app/export/render.h"
 #include "app/export/still.h"
 #include "tests/app/picture.h"
+#include "tests/crc.h"
 #include "tests/executed.h"
 
 #include <errno.h>
@@ -193,18 +194,6 @@ static void test_bad_requests(void) {
   g_assert_null(read_scene(path, &error));
   g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
   g_clear_error(&error);
-}
-
-// The check sum of a chunk's name and data.
-static guint32 crc(const guint8 *data, size_t size) {
-  guint32 sum = 0xffffffffu;
-  for (size_t i = 0; i < size; i++) {
-    sum ^= data[i];
-    for (int k = 0; k < 8; k++) {
-      sum = sum >> 1 ^ (sum & 1 ? 0xedb88320u : 0);
-    }
-  }
-  return ~sum;
 }
 
 // A picture whose other chunks unpack to gigabytes costs no more than the file: they are not read.

@@ -27,6 +27,20 @@ static inline SbFitProblem thesis(SbFitModel model) {
   };
 }
 
+// The linear disc in it as a ring without stretch, so that its section is the disc; the pressure on
+// its left.
+static inline SbFitProblem unstretched(double diameter, double squeeze, double pressure) {
+  SbFitProblem problem = thesis(SB_FIT_DISC);
+  problem.section_diameter = diameter;
+  problem.inner_diameter = 3.03e-3;
+  problem.radial_space = diameter * (1.0 - squeeze);
+  problem.bore_diameter = problem.inner_diameter + diameter + problem.radial_space;
+  problem.gland_width = 2.0 * diameter;
+  problem.housing_modulus = problem.housing_poisson = 0.0;
+  problem.pressure = pressure;
+  return problem;
+}
+
 // Between its bore and its floor, without walls.
 static inline SbRingLoad open_groove(void) {
   SbRingLoad load = SB_RING_LOAD_INIT;

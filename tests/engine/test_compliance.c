@@ -7,23 +7,13 @@
 #include <glib.h>
 #include <math.h>
 
-#include "engine/contact/fit.h"
+#include "tests/engine/seals.h"
 
-// A ring without stretch, whose section is a disc between flats, with pressure on its left.
 static SbFitProblem disc_problem(double diameter, double squeeze, double pressure,
                                  double tolerance) {
-  const double space = diameter * (1.0 - squeeze), inner = 2.0 * diameter;
-  return (SbFitProblem){.model = SB_FIT_DISC,
-                        .variant = SB_DISC_VERTICAL,
-                        .section_diameter = diameter,
-                        .inner_diameter = inner,
-                        .radial_space = space,
-                        .bore_diameter = inner + diameter + space,
-                        .gland_width = 2.0 * diameter,
-                        .modulus = 2.5e6,
-                        .poisson_ratio = 0.49,
-                        .pressure = pressure,
-                        .tolerance = tolerance};
+  SbFitProblem problem = unstretched(diameter, squeeze, pressure);
+  problem.tolerance = tolerance;
+  return problem;
 }
 
 // A parabola without smooth part is Hertz's contact, with end pressures the transition of

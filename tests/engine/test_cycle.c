@@ -1,43 +1,17 @@
 // The cycle A to F against a hand calculation from the printed equations, and on its hard cases.
 #include "engine/film/laws.h"
 #include "engine/valve/cost.h"
-#include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"
+#include "tests/engine/models.h"
 
 #include <glib.h>
 #include <math.h>
 #include <string.h>
 
-typedef struct {
-  int id;
-  double value;
-} Setting;
-
-static void compile(SbModel *model, const Setting *settings, size_t count) {
-  SbParams params;
-  sb_params_init(&params);
-  for (size_t i = 0; i < count; i++) {
-    SbReport report = {0};
-    SbStatus status = sb_params_set(&params, (SbParamId)settings[i].id, settings[i].value, &report);
-    g_assert_cmpint(status, ==, SB_OK);
-  }
-  g_assert_cmpint(sb_model_compile(model, &params, NULL), ==, SB_OK);
-}
-
 static SbRun *run_cycle(const Setting *settings, size_t count) {
   SbModel model;
   compile(&model, settings, count);
-  SbPlan plan;
-  sb_plan_make(&plan, &model);
-  SbRun *run = NULL;
-  SbReport report = {0};
-  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
-  SbStatus status = sb_run_execute(run, NULL, &report);
-  if (status != SB_OK) {
-    g_test_message("%s", report.text);
-  }
-  g_assert_cmpint(status, ==, SB_OK);
-  return run;
+  return run_of(&model, SB_OK, NULL);
 }
 
 // Kinetic friction by the printed equations 5.2, 5.4, 5.11, 5.14, 7.5 alone, F_2 expanded about

@@ -3,9 +3,9 @@
 // step (counted by a malloc of our own), the section's shear turning over at the reversals.
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
-#include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
 #include "engine/valve/sealbench.h"
+#include "tests/engine/models.h"
 #include "tests/sanitized.h"
 
 #include <glib.h>
@@ -95,21 +95,14 @@ static void test_allocations(void) {
 // ---------------------------------------------------------------- whole cycles
 
 static SbRun *run_cycle(int fit, double frames, double tolerance, unsigned views) {
-  SbParams params;
-  sb_params_init(&params);
-  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, fit, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_FRAMES, frames, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_TOLERANCE, tolerance, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_VIEWS, views, NULL), ==, SB_OK);
+  const Setting settings[] = {{SB_P_MODELS_FIT, fit},
+                              {SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
+                              {SB_P_OUTPUT_FRAMES, frames},
+                              {SB_P_OUTPUT_TOLERANCE, tolerance},
+                              {SB_P_OUTPUT_VIEWS, views}};
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
-  SbPlan plan;
-  sb_plan_make(&plan, &model);
-  SbRun *run = NULL;
-  g_assert_cmpint(sb_run_create(&run, &model, &plan, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_run_execute(run, NULL, NULL), ==, SB_OK);
-  return run;
+  compile(&model, settings, G_N_ELEMENTS(settings));
+  return run_of(&model, SB_OK, NULL);
 }
 
 static void within(const char *what, double got, double want, double relative) {

@@ -16,22 +16,10 @@
 #define E  2.5e6
 #define NU 0.49
 
-// A ring that fits its gland without stretch, so that its section is the disc; the pressure on the
-// left.
 static SbFitProblem disc_problem(SbDiscVariant variant, double squeeze, double pressure) {
-  const double space = D * (1.0 - squeeze), inner = 3.03e-3;
-  return (SbFitProblem){
-      .model = SB_FIT_DISC,
-      .variant = variant,
-      .section_diameter = D,
-      .inner_diameter = inner,
-      .radial_space = space,
-      .bore_diameter = inner + D + space,
-      .gland_width = 2.0 * D,
-      .modulus = E,
-      .poisson_ratio = NU,
-      .pressure = pressure,
-  };
+  SbFitProblem problem = unstretched(D, squeeze, pressure);
+  problem.variant = (int)variant;
+  return problem;
 }
 
 static SbFit solve(const SbFitProblem *problem) {

@@ -4,10 +4,10 @@
 // smooth films: test_film_reynolds.c; films in time: test_film_transient.c; motion:
 // test_run_limits.c, test_run_rig.c.)
 #include "engine/contact/fit.h"
-#include "engine/film/film.h"
 #include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"
 #include "engine/valve/studies/study.h"
+#include "tests/engine/films.h"
 #include "tests/engine/seals.h"
 
 #include <glib.h>
@@ -67,19 +67,8 @@ static void test_mixed(void) {
   int turn = 0;
   for (double speed = 1e-6; speed < 20; speed *= 7, turn++) {
     for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
-      SbFilmProblem problem;
-      sb_film_problem_init(&problem);
-      problem.load = 850.2;
-      problem.radius = 0.805e-3;
-      problem.modulus = 6.5725e6;
-      problem.viscosity = 0.211e-3;
-      problem.speed = turn % 2 == 0 ? speed : -speed;
-      problem.surface = (SbRoughModel)model;
-      problem.gt_product = 0.1289;
+      SbFilmProblem problem = rough_seal(turn % 2 == 0 ? speed : -speed, (SbRoughModel)model);
       problem.sigma = turn % 3 == 0 ? 1e-6 : turn % 3 == 1 ? 3e-7 : 1e-7;
-      problem.sigma_over_beta = 0.1;
-      problem.shear_strength = 3.5e6;
-      problem.load_coefficient = 0.19;
       problem.hamaker = turn % 2 == 0 ? 1.35e-19 : 0;
       problem.pressure_left = ends[turn % 4][0];
       problem.pressure_right = ends[turn % 4][1];

@@ -1,34 +1,11 @@
 // Figures: each has a value or a reason, an open seal is told, and the verdict follows the limits.
 #include "engine/contact/fit.h"
-#include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"
+#include "tests/engine/models.h"
 
 #include <glib.h>
 #include <math.h>
 #include <string.h>
-
-typedef struct {
-  SbParamId id;
-  double value;
-} Change;
-
-static void compile(SbModel *model, const Change *changes, size_t count) {
-  SbParams params;
-  sb_params_init(&params);
-  for (size_t i = 0; i < count; i++) {
-    g_assert_cmpint(sb_params_set(&params, changes[i].id, changes[i].value, NULL), ==, SB_OK);
-  }
-  g_assert_cmpint(sb_model_compile(model, &params, NULL), ==, SB_OK);
-}
-
-static SbRun *run_of(const SbModel *model, SbStatus wanted, SbReport *report) {
-  SbPlan plan;
-  SbRun *run;
-  sb_plan_make(&plan, model);
-  g_assert_cmpint(sb_run_create(&run, model, &plan, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_run_execute(run, NULL, report), ==, wanted);
-  return run;
-}
 
 static double value_at(const SbSummary *summary, const char *path) {
   int index = sb_figure_find(path);
@@ -99,9 +76,9 @@ static void test_paths(void) {
 
 // A ring that does not reach the bore under pressure: open, and no leak of 0.
 static void test_open(void) {
-  const Change changes[] = {{SB_P_MODELS_FIT, SB_FIT_DISC},
-                            {SB_P_GLAND_RADIAL_SPACE, 1.57e-3},
-                            {SB_P_SEAL_INNER_DIAMETER, 2.476e-3}};
+  const Setting changes[] = {{SB_P_MODELS_FIT, SB_FIT_DISC},
+                             {SB_P_GLAND_RADIAL_SPACE, 1.57e-3},
+                             {SB_P_SEAL_INNER_DIAMETER, 2.476e-3}};
   SbModel model;
   compile(&model, changes, G_N_ELEMENTS(changes));
   SbRun *run = run_of(&model, SB_OK, NULL);
@@ -123,10 +100,10 @@ static void test_open(void) {
   }
   sb_run_destroy(run);
   // A small squeeze under a pressure that the rubber cannot hold off opens the contact.
-  const Change pressed[] = {{SB_P_GLAND_RADIAL_SPACE, 1.56e-3},
-                            {SB_P_MODELS_FIT, SB_FIT_HERTZ},
-                            {SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
-                            {SB_P_CANISTER_PRESSURE, 2e6}};
+  const Setting pressed[] = {{SB_P_GLAND_RADIAL_SPACE, 1.56e-3},
+                             {SB_P_MODELS_FIT, SB_FIT_HERTZ},
+                             {SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
+                             {SB_P_CANISTER_PRESSURE, 2e6}};
   compile(&model, pressed, G_N_ELEMENTS(pressed));
   run = run_of(&model, SB_OK, NULL);
   s = sb_run_summary(run);
@@ -148,14 +125,14 @@ static void test_leak_states(void) {
   g_assert_cmpint(sb_run_summary(run)->seal[SB_INNER].leak_state, ==, SB_LEAK_CLOSED);
   g_assert_cmpfloat(sb_run_summary(run)->seal[SB_INNER].leakage_static, ==, 0);
   sb_run_destroy(run);
-  const Change rough[] = {{SB_P_SURFACE_SIGMA_OVER_BETA, 1}, {SB_P_SURFACE_GT_PRODUCT, 0.03}};
+  const Setting rough[] = {{SB_P_SURFACE_SIGMA_OVER_BETA, 1}, {SB_P_SURFACE_GT_PRODUCT, 0.03}};
   compile(&model, rough, G_N_ELEMENTS(rough));
   run = run_of(&model, SB_OK, NULL);
   g_assert_cmpint(sb_run_summary(run)->seal[SB_OUTER].leak_state, ==, SB_LEAK_PERCOLATING);
   g_assert_cmpfloat(sb_run_summary(run)->seal[SB_OUTER].leakage_static, >, 0);
   g_assert_cmpint(sb_run_summary(run)->verdict[SB_VERDICT_SEALS].ok, ==, SB_ANSWER_YES);
   sb_run_destroy(run);
-  const Change smooth[] = {{SB_P_SURFACE_GT_PRODUCT, 0.02}};
+  const Setting smooth[] = {{SB_P_SURFACE_GT_PRODUCT, 0.02}};
   compile(&model, smooth, G_N_ELEMENTS(smooth));
   run = run_of(&model, SB_OK, NULL);
   const SbSummary *s = sb_run_summary(run);
@@ -169,8 +146,8 @@ static void test_leak_states(void) {
 // What is carried one way by a stem that stays in is no loss of a cycle.
 static void test_one_way(void) {
   for (int motion = 0; motion < 2; motion++) {
-    const Change changes[] = {{SB_P_SURFACE_GT_PRODUCT, 0.1289 * 1.3},
-                              {SB_P_MODELS_MOTION, motion}};
+    const Setting changes[] = {{SB_P_SURFACE_GT_PRODUCT, 0.1289 * 1.3},
+                               {SB_P_MODELS_MOTION, motion}};
     SbModel model;
     compile(&model, changes, G_N_ELEMENTS(changes));
     SbRun *run = run_of(&model, SB_OK, NULL);
@@ -188,7 +165,7 @@ static void test_one_way(void) {
 // A solver that fails names itself and its place; nothing after it is computed, least of all 0.
 static void test_failure(void) {
   // A disc squeezed by 48 % has no state under this pressure.
-  const Change changes[] = {
+  const Setting changes[] = {
       {SB_P_MODELS_FIT, SB_FIT_DISC},     {SB_P_SEAL_MODULUS, 1e6},
       {SB_P_CANISTER_PRESSURE, 0.49e6},   {SB_P_SEAL_SECTION_DIAMETER, 2.6e-3},
       {SB_P_SEAL_INNER_DIAMETER, 2.2e-3}, {SB_P_GLAND_AXIAL_WIDTH, 8e-3}};
@@ -362,8 +339,8 @@ static void test_geometry(void) {
   g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpstr(problems.item[0].key, ==, "stem.pressure_diameter");
   g_assert_cmpfloat_with_epsilon(problems.item[0].min, 3.28e-3, 1e-12);
-  const Change changes[] = {{SB_P_CANISTER_PRESSURE_MAP, SB_MAP_PORTS},
-                            {SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC}};
+  const Setting changes[] = {{SB_P_CANISTER_PRESSURE_MAP, SB_MAP_PORTS},
+                             {SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC}};
   compile(&model, changes, G_N_ELEMENTS(changes));
   sb_model_remarks(&model, &problems);
   g_assert_cmpuint(problems.count, ==, 1);

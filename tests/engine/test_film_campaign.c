@@ -3,7 +3,7 @@
 // estimate against a solve of a thousandth of the tolerance, the mirrored contact.
 //
 // test-engine-film-campaign [COUNT [SEED]]: COUNT contacts of each kind, 30 in the tests.
-#include "engine/film/film.h"
+#include "tests/engine/films.h"
 
 #include <glib.h>
 #include <math.h>
@@ -307,13 +307,7 @@ static void test_thick_layers(void) {
 // A supply of just what the contact takes floods it; a little less is told by the error estimate.
 static void test_just_flooded(void) {
   static const double share[] = {1.0, 1.0 - 1e-6, 1.0 - 1e-5};
-  SbFilmProblem p;
-  sb_film_problem_init(&p);
-  p.modulus = 6.5725e6;
-  p.radius = 0.805e-3;
-  p.load = 850.2;
-  p.viscosity = 0.211e-3;
-  p.speed = 1e-2;
+  SbFilmProblem p = outer_seal(1e-2);
   sb_film_solver_forget(solver);
   g_assert_cmpint(sb_film_solve(&other, &p, solver, NULL), ==, SB_OK);
   for (size_t i = 0; i < G_N_ELEMENTS(share); i++) {

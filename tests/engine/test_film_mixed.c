@@ -3,7 +3,6 @@
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
 #include "engine/contact/rough/rough_law.h"
-#include "engine/film/film.h"
 #include "engine/valve/sliding.h"
 #include "tests/engine/near.h"
 #include "tests/engine/rough_cells.h"
@@ -17,34 +16,8 @@ static SbFilmSolver *solver;
 static SbFilm film, other;
 static SbFilmProfile profile[2];
 
-// The outer seal of the thesis valve.
-static SbFilmProblem seal(double speed, SbRoughModel surface) {
-  SbFilmProblem problem;
-  sb_film_problem_init(&problem);
-  problem.load = 850.2;
-  problem.radius = 0.805e-3;
-  problem.modulus = 6.5725e6;
-  problem.viscosity = 0.211e-3;
-  problem.speed = speed;
-  problem.surface = surface;
-  problem.gt_product = 0.1289;
-  problem.sigma = 1e-6;
-  problem.sigma_over_beta = 0.1;
-  problem.shear_strength = 3.5e6;
-  problem.load_coefficient = 0.19;
-  return problem;
-}
-
 static SbStatus solve(SbFilm *out, const SbFilmProblem *problem) {
-  SbReport report;
-  SbFilmProblem lent = *problem;
-  lent.profile = &profile[out == &other];
-  sb_film_solver_forget(solver);
-  SbStatus status = sb_film_solve(out, &lent, solver, &report);
-  if (status != SB_OK) {
-    g_test_message("speed %g: %s", problem->speed, report.text);
-  }
-  return status;
+  return solve_cold(out, problem, &profile[out == &other], solver);
 }
 
 // ---------------------------------------------------------------- references
@@ -61,7 +34,7 @@ static void test_reference(void) {
       {SB_ROUGH_PERSSON, 2e-7, 0.1, 33.68, 0.1178},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(point); i++) {
-    SbFilmProblem problem = seal(point[i].speed, point[i].model);
+    SbFilmProblem problem = rough_seal(point[i].speed, point[i].model);
     problem.sigma = point[i].sigma;
     problem.modulus = 6.5725154e6;
     g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
@@ -91,7 +64,7 @@ static void test_smooth_limit(void) {
       {1e-13, 0.1289, 1e-2, 2e5, 4e5, 0.211e-3},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(point); i++) {
-    SbFilmProblem problem = seal(point[i].speed, SB_ROUGH_GREENWOOD_TRIPP);
+    SbFilmProblem problem = rough_seal(point[i].speed, SB_ROUGH_GREENWOOD_TRIPP);
     problem.sigma = point[i].sigma;
     problem.gt_product = point[i].product;
     problem.pressure_left = point[i].left;
@@ -119,7 +92,7 @@ static void test_smooth_limit(void) {
 static void test_direct_start(void) {
   static const double ends[][2] = {{0, 0}, {0.55e6, 0}, {0, 0.55e6}, {0.55e6, 0.55e6}};
   for (size_t i = 0; i < G_N_ELEMENTS(ends); i++) {
-    SbFilmProblem problem = seal(1, SB_ROUGH_GREENWOOD_TRIPP);
+    SbFilmProblem problem = rough_seal(1, SB_ROUGH_GREENWOOD_TRIPP);
     problem.sigma = 1e-7;
     problem.pressure_left = ends[i][0];
     problem.pressure_right = ends[i][1];
@@ -135,7 +108,7 @@ static void test_dry_contact(void) {
     double sigma, product, ratio;
   } surface[] = {{1e-5, 0.1289, 0.1}, {4e-6, 0.3, 0.1}, {2e-5, 0.1289, 1}};
   for (size_t i = 0; i < G_N_ELEMENTS(surface); i++) {
-    SbFilmProblem problem = seal(0, SB_ROUGH_GREENWOOD_TRIPP);
+    SbFilmProblem problem = rough_seal(0, SB_ROUGH_GREENWOOD_TRIPP);
     problem.sigma = surface[i].sigma;
     problem.gt_product = surface[i].product;
     problem.sigma_over_beta = surface[i].ratio;
@@ -170,7 +143,7 @@ static void test_stribeck(void) {
   static Point curve[POINTS];
   int models = g_test_slow() ? SB_ROUGH_PERSSON : SB_ROUGH_GREENWOOD_TRIPP;
   for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= models; model++) {
-    SbFilmProblem problem = seal(0, (SbRoughModel)model);
+    SbFilmProblem problem = rough_seal(0, (SbRoughModel)model);
     problem.sigma = 1e-7;
     problem.viscosity = 0.01;
     double step[2];
@@ -213,7 +186,7 @@ static void test_stribeck(void) {
 static void test_full_contact(void) {
   for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
     for (double speed = 0; speed < 2e-5; speed = speed == 0 ? 1e-7 : speed * 10) {
-      SbFilmProblem problem = seal(speed, (SbRoughModel)model);
+      SbFilmProblem problem = rough_seal(speed, (SbRoughModel)model);
       problem.load = 2000;
       problem.gt_product = model == SB_ROUGH_PERSSON ? 0.1289 : 0.2;
       problem.sigma_over_beta = model == SB_ROUGH_PERSSON ? 0.05 : 0.01;
@@ -247,7 +220,7 @@ static void test_profile(void) {
   static const double speeds[] = {1e-4, -1e-2, 1};
   for (size_t k = 0; k < G_N_ELEMENTS(speeds); k++) {
     for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
-      SbFilmProblem problem = seal(speeds[k], (SbRoughModel)model);
+      SbFilmProblem problem = rough_seal(speeds[k], (SbRoughModel)model);
       problem.sigma = 3e-7;
       g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
       g_assert_cmpuint(film.points, >=, 400);
@@ -321,7 +294,7 @@ static void test_estimate(void) {
   int count = 0;
   for (double speed = 1e-7; speed < 20; speed *= g_test_slow() ? 6 : 36) {
     for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
-      SbFilmProblem problem = seal(speed, (SbRoughModel)model);
+      SbFilmProblem problem = rough_seal(speed, (SbRoughModel)model);
       g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
       g_assert_cmpint(film.solver.newton_iterations, <=, 10 * film.solver.continuation_steps);
       problem.tolerance = 1e-8;
@@ -362,7 +335,7 @@ static void test_ends(void) {
   static const double left[] = {5.5e5, 0, 3e5}, right[] = {0, 5.5e5, 5.5e5};
   for (int i = 0; i < 3; i++) {
     for (double speed = 1e-7; speed < 2; speed *= 100) {
-      SbFilmProblem problem = seal(speed, SB_ROUGH_GREENWOOD_TRIPP);
+      SbFilmProblem problem = rough_seal(speed, SB_ROUGH_GREENWOOD_TRIPP);
       problem.pressure_left = left[i];
       problem.pressure_right = right[i];
       g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
@@ -386,7 +359,7 @@ static void test_ends(void) {
 // A starved inlet: the contact passes what the wall brings, and the smooth limit is the film that
 // the smooth solver finds with its own meniscus.
 static void test_starved(void) {
-  SbFilmProblem problem = seal(1e-2, SB_ROUGH_GREENWOOD_TRIPP);
+  SbFilmProblem problem = rough_seal(1e-2, SB_ROUGH_GREENWOOD_TRIPP);
   problem.inlet_film = 1e-8; // of 12.8 nm that the flooded contact takes
   g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
   g_assert_true(film.starved);
@@ -400,7 +373,7 @@ static void test_starved(void) {
   close_to("least film", film.film_min, other.film_min, 5e-4);
   close_to("central film", film.film_central, other.film_central, 5e-4);
   // More than it takes: flooded.
-  problem = seal(1e-2, SB_ROUGH_GREENWOOD_TRIPP);
+  problem = rough_seal(1e-2, SB_ROUGH_GREENWOOD_TRIPP);
   problem.inlet_film = 1e-6;
   g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
   g_assert_false(film.starved);
@@ -408,7 +381,7 @@ static void test_starved(void) {
 
 static void test_adhesion(void) {
   // Across an open rough gap the pull is small and thins the film; the reference's digits.
-  SbFilmProblem problem = seal(1e-4, SB_ROUGH_GREENWOOD_TRIPP);
+  SbFilmProblem problem = rough_seal(1e-4, SB_ROUGH_GREENWOOD_TRIPP);
   problem.sigma = 2e-7;
   problem.modulus = 6.5725154e6;
   g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
@@ -419,7 +392,7 @@ static void test_adhesion(void) {
   close_to("film with the pull", other.film_min * 1e9, 2.6126, 5e-5);
   // Nor is a pressure that hardly rises as the gap closes (by a hundredth of the asperities' own
   // slope at the worst) mistaken for a window: solved, at rest.
-  problem = seal(0, SB_ROUGH_GREENWOOD_TRIPP);
+  problem = rough_seal(0, SB_ROUGH_GREENWOOD_TRIPP);
   problem.load = 409.0465;
   problem.gt_product = 0.09023;
   problem.hamaker = 1.35e-19;
@@ -427,7 +400,7 @@ static void test_adhesion(void) {
   g_assert_false(warned(&other.warnings, "film-snap-in"));
   g_assert_cmpfloat(other.asperity_share, >, 1.05);
   // Without asperities a film of tens of nanometres feels A/(6 pi h^3) as that much more load.
-  problem = seal(0.1, SB_ROUGH_NONE);
+  problem = rough_seal(0.1, SB_ROUGH_NONE);
   g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
   problem.hamaker = 1.35e-19;
   g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
@@ -454,7 +427,7 @@ static void test_snap_in(void) {
     if (!g_test_slow() && k % 3 != 0) {
       continue;
     }
-    SbFilmProblem problem = seal(speed, model);
+    SbFilmProblem problem = rough_seal(speed, model);
     problem.sigma = sigma;
     g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
     problem.hamaker = rest / 2 == 0 ? 1.35e-19 : 4e-18;
@@ -537,14 +510,14 @@ static void test_sliding(void) {
 
 static void test_refusals(void) {
   SbReport report;
-  SbFilmProblem problem = seal(1e-3, SB_ROUGH_PERSSON);
+  SbFilmProblem problem = rough_seal(1e-3, SB_ROUGH_PERSSON);
   problem.gt_product = 0.01;
   g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_ERROR_INFEASIBLE);
   g_assert_cmpstr(report.parameter, ==, "surface.gt_product");
-  problem = seal(1e-3, SB_ROUGH_GREENWOOD_TRIPP);
+  problem = rough_seal(1e-3, SB_ROUGH_GREENWOOD_TRIPP);
   problem.sigma = 0;
   g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_ERROR_RANGE);
-  problem = seal(1e-3, SB_ROUGH_GREENWOOD_TRIPP);
+  problem = rough_seal(1e-3, SB_ROUGH_GREENWOOD_TRIPP);
   problem.model = SB_FILM_THESIS;
   g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_ERROR_INPUT);
 }

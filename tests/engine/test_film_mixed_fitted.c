@@ -1,7 +1,6 @@
 // Film and asperities on a fitted body: the half-plane as a special case, the smooth and the dry
 // limit on the disc's compliance by other methods, symmetry, and a run's seals.
 #include "engine/contact/compliance.h"
-#include "engine/film/film.h"
 #include "engine/valve/sliding.h"
 #include "tests/engine/rough_cells.h"
 
@@ -16,35 +15,20 @@ static SbFilm film, other;
 static SbFilmProfile profile[2];
 
 static SbFilmProblem seal(double speed) {
-  SbFilmProblem problem;
-  sb_film_problem_init(&problem);
+  SbFilmProblem problem = rough_seal(speed, SB_ROUGH_GREENWOOD_TRIPP);
   problem.load = 300;
   problem.radius = RADIUS;
   problem.modulus = 2 * YOUNG / (1 - NU * NU);
-  problem.viscosity = 0.211e-3;
-  problem.speed = speed;
-  problem.surface = SB_ROUGH_GREENWOOD_TRIPP;
-  problem.gt_product = 0.1289;
   problem.sigma = 1e-7;
-  problem.sigma_over_beta = 0.1;
-  problem.shear_strength = 3.5e6;
-  problem.load_coefficient = 0.19;
   return problem;
 }
 
 static SbSurfaceCompliance disc(void) {
-  SbSurfaceCompliance c;
-  g_assert_cmpint(sb_compliance_disc(&c, RADIUS, YOUNG, NU, 0.75 * RADIUS, NULL), ==, SB_OK);
-  return c;
+  return disc_surface(RADIUS, YOUNG, NU);
 }
 
 static void solve(SbFilm *out, const SbFilmProblem *problem) {
-  SbReport report = {0};
-  SbFilmProblem lent = *problem;
-  lent.profile = &profile[out == &other];
-  sb_film_solver_forget(solver);
-  SbStatus status = sb_film_solve(out, &lent, solver, &report);
-  g_assert_cmpstr(status == SB_OK ? "" : report.text, ==, "");
+  g_assert_cmpint(solve_cold(out, problem, &profile[out == &other], solver), ==, SB_OK);
   g_assert_true(out->solver.converged);
   g_assert_cmpfloat(out->solver.load_error, <, 1e-10);
 }

@@ -1,7 +1,7 @@
 // Options and hard cases of the coupled film solver: cavities before a flooded outlet, starved
 // inlets, Barus and Eyring, rupture pressure, warm starts, refusals, and recomputation from the
 // profile.
-#include "engine/film/film.h"
+#include "tests/engine/films.h"
 
 #include <glib.h>
 #include <math.h>
@@ -33,22 +33,7 @@ static SbFilmProblem contact(double M, double left, double right) {
 }
 
 static SbStatus solve(SbFilm *out, const SbFilmProblem *problem) {
-  SbReport report;
-  SbFilmProblem lent = *problem;
-  lent.profile = &profile[out == &other];
-  sb_film_solver_forget(solver);
-  SbStatus status = sb_film_solve(out, &lent, solver, &report);
-  if (status != SB_OK) {
-    g_test_message("M %g: %s", out->moes_M, report.text);
-  }
-  return status;
-}
-
-static void close_to(const char *what, double got, double want, double relative) {
-  if (!(fabs(got - want) <= relative * fabs(want))) {
-    g_test_message("%s: got %.9g, want %.9g within %g", what, got, want, relative);
-    g_test_fail();
-  }
+  return solve_cold(out, problem, &profile[out == &other], solver);
 }
 
 // Slope of y over x at profile point i by the parabola through its neighbours.

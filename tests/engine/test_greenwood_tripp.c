@@ -88,11 +88,10 @@ static void test_limits(void) {
 
 // Audit section 1: A_a/A = 0.0820 at contact and 160 kPa sqrt(sigma/beta) of asperity pressure.
 static void test_surface(void) {
-  SbGtIntegrals out;
-  g_assert_cmpint(sb_gt_integrals(&out, 0, NULL), ==, SB_OK);
-  g_assert_cmpfloat_with_epsilon(sb_gt_area_share(0.1289, out.F2), 0.0820, 5e-5);
-  g_assert_cmpfloat_with_epsilon(sb_gt_pressure(0.1289, 1, 6.5725e6, out.F5_2), 160e3, 1e3);
-  g_assert_cmpfloat(sb_gt_area_share(2, 100), ==, 1);
+  g_assert_cmpfloat_with_epsilon(sb_gt_area_share(0.1289, 0), 0.0820, 5e-5);
+  g_assert_cmpfloat_with_epsilon(sb_gt_pressure(0.1289, 1, 6.5725e6, 0), 160e3, 1e3);
+  g_assert_cmpfloat(sb_gt_area_share(0.1289, -9), ==, 1);
+  g_assert_true(isnan(sb_gt_area_share(0.1289, -11)));
 }
 
 int main(int argc, char **argv) {

@@ -14,14 +14,12 @@ static void test_laws(void) {
   g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
   // Against the integrals themselves, off the table's nodes.
   for (double lambda = -4.03; lambda < 9; lambda += 0.37) {
-    SbGtIntegrals F;
-    g_assert_cmpint(sb_gt_integrals(&F, lambda, NULL), ==, SB_OK);
     double h = average_gap(1e-6, lambda);
     SbRoughPoint at;
     sb_rough_law_at(&at, &law, sb_rough_law_of_gap(&law, h));
     close_to("gap", at.gap, h, 1e-9);
-    close_to("pressure", at.pressure, sb_gt_pressure(0.1289, 0.1, 6.5725e6, F.F5_2), 2e-6);
-    close_to("share", at.share, sb_gt_area_share(0.1289, F.F2), 2e-6);
+    close_to("pressure", at.pressure, sb_gt_pressure(0.1289, 0.1, 6.5725e6, lambda), 2e-6);
+    close_to("share", at.share, sb_gt_area_share(0.1289, lambda), 2e-6);
     double t = sb_rough_law_of_pressure(&law, at.pressure);
     SbRoughPoint back;
     sb_rough_law_at(&back, &law, t);

@@ -1,10 +1,10 @@
 // Studies: their numbers against closed forms and reference figures, their bounds, progress and
 // cancel.
 #include "engine/contact/fit.h"
-#include "engine/film/film.h"
 #include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"
 #include "engine/valve/studies/study.h"
+#include "tests/engine/films.h"
 
 #include <glib.h>
 #include <math.h>
@@ -220,19 +220,8 @@ static void test_stribeck(void) {
   g_assert_cmpfloat(share->y[share->count - 1], <, 0.05);
   // Karaszkiewicz' load (14.781 N on pi 4.45 mm) less the fluid's half step over the width.
   size_t at = film->count / 2;
-  SbFilmProblem problem;
-  sb_film_problem_init(&problem);
+  SbFilmProblem problem = rough_seal(film->x[at], SB_ROUGH_GREENWOOD_TRIPP);
   problem.load = 14.781 / (M_PI * 4.45e-3) - 0.55e6 / 2 * 0.9567e-3;
-  problem.speed = film->x[at];
-  problem.radius = 0.805e-3;
-  problem.modulus = 6.5725e6;
-  problem.viscosity = 0.211e-3;
-  problem.surface = SB_ROUGH_GREENWOOD_TRIPP;
-  problem.gt_product = 0.1289;
-  problem.sigma = 1e-6;
-  problem.sigma_over_beta = 0.1;
-  problem.shear_strength = 3.5e6;
-  problem.load_coefficient = 0.19;
   SbFilm *own = g_new(SbFilm, 1);
   g_assert_cmpint(sb_film_solve(own, &problem, NULL, NULL), ==, SB_OK);
   g_assert_cmpfloat(study->error, >=,

@@ -85,10 +85,8 @@ static void test_velocity_slip(void) {
 
 // Table 7.8: 0.39 (printed 0.4) from the thesis' own width and load.
 static void test_coefficient(void) {
-  SbGtIntegrals contact;
-  g_assert_cmpint(sb_gt_integrals(&contact, 0, NULL), ==, SB_OK);
   double area = M_PI * 6e-3 * 0.8886e-3;
-  double coefficient = 3.5e6 * sb_gt_area_share(0.1289, contact.F2) * area / 12.395;
+  double coefficient = 3.5e6 * sb_gt_area_share(0.1289, 0) * area / 12.395;
   g_assert_cmpfloat_with_epsilon(coefficient, 0.39, 0.005);
 }
 

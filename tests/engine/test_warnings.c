@@ -2,8 +2,8 @@
 // where it is kept. The fitment models' warnings are tested the same way in
 // test_elastic_closed_forms.c.
 #include "engine/film/film.h"
-#include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"
+#include "tests/engine/models.h"
 
 #include <glib.h>
 #include <math.h>
@@ -126,30 +126,10 @@ static void test_films(void) {
   }
 }
 
-typedef struct {
-  int id;
-  double value;
-} Setting;
-
 static bool run_warns(const char *code, const Setting *settings, size_t count) {
-  SbParams params;
-  sb_params_init(&params);
-  for (size_t i = 0; i < count; i++) {
-    if (settings[i].id >= 0) {
-      g_assert_cmpint(sb_params_set(&params, (SbParamId)settings[i].id, settings[i].value, NULL),
-                      ==, SB_OK);
-    }
-  }
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
-  SbPlan plan;
-  sb_plan_make(&plan, &model);
-  SbRun *run = NULL;
-  g_assert_cmpint(sb_run_create(&run, &model, &plan, NULL), ==, SB_OK);
-  SbReport report = {0};
-  if (sb_run_execute(run, NULL, &report) != SB_OK) {
-    g_error("%s: %s", code, report.text);
-  }
+  compile(&model, settings, count);
+  SbRun *run = run_of(&model, SB_OK, NULL);
   bool warned = has(&sb_run_summary(run)->warnings, code);
   sb_run_destroy(run);
   return warned;

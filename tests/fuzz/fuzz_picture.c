@@ -3,23 +3,12 @@
 #include "app/document/picture.h"
 #include "app/document/unit.h"
 #include "app/export/still.h"
+#include "tests/crc.h"
 
 #include <stdint.h>
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-// The check sum of a chunk, bit by bit.
-static uint32_t crc(const uint8_t *data, size_t size) {
-  uint32_t sum = 0xffffffffu;
-  for (size_t i = 0; i < size; i++) {
-    sum ^= data[i];
-    for (int k = 0; k < 8; k++) {
-      sum = sum >> 1 ^ (sum & 1 ? 0xedb88320u : 0);
-    }
-  }
-  return ~sum;
-}
 
 // Every chunk gets the right check sum, or hardly a changed one would be looked at.
 static void seal_chunks(uint8_t *data, size_t size) {

@@ -1,9 +1,9 @@
 // The window's own GL and a context without a window draw the same section: the GtkGLArea's picture
 // against OSMesa's (or EGL's) at equal size. On a display without GL the widget says so and does
 // not draw.
-#include "app/section/gl_renderer.h"
 #include "app/section/section.h"
 #include "tests/app/picture.h"
+#include "tests/gl_picture.h"
 #include "ui/views/section_gl.h"
 
 #include "tests/executed.h"
@@ -39,18 +39,8 @@ static void fill(SbDrawList *list, bool dark) {
 static cairo_surface_t *headless(const SbDrawList *list) {
   SbReport report = {0};
   SbGlContext *context;
-  SbGlRenderer *renderer;
   g_assert_cmpint(sb_gl_context_create(&context, SB_GL_AUTO, &report), ==, SB_OK);
-  g_assert_cmpint(sb_gl_renderer_create(&renderer, context, &report), ==, SB_OK);
-  cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, WIDTH, HEIGHT);
-  g_assert_cmpint(sb_gl_renderer_draw(renderer, list, WIDTH, HEIGHT, 1, &report), ==, SB_OK);
-  cairo_surface_flush(surface);
-  sb_gl_renderer_read(renderer, cairo_image_surface_get_data(surface),
-                      (size_t)cairo_image_surface_get_stride(surface));
-  cairo_surface_mark_dirty(surface);
-  sb_gl_renderer_destroy(renderer);
-  sb_gl_context_destroy(context);
-  return surface;
+  return gl_picture(context, list, CAIRO_FORMAT_RGB24, 1);
 }
 
 static void on_decided(void *data) {

@@ -238,13 +238,6 @@ static void on_destroy(GtkWidget *widget, Panel *panel) {
   g_signal_handlers_disconnect_by_data(panel->session, panel);
 }
 
-static GtkWidget *label_new(const char *text, const char *style, float align) {
-  GtkWidget *label = gtk_label_new(text);
-  gtk_label_set_xalign(GTK_LABEL(label), align);
-  sb_style_class(label, style);
-  return label;
-}
-
 GtkWidget *sb_derived_panel_new(SbSession *session) {
   Panel *panel = g_new0(Panel, 1);
   panel->session = session;
@@ -253,22 +246,22 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
   gtk_grid_set_column_spacing(GTK_GRID(grid), 10);
   sb_style_class(grid, "sb-derived");
   sb_style_class(grid, "sb-panel");
-  gtk_grid_attach(GTK_GRID(grid), label_new(_("Derived"), "sb-title", 0), 0, 0, 1, 1);
-  panel->note = label_new("", "sb-note", 1);
+  gtk_grid_attach(GTK_GRID(grid), sb_style_label(_("Derived"), "sb-title", 0), 0, 0, 1, 1);
+  panel->note = sb_style_label("", "sb-note", 1);
   gtk_label_set_ellipsize(GTK_LABEL(panel->note), PANGO_ELLIPSIZE_MIDDLE);
   gtk_label_set_max_width_chars(GTK_LABEL(panel->note), 24);
   gtk_grid_attach(GTK_GRID(grid), panel->note, 1, 0, 4, 1);
   for (int i = 0; i < ITEMS; i++) {
     panel->figure[i] = sb_figure_find(items[i].path);
-    GtkWidget *name = panel->name[i] = label_new(name_of(panel, i), "sb-derived-name", 0);
+    GtkWidget *name = panel->name[i] = sb_style_label(name_of(panel, i), "sb-derived-name", 0);
     gtk_widget_set_hexpand(name, TRUE);
-    panel->value[i] = label_new("", "sb-derived-value", 1);
+    panel->value[i] = sb_style_label("", "sb-derived-value", 1);
     panel->bar[i] = gtk_drawing_area_new();
     gtk_widget_set_size_request(panel->bar[i], 80, 18);
     g_object_set_data(G_OBJECT(panel->bar[i]), "index", GINT_TO_POINTER(i));
     g_signal_connect(panel->bar[i], "draw", G_CALLBACK(on_draw), panel);
     panel->icon[i] = gtk_image_new();
-    panel->verdict[i] = label_new("", "sb-verdict", 0);
+    panel->verdict[i] = sb_style_label("", "sb-verdict", 0);
     gtk_label_set_width_chars(GTK_LABEL(panel->verdict[i]), 4);
     gtk_grid_attach(GTK_GRID(grid), name, 0, i + 1, 1, 1);
     gtk_grid_attach(GTK_GRID(grid), panel->value[i], 1, i + 1, 1, 1);
@@ -276,7 +269,7 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
     gtk_grid_attach(GTK_GRID(grid), panel->icon[i], 3, i + 1, 1, 1);
     gtk_grid_attach(GTK_GRID(grid), panel->verdict[i], 4, i + 1, 1, 1);
   }
-  panel->questions = label_new("", "sb-questions", 0);
+  panel->questions = sb_style_label("", "sb-questions", 0);
   gtk_label_set_line_wrap(GTK_LABEL(panel->questions), TRUE);
   gtk_grid_attach(GTK_GRID(grid), panel->questions, 0, ITEMS + 1, 5, 1);
   g_object_set_data_full(G_OBJECT(grid), "panel", panel, panel_free);

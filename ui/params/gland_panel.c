@@ -168,14 +168,6 @@ static void on_destroy(GtkWidget *widget, Panel *panel) {
   g_signal_handlers_disconnect_by_data(panel->session, panel);
 }
 
-static GtkWidget *label_new(const char *text, const char *style, float align) {
-  GtkWidget *label = gtk_label_new(text);
-  gtk_label_set_xalign(GTK_LABEL(label), align);
-  sb_style_class(label, style);
-  gtk_widget_show(label);
-  return label;
-}
-
 GtkWidget *sb_gland_panel_new(SbSession *session) {
   Panel *panel = g_new0(Panel, 1);
   panel->session = session;
@@ -186,16 +178,16 @@ GtkWidget *sb_gland_panel_new(SbSession *session) {
   for (int i = 0; i < CELLS; i++) {
     gtk_grid_attach(
         GTK_GRID(grid),
-        label_new(heads[i][0] != '\0' ? _(heads[i]) : "", "sb-note", i == 0 || i == 3 ? 0 : 1), i,
-        0, 1, 1);
+        sb_style_label(heads[i][0] != '\0' ? _(heads[i]) : "", "sb-note", i == 0 || i == 3 ? 0 : 1),
+        i, 0, 1, 1);
   }
   for (int row = 0; row < ROWS; row++) {
     for (int i = 0; i < CELLS; i++) {
-      GtkWidget *cell = label_new(i == 0 ? _(rows[row].name) : "",
-                                  i == 0   ? "sb-derived-name"
-                                  : i == 3 ? "sb-verdict"
-                                           : "sb-derived-value",
-                                  i == 0 || i == 3 ? 0 : 1);
+      GtkWidget *cell = sb_style_label(i == 0 ? _(rows[row].name) : "",
+                                       i == 0   ? "sb-derived-name"
+                                       : i == 3 ? "sb-verdict"
+                                                : "sb-derived-value",
+                                       i == 0 || i == 3 ? 0 : 1);
       gtk_widget_set_valign(cell, i == 0 ? GTK_ALIGN_CENTER : GTK_ALIGN_BASELINE);
       gtk_widget_set_hexpand(cell, i == 0);
       panel->cell[row][i] = cell;

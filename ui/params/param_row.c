@@ -142,13 +142,6 @@ static void on_reset(GtkButton *button, SbParamRow *row) {
   sb_session_unset(row->session, row->id);
 }
 
-static GtkWidget *label_new(const char *text, const char *style, float align) {
-  GtkWidget *label = gtk_label_new(text);
-  gtk_label_set_xalign(GTK_LABEL(label), align);
-  sb_style_class(label, style);
-  return label;
-}
-
 // Which ring an override belongs to, for accessible names: two fields may share a label.
 static const char *owner(const SbParam *param) {
   if (g_str_has_prefix(param->key, "seal.outer.")) {
@@ -176,7 +169,7 @@ static void add_entry(SbParamRow *row, GtkBox *line, const char *name, const cha
   g_signal_connect(row->field, "scroll-event", G_CALLBACK(on_scroll), row);
   g_signal_connect(row->field, "key-press-event", G_CALLBACK(on_key), row);
   gtk_box_pack_start(line, row->field, FALSE, FALSE, 0);
-  row->symbol = label_new(param->symbol, "sb-row-symbol", 0);
+  row->symbol = sb_style_label(param->symbol, "sb-row-symbol", 0);
   gtk_widget_set_size_request(row->symbol, 30, -1);
   gtk_box_pack_start(line, row->symbol, FALSE, FALSE, 0);
 }
@@ -232,11 +225,11 @@ GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fiel
   GtkWidget *line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
   GtkWidget *texts = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
   gtk_widget_set_valign(texts, GTK_ALIGN_CENTER);
-  row->label = label_new(sb_translation(param->label), "sb-row-label", 0);
+  row->label = sb_style_label(sb_translation(param->label), "sb-row-label", 0);
   gtk_label_set_ellipsize(GTK_LABEL(row->label), PANGO_ELLIPSIZE_END);
   gtk_box_pack_start(GTK_BOX(texts), row->label, FALSE, FALSE, 0);
   if (param->kind == SB_PARAM_REAL || param->kind == SB_PARAM_INT) {
-    row->range = label_new(range, "sb-row-range", 0);
+    row->range = sb_style_label(range, "sb-row-range", 0);
     gtk_label_set_ellipsize(GTK_LABEL(row->range), PANGO_ELLIPSIZE_END);
     gtk_box_pack_start(GTK_BOX(texts), row->range, FALSE, FALSE, 0);
   }
@@ -265,7 +258,7 @@ GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fiel
     gtk_widget_set_valign(row->field, GTK_ALIGN_CENTER);
   }
 
-  row->error = label_new(NULL, "sb-row-error", 0);
+  row->error = sb_style_label(NULL, "sb-row-error", 0);
   gtk_label_set_line_wrap(GTK_LABEL(row->error), TRUE);
   gtk_label_set_max_width_chars(GTK_LABEL(row->error), 10);
   gtk_widget_set_hexpand(row->error, TRUE);

@@ -82,12 +82,9 @@ static SbRect whole(GtkWidget *widget) {
 
 static void draw(cairo_t *cr, double width, double height, void *user) {
   View *view = user;
-  const SbTheme *theme = sb_theme(sb_style_is_dark());
+  const SbTheme *theme = sb_style_ground(cr);
   const SbChartData *data = sb_session_chart(view->session);
   SbRect rect = inside(width, height);
-  SbColor ground = theme->role[SB_ROLE_PANEL];
-  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
-  cairo_paint(cr);
   bool rig = sb_chart_is_rig(&data->run);
   switch (view->kind) {
   case SB_CHART_VIEW_LOOP:

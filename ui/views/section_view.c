@@ -143,10 +143,7 @@ static gboolean draw_by_gl(View *view, cairo_t *cr, const SbRect *rect) {
 
 static void draw(cairo_t *cr, double area_width, double area_height, void *user) {
   View *view = user;
-  const SbTheme *theme = sb_theme(sb_style_is_dark());
-  SbColor ground = theme->role[SB_ROLE_PANEL];
-  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
-  cairo_paint(cr);
+  const SbTheme *theme = sb_style_ground(cr);
   const SbChartData *data = sb_session_chart(view->session);
   if (sb_chart_is_rig(&data->run)) {
     // No valve to cut: the plate itself.

@@ -76,6 +76,22 @@ void sb_style_class(GtkWidget *widget, const char *name) {
   gtk_style_context_add_class(gtk_widget_get_style_context(widget), name);
 }
 
+GtkWidget *sb_style_label(const char *text, const char *name, float align) {
+  GtkWidget *label = gtk_label_new(text);
+  gtk_label_set_xalign(GTK_LABEL(label), align);
+  sb_style_class(label, name);
+  gtk_widget_show(label);
+  return label;
+}
+
+const SbTheme *sb_style_ground(cairo_t *cr) {
+  const SbTheme *theme = sb_theme(sb_style_is_dark());
+  SbColor ground = theme->role[SB_ROLE_PANEL];
+  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
+  cairo_paint(cr);
+  return theme;
+}
+
 void sb_style_window(GtkWidget *window) {
   g_autofree char *font = NULL;
   g_object_get(gtk_settings_get_default(), "gtk-font-name", &font, NULL);

@@ -1,6 +1,8 @@
 // Look of the widgets: the style sheet, and light or dark.
 #pragma once
 
+#include "app/base/theme.h"
+
 #include <gtk/gtk.h>
 
 typedef enum { SB_STYLE_SYSTEM, SB_STYLE_LIGHT, SB_STYLE_DARK } SbStyleTheme;
@@ -19,6 +21,12 @@ void sb_style_former(GtkWidget *picture, gboolean former);
 
 // Adds a style class.
 void sb_style_class(GtkWidget *widget, const char *name);
+
+// A visible label with a style class, its text at `align` (0 left, 1 right).
+GtkWidget *sb_style_label(const char *text, const char *name, float align);
+
+// Fills with the panels' ground; the theme in force.
+const SbTheme *sb_style_ground(cairo_t *cr);
 
 // The look of a window: its ground, and its font where the desktop names none of its own.
 void sb_style_window(GtkWidget *window);

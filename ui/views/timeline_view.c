@@ -35,10 +35,7 @@ static SbRect whole(GtkWidget *widget) {
 
 static void draw(cairo_t *cr, double width, double height, void *user) {
   View *view = user;
-  const SbTheme *theme = sb_theme(sb_style_is_dark());
-  SbColor ground = theme->role[SB_ROLE_PANEL];
-  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
-  cairo_paint(cr);
+  const SbTheme *theme = sb_style_ground(cr);
   sb_timeline_draw(cr, inside(width, height), theme, sb_session_chart(view->session),
                    SB_CHART_COMPACT);
 }

@@ -35,7 +35,7 @@ enum { LOAD, PEAK, WIDTH, FIGURES }; // load C/R, peak C, width/R
 
 // A solution with its edges, and what is carried from one resolution to the next.
 typedef struct {
-  SbDiscEdges edges;
+  double centre, half; // of the contact over R
   size_t points, unknowns;
   double pressure;                   // of the fluid on one side, times C
   double shift;                      // of the section's centre to the wall by that pressure, over R
@@ -46,19 +46,10 @@ typedef struct {
 typedef struct {
   SbDiscSystem system;
   double dry;         // half-width without pressure difference
-  double wet[3];      // edges under pressure, the wall's 0: not yet known
+  double wet[3];      // right and left edge and the wall's under pressure; 0: not yet known
   double free_bulge;  // of the dry flank
   SbBroyden edges[2]; // dry and under pressure
 } Work;
-
-// Unknown edges as a vector: right, left, wall; the right one alone where all is symmetric.
-static SbDiscEdges edges_of(const SbDiscSystem *s, const double *v) {
-  return s->pressure == 0.0 ? (SbDiscEdges){-v[0], v[0], 0.0} : (SbDiscEdges){v[1], v[0], v[2]};
-}
-
-static bool edge_residuals(double *r, const double *v, void *context) {
-  return sb_disc_system_solve(context, edges_of(context, v), r);
-}
 
 // Smooth edges at a pressure from those in `v`; false leaves `v`.
 static bool find_edges(Work *w, double pressure, double *v) {
@@ -66,7 +57,7 @@ static bool find_edges(Work *w, double pressure, double *v) {
   double trial[3];
   memcpy(trial, v, count * sizeof *v);
   w->system.pressure = pressure;
-  const bool found = sb_solve_system(edge_residuals, &w->system, trial, count,
+  const bool found = sb_solve_system(sb_disc_system_solve, &w->system, trial, count,
                                      count == 1 ? 1e-12 : 1e-9, &w->edges[count > 1]);
   if (found) {
     memcpy(v, trial, count * sizeof *v);
@@ -81,7 +72,7 @@ static double solve_pressure(Work *w, double target) {
   if (!find_edges(w, 0.0, &w->dry)) {
     return -1.0;
   }
-  w->free_bulge = sb_disc_system_bulge(&w->system, edges_of(&w->system, &w->dry));
+  w->free_bulge = sb_disc_system_bulge(&w->system);
   double done = 0.0;
   double step = target;
   while (done < target && step > target / 128.0) {
@@ -104,7 +95,7 @@ static double solve_pressure(Work *w, double target) {
     // The solution of what was reached.
     double ignored[3];
     w->system.pressure = done;
-    if (!edge_residuals(ignored, done > 0.0 ? w->wet : &w->dry, &w->system)) {
+    if (!sb_disc_system_solve(ignored, done > 0.0 ? w->wet : &w->dry, &w->system)) {
       return -1.0;
     }
   }
@@ -115,12 +106,11 @@ static double solve_pressure(Work *w, double target) {
 
 // Total pressure times C over that on both sides at tau = cos(angle), the edges regular.
 static double total_at(const Solution *s, double angle) {
-  const double half = 0.5 * (s->edges.right - s->edges.left);
   double sum = 0.0;
   for (size_t k = 0; k < s->points; k++) {
     sum += s->excess[k] * cos((double)k * (M_PI - angle));
   }
-  return (sin(angle) < 1e-6 ? 0.0 : sum / (half * sin(angle))) +
+  return (sin(angle) < 1e-6 ? 0.0 : sum / (s->half * sin(angle))) +
          s->pressure * sb_disc_system_step(cos(angle));
 }
 
@@ -143,14 +133,15 @@ static double peak_of(const Solution *s) {
 static void keep(Solution *out, const Work *w) {
   const SbDiscSystem *s = &w->system;
   const bool wet = s->pressure != 0.0;
-  *out = (Solution){.edges = edges_of(s, wet ? w->wet : &w->dry),
+  *out = (Solution){.centre = s->centre,
+                    .half = s->half,
                     .points = s->n,
                     .unknowns = wet ? 2 * s->n + 4 : s->n + 1,
                     .pressure = s->pressure,
                     .shift = wet ? s->solution[2 * s->n] + w->free_bulge : 0.0};
   memcpy(out->excess, s->series[0], s->n * sizeof out->excess[0]);
   // The step's mean over the contact is one half: p half x 2 x 1/2.
-  out->figure[WIDTH] = out->edges.right - out->edges.left;
+  out->figure[WIDTH] = 2.0 * s->half;
   out->figure[LOAD] = 0.5 * s->pressure * out->figure[WIDTH] + M_PI * out->excess[0];
   out->figure[PEAK] = peak_of(out);
 }
@@ -195,8 +186,8 @@ static void estimate(double error[FIGURES], const Solution *s, bool kink) {
 // `both` on both sides.
 static void fill(SbFit *out, const Solution *s, double compliance, double both, bool mirrored) {
   const double radius = 0.5 * out->section_diameter_fitted;
-  const double left = radius * (s->edges.left + s->shift);
-  const double right = radius * (s->edges.right + s->shift);
+  const double left = radius * (s->centre - s->half + s->shift);
+  const double right = radius * (s->centre + s->half + s->shift);
   out->load_per_length = radius * (s->figure[LOAD] / compliance + both * s->figure[WIDTH]);
   out->pressure_peak = s->figure[PEAK] / compliance + both;
   out->solver.unknowns = s->unknowns;

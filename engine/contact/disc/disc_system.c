@@ -97,18 +97,16 @@ double sb_disc_system_arc(const SbDiscSystem *s, SbDiscPoint to, SbDiscVector m,
 // Inward displacement at `to` along m by the fluid on the left arc and by the known step over the
 // contact. The logarithm at tau_to (inside the contact if |tau_to| < 1) and the near one at the
 // left edge are met by cubic grading.
-static double known_displacement(const SbDiscSystem *s, SbDiscEdges edges, SbDiscPoint to,
-                                 SbDiscVector m, double tau_to) {
-  const double centre = 0.5 * (edges.left + edges.right);
-  const double half = 0.5 * (edges.right - edges.left);
-  const double split = fmax(-1.0, fmin(1.0, tau_to)), theta_left = asin(edges.left);
+static double known_displacement(const SbDiscSystem *s, SbDiscPoint to, SbDiscVector m,
+                                 double tau_to) {
+  const double split = fmax(-1.0, fmin(1.0, tau_to)), theta_left = asin(s->centre - s->half);
   double sum = sb_disc_system_arc(s, to, m, theta_left, -(theta_left + 0.5 * M_PI), true);
   // The step, left and right of the target.
   for (int i = 0; i < 2 * SB_DISC_GAUSS; i++) {
     const double x = s->gauss_x[i / 2], length = i % 2 == 0 ? -1.0 - split : 1.0 - split;
     const double tau = split + length * x * x * x;
-    const SbDiscPoint on_flat = sb_disc_point_at(centre + half * tau);
-    sum += 3.0 * x * x * s->gauss_w[i / 2] * fabs(length) * half * sb_disc_system_step(tau) *
+    const SbDiscPoint on_flat = sb_disc_point_at(s->centre + s->half * tau);
+    sum += 3.0 * x * x * s->gauss_w[i / 2] * fabs(length) * s->half * sb_disc_system_step(tau) *
            sb_disc_kernel_pair(&s->kernel, to, m, on_flat, force_at(s, on_flat));
   }
   return s->pressure * sum;
@@ -141,22 +139,22 @@ static void add_self(SbDiscSystem *s, const SbDiscPoint *point, double half, siz
   }
 }
 
-bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double *residual) {
+bool sb_disc_system_solve(double *residual, const double *edges, void *system) {
+  SbDiscSystem *s = system;
   const size_t n = s->n;
   const bool wall = s->pressure != 0.0;
   const size_t rows = wall ? 2 * n + 1 : n;
-  const double centre = 0.5 * (edges.left + edges.right);
-  const double half = 0.5 * (edges.right - edges.left);
-  if (!(edges.left > -1.0 && edges.right < 1.0 && half > 0.0) ||
-      (wall && !(edges.wall > 0.0 && edges.wall < 1.0 &&
-                 edges.wall * edges.wall + edges.right * edges.right < 1.0))) {
+  const double right = edges[0], left = wall ? edges[1] : -right, width = wall ? edges[2] : 0.0;
+  const double centre = s->centre = 0.5 * (left + right), half = s->half = 0.5 * (right - left);
+  if (!(left > -1.0 && right < 1.0 && half > 0.0) ||
+      (wall && !(width > 0.0 && width < 1.0 && width * width + right * right < 1.0))) {
     return false;
   }
   SbDiscPoint bore[SB_DISC_POINTS_MAX] = {{0}};
   SbDiscPoint side[SB_DISC_POINTS_MAX] = {{0}}; // of the wall, turned to the top
   for (size_t i = 0; i < n; i++) {
     bore[i] = sb_disc_point_at(centre + half * s->tau[i]);
-    side[i] = sb_disc_point_at(edges.wall * s->tau[i]);
+    side[i] = sb_disc_point_at(width * s->tau[i]);
   }
 
   // Bore: the flat is met where the inward displacement is the circle's height over it.
@@ -168,7 +166,7 @@ bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double *residual) 
 
   // Wall at depth X: inward displacement X - (1 - cos psi), and its balance with the fluid.
   if (wall) {
-    add_self(s, side, edges.wall, n, rows, false);
+    add_self(s, side, width, n, rows, false);
     for (size_t i = 0; i < n; i++) {
       const SbDiscPoint to = turn_point(side[i]);
       const SbDiscVector m_wall = turn(measure_at(s, side[i]));
@@ -184,15 +182,15 @@ bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double *residual) 
       }
       s->matrix[i + 2 * n * rows] = 0.0;
       s->matrix[n + i + 2 * n * rows] = -1.0;
-      s->solution[i] -= known_displacement(s, edges, bore[i], m_bore, s->tau[i]);
-      s->solution[n + i] = side[i].cos - 1.0 - known_displacement(s, edges, to, m_wall, 2.0);
+      s->solution[i] -= known_displacement(s, bore[i], m_bore, s->tau[i]);
+      s->solution[n + i] = side[i].cos - 1.0 - known_displacement(s, to, m_wall, 2.0);
       // Equilibrium along x: wall load = fluid on the height between the left edges, less what
       // radial contact forces carry.
       s->matrix[2 * n + i * rows] = -2.0 * M_PI / (double)n * force_at(s, bore[i]).x;
       s->matrix[2 * n + (n + i) * rows] = M_PI / (double)n;
     }
     s->matrix[2 * n + 2 * n * rows] = 0.0;
-    s->solution[2 * n] = 2.0 * s->pressure * sqrt(1.0 - edges.left * edges.left);
+    s->solution[2 * n] = 2.0 * s->pressure * sqrt(1.0 - left * left);
     for (int i = 0; i < SB_DISC_GAUSS; i++) {
       const double tau = 2.0 * s->gauss_x[i] - 1.0;
       const SbDiscVector force = force_at(s, sb_disc_point_at(centre + half * tau));
@@ -209,29 +207,27 @@ bool sb_disc_system_solve(SbDiscSystem *s, SbDiscEdges edges, double *residual) 
   bool finite = true;
   for (int contact = 0; contact < (wall ? 2 : 1); contact++) {
     const double *F = &s->solution[contact == 0 ? 0 : n];
-    double mean = 0.0, left = 0.0, right = 0.0;
+    double mean = 0.0, at_left = 0.0, at_right = 0.0;
     sb_chebyshev_coefficients(s->series[contact], F, (int)n);
     for (size_t j = 0; j < n; j++) {
       mean += fabs(F[j]) / (double)n;
-      left += s->series[contact][j];
-      right += (j % 2 == 0 ? 1.0 : -1.0) * s->series[contact][j];
+      at_left += s->series[contact][j];
+      at_right += (j % 2 == 0 ? 1.0 : -1.0) * s->series[contact][j];
     }
-    residual[2 * contact] = right / mean;
+    residual[2 * contact] = at_right / mean;
     if (wall && contact == 0) {
-      residual[1] = left / mean;
+      residual[1] = at_left / mean;
     }
-    finite = finite && isfinite(left / mean) && isfinite(right / mean);
+    finite = finite && isfinite(at_left / mean) && isfinite(at_right / mean);
   }
   return finite;
 }
 
-double sb_disc_system_bulge(const SbDiscSystem *s, SbDiscEdges edges) {
-  const double centre = 0.5 * (edges.left + edges.right);
-  const double half = 0.5 * (edges.right - edges.left);
+double sb_disc_system_bulge(const SbDiscSystem *s) {
   const SbDiscPoint end = {.angle = 0.5 * M_PI, .sin = 1.0, .cos = 0.0};
   double sum = 0.0;
   for (size_t j = 0; j < s->n; j++) {
-    const SbDiscPoint p = sb_disc_point_at(centre + half * s->tau[j]);
+    const SbDiscPoint p = sb_disc_point_at(s->centre + s->half * s->tau[j]);
     sum += M_PI / (double)s->n * s->solution[j] *
            sb_disc_kernel_pair(&s->kernel, end, (SbDiscVector){1.0, 0.0}, p, force_at(s, p));
   }

@@ -19,10 +19,6 @@ enum {
 };
 
 typedef struct {
-  double left, right, wall; // sines of the edges; wall 0: none
-} SbDiscEdges;
-
-typedef struct {
   // Problem.
   SbDiscKernel kernel;
   bool radial;
@@ -36,7 +32,9 @@ typedef struct {
   double kink_weight[SB_DISC_POINTS_MAX * SB_DISC_POINTS_MAX];
   double gauss_x[SB_DISC_GAUSS]; // on [0, 1]
   double gauss_w[SB_DISC_GAUSS];
-  // Solution for the last edges: n bore values, n wall values, depth of the wall.
+  // Solution for the last edges, the bore's contact at centre +- half, sines: n bore values, n wall
+  // values, depth of the wall.
+  double centre, half;
   double solution[SB_DISC_ROWS_MAX];
   double series[2][SB_DISC_POINTS_MAX]; // F of bore and wall = sum series[][k] T_k(-tau)
   double matrix[SB_DISC_ROWS_MAX * SB_DISC_ROWS_MAX]; // by columns
@@ -45,10 +43,11 @@ typedef struct {
 // Prepares the rule with n points (2 to SB_DISC_POINTS_MAX).
 void sb_disc_system_points(SbDiscSystem *system, size_t n);
 
-// Solves for given edges; false if the matrix is singular or the edges leave (-1, 1).
-// residual: F at the right edge and, with a wall, at the left one and at the wall's, over the mean
-// of |F|; zero when all edges are smooth.
-SB_CHECKED bool sb_disc_system_solve(SbDiscSystem *system, SbDiscEdges edges, double *residual);
+// Solves `system` for given sines of the edges: the right one and, under pressure, the left one and
+// the wall's; without it the left one mirrors the right one. False if the matrix is singular or the
+// edges leave (-1, 1). residual: F at the same edges over the mean of |F|; zero when all are
+// smooth.
+SB_CHECKED bool sb_disc_system_solve(double *residual, const double *edges, void *system);
 
 // Displacement at `to` along m by unit pressure on the arc of a length (negative: to the left) from
 // an angle on and on its mirror image below: normal to it, or horizontal. At the arc's beginning
@@ -63,4 +62,4 @@ SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report);
 double sb_disc_system_step(double tau);
 
 // Outward displacement (x) at the right end of the horizontal diameter for the last solution.
-double sb_disc_system_bulge(const SbDiscSystem *system, SbDiscEdges edges);
+double sb_disc_system_bulge(const SbDiscSystem *system);

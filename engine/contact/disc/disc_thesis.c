@@ -24,37 +24,34 @@
 #include "engine/contact/fit_models.h"
 #include "engine/numeric/dense.h"
 
-enum { MAX = 160 }; // nodes on one side of the centre, at most (the centre included)
+enum { MAX = 152 }; // nodes on one side of the centre, at most (the centre included)
 
-// Workspace: influence of each cell on each node, the factorised part of it, right-hand side.
+// Workspace of nodes `step` apart, the first `filled` of which know their influence.
 typedef struct {
-  SbDiscSystem disc; // its kernel and rule
-  size_t count;      // nodes within 75 degrees
-  double step;
-  double space;                // radial space over the fitted section
+  SbDiscSystem disc;  // its kernel and rule
+  double step, space; // [rad]; radial space over the fitted section
+  double fluid;       // pressure on the flanks times C
+  size_t filled;
+  SbDiscPoint node[MAX];
   double influence[MAX * MAX]; // by columns: inward displacement at i by unit pressure on cell j
   double matrix[MAX * MAX];
-  double wanted[MAX];
-  SbDiscPoint node[MAX];
-  double fluid[MAX]; // inward displacement by the fluid
   double pressure[MAX];
 } Work;
 
 static const SbDiscVector down = {0.0, -1.0};
-static const double nodes_limit = 75.0 / 180.0 * M_PI;
 
-// Inward displacement at each node by unit pressure per projected width on each cell, its image
-// below, and the same left of the centre: two Gauss points for what is smooth over a degree, the
-// logarithm exactly.
-static void fill_influence(Work *w) {
-  for (size_t j = 0; j < w->count; j++) {
+// Inward displacement at the first `count` nodes by unit pressure per projected width on each of
+// their cells, its image below, and the same left of the centre: two Gauss points for what is
+// smooth over a degree, the logarithm exactly.
+static void fill_influence(Work *w, size_t count) {
+  for (size_t j = 0; j < count; j++) {
     const double low = sin(((double)j - 0.5) * w->step), high = sin(((double)j + 0.5) * w->step);
     const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
     const SbDiscPoint gauss[2] = {sb_disc_point_at(middle - half / sqrt(3.0)),
                                   sb_disc_point_at(middle + half / sqrt(3.0))};
-    for (size_t i = 0; i < w->count; i++) {
+    for (size_t i = j < w->filled ? w->filled : 0; i < count; i++) {
       double sum = 0.0;
-      SbDiscPoint to = w->node[i];
+      SbDiscPoint to = w->node[i] = sb_disc_point((double)i * w->step);
       for (int side = 0; side < (j > 0 ? 2 : 1); side++) {
         for (int k = 0; k < 2; k++) {
           double kink;
@@ -69,73 +66,34 @@ static void fill_influence(Work *w) {
         to.angle = -to.angle; // the left cell lies to it as this one to its image
         to.sin = -to.sin;
       }
-      w->influence[i + j * w->count] = sum;
+      w->influence[i + j * MAX] = sum;
     }
   }
+  w->filled = count > w->filled ? count : w->filled;
 }
 
-// Pressure with the first `loaded` nodes on the flat; false if singular. The fluid begins at the
-// first node whose cell is wholly outside the contact, with horizontal forces on both flanks.
-static bool solve_set(Work *w, size_t loaded, double pressure) {
+// Pressure with the first `loaded` nodes on the flat, and the gap left at the next one, positive if
+// open; false if singular. The fluid begins at the first node whose cell is wholly outside the
+// contact, with horizontal forces on both flanks.
+static bool solve_set(Work *w, double *gap, size_t loaded) {
   const double alpha = ((double)loaded + 0.5) * w->step, arc = 0.5 * M_PI - alpha;
+  fill_influence(w, loaded + 1);
   for (size_t i = 0; i <= loaded; i++) {
-    w->fluid[i] =
-        pressure > 0.0
-            ? pressure * (sb_disc_system_arc(&w->disc, w->node[i], down, alpha, arc, false) +
-                          sb_disc_system_arc(&w->disc, w->node[i], down, -alpha, -arc, false))
-            : 0.0;
-  }
-  for (size_t j = 0; j < loaded; j++) {
-    memcpy(&w->matrix[j * loaded], &w->influence[j * w->count], loaded * sizeof(double));
-    w->pressure[j] = w->wanted[j] - w->fluid[j];
-  }
-  return sb_eliminate(w->matrix, w->pressure, loaded);
-}
-
-// Gap left at a node that carries no pressure, positive if open.
-static double gap(const Work *w, size_t node, size_t loaded) {
-  double inward = w->fluid[node];
-  for (size_t j = 0; j < loaded; j++) {
-    inward += w->influence[node + j * w->count] * w->pressure[j];
-  }
-  return inward - w->wanted[node];
-}
-
-// Number of loaded nodes of the contact within angle `limit`, with their pressure in the workspace;
-// 0 if there is none.
-static size_t find_contact(Work *w, double limit, double pressure, size_t *iterations) {
-  w->count = 1 + (size_t)floor(limit / w->step + 1e-9);
-  for (size_t i = 0; i < w->count; i++) {
-    w->node[i] = sb_disc_point((double)i * w->step);
-    w->wanted[i] = cos((double)i * w->step) - w->space;
-  }
-  fill_influence(w);
-
-  // Bisect for the smallest set whose next node does not overlap: the gap there grows with the set.
-  // As the fluid moves with the edge, its last pressure may then be negative by less than the next
-  // node's share; 6.73 drops that node.
-  size_t low = 0;
-  size_t high = w->count - 2;
-  bool ok = true;
-  while (ok && high - low > 1) {
-    const size_t middle = (low + high) / 2;
-    ok = solve_set(w, middle, pressure);
-    (*iterations)++;
-    if (ok && gap(w, middle, middle) >= 0.0) {
-      high = middle;
-    } else {
-      low = middle;
+    double open = w->space - w->node[i].cos;
+    if (w->fluid > 0.0) {
+      open += w->fluid * (sb_disc_system_arc(&w->disc, w->node[i], down, alpha, arc, false) +
+                          sb_disc_system_arc(&w->disc, w->node[i], down, -alpha, -arc, false));
     }
+    *(i < loaded ? &w->pressure[i] : gap) = i < loaded ? -open : open;
   }
-  ok = ok && high < w->count - 2 && solve_set(w, high, pressure);
-  if (ok && high > 1 && w->pressure[high - 1] < 0.0) {
-    high--;
-    ok = solve_set(w, high, pressure);
+  for (size_t j = 0; j < loaded; j++) {
+    memcpy(&w->matrix[j * loaded], &w->influence[j * MAX], loaded * sizeof(double));
   }
-  for (size_t j = 0; ok && j < high; j++) {
-    ok = w->pressure[j] >= 0.0;
+  const bool solved = sb_eliminate(w->matrix, w->pressure, loaded);
+  for (size_t j = 0; j < loaded; j++) {
+    *gap += w->influence[loaded + j * MAX] * w->pressure[j];
   }
-  return ok ? high : 0;
+  return solved;
 }
 
 // Figures with nodes `step` apart [rad].
@@ -149,20 +107,37 @@ typedef struct {
 static Figures solve(Work *w, const SbFitProblem *in, double section, double step,
                      size_t *iterations) {
   const double compliance = sb_disc_compliance(in->modulus, in->poisson_ratio);
-  const double pressure = fabs(in->pressure) * compliance;
+  w->fluid = fabs(in->pressure) * compliance;
   w->step = step;
-  // Most contacts end within 45 degrees, which costs a third of the full table.
-  Figures out = {0};
-  for (int i = 0; i < 2 && out.loaded == 0; i++) {
-    out.loaded = find_contact(w, (i == 0 ? 0.6 : 1.0) * nodes_limit, pressure, iterations);
+  w->filled = 0;
+
+  // Bisect for the smallest set whose next node does not overlap: the gap there grows with the set.
+  // As the fluid moves with the edge, its last pressure may then be negative by less than the next
+  // node's share; 6.73 drops that node.
+  const size_t most = (size_t)floor(75.0 / 180.0 * M_PI / step + 1e-9) - 1;
+  size_t low = 0, high = most;
+  double gap;
+  bool ok = true;
+  while (ok && high - low > 1) {
+    const size_t middle = (low + high) / 2;
+    ok = solve_set(w, &gap, middle);
+    *(ok && gap >= 0.0 ? &high : &low) = middle;
+    (*iterations)++;
   }
-  for (size_t j = 0; j < out.loaded; j++) {
+  ok = ok && high < most && solve_set(w, &gap, high);
+  if (ok && high > 1 && w->pressure[high - 1] < 0.0) {
+    high--;
+    ok = solve_set(w, &gap, high);
+  }
+  Figures out = {.width = in->section_diameter * sin(((double)high - 0.5) * step)};
+  for (size_t j = 0; ok && j < high; j++) {
+    ok = w->pressure[j] >= 0.0;
     w->pressure[j] /= compliance;
     out.peak = fmax(out.peak, w->pressure[j]);
     const double inner = j == 0 ? 0.0 : sin(((double)j - 0.5) * step);
     out.load += w->pressure[j] * section * (sin(((double)j + 0.5) * step) - inner);
   }
-  out.width = in->section_diameter * sin(((double)out.loaded - 0.5) * step);
+  out.loaded = ok ? high : 0;
   return out;
 }
 

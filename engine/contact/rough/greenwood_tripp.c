@@ -61,10 +61,16 @@ SbStatus sb_gt_integrals(SbGtIntegrals *out, double lambda, SbReport *report) {
   return sb_succeed(report);
 }
 
-double sb_gt_area_share(double product, double F2) {
-  return fmin(1, M_PI * M_PI * product * product * F2);
+double sb_gt_area_share(double product, double lambda) {
+  SbGtIntegrals F;
+  return sb_gt_integrals(&F, lambda, NULL) == SB_OK
+             ? fmin(1, M_PI * M_PI * product * product * F.F2)
+             : NAN;
 }
 
-double sb_gt_pressure(double product, double sigma_over_beta, double modulus, double F5_2) {
-  return 8 * M_SQRT2 / 15 * M_PI * product * product * sqrt(sigma_over_beta) * modulus * F5_2;
+double sb_gt_pressure(double product, double sigma_over_beta, double modulus, double lambda) {
+  SbGtIntegrals F;
+  return sb_gt_integrals(&F, lambda, NULL) == SB_OK ? 8 * M_SQRT2 / 15 * M_PI * product * product *
+                                                          sqrt(sigma_over_beta) * modulus * F.F5_2
+                                                    : NAN;
 }

@@ -35,8 +35,9 @@ void sb_gt_log_integrals(double out[4], double lambda);
 // other).
 SbStatus sb_gt_integrals(SbGtIntegrals *out, double lambda, SbReport *report);
 
-// Real over nominal area, at most 1. `product` is zeta beta sigma; F2 from sb_gt_integrals().
-double sb_gt_area_share(double product, double F2);
+// Real over nominal area, at most 1, at `lambda`; NaN where sb_gt_integrals() refuses it. `product`
+// is zeta beta sigma.
+double sb_gt_area_share(double product, double lambda);
 
-// Asperity pressure [Pa]. `modulus` is E' of thesis equation 5.8 [Pa].
-double sb_gt_pressure(double product, double sigma_over_beta, double modulus, double F5_2);
+// The same of the asperities' pressure [Pa]. `modulus` is E' of thesis equation 5.8 [Pa].
+double sb_gt_pressure(double product, double sigma_over_beta, double modulus, double lambda);

@@ -92,12 +92,8 @@ static SbStatus find_peaks(SbRun *run, const double *force, size_t count, SbRepo
 static void compare_contact(SbRun *run) {
   const SbModel *model = run->model;
   const SbSealModel *ring = &model->seal[SB_OUTER];
-  SbGtIntegrals integrals;
   SbRigSummary *out = &run->summary.rig;
-  if (sb_gt_integrals(&integrals, 0, NULL) != SB_OK) {
-    return;
-  }
-  double share = sb_gt_area_share(model->gt_product, integrals.F2);
+  double share = sb_gt_area_share(model->gt_product, 0);
   out->contact_coefficient =
       sb_rig_contact_coefficient(model->rig.load, ring->inner_diameter + ring->section_diameter,
                                  ring->radius, ring->reduced_modulus, share, model->shear_strength);

@@ -71,11 +71,8 @@ static void asperity_pressure(const SbModel *model, int seal, const double *film
     // F_5/2 changes by less than 2e-4 over this step; the flat of the film then costs one integral.
     double lambda = film[i] / model->sigma;
     if (!(fabs(lambda - last) < 1e-4)) {
-      SbGtIntegrals integrals;
-      pressure = sb_gt_integrals(&integrals, lambda, NULL) == SB_OK
-                     ? sb_gt_pressure(model->gt_product, model->sigma_over_beta,
-                                      model->seal[seal].reduced_modulus, integrals.F5_2)
-                     : NAN;
+      pressure = sb_gt_pressure(model->gt_product, model->sigma_over_beta,
+                                model->seal[seal].reduced_modulus, lambda);
       last = lambda;
     }
     out[i] = pressure;

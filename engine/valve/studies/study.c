@@ -274,6 +274,9 @@ const double *sb_study_at(SbStudyWork *work, int line, double x) {
   size_t at = next(&work->answers, SB_STUDY_ANSWERS);
   work->answer[at].line = line;
   work->answer[at].x = x;
+  for (int i = 0; i < SB_STUDY_VALUES; i++) {
+    work->answer[at].value[i] = NAN;
+  }
   work->design->solve(work->answer[at].value, work, line, x);
   return work->answer[at].value;
 }
@@ -301,19 +304,16 @@ void sb_study_level(SbStudyWork *work, SbStudyPanel *panel, const char *name, do
   sb_study_point(series, work->hi, y);
 }
 
-void sb_study_mark(SbStudy *out, double x, const char *format, ...) {
-  SbStudyMark *mark = &out->mark[next(&out->mark_count, SB_STUDY_MARKS)];
+void sb_study_mark(SbStudyWork *work, double x, const char *format, ...) {
+  if (!(x >= work->lo && x <= work->hi)) {
+    return;
+  }
+  SbStudyMark *mark = &work->out->mark[next(&work->out->mark_count, SB_STUDY_MARKS)];
   mark->x = x;
   va_list arguments;
   va_start(arguments, format);
   sb_text_v(mark->text, sizeof mark->text, format, arguments);
   va_end(arguments);
-}
-
-void sb_study_mark_scene(SbStudyWork *work, double x, const char *text) {
-  if (x >= work->lo && x <= work->hi) {
-    sb_study_mark(work->out, x, "%s", text);
-  }
 }
 
 void sb_study_note(SbStudy *out, const char *format, ...) {

@@ -19,9 +19,9 @@ enum { GIVEN = 4, LAWS = FILMS + GIVEN }; // ours first
 // A line of the study is a load of the grid, or the outer seal's own behind them.
 enum { MIDDLE = LOADS / 2, OWN = LOADS };
 
-// A law of one of the films, and its curve's name where it has one.
+// A law of one of the films.
 typedef struct {
-  const char *name, *curve;
+  const char *name;
   int film;
   SbFilmLaw law;
 } Law;
@@ -49,24 +49,24 @@ static void solve(double *value, SbStudyWork *work, int line, double speed) {
     problem.pressure_viscosity = problem.eyring_stress = problem.rupture_pressure = 0;
   }
   SbStatus status = sb_study_film(work, &problem, &report);
-  bool good = sb_study_goes_on(work, status, &report);
-  value[CENTRAL] = good ? work->film.film_central : NAN;
-  value[LEAST] = good ? work->film.film_min : NAN;
+  if (sb_study_goes_on(work, status, &report)) {
+    value[CENTRAL] = work->film.film_central;
+    value[LEAST] = work->film.film_min;
+  }
 }
 
 static Regression regress(SbStudyWork *work) {
   const SbSealModel *seal = &work->scene->seal[SB_OUTER];
   const double unit = seal->reduced_modulus * seal->radius;
-  Regression out = {
-      .U_speed = work->scene->viscosity / 2 / unit,
-      .W_load = 1 / unit,
-      .R = seal->radius,
-      .laws = {{"ours, central", "our law", CENTRAL, {0}},
-               {"ours, least", NULL, LEAST, {0}},
-               {"thesis, eq. 7.5", "thesis, eq. 7.5", CENTRAL, {1.492, 0.5434, -0.2893}},
-               {"Karaszkiewicz, eq. 7.6", "Karaszkiewicz, eq. 7.6", CENTRAL, {4.4, 0.65, -0.21}},
-               {"thin-film limit", "thin-film limit", CENTRAL, {3.77334, 0.6, -0.2}},
-               {"thin-film limit, least", NULL, LEAST, {3.00434, 0.6, -0.2}}}};
+  Regression out = {.U_speed = work->scene->viscosity / 2 / unit,
+                    .W_load = 1 / unit,
+                    .R = seal->radius,
+                    .laws = {{"ours, central", CENTRAL, {0}},
+                             {"ours, least", LEAST, {0}},
+                             {"thesis, eq. 7.5", CENTRAL, {1.492, 0.5434, -0.2893}},
+                             {"Karaszkiewicz, eq. 7.6", CENTRAL, {4.4, 0.65, -0.21}},
+                             {"thin-film limit", CENTRAL, {3.77334, 0.6, -0.2}},
+                             {"thin-film limit, least", LEAST, {3.00434, 0.6, -0.2}}}};
   SbReport report;
   for (int i = 0; i < GRID; i++) {
     out.speed[i] = sb_study_place(work, i % SPEEDS, SPEEDS);
@@ -96,16 +96,17 @@ static void draw(SbStudyWork *work, const Regression *ours) {
     sb_study_point(dots, ours->speed[i], ours->R * ours->H[CENTRAL][i]);
   }
   for (const Law *law = ours->laws; law < ours->laws + LAWS; law++) {
-    if (law->curve == NULL) {
+    if (law->film != CENTRAL) {
       continue;
     }
-    SbStudyStyle style = law == ours->laws ? SB_STUDY_CURVE : SB_STUDY_REFERENCE;
-    SbStudySeries *line = sb_study_series(&panel[0], style, law->curve);
+    const bool own = law == ours->laws;
+    SbStudyStyle style = own ? SB_STUDY_CURVE : SB_STUDY_REFERENCE;
+    SbStudySeries *line = sb_study_series(&panel[0], style, own ? "our law" : law->name);
     for (int i = 0; i < CURVE; i++) {
       double speed = sb_study_place(work, i, CURVE);
       sb_study_point(line, speed, ours->R * sb_film_law(&law->law, speed * ours->U_speed, W));
     }
-    SbStudySeries *over = sb_study_series(&panel[1], style, law->curve);
+    SbStudySeries *over = sb_study_series(&panel[1], style, line->name);
     for (int i = MIDDLE * SPEEDS; i < (MIDDLE + 1) * SPEEDS; i++) {
       sb_study_point(over, ours->speed[i], 1 / over_law(ours, law, i));
     }
@@ -162,7 +163,7 @@ static void make(SbStudyWork *work) {
   }
   sb_study_row(out, "solved, central")->value[8] = film[CENTRAL];
   sb_study_row(out, "solved, least")->value[8] = film[LEAST];
-  sb_study_mark_scene(work, model->speed, "drive");
+  sb_study_mark(work, model->speed, "drive");
   sb_text(out->validity, sizeof out->validity,
           "our law: U %.2g to %.2g, W %.3g to %.3g only; the limit: thin films (M above 100)",
           work->lo * ours.U_speed, work->hi * ours.U_speed, range->load_min * ours.W_load,

@@ -45,7 +45,6 @@ static void solve(double *value, SbStudyWork *work, int line, double squeeze) {
   // A ring that does not touch by itself lets the fluid past before any pressure could press it on.
   override[5] = (SbOverride){SB_P_CANISTER_PRESSURE, 0};
   double free;
-  value[PRESSURE] = value[LEAK] = value[STROKE] = NAN;
   sb_study_ask(work, &free, width, 1, override, COUNT);
   if (!(free > 0)) {
     return;
@@ -57,32 +56,33 @@ static void solve(double *value, SbStudyWork *work, int line, double squeeze) {
   value[PRESSURE] = isnan(pressure) ? NAN : fmax(pressure, 0);
 }
 
+// First of `count` pressures that is at least `least`; `count`: none.
+static size_t first_at_least(const double *y, size_t count, double least) {
+  size_t i = 0;
+  while (i < count && !(y[i] >= least)) {
+    i++;
+  }
+  return i;
+}
+
 // What a curve of pressure says: where the ring touches and where channels open.
 static void note_closing(SbStudy *out, const SbStudySeries *series, double closing) {
   const double *x = series->x, *y = series->y;
-  size_t first = 0, closed = 0;
-  while (first < series->count && !isfinite(y[first])) {
-    first++;
-  }
-  while (closed < series->count && !(y[closed] >= closing)) {
-    closed++;
-  }
-  double touches = first < series->count ? x[first] : NAN;
-  double closes = closed < series->count ? x[closed] : NAN;
-  if (closed > 0 && closed < series->count && y[closed - 1] < closing) {
-    // On a straight line from the point before, which has a value.
-    closes -= (y[closed] - closing) / (y[closed] - y[closed - 1]) * (closes - x[closed - 1]);
-  }
-  if (isnan(touches)) {
+  const size_t first = first_at_least(y, series->count, 0);
+  const size_t closed = first_at_least(y, series->count, closing);
+  if (first == series->count) {
     sb_study_note(out, "%s: does not touch in this range.", series->name);
-  } else if (isnan(closes)) {
+  } else if (closed == series->count) {
     sb_study_note(out, "%s: leaks at rest over the whole range.", series->name);
-  } else if (closes > touches) {
+  } else if (closed > first) {
+    // On a straight line from the point before, which has a value.
+    const double before = fmin(y[closed - 1], closing); // a gap leaves the place as it is
+    const double share = (y[closed] - closing) / (y[closed] - before);
     sb_study_note(out, "%s: touches from %.1f %% of squeeze, closed from %.1f %%.", series->name,
-                  100 * touches, 100 * closes);
-  } else if (touches > series->x[0]) {
+                  100 * x[first], 100 * (x[closed] - share * (x[closed] - x[closed - 1])));
+  } else if (first > 0) {
     sb_study_note(out, "%s: touches from %.1f %% of squeeze and is closed as soon as it touches.",
-                  series->name, 100 * touches);
+                  series->name, 100 * x[first]);
   } else {
     sb_study_note(out, "%s: closed over the whole range.", series->name);
   }
@@ -91,18 +91,18 @@ static void note_closing(SbStudy *out, const SbStudySeries *series, double closi
 // Places of a line: even ones, and more between where the ring begins to touch and where its
 // channels close; the leak lies there.
 static int choose_places(double at[POINTS + FINE], SbStudyWork *work, int line, double closing) {
-  int even = fit_of(line) == SB_FIT_RING ? RING_POINTS : POINTS, closed = 0, count = 0;
+  int even = fit_of(line) == SB_FIT_RING ? RING_POINTS : POINTS, count = 0;
+  double pressure[POINTS];
   for (int i = 0; i < even; i++) {
     at[i] = sb_study_place(work, i, even);
+    pressure[i] = sb_study_at(work, line, at[i])[PRESSURE];
   }
-  while (closed < even && !(sb_study_at(work, line, at[closed])[PRESSURE] >= closing)) {
-    closed++;
-  }
+  const int closed = (int)first_at_least(pressure, (size_t)even, closing);
   if (closed == 0 || closed == even) {
     return even;
   }
   int open = closed - 1;
-  while (open > 0 && sb_study_at(work, line, at[open])[PRESSURE] > 0) {
+  while (open > 0 && pressure[open] > 0) {
     open--;
   }
   double from = at[open], to = at[closed];
@@ -188,7 +188,7 @@ static void make(SbStudyWork *work) {
   draw(work, closing);
   table(work);
   double design = model->seal[SB_OUTER].squeeze;
-  sb_study_mark(out, design, "as designed, %.1f %%", 100 * design);
+  sb_study_mark(work, design, "as designed, %.1f %%", 100 * design);
   bool own = model->fit != SB_FIT_DISC && model->fit != SB_FIT_RING;
   sb_text(out->models, sizeof out->models,
           "fit %s%sdisc, ring; percolation by Persson's contact; film as the scene's",

@@ -39,7 +39,8 @@ typedef struct {
   bool outer;
   bool smooth; // a film in closed form that leaves the fitment its own tolerance
   SbStudySolves solves;
-  // Values of one line of the study (a model, a seal, a size) at x, those of the panels first.
+  // Values of one line of the study (a model, a seal, a size) at x, those of the panels first; NaN
+  // until it sets them.
   void (*solve)(double value[SB_STUDY_VALUES], SbStudyWork *work, int line, double x);
   void (*make)(SbStudyWork *work);
 } SbStudyDesign;
@@ -115,10 +116,9 @@ SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport
 // Passes on how the work on something else than a question ended; true: well.
 bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report);
 
-// Adds a table's row (all values NaN), a mark, a note; borrowed from `out`. They never fail, like
+// Adds a table's row (all values NaN), a note; borrowed from `out`. They never fail, like
 // those of study.h.
 SbStudyRow *sb_study_row(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);
-void sb_study_mark(SbStudy *out, double x, const char *format, ...) SB_PRINTF(3, 4);
 void sb_study_note(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);
 
 // Adds a column of the table with the value of a line that stands in its cells.
@@ -131,4 +131,4 @@ void sb_study_cells(double *value, SbStudyWork *work, double x, int shift);
 void sb_study_level(SbStudyWork *work, SbStudyPanel *panel, const char *name, double y);
 
 // Marks a value of the scene, if the abscissa has it.
-void sb_study_mark_scene(SbStudyWork *work, double x, const char *text);
+void sb_study_mark(SbStudyWork *work, double x, const char *format, ...) SB_PRINTF(3, 4);

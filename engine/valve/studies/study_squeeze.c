@@ -57,7 +57,7 @@ static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
   const double design = model->seal[SB_OUTER].squeeze;
-  sb_study_mark(out, design, "as designed, %.1f %%", 100 * design);
+  sb_study_mark(work, design, "as designed, %.1f %%", 100 * design);
   sb_text(out->row_heading, sizeof out->row_heading, "as designed, %.1f %%", 100 * design);
   for (int m = 0; m < MODELS; m++) {
     sb_study_curves(work, models[m].style, models[m].name, m, NULL, models[m].points);

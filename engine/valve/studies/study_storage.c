@@ -33,9 +33,6 @@ static void solve(double *value, SbStudyWork *work, int seal, double time) {
   value[LOAD] = asked[0];
   value[FRICTION] = asked[1] + asked[2];
   const SbModel *then = sb_evaluator_model(work->evaluator);
-  for (int i = SQUEEZE; i <= UPTAKE; i++) {
-    value[i] = NAN;
-  }
   if (then != NULL) {
     const SbSealModel *ring = &then->seal[seal];
     value[SQUEEZE] = ring->squeeze;
@@ -60,7 +57,7 @@ static void make(SbStudyWork *work) {
   }
   SbStudyRow *scene = sb_study_row(out, "this scene, %.3g days", scene_time / 86400);
   sb_study_cells(scene->value, work, scene_time, 0);
-  sb_study_mark_scene(work, scene_time, "this scene");
+  sb_study_mark(work, scene_time, "this scene");
   sb_text(out->models, sizeof out->models, "fit %s, film %s; rubber: %d Prony terms, %s",
           sb_fit_model_name(model->fit), sb_film_model_name(model->film), (int)model->rubber.terms,
           model->rubber.swell_mass > 0 ? "Fickian swell" : "no swell");

@@ -34,9 +34,6 @@ static void solve(double *value, SbStudyWork *work, int line, double speed) {
   problem.load_coefficient = model->load_coefficient;
   SbStatus status = sb_study_film(work, &problem, &report);
   if (status != SB_OK) {
-    for (int i = 0; i < SB_STUDY_VALUES; i++) {
-      value[i] = NAN;
-    }
     if (status == SB_ERROR_NOT_CONVERGED) {
       // The scene's own surface is the subject; gaps of the other are a warning.
       out->complete = out->complete && model->surface != models[line].model;
@@ -92,7 +89,7 @@ static void make(SbStudyWork *work) {
     sb_study_point(friction, at.value, value);
   }
   sb_study_level(work, &out->panel[2], "film = roughness", 1);
-  sb_study_mark_scene(work, model->speed, "drive");
+  sb_study_mark(work, model->speed, "drive");
   sb_study_note(out,
                 "Net load %.0f N/m, roughness %.3g \xc2\xb5m, shear strength %.3g MPa, m %.3g on "
                 "the asperities' load (the cycle: on the total).",
