@@ -13,9 +13,10 @@
 // above h = 2 sigma), and the ranges of the rough law.
 #include "engine/film/ehl.h"
 
+#include "engine/base/clock.h"
+
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 // Levels of degree 4, 6 and so on, of rough rows perhaps with two of the first, and the last one's
 // degree; every tolerance takes at least the first levels.
@@ -25,12 +26,6 @@ enum { LEVELS = 6, DEGREE_FIRST = 4, DEGREE_LAST = 14, DEGREE_LAST_ROUGH = 8 };
 // those before.
 static const double RESIDUAL = 1e-11;
 static const double LEVEL_RESIDUAL[] = {1e-7, 1e-9};
-
-static double seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 // Rounding in the films, relative: deflections of size one against the film.
 static double rounding(const SbEhlResults *r, bool rough) {
@@ -283,7 +278,7 @@ static SbStatus solve_cold(SbEhlResults *results, int *levels, SbFilmSolver *sol
 
 SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                       SbFilmSolver *solver, SbReport *report) {
-  double begin = seconds();
+  double begin = sb_clock_seconds();
   const bool rough = sb_film_rough(problem);
   SbFilmSolverInfo *info = &out->solver;
   SbEhlCase c = scaled_case(problem, scale);
@@ -358,7 +353,7 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
                      "film: estimated error %.2g, above the tolerance, on the finest mesh",
                      fmax(info->error_film_min, info->error_film_central));
   }
-  info->wall_s = seconds() - begin;
+  info->wall_s = sb_clock_seconds() - begin;
   sb_ehl_profile(out, found, scale);
   return status;
 }
