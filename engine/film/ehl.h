@@ -159,11 +159,12 @@ struct SbFilmSolver {
   SbRoughLaw law; // of the last surface
   bool law_ready;
 
+  double error[3]; // of the last solution, relative: minimum, centre, flux
+
   // The last solution serves for warm starts if it is ready.
   struct {
     bool ready;
     double tolerance; // that it met, relative
-    double error[3];  // relative: minimum, centre, flux
   } last;
 };
 
@@ -187,8 +188,8 @@ double sb_ehl_layers_flux(const SbEhlLayers *layers);
 // Width of the inlet layer, about lambda^0.4.
 double sb_ehl_layers_width(const SbEhlLayers *layers);
 
-// Length that a thick film lives on, that of the rigid wedge between the end pressures; 0 where the
-// film is thin.
+// Length that a thick film lives on, that of the rigid wedge between the end pressures, no shorter
+// than the contact; 0 where the film is thin.
 double sb_ehl_layers_wedge(const SbEhlLayers *layers);
 
 // Slope factor of the dry pressure at the inlet edge: 1 for Hertz's.

@@ -97,17 +97,11 @@ static SbWedgePools wedge_of(const SbEhlLayers *l) {
   return sb_wedge_pools(l->lambda, l->inlet, l->end == SB_EHL_RUPTURE ? 0.0 : l->outlet);
 }
 
-// Length of the rigid wedge, no shorter than the contact.
-static double wedge_unit(const SbWedgePools *w) {
-  return sqrt(1.44 + w->length * w->length);
-}
-
 double sb_ehl_layers_wedge(const SbEhlLayers *l) {
   if (!(sb_ehl_layers_width(l) > THICK)) {
     return 0.0;
   }
-  SbWedgePools wedge = wedge_of(l);
-  return wedge_unit(&wedge);
+  return hypot(1.2, wedge_of(l).length);
 }
 
 double sb_ehl_layers_flux(const SbEhlLayers *l) {
