@@ -13,9 +13,10 @@
 // above h = 2 sigma), and the ranges of the rough law.
 #include "engine/film/ehl.h"
 
+#include "engine/base/clock.h"
+
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 // Levels of degree 4, 6 and so on, of rough rows perhaps with two of the first, and the last one's
 // degree; every tolerance takes at least the first levels.
@@ -26,16 +27,14 @@ enum { LEVELS = 6, DEGREE_FIRST = 4, DEGREE_LAST = 14, DEGREE_LAST_ROUGH = 8 };
 static const double RESIDUAL = 1e-11;
 static const double LEVEL_RESIDUAL[] = {1e-7, 1e-9};
 
-static double seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 // Rounding in the films, relative: deflections of size one against the film.
 static double rounding(const SbEhlResults *r, bool rough) {
   return rough ? 1e-15 / fmin(1.0, r->film_min + SB_EHL_CLOSED) + 3e-9
                : 3e-16 / fmin(1.0, r->film_min);
+}
+
+static double worst(const SbFilmSolver *solver) {
+  return fmax(solver->error[0], solver->error[1]);
 }
 
 // Estimate of the errors of the last level: its change from the level below times the rate at which
@@ -57,19 +56,17 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
   last[2] = fmax(last[2], 0.05 * last[1]);
   last[1] = fmax(last[1], last[2]);
   last[0] = fmax(last[0], last[1]);
-  double *const estimates[] = {&info->error_film_min, &info->error_film_central,
-                               &info->error_film_flux};
   for (int i = 0; i < 3; i++) {
     // A level of rough rows leaves some hundredth of its change, beside the rupture's kink more;
     // two of one degree tell no rate.
     static const double ROUGH[] = {0.05, 0.02, 0.05};
     double rate = levels > 2 ? last[i] / fmax(change[levels - 2][i], 1e-300) : 0.0;
     rate = rough ? ROUGH[i] : fmin(fmax(rate, SLOWEST[levels - 1]), 1.0);
-    *estimates[i] = fmax(rate * last[i] + noise, FINEST[levels - 1]);
+    solver->error[i] = fmax(rate * last[i] + noise, FINEST[levels - 1]);
   }
   if (rough) {
     static const double RATE = 0.05, RATE_FLOW = 0.02;
-    info->error_film_min += c->layers.degree < DEGREE_LAST_ROUGH ? 5e-8 : 0.0;
+    solver->error[0] += c->layers.degree < DEGREE_LAST_ROUGH ? 5e-8 : 0.0;
     info->error_contact = noise + RATE_FLOW * change[levels - 1][2];
     if (c->rough.law != NULL) {
       double area = RATE * fabs(now->real_area - before->real_area) + now->area_error;
@@ -155,7 +152,6 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
   double change[LEVELS][3] = {{0}};
   const bool rough = cold->rough.rows;
   const double wanted = solver->problem->tolerance;
-  SbFilmSolverInfo *info = solver->info;
   const int least = rough || wanted >= 5e-3 ? 2 : 3;
   bool again = false; // rough rows whose film has sharp ends follow these on the first degree
   *levels = 0;
@@ -185,7 +181,7 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
     }
     SbEhlResults *now = &results[*levels];
     sb_ehl_results(now, solver->now);
-    info->error_film_min = info->error_film_central = info->error_film_flux = 1.0;
+    solver->error[0] = solver->error[1] = solver->error[2] = 1.0;
     if (++*levels >= 2) {
       sb_ehl_change(change[*levels - 1], solver, now, now - 1, !anew);
       if (isfinite(supply) && !rough) {
@@ -197,8 +193,7 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
     }
     bool sharp = rough && sb_ehl_rough_fronts(solver->now, now);
     again = sharp && *levels == 1;
-    double worst = fmax(info->error_film_min, info->error_film_central);
-    if (*levels >= least && degree > DEGREE_FIRST && worst <= 0.1 * wanted) {
+    if (*levels >= least && degree > DEGREE_FIRST && worst(solver) <= 0.1 * wanted) {
       break;
     }
     degree += again ? 0 : 2;
@@ -242,15 +237,13 @@ static SbStatus refuse_smooth(const SbEhlCase *c, const SbFilmScale *scale, doub
 // From the last solution, if that meets the tolerance: the layers follow the case, so the error of
 // the discretisation stays what it was.
 static SbStatus solve_warm(SbEhlResults *results, SbFilmSolver *solver, const SbEhlCase *c) {
-  SbFilmSolverInfo *info = solver->info;
   solver->tolerance = RESIDUAL;
   SbStatus status = sb_ehl_follow(solver, c);
   if (status == SB_OK) {
     sb_ehl_results(results, solver->now);
-    double noise = rounding(results, false) + info->residual;
-    info->error_film_min = solver->last.error[0] + noise;
-    info->error_film_central = solver->last.error[1] + noise;
-    info->error_film_flux = solver->last.error[2] + noise;
+    for (int i = 0; i < 3; i++) {
+      solver->error[i] += rounding(results, false) + solver->info->residual;
+    }
   }
   return status;
 }
@@ -258,7 +251,6 @@ static SbStatus solve_warm(SbEhlResults *results, SbFilmSolver *solver, const Sb
 // All levels, from a cold start.
 static SbStatus solve_cold(SbEhlResults *results, int *levels, SbFilmSolver *solver, SbEhlCase *c,
                            double supply, SbWarnings *warnings) {
-  SbFilmSolverInfo *info = solver->info;
   const bool rest = !(c->layers.lambda > 0.0);
   SbStatus status = climb(results, levels, solver, c, rest ? INFINITY : supply);
   if (c->rough.rows) {
@@ -273,17 +265,16 @@ static SbStatus solve_cold(SbEhlResults *results, int *levels, SbFilmSolver *sol
     }
   } else if (*levels > 0 && isfinite(supply) && !isfinite(solver->now->c.supply)) {
     // Flooded but for a trifle, see starve() in ehl_continuation.c.
-    double excess = fmax(1.0 - supply / results[*levels - 1].film_flux, 0.0);
-    info->error_film_min += excess;
-    info->error_film_central += excess;
-    info->error_film_flux += excess;
+    for (int i = 0; i < 3; i++) {
+      solver->error[i] += fmax(1.0 - supply / results[*levels - 1].film_flux, 0.0);
+    }
   }
   return status;
 }
 
 SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                       SbFilmSolver *solver, SbReport *report) {
-  double begin = seconds();
+  double begin = sb_clock_seconds();
   const bool rough = sb_film_rough(problem);
   SbFilmSolverInfo *info = &out->solver;
   SbEhlCase c = scaled_case(problem, scale);
@@ -344,21 +335,20 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
   const SbEhlSolution *found = solver->now;
   fill(out, problem, scale, &found->c, &results[levels - 1]);
   info->unknowns = (size_t)found->mesh.dofs + (rough ? 2 : 3);
-  info->converged = fmax(info->error_film_min, info->error_film_central) <= problem->tolerance &&
-                    !(rough && status != SB_OK);
+  info->error_film_min = solver->error[0];
+  info->error_film_central = solver->error[1];
+  info->error_film_flux = solver->error[2];
+  info->converged = worst(solver) <= problem->tolerance && !(rough && status != SB_OK);
   if (info->converged) {
     solver->last.ready = !rough;
     solver->last.tolerance = problem->tolerance;
-    solver->last.error[0] = info->error_film_min;
-    solver->last.error[1] = info->error_film_central;
-    solver->last.error[2] = info->error_film_flux;
     status = sb_succeed(report);
   } else if (status == SB_OK) {
     status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
                      "film: estimated error %.2g, above the tolerance, on the finest mesh",
-                     fmax(info->error_film_min, info->error_film_central));
+                     worst(solver));
   }
-  info->wall_s = seconds() - begin;
+  info->wall_s = sb_clock_seconds() - begin;
   sb_ehl_profile(out, found, scale);
   return status;
 }

@@ -128,14 +128,6 @@ typedef struct {
   bool ruptured;
 } SbEhlResults;
 
-// Work memory of ehl_fitted.c: moments of every nodal basis, the smooth compliance times these, and
-// the body's polynomials at the targets.
-typedef struct {
-  double moment[SB_COMPLIANCE_MODES][SB_EHL_DOFS_MAX];
-  double smooth[SB_COMPLIANCE_MODES][SB_EHL_DOFS_MAX];
-  double value[SB_EHL_TARGETS_MAX][SB_COMPLIANCE_MODES];
-} SbEhlFittedWork;
-
 struct SbFilmSolver {
   SbEhlTables tables;
   SbEhlSolution solution[2];
@@ -150,7 +142,13 @@ struct SbFilmSolver {
   const double *by_nodal;
   // [targets][dofs] of a fitted body: the half-plane's and the smooth part.
   double kernel[SB_EHL_TARGETS_MAX * SB_EHL_DOFS_MAX];
-  SbEhlFittedWork fitted;
+  // Of ehl_fitted.c: moments of every nodal basis, the smooth compliance times these, and the
+  // body's polynomials at the targets.
+  struct {
+    double moment[SB_COMPLIANCE_MODES][SB_EHL_DOFS_MAX];
+    double smooth[SB_COMPLIANCE_MODES][SB_EHL_DOFS_MAX];
+    double value[SB_EHL_TARGETS_MAX][SB_COMPLIANCE_MODES];
+  } fitted;
   SbEhlRoughPoint point[SB_EHL_DOFS_MAX]; // rough rows: at the nodes
 
   // Whom a solve answers to.
@@ -161,11 +159,12 @@ struct SbFilmSolver {
   SbRoughLaw law; // of the last surface
   bool law_ready;
 
+  double error[3]; // of the last solution, relative: minimum, centre, flux
+
   // The last solution serves for warm starts if it is ready.
   struct {
     bool ready;
     double tolerance; // that it met, relative
-    double error[3];  // relative: minimum, centre, flux
   } last;
 };
 
@@ -189,12 +188,9 @@ double sb_ehl_layers_flux(const SbEhlLayers *layers);
 // Width of the inlet layer, about lambda^0.4.
 double sb_ehl_layers_width(const SbEhlLayers *layers);
 
-// Length that a thick film lives on, that of the rigid wedge between the end pressures; 0 where the
-// film is thin.
+// Length that a thick film lives on, that of the rigid wedge between the end pressures, no shorter
+// than the contact; 0 where the film is thin.
 double sb_ehl_layers_wedge(const SbEhlLayers *layers);
-
-// That, or the width of a thin film's inlet layer.
-double sb_ehl_layers_length(const SbEhlLayers *layers);
 
 // Slope factor of the dry pressure at the inlet edge: 1 for Hertz's.
 double sb_ehl_layers_inlet_slope(const SbEhlLayers *layers);
@@ -234,9 +230,8 @@ static inline double sb_ehl_tolerance(const SbEhlSolution *s) {
 // The same of rough rows.
 SbStatus sb_ehl_rough_newton(SbEhlSolution *s);
 
-// Number of unknowns: nodal pressures, H0, flux film or kappa, and the shift where smooth rows end
+// The unknowns are the nodal pressures, H0, flux film or kappa, and the shift where smooth rows end
 // at a rupture.
-int sb_ehl_order(const SbEhlSolution *s);
 
 // Gap by the state's pressure, with its derivatives, in the solver.
 void sb_ehl_elastic(const SbEhlSolution *s);

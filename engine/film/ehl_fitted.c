@@ -75,9 +75,9 @@ enum { MODES = SB_COMPLIANCE_MODES };
 
 // S acts on the window only: an affine element that reaches beyond it counts as far as it lies in
 // it. Moments of the element's basis, and of the state's pressure with its derivative to the shift.
-static void add_element(SbEhlFittedWork *work, double *state, double *state_slope,
-                        const SbEhlTables *tables, const SbEhlElement *e, const double *nodal,
-                        double shift, const SbFilmBody *body) {
+static void add_element(double *state, double *state_slope, const SbEhlSolution *s,
+                        const SbEhlElement *e, const double *nodal, double shift) {
+  const SbFilmBody *body = &s->c.body;
   const SbSurfaceCompliance *c = body->compliance;
   const double unit = body->side * body->half_width;
   const double ends[] = {c->left / unit - shift, c->right / unit - shift};
@@ -91,10 +91,11 @@ static void add_element(SbEhlFittedWork *work, double *state, double *state_slop
     memcpy(weight, e->fine_wb[q], sizeof weight);
     if (cut) {
       const SbEhlTable *t = e->table;
-      const double r = 0.5 * (from + to) + 0.5 * (to - from) * tables->fine[q];
+      const double r = 0.5 * (from + to) + 0.5 * (to - from) * s->mesh.tables->fine[q];
       X = e->m + e->h * r;
       sb_barycentric_basis(weight, r, t->node, t->bary, e->degree + 1);
-      cblas_dscal(e->degree + 1, 0.5 * (to - from) * e->h * tables->fine_weight[q], weight, 1);
+      cblas_dscal(e->degree + 1, 0.5 * (to - from) * e->h * s->mesh.tables->fine_weight[q], weight,
+                  1);
     }
     double value[MODES];
     double slope[MODES];
@@ -105,7 +106,7 @@ static void add_element(SbEhlFittedWork *work, double *state, double *state_slop
     }
     for (int k = 0; k < c->modes; k++) {
       for (int j = 0; j <= e->degree; j++) {
-        work->moment[k][e->first_dof + j] += weight[j] * value[k];
+        s->solver->fitted.moment[k][e->first_dof + j] += weight[j] * value[k];
       }
       state[k] += pressure * value[k];
       state_slope[k] += pressure * slope[k] * unit;
@@ -149,12 +150,12 @@ void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift) {
   const int modes = c->modes;
   // p_H b over the film's scale.
   const double factor = 0.25 * c->modulus;
-  SbEhlFittedWork *work = &s->solver->fitted;
-  memset(work->moment, 0, sizeof work->moment);
+  SbFilmSolver *solver = s->solver;
+  memset(solver->fitted.moment, 0, sizeof solver->fitted.moment);
   double state[MODES] = {0};
   double state_slope[MODES] = {0};
   for (int i = 0; i < mesh->count; i++) {
-    add_element(work, state, state_slope, mesh->tables, &mesh->element[i], nodal, shift, body);
+    add_element(state, state_slope, s, &mesh->element[i], nodal, shift);
   }
   sb_film_ambient(state, state_slope, body, mesh->inlet_pressure, mesh->outlet_pressure,
                   mesh->left_end + shift, mesh->right_end + shift);
@@ -163,10 +164,10 @@ void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift) {
   // thin films. Of the basis, of the pressure, of its derivative.
   double of_state[MODES] = {0};
   double of_slope[MODES] = {0};
-  memset(work->smooth[0], 0, sizeof work->smooth[0]);
+  memset(solver->fitted.smooth[0], 0, sizeof solver->fitted.smooth[0]);
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, mesh->dofs, modes, factor,
-              &c->smooth[1][0], MODES, &work->moment[0][0], SB_EHL_DOFS_MAX, 0.0,
-              &work->smooth[1][0], SB_EHL_DOFS_MAX);
+              &c->smooth[1][0], MODES, &solver->fitted.moment[0][0], SB_EHL_DOFS_MAX, 0.0,
+              &solver->fitted.smooth[1][0], SB_EHL_DOFS_MAX);
   for (int k = 1; k < modes; k++) {
     for (int l = 0; l < modes; l++) {
       of_state[k] += factor * c->smooth[k][l] * state[l];
@@ -176,7 +177,7 @@ void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift) {
 
   const double tilt = sb_film_window_tilt(body, mesh->inlet_pressure, mesh->outlet_pressure);
   for (int i = 0; i < mesh->targets; i++) {
-    double *value = work->value[i];
+    double *value = solver->fitted.value[i];
     double derivative[MODES];
     const double x = unit * (mesh->x[i] + shift);
     sb_compliance_modes(c, x, value, derivative);
@@ -194,6 +195,6 @@ void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift) {
               nodal, 1, 1.0, gaps, 1);
   memcpy(kernel, mesh->gap, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *kernel);
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, mesh->targets, mesh->dofs, modes, 1.0,
-              &work->value[0][0], MODES, &work->smooth[0][0], SB_EHL_DOFS_MAX, 1.0, kernel,
-              mesh->dofs);
+              &solver->fitted.value[0][0], MODES, &solver->fitted.smooth[0][0], SB_EHL_DOFS_MAX,
+              1.0, kernel, mesh->dofs);
 }

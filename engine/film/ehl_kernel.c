@@ -135,58 +135,6 @@ static void add_constant(double *row, const SbEhlElement *e, double value) {
   }
 }
 
-// Finite elements: row[j] = integral of column j times ln|X - X'|.
-static void row_finite(double *row, const SbEhlElement *e, const double *fine, double X) {
-  double value[SB_EHL_QUAD];
-  double z = fabs(X - e->middle) / e->half;
-  if (z > FAR) {
-    add_constant(row, e, log(z * e->half));
-    double inverse = e->half / (X - e->middle);
-    int terms = (int)fmin(DIGITS / log(z) + 1.0, SB_EHL_MULTIPOLES);
-    double power[SB_EHL_MULTIPOLES] = {inverse};
-    for (int m = 1; m < terms; m++) {
-      power[m] = power[m - 1] * inverse;
-    }
-    accumulate(row, power, e->multipole[0], terms, e->degree + 2);
-    return;
-  }
-  // The target's own coordinate, complex outside |X| <= 1 on the cosine map.
-  double imaginary = 0.0;
-  double real;
-  if (e->map == SB_EHL_AFFINE) {
-    real = (X - e->m) / e->h;
-  } else if (fabs(X) <= 1.0) {
-    real = (acos(-X) - e->m) / e->h;
-  } else {
-    real = ((X < 0.0 ? 0.0 : M_PI) - e->m) / e->h;
-    imaginary = acosh(fabs(X)) / e->h;
-  }
-  double distance = imaginary == 0.0
-                        ? fmax(1.0, fabs(real))
-                        : 0.5 * (hypot(real - 1.0, imaginary) + hypot(real + 1.0, imaginary));
-  if (distance > NEAR) {
-    for (int q = 0; q < SB_EHL_QUAD; q++) {
-      value[q] = log(fabs(X - e->fine_x[q]));
-    }
-    add_values(row, e, value);
-    return;
-  }
-  double moment[SB_EHL_PROJECT + 1];
-  moments(moment, real, imaginary, e->modes);
-  add_moments(row, e, moment);
-  if (e->map == SB_EHL_AFFINE) {
-    add_constant(row, e, log(e->h));
-    return;
-  }
-  // Remainder of the cosine map's kernel, ln|(X - X')/(z - r)|, smooth in r.
-  for (int q = 0; q < SB_EHL_QUAD; q++) {
-    double dr = real - fine[q];
-    double dX = X - e->fine_x[q];
-    value[q] = 0.5 * log(dX * dX / (dr * dr + imaginary * imaginary));
-  }
-  add_values(row, e, value);
-}
-
 // Infinite elements: |X - X'| = |B + a s^2| / s^2 with a = X - A (inlet) or A - X (outlet).
 static void row_infinite(double *row, const SbEhlElement *e, double X) {
   double value[SB_EHL_QUAD];
@@ -230,7 +178,54 @@ static void row_infinite(double *row, const SbEhlElement *e, double X) {
 void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *tables, double X) {
   if (e->side != 0) {
     row_infinite(row, e, X);
-  } else {
-    row_finite(row, e, tables->fine, X);
+    return;
   }
+  double value[SB_EHL_QUAD];
+  double z = fabs(X - e->middle) / e->half;
+  if (z > FAR) {
+    add_constant(row, e, log(z * e->half));
+    double inverse = e->half / (X - e->middle);
+    int terms = (int)fmin(DIGITS / log(z) + 1.0, SB_EHL_MULTIPOLES);
+    double power[SB_EHL_MULTIPOLES] = {inverse};
+    for (int m = 1; m < terms; m++) {
+      power[m] = power[m - 1] * inverse;
+    }
+    accumulate(row, power, e->multipole[0], terms, e->degree + 2);
+    return;
+  }
+  // The target's own coordinate, complex outside |X| <= 1 on the cosine map.
+  double imaginary = 0.0;
+  double real;
+  if (e->map == SB_EHL_AFFINE) {
+    real = (X - e->m) / e->h;
+  } else if (fabs(X) <= 1.0) {
+    real = (acos(-X) - e->m) / e->h;
+  } else {
+    real = ((X < 0.0 ? 0.0 : M_PI) - e->m) / e->h;
+    imaginary = acosh(fabs(X)) / e->h;
+  }
+  double distance = imaginary == 0.0
+                        ? fmax(1.0, fabs(real))
+                        : 0.5 * (hypot(real - 1.0, imaginary) + hypot(real + 1.0, imaginary));
+  if (distance > NEAR) {
+    for (int q = 0; q < SB_EHL_QUAD; q++) {
+      value[q] = log(fabs(X - e->fine_x[q]));
+    }
+    add_values(row, e, value);
+    return;
+  }
+  double moment[SB_EHL_PROJECT + 1];
+  moments(moment, real, imaginary, e->modes);
+  add_moments(row, e, moment);
+  if (e->map == SB_EHL_AFFINE) {
+    add_constant(row, e, log(e->h));
+    return;
+  }
+  // Remainder of the cosine map's kernel, ln|(X - X')/(z - r)|, smooth in r.
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
+    double dr = real - tables->fine[q];
+    double dX = X - e->fine_x[q];
+    value[q] = 0.5 * log(dX * dX / (dr * dr + imaginary * imaginary));
+  }
+  add_values(row, e, value);
 }

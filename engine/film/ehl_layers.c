@@ -41,6 +41,8 @@ enum {
 // Films thicker than this layer width start from the rigid wedge and have its mesh.
 static const double THICK = 0.86;
 
+static const double MIDDLE = 0.6; // of the contact, theta from either edge
+
 static double interpolate(double z, const double *node, const double *value, int count) {
   size_t i = sb_interval(node, (size_t)count, z);
   double t = (z - node[i]) / (node[i + 1] - node[i]);
@@ -95,22 +97,11 @@ static SbWedgePools wedge_of(const SbEhlLayers *l) {
   return sb_wedge_pools(l->lambda, l->inlet, l->end == SB_EHL_RUPTURE ? 0.0 : l->outlet);
 }
 
-// Length of the rigid wedge, no shorter than the contact.
-static double wedge_unit(const SbWedgePools *w) {
-  return sqrt(1.44 + w->length * w->length);
-}
-
 double sb_ehl_layers_wedge(const SbEhlLayers *l) {
   if (!(sb_ehl_layers_width(l) > THICK)) {
     return 0.0;
   }
-  SbWedgePools wedge = wedge_of(l);
-  return wedge_unit(&wedge);
-}
-
-double sb_ehl_layers_length(const SbEhlLayers *l) {
-  double wedge = sb_ehl_layers_wedge(l);
-  return wedge > 0.0 ? wedge : sb_ehl_layers_width(l);
+  return hypot(1.2, wedge_of(l).length);
 }
 
 double sb_ehl_layers_flux(const SbEhlLayers *l) {
@@ -232,14 +223,14 @@ static int outlet_ends(double *right, int most, const SbEhlLayers *l, double fro
   return count;
 }
 
-// Steps in theta that grow from a layer at `begin` to the middle, into theta[]; their number.
-static int inner_steps(double *theta, double begin) {
-  static const double MIDDLE = 0.6, GROWTH = 4.0;
-  int steps = begin < MIDDLE ? (int)ceil(log(MIDDLE / begin) / log(GROWTH)) : 0;
-  for (int i = 0; i <= steps; i++) {
-    theta[i] = begin * pow(MIDDLE / begin, steps > 0 ? (double)i / steps : 0.0);
-  }
-  return steps;
+// The i-th of `steps` places in theta that grow from a layer at `begin` to the middle.
+static double inner_step(double begin, int i, int steps) {
+  return begin * pow(MIDDLE / begin, steps > 0 ? (double)i / steps : 0.0);
+}
+
+// How many there are, fourfold each.
+static int inner_steps(double begin) {
+  return begin < MIDDLE ? (int)ceil(log(MIDDLE / begin) / log(4.0)) : 0;
 }
 
 // Elements that follow the two layers.
@@ -249,16 +240,17 @@ static void thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   add_inlet(mesh, l);
   int rights = outlet_ends(right, RIGHTS_MAX, l, mesh->end);
   // Inside the contact, steps growing from both layers to the middle.
-  double theta[SB_EHL_ELEMENTS_MAX], back[SB_EHL_ELEMENTS_MAX];
-  int thetas = inner_steps(theta, acos(-mesh->end)) + 1;
-  for (int i = inner_steps(back, acos(right[0])); i >= 0; i--) {
-    theta[thetas++] = M_PI - back[i];
-  }
+  const double begin = acos(-mesh->end), end = acos(right[0]);
+  const int before = inner_steps(begin), inner = before + 1 + inner_steps(end);
   SbEhlMap map = sb_ehl_layers_width(l) > 0.25 ? SB_EHL_AFFINE : SB_EHL_COSINE;
-  for (int i = 1; i < thetas; i++) {
+  double theta = begin;
+  for (int i = 1; i <= inner; i++) {
+    double last = theta;
+    theta = i <= before ? inner_step(begin, i, before)
+                        : M_PI - inner_step(end, inner - i, inner - before - 1);
     // The widest element lies over the middle; more degrees keep the film between its points.
-    int degree = l->degree + (theta[i] - theta[i - 1] > 0.8 ? 6 : 4);
-    sb_ehl_mesh_add(mesh, map, i == thetas - 1 ? right[0] : -cos(theta[i]),
+    int degree = l->degree + (theta - last > 0.8 ? 6 : 4);
+    sb_ehl_mesh_add(mesh, map, i == inner ? right[0] : -cos(theta),
                     degree < SB_EHL_DEGREE_MAX ? degree : SB_EHL_DEGREE_MAX);
   }
   for (int i = 1; i < rights; i++) {

@@ -25,7 +25,8 @@ void sb_ehl_tables_init(SbEhlTables *tables) {
   }
 }
 
-const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree) {
+// Tables of a degree, made on first use.
+static SbEhlTable *table_of(SbEhlTables *tables, int degree) {
   SbEhlTable *t = &tables->table[degree];
   if (t->ready) {
     return t;
@@ -74,8 +75,7 @@ void sb_ehl_partial(double *weight, const SbEhlTable *t, int j, double r) {
 }
 
 const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree) {
-  sb_ehl_table(tables, degree);
-  SbEhlTable *t = &tables->table[degree];
+  SbEhlTable *t = table_of(tables, degree);
   for (int i = 0; i <= degree && !t->stepped; i++) {
     sb_barycentric_slope(t->node_slope[i], t->node[i], t->node, t->bary, degree + 1);
     if (i < degree) {
@@ -199,7 +199,7 @@ static SbEhlElement *next_element(SbEhlMesh *mesh, SbEhlMap map, int degree) {
   e->map = map;
   e->side = 0;
   e->degree = degree;
-  e->table = sb_ehl_table(mesh->tables, degree);
+  e->table = table_of(mesh->tables, degree);
   e->points = points;
   e->apart = mesh->apart && mesh->count > 0;
   e->first_dof = first;

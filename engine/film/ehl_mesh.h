@@ -118,10 +118,9 @@ typedef struct {
 
 // Rules; the tables of a degree follow on first use.
 void sb_ehl_tables_init(SbEhlTables *tables);
-const SbEhlTable *sb_ehl_table(SbEhlTables *tables, int degree);
 
-// The same with the rule from node to node, and an element's integral of each basis function from
-// node j to r.
+// The tables of a degree with the rule from node to node, and an element's integral of each basis
+// function from node j to r.
 const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree);
 void sb_ehl_partial(double *weight, const SbEhlTable *table, int j, double r);
 

@@ -65,14 +65,15 @@ void sb_ehl_elastic(const SbEhlSolution *s) {
               state->nodal, 1, 1.0, out, 1);
 }
 
-int sb_ehl_order(const SbEhlSolution *s) {
+// Number of unknowns.
+static int order_of(const SbEhlSolution *s) {
   return s->mesh.dofs + (!s->c.rough.rows && s->c.layers.end != SB_EHL_FULL ? 3 : 2);
 }
 
 void sb_ehl_gap_step(double *change, const SbEhlSolution *s) {
   const SbFilmSolver *solver = s->solver;
   const double *step = solver->right + s->mesh.dofs;
-  const bool moves = sb_ehl_order(s) > s->mesh.dofs + 2;
+  const bool moves = order_of(s) > s->mesh.dofs + 2;
   for (int i = 0; i < s->mesh.rows; i++) {
     change[i] += step[0] + (moves ? step[2] * solver->by_shift[i] : 0.0);
   }
@@ -85,7 +86,7 @@ void sb_ehl_add_gap(double *row, const SbEhlSolution *s, int target, double by) 
   const int dofs = s->mesh.dofs;
   cblas_daxpy(dofs, by, solver->by_nodal + (size_t)target * (size_t)dofs, 1, row, 1);
   row[dofs] += by;
-  if (sb_ehl_order(s) > dofs + 2) {
+  if (order_of(s) > dofs + 2) {
     row[dofs + 2] += by * solver->by_shift[target];
   }
 }
@@ -105,7 +106,7 @@ static double assemble(double *matrix, const SbEhlSolution *s) {
   const double *gaps = s->solver->gaps;
   double *right = s->solver->right;
   const int dofs = mesh->dofs;
-  const int order = sb_ehl_order(s);
+  const int order = order_of(s);
   const double lambda = s->c.layers.lambda;
   if (matrix != NULL) {
     memset(matrix, 0, (size_t)order * (size_t)order * sizeof *matrix);
@@ -200,7 +201,7 @@ static bool apply(SbEhlSolution *s, bool first) {
   cblas_daxpy(dofs, -factor, step, 1, state->nodal, 1);
   state->H0 -= factor * step[dofs];
   state->flux -= factor * step[dofs + 1];
-  state->shift -= sb_ehl_order(s) > dofs + 2 ? factor * step[dofs + 2] : 0.0;
+  state->shift -= order_of(s) > dofs + 2 ? factor * step[dofs + 2] : 0.0;
   return factor > 1e-3 && state->flux > 0.0;
 }
 
@@ -236,8 +237,7 @@ SbStatus sb_ehl_newton(SbEhlSolution *s) {
     if (!factored) {
       assemble(solver->matrix, s);
     }
-    if (!sb_factor_solve(solver->matrix, solver->pivot, solver->right, sb_ehl_order(s),
-                         !factored)) {
+    if (!sb_factor_solve(solver->matrix, solver->pivot, solver->right, order_of(s), !factored)) {
       return SB_ERROR_NOT_CONVERGED;
     }
     factored = true;

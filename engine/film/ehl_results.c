@@ -184,119 +184,109 @@ void sb_ehl_change(double change[3], SbFilmSolver *solver, const SbEhlResults *f
   change[1] = element_change(now, before, axis, true);
 }
 
-// Friction and flux of smooth rows, by the rule of the collocation points; those of the least film
-// and of the largest pressure.
-static void add_smooth(SbEhlResults *out, int *thinnest, int *highest, const SbEhlSolution *s) {
-  const SbEhlMesh *mesh = &s->mesh;
-  const SbEhlState *state = &s->state;
-  double peak = -INFINITY;
-  for (int i = 0; i < mesh->rows; i++) {
-    double P_slope;
-    double P = sb_ehl_sum(&P_slope, &mesh->local[i], &mesh->element[mesh->owner[i]], state->nodal);
-    double H = state->gap[i];
-    out->pressure_min = fmin(out->pressure_min, P);
-    *thinnest = H < state->gap[*thinnest] ? i : *thinnest;
-    *highest = P > peak ? i : *highest;
-    peak = fmax(peak, P);
-    out->couette += mesh->weight[i] * sb_film_shear(&s->c.fluid, H, P);
-    out->poiseuille += mesh->weight[i] * 0.5 * H * P_slope;
-    double m, by_film, by_pressure;
-    sb_film_mobility(&m, &by_film, &by_pressure, &s->c.fluid, H, P);
-    double flux = H - H * H * H * m / s->c.layers.lambda * P_slope;
-    out->flux_error = fmax(out->flux_error, fabs(flux - state->flux) / fmax(H, state->flux));
-  }
-  // End of the film: the rupture, or the end of the contact.
-  out->film_flux = state->flux;
-  out->ruptured = s->c.layers.end != SB_EHL_FULL;
-  out->position_rupture =
-      out->ruptured ? mesh->element[mesh->film_end].x1 : 1.0 + s->c.layers.middle - state->shift;
-}
-
-// Friction and loads of rough rows from node j to the next of element e, by the rule of the nodes.
-static void add_step(SbEhlResults *out, const SbEhlSolution *s, const SbEhlElement *e, int j) {
+// Weights of rough rows' nodes in integrals over everything and over the full film, by the rule
+// from node to node; where the film ends, and the errors that this rule leaves.
+static void weigh_steps(SbEhlResults *out, double *whole, double *film, const SbEhlSolution *s) {
   const SbEhlRoughPoint *point = s->solver->point;
   const SbEhlState *state = &s->state;
-  const SbEhlTable *rule = e->table;
-  const double lambda = s->c.layers.lambda;
-  int i = e->first_dof + j;
-  const double *full = rule->step[j];
-  double film[SB_EHL_DEGREE_MAX + 1] = {0};
-  if (!state->cavity[i]) {
-    double end = sb_ehl_rough_weights(film, s, e, j);
-    if (state->cavity[i + 1] && !out->ruptured && lambda > 0) {
-      out->position_rupture = sb_ehl_position(e, end);
-      out->ruptured = true;
+  for (int i = 0; i + 1 < s->mesh.dofs; i++) {
+    const SbEhlElement *e = &s->mesh.element[s->mesh.owner[i]];
+    const SbEhlTable *rule = e->table;
+    const int first = e->first_dof, j = i - first;
+    double wet[SB_EHL_DEGREE_MAX + 1] = {0};
+    if (!state->cavity[i]) {
+      double end = sb_ehl_rough_weights(wet, s, e, j);
+      if (state->cavity[i + 1] && !out->ruptured && s->c.layers.lambda > 0) {
+        out->position_rupture = sb_ehl_position(e, end);
+        out->ruptured = true;
+      }
     }
-  }
-  // The kink's error, measured: below 0.03 of the rectangle that it crosses.
-  double here = point[i].share, next = point[i + 1].share;
-  if ((here < 1) != (next < 1)) {
-    out->area_error += 0.05 * e->h * (rule->node[j + 1] - rule->node[j]) * fabs(next - here);
-  }
-  double integral = 0; // of the slope
-  for (int k = 0; k <= rule->degree; k++) {
-    int n = e->first_dof + k;
-    const SbEhlRoughPoint *at = &point[n];
-    double w = e->h * full[k], wet = e->h * film[k];
-    double open = 1 - at->share;
-    double shear = sb_film_shear(&s->c.fluid, at->h, state->nodal[n] - at->solid);
-    out->couette += wet * open * shear;
-    out->poiseuille += wet * open * 0.5 * at->h * state->s[n];
-    if (lambda > 0) {
-      double theta = fmin(state->flow / lambda / at->h, 1);
-      out->cavity += (w - wet) * open * fmax(theta, 0) * shear;
+    // The kink's error, measured: below 0.03 of the rectangle that it crosses.
+    double here = point[i].share, next = point[i + 1].share;
+    if ((here < 1) != (next < 1)) {
+      out->area_error += 0.05 * e->h * (rule->node[j + 1] - rule->node[j]) * fabs(next - here);
     }
-    out->real_area += w * at->share;
-    out->asperity_load += w * at->asperity;
-    integral += w * state->s[n];
-  }
-  // The flux that the profile carries, by the integrated equation.
-  if (!state->cavity[i] && !state->cavity[i + 1]) {
-    double rise = state->nodal[i + 1] - point[i + 1].solid - (state->nodal[i] - point[i].solid);
-    out->flux_error = fmax(out->flux_error, fabs(rise - integral));
-  }
-}
-
-// The same for rough rows; the nodes of the least film and of the largest pressure.
-static void add_rough(SbEhlResults *out, int *thinnest, int *highest, const SbEhlSolution *s) {
-  const SbEhlMesh *mesh = &s->mesh;
-  const SbEhlState *state = &s->state;
-  for (int i = 0; i < mesh->dofs; i++) {
-    sb_ehl_rough_point(&s->solver->point[i], &s->c, state->t[i]);
-    *thinnest = state->t[i] < state->t[*thinnest] ? i : *thinnest;
-    *highest = state->nodal[i] > state->nodal[*highest] ? i : *highest;
-  }
-  out->film_flux = s->c.layers.lambda > 0 ? state->flow / s->c.layers.lambda : 0;
-  out->position_rupture = mesh->right_end;
-  for (int i = 0; i < mesh->count; i++) {
-    for (int j = 0; j < mesh->element[i].degree; j++) {
-      add_step(out, s, &mesh->element[i], j);
+    double lack = point[i + 1].p - point[i].p; // of the integrated equation
+    for (int k = 0; k <= rule->degree; k++) {
+      whole[first + k] += e->h * rule->step[j][k];
+      film[first + k] += e->h * wet[k];
+      lack -= e->h * rule->step[j][k] * state->s[first + k];
+    }
+    if (!state->cavity[i] && !state->cavity[i + 1]) {
+      out->flux_error = fmax(out->flux_error, fabs(lack));
     }
   }
 }
 
 void sb_ehl_results(SbEhlResults *out, const SbEhlSolution *s) {
   const SbEhlMesh *mesh = &s->mesh;
-  const double shift = s->state.shift;
+  const SbEhlState *state = &s->state;
+  const SbFilmFluid *fluid = &s->c.fluid;
+  const double shift = state->shift, lambda = s->c.layers.lambda;
   const bool rough = s->c.rough.rows;
-  *out = (SbEhlResults){.film_min = INFINITY, .pressure_max = -INFINITY};
-  out->load_error = fabs(sb_ehl_load(s)) / (0.5 * M_PI);
-  int thinnest = 0, highest = 0;
-  (rough ? add_rough : add_smooth)(out, &thinnest, &highest, s);
+  SbEhlRoughPoint *point = s->solver->point; // of all rows
+  double whole[SB_EHL_DOFS_MAX] = {0}, film[SB_EHL_DOFS_MAX] = {0};
+  *out = (SbEhlResults){.load_error = fabs(sb_ehl_load(s)) / (0.5 * M_PI)};
+  if (rough) {
+    for (int i = 0; i < mesh->dofs; i++) {
+      sb_ehl_rough_point(&point[i], &s->c, state->t[i]);
+      point[i].p = state->nodal[i] - point[i].solid;
+    }
+    out->film_flux = lambda > 0 ? state->flow / lambda : 0;
+    out->position_rupture = mesh->right_end;
+    weigh_steps(out, whole, film, s);
+  } else {
+    out->film_flux = state->flux;
+    out->ruptured = s->c.layers.end != SB_EHL_FULL;
+    // The rupture, or the end of the contact.
+    out->position_rupture =
+        out->ruptured ? mesh->element[mesh->film_end].x1 : 1.0 + s->c.layers.middle - shift;
+  }
   out->position_rupture += shift;
 
+  int thinnest = 0, highest = 0;
+  double peak = -INFINITY;
+  for (int i = 0; i < mesh->rows; i++) {
+    double slope = state->s[i];
+    double w = whole[i], wet = film[i];
+    if (!rough) {
+      double p = sb_ehl_sum(&slope, &mesh->local[i], &mesh->element[mesh->owner[i]], state->nodal);
+      point[i] = (SbEhlRoughPoint){.h = state->gap[i], .p = p};
+      w = wet = mesh->weight[i];
+      double m, by_film, by_pressure;
+      sb_film_mobility(&m, &by_film, &by_pressure, fluid, point[i].h, p);
+      double H = point[i].h;
+      double flux = H - H * H * H * m / lambda * slope;
+      out->flux_error = fmax(out->flux_error, fabs(flux - state->flux) / fmax(H, state->flux));
+    }
+    const SbEhlRoughPoint *at = &point[i];
+    const double open = 1.0 - at->share;
+    const double shear = sb_film_shear(fluid, at->h, at->p);
+    out->couette += wet * open * shear;
+    out->poiseuille += wet * open * 0.5 * at->h * slope;
+    if (rough && lambda > 0.0) { // in streamers
+      double theta = fmin(out->film_flux / at->h, 1.0);
+      out->cavity += (w - wet) * open * fmax(theta, 0.0) * shear;
+    }
+    out->real_area += w * at->share;
+    out->asperity_load += w * at->asperity;
+    out->pressure_min = fmin(out->pressure_min, at->p);
+    thinnest = at->h < point[thinnest].h ? i : thinnest;
+    highest = at->p + at->solid > peak ? i : highest;
+    peak = fmax(peak, at->p + at->solid);
+  }
+
   double place;
-  double least = least_about(&place, s, thinnest, false);
+  out->film_min = least_about(&place, s, thinnest, false);
   out->position_min = place + shift;
   out->pressure_max = -least_about(&place, s, highest, true);
   // At the axis, or in the middle of a fitted body's dry contact.
   double middle = s->c.layers.middle - shift;
   int axis = sb_ehl_find(mesh, middle);
   out->film_central = film_at(s, axis, true, sb_ehl_coordinate(&mesh->element[axis], middle));
-  out->film_min = least;
   if (rough) {
     SbEhlRoughPoint at;
-    sb_ehl_rough_point(&at, &s->c, least);
+    sb_ehl_rough_point(&at, &s->c, out->film_min);
     out->film_min = at.h;
     sb_ehl_rough_point(&at, &s->c, out->film_central);
     out->film_central = at.h;

@@ -4,6 +4,7 @@
 
 #include "engine/numeric/root.h"
 
+#include <cblas.h>
 #include <math.h>
 
 // What the asperities carry at a gap, at most Hertz's pressure, both scaled.
@@ -49,7 +50,6 @@ void sb_ehl_rough_guess(SbEhlSolution *solution) {
   const SbEhlMesh *mesh = &solution->mesh;
   const SbEhlCase *c = &solution->c;
   SbEhlState *state = &solution->state;
-  const SbEhlTable *rule = mesh->element[0].table;
   double film = c->rough.flux;
   double width = sb_ehl_layers_width(&c->layers);
   double floor = 0.02;
@@ -91,15 +91,11 @@ void sb_ehl_rough_guess(SbEhlSolution *solution) {
         c->rough.sealed || (c->layers.outlet <= 0 && c->layers.lambda > 0 &&
                             mesh->x[i] > c->rough.inlet && c->layers.lambda * at.h > state->flow);
   }
-  for (int e = 0; e < mesh->count; e++) {
-    double half = mesh->element[e].h;
-    for (int k = e > 0 ? 1 : 0; k <= rule->degree; k++) {
-      double sum = 0;
-      for (int j = 0; j <= rule->degree; j++) {
-        sum += rule->node_slope[k][j] * p[e * rule->degree + j];
-      }
-      state->s[e * rule->degree + k] = c->rough.sealed ? 0 : sum / half;
-    }
+  for (int i = 0; i < mesh->dofs; i++) {
+    const SbEhlElement *e = &mesh->element[mesh->owner[i > 0 ? i - 1 : 0]];
+    const double *slope = e->table->node_slope[i - e->first_dof];
+    state->s[i] =
+        c->rough.sealed ? 0 : cblas_ddot(e->degree + 1, slope, 1, &p[e->first_dof], 1) / e->h;
   }
   state->H0 = 0;
   state->shift = c->layers.middle;
