@@ -60,7 +60,8 @@ struct SbFilmTransient {
   double row_scale[SB_TRANSIENT_NODES_MAX];
   int pivot[SB_TRANSIENT_NODES_MAX];
   double right[SB_TRANSIENT_NODES_MAX];
-  double mode[2][SB_TRANSIENT_NODES_MAX][SB_COMPLIANCE_MODES]; // a fitted body's at the nodes
+  // Of a fitted body: its polynomials at the nodes, and S times these.
+  double mode[2][SB_TRANSIENT_NODES_MAX][SB_COMPLIANCE_MODES];
   // The step: m' = c0 m + old, zero when steady, and the faces' velocity over their carried share.
   double c0, carried_rate;
   double old[SB_TRANSIENT_NODES_MAX];

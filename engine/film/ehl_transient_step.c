@@ -1,11 +1,10 @@
 // The implicit step of the transient film; equations in transient.h.
 //
-// Node values stand for cells between the midpoints. Fluid goes through a face by quadratic
-// upwind interpolation, and with van Albada's limited slope where a
-// front stands, a coarse cell is wider than the layers or the upwind node
-// lies in a cavity, so that fronts stay monotonic; faces that move with the fluid let none through.
-// Unknown of a node is its pressure or its fluid's height: where one of them is free, the other is
-// the rupture pressure or the gap.
+// Node values stand for cells between the midpoints. Fluid goes through a face by quadratic upwind
+// interpolation, and with van Albada's limited slope where a front stands, a coarse cell is wider
+// than the layers or the upwind node lies in a cavity, so that fronts stay monotonic; faces that
+// move with the fluid let none through. Unknown of a node is its pressure where the film is full,
+// where its fluid's height is the gap; in a cavity the height, at the rupture pressure.
 #include "engine/film/ehl_transient.h"
 
 #include "engine/numeric/dense.h"

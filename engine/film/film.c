@@ -8,6 +8,8 @@
 #include "engine/film/ehl.h"
 #include "engine/film/scale.h"
 
+#include <cblas.h>
+#include <gsl/gsl_vector.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -271,16 +273,11 @@ void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale 
 
 void sb_film_mirror(SbFilm *out) {
   double *const column[] = {out->x, out->pressure, out->film, out->asperity_pressure};
-  for (size_t k = 0; k < sizeof column / sizeof column[0]; k++) {
-    for (size_t i = 0, j = out->points; i < out->points / 2; i++) {
-      double value = column[k][i];
-      column[k][i] = column[k][--j];
-      column[k][j] = value;
-    }
+  for (size_t k = 0; k < 4 && out->points > 0; k++) {
+    gsl_vector_view turned = gsl_vector_view_array(column[k], out->points);
+    gsl_vector_reverse(&turned.vector);
   }
-  for (size_t i = 0; i < out->points; i++) {
-    out->x[i] = -out->x[i];
-  }
+  cblas_dscal((int)out->points, -1.0, out->x, 1);
 }
 
 // Flags films thinner than a few molecules and shapes that the models do not cover.

@@ -56,9 +56,8 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
 void sb_film_transient_destroy(SbFilmTransient *transient);
 
 // Advances by `dt` > 0 [s], the speed going evenly from its present value to the given one, in as
-// many steps as the tolerance needs. SB_ERROR_NOT_CONVERGED: the state stands at the
-// last good time. SB_ERROR_RANGE: nothing done. SB_ERROR_CANCELLED by the problem's
-// callback.
+// many steps as the tolerance needs. SB_ERROR_NOT_CONVERGED: the state stands at the last good
+// time. SB_ERROR_RANGE: nothing done. SB_ERROR_CANCELLED by the problem's callback.
 SbStatus sb_film_transient_step(SbFilmTransient *transient, double dt, double speed,
                                 SbReport *report);
 

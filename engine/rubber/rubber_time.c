@@ -39,24 +39,19 @@ double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t ter
                                   double recovery) {
   // Free of stress the strain is e = sum g_j e_j and e_i' = (e - e_i)/tau_i. With y_i = sqrt(g_i
   // tau_i) e_i the matrix v v^T - diag(1/tau), v_i = sqrt(g_i/tau_i), is symmetric and negative.
-  double a[SB_RUBBER_TERMS * SB_RUBBER_TERMS];
-  double vector[SB_RUBBER_TERMS * SB_RUBBER_TERMS];
-  double value[SB_RUBBER_TERMS];
-  double start[SB_RUBBER_TERMS];
+  enum { N = SB_RUBBER_TERMS };
+  double a[N * N], vector[N * N], value[N], v[N], start[N], strain = 0.0;
   size_t n = 0;
-  double v[SB_RUBBER_TERMS];
-  double rate[SB_RUBBER_TERMS];
   for (size_t i = 0; i < terms; i++) {
     if (g[i] > 0.0) {
       v[n] = sqrt(g[i] / tau[i]);
-      rate[n] = 1.0 / tau[i];
-      start[n] = -sqrt(g[i] * tau[i]) * expm1(-hold / tau[i]);
-      n++;
+      value[n] = -1.0 / tau[i];
+      start[n++] = -sqrt(g[i] * tau[i]) * expm1(-hold / tau[i]);
     }
   }
   for (size_t i = 0; i < n; i++) {
     for (size_t j = 0; j < n; j++) {
-      a[i + j * n] = v[i] * v[j] - (i == j ? rate[i] : 0.0);
+      a[i * n + j] = v[i] * v[j] + (i == j ? value[i] : 0.0);
     }
   }
   gsl_matrix_view matrix = gsl_matrix_view_array(a, n, n);
@@ -67,10 +62,8 @@ double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t ter
   // sweeps is below rounding.
   (void)gsl_eigen_jacobi(&matrix.matrix, &values.vector, &vectors.matrix, 60, &rotations);
   // e(recovery) = sum g_j e_j = sum_j sqrt(g_j/tau_j) y_j.
-  double strain = 0.0;
   for (size_t k = 0; k < n; k++) {
-    double from = 0.0;
-    double to = 0.0;
+    double from = 0.0, to = 0.0;
     for (size_t i = 0; i < n; i++) {
       from += vector[i * n + k] * start[i];
       to += vector[i * n + k] * v[i];
