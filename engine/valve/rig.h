@@ -35,29 +35,35 @@ typedef struct {
   double dynamic_coefficient; // mean of the following peaks over load; without any, the mean force
   double mean_coefficient;    // mean force after the first peak over load
   double first_peak, first_time;
-  size_t peaks;     // that followed
-  bool stick_slip;  // whether any did
-  bool found_first; // whether the plate moved at all
+  size_t peaks;    // that followed
+  bool stick_slip; // whether any did
 } SbRigCoefficients;
 
 // Samples that a run delivers: floor(duration x rate) + 1.
 size_t sb_rig_samples(const SbRig *rig);
 
-// What a sample says to the caller; false stops the rig with SB_ERROR_CANCELLED.
-typedef bool (*SbRigEach)(size_t index, const SbDynamicsSample *sample, void *user);
+// Makes the plate at rest, its thread slack. A sample of the motion at i/rate has the cell's signal
+// as drive_force [N], the thread wound up as drive_position and the plate's place as position [m].
+// `rig` and `model` must outlive the motion.
+SbStatus sb_rig_start(SbDynamics *motion, SbDynamicsModel *model, const SbRig *rig,
+                      SbReport *report);
 
-// Pulls the plate and hands every sample to `each` in order: drive_force is the cell's signal [N],
-// drive_position the thread wound up, position the plate's [m]. `slip` (may be NULL) gets the first
-// slip, kept as it is if there was none; `energy` (may be NULL) the balance at the end.
-SbStatus sb_rig_run(const SbRig *rig, SbRigEach each, void *user, SbMotionEvent *slip,
-                    SbDynamicsEnergy *energy, SbDynamicsCounters *counters, SbReport *report);
-
-// Coefficients of a signal, computed or measured. A peak is a highest sample from which the force
+// A signal, computed or measured, as it comes in. A peak is a highest sample from which the force
 // falls by more than `prominence` [N] before it rises above it again; take a few times the noise.
-// `peak` (may be NULL) gets the samples of the first `peak_max` peaks, the first one included.
+// Zero-initialise the rest.
+typedef struct {
+  double prominence;
+  bool falling;                // from a peak to the trough behind it
+  double top, trough;          // since then [N]
+  double first, others, after; // first peak, sums of the others and of all samples behind it [N]
+  size_t count, top_at, first_at, peaks;
+} SbRigSignal;
+
+// Takes the next sample; whether it shows that an earlier one, *peak, was a peak.
+bool sb_rig_signal_add(SbRigSignal *signal, double force, size_t *peak);
+
 // SB_ERROR_INFEASIBLE if the signal has no first peak; the coefficients are then NaN.
-SbStatus sb_rig_coefficients(SbRigCoefficients *out, const double *force, size_t count, double rate,
-                             double load, double prominence, size_t *peak, size_t peak_max,
+SbStatus sb_rig_coefficients(SbRigCoefficients *out, const SbRigSignal *signal, const SbRig *rig,
                              SbReport *report);
 
 // tau_0 A_a/W as thesis table 7.8 predicts its coefficient (5.14 without m), but under a load on

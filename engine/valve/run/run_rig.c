@@ -10,35 +10,17 @@
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
-#include <stdlib.h>
-
-typedef struct {
-  SbRun *run;
-  const SbRunHooks *hooks;
-  double *force;
-  size_t count;
-  bool cancelled;
-} Record;
 
 static SbSealFrame no_seal(void) {
   return (SbSealFrame){.profile = UINT32_MAX, .shape = UINT32_MAX};
 }
 
-static bool record(size_t index, const SbDynamicsSample *sample, void *user) {
-  Record *r = user;
-  r->force[index] = sample->drive_force;
-  r->run->frames[index] = (SbFrame){.time = sample->time,
-                                    .displacement = sample->position,
-                                    .velocity = sample->speed,
-                                    .platen = sample->drive_position,
-                                    .force = sample->drive_force,
-                                    .seal = {no_seal(), no_seal()}};
-  r->count = index + 1;
-  if (index % 256 == 0) {
-    r->cancelled = sb_run_cancelled(r->hooks, NULL);
-    sb_run_progress(r->run, r->hooks, (double)index / (double)r->run->capacity, 0);
+// Keeps the first slip.
+static void note_slip(const SbMotionEvent *event, void *user) {
+  SbMotionEvent *slip = user;
+  if (event->kind == SB_MOTION_SLIP && slip->time < 0) {
+    *slip = *event;
   }
-  return !r->cancelled;
 }
 
 // Stage A at the start, B at the first slip; the frame just before it sits on the event.
@@ -60,23 +42,10 @@ static void mark_stages(SbRun *run, const SbMotionEvent *slip, size_t count) {
   run->frames[before].stage = (uint8_t)SB_STAGE_A;
 }
 
-// Marks the peaks of the signal and takes the coefficients from them.
-static SbStatus find_peaks(SbRun *run, const double *force, size_t count, SbReport *report) {
+static void take_coefficients(SbRun *run, const SbRigSignal *signal) {
   SbRigSummary *out = &run->summary.rig;
   const SbRig *rig = &run->model->rig;
-  size_t most = count / 2 + 1;
-  size_t *peak = malloc(most * sizeof *peak);
-  if (peak == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the peaks");
-  }
-  SbStatus status = sb_rig_coefficients(&out->of, force, count, rig->rate, rig->load,
-                                        run->model->rig_prominence, peak, most, NULL);
-  out->found = status == SB_OK;
-  size_t marked = out->found ? out->of.peaks + 1 : 0;
-  for (size_t i = 0; i < marked; i++) {
-    run->frames[peak[i]].peak = i == 0 ? 1 : 2;
-  }
-  free(peak);
+  out->found = sb_rig_coefficients(&out->of, signal, rig, NULL) == SB_OK;
   if (!out->found) {
     sb_warn(&run->summary.warnings, "rig-no-peak", "rig.duration",
             "the force has no peak within %.3g s: the plate did not break away, or slid smoothly",
@@ -85,7 +54,6 @@ static SbStatus find_peaks(SbRun *run, const double *force, size_t count, SbRepo
     sb_warn(&run->summary.warnings, "rig-smooth", "rig.speed",
             "the plate slides without sticking again: the dynamic coefficient is the mean force's");
   }
-  return sb_succeed(report);
 }
 
 // What the surface model of the valve says of the rig.
@@ -107,38 +75,58 @@ static void compare_contact(SbRun *run) {
 SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   const SbRig *rig = &run->model->rig;
-  run->before_frames = 1; // all frames appear at once
-  Record r = {.run = run, .hooks = hooks, .force = malloc(run->capacity * sizeof(double))};
-  if (r.force == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the force");
-  }
+  run->before_frames = 1; // all frames appear at once: peaks are known by what follows them
+  SbDynamics motion;
+  SbDynamicsModel model;
+  SbRigSignal signal = {.prominence = run->model->rig_prominence};
   SbMotionEvent slip = {.time = -1};
   SbDynamicsEnergy energy = {0};
-  SbDynamicsCounters counters = {0};
-  SbStatus status = sb_rig_run(rig, record, &r, &slip, &energy, &counters, report);
-
-  // The signal is whole (or cut short) before anybody sees it: peaks are known by what follows.
-  mark_stages(run, &slip, r.count);
+  SbStatus status = sb_rig_start(&motion, &model, rig, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  sb_dynamics_listen(&motion, note_slip, &slip);
+  size_t samples = sb_rig_samples(rig), count = 0, peak;
+  while (count < samples && status == SB_OK) {
+    SbDynamicsSample sample;
+    status = sb_dynamics_advance(&motion, (double)count / rig->rate, report);
+    if (status != SB_OK) {
+      break;
+    }
+    sb_dynamics_sample(&motion, &sample, NULL);
+    run->frames[count] = (SbFrame){.time = sample.time,
+                                   .displacement = sample.position,
+                                   .velocity = sample.speed,
+                                   .platen = sample.drive_position,
+                                   .force = sample.drive_force,
+                                   .seal = {no_seal(), no_seal()}};
+    summary->force_peak = fmax(summary->force_peak, sample.drive_force);
+    if (sb_rig_signal_add(&signal, sample.drive_force, &peak)) {
+      run->frames[peak].peak = signal.peaks == 1 ? 1 : 2;
+    }
+    if (count++ % 256 == 0) {
+      sb_run_progress(run, hooks, (double)count / (double)samples, 0);
+      status = sb_run_cancelled(hooks, report) ? SB_ERROR_CANCELLED : SB_OK;
+    }
+  }
+  sb_dynamics_sample(&motion, NULL, &energy);
+  mark_stages(run, &slip, count);
   if (status == SB_OK) {
-    status = find_peaks(run, r.force, r.count, report);
+    take_coefficients(run, &signal);
     compare_contact(run);
   }
-  for (size_t i = 0; i < r.count; i++) {
-    summary->force_peak = fmax(summary->force_peak, r.force[i]);
-  }
-  free(r.force);
-  sb_run_publish(run, r.count);
+  sb_run_publish(run, count);
 
   if (summary->stage[SB_STAGE_B].reached) {
     summary->force_breakaway = summary->stage[SB_STAGE_B].force;
   }
   summary->duration = rig->duration;
-  sb_run_fill_motion(summary, &energy, &counters);
+  sb_run_fill_motion(summary, &energy, &motion.counters);
   // Between two samples the thread is wound up by speed / rate: the highest sample misses the peak
   // by less than that times the stiffness, on average by half of it.
   summary->error_force = summary->force_peak > 0 ? 0.5 * rig->thread_stiffness * rig->speed /
                                                        rig->rate / summary->force_peak
                                                  : NAN;
-  summary->error_energy = fmax(counters.local_error, energy.closure);
+  summary->error_energy = fmax(motion.counters.local_error, energy.closure);
   return status;
 }
