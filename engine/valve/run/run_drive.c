@@ -102,16 +102,10 @@ void sb_valve_set_drive(SbDynamicsModel *out, SbDriveTimes *times, const SbRun *
   }
   }
   drive->cycles = cycles;
-  if (drive->kind == SB_DRIVE_RAMP || model->drive == SB_MODEL_DRIVE_HAND) {
+  if (model->drive == SB_MODEL_DRIVE_RAMP || model->drive == SB_MODEL_DRIVE_HAND) {
     out->drive_damping = model->finger_damping;
   } else if (drive->kind != SB_DRIVE_NONE && drive->quantity == SB_DRIVE_OF_POSITION) {
     out->drive_stiffness = model->stiffness;
     out->drive_damping = model->damping_ratio * 2 * sqrt(model->stiffness * out->mass);
   }
-}
-
-double sb_drive_corner(const SbDriveTimes *times, int index) {
-  int each = times->first[1] > 0 ? 2 : 1; // in a period
-  int period = index / each;
-  return index < times->corners ? period * times->period + times->first[index % each] : INFINITY;
 }
