@@ -78,19 +78,11 @@ SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *r
   return SB_OK;
 }
 
-// The next of the choices from *at on, of the length returned; *at is moved behind it, NULL after
-// the last.
-static size_t next_choice(const char **at) {
-  size_t length = strcspn(*at, "|");
-  *at = (*at)[length] == '|' ? *at + length + 1 : NULL;
-  return length;
-}
-
 int sb_param_choice(const SbParam *param, const char *name, size_t length) {
-  const char *at = param->choices;
-  for (int i = 0; at != NULL; i++) {
-    const char *start = at;
-    if (next_choice(&at) == length && strncmp(start, name, length) == 0) {
+  for (int i = 0; i < sb_param_choice_count(param); i++) {
+    char own[48];
+    sb_param_choice_name(param, i, own, sizeof own);
+    if (strlen(own) == length && strncmp(own, name, length) == 0) {
       return i;
     }
   }
@@ -99,20 +91,18 @@ int sb_param_choice(const SbParam *param, const char *name, size_t length) {
 
 void sb_param_choice_name(const SbParam *param, int index, char *name, size_t size) {
   const char *at = param->choices;
-  name[0] = '\0';
-  for (int i = 0; at != NULL && i <= index; i++) {
-    const char *start = at;
-    size_t length = next_choice(&at);
-    if (i == index) {
-      snprintf(name, size, "%.*s", (int)length, start);
-    }
+  for (int i = 0; at != NULL && i < index; i++) {
+    at = strchr(at, '|');
+    at = at != NULL ? at + 1 : NULL;
   }
+  at = at != NULL && index >= 0 ? at : "";
+  snprintf(name, size, "%.*s", (int)strcspn(at, "|"), at);
 }
 
 int sb_param_choice_count(const SbParam *param) {
-  int count = 0;
-  for (const char *at = param->choices; at != NULL; count++) {
-    (void)next_choice(&at);
+  int count = param->choices != NULL;
+  for (const char *at = param->choices; count > 0 && *at != '\0'; at++) {
+    count += *at == '|';
   }
   return count;
 }

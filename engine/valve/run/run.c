@@ -135,11 +135,24 @@ bool sb_run_poll(SbRun *run, const SbRunHooks *hooks, size_t count, double fract
   return sb_run_cancelled(hooks, report);
 }
 
+// Takes back what only a whole motion tells, of one that ended early.
+static void clear_motion(SbRun *run, const char *why) {
+  SbSummary *summary = &run->summary; // stages that were reached stand
+  summary->force_peak = summary->force_return_min = summary->leakage_per_cycle = NAN;
+  summary->duration = summary->error_force = summary->error_energy = NAN;
+  summary->energy = (SbEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+  summary->returns = false;
+  summary->returned = NAN;
+  sb_reason(summary, "cycle.*", "%s", why);
+  sb_reason(summary, "solver.error_estimate.force", "%s", why);
+  sb_reason(summary, "solver.error_estimate.energy", "%s", why);
+}
+
 SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   static const char *const names[] = {"quasi-static", "dynamic", "rig", "bodies"};
   SbSummary *summary = &run->summary;
   if (run->lacks.status != SB_OK) {
-    sb_run_clear_motion(run, run->lacks.text);
+    clear_motion(run, run->lacks.text);
     return SB_OK;
   }
   SbReport own = {0};
@@ -162,8 +175,7 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
         last->time, cause.text);
   }
   if (status != SB_OK) {
-    sb_run_clear_motion(run,
-                        status == SB_ERROR_CANCELLED ? "the run was stopped before" : own.text);
+    clear_motion(run, status == SB_ERROR_CANCELLED ? "the run was stopped before" : own.text);
     if (report != NULL) {
       *report = own;
     }

@@ -111,9 +111,3 @@ void sb_valve_set_drive(SbDynamicsModel *out, SbDriveTimes *times, const SbRun *
     out->drive_damping = model->damping_ratio * 2 * sqrt(model->stiffness * out->mass);
   }
 }
-
-double sb_drive_corner(const SbDriveTimes *times, int index) {
-  int each = times->first[1] > 0 ? 2 : 1; // in a period
-  int period = index / each;
-  return index < times->corners ? period * times->period + times->first[index % each] : INFINITY;
-}

@@ -170,6 +170,13 @@ static void valve_event(const SbMotionEvent *event, void *user) {
   }
 }
 
+// Corner `index` of the drive [s]; INFINITY behind the last.
+static double corner_at(const SbDriveTimes *times, int index) {
+  int each = times->first[1] > 0 ? 2 : 1; // in a period
+  int period = index / each;
+  return index < times->corners ? period * times->period + times->first[index % each] : INFINITY;
+}
+
 // Makes the valve's mechanism and runs it to its end, to the model's tolerance or `coarser`, 0 for
 // none. A motion without frames leaves its warnings to the one that has them.
 static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double coarser,
@@ -207,7 +214,7 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double coarser,
     // The next even instant or a corner of the drive before it; behind the drive, wider and wider.
     double even = next < total ? (next + 1 == total ? drive : (double)next * step)
                                : time + fmax(step, (time - drive) / 32);
-    double turn = sb_drive_corner(times, corner);
+    double turn = corner_at(times, corner);
     if (turn < even) {
       corner++;
     } else if (next < total) {

@@ -146,18 +146,6 @@ void sb_run_summarise_seals(SbRun *run) {
   sb_figures_of_model(&run->summary, model);
 }
 
-void sb_run_clear_motion(SbRun *run, const char *why) {
-  SbSummary *summary = &run->summary; // stages that were reached stand
-  summary->force_peak = summary->force_return_min = summary->leakage_per_cycle = NAN;
-  summary->duration = summary->error_force = summary->error_energy = NAN;
-  summary->energy = (SbEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-  summary->returns = false;
-  summary->returned = NAN;
-  sb_reason(summary, "cycle.*", "%s", why);
-  sb_reason(summary, "solver.error_estimate.force", "%s", why);
-  sb_reason(summary, "solver.error_estimate.energy", "%s", why);
-}
-
 double sb_run_cycle_leakage(SbSummary *summary, double carried, bool back) {
   if (!back) {
     sb_reason(summary, "cycle.leakage_per_cycle_m3",

@@ -128,9 +128,6 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 // (run_film.c). From where a seal's film fails its frames have none (NaN), with a warning.
 SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, SbReport *report);
 
-// Takes back what only a whole motion tells, of one that ended early (run_figures.c).
-void sb_run_clear_motion(SbRun *run, const char *why);
-
 // The net leak of a stem that came back to where it began; else NaN, with the reason.
 double sb_run_cycle_leakage(SbSummary *summary, double carried, bool back);
 
@@ -149,9 +146,6 @@ void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t i
 
 // What the films' error leaves in the cycle's forces, over the largest of them; both seals.
 double sb_run_error_friction(const SbRun *run);
-
-// The same of the works of a quasi-static cycle, over the greatest external work.
-double sb_run_error_work(const SbRun *run);
 
 // Tells how far the run is: `fraction` of the work before the frames, or of the frames once there
 // are any.
@@ -245,6 +239,3 @@ SbStatus sb_run_bodies_frame(SbRun *run, size_t index, const SbDynamicsSample *s
 
 // Sets what drives the mechanism, where it starts, and the drive's times.
 void sb_valve_set_drive(SbDynamicsModel *out, SbDriveTimes *times, const SbRun *run);
-
-// Corner `index`; INFINITY behind the last.
-double sb_drive_corner(const SbDriveTimes *times, int index);

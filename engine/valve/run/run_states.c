@@ -215,13 +215,6 @@ double sb_run_error_friction(const SbRun *run) {
   return peak > 0 ? SB_SEAL_COUNT * fmax(run->friction_error, run->static_error) / peak : 0;
 }
 
-double sb_run_error_work(const SbRun *run) {
-  double peak = run->summary.force_peak;
-  // Static friction works only over the way that the machine yields before the stem slips.
-  double yields = fmin(1, peak / (run->model->stiffness * run->model->stroke));
-  return peak > 0 ? SB_SEAL_COUNT * (run->friction_error + yields * run->static_error) / peak : 0;
-}
-
 // Solves one state and takes its errors, its surface and its profile. SB_ERROR_NOT_CONVERGED with
 // what there is all the same.
 static SbStatus solve_state(const Task *of, SbReport *report) {
