@@ -58,15 +58,16 @@ static void solve(double *value, SbStudyWork *work, int line, double speed) {
 static Regression regress(SbStudyWork *work) {
   const SbSealModel *seal = &work->scene->seal[SB_OUTER];
   const double unit = seal->reduced_modulus * seal->radius;
-  Regression out = {.U_speed = work->scene->viscosity / 2 / unit,
-                    .W_load = 1 / unit,
-                    .R = seal->radius,
-                    .laws = {{"ours, central", CENTRAL, {0}},
-                             {"ours, least", LEAST, {0}},
-                             {"thesis, eq. 7.5", CENTRAL, {1.492, 0.5434, -0.2893}},
-                             {"Karaszkiewicz, eq. 7.6", CENTRAL, {4.4, 0.65, -0.21}},
-                             {"thin-film limit", CENTRAL, {3.77334, 0.6, -0.2}},
-                             {"thin-film limit, least", LEAST, {3.00434, 0.6, -0.2}}}};
+  Regression out = {
+      .U_speed = work->scene->viscosity / 2 / unit,
+      .W_load = 1 / unit,
+      .R = seal->radius,
+      .laws = {{"ours, central", CENTRAL, {.k = 0}},
+               {"ours, least", LEAST, {.k = 0}},
+               {"thesis, eq. 7.5", CENTRAL, {.k = 1.492, .a = 0.5434, .b = -0.2893}},
+               {"Karaszkiewicz, eq. 7.6", CENTRAL, {.k = 4.4, .a = 0.65, .b = -0.21}},
+               {"thin-film limit", CENTRAL, {.k = 3.77334, .a = 0.6, .b = -0.2}},
+               {"thin-film limit, least", LEAST, {.k = 3.00434, .a = 0.6, .b = -0.2}}}};
   SbReport report;
   for (int i = 0; i < GRID; i++) {
     out.speed[i] = sb_study_place(work, i % SPEEDS, SPEEDS);
