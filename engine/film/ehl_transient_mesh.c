@@ -3,7 +3,7 @@
 // Nodes crowd at both edges of the contact. Between two nodes the pressure is the parabola through
 // them and the value at the face, which four nodes give; it is integrated against the logarithm
 // exactly, as an element of the steady solver. A fitted body adds its smooth part through the
-// moments of the pressure (contact/compliance.h).
+// moments of the nodes' hats (contact/compliance.h).
 #include "engine/film/ehl_transient.h"
 
 #include "engine/numeric/legendre.h"
@@ -37,12 +37,22 @@ static void add_smooth(SbFilmTransient *t) {
                   middle + t->X[n - 1]);
   cblas_dgemv(CblasRowMajor, CblasNoTrans, n, modes, 1.0, smooth, MODES, known, 1, 1.0, t->known,
               1);
-  // Moments of the pressure by the weights of the load, inside the window.
-  for (int i = 0; i < n; i++) {
-    const double left = i > 0 ? t->face[i - 1].X : t->X[0];
-    const double right = i + 1 < n ? t->face[i].X : t->X[i];
-    const double from = fmax(left, c->left / b - middle), to = fmin(right, c->right / b - middle);
-    cblas_dscal(modes, t->weight[i] * fmax(to - from, 0.0) / (right - left), value + i * MODES, 1);
+  // Moments of the nodes' hats inside the window.
+  enum { POINTS = 3 };
+  double node[POINTS], weight[POINTS], T[MODES];
+  sb_legendre_gauss(node, weight, POINTS);
+  memset(value, 0, sizeof t->mode[0]);
+  for (int j = 0; j + 1 < n; j++) {
+    const double x = b * (middle + t->X[j]), h = t->X[j + 1] - t->X[j];
+    const double from = fmax((c->left - x) / (b * h), 0.0);
+    const double to = fmin((c->right - x) / (b * h), 1.0);
+    for (int q = 0; q < POINTS && from < to; q++) {
+      const double s = 0.5 * (from + to) + 0.5 * (to - from) * node[q];
+      const double part = 0.5 * (to - from) * h * weight[q];
+      sb_compliance_modes(c, x + s * b * h, T, NULL);
+      cblas_daxpy(modes, part * (1.0 - s), T, 1, value + j * MODES, 1);
+      cblas_daxpy(modes, part * s, T, 1, value + (j + 1) * MODES, 1);
+    }
   }
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasTrans, n, n, modes, 1.0, smooth, MODES, value,
               MODES, 1.0, t->kernel, n);
