@@ -226,8 +226,8 @@ static void set_system(SbDynamics *s, const Point *p, double *noise, double *spe
 }
 
 // Steps that end behind an event by no more than this share of them are not taken again: at their
-// end dense output has the solution's slope, so that its error grows with the square of the way from
-// there. They are made a little too long, so that the event lies in them.
+// end dense output has the solution's slope, so that its error grows with the square of the way
+// from there. They are made a little too long, so that the event lies in them.
 static const double near_end = 1e-4, overshoot = 1e-5;
 
 // Steps with error control; one that an event ends is taken again so that it ends there: the event
