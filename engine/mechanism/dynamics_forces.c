@@ -379,11 +379,10 @@ bool sb_motion_event_function(const SbDynamics *s, const Point *p, int event, Sb
   return live;
 }
 
-double sb_motion_event_value(const SbDynamics *s, const Point *p, int event, double *noise) {
-  SbEventFunction g;
-  (void)sb_motion_event_function(s, p, event, &g);
-  *noise = 1e-12 * (fabs(g.constant) + g.noise + fabs(g.relax)) +
-           fabs(g.of_v) * 10.0 * s->system.tolerance * s->speed_size;
+double sb_motion_event_value(const SbDynamics *s, int event, const SbEventFunction *g, double v,
+                             double *noise) {
+  *noise = 1e-12 * (fabs(g->constant) + g->noise + fabs(g->relax)) +
+           fabs(g->of_v) * 10.0 * s->system.tolerance * s->speed_size;
   // What slows down to the speed of rest is at rest, whatever the tolerance leaves of its speed.
   for (size_t i = 0; i < s->model->contacts; i++) {
     int own = is_rigid(s->model, i) ? EVENT_RIGID_UP : EVENT_CONTACT_UP + (int)i;
@@ -391,5 +390,5 @@ double sb_motion_event_value(const SbDynamics *s, const Point *p, int event, dou
       *noise = fmin(*noise, 0.1 * sb_motion_rest_speed(s->model));
     }
   }
-  return value_of(&g, p->v);
+  return value_of(g, v);
 }

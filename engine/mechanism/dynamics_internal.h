@@ -120,9 +120,10 @@ double sb_motion_deflection_at(const SbDynamics *s, size_t i, double tau, double
 // Function of an event about a point; false if it cannot happen in this mode.
 bool sb_motion_event_function(const SbDynamics *s, const Point *p, int event, SbEventFunction *g);
 
-// The function's value at the point, and a size below which its sign means nothing in the numerical
-// path.
-double sb_motion_event_value(const SbDynamics *s, const Point *p, int event, double *noise);
+// Its value at that point, where the speed is v, and a size below which its sign means nothing in
+// the numerical path.
+double sb_motion_event_value(const SbDynamics *s, int event, const SbEventFunction *g, double v,
+                             double *noise);
 
 // Finds the motion from the anchor and the event that ends it (s->t_end, s->event).
 SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report);

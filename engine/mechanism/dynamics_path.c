@@ -113,7 +113,9 @@ static void values_at(const SbDynamics *s, double tau, const Live *live, Values 
   sb_motion_state_at(s, tau, &z);
   sb_motion_point(&p, s, s->t + tau, &z);
   for (size_t i = 0; i < live->count; i++) {
-    out->value[i] = sb_motion_event_value(s, &p, live->event[i], &out->noise[i]);
+    SbEventFunction g;
+    (void)sb_motion_event_function(s, &p, live->event[i], &g);
+    out->value[i] = sb_motion_event_value(s, live->event[i], &g, p.v, &out->noise[i]);
   }
 }
 
@@ -143,7 +145,10 @@ static int first_event(const SbDynamics *s, double h, const Live *live, double *
   enum { PARTS = 4 };
   int found = EVENT_NONE;
   Values now;
-  values_at(s, 0.0, live, &now);
+  for (size_t i = 0; i < live->count; i++) {
+    now.value[i] = sb_motion_event_value(s, live->event[i], &live->function[i],
+                                         s->held ? 0.0 : s->at.v, &now.noise[i]);
+  }
   for (int part = 1; part <= PARTS && found == EVENT_NONE; part++) {
     const Values before = now;
     values_at(s, part * h / PARTS, live, &now);
@@ -165,7 +170,7 @@ static int first_event(const SbDynamics *s, double h, const Live *live, double *
   return found;
 }
 
-// Where in steps over h, made to end near an event, or just behind them it is, by Newton's method.
+// Where in steps over h, made to end just behind an event, it is, by Newton's method.
 static double place_of(const SbDynamics *s, int event, double h) {
   double at = h, slope;
   for (int i = 0; i < 3; i++) {
@@ -220,9 +225,10 @@ static void set_system(SbDynamics *s, const Point *p, double *noise, double *spe
   }
 }
 
-// Steps that end as near as this share of them to an event are not taken again: at their end dense
-// output has the solution's slope, so that its error grows with the square of the way from there.
-static const double near_end = 1e-4;
+// Steps that end behind an event by no more than this share of them are not taken again: at their
+// end dense output has the solution's slope, so that its error grows with the square of the way
+// from there. They are made a little too long, so that the event lies in them.
+static const double near_end = 1e-4, overshoot = 1e-5;
 
 // Steps with error control; one that an event ends is taken again so that it ends there: the event
 // is then as accurate as the solution, not as its dense output, and the step's error that of the
@@ -230,7 +236,7 @@ static const double near_end = 1e-4;
 static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, SbReport *report) {
   double noise, speed;
   set_system(s, p, &noise, &speed);
-  double quickest = quickest_rate(s, p), first = quickest > 0.0 ? 0.2 / quickest : 1e-5;
+  double quickest = quickest_rate(s, p), first = quickest > 0.0 ? 0.05 / quickest : 1e-5;
   double left = fmin(s->piece.until - s->t, horizon_max), h = s->h > 0.0 ? s->h : first;
   if (s->piece.curved) {
     h = fmin(h, s->piece.step);
@@ -272,8 +278,8 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
     }
     if (landing != EVENT_NONE && (s->t + at <= s->t || at < 1e-14 * h)) {
       at = s->step[0].h = s->step[1].h = 0.0; // at once
-    } else if (fabs(at - h) > near_end * h && landings < 6) {
-      h = at;
+    } else if ((at > h || h - at > near_end * h) && landings < 6) {
+      h = (1.0 + overshoot) * at;
       landings++;
       continue;
     }
@@ -360,7 +366,7 @@ void sb_motion_state_at(const SbDynamics *s, double tau, SbDynamicsState *z) {
   const SbRadauStep *step = tau <= s->step[0].h ? &s->step[0] : &s->step[1];
   double found[SB_RADAU_MAX];
   tau -= step == s->step ? 0.0 : s->step[0].h;
-  sb_radau_dense(step, &s->system, step->h > 0.0 ? tau / step->h : 1.0, found, NULL);
+  sb_radau_dense(step, &s->system, step->h > 0.0 ? fmin(1.0, tau / step->h) : 1.0, found, NULL);
   for (size_t i = 0; i < s->system.n; i++) {
     z->z[s->unknown[i]] = found[i];
   }
@@ -379,8 +385,7 @@ void sb_motion_energy_at(const SbDynamics *s, double tau, const SbDynamicsState 
     double from = 0.0, q[SB_RADAU_POWERS];
     for (const SbRadauStep *step = s->step; step < s->step + 2; step++) {
       if (step->h > 0.0 && tau > from) {
-        double theta = (tau - from) / step->h;
-        sb_radau_dense(step, &s->system, step == s->step ? fmin(1.0, theta) : theta, NULL, q);
+        sb_radau_dense(step, &s->system, fmin(1.0, (tau - from) / step->h), NULL, q);
         for (int k = 0; k < SB_DYNAMICS_TERMS; k++) {
           e->term[k] += q[k];
         }
