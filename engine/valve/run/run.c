@@ -1,7 +1,7 @@
 // Executes a plan: sliding states, the cycle's segments, frames, figures.
 //
 // Nothing here steps in time. The steady sliding states are solved once each, the cycle's events
-// are located exactly (motion/cycle.h), and a frame is an evaluation at its time, so that figures
+// are located exactly (cycle.h), and a frame is an evaluation at its time, so that figures
 // do not depend on the number of frames. Frames live in one array allocated at creation; the count
 // is published with release order after each frame is complete, which is what lets another thread
 // read while this one writes.

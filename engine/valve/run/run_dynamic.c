@@ -1,5 +1,5 @@
 // Frames and figures of the motion with inertia: the valve (run_valve.c) given to
-// motion/dynamics.h, in one pass.
+// mechanism/dynamics.h, in one pass.
 //
 // The motion is found from event to event; a frame is an evaluation of it at its time, and one more
 // sits on every stage, filled just before the event changes anything. Frames are evenly spaced

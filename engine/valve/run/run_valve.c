@@ -1,5 +1,5 @@
-// The valve as a mechanism with one coordinate (motion/dynamics.h) and, if the scene asks for
-// ports, one chamber pressure (motion/chamber.h).
+// The valve as a mechanism with one coordinate (mechanism/dynamics.h) and, if the scene asks for
+// ports, one chamber pressure (mechanism/chamber.h); and the frame of any motion's instant.
 //
 // The same sliding states as in the quasi-static cycle give each seal's Coulomb level, m W + tau_0
 // A_a, its static ratio and a viscous coefficient (the viscous force at the reference speed over
