@@ -30,7 +30,9 @@ static double passed(const SbCycle *cycle, int seal, SbChamber chamber, int dire
     return 1;
   }
   double width = state->contact_right - state->contact_left;
-  return seal == SB_OUTER ? 0 : fmin(fmax((s - cycle->model->land_edge) / width, 0), 1);
+  double t = (s - cycle->model->land_edge) / width;
+  // What rounding of s leaves at the end is no contact.
+  return seal == SB_OUTER ? 0 : t > 1 - 1e-12 ? 1 : fmax(t, 0);
 }
 
 SbLandShare sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction,

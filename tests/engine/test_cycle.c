@@ -231,6 +231,23 @@ static void test_hard_cases(void) {
   }
 }
 
+// Where the land ends the contact does: rounding leaves no load there, and no film under it.
+static void test_land_end(void) {
+  for (int i = 0; i < 100; i++) {
+    Setting settings[] = {{SB_P_SEAL_SECTION_DIAMETER, 1.58e-3 + 5e-7 * i},
+                          {SB_P_OUTPUT_FRAMES, 9}};
+    SbRun *run = run_cycle(settings, 2);
+    size_t count;
+    const SbFrame *frames = sb_run_frames(run, &count);
+    for (size_t f = 0; f < count; f++) {
+      const SbSealFrame *inner = &frames[f].seal[SB_INNER];
+      g_assert_cmpfloat(inner->load, >=, 0);
+      g_assert_true(inner->load > 1e-9 || !(inner->film_central > 0));
+    }
+    sb_run_destroy(run);
+  }
+}
+
 // A ring that does not touch: load 0, a warning, and the other seal still works.
 static void test_no_contact(void) {
   Setting settings[] = {{SB_P_SEAL_INNER_SECTION_DIAMETER, 1.3e-3}};
@@ -400,6 +417,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cycle/return-of-frames", test_return_of_frames);
   g_test_add_func("/cycle/frames", test_frames);
   g_test_add_func("/cycle/hard-cases", test_hard_cases);
+  g_test_add_func("/cycle/land-end", test_land_end);
   g_test_add_func("/cycle/no-contact", test_no_contact);
   g_test_add_func("/cycle/cancel", test_cancel);
   g_test_add_func("/cycle/leakage", test_leakage);
