@@ -11,10 +11,10 @@
 //
 // on spectral elements (ehl_mesh.h), with two sets of rows:
 //
-// Smooth (ehl_newton.c): Reynolds' equation collocated at Gauss points; the end of the film is a
+// Smooth: Reynolds' equation collocated at Gauss points; the end of the film is a
 // node of the mesh, the axis moves. Few unknowns, eight digits.
 //
-// Rough (ehl_rough_newton.c): the film's end may lie anywhere between the asperities that carry the
+// Rough: the film's end may lie anywhere between the asperities that carry the
 // rest. Reynolds' equation is integrated from node to node (collocation of Lobatto IIIA's kind);
 // each node is in the full film or in the cavity by complementarity: p >= 0, and no more pressure
 // than the flux brings where it is cavitated; then q = p_a - p_v. The step into the cavity ends
@@ -108,7 +108,7 @@ typedef struct {
   double solid_t;  // slope to t
   double asperity; // p_a
   double share;    // real area
-  // Of a Newton step (ehl_rough_newton.c):
+  // Of a Newton step:
   double p;                    // film pressure
   double k, r;                 // dp = dq + k dh; r: what the linear elastic equation lacks
   double s0, s_h, s_p, s_flow; // ds = s0 + s_h dh + s_p dp + s_flow dkappa
@@ -133,7 +133,8 @@ struct SbFilmSolver {
   SbEhlSolution solution[2];
   SbEhlSolution *now; // the last solution; the other one is the next
   // Work memory.
-  double matrix[SB_EHL_ORDER_MAX * SB_EHL_ORDER_MAX]; // of Newton's method, row after row
+  // Of Newton's method, row after row, and its factors of this or an earlier step.
+  double matrix[SB_EHL_ORDER_MAX * SB_EHL_ORDER_MAX], factors[SB_EHL_ORDER_MAX * SB_EHL_ORDER_MAX];
   double right[SB_EHL_ORDER_MAX];
   int pivot[SB_EHL_ORDER_MAX];
   // At all targets: the gap by the pressure, its derivatives to the shift and to the nodal
@@ -168,8 +169,8 @@ struct SbFilmSolver {
   } last;
 };
 
-// Readies the memory of a solver; false if LAPACK fails.
-SB_CHECKED bool sb_ehl_init(SbFilmSolver *solver);
+// Readies the memory of a solver.
+void sb_ehl_init(SbFilmSolver *solver);
 
 // The solution that is not the last one.
 static inline SbEhlSolution *sb_ehl_other(SbFilmSolver *solver) {
@@ -216,8 +217,7 @@ void sb_ehl_layers_guess(SbEhlSolution *s);
 double sb_ehl_layers_reform(const SbEhlLayers *layers, double flux);
 void sb_ehl_layers_guess_reformed(SbEhlSolution *s, double flux);
 
-// Newton's method of smooth rows; state.gap is a guess of its own, made consistent by the first
-// step.
+// Newton's method; state.gap is a guess of its own.
 SbStatus sb_ehl_newton(SbEhlSolution *s);
 
 // Where Newton's method of smooth rows ends: what the solver asks for, but no residual is smaller
@@ -226,20 +226,6 @@ static inline double sb_ehl_tolerance(const SbEhlSolution *s) {
   double rounding = s->c.body.compliance != NULL ? 8e-16 : 1.1e-16;
   return fmax(s->solver->tolerance, rounding / s->state.flux);
 }
-
-// The same of rough rows.
-SbStatus sb_ehl_rough_newton(SbEhlSolution *s);
-
-// The unknowns are the nodal pressures, H0, flux film or kappa, and the shift where smooth rows end
-// at a rupture.
-
-// Gap by the state's pressure, with its derivatives, in the solver.
-void sb_ehl_elastic(const SbEhlSolution *s);
-
-// Adds to a row of the matrix `by` times the derivatives of the gap at a target; adds the gaps'
-// changes by the step in solver->right.
-void sb_ehl_add_gap(double *row, const SbEhlSolution *s, int target, double by);
-void sb_ehl_gap_step(double *change, const SbEhlSolution *s);
 
 // Kernel of a fitted body with the axis at `shift`, into solver->kernel ([targets][dofs]), and the
 // gap that it gives at all targets into solver->gaps: the undeformed one and the deflection by the

@@ -30,7 +30,7 @@ static SbStatus iterate(SbEhlSolution *s) {
   double *place = reform ? &l->reform : &l->meniscus;
   for (int i = 0; i < STEPS_MAX; i++) {
     solver->info->continuation_steps++;
-    SbStatus status = rough ? sb_ehl_rough_newton(s) : sb_ehl_newton(s);
+    SbStatus status = sb_ehl_newton(s);
     if (status != SB_OK || rough || !(reform || isfinite(s->c.supply))) {
       return status;
     }

@@ -87,7 +87,7 @@ static void add_element(double *state, double *state_slope, const SbEhlSolution 
   for (int q = 0; q < SB_EHL_QUAD && !(cut && to <= from); q++) {
     const double at = e->fine_x[q];
     double X = e->side != 0 ? e->A + e->side * e->B / (at * at) : at;
-    double weight[SB_EHL_DEGREE_MAX + 2];
+    double weight[SB_EHL_DEGREE_MAX + 1];
     memcpy(weight, e->fine_wb[q], sizeof weight);
     if (cut) {
       const SbEhlTable *t = e->table;
@@ -100,7 +100,7 @@ static void add_element(double *state, double *state_slope, const SbEhlSolution 
     double value[MODES];
     double slope[MODES];
     sb_compliance_modes(c, unit * (X + shift), value, slope);
-    double pressure = weight[e->degree + 1];
+    double pressure = -e->far_pressure * weight[sb_ehl_touching(e)];
     for (int j = 0; j <= e->degree; j++) {
       pressure += weight[j] * nodal[e->first_dof + j];
     }

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { COLUMNS = SB_EHL_DEGREE_MAX + 2 };
+enum { COLUMNS = SB_EHL_DEGREE_MAX + 1 };
 
 // Half the sum of the distances to -1 and 1 is (rho + 1/rho)/2 on Bernstein's ellipse rho: closer
 // than NEAR (rho = 2) the split kernel is used. Beyond FAR half-lengths from the middle the
@@ -76,13 +76,13 @@ static void expand(SbEhlElement *e) {
       power[q] = (m > 0 ? power[q] : 1.0) * (e->fine_x[q] - e->middle) / e->half;
       value[q] = -power[q] / (m + 1);
     }
-    accumulate(e->multipole[m], value, e->fine_wb[0], SB_EHL_QUAD, e->degree + 2);
+    accumulate(e->multipole[m], value, e->fine_wb[0], SB_EHL_QUAD, e->degree + 1);
   }
 }
 
 void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables) {
   const SbEhlTable *t = e->table;
-  int columns = e->degree + 2;
+  int columns = e->degree + 1;
   int extra = e->map == SB_EHL_AFFINE ? 0 : e->map == SB_EHL_COSINE ? 10 : 1;
   e->modes = e->degree + extra;
   memset(e->project, 0, sizeof e->project);
@@ -96,7 +96,6 @@ void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables) {
     for (int k = 0; k <= e->degree; k++) {
       e->fine_wb[q][k] = scale * local.value[k];
     }
-    e->fine_wb[q][e->degree + 1] = scale * (local.known - e->far_pressure);
     e->fine_x[q] = e->side != 0 ? sb_ehl_inverse(e, r) : sb_ehl_position(e, r);
     value[q] = 1.0;
   }
@@ -121,16 +120,16 @@ void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables) {
 }
 
 static void add_moments(double *row, const SbEhlElement *e, const double *moment) {
-  accumulate(row, moment, e->project[0], e->modes + 1, e->degree + 2);
+  accumulate(row, moment, e->project[0], e->modes + 1, e->degree + 1);
 }
 
 // A smooth part of the kernel by its values at the fine rule.
 static void add_values(double *row, const SbEhlElement *e, const double *value) {
-  accumulate(row, value, e->fine_wb[0], SB_EHL_QUAD, e->degree + 2);
+  accumulate(row, value, e->fine_wb[0], SB_EHL_QUAD, e->degree + 1);
 }
 
 static void add_constant(double *row, const SbEhlElement *e, double value) {
-  for (int j = 0; j < e->degree + 2; j++) {
+  for (int j = 0; j <= e->degree; j++) {
     row[j] += value * e->integral[j];
   }
 }
@@ -139,7 +138,7 @@ static void add_constant(double *row, const SbEhlElement *e, double value) {
 static void row_infinite(double *row, const SbEhlElement *e, double X) {
   double value[SB_EHL_QUAD];
   double a = e->side * (e->A - X);
-  for (int j = 0; j < e->degree + 2; j++) {
+  for (int j = 0; j <= e->degree; j++) {
     row[j] -= 2.0 * e->log_s[j];
   }
   // Roots s = +-y or +-iy; in r they are side (1 - 2 s).
@@ -190,7 +189,7 @@ void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *ta
     for (int m = 1; m < terms; m++) {
       power[m] = power[m - 1] * inverse;
     }
-    accumulate(row, power, e->multipole[0], terms, e->degree + 2);
+    accumulate(row, power, e->multipole[0], terms, e->degree + 1);
     return;
   }
   // The target's own coordinate, complex outside |X| <= 1 on the cosine map.

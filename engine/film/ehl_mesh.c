@@ -1,8 +1,8 @@
 // Spectral elements for a pressure on an elastic half-plane, scaled.
 //
 // Each element maps r in [-1, 1] to X so that the pressure is smooth in r: affine in the layers,
-// X = -cos(theta) inside the contact with Hertz's sine taken out, and inverse squares towards the
-// infinite ends, where p falls like s^4 and faster. The gap's integrals are those of ehl_kernel.c.
+// X = -cos(theta) inside the contact, and inverse squares towards the infinite ends, where p falls
+// like s^4 and faster. The gap's integrals are those of ehl_kernel.c.
 //
 // Left out: anything but the half-plane; unequal far pressures are given the tilt of
 // docs/verification.md (the dry contact stays |x| < b).
@@ -13,8 +13,6 @@
 #include <gsl/gsl_sf_legendre.h>
 #include <math.h>
 #include <string.h>
-
-enum { COLUMNS = SB_EHL_DEGREE_MAX + 2 };
 
 static const double INVERSE_PI = 0.31830988618379067;
 
@@ -132,14 +130,9 @@ static double factor_at(const SbEhlElement *e, double r) {
   return e->side != 0 ? s * s * s * s : 1.0;
 }
 
-// The node of an infinite element that touches the neighbour; it holds the full pressure.
-static int touching(const SbEhlElement *e) {
-  return e->side < 0 ? e->degree : 0;
-}
-
 // Coordinate of a node, for the one at infinity that of its neighbour.
 static double node_at(const SbEhlElement *e, int k) {
-  bool infinite = e->side != 0 && k == e->degree - touching(e);
+  bool infinite = e->side != 0 && k == e->degree - sb_ehl_touching(e);
   return e->table->node[infinite ? k - e->side : k];
 }
 
@@ -148,7 +141,8 @@ double sb_ehl_node(const SbEhlElement *e, int k) {
 }
 
 double sb_ehl_nodal(const SbEhlElement *e, int k, double pressure) {
-  return k == touching(e) ? pressure : (pressure - e->far_pressure) / factor_at(e, node_at(e, k));
+  return k == sb_ehl_touching(e) ? pressure
+                                 : (pressure - e->far_pressure) / factor_at(e, node_at(e, k));
 }
 
 void sb_ehl_local(SbEhlLocal *out, const SbEhlElement *e, const double *basis, const double *rise,
@@ -157,17 +151,9 @@ void sb_ehl_local(SbEhlLocal *out, const SbEhlElement *e, const double *basis, c
   double s = sb_ehl_inverse(e, r);
   double factor = factor_at(e, r);
   double factor_rise = -2.0 * e->side * s * s * s;
-  out->known = e->far_pressure;
-  out->known_slope = 0.0;
-  if (e->map == SB_EHL_COSINE) {
-    out->known = sin(e->m + e->h * r);
-    out->known_slope = e->h * cos(e->m + e->h * r) / stretch;
-  }
   for (int k = 0; k <= e->degree; k++) {
     out->value[k] = factor * basis[k];
     out->slope[k] = rise != NULL ? (factor * rise[k] + factor_rise * basis[k]) / stretch : 0.0;
-    out->known -= out->value[k] * e->node_known[k];
-    out->known_slope -= out->slope[k] * e->node_known[k];
   }
 }
 
@@ -205,7 +191,6 @@ static SbEhlElement *next_element(SbEhlMesh *mesh, SbEhlMap map, int degree) {
   e->first_dof = first;
   e->first_row = mesh->rows;
   e->far_pressure = 0.0;
-  memset(e->node_known, 0, sizeof e->node_known);
   mesh->film_end += mesh->film_end + 1 == mesh->count && !e->apart;
   mesh->count++;
   mesh->apart = false;
@@ -223,9 +208,6 @@ void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double end, int degree) {
     double last = map == SB_EHL_COSINE ? acos(-e->x1) : e->x1;
     e->m = 0.5 * (begin + last);
     e->h = 0.5 * (last - begin);
-    for (int k = 0; k <= degree && map == SB_EHL_COSINE; k++) {
-      e->node_known[k] = sin(e->m + e->h * e->table->node[k]);
-    }
   }
   mesh->end = end;
 }
@@ -238,7 +220,6 @@ void sb_ehl_mesh_add_far(SbEhlMesh *mesh, int side, double x, double B, int degr
     e->A = x - side * B;
     e->B = B;
     e->far_pressure = side < 0 ? mesh->inlet_pressure : mesh->outlet_pressure;
-    e->node_known[touching(e)] = e->far_pressure;
   }
   mesh->end = x;
 }
@@ -328,12 +309,12 @@ bool sb_ehl_mesh_build(SbEhlMesh *mesh, bool nodal) {
     const SbEhlElement *e = &mesh->element[k];
     for (int i = 0; i < mesh->targets; i++) {
       double *gap = mesh->gap + (size_t)i * (size_t)mesh->dofs + e->first_dof;
-      double row[COLUMNS] = {0};
+      double row[SB_EHL_DEGREE_MAX + 1] = {0};
       sb_ehl_kernel_row(row, e, mesh->tables, mesh->x[i]);
       for (int j = 0; j <= e->degree; j++) {
         gap[j] -= INVERSE_PI * row[j];
       }
-      mesh->gap_known[i] -= INVERSE_PI * row[e->degree + 1];
+      mesh->gap_known[i] += INVERSE_PI * e->far_pressure * row[sb_ehl_touching(e)];
     }
   }
 
@@ -344,15 +325,15 @@ bool sb_ehl_mesh_build(SbEhlMesh *mesh, bool nodal) {
     for (int j = 0; j <= e->degree; j++) {
       mesh->load[e->first_dof + j] += e->integral[j];
     }
-    mesh->load_known += e->integral[e->degree + 1];
+    mesh->load_known -= e->far_pressure * e->integral[sb_ehl_touching(e)];
   }
   return true;
 }
 
 double sb_ehl_sum(double *slope, const SbEhlLocal *local, const SbEhlElement *e,
                   const double *nodal) {
-  double sum = local->known;
-  double rise = local->known_slope;
+  double sum = e->far_pressure * (1.0 - local->value[sb_ehl_touching(e)]);
+  double rise = -e->far_pressure * local->slope[sb_ehl_touching(e)];
   for (int j = 0; j <= e->degree; j++) {
     sum += local->value[j] * nodal[e->first_dof + j];
     rise += local->slope[j] * nodal[e->first_dof + j];

@@ -25,7 +25,7 @@ enum {
 // How r maps to X.
 typedef enum {
   SB_EHL_AFFINE, // X = m + h r
-  SB_EHL_COSINE, // X = -cos(theta), theta = m + h r; pressure = sin(theta) + polynomial
+  SB_EHL_COSINE, // X = -cos(theta), theta = m + h r: Hertz's pressure is sin(theta)
   SB_EHL_FAR     // X = A +- B / s^2 to infinity, s = (1 -+ r) / 2; pressure = far + s^4 polynomial
 } SbEhlMap;
 
@@ -58,8 +58,8 @@ typedef struct {
   SbEhlTable table[SB_EHL_DEGREE_MAX + 1];
 } SbEhlTables;
 
-// One element. Columns 0 .. degree belong to the nodes, column degree + 1 to the known part of the
-// pressure (the sine, or the far pressure).
+// One element; columns 0 .. degree belong to the nodes. The node at which an infinite one touches
+// its neighbour holds the full pressure.
 typedef struct {
   SbEhlMap map;
   int side; // of infinity: -1 left, 1 right, 0 of a finite element
@@ -73,23 +73,20 @@ typedef struct {
   double x0, x1;                         // ends; the infinite one is unused
   double m, h, A, B;
   double far_pressure;
-  double
-      node_known[SB_EHL_DEGREE_MAX + 1]; // what the known part would be at nodes that hold it too
-  int modes;                             // highest Legendre mode of the projected weight
-  double project[SB_EHL_PROJECT + 1][SB_EHL_DEGREE_MAX + 2];
+  int modes; // highest Legendre mode of the projected weight
+  double project[SB_EHL_PROJECT + 1][SB_EHL_DEGREE_MAX + 1];
   double fine_x[SB_EHL_QUAD];
-  double fine_wb[SB_EHL_QUAD][SB_EHL_DEGREE_MAX + 2];
+  double fine_wb[SB_EHL_QUAD][SB_EHL_DEGREE_MAX + 1];
   // Of finite elements: integrals with -((X - middle) / half)^(m + 1) / (m + 1).
   double middle, half;
-  double multipole[SB_EHL_MULTIPOLES][SB_EHL_DEGREE_MAX + 2];
-  double integral[SB_EHL_DEGREE_MAX + 2]; // of the pressure (less the far pressure) over X
-  double log_s[SB_EHL_DEGREE_MAX + 2];    // integral with ln s, infinite elements
+  double multipole[SB_EHL_MULTIPOLES][SB_EHL_DEGREE_MAX + 1];
+  double integral[SB_EHL_DEGREE_MAX + 1]; // of the pressure (less the far pressure) over X
+  double log_s[SB_EHL_DEGREE_MAX + 1];    // integral with ln s, infinite elements
 } SbEhlElement;
 
-// Pressure at a place of an element and its slope to X: the known part and the share of each node.
+// Share of each node in the pressure at a place of an element and in its slope to X.
 typedef struct {
   double value[SB_EHL_DEGREE_MAX + 1], slope[SB_EHL_DEGREE_MAX + 1];
-  double known, known_slope;
 } SbEhlLocal;
 
 // A mesh with its operators. Targets are the collocation points (the first `rows`), then the finite
@@ -152,6 +149,11 @@ double sb_ehl_coordinate(const SbEhlElement *e, double X);
 // Polynomial through `value` at the nodes, at r.
 double sb_ehl_interpolate(const SbEhlTable *table, const double *value, double r);
 
+// The node of an infinite element that touches the neighbour.
+static inline int sb_ehl_touching(const SbEhlElement *e) {
+  return e->side < 0 ? e->degree : 0;
+}
+
 // s of an infinite element: 1 at its finite end, 0 at infinity.
 static inline double sb_ehl_inverse(const SbEhlElement *e, double r) {
   return 0.5 * (1.0 - e->side * r);
@@ -169,7 +171,7 @@ double sb_ehl_sum(double *slope, const SbEhlLocal *local, const SbEhlElement *e,
 // Everything about an element that its integrals need, for every target alike.
 void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables);
 
-// Adds to row[j], j <= degree + 1, the integral of column j times ln|X - X'|.
+// Adds to row[j], j <= degree, the integral of column j times ln|X - X'|.
 void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *tables, double X);
 
 // X of the element's coordinate, and dX/dr.

@@ -1,15 +1,26 @@
-// The linear system of Newton's method, and the method itself on smooth rows.
+// Newton's method of both sets of rows; equations in ehl.h. A gap by the pressure goes into every
+// row; the gap itself is iterated beside the pressure, so that a first guess of its own is made
+// consistent by the first step.
 //
-// Scaled (thesis eq. 6.37-6.50): H^3 m P' / lambda - H + H* = 0 at the collocation points, the flux
-// film H* being an unknown, with H = H0 + (X + c)^2 / 2 - (1/pi) integral P ln|X - X'| dX', the
-// load integral P = pi/2, and Swift-Stieber's end p = 0, H = H* (that is p' = 0). The mesh is fixed
-// in X and the axis moves by c: the rupture point is free and the kernel constant, so that the
-// whole system is smooth and Newton's method converges quadratically without a contact search. m
-// holds Barus' viscosity and Eyring's thinning (fluid.h) and is 1 without them.
+// Smooth rows (thesis eq. 6.37-6.50): H^3 m P' / lambda - H + H* = 0 at the collocation points, the
+// flux film H* being an unknown, with H = H0 + (X + c)^2 / 2 - (1/pi) integral P ln|X - X'| dX',
+// the load integral P = pi/2, and Swift-Stieber's end p = 0, H = H* (that is p' = 0). The mesh is
+// fixed in X and the axis moves by c: the rupture point is free and the kernel constant, so that
+// the whole system is smooth and Newton's method converges quadratically without a contact search.
+// m holds Barus' viscosity and Eyring's thinning (fluid.h) and is 1 without them. A film that
+// begins at a meniscus or forms again behind a cavity has one more free end, where the mesh begins
+// anew: ehl_continuation.c finds its place.
 //
-// The gap is iterated beside the pressure: a first guess of its own is made consistent by the first
-// step. A film that begins at a meniscus or forms again behind a cavity has one more free end,
-// where the mesh begins anew: ehl_continuation.c finds its place.
+// Rough rows: unknowns of the linear system are the total pressures, H0 and kappa; gap, parameter,
+// slope and film pressure follow from them at each node:
+//
+//   dh = K dq + dH0 + r          r: what the linear elastic equation still lacks
+//   dp = dq + k dh               k = -(dp_a/dt) / (dh/dt), the asperities' stiffness
+//   G ds = -(rho + (dG/dh s - lambda) dh + dG/dp s dp + dkappa)     G = h^3 m
+//
+// so that every step leaves the elastic equation, load and flux linear. The rows are Reynolds'
+// equation from node to node, or p = 0 in the cavity, the end pressures and the load. A step is
+// shortened only where the gap would fall by more than the rough law's parameter can follow.
 #include "engine/film/ehl.h"
 
 #include "engine/numeric/dense.h"
@@ -18,14 +29,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { ITERATIONS_MAX = 10 };
+enum { ITERATIONS_MAX = 10, ITERATIONS_MAX_ROUGH = 40 };
 
-// A step that leaves less than this of the residual lets the next one take the same factors.
+// A residual, or a step of rough rows, this much smaller than the last lets the next step take the
+// same factors: it then gains what the last one gained. A step of rough rows is to be CLOSE.
 static const double REUSE = 0.02;
+static const double REUSE_ROUGH = 0.1, CLOSE = 0.03;
 
-bool sb_ehl_init(SbFilmSolver *solver) {
-  enum { TRIAL = 64 };
-  // Touches the pages and LAPACK's own buffers once, so that no solve pays for them.
+void sb_ehl_init(SbFilmSolver *solver) {
   memset(solver, 0, sizeof *solver);
   sb_ehl_tables_init(&solver->tables);
   for (int i = 0; i < 2; i++) {
@@ -33,15 +44,19 @@ bool sb_ehl_init(SbFilmSolver *solver) {
     solver->solution[i].mesh.tables = &solver->tables;
   }
   solver->now = &solver->solution[0];
-  for (size_t i = 0; i < TRIAL; i++) {
-    solver->matrix[i * TRIAL + i] = 1.0;
-  }
-  cblas_dgemv(CblasRowMajor, CblasNoTrans, TRIAL, TRIAL, 1.0, solver->matrix, TRIAL, solver->right,
-              1, 0.0, solver->gaps, 1);
-  return sb_factor_solve(solver->matrix, solver->pivot, solver->right, TRIAL, true);
 }
 
-void sb_ehl_elastic(const SbEhlSolution *s) {
+// How the iteration goes.
+typedef struct {
+  int iteration;
+  double before; // the last residual, or step of rough rows
+  bool factored; // the factors of an earlier step may serve again
+  bool small;    // rough rows: the last step
+  int settled;   // small steps so far
+} Progress;
+
+// Gap by the state's pressure, with its derivatives, in the solver.
+static void deflect(const SbEhlSolution *s) {
   const SbEhlMesh *mesh = &s->mesh;
   const SbEhlState *state = &s->state;
   SbFilmSolver *solver = s->solver;
@@ -70,7 +85,8 @@ static int order_of(const SbEhlSolution *s) {
   return s->mesh.dofs + (!s->c.rough.rows && s->c.layers.end != SB_EHL_FULL ? 3 : 2);
 }
 
-void sb_ehl_gap_step(double *change, const SbEhlSolution *s) {
+// Adds the gaps' changes by the step in solver->right.
+static void add_gap_step(double *change, const SbEhlSolution *s) {
   const SbFilmSolver *solver = s->solver;
   const double *step = solver->right + s->mesh.dofs;
   const bool moves = order_of(s) > s->mesh.dofs + 2;
@@ -81,7 +97,8 @@ void sb_ehl_gap_step(double *change, const SbEhlSolution *s) {
               s->mesh.dofs, solver->right, 1, 1.0, change, 1);
 }
 
-void sb_ehl_add_gap(double *row, const SbEhlSolution *s, int target, double by) {
+// Adds to a row of the matrix `by` times the derivatives of the gap at a target.
+static void add_gap(double *row, const SbEhlSolution *s, int target, double by) {
   const SbFilmSolver *solver = s->solver;
   const int dofs = s->mesh.dofs;
   cblas_daxpy(dofs, by, solver->by_nodal + (size_t)target * (size_t)dofs, 1, row, 1);
@@ -98,22 +115,30 @@ double sb_ehl_load(const SbEhlSolution *s) {
          mesh->outlet_pressure * (mesh->right_end + s->state.shift);
 }
 
-// Residuals into `right` and, unless NULL, the Jacobian into `matrix`, linearised about the gap of
-// the state. Returns the largest scaled residual, a NaN counting as infinite.
-static double assemble(double *matrix, const SbEhlSolution *s) {
+// The load above the ambient step.
+static void give_load(double *row, double *right, const SbEhlSolution *s) {
+  const SbEhlMesh *mesh = &s->mesh;
+  *right = -sb_ehl_load(s);
+  memcpy(row, mesh->load, (size_t)mesh->dofs * sizeof *row);
+  if (order_of(s) > mesh->dofs + 2) {
+    row[mesh->dofs + 2] = mesh->inlet_pressure - mesh->outlet_pressure;
+  }
+}
+
+// ---------------------------------------------------------------- smooth rows
+
+// The system, linearised about the gap of the state. The largest scaled residual, a NaN counting as
+// infinite.
+static double assemble_smooth(const SbEhlSolution *s) {
   const SbEhlMesh *mesh = &s->mesh;
   const SbEhlState *state = &s->state;
   const double *gaps = s->solver->gaps;
-  double *right = s->solver->right;
-  const int dofs = mesh->dofs;
-  const int order = order_of(s);
+  const int dofs = mesh->dofs, order = order_of(s);
   const double lambda = s->c.layers.lambda;
-  if (matrix != NULL) {
-    memset(matrix, 0, (size_t)order * (size_t)order * sizeof *matrix);
-  }
+  double *row = s->solver->matrix, *right = s->solver->right;
 
   // Reynolds' equation at the collocation points, divided by the film.
-  for (int i = 0; i < mesh->rows; i++) {
+  for (int i = 0; i < mesh->rows; i++, row += order) {
     double H = state->gap[i];
     double slope;
     const SbEhlElement *e = &mesh->element[mesh->owner[i]];
@@ -125,133 +150,293 @@ static double assemble(double *matrix, const SbEhlSolution *s) {
     double by_film = (3.0 * H * H * m + H * H * H * m_film) / lambda * slope - 1.0;
     double by_pressure = H * H * H * m_pressure / lambda * slope;
     double scale = 1.0 / fmax(fabs(H), state->flux);
-    right[i] = scale * (G * slope - H + state->flux + by_film * (gaps[i] - H));
-    if (matrix == NULL) {
-      continue;
-    }
-    double *row = matrix + (size_t)i * (size_t)order;
-    sb_ehl_add_gap(row, s, i, scale * by_film);
+    *right++ = -scale * (G * slope - H + state->flux + by_film * (gaps[i] - H));
+    add_gap(row, s, i, scale * by_film);
     for (int j = 0; j <= e->degree; j++) {
       row[e->first_dof + j] += scale * (G * local->slope[j] + by_pressure * local->value[j]);
     }
     row[dofs + 1] = scale;
   }
-  int next = mesh->rows;
-  double *row = matrix != NULL ? matrix + (size_t)next * (size_t)order : NULL;
-
   // Rupture at the end of an element: H = H* and p = 0.
   if (s->c.layers.end != SB_EHL_FULL) {
     const SbEhlElement *e = &mesh->element[mesh->film_end];
+    const int target = e->gap_target[e->degree + 1], last = e->first_dof + e->degree;
     double scale = 1.0 / state->flux;
-    right[next++] = scale * (gaps[e->gap_target[e->degree + 1]] - state->flux);
-    right[next++] = state->nodal[e->first_dof + e->degree];
-    if (matrix != NULL) {
-      sb_ehl_add_gap(row, s, e->gap_target[e->degree + 1], scale);
-      row[dofs + 1] = -scale;
-      row += order;
-      row[e->first_dof + e->degree] = 1.0;
-      row += order;
-    }
+    *right++ = scale * (state->flux - gaps[target]);
+    add_gap(row, s, target, scale);
+    row[dofs + 1] = -scale;
+    row += order;
+    *right++ = -state->nodal[last];
+    row[last] = 1.0;
+    row += order;
   }
   // Meniscus: the flux supplied, or the pressure before it.
   if (isfinite(s->c.layers.meniscus)) {
     const bool supplied = isfinite(s->c.supply);
-    right[next++] =
-        supplied ? state->flux / s->c.supply - 1.0 : state->nodal[0] - s->c.layers.inlet;
-    if (matrix != NULL) {
-      row[supplied ? dofs + 1 : 0] = supplied ? 1.0 / s->c.supply : 1.0;
-      row += order;
-    }
+    *right++ = supplied ? 1.0 - state->flux / s->c.supply : s->c.layers.inlet - state->nodal[0];
+    row[supplied ? dofs + 1 : 0] = supplied ? 1.0 / s->c.supply : 1.0;
+    row += order;
   }
-  // Load.
-  right[next] = sb_ehl_load(s);
-  if (matrix != NULL) {
-    memcpy(row, mesh->load, (size_t)dofs * sizeof *row);
-    if (order > dofs + 2) {
-      row[dofs + 2] = mesh->inlet_pressure - mesh->outlet_pressure;
-    }
-  }
+  give_load(row, right, s);
   double largest = 0.0;
   for (int i = 0; i < order; i++) {
-    largest = isfinite(right[i]) ? fmax(largest, fabs(right[i])) : INFINITY;
+    double size = fabs(s->solver->right[i]);
+    largest = isfinite(size) ? fmax(largest, size) : INFINITY;
   }
   return largest;
 }
 
-// Takes the step in solver->right, cut where the film would vanish; of an independent gap the first
-// step stands as it is.
-static bool apply(SbEhlSolution *s, bool first) {
+static bool ready_smooth(Progress *p, SbEhlSolution *s) {
+  SbEhlState *state = &s->state;
+  const bool first = p->iteration == 0;
+  const double tolerance = sb_ehl_tolerance(s);
+  if (!first) {
+    memcpy(state->gap, s->solver->gaps, (size_t)s->mesh.targets * sizeof(double));
+  }
+  double residual = assemble_smooth(s);
+  s->solver->info->residual = residual;
+  // Done at the tolerance, or where rounding stops the descent not far above it.
+  bool last = residual > 0.3 * p->before || p->iteration == ITERATIONS_MAX;
+  bool done = !first && residual <= (last ? 10.0 : 1.0) * tolerance;
+  for (int i = 0; i < s->mesh.rows; i++) {
+    done = done && state->gap[i] > 0.0; // no film otherwise
+  }
+  p->factored = p->factored && residual < REUSE * p->before;
+  p->before = residual;
+  return done;
+}
+
+// Takes the step, cut where the film would vanish; of an independent gap the first step stands as
+// it is.
+static bool step_smooth(Progress *p, SbEhlSolution *s) {
   SbFilmSolver *solver = s->solver;
   SbEhlState *state = &s->state;
-  const int dofs = s->mesh.dofs;
+  const int dofs = s->mesh.dofs, rows = s->mesh.rows;
   const double *step = solver->right;
   double *change = solver->change;
-  for (int i = 0; i < s->mesh.rows; i++) {
-    change[i] = state->gap[i] - solver->gaps[i];
+  for (int i = 0; i < rows; i++) {
+    change[i] = solver->gaps[i] - state->gap[i];
   }
-  sb_ehl_gap_step(change, s);
+  add_gap_step(change, s);
   double factor = 1.0;
-  for (int i = 0; i <= s->mesh.rows && !first; i++) {
-    double old = i < s->mesh.rows ? state->gap[i] : state->flux;
-    double fall = i < s->mesh.rows ? change[i] : step[dofs + 1];
-    while (!(old - factor * fall >= 0.1 * old) && factor > 1e-3) {
+  for (int i = 0; i <= rows && p->iteration > 0; i++) {
+    double old = i < rows ? state->gap[i] : state->flux;
+    double rise = i < rows ? change[i] : step[dofs + 1];
+    while (!(factor * rise >= -0.9 * old) && factor > 1e-3) {
       factor *= 0.5;
     }
   }
-  cblas_daxpy(dofs, -factor, step, 1, state->nodal, 1);
-  state->H0 -= factor * step[dofs];
-  state->flux -= factor * step[dofs + 1];
-  state->shift -= order_of(s) > dofs + 2 ? factor * step[dofs + 2] : 0.0;
+  cblas_daxpy(dofs, factor, step, 1, state->nodal, 1);
+  state->H0 += factor * step[dofs];
+  state->flux += factor * step[dofs + 1];
+  state->shift += order_of(s) > dofs + 2 ? factor * step[dofs + 2] : 0.0;
   return factor > 1e-3 && state->flux > 0.0;
+}
+
+// ---------------------------------------------------------------- rough rows
+
+// Everything at the nodes.
+static void localise(const SbEhlSolution *s) {
+  const SbEhlState *state = &s->state;
+  const SbEhlCase *c = &s->c;
+  for (int i = 0; i < s->mesh.dofs; i++) {
+    SbEhlRoughPoint *at = &s->solver->point[i];
+    sb_ehl_rough_point(at, c, state->t[i]);
+    at->p = state->nodal[i] - at->solid;
+    at->k = -at->solid_t / at->h_t;
+    at->r = s->solver->gaps[i] - at->h;
+    double m, m_h, m_p;
+    sb_film_mobility(&m, &m_h, &m_p, &c->fluid, at->h, at->p);
+    double h = at->h, slope = state->s[i];
+    double G = h * h * h * m;
+    at->s0 = -slope + (c->layers.lambda * h - state->flow) / G;
+    at->s_h = (c->layers.lambda - (3 * h * h * m + h * h * h * m_h) * slope) / G;
+    at->s_p = -h * h * h * m_p * slope / G;
+    at->s_flow = -1 / G;
+  }
+}
+
+// Chooses between full film and cavity at every node; how many changed.
+static int choose(SbEhlSolution *solution, double doubt) {
+  const SbEhlMesh *mesh = &solution->mesh;
+  const SbEhlRoughPoint *point = solution->solver->point;
+  SbEhlState *state = &solution->state;
+  int changed = 0;
+  // Against the flow, as the end of the film depends on what lies behind.
+  state->cavity[mesh->dofs - 1] = state->cavity[mesh->dofs - 2];
+  for (int i = mesh->dofs - 2; i >= 0; i--) {
+    const SbEhlElement *e = &mesh->element[mesh->owner[i]];
+    int j = i - e->first_dof;
+    bool ends = state->cavity[i + 1] && state->s[i] < 0 && state->s[i + 1] > 0;
+    double part[SB_EHL_DEGREE_MAX + 1];
+    if (ends) {
+      sb_ehl_rough_weights(part, solution, e, j);
+    }
+    const double *weight = ends ? part : e->table->step[j];
+    double sign = ends ? 0 : point[i + 1].p; // pressure at the node by what follows
+    for (int k = 0; k <= e->degree; k++) {
+      sign -= e->h * weight[k] * state->s[e->first_dof + k];
+    }
+    // Changed only where the last step leaves no doubt about the sign.
+    bool cavitated = fabs(sign) < doubt * point[i].asperity ? state->cavity[i] : sign < 0;
+    cavitated = cavitated && !(i == 0 && !isfinite(solution->c.supply));
+    changed += cavitated != state->cavity[i];
+    state->cavity[i] = cavitated;
+  }
+  return changed;
+}
+
+// Adds to a row the coefficients of dh and dp at node n.
+static void add_node(double *row, double *right, const SbEhlSolution *s, int n, double by_h,
+                     double by_p) {
+  const SbEhlRoughPoint *at = &s->solver->point[n];
+  double gap = by_h + by_p * at->k;
+  *right -= gap * at->r;
+  row[n] += by_p;
+  if (gap != 0) {
+    add_gap(row, s, n, gap);
+  }
+}
+
+// The row that gives the film pressure at node n.
+static void give_pressure(double *row, double *right, const SbEhlSolution *s, int n, double p) {
+  *right = p - s->solver->point[n].p;
+  add_node(row, right, s, n, 0, 1);
+}
+
+// Reynolds' equation from node i to the next, or to the end of the film between them.
+static void give_step(double *row, double *right, const SbEhlSolution *s, int i) {
+  const SbEhlElement *e = &s->mesh.element[s->mesh.owner[i]];
+  const SbEhlRoughPoint *point = s->solver->point;
+  double weight[SB_EHL_DEGREE_MAX + 1];
+  sb_ehl_rough_weights(weight, s, e, i - e->first_dof);
+  *right = point[i].p - point[i + 1].p;
+  for (int k = 0; k <= e->degree; k++) {
+    int n = e->first_dof + k;
+    double w = e->h * weight[k];
+    *right += w * (s->state.s[n] + point[n].s0);
+    add_node(row, right, s, n, -w * point[n].s_h, -w * point[n].s_p + (n == i + 1) - (n == i));
+    row[s->mesh.dofs + 1] -= w * point[n].s_flow;
+  }
+}
+
+// The system, whose rows get one size each.
+static void assemble_rough(const SbEhlSolution *s) {
+  const SbEhlState *state = &s->state;
+  const SbEhlCase *c = &s->c;
+  const int nodes = s->mesh.dofs, order = nodes + 2;
+  double *row = s->solver->matrix, *right = s->solver->right;
+  for (int i = 0; i < order; i++, row += order, right++) {
+    if (i == 0 && (isfinite(c->supply) || c->rough.sealed)) { // flux supplied
+      *right = (c->rough.sealed ? 0 : c->layers.lambda * c->supply) - state->flow;
+      row[nodes + 1] = 1;
+    } else if (i == 0) {
+      give_pressure(row, right, s, 0, c->layers.inlet);
+    } else if (i == nodes) {
+      give_pressure(row, right, s, nodes - 1, c->layers.outlet);
+    } else if (i == nodes + 1) {
+      give_load(row, right, s);
+    } else if (state->cavity[i - 1]) {
+      give_pressure(
+          row, right, s, i - 1,
+          c->rough.sealed ? sb_film_ends(s->mesh.x[i - 1], c->layers.inlet, c->layers.outlet) : 0);
+    } else {
+      give_step(row, right, s, i - 1);
+    }
+    double largest = fabs(row[cblas_idamax(nodes + 1, row, 1)]);
+    double scale = largest > 0 ? 1 / largest : 1; // the last column has a size of its own
+    cblas_dscal(order, scale, row, 1);
+    *right *= scale;
+  }
+}
+
+static bool ready_rough(Progress *p, SbEhlSolution *s) {
+  localise(s);
+  int changed = s->c.layers.lambda > 0 && p->before < 0.3 ? choose(s, p->before) : 0;
+  p->factored = p->factored && changed == 0;
+  assemble_rough(s);
+  // Converged where no node wants to change sides after a last step that was small; one at the very
+  // end of the film may go to and fro without any effect.
+  return p->small && (changed == 0 || p->settled > 6);
+}
+
+static bool step_rough(Progress *p, SbEhlSolution *s) {
+  SbFilmSolver *solver = s->solver;
+  const SbEhlCase *c = &s->c;
+  SbEhlState *state = &s->state;
+  const int nodes = s->mesh.dofs;
+  const double *dq = solver->right;
+  const double dkappa = dq[nodes + 1];
+  for (int i = 0; i < nodes; i++) {
+    solver->change[i] = solver->point[i].r;
+  }
+  add_gap_step(solver->change, s);
+  // An opening gap takes its change as it is, a closing one by the parameter, which it cannot
+  // outrun: so neither overshoots on the exponential between film and contact.
+  double largest = 0, least = INFINITY;
+  bool cut = false;
+  for (int i = 0; i < nodes; i++) {
+    const SbEhlRoughPoint *at = &solver->point[i];
+    double dh = solver->change[i];
+    double dt = dh / at->h_t;
+    if (!isfinite(dt)) {
+      return false;
+    }
+    double dp = dq[i] + at->k * dh;
+    state->s[i] += at->s0 + at->s_h * dh + at->s_p * dp + at->s_flow * dkappa;
+    // With pull the solids' pressure can have a near-plateau, half a unit of t wide.
+    double down = fmax(c->rough.hamaker > 0 ? 0.3 : 1.5, 0.8 * state->t[i]);
+    cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > SB_EHL_CLOSED);
+    state->t[i] = dt > 0.5 ? sb_ehl_rough_of_gap(c, at->h + dh) : state->t[i] + fmax(dt, -down);
+    state->nodal[i] += dq[i];
+    largest = fmax(largest, fmax(fabs(dh) / (at->h + SB_EHL_CLOSED), fabs(dq[i])));
+    least = fmin(least, at->h);
+  }
+  state->H0 += dq[nodes];
+  state->flow += dkappa;
+  solver->info->residual = largest;
+
+  // Steps shrink quadratically; what is left at last is rounding: deflections of size one
+  // against the gap.
+  double rounding = 1e-14 / (least + SB_EHL_CLOSED);
+  bool stalled = largest < 100 * rounding && largest > 0.2 * p->before;
+  p->small = !cut && (largest < fmax(1e-8, rounding) || stalled);
+  p->settled += p->small ? 1 : 0;
+  // Close to the solution the last factors serve again.
+  p->factored = !cut && largest < REUSE_ROUGH * p->before && largest < CLOSE;
+  p->before = largest;
+  // A start that is none shows soon: a good one is below 1 after five steps. Only a meniscus takes
+  // its time to find its node.
+  bool hopeless = (p->iteration > 7 && largest > 3) || (p->iteration > 20 && largest > 0.1);
+  return !(c->layers.lambda > 0 && !isfinite(c->supply) && hopeless);
 }
 
 SbStatus sb_ehl_newton(SbEhlSolution *s) {
   SbFilmSolver *solver = s->solver;
-  SbFilmSolverInfo *info = solver->info;
-  SbEhlState *state = &s->state;
-  double before = INFINITY;
-  bool factored = false; // the matrix holds the factors of an earlier step
-  const double tolerance = sb_ehl_tolerance(s);
-  for (int iteration = 0;; iteration++) {
+  const bool rough = s->c.rough.rows;
+  const int order = order_of(s), most = rough ? ITERATIONS_MAX_ROUGH : ITERATIONS_MAX;
+  const size_t size = (size_t)order * (size_t)order * sizeof(double);
+  Progress p = {.before = INFINITY};
+  for (; p.iteration <= most; p.iteration++) {
     if (sb_ehl_cancelled(solver)) {
       return SB_ERROR_CANCELLED;
     }
-    bool first = iteration == 0;
-    sb_ehl_elastic(s);
-    if (!first) {
-      memcpy(state->gap, solver->gaps, (size_t)s->mesh.targets * sizeof(double));
+    deflect(s);
+    memset(solver->matrix, 0, size);
+    if ((rough ? ready_rough : ready_smooth)(&p, s)) {
+      return SB_OK;
     }
-    double residual = assemble(NULL, s);
-    info->residual = residual;
-    // Done at the tolerance, or where rounding stops the descent not far above it.
-    bool last = residual > 0.3 * before || iteration == ITERATIONS_MAX;
-    if (!first && (residual <= tolerance || (last && residual <= 10.0 * tolerance))) {
-      break;
+    if (!p.factored) {
+      memcpy(solver->factors, solver->matrix, size);
     }
-    if (!isfinite(residual) || iteration == ITERATIONS_MAX) {
+    if (!sb_factor_solve(solver->factors, solver->pivot, solver->right, order, !p.factored)) {
       return SB_ERROR_NOT_CONVERGED;
     }
-    // Close to the solution the last factors serve again: each step then gains what they gained.
-    factored = factored && residual < REUSE * before;
-    before = residual;
-    if (!factored) {
-      assemble(solver->matrix, s);
-    }
-    if (!sb_factor_solve(solver->matrix, solver->pivot, solver->right, order_of(s), !factored)) {
-      return SB_ERROR_NOT_CONVERGED;
-    }
-    factored = true;
-    info->newton_iterations++;
-    if (!apply(s, first)) {
+    solver->info->newton_iterations++;
+    p.factored = true;
+    if (!(rough ? step_rough : step_smooth)(&p, s)) {
       return SB_ERROR_NOT_CONVERGED;
     }
   }
-
-  // A film that is not positive everywhere is no solution.
-  for (int i = 0; i < s->mesh.rows; i++) {
-    if (!(state->gap[i] > 0.0)) {
-      return SB_ERROR_NOT_CONVERGED;
-    }
-  }
-  return SB_OK;
+  return SB_ERROR_NOT_CONVERGED;
 }

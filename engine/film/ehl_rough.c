@@ -6,6 +6,61 @@
 
 #include <cblas.h>
 #include <math.h>
+#include <string.h>
+
+void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t) {
+  const SbEhlRough *rough = &c->rough;
+  SbRoughPoint p = {0};
+  if (rough->law != NULL) {
+    sb_rough_law_at(&p, rough->law, t);
+  } else { // smooth: linear above t = 1, falling exponentially to nothing below
+    double unit = rough->smooth_gap * rough->film;
+    p.gap = t >= 1 ? unit * t : unit * exp(t - 1);
+    p.gap_slope = t >= 1 ? unit : p.gap;
+  }
+  double pull = 0, pull_slope = 0;
+  if (rough->hamaker > 0) {
+    pull = sb_rough_pull(&pull_slope, &p, rough->hamaker);
+  }
+  *out = (SbEhlRoughPoint){.h = p.gap / rough->film,
+                           .h_t = p.gap_slope / rough->film,
+                           .asperity = p.pressure / rough->pressure,
+                           .solid = (p.pressure - pull) / rough->pressure,
+                           .solid_t = (p.pressure_slope - pull_slope) / rough->pressure,
+                           .share = p.share};
+}
+
+double sb_ehl_rough_of_gap(const SbEhlCase *c, double gap) {
+  if (c->rough.law != NULL) {
+    return sb_rough_law_of_gap(c->rough.law, gap * c->rough.film);
+  }
+  double t = gap / c->rough.smooth_gap;
+  return t >= 1 ? t : 1 + log(t);
+}
+
+typedef struct {
+  const SbEhlTable *rule;
+  const double *slope; // at the element's nodes
+} Slopes;
+
+static double fall_at(double r, const void *context) {
+  const Slopes *of = context;
+  return -sb_ehl_interpolate(of->rule, of->slope, r);
+}
+
+double sb_ehl_rough_weights(double *weight, const SbEhlSolution *s, const SbEhlElement *e, int j) {
+  const SbEhlTable *t = e->table;
+  const double *slope = &s->state.s[e->first_dof];
+  double end = t->node[j + 1];
+  memcpy(weight, t->step[j], sizeof t->step[j]);
+  if (s->state.cavity[e->first_dof + j + 1]) {
+    end = !(slope[j] < 0)       ? t->node[j]
+          : !(slope[j + 1] > 0) ? end
+                                : sb_bisect(fall_at, &(Slopes){t, slope}, t->node[j], end);
+    sb_ehl_partial(weight, t, j, end);
+  }
+  return end;
+}
 
 // What the asperities carry at a gap, at most Hertz's pressure, both scaled.
 static double carried(const SbEhlCase *c, double gap) {

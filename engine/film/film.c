@@ -59,11 +59,10 @@ void sb_film_problem_init(SbFilmProblem *problem) {
 
 SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
   *out = malloc(sizeof **out);
-  if (*out == NULL || !sb_ehl_init(*out)) {
-    sb_film_solver_destroy(*out);
-    *out = NULL;
+  if (*out == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
   }
+  sb_ehl_init(*out);
   return sb_succeed(report);
 }
 
