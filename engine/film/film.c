@@ -1,4 +1,4 @@
-// Film models: checks of the problem, scales, and the choice of the model.
+// Film models: checks of the problem, scales, fluid, and the choice of the model.
 //
 // Scales after Hertz (line contact): b = R sqrt(8 W / pi), p_H = 2 w / (pi b), film b^2 / R (thesis
 // eq. 6.33-6.44 with the factor 8 of docs/thesis.md, 6). With them the isoviscous problem depends
@@ -220,6 +220,35 @@ SbFilmScale sb_film_scale(const SbFilmProblem *problem) {
   s.kappa = 1.0 - (s.inlet - s.outlet) / M_PI;
   s.kappa_outlet = 2.0 - s.kappa;
   return s;
+}
+
+SbFilmFluid sb_film_fluid(const SbFilmProblem *problem, double pressure, double film) {
+  const double stress = problem->eyring_stress;
+  const double shear = problem->viscosity * fabs(problem->speed) / film; // of a unit film
+  return (SbFilmFluid){.rupture = problem->rupture_pressure / pressure,
+                       .barus = problem->pressure_viscosity * pressure,
+                       .eyring = stress > 0.0 ? shear / stress : 0.0};
+}
+
+// exp(-alpha p).
+static double fluidity(const SbFilmFluid *fluid, double pressure) {
+  return exp(-fluid->barus * (pressure + fluid->rupture));
+}
+
+void sb_film_mobility(double *m, double *m_film, double *m_pressure, const SbFilmFluid *fluid,
+                      double film, double pressure) {
+  double thin = fluidity(fluid, pressure);
+  double shear = fluid->eyring / (thin * film);
+  double root = sqrt(1.0 + shear * shear);
+  *m = thin * root;
+  *m_film = -thin * shear * shear / (root * film);
+  *m_pressure = fluid->barus * thin * (shear * shear / root - root);
+}
+
+double sb_film_shear(const SbFilmFluid *fluid, double film, double pressure) {
+  double thin = fluidity(fluid, pressure);
+  double shear = fluid->eyring / (thin * film);
+  return (shear > 0.0 ? asinh(shear) / shear : 1.0) / (thin * film);
 }
 
 double sb_film_dry_gap(double X) {
