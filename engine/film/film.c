@@ -309,6 +309,16 @@ void sb_film_mirror(SbFilm *out) {
   cblas_dscal((int)out->points, -1.0, out->x, 1);
 }
 
+// A closed film from the flow frame into the seal's.
+static void turn(SbFilm *out) {
+  double *const along[] = {&out->position_film_min, &out->position_rupture, &out->friction_couette,
+                           &out->friction_poiseuille};
+  for (int k = 0; k < 4; k++) {
+    *along[k] = 0.0 - *along[k]; // no negative zero
+  }
+  sb_film_mirror(out);
+}
+
 // Flags films thinner than a few molecules and shapes that the models do not cover.
 static void warn_common(SbFilm *out, const SbFilmProblem *problem) {
   // The circle departs from its parabola by (x/R)^2/4, and the film builds up over sqrt(2 R h).
@@ -357,13 +367,16 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
       sb_film_rest_fitted(out, problem, &dry);
       status = sb_succeed(report);
     } else {
-      status = sb_film_solve_dry(out, problem, &scale, report);
+      status = sb_film_solve_dry(out, &scale, report);
     }
     if (sb_film_rough(problem)) { // no film at all between smooth surfaces at rest
       snap_in(out, problem, snap_gap(NULL, problem, &scale));
     }
   } else if (closed != NULL) {
     status = closed(out, problem, &scale, report);
+    if (problem->speed < 0.0) {
+      turn(out);
+    }
     out->flow = 0.5 * problem->speed * out->film_flux;
     out->solver.converged = status == SB_OK;
   } else {

@@ -93,16 +93,15 @@ void sb_film_mobility(double *m, double *m_film, double *m_pressure, const SbFil
 // Mean shear stress of the sliding over eta_0 speed: 1 / film without options.
 double sb_film_shear(const SbFilmFluid *fluid, double film, double pressure);
 
-// The closed-form models, Blok's inverse film and the rigid wedge (wedge.h), but for the flow; the
-// dry contact at zero speed.
+// The closed-form models, Blok's inverse film and the rigid wedge (wedge.h), in the flow frame but
+// for the flow; the dry contact at zero speed.
 SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                            SbReport *report);
 SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                                SbReport *report);
 SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                              SbReport *report);
-SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
-                           SbReport *report);
+SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmScale *scale, SbReport *report);
 
 // Point n of the profile, without asperities, where one is wanted.
 static inline void sb_film_put(SbFilm *out, size_t n, double x, double pressure, double film) {
