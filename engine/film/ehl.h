@@ -27,7 +27,6 @@
 
 #include "engine/contact/rough/rough_law.h"
 #include "engine/film/ehl_mesh.h"
-#include "engine/film/fluid.h"
 #include "engine/film/scale.h"
 
 #include <math.h>

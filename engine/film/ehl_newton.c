@@ -7,7 +7,7 @@
 // the load integral P = pi/2, and Swift-Stieber's end p = 0, H = H* (that is p' = 0). The mesh is
 // fixed in X and the axis moves by c: the rupture point is free and the kernel constant, so that
 // the whole system is smooth and Newton's method converges quadratically without a contact search.
-// m holds Barus' viscosity and Eyring's thinning (fluid.h) and is 1 without them. A film that
+// m holds Barus' viscosity and Eyring's thinning (scale.h) and is 1 without them. A film that
 // begins at a meniscus or forms again behind a cavity has one more free end, where the mesh begins
 // anew: ehl_continuation.c finds its place.
 //

@@ -1,4 +1,4 @@
-// Film models: checks of the problem, scales, and the choice of the model.
+// Film models: checks of the problem, scales, fluid, and the choice of the model.
 //
 // Scales after Hertz (line contact): b = R sqrt(8 W / pi), p_H = 2 w / (pi b), film b^2 / R (thesis
 // eq. 6.33-6.44 with the factor 8 of docs/thesis.md, 6). With them the isoviscous problem depends
@@ -221,6 +221,35 @@ SbFilmScale sb_film_scale(const SbFilmProblem *problem) {
   return s;
 }
 
+SbFilmFluid sb_film_fluid(const SbFilmProblem *problem, double pressure, double film) {
+  const double stress = problem->eyring_stress;
+  const double shear = problem->viscosity * fabs(problem->speed) / film; // of a unit film
+  return (SbFilmFluid){.rupture = problem->rupture_pressure / pressure,
+                       .barus = problem->pressure_viscosity * pressure,
+                       .eyring = stress > 0.0 ? shear / stress : 0.0};
+}
+
+// exp(-alpha p).
+static double fluidity(const SbFilmFluid *fluid, double pressure) {
+  return exp(-fluid->barus * (pressure + fluid->rupture));
+}
+
+void sb_film_mobility(double *m, double *m_film, double *m_pressure, const SbFilmFluid *fluid,
+                      double film, double pressure) {
+  double thin = fluidity(fluid, pressure);
+  double shear = fluid->eyring / (thin * film);
+  double root = sqrt(1.0 + shear * shear);
+  *m = thin * root;
+  *m_film = -thin * shear * shear / (root * film);
+  *m_pressure = fluid->barus * thin * (shear * shear / root - root);
+}
+
+double sb_film_shear(const SbFilmFluid *fluid, double film, double pressure) {
+  double thin = fluidity(fluid, pressure);
+  double shear = fluid->eyring / (thin * film);
+  return (shear > 0.0 ? asinh(shear) / shear : 1.0) / (thin * film);
+}
+
 double sb_film_dry_gap(double X) {
   double a = fabs(X);
   if (a <= 1.0) {
@@ -279,6 +308,16 @@ void sb_film_mirror(SbFilm *out) {
   cblas_dscal((int)out->points, -1.0, out->x, 1);
 }
 
+// A closed film from the flow frame into the seal's.
+static void turn(SbFilm *out) {
+  double *const along[] = {&out->position_film_min, &out->position_rupture, &out->friction_couette,
+                           &out->friction_poiseuille};
+  for (int k = 0; k < 4; k++) {
+    *along[k] = 0.0 - *along[k]; // no negative zero
+  }
+  sb_film_mirror(out);
+}
+
 // Flags films thinner than a few molecules and shapes that the models do not cover.
 static void warn_common(SbFilm *out, const SbFilmProblem *problem) {
   // The circle departs from its parabola by (x/R)^2/4, and the film builds up over sqrt(2 R h).
@@ -327,13 +366,16 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
       sb_film_rest_fitted(out, problem, &dry);
       status = sb_succeed(report);
     } else {
-      status = sb_film_solve_dry(out, problem, &scale, report);
+      status = sb_film_solve_dry(out, &scale, report);
     }
     if (sb_film_rough(problem)) { // no film at all between smooth surfaces at rest
       snap_in(out, problem, snap_gap(NULL, problem, &scale));
     }
   } else if (closed != NULL) {
     status = closed(out, problem, &scale, report);
+    if (problem->speed < 0.0) {
+      turn(out);
+    }
     out->flow = 0.5 * problem->speed * out->film_flux;
     out->solver.converged = status == SB_OK;
   } else {

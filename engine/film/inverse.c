@@ -93,7 +93,6 @@ static void evaluate(SbFilm *out, const SbFilmProblem *problem, const gsl_spline
                      double steep) {
   double eta_u = 0.5 * problem->viscosity * fabs(problem->speed);
   double flux = 2.0 / 3.0 * sqrt(4.0 * eta_u / steep);
-  double sign = problem->speed >= 0.0 ? 1.0 : -1.0;
   double begin = t->x[0];
   double end = t->x[t->size - 1];
   double axis = 0.0 > begin && 0.0 < end ? 0.0 : 0.5 * (begin + end);
@@ -101,7 +100,7 @@ static void evaluate(SbFilm *out, const SbFilmProblem *problem, const gsl_spline
   out->film_flux = flux;
   out->film_min = INFINITY;
   out->film_central = flux * root(t, axis, unit, axis < place);
-  out->position_rupture = sign * end;
+  out->position_rupture = end;
   out->ruptured = true;
   double before_x = 0.0, before_p = 0.0, before_h = INFINITY;
   size_t n = 0;
@@ -109,13 +108,13 @@ static void evaluate(SbFilm *out, const SbFilmProblem *problem, const gsl_spline
     double x = i == SAMPLES - 1 ? end : begin + (end - begin) * i / (SAMPLES - 1);
     double p = gsl_spline_eval(t, x, NULL), h = flux * root(t, x, unit, x < place);
     if (isfinite(h) && isfinite(before_h)) {
-      double shear = 2.0 * sign * eta_u * (1.0 / h + 1.0 / before_h);
+      double shear = 2.0 * eta_u * (1.0 / h + 1.0 / before_h);
       out->friction_couette += 0.5 * shear * (x - before_x);
-      out->friction_poiseuille += sign * 0.25 * (h + before_h) * (p - before_p);
+      out->friction_poiseuille += 0.25 * (h + before_h) * (p - before_p);
     }
     if (h < out->film_min) {
       out->film_min = h;
-      out->position_film_min = sign * x;
+      out->position_film_min = x;
     }
     if (isfinite(h)) { // not flat upstream, where no film that fills the gap is defined
       out->pressure_max = fmax(out->pressure_max, p);
@@ -124,9 +123,6 @@ static void evaluate(SbFilm *out, const SbFilmProblem *problem, const gsl_spline
     before_x = x;
     before_p = p;
     before_h = h;
-  }
-  if (sign < 0.0) {
-    sb_film_mirror(out);
   }
   double load = gsl_spline_eval_integ(t, begin, end, NULL);
   if (fabs(load / problem->load - 1.0) > 0.01) {

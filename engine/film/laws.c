@@ -37,25 +37,21 @@ static void blended(double *minimum, double *central, double *flux, const SbFilm
 }
 
 // Dry pressure and gap on points dense at both edges, the gap raised by `film`.
-static void dry_profile(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
-                        double film) {
+static void dry_profile(SbFilm *out, const SbFilmScale *scale, double film) {
   enum { POINTS = 601 };
-  bool forward = problem->speed >= 0.0;
   for (int i = 0; i < POINTS; i++) {
     // A sine in three periods: |X| <= 1 in the middle half, up to 3 outside, dense at +-1.
     double s = -2.0 + 4.0 * i / (POINTS - 1);
     double X =
         fabs(s) <= 1.0 ? sin(s * M_PI / 2.0) : copysign(1.0 + 2.0 * pow(fabs(s) - 1.0, 2), s);
-    double flow = forward ? X : -X;
-    double p = scale->pressure * sb_film_dry_pressure(flow, scale->inlet, scale->outlet);
+    double p = scale->pressure * sb_film_dry_pressure(X, scale->inlet, scale->outlet);
     sb_film_put(out, (size_t)i, X * scale->half_width, p, scale->film * sb_film_dry_gap(X) + film);
     out->pressure_max = fmax(out->pressure_max, p);
   }
 }
 
-SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
-                           SbReport *report) {
-  dry_profile(out, problem, scale, 0.0);
+SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmScale *scale, SbReport *report) {
+  dry_profile(out, scale, 0.0);
   out->position_rupture = scale->half_width;
   out->solver.converged = true;
   sb_warn(&out->warnings, "film-zero-speed", "drive.speed",
@@ -80,11 +76,10 @@ SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFi
   double U = scale->U;
   double W = scale->W;
   double R = problem->radius;
-  double direction = problem->speed >= 0.0 ? 1.0 : -1.0;
   double width = scale->half_width;
   double minimum, central, flux; // of the blend, over R
   blended(&minimum, &central, &flux, scale);
-  out->position_rupture = direction * width;
+  out->position_rupture = width;
   if (model == SB_FILM_MOES) {
     out->film_min = R * minimum;
     out->film_central = R * central;
@@ -96,8 +91,8 @@ SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFi
   }
   if (model == SB_FILM_ASYMPTOTIC) {
     double layer = pow(scale->lambda, 0.4);
-    out->position_film_min = direction * width * (1.0 - 0.17041 * layer);
-    out->position_rupture = direction * width * (1.0 + 0.16406 * layer);
+    out->position_film_min = width * (1.0 - 0.17041 * layer);
+    out->position_rupture = width * (1.0 + 0.16406 * layer);
     out->ruptured = scale->outlet <= 0.0;
   }
   // The data behind eq. 7.5: Tables 7.9 and 7.10.
@@ -123,10 +118,10 @@ SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFi
             "the power law knows end pressures only through the load");
   }
 
-  dry_profile(out, problem, scale, out->film_flux);
-  out->friction_couette = problem->viscosity * problem->speed * 2.0 * width / out->film_flux;
+  dry_profile(out, scale, out->film_flux);
+  out->friction_couette = problem->viscosity * fabs(problem->speed) * 2.0 * width / out->film_flux;
   out->friction_poiseuille =
-      0.5 * out->film_flux * (problem->pressure_right - problem->pressure_left);
+      0.5 * out->film_flux * (scale->outlet - scale->inlet) * scale->pressure;
   return sb_succeed(report);
 }
 

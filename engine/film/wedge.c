@@ -111,34 +111,28 @@ static double step_of_end(double te, const void *context) {
   return shape(te, sec2(te)) / pow(cos(te), 3) - *(const double *)context;
 }
 
-// Pressure and gap over the wedge, dense about its throat, in increasing x of the seal's frame;
-// `scale` is P* in Pa.
-static void wedge_profile(SbFilm *out, const SbFilmProblem *problem, double te, double scale,
-                          const double pressure[2]) {
+// Pressure and gap over the wedge, dense about its throat; lengths in units of `length`, P* in
+// `unit`.
+static void wedge_profile(SbFilm *out, double te, double length, double unit, double inlet,
+                          double outlet) {
   enum { POINTS = 801 };
-  bool forward = problem->speed >= 0;
-  double unit = sqrt(2 * problem->radius * out->film_min);
-  for (int i = 0; i < POINTS && out->x != NULL; i++) {
+  for (size_t i = 0; i < POINTS && out->x != NULL; i++) {
     // tan runs from -30 to 2 throats: the pressure has gone to a ten-thousandth of its peak there.
-    double x = i == POINTS - 1 ? 2 : tan(-1.5375 + 2.6446 * i / (POINTS - 1));
+    double x = i == POINTS - 1 ? 2 : tan(-1.5375 + 2.6446 * (double)i / (POINTS - 1));
     double t = atan(x);
-    double p = t < te ? pressure[0] + scale * shape(t, sec2(te)) : pressure[1];
-    size_t at = (size_t)(forward ? i : POINTS - 1 - i);
-    sb_film_put(out, at, forward ? x * unit : -x * unit, p, out->film_min * (1 + x * x));
+    double p = t < te ? inlet + unit * shape(t, sec2(te)) : outlet;
+    sb_film_put(out, i, x * length, p, out->film_min * (1 + x * x));
   }
 }
 
 SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                              SbReport *report) {
-  bool forward = problem->speed >= 0;
-  double sign = forward ? 1 : -1;
-  double pressure[] = {forward ? problem->pressure_left : problem->pressure_right,
-                       forward ? problem->pressure_right : problem->pressure_left};
+  double inlet = scale->inlet * scale->pressure, outlet = scale->outlet * scale->pressure;
   double R = problem->radius;
   double eta_u = problem->viscosity * fabs(problem->speed);
   // Net load by parts: integral of (P* - ambient) sec^2 t dt = cos^2(te)/4, whatever the pressures.
   double top = 3 * eta_u * R / problem->load;
-  double step = (pressure[1] - pressure[0]) / (6 * eta_u * sqrt(2 * R / top) / top);
+  double step = (outlet - inlet) / (6 * eta_u * sqrt(2 * R / top) / top);
   if (!(step < M_PI / 16)) {
     return sb_fail(report, SB_ERROR_INFEASIBLE,
                    "no rigid film carries %g N/m at these pressures: the outlet's drives it back",
@@ -149,14 +143,14 @@ SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const Sb
   double h0 = out->film_min = out->film_central = top * c2; // the throat lies on the axis
   double root = sqrt(2 * R / h0), unit = 6 * eta_u * root / h0;
   out->film_flux = top;
-  out->position_rupture = sign * root * h0 * tan(te);
+  out->position_rupture = root * h0 * tan(te);
   out->ruptured = true;
   // The pressure gradient vanishes at -te as well: there the pressure is greatest.
-  out->pressure_max = pressure[0] + unit * shape(-te, 1 / c2);
+  out->pressure_max = inlet + unit * shape(-te, 1 / c2);
   double span = te + M_PI / 2;
-  out->friction_couette = sign * eta_u * root * span;
-  out->friction_poiseuille = sign * 3 * eta_u * root * (span - (span / 2 + sin(2 * te) / 4) / c2);
-  wedge_profile(out, problem, te, unit, pressure);
+  out->friction_couette = eta_u * root * span;
+  out->friction_poiseuille = 3 * eta_u * root * (span - (span / 2 + sin(2 * te) / 4) / c2);
+  wedge_profile(out, te, root * h0, unit, inlet, outlet);
 
   // How far the elastic limit says the film really is.
   double elastic = 3.77334 * R * pow(scale->U, 0.6) * pow(scale->W, -0.2);
