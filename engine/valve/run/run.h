@@ -35,7 +35,7 @@ typedef struct {
 typedef enum {
   SB_LEAK_NOT_COMPUTED,
   SB_LEAK_CLOSED,
-  SB_LEAK_PERCOLATING, // through channels between the asperities, leak/percolation.h
+  SB_LEAK_PERCOLATING, // through channels between the asperities, contact/rough/percolation.h
   SB_LEAK_OPEN         // no contact, or none that the rubber presses: no leak law holds
 } SbLeakState;
 
@@ -62,7 +62,7 @@ typedef struct {
   double static_error;     // the same of static friction [N]
 } SbSealState;
 
-// What the sliding-plate rig reports (motion/rig.h).
+// What the sliding-plate rig reports (valve/rig.h).
 typedef struct {
   bool found; // whether the force has a first peak; else the coefficients mean nothing
   SbRigCoefficients of;

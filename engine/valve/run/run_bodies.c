@@ -2,15 +2,15 @@
 // joint bears at every frame.
 //
 // The parts of thesis table 4.1 in the joints of table 4.3. At the start of every segment of the
-// motion (motion/dynamics.h) all parts are brought to where the stem is, onto the joints, and the
-// Jacobian of the joints' conditions is factored there: its null vector is the motion they leave,
-// and gives the mass that the stroke sees; the parts must move as one, so that each force counts in
-// full. The loads act where they arise: the drive on the block, friction on each seal, pressure and
-// return spring on the stem top, the stops on the stem bottom; all but the drive push the housing
-// (with the canister, which is sealed to it) back. At every frame the multipliers' system is solved
-// with the loads on their parts, for the reactions, and every moving part's acceleration is
-// compared with the stroke's. Leaves out: parts that move by levers against each other (refused),
-// whose loads dynamics.h does not know.
+// motion (mechanism/dynamics.h) all parts are brought to where the stem is, onto the joints, and
+// the Jacobian of the joints' conditions is factored there: its null vector is the motion they
+// leave, and gives the mass that the stroke sees; the parts must move as one, so that each force
+// counts in full. The loads act where they arise: the drive on the block, friction on each seal,
+// pressure and return spring on the stem top, the stops on the stem bottom; all but the drive push
+// the housing (with the canister, which is sealed to it) back. At every frame the multipliers'
+// system is solved with the loads on their parts, for the reactions, and every moving part's
+// acceleration is compared with the stroke's. Leaves out: parts that move by levers against each
+// other (refused), whose loads dynamics.h does not know.
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>

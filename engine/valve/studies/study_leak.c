@@ -1,13 +1,13 @@
 // Too little squeeze leaks: pressure of the rubber on the bore, leak at rest and leakage per stroke
 // over the squeeze, at the canister's pressure on the outer seal and at a tenth of it.
 //
-// Leak at rest by percolation and the critical constriction (leak/percolation.h): nil while the
-// rubber's own mean pressure, net load over width, is above the closing pressure of the roughness.
-// A ring seals by itself the better the higher the pressure, so the low one is the one that leaks.
-// Leakage per stroke: what the film carries out, q = pi D h L/2 (film/laws.h). As in the study of
-// the squeeze the bore moves and the groove floor stays. The scene's fitment model is set beside
-// the disc and the ring: Karaszkiewicz' mean pressure does not vanish with the squeeze, so that
-// model never leaks at rest and cannot show this.
+// Leak at rest by percolation and the critical constriction (contact/rough/percolation.h): nil
+// while the rubber's own mean pressure, net load over width, is above the closing pressure of the
+// roughness. A ring seals by itself the better the higher the pressure, so the low one is the one
+// that leaks. Leakage per stroke: what the film carries out, q = pi D h L/2 (film/laws.h). As in
+// the study of the squeeze the bore moves and the groove floor stays. The scene's fitment model is
+// set beside the disc and the ring: Karaszkiewicz' mean pressure does not vanish with the squeeze,
+// so that model never leaks at rest and cannot show this.
 #include "engine/contact/rough/percolation.h"
 #include "engine/valve/studies/study_private.h"
 

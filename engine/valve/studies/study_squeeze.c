@@ -3,7 +3,7 @@
 //
 // The bore moves and the groove floor stays, D = D_floor + 2 g with g = d (1 - s): the stretch on
 // the floor stays as it is and the squeeze alone changes. No pressure, no walls, no friction. The
-// closed forms and the discs' circumferences are those of the definitions in elastic/fit.h.
+// closed forms and the discs' circumferences are those of the definitions in contact/fit.h.
 // Lindley, Green and English, Hertz and Karaszkiewicz know no stretch, so a second ring without
 // stretch (its inner diameter the floor's) shows how much of a difference that is: a ring stretched
 // by 15 % flattens and does not touch at all below some 7 % of squeeze.

@@ -1,5 +1,5 @@
 // What storage does: load, sliding friction, squeeze and modulus of both seals against storage
-// time, by the scene's rubber (elastic/rubber_time.h: Prony relaxation, network scission and set,
+// time, by the scene's rubber (rubber/rubber_time.h: Prony relaxation, network scission and set,
 // swell) and its own models of fitment, film and surface.
 //
 // At every time the ring is compiled afresh as the cycle would find it after that storage; nothing
