@@ -212,10 +212,8 @@ SB_CHECKED bool sb_ehl_layers_mesh(SbEhlSolution *s);
 // Starting state of smooth rows on the solution's mesh.
 void sb_ehl_layers_guess(SbEhlSolution *s);
 
-// Where the film forms again, by Reynolds' equation on the dry gap, and a start of pressure and gap
-// behind the cavity.
-double sb_ehl_layers_reform(const SbEhlLayers *layers, double flux);
-void sb_ehl_layers_guess_reformed(SbEhlSolution *s, double flux);
+// Where the film forms again, by Reynolds' equation on the dry gap.
+double sb_ehl_layers_reform(const SbEhlLayers *layers);
 
 // Newton's method; state.gap is a guess of its own.
 SbStatus sb_ehl_newton(SbEhlSolution *s);

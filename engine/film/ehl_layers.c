@@ -305,17 +305,18 @@ static double excess_gain(double X, const void *context) {
   return gain(r->layers, r->flux, X) - r->layers->outlet;
 }
 
-double sb_ehl_layers_reform(const SbEhlLayers *l, double flux) {
+double sb_ehl_layers_reform(const SbEhlLayers *l) {
   double begin = rupture_guess(l);
   if (sb_ehl_layers_width(l) > THICK) {
     SbWedgePools wedge = wedge_of(l);
     return begin + (tan(wedge.reform) - tan(wedge.end)) * wedge.length;
   }
   double reach = 10.0 * (sqrt(1.44 + 0.52 * l->lambda) + cbrt(l->lambda / l->outlet));
-  return sb_bisect(excess_gain, &(Reform){l, flux}, begin, begin + reach);
+  return sb_bisect(excess_gain, &(Reform){l, sb_ehl_layers_flux(l)}, begin, begin + reach);
 }
 
-// Start of pressure and gap at X in an element.
+// Start of pressure and gap at X in an element: by the rigid wedge where the film is thick, else by
+// the joined layers, behind a cavity by what the film gains there.
 static void start_at(double *pressure, double *film, const SbEhlSolution *s,
                      const SbWedgePools *wedge, int element, double X) {
   const SbEhlLayers *l = &s->c.layers;
@@ -331,26 +332,6 @@ static void start_at(double *pressure, double *film, const SbEhlSolution *s,
   }
 }
 
-// Fills a state from element `first` on: by the rigid wedge where the film is thick, else by the
-// joined layers, behind a cavity by what the film gains there.
-static void fill_from(SbEhlSolution *s, int first, const SbWedgePools *wedge) {
-  const SbEhlMesh *mesh = &s->mesh;
-  for (int i = first; i < mesh->count; i++) {
-    const SbEhlElement *e = &mesh->element[i];
-    for (int k = 0; k <= e->degree; k++) {
-      double pressure, film;
-      start_at(&pressure, &film, s, wedge, i, sb_ehl_node(e, k));
-      s->state.nodal[e->first_dof + k] = sb_ehl_nodal(e, k, pressure);
-    }
-  }
-  for (int i = 0; i < mesh->targets; i++) {
-    if (mesh->owner[i] >= first) {
-      double pressure;
-      start_at(&pressure, &s->state.gap[i], s, wedge, mesh->owner[i], mesh->x[i]);
-    }
-  }
-}
-
 void sb_ehl_layers_guess(SbEhlSolution *s) {
   const SbEhlLayers *l = &s->c.layers;
   const bool thick = sb_ehl_layers_width(l) > THICK;
@@ -359,10 +340,16 @@ void sb_ehl_layers_guess(SbEhlSolution *s) {
   s->state.H0 = 0.0;
   s->state.flux = thick ? wedge.stretch * wedge.film : sb_ehl_layers_flux(l);
   s->state.shift = l->middle + (broken ? tan(wedge.end) * wedge.length - rupture_guess(l) : 0.0);
-  fill_from(s, 0, thick ? &wedge : NULL);
-}
-
-void sb_ehl_layers_guess_reformed(SbEhlSolution *s, double flux) {
-  s->state.flux = flux;
-  fill_from(s, s->mesh.film_end + 1, NULL);
+  const SbEhlMesh *mesh = &s->mesh;
+  double pressure, film;
+  for (int i = 0; i < mesh->count; i++) {
+    const SbEhlElement *e = &mesh->element[i];
+    for (int k = 0; k <= e->degree; k++) {
+      start_at(&pressure, &film, s, thick ? &wedge : NULL, i, sb_ehl_node(e, k));
+      s->state.nodal[e->first_dof + k] = sb_ehl_nodal(e, k, pressure);
+    }
+  }
+  for (int i = 0; i < mesh->targets; i++) {
+    start_at(&pressure, &s->state.gap[i], s, thick ? &wedge : NULL, mesh->owner[i], mesh->x[i]);
+  }
 }
