@@ -211,10 +211,8 @@ SB_CHECKED bool sb_ehl_layers_mesh(SbEhlSolution *s);
 // Starting state of smooth rows on the solution's mesh.
 void sb_ehl_layers_guess(SbEhlSolution *s);
 
-// Where the film forms again, by Reynolds' equation on the dry gap, and a start of pressure and gap
-// behind the cavity.
-double sb_ehl_layers_reform(const SbEhlLayers *layers, double flux);
-void sb_ehl_layers_guess_reformed(SbEhlSolution *s, double flux);
+// Where the film forms again, by Reynolds' equation on the dry gap.
+double sb_ehl_layers_reform(const SbEhlLayers *layers);
 
 // Newton's method; state.gap is a guess of its own.
 SbStatus sb_ehl_newton(SbEhlSolution *s);
@@ -226,10 +224,10 @@ static inline double sb_ehl_tolerance(const SbEhlSolution *s) {
   return fmax(s->solver->tolerance, rounding / s->state.flux);
 }
 
-// Kernel of a fitted body with the axis at `shift`, into solver->kernel ([targets][dofs]), and the
-// gap that it gives at all targets into solver->gaps: the undeformed one and the deflection by the
-// nodal pressures, without H0; into solver->by_shift the derivatives to the shift.
-void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift);
+// Kernel of a fitted body into solver->kernel ([targets][dofs]), and into solver->gaps the gap at
+// all targets without the half-plane's deflection; into solver->by_shift its derivatives to the
+// shift.
+void sb_ehl_fitted(const SbEhlSolution *s);
 
 // Load above the ambient step less its target pi/2.
 double sb_ehl_load(const SbEhlSolution *s);
@@ -283,8 +281,8 @@ void sb_ehl_rough_flux(SbEhlCase *c);
 // Starting state of rough rows on the solution's mesh.
 void sb_ehl_rough_guess(SbEhlSolution *s);
 
-// Lays out elements by the layers and the roughness and builds the kernel, that of a fitted body
-// and the undeformed gap included. False if the mesh does not fit.
+// Lays out elements by the layers and the roughness and builds the kernel. False if the mesh does
+// not fit.
 SB_CHECKED bool sb_ehl_rough_mesh(SbEhlSolution *s);
 
 // Where the film takes the load over from the asperities and hands it back, and how sharply, into

@@ -56,6 +56,9 @@ static SbStatus iterate(SbEhlSolution *s) {
 static SbStatus start_at(SbFilmSolver *solver, const SbEhlCase *c) {
   SbEhlSolution *s = solver->now;
   s->c = *c;
+  if (c->layers.end == SB_EHL_REFORM) {
+    s->c.layers.reform = sb_ehl_layers_reform(&c->layers);
+  }
   if (!lay_out(s)) {
     return SB_ERROR_NOT_CONVERGED;
   }
@@ -86,20 +89,12 @@ static double expected(const SbEhlCase *c) {
 static SbStatus take(SbFilmSolver *solver, const SbEhlCase *c) {
   const SbEhlSolution *from = solver->now;
   SbEhlSolution *to = sb_ehl_other(solver);
-  const SbEhlLayers *old = &from->c.layers;
-  SbEhlLayers *new = &to->c.layers;
   to->c = *c;
-  bool forms = new->end == SB_EHL_REFORM && old->end != SB_EHL_REFORM;
-  if (new->end == SB_EHL_REFORM) {
-    new->reform = forms ? sb_ehl_layers_reform(new, from->state.flux) : old->reform;
-  }
+  to->c.layers.reform = from->c.layers.reform;
   if (!lay_out(to)) {
     return c->rough.rows ? SB_ERROR_RANGE : SB_ERROR_NOT_CONVERGED; // no room for it
   }
-  sb_ehl_carry(to, from, forms ? 1.0 : expected(c) / expected(&from->c));
-  if (forms) {
-    sb_ehl_layers_guess_reformed(to, from->state.flux);
-  }
+  sb_ehl_carry(to, from, expected(c) / expected(&from->c));
   SbStatus status = iterate(to);
   if (status == SB_OK) {
     solver->now = to;
@@ -170,8 +165,9 @@ static bool easier(SbEhlCase *c, const SbEhlCase *target, int k) {
     c->layers.lambda = fmin(c->layers.lambda, EASY_LAMBDA);
     c->layers.inlet = fmin(c->layers.inlet, EASY_PRESSURE);
     c->layers.outlet = fmin(c->layers.outlet, EASY_PRESSURE);
-  } else if (k == 2) { // no inlet pressure and no options at the same M
+  } else if (k == 2) { // no inlet pressure and no options at the same M, a longer cavity
     c->layers.inlet = 0.0;
+    c->layers.outlet *= c->layers.end == SB_EHL_REFORM ? 0.25 : 1.0;
   } else { // an outlet pressure that keeps a thick film full
     c->layers.outlet = fmax(2.2 + c->layers.inlet, c->layers.outlet);
   }
@@ -198,30 +194,6 @@ static bool torn(const SbEhlSolution *s) {
   SbEhlResults results;
   sb_ehl_results(&results, s);
   return results.pressure_min < TENSION;
-}
-
-// Breaks the film and forms it again: from the solution with an empty outlet at the rupture
-// pressure, the outlet's pressure is raised.
-static SbStatus open_cavity(SbFilmSolver *solver, const SbEhlCase *target) {
-  SbEhlCase start = *target, end = *target;
-  end.layers.end = SB_EHL_REFORM;
-  if (sb_ehl_layers_wedge(&end.layers) > 0.0) {
-    // A thick film starts with the cavity of its rigid wedge.
-    end.layers.reform = sb_ehl_layers_reform(&end.layers, 0.0);
-    SbEhlSolution *s = solver->now;
-    s->c = end;
-    if (lay_out(s)) {
-      sb_ehl_layers_guess(s);
-      SbStatus status = iterate(s);
-      if (status != SB_ERROR_NOT_CONVERGED) {
-        return status;
-      }
-    }
-  }
-  start.layers.end = SB_EHL_RUPTURE;
-  start.layers.outlet = 0.0;
-  SbStatus status = start_flooded(solver, &start);
-  return status == SB_OK ? follow_path(solver, &start, &end, 1.0) : status;
 }
 
 // Draws the meniscus in from a flooded inlet until the contact takes no more than `supply`: by
@@ -293,7 +265,9 @@ SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply) {
   // A flooded outlet that would tear the liquid gets a cavity.
   bool full = c->layers.end == SB_EHL_FULL && !c->rough.rows;
   if (full && (status != SB_OK || torn(solver->now))) {
-    status = open_cavity(solver, c);
+    SbEhlCase broken = *c;
+    broken.layers.end = SB_EHL_REFORM;
+    status = start_flooded(solver, &broken);
   }
   if (status == SB_OK && isfinite(supply)) {
     status =

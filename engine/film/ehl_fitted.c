@@ -76,8 +76,9 @@ enum { MODES = SB_COMPLIANCE_MODES };
 // S acts on the window only: an affine element that reaches beyond it counts as far as it lies in
 // it. Moments of the element's basis, and of the state's pressure with its derivative to the shift.
 static void add_element(double *state, double *state_slope, const SbEhlSolution *s,
-                        const SbEhlElement *e, const double *nodal, double shift) {
+                        const SbEhlElement *e) {
   const SbFilmBody *body = &s->c.body;
+  const double shift = s->state.shift;
   const SbSurfaceCompliance *c = body->compliance;
   const double unit = body->side * body->half_width;
   const double ends[] = {c->left / unit - shift, c->right / unit - shift};
@@ -102,7 +103,7 @@ static void add_element(double *state, double *state_slope, const SbEhlSolution 
     sb_compliance_modes(c, unit * (X + shift), value, slope);
     double pressure = -e->far_pressure * weight[sb_ehl_touching(e)];
     for (int j = 0; j <= e->degree; j++) {
-      pressure += weight[j] * nodal[e->first_dof + j];
+      pressure += weight[j] * s->state.nodal[e->first_dof + j];
     }
     for (int k = 0; k < c->modes; k++) {
       for (int j = 0; j <= e->degree; j++) {
@@ -139,10 +140,11 @@ double sb_film_window_tilt(const SbFilmBody *body, double inlet, double outlet) 
   return -(inlet - outlet) / M_PI * log(0.5 * (c->right - c->left) / body->half_width);
 }
 
-void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift) {
+void sb_ehl_fitted(const SbEhlSolution *s) {
   const SbEhlMesh *mesh = &s->mesh;
   const SbFilmBody *body = &s->c.body;
   const SbSurfaceCompliance *c = body->compliance;
+  const double shift = s->state.shift;
   double *kernel = s->solver->kernel;
   double *gaps = s->solver->gaps;
   double *slope = s->solver->by_shift;
@@ -155,7 +157,7 @@ void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift) {
   double state[MODES] = {0};
   double state_slope[MODES] = {0};
   for (int i = 0; i < mesh->count; i++) {
-    add_element(state, state_slope, s, &mesh->element[i], nodal, shift);
+    add_element(state, state_slope, s, &mesh->element[i]);
   }
   sb_film_ambient(state, state_slope, body, mesh->inlet_pressure, mesh->outlet_pressure,
                   mesh->left_end + shift, mesh->right_end + shift);
@@ -188,11 +190,9 @@ void sb_ehl_fitted(const SbEhlSolution *s, const double *nodal, double shift) {
       sum += value[k] * of_state[k];
       sum_slope += derivative[k] * unit * of_state[k] + value[k] * of_slope[k];
     }
-    gaps[i] = sum + mesh->gap_known[i] + tilt * mesh->x[i];
+    gaps[i] = s->state.H0 + sum + mesh->gap_known[i] + tilt * mesh->x[i];
     slope[i] = sum_slope;
   }
-  cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->targets, mesh->dofs, 1.0, mesh->gap, mesh->dofs,
-              nodal, 1, 1.0, gaps, 1);
   memcpy(kernel, mesh->gap, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *kernel);
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, mesh->targets, mesh->dofs, modes, 1.0,
               &solver->fitted.value[0][0], MODES, &solver->fitted.smooth[0][0], SB_EHL_DOFS_MAX,

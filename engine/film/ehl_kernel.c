@@ -9,6 +9,7 @@
 // with z = (X - c)/h.
 #include "engine/film/ehl_mesh.h"
 
+#include <cblas.h>
 #include <math.h>
 #include <string.h>
 
@@ -49,20 +50,10 @@ static void moments(double *out, double x, double y, int n) {
 // ---------------------------------------------------------------- elements
 
 // row[j] += sum over k < count of value[k] matrix[k][j], rows of COLUMNS.
-static void accumulate(double *restrict row, const double *restrict value,
-                       const double *restrict matrix, int count, int columns) {
-  int k = 0;
-  for (; k + 4 <= count; k += 4, matrix += 4 * COLUMNS) {
-    for (int j = 0; j < columns; j++) {
-      row[j] += (value[k] * matrix[j] + value[k + 1] * matrix[COLUMNS + j]) +
-                (value[k + 2] * matrix[2 * COLUMNS + j] + value[k + 3] * matrix[3 * COLUMNS + j]);
-    }
-  }
-  for (; k < count; k++, matrix += COLUMNS) {
-    for (int j = 0; j < columns; j++) {
-      row[j] += value[k] * matrix[j];
-    }
-  }
+static void accumulate(double *row, const double *value, const double *matrix, int count,
+                       int columns) {
+  cblas_dgemv(CblasRowMajor, CblasTrans, count, columns, 1.0, matrix, COLUMNS, value, 1, 1.0, row,
+              1);
 }
 
 // Moments about the middle of a finite element.
@@ -80,49 +71,6 @@ static void expand(SbEhlElement *e) {
   }
 }
 
-void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables) {
-  const SbEhlTable *t = e->table;
-  int columns = e->degree + 1;
-  int extra = e->map == SB_EHL_AFFINE ? 0 : e->map == SB_EHL_COSINE ? 10 : 1;
-  e->modes = e->degree + extra;
-  memset(e->project, 0, sizeof e->project);
-  memset(e->integral, 0, sizeof e->integral);
-  double value[SB_EHL_QUAD];
-  for (int q = 0; q < SB_EHL_QUAD; q++) {
-    double r = tables->fine[q];
-    double scale = tables->fine_weight[q] * sb_ehl_stretch(e, r);
-    SbEhlLocal local;
-    sb_ehl_local(&local, e, t->fine[q], NULL, r);
-    for (int k = 0; k <= e->degree; k++) {
-      e->fine_wb[q][k] = scale * local.value[k];
-    }
-    e->fine_x[q] = e->side != 0 ? sb_ehl_inverse(e, r) : sb_ehl_position(e, r);
-    value[q] = 1.0;
-  }
-  accumulate(e->integral, value, e->fine_wb[0], SB_EHL_QUAD, columns);
-  for (int k = 0; k <= e->modes; k++) {
-    for (int q = 0; q < SB_EHL_QUAD; q++) {
-      value[q] = 0.5 * (2 * k + 1) * tables->fine_legendre[q][k];
-    }
-    accumulate(e->project[k], value, e->fine_wb[0], SB_EHL_QUAD, columns);
-  }
-  if (e->side == 0) {
-    expand(e);
-    return;
-  }
-  // Integral with ln s, the distance from the infinite end.
-  double moment[SB_EHL_PROJECT + 1];
-  moments(moment, e->side, 0.0, e->modes);
-  for (int j = 0; j < columns; j++) {
-    e->log_s[j] = -log(2.0) * e->integral[j];
-  }
-  accumulate(e->log_s, moment, e->project[0], e->modes + 1, columns);
-}
-
-static void add_moments(double *row, const SbEhlElement *e, const double *moment) {
-  accumulate(row, moment, e->project[0], e->modes + 1, e->degree + 1);
-}
-
 // A smooth part of the kernel by its values at the fine rule.
 static void add_values(double *row, const SbEhlElement *e, const double *value) {
   accumulate(row, value, e->fine_wb[0], SB_EHL_QUAD, e->degree + 1);
@@ -134,52 +82,75 @@ static void add_constant(double *row, const SbEhlElement *e, double value) {
   }
 }
 
-// Infinite elements: |X - X'| = |B + a s^2| / s^2 with a = X - A (inlet) or A - X (outlet).
-static void row_infinite(double *row, const SbEhlElement *e, double X) {
-  double value[SB_EHL_QUAD];
-  double a = e->side * (e->A - X);
-  for (int j = 0; j <= e->degree; j++) {
-    row[j] -= 2.0 * e->log_s[j];
-  }
-  // Roots s = +-y or +-iy; in r they are side (1 - 2 s).
-  double y = a != 0.0 ? sqrt(e->B / fabs(a)) : 1e30;
-  bool near = a < 0.0 ? 2.0 * y - 1.0 < NEAR : sqrt(1.0 + y * y) + y < NEAR;
-  if (!near) {
+// ln|z - r| with z = x + i y in the element's coordinate r.
+static void add_log(double *row, const SbEhlElement *e, const SbEhlTables *tables, double x,
+                    double y) {
+  double distance = y == 0.0 ? fmax(1.0, fabs(x)) : 0.5 * (hypot(x - 1.0, y) + hypot(x + 1.0, y));
+  if (distance > NEAR) {
+    double value[SB_EHL_QUAD];
     for (int q = 0; q < SB_EHL_QUAD; q++) {
-      value[q] = log(fabs(e->B + a * e->fine_x[q] * e->fine_x[q]));
+      double dr = x - tables->fine[q];
+      value[q] = 0.5 * log(dr * dr + y * y);
     }
     add_values(row, e, value);
     return;
   }
   double moment[SB_EHL_PROJECT + 1];
-  if (a < 0.0) {
-    moments(moment, e->side * (1.0 - 2.0 * y), 0.0, e->modes);
-    add_moments(row, e, moment);
-    if (2.0 * y + 1.0 < NEAR) {
-      moments(moment, e->side * (2.0 * y + 1.0), 0.0, e->modes);
-      add_moments(row, e, moment);
-    } else {
-      for (int q = 0; q < SB_EHL_QUAD; q++) {
-        value[q] = log(2.0 * (e->fine_x[q] + y));
-      }
-      add_values(row, e, value);
+  moments(moment, x, y, e->modes);
+  accumulate(row, moment, e->project[0], e->modes + 1, e->degree + 1);
+}
+
+void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables) {
+  const SbEhlTable *t = e->table;
+  int columns = e->degree + 1;
+  int extra = e->map == SB_EHL_AFFINE ? 0 : e->map == SB_EHL_COSINE ? 10 : 1;
+  e->modes = e->degree + extra;
+  for (int q = 0; q < SB_EHL_QUAD; q++) {
+    double r = tables->fine[q];
+    double scale = tables->fine_weight[q] * sb_ehl_stretch(e, r);
+    SbEhlLocal local;
+    sb_ehl_local(&local, e, t->fine[q], NULL, r);
+    for (int k = 0; k <= e->degree; k++) {
+      e->fine_wb[q][k] = scale * local.value[k];
     }
-  } else {
-    moments(moment, e->side, 2.0 * y, e->modes);
-    for (int k = 0; k <= e->modes; k++) {
-      moment[k] *= 2.0;
-    }
-    add_moments(row, e, moment);
+    e->fine_x[q] = e->side != 0 ? sb_ehl_inverse(e, r) : sb_ehl_position(e, r);
   }
-  add_constant(row, e, log(0.25 * fabs(a)));
+  cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, e->modes + 1, columns, SB_EHL_QUAD, 1.0,
+              tables->fine_legendre[0], SB_EHL_PROJECT + 1, e->fine_wb[0], COLUMNS, 0.0,
+              e->project[0], COLUMNS);
+  for (int k = 0; k <= e->degree; k++) {
+    e->integral[k] = 2.0 * e->project[0][k];
+  }
+  if (e->side == 0) {
+    expand(e);
+    return;
+  }
+  // Integral with ln s, the distance from the infinite end.
+  memset(e->log_s, 0, sizeof e->log_s);
+  add_log(e->log_s, e, tables, e->side, 0.0);
+  add_constant(e->log_s, e, -log(2.0));
+}
+
+// Infinite elements: |X - X'| = |B + a s^2| / s^2 with a = X - A (inlet) or A - X (outlet).
+static void row_infinite(double *row, const SbEhlElement *e, const SbEhlTables *tables, double X) {
+  for (int j = 0; j <= e->degree; j++) {
+    row[j] -= 2.0 * e->log_s[j];
+  }
+  // Roots s = +-y or +-iy, finite ones to rounding; in r they are side (1 - 2 s).
+  double a = e->side * (e->A - X);
+  double size = fmax(fabs(a), 1e-16 * e->B);
+  double y = 2.0 * sqrt(e->B / size);
+  for (int sign = -1; sign <= 1; sign += 2) {
+    add_log(row, e, tables, e->side * (1.0 + (a < 0.0 ? sign * y : 0.0)), a < 0.0 ? 0.0 : y);
+  }
+  add_constant(row, e, log(0.25 * size));
 }
 
 void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *tables, double X) {
   if (e->side != 0) {
-    row_infinite(row, e, X);
+    row_infinite(row, e, tables, X);
     return;
   }
-  double value[SB_EHL_QUAD];
   double z = fabs(X - e->middle) / e->half;
   if (z > FAR) {
     add_constant(row, e, log(z * e->half));
@@ -203,24 +174,13 @@ void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *ta
     real = ((X < 0.0 ? 0.0 : M_PI) - e->m) / e->h;
     imaginary = acosh(fabs(X)) / e->h;
   }
-  double distance = imaginary == 0.0
-                        ? fmax(1.0, fabs(real))
-                        : 0.5 * (hypot(real - 1.0, imaginary) + hypot(real + 1.0, imaginary));
-  if (distance > NEAR) {
-    for (int q = 0; q < SB_EHL_QUAD; q++) {
-      value[q] = log(fabs(X - e->fine_x[q]));
-    }
-    add_values(row, e, value);
-    return;
-  }
-  double moment[SB_EHL_PROJECT + 1];
-  moments(moment, real, imaginary, e->modes);
-  add_moments(row, e, moment);
+  add_log(row, e, tables, real, imaginary);
   if (e->map == SB_EHL_AFFINE) {
     add_constant(row, e, log(e->h));
     return;
   }
   // Remainder of the cosine map's kernel, ln|(X - X')/(z - r)|, smooth in r.
+  double value[SB_EHL_QUAD];
   for (int q = 0; q < SB_EHL_QUAD; q++) {
     double dr = real - tables->fine[q];
     double dX = X - e->fine_x[q];

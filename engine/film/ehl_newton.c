@@ -61,20 +61,15 @@ static void deflect(const SbEhlSolution *s) {
   const SbEhlState *state = &s->state;
   SbFilmSolver *solver = s->solver;
   double *out = solver->gaps;
-  const bool fitted = s->c.body.compliance != NULL;
   solver->by_nodal = mesh->gap;
-  if (fitted && !s->c.rough.rows) {
-    sb_ehl_fitted(s, state->nodal, state->shift);
-    solver->by_nodal = solver->kernel;
-    for (int i = 0; i < mesh->targets; i++) {
-      out[i] += state->H0;
-    }
-    return;
-  }
   for (int i = 0; i < mesh->targets; i++) {
     double x = mesh->x[i] + state->shift;
-    out[i] = state->H0 + (fitted ? 0.0 : 0.5 * x * x) + mesh->gap_known[i];
+    out[i] = state->H0 + 0.5 * x * x + mesh->gap_known[i];
     solver->by_shift[i] = x;
+  }
+  if (s->c.body.compliance != NULL) {
+    sb_ehl_fitted(s);
+    solver->by_nodal = solver->kernel;
   }
   cblas_dgemv(CblasRowMajor, CblasNoTrans, mesh->targets, mesh->dofs, 1.0, mesh->gap, mesh->dofs,
               state->nodal, 1, 1.0, out, 1);

@@ -8,7 +8,6 @@
 #include "engine/numeric/root.h"
 
 #include <math.h>
-#include <string.h>
 
 static double lacking_gap(double X, const void *gap) {
   return *(const double *)gap - sb_film_dry_gap(X);
@@ -125,18 +124,7 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
     add_half(mesh, here, mesh->end, l->degree);
     add_half(mesh, here, to, l->degree);
   }
-  if (!sb_ehl_mesh_build(mesh, true)) {
-    return false;
-  }
-  // The mesh stands still over the dry contact: a fitted body's share is known once for all.
-  size_t targets = (size_t)mesh->targets;
-  if (c->body.compliance != NULL) {
-    double none[SB_EHL_DOFS_MAX] = {0};
-    sb_ehl_fitted(s, none, l->middle);
-    memcpy(mesh->gap, s->solver->kernel, targets * targets * sizeof(double));
-    memcpy(mesh->gap_known, s->solver->gaps, targets * sizeof(double));
-  }
-  return true;
+  return sb_ehl_mesh_build(mesh, true);
 }
 
 // Where the film takes the load over from the asperities and hands it back, and how sharply: there
