@@ -297,6 +297,9 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
   s->P[n - 1] = t->scale.outlet;
   bool fresh = !factors_serve(t, s);
   bool settled = false;
+  // H is the gap of P: a whole step makes it so and shorter ones keep it. It then carries more
+  // digits of a thin film than deflections of size one.
+  bool elastic_H = false;
   double before_largest = INFINITY;
   double before_mass = INFINITY;
   for (int iteration = 0; iteration < ITERATIONS_MAX; iteration++) {
@@ -307,20 +310,12 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
     for (int i = 0; i + 1 < n; i++) {
       flow_through(t, s, i);
     }
-    // The gap of the pressure, unless the two agree to the rounding of deflections of size one: H
-    // itself then carries more digits of a thin film.
-    sb_transient_gap(elastic, t, s);
-    double apart = 0.0;
-    double deepest = 1.0;
-    for (int i = 0; i < n; i++) {
-      apart = fmax(apart, fabs(elastic[i] - s->H[i]));
-      deepest = fmax(deepest, fabs(s->H[i]));
-    }
-    const bool agree = apart < 1e-13 * deepest;
-    if (agree) {
+    if (elastic_H) {
       memcpy(elastic, s->H, (size_t)n * sizeof *elastic);
+    } else {
+      sb_transient_gap(elastic, t, s);
     }
-    if (settled && agree) {
+    if (settled) {
       const double mass = mass_error(t, s);
       if (mass < 1e-11 || (mass < 1e-10 && mass > 0.1 * before_mass) || before_largest < 1e-13) {
         result->mass_error = fmax(result->mass_error, mass);
@@ -343,6 +338,7 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
       break;
     }
     const int switched = switch_nodes(t, s);
+    elastic_H = (elastic_H || factor == 1.0) && switched == 0;
     settled = factor == 1.0 && switched == 0 && largest < 1e-4;
     fresh = switched > 0 || factor < 1.0 || largest > 0.1 * before_largest || largest > 0.05;
     before_largest = largest;
