@@ -57,7 +57,6 @@ struct SbFilmTransient {
   double matrix[SB_TRANSIENT_NODES_MAX * SB_TRANSIENT_NODES_MAX];
   double factored_c0;
   bool factored_cavity[SB_TRANSIENT_NODES_MAX];
-  double row_scale[SB_TRANSIENT_NODES_MAX];
   int pivot[SB_TRANSIENT_NODES_MAX];
   double right[SB_TRANSIENT_NODES_MAX];
   // Of a fitted body: its polynomials at the nodes, and S times these.

@@ -140,7 +140,7 @@ static double load_excess(const SbFilmTransient *t, const SbTransientState *s) {
 enum { BAND = 5, MIDDLE = 2 }; // derivatives of a row go to nodes i - 2 .. i + 2
 
 // Fills the right-hand side and, if `whole`, the matrix for the present active set; H is linearised
-// about. Rows are divided by the scale that they had with the matrix.
+// about.
 static void assemble(SbFilmTransient *t, const SbTransientState *s, const double *elastic,
                      bool whole) {
   const int n = t->nodes;
@@ -159,7 +159,6 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const double
     }
     double right = residual(t, s, i);
     double by_H0 = 0.0;
-    double scale = 0.0;
     double *out = t->matrix + (size_t)(i - 1) * order;
     if (whole) {
       memset(out, 0, order * sizeof *out);
@@ -171,23 +170,20 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const double
       const double by_gap = by_H[k] + (s->cavity[j] ? 0.0 : by_m[k]);
       right += by_gap * (elastic[j] - s->H[j]);
       by_H0 += by_gap;
-      scale = fmax(scale, fmax(fabs(by_m[k] + by_H[k]), fabs(by_P[k])));
       if (whole && by_gap != 0.0) {
         cblas_daxpy(n - 2, by_gap, t->kernel + (size_t)j * (size_t)n + 1, 1, out, 1);
       }
     }
+    t->right[i - 1] = right;
     if (!whole) {
-      t->right[i - 1] = right / t->row_scale[i];
       continue;
     }
     for (int j = 1; j + 1 < n; j++) {
       const bool near = j >= first && j <= last;
       const double own = !near ? 0.0 : s->cavity[j] ? by_m[j - i + MIDDLE] : by_P[j - i + MIDDLE];
-      out[j - 1] = (s->cavity[j] ? own : out[j - 1] + own) / scale;
+      out[j - 1] = s->cavity[j] ? own : out[j - 1] + own;
     }
-    out[order - 1] = by_H0 / scale;
-    t->right[i - 1] = right / scale;
-    t->row_scale[i] = scale;
+    out[order - 1] = by_H0;
   }
   t->right[order - 1] = load_excess(t, s);
   if (whole) {
