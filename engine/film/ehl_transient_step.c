@@ -37,13 +37,9 @@ void sb_transient_carry(double *out, const SbFilmTransient *t, const double *hei
   double before = integral[first - 1];
   for (int i = first; i <= n - 1 - first; i++) {
     const double at = place[i] - t->face[i].carried * way;
-    int k = i; // at lies between faces k and k + 1
-    while (k > from + SIDE && place[k] > at) {
-      k--;
-    }
-    while (k < to - SIDE && place[k + 1] < at) {
-      k++;
-    }
+    // at lies between faces k and k + 1.
+    const size_t inside = (size_t)(to - from - 2 * SIDE + 2);
+    const int k = from + SIDE + (int)sb_interval(&place[from + SIDE], inside, at);
     double least = INFINITY;
     double most = 0.0;
     for (int j = k - SIDE + 2; j <= k + SIDE; j++) {
