@@ -12,8 +12,16 @@
 #include "engine/numeric/root.h"
 
 #include <cblas.h>
+#include <gsl/gsl_statistics.h>
 #include <math.h>
 #include <string.h>
+
+// Whether a front stands among so many heights: they differ by more than the factor.
+static bool front(const double *height, int count, double factor) {
+  double least, most;
+  gsl_stats_minmax(&least, &most, height, 1, (size_t)count);
+  return most > factor * least;
+}
 
 void sb_transient_carry(double *out, const SbFilmTransient *t, const double *height, double way) {
   enum { SIDE = 3, FACES = 2 * SIDE };
@@ -40,15 +48,9 @@ void sb_transient_carry(double *out, const SbFilmTransient *t, const double *hei
     // at lies between faces k and k + 1.
     const size_t inside = (size_t)(to - from - 2 * SIDE + 2);
     const int k = from + SIDE + (int)sb_interval(&place[from + SIDE], inside, at);
-    double least = INFINITY;
-    double most = 0.0;
-    for (int j = k - SIDE + 2; j <= k + SIDE; j++) {
-      least = fmin(least, height[j]);
-      most = fmax(most, height[j]);
-    }
     double value = 0.0;
-    if (most > 6.0 * least) {
-      // A front: Hermite's cubic with harmonic means for slopes rises throughout.
+    if (front(height + k - SIDE + 2, FACES - 1, 6.0)) {
+      // Hermite's cubic with harmonic means for slopes rises throughout.
       const double *m = height + k;
       const double end[] = {2.0 * m[0] * m[1] / (m[0] + m[1]), 2.0 * m[2] * m[1] / (m[2] + m[1])};
       const double h = t->volume[k + 1];
@@ -233,14 +235,9 @@ static int switch_nodes(const SbFilmTransient *t, SbTransientState *s) {
 // mesh.
 static void choose_scheme(SbFilmTransient *t, const SbTransientState *s, int i) {
   SbTransientFace *f = &t->face[i];
-  double least = INFINITY;
-  double most = 0.0;
-  for (int k = 0; k < 4; k++) {
-    least = fmin(least, s->m[f->first + k]);
-    most = fmax(most, s->m[f->first + k]);
-  }
+  const bool steep = front(s->m + f->first, 4, t->problem.resolve ? 6.0 : 2.5);
   f->beside_cavity = s->cavity[i] || s->cavity[i + 1];
-  f->monotonic = f->limited || f->beside_cavity || most > (t->problem.resolve ? 6.0 : 2.5) * least;
+  f->monotonic = f->limited || f->beside_cavity || steep;
 }
 
 // Takes the step in t->right; no film may shrink below a fifth at once, *factor is the share taken.
