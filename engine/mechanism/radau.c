@@ -27,7 +27,7 @@ static const double enough = 1e-3;
 typedef struct {
   size_t size;
   double m[UNKNOWNS * UNKNOWNS];
-  int pivot[UNKNOWNS];
+  size_t pivot[UNKNOWNS];
 } Factors;
 
 static double scale(const SbRadauSystem *s, size_t i, double value) {
@@ -79,7 +79,7 @@ static bool prepare(Factors *f, size_t n, double h, double j[N][N]) {
       f->m[(a * n + r) * (f->size + 1)] += 1.0;
     }
   }
-  return sb_lu_factor(f->m, f->pivot, (int)f->size);
+  return sb_lu_factor(f->m, f->pivot, f->size);
 }
 
 // The stage rates in `step` are where the iteration starts; `f` is prepared for h. The powers are
@@ -105,7 +105,7 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
       }
     }
     ++*iterations;
-    sb_lu_solve(f->m, f->pivot, residual, (int)f->size);
+    sb_lu_solve(f->m, f->pivot, residual, f->size);
     double size = 0.0;
     bool rounding = true;
     for (size_t a = 0; a < S; a++) {

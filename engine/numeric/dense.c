@@ -1,23 +1,66 @@
-// See dense.h.
+// Gaussian elimination with row exchanges (Golub and Van Loan, Matrix Computations, 3.4).
 #include "engine/numeric/dense.h"
 
 #include <assert.h>
-#include <cblas.h>
 #include <lapacke.h>
 #include <math.h>
 
-bool sb_lu_factor(double *a, int *pivot, int n) {
-  // LAPACK lets numbers that are not finite pass.
-  return LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, a, n, pivot) == 0 &&
-         isfinite(cblas_dasum(n * n, a, 1));
+static void swap(double *a, double *b) {
+  const double t = *a;
+  *a = *b;
+  *b = t;
 }
 
-void sb_lu_solve(const double *a, const int *pivot, double *b, int n) {
-  (void)LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, 1, a, n, pivot, b, n);
+bool sb_lu_factor(double *a, size_t *pivot, size_t n) {
+  for (size_t k = 0; k < n; k++) {
+    // Largest entry of the column to the diagonal.
+    size_t best = k;
+    for (size_t i = k + 1; i < n; i++) {
+      if (fabs(a[i + k * n]) > fabs(a[best + k * n])) {
+        best = i;
+      }
+    }
+    pivot[k] = best;
+    if (!(fabs(a[best + k * n]) > 0.0)) {
+      return false;
+    }
+    for (size_t j = 0; best != k && j < n; j++) {
+      swap(&a[k + j * n], &a[best + j * n]);
+    }
+    // Eliminate below; the factors replace the column.
+    const double inverse = 1.0 / a[k + k * n];
+    for (size_t i = k + 1; i < n; i++) {
+      a[i + k * n] *= inverse;
+    }
+    for (size_t j = k + 1; j < n; j++) {
+      const double top = a[k + j * n];
+      for (size_t i = k + 1; i < n && top != 0.0; i++) {
+        a[i + j * n] -= a[i + k * n] * top;
+      }
+    }
+  }
+  return true;
 }
 
-bool sb_eliminate(double *a, double *b, int n) {
-  int pivot[SB_ELIMINATE_MAX];
+void sb_lu_solve(const double *a, const size_t *pivot, double *b, size_t n) {
+  for (size_t k = 0; k < n; k++) {
+    swap(&b[k], &b[pivot[k]]);
+  }
+  for (size_t k = 0; k < n; k++) {
+    for (size_t i = k + 1; i < n; i++) {
+      b[i] -= a[i + k * n] * b[k];
+    }
+  }
+  for (size_t k = n; k-- > 0;) {
+    b[k] /= a[k + k * n];
+    for (size_t i = 0; i < k; i++) {
+      b[i] -= a[i + k * n] * b[k];
+    }
+  }
+}
+
+bool sb_eliminate(double *a, double *b, size_t n) {
+  size_t pivot[SB_ELIMINATE_MAX];
   assert(n <= SB_ELIMINATE_MAX);
   if (!sb_lu_factor(a, pivot, n)) {
     return false;

@@ -116,7 +116,7 @@ bool sb_solve_system(SbSystem f, void *context, double *x, size_t n, double tole
     }
     memcpy(step, r, n * sizeof *r);
     memcpy(a, b->slope, sizeof a);
-    const bool solvable = b->known && sb_eliminate(a, step, (int)n);
+    const bool solvable = b->known && sb_eliminate(a, step, n);
     bool better = false;
     double share = -1.0;
     for (int k = 0; k < (fresh ? 12 : 1) && solvable && !better; k++, share *= 0.5) {

@@ -199,7 +199,7 @@ bool sb_disc_system_solve(double *residual, const double *edges, void *system) {
     }
   }
 
-  if (!sb_eliminate(s->matrix, s->solution, (int)rows)) {
+  if (!sb_eliminate(s->matrix, s->solution, rows)) {
     return false;
   }
 

@@ -89,7 +89,7 @@ static bool solve_set(Work *w, double *gap, size_t loaded) {
   for (size_t j = 0; j < loaded; j++) {
     memcpy(&w->matrix[j * loaded], &w->influence[j * MAX], loaded * sizeof(double));
   }
-  const bool solved = sb_eliminate(w->matrix, w->pressure, (int)loaded);
+  const bool solved = sb_eliminate(w->matrix, w->pressure, loaded);
   for (size_t j = 0; j < loaded; j++) {
     *gap += w->influence[loaded + j * MAX] * w->pressure[j];
   }

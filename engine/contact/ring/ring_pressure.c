@@ -153,7 +153,7 @@ static double solve(Fit *fit, const double end[2], double *residual) {
     normal[terms * order + k] = normal[k * order + terms] = total[k];
   }
   b[terms] = load;
-  if (!sb_eliminate(normal, b, order)) {
+  if (!sb_eliminate(normal, b, (size_t)order)) {
     return -1.0;
   }
   memcpy(fit->a, b, sizeof fit->a[0] * (size_t)terms);
