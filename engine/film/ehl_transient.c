@@ -162,7 +162,6 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   SbFilmScale *scale = &t->scale;
   *scale = sb_film_scale(&scaled);
   if (scaled.compliance != NULL) {
-    t->compliance = *scaled.compliance;
     SbDryContact dry;
     const SbStatus status = sb_film_scale_fitted(scale, &dry, &scaled, report);
     if (status != SB_OK) {

@@ -49,7 +49,6 @@ struct SbFilmTransient {
   double reach;                         // way in a step up to which faces move
   double diffusion;                     // kappa = film^2 p_H / (12 eta b^2) [1/s]
   double flow;                          // scale of v m
-  SbSurfaceCompliance compliance;       // modes = 0: half-plane and parabola
   double known[SB_TRANSIENT_NODES_MAX]; // undeformed gap and that of ambient pressures
   // [nodes][nodes]: gap by the pressures; factors for the step c0 and the cavity below, c0 = 0:
   // none.
@@ -57,7 +56,6 @@ struct SbFilmTransient {
   double matrix[SB_TRANSIENT_NODES_MAX * SB_TRANSIENT_NODES_MAX];
   double factored_c0;
   bool factored_cavity[SB_TRANSIENT_NODES_MAX];
-  double row_scale[SB_TRANSIENT_NODES_MAX];
   int pivot[SB_TRANSIENT_NODES_MAX];
   double right[SB_TRANSIENT_NODES_MAX];
   // Of a fitted body: its polynomials at the nodes, and S times these.

@@ -19,7 +19,7 @@ static const double CARRIED = 3.0;     // layers
 // ehl_fitted.c. The constant is H0's.
 static void add_smooth(SbFilmTransient *t) {
   enum { MODES = SB_COMPLIANCE_MODES };
-  const SbSurfaceCompliance *c = &t->compliance;
+  const SbSurfaceCompliance *c = t->problem.film.compliance;
   const int n = t->nodes, modes = c->modes;
   const double b = t->scale.half_width, middle = t->scale.middle;
   const SbFilmBody body = {c, 1.0, b, t->scale.film};
@@ -86,15 +86,14 @@ static void build_kernel(SbFilmTransient *t, SbFilmSolver *solver) {
       add_interval(t->kernel + (size_t)i * (size_t)n, t, j, part, -1.0 / M_PI);
     }
   }
-  const bool fitted = t->compliance.modes > 0;
+  const SbSurfaceCompliance *c = t->problem.film.compliance;
   for (int i = 0; i < n; i++) {
     const double x = scale->middle + t->X[i];
     t->known[i] = sb_ehl_ambient_gap(t->X[i], t->X[0], t->X[n - 1], scale->inlet, scale->outlet);
     t->known[i] +=
-        fitted ? sb_compliance_gap(&t->compliance, scale->half_width * x, NULL) / scale->film
-               : 0.5 * x * x;
+        c != NULL ? sb_compliance_gap(c, scale->half_width * x, NULL) / scale->film : 0.5 * x * x;
   }
-  if (fitted) {
+  if (c != NULL) {
     add_smooth(t);
   }
 }

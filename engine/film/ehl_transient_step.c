@@ -12,8 +12,16 @@
 #include "engine/numeric/root.h"
 
 #include <cblas.h>
+#include <gsl/gsl_statistics.h>
 #include <math.h>
 #include <string.h>
+
+// Whether a front stands among so many heights: they differ by more than the factor.
+static bool front(const double *height, int count, double factor) {
+  double least, most;
+  gsl_stats_minmax(&least, &most, height, 1, (size_t)count);
+  return most > factor * least;
+}
 
 void sb_transient_carry(double *out, const SbFilmTransient *t, const double *height, double way) {
   enum { SIDE = 3, FACES = 2 * SIDE };
@@ -37,22 +45,12 @@ void sb_transient_carry(double *out, const SbFilmTransient *t, const double *hei
   double before = integral[first - 1];
   for (int i = first; i <= n - 1 - first; i++) {
     const double at = place[i] - t->face[i].carried * way;
-    int k = i; // at lies between faces k and k + 1
-    while (k > from + SIDE && place[k] > at) {
-      k--;
-    }
-    while (k < to - SIDE && place[k + 1] < at) {
-      k++;
-    }
-    double least = INFINITY;
-    double most = 0.0;
-    for (int j = k - SIDE + 2; j <= k + SIDE; j++) {
-      least = fmin(least, height[j]);
-      most = fmax(most, height[j]);
-    }
+    // at lies between faces k and k + 1.
+    const size_t inside = (size_t)(to - from - 2 * SIDE + 2);
+    const int k = from + SIDE + (int)sb_interval(&place[from + SIDE], inside, at);
     double value = 0.0;
-    if (most > 6.0 * least) {
-      // A front: Hermite's cubic with harmonic means for slopes rises throughout.
+    if (front(height + k - SIDE + 2, FACES - 1, 6.0)) {
+      // Hermite's cubic with harmonic means for slopes rises throughout.
       const double *m = height + k;
       const double end[] = {2.0 * m[0] * m[1] / (m[0] + m[1]), 2.0 * m[2] * m[1] / (m[2] + m[1])};
       const double h = t->volume[k + 1];
@@ -140,7 +138,7 @@ static double load_excess(const SbFilmTransient *t, const SbTransientState *s) {
 enum { BAND = 5, MIDDLE = 2 }; // derivatives of a row go to nodes i - 2 .. i + 2
 
 // Fills the right-hand side and, if `whole`, the matrix for the present active set; H is linearised
-// about. Rows are divided by the scale that they had with the matrix.
+// about.
 static void assemble(SbFilmTransient *t, const SbTransientState *s, const double *elastic,
                      bool whole) {
   const int n = t->nodes;
@@ -159,7 +157,6 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const double
     }
     double right = residual(t, s, i);
     double by_H0 = 0.0;
-    double scale = 0.0;
     double *out = t->matrix + (size_t)(i - 1) * order;
     if (whole) {
       memset(out, 0, order * sizeof *out);
@@ -171,23 +168,20 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const double
       const double by_gap = by_H[k] + (s->cavity[j] ? 0.0 : by_m[k]);
       right += by_gap * (elastic[j] - s->H[j]);
       by_H0 += by_gap;
-      scale = fmax(scale, fmax(fabs(by_m[k] + by_H[k]), fabs(by_P[k])));
       if (whole && by_gap != 0.0) {
         cblas_daxpy(n - 2, by_gap, t->kernel + (size_t)j * (size_t)n + 1, 1, out, 1);
       }
     }
+    t->right[i - 1] = right;
     if (!whole) {
-      t->right[i - 1] = right / t->row_scale[i];
       continue;
     }
     for (int j = 1; j + 1 < n; j++) {
       const bool near = j >= first && j <= last;
       const double own = !near ? 0.0 : s->cavity[j] ? by_m[j - i + MIDDLE] : by_P[j - i + MIDDLE];
-      out[j - 1] = (s->cavity[j] ? own : out[j - 1] + own) / scale;
+      out[j - 1] = s->cavity[j] ? own : out[j - 1] + own;
     }
-    out[order - 1] = by_H0 / scale;
-    t->right[i - 1] = right / scale;
-    t->row_scale[i] = scale;
+    out[order - 1] = by_H0;
   }
   t->right[order - 1] = load_excess(t, s);
   if (whole) {
@@ -241,14 +235,9 @@ static int switch_nodes(const SbFilmTransient *t, SbTransientState *s) {
 // mesh.
 static void choose_scheme(SbFilmTransient *t, const SbTransientState *s, int i) {
   SbTransientFace *f = &t->face[i];
-  double least = INFINITY;
-  double most = 0.0;
-  for (int k = 0; k < 4; k++) {
-    least = fmin(least, s->m[f->first + k]);
-    most = fmax(most, s->m[f->first + k]);
-  }
+  const bool steep = front(s->m + f->first, 4, t->problem.resolve ? 6.0 : 2.5);
   f->beside_cavity = s->cavity[i] || s->cavity[i + 1];
-  f->monotonic = f->limited || f->beside_cavity || most > (t->problem.resolve ? 6.0 : 2.5) * least;
+  f->monotonic = f->limited || f->beside_cavity || steep;
 }
 
 // Takes the step in t->right; no film may shrink below a fifth at once, *factor is the share taken.
@@ -297,6 +286,9 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
   s->P[n - 1] = t->scale.outlet;
   bool fresh = !factors_serve(t, s);
   bool settled = false;
+  // H is the gap of P: a whole step makes it so and shorter ones keep it. It then carries more
+  // digits of a thin film than deflections of size one.
+  bool elastic_H = false;
   double before_largest = INFINITY;
   double before_mass = INFINITY;
   for (int iteration = 0; iteration < ITERATIONS_MAX; iteration++) {
@@ -307,20 +299,12 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
     for (int i = 0; i + 1 < n; i++) {
       flow_through(t, s, i);
     }
-    // The gap of the pressure, unless the two agree to the rounding of deflections of size one: H
-    // itself then carries more digits of a thin film.
-    sb_transient_gap(elastic, t, s);
-    double apart = 0.0;
-    double deepest = 1.0;
-    for (int i = 0; i < n; i++) {
-      apart = fmax(apart, fabs(elastic[i] - s->H[i]));
-      deepest = fmax(deepest, fabs(s->H[i]));
-    }
-    const bool agree = apart < 1e-13 * deepest;
-    if (agree) {
+    if (elastic_H) {
       memcpy(elastic, s->H, (size_t)n * sizeof *elastic);
+    } else {
+      sb_transient_gap(elastic, t, s);
     }
-    if (settled && agree) {
+    if (settled) {
       const double mass = mass_error(t, s);
       if (mass < 1e-11 || (mass < 1e-10 && mass > 0.1 * before_mass) || before_largest < 1e-13) {
         result->mass_error = fmax(result->mass_error, mass);
@@ -343,6 +327,7 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
       break;
     }
     const int switched = switch_nodes(t, s);
+    elastic_H = (elastic_H || factor == 1.0) && switched == 0;
     settled = factor == 1.0 && switched == 0 && largest < 1e-4;
     fresh = switched > 0 || factor < 1.0 || largest > 0.1 * before_largest || largest > 0.05;
     before_largest = largest;

@@ -17,18 +17,13 @@ static double sec2(double t) {
   return 1 / (cos(t) * cos(t));
 }
 
-// Pressure at an end te above `context` P*, negative, with its slope.
+// Pressure at an end te above `context` P*, negative, with its slope: shape(te, sec^2(te)) falls
+// from pi/16 at 0 without bound towards pi/2.
 static double fall(double *slope, double te, const void *context) {
   double stretch = sec2(te);
   *slope =
       2 * stretch * tan(te) * (3 * te / 8 + 3 * M_PI / 16 + sin(2 * te) / 4 + sin(4 * te) / 32);
   return *(const double *)context - shape(te, stretch);
-}
-
-// Where the film ends at `step` P* above the inlet: shape(te, sec^2(te)) falls from pi/16 at 0
-// without bound towards pi/2.
-static double end_at(double step) {
-  return sb_newton_bracketed(fall, &step, 0, 0.5 * M_PI, 0.5);
 }
 
 // Rise from the cavity's end t to the outlet, less what the outlet has.
@@ -55,7 +50,7 @@ static double pools_load(SbWedgePools *w, double film) {
   w->full = true;
   w->end = w->reform = s > 1 ? acos(sqrt(1 / s)) : 0;
   if (inlet + shape(w->end, s) < 0) {
-    double end = end_at(-inlet);
+    double step = -inlet, end = sb_newton_bracketed(fall, &step, 0, 0.5 * M_PI, 0.5);
     double most = inlet + shape(0.5 * M_PI, sec2(end));
     if (outlet < most) {
       Rise r = {sec2(end), outlet};
