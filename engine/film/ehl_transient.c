@@ -13,7 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double TRAVEL = 1.0; // largest way of the fluid in a step, in cells
 // Of the largest local error of a step against the mean's: the least film is local.
 static const double LOCAL = 0.3;
 
@@ -344,9 +343,8 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, SbReport *repo
     const double wanted = h;
     // A step goes one cell at most; the last two share what is left.
     const double v = t->now.speed, rate = (v1 - v0) / dt;
-    const double way = TRAVEL * t->cell;
     if (t->problem.resolve) {
-      h = fmin(h, 2.0 * way / (fabs(v) + sqrt(v * v + 2.0 * fabs(rate) * way)));
+      h = fmin(h, 2.0 * t->cell / (fabs(v) + sqrt(v * v + 2.0 * fabs(rate) * t->cell)));
     }
     h = h >= rest ? rest : h > 0.5 * rest ? 0.5 * rest : h;
     const double share = (t->now.time + h - begin) / dt;

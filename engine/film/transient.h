@@ -10,7 +10,7 @@
 // after a reversal until the liquid has followed.
 //
 // Space: finite volumes on a mesh refined at both edges of the contact, second order; pressure by
-// straight lines, the elastic kernel exact for these. Time: BDF2 with steps chosen from its own
+// parabolas, the elastic kernel exact for these. Time: BDF2 with steps chosen from its own
 // error, Newton's method with the cavity's complementarity as an active set. Between the edges'
 // layers the cells move with the fluid, at u/2: what the wall carries through the contact keeps its
 // form whatever the step. A companion at twice the spacing and twice the step runs beside: the
