@@ -79,10 +79,10 @@ static SbStatus start_at(SbFilmSolver *solver, const SbEhlCase *c) {
 // What the film of a case is expected to scale with; behind a cavity the outlet's pressure has no
 // effect.
 static double expected(const SbEhlCase *c) {
+  SbEhlLayers layers = c->layers;
+  layers.outlet = layers.end == SB_EHL_REFORM ? 0.0 : layers.outlet;
   bool starved = isfinite(c->supply) && c->supply > 0.0;
-  return c->layers.end == SB_EHL_REFORM || !(c->layers.lambda > 0.0) ? 1.0
-         : starved                                                   ? c->supply
-                   : sb_ehl_layers_flux(&c->layers);
+  return !(layers.lambda > 0.0) ? 1.0 : starved ? c->supply : sb_ehl_layers_flux(&layers);
 }
 
 // From the last solution to a case near it; on failure that solution stands.
@@ -168,10 +168,13 @@ static bool easier(SbEhlCase *c, const SbEhlCase *target, int k) {
   } else if (k == 2) { // no inlet pressure and no options at the same M, a longer cavity
     c->layers.inlet = 0.0;
     c->layers.outlet *= c->layers.end == SB_EHL_REFORM ? 0.25 : 1.0;
+  } else if (c->layers.end == SB_EHL_REFORM) { // a small outlet pressure at the inlet's own
+    c->layers.outlet *= k == 3 ? 0.25 : 0.05;
   } else { // an outlet pressure that keeps a thick film full
     c->layers.outlet = fmax(2.2 + c->layers.inlet, c->layers.outlet);
   }
-  return k < 3 || (k == 3 && target->layers.end == SB_EHL_FULL);
+  return k < 3 || (k == 3 && target->layers.end == SB_EHL_FULL) ||
+         (k < 5 && target->layers.end == SB_EHL_REFORM);
 }
 
 static SbStatus start_flooded(SbFilmSolver *solver, const SbEhlCase *target) {
