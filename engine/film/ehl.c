@@ -13,8 +13,6 @@
 // above h = 2 sigma), and the ranges of the rough law.
 #include "engine/film/ehl.h"
 
-#include "engine/base/clock.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -96,29 +94,27 @@ static SbEhlCase scaled_case(const SbFilmProblem *problem, const SbFilmScale *sc
   return c;
 }
 
-// Results in SI and in the seal's frame.
+// Results in SI.
 static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                  const SbEhlCase *c, const SbEhlResults *r) {
-  double sign = problem->speed >= 0.0 ? 1.0 : -1.0;
   out->film_min = r->film_min * scale->film;
   out->film_central = r->film_central * scale->film;
   out->film_flux = r->film_flux * scale->film;
-  out->flow = 0.5 * problem->speed * out->film_flux;
   out->pressure_max = (r->pressure_max + c->fluid.rupture) * scale->pressure;
-  out->position_film_min = sign * r->position_min * scale->half_width;
-  out->position_rupture = sign * r->position_rupture * scale->half_width;
+  out->position_film_min = r->position_min * scale->half_width;
+  out->position_rupture = r->position_rupture * scale->half_width;
   out->ruptured = r->ruptured;
-  double shear = problem->viscosity * problem->speed * scale->half_width / scale->film;
+  double shear = problem->viscosity * fabs(problem->speed) * scale->half_width / scale->film;
   out->friction_couette = shear * r->couette;
   out->friction_cavity = shear * r->cavity;
-  out->friction_poiseuille = sign * r->poiseuille * scale->film * scale->pressure;
+  out->friction_poiseuille = r->poiseuille * scale->film * scale->pressure;
   out->asperity_load = r->asperity_load * scale->half_width * scale->pressure;
   out->asperity_share = out->asperity_load / problem->load;
   out->real_area = r->real_area * scale->half_width;
   out->real_area_share = r->central_share;
   out->film_ratio = c->rough.law != NULL ? out->film_central / problem->sigma : NAN;
-  out->friction_boundary = sign * (problem->shear_strength * out->real_area +
-                                   problem->load_coefficient * out->asperity_load);
+  out->friction_boundary =
+      problem->shear_strength * out->real_area + problem->load_coefficient * out->asperity_load;
   out->solver.load_error = r->load_error;
   out->solver.flux_error = r->flux_error;
   out->starved = isfinite(c->supply);
@@ -153,7 +149,6 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
   const bool rough = cold->rough.rows;
   const double wanted = solver->problem->tolerance;
   const int least = rough || wanted >= 5e-3 ? 2 : 3;
-  bool again = false; // rough rows whose film has sharp ends follow these on the first degree
   *levels = 0;
   const int last = rough ? DEGREE_LAST_ROUGH : DEGREE_LAST;
   for (int degree = DEGREE_FIRST; degree <= last;) {
@@ -191,8 +186,8 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
       }
       estimate(solver, change, *levels, results);
     }
-    bool sharp = rough && sb_ehl_rough_fronts(solver->now, now);
-    again = sharp && *levels == 1;
+    // Rough rows whose film has sharp ends follow these on the first degree.
+    bool again = rough && sb_ehl_rough_fronts(solver->now, now) && *levels == 1;
     if (*levels >= least && degree > DEGREE_FIRST && worst(solver) <= 0.1 * wanted) {
       break;
     }
@@ -274,7 +269,6 @@ static SbStatus solve_cold(SbEhlResults *results, int *levels, SbFilmSolver *sol
 
 SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                       SbFilmSolver *solver, SbReport *report) {
-  double begin = sb_clock_seconds();
   const bool rough = sb_film_rough(problem);
   SbFilmSolverInfo *info = &out->solver;
   SbEhlCase c = scaled_case(problem, scale);
@@ -348,7 +342,5 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
                      "film: estimated error %.2g, above the tolerance, on the finest mesh",
                      worst(solver));
   }
-  info->wall_s = sb_clock_seconds() - begin;
-  sb_ehl_profile(out, found, scale);
   return status;
 }

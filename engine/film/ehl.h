@@ -252,9 +252,9 @@ void sb_ehl_change(double change[3], SbFilmSolver *solver, const SbEhlResults *f
 double sb_ehl_flat_film(const SbEhlCase *c, double flux, double film, double pressure,
                         double slope);
 
-// Profile of a solution into `out`, in SI and in the seal's frame, with the points that the problem
-// asks for.
-void sb_ehl_profile(SbFilm *out, const SbEhlSolution *s, const SbFilmScale *scale);
+// Profile of a solution into `out`, in SI, with the points that the problem asks for.
+void sb_ehl_profile(SbFilm *out, const SbFilmProblem *wanted, const SbEhlSolution *s,
+                    const SbFilmScale *scale);
 
 // A solution of the case and its degree, from nothing: directly, or by continuation from an easier
 // case, with the cavity or the meniscus that the case needs; `supply` is the flux film supplied.

@@ -1,6 +1,6 @@
 // Film on a fitted body: scales of its dry contact, and its kernel on the solvers' meshes.
 //
-// The body's gap and smooth compliance (elastic/compliance.h) are polynomials in the seal's x, the
+// The body's gap and smooth compliance (contact/compliance.h) are polynomials in the seal's x, the
 // film's mesh stands in the flow frame with the axis at the shift c: x = side b (X + c). The smooth
 // part acts through as many moments of the pressure as it has polynomials, so that it costs two
 // thin products; b and p_H are those of a Hertz contact of the dry contact's width and load, so
@@ -145,9 +145,6 @@ void sb_ehl_fitted(const SbEhlSolution *s) {
   const SbFilmBody *body = &s->c.body;
   const SbSurfaceCompliance *c = body->compliance;
   const double shift = s->state.shift;
-  double *kernel = s->solver->kernel;
-  double *gaps = s->solver->gaps;
-  double *slope = s->solver->by_shift;
   const double unit = body->side * body->half_width;
   const int modes = c->modes;
   // p_H b over the film's scale.
@@ -190,11 +187,11 @@ void sb_ehl_fitted(const SbEhlSolution *s) {
       sum += value[k] * of_state[k];
       sum_slope += derivative[k] * unit * of_state[k] + value[k] * of_slope[k];
     }
-    gaps[i] = s->state.H0 + sum + mesh->gap_known[i] + tilt * mesh->x[i];
-    slope[i] = sum_slope;
+    solver->gaps[i] = s->state.H0 + sum + mesh->gap_known[i] + tilt * mesh->x[i];
+    solver->by_shift[i] = sum_slope;
   }
-  memcpy(kernel, mesh->gap, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof *kernel);
+  memcpy(solver->kernel, mesh->gap, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof(double));
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, mesh->targets, mesh->dofs, modes, 1.0,
               &solver->fitted.value[0][0], MODES, &solver->fitted.smooth[0][0], SB_EHL_DOFS_MAX,
-              1.0, kernel, mesh->dofs);
+              1.0, solver->kernel, mesh->dofs);
 }

@@ -89,9 +89,8 @@ static Point rough_point(const SbEhlSolution *s, const SbEhlElement *e, double r
                  .asperity = at.asperity};
 }
 
-// Spreads what the pressure of a full film has too much at its end
-// over its thinnest element, whose points begin at `begin`: there a difference in pressure changes
-// the flux least.
+// Spreads what the pressure of a full film has too much at its end over its thinnest element, whose
+// points begin at `begin`: there a difference in pressure changes the flux least.
 static void join(SbFilm *out, const size_t *begin, int thinnest, size_t end, double excess) {
   size_t from = begin[thinnest], to = begin[thinnest + 1];
   for (size_t n = from; n < end; n++) {
@@ -99,8 +98,8 @@ static void join(SbFilm *out, const size_t *begin, int thinnest, size_t end, dou
   }
 }
 
-void sb_ehl_profile(SbFilm *out, const SbEhlSolution *s, const SbFilmScale *scale) {
-  const SbFilmProblem *wanted = s->solver->problem;
+void sb_ehl_profile(SbFilm *out, const SbFilmProblem *wanted, const SbEhlSolution *s,
+                    const SbFilmScale *scale) {
   if (wanted->profile == NULL) {
     return;
   }
@@ -157,8 +156,5 @@ void sb_ehl_profile(SbFilm *out, const SbEhlSolution *s, const SbFilmScale *scal
     if (i + 1 == mesh->count || mesh->element[i + 1].apart) {
       join(out, begin, thinnest, out->points, correction * scale->pressure);
     }
-  }
-  if (wanted->speed < 0.0) {
-    sb_film_mirror(out);
   }
 }

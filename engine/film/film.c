@@ -5,6 +5,7 @@
 // on lambda alone. End pressures: see sb_film_dry_pressure and docs/verification.md.
 #include "engine/film/film.h"
 
+#include "engine/base/clock.h"
 #include "engine/film/ehl.h"
 #include "engine/film/scale.h"
 
@@ -123,24 +124,19 @@ static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const S
   SbFilmProblem without = *problem;
   without.hamaker = 0;
   SbStatus status = sb_ehl_solve(out, &without, scale, solver, report);
-  double wall_s = out->solver.wall_s;
   if (status != SB_OK) {
     return status;
   }
   if (out->film_min > closed) { // thick enough, unless the pull itself draws it down there
     sb_film_begin(out, problem, scale);
     status = sb_ehl_solve(out, problem, scale, solver, report);
-    wall_s += out->solver.wall_s;
     if (status == SB_OK ? out->film_min > closed : status != SB_ERROR_NOT_CONVERGED) {
-      out->solver.wall_s = wall_s;
       return status;
     }
     sb_film_begin(out, &without, scale);
     status = sb_ehl_solve(out, &without, scale, solver, report);
-    wall_s += out->solver.wall_s;
   }
   snap_in(out, problem, closed);
-  out->solver.wall_s = wall_s;
   return status;
 }
 
@@ -299,23 +295,20 @@ void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale 
   out->valid = true;
 }
 
-void sb_film_mirror(SbFilm *out) {
+// A film from the flow frame into the seal's.
+static void turn(SbFilm *out) {
+  double *const along[] = {&out->position_film_min, &out->position_rupture,
+                           &out->friction_couette,  &out->friction_poiseuille,
+                           &out->friction_cavity,   &out->friction_boundary};
+  for (int k = 0; k < 6; k++) {
+    *along[k] = 0.0 - *along[k]; // no negative zero
+  }
   double *const column[] = {out->x, out->pressure, out->film, out->asperity_pressure};
   for (size_t k = 0; k < 4 && out->points > 0; k++) {
     gsl_vector_view turned = gsl_vector_view_array(column[k], out->points);
     gsl_vector_reverse(&turned.vector);
   }
   cblas_dscal((int)out->points, -1.0, out->x, 1);
-}
-
-// A closed film from the flow frame into the seal's.
-static void turn(SbFilm *out) {
-  double *const along[] = {&out->position_film_min, &out->position_rupture, &out->friction_couette,
-                           &out->friction_poiseuille};
-  for (int k = 0; k < 4; k++) {
-    *along[k] = 0.0 - *along[k]; // no negative zero
-  }
-  sb_film_mirror(out);
 }
 
 // Flags films thinner than a few molecules and shapes that the models do not cover.
@@ -348,6 +341,7 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
   sb_film_begin(out, problem, &scale);
   Solve *closed = models[problem->model].closed;
   const bool fitted = problem->compliance != NULL && closed == NULL;
+  SbFilmSolver *own = NULL;
   SbDryContact dry;
   if (fitted) {
     status = sb_film_scale_fitted(&scale, &dry, problem, report);
@@ -371,22 +365,27 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
     if (sb_film_rough(problem)) { // no film at all between smooth surfaces at rest
       snap_in(out, problem, snap_gap(NULL, problem, &scale));
     }
-  } else if (closed != NULL) {
-    status = closed(out, problem, &scale, report);
+  } else {
+    if (closed != NULL) {
+      status = closed(out, problem, &scale, report);
+      out->solver.converged = status == SB_OK;
+    } else {
+      status = memory == NULL ? sb_film_solver_create(&own, report) : SB_OK;
+      SbFilmSolver *solver = memory != NULL ? memory : own;
+      const double begin = sb_clock_seconds();
+      if (status == SB_OK) {
+        status = solve_coupled(out, problem, &scale, solver, report);
+      }
+      out->solver.wall_s = sb_clock_seconds() - begin;
+      if (out->film_central > 0.0) {
+        sb_ehl_profile(out, problem, solver->now, &scale);
+      }
+      sb_film_solver_destroy(own);
+    }
     if (problem->speed < 0.0) {
       turn(out);
     }
     out->flow = 0.5 * problem->speed * out->film_flux;
-    out->solver.converged = status == SB_OK;
-  } else {
-    SbFilmSolver *own = NULL;
-    if (memory == NULL) {
-      status = sb_film_solver_create(&own, report);
-    }
-    if (status == SB_OK) {
-      status = solve_coupled(out, problem, &scale, memory != NULL ? memory : own, report);
-    }
-    sb_film_solver_destroy(own);
   }
   if (status == SB_ERROR_NOT_CONVERGED) {
     out->valid = false;

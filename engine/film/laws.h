@@ -9,8 +9,6 @@
 // source or regressed on solved films. The thesis fitted such laws to its solver (eq. 7.2-7.5,
 // Tables 7.9 to 7.11); with solutions that are converged in the mesh one can stand beside eq. 7.5
 // and 7.6.
-enum { SB_FILM_LAW_POINTS = 400 };
-
 typedef struct {
   double k, a, b;
   // Half-widths of the 95 % confidence intervals: relative for k, absolute for the exponents. The
@@ -20,11 +18,6 @@ typedef struct {
 
 // h/R of a law.
 double sb_film_law(const SbFilmLaw *law, double U, double W);
-
-// Fits the law to films H = h/R, all > 0, 3 to SB_FILM_LAW_POINTS of them, by least squares of the
-// logarithms. SB_ERROR_RANGE otherwise, SB_ERROR_MEMORY.
-SbStatus sb_film_law_fit(SbFilmLaw *out, const double *U, const double *W, const double *H,
-                         size_t count, SbReport *report);
 
 // Greenwood's chart (1969; Johnson 1970; thesis figure 7.10) has g_E = W/sqrt(U) and g_V = G
 // W^(3/2)/sqrt(U) with G = alpha E', and film h W/(R U) in its four corners; the corner that gives

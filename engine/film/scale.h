@@ -113,6 +113,3 @@ static inline void sb_film_put(SbFilm *out, size_t n, double x, double pressure,
     out->points = n + 1 > out->points ? n + 1 : out->points;
   }
 }
-
-// Turns a profile between the flow frame and the seal's where their x differ in sign.
-void sb_film_mirror(SbFilm *out);

@@ -1,7 +1,7 @@
 // The film law from our own solves: the exact exponents of thin films, the thesis' range beside its
 // eq. 7.5, an exact law and a bent one, refusals.
 #include "engine/film/film.h"
-#include "engine/film/laws.h"
+#include "engine/valve/studies/study_private.h"
 
 #include <glib.h>
 #include <math.h>
@@ -55,7 +55,7 @@ static double largest_residual(const SbFilmLaw *law, const Grid *grid, const dou
 
 static SbFilmLaw fit(const Grid *grid, const double *H) {
   SbFilmLaw law;
-  g_assert_cmpint(sb_film_law_fit(&law, grid->U, grid->W, H, grid->count, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_study_fit_law(&law, grid->U, grid->W, H, grid->count, NULL), ==, SB_OK);
   return law;
 }
 
@@ -109,19 +109,19 @@ static void test_regression(void) {
 
 static void test_refusals(void) {
   SbFilmLaw law;
-  double U[SB_FILM_LAW_POINTS + 1], W[SB_FILM_LAW_POINTS + 1], H[SB_FILM_LAW_POINTS + 1];
+  double U[SB_STUDY_LAW_POINTS + 1], W[SB_STUDY_LAW_POINTS + 1], H[SB_STUDY_LAW_POINTS + 1];
   for (size_t i = 0; i < G_N_ELEMENTS(U); i++) {
     U[i] = 1e-9 * (1 + (double)i);
     W[i] = 0.1 + 0.01 * (double)(i % 3);
     H[i] = 1e-5;
   }
-  g_assert_cmpint(sb_film_law_fit(&law, U, W, H, 2, NULL), ==, SB_ERROR_RANGE);
-  g_assert_cmpint(sb_film_law_fit(&law, U, W, H, G_N_ELEMENTS(U), NULL), ==, SB_ERROR_RANGE);
-  g_assert_cmpint(sb_film_law_fit(&law, U, W, H, SB_FILM_LAW_POINTS, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_study_fit_law(&law, U, W, H, 2, NULL), ==, SB_ERROR_RANGE);
+  g_assert_cmpint(sb_study_fit_law(&law, U, W, H, G_N_ELEMENTS(U), NULL), ==, SB_ERROR_RANGE);
+  g_assert_cmpint(sb_study_fit_law(&law, U, W, H, SB_STUDY_LAW_POINTS, NULL), ==, SB_OK);
   U[1] = (double)NAN;
-  g_assert_cmpint(sb_film_law_fit(&law, U, W, H, 5, NULL), ==, SB_ERROR_RANGE);
+  g_assert_cmpint(sb_study_fit_law(&law, U, W, H, 5, NULL), ==, SB_ERROR_RANGE);
   U[1] = 0;
-  g_assert_cmpint(sb_film_law_fit(&law, U, W, H, 5, NULL), ==, SB_ERROR_RANGE);
+  g_assert_cmpint(sb_study_fit_law(&law, U, W, H, 5, NULL), ==, SB_ERROR_RANGE);
 }
 
 int main(int argc, char **argv) {

@@ -4,12 +4,13 @@
 //   h/R = k U^beta W^alpha,   U = eta (u/2)/(E' R),  W = w/(E' R)
 //
 // over the range study.speed_* and study.load_* of the outer seal, on a grid even in ln U and ln W
-// (film/laws.h: least squares of the logarithms, 95 % confidence by Student's t; the residuals
+// (least squares of the logarithms, 95 % confidence by Student's t; the residuals
 // are the law's lack of fit, not noise). What the thesis' exponent 0.5434 is: a mesh that is too
 // coarse at low speed (docs/thesis.md, 3); solved in the mesh it is 0.6.
-#include "engine/film/laws.h"
 #include "engine/valve/studies/study_private.h"
 
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_multifit.h>
 #include <math.h>
 
 enum { SPEEDS = 14, LOADS = 5, CURVE = 41, GRID = SPEEDS * LOADS };
@@ -55,6 +56,45 @@ static void solve(double *value, SbStudyWork *work, int line, double speed) {
   }
 }
 
+SbStatus sb_study_fit_law(SbFilmLaw *out, const double *U, const double *W, const double *H,
+                          size_t count, SbReport *report) {
+  double rows[SB_STUDY_LAW_POINTS][3], ln_H[SB_STUDY_LAW_POINTS], c[3], covariance[3][3], chi2;
+  bool sane = count >= 3 && count <= SB_STUDY_LAW_POINTS;
+  for (size_t i = 0; sane && i < count; i++) {
+    rows[i][0] = 1.0;
+    rows[i][1] = log(U[i]);
+    rows[i][2] = log(W[i]);
+    ln_H[i] = log(H[i]);
+    sane = isfinite(rows[i][1]) && isfinite(rows[i][2]) && isfinite(ln_H[i]);
+  }
+  if (!sane) {
+    return sb_fail(report, SB_ERROR_RANGE, "film law: 3 to %d films are wanted, all above zero",
+                   SB_STUDY_LAW_POINTS);
+  }
+  gsl_matrix_view X = gsl_matrix_view_array(&rows[0][0], count, 3);
+  gsl_vector_view y = gsl_vector_view_array(ln_H, count);
+  gsl_vector_view coefficients = gsl_vector_view_array(c, 3);
+  gsl_matrix_view spread = gsl_matrix_view_array(&covariance[0][0], 3, 3);
+  gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(count, 3);
+  if (work == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "film law: out of memory");
+  }
+  const int failed =
+      gsl_multifit_linear(&X.matrix, &y.vector, &coefficients.vector, &spread.matrix, &chi2, work);
+  gsl_multifit_linear_free(work);
+  if (failed != 0) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "film law: the regression failed");
+  }
+  double quantile = count > 3 ? gsl_cdf_tdist_Pinv(0.975, (double)(count - 3)) : 0.0;
+  *out = (SbFilmLaw){.k = exp(c[0]),
+                     .a = c[1],
+                     .b = c[2],
+                     .k_confidence = quantile * sqrt(covariance[0][0]),
+                     .a_confidence = quantile * sqrt(covariance[1][1]),
+                     .b_confidence = quantile * sqrt(covariance[2][2])};
+  return sb_succeed(report);
+}
+
 static Regression regress(SbStudyWork *work) {
   const SbSealModel *seal = &work->scene->seal[SB_OUTER];
   const double unit = seal->reduced_modulus * seal->radius;
@@ -78,7 +118,7 @@ static Regression regress(SbStudyWork *work) {
     }
   }
   for (int f = 0; f < FILMS && work->status == SB_OK; f++) {
-    SbStatus status = sb_film_law_fit(&out.laws[f].law, out.U, out.W, out.H[f], GRID, &report);
+    SbStatus status = sb_study_fit_law(&out.laws[f].law, out.U, out.W, out.H[f], GRID, &report);
     (void)sb_study_goes_on(work, status, &report);
   }
   return out;

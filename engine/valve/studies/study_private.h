@@ -4,12 +4,13 @@
 
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
+#include "engine/film/laws.h"
 #include "engine/valve/cost.h"
 #include "engine/valve/evaluate.h"
 #include "engine/valve/model.h"
 #include "engine/valve/studies/study.h"
 
-enum { SB_STUDY_VALUES = 8, SB_STUDY_ANSWERS = 512 };
+enum { SB_STUDY_VALUES = 8, SB_STUDY_ANSWERS = 512, SB_STUDY_LAW_POINTS = 400 };
 
 typedef struct SbStudyWork SbStudyWork;
 
@@ -132,3 +133,8 @@ void sb_study_level(SbStudyWork *work, SbStudyPanel *panel, const char *name, do
 
 // Marks a value of the scene, if the abscissa has it.
 void sb_study_mark(SbStudyWork *work, double x, const char *format, ...) SB_PRINTF(3, 4);
+
+// Fits the law to films H = h/R, all > 0, 3 to SB_STUDY_LAW_POINTS of them, by least squares of the
+// logarithms. SB_ERROR_RANGE otherwise, SB_ERROR_MEMORY.
+SbStatus sb_study_fit_law(SbFilmLaw *out, const double *U, const double *W, const double *H,
+                          size_t count, SbReport *report);
