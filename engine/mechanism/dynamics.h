@@ -146,7 +146,7 @@ typedef struct {
   double viscous[SB_DYNAMICS_CONTACTS];          // that part, N
   double deflection[SB_DYNAMICS_CONTACTS];       // of the tangential spring, m
   SbContactState contact[SB_DYNAMICS_CONTACTS];
-  double extra;
+  double extra; // the caller's
   size_t region;
 } SbDynamicsSample;
 
@@ -208,8 +208,8 @@ typedef struct {
   SbDrivePiece piece;
   SbDynamicsEnergy energy;
   SbDynamicsBreak broke;
-  double asked; // time that is being advanced to
-  double stored_start, kinetic_start;
+  double asked;                       // time that is being advanced to
+  double stored_start, kinetic_start; // J
   bool ready, linear, held;
   // The patch started the segment clearly faster than rest_speed: falling below it is coming to
   // rest.

@@ -44,7 +44,7 @@ double sb_oscillator_square(const SbOscillator *o, double tau);
 //   g = constant + rate tau + of_x u + of_v v + relax exp(-relax_rate tau)
 //       + log_gain ln(1 + (log_start + tau)/log_time)          (log_gain >= 0, log_time > 0)
 typedef struct {
-  double constant, rate, of_x, of_v;
+  double constant, rate, of_x, of_v; // of g's unit, tau in s, u in m, v in m/s
   double relax, relax_rate;
   double log_gain, log_start, log_time;
   double noise; // size of terms that have cancelled in the coefficients: sets the rounding error

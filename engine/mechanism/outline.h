@@ -27,7 +27,7 @@ SbStatus sb_outline_of_profile(SbOutline *out, const SbProfile *profile, double 
 // `left` of i + 1. Where the part is solid the inner one is 0.
 typedef struct {
   size_t count;
-  double x[SB_OUTLINE_MAX];
+  double x[SB_OUTLINE_MAX];                                     // m, as the radii
   double low_left[SB_OUTLINE_MAX], low_right[SB_OUTLINE_MAX];   // inner, -1 where there is nothing
   double high_left[SB_OUTLINE_MAX], high_right[SB_OUTLINE_MAX]; // outer
 } SbOutlineSurface;

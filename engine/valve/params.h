@@ -41,7 +41,7 @@ typedef struct {
 } SbParam;
 
 typedef struct {
-  double value[SB_PARAM_COUNT];
+  double value[SB_PARAM_COUNT]; // SI
   bool given[SB_PARAM_COUNT];
 } SbParams;
 

@@ -34,9 +34,9 @@ typedef struct {
   double static_coefficient;  // first peak over load
   double dynamic_coefficient; // mean of the following peaks over load; without any, the mean force
   double mean_coefficient;    // mean force after the first peak over load
-  double first_peak, first_time;
-  size_t peaks;    // that followed
-  bool stick_slip; // whether any did
+  double first_peak, first_time; // N, s
+  size_t peaks;                  // that followed
+  bool stick_slip;               // whether any did
 } SbRigCoefficients;
 
 // Samples that a run delivers: floor(duration x rate) + 1.

@@ -27,11 +27,11 @@ typedef struct {
   double hydrostatic; // inward radial displacement by the pressure that is on both sides
   // Rule with n points; weights of the logarithm and of the kink, n x n by rows.
   size_t n;
-  double tau[SB_DISC_POINTS_MAX];
+  double tau[SB_DISC_POINTS_MAX]; // on [-1, 1]
   double log_weight[SB_DISC_POINTS_MAX * SB_DISC_POINTS_MAX];
   double kink_weight[SB_DISC_POINTS_MAX * SB_DISC_POINTS_MAX];
   double gauss_x[SB_DISC_GAUSS]; // on [0, 1]
-  double gauss_w[SB_DISC_GAUSS];
+  double gauss_w[SB_DISC_GAUSS]; // their sum is 1
   // Solution for the last edges, the bore's contact at centre +- half, sines: n bore values, n wall
   // values, depth of the wall.
   double centre, half;

@@ -109,7 +109,7 @@ void sb_ring_contact_load_fluid(SbRingContact *contact);
 // A pressure on one boundary side, that begins at an even boundary node: p = value + slope (z - z0)
 // with z0 the axial place of the side's first node.
 typedef struct {
-  double value, slope;
+  double value, slope; // Pa, Pa/m
   bool fixed; // in space, its force per length of the axis kept; else it follows the surface
 } SbRingSidePressure;
 

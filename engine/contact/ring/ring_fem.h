@@ -14,7 +14,7 @@ enum { SB_RING_FEM_POINTS = 7, SB_RING_INNER = 5 };
 
 // W = c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3) + bulk/2 (J - 1)^2.
 typedef struct {
-  double c1, c2, bulk;
+  double c1, c2, bulk; // Pa
 } SbRingMaterial;
 
 // What holds at one node: the rows of its two equations are replaced accordingly.
@@ -25,8 +25,8 @@ typedef struct {
 typedef struct {
   int count;
   double direction[2][2];
-  double gap[2];
-  double mix, curve, drive;
+  double gap[2];            // m
+  double mix, curve, drive; // 1, 1/m, N
 } SbRingCondition;
 
 typedef struct SbRingFem SbRingFem;

@@ -21,7 +21,7 @@
 #define SB_GT_LAMBDA_MAX 37.0
 
 typedef struct {
-  double lambda;
+  double lambda;  // mean gap over sigma
   double F2;      // F_2(lambda)
   double F5_2;    // F_5/2(lambda)
   bool underflow; // lambda > SB_GT_LAMBDA_MAX: both integrals reported as 0

@@ -160,13 +160,13 @@ enum { SB_REST_STOP = 0, SB_END_STOP = 1 };
 
 // When the drive does what; all in s.
 typedef struct {
-  double duration; // of the whole drive: frames are evenly spaced over it
+  double duration; // of the whole drive [s]: frames are evenly spaced over it
   double turn;     // from then on a reverse slip is the return, before it a rebound
   bool ends_run;   // the run ends with the drive, without waiting for rest
   // Where the platen turns or the finger's force bends, so that a frame sits on every extreme
   // whatever the frames' spacing: in the first period, and so on in all of them.
   int corners;
-  double period, first[2];
+  double period, first[2]; // s
 } SbDriveTimes;
 
 // The valve as the motion sees it; the user of the callbacks of SbDynamicsModel.
