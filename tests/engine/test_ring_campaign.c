@@ -34,7 +34,7 @@ typedef enum { PRESSED, EDGE, EDGE_PRESSED, SLIDING, KINDS } Kind;
 
 // Case `index` of a kind; the same numbers whatever ran before.
 static Case make(Kind kind, int index) {
-  seed = (guint64)(1234567 + 7919 * index);
+  seed = (guint64)(gint32)(1234567U + 7919U * (guint32)index); // large numbers wrap
   for (int i = 0; i < 5; i++) {
     draw(0.0, 1.0);
   }
