@@ -9,7 +9,6 @@
 // with z = (X - c)/h.
 #include "engine/film/ehl_mesh.h"
 
-#include <cblas.h>
 #include <math.h>
 #include <string.h>
 
@@ -50,10 +49,20 @@ static void moments(double *out, double x, double y, int n) {
 // ---------------------------------------------------------------- elements
 
 // row[j] += sum over k < count of value[k] matrix[k][j], rows of COLUMNS.
-static void accumulate(double *row, const double *value, const double *matrix, int count,
-                       int columns) {
-  cblas_dgemv(CblasRowMajor, CblasTrans, count, columns, 1.0, matrix, COLUMNS, value, 1, 1.0, row,
-              1);
+static void accumulate(double *restrict row, const double *restrict value,
+                       const double *restrict matrix, int count, int columns) {
+  int k = 0;
+  for (; k + 4 <= count; k += 4, matrix += 4 * COLUMNS) {
+    for (int j = 0; j < columns; j++) {
+      row[j] += (value[k] * matrix[j] + value[k + 1] * matrix[COLUMNS + j]) +
+                (value[k + 2] * matrix[2 * COLUMNS + j] + value[k + 3] * matrix[3 * COLUMNS + j]);
+    }
+  }
+  for (; k < count; k++, matrix += COLUMNS) {
+    for (int j = 0; j < columns; j++) {
+      row[j] += value[k] * matrix[j];
+    }
+  }
 }
 
 // Moments about the middle of a finite element.
@@ -105,6 +114,9 @@ void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables) {
   int columns = e->degree + 1;
   int extra = e->map == SB_EHL_AFFINE ? 0 : e->map == SB_EHL_COSINE ? 10 : 1;
   e->modes = e->degree + extra;
+  memset(e->project, 0, sizeof e->project);
+  memset(e->integral, 0, sizeof e->integral);
+  double value[SB_EHL_QUAD];
   for (int q = 0; q < SB_EHL_QUAD; q++) {
     double r = tables->fine[q];
     double scale = tables->fine_weight[q] * sb_ehl_stretch(e, r);
@@ -114,12 +126,14 @@ void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables) {
       e->fine_wb[q][k] = scale * local.value[k];
     }
     e->fine_x[q] = e->side != 0 ? sb_ehl_inverse(e, r) : sb_ehl_position(e, r);
+    value[q] = 1.0;
   }
-  cblas_dgemm(CblasRowMajor, CblasTrans, CblasNoTrans, e->modes + 1, columns, SB_EHL_QUAD, 1.0,
-              tables->fine_legendre[0], SB_EHL_PROJECT + 1, e->fine_wb[0], COLUMNS, 0.0,
-              e->project[0], COLUMNS);
-  for (int k = 0; k <= e->degree; k++) {
-    e->integral[k] = 2.0 * e->project[0][k];
+  accumulate(e->integral, value, e->fine_wb[0], SB_EHL_QUAD, columns);
+  for (int k = 0; k <= e->modes; k++) {
+    for (int q = 0; q < SB_EHL_QUAD; q++) {
+      value[q] = 0.5 * (2 * k + 1) * tables->fine_legendre[q][k];
+    }
+    accumulate(e->project[k], value, e->fine_wb[0], SB_EHL_QUAD, columns);
   }
   if (e->side == 0) {
     expand(e);

@@ -20,9 +20,6 @@ void sb_ehl_tables_init(SbEhlTables *tables) {
   sb_legendre_gauss(tables->fine, tables->fine_weight, SB_EHL_QUAD);
   for (int q = 0; q < SB_EHL_QUAD; q++) {
     (void)gsl_sf_legendre_Pl_array(SB_EHL_PROJECT, tables->fine[q], tables->fine_legendre[q]);
-    for (int k = 0; k <= SB_EHL_PROJECT; k++) {
-      tables->fine_legendre[q][k] *= 0.5 * (2 * k + 1);
-    }
   }
 }
 

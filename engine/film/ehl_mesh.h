@@ -54,7 +54,7 @@ typedef struct {
 // Everything that outlives a solve: rules and tables of the degrees in use.
 typedef struct {
   double fine[SB_EHL_QUAD], fine_weight[SB_EHL_QUAD];
-  double fine_legendre[SB_EHL_QUAD][SB_EHL_PROJECT + 1]; // times (2 k + 1) / 2
+  double fine_legendre[SB_EHL_QUAD][SB_EHL_PROJECT + 1];
   SbEhlTable table[SB_EHL_DEGREE_MAX + 1];
 } SbEhlTables;
 
