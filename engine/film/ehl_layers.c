@@ -3,23 +3,51 @@
 // Thin films: Hertz's contact with two layers of width lambda^0.4 at its edges, where pressure
 // scales with lambda^0.2 and film with lambda^0.6. Elements follow them; between them the cosine
 // map takes steps that grow by a constant factor in theta. Thick films (M below about 4) live on
-// the length of the rigid wedge, sqrt(2 H_min). The guess joins the layers' shapes, a tenth or so
-// from our own solution at M = 1e4, or takes the rigid wedge (thesis eq. 6.17-6.19). It only starts
-// Newton's method: its digits do not reach the result.
+// the length of the rigid wedge, sqrt(2 H_min). The guess joins the layers' shapes, read off our
+// own solution at M = 1e4, or takes the rigid wedge (thesis eq. 6.17-6.19). It only starts Newton's
+// method: its digits do not reach the result.
 #include "engine/film/ehl.h"
 
 #include "engine/film/wedge.h"
 #include "engine/numeric/root.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+// Shapes of the layers: distance from the edge over the layer's width, pressure over lambda^0.2,
+// film over the flux film (in the inlet: its excess over the dry gap).
+static const double inlet_z[] = {-100, -30, -10, -6,  -4, -3, -2, -1.5, -1, -0.5,
+                                 0,    0.5, 1,   1.5, 2,  3,  4,  6,    10};
+static const double inlet_p[] = {0.000053, 0.00061, 0.00539, 0.01436, 0.0301, 0.0492, 0.0919,
+                                 0.1345,   0.2077,  0.3373,  0.5584,  0.8813, 1.2504, 1.5965,
+                                 1.8965,   2.3857,  2.7837,  3.4347,  4.4484};
+static const double inlet_h[] = {1.3,    1.4,    1.6957, 1.8636, 2.008,  2.111,  2.2458,
+                                 2.325,  2.4026, 2.4414, 2.2531, 1.6869, 1.3937, 1.2529,
+                                 1.1832, 1.1222, 1.096,  1.0717, 1.0517};
+static const double outlet_z[] = {-10,  -6,   -4,   -3,   -2, -1.5, -1,  -0.7, -0.5,
+                                  -0.4, -0.3, -0.2, -0.1, 0,  0.05, 0.1, 0.15, 0.16406};
+static const double outlet_p[] = {4.4608, 3.4596, 2.827,  2.4497, 2.0018, 1.7367,
+                                  1.4283, 1.192,  0.976,  0.8364, 0.6692, 0.4764,
+                                  0.2759, 0.1082, 0.0508, 0.0151, 0.0006, 0.0};
+static const double outlet_h[] = {0.9609, 0.9509, 0.9416, 0.9341, 0.9223, 0.9141,
+                                  0.8999, 0.8764, 0.8465, 0.8276, 0.8091, 0.797,
+                                  0.8024, 0.8402, 0.8755, 0.9228, 0.9819, 1.0};
+enum {
+  INLET_COUNT = sizeof inlet_z / sizeof inlet_z[0],
+  OUTLET_COUNT = sizeof outlet_z / sizeof outlet_z[0]
+};
 
 // Films thicker than this layer width start from the rigid wedge and have its mesh.
 static const double THICK = 0.86;
 
-static const double RUPTURE = 0.16406; // from the outlet's edge, layer widths
-
 static const double MIDDLE = 0.6; // of the contact, theta from either edge
+
+static double interpolate(double z, const double *node, const double *value, int count) {
+  size_t i = sb_interval(node, (size_t)count, z);
+  double t = (z - node[i]) / (node[i + 1] - node[i]);
+  return value[i] + fmin(fmax(t, 0.0), 1.0) * (value[i + 1] - value[i]);
+}
 
 // A fitted body's dry pressure over Hertz's.
 static double bowed(const SbEhlLayers *l, double X) {
@@ -85,13 +113,13 @@ double sb_ehl_layers_flux(const SbEhlLayers *l) {
 // Distance from the axis to the rupture, well enough to place the mesh.
 static double rupture_guess(const SbEhlLayers *l) {
   double width = outlet_width(l);
-  double elastic = 1.0 + RUPTURE * width - 0.25 * fmin(width, 0.3) * width;
+  double elastic = 1.0 + 0.16406 * width - 0.25 * fmin(width, 0.3) * width;
   if (sb_ehl_layers_width(l) <= THICK) {
     return elastic;
   }
   SbWedgePools wedge = wedge_of(l);
   double rigid = tan(wedge.end) * wedge.length + 0.8;
-  elastic = 1.0 + RUPTURE * width;
+  elastic = 1.0 + 0.164 * width;
   return 1.0 / sqrt(1.0 / (elastic * elastic) + 1.0 / (rigid * rigid));
 }
 
@@ -263,9 +291,6 @@ double sb_ehl_layers_dry_gap(const SbEhlLayers *l, double X) {
   return fmax(edge * sb_film_dry_gap(X) + (X < 0.0 ? -bend : bend), 0.0);
 }
 
-// Shapes of the layers: pressure over lambda^0.2 and film over the flux film (in the inlet: its
-// excess over the dry gap) by the distance from the edge over the layer's width; they meet Hertz's
-// pressure inside, 0.53 / z^2 far out in the inlet and p = p' = 0 at the rupture.
 void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *l, double flux,
                          double X) {
   double in = sb_ehl_layers_width(l);
@@ -274,16 +299,19 @@ void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *l, d
   double ends = sb_film_ends(X, l->inlet, l->outlet);
   if (X < 0.0) {
     double z = (X + 1.0) / in;
-    double w = z + hypot(z, 0.6);
-    double p = w * w / pow(w + 0.155, 1.5);
+    double p = z > 10.0     ? sqrt(2.0 * z)
+               : z < -100.0 ? 0.53 / (z * z)
+                            : interpolate(z, inlet_z, inlet_p, INLET_COUNT);
     *pressure = ends + sqrt(in) * p * sqrt(0.5 * (1.0 - X)) * bowed(l, inside);
-    *film = sb_ehl_layers_dry_gap(l, X) + flux * (1.0 + 3.4 * pow(w, 0.3) / pow(w + 1.1, 1.5));
+    *film = sb_ehl_layers_dry_gap(l, X) + flux * interpolate(z, inlet_z, inlet_h, INLET_COUNT);
   } else {
-    double v = fmax(RUPTURE - (X - outlet_edge(l)) / out, 0.0);
-    double p = sqrt(2.0) * v * v / sqrt(v * v * v + 0.13);
+    double z = (X - outlet_edge(l)) / out;
+    double p = z < -10.0 ? sqrt(-2.0 * z) : interpolate(z, outlet_z, outlet_p, OUTLET_COUNT);
     *pressure = ends + sqrt(out) * p * sqrt(0.5 * (1.0 + fmin(X, 1.0))) * bowed(l, inside);
-    *film = flux * (1.0 - 1.3 * v / (1.0 + 8.0 * pow(v, 1.5)));
-    *film += v > 0.0 ? 0.0 : sb_ehl_layers_dry_gap(l, X);
+    *film = flux * interpolate(z, outlet_z, outlet_h, OUTLET_COUNT);
+    if (z > 0.16406) {
+      *film += sb_ehl_layers_dry_gap(l, X);
+    }
   }
 }
 
