@@ -79,7 +79,10 @@ static SbEhlCase scaled_case(const SbFilmProblem *problem, const SbFilmScale *sc
   double outlet = scale->outlet > 1e-9 ? scale->outlet : 0.0;
   SbEhlCase c = {
       .fluid = sb_film_fluid(problem, scale->pressure, scale->film),
-      .body = sb_film_body(problem, scale),
+      .body = {.compliance = problem->compliance,
+               .side = problem->speed >= 0.0 ? 1.0 : -1.0,
+               .half_width = scale->half_width,
+               .film = scale->film},
       .supply = INFINITY,
       .layers = {.lambda = scale->lambda,
                  .middle = scale->middle,

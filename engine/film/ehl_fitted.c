@@ -48,13 +48,6 @@ SbStatus sb_film_scale_fitted(SbFilmScale *scale, SbDryContact *dry, const SbFil
   return SB_OK;
 }
 
-SbFilmBody sb_film_body(const SbFilmProblem *problem, const SbFilmScale *scale) {
-  return (SbFilmBody){.compliance = problem->compliance,
-                      .side = problem->speed >= 0.0 ? 1.0 : -1.0,
-                      .half_width = scale->half_width,
-                      .film = scale->film};
-}
-
 void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryContact *dry) {
   enum { POINTS = 801 };
   const SbSurfaceCompliance *c = problem->compliance;
@@ -167,12 +160,10 @@ void sb_ehl_fitted(const SbEhlSolution *s) {
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, mesh->dofs, modes, factor,
               &c->smooth[1][0], MODES, &solver->fitted.moment[0][0], SB_EHL_DOFS_MAX, 0.0,
               &solver->fitted.smooth[1][0], SB_EHL_DOFS_MAX);
-  for (int k = 1; k < modes; k++) {
-    for (int l = 0; l < modes; l++) {
-      of_state[k] += factor * c->smooth[k][l] * state[l];
-      of_slope[k] += factor * c->smooth[k][l] * state_slope[l];
-    }
-  }
+  cblas_dgemv(CblasRowMajor, CblasNoTrans, modes - 1, modes, factor, c->smooth[1], MODES, state, 1,
+              0.0, of_state + 1, 1);
+  cblas_dgemv(CblasRowMajor, CblasNoTrans, modes - 1, modes, factor, c->smooth[1], MODES,
+              state_slope, 1, 0.0, of_slope + 1, 1);
 
   const double tilt = sb_film_window_tilt(body, mesh->inlet_pressure, mesh->outlet_pressure);
   for (int i = 0; i < mesh->targets; i++) {

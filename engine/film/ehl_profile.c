@@ -89,15 +89,6 @@ static Point rough_point(const SbEhlSolution *s, const SbEhlElement *e, double r
                  .asperity = at.asperity};
 }
 
-// Spreads what the pressure of a full film has too much at its end over its thinnest element, whose
-// points begin at `begin`: there a difference in pressure changes the flux least.
-static void join(SbFilm *out, const size_t *begin, int thinnest, size_t end, double excess) {
-  size_t from = begin[thinnest], to = begin[thinnest + 1];
-  for (size_t n = from; n < end; n++) {
-    out->pressure[n] -= excess * fmin((double)(n - from + 1) / (double)(to - from), 1.0);
-  }
-}
-
 void sb_ehl_profile(SbFilm *out, const SbFilmProblem *wanted, const SbEhlSolution *s,
                     const SbFilmScale *scale) {
   if (wanted->profile == NULL) {
@@ -120,9 +111,8 @@ void sb_ehl_profile(SbFilm *out, const SbFilmProblem *wanted, const SbEhlSolutio
   size_t per = most / (size_t)parts / 2 * 2; // even, for who integrates by parabolas
   per = per < 4 ? 4 : per;
 
-  size_t begin[SB_EHL_ELEMENTS_MAX + 1]; // first point of an element
-  int thinnest = 0;
-  double least = INFINITY; // film in its middle
+  size_t thin = 0, thin_end = 1; // points of the thinnest element
+  double least = INFINITY;       // film in its middle
   double correction = 0.0;
   Point last = {0};
   for (int i = 0; i < mesh->count; i++) {
@@ -130,13 +120,8 @@ void sb_ehl_profile(SbFilm *out, const SbFilmProblem *wanted, const SbEhlSolutio
     size_t intervals = per * (size_t)parts_of(&far, e, &s->c, drawn);
     bool flat = !rough && flat_element(s, e);
     bool fresh = i == 0 || e->apart;
-    begin[i] = out->points;
+    const size_t begin = out->points;
     least = fresh ? INFINITY : least;
-    double middle = rough ? INFINITY : state->gap[e->first_row + e->points / 2];
-    if (middle < least) {
-      least = middle;
-      thinnest = i;
-    }
     for (size_t k = 0; k <= intervals; k++) {
       double share = (double)k / (double)intervals;
       double r = e->side != 0 ? e->side * (1.0 - 2.0 * pow(far, e->side < 0 ? 1.0 - share : share))
@@ -152,9 +137,18 @@ void sb_ehl_profile(SbFilm *out, const SbFilmProblem *wanted, const SbEhlSolutio
         out->asperity_pressure[out->points - 1] = p.asperity * scale->pressure;
       }
     }
-    begin[i + 1] = out->points;
-    if (i + 1 == mesh->count || mesh->element[i + 1].apart) {
-      join(out, begin, thinnest, out->points, correction * scale->pressure);
+    double middle = rough ? INFINITY : state->gap[e->first_row + e->points / 2];
+    if (middle < least) {
+      least = middle;
+      thin = begin;
+      thin_end = out->points;
+    }
+    // What the pressure of a full film has too much at its end is spread over its thinnest element:
+    // there a difference in pressure changes the flux least.
+    bool ends = i + 1 == mesh->count || mesh->element[i + 1].apart;
+    for (size_t n = thin; n < out->points && ends; n++) {
+      double share = fmin((double)(n - thin + 1) / (double)(thin_end - thin), 1.0);
+      out->pressure[n] -= correction * scale->pressure * share;
     }
   }
 }

@@ -22,12 +22,10 @@ static const SbEhlElement *source(double *r, const SbEhlMesh *old, const SbEhlMe
 // nodes beside.
 static void carry_rough(SbEhlState *new, const SbEhlState *old, int i, const SbEhlElement *e,
                         double r) {
-  int n = e->first_dof;
-  new->t[i] = sb_ehl_interpolate(e->table, &old->t[n], r);
-  new->s[i] = sb_ehl_interpolate(e->table, &old->s[n], r);
-  for (int k = 1; k < e->degree && r > e->table->node[k]; k++) {
-    n++;
-  }
+  const int first = e->first_dof;
+  const int n = first + (int)sb_interval(e->table->node, (size_t)e->degree + 1, r);
+  new->t[i] = sb_ehl_interpolate(e->table, &old->t[first], r);
+  new->s[i] = sb_ehl_interpolate(e->table, &old->s[first], r);
   double low = fmin(old->t[n], old->t[n + 1]), high = fmax(old->t[n], old->t[n + 1]);
   double margin = 0.3 * (high - low);
   new->t[i] = fmin(fmax(new->t[i], low - margin), high + margin);

@@ -42,9 +42,6 @@ SbFilmScale sb_film_scale(const SbFilmProblem *problem);
 SbStatus sb_film_scale_fitted(SbFilmScale *scale, SbDryContact *dry, const SbFilmProblem *problem,
                               SbReport *report);
 
-// Body of `problem` in those scales; without a compliance if it is the half-plane.
-SbFilmBody sb_film_body(const SbFilmProblem *problem, const SbFilmScale *scale);
-
 // Moments of the ambient pressures up to the ends of a mesh, `begin` and `end` from the axis, less
 // the lower one everywhere, added to `out`; to `slope` their derivatives to the axis.
 void sb_film_ambient(double *out, double *slope, const SbFilmBody *body, double inlet,
