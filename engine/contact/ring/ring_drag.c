@@ -143,6 +143,9 @@ SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
       return status;
     }
   }
+  // Another mesh at a held turn may have passed the coefficient.
   ring->arc.free = false;
-  return sb_succeed(report);
+  sb_ring_save(ring->contact, SB_RING_START);
+  ring->contact->is.now.friction_bore = aim;
+  return sb_ring_attempt(ring, SB_RING_DIRECT, report);
 }
