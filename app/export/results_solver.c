@@ -203,11 +203,18 @@ const char *sb_ring_state_name(SbRingState state) {
 
 // What a dragged ring has beside, and why its greatest drag is null.
 static void put_drag(SbJson *json, const SbFit *fit, bool limit) {
-  sb_json_rows(json, sb_fit_drag_rows, fit, true);
-  sb_json_string(json, "state", sb_ring_state_name(fit->ring.state));
-  sb_json_number(json, "drag_limit", limit ? fit->ring.drag_limit : NAN);
+  const bool found = fit->solver.converged;
+  sb_json_rows(json, sb_fit_drag_rows, fit, found);
+  sb_json_string(json, "state", found ? sb_ring_state_name(fit->ring.state) : NULL);
+  sb_json_number(json, "drag_limit", limit && found ? fit->ring.drag_limit : NAN);
   sb_json_object(json, "reasons");
-  if (!limit) {
+  for (const SbResultRow *row = sb_fit_drag_rows; row->key != NULL && !found; row++) {
+    sb_json_string(json, row->key, "the solver found no such state");
+  }
+  if (!found) {
+    sb_json_string(json, "state", "the solver found no such state");
+    sb_json_string(json, "drag_limit", "the solver found no such state");
+  } else if (!limit) {
     sb_json_string(json, "drag_limit", "not asked for by --drag limit or --drag -limit");
   } else if (isnan(fit->ring.drag_limit)) {
     sb_json_string(json, "drag_limit", "the ring slides at every friction up to 2");
