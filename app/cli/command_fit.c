@@ -3,9 +3,10 @@
 #include "app/cli/timing.h"
 #include "app/export/results.h"
 
+#include <math.h>
 #include <string.h>
 
-static void print_table(const SbFit *fit, const char *seal) {
+static void print_table(const SbFit *fit, const char *seal, bool dragged) {
   printf("%s seal by %s\n", seal, sb_fit_model_name(fit->model));
   sb_cli_rows(sb_fit_rows, fit);
   if (fit->model == SB_FIT_RING) {
@@ -15,6 +16,10 @@ static void print_table(const SbFit *fit, const char *seal) {
              fit->solver.unknowns, fit->ring.load_steps, fit->ring.rejected_steps,
              fit->solver.newton_iterations);
     sb_cli_line("Solver", text);
+    if (dragged) {
+      sb_cli_rows(sb_fit_drag_rows, fit);
+      sb_cli_line("State", sb_ring_state_name(fit->ring.state));
+    }
   }
   sb_cli_rows(sb_fit_error_rows, fit);
   sb_cli_figure("Time", fit->solver.wall_s, "s", "ms");
@@ -92,11 +97,36 @@ static bool choose_model(SbFitProblem *problem, const char *name) {
   return good;
 }
 
+// --drag MU, limit or -limit: the ring model.
+static bool choose_drag(SbFitProblem *problem, bool *limit, const char *text, bool model_given) {
+  *limit = strcmp(text, "limit") == 0 || strcmp(text, "-limit") == 0;
+  if (*limit) {
+    problem->drag = *text == '-' ? -SB_FIT_DRAG_MAX : SB_FIT_DRAG_MAX;
+  } else if (!sb_cli_quantity(&problem->drag, "--drag", text, false, "1", "")) {
+    return false;
+  }
+  if (!(fabs(problem->drag) <= SB_FIT_DRAG_MAX)) {
+    sb_cli_fail("--drag: %s is out of range (allowed -%g to %g, limit, -limit)", text,
+                SB_FIT_DRAG_MAX, SB_FIT_DRAG_MAX);
+    return false;
+  }
+  if (model_given && problem->model != SB_FIT_RING) {
+    sb_cli_fail("--drag: only the ring model knows a dragged ring, not --model %s",
+                sb_fit_model_name(problem->model));
+    return false;
+  }
+  problem->model = SB_FIT_RING;
+  problem->variant = 0;
+  problem->dragged = true;
+  return true;
+}
+
 int sb_command_fit(int argc, char **argv) {
   char *seal = NULL;
   char *pressure = NULL;
   char *name = NULL;
   char *tolerance = NULL;
+  char *drag = NULL;
   char *target = NULL;
   char **settings = NULL;
   const GOptionEntry entries[] = {
@@ -105,6 +135,8 @@ int sb_command_fit(int argc, char **argv) {
        "Pressure on the left, right at ambient; none unless given", "P"},
       {"model", 0, 0, G_OPTION_ARG_FILENAME, &name, "Model, or MODEL:VARIANT; else the file's",
        "NAME"},
+      {"drag", 0, 0, G_OPTION_ARG_FILENAME, &drag,
+       "Friction of the sliding bore, > 0 towards the wall; limit or -limit: the greatest", "MU"},
       {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &tolerance, "Relative error wanted", "T"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
@@ -140,6 +172,10 @@ int sb_command_fit(int argc, char **argv) {
   if (!sb_cli_quantity(&problem.pressure, "--pressure", pressure, false, "Pa", "MPa") ||
       !sb_cli_quantity(&problem.tolerance, "--tolerance", tolerance, false, "1", "") ||
       (name != NULL && !choose_model(&problem, name))) {
+    goto done;
+  }
+  bool limit = false;
+  if (drag != NULL && !choose_drag(&problem, &limit, drag, name != NULL)) {
     goto done;
   }
   const SbParam *allowed = sb_param(SB_P_CANISTER_PRESSURE);
@@ -181,12 +217,12 @@ int sb_command_fit(int argc, char **argv) {
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int written = SB_EXIT_DONE;
     if (target != NULL) {
-      char *json = sb_results_fit(fit, seal, problem.pressure, readouts,
+      char *json = sb_results_fit(fit, &problem, limit, seal, readouts,
                                   &sb_model_seal(model, index)->storage);
       written = sb_cli_emit(json, target);
       g_free(json);
     } else if (!sb_cli_quiet()) {
-      print_table(fit, seal);
+      print_table(fit, seal, problem.dragged);
       print_gland(readouts);
     }
     code = written != SB_EXIT_DONE ? written : code;
@@ -199,6 +235,7 @@ done:
   g_free(pressure);
   g_free(name);
   g_free(tolerance);
+  g_free(drag);
   g_free(target);
   return code;
 }

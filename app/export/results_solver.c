@@ -68,6 +68,13 @@ const SbResultRow sb_fit_ring_rows[] = {
     {"axial_imbalance", NULL, "", "", offsetof(SbFit, ring.axial_imbalance)},
     {0}};
 
+const SbResultRow sb_fit_drag_rows[] = {
+    {"drag_N", "Drag of the bore", "N", "N", offsetof(SbFit, ring.drag)},
+    {"wall_load_N", NULL, "", "", offsetof(SbFit, ring.wall_load)},
+    {"floor_load_N", NULL, "", "", offsetof(SbFit, ring.floor_load)},
+    {"turn_rad", "Turn of the section", "rad", "°", offsetof(SbFit, ring.turn)},
+    {0}};
+
 const SbResultRow sb_fit_error_rows[] = {
     {"load", "Error estimate, load", "1", "", offsetof(SbFit, solver.error_estimate.load)},
     {"pressure_peak", NULL, "", "", offsetof(SbFit, solver.error_estimate.pressure_peak)},
@@ -189,7 +196,33 @@ static void put_storage(SbJson *json, const SbRubberState *storage) {
   sb_json_object_end(json);
 }
 
-char *sb_results_fit(const SbFit *fit, const char *seal, double pressure,
+const char *sb_ring_state_name(SbRingState state) {
+  static const char *const names[] = {"slides", "rolls", "jams", "no-contact"};
+  return names[state];
+}
+
+// What a dragged ring has beside, and why its greatest drag is null.
+static void put_drag(SbJson *json, const SbFit *fit, bool limit) {
+  const bool found = fit->solver.converged;
+  sb_json_rows(json, sb_fit_drag_rows, fit, found);
+  sb_json_string(json, "state", found ? sb_ring_state_name(fit->ring.state) : NULL);
+  sb_json_number(json, "drag_limit", limit && found ? fit->ring.drag_limit : NAN);
+  sb_json_object(json, "reasons");
+  for (const SbResultRow *row = sb_fit_drag_rows; row->key != NULL && !found; row++) {
+    sb_json_string(json, row->key, "the solver found no such state");
+  }
+  if (!found) {
+    sb_json_string(json, "state", "the solver found no such state");
+    sb_json_string(json, "drag_limit", "the solver found no such state");
+  } else if (!limit) {
+    sb_json_string(json, "drag_limit", "not asked for by --drag limit or --drag -limit");
+  } else if (isnan(fit->ring.drag_limit)) {
+    sb_json_string(json, "drag_limit", "the ring slides at every friction up to 2");
+  }
+  sb_json_object_end(json);
+}
+
+char *sb_results_fit(const SbFit *fit, const SbFitProblem *problem, bool limit, const char *seal,
                      const SbGlandReadout *gland, const SbRubberState *storage) {
   SbJson json;
   sb_json_init(&json);
@@ -197,8 +230,11 @@ char *sb_results_fit(const SbFit *fit, const char *seal, double pressure,
   sb_json_string(&json, "model", sb_fit_model_name(fit->model));
   sb_json_string(&json, "variant", sb_fit_variant_name(fit->model, fit->variant));
   sb_json_string(&json, "seal", seal);
-  sb_json_number(&json, "pressure_Pa", pressure);
+  sb_json_number(&json, "pressure_Pa", problem->pressure);
   sb_json_rows(&json, sb_fit_rows, fit, true);
+  if (problem->dragged) {
+    put_drag(&json, fit, limit);
+  }
   sb_json_bool(&json, "touches", fit->touches);
   sb_json_bool(&json, "valid", fit->valid);
   sb_json_warnings(&json, &fit->warnings);

@@ -77,9 +77,18 @@ static SbStatus check(const SbFitProblem *in, SbReport *report) {
       {"housing.modulus", "the housing's modulus [Pa]", in->housing_modulus, 0.0, INFINITY},
       {"housing.poisson_ratio", "the housing's Poisson's ratio", in->housing_poisson, 0.0, 0.5},
       {"canister.pressure", "the pressure [Pa]", in->pressure, SB_FINITE},
+      {"friction.load_coefficient", "the friction of the drag", in->drag, -SB_FIT_DRAG_MAX,
+       SB_FIT_DRAG_MAX},
+      {"gland.floor_friction", "the floor's friction", in->floor_friction, 0.0, 1.0},
+      {"gland.wall_friction", "the walls' friction", in->wall_friction, 0.0, 1.0},
       {"", "the tolerance", in->tolerance, 0.0, 1.0 - DBL_EPSILON});
   if (status != SB_OK) {
     return status;
+  }
+  if (in->dragged && in->model != SB_FIT_RING) {
+    return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
+                             "only the ring model knows a dragged ring, not %s",
+                             sb_fit_model_name(in->model));
   }
   if (!(in->bore_diameter > 2.0 * in->radial_space)) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "bore.diameter",

@@ -61,8 +61,14 @@ typedef struct {
   double gland_width;      // axial [m]
   double pressure;         // pressure difference [Pa]; positive on the left (x < 0)
   double tolerance;        // relative, wanted of load, peak and width; 0: 1e-3
-  bool surface_wanted;     // by the film: gives `surface` too
-  bool (*cancel)(void *);  // polled by models that can last; true stops. May be NULL
+  // Of the ring alone: dragged by the bore, which slides steadily with friction |drag|, > 0 towards
+  // the wall that the fluid presses the ring to (the right one without pressure), with friction on
+  // floor and walls, from where it lies before.
+  bool dragged;
+  double drag, floor_friction, wall_friction; // [-]
+  bool start_at_wall;                         // else in the middle
+  bool surface_wanted;                        // by the film: gives `surface` too
+  bool (*cancel)(void *); // polled by models that can last; true stops. May be NULL
   void *cancel_data;
 } SbFitProblem;
 
@@ -98,6 +104,10 @@ typedef struct {
     double thickness;       // radial extent of the fitted section [m]
     double volume_change;   // of the whole ring, relative to the free one [-]
     double axial_imbalance; // sum of all axial forces over the largest force [-]
+    double drag;            // of the bore on the ring, > 0 as the problem's [N]
+    double drag_limit;      // greatest drag over load where the ring rolls or jams; NAN: not met
+    double turn;            // of the section, > 0 as the drag turns it [rad]
+    SbRingState state;
     size_t load_steps, rejected_steps;
   } ring;
   struct {
@@ -118,6 +128,9 @@ typedef struct {
   // its own. The ring's, by static condensation of its equilibrium; only where `surface_wanted`.
   SbSurfaceCompliance surface;
 } SbFit;
+
+// Largest friction of a drag.
+#define SB_FIT_DRAG_MAX 2.0
 
 // Solves the problem. SB_ERROR_RANGE or SB_ERROR_INPUT with the catalogue key
 // (seal.section_diameter, gland.radial_space, bore.diameter ...) for input that is not physical;

@@ -4,10 +4,16 @@
 // The ring starts in the middle of its groove, so that the wall stands half the gland's width from
 // the section's centre, on the side of the lower pressure; without pressure it touches no wall. The
 // other wall is left out: a section wider than the groove is only warned about. Frictionless and
-// rigid walls, as everywhere in `sealbench fit`; load is the bore's, over the bore's circumference.
+// rigid walls; load is the bore's, over the bore's circumference. A dragged ring has both walls,
+// and friction on bore, floor and walls (ring_drag.c).
 #include "engine/contact/fit_models.h"
 
 #include <math.h>
+
+// Of the bore's sliding, as SbRingLoad's.
+static int drag_direction(const SbFitProblem *in) {
+  return (in->drag < 0.0) == (in->pressure < 0.0) ? 1 : -1;
+}
 
 void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem *in) {
   *body = (SbRingBody){.section_diameter = in->section_diameter,
@@ -24,6 +30,15 @@ void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem 
   } else if (in->pressure < 0.0) {
     load->pressure_right = -in->pressure;
     load->wall_left = -0.5 * in->gland_width;
+  }
+  if (in->dragged) {
+    load->wall_left = -0.5 * in->gland_width;
+    load->wall_right = 0.5 * in->gland_width;
+    load->bore_slides = drag_direction(in);
+    load->friction_bore = fabs(in->drag);
+    load->friction_floor = in->floor_friction;
+    load->friction_wall = in->wall_friction;
+    load->rests_on_wall = in->start_at_wall;
   }
 }
 
@@ -46,7 +61,7 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
     return status;
   }
   const double width = result.axial_right - result.axial_left;
-  if (width > in->gland_width) {
+  if (width > in->gland_width && !in->dragged) {
     sb_warn(&out->warnings, "ring-groove-full", "gland.axial_width",
             "the fitted section is %.3g mm wide in a groove of %.3g mm: its other wall is left out",
             1e3 * width, 1e3 * in->gland_width);
@@ -62,6 +77,18 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   out->ring.thickness = result.thickness;
   out->ring.volume_change = result.volume_change;
   out->ring.axial_imbalance = result.axial_imbalance;
+  const double sign = in->pressure < 0.0 ? -1.0 : 1.0;
+  out->ring.drag = sign * result.bore_drag + 0.0;
+  out->ring.turn = sign * result.turn;
+  out->ring.state = result.state;
+  const bool slides = result.state == SB_RING_SLIDES || result.state == SB_RING_NO_CONTACT;
+  out->ring.drag_limit = slides ? NAN : result.drag_limit;
+  if (!slides) {
+    sb_warn(&out->warnings, result.state == SB_RING_ROLLS ? "ring-rolls" : "ring-jams",
+            "gland.floor_friction",
+            "the ring %s at a drag of %.4g of its load: the figures are those just before",
+            result.state == SB_RING_ROLLS ? "rolls" : "jams", result.drag_limit);
+  }
   out->ring.load_steps = (size_t)result.load_steps;
   out->ring.rejected_steps = (size_t)result.rejected_steps;
   if (result.touching) {

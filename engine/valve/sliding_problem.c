@@ -17,6 +17,9 @@ void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, dou
       .radial_space = model->radial_space,
       .bore_diameter = model->bore_diameter,
       .gland_width = model->axial_width,
+      .floor_friction = model->floor_friction,
+      .wall_friction = model->wall_friction,
+      .start_at_wall = model->start_at_wall,
       .pressure = pressure,
       .tolerance = model->tolerance,
   };

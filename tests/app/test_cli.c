@@ -220,6 +220,28 @@ static void test_json_fit(void) {
   cli_has_keys(cli_at(root, "warnings.0"), "code text parameter");
   json_node_unref(root);
   cli_clear(&result);
+
+  // Dragged: by the ring model, whatever the file's; the greatest drag only where it is asked for.
+  result = CLI("fit", cli.valve, "--seal", "outer", "--drag", "0.3", "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  root = cli_parse(result.out);
+  cli_has_keys(root, "drag_N wall_load_N floor_load_N state drag_limit reasons.drag_limit");
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "state")), ==, "slides");
+  g_assert_true(json_node_is_null(cli_at(root, "drag_limit")));
+  g_assert_cmpfloat(fabs(cli_number(root, "drag_N") / 1.740 - 1), <, 5e-3);
+  json_node_unref(root);
+  cli_clear(&result);
+}
+
+static void test_json_drag_limit(void) {
+  CliResult result = CLI("fit", cli.valve, "--seal", "outer", "--drag", "-limit", "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *root = cli_parse(result.out);
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "state")), ==, "rolls");
+  g_assert_cmpfloat(fabs(cli_number(root, "drag_limit") / 0.470 - 1), <, 4e-2);
+  g_assert_cmpfloat(cli_number(root, "drag_N"), <, 0);
+  json_node_unref(root);
+  cli_clear(&result);
 }
 
 static void test_json_small(void) {
@@ -395,6 +417,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/cli/json/plan", test_plan_matches);
   }
   g_test_add_func("/cli/json/fit", test_json_fit);
+  g_test_add_func("/cli/json/drag-limit", test_json_drag_limit);
   g_test_add_func("/cli/json/small", test_json_small);
   g_test_add_func("/cli/utf8-options", test_utf8_options);
   g_test_add_func("/cli/results-and-locale", test_results_and_locale);

@@ -15,6 +15,12 @@ static const double SIZE_DEFAULT = 0.05, SQUEEZE_MOST = 0.6, STRETCH_MOST = 0.6;
 // least share of their size that is left.
 static const double WIDE = 0.3, NARROW_LEAST = 0.12;
 
+// Share of the greatest friction of steady sliding at which a ring that rolls or jams is shown.
+static const double SHOWN = 0.995;
+
+// Largest change of the friction by another mesh at a held turn.
+static const double SAME_STATE = 0.05;
+
 static SbStatus check_body(const SbRingBody *body, SbReport *report) {
   return SB_CHECK(
       report,
@@ -151,7 +157,34 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
   if (status == SB_OK && sb_ring_rubs(&target)) {
     target.pressure_left = ring->contact->is.now.pressure_left; // none where it passes the ring
     target.pressure_right = ring->contact->is.now.pressure_right;
-    status = sb_ring_advance(ring, &target, SB_RING_FOLLOW, report);
+    if (target.bore_slides != 0) {
+      ring->contact->is.now = target;
+      ring->contact->is.now.friction_bore = 0.0;
+      if (target.rests_on_wall) {
+        sb_ring_rest_on_wall(ring);
+      }
+      status = sb_ring_drag(ring, target.friction_bore, report);
+      if (status == SB_OK && ring->options.fit_mesh && ring->state == SB_RING_SLIDES) {
+        status = sb_ring_refit(ring, ring->options.element_size, report);
+      }
+    } else {
+      status = sb_ring_advance(ring, &target, SB_RING_FOLLOW, report);
+    }
+  }
+  return status;
+}
+
+// A ring that barely resists rolling can stumble over single nodes of a mesh: finer ones are tried.
+static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *report) {
+  static const double FINER[] = {1.0, 0.8, 0.6};
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  for (size_t i = 0; i < sizeof FINER / sizeof FINER[0] && status == SB_ERROR_NOT_CONVERGED; i++) {
+    SbRingMeshPlan plan = first_plan(ring, target, FINER[i] * ring->options.element_size);
+    drop(ring);
+    status = build(ring, &plan, report);
+    if (status == SB_OK) {
+      status = assemble_ring(ring, target, report);
+    }
   }
   return status;
 }
@@ -183,16 +216,19 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
   ring->centre =
       body->plane_strain ? load->floor_radius / d + 0.5 : 0.5 * (body->inner_diameter + d) / d;
   SbRingLoad target = sb_ring_load_in(load, ring->length, ring->stress);
-  // A ring that barely resists rolling can stumble over single nodes of a mesh: try finer ones.
-  static const double FINER[] = {1.0, 0.8, 0.6};
-  status = SB_ERROR_NOT_CONVERGED;
-  for (size_t i = 0; i < sizeof FINER / sizeof FINER[0] && status == SB_ERROR_NOT_CONVERGED; i++) {
-    SbRingMeshPlan plan = first_plan(ring, &target, FINER[i] * o->element_size);
-    drop(ring);
-    status = build(ring, &plan, report);
-    if (status == SB_OK) {
-      status = assemble_ring(ring, &target, report);
+  status = lay_ring(ring, &target, report);
+  if (status == SB_OK && ring->state != SB_RING_SLIDES) {
+    // Past its greatest friction: once more, to just below.
+    SbRingState state = ring->state;
+    double limit = ring->drag_limit, share = SHOWN;
+    for (int i = 0; i < 3 && status == SB_OK && (i == 0 || ring->state != SB_RING_SLIDES); i++) {
+      target.friction_bore = share * limit;
+      status = lay_ring(ring, &target, report);
+      share *= SHOWN * SHOWN;
     }
+    ring->state = state;
+    ring->drag_limit = limit;
+    sb_ring_hold_turn(ring);
   }
   if (status != SB_OK) {
     sb_ring_destroy(ring);
@@ -250,7 +286,7 @@ static void plan_patch(SbRingMeshPlan *plan, const SbRingPatch *patch, double si
   }
 }
 
-SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
+static SbStatus refit(SbRing *ring, double element_size, SbReport *report) {
   SbRing fresh = *ring;
   SbRingMeshPlan plan = empty_plan(ring, fmin(0.16, 3.2 * element_size), element_size);
   SbRingPatch patch[SB_RING_SURFACES];
@@ -261,7 +297,9 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
       // A narrow bore contact has as many elements as one of WIDE: its load is what is wanted.
       double wide = s == SB_RING_BORE ? 0.5 * (patch[s].angle[1] - patch[s].angle[0]) / WIDE : 1.0;
       double size = element_size * fmin(1.0, fmax(NARROW_LEAST, wide));
-      plan_patch(&plan, &patch[s], size, 0.3 * size);
+      // Friction on the last node includes that of the fluid beside it: short elements there.
+      bool slides = s == SB_RING_BORE && ring->contact->is.now.bore_slides != 0;
+      plan_patch(&plan, &patch[s], size, (slides ? 0.15 : 0.3) * size);
     }
   }
   SbStatus status = build(&fresh, &plan, report);
@@ -286,17 +324,39 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
     }
   }
   status = sb_ring_newton(&fresh, SB_RING_FOLLOW, report);
-  if (status == SB_ERROR_NOT_CONVERGED) {
+  if (status == SB_ERROR_NOT_CONVERGED && !sb_ring_rubs(&contact->is.now)) {
     // Too far from the transferred state: follow the whole path again on the new mesh.
     SbRingLoad setting = ring->contact->is.now;
     status = sb_ring_fit_and_press(&fresh, &setting, report);
+  }
+  // Where the turn is held its coefficient is the mesh's; one far off is another state's.
+  double share = 1.0;
+  if (fresh.arc.free && status == SB_OK) {
+    share = contact->is.now.friction_bore / ring->contact->is.now.friction_bore;
+    if (!(fabs(share - 1.0) < SAME_STATE)) {
+      status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the finer mesh slides in another state");
+    }
   }
   if (status != SB_OK) {
     drop(&fresh);
     ring->count = fresh.count;
     return status;
   }
+  fresh.drag_limit *= share;
   drop(ring);
   *ring = fresh;
   return sb_succeed(report);
+}
+
+SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
+  // A sliding ring that stumbles over single nodes of one mesh is taken over to another.
+  static const double FINER[] = {1.0, 0.93, 0.87};
+  SbStatus status = refit(ring, element_size, report);
+  for (int i = 1; i < 3 && status == SB_ERROR_NOT_CONVERGED; i++) {
+    if (ring->contact->is.now.bore_slides == 0) {
+      break;
+    }
+    status = refit(ring, FINER[i] * element_size, report);
+  }
+  return status;
 }

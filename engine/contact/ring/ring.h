@@ -43,6 +43,8 @@ typedef struct {
   double friction_wall;
   double bore_traction;   // Pa, shear on the ring towards +x, instead of friction_bore
   bool use_bore_traction; // if set
+  bool rests_on_wall;     // before bore_slides, touching the wall it slides to; else in the middle
+  int bore_slides;        // +-1: steadily to +-x under the whole contact; 0: as bore_position says
 } SbRingLoad;
 
 #define SB_RING_LOAD_INIT                                                                          \
@@ -64,7 +66,9 @@ typedef struct {
 
 typedef enum {
   SB_RING_SLIDES,     // holds its place: rests, or the bore slides over it
-  SB_RING_ROLLS,      // the last step was refused: its section would roll on (ring_newton.c)
+  SB_RING_ROLLS,      // its section would roll on: the step was refused (ring_path.c), or steady
+                      // sliding has no such friction (ring_drag.c)
+  SB_RING_JAMS,       // steady sliding has no such friction: the ring is wedged
   SB_RING_NO_CONTACT, // does not touch the bore
 } SbRingState;
 
@@ -72,6 +76,7 @@ typedef struct {
   SbRingState state;
   double turn;   // of the section since it was free, rad; > 0 as the bore's motion to +x drives it
   bool touching; // the bore is touched
+  double drag_limit; // greatest drag over load of steady sliding, where it rolls or jams; else 0
   double bore_force, bore_drag;   // N, radial (compression > 0) and axial (+x on the ring)
   double floor_force, floor_drag; // N, the same at the groove floor
   double wall_right_force, wall_left_force; // N, axial, compression > 0
@@ -95,6 +100,8 @@ typedef struct {
 // with the catalogue key (bore smaller than the groove floor, overfilled groove, nothing that holds
 // the ring against the pressure, the fluid passes it), SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED,
 // SB_ERROR_MEMORY; *out is then NULL. Friction acts from the fitted state on, not during fitting.
+// With bore_slides the ring slides steadily; if it rolls or jams before friction_bore it is that of
+// just below the greatest friction that it bears, and the result says so.
 SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *load,
                         const SbRingOptions *options, SbReport *report);
 void sb_ring_destroy(SbRing *ring);

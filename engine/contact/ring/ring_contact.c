@@ -84,9 +84,10 @@ void sb_ring_contact_detect(SbRingContact *contact) {
 
 // ---- friction
 
-// Whether a node is held by a surface with Coulomb friction of its own.
+// Whether a node is held by a surface with Coulomb friction whose direction is to be found.
 static bool rubs(const SbRingContact *contact, int i, SbRingSurface surface) {
   return sb_ring_touch(contact, i, surface)->held &&
+         !(surface == SB_RING_BORE && contact->is.now.bore_slides != 0) &&
          sb_ring_friction(&contact->is.now, surface) > 0.0;
 }
 
@@ -229,7 +230,9 @@ double sb_ring_contact_apply(SbRingContact *contact) {
         }
         condition->count = corner ? 1 : 2;
       } else if (!touch->smooth) {
-        condition->mix = -touch->slip * sb_ring_friction(&contact->is.now, (SbRingSurface)s);
+        bool known = s == SB_RING_BORE && contact->is.now.bore_slides != 0;
+        int slip = known ? contact->is.now.bore_slides : touch->slip;
+        condition->mix = -slip * sb_ring_friction(&contact->is.now, (SbRingSurface)s);
       }
     }
   }

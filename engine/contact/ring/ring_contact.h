@@ -60,7 +60,6 @@ typedef struct {
   double *fluid;      // [2 count] fluid force on the open sides' nodes
   double *weight;     // [count] current area of the boundary nodes
   bool settled;       // the state stands still: its crests stay
-  bool rolls;         // the last step ended because the section would roll on
   double slip_excess; // departure from Coulomb's law at nodes that could not settle
   double force_scale; // for tolerances
   int unsteady;       // touch that last changed, -1: none since the solve began

@@ -117,7 +117,7 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->material = material;
   size_t n = (size_t)mesh->nodes, m = (size_t)mesh->elements;
   size_t state = 2 * n + SB_RING_INNER * m;
-  fem->u = calloc(4 * state + 7 * n, sizeof(double)); // and what follows it
+  fem->u = calloc(4 * state + 9 * n, sizeof(double)); // and what follows it
   fem->condition = calloc(n, sizeof(SbRingCondition));
   fem->work_int = calloc(n, sizeof(int));
   fem->gauss = malloc(sizeof(double) * POINT_SIZE * SB_RING_FEM_POINTS * m);
@@ -135,6 +135,7 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->rhs = fem->residual + 2 * n;
   fem->du = fem->residual + 4 * n;
   fem->mass = fem->residual + 6 * n;
+  fem->du_path = fem->residual + 7 * n;
   for (int e = 0; e < mesh->elements; e++) {
     for (int q = 0; q < SB_RING_FEM_POINTS; q++) {
       if (!point_geometry(fem, e, POINT[q][0], POINT[q][1], POINT[q][2],

@@ -47,6 +47,7 @@ struct SbRingFem {
 
   double *residual;           // [2 nodes] condensed internal minus external force
   double *du;                 // [2 nodes] last solution
+  double *du_path;            // [2 nodes] its change with the parameter of a path
   SbRingCondition *condition; // [nodes]
 
   double residual_inner; // largest residual of an element's own equations

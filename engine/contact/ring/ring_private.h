@@ -14,6 +14,13 @@ typedef struct {
 typedef struct SbRingRecovery SbRingRecovery;
 SbRingRecovery *sb_ring_recovery_create(void); // NULL without memory; free() ends it
 
+// A place on the path of steady sliding, in the plane of the section's turn and the bore's
+// coefficient of friction: where direction . ((turn, friction) - base) = length.
+typedef struct {
+  bool free; // the coefficient is found from it; else it is given
+  double direction[2], base[2], length;
+} SbRingArc;
+
 struct SbRing {
   SbRingBody body;
   SbRingLoad load;
@@ -24,6 +31,9 @@ struct SbRing {
   SbRingFem *fem;
   SbRingContact *contact;
   SbRingCount count;
+  SbRingArc arc;
+  SbRingState state;        // how the last step ended: rolls or jams, else slides
+  double drag_limit;        // greatest coefficient of steady sliding that was met, 0: none
   SbRingRecovery *recovery; // owned
 };
 
@@ -66,6 +76,10 @@ typedef enum { SB_RING_FOLLOW, SB_RING_DIRECT, SB_RING_SEALED } SbRingPath;
 // the last iterate on failure.
 SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report);
 
+// Solves at the present load, unless the section turns too far at once; back to the state of
+// SB_RING_START where that fails.
+SbStatus sb_ring_attempt(SbRing *ring, SbRingPath path, SbReport *report);
+
 // Moves from the present converged load to `target`, in as many steps as it takes. On failure the
 // last converged load and state remain, and the report says where equilibrium ended.
 SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path, SbReport *report);
@@ -74,8 +88,23 @@ SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path
 // sb_ring_create.
 SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport *report);
 
+// Shifts a ring that neither wall holds to the one that the bore slides to.
+void sb_ring_rest_on_wall(SbRing *ring);
+
 // From the present state to another load, leaning on the wall first where the fluid wants it.
 SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report);
+
+// The turn of the section since it was free, that of all which look the same that is nearest to the
+// last one known, and what it changes by a displacement du; NULL: none. Its mean axial place.
+double sb_ring_turn(const SbRingContact *contact, const double *du, double *change, double *place);
+
+// Follows steady sliding from a state without friction on the bore to a coefficient of `aim`, or
+// beyond the greatest one that the ring bears: then it rolls or jams, which `state` and
+// `drag_limit` tell, and it is left there. SB_ERROR_NOT_CONVERGED where neither is reached.
+SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report);
+
+// From here on the present turn is held, with the coefficient that belongs to it.
+void sb_ring_hold_turn(SbRing *ring);
 
 // Tangent of the present state with the bore's nodes set free, factorised; sb_ring_contact_settle
 // must follow. SB_ERROR_NOT_CONVERGED.

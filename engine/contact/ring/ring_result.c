@@ -190,7 +190,9 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   out->wall_right_force = 0.0 - force[SB_RING_WALL_RIGHT][1] * f;
   out->wall_left_force = force[SB_RING_WALL_LEFT][1] * f;
 
-  out->state = contact->rolls ? SB_RING_ROLLS : out->touching ? SB_RING_SLIDES : SB_RING_NO_CONTACT;
+  bool slides = ring->state == SB_RING_SLIDES;
+  out->state = slides && !out->touching ? SB_RING_NO_CONTACT : ring->state;
+  out->drag_limit = ring->drag_limit;
   out->pressure_peak = smooth[SB_RING_BORE].peak * ring->stress;
   out->contact_left = patch[SB_RING_BORE].place[0] * l;
   out->contact_right = patch[SB_RING_BORE].place[1] * l;

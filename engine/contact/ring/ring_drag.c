@@ -1,0 +1,151 @@
+// Steady sliding of the bore over the ring: the path of its states over the coefficient of
+// friction.
+//
+// The bore slides under the whole contact, so that friction has one direction and there is nothing
+// to find out by small motions of the bore: t . R = m n . R at each of its nodes (ring_contact.c).
+// Floor and walls keep their history, from the fitted ring without friction, in the middle of its
+// groove or resting on the wall, over the rising drag. The states are followed by the length of
+// their path in the plane of m and the section's turn (Riks 1979; Crisfield 1981, the constraint a
+// plane across the last secant), since the drag that a ring bears has a maximum: what resists the
+// turning is the hoop stress, by nearly the sine of the turn. Beyond it the section rolls on at a
+// falling drag. There is no maximum without that fall, to FALL of it; single nodes that stick or
+// let go make m waver by less. A ring whose load grows to JAM of the one without friction is
+// wedged: it jams. As the contact travels around the section the mesh is fitted anew at the same
+// turn.
+#include "engine/contact/ring/ring_private.h"
+
+#include <math.h>
+#include <string.h>
+
+// Steps along the path: first, largest and least; the length over which its direction is taken; the
+// turn after which the mesh is fitted anew.
+static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 4e-3, SECANT = 0.02, REFIT_TURN = 0.1;
+
+// Newton iterations of a quick and of a slow step, and of a whole path at most; meshes that are
+// tried at a place where no step succeeds, and by how much each is finer.
+enum { QUICK = 7, SLOW = 14, ITERATIONS_MOST = 2500, MESHES = 3 };
+static const double FINER = 0.12;
+
+// Share of the greatest coefficient at which it counts as passed, turn beyond which no drag is
+// greater (rad), and load over that without friction at which the ring is wedged.
+static const double FALL = 0.97, OVER = 3.0, JAM = 10.0;
+
+void sb_ring_rest_on_wall(SbRing *ring) {
+  const SbRingContact *contact = ring->contact;
+  const SbRingLoad *now = &contact->is.now;
+  SbRingSurface wall = now->bore_slides > 0 ? SB_RING_WALL_RIGHT : SB_RING_WALL_LEFT;
+  double least = INFINITY;
+  bool holds = false;
+  for (int i = 0; i < contact->count; i++) {
+    least = fmin(least, sb_ring_frame_at(contact, i, wall).gap);
+    holds = holds || sb_ring_touch(contact, i, SB_RING_WALL_RIGHT)->held ||
+            sb_ring_touch(contact, i, SB_RING_WALL_LEFT)->held;
+  }
+  for (int i = 0; i < ring->mesh->nodes && isfinite(least) && !holds; i++) {
+    ring->fem->u[2 * i + 1] += now->bore_slides * least;
+  }
+}
+
+static double bore_load(const SbRingContact *contact) {
+  double sum = 0.0;
+  for (int i = 0; i < contact->count; i++) {
+    sum += sb_ring_touch(contact, i, SB_RING_BORE)->force;
+  }
+  return sum;
+}
+
+void sb_ring_hold_turn(SbRing *ring) {
+  const SbRingContactState *is = &ring->contact->is;
+  ring->arc = (SbRingArc){true, {1.0, 0.0}, {is->turn, is->now.friction_bore}, 0.0};
+}
+
+// A mesh fitted to the present contact, at the same turn: near a maximum it may have no state at
+// the same coefficient. The present one is kept where that fails.
+static SbStatus fit_mesh(SbRing *ring, double size, SbReport *report) {
+  sb_ring_hold_turn(ring);
+  SbStatus status = sb_ring_refit(ring, size, report);
+  return status == SB_ERROR_NOT_CONVERGED ? SB_OK : status;
+}
+
+// Says where the path could not be followed further.
+static SbStatus end_of_path(const SbRing *ring, SbReport *report) {
+  SbReport reason = report != NULL ? *report : (SbReport){0};
+  sb_ring_contact_settle(ring->contact);
+  return sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                 "steady sliding was followed to a friction of %.4g, where the section has turned "
+                 "by %.3g rad: %.120s",
+                 ring->contact->is.now.friction_bore, ring->contact->is.turn, reason.text);
+}
+
+// The next state of the path, at most the one at the wanted coefficient.
+static SbStatus next_state(SbRing *ring, const double direction[2], double length, double aim,
+                           SbReport *report) {
+  SbRingContactState *is = &ring->contact->is;
+  ring->arc =
+      (SbRingArc){true, {direction[0], direction[1]}, {is->turn, is->now.friction_bore}, length};
+  sb_ring_save(ring->contact, SB_RING_START);
+  SbStatus status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+  ring->arc.free = false;
+  if (status == SB_OK && is->now.friction_bore > aim) {
+    sb_ring_restore(ring->contact, SB_RING_START);
+    is->now.friction_bore = aim;
+    status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+  }
+  return status;
+}
+
+SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
+  double length = ARC, direction[2] = {0.0, 1.0}, most = 0.0;
+  double fitted = ring->contact->is.turn, still = bore_load(ring->contact);
+  double anchor[2] = {fitted, ring->contact->is.now.friction_bore};
+  int meshes = 0, first = ring->count.iterations; // meshes tried since the last step
+  ring->state = SB_RING_SLIDES;
+  while (ring->contact->is.now.friction_bore < aim) {
+    const SbRingContactState *is = &ring->contact->is;
+    int before = ring->count.iterations;
+    SbStatus status = next_state(ring, direction, length, aim, report);
+    int used = ring->count.iterations - before;
+    bool refit = fabs(is->turn - fitted) > REFIT_TURN;
+    if (status == SB_ERROR_NOT_CONVERGED) {
+      ring->count.rejected++;
+      length *= 0.5;
+      if (length < ARC_LEAST) {
+        // What stops at single nodes of one mesh goes on with another.
+        refit = ++meshes <= MESHES && ring->count.iterations - first < ITERATIONS_MOST;
+        if (!refit) {
+          return end_of_path(ring, report);
+        }
+        length = ARC;
+      }
+    } else if (status == SB_OK) {
+      ring->count.steps++;
+      meshes = 0;
+      most = fmax(most, is->now.friction_bore);
+      bool rolls = is->now.friction_bore < FALL * most || fabs(is->turn) > OVER;
+      if (rolls || bore_load(ring->contact) > JAM * still) {
+        ring->state = rolls ? SB_RING_ROLLS : SB_RING_JAMS;
+        ring->drag_limit = most;
+        return SB_OK;
+      }
+      double way[2] = {is->turn - anchor[0], is->now.friction_bore - anchor[1]};
+      double norm = hypot(way[0], way[1]);
+      for (int k = 0; k < 2 && norm > SECANT; k++) {
+        direction[k] = way[k] / norm;
+        anchor[k] += way[k];
+      }
+      length = used <= QUICK ? fmin(ARC_MOST, 1.5 * length) : used > SLOW ? 0.7 * length : length;
+    }
+    if (refit && (status == SB_OK || status == SB_ERROR_NOT_CONVERGED)) {
+      status = fit_mesh(ring, (1.0 - FINER * meshes) * ring->options.element_size, report);
+      fitted = ring->contact->is.turn;
+    }
+    if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
+      return status;
+    }
+  }
+  // Another mesh at a held turn may have passed the coefficient.
+  ring->arc.free = false;
+  sb_ring_save(ring->contact, SB_RING_START);
+  ring->contact->is.now.friction_bore = aim;
+  return sb_ring_attempt(ring, SB_RING_DIRECT, report);
+}
