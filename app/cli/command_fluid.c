@@ -7,12 +7,35 @@
 #include <math.h>
 #include <string.h>
 
+static void put_source(SbJson *json, const SbFluidProperty *property, const SbFluidFigure *figure) {
+  sb_json_string(json, property->name, figure->source);
+}
+
+static void put_uncertainty(SbJson *json, const SbFluidProperty *property,
+                            const SbFluidFigure *figure) {
+  sb_json_number(json, property->name, figure->uncertainty);
+}
+
+// Who states the uncertainty.
+static void put_by(SbJson *json, const SbFluidProperty *property, const SbFluidFigure *figure) {
+  const char *by = figure->estimated ? "estimated here" : "source";
+  sb_json_string(json, property->name, isfinite(figure->uncertainty) ? by : NULL);
+}
+
+static void put_reason(SbJson *json, const SbFluidProperty *property, const SbFluidFigure *figure) {
+  sb_json_string(json, property->key, figure->source);
+}
+
 static char *state_json(const SbFluid *fluid, const SbFluidState *state, double ethanol,
                         const SbWarnings *warnings) {
   static const struct {
-    const char *block;
+    const char *name;
     bool found; // of the figures that are there, else of those that are not
-  } blocks[] = {{"sources", true}, {"uncertainty", true}, {"reasons", false}};
+    void (*put)(SbJson *json, const SbFluidProperty *property, const SbFluidFigure *figure);
+  } blocks[] = {{"sources", true, put_source},
+                {"uncertainty", true, put_uncertainty},
+                {"uncertainty_by", true, put_by},
+                {"reasons", false, put_reason}};
   SbJson json;
   sb_json_init(&json);
   sb_json_object(&json, NULL);
@@ -26,17 +49,11 @@ static char *state_json(const SbFluid *fluid, const SbFluidState *state, double 
   }
   sb_json_bool(&json, "estimate", state->estimate);
   for (size_t k = 0; k < G_N_ELEMENTS(blocks); k++) {
-    sb_json_object(&json, blocks[k].block);
+    sb_json_object(&json, blocks[k].name);
     for (int i = 0; i < SB_FLUID_PROPERTY_COUNT; i++) {
-      const SbFluidFigure *figure = &state->figure[i];
-      const SbFluidProperty *property = &sb_fluid_property[i];
-      if (isfinite(figure->value) != blocks[k].found) {
-        continue;
-      }
-      if (k == 1) {
-        sb_json_number(&json, property->name, figure->uncertainty);
-      } else {
-        sb_json_string(&json, k == 2 ? property->key : property->name, figure->source);
+      const bool found = !isnan(state->figure[i].value);
+      if (found == blocks[k].found) {
+        blocks[k].put(&json, &sb_fluid_property[i], &state->figure[i]);
       }
     }
     sb_json_object_end(&json);

@@ -98,10 +98,18 @@ static SbStatus pure(SbFluidState *out, const SbFluid *fluid, double temperature
     if (isnan(value[i])) {
       source = i == SB_FLUID_GWP ? "not listed by the IPCC" : "the oil does not evaporate";
     }
-    out->figure[i] = (SbFluidFigure){
-        value[i], fluid->uncertainty[i] > 0.0 ? fluid->uncertainty[i] : NAN, source};
+    const double uncertainty = fluid->uncertainty[i];
+    out->figure[i] = (SbFluidFigure){.value = value[i],
+                                     .uncertainty = uncertainty != 0.0 ? fabs(uncertainty) : NAN,
+                                     .source = source,
+                                     .estimated = uncertainty < 0.0};
   }
   return sb_succeed(report);
+}
+
+// A figure of a mixture, by a rule.
+static SbFluidFigure by_rule(double value, const char *rule) {
+  return (SbFluidFigure){.value = value, .uncertainty = NAN, .source = rule};
 }
 
 static void mix(SbFluidState *out, SbWarnings *warnings, const SbFluidState *ethanol,
@@ -118,15 +126,15 @@ static void mix(SbFluidState *out, SbWarnings *warnings, const SbFluidState *eth
     logarithm += n * log(figure[SB_FLUID_VISCOSITY].value);
   }
   for (int i = 0; i < SB_FLUID_PROPERTY_COUNT; i++) {
-    out->figure[i] = (SbFluidFigure){NAN, NAN, "no rule for a mixture with ethanol"};
+    out->figure[i] = by_rule(NAN, "no rule for a mixture with ethanol");
   }
-  out->figure[SB_FLUID_PRESSURE] = (SbFluidFigure){pressure / moles, NAN, "Raoult's law"};
-  out->figure[SB_FLUID_LIQUID] = (SbFluidFigure){1.0 / volume, NAN, "ideal volumes"};
+  out->figure[SB_FLUID_PRESSURE] = by_rule(pressure / moles, "Raoult's law");
+  out->figure[SB_FLUID_LIQUID] = by_rule(1.0 / volume, "ideal volumes");
   out->figure[SB_FLUID_VISCOSITY] =
-      (SbFluidFigure){exp(logarithm / moles), NAN, "Grunberg and Nissan (1949), no interaction"};
-  out->figure[SB_FLUID_MASS] = (SbFluidFigure){1.0 / moles, NAN, "mean of the liquid"};
-  out->figure[SB_FLUID_GWP] = (SbFluidFigure){w[0] * own.figure[SB_FLUID_GWP].value, NAN,
-                                              "the propellant's share of the mass"};
+      by_rule(exp(logarithm / moles), "Grunberg and Nissan (1949), no interaction");
+  out->figure[SB_FLUID_MASS] = by_rule(1.0 / moles, "mean of the liquid");
+  out->figure[SB_FLUID_GWP] =
+      by_rule(w[0] * own.figure[SB_FLUID_GWP].value, "the propellant's share of the mass");
   out->estimate = true;
   sb_warn(
       warnings, "mixture-estimate", "",

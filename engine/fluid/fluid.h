@@ -73,7 +73,7 @@ typedef struct {
   double tension[3][2];                 // s_i [N/m], n_i
   double grade, density, tension_25;    // of a silicone oil at 25 degC [m2/s], [kg/m3], [N/m]
   const char *source[SB_FLUID_ORIGIN_COUNT];
-  double uncertainty[SB_FLUID_PROPERTY_COUNT]; // relative; 0: none stated
+  double uncertainty[SB_FLUID_PROPERTY_COUNT]; // relative; below 0: estimated here; 0: none
 } SbFluid;
 
 // All fluids; the first is `custom`, which has no figures.
@@ -87,6 +87,7 @@ typedef struct {
   double value;       // SI; NAN: there is none
   double uncertainty; // relative; NAN: not stated
   const char *source; // of the value, or why there is none
+  bool estimated;     // the uncertainty, here rather than by the source
 } SbFluidFigure;
 
 typedef struct {

@@ -1,5 +1,5 @@
 // Coefficients of the fluids, as published in the papers that each fluid names as its sources.
-// Uncertainties are those papers' unless the source says that they are estimated here.
+// An uncertainty is the paper's or, with a minus, estimated here.
 #include "engine/fluid/fluid.h"
 
 #include <math.h>
@@ -143,12 +143,11 @@ static const SbViscosity ethanol_eta = {
 // ---- The fluids
 
 #define RANGE       .temperature_min = 233.15, .temperature_max = 353.15
-#define ESTIMATED   "; uncertainty estimated here"
-#define MULERO_2012 "Mulero, Cachadina, Parra, J. Phys. Chem. Ref. Data 41 (2012) 043105" ESTIMATED
+#define MULERO_2012 "Mulero, Cachadina, Parra, J. Phys. Chem. Ref. Data 41 (2012) 043105"
 #define AR6         "IPCC AR6, working group I (2021), table 7.SM.7"
-// Of pressure, densities of liquid and vapour, viscosity, surface tension and enthalpy, the last
-// always estimated here.
-#define UNCERTAINTY(...) .uncertainty = {__VA_ARGS__, 0.005}
+// Of pressure, densities of liquid and vapour, viscosity, surface tension and enthalpy.
+#define UNCERTAINTY(p, liquid, vapour, eta)                                                        \
+  .uncertainty = {p, liquid, vapour, eta, -0.03, -0.005}
 
 // Density [kg/m3], surface tension [mN/m] and number-average molar mass [kg/mol] are the trade's
 // typical figures of the grade (Dow Corning 360, Gelest DMS-T).
@@ -157,9 +156,8 @@ static const SbViscosity ethanol_eta = {
    .help = "polydimethylsiloxane, by its viscosity at 25 °C",                                      \
    .temperature_min = 248.15, .temperature_max = 353.15, .mass = molar_mass, .gwp100 = NAN,        \
    .grade = 1e-6 * mm2_per_s, .density = density_25_degC, .tension_25 = 1e-3 * tension,            \
-   .source = {"typical of the grade" ESTIMATED, "Shin-Etsu, KF-96 technical data" ESTIMATED,       \
-              "typical of the grade" ESTIMATED},                                                   \
-   .uncertainty = {0.0, 0.01, 0.0, 0.1, 0.05}}
+   .source = {"typical of the grade", "Shin-Etsu, KF-96 technical data", "typical of the grade"},  \
+   .uncertainty = {0.0, -0.01, 0.0, -0.1, -0.05}}
 
 const SbFluid sb_fluids[] = {
     {.name = "custom", .label = "Custom",
@@ -170,39 +168,39 @@ const SbFluid sb_fluids[] = {
      .tension = {{0.05801, 1.241}},
      .source = {"Tillner-Roth, Baehr, J. Phys. Chem. Ref. Data 23 (1994) 657",
                 "Huber, Laesecke, Perkins, Ind. Eng. Chem. Res. 42 (2003) 3163", MULERO_2012, AR6},
-     UNCERTAINTY(0.0002, 0.0005, 0.001, 0.015, 0.03)},
+     UNCERTAINTY(0.0002, 0.0005, 0.0005, 0.015)},
     {.name = "hfa-227ea", .label = "HFA-227ea", .help = "1,1,1,2,3,3,3-heptafluoropropane", RANGE,
      .temperature_critical = 374.9, .propellant = true, .mass = 0.17002886, .gwp100 = 3600,
      .equation = &r227ea_equation, .corresponding = &r227ea_eta, .tension_temperature = 374.9,
      .tension = {{0.06127, 1.192}, {-0.009516, 0.9795}, {-0.00192, 1.421}},
      .source = {"Lemmon, Span, J. Chem. Eng. Data 60 (2015) 3745",
                 "corresponding states with propane, Huber, Laesecke, Perkins, Ind. Eng. Chem. Res. "
-                "42 (2003) 3163" ESTIMATED, MULERO_2012, AR6},
-     UNCERTAINTY(0.004, 0.0005, 0.003, 0.05, 0.03)},
+                "42 (2003) 3163", MULERO_2012, AR6},
+     UNCERTAINTY(0.004, 0.0005, 0.003, -0.05)},
     {.name = "hfa-152a", .label = "HFA-152a", .help = "1,1-difluoroethane", RANGE,
      .temperature_critical = 386.411, .propellant = true, .mass = 0.066051, .gwp100 = 164,
      .equation = &r152a_equation, .viscosity = &r152a_eta, .tension_temperature = 386.411,
      .tension = {{0.05808, 1.2115}},
      .source = {"Outcalt, McLinden, J. Phys. Chem. Ref. Data 25 (1996) 605",
-                "Krauss, Weiss, Edison, Sengers, Stephan, Int. J. Thermophys. 17 (1996) 731"
-                ESTIMATED, MULERO_2012, AR6},
-     UNCERTAINTY(0.0005, 0.001, 0.001, 0.03, 0.03)},
+                "Krauss, Weiss, Edison, Sengers, Stephan, Int. J. Thermophys. 17 (1996) 731",
+                MULERO_2012, AR6},
+     UNCERTAINTY(0.0005, 0.001, 0.001, -0.03)},
     {.name = "hfo-1234ze(e)", .label = "HFO-1234ze(E)", .help = "trans-1,3,3,3-tetrafluoropropene",
      RANGE, .temperature_critical = 382.513, .propellant = true, .mass = 0.1140415928,
      .gwp100 = 1.37, .equation = &r1234ze_equation, .viscosity = &r1234ze_eta,
      .tension_temperature = 382.51, .tension = {{0.06158, 1.281}, {0.8247, 6.505}},
      .source = {"Thol, Lemmon, Int. J. Thermophys. 37 (2016) 28",
                 "Huber, Assael, Int. J. Refrig. 71 (2016) 39",
-                "Mulero, Cachadina, J. Phys. Chem. Ref. Data 43 (2014) 023104" ESTIMATED, AR6},
-     UNCERTAINTY(0.001, 0.001, 0.005, 0.02, 0.03)},
+                "Mulero, Cachadina, J. Phys. Chem. Ref. Data 43 (2014) 023104", AR6},
+     UNCERTAINTY(0.001, 0.001, 0.005, 0.02)},
     {.name = "ethanol", .label = "Ethanol", .help = "the cosolvent alone", RANGE,
      .temperature_critical = 514.71, .mass = 0.04606844, .gwp100 = NAN,
      .equation = &ethanol_equation, .viscosity = &ethanol_eta, .tension_temperature = 513.9,
      .tension = {{0.05, 0.952}},
      .source = {"Schroeder, Penoncello, Schroeder, J. Phys. Chem. Ref. Data 43 (2014) 043102",
-                "Kiselev, Ely, Abdulagatov, Huber, Ind. Eng. Chem. Res. 44 (2005) 6916" ESTIMATED,
+                "Kiselev, Ely, Abdulagatov, Huber, Ind. Eng. Chem. Res. 44 (2005) 6916",
                 MULERO_2012},
-     UNCERTAINTY(0.005, 0.002, 0.005, 0.05, 0.03)},
+     UNCERTAINTY(0.005, 0.005, 0.005, -0.05)},
     SILICONE(100, 964.0, 20.9, 5.97),
     SILICONE(350, 968.0, 21.1, 13.65),
     SILICONE(1000, 970.0, 21.2, 28.0),

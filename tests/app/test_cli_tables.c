@@ -277,6 +277,11 @@ static void test_fluid(void) {
   SAME(table.out, "Saturation pressure", root, "pressure_saturation_Pa", 1e-3);
   SAME(table.out, "Viscosity, liquid", root, "viscosity_liquid_Pa_s", 1e3);
   g_assert_cmpfloat(cli_number(root, "uncertainty.viscosity_liquid"), ==, 0.02);
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "uncertainty_by.viscosity_liquid")), ==,
+                  "source");
+  g_assert_cmpfloat(cli_number(root, "uncertainty.surface_tension"), ==, 0.03);
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "uncertainty_by.surface_tension")), ==,
+                  "estimated here");
   json_node_unref(root);
   cli_clear(&table);
   root = JSON("fluid", "silicone-350", "--temperature", "25degC");

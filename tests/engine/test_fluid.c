@@ -188,6 +188,7 @@ static void test_properties(void) {
         if (fluid->propellant) {
           g_assert_true(isfinite(figure->value));
           g_assert_true(k >= SB_FLUID_MASS || figure->uncertainty > 0);
+          g_assert_true(k != SB_FLUID_TENSION || figure->estimated);
         }
       }
       g_assert_true(isfinite(state.figure[SB_FLUID_LIQUID].value));
