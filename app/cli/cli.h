@@ -166,6 +166,7 @@ int sb_command_list(int argc, char **argv);
 int sb_command_fit(int argc, char **argv);
 int sb_command_film(int argc, char **argv);
 int sb_command_asperity(int argc, char **argv);
+int sb_command_fluid(int argc, char **argv);
 int sb_command_plan(int argc, char **argv);
 int sb_command_render(int argc, char **argv);
 int sb_command_bench(int argc, char **argv);

@@ -6,6 +6,7 @@
 #include "app/run/cases.h"
 
 #include "engine/contact/rough/greenwood_tripp.h"
+#include "engine/fluid/fluid.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -119,6 +120,20 @@ static void list_views(void) {
   }
 }
 
+static void list_fluids(void) {
+  for (int i = 0; i < sb_fluid_count; i++) {
+    const SbFluid *fluid = &sb_fluids[i];
+    printf("%-16s %s", fluid->name, fluid->help);
+    if (fluid->mass > 0) {
+      char low[SB_NUMBER_SIZE], high[SB_NUMBER_SIZE];
+      printf(" (%s to %s °C)",
+             sb_number_round(low, sb_quantity_to_shown(fluid->temperature_min, "K", "°C"), 4),
+             sb_number_round(high, sb_quantity_to_shown(fluid->temperature_max, "K", "°C"), 4));
+    }
+    printf("\n");
+  }
+}
+
 int sb_command_list(int argc, char **argv) {
   char *target = NULL;
   const GOptionEntry entries[] = {
@@ -138,13 +153,14 @@ int sb_command_list(int argc, char **argv) {
   } lists[] = {{"params", sb_results_params, list_params},
                {"figures", sb_results_figures, list_figures},
                {"models", sb_results_models, list_models},
-               {"views", views_json, list_views}};
+               {"views", views_json, list_views},
+               {"fluids", sb_results_fluids, list_fluids}};
   size_t at = 0;
   while (at < G_N_ELEMENTS(lists) && strcmp(what, lists[at].name) != 0) {
     at++;
   }
   if (at == G_N_ELEMENTS(lists)) {
-    sb_cli_unknown("there is no list", what, "params|figures|models|views", NULL);
+    sb_cli_unknown("there is no list", what, "params|figures|models|views|fluids", NULL);
     goto done;
   }
   code = SB_EXIT_DONE;

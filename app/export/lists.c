@@ -4,6 +4,9 @@
 #include "app/document/unit.h"
 #include "app/export/json.h"
 
+#include "engine/fluid/fluid.h"
+
+#include <math.h>
 #include <string.h>
 
 static void put_choices(SbJson *json, const SbParam *param, double fallback) {
@@ -114,6 +117,31 @@ char *sb_results_models(void) {
       sb_json_bool(&json, "default", false);
       sb_json_object_end(&json);
     }
+  }
+  sb_json_array_end(&json);
+  return sb_json_finish(&json);
+}
+
+char *sb_results_fluids(void) {
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_array(&json, NULL);
+  for (int i = 0; i < sb_fluid_count; i++) {
+    const SbFluid *fluid = &sb_fluids[i];
+    const bool known = fluid->mass > 0;
+    sb_json_object(&json, NULL);
+    sb_json_string(&json, "key", fluid->name);
+    sb_json_string(&json, "unit", NULL); // as the other lists have it
+    sb_json_string(&json, "label", fluid->label);
+    sb_json_string(&json, "help", fluid->help);
+    sb_json_string(&json, "better", NULL);
+    sb_json_number(&json, "temperature_min_K", known ? fluid->temperature_min : NAN);
+    sb_json_number(&json, "temperature_max_K", known ? fluid->temperature_max : NAN);
+    sb_json_number(&json, "temperature_critical_K",
+                   fluid->temperature_critical > 0 ? fluid->temperature_critical : NAN);
+    sb_json_number(&json, "molar_mass_kg_per_mol", known ? fluid->mass : NAN);
+    sb_json_number(&json, "gwp100", known ? fluid->gwp100 : NAN);
+    sb_json_object_end(&json);
   }
   sb_json_array_end(&json);
   return sb_json_finish(&json);

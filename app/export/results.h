@@ -50,3 +50,4 @@ char *sb_results_plan(const SbPlan *plan, const char *scene); // NULL: not named
 char *sb_results_params(void);
 char *sb_results_figures(void);
 char *sb_results_models(void);
+char *sb_results_fluids(void);

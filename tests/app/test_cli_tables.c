@@ -231,7 +231,7 @@ static void test_bench(void) {
 static void test_lists(void) {
   static const struct {
     const char *list, *member;
-  } lists[] = {{"params", "key"}, {"models", "name"}, {"views", "name"}};
+  } lists[] = {{"params", "key"}, {"models", "name"}, {"views", "name"}, {"fluids", "key"}};
   for (size_t i = 0; i < G_N_ELEMENTS(lists); i++) {
     CliResult table = CLI("list", lists[i].list);
     g_assert_cmpint(table.code, ==, 0);
@@ -264,6 +264,38 @@ static void test_lists(void) {
   json_node_unref(root);
 }
 
+// The JSON has what the table shows, each figure with its source and uncertainty or a reason.
+static void test_fluid(void) {
+  CliResult table = CLI("fluid", "HFO-1234ze(E)", "--temperature", "20 °C");
+  JsonNode *root = JSON("fluid", "hfo-1234ze(e)", "--temperature", "293.15K");
+  cli_has_keys(root, "fluid temperature_K pressure_saturation_Pa density_liquid_kg_per_m3 "
+                     "density_vapour_kg_per_m3 viscosity_liquid_Pa_s surface_tension_N_per_m "
+                     "enthalpy_vaporisation_J_per_kg molar_mass_kg_per_mol gwp100 "
+                     "sources.viscosity_liquid uncertainty.density_vapour");
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "fluid")), ==, "hfo-1234ze(e)");
+  g_assert_cmpfloat_with_epsilon(cli_number(root, "pressure_saturation_Pa"), 427343, 4);
+  SAME(table.out, "Saturation pressure", root, "pressure_saturation_Pa", 1e-3);
+  SAME(table.out, "Viscosity, liquid", root, "viscosity_liquid_Pa_s", 1e3);
+  g_assert_cmpfloat(cli_number(root, "uncertainty.viscosity_liquid"), ==, 0.02);
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "uncertainty_by.viscosity_liquid")), ==,
+                  "source");
+  g_assert_cmpfloat(cli_number(root, "uncertainty.surface_tension"), ==, 0.03);
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "uncertainty_by.surface_tension")), ==,
+                  "estimated here");
+  json_node_unref(root);
+  cli_clear(&table);
+  root = JSON("fluid", "silicone-350", "--temperature", "25degC");
+  g_assert_true(json_node_is_null(cli_at(root, "pressure_saturation_Pa")));
+  cli_has_keys(root, "reasons.pressure_saturation_Pa sources.density_liquid");
+  json_node_unref(root);
+  root = JSON("fluid", "hfa-152a", "--temperature", "20degC", "--ethanol", "10%");
+  g_assert_true(json_node_get_boolean(cli_at(root, "estimate")));
+  g_assert_cmpfloat(cli_number(root, "ethanol_mass_share"), ==, 0.1);
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "warnings.0.code")), ==, "mixture-estimate");
+  cli_has_keys(root, "reasons.surface_tension_N_per_m");
+  json_node_unref(root);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -273,6 +305,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-tables/bodies", test_bodies);
   g_test_add_func("/cli-tables/bench", test_bench);
   g_test_add_func("/cli-tables/lists", test_lists);
+  g_test_add_func("/cli-tables/fluid", test_fluid);
   int result = g_test_run();
   cli_tear_down();
   return result;

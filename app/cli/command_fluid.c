@@ -1,0 +1,110 @@
+// sealbench fluid: the saturated state of a named fluid.
+#include "app/cli/cli.h"
+#include "app/export/json.h"
+
+#include "engine/fluid/fluid.h"
+
+#include <math.h>
+#include <string.h>
+
+static void put_source(SbJson *json, const SbFluidProperty *property, const SbFluidFigure *figure) {
+  sb_json_string(json, property->name, figure->source);
+}
+
+static void put_uncertainty(SbJson *json, const SbFluidProperty *property,
+                            const SbFluidFigure *figure) {
+  sb_json_number(json, property->name, figure->uncertainty);
+}
+
+// Who states the uncertainty.
+static void put_by(SbJson *json, const SbFluidProperty *property, const SbFluidFigure *figure) {
+  const char *by = figure->estimated ? "estimated here" : "source";
+  sb_json_string(json, property->name, isfinite(figure->uncertainty) ? by : NULL);
+}
+
+static void put_reason(SbJson *json, const SbFluidProperty *property, const SbFluidFigure *figure) {
+  sb_json_string(json, property->key, figure->source);
+}
+
+static char *state_json(const SbFluid *fluid, const SbFluidState *state, double ethanol,
+                        const SbWarnings *warnings) {
+  static const struct {
+    const char *name;
+    bool found; // of the figures that are there, else of those that are not
+    void (*put)(SbJson *json, const SbFluidProperty *property, const SbFluidFigure *figure);
+  } blocks[] = {{"sources", true, put_source},
+                {"uncertainty", true, put_uncertainty},
+                {"uncertainty_by", true, put_by},
+                {"reasons", false, put_reason}};
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_object(&json, NULL);
+  sb_json_string(&json, "fluid", fluid->name);
+  sb_json_number(&json, "temperature_K", state->temperature);
+  if (ethanol > 0) {
+    sb_json_number(&json, "ethanol_mass_share", ethanol);
+  }
+  for (int i = 0; i < SB_FLUID_PROPERTY_COUNT; i++) {
+    sb_json_number(&json, sb_fluid_property[i].key, state->figure[i].value);
+  }
+  sb_json_bool(&json, "estimate", state->estimate);
+  for (size_t k = 0; k < G_N_ELEMENTS(blocks); k++) {
+    sb_json_object(&json, blocks[k].name);
+    for (int i = 0; i < SB_FLUID_PROPERTY_COUNT; i++) {
+      const bool found = !isnan(state->figure[i].value);
+      if (found == blocks[k].found) {
+        blocks[k].put(&json, &sb_fluid_property[i], &state->figure[i]);
+      }
+    }
+    sb_json_object_end(&json);
+  }
+  sb_json_warnings(&json, warnings);
+  sb_json_object_end(&json);
+  return sb_json_finish(&json);
+}
+
+static const char *fluid_name(int index) {
+  return sb_fluids[index].name;
+}
+
+int sb_command_fluid(int argc, char **argv) {
+  g_autofree char *target = NULL, *temperature_text = NULL, *ethanol_text = NULL;
+  const GOptionEntry entries[] = {
+      {"temperature", 0, 0, G_OPTION_ARG_FILENAME, &temperature_text, "In °C, degC or K", "T"},
+      {"ethanol", 0, 0, G_OPTION_ARG_FILENAME, &ethanol_text,
+       "Share of ethanol in the mass, up to 30 %: an estimate", "SHARE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
+      {0},
+  };
+  double temperature = 0, ethanol = 0;
+  if (!sb_cli_parse(&argc, &argv, entries, 1, 1, "`sealbench list fluids` names the fluids.")) {
+    return SB_EXIT_INPUT;
+  }
+  const SbFluid *fluid = sb_fluid_find(argv[1], strlen(argv[1]));
+  if (fluid == NULL) {
+    g_autofree char *names = sb_cli_names(fluid_name, sb_fluid_count);
+    return sb_cli_unknown("there is no fluid", argv[1], names, NULL);
+  }
+  if (!sb_cli_quantity(&temperature, "--temperature", temperature_text, true, "K", "°C") ||
+      !sb_cli_quantity(&ethanol, "--ethanol", ethanol_text, false, "1", "")) {
+    return SB_EXIT_INPUT;
+  }
+  SbFluidState state;
+  g_autofree SbWarnings *warnings = g_new0(SbWarnings, 1);
+  SbReport report = {0};
+  const SbStatus status = sb_fluid_state(&state, warnings, fluid, temperature, ethanol, &report);
+  int code = sb_cli_status(status, &report);
+  if (status == SB_OK && target != NULL) {
+    g_autofree char *json = state_json(fluid, &state, ethanol, warnings);
+    code = sb_cli_emit(json, target);
+  } else if (status == SB_OK && !sb_cli_quiet()) {
+    printf("%s%s\n", fluid->label, fluid->equation != NULL ? ", saturated" : "");
+    sb_cli_figure("Temperature", temperature, "K", "°C");
+    for (int i = 0; i < SB_FLUID_PROPERTY_COUNT; i++) {
+      const SbFluidProperty *property = &sb_fluid_property[i];
+      sb_cli_figure(property->label, state.figure[i].value, property->si, property->shown);
+    }
+    sb_cli_warnings(warnings);
+  }
+  return code;
+}
