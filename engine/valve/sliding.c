@@ -27,6 +27,7 @@ struct SbSlidingMemory {
   Solved plane, fitted; // on the half-plane (or of a law), and on the fitted body
   Solved rest;          // dry rough contact, coupled asperities only
   const Solved *last;   // which of them the last evaluation gave
+  SbSlidingBody body;   // of the last film on one
   bool rested;          // it stands for the fit, with
   double rest_left;     // this pressure on the left
   SbFilmSolver *solver; // NULL until a film is solved: laws need none
@@ -80,6 +81,10 @@ const SbFilm *sb_sliding_film(const SbSlidingMemory *memory) {
   return &memory->last->film;
 }
 
+const SbSlidingBody *sb_sliding_body(const SbSlidingMemory *memory) {
+  return memory->last->fitted ? &memory->body : NULL;
+}
+
 static SbStatus solve_fit(const Task *task, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   const SbModel *model = task->model;
@@ -128,6 +133,12 @@ static SbStatus solve_on(const Task *task, Solved *out, const SbFilmProblem *pro
   return status;
 }
 
+static void lay_on(SbFilmProblem *problem, const SbSlidingBody *body) {
+  problem->compliance = &body->compliance;
+  problem->load = body->load;
+  problem->modulus = body->compliance.modulus;
+}
+
 // The film on the fitted body in place of the half-plane's; false where there is none or it fails.
 static bool solve_fitted(const Task *task, Solved *out, const SbFilmProblem *plane) {
   const SbFit *fit = &task->memory->fit;
@@ -135,13 +146,12 @@ static bool solve_fitted(const Task *task, Solved *out, const SbFilmProblem *pla
     return false;
   }
   SbReport report = {0};
-  SbSurfaceCompliance surface;
+  SbSlidingBody *body = &task->memory->body;
   SbFilmProblem problem = *plane;
-  problem.compliance = &surface;
-  SbStatus status = sb_sliding_surface(&surface, &problem.load, fit, task->model, task->seal,
+  SbStatus status = sb_sliding_surface(&body->compliance, &body->load, fit, task->model, task->seal,
                                        task->pressure, task->warnings, &report);
   if (status == SB_OK) {
-    problem.modulus = surface.modulus;
+    lay_on(&problem, body);
     status = solve_on(task, out, &problem, &report);
   }
   if (status != SB_OK) {
@@ -210,6 +220,22 @@ static void option_warnings(const Task *task, const SbFilmProblem *problem) {
   }
 }
 
+// The return stroke finds a layer on the bore: what the in-stroke carried through the contact, flow
+// over the wall's speed, at the drive's speed and the same pressures.
+static SbStatus find_layer(const Task *task, SbFilmProblem *problem, SbReport *report) {
+  SbSlidingMemory *memory = task->memory;
+  if (task->model->inlet_carried && task->speed < 0 && problem->model == SB_FILM_REYNOLDS) {
+    SbFilmProblem before = *problem;
+    before.speed = task->drive_speed;
+    SbStatus carried = solve_on(task, &memory->plane, &before, report);
+    if (carried != SB_OK) {
+      return carried;
+    }
+    problem->inlet_film = fabs(memory->plane.film.flow / before.speed);
+  }
+  return SB_OK;
+}
+
 static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   SbFilmProblem problem;
@@ -218,16 +244,9 @@ static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report)
   problem.model = task->model->film;
   option_warnings(task, &problem);
   bool solved = problem.model == SB_FILM_REYNOLDS;
-  if (task->model->inlet_carried && task->speed < 0 && solved) {
-    // The return stroke finds a layer on the bore: what the in-stroke carried through the contact,
-    // flow over the wall's speed, at the drive's speed and the same pressures.
-    problem.speed = task->drive_speed;
-    SbStatus carried = solve_on(task, &memory->plane, &problem, report);
-    if (carried != SB_OK) {
-      return carried;
-    }
-    problem.inlet_film = fabs(memory->plane.film.flow / problem.speed);
-    problem.speed = task->speed;
+  SbStatus carried = find_layer(task, &problem, report);
+  if (carried != SB_OK) {
+    return carried;
   }
   SbStatus status = solve_on(task, &memory->plane, &problem, report);
   memory->last = &memory->plane;
@@ -248,23 +267,48 @@ static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report)
   return status;
 }
 
+static void add_asperities(SbFilmProblem *problem, const SbModel *model) {
+  problem->surface = model->surface;
+  problem->gt_product = model->gt_product;
+  problem->sigma = model->sigma;
+  problem->sigma_over_beta = model->sigma_over_beta;
+  problem->hamaker = model->hamaker;
+  problem->shear_strength = model->shear_strength;
+  problem->load_coefficient = model->load_coefficient;
+}
+
 // The film with asperities in it: on the fitted body, or on the half-plane where that cannot be.
 static SbStatus solve_rough(const Task *task, Solved *out, double load_net, double speed,
                             SbReport *report) {
   const SbModel *model = task->model;
   SbFilmProblem problem;
   sb_sliding_film_problem(&problem, model, task->seal, task->pressure, load_net, speed);
-  problem.surface = model->surface;
-  problem.gt_product = model->gt_product;
-  problem.sigma = model->sigma;
-  problem.sigma_over_beta = model->sigma_over_beta;
-  problem.hamaker = model->hamaker;
-  problem.shear_strength = model->shear_strength;
-  problem.load_coefficient = model->load_coefficient;
+  add_asperities(&problem, model);
   if (speed != 0) {
     option_warnings(task, &problem);
   }
   return solve_fitted(task, out, &problem) ? SB_OK : solve_on(task, out, &problem, report);
+}
+
+// Lengths of the half-plane's contact are over that, of a fitted body's over the fitted one.
+static double width_under(const Solved *solved, const SbSealState *state) {
+  return solved->fitted ? state->contact_right - state->contact_left
+                        : 2 * solved->film.hertz_half_width;
+}
+
+// What a film says of the asperities in it: forces are those of its length over the fitted
+// circumference.
+static void take_asperities(SbSealState *out, const SbModel *model, const Solved *solved) {
+  const SbFilm *film = &solved->film;
+  const double width = width_under(solved, out);
+  const double area = (out->contact_right - out->contact_left) * model->bore_circumference;
+  out->lambda = film->film_ratio;
+  out->real_area_share = fmin(film->real_area / width, 1);
+  out->asperity_share = film->asperity_share;
+  out->boundary_area = model->shear_strength * out->real_area_share * area;
+  out->boundary_load =
+      model->load_coefficient * film->asperity_load * out->load / out->load_per_length;
+  out->friction_viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
 }
 
 // Film, rough contact and friction from one solution each, sliding and at rest.
@@ -292,24 +336,15 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
   }
   const SbFilm *film = &memory->last->film, *rest = &memory->rest.film;
   sb_warnings_merge(task->warnings, &film->warnings);
-  // Lengths of the half-plane's contact over the fitted one's; forces over its circumference.
-  double fit_width = out->contact_right - out->contact_left;
-  double area = fit_width * model->bore_circumference;
-  double width = memory->last->fitted ? fit_width : 2 * film->hertz_half_width;
-  double rest_width = memory->rest.fitted ? fit_width : 2 * rest->hertz_half_width;
-  double circumference = out->load / out->load_per_length;
   if (take_film(out, memory->last, status, &memory->fit)) {
-    out->lambda = film->film_ratio;
-    out->real_area_share = fmin(film->real_area / width, 1);
-    out->asperity_share = film->asperity_share;
-    out->boundary_area = model->shear_strength * out->real_area_share * area;
-    out->boundary_load = model->load_coefficient * film->asperity_load * circumference;
-    out->friction_viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
+    take_asperities(out, model, memory->last);
   }
   if (memory->rested || rest->film_central > 0) {
-    out->friction_static = model->static_ratio *
-                           (model->shear_strength * fmin(rest->real_area / rest_width, 1) * area +
-                            model->load_coefficient * rest->asperity_load * circumference);
+    SbSealState bare = *out;
+    take_asperities(&bare, model, &memory->rest);
+    out->rest_area = bare.boundary_area;
+    out->rest_load = bare.boundary_load;
+    out->friction_static = model->static_ratio * (out->rest_area + out->rest_load);
   }
   out->friction_error = film->solver.error_contact * (out->boundary_area + out->boundary_load) +
                         out->central_error * out->friction_viscous;
@@ -386,8 +421,9 @@ static SbStatus rough_contact(SbSealState *out, const Task *task, double roughne
           (persson ? 0 : model->shear_strength * fabs(thinner - out->real_area_share) * area);
     }
   }
-  out->friction_static =
-      model->static_ratio * (model->shear_strength * rest_share * area + out->boundary_load);
+  out->rest_area = model->shear_strength * rest_share * area;
+  out->rest_load = out->boundary_load;
+  out->friction_static = model->static_ratio * (out->rest_area + out->rest_load);
   return SB_OK;
 }
 
@@ -412,8 +448,50 @@ static SbStatus opened_by_fluid(SbSealState *out, SbStatus status, const SbRepor
   return SB_OK;
 }
 
+SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
+                            const SbSlidingBody *body, SbReport *report) {
+  const SbModel *model = task->model;
+  SbSlidingMemory *memory = task->memory;
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  SbFilmProblem problem;
+  sb_sliding_film_problem(&problem, model, task->seal, task->pressure, state->load_net,
+                          task->speed);
+  problem.model = coupled ? SB_FILM_REYNOLDS : model->film;
+  SbStatus status = coupled ? SB_OK : find_layer(task, &problem, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  if (coupled) {
+    add_asperities(&problem, model);
+  }
+  if (body != NULL) {
+    lay_on(&problem, body);
+  }
+  Solved *solved = body != NULL ? &memory->fitted : &memory->plane;
+  memory->last = solved;
+  status = solve_on(task, solved, &problem, report);
+  if (!usable(status) || !(solved->film.film_central > 0)) {
+    return status != SB_OK ? status : sb_fail(report, SB_ERROR_NOT_CONVERGED, "no film");
+  }
+  state->film_min = solved->film.film_min;
+  state->film_central = solved->film.film_central;
+  if (coupled) {
+    take_asperities(state, model, solved);
+    return status;
+  }
+  SbStatus rough = rough_contact(state, task, 1, report);
+  return rough != SB_OK ? rough : status;
+}
+
 SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report) {
+  if (task->model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
+    const SbModel *model = task->model;
+    double area = (state->contact_right - state->contact_left) * model->bore_circumference;
+    state->lambda = state->film_central / model->sigma;
+    state->boundary_area = model->shear_strength * state->real_area_share * area;
+    return sb_succeed(report);
+  }
   sb_warn_about(task->warnings, about(task->seal));
   SbStatus status =
       state->touches ? rough_contact(state, task, roughness, report) : sb_succeed(report);
@@ -425,6 +503,8 @@ void sb_sliding_clear(SbSealState *out) {
   *out = (SbSealState){.load_net = NAN,
                        .film_error = NAN,
                        .central_error = NAN,
+                       .rest_area = NAN,
+                       .rest_load = NAN,
                        .boundary_area = NAN,
                        .boundary_load = NAN};
 #define SB_SEAL_FIGURE(path, member, ...) out->member = NAN;
@@ -454,6 +534,7 @@ static SbStatus fit_contact(const Task *task, SbSealState *out, bool *known, SbR
     out->contact_left = out->contact_right = 0;
     out->load = out->load_per_length = out->load_net = out->pressure_peak = 0;
     out->boundary_area = out->boundary_load = out->friction_viscous = out->friction_static = 0;
+    out->rest_area = out->rest_load = 0;
     return status;
   }
   out->contact_left = fit->contact_left;

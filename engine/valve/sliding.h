@@ -43,6 +43,15 @@ void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), 
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory);
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
 
+// Surface of a fitted body for films on it.
+typedef struct {
+  double load; // net, that goes with it [N/m]
+  SbSurfaceCompliance compliance;
+} SbSlidingBody;
+
+// That on which the last evaluation's film lies; NULL: on the half-plane. Borrowed like it.
+const SbSlidingBody *sb_sliding_body(const SbSlidingMemory *memory);
+
 // A state of which nothing is known: its figures are NaN.
 void sb_sliding_clear(SbSealState *out);
 
@@ -76,8 +85,16 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
                             const SbModel *model, int seal, SbSealPressure pressure,
                             SbWarnings *warnings, SbReport *report);
 
-// Gives the solved state of a task a surface `roughness` times as rough as the model's: neither
-// fitment nor film depend on it, so that nothing is solved again.
+// The solved state of a contact at the task's own speed: film and friction anew, on the `body` that
+// the state's film lies on, NULL on the half-plane. Its errors stay, its film's warnings are not
+// told. SB_ERROR_NOT_CONVERGED without a film.
+SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
+                            const SbSlidingBody *body, SbReport *report);
+
+// What follows from the film in a task's state, with a surface `roughness` times as rough as the
+// model's: lambda, real area, friction. Neither fitment nor film depend on the roughness, so that
+// nothing is solved again. With coupled asperities roughness must be 1: real area, boundary_load
+// and friction_viscous are then given beside the film.
 SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report);
 

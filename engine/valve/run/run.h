@@ -56,6 +56,8 @@ typedef struct {
   double contact_pressure; // mean, of the rubber alone: net load over width [Pa]
   double film_error;       // of the solved film, relative [1]; NaN if closed form
   double central_error;    // the same of film_central alone, on which friction hangs [1]
+  double rest_area;        // boundary_area of this contact without a film [N]
+  double rest_load;        // boundary_load of it [N]
   double boundary_area;    // tau_0 A_a, the part of F_b in proportion to the width [N]
   double boundary_load;    // m W, the part in proportion to the load [N]
   double friction_error;   // of kinetic friction by the solved film's error [N]

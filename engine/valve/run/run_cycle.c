@@ -11,7 +11,7 @@ static double time_of(const SbRun *run, const SbCycleSegment *segment, double X)
   return (segment->platen > 0 ? X : 2 * top - X) / run->model->speed;
 }
 
-static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *segment, double X,
+static void fill_frame(SbFrame *out, SbRun *run, const SbCycleSegment *segment, double X,
                        double s) {
   const SbCycle *cycle = &run->cycle;
   const SbChamber chamber = segment->chamber;
@@ -132,6 +132,8 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   }
   summary->leakage_per_cycle = sb_run_cycle_leakage(summary, net, summary->returns);
   summary->steps = cycle->count;
+  SbStatus speeds = sb_run_close_speeds(run, status == SB_OK ? report : NULL);
+  status = status != SB_OK ? status : speeds;
   summary->error_force = summary->error_load + sb_run_error_friction(run);
   summary->error_energy = fmax(summary->energy.closure, summary->error_load + error_work(run));
   return status;

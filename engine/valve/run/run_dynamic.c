@@ -39,6 +39,7 @@ typedef struct {
   double leak, carried;         // film dragged along, signed and whichever way [m3]
   double leak_from, leak_since; // place [m] and time [s] up to which it is known
   double home;                  // time at which the stem is back on its rest stop [s], 0: not yet
+  double middle;                // speed where the stem passes the middle of B-C [m/s], 0: not yet
   bool slips;                   // some contact has slid
   SbStatus status;              // of the frames' reactions
   SbReport *report;
@@ -46,14 +47,14 @@ typedef struct {
 
 // Film dragged along since the last call, at the film of the present state and of the mean speed.
 static void leak(Recorder *r, double time, double x, double pressure) {
-  const SbRun *run = r->run;
+  SbRun *run = r->run;
+  SbSealState outer;
   const SbSolvedState at =
       sb_valve_solved(&r->valve, x > r->leak_from ? SB_CYCLE_IN : SB_CYCLE_OUT, pressure);
   double way = x - r->leak_from;
   double speed = time > r->leak_since ? way / (time - r->leak_since) : run->speed;
-  double film = run->cycle.state[SB_OUTER][at.chamber][at.direction].film_central *
-                sb_run_film_at(run, speed);
-  double volume = sb_leak_stroke(run->model->bore_diameter, film, way);
+  sb_run_state_at(&outer, run, SB_OUTER, (int)at.chamber, at.direction, speed);
+  double volume = way != 0 ? sb_leak_stroke(run->model->bore_diameter, outer.film_central, way) : 0;
   r->leak += volume;
   r->carried += fabs(volume);
   r->leak_from = x;
@@ -133,6 +134,9 @@ static void valve_event(const SbMotionEvent *event, void *user) {
   case SB_MOTION_EDGE: {
     leak(r, sample.time, sample.position, sb_valve_chamber_pressure(valve, sample.extra));
     double edge = valve->edge[event->index];
+    if (edge == valve->middle && event->sign > 0 && r->stage == SB_STAGE_B && r->middle == 0) {
+      r->middle = event->speed;
+    }
     if (valve->touches && edge == r->run->model->land_edge && event->sign > 0 &&
         r->stage == SB_STAGE_B) {
       mark(r, SB_STAGE_C, event);
@@ -289,12 +293,12 @@ SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRu
                               SbReport *report) {
   static const struct {
     SbStage from, to;
-  } ways[] = {{SB_STAGE_B, SB_STAGE_C}, {SB_STAGE_B, SB_STAGE_D}, {SB_STAGE_E, SB_STAGE_F}};
+  } ways[] = {{SB_STAGE_B, SB_STAGE_D}, {SB_STAGE_E, SB_STAGE_F}};
   Recorder r;
-  *speed = 0;
   SbStatus status = run_motion(&r, run, false, 0, hooks, report);
+  *speed = r.middle;
   *slips = r.slips;
-  for (int i = 0; i < 3 && *speed == 0; i++) {
+  for (int i = 0; i < 2 && *speed == 0; i++) {
     const SbStageMark *from = &r.mark[ways[i].from], *to = &r.mark[ways[i].to];
     if (from->reached && to->reached && to->time > from->time) {
       *speed = fabs(to->displacement - from->displacement) / (to->time - from->time);
@@ -364,6 +368,8 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
       status = sb_fail(report, estimate, "%s", own.text);
     }
   }
+  SbStatus speeds = sb_run_close_speeds(run, status == SB_OK ? report : NULL);
+  status = status != SB_OK ? status : speeds;
   double states = summary->error_load + sb_run_error_friction(run);
   summary->error_force = isnan(force) ? NAN : fmax(states, force);
   summary->error_energy = isnan(work) ? NAN : fmax(fmax(states, work), summary->energy.closure);

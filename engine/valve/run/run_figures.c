@@ -17,7 +17,7 @@ static double film_by(SbRun *run, int seal, const SbSealState *state, SbFilmMode
   SbReport report = {0};
   sb_sliding_film_problem(&problem, run->model, seal,
                           sb_model_seal_pressure(run->model, seal, SB_CHAMBER_AT_REST),
-                          state->load_net, run->speed);
+                          state->load_net, run->mid_speed);
   problem.model = film_model;
   run->summary.counters.reynolds_solves += film_model == SB_FILM_REYNOLDS;
   if (sb_film_solve(&run->film, &problem, NULL, &report) == SB_OK) {
@@ -123,7 +123,7 @@ void sb_run_summarise_seals(SbRun *run) {
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     SbSealState *out = &run->summary.seal[seal];
     const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-    *out = *state;
+    sb_run_state_at(out, run, seal, SB_CHAMBER_AT_REST, SB_CYCLE_IN, run->mid_speed);
     out->contact_width = out->contact_right - out->contact_left;
     out->contact_pressure = out->load_net / out->contact_width;
     if (!out->touches) {

@@ -6,6 +6,7 @@
 #include "engine/valve/cycle.h"
 #include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
+#include "engine/valve/speed_states.h"
 
 enum {
   SB_RUN_REST = 2,
@@ -48,6 +49,21 @@ void sb_run_bodies_destroy(SbRunBodies *bodies);
 // The reactions of the first `count` frames of another run for this one's frames from `at` on.
 void sb_run_bodies_show(SbRun *run, size_t at, const SbRun *from, size_t count);
 
+// A band of speed in which friction is straight: what it adds to the parts in proportion to the
+// contact's width and load, of each seal vented (or in the chamber's one state) and filled.
+typedef struct {
+  double rise, slope; // N, N s/m
+} SbBandPart;
+typedef struct {
+  double low, high; // m/s
+  SbBandPart width[SB_SEAL_COUNT][2], load[SB_SEAL_COUNT][2];
+} SbValveBand;
+enum { SB_VALVE_BANDS = 48 };
+typedef struct {
+  size_t count;
+  SbValveBand item[SB_VALVE_BANDS];
+} SbValveBands;
+
 struct SbRun {
   // Kept from one model to the next; what follows is one execution's.
   SbSlidingMemory *memory[SB_SEAL_COUNT];
@@ -55,10 +71,16 @@ struct SbRun {
   size_t room;          // of the array
   const SbModel *model; // its own
   SbPlan plan;
-  size_t capacity; // frames at most
-  SbCycle cycle;   // its states serve every motion model
-  double speed; // sliding speed that the states stand for [m/s]: the machine's, or the stem's own
-  double film_exponent; // of the film's speed law about it; 0: every frame slides at that speed
+  size_t capacity;  // frames at most
+  SbCycle cycle;    // its states serve every motion model
+  double speed;     // sliding speed that the cycle's states stand for [m/s]
+  double mid_speed; // of the stem at the middle of B-C, for the seals' figures [m/s]
+  double roughness; // that the states have, over the model's
+  // The same states over the speed; NULL where nobody has asked. Owned.
+  SbSpeedStates *speeds[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_RUN_REST];
+  bool out_of_memory;    // for one of them
+  double straight_error; // of friction in the motion's bands of speed, over that without a film
+  SbValveBands bands[SB_CYCLE_CHAMBERS][SB_RUN_REST]; // of the motion; made when first asked for
   SbSummary summary;
   SbFilm film;                         // of whoever solves one beside the states
   double friction_error, static_error; // of any state's frictions by its films [N]
@@ -79,8 +101,8 @@ struct SbRun {
 };
 
 // Solves every steady sliding state the cycle can need, and the profiles if the plan wants them, at
-// the speed of the machine or, where something else drives the stem, at the stem's own mean speed
-// from B to C, which follows from them: repeated until they agree (run_states.c).
+// the speed of the machine or, where something else drives the stem, at the stem's own at the
+// middle of B-C (run_states.c).
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // Solves the rings' deformed sections for drawing (run_shapes.c). A shape that cannot be found is
@@ -112,9 +134,9 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
                         const SbDynamicsCounters *counters);
 
-// Mean speed of the stem from B to C [m/s], or from B to D, or from E to F, whichever it passes
-// first, by the present sliding states; of a sinusoid that passes none, its own. 0 if there is
-// none. *slips tells whether the stem slides at all (run_dynamic.c).
+// Speed of the stem at the middle of B-C [m/s]; where it does not get there its mean speed from B
+// to D, or from E to F, or home, whichever it passes first; of a sinusoid that passes none, its
+// own. 0 if there is none. *slips tells whether the stem slides at all (run_dynamic.c).
 SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRunHooks *hooks,
                               SbReport *report);
 
@@ -172,10 +194,12 @@ typedef struct {
 // The valve as the motion sees it; the user of the callbacks of SbDynamicsModel.
 typedef struct {
   SbRun *run;
+  bool both_alike;    // either direction has the same friction at speed 0
   SbChamber chamber;  // passed on the way
   bool touches;       // the inner seal seals at all
   double edge_open;   // stem displacement behind which the chamber opens on the way in
   double edge_closed; // and closes on the way out
+  double middle;      // of B-C [m]
   bool varies[SB_DYNAMICS_EDGES + 1]; // regions in which the land's edge lies under the contact
   double edge[SB_DYNAMICS_EDGES];     // those of the mechanism [m]
   SbDriveTimes times;
@@ -194,6 +218,29 @@ typedef struct {
   int direction;
 } SbSolvedState;
 
+// The steady state of a sliding seal at a speed of either sign [m/s]; what it is interpolated from
+// is solved when first asked for (run_speeds.c).
+void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int direction,
+                     double speed);
+
+// The same between the vented chamber and, filled = 1, the filled one.
+void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled, int direction,
+                          double speed);
+
+// Keeps the body under the film of a state just solved, for films at other speeds on it; NULL: it
+// lies on the half-plane.
+SbStatus sb_run_keep_body(SbRun *run, int seal, int chamber, int direction,
+                          const SbSlidingBody *body, SbReport *report);
+
+// Makes the speeds' states of `one` those of `run` under the surface and the states that `one` has.
+SbStatus sb_run_copy_speeds(SbRun *one, const SbRun *run, SbReport *report);
+
+// Adds what interpolation over the speed leaves in the errors. SB_ERROR_CANCELLED or _MEMORY if
+// that ended it.
+SbStatus sb_run_close_speeds(SbRun *run, SbReport *report);
+
+void sb_run_free_speeds(SbRun *run);
+
 // Those of the valve as it is, with the stem's last `direction` of sliding and the chamber's
 // pressure [Pa].
 SbSolvedState sb_valve_solved(const SbValve *valve, int direction, double pressure);
@@ -211,12 +258,9 @@ typedef struct {
   double pressure; // in the chamber [Pa]
 } SbInstant;
 
-// Its frame: forces are the sample's, contact, load and film those of the solved states, the film
-// at the sample's speed; with ports between those of the vented and of the filled chamber.
-void sb_run_fill_frame(SbFrame *out, const SbRun *run, const SbInstant *at);
-
-// Film at a speed [m/s] over that of the states, by the law's exponent about it.
-double sb_run_film_at(const SbRun *run, double speed);
+// Its frame: the drive's forces are the sample's; contact, load, film and friction of a seal that
+// slides are those of one steady state, at the sample's speed and the chamber's pressure.
+void sb_run_fill_frame(SbFrame *out, SbRun *run, const SbInstant *at);
 
 // Makes the first `count` frames visible and tells the progress every now and then; true: stop.
 bool sb_run_poll(SbRun *run, const SbRunHooks *hooks, size_t count, double fraction,
