@@ -10,6 +10,7 @@
 
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
+#include "engine/valve/breakaway.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -267,6 +268,15 @@ static SbStatus solve_rough(const Task *task, Solved *out, double load_net, doub
   return solve_fitted(task, out, &problem) ? SB_OK : solve_on(task, out, &problem, report);
 }
 
+// Break-away after the rest before the first stroke.
+static SbStatus set_static(SbSealState *out, const Task *task, SbReport *report) {
+  SbDwellLaw law;
+  SbStatus status =
+      sb_breakaway_law(&law, &out->squeeze_out_time, task->model, task->seal, out, report);
+  out->friction_static = status == SB_OK ? sb_dwell_at(&law, task->model->rest) : NAN;
+  return status;
+}
+
 // Film, rough contact and friction from one solution each, sliding and at rest.
 static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *report) {
   const SbModel *model = task->model;
@@ -307,9 +317,12 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
     out->friction_viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
   }
   if (memory->rested || rest->film_central > 0) {
-    out->friction_static = model->static_ratio *
-                           (model->shear_strength * fmin(rest->real_area / rest_width, 1) * area +
-                            model->load_coefficient * rest->asperity_load * circumference);
+    out->rest_area = model->shear_strength * fmin(rest->real_area / rest_width, 1) * area;
+    out->rest_load = model->load_coefficient * rest->asperity_load * circumference;
+  }
+  SbStatus aged = set_static(out, task, status == SB_OK && at_rest == SB_OK ? report : NULL);
+  if (aged != SB_OK) {
+    return aged;
   }
   out->friction_error = film->solver.error_contact * (out->boundary_area + out->boundary_load) +
                         out->central_error * out->friction_viscous;
@@ -386,9 +399,9 @@ static SbStatus rough_contact(SbSealState *out, const Task *task, double roughne
           (persson ? 0 : model->shear_strength * fabs(thinner - out->real_area_share) * area);
     }
   }
-  out->friction_static =
-      model->static_ratio * (model->shear_strength * rest_share * area + out->boundary_load);
-  return SB_OK;
+  out->rest_area = model->shear_strength * rest_share * area;
+  out->rest_load = out->boundary_load;
+  return set_static(out, task, report);
 }
 
 static const char *about(int seal) {
@@ -426,7 +439,9 @@ void sb_sliding_clear(SbSealState *out) {
                        .film_error = NAN,
                        .central_error = NAN,
                        .boundary_area = NAN,
-                       .boundary_load = NAN};
+                       .boundary_load = NAN,
+                       .rest_area = NAN,
+                       .rest_load = NAN};
 #define SB_SEAL_FIGURE(path, member, ...) out->member = NAN;
 #include "engine/valve/figures.def"
 }
@@ -454,6 +469,7 @@ static SbStatus fit_contact(const Task *task, SbSealState *out, bool *known, SbR
     out->contact_left = out->contact_right = 0;
     out->load = out->load_per_length = out->load_net = out->pressure_peak = 0;
     out->boundary_area = out->boundary_load = out->friction_viscous = out->friction_static = 0;
+    out->rest_area = out->rest_load = 0;
     return status;
   }
   out->contact_left = fit->contact_left;

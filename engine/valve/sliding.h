@@ -3,7 +3,7 @@
 //
 //   boundary  F_b = tau_0 A_a + m W    thesis eq. 5.14, A_a = A (real share), m on the TOTAL load
 //   viscous   F_v = tau (A - A_a)      thesis eq. 5.15 and 5.16, tau = min(eta |u|/h, tau_0)
-//   static    F_s = ratio (tau_0 A_a(0) + m W)     break-away from rest, where the film has gone
+//   static    F_s after a rest, breakaway.h        break-away, as the film goes
 //
 // With models.asperities = coupled the film is solved with the asperities in it (film/ehl.h), and
 // what the solution says takes the place of these: A_a its real area (mean over the contact
