@@ -24,6 +24,11 @@
 #include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
 
+// Shear of the bore on a ring at a contact pressure [Pa], by the state's real area and viscous
+// force: m p + min(tau_0 A_a/A, p) + F_v/A. No surface transmits more by its area than the pressure
+// on it.
+double sb_sliding_shear(const SbModel *model, const SbSealState *state, double pressure);
+
 // Kinetic friction of a whole contact [N].
 double sb_sliding_friction(const SbSealState *state);
 
@@ -41,6 +46,7 @@ void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), 
 
 // What the last evaluation solved, for profiles; borrowed, overwritten by the next call.
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory);
+const SbRing *sb_sliding_ring(const SbSlidingMemory *memory); // NULL for other fitment models
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
 
 // A state of which nothing is known: its figures are NaN.

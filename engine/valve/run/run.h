@@ -20,6 +20,7 @@ typedef struct {
   void (*progress)(void *data, double fraction, size_t frames);
   bool (*cancelled)(void *data);
   void *data;
+  bool alone; // no thread beside the caller's, which is the one that calls back in either case
 } SbRunHooks;
 
 typedef struct {
@@ -61,6 +62,10 @@ typedef struct {
   double rest_area, rest_load; // what these two become at rest, once the film has gone [N]
   double friction_error;       // of kinetic friction by the solved film's error [N]
   double static_error;         // the same of static friction [N]
+  // Of a ring that friction drags, NaN without: what the pressure leaves of tau_0 A_a, what the
+  // section bears of the whole friction, its turn [degrees], > 0 as friction turns it.
+  double area_cut, borne_share, rotation;
+  SbRingState section;
 } SbSealState;
 
 // What the sliding-plate rig reports (valve/rig.h).

@@ -44,14 +44,6 @@ static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *seg
     }
   }
   sb_run_fill_frame(out, run, &at);
-  for (int seal = 0; seal < SB_SEAL_COUNT && !at.moving; seal++) {
-    // The rings keep the shear of the friction that holds them.
-    SbSealFrame *of = &out->seal[seal];
-    if (of->friction != 0) {
-      of->shape =
-          sb_run_shape_index(run, seal, chamber, of->friction > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT, s);
-    }
-  }
 }
 
 // Evenly spaced frames, and one at the end of every segment so that corners are sharp.
