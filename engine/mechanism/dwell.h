@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-enum { SB_DWELL_PIECES = 48 };
+enum { SB_DWELL_PIECES = 64 };
 
 // From a rest `from` on: value + gain ln(1 + (t - from)/time).
 typedef struct {
@@ -18,7 +18,7 @@ typedef struct {
 } SbDwellLaw;
 
 // Tables `law`, which must not fall, where it is not straight in ln(t): pieces between 1e-3 `first`
-// and 1e3 `last` [s] are halved where their middle is farthest off until all are used or that is
+// and 1e6 `last` [s] are halved where their middle is farthest off until all are used or that is
 // below 1e-4 of the value. It goes on straight behind them.
 void sb_dwell_table(SbDwellLaw *out, double (*law)(double dwell, const void *context),
                     const void *context, double first, double last);
