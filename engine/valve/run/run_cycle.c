@@ -38,8 +38,6 @@ static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *seg
     double own = sb_cycle_seal_friction(cycle, seal, chamber, direction, s);
     if (at.moving) {
       sample->friction[seal] = sign * own;
-      sample->viscous[seal] = sign * cycle->state[seal][chamber][direction].friction_viscous *
-                              sb_cycle_land_share(cycle, seal, chamber, direction, s).width;
     } else if (total > 0) {
       // A stuck stem's friction is split between the seals in proportion to what each can bear.
       sample->friction[seal] = -friction * own / total;
