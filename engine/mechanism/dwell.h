@@ -1,5 +1,6 @@
-// What a contact at rest holds, as a force or over its sliding level, as a function of how long it has rested: any law that grows,
-// tabled in pieces that are straight in the logarithm of time, as dynamics.h finds its events by.
+// What a contact at rest holds, as a force or over its sliding level, as a function of how long it
+// has rested: any law that grows, tabled in pieces that are straight in the logarithm of time, as
+// dynamics.h finds its events by.
 #pragma once
 
 #include <stddef.h>
@@ -8,7 +9,7 @@ enum { SB_DWELL_PIECES = 64 };
 
 // From a rest `from` on: value + gain ln(1 + (t - from)/time).
 typedef struct {
-  double from, time;  // s; time > 0
+  double from, time; // s; time > 0
   double value, gain;
 } SbDwellPiece;
 
