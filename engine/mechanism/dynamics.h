@@ -6,13 +6,13 @@
 // thesis has none.) x > 0 is the in-stroke, compression of the drive is positive.
 //
 // Friction. A contact carries a Coulomb level L [N] given by the caller for where the stem is. It
-// sticks up to L (static_ratio + dwell_gain ln(1 + dwell/dwell_time)); it slides at
-// L [1 + (static_ratio - 1) exp(-(speed/stribeck_speed)^stribeck_exponent)], or at L from the first
-// slip if stribeck_speed is 0; `viscous` times the stem's speed acts beside it. A contact with
-// finite `stiffness` joins stem and bore through the seal's tangential spring and damper
-// (pre-sliding, thesis slope A-B): its patch does not move at all while it sticks. A rigid contact
-// (stiffness INFINITY) holds the stem itself at rest, exactly. Contacts that the land does not
-// reach have level 0.
+// sticks up to L (static_ratio + dwell_gain ln(1 + dwell/dwell_time)), or up to L times a law of
+// the dwell that comes with the level (dwell.h); it slides at L [1 + (static_ratio - 1)
+// exp(-(speed/stribeck_speed)^stribeck_exponent)], or at L from the first slip if stribeck_speed is
+// 0; `viscous` times the stem's speed acts beside it. A contact with finite `stiffness` joins stem
+// and bore through the seal's tangential spring and damper (pre-sliding, thesis slope A-B): its
+// patch does not move at all while it sticks. A rigid contact (stiffness INFINITY) holds the stem
+// itself at rest, exactly. Contacts that the land does not reach have level 0.
 //
 // Stops. Spring and damper in one direction, the damper from the restitution of a free impact that
 // ends when the force does (Schwager and Poeschel 2007); stiffness INFINITY is an impact law, at
@@ -30,6 +30,7 @@
 
 #include "engine/base/status.h"
 #include "engine/mechanism/drive.h"
+#include "engine/mechanism/dwell.h"
 #include "engine/mechanism/oscillator.h"
 #include "engine/mechanism/radau.h"
 
@@ -42,7 +43,7 @@ enum {
 typedef struct {
   double static_ratio;      // >= 1
   double dwell_gain;        // >= 0, per factor e of rest
-  double dwell_time;        // s, > 0 if dwell_gain > 0; the same for all rigid contacts
+  double dwell_time;        // s, > 0 if dwell_gain > 0
   double stribeck_speed;    // m/s; 0: static_ratio is lost at the first slip
   double stribeck_exponent; // > 0 if stribeck_speed > 0
   double viscous;           // N s/m, while the contact carries load
@@ -61,6 +62,8 @@ typedef struct {
 typedef struct {
   double force;                       // N
   double level[SB_DYNAMICS_CONTACTS]; // N
+  // What holds at rest over the level, by dwell; borrowed, NULL: the contact's own constants.
+  const SbDwellLaw *rest[SB_DYNAMICS_CONTACTS];
   bool constant; // neither changes before the next edge is crossed, nor does the extra state
   bool settled;  // the extra state does not change while the stem does not move
 } SbDynamicsLoads;

@@ -47,8 +47,9 @@ static void closed_path(SbDynamics *s, const Point *p, Live *live) {
   if (!s->held) {
     sb_oscillator_init(&s->motion, s->mass, p->sum.c, p->sum.k, p->sum.f0, p->sum.f1, p->v);
   }
-  double horizon = fmin(s->piece.until - s->t, horizon_max);
-  s->t_end = isfinite(s->piece.until) && horizon < horizon_max ? s->piece.until : s->t + horizon;
+  double ahead = s->piece.until - s->t, horizon = fmin(ahead, horizon_max);
+  horizon = fmin(horizon, sb_motion_rest_ends(s, p));
+  s->t_end = horizon == ahead ? s->piece.until : s->t + horizon;
   s->event = EVENT_BREAK;
   double a = s->held ? 0.0 : force_of(&p->sum, p) / s->mass;
   for (size_t i = 0; i < live->count; i++) {

@@ -3,6 +3,7 @@
 
 #include "engine/numeric/legendre.h"
 #include "engine/numeric/root.h"
+#include "engine/valve/breakaway.h"
 
 #include <math.h>
 
@@ -235,6 +236,37 @@ static int reach(SbChamber *chamber, const Planner *p, double s) {
   return in && s == cycle->model->land_edge && p->stage == SB_STAGE_B ? SB_STAGE_C : event;
 }
 
+// Where the platen stands when a stem that sticks slips the way `direction`, after a rest of
+// `dwell` so far. A contact that ages does so on the way: each pass holds the friction of the one
+// before, so that the first such place is found. Friction is over the kinetic one as the contact of
+// the last sliding has grown.
+static SbStatus slip_platen(double *out, const Planner *p, int direction, double dwell,
+                            SbReport *report) {
+  const SbModel *model = p->cycle->model;
+  SbDwellLaw law[SB_SEAL_COUNT];
+  double kinetic[SB_SEAL_COUNT], sliding[SB_SEAL_COUNT], X = p->X, before, squeeze_time;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    const SbSealState *state = &p->cycle->state[seal][p->chamber][p->direction];
+    SbStatus status = sb_breakaway_law(&law[seal], &squeeze_time, model, seal, state, report);
+    if (status != SB_OK) {
+      return status;
+    }
+    kinetic[seal] = sb_sliding_friction(state);
+    sliding[seal] = sb_cycle_seal_friction(p->cycle, seal, p->chamber, direction, p->s);
+  }
+  do {
+    double friction = 0, rested = dwell + fabs(X - p->X) / model->speed;
+    for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+      double grown = kinetic[seal] > 0 ? sb_dwell_at(&law[seal], rested) / kinetic[seal] : 1;
+      friction += fmax(1, grown) * sliding[seal];
+    }
+    before = X;
+    X = p->s + (model->pressure_force + sign_of(direction) * friction) / model->stiffness;
+  } while (fabs(X - before) > 1e-9 * fabs(X - p->s) && X > 0);
+  *out = X;
+  return SB_OK;
+}
+
 // Adds a segment; `event` ends one at which the stem does not move, else where it comes to decides.
 static void emit(Planner *p, SbCycleMode mode, double X1, double s1, int event) {
   SbCycle *cycle = p->cycle;
@@ -335,7 +367,7 @@ double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, 
 SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   const SbModel *model = cycle->model;
   cycle->count = 0;
-  double k = model->stiffness;
+  double k = model->stiffness, dwell = 0;
   Planner p = {.cycle = cycle, .platen = 1, .direction = SB_CYCLE_IN, .stage = SB_STAGE_A};
 
   // A chamber whose inner seal does not touch is always open.
@@ -351,7 +383,15 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
     double friction = p.stage == SB_STAGE_A ? static_limit(cycle, p.chamber, SB_CYCLE_IN, p.s)
                                             : sb_cycle_friction(cycle, p.chamber, SB_CYCLE_IN, p.s);
     double X_slip = p.s + (model->pressure_force + friction) / k;
+    if (model->contact_ageing) {
+      double rested = p.stage == SB_STAGE_A ? model->rest : 0;
+      SbStatus status = slip_platen(&X_slip, &p, SB_CYCLE_IN, rested, report);
+      if (status != SB_OK) {
+        return status;
+      }
+    }
     if (p.s >= model->stroke) {
+      dwell = fmax(p.s + model->reversal_force / k - p.X, 0) / model->speed;
       emit(&p, SB_CYCLE_STICK, fmax(p.s + model->reversal_force / k, p.X), p.s, -1);
       break;
     }
@@ -367,6 +407,14 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   while (!p.full && p.X > 0) {
     double limit = balance_at(p.s, &(Place){cycle, p.chamber, SB_CYCLE_OUT, 0});
     double X_slip = p.s + limit / k;
+    if (model->contact_ageing) {
+      SbStatus status = slip_platen(&X_slip, &p, SB_CYCLE_OUT, dwell, report);
+      if (status != SB_OK) {
+        return status;
+      }
+      limit = k * (X_slip - p.s);
+      dwell = 0;
+    }
     // Where friction has caught up with the pressure the root is known to rounding only.
     bool stalled = limit <= 1e-9 * model->pressure_force;
     if (p.s <= 0 || stalled || X_slip <= 0) {

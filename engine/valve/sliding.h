@@ -3,7 +3,7 @@
 //
 //   boundary  F_b = tau_0 A_a + m W    thesis eq. 5.14, A_a = A (real share), m on the TOTAL load
 //   viscous   F_v = tau (A - A_a)      thesis eq. 5.15 and 5.16, tau = min(eta |u|/h, tau_0)
-//   static    F_s = ratio (tau_0 A_a(0) + m W)     break-away from rest, where the film has gone
+//   static    F_s after a rest, breakaway.h        break-away, as the film goes
 //
 // With models.asperities = coupled the film is solved with the asperities in it (film/ehl.h), and
 // what the solution says takes the place of these: A_a its real area (mean over the contact
@@ -24,10 +24,16 @@
 #include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
 
-// Shear of the bore on a ring at a contact pressure [Pa], by the state's real area and viscous
-// force: m p + min(tau_0 A_a/A, p) + F_v/A. No surface transmits more by its area than the pressure
-// on it.
-double sb_sliding_shear(const SbModel *model, const SbSealState *state, double pressure);
+// The friction of a state as a local law of the bore's shear on a ring at a contact pressure:
+//   tau(p) = m p + min(tau_0 A_a/A + F_v/A, p)
+// No surface transmits more by its area than the pressure there. Coupled, m acts on the share of
+// the pressure that asperities bear.
+typedef struct {
+  double coefficient; // m [1]
+  double shear;       // [Pa]
+} SbSlidingLaw;
+void sb_sliding_law(SbSlidingLaw *out, const SbModel *model, const SbSealState *state);
+double sb_sliding_shear(double pressure, double *slope, const void *law);
 
 // Kinetic friction of a whole contact [N].
 double sb_sliding_friction(const SbSealState *state);

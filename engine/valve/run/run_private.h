@@ -58,6 +58,7 @@ struct SbRun {
   size_t capacity; // frames at most
   SbCycle cycle;   // its states serve every motion model
   double speed; // sliding speed that the states stand for [m/s]: the machine's, or the stem's own
+  SbDwellLaw rest[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS]; // of contacts that age, over their level
   double film_exponent; // of the film's speed law about it; 0: every frame slides at that speed
   SbSummary summary;
   SbFilm film;                         // of whoever solves one beside the states

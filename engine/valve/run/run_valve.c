@@ -8,12 +8,16 @@
 // levels lie between those of the vented and of the filled chamber, in proportion to its pressure:
 // exact where the chamber rests, which is all but the milliseconds of filling and venting.
 //
+// Contacts that age (friction.breakaway) hold by the law of the state that stands for their
+// chamber.
+//
 // Ports by position. With y from the land's edge outwards and the contacts' edges l < r in each
 // seal's frame, the inner contact starts at y = s_C - s and the outer ends of the chamber lie at
 // s_C - s + (r - l)_inner and s_C - s - l_inner + spacing + l_outer. The chamber meets the canister
 // when the inner contact has left the land, the vent while any of the hole lies between the two
 // contacts (open wholly or not at all), and the canister through a by-pass below
 // bore.refill_travel.
+#include "engine/valve/breakaway.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
@@ -43,6 +47,8 @@ static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const d
   // Bore and stem are the same on either side of the chamber, so that its pressure cancels.
   loads->force = -valve->run->model->pressure_force;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    loads->rest[seal] =
+        valve->run->model->contact_ageing ? &valve->run->rest[seal][valve->chamber] : NULL;
     if (valve->ports) {
       double q = filling(valve->run, extra[0]);
       double vented = q < 1 ? level_of(cycle, seal, SB_CHAMBER_AT_REST, x) : 0;
@@ -180,6 +186,21 @@ static SbStatus valve_mass(double *mass, double x, double v, void *user, SbRepor
   return sb_run_bodies_move(mass, valve->run, x, v, report);
 }
 
+// The law of a contact that ages, over its sliding level.
+static SbStatus set_rest(SbRun *run, int seal, SbChamber chamber, SbReport *report) {
+  const SbSealState *state = &run->cycle.state[seal][chamber][direction_of(chamber)];
+  const double level = state->boundary_area + state->boundary_load;
+  SbDwellLaw *law = &run->rest[seal][chamber];
+  double squeeze_time;
+  SbStatus status = sb_breakaway_law(law, &squeeze_time, run->model, seal, state, report);
+  for (size_t i = 0; i < law->count; i++) {
+    SbDwellPiece *piece = &law->piece[i];
+    piece->value = level > 0 ? piece->value / level : 1;
+    piece->gain = level > 0 ? piece->gain / level : 0;
+  }
+  return status;
+}
+
 SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbReport *report) {
   const SbModel *model = run->model;
   const SbCycle *cycle = &run->cycle;
@@ -200,8 +221,16 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const SbSealState *state = &cycle->state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
     double level = state->boundary_area + state->boundary_load;
-    double ratio = level > 0 ? fmax(state->friction_static / level, 1) : 1;
-    out->contact[seal] = sb_model_contact(model, ratio, out->mass);
+    // Static friction is that of the dry contact.
+    double dry = level > 0 ? (state->rest_area + state->rest_load) / level : 1;
+    out->contact[seal] = sb_model_contact(model, fmax(model->static_ratio * dry, 1), out->mass);
+    out->contact[seal].dwell_gain *= model->contact_ageing ? 1 : dry;
+    for (int chamber = 0; model->contact_ageing && chamber < SB_CYCLE_CHAMBERS; chamber++) {
+      SbStatus status = set_rest(run, seal, (SbChamber)chamber, report);
+      if (status != SB_OK) {
+        return status;
+      }
+    }
     out->contact[seal].viscous = state->friction_viscous / run->speed;
   }
   out->stop[SB_REST_STOP] = (SbDynamicsStop){0, -1, INFINITY, 0};
