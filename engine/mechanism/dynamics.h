@@ -6,7 +6,8 @@
 // thesis has none.) x > 0 is the in-stroke, compression of the drive is positive.
 //
 // Friction. A contact carries a level L [N] given by the caller for where the stem is: its friction
-// as the speed goes to 0. It sticks up to L (static_ratio + dwell_gain ln(1 + dwell/dwell_time));
+// as the speed goes to 0. It sticks up to L (static_ratio + dwell_gain ln(1 + dwell/dwell_time)),
+// or up to L times a law of the dwell that comes with the level (dwell.h);
 // it slides at L [1 + (static_ratio - 1) exp(-(speed/stribeck_speed)^stribeck_exponent)], or at L
 // from the first slip if stribeck_speed is 0. What the speed changes of it beyond that the caller
 // gives as bands of the stem's speed in which it is straight, continuous from one to the next;
@@ -31,6 +32,7 @@
 
 #include "engine/base/status.h"
 #include "engine/mechanism/drive.h"
+#include "engine/mechanism/dwell.h"
 #include "engine/mechanism/oscillator.h"
 #include "engine/mechanism/radau.h"
 
@@ -43,7 +45,7 @@ enum {
 typedef struct {
   double static_ratio;      // >= 1
   double dwell_gain;        // >= 0, per factor e of rest
-  double dwell_time;        // s, > 0 if dwell_gain > 0; the same for all rigid contacts
+  double dwell_time;        // s, > 0 if dwell_gain > 0
   double stribeck_speed;    // m/s; 0: static_ratio is lost at the first slip
   double stribeck_exponent; // > 0 if stribeck_speed > 0
   double stiffness;         // N/m; INFINITY: rigid
@@ -62,6 +64,8 @@ typedef struct {
   double force;                       // N
   double level[SB_DYNAMICS_CONTACTS]; // N, of sliding to +x
   double back[SB_DYNAMICS_CONTACTS];  // N, by how much that of sliding to -x is larger
+  // What holds at rest over the level, by dwell; borrowed, NULL: the contact's own constants.
+  const SbDwellLaw *rest[SB_DYNAMICS_CONTACTS];
   bool constant; // neither changes before the next edge is crossed, nor does the extra state
   bool settled;  // the extra state does not change while the stem does not move
 } SbDynamicsLoads;
@@ -164,7 +168,7 @@ typedef struct {
 
 typedef struct {
   long events, segments, steps, rejected, newton_iterations;
-  long repeated;      // cycles of stick-slip that were not stepped through: equal to the one before
+  long repeated;      // cycles of stick-slip that were not stepped through: like the one before
   double local_error; // sum of the numerical path's local errors of position, over |x| + 1 mm
 } SbDynamicsCounters;
 
@@ -194,6 +198,8 @@ typedef struct {
   size_t region;
   long events, segments;
   double t, x, stretch, piece; // s, m; stretch of the drive's spring [m]; start of its piece [s]
+  double extra, period;        // the caller's; since the break-away before [s], 0: not known
+  double passed, rate[SB_DYNAMICS_TERMS]; // way passed over from there on [m], energies per way
   SbDynamicsEnergy energy;
 } SbDynamicsBreak;
 

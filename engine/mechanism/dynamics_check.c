@@ -26,12 +26,6 @@ static SbStatus check_contact(const SbDynamicsModel *m, size_t i, SbReport *repo
                    "tangential damping above 0",
                    i);
   }
-  for (size_t k = 0; k < i; k++) {
-    if (is_rigid(m, i) && is_rigid(m, k) && c->dwell_gain > 0.0 && m->contact[k].dwell_gain > 0.0 &&
-        m->contact[k].dwell_time != c->dwell_time) {
-      return sb_fail(report, SB_ERROR_INPUT, "rigid contacts must share one dwell time");
-    }
-  }
   return sb_succeed(report);
 }
 

@@ -283,25 +283,43 @@ static bool wall_function(const SbDynamics *s, const Point *p, size_t w, SbEvent
 static void add_holding(const SbDynamics *s, const Point *p, size_t i, int direction,
                         SbEventFunction *g) {
   const SbDynamicsContact *c = &s->model->contact[i];
-  double level = sb_motion_level(&p->loads, i, direction);
+  double level = sb_motion_level(&p->loads, i, direction), dwell = fmax(0.0, p->t - s->since[i]),
+         until;
+  const SbDwellPiece own = {0.0, c->dwell_time, c->static_ratio, c->dwell_gain}, *piece = &own;
   g->constant += s->margin[i];
-  if (s->fresh[i]) {
+  if (p->loads.rest[i] != NULL) {
+    piece = sb_dwell_piece(&until, p->loads.rest[i], dwell + sb_motion_time_noise(p->t));
+  } else if (s->fresh[i]) {
     g->constant += sb_motion_sliding_level(s, i, level, 0.0);
     return;
   }
-  g->constant += level * c->static_ratio;
-  if (c->dwell_gain > 0.0) {
-    // Rigid contacts share one dwell time and rest together, so that gains add.
-    g->log_gain += level * c->dwell_gain;
-    g->log_time = c->dwell_time;
-    g->log_start = fmax(0.0, p->t - s->since[i]);
+  g->constant += level * piece->value;
+  if (piece->gain > 0.0 && level > 0.0) {
+    g->log[g->logs].gain = level * piece->gain;
+    g->log[g->logs].start = fmax(0.0, dwell - piece->from);
+    g->log[g->logs++].time = piece->time;
   }
+}
+
+double sb_motion_rest_ends(const SbDynamics *s, const Point *p) {
+  double ends = INFINITY;
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    if (s->state[i] == SB_CONTACT_STUCK && p->loads.rest[i] != NULL) {
+      double until, dwell = fmax(0.0, p->t - s->since[i]);
+      (void)sb_dwell_piece(&until, p->loads.rest[i], dwell + sb_motion_time_noise(p->t));
+      ends = fmin(ends, until - dwell);
+    }
+  }
+  return ends;
 }
 
 // A function's value at the point itself.
 static double value_of(const SbEventFunction *g, double v) {
-  double gained = g->log_gain > 0.0 ? g->log_gain * log1p(g->log_start / g->log_time) : 0.0;
-  return g->constant + g->of_v * v + g->relax + gained;
+  double value = g->constant + g->of_v * v + g->relax;
+  for (int i = 0; i < g->logs; i++) {
+    value += g->log[i].gain * log1p(g->log[i].start / g->log[i].time);
+  }
+  return value;
 }
 
 double sb_motion_holding(const SbDynamics *s, const Point *p, size_t i, int direction) {

@@ -4,6 +4,9 @@
 
 #include "engine/mechanism/dynamics.h"
 
+#include <float.h>
+#include <math.h>
+
 // Everything that can end a segment; of those at one time the first counts. Stops and contacts
 // follow each other by index.
 enum {
@@ -113,6 +116,14 @@ void sb_motion_point(Point *p, const SbDynamics *s, double t, const SbDynamicsSt
 static inline double force_of(const Force *force, const Point *p) {
   return force->f0 - force->c * p->v;
 }
+
+// Size of the rounding of time t [s]: of two times closer than that neither comes first.
+static inline double sb_motion_time_noise(double t) {
+  return 8.0 * DBL_EPSILON * fabs(t);
+}
+
+// How long the pieces of their laws hold for contacts that rest at p [s], maybe INFINITY.
+double sb_motion_rest_ends(const SbDynamics *s, const Point *p);
 
 // Largest force that contact i can hold at p against the stem's going in `direction`.
 double sb_motion_holding(const SbDynamics *s, const Point *p, size_t i, int direction);

@@ -200,9 +200,9 @@ static Look look(const SbEventFunction *g, const SbOscillator *o, double tau) {
     out.value += e;
     out.rate -= g->relax_rate * e;
   }
-  if (g->log_gain != 0.0) {
-    out.value += g->log_gain * log1p((g->log_start + tau) / g->log_time);
-    out.rate += g->log_gain / (g->log_time + g->log_start + tau);
+  for (int i = 0; i < g->logs; i++) {
+    out.value += g->log[i].gain * log1p((g->log[i].start + tau) / g->log[i].time);
+    out.rate += g->log[i].gain / (g->log[i].time + g->log[i].start + tau);
   }
   return out;
 }
@@ -237,9 +237,9 @@ static void bounds(const SbEventFunction *g, const SbOscillator *o, const Look *
     *curvature += g->relax_rate * g->relax_rate * e;
     *swing += g->relax < 0.0 ? e : 0.0;
   }
-  if (g->log_gain != 0.0) {
-    double since = g->log_time + g->log_start + tau;
-    *curvature += g->log_gain / (since * since);
+  for (int i = 0; i < g->logs; i++) {
+    double since = g->log[i].time + g->log[i].start + tau;
+    *curvature += g->log[i].gain / (since * since);
   }
 }
 
@@ -248,8 +248,8 @@ static double trend_clear(const SbEventFunction *g, const SbOscillator *o, doubl
                           double swing) {
   double level = g->constant - swing + g->of_x * o->trend0 + g->of_v * o->trend1;
   double rate = g->rate + g->of_x * o->trend1;
-  if (g->log_gain != 0.0) {
-    level += g->log_gain * log1p((g->log_start + tau) / g->log_time);
+  for (int i = 0; i < g->logs; i++) {
+    level += g->log[i].gain * log1p((g->log[i].start + tau) / g->log[i].time);
   }
   if (!(level + rate * tau > 0.0)) {
     return tau;

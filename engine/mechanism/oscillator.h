@@ -43,11 +43,15 @@ double sb_oscillator_square(const SbOscillator *o, double tau);
 
 // A quantity that must stay >= 0; the event is where it first turns negative:
 //   g = constant + rate tau + of_x u + of_v v + relax exp(-relax_rate tau)
-//       + log_gain ln(1 + (log_start + tau)/log_time)          (log_gain >= 0, log_time > 0)
+//       + sum of logs, gain ln(1 + (start + tau)/time)             (gain >= 0, time > 0)
+enum { SB_EVENT_LOGS = 4 };
 typedef struct {
   double constant, rate, of_x, of_v; // of g's unit, tau in s, u in m, v in m/s
   double relax, relax_rate;
-  double log_gain, log_start, log_time;
+  int logs;
+  struct {
+    double gain, start, time;
+  } log[SB_EVENT_LOGS];
   double noise; // size of terms that have cancelled in the coefficients: sets the rounding error
 } SbEventFunction;
 

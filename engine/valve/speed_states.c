@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEAST_FILM, CENTRAL_FILM, AREA, LOAD, VISCOUS };
+enum { LEAST_FILM, CENTRAL_FILM, LAYER, AREA, LOAD, VISCOUS };
 
 // A cell of two decades has GRID places; halved DEPTH times its nodes are still on the grid. Four
 // of them reach from 10 m/s below the least speed.
@@ -30,9 +30,12 @@ static SbSlidingTask task_at(const SbSpeedStates *states, double speed) {
 static void take(double value[SB_SPEED_VALUES], const SbSealState *state) {
   value[LEAST_FILM] = log(state->film_min);
   value[CENTRAL_FILM] = log(state->film_central);
+  value[LAYER] = log(state->layer);
   value[AREA] = state->real_area_share;
-  value[LOAD] = state->boundary_load;
-  value[VISCOUS] = log(fmax(state->friction_viscous, 1e-300));
+  // Those of a section that bears all.
+  const double borne = state->borne_share > 0 ? state->borne_share : 1;
+  value[LOAD] = state->boundary_load / borne;
+  value[VISCOUS] = log(fmax(state->friction_viscous / borne, 1e-300));
 }
 
 // The state that these values are.
@@ -40,13 +43,14 @@ static void give(SbSealState *out, const SbSpeedStates *states, double speed,
                  const double value[SB_SPEED_VALUES]) {
   out->film_min = exp(value[LEAST_FILM]);
   out->film_central = exp(value[CENTRAL_FILM]);
+  out->layer = exp(value[LAYER]);
   if (is_coupled(states)) {
     out->real_area_share = fmin(fmax(value[AREA], 0), 1);
     out->boundary_load = fmax(value[LOAD], 0);
     out->friction_viscous = exp(value[VISCOUS]);
   }
   const SbSlidingTask task = task_at(states, speed);
-  (void)sb_sliding_resurface(out, &task, states->roughness, NULL);
+  (void)sb_sliding_refilm(out, &task, states->roughness, NULL);
 }
 
 void sb_speed_states_init(SbSpeedStates *out, const SbSlidingTask *task, const SbSealState *at,
@@ -63,6 +67,7 @@ void sb_speed_states_init(SbSpeedStates *out, const SbSlidingTask *task, const S
   if (!is_coupled(out) && task->model->film != SB_FILM_REYNOLDS && at->film_central > 0) {
     SbSealState faster = *at;
     const SbSlidingTask other = task_at(out, 10 * fabs(task->speed));
+    // With no more than a supply there is no power, but a law all the same.
     if (sb_sliding_respeed(&faster, &other, NULL, NULL) == SB_OK) {
       out->power = log10(faster.film_central / at->film_central);
     }
@@ -181,6 +186,12 @@ void sb_speed_state(SbSealState *out, SbSpeedStates *states, double speed) {
   }
   double value[SB_SPEED_VALUES];
   const bool law = !isnan(states->power);
+  if (law && states->task.supply.limited) {
+    const SbSlidingTask task = task_at(states, speed);
+    (void)sb_sliding_respeed(out, &task, NULL, NULL);
+    (void)sb_sliding_refilm(out, &task, states->roughness, NULL);
+    return;
+  }
   const SbSpeedCell *cell = NULL;
   double place = 0;
   if (!law) {
@@ -195,6 +206,7 @@ void sb_speed_state(SbSealState *out, SbSpeedStates *states, double speed) {
     const double faster = (law ? states->power : 0.6) * log(speed / reference);
     value[LEAST_FILM] += faster;
     value[CENTRAL_FILM] += faster;
+    value[LAYER] += faster;
   }
   give(out, states, speed, value);
 }

@@ -20,7 +20,7 @@
 #define SB_SPEED_MOST      10.0 // m/s
 #define SB_SPEED_TOLERANCE 5e-4 // relative, of films and friction
 
-enum { SB_SPEED_NODES = 80, SB_SPEED_CELLS = 40, SB_SPEED_VALUES = 5 };
+enum { SB_SPEED_NODES = 80, SB_SPEED_CELLS = 40, SB_SPEED_VALUES = 6 };
 
 typedef struct {
   int place; // on the grid of nodes

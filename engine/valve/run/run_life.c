@@ -50,7 +50,7 @@ static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const 
   SbStatus status = resurface(one, one->roughness, report);
   status = status == SB_OK ? sb_run_copy_speeds(one, run, report) : status;
   if (status == SB_OK) {
-    const SbRunHooks quiet = {NULL, hooks->cancelled, hooks->data};
+    const SbRunHooks quiet = {.cancelled = hooks->cancelled, .data = hooks->data};
     SbReport own = {0};
     status = sb_run_move(one, &quiet, &own);
     if (status != SB_OK) {
@@ -73,7 +73,7 @@ static SbLifeActuation yield_of(const SbRun *run, double roughness) {
       .roughness = roughness,
       .lambda = outer->lambda,
       .leakage = summary->leakage_per_cycle,
-      .carried = sb_leak_stroke(run->model->bore_diameter, outer->film_central, run->model->stroke),
+      .carried = sb_leak_stroke(run->model->bore_diameter, 2 * outer->layer, run->model->stroke),
       .force_peak = summary->force_peak,
       .force_breakaway = slip->reached ? slip->force : NAN,
       .force_return = summary->force_return_min,

@@ -15,10 +15,10 @@ static SbSlidingTask task_of(SbRun *run, int seal, int chamber, int direction, d
                          .seal = seal,
                          .pressure = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber),
                          .speed = direction == SB_CYCLE_IN ? speed : -speed,
-                         .drive_speed = run->speed,
                          .memory = run->memory[seal],
                          .counts = &run->summary.counters,
-                         .warnings = &run->summary.warnings};
+                         .warnings = &run->summary.warnings,
+                         .supply = sb_run_supply(run, seal, (SbChamber)chamber, direction)};
 }
 
 static bool same_contact(const SbSealState *a, const SbSealState *b) {
@@ -103,7 +103,8 @@ void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled,
                                     offsetof(SbSealState, film_central),
                                     offsetof(SbSealState, real_area_share),
                                     offsetof(SbSealState, boundary_load),
-                                    offsetof(SbSealState, friction_viscous)};
+                                    offsetof(SbSealState, friction_viscous),
+                                    offsetof(SbSealState, layer)};
   for (size_t i = 0; i < sizeof straight / sizeof straight[0]; i++) {
     double *a = (double *)((char *)out + straight[i]);
     *a = between(*a, *(const double *)((const char *)&full + straight[i]), filled);
@@ -113,7 +114,7 @@ void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled,
         task_of(run, seal, SB_CHAMBER_AT_REST, direction, fmax(fabs(speed), SB_SPEED_LEAST));
     SbSlidingTask quiet = task;
     quiet.warnings = NULL;
-    (void)sb_sliding_resurface(out, &quiet, run->roughness, NULL);
+    (void)sb_sliding_refilm(out, &quiet, run->roughness, NULL);
   }
   out->touches = out->touches || full.touches;
 }

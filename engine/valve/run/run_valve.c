@@ -8,12 +8,16 @@
 // follows the part that still touches. With ports friction lies between those of the vented and of
 // the filled chamber, in proportion to its pressure.
 //
+// Contacts that age (friction.breakaway) hold by the law of the state that stands for their
+// chamber.
+//
 // Ports by position. With y from the land's edge outwards and the contacts' edges l < r in each
 // seal's frame, the inner contact starts at y = s_C - s and the outer ends of the chamber lie at
 // s_C - s + (r - l)_inner and s_C - s - l_inner + spacing + l_outer. The chamber meets the canister
 // when the inner contact has left the land, the vent while any of the hole lies between the two
 // contacts (open wholly or not at all), and the canister through a by-pass below
 // bore.refill_travel.
+#include "engine/valve/breakaway.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
@@ -42,10 +46,20 @@ static Ends ends_of(const SbValve *valve, double pressure) {
   return (Ends){2, {SB_CHAMBER_AT_REST, SB_CHAMBER_CLOSED}, {1 - q, q}};
 }
 
+// The direction whose state tells where a chamber's contact meets the land's edge: that in which
+// the stem passes it in this chamber.
+static int passing(SbChamber chamber) {
+  return chamber == SB_CHAMBER_CLOSED ? SB_CYCLE_OUT : SB_CYCLE_IN;
+}
+
+static SbLandShare land_share(const SbCycle *cycle, int seal, SbChamber chamber, double s) {
+  return sb_cycle_land_share(cycle, seal, chamber, passing(chamber), s);
+}
+
 // Friction of a contact without a film: as the speed goes to 0.
 static double level_of(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s) {
   const SbSealState *state = &cycle->state[seal][chamber][direction];
-  const SbLandShare on = sb_cycle_land_share(cycle, seal, chamber, direction, s);
+  const SbLandShare on = land_share(cycle, seal, chamber, s);
   return state->rest_area * on.width + state->rest_load * on.load;
 }
 
@@ -57,6 +71,8 @@ static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const d
   loads->force = -valve->run->model->pressure_force;
   const Ends ends = ends_of(valve, extra[0]);
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    loads->rest[seal] =
+        valve->run->model->contact_ageing ? &valve->run->rest[seal][valve->chamber] : NULL;
     for (int i = 0; i < ends.count; i++) {
       if (ends.share[i] > 0) {
         double in = level_of(cycle, seal, ends.chamber[i], SB_CYCLE_IN, x);
@@ -193,7 +209,7 @@ static void valve_band(SbDynamicsBand *out, double x, size_t region, int directi
   out->high = band->high;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     for (int i = 0; i < ends.count; i++) {
-      const SbLandShare on = sb_cycle_land_share(&valve->run->cycle, seal, ends.chamber[i], way, x);
+      const SbLandShare on = land_share(&valve->run->cycle, seal, ends.chamber[i], x);
       const SbBandPart *w = &band->width[seal][i], *l = &band->load[seal][i];
       out->rise[seal] += ends.share[i] * (on.width * w->rise + on.load * l->rise);
       out->slope[seal] += ends.share[i] * (on.width * w->slope + on.load * l->slope);
@@ -322,6 +338,21 @@ static SbStatus valve_mass(double *mass, double x, double v, void *user, SbRepor
   return sb_run_bodies_move(mass, valve->run, x, v, report);
 }
 
+// The law of a contact that ages, over its sliding level.
+static SbStatus set_rest(SbRun *run, int seal, SbChamber chamber, SbReport *report) {
+  const SbSealState *state = &run->cycle.state[seal][chamber][passing(chamber)];
+  const double level = state->rest_area + state->rest_load;
+  SbDwellLaw *law = &run->rest[seal][chamber];
+  double squeeze_time;
+  SbStatus status = sb_breakaway_law(law, &squeeze_time, run->model, seal, state, report);
+  for (size_t i = 0; i < law->count; i++) {
+    SbDwellPiece *piece = &law->piece[i];
+    piece->value = level > 0 ? piece->value / level : 1;
+    piece->gain = level > 0 ? piece->gain / level : 0;
+  }
+  return status;
+}
+
 SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbReport *report) {
   const SbModel *model = run->model;
   const SbCycle *cycle = &run->cycle;
@@ -346,8 +377,16 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const SbSealState *state = &cycle->state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
     double level = state->rest_area + state->rest_load;
-    double ratio = level > 0 ? fmax(state->friction_static / level, 1) : 1;
-    out->contact[seal] = sb_model_contact(model, ratio, out->mass);
+    double ratio = state->section == SB_RING_ROLLS || state->section == SB_RING_JAMS
+                       ? state->friction_static / level
+                       : model->static_ratio;
+    out->contact[seal] = sb_model_contact(model, level > 0 ? fmax(ratio, 1) : 1, out->mass);
+    for (int chamber = 0; model->contact_ageing && chamber < SB_CYCLE_CHAMBERS; chamber++) {
+      SbStatus status = set_rest(run, seal, (SbChamber)chamber, report);
+      if (status != SB_OK) {
+        return status;
+      }
+    }
   }
   out->stop[SB_REST_STOP] = (SbDynamicsStop){0, -1, INFINITY, 0};
   out->stop[SB_END_STOP] =
@@ -356,8 +395,11 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
 
   // Edges: where the contact meets the land's end, where it has left, where it comes back.
   valve->touches = cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].touches;
-  double far = -INFINITY;
+  double near = INFINITY, far = -INFINITY;
   if (valve->touches) {
+    double closed = sb_cycle_edge_begin(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
+    near = fmin(model->land_edge, closed);
+    add_edge(out, closed);
     valve->edge_open = sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
     valve->edge_closed = sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
     far = fmax(valve->edge_open, valve->edge_closed);
@@ -406,7 +448,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   for (size_t region = 0; region <= out->edges; region++) {
     double low = region > 0 ? out->edge[region - 1] : -INFINITY;
     double high = region < out->edges ? out->edge[region] : INFINITY;
-    valve->varies[region] = valve->touches && rubs && low >= model->land_edge && high <= far;
+    valve->varies[region] = valve->touches && rubs && low >= near && high <= far;
     if (region < out->edges) {
       valve->edge[region] = high;
     }
@@ -424,14 +466,14 @@ double sb_valve_chamber_pressure(const SbValve *valve, double extra) {
 
 SbSolvedState sb_valve_solved(const SbValve *valve, int direction, double pressure) {
   if (valve->chamber == SB_CHAMBER_OPEN) {
-    return (SbSolvedState){SB_CHAMBER_OPEN, direction};
+    return (SbSolvedState){SB_CHAMBER_OPEN, direction, direction};
   }
   // With ports the nearest to what the chamber holds.
   SbChamber chamber = valve->chamber;
   if (valve->ports) {
     chamber = filling(valve->run, pressure) < 0.5 ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
   }
-  return (SbSolvedState){chamber, direction};
+  return (SbSolvedState){chamber, direction, passing(chamber)};
 }
 
 // Greatest pressure on what the land still carries of an elliptic contact: while the middle is on
@@ -453,21 +495,24 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
   // Where a quasi-static stem jumps its speed is not known.
   const double speed = moving && sample->speed != 0 ? sample->speed : run->speed;
   SbSealState state;
-  SbLandShare on;
+  SbLandShare on = sb_cycle_land_share(&run->cycle, seal, chamber, at->solved.land, s);
   if (mixed) {
     sb_run_state_between(&state, run, seal, filled, direction, speed);
-    const SbLandShare vented =
-        sb_cycle_land_share(&run->cycle, seal, SB_CHAMBER_AT_REST, direction, s);
-    const SbLandShare full =
-        sb_cycle_land_share(&run->cycle, seal, SB_CHAMBER_CLOSED, direction, s);
+    const SbLandShare vented = land_share(&run->cycle, seal, SB_CHAMBER_AT_REST, s);
+    const SbLandShare full = land_share(&run->cycle, seal, SB_CHAMBER_CLOSED, s);
     on.width = (1 - filled) * vented.width + filled * full.width;
     on.load = (1 - filled) * vented.load + filled * full.load;
   } else {
     sb_run_state_at(&state, run, seal, chamber, direction, speed);
-    on = sb_cycle_land_share(&run->cycle, seal, chamber, direction, s);
+    // At rest a solved ring is one that friction does not drag; other models know one contact.
+    const SbSealState *still = &run->cycle.state[seal][chamber][SB_RUN_REST];
+    state = run->plan.ring && !moving && still->load > 0 ? *still : state;
   }
   const int motion = moving ? direction : SB_RUN_REST;
   const SbSealPressure pressure = sb_model_seal_pressure(model, seal, chamber);
+  const uint32_t drawn = sb_run_shape_index(run, seal, chamber, motion, on.width < 1 ? s : 0);
+  const SbSealShape *shape = on.width < 1 ? sb_run_shape(run, drawn) : NULL;
+  const double width = state.contact_right - state.contact_left;
   // The edge takes the contact away from the canister side.
   *out = (SbSealFrame){
       .land_fraction = (float)on.width,
@@ -476,9 +521,9 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
       .profile = run->plan.profiles && state.touches
                      ? sb_run_profile_slot(seal, (int)chamber, motion)
                      : UINT32_MAX,
-      .shape = sb_run_shape_index(run, seal, chamber, motion, s),
-      .contact_left = state.contact_right - on.width * (state.contact_right - state.contact_left),
-      .contact_right = state.contact_right,
+      .shape = drawn,
+      .contact_left = shape != NULL ? shape->contact_left : state.contact_right - on.width * width,
+      .contact_right = shape != NULL ? shape->contact_right : state.contact_right,
       .load = on.load * state.load,
       .pressure_peak = peak_on(state.pressure_peak, on.width),
       .friction = -sample->friction[seal],
@@ -504,11 +549,7 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
     }
     out->friction = out->friction_boundary + out->friction_viscous;
   } else {
-    out->real_area_share =
-        state.rest_area > 0 && model->shear_strength > 0
-            ? state.rest_area / model->shear_strength /
-                  ((state.contact_right - state.contact_left) * model->bore_circumference)
-            : 0;
+    out->real_area_share = state.rest_area_share;
   }
 }
 
