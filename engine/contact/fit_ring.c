@@ -108,6 +108,11 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
       out->surface.modes = 0;
     }
   }
-  sb_ring_destroy(ring);
+  if (in->kept != NULL) {
+    sb_ring_destroy(*in->kept);
+    *in->kept = ring;
+  } else {
+    sb_ring_destroy(ring);
+  }
   return sb_succeed(report);
 }

@@ -19,9 +19,18 @@ static bool inner_touches(const SbCycle *cycle, SbChamber chamber, int direction
   return cycle->state[SB_INNER][chamber][direction].touches;
 }
 
+double sb_cycle_edge_begin(const SbCycle *cycle, SbChamber chamber, int direction) {
+  // Friction lays a solved ring's contact elsewhere on the way out.
+  const SbSealState *first = &cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbSealState *inner = &cycle->state[SB_INNER][chamber][direction];
+  bool both = first->touches && inner->touches;
+  return cycle->model->land_edge + (both ? inner->contact_left - first->contact_left : 0);
+}
+
 double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction) {
   const SbSealState *inner = &cycle->state[SB_INNER][chamber][direction];
-  return cycle->model->land_edge + inner->contact_right - inner->contact_left;
+  return sb_cycle_edge_begin(cycle, chamber, direction) + inner->contact_right -
+         inner->contact_left;
 }
 
 // Share of a seal's contact that the edge has passed; without contact all of it.
@@ -30,10 +39,12 @@ static double passed(const SbCycle *cycle, int seal, SbChamber chamber, int dire
   if (!state->touches || (seal == SB_INNER && chamber == SB_CHAMBER_OPEN)) {
     return 1;
   }
+  if (seal == SB_OUTER) {
+    return 0;
+  }
   double width = state->contact_right - state->contact_left;
-  double t = (s - cycle->model->land_edge) / width;
-  // What rounding of s leaves at the end is no contact.
-  return seal == SB_OUTER ? 0 : t > 1 - 1e-12 ? 1 : fmax(t, 0);
+  double t = (s - sb_cycle_edge_begin(cycle, chamber, direction)) / width;
+  return t > 1 - 1e-12 ? 1 : fmax(t, 0); // what rounding of s leaves at the end is no contact
 }
 
 SbLandShare sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
@@ -191,9 +202,11 @@ typedef struct {
 // closes there.
 static double piece_end(const Planner *p) {
   const SbModel *model = p->cycle->model;
-  const double start = model->land_edge, sign = sign_of(p->direction);
+  const double sign = sign_of(p->direction);
   bool closes = p->direction == SB_CYCLE_OUT && p->chamber == SB_CHAMBER_OPEN;
-  double end = sb_cycle_edge_end(p->cycle, closes ? SB_CHAMBER_CLOSED : p->chamber, p->direction);
+  SbChamber chamber = closes ? SB_CHAMBER_CLOSED : p->chamber;
+  double start = sb_cycle_edge_begin(p->cycle, chamber, p->direction);
+  double end = sb_cycle_edge_end(p->cycle, chamber, p->direction);
   const double marks[] = {start, (start + end) / 2, end};
   double best = p->direction == SB_CYCLE_IN ? model->stroke : 0;
   for (int i = 0; i < 3; i++) {

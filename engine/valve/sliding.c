@@ -20,20 +20,33 @@
 typedef struct {
   SbFilm film;
   SbFilmProfile profile;
-  bool fitted; // on the fitted body, not on the half-plane
+  bool fitted;  // on the fitted body, not on the half-plane
+  double speed; // [m/s]
 } Solved;
 
-struct SbSlidingMemory {
+enum { IN, OUT, REST }; // ways of sliding
+
+// A fitment with its ring, where it is one, for one way of sliding.
+typedef struct {
   SbFit fit;
-  Solved plane, fitted; // on the half-plane (or of a law), and on the fitted body
-  Solved rest;          // dry rough contact, coupled asperities only
-  const Solved *last;   // which of them the last evaluation gave
-  bool rested;          // it stands for the fit, with
-  double rest_left;     // this pressure on the left
-  SbFilmSolver *solver; // NULL until a film is solved: laws need none
-  bool fit_known;
-  double fit_pressure; // difference for which `fit` stands
-  int fit_seal;
+  SbRing *ring; // owned, NULL for other models
+  bool known;
+  double pressure; // difference for which it stands
+  int seal;
+  SbSlidingLaw law; // of the friction that drags it
+} Fitment;
+
+struct SbSlidingMemory {
+  Fitment fitment[SB_RUN_MOTIONS]; // by way of sliding where friction drags the seal, else at rest
+  Fitment *now;                    // of the last evaluation
+  Solved plane, fitted;            // on the half-plane (or of a law), and on the fitted body
+  Solved rest;                     // dry rough contact, coupled asperities only
+  const Solved *last;              // which of them the last evaluation gave
+  bool rested;                     // it stands for the fit, with
+  double rest_left;                // this pressure on the left
+  const Fitment *rest_on;
+  SbFilmSolver *solver;      // NULL until a film is solved: laws need none
+  SbWarnings warnings;       // of one round of a ring's friction
   bool (*cancelled)(void *); // NULL: nobody asks to stop
   void *cancelled_data;
 };
@@ -50,18 +63,25 @@ SbStatus sb_sliding_memory_create(SbSlidingMemory **out, SbReport *report) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a seal's workspace");
   }
   (*out)->last = &(*out)->plane;
+  (*out)->now = (*out)->fitment;
   return sb_succeed(report);
 }
 
 void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
   if (memory != NULL) {
     sb_film_solver_destroy(memory->solver);
+    for (int i = 0; i < SB_RUN_MOTIONS; i++) {
+      sb_ring_destroy(memory->fitment[i].ring);
+    }
     free(memory);
   }
 }
 
 void sb_sliding_memory_forget(SbSlidingMemory *memory) {
-  memory->fit_known = memory->rested = false;
+  memory->rested = false;
+  for (int i = 0; i < SB_RUN_MOTIONS; i++) {
+    memory->fitment[i].known = false;
+  }
   memory->last = &memory->plane;
   if (memory->solver != NULL) {
     sb_film_solver_forget(memory->solver);
@@ -74,18 +94,57 @@ void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), 
 }
 
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory) {
-  return &memory->fit;
+  return &memory->now->fit;
+}
+
+const SbRing *sb_sliding_ring(const SbSlidingMemory *memory) {
+  return memory->now->fit.model == SB_FIT_RING ? memory->now->ring : NULL;
 }
 
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory) {
   return &memory->last->film;
 }
 
-static SbStatus solve_fit(const Task *task, SbReport *report) {
+// Whether friction drags this seal's section: the ring's, while it slides.
+static bool drags(const Task *task) {
+  return task->model->fit == SB_FIT_RING && task->speed != 0;
+}
+
+void sb_sliding_law(SbSlidingLaw *out, const SbModel *model, const SbSealState *state) {
+  double share = isnan(state->asperity_share) ? 1 : state->asperity_share;
+  double width = state->contact_right - state->contact_left;
+  double viscous = state->friction_viscous / (width * model->bore_circumference);
+  *out = (SbSlidingLaw){.coefficient = model->load_coefficient * share,
+                        .shear = model->shear_strength * state->real_area_share + viscous};
+}
+
+double sb_sliding_shear(double pressure, double *slope, const void *data) {
+  const SbSlidingLaw *law = data;
+  bool limited = pressure < law->shear;
+  *slope = law->coefficient + (limited ? 1 : 0);
+  return law->coefficient * pressure + (limited ? pressure : law->shear);
+}
+
+// A law's friction on a fitment's contact [N].
+static double law_force(const SbSlidingLaw *law, const SbFit *fit) {
+  double sum = 0, before = 0, slope;
+  for (size_t i = 0; i < fit->profile_count; i++) {
+    double now = sb_sliding_shear(fit->profile_p[i], &slope, law);
+    sum += i > 0 ? 0.5 * (before + now) * (fit->profile_x[i] - fit->profile_x[i - 1]) : 0;
+    before = now;
+  }
+  return sum * fit->circumference;
+}
+
+// The task's fitment, anew if it is not the last one of these pressures or a `law` of friction is
+// given to drag it.
+static SbStatus solve_fit(const Task *task, const SbSlidingLaw *law, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   const SbModel *model = task->model;
   double pressure = task->pressure.left - task->pressure.right;
-  if (memory->fit_known && memory->fit_pressure == pressure && memory->fit_seal == task->seal) {
+  Fitment *now = &memory->fitment[!drags(task) ? REST : task->speed > 0 ? IN : OUT];
+  memory->now = now;
+  if (law == NULL && now->known && now->pressure == pressure && now->seal == task->seal) {
     return SB_OK;
   }
   SbFitProblem problem;
@@ -94,16 +153,65 @@ static SbStatus solve_fit(const Task *task, SbReport *report) {
   problem.cancel_data = memory->cancelled_data;
   problem.surface_wanted =
       model->film == SB_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  problem.kept = &now->ring;
+  if (law != NULL) {
+    now->law = *law;
+    problem.dragged = true;
+    problem.drag = (task->speed > 0) == (pressure >= 0) ? 1 : -1;
+    problem.shear = sb_sliding_shear;
+    problem.law = &now->law;
+  }
   memory->rested = false;
-  SbStatus status = sb_fit_solve(&memory->fit, &problem, report);
+  SbStatus status = sb_fit_solve(&now->fit, &problem, report);
   task->counts->fit_solves++;
   task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
   task->counts->ring_solves += problem.model == SB_FIT_RING;
-  task->counts->newton_iterations += memory->fit.solver.newton_iterations;
-  memory->fit_known = status == SB_OK;
-  memory->fit_pressure = pressure;
-  memory->fit_seal = task->seal;
+  task->counts->newton_iterations += now->fit.solver.newton_iterations;
+  now->known = status == SB_OK;
+  now->pressure = pressure;
+  now->seal = task->seal;
   return status;
+}
+
+// One solve of a film, counted.
+static SbStatus solve_once(const Task *task, SbFilm *film, const SbFilmProblem *problem,
+                           SbReport *report) {
+  SbStatus status = sb_film_solve(film, problem, task->memory->solver, report);
+  if (problem->model == SB_FILM_REYNOLDS) {
+    task->counts->reynolds_solves++;
+    task->counts->newton_iterations += (size_t)film->solver.newton_iterations;
+  }
+  return status;
+}
+
+// A starved film at a speed where the solver failed. What passes is given, so that the film hardly
+// depends on the speed any more: twice the layer, but for what pressure moves. The film of a lower
+// speed stands in, with how far it is from that as its error.
+static SbStatus solve_slower(const Task *task, SbFilm *film, SbFilmProblem *problem,
+                             SbReport *report) {
+  static const double STEP = 1.0 / 3, LEAST = 1e-3;
+  const double speed = problem->speed;
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  double share = STEP;
+  for (; status == SB_ERROR_NOT_CONVERGED && share > LEAST; share *= STEP) {
+    problem->speed = share * speed;
+    status = solve_once(task, film, problem, report);
+  }
+  share /= STEP;
+  if (status != SB_OK || !film->starved) {
+    return status != SB_OK ? status : sb_fail(report, SB_ERROR_NOT_CONVERGED, "film: starved");
+  }
+  film->flow /= share;
+  film->friction_couette /= share;
+  film->friction_cavity /= share;
+  const double error = fabs(film->film_central / (2 * problem->inlet_film) - 1);
+  film->solver.error_film_min += error;
+  film->solver.error_film_central += error;
+  film->solver.error_contact += problem->surface != SB_ROUGH_NONE ? error : 0;
+  sb_warn(&film->warnings, "film-starved", "models.inlet",
+          "the bore brings so little that the film at %.3g mm/s stands for that at %.3g mm/s",
+          1e3 * fabs(problem->speed), 1e3 * fabs(speed));
+  return SB_OK;
 }
 
 static SbStatus solve_on(const Task *task, Solved *out, const SbFilmProblem *problem,
@@ -121,17 +229,22 @@ static SbStatus solve_on(const Task *task, Solved *out, const SbFilmProblem *pro
   lent.cancelled = memory->cancelled;
   lent.cancelled_data = memory->cancelled_data;
   out->fitted = problem->compliance != NULL;
-  SbStatus status = sb_film_solve(&out->film, &lent, memory->solver, report);
-  if (solved) {
-    task->counts->reynolds_solves++;
-    task->counts->newton_iterations += (size_t)out->film.solver.newton_iterations;
+  out->speed = problem->speed;
+  SbReport own = {0};
+  SbStatus status = solve_once(task, &out->film, &lent, &own);
+  if (status == SB_ERROR_NOT_CONVERGED && lent.inlet_film > 0 &&
+      solve_slower(task, &out->film, &lent, NULL) == SB_OK) {
+    return sb_succeed(report);
+  }
+  if (report != NULL) {
+    *report = own;
   }
   return status;
 }
 
 // The film on the fitted body in place of the half-plane's; false where there is none or it fails.
 static bool solve_fitted(const Task *task, Solved *out, const SbFilmProblem *plane) {
-  const SbFit *fit = &task->memory->fit;
+  const SbFit *fit = &task->memory->now->fit;
   if (fit->model != SB_FIT_DISC && fit->model != SB_FIT_RING) {
     return false;
   }
@@ -166,6 +279,7 @@ static bool take_film(SbSealState *out, const Solved *solved, SbStatus status, c
     return false;
   }
   out->film_fitted = solved->fitted;
+  out->layer = film->flow > 0 || film->flow < 0 ? fabs(film->flow / solved->speed) : 0;
   out->film_min = film->film_min;
   out->film_central = film->film_central;
   double ring = 0;
@@ -182,16 +296,21 @@ static bool take_film(SbSealState *out, const Solved *solved, SbStatus status, c
   return true;
 }
 
+// Whether there is a film: something moves, and the inlet finds liquid.
+static bool has_film(const Task *task) {
+  return task->speed != 0 && !(task->supply.limited && !(task->supply.layer > 0));
+}
+
 // What a run's options cannot reach, told once.
 static void option_warnings(const Task *task, const SbFilmProblem *problem) {
   const SbModel *model = task->model;
   bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  bool asked = model->pressure_viscosity > 0 || model->eyring_stress > 0 ||
-               model->rupture_pressure != 0 || model->inlet_carried;
+  bool asked =
+      model->pressure_viscosity > 0 || model->eyring_stress > 0 || model->rupture_pressure != 0;
   if (asked && problem->model != SB_FILM_REYNOLDS) {
     sb_warn(task->warnings, "film-options", "models.film",
-            "pressure viscosity, Eyring stress, rupture pressure and a carried inlet act on the "
-            "solved film only (models.film = reynolds), not on a power law");
+            "pressure viscosity, Eyring stress and rupture pressure act on the solved film only "
+            "(models.film = reynolds), not on a power law");
   } else if (problem->rupture_pressure < model->rupture_pressure) {
     sb_warn(task->warnings, "rupture-ambient", "fluid.rupture_pressure",
             "the film of the %s seal breaks at the %.3g MPa around it: the rupture pressure of "
@@ -204,11 +323,6 @@ static void option_warnings(const Task *task, const SbFilmProblem *problem) {
             "adhesion acts in the solve of film and asperities together only (models.asperities = "
             "coupled): left out here");
   }
-  if (model->inlet_carried && coupled) {
-    sb_warn(task->warnings, "inlet-flooded", "models.inlet",
-            "with coupled asperities the inlet is flooded both ways: what a rough contact leaves "
-            "on the bore is not known");
-  }
 }
 
 static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report) {
@@ -219,30 +333,27 @@ static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report)
   problem.model = task->model->film;
   option_warnings(task, &problem);
   bool solved = problem.model == SB_FILM_REYNOLDS;
-  if (task->model->inlet_carried && task->speed < 0 && solved) {
-    // The return stroke finds a layer on the bore: what the in-stroke carried through the contact,
-    // flow over the wall's speed, at the drive's speed and the same pressures.
-    problem.speed = task->drive_speed;
-    SbStatus carried = solve_on(task, &memory->plane, &problem, report);
-    if (carried != SB_OK) {
-      return carried;
-    }
-    problem.inlet_film = fabs(memory->plane.film.flow / problem.speed);
-    problem.speed = task->speed;
-  }
+  problem.inlet_film = task->supply.limited && solved ? task->supply.layer : 0;
   SbStatus status = solve_on(task, &memory->plane, &problem, report);
   memory->last = &memory->plane;
   if (!usable(status)) {
     return status;
   }
-  take_film(out, &memory->plane, status, &memory->fit);
+  take_film(out, &memory->plane, status, &memory->now->fit);
   if (solved) {
     out->film_reynolds = out->film_central;
   } else {
     out->film_error = out->central_error = NAN;
+    // A law's film carries half of itself along (thesis eq. 5.20), and no more than the supply.
+    out->layer = out->film_central / 2;
+    if (task->supply.limited && task->supply.layer < out->layer) {
+      out->layer = task->supply.layer;
+      out->film_central = 2 * out->layer;
+      out->film_min = fmin(out->film_min, out->film_central);
+    }
   }
   if (solved && status == SB_OK && solve_fitted(task, &memory->fitted, &problem)) {
-    take_film(out, &memory->fitted, SB_OK, &memory->fit);
+    take_film(out, &memory->fitted, SB_OK, &memory->now->fit);
     memory->last = &memory->fitted;
   }
   sb_warnings_merge(task->warnings, &memory->last->film.warnings);
@@ -263,6 +374,7 @@ static SbStatus solve_rough(const Task *task, Solved *out, double load_net, doub
   problem.shear_strength = model->shear_strength;
   problem.load_coefficient = model->load_coefficient;
   if (speed != 0) {
+    problem.inlet_film = task->supply.limited ? task->supply.layer : 0;
     option_warnings(task, &problem);
   }
   return solve_fitted(task, out, &problem) ? SB_OK : solve_on(task, out, &problem, report);
@@ -277,22 +389,38 @@ static SbStatus set_static(SbSealState *out, const Task *task, SbReport *report)
   return status;
 }
 
+// The thesis' shear strength goes with its own real area.
+static void strength_warning(const Task *task, double share) {
+  const SbModel *model = task->model;
+  const bool thesis = model->set == SB_MODEL_SET_THESIS;
+  if (model->surface == SB_ROUGH_PERSSON && thesis &&
+      !model->params.given[SB_P_FRICTION_SHEAR_STRENGTH]) {
+    sb_warn(
+        task->warnings, "persson-shear-strength", "friction.shear_strength",
+        "Persson's real contact is %.0f %% here; the default shear strength was set with Greenwood "
+        "and Tripp's few per cent",
+        100 * share);
+  }
+}
+
 // Film, rough contact and friction from one solution each, sliding and at rest.
 static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *report) {
   const SbModel *model = task->model;
   SbSlidingMemory *memory = task->memory;
   SbStatus at_rest = SB_OK;
-  if (!memory->rested || memory->rest_left != task->pressure.left) {
+  if (!memory->rested || memory->rest_on != memory->now ||
+      memory->rest_left != task->pressure.left) {
     at_rest = solve_rough(task, &memory->rest, out->load_net, 0, report);
     if (!usable(at_rest)) {
       return at_rest;
     }
     memory->rested = at_rest == SB_OK;
     memory->rest_left = task->pressure.left;
+    memory->rest_on = memory->now;
   }
   memory->last = &memory->rest;
   SbStatus status = at_rest;
-  if (task->speed != 0) {
+  if (has_film(task)) {
     memory->last = &memory->plane;
     status = solve_rough(task, &memory->plane, out->load_net, task->speed,
                          at_rest == SB_OK ? report : NULL);
@@ -308,7 +436,7 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
   double width = memory->last->fitted ? fit_width : 2 * film->hertz_half_width;
   double rest_width = memory->rest.fitted ? fit_width : 2 * rest->hertz_half_width;
   double circumference = out->load / out->load_per_length;
-  if (take_film(out, memory->last, status, &memory->fit)) {
+  if (take_film(out, memory->last, status, &memory->now->fit)) {
     out->lambda = film->film_ratio;
     out->real_area_share = fmin(film->real_area / width, 1);
     out->asperity_share = film->asperity_share;
@@ -317,7 +445,9 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
     out->friction_viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
   }
   if (memory->rested || rest->film_central > 0) {
-    out->rest_area = model->shear_strength * fmin(rest->real_area / rest_width, 1) * area;
+    out->rest_area_share = fmin(rest->real_area / rest_width, 1);
+    out->rest_area = model->shear_strength * out->rest_area_share * area;
+    strength_warning(task, out->rest_area_share);
     out->rest_load = model->load_coefficient * rest->asperity_load * circumference;
   }
   SbStatus aged = set_static(out, task, status == SB_OK && at_rest == SB_OK ? report : NULL);
@@ -332,8 +462,7 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
 
 // Share of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
 // film, Persson's on the net pressure that the solids must carry.
-static SbStatus real_area(SbSealState *out, double *rest_share, const Task *task, double roughness,
-                          SbReport *report) {
+static SbStatus real_area(SbSealState *out, const Task *task, double roughness, SbReport *report) {
   const SbModel *model = task->model;
   const double gt_product = roughness * model->gt_product;
   if (model->surface == SB_ROUGH_PERSSON) {
@@ -345,16 +474,12 @@ static SbStatus real_area(SbSealState *out, double *rest_share, const Task *task
       return status;
     }
     double pressure = fmax(out->load_net, 0) / (out->contact_right - out->contact_left);
-    out->real_area_share = *rest_share = sb_persson_area_share(
+    out->real_area_share = out->rest_area_share = sb_persson_area_share(
         &spectrum, spectrum.q1, model->seal[task->seal].reduced_modulus, pressure);
-    sb_warn(
-        task->warnings, "persson-shear-strength", "friction.shear_strength",
-        "Persson's real contact is %.0f %% here; the default shear strength was set with Greenwood "
-        "and Tripp's few per cent",
-        100 * out->real_area_share);
+    strength_warning(task, out->real_area_share);
     return SB_OK;
   }
-  *rest_share = sb_gt_area_share(gt_product, 0);
+  out->rest_area_share = sb_gt_area_share(gt_product, 0);
   // Without a film there is no real contact under it either.
   out->real_area_share = sb_gt_area_share(gt_product, out->lambda);
   if (isnan(out->real_area_share) && !isnan(out->lambda)) {
@@ -376,16 +501,15 @@ static SbStatus rough_contact(SbSealState *out, const Task *task, double roughne
                               SbReport *report) {
   const SbModel *model = task->model;
   double area = (out->contact_right - out->contact_left) * model->bore_circumference;
-  double rest_share = NAN;
   out->lambda = out->film_central / (roughness * model->sigma);
-  SbStatus status = real_area(out, &rest_share, task, roughness, report);
+  SbStatus status = real_area(out, task, roughness, report);
   if (status != SB_OK) {
     return status;
   }
   out->boundary_area = model->shear_strength * out->real_area_share * area;
   out->boundary_load = model->load_coefficient * out->load;
   out->friction_viscous = 0;
-  if (task->speed != 0) {
+  if (task->speed != 0 && out->film_central != 0) {
     // fmin() would take a film that was not computed for the greatest shear.
     double shear = model->viscosity * fabs(task->speed) / out->film_central;
     shear = shear > model->shear_strength ? model->shear_strength : shear;
@@ -399,9 +523,28 @@ static SbStatus rough_contact(SbSealState *out, const Task *task, double roughne
           (persson ? 0 : model->shear_strength * fabs(thinner - out->real_area_share) * area);
     }
   }
-  out->rest_area = model->shear_strength * rest_share * area;
+  out->rest_area = model->shear_strength * out->rest_area_share * area;
   out->rest_load = out->boundary_load;
   return set_static(out, task, report);
+}
+
+// Leaves of a law's friction what the section bears (bear()).
+static SbStatus share_out(SbSealState *out, const Task *task, SbReport *report) {
+  if (isnan(out->borne_share)) {
+    return SB_OK;
+  }
+  out->rest_area *= out->area_cut; // the pressure limits it as well
+  out->boundary_area *= out->area_cut * out->borne_share;
+  out->boundary_load *= out->borne_share;
+  out->friction_viscous *= out->borne_share;
+  out->friction_error *= out->borne_share;
+  if (out->section == SB_RING_SLIDES) {
+    return set_static(out, task, report);
+  }
+  out->rest_area = out->boundary_area;
+  out->rest_load = out->boundary_load;
+  out->friction_static = sb_sliding_friction(out);
+  return SB_OK;
 }
 
 static const char *about(int seal) {
@@ -430,48 +573,30 @@ SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, dou
   sb_warn_about(task->warnings, about(task->seal));
   SbStatus status =
       state->touches ? rough_contact(state, task, roughness, report) : sb_succeed(report);
+  status = status == SB_OK ? share_out(state, task, report) : status;
   sb_warn_about(task->warnings, NULL);
   return status;
 }
 
 void sb_sliding_clear(SbSealState *out) {
-  *out = (SbSealState){.load_net = NAN,
+  *out = (SbSealState){.layer = NAN,
+                       .load_net = NAN,
                        .film_error = NAN,
                        .central_error = NAN,
                        .boundary_area = NAN,
                        .boundary_load = NAN,
                        .rest_area = NAN,
-                       .rest_load = NAN};
+                       .rest_load = NAN,
+                       .area_cut = NAN,
+                       .borne_share = NAN,
+                       .rotation = NAN};
 #define SB_SEAL_FIGURE(path, member, ...) out->member = NAN;
 #include "engine/valve/figures.def"
 }
 
-// Fitment: contact and loads. *known tells whether there is a contact to go on with.
-static SbStatus fit_contact(const Task *task, SbSealState *out, bool *known, SbReport *report) {
+// Contact and loads of a seal that touches.
+static void take_contact(SbSealState *out, const Task *task, const SbFit *fit) {
   SbSealPressure pressure = task->pressure;
-  (void)sb_succeed(report);
-  sb_sliding_clear(out);
-  *known = false;
-  // The fit takes the difference; the common part only shifts the fluid's level.
-  SbStatus status = solve_fit(task, report);
-  if (!usable(status)) {
-    return status;
-  }
-  const SbFit *fit = &task->memory->fit;
-  sb_warnings_merge(task->warnings, &fit->warnings);
-  // One that stopped above the tolerance counts, with its error; else it holds another load's.
-  bool close = fit->solver.error_estimate.load > 0 && fit->solver.error_estimate.load < 1;
-  out->touches = fit->touches || status != SB_OK;
-  if (status != SB_OK && !(fit->touches && close)) {
-    return status;
-  }
-  if (!fit->touches) {
-    out->contact_left = out->contact_right = 0;
-    out->load = out->load_per_length = out->load_net = out->pressure_peak = 0;
-    out->boundary_area = out->boundary_load = out->friction_viscous = out->friction_static = 0;
-    out->rest_area = out->rest_load = 0;
-    return status;
-  }
   out->contact_left = fit->contact_left;
   out->contact_right = fit->contact_right;
   out->load = fit->load;
@@ -482,15 +607,54 @@ static SbStatus fit_contact(const Task *task, SbSealState *out, bool *known, SbR
                      fit->model != SB_FIT_GREEN_ENGLISH;
   double fluid = fabs(pressure.left - pressure.right) * fit->contact_width / 2;
   out->load_net = fit->load_per_length - (holds_fluid ? fluid : 0);
+  if (fit->model == SB_FIT_RING) {
+    double way = task->speed < 0 ? -1 : 1;
+    out->rotation = way * (pressure.left < pressure.right ? -1 : 1) * fit->ring.turn * 180 / M_PI;
+    out->section = fit->ring.state;
+  }
+}
+
+// Fitment: contact and loads. *known tells whether there is a contact to go on with.
+static SbStatus fit_contact(const Task *task, const SbSlidingLaw *law, SbSealState *out,
+                            bool *known, SbReport *report) {
+  (void)sb_succeed(report);
+  sb_sliding_clear(out);
+  *known = false;
+  // The fit takes the difference; the common part only shifts the fluid's level.
+  SbStatus status = solve_fit(task, law, report);
+  if (!usable(status)) {
+    return status;
+  }
+  const SbFit *fit = &task->memory->now->fit;
+  if (!drags(task) || fit->ring.state == SB_RING_SLIDES || fit->ring.state == SB_RING_NO_CONTACT) {
+    sb_warnings_merge(task->warnings, &fit->warnings); // else solve_dragged() tells
+  }
+  // One that stopped above the tolerance counts, with its error; else it holds another load's.
+  bool close = fit->solver.error_estimate.load > 0 && fit->solver.error_estimate.load < 1;
+  out->touches = fit->touches || status != SB_OK;
+  if (status != SB_OK && !(fit->touches && close)) {
+    return status;
+  }
+  if (!fit->touches) {
+    out->section = SB_RING_NO_CONTACT;
+    out->contact_left = out->contact_right = 0;
+    out->load = out->load_per_length = out->load_net = out->pressure_peak = 0;
+    out->boundary_area = out->boundary_load = out->friction_viscous = out->friction_static = 0;
+    out->rest_area = out->rest_load = 0;
+    return status;
+  }
+  take_contact(out, task, fit);
   *known = true;
   return status;
 }
 
-static SbStatus solve(const Task *task, SbSealState *out, SbReport *report) {
+// Fitment, film and friction; a ring dragged as given, else as it is known.
+static SbStatus solve_with(const Task *task, const SbSlidingLaw *law, SbSealState *out,
+                           SbReport *report) {
   SbWarnings *warnings = task->warnings;
   int seal = task->seal;
   bool known;
-  SbStatus status = fit_contact(task, out, &known, report);
+  SbStatus status = fit_contact(task, law, out, &known, report);
   if (!known) {
     return status;
   }
@@ -502,9 +666,9 @@ static SbStatus solve(const Task *task, SbSealState *out, SbReport *report) {
     return coupled != SB_OK ? coupled : status;
   }
 
-  // Film, only when sliding.
-  if (task->speed == 0) {
-    out->film_min = out->film_central = 0;
+  // Film, only when sliding on a liquid.
+  if (!has_film(task)) {
+    out->film_min = out->film_central = out->layer = 0;
   } else if (out->load_net <= 0) {
     out->opened = true;
     sb_warn(warnings, "film-no-net-load", "canister.pressure",
@@ -532,6 +696,105 @@ static SbStatus solve(const Task *task, SbSealState *out, SbReport *report) {
   return status;
 }
 
+// The friction of a contact by closed forms, near that of a ring; none where they have none.
+static void guess(SbSlidingLaw *law, const Task *task, Fitment *on) {
+  SbFitProblem fit;
+  SbFilmProblem film;
+  SbSealState state;
+  Task quiet = *task;
+  quiet.warnings = NULL;
+  *law = (SbSlidingLaw){0};
+  sb_model_fit_problem(&fit, task->model, task->seal, task->pressure.left - task->pressure.right);
+  fit.model = SB_FIT_KARASZKIEWICZ;
+  sb_sliding_clear(&state);
+  if (sb_fit_solve(&on->fit, &fit, NULL) != SB_OK || !on->fit.touches) {
+    return;
+  }
+  take_contact(&state, task, &on->fit);
+  sb_sliding_film_problem(&film, task->model, task->seal, task->pressure, state.load_net,
+                          task->speed);
+  film.model = SB_FILM_THESIS;
+  if (solve_on(&quiet, &task->memory->plane, &film, NULL) == SB_OK) {
+    state.film_central = task->memory->plane.film.film_central;
+    SbSlidingLaw found;
+    if (rough_contact(&state, &quiet, 1, NULL) == SB_OK) {
+      sb_sliding_law(&found, task->model, &state);
+      *law = isfinite(found.shear) ? found : *law;
+    }
+  }
+}
+
+// What the dragged section bears of the law's friction: all of it while it slides, each part alike
+// at the greatest drag of one that rolls or jams, which no rest makes greater.
+static SbStatus bear(SbSealState *out, const Task *task, const Fitment *on, double asked,
+                     SbReport *report) {
+  const SbFit *fit = &on->fit;
+  double area = asked - out->boundary_load - out->friction_viscous;
+  out->area_cut = out->boundary_area > 0 ? area / out->boundary_area : 1;
+  out->borne_share = fabs(fit->ring.drag) / asked;
+  return share_out(out, task, report);
+}
+
+// A ring's states: friction drags it, and hangs on the film that lies on the dragged ring. Solved
+// in turns until the friction that drags it is that of its own film. A ring whose greatest drag is
+// less than its friction rolls or jams; the film is then that of this last state.
+static SbStatus solve_dragged(const Task *task, SbSealState *out, SbReport *report) {
+  enum { ROUNDS = 6 };
+  const double close = 0.5 * task->model->tolerance;
+  const double pressure = task->pressure.left - task->pressure.right;
+  SbSlidingMemory *memory = task->memory;
+  Fitment *on = &memory->fitment[task->speed > 0 ? IN : OUT];
+  bool known = on->known && on->pressure == pressure && on->seal == task->seal;
+  SbSlidingLaw law;
+  if (!known) {
+    guess(&law, task, on);
+  }
+  SbWarnings *own = &memory->warnings;
+  SbStatus status = SB_OK;
+  for (int round = 0;; round++) {
+    Task like = *task;
+    memset(own, 0, sizeof *own); // of the last round
+    own->subject = task->warnings != NULL ? task->warnings->subject : NULL;
+    like.warnings = own;
+    status = solve_with(&like, known && round == 0 ? NULL : &law, out, report);
+    if (!usable(status) || !(out->load > 0)) {
+      break;
+    }
+    sb_sliding_law(&law, task->model, out);
+    double asked = law_force(&law, &on->fit), before = law_force(&on->law, &on->fit);
+    if (!isfinite(asked)) {
+      break;
+    }
+    bool slides = on->fit.ring.state == SB_RING_SLIDES;
+    bool agree = slides ? fabs(asked - before) <= close * asked
+                        : asked >= (1 - close) * fabs(on->fit.ring.drag);
+    if (!agree && round + 1 < ROUNDS) {
+      continue;
+    }
+    SbStatus borne = bear(out, &like, on, asked, status == SB_OK ? report : NULL);
+    status = borne != SB_OK ? borne : status;
+    if (!agree) {
+      status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                       "fitment and friction of the %s seal do not agree: %.5g N and %.5g N",
+                       sb_seal_name(task->seal), before, asked);
+    } else if (!slides) {
+      bool rolls = on->fit.ring.state == SB_RING_ROLLS;
+      sb_warn(own, rolls ? "ring-rolls" : "ring-jams", "gland.floor_friction",
+              "the %s ring %s %s: its section bears %.0f %% of its friction, turned by %.0f°",
+              sb_seal_name(task->seal), rolls ? "rolls" : "jams",
+              task->speed > 0 ? "on the in-stroke" : "on the return", 100 * out->borne_share,
+              out->rotation);
+    }
+    break;
+  }
+  sb_warnings_merge(task->warnings, own);
+  return status;
+}
+
+static SbStatus solve(const Task *task, SbSealState *out, SbReport *report) {
+  return drags(task) ? solve_dragged(task, out, report) : solve_with(task, NULL, out, report);
+}
+
 SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   sb_warn_about(task->warnings, about(task->seal));
   SbStatus status = solve(task, out, report);
@@ -542,7 +805,9 @@ SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport 
 SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   bool known;
   sb_warn_about(task->warnings, about(task->seal));
-  SbStatus status = fit_contact(task, out, &known, report);
+  // A ring's contact hangs on its friction.
+  SbStatus status =
+      drags(task) ? solve(task, out, report) : fit_contact(task, NULL, out, &known, report);
   sb_warn_about(task->warnings, NULL);
   return status;
 }

@@ -20,6 +20,7 @@ typedef struct {
   void (*progress)(void *data, double fraction, size_t frames);
   bool (*cancelled)(void *data);
   void *data;
+  bool alone; // no thread beside the caller's, which is the one that calls back in either case
 } SbRunHooks;
 
 typedef struct {
@@ -52,6 +53,7 @@ typedef struct {
   bool touches;
   bool opened;      // by the fluid: the rubber does not press, or the film's ends differ too much
   bool film_fitted; // film_min and film_central are solved on the fitted body
+  double layer;     // that it leaves on the bore behind it: flow over speed [m]
   double load_net;  // per length, above the ambient step: what the film carries [N/m]
   double contact_pressure;     // mean, of the rubber alone: net load over width [Pa]
   double film_error;           // of the solved film, relative [1]; NaN if closed form
@@ -61,6 +63,10 @@ typedef struct {
   double rest_area, rest_load; // what these two become at rest, once the film has gone [N]
   double friction_error;       // of kinetic friction by the solved film's error [N]
   double static_error;         // the same of static friction [N]
+  // Of a ring that friction drags, NaN without: what the pressure leaves of tau_0 A_a, what the
+  // section bears of the whole friction, its turn [degrees], > 0 as friction turns it.
+  double area_cut, borne_share, rotation;
+  SbRingState section;
 } SbSealState;
 
 // What the sliding-plate rig reports (valve/rig.h).
@@ -146,7 +152,7 @@ typedef struct {
 #define SB_FIGURE(path, member, ...) double member;
 #include "engine/valve/figures.def"
   SbStatus status;
-  bool returns; // as `returned`; false where that is not known
+  bool returns;   // as `returned`; false where that is not known
   SbStageMark stage[SB_STAGE_COUNT];
   SbSealState seal[SB_SEAL_COUNT];
   SbBodiesSummary bodies;

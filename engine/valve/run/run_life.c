@@ -48,7 +48,7 @@ static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const 
   sb_run_publish(one, 0);
   SbStatus status = resurface(one, roughness / run->model->running_in.start, report);
   if (status == SB_OK) {
-    const SbRunHooks quiet = {NULL, hooks->cancelled, hooks->data};
+    const SbRunHooks quiet = {.cancelled = hooks->cancelled, .data = hooks->data};
     SbReport own = {0};
     status = sb_run_move(one, &quiet, &own);
     if (status != SB_OK) {
@@ -71,7 +71,7 @@ static SbLifeActuation yield_of(const SbRun *run, double roughness) {
       .roughness = roughness,
       .lambda = outer->lambda,
       .leakage = summary->leakage_per_cycle,
-      .carried = sb_leak_stroke(run->model->bore_diameter, outer->film_central, run->model->stroke),
+      .carried = sb_leak_stroke(run->model->bore_diameter, 2 * outer->layer, run->model->stroke),
       .force_peak = summary->force_peak,
       .force_breakaway = slip->reached ? slip->force : NAN,
       .force_return = summary->force_return_min,

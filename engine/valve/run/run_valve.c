@@ -251,8 +251,11 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
 
   // Edges: where the contact meets the land's end, where it has left, where it comes back.
   valve->touches = cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].touches;
-  double far = -INFINITY;
+  double near = INFINITY, far = -INFINITY;
   if (valve->touches) {
+    double closed = sb_cycle_edge_begin(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
+    near = fmin(model->land_edge, closed);
+    add_edge(out, closed);
     valve->edge_open = sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
     valve->edge_closed = sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
     far = fmax(valve->edge_open, valve->edge_closed);
@@ -286,7 +289,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   for (size_t region = 0; region <= out->edges; region++) {
     double low = region > 0 ? out->edge[region - 1] : -INFINITY;
     double high = region < out->edges ? out->edge[region] : INFINITY;
-    valve->varies[region] = valve->touches && rubs && low >= model->land_edge && high <= far;
+    valve->varies[region] = valve->touches && rubs && low >= near && high <= far;
     if (region < out->edges) {
       valve->edge[region] = high;
     }
@@ -323,9 +326,14 @@ static void fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbSolvedS
                          bool moving, double s) {
   const SbChamber chamber = solved.chamber;
   const int direction = solved.direction, motion = moving ? direction : SB_RUN_REST;
-  const SbSealState *state = &run->cycle.state[seal][chamber][direction];
+  // At rest a solved ring is one that friction does not drag; other models know one contact.
+  const SbSealState *still = &run->cycle.state[seal][chamber][SB_RUN_REST];
+  const SbSealState *slides = &run->cycle.state[seal][chamber][direction];
+  const SbSealState *state = run->plan.ring && !moving && still->load > 0 ? still : slides;
   const SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, chamber);
   const SbLandShare on = sb_cycle_land_share(&run->cycle, seal, chamber, direction, s);
+  const uint32_t drawn = sb_run_shape_index(run, seal, chamber, motion, on.width < 1 ? s : 0);
+  const SbSealShape *shape = on.width < 1 ? sb_run_shape(run, drawn) : NULL;
   double width = state->contact_right - state->contact_left;
 
   // The edge takes the contact away from the canister side.
@@ -336,9 +344,9 @@ static void fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbSolvedS
       .profile = run->plan.profiles && state->touches
                      ? sb_run_profile_slot(seal, (int)chamber, motion)
                      : UINT32_MAX,
-      .shape = sb_run_shape_index(run, seal, chamber, motion, s),
-      .contact_left = state->contact_right - on.width * width,
-      .contact_right = state->contact_right,
+      .shape = drawn,
+      .contact_left = shape != NULL ? shape->contact_left : state->contact_right - on.width * width,
+      .contact_right = shape != NULL ? shape->contact_right : state->contact_right,
       .load = on.load * state->load,
       .pressure_peak = on.width > 0.5 ? state->pressure_peak : 0,
   };
