@@ -197,8 +197,9 @@ typedef struct {
   int direction; // 0: not yet
   size_t region;
   long events, segments;
-  double t, x, stretch, piece; // s, m; stretch of the drive's spring [m]; start of its piece [s]
-  double extra, period;        // the caller's; since the break-away before [s], 0: not known
+  double t, x, stretch, piece;  // s, m; stretch of the drive's spring [m]; start of its piece [s]
+  double extra, period, change; // the caller's; since the break-away before [s], 0: not known; its
+                                // change since the one before
   double passed, rate[SB_DYNAMICS_TERMS]; // way passed over from there on [m], energies per way
   SbDynamicsEnergy energy;
 } SbDynamicsBreak;

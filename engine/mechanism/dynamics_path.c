@@ -572,8 +572,8 @@ static double way_ahead(const SbDynamics *s) {
 }
 
 // Time at which the drive breaks the stem away at x as it did now, with contacts that have rested
-// as long; the present one if it does not.
-static double breaks_at(const SbDynamics *s, double x) {
+// by a factor `longer`; the present one if it does not.
+static double breaks_at(const SbDynamics *s, double x, double longer) {
   SbDynamicsState z = s->at;
   Point p;
   double holds = 0.0;
@@ -582,6 +582,7 @@ static double breaks_at(const SbDynamics *s, double x) {
   sb_motion_point(&p, s, s->t, &z);
   for (size_t i = 0; i < s->model->contacts; i++) {
     bool rubs = s->state[i] != SB_CONTACT_OFF;
+    p.t = s->since[i] + longer * (s->t - s->since[i]);
     holds += rubs ? sb_motion_holding(s, &p, i, s->broke.direction) : 0.0;
   }
   return s->t + fmax(0.0, (s->broke.direction * holds - (p.sum.f0 - p.rigid)) / p.sum.f1);
@@ -629,11 +630,23 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
   double noise = 4e-16 * (fabs(y) + fabs(s->at.x)), rate[SB_DYNAMICS_TERMS];
   for (int i = 0; i < SB_DYNAMICS_TERMS; i++) {
     rate[i] = (s->energy.term[i] - was.energy.term[i]) / step;
-    // What the cycles passed over before this one gained, by the mean of both ends.
-    s->energy.term[i] += was.passed * 0.5 * (rate[i] - was.rate[i]);
   }
-  s->broke.energy = s->energy;
   s->broke.period = period;
+  s->broke.change = was.period > 0.0 ? period - was.period : INFINITY;
+  // Cycles follow the place once the change from one to the next is steady.
+  double tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9;
+  bool steady =
+      fabs(s->broke.change - was.change) <= 0.2 * fabs(s->broke.change) + 10.0 * tolerance * period;
+  if (steady) {
+    // What the cycles passed over before the last gained, by the mean of both ends.
+    for (int i = 0; i < SB_DYNAMICS_TERMS && was.passed > 0.0; i++) {
+      s->energy.term[i] += was.passed * 0.5 * (rate[i] - was.rate[i]);
+    }
+    s->broke.energy = s->energy;
+  } else {
+    s->broke.passed = was.passed;
+    memcpy(s->broke.rate, was.rate, sizeof was.rate);
+  }
   bool same = fabs(s->broke.stretch - was.stretch) <= 1e-9 * fabs(was.stretch) + noise;
   for (size_t i = 0; i < m->contacts; i++) {
     same = same && (s->state[i] == SB_CONTACT_OFF || !sb_motion_speed_dependent(m, i));
@@ -651,15 +664,21 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
   double cycles = fmin((s->piece.until - s->t) / period, way / step);
   if (was.period > 0.0) {
     // The period of the cycle before the last is known as well.
-    double change = fabs(period - was.period) / period;
+    double change = fabs(s->broke.change) / period;
     double most = fmin(period_change / fmax(change, DBL_EPSILON), way_share * cycles);
-    double ahead = floor(fmin(times, most));
-    double x = s->at.x + direction * ahead * step, t = breaks_at(s, x);
-    if (ahead >= worth && isfinite(ahead) && t > s->t && t < until - 2.0 * period) {
+    double ahead = floor(fmin(times - 4.0, most)); // room to find the rates behind them
+    double x = s->at.x + direction * ahead * step;
+    double longer = 1.0 + ahead * s->broke.change / period;
+    double t = steady && ahead >= worth ? breaks_at(s, x, longer) : 0.0;
+    if (t > s->t && t < until - 2.0 * period) {
+      for (size_t i = 0; i < m->contacts; i++) {
+        s->since[i] = s->t - longer * (s->t - s->since[i]);
+      }
       pass_over(s, t, x, rate);
       s->broke.passed = ahead * step;
       memcpy(s->broke.rate, rate, sizeof rate);
       s->broke.period = 0.0;
+      s->broke.change = INFINITY;
       s->counters.repeated += (long)fmin(ahead, 1e15);
       return SB_OK;
     }

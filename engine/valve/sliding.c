@@ -141,6 +141,11 @@ static double law_force(const SbSlidingLaw *law, const SbFit *fit) {
   return sum * fit->circumference;
 }
 
+static bool cancelled(void *data) {
+  const SbSlidingMemory *memory = data;
+  return memory->cancelled != NULL && memory->cancelled(memory->cancelled_data);
+}
+
 // The task's fitment, anew if it is not the last one of these pressures or a `law` of friction is
 // given to drag it.
 static SbStatus solve_fit(const Task *task, const SbSlidingLaw *law, SbReport *report) {
@@ -149,13 +154,14 @@ static SbStatus solve_fit(const Task *task, const SbSlidingLaw *law, SbReport *r
   double pressure = task->pressure.left - task->pressure.right;
   Fitment *now = &memory->fitment[!drags(task) ? REST : task->speed > 0 ? IN : OUT];
   memory->now = now;
-  if (law == NULL && now->known && now->pressure == pressure && now->seal == task->seal) {
+  const bool known = now->known && now->pressure == pressure && now->seal == task->seal;
+  if (law == NULL && known) {
     return SB_OK;
   }
   SbFitProblem problem;
   sb_model_fit_problem(&problem, model, task->seal, pressure);
-  problem.cancel = memory->cancelled;
-  problem.cancel_data = memory->cancelled_data;
+  problem.cancel = cancelled; // a kept ring asks whoever waits then
+  problem.cancel_data = memory;
   problem.surface_wanted =
       model->film == SB_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   problem.kept = &now->ring;
@@ -167,7 +173,10 @@ static SbStatus solve_fit(const Task *task, const SbSlidingLaw *law, SbReport *r
     problem.law = &now->law;
   }
   memory->rested = false;
-  SbStatus status = sb_fit_solve(&now->fit, &problem, report);
+  bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES;
+  SbStatus status = near ? sb_fit_again(&now->fit, &problem, report) : SB_ERROR_NOT_CONVERGED;
+  status =
+      near && status != SB_ERROR_NOT_CONVERGED ? status : sb_fit_solve(&now->fit, &problem, report);
   task->counts->fit_solves++;
   task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
   task->counts->ring_solves += problem.model == SB_FIT_RING;

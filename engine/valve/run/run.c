@@ -61,7 +61,7 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
   memset((char *)run + offsetof(SbRun, model), 0, sizeof *run - offsetof(SbRun, model));
   run->model = kept;
   run->plan = *plan;
-  run->speed = run->mid_speed = model->speed;
+  run->speed = run->mid_speed = run->back_speed = model->speed;
   run->roughness = 1;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     sb_sliding_memory_forget(run->memory[i]);

@@ -37,7 +37,7 @@ typedef struct {
   double return_least;          // least force that pushed the stem out while it slid back [N]
   double leak_from, leak_since; // place [m] and time [s] up to which it is known
   double home;                  // time at which the stem is back on its rest stop [s], 0: not yet
-  double middle;                // speed where the stem passes the middle of B-C [m/s], 0: not yet
+  double middle, middle_back;   // speed at the middle of B-C and of F-A [m/s], 0: not yet
   bool slips;                   // some contact has slid
   SbStatus status;              // of the frames' reactions
   SbReport *report;
@@ -133,6 +133,9 @@ static void valve_event(const SbMotionEvent *event, void *user) {
     double edge = valve->edge[event->index];
     if (edge == valve->middle && event->sign > 0 && r->stage == SB_STAGE_B && r->middle == 0) {
       r->middle = event->speed;
+    } else if (edge == valve->middle && event->sign < 0 && r->stage == SB_STAGE_F &&
+               r->middle_back == 0) {
+      r->middle_back = -event->speed;
     }
     if (valve->touches && edge == r->run->model->land_edge && event->sign > 0 &&
         r->stage == SB_STAGE_B) {
@@ -295,6 +298,7 @@ SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRu
   Recorder r;
   SbStatus status = run_motion(&r, run, false, 0, hooks, report);
   *speed = r.middle;
+  run->back_speed = r.middle_back;
   *slips = r.slips;
   for (int i = 0; i < 2 && *speed == 0; i++) {
     const SbStageMark *from = &r.mark[ways[i].from], *to = &r.mark[ways[i].to];

@@ -43,6 +43,7 @@ static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const 
   one->plan.bodies = run->plan.bodies && n + 1 == run->model->life_shown;
   one->speed = run->speed;
   one->mid_speed = run->mid_speed;
+  one->back_speed = run->back_speed;
   memset(&one->summary, 0, sizeof one->summary);
   sb_figures_clear(&one->summary);
   sb_run_publish(one, 0);

@@ -85,10 +85,11 @@ struct SbRun {
   size_t room;          // of the array
   const SbModel *model; // its own
   SbPlan plan;
-  size_t capacity;  // frames at most
-  SbCycle cycle;    // its states serve every motion model
-  double speed;     // sliding speed that the cycle's states stand for [m/s]
-  double mid_speed; // of the stem at the middle of B-C, for the seals' figures [m/s]
+  size_t capacity;   // frames at most
+  SbCycle cycle;     // its states serve every motion model
+  double speed;      // sliding speed that the cycle's states stand for [m/s]
+  double mid_speed;  // of the stem at the middle of B-C, for the seals' figures [m/s]
+  double back_speed; // at the middle of F-A, > 0 [m/s]
   SbDwellLaw rest[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS]; // of contacts that age, over their level
   double roughness;                                  // that the states have, over the model's
   // The same states over the speed; NULL where nobody has asked. Owned.
@@ -231,7 +232,7 @@ typedef struct {
   bool touches;       // the inner seal seals at all
   double edge_open;   // stem displacement behind which the chamber opens on the way in
   double edge_closed; // and closes on the way out
-  double middle;      // of B-C [m]
+  double middle;      // of B-C, and of F-A [m]
   bool varies[SB_DYNAMICS_EDGES + 1]; // regions in which the land's edge lies under the contact
   double edge[SB_DYNAMICS_EDGES];     // those of the mechanism [m]
   SbDriveTimes times;

@@ -449,6 +449,7 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     sb_sliding_memory_poll(run->memory[seal], cancelled, &lane[seal]);
     // At least what the figures are taken from is unknown until it is solved.
     sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN]);
+    sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_CLOSED][SB_CYCLE_OUT]);
   }
   bool both =
       run->plan.seal[SB_OUTER] > SB_DEPTH_SIZES && run->plan.seal[SB_INNER] > SB_DEPTH_SIZES;
@@ -506,7 +507,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   }
   SbWarnings before = *warnings;
   status = status == SB_OK ? solve_states(run, hooks, report) : status;
-  run->mid_speed = run->speed;
+  run->mid_speed = run->back_speed = run->speed;
   if (!own || (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) || run->lacks.status != SB_OK) {
     return status;
   }
@@ -523,6 +524,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
             "at drive.speed, %.3g mm/s",
             1e3 * run->speed);
   }
+  run->back_speed = run->back_speed > 0 ? run->back_speed : run->speed;
   run->mid_speed = speed > 0 ? speed : run->speed;
   if (!run->plan.ring && run->mid_speed != run->speed) {
     run->speed = run->mid_speed;
