@@ -14,6 +14,21 @@
 #include <string.h>
 #include <unistd.h>
 
+// Values in force that neither the file nor the catalogue gives, but another parameter.
+static void print_derived(const SbDocument *document) {
+  SbParams params = sb_document_params(document);
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    SbParamDefault derived;
+    sb_params_default(&derived, &params, (SbParamId)i);
+    if (!params.given[i] && derived.giver >= 0 && sb_param((SbParamId)i)->parent < 0) {
+      g_autofree char *value = sb_document_text(document, (SbParamId)i);
+      g_autofree char *giver = sb_document_text(document, (SbParamId)derived.giver);
+      printf("%s = %s (%s = %s; %s: %s)\n", sb_param((SbParamId)i)->key, value,
+             sb_param((SbParamId)derived.giver)->key, giver, derived.tag, derived.source);
+    }
+  }
+}
+
 int sb_command_check(int argc, char **argv) {
   SbCliFiles files = {.code = SB_EXIT_INPUT};
   if (sb_cli_parse(&argc, &argv, NULL, 1, SB_CLI_FILES_MAX, NULL) &&
@@ -29,6 +44,7 @@ int sb_command_check(int argc, char **argv) {
         printf("warning: %s\n", printable);
       }
       if (!sb_cli_quiet()) {
+        print_derived(file->document);
         printf("%s: a %s without %s\n", shown, kind, remarks->len > 0 ? "errors" : "problems");
       }
     }
@@ -50,6 +66,16 @@ static void list_params(void) {
     printf("%-32s %s\n", param->key, param->help);
     printf("    %s (allowed %s; %s: %s)\n", *value != '\0' ? value : "none", range, param->tag,
            param->source);
+    SbParamDefault derived;
+    int choice;
+    for (int k = 0; sb_params_brought(&derived, &choice, (SbParamId)i, k); k++) {
+      const SbParam *giver = sb_param((SbParamId)derived.giver);
+      g_autofree char *other = sb_param_format((SbParamId)i, derived.value);
+      char name[64];
+      sb_param_choice_name(giver, choice, name, sizeof name);
+      printf("    %s with %s = %s (%s: %s)\n", other, giver->key, name, derived.tag,
+             derived.source);
+    }
     g_free(value);
     g_free(range);
   }

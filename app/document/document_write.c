@@ -110,9 +110,12 @@ static void append_group(GString *text, const SbParams *params, const char *grou
   bool heading = false;
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
-    // Overrides that nobody gave follow their parents and need no line; the stem's mass follows its
-    // parts'.
-    bool follows = param->parent >= 0 || i == SB_P_STEM_MASS;
+    // What nobody gave and follows from another parameter needs no line; the stem's mass follows
+    // its parts'.
+    SbParamDefault derived;
+    int choice;
+    bool follows = param->parent >= 0 || i == SB_P_STEM_MASS ||
+                   sb_params_brought(&derived, &choice, (SbParamId)i, 0);
     bool needed = params->given[i] || !follows;
     const char *dot = strrchr(param->key, '.');
     if (needed && (size_t)(dot - param->key) == length && strncmp(param->key, group, length) == 0) {

@@ -9,29 +9,57 @@
 #include <math.h>
 #include <string.h>
 
-static void put_choices(SbJson *json, const SbParam *param, double fallback) {
+static void put_default(SbJson *json, const SbParam *param, double value) {
   char name[64];
-  sb_json_string(json, "min", NULL);
-  sb_json_string(json, "max", NULL);
   if (param->kind == SB_PARAM_CHOICE) {
-    sb_param_choice_name(param, (int)fallback, name, sizeof name);
+    sb_param_choice_name(param, (int)value, name, sizeof name);
     sb_json_string(json, "default", name);
-  } else {
+  } else if (param->kind == SB_PARAM_FLAGS) {
     sb_json_array(json, "default");
     for (int i = 0; i < sb_param_choice_count(param); i++) {
-      if ((unsigned)fallback & 1u << i) {
+      if ((unsigned)value & 1u << i) {
         sb_param_choice_name(param, i, name, sizeof name);
         sb_json_string(json, NULL, name);
       }
     }
     sb_json_array_end(json);
+  } else {
+    sb_json_number(json, "default", value);
   }
+}
+
+static void put_choices(SbJson *json, const SbParam *param) {
+  char name[64];
   sb_json_array(json, "choices");
   for (int i = 0; i < sb_param_choice_count(param); i++) {
     sb_param_choice_name(param, i, name, sizeof name);
     sb_json_string(json, NULL, name);
   }
   sb_json_array_end(json);
+}
+
+// What choices of other parameters make of the default.
+static void put_brought(SbJson *json, SbParamId id) {
+  SbParamDefault derived;
+  int choice;
+  for (int i = 0; sb_params_brought(&derived, &choice, id, i); i++) {
+    const SbParam *giver = sb_param((SbParamId)derived.giver);
+    char name[64];
+    sb_param_choice_name(giver, choice, name, sizeof name);
+    if (i == 0) {
+      sb_json_array(json, "defaults");
+    }
+    sb_json_object(json, NULL);
+    sb_json_string(json, "key", giver->key);
+    sb_json_string(json, "choice", name);
+    put_default(json, sb_param(id), derived.value);
+    sb_json_string(json, "source", derived.source);
+    sb_json_string(json, "tag", derived.tag);
+    sb_json_object_end(json);
+  }
+  if (sb_params_brought(&derived, &choice, id, 0)) {
+    sb_json_array_end(json);
+  }
 }
 
 char *sb_results_params(void) {
@@ -48,16 +76,16 @@ char *sb_results_params(void) {
     // min, max and default are SI; people see display_unit.
     sb_json_string(&json, "unit", param->si);
     sb_json_string(&json, "display_unit", param->unit);
+    sb_json_number(&json, "min", param->choices != NULL ? NAN : param->min);
+    sb_json_number(&json, "max", param->choices != NULL ? NAN : param->max);
+    put_default(&json, param, param->fallback);
     if (param->choices != NULL) {
-      put_choices(&json, param, param->fallback);
-    } else {
-      sb_json_number(&json, "min", param->min);
-      sb_json_number(&json, "max", param->max);
-      sb_json_number(&json, "default", param->fallback);
+      put_choices(&json, param);
     }
     sb_json_string(&json, "help", param->help);
     sb_json_string(&json, "source", param->source);
     sb_json_string(&json, "tag", param->tag);
+    put_brought(&json, (SbParamId)i);
     sb_json_object_end(&json);
   }
   sb_json_array_end(&json);

@@ -239,12 +239,14 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   sb_json_string(&json, "parameters_sha256", info->sha256);
   sb_json_bool(&json, "partial", info->partial);
   sb_json_object(&json, "models");
+  put_choice(&json, "set", model, SB_P_MODELS_SET);
   put_choice(&json, "fit", model, SB_P_MODELS_FIT);
   put_choice(&json, "film", model, SB_P_MODELS_FILM);
   put_choice(&json, "film_time", model, SB_P_MODELS_FILM_TIME);
   put_choice(&json, "surface", model, SB_P_MODELS_SURFACE);
   put_choice(&json, "asperities", model, SB_P_MODELS_ASPERITIES);
-  sb_json_string(&json, "friction", "boundary-viscous-static");
+  put_choice(&json, "inlet", model, SB_P_MODELS_INLET);
+  put_choice(&json, "friction", model, SB_P_MODELS_FRICTION);
   put_choice(&json, "motion", model, SB_P_MODELS_MOTION);
   sb_json_object_end(&json);
   sb_json_object(&json, "cycle");

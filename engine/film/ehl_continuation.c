@@ -254,7 +254,7 @@ static SbStatus starve(SbFilmSolver *solver, double supply) {
   SbEhlCase end = start;
   end.supply = supply;
   end.layers.starvation = supply / start.supply;
-  return supply >= start.supply
+  return supply >= (1.0 - NEARLY) * start.supply
              ? SB_OK
              : follow_path(solver, &start, &end, log(1.3) / -log(end.layers.starvation));
 }

@@ -15,7 +15,6 @@ static SbStatus check_contact(const SbDynamicsModel *m, size_t i, SbReport *repo
       {"", "its Stribeck speed [m/s]", c->stribeck_speed, 0.0, INFINITY},
       {"", "its Stribeck exponent", c->stribeck_exponent,
        c->stribeck_speed > 0.0 ? DBL_MIN : -INFINITY, INFINITY},
-      {"", "its viscous friction [N s/m]", c->viscous, SB_NOT_NEGATIVE},
       {"", "its tangential stiffness [N/m]", c->stiffness, DBL_MIN, INFINITY},
       {"", "its tangential damping [N s/m]", c->damping, SB_NOT_NEGATIVE});
   if (status != SB_OK) {

@@ -23,7 +23,8 @@ typedef struct {
   double trend0, trend1;
 } SbOscillator;
 
-// mass > 0, damping >= 0, stiffness >= 0, all finite; f0 is the force at x0 and rest.
+// mass > 0, stiffness >= 0, all finite; f0 is the force at x0 and rest. Under a damping below 0
+// what swings grows: the motion is known up to tau = mass / -damping.
 void sb_oscillator_init(SbOscillator *o, double mass, double damping, double stiffness, double f0,
                         double f1, double v0);
 

@@ -37,8 +37,10 @@ static void SB_PRINTF(5, 6)
 
 // What the catalogue says by itself, and what makes of a parameter another of its kind.
 static void take_values(SbModel *model, const SbParams *params) {
+  SbParams effective;
+  sb_params_resolve(&effective, params);
   model->params = *params;
-#define VALUE(id)                              sb_params_get(params, SB_P_##id)
+#define VALUE(id)                              effective.value[SB_P_##id]
 #define SB_REAL(id, where, place, ...)         model->place = VALUE(id);
 #define SB_INT(id, where, place, ...)          model->place = (int)VALUE(id);
 #define SB_CHOICE(id, type, where, place, ...) model->place = (type)VALUE(id);
@@ -50,6 +52,8 @@ static void take_values(SbModel *model, const SbParams *params) {
 #undef VALUE
   model->pressure_viscosity = model->barus ? model->pressure_viscosity : 0;
   model->hamaker = model->adhesion ? model->hamaker : 0;
+  model->load_coefficient =
+      model->friction == SB_MODEL_FRICTION_THESIS ? model->load_coefficient : 0;
   model->surface = model->persson ? SB_ROUGH_PERSSON : SB_ROUGH_GREENWOOD_TRIPP;
   model->life_shown = model->life_shown > 0 ? model->life_shown : model->life_actuations;
   model->rubber.terms = 3;
@@ -178,7 +182,6 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
   // it knows their least values.
   static const SbParamId inertial[] = {SB_P_DRIVE_KIND,
                                        SB_P_DRIVE_CYCLES,
-                                       SB_P_FRICTION_DWELL_GAIN,
                                        SB_P_FRICTION_STRIBECK_SPEED,
                                        SB_P_FRICTION_TANGENTIAL_STIFFNESS,
                                        SB_P_STEM_SPRING_STIFFNESS,

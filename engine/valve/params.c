@@ -1,5 +1,6 @@
 // The catalogue's table and the checks that need nothing but the table.
-#include "engine/valve/params.h"
+#include "engine/film/film.h"
+#include "engine/valve/valve.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -27,6 +28,29 @@ static const SbParam table[SB_PARAM_COUNT] = {
 #include "engine/valve/params.def"
 };
 
+static const struct {
+  SbParamId id, giver;
+  int choice;
+  double value;
+  const char *source, *tag;
+} brought[] = {
+#define SB_DEFAULT(id, giver, choice, value, source, tag)                                          \
+  {SB_P_##id, SB_P_##giver, choice, value, source, tag},
+#include "engine/valve/params.def"
+};
+
+bool sb_params_brought(SbParamDefault *out, int *choice, SbParamId id, int index) {
+  for (size_t i = 0; i < sizeof brought / sizeof brought[0]; i++) {
+    if (brought[i].id == id && index-- == 0) {
+      *choice = brought[i].choice;
+      *out = (SbParamDefault){brought[i].value, (int)brought[i].giver, brought[i].source,
+                              brought[i].tag};
+      return true;
+    }
+  }
+  return false;
+}
+
 const SbParam *sb_param(SbParamId id) {
   return &table[id];
 }
@@ -47,11 +71,52 @@ void sb_params_init(SbParams *params) {
   }
 }
 
-double sb_params_get(const SbParams *params, SbParamId id) {
-  if (!params->given[id] && table[id].parent >= 0) {
-    return params->value[table[id].parent];
+static bool from_parent(SbParamDefault *out, const SbParams *params, SbParamId id) {
+  const int parent = table[id].parent;
+  if (parent >= 0) {
+    *out = (SbParamDefault){sb_params_get(params, (SbParamId)parent), parent, "as for both seals",
+                            table[id].tag};
   }
-  return params->value[id];
+  return parent >= 0;
+}
+
+static bool from_choice(SbParamDefault *out, const SbParams *params, SbParamId id) {
+  int choice;
+  for (int i = 0; sb_params_brought(out, &choice, id, i); i++) {
+    if (sb_params_get(params, (SbParamId)out->giver) == choice) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static bool from_catalogue(SbParamDefault *out, const SbParams *params, SbParamId id) {
+  *out = (SbParamDefault){table[id].fallback, -1, table[id].source, table[id].tag};
+  return true;
+}
+
+void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id) {
+  // In this order; a source that computes (a fluid's state) stands before the catalogue too.
+  static bool (*const sources[])(SbParamDefault *, const SbParams *,
+                                 SbParamId) = {from_parent, from_choice, from_catalogue};
+  for (size_t i = 0; !sources[i](out, params, id); i++) {
+  }
+}
+
+double sb_params_get(const SbParams *params, SbParamId id) {
+  if (params->given[id]) {
+    return params->value[id];
+  }
+  SbParamDefault derived;
+  sb_params_default(&derived, params, id);
+  return derived.value;
+}
+
+void sb_params_resolve(SbParams *effective, const SbParams *given) {
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    effective->value[i] = sb_params_get(given, (SbParamId)i);
+    effective->given[i] = given->given[i];
+  }
 }
 
 SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *report) {

@@ -1,8 +1,10 @@
 // The parameter catalogue and a set of values.
 //
 // SbParams holds one double per parameter (SI; an index for a choice, a bit mask for flags) and
-// whether it was given. The catalogue knows ranges and texts; what a combination of values means is
-// model.h.
+// whether it was given. What was not given follows: one seal's value from both seals', and where
+// SB_DEFAULT rows say so from a choice (models.set). That is resolved whenever it is asked for, so
+// that a choice that changes takes with it what follows from it. The catalogue knows ranges and
+// texts; what a combination of values means is model.h.
 #pragma once
 
 #include "engine/base/status.h"
@@ -54,9 +56,27 @@ int sb_param_find(const char *key);
 // All defaults, nothing given.
 void sb_params_init(SbParams *params);
 
-// The value in force: its own if given, its parent's for an override that was not, else the
-// default.
+// What a parameter is while nobody gives it, and why. Strings are static.
+typedef struct {
+  double value;       // SI
+  int giver;          // the parameter that it follows from, -1: the catalogue's own default
+  const char *source; // where the value comes from
+  const char *tag;    // as SbParam's
+} SbParamDefault;
+
+// That of `id` beside the given values of `params`: from the first source that has one, its parent,
+// a choice that brings defaults, the catalogue.
+void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id);
+
+// The value in force: its own if given, else its default.
 double sb_params_get(const SbParams *params, SbParamId id);
+
+// All values in force, each given or not as in `given`.
+void sb_params_resolve(SbParams *effective, const SbParams *given);
+
+// Whether some choice brings a default for a parameter, and how often: `index` counts from 0. The
+// parameter that chooses and the choice, with the default; false: no more of them.
+bool sb_params_brought(SbParamDefault *out, int *choice, SbParamId id, int index);
 
 // Sets a value [SI] after checking kind and range. SB_ERROR_INPUT (not a number, not whole) or
 // SB_ERROR_RANGE; then nothing changes and the report names the key and the range in SI.

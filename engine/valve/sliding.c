@@ -20,7 +20,8 @@
 typedef struct {
   SbFilm film;
   SbFilmProfile profile;
-  bool fitted; // on the fitted body, not on the half-plane
+  bool fitted;  // on the fitted body, not on the half-plane
+  double speed; // [m/s]
 } Solved;
 
 enum { IN, OUT, REST }; // ways of sliding
@@ -181,6 +182,47 @@ static SbStatus solve_fit(const Task *task, const SbSlidingLaw *law, SbReport *r
   return status;
 }
 
+// One solve of a film, counted.
+static SbStatus solve_once(const Task *task, SbFilm *film, const SbFilmProblem *problem,
+                           SbReport *report) {
+  SbStatus status = sb_film_solve(film, problem, task->memory->solver, report);
+  if (problem->model == SB_FILM_REYNOLDS) {
+    task->counts->reynolds_solves++;
+    task->counts->newton_iterations += (size_t)film->solver.newton_iterations;
+  }
+  return status;
+}
+
+// A starved film at a speed where the solver failed. What passes is given, so that the film hardly
+// depends on the speed any more: twice the layer, but for what pressure moves. The film of a lower
+// speed stands in, with how far it is from that as its error.
+static SbStatus solve_slower(const Task *task, SbFilm *film, SbFilmProblem *problem,
+                             SbReport *report) {
+  static const double STEP = 1.0 / 3, LEAST = 1e-3;
+  const double speed = problem->speed;
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  double share = STEP;
+  for (; status == SB_ERROR_NOT_CONVERGED && share > LEAST; share *= STEP) {
+    problem->speed = share * speed;
+    status = solve_once(task, film, problem, report);
+  }
+  share /= STEP;
+  if (status != SB_OK || !film->starved) {
+    return status != SB_OK ? status : sb_fail(report, SB_ERROR_NOT_CONVERGED, "film: starved");
+  }
+  film->flow /= share;
+  film->friction_couette /= share;
+  film->friction_cavity /= share;
+  const double error = fabs(film->film_central / (2 * problem->inlet_film) - 1);
+  film->solver.error_film_min += error;
+  film->solver.error_film_central += error;
+  film->solver.error_contact += problem->surface != SB_ROUGH_NONE ? error : 0;
+  sb_warn(&film->warnings, "film-starved", "models.inlet",
+          "the bore brings so little that the film at %.3g mm/s stands for that at %.3g mm/s",
+          1e3 * fabs(problem->speed), 1e3 * fabs(speed));
+  return SB_OK;
+}
+
 static SbStatus solve_on(const Task *task, Solved *out, const SbFilmProblem *problem,
                          SbReport *report) {
   SbSlidingMemory *memory = task->memory;
@@ -196,10 +238,15 @@ static SbStatus solve_on(const Task *task, Solved *out, const SbFilmProblem *pro
   lent.cancelled = memory->cancelled;
   lent.cancelled_data = memory->cancelled_data;
   out->fitted = problem->compliance != NULL;
-  SbStatus status = sb_film_solve(&out->film, &lent, memory->solver, report);
-  if (solved) {
-    task->counts->reynolds_solves++;
-    task->counts->newton_iterations += (size_t)out->film.solver.newton_iterations;
+  out->speed = problem->speed;
+  SbReport own = {0};
+  SbStatus status = solve_once(task, &out->film, &lent, &own);
+  if (status == SB_ERROR_NOT_CONVERGED && lent.inlet_film > 0 &&
+      solve_slower(task, &out->film, &lent, NULL) == SB_OK) {
+    return sb_succeed(report);
+  }
+  if (report != NULL) {
+    *report = own;
   }
   return status;
 }
@@ -241,6 +288,7 @@ static bool take_film(SbSealState *out, const Solved *solved, SbStatus status, c
     return false;
   }
   out->film_fitted = solved->fitted;
+  out->layer = film->flow > 0 || film->flow < 0 ? fabs(film->flow / solved->speed) : 0;
   out->film_min = film->film_min;
   out->film_central = film->film_central;
   double ring = 0;
@@ -257,16 +305,21 @@ static bool take_film(SbSealState *out, const Solved *solved, SbStatus status, c
   return true;
 }
 
+// Whether there is a film: something moves, and the inlet finds liquid.
+static bool has_film(const Task *task) {
+  return task->speed != 0 && !(task->supply.limited && !(task->supply.layer > 0));
+}
+
 // What a run's options cannot reach, told once.
 static void option_warnings(const Task *task, const SbFilmProblem *problem) {
   const SbModel *model = task->model;
   bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  bool asked = model->pressure_viscosity > 0 || model->eyring_stress > 0 ||
-               model->rupture_pressure != 0 || model->inlet_carried;
+  bool asked =
+      model->pressure_viscosity > 0 || model->eyring_stress > 0 || model->rupture_pressure != 0;
   if (asked && problem->model != SB_FILM_REYNOLDS) {
     sb_warn(task->warnings, "film-options", "models.film",
-            "pressure viscosity, Eyring stress, rupture pressure and a carried inlet act on the "
-            "solved film only (models.film = reynolds), not on a power law");
+            "pressure viscosity, Eyring stress and rupture pressure act on the solved film only "
+            "(models.film = reynolds), not on a power law");
   } else if (problem->rupture_pressure < model->rupture_pressure) {
     sb_warn(task->warnings, "rupture-ambient", "fluid.rupture_pressure",
             "the film of the %s seal breaks at the %.3g MPa around it: the rupture pressure of "
@@ -279,11 +332,6 @@ static void option_warnings(const Task *task, const SbFilmProblem *problem) {
             "adhesion acts in the solve of film and asperities together only (models.asperities = "
             "coupled): left out here");
   }
-  if (model->inlet_carried && coupled) {
-    sb_warn(task->warnings, "inlet-flooded", "models.inlet",
-            "with coupled asperities the inlet is flooded both ways: what a rough contact leaves "
-            "on the bore is not known");
-  }
 }
 
 static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report) {
@@ -294,17 +342,7 @@ static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report)
   problem.model = task->model->film;
   option_warnings(task, &problem);
   bool solved = problem.model == SB_FILM_REYNOLDS;
-  if (task->model->inlet_carried && task->speed < 0 && solved) {
-    // The return stroke finds a layer on the bore: what the in-stroke carried through the contact,
-    // flow over the wall's speed, at the drive's speed and the same pressures.
-    problem.speed = task->drive_speed;
-    SbStatus carried = solve_on(task, &memory->plane, &problem, report);
-    if (carried != SB_OK) {
-      return carried;
-    }
-    problem.inlet_film = fabs(memory->plane.film.flow / problem.speed);
-    problem.speed = task->speed;
-  }
+  problem.inlet_film = task->supply.limited && solved ? task->supply.layer : 0;
   SbStatus status = solve_on(task, &memory->plane, &problem, report);
   memory->last = &memory->plane;
   if (!usable(status)) {
@@ -315,6 +353,13 @@ static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report)
     out->film_reynolds = out->film_central;
   } else {
     out->film_error = out->central_error = NAN;
+    // A law's film carries half of itself along (thesis eq. 5.20), and no more than the supply.
+    out->layer = out->film_central / 2;
+    if (task->supply.limited && task->supply.layer < out->layer) {
+      out->layer = task->supply.layer;
+      out->film_central = 2 * out->layer;
+      out->film_min = fmin(out->film_min, out->film_central);
+    }
   }
   if (solved && status == SB_OK && solve_fitted(task, &memory->fitted, &problem)) {
     take_film(out, &memory->fitted, SB_OK, &memory->now->fit);
@@ -338,6 +383,7 @@ static SbStatus solve_rough(const Task *task, Solved *out, double load_net, doub
   problem.shear_strength = model->shear_strength;
   problem.load_coefficient = model->load_coefficient;
   if (speed != 0) {
+    problem.inlet_film = task->supply.limited ? task->supply.layer : 0;
     option_warnings(task, &problem);
   }
   return solve_fitted(task, out, &problem) ? SB_OK : solve_on(task, out, &problem, report);
@@ -350,6 +396,20 @@ static SbStatus set_static(SbSealState *out, const Task *task, SbReport *report)
       sb_breakaway_law(&law, &out->squeeze_out_time, task->model, task->seal, out, report);
   out->friction_static = status == SB_OK ? sb_dwell_at(&law, task->model->rest) : NAN;
   return status;
+}
+
+// The thesis' shear strength goes with its own real area.
+static void strength_warning(const Task *task, double share) {
+  const SbModel *model = task->model;
+  const bool thesis = model->set == SB_MODEL_SET_THESIS;
+  if (model->surface == SB_ROUGH_PERSSON && thesis &&
+      !model->params.given[SB_P_FRICTION_SHEAR_STRENGTH]) {
+    sb_warn(
+        task->warnings, "persson-shear-strength", "friction.shear_strength",
+        "Persson's real contact is %.0f %% here; the default shear strength was set with Greenwood "
+        "and Tripp's few per cent",
+        100 * share);
+  }
 }
 
 // Film, rough contact and friction from one solution each, sliding and at rest.
@@ -369,7 +429,7 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
   }
   memory->last = &memory->rest;
   SbStatus status = at_rest;
-  if (task->speed != 0) {
+  if (has_film(task)) {
     memory->last = &memory->plane;
     status = solve_rough(task, &memory->plane, out->load_net, task->speed,
                          at_rest == SB_OK ? report : NULL);
@@ -394,7 +454,9 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
     out->friction_viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
   }
   if (memory->rested || rest->film_central > 0) {
-    out->rest_area = model->shear_strength * fmin(rest->real_area / rest_width, 1) * area;
+    out->rest_area_share = fmin(rest->real_area / rest_width, 1);
+    out->rest_area = model->shear_strength * out->rest_area_share * area;
+    strength_warning(task, out->rest_area_share);
     out->rest_load = model->load_coefficient * rest->asperity_load * circumference;
   }
   SbStatus aged = set_static(out, task, status == SB_OK && at_rest == SB_OK ? report : NULL);
@@ -409,8 +471,7 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
 
 // Share of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
 // film, Persson's on the net pressure that the solids must carry.
-static SbStatus real_area(SbSealState *out, double *rest_share, const Task *task, double roughness,
-                          SbReport *report) {
+static SbStatus real_area(SbSealState *out, const Task *task, double roughness, SbReport *report) {
   const SbModel *model = task->model;
   const double gt_product = roughness * model->gt_product;
   if (model->surface == SB_ROUGH_PERSSON) {
@@ -422,16 +483,12 @@ static SbStatus real_area(SbSealState *out, double *rest_share, const Task *task
       return status;
     }
     double pressure = fmax(out->load_net, 0) / (out->contact_right - out->contact_left);
-    out->real_area_share = *rest_share = sb_persson_area_share(
+    out->real_area_share = out->rest_area_share = sb_persson_area_share(
         &spectrum, spectrum.q1, model->seal[task->seal].reduced_modulus, pressure);
-    sb_warn(
-        task->warnings, "persson-shear-strength", "friction.shear_strength",
-        "Persson's real contact is %.0f %% here; the default shear strength was set with Greenwood "
-        "and Tripp's few per cent",
-        100 * out->real_area_share);
+    strength_warning(task, out->real_area_share);
     return SB_OK;
   }
-  *rest_share = sb_gt_area_share(gt_product, 0);
+  out->rest_area_share = sb_gt_area_share(gt_product, 0);
   // Without a film there is no real contact under it either.
   out->real_area_share = sb_gt_area_share(gt_product, out->lambda);
   if (isnan(out->real_area_share) && !isnan(out->lambda)) {
@@ -453,16 +510,15 @@ static SbStatus rough_contact(SbSealState *out, const Task *task, double roughne
                               SbReport *report) {
   const SbModel *model = task->model;
   double area = (out->contact_right - out->contact_left) * model->bore_circumference;
-  double rest_share = NAN;
   out->lambda = out->film_central / (roughness * model->sigma);
-  SbStatus status = real_area(out, &rest_share, task, roughness, report);
+  SbStatus status = real_area(out, task, roughness, report);
   if (status != SB_OK) {
     return status;
   }
   out->boundary_area = model->shear_strength * out->real_area_share * area;
   out->boundary_load = model->load_coefficient * out->load;
   out->friction_viscous = 0;
-  if (task->speed != 0) {
+  if (task->speed != 0 && out->film_central != 0) {
     // fmin() would take a film that was not computed for the greatest shear.
     double shear = model->viscosity * fabs(task->speed) / out->film_central;
     shear = shear > model->shear_strength ? model->shear_strength : shear;
@@ -476,7 +532,7 @@ static SbStatus rough_contact(SbSealState *out, const Task *task, double roughne
           (persson ? 0 : model->shear_strength * fabs(thinner - out->real_area_share) * area);
     }
   }
-  out->rest_area = model->shear_strength * rest_share * area;
+  out->rest_area = model->shear_strength * out->rest_area_share * area;
   out->rest_load = out->boundary_load;
   return set_static(out, task, report);
 }
@@ -532,7 +588,8 @@ SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, dou
 }
 
 void sb_sliding_clear(SbSealState *out) {
-  *out = (SbSealState){.load_net = NAN,
+  *out = (SbSealState){.layer = NAN,
+                       .load_net = NAN,
                        .film_error = NAN,
                        .central_error = NAN,
                        .boundary_area = NAN,
@@ -618,9 +675,9 @@ static SbStatus solve_with(const Task *task, const SbSlidingLaw *law, SbSealStat
     return coupled != SB_OK ? coupled : status;
   }
 
-  // Film, only when sliding.
-  if (task->speed == 0) {
-    out->film_min = out->film_central = 0;
+  // Film, only when sliding on a liquid.
+  if (!has_film(task)) {
+    out->film_min = out->film_central = out->layer = 0;
   } else if (out->load_net <= 0) {
     out->opened = true;
     sb_warn(warnings, "film-no-net-load", "canister.pressure",

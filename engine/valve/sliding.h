@@ -2,6 +2,7 @@
 // pressure and one sliding velocity, by the models that the scene chose.
 //
 //   boundary  F_b = tau_0 A_a + m W    thesis eq. 5.14, A_a = A (real share), m on the TOTAL load
+//             F_b = tau_0 A_a          models.friction = shear; tau_0(p) = tau_0
 //   viscous   F_v = tau (A - A_a)      thesis eq. 5.15 and 5.16, tau = min(eta |u|/h, tau_0)
 //   static    F_s after a rest, breakaway.h        break-away, as the film goes
 //
@@ -9,6 +10,10 @@
 // what the solution says takes the place of these: A_a its real area (mean over the contact
 // solved, on A), m on the asperities' load alone, the viscous part from the gap that is open, and
 // at rest the dry rough contact, m W on the whole net load.
+//
+// What the inlet finds: liquid, as much as the contact takes; or on the bore, beside air, what the
+// stroke before left there, and no more (models.inlet = carried); or nothing: then there is no film
+// and the state is that at rest without the static ratio.
 //
 // A = contact width x pi D (bore), for every fitment model. The real share A_a/A comes from
 // Greenwood and Tripp at lambda = h_central/sigma. tau_0 is both the boundary shear strength and
@@ -58,16 +63,22 @@ const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
 // A state of which nothing is known: its figures are NaN.
 void sb_sliding_clear(SbSealState *out);
 
+// What the bore brings to the inlet; zero: liquid without limit.
+typedef struct {
+  bool limited;
+  double layer; // where limited, what lies on the bore, flow over speed [m]
+} SbSupply;
+
 // One evaluation: what is asked for, with what memory, and where counts and warnings go.
 typedef struct {
   const SbModel *model;
   int seal;
   SbSealPressure pressure;
-  double speed;       // of sliding; > 0: bore moves to +x, the in-stroke; 0: at rest [m/s]
-  double drive_speed; // of the in-stroke that leaves the layer of a carried inlet [m/s]
+  double speed; // of sliding; > 0: bore moves to +x, the in-stroke; 0: at rest [m/s]
   SbSlidingMemory *memory;
   SbCounters *counts;
   SbWarnings *warnings;
+  SbSupply supply;
 } SbSlidingTask;
 
 // Evaluates a task. The fitment is reused from the last call when the pressure has not changed. A

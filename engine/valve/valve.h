@@ -48,6 +48,12 @@ typedef enum {
   SB_MAP_CHAMBER_VENTED,
   SB_MAP_PORTS // the chamber's pressure is a state
 } SbPressureMap;
+// Which models stand where none is chosen.
+typedef enum { SB_MODEL_SET_THESIS, SB_MODEL_SET_CONSISTENT } SbModelSet;
+typedef enum {
+  SB_MODEL_FRICTION_THESIS, // shear strength on the real area and a share of the load (eq. 5.14)
+  SB_MODEL_FRICTION_SHEAR   // shear strength on the real area alone
+} SbModelFriction;
 typedef enum {
   SB_MODEL_ASPERITIES_BESIDE, // at the smooth film, taking no load off it
   SB_MODEL_ASPERITIES_COUPLED // in the film's own solve

@@ -147,8 +147,9 @@ static void test_history(void) {
 static void test_ring(void) {
   const SbOverride change[] = {{SB_P_MODELS_FIT, SB_FIT_RING},
                                {SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
+                               {SB_P_MODELS_SURFACE, 1},
                                {SB_P_OUTPUT_TOLERANCE, 1e-2}};
-  const Case of = {"ring", {change[0], change[1], change[2]}, 3, SB_OK};
+  const Case of = {"ring", {change[0], change[1], change[2], change[3]}, 4, SB_OK};
   static const char *const paths[] = {"seals.inner.load_N", "seals.inner.film_central_m",
                                       "seals.outer.friction_boundary_N",
                                       "seals.outer.leakage_static_m3_per_s"};
@@ -162,7 +163,7 @@ static void test_ring(void) {
   for (size_t i = 0; i < G_N_ELEMENTS(paths); i++) {
     int figure = sb_figure_find(paths[i]);
     double value;
-    ask(&value, evaluator, &base, change, 3, &figure, 1, SB_OK);
+    ask(&value, evaluator, &base, change, 4, &figure, 1, SB_OK);
     g_assert_true(same_bits(value, sb_figure_value(sb_run_summary(run), figure)));
     g_assert_true(isfinite(value));
   }

@@ -118,29 +118,102 @@ static void test_open(void) {
 
 // Every state of a leak path: closed, channels, none that a surface's theory tells.
 static void test_leak_states(void) {
+  enum { PERSSON = 1 };
   SbModel model;
-  compile(&model, NULL, 0);
+  const Setting even[] = {{SB_P_MODELS_SURFACE, PERSSON}};
+  compile(&model, even, 1);
   SbRun *run = run_of(&model, SB_OK, NULL);
   check_reasons(sb_run_summary(run));
   g_assert_cmpint(sb_run_summary(run)->seal[SB_INNER].leak_state, ==, SB_LEAK_CLOSED);
   g_assert_cmpfloat(sb_run_summary(run)->seal[SB_INNER].leakage_static, ==, 0);
   sb_run_destroy(run);
-  const Setting rough[] = {{SB_P_SURFACE_SIGMA_OVER_BETA, 1}, {SB_P_SURFACE_GT_PRODUCT, 0.03}};
+  const Setting rough[] = {{SB_P_MODELS_SURFACE, PERSSON},
+                           {SB_P_SURFACE_SIGMA_OVER_BETA, 1},
+                           {SB_P_SURFACE_GT_PRODUCT, 0.03}};
   compile(&model, rough, G_N_ELEMENTS(rough));
   run = run_of(&model, SB_OK, NULL);
   g_assert_cmpint(sb_run_summary(run)->seal[SB_OUTER].leak_state, ==, SB_LEAK_PERCOLATING);
   g_assert_cmpfloat(sb_run_summary(run)->seal[SB_OUTER].leakage_static, >, 0);
   g_assert_cmpint(sb_run_summary(run)->verdict[SB_VERDICT_SEALS].ok, ==, SB_ANSWER_YES);
   sb_run_destroy(run);
-  const Setting smooth[] = {{SB_P_SURFACE_GT_PRODUCT, 0.02}};
-  compile(&model, smooth, G_N_ELEMENTS(smooth));
-  run = run_of(&model, SB_OK, NULL);
-  const SbSummary *s = sb_run_summary(run);
-  check_reasons(s);
-  g_assert_cmpint(s->seal[SB_OUTER].leak_state, ==, SB_LEAK_NOT_COMPUTED);
-  g_assert_true(isnan(s->seal[SB_OUTER].leakage_static));
-  g_assert_nonnull(strstr(reason_at(s, "seals.outer.leakage_static_m3_per_s"), "0.025"));
-  sb_run_destroy(run);
+  const Setting none[] = {{-1, 0}};
+  const Setting flooded[] = {{SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED}};
+  const struct {
+    const Setting *settings;
+    const char *why;
+  } unknown[] = {{none, "near full contact"}, {flooded, "near full contact"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(unknown); i++) {
+    compile(&model, unknown[i].settings, 1);
+    run = run_of(&model, SB_OK, NULL);
+    const SbSummary *s = sb_run_summary(run);
+    check_reasons(s);
+    g_assert_cmpint(s->seal[SB_OUTER].leak_state, ==, SB_LEAK_NOT_COMPUTED);
+    g_assert_true(isnan(s->seal[SB_OUTER].leakage_static));
+    g_assert_true(isnan(s->seal[SB_OUTER].leak_area_share));
+    g_assert_nonnull(strstr(reason_at(s, "seals.outer.leakage_static_m3_per_s"), unknown[i].why));
+    sb_run_destroy(run);
+  }
+}
+
+// Friction and leak take the same real contact, and boundary friction is its shear, in every state
+// that a run keeps: bare law, asperities coupled, any surface.
+static void test_one_contact(void) {
+  for (int i = 0; i < 16; i++) {
+    const bool persson = i & 1, coupled = i & 2, shear = i & 4, disc = i & 8;
+    const Setting settings[] = {
+        {SB_P_MODELS_SURFACE, persson},
+        {SB_P_MODELS_ASPERITIES, coupled},
+        {SB_P_MODELS_FRICTION, shear},
+        {shear ? -1 : SB_P_FRICTION_LOAD_COEFFICIENT, 0},
+        {SB_P_MODELS_FIT, disc ? SB_FIT_DISC : SB_FIT_KARASZKIEWICZ},
+        {SB_P_FRICTION_SHEAR_STRENGTH, persson ? 0.1e6 : 3.5e6},
+    };
+    SbModel model;
+    compile(&model, settings, G_N_ELEMENTS(settings));
+    SbRun *run = run_of(&model, SB_OK, NULL);
+    const SbSummary *s = sb_run_summary(run);
+    for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+      const SbSealState *of = &s->seal[seal];
+      const double area = of->contact_width * model.bore_circumference;
+      const double law = model.shear_strength * of->real_area_share * area;
+      g_assert_cmpfloat(of->real_area_share, >, 0);
+      g_assert_cmpfloat(fabs(of->friction_boundary / law - 1), <, 1e-9);
+      const double rest = model.static_ratio * model.shear_strength * of->rest_area_share * area;
+      g_assert_cmpfloat(fabs(of->friction_static / rest - 1), <, 1e-9);
+      if (persson) {
+        g_assert_cmpfloat(of->leak_area_share, ==, of->rest_area_share);
+        g_assert_cmpint(of->leak_state, ==, SB_LEAK_CLOSED);
+      } else {
+        g_assert_cmpint(of->leak_state, ==, SB_LEAK_NOT_COMPUTED);
+      }
+    }
+    sb_run_destroy(run);
+  }
+}
+
+// Shear strength scales boundary friction and nothing that leaks.
+static void test_shear_strength(void) {
+  double friction[2], leak[2], share[2];
+  for (int i = 0; i < 2; i++) {
+    const Setting settings[] = {{SB_P_MODELS_SURFACE, 1},
+                                {SB_P_FRICTION_LOAD_COEFFICIENT, 0},
+                                {SB_P_SURFACE_SIGMA_OVER_BETA, 1},
+                                {SB_P_SURFACE_GT_PRODUCT, 0.03},
+                                {SB_P_FRICTION_SHEAR_STRENGTH, (i + 1) * 0.1e6}};
+    SbModel model;
+    compile(&model, settings, G_N_ELEMENTS(settings));
+    SbRun *run = run_of(&model, SB_OK, NULL);
+    const SbSealState *of = &sb_run_summary(run)->seal[SB_OUTER];
+    friction[i] = of->friction_boundary;
+    leak[i] = of->leakage_static;
+    share[i] = of->leak_area_share;
+    g_assert_cmpfloat(sb_run_summary(run)->seal[SB_INNER].leak_area_share, <, share[i]);
+    sb_run_destroy(run);
+  }
+  g_assert_cmpfloat(fabs(friction[1] / friction[0] - 2), <, 1e-12);
+  g_assert_cmpfloat(leak[0], >, 0);
+  g_assert_cmpfloat(leak[1], ==, leak[0]);
+  g_assert_cmpfloat(share[1], ==, share[0]);
 }
 
 // What is carried one way by a stem that stays in is no loss of a cycle.
@@ -364,6 +437,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/figures/paths", test_paths);
   g_test_add_func("/figures/open", test_open);
   g_test_add_func("/figures/leak-states", test_leak_states);
+  g_test_add_func("/figures/one-contact", test_one_contact);
+  g_test_add_func("/figures/shear-strength", test_shear_strength);
   g_test_add_func("/figures/one-way", test_one_way);
   g_test_add_func("/figures/failure", test_failure);
   g_test_add_func("/figures/cancelled", test_cancelled);

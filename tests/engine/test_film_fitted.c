@@ -197,11 +197,13 @@ static void test_run(void) {
     SbSealState state;
     SbCounters counts = {0};
     SbWarnings warnings = {0};
-    g_assert_cmpint(sb_sliding_solve(&state,
-                                     &(SbSlidingTask){&model, SB_OUTER, pressure, model.speed,
-                                                      model.speed, memory, &counts, &warnings},
-                                     NULL),
-                    ==, SB_OK);
+    g_assert_cmpint(
+        sb_sliding_solve(
+            &state,
+            &(SbSlidingTask){
+                &model, SB_OUTER, pressure, model.speed, memory, &counts, &warnings, {0}},
+            NULL),
+        ==, SB_OK);
     g_assert_true(state.film_fitted);
     g_assert_cmpuint(counts.reynolds_solves, ==, 2);
     g_assert_cmpfloat(fabs(state.film_central / state.film_reynolds - 1.0), >, 0.01);
@@ -239,11 +241,11 @@ static void solve_ring(SbSealState *out, SbDryContact *dry, double *modulus, dou
   const SbSealPressure pressure = sb_model_seal_pressure(&model, seal, SB_CHAMBER_AT_REST);
   SbCounters counts = {0};
   SbWarnings warnings = {0};
-  g_assert_cmpint(sb_sliding_solve(out,
-                                   &(SbSlidingTask){&model, seal, pressure, speed, model.speed,
-                                                    memory, &counts, &warnings},
-                                   NULL),
-                  ==, SB_OK);
+  g_assert_cmpint(
+      sb_sliding_solve(
+          out, &(SbSlidingTask){&model, seal, pressure, speed, memory, &counts, &warnings, {0}},
+          NULL),
+      ==, SB_OK);
   for (size_t i = 0; i < warnings.count; i++) {
     g_assert_cmpstr(warnings.item[i].code, !=, "film-disc-surface");
     g_assert_cmpstr(warnings.item[i].code, !=, "film-half-plane");

@@ -139,11 +139,12 @@ static void run_seal(int fit_model) {
     SbSealState state;
     SbCounters counts = {0};
     SbWarnings warnings = {0};
-    g_assert_cmpint(sb_sliding_solve(&state,
-                                     &(SbSlidingTask){&model, seal_side, pressure, -1e-2,
-                                                      model.speed, memory, &counts, &warnings},
-                                     NULL),
-                    ==, SB_OK);
+    g_assert_cmpint(
+        sb_sliding_solve(
+            &state,
+            &(SbSlidingTask){&model, seal_side, pressure, -1e-2, memory, &counts, &warnings, {0}},
+            NULL),
+        ==, SB_OK);
     g_assert_true(state.film_fitted);
     g_assert_cmpuint(counts.reynolds_solves, ==, 2); // sliding and at rest
     const SbFilm *solved = sb_sliding_film(memory);

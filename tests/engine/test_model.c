@@ -116,6 +116,49 @@ static void test_overrides(void) {
   g_assert_cmpstr(report.parameter, ==, "seal.modulus");
 }
 
+// A set of models is a bundle of defaults: what is given wins, and what was not follows when the
+// set changes, in a model that is derived too.
+static void test_sets(void) {
+  static const struct {
+    SbParamId id;
+    double thesis, consistent;
+  } rows[] = {
+      {SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ, SB_FIT_RING},
+      {SB_P_MODELS_FILM, SB_FILM_THESIS, SB_FILM_REYNOLDS},
+      {SB_P_MODELS_SURFACE, 0, 1},
+      {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE, SB_MODEL_ASPERITIES_COUPLED},
+      {SB_P_MODELS_FRICTION, SB_MODEL_FRICTION_THESIS, SB_MODEL_FRICTION_SHEAR},
+      {SB_P_MODELS_INLET, 0, 1},
+      {SB_P_GLAND_FLOOR_FRICTION, 0, 0.3},
+      {SB_P_GLAND_WALL_FRICTION, 0, 0.1},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+    SbParams params, effective;
+    SbParamDefault derived;
+    SbModel model;
+    sb_params_init(&params);
+    g_assert_cmpfloat(sb_params_get(&params, rows[i].id), ==, rows[i].thesis);
+    g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_SET, SB_MODEL_SET_CONSISTENT, NULL), ==,
+                    SB_OK);
+    g_assert_cmpfloat(sb_params_get(&params, rows[i].id), ==, rows[i].consistent);
+    sb_params_resolve(&effective, &params);
+    g_assert_cmpfloat(effective.value[rows[i].id], ==, rows[i].consistent);
+    g_assert_false(effective.given[rows[i].id]);
+    sb_params_default(&derived, &params, rows[i].id);
+    g_assert_cmpint(derived.giver, ==, SB_P_MODELS_SET);
+    g_assert_cmpstr(derived.source, !=, sb_param(rows[i].id)->source);
+    g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+    g_assert_cmpfloat(sb_model_value(&model, rows[i].id), ==, rows[i].consistent);
+    const SbOverride back = {SB_P_MODELS_SET, SB_MODEL_SET_THESIS};
+    g_assert_cmpint(sb_model_override(&model, &model, &back, 1, NULL), ==, SB_OK);
+    g_assert_cmpfloat(sb_model_value(&model, rows[i].id), ==, rows[i].thesis);
+    // Given, it stays.
+    g_assert_cmpint(sb_params_set(&params, rows[i].id, rows[i].thesis, NULL), ==, SB_OK);
+    g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+    g_assert_cmpfloat(sb_model_value(&model, rows[i].id), ==, rows[i].thesis);
+  }
+}
+
 static void test_derived(void) {
   SbParams params;
   sb_params_init(&params);
@@ -265,6 +308,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/model/choices", test_choices);
   g_test_add_func("/model/life-motions", test_life_motions);
   g_test_add_func("/model/overrides", test_overrides);
+  g_test_add_func("/model/sets", test_sets);
   g_test_add_func("/model/derived", test_derived);
   g_test_add_func("/model/problems", test_problems);
   g_test_add_func("/model/disc-pressure", test_disc_pressure);

@@ -112,8 +112,13 @@ static void test_balance(void) {
       SbSlidingMemory *memory;
       g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
       SbSealPressure pressure = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
-      const SbSlidingTask task = {model,        seal,   pressure, way * model->speed,
-                                  model->speed, memory, &counts,  warnings};
+      const SbSlidingTask task = {.model = model,
+                                  .seal = seal,
+                                  .pressure = pressure,
+                                  .speed = way * model->speed,
+                                  .memory = memory,
+                                  .counts = &counts,
+                                  .warnings = warnings};
       SbSealState state;
       g_assert_cmpint(sb_sliding_solve(&state, &task, NULL), ==, SB_OK);
       const SbFit *fit = sb_sliding_fit(memory);

@@ -157,8 +157,10 @@ static void test_runs(void) {
        {{SB_P_MODELS_SURFACE, 1}, {-1, 0}, {-1, 0}},
        {{-1, 0}, {-1, 0}, {-1, 0}}},
       {"static-leak",
-       {{SB_P_SURFACE_SIGMA_OVER_BETA, 1}, {SB_P_SURFACE_GT_PRODUCT, 0.026}, {-1, 0}},
-       {{-1, 0}, {-1, 0}, {-1, 0}}},
+       {{SB_P_SURFACE_SIGMA_OVER_BETA, 1},
+        {SB_P_SURFACE_GT_PRODUCT, 0.026},
+        {SB_P_MODELS_SURFACE, 1}},
+       {{SB_P_MODELS_SURFACE, 1}, {-1, 0}, {-1, 0}}},
       {"film-no-net-load",
        {{SB_P_CANISTER_PRESSURE, 2e6}, {SB_P_SEAL_POISSON_RATIO, 0.2}, {SB_P_SEAL_MODULUS, 0.5e6}},
        {{-1, 0}, {-1, 0}, {-1, 0}}},
@@ -189,8 +191,10 @@ static void test_runs(void) {
 static void test_static_leak_near(void) {
   bool near = false;
   for (double ratio = 0.1; ratio < 1 && !near; ratio += 0.05) {
-    Setting rough[] = {{SB_P_SURFACE_SIGMA_OVER_BETA, ratio}, {SB_P_SURFACE_GT_PRODUCT, 0.03}};
-    near = run_warns("static-leak-near", rough, 2);
+    Setting rough[] = {{SB_P_SURFACE_SIGMA_OVER_BETA, ratio},
+                       {SB_P_SURFACE_GT_PRODUCT, 0.03},
+                       {SB_P_MODELS_SURFACE, 1}};
+    near = run_warns("static-leak-near", rough, 3);
   }
   g_assert_true(near);
   g_assert_false(run_warns("static-leak-near", NULL, 0));

@@ -270,20 +270,25 @@ GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fiel
 }
 
 // Help, key, source and tag; why the field is locked, or what a shape says against it.
-static void refresh_tooltip(SbParamRow *row, const char *lock, const char *note) {
+static void refresh_tooltip(SbParamRow *row, const SbParamDefault *derived, const char *lock,
+                            const char *note) {
   const SbParam *param = sb_param(row->id);
-  g_autofree char *fallback = sb_param_format(row->id, param->fallback);
+  g_autofree char *value = sb_param_format(row->id, derived->value);
+  g_autofree char *fallback =
+      derived->giver >= 0
+          ? g_strdup_printf("%s (%s)", value, sb_param((SbParamId)derived->giver)->key)
+          : g_strdup(value);
   g_autofree char *text =
       g_markup_printf_escaped(_("%s%s%s.\n<small>%s, default %s (%s: %s)</small>"),
                               lock != NULL   ? lock
                               : note != NULL ? note
                                              : "",
                               lock != NULL || note != NULL ? ".\n" : "", param->help, param->key,
-                              fallback, param->tag, param->source);
+                              fallback, derived->tag, derived->source);
   gtk_widget_set_tooltip_markup(GTK_WIDGET(row), text);
 }
 
-static void refresh_entry(SbParamRow *row, const char *lock, const char *note) {
+static void refresh_entry(SbParamRow *row, gboolean inherited, const char *lock, const char *note) {
   GtkEntry *entry = GTK_ENTRY(row->field);
   const char *error = sb_session_error(row->session, row->id);
   const char *rejected = sb_session_rejected(row->session, row->id);
@@ -293,9 +298,7 @@ static void refresh_entry(SbParamRow *row, const char *lock, const char *note) {
   if (strcmp(gtk_entry_get_text(entry), text) != 0) {
     gtk_entry_set_text(entry, text);
   }
-  const SbParam *param = sb_param(row->id);
-  SbParams params = sb_document_params(sb_session_document(row->session));
-  if (param->parent >= 0 && !params.given[row->id] && error == NULL) {
+  if (inherited && error == NULL) {
     gtk_style_context_add_class(style, "sb-inherited");
   } else {
     gtk_style_context_remove_class(style, "sb-inherited");
@@ -320,6 +323,9 @@ void sb_param_row_refresh(SbParamRow *row) {
   const char *error = sb_session_error(row->session, row->id);
   const char *lock = sb_session_lock(row->session, row->id);
   g_autofree char *note = sb_document_shape_note(document, row->id);
+  const SbParams params = sb_document_params(document);
+  SbParamDefault derived;
+  sb_params_default(&derived, &params, row->id);
   row->refreshing = TRUE;
   if (param->kind == SB_PARAM_CHOICE) {
     g_autofree char *text = sb_document_text(document, row->id);
@@ -330,7 +336,7 @@ void sb_param_row_refresh(SbParamRow *row) {
       gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(row->flags[i]), (mask >> i & 1u) != 0);
     }
   } else {
-    refresh_entry(row, lock, note);
+    refresh_entry(row, derived.giver >= 0 && !params.given[row->id], lock, note);
   }
   if (row->field != NULL) {
     gtk_widget_set_sensitive(row->field, lock == NULL);
@@ -340,13 +346,13 @@ void sb_param_row_refresh(SbParamRow *row) {
   gboolean own =
       sb_document_gives(document, row->id) && sb_document_shape_source(document, row->id) == NULL;
   gtk_widget_set_visible(row->reset, own || error != NULL);
-  g_autofree char *fallback = sb_param_format(row->id, param->fallback);
+  g_autofree char *fallback = sb_param_format(row->id, derived.value);
   g_autofree char *tip = param->parent >= 0 ? g_strdup(_("As for both seals"))
                          : sb_document_kind(document) == SB_DOCUMENT_SCENE
                              ? g_strdup(_("Back to the value of the valve"))
                              : g_strdup_printf(_("Back to the default, %s"), fallback);
   gtk_widget_set_tooltip_text(row->reset, tip);
-  refresh_tooltip(row, lock, note);
+  refresh_tooltip(row, &derived, lock, note);
   row->refreshing = FALSE;
 }
 

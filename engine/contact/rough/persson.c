@@ -8,6 +8,7 @@
 
 #include "engine/numeric/root.h"
 
+#include <gsl/gsl_cdf.h>
 #include <math.h>
 
 static const double HURST = 0.8, GAMMA = 0.45;
@@ -72,6 +73,12 @@ double sb_persson_area_share(const SbSpectrum *s, double q, double modulus, doub
     return 1;
   }
   return erf(M_SQRT2 * pressure / (modulus / 2 * sqrt(slope2)));
+}
+
+double sb_persson_pressure(const SbSpectrum *s, double q, double modulus, double share) {
+  // erf(x) is the probability of a standard normal between -x sqrt 2 and x sqrt 2.
+  double argument = -gsl_cdf_ugaussian_Pinv(0.5 * (1 - share)) / M_SQRT2;
+  return share < 1 ? argument * modulus / 2 * sqrt(sb_spectrum_slope2(s, q)) / M_SQRT2 : INFINITY;
 }
 
 static double inner_integrand(double a) {

@@ -41,6 +41,9 @@ double sb_spectrum_slope2(const SbSpectrum *spectrum, double q);
 // sum.
 double sb_persson_area_share(const SbSpectrum *spectrum, double q, double modulus, double pressure);
 
+// The pressure [Pa] at which it is `share`; INFINITY for 1.
+double sb_persson_pressure(const SbSpectrum *spectrum, double q, double modulus, double share);
+
 // Mean separation of the surfaces [m] in the parts in contact at wave number `q` (q0: everywhere),
 // from the roughness of larger wave numbers (Yang & Persson's integral).
 double sb_persson_separation(const SbSpectrum *spectrum, double q, double modulus, double pressure);

@@ -53,6 +53,7 @@ typedef struct {
   bool touches;
   bool opened;      // by the fluid: the rubber does not press, or the film's ends differ too much
   bool film_fitted; // film_min and film_central are solved on the fitted body
+  double layer;     // that it leaves on the bore behind it: flow over speed [m]
   double load_net;  // per length, above the ambient step: what the film carries [N/m]
   double contact_pressure;     // mean, of the rubber alone: net load over width [Pa]
   double film_error;           // of the solved film, relative [1]; NaN if closed form
@@ -168,7 +169,7 @@ typedef struct {
 #define SB_FIGURE(path, member, ...) double member;
 #include "engine/valve/figures.def"
   SbStatus status;
-  bool returns; // as `returned`; false where that is not known
+  bool returns;   // as `returned`; false where that is not known
   SbStageMark stage[SB_STAGE_COUNT];
   SbSealState seal[SB_SEAL_COUNT];
   SbContacts contact[SB_SEAL_COUNT];

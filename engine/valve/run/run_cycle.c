@@ -1,6 +1,5 @@
 // Frames and figures of the quasi-static cycle: evaluations of its segments, none of them a step in
 // time.
-#include "engine/film/laws.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
@@ -38,8 +37,6 @@ static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *seg
     double own = sb_cycle_seal_friction(cycle, seal, chamber, direction, s);
     if (at.moving) {
       sample->friction[seal] = sign * own;
-      sample->viscous[seal] = sign * cycle->state[seal][chamber][direction].friction_viscous *
-                              sb_cycle_land_share(cycle, seal, chamber, direction, s).width;
     } else if (total > 0) {
       // A stuck stem's friction is split between the seals in proportion to what each can bear.
       sample->friction[seal] = -friction * own / total;
@@ -117,14 +114,14 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   }
   // Film dragged out under the outer seal on the way in, less what comes back (thesis equation
   // 5.21).
-  double net = 0;
+  sb_bore_start(&run->bore, cycle->segment[0].stem0);
   summary->force_peak = 0;
   for (const SbCycleSegment *at = cycle->segment; at < cycle->segment + cycle->count; at++) {
-    const SbSealState *outer = &cycle->state[SB_OUTER][at->chamber][at->direction];
-    net += sb_leak_stroke(run->model->bore_diameter, outer->film_central, at->stem1 - at->stem0);
+    sb_bore_move(&run->bore, at->stem0, at->stem1,
+                 sb_run_layer(run, SB_OUTER, at->chamber, at->direction));
     summary->force_peak = fmax(summary->force_peak, sb_cycle_force(cycle, at->platen1, at->stem1));
   }
-  summary->leakage_per_cycle = sb_run_cycle_leakage(summary, net, summary->returns);
+  sb_run_leakage(summary, run->model, &run->bore, summary->returns);
   summary->steps = cycle->count;
   summary->error_force = summary->error_load + sb_run_error_friction(run);
   summary->error_energy = fmax(summary->energy.closure, summary->error_load + error_work(run));

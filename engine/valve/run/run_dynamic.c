@@ -13,7 +13,6 @@
 // to the tolerance (tested: test_run_limits.c).
 #include "engine/valve/run/run_private.h"
 
-#include "engine/film/laws.h"
 #include "engine/valve/figures.h"
 
 #include <math.h>
@@ -36,7 +35,6 @@ typedef struct {
   bool stopped;                 // the stem touches the end stop
   double force_peak;            // [N]
   double return_least;          // least force that pushed the stem out while it slid back [N]
-  double leak, carried;         // film dragged along, signed and whichever way [m3]
   double leak_from, leak_since; // place [m] and time [s] up to which it is known
   double home;                  // time at which the stem is back on its rest stop [s], 0: not yet
   bool slips;                   // some contact has slid
@@ -46,16 +44,13 @@ typedef struct {
 
 // Film dragged along since the last call, at the film of the present state and of the mean speed.
 static void leak(Recorder *r, double time, double x, double pressure) {
-  const SbRun *run = r->run;
-  const SbSolvedState at =
-      sb_valve_solved(&r->valve, x > r->leak_from ? SB_CYCLE_IN : SB_CYCLE_OUT, pressure);
+  SbRun *run = r->run;
+  const int direction = x > r->leak_from ? SB_CYCLE_IN : SB_CYCLE_OUT;
+  const SbChamber chamber = sb_valve_solved(&r->valve, direction, pressure).chamber;
   double way = x - r->leak_from;
   double speed = time > r->leak_since ? way / (time - r->leak_since) : run->speed;
-  double film = run->cycle.state[SB_OUTER][at.chamber][at.direction].film_central *
-                sb_run_film_at(run, speed);
-  double volume = sb_leak_stroke(run->model->bore_diameter, film, way);
-  r->leak += volume;
-  r->carried += fabs(volume);
+  double layer = sb_run_layer(run, SB_OUTER, chamber, direction) * sb_run_film_at(run, speed);
+  sb_bore_move(&run->bore, r->leak_from, x, layer);
   r->leak_from = x;
   r->leak_since = time;
 }
@@ -195,6 +190,7 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double coarser,
     return status;
   }
   r->leak_from = r->model.start_position;
+  sb_bore_start(&run->bore, r->leak_from);
   sb_dynamics_listen(&r->motion, valve_event, r);
   const SbDriveTimes *times = &r->valve.times;
   const double drive = times->duration;
@@ -337,10 +333,8 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   summary->duration = last->time;
   summary->force_peak = r.force_peak;
   summary->returns = status == SB_OK && fabs(last->displacement) < 1e-6 * model->stroke;
-  // Films alike on both ways leave nothing but rounding.
-  double net = fabs(r.leak) <= 1e-12 * r.carried ? 0 : r.leak;
   bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * model->stroke;
-  summary->leakage_per_cycle = sb_run_cycle_leakage(summary, net, back);
+  sb_run_leakage(summary, model, &run->bore, back);
   sb_run_fill_motion(summary, &r.energy, &counters);
   // Work over less than the rounding of places is none: a stem that is pushed and does not move.
   double pushed = fmax(r.force_peak, model->pressure_force + model->spring_preload);

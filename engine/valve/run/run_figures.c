@@ -42,8 +42,7 @@ static bool presses(const SbRun *run, int seal) {
   return true;
 }
 
-// Leak at rest under the pressure that the rubber itself exerts on the bore (net of the fluid's
-// step).
+// Leak at rest through the real contact at rest that static friction has: its real area.
 static void static_leak(SbRun *run, int seal, SbSealState *out) {
   const SbModel *model = run->model;
   const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
@@ -68,12 +67,27 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
   if (!state->touches || !(state->load_net > 0)) {
     return;
   }
-  SbStatus status = sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
-                                                model->gt_product, &report);
+  SbStatus status = SB_OK;
+  if (model->surface != SB_ROUGH_PERSSON) {
+    status = sb_fail_parameter(&report, SB_ERROR_INFEASIBLE, "models.surface",
+                               "Greenwood and Tripp's independent asperities say nothing near full "
+                               "contact (models.surface = persson does)");
+  } else if (isnan(out->rest_area_share)) {
+    status = sb_fail(&report, SB_ERROR_INFEASIBLE, "the real contact at rest is not known");
+  }
+  out->leak_area_share = status == SB_OK ? out->rest_area_share : NAN;
+  status = status != SB_OK
+               ? status
+               : sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
+                                             model->gt_product, &report);
+  const double modulus = model->seal[seal].reduced_modulus;
   SbPercolationProblem problem = {
       .spectrum = &spectrum,
-      .modulus = model->seal[seal].reduced_modulus,
-      .contact_pressure = out->contact_pressure,
+      .modulus = modulus,
+      // An even pressure with that real contact.
+      .contact_pressure = status == SB_OK ? sb_persson_pressure(&spectrum, spectrum.q1, modulus,
+                                                                out->leak_area_share)
+                                          : 0,
       .viscosity = model->viscosity,
       .pressure_drop = fabs(pressure.left - pressure.right),
       .width = out->contact_width,
@@ -83,11 +97,14 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
   if (status != SB_OK) {
     static const char *const figures[] = {"leakage_static*", "closing_pressure*",
                                           "leak_sensitivity"};
+    out->leak_area_share = NAN;
     for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
       sb_seal_reason(&run->summary, seal, figures[i], "leak at rest: %s", report.text);
     }
-    sb_warn(&run->summary.warnings, "static-leak-unknown", report.parameter,
-            "the leak at rest is not computed: %s", report.text);
+    if (model->surface == SB_ROUGH_PERSSON) { // else a choice of models, no surprise
+      sb_warn(&run->summary.warnings, "static-leak-unknown", report.parameter,
+              "the leak at rest is not computed: %s", report.text);
+    }
     return;
   }
   out->closing_pressure = leak.closing_pressure;
@@ -167,8 +184,7 @@ void sb_run_summarise_seals(SbRun *run) {
     }
     out->friction_boundary = out->boundary_area + out->boundary_load;
     out->coefficient_of_friction = out->load > 0 ? sb_sliding_friction(out) / out->load : NAN;
-    out->leakage_per_stroke =
-        sb_leak_stroke(model->bore_diameter, out->film_central, model->stroke);
+    out->leakage_per_stroke = sb_leak_stroke(model->bore_diameter, 2 * out->layer, model->stroke);
     if (run->plan.seal[seal] >= SB_DEPTH_LEAK) {
       static_leak(run, seal, out);
     }
@@ -176,16 +192,20 @@ void sb_run_summarise_seals(SbRun *run) {
   sb_figures_of_model(&run->summary, model);
 }
 
-double sb_run_cycle_leakage(SbSummary *summary, double carried, bool back) {
+void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore, bool back) {
+  const double circumference = model->bore_circumference;
+  // Films alike on both ways leave nothing but rounding.
+  const double net = bore->out - bore->back;
+  summary->leakage_per_cycle = fabs(net) <= 1e-12 * bore->out ? 0 : circumference * net;
   if (!back) {
+    summary->leakage_per_cycle = NAN;
     sb_reason(summary, "cycle.leakage_per_cycle_m3",
               "the stem does not come back: what the outer seal carried one way (%.3g nl) is no "
               "loss of a cycle",
-              1e12 * carried);
+              1e12 * circumference * bore->out);
     sb_reason(summary, "cycle.leakage_net_all_actuations_m3",
               "the stem does not come back: there is no second actuation");
   }
-  return back ? carried : NAN;
 }
 
 // Why figures of a run, or of a seal (`name` is what follows "seals.NAME."), are missing.
@@ -252,6 +272,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
          "models.asperities = beside: asperities share no load with the film"},
         {done, "film*", "the fluid opens the contact or carries it alone: no film law applies"},
         {done, "lambda", "there is no film"},
+        {done, "squeeze*", "there is no film to squeeze out"},
         {done, "real_area_share", "there is no film to tell it"},
         {done, "friction*", "there is no film to tell it"},
         {done, "coefficient*", "there is no film to tell the friction"},

@@ -71,7 +71,7 @@ static SbLifeActuation yield_of(const SbRun *run, double roughness) {
       .roughness = roughness,
       .lambda = outer->lambda,
       .leakage = summary->leakage_per_cycle,
-      .carried = sb_leak_stroke(run->model->bore_diameter, outer->film_central, run->model->stroke),
+      .carried = sb_leak_stroke(run->model->bore_diameter, 2 * outer->layer, run->model->stroke),
       .force_peak = summary->force_peak,
       .force_breakaway = slip->reached ? slip->force : NAN,
       .force_return = summary->force_return_min,

@@ -46,6 +46,20 @@ typedef struct {
   double begin, end;
 } SbRunEdge;
 
+// What lies on the bore behind a seal, by the stem's displacement, and the volumes by length of
+// circumference that it carried.
+enum { SB_BORE_LAYERS = 512 };
+typedef struct {
+  double end;   // [m]
+  double layer; // from the end of the one before to there [m]
+} SbBoreLayer;
+typedef struct {
+  double start;     // [m]
+  double out, back; // [m2]
+  size_t count;
+  SbBoreLayer item[SB_BORE_LAYERS];
+} SbBore;
+
 // The constrained parts of a run that asks for them (run_bodies.c).
 typedef struct SbRunBodies SbRunBodies;
 void sb_run_bodies_destroy(SbRunBodies *bodies);
@@ -66,6 +80,7 @@ struct SbRun {
   SbDwellLaw rest[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS]; // of contacts that age, over their level
   double film_exponent; // of the film's speed law about it; 0: every frame slides at that speed
   SbSummary summary;
+  SbBore bore;                         // of the last motion, under the outer seal
   SbFilm film;                         // of whoever solves one beside the states
   double friction_error, static_error; // of any state's frictions by its films [N]
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
@@ -140,8 +155,20 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 // (run_film.c). From where a seal's film fails its frames have none (NaN), with a warning.
 SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, SbReport *report);
 
-// The net leak of a stem that came back to where it began; else NaN, with the reason.
-double sb_run_cycle_leakage(SbSummary *summary, double carried, bool back);
+// What the bore brings to a seal's inlet in one of its states (run_supply.c). Those that come
+// before it, in the order of the profiles' indices, are solved.
+SbSupply sb_run_supply(const SbRun *run, int seal, SbChamber chamber, int motion);
+
+// Layer that a sliding seal leaves on the bore, or can take from it [m].
+double sb_run_layer(const SbRun *run, int seal, SbChamber chamber, int direction);
+
+// The stem starts at s. Then it slides, with a film that carries `layer` [m] there.
+void sb_bore_start(SbBore *bore, double s);
+void sb_bore_move(SbBore *bore, double from, double to, double layer);
+
+// The leak of the motion of which these volumes are left; none, with the reason, where the stem
+// does not come back to where it began (run_figures.c).
+void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore, bool back);
 
 // Gives the figures that are missing by the choice of models or by what happened their reasons
 // (run_figures.c). The last step of a run.

@@ -2,13 +2,14 @@
 // were solved with, and a row of the inner ring over the land's edge.
 //
 // A row for each way of sliding: the inner ring while the land's edge and the chamfer beside it
-// pass over it, until the free ring clears the chamfer, dragged on by the state's own law on what
-// still touches. One that rolls has no such states: in its row friction holds the ring at rest
-// where it is against the chamfer's push. A frame takes the last one whose land reaches at least as
-// far over the ring as the frame's own, and its contact: the drawn ring never stands in the
-// housing, and the gap that this leaves is at most the chamfer's rise over one place of the row.
-// That the chamfer still presses the ring when its contact has left the land is drawn, but has no
-// part in the cycle's forces.
+// pass over it, until the free ring clears the chamfer. It begins with the ring as it slides; from
+// then on what touches is held where it lies, so that the shear of sliding stays in it, and the
+// floor holds it against the chamfer's push. (Sliding on over the chamfer has no steady state: it
+// pushes the ring away.) A ring that rolls begins with the one at rest. A frame takes the last one
+// whose land reaches at least as far over the ring as the frame's own, and its contact: the drawn
+// ring never stands in the housing, and the gap that this leaves is at most the chamfer's rise over
+// one place of the row. That the chamfer still presses the ring when its contact has left the land
+// is drawn, but has no part in the cycle's forces.
 //
 // Frames only refer to shapes, so that a film of any length costs the same.
 #include "engine/contact/ring/ring.h"
@@ -17,9 +18,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Of the row over the land's edge: less on the floor lets the chamfer push the ring to its wall.
+// Of the rows over the land's edge: less on the floor lets the chamfer push the ring to its wall;
+// on the bore more than any law, so that what touches stays where sliding laid it.
 static const double edge_floor_friction = 0.5;
-static const double edge_bore_friction = 0.2;
+static const double edge_bore_friction = 1.5;
 
 static uint32_t slot(int seal, int index) {
   return (uint32_t)(seal * SB_RUN_SEAL_SHAPES + index);
@@ -158,21 +160,24 @@ SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *
     return status;
   }
   double begin = state.contact_left;
-  double end = clear_of(&whole->view, run->model->radial_space, &load);
-  if (state.state != SB_RING_SLIDES) {
-    load.bore_slides = 0;
-    load.shear = NULL;
-    load.friction_floor = edge_floor_friction;
-    load.friction_bore = edge_bore_friction;
-  }
+  // Clear of the free ring, and of the contact that sliding has moved.
+  double end = fmax(clear_of(&whole->view, run->model->radial_space, &load),
+                    state.contact_right + load.edge_length);
+  // Held from there on as it lies; a ring that rolls from where it rests.
+  SbRingLoad held = load;
+  held.bore_slides = 0;
+  held.shear = NULL;
+  held.friction_bore = edge_bore_friction;
+  held.friction_floor = fmax(load.friction_floor, edge_floor_friction);
   SbRing *ring;
   counts->ring_solves++;
-  status = sb_ring_create(&ring, &body, &load, options, report);
+  status =
+      sb_ring_create(&ring, &body, state.state == SB_RING_SLIDES ? &load : &held, options, report);
   for (int i = 0; i < SB_RUN_EDGES && status == SB_OK && end > begin; i++) {
-    load.land_left = begin + (double)i / SB_RUN_EDGES * (end - begin);
+    held.land_left = begin + (double)i / SB_RUN_EDGES * (end - begin);
     counts->ring_solves++;
     counts->field_evaluations++;
-    status = sb_ring_step(ring, &load, report);
+    status = sb_ring_step(ring, &held, report);
     status = status == SB_OK ? sb_run_keep_shape(run, SB_INNER, edge_shape(way, i), ring, report)
                              : status;
   }

@@ -272,8 +272,11 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
   SbSlidingMemory *memory = run->memory[of->seal];
   const bool fitment = run->plan.seal[of->seal] == SB_DEPTH_FITMENT;
   const double way[SB_RUN_MOTIONS] = {[SB_CYCLE_IN] = 1, [SB_CYCLE_OUT] = -1};
-  const SbSlidingTask task = {run->model, of->seal, of->pressure,    way[of->motion] * run->speed,
-                              run->speed, memory,   &lane->counters, &lane->warnings};
+  const SbSlidingTask task = {
+      run->model,      of->seal,
+      of->pressure,    way[of->motion] * run->speed,
+      memory,          &lane->counters,
+      &lane->warnings, sb_run_supply(run, of->seal, (SbChamber)of->chamber, of->motion)};
   SbStatus status =
       fitment ? sb_sliding_fitment(state, &task, report) : sb_sliding_solve(state, &task, report);
   if (status == SB_ERROR_NOT_CONVERGED) {

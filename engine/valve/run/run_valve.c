@@ -65,6 +65,17 @@ static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const d
   loads->constant = settled && (still || !valve->varies[region]);
 }
 
+// The viscous force is linear in the speed.
+static void valve_band(SbDynamicsBand *band, double x, size_t region, int direction, double speed,
+                       const double *extra, void *user) {
+  const SbRun *run = ((SbValve *)user)->run;
+  band->high = INFINITY;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    band->slope[seal] =
+        run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN].friction_viscous / run->speed;
+  }
+}
+
 static void valve_cross(size_t edge, int direction, double *extra, void *user) {
   SbValve *valve = user;
   double x = valve->edge[edge];
@@ -212,6 +223,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
       .contacts = SB_SEAL_COUNT,
       .stops = 2,
       .loads = valve_loads,
+      .band = valve_band,
       .cross = valve_cross,
       .mass_at = run->bodies != NULL ? valve_mass : NULL,
       .user = valve,
@@ -231,7 +243,6 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
         return status;
       }
     }
-    out->contact[seal].viscous = state->friction_viscous / run->speed;
   }
   out->stop[SB_REST_STOP] = (SbDynamicsStop){0, -1, INFINITY, 0};
   out->stop[SB_END_STOP] =
@@ -403,7 +414,9 @@ void sb_run_fill_frame(SbFrame *out, const SbRun *run, const SbInstant *at) {
     of->film_central *= film;
     of->lambda *= film;
     of->friction = -sample->friction[seal];
-    of->friction_viscous = -sample->viscous[seal];
-    of->friction_boundary = sample->viscous[seal] - sample->friction[seal];
+    const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+    double viscous = state->friction_viscous / run->speed * sample->speed;
+    of->friction_viscous = at->moving && of->friction != 0 ? viscous : 0;
+    of->friction_boundary = of->friction - of->friction_viscous;
   }
 }

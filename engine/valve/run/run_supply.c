@@ -1,0 +1,88 @@
+// What the strokes find at their inlets, and what lies on the bore.
+//
+// The bore enters the contact from the left on the in-stroke and from the right on the return. Left
+// of a seal is what it holds back, right of it the next room, right of the outer one the air.
+// Liquid floods the inlet; in a room without liquid the bore brings what the stroke before left on
+// it: the layer that the contact let through, flow over speed. The layer is a volume by area, so
+// that one number serves a thin film and a rough gap.
+//
+// Volumes are kept by place, whatever models.inlet says: a seal at displacement s has left a layer
+// on all the bore that it has passed, from its start to s. On the way back it takes from each place
+// what its film can carry there, and no more than lies there; the rest stays outside. So the net
+// leak is never below zero. Left out: that what is not taken back gathers before the inlet and is
+// taken later, and that it dries: the net leak told is the most there can be.
+#include "engine/valve/run/run_private.h"
+
+#include <math.h>
+
+// Whether a seal has liquid on its left or right in a state of the chamber. With ports the chamber
+// at rest stands for the vented one.
+static bool is_wet(const SbModel *model, int seal, SbChamber chamber, bool left) {
+  if (left ? seal == SB_INNER : seal == SB_OUTER) {
+    return left; // the canister; the air
+  }
+  return chamber != SB_CHAMBER_AT_REST || model->pressure_map == SB_MAP_CHAMBER_FILLED;
+}
+
+double sb_run_layer(const SbRun *run, int seal, SbChamber chamber, int direction) {
+  return direction == SB_CYCLE_IN && !is_wet(run->model, seal, chamber, true)
+             ? 0
+             : run->cycle.state[seal][chamber][direction].layer;
+}
+
+SbSupply sb_run_supply(const SbRun *run, int seal, SbChamber chamber, int motion) {
+  const SbModel *model = run->model;
+  const bool in = motion == SB_CYCLE_IN;
+  if (!model->inlet_carried || motion == SB_RUN_REST || is_wet(model, seal, chamber, in)) {
+    return (SbSupply){0};
+  }
+  // A chamber that is cut off again slides back over what it passed at rest; where ports fill and
+  // vent it that is not known beforehand, and the same chamber stands in.
+  const bool ports = model->pressure_map == SB_MAP_PORTS;
+  const SbChamber before = chamber == SB_CHAMBER_CLOSED && !ports ? SB_CHAMBER_AT_REST : chamber;
+  const double layer = in ? 0 : sb_run_layer(run, seal, before, SB_CYCLE_IN);
+  return (SbSupply){true, isfinite(layer) ? layer : 0};
+}
+
+void sb_bore_start(SbBore *bore, double s) {
+  *bore = (SbBore){.start = s};
+}
+
+// Two neighbours become one of their volume.
+static void halve(SbBore *bore) {
+  size_t kept = 0;
+  double from = bore->start;
+  for (size_t i = 0; i < bore->count; i += 2) {
+    const SbBoreLayer a = bore->item[i];
+    const SbBoreLayer b = i + 1 < bore->count ? bore->item[i + 1] : a;
+    const double length = b.end - from;
+    const double volume = a.layer * (a.end - from) + b.layer * (b.end - a.end);
+    bore->item[kept++] = (SbBoreLayer){b.end, length > 0 ? volume / length : 0};
+    from = b.end;
+  }
+  bore->count = kept;
+}
+
+void sb_bore_move(SbBore *bore, double from, double to, double layer) {
+  if (to > from) {
+    SbBoreLayer *last = bore->count > 0 ? &bore->item[bore->count - 1] : NULL;
+    bore->out += layer * (to - from);
+    if (last != NULL && last->layer == layer) {
+      last->end = to;
+      return;
+    }
+    if (bore->count == SB_BORE_LAYERS) {
+      halve(bore);
+    }
+    bore->item[bore->count++] = (SbBoreLayer){to, layer};
+    return;
+  }
+  // Back over the newest layers first; before the start there is none.
+  while (bore->count > 0 && from > to) {
+    SbBoreLayer *last = &bore->item[bore->count - 1];
+    const double begin = bore->count > 1 ? last[-1].end : bore->start, end = fmax(begin, to);
+    bore->back += fmin(layer, last->layer) * (from - end);
+    last->end = from = end;
+    bore->count -= end <= begin;
+  }
+}
