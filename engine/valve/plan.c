@@ -248,7 +248,10 @@ void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size
   for (size_t i = 0; i < count; i++) {
     const SbFigure *figure = sb_figure(figures[i]);
     int seal = strncmp(figure->where, "inner seal", 10) == 0 ? SB_INNER : SB_OUTER;
-    out->seal[seal] = figure->needs > out->seal[seal] ? figure->needs : out->seal[seal];
+    // Friction drags a solved ring: its contact hangs on the film.
+    SbSealDepth needs =
+        out->ring && figure->needs == SB_DEPTH_FITMENT ? SB_DEPTH_SLIDING : figure->needs;
+    out->seal[seal] = needs > out->seal[seal] ? needs : out->seal[seal];
     out->film_laws = out->film_laws || strstr(figure->path, ".film_by_model.") != NULL;
     if (strcmp(figure->path, "solver.error_estimate.film_history") == 0) {
       out->film_history = out->reynolds && model->film_history;
