@@ -913,9 +913,7 @@ SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport 
 SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   bool known;
   sb_warn_about(task->warnings, about(task->seal));
-  // A ring's contact hangs on its friction.
-  SbStatus status =
-      drags(task) ? solve(task, out, report) : fit_contact(task, NULL, out, &known, report);
+  SbStatus status = fit_contact(task, NULL, out, &known, report);
   sb_warn_about(task->warnings, NULL);
   return status;
 }

@@ -91,12 +91,16 @@ typedef struct {
 } SbSlidingTask;
 
 // Evaluates a task. The fitment is reused from the last call when the pressure has not changed. A
-// ring that does not touch has touches = false. SB_ERROR_NOT_CONVERGED with what was computed, the
-// rest NaN; the report names solver and cause.
+// ring (SB_FIT_RING) that slides is dragged by the friction found, of its direction: where it is
+// known from another speed it goes on from there, else cold, so that a state hangs on what was
+// solved before no more than by half the model's tolerance of its friction. One that rolls or jams
+// before is a result, `section` and a warning tell; its figures are those of the greatest drag. At
+// rest it is fitted and pressed without drag. A seal that does not touch has touches = false.
+// SB_ERROR_NOT_CONVERGED with what was computed, the rest NaN; the report names solver and cause.
 SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
-// The fitment alone, as sb_sliding_solve() has it: contact, loads and peak; the rest stays NaN, or
-// 0 where the seal does not touch.
+// The fitment alone, as sb_sliding_solve() has it for all but a ring that slides: contact, loads
+// and peak; the rest stays NaN, or 0 where the seal does not touch.
 SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
 // Surface of a fitted body for the film: the ring's own by static condensation (ring.h), with its

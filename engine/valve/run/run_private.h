@@ -30,7 +30,7 @@ typedef struct {
 // Shapes of a seal: of its steady states, over the land's edge, free.
 enum {
   SB_RUN_SHAPE_EDGE = SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
-  SB_RUN_SHAPE_FREE = SB_RUN_SHAPE_EDGE + SB_RUN_EDGES,
+  SB_RUN_SHAPE_FREE = SB_RUN_SHAPE_EDGE + 2 * SB_RUN_EDGES, // both ways
   SB_RUN_SEAL_SHAPES = SB_RUN_SHAPE_FREE + 1,
   SB_RUN_SHAPES = SB_SEAL_COUNT * SB_RUN_SEAL_SHAPES
 };
@@ -41,6 +41,11 @@ typedef struct {
   SbSealShape view;
   void *data; // all its arrays
 } SbRunShape;
+
+// Where the land's edge shapes the inner ring, in its frame [m]; equal: nowhere.
+typedef struct {
+  double begin, end;
+} SbRunEdge;
 
 // What lies on the bore behind a seal, by the stem's displacement, and the volumes by length of
 // circumference that it carried.
@@ -104,16 +109,15 @@ struct SbRun {
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
   SbRunSurface surface[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS];
   SbRunShape shape[SB_RUN_SHAPES];
-  double edge_begin, edge_end; // of the land's edge in the inner seal's frame, where it shapes
-                               // that ring [m]; equal: nowhere
-  SbReport lacks;              // why there can be no motion; SB_OK: nothing is missing
-  double before_frames;        // share of the work that lies before the first frame
-  double after_frames;         // and behind the last: the rest of a life
-  SbRunBodies *bodies;         // NULL: the reduced form is enough
-  bool follows;                // a later actuation of a life: the first one's errors stand for all
-  SbLifeActuation *life;       // [model.life_actuations], NULL without a life
-  size_t count;                // frames that are complete
-  bool hold;                   // they wait for their films' history before they are published
+  SbRunEdge edge[2];     // of the inner ring, by way of sliding
+  SbReport lacks;        // why there can be no motion; SB_OK: nothing is missing
+  double before_frames;  // share of the work that lies before the first frame
+  double after_frames;   // and behind the last: the rest of a life
+  SbRunBodies *bodies;   // NULL: the reduced form is enough
+  bool follows;          // a later actuation of a life: the first one's errors stand for all
+  SbLifeActuation *life; // [model.life_actuations], NULL without a life
+  size_t count;          // frames that are complete
+  bool hold;             // they wait for their films' history before they are published
   atomic_size_t published;
 };
 
@@ -125,15 +129,18 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
 // Keeps a seal's solved section for drawing, as shape `index` of its own (run_shapes.c).
 SbStatus sb_run_keep_shape(SbRun *run, int seal, int index, const SbRing *ring, SbReport *report);
 
-// Solves the inner ring over the land's edge, and free. Its state at rest must be known.
-SbStatus sb_run_solve_edge(SbRun *run, int seal, SbCounters *counts, const SbRingOptions *options,
-                           SbReport *report);
+// Solves the inner ring over the land's edge for a way of sliding, SB_CYCLE_IN or SB_CYCLE_OUT, in
+// which its state is `from`; and free.
+SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *counts,
+                           const SbRingOptions *options, SbReport *report);
 
-// Shape of a seal in a frame: by its chamber, its motion (SB_CYCLE_IN, SB_CYCLE_OUT, SB_RUN_REST)
-// and, of the inner one while the land's edge lies under it or beyond, the stem's displacement s
-// [m]; else 0.
-// UINT32_MAX if none was solved.
-uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion, double s);
+// Shape of a seal in a frame, by its chamber and its motion (SB_CYCLE_IN, SB_CYCLE_OUT,
+// SB_RUN_REST), its whole contact on the land. UINT32_MAX if none was solved.
+uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion);
+
+// The same of the inner seal while the land's edge lies under it or beyond: by the way of sliding
+// and the stem's displacement s [m].
+uint32_t sb_run_shape_over_edge(const SbRun *run, int way, double s);
 
 // Index of a profile, of a seal's states of contact in chamber and motion.
 uint32_t sb_run_profile_slot(int seal, int chamber, int motion);

@@ -235,6 +235,28 @@ static bool cancelled(void *data) {
   return atomic_load(lane->stop);
 }
 
+// Keeps a state's ring to draw, the inner one's row over the land's edge with it. What cannot be
+// found is not drawn.
+static SbStatus keep_shapes(const Task *of, const SbRing *ring, SbReport *report) {
+  Lane *lane = of->lane;
+  const SbRingOptions options = {.poll = cancelled, .poll_data = lane};
+  const bool in = of->chamber == (int)SB_CHAMBER_AT_REST && of->motion == SB_CYCLE_IN;
+  const bool out = of->chamber == (int)SB_CHAMBER_CLOSED && of->motion == SB_CYCLE_OUT;
+  int index = of->chamber * SB_RUN_MOTIONS + of->motion;
+  lane->counters.field_evaluations++;
+  SbStatus status = sb_run_keep_shape(of->run, of->seal, index, ring, report);
+  if (status != SB_OK || of->seal != SB_INNER || !(in || out)) {
+    return status;
+  }
+  status = sb_run_solve_edge(of->run, of->motion, ring, &lane->counters, &options, report);
+  if (status == SB_OK || status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    return status;
+  }
+  sb_warn(&lane->warnings, "ring-shape", "models.fit",
+          "no solved shape of the inner ring over the land's edge: drawn schematically");
+  return SB_OK;
+}
+
 // Solves one state and takes its errors, its surface, its profile and its shape.
 // SB_ERROR_NOT_CONVERGED with what there is all the same.
 static SbStatus solve_state(const Task *of, SbReport *report) {
@@ -285,31 +307,10 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
   lane->error_film = fmax(lane->error_film, state->film_error);
   const SbRing *ring = sb_sliding_ring(memory);
   SbStatus kept = run->plan.profiles ? make_profile(of, report) : SB_OK;
-  if (kept == SB_OK && run->plan.section_fields && ring != NULL && fit->solver.converged) {
-    lane->counters.field_evaluations++;
-    kept =
-        sb_run_keep_shape(run, of->seal, of->chamber * SB_RUN_MOTIONS + of->motion, ring, report);
+  if (kept == SB_OK && run->plan.section_fields && ring != NULL && state->load > 0) {
+    kept = keep_shapes(of, ring, report);
   }
   return kept != SB_OK ? kept : status;
-}
-
-// The inner ring over the land's edge. What cannot be found is not drawn.
-static SbStatus solve_edge(Lane *lane, SbReport *report) {
-  SbRun *run = lane->run;
-  const SbRingOptions options = {.poll = cancelled, .poll_data = lane};
-  const SbSealState *rest = &run->cycle.state[lane->seal][SB_CHAMBER_AT_REST][SB_RUN_REST];
-  if (!run->plan.section_fields || lane->seal != SB_INNER || !(rest->load > 0)) {
-    return SB_OK;
-  }
-  SbStatus status = sb_run_solve_edge(run, lane->seal, &lane->counters, &options, report);
-  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
-    return status;
-  }
-  if (status != SB_OK) {
-    sb_warn(&lane->warnings, "ring-shape", "models.fit",
-            "no solved shape of the inner ring over the land's edge: drawn schematically");
-  }
-  return SB_OK;
 }
 
 // Whether a status ends a seal's states.
@@ -347,9 +348,6 @@ static void *solve_lane(void *data) {
       lane->report = own; // of failures to converge the first is told
       lane->status = status;
     }
-  }
-  if (lane->status == SB_OK) {
-    lane->status = solve_edge(lane, &lane->report);
   }
   return NULL;
 }

@@ -510,8 +510,10 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
   }
   const int motion = moving ? direction : SB_RUN_REST;
   const SbSealPressure pressure = sb_model_seal_pressure(model, seal, chamber);
-  const uint32_t drawn = sb_run_shape_index(run, seal, chamber, motion, on.width < 1 ? s : 0);
-  const SbSealShape *shape = on.width < 1 ? sb_run_shape(run, drawn) : NULL;
+  const bool edged = seal == SB_INNER && on.width < 1 && run->plan.section_fields;
+  const uint32_t over = edged ? sb_run_shape_over_edge(run, direction, s) : UINT32_MAX;
+  const uint32_t drawn = over != UINT32_MAX ? over : sb_run_shape_index(run, seal, chamber, motion);
+  const SbSealShape *shape = sb_run_shape(run, over);
   const double width = state.contact_right - state.contact_left;
   // The edge takes the contact away from the canister side.
   *out = (SbSealFrame){
@@ -522,7 +524,9 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
                      ? sb_run_profile_slot(seal, (int)chamber, motion)
                      : UINT32_MAX,
       .shape = drawn,
-      .contact_left = shape != NULL ? shape->contact_left : state.contact_right - on.width * width,
+      .contact_left = shape != NULL  ? shape->contact_left
+                      : on.width < 1 ? state.contact_right - on.width * width
+                                     : state.contact_left,
       .contact_right = shape != NULL ? shape->contact_right : state.contact_right,
       .load = on.load * state.load,
       .pressure_peak = peak_on(state.pressure_peak, on.width),
