@@ -29,7 +29,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { ITERATIONS_MAX = 16, ITERATIONS_MAX_ROUGH = 40 };
+enum { ITERATIONS_MAX = 24, ITERATIONS_MAX_ROUGH = 40 };
 
 // A residual, or a step of rough rows, this much smaller than the last lets the next step take the
 // same factors: it then gains what the last one gained. A step of rough rows is to be CLOSE.
@@ -226,7 +226,9 @@ static bool step_smooth(Progress *p, SbEhlSolution *s) {
   state->H0 += factor * step[dofs];
   state->flux += factor * step[dofs + 1];
   state->shift += order_of(s) > dofs + 2 ? factor * step[dofs + 2] : 0.0;
-  return factor > 1e-3 && state->flux > 0.0;
+  // A start that is none shows soon.
+  const bool hopeless = p->iteration > 9 && p->before > 1.0;
+  return factor > 1e-3 && state->flux > 0.0 && !hopeless;
 }
 
 // ---------------------------------------------------------------- rough rows
