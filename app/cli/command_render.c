@@ -266,7 +266,7 @@ static SbStatus compute(SbRun **run, const SbModel *model, const char *view, SbR
   SbStatus status = sb_run_create(run, model, &plan, report);
   if (status == SB_OK) {
     sb_cli_catch_interrupts();
-    SbRunHooks hooks = {on_progress, on_cancelled, &progress};
+    SbRunHooks hooks = {.progress = on_progress, .cancelled = on_cancelled, .data = &progress};
     status = sb_run_execute(*run, &hooks, report);
     sb_progress_end(&progress);
   }

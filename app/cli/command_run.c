@@ -197,7 +197,7 @@ static int judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *doc
   g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
   SbProgress progress;
   sb_progress_start(&progress, "cases ");
-  SbRunHooks hooks = {on_progress, on_cancelled, &progress};
+  SbRunHooks hooks = {.progress = on_progress, .cancelled = on_cancelled, .data = &progress};
   SbStatus status = sb_cases_judge(verdict, run, document, &hooks, problems);
   sb_progress_end(&progress);
   for (guint i = 0; i < problems->len; i++) {
@@ -226,7 +226,7 @@ static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *opt
   SbProgress progress;
   sb_progress_start(&progress, "");
   sb_cli_catch_interrupts();
-  SbRunHooks hooks = {on_progress, on_cancelled, &progress};
+  SbRunHooks hooks = {.progress = on_progress, .cancelled = on_cancelled, .data = &progress};
   status = sb_run_execute(run, &hooks, &report);
   sb_progress_end(&progress);
   int code = sb_cli_status(status, &report);

@@ -360,7 +360,7 @@ SbSceneStatus sb_scene_run(SbScene *scene) {
     scene->run = NULL;
     return report(scene, status, &why);
   }
-  const SbRunHooks hooks = {on_progress, is_cancelled, scene};
+  const SbRunHooks hooks = {.progress = on_progress, .cancelled = is_cancelled, .data = scene};
   return report(scene, sb_run_execute(scene->run, &hooks, &why), &why);
 }
 

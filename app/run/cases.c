@@ -48,7 +48,7 @@ SbStatus sb_cases_judge(SbCaseVerdict out[SB_VERDICT_COUNT], const SbRun *run,
   }
   SbStatus worst = SB_OK;
   Share share = {hooks, 0, sb_document_case_count(document)};
-  const SbRunHooks own = {on_progress, on_cancelled, &share};
+  const SbRunHooks own = {.progress = on_progress, .cancelled = on_cancelled, .data = &share};
   g_autoptr(GPtrArray) issues = sb_issues_new();
   for (; share.index < share.count; share.index++) {
     const char *name = sb_document_case_name(document, share.index);

@@ -123,7 +123,7 @@ static void compute(SbRunner *runner, const SbModel *model, unsigned views, unsi
   if (handle->status == SB_OK) {
     show(runner, handle);
     Job job = {runner, handle, 0};
-    SbRunHooks hooks = {on_progress, is_cancelled, &job};
+    SbRunHooks hooks = {.progress = on_progress, .cancelled = is_cancelled, .data = &job};
     handle->status = sb_run_execute(handle->run, &hooks, &handle->report);
     atomic_store_explicit(&handle->permille, 1000, memory_order_relaxed);
     atomic_store_explicit(&handle->done, true, memory_order_release);

@@ -106,7 +106,8 @@ static double patch_speed(const SbDynamics *s, size_t i) {
 // A sliding contact without a damper has the deflection of its level at once, if that is not more
 // than it has (false).
 static bool spring_back(SbDynamics *s, size_t i) {
-  double level = sb_motion_sliding_level(s, i, s->loads.level[i], fabs(s->at.v));
+  double level = sb_motion_level(&s->loads, i, s->sign[i]);
+  level = sb_motion_sliding_level(s, i, level, fabs(s->at.v));
   double to = s->sign[i] * level / s->model->contact[i].stiffness;
   if (fabs(to) < fabs(s->at.d[i])) {
     jump_deflection(s, i, to);
@@ -224,6 +225,7 @@ static void rigid_event(SbDynamics *s, int direction) {
   if (s->held) {
     // Breaks away; the speed is still zero.
     tell(s, SB_MOTION_SLIP, -1, direction);
+    s->direction = direction;
     for (size_t i = 0; i < m->contacts; i++) {
       if (is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK) {
         s->state[i] = SB_CONTACT_SLIP;
@@ -241,12 +243,13 @@ static void rigid_event(SbDynamics *s, int direction) {
   Point p;
   double hold = 0.0;
   sb_motion_point(&p, s, s->t, &s->at);
+  const int pulled = p.sum.f0 > 0.0 ? 1 : -1;
   for (size_t i = 0; i < m->contacts; i++) {
     bool holds = is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK;
-    hold += holds ? sb_motion_holding(s, &p, i) : 0.0;
+    hold += holds ? sb_motion_holding(s, &p, i, pulled) : 0.0;
   }
   if (fabs(p.sum.f0) > hold) {
-    rigid_event(s, p.sum.f0 > 0.0 ? 1 : -1);
+    rigid_event(s, pulled);
   }
 }
 
@@ -268,6 +271,7 @@ static void contact_event(SbDynamics *s, size_t i, int direction) {
     return;
   }
   tell(s, SB_MOTION_SLIP, (int)i, direction);
+  s->direction = direction; // should the stem have no speed yet
   s->slipped[i] = s->t;
   s->state[i] = SB_CONTACT_SLIP;
   s->sign[i] = direction;
@@ -277,14 +281,24 @@ static void contact_event(SbDynamics *s, size_t i, int direction) {
   }
 }
 
+// The stem's speed leaves its band, at rest into that of the other direction.
+static void speed_event(SbDynamics *s, int side) {
+  s->at.v = s->direction * (side > 0 ? s->band.high : s->band.low);
+  s->fell = side < 0;
+  s->direction = s->at.v == 0.0 ? -s->direction : s->direction;
+}
+
 static void apply(SbDynamics *s, int event) {
-  s->counters.events += event != EVENT_BREAK;
+  s->counters.events +=
+      event != EVENT_BREAK && event != EVENT_SPEED_UP && event != EVENT_SPEED_DOWN;
   if (event >= EVENT_CONTACT_DOWN) {
     contact_event(s, (size_t)(event - EVENT_CONTACT_DOWN), -1);
   } else if (event >= EVENT_CONTACT_UP) {
     contact_event(s, (size_t)(event - EVENT_CONTACT_UP), 1);
   } else if (event >= EVENT_STOP) {
     wall_event(s, (size_t)(event - EVENT_STOP));
+  } else if (event >= EVENT_SPEED_UP) {
+    speed_event(s, event == EVENT_SPEED_UP ? 1 : -1);
   } else if (event >= EVENT_RIGID_UP) {
     rigid_event(s, event == EVENT_RIGID_UP ? 1 : -1);
   } else if (event == EVENT_PLATEN) {
@@ -459,14 +473,13 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
   for (size_t i = 0; i < m->contacts; i++) {
     out->contact[i] = s->state[i];
     out->deflection[i] = z.d[i];
-    out->viscous[i] = s->state[i] == SB_CONTACT_OFF ? 0.0 : -m->contact[i].viscous * z.v;
-    out->friction[i] = force_of(&p.contact[i], &p) + out->viscous[i];
+    out->friction[i] = force_of(&p.contact[i], &p) + force_of(&p.beside[i], &p);
     bool holds = is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK;
-    holding += holds ? sb_motion_holding(s, &p, i) : 0.0;
+    holding += holds ? sb_motion_holding(s, &p, i, total > 0.0 ? 1 : -1) : 0.0;
   }
   for (size_t i = 0; i < m->contacts && total != 0.0 && holding > 0.0; i++) {
     if (is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK) {
-      out->friction[i] = -total * sb_motion_holding(s, &p, i) / holding;
+      out->friction[i] = -total * sb_motion_holding(s, &p, i, total > 0.0 ? 1 : -1) / holding;
     }
   }
 }

@@ -5,31 +5,34 @@
 // (thesis ch. 4 with its one degree of freedom; friction and contact laws below are ours where the
 // thesis has none.) x > 0 is the in-stroke, compression of the drive is positive.
 //
-// Friction. A contact carries a Coulomb level L [N] given by the caller for where the stem is. It
-// sticks up to L (static_ratio + dwell_gain ln(1 + dwell/dwell_time)); it slides at
-// L [1 + (static_ratio - 1) exp(-(speed/stribeck_speed)^stribeck_exponent)], or at L from the first
-// slip if stribeck_speed is 0; `viscous` times the stem's speed acts beside it. A contact with
-// finite `stiffness` joins stem and bore through the seal's tangential spring and damper
-// (pre-sliding, thesis slope A-B): its patch does not move at all while it sticks. A rigid contact
-// (stiffness INFINITY) holds the stem itself at rest, exactly. Contacts that the land does not
-// reach have level 0.
+// Friction. A contact carries a level L [N] given by the caller for where the stem is: its friction
+// as the speed goes to 0. It sticks up to L (static_ratio + dwell_gain ln(1 + dwell/dwell_time)),
+// or up to L times a law of the dwell that comes with the level (dwell.h);
+// it slides at L [1 + (static_ratio - 1) exp(-(speed/stribeck_speed)^stribeck_exponent)], or at L
+// from the first slip if stribeck_speed is 0. What the speed changes of it beyond that the caller
+// gives as bands of the stem's speed in which it is straight, continuous from one to the next;
+// rising or falling, it acts beside the tangential spring. A contact with finite `stiffness` joins
+// stem and bore through the seal's tangential spring and damper (pre-sliding, thesis slope A-B):
+// its patch does not move at all while it sticks. A rigid contact (stiffness INFINITY) holds the
+// stem itself at rest, exactly. Contacts that the land does not reach have level 0.
 //
 // Stops. Spring and damper in one direction, the damper from the restitution of a free impact that
 // ends when the force does (Schwager and Poeschel 2007); stiffness INFINITY is an impact law, at
 // rest once a rebound would stay below 1 pm. A massless stop or platen that is left behind relaxes
 // by its own damper and can be met again.
 //
-// Method. Between events the motion is linear in almost all models: closed form (oscillator.h),
-// events found by bounds, resting costs nothing, nor does stick-slip that repeats itself.
-// Velocity-dependent sliding, position-dependent loads and sinusoids go through Radau IIA with
-// error control and events located by re-stepping. Each energy term is integrated by itself; their
-// balance is a result, not a construction. Nothing is allocated. Leaves out: rotation and tilt of
-// the stem, wave motion in the parts, a speed law evaluated at the patch (it uses the stem's
-// speed).
+// Method. Between events, of which leaving a band of speed is one, the motion is linear in almost
+// all models: closed form (oscillator.h), events found by bounds, resting costs nothing, nor does
+// stick-slip that repeats itself. Stribeck's exponential, position-dependent loads and sinusoids go
+// through Radau IIA with error control and events located by re-stepping. Each energy term is
+// integrated by itself; their balance is a result, not a construction. Nothing is allocated. Leaves
+// out: rotation and tilt of the stem, wave motion in the parts, a speed law evaluated at the patch
+// (it uses the stem's speed).
 #pragma once
 
 #include "engine/base/status.h"
 #include "engine/mechanism/drive.h"
+#include "engine/mechanism/dwell.h"
 #include "engine/mechanism/oscillator.h"
 #include "engine/mechanism/radau.h"
 
@@ -42,10 +45,9 @@ enum {
 typedef struct {
   double static_ratio;      // >= 1
   double dwell_gain;        // >= 0, per factor e of rest
-  double dwell_time;        // s, > 0 if dwell_gain > 0; the same for all rigid contacts
+  double dwell_time;        // s, > 0 if dwell_gain > 0
   double stribeck_speed;    // m/s; 0: static_ratio is lost at the first slip
   double stribeck_exponent; // > 0 if stribeck_speed > 0
-  double viscous;           // N s/m, while the contact carries load
   double stiffness;         // N/m; INFINITY: rigid
   double damping;           // N s/m, of the tangential spring; 0 if rigid
 } SbDynamicsContact;
@@ -60,10 +62,21 @@ typedef struct {
 // What the valve does to the stem at one place: net force on it [N] and the contacts' levels [N].
 typedef struct {
   double force;                       // N
-  double level[SB_DYNAMICS_CONTACTS]; // N
+  double level[SB_DYNAMICS_CONTACTS]; // N, of sliding to +x
+  double back[SB_DYNAMICS_CONTACTS];  // N, by how much that of sliding to -x is larger
+  // What holds at rest over the level, by dwell; borrowed, NULL: the contact's own constants.
+  const SbDwellLaw *rest[SB_DYNAMICS_CONTACTS];
   bool constant; // neither changes before the next edge is crossed, nor does the extra state
   bool settled;  // the extra state does not change while the stem does not move
 } SbDynamicsLoads;
+
+// What the speed adds to the level of contacts that slide with the stem: rise + slope |v| [N], for
+// |v| from low up to but not including high; 0 at rest.
+typedef struct {
+  double low, high;                   // m/s; high = INFINITY: for all above
+  double rise[SB_DYNAMICS_CONTACTS];  // N
+  double slope[SB_DYNAMICS_CONTACTS]; // N s/m, of either sign
+} SbDynamicsBand;
 
 typedef struct {
   double mass;                             // kg, > 0
@@ -75,6 +88,10 @@ typedef struct {
   double edge[SB_DYNAMICS_EDGES]; // m, increasing; region r lies between edge[r-1] and edge[r]
   // Loads in a region; called once a region if constant. NULL: none.
   void (*loads)(SbDynamicsLoads *loads, double x, size_t region, const double *extra, void *user);
+  // The band of speed |v| in direction +1 or -1; asked for once a band where the loads are
+  // constant, else like them, for any speed in it. NULL: friction does not depend on speed.
+  void (*band)(SbDynamicsBand *band, double x, size_t region, int direction, double speed,
+               const double *extra, void *user);
   // The stem crosses edge[i] in direction +1 or -1: the caller may change `extra` or its own state.
   void (*cross)(size_t edge, int direction, double *extra, void *user);
   // Rate of the extra state (a chamber pressure), asked for while loads vary; NULL: there is none.
@@ -121,8 +138,8 @@ typedef struct {
     struct {
       double drive;    // work done by the drive at its moving end
       double pressure; // work of the loads' force
-      double friction; // sliding patches
-      double viscous;  // `viscous` and `damping`
+      double friction; // sliding contacts
+      double viscous;  // `damping`
       double seal;     // dampers of the tangential springs
       double stop;     // stops
       double machine;  // damper of the drive
@@ -142,8 +159,7 @@ typedef struct {
   double drive_position;                         // m
   double drive_force, loads_force, spring_force; // on the stem, N
   double stop_force[SB_DYNAMICS_STOPS];          // reaction, >= 0, N
-  double friction[SB_DYNAMICS_CONTACTS];         // force on the stem, viscous part included, N
-  double viscous[SB_DYNAMICS_CONTACTS];          // that part, N
+  double friction[SB_DYNAMICS_CONTACTS];         // force on the stem, N
   double deflection[SB_DYNAMICS_CONTACTS];       // of the tangential spring, m
   SbContactState contact[SB_DYNAMICS_CONTACTS];
   double extra; // the caller's
@@ -203,6 +219,10 @@ typedef struct {
   bool fresh[SB_DYNAMICS_CONTACTS]; // newly loaded: sticks up to the sliding level only
   size_t region;
   SbDynamicsLoads loads;
+  // Of the speed in the present segment, if a contact slides; which way; it fell out of the last.
+  SbDynamicsBand band;
+  int direction;
+  bool banded, fell;
   SbDynamicsWall wall[SB_DYNAMICS_WALLS]; // the stops, and the platen
   SbDriveState drive;
   SbDrivePiece piece;

@@ -15,7 +15,6 @@ static SbStatus check_contact(const SbDynamicsModel *m, size_t i, SbReport *repo
       {"", "its Stribeck speed [m/s]", c->stribeck_speed, 0.0, INFINITY},
       {"", "its Stribeck exponent", c->stribeck_exponent,
        c->stribeck_speed > 0.0 ? DBL_MIN : -INFINITY, INFINITY},
-      {"", "its viscous friction [N s/m]", c->viscous, SB_NOT_NEGATIVE},
       {"", "its tangential stiffness [N/m]", c->stiffness, DBL_MIN, INFINITY},
       {"", "its tangential damping [N s/m]", c->damping, SB_NOT_NEGATIVE});
   if (status != SB_OK) {
@@ -26,12 +25,6 @@ static SbStatus check_contact(const SbDynamicsModel *m, size_t i, SbReport *repo
                    "contact %zu: friction that depends on speed through an elastic seal needs "
                    "tangential damping above 0",
                    i);
-  }
-  for (size_t k = 0; k < i; k++) {
-    if (is_rigid(m, i) && is_rigid(m, k) && c->dwell_gain > 0.0 && m->contact[k].dwell_gain > 0.0 &&
-        m->contact[k].dwell_time != c->dwell_time) {
-      return sb_fail(report, SB_ERROR_INPUT, "rigid contacts must share one dwell time");
-    }
   }
   return sb_succeed(report);
 }

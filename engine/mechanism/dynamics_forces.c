@@ -64,7 +64,8 @@ void sb_motion_wall_force(Force *force, const SbDynamics *s, size_t w, double t,
 static void contact_force(Force *force, const SbDynamics *s, size_t i, const Point *p) {
   const SbDynamicsContact *c = &s->model->contact[i];
   if (s->state[i] == SB_CONTACT_SLIP) {
-    force->f0 = -s->sign[i] * sb_motion_sliding_level(s, i, p->loads.level[i], s->sign[i] * p->v);
+    double level = sb_motion_level(&p->loads, i, s->sign[i]);
+    force->f0 = -s->sign[i] * sb_motion_sliding_level(s, i, level, s->sign[i] * p->v);
   } else if (s->state[i] == SB_CONTACT_STUCK && !is_rigid(s->model, i)) {
     force->f0 = -c->stiffness * p->z->d[i];
     force->k = c->stiffness;
@@ -90,6 +91,13 @@ void sb_motion_point(Point *p, const SbDynamics *s, double t, const SbDynamicsSt
     p->loads = (SbDynamicsLoads){0};
     m->loads(&p->loads, z->x, s->region, &z->extra, m->user);
   }
+  SbDynamicsBand other = {0};
+  const SbDynamicsBand *band = &s->band;
+  if (s->banded && !s->loads.constant) {
+    double inside = isfinite(band->high) ? 0.5 * (band->low + band->high) : band->low;
+    m->band(&other, z->x, s->region, s->direction, inside, &z->extra, m->user);
+    band = &other;
+  }
   p->rigid = p->sum.f1 = 0.0;
   p->sum.f0 = p->loads.force - m->spring_preload - m->spring_stiffness * z->x;
   p->sum.k = m->spring_stiffness;
@@ -103,13 +111,16 @@ void sb_motion_point(Point *p, const SbDynamics *s, double t, const SbDynamicsSt
     }
   }
   for (size_t i = 0; i < m->contacts; i++) {
-    p->contact[i] = (Force){0};
+    p->contact[i] = p->beside[i] = (Force){0};
     if (s->state[i] != SB_CONTACT_OFF) {
       contact_force(&p->contact[i], s, i, p);
       add(&p->sum, &p->contact[i]);
-      p->sum.c += m->contact[i].viscous;
-      p->rigid += is_rigid(m, i) ? p->contact[i].f0 : 0.0;
     }
+    if (s->banded && s->state[i] == SB_CONTACT_SLIP && s->sign[i] == s->direction) {
+      p->beside[i] = (Force){.f0 = -s->direction * band->rise[i], .c = band->slope[i]};
+      add(&p->sum, &p->beside[i]);
+    }
+    p->rigid += is_rigid(m, i) ? p->contact[i].f0 + p->beside[i].f0 : 0.0;
   }
 }
 
@@ -138,7 +149,7 @@ double sb_motion_deflection_at(const SbDynamics *s, size_t i, double tau, double
     return s->at.d[i];
   }
   double fading = c->stiffness / c->damping;
-  double end = s->sign[i] * s->loads.level[i] / c->stiffness;
+  double end = s->sign[i] * sb_motion_level(&s->loads, i, s->sign[i]) / c->stiffness;
   double left = (s->at.d[i] - end) * exp(-fading * tau);
   *rate = -fading * left;
   return end + left;
@@ -191,10 +202,10 @@ void sb_motion_add_energy(double *term, const SbDynamics *s, const Point *p, con
     if (s->state[i] == SB_CONTACT_OFF) {
       continue;
     }
-    term[VISCOUS] += m->contact[i].viscous * over->square;
     term[SEAL] += m->contact[i].damping * over->fade[i];
     if (s->state[i] == SB_CONTACT_SLIP) {
-      term[FRICTION] -= p->contact[i].f0 * (over->travel - over->shift[i]);
+      term[FRICTION] -= p->contact[i].f0 * (over->travel - over->shift[i]) +
+                        p->beside[i].f0 * over->travel - p->beside[i].c * over->square;
     }
   }
 }
@@ -230,7 +241,7 @@ static double sum_size(const SbDynamics *s, const Point *p) {
     size += s->wall[w].on && !rigid(s->wall[w].stiffness) ? wall_size(s, p, w) : 0.0;
   }
   for (size_t i = 0; i < s->model->contacts; i++) {
-    size += fabs(p->contact[i].f0);
+    size += fabs(p->contact[i].f0) + fabs(p->beside[i].f0);
   }
   return size;
 }
@@ -269,32 +280,51 @@ static bool wall_function(const SbDynamics *s, const Point *p, size_t w, SbEvent
 }
 
 // Adds what contact i can hold from now on.
-static void add_holding(const SbDynamics *s, const Point *p, size_t i, SbEventFunction *g) {
+static void add_holding(const SbDynamics *s, const Point *p, size_t i, int direction,
+                        SbEventFunction *g) {
   const SbDynamicsContact *c = &s->model->contact[i];
-  double level = p->loads.level[i];
+  double level = sb_motion_level(&p->loads, i, direction), dwell = fmax(0.0, p->t - s->since[i]),
+         until;
+  const SbDwellPiece own = {0.0, c->dwell_time, c->static_ratio, c->dwell_gain}, *piece = &own;
   g->constant += s->margin[i];
-  if (s->fresh[i]) {
+  if (p->loads.rest[i] != NULL) {
+    piece = sb_dwell_piece(&until, p->loads.rest[i], dwell + sb_motion_time_noise(p->t));
+  } else if (s->fresh[i]) {
     g->constant += sb_motion_sliding_level(s, i, level, 0.0);
     return;
   }
-  g->constant += level * c->static_ratio;
-  if (c->dwell_gain > 0.0) {
-    // Rigid contacts share one dwell time and rest together, so that gains add.
-    g->log_gain += level * c->dwell_gain;
-    g->log_time = c->dwell_time;
-    g->log_start = fmax(0.0, p->t - s->since[i]);
+  g->constant += level * piece->value;
+  if (piece->gain > 0.0 && level > 0.0) {
+    g->log[g->logs].gain = level * piece->gain;
+    g->log[g->logs].start = fmax(0.0, dwell - piece->from);
+    g->log[g->logs++].time = piece->time;
   }
+}
+
+double sb_motion_rest_ends(const SbDynamics *s, const Point *p) {
+  double ends = INFINITY;
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    if (s->state[i] == SB_CONTACT_STUCK && p->loads.rest[i] != NULL) {
+      double until, dwell = fmax(0.0, p->t - s->since[i]);
+      (void)sb_dwell_piece(&until, p->loads.rest[i], dwell + sb_motion_time_noise(p->t));
+      ends = fmin(ends, until - dwell);
+    }
+  }
+  return ends;
 }
 
 // A function's value at the point itself.
 static double value_of(const SbEventFunction *g, double v) {
-  double gained = g->log_gain > 0.0 ? g->log_gain * log1p(g->log_start / g->log_time) : 0.0;
-  return g->constant + g->of_v * v + g->relax + gained;
+  double value = g->constant + g->of_v * v + g->relax;
+  for (int i = 0; i < g->logs; i++) {
+    value += g->log[i].gain * log1p(g->log[i].start / g->log[i].time);
+  }
+  return value;
 }
 
-double sb_motion_holding(const SbDynamics *s, const Point *p, size_t i) {
+double sb_motion_holding(const SbDynamics *s, const Point *p, size_t i, int direction) {
   SbEventFunction g = {0};
-  add_holding(s, p, i, &g);
+  add_holding(s, p, i, direction, &g);
   return value_of(&g, 0.0);
 }
 
@@ -325,7 +355,7 @@ static bool rigid_function(const SbDynamics *s, const Point *p, int side, SbEven
       return side > 0;
     }
     any = true;
-    add_holding(s, p, i, g);
+    add_holding(s, p, i, side, g);
   }
   // On a rigid stop the stop carries first.
   for (size_t w = 0; w < m->stops; w++) {
@@ -344,7 +374,22 @@ static bool contact_function(const SbDynamics *s, const Point *p, size_t i, int 
     return side > 0 && !(s->held && s->model->contact[i].damping == 0.0);
   }
   *g = function_of(&p->contact[i], side, fabs(p->contact[i].f0));
-  add_holding(s, p, i, g);
+  add_holding(s, p, i, side, g);
+  return true;
+}
+
+// Speed left in the band. It ends at rest only for elastic contacts: a rigid one rests there.
+static bool speed_function(const SbDynamics *s, int side, SbEventFunction *g) {
+  const SbDynamicsBand *band = &s->band;
+  bool rests = false;
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    rests = rests || (is_rigid(s->model, i) && s->state[i] == SB_CONTACT_SLIP);
+  }
+  if (!s->banded || (side > 0 ? isinf(band->high) : band->low == 0.0 && rests)) {
+    return false;
+  }
+  *g = (SbEventFunction){.constant = side > 0 ? band->high : -band->low,
+                         .of_v = -side * s->direction};
   return true;
 }
 
@@ -366,6 +411,8 @@ bool sb_motion_event_function(const SbDynamics *s, const Point *p, int event, Sb
     live = contact_function(s, p, (size_t)(event - EVENT_CONTACT_UP), 1, g);
   } else if (event >= EVENT_STOP) {
     live = wall_function(s, p, (size_t)(event - EVENT_STOP), g);
+  } else if (event >= EVENT_SPEED_UP) {
+    live = speed_function(s, event == EVENT_SPEED_UP ? 1 : -1, g);
   } else if (event >= EVENT_RIGID_UP) {
     live = rigid_function(s, p, event == EVENT_RIGID_UP ? 1 : -1, g);
   } else if (event == EVENT_PLATEN) {

@@ -4,6 +4,9 @@
 
 #include "engine/mechanism/dynamics.h"
 
+#include <float.h>
+#include <math.h>
+
 // Everything that can end a segment; of those at one time the first counts. Stops and contacts
 // follow each other by index.
 enum {
@@ -14,6 +17,8 @@ enum {
   EVENT_PLATEN,   // platen or finger touches or is left
   EVENT_RIGID_UP, // rigid contacts: slip forward, or come to rest
   EVENT_RIGID_DOWN,
+  EVENT_SPEED_UP, // the stem's speed leaves its band
+  EVENT_SPEED_DOWN,
   EVENT_STOP,
   EVENT_CONTACT_UP = EVENT_STOP + SB_DYNAMICS_STOPS,
   EVENT_CONTACT_DOWN = EVENT_CONTACT_UP + SB_DYNAMICS_CONTACTS,
@@ -33,7 +38,8 @@ typedef struct {
   double v;                 // speed, 0 if held [m/s]
   SbDynamicsLoads loads;
   Force wall[SB_DYNAMICS_WALLS], contact[SB_DYNAMICS_CONTACTS]; // 0 where nothing acts
-  Force sum;    // of these, the loads, the return spring and what is viscous
+  Force beside[SB_DYNAMICS_CONTACTS]; // of a contact that slides: what the speed adds
+  Force sum;                          // of these, the loads, the return spring and what is viscous
   double rigid; // of sum.f0, rigid contacts that slide [N]; at rest they, like rigid stops, are 0
 } Point;
 
@@ -89,10 +95,15 @@ Moving sb_motion_wall_at(const SbDynamics *s, size_t w, double t);
 // Deflection that wall w has at (t, x); of one that was left what remains of it [m].
 double sb_motion_deflection(const SbDynamics *s, size_t w, double t, double x);
 
+// Level of contact i in a direction [N].
+static inline double sb_motion_level(const SbDynamicsLoads *loads, size_t i, int direction) {
+  return loads->level[i] + (direction < 0 ? loads->back[i] : 0.0);
+}
+
 // Level times the factor of the sliding speed.
 double sb_motion_sliding_level(const SbDynamics *s, size_t i, double level, double speed);
 
-// Whether the law of contact i depends on the speed.
+// Whether the law of contact i is no straight line in a band of speed.
 bool sb_motion_speed_dependent(const SbDynamicsModel *m, size_t i);
 
 // Force of wall w, as if it touched a stem at x.
@@ -106,8 +117,16 @@ static inline double force_of(const Force *force, const Point *p) {
   return force->f0 - force->c * p->v;
 }
 
-// Largest force that contact i can hold at p.
-double sb_motion_holding(const SbDynamics *s, const Point *p, size_t i);
+// Size of the rounding of time t [s]: of two times closer than that neither comes first.
+static inline double sb_motion_time_noise(double t) {
+  return 8.0 * DBL_EPSILON * fabs(t);
+}
+
+// How long the pieces of their laws hold for contacts that rest at p [s], maybe INFINITY.
+double sb_motion_rest_ends(const SbDynamics *s, const Point *p);
+
+// Largest force that contact i can hold at p against the stem's going in `direction`.
+double sb_motion_holding(const SbDynamics *s, const Point *p, size_t i, int direction);
 
 // Rate of the deflection of contact i at p [m/s]; the rest of the stem's speed is its patch's.
 double sb_motion_deflection_rate(const SbDynamics *s, const Point *p, size_t i);

@@ -42,13 +42,19 @@ typedef struct {
   SbEventFunction function[EVENT_COUNT];
 } Live;
 
+// Where friction falls faster with the speed than dampers take up, what swings grows: the events'
+// bounds then hold for the time in which it could do so by a factor of e (oscillator.h).
 static void closed_path(SbDynamics *s, const Point *p, Live *live) {
   s->motion = (SbOscillator){0};
   if (!s->held) {
     sb_oscillator_init(&s->motion, s->mass, p->sum.c, p->sum.k, p->sum.f0, p->sum.f1, p->v);
   }
-  double horizon = fmin(s->piece.until - s->t, horizon_max);
-  s->t_end = isfinite(s->piece.until) && horizon < horizon_max ? s->piece.until : s->t + horizon;
+  double left = s->piece.until - s->t, horizon = fmin(left, horizon_max);
+  if (!s->held && p->sum.c < 0.0) {
+    horizon = fmin(horizon, s->mass / -p->sum.c);
+  }
+  horizon = fmin(horizon, sb_motion_rest_ends(s, p));
+  s->t_end = horizon == left ? s->piece.until : s->t + horizon;
   s->event = EVENT_BREAK;
   double a = s->held ? 0.0 : force_of(&p->sum, p) / s->mass;
   for (size_t i = 0; i < live->count; i++) {
@@ -182,7 +188,7 @@ static double place_of(const SbDynamics *s, int event, double h) {
 
 // Rate [1/s] at which the stem swings or settles.
 static double quickest_rate(const SbDynamics *s, const Point *p) {
-  return fmax(sqrt(p->sum.k / s->mass), p->sum.c / s->mass);
+  return fmax(sqrt(p->sum.k / s->mass), fabs(p->sum.c) / s->mass);
 }
 
 // Adds what is at `place` of the state to what changes in this segment. An error in it is one in
@@ -298,8 +304,30 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
                  "no step of the motion converges at %.9g s (step %.3g s)", s->t, h);
 }
 
+// The band of the stem's speed from the anchor on, if a contact slides.
+static void find_band(SbDynamics *s) {
+  const SbDynamicsModel *m = s->model;
+  s->banded = false;
+  for (size_t i = 0; i < m->contacts && m->band != NULL && !s->held; i++) {
+    s->banded = s->banded || s->state[i] == SB_CONTACT_SLIP;
+  }
+  if (!s->banded) {
+    return;
+  }
+  double speed = fabs(s->at.v);
+  if (speed > 0.0) {
+    s->direction = s->at.v > 0.0 ? 1 : -1;
+    // On the boundary the band below it, not the one that begins there.
+    speed *= s->fell ? 1.0 - 1e-12 : 1.0;
+  }
+  s->fell = false;
+  s->band = (SbDynamicsBand){0};
+  m->band(&s->band, s->at.x, s->region, s->direction, speed, &s->at.extra, m->user);
+}
+
 SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report) {
   Point p;
+  find_band(s);
   s->linear = has_closed_form(s);
   sb_motion_point(&p, s, s->t, &s->at);
   for (size_t i = 0; i < s->model->contacts; i++) {
@@ -470,8 +498,10 @@ double sb_motion_force_peak(const SbDynamics *s, double known) {
   const SbOscillator *o = &s->motion;
   double swing =
       (f->k + f->c * o->omega) * hypot(o->trend0, (o->v0 - o->trend1) / fmax(o->omega, 1e-300));
+  // A growing swing does so by a factor of e at most.
+  swing *= o->damping < 0.0 ? 6.0 : 2.0;
   double trend = fmax(0.0, f->f1 - f->k * o->trend1) * lasts;
-  if (!(rising.constant + rising.of_v * p.v > 0.0) || first + 2.0 * swing + trend < peak) {
+  if (!(rising.constant + rising.of_v * p.v > 0.0) || first + swing + trend < peak) {
     return peak;
   }
   bool found;

@@ -32,11 +32,14 @@ void sb_oscillator_init(SbOscillator *o, double mass, double damping, double sti
   double beta = 0.5 * o->damping, difference = (beta - o->omega) * (beta + o->omega);
   o->split = sqrt(fabs(difference));
   o->swings = difference < 0.0;
-  o->apart = o->split > 0.05 * beta;
+  o->apart = o->split > 0.05 * fabs(beta);
   o->slow = o->fast = beta;
-  if (difference > 0.0) {
+  if (difference > 0.0 && beta > 0.0) {
     o->fast = beta + o->split;
     o->slow = o->omega / o->fast * o->omega;
+  } else if (difference > 0.0) {
+    o->slow = beta - o->split; // grows the faster
+    o->fast = o->omega / o->slow * o->omega;
   }
 }
 
@@ -69,7 +72,7 @@ static void answers(double h[ORDERS], const SbOscillator *o, double tau) {
   for (int i = 1; i < ORDERS; i++) {
     power[i] = power[i - 1] * tau / i;
   }
-  if (tau * (c + k * tau) < 2.0) {
+  if (tau * (fabs(c) + k * tau) < 2.0) {
     // Neither damper nor spring has done much: the two highest by their series, then downwards.
     double before = 0.0, now = 1.0, weight[2] = {power[3], power[4]};
     h[3] = h[4] = 0.0;
@@ -160,7 +163,8 @@ double sb_oscillator_square(const SbOscillator *o, double tau) {
     return creal(square) + o->trend1 * (2.0 * sb_oscillator_at(o, tau).travel - o->trend1 * tau);
   }
   // Gauss points in panels that grow from the fastest decay to tau.
-  double node[POINTS], weight[POINTS], from = 0.0, sum = 0.0, rate = fmax(o->fast, o->omega);
+  double node[POINTS], weight[POINTS], from = 0.0, sum = 0.0,
+                                       rate = fmax(fabs(o->slow), fmax(o->fast, o->omega));
   double step = rate > 0.0 ? 0.5 / rate : tau;
   sb_legendre_gauss(node, weight, POINTS);
   while (from < tau) {
@@ -196,9 +200,9 @@ static Look look(const SbEventFunction *g, const SbOscillator *o, double tau) {
     out.value += e;
     out.rate -= g->relax_rate * e;
   }
-  if (g->log_gain != 0.0) {
-    out.value += g->log_gain * log1p((g->log_start + tau) / g->log_time);
-    out.rate += g->log_gain / (g->log_time + g->log_start + tau);
+  for (int i = 0; i < g->logs; i++) {
+    out.value += g->log[i].gain * log1p((g->log[i].start + tau) / g->log[i].time);
+    out.rate += g->log[i].gain / (g->log[i].time + g->log[i].start + tau);
   }
   return out;
 }
@@ -214,7 +218,7 @@ static void bounds(const SbEventFunction *g, const SbOscillator *o, const Look *
     // Shares of the acceleration that fade slowly and fast.
     double gap = o->fast - o->slow;
     double s = fabs(jerk + o->fast * a) / gap, f = fabs(jerk + o->slow * a) / gap;
-    *curvature = s * (px + pv * o->slow) + f * (px + pv * o->fast);
+    *curvature = s * (px + pv * fabs(o->slow)) + f * (px + pv * fabs(o->fast));
     *swing = s * (px / o->slow + pv) / o->slow + f * (px / o->fast + pv) / o->fast;
   } else if (a != 0.0 || jerk != 0.0) {
     // The energy jerk^2 + (omega a)^2 never grows, nor does that of the transient.
@@ -223,14 +227,19 @@ static void bounds(const SbEventFunction *g, const SbOscillator *o, const Look *
     *curvature = px * fmin(most / o->omega, fabs(a) + most * window) + pv * most;
     *swing = hypot(o->omega * z, w) * (px / o->omega + pv);
   }
+  if (o->damping < 0.0) {
+    // What does not fade grows by no more than e up to the end.
+    *curvature *= M_E;
+    *swing = INFINITY;
+  }
   if (g->relax != 0.0) {
     double e = fabs(g->relax) * exp(-g->relax_rate * tau);
     *curvature += g->relax_rate * g->relax_rate * e;
     *swing += g->relax < 0.0 ? e : 0.0;
   }
-  if (g->log_gain != 0.0) {
-    double since = g->log_time + g->log_start + tau;
-    *curvature += g->log_gain / (since * since);
+  for (int i = 0; i < g->logs; i++) {
+    double since = g->log[i].time + g->log[i].start + tau;
+    *curvature += g->log[i].gain / (since * since);
   }
 }
 
@@ -239,8 +248,8 @@ static double trend_clear(const SbEventFunction *g, const SbOscillator *o, doubl
                           double swing) {
   double level = g->constant - swing + g->of_x * o->trend0 + g->of_v * o->trend1;
   double rate = g->rate + g->of_x * o->trend1;
-  if (g->log_gain != 0.0) {
-    level += g->log_gain * log1p((g->log_start + tau) / g->log_time);
+  for (int i = 0; i < g->logs; i++) {
+    level += g->log[i].gain * log1p((g->log[i].start + tau) / g->log[i].time);
   }
   if (!(level + rate * tau > 0.0)) {
     return tau;

@@ -23,7 +23,8 @@ typedef struct {
   double trend0, trend1;
 } SbOscillator;
 
-// mass > 0, damping >= 0, stiffness >= 0, all finite; f0 is the force at x0 and rest.
+// mass > 0, stiffness >= 0, all finite; f0 is the force at x0 and rest. Under a damping below 0
+// what swings grows: the motion is known up to tau = mass / -damping.
 void sb_oscillator_init(SbOscillator *o, double mass, double damping, double stiffness, double f0,
                         double f1, double v0);
 
@@ -42,11 +43,15 @@ double sb_oscillator_square(const SbOscillator *o, double tau);
 
 // A quantity that must stay >= 0; the event is where it first turns negative:
 //   g = constant + rate tau + of_x u + of_v v + relax exp(-relax_rate tau)
-//       + log_gain ln(1 + (log_start + tau)/log_time)          (log_gain >= 0, log_time > 0)
+//       + sum of logs, gain ln(1 + (start + tau)/time)             (gain >= 0, time > 0)
+enum { SB_EVENT_LOGS = 4 };
 typedef struct {
   double constant, rate, of_x, of_v; // of g's unit, tau in s, u in m, v in m/s
   double relax, relax_rate;
-  double log_gain, log_start, log_time;
+  int logs;
+  struct {
+    double gain, start, time;
+  } log[SB_EVENT_LOGS];
   double noise; // size of terms that have cancelled in the coefficients: sets the rounding error
 } SbEventFunction;
 

@@ -3,6 +3,7 @@
 
 #include "engine/numeric/legendre.h"
 #include "engine/numeric/root.h"
+#include "engine/valve/breakaway.h"
 
 #include <math.h>
 
@@ -18,9 +19,18 @@ static bool inner_touches(const SbCycle *cycle, SbChamber chamber, int direction
   return cycle->state[SB_INNER][chamber][direction].touches;
 }
 
+double sb_cycle_edge_begin(const SbCycle *cycle, SbChamber chamber, int direction) {
+  // Friction lays a solved ring's contact elsewhere on the way out.
+  const SbSealState *first = &cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbSealState *inner = &cycle->state[SB_INNER][chamber][direction];
+  bool both = first->touches && inner->touches;
+  return cycle->model->land_edge + (both ? inner->contact_left - first->contact_left : 0);
+}
+
 double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction) {
   const SbSealState *inner = &cycle->state[SB_INNER][chamber][direction];
-  return cycle->model->land_edge + inner->contact_right - inner->contact_left;
+  return sb_cycle_edge_begin(cycle, chamber, direction) + inner->contact_right -
+         inner->contact_left;
 }
 
 // Share of a seal's contact that the edge has passed; without contact all of it.
@@ -29,10 +39,12 @@ static double passed(const SbCycle *cycle, int seal, SbChamber chamber, int dire
   if (!state->touches || (seal == SB_INNER && chamber == SB_CHAMBER_OPEN)) {
     return 1;
   }
+  if (seal == SB_OUTER) {
+    return 0;
+  }
   double width = state->contact_right - state->contact_left;
-  double t = (s - cycle->model->land_edge) / width;
-  // What rounding of s leaves at the end is no contact.
-  return seal == SB_OUTER ? 0 : t > 1 - 1e-12 ? 1 : fmax(t, 0);
+  double t = (s - sb_cycle_edge_begin(cycle, chamber, direction)) / width;
+  return t > 1 - 1e-12 ? 1 : fmax(t, 0); // what rounding of s leaves at the end is no contact
 }
 
 SbLandShare sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
@@ -190,9 +202,11 @@ typedef struct {
 // closes there.
 static double piece_end(const Planner *p) {
   const SbModel *model = p->cycle->model;
-  const double start = model->land_edge, sign = sign_of(p->direction);
+  const double sign = sign_of(p->direction);
   bool closes = p->direction == SB_CYCLE_OUT && p->chamber == SB_CHAMBER_OPEN;
-  double end = sb_cycle_edge_end(p->cycle, closes ? SB_CHAMBER_CLOSED : p->chamber, p->direction);
+  SbChamber chamber = closes ? SB_CHAMBER_CLOSED : p->chamber;
+  double start = sb_cycle_edge_begin(p->cycle, chamber, p->direction);
+  double end = sb_cycle_edge_end(p->cycle, chamber, p->direction);
   const double marks[] = {start, (start + end) / 2, end};
   double best = p->direction == SB_CYCLE_IN ? model->stroke : 0;
   for (int i = 0; i < 3; i++) {
@@ -220,6 +234,37 @@ static int reach(SbChamber *chamber, const Planner *p, double s) {
     event = s == end ? SB_STAGE_F : -1;
   }
   return in && s == cycle->model->land_edge && p->stage == SB_STAGE_B ? SB_STAGE_C : event;
+}
+
+// Where the platen stands when a stem that sticks slips the way `direction`, after a rest of
+// `dwell` so far. A contact that ages does so on the way: each pass holds the friction of the one
+// before, so that the first such place is found. Friction is over the kinetic one as the contact of
+// the last sliding has grown.
+static SbStatus slip_platen(double *out, const Planner *p, int direction, double dwell,
+                            SbReport *report) {
+  const SbModel *model = p->cycle->model;
+  SbDwellLaw law[SB_SEAL_COUNT];
+  double kinetic[SB_SEAL_COUNT], sliding[SB_SEAL_COUNT], X = p->X, before, squeeze_time;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    const SbSealState *state = &p->cycle->state[seal][p->chamber][p->direction];
+    SbStatus status = sb_breakaway_law(&law[seal], &squeeze_time, model, seal, state, report);
+    if (status != SB_OK) {
+      return status;
+    }
+    kinetic[seal] = sb_sliding_friction(state);
+    sliding[seal] = sb_cycle_seal_friction(p->cycle, seal, p->chamber, direction, p->s);
+  }
+  do {
+    double friction = 0, rested = dwell + fabs(X - p->X) / model->speed;
+    for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+      double grown = kinetic[seal] > 0 ? sb_dwell_at(&law[seal], rested) / kinetic[seal] : 1;
+      friction += fmax(1, grown) * sliding[seal];
+    }
+    before = X;
+    X = p->s + (model->pressure_force + sign_of(direction) * friction) / model->stiffness;
+  } while (fabs(X - before) > 1e-9 * fabs(X - p->s) && X > 0);
+  *out = X;
+  return SB_OK;
 }
 
 // Adds a segment; `event` ends one at which the stem does not move, else where it comes to decides.
@@ -322,7 +367,7 @@ double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, 
 SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   const SbModel *model = cycle->model;
   cycle->count = 0;
-  double k = model->stiffness;
+  double k = model->stiffness, dwell = 0;
   Planner p = {.cycle = cycle, .platen = 1, .direction = SB_CYCLE_IN, .stage = SB_STAGE_A};
 
   // A chamber whose inner seal does not touch is always open.
@@ -338,7 +383,15 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
     double friction = p.stage == SB_STAGE_A ? static_limit(cycle, p.chamber, SB_CYCLE_IN, p.s)
                                             : sb_cycle_friction(cycle, p.chamber, SB_CYCLE_IN, p.s);
     double X_slip = p.s + (model->pressure_force + friction) / k;
+    if (model->contact_ageing) {
+      double rested = p.stage == SB_STAGE_A ? model->rest : 0;
+      SbStatus status = slip_platen(&X_slip, &p, SB_CYCLE_IN, rested, report);
+      if (status != SB_OK) {
+        return status;
+      }
+    }
     if (p.s >= model->stroke) {
+      dwell = fmax(p.s + model->reversal_force / k - p.X, 0) / model->speed;
       emit(&p, SB_CYCLE_STICK, fmax(p.s + model->reversal_force / k, p.X), p.s, -1);
       break;
     }
@@ -354,6 +407,14 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   while (!p.full && p.X > 0) {
     double limit = balance_at(p.s, &(Place){cycle, p.chamber, SB_CYCLE_OUT, 0});
     double X_slip = p.s + limit / k;
+    if (model->contact_ageing) {
+      SbStatus status = slip_platen(&X_slip, &p, SB_CYCLE_OUT, dwell, report);
+      if (status != SB_OK) {
+        return status;
+      }
+      limit = k * (X_slip - p.s);
+      dwell = 0;
+    }
     // Where friction has caught up with the pressure the root is known to rounding only.
     bool stalled = limit <= 1e-9 * model->pressure_force;
     if (p.s <= 0 || stalled || X_slip <= 0) {

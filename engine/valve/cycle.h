@@ -8,13 +8,13 @@
 //
 // with X the platen, s the stem, F_p the canister's force and f the seals' friction, which changes
 // while the inner seal passes the edge of the bore land: its contact [l, r] then only reaches over
-// x > x_e, x_e = l + (s - s_C); the width-bound part of its friction falls linearly, the load-bound
-// part as an elliptic pressure integrates. Stuck means no motion until the limit is passed:
-// the static friction after the rest before A, the kinetic one where the stem stops on the way, for
-// without dwell the contact keeps its film (the thesis sees the peak on the first motion only).
-// Where the resistance falls faster than the spring relaxes the stem jumps to the next balance at
-// constant X, and the energy set free is counted as lost in the seal. End stop and rest stop are
-// rigid.
+// x > x_e, x_e = l_in + (s - s_C), l_in that of the in-stroke; the width-bound part of its friction
+// falls linearly, the load-bound part as an elliptic pressure integrates. Stuck means no motion
+// until the limit is passed: the static friction after the rest before A, the kinetic one where the
+// stem stops on the way, for without dwell the contact keeps its film (the thesis sees the peak on
+// the first motion only). Where the resistance falls faster than the spring relaxes the stem jumps
+// to the next balance at constant X, and the energy set free is counted as lost in the seal. End
+// stop and rest stop are rigid.
 //
 // Everything is located exactly: slip onset, edge, stop, reversal, jumps. Nothing here steps in
 // time.
@@ -93,8 +93,10 @@ double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, dou
 double sb_cycle_static_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
                                 double s);
 
-// Stem displacement at which the inner contact has left the land on the way in (chamber at rest) or
-// meets it on the way out (chamber closed).
+// Stem displacements at which the land's edge reaches the left end of the inner contact, and at
+// which that contact has left the land on the way in (chamber at rest) or meets it on the way out
+// (chamber closed).
+double sb_cycle_edge_begin(const SbCycle *cycle, SbChamber chamber, int direction);
 double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction);
 
 // Least F_p - f over the way back from displacement s, whatever moves the stem; `rested`: against

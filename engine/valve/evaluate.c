@@ -47,7 +47,9 @@ SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestio
   SbStatus status = prepare(evaluator, question, &own);
   evaluator->answered = status == SB_OK;
   if (evaluator->answered) {
-    const SbRunHooks hooks = {NULL, question->cancelled, question->data};
+    // Whoever asks many questions asks them side by side.
+    const SbRunHooks hooks = {
+        .cancelled = question->cancelled, .data = question->data, .alone = true};
     status = sb_run_execute(evaluator->run, &hooks, &own);
   }
   for (size_t i = 0; i < question->figure_count; i++) {

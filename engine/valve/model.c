@@ -71,10 +71,13 @@ static void take_values(SbModel *model, const SbParams *params) {
 
 SbDynamicsContact sb_model_contact(const SbModel *model, double static_ratio, double mass) {
   const double stiffness = model->tangential_stiffness;
+  // A contact that ages starts from the sliding level; where its film is known, its law comes with
+  // the level (breakaway.h).
+  const bool ages = model->contact_ageing;
   return (SbDynamicsContact){
-      .static_ratio = static_ratio,
-      .dwell_gain = model->dwell_gain,
-      .dwell_time = model->dwell_time,
+      .static_ratio = ages ? 1 : static_ratio,
+      .dwell_gain = ages ? model->ageing_gain : model->dwell_gain,
+      .dwell_time = ages ? model->ageing_time : model->dwell_time,
       .stribeck_speed = model->stribeck_speed,
       .stribeck_exponent = 1,
       .stiffness = stiffness > 0 ? stiffness : INFINITY,

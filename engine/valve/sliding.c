@@ -10,6 +10,7 @@
 
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
+#include "engine/valve/breakaway.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,17 +24,29 @@ typedef struct {
   double speed; // [m/s]
 } Solved;
 
-struct SbSlidingMemory {
+enum { IN, OUT, REST }; // ways of sliding
+
+// A fitment with its ring, where it is one, for one way of sliding.
+typedef struct {
   SbFit fit;
-  Solved plane, fitted; // on the half-plane (or of a law), and on the fitted body
-  Solved rest;          // dry rough contact, coupled asperities only
-  const Solved *last;   // which of them the last evaluation gave
-  bool rested;          // it stands for the fit, with
-  double rest_left;     // this pressure on the left
-  SbFilmSolver *solver; // NULL until a film is solved: laws need none
-  bool fit_known;
-  double fit_pressure; // difference for which `fit` stands
-  int fit_seal;
+  SbRing *ring; // owned, NULL for other models
+  bool known;
+  double pressure; // difference for which it stands
+  int seal;
+  double asked; // friction of the law that drags it [N]
+} Fitment;
+
+struct SbSlidingMemory {
+  Fitment fitment[SB_RUN_MOTIONS]; // by way of sliding where friction drags the seal, else at rest
+  Fitment *now;                    // of the last evaluation
+  Solved plane, fitted;            // on the half-plane (or of a law), and on the fitted body
+  Solved rest;                     // dry rough contact, coupled asperities only
+  const Solved *last;              // which of them the last evaluation gave
+  bool rested;                     // it stands for the fit, with
+  double rest_left;                // this pressure on the left
+  const Fitment *rest_on;
+  SbFilmSolver *solver;      // NULL until a film is solved: laws need none
+  SbWarnings warnings;       // of one round of a ring's friction
   bool (*cancelled)(void *); // NULL: nobody asks to stop
   void *cancelled_data;
 };
@@ -50,18 +63,25 @@ SbStatus sb_sliding_memory_create(SbSlidingMemory **out, SbReport *report) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a seal's workspace");
   }
   (*out)->last = &(*out)->plane;
+  (*out)->now = (*out)->fitment;
   return sb_succeed(report);
 }
 
 void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
   if (memory != NULL) {
     sb_film_solver_destroy(memory->solver);
+    for (int i = 0; i < SB_RUN_MOTIONS; i++) {
+      sb_ring_destroy(memory->fitment[i].ring);
+    }
     free(memory);
   }
 }
 
 void sb_sliding_memory_forget(SbSlidingMemory *memory) {
-  memory->fit_known = memory->rested = false;
+  memory->rested = false;
+  for (int i = 0; i < SB_RUN_MOTIONS; i++) {
+    memory->fitment[i].known = false;
+  }
   memory->last = &memory->plane;
   if (memory->solver != NULL) {
     sb_film_solver_forget(memory->solver);
@@ -74,18 +94,55 @@ void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), 
 }
 
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory) {
-  return &memory->fit;
+  return &memory->now->fit;
+}
+
+const SbRing *sb_sliding_ring(const SbSlidingMemory *memory) {
+  return memory->now->fit.model == SB_FIT_RING ? memory->now->ring : NULL;
 }
 
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory) {
   return &memory->last->film;
 }
 
-static SbStatus solve_fit(const Task *task, SbReport *report) {
+// Whether friction drags this seal's section: the ring's, while it slides.
+static bool drags(const Task *task) {
+  return task->model->fit == SB_FIT_RING && task->speed != 0;
+}
+
+double sb_sliding_shear(const SbModel *model, const SbSealState *state, double pressure) {
+  double share = isnan(state->asperity_share) ? 1 : state->asperity_share;
+  double viscous = state->friction_viscous / (state->contact_right - state->contact_left) /
+                   model->bore_circumference;
+  double area = model->shear_strength * state->real_area_share;
+  return (area > pressure ? pressure : area) + model->load_coefficient * share * pressure + viscous;
+}
+
+// The law's friction on a fitment's contact [N].
+static double law_force(const SbModel *model, const SbSealState *state, const SbFit *fit) {
+  double sum = 0, before = 0;
+  for (size_t i = 0; i < fit->profile_count; i++) {
+    double now = sb_sliding_shear(model, state, fit->profile_p[i]);
+    sum += i > 0 ? 0.5 * (before + now) * (fit->profile_x[i] - fit->profile_x[i - 1]) : 0;
+    before = now;
+  }
+  return sum * fit->circumference;
+}
+
+// The friction that drags a ring, and a contact like the one that it will have.
+typedef struct {
+  SbSealState law;
+  const SbFit *near;
+} Drag;
+
+// The task's fitment, anew if it is not the last one of these pressures or there is a `drag`.
+static SbStatus solve_fit(const Task *task, const Drag *drag, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   const SbModel *model = task->model;
   double pressure = task->pressure.left - task->pressure.right;
-  if (memory->fit_known && memory->fit_pressure == pressure && memory->fit_seal == task->seal) {
+  Fitment *now = &memory->fitment[!drags(task) ? REST : task->speed > 0 ? IN : OUT];
+  memory->now = now;
+  if (drag == NULL && now->known && now->pressure == pressure && now->seal == task->seal) {
     return SB_OK;
   }
   SbFitProblem problem;
@@ -94,15 +151,23 @@ static SbStatus solve_fit(const Task *task, SbReport *report) {
   problem.cancel_data = memory->cancelled_data;
   problem.surface_wanted =
       model->film == SB_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  problem.kept = &now->ring;
+  double share = drag != NULL ? law_force(model, &drag->law, drag->near) / drag->near->load : 0;
+  if (share > 0) { // a guess that has none is made from the ring without drag
+    double way = (task->speed > 0) == (pressure >= 0) ? 1 : -1;
+    problem.dragged = true;
+    problem.drag = way * fmin(share, SB_FIT_DRAG_MAX);
+  }
   memory->rested = false;
-  SbStatus status = sb_fit_solve(&memory->fit, &problem, report);
+  SbStatus status = sb_fit_solve(&now->fit, &problem, report);
   task->counts->fit_solves++;
   task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
   task->counts->ring_solves += problem.model == SB_FIT_RING;
-  task->counts->newton_iterations += memory->fit.solver.newton_iterations;
-  memory->fit_known = status == SB_OK;
-  memory->fit_pressure = pressure;
-  memory->fit_seal = task->seal;
+  task->counts->newton_iterations += now->fit.solver.newton_iterations;
+  now->known = status == SB_OK;
+  now->pressure = pressure;
+  now->seal = task->seal;
+  now->asked = fabs(problem.drag) * now->fit.load;
   return status;
 }
 
@@ -177,7 +242,7 @@ static SbStatus solve_on(const Task *task, Solved *out, const SbFilmProblem *pro
 
 // The film on the fitted body in place of the half-plane's; false where there is none or it fails.
 static bool solve_fitted(const Task *task, Solved *out, const SbFilmProblem *plane) {
-  const SbFit *fit = &task->memory->fit;
+  const SbFit *fit = &task->memory->now->fit;
   if (fit->model != SB_FIT_DISC && fit->model != SB_FIT_RING) {
     return false;
   }
@@ -272,7 +337,7 @@ static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report)
   if (!usable(status)) {
     return status;
   }
-  take_film(out, &memory->plane, status, &memory->fit);
+  take_film(out, &memory->plane, status, &memory->now->fit);
   if (solved) {
     out->film_reynolds = out->film_central;
   } else {
@@ -286,7 +351,7 @@ static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report)
     }
   }
   if (solved && status == SB_OK && solve_fitted(task, &memory->fitted, &problem)) {
-    take_film(out, &memory->fitted, SB_OK, &memory->fit);
+    take_film(out, &memory->fitted, SB_OK, &memory->now->fit);
     memory->last = &memory->fitted;
   }
   sb_warnings_merge(task->warnings, &memory->last->film.warnings);
@@ -327,18 +392,29 @@ static void strength_warning(const Task *task, double share) {
   }
 }
 
+// Break-away after the rest before the first stroke.
+static SbStatus set_static(SbSealState *out, const Task *task, SbReport *report) {
+  SbDwellLaw law;
+  SbStatus status =
+      sb_breakaway_law(&law, &out->squeeze_out_time, task->model, task->seal, out, report);
+  out->friction_static = status == SB_OK ? sb_dwell_at(&law, task->model->rest) : NAN;
+  return status;
+}
+
 // Film, rough contact and friction from one solution each, sliding and at rest.
 static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *report) {
   const SbModel *model = task->model;
   SbSlidingMemory *memory = task->memory;
   SbStatus at_rest = SB_OK;
-  if (!memory->rested || memory->rest_left != task->pressure.left) {
+  if (!memory->rested || memory->rest_on != memory->now ||
+      memory->rest_left != task->pressure.left) {
     at_rest = solve_rough(task, &memory->rest, out->load_net, 0, report);
     if (!usable(at_rest)) {
       return at_rest;
     }
     memory->rested = at_rest == SB_OK;
     memory->rest_left = task->pressure.left;
+    memory->rest_on = memory->now;
   }
   memory->last = &memory->rest;
   SbStatus status = at_rest;
@@ -358,7 +434,7 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
   double width = memory->last->fitted ? fit_width : 2 * film->hertz_half_width;
   double rest_width = memory->rest.fitted ? fit_width : 2 * rest->hertz_half_width;
   double circumference = out->load / out->load_per_length;
-  if (take_film(out, memory->last, status, &memory->fit)) {
+  if (take_film(out, memory->last, status, &memory->now->fit)) {
     out->lambda = film->film_ratio;
     out->real_area_share = fmin(film->real_area / width, 1);
     out->asperity_share = film->asperity_share;
@@ -368,10 +444,13 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
   }
   if (memory->rested || rest->film_central > 0) {
     out->rest_area_share = fmin(rest->real_area / rest_width, 1);
-    out->friction_static =
-        model->static_ratio * (model->shear_strength * out->rest_area_share * area +
-                               model->load_coefficient * rest->asperity_load * circumference);
+    out->rest_area = model->shear_strength * out->rest_area_share * area;
+    out->rest_load = model->load_coefficient * rest->asperity_load * circumference;
     strength_warning(task, out->rest_area_share);
+  }
+  SbStatus aged = set_static(out, task, status == SB_OK && at_rest == SB_OK ? report : NULL);
+  if (aged != SB_OK) {
+    return aged;
   }
   out->friction_error = film->solver.error_contact * (out->boundary_area + out->boundary_load) +
                         out->central_error * out->friction_viscous;
@@ -442,9 +521,36 @@ static SbStatus rough_contact(SbSealState *out, const Task *task, double roughne
           (persson ? 0 : model->shear_strength * fabs(thinner - out->real_area_share) * area);
     }
   }
-  out->friction_static = model->static_ratio *
-                         (model->shear_strength * out->rest_area_share * area + out->boundary_load);
-  return SB_OK;
+  out->rest_area = model->shear_strength * out->rest_area_share * area;
+  out->rest_load = out->boundary_load;
+  return set_static(out, task, report);
+}
+
+// Leaves of a law's friction what the section bears (bear()).
+static void share_out(SbSealState *out) {
+  if (isnan(out->borne_share)) {
+    return;
+  }
+  const bool slides = out->section == SB_RING_SLIDES;
+  double all = sb_sliding_friction(out);
+  out->boundary_area *= out->area_cut;
+  // What the pressure cannot shear is no real contact; one that rolls is not sheared to the full.
+  out->real_area_share *= out->area_cut * (slides ? out->borne_share : 1);
+  // The pressure limits what stands at rest, too.
+  const double cut = sb_sliding_friction(out) / all;
+  out->rest_area *= cut;
+  out->rest_area_share *= cut;
+  out->rest_load *= cut;
+  out->friction_static *= cut;
+  out->boundary_area *= out->borne_share;
+  out->boundary_load *= out->borne_share;
+  out->friction_viscous *= out->borne_share;
+  out->friction_error *= out->borne_share;
+  if (!slides) {
+    out->friction_static = sb_sliding_friction(out);
+    out->rest_area = out->boundary_area;
+    out->rest_load = out->boundary_load;
+  }
 }
 
 static const char *about(int seal) {
@@ -473,6 +579,7 @@ SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, dou
   sb_warn_about(task->warnings, about(task->seal));
   SbStatus status =
       state->touches ? rough_contact(state, task, roughness, report) : sb_succeed(report);
+  share_out(state);
   sb_warn_about(task->warnings, NULL);
   return status;
 }
@@ -483,36 +590,19 @@ void sb_sliding_clear(SbSealState *out) {
                        .film_error = NAN,
                        .central_error = NAN,
                        .boundary_area = NAN,
-                       .boundary_load = NAN};
+                       .boundary_load = NAN,
+                       .rest_area = NAN,
+                       .rest_load = NAN,
+                       .area_cut = NAN,
+                       .borne_share = NAN,
+                       .rotation = NAN};
 #define SB_SEAL_FIGURE(path, member, ...) out->member = NAN;
 #include "engine/valve/figures.def"
 }
 
-// Fitment: contact and loads. *known tells whether there is a contact to go on with.
-static SbStatus fit_contact(const Task *task, SbSealState *out, bool *known, SbReport *report) {
+// Contact and loads of a seal that touches.
+static void take_contact(SbSealState *out, const Task *task, const SbFit *fit) {
   SbSealPressure pressure = task->pressure;
-  (void)sb_succeed(report);
-  sb_sliding_clear(out);
-  *known = false;
-  // The fit takes the difference; the common part only shifts the fluid's level.
-  SbStatus status = solve_fit(task, report);
-  if (!usable(status)) {
-    return status;
-  }
-  const SbFit *fit = &task->memory->fit;
-  sb_warnings_merge(task->warnings, &fit->warnings);
-  // One that stopped above the tolerance counts, with its error; else it holds another load's.
-  bool close = fit->solver.error_estimate.load > 0 && fit->solver.error_estimate.load < 1;
-  out->touches = fit->touches || status != SB_OK;
-  if (status != SB_OK && !(fit->touches && close)) {
-    return status;
-  }
-  if (!fit->touches) {
-    out->contact_left = out->contact_right = 0;
-    out->load = out->load_per_length = out->load_net = out->pressure_peak = 0;
-    out->boundary_area = out->boundary_load = out->friction_viscous = out->friction_static = 0;
-    return status;
-  }
   out->contact_left = fit->contact_left;
   out->contact_right = fit->contact_right;
   out->load = fit->load;
@@ -523,15 +613,53 @@ static SbStatus fit_contact(const Task *task, SbSealState *out, bool *known, SbR
                      fit->model != SB_FIT_GREEN_ENGLISH;
   double fluid = fabs(pressure.left - pressure.right) * fit->contact_width / 2;
   out->load_net = fit->load_per_length - (holds_fluid ? fluid : 0);
+  if (fit->model == SB_FIT_RING) {
+    double way = task->speed < 0 ? -1 : 1;
+    out->rotation = way * (pressure.left < pressure.right ? -1 : 1) * fit->ring.turn * 180 / M_PI;
+    out->section = fit->ring.state;
+  }
+}
+
+// Fitment: contact and loads. *known tells whether there is a contact to go on with.
+static SbStatus fit_contact(const Task *task, const Drag *drag, SbSealState *out, bool *known,
+                            SbReport *report) {
+  (void)sb_succeed(report);
+  sb_sliding_clear(out);
+  *known = false;
+  // The fit takes the difference; the common part only shifts the fluid's level.
+  SbStatus status = solve_fit(task, drag, report);
+  if (!usable(status)) {
+    return status;
+  }
+  const SbFit *fit = &task->memory->now->fit;
+  if (!drags(task) || fit->ring.state == SB_RING_SLIDES || fit->ring.state == SB_RING_NO_CONTACT) {
+    sb_warnings_merge(task->warnings, &fit->warnings); // else solve_dragged() tells
+  }
+  // One that stopped above the tolerance counts, with its error; else it holds another load's.
+  bool close = fit->solver.error_estimate.load > 0 && fit->solver.error_estimate.load < 1;
+  out->touches = fit->touches || status != SB_OK;
+  if (status != SB_OK && !(fit->touches && close)) {
+    return status;
+  }
+  if (!fit->touches) {
+    out->section = SB_RING_NO_CONTACT;
+    out->contact_left = out->contact_right = 0;
+    out->load = out->load_per_length = out->load_net = out->pressure_peak = 0;
+    out->boundary_area = out->boundary_load = out->friction_viscous = out->friction_static = 0;
+    out->rest_area = out->rest_load = 0;
+    return status;
+  }
+  take_contact(out, task, fit);
   *known = true;
   return status;
 }
 
-static SbStatus solve(const Task *task, SbSealState *out, SbReport *report) {
+// Fitment, film and friction; a ring dragged as given, else as it is known.
+static SbStatus solve_with(const Task *task, const Drag *drag, SbSealState *out, SbReport *report) {
   SbWarnings *warnings = task->warnings;
   int seal = task->seal;
   bool known;
-  SbStatus status = fit_contact(task, out, &known, report);
+  SbStatus status = fit_contact(task, drag, out, &known, report);
   if (!known) {
     return status;
   }
@@ -573,6 +701,96 @@ static SbStatus solve(const Task *task, SbSealState *out, SbReport *report) {
   return status;
 }
 
+// A state by closed forms, whose friction is near a ring's; NAN where they have none.
+static void guess(const Task *task, Drag *drag, Fitment *on) {
+  SbFitProblem fit;
+  SbFilmProblem film;
+  SbSealState *out = &drag->law;
+  Task quiet = *task;
+  quiet.warnings = NULL;
+  sb_model_fit_problem(&fit, task->model, task->seal, task->pressure.left - task->pressure.right);
+  fit.model = SB_FIT_KARASZKIEWICZ;
+  sb_sliding_clear(out);
+  drag->near = &on->fit;
+  if (sb_fit_solve(&on->fit, &fit, NULL) != SB_OK || !on->fit.touches) {
+    return;
+  }
+  take_contact(out, task, &on->fit);
+  sb_sliding_film_problem(&film, task->model, task->seal, task->pressure, out->load_net,
+                          task->speed);
+  film.model = SB_FILM_THESIS;
+  if (solve_on(&quiet, &task->memory->plane, &film, NULL) == SB_OK) {
+    out->film_central = task->memory->plane.film.film_central;
+    (void)rough_contact(out, &quiet, 1, NULL);
+  }
+}
+
+// What the dragged section bears of the law's friction: all of it while it slides, each part alike
+// at the greatest drag of one that rolls or jams, which no rest makes greater.
+static void bear(SbSealState *out, const Fitment *on, double asked) {
+  const SbFit *fit = &on->fit;
+  double area = asked - out->boundary_load - out->friction_viscous;
+  out->area_cut = out->boundary_area > 0 ? area / out->boundary_area : 1;
+  out->borne_share = fabs(fit->ring.drag) / asked;
+  share_out(out);
+}
+
+// A ring's states: friction drags it, and hangs on the film that lies on the dragged ring. Solved
+// in turns until the friction that drags it is that of its own film. A ring whose greatest drag is
+// less than its friction rolls or jams; the film is then that of this last state.
+static SbStatus solve_dragged(const Task *task, SbSealState *out, SbReport *report) {
+  enum { ROUNDS = 6 };
+  const double close = 0.3 * task->model->tolerance;
+  const double pressure = task->pressure.left - task->pressure.right;
+  SbSlidingMemory *memory = task->memory;
+  Fitment *on = &memory->fitment[task->speed > 0 ? IN : OUT];
+  bool known = on->known && on->pressure == pressure && on->seal == task->seal;
+  Drag drag;
+  if (!known) {
+    guess(task, &drag, on);
+  }
+  SbWarnings *own = &memory->warnings;
+  SbStatus status = SB_OK;
+  for (int round = 0;; round++) {
+    Task like = *task;
+    memset(own, 0, sizeof *own); // of the last round
+    own->subject = task->warnings != NULL ? task->warnings->subject : NULL;
+    like.warnings = own;
+    status = solve_with(&like, known && round == 0 ? NULL : &drag, out, report);
+    double asked = usable(status) && out->load > 0 ? law_force(task->model, out, &on->fit) : NAN;
+    if (!isfinite(asked)) {
+      break;
+    }
+    bool slides = on->fit.ring.state == SB_RING_SLIDES;
+    bool agree = slides ? fabs(asked - on->asked) <= close * asked
+                        : asked >= (1 - close) * fabs(on->fit.ring.drag);
+    if (!agree && round + 1 < ROUNDS) {
+      drag = (Drag){*out, &on->fit};
+      continue;
+    }
+    bear(out, on, asked);
+    if (!agree) {
+      status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                       "fitment and friction of the %s seal do not agree: %.5g N and %.5g N",
+                       sb_seal_name(task->seal), on->asked, asked);
+    } else if (!slides) {
+      bool rolls = on->fit.ring.state == SB_RING_ROLLS;
+      sb_warn(own, rolls ? "ring-rolls" : "ring-jams", "gland.floor_friction",
+              "the %s ring %s %s: its section bears %.0f %% of its friction, turned by %.0f°",
+              sb_seal_name(task->seal), rolls ? "rolls" : "jams",
+              task->speed > 0 ? "on the in-stroke" : "on the return", 100 * out->borne_share,
+              out->rotation);
+    }
+    break;
+  }
+  sb_warnings_merge(task->warnings, own);
+  return status;
+}
+
+static SbStatus solve(const Task *task, SbSealState *out, SbReport *report) {
+  return drags(task) ? solve_dragged(task, out, report) : solve_with(task, NULL, out, report);
+}
+
 SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   sb_warn_about(task->warnings, about(task->seal));
   SbStatus status = solve(task, out, report);
@@ -583,7 +801,9 @@ SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport 
 SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   bool known;
   sb_warn_about(task->warnings, about(task->seal));
-  SbStatus status = fit_contact(task, out, &known, report);
+  // A ring's contact hangs on its friction.
+  SbStatus status =
+      drags(task) ? solve(task, out, report) : fit_contact(task, NULL, out, &known, report);
   sb_warn_about(task->warnings, NULL);
   return status;
 }

@@ -4,7 +4,7 @@
 //   boundary  F_b = tau_0 A_a + m W    thesis eq. 5.14, A_a = A (real share), m on the TOTAL load
 //             F_b = tau_0 A_a          models.friction = shear; tau_0(p) = tau_0
 //   viscous   F_v = tau (A - A_a)      thesis eq. 5.15 and 5.16, tau = min(eta |u|/h, tau_0)
-//   static    F_s = ratio (tau_0 A_a(0) + m W)     break-away from rest, where the film has gone
+//   static    F_s after a rest, breakaway.h        break-away, as the film goes
 //
 // With models.asperities = coupled the film is solved with the asperities in it (film/ehl.h), and
 // what the solution says takes the place of these: A_a its real area (mean over the contact
@@ -29,6 +29,11 @@
 #include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
 
+// Shear of the bore on a ring at a contact pressure [Pa], by the state's real area and viscous
+// force: m p + min(tau_0 A_a/A, p) + F_v/A. No surface transmits more by its area than the pressure
+// on it.
+double sb_sliding_shear(const SbModel *model, const SbSealState *state, double pressure);
+
 // Kinetic friction of a whole contact [N].
 double sb_sliding_friction(const SbSealState *state);
 
@@ -46,6 +51,7 @@ void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), 
 
 // What the last evaluation solved, for profiles; borrowed, overwritten by the next call.
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory);
+const SbRing *sb_sliding_ring(const SbSlidingMemory *memory); // NULL for other fitment models
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
 
 // A state of which nothing is known: its figures are NaN.

@@ -274,7 +274,7 @@ static void test_cancelled(void) {
   compile(&model, NULL, 0);
   SbPlan plan;
   SbRun *run;
-  SbRunHooks hooks = {NULL, at_once, NULL};
+  SbRunHooks hooks = {.cancelled = at_once};
   sb_plan_make(&plan, &model);
   g_assert_cmpint(sb_run_create(&run, &model, &plan, NULL), ==, SB_OK);
   g_assert_cmpint(sb_run_execute(run, &hooks, NULL), ==, SB_ERROR_CANCELLED);

@@ -10,6 +10,7 @@
 typedef struct {
   double force, level;
   bool varies;
+  double viscous; // friction's rise with the speed [N s/m]
 } Flat;
 
 static void flat_loads(SbDynamicsLoads *loads, double x, size_t region, const double *extra,
@@ -18,6 +19,32 @@ static void flat_loads(SbDynamicsLoads *loads, double x, size_t region, const do
   loads->force = flat->force;
   loads->level[0] = flat->level;
   loads->constant = !flat->varies;
+}
+
+// Friction that rises with the speed.
+static void straight_band(SbDynamicsBand *band, double x, size_t region, int direction,
+                          double speed, const double *extra, void *user) {
+  band->high = INFINITY;
+  band->slope[0] = ((const Flat *)user)->viscous;
+}
+
+// Friction that falls and rises again: corners [m/s, N].
+static const double corner[][2] = {
+    {0.0, 0.0}, {1e-3, -0.5}, {2e-2, -1.5}, {0.1, -1.2}, {10.0, 5.0}};
+
+static void bent_band(SbDynamicsBand *band, double x, size_t region, int direction, double speed,
+                      const double *extra, void *user) {
+  size_t i = 0;
+  while (i + 2 < G_N_ELEMENTS(corner) && speed >= corner[i + 1][0]) {
+    i++;
+  }
+  const double *a = corner[i], *b = corner[i + 1];
+  // The way back rubs a little less.
+  double share = direction > 0 ? 1.0 : 0.9;
+  band->low = a[0];
+  band->high = b[0];
+  band->slope[0] = share * (b[1] - a[1]) / (b[0] - a[0]);
+  band->rise[0] = share * a[1] - band->slope[0] * a[0];
 }
 
 static void advance(SbDynamics *s, double t, SbDynamicsSample *sample, SbDynamicsEnergy *energy) {
@@ -50,7 +77,7 @@ static void watch_slips(const SbMotionEvent *event, void *user) {
 // Slope A-B is machine and seal in series; the peak grows with the rest before it, and a rest on
 // the way gives another, smaller peak.
 static void test_presliding(void) {
-  Flat flat = {0.0, 10.0, false};
+  Flat flat = {.force = 0.0, .level = 10.0};
   double k = 2e4, machine = 1e5, speed = 1e-4, gain = 0.02, tau = 5.0;
   double time[] = {0.0, 40.0, 100.0, 140.0};
   double value[] = {0.0, 40.0 * speed, 40.0 * speed, 80.0 * speed};
@@ -95,21 +122,21 @@ static void test_presliding(void) {
   }
 }
 
-// Steady sliding follows the Stribeck curve and the viscous term.
+// Steady sliding follows the Stribeck curve and what rises with the speed.
 static void test_stribeck(void) {
   for (int elastic = 0; elastic < 2; elastic++) {
     for (int i = 0; i < 4; i++) {
       double speed = (double[]){1e-3, 5e-3, 2e-2, 0.1}[i];
-      Flat flat = {0.0, 4.0, false};
+      Flat flat = {.level = 4.0, .viscous = 3.0};
       SbDynamicsModel m = {.mass = 4e-3,
                            .contacts = 1,
                            .contact = {{.static_ratio = 1.5,
                                         .stribeck_speed = 1e-2,
                                         .stribeck_exponent = 0.8,
-                                        .viscous = 3.0,
                                         .stiffness = elastic ? 3e4 : INFINITY,
                                         .damping = elastic ? 10.0 : 0.0}},
                            .loads = flat_loads,
+                           .band = straight_band,
                            .user = &flat,
                            .drive = ramp(0.0, 10.0, speed),
                            .drive_stiffness = 1e5,
@@ -125,6 +152,84 @@ static void test_stribeck(void) {
       ASSERT_NEAR(sample.drive_force, friction, 1e-6 * friction);
       g_assert_cmpfloat(e.closure, <, 1e-6);
     }
+  }
+}
+
+// Bands of speed: the closed form goes through them as the numerical path does, growing swings of a
+// falling friction included, and in steady sliding the friction is the law's.
+static void test_bands(void) {
+  for (int kind = 0; kind < 8; kind++) {
+    const double speed = (double[]){2e-3, 0.05, 0.5, 5.0}[kind % 4];
+    bool elastic = kind >= 4;
+    const double every = speed < 0.1 ? 2e-2 : 2e-3;
+    double place[2][64], force[2];
+    for (int numerical = 0; numerical < 2; numerical++) {
+      Flat flat = {.force = -3.0, .level = 4.0, .varies = numerical};
+      SbDynamicsModel m = {.mass = 4e-3,
+                           .contacts = 1,
+                           .contact = {{.static_ratio = 1.2,
+                                        .stiffness = elastic ? 3e4 : INFINITY,
+                                        .damping = elastic ? 10.0 : 0.0}},
+                           .loads = flat_loads,
+                           .band = bent_band,
+                           .user = &flat,
+                           // A bare drive: the stem sticks and slips where friction falls.
+                           .drive = ramp(0.0, 10.0, speed),
+                           .drive_stiffness = 2e4,
+                           .drive_damping = speed < 0.1 ? 1.0 : 20.0,
+                           .rest_speed = 1e-12,
+                           .tolerance = 1e-11};
+      SbDynamics s;
+      SbDynamicsSample sample;
+      SbDynamicsEnergy e;
+      start(&s, &m);
+      for (int i = 0; i < 64; i++) {
+        advance(&s, (i + 1) * every, &sample, &e);
+        place[numerical][i] = sample.position;
+      }
+      g_assert_cmpfloat(e.closure, <, numerical ? 1e-8 : 1e-12);
+      g_assert_true((s.counters.steps > 0) == (numerical > 0));
+      if (speed > 0.1) {
+        SbDynamicsBand law = {0};
+        bent_band(&law, 0, 0, 1, sample.speed, NULL, NULL);
+        double wanted = 4.0 + law.rise[0] + law.slope[0] * sample.speed;
+        ASSERT_NEAR(-sample.friction[0], wanted, elastic ? 1e-4 : 1e-12);
+      }
+      force[numerical] = s.force_peak;
+    }
+    double worst = 0;
+    for (int i = 0; i < 64; i++) {
+      worst = fmax(worst, fabs(place[0][i] - place[1][i]) / fmax(place[0][i], 1e-4));
+    }
+    g_test_message("%g m/s%s: closed against numerical %.2g", speed, elastic ? ", elastic" : "",
+                   worst);
+    g_assert_cmpfloat(worst, <, 1e-6);
+    ASSERT_NEAR(force[0], force[1], 1e-6 * force[0]);
+  }
+}
+
+// Friction that differs with the direction: a stem pushed to and fro against it slows down as each
+// way says.
+static void back_loads(SbDynamicsLoads *loads, double x, size_t region, const double *extra,
+                       void *user) {
+  loads->level[0] = 2.0;
+  loads->back[0] = 1.0;
+  loads->constant = true;
+}
+
+static void test_back(void) {
+  for (int way = -1; way < 2; way += 2) {
+    SbDynamicsModel m = {.mass = 4e-3,
+                         .contacts = 1,
+                         .contact = {{.static_ratio = 1.0, .stiffness = INFINITY}},
+                         .loads = back_loads,
+                         .start_speed = way * 0.5};
+    SbDynamics s;
+    SbDynamicsSample sample;
+    start(&s, &m);
+    advance(&s, 1.0, &sample, NULL);
+    double friction = way > 0 ? 2.0 : 3.0;
+    ASSERT_NEAR(way * sample.position, 0.5 * 4e-3 * 0.25 / friction, 1e-12);
   }
 }
 
@@ -172,7 +277,7 @@ static void test_shaking(void) {
     value[i] = i % 2 ? 2e-4 : 0.0;
   }
   for (int kind = 0; kind < 4; kind++) {
-    Flat flat = {0.0, 2.0, false};
+    Flat flat = {.force = 0.0, .level = 2.0};
     bool rigid = kind % 2;
     SbDynamicsModel m = {
         .mass = 3.73e-3,
@@ -268,7 +373,7 @@ static void edge_loads(SbDynamicsLoads *loads, double x, size_t region, const do
 static void test_edge_at_rest(void) {
   for (int elastic = 0; elastic < 2; elastic++) {
     for (int sign = -1; sign <= 1; sign++) {
-      Flat flat = {sign * 4.0, 0.0, false};
+      Flat flat = {.force = sign * 4.0};
       SbDynamicsContact c = {.static_ratio = 1.0,
                              .stiffness = elastic ? 1e4 : INFINITY,
                              .damping = elastic ? 5.0 : 0.0};
@@ -307,7 +412,7 @@ static void test_edge_at_rest(void) {
 // A press by hand and the return: the stem comes back if, and only if, pressure exceeds friction.
 static void test_press(void) {
   for (int sticky = 0; sticky < 2; sticky++) {
-    Flat flat = {-14.5, sticky ? 15.0 : 9.0, false};
+    Flat flat = {.force = -14.5, .level = sticky ? 15.0 : 9.0};
     SbDynamicsModel m = {
         .mass = 3.73e-3,
         .contacts = 1,
@@ -350,13 +455,13 @@ static void test_press(void) {
 // tolerance is an honest estimate of the error, also where break-away magnifies small differences.
 // Not less than the tolerance itself: the coarser run may be right by chance.
 static void test_tolerance(void) {
-  Flat flat = {-14.5, 8.0, false};
+  Flat flat = {.force = -14.5, .level = 8.0, .viscous = 0.5};
   SbDynamicsModel m = {.mass = 3.73e-3,
                        .contacts = 1,
+                       .band = straight_band,
                        .contact = {{.static_ratio = 1.3,
                                     .stribeck_speed = 5e-3,
                                     .stribeck_exponent = 1.0,
-                                    .viscous = 0.5,
                                     .stiffness = 3e4,
                                     .damping = 3.0}},
                        .loads = flat_loads,
@@ -412,7 +517,7 @@ static void test_tolerance(void) {
 }
 
 static void test_refusals(void) {
-  Flat flat = {0.0, 1.0, false};
+  Flat flat = {.force = 0.0, .level = 1.0};
   SbDynamicsModel good = {.mass = 1e-3,
                           .contacts = 1,
                           .contact = {{.static_ratio = 1.0, .stiffness = 1e4}},
@@ -471,6 +576,8 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/motion/laws/presliding", test_presliding);
   g_test_add_func("/motion/laws/stribeck", test_stribeck);
+  g_test_add_func("/motion/laws/bands", test_bands);
+  g_test_add_func("/motion/laws/back", test_back);
   g_test_add_func("/motion/laws/sinusoid", test_sinusoid);
   g_test_add_func("/motion/laws/shaking", test_shaking);
   g_test_add_func("/motion/laws/chamber", test_chamber);

@@ -52,7 +52,7 @@ static void watch(const SbMotionEvent *event, void *user) {
 
 static SbDynamicsModel valve_model(Valve *valve) {
   double stroke = 6.6e-3, rest_stiffness = 1e7;
-  SbDynamicsContact seal = {.static_ratio = 1.1, .stiffness = 3e4, .damping = 3.0, .viscous = 0.05};
+  SbDynamicsContact seal = {.static_ratio = 1.1, .stiffness = 3e4, .damping = 3.0};
   SbDynamicsModel m = {
       .mass = 3.73e-3,
       .contacts = 2,

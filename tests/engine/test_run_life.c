@@ -138,7 +138,7 @@ static void test_cancel(void) {
   SbRun *run = NULL;
   SbReport report = {0};
   int asked = 0;
-  SbRunHooks hooks = {NULL, after_a_while, &asked};
+  SbRunHooks hooks = {.cancelled = after_a_while, .data = &asked};
   g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
   g_assert_cmpint(sb_run_execute(run, &hooks, &report), ==, SB_ERROR_CANCELLED);
   size_t count;

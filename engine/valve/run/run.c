@@ -212,17 +212,14 @@ static void conclude(SbRun *run, bool moved) {
   }
 }
 
-// The valve's actuation: sliding states, shapes to draw, then the motion.
+// The valve's actuation: sliding states, then the motion.
 static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbPlan *plan = &run->plan;
   sb_model_warn_storage(run->model, &run->summary.warnings);
   // Solved rings take seconds, everything else before the frames milliseconds.
-  run->before_frames = plan->section_fields ? 0.95 : plan->ring ? 0.9 : 0;
+  run->before_frames = plan->ring ? 0.9 : 0;
   run->after_frames = run->life != NULL ? 0.9 * (1 - run->before_frames) : 0;
   SbStatus status = sb_run_solve_states(run, hooks, report);
-  if (status == SB_OK && plan->section_fields) {
-    status = sb_run_solve_shapes(run, hooks, report);
-  }
   if (!usable(status)) {
     return status;
   }

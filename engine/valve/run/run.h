@@ -20,6 +20,7 @@ typedef struct {
   void (*progress)(void *data, double fraction, size_t frames);
   bool (*cancelled)(void *data);
   void *data;
+  bool alone; // no thread beside the caller's, which is the one that calls back in either case
 } SbRunHooks;
 
 typedef struct {
@@ -54,13 +55,18 @@ typedef struct {
   bool film_fitted; // film_min and film_central are solved on the fitted body
   double layer;     // that it leaves on the bore behind it: flow over speed [m]
   double load_net;  // per length, above the ambient step: what the film carries [N/m]
-  double contact_pressure; // mean, of the rubber alone: net load over width [Pa]
-  double film_error;       // of the solved film, relative [1]; NaN if closed form
-  double central_error;    // the same of film_central alone, on which friction hangs [1]
-  double boundary_area;    // tau_0 A_a, the part of F_b in proportion to the width [N]
-  double boundary_load;    // m W, the part in proportion to the load [N]
-  double friction_error;   // of kinetic friction by the solved film's error [N]
-  double static_error;     // the same of static friction [N]
+  double contact_pressure;     // mean, of the rubber alone: net load over width [Pa]
+  double film_error;           // of the solved film, relative [1]; NaN if closed form
+  double central_error;        // the same of film_central alone, on which friction hangs [1]
+  double boundary_area;        // tau_0 A_a, the part of F_b in proportion to the width [N]
+  double boundary_load;        // m W, the part in proportion to the load [N]
+  double rest_area, rest_load; // what these two become at rest, once the film has gone [N]
+  double friction_error;       // of kinetic friction by the solved film's error [N]
+  double static_error;         // the same of static friction [N]
+  // Of a ring that friction drags, NaN without: what the pressure leaves of tau_0 A_a, what the
+  // section bears of the whole friction, its turn [degrees], > 0 as friction turns it.
+  double area_cut, borne_share, rotation;
+  SbRingState section;
 } SbSealState;
 
 // What the sliding-plate rig reports (valve/rig.h).

@@ -37,22 +37,12 @@ static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *seg
     double own = sb_cycle_seal_friction(cycle, seal, chamber, direction, s);
     if (at.moving) {
       sample->friction[seal] = sign * own;
-      sample->viscous[seal] = sign * cycle->state[seal][chamber][direction].friction_viscous *
-                              sb_cycle_land_share(cycle, seal, chamber, direction, s).width;
     } else if (total > 0) {
       // A stuck stem's friction is split between the seals in proportion to what each can bear.
       sample->friction[seal] = -friction * own / total;
     }
   }
   sb_run_fill_frame(out, run, &at);
-  for (int seal = 0; seal < SB_SEAL_COUNT && !at.moving; seal++) {
-    // The rings keep the shear of the friction that holds them.
-    SbSealFrame *of = &out->seal[seal];
-    if (of->friction != 0) {
-      of->shape =
-          sb_run_shape_index(run, seal, chamber, of->friction > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT, s);
-    }
-  }
 }
 
 // Evenly spaced frames, and one at the end of every segment so that corners are sharp.

@@ -48,7 +48,7 @@ static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const 
   sb_run_publish(one, 0);
   SbStatus status = resurface(one, roughness / run->model->running_in.start, report);
   if (status == SB_OK) {
-    const SbRunHooks quiet = {NULL, hooks->cancelled, hooks->data};
+    const SbRunHooks quiet = {.cancelled = hooks->cancelled, .data = hooks->data};
     SbReport own = {0};
     status = sb_run_move(one, &quiet, &own);
     if (status != SB_OK) {

@@ -72,6 +72,7 @@ struct SbRun {
   size_t capacity; // frames at most
   SbCycle cycle;   // its states serve every motion model
   double speed; // sliding speed that the states stand for [m/s]: the machine's, or the stem's own
+  SbDwellLaw rest[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS]; // of contacts that age, over their level
   double film_exponent; // of the film's speed law about it; 0: every frame slides at that speed
   SbSummary summary;
   SbBore bore;                         // of the last motion, under the outer seal
@@ -98,12 +99,16 @@ struct SbRun {
 // from B to C, which follows from them: repeated until they agree (run_states.c).
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
-// Solves the rings' deformed sections for drawing (run_shapes.c). A shape that cannot be found is
-// left out with a warning; only a cancel or no memory is an error.
-SbStatus sb_run_solve_shapes(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+// Keeps a seal's solved section for drawing, as shape `index` of its own (run_shapes.c).
+SbStatus sb_run_keep_shape(SbRun *run, int seal, int index, const SbRing *ring, SbReport *report);
+
+// Solves the inner ring over the land's edge, and free. Its state at rest must be known.
+SbStatus sb_run_solve_edge(SbRun *run, int seal, SbCounters *counts, const SbRingOptions *options,
+                           SbReport *report);
 
 // Shape of a seal in a frame: by its chamber, its motion (SB_CYCLE_IN, SB_CYCLE_OUT, SB_RUN_REST)
-// and, of the inner one, the stem's displacement s [m], which moves it over the land's edge.
+// and, of the inner one while the land's edge lies under it or beyond, the stem's displacement s
+// [m]; else 0.
 // UINT32_MAX if none was solved.
 uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion, double s);
 

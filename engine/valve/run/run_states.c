@@ -8,6 +8,9 @@
 // three rounds do. Solved rings take seconds a round: for them the speed is that of the same valve
 // with the thesis' closed forms.
 //
+// The two seals share nothing until then: where their rings are solved, each has a thread, and what
+// both add to the run is joined in the seals' order, so that results do not depend on the threads.
+//
 // Around that speed a frame's film follows its own speed by the law's exponent (equations 7.5, 7.6;
 // 0.6 for solved films, docs/thesis.md, 3), and the viscous force is linear in the speed. Left out:
 // that the boundary share, too, falls a little where the stem is faster than there.
@@ -17,6 +20,7 @@
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,9 +42,23 @@ uint32_t sb_run_profile_slot(int seal, int chamber, int motion) {
   return (uint32_t)((seal * SB_CYCLE_CHAMBERS + chamber) * SB_RUN_MOTIONS + motion);
 }
 
+// A seal's states in work, and what they add to the run.
+typedef struct {
+  SbRun *run;
+  const SbRunHooks *hooks; // NULL on a thread of its own, which asks nobody
+  atomic_bool *stop;       // somebody asked to stop
+  int seal;
+  SbStatus status; // the worst, with the first report of it
+  SbReport report, lacks, failed;
+  double friction_error, static_error, error_film, error_load, error_width;
+  SbCounters counters;
+  SbWarnings warnings;
+} Lane;
+
 // One state in work.
 typedef struct {
   SbRun *run;
+  Lane *lane;
   int seal, chamber, motion;
   SbSealPressure pressure;
   SbSealState *state;
@@ -145,7 +163,7 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
       .asperity_pressure = asperities,
       .model = solved && !scaled ? "reynolds" : sb_fit_model_name(run->model->fit),
   };
-  run->summary.counters.profile_evaluations++;
+  task->lane->counters.profile_evaluations++;
   return SB_OK;
 }
 
@@ -168,7 +186,7 @@ static bool state_needed(const Task *task) {
   case SB_DEPTH_WHOLE:
     break;
   }
-  return motion != SB_RUN_REST || run->plan.profiles;
+  return motion != SB_RUN_REST || run->plan.profiles || run->plan.ring;
 }
 
 // Names what failed and where: solver, seal, stages, place; and what there is all the same. Figures
@@ -201,12 +219,12 @@ static void report_failure(const Task *task, SbReport *report) {
                           complete ? "the last solution"
                           : fitted ? "its fitment, the other states"
                                    : "the other states");
-  sb_warn(&run->summary.warnings, "not-converged", report->parameter, "%s", report->text);
-  if (task->motion != SB_RUN_REST && !complete && run->lacks.status == SB_OK) {
-    run->lacks = *report;
+  sb_warn(&task->lane->warnings, "not-converged", report->parameter, "%s", report->text);
+  if (task->motion != SB_RUN_REST && !complete && task->lane->lacks.status == SB_OK) {
+    task->lane->lacks = *report;
   }
   if (task->chamber == SB_CHAMBER_AT_REST && task->motion == SB_CYCLE_IN) {
-    sb_seal_reason(&run->summary, task->seal, "*", "%s", report->text);
+    task->lane->failed = *report;
   }
 }
 
@@ -215,23 +233,28 @@ double sb_run_error_friction(const SbRun *run) {
   return peak > 0 ? SB_SEAL_COUNT * fmax(run->friction_error, run->static_error) / peak : 0;
 }
 
-// Solves one state and takes its errors, its surface and its profile. SB_ERROR_NOT_CONVERGED with
-// what there is all the same.
+static bool cancelled(void *data) {
+  const Lane *lane = data;
+  if (lane->hooks != NULL && sb_run_cancelled(lane->hooks, NULL)) {
+    atomic_store(lane->stop, true);
+  }
+  return atomic_load(lane->stop);
+}
+
+// Solves one state and takes its errors, its surface, its profile and its shape.
+// SB_ERROR_NOT_CONVERGED with what there is all the same.
 static SbStatus solve_state(const Task *of, SbReport *report) {
   SbRun *run = of->run;
-  SbSummary *summary = &run->summary;
+  Lane *lane = of->lane;
   SbSealState *state = of->state;
   SbSlidingMemory *memory = run->memory[of->seal];
   const bool fitment = run->plan.seal[of->seal] == SB_DEPTH_FITMENT;
   const double way[SB_RUN_MOTIONS] = {[SB_CYCLE_IN] = 1, [SB_CYCLE_OUT] = -1};
-  const SbSlidingTask task = {run->model,
-                              of->seal,
-                              of->pressure,
-                              way[of->motion] * run->speed,
-                              memory,
-                              &summary->counters,
-                              &summary->warnings,
-                              sb_run_supply(run, of->seal, (SbChamber)of->chamber, of->motion)};
+  const SbSlidingTask task = {
+      run->model,      of->seal,
+      of->pressure,    way[of->motion] * run->speed,
+      memory,          &lane->counters,
+      &lane->warnings, sb_run_supply(run, of->seal, (SbChamber)of->chamber, of->motion)};
   SbStatus status =
       fitment ? sb_sliding_fitment(state, &task, report) : sb_sliding_solve(state, &task, report);
   if (status == SB_ERROR_NOT_CONVERGED) {
@@ -239,8 +262,8 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
   } else if (status != SB_OK) {
     return status;
   } else if (!fitment && of->motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state)) &&
-             run->lacks.status == SB_OK) {
-    (void)sb_fail(&run->lacks, SB_ERROR_INFEASIBLE,
+             lane->lacks.status == SB_OK) {
+    (void)sb_fail(&lane->lacks, SB_ERROR_INFEASIBLE,
                   "the fluid opens the contact of the %s seal or carries it alone: no law gives "
                   "film and friction",
                   sb_seal_name(of->seal));
@@ -252,54 +275,203 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
                                         of->seal, of->pressure, NULL, NULL) == SB_OK;
   }
   if (isfinite(state->load)) {
-    summary->error_load = fmax(summary->error_load, fit->solver.error_estimate.load);
-    summary->error_width = fmax(summary->error_width, fit->solver.error_estimate.contact_width);
+    lane->error_load = fmax(lane->error_load, fit->solver.error_estimate.load);
+    lane->error_width = fmax(lane->error_width, fit->solver.error_estimate.contact_width);
   }
   // fmax() leaves out what was not computed.
-  run->friction_error = fmax(run->friction_error, state->friction_error);
-  run->static_error = fmax(run->static_error, state->static_error);
-  summary->error_film = fmax(summary->error_film, state->film_error);
+  lane->friction_error = fmax(lane->friction_error, state->friction_error);
+  lane->static_error = fmax(lane->static_error, state->static_error);
+  lane->error_film = fmax(lane->error_film, state->film_error);
+  const SbRing *ring = sb_sliding_ring(memory);
   SbStatus kept = run->plan.profiles ? make_profile(of, report) : SB_OK;
+  if (kept == SB_OK && run->plan.section_fields && ring != NULL && fit->solver.converged) {
+    lane->counters.field_evaluations++;
+    kept =
+        sb_run_keep_shape(run, of->seal, of->chamber * SB_RUN_MOTIONS + of->motion, ring, report);
+  }
   return kept != SB_OK ? kept : status;
+}
+
+// The inner ring over the land's edge. What cannot be found is not drawn.
+static SbStatus solve_edge(Lane *lane, SbReport *report) {
+  SbRun *run = lane->run;
+  const SbRingOptions options = {.poll = cancelled, .poll_data = lane};
+  const SbSealState *rest = &run->cycle.state[lane->seal][SB_CHAMBER_AT_REST][SB_RUN_REST];
+  if (!run->plan.section_fields || lane->seal != SB_INNER || !(rest->load > 0)) {
+    return SB_OK;
+  }
+  SbStatus status = sb_run_solve_edge(run, lane->seal, &lane->counters, &options, report);
+  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    return status;
+  }
+  if (status != SB_OK) {
+    sb_warn(&lane->warnings, "ring-shape", "models.fit",
+            "no solved shape of the inner ring over the land's edge: drawn schematically");
+  }
+  return SB_OK;
+}
+
+// Whether a status ends a seal's states.
+static bool fatal(SbStatus status) {
+  return status != SB_OK && status != SB_ERROR_NOT_CONVERGED;
+}
+
+static void *solve_lane(void *data) {
+  enum { STATES = SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS };
+  Lane *lane = data;
+  SbRun *run = lane->run;
+  SbReport own = {0};
+  for (int i = 0; i < STATES && !fatal(lane->status); i++) {
+    const int chamber = i / SB_RUN_MOTIONS;
+    Task task = {run,
+                 lane,
+                 lane->seal,
+                 chamber,
+                 i % SB_RUN_MOTIONS,
+                 .state = &run->cycle.state[lane->seal][0][0] + i};
+    if (!state_needed(&task)) {
+      continue;
+    }
+    if (cancelled(lane)) {
+      lane->status = sb_fail(&lane->report, SB_ERROR_CANCELLED, "cancelled");
+      break;
+    }
+    if (lane->hooks != NULL) {
+      sb_run_progress(run, lane->hooks, i / (double)STATES, 0);
+    }
+    task.pressure = sb_model_seal_pressure(run->model, lane->seal, (SbChamber)chamber);
+    own = (SbReport){0};
+    SbStatus status = solve_state(&task, &own);
+    if (fatal(status) || (status != SB_OK && lane->status == SB_OK)) {
+      lane->report = own; // of failures to converge the first is told
+      lane->status = status;
+    }
+  }
+  if (lane->status == SB_OK) {
+    lane->status = solve_edge(lane, &lane->report);
+  }
+  return NULL;
+}
+
+// A lane on another thread, waited for.
+typedef struct {
+  Lane *lane;
+  pthread_mutex_t lock;
+  pthread_cond_t done;
+  bool ended;
+} Beside;
+
+static void *solve_beside(void *data) {
+  Beside *beside = data;
+  (void)solve_lane(beside->lane);
+  pthread_mutex_lock(&beside->lock);
+  beside->ended = true;
+  pthread_cond_signal(&beside->done);
+  pthread_mutex_unlock(&beside->lock);
+  return NULL;
+}
+
+// Solves both lanes, the second on a thread of its own; `first` asks whether to stop, for both.
+static void solve_together(Lane *first, Lane *second) {
+  Beside beside = {second, PTHREAD_MUTEX_INITIALIZER, PTHREAD_COND_INITIALIZER, false};
+  const SbRunHooks *hooks = second->hooks;
+  pthread_t thread;
+  second->hooks = NULL;
+  bool runs = pthread_create(&thread, NULL, solve_beside, &beside) == 0;
+  (void)solve_lane(first);
+  if (!runs) {
+    second->hooks = hooks;
+    (void)solve_lane(second);
+    return;
+  }
+  pthread_mutex_lock(&beside.lock);
+  while (!beside.ended) {
+    struct timespec until;
+    timespec_get(&until, TIME_UTC);
+    until.tv_nsec += 10000000;
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    pthread_cond_timedwait(&beside.done, &beside.lock, &until);
+    pthread_mutex_unlock(&beside.lock);
+    (void)cancelled(first);
+    pthread_mutex_lock(&beside.lock);
+  }
+  pthread_mutex_unlock(&beside.lock);
+  pthread_join(thread, NULL);
+  pthread_cond_destroy(&beside.done);
+  pthread_mutex_destroy(&beside.lock);
+}
+
+// Adds a lane's to the run.
+static void join(SbRun *run, const Lane *lane) {
+  SbSummary *summary = &run->summary;
+  SbCounters *sum = &summary->counters;
+  sum->fit_solves += lane->counters.fit_solves;
+  sum->disc_solves += lane->counters.disc_solves;
+  sum->ring_solves += lane->counters.ring_solves;
+  sum->reynolds_solves += lane->counters.reynolds_solves;
+  sum->newton_iterations += lane->counters.newton_iterations;
+  sum->field_evaluations += lane->counters.field_evaluations;
+  sum->profile_evaluations += lane->counters.profile_evaluations;
+  sb_warnings_merge(&summary->warnings, &lane->warnings);
+  if (lane->failed.status != SB_OK) {
+    sb_seal_reason(summary, lane->seal, "*", "%s", lane->failed.text);
+  }
+  if (run->lacks.status == SB_OK) {
+    run->lacks = lane->lacks;
+  }
+  run->friction_error = fmax(run->friction_error, lane->friction_error);
+  run->static_error = fmax(run->static_error, lane->static_error);
+  summary->error_film = fmax(summary->error_film, lane->error_film);
+  summary->error_load = fmax(summary->error_load, lane->error_load);
+  summary->error_width = fmax(summary->error_width, lane->error_width);
 }
 
 static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
-  SbStatus worst = SB_OK;
   summary->error_film = NAN;
   summary->error_load = summary->error_width = 0;
   (void)sb_succeed(&run->lacks);
   run->friction_error = run->static_error = 0;
   run->cycle.model = run->model;
+  Lane *lane = calloc(SB_SEAL_COUNT, sizeof *lane);
+  if (lane == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the seals' states");
+  }
+  atomic_bool stop = false;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    sb_sliding_memory_poll(run->memory[seal], hooks->cancelled, hooks->data);
+    lane[seal].run = run;
+    lane[seal].hooks = hooks;
+    lane[seal].stop = &stop;
+    lane[seal].seal = seal;
+    lane[seal].error_film = NAN;
+    sb_sliding_memory_poll(run->memory[seal], cancelled, &lane[seal]);
     // At least what the figures are taken from is unknown until it is solved.
     sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN]);
   }
-  for (int i = 0; i < SB_RUN_PROFILE_SLOTS; i++) {
-    const int chambers = i / SB_RUN_MOTIONS; // begun, of both seals
-    Task task = {run, chambers / SB_CYCLE_CHAMBERS, chambers % SB_CYCLE_CHAMBERS,
-                 i % SB_RUN_MOTIONS, .state = &run->cycle.state[0][0][0] + i};
-    if (!state_needed(&task)) {
-      continue;
+  bool both =
+      run->plan.seal[SB_OUTER] > SB_DEPTH_SIZES && run->plan.seal[SB_INNER] > SB_DEPTH_SIZES;
+  if (run->plan.ring && both && !hooks->alone) {
+    solve_together(&lane[0], &lane[1]);
+  } else {
+    for (int seal = 0; seal < SB_SEAL_COUNT && (seal == 0 || !fatal(lane[seal - 1].status));
+         seal++) {
+      (void)solve_lane(&lane[seal]);
     }
-    if (sb_run_cancelled(hooks, report)) {
-      return SB_ERROR_CANCELLED;
-    }
-    sb_run_progress(run, hooks, 0.3 * chambers / (SB_SEAL_COUNT * SB_CYCLE_CHAMBERS), 0);
-    task.pressure = sb_model_seal_pressure(run->model, task.seal, (SbChamber)task.chamber);
-    SbReport own = {0};
-    SbStatus status = solve_state(&task, &own);
-    bool fatal = status != SB_OK && status != SB_ERROR_NOT_CONVERGED;
-    if (report != NULL && (fatal || (status != SB_OK && worst == SB_OK))) {
-      *report = own; // of failures to converge the first is told
-    }
-    if (fatal) {
-      return status;
-    }
-    worst = status != SB_OK ? status : worst;
   }
-  return worst;
+  const Lane *worst = &lane[0];
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    join(run, &lane[seal]);
+    sb_sliding_memory_poll(run->memory[seal], hooks->cancelled, hooks->data);
+    bool worse = worst->status == SB_OK || (fatal(lane[seal].status) && !fatal(worst->status));
+    worst = worse ? &lane[seal] : worst;
+  }
+  SbStatus status = worst->status;
+  if (report != NULL && status != SB_OK) {
+    *report = worst->report;
+  }
+  free(lane);
+  return status;
 }
 
 // Power of the speed in the film's law.

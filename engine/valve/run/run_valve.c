@@ -8,12 +8,16 @@
 // levels lie between those of the vented and of the filled chamber, in proportion to its pressure:
 // exact where the chamber rests, which is all but the milliseconds of filling and venting.
 //
+// Contacts that age (friction.breakaway) hold by the law of the state that stands for their
+// chamber.
+//
 // Ports by position. With y from the land's edge outwards and the contacts' edges l < r in each
 // seal's frame, the inner contact starts at y = s_C - s and the outer ends of the chamber lie at
 // s_C - s + (r - l)_inner and s_C - s - l_inner + spacing + l_outer. The chamber meets the canister
 // when the inner contact has left the land, the vent while any of the hole lies between the two
 // contacts (open wholly or not at all), and the canister through a by-pass below
 // bore.refill_travel.
+#include "engine/valve/breakaway.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
@@ -43,6 +47,8 @@ static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const d
   // Bore and stem are the same on either side of the chamber, so that its pressure cancels.
   loads->force = -valve->run->model->pressure_force;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    loads->rest[seal] =
+        valve->run->model->contact_ageing ? &valve->run->rest[seal][valve->chamber] : NULL;
     if (valve->ports) {
       double q = filling(valve->run, extra[0]);
       double vented = q < 1 ? level_of(cycle, seal, SB_CHAMBER_AT_REST, x) : 0;
@@ -57,6 +63,17 @@ static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const d
   bool settled = !valve->ports || sb_chamber_settled(&valve->dose, extra[0]);
   loads->settled = settled;
   loads->constant = settled && (still || !valve->varies[region]);
+}
+
+// The viscous force is linear in the speed.
+static void valve_band(SbDynamicsBand *band, double x, size_t region, int direction, double speed,
+                       const double *extra, void *user) {
+  const SbRun *run = ((SbValve *)user)->run;
+  band->high = INFINITY;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    band->slope[seal] =
+        run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN].friction_viscous / run->speed;
+  }
 }
 
 static void valve_cross(size_t edge, int direction, double *extra, void *user) {
@@ -180,6 +197,21 @@ static SbStatus valve_mass(double *mass, double x, double v, void *user, SbRepor
   return sb_run_bodies_move(mass, valve->run, x, v, report);
 }
 
+// The law of a contact that ages, over its sliding level.
+static SbStatus set_rest(SbRun *run, int seal, SbChamber chamber, SbReport *report) {
+  const SbSealState *state = &run->cycle.state[seal][chamber][direction_of(chamber)];
+  const double level = state->boundary_area + state->boundary_load;
+  SbDwellLaw *law = &run->rest[seal][chamber];
+  double squeeze_time;
+  SbStatus status = sb_breakaway_law(law, &squeeze_time, run->model, seal, state, report);
+  for (size_t i = 0; i < law->count; i++) {
+    SbDwellPiece *piece = &law->piece[i];
+    piece->value = level > 0 ? piece->value / level : 1;
+    piece->gain = level > 0 ? piece->gain / level : 0;
+  }
+  return status;
+}
+
 SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbReport *report) {
   const SbModel *model = run->model;
   const SbCycle *cycle = &run->cycle;
@@ -191,6 +223,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
       .contacts = SB_SEAL_COUNT,
       .stops = 2,
       .loads = valve_loads,
+      .band = valve_band,
       .cross = valve_cross,
       .mass_at = run->bodies != NULL ? valve_mass : NULL,
       .user = valve,
@@ -200,9 +233,16 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const SbSealState *state = &cycle->state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
     double level = state->boundary_area + state->boundary_load;
-    double ratio = level > 0 ? fmax(state->friction_static / level, 1) : 1;
-    out->contact[seal] = sb_model_contact(model, ratio, out->mass);
-    out->contact[seal].viscous = state->friction_viscous / run->speed;
+    // Static friction is that of the dry contact.
+    double dry = level > 0 ? (state->rest_area + state->rest_load) / level : 1;
+    out->contact[seal] = sb_model_contact(model, fmax(model->static_ratio * dry, 1), out->mass);
+    out->contact[seal].dwell_gain *= model->contact_ageing ? 1 : dry;
+    for (int chamber = 0; model->contact_ageing && chamber < SB_CYCLE_CHAMBERS; chamber++) {
+      SbStatus status = set_rest(run, seal, (SbChamber)chamber, report);
+      if (status != SB_OK) {
+        return status;
+      }
+    }
   }
   out->stop[SB_REST_STOP] = (SbDynamicsStop){0, -1, INFINITY, 0};
   out->stop[SB_END_STOP] =
@@ -211,8 +251,11 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
 
   // Edges: where the contact meets the land's end, where it has left, where it comes back.
   valve->touches = cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].touches;
-  double far = -INFINITY;
+  double near = INFINITY, far = -INFINITY;
   if (valve->touches) {
+    double closed = sb_cycle_edge_begin(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
+    near = fmin(model->land_edge, closed);
+    add_edge(out, closed);
     valve->edge_open = sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
     valve->edge_closed = sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
     far = fmax(valve->edge_open, valve->edge_closed);
@@ -246,7 +289,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   for (size_t region = 0; region <= out->edges; region++) {
     double low = region > 0 ? out->edge[region - 1] : -INFINITY;
     double high = region < out->edges ? out->edge[region] : INFINITY;
-    valve->varies[region] = valve->touches && rubs && low >= model->land_edge && high <= far;
+    valve->varies[region] = valve->touches && rubs && low >= near && high <= far;
     if (region < out->edges) {
       valve->edge[region] = high;
     }
@@ -283,9 +326,14 @@ static void fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbSolvedS
                          bool moving, double s) {
   const SbChamber chamber = solved.chamber;
   const int direction = solved.direction, motion = moving ? direction : SB_RUN_REST;
-  const SbSealState *state = &run->cycle.state[seal][chamber][direction];
+  // At rest a solved ring is one that friction does not drag; other models know one contact.
+  const SbSealState *still = &run->cycle.state[seal][chamber][SB_RUN_REST];
+  const SbSealState *slides = &run->cycle.state[seal][chamber][direction];
+  const SbSealState *state = run->plan.ring && !moving && still->load > 0 ? still : slides;
   const SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, chamber);
   const SbLandShare on = sb_cycle_land_share(&run->cycle, seal, chamber, direction, s);
+  const uint32_t drawn = sb_run_shape_index(run, seal, chamber, motion, on.width < 1 ? s : 0);
+  const SbSealShape *shape = on.width < 1 ? sb_run_shape(run, drawn) : NULL;
   double width = state->contact_right - state->contact_left;
 
   // The edge takes the contact away from the canister side.
@@ -296,9 +344,9 @@ static void fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbSolvedS
       .profile = run->plan.profiles && state->touches
                      ? sb_run_profile_slot(seal, (int)chamber, motion)
                      : UINT32_MAX,
-      .shape = sb_run_shape_index(run, seal, chamber, motion, s),
-      .contact_left = state->contact_right - on.width * width,
-      .contact_right = state->contact_right,
+      .shape = drawn,
+      .contact_left = shape != NULL ? shape->contact_left : state->contact_right - on.width * width,
+      .contact_right = shape != NULL ? shape->contact_right : state->contact_right,
       .load = on.load * state->load,
       .pressure_peak = on.width > 0.5 ? state->pressure_peak : 0,
   };
@@ -362,7 +410,9 @@ void sb_run_fill_frame(SbFrame *out, const SbRun *run, const SbInstant *at) {
     of->film_central *= film;
     of->lambda *= film;
     of->friction = -sample->friction[seal];
-    of->friction_viscous = -sample->viscous[seal];
-    of->friction_boundary = sample->viscous[seal] - sample->friction[seal];
+    const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+    double viscous = state->friction_viscous / run->speed * sample->speed;
+    of->friction_viscous = at->moving && of->friction != 0 ? viscous : 0;
+    of->friction_boundary = of->friction - of->friction_viscous;
   }
 }

@@ -1,0 +1,113 @@
+// See breakaway.h.
+#include "engine/valve/breakaway.h"
+
+#include "engine/contact/rough/greenwood_tripp.h"
+#include "engine/film/squeeze.h"
+#include "engine/valve/sliding.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { SLIDING, DRY };
+
+// What an ageing contact's law is made of.
+typedef struct {
+  const SbModel *model;
+  double kinetic;          // friction of sliding, viscous part included [N]
+  double area[2], load[2]; // tau_0 A and m W [N]
+  double squeeze_time;     // as in the header
+  double product, lambda;  // of Greenwood and Tripp beside the film, while sliding
+  double share[2];         // real contact that belongs to the ends of the squeeze
+  SbSqueeze squeeze;
+} Contact;
+
+// Real contact under a film of the squeeze, over the nominal.
+static double share_under(const Contact *c, double film) {
+  if (c->squeeze.law == NULL) {
+    return sb_gt_area_share(c->product, fmin(c->lambda * film / c->squeeze.film, SB_GT_LAMBDA_MAX));
+  }
+  SbRoughPoint at;
+  sb_rough_law_at(&at, c->squeeze.law, sb_rough_law_of_gap(c->squeeze.law, film));
+  return at.share;
+}
+
+// The squeeze of the state's film, if it has one, and how real contact follows it. `law` is room
+// for that of asperities that share the load.
+static SbStatus squeeze_out(Contact *c, SbRoughLaw *law, int seal, const SbSealState *state,
+                            SbReport *report) {
+  const SbModel *model = c->model;
+  const double width = state->contact_right - state->contact_left;
+  const double pressure = state->load_net / width;
+  double film = state->film_central;
+  if (!(film > 0 && pressure > 0)) {
+    return SB_OK;
+  }
+  const double roughness = film / (state->lambda * model->sigma); // run in, over the model's
+  c->product = roughness * model->gt_product;
+  if (law != NULL) {
+    const SbRoughSurface surface = {model->surface, c->product, roughness * model->sigma,
+                                    roughness * model->sigma_over_beta,
+                                    model->seal[seal].reduced_modulus};
+    SbStatus status = sb_rough_law_init(law, &surface, report);
+    if (status != SB_OK) {
+      return status;
+    }
+    // The mean gap at which asperities have their share of the mean pressure.
+    SbRoughPoint at;
+    double borne = fmax(state->asperity_share, 1e-12) * pressure;
+    sb_rough_law_at(&at, law, sb_rough_law_of_pressure(law, borne));
+    film = fmax(film, at.gap);
+  }
+  sb_squeeze_init(&c->squeeze, film, pressure, width / 2, model->viscosity, law);
+  const double rest = c->squeeze.rest;
+  c->squeeze_time = film > rest ? sb_squeeze_time(&c->squeeze, (film + rest) / 2) : 0;
+  c->share[SLIDING] = share_under(c, film);
+  c->share[DRY] = share_under(c, rest);
+  return SB_OK;
+}
+
+static double aged_friction(double dwell, const void *context) {
+  const Contact *c = context;
+  double done = 1; // of a film that is not there nothing is to go
+  if (c->squeeze_time > 0 && c->share[DRY] > c->share[SLIDING]) {
+    double share = share_under(c, sb_squeeze_film(&c->squeeze, dwell));
+    done = (share - c->share[SLIDING]) / (c->share[DRY] - c->share[SLIDING]);
+  }
+  double area = c->area[SLIDING] + done * (c->area[DRY] - c->area[SLIDING]);
+  double load = c->load[SLIDING] + done * (c->load[DRY] - c->load[SLIDING]);
+  double aged = 1 + c->model->ageing_gain * log1p(dwell / c->model->ageing_time);
+  return fmax(area * aged + load, c->kinetic);
+}
+
+SbStatus sb_breakaway_law(SbDwellLaw *out, double *squeeze_time, const SbModel *model, int seal,
+                          const SbSealState *state, SbReport *report) {
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const double dry = state->rest_area + state->rest_load;
+  const double kinetic = sb_sliding_friction(state);
+  Contact contact = {
+      .model = model,
+      .kinetic = kinetic,
+      .area = {state->boundary_area, state->rest_area},
+      .load = {state->boundary_load, state->rest_load},
+      .squeeze_time = NAN,
+      .lambda = state->lambda,
+  };
+  SbRoughLaw *law = coupled ? malloc(sizeof *law) : NULL;
+  if (coupled && law == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the rough contact");
+  }
+  SbStatus status = squeeze_out(&contact, law, seal, state, report);
+  *squeeze_time = contact.squeeze_time;
+  if (status == SB_OK && model->contact_ageing && kinetic > 0) {
+    const double ageing = model->ageing_time;
+    const double squeeze = contact.squeeze_time > 0 ? contact.squeeze_time : ageing;
+    sb_dwell_table(out, aged_friction, &contact, fmin(squeeze, ageing), fmax(squeeze, ageing));
+  } else if (model->contact_ageing) {
+    *out = (SbDwellLaw){1, {{0, model->ageing_time, kinetic, 0}}};
+  } else {
+    *out = (SbDwellLaw){
+        1, {{0, model->dwell_time, model->static_ratio * dry, model->dwell_gain * dry}}};
+  }
+  free(law);
+  return status;
+}
