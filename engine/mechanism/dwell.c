@@ -6,6 +6,9 @@
 
 static const double close_enough = 1e-4;
 
+// The last piece goes on as the law does on average up to so many times its start.
+static const double beyond = 1e4;
+
 // A node of the table: time [s], value, and how far the middle of the piece behind it is off, over
 // the value.
 typedef struct {
@@ -20,7 +23,7 @@ static void measure(Node *node, double (*law)(double, const void *), const void 
 void sb_dwell_table(SbDwellLaw *out, double (*law)(double, const void *), const void *context,
                     double first, double last) {
   Node node[SB_DWELL_PIECES] = {{1e-3 * first, law(1e-3 * first, context), 0.0},
-                                {1e3 * last, law(1e3 * last, context), 0.0}};
+                                {1e6 * last, law(1e6 * last, context), 0.0}};
   size_t count = 2, worst = 0;
   measure(node, law, context);
   // The first piece leads from 0 to the first node, the last one beyond the last.
@@ -39,8 +42,8 @@ void sb_dwell_table(SbDwellLaw *out, double (*law)(double, const void *), const 
   out->count = count + 1;
   out->piece[0] = (SbDwellPiece){0.0, node[0].time, start, (node[0].value - start) / M_LN2};
   for (size_t i = 0; i < count; i++) {
-    double after = i + 1 < count ? node[i + 1].value : law(M_E * end, context);
-    double way = i + 1 < count ? log(node[i + 1].time / node[i].time) : 1.0;
+    double after = i + 1 < count ? node[i + 1].value : law(beyond * end, context);
+    double way = i + 1 < count ? log(node[i + 1].time / node[i].time) : log(beyond);
     out->piece[i + 1] = (SbDwellPiece){node[i].time, node[i].time, node[i].value,
                                        fmax(0.0, after - node[i].value) / way};
   }

@@ -168,7 +168,7 @@ typedef struct {
 
 typedef struct {
   long events, segments, steps, rejected, newton_iterations;
-  long repeated;      // cycles of stick-slip that were not stepped through: equal to the one before
+  long repeated;      // cycles of stick-slip that were not stepped through: like the one before
   double local_error; // sum of the numerical path's local errors of position, over |x| + 1 mm
 } SbDynamicsCounters;
 
@@ -197,7 +197,10 @@ typedef struct {
   int direction; // 0: not yet
   size_t region;
   long events, segments;
-  double t, x, stretch, piece; // s, m; stretch of the drive's spring [m]; start of its piece [s]
+  double t, x, stretch, piece;  // s, m; stretch of the drive's spring [m]; start of its piece [s]
+  double extra, period, change; // the caller's; since the break-away before [s], 0: not known; its
+                                // change since the one before
+  double passed, rate[SB_DYNAMICS_TERMS]; // way passed over from there on [m], energies per way
   SbDynamicsEnergy energy;
 } SbDynamicsBreak;
 

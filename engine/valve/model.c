@@ -182,7 +182,6 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
   // it knows their least values.
   static const SbParamId inertial[] = {SB_P_DRIVE_KIND,
                                        SB_P_DRIVE_CYCLES,
-                                       SB_P_FRICTION_DWELL_GAIN,
                                        SB_P_FRICTION_STRIBECK_SPEED,
                                        SB_P_FRICTION_TANGENTIAL_STIFFNESS,
                                        SB_P_STEM_SPRING_STIFFNESS,

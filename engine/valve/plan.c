@@ -246,7 +246,7 @@ void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size
   *out = basis(model, true);
   for (size_t i = 0; i < count; i++) {
     const SbFigure *figure = sb_figure(figures[i]);
-    int seal = strcmp(figure->where, "inner seal") == 0 ? SB_INNER : SB_OUTER;
+    int seal = strncmp(figure->where, "inner seal", 10) == 0 ? SB_INNER : SB_OUTER;
     out->seal[seal] = figure->needs > out->seal[seal] ? figure->needs : out->seal[seal];
     out->film_laws = out->film_laws || strstr(figure->path, ".film_by_model.") != NULL;
     if (strcmp(figure->path, "solver.error_estimate.film_history") == 0) {

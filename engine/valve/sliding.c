@@ -33,7 +33,7 @@ typedef struct {
   bool known;
   double pressure; // difference for which it stands
   int seal;
-  double asked; // friction of the law that drags it [N]
+  SbSlidingLaw law; // of the friction that drags it
 } Fitment;
 
 struct SbSlidingMemory {
@@ -110,56 +110,68 @@ static bool drags(const Task *task) {
   return task->model->fit == SB_FIT_RING && task->speed != 0;
 }
 
-double sb_sliding_shear(const SbModel *model, const SbSealState *state, double pressure) {
+void sb_sliding_law(SbSlidingLaw *out, const SbModel *model, const SbSealState *state) {
   double share = isnan(state->asperity_share) ? 1 : state->asperity_share;
-  double viscous = state->friction_viscous / (state->contact_right - state->contact_left) /
-                   model->bore_circumference;
-  double area = model->shear_strength * state->real_area_share;
-  return (area > pressure ? pressure : area) + model->load_coefficient * share * pressure + viscous;
+  double width = state->contact_right - state->contact_left;
+  double viscous = state->friction_viscous / (width * model->bore_circumference);
+  *out = (SbSlidingLaw){.coefficient = model->load_coefficient * share,
+                        .shear = model->shear_strength * state->real_area_share + viscous};
 }
 
-// The law's friction on a fitment's contact [N].
-static double law_force(const SbModel *model, const SbSealState *state, const SbFit *fit) {
-  double sum = 0, before = 0;
+double sb_sliding_shear(double pressure, double *slope, const void *data) {
+  const SbSlidingLaw *law = data;
+  bool limited = pressure < law->shear;
+  *slope = law->coefficient + (limited ? 1 : 0);
+  return law->coefficient * pressure + (limited ? pressure : law->shear);
+}
+
+// A law's friction on a fitment's contact [N].
+static double law_force(const SbSlidingLaw *law, const SbFit *fit) {
+  double sum = 0, before = 0, slope;
   for (size_t i = 0; i < fit->profile_count; i++) {
-    double now = sb_sliding_shear(model, state, fit->profile_p[i]);
+    double now = sb_sliding_shear(fit->profile_p[i], &slope, law);
     sum += i > 0 ? 0.5 * (before + now) * (fit->profile_x[i] - fit->profile_x[i - 1]) : 0;
     before = now;
   }
   return sum * fit->circumference;
 }
 
-// The friction that drags a ring, and a contact like the one that it will have.
-typedef struct {
-  SbSealState law;
-  const SbFit *near;
-} Drag;
+static bool cancelled(void *data) {
+  const SbSlidingMemory *memory = data;
+  return memory->cancelled != NULL && memory->cancelled(memory->cancelled_data);
+}
 
-// The task's fitment, anew if it is not the last one of these pressures or there is a `drag`.
-static SbStatus solve_fit(const Task *task, const Drag *drag, SbReport *report) {
+// The task's fitment, anew if it is not the last one of these pressures or a `law` of friction is
+// given to drag it.
+static SbStatus solve_fit(const Task *task, const SbSlidingLaw *law, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   const SbModel *model = task->model;
   double pressure = task->pressure.left - task->pressure.right;
   Fitment *now = &memory->fitment[!drags(task) ? REST : task->speed > 0 ? IN : OUT];
   memory->now = now;
-  if (drag == NULL && now->known && now->pressure == pressure && now->seal == task->seal) {
+  const bool known = now->known && now->pressure == pressure && now->seal == task->seal;
+  if (law == NULL && known) {
     return SB_OK;
   }
   SbFitProblem problem;
   sb_model_fit_problem(&problem, model, task->seal, pressure);
-  problem.cancel = memory->cancelled;
-  problem.cancel_data = memory->cancelled_data;
+  problem.cancel = cancelled; // a kept ring asks whoever waits then
+  problem.cancel_data = memory;
   problem.surface_wanted =
       model->film == SB_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   problem.kept = &now->ring;
-  double share = drag != NULL ? law_force(model, &drag->law, drag->near) / drag->near->load : 0;
-  if (share > 0) { // a guess that has none is made from the ring without drag
-    double way = (task->speed > 0) == (pressure >= 0) ? 1 : -1;
+  if (law != NULL) {
+    now->law = *law;
     problem.dragged = true;
-    problem.drag = way * fmin(share, SB_FIT_DRAG_MAX);
+    problem.drag = (task->speed > 0) == (pressure >= 0) ? 1 : -1;
+    problem.shear = sb_sliding_shear;
+    problem.law = &now->law;
   }
   memory->rested = false;
-  SbStatus status = sb_fit_solve(&now->fit, &problem, report);
+  bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES;
+  SbStatus status = near ? sb_fit_again(&now->fit, &problem, report) : SB_ERROR_NOT_CONVERGED;
+  status =
+      near && status != SB_ERROR_NOT_CONVERGED ? status : sb_fit_solve(&now->fit, &problem, report);
   task->counts->fit_solves++;
   task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
   task->counts->ring_solves += problem.model == SB_FIT_RING;
@@ -167,7 +179,6 @@ static SbStatus solve_fit(const Task *task, const Drag *drag, SbReport *report) 
   now->known = status == SB_OK;
   now->pressure = pressure;
   now->seal = task->seal;
-  now->asked = fabs(problem.drag) * now->fit.load;
   return status;
 }
 
@@ -378,6 +389,15 @@ static SbStatus solve_rough(const Task *task, Solved *out, double load_net, doub
   return solve_fitted(task, out, &problem) ? SB_OK : solve_on(task, out, &problem, report);
 }
 
+// Break-away after the rest before the first stroke.
+static SbStatus set_static(SbSealState *out, const Task *task, SbReport *report) {
+  SbDwellLaw law;
+  SbStatus status =
+      sb_breakaway_law(&law, &out->squeeze_out_time, task->model, task->seal, out, report);
+  out->friction_static = status == SB_OK ? sb_dwell_at(&law, task->model->rest) : NAN;
+  return status;
+}
+
 // The thesis' shear strength goes with its own real area.
 static void strength_warning(const Task *task, double share) {
   const SbModel *model = task->model;
@@ -390,15 +410,6 @@ static void strength_warning(const Task *task, double share) {
         "and Tripp's few per cent",
         100 * share);
   }
-}
-
-// Break-away after the rest before the first stroke.
-static SbStatus set_static(SbSealState *out, const Task *task, SbReport *report) {
-  SbDwellLaw law;
-  SbStatus status =
-      sb_breakaway_law(&law, &out->squeeze_out_time, task->model, task->seal, out, report);
-  out->friction_static = status == SB_OK ? sb_dwell_at(&law, task->model->rest) : NAN;
-  return status;
 }
 
 // Film, rough contact and friction from one solution each, sliding and at rest.
@@ -445,8 +456,8 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
   if (memory->rested || rest->film_central > 0) {
     out->rest_area_share = fmin(rest->real_area / rest_width, 1);
     out->rest_area = model->shear_strength * out->rest_area_share * area;
-    out->rest_load = model->load_coefficient * rest->asperity_load * circumference;
     strength_warning(task, out->rest_area_share);
+    out->rest_load = model->load_coefficient * rest->asperity_load * circumference;
   }
   SbStatus aged = set_static(out, task, status == SB_OK && at_rest == SB_OK ? report : NULL);
   if (aged != SB_OK) {
@@ -527,30 +538,26 @@ static SbStatus rough_contact(SbSealState *out, const Task *task, double roughne
 }
 
 // Leaves of a law's friction what the section bears (bear()).
-static void share_out(SbSealState *out) {
+static SbStatus share_out(SbSealState *out, const Task *task, SbReport *report) {
   if (isnan(out->borne_share)) {
-    return;
+    return SB_OK;
   }
-  const bool slides = out->section == SB_RING_SLIDES;
-  double all = sb_sliding_friction(out);
-  out->boundary_area *= out->area_cut;
   // What the pressure cannot shear is no real contact; one that rolls is not sheared to the full.
+  const bool slides = out->section == SB_RING_SLIDES;
   out->real_area_share *= out->area_cut * (slides ? out->borne_share : 1);
-  // The pressure limits what stands at rest, too.
-  const double cut = sb_sliding_friction(out) / all;
-  out->rest_area *= cut;
-  out->rest_area_share *= cut;
-  out->rest_load *= cut;
-  out->friction_static *= cut;
-  out->boundary_area *= out->borne_share;
+  out->rest_area_share *= out->area_cut;
+  out->rest_area *= out->area_cut; // the pressure limits it as well
+  out->boundary_area *= out->area_cut * out->borne_share;
   out->boundary_load *= out->borne_share;
   out->friction_viscous *= out->borne_share;
   out->friction_error *= out->borne_share;
-  if (!slides) {
-    out->friction_static = sb_sliding_friction(out);
-    out->rest_area = out->boundary_area;
-    out->rest_load = out->boundary_load;
+  if (slides) {
+    return set_static(out, task, report);
   }
+  out->rest_area = out->boundary_area;
+  out->rest_load = out->boundary_load;
+  out->friction_static = sb_sliding_friction(out);
+  return SB_OK;
 }
 
 static const char *about(int seal) {
@@ -579,7 +586,7 @@ SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, dou
   sb_warn_about(task->warnings, about(task->seal));
   SbStatus status =
       state->touches ? rough_contact(state, task, roughness, report) : sb_succeed(report);
-  share_out(state);
+  status = status == SB_OK ? share_out(state, task, report) : status;
   sb_warn_about(task->warnings, NULL);
   return status;
 }
@@ -621,13 +628,13 @@ static void take_contact(SbSealState *out, const Task *task, const SbFit *fit) {
 }
 
 // Fitment: contact and loads. *known tells whether there is a contact to go on with.
-static SbStatus fit_contact(const Task *task, const Drag *drag, SbSealState *out, bool *known,
-                            SbReport *report) {
+static SbStatus fit_contact(const Task *task, const SbSlidingLaw *law, SbSealState *out,
+                            bool *known, SbReport *report) {
   (void)sb_succeed(report);
   sb_sliding_clear(out);
   *known = false;
   // The fit takes the difference; the common part only shifts the fluid's level.
-  SbStatus status = solve_fit(task, drag, report);
+  SbStatus status = solve_fit(task, law, report);
   if (!usable(status)) {
     return status;
   }
@@ -655,11 +662,12 @@ static SbStatus fit_contact(const Task *task, const Drag *drag, SbSealState *out
 }
 
 // Fitment, film and friction; a ring dragged as given, else as it is known.
-static SbStatus solve_with(const Task *task, const Drag *drag, SbSealState *out, SbReport *report) {
+static SbStatus solve_with(const Task *task, const SbSlidingLaw *law, SbSealState *out,
+                           SbReport *report) {
   SbWarnings *warnings = task->warnings;
   int seal = task->seal;
   bool known;
-  SbStatus status = fit_contact(task, drag, out, &known, report);
+  SbStatus status = fit_contact(task, law, out, &known, report);
   if (!known) {
     return status;
   }
@@ -701,38 +709,43 @@ static SbStatus solve_with(const Task *task, const Drag *drag, SbSealState *out,
   return status;
 }
 
-// A state by closed forms, whose friction is near a ring's; NAN where they have none.
-static void guess(const Task *task, Drag *drag, Fitment *on) {
+// The friction of a contact by closed forms, near that of a ring; none where they have none.
+static void guess(SbSlidingLaw *law, const Task *task, Fitment *on) {
   SbFitProblem fit;
   SbFilmProblem film;
-  SbSealState *out = &drag->law;
+  SbSealState state;
   Task quiet = *task;
   quiet.warnings = NULL;
+  *law = (SbSlidingLaw){0};
   sb_model_fit_problem(&fit, task->model, task->seal, task->pressure.left - task->pressure.right);
   fit.model = SB_FIT_KARASZKIEWICZ;
-  sb_sliding_clear(out);
-  drag->near = &on->fit;
+  sb_sliding_clear(&state);
   if (sb_fit_solve(&on->fit, &fit, NULL) != SB_OK || !on->fit.touches) {
     return;
   }
-  take_contact(out, task, &on->fit);
-  sb_sliding_film_problem(&film, task->model, task->seal, task->pressure, out->load_net,
+  take_contact(&state, task, &on->fit);
+  sb_sliding_film_problem(&film, task->model, task->seal, task->pressure, state.load_net,
                           task->speed);
   film.model = SB_FILM_THESIS;
   if (solve_on(&quiet, &task->memory->plane, &film, NULL) == SB_OK) {
-    out->film_central = task->memory->plane.film.film_central;
-    (void)rough_contact(out, &quiet, 1, NULL);
+    state.film_central = task->memory->plane.film.film_central;
+    SbSlidingLaw found;
+    if (rough_contact(&state, &quiet, 1, NULL) == SB_OK) {
+      sb_sliding_law(&found, task->model, &state);
+      *law = isfinite(found.shear) ? found : *law;
+    }
   }
 }
 
 // What the dragged section bears of the law's friction: all of it while it slides, each part alike
 // at the greatest drag of one that rolls or jams, which no rest makes greater.
-static void bear(SbSealState *out, const Fitment *on, double asked) {
+static SbStatus bear(SbSealState *out, const Task *task, const Fitment *on, double asked,
+                     SbReport *report) {
   const SbFit *fit = &on->fit;
   double area = asked - out->boundary_load - out->friction_viscous;
   out->area_cut = out->boundary_area > 0 ? area / out->boundary_area : 1;
   out->borne_share = fabs(fit->ring.drag) / asked;
-  share_out(out);
+  return share_out(out, task, report);
 }
 
 // A ring's states: friction drags it, and hangs on the film that lies on the dragged ring. Solved
@@ -740,14 +753,14 @@ static void bear(SbSealState *out, const Fitment *on, double asked) {
 // less than its friction rolls or jams; the film is then that of this last state.
 static SbStatus solve_dragged(const Task *task, SbSealState *out, SbReport *report) {
   enum { ROUNDS = 6 };
-  const double close = 0.3 * task->model->tolerance;
+  const double close = 0.5 * task->model->tolerance;
   const double pressure = task->pressure.left - task->pressure.right;
   SbSlidingMemory *memory = task->memory;
   Fitment *on = &memory->fitment[task->speed > 0 ? IN : OUT];
   bool known = on->known && on->pressure == pressure && on->seal == task->seal;
-  Drag drag;
+  SbSlidingLaw law;
   if (!known) {
-    guess(task, &drag, on);
+    guess(&law, task, on);
   }
   SbWarnings *own = &memory->warnings;
   SbStatus status = SB_OK;
@@ -756,23 +769,27 @@ static SbStatus solve_dragged(const Task *task, SbSealState *out, SbReport *repo
     memset(own, 0, sizeof *own); // of the last round
     own->subject = task->warnings != NULL ? task->warnings->subject : NULL;
     like.warnings = own;
-    status = solve_with(&like, known && round == 0 ? NULL : &drag, out, report);
-    double asked = usable(status) && out->load > 0 ? law_force(task->model, out, &on->fit) : NAN;
+    status = solve_with(&like, known && round == 0 ? NULL : &law, out, report);
+    if (!usable(status) || !(out->load > 0)) {
+      break;
+    }
+    sb_sliding_law(&law, task->model, out);
+    double asked = law_force(&law, &on->fit), before = law_force(&on->law, &on->fit);
     if (!isfinite(asked)) {
       break;
     }
     bool slides = on->fit.ring.state == SB_RING_SLIDES;
-    bool agree = slides ? fabs(asked - on->asked) <= close * asked
+    bool agree = slides ? fabs(asked - before) <= close * asked
                         : asked >= (1 - close) * fabs(on->fit.ring.drag);
     if (!agree && round + 1 < ROUNDS) {
-      drag = (Drag){*out, &on->fit};
       continue;
     }
-    bear(out, on, asked);
+    SbStatus borne = bear(out, &like, on, asked, status == SB_OK ? report : NULL);
+    status = borne != SB_OK ? borne : status;
     if (!agree) {
       status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
                        "fitment and friction of the %s seal do not agree: %.5g N and %.5g N",
-                       sb_seal_name(task->seal), on->asked, asked);
+                       sb_seal_name(task->seal), before, asked);
     } else if (!slides) {
       bool rolls = on->fit.ring.state == SB_RING_ROLLS;
       sb_warn(own, rolls ? "ring-rolls" : "ring-jams", "gland.floor_friction",

@@ -29,10 +29,16 @@
 #include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
 
-// Shear of the bore on a ring at a contact pressure [Pa], by the state's real area and viscous
-// force: m p + min(tau_0 A_a/A, p) + F_v/A. No surface transmits more by its area than the pressure
-// on it.
-double sb_sliding_shear(const SbModel *model, const SbSealState *state, double pressure);
+// The friction of a state as a local law of the bore's shear on a ring at a contact pressure:
+//   tau(p) = m p + min(tau_0 A_a/A + F_v/A, p)
+// No surface transmits more by its area than the pressure there. Coupled, m acts on the share of
+// the pressure that asperities bear.
+typedef struct {
+  double coefficient; // m [1]
+  double shear;       // [Pa]
+} SbSlidingLaw;
+void sb_sliding_law(SbSlidingLaw *out, const SbModel *model, const SbSealState *state);
+double sb_sliding_shear(double pressure, double *slope, const void *law);
 
 // Kinetic friction of a whole contact [N].
 double sb_sliding_friction(const SbSealState *state);

@@ -1,5 +1,6 @@
 // Runs parameter sets without a process for each: a line "KEY=SI KEY=SI ..." on standard input is
-// one, a line of the outcome goes to standard output:
+// one, series=f:TIME:N,TIME:N,... (or d: and metres) its measured drive; a line of the outcome goes
+// to standard output:
 //
 //   refused TEXT                       it makes no sense: no valve
 //   done STATUS CLOSURE NULLS SECONDS TEXT
@@ -13,8 +14,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool set_all(SbParams *params, char *line) {
+static void set_series(SbModelSeries *series, const char *text) {
+  series->quantity = text[0] == 'f' ? SB_DRIVE_OF_FORCE : SB_DRIVE_OF_POSITION;
+  series->count = 0;
+  for (const char *at = text + 1; at != NULL && series->count < SB_MODEL_SERIES_MAX;
+       at = strchr(at + 1, ',')) {
+    char *end;
+    series->time[series->count] = strtod(at + 1, &end);
+    series->value[series->count++] = strtod(end + 1, NULL);
+  }
+}
+
+static bool set_all(SbParams *params, SbModelSeries *series, char *line) {
   sb_params_init(params);
+  series->count = 0;
   for (char *item = strtok(line, " \n"); item != NULL; item = strtok(NULL, " \n")) {
     char *equal = strchr(item, '=');
     SbReport report = {0};
@@ -23,6 +36,10 @@ static bool set_all(SbParams *params, char *line) {
       return false;
     }
     *equal = '\0';
+    if (strcmp(item, "series") == 0) {
+      set_series(series, equal + 1);
+      continue;
+    }
     int id = sb_param_find(item);
     if (id < 0 || sb_params_set(params, (SbParamId)id, atof(equal + 1), &report) != SB_OK) {
       printf("refused %s: %s\n", item, id < 0 ? "no such key" : report.text);
@@ -48,12 +65,17 @@ int main(void) {
     SbParams params;
     SbProblems problems;
     SbModel *model;
-    if (!set_all(&params, line)) {
-      fflush(stdout);
-      continue;
+    SbModelData *data;
+    if (sb_model_data_create(&data) != SB_OK) {
+      return 1;
     }
-    if (sb_model_create(&model, &params, NULL, NULL, &problems) != SB_OK) {
+    bool made = set_all(&params, &data->measured, line);
+    if (made && sb_model_create(&model, &params, data, NULL, &problems) != SB_OK) {
       printf("refused %s: %s\n", problems.item[0].key, problems.item[0].text);
+      made = false;
+    }
+    sb_model_data_release(data);
+    if (!made) {
       fflush(stdout);
       continue;
     }

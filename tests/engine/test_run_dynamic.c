@@ -332,6 +332,29 @@ static void test_own_speed(void) {
   sb_run_destroy(b);
 }
 
+// A machine of 1e10 N/m and a stem of a microgram slip millions of times, over the land's edge too:
+// few of them are stepped through, and the forces are the quasi-static ones.
+static void test_stiff(void) {
+  const Setting stiff[] = {{SB_P_DRIVE_STIFFNESS, 1e10},
+                           {SB_P_STEM_MASS, 1e-9},
+                           {SB_P_CANISTER_PRESSURE_MAP, SB_MAP_CHAMBER_FILLED}};
+  SbRun *slow = run_with(SB_MODEL_MOTION_QUASI_STATIC, stiff, G_N_ELEMENTS(stiff));
+  for (int ports = 0; ports < 2; ports++) {
+    Setting setting[G_N_ELEMENTS(stiff)];
+    memcpy(setting, stiff, sizeof stiff);
+    setting[2].value = ports ? SB_MAP_PORTS : SB_MAP_CHAMBER_FILLED;
+    SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, setting, G_N_ELEMENTS(setting));
+    const SbSummary *summary = sb_run_summary(run), *quasi = sb_run_summary(slow);
+    g_assert_cmpuint(summary->steps, <, 100000);
+    assert_near(summary->force_breakaway, quasi->force_breakaway, 0.01);
+    // Viscous friction at the speed of slips counts here.
+    assert_near(summary->force_return_min, quasi->force_return_min, 0.03);
+    assert_near(summary->energy.loop, quasi->energy.loop, 2e-3 * quasi->energy.loop);
+    sb_run_destroy(run);
+  }
+  sb_run_destroy(slow);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-dynamic/against-quasi-static", test_against_quasi_static);
@@ -346,5 +369,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-dynamic/finger", test_finger);
   g_test_add_func("/run-dynamic/finger-leaves", test_finger_leaves);
   g_test_add_func("/run-dynamic/refused", test_refused);
+  g_test_add_func("/run-dynamic/stiff", test_stiff);
   return g_test_run();
 }

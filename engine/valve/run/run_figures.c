@@ -135,12 +135,42 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
   }
 }
 
+const char *sb_section_name(SbRingState section) {
+  static const char *const names[] = {"slides", "rolls", "jams", "no-contact"};
+  return names[section];
+}
+
+// A state as it stands in the figures of its stroke.
+static void fill_contact(SbContact *out, const SbSealState *state, double speed) {
+  bool touches = state->load > 0;
+  *out = (SbContact){
+      .known = !isnan(state->load),
+      .section = touches ? state->section : SB_RING_NO_CONTACT,
+      .width = state->contact_right - state->contact_left,
+      .left = touches ? state->contact_left : NAN,
+      .right = touches ? state->contact_right : NAN,
+      .load = state->load,
+      .pressure_peak = state->pressure_peak,
+      .film_min = state->film_min,
+      .film_central = state->film_central,
+      .real_area_share = state->real_area_share,
+      .friction = sb_sliding_friction(state),
+      .speed = speed,
+      .rotation = state->rotation,
+  };
+}
+
 void sb_run_summarise_seals(SbRun *run) {
   const SbModel *model = run->model;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     SbSealState *out = &run->summary.seal[seal];
     const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
     *out = *state;
+    fill_contact(&run->summary.contact[seal].in_stroke, state, run->speed);
+    if (run->plan.seal[seal] == SB_DEPTH_WHOLE) {
+      fill_contact(&run->summary.contact[seal].back,
+                   &run->cycle.state[seal][SB_CHAMBER_CLOSED][SB_CYCLE_OUT], -run->speed);
+    }
     out->contact_width = out->contact_right - out->contact_left;
     out->contact_pressure = out->load_net / out->contact_width;
     if (!out->touches) {
@@ -229,7 +259,12 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   }
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const bool done = !isnan(summary->seal[seal].load); // else the run ended before
+    char still[96];
+    snprintf(still, sizeof still, "models.fit = %s has no section that friction could turn",
+             sb_fit_model_name(model->fit));
     const Reason reasons[] = {
+        {model->fit != SB_FIT_RING, "contact.in_stroke.rotation_deg", still},
+        {model->fit != SB_FIT_RING, "contact.return.rotation_deg", still},
         {summary->seal[seal].load == 0, "*",
          "the seal does not touch the bore under its pressures"},
         {closed, "film_by_model.reynolds", "models.film is a closed form: no film was solved"},
@@ -237,10 +272,12 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
          "models.asperities = beside: asperities share no load with the film"},
         {done, "film*", "the fluid opens the contact or carries it alone: no film law applies"},
         {done, "lambda", "there is no film"},
+        {done, "squeeze*", "there is no film to squeeze out"},
         {done, "real_area_share", "there is no film to tell it"},
         {done, "friction*", "there is no film to tell it"},
         {done, "coefficient*", "there is no film to tell the friction"},
         {done, "leakage_per_stroke_m3", "there is no film to carry it"},
+        {done, "contact.*", "the seal does not touch there, or there is no film to tell it"},
     };
     give(summary, seal, reasons, sizeof reasons / sizeof reasons[0]);
   }

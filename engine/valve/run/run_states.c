@@ -448,6 +448,7 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     sb_sliding_memory_poll(run->memory[seal], cancelled, &lane[seal]);
     // At least what the figures are taken from is unknown until it is solved.
     sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN]);
+    sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_CLOSED][SB_CYCLE_OUT]);
   }
   bool both =
       run->plan.seal[SB_OUTER] > SB_DEPTH_SIZES && run->plan.seal[SB_INNER] > SB_DEPTH_SIZES;
