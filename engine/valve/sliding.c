@@ -574,9 +574,11 @@ static SbStatus rough_contact(SbSealState *out, const Task *task, double roughne
   return set_static(out, task, report);
 }
 
-// Leaves of a law's kinetic friction what the section bears.
+// Leaves of a law's kinetic friction what the section bears. What the pressure cannot shear is no
+// real contact; one that rolls is not sheared to the full.
 static void share_kinetic(SbSealState *out) {
   if (!isnan(out->borne_share)) {
+    out->real_area_share *= out->area_cut * (out->section == SB_RING_SLIDES ? out->borne_share : 1);
     out->boundary_area *= out->area_cut * out->borne_share;
     out->boundary_load *= out->borne_share;
     out->friction_viscous *= out->borne_share;
@@ -589,6 +591,7 @@ static SbStatus share_out(SbSealState *out, const Task *task, SbReport *report) 
   if (isnan(out->borne_share)) {
     return SB_OK;
   }
+  out->rest_area_share *= out->area_cut;
   out->rest_area *= out->area_cut; // the pressure limits it as well
   share_kinetic(out);
   if (out->section == SB_RING_SLIDES) {
