@@ -357,9 +357,11 @@ static SbStatus refit(SbRing *ring, double element_size, SbReport *report) {
       // A narrow bore contact has as many elements as one of WIDE: its load is what is wanted.
       double wide = s == SB_RING_BORE ? 0.5 * (patch[s].angle[1] - patch[s].angle[0]) / WIDE : 1.0;
       double size = element_size * fmin(1.0, fmax(NARROW_LEAST, wide));
-      // Friction on the last node includes that of the fluid beside it: short elements there.
+      // Friction on the last node includes that of the fluid beside it: short elements there, less
+      // so along a path, which stumbles over them.
       bool slides = s == SB_RING_BORE && ring->contact->is.now.bore_slides != 0;
-      plan_patch(&plan, &patch[s], size, (slides ? 0.07 : 0.3) * size);
+      double edge = !slides ? 0.3 : ring->arc.free ? 0.15 : 0.07;
+      plan_patch(&plan, &patch[s], size, edge * size);
     }
   }
   SbStatus status = build(&fresh, &plan, report);

@@ -20,11 +20,11 @@
 
 // Steps along the path: first, largest and least; the length over which its direction is taken; the
 // turn after which the mesh is fitted anew.
-static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 4e-3, SECANT = 0.02, REFIT_TURN = 0.1;
+static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 5e-4, SECANT = 0.02, REFIT_TURN = 0.1;
 
 // Newton iterations of a quick and of a slow step, and of a whole path at most; meshes that are
 // tried at a place where no step succeeds, and by how much each is finer.
-enum { QUICK = 7, SLOW = 14, ITERATIONS_MOST = 2500, MESHES = 3 };
+enum { QUICK = 7, SLOW = 14, ITERATIONS_MOST = 900, MESHES = 3 };
 static const double FINER = 0.12;
 
 // Share of the greatest coefficient at which it counts as passed, turn beyond which no drag is
