@@ -219,6 +219,7 @@ static void put_run_solver(SbJson *json, const SbSummary *summary) {
   sb_json_object(json, "counters");
   sb_json_count(json, "reynolds_solves", counters->reynolds_solves);
   sb_json_count(json, "film_steps", counters->film_steps);
+  sb_json_count(json, "speed_nodes", counters->speed_nodes);
   sb_json_count(json, "ring_solves", counters->ring_solves);
   sb_json_count(json, "disc_solves", counters->disc_solves);
   sb_json_count(json, "fit_solves", counters->fit_solves);

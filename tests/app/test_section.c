@@ -28,6 +28,10 @@ static void fixture_open(Fixture *f) {
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_FRAMES, 150, &report), ==, SB_OK);
   if (f->ring) {
     g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, SB_FIT_RING, &report), ==, SB_OK);
+    // Held and rubbed so that it slides.
+    g_assert_cmpint(sb_params_set(&params, SB_P_GLAND_FLOOR_FRICTION, 0.3, &report), ==, SB_OK);
+    g_assert_cmpint(sb_params_set(&params, SB_P_GLAND_WALL_FRICTION, 0.1, &report), ==, SB_OK);
+    g_assert_cmpint(sb_params_set(&params, SB_P_FRICTION_SHEAR_STRENGTH, 2e6, &report), ==, SB_OK);
   }
   if (f->solved) {
     g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, &report), ==, SB_OK);

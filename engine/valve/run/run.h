@@ -169,7 +169,7 @@ typedef struct {
 #define SB_FIGURE(path, member, ...) double member;
 #include "engine/valve/figures.def"
   SbStatus status;
-  bool returns;   // as `returned`; false where that is not known
+  bool returns; // as `returned`; false where that is not known
   SbStageMark stage[SB_STAGE_COUNT];
   SbSealState seal[SB_SEAL_COUNT];
   SbContacts contact[SB_SEAL_COUNT];

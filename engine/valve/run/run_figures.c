@@ -17,7 +17,7 @@ static double film_by(SbRun *run, int seal, const SbSealState *state, SbFilmMode
   SbReport report = {0};
   sb_sliding_film_problem(&problem, run->model, seal,
                           sb_model_seal_pressure(run->model, seal, SB_CHAMBER_AT_REST),
-                          state->load_net, run->speed);
+                          state->load_net, run->mid_speed);
   problem.model = film_model;
   run->summary.counters.reynolds_solves += film_model == SB_FILM_REYNOLDS;
   if (sb_film_solve(&run->film, &problem, NULL, &report) == SB_OK) {
@@ -165,11 +165,12 @@ void sb_run_summarise_seals(SbRun *run) {
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     SbSealState *out = &run->summary.seal[seal];
     const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-    *out = *state;
-    fill_contact(&run->summary.contact[seal].in_stroke, state, run->speed);
+    sb_run_state_at(out, run, seal, SB_CHAMBER_AT_REST, SB_CYCLE_IN, run->mid_speed);
+    fill_contact(&run->summary.contact[seal].in_stroke, out, run->mid_speed);
     if (run->plan.seal[seal] == SB_DEPTH_WHOLE) {
-      fill_contact(&run->summary.contact[seal].back,
-                   &run->cycle.state[seal][SB_CHAMBER_CLOSED][SB_CYCLE_OUT], -run->speed);
+      SbSealState back;
+      sb_run_state_at(&back, run, seal, SB_CHAMBER_CLOSED, SB_CYCLE_OUT, run->back_speed);
+      fill_contact(&run->summary.contact[seal].back, &back, -run->back_speed);
     }
     out->contact_width = out->contact_right - out->contact_left;
     out->contact_pressure = out->load_net / out->contact_width;
