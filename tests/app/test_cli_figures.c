@@ -71,6 +71,41 @@ static void test_reasons(void) {
   cli_clear(&table);
 }
 
+// A set of models brings defaults: check tells them, JSON names the models in force, given ones
+// win.
+static void test_set(void) {
+  g_autofree char *path = g_build_filename(cli.folder, "set.scene", NULL);
+  g_autofree char *text = g_strdup_printf("[sealbench]\nformat = 1\nkind = scene\nvalve = %s\n"
+                                          "[models]\nset = consistent\nfit = hertz\n",
+                                          cli.valve);
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+  CliResult check = CLI("check", path);
+  g_assert_cmpint(check.code, ==, 0);
+  g_assert_nonnull(strstr(check.out, "models.friction = shear (models.set = consistent"));
+  g_assert_nonnull(strstr(check.out, "friction.shear_strength = "));
+  g_assert_null(strstr(check.out, "models.fit ="));
+  cli_clear(&check);
+  CliResult run = CLI("run", path, "--json", "-", "--quiet", "--set", "models.inlet=flooded");
+  g_assert_cmpint(run.code, ==, 0);
+  JsonNode *root = cli_parse(run.out);
+  static const char *const models[][2] = {{"set", "consistent"},     {"fit", "hertz"},
+                                          {"film", "reynolds"},      {"surface", "persson"},
+                                          {"asperities", "coupled"}, {"friction", "shear"},
+                                          {"inlet", "flooded"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(models); i++) {
+    g_autofree char *at = g_strconcat("models.", models[i][0], NULL);
+    g_assert_cmpstr(json_node_get_string(cli_at(root, at)), ==, models[i][1]);
+  }
+  const double area = G_PI * 6e-3 * cli_number(root, "seals.outer.contact_width_m");
+  g_assert_cmpfloat(cli_number(root, "seals.outer.friction_static_real_area_share"), ==,
+                    cli_number(root, "seals.outer.leakage_static_real_area_share"));
+  g_assert_cmpfloat(cli_number(root, "seals.outer.friction_boundary_N"), >, 0);
+  g_assert_cmpfloat(area, >, 0);
+  json_node_unref(root);
+  cli_clear(&run);
+  g_remove(path);
+}
+
 // A scene's limits, from its file to the verdict, and what is refused in them.
 static void test_limits(void) {
   g_autofree char *path = g_build_filename(cli.folder, "limits.scene", NULL);
@@ -209,6 +244,7 @@ int main(int argc, char **argv) {
   cli_set_up();
   g_test_add_func("/cli/json/reasons", test_reasons);
   g_test_add_func("/cli/limits", test_limits);
+  g_test_add_func("/cli/set", test_set);
   g_test_add_func("/cli/list-figures", test_list);
   g_test_add_func("/cli/figures-table", test_table);
   int result = g_test_run();

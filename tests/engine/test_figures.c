@@ -1,5 +1,6 @@
 // Figures: each has a value or a reason, an open seal is told, and the verdict follows the limits.
 #include "engine/contact/fit.h"
+#include "engine/valve/run/run_private.h"
 #include "engine/valve/sealbench.h"
 #include "tests/engine/models.h"
 
@@ -189,6 +190,32 @@ static void test_one_contact(void) {
     }
     sb_run_destroy(run);
   }
+}
+
+// A ring that its friction drags: the real area that is told is the one that is sheared, both ways.
+static void test_dragged_contact(void) {
+  const Setting settings[] = {
+      {SB_P_MODELS_FIT, SB_FIT_RING},      {SB_P_MODELS_FRICTION, SB_MODEL_FRICTION_SHEAR},
+      {SB_P_GLAND_FLOOR_FRICTION, 0.3},    {SB_P_GLAND_WALL_FRICTION, 0.1},
+      {SB_P_FRICTION_SHEAR_STRENGTH, 2e6}, {SB_P_OUTPUT_TOLERANCE, 1e-2}};
+  SbModel model;
+  compile(&model, settings, G_N_ELEMENTS(settings));
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  for (int i = 0; i < SB_RUN_MOTIONS * SB_CYCLE_CHAMBERS * SB_SEAL_COUNT; i++) {
+    const SbSealState *of = &run->cycle.state[0][0][0] + i;
+    if (i % SB_RUN_MOTIONS == SB_RUN_REST || !(of->load > 0) || of->section != SB_RING_SLIDES) {
+      continue;
+    }
+    const double area = (of->contact_right - of->contact_left) * model.bore_circumference;
+    const double law = model.shear_strength * of->real_area_share * area;
+    g_assert_cmpfloat(fabs(of->boundary_area / law - 1), <, 1e-9);
+    g_assert_cmpfloat(of->boundary_load, ==, 0);
+    g_assert_cmpfloat(fabs(of->rest_area / (model.shear_strength * of->rest_area_share * area) - 1),
+                      <, 1e-9);
+  }
+  g_assert_cmpint(run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].section, ==,
+                  SB_RING_SLIDES);
+  sb_run_destroy(run);
 }
 
 // Shear strength scales boundary friction and nothing that leaks.
@@ -438,6 +465,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/figures/open", test_open);
   g_test_add_func("/figures/leak-states", test_leak_states);
   g_test_add_func("/figures/one-contact", test_one_contact);
+  g_test_add_func("/figures/dragged-contact", test_dragged_contact);
   g_test_add_func("/figures/shear-strength", test_shear_strength);
   g_test_add_func("/figures/one-way", test_one_way);
   g_test_add_func("/figures/failure", test_failure);
