@@ -529,7 +529,7 @@ static const double worth = 10.0;
 
 // Cycles that differ are passed over as far as their period changes by this share, and never more
 // of the way ahead than that.
-static const double period_change = 0.01, way_share = 1.0 / 64.0;
+static const double period_change = 0.002, way_share = 1.0 / 128.0;
 
 // Break-aways since `was` that can be told ahead: a slip and a rest of all contacts, nothing else.
 static bool comparable(const SbDynamics *s, const SbDynamicsBreak *was) {

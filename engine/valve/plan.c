@@ -11,6 +11,7 @@
 #include "engine/valve/cost.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/model.h"
+#include "engine/valve/speed_states.h"
 #include "engine/valve/studies/study.h"
 
 #include <assert.h>
@@ -24,7 +25,10 @@
 enum { FILM_STATES = 10, PROFILE_STATES = 15, CHAMBERS = 3 };
 
 // Times that a motion is run to find its own speed, where no machine gives one.
-enum { OWN_SPEED_ROUNDS = 3 };
+enum { OWN_SPEED_ROUNDS = 2 };
+
+// States solved over the speed, where films are solved: near a machine's speed, or over decades.
+enum { NEAR_STATES = 16, SPEED_STATES = 40 };
 
 // Adds a field that is computed, or one that is skipped, of which only name and reason are told.
 static void SB_PRINTF(7, 8) add(SbPlan *plan, bool wanted, const char *name, const char *model,
@@ -163,6 +167,8 @@ static void plan_valve(SbPlan *plan, const SbModel *model, unsigned views) {
   const int rounds = finds && !plan->ring ? OWN_SPEED_ROUNDS : 1;
   const double on_body = plan->reynolds && body ? SB_COST_FILM_FITTED : 0;
   const double film = coupled ? SB_COST_FILM_MIXED : sb_cost_film(model->film);
+  const int over_speed = inertia ? SPEED_STATES : NEAR_STATES;
+  const double at_speed = on_body > 0 ? on_body : film;
   const double once = !inertia ? 0
                       : finds  ? (1 + OWN_SPEED_ROUNDS) * SB_COST_DYNAMICS_OWN
                                : SB_COST_DYNAMICS;
@@ -199,10 +205,13 @@ static void plan_valve(SbPlan *plan, const SbModel *model, unsigned views) {
              "on the fitted ring"
            : "boundary share, viscous friction and leakage need it",
        NULL},
+      {plan->reynolds, "film over speed", coupled ? "reynolds with asperities" : law,
+       over_speed * at_speed, SB_SPEED_TOLERANCE,
+       "film and friction of every frame are those of its own speed", NULL},
       {plan->reynolds, "reynolds film", "", 0, 0, NULL, text[2]},
       // Fronts that cross the contact set its steps, hardly the frames.
       {plan->film_history, "film history", "finite volumes", SB_SEAL_COUNT * SB_COST_FILM_HISTORY,
-       0.03, "models.film_time = transient; friction keeps to the steady film",
+       0.03, "models.film_time = transient; the motion keeps to the steady film's friction",
        coupled               ? NULL
        : model->film_history ? "models.film has no history, only reynolds"
                              : "models.film_time = steady: every frame has the film of its speed"},

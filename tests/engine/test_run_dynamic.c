@@ -57,7 +57,17 @@ static void test_stick_slip(void) {
     }
   }
   g_assert_cmpfloat(most, <=, summary->force_breakaway * 1.001);
-  g_assert_cmpfloat(least, >, 2 * 27.38 - 28.7 - 0.1);
+  // The stem swings as far below the friction of its slip, at 0.06 m/s, as it starts above.
+  Setting quick = {SB_P_DRIVE_SPEED, 0.06};
+  SbRun *slip = run_with(SB_MODEL_MOTION_QUASI_STATIC, &quick, 1);
+  double slides = sb_run_model(slip)->pressure_force;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    const SbSealState *state = &sb_run_summary(slip)->seal[seal];
+    slides += state->friction_boundary + state->friction_viscous;
+  }
+  sb_run_destroy(slip);
+  g_assert_cmpfloat(slides, <, 27.3);
+  g_assert_cmpfloat(least, >, 2 * slides - 28.7 - 0.1);
   sb_run_destroy(run);
 }
 
@@ -173,8 +183,7 @@ static void test_friction_keys(void) {
   sb_run_destroy(run);
 
   // The curve at its own speed and at twice that, in a stroke without stick-slip.
-  double force[2];
-  double ratio = 0;
+  double force[2], expected[2];
   for (int i = 0; i < 2; i++) {
     const Setting law[] = {{SB_P_FRICTION_STRIBECK_SPEED, 0.1 / (i + 1)},
                            {SB_P_DRIVE_SPEED, 0.1},
@@ -185,13 +194,14 @@ static void test_friction_keys(void) {
     const SbFrame *late = &frames[sb_run_summary(run)->stage[SB_STAGE_D].frame];
     assert_near(late->velocity, 0.1, 1e-3);
     force[i] = late->seal[SB_OUTER].friction_boundary;
+    // The key acts on the friction without a film; the film takes its part off beside it.
     const SbSealState *outer = &sb_run_summary(run)->seal[SB_OUTER];
-    ratio = outer->friction_static / outer->friction_boundary;
+    const double dry = outer->friction_static / 1.1;
+    expected[i] = outer->friction_boundary + 0.1 * dry * exp(-(i + 1));
     sb_run_destroy(run);
   }
-  // L (1 + (r - 1) exp(-1)) against L (1 + (r - 1) exp(-2)); r exceeds 1.1, for at rest the film
-  // has gone too.
-  assert_near(force[0] / force[1], (1 + (ratio - 1) * exp(-1)) / (1 + (ratio - 1) * exp(-2)), 1e-3);
+  assert_near(force[0] / force[1], expected[0] / expected[1], 1e-3);
+  assert_near(force[0] / expected[0], 1, 2e-3);
 }
 
 // What only inertia can do is refused without it, by name; and a speed law through an undamped
@@ -259,8 +269,9 @@ static void test_finger(void) {
     double finger = model->peak_force * f->time / model->rise_time;
     double rubs = f->seal[SB_INNER].friction + f->seal[SB_OUTER].friction;
     double speed = (finger - model->pressure_force - rubs) / damping;
-    // Ramp and mass: v lags by m/c of its rate, 1.1 m/s2.
-    g_assert_cmpfloat(fabs(f->velocity - speed), <, 2e-3 * speed + 5e-5);
+    // Ramp and mass: v lags by m/c of its rate, 1.1 m/s2. The motion's friction is straight to a
+    // thousandth in its bands of speed, the frame's is the state's own.
+    g_assert_cmpfloat(fabs(f->velocity - speed), <, 2e-3 * speed + 5e-5 + 1e-3 * rubs / damping);
     g_assert_cmpfloat(fabs(f->force - (finger - damping * f->velocity)), <, 1e-9 * finger);
     seen++;
   }
@@ -298,7 +309,15 @@ static void test_own_speed(void) {
   SbRun *b = run_with(SB_MODEL_MOTION_DYNAMIC, quick, 2);
   const SbSummary *summary = sb_run_summary(a);
   const SbStageMark *B = &summary->stage[SB_STAGE_B], *C = &summary->stage[SB_STAGE_C];
-  double speed = (C->displacement - B->displacement) / (C->time - B->time);
+  const double middle = (B->displacement + C->displacement) / 2;
+  size_t all;
+  const SbFrame *from = sb_run_frames(a, &all);
+  while (from[1].displacement < middle) {
+    from++;
+  }
+  // Evenly accelerated between two frames.
+  double share = (middle - from[0].displacement) / (from[1].displacement - from[0].displacement);
+  double speed = sqrt((1 - share) * pow(from[0].velocity, 2) + share * pow(from[1].velocity, 2));
   g_assert_cmpfloat(speed, >, 0.1);
   const SbModel *model = sb_run_model(a);
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {

@@ -31,41 +31,52 @@ typedef struct {
   size_t count;            // frames written
   SbStage stage;           // last passed
   SbStageMark mark[SB_STAGE_COUNT];
-  int direction;                // of the last sliding
-  bool stopped;                 // the stem touches the end stop
-  double force_peak;            // [N]
-  double return_least;          // least force that pushed the stem out while it slid back [N]
-  double leak_from, leak_since; // place [m] and time [s] up to which it is known
-  double home;                  // time at which the stem is back on its rest stop [s], 0: not yet
-  double middle, middle_back;   // speed at the middle of B-C and of F-A [m/s], 0: not yet
-  bool slips;                   // some contact has slid
-  SbStatus status;              // of the frames' reactions
+  int direction;                    // of the last sliding
+  bool stopped;                     // the stem touches the end stop
+  double force_peak;                // [N]
+  double return_least;              // least force that pushed the stem out while it slid back [N]
+  double leak_from, leak_since;     // place [m] and time [s] up to which it is known
+  double leak_last, leak_last_time; // where the stem was last seen
+  double home;                // time at which the stem is back on its rest stop [s], 0: not yet
+  double middle, middle_back; // speed at the middle of B-C and of F-A [m/s], 0: not yet
+  bool slips;                 // some contact has slid
+  SbStatus status;            // of the frames' reactions
   SbReport *report;
 } Recorder;
 
-// Film dragged along since the last call, at the film of the present state and of the mean speed.
-static void leak(Recorder *r, double time, double x, double pressure) {
+// Film dragged along up to where the stem is, at the film of the present state and of the mean
+// speed since it was last taken: a contact carries what has entered it over its own width, so that
+// sticks and slips shorter than that count as one sliding. Taken once the stem has gone that far,
+// has turned, or `now`.
+static void leak(Recorder *r, double time, double x, double pressure, bool now) {
   SbRun *run = r->run;
-  const int direction = x > r->leak_from ? SB_CYCLE_IN : SB_CYCLE_OUT;
-  const SbChamber chamber = sb_valve_solved(&r->valve, direction, pressure).chamber;
-  double way = x - r->leak_from;
-  double speed = time > r->leak_since ? way / (time - r->leak_since) : run->speed;
-  if (way != 0) {
-    sb_bore_move(&run->bore, r->leak_from, x,
-                 sb_run_layer(run, SB_OUTER, chamber, direction, speed));
+  const SbSealState *outer = &run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const bool turned = (x - r->leak_last) * (r->leak_last - r->leak_from) < 0;
+  const double end = turned ? r->leak_last : x, until = turned ? r->leak_last_time : time;
+  const double way = end - r->leak_from;
+  if (turned || now || fabs(way) >= outer->contact_right - outer->contact_left) {
+    const int direction = way > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT;
+    const SbChamber chamber = sb_valve_solved(&r->valve, direction, pressure).chamber;
+    double speed = until > r->leak_since ? way / (until - r->leak_since) : run->speed;
+    if (way != 0) {
+      sb_bore_move(&run->bore, r->leak_from, end,
+                   sb_run_layer(run, SB_OUTER, chamber, direction, speed));
+    }
+    r->leak_from = end;
+    r->leak_since = until;
   }
-  r->leak_from = x;
-  r->leak_since = time;
+  r->leak_last = x;
+  r->leak_last_time = time;
 }
 
 // Adds a frame of the motion as it is now.
-static SbFrame *add_frame(Recorder *r) {
+static SbFrame *add_frame(Recorder *r, bool event) {
   SbRun *run = r->run;
   SbInstant at = {.stage = r->stage, .chamber = r->valve.chamber};
   SbDynamicsSample *sample = &at.sample;
   sb_dynamics_sample(&r->motion, sample, NULL);
   at.pressure = sb_valve_chamber_pressure(&r->valve, sample->extra);
-  leak(r, sample->time, sample->position, at.pressure);
+  leak(r, sample->time, sample->position, at.pressure, event);
   r->force_peak = fmax(r->force_peak, sample->drive_force);
   if (!r->frames || r->count == run->capacity) {
     return NULL;
@@ -87,7 +98,7 @@ static void mark(Recorder *r, SbStage stage, const SbMotionEvent *event) {
     return;
   }
   r->mark[stage] = (SbStageMark){true, event->time, event->position, event->drive_force, 0};
-  SbFrame *frame = add_frame(r);
+  SbFrame *frame = add_frame(r, stage == SB_STAGE_D || stage == SB_STAGE_E);
   if (frame != NULL) {
     frame->on_event = 1;
     frame->velocity = event->speed;
@@ -129,8 +140,9 @@ static void valve_event(const SbMotionEvent *event, void *user) {
     r->direction = event->sign > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT;
     break;
   case SB_MOTION_EDGE: {
-    leak(r, sample.time, sample.position, sb_valve_chamber_pressure(valve, sample.extra));
     double edge = valve->edge[event->index];
+    leak(r, sample.time, sample.position, sb_valve_chamber_pressure(valve, sample.extra),
+         edge == valve->edge_open || edge == valve->edge_closed);
     if (edge == valve->middle && event->sign > 0 && r->stage == SB_STAGE_B && r->middle == 0) {
       r->middle = event->speed;
     } else if (edge == valve->middle && event->sign < 0 && r->stage == SB_STAGE_F &&
@@ -198,7 +210,7 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double coarser,
   if (status != SB_OK) {
     return status;
   }
-  r->leak_from = r->model.start_position;
+  r->leak_from = r->leak_last = r->model.start_position;
   sb_bore_start(&run->bore, r->leak_from);
   sb_dynamics_listen(&r->motion, valve_event, r);
   const SbDriveTimes *times = &r->valve.times;
@@ -210,7 +222,7 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double coarser,
   int corner = 0;
   size_t next = 1;
   double time = 0;
-  SbFrame *first = add_frame(r);
+  SbFrame *first = add_frame(r, true);
   if (first != NULL) {
     sb_run_mark_stage(run, SB_STAGE_A, first, 0);
   }
@@ -228,7 +240,7 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double coarser,
     corner += turn == even;
     time = fmin(turn, even);
     status = sb_dynamics_advance(&r->motion, time, report);
-    add_frame(r);
+    add_frame(r, false);
     status = status != SB_OK ? status : r->status;
     if (frames ? sb_run_poll(run, hooks, r->count, (double)next / (double)total, report)
                : sb_run_cancelled(hooks, report)) {
@@ -236,7 +248,9 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double coarser,
     }
   }
   r->force_peak = fmax(r->force_peak, r->motion.force_peak);
-  sb_dynamics_sample(&r->motion, NULL, &r->energy);
+  SbDynamicsSample end;
+  sb_dynamics_sample(&r->motion, &end, &r->energy);
+  leak(r, end.time, end.position, sb_valve_chamber_pressure(&r->valve, end.extra), true);
   return status;
 }
 

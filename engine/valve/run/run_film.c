@@ -4,9 +4,9 @@
 //
 // A stretch is as long as the seal's whole contact lies on the land between the same pressures; the
 // next begins with the film that was there, evened out. The first begins with fluid.rest_film. The
-// load is the stretch's own; friction and the figures of a seal keep to the steady film, which is
-// what the motion was solved with. From where a film fails its frames have none. Left out: the
-// land's edge under the contact and the step of the pressures themselves.
+// load is the stretch's own. Lambda, real area and friction of a frame follow its film; the motion
+// and the figures of a seal keep to the steady one. From where a film fails its frames have none.
+// Left out: the land's edge under the contact and the step of the pressures themselves.
 #include <math.h>
 
 #include "engine/film/transient.h"
@@ -99,10 +99,7 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
     // does not know. Without the companion nothing is known.
     const double least = result.error_film_min;
     history->error = isnan(least) ? INFINITY : fmax(history->error, least);
-    SbSealFrame *out = &frame->seal[history->seal];
-    out->film_min = result.film_min;
-    out->film_central = result.film_central;
-    out->lambda = result.film_central / run->model->sigma;
+    sb_run_frame_film(frame, run, history->seal, result.film_min, result.film_central);
   }
   return SB_OK;
 }
@@ -140,6 +137,7 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
       sb_warn(&summary->warnings, "film-history", "models.film_time", "%s", whole.text);
       for (; at < run->frames + count; at++) {
         at->seal[seal].film_min = at->seal[seal].film_central = at->seal[seal].lambda = NAN;
+        at->seal[seal].real_area_share = NAN;
       }
       history.error = INFINITY;
       sb_reason(summary, figure, "%s", whole.text);

@@ -268,6 +268,10 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
 void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled, int direction,
                           double speed);
 
+// What follows from the films of such a state, see sb_sliding_refilm().
+void sb_run_refilm(SbSealState *state, SbRun *run, int seal, int chamber, int direction,
+                   double speed);
+
 // Keeps the body under the film of a state just solved, for films at other speeds on it; NULL: it
 // lies on the half-plane.
 SbStatus sb_run_keep_body(SbRun *run, int seal, int chamber, int direction,
@@ -302,6 +306,9 @@ typedef struct {
 // Its frame: the drive's forces are the sample's; contact, load, film and friction of a seal that
 // slides are those of one steady state, at the sample's speed and the chamber's pressure.
 void sb_run_fill_frame(SbFrame *out, SbRun *run, const SbInstant *at);
+
+// Gives a seal in a frame another film [m] and what follows from it there.
+void sb_run_frame_film(SbFrame *frame, SbRun *run, int seal, double least, double central);
 
 // Makes the first `count` frames visible and tells the progress every now and then; true: stop.
 bool sb_run_poll(SbRun *run, const SbRunHooks *hooks, size_t count, double fraction,

@@ -79,6 +79,13 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
   sb_speed_state(out, *table, speed);
 }
 
+void sb_run_refilm(SbSealState *state, SbRun *run, int seal, int chamber, int direction,
+                   double speed) {
+  SbSlidingTask task = task_of(run, seal, chamber, direction, fmax(fabs(speed), SB_SPEED_LEAST));
+  task.warnings = NULL;
+  (void)sb_sliding_refilm(state, &task, run->roughness, NULL);
+}
+
 static double between(double a, double b, double t) {
   return t <= 0 ? a : t >= 1 ? b : a + t * (b - a);
 }
@@ -110,11 +117,7 @@ void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled,
     *a = between(*a, *(const double *)((const char *)&full + straight[i]), filled);
   }
   if (out->touches && full.touches) {
-    const SbSlidingTask task =
-        task_of(run, seal, SB_CHAMBER_AT_REST, direction, fmax(fabs(speed), SB_SPEED_LEAST));
-    SbSlidingTask quiet = task;
-    quiet.warnings = NULL;
-    (void)sb_sliding_refilm(out, &quiet, run->roughness, NULL);
+    sb_run_refilm(out, run, seal, SB_CHAMBER_AT_REST, direction, speed);
   }
   out->touches = out->touches || full.touches;
 }

@@ -557,6 +557,29 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
   }
 }
 
+void sb_run_frame_film(SbFrame *frame, SbRun *run, int seal, double least, double central) {
+  SbSealFrame *out = &frame->seal[seal];
+  const int direction = frame->velocity < 0 ? SB_CYCLE_OUT : SB_CYCLE_IN;
+  const double speed = frame->velocity != 0 ? frame->velocity : run->speed;
+  // A stem that stands, or a patch that sticks, has the friction that holds it.
+  const bool slides = out->friction_viscous > 0 || out->friction_viscous < 0;
+  SbSealState state;
+  sb_run_state_at(&state, run, seal, frame->chamber, direction, speed);
+  state.film_min = least;
+  state.film_central = central;
+  sb_run_refilm(&state, run, seal, frame->chamber, direction, speed);
+  out->film_min = least;
+  out->film_central = central;
+  out->lambda = state.lambda;
+  out->real_area_share = state.real_area_share;
+  if (slides) {
+    const double way = direction == SB_CYCLE_IN ? 1 : -1;
+    out->friction_viscous = way * state.friction_viscous;
+    out->friction_boundary = way * (state.boundary_area + state.boundary_load);
+    out->friction = out->friction_boundary + out->friction_viscous;
+  }
+}
+
 void sb_run_fill_frame(SbFrame *out, SbRun *run, const SbInstant *at) {
   const SbDynamicsSample *sample = &at->sample;
   *out = (SbFrame){
