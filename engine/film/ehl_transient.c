@@ -16,12 +16,39 @@
 // Of the largest local error of a step against the mean's: the least film is local.
 static const double LOCAL = 0.3;
 
+// Way that the fluid goes before a mesh is due [b].
+static const double AHEAD = 0.03;
+
 static bool cancelled(const SbFilmTransient *t) {
   const SbFilmProblem *p = &t->problem.film;
   return p->cancelled != NULL && p->cancelled(p->cancelled_data);
 }
 
 // ---------------------------------------------------------------- initial states
+
+// The steady state near the present one: at once, or where the active set of the rupture does not
+// settle, by steps of growing length in time.
+static SbStatus settle(SbFilmTransient *t) {
+  SbTransientState *s = &t->now;
+  t->next = *s;
+  SbStatus status = sb_transient_newton(t, s);
+  if (status != SB_OK) {
+    *s = t->next;
+    for (double rate = 1e5; rate > 0.5; rate *= 0.1) {
+      t->c0 = rate * fabs(s->speed);
+      for (int i = 0; i < t->nodes; i++) {
+        t->old[i] = -t->c0 * s->m[i];
+      }
+      if (sb_transient_newton(t, s) != SB_OK) {
+        break;
+      }
+    }
+    t->c0 = 0.0;
+    memset(t->old, 0, sizeof t->old);
+    status = sb_transient_newton(t, s);
+  }
+  return status;
+}
 
 // Steady state from the spectral solution at `speed` [m/s].
 static SbStatus lay_steady(SbFilmTransient *t, const SbFilm *steady, double speed,
@@ -47,7 +74,7 @@ static SbStatus lay_steady(SbFilmTransient *t, const SbFilm *steady, double spee
     s->m[i] = s->cavity[i] ? flux : s->H[i];
   }
   s->H0 = 0.0;
-  const SbStatus status = sb_transient_newton(t, s);
+  const SbStatus status = settle(t);
   return status == SB_OK ? status
                          : sb_fail(report, status,
                                    "transient film: no steady state on the mesh of finite volumes");
@@ -74,7 +101,7 @@ static void lay_rest(SbFilmTransient *t, double rest) {
 }
 
 // Least film, by a parabola through the lowest node and its neighbours, and the central one,
-// scaled; X = 0 is the node in the middle. Returns the place of the least one.
+// scaled. Returns the place of the least one.
 static double read_films(double out[2], const SbFilmTransient *t) {
   const double *X = t->X, *H = t->now.H;
   int at = 1;
@@ -87,13 +114,20 @@ static double read_films(double out[2], const SbFilmTransient *t) {
   const double b = h0 / x0 - a * x0;
   const double dx = a > 0.0 ? fmin(fmax(-0.5 * b / a, x0), x1) : 0.0;
   out[0] = H[at] + dx * (b + a * dx);
-  out[1] = H[t->nodes / 2];
+  const int k = (int)sb_interval(X, (size_t)t->nodes, 0.0);
+  double bary[4], basis[4];
+  sb_barycentric_weights(bary, &X[k - 1], 4);
+  sb_barycentric_basis(basis, 0.0, &X[k - 1], bary, 4);
+  out[1] = cblas_ddot(4, basis, 1, &H[k - 1], 1);
   return X[at] + dx;
 }
 
 void sb_film_transient_destroy(SbFilmTransient *t) {
   if (t != NULL) {
     sb_film_transient_destroy(t->companion);
+    if (t->coarseness == 1.0) { // the companion borrows it
+      sb_film_solver_destroy(t->solver);
+    }
     free(t);
   }
 }
@@ -156,6 +190,7 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   }
   t->problem = *problem;
   t->coarseness = coarseness;
+  t->solver = solver;
   SbFilmProblem scaled = problem->film;
   scaled.speed = problem->speed_scale;
   SbFilmScale *scale = &t->scale;
@@ -173,7 +208,7 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   const double length = scale->film / scale->half_width;
   t->diffusion = length * length * scale->pressure / (12.0 * scaled.viscosity);
   t->flow = 0.5 * problem->speed_scale / scale->half_width * largest->film_flux / scale->film;
-  sb_transient_mesh(t, solver, rest);
+  sb_transient_mesh(t, rest);
   SbStatus status = lay_steady(t, largest, steady->speed[0], report);
   if (status != SB_OK) {
     return status;
@@ -221,9 +256,11 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
       status = SB_OK;
     }
   }
-  sb_film_solver_destroy(solver);
   free(steady);
   if (status != SB_OK) {
+    if (t == NULL) {
+      sb_film_solver_destroy(solver);
+    }
     sb_film_transient_destroy(t);
     return status;
   }
@@ -341,11 +378,7 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, SbReport *repo
     }
     const double rest = end - t->now.time;
     const double wanted = h;
-    // A step goes one cell at most; the last two share what is left.
-    const double v = t->now.speed, rate = (v1 - v0) / dt;
-    if (t->problem.resolve) {
-      h = fmin(h, 2.0 * t->cell / (fabs(v) + sqrt(v * v + 2.0 * fabs(rate) * t->cell)));
-    }
+    // The last two steps share what is left.
     h = h >= rest ? rest : h > 0.5 * rest ? 0.5 * rest : h;
     const double share = (t->now.time + h - begin) / dt;
     double error;
@@ -364,6 +397,7 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, SbReport *repo
       return status;
     }
     sb_transient_accept(t, error);
+    (void)sb_transient_adapt(t, v1 != 0.0 ? copysign(AHEAD, v1) : 0.0);
     const double grow = fmin(2.0, 0.85 * cbrt(limit / fmax(error, 1e-300)));
     h = isfinite(error) ? h * fmax(grow, 0.3) : h;
     if (wanted > h && grow >= 1.0) {
@@ -375,8 +409,9 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, SbReport *repo
 }
 
 // Takes the companion along, to the end of a piece that the fluid went `way` in; the difference of
-// the films, or what is left in the contact of the largest before. Half of the difference: all of
-// it is the error of a method of first order, a third of second order; fronts lie between.
+// the films, or what is left in the contact of the largest before. Of the least film all of the
+// difference, the error of a method of first order: fronts and cavities lie between first and
+// second, of which it is a third. Of the central one half.
 static SbStatus compare(SbFilmTransient *t, double way) {
   SbFilmTransient *other = t->companion;
   double *error[2] = {&t->result.error_film_min, &t->result.error_film_central};
@@ -404,8 +439,7 @@ static SbStatus compare(SbFilmTransient *t, double way) {
   const double bend = unknown ? fabs((H[at - 2] + H[at + 1]) / fine[0] - 2.0) : 0.0;
   t->way += way;
   for (int k = 0; k < 2; k++) {
-    // A spacing for the mean film alone finds the least one with the first order.
-    const double share = k == 0 && !t->problem.resolve ? 1.0 : 0.5;
+    const double share = k == 0 ? 1.0 : 0.5;
     const double apart = share * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);
     if (apart > t->apart[k] || t->way - t->apart_way[k] > 2.0) {
       t->apart[k] = apart;

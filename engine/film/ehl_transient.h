@@ -33,15 +33,39 @@ typedef struct {
   double by_m[4], by_H[4], by_P[4]; // its derivatives to the nodes
 } SbTransientFace;
 
+enum { SB_TRANSIENT_SAMPLES = 2000 };
+
+// Cells with the integral of their heights up to faces; face i is behind cell i. It begins a little
+// before what is asked for: the surroundings hold so much more liquid that the contact's would be
+// lost in rounding.
+typedef struct {
+  int from, to; // faces
+  const double *height;
+  double place[SB_TRANSIENT_NODES_MAX], integral[SB_TRANSIENT_NODES_MAX];
+} SbTransientCells;
+
+// Spacing wanted at samples of the core, denser to its ends, and the number of spacings up to
+// there.
+typedef struct {
+  double X[SB_TRANSIENT_SAMPLES], spacing[SB_TRANSIENT_SAMPLES], nodes[SB_TRANSIENT_SAMPLES];
+} SbTransientSpacing;
+
 struct SbFilmTransient {
   SbFilmTransientProblem problem;
   SbFilmScale scale;
   SbEhlLayers layers; // of the contact at speed_scale, without end pressures
   int nodes;
+  int side;                   // nodes at either edge and beyond, which never move
+  double core;                // the others are inside |X| < core
   double layer;               // width of the layers at the edges
-  double cell;                // spacing between the layers
+  double share, inner_share;  // spacing over the distance to the edge, outside and inside
+  double finest;              // least distance that counts for it
+  double cell;                // largest spacing between the layers
+  double ramp;                // way within which the faces come to move with the fluid
+  double bend;                // wanted of the height from node to node, over the height
   double coarseness;          // of mesh and steps: 1, the companion's 2
   SbFilmTransient *companion; // NULL in itself
+  SbFilmSolver *solver;       // its tables and a mesh; the companion borrows it
   double X[SB_TRANSIENT_NODES_MAX];
   double volume[SB_TRANSIENT_NODES_MAX]; // length of a node's cell
   double weight[SB_TRANSIENT_NODES_MAX]; // of the load
@@ -65,6 +89,9 @@ struct SbFilmTransient {
   double old[SB_TRANSIENT_NODES_MAX];
   double guess[SB_TRANSIENT_NODES_MAX]; // of m, on from earlier times
   double work[2][SB_TRANSIENT_NODES_MAX];
+  SbTransientCells cells;     // work memory
+  SbTransientSpacing spacing; // the same
+  double old_X[SB_TRANSIENT_NODES_MAX];
   SbTransientState next, now, before, earlier;
   int known_times;                    // 1 to 3, from now back
   double way, apart[2], apart_way[2]; // of the fluid; largest difference, and the way then
@@ -72,15 +99,25 @@ struct SbFilmTransient {
   SbFilmTransientResult result;       // but for the films
 };
 
-// Mesh and kernel for films up to `rest`. Takes the solver's tables and a mesh.
-void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest);
+// Mesh and kernel for films up to `rest`.
+void sb_transient_mesh(SbFilmTransient *t, double rest);
+
+// New mesh in the core, with the states on it, if what the fluid carries there needs another
+// spacing; `ahead` is the way that it will be carried, for which the new spacing is to last.
+bool sb_transient_adapt(SbFilmTransient *t, double ahead);
+
+// The states from the nodes old_X, whose sides are those of the present mesh, on that mesh.
+void sb_transient_remap(SbFilmTransient *t, int nodes);
+
+// Whether a front stands among so many heights: they differ by more than the factor.
+bool sb_transient_front(const double *height, int count, double factor);
 
 // Elastic gap of the state's pressure at all nodes.
 void sb_transient_gap(double *out, const SbFilmTransient *t, const SbTransientState *s);
 
 // Mean over each cell, displaced back by the carried share of `way`, of earlier heights: the
 // derivatives of their integral over the mesh, which keeps the mass exactly.
-void sb_transient_carry(double *out, const SbFilmTransient *t, const double *height, double way);
+void sb_transient_carry(double *out, SbFilmTransient *t, const double *height, double way);
 
 // Newton's method for the step in `t` from the guess in `s`, whose H may disagree with its P.
 SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s);

@@ -7,13 +7,15 @@
 #include "engine/film/ehl_transient.h"
 
 #include "engine/numeric/legendre.h"
+#include "engine/numeric/root.h"
 
 #include <cblas.h>
 #include <math.h>
 #include <string.h>
 
-static const double RESOLVED = 4.5e-3; // spacing for the dip of a reversal, 0.02 b wide
-static const double CARRIED = 3.0;     // layers
+static const double BEND = 2e-3;   // of the height between two nodes
+static const double CARRIED = 3.0; // layers
+static const double RAMP = 0.03;   // way within which faces come to move, at the default tolerance
 
 // Smooth part of a fitted body on the nodes, added to the kernel and the known gap, as in
 // ehl_fitted.c. The constant is H0's.
@@ -69,10 +71,11 @@ static void add_interval(double *row, const SbFilmTransient *t, int j, const dou
 }
 
 // Kernel and weights of the load, interval by interval as an element of `solver`'s meshes.
-static void build_kernel(SbFilmTransient *t, SbFilmSolver *solver) {
+static void build_kernel(SbFilmTransient *t) {
   enum { QUADRATIC = 2 };
   const int n = t->nodes;
   const SbFilmScale *scale = &t->scale;
+  SbFilmSolver *solver = t->solver;
   SbEhlMesh *mesh = &solver->solution[0].mesh;
   SbEhlElement *e = &mesh->element[0];
   for (int j = 0; j + 1 < n; j++) {
@@ -98,6 +101,11 @@ static void build_kernel(SbFilmTransient *t, SbFilmSolver *solver) {
   }
 }
 
+// Whether there is room between the layers for faces that move.
+static bool thin(const SbFilmTransient *t) {
+  return 2.0 * CARRIED * t->layer < 0.7;
+}
+
 // Lagrange's polynomials at a face, of four nodes and of three with two upstream of it. At an end
 // of the mesh, where there are none, transport is by the mean of the nodes beside.
 static void lay_face(SbFilmTransient *t, int i) {
@@ -120,48 +128,161 @@ static void lay_face(SbFilmTransient *t, int i) {
   }
   const double right = t->X[i + 1] - t->X[i];
   f->limited = !t->problem.resolve && right > t->layer && fabs(t->X[i]) < 1.0;
-  // From CARRIED layers inside the edges on the faces move, after as many again with the fluid.
-  const double inside = (1.0 - fabs(f->X)) / (CARRIED * t->layer) - 1.0;
+  // From CARRIED layers inside the edges on the faces move, after the ramp with the fluid.
+  const double inside = (1.0 - fabs(f->X) - CARRIED * t->layer) / t->ramp;
   const double ramp = fmin(fmax(inside, 0.0), 1.0);
-  f->carried = 2.0 * CARRIED * t->layer < 0.7 ? ramp * ramp * (3.0 - 2.0 * ramp) : 0.0;
+  f->carried = thin(t) ? ramp * ramp * (3.0 - 2.0 * ramp) : 0.0;
 }
 
-// Half of the mesh from the middle outward, mirrored: spacing a share of the distance to the edge.
-void sb_transient_mesh(SbFilmTransient *t, SbFilmSolver *solver, double rest) {
-  const double width = fmin(sb_ehl_layers_width(&t->layers), 2.0);
-  const double fine =
-      t->coarseness * cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
-  const double share = 0.15 * fine;
-  const double inner = t->problem.resolve ? 0.10 * fine : share;
-  const double finest = 0.5 * width;
-  const double reach = fmax(fmax(4.0, 60.0 * width), 6.0 * sqrt(2.0 * rest));
-  double X[SB_TRANSIENT_NODES_MAX / 2];
-  int n = 0;
-  t->cell = (t->problem.resolve ? RESOLVED : 0.03) * fine;
-  X[n++] = 0.0;
-  while (X[n - 1] < 1.0 + reach && n < SB_TRANSIENT_NODES_MAX / 2 - 1) {
-    double step = 0.0;
-    for (int pass = 0; pass < 3; pass++) {
-      const double at = X[n - 1] + 0.5 * step;
-      const double d = hypot(at < 1.0 ? finest * share / inner : finest, at - 1.0);
-      step = at < 1.0 ? inner * d / hypot(1.0, inner * d / t->cell) : share * d;
+// Spacing that the layers at the edges ask for, at X: a share of the distance to the edge.
+static double graded(const SbFilmTransient *t, double X) {
+  const double at = fabs(X);
+  if (at >= 1.0) {
+    return t->share * hypot(t->finest, at - 1.0);
+  }
+  const double step = t->inner_share * hypot(t->finest * t->share / t->inner_share, at - 1.0);
+  return step / hypot(1.0, step / t->cell);
+}
+
+// Spacing with which the fluid's height at a node bends by the wanted share of it from node to
+// node.
+static double bending_spacing(const SbFilmTransient *t, int i) {
+  const double *X = &t->X[i], *m = &t->now.m[i];
+  const double rise = (m[1] - m[0]) / (X[1] - X[0]) - (m[0] - m[-1]) / (X[0] - X[-1]);
+  const double second = 2.0 * rise / (X[1] - X[-1]);
+  return fmax(sqrt(8.0 * t->bend * fabs(m[0] / second)), t->share * t->finest);
+}
+
+enum { SAMPLES = SB_TRANSIENT_SAMPLES };
+
+static double sample_index(const SbFilmTransient *t, double X) {
+  return acos(fmin(fmax(-X / t->core, -1.0), 1.0)) * (SAMPLES - 1) / M_PI;
+}
+
+// By the layers and the height's bend (unless there is none yet), from where that is to where it
+// will be when the fluid has moved on by `ahead`; growing gently.
+static void want_spacing(SbFilmTransient *t, bool bends, double ahead) {
+  enum { MARGIN = 4 };
+  static const double GROWTH = 0.1;
+  SbTransientSpacing *out = &t->spacing;
+  double *X = out->X, *spacing = out->spacing;
+  for (int k = 0; k < SAMPLES; k++) {
+    X[k] = -t->core * cos(M_PI * k / (SAMPLES - 1));
+    spacing[k] = graded(t, X[k]);
+  }
+  for (int i = t->side - 1; i <= t->nodes - t->side && bends; i++) {
+    const double need = bending_spacing(t, i);
+    const double low = t->X[i] - MARGIN * need + fmin(ahead, 0.0);
+    const double high = t->X[i] + MARGIN * need + fmax(ahead, 0.0);
+    const int last = (int)ceil(sample_index(t, high));
+    for (int k = (int)floor(sample_index(t, low)); k <= last; k++) {
+      spacing[k] = fmin(spacing[k], need);
     }
-    X[n] = X[n - 1] + step;
-    n++;
   }
-  t->nodes = 2 * n - 1;
-  t->layer = width;
-  t->reach = 0.3 * CARRIED * width;
-  for (int i = 0; i < n; i++) {
-    t->X[n - 1 + i] = X[i];
-    t->X[n - 1 - i] = -X[i];
+  for (int k = 1; k < SAMPLES; k++) {
+    spacing[k] = fmin(spacing[k], spacing[k - 1] + GROWTH * (X[k] - X[k - 1]));
   }
+  for (int k = SAMPLES - 2; k >= 0; k--) {
+    spacing[k] = fmin(spacing[k], spacing[k + 1] + GROWTH * (X[k + 1] - X[k]));
+  }
+  out->nodes[0] = 0.0;
+  for (int k = 1; k < SAMPLES; k++) {
+    const double density = 0.5 * (1.0 / spacing[k - 1] + 1.0 / spacing[k]);
+    out->nodes[k] = out->nodes[k - 1] + density * (X[k] - X[k - 1]);
+  }
+}
+
+// Nodes of the core by that spacing between the sides' nodes, which stay.
+static void lay_nodes(SbFilmTransient *t) {
+  const SbTransientSpacing *want = &t->spacing;
+  const double all = want->nodes[SAMPLES - 1];
+  const int most = SB_TRANSIENT_NODES_MAX - 2 * t->side + 1;
+  const int steps = (int)fmin(ceil(all), most);
+  const int first = t->side - 1;
+  memmove(t->X + first + steps, t->X + t->nodes - t->side, (size_t)t->side * sizeof *t->X);
+  for (int i = 1; i < steps; i++) {
+    const double at = all * i / steps;
+    const size_t k = sb_interval(want->nodes, SAMPLES, at);
+    const double share = (at - want->nodes[k]) / (want->nodes[k + 1] - want->nodes[k]);
+    t->X[first + i] = want->X[k] + share * (want->X[k + 1] - want->X[k]);
+  }
+  t->nodes = 2 * t->side + steps - 1;
+}
+
+// Everything that follows from the nodes.
+static void lay_mesh(SbFilmTransient *t) {
+  const size_t n = (size_t)t->nodes;
+  memset(t->volume, 0, sizeof t->volume);
+  memset(t->weight, 0, sizeof t->weight);
+  memset(t->face, 0, sizeof t->face);
+  memset(t->kernel, 0, n * n * sizeof *t->kernel);
   for (int i = 0; i + 1 < t->nodes; i++) {
     lay_face(t, i);
     t->volume[i] += t->face[i].X - t->X[i];
     t->volume[i + 1] += t->X[i + 1] - t->face[i].X;
   }
-  build_kernel(t, solver);
+  build_kernel(t);
+  t->factored_c0 = 0.0;
+}
+
+void sb_transient_mesh(SbFilmTransient *t, double rest) {
+  const double width = fmin(sb_ehl_layers_width(&t->layers), 2.0);
+  const double fine =
+      t->coarseness * cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
+  t->share = 0.15 * fine;
+  t->inner_share = t->problem.resolve ? 0.10 * fine : t->share;
+  t->finest = 0.5 * width;
+  t->cell = 0.03 * fine;
+  t->ramp = fmax(CARRIED * width, t->problem.resolve ? RAMP * fine : 0.0);
+  t->bend = BEND * fine * fine;
+  t->layer = width;
+  t->reach = 0.3 * t->ramp;
+  t->core = t->problem.resolve && thin(t) ? 1.0 - CARRIED * width : 0.0;
+  const double reach = fmax(fmax(4.0, 60.0 * width), 6.0 * sqrt(2.0 * rest));
+  double X[SB_TRANSIENT_NODES_MAX / 2];
+  int n = 0;
+  X[n++] = t->core;
+  while (X[n - 1] < 1.0 + reach && n < SB_TRANSIENT_NODES_MAX / 2) {
+    double step = 0.0;
+    for (int pass = 0; pass < 3; pass++) {
+      step = graded(t, X[n - 1] + 0.5 * step);
+    }
+    X[n] = X[n - 1] + step;
+    n++;
+  }
+  t->side = n;
+  t->nodes = t->core > 0.0 ? 2 * n : 2 * n - 1;
+  for (int i = 0; i < n; i++) {
+    t->X[n - 1 - i] = -X[i];
+    t->X[t->nodes - n + i] = X[i];
+  }
+  if (t->core > 0.0) {
+    want_spacing(t, false, 0.0);
+    lay_nodes(t);
+  }
+  lay_mesh(t);
+}
+
+bool sb_transient_adapt(SbFilmTransient *t, double ahead) {
+  static const double LACKING = 1.3, SPARE = 1.6;
+  if (!(t->core > 0.0)) {
+    return false;
+  }
+  bool lacking = false;
+  for (int i = t->side; i < t->nodes - t->side && !lacking; i++) {
+    const double spacing = fmax(t->X[i + 1] - t->X[i], t->X[i] - t->X[i - 1]);
+    lacking = spacing > LACKING * fmin(bending_spacing(t, i), graded(t, t->X[i]));
+  }
+  want_spacing(t, true, ahead);
+  if (!lacking && t->nodes - 2 * t->side < SPARE * t->spacing.nodes[SAMPLES - 1]) {
+    return false;
+  }
+  const int nodes = t->nodes;
+  memcpy(t->old_X, t->X, sizeof t->X);
+  lay_nodes(t);
+  lay_mesh(t);
+  sb_transient_remap(t, nodes);
+  return true;
 }
 
 void sb_transient_gap(double *out, const SbFilmTransient *t, const SbTransientState *s) {

@@ -8,65 +8,10 @@
 #include "engine/film/ehl_transient.h"
 
 #include "engine/numeric/dense.h"
-#include "engine/numeric/legendre.h"
-#include "engine/numeric/root.h"
 
 #include <cblas.h>
-#include <gsl/gsl_statistics.h>
 #include <math.h>
 #include <string.h>
-
-// Whether a front stands among so many heights: they differ by more than the factor.
-static bool front(const double *height, int count, double factor) {
-  double least, most;
-  gsl_stats_minmax(&least, &most, height, 1, (size_t)count);
-  return most > factor * least;
-}
-
-void sb_transient_carry(double *out, const SbFilmTransient *t, const double *height, double way) {
-  enum { SIDE = 3, FACES = 2 * SIDE };
-  const int n = t->nodes;
-  memcpy(out, height, (size_t)n * sizeof *out);
-  int first = 0;
-  while (first < n && t->face[first].carried == 0.0) {
-    first++;
-  }
-  if (first == n || way == 0.0) {
-    return;
-  }
-  // Integral up to face i, i + 1 from a little before the first that moves: the surroundings hold
-  // so much more liquid that the contact's would be lost in rounding.
-  const int from = first - 2 * SIDE, to = n - 2 - from;
-  double place[SB_TRANSIENT_NODES_MAX], integral[SB_TRANSIENT_NODES_MAX];
-  for (int i = from; i <= to; i++) {
-    place[i] = t->face[i].X;
-    integral[i] = i > from ? integral[i - 1] + t->volume[i] * height[i] : 0.0;
-  }
-  double before = integral[first - 1];
-  for (int i = first; i <= n - 1 - first; i++) {
-    const double at = place[i] - t->face[i].carried * way;
-    // at lies between faces k and k + 1.
-    const size_t inside = (size_t)(to - from - 2 * SIDE + 2);
-    const int k = from + SIDE + (int)sb_interval(&place[from + SIDE], inside, at);
-    double value = 0.0;
-    if (front(height + k - SIDE + 2, FACES - 1, 6.0)) {
-      // Hermite's cubic with harmonic means for slopes rises throughout.
-      const double *m = height + k;
-      const double end[] = {2.0 * m[0] * m[1] / (m[0] + m[1]), 2.0 * m[2] * m[1] / (m[2] + m[1])};
-      const double h = t->volume[k + 1];
-      double slope;
-      value = sb_hermite(&slope, (at - place[k]) / h, h, &integral[k], end);
-    } else {
-      const double *node = &place[k - SIDE + 1];
-      double bary[FACES], basis[FACES];
-      sb_barycentric_weights(bary, node, FACES);
-      sb_barycentric_basis(basis, at, node, bary, FACES);
-      value = cblas_ddot(FACES, basis, 1, &integral[k - SIDE + 1], 1);
-    }
-    out[i] = (value - before) / t->volume[i];
-    before = value;
-  }
-}
 
 // Height that the fluid goes through a face with, by van Albada's mean of the slopes between its
 // upstream nodes and across it, smooth where both vanish; derivatives into by_m. False where there
@@ -235,7 +180,7 @@ static int switch_nodes(const SbFilmTransient *t, SbTransientState *s) {
 // mesh.
 static void choose_scheme(SbFilmTransient *t, const SbTransientState *s, int i) {
   SbTransientFace *f = &t->face[i];
-  const bool steep = front(s->m + f->first, 4, t->problem.resolve ? 6.0 : 2.5);
+  const bool steep = sb_transient_front(s->m + f->first, 4, t->problem.resolve ? 6.0 : 2.5);
   f->beside_cavity = s->cavity[i] || s->cavity[i + 1];
   f->monotonic = f->limited || f->beside_cavity || steep;
 }

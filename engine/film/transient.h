@@ -13,9 +13,10 @@
 // parabolas, the elastic kernel exact for these. Time: BDF2 with steps chosen from its own
 // error, Newton's method with the cavity's complementarity as an active set. Between the edges'
 // layers the cells move with the fluid, at u/2: what the wall carries through the contact keeps its
-// form whatever the step. A companion at twice the spacing and twice the step runs beside: the
-// estimates of least and central film are half the largest difference between the two that the
-// fluid still in the contact has seen, and the mesh's own error in steady sliding. Range:
+// form whatever the step; nodes crowd about what the fluid carries and go along with it
+// (`resolve`). A companion at twice the spacing and twice the step runs beside: the estimate of the
+// least film is the largest difference between the two that the fluid still in the contact has
+// seen, of the central one half of it, and the mesh's own error in steady sliding. Range:
 // isoviscous (Barus' and Eyring's options are refused), flooded surroundings, M >= 1; the pressure
 // must stay that of one contact.
 #pragma once
