@@ -259,7 +259,7 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
       break;
     }
     // A step that is long against the relaxation damps that rounding, too.
-    double damped = fmax(1.0, h * quickest);
+    double damped = fmax(1.0, 0.1 * h * quickest);
     if (!s->held) {
       s->system.noise[0] = 8.0 * speed / damped;
       s->system.noise[1] = 8.0 * noise / damped;
@@ -531,6 +531,9 @@ static const double worth = 10.0;
 // of the way ahead than that.
 static const double period_change = 0.01, way_share = 1.0 / 64.0;
 
+// Least share of the period at rest.
+static const double least_rest = 0.1;
+
 // Break-aways since `was` that can be told ahead: a slip and a rest of all contacts, nothing else.
 static bool comparable(const SbDynamics *s, const SbDynamicsBreak *was) {
   const SbDynamicsModel *m = s->model;
@@ -637,6 +640,10 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
   double tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9;
   bool steady =
       fabs(s->broke.change - was.change) <= 0.2 * fabs(s->broke.change) + 10.0 * tolerance * period;
+  // Those that hardly rest may be the last: further on the stem may slide without.
+  for (size_t i = 0; i < m->contacts; i++) {
+    steady = steady && (s->state[i] == SB_CONTACT_OFF || s->t - s->since[i] > least_rest * period);
+  }
   if (steady) {
     // What the cycles passed over before the last gained, by the mean of both ends.
     for (int i = 0; i < SB_DYNAMICS_TERMS && was.passed > 0.0; i++) {
