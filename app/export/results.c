@@ -29,6 +29,13 @@ static void put_value(SbJson *json, const char *key, int index, double value) {
   }
 }
 
+// What sliding makes of a seal's contact, beside the figures of its stroke.
+static void put_section(SbJson *json, const SbSummary *summary, const char *path) {
+  const SbContacts *of = &summary->contact[strstr(path, ".inner.") != NULL ? SB_INNER : SB_OUTER];
+  const SbContact *contact = strstr(path, ".return.") != NULL ? &of->back : &of->in_stroke;
+  sb_json_string(json, "state", contact->known ? sb_section_name(contact->section) : NULL);
+}
+
 // The catalogue's figures whose paths begin with `scope`, as objects; inside the scope's own
 // object.
 static void put_figures(SbJson *json, const SbSummary *summary, const char *scope) {
@@ -54,6 +61,9 @@ static void put_figures(SbJson *json, const SbSummary *summary, const char *scop
     }
     if (i < SB_FIGURE_COUNT) {
       put_value(json, name, i, sb_figure_value(summary, i));
+      if (g_str_has_suffix(path, ".rotation_deg")) {
+        put_section(json, summary, path);
+      }
     }
   }
 }
@@ -184,6 +194,11 @@ static void put_reasons(SbJson *json, const SbRun *run) {
           g_strdup_printf("%.*s.regime", (int)(strrchr(path, '.') - path), path);
       sb_json_string(json, regime, reason);
     }
+    if (g_str_has_suffix(path, ".contact_width_m") && strstr(path, ".contact.") != NULL) {
+      g_autofree char *state =
+          g_strdup_printf("%.*s.state", (int)(strrchr(path, '.') - path), path);
+      sb_json_string(json, state, reason);
+    }
   }
   if (summary->life.done > 0) {
     sb_json_string(json, "life.by_actuation", "null where an actuation does not slip or return");
@@ -204,6 +219,7 @@ static void put_run_solver(SbJson *json, const SbSummary *summary) {
   sb_json_object(json, "counters");
   sb_json_count(json, "reynolds_solves", counters->reynolds_solves);
   sb_json_count(json, "film_steps", counters->film_steps);
+  sb_json_count(json, "speed_nodes", counters->speed_nodes);
   sb_json_count(json, "ring_solves", counters->ring_solves);
   sb_json_count(json, "disc_solves", counters->disc_solves);
   sb_json_count(json, "fit_solves", counters->fit_solves);

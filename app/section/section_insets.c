@@ -190,14 +190,10 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
     sb_section_label(section, CLAMP(peak_x, rect->x + 50, rect->x + rect->width - 50),
                      bore - peak_pressure * px - 9, &peak,
                      sb_section_megapascal(value, peak_pressure));
-    // The dimension stands on the contact that is drawn. The curve over it is the undragged one's.
     double y = bore + 17;
     SbColor line = palette->ink;
-    double width = sb_section_contact_text(section, seal, text, sizeof text);
-    if (sb_section_dragged(section, seal)) {
-      left_px = inset_x(inset, section->instant->ring[seal]->contact_left);
-      right_px = left_px + width * inset->scale;
-    }
+    snprintf(text, sizeof text, "contact %s",
+             sb_section_millimetre(value, frame->contact_right - frame->contact_left));
     sb_draw_line(list, left_px, y - 5, left_px, y + 5, 1.2, line);
     sb_draw_line(list, right_px, y - 5, right_px, y + 5, 1.2, line);
     sb_draw_line(list, left_px, y, right_px, y, 1.2, line);

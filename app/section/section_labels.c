@@ -423,22 +423,15 @@ static void draw_scales(SbSection *section) {
   bool schematic =
       section->instant->ring[SB_OUTER] == NULL || section->instant->ring[SB_INNER] == NULL;
   const char *const whole = section->view->zoom == SB_SECTION_WHOLE ? "axis of the valve; " : "";
-  SbSectionZoom zoom = section->view->zoom;
-  bool dragged = (zoom != SB_SECTION_ZOOM_INNER && sb_section_dragged(section, SB_OUTER)) ||
-                 (zoom != SB_SECTION_ZOOM_OUTER && sb_section_dragged(section, SB_INNER));
   char caption[240];
-  snprintf(caption, sizeof caption, "%sto scale in both directions%s%s%s", whole,
+  snprintf(caption, sizeof caption, "%sto scale in both directions%s%s", whole,
            schematic ? "; rings: schematic shape, contact width and area true" : "",
-           dragged ? "; rings dragged by friction, pressure and film undragged" : "",
            section->view->undeformed ? "; dashed: rings before fitting" : "");
   if (section->strip.x + sb_text_width(section->text, caption, 11, 400) + 12 < x) {
     sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_LEFT, palette->second, caption);
   } else if (schematic) {
     sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_LEFT, palette->second,
                  "rings: schematic shape");
-  } else if (dragged) {
-    sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_LEFT, palette->second,
-                 "rings dragged by friction");
   }
 }
 
@@ -458,7 +451,8 @@ static void draw_zoom(SbSection *section) {
     sb_draw_line(list, a.x, y - 5, a.x, y + 5, 1.2, palette->ink);
     sb_draw_line(list, b.x, y - 5, b.x, y + 5, 1.2, palette->ink);
     sb_draw_line(list, a.x, y, b.x, y, 1.2, palette->ink);
-    sb_section_contact_text(section, i, text, sizeof text);
+    snprintf(text, sizeof text, "contact %s",
+             sb_section_millimetre(value, seal->contact_right - seal->contact_left));
     SbSectionLabel style = label_style(palette->ink, 600, SB_MIDDLE, &palette->panel);
     bool inside = sb_text_width(section->text, text, 12, 600) + 30 < (double)(b.x - a.x);
     sb_section_label(section, (double)(a.x + b.x) / 2, inside ? y + 4 : y + 22, &style, text);

@@ -94,14 +94,6 @@ typedef struct {
 
 SbPoint sb_section_plane_at(const SbSectionPlane *plane, double x, double y);
 
-// Whether the drawn ring is a solved one whose contact its friction has moved off the frame's,
-// which is that of the frictionless fitment: by more than a fiftieth of its width.
-bool sb_section_dragged(const SbSection *section, int seal);
-
-// "contact 0.74 mm" of what is drawn, with the undragged width if the ring is dragged. Returns the
-// drawn width [m].
-double sb_section_contact_text(const SbSection *section, int seal, char *text, size_t size);
-
 // Seal i's ring, its own frame in `plane`.
 void sb_section_draw_ring(SbSection *section, int seal, const SbSectionPlane *plane);
 

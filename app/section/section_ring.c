@@ -30,32 +30,6 @@ void sb_section_field_limits(const SbSection *section, SbField field, double *le
   }
 }
 
-bool sb_section_dragged(const SbSection *section, int seal) {
-  const SbSealShape *solved = section->instant->ring[seal];
-  const SbSealFrame *frame = &section->instant->frame->seal[seal];
-  if (solved == NULL || frame->land_fraction < 1 || !(fabs(frame->friction) > 0)) {
-    return false;
-  }
-  double moved = fmax(fabs(solved->contact_left - frame->contact_left),
-                      fabs(solved->contact_right - frame->contact_right));
-  return moved > 0.02 * (frame->contact_right - frame->contact_left);
-}
-
-double sb_section_contact_text(const SbSection *section, int seal, char *text, size_t size) {
-  const SbSealShape *solved = section->instant->ring[seal];
-  const SbSealFrame *frame = &section->instant->frame->seal[seal];
-  char value[SB_SECTION_NUMBER], other[SB_SECTION_NUMBER];
-  double width = frame->contact_right - frame->contact_left;
-  sb_section_millimetre(value, width);
-  if (sb_section_dragged(section, seal)) {
-    width = solved->contact_right - solved->contact_left;
-    snprintf(text, size, "contact %s, undragged %s", sb_section_millimetre(other, width), value);
-  } else {
-    snprintf(text, size, "contact %s", value);
-  }
-  return width;
-}
-
 // Pressure lives on the surface: a band along the outline on a plain body. Quads from the outline
 // towards the middle, BAND px wide.
 static void draw_surface_field(SbSection *section, int seal, const SbSealShape *shape,

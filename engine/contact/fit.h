@@ -143,6 +143,11 @@ typedef struct {
 // owned by the caller, and holds no pointers. `report` may be NULL.
 SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report);
 
+// Solves a dragged ring for another law of friction or pressure of the same direction, on the ring
+// that sb_fit_solve() has kept, from its present state; `out` is that one's result, whose estimates
+// of errors stay. Where it fails it is to be solved anew.
+SbStatus sb_fit_again(SbFit *out, const SbFitProblem *problem, SbReport *report);
+
 // The free ring and its groove as the ring model takes them (ring.h): the wall of the lower
 // pressure only.
 void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem *problem);

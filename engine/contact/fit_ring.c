@@ -9,6 +9,7 @@
 #include "engine/contact/fit_models.h"
 
 #include <math.h>
+#include <string.h>
 
 // Of the bore's sliding, as SbRingLoad's.
 static int drag_direction(const SbFitProblem *in) {
@@ -44,6 +45,56 @@ void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem 
   }
 }
 
+// What a solved ring says of the problem, but for its errors.
+static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
+                        const SbRingResult *result) {
+  const double width = result->axial_right - result->axial_left;
+  if (width > in->gland_width && !in->dragged) {
+    sb_warn(&out->warnings, "ring-groove-full", "gland.axial_width",
+            "the fitted section is %.3g mm wide in a groove of %.3g mm: its other wall is left out",
+            1e3 * width, 1e3 * in->gland_width);
+  }
+
+  out->circumference = M_PI * in->bore_diameter;
+  out->touches = result->touching;
+  out->solver.converged = true;
+  out->solver.unknowns = (size_t)result->unknowns;
+  out->solver.newton_iterations = (size_t)result->newton_iterations;
+  out->ring.floor_load = result->floor_force;
+  out->ring.wall_load = fmax(result->wall_left_force, result->wall_right_force);
+  out->ring.thickness = result->thickness;
+  out->ring.volume_change = result->volume_change;
+  out->ring.axial_imbalance = result->axial_imbalance;
+  const double sign = in->pressure < 0.0 ? -1.0 : 1.0;
+  out->ring.drag = sign * result->bore_drag + 0.0;
+  out->ring.turn = sign * result->turn;
+  out->ring.state = result->state;
+  const bool slides = result->state == SB_RING_SLIDES || result->state == SB_RING_NO_CONTACT;
+  out->ring.drag_limit = slides ? NAN : result->drag_limit;
+  if (!slides) {
+    sb_warn(&out->warnings, result->state == SB_RING_ROLLS ? "ring-rolls" : "ring-jams",
+            "gland.floor_friction",
+            "the ring %s at a drag of %.4g of its load: the figures are those just before",
+            result->state == SB_RING_ROLLS ? "rolls" : "jams", result->drag_limit);
+  }
+  out->ring.load_steps = (size_t)result->load_steps;
+  out->ring.rejected_steps = (size_t)result->rejected_steps;
+  if (result->touching) {
+    out->contact_left = result->contact_left;
+    out->contact_right = result->contact_right;
+    out->contact_width = result->contact_right - result->contact_left;
+    out->load = result->bore_force;
+    out->load_per_length = result->bore_force / out->circumference;
+    out->pressure_peak = result->pressure_peak;
+    const int points = sb_ring_profile(ring, out->profile_x, out->profile_p, SB_FIT_PROFILE_MAX);
+    out->profile_count = points < SB_FIT_PROFILE_MAX ? (size_t)points : SB_FIT_PROFILE_MAX;
+    // Without one the film has to do with another model's, and says so.
+    if (in->surface_wanted && sb_ring_surface(ring, &out->surface, NULL) != SB_OK) {
+      out->surface.modes = 0;
+    }
+  }
+}
+
 SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   SbRingBody body;
   SbRingLoad load;
@@ -62,57 +113,31 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   if (status != SB_OK) {
     return status;
   }
-  const double width = result.axial_right - result.axial_left;
-  if (width > in->gland_width && !in->dragged) {
-    sb_warn(&out->warnings, "ring-groove-full", "gland.axial_width",
-            "the fitted section is %.3g mm wide in a groove of %.3g mm: its other wall is left out",
-            1e3 * width, 1e3 * in->gland_width);
-  }
-
-  out->circumference = M_PI * in->bore_diameter;
-  out->touches = result.touching;
-  out->solver.converged = true;
-  out->solver.unknowns = (size_t)result.unknowns;
-  out->solver.newton_iterations = (size_t)result.newton_iterations;
-  out->ring.floor_load = result.floor_force;
-  out->ring.wall_load = fmax(result.wall_left_force, result.wall_right_force);
-  out->ring.thickness = result.thickness;
-  out->ring.volume_change = result.volume_change;
-  out->ring.axial_imbalance = result.axial_imbalance;
-  const double sign = in->pressure < 0.0 ? -1.0 : 1.0;
-  out->ring.drag = sign * result.bore_drag + 0.0;
-  out->ring.turn = sign * result.turn;
-  out->ring.state = result.state;
-  const bool slides = result.state == SB_RING_SLIDES || result.state == SB_RING_NO_CONTACT;
-  out->ring.drag_limit = slides ? NAN : result.drag_limit;
-  if (!slides) {
-    sb_warn(&out->warnings, result.state == SB_RING_ROLLS ? "ring-rolls" : "ring-jams",
-            "gland.floor_friction",
-            "the ring %s at a drag of %.4g of its load: the figures are those just before",
-            result.state == SB_RING_ROLLS ? "rolls" : "jams", result.drag_limit);
-  }
-  out->ring.load_steps = (size_t)result.load_steps;
-  out->ring.rejected_steps = (size_t)result.rejected_steps;
-  if (result.touching) {
-    out->contact_left = result.contact_left;
-    out->contact_right = result.contact_right;
-    out->contact_width = result.contact_right - result.contact_left;
-    out->load = result.bore_force;
-    out->load_per_length = result.bore_force / out->circumference;
-    out->pressure_peak = result.pressure_peak;
-    sb_fit_errors(out, result.error.load, result.error.peak, result.error.width);
-    const int points = sb_ring_profile(ring, out->profile_x, out->profile_p, SB_FIT_PROFILE_MAX);
-    out->profile_count = points < SB_FIT_PROFILE_MAX ? (size_t)points : SB_FIT_PROFILE_MAX;
-    // Without one the film has to do with another model's, and says so.
-    if (in->surface_wanted && sb_ring_surface(ring, &out->surface, NULL) != SB_OK) {
-      out->surface.modes = 0;
-    }
-  }
+  take_result(out, in, ring, &result);
+  sb_fit_errors(out, result.error.load, result.error.peak, result.error.width);
   if (in->kept != NULL) {
     sb_ring_destroy(*in->kept);
     *in->kept = ring;
   } else {
     sb_ring_destroy(ring);
   }
+  return sb_succeed(report);
+}
+
+SbStatus sb_fit_again(SbFit *out, const SbFitProblem *in, SbReport *report) {
+  SbRingBody body;
+  SbRingLoad load;
+  SbRingResult before, result;
+  SbRing *ring = *in->kept;
+  sb_fit_ring_problem(&body, &load, in);
+  sb_ring_result(ring, &before);
+  SbStatus status = sb_ring_step(ring, &load, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  sb_ring_result(ring, &result);
+  result.newton_iterations -= before.newton_iterations;
+  memset(&out->warnings, 0, sizeof out->warnings);
+  take_result(out, in, ring, &result);
   return sb_succeed(report);
 }

@@ -21,18 +21,19 @@ const char *sb_stage_name(SbStage stage);
 
 // One seal at one instant.
 typedef struct {
-  float land_fraction;  // share of the contact width on the land [1]: 1 sliding on it, 0 off
-  float pressure_left;  // fluid pressure, canister side [Pa]
-  float pressure_right; // fluid pressure, ambient side [Pa]
-  uint32_t profile;     // index into the run's contact profiles, UINT32_MAX: none
-  uint32_t shape;       // index into the run's solved ring shapes, UINT32_MAX: none
-  double contact_left;  // contact in the seal's frame [m], left < right; equal when there is none
-  double contact_right; // [m]
-  double load;          // total contact load, around the circumference [N]
-  double pressure_peak; // [Pa]
-  double film_min;      // [m], 0 at rest unless the films' history is solved, NAN without contact
-  double film_central;  // [m]
-  double lambda;        // film_central / sigma [1]
+  float land_fraction;    // share of the contact width on the land [1]: 1 sliding on it, 0 off
+  float pressure_left;    // fluid pressure, canister side [Pa]
+  float pressure_right;   // fluid pressure, ambient side [Pa]
+  uint32_t profile;       // index into the run's contact profiles, UINT32_MAX: none
+  uint32_t shape;         // index into the run's solved ring shapes, UINT32_MAX: none
+  double contact_left;    // contact in the seal's frame [m], left < right; equal when there is none
+  double contact_right;   // [m]
+  double load;            // total contact load, around the circumference [N]
+  double pressure_peak;   // [Pa]
+  double film_min;        // [m], 0 at rest unless the films' history is solved, NAN without contact
+  double film_central;    // [m]
+  double lambda;          // film_central / sigma [1]
+  double real_area_share; // of the contact's area that slides [1], NAN like the film
   double friction_boundary; // signed as friction [N]
   double friction_viscous;  // [N]
   double friction;          // force on the stem, positive when it pushes the stem out (resists the

@@ -158,7 +158,7 @@ static void plan_valve(SbPlan *plan, const SbModel *model, unsigned views) {
 
   const char *fit = sb_fit_model_name(model->fit);
   const double fit_off = fit_error(model), film_off = film_error(model);
-  const int fits = count_fits(model), shapes = SB_RUN_MOTIONS * fits + SB_RUN_EDGES + 1;
+  const int fits = count_fits(model), shapes = SB_RUN_MOTIONS * fits + 2 * SB_RUN_EDGES + 1;
   // A machine's speed is known; a finger's is found by running the motion, films and all.
   const int rounds = finds && !plan->ring ? OWN_SPEED_ROUNDS : 1;
   const double on_body = plan->reynolds && body ? SB_COST_FILM_FITTED : 0;
@@ -179,8 +179,9 @@ static void plan_valve(SbPlan *plan, const SbModel *model, unsigned views) {
           "%d actuations while the roughness runs in; fitment and film are the first's",
           model->life_actuations);
   sb_text(text[4], sizeof text[4], "drawn by %s; each seal's states and at rest", profiles_by);
-  sb_text(text[5], sizeof text[5], "drawn by %s: %d shapes, dragged and over the land's edge",
-          sections_by, shapes);
+  sb_text(text[5], sizeof text[5],
+          "drawn by %s: %d shapes, those of the states and over the land's edge", sections_by,
+          shapes);
   char frames[48], joints[80];
   sb_text(frames, sizeof frames, "figures of the cycle, %d frames", model->frames);
   sb_text(joints, sizeof joints, "models.motion = bodies asks for them, %d joints",
@@ -246,8 +247,11 @@ void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size
   *out = basis(model, true);
   for (size_t i = 0; i < count; i++) {
     const SbFigure *figure = sb_figure(figures[i]);
-    int seal = strcmp(figure->where, "inner seal") == 0 ? SB_INNER : SB_OUTER;
-    out->seal[seal] = figure->needs > out->seal[seal] ? figure->needs : out->seal[seal];
+    int seal = strncmp(figure->where, "inner seal", 10) == 0 ? SB_INNER : SB_OUTER;
+    // Friction drags a solved ring: its contact hangs on the film.
+    SbSealDepth needs =
+        out->ring && figure->needs == SB_DEPTH_FITMENT ? SB_DEPTH_SLIDING : figure->needs;
+    out->seal[seal] = needs > out->seal[seal] ? needs : out->seal[seal];
     out->film_laws = out->film_laws || strstr(figure->path, ".film_by_model.") != NULL;
     if (strcmp(figure->path, "solver.error_estimate.film_history") == 0) {
       out->film_history = out->reynolds && model->film_history;

@@ -8,7 +8,7 @@
 enum {
   SB_PLAN_ITEMS_MAX = 24,
   SB_RUN_MOTIONS = 3, // in which a seal is solved: sliding in, sliding out, at rest
-  SB_RUN_EDGES = 24   // places of the land's edge over the inner ring, if it is drawn
+  SB_RUN_EDGES = 16   // places of the land's edge over the inner ring each way, if it is drawn
 };
 
 typedef struct {

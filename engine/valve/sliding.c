@@ -45,6 +45,7 @@ struct SbSlidingMemory {
   bool rested;                     // it stands for the fit, with
   double rest_left;                // this pressure on the left
   const Fitment *rest_on;
+  SbSlidingBody body;        // of the last film on one
   SbFilmSolver *solver;      // NULL until a film is solved: laws need none
   SbWarnings warnings;       // of one round of a ring's friction
   bool (*cancelled)(void *); // NULL: nobody asks to stop
@@ -105,6 +106,10 @@ const SbFilm *sb_sliding_film(const SbSlidingMemory *memory) {
   return &memory->last->film;
 }
 
+const SbSlidingBody *sb_sliding_body(const SbSlidingMemory *memory) {
+  return memory->last->fitted ? &memory->body : NULL;
+}
+
 // Whether friction drags this seal's section: the ring's, while it slides.
 static bool drags(const Task *task) {
   return task->model->fit == SB_FIT_RING && task->speed != 0;
@@ -136,6 +141,11 @@ static double law_force(const SbSlidingLaw *law, const SbFit *fit) {
   return sum * fit->circumference;
 }
 
+static bool cancelled(void *data) {
+  const SbSlidingMemory *memory = data;
+  return memory->cancelled != NULL && memory->cancelled(memory->cancelled_data);
+}
+
 // The task's fitment, anew if it is not the last one of these pressures or a `law` of friction is
 // given to drag it.
 static SbStatus solve_fit(const Task *task, const SbSlidingLaw *law, SbReport *report) {
@@ -144,13 +154,14 @@ static SbStatus solve_fit(const Task *task, const SbSlidingLaw *law, SbReport *r
   double pressure = task->pressure.left - task->pressure.right;
   Fitment *now = &memory->fitment[!drags(task) ? REST : task->speed > 0 ? IN : OUT];
   memory->now = now;
-  if (law == NULL && now->known && now->pressure == pressure && now->seal == task->seal) {
+  const bool known = now->known && now->pressure == pressure && now->seal == task->seal;
+  if (law == NULL && known) {
     return SB_OK;
   }
   SbFitProblem problem;
   sb_model_fit_problem(&problem, model, task->seal, pressure);
-  problem.cancel = memory->cancelled;
-  problem.cancel_data = memory->cancelled_data;
+  problem.cancel = cancelled; // a kept ring asks whoever waits then
+  problem.cancel_data = memory;
   problem.surface_wanted =
       model->film == SB_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   problem.kept = &now->ring;
@@ -162,7 +173,10 @@ static SbStatus solve_fit(const Task *task, const SbSlidingLaw *law, SbReport *r
     problem.law = &now->law;
   }
   memory->rested = false;
-  SbStatus status = sb_fit_solve(&now->fit, &problem, report);
+  bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES;
+  SbStatus status = near ? sb_fit_again(&now->fit, &problem, report) : SB_ERROR_NOT_CONVERGED;
+  status =
+      near && status != SB_ERROR_NOT_CONVERGED ? status : sb_fit_solve(&now->fit, &problem, report);
   task->counts->fit_solves++;
   task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
   task->counts->ring_solves += problem.model == SB_FIT_RING;
@@ -242,6 +256,12 @@ static SbStatus solve_on(const Task *task, Solved *out, const SbFilmProblem *pro
   return status;
 }
 
+static void lay_on(SbFilmProblem *problem, const SbSlidingBody *body) {
+  problem->compliance = &body->compliance;
+  problem->load = body->load;
+  problem->modulus = body->compliance.modulus;
+}
+
 // The film on the fitted body in place of the half-plane's; false where there is none or it fails.
 static bool solve_fitted(const Task *task, Solved *out, const SbFilmProblem *plane) {
   const SbFit *fit = &task->memory->now->fit;
@@ -249,13 +269,12 @@ static bool solve_fitted(const Task *task, Solved *out, const SbFilmProblem *pla
     return false;
   }
   SbReport report = {0};
-  SbSurfaceCompliance surface;
+  SbSlidingBody *body = &task->memory->body;
   SbFilmProblem problem = *plane;
-  problem.compliance = &surface;
-  SbStatus status = sb_sliding_surface(&surface, &problem.load, fit, task->model, task->seal,
+  SbStatus status = sb_sliding_surface(&body->compliance, &body->load, fit, task->model, task->seal,
                                        task->pressure, task->warnings, &report);
   if (status == SB_OK) {
-    problem.modulus = surface.modulus;
+    lay_on(&problem, body);
     status = solve_on(task, out, &problem, &report);
   }
   if (status != SB_OK) {
@@ -325,6 +344,16 @@ static void option_warnings(const Task *task, const SbFilmProblem *problem) {
   }
 }
 
+// A law's film carries half of itself along (thesis eq. 5.20), and no more than the supply.
+static void limit_law(SbSealState *out, const Task *task) {
+  out->layer = out->film_central / 2;
+  if (task->supply.limited && task->supply.layer < out->layer) {
+    out->layer = task->supply.layer;
+    out->film_central = 2 * out->layer;
+    out->film_min = fmin(out->film_min, out->film_central);
+  }
+}
+
 static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   SbFilmProblem problem;
@@ -344,13 +373,7 @@ static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report)
     out->film_reynolds = out->film_central;
   } else {
     out->film_error = out->central_error = NAN;
-    // A law's film carries half of itself along (thesis eq. 5.20), and no more than the supply.
-    out->layer = out->film_central / 2;
-    if (task->supply.limited && task->supply.layer < out->layer) {
-      out->layer = task->supply.layer;
-      out->film_central = 2 * out->layer;
-      out->film_min = fmin(out->film_min, out->film_central);
-    }
+    limit_law(out, task);
   }
   if (solved && status == SB_OK && solve_fitted(task, &memory->fitted, &problem)) {
     take_film(out, &memory->fitted, SB_OK, &memory->now->fit);
@@ -360,19 +383,23 @@ static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report)
   return status;
 }
 
+static void add_asperities(SbFilmProblem *problem, const SbModel *model) {
+  problem->surface = model->surface;
+  problem->gt_product = model->gt_product;
+  problem->sigma = model->sigma;
+  problem->sigma_over_beta = model->sigma_over_beta;
+  problem->hamaker = model->hamaker;
+  problem->shear_strength = model->shear_strength;
+  problem->load_coefficient = model->load_coefficient;
+}
+
 // The film with asperities in it: on the fitted body, or on the half-plane where that cannot be.
 static SbStatus solve_rough(const Task *task, Solved *out, double load_net, double speed,
                             SbReport *report) {
   const SbModel *model = task->model;
   SbFilmProblem problem;
   sb_sliding_film_problem(&problem, model, task->seal, task->pressure, load_net, speed);
-  problem.surface = model->surface;
-  problem.gt_product = model->gt_product;
-  problem.sigma = model->sigma;
-  problem.sigma_over_beta = model->sigma_over_beta;
-  problem.hamaker = model->hamaker;
-  problem.shear_strength = model->shear_strength;
-  problem.load_coefficient = model->load_coefficient;
+  add_asperities(&problem, model);
   if (speed != 0) {
     problem.inlet_film = task->supply.limited ? task->supply.layer : 0;
     option_warnings(task, &problem);
@@ -403,6 +430,22 @@ static void strength_warning(const Task *task, double share) {
   }
 }
 
+// What a film says of the asperities in it. Lengths of the half-plane's contact are over that, of a
+// fitted body's over the fitted one; forces over the fitted circumference.
+static void take_asperities(SbSealState *out, const SbModel *model, const Solved *solved) {
+  const SbFilm *film = &solved->film;
+  const double fit_width = out->contact_right - out->contact_left;
+  const double width = solved->fitted ? fit_width : 2 * film->hertz_half_width;
+  const double area = fit_width * model->bore_circumference;
+  out->lambda = film->film_ratio;
+  out->real_area_share = fmin(film->real_area / width, 1);
+  out->asperity_share = film->asperity_share;
+  out->boundary_area = model->shear_strength * out->real_area_share * area;
+  out->boundary_load =
+      model->load_coefficient * film->asperity_load * out->load / out->load_per_length;
+  out->friction_viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
+}
+
 // Film, rough contact and friction from one solution each, sliding and at rest.
 static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *report) {
   const SbModel *model = task->model;
@@ -430,25 +473,16 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
   }
   const SbFilm *film = &memory->last->film, *rest = &memory->rest.film;
   sb_warnings_merge(task->warnings, &film->warnings);
-  // Lengths of the half-plane's contact over the fitted one's; forces over its circumference.
-  double fit_width = out->contact_right - out->contact_left;
-  double area = fit_width * model->bore_circumference;
-  double width = memory->last->fitted ? fit_width : 2 * film->hertz_half_width;
-  double rest_width = memory->rest.fitted ? fit_width : 2 * rest->hertz_half_width;
-  double circumference = out->load / out->load_per_length;
   if (take_film(out, memory->last, status, &memory->now->fit)) {
-    out->lambda = film->film_ratio;
-    out->real_area_share = fmin(film->real_area / width, 1);
-    out->asperity_share = film->asperity_share;
-    out->boundary_area = model->shear_strength * out->real_area_share * area;
-    out->boundary_load = model->load_coefficient * film->asperity_load * circumference;
-    out->friction_viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
+    take_asperities(out, model, memory->last);
   }
   if (memory->rested || rest->film_central > 0) {
-    out->rest_area_share = fmin(rest->real_area / rest_width, 1);
-    out->rest_area = model->shear_strength * out->rest_area_share * area;
+    SbSealState dry = *out;
+    take_asperities(&dry, model, &memory->rest);
+    out->rest_area_share = dry.real_area_share;
+    out->rest_area = dry.boundary_area;
+    out->rest_load = dry.boundary_load;
     strength_warning(task, out->rest_area_share);
-    out->rest_load = model->load_coefficient * rest->asperity_load * circumference;
   }
   SbStatus aged = set_static(out, task, status == SB_OK && at_rest == SB_OK ? report : NULL);
   if (aged != SB_OK) {
@@ -496,9 +530,9 @@ static SbStatus real_area(SbSealState *out, const Task *task, double roughness, 
   return SB_OK;
 }
 
-// What the surfaces make of a contact whose load, width and film are known: real area, friction.
-static SbStatus rough_contact(SbSealState *out, const Task *task, double roughness,
-                              SbReport *report) {
+// What the surfaces make of a contact that slides, whose load, width and film are known: real area,
+// kinetic friction.
+static SbStatus rub(SbSealState *out, const Task *task, double roughness, SbReport *report) {
   const SbModel *model = task->model;
   double area = (out->contact_right - out->contact_left) * model->bore_circumference;
   out->lambda = out->film_central / (roughness * model->sigma);
@@ -523,9 +557,31 @@ static SbStatus rough_contact(SbSealState *out, const Task *task, double roughne
           (persson ? 0 : model->shear_strength * fabs(thinner - out->real_area_share) * area);
     }
   }
-  out->rest_area = model->shear_strength * out->rest_area_share * area;
+  return SB_OK;
+}
+
+// The same, and of what stands.
+static SbStatus rough_contact(SbSealState *out, const Task *task, double roughness,
+                              SbReport *report) {
+  const SbModel *model = task->model;
+  SbStatus status = rub(out, task, roughness, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  out->rest_area = model->shear_strength * out->rest_area_share *
+                   (out->contact_right - out->contact_left) * model->bore_circumference;
   out->rest_load = out->boundary_load;
   return set_static(out, task, report);
+}
+
+// Leaves of a law's kinetic friction what the section bears.
+static void share_kinetic(SbSealState *out) {
+  if (!isnan(out->borne_share)) {
+    out->boundary_area *= out->area_cut * out->borne_share;
+    out->boundary_load *= out->borne_share;
+    out->friction_viscous *= out->borne_share;
+    out->friction_error *= out->borne_share;
+  }
 }
 
 // Leaves of a law's friction what the section bears (bear()).
@@ -534,10 +590,7 @@ static SbStatus share_out(SbSealState *out, const Task *task, SbReport *report) 
     return SB_OK;
   }
   out->rest_area *= out->area_cut; // the pressure limits it as well
-  out->boundary_area *= out->area_cut * out->borne_share;
-  out->boundary_load *= out->borne_share;
-  out->friction_viscous *= out->borne_share;
-  out->friction_error *= out->borne_share;
+  share_kinetic(out);
   if (out->section == SB_RING_SLIDES) {
     return set_static(out, task, report);
   }
@@ -566,6 +619,61 @@ static SbStatus opened_by_fluid(SbSealState *out, SbStatus status, const SbRepor
           "the fluid's pressure opens the contact of the %s seal: no film lies in it",
           sb_seal_name(seal));
   return SB_OK;
+}
+
+SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
+                            const SbSlidingBody *body, SbReport *report) {
+  const SbModel *model = task->model;
+  SbSlidingMemory *memory = task->memory;
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  SbFilmProblem problem;
+  sb_sliding_film_problem(&problem, model, task->seal, task->pressure, state->load_net,
+                          task->speed);
+  problem.model = coupled ? SB_FILM_REYNOLDS : model->film;
+  const bool solved = problem.model == SB_FILM_REYNOLDS;
+  problem.inlet_film = task->supply.limited && solved ? task->supply.layer : 0;
+  if (coupled) {
+    add_asperities(&problem, model);
+  }
+  if (body != NULL) {
+    lay_on(&problem, body);
+  }
+  Solved *on = body != NULL ? &memory->fitted : &memory->plane;
+  memory->last = on;
+  SbStatus status = solve_on(task, on, &problem, report);
+  if (!usable(status) || !(on->film.film_central > 0)) {
+    return status != SB_OK ? status : sb_fail(report, SB_ERROR_NOT_CONVERGED, "no film");
+  }
+  const double error = state->film_error, central = state->central_error;
+  take_film(state, on, status, &memory->now->fit);
+  state->film_error = error;
+  state->central_error = central;
+  if (!solved) {
+    limit_law(state, task);
+  }
+  if (coupled) {
+    take_asperities(state, model, on);
+  }
+  SbStatus rubbed = sb_sliding_refilm(state, task, 1, report);
+  return rubbed != SB_OK ? rubbed : status;
+}
+
+SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double roughness,
+                           SbReport *report) {
+  const SbModel *model = task->model;
+  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
+    state->lambda = state->film_central / model->sigma;
+    state->boundary_area = model->shear_strength * state->real_area_share *
+                           (state->contact_right - state->contact_left) * model->bore_circumference;
+    share_kinetic(state);
+    return sb_succeed(report);
+  }
+  // Without a film what stands has none either, whatever the speed.
+  const double rest_share = state->rest_area_share;
+  SbStatus status = rub(state, task, roughness, report);
+  state->rest_area_share = rest_share;
+  share_kinetic(state);
+  return status;
 }
 
 SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
@@ -805,9 +913,7 @@ SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport 
 SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   bool known;
   sb_warn_about(task->warnings, about(task->seal));
-  // A ring's contact hangs on its friction.
-  SbStatus status =
-      drags(task) ? solve(task, out, report) : fit_contact(task, NULL, out, &known, report);
+  SbStatus status = fit_contact(task, NULL, out, &known, report);
   sb_warn_about(task->warnings, NULL);
   return status;
 }

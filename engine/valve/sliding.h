@@ -60,6 +60,15 @@ const SbFit *sb_sliding_fit(const SbSlidingMemory *memory);
 const SbRing *sb_sliding_ring(const SbSlidingMemory *memory); // NULL for other fitment models
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
 
+// Surface of a fitted body for films on it.
+typedef struct {
+  double load; // net, that goes with it [N/m]
+  SbSurfaceCompliance compliance;
+} SbSlidingBody;
+
+// That on which the last evaluation's film lies; NULL: on the half-plane. Borrowed like it.
+const SbSlidingBody *sb_sliding_body(const SbSlidingMemory *memory);
+
 // A state of which nothing is known: its figures are NaN.
 void sb_sliding_clear(SbSealState *out);
 
@@ -82,12 +91,16 @@ typedef struct {
 } SbSlidingTask;
 
 // Evaluates a task. The fitment is reused from the last call when the pressure has not changed. A
-// ring that does not touch has touches = false. SB_ERROR_NOT_CONVERGED with what was computed, the
-// rest NaN; the report names solver and cause.
+// ring (SB_FIT_RING) that slides is dragged by the friction found, of its direction: where it is
+// known from another speed it goes on from there, else cold, so that a state hangs on what was
+// solved before no more than by half the model's tolerance of its friction. One that rolls or jams
+// before is a result, `section` and a warning tell; its figures are those of the greatest drag. At
+// rest it is fitted and pressed without drag. A seal that does not touch has touches = false.
+// SB_ERROR_NOT_CONVERGED with what was computed, the rest NaN; the report names solver and cause.
 SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
-// The fitment alone, as sb_sliding_solve() has it: contact, loads and peak; the rest stays NaN, or
-// 0 where the seal does not touch.
+// The fitment alone, as sb_sliding_solve() has it for all but a ring that slides: contact, loads
+// and peak; the rest stays NaN, or 0 where the seal does not touch.
 SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
 // Surface of a fitted body for the film: the ring's own by static condensation (ring.h), with its
@@ -98,6 +111,19 @@ SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbRepor
 SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit *fit,
                             const SbModel *model, int seal, SbSealPressure pressure,
                             SbWarnings *warnings, SbReport *report);
+
+// The solved state of a contact at the task's own speed: film and kinetic friction anew, on the
+// `body` that the state's film lies on, NULL on the half-plane. Its errors stay, its film's
+// warnings are not told. SB_ERROR_NOT_CONVERGED without a film.
+SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
+                            const SbSlidingBody *body, SbReport *report);
+
+// What follows from the films in a task's state, with a surface `roughness` times as rough as the
+// model's: lambda, real area, kinetic friction. With coupled asperities roughness must be 1; real
+// area, and what a section that bears all has of boundary_load and friction_viscous, are then given
+// beside the films.
+SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double roughness,
+                           SbReport *report);
 
 // Gives the solved state of a task a surface `roughness` times as rough as the model's: neither
 // fitment nor film depend on it, so that nothing is solved again.

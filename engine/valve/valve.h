@@ -253,6 +253,7 @@ void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, dou
 // Counts of what a run computed; added to, never reset.
 typedef struct {
   size_t fit_solves, disc_solves, ring_solves, reynolds_solves, newton_iterations;
-  size_t film_steps; // of the films' history, all seals
+  size_t film_steps;  // of the films' history, all seals
+  size_t speed_nodes; // states solved to be interpolated over the speed
   size_t field_evaluations, profile_evaluations;
 } SbCounters;

@@ -1,15 +1,17 @@
 // The verdict on a valve: six questions, each decided by the figure that is worst against its
 // limit.
 //
-// A seal seals if it touches, the rubber presses it beyond what the fluid carries, and its peak
-// pressure lies above the fluid's; channels between asperities are a matter of the leak's limit. A
-// question without a limit has no answer, but for the first and the return, which need none.
+// A seal seals if it touches, the rubber presses it beyond what the fluid carries, its peak
+// pressure lies above the fluid's, and friction does not jam it; channels between asperities are a
+// matter of the leak's limit. A question without a limit has no answer, but for the first and the
+// return, which need none.
 #include "engine/valve/figures.h"
 
 #include "engine/valve/model.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 const char *sb_verdict_name(SbVerdictKind kind) {
   static const char *const names[] = {"seals", "presses", "returns", "doses", "leak", "fits"};
@@ -65,6 +67,20 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
              "the %s seal's peak pressure of %.4g MPa is not above the fluid's %.4g MPa",
              sb_seal_name(seal), 1e-6 * of->pressure_peak, 1e-6 * out.limit);
   }
+  // A section that jams holds the stem; one that rolls seals, and is told.
+  const SbContacts *contact = &summary->contact[seal];
+  for (int way = 0; way < 2; way++) {
+    const SbContact *of_way = way == 0 ? &contact->in_stroke : &contact->back;
+    bool jams = of_way->known && of_way->section == SB_RING_JAMS;
+    bool rolls = of_way->known && of_way->section == SB_RING_ROLLS;
+    if (out.ok == SB_ANSWER_YES && (jams || (rolls && out.reason[0] == '\0'))) {
+      out.ok = jams ? SB_ANSWER_NO : out.ok;
+      snprintf(out.reason, sizeof out.reason,
+               "the %s ring %s on the %s: friction turns its section by %.0f degrees",
+               sb_seal_name(seal), jams ? "jams" : "rolls", way == 0 ? "in-stroke" : "return",
+               of_way->rotation);
+    }
+  }
   return out;
 }
 
@@ -96,9 +112,13 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
     snprintf(verdict[SB_VERDICT_SEALS].reason, sizeof verdict->reason,
              "the sliding plate seals nothing");
   } else {
+    SbVerdict *seals = &verdict[SB_VERDICT_SEALS];
     for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-      SbVerdict of = judge_seal(summary, model, seal);
-      sb_verdict_take_worse(&verdict[SB_VERDICT_SEALS], &of);
+      SbVerdict of = judge_seal(summary, model, seal), other = *seals;
+      other = sb_verdict_take_worse(seals, &of) ? other : of;
+      if (seals->ok == SB_ANSWER_YES && other.ok == SB_ANSWER_YES && seals->reason[0] == '\0') {
+        memcpy(seals->reason, other.reason, sizeof seals->reason); // the other one rolls
+      }
     }
   }
   int least = sb_figure_find("cycle.force_return_min_N");

@@ -5,8 +5,8 @@
 // analytic in the strip |Im u| < pi/4 and decaying at both ends, so that the trapezoidal rule
 // converges exponentially: the error is about exp(-(2 pi/h)^2/(2 lambda^2)) for lambda = -10, below
 // 1e-30 at h = 1/20. All terms are positive, so nothing cancels; factors are kept in the exponent
-// so that nothing underflows early. The closed form F_2 = (1 + lambda^2) Q - lambda phi is not
-// used: it cancels for lambda > 1.
+// so that nothing underflows early. The area alone takes the closed form F_2 = (1 + lambda^2) Q -
+// lambda phi, a hundred times as quick, where that cancels by three digits at most.
 #include "engine/contact/rough/greenwood_tripp.h"
 
 #include <math.h>
@@ -63,9 +63,13 @@ SbStatus sb_gt_integrals(SbGtIntegrals *out, double lambda, SbReport *report) {
 
 double sb_gt_area_share(double product, double lambda) {
   SbGtIntegrals F;
-  return sb_gt_integrals(&F, lambda, NULL) == SB_OK
-             ? fmin(1, M_PI * M_PI * product * product * F.F2)
-             : NAN;
+  if (lambda >= 0 && lambda < 4) {
+    const double phi = exp(-lambda * lambda / 2) / sqrt(2 * M_PI);
+    F.F2 = (1 + lambda * lambda) * erfc(lambda / M_SQRT2) / 2 - lambda * phi;
+  } else if (sb_gt_integrals(&F, lambda, NULL) != SB_OK) {
+    return NAN;
+  }
+  return fmin(1, M_PI * M_PI * product * product * F.F2);
 }
 
 double sb_gt_pressure(double product, double sigma_over_beta, double modulus, double lambda) {

@@ -46,6 +46,7 @@ static void free_results(SbRun *run) {
   for (int i = 0; i < SB_RUN_SHAPES; i++) {
     free(run->shape[i].data);
   }
+  sb_run_free_speeds(run);
   sb_run_bodies_destroy(run->bodies);
   free(run->life);
   sb_model_destroy(run->model);
@@ -60,7 +61,8 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
   memset((char *)run + offsetof(SbRun, model), 0, sizeof *run - offsetof(SbRun, model));
   run->model = kept;
   run->plan = *plan;
-  run->speed = model->speed;
+  run->speed = run->mid_speed = run->back_speed = model->speed;
+  run->roughness = 1;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     sb_sliding_memory_forget(run->memory[i]);
   }

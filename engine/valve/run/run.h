@@ -69,6 +69,22 @@ typedef struct {
   SbRingState section;
 } SbSealState;
 
+// What sliding makes of a seal's contact: "slides", "rolls", "jams", "no-contact"; borrowed.
+const char *sb_section_name(SbRingState section);
+
+// A seal in a steady stroke, by one member for each SB_CONTACT_FIGURE.
+typedef struct {
+#define SB_CONTACT_FIGURE(path, member, ...) double member;
+#include "engine/valve/figures.def"
+  bool known;
+  SbRingState section;
+} SbContact;
+
+// In the middle of B-C and of F-A.
+typedef struct {
+  SbContact in_stroke, back;
+} SbContacts;
+
 // What the sliding-plate rig reports (valve/rig.h).
 typedef struct {
   bool found; // whether the force has a first peak; else the coefficients mean nothing
@@ -122,14 +138,15 @@ typedef struct {
 // One figure for each row of figures.def, the seals' twice.
 enum {
   SB_FIGURE_COUNT =
-#define SB_FIGURE(...)      +1
-#define SB_FIGURE_AT(...)   +1
-#define SB_SEAL_FIGURE(...) +SB_SEAL_COUNT
+#define SB_FIGURE(...)         +1
+#define SB_FIGURE_AT(...)      +1
+#define SB_SEAL_FIGURE(...)    +SB_SEAL_COUNT
+#define SB_CONTACT_FIGURE(...) +2 * SB_SEAL_COUNT
 #include "engine/valve/figures.def"
 };
 
 // Why figures were not computed (engine/valve/figures.h): 0 for no reason, else text[of - 1].
-enum { SB_REASONS_MAX = 40 };
+enum { SB_REASONS_MAX = 48 };
 typedef struct {
   size_t count;
   char text[SB_REASONS_MAX][256];
@@ -152,9 +169,10 @@ typedef struct {
 #define SB_FIGURE(path, member, ...) double member;
 #include "engine/valve/figures.def"
   SbStatus status;
-  bool returns;   // as `returned`; false where that is not known
+  bool returns; // as `returned`; false where that is not known
   SbStageMark stage[SB_STAGE_COUNT];
   SbSealState seal[SB_SEAL_COUNT];
+  SbContacts contact[SB_SEAL_COUNT];
   SbBodiesSummary bodies;
   SbEnergy energy;
   SbRigSummary rig; // motion RIG

@@ -10,7 +10,7 @@ static double time_of(const SbRun *run, const SbCycleSegment *segment, double X)
   return (segment->platen > 0 ? X : 2 * top - X) / run->model->speed;
 }
 
-static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *segment, double X,
+static void fill_frame(SbFrame *out, SbRun *run, const SbCycleSegment *segment, double X,
                        double s) {
   const SbCycle *cycle = &run->cycle;
   const SbChamber chamber = segment->chamber;
@@ -22,7 +22,7 @@ static void fill_frame(SbFrame *out, const SbRun *run, const SbCycleSegment *seg
                  .drive_force = sb_cycle_force(cycle, X, s)},
       .stage = segment->stage,
       .chamber = chamber,
-      .solved = {chamber, direction},
+      .solved = {chamber, direction, direction},
       .moving = segment->mode != SB_CYCLE_STICK,
       .pressure = sb_model_seal_pressure(run->model, SB_OUTER, chamber).left,
   };
@@ -118,11 +118,13 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   summary->force_peak = 0;
   for (const SbCycleSegment *at = cycle->segment; at < cycle->segment + cycle->count; at++) {
     sb_bore_move(&run->bore, at->stem0, at->stem1,
-                 sb_run_layer(run, SB_OUTER, at->chamber, at->direction));
+                 sb_run_layer(run, SB_OUTER, at->chamber, at->direction, run->speed));
     summary->force_peak = fmax(summary->force_peak, sb_cycle_force(cycle, at->platen1, at->stem1));
   }
   sb_run_leakage(summary, run->model, &run->bore, summary->returns);
   summary->steps = cycle->count;
+  SbStatus speeds = sb_run_close_speeds(run, status == SB_OK ? report : NULL);
+  status = status != SB_OK ? status : speeds;
   summary->error_force = summary->error_load + sb_run_error_friction(run);
   summary->error_energy = fmax(summary->energy.closure, summary->error_load + error_work(run));
   return status;

@@ -37,6 +37,7 @@ typedef struct {
   double return_least;          // least force that pushed the stem out while it slid back [N]
   double leak_from, leak_since; // place [m] and time [s] up to which it is known
   double home;                  // time at which the stem is back on its rest stop [s], 0: not yet
+  double middle, middle_back;   // speed at the middle of B-C and of F-A [m/s], 0: not yet
   bool slips;                   // some contact has slid
   SbStatus status;              // of the frames' reactions
   SbReport *report;
@@ -49,8 +50,10 @@ static void leak(Recorder *r, double time, double x, double pressure) {
   const SbChamber chamber = sb_valve_solved(&r->valve, direction, pressure).chamber;
   double way = x - r->leak_from;
   double speed = time > r->leak_since ? way / (time - r->leak_since) : run->speed;
-  double layer = sb_run_layer(run, SB_OUTER, chamber, direction) * sb_run_film_at(run, speed);
-  sb_bore_move(&run->bore, r->leak_from, x, layer);
+  if (way != 0) {
+    sb_bore_move(&run->bore, r->leak_from, x,
+                 sb_run_layer(run, SB_OUTER, chamber, direction, speed));
+  }
   r->leak_from = x;
   r->leak_since = time;
 }
@@ -128,6 +131,12 @@ static void valve_event(const SbMotionEvent *event, void *user) {
   case SB_MOTION_EDGE: {
     leak(r, sample.time, sample.position, sb_valve_chamber_pressure(valve, sample.extra));
     double edge = valve->edge[event->index];
+    if (edge == valve->middle && event->sign > 0 && r->stage == SB_STAGE_B && r->middle == 0) {
+      r->middle = event->speed;
+    } else if (edge == valve->middle && event->sign < 0 && r->stage == SB_STAGE_F &&
+               r->middle_back == 0) {
+      r->middle_back = -event->speed;
+    }
     if (valve->touches && edge == r->run->model->land_edge && event->sign > 0 &&
         r->stage == SB_STAGE_B) {
       mark(r, SB_STAGE_C, event);
@@ -285,12 +294,13 @@ SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRu
                               SbReport *report) {
   static const struct {
     SbStage from, to;
-  } ways[] = {{SB_STAGE_B, SB_STAGE_C}, {SB_STAGE_B, SB_STAGE_D}, {SB_STAGE_E, SB_STAGE_F}};
+  } ways[] = {{SB_STAGE_B, SB_STAGE_D}, {SB_STAGE_E, SB_STAGE_F}};
   Recorder r;
-  *speed = 0;
   SbStatus status = run_motion(&r, run, false, 0, hooks, report);
+  *speed = r.middle;
+  run->back_speed = r.middle_back;
   *slips = r.slips;
-  for (int i = 0; i < 3 && *speed == 0; i++) {
+  for (int i = 0; i < 2 && *speed == 0; i++) {
     const SbStageMark *from = &r.mark[ways[i].from], *to = &r.mark[ways[i].to];
     if (from->reached && to->reached && to->time > from->time) {
       *speed = fabs(to->displacement - from->displacement) / (to->time - from->time);
@@ -358,6 +368,8 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
       status = sb_fail(report, estimate, "%s", own.text);
     }
   }
+  SbStatus speeds = sb_run_close_speeds(run, status == SB_OK ? report : NULL);
+  status = status != SB_OK ? status : speeds;
   double states = summary->error_load + sb_run_error_friction(run);
   summary->error_force = isnan(force) ? NAN : fmax(states, force);
   summary->error_energy = isnan(work) ? NAN : fmax(fmax(states, work), summary->energy.closure);

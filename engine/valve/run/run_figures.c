@@ -17,7 +17,7 @@ static double film_by(SbRun *run, int seal, const SbSealState *state, SbFilmMode
   SbReport report = {0};
   sb_sliding_film_problem(&problem, run->model, seal,
                           sb_model_seal_pressure(run->model, seal, SB_CHAMBER_AT_REST),
-                          state->load_net, run->speed);
+                          state->load_net, run->mid_speed);
   problem.model = film_model;
   run->summary.counters.reynolds_solves += film_model == SB_FILM_REYNOLDS;
   if (sb_film_solve(&run->film, &problem, NULL, &report) == SB_OK) {
@@ -135,12 +135,43 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
   }
 }
 
+const char *sb_section_name(SbRingState section) {
+  static const char *const names[] = {"slides", "rolls", "jams", "no-contact"};
+  return names[section];
+}
+
+// A state as it stands in the figures of its stroke.
+static void fill_contact(SbContact *out, const SbSealState *state, double speed) {
+  bool touches = state->load > 0;
+  *out = (SbContact){
+      .known = !isnan(state->load),
+      .section = touches ? state->section : SB_RING_NO_CONTACT,
+      .width = state->contact_right - state->contact_left,
+      .left = touches ? state->contact_left : NAN,
+      .right = touches ? state->contact_right : NAN,
+      .load = state->load,
+      .pressure_peak = state->pressure_peak,
+      .film_min = state->film_min,
+      .film_central = state->film_central,
+      .real_area_share = state->real_area_share,
+      .friction = sb_sliding_friction(state),
+      .speed = speed,
+      .rotation = state->rotation,
+  };
+}
+
 void sb_run_summarise_seals(SbRun *run) {
   const SbModel *model = run->model;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     SbSealState *out = &run->summary.seal[seal];
     const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-    *out = *state;
+    sb_run_state_at(out, run, seal, SB_CHAMBER_AT_REST, SB_CYCLE_IN, run->mid_speed);
+    fill_contact(&run->summary.contact[seal].in_stroke, out, run->mid_speed);
+    if (run->plan.seal[seal] == SB_DEPTH_WHOLE) {
+      SbSealState back;
+      sb_run_state_at(&back, run, seal, SB_CHAMBER_CLOSED, SB_CYCLE_OUT, run->back_speed);
+      fill_contact(&run->summary.contact[seal].back, &back, -run->back_speed);
+    }
     out->contact_width = out->contact_right - out->contact_left;
     out->contact_pressure = out->load_net / out->contact_width;
     if (!out->touches) {
@@ -229,7 +260,12 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   }
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const bool done = !isnan(summary->seal[seal].load); // else the run ended before
+    char still[96];
+    snprintf(still, sizeof still, "models.fit = %s has no section that friction could turn",
+             sb_fit_model_name(model->fit));
     const Reason reasons[] = {
+        {model->fit != SB_FIT_RING, "contact.in_stroke.rotation_deg", still},
+        {model->fit != SB_FIT_RING, "contact.return.rotation_deg", still},
         {summary->seal[seal].load == 0, "*",
          "the seal does not touch the bore under its pressures"},
         {closed, "film_by_model.reynolds", "models.film is a closed form: no film was solved"},
@@ -242,6 +278,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
         {done, "friction*", "there is no film to tell it"},
         {done, "coefficient*", "there is no film to tell the friction"},
         {done, "leakage_per_stroke_m3", "there is no film to carry it"},
+        {done, "contact.*", "the seal does not touch there, or there is no film to tell it"},
     };
     give(summary, seal, reasons, sizeof reasons / sizeof reasons[0]);
   }

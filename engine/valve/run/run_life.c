@@ -42,11 +42,14 @@ static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const 
   // Reactions are for frames, and only those of the actuation shown are kept.
   one->plan.bodies = run->plan.bodies && n + 1 == run->model->life_shown;
   one->speed = run->speed;
-  one->film_exponent = run->film_exponent;
+  one->mid_speed = run->mid_speed;
+  one->back_speed = run->back_speed;
   memset(&one->summary, 0, sizeof one->summary);
   sb_figures_clear(&one->summary);
   sb_run_publish(one, 0);
-  SbStatus status = resurface(one, roughness / run->model->running_in.start, report);
+  one->roughness = roughness / run->model->running_in.start;
+  SbStatus status = resurface(one, one->roughness, report);
+  status = status == SB_OK ? sb_run_copy_speeds(one, run, report) : status;
   if (status == SB_OK) {
     const SbRunHooks quiet = {.cancelled = hooks->cancelled, .data = hooks->data};
     SbReport own = {0};

@@ -6,6 +6,7 @@
 #include "engine/valve/cycle.h"
 #include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
+#include "engine/valve/speed_states.h"
 
 enum {
   SB_RUN_REST = 2,
@@ -29,7 +30,7 @@ typedef struct {
 // Shapes of a seal: of its steady states, over the land's edge, free.
 enum {
   SB_RUN_SHAPE_EDGE = SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
-  SB_RUN_SHAPE_FREE = SB_RUN_SHAPE_EDGE + SB_RUN_EDGES,
+  SB_RUN_SHAPE_FREE = SB_RUN_SHAPE_EDGE + 2 * SB_RUN_EDGES, // both ways
   SB_RUN_SEAL_SHAPES = SB_RUN_SHAPE_FREE + 1,
   SB_RUN_SHAPES = SB_SEAL_COUNT * SB_RUN_SEAL_SHAPES
 };
@@ -40,6 +41,11 @@ typedef struct {
   SbSealShape view;
   void *data; // all its arrays
 } SbRunShape;
+
+// Where the land's edge shapes the inner ring, in its frame [m]; equal: nowhere.
+typedef struct {
+  double begin, end;
+} SbRunEdge;
 
 // What lies on the bore behind a seal, by the stem's displacement, and the volumes by length of
 // circumference that it carried.
@@ -62,6 +68,21 @@ void sb_run_bodies_destroy(SbRunBodies *bodies);
 // The reactions of the first `count` frames of another run for this one's frames from `at` on.
 void sb_run_bodies_show(SbRun *run, size_t at, const SbRun *from, size_t count);
 
+// A band of speed in which friction is straight: what it adds to the parts in proportion to the
+// contact's width and load, of each seal vented (or in the chamber's one state) and filled.
+typedef struct {
+  double rise, slope; // N, N s/m
+} SbBandPart;
+typedef struct {
+  double low, high; // m/s
+  SbBandPart width[SB_SEAL_COUNT][2], load[SB_SEAL_COUNT][2];
+} SbValveBand;
+enum { SB_VALVE_BANDS = 48 };
+typedef struct {
+  size_t count;
+  SbValveBand item[SB_VALVE_BANDS];
+} SbValveBands;
+
 struct SbRun {
   // Kept from one model to the next; what follows is one execution's.
   SbSlidingMemory *memory[SB_SEAL_COUNT];
@@ -69,11 +90,18 @@ struct SbRun {
   size_t room;          // of the array
   const SbModel *model; // its own
   SbPlan plan;
-  size_t capacity; // frames at most
-  SbCycle cycle;   // its states serve every motion model
-  double speed; // sliding speed that the states stand for [m/s]: the machine's, or the stem's own
+  size_t capacity;   // frames at most
+  SbCycle cycle;     // its states serve every motion model
+  double speed;      // sliding speed that the cycle's states stand for [m/s]
+  double mid_speed;  // of the stem at the middle of B-C, for the seals' figures [m/s]
+  double back_speed; // at the middle of F-A, > 0 [m/s]
   SbDwellLaw rest[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS]; // of contacts that age, over their level
-  double film_exponent; // of the film's speed law about it; 0: every frame slides at that speed
+  double roughness;                                  // that the states have, over the model's
+  // The same states over the speed; NULL where nobody has asked. Owned.
+  SbSpeedStates *speeds[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_RUN_REST];
+  bool out_of_memory;    // for one of them
+  double straight_error; // of friction in the motion's bands of speed, over that without a film
+  SbValveBands bands[SB_CYCLE_CHAMBERS][SB_RUN_REST]; // of the motion; made when first asked for
   SbSummary summary;
   SbBore bore;                         // of the last motion, under the outer seal
   SbFilm film;                         // of whoever solves one beside the states
@@ -81,36 +109,38 @@ struct SbRun {
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
   SbRunSurface surface[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS];
   SbRunShape shape[SB_RUN_SHAPES];
-  double edge_begin, edge_end; // of the land's edge in the inner seal's frame, where it shapes
-                               // that ring [m]; equal: nowhere
-  SbReport lacks;              // why there can be no motion; SB_OK: nothing is missing
-  double before_frames;        // share of the work that lies before the first frame
-  double after_frames;         // and behind the last: the rest of a life
-  SbRunBodies *bodies;         // NULL: the reduced form is enough
-  bool follows;                // a later actuation of a life: the first one's errors stand for all
-  SbLifeActuation *life;       // [model.life_actuations], NULL without a life
-  size_t count;                // frames that are complete
-  bool hold;                   // they wait for their films' history before they are published
+  SbRunEdge edge[2];     // of the inner ring, by way of sliding
+  SbReport lacks;        // why there can be no motion; SB_OK: nothing is missing
+  double before_frames;  // share of the work that lies before the first frame
+  double after_frames;   // and behind the last: the rest of a life
+  SbRunBodies *bodies;   // NULL: the reduced form is enough
+  bool follows;          // a later actuation of a life: the first one's errors stand for all
+  SbLifeActuation *life; // [model.life_actuations], NULL without a life
+  size_t count;          // frames that are complete
+  bool hold;             // they wait for their films' history before they are published
   atomic_size_t published;
 };
 
 // Solves every steady sliding state the cycle can need, and the profiles if the plan wants them, at
-// the speed of the machine or, where something else drives the stem, at the stem's own mean speed
-// from B to C, which follows from them: repeated until they agree (run_states.c).
+// the speed of the machine or, where something else drives the stem, at the stem's own at the
+// middle of B-C (run_states.c).
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // Keeps a seal's solved section for drawing, as shape `index` of its own (run_shapes.c).
 SbStatus sb_run_keep_shape(SbRun *run, int seal, int index, const SbRing *ring, SbReport *report);
 
-// Solves the inner ring over the land's edge, and free. Its state at rest must be known.
-SbStatus sb_run_solve_edge(SbRun *run, int seal, SbCounters *counts, const SbRingOptions *options,
-                           SbReport *report);
+// Solves the inner ring over the land's edge for a way of sliding, SB_CYCLE_IN or SB_CYCLE_OUT, in
+// which its state is `from`; and free.
+SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *counts,
+                           const SbRingOptions *options, SbReport *report);
 
-// Shape of a seal in a frame: by its chamber, its motion (SB_CYCLE_IN, SB_CYCLE_OUT, SB_RUN_REST)
-// and, of the inner one while the land's edge lies under it or beyond, the stem's displacement s
-// [m]; else 0.
-// UINT32_MAX if none was solved.
-uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion, double s);
+// Shape of a seal in a frame, by its chamber and its motion (SB_CYCLE_IN, SB_CYCLE_OUT,
+// SB_RUN_REST), its whole contact on the land. UINT32_MAX if none was solved.
+uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion);
+
+// The same of the inner seal while the land's edge lies under it or beyond: by the way of sliding
+// and the stem's displacement s [m].
+uint32_t sb_run_shape_over_edge(const SbRun *run, int way, double s);
 
 // Index of a profile, of a seal's states of contact in chamber and motion.
 uint32_t sb_run_profile_slot(int seal, int chamber, int motion);
@@ -132,9 +162,9 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
                         const SbDynamicsCounters *counters);
 
-// Mean speed of the stem from B to C [m/s], or from B to D, or from E to F, whichever it passes
-// first, by the present sliding states; of a sinusoid that passes none, its own. 0 if there is
-// none. *slips tells whether the stem slides at all (run_dynamic.c).
+// Speed of the stem at the middle of B-C [m/s]; where it does not get there its mean speed from B
+// to D, or from E to F, or home, whichever it passes first; of a sinusoid that passes none, its
+// own. 0 if there is none. *slips tells whether the stem slides at all (run_dynamic.c).
 SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRunHooks *hooks,
                               SbReport *report);
 
@@ -152,8 +182,8 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
 // before it, in the order of the profiles' indices, are solved.
 SbSupply sb_run_supply(const SbRun *run, int seal, SbChamber chamber, int motion);
 
-// Layer that a sliding seal leaves on the bore, or can take from it [m].
-double sb_run_layer(const SbRun *run, int seal, SbChamber chamber, int direction);
+// Layer that a seal sliding at a speed [m/s] leaves on the bore, or can take from it [m].
+double sb_run_layer(SbRun *run, int seal, SbChamber chamber, int direction, double speed);
 
 // The stem starts at s. Then it slides, with a film that carries `layer` [m] there.
 void sb_bore_start(SbBore *bore, double s);
@@ -204,10 +234,12 @@ typedef struct {
 // The valve as the motion sees it; the user of the callbacks of SbDynamicsModel.
 typedef struct {
   SbRun *run;
+  bool both_alike;    // either direction has the same friction at speed 0
   SbChamber chamber;  // passed on the way
   bool touches;       // the inner seal seals at all
   double edge_open;   // stem displacement behind which the chamber opens on the way in
   double edge_closed; // and closes on the way out
+  double middle;      // of B-C, and of F-A [m]
   bool varies[SB_DYNAMICS_EDGES + 1]; // regions in which the land's edge lies under the contact
   double edge[SB_DYNAMICS_EDGES];     // those of the mechanism [m]
   SbDriveTimes times;
@@ -224,7 +256,31 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
 typedef struct {
   SbChamber chamber;
   int direction;
+  int land; // direction whose state tells what the land carries of the inner seal
 } SbSolvedState;
+
+// The steady state of a sliding seal at a speed of either sign [m/s]; what it is interpolated from
+// is solved when first asked for (run_speeds.c).
+void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int direction,
+                     double speed);
+
+// The same between the vented chamber and, filled = 1, the filled one.
+void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled, int direction,
+                          double speed);
+
+// Keeps the body under the film of a state just solved, for films at other speeds on it; NULL: it
+// lies on the half-plane.
+SbStatus sb_run_keep_body(SbRun *run, int seal, int chamber, int direction,
+                          const SbSlidingBody *body, SbReport *report);
+
+// Makes the speeds' states of `one` those of `run` under the surface and the states that `one` has.
+SbStatus sb_run_copy_speeds(SbRun *one, const SbRun *run, SbReport *report);
+
+// Adds what interpolation over the speed leaves in the errors. SB_ERROR_CANCELLED or _MEMORY if
+// that ended it.
+SbStatus sb_run_close_speeds(SbRun *run, SbReport *report);
+
+void sb_run_free_speeds(SbRun *run);
 
 // Those of the valve as it is, with the stem's last `direction` of sliding and the chamber's
 // pressure [Pa].
@@ -243,12 +299,9 @@ typedef struct {
   double pressure; // in the chamber [Pa]
 } SbInstant;
 
-// Its frame: forces are the sample's, contact, load and film those of the solved states, the film
-// at the sample's speed; with ports between those of the vented and of the filled chamber.
-void sb_run_fill_frame(SbFrame *out, const SbRun *run, const SbInstant *at);
-
-// Film at a speed [m/s] over that of the states, by the law's exponent about it.
-double sb_run_film_at(const SbRun *run, double speed);
+// Its frame: the drive's forces are the sample's; contact, load, film and friction of a seal that
+// slides are those of one steady state, at the sample's speed and the chamber's pressure.
+void sb_run_fill_frame(SbFrame *out, SbRun *run, const SbInstant *at);
 
 // Makes the first `count` frames visible and tells the progress every now and then; true: stop.
 bool sb_run_poll(SbRun *run, const SbRunHooks *hooks, size_t count, double fraction,

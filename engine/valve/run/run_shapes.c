@@ -1,13 +1,15 @@
 // Deformed sections of the rings for the views that draw them: those that the states of contact
 // were solved with, and a row of the inner ring over the land's edge.
 //
-// The row: the inner ring at rest while the land's edge and the chamfer beside it pass over it,
-// until the free ring clears the chamfer. Friction on floor and bore holds the ring where it is
-// against the chamfer's push; neither stroke's drag is in it, so that one row serves both. A frame
-// takes the last one whose land reaches at least as far over the ring as the frame's own, and its
-// contact: the drawn ring never stands in the housing, and the gap that this leaves is at most the
-// chamfer's rise over one place of the row. That the chamfer still presses the ring when its
-// contact has left the land is drawn, but has no part in the cycle's forces.
+// A row for each way of sliding: the inner ring while the land's edge and the chamfer beside it
+// pass over it, until the free ring clears the chamfer. It begins with the ring as it slides; from
+// then on what touches is held where it lies, so that the shear of sliding stays in it, and the
+// floor holds it against the chamfer's push. (Sliding on over the chamfer has no steady state: it
+// pushes the ring away.) A ring that rolls begins with the one at rest. A frame takes the last one
+// whose land reaches at least as far over the ring as the frame's own, and its contact: the drawn
+// ring never stands in the housing, and the gap that this leaves is at most the chamfer's rise over
+// one place of the row. That the chamfer still presses the ring when its contact has left the land
+// is drawn, but has no part in the cycle's forces.
 //
 // Frames only refer to shapes, so that a film of any length costs the same.
 #include "engine/contact/ring/ring.h"
@@ -16,35 +18,42 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Of the row over the land's edge: less on the floor lets the chamfer push the ring to its wall.
+// Of the rows over the land's edge: less on the floor lets the chamfer push the ring to its wall;
+// on the bore more than any law, so that what touches stays where sliding laid it.
 static const double edge_floor_friction = 0.5;
-static const double edge_bore_friction = 0.2;
+static const double edge_bore_friction = 1.5;
 
 static uint32_t slot(int seal, int index) {
   return (uint32_t)(seal * SB_RUN_SEAL_SHAPES + index);
 }
 
-// The last place of the land's edge in the row that is not beyond x; -1 before the first.
+// The last place of the land's edge in a row that is not beyond x; -1 before the first.
 // SB_RUN_EDGES: the ring is free.
-static int edge_of(const SbRun *run, double x) {
-  double share = (x - run->edge_begin) / (run->edge_end - run->edge_begin);
+static int edge_of(const SbRunEdge *edge, double x) {
+  double share = (x - edge->begin) / (edge->end - edge->begin);
   return !(share >= 0) ? -1 : share >= 1 ? SB_RUN_EDGES : (int)(share * SB_RUN_EDGES);
 }
 
-uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion, double s) {
+static int edge_shape(int way, int place) {
+  return place >= SB_RUN_EDGES ? SB_RUN_SHAPE_FREE : SB_RUN_SHAPE_EDGE + way * SB_RUN_EDGES + place;
+}
+
+uint32_t sb_run_shape_over_edge(const SbRun *run, int way, double s) {
+  double first = run->cycle.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].contact_left;
+  int place = edge_of(&run->edge[way], first + s - run->model->land_edge);
+  // A place without a solution takes the one before.
+  while (place >= 0 && run->shape[slot(SB_INNER, edge_shape(way, place))].view.nodes == 0) {
+    place--;
+  }
+  return place >= 0 ? slot(SB_INNER, edge_shape(way, place)) : UINT32_MAX;
+}
+
+uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion) {
   if (!run->plan.section_fields) {
     return UINT32_MAX;
   }
-  double first = run->cycle.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].contact_left;
-  int edge = seal == SB_INNER && s > 0 ? edge_of(run, first + s - run->model->land_edge) : -1;
-  // A place without a solution takes the one before.
-  while (edge >= 0 && edge < SB_RUN_EDGES &&
-         run->shape[slot(seal, SB_RUN_SHAPE_EDGE + edge)].view.nodes == 0) {
-    edge--;
-  }
-  uint32_t found =
-      slot(seal, edge >= 0 ? SB_RUN_SHAPE_EDGE + edge
-                           : sb_run_first_alike(run, seal, (int)chamber) * SB_RUN_MOTIONS + motion);
+  int alike = sb_run_first_alike(run, seal, (int)chamber);
+  uint32_t found = slot(seal, alike * SB_RUN_MOTIONS + motion);
   return run->shape[found].view.nodes > 0 ? found : UINT32_MAX;
 }
 
@@ -115,49 +124,67 @@ static double clear_of(const SbSealShape *free_ring, double height, const SbRing
   return end;
 }
 
-SbStatus sb_run_solve_edge(SbRun *run, int seal, SbCounters *counts, const SbRingOptions *options,
-                           SbReport *report) {
-  const SbModel *model = run->model;
+// The free inner ring.
+static SbStatus solve_free(SbRun *run, const SbRingBody *body, SbRingLoad load,
+                           const SbRingOptions *options, SbReport *report) {
+  SbRing *ring;
+  load.bore_radius += body->section_diameter;
+  load.pressure_left = load.pressure_right = 0;
+  load.bore_slides = 0;
+  load.friction_bore = load.friction_floor = load.friction_wall = 0;
+  SbStatus status = sb_ring_create(&ring, body, &load, options, report);
+  status =
+      status == SB_OK ? sb_run_keep_shape(run, SB_INNER, SB_RUN_SHAPE_FREE, ring, report) : status;
+  sb_ring_destroy(ring);
+  return status;
+}
+
+SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *counts,
+                           const SbRingOptions *options, SbReport *report) {
+  const SbRunShape *whole = &run->shape[slot(SB_INNER, SB_RUN_SHAPE_FREE)];
   SbFitProblem problem;
   SbRingBody body;
   SbRingLoad load;
-  SbRing *ring;
-  SbSealPressure pressure = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
-  sb_model_fit_problem(&problem, model, seal, pressure.left - pressure.right);
+  SbRingResult state;
+  sb_model_fit_problem(&problem, run->model, SB_INNER, 0);
   sb_fit_ring_problem(&body, &load, &problem);
-  load.wall_left = -model->axial_width / 2;
-  load.wall_right = model->axial_width / 2;
-  SbRingLoad free_load = load;
-  free_load.bore_radius += model->seal[seal].section_diameter;
-  free_load.pressure_left = free_load.pressure_right = 0;
-  counts->ring_solves++;
-  SbStatus status = sb_ring_create(&ring, &body, &free_load, options, report);
-  status = status == SB_OK ? sb_run_keep_shape(run, seal, SB_RUN_SHAPE_FREE, ring, report) : status;
-  sb_ring_destroy(ring);
+  load = *sb_ring_load(from);
+  sb_ring_result(from, &state);
+  SbStatus status = SB_OK;
+  if (whole->view.nodes == 0) {
+    counts->ring_solves++;
+    counts->field_evaluations++;
+    status = solve_free(run, &body, load, options, report);
+  }
   if (status != SB_OK) {
     return status;
   }
-  double begin = run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_RUN_REST].contact_left;
-  double end =
-      clear_of(&run->shape[slot(seal, SB_RUN_SHAPE_FREE)].view, model->radial_space, &load);
-  load.friction_floor = edge_floor_friction;
-  load.friction_bore = edge_bore_friction;
+  double begin = state.contact_left;
+  // Clear of the free ring, and of the contact that sliding has moved.
+  double end = fmax(clear_of(&whole->view, run->model->radial_space, &load),
+                    state.contact_right + load.edge_length);
+  // Held from there on as it lies; a ring that rolls from where it rests.
+  SbRingLoad held = load;
+  held.bore_slides = 0;
+  held.shear = NULL;
+  held.friction_bore = edge_bore_friction;
+  held.friction_floor = fmax(load.friction_floor, edge_floor_friction);
+  SbRing *ring;
   counts->ring_solves++;
-  status = sb_ring_create(&ring, &body, &load, options, report);
+  status =
+      sb_ring_create(&ring, &body, state.state == SB_RING_SLIDES ? &load : &held, options, report);
   for (int i = 0; i < SB_RUN_EDGES && status == SB_OK && end > begin; i++) {
-    load.land_left = begin + (double)i / SB_RUN_EDGES * (end - begin);
+    held.land_left = begin + (double)i / SB_RUN_EDGES * (end - begin);
     counts->ring_solves++;
     counts->field_evaluations++;
-    status = sb_ring_step(ring, &load, report);
-    // One that has no equilibrium leaves a gap in the row.
-    status = status == SB_OK ? sb_run_keep_shape(run, seal, SB_RUN_SHAPE_EDGE + i, ring, report)
-             : status == SB_ERROR_NOT_CONVERGED ? SB_OK
-                                                : status;
+    status = sb_ring_step(ring, &held, report);
+    status = status == SB_OK ? sb_run_keep_shape(run, SB_INNER, edge_shape(way, i), ring, report)
+                             : status;
   }
   sb_ring_destroy(ring);
-  if (status == SB_OK && end > begin) {
-    run->edge_begin = begin;
-    run->edge_end = end;
+  if (end > begin) {
+    run->edge[way] = (SbRunEdge){begin, end};
   }
-  return status;
+  // Beyond a place without an equilibrium the last one stands.
+  return status == SB_ERROR_NOT_CONVERGED ? SB_OK : status;
 }

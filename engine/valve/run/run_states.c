@@ -1,19 +1,13 @@
 // Steady contact states of a run and their profiles: each is solved once and shared by all frames.
 //
 // The thesis' machine has one speed, and drive.speed is it. A finger, a spring, a sinusoid have
-// none: how fast the stem slides follows from the friction, and the friction, weakly, from that
-// speed. The sliding states are therefore solved at the stem's mean speed from B to C, found by
-// running the motion without frames, again with the states of that speed, until both agree to 1 %.
-// A film grows with speed to the power 0.54 to 0.65 and boundary friction hardly at all, so two or
-// three rounds do. Solved rings take seconds a round: for them the speed is that of the same valve
-// with the thesis' closed forms.
+// none: how fast the stem slides follows from the friction, which is known over the speed
+// (run_speeds.c). Profiles and figures are those of the stem's speed at the middle of B-C, found by
+// running the motion without frames. Solved rings take seconds: their profiles are those of that
+// speed in the same valve with the thesis' closed forms, and only the figures of its own.
 //
 // The two seals share nothing until then: where their rings are solved, each has a thread, and what
 // both add to the run is joined in the seals' order, so that results do not depend on the threads.
-//
-// Around that speed a frame's film follows its own speed by the law's exponent (equations 7.5, 7.6;
-// 0.6 for solved films, docs/thesis.md, 3), and the viscous force is linear in the speed. Left out:
-// that the boundary share, too, falls a little where the stem is faster than there.
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/numeric/root.h"
 #include "engine/valve/figures.h"
@@ -241,6 +235,28 @@ static bool cancelled(void *data) {
   return atomic_load(lane->stop);
 }
 
+// Keeps a state's ring to draw, the inner one's row over the land's edge with it. What cannot be
+// found is not drawn.
+static SbStatus keep_shapes(const Task *of, const SbRing *ring, SbReport *report) {
+  Lane *lane = of->lane;
+  const SbRingOptions options = {.poll = cancelled, .poll_data = lane};
+  const bool in = of->chamber == (int)SB_CHAMBER_AT_REST && of->motion == SB_CYCLE_IN;
+  const bool out = of->chamber == (int)SB_CHAMBER_CLOSED && of->motion == SB_CYCLE_OUT;
+  int index = of->chamber * SB_RUN_MOTIONS + of->motion;
+  lane->counters.field_evaluations++;
+  SbStatus status = sb_run_keep_shape(of->run, of->seal, index, ring, report);
+  if (status != SB_OK || of->seal != SB_INNER || !(in || out)) {
+    return status;
+  }
+  status = sb_run_solve_edge(of->run, of->motion, ring, &lane->counters, &options, report);
+  if (status == SB_OK || status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    return status;
+  }
+  sb_warn(&lane->warnings, "ring-shape", "models.fit",
+          "no solved shape of the inner ring over the land's edge: drawn schematically");
+  return SB_OK;
+}
+
 // Solves one state and takes its errors, its surface, its profile and its shape.
 // SB_ERROR_NOT_CONVERGED with what there is all the same.
 static SbStatus solve_state(const Task *of, SbReport *report) {
@@ -268,6 +284,13 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
                   "film and friction",
                   sb_seal_name(of->seal));
   }
+  if (!fitment && of->motion != SB_RUN_REST && state->film_central > 0) {
+    SbStatus kept =
+        sb_run_keep_body(run, of->seal, of->chamber, of->motion, sb_sliding_body(memory), report);
+    if (kept != SB_OK) {
+      return kept;
+    }
+  }
   const SbFit *fit = sb_sliding_fit(memory);
   SbRunSurface *surface = &run->surface[of->seal][of->chamber];
   if (state->film_fitted && run->plan.film_history) {
@@ -284,31 +307,10 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
   lane->error_film = fmax(lane->error_film, state->film_error);
   const SbRing *ring = sb_sliding_ring(memory);
   SbStatus kept = run->plan.profiles ? make_profile(of, report) : SB_OK;
-  if (kept == SB_OK && run->plan.section_fields && ring != NULL && fit->solver.converged) {
-    lane->counters.field_evaluations++;
-    kept =
-        sb_run_keep_shape(run, of->seal, of->chamber * SB_RUN_MOTIONS + of->motion, ring, report);
+  if (kept == SB_OK && run->plan.section_fields && ring != NULL && state->load > 0) {
+    kept = keep_shapes(of, ring, report);
   }
   return kept != SB_OK ? kept : status;
-}
-
-// The inner ring over the land's edge. What cannot be found is not drawn.
-static SbStatus solve_edge(Lane *lane, SbReport *report) {
-  SbRun *run = lane->run;
-  const SbRingOptions options = {.poll = cancelled, .poll_data = lane};
-  const SbSealState *rest = &run->cycle.state[lane->seal][SB_CHAMBER_AT_REST][SB_RUN_REST];
-  if (!run->plan.section_fields || lane->seal != SB_INNER || !(rest->load > 0)) {
-    return SB_OK;
-  }
-  SbStatus status = sb_run_solve_edge(run, lane->seal, &lane->counters, &options, report);
-  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
-    return status;
-  }
-  if (status != SB_OK) {
-    sb_warn(&lane->warnings, "ring-shape", "models.fit",
-            "no solved shape of the inner ring over the land's edge: drawn schematically");
-  }
-  return SB_OK;
 }
 
 // Whether a status ends a seal's states.
@@ -346,9 +348,6 @@ static void *solve_lane(void *data) {
       lane->report = own; // of failures to converge the first is told
       lane->status = status;
     }
-  }
-  if (lane->status == SB_OK) {
-    lane->status = solve_edge(lane, &lane->report);
   }
   return NULL;
 }
@@ -448,6 +447,7 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     sb_sliding_memory_poll(run->memory[seal], cancelled, &lane[seal]);
     // At least what the figures are taken from is unknown until it is solved.
     sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN]);
+    sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_CLOSED][SB_CYCLE_OUT]);
   }
   bool both =
       run->plan.seal[SB_OUTER] > SB_DEPTH_SIZES && run->plan.seal[SB_INNER] > SB_DEPTH_SIZES;
@@ -474,18 +474,6 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   return status;
 }
 
-// Power of the speed in the film's law.
-static double exponent(SbFilmModel film) {
-  switch (film) {
-  case SB_FILM_THESIS:
-    return 0.5434;
-  case SB_FILM_KARASZKIEWICZ:
-    return 0.65;
-  default:
-    return 0.6;
-  }
-}
-
 // Speed of the same valve with closed forms, for a run of solved rings.
 static SbStatus proxy_speed(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   static const SbOverride closed[] = {{SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ},
@@ -502,49 +490,42 @@ static SbStatus proxy_speed(SbRun *run, const SbRunHooks *hooks, SbReport *repor
   plan->ring = plan->section_fields = plan->profiles = plan->film_history = false;
   status = sb_run_solve_states(proxy, hooks, report);
   run->speed = proxy->speed;
-  run->film_exponent = proxy->film_exponent > 0 ? exponent(run->model->film) : 0;
   sb_run_destroy(proxy);
   return status == SB_ERROR_CANCELLED ? status : SB_OK;
 }
 
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
-  enum { ROUNDS = 8 };
   const SbModel *model = run->model;
   SbWarnings *warnings = &run->summary.warnings;
+  SbStatus status = SB_OK;
   run->speed = model->speed;
-  run->film_exponent = 0;
   bool own = run->plan.motion && run->plan.inertia && model->drive != SB_MODEL_DRIVE_MACHINE;
   if (own && run->plan.ring) {
-    SbStatus status = proxy_speed(run, hooks, report);
-    return status != SB_OK ? status : solve_states(run, hooks, report);
+    status = proxy_speed(run, hooks, report);
   }
   SbWarnings before = *warnings;
-  SbStatus status = solve_states(run, hooks, report);
-  for (int round = 0; own && round < ROUNDS; round++) {
-    double speed;
-    bool slips;
-    if ((status != SB_OK && status != SB_ERROR_NOT_CONVERGED) || run->lacks.status != SB_OK) {
-      return status;
-    }
-    // What goes wrong with the motion is told by the run itself.
-    SbStatus motion = sb_run_dynamic_speed(&speed, &slips, run, hooks, NULL);
-    if (motion == SB_ERROR_CANCELLED) {
-      return sb_fail(report, motion, "cancelled");
-    }
-    if (speed == 0 && slips) {
-      sb_warn(warnings, "film-speed", "drive.speed",
-              "the stem passes no two stages that would tell its speed: films and viscous friction "
-              "are those at drive.speed, %.3g mm/s",
-              1e3 * run->speed);
-    }
-    if (!(speed > 0)) {
-      break;
-    }
-    run->film_exponent = exponent(model->film);
-    if (fabs(speed - run->speed) <= 0.01 * run->speed) {
-      break;
-    }
-    run->speed = speed;
+  status = status == SB_OK ? solve_states(run, hooks, report) : status;
+  run->mid_speed = run->back_speed = run->speed;
+  if (!own || (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) || run->lacks.status != SB_OK) {
+    return status;
+  }
+  double speed;
+  bool slips;
+  // What goes wrong with the motion is told by the run itself.
+  SbStatus motion = sb_run_dynamic_speed(&speed, &slips, run, hooks, NULL);
+  if (motion == SB_ERROR_CANCELLED) {
+    return sb_fail(report, motion, "cancelled");
+  }
+  if (speed == 0 && slips) {
+    sb_warn(warnings, "film-speed", "drive.speed",
+            "the stem passes no two stages that would tell its speed: the seals' figures are those "
+            "at drive.speed, %.3g mm/s",
+            1e3 * run->speed);
+  }
+  run->back_speed = run->back_speed > 0 ? run->back_speed : run->speed;
+  run->mid_speed = speed > 0 ? speed : run->speed;
+  if (!run->plan.ring && run->mid_speed != run->speed) {
+    run->speed = run->mid_speed;
     *warnings = before;
     status = solve_states(run, hooks, report);
   }

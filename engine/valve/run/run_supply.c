@@ -24,10 +24,18 @@ static bool is_wet(const SbModel *model, int seal, SbChamber chamber, bool left)
   return chamber != SB_CHAMBER_AT_REST || model->pressure_map == SB_MAP_CHAMBER_FILLED;
 }
 
-double sb_run_layer(const SbRun *run, int seal, SbChamber chamber, int direction) {
-  return direction == SB_CYCLE_IN && !is_wet(run->model, seal, chamber, true)
-             ? 0
-             : run->cycle.state[seal][chamber][direction].layer;
+// Whether nothing is carried: an in-stroke out of a room without liquid.
+static bool is_dry(const SbModel *model, int seal, SbChamber chamber, int direction) {
+  return direction == SB_CYCLE_IN && !is_wet(model, seal, chamber, true);
+}
+
+double sb_run_layer(SbRun *run, int seal, SbChamber chamber, int direction, double speed) {
+  if (is_dry(run->model, seal, chamber, direction)) {
+    return 0;
+  }
+  SbSealState state;
+  sb_run_state_at(&state, run, seal, (int)chamber, direction, speed);
+  return state.layer;
 }
 
 SbSupply sb_run_supply(const SbRun *run, int seal, SbChamber chamber, int motion) {
@@ -40,7 +48,8 @@ SbSupply sb_run_supply(const SbRun *run, int seal, SbChamber chamber, int motion
   // vent it that is not known beforehand, and the same chamber stands in.
   const bool ports = model->pressure_map == SB_MAP_PORTS;
   const SbChamber before = chamber == SB_CHAMBER_CLOSED && !ports ? SB_CHAMBER_AT_REST : chamber;
-  const double layer = in ? 0 : sb_run_layer(run, seal, before, SB_CYCLE_IN);
+  const bool dry = in || is_dry(model, seal, before, SB_CYCLE_IN);
+  const double layer = dry ? 0 : run->cycle.state[seal][before][SB_CYCLE_IN].layer;
   return (SbSupply){true, isfinite(layer) ? layer : 0};
 }
 

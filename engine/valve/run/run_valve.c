@@ -1,12 +1,12 @@
 // The valve as a mechanism with one coordinate (mechanism/dynamics.h) and, if the scene asks for
 // ports, one chamber pressure (mechanism/chamber.h); and the frame of any motion's instant.
 //
-// The same sliding states as in the quasi-static cycle give each seal's Coulomb level, m W + tau_0
-// A_a, its static ratio and a viscous coefficient (the viscous force at the reference speed over
-// that speed; it is a thousandth of the level, so its weak speed dependence is left out). While the
-// edge of the land passes, the inner level follows the part that still touches. With ports the
-// levels lie between those of the vented and of the filled chamber, in proportion to its pressure:
-// exact where the chamber rests, which is all but the milliseconds of filling and venting.
+// The same sliding states as in the quasi-static cycle, over the speed (run_speeds.c), give each
+// seal's friction: its level is that without a film, tau_0 A_a(0) + m W, and what the film takes
+// off and its shear adds at a speed is laid through bands of the speed in which it is straight, to
+// BAND_TOLERANCE of the level (dynamics.h). While the edge of the land passes, the inner seal's
+// follows the part that still touches. With ports friction lies between those of the vented and of
+// the filled chamber, in proportion to its pressure.
 //
 // Contacts that age (friction.breakaway) hold by the law of the state that stands for their
 // chamber.
@@ -22,10 +22,8 @@
 
 #include <math.h>
 
-// The state that stands for a chamber: sliding the way the stem moves in it.
-static int direction_of(SbChamber chamber) {
-  return chamber == SB_CHAMBER_CLOSED ? SB_CYCLE_OUT : SB_CYCLE_IN;
-}
+// Of the friction without a film.
+static const double band_tolerance = 1e-3;
 
 // How full of pressure the chamber is, 0 vented, 1 at the canister's.
 static double filling(const SbRun *run, double pressure) {
@@ -33,11 +31,36 @@ static double filling(const SbRun *run, double pressure) {
   return canister > 0 ? fmin(fmax(pressure / canister, 0), 1) : 1;
 }
 
-static double level_of(const SbCycle *cycle, int seal, SbChamber chamber, double s) {
-  int direction = direction_of(chamber);
+// The states that friction lies between: with ports those of the vented and the filled chamber.
+typedef struct {
+  int count;
+  SbChamber chamber[2];
+  double share[2];
+} Ends;
+
+static Ends ends_of(const SbValve *valve, double pressure) {
+  if (!valve->ports) {
+    return (Ends){1, {valve->chamber}, {1}};
+  }
+  double q = filling(valve->run, pressure);
+  return (Ends){2, {SB_CHAMBER_AT_REST, SB_CHAMBER_CLOSED}, {1 - q, q}};
+}
+
+// The direction whose state tells where a chamber's contact meets the land's edge: that in which
+// the stem passes it in this chamber.
+static int passing(SbChamber chamber) {
+  return chamber == SB_CHAMBER_CLOSED ? SB_CYCLE_OUT : SB_CYCLE_IN;
+}
+
+static SbLandShare land_share(const SbCycle *cycle, int seal, SbChamber chamber, double s) {
+  return sb_cycle_land_share(cycle, seal, chamber, passing(chamber), s);
+}
+
+// Friction of a contact without a film: as the speed goes to 0.
+static double level_of(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s) {
   const SbSealState *state = &cycle->state[seal][chamber][direction];
-  const SbLandShare on = sb_cycle_land_share(cycle, seal, chamber, direction, s);
-  return state->boundary_area * on.width + state->boundary_load * on.load;
+  const SbLandShare on = land_share(cycle, seal, chamber, s);
+  return state->rest_area * on.width + state->rest_load * on.load;
 }
 
 static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const double *extra,
@@ -46,16 +69,18 @@ static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const d
   const SbCycle *cycle = &valve->run->cycle;
   // Bore and stem are the same on either side of the chamber, so that its pressure cancels.
   loads->force = -valve->run->model->pressure_force;
+  const Ends ends = ends_of(valve, extra[0]);
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     loads->rest[seal] =
         valve->run->model->contact_ageing ? &valve->run->rest[seal][valve->chamber] : NULL;
-    if (valve->ports) {
-      double q = filling(valve->run, extra[0]);
-      double vented = q < 1 ? level_of(cycle, seal, SB_CHAMBER_AT_REST, x) : 0;
-      double filled = q > 0 ? level_of(cycle, seal, SB_CHAMBER_CLOSED, x) : 0;
-      loads->level[seal] = (1 - q) * vented + q * filled;
-    } else {
-      loads->level[seal] = level_of(cycle, seal, valve->chamber, x);
+    for (int i = 0; i < ends.count; i++) {
+      if (ends.share[i] > 0) {
+        double in = level_of(cycle, seal, ends.chamber[i], SB_CYCLE_IN, x);
+        double out =
+            valve->both_alike ? in : level_of(cycle, seal, ends.chamber[i], SB_CYCLE_OUT, x);
+        loads->level[seal] += ends.share[i] * in;
+        loads->back[seal] += ends.share[i] * (out - in);
+      }
     }
   }
   // Only while the edge lies under the inner contact does anything change with x.
@@ -65,14 +90,130 @@ static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const d
   loads->constant = settled && (still || !valve->varies[region]);
 }
 
-// The viscous force is linear in the speed.
-static void valve_band(SbDynamicsBand *band, double x, size_t region, int direction, double speed,
-                       const double *extra, void *user) {
-  const SbRun *run = ((SbValve *)user)->run;
-  band->high = INFINITY;
+// What the speed adds to the parts of friction, vented and filled.
+typedef struct {
+  double width[SB_SEAL_COUNT][2], load[SB_SEAL_COUNT][2]; // N
+  double level[SB_SEAL_COUNT][2];                         // without a film
+} Added;
+
+static void added_at(Added *out, SbValve *valve, int direction, double speed) {
+  const Ends ends = ends_of(valve, 0);
+  *out = (Added){0};
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    band->slope[seal] =
-        run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN].friction_viscous / run->speed;
+    for (int i = 0; i < ends.count; i++) {
+      const int chamber = (int)ends.chamber[i];
+      const SbSealState *base = &valve->run->cycle.state[seal][chamber][direction];
+      if (!base->touches || (seal == SB_INNER && ends.chamber[i] == SB_CHAMBER_OPEN)) {
+        continue;
+      }
+      out->level[seal][i] = base->rest_area + base->rest_load;
+      if (speed > 0) {
+        SbSealState state;
+        sb_run_state_at(&state, valve->run, seal, chamber, direction, speed);
+        out->width[seal][i] = state.boundary_area + state.friction_viscous - state.rest_area;
+        out->load[seal][i] = state.boundary_load - state.rest_load;
+      }
+    }
+  }
+}
+
+static SbBandPart line(const SbValveBand *band, double low, double high) {
+  double slope = (high - low) / (band->high - band->low);
+  return (SbBandPart){low - slope * band->low, slope};
+}
+
+// Lays the band from `low` to `high` through friction there; how far that is off between, over the
+// friction without a film. A power of the speed bends most at a quarter of the way.
+static double try_band(SbValveBand *band, SbValve *valve, int direction, double low, double high) {
+  Added ends[2], at;
+  band->low = low;
+  band->high = high;
+  added_at(&ends[0], valve, direction, low);
+  added_at(&ends[1], valve, direction, high);
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    for (int i = 0; i < 2; i++) {
+      band->width[seal][i] = line(band, ends[0].width[seal][i], ends[1].width[seal][i]);
+      band->load[seal][i] = line(band, ends[0].load[seal][i], ends[1].load[seal][i]);
+    }
+  }
+  double worst = 0;
+  for (int k = 1; k < 3; k++) {
+    double speed = low + 0.25 * k * (high - low);
+    added_at(&at, valve, direction, speed);
+    for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+      for (int i = 0; i < 2; i++) {
+        const SbBandPart *w = &band->width[seal][i], *l = &band->load[seal][i];
+        double off = fabs(w->rise + w->slope * speed - at.width[seal][i]) +
+                     fabs(l->rise + l->slope * speed - at.load[seal][i]);
+        worst = fmax(worst, off > 0 ? off / at.level[seal][i] : 0);
+      }
+    }
+  }
+  return worst;
+}
+
+// The next band, from the last one's end up as far as it is straight, in steps of a seventh of a
+// decade so that no state is asked for at speeds that nothing comes near.
+static void add_band(SbValveBands *bands, SbValve *valve, int direction) {
+  const double step = pow(10, 1.0 / 7), first = 1e-2, most = 1e3;
+  const double low = bands->count > 0 ? bands->item[bands->count - 1].high : 0;
+  double high = low > 0 ? low * step : first;
+  SbValveBand wider, *band = &bands->item[bands->count++];
+  if (low >= most || bands->count == SB_VALVE_BANDS) {
+    // So fast that nothing is known of it: as at its begin.
+    (void)try_band(band, valve, direction, low, low * step);
+    band->high = INFINITY;
+    for (int i = 0; i < 2 * SB_SEAL_COUNT; i++) {
+      SbBandPart *w = &band->width[i / 2][i % 2], *l = &band->load[i / 2][i % 2];
+      *w = (SbBandPart){w->rise + w->slope * low, 0};
+      *l = (SbBandPart){l->rise + l->slope * low, 0};
+    }
+    return;
+  }
+  double off = try_band(band, valve, direction, low, high);
+  while (off > band_tolerance && high > SB_SPEED_LEAST && low == 0) {
+    high /= step;
+    off = try_band(band, valve, direction, low, high);
+  }
+  for (bool straight = low > 0 || high >= first; straight && high < most;) {
+    double more = try_band(&wider, valve, direction, low, high * step);
+    straight = more <= band_tolerance;
+    if (straight) {
+      *band = wider;
+      high *= step;
+      off = more;
+    }
+  }
+  valve->run->straight_error = fmax(valve->run->straight_error, off);
+}
+
+static const SbValveBand *find_band(SbValve *valve, int direction, double speed) {
+  SbValveBands *bands = &valve->run->bands[valve->ports ? 0 : valve->chamber][direction];
+  while (bands->count == 0 || speed >= bands->item[bands->count - 1].high) {
+    add_band(bands, valve, direction);
+  }
+  size_t i = 0;
+  while (speed >= bands->item[i].high) {
+    i++;
+  }
+  return &bands->item[i];
+}
+
+static void valve_band(SbDynamicsBand *out, double x, size_t region, int direction, double speed,
+                       const double *extra, void *user) {
+  SbValve *valve = user;
+  const int way = direction > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT;
+  const SbValveBand *band = find_band(valve, way, speed);
+  const Ends ends = ends_of(valve, extra[0]);
+  out->low = band->low;
+  out->high = band->high;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    for (int i = 0; i < ends.count; i++) {
+      const SbLandShare on = land_share(&valve->run->cycle, seal, ends.chamber[i], x);
+      const SbBandPart *w = &band->width[seal][i], *l = &band->load[seal][i];
+      out->rise[seal] += ends.share[i] * (on.width * w->rise + on.load * l->rise);
+      out->slope[seal] += ends.share[i] * (on.width * w->slope + on.load * l->slope);
+    }
   }
 }
 
@@ -199,8 +340,8 @@ static SbStatus valve_mass(double *mass, double x, double v, void *user, SbRepor
 
 // The law of a contact that ages, over its sliding level.
 static SbStatus set_rest(SbRun *run, int seal, SbChamber chamber, SbReport *report) {
-  const SbSealState *state = &run->cycle.state[seal][chamber][direction_of(chamber)];
-  const double level = state->boundary_area + state->boundary_load;
+  const SbSealState *state = &run->cycle.state[seal][chamber][passing(chamber)];
+  const double level = state->rest_area + state->rest_load;
   SbDwellLaw *law = &run->rest[seal][chamber];
   double squeeze_time;
   SbStatus status = sb_breakaway_law(law, &squeeze_time, run->model, seal, state, report);
@@ -216,6 +357,9 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   const SbModel *model = run->model;
   const SbCycle *cycle = &run->cycle;
   *valve = (SbValve){.run = run, .ports = model->pressure_map == SB_MAP_PORTS};
+  for (int i = 0; i < SB_CYCLE_CHAMBERS * SB_RUN_REST; i++) {
+    (&run->bands[0][0])[i].count = 0;
+  }
   *out = (SbDynamicsModel){
       .mass = run->bodies != NULL ? sb_run_bodies_mass(run->bodies) : model->moving_mass,
       .spring_preload = model->spring_preload,
@@ -232,11 +376,11 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   };
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const SbSealState *state = &cycle->state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-    double level = state->boundary_area + state->boundary_load;
-    // Static friction is that of the dry contact.
-    double dry = level > 0 ? (state->rest_area + state->rest_load) / level : 1;
-    out->contact[seal] = sb_model_contact(model, fmax(model->static_ratio * dry, 1), out->mass);
-    out->contact[seal].dwell_gain *= model->contact_ageing ? 1 : dry;
+    double level = state->rest_area + state->rest_load;
+    double ratio = state->section == SB_RING_ROLLS || state->section == SB_RING_JAMS
+                       ? state->friction_static / level
+                       : model->static_ratio;
+    out->contact[seal] = sb_model_contact(model, level > 0 ? fmax(ratio, 1) : 1, out->mass);
     for (int chamber = 0; model->contact_ageing && chamber < SB_CYCLE_CHAMBERS; chamber++) {
       SbStatus status = set_rest(run, seal, (SbChamber)chamber, report);
       if (status != SB_OK) {
@@ -263,6 +407,9 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
       // The wider contact decides, whatever the pressure is when it leaves.
       valve->edge_open = valve->edge_closed = far;
     }
+    // Where the seals' figures are taken.
+    valve->middle = model->land_edge / 2;
+    add_edge(out, valve->middle);
     add_edge(out, model->land_edge);
     add_edge(out, valve->edge_open);
     add_edge(out, valve->edge_closed);
@@ -284,8 +431,20 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
     }
   }
   // Nothing varies with the place where the inner seal does not rub.
-  bool rubs = level_of(cycle, SB_INNER, SB_CHAMBER_AT_REST, 0) > 0 ||
-              level_of(cycle, SB_INNER, SB_CHAMBER_CLOSED, 0) > 0;
+  bool rubs = false;
+  valve->both_alike = true;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
+      const SbSealState *in = &cycle->state[seal][chamber][SB_CYCLE_IN];
+      const SbSealState *back = &cycle->state[seal][chamber][SB_CYCLE_OUT];
+      rubs = rubs || (seal == SB_INNER && chamber != SB_CHAMBER_OPEN &&
+                      (in->rest_area + in->rest_load > 0 || back->rest_area + back->rest_load > 0));
+      valve->both_alike = valve->both_alike && in->rest_area == back->rest_area &&
+                          in->rest_load == back->rest_load &&
+                          in->contact_left == back->contact_left &&
+                          in->contact_right == back->contact_right;
+    }
+  }
   for (size_t region = 0; region <= out->edges; region++) {
     double low = region > 0 ? out->edge[region - 1] : -INFINITY;
     double high = region < out->edges ? out->edge[region] : INFINITY;
@@ -307,81 +466,98 @@ double sb_valve_chamber_pressure(const SbValve *valve, double extra) {
 
 SbSolvedState sb_valve_solved(const SbValve *valve, int direction, double pressure) {
   if (valve->chamber == SB_CHAMBER_OPEN) {
-    return (SbSolvedState){SB_CHAMBER_OPEN, direction};
+    return (SbSolvedState){SB_CHAMBER_OPEN, direction, direction};
   }
   // With ports the nearest to what the chamber holds.
   SbChamber chamber = valve->chamber;
   if (valve->ports) {
     chamber = filling(valve->run, pressure) < 0.5 ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
   }
-  return (SbSolvedState){chamber, direction_of(chamber)};
+  return (SbSolvedState){chamber, direction, passing(chamber)};
 }
 
-double sb_run_film_at(const SbRun *run, double speed) {
-  return run->film_exponent > 0 ? pow(fabs(speed) / run->speed, run->film_exponent) : 1;
+// Greatest pressure on what the land still carries of an elliptic contact: while the middle is on
+// the land its own, then that at the edge.
+static double peak_on(double peak, double share) {
+  double c = 1 - 2 * (1 - share);
+  return share > 0.5 ? peak : share > 0 ? peak * sqrt(fmax(1 - c * c, 0)) : 0;
 }
 
-// Contact, load and film of one seal at stem displacement s.
-static void fill_contact(SbSealFrame *out, const SbRun *run, int seal, SbSolvedState solved,
-                         bool moving, double s) {
-  const SbChamber chamber = solved.chamber;
-  const int direction = solved.direction, motion = moving ? direction : SB_RUN_REST;
-  // At rest a solved ring is one that friction does not drag; other models know one contact.
-  const SbSealState *still = &run->cycle.state[seal][chamber][SB_RUN_REST];
-  const SbSealState *slides = &run->cycle.state[seal][chamber][direction];
-  const SbSealState *state = run->plan.ring && !moving && still->load > 0 ? still : slides;
-  const SbSealPressure pressure = sb_model_seal_pressure(run->model, seal, chamber);
-  const SbLandShare on = sb_cycle_land_share(&run->cycle, seal, chamber, direction, s);
-  const uint32_t drawn = sb_run_shape_index(run, seal, chamber, motion, on.width < 1 ? s : 0);
-  const SbSealShape *shape = on.width < 1 ? sb_run_shape(run, drawn) : NULL;
-  double width = state->contact_right - state->contact_left;
-
+// Contact, load, film and friction of one seal, all of one state.
+static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *at) {
+  const SbDynamicsSample *sample = &at->sample;
+  const SbModel *model = run->model;
+  const SbChamber chamber = at->solved.chamber;
+  const int direction = at->solved.direction;
+  const bool moving = at->moving && sample->contact[seal] != SB_CONTACT_STUCK;
+  const bool mixed = model->pressure_map == SB_MAP_PORTS && at->chamber != SB_CHAMBER_OPEN;
+  const double filled = filling(run, at->pressure), s = sample->position;
+  // Where a quasi-static stem jumps its speed is not known.
+  const double speed = moving && sample->speed != 0 ? sample->speed : run->speed;
+  SbSealState state;
+  SbLandShare on = sb_cycle_land_share(&run->cycle, seal, chamber, at->solved.land, s);
+  if (mixed) {
+    sb_run_state_between(&state, run, seal, filled, direction, speed);
+    const SbLandShare vented = land_share(&run->cycle, seal, SB_CHAMBER_AT_REST, s);
+    const SbLandShare full = land_share(&run->cycle, seal, SB_CHAMBER_CLOSED, s);
+    on.width = (1 - filled) * vented.width + filled * full.width;
+    on.load = (1 - filled) * vented.load + filled * full.load;
+  } else {
+    sb_run_state_at(&state, run, seal, chamber, direction, speed);
+    // At rest a solved ring is one that friction does not drag; other models know one contact.
+    const SbSealState *still = &run->cycle.state[seal][chamber][SB_RUN_REST];
+    state = run->plan.ring && !moving && still->load > 0 ? *still : state;
+  }
+  const int motion = moving ? direction : SB_RUN_REST;
+  const SbSealPressure pressure = sb_model_seal_pressure(model, seal, chamber);
+  const bool edged = seal == SB_INNER && on.width < 1 && run->plan.section_fields;
+  const uint32_t over = edged ? sb_run_shape_over_edge(run, direction, s) : UINT32_MAX;
+  const uint32_t drawn = over != UINT32_MAX ? over : sb_run_shape_index(run, seal, chamber, motion);
+  const SbSealShape *shape = sb_run_shape(run, over);
+  const double width = state.contact_right - state.contact_left;
   // The edge takes the contact away from the canister side.
   *out = (SbSealFrame){
       .land_fraction = (float)on.width,
       .pressure_left = (float)pressure.left,
       .pressure_right = (float)pressure.right,
-      .profile = run->plan.profiles && state->touches
+      .profile = run->plan.profiles && state.touches
                      ? sb_run_profile_slot(seal, (int)chamber, motion)
                      : UINT32_MAX,
       .shape = drawn,
-      .contact_left = shape != NULL ? shape->contact_left : state->contact_right - on.width * width,
-      .contact_right = shape != NULL ? shape->contact_right : state->contact_right,
-      .load = on.load * state->load,
-      .pressure_peak = on.width > 0.5 ? state->pressure_peak : 0,
+      .contact_left = shape != NULL  ? shape->contact_left
+                      : on.width < 1 ? state.contact_right - on.width * width
+                                     : state.contact_left,
+      .contact_right = shape != NULL ? shape->contact_right : state.contact_right,
+      .load = on.load * state.load,
+      .pressure_peak = peak_on(state.pressure_peak, on.width),
+      .friction = -sample->friction[seal],
   };
-  if (on.width > 0 && on.width <= 0.5) {
-    // The elliptic profile's greatest remaining value, at the edge.
-    double c = 1 - 2 * (1 - on.width);
-    out->pressure_peak = state->pressure_peak * sqrt(fmax(1 - c * c, 0));
+  if (model->pressure_map == SB_MAP_PORTS) {
+    *(seal == SB_INNER ? &out->pressure_right : &out->pressure_left) = (float)at->pressure;
   }
   // At rest the surfaces meet; off the land there is no film.
-  if (!state->touches || !(on.width > 0)) {
-    out->film_min = out->film_central = out->lambda = NAN;
+  out->friction_boundary = out->friction;
+  if (!state.touches || !(on.width > 0)) {
+    out->film_min = out->film_central = out->lambda = out->real_area_share = NAN;
   } else if (moving) {
-    out->film_min = state->film_min;
-    out->film_central = state->film_central;
-    out->lambda = state->lambda;
+    out->film_min = state.film_min;
+    out->film_central = state.film_central;
+    out->lambda = state.lambda;
+    out->real_area_share = state.real_area_share;
+    const double way = direction == SB_CYCLE_IN ? 1 : -1;
+    out->friction_viscous = way * on.width * state.friction_viscous;
+    out->friction_boundary = way * (on.width * state.boundary_area + on.load * state.boundary_load);
+    if (model->stribeck_speed > 0 || !(way * out->friction > 0)) {
+      // Stribeck's factor acts on the boundary part; a patch may yet slide the other way.
+      out->friction_boundary = out->friction - out->friction_viscous;
+    }
+    out->friction = out->friction_boundary + out->friction_viscous;
+  } else {
+    out->real_area_share = state.rest_area_share;
   }
 }
 
-// The contact of a seal between the vented and the filled chamber, as the friction is.
-static void blend_contact(SbSealFrame *out, const SbRun *run, int seal, const SbInstant *at) {
-  const SbSolvedState end[] = {{SB_CHAMBER_AT_REST, SB_CYCLE_IN},
-                               {SB_CHAMBER_CLOSED, SB_CYCLE_OUT}};
-  const double q = filling(run, at->pressure), share[] = {1 - q, q};
-  out->contact_left = out->contact_right = out->load = out->pressure_peak = 0;
-  for (int i = 0; i < 2; i++) {
-    SbSealFrame of;
-    fill_contact(&of, run, seal, end[i], at->moving, at->sample.position);
-    out->contact_left += share[i] * of.contact_left;
-    out->contact_right += share[i] * of.contact_right;
-    out->load += share[i] * of.load;
-    out->pressure_peak += share[i] * of.pressure_peak;
-  }
-}
-
-void sb_run_fill_frame(SbFrame *out, const SbRun *run, const SbInstant *at) {
+void sb_run_fill_frame(SbFrame *out, SbRun *run, const SbInstant *at) {
   const SbDynamicsSample *sample = &at->sample;
   *out = (SbFrame){
       .time = sample->time,
@@ -396,23 +572,7 @@ void sb_run_fill_frame(SbFrame *out, const SbRun *run, const SbInstant *at) {
       .stage = (uint8_t)at->stage,
       .chamber = (uint8_t)at->chamber,
   };
-  const double film = sb_run_film_at(run, sample->speed);
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    SbSealFrame *of = &out->seal[seal];
-    fill_contact(of, run, seal, at->solved, at->moving, sample->position);
-    if (run->model->pressure_map == SB_MAP_PORTS) {
-      *(seal == SB_INNER ? &of->pressure_right : &of->pressure_left) = (float)at->pressure;
-      if (at->chamber != SB_CHAMBER_OPEN) {
-        blend_contact(of, run, seal, at);
-      }
-    }
-    of->film_min *= film;
-    of->film_central *= film;
-    of->lambda *= film;
-    of->friction = -sample->friction[seal];
-    const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-    double viscous = state->friction_viscous / run->speed * sample->speed;
-    of->friction_viscous = at->moving && of->friction != 0 ? viscous : 0;
-    of->friction_boundary = of->friction - of->friction_viscous;
+    fill_seal(&out->seal[seal], run, seal, at);
   }
 }

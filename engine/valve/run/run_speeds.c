@@ -1,0 +1,180 @@
+// A run's steady states at any speed: of each seal, chamber and direction one table
+// (valve/speed_states.h), made when an instant first asks for another speed than the states'.
+// Chamber states under the same pressures, whose solved states are the same, share one.
+//
+// Between the vented and the filled chamber contact and film lie between those of the two at the
+// same speed, and friction follows from them: exact where the chamber rests, which is all but the
+// milliseconds of filling and venting.
+#include "engine/valve/run/run_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static SbSlidingTask task_of(SbRun *run, int seal, int chamber, int direction, double speed) {
+  return (SbSlidingTask){.model = run->model,
+                         .seal = seal,
+                         .pressure = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber),
+                         .speed = direction == SB_CYCLE_IN ? speed : -speed,
+                         .memory = run->memory[seal],
+                         .counts = &run->summary.counters,
+                         .warnings = &run->summary.warnings,
+                         .supply = sb_run_supply(run, seal, (SbChamber)chamber, direction)};
+}
+
+static bool same_contact(const SbSealState *a, const SbSealState *b) {
+  return a->contact_left == b->contact_left && a->contact_right == b->contact_right &&
+         a->load_net == b->load_net;
+}
+
+static SbStatus make(SbRun *run, int seal, int chamber, int direction, const SbSlidingBody *body,
+                     SbReport *report) {
+  SbSpeedStates **table = &run->speeds[seal][chamber][direction];
+  const SbSealState *state = &run->cycle.state[seal][chamber][direction];
+  const SbSlidingTask task = task_of(run, seal, chamber, direction, run->speed);
+  if (*table != NULL && same_contact(&(*table)->base, state)) {
+    // What it holds stands: the same contact, solved at another speed.
+    (*table)->base = *state;
+    (*table)->task = task;
+    return SB_OK;
+  }
+  *table = *table != NULL ? *table : malloc(sizeof **table);
+  if (*table == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for states over the speed");
+  }
+  sb_speed_states_init(*table, &task, state, body);
+  (*table)->roughness = run->roughness;
+  (*table)->near = !run->plan.inertia;
+  return SB_OK;
+}
+
+SbStatus sb_run_keep_body(SbRun *run, int seal, int chamber, int direction,
+                          const SbSlidingBody *body, SbReport *report) {
+  bool there = run->speeds[seal][chamber][direction] != NULL;
+  return body != NULL || there ? make(run, seal, chamber, direction, body, report) : SB_OK;
+}
+
+// The first chamber with this one's state: solutions of the same problem, from other starts.
+static int first_same(const SbRun *run, int seal, int chamber, int direction) {
+  const int first = sb_run_first_alike(run, seal, chamber);
+  const SbSealState *a = &run->cycle.state[seal][first][direction];
+  const SbSealState *b = &run->cycle.state[seal][chamber][direction];
+  bool same = same_contact(a, b) && fabs(a->film_central / b->film_central - 1) < 1e-5;
+  return same ? first : chamber;
+}
+
+void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int direction,
+                     double speed) {
+  const SbSealState *state = &run->cycle.state[seal][chamber][direction];
+  if (fabs(speed) == run->speed || !state->touches || !(state->film_central > 0)) {
+    *out = *state;
+    return;
+  }
+  chamber = first_same(run, seal, chamber, direction);
+  SbSpeedStates **table = &run->speeds[seal][chamber][direction];
+  if (*table == NULL && make(run, seal, chamber, direction, NULL, NULL) != SB_OK) {
+    run->out_of_memory = true;
+    *out = *state;
+    return;
+  }
+  sb_speed_state(out, *table, speed);
+}
+
+static double between(double a, double b, double t) {
+  return t <= 0 ? a : t >= 1 ? b : a + t * (b - a);
+}
+
+void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled, int direction,
+                          double speed) {
+  if (filled <= 0 || filled >= 1) {
+    sb_run_state_at(out, run, seal, filled > 0 ? SB_CHAMBER_CLOSED : SB_CHAMBER_AT_REST, direction,
+                    speed);
+    return;
+  }
+  SbSealState full;
+  sb_run_state_at(out, run, seal, SB_CHAMBER_AT_REST, direction, speed);
+  sb_run_state_at(&full, run, seal, SB_CHAMBER_CLOSED, direction, speed);
+  static const size_t straight[] = {offsetof(SbSealState, contact_left),
+                                    offsetof(SbSealState, contact_right),
+                                    offsetof(SbSealState, load),
+                                    offsetof(SbSealState, load_per_length),
+                                    offsetof(SbSealState, load_net),
+                                    offsetof(SbSealState, pressure_peak),
+                                    offsetof(SbSealState, film_min),
+                                    offsetof(SbSealState, film_central),
+                                    offsetof(SbSealState, real_area_share),
+                                    offsetof(SbSealState, boundary_load),
+                                    offsetof(SbSealState, friction_viscous),
+                                    offsetof(SbSealState, layer)};
+  for (size_t i = 0; i < sizeof straight / sizeof straight[0]; i++) {
+    double *a = (double *)((char *)out + straight[i]);
+    *a = between(*a, *(const double *)((const char *)&full + straight[i]), filled);
+  }
+  if (out->touches && full.touches) {
+    const SbSlidingTask task =
+        task_of(run, seal, SB_CHAMBER_AT_REST, direction, fmax(fabs(speed), SB_SPEED_LEAST));
+    SbSlidingTask quiet = task;
+    quiet.warnings = NULL;
+    (void)sb_sliding_refilm(out, &quiet, run->roughness, NULL);
+  }
+  out->touches = out->touches || full.touches;
+}
+
+// Each table that there is.
+static SbSpeedStates *table_at(const SbRun *run, int i) {
+  return (&run->speeds[0][0][0])[i];
+}
+enum { TABLES = SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_REST };
+
+SbStatus sb_run_copy_speeds(SbRun *one, const SbRun *run, SbReport *report) {
+  for (int i = 0; i < TABLES; i++) {
+    const SbSpeedStates *from = table_at(run, i);
+    SbSpeedStates **to = &one->speeds[0][0][0] + i;
+    if (from == NULL) {
+      free(*to);
+      *to = NULL;
+      continue;
+    }
+    *to = *to != NULL ? *to : malloc(sizeof **to);
+    if (*to == NULL) {
+      return sb_fail(report, SB_ERROR_MEMORY, "no memory for states over the speed");
+    }
+    **to = *from;
+    (*to)->solves = 0;
+    (*to)->roughness = one->roughness;
+    (*to)->base = (&one->cycle.state[0][0][0])[i / SB_RUN_REST * SB_RUN_MOTIONS + i % SB_RUN_REST];
+    (*to)->task.memory = one->memory[from->task.seal];
+    (*to)->task.counts = &one->summary.counters;
+    (*to)->task.warnings = &one->summary.warnings;
+  }
+  return SB_OK;
+}
+
+SbStatus sb_run_close_speeds(SbRun *run, SbReport *report) {
+  SbSummary *summary = &run->summary;
+  SbStatus status = run->out_of_memory ? SB_ERROR_MEMORY : SB_OK;
+  for (int i = 0; i < TABLES; i++) {
+    SbSpeedStates *table = table_at(run, i);
+    if (table == NULL) {
+      continue;
+    }
+    status = table->status != SB_OK ? table->status : status;
+    summary->counters.speed_nodes += table->solves;
+    table->solves = 0;
+    if (table->error > 0) {
+      summary->error_film = fmax(summary->error_film, table->error);
+      run->friction_error =
+          fmax(run->friction_error, table->error * sb_sliding_friction(&table->base));
+    }
+  }
+  return status == SB_OK
+             ? SB_OK
+             : sb_fail(report, status, "%s",
+                       status == SB_ERROR_CANCELLED ? "cancelled"
+                                                    : "no memory for states over the speed");
+}
+
+void sb_run_free_speeds(SbRun *run) {
+  for (int i = 0; i < TABLES; i++) {
+    free(table_at(run, i));
+  }
+}

@@ -1,0 +1,212 @@
+// See speed_states.h. The grid of nodes: place 0 is the least speed, GRID places to two decades.
+#include "engine/valve/speed_states.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { LEAST_FILM, CENTRAL_FILM, LAYER, AREA, LOAD, VISCOUS };
+
+// A cell of two decades has GRID places; halved DEPTH times its nodes are still on the grid. Four
+// of them reach from 10 m/s below the least speed.
+enum { DEPTH = 4, GRID = 4 << DEPTH, WIDE = 4 };
+
+static const double decades = 2;
+
+static double speed_of(int place) {
+  return SB_SPEED_MOST * pow(10, decades * ((double)place / GRID - WIDE));
+}
+
+static bool is_coupled(const SbSpeedStates *states) {
+  return states->task.model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+}
+
+static SbSlidingTask task_at(const SbSpeedStates *states, double speed) {
+  SbSlidingTask task = states->task;
+  task.speed = copysign(speed, states->task.speed);
+  task.warnings = NULL;
+  return task;
+}
+
+static void take(double value[SB_SPEED_VALUES], const SbSealState *state) {
+  value[LEAST_FILM] = log(state->film_min);
+  value[CENTRAL_FILM] = log(state->film_central);
+  value[LAYER] = log(state->layer);
+  value[AREA] = state->real_area_share;
+  // Those of a section that bears all.
+  const double borne = state->borne_share > 0 ? state->borne_share : 1;
+  value[LOAD] = state->boundary_load / borne;
+  value[VISCOUS] = log(fmax(state->friction_viscous / borne, 1e-300));
+}
+
+// The state that these values are.
+static void give(SbSealState *out, const SbSpeedStates *states, double speed,
+                 const double value[SB_SPEED_VALUES]) {
+  out->film_min = exp(value[LEAST_FILM]);
+  out->film_central = exp(value[CENTRAL_FILM]);
+  out->layer = exp(value[LAYER]);
+  if (is_coupled(states)) {
+    out->real_area_share = fmin(fmax(value[AREA], 0), 1);
+    out->boundary_load = fmax(value[LOAD], 0);
+    out->friction_viscous = exp(value[VISCOUS]);
+  }
+  const SbSlidingTask task = task_at(states, speed);
+  (void)sb_sliding_refilm(out, &task, states->roughness, NULL);
+}
+
+void sb_speed_states_init(SbSpeedStates *out, const SbSlidingTask *task, const SbSealState *at,
+                          const SbSlidingBody *body) {
+  memset(out, 0, sizeof *out);
+  out->task = *task;
+  out->base = *at;
+  out->roughness = 1;
+  out->power = NAN;
+  out->on_body = body != NULL;
+  if (body != NULL) {
+    out->body = *body;
+  }
+  if (!is_coupled(out) && task->model->film != SB_FILM_REYNOLDS && at->film_central > 0) {
+    SbSealState faster = *at;
+    const SbSlidingTask other = task_at(out, 10 * fabs(task->speed));
+    // With no more than a supply there is no power, but a law all the same.
+    if (sb_sliding_respeed(&faster, &other, NULL, NULL) == SB_OK) {
+      out->power = log10(faster.film_central / at->film_central);
+    }
+  }
+}
+
+// The node at a place, solved if it is not; NULL if there is no room.
+static const SbSpeedNode *node_at(SbSpeedStates *states, int place) {
+  for (size_t i = 0; i < states->nodes; i++) {
+    if (states->node[i].place == place) {
+      return &states->node[i];
+    }
+  }
+  if (states->nodes == SB_SPEED_NODES || states->status != SB_OK) {
+    return NULL;
+  }
+  SbSpeedNode *node = &states->node[states->nodes++];
+  SbSealState state = states->base;
+  const SbSlidingTask task = task_at(states, speed_of(place));
+  SbStatus status = sb_sliding_respeed(&state, &task, states->on_body ? &states->body : NULL, NULL);
+  bool fatal = status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY;
+  states->status = fatal ? status : SB_OK;
+  states->solves++;
+  node->place = place;
+  node->solved = status == SB_OK;
+  take(node->value, &state);
+  return node;
+}
+
+// Value at t of the cell, by the cubic through its nodes at 0, 1/4, 1/2 and 1.
+static void interpolate(double out[SB_SPEED_VALUES], const SbSpeedCell *cell, double t) {
+  const double weight[] = {-8 * (t - 0.25) * (t - 0.5) * (t - 1),
+                           64.0 / 3 * t * (t - 0.5) * (t - 1), -16 * t * (t - 0.25) * (t - 1),
+                           8.0 / 3 * t * (t - 0.25) * (t - 0.5)};
+  for (int k = 0; k < SB_SPEED_VALUES; k++) {
+    out[k] = 0;
+    for (int i = 0; i < 4; i++) {
+      out[k] += weight[i] * cell->value[i][k];
+    }
+  }
+}
+
+// How far the parabola through the ends and the middle misses the quarter: films and friction,
+// relative.
+static double miss_of(const SbSpeedStates *states, const SbSpeedCell *cell) {
+  const int place = cell->place + cell->width / 4;
+  double guess[SB_SPEED_VALUES];
+  for (int k = 0; k < SB_SPEED_VALUES; k++) {
+    guess[k] = 0.375 * cell->value[0][k] + 0.75 * cell->value[2][k] - 0.125 * cell->value[3][k];
+  }
+  SbSealState solved = states->base, guessed = states->base;
+  give(&solved, states, speed_of(place), cell->value[1]);
+  give(&guessed, states, speed_of(place), guess);
+  const double friction = sb_sliding_friction(&solved);
+  double miss = fmax(fabs(guessed.film_min / solved.film_min - 1),
+                     fabs(guessed.film_central / solved.film_central - 1));
+  miss = fmax(miss, fabs(guessed.real_area_share - solved.real_area_share) *
+                        states->task.model->shear_strength / friction *
+                        (solved.contact_right - solved.contact_left) *
+                        states->task.model->bore_circumference);
+  return fmax(miss, fabs(sb_sliding_friction(&guessed) / friction - 1));
+}
+
+// The cell that holds a place, made if there is none; NULL if there is no room.
+static const SbSpeedCell *cell_at(SbSpeedStates *states, double place) {
+  for (size_t i = 0; i < states->cells; i++) {
+    const SbSpeedCell *cell = &states->cell[i];
+    if (place >= cell->place && place <= cell->place + cell->width) {
+      return cell;
+    }
+  }
+  if (states->cells == SB_SPEED_CELLS) {
+    return NULL;
+  }
+  SbSpeedCell cell = {.width = states->near ? GRID / 4 : GRID};
+  cell.place =
+      cell.width * (int)fmin(fmax(floor(place / cell.width), 0), WIDE * GRID / cell.width - 1);
+  double miss = 0;
+  for (;;) {
+    const int at[] = {cell.place, cell.place + cell.width / 4, cell.place + cell.width / 2,
+                      cell.place + cell.width};
+    cell.usable = true;
+    for (int i = 0; i < 4 && cell.usable; i++) {
+      const SbSpeedNode *node = node_at(states, at[i]);
+      cell.usable = node != NULL && node->solved;
+      if (cell.usable) {
+        memcpy(cell.value[i], node->value, sizeof node->value);
+      }
+    }
+    miss = cell.usable ? miss_of(states, &cell) : NAN;
+    if (miss <= SB_SPEED_TOLERANCE || cell.width == 4 || states->status != SB_OK) {
+      break;
+    }
+    cell.width /= 2;
+    cell.place += place >= cell.place + cell.width ? cell.width : 0;
+  }
+  if (cell.usable) {
+    states->error = fmax(states->error, miss);
+  } else if (states->status == SB_OK) {
+    sb_warn(states->task.warnings, "film-speed", "models.film",
+            "no film of the %s seal about %.3g mm/s: it follows the power 0.6 of the speed from "
+            "that at %.3g mm/s",
+            sb_seal_name(states->task.seal), 1e3 * speed_of(cell.place + cell.width / 2),
+            1e3 * fabs(states->task.speed));
+  }
+  states->cell[states->cells] = cell;
+  return &states->cell[states->cells++];
+}
+
+void sb_speed_state(SbSealState *out, SbSpeedStates *states, double speed) {
+  const double reference = fabs(states->task.speed);
+  *out = states->base;
+  speed = fmax(fabs(speed), SB_SPEED_LEAST);
+  if (speed == reference || !out->touches || !(out->film_central > 0)) {
+    return;
+  }
+  double value[SB_SPEED_VALUES];
+  const bool law = !isnan(states->power);
+  if (law && states->task.supply.limited) {
+    const SbSlidingTask task = task_at(states, speed);
+    (void)sb_sliding_respeed(out, &task, NULL, NULL);
+    (void)sb_sliding_refilm(out, &task, states->roughness, NULL);
+    return;
+  }
+  const SbSpeedCell *cell = NULL;
+  double place = 0;
+  if (!law) {
+    speed = fmin(speed, SB_SPEED_MOST);
+    place = GRID * (WIDE + log10(speed / SB_SPEED_MOST) / decades);
+    cell = cell_at(states, place);
+  }
+  if (cell != NULL && cell->usable) {
+    interpolate(value, cell, (place - cell->place) / cell->width);
+  } else {
+    take(value, out);
+    const double faster = (law ? states->power : 0.6) * log(speed / reference);
+    value[LEAST_FILM] += faster;
+    value[CENTRAL_FILM] += faster;
+    value[LAYER] += faster;
+  }
+  give(out, states, speed, value);
+}
