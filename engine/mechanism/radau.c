@@ -92,6 +92,10 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
   step->h = h;
   memcpy(step->z0, z, s->n * sizeof *z);
   double previous = INFINITY;
+  bool noisy = false; // as far as the system knows
+  for (size_t i = 0; i < s->n; i++) {
+    noisy = noisy || s->noise[i] > 0.0;
+  }
   for (int iteration = 0; iteration < 12; iteration++) {
     double residual[UNKNOWNS];
     for (size_t a = 0; a < S; a++) {
@@ -123,7 +127,7 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
     }
     // The iteration contracts steadily: the next update would be smaller by as much as this one.
     double left = iteration > 0 ? size * (size / previous) : size;
-    bool floor = iteration > 1 && size < stalled && size > 0.8 * previous;
+    bool floor = noisy && iteration > 1 && size < stalled && size > 0.8 * previous;
     if ((wanted ? size : left) < enough || rounding || floor) {
       for (size_t i = 0; i < s->n; i++) {
         step->z1[i] = z[i];
