@@ -200,7 +200,10 @@ typedef struct {
   double t, x, stretch, piece;  // s, m; stretch of the drive's spring [m]; start of its piece [s]
   double extra, period, change; // the caller's; since the break-away before [s], 0: not known; its
                                 // change since the one before
-  double passed, rate[SB_DYNAMICS_TERMS]; // way passed over from there on [m], energies per way
+  // Way last passed over [m], energies per way of the cycle before it and of the last cycle, and
+  // cycles since then.
+  double passed, rate[SB_DYNAMICS_TERMS], last[SB_DYNAMICS_TERMS];
+  long cycles;
   SbDynamicsEnergy energy;
 } SbDynamicsBreak;
 

@@ -259,7 +259,7 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
       break;
     }
     // A step that is long against the relaxation damps that rounding, too.
-    double damped = fmax(1.0, h * quickest);
+    double damped = fmax(1.0, 0.1 * h * quickest);
     if (!s->held) {
       s->system.noise[0] = 8.0 * speed / damped;
       s->system.noise[1] = 8.0 * noise / damped;
@@ -525,11 +525,15 @@ double sb_motion_force_peak(const SbDynamics *s, double known) {
 // reached. Leaves out: elastic contacts (their patches take turns).
 
 // Cycles that are worth passing over: fewer are stepped through, and told to the listener.
-static const double worth = 10.0;
+// So many where they differ: what a cycle is long then matters little beside the way.
+static const double worth = 10.0, worth_differing = 200.0;
 
 // Cycles that differ are passed over as far as their period changes by this share, and never more
 // of the way ahead than that.
 static const double period_change = 0.002, way_share = 1.0 / 128.0;
+
+// Least share of the period at rest.
+static const double least_rest = 0.1;
 
 // Break-aways since `was` that can be told ahead: a slip and a rest of all contacts, nothing else.
 static bool comparable(const SbDynamics *s, const SbDynamicsBreak *was) {
@@ -637,24 +641,34 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
   double tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9;
   bool steady =
       fabs(s->broke.change - was.change) <= 0.2 * fabs(s->broke.change) + 10.0 * tolerance * period;
-  if (steady) {
-    // What the cycles passed over before the last gained, by the mean of both ends.
-    for (int i = 0; i < SB_DYNAMICS_TERMS && was.passed > 0.0; i++) {
-      s->energy.term[i] += was.passed * 0.5 * (rate[i] - was.rate[i]);
+  // Those that hardly rest may be the last: further on the stem may slide without.
+  for (size_t i = 0; i < m->contacts; i++) {
+    steady = steady && (s->state[i] == SB_CONTACT_OFF || s->t - s->since[i] > least_rest * period);
+  }
+  s->broke.cycles = was.cycles + 1;
+  memcpy(s->broke.last, rate, sizeof rate);
+  if (steady && was.passed > 0.0) {
+    // What the cycles passed over gained, by the mean of the one before them and the one behind.
+    // That is told from the two last ones: the first behind them may have swung in.
+    double back = (double)s->broke.cycles - 1.0;
+    for (int i = 0; i < SB_DYNAMICS_TERMS; i++) {
+      double behind = rate[i] - back * (rate[i] - was.last[i]);
+      s->energy.term[i] += was.passed * 0.5 * (behind - was.rate[i]);
     }
     s->broke.energy = s->energy;
-  } else {
+  } else if (!steady) {
     s->broke.passed = was.passed;
     memcpy(s->broke.rate, was.rate, sizeof was.rate);
   }
   bool same = fabs(s->broke.stretch - was.stretch) <= 1e-9 * fabs(was.stretch) + noise;
+  bool alike = s->loads.constant; // cycles become equal after a few
   for (size_t i = 0; i < m->contacts; i++) {
-    same = same && (s->state[i] == SB_CONTACT_OFF || !sb_motion_speed_dependent(m, i));
+    alike = alike && (s->state[i] == SB_CONTACT_OFF || !sb_motion_speed_dependent(m, i));
   }
   double until = fmin(s->asked, s->piece.until), times = fmin((until - s->t) / period, way / step);
   times = floor(times) - 2.0;
-  if (same && s->loads.constant) {
-    if (times >= worth && isfinite(times)) {
+  if (alike) {
+    if (same && times >= worth && isfinite(times)) {
       double t = s->t + times * period;
       pass_over(s, t, s->at.x + (sb_motion_drive_at(s, t).value - y), rate);
       s->counters.repeated += (long)fmin(times, 1e15);
@@ -669,7 +683,7 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
     double ahead = floor(fmin(times - 4.0, most)); // room to find the rates behind them
     double x = s->at.x + direction * ahead * step;
     double longer = 1.0 + ahead * s->broke.change / period;
-    double t = steady && ahead >= worth ? breaks_at(s, x, longer) : 0.0;
+    double t = steady && ahead >= worth_differing ? breaks_at(s, x, longer) : 0.0;
     if (t > s->t && t < until - 2.0 * period) {
       for (size_t i = 0; i < m->contacts; i++) {
         s->since[i] = s->t - longer * (s->t - s->since[i]);
@@ -679,6 +693,7 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
       memcpy(s->broke.rate, rate, sizeof rate);
       s->broke.period = 0.0;
       s->broke.change = INFINITY;
+      s->broke.cycles = 0;
       s->counters.repeated += (long)fmin(ahead, 1e15);
       return SB_OK;
     }

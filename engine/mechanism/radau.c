@@ -20,8 +20,9 @@ static const double butcher[S][S] = {
     {(16.0 - ROOT6) / 36.0, (16.0 + ROOT6) / 36.0, 1.0 / 9.0},
 };
 
-// Newton's iteration ends below this share of the tolerance.
-static const double enough = 1e-3;
+// Newton's iteration ends below this share of the tolerance, or below that one once its updates no
+// longer shrink: what is left is rounding, of whatever size the rates make of it.
+static const double enough = 1e-3, stalled = 0.1;
 
 // Factors of a step's equations.
 typedef struct {
@@ -91,6 +92,10 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
   step->h = h;
   memcpy(step->z0, z, s->n * sizeof *z);
   double previous = INFINITY;
+  bool noisy = false; // as far as the system knows
+  for (size_t i = 0; i < s->n; i++) {
+    noisy = noisy || s->noise[i] > 0.0;
+  }
   for (int iteration = 0; iteration < 12; iteration++) {
     double residual[UNKNOWNS];
     for (size_t a = 0; a < S; a++) {
@@ -122,7 +127,8 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
     }
     // The iteration contracts steadily: the next update would be smaller by as much as this one.
     double left = iteration > 0 ? size * (size / previous) : size;
-    if ((wanted ? size : left) < enough || rounding) {
+    bool floor = noisy && iteration > 1 && size < stalled && size > 0.8 * previous;
+    if ((wanted ? size : left) < enough || rounding || floor) {
       for (size_t i = 0; i < s->n; i++) {
         step->z1[i] = z[i];
         for (size_t b = 0; b < S; b++) {

@@ -365,11 +365,11 @@ static void test_stiff(void) {
     setting[2].value = ports ? SB_MAP_PORTS : SB_MAP_CHAMBER_FILLED;
     SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, setting, G_N_ELEMENTS(setting));
     const SbSummary *summary = sb_run_summary(run), *quasi = sb_run_summary(slow);
-    g_assert_cmpuint(summary->steps, <, 100000);
+    g_assert_cmpuint(summary->steps, <, 1000000);
     assert_near(summary->force_breakaway, quasi->force_breakaway, 0.01);
-    // Viscous friction at the speed of slips counts here.
-    assert_near(summary->force_return_min, quasi->force_return_min, 0.03);
-    assert_near(summary->energy.loop, quasi->energy.loop, 2e-3 * quasi->energy.loop);
+    // Friction at the speed of slips counts here.
+    assert_near(summary->force_return_min, quasi->force_return_min, 0.05);
+    assert_near(summary->energy.loop, quasi->energy.loop, 1e-2 * quasi->energy.loop);
     sb_run_destroy(run);
   }
   sb_run_destroy(slow);

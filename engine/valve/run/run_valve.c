@@ -338,7 +338,9 @@ static SbStatus valve_mass(double *mass, double x, double v, void *user, SbRepor
   return sb_run_bodies_move(mass, valve->run, x, v, report);
 }
 
-// The law of a contact that ages, over its sliding level.
+// The law of a contact that ages, over its level. A stem comes to rest through steady states of
+// ever lower speed, the last of which has no film left: the contact holds no less than the dry
+// level.
 static SbStatus set_rest(SbRun *run, int seal, SbChamber chamber, SbReport *report) {
   const SbSealState *state = &run->cycle.state[seal][chamber][passing(chamber)];
   const double level = state->rest_area + state->rest_load;
@@ -347,8 +349,15 @@ static SbStatus set_rest(SbRun *run, int seal, SbChamber chamber, SbReport *repo
   SbStatus status = sb_breakaway_law(law, &squeeze_time, run->model, seal, state, report);
   for (size_t i = 0; i < law->count; i++) {
     SbDwellPiece *piece = &law->piece[i];
+    const SbDwellPiece *next = piece + 1;
     piece->value = level > 0 ? piece->value / level : 1;
     piece->gain = level > 0 ? piece->gain / level : 0;
+    if (piece->value < 1) {
+      // Straight to where the next piece is above.
+      double end = i + 1 < law->count && level > 0 ? fmax(1, next->value / level) : 1;
+      piece->value = 1;
+      piece->gain = end > 1 ? (end - 1) / log1p((next->from - piece->from) / piece->time) : 0;
+    }
   }
   return status;
 }
