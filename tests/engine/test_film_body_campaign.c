@@ -101,10 +101,10 @@ static void test_bodies(void) {
       SbCounters counts = {0};
       SbWarnings warnings = {0};
       SbReport report = {0};
-      SbStatus status = sb_sliding_solve(&state,
-                                         &(SbSlidingTask){&model, SB_OUTER, pressure, speed,
-                                                          model.speed, memory, &counts, &warnings},
-                                         &report);
+      SbStatus status = sb_sliding_solve(
+          &state,
+          &(SbSlidingTask){&model, SB_OUTER, pressure, speed, memory, &counts, &warnings, {0}},
+          &report);
       const SbWarning *plane = find(&warnings, "film-half-plane");
       if (status != SB_OK || plane != NULL) {
         g_test_message("%d %s p/E %.3f squeeze %.3f nu %.4f speed %.3g coupled %d: status %d %s%s; "
