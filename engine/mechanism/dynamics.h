@@ -168,7 +168,7 @@ typedef struct {
 
 typedef struct {
   long events, segments, steps, rejected, newton_iterations;
-  long repeated;      // cycles of stick-slip that were not stepped through: like the one before
+  long repeated;      // cycles of stick-slip that were not stepped through: equal to the one before
   double local_error; // sum of the numerical path's local errors of position, over |x| + 1 mm
 } SbDynamicsCounters;
 
@@ -197,13 +197,9 @@ typedef struct {
   int direction; // 0: not yet
   size_t region;
   long events, segments;
-  double t, x, stretch, piece;  // s, m; stretch of the drive's spring [m]; start of its piece [s]
-  double extra, period, change; // the caller's; since the break-away before [s], 0: not known; its
-                                // change since the one before
-  // Way last passed over [m], energies per way of the cycle before it and of the last cycle, and
-  // cycles since then.
-  double passed, rate[SB_DYNAMICS_TERMS], last[SB_DYNAMICS_TERMS];
-  long cycles;
+  double t, x, stretch, piece; // s, m; stretch of the drive's spring [m]; start of its piece [s]
+  double extra;                // the caller's
+  long cycles;                 // in a row that could have been equal
   SbDynamicsEnergy energy;
 } SbDynamicsBreak;
 

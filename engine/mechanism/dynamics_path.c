@@ -512,28 +512,19 @@ double sb_motion_force_peak(const SbDynamics *s, double known) {
 // ---- stick-slip that repeats itself ----
 
 // When rigid contacts break away the stem rests and the drive's spring holds what they bear: where
-// the drive's speed is constant the place tells all of the state, and what happens up to the next
-// break-away is a function of it. A stiff machine has millions of such cycles. They are not stepped
-// through. Where two in a row are equal, under loads that are constant, so are all that follow:
-// time goes on by a whole number of periods, the stem by as much as the drive, every energy by as
-// many times what it gained in one period, exactly. Where they differ by little, for loads change
-// with the place or friction with the speed, the stem goes on over many of them to the break-away
-// at another place, found by the balance of forces there; every energy gains what a cycle before
-// and a cycle behind do on average, per way (trapezoids, over ways short enough). Never past a time
-// that was asked for, an edge, a stop or the drive's next piece. Cycles that do neither must be
-// stepped; more of them than the limits allow are refused when they begin, not when the limit is
-// reached. Leaves out: elastic contacts (their patches take turns).
+// loads and drive's speed are constant, equal forces at two break-aways in a row make equal cycles
+// for ever. A stiff machine has millions of them. They are not stepped through: time goes on by a
+// whole number of periods T, the stem by as much as the drive, every energy by as many times what
+// it gained in one period. Exact, and never past a time that was asked for, an edge, a stop or the
+// drive's next piece. Where loads change with the place cycles differ, and must be stepped; more of
+// them than the limits allow are refused when they begin, not when the limit is reached. Leaves
+// out: elastic contacts (their patches take turns).
 
 // Cycles that are worth passing over: fewer are stepped through, and told to the listener.
-// So many where they differ: what a cycle is long then matters little beside the way.
-static const double worth = 10.0, worth_differing = 200.0;
+static const double worth = 10.0;
 
-// Cycles that differ are passed over as far as their period changes by this share, and never more
-// of the way ahead than that.
-static const double period_change = 0.002, way_share = 1.0 / 128.0;
-
-// Least share of the period at rest.
-static const double least_rest = 0.1;
+// Cycles that may differ under constant loads: what holds by the rest before settles in a few.
+static const long patience = 100;
 
 // Break-aways since `was` that can be told ahead: a slip and a rest of all contacts, nothing else.
 static bool comparable(const SbDynamics *s, const SbDynamicsBreak *was) {
@@ -575,44 +566,6 @@ static double way_ahead(const SbDynamics *s) {
   return way;
 }
 
-// Time at which the drive breaks the stem away at x as it did now, with contacts that have rested
-// by a factor `longer`; the present one if it does not.
-static double breaks_at(const SbDynamics *s, double x, double longer) {
-  SbDynamicsState z = s->at;
-  Point p;
-  double holds = 0.0;
-  z.x = x;
-  z.v = 0.0;
-  sb_motion_point(&p, s, s->t, &z);
-  for (size_t i = 0; i < s->model->contacts; i++) {
-    bool rubs = s->state[i] != SB_CONTACT_OFF;
-    p.t = s->since[i] + longer * (s->t - s->since[i]);
-    holds += rubs ? sb_motion_holding(s, &p, i, s->broke.direction) : 0.0;
-  }
-  return s->t + fmax(0.0, (s->broke.direction * holds - (p.sum.f0 - p.rigid)) / p.sum.f1);
-}
-
-// The stem and all else go on to the break-away at x and t; energies per way at `rate`.
-static void pass_over(SbDynamics *s, double t, double x, const double *rate) {
-  // A stop's damper takes what it does in time, and is no part of a cycle.
-  double stop = s->energy.stop, way = fabs(x - s->at.x), passed = t - s->t;
-  for (size_t i = 0; i < s->model->stops; i++) {
-    stop += sb_motion_relaxed(s, i, s->t, t);
-  }
-  for (int i = 0; i < SB_DYNAMICS_TERMS; i++) {
-    s->energy.term[i] += way * rate[i];
-  }
-  s->energy.stop = stop;
-  for (size_t i = 0; i < s->model->contacts; i++) {
-    s->since[i] += passed;
-  }
-  s->t = t;
-  s->at.x = x;
-  s->broke.t = t;
-  s->broke.x = x;
-  s->broke.energy = s->energy;
-}
-
 SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
   const SbDynamicsModel *m = s->model;
   double y = sb_motion_drive_at(s, s->t).value;
@@ -631,85 +584,52 @@ SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report) {
     return SB_OK;
   }
   double period = s->t - was.t, step = fabs(s->at.x - was.x), way = way_ahead(s);
-  double noise = 4e-16 * (fabs(y) + fabs(s->at.x)), rate[SB_DYNAMICS_TERMS];
-  for (int i = 0; i < SB_DYNAMICS_TERMS; i++) {
-    rate[i] = (s->energy.term[i] - was.energy.term[i]) / step;
-  }
-  s->broke.period = period;
-  s->broke.change = was.period > 0.0 ? period - was.period : INFINITY;
-  // Cycles follow the place once the change from one to the next is steady.
-  double tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9;
-  bool steady =
-      fabs(s->broke.change - was.change) <= 0.2 * fabs(s->broke.change) + 10.0 * tolerance * period;
-  // Those that hardly rest may be the last: further on the stem may slide without.
-  for (size_t i = 0; i < m->contacts; i++) {
-    steady = steady && (s->state[i] == SB_CONTACT_OFF || s->t - s->since[i] > least_rest * period);
-  }
-  s->broke.cycles = was.cycles + 1;
-  memcpy(s->broke.last, rate, sizeof rate);
-  if (steady && was.passed > 0.0) {
-    // What the cycles passed over gained, by the mean of the one before them and the one behind.
-    // That is told from the two last ones: the first behind them may have swung in.
-    double back = (double)s->broke.cycles - 1.0;
-    for (int i = 0; i < SB_DYNAMICS_TERMS; i++) {
-      double behind = rate[i] - back * (rate[i] - was.last[i]);
-      s->energy.term[i] += was.passed * 0.5 * (behind - was.rate[i]);
-    }
-    s->broke.energy = s->energy;
-  } else if (!steady) {
-    s->broke.passed = was.passed;
-    memcpy(s->broke.rate, was.rate, sizeof was.rate);
-  }
+  double noise = 4e-16 * (fabs(y) + fabs(s->at.x));
   bool same = fabs(s->broke.stretch - was.stretch) <= 1e-9 * fabs(was.stretch) + noise;
-  bool alike = s->loads.constant; // cycles become equal after a few
+  bool alike = s->loads.constant; // cycles become equal after a few, if at all
   for (size_t i = 0; i < m->contacts; i++) {
     alike = alike && (s->state[i] == SB_CONTACT_OFF || !sb_motion_speed_dependent(m, i));
   }
-  double until = fmin(s->asked, s->piece.until), times = fmin((until - s->t) / period, way / step);
-  times = floor(times) - 2.0;
-  if (alike) {
-    if (same && times >= worth && isfinite(times)) {
-      double t = s->t + times * period;
-      pass_over(s, t, s->at.x + (sb_motion_drive_at(s, t).value - y), rate);
-      s->counters.repeated += (long)fmin(times, 1e15);
+  s->broke.cycles = was.cycles + 1;
+  if (alike && !same && s->broke.cycles < patience) {
+    return SB_OK;
+  }
+  if (alike && same) {
+    double ahead = fmin((fmin(s->asked, s->piece.until) - s->t) / period, way / step);
+    double times = floor(ahead) - 2.0;
+    if (!(times >= worth) || !isfinite(times)) {
+      return SB_OK;
     }
+    double before = s->t;
+    s->t += times * period;
+    s->at.x += sb_motion_drive_at(s, s->t).value - y;
+    // A stop's fades, and is no part of a cycle.
+    double stop = s->energy.stop;
+    for (size_t i = 0; i < m->stops; i++) {
+      stop += sb_motion_relaxed(s, i, before, s->t);
+    }
+    for (int i = 0; i < SB_DYNAMICS_TERMS; i++) {
+      s->energy.term[i] += times * (s->energy.term[i] - was.energy.term[i]);
+    }
+    s->energy.stop = stop;
+    for (size_t i = 0; i < m->contacts; i++) {
+      s->since[i] += s->t - before;
+    }
+    s->broke.t = s->t;
+    s->broke.x = s->at.x;
+    s->broke.energy = s->energy;
+    s->counters.repeated += (long)fmin(times, 1e15);
     return SB_OK;
   }
   double cycles = fmin((s->piece.until - s->t) / period, way / step);
-  if (was.period > 0.0) {
-    // The period of the cycle before the last is known as well.
-    double change = fabs(s->broke.change) / period;
-    double most = fmin(period_change / fmax(change, DBL_EPSILON), way_share * cycles);
-    double ahead = floor(fmin(times - 4.0, most)); // room to find the rates behind them
-    double x = s->at.x + direction * ahead * step;
-    double longer = 1.0 + ahead * s->broke.change / period;
-    double t = steady && ahead >= worth_differing ? breaks_at(s, x, longer) : 0.0;
-    if (t > s->t && t < until - 2.0 * period) {
-      for (size_t i = 0; i < m->contacts; i++) {
-        s->since[i] = s->t - longer * (s->t - s->since[i]);
-      }
-      pass_over(s, t, x, rate);
-      s->broke.passed = ahead * step;
-      memcpy(s->broke.rate, rate, sizeof rate);
-      s->broke.period = 0.0;
-      s->broke.change = INFINITY;
-      s->broke.cycles = 0;
-      s->counters.repeated += (long)fmin(ahead, 1e15);
-      return SB_OK;
-    }
-    if (change <= period_change) {
-      return SB_OK;
-    }
-  }
   double steps = cycles * (double)(s->counters.segments - was.segments);
-  if (was.period > 0.0 && isfinite(cycles) &&
-      (2.0 * cycles > (double)(EVENTS_MAX - s->counters.events) ||
-       steps > (double)(4 * EVENTS_MAX - s->counters.segments))) {
+  if (isfinite(cycles) && (2.0 * cycles > (double)(EVENTS_MAX - s->counters.events) ||
+                           steps > (double)(4 * EVENTS_MAX - s->counters.segments))) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED,
                    "stick-slip at %.9g s: about %.2g slips, one every %.2g s, lie ahead where "
-                   "friction changes with the place, too many to step through; a softer or a "
+                   "friction changes with the %s, too many to step through; a softer or a "
                    "damped machine (drive.stiffness, drive.damping_ratio) slips less often",
-                   s->t, cycles, period);
+                   s->t, cycles, period, s->loads.constant ? "rest or the speed" : "place");
   }
   return SB_OK;
 }

@@ -352,27 +352,53 @@ static void test_own_speed(void) {
   sb_run_destroy(b);
 }
 
-// A machine of 1e10 N/m and a stem of a microgram slip millions of times, over the land's edge too:
-// few of them are stepped through, and the forces are the quasi-static ones.
+// A machine of 1e10 N/m and a stem of a microgram: critically damped it does not slip, few steps
+// lead it over the land's edge, and the forces are the quasi-static ones. Hardly damped it slips
+// millions of times, over the edge each in another way: refused when that begins.
 static void test_stiff(void) {
-  const Setting stiff[] = {{SB_P_DRIVE_STIFFNESS, 1e10},
-                           {SB_P_STEM_MASS, 1e-9},
-                           {SB_P_CANISTER_PRESSURE_MAP, SB_MAP_CHAMBER_FILLED}};
+  Setting stiff[] = {{SB_P_DRIVE_STIFFNESS, 1e10},
+                     {SB_P_STEM_MASS, 1e-9},
+                     {SB_P_DRIVE_DAMPING_RATIO, 1},
+                     {SB_P_CANISTER_PRESSURE_MAP, SB_MAP_CHAMBER_FILLED}};
   SbRun *slow = run_with(SB_MODEL_MOTION_QUASI_STATIC, stiff, G_N_ELEMENTS(stiff));
   for (int ports = 0; ports < 2; ports++) {
-    Setting setting[G_N_ELEMENTS(stiff)];
-    memcpy(setting, stiff, sizeof stiff);
-    setting[2].value = ports ? SB_MAP_PORTS : SB_MAP_CHAMBER_FILLED;
-    SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, setting, G_N_ELEMENTS(setting));
+    stiff[3].value = ports ? SB_MAP_PORTS : SB_MAP_CHAMBER_FILLED;
+    SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, stiff, G_N_ELEMENTS(stiff));
     const SbSummary *summary = sb_run_summary(run), *quasi = sb_run_summary(slow);
-    g_assert_cmpuint(summary->steps, <, 3000000); // stepping through takes fifty million
+    g_test_message("%zu steps, closure %.1e, break-away %.3g N, return %.3g N, loop %.2g off",
+                   summary->steps, summary->energy.closure,
+                   summary->force_breakaway - quasi->force_breakaway,
+                   summary->force_return_min - quasi->force_return_min,
+                   summary->energy.loop / quasi->energy.loop - 1);
+    g_assert_cmpuint(summary->steps, <, 100000);
     assert_near(summary->force_breakaway, quasi->force_breakaway, 0.01);
-    // Friction at the speed of slips counts here.
-    assert_near(summary->force_return_min, quasi->force_return_min, 0.05);
-    assert_near(summary->energy.loop, quasi->energy.loop, 1e-2 * quasi->energy.loop);
+    assert_near(summary->force_return_min, quasi->force_return_min, 0.01);
+    // Ports fill and vent the chamber on the way; the quasi-static one is filled throughout.
+    assert_near(summary->energy.loop, quasi->energy.loop,
+                (ports ? 1e-2 : 2e-3) * quasi->energy.loop);
     sb_run_destroy(run);
   }
   sb_run_destroy(slow);
+
+  SbParams params;
+  SbModel model;
+  SbProblems problems;
+  SbPlan plan;
+  SbRun *run = NULL;
+  SbReport report = {0};
+  sb_params_init(&params);
+  const Setting slips[] = {{SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC}, stiff[0], stiff[1]};
+  for (size_t i = 0; i < G_N_ELEMENTS(slips); i++) {
+    g_assert_cmpint(sb_params_set(&params, (SbParamId)slips[i].id, slips[i].value, &report), ==,
+                    SB_OK);
+  }
+  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_OK);
+  sb_plan_make(&plan, &model);
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_ERROR_NOT_CONVERGED);
+  g_assert_nonnull(strstr(report.text, "stick-slip at"));
+  g_assert_cmpuint(sb_run_summary(run)->steps, <, 20000);
+  sb_run_destroy(run);
 }
 
 int main(int argc, char **argv) {
