@@ -2,6 +2,7 @@
 // joints that leave too much or too little.
 #include "tests/engine/motion_run.h"
 
+#include <float.h>
 #include <string.h>
 
 // The thesis cycle by the constrained parts is that of the reduced form; each joint bears what lies
@@ -14,10 +15,17 @@ static void test_bodies(void) {
   const SbFrame *a = sb_run_frames(reduced, &count);
   const SbFrame *b = sb_run_frames(full_form, &other);
   g_assert_cmpuint(count, ==, other);
+  const SbModel *model = sb_run_model(reduced);
   double worst = 0;
   for (size_t i = 0; i < count; i++) {
-    worst = fmax(worst, fabs(a[i].displacement - b[i].displacement) / 6.6e-3);
-    worst = fmax(worst, fabs(a[i].force - b[i].force) / 35);
+    // The masses differ in their last digit, and each step rounds the time of its end: a frame in
+    // the midst of a slip sees another part of it, as much as the stem goes in that time.
+    double late = (double)sb_run_summary(reduced)->steps * DBL_EPSILON * a[i].time;
+    double way = fabs(a[i].velocity) * late;
+    double off = fabs(a[i].displacement - b[i].displacement) - way;
+    worst = fmax(worst, off / 6.6e-3);
+    off = fabs(a[i].force - b[i].force) - model->stiffness * way;
+    worst = fmax(worst, off / 35);
   }
   g_test_message("bodies against one coordinate: %.2g", worst);
   g_assert_cmpfloat(worst, <, 1e-9);
