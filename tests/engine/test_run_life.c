@@ -149,12 +149,14 @@ static void test_cancel(void) {
   sb_run_destroy(run);
 }
 
-// Stick-slip between frames does not hide the film that a stroke drags.
+// Stick-slip between frames does not hide the film that a stroke drags. In a machine of ten times
+// the stiffness: as friction changes on the way the spring of a soft one lets the stem go a percent
+// faster in, and slower back, than the platen, and the net leak is a quarter of what goes out.
 static void test_leakage_of_motion(void) {
-  const Change film[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS}};
-  const Change inertia[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
-                            {SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC}};
-  SbRun *slow = run_with(film, 1), *fast = run_with(inertia, 2);
+  const Change settings[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
+                             {SB_P_DRIVE_STIFFNESS, 1e6},
+                             {SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC}};
+  SbRun *slow = run_with(settings, 2), *fast = run_with(settings, 3);
   double a = sb_run_summary(slow)->leakage_per_cycle, b = sb_run_summary(fast)->leakage_per_cycle;
   g_test_message("quasi-static %.4g m3, with inertia %.4g m3", a, b);
   ASSERT_NEAR(b / a, 1, 0.02);
