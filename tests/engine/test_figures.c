@@ -264,11 +264,9 @@ static void test_one_way(void) {
 
 // A solver that fails names itself and its place; nothing after it is computed, least of all 0.
 static void test_failure(void) {
-  // A disc squeezed by 48 % has no state under this pressure.
+  // A disc has no state under nearly seven times its modulus.
   const Setting changes[] = {
-      {SB_P_MODELS_FIT, SB_FIT_DISC},     {SB_P_SEAL_MODULUS, 1e6},
-      {SB_P_CANISTER_PRESSURE, 0.49e6},   {SB_P_SEAL_SECTION_DIAMETER, 2.6e-3},
-      {SB_P_SEAL_INNER_DIAMETER, 2.2e-3}, {SB_P_GLAND_AXIAL_WIDTH, 8e-3}};
+      {SB_P_MODELS_FIT, SB_FIT_DISC}, {SB_P_SEAL_MODULUS, 0.3e6}, {SB_P_CANISTER_PRESSURE, 2e6}};
   SbModel model;
   compile(&model, changes, G_N_ELEMENTS(changes));
   SbReport report = {0};
