@@ -66,8 +66,10 @@ typedef struct {
   // floor and walls, from where it lies before.
   bool dragged;
   double drag, floor_friction, wall_friction; // [-]
-  bool start_at_wall;                         // else in the middle
-  bool surface_wanted;                        // by the film: gives `surface` too
+  SbRingShear shear;      // of the bore; |drag| is then the share of this law. NULL: Coulomb
+  const void *law;        // its data, borrowed
+  bool start_at_wall;     // else in the middle
+  bool surface_wanted;    // by the film: gives `surface` too
   bool (*cancel)(void *); // polled by models that can last; true stops. May be NULL
   void *cancel_data;
 } SbFitProblem;

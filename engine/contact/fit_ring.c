@@ -36,6 +36,8 @@ void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem 
     load->wall_right = 0.5 * in->gland_width;
     load->bore_slides = drag_direction(in);
     load->friction_bore = fabs(in->drag);
+    load->shear = in->shear;
+    load->law = in->law;
     load->friction_floor = in->floor_friction;
     load->friction_wall = in->wall_friction;
     load->rests_on_wall = in->start_at_wall;

@@ -18,6 +18,10 @@ static const double WIDE = 0.3, NARROW_LEAST = 0.12;
 // Share of the greatest friction of steady sliding at which a ring that rolls or jams is shown.
 static const double SHOWN = 0.995;
 
+// How far the contact's ends may move, over the elements' size, before a sliding ring's mesh is
+// fitted anew: their short elements end there.
+static const double OUTGROWN = 0.1;
+
 // Largest change of the friction by another mesh at a held turn.
 static const double SAME_STATE = 0.05;
 
@@ -45,7 +49,7 @@ static SbStatus check_load(const SbRingBody *body, const SbRingLoad *load, SbRep
       {"", "the right wall's place [m]", load->wall_right, -INFINITY, INFINITY},
       {"", "the land's left end [m]", load->land_left, -INFINITY, INFINITY},
       {"", "the land's right end [m]", load->land_right, -INFINITY, INFINITY},
-      {friction, "the coefficient of friction on the bore", load->friction_bore, 0.0, 2.0},
+      {friction, "the friction on the bore, as a share of its law,", load->friction_bore, 0.0, 2.0},
       {friction, "the coefficient of friction on the floor", load->friction_floor, 0.0, 2.0},
       {friction, "the coefficient of friction on the walls", load->friction_wall, 0.0, 2.0},
       {fluid, "the pressure on the ring [Pa]", load->pressure_left, 0.0, 4.0 * body->modulus},
@@ -132,6 +136,7 @@ static SbStatus build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report
     status = sb_ring_contact_create(&ring->contact, ring->fem, report);
   }
   if (status == SB_OK) {
+    ring->contact->stress = ring->stress;
     ring->contact->force_scale = body->plane_strain ? 1.0 : 2.0 * M_PI * ring->centre;
   }
   return status;
@@ -181,11 +186,34 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
   for (size_t i = 0; i < sizeof FINER / sizeof FINER[0] && status == SB_ERROR_NOT_CONVERGED; i++) {
     SbRingMeshPlan plan = first_plan(ring, target, FINER[i] * ring->options.element_size);
     drop(ring);
+    ring->arc.free = false;
+    ring->state = SB_RING_SLIDES;
     status = build(ring, &plan, report);
     if (status == SB_OK) {
       status = assemble_ring(ring, target, report);
     }
   }
+  return status;
+}
+
+// The same; one that is past its greatest friction once more, to just below.
+static SbStatus lay_below_limit(SbRing *ring, SbRingLoad target, SbReport *report) {
+  ring->share_limit = ring->drag_limit = 0.0;
+  SbStatus status = lay_ring(ring, &target, report);
+  if (status != SB_OK || ring->state == SB_RING_SLIDES) {
+    return status;
+  }
+  SbRingState state = ring->state;
+  double limit = ring->share_limit, drag = ring->drag_limit, share = SHOWN;
+  for (int i = 0; i < 3 && status == SB_OK && (i == 0 || ring->state != SB_RING_SLIDES); i++) {
+    target.friction_bore = share * limit;
+    status = lay_ring(ring, &target, report);
+    share *= SHOWN * SHOWN;
+  }
+  ring->state = state;
+  ring->share_limit = limit;
+  ring->drag_limit = drag;
+  sb_ring_hold_turn(ring);
   return status;
 }
 
@@ -215,21 +243,7 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
   ring->force = ring->stress * d * (body->plane_strain ? 1.0 : d);
   ring->centre =
       body->plane_strain ? load->floor_radius / d + 0.5 : 0.5 * (body->inner_diameter + d) / d;
-  SbRingLoad target = sb_ring_load_in(load, ring->length, ring->stress);
-  status = lay_ring(ring, &target, report);
-  if (status == SB_OK && ring->state != SB_RING_SLIDES) {
-    // Past its greatest friction: once more, to just below.
-    SbRingState state = ring->state;
-    double limit = ring->drag_limit, share = SHOWN;
-    for (int i = 0; i < 3 && status == SB_OK && (i == 0 || ring->state != SB_RING_SLIDES); i++) {
-      target.friction_bore = share * limit;
-      status = lay_ring(ring, &target, report);
-      share *= SHOWN * SHOWN;
-    }
-    ring->state = state;
-    ring->drag_limit = limit;
-    sb_ring_hold_turn(ring);
-  }
+  status = lay_below_limit(ring, sb_ring_load_in(load, ring->length, ring->stress), report);
   if (status != SB_OK) {
     sb_ring_destroy(ring);
     return status;
@@ -246,6 +260,50 @@ void sb_ring_destroy(SbRing *ring) {
   }
 }
 
+// Whether the bore contact's ends have left the short elements that its mesh has for them.
+static bool outgrown(const SbRing *ring) {
+  SbRingPatch patch;
+  double moved = 0.0;
+  if (ring->fitted_size > 0.0 && sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+    for (int k = 0; k < 2; k++) {
+      moved = fmax(moved, 0.5 * fabs(patch.angle[k] - ring->fitted_end[k]));
+    }
+  }
+  return moved > OUTGROWN * ring->fitted_size;
+}
+
+// To steady sliding, at once from steady sliding the same way; where that is too far, anew. The
+// ring stays as it is where neither succeeds.
+static SbStatus slide_on(SbRing *ring, const SbRingLoad *target, SbReport *report) {
+  SbRing fresh = *ring;
+  fresh.mesh = NULL;
+  fresh.fem = NULL;
+  fresh.contact = NULL;
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  if (ring->state == SB_RING_SLIDES && ring->contact->is.now.bore_slides == target->bore_slides) {
+    ring->arc.free = false;
+    sb_ring_save(ring->contact, SB_RING_START);
+    ring->contact->is.now = *target;
+    status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+    fresh.count = ring->count;
+  }
+  bool moved = status == SB_OK && outgrown(ring);
+  ring->count.steps += status == SB_OK ? 1 : 0;
+  if (status == SB_ERROR_NOT_CONVERGED) {
+    fresh.count.rejected++;
+    status = lay_below_limit(&fresh, *target, report);
+    if (status == SB_OK) {
+      drop(ring);
+      *ring = fresh;
+    } else {
+      drop(&fresh);
+      sb_ring_contact_settle(ring->contact);
+    }
+    moved = status == SB_OK && ring->fitted_size > 0.0;
+  }
+  return moved ? sb_ring_refit(ring, ring->fitted_size, report) : status;
+}
+
 SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   SbStatus status = check_load(&ring->body, load, report);
   if (status != SB_OK) {
@@ -255,13 +313,15 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   const SbRingLoad *now = &ring->contact->is.now;
   double before = now->pressure_left - now->pressure_right;
   double after = target.pressure_left - target.pressure_right;
-  if (before * after < 0.0) {
+  if (target.bore_slides != 0) {
+    status = slide_on(ring, &target, report);
+  } else if (before * after < 0.0) {
     // The pressure changes sides: by way of equal pressures, where the ring may cross the groove.
     SbRingLoad even = *now;
     even.pressure_left = even.pressure_right = fmin(target.pressure_left, target.pressure_right);
     status = sb_ring_advance(ring, &even, SB_RING_FOLLOW, report);
   }
-  if (status == SB_OK) {
+  if (status == SB_OK && target.bore_slides == 0) {
     status = sb_ring_press(ring, &target, report);
   }
   ring->load = status == SB_OK ? *load
@@ -297,9 +357,11 @@ static SbStatus refit(SbRing *ring, double element_size, SbReport *report) {
       // A narrow bore contact has as many elements as one of WIDE: its load is what is wanted.
       double wide = s == SB_RING_BORE ? 0.5 * (patch[s].angle[1] - patch[s].angle[0]) / WIDE : 1.0;
       double size = element_size * fmin(1.0, fmax(NARROW_LEAST, wide));
-      // Friction on the last node includes that of the fluid beside it: short elements there.
+      // Friction on the last node includes that of the fluid beside it: short elements there, less
+      // so along a path, which stumbles over them.
       bool slides = s == SB_RING_BORE && ring->contact->is.now.bore_slides != 0;
-      plan_patch(&plan, &patch[s], size, (slides ? 0.15 : 0.3) * size);
+      double edge = !slides ? 0.3 : ring->arc.free ? 0.15 : 0.07;
+      plan_patch(&plan, &patch[s], size, edge * size);
     }
   }
   SbStatus status = build(&fresh, &plan, report);
@@ -342,7 +404,12 @@ static SbStatus refit(SbRing *ring, double element_size, SbReport *report) {
     ring->count = fresh.count;
     return status;
   }
+  fresh.share_limit *= share;
   fresh.drag_limit *= share;
+  fresh.fitted_size = element_size;
+  for (int k = 0; k < 2; k++) {
+    fresh.fitted_end[k] = touches[SB_RING_BORE] ? patch[SB_RING_BORE].angle[k] : NAN;
+  }
   drop(ring);
   *ring = fresh;
   return sb_succeed(report);

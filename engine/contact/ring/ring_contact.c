@@ -8,7 +8,8 @@
 //
 // Friction enters the same nodes' tangential rows. A sticking node has not moved along its surface
 // since the start of the step and |t . R| <= mu n . R; a sliding one has t . R = s mu n . R, s the
-// sign of the force on the ring, and moves against it. Both are exact, without a regularising
+// sign of the force on the ring, and moves against it. On the bore mu n . R may be any law of the
+// local pressure, a share of area times shear(n . R / area). Both are exact, without a regularising
 // stiffness; the states follow the motion like the active set of the normal contact. Leaves out
 // adhesion, rate, wear and a static coefficient of its own.
 #include "engine/contact/ring/ring_contact.h"
@@ -43,7 +44,7 @@ SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *r
   contact->force_scale = 1.0;
   contact->is.touch = calloc(3 * n * SB_RING_SURFACES, sizeof(SbRingTouch)); // and the saved ones
   contact->closed = calloc(n, sizeof(bool));
-  contact->share = calloc(7 * n, sizeof(double)); // and what follows it
+  contact->share = calloc(8 * n, sizeof(double)); // and what follows it
   if (contact->is.touch == NULL || contact->closed == NULL || contact->share == NULL) {
     sb_ring_contact_destroy(contact);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's contact");
@@ -51,6 +52,7 @@ SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *r
   contact->pressed = contact->share + 2 * n;
   contact->fluid = contact->share + 4 * n;
   contact->weight = contact->share + 6 * n;
+  contact->rubbed = contact->share + 7 * n;
   contact->saved[SB_RING_START].touch = contact->is.touch + n * SB_RING_SURFACES;
   contact->saved[SB_RING_BEFORE].touch = contact->is.touch + 2 * n * SB_RING_SURFACES;
   *out = contact;
@@ -91,6 +93,27 @@ static bool rubs(const SbRingContact *contact, int i, SbRingSurface surface) {
          sb_ring_friction(&contact->is.now, surface) > 0.0;
 }
 
+double sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surface, double normal,
+                    double *slope) {
+  const SbRingLoad *now = &contact->is.now;
+  double area = contact->rubbed[i] > 0.0 ? contact->rubbed[i] : contact->weight[i];
+  *slope = 1.0;
+  if (surface != SB_RING_BORE || now->shear == NULL || !(area > 0.0)) {
+    return normal;
+  }
+  // A node that is pulled, before it is let go, goes on along the law's start.
+  double pressure = fmax(0.0, normal) / area;
+  double shear = now->shear(pressure * contact->stress, slope, now->law) / contact->stress;
+  return area * shear + *slope * fmin(0.0, normal);
+}
+
+// The most that friction bears at a node under its present normal force.
+static double bears(const SbRingContact *contact, int i, SbRingSurface surface) {
+  double slope;
+  return sb_ring_friction(&contact->is.now, surface) *
+         sb_ring_grip(contact, i, surface, sb_ring_touch(contact, i, surface)->force, &slope);
+}
+
 bool sb_ring_contact_sticks(const SbRingContact *contact, int i, SbRingSurface surface) {
   const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
   return !touch->smooth && touch->slip == 0 && rubs(contact, i, surface);
@@ -119,7 +142,7 @@ static double slip_fault(const SbRingContact *contact, SbRingSurface surface, in
     return 0.0;
   }
   if (touch->slip == 0) {
-    double over = fabs(touch->tangent) - sb_ring_friction(&contact->is.now, surface) * touch->force;
+    double over = fabs(touch->tangent) - bears(contact, i, surface);
     *state = touch->tangent > 0.0 ? 1 : -1;
     return over > 1e-11 * contact->force_scale ? over : 0.0;
   }
@@ -186,8 +209,8 @@ static double slip_excess(const SbRingContact *contact) {
   for (int i = 0; i < contact->count; i++) {
     for (int s = 0; s < SB_RING_SURFACES; s++) {
       const SbRingTouch *touch = sb_ring_touch(contact, i, s);
-      double limit = sb_ring_friction(&contact->is.now, (SbRingSurface)s) * touch->force;
       if (rubs(contact, i, (SbRingSurface)s) && (touch->smooth || touch->slip == 0)) {
+        double limit = bears(contact, i, (SbRingSurface)s);
         sum += touch->smooth ? limit : fmax(0.0, fabs(touch->tangent) - limit);
       }
     }
@@ -232,7 +255,12 @@ double sb_ring_contact_apply(SbRingContact *contact) {
       } else if (!touch->smooth) {
         bool known = s == SB_RING_BORE && contact->is.now.bore_slides != 0;
         int slip = known ? contact->is.now.bore_slides : touch->slip;
-        condition->mix = -slip * sb_ring_friction(&contact->is.now, (SbRingSurface)s);
+        const double *force = &fem->residual[2 * fem->mesh->loop[i]];
+        double share = slip * sb_ring_friction(&contact->is.now, (SbRingSurface)s), slope;
+        double normal = frame.n[0] * force[0] + frame.n[1] * force[1];
+        double grip = sb_ring_grip(contact, i, (SbRingSurface)s, normal, &slope);
+        condition->mix = -share * slope;
+        condition->drive = share * (grip - slope * normal);
       }
     }
   }

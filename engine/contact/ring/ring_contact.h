@@ -59,9 +59,11 @@ typedef struct {
   double *pressed;    // [2 count] the part of it from open sides
   double *fluid;      // [2 count] fluid force on the open sides' nodes
   double *weight;     // [count] current area of the boundary nodes
+  double *rubbed;     // [count] the part of it on closed sides
   bool settled;       // the state stands still: its crests stay
   double slip_excess; // departure from Coulomb's law at nodes that could not settle
   double force_scale; // for tolerances
+  double stress;      // unit of stress, Pa
   int unsteady;       // touch that last changed, -1: none since the solve began
 } SbRingContact;
 
@@ -90,7 +92,7 @@ SbRingFrame sb_ring_frame_at(const SbRingContact *contact, int i, SbRingSurface 
 // The name of a surface, for messages.
 const char *sb_ring_surface_name(SbRingSurface surface);
 
-// Coulomb's coefficient of a surface, 0 where its shear is given; whether anything drags the ring.
+// Share of a surface's friction law, 0 where its shear is given; whether anything drags the ring.
 double sb_ring_friction(const SbRingLoad *load, SbRingSurface surface);
 bool sb_ring_rubs(const SbRingLoad *load);
 
@@ -116,6 +118,11 @@ typedef struct {
 // nodes' places (subtracted, the tangent's entries), and the nodes' shares of the side's area.
 void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressure pressure,
                        double force[3][2], double tangent[3][2][3][2], double area[3]);
+
+// Friction force of the whole law of a surface at a boundary node (of Coulomb's with a coefficient
+// of 1) under a normal force, and its slope.
+double sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surface, double normal,
+                    double *slope);
 
 // Whether a node sticks by Coulomb friction of its own.
 bool sb_ring_contact_sticks(const SbRingContact *contact, int i, SbRingSurface surface);

@@ -1,8 +1,9 @@
-// Steady sliding of the bore over the ring: the path of its states over the coefficient of
-// friction.
+// Steady sliding of the bore over the ring: the path of its states over the friction m, a share of
+// the bore's law, or Coulomb's coefficient.
 //
 // The bore slides under the whole contact, so that friction has one direction and there is nothing
-// to find out by small motions of the bore: t . R = m n . R at each of its nodes (ring_contact.c).
+// to find out by small motions of the bore: t . R = m x law(n . R) at each of its nodes
+// (ring_contact.c).
 // Floor and walls keep their history, from the fitted ring without friction, in the middle of its
 // groove or resting on the wall, over the rising drag. The states are followed by the length of
 // their path in the plane of m and the section's turn (Riks 1979; Crisfield 1981, the constraint a
@@ -19,11 +20,11 @@
 
 // Steps along the path: first, largest and least; the length over which its direction is taken; the
 // turn after which the mesh is fitted anew.
-static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 4e-3, SECANT = 0.02, REFIT_TURN = 0.1;
+static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 5e-4, SECANT = 0.02, REFIT_TURN = 0.1;
 
 // Newton iterations of a quick and of a slow step, and of a whole path at most; meshes that are
 // tried at a place where no step succeeds, and by how much each is finer.
-enum { QUICK = 7, SLOW = 14, ITERATIONS_MOST = 2500, MESHES = 3 };
+enum { QUICK = 7, SLOW = 14, ITERATIONS_MOST = 900, MESHES = 3 };
 static const double FINER = 0.12;
 
 // Share of the greatest coefficient at which it counts as passed, turn beyond which no drag is
@@ -46,17 +47,28 @@ void sb_ring_rest_on_wall(SbRing *ring) {
   }
 }
 
-static double bore_load(const SbRingContact *contact) {
-  double sum = 0.0;
+// What rubs on the bore; over it the drag, and the drag of the whole law.
+static double bore_load(const SbRingContact *contact, double *drag, double *whole) {
+  double sum = 0.0, along = 0.0, most = 0.0, slope;
   for (int i = 0; i < contact->count; i++) {
-    sum += sb_ring_touch(contact, i, SB_RING_BORE)->force;
+    const SbRingTouch *touch = sb_ring_touch(contact, i, SB_RING_BORE);
+    if (touch->held) {
+      SbRingFrame frame = sb_ring_frame_at(contact, i, SB_RING_BORE);
+      const double *fluid = &contact->pressed[2 * i];
+      double force = touch->force + frame.n[0] * fluid[0] + frame.n[1] * fluid[1];
+      sum += force;
+      along += touch->tangent;
+      most += sb_ring_grip(contact, i, SB_RING_BORE, force, &slope);
+    }
   }
+  *drag = sum > 0.0 ? fabs(along) / sum : 0.0;
+  *whole = most > 0.0 ? most / sum : 1.0;
   return sum;
 }
 
 void sb_ring_hold_turn(SbRing *ring) {
   const SbRingContactState *is = &ring->contact->is;
-  ring->arc = (SbRingArc){true, {1.0, 0.0}, {is->turn, is->now.friction_bore}, 0.0};
+  ring->arc = (SbRingArc){true, {1.0, 0.0}, {is->turn, 0.0}, 0.0, 1.0};
 }
 
 // A mesh fitted to the present contact, at the same turn: near a maximum it may have no state at
@@ -78,11 +90,11 @@ static SbStatus end_of_path(const SbRing *ring, SbReport *report) {
 }
 
 // The next state of the path, at most the one at the wanted coefficient.
-static SbStatus next_state(SbRing *ring, const double direction[2], double length, double aim,
-                           SbReport *report) {
+static SbStatus next_state(SbRing *ring, const double direction[2], double length, double unit,
+                           double aim, SbReport *report) {
   SbRingContactState *is = &ring->contact->is;
-  ring->arc =
-      (SbRingArc){true, {direction[0], direction[1]}, {is->turn, is->now.friction_bore}, length};
+  ring->arc = (SbRingArc){
+      true, {direction[0], direction[1]}, {is->turn, unit * is->now.friction_bore}, length, unit};
   sb_ring_save(ring->contact, SB_RING_START);
   SbStatus status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
   ring->arc.free = false;
@@ -96,14 +108,15 @@ static SbStatus next_state(SbRing *ring, const double direction[2], double lengt
 
 SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
   double length = ARC, direction[2] = {0.0, 1.0}, most = 0.0;
-  double fitted = ring->contact->is.turn, still = bore_load(ring->contact);
-  double anchor[2] = {fitted, ring->contact->is.now.friction_bore};
+  double fitted = ring->contact->is.turn, drag = 0.0, limit = 0.0;
+  double unit, now, still = bore_load(ring->contact, &drag, &unit);
+  double anchor[2] = {fitted, unit * ring->contact->is.now.friction_bore};
   int meshes = 0, first = ring->count.iterations; // meshes tried since the last step
   ring->state = SB_RING_SLIDES;
   while (ring->contact->is.now.friction_bore < aim) {
     const SbRingContactState *is = &ring->contact->is;
     int before = ring->count.iterations;
-    SbStatus status = next_state(ring, direction, length, aim, report);
+    SbStatus status = next_state(ring, direction, length, unit, aim, report);
     int used = ring->count.iterations - before;
     bool refit = fabs(is->turn - fitted) > REFIT_TURN;
     if (status == SB_ERROR_NOT_CONVERGED) {
@@ -120,14 +133,17 @@ SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
     } else if (status == SB_OK) {
       ring->count.steps++;
       meshes = 0;
+      double load = bore_load(ring->contact, &drag, &now);
+      limit = is->now.friction_bore > most ? drag : limit;
       most = fmax(most, is->now.friction_bore);
       bool rolls = is->now.friction_bore < FALL * most || fabs(is->turn) > OVER;
-      if (rolls || bore_load(ring->contact) > JAM * still) {
+      if (rolls || load > JAM * still) {
         ring->state = rolls ? SB_RING_ROLLS : SB_RING_JAMS;
-        ring->drag_limit = most;
+        ring->share_limit = most;
+        ring->drag_limit = limit;
         return SB_OK;
       }
-      double way[2] = {is->turn - anchor[0], is->now.friction_bore - anchor[1]};
+      double way[2] = {is->turn - anchor[0], unit * is->now.friction_bore - anchor[1]};
       double norm = hypot(way[0], way[1]);
       for (int k = 0; k < 2 && norm > SECANT; k++) {
         direction[k] = way[k] / norm;

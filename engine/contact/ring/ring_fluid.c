@@ -128,7 +128,7 @@ void sb_ring_contact_load_fluid(SbRingContact *contact) {
   }
   int count = contact->count, bore = contact->is.crest[0], floor_at = contact->is.crest[1];
   int past = floor_at > bore ? floor_at : floor_at + count;
-  memset(contact->share, 0, 7 * sizeof(double) * (size_t)count); // and what follows it
+  memset(contact->share, 0, 8 * sizeof(double) * (size_t)count); // and what follows it
   for (int side = 0; side < count / 2; side++) {
     contact->closed[side] = closes(contact, side);
     int middle = 2 * side + 1;
@@ -146,6 +146,7 @@ void sb_ring_contact_load_fluid(SbRingContact *contact) {
       int i = sb_ring_wrap(contact, 2 * side + a);
       contact->weight[i] += area[a];
       if (contact->closed[side]) {
+        contact->rubbed[i] += area[a];
         contact->share[2 * i] += force[a][0];
         contact->share[2 * i + 1] += force[a][1];
       } else if (pressure.value != 0.0) {

@@ -85,17 +85,17 @@ static void fail(const SbRingContact *contact, double residual, int changes, int
                 wall ? "above the floor" : "from its middle", residual);
 }
 
-// How far the state is from its place on the path; 0 where the coefficient is given.
+// How far the state is from its place on the path; 0 where the share is given.
 static double off_path(const SbRing *ring) {
   const SbRingArc *arc = &ring->arc;
   double at[2] = {sb_ring_turn(ring->contact, NULL, NULL, NULL),
-                  ring->contact->is.now.friction_bore};
+                  arc->unit * ring->contact->is.now.friction_bore};
   return arc->free ? arc->direction[0] * (at[0] - arc->base[0]) +
                          arc->direction[1] * (at[1] - arc->base[1]) - arc->length
                    : 0.0;
 }
 
-// Solves for the correction; on a path for that of the coefficient of friction too, *change, by a
+// Solves for the correction; on a path for that of the share of the bore's law too, *change, by a
 // second solution with the same factors (bordering).
 static SbStatus correct(SbRing *ring, double *change, SbReport *report) {
   SbRingFem *fem = ring->fem;
@@ -114,8 +114,9 @@ static SbStatus correct(SbRing *ring, double *change, SbReport *report) {
     const double *r = &fem->residual[2 * node], *normal = fem->condition[node].direction[0];
     if (touch->held && !touch->smooth && fem->condition[node].count == 1) {
       int row = fabs(normal[0]) >= fabs(normal[1]) ? 1 : 0;
+      double slope, force = normal[0] * r[0] + normal[1] * r[1];
       fem->rhs[2 * node + row] =
-          contact->is.now.bore_slides * (normal[0] * r[0] + normal[1] * r[1]);
+          contact->is.now.bore_slides * sb_ring_grip(contact, i, SB_RING_BORE, force, &slope);
     }
   }
   status = sb_ring_fem_apply_factor(fem, report);
@@ -123,7 +124,8 @@ static SbStatus correct(SbRing *ring, double *change, SbReport *report) {
   (void)sb_ring_turn(contact, fem->du_path, &given, NULL);
   (void)sb_ring_turn(contact, fem->du, &by_friction, NULL);
   const double *direction = ring->arc.direction;
-  *change = -(off_path(ring) + direction[0] * given) / (direction[0] * by_friction + direction[1]);
+  *change = -(off_path(ring) + direction[0] * given) /
+            (direction[0] * by_friction + direction[1] * ring->arc.unit);
   for (size_t k = 0; k < n; k++) {
     fem->du[k] = fem->du_path[k] + *change * fem->du[k];
   }

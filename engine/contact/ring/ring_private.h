@@ -14,11 +14,12 @@ typedef struct {
 typedef struct SbRingRecovery SbRingRecovery;
 SbRingRecovery *sb_ring_recovery_create(void); // NULL without memory; free() ends it
 
-// A place on the path of steady sliding, in the plane of the section's turn and the bore's
-// coefficient of friction: where direction . ((turn, friction) - base) = length.
+// A place on the path of steady sliding, in the plane of the section's turn and the share of the
+// bore's law, in units of Coulomb's coefficient: where direction . ((turn, unit share) - base) =
+// length.
 typedef struct {
-  bool free; // the coefficient is found from it; else it is given
-  double direction[2], base[2], length;
+  bool free; // the share is found from it; else it is given
+  double direction[2], base[2], length, unit;
 } SbRingArc;
 
 struct SbRing {
@@ -33,7 +34,10 @@ struct SbRing {
   SbRingCount count;
   SbRingArc arc;
   SbRingState state;        // how the last step ended: rolls or jams, else slides
-  double drag_limit;        // greatest coefficient of steady sliding that was met, 0: none
+  double share_limit;       // greatest share of the bore's law in steady sliding, 0: not met
+  double drag_limit;        // drag over load there
+  double fitted_size;       // elements of the mesh that was last fitted to the contacts, 0: none
+  double fitted_end[2];     // material angles of the bore contact's ends that it was fitted to
   SbRingRecovery *recovery; // owned
 };
 
@@ -98,12 +102,12 @@ SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report)
 // last one known, and what it changes by a displacement du; NULL: none. Its mean axial place.
 double sb_ring_turn(const SbRingContact *contact, const double *du, double *change, double *place);
 
-// Follows steady sliding from a state without friction on the bore to a coefficient of `aim`, or
+// Follows steady sliding from a state without friction on the bore to a share `aim` of its law, or
 // beyond the greatest one that the ring bears: then it rolls or jams, which `state` and
-// `drag_limit` tell, and it is left there. SB_ERROR_NOT_CONVERGED where neither is reached.
+// `share_limit` tell, and it is left there. SB_ERROR_NOT_CONVERGED where neither is reached.
 SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report);
 
-// From here on the present turn is held, with the coefficient that belongs to it.
+// From here on the present turn is held, with the share that belongs to it.
 void sb_ring_hold_turn(SbRing *ring);
 
 // Tangent of the present state with the bore's nodes set free, factorised; sb_ring_contact_settle

@@ -193,6 +193,7 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   bool slides = ring->state == SB_RING_SLIDES;
   out->state = slides && !out->touching ? SB_RING_NO_CONTACT : ring->state;
   out->drag_limit = ring->drag_limit;
+  out->share_limit = ring->share_limit;
   out->pressure_peak = smooth[SB_RING_BORE].peak * ring->stress;
   out->contact_left = patch[SB_RING_BORE].place[0] * l;
   out->contact_right = patch[SB_RING_BORE].place[1] * l;
