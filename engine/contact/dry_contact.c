@@ -185,7 +185,7 @@ double sb_dry_contact_gap(const SbDryContact *d, const SbSurfaceCompliance *c, d
   return fabs(gap) > 1e-14 * half ? gap : 0.0; // less is the sum's rounding
 }
 
-// No tension inside, no penetration outside.
+// No tension inside, no penetration outside nor beyond the window.
 static SbStatus check_signs(SbDryContact *d, const SbSurfaceCompliance *c, SbReport *report) {
   enum { SAMPLES = 200 };
   const double low = fmin(d->pressure_left, d->pressure_right);
@@ -205,6 +205,19 @@ static SbStatus check_signs(SbDryContact *d, const SbSurfaceCompliance *c, SbRep
       return sb_fail(report, SB_ERROR_INFEASIBLE,
                      "dry contact: the surface touches outside the contact");
     }
+  }
+  // Nor may the gap that goes on beyond the window close there: a film's mesh does not end with it.
+  double left = 0.0, right = 0.0;
+  for (double beyond = 0.0; beyond < 4.0; beyond = 2.0 * beyond + 0.05) {
+    const double reach = beyond * (c->right - c->left);
+    const double gap_left = sb_dry_contact_gap(d, c, c->left - reach);
+    const double gap_right = sb_dry_contact_gap(d, c, c->right + reach);
+    if (!(gap_left > left && gap_right > right)) {
+      return sb_fail(report, SB_ERROR_INFEASIBLE,
+                     "dry contact: the surface closes again beyond its window");
+    }
+    left = gap_left;
+    right = gap_right;
   }
   return sb_succeed(report);
 }

@@ -195,6 +195,9 @@ double sb_ehl_layers_wedge(const SbEhlLayers *layers);
 // Slope factor of the dry pressure at the inlet edge: 1 for Hertz's.
 double sb_ehl_layers_inlet_slope(const SbEhlLayers *layers);
 
+// Place of the least film before a flooded outlet, of a thin film; else the edge, 1.
+double sb_ehl_layers_outlet(const SbEhlLayers *layers);
+
 // Pressure of the dry contact at X, the end pressures outside it.
 double sb_ehl_layers_dry_pressure(const SbEhlLayers *layers, double X);
 

@@ -150,15 +150,19 @@ static SbStatus follow_path(SbFilmSolver *solver, const SbEhlCase *start, const 
 static bool easier(SbEhlCase *c, const SbEhlCase *target, int k) {
   static const double EASY_LAMBDA = 0.0093; // M = 20
   static const double EASY_PRESSURE = 0.3;
-  enum { FASTER = 12 };
+  enum { FASTER = 12, FASTER_SMOOTH = 4 };
   *c = *target;
   if (k == 0) {
     return true;
   }
-  if (target->rough.rows) { // faster ones
+  const bool rough = target->rough.rows;
+  if (rough || target->body.compliance != NULL) {
+    // Faster ones: other end pressures would move a fitted body's contact.
     c->layers.lambda *= pow(8.0, k);
-    sb_ehl_rough_flux(c);
-    return k < FASTER && target->layers.lambda > 0.0;
+    if (rough) {
+      sb_ehl_rough_flux(c);
+    }
+    return k < (rough ? FASTER : FASTER_SMOOTH) && target->layers.lambda > 0.0;
   }
   c->fluid.barus = c->fluid.eyring = 0.0;
   if (k == 1) { // small end pressures, no options and M = 20 if the film is thick

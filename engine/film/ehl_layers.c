@@ -125,12 +125,19 @@ static double rupture_guess(const SbEhlLayers *l) {
 
 // Place of the least film before a flooded outlet, read off our own solutions (M from 1.3 to 1e6,
 // pressures up to 2.9 p_H apart): at rest the layer lies on the edge, higher outlet pressure pushes
-// it out, thick films less.
-static double flooded_outlet(const SbEhlLayers *l) {
-  double s = -log(outlet_slope(l));
+// it out, thick films less. On a half-plane the edges' slopes have the mean 1; another mean K, of a
+// fitted body, scales the pressure: the layers are those of lambda / K^3 (their widths) with the
+// slopes over K.
+double sb_ehl_layers_outlet(const SbEhlLayers *l) {
+  if (l->end != SB_EHL_FULL) {
+    return 1.0;
+  }
+  double K = 0.5 * (sb_ehl_layers_inlet_slope(l) + outlet_slope(l));
+  double lambda = l->lambda / (K * K * K);
+  double s = -log(outlet_slope(l) / K);
   double thin = exp(-0.916 + 1.25 * s + 0.972 * (1.0 - exp(-1.8 * s)));
   double slowing = cbrt(1.0 + pow(0.8 * thin, 3.0));
-  return 1.0 + thin * pow(l->lambda, 0.4) / (1.0 + slowing * pow(l->lambda, 0.32));
+  return 1.0 + thin * pow(lambda, 0.4) / (1.0 + slowing * pow(lambda, 0.32));
 }
 
 // Length over which the gap opens behind a flooded outlet: the flux film against the dry gap.
@@ -141,7 +148,7 @@ static double opening(const SbEhlLayers *l) {
 
 // Edge of the contact that the outlet layer's shape belongs to.
 static double outlet_edge(const SbEhlLayers *l) {
-  return l->end == SB_EHL_FULL ? flooded_outlet(l) + 0.17 * outlet_width(l) : 1.0;
+  return l->end == SB_EHL_FULL ? sb_ehl_layers_outlet(l) + 0.17 * outlet_width(l) : 1.0;
 }
 
 // A flooded outlet: elements of growing size up to `reach`, then the infinite one.
@@ -203,7 +210,7 @@ static int outlet_ends(double *right, int most, const SbEhlLayers *l, double fro
   double in = sb_ehl_layers_width(l);
   double out = outlet_width(l);
   bool full = l->end == SB_EHL_FULL;
-  double edge = full ? flooded_outlet(l) : 1.0;
+  double edge = sb_ehl_layers_outlet(l);
   double last = full ? edge : rupture_guess(l);
   int count = 0;
   for (int i = 0; i < (full ? 3 : 4); i++) {
@@ -308,6 +315,10 @@ void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *l, d
     double z = (X - outlet_edge(l)) / out;
     double p = z < -10.0 ? sqrt(-2.0 * z) : interpolate(z, outlet_z, outlet_p, OUTLET_COUNT);
     *pressure = ends + sqrt(out) * p * sqrt(0.5 * (1.0 + fmin(X, 1.0))) * bowed(l, inside);
+    if (l->end == SB_EHL_FULL) { // the layer lies outside the edge: on the dry pressure there
+      double edge = sqrt(2.0 * (1.0 - inside));
+      *pressure = sb_ehl_layers_dry_pressure(l, X) + outlet_slope(l) * (sqrt(out) * p - edge);
+    }
     *film = flux * interpolate(z, outlet_z, outlet_h, OUTLET_COUNT);
     if (z > 0.16406) {
       *film += sb_ehl_layers_dry_gap(l, X);

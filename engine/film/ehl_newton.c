@@ -29,7 +29,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { ITERATIONS_MAX = 10, ITERATIONS_MAX_ROUGH = 40 };
+enum { ITERATIONS_MAX = 24, ITERATIONS_MAX_ROUGH = 40 };
 
 // A residual, or a step of rough rows, this much smaller than the last lets the next step take the
 // same factors: it then gains what the last one gained. A step of rough rows is to be CLOSE.
@@ -201,8 +201,9 @@ static bool ready_smooth(Progress *p, SbEhlSolution *s) {
   return done;
 }
 
-// Takes the step, cut where the film would vanish; of an independent gap the first step stands as
-// it is.
+// Takes the step, cut where the film would fall by more than half: the flow goes with its cube, and
+// behind a cut to less the iteration goes to and fro in the outlet's layer. Of an independent gap
+// the first step stands as it is.
 static bool step_smooth(Progress *p, SbEhlSolution *s) {
   SbFilmSolver *solver = s->solver;
   SbEhlState *state = &s->state;
@@ -217,7 +218,7 @@ static bool step_smooth(Progress *p, SbEhlSolution *s) {
   for (int i = 0; i <= rows && p->iteration > 0; i++) {
     double old = i < rows ? state->gap[i] : state->flux;
     double rise = i < rows ? change[i] : step[dofs + 1];
-    while (!(factor * rise >= -0.9 * old) && factor > 1e-3) {
+    while (!(factor * rise >= -0.5 * old) && factor > 1e-3) {
       factor *= 0.5;
     }
   }
@@ -225,7 +226,9 @@ static bool step_smooth(Progress *p, SbEhlSolution *s) {
   state->H0 += factor * step[dofs];
   state->flux += factor * step[dofs + 1];
   state->shift += order_of(s) > dofs + 2 ? factor * step[dofs + 2] : 0.0;
-  return factor > 1e-3 && state->flux > 0.0;
+  // A start that is none shows soon.
+  const bool hopeless = p->iteration > 9 && p->before > 1.0;
+  return factor > 1e-3 && state->flux > 0.0 && !hopeless;
 }
 
 // ---------------------------------------------------------------- rough rows
@@ -380,7 +383,7 @@ static bool step_rough(Progress *p, SbEhlSolution *s) {
     double dp = dq[i] + at->k * dh;
     state->s[i] += at->s0 + at->s_h * dh + at->s_p * dp + at->s_flow * dkappa;
     // With pull the solids' pressure can have a near-plateau, half a unit of t wide.
-    double down = fmax(c->rough.hamaker > 0 ? 0.3 : 1.5, 0.8 * state->t[i]);
+    double down = fmax(c->rough.hamaker > 0 ? 0.3 : 1.5, 0.5 * state->t[i]);
     cut = cut || ((dt < -down || dt > 0.5) && fmax(at->h, dh) > SB_EHL_CLOSED);
     state->t[i] = dt > 0.5 ? sb_ehl_rough_of_gap(c, at->h + dh) : state->t[i] + fmax(dt, -down);
     state->nodal[i] += dq[i];

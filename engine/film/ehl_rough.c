@@ -113,7 +113,7 @@ void sb_ehl_rough_guess(SbEhlSolution *solution) {
   for (int i = 0; i < mesh->dofs; i++) {
     double X = mesh->x[i];
     double q = sb_ehl_layers_dry_pressure(&c->layers, X);
-    double dry = sb_film_dry_gap(X);
+    double dry = sb_ehl_layers_dry_gap(&c->layers, X);
     double ambient = sb_film_ends(X, c->layers.inlet, c->layers.outlet);
     double fluid = film > 0 ? film * (1 + 1.2 * exp(-fabs(X + 1) / width)) : 0;
     if (layered) {

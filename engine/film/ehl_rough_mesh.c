@@ -89,9 +89,10 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
   double film_reach = fmax(3, sqrt(c->layers.lambda * 4e6));
 
   // The edges: the flux needs the inlet's layer, the least film the outlet's, which is finer.
+  const double outlet = c->layers.lambda > 0 ? sb_ehl_layers_outlet(l) : 1;
   Feature feature[6] = {
       {thick ? -0.6 * unit : -1, fmin(edge_width(c, thick ? 0.6 * unit : thin), unit)},
-      {thick ? 0.7 * unit : 1, fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin), unit)}};
+      {thick ? 0.7 * unit : outlet, fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin), unit)}};
   int features = 2;
   double left = c->layers.lambda > 0 ? fmax(tail, film_reach) : tail;
   double right = fmax(tail, feature[1].X + 3 * feature[1].width);

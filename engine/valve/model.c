@@ -109,15 +109,6 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   seal->section_diameter = seal->storage.section_diameter;
   seal->inner_diameter = seal->storage.inner_diameter;
   seal->modulus = seal->storage.modulus;
-  // Small strains: warned of from a quarter of the modulus on. Somewhere above 0.55 of it the
-  // pressure parts the flats of some gaps: no contact state is left.
-  if (model->fit == SB_FIT_DISC && model->canister_pressure > 0.5 * seal->modulus) {
-    refuse(problems, "canister.pressure", 0, 0.5 * seal->modulus,
-           "is beyond the linear disc (models.fit), which holds to half the rubber's modulus of "
-           "%.4g MPa; the ring goes further",
-           seal->modulus * 1e-6);
-    return;
-  }
   double nu = seal->poisson_ratio;
   seal->reduced_modulus =
       sb_reduced_modulus(seal->modulus, nu, model->housing_modulus, model->housing_poisson_ratio);

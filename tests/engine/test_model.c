@@ -148,28 +148,6 @@ static void test_problems(void) {
   g_assert_cmpstr(problems.item[0].key, ==, "bore.diameter");
 }
 
-// The linear disc holds to half the modulus: beyond, the pressure's range is told.
-static void test_disc_pressure(void) {
-  for (int beyond = 0; beyond < 2; beyond++) {
-    SbParams params;
-    SbReport report = {0};
-    SbModel model;
-    SbProblems problems = {0};
-    sb_params_init(&params);
-    g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, SB_FIT_DISC, &report), ==, SB_OK);
-    g_assert_cmpint(sb_params_set(&params, SB_P_SEAL_MODULUS, 1.2e6, &report), ==, SB_OK);
-    g_assert_cmpint(
-        sb_params_set(&params, SB_P_CANISTER_PRESSURE, beyond ? 0.61e6 : 0.59e6, &report), ==,
-        SB_OK);
-    SbStatus status = sb_model_compile(&model, &params, &problems);
-    g_assert_cmpint(status, ==, beyond ? SB_ERROR_INPUT : SB_OK);
-    if (beyond) {
-      g_assert_cmpstr(problems.item[0].key, ==, "canister.pressure");
-      g_assert_cmpfloat_with_epsilon(problems.item[0].max, 0.6e6, 1e-3);
-    }
-  }
-}
-
 static void test_pressure_maps(void) {
   SbParams params;
   sb_params_init(&params);
@@ -267,7 +245,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/model/overrides", test_overrides);
   g_test_add_func("/model/derived", test_derived);
   g_test_add_func("/model/problems", test_problems);
-  g_test_add_func("/model/disc-pressure", test_disc_pressure);
   g_test_add_func("/model/pressure-maps", test_pressure_maps);
   g_test_add_func("/model/storage", test_storage);
   g_test_add_func("/model/gland", test_gland);

@@ -14,6 +14,12 @@
 // is the circle's exactly. Against finite strain at 15.5 % squeeze: load -11 % and -1.4 %, width -9
 // % and +5 %, peak -5 % and -7 % (docs/verification.md).
 //
+// Where pressure (from 0.57 to 0.7 of the modulus) has pressed the disc so far that its contacts
+// with bore and wall meet, the corner is filled: no arc is left on that side, and the uniform
+// pressure that the meeting contacts have there joins the state as an unknown (a uniform pressure
+// all round only shrinks the disc), so that both contacts end at the pressure of the other. Further
+// fluid pressure is then passed on as by a fluid, the more the closer nu is to 1/2.
+//
 // Fluid acts normally on the open arcs up to the contact edges of the undeformed circle. The disc
 // leans on the wall, which touches it before the pressure comes, and slides frictionless. The
 // stretch shrinks the section; load per length times the fitted mean circumference pi (D - g) is
@@ -37,7 +43,8 @@ enum { LOAD, PEAK, WIDTH, FIGURES }; // load C/R, peak C, width/R
 typedef struct {
   double centre, half; // of the contact over R
   size_t points, unknowns;
-  double pressure;                   // of the fluid on one side, times C
+  double pressure;                   // of the fluid on one side over `trapped`, times C
+  double trapped;                    // of a filled corner, times C
   double shift;                      // of the section's centre to the wall by that pressure, over R
   double excess[SB_DISC_POINTS_MAX]; // the system's series
   double figure[FIGURES];
@@ -45,22 +52,46 @@ typedef struct {
 
 typedef struct {
   SbDiscSystem system;
-  double dry;         // half-width without pressure difference
-  double wet[3];      // right and left edge and the wall's under pressure; 0: not yet known
-  double free_bulge;  // of the dry flank
-  SbBroyden edges[2]; // dry and under pressure
+  double dry; // half-width without pressure difference
+  // Right and left edge and the wall's under pressure, 0: not yet known; pressure in the corner.
+  double wet[4];
+  double pressure;     // of the fluid, times C
+  double both, shrink; // hydrostatic displacement by the pressure on both sides, by C times one
+  double free_bulge;   // of the dry flank
+  SbBroyden edges[3];  // dry, under pressure, with the corner filled
 } Work;
 
-// Smooth edges at a pressure from those in `v`; false leaves `v`.
+// The corner filled to the pressure x[2]: the wall's contact ends where the bore's does.
+static bool filled_corner(double *residual, const double *x, void *context) {
+  Work *w = context;
+  const double edge[] = {x[0], x[1], sqrt(fmax(0.0, (1.0 - x[0]) * (1.0 + x[0])))};
+  w->system.pressure = w->pressure - x[2];
+  w->system.hydrostatic = w->both + w->shrink * x[2];
+  return w->system.pressure > 0.0 && sb_disc_system_solve(residual, edge, &w->system);
+}
+
+// Smooth edges at a pressure from those in `v`, with the corner filled where they would pass it;
+// false leaves `v`.
 static bool find_edges(Work *w, double pressure, double *v) {
   const size_t count = pressure == 0.0 ? 1 : 3;
   double trial[3];
   memcpy(trial, v, count * sizeof *v);
-  w->system.pressure = pressure;
-  const bool found = sb_solve_system(sb_disc_system_solve, &w->system, trial, count,
-                                     count == 1 ? 1e-12 : 1e-9, &w->edges[count > 1]);
+  w->system.pressure = w->pressure = pressure;
+  w->system.hydrostatic = w->both;
+  bool found = !(count > 1 && v[3] > 0.0) &&
+               sb_solve_system(sb_disc_system_solve, &w->system, trial, count,
+                               count == 1 ? 1e-12 : 1e-9, &w->edges[count > 1]);
   if (found) {
     memcpy(v, trial, count * sizeof *v);
+  } else if (count > 1 && hypot(v[0], v[2]) > 0.97) {
+    double x[] = {v[0], v[1], v[3]};
+    found = sb_solve_system(filled_corner, w, x, 3, 1e-9, &w->edges[2]) && x[2] >= 0.0;
+    if (found) {
+      v[0] = x[0];
+      v[1] = x[1];
+      v[2] = sqrt((1.0 - x[0]) * (1.0 + x[0]));
+      v[3] = x[2];
+    }
   }
   return found;
 }
@@ -83,6 +114,7 @@ static double solve_pressure(Work *w, double target) {
       w->wet[0] = w->dry;
       w->wet[1] = -w->dry;
       w->wet[2] = fmin(0.8, sqrt(4.0 * next * sqrt(1.0 - w->dry * w->dry)));
+      w->wet[3] = 0.0;
     }
     if (find_edges(w, next, w->wet)) {
       done = next;
@@ -94,7 +126,8 @@ static double solve_pressure(Work *w, double target) {
   if (done < target) {
     // The solution of what was reached.
     double ignored[3];
-    w->system.pressure = done;
+    w->system.pressure = done - (done > 0.0 ? w->wet[3] : 0.0);
+    w->system.hydrostatic = w->both + (done > 0.0 ? w->shrink * w->wet[3] : 0.0);
     if (!sb_disc_system_solve(ignored, done > 0.0 ? w->wet : &w->dry, &w->system)) {
       return -1.0;
     }
@@ -111,7 +144,7 @@ static double total_at(const Solution *s, double angle) {
     sum += s->excess[k] * cos((double)k * (M_PI - angle));
   }
   return (sin(angle) < 1e-6 ? 0.0 : sum / (s->half * sin(angle))) +
-         s->pressure * sb_disc_system_step(cos(angle));
+         s->pressure * sb_disc_system_step(cos(angle)) + s->trapped;
 }
 
 static double negative_at(double angle, const void *solution) {
@@ -138,11 +171,13 @@ static void keep(Solution *out, const Work *w) {
                     .points = s->n,
                     .unknowns = wet ? 2 * s->n + 4 : s->n + 1,
                     .pressure = s->pressure,
+                    .trapped = wet ? w->wet[3] : 0.0,
                     .shift = wet ? s->solution[2 * s->n] + w->free_bulge : 0.0};
   memcpy(out->excess, s->series[0], s->n * sizeof out->excess[0]);
   // The step's mean over the contact is one half: p half x 2 x 1/2.
   out->figure[WIDTH] = 2.0 * s->half;
-  out->figure[LOAD] = 0.5 * s->pressure * out->figure[WIDTH] + M_PI * out->excess[0];
+  out->figure[LOAD] =
+      (0.5 * s->pressure + out->trapped) * out->figure[WIDTH] + M_PI * out->excess[0];
   out->figure[PEAK] = peak_of(out);
 }
 
@@ -216,11 +251,12 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
   w->system.kernel = sb_disc_kernel(nu);
   w->system.radial = in->variant == SB_DISC_RADIAL || in->variant == SB_DISC_RADIAL_BOTH;
   w->system.half_space = in->radial_space / diameter;
-  w->system.hydrostatic = hydrostatic_of(in, both);
+  w->both = hydrostatic_of(in, both);
+  w->shrink = hydrostatic_of(in, 1.0 / compliance);
   w->dry = fmin(0.9, sb_hertz_width_of_approach(2.0 * (1.0 - w->system.half_space), 2.0));
 
   static const size_t points[] = {4, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48};
-  enum { LEVELS = sizeof points / sizeof points[0] };
+  enum { LEVELS = sizeof points / sizeof points[0], COARSE = 4 };
   const double wanted = 0.1 * (in->tolerance > 0.0 ? in->tolerance : 1e-3);
   const double target = (fabs(in->pressure) - both) * compliance;
   Solution found[LEVELS];
@@ -228,11 +264,16 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
   double reached = target;
   double error[FIGURES] = {1.0, 1.0, 1.0};
   double worst = 1.0;
-  for (size_t level = 0; level < LEVELS && worst > wanted && reached == target; level++) {
+  for (size_t level = 0; level < LEVELS && worst > wanted && (reached == target || levels == 0);
+       level++) {
     sb_disc_system_points(&w->system, points[level]);
     reached = solve_pressure(w, target);
     if (reached < 0.0 || (reached < target && levels > 0)) {
       break; // nothing, or nothing better than the coarser resolution
+    }
+    if (reached < target && level < COARSE) {
+      w->wet[2] = 0.0; // so few points do not hold a filled corner of a narrow contact
+      continue;
     }
     keep(&found[levels++], w);
     if (levels >= 3 && reached == target) {
@@ -240,8 +281,12 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
       worst = fmax(error[LOAD], fmax(error[PEAK], error[WIDTH]));
     }
   }
-  const size_t iterations = w->edges[0].iterations + w->edges[1].iterations;
-  const double residual = w->edges[reached >= 0.0 && target > 0.0].residual;
+  const size_t iterations =
+      w->edges[0].iterations + w->edges[1].iterations + w->edges[2].iterations;
+  const double residual = w->edges[!(reached >= 0.0 && target > 0.0) ? 0
+                                   : w->wet[3] > 0.0                 ? 2
+                                                                     : 1]
+                              .residual;
   out->solver.newton_iterations = iterations;
   out->solver.converged = worst <= wanted;
   if (levels > 0) {

@@ -146,8 +146,9 @@ bool sb_disc_system_solve(double *residual, const double *edges, void *system) {
   const size_t rows = wall ? 2 * n + 1 : n;
   const double right = edges[0], left = wall ? edges[1] : -right, width = wall ? edges[2] : 0.0;
   const double centre = s->centre = 0.5 * (left + right), half = s->half = 0.5 * (right - left);
+  // Bore and wall may meet in the corner, no further.
   if (!(left > -1.0 && right < 1.0 && half > 0.0) ||
-      (wall && !(width > 0.0 && width < 1.0 && width * width + right * right < 1.0))) {
+      (wall && !(width > 0.0 && width < 1.0 && width * width + right * right < 1.0 + 1e-12))) {
     return false;
   }
   SbDiscPoint bore[SB_DISC_POINTS_MAX] = {{0}};
@@ -183,7 +184,8 @@ bool sb_disc_system_solve(double *residual, const double *edges, void *system) {
       s->matrix[i + 2 * n * rows] = 0.0;
       s->matrix[n + i + 2 * n * rows] = -1.0;
       s->solution[i] -= known_displacement(s, bore[i], m_bore, s->tau[i]);
-      s->solution[n + i] = side[i].cos - 1.0 - known_displacement(s, to, m_wall, 2.0);
+      s->solution[n + i] = side[i].cos - 1.0 - known_displacement(s, to, m_wall, 2.0) -
+                           s->hydrostatic * (s->radial ? 1.0 : side[i].cos);
       // Equilibrium along x: wall load = fluid on the height between the left edges, less what
       // radial contact forces carry.
       s->matrix[2 * n + i * rows] = -2.0 * M_PI / (double)n * force_at(s, bore[i]).x;

@@ -1,0 +1,143 @@
+// Random pressurised valves with the film on the fitted body, up to a fluid pressure of the
+// rubber's modulus: every seal that its fitment keeps closed has its film there, sliding in and
+// out, smooth and with coupled asperities; where it lies on the half-plane instead, a warning says
+// so, which is to be in less than one per cent.
+//
+// test-engine-film-body-campaign [COUNT [SEED [FIT]]]: 12 discs in the tests.
+#include "engine/valve/model.h"
+#include "engine/valve/sliding.h"
+
+#include <glib.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int count = 12;
+static guint32 seed = 1;
+static SbFitModel fit_model = SB_FIT_DISC;
+
+static double between(GRand *random, double low, double high) {
+  return g_rand_double_range(random, low, high);
+}
+
+static double decades(GRand *random, double low, double high) {
+  return exp(between(random, log(low), log(high)));
+}
+
+static void set(SbParams *params, SbParamId id, double value) {
+  SbReport report = {0};
+  SbStatus status = sb_params_set(params, id, value, &report);
+  if (status != SB_OK) {
+    g_test_message("%s", report.text);
+  }
+  g_assert_cmpint(status, ==, SB_OK);
+}
+
+static void draw(SbParams *params, GRand *random, double *ratio) {
+  sb_params_init(params);
+  double bore = decades(random, 3e-3, 12e-3);
+  double space = bore * between(random, 0.12, 0.3), floor = bore - 2 * space;
+  double section = space / (1 - between(random, 0.02, 0.3));
+  double inner = floor / (1 + between(random, 0.01, 0.25));
+  double volume = G_PI / 4 * section * section * (inner + section) / (space * (bore - space));
+  *ratio = between(random, 0, 1);
+  double modulus = decades(random, 1e6, fmin(15e6, 2e6 / fmax(*ratio, 0.1)));
+  set(params, SB_P_BORE_DIAMETER, bore);
+  set(params, SB_P_GLAND_RADIAL_SPACE, space);
+  set(params, SB_P_GLAND_AXIAL_WIDTH, volume / between(random, 0.55, 0.85));
+  set(params, SB_P_STEM_SEAL_SPACING, 5 * section);
+  for (int seal = 0; seal < 2; seal++) {
+    bool outer = seal == 0;
+    set(params, outer ? SB_P_SEAL_OUTER_SECTION_DIAMETER : SB_P_SEAL_INNER_SECTION_DIAMETER,
+        section);
+    set(params, outer ? SB_P_SEAL_OUTER_INNER_DIAMETER : SB_P_SEAL_INNER_INNER_DIAMETER, inner);
+    set(params, outer ? SB_P_SEAL_OUTER_MODULUS : SB_P_SEAL_INNER_MODULUS, modulus);
+    set(params, outer ? SB_P_SEAL_OUTER_POISSON_RATIO : SB_P_SEAL_INNER_POISSON_RATIO,
+        between(random, 0.45, 0.4995));
+  }
+  set(params, SB_P_CANISTER_PRESSURE, *ratio * modulus);
+  set(params, SB_P_FLUID_VISCOSITY, decades(random, 0.1e-3, 5e-3));
+  set(params, SB_P_SURFACE_SIGMA, decades(random, 0.1e-6, 4e-6));
+  set(params, SB_P_SURFACE_SIGMA_OVER_BETA, decades(random, 0.01, 0.3));
+  set(params, SB_P_SURFACE_GT_PRODUCT, decades(random, 0.03, 0.2));
+  set(params, SB_P_DRIVE_SPEED, decades(random, 5e-5, 0.05));
+  set(params, SB_P_MODELS_FIT, fit_model);
+  set(params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS);
+  set(params, SB_P_MODELS_SURFACE, g_rand_boolean(random));
+  set(params, SB_P_MODELS_ASPERITIES,
+      g_rand_int_range(random, 0, 3) == 0 ? SB_MODEL_ASPERITIES_COUPLED : 0);
+}
+
+static const SbWarning *find(const SbWarnings *warnings, const char *code) {
+  for (size_t i = 0; i < warnings->count; i++) {
+    if (strcmp(warnings->item[i].code, code) == 0) {
+      return &warnings->item[i];
+    }
+  }
+  return NULL;
+}
+
+static void test_bodies(void) {
+  GRand *random = g_rand_new_with_seed(seed);
+  SbSlidingMemory *memory = NULL;
+  int films = 0, open = 0, fell = 0, failed = 0, refused = 0;
+  g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
+  for (int i = 0; i < count;) {
+    SbParams params;
+    SbModel model;
+    double ratio;
+    draw(&params, random, &ratio);
+    SbProblems problems = {0};
+    if (sb_model_compile(&model, &params, &problems) != SB_OK) {
+      refused++;
+      continue;
+    }
+    i++;
+    sb_sliding_memory_forget(memory);
+    for (int k = 0; k < 2; k++) {
+      const SbSealPressure pressure = sb_model_seal_pressure(&model, SB_OUTER, SB_CHAMBER_AT_REST);
+      const double speed = k == 0 ? model.speed : -model.speed;
+      SbSealState state;
+      SbCounters counts = {0};
+      SbWarnings warnings = {0};
+      SbReport report = {0};
+      SbStatus status = sb_sliding_solve(&state,
+                                         &(SbSlidingTask){&model, SB_OUTER, pressure, speed,
+                                                          model.speed, memory, &counts, &warnings},
+                                         &report);
+      const SbWarning *plane = find(&warnings, "film-half-plane");
+      if (status != SB_OK || plane != NULL) {
+        g_test_message("%d %s p/E %.3f squeeze %.3f nu %.4f speed %.3g coupled %d: status %d %s%s; "
+                       "%s",
+                       i, k == 0 ? "in" : "out", ratio, model.seal[0].squeeze,
+                       model.seal[0].poisson_ratio, speed, (int)model.asperities, (int)status,
+                       plane != NULL ? plane->text : "", state.opened ? " opened" : "",
+                       report.text);
+      }
+      if (status != SB_OK) {
+        failed++;
+      } else if (!state.touches || state.opened) {
+        open++;
+      } else {
+        films++;
+        fell += !state.film_fitted;
+        g_assert_true(state.film_fitted || plane != NULL);
+      }
+    }
+  }
+  g_test_message("%d films, %d on the half-plane, %d open, %d failed, %d valves refused", films,
+                 fell, open, failed, refused);
+  g_assert_cmpint(100 * fell, <, MAX(films, 101));
+  g_assert_cmpint(100 * failed, <, MAX(films, 101));
+  sb_sliding_memory_destroy(memory);
+  g_rand_free(random);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  count = argc > 1 ? atoi(argv[1]) : count;
+  seed = argc > 2 ? (guint32)atoi(argv[2]) : seed;
+  fit_model = argc > 3 && strcmp(argv[3], "ring") == 0 ? SB_FIT_RING : fit_model;
+  g_test_add_func("/film-body-campaign/pressed", test_bodies);
+  return g_test_run();
+}
