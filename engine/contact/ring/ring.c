@@ -15,9 +15,6 @@ static const double SIZE_DEFAULT = 0.05, SQUEEZE_MOST = 0.6, STRETCH_MOST = 0.6;
 // least share of their size that is left.
 static const double WIDE = 0.3, NARROW_LEAST = 0.12;
 
-// Share of the greatest friction of steady sliding at which a ring that rolls or jams is shown.
-static const double SHOWN = 0.995;
-
 // How far the contact's ends may move, over the elements' size, before a sliding ring's mesh is
 // fitted anew: their short elements end there.
 static const double OUTGROWN = 0.1;
@@ -151,6 +148,25 @@ static void drop(SbRing *ring) {
   ring->mesh = NULL;
 }
 
+void sb_ring_end_best(SbRing *ring, bool take) {
+  SbRing other = *ring;
+  other.mesh = ring->best.mesh;
+  other.fem = ring->best.fem;
+  other.contact = ring->best.contact;
+  bool here = ring->best.here;
+  ring->best = other.best = (SbRingBest){0};
+  if (take && !here) {
+    drop(ring);
+    *ring = other;
+  } else {
+    drop(&other);
+  }
+  if (take) {
+    sb_ring_restore(ring->contact, SB_RING_BEFORE);
+    sb_ring_contact_settle(ring->contact);
+  }
+}
+
 static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   SbRingLoad target = *load, smooth = *load;
   smooth.use_bore_traction = false;
@@ -169,7 +185,10 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
         sb_ring_rest_on_wall(ring);
       }
       status = sb_ring_drag(ring, target.friction_bore, report);
-      if (status == SB_OK && ring->options.fit_mesh && ring->state == SB_RING_SLIDES) {
+      if (status == SB_OK && ring->state != SB_RING_SLIDES) {
+        sb_ring_hold_turn(ring);
+      }
+      if (status == SB_OK && ring->options.fit_mesh) {
         status = sb_ring_refit(ring, ring->options.element_size, report);
       }
     } else {
@@ -188,32 +207,12 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
     drop(ring);
     ring->arc.free = false;
     ring->state = SB_RING_SLIDES;
+    ring->share_limit = ring->drag_limit = 0.0;
     status = build(ring, &plan, report);
     if (status == SB_OK) {
       status = assemble_ring(ring, target, report);
     }
   }
-  return status;
-}
-
-// The same; one that is past its greatest friction once more, to just below.
-static SbStatus lay_below_limit(SbRing *ring, SbRingLoad target, SbReport *report) {
-  ring->share_limit = ring->drag_limit = 0.0;
-  SbStatus status = lay_ring(ring, &target, report);
-  if (status != SB_OK || ring->state == SB_RING_SLIDES) {
-    return status;
-  }
-  SbRingState state = ring->state;
-  double limit = ring->share_limit, drag = ring->drag_limit, share = SHOWN;
-  for (int i = 0; i < 3 && status == SB_OK && (i == 0 || ring->state != SB_RING_SLIDES); i++) {
-    target.friction_bore = share * limit;
-    status = lay_ring(ring, &target, report);
-    share *= SHOWN * SHOWN;
-  }
-  ring->state = state;
-  ring->share_limit = limit;
-  ring->drag_limit = drag;
-  sb_ring_hold_turn(ring);
   return status;
 }
 
@@ -243,7 +242,8 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
   ring->force = ring->stress * d * (body->plane_strain ? 1.0 : d);
   ring->centre =
       body->plane_strain ? load->floor_radius / d + 0.5 : 0.5 * (body->inner_diameter + d) / d;
-  status = lay_below_limit(ring, sb_ring_load_in(load, ring->length, ring->stress), report);
+  const SbRingLoad target = sb_ring_load_in(load, ring->length, ring->stress);
+  status = lay_ring(ring, &target, report);
   if (status != SB_OK) {
     sb_ring_destroy(ring);
     return status;
@@ -291,7 +291,7 @@ static SbStatus slide_on(SbRing *ring, const SbRingLoad *target, SbReport *repor
   ring->count.steps += status == SB_OK ? 1 : 0;
   if (status == SB_ERROR_NOT_CONVERGED) {
     fresh.count.rejected++;
-    status = lay_below_limit(&fresh, *target, report);
+    status = lay_ring(&fresh, target, report);
     if (status == SB_OK) {
       drop(ring);
       *ring = fresh;
@@ -410,7 +410,12 @@ static SbStatus refit(SbRing *ring, double element_size, SbReport *report) {
   for (int k = 0; k < 2; k++) {
     fresh.fitted_end[k] = touches[SB_RING_BORE] ? patch[SB_RING_BORE].angle[k] : NAN;
   }
-  drop(ring);
+  if (ring->best.here) {
+    sb_ring_end_best(ring, false); // an older one
+    fresh.best = (SbRingBest){false, ring->mesh, ring->fem, ring->contact};
+  } else {
+    drop(ring);
+  }
   *ring = fresh;
   return sb_succeed(report);
 }

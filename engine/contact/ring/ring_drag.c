@@ -106,7 +106,7 @@ static SbStatus next_state(SbRing *ring, const double direction[2], double lengt
   return status;
 }
 
-SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
+static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   double length = ARC, direction[2] = {0.0, 1.0}, most = 0.0;
   double fitted = ring->contact->is.turn, drag = 0.0, limit = 0.0;
   double unit, now, still = bore_load(ring->contact, &drag, &unit);
@@ -134,8 +134,12 @@ SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
       ring->count.steps++;
       meshes = 0;
       double load = bore_load(ring->contact, &drag, &now);
-      limit = is->now.friction_bore > most ? drag : limit;
-      most = fmax(most, is->now.friction_bore);
+      if (is->now.friction_bore > most) {
+        most = is->now.friction_bore;
+        limit = drag;
+        sb_ring_save(ring->contact, SB_RING_BEFORE);
+        ring->best.here = true;
+      }
       bool rolls = is->now.friction_bore < FALL * most || fabs(is->turn) > OVER;
       if (rolls || load > JAM * still) {
         ring->state = rolls ? SB_RING_ROLLS : SB_RING_JAMS;
@@ -164,4 +168,10 @@ SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
   sb_ring_save(ring->contact, SB_RING_START);
   ring->contact->is.now.friction_bore = aim;
   return sb_ring_attempt(ring, SB_RING_DIRECT, report);
+}
+
+SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
+  SbStatus status = follow(ring, aim, report);
+  sb_ring_end_best(ring, status == SB_OK && ring->state != SB_RING_SLIDES);
+  return status;
 }

@@ -22,6 +22,15 @@ typedef struct {
   double direction[2], base[2], length, unit;
 } SbRingArc;
 
+// The state of the greatest friction on a path, saved as SB_RING_BEFORE of its mesh, while the path
+// goes on over others.
+typedef struct {
+  bool here; // on the ring's present mesh; else on this one, owned, NULL: none
+  SbRingMesh *mesh;
+  SbRingFem *fem;
+  SbRingContact *contact;
+} SbRingBest;
+
 struct SbRing {
   SbRingBody body;
   SbRingLoad load;
@@ -33,6 +42,7 @@ struct SbRing {
   SbRingContact *contact;
   SbRingCount count;
   SbRingArc arc;
+  SbRingBest best;
   SbRingState state;        // how the last step ended: rolls or jams, else slides
   double share_limit;       // greatest share of the bore's law in steady sliding, 0: not met
   double drag_limit;        // drag over load there
@@ -104,8 +114,12 @@ double sb_ring_turn(const SbRingContact *contact, const double *du, double *chan
 
 // Follows steady sliding from a state without friction on the bore to a share `aim` of its law, or
 // beyond the greatest one that the ring bears: then it rolls or jams, which `state` and
-// `share_limit` tell, and it is left there. SB_ERROR_NOT_CONVERGED where neither is reached.
+// `share_limit` tell, and the state is that of the greatest. SB_ERROR_NOT_CONVERGED where neither
+// is reached.
 SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report);
+
+// Ends the memory of the state of the greatest friction; `take`: the ring goes back to it.
+void sb_ring_end_best(SbRing *ring, bool take);
 
 // From here on the present turn is held, with the share that belongs to it.
 void sb_ring_hold_turn(SbRing *ring);
