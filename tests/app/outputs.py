@@ -286,8 +286,7 @@ def several_files():
         stuck = file.read()
     with open(path("several", "stuck.scene"), "w") as file:
         file.write(re.sub(r"\[models\]\n(\w+ = .*\n)*", "", stuck) + "[models]\nfit = disc\n"
-                   "[seal]\nmodulus = 1.1 MPa\nsection_diameter = 2.6 mm\ninner_diameter = 2.2 mm\n"
-                   "[gland]\naxial_width = 8 mm\n")
+                   "[seal]\nmodulus = 0.3 MPa\npoisson_ratio = 0.46\n[gland]\nradial_space = 1.56 mm\n")
     stuck = path("several", "stuck.scene")
     result = done(run("run", bad, stuck, a, "--json", "-"), 2)
     assert f"{stuck}: [canister] pressure: fitment (disc)" in result.stderr, result.stderr

@@ -116,10 +116,9 @@ static void test_shown(void) {
 
 // A case that a solver cannot do leaves its questions open, is named, and is flagged.
 static void test_failure(void) {
-  write_scene(
-      "[limits]\nseals.outer.load_N = >= 1 N\ncycle.force_breakaway_N = <= 30 N\n[cases]\n"
-      "stuck = models.fit=disc; seal.modulus=1.1 MPa; seal.section_diameter=2.6 mm; "
-      "seal.inner_diameter=2.2 mm; gland.axial_width=8 mm\nhot = canister.pressure=0.9 MPa\n");
+  write_scene("[limits]\nseals.outer.load_N = >= 1 N\ncycle.force_breakaway_N = <= 30 N\n[cases]\n"
+              "stuck = models.fit=disc; seal.modulus=0.3 MPa; seal.poisson_ratio=0.46; "
+              "gland.radial_space=1.56 mm\nhot = canister.pressure=0.9 MPa\n");
   CliResult run = CLI("run", path, "--json", "-", "--quiet");
   g_assert_cmpint(run.code, ==, 2);
   g_assert_nonnull(strstr(run.err, "sealbench: case stuck: fitment (disc), outer seal"));
