@@ -112,8 +112,8 @@ typedef struct {
 // +-0.2): with friction while it is squeezed and pressed, at the wall, loads 1.0 and 0.6 % lower;
 // while it is pressed only, at the wall 1.8 and 1.4 %, from the middle 3.6 and 3.4 %; dragged dry,
 // then pressed, 1.7 and 4.3 %. Sliding back and forth does not efface it.
-// With bore_slides the ring slides steadily; if it rolls or jams before friction_bore it is that of
-// just below the greatest friction that it bears, and the result says so.
+// With bore_slides the ring slides steadily; if it rolls or jams before friction_bore it is that at
+// the greatest friction found on its path, and the result says so.
 SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *load,
                         const SbRingOptions *options, SbReport *report);
 void sb_ring_destroy(SbRing *ring);
@@ -122,10 +122,10 @@ void sb_ring_destroy(SbRing *ring);
 // goes to another law, share, pressure or place of the same direction of sliding so: at once from
 // the present state where it is near, floor and wall friction seeing the difference; else anew as
 // by sb_ring_create, rolling and jamming included. Its mesh is fitted anew as the contact moves.
-// Friction sees the motion from
-// one load to the next as monotonic. On failure the last equilibrium found on the way is kept,
-// sb_ring_load tells at which load that is, and the report at which share of the step. A ring that
-// would roll is such a failure (SB_ERROR_NOT_CONVERGED): the result's state says so.
+// Another ring's friction sees the motion from one load to the next as monotonic. On failure the
+// last equilibrium found on the way is kept, sb_ring_load tells at which load that is, and the
+// report at which share of the step. Such a ring that would roll fails (SB_ERROR_NOT_CONVERGED):
+// the result's state says so.
 SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report);
 
 // The load of the present state; borrowed.
