@@ -185,6 +185,7 @@ static void test_ring_mesh(void) {
   double scale, x0, y0;
   sb_section_transform(f.section, &scale, &x0, &y0);
   double pixel = 1 / scale;
+  const double seen = 0.02 * pixel, radial_space = sb_model_value(f.model, SB_P_GLAND_RADIAL_SPACE);
   const SbValveOutline *valve = sb_section_valve(f.section);
   size_t whole = 0, partial = 0, other = 0;
   for (size_t k = 0; k < f.count; k++) {
@@ -208,9 +209,15 @@ static void test_ring_mesh(void) {
         if (seal->land_fraction < 1.0 && place < 0) {
           continue; // the contact on the land is right of the edge
         }
-        if (y >= sb_model_value(f.model, SB_P_GLAND_RADIAL_SPACE) - 0.05 * pixel) {
-          least = fmin(least, x);
-          most = fmax(most, x);
+        // What is drawn is straight from node to node: the contact ends where that leaves the bore.
+        const size_t next = ring->outline_node[(j + 1) % ring->outline];
+        const double gap = radial_space - y, gap_next = radial_space - ring->place[2 * next + 1];
+        const bool in = gap <= seen, in_next = gap_next <= seen;
+        if (in || in_next) {
+          const double along = in == in_next ? 0 : (seen - gap) / (gap_next - gap);
+          const double end = x + along * (ring->place[2 * next] - x);
+          least = fmin(least, in ? fmin(x, end) : end);
+          most = fmax(most, in ? fmax(x, end) : end);
         }
       }
       if (on_land) {

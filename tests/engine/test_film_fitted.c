@@ -233,6 +233,10 @@ static void solve_ring(SbSealState *out, SbDryContact *dry, double *modulus, dou
   g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, SB_FIT_RING, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_TOLERANCE, tolerance, NULL), ==, SB_OK);
+  // The drag of the default strength would roll the ring.
+  g_assert_cmpint(sb_params_set(&params, SB_P_GLAND_FLOOR_FRICTION, 0.3, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_GLAND_WALL_FRICTION, 0.1, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_FRICTION_SHEAR_STRENGTH, 1e6, NULL), ==, SB_OK);
   SbModel model;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
   SbSlidingMemory *memory = NULL;
