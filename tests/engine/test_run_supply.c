@@ -71,10 +71,14 @@ static double net_leak(const Setting *settings, size_t count, double *carried) {
 
 // A press by hand comes back faster than it went in: its film could carry more than lies there.
 // Whatever the way, the pressure map, the roughness: nothing is drawn out of air, and a small
-// change changes little.
+// change changes little. The quick mode takes each of the ways at one of two pressures.
 static void test_net(void) {
   int returned = 0;
   for (int i = 0; i < 32; i++) {
+    const bool even = (__builtin_popcount((unsigned)i) & 1) == 0;
+    if (!even && !g_test_slow()) {
+      continue;
+    }
     const bool hand = i & 1, vented = i & 2, reynolds = i & 4, carried_inlet = i & 8;
     double net[2], carried[2];
     for (int k = 0; k < 2; k++) {
@@ -96,7 +100,7 @@ static void test_net(void) {
       g_assert_cmpfloat(fabs(net[1] - net[0]), <=, 1e-4 * fmax(carried[0], net[0]));
     }
   }
-  g_assert_cmpint(returned, ==, 32);
+  g_assert_cmpint(returned, ==, g_test_slow() ? 32 : 16);
 }
 
 // The shipped press: 400 actuations leaked -2 ul.
