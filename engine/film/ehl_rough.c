@@ -18,10 +18,8 @@ void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t) {
     p.gap = t >= 1 ? unit * t : unit * exp(t - 1);
     p.gap_slope = t >= 1 ? unit : p.gap;
   }
-  double pull = 0, pull_slope = 0;
-  if (rough->hamaker > 0) {
-    pull = sb_rough_pull(&pull_slope, &p, rough->hamaker);
-  }
+  double pull_slope;
+  double pull = sb_rough_pull(&pull_slope, &p, rough->hamaker);
   *out = (SbEhlRoughPoint){.h = p.gap / rough->film,
                            .h_t = p.gap_slope / rough->film,
                            .asperity = p.pressure / rough->pressure,
@@ -62,18 +60,19 @@ double sb_ehl_rough_weights(double *weight, const SbEhlSolution *s, const SbEhlE
   return end;
 }
 
-// What the asperities carry at a gap, at most Hertz's pressure, both scaled.
+// What the asperities carry at a gap, less what their tips pull, at most Hertz's pressure, both
+// scaled.
 static double carried(const SbEhlCase *c, double gap) {
   SbRoughPoint at;
   sb_rough_law_at(&at, c->rough.law, sb_rough_law_of_gap(c->rough.law, gap * c->rough.film));
-  return fmin(at.pressure / c->rough.pressure, 1);
+  return fmin(fmax(at.pressure - at.pull, 0) / c->rough.pressure, 1);
 }
 
 // Gap at which they carry a pressure.
 static double gap_under(const SbEhlCase *c, double pressure) {
   SbRoughPoint at;
   sb_rough_law_at(&at, c->rough.law,
-                  sb_rough_law_of_pressure(c->rough.law, pressure * c->rough.pressure));
+                  sb_rough_law_of_load(c->rough.law, pressure * c->rough.pressure));
   return at.gap / c->rough.film;
 }
 
@@ -158,7 +157,7 @@ void sb_ehl_rough_guess(SbEhlSolution *solution) {
 
 static bool same_surface(const SbRoughSurface *a, const SbRoughSurface *b) {
   return a->model == b->model && a->product == b->product && a->sigma == b->sigma &&
-         a->sigma_over_beta == b->sigma_over_beta && a->modulus == b->modulus;
+         a->sigma_over_beta == b->sigma_over_beta && a->modulus == b->modulus && a->work == b->work;
 }
 
 SbStatus sb_ehl_rough_law(const SbRoughLaw **law, SbFilmSolver *solver,
@@ -167,7 +166,8 @@ SbStatus sb_ehl_rough_law(const SbRoughLaw **law, SbFilmSolver *solver,
                                   .product = problem->gt_product,
                                   .sigma = problem->sigma,
                                   .sigma_over_beta = problem->sigma_over_beta,
-                                  .modulus = problem->modulus};
+                                  .modulus = problem->modulus,
+                                  .work = problem->work_of_adhesion};
   *law = &solver->law;
   if (solver->law_ready && same_surface(&solver->law.surface, &surface)) {
     return SB_OK;

@@ -80,9 +80,9 @@ bool sb_film_rough(const SbFilmProblem *problem) {
   return problem->surface != SB_ROUGH_NONE || problem->hamaker > 0.0;
 }
 
-// Gap below which the pull closes the film.
-static double snap_gap(const SbRoughLaw *law, const SbFilmProblem *problem,
-                       const SbFilmScale *scale) {
+// Gaps at which the pull closes the film.
+static SbSnapWindow snap_gap(const SbRoughLaw *law, const SbFilmProblem *problem,
+                             const SbFilmScale *scale) {
   const SbSnapContact contact = {.hamaker = problem->hamaker,
                                  .modulus = problem->modulus,
                                  .width = 2 * scale->half_width,
@@ -95,21 +95,35 @@ static double snap_gap(const SbRoughLaw *law, const SbFilmProblem *problem,
 static void snap_in(SbFilm *out, const SbFilmProblem *problem, double closed) {
   out->valid = false;
   strcpy(out->regime, "boundary");
+  const bool tips = problem->work_of_adhesion > 0;
   sb_warn(
-      &out->warnings, "film-snap-in", "surface.hamaker_constant",
+      &out->warnings, "film-snap-in",
+      tips ? "surface.work_of_adhesion" : "surface.hamaker_constant",
       "adhesion closes gaps below %.3g nm (film without it %.3g nm): boundary lubrication, work "
       "of adhesion %.2g J/m2; the figures are those without adhesion",
       closed * 1e9, out->film_min * 1e9,
-      problem->hamaker / (12 * M_PI * SB_VDW_CUTOFF * SB_VDW_CUTOFF));
+      tips ? problem->work_of_adhesion : sb_vdw_work(problem->hamaker));
+}
+
+// Where asperities that stick leave the range of their law.
+static void stick_warnings(SbFilm *out, const SbAsperity *tip) {
+  sb_asperity_warn(&out->warnings, tip);
+  if (out->real_area_share > 0.3) {
+    sb_warn(&out->warnings, "adhesion-dense", "surface.work_of_adhesion",
+            "sticking asperities touch on %.0f %% of the area: they are no longer independent",
+            100 * out->real_area_share);
+  }
 }
 
 // The coupled solver. A pull that would close the film (rough_law.h) is told beforehand: the film
 // without it, and a warning.
 static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                               SbFilmSolver *solver, SbReport *report) {
-  double closed = 0;
-  if (problem->hamaker > 0.0) {
-    const SbRoughLaw *law = NULL;
+  static const double TOUCHING = 1e-6; // least mean share of real contact that counts
+  const bool tips = problem->work_of_adhesion > 0;
+  const SbRoughLaw *law = NULL;
+  SbSnapWindow closed = {0, 0};
+  if (problem->hamaker > 0.0 || tips) {
     if (problem->surface != SB_ROUGH_NONE) {
       SbStatus made = sb_ehl_rough_law(&law, solver, problem, report);
       if (made != SB_OK) {
@@ -118,25 +132,38 @@ static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const S
     }
     closed = snap_gap(law, problem, scale);
   }
-  if (!(closed > 0)) {
-    return sb_ehl_solve(out, problem, scale, solver, report);
+  if (!(closed.high > 0)) {
+    SbStatus status = sb_ehl_solve(out, problem, scale, solver, report);
+    if (tips && status == SB_OK) {
+      stick_warnings(out, &law->tip);
+    }
+    return status;
   }
   SbFilmProblem without = *problem;
-  without.hamaker = 0;
+  without.hamaker = without.work_of_adhesion = 0;
   SbStatus status = sb_ehl_solve(out, &without, scale, solver, report);
   if (status != SB_OK) {
     return status;
   }
-  if (out->film_min > closed) { // thick enough, unless the pull itself draws it down there
+  if (tips && out->real_area < TOUCHING * 2 * scale->half_width) {
+    return SB_OK; // what never touched does not stick
+  }
+  // Thick enough, unless the pull itself draws it down there; or at rest, pressed together beyond.
+  const bool rests = tips && problem->speed == 0;
+  if (out->film_min > closed.high || (rests && out->film_central < closed.low)) {
     sb_film_begin(out, problem, scale);
     status = sb_ehl_solve(out, problem, scale, solver, report);
-    if (status == SB_OK ? out->film_min > closed : status != SB_ERROR_NOT_CONVERGED) {
+    const bool outside = out->film_min > closed.high || (rests && out->film_central < closed.low);
+    if (status == SB_OK ? outside : status != SB_ERROR_NOT_CONVERGED) {
+      if (tips && status == SB_OK) {
+        stick_warnings(out, &law->tip);
+      }
       return status;
     }
     sb_film_begin(out, &without, scale);
     status = sb_ehl_solve(out, &without, scale, solver, report);
   }
-  snap_in(out, problem, closed);
+  snap_in(out, problem, closed.high);
   return status;
 }
 
@@ -160,6 +187,7 @@ static const SbFilmRange ranges[] = {
     {"sigma", "surface.sigma", "m", RANGE(sigma), 0.0, 1.0},
     {"sigma/beta", "surface.sigma_over_beta", "", RANGE(sigma_over_beta), 0.0, 1e3},
     {"Hamaker constant", "surface.hamaker_constant", "J", RANGE(hamaker), 0.0, 1e-17},
+    {"work of adhesion", "surface.work_of_adhesion", "J/m2", RANGE(work_of_adhesion), 0.0, 100.0},
     {"shear strength", "friction.shear_strength", "Pa", RANGE(shear_strength), 0.0, 1e12},
     {"load coefficient", "friction.load_coefficient", "", RANGE(load_coefficient), 0.0, 100.0},
 };
@@ -187,6 +215,12 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
   if ((int)problem->surface < 0 || problem->surface >= SB_ROUGH_COUNT) {
     return sb_fail(report, SB_ERROR_INPUT, "there is no surface model number %d",
                    (int)problem->surface);
+  }
+  if (problem->work_of_adhesion > 0 &&
+      (problem->hamaker > 0 || problem->surface != SB_ROUGH_GREENWOOD_TRIPP)) {
+    return sb_fail_parameter(report, SB_ERROR_INPUT, "surface.work_of_adhesion",
+                             "film: tips that stick are those of the surface greenwood-tripp, in "
+                             "place of van der Waals' pull");
   }
   if (sb_film_rough(problem) && problem->model != SB_FILM_REYNOLDS) {
     return sb_fail(report, SB_ERROR_INPUT,
@@ -363,7 +397,7 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
       status = sb_film_solve_dry(out, &scale, report);
     }
     if (sb_film_rough(problem)) { // no film at all between smooth surfaces at rest
-      snap_in(out, problem, snap_gap(NULL, problem, &scale));
+      snap_in(out, problem, snap_gap(NULL, problem, &scale).high);
     }
   } else {
     if (closed != NULL) {

@@ -78,6 +78,8 @@ typedef struct {
   double sigma_over_beta;  // sigma over the asperities' tip radius
   double hamaker;          // A_H [J] of van der Waals' pull across the open gap; 0 = off. Where the
                            // pull closes the film: the film without it, "film-snap-in"
+  double work_of_adhesion; // [J/m2] of asperities' tips that stick, greenwood-tripp only; 0 = off.
+                           // In place of van der Waals' pull; closes the film as that does
   double shear_strength;   // tau_0 [Pa] of the real contact
   double load_coefficient; // m on the asperities' load
 

@@ -13,7 +13,7 @@ enum { POINTS = 4, PANELS_PER_HALVING = 4 };
 static double slowness(const SbSqueeze *s, double h) {
   SbRoughPoint at;
   sb_rough_law_at(&at, s->law, sb_rough_law_of_gap(s->law, h));
-  return s->drag / (h * h * h * (s->pressure - at.pressure));
+  return s->drag / (h * h * h * (s->pressure - at.pressure + at.pull));
 }
 
 // Time from a film to a thinner one in one panel.
@@ -36,7 +36,7 @@ void sb_squeeze_init(SbSqueeze *s, double film, double pressure, double half_wid
     return;
   }
   SbRoughPoint end;
-  sb_rough_law_at(&end, law, sb_rough_law_of_pressure(law, pressure));
+  sb_rough_law_at(&end, law, sb_rough_law_of_load(law, pressure));
   s->rest = fmin(end.gap, film);
   s->gap[0] = film;
   for (int i = 1; i < SB_SQUEEZE_NODES; i++) {

@@ -16,15 +16,17 @@ typedef struct {
   double kinetic;          // friction of sliding, viscous part included [N]
   double area[2], load[2]; // tau_0 A and m W [N]
   double squeeze_time;     // as in the header
-  double product, lambda;  // of Greenwood and Tripp beside the film, while sliding
-  double share[2];         // real contact that belongs to the ends of the squeeze
+  SbRoughSurface surface;
+  double lambda;   // beside the film, while sliding
+  double share[2]; // real contact that belongs to the ends of the squeeze
   SbSqueeze squeeze;
 } Contact;
 
 // Real contact under a film of the squeeze, over the nominal.
 static double share_under(const Contact *c, double film) {
   if (c->squeeze.law == NULL) {
-    return sb_gt_area_share(c->product, fmin(c->lambda * film / c->squeeze.film, SB_GT_LAMBDA_MAX));
+    return sb_rough_area_share(&c->surface,
+                               fmin(c->lambda * film / c->squeeze.film, SB_GT_LAMBDA_MAX));
   }
   SbRoughPoint at;
   sb_rough_law_at(&at, c->squeeze.law, sb_rough_law_of_gap(c->squeeze.law, film));
@@ -43,12 +45,9 @@ static SbStatus squeeze_out(Contact *c, SbRoughLaw *law, int seal, const SbSealS
     return SB_OK;
   }
   const double roughness = film / (state->lambda * model->sigma); // run in, over the model's
-  c->product = roughness * model->gt_product;
+  c->surface = sb_model_surface(model, seal, roughness);
   if (law != NULL) {
-    const SbRoughSurface surface = {model->surface, c->product, roughness * model->sigma,
-                                    roughness * model->sigma_over_beta,
-                                    model->seal[seal].reduced_modulus};
-    SbStatus status = sb_rough_law_init(law, &surface, report);
+    SbStatus status = sb_rough_law_init(law, &c->surface, report);
     if (status != SB_OK) {
       return status;
     }

@@ -51,7 +51,12 @@ static void take_values(SbModel *model, const SbParams *params) {
 #include "engine/valve/params.def"
 #undef VALUE
   model->pressure_viscosity = model->barus ? model->pressure_viscosity : 0;
-  model->hamaker = model->adhesion ? model->hamaker : 0;
+  if (model->adhesion != SB_MODEL_ADHESION_ASPERITIES) {
+    model->work_of_adhesion = 0;
+  } else if (!(model->work_of_adhesion > 0)) {
+    model->work_of_adhesion = sb_vdw_work(model->hamaker);
+  }
+  model->hamaker = model->adhesion == SB_MODEL_ADHESION_ON ? model->hamaker : 0;
   model->load_coefficient =
       model->friction == SB_MODEL_FRICTION_THESIS ? model->load_coefficient : 0;
   model->surface = model->persson ? SB_ROUGH_PERSSON : SB_ROUGH_GREENWOOD_TRIPP;
@@ -209,6 +214,10 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
   if (model->life_shown > model->life_actuations) {
     refuse(problems, "life.shown", 0, model->life_actuations,
            "is beyond the life's last actuation (life.actuations %d)", model->life_actuations);
+  }
+  if (model->work_of_adhesion > 0 && model->surface != SB_ROUGH_GREENWOOD_TRIPP) {
+    refuse(problems, "models.adhesion", NAN, NAN,
+           "asperities: tips that stick are those of models.surface = greenwood-tripp");
   }
   // Running-in changes the surface, and with it a film that shares its load with asperities.
   if (lives && model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
@@ -556,6 +565,15 @@ void sb_model_gland(SbGland *out, const SbModel *model, int seal) {
       .poisson_ratio = ring->poisson_ratio,
       .volume_swell = ring->storage.volume_swell,
   };
+}
+
+SbRoughSurface sb_model_surface(const SbModel *model, int seal, double roughness) {
+  return (SbRoughSurface){.model = model->surface,
+                          .product = roughness * model->gt_product,
+                          .sigma = roughness * model->sigma,
+                          .sigma_over_beta = roughness * model->sigma_over_beta,
+                          .modulus = model->seal[seal].reduced_modulus,
+                          .work = model->work_of_adhesion};
 }
 
 SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber) {

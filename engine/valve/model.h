@@ -64,4 +64,7 @@ typedef struct {
   double left, right;
 } SbSealPressure;
 
+// Rough surface of a seal on the bore, its roughness over the model's.
+SbRoughSurface sb_model_surface(const SbModel *model, int seal, double roughness);
+
 SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber);

@@ -410,6 +410,7 @@ static void add_asperities(SbFilmProblem *problem, const SbModel *model) {
   problem->sigma = model->sigma;
   problem->sigma_over_beta = model->sigma_over_beta;
   problem->hamaker = model->hamaker;
+  problem->work_of_adhesion = model->work_of_adhesion;
   problem->shear_strength = model->shear_strength;
   problem->load_coefficient = model->load_coefficient;
 }
@@ -519,24 +520,27 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
 // film, Persson's on the net pressure that the solids must carry.
 static SbStatus real_area(SbSealState *out, const Task *task, double roughness, SbReport *report) {
   const SbModel *model = task->model;
-  const double gt_product = roughness * model->gt_product;
+  const SbRoughSurface surface = sb_model_surface(model, task->seal, roughness);
   if (model->surface == SB_ROUGH_PERSSON) {
     SbSpectrum spectrum;
-    SbStatus status =
-        sb_spectrum_from_asperities(&spectrum, roughness * model->sigma,
-                                    roughness * model->sigma_over_beta, gt_product, report);
+    SbStatus status = sb_spectrum_from_asperities(&spectrum, surface.sigma, surface.sigma_over_beta,
+                                                  surface.product, report);
     if (status != SB_OK) {
       return status;
     }
     double pressure = fmax(out->load_net, 0) / (out->contact_right - out->contact_left);
-    out->real_area_share = out->rest_area_share = sb_persson_area_share(
-        &spectrum, spectrum.q1, model->seal[task->seal].reduced_modulus, pressure);
+    out->real_area_share = out->rest_area_share =
+        sb_persson_area_share(&spectrum, spectrum.q1, surface.modulus, pressure);
     strength_warning(task, out->real_area_share);
     return SB_OK;
   }
-  out->rest_area_share = sb_gt_area_share(gt_product, 0);
+  if (surface.work > 0) {
+    const SbAsperity tip = sb_rough_tip(&surface);
+    sb_asperity_warn(task->warnings, &tip);
+  }
+  out->rest_area_share = sb_rough_area_share(&surface, 0);
   // Without a film there is no real contact under it either.
-  out->real_area_share = sb_gt_area_share(gt_product, out->lambda);
+  out->real_area_share = sb_rough_area_share(&surface, out->lambda);
   if (isnan(out->real_area_share) && !isnan(out->lambda)) {
     return sb_fail(report, SB_ERROR_RANGE, "no asperity contact of the %s seal at λ = %g",
                    sb_seal_name(task->seal), out->lambda);
@@ -570,8 +574,8 @@ static SbStatus rub(SbSealState *out, const Task *task, double roughness, SbRepo
     shear = shear > model->shear_strength ? model->shear_strength : shear;
     out->friction_viscous = shear * (1 - out->real_area_share) * area;
     if (out->central_error > 0) {
-      double thinner =
-          sb_gt_area_share(roughness * model->gt_product, out->lambda * (1 - out->central_error));
+      const SbRoughSurface surface = sb_model_surface(model, task->seal, roughness);
+      double thinner = sb_rough_area_share(&surface, out->lambda * (1 - out->central_error));
       bool persson = model->surface == SB_ROUGH_PERSSON;
       out->friction_error =
           out->central_error * out->friction_viscous +

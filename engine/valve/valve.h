@@ -59,6 +59,11 @@ typedef enum {
   SB_MODEL_ASPERITIES_COUPLED // in the film's own solve
 } SbModelAsperities;
 typedef enum {
+  SB_MODEL_ADHESION_OFF,
+  SB_MODEL_ADHESION_ON,        // van der Waals across the film
+  SB_MODEL_ADHESION_ASPERITIES // of the asperities' tips
+} SbModelAdhesion;
+typedef enum {
   SB_MODEL_MOTION_QUASI_STATIC,
   SB_MODEL_MOTION_DYNAMIC,
   SB_MODEL_MOTION_RIG,   // the sliding plate of thesis 3.3 instead of the valve

@@ -273,8 +273,8 @@ static void test_profile(void) {
                      off, worst / (b * b / problem.radius));
       g_assert_cmpfloat(off, <, 2e-3);
       // The asperities' pressure is the law's at the film shown.
-      SbRoughSurface surface = {(SbRoughModel)model, problem.gt_product, problem.sigma,
-                                problem.sigma_over_beta, problem.modulus};
+      SbRoughSurface surface = {(SbRoughModel)model,     problem.gt_product, problem.sigma,
+                                problem.sigma_over_beta, problem.modulus,    0};
       SbRoughLaw law;
       g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
       for (size_t i = 0; i < film.points; i += 50) {
@@ -413,6 +413,42 @@ static void test_adhesion(void) {
   g_assert_cmpfloat(thinner, <, 5 * pull / film.pressure_max);
 }
 
+// Tips that stick: more real contact and a thinner film, which sums up to the load; nothing where
+// the surfaces never touch; told where the film cannot be; the dry contact pressed together anyhow.
+static void test_sticking(void) {
+  SbFilmProblem problem = rough_seal(1e-2, SB_ROUGH_GREENWOOD_TRIPP);
+  problem.sigma = 2e-7;
+  double area = 0, least = INFINITY;
+  const double works[] = {0, 1e-4, 1e-3, 1e-2};
+  for (size_t k = 0; k < G_N_ELEMENTS(works); k++) {
+    problem.work_of_adhesion = works[k];
+    g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+    g_assert_false(warned(&film.warnings, "film-snap-in"));
+    g_assert_cmpfloat(film.real_area, >, area);
+    g_assert_cmpfloat(film.film_min, <, least);
+    g_assert_cmpfloat(film.solver.load_error, <, 1e-9);
+    g_assert_cmpint(film.solver.continuation_steps, <, 5);
+    close_to("boundary", film.friction_boundary, 3.5e6 * film.real_area + 0.19 * film.asperity_load,
+             1e-12);
+    area = film.real_area;
+    least = film.film_min;
+  }
+  g_assert_true(warned(&film.warnings, "adhesion-dense"));
+  problem.work_of_adhesion = 0.1315;
+  g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+  g_assert_true(warned(&film.warnings, "film-snap-in"));
+  problem.speed = 0;
+  g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+  g_assert_false(warned(&film.warnings, "film-snap-in"));
+  g_assert_cmpfloat(film.asperity_share, >, 2);
+  problem.speed = 1;
+  problem.sigma = 1e-8;
+  g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+  g_assert_false(warned(&film.warnings, "film-snap-in"));
+  problem.hamaker = 1e-19;
+  g_assert_cmpint(sb_film_solve(&film, &problem, NULL, NULL), ==, SB_ERROR_INPUT);
+}
+
 // Every film with adhesion is solved, or told to snap in and then the film without: from rest to
 // the full film, rough to smooth, at thirty times the usual pull.
 static void test_snap_in(void) {
@@ -507,6 +543,31 @@ static void test_sliding(void) {
           NULL),
       ==, SB_OK);
   g_assert_cmpfloat(pulled.film_central, <, state.film_central);
+  // So do tips that stick: more real contact sliding and at rest, beside the film as well.
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_ADHESION, SB_MODEL_ADHESION_ASPERITIES, NULL),
+                  ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_SURFACE_WORK_OF_ADHESION, 1e-2, NULL), ==, SB_OK);
+  for (int coupled = 1; coupled >= 0; coupled--) {
+    g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_ASPERITIES, coupled, NULL), ==, SB_OK);
+    SbSealState stuck[2];
+    for (int k = 0; k < 2; k++) {
+      g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_ADHESION,
+                                    k == 0 ? SB_MODEL_ADHESION_OFF : SB_MODEL_ADHESION_ASPERITIES,
+                                    NULL),
+                      ==, SB_OK);
+      g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+      sb_sliding_memory_forget(memory);
+      g_assert_cmpint(
+          sb_sliding_solve(
+              &stuck[k],
+              &(SbSlidingTask){&model, SB_OUTER, pressure, 1e-2, memory, &counts, &warnings, {0}},
+              NULL),
+          ==, SB_OK);
+    }
+    g_assert_cmpfloat(stuck[1].boundary_area, >, 1.1 * stuck[0].boundary_area);
+    g_assert_cmpfloat(stuck[1].rest_area_share, >=, stuck[0].rest_area_share);
+    g_assert_cmpfloat(stuck[1].friction_static, >, 1.01 * stuck[0].friction_static);
+  }
   sb_sliding_memory_destroy(memory);
 }
 
@@ -538,6 +599,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/mixed/ends", test_ends);
   g_test_add_func("/film/mixed/starved", test_starved);
   g_test_add_func("/film/mixed/adhesion", test_adhesion);
+  g_test_add_func("/film/mixed/sticking", test_sticking);
   g_test_add_func("/film/mixed/snap-in", test_snap_in);
   g_test_add_func("/film/mixed/sliding", test_sliding);
   g_test_add_func("/film/mixed/refusals", test_refusals);

@@ -9,7 +9,7 @@
 #include <math.h>
 
 static void test_laws(void) {
-  SbRoughSurface surface = {SB_ROUGH_GREENWOOD_TRIPP, 0.1289, 1e-6, 0.1, 6.5725e6};
+  SbRoughSurface surface = {SB_ROUGH_GREENWOOD_TRIPP, 0.1289, 1e-6, 0.1, 6.5725e6, 0};
   SbRoughLaw law;
   g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
   // Against the integrals themselves, off the table's nodes.
@@ -53,7 +53,7 @@ static void test_laws(void) {
 static void test_pull(void) {
   const double hamaker = 1.35e-19;
   for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
-    SbRoughSurface surface = {(SbRoughModel)model, 0.1289, 1e-7, 0.1, 6.5725e6};
+    SbRoughSurface surface = {(SbRoughModel)model, 0.1289, 1e-7, 0.1, 6.5725e6, 0};
     SbRoughLaw law;
     g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
     for (double gap = 3e-9; gap < 4e-7; gap *= 1.7) {
@@ -77,9 +77,153 @@ static void test_pull(void) {
            0.5 * sb_vdw_attraction(hamaker, 2e-10), 1e-12);
 }
 
+// ---------------------------------------------------------------- tips that stick
+
+// Johnson, Kendall and Roberts by the load they give it: a^3 = R/K (P + 3 pi w R + sqrt(6 pi w R P
+// + (3 pi w R)^2)), pull-off 3/2 pi w R; torn in fixed grips at 5/6 pi w R and the approach
+// -(3/4) (pi^2 w^2 R/E*^2)^(1/3). DMT: 2 pi w R at no contact at all.
+static void test_tip(void) {
+  const double R = 5e-6, w = 0.05, soft = 6.5725e6, stiff = 300e9;
+  SbAsperity tip;
+  SbAsperityPoint at;
+  sb_asperity_init(&tip, R, soft, w);
+  g_assert_true(tip.jkr);
+  const double unit = M_PI * w * R, K = 4.0 / 3 * soft / 2;
+  for (double P = -1.49; P < 50; P += 0.7) {
+    double a = cbrt(R / K * unit * (P + 3 + sqrt(6 * P + 9)));
+    sb_asperity_at(&at, &tip, a);
+    close_to("load", at.elastic - at.pull, P * unit, 1e-10 + 1e-12 / fabs(P));
+  }
+  double least = 0;
+  for (double a = 1; a < 4; a += 1e-4) {
+    sb_asperity_at(&at, &tip, a * tip.least);
+    least = fmin(least, at.elastic - at.pull);
+  }
+  close_to("pull-off", least, -1.5 * unit, 1e-7);
+  sb_asperity_at(&at, &tip, tip.least);
+  close_to("pull when torn", at.elastic - at.pull, -5.0 / 6 * unit, 1e-12);
+  close_to("stretch", at.approach, -0.75 * cbrt(M_PI * M_PI * w * w * R / (soft / 2 * soft / 2)),
+           1e-12);
+  g_assert_cmpfloat(fabs(at.approach_slope), <, 1e-12);
+  close_to("Tabor", tip.tabor, cbrt(R * w * w / (soft * soft / 4)) / 0.165e-9, 1e-12);
+
+  sb_asperity_init(&tip, 1e-8, stiff, 1e-3);
+  g_assert_false(tip.jkr);
+  sb_asperity_at(&at, &tip, 0);
+  close_to("pull-off of DMT", at.elastic - at.pull, -2 * M_PI * 1e-3 * 1e-8, 1e-12);
+  SbWarnings warnings = {0};
+  sb_asperity_warn(&warnings, &tip);
+  g_assert_cmpuint(warnings.count, ==, 0);
+  sb_asperity_init(&tip, 1e-7, 1e9, 1e-2); // between the two
+  sb_asperity_warn(&warnings, &tip);
+  g_assert_cmpstr(warnings.item[0].code, ==, "adhesion-transition");
+}
+
+// Load of one of Fuller and Tabor's asperities over pi w R at an overlap over the stretch, JKR's
+// equations solved by bisection for the contact radius.
+static double stuck_load(double overlap) {
+  // With A = a/(pi w R^2/K)^(1/3): approach A^2 - (2/3) sqrt(6 A), torn at -3/6^(2/3).
+  double low = pow(6, -1.0 / 3), high = 1e4, wanted = overlap * 3 * pow(6, -2.0 / 3);
+  for (int i = 0; i < 60; i++) {
+    double A = (low + high) / 2;
+    *(A * A - 2.0 / 3 * sqrt(6 * A) < wanted ? &low : &high) = A;
+  }
+  return low * low * low - low * sqrt(6 * low);
+}
+
+// Pull-off of Fuller and Tabor's surface over that of all its asperities at one height, against
+// their parameter 1/Delta = sigma over the stretch: by trapezoids over the heights.
+static void test_fuller_tabor(void) {
+  const double R = 5e-6, w = 0.05, modulus = 6.5725e6;
+  SbAsperity tip;
+  SbAsperityPoint torn;
+  sb_asperity_init(&tip, R, modulus, w);
+  sb_asperity_at(&torn, &tip, tip.least);
+  double before = 1;
+  for (double ratio = 0.1; ratio < 5; ratio *= 1.6) { // sigma over stretch
+    const double sigma = -ratio * torn.approach;
+    double found = 0, direct = 0;
+    for (double lambda = -1; lambda < 4 + 1 / ratio; lambda += 0.1) {
+      double sums[3], sum = 0;
+      sb_asperity_sums(sums, &tip, sigma, lambda, false);
+      found = fmin(found, (sums[0] - sums[1]) / (1.5 * M_PI * w * R));
+      const double step = 8e-3; // z = lambda - 1/ratio + v^2: the load has a root where it tears
+      for (int i = 0; i < 800; i++) {
+        double v = step * (i + 0.5), z = lambda - 1 / ratio + v * v;
+        sum += 2 * v * step * stuck_load((z - lambda) * ratio) * exp(-z * z / 2);
+      }
+      direct = fmin(direct, sum / sqrt(2 * M_PI) / 1.5);
+    }
+    double theta = modulus / 2 * sigma * sqrt(sigma / R) / w;
+    g_test_message("1/Delta %.2f theta %.2f pull-off %.6f direct %.6f", ratio, theta, found,
+                   direct);
+    close_to("Fuller and Tabor's pull-off", found, direct, 1e-4);
+    g_assert_cmpfloat(-found, <, before);
+    before = -found;
+  }
+  // Roughness of three times the stretch leaves less than a hundredth (their figure 6).
+  g_assert_cmpfloat(before, <, 0.01);
+}
+
+// Tables of tips that stick: to Greenwood and Tripp's without work; against the sums between nodes,
+// slopes against differences; the law turns to a pull that grows with the work of adhesion.
+static void test_sticking_law(void) {
+  SbRoughSurface surface = {SB_ROUGH_GREENWOOD_TRIPP, 0.1289, 2e-7, 0.1, 6.5725e6, 0};
+  SbRoughLaw bare, law;
+  SbRoughPoint at, was, next;
+  g_assert_cmpint(sb_rough_law_init(&bare, &surface, NULL), ==, SB_OK);
+  surface.work = 1e-12;
+  g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
+  for (double gap = 1e-9; gap < 1e-6; gap *= 1.3) {
+    sb_rough_law_at(&at, &law, sb_rough_law_of_gap(&law, gap));
+    sb_rough_law_at(&was, &bare, sb_rough_law_of_gap(&bare, gap));
+    close_to("pressure without work", at.pressure - at.pull, was.pressure, 1e-4);
+    close_to("area without work", at.share, was.share, 1e-4);
+  }
+  double pulled = 0;
+  const double works[] = {1e-2, 5e-2, 0.1315};
+  for (size_t k = 0; k < G_N_ELEMENTS(works); k++) {
+    surface.work = works[k];
+    g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
+    double least = 0;
+    const double density = 4 * M_PI * 0.1289 * 0.1289 * 0.1 / (2e-7 * 2e-7);
+    for (double t = -5.03; t < 10; t += 0.13) {
+      double sums[3];
+      sb_rough_law_at(&at, &law, t);
+      sb_rough_law_at(&next, &law, t + 1e-6);
+      sb_asperity_sums(sums, &law.tip, 2e-7, t, true);
+      close_to("elastic", at.pressure, density * sums[0], 1e-5);
+      close_to("pull", at.pull, density * sums[1], 1e-5);
+      close_to("area", at.share, fmin(density * sums[2], 1), 1e-5);
+      close_to("area by itself", sb_rough_area_share(&surface, t), fmin(density * sums[2], 1),
+               1e-12);
+      close_to("slope", next.pull - at.pull, 1e-6 * at.pull_slope, 1e-4);
+      sb_rough_law_at(&was, &bare, t);
+      g_assert_cmpfloat(at.share, >=, was.share);
+      least = fmin(least, at.pressure - at.pull);
+    }
+    g_test_message("w %g: Tabor %.3g, pull-off %.4g Pa", works[k], law.tip.tabor, -least);
+    g_assert_cmpfloat(-least, >, 2 * pulled);
+    pulled = -least;
+    for (double load = 1; load < 1e8; load *= 30) {
+      sb_rough_law_at(&at, &law, sb_rough_law_of_load(&law, load));
+      close_to("load", at.pressure - at.pull, load, 1e-6 + 1e-9 * at.pull / load);
+    }
+  }
+  surface.model = SB_ROUGH_PERSSON;
+  g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_ERROR_INPUT);
+  surface.model = SB_ROUGH_GREENWOOD_TRIPP;
+  surface.sigma = 1e-9;
+  surface.work = 1;
+  g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_ERROR_RANGE);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/rough-law/tables", test_laws);
   g_test_add_func("/rough-law/pull", test_pull);
+  g_test_add_func("/rough-law/tip", test_tip);
+  g_test_add_func("/rough-law/fuller-tabor", test_fuller_tabor);
+  g_test_add_func("/rough-law/sticking", test_sticking_law);
   return g_test_run();
 }

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { GAP, PRESSURE, SHARE, QUANTITIES = SB_ROUGH_QUANTITIES };
+enum { GAP, PRESSURE, SHARE, PULL };
 
 static const char *const names[SB_ROUGH_COUNT] = {"none", "greenwood-tripp", "persson"};
 
@@ -30,11 +30,55 @@ bool sb_rough_model_from_name(SbRoughModel *out, const char *name) {
 
 // ---------------------------------------------------------------- Greenwood and Tripp
 
+SbAsperity sb_rough_tip(const SbRoughSurface *s) {
+  SbAsperity tip;
+  sb_asperity_init(&tip, s->sigma / s->sigma_over_beta / 2, s->modulus, s->work);
+  return tip;
+}
+
+// Pairs per area and sigma of overlap: 4 pi beta sigma zeta^2.
+static double pair_density(const SbRoughSurface *s) {
+  return 4 * M_PI * s->product * s->product * s->sigma_over_beta / (s->sigma * s->sigma);
+}
+
+// Pressure, share and pull of tips that stick at the parameter of node i.
+static void stick(SbRoughLaw *law, int i) {
+  const SbRoughSurface *s = &law->surface;
+  const double t = law->begin + law->step * i;
+  const double unit[] = {pair_density(s) / s->modulus, pair_density(s) / s->modulus,
+                         pair_density(s)};
+  static const int quantity[] = {PRESSURE, PULL, SHARE};
+  double pairs[3], tips[3];
+  sb_asperity_sums(pairs, &law->tip, s->sigma, t, true);
+  sb_asperity_sums(tips, &law->tip, s->sigma, t, false);
+  for (int k = 0; k < 3; k++) {
+    const double sign = quantity[k] == SHARE ? 1 : -1;
+    law->value[quantity[k]][i] = sign * log(unit[k] * pairs[k]);
+    law->slope[quantity[k]][i] = -sign * tips[k] / pairs[k];
+  }
+}
+
 static SbStatus table_greenwood_tripp(SbRoughLaw *law, SbReport *report) {
   const SbRoughSurface *s = &law->surface;
   law->begin = -8;
   law->step = 0.1;
   law->count = 201;
+  if (s->work > 0) {
+    law->tip = sb_rough_tip(s);
+    SbAsperityPoint torn;
+    sb_asperity_at(&torn, &law->tip, law->tip.least);
+    const double stretch = -torn.approach / s->sigma;
+    if (stretch > SB_ROUGH_STRETCH_MAX) {
+      return sb_fail_parameter(
+          report, SB_ERROR_RANGE, "surface.work_of_adhesion",
+          "a work of adhesion of %g J/m2 stretches the asperities' tips over "
+          "%.3g of the heights' deviation (at most %g): the surface sticks all "
+          "over",
+          s->work, stretch, SB_ROUGH_STRETCH_MAX);
+    }
+    law->count = (int)fmin(201 + ceil(10 * stretch), SB_ROUGH_NODES_MAX);
+    law->step = (20 + stretch) / (law->count - 1);
+  }
   double square = s->product * s->product;
   double pressure = log(8 * M_SQRT2 / 15 * M_PI * square * sqrt(s->sigma_over_beta));
   double area = log(M_PI * M_PI * square);
@@ -47,6 +91,10 @@ static SbStatus table_greenwood_tripp(SbRoughLaw *law, SbReport *report) {
     sb_gt_log_integrals(log_closed, fabs(t));
     law->value[GAP][i] = t > 0 ? log(t * share + exp(-t * t / 2) / sqrt(2 * M_PI)) : log_closed[0];
     law->slope[GAP][i] = exp(log(share) - law->value[GAP][i]);
+    if (s->work > 0) {
+      stick(law, i);
+      continue;
+    }
     law->value[PRESSURE][i] = -pressure - log_F[3];
     law->slope[PRESSURE][i] = 2.5 * exp(log_F[1] - log_F[3]);
     law->value[SHARE][i] = area + log_F[2];
@@ -100,6 +148,11 @@ SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbRep
     return sb_fail(report, SB_ERROR_RANGE,
                    "sigma, sigma/beta, the asperity product and the modulus must be positive");
   }
+  if (!(surface->work >= 0) || (surface->work > 0 && surface->model != SB_ROUGH_GREENWOOD_TRIPP)) {
+    return sb_fail_parameter(report, SB_ERROR_INPUT, "surface.work_of_adhesion",
+                             "tips that stick need a work of adhesion and the surface "
+                             "greenwood-tripp");
+  }
   static SbStatus (*const table[SB_ROUGH_COUNT])(SbRoughLaw *, SbReport *) = {
       [SB_ROUGH_GREENWOOD_TRIPP] = table_greenwood_tripp, [SB_ROUGH_PERSSON] = table_persson};
   return surface->model != SB_ROUGH_NONE
@@ -108,11 +161,13 @@ SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbRep
 }
 
 void sb_rough_law_at(SbRoughPoint *out, const SbRoughLaw *law, double t) {
-  double f = (t - law->begin) / law->step, v[QUANTITIES], by[QUANTITIES];
+  double f = (t - law->begin) / law->step;
+  double v[SB_ROUGH_QUANTITIES], by[SB_ROUGH_QUANTITIES];
+  const int quantities = law->surface.work > 0 ? PULL + 1 : PULL;
   int last = law->count - 1;
   int i = (int)fmin(fmax(f, 0), last - 1);
   double beyond = law->step * (f - fmin(fmax(f, 0), last));
-  for (int k = 0; k < QUANTITIES; k++) {
+  for (int k = 0; k < quantities; k++) {
     v[k] = sb_hermite(&by[k], fmin(fmax(f - i, 0), 1), law->step, &law->value[k][i],
                       &law->slope[k][i]);
   }
@@ -121,6 +176,11 @@ void sb_rough_law_at(SbRoughPoint *out, const SbRoughLaw *law, double t) {
   out->gap += out->gap_slope * fmax(beyond, 0);
   out->pressure = law->surface.modulus * exp(-v[PRESSURE] - beyond * by[PRESSURE]);
   out->pressure_slope = -out->pressure * by[PRESSURE];
+  out->pull = out->pull_slope = 0;
+  if (quantities > PULL) {
+    out->pull = law->surface.modulus * exp(-v[PULL] - beyond * by[PULL]);
+    out->pull_slope = -out->pull * by[PULL];
+  }
   // Beyond the closed end the share stays.
   double log_share = v[SHARE] + fmax(beyond, 0) * by[SHARE];
   out->share = exp(fmin(log_share, 0));
@@ -156,6 +216,42 @@ double sb_rough_law_of_pressure(const SbRoughLaw *law, double pressure) {
   return invert(law, PRESSURE, -log(pressure / law->surface.modulus));
 }
 
+typedef struct {
+  const SbRoughLaw *law;
+  double load;
+} Lacking;
+
+static double over(double t, const void *context) {
+  const Lacking *lacking = context;
+  SbRoughPoint at;
+  sb_rough_law_at(&at, lacking->law, t);
+  return at.pressure - at.pull - lacking->load;
+}
+
+double sb_rough_law_of_load(const SbRoughLaw *law, double load) {
+  const double open = sb_rough_law_of_pressure(law, load);
+  if (!(law->surface.work > 0)) {
+    return open;
+  }
+  // The elastic part rises faster towards full contact, and once above the pull stays there.
+  const Lacking lacking = {law, load};
+  double closed = open - 1;
+  while (over(closed, &lacking) < 0 && closed > open - 200) {
+    closed -= 1;
+  }
+  return sb_bisect(over, &lacking, closed, open);
+}
+
+double sb_rough_area_share(const SbRoughSurface *s, double lambda) {
+  if (!(s->work > 0) || !(lambda >= SB_GT_LAMBDA_MIN)) {
+    return sb_gt_area_share(s->product, lambda);
+  }
+  const SbAsperity tip = sb_rough_tip(s);
+  double sums[3];
+  sb_asperity_sums(sums, &tip, s->sigma, lambda, true);
+  return fmin(1, pair_density(s) * sums[2]);
+}
+
 // ---------------------------------------------------------------- adhesion
 
 double sb_vdw_attraction(double hamaker, double gap) {
@@ -163,21 +259,25 @@ double sb_vdw_attraction(double hamaker, double gap) {
   return hamaker / (6 * M_PI * h * h * h);
 }
 
+double sb_vdw_work(double hamaker) {
+  return hamaker / (12 * M_PI * SB_VDW_CUTOFF * SB_VDW_CUTOFF);
+}
+
 double sb_rough_pull(double *slope, const SbRoughPoint *at, double hamaker) {
   double open = 1 - at->share;
-  if (open <= 0) {
-    *slope = 0;
-    return 0;
+  *slope = at->pull_slope;
+  if (open <= 0 || !(hamaker > 0)) {
+    return at->pull;
   }
   double gap = at->gap / open;
   double gap_slope = (at->gap_slope + gap * at->share_slope) / open;
   double pull = sb_vdw_attraction(hamaker, gap);
   double pull_slope = gap > SB_VDW_CUTOFF ? -3 * pull / gap : 0; // to the gap
-  *slope = open * pull_slope * gap_slope - at->share_slope * pull;
-  return open * pull;
+  *slope += open * pull_slope * gap_slope - at->share_slope * pull;
+  return at->pull + open * pull;
 }
 
-double sb_rough_snap_in(const SbRoughLaw *law, const SbSnapContact *c) {
+SbSnapWindow sb_rough_snap_in(const SbRoughLaw *law, const SbSnapContact *c) {
   static const double GROWTH = 10;
   // Least slope that lets half a wave of the contact grow, and that from which h^3 s^3 suffices.
   double held = c->modulus * M_PI / (4 * c->width);
@@ -187,9 +287,14 @@ double sb_rough_snap_in(const SbRoughLaw *law, const SbSnapContact *c) {
   double alone = c->hamaker / (2 * M_PI);
   double top = fmin(pow(alone / held, 0.25), cbrt(alone / grown));
   top = top > SB_VDW_CUTOFF ? top : 0;
-  if (law == NULL || top == 0) {
-    return top;
+  if (law != NULL && law->surface.work > 0) {
+    top = law->surface.sigma * exp(law->value[GAP][law->count - 1]);
   }
+  SbSnapWindow window = {0, top};
+  if (law == NULL || top == 0) {
+    return window;
+  }
+  window.high = 0;
   SbRoughPoint at;
   for (double t = sb_rough_law_of_gap(law, top); t > law->begin; t -= 0.25 * law->step) {
     sb_rough_law_at(&at, law, t);
@@ -197,8 +302,9 @@ double sb_rough_snap_in(const SbRoughLaw *law, const SbSnapContact *c) {
     sb_rough_pull(&pull_slope, &at, c->hamaker);
     double s = (at.pressure_slope - pull_slope) / at.gap_slope;
     if (s > held && at.gap * s > grown) {
-      return at.gap;
+      window.high = fmax(window.high, at.gap);
+      window.low = at.gap;
     }
   }
-  return 0;
+  return window;
 }

@@ -61,7 +61,8 @@ static void compare_contact(SbRun *run) {
   const SbModel *model = run->model;
   const SbSealModel *ring = &model->seal[SB_OUTER];
   SbRigSummary *out = &run->summary.rig;
-  double share = sb_gt_area_share(model->gt_product, 0);
+  const SbRoughSurface surface = sb_model_surface(model, SB_OUTER, 1);
+  double share = sb_rough_area_share(&surface, 0);
   out->contact_coefficient =
       sb_rig_contact_coefficient(model->rig.load, ring->inner_diameter + ring->section_diameter,
                                  ring->radius, ring->reduced_modulus, share, model->shear_strength);

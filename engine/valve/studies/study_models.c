@@ -75,7 +75,8 @@ static bool is_thesis(const SbModel *model) {
 
 // Share of the friction that the shear strength alone gives at rest, over the load.
 static double coefficient(const SbModel *model, double load, double width) {
-  double area = width * model->bore_circumference * sb_gt_area_share(model->gt_product, 0);
+  const SbRoughSurface surface = sb_model_surface(model, SB_OUTER, 1);
+  double area = width * model->bore_circumference * sb_rough_area_share(&surface, 0);
   return load > 0 ? model->shear_strength * area / load : NAN;
 }
 
