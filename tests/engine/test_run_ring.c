@@ -153,6 +153,43 @@ static void test_balance(void) {
   sb_model_destroy(model);
 }
 
+// Without fluid the return is the in-stroke mirrored: no ring is solved for it, and it is that of a
+// return solved for itself.
+static void test_mirrored(void) {
+  const SbOverride quick[] = {{SB_P_OUTPUT_TOLERANCE, 1e-2}};
+  SbModel *model = ring_model(quick, 1);
+  SbCounters counts = {0};
+  SbWarnings *warnings = g_new0(SbWarnings, 1);
+  SbSealState state[2][2];
+  for (int both = 0; both < 2; both++) {
+    SbSlidingMemory *memory;
+    g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
+    for (int way = both ? 1 : -1; way >= -1; way -= 2) {
+      const SbSlidingTask task = {.model = model,
+                                  .seal = SB_INNER,
+                                  .pressure =
+                                      sb_model_seal_pressure(model, SB_INNER, SB_CHAMBER_AT_REST),
+                                  .speed = way * model->speed,
+                                  .memory = memory,
+                                  .counts = &counts,
+                                  .warnings = warnings};
+      const size_t before = counts.ring_solves;
+      g_assert_cmpint(sb_sliding_solve(&state[both][way < 0], &task, NULL), ==, SB_OK);
+      g_assert_true((counts.ring_solves == before) == (both && way < 0));
+    }
+    sb_sliding_memory_destroy(memory);
+  }
+  const SbSealState *in = &state[1][0], *back = &state[1][1], *alone = &state[0][1];
+  g_assert_cmpfloat_with_epsilon(back->contact_left, -in->contact_right, 1e-9);
+  g_assert_cmpfloat_with_epsilon(back->rotation, in->rotation, 1e-6);
+  g_assert_cmpfloat_with_epsilon(back->load, alone->load, 1e-4 * alone->load);
+  g_assert_cmpfloat_with_epsilon(back->contact_left, alone->contact_left, 1e-7);
+  g_assert_cmpfloat_with_epsilon(sb_sliding_friction(back), sb_sliding_friction(alone),
+                                 1e-3 * sb_sliding_friction(alone));
+  g_free(warnings);
+  sb_model_destroy(model);
+}
+
 // One thread or two: the same bits.
 static void test_threads(void) {
   const SbOverride quick[] = {{SB_P_OUTPUT_TOLERANCE, 1e-2}, {SB_P_FRICTION_SHEAR_STRENGTH, 1e6}};
@@ -240,6 +277,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-ring/one-state", test_one_state);
   g_test_add_func("/run-ring/balance", test_balance);
+  g_test_add_func("/run-ring/mirrored", test_mirrored);
   g_test_add_func("/run-ring/threads", test_threads);
   g_test_add_func("/run-ring/cancelled", test_cancelled);
   g_test_add_func("/run-ring/rolls", test_rolls);
