@@ -55,7 +55,7 @@ static void test_one_state(void) {
   SbModel *model = ring_model(NULL, 0);
   SbRun *run = execute(model, false);
   const SbSummary *summary = sb_run_summary(run);
-  size_t count, slides = 0, rests = 0, edge = 0;
+  size_t count, slides = 0, steady = 0, rests = 0, edge = 0;
   const SbFrame *frames = sb_run_frames(run, &count);
   for (size_t k = 0; k < count; k++) {
     for (int i = 0; i < SB_SEAL_COUNT; i++) {
@@ -73,9 +73,15 @@ static void test_one_state(void) {
       }
       g_assert_true(ring->load == seal->load);
       bool moves = frames[k].velocity != 0 || fabs(ring->drag) > 1e-6; // or jumps
-      // The stem's friction is the ring's drag turned over: the bore drags what holds the stem.
+      // The stem's friction is the ring's drag turned over: the bore drags what holds the stem. A
+      // stem that gives way slides a little faster or slower than the state: its friction is that
+      // of its speed.
+      double faster = fabs(fabs(frames[k].velocity) / model->speed - 1);
       if (moves) {
-        g_assert_cmpfloat_with_epsilon(ring->drag, seal->friction, 1e-9 * fabs(seal->friction));
+        const double other = frames[k].velocity != 0 ? 1e-3 * faster : 0;
+        g_assert_cmpfloat_with_epsilon(ring->drag, seal->friction,
+                                       (1e-9 + other) * fabs(seal->friction));
+        steady += other < 1e-12;
       } else {
         g_assert_cmpfloat(fabs(ring->drag), <, 1e-9);
       }
@@ -85,6 +91,7 @@ static void test_one_state(void) {
   }
   g_test_message("%zu slide, %zu rest, %zu over the edge", slides, rests, edge);
   g_assert_cmpuint(slides, >, 20);
+  g_assert_cmpuint(steady, >, 20);
   g_assert_cmpuint(rests, >, 4);
   g_assert_cmpuint(edge, >, 2);
   // Friction moves the contact with the bore and presses the outer ring to its wall on the way in.
