@@ -148,6 +148,11 @@ SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report)
 // of errors stay. Where it fails it is to be solved anew.
 SbStatus sb_fit_again(SbFit *out, const SbFitProblem *problem, SbReport *report);
 
+// A dragged ring without fluid from the one that slides the other way, `fit` with its kept `ring`:
+// nothing is solved. `problem` is this one's, and keeps the ring.
+SbStatus sb_fit_mirror(SbFit *out, const SbFitProblem *problem, const SbFit *fit,
+                       const SbRing *ring, SbReport *report);
+
 // The free ring and its groove as the ring model takes them (ring.h): the wall of the lower
 // pressure only.
 void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem *problem);

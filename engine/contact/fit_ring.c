@@ -143,3 +143,20 @@ SbStatus sb_fit_again(SbFit *out, const SbFitProblem *in, SbReport *report) {
   take_result(out, in, ring, &result);
   return sb_succeed(report);
 }
+
+SbStatus sb_fit_mirror(SbFit *out, const SbFitProblem *in, const SbFit *fit, const SbRing *ring,
+                       SbReport *report) {
+  SbRing *mirror;
+  SbRingResult result;
+  SbStatus status = sb_ring_mirror(&mirror, ring, in->law, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  sb_ring_result(mirror, &result);
+  *out = *fit;
+  memset(&out->warnings, 0, sizeof out->warnings);
+  take_result(out, in, mirror, &result);
+  sb_ring_destroy(*in->kept);
+  *in->kept = mirror;
+  return sb_succeed(report);
+}

@@ -146,11 +146,31 @@ static bool cancelled(void *data) {
   return memory->cancelled != NULL && memory->cancelled(memory->cancelled_data);
 }
 
+// The problem of a task's fitment, dragged by a law where one is given.
+static void fit_problem(SbFitProblem *problem, const Task *task, Fitment *on,
+                        const SbSlidingLaw *law) {
+  SbSlidingMemory *memory = task->memory;
+  const SbModel *model = task->model;
+  double pressure = task->pressure.left - task->pressure.right;
+  sb_model_fit_problem(problem, model, task->seal, pressure);
+  problem->cancel = cancelled; // a kept ring asks whoever waits then
+  problem->cancel_data = memory;
+  problem->surface_wanted =
+      model->film == SB_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  problem->kept = &on->ring;
+  if (law != NULL) {
+    on->law = *law;
+    problem->dragged = true;
+    problem->drag = (task->speed > 0) == (pressure >= 0) ? 1 : -1;
+    problem->shear = sb_sliding_shear;
+    problem->law = &on->law;
+  }
+}
+
 // The task's fitment, anew if it is not the last one of these pressures or a `law` of friction is
 // given to drag it.
 static SbStatus solve_fit(const Task *task, const SbSlidingLaw *law, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
-  const SbModel *model = task->model;
   double pressure = task->pressure.left - task->pressure.right;
   Fitment *now = &memory->fitment[!drags(task) ? REST : task->speed > 0 ? IN : OUT];
   memory->now = now;
@@ -159,19 +179,7 @@ static SbStatus solve_fit(const Task *task, const SbSlidingLaw *law, SbReport *r
     return SB_OK;
   }
   SbFitProblem problem;
-  sb_model_fit_problem(&problem, model, task->seal, pressure);
-  problem.cancel = cancelled; // a kept ring asks whoever waits then
-  problem.cancel_data = memory;
-  problem.surface_wanted =
-      model->film == SB_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  problem.kept = &now->ring;
-  if (law != NULL) {
-    now->law = *law;
-    problem.dragged = true;
-    problem.drag = (task->speed > 0) == (pressure >= 0) ? 1 : -1;
-    problem.shear = sb_sliding_shear;
-    problem.law = &now->law;
-  }
+  fit_problem(&problem, task, now, law);
   memory->rested = false;
   bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES;
   SbStatus status = near ? sb_fit_again(&now->fit, &problem, report) : SB_ERROR_NOT_CONVERGED;
@@ -871,6 +879,22 @@ static SbStatus bear(SbSealState *out, const Task *task, const Fitment *on, doub
   return share_out(out, task, report);
 }
 
+// Without fluid a ring that slides one way is the mirror image of one that slides the other way.
+// False where that is not known.
+static bool mirror(const Task *task, Fitment *on) {
+  const Fitment *other = &task->memory->fitment[task->speed > 0 ? OUT : IN];
+  if (task->pressure.left != task->pressure.right || !other->known || other->pressure != 0 ||
+      other->seal != task->seal) {
+    return false;
+  }
+  SbFitProblem problem;
+  fit_problem(&problem, task, on, &other->law);
+  on->known = sb_fit_mirror(&on->fit, &problem, &other->fit, other->ring, NULL) == SB_OK;
+  on->pressure = 0;
+  on->seal = task->seal;
+  return on->known;
+}
+
 // A ring's states: friction drags it, and hangs on the film that lies on the dragged ring. Solved
 // in turns until the friction that drags it is that of its own film. A ring whose greatest drag is
 // less than its friction rolls or jams; the film is then that of this last state.
@@ -880,7 +904,8 @@ static SbStatus solve_dragged(const Task *task, SbSealState *out, SbReport *repo
   const double pressure = task->pressure.left - task->pressure.right;
   SbSlidingMemory *memory = task->memory;
   Fitment *on = &memory->fitment[task->speed > 0 ? IN : OUT];
-  bool known = on->known && on->pressure == pressure && on->seal == task->seal;
+  bool known =
+      (on->known && on->pressure == pressure && on->seal == task->seal) || mirror(task, on);
   SbSlidingLaw law;
   if (!known) {
     guess(&law, task, on);

@@ -302,6 +302,48 @@ static void test_keeps_state(void) {
   sb_ring_destroy(ring);
 }
 
+// A dragged ring without fluid mirrored: the forces turned over, and an equilibrium as it is. Both
+// go on alike. On a coarse mesh: nearly the same.
+static void test_copies(void) {
+  SbRingLoad load = groove(0.0);
+  load.bore_slides = 1;
+  load.friction_bore = load.friction_floor = 0.3;
+  load.friction_wall = 0.1;
+  SbRing *ring = fitted(&BODY, &load, 0.06), *other;
+  SbRingResult r, mirrored, copied;
+  sb_ring_result(ring, &r);
+  g_assert_cmpfloat(r.bore_drag, >, 0.0);
+  g_assert_cmpint(sb_ring_mirror(&other, ring, NULL, NULL), ==, SB_OK);
+  const SbRingLoad back = *sb_ring_load(other);
+  g_assert_cmpint(back.bore_slides, ==, -1);
+  for (int again = 0; again < 2; again++) {
+    sb_ring_result(other, &mirrored);
+    g_assert_cmpfloat(fabs(mirrored.bore_force / r.bore_force - 1.0), <, 1e-9);
+    g_assert_cmpfloat(fabs(mirrored.bore_drag / r.bore_drag + 1.0), <, 1e-9);
+    g_assert_cmpfloat(fabs(mirrored.wall_left_force - r.wall_right_force), <, 1e-9 * r.bore_force);
+    g_assert_cmpfloat(fabs(mirrored.contact_left + r.contact_right), <, 1e-9);
+    g_assert_cmpfloat(fabs(mirrored.pressure_peak / r.pressure_peak - 1.0), <, 1e-6);
+    g_assert_cmpfloat(fabs(mirrored.turn + r.turn), <, 1e-9);
+    g_assert_cmpfloat(mirrored.axial_imbalance, <, 1e-8);
+    if (again == 0) {
+      g_assert_cmpint(mirrored.newton_iterations, ==, 0);
+      g_assert_cmpint(sb_ring_step(other, &back, NULL), ==, SB_OK);
+      g_assert_cmpint(sb_ring_step(ring, &load, NULL), ==, SB_OK);
+      sb_ring_result(ring, &r);
+    }
+  }
+  sb_ring_destroy(other);
+  const SbRingOptions coarse = {.element_size = 0.08};
+  g_assert_cmpint(sb_ring_copy(&other, ring, &coarse, NULL), ==, SB_OK);
+  sb_ring_result(other, &copied);
+  g_assert_cmpint(copied.unknowns, <, r.unknowns);
+  g_assert_cmpfloat(fabs(copied.bore_force / r.bore_force - 1.0), <, 0.01);
+  g_assert_cmpfloat(fabs(copied.bore_drag / r.bore_drag - 1.0), <, 0.01);
+  g_assert_cmpfloat(copied.axial_imbalance, <, 1e-8);
+  sb_ring_destroy(other);
+  sb_ring_destroy(ring);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/ring-slide/reversal", test_reversal);
@@ -311,6 +353,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/ring-slide/warm", test_warm);
   g_test_add_func("/ring-slide/land-edge", test_land_edge);
   g_test_add_func("/ring-slide/compliance", test_compliance);
+  g_test_add_func("/ring-slide/copies", test_copies);
   g_test_add_func("/ring-slide/keeps-state", test_keeps_state);
   return g_test_run();
 }

@@ -119,16 +119,15 @@ static SbRingMeshPlan first_plan(const SbRing *ring, const SbRingLoad *s, double
   return plan;
 }
 
-static SbStatus build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report) {
+// Elements and contact on the ring's mesh.
+static SbStatus build_on_mesh(SbRing *ring, SbReport *report) {
   const SbRingBody *body = &ring->body;
   double mu = ring->stress;
   double bulk = body->modulus / (3.0 * (1.0 - 2.0 * body->poisson_ratio));
   SbRingMaterial material = {
       .c1 = 0.5 * (1.0 - body->mooney_share), .c2 = 0.5 * body->mooney_share, .bulk = bulk / mu};
-  SbStatus status = sb_ring_mesh_create(&ring->mesh, plan, report);
-  if (status == SB_OK) {
-    status = sb_ring_fem_create(&ring->fem, ring->mesh, material, !body->plane_strain, report);
-  }
+  SbStatus status =
+      sb_ring_fem_create(&ring->fem, ring->mesh, material, !body->plane_strain, report);
   if (status == SB_OK) {
     status = sb_ring_contact_create(&ring->contact, ring->fem, report);
   }
@@ -137,6 +136,11 @@ static SbStatus build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report
     ring->contact->force_scale = body->plane_strain ? 1.0 : 2.0 * M_PI * ring->centre;
   }
   return status;
+}
+
+static SbStatus build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report) {
+  SbStatus status = sb_ring_mesh_create(&ring->mesh, plan, report);
+  return status == SB_OK ? build_on_mesh(ring, report) : status;
 }
 
 static void drop(SbRing *ring) {
@@ -346,11 +350,17 @@ static void plan_patch(SbRingMeshPlan *plan, const SbRingPatch *patch, double si
   }
 }
 
-static SbStatus refit(SbRing *ring, double element_size, SbReport *report) {
-  SbRing fresh = *ring;
+// The ring's state on a mesh fitted to its contacts, in `fresh`, which has no mesh of its own yet
+// and keeps none where that fails. `edge`: size of the elements at the contacts' ends over that of
+// the others; 0 as friction asks for.
+static SbStatus remesh(SbRing *fresh, const SbRing *ring, double element_size, double edge,
+                       SbReport *report) {
   SbRingMeshPlan plan = empty_plan(ring, fmin(0.16, 3.2 * element_size), element_size);
   SbRingPatch patch[SB_RING_SURFACES];
   bool touches[SB_RING_SURFACES];
+  fresh->mesh = NULL;
+  fresh->fem = NULL;
+  fresh->contact = NULL;
   for (int s = 0; s < SB_RING_SURFACES; s++) {
     touches[s] = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
     if (touches[s]) {
@@ -360,55 +370,64 @@ static SbStatus refit(SbRing *ring, double element_size, SbReport *report) {
       // Friction on the last node includes that of the fluid beside it: short elements there, less
       // so along a path, which stumbles over them.
       bool slides = s == SB_RING_BORE && ring->contact->is.now.bore_slides != 0;
-      double edge = !slides ? 0.3 : ring->arc.free ? 0.15 : 0.07;
-      plan_patch(&plan, &patch[s], size, edge * size);
+      double share = edge > 0.0 ? edge : !slides ? 0.3 : ring->arc.free ? 0.15 : 0.07;
+      plan_patch(&plan, &patch[s], size, share * size);
     }
   }
-  SbStatus status = build(&fresh, &plan, report);
+  SbStatus status = build(fresh, &plan, report);
   if (status != SB_OK) {
-    drop(&fresh);
+    drop(fresh);
     return status;
   }
   // Same setting and, by material angle, the same held nodes.
-  sb_ring_fem_transfer(fresh.fem, ring->fem);
-  SbRingContact *contact = fresh.contact;
+  sb_ring_fem_transfer(fresh->fem, ring->fem);
+  SbRingContact *contact = fresh->contact;
   contact->is.now = ring->contact->is.now;
   contact->is.turn = ring->contact->is.turn;
-  sb_ring_fem_save(fresh.fem, SB_RING_START);
+  sb_ring_fem_save(fresh->fem, SB_RING_START);
   for (int i = 0; i < contact->count; i++) {
     for (int s = 0; s < SB_RING_SURFACES; s++) {
       bool held = false;
       for (int turn = 0; turn < 2 && touches[s]; turn++) {
-        double angle = fresh.mesh->angle[i] + 2.0 * M_PI * turn;
+        double angle = fresh->mesh->angle[i] + 2.0 * M_PI * turn;
         held = held || (angle > patch[s].angle[0] - 1e-9 && angle < patch[s].angle[1] + 1e-9);
       }
       sb_ring_touch(contact, i, s)->held = held;
     }
   }
-  status = sb_ring_newton(&fresh, SB_RING_FOLLOW, report);
+  status = sb_ring_newton(fresh, SB_RING_FOLLOW, report);
   if (status == SB_ERROR_NOT_CONVERGED && !sb_ring_rubs(&contact->is.now)) {
     // Too far from the transferred state: follow the whole path again on the new mesh.
     SbRingLoad setting = ring->contact->is.now;
-    status = sb_ring_fit_and_press(&fresh, &setting, report);
+    status = sb_ring_fit_and_press(fresh, &setting, report);
   }
   // Where the turn is held its coefficient is the mesh's; one far off is another state's.
   double share = 1.0;
-  if (fresh.arc.free && status == SB_OK) {
+  if (fresh->arc.free && status == SB_OK) {
     share = contact->is.now.friction_bore / ring->contact->is.now.friction_bore;
     if (!(fabs(share - 1.0) < SAME_STATE)) {
       status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the finer mesh slides in another state");
     }
   }
   if (status != SB_OK) {
-    drop(&fresh);
-    ring->count = fresh.count;
+    drop(fresh);
     return status;
   }
-  fresh.share_limit *= share;
-  fresh.drag_limit *= share;
-  fresh.fitted_size = element_size;
+  fresh->share_limit *= share;
+  fresh->drag_limit *= share;
+  fresh->fitted_size = element_size;
   for (int k = 0; k < 2; k++) {
-    fresh.fitted_end[k] = touches[SB_RING_BORE] ? patch[SB_RING_BORE].angle[k] : NAN;
+    fresh->fitted_end[k] = touches[SB_RING_BORE] ? patch[SB_RING_BORE].angle[k] : NAN;
+  }
+  return SB_OK;
+}
+
+static SbStatus refit(SbRing *ring, double element_size, SbReport *report) {
+  SbRing fresh = *ring;
+  SbStatus status = remesh(&fresh, ring, element_size, 0.0, report);
+  if (status != SB_OK) {
+    ring->count = fresh.count;
+    return status;
   }
   if (ring->best.here) {
     sb_ring_end_best(ring, false); // an older one
@@ -431,4 +450,80 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
     status = refit(ring, FINER[i] * element_size, report);
   }
   return status;
+}
+
+// A ring beside another of the same body, without a mesh yet.
+static SbStatus beside(SbRing **out, const SbRing *ring, SbReport *report) {
+  SbRing *other = malloc(sizeof *other);
+  *out = NULL;
+  if (other == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring");
+  }
+  *other = *ring;
+  other->mesh = NULL;
+  other->fem = NULL;
+  other->contact = NULL;
+  other->best = (SbRingBest){0};
+  other->count = (SbRingCount){0};
+  other->recovery = sb_ring_recovery_create();
+  if (other->recovery == NULL) {
+    free(other);
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring");
+  }
+  *out = other;
+  return SB_OK;
+}
+
+SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *options,
+                      SbReport *report) {
+  SbStatus status = beside(out, ring, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  (*out)->options = *options;
+  status = remesh(*out, ring, options->element_size, 1.0, report);
+  if (status != SB_OK) {
+    sb_ring_destroy(*out);
+    *out = NULL;
+  }
+  return status;
+}
+
+SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbReport *report) {
+  static const SbRingSurface OTHER[SB_RING_SURFACES] = {[SB_RING_BORE] = SB_RING_BORE,
+                                                        [SB_RING_FLOOR] = SB_RING_FLOOR,
+                                                        [SB_RING_WALL_RIGHT] = SB_RING_WALL_LEFT,
+                                                        [SB_RING_WALL_LEFT] = SB_RING_WALL_RIGHT};
+  SbRing *other;
+  SbStatus status = beside(&other, ring, report);
+  *out = other;
+  if (status != SB_OK) {
+    return status;
+  }
+  status = sb_ring_mesh_mirror(&other->mesh, ring->mesh, report);
+  status = status == SB_OK ? build_on_mesh(other, report) : status;
+  if (status != SB_OK) {
+    sb_ring_destroy(other);
+    *out = NULL;
+    return status;
+  }
+  sb_ring_fem_mirror(other->fem, ring->fem);
+  const SbRingContactState *from = &ring->contact->is;
+  SbRingContactState *to = &other->contact->is;
+  to->now = sb_ring_load_mirrored(&from->now);
+  to->now.law = law;
+  to->turn = -from->turn;
+  for (int i = 0; i < other->contact->count; i++) {
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      *sb_ring_touch(other->contact, i, s) = *sb_ring_touch(ring->contact, -i, OTHER[s]);
+    }
+  }
+  for (int k = 0; k < 2; k++) {
+    to->crest[k] = sb_ring_wrap(ring->contact, -from->crest[k]);
+    other->fitted_end[k] = -ring->fitted_end[1 - k];
+  }
+  other->load = sb_ring_load_mirrored(&ring->load);
+  other->load.law = law;
+  sb_ring_contact_settle(other->contact);
+  return SB_OK;
 }

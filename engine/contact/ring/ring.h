@@ -128,6 +128,15 @@ void sb_ring_destroy(SbRing *ring);
 // the result's state says so.
 SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report);
 
+// The present state of a ring in a groove without fluid, mirrored in the section's plane x = 0: the
+// ring that slides the other way. Owned; `law` is the data of its friction.
+SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbReport *report);
+
+// The present state on another mesh, of `element_size` throughout its contacts. Owned.
+// SB_ERROR_NOT_CONVERGED where that mesh has no such state.
+SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *options,
+                      SbReport *report);
+
 // The load of the present state; borrowed.
 const SbRingLoad *sb_ring_load(const SbRing *ring);
 

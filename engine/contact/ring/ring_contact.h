@@ -99,6 +99,9 @@ bool sb_ring_rubs(const SbRingLoad *load);
 // A load in units of a length and a pressure.
 SbRingLoad sb_ring_load_in(const SbRingLoad *load, double length, double pressure);
 
+// The load of the ring that is mirrored in x = 0.
+SbRingLoad sb_ring_load_mirrored(const SbRingLoad *load);
+
 // The load at a share t of the way; discrete choices are b's. An end of the land that is set or
 // removed comes from or goes to SB_RING_REACH, where it touches nothing.
 #define SB_RING_REACH 1.5

@@ -457,3 +457,15 @@ void sb_ring_fem_transfer(SbRingFem *to, const SbRingFem *from) {
     inner[4] = 2.0 * (p[2] - p[0]);
   }
 }
+
+void sb_ring_fem_mirror(SbRingFem *to, const SbRingFem *from) {
+  for (int i = 0; i < to->mesh->nodes; i++) {
+    to->u[2 * i] = from->u[2 * i];
+    to->u[2 * i + 1] = -from->u[2 * i + 1];
+  }
+  for (int e = 0; e < to->mesh->elements; e++) {
+    const double *was = &from->inner[SB_RING_INNER * e];
+    const double mirrored[SB_RING_INNER] = {was[0], -was[1], was[2], was[4], was[3]};
+    memcpy(&to->inner[SB_RING_INNER * e], mirrored, sizeof mirrored);
+  }
+}

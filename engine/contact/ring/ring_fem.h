@@ -112,3 +112,6 @@ void sb_ring_fem_stress(const SbRingFem *fem, int element, double l1, double l2,
 
 // Takes over the state of another mesh of the same body at this mesh's nodes.
 void sb_ring_fem_transfer(SbRingFem *to, const SbRingFem *from);
+
+// Takes over the state of the mirrored mesh (sb_ring_mesh_mirror), mirrored.
+void sb_ring_fem_mirror(SbRingFem *to, const SbRingFem *from);

@@ -100,6 +100,20 @@ SbRingLoad sb_ring_load_in(const SbRingLoad *load, double length, double pressur
   return out;
 }
 
+SbRingLoad sb_ring_load_mirrored(const SbRingLoad *load) {
+  SbRingLoad out = *load;
+  out.wall_left = -load->wall_right;
+  out.wall_right = -load->wall_left;
+  out.land_left = -load->land_right;
+  out.land_right = -load->land_left;
+  out.pressure_left = load->pressure_right;
+  out.pressure_right = load->pressure_left;
+  out.bore_position = -load->bore_position;
+  out.bore_traction = -load->bore_traction;
+  out.bore_slides = -load->bore_slides;
+  return out;
+}
+
 SbRingLoad sb_ring_load_between(const SbRingLoad *a, const SbRingLoad *b, double t) {
   SbRingLoad start = *a, out = *b;
   for (int i = 0; i < NUMBERS; i++) {

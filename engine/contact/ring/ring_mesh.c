@@ -440,6 +440,31 @@ SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbRep
                       : sb_fail(report, SB_ERROR_NOT_CONVERGED, "no ring mesh with these zones");
 }
 
+SbStatus sb_ring_mesh_mirror(SbRingMesh **out, const SbRingMesh *mesh, SbReport *report) {
+  static const int CORNER[6] = {0, 2, 1, 5, 4, 3};
+  const int count = mesh->loop_count;
+  SbRingMesh *mirror = *out = sb_ring_mesh_allocate(mesh->nodes, mesh->elements, count);
+  if (mirror == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
+  }
+  mirror->nodes = mesh->nodes;
+  mirror->elements = mesh->elements;
+  mirror->loop_count = count;
+  for (int i = 0; i < mesh->nodes; i++) {
+    mirror->x[2 * i] = mesh->x[2 * i];
+    mirror->x[2 * i + 1] = -mesh->x[2 * i + 1];
+  }
+  for (int i = 0; i < 6 * mesh->elements; i++) {
+    mirror->tri[i] = mesh->tri[i / 6 * 6 + CORNER[i % 6]];
+  }
+  for (int i = 0; i < count; i++) {
+    int at = (count - i) % count;
+    mirror->loop[i] = mesh->loop[at];
+    mirror->angle[i] = i == 0 ? mesh->angle[0] : -mesh->angle[at];
+  }
+  return SB_OK;
+}
+
 void sb_ring_side_at(const double v[3], double wanted, double n[3], double d[3]) {
   double xi = 2.0 * (wanted - v[0]) / (v[2] - v[0]) - 1.0;
   for (int i = 0; i < 6; i++) {

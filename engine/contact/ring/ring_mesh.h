@@ -43,6 +43,10 @@ typedef struct {
 // Builds the mesh; owned, free with sb_ring_mesh_destroy. SB_ERROR_MEMORY if it does not fit.
 SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbReport *report);
 
+// The mesh with the axial direction turned round: the nodes keep their numbers, boundary node i
+// becomes -i, vertices 1 and 2 of each triangle change places. Owned.
+SbStatus sb_ring_mesh_mirror(SbRingMesh **out, const SbRingMesh *mesh, SbReport *report);
+
 // Parts of building one, for meshes of other bodies (tests of the elements against closed forms):
 // an empty mesh with room for so many vertices, triangles and boundary nodes; a triangle of three
 // vertices, counter-clockwise in (r, z), with its place; the mid-side nodes of all, straight ones.

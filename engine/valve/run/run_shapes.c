@@ -193,8 +193,8 @@ SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *
   const SbRingOptions coarse = {
       .element_size = edge_element_size, .poll = spent, .poll_data = &budget};
   counts->ring_solves++;
-  status =
-      sb_ring_create(&ring, &body, state.state == SB_RING_SLIDES ? &load : &held, &coarse, report);
+  status = state.state == SB_RING_SLIDES ? sb_ring_copy(&ring, from, &coarse, report)
+                                         : sb_ring_create(&ring, &body, &held, &coarse, report);
   for (int i = 0; i < SB_RUN_EDGES && status == SB_OK && end > begin; i++) {
     held.land_left = begin + (double)i / SB_RUN_EDGES * (end - begin);
     counts->ring_solves++;
