@@ -93,6 +93,19 @@ static void test_no_running_in(void) {
   sb_run_destroy(run);
 }
 
+// Films know no roughness: what a later actuation asks for at its speeds is solved once.
+static void test_running_in(void) {
+  const Change life[] = {{SB_P_LIFE_ACTUATIONS, 60},
+                         {SB_P_LIFE_ROUGHNESS_RUN_IN, 0.7},
+                         {SB_P_MODELS_FILM, SB_FILM_REYNOLDS}};
+  SbRun *run = run_with(life, G_N_ELEMENTS(life));
+  const SbCounters *counters = &sb_run_summary(run)->counters;
+  g_test_message("%zu films, %zu over the speed", counters->reynolds_solves, counters->speed_nodes);
+  g_assert_cmpuint(counters->reynolds_solves, ==, 10 + counters->speed_nodes);
+  g_assert_cmpuint(counters->speed_nodes, <=, 40);
+  sb_run_destroy(run);
+}
+
 // A valve that roughens until its stem stays in: the life ends there, and tells the number.
 static void test_failures(void) {
   const Change life[] = {{SB_P_LIFE_ACTUATIONS, 60},
@@ -168,6 +181,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/life/actuations", test_actuations);
   g_test_add_func("/life/no-running-in", test_no_running_in);
+  g_test_add_func("/life/running-in", test_running_in);
   g_test_add_func("/life/failures", test_failures);
   g_test_add_func("/life/cancel", test_cancel);
   g_test_add_func("/life/leakage-of-motion", test_leakage_of_motion);

@@ -62,6 +62,7 @@ static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const 
   run->summary.energy.closure = fmax(run->summary.energy.closure, one->summary.energy.closure);
   run->summary.steps += one->summary.steps;
   run->summary.rejected_steps += one->summary.rejected_steps;
+  sb_run_add_counters(&run->summary.counters, &one->summary.counters);
   sb_warnings_merge(&run->summary.warnings, &one->summary.warnings);
   return status;
 }

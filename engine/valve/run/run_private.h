@@ -126,6 +126,9 @@ struct SbRun {
 // middle of B-C (run_states.c).
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
+// What else was solved for a run.
+void sb_run_add_counters(SbCounters *sum, const SbCounters *more);
+
 // Keeps a seal's solved section for drawing, as shape `index` of its own (run_shapes.c).
 SbStatus sb_run_keep_shape(SbRun *run, int seal, int index, const SbRing *ring, SbReport *report);
 
@@ -277,7 +280,8 @@ void sb_run_refilm(SbSealState *state, SbRun *run, int seal, int chamber, int di
 SbStatus sb_run_keep_body(SbRun *run, int seal, int chamber, int direction,
                           const SbSlidingBody *body, SbReport *report);
 
-// Makes the speeds' states of `one` those of `run` under the surface and the states that `one` has.
+// Gives `one` the speeds' states of `run` where it has none, and all of them its surface and states.
+// What it solved before stays: films know no roughness.
 SbStatus sb_run_copy_speeds(SbRun *one, const SbRun *run, SbReport *report);
 
 // Adds what interpolation over the speed leaves in the errors. SB_ERROR_CANCELLED or _MEMORY if

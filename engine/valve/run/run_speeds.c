@@ -132,22 +132,22 @@ SbStatus sb_run_copy_speeds(SbRun *one, const SbRun *run, SbReport *report) {
   for (int i = 0; i < TABLES; i++) {
     const SbSpeedStates *from = table_at(run, i);
     SbSpeedStates **to = &one->speeds[0][0][0] + i;
-    if (from == NULL) {
-      free(*to);
-      *to = NULL;
-      continue;
+    if (*to == NULL && from != NULL) {
+      *to = malloc(sizeof **to);
+      if (*to == NULL) {
+        return sb_fail(report, SB_ERROR_MEMORY, "no memory for states over the speed");
+      }
+      **to = *from;
+      (*to)->solves = 0;
+      (*to)->task.memory = one->memory[from->task.seal];
+      (*to)->task.counts = &one->summary.counters;
+      (*to)->task.warnings = &one->summary.warnings;
     }
-    *to = *to != NULL ? *to : malloc(sizeof **to);
-    if (*to == NULL) {
-      return sb_fail(report, SB_ERROR_MEMORY, "no memory for states over the speed");
+    if (*to != NULL) {
+      (*to)->roughness = one->roughness;
+      (*to)->base =
+          (&one->cycle.state[0][0][0])[i / SB_RUN_REST * SB_RUN_MOTIONS + i % SB_RUN_REST];
     }
-    **to = *from;
-    (*to)->solves = 0;
-    (*to)->roughness = one->roughness;
-    (*to)->base = (&one->cycle.state[0][0][0])[i / SB_RUN_REST * SB_RUN_MOTIONS + i % SB_RUN_REST];
-    (*to)->task.memory = one->memory[from->task.seal];
-    (*to)->task.counts = &one->summary.counters;
-    (*to)->task.warnings = &one->summary.warnings;
   }
   return SB_OK;
 }

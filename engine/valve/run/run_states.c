@@ -401,17 +401,22 @@ static void solve_together(Lane *first, Lane *second) {
   pthread_mutex_destroy(&beside.lock);
 }
 
+void sb_run_add_counters(SbCounters *sum, const SbCounters *more) {
+  sum->fit_solves += more->fit_solves;
+  sum->disc_solves += more->disc_solves;
+  sum->ring_solves += more->ring_solves;
+  sum->reynolds_solves += more->reynolds_solves;
+  sum->speed_nodes += more->speed_nodes;
+  sum->newton_iterations += more->newton_iterations;
+  sum->film_steps += more->film_steps;
+  sum->field_evaluations += more->field_evaluations;
+  sum->profile_evaluations += more->profile_evaluations;
+}
+
 // Adds a lane's to the run.
 static void join(SbRun *run, const Lane *lane) {
   SbSummary *summary = &run->summary;
-  SbCounters *sum = &summary->counters;
-  sum->fit_solves += lane->counters.fit_solves;
-  sum->disc_solves += lane->counters.disc_solves;
-  sum->ring_solves += lane->counters.ring_solves;
-  sum->reynolds_solves += lane->counters.reynolds_solves;
-  sum->newton_iterations += lane->counters.newton_iterations;
-  sum->field_evaluations += lane->counters.field_evaluations;
-  sum->profile_evaluations += lane->counters.profile_evaluations;
+  sb_run_add_counters(&summary->counters, &lane->counters);
   sb_warnings_merge(&summary->warnings, &lane->warnings);
   if (lane->failed.status != SB_OK) {
     sb_seal_reason(summary, lane->seal, "*", "%s", lane->failed.text);
