@@ -13,7 +13,8 @@ typedef struct {
   double speed;  // v = u/(2 b) [1/s]
   double travel; // of the fluid at v since the start
   double H0;
-  double P[SB_TRANSIENT_NODES_MAX];    // above the rupture pressure
+  double P[SB_TRANSIENT_NODES_MAX];    // of the film, above the rupture pressure
+  double Q[SB_TRANSIENT_NODES_MAX];    // total: with what the surfaces bear
   double H[SB_TRANSIENT_NODES_MAX];    // gap
   double m[SB_TRANSIENT_NODES_MAX];    // height of the fluid, H where the film is full
   bool cavity[SB_TRANSIENT_NODES_MAX]; // active set
@@ -54,6 +55,8 @@ struct SbFilmTransient {
   SbFilmTransientProblem problem;
   SbFilmScale scale;
   SbEhlLayers layers; // of the contact at speed_scale, without end pressures
+  bool rough;         // asperities or adhesion: the total pressure is not the film's
+  SbEhlCase surface;  // they, of rough rows
   int nodes;
   int side;                   // nodes at either edge and beyond, which never move
   double core;                // the others are inside |X| < core
@@ -74,12 +77,18 @@ struct SbFilmTransient {
   double diffusion;                     // kappa = film^2 p_H / (12 eta b^2) [1/s]
   double flow;                          // scale of v m
   double known[SB_TRANSIENT_NODES_MAX]; // undeformed gap and that of ambient pressures
-  // [nodes][nodes]: gap by the pressures; factors for the step c0 and the cavity below, c0 = 0:
+  // What the surfaces bear at the state's gaps, its slope to the gap, and of a cavity's node where
+  // that is not nil the place of its total pressure among the unknowns; else 0.
+  double solid[SB_TRANSIENT_NODES_MAX], solid_H[SB_TRANSIENT_NODES_MAX];
+  int extra[SB_TRANSIENT_NODES_MAX];
+  int order; // unknowns
+  // [nodes][nodes]: gap by the pressures; factors for the step c0 and the unknowns below, c0 = 0:
   // none.
   double kernel[SB_TRANSIENT_NODES_MAX * SB_TRANSIENT_NODES_MAX];
   double matrix[SB_TRANSIENT_NODES_MAX * SB_TRANSIENT_NODES_MAX];
   double factored_c0;
   bool factored_cavity[SB_TRANSIENT_NODES_MAX];
+  int factored_extra[SB_TRANSIENT_NODES_MAX];
   int pivot[SB_TRANSIENT_NODES_MAX];
   double right[SB_TRANSIENT_NODES_MAX];
   // Of a fitted body: its polynomials at the nodes, and S times these.
@@ -112,7 +121,14 @@ void sb_transient_remap(SbFilmTransient *t, int nodes);
 // Whether a front stands among so many heights: they differ by more than the factor.
 bool sb_transient_front(const double *height, int count, double factor);
 
-// Elastic gap of the state's pressure at all nodes.
+// What the surfaces bear at the state's gaps into t->solid. Gives every node the total pressure of
+// its film, or, if `split`, a full one the film pressure that its total leaves.
+void sb_transient_bear(SbFilmTransient *t, SbTransientState *s, bool split);
+
+// Friction, asperities' load and real area of the present state into the result.
+void sb_transient_rub(SbFilmTransientResult *out, const SbFilmTransient *t);
+
+// Elastic gap of the state's total pressure at all nodes.
 void sb_transient_gap(double *out, const SbFilmTransient *t, const SbTransientState *s);
 
 // Mean over each cell, displaced back by the carried share of `way`, of earlier heights: the

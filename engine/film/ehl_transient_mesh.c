@@ -289,6 +289,6 @@ void sb_transient_gap(double *out, const SbFilmTransient *t, const SbTransientSt
   for (int i = 0; i < t->nodes; i++) {
     out[i] = s->H0 + t->known[i];
   }
-  cblas_dgemv(CblasRowMajor, CblasNoTrans, t->nodes, t->nodes, 1.0, t->kernel, t->nodes, s->P, 1,
+  cblas_dgemv(CblasRowMajor, CblasNoTrans, t->nodes, t->nodes, 1.0, t->kernel, t->nodes, s->Q, 1,
               1.0, out, 1);
 }

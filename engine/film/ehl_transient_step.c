@@ -4,7 +4,9 @@
 // interpolation, and with van Albada's limited slope where a front stands, a coarse cell is wider
 // than the layers or the upwind node lies in a cavity, so that fronts stay monotonic; faces that
 // move with the fluid let none through. Unknown of a node is its pressure where the film is full,
-// where its fluid's height is the gap; in a cavity the height, at the rupture pressure.
+// where its fluid's height is the gap; in a cavity the height, at the rupture pressure. Where the
+// surfaces bear a part, the unknown is the total pressure q = p + p_a(h), and a cavity's node has
+// both: with dh = K dq + dH0 the film's pressure changes by dp = dq - p_a' dh.
 #include "engine/film/ehl_transient.h"
 
 #include "engine/numeric/dense.h"
@@ -76,7 +78,7 @@ static double residual(const SbFilmTransient *t, const SbTransientState *s, int 
 // Load above the ambient step less its target pi/2.
 static double load_excess(const SbFilmTransient *t, const SbTransientState *s) {
   const double left = t->scale.middle + t->X[0], right = t->scale.middle + t->X[t->nodes - 1];
-  return cblas_ddot(t->nodes, t->weight, 1, s->P, 1) + t->scale.inlet * left -
+  return cblas_ddot(t->nodes, t->weight, 1, s->Q, 1) + t->scale.inlet * left -
          t->scale.outlet * right - 0.5 * M_PI;
 }
 
@@ -87,7 +89,7 @@ enum { BAND = 5, MIDDLE = 2 }; // derivatives of a row go to nodes i - 2 .. i + 
 static void assemble(SbFilmTransient *t, const SbTransientState *s, const double *elastic,
                      bool whole) {
   const int n = t->nodes;
-  const size_t order = (size_t)n - 1;
+  const size_t order = (size_t)t->order;
   for (int i = 1; i + 1 < n; i++) {
     double by_m[BAND] = {0}, by_H[BAND] = {0}, by_P[BAND] = {0};
     by_m[MIDDLE] = t->volume[i] * t->c0;
@@ -110,7 +112,8 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const double
     for (int j = first; j <= last; j++) {
       const int k = j - i + MIDDLE;
       // Where the film is full its gap is the fluid's height.
-      const double by_gap = by_H[k] + (s->cavity[j] ? 0.0 : by_m[k]);
+      const double by_gap =
+          by_H[k] + (s->cavity[j] ? 0.0 : by_m[k] - by_P[k] * t->solid_H[j]);
       right += by_gap * (elastic[j] - s->H[j]);
       by_H0 += by_gap;
       if (whole && by_gap != 0.0) {
@@ -124,24 +127,65 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const double
     for (int j = 1; j + 1 < n; j++) {
       const bool near = j >= first && j <= last;
       const double own = !near ? 0.0 : s->cavity[j] ? by_m[j - i + MIDDLE] : by_P[j - i + MIDDLE];
+      if (t->extra[j] > 0) {
+        out[t->extra[j]] = out[j - 1];
+      }
       out[j - 1] = s->cavity[j] ? own : out[j - 1] + own;
     }
     out[order - 1] = by_H0;
+  }
+  for (int i = 1; i + 1 < n; i++) { // the total pressure of a cavity
+    if (t->extra[i] > 0) {
+      const double slope = t->solid_H[i];
+      t->right[t->extra[i]] = s->Q[i] - t->solid[i] - slope * (elastic[i] - s->H[i]);
+      if (whole) {
+        double *out = t->matrix + (size_t)t->extra[i] * order;
+        for (int j = 1; j + 1 < n; j++) {
+          const double by = -slope * t->kernel[(size_t)i * (size_t)n + (size_t)j];
+          out[j - 1] = s->cavity[j] ? 0.0 : by;
+          if (t->extra[j] > 0) {
+            out[t->extra[j]] = by;
+          }
+        }
+        out[t->extra[i]] += 1.0;
+        out[order - 1] = -slope;
+      }
+    }
   }
   t->right[order - 1] = load_excess(t, s);
   if (whole) {
     double *out = t->matrix + (order - 1) * order;
     for (int j = 1; j + 1 < n; j++) {
       out[j - 1] = s->cavity[j] ? 0.0 : t->weight[j];
+      if (t->extra[j] > 0) {
+        out[t->extra[j]] = t->weight[j];
+      }
     }
     out[order - 1] = 0.0;
   }
 }
 
-// Whether the last factors may serve again: the same cavity and nearly the same step.
+// Numbers the unknowns: of the nodes, total pressures of cavities between surfaces that touch, H0.
+// *lifted tells that some touch no more. False where there are too many.
+static bool number(bool *lifted, SbFilmTransient *t, SbTransientState *s) {
+  int next = t->nodes - 2;
+  for (int i = 0; i < t->nodes; i++) {
+    const bool touches = s->cavity[i] && t->solid[i] != 0.0;
+    t->extra[i] = touches ? next++ : 0;
+    if (s->cavity[i] && !touches && s->Q[i] != 0.0) {
+      s->Q[i] = 0.0;
+      *lifted = true;
+    }
+  }
+  t->order = next + 1;
+  return t->order <= SB_TRANSIENT_NODES_MAX;
+}
+
+// Whether the last factors may serve again: the same unknowns and nearly the same step.
 static bool factors_serve(const SbFilmTransient *t, const SbTransientState *s) {
   return fabs(log(t->c0 / t->factored_c0)) < 0.3 &&
-         memcmp(t->factored_cavity, s->cavity, (size_t)t->nodes * sizeof(bool)) == 0;
+         memcmp(t->factored_cavity, s->cavity, (size_t)t->nodes * sizeof(bool)) == 0 &&
+         memcmp(t->factored_extra, t->extra, (size_t)t->nodes * sizeof(int)) == 0;
 }
 
 // Largest error of the balance of mass between the contact's left edge and any node up to its right
@@ -169,6 +213,7 @@ static int switch_nodes(const SbFilmTransient *t, SbTransientState *s) {
       s->cavity[i] = !s->cavity[i];
       s->m[i] = s->H[i];
       s->P[i] = 0.0;
+      s->Q[i] = t->solid[i];
       count++;
     }
   }
@@ -190,13 +235,14 @@ static void choose_scheme(SbFilmTransient *t, const SbTransientState *s, int i) 
 static double take_step(double *factor, SbFilmTransient *t, SbTransientState *s,
                         const double *elastic) {
   const int n = t->nodes;
-  const double rise = -t->right[n - 2];
+  const double rise = -t->right[t->order - 1];
   double *change = t->work[0], *wanted = t->work[1];
   change[0] = change[n - 1] = 0.0;
   for (int i = 0; i < n; i++) {
     wanted[i] = elastic[i] + rise;
     if (i > 0 && i + 1 < n) {
-      change[i] = s->cavity[i] ? 0.0 : -t->right[i - 1];
+      const int place = s->cavity[i] ? t->extra[i] : i - 1;
+      change[i] = !s->cavity[i] || place > 0 ? -t->right[place] : 0.0;
     }
   }
   // New gap by the linear elastic relation.
@@ -214,7 +260,7 @@ static double take_step(double *factor, SbFilmTransient *t, SbTransientState *s,
   for (int i = 0; i < n; i++) {
     const double before = s->m[i];
     s->H[i] += *factor * (wanted[i] - s->H[i]);
-    s->P[i] += *factor * change[i];
+    s->Q[i] += *factor * change[i];
     s->m[i] = s->cavity[i] ? before - *factor * t->right[i - 1] : s->H[i];
     largest = fmax(largest, fabs(s->m[i] - before) / fmax(fabs(s->m[i]), 1e-300));
   }
@@ -229,7 +275,8 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
   SbFilmTransientResult *result = &t->result;
   s->P[0] = t->scale.inlet;
   s->P[n - 1] = t->scale.outlet;
-  bool fresh = !factors_serve(t, s);
+  sb_transient_bear(t, s, false);
+  bool fresh = false;
   bool settled = false;
   // H is the gap of P: a whole step makes it so and shorter ones keep it. It then carries more
   // digits of a thin film than deflections of size one.
@@ -237,6 +284,12 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
   double before_largest = INFINITY;
   double before_mass = INFINITY;
   for (int iteration = 0; iteration < ITERATIONS_MAX; iteration++) {
+    bool lifted = false;
+    if (!number(&lifted, t, s)) {
+      break;
+    }
+    elastic_H = elastic_H && !lifted;
+    fresh = fresh || !factors_serve(t, s);
     // The scheme follows the cavity at first only: with the active set it could go in circles.
     for (int i = 0; iteration < 3 && i + 1 < n; i++) {
       choose_scheme(t, s, i);
@@ -262,15 +315,17 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
     if (fresh) {
       t->factored_c0 = t->c0;
       memcpy(t->factored_cavity, s->cavity, (size_t)n * sizeof(bool));
+      memcpy(t->factored_extra, t->extra, (size_t)n * sizeof(int));
     }
     result->newton_iterations++;
     double factor, largest = NAN;
-    if (sb_factor_solve(t->matrix, t->pivot, t->right, n - 1, fresh)) {
+    if (sb_factor_solve(t->matrix, t->pivot, t->right, t->order, fresh)) {
       largest = take_step(&factor, t, s, elastic);
     }
     if (isnan(largest)) {
       break;
     }
+    sb_transient_bear(t, s, true);
     const int switched = switch_nodes(t, s);
     elastic_H = (elastic_H || factor == 1.0) && switched == 0;
     settled = factor == 1.0 && switched == 0 && largest < 1e-4;
