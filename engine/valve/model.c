@@ -9,6 +9,7 @@
 
 #include "engine/contact/closed_forms.h"
 #include "engine/contact/fit.h"
+#include "engine/fluid/fluid.h"
 #include "engine/mechanism/chamber.h"
 
 #include <math.h>
@@ -218,6 +219,21 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
   }
 }
 
+// A named fluid has figures at the canister's temperature, and takes the ethanol.
+static void check_fluid(const SbModel *model, SbProblems *problems) {
+  const SbFluid *fluid = &sb_fluids[model->fluid];
+  SbFluidState state;
+  SbReport report = {0};
+  if (model->fluid == 0 && model->ethanol > 0) {
+    refuse(problems, "fluid.ethanol", NAN, 0, "needs a propellant by name (fluid.name)");
+  } else if (model->fluid > 0 && sb_fluid_state(&state, NULL, fluid, model->temperature,
+                                                model->ethanol, &report) != SB_OK) {
+    const bool hot = strcmp(report.parameter, "canister.temperature") == 0;
+    refuse(problems, hot ? report.parameter : "fluid.ethanol", hot ? fluid->temperature_min : NAN,
+           hot ? fluid->temperature_max : 0, "%s", report.text);
+  }
+}
+
 // Metered volume and doses; with ports there must be a chamber.
 static void compile_dose(SbModel *model, SbProblems *problems) {
   const SbValveShape *shape = &model->shape;
@@ -304,6 +320,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   SbModel *model = &made->model;
   SbProblems *found = &made->problems;
   take_values(model, params);
+  check_fluid(model, found);
   check_sizes(model, found);
   check_combinations(model, found);
   compile_rig(model, found);
@@ -469,6 +486,11 @@ int sb_model_number(const SbModel *model, SbParamId id) {
   return (int)sb_params_get(&model->params, id);
 }
 
+bool sb_model_default(SbParamDefault *out, const SbModel *model, SbParamId id) {
+  sb_params_default(out, &model->params, id);
+  return !model->params.given[id] && out->giver >= 0;
+}
+
 void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t size) {
   sb_param_choice_name(sb_param(id), sb_model_number(model, id), name, size);
 }
@@ -530,11 +552,22 @@ void sb_model_remarks(const SbModel *model, SbProblems *out) {
   }
 }
 
-void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings) {
+void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     SbRubberState ignored;
     // Its constants were checked when the model was compiled: only the warnings are of interest.
     (void)sb_rubber_state(&ignored, &model->rubber, &model->seal[i].stored, warnings, NULL);
+  }
+  SbFluidState state;
+  if (model->fluid > 0) {
+    (void)sb_fluid_state(&state, warnings, &sb_fluids[model->fluid], model->temperature,
+                         model->ethanol, NULL);
+  }
+  if (model->canister_pressure < 0) {
+    sb_warn(warnings, "pressure-below-ambient", "canister.pressure",
+            "the canister is %.4g kPa below ambient: nothing is delivered, and what leaks in or "
+            "flows through ports is air, taken with the liquid's density and viscosity",
+            -1e-3 * model->canister_pressure);
   }
 }
 
