@@ -226,11 +226,15 @@ static void check_fluid(const SbModel *model, SbProblems *problems) {
   SbReport report = {0};
   if (model->fluid == 0 && model->ethanol > 0) {
     refuse(problems, "fluid.ethanol", NAN, 0, "needs a propellant by name (fluid.name)");
-  } else if (model->fluid > 0 && sb_fluid_state(&state, NULL, fluid, model->temperature,
-                                                model->ethanol, &report) != SB_OK) {
-    const bool hot = strcmp(report.parameter, "canister.temperature") == 0;
-    refuse(problems, hot ? report.parameter : "fluid.ethanol", hot ? fluid->temperature_min : NAN,
-           hot ? fluid->temperature_max : 0, "%s", report.text);
+  } else if (model->fluid > 0) {
+    const SbStatus status =
+        sb_fluid_state(&state, NULL, fluid, model->temperature, model->ethanol, &report);
+    if (status == SB_ERROR_INPUT) {
+      refuse(problems, "fluid.ethanol", NAN, 0, "%s", report.text);
+    } else if (status != SB_OK) {
+      refuse(problems, "canister.temperature", fluid->temperature_min, fluid->temperature_max, "%s",
+             report.text);
+    }
   }
 }
 
