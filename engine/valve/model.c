@@ -59,6 +59,10 @@ static void take_values(SbModel *model, const SbParams *params) {
   model->life_shown = model->life_shown > 0 ? model->life_shown : model->life_actuations;
   model->rubber.terms = 3;
   model->rubber.fluid_density = model->density;
+  // stem.pressure_diameter keeps its value, so that the pressure force is the pressure's alone.
+  const double grown = 1 + model->housing_expansion * (model->temperature - SB_SIZES_TEMPERATURE);
+  model->radial_space *= grown;
+  model->bore_diameter *= grown;
   model->bore_circumference = M_PI * model->bore_diameter;
   model->pressure_force =
       model->canister_pressure * M_PI / 4 * model->stem_diameter * model->stem_diameter;
@@ -107,6 +111,7 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   bool outer = index == SB_OUTER;
   seal->stored.storage_time = model->storage_time;
   seal->stored.temperature = model->storage_temperature;
+  seal->stored.use_temperature = model->temperature;
   seal->stored.recovery_time = model->recovery_time;
   seal->stored.radial_space = model->radial_space;
   SbReport report = {0};
@@ -543,8 +548,21 @@ const SbValveOutlines *sb_model_outlines(const SbModel *model) {
   return model->data != NULL ? &model->data->outlines : NULL;
 }
 
+// Before, one temperature stood for storage and use.
+static bool stored_only(const SbModel *model) {
+  return model->params.given[SB_P_STORAGE_TEMPERATURE] &&
+         !model->params.given[SB_P_CANISTER_TEMPERATURE];
+}
+
+static const char stored_only_text[] = "storage.temperature is that of storage alone: the valve is "
+                                       "used at canister.temperature, which "
+                                       "is not given";
+
 void sb_model_remarks(const SbModel *model, SbProblems *out) {
   out->count = 0;
+  if (stored_only(model)) {
+    refuse(out, "storage.temperature", NAN, NAN, "%s", stored_only_text);
+  }
   // Where the vent lies between the contacts, their widths left out (run_valve.c has them).
   double hole = model->shape.vent_diameter;
   double nearest = model->land_edge - model->stroke - hole / 2;
@@ -561,6 +579,9 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
     SbRubberState ignored;
     // Its constants were checked when the model was compiled: only the warnings are of interest.
     (void)sb_rubber_state(&ignored, &model->rubber, &model->seal[i].stored, warnings, NULL);
+  }
+  if (stored_only(model)) {
+    sb_warn(warnings, "storage-only", "storage.temperature", "%s", stored_only_text);
   }
   SbFluidState state;
   if (model->fluid > 0) {
@@ -582,11 +603,11 @@ void sb_model_gland(SbGland *out, const SbModel *model, int seal) {
       .section_diameter_tolerance = ring->section_diameter_tolerance,
       .inner_diameter = ring->stored.inner_diameter,
       .inner_diameter_tolerance = ring->inner_diameter_tolerance,
-      .radial_space = model->radial_space,
+      .radial_space = sb_model_value(model, SB_P_GLAND_RADIAL_SPACE),
       .radial_space_tolerance = model->radial_space_tolerance,
       .axial_width = model->axial_width,
       .axial_width_tolerance = model->axial_width_tolerance,
-      .bore_diameter = model->bore_diameter,
+      .bore_diameter = sb_model_value(model, SB_P_BORE_DIAMETER),
       .bore_diameter_tolerance = model->bore_diameter_tolerance,
       .land_diameter = model->stem_diameter,
       .land_diameter_tolerance = model->stem_diameter_tolerance,

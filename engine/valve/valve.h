@@ -248,7 +248,7 @@ void sb_model_remarks(const SbModel *model, SbProblems *out);
 // Adds what the model has to say about its validity: the storage of the rings, the fluid.
 void sb_model_warn(const SbModel *model, SbWarnings *warnings);
 
-// The gland of a seal with its tolerances, for sb_gland_readouts: sizes as stored.
+// The gland of a seal with its tolerances, for sb_gland_readouts: sizes as stored, at 20 degC.
 void sb_model_gland(SbGland *out, const SbModel *model, int seal);
 
 // The fitment problem of a seal by the model's own choice, at a pressure difference (positive on

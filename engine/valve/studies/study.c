@@ -174,6 +174,13 @@ static void fix_base(SbStudyWork *work) {
   const SbOverride outer[] = {
       {SB_P_STORAGE_TIME, 0},
       {SB_P_STORAGE_TEMPERATURE, scene->rubber.reference_temperature},
+      // What the temperature has made of the rest.
+      {SB_P_CANISTER_TEMPERATURE, SB_SIZES_TEMPERATURE},
+      {SB_P_GLAND_RADIAL_SPACE, scene->radial_space},
+      {SB_P_BORE_DIAMETER, scene->bore_diameter},
+      {SB_P_CANISTER_PRESSURE, scene->canister_pressure},
+      {SB_P_FLUID_VISCOSITY, scene->viscosity},
+      {SB_P_FLUID_DENSITY, scene->density},
       {SB_P_SEAL_OUTER_SECTION_DIAMETER, ring->section_diameter},
       {SB_P_SEAL_OUTER_INNER_DIAMETER, ring->inner_diameter},
       {SB_P_SEAL_OUTER_MODULUS, ring->modulus},
