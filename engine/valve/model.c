@@ -174,7 +174,8 @@ static void check_sizes(const SbModel *model, SbProblems *problems) {
 static void check_combinations(const SbModel *model, SbProblems *problems) {
   // Each stands behind its range's least in the catalogue.
   static const SbParamId largest[] = {SB_P_STUDY_SQUEEZE_MAX, SB_P_STUDY_SPEED_MAX,
-                                      SB_P_STUDY_LOAD_MAX, SB_P_STUDY_TIME_MAX};
+                                      SB_P_STUDY_LOAD_MAX, SB_P_STUDY_TIME_MAX,
+                                      SB_P_STUDY_TEMPERATURE_MAX};
   // The quasi-static balance is not silently asked for what only the motion with inertia can do:
   // it knows their least values.
   static const SbParamId inertial[] = {SB_P_DRIVE_KIND,

@@ -1,10 +1,12 @@
 // One temperature through the valve: a named fluid's pressure, viscosity and density, what stays as
-// somebody sets it, what is refused; pressures below ambient.
+// somebody sets it, what is refused; pressures below ambient; expansion; what each part makes of
+// the least return force.
 #include "models.h"
 #include "near.h"
 
 #include "engine/fluid/fluid.h"
 #include "engine/valve/figures.h"
+#include "engine/valve/studies/study.h"
 
 #include <math.h>
 #include <string.h>
@@ -171,6 +173,97 @@ static void test_below_ambient(void) {
   }
 }
 
+// Sizes at the temperature of use: ring, radial space and bore expand, the diameter of the pressure
+// does not, and what a drawing is checked by stays. Storage has a temperature of its own.
+static void test_expansion(void) {
+  SbModel cold, warm;
+  compile(&cold, NULL, 0);
+  const Setting settings[] = {{SB_P_CANISTER_TEMPERATURE, zero + 45},
+                              {SB_P_RUBBER_THERMAL_EXPANSION, 200e-6},
+                              {SB_P_HOUSING_THERMAL_EXPANSION, 100e-6}};
+  compile(&warm, settings, G_N_ELEMENTS(settings));
+  const SbSealModel *from = &cold.seal[SB_INNER], *to = &warm.seal[SB_INNER];
+  assert_close(to->section_diameter, from->section_diameter * 1.005, 1e-12);
+  assert_close(to->inner_diameter, from->inner_diameter * 1.005, 1e-12);
+  assert_close(warm.radial_space, cold.radial_space * 1.0025, 1e-12);
+  assert_close(warm.bore_diameter, cold.bore_diameter * 1.0025, 1e-12);
+  assert_close(to->squeeze, 1 - 1.36 / 1.61 * 1.0025 / 1.005, 1e-12);
+  assert_close(to->modulus, 2.5e6 * (zero + 45) / (zero + 20), 1e-12);
+  g_assert_cmpfloat(warm.stem_diameter, ==, cold.stem_diameter);
+  g_assert_cmpfloat(warm.pressure_force, ==, cold.pressure_force);
+  SbGland glands[2];
+  sb_model_gland(&glands[0], &cold, SB_INNER);
+  sb_model_gland(&glands[1], &warm, SB_INNER);
+  g_assert_cmpmem(&glands[0], sizeof glands[0], &glands[1], sizeof glands[1]);
+
+  for (int given = 0; given < 2; given++) {
+    const Setting stored[] = {{SB_P_STORAGE_TEMPERATURE, zero - 20},
+                              {given ? (int)SB_P_CANISTER_TEMPERATURE : -1, zero + 20}};
+    SbModel model;
+    SbWarnings warnings = {0};
+    SbProblems remarks;
+    compile(&model, stored, G_N_ELEMENTS(stored));
+    g_assert_cmpfloat(model.seal[SB_OUTER].modulus, ==, 2.5e6);
+    g_assert_cmpfloat(model.seal[SB_OUTER].section_diameter, ==, 1.61e-3);
+    sb_model_warn(&model, &warnings);
+    sb_model_remarks(&model, &remarks);
+    g_assert_true(warned(&warnings, "storage-only") == !given);
+    g_assert_cmpuint(remarks.count, ==, !given);
+  }
+}
+
+static const SbStudyRow *row_of(const SbStudy *study, const char *label, double celsius) {
+  g_autofree char *name = g_strdup_printf("%s, %.0f °C", label, celsius);
+  for (size_t i = 0; i < study->row_count; i++) {
+    if (strcmp(study->row[i].name, name) == 0) {
+      return &study->row[i];
+    }
+  }
+  g_error("no row %s", name);
+}
+
+// From 50 to -10 degC each propellant's least return force falls; each of what the temperature
+// changes has its own sign, and the parts alone make up the whole but for what they do together.
+static void test_parts(void) {
+  enum { FORCE, BREAKAWAY, RETURN, DOSE, CHANGE, PRESSURE, FILM, RUBBER, EXPANSION };
+  static const double celsius[] = {-10, 0, 20, 40, 50};
+  SbModel model;
+  const Setting settings[] = {{SB_P_CANISTER_TEMPERATURE, zero + 3}}; // the scene's own is nothing
+  compile(&model, settings, G_N_ELEMENTS(settings));
+  SbStudy *study = g_new0(SbStudy, 1);
+  g_assert_cmpint(sb_study_make(study, SB_STUDY_PROPELLANTS, &model, NULL, NULL), ==, SB_OK);
+  g_assert_true(study->complete);
+  for (int fluid = R134A; fluid <= PROPELLANTS; fluid++) {
+    const char *label = sb_fluids[fluid].label;
+    double before = -INFINITY;
+    for (size_t i = 0; i < G_N_ELEMENTS(celsius); i++) {
+      const double *value = row_of(study, label, celsius[i])->value;
+      assert_close(value[FORCE], force_of(fluid, celsius[i]), 1e-12);
+      g_assert_cmpfloat(value[RETURN], >, before);
+      before = value[RETURN];
+      const double sign = celsius[i] > 20 ? 1 : -1;
+      if (celsius[i] == 20) {
+        g_assert_cmpfloat(value[CHANGE], ==, 0);
+        continue;
+      }
+      // A warmer canister pushes more; a thinner liquid, a stiffer rubber and a thicker ring rub
+      // more.
+      g_assert_cmpfloat(sign * value[PRESSURE], >, 0);
+      g_assert_cmpfloat(sign * value[FILM], <, 0);
+      g_assert_cmpfloat(sign * value[RUBBER], <, 0);
+      g_assert_cmpfloat(sign * value[EXPANSION], <, 0);
+      const double sum = value[PRESSURE] + value[FILM] + value[RUBBER] + value[EXPANSION];
+      assert_close(sum, value[CHANGE], 0.02);
+    }
+    const SbStudySeries *curve = &study->panel[2].series[fluid - 1];
+    g_assert_cmpstr(curve->name, ==, label);
+    for (size_t i = 1; i < curve->count; i++) {
+      g_assert_cmpfloat(curve->y[i], >, curve->y[i - 1]);
+    }
+  }
+  g_free(study);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/temperature/names", test_names);
@@ -178,5 +271,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/temperature/pressure-force", test_pressure_force);
   g_test_add_func("/temperature/refused", test_refused);
   g_test_add_func("/temperature/below-ambient", test_below_ambient);
+  g_test_add_func("/temperature/expansion", test_expansion);
+  g_test_add_func("/temperature/parts", test_parts);
   return g_test_run();
 }
