@@ -138,12 +138,18 @@ typedef struct {
   SbLabels *labels;
   SbRect card, plot;
   SbScale x, y;
-  double x_unit, y_unit; // shown per SI
-  bool empty;            // no value at all: no range to tell either
+  double x_unit, x_zero, y_unit; // shown per SI, what 0 in SI is shown as
+  bool empty;                    // no value at all: no range to tell either
 } Plot;
 
 static double unit_of(const SbStudyAxis *axis) {
-  return sb_quantity_to_shown(1, axis->si, axis->unit);
+  return sb_quantity_to_shown(1, axis->si, axis->unit) -
+         sb_quantity_to_shown(0, axis->si, axis->unit);
+}
+
+// The abscissa alone may be a point of a scale (degC).
+static double x_shown(const Plot *plot, double x) {
+  return x * plot->x_unit + plot->x_zero;
 }
 
 static bool usable(const Plot *plot, double x, double y) {
@@ -167,7 +173,7 @@ static void set_scales(Plot *plot) {
     const SbStudySeries *series = &plot->panel->series[s];
     for (size_t i = 0; i < series->count; i++) {
       if (isfinite(series->x[i])) {
-        span_add(&x, series->x[i] * plot->x_unit);
+        span_add(&x, x_shown(plot, series->x[i]));
       }
       if (usable(plot, series->x[i], series->y[i])) {
         span_add(&all, series->y[i] * plot->y_unit);
@@ -314,7 +320,7 @@ static void draw_marks(Plot *plot) {
   SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
   for (size_t i = 0; i < plot->study->mark_count; i++) {
     const SbStudyMark *mark = &plot->study->mark[i];
-    double value = mark->x * plot->x_unit;
+    double value = x_shown(plot, mark->x);
     double slack = 1e-9 * fabs(plot->x.hi);
     if (!(value >= plot->x.lo - slack && value <= plot->x.hi + slack)) {
       continue;
@@ -341,7 +347,7 @@ static SbPoint *series_points(const Plot *plot, const SbStudySeries *series) {
   SbPoint *out = g_new(SbPoint, series->count + 1);
   for (size_t i = 0; i < series->count; i++) {
     bool good = usable(plot, series->x[i], series->y[i]);
-    out[i].x = good ? sb_axis_at(&plot->x, series->x[i] * plot->x_unit) : NAN;
+    out[i].x = good ? sb_axis_at(&plot->x, x_shown(plot, series->x[i])) : NAN;
     out[i].y = good ? sb_axis_at(&plot->y, series->y[i] * plot->y_unit) : NAN;
   }
   return out;
@@ -512,6 +518,7 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
                rect.width - 2 * pad - (narrow ? 42 : 30) - gutter,
                fmax(rect.height - TITLE - FOOT, 20)},
       .x_unit = unit_of(&study->x),
+      .x_zero = sb_quantity_to_shown(0, study->x.si, study->x.unit),
       .y_unit = unit_of(&panel->y),
   };
   set_scales(&plot);

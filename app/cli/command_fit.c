@@ -202,7 +202,7 @@ int sb_command_fit(int argc, char **argv) {
   SbStatus status = sb_timing_median(&wall_s, solve, &job);
   fit->solver.wall_s = wall_s;
   code = sb_cli_status(status, &job.report);
-  sb_model_warn_storage(model, &fit->warnings);
+  sb_model_warn(model, &fit->warnings);
 
   // Design read-outs of the gland.
   SbGland gland;

@@ -112,10 +112,7 @@ static void append_group(GString *text, const SbParams *params, const char *grou
     const SbParam *param = sb_param((SbParamId)i);
     // What nobody gave and follows from another parameter needs no line; the stem's mass follows
     // its parts'.
-    SbParamDefault derived;
-    int choice;
-    bool follows = param->parent >= 0 || i == SB_P_STEM_MASS ||
-                   sb_params_brought(&derived, &choice, (SbParamId)i, 0);
+    bool follows = i == SB_P_STEM_MASS || sb_param_follows((SbParamId)i);
     bool needed = params->given[i] || !follows;
     const char *dot = strrchr(param->key, '.');
     if (needed && (size_t)(dot - param->key) == length && strncmp(param->key, group, length) == 0) {

@@ -1,6 +1,7 @@
 // The JSON documents of runs and plans; see the header.
 #include "app/export/results.h"
 
+#include "app/document/unit.h"
 #include "app/export/csv.h"
 #include "app/export/json.h"
 #include "app/export/studies.h"
@@ -229,6 +230,32 @@ static void put_run_solver(SbJson *json, const SbSummary *summary) {
   sb_json_object_end(json);
 }
 
+// Values in force that follow from another parameter.
+static void put_follows(SbJson *json, const SbModel *model) {
+  sb_json_object(json, "follows");
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    SbParamDefault derived;
+    const SbParam *param = sb_param((SbParamId)i);
+    if (param->parent < 0 && sb_model_default(&derived, model, (SbParamId)i)) {
+      g_autofree char *from = sb_param_format((SbParamId)derived.giver,
+                                              sb_model_value(model, (SbParamId)derived.giver));
+      sb_json_object(json, param->key);
+      if (param->kind == SB_PARAM_CHOICE) {
+        put_choice(json, "value", model, (SbParamId)i);
+      } else {
+        sb_json_number(json, "value", derived.value);
+      }
+      sb_json_string(json, "unit", param->si);
+      sb_json_string(json, "from", sb_param((SbParamId)derived.giver)->key);
+      sb_json_string(json, "name", from);
+      sb_json_string(json, "source", derived.source);
+      sb_json_string(json, "tag", derived.tag);
+      sb_json_object_end(json);
+    }
+  }
+  sb_json_object_end(json);
+}
+
 char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   const SbSummary *summary = sb_run_summary(run);
   const SbModel *model = sb_run_model(run);
@@ -250,6 +277,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   put_choice(&json, "friction", model, SB_P_MODELS_FRICTION);
   put_choice(&json, "motion", model, SB_P_MODELS_MOTION);
   sb_json_object_end(&json);
+  put_follows(&json, model);
   sb_json_object(&json, "cycle");
   put_figures(&json, summary, "cycle.");
   put_verdict(&json, info->verdict);

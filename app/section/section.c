@@ -39,7 +39,7 @@ void sb_section_limits_of_frames(SbSectionLimits *limits, const SbFrame *frames,
   bool inner_found = false;
   for (size_t i = 0; i < count; i++) {
     limits->force_max =
-        fmax(limits->force_max, fmax(fabs(frames[i].force), frames[i].pressure_force));
+        fmax(limits->force_max, fmax(fabs(frames[i].force), fabs(frames[i].pressure_force)));
     for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
       const SbSealFrame *at = &frames[i].seal[seal];
       limits->pressure_max = fmax(limits->pressure_max, at->pressure_peak);
@@ -420,7 +420,7 @@ static void lay_out(SbSection *section, Layout *layout) {
 
   // Room on the left for the pressure arrow at full stroke, on the right for the ambient.
   double strip_width = view->width - 2 * margin;
-  double left_room = 3.4 * sb_model_pressure_force(model) + 18;
+  double left_room = 3.4 * fabs(sb_model_pressure_force(model)) + 18;
   double left = MIN(valve->nose - sb_model_value(model, SB_P_DRIVE_STROKE), valve->face);
   double bore = sb_model_value(model, SB_P_BORE_DIAMETER);
   double right = valve->end + RIGHT_ROOM * bore;

@@ -236,9 +236,12 @@ static void draw_stem_forces(SbSection *section) {
   char text[80], value[SB_SECTION_NUMBER];
 
   double nose = sb_section_at(section, section->valve.nose - frame->displacement, 0).x;
-  double length = PX_PER_NEWTON * frame->pressure_force;
+  double length = PX_PER_NEWTON * fabs(frame->pressure_force);
   if (length > 2) {
-    sb_draw_arrow(list, nose - length, y, nose - 1.5, y, 5, 15, 16, palette->fluid_line);
+    // Below ambient it draws the stem in.
+    bool pushes = frame->pressure_force > 0;
+    double tail = nose - (pushes ? length : 1.5), tip = nose - (pushes ? 1.5 : length);
+    sb_draw_arrow(list, tail, y, tip, y, 5, 15, 16, palette->fluid_line);
     snprintf(text, sizeof text, "pressure %s", sb_section_force(value, frame->pressure_force));
     SbSectionLabel style = {13, 700, SB_LEFT, palette->fluid_line, &palette->stem};
     sb_section_label(section, nose + 10, y + 5, &style, text);

@@ -34,10 +34,10 @@ static SbStatus check_temperature(const SbFluid *fluid, double temperature, SbRe
     sb_text(critical, sizeof critical, ", above its critical temperature of %.2f °C",
             fluid->temperature_critical - zero);
   }
-  return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.temperature",
-                           "%s at %g °C: outside the range of its figures, %g to %g °C%s",
-                           fluid->name, temperature - zero, fluid->temperature_min - zero,
-                           fluid->temperature_max - zero, critical);
+  return sb_fail(report, SB_ERROR_RANGE,
+                 "%s at %g °C: outside the range of its figures, %g to %g °C%s", fluid->name,
+                 temperature - zero, fluid->temperature_min - zero, fluid->temperature_max - zero,
+                 critical);
 }
 
 static SbStatus saturated(double *value, const SbFluid *fluid, double temperature,

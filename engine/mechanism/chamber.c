@@ -8,7 +8,7 @@
 
 SbStatus sb_chamber_check(const SbChamberModel *m, SbReport *report) {
   SbStatus status =
-      SB_CHECK(report, {"canister.pressure", "the pressure [Pa]", m->canister, SB_NOT_NEGATIVE},
+      SB_CHECK(report, {"canister.pressure", "the pressure [Pa]", m->canister, SB_FINITE},
                {"", "the chamber's volume [m3]", m->volume, SB_ABOVE_ZERO},
                {"", "the chamber's stiffness [Pa]", m->stiffness, SB_ABOVE_ZERO},
                {"", "the liquid's density [kg/m3]", m->density, SB_ABOVE_ZERO});
@@ -67,7 +67,7 @@ static double bent_root(double d, double bend) {
 
 double sb_chamber_rate(const SbDoseChamber *c, double pressure) {
   const SbChamberModel *m = c->model;
-  double flow = 0.0, bend = 1e-4 * fmax(m->canister, 1e3);
+  double flow = 0.0, bend = 1e-4 * fmax(fabs(m->canister), 1e3);
   for (size_t i = 0; i < m->ports; i++) {
     if (c->open[i] && isfinite(m->port[i].area)) {
       flow += m->port[i].area * sqrt(2.0 / m->density) *
@@ -109,7 +109,7 @@ bool sb_chamber_settled(const SbDoseChamber *c, double pressure) {
     }
   }
   // Nothing flows, or as much comes in as goes out.
-  return most <= 1e-9 * fmax(c->model->canister, 1e3) || fabs(in - out) <= 1e-9 * (in + out);
+  return most <= 1e-9 * fmax(fabs(c->model->canister), 1e3) || fabs(in - out) <= 1e-9 * (in + out);
 }
 
 static double annulus(double outer, double inner) {

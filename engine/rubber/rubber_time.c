@@ -88,6 +88,9 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
       {"storage.time", "the recovery time [s]", in->recovery_time, 0.0, INFINITY},
       {"storage.temperature", "the temperature [K]", in->temperature, SB_ABOVE_ZERO},
       {"storage.temperature", "the reference [K]", r->reference_temperature, SB_ABOVE_ZERO},
+      {"canister.temperature", "the temperature of use [K]", in->use_temperature, SB_ABOVE_ZERO},
+      {"rubber.glass_temperature", "the glass temperature [K]", r->glass_temperature, 0.0,
+       SB_SIZES_TEMPERATURE},
       {"rubber.network_rate", "the network's rate [1/s]", r->network_rate, 0.0, INFINITY},
       {"rubber.network_rate", "the reformed share", r->network_reform, 0.0, 1.0},
       {"rubber.swell_mass", "swell by mass", r->swell_mass, SB_NOT_NEGATIVE},
@@ -110,6 +113,12 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
                              "%zu Prony terms with shares that sum to %g (at most %d, below 1)",
                              r->terms, sum, SB_RUBBER_TERMS);
   }
+  if (in->use_temperature < r->glass_temperature) {
+    return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.temperature",
+                             "%.4g °C is below the rubber's glass transition at %.4g °C: there it "
+                             "is glass, which no model here knows",
+                             in->use_temperature - 273.15, r->glass_temperature - 273.15);
+  }
   if (r->shift == SB_SHIFT_WLF &&
       !(r->wlf_c2 > 0.0 && in->temperature > r->reference_temperature - r->wlf_c2)) {
     return sb_fail_parameter(report, SB_ERROR_RANGE, "storage.temperature",
@@ -117,6 +126,16 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
                              in->temperature, r->reference_temperature - r->wlf_c2);
   }
   return SB_OK;
+}
+
+// What the glass transition adds to the modulus [Pa].
+static double glassy(const SbRubber *r, double temperature) {
+  static const double GLASS = 1e9, HELD = 10.0, AT_GLASS = 100.0, SHAPE = 0.7; // [Pa], [s], [s]
+  const double above = temperature - r->glass_temperature;
+  return r->glass_temperature > 0.0
+             ? GLASS /
+                   (1.0 + pow(HELD / AT_GLASS * pow(10.0, 17.44 * above / (51.6 + above)), SHAPE))
+             : 0.0;
 }
 
 static double arrhenius(double energy, double temperature, double reference) {
@@ -186,12 +205,27 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
             100.0 * out->volume_swell);
   }
 
+  // Temperature of use.
+  const double use = storage->use_temperature, warmer = use - SB_SIZES_TEMPERATURE;
+  const double entropy = r->entropic ? use / SB_SIZES_TEMPERATURE : 1.0, glass = glassy(r, use);
+  out->stiffening = entropy;
+  if (r->glass_temperature > 0.0) {
+    out->stiffening =
+        (storage->modulus * entropy + glass) / (storage->modulus + glassy(r, SB_SIZES_TEMPERATURE));
+  }
+  if (glass > storage->modulus * entropy) {
+    sb_warn(warnings, "glass-near", "canister.temperature",
+            "%.3g K above its glass transition the rubber is %.2g times as stiff as at 20 °C: "
+            "stiffness hangs on time there, and one modulus stands for all of it",
+            use - r->glass_temperature, out->stiffening);
+  }
+
   // The ring as it is now.
-  const double growth = (1.0 + out->linear_swell) * (1.0 + r->thermal_expansion * away);
+  const double growth = (1.0 + out->linear_swell) * (1.0 + r->thermal_expansion * warmer);
   out->section_diameter = storage->section_diameter * growth;
   out->inner_diameter = storage->inner_diameter * growth;
-  out->modulus = storage->modulus * (r->entropic ? temperature / reference : 1.0) *
-                 out->swell_modulus * out->relaxation * out->network;
+  out->modulus =
+      storage->modulus * out->stiffening * out->swell_modulus * out->relaxation * out->network;
   out->section_after_set =
       out->section_diameter -
       out->compression_set * fmax(0.0, out->section_diameter - storage->radial_space);

@@ -1,10 +1,16 @@
-// How storage changes the rubber: stress relaxation, set, temperature and swell, as functions of
-// time that change the ring's sizes and modulus by themselves.
+// How storage and temperature change the rubber: stress relaxation, set and swell as functions of
+// the time in storage, stiffness and expansion at the temperature of use; each changes the ring's
+// sizes and modulus by itself.
 //
 //   Relaxation   E(t)/E_0 = 1 - sum g_i (1 - exp(-t/(a_T tau_i)))    Prony series, held strain
 //   Shift        log10 a_T = -C1 (T - T_r)/(C2 + T - T_r)             Williams, Landel, Ferry 1955
 //                ln a_T = (Q/R)(1/T - 1/T_r)                          Arrhenius
-//   Temperature  E ~ T/T_r (entropy elasticity), sizes x (1 + alpha (T - T_r))
+//   Temperature  E ~ E_0 T/T_0 + E_g/(1 + (t/tau)^0.7), tau = 100 s a_T from the glass temperature
+//                by WLF's universal constants: entropy elasticity, and the glass transition as
+//                Cole and Cole's retardation, held for t = 10 s as in Gehman's test (ISO 1432),
+//                with E_g = 1 GPa; 0.7 lets a rubber of 2.5 MPa double its stiffness 20 K above T_g
+//                and grow it tenfold at 13 K, as Gehman curves of nitrile typically do. Sizes x (1
+//                + alpha (T - T_0)). Sizes and modulus are those at T_0 = 20 degC.
 //   Network      f = exp(-k t) of the original is left, k by Arrhenius (Tobolsky, two networks);
 //                the share beta of what broke forms anew, unstrained in the squeezed shape
 //   Set          of the squeeze, after release: beta (1 - f)/(f + beta (1 - f)) for good; of the
@@ -16,7 +22,8 @@
 //
 // The load of a fitted ring follows from the fit models with the sizes and the modulus below: the
 // remaining network's share and the relaxation multiply the modulus, because a squeeze that is held
-// is a constant strain. Times and temperature are constants of the storage; SI units and kelvin.
+// is a constant strain. Time and temperature of storage are constants, that of use follows it at
+// once; SI units and kelvin.
 // Constants are the caller's: the thesis gives none but table 2.2 (mass after 24 h), and its text's
 // 8 % length does not agree with its 17 % mass (docs/thesis.md, 15). Left out: swelling stress and
 // slower uptake between walls, diffusion that depends on concentration, desorption, oxidation from
@@ -27,11 +34,14 @@
 
 enum { SB_RUBBER_TERMS = 12 };
 
+// Of sizes and moduli as they are given: 20 degC (ISO 1) [K].
+#define SB_SIZES_TEMPERATURE 293.15
+
 typedef enum { SB_SHIFT_NONE, SB_SHIFT_WLF, SB_SHIFT_ARRHENIUS } SbShift;
 
 // The rubber. All zero (but T_r) is a rubber that never changes.
 typedef struct {
-  double reference_temperature; // T_r of every constant below [K]
+  double reference_temperature; // T_r of times and rates below [K]
   // Stress relaxation.
   size_t terms;
   double g[SB_RUBBER_TERMS];   // shares of the initial modulus, sum below 1
@@ -41,6 +51,7 @@ typedef struct {
   double relaxation_energy; // Q [J/mol]
   // Temperature.
   bool entropic;            // modulus proportional to T
+  double glass_temperature; // T_g [K], 0: none
   double thermal_expansion; // alpha, linear [1/K]
   // Network.
   double network_rate;   // k at T_r [1/s]
@@ -59,9 +70,10 @@ typedef struct {
 typedef struct {
   double section_diameter, inner_diameter; // [m]
   double radial_space;                     // it is squeezed into [m]
-  double modulus;                          // E at T_r when new [Pa]
+  double modulus;                          // E at T_0 when new [Pa]
   double storage_time;                     // fitted and wetted [s]
-  double temperature;                      // [K]
+  double temperature;                      // of storage [K]
+  double use_temperature;                  // afterwards [K]
   double recovery_time;                    // after release, for the set [s]
 } SbRubberStorage;
 
@@ -69,6 +81,7 @@ typedef struct {
   double section_diameter, inner_diameter; // free and swollen, at temperature [m]
   double modulus;           // of the ring as held: relaxed, swollen, at temperature [Pa]
   double shift;             // a_T
+  double stiffening;        // factor of the modulus by the temperature of use
   double relaxation;        // E(t)/E_0 by the Prony series alone
   double network;           // f
   double compression_set;   // of the squeeze, after the recovery time [-]
@@ -80,9 +93,10 @@ typedef struct {
 } SbRubberState;
 
 // State after storage. SB_ERROR_RANGE for constants that make no sense (shares that sum to 1 or
-// more, a temperature at or below C2 under T_r, ...). Warnings: "relaxation-extrapolated" beyond
-// ten times the longest relaxation time, "shift-range" more than 100 K from T_r, "swell-large"
-// above 50 % volume.
+// more, a temperature at or below C2 under T_r, use below T_g, ...). Warnings:
+// "relaxation-extrapolated" beyond ten times the longest relaxation time, "shift-range" more than
+// 100 K from T_r, "swell-large" above 50 % volume, "glass-near" where the glass transition has
+// doubled the modulus.
 SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRubberStorage *storage,
                          SbWarnings *warnings, SbReport *report);
 

@@ -315,7 +315,7 @@ static void slide(Planner *p) {
     double balance = balance_at(p->s, &place);
     double excess = sign_of(p->direction) * (sb_cycle_force(p->cycle, p->X, p->s) - balance);
     double noise =
-        1e-12 * (fabs(balance) + model->pressure_force) + 8 * 2.3e-16 * k * (p->X + p->s);
+        1e-12 * (fabs(balance) + fabs(model->pressure_force)) + 8 * 2.3e-16 * k * (p->X + p->s);
     double end = piece_end(p);
 
     if (excess < -noise || (out && balance < 0)) {
@@ -382,7 +382,8 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   while (!p.full) {
     double friction = p.stage == SB_STAGE_A ? static_limit(cycle, p.chamber, SB_CYCLE_IN, p.s)
                                             : sb_cycle_friction(cycle, p.chamber, SB_CYCLE_IN, p.s);
-    double X_slip = p.s + (model->pressure_force + friction) / k;
+    // Below ambient the canister's pressure may draw the stem in by itself.
+    double X_slip = fmax(p.s + (model->pressure_force + friction) / k, p.X);
     if (model->contact_ageing) {
       double rested = p.stage == SB_STAGE_A ? model->rest : 0;
       SbStatus status = slip_platen(&X_slip, &p, SB_CYCLE_IN, rested, report);
@@ -416,7 +417,7 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
       dwell = 0;
     }
     // Where friction has caught up with the pressure the root is known to rounding only.
-    bool stalled = limit <= 1e-9 * model->pressure_force;
+    bool stalled = limit <= 1e-9 * fabs(model->pressure_force);
     if (p.s <= 0 || stalled || X_slip <= 0) {
       emit(&p, SB_CYCLE_STICK, 0, p.s, -1);
       break;

@@ -91,7 +91,8 @@ void sb_figures_of_model(SbSummary *summary, const SbModel *model) {
   if (model->motion == SB_MODEL_MOTION_RIG) {
     return; // the plate has no glands and gives no dose
   }
-  summary->dose_mass = model->metered_volume * model->density;
+  // Nothing drives out what is not above ambient.
+  summary->dose_mass = model->canister_pressure > 0 ? model->metered_volume * model->density : 0;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     summary->seal[i].squeeze = model->seal[i].squeeze;
     summary->seal[i].stretch_inner = model->seal[i].stretch_inner;

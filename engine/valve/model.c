@@ -9,6 +9,7 @@
 
 #include "engine/contact/closed_forms.h"
 #include "engine/contact/fit.h"
+#include "engine/fluid/fluid.h"
 #include "engine/mechanism/chamber.h"
 
 #include <math.h>
@@ -63,6 +64,10 @@ static void take_values(SbModel *model, const SbParams *params) {
   model->life_shown = model->life_shown > 0 ? model->life_shown : model->life_actuations;
   model->rubber.terms = 3;
   model->rubber.fluid_density = model->density;
+  // stem.pressure_diameter keeps its value, so that the pressure force is the pressure's alone.
+  const double grown = 1 + model->housing_expansion * (model->temperature - SB_SIZES_TEMPERATURE);
+  model->radial_space *= grown;
+  model->bore_diameter *= grown;
   model->bore_circumference = M_PI * model->bore_diameter;
   model->pressure_force =
       model->canister_pressure * M_PI / 4 * model->stem_diameter * model->stem_diameter;
@@ -111,6 +116,7 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   bool outer = index == SB_OUTER;
   seal->stored.storage_time = model->storage_time;
   seal->stored.temperature = model->storage_temperature;
+  seal->stored.use_temperature = model->temperature;
   seal->stored.recovery_time = model->recovery_time;
   seal->stored.radial_space = model->radial_space;
   SbReport report = {0};
@@ -173,7 +179,8 @@ static void check_sizes(const SbModel *model, SbProblems *problems) {
 static void check_combinations(const SbModel *model, SbProblems *problems) {
   // Each stands behind its range's least in the catalogue.
   static const SbParamId largest[] = {SB_P_STUDY_SQUEEZE_MAX, SB_P_STUDY_SPEED_MAX,
-                                      SB_P_STUDY_LOAD_MAX, SB_P_STUDY_TIME_MAX};
+                                      SB_P_STUDY_LOAD_MAX, SB_P_STUDY_TIME_MAX,
+                                      SB_P_STUDY_TEMPERATURE_MAX};
   // The quasi-static balance is not silently asked for what only the motion with inertia can do:
   // it knows their least values.
   static const SbParamId inertial[] = {SB_P_DRIVE_KIND,
@@ -224,6 +231,25 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
     refuse(problems, "models.asperities", NAN, NAN,
            "coupled: a life of %d actuations keeps its film and needs beside",
            model->life_actuations);
+  }
+}
+
+// A named fluid has figures at the canister's temperature, and takes the ethanol.
+static void check_fluid(const SbModel *model, SbProblems *problems) {
+  const SbFluid *fluid = &sb_fluids[model->fluid];
+  SbFluidState state;
+  SbReport report = {0};
+  if (model->fluid == 0 && model->ethanol > 0) {
+    refuse(problems, "fluid.ethanol", NAN, 0, "needs a propellant by name (fluid.name)");
+  } else if (model->fluid > 0) {
+    const SbStatus status =
+        sb_fluid_state(&state, NULL, fluid, model->temperature, model->ethanol, &report);
+    if (status == SB_ERROR_INPUT) {
+      refuse(problems, "fluid.ethanol", NAN, 0, "%s", report.text);
+    } else if (status != SB_OK) {
+      refuse(problems, "canister.temperature", fluid->temperature_min, fluid->temperature_max, "%s",
+             report.text);
+    }
   }
 }
 
@@ -313,6 +339,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   SbModel *model = &made->model;
   SbProblems *found = &made->problems;
   take_values(model, params);
+  check_fluid(model, found);
   check_sizes(model, found);
   check_combinations(model, found);
   compile_rig(model, found);
@@ -478,6 +505,11 @@ int sb_model_number(const SbModel *model, SbParamId id) {
   return (int)sb_params_get(&model->params, id);
 }
 
+bool sb_model_default(SbParamDefault *out, const SbModel *model, SbParamId id) {
+  sb_params_default(out, &model->params, id);
+  return !model->params.given[id] && out->giver >= 0;
+}
+
 void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t size) {
   sb_param_choice_name(sb_param(id), sb_model_number(model, id), name, size);
 }
@@ -526,8 +558,21 @@ const SbValveOutlines *sb_model_outlines(const SbModel *model) {
   return model->data != NULL ? &model->data->outlines : NULL;
 }
 
+// Before, one temperature stood for storage and use.
+static bool stored_only(const SbModel *model) {
+  return model->params.given[SB_P_STORAGE_TEMPERATURE] &&
+         !model->params.given[SB_P_CANISTER_TEMPERATURE];
+}
+
+static const char stored_only_text[] = "storage.temperature is that of storage alone: the valve is "
+                                       "used at canister.temperature, which "
+                                       "is not given";
+
 void sb_model_remarks(const SbModel *model, SbProblems *out) {
   out->count = 0;
+  if (stored_only(model)) {
+    refuse(out, "storage.temperature", NAN, NAN, "%s", stored_only_text);
+  }
   // Where the vent lies between the contacts, their widths left out (run_valve.c has them).
   double hole = model->shape.vent_diameter;
   double nearest = model->land_edge - model->stroke - hole / 2;
@@ -539,11 +584,25 @@ void sb_model_remarks(const SbModel *model, SbProblems *out) {
   }
 }
 
-void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings) {
+void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     SbRubberState ignored;
     // Its constants were checked when the model was compiled: only the warnings are of interest.
     (void)sb_rubber_state(&ignored, &model->rubber, &model->seal[i].stored, warnings, NULL);
+  }
+  if (stored_only(model)) {
+    sb_warn(warnings, "storage-only", "storage.temperature", "%s", stored_only_text);
+  }
+  SbFluidState state;
+  if (model->fluid > 0) {
+    (void)sb_fluid_state(&state, warnings, &sb_fluids[model->fluid], model->temperature,
+                         model->ethanol, NULL);
+  }
+  if (model->canister_pressure < 0) {
+    sb_warn(warnings, "pressure-below-ambient", "canister.pressure",
+            "the canister is %.4g kPa below ambient: nothing is delivered, and what leaks in or "
+            "flows through ports is air, taken with the liquid's density and viscosity",
+            -1e-3 * model->canister_pressure);
   }
 }
 
@@ -554,11 +613,11 @@ void sb_model_gland(SbGland *out, const SbModel *model, int seal) {
       .section_diameter_tolerance = ring->section_diameter_tolerance,
       .inner_diameter = ring->stored.inner_diameter,
       .inner_diameter_tolerance = ring->inner_diameter_tolerance,
-      .radial_space = model->radial_space,
+      .radial_space = sb_model_value(model, SB_P_GLAND_RADIAL_SPACE),
       .radial_space_tolerance = model->radial_space_tolerance,
       .axial_width = model->axial_width,
       .axial_width_tolerance = model->axial_width_tolerance,
-      .bore_diameter = model->bore_diameter,
+      .bore_diameter = sb_model_value(model, SB_P_BORE_DIAMETER),
       .bore_diameter_tolerance = model->bore_diameter_tolerance,
       .land_diameter = model->stem_diameter,
       .land_diameter_tolerance = model->stem_diameter_tolerance,

@@ -14,10 +14,11 @@ typedef struct {
 
 // Ranges that studies cover.
 typedef struct {
-  double squeeze_min, squeeze_max; // of the free section
-  double speed_min, speed_max;     // sliding [m/s]
-  double load_min, load_max;       // net, per length [N/m]
-  double time_min, time_max;       // in storage [s]
+  double squeeze_min, squeeze_max;         // of the free section
+  double speed_min, speed_max;             // sliding [m/s]
+  double load_min, load_max;               // net, per length [N/m]
+  double time_min, time_max;               // in storage [s]
+  double temperature_min, temperature_max; // of canister and valve [K]
 } SbStudyRange;
 
 struct SbModel {

@@ -1,5 +1,6 @@
 // The catalogue's table and the checks that need nothing but the table.
 #include "engine/film/film.h"
+#include "engine/fluid/fluid.h"
 #include "engine/valve/valve.h"
 
 #include <math.h>
@@ -90,17 +91,62 @@ static bool from_choice(SbParamDefault *out, const SbParams *params, SbParamId i
   return false;
 }
 
+// What follows from a named fluid's saturated state.
+static const struct {
+  SbParamId id;
+  SbFluidPropertyId property;
+} of_fluid[] = {{SB_P_CANISTER_PRESSURE, SB_FLUID_PRESSURE},
+                {SB_P_FLUID_VISCOSITY, SB_FLUID_VISCOSITY},
+                {SB_P_FLUID_DENSITY, SB_FLUID_LIQUID}};
+enum { OF_FLUID = sizeof of_fluid / sizeof of_fluid[0] };
+
+static size_t place_of_fluid(SbParamId id) {
+  size_t at = 0;
+  while (at < OF_FLUID && of_fluid[at].id != id) {
+    at++;
+  }
+  return at;
+}
+
+static bool from_fluid(SbParamDefault *out, const SbParams *params, SbParamId id) {
+  const size_t at = place_of_fluid(id);
+  const int fluid = at < OF_FLUID ? (int)sb_params_get(params, SB_P_FLUID_NAME) : 0;
+  SbFluidState state;
+  if (fluid == 0) {
+    return false;
+  }
+  *out = (SbParamDefault){NAN, SB_P_FLUID_NAME, "beyond the range of the fluid's figures",
+                          "published"};
+  if (sb_fluid_state(&state, NULL, &sb_fluids[fluid],
+                     sb_params_get(params, SB_P_CANISTER_TEMPERATURE),
+                     sb_params_get(params, SB_P_FLUID_ETHANOL), NULL) == SB_OK) {
+    const SbFluidFigure *figure = &state.figure[of_fluid[at].property];
+    const bool gauge = id == SB_P_CANISTER_PRESSURE;
+    out->value =
+        figure->value - (gauge ? sb_params_get(params, SB_P_CANISTER_AMBIENT_PRESSURE) : 0);
+    out->source = figure->source;
+    return !isnan(figure->value); // an oil has no vapour pressure
+  }
+  return true;
+}
+
 static bool from_catalogue(SbParamDefault *out, const SbParams *params, SbParamId id) {
   *out = (SbParamDefault){table[id].fallback, -1, table[id].source, table[id].tag};
   return true;
 }
 
 void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id) {
-  // In this order; a source that computes (a fluid's state) stands before the catalogue too.
-  static bool (*const sources[])(SbParamDefault *, const SbParams *,
-                                 SbParamId) = {from_parent, from_choice, from_catalogue};
+  static bool (*const sources[])(SbParamDefault *, const SbParams *, SbParamId) = {
+      from_parent, from_choice, from_fluid, from_catalogue};
   for (size_t i = 0; !sources[i](out, params, id); i++) {
   }
+}
+
+bool sb_param_follows(SbParamId id) {
+  SbParamDefault derived;
+  int choice;
+  return table[id].parent >= 0 || sb_params_brought(&derived, &choice, id, 0) ||
+         place_of_fluid(id) < OF_FLUID;
 }
 
 double sb_params_get(const SbParams *params, SbParamId id) {

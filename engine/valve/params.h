@@ -1,10 +1,11 @@
 // The parameter catalogue and a set of values.
 //
 // SbParams holds one double per parameter (SI; an index for a choice, a bit mask for flags) and
-// whether it was given. What was not given follows: one seal's value from both seals', and where
-// SB_DEFAULT rows say so from a choice (models.set). That is resolved whenever it is asked for, so
-// that a choice that changes takes with it what follows from it. The catalogue knows ranges and
-// texts; what a combination of values means is model.h.
+// whether it was given. What was not given follows: one seal's value from both seals', where
+// SB_DEFAULT rows say so from a choice (models.set), and from a named fluid at the canister's
+// temperature (fluid.name). That is resolved whenever it is asked for, so that a choice that
+// changes takes with it what follows from it. The catalogue knows ranges and texts; what a
+// combination of values means is model.h.
 #pragma once
 
 #include "engine/base/status.h"
@@ -37,7 +38,7 @@ typedef struct {
   const char *label;   // "Radial space"
   const char *help;    // one line
   const char *source;  // where the default comes from
-  const char *tag;     // "thesis", "inferred" or "ours"
+  const char *tag;     // "thesis", "inferred", "ours" or "published"
   int parent;          // for seal.outer.X and seal.inner.X the id of seal.X, whose value they take
                        // when not given; -1 for every other parameter
 } SbParam;
@@ -58,15 +59,18 @@ void sb_params_init(SbParams *params);
 
 // What a parameter is while nobody gives it, and why. Strings are static.
 typedef struct {
-  double value;       // SI
+  double value;       // SI; NAN: of a fluid beyond the range of its figures
   int giver;          // the parameter that it follows from, -1: the catalogue's own default
   const char *source; // where the value comes from
   const char *tag;    // as SbParam's
 } SbParamDefault;
 
 // That of `id` beside the given values of `params`: from the first source that has one, its parent,
-// a choice that brings defaults, the catalogue.
+// a choice that brings defaults, a named fluid, the catalogue.
 void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id);
+
+// Whether a parameter has sources of its default beside the catalogue.
+bool sb_param_follows(SbParamId id);
 
 // The value in force: its own if given, else its default.
 double sb_params_get(const SbParams *params, SbParamId id);

@@ -223,6 +223,10 @@ bool sb_model_same(const SbModel *a, const SbModel *b);
 double sb_model_value(const SbModel *model, SbParamId id);
 int sb_model_number(const SbModel *model, SbParamId id);
 
+// Whether a value follows from another parameter: that default with its source; false: it is given
+// or the catalogue's.
+bool sb_model_default(SbParamDefault *out, const SbModel *model, SbParamId id);
+
 // Name of a choice that it was compiled from, into `name` of `size` bytes.
 void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t size);
 
@@ -246,10 +250,10 @@ const SbValveOutlines *sb_model_outlines(const SbModel *model);
 // Geometry that is possible and hardly meant, with the key to change and the range that would do.
 void sb_model_remarks(const SbModel *model, SbProblems *out);
 
-// Adds what the storage of the rings has to say about its validity.
-void sb_model_warn_storage(const SbModel *model, SbWarnings *warnings);
+// Adds what the model has to say about its validity: the storage of the rings, the fluid.
+void sb_model_warn(const SbModel *model, SbWarnings *warnings);
 
-// The gland of a seal with its tolerances, for sb_gland_readouts: sizes as stored.
+// The gland of a seal with its tolerances, for sb_gland_readouts: sizes as stored, at 20 degC.
 void sb_model_gland(SbGland *out, const SbModel *model, int seal);
 
 // The fitment problem of a seal by the model's own choice, at a pressure difference (positive on

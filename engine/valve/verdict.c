@@ -132,6 +132,11 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
              summary->returned > 0 ? "" : "the stem does not come to rest by itself");
   }
   verdict[SB_VERDICT_RETURNS] = returns;
+  if (summary->dose_mass == 0) {
+    verdict[SB_VERDICT_DOSES] =
+        (SbVerdict){SB_ANSWER_NO, sb_figure_find("cycle.dose_mass_kg"), 0, NAN,
+                    "the canister's pressure is not above ambient: nothing is delivered"};
+  }
   for (size_t i = 0; i < model->limits.count; i++) {
     const SbLimit *limit = &model->limits.item[i];
     SbVerdictKind kind = sb_figure(limit->figure)->verdict;

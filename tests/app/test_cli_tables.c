@@ -296,6 +296,22 @@ static void test_fluid(void) {
   json_node_unref(root);
 }
 
+// Results say which values follow from a named fluid, and from where; one that is set does not.
+static void test_follows(void) {
+  JsonNode *root = JSON("run", cli.scene, "--quiet", "--set", "fluid.name=hfa-134a", "--set",
+                        "canister.temperature=24.3degC", "--set", "fluid.density=1200 kg/m3");
+  JsonObject *follows = json_node_get_object(cli_at(root, "follows"));
+  g_assert_cmpuint(json_object_get_size(follows), ==, 2);
+  JsonNode *pressure = json_object_get_member(follows, "canister.pressure");
+  cli_has_keys(pressure, "source tag");
+  g_assert_cmpfloat_with_epsilon(cli_number(pressure, "value"), 0.55e6, 0.55e6 * 3e-3);
+  g_assert_cmpstr(json_node_get_string(cli_at(pressure, "unit")), ==, "Pa");
+  g_assert_cmpstr(json_node_get_string(cli_at(pressure, "from")), ==, "fluid.name");
+  g_assert_cmpstr(json_node_get_string(cli_at(pressure, "name")), ==, "hfa-134a");
+  g_assert_true(json_object_has_member(follows, "fluid.viscosity"));
+  json_node_unref(root);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -306,6 +322,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-tables/bench", test_bench);
   g_test_add_func("/cli-tables/lists", test_lists);
   g_test_add_func("/cli-tables/fluid", test_fluid);
+  g_test_add_func("/cli-tables/follows", test_follows);
   int result = g_test_run();
   cli_tear_down();
   return result;

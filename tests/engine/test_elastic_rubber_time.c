@@ -13,7 +13,8 @@ static SbRubberStorage stored(double time, double temperature) {
                            .radial_space = 1.36e-3,
                            .modulus = 2.5e6,
                            .storage_time = time,
-                           .temperature = temperature};
+                           .temperature = temperature,
+                           .use_temperature = temperature};
 }
 
 static SbRubber prony(void) {
@@ -82,6 +83,34 @@ static void test_shift(void) {
   const SbRubberState hot = state(&entropic, &warm);
   assert_close(hot.modulus, 2.5e6 * 313.15 / 293.15, 1e-12);
   assert_close(hot.inner_diameter, 2.84e-3 * 1.004, 1e-12);
+  // Of the temperature of use, not that of storage or of the constants.
+  warm.use_temperature = 293.15;
+  entropic.reference_temperature = 250;
+  g_assert_cmpfloat(state(&entropic, &warm).modulus, ==, 2.5e6);
+  g_assert_cmpfloat(state(&entropic, &warm).inner_diameter, ==, 2.84e-3);
+}
+
+// The glass transition: nothing at 20 degC, stiffness over temperature as Gehman's test gives it
+// (twice, 10 and 100 times the rubber's 2.5 MPa at some 20, 12 and 6 K above), refused below.
+static void test_glass(void) {
+  const SbRubber rubber = {.reference_temperature = 293.15, .glass_temperature = 245.0};
+  SbRubberStorage in = stored(0.0, 293.15);
+  g_assert_cmpfloat(state(&rubber, &in).modulus, ==, 2.5e6);
+  static const double rows[][3] = {{2, 18, 22}, {10, 11, 14}, {100, 5, 8}}; // times, from, to [K]
+  for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+    in.use_temperature = 245.0 + rows[i][1];
+    g_assert_cmpfloat(state(&rubber, &in).stiffening, >, rows[i][0]);
+    in.use_temperature = 245.0 + rows[i][2];
+    g_assert_cmpfloat(state(&rubber, &in).stiffening, <, rows[i][0]);
+  }
+  SbWarnings warnings = {0};
+  SbRubberState s;
+  SbReport report = {0};
+  g_assert_cmpint(sb_rubber_state(&s, &rubber, &in, &warnings, NULL), ==, SB_OK);
+  g_assert_true(warned(&warnings, "glass-near"));
+  in.use_temperature = 244.9;
+  g_assert_cmpint(sb_rubber_state(&s, &rubber, &in, NULL, &report), ==, SB_ERROR_RANGE);
+  g_assert_cmpstr(report.parameter, ==, "canister.temperature");
 }
 
 // Set: what is left right after release is what has relaxed; it goes away with time; the equations
@@ -333,6 +362,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/rubber-time/relaxation", test_relaxation);
   g_test_add_func("/rubber-time/shift", test_shift);
+  g_test_add_func("/rubber-time/glass", test_glass);
   g_test_add_func("/rubber-time/set", test_set);
   g_test_add_func("/rubber-time/uptake", test_uptake);
   g_test_add_func("/rubber-time/swell", test_swell);

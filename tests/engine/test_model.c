@@ -239,11 +239,11 @@ static void test_storage(void) {
 
   // 30 days are far beyond the one hour that is known to relax.
   SbWarnings warnings = {0};
-  sb_model_warn_storage(&stored, &warnings);
+  sb_model_warn(&stored, &warnings);
   g_assert_cmpuint(warnings.count, ==, 1);
   g_assert_cmpstr(warnings.item[0].code, ==, "relaxation-extrapolated");
   warnings = (SbWarnings){0};
-  sb_model_warn_storage(&fresh, &warnings);
+  sb_model_warn(&fresh, &warnings);
   g_assert_cmpuint(warnings.count, ==, 0);
 
   // Constants that make no sense together are a problem with its key.

@@ -38,6 +38,8 @@ static const struct {
     {"seal.", N_("Seals"), N_("both"), TRUE},
     {"gland.", N_("Gland"), NULL, TRUE},
     {"canister.", N_("Canister"), NULL, TRUE},
+    {"fluid.name", N_("Canister"), NULL, TRUE}, // beside its temperature
+    {"fluid.ethanol", N_("Canister"), NULL, TRUE},
     {"surface.", N_("Surface"), NULL, TRUE},
     {"drive.", N_("Drive"), NULL, TRUE},
     {"bore.", N_("Bore"), NULL, FALSE},

@@ -63,10 +63,13 @@ void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
 
   // One scale for the whole run; the thesis valve's 38 N or the run's largest sum fill the width.
   double largest = data->run.trace != NULL ? sb_trace_range(data->run.trace).force_max : 0;
-  double span = fmax(38, fmax(2.6 * frame->pressure_force, 1.1 * largest));
+  double span = fmax(38, fmax(2.6 * fabs(frame->pressure_force), 1.1 * largest));
   double x = rect.x + 102;
   double scale = (rect.width - 102 - 60) / span;
   sb_canvas_text(&canvas, "=", &plain, x - 14, y, SB_MIDDLE);
+  if (frame->pressure_force < 0) {
+    x += sb_canvas_text(&canvas, "\xe2\x88\x92", &plain, x, y, SB_LEFT) + 4;
+  }
   x = part(&canvas, x, y, scale, theme->role[SB_ROLE_FLUID], "pressure", frame->pressure_force);
   static const char *const names[SB_SEAL_COUNT] = {[SB_OUTER] = "outer", [SB_INNER] = "inner"};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {

@@ -217,7 +217,7 @@ static void conclude(SbRun *run, bool moved) {
 // The valve's actuation: sliding states, then the motion.
 static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbPlan *plan = &run->plan;
-  sb_model_warn_storage(run->model, &run->summary.warnings);
+  sb_model_warn(run->model, &run->summary.warnings);
   // Solved rings take seconds, everything else before the frames milliseconds.
   run->before_frames = plan->ring ? 0.9 : 0;
   run->after_frames = run->life != NULL ? 0.9 * (1 - run->before_frames) : 0;

@@ -21,7 +21,7 @@ static double free_return_time(const SbRun *run) {
   const SbModel *model = run->model;
   double least = sb_cycle_least_return(&run->cycle, model->stroke, SB_CHAMBER_OPEN, true) +
                  model->spring_preload;
-  double force = fmax(least, 1e-3 * (model->pressure_force + 1e-3));
+  double force = fmax(least, 1e-3 * (fabs(model->pressure_force) + 1e-3));
   return 1.5 * sqrt(2 * model->stroke * model->moving_mass / force);
 }
 

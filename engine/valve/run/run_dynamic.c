@@ -291,7 +291,7 @@ static SbStatus estimate_error(const Recorder *fine, double *force, double *work
   }
   if (isfinite(fine->return_least) && isfinite(other.return_least)) {
     *force = fmax(*force, relative(fine->return_least, other.return_least,
-                                   fmax(peak, run->model->pressure_force)));
+                                   fmax(peak, fabs(run->model->pressure_force))));
   }
   *force = fmax(share * *force, tolerance);
   const SbDynamicsEnergy *one = &fine->energy, *two = &other.energy;
@@ -374,7 +374,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   sb_run_leakage(summary, model, &run->bore, back);
   sb_run_fill_motion(summary, &r.energy, &counters);
   // Work over less than the rounding of places is none: a stem that is pushed and does not move.
-  double pushed = fmax(r.force_peak, model->pressure_force + model->spring_preload);
+  double pushed = fmax(r.force_peak, fabs(model->pressure_force + model->spring_preload));
   if (r.energy.largest < 1e-12 * pushed * model->stroke) {
     summary->energy.closure = 0;
   }

@@ -117,7 +117,8 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
         leak.constriction_gap / model->sigma);
   }
   if (!open) {
-    out->leakage_static = leak.leak_rate;
+    // Into the canister where it is below ambient.
+    out->leakage_static = pressure.left < pressure.right ? -leak.leak_rate : leak.leak_rate;
     out->leak_sensitivity = leak.sensitivity;
   }
   out->leak_state = open ? SB_LEAK_OPEN : leak.percolates ? SB_LEAK_PERCOLATING : SB_LEAK_CLOSED;

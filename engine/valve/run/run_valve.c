@@ -28,7 +28,7 @@ static const double band_tolerance = 1e-3;
 // How full of pressure the chamber is, 0 vented, 1 at the canister's.
 static double filling(const SbRun *run, double pressure) {
   double canister = run->model->canister_pressure;
-  return canister > 0 ? fmin(fmax(pressure / canister, 0), 1) : 1;
+  return canister != 0 ? fmin(fmax(pressure / canister, 0), 1) : 1;
 }
 
 // The states that friction lies between: with ports those of the vented and the filled chamber.
@@ -326,7 +326,7 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
     add_edge(out, chamber->port[i].high);
   }
   out->extra_rate = valve_rate;
-  out->extra_scale = fmax(canister, 1e3);
+  out->extra_scale = fmax(fabs(canister), 1e3);
   double pressure = canister;
   sb_chamber_start(&valve->dose, chamber, out->start_position, &pressure);
   out->extra_start = sb_chamber_rest_pressure(&valve->dose, pressure);
@@ -431,7 +431,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
       return status;
     }
     // The orifice law holds for turbulent jets of liquid.
-    double jet = sqrt(2 * model->canister_pressure / model->density);
+    double jet = sqrt(2 * fabs(model->canister_pressure) / model->density);
     double reynolds = model->density * jet * model->shape.vent_diameter / model->viscosity;
     if (valve->chamber_model.ports > 1 && !model->chamber_at_once && reynolds < 1e3) {
       sb_warn(&run->summary.warnings, "vent-laminar", "bore.vent_diameter",

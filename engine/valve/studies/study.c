@@ -73,9 +73,19 @@ SbStudyPanel *sb_study_panel(SbStudy *out, const SbStudyAxis *y, const char *emp
 
 // Splits "quantity [unit]" into its name, the unit, and the SI unit of that.
 static void put_quantity(const char *text, char name[], size_t size, char si[16], char unit[16]) {
-  static const char *const units[][2] = {
-      {"N", "N"},      {"N/m", "N/m"}, {"MPa", "Pa"},           {"mm", "m"}, {"nm", "m"},
-      {"mm/s", "m/s"}, {"day", "s"},   {"\xc2\xb5l/h", "m3/s"}, {"nl", "m3"}};
+  static const char *const units[][2] = {{"N", "N"},
+                                         {"N/m", "N/m"},
+                                         {"MPa", "Pa"},
+                                         {"mm", "m"},
+                                         {"nm", "m"},
+                                         {"mm/s", "m/s"},
+                                         {"day", "s"},
+                                         {"\xc2\xb0"
+                                          "C",
+                                          "K"},
+                                         {"mg", "kg"},
+                                         {"\xc2\xb5l/h", "m3/s"},
+                                         {"nl", "m3"}};
   const char *bracket = strstr(text, " [");
   const size_t length = bracket != NULL ? (size_t)(bracket - text) : strlen(text);
   sb_text(name, size, "%.*s", (int)length, text);
@@ -174,6 +184,13 @@ static void fix_base(SbStudyWork *work) {
   const SbOverride outer[] = {
       {SB_P_STORAGE_TIME, 0},
       {SB_P_STORAGE_TEMPERATURE, scene->rubber.reference_temperature},
+      // What the temperature has made of the rest.
+      {SB_P_CANISTER_TEMPERATURE, SB_SIZES_TEMPERATURE},
+      {SB_P_GLAND_RADIAL_SPACE, scene->radial_space},
+      {SB_P_BORE_DIAMETER, scene->bore_diameter},
+      {SB_P_CANISTER_PRESSURE, scene->canister_pressure},
+      {SB_P_FLUID_VISCOSITY, scene->viscosity},
+      {SB_P_FLUID_DENSITY, scene->density},
       {SB_P_SEAL_OUTER_SECTION_DIAMETER, ring->section_diameter},
       {SB_P_SEAL_OUTER_INNER_DIAMETER, ring->inner_diameter},
       {SB_P_SEAL_OUTER_MODULUS, ring->modulus},

@@ -24,7 +24,9 @@
   X(SB_STUDY_STRIBECK, stribeck, "stribeck", "Stribeck curve",                                     \
     "friction, the asperities' share and the film over the speed, solved together")                \
   X(SB_STUDY_TOLERANCE, tolerance, "tolerance", "Tolerances",                                      \
-    "loads, break-away and return force over the tolerances of the sizes: worst case and RSS")
+    "loads, break-away and return force over the tolerances of the sizes: worst case and RSS")     \
+  X(SB_STUDY_PROPELLANTS, propellants, "propellants", "Propellants over the temperature",          \
+    "pressure force, break-away, least return and dose of each propellant in this valve")
 
 typedef enum {
 #define SB_STUDY_ENUM(code, function, name, title, help) code,

@@ -73,7 +73,7 @@ static void make(SbStudyWork *work) {
     sb_study_note(out, "This rubber never changes: give it rubber.relaxation_share_*, "
                        "rubber.network_rate or rubber.swell_mass.");
   }
-  sb_model_warn_storage(model, &out->warnings);
+  sb_model_warn(model, &out->warnings);
 }
 
 const SbStudyDesign sb_study_storage = {
