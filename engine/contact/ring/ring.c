@@ -481,7 +481,7 @@ SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *opt
     return status;
   }
   (*out)->options = *options;
-  status = remesh(*out, ring, options->element_size, 1.0, report);
+  status = remesh(*out, ring, options->element_size, 0.2, report);
   if (status != SB_OK) {
     sb_ring_destroy(*out);
     *out = NULL;
