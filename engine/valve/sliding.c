@@ -110,9 +110,13 @@ const SbSlidingBody *sb_sliding_body(const SbSlidingMemory *memory) {
   return memory->last->fitted ? &memory->body : NULL;
 }
 
+static bool is_ring(const Task *task) {
+  return task->model->fit == SB_FIT_RING;
+}
+
 // Whether friction drags this seal's section: the ring's, while it slides.
 static bool drags(const Task *task) {
-  return task->model->fit == SB_FIT_RING && task->speed != 0;
+  return is_ring(task) && task->speed != 0;
 }
 
 void sb_sliding_law(SbSlidingLaw *out, const SbModel *model, const SbSealState *state) {
@@ -155,8 +159,9 @@ static void fit_problem(SbFitProblem *problem, const Task *task, Fitment *on,
   sb_model_fit_problem(problem, model, task->seal, pressure);
   problem->cancel = cancelled; // a kept ring asks whoever waits then
   problem->cancel_data = memory;
-  problem->surface_wanted =
-      model->film == SB_FILM_REYNOLDS || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  // No film lies on a ring at rest, but that of coupled asperities.
+  const bool film = model->film == SB_FILM_REYNOLDS && (task->speed != 0 || !is_ring(task));
+  problem->surface_wanted = film || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   problem->kept = &on->ring;
   if (law != NULL) {
     on->law = *law;

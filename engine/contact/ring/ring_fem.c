@@ -426,8 +426,9 @@ void sb_ring_fem_stress(const SbRingFem *fem, int element, double l1, double l2,
 void sb_ring_fem_transfer(SbRingFem *to, const SbRingFem *from) {
   const SbRingMesh *mesh = to->mesh;
   double l1 = 0.0, l2 = 0.0;
+  int e = 0, old = 0;
   for (int i = 0; i < mesh->nodes; i++) {
-    int e = sb_ring_mesh_locate(from->mesh, &mesh->x[2 * i], &l1, &l2);
+    e = sb_ring_mesh_locate(from->mesh, &mesh->x[2 * i], e, &l1, &l2);
     double n[6], d1[6], d2[6];
     sb_ring_shape(l1, l2, n, d1, d2);
     to->u[2 * i] = to->u[2 * i + 1] = 0.0;
@@ -436,7 +437,7 @@ void sb_ring_fem_transfer(SbRingFem *to, const SbRingFem *from) {
       to->u[2 * i + 1] += n[a] * from->u[2 * from->mesh->tri[6 * e + a] + 1];
     }
   }
-  for (int e = 0; e < mesh->elements; e++) {
+  for (e = 0; e < mesh->elements; e++) {
     const int *tri = &mesh->tri[6 * e];
     double *inner = &to->inner[SB_RING_INNER * e], p[3];
     for (int k = 0; k < 3; k++) {
@@ -447,7 +448,7 @@ void sb_ring_fem_transfer(SbRingFem *to, const SbRingFem *from) {
         x[0] += share * mesh->x[2 * tri[a]];
         x[1] += share * mesh->x[2 * tri[a] + 1];
       }
-      int old = sb_ring_mesh_locate(from->mesh, x, &l1, &l2);
+      old = sb_ring_mesh_locate(from->mesh, x, old, &l1, &l2);
       const double *q = &from->inner[SB_RING_INNER * old];
       p[k] = q[2] + (l1 - 1.0 / 3.0) * q[3] + (l2 - 1.0 / 3.0) * q[4];
     }

@@ -496,10 +496,16 @@ void sb_ring_shape(double l1, double l2, double n[6], double dn1[6], double dn2[
   dn2[5] = 4.0 * (l0 - l2);
 }
 
-int sb_ring_mesh_locate(const SbRingMesh *mesh, const double x[2], double *l1, double *l2) {
+int sb_ring_mesh_locate(const SbRingMesh *mesh, const double x[2], int near, double *l1,
+                        double *l2) {
   int best = 0;
   double best_out = INFINITY;
-  for (int e = 0; e < mesh->elements; e++) {
+  // To both sides of the nearby one.
+  for (int k = 0; k < 2 * mesh->elements; k++) {
+    int e = near + (k % 2 == 0 ? k / 2 : -1 - k / 2);
+    if (e < 0 || e >= mesh->elements) {
+      continue;
+    }
     const int *tri = &mesh->tri[6 * e];
     const double *a = &mesh->x[2 * tri[0]], *b = &mesh->x[2 * tri[1]], *c = &mesh->x[2 * tri[2]];
     double d11 = b[0] - a[0], d12 = c[0] - a[0], d21 = b[1] - a[1], d22 = c[1] - a[1];

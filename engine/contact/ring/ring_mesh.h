@@ -86,6 +86,7 @@ static const double SB_RING_X4[4] = {-0.861136311594052575, -0.33998104358485626
 static const double SB_RING_W4[4] = {0.347854845137453857, 0.652145154862546143,
                                      0.652145154862546143, 0.347854845137453857};
 
-// Finds the triangle (by its straight sides) that holds the reference point, or the nearest one;
-// returns its index and the area coordinates.
-int sb_ring_mesh_locate(const SbRingMesh *mesh, const double x[2], double *l1, double *l2);
+// Finds the triangle (by its straight sides) that holds the reference point, or the nearest one,
+// beginning at triangle `near`; returns its index and the area coordinates.
+int sb_ring_mesh_locate(const SbRingMesh *mesh, const double x[2], int near, double *l1,
+                        double *l2);
