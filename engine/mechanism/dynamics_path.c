@@ -57,12 +57,18 @@ static void closed_path(SbDynamics *s, const Point *p, Live *live) {
   s->t_end = horizon == left ? s->piece.until : s->t + horizon;
   s->event = EVENT_BREAK;
   double a = s->held ? 0.0 : force_of(&p->sum, p) / s->mass;
-  for (size_t i = 0; i < live->count; i++) {
-    SbEventFunction *g = &live->function[i];
+  // First the bands' ends, which are the nearest as a rule: less is left to search for the others.
+  for (size_t i = 0; i < 2 * live->count; i++) {
+    const size_t k = i % live->count;
+    const int event = live->event[k];
+    if ((event == EVENT_SPEED_UP || event == EVENT_SPEED_DOWN) != (i < live->count)) {
+      continue;
+    }
+    SbEventFunction *g = &live->function[k];
     bool found;
     // The time itself is rounded, and with it whatever changes fast. Not so the edges: crossing one
     // puts the stem on it.
-    if (live->event[i] != EVENT_EDGE_UP && live->event[i] != EVENT_EDGE_DOWN) {
+    if (event != EVENT_EDGE_UP && event != EVENT_EDGE_DOWN) {
       g->noise += s->t * (fabs(g->rate) + fabs(g->of_x * p->v) + fabs(g->of_v * a) +
                           fabs(g->relax * g->relax_rate));
     }
@@ -70,7 +76,7 @@ static void closed_path(SbDynamics *s, const Point *p, Live *live) {
     if (found && (at < horizon || s->event == EVENT_BREAK)) {
       horizon = at;
       s->t_end = s->t + at;
-      s->event = live->event[i];
+      s->event = event;
     }
   }
 }
@@ -294,8 +300,8 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
     s->event = landing == EVENT_NONE ? EVENT_BREAK : landing;
     s->counters.steps++;
     s->counters.local_error += s->held ? 0.0 : local[0] / (fabs(s->at.x) + place_size);
-    if (landing != EVENT_NONE) {
-      // What follows may be much quicker.
+    if (landing != EVENT_NONE && landing != EVENT_SPEED_UP && landing != EVENT_SPEED_DOWN) {
+      // What follows may be much quicker; friction bends little from one band to the next.
       s->h = fmin(s->h, first);
     }
     return SB_OK;

@@ -13,6 +13,7 @@
 #include <complex.h>
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 enum { ORDERS = 5 };
 
@@ -68,6 +69,11 @@ static void decay(double e[ORDERS], double rate, double tau, const double power[
 
 // H_0 .. H_4 at tau.
 static void answers(double h[ORDERS], const SbOscillator *o, double tau) {
+  if (tau == 0.0) { // where every search for an event begins
+    memset(h, 0, ORDERS * sizeof *h);
+    h[0] = 1.0;
+    return;
+  }
   double power[ORDERS] = {1.0}, c = o->damping, k = o->stiffness;
   for (int i = 1; i < ORDERS; i++) {
     power[i] = power[i - 1] * tau / i;
@@ -290,7 +296,7 @@ double sb_event_first(const SbEventFunction *g, const SbOscillator *o, double ho
     }
   }
   for (int i = 0; i < 200000 && tau < horizon; i++) {
-    now = look(g, o, tau);
+    now = now.at.tau == tau ? now : look(g, o, tau);
     if (now.value <= now.tiny && now.rate < 0.0) {
       return fmin(horizon, fmax(0.0, tau - now.value / now.rate));
     }

@@ -243,6 +243,9 @@ typedef struct {
   double edge_open;   // stem displacement behind which the chamber opens on the way in
   double edge_closed; // and closes on the way out
   double middle;      // of B-C, and of F-A [m]
+  // What the land carries of the inner contact where it was last asked for.
+  double land_at[SB_CYCLE_CHAMBERS];
+  SbLandShare land[SB_CYCLE_CHAMBERS];
   bool varies[SB_DYNAMICS_EDGES + 1]; // regions in which the land's edge lies under the contact
   double edge[SB_DYNAMICS_EDGES];     // those of the mechanism [m]
   SbDriveTimes times;

@@ -1,6 +1,7 @@
 // A run's steady states at any speed: of each seal, chamber and direction one table
 // (valve/speed_states.h), made when an instant first asks for another speed than the states'.
-// Chamber states under the same pressures, whose solved states are the same, share one.
+// Chamber states under the same pressures, whose solved states are the same, share one, and so do
+// both directions where they are alike.
 //
 // Between the vented and the filled chamber contact and film lie between those of the two at the
 // same speed, and friction follows from them: exact where the chamber rests, which is all but the
@@ -62,6 +63,22 @@ static int first_same(const SbRun *run, int seal, int chamber, int direction) {
   return same ? first : chamber;
 }
 
+// Under equal pressures both ways slide alike, where neither lies on a body of its own or of a
+// supply: one of them.
+static int first_way(const SbRun *run, int seal, int chamber, int direction) {
+  const SbSealPressure p = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber);
+  const SbSealState *in = &run->cycle.state[seal][chamber][SB_CYCLE_IN];
+  const SbSealState *back = &run->cycle.state[seal][chamber][SB_CYCLE_OUT];
+  SbSpeedStates *const *table = run->speeds[seal][chamber];
+  bool alike = p.left == p.right && table[SB_CYCLE_OUT] == NULL && same_contact(in, back) &&
+               (table[SB_CYCLE_IN] == NULL || !table[SB_CYCLE_IN]->on_body) &&
+               fabs(in->film_central / back->film_central - 1) < 1e-5;
+  for (int way = 0; way < SB_RUN_REST; way++) {
+    alike = alike && !sb_run_supply(run, seal, (SbChamber)chamber, way).limited;
+  }
+  return alike ? SB_CYCLE_IN : direction;
+}
+
 void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int direction,
                      double speed) {
   const SbSealState *state = &run->cycle.state[seal][chamber][direction];
@@ -70,6 +87,7 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
     return;
   }
   chamber = first_same(run, seal, chamber, direction);
+  direction = first_way(run, seal, chamber, direction);
   SbSpeedStates **table = &run->speeds[seal][chamber][direction];
   if (*table == NULL && make(run, seal, chamber, direction, NULL, NULL) != SB_OK) {
     run->out_of_memory = true;

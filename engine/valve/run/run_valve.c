@@ -56,17 +56,29 @@ static SbLandShare land_share(const SbCycle *cycle, int seal, SbChamber chamber,
   return sb_cycle_land_share(cycle, seal, chamber, passing(chamber), s);
 }
 
+// The same for the motion, which asks several times at each place.
+static SbLandShare land_at(SbValve *valve, int seal, SbChamber chamber, double s) {
+  if (seal == SB_OUTER) {
+    double whole = valve->run->cycle.state[seal][chamber][passing(chamber)].touches ? 1 : 0;
+    return (SbLandShare){whole, whole};
+  }
+  if (valve->land_at[chamber] != s) {
+    valve->land_at[chamber] = s;
+    valve->land[chamber] = land_share(&valve->run->cycle, seal, chamber, s);
+  }
+  return valve->land[chamber];
+}
+
 // Friction of a contact without a film: as the speed goes to 0.
-static double level_of(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s) {
-  const SbSealState *state = &cycle->state[seal][chamber][direction];
-  const SbLandShare on = land_share(cycle, seal, chamber, s);
+static double level_of(SbValve *valve, int seal, SbChamber chamber, int direction, double s) {
+  const SbSealState *state = &valve->run->cycle.state[seal][chamber][direction];
+  const SbLandShare on = land_at(valve, seal, chamber, s);
   return state->rest_area * on.width + state->rest_load * on.load;
 }
 
 static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const double *extra,
                         void *user) {
-  const SbValve *valve = user;
-  const SbCycle *cycle = &valve->run->cycle;
+  SbValve *valve = user;
   // Bore and stem are the same on either side of the chamber, so that its pressure cancels.
   loads->force = -valve->run->model->pressure_force;
   const Ends ends = ends_of(valve, extra[0]);
@@ -75,9 +87,9 @@ static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const d
         valve->run->model->contact_ageing ? &valve->run->rest[seal][valve->chamber] : NULL;
     for (int i = 0; i < ends.count; i++) {
       if (ends.share[i] > 0) {
-        double in = level_of(cycle, seal, ends.chamber[i], SB_CYCLE_IN, x);
+        double in = level_of(valve, seal, ends.chamber[i], SB_CYCLE_IN, x);
         double out =
-            valve->both_alike ? in : level_of(cycle, seal, ends.chamber[i], SB_CYCLE_OUT, x);
+            valve->both_alike ? in : level_of(valve, seal, ends.chamber[i], SB_CYCLE_OUT, x);
         loads->level[seal] += ends.share[i] * in;
         loads->back[seal] += ends.share[i] * (out - in);
       }
@@ -209,7 +221,7 @@ static void valve_band(SbDynamicsBand *out, double x, size_t region, int directi
   out->high = band->high;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     for (int i = 0; i < ends.count; i++) {
-      const SbLandShare on = land_share(&valve->run->cycle, seal, ends.chamber[i], x);
+      const SbLandShare on = land_at(valve, seal, ends.chamber[i], x);
       const SbBandPart *w = &band->width[seal][i], *l = &band->load[seal][i];
       out->rise[seal] += ends.share[i] * (on.width * w->rise + on.load * l->rise);
       out->slope[seal] += ends.share[i] * (on.width * w->slope + on.load * l->slope);
@@ -366,6 +378,9 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   const SbModel *model = run->model;
   const SbCycle *cycle = &run->cycle;
   *valve = (SbValve){.run = run, .ports = model->pressure_map == SB_MAP_PORTS};
+  for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
+    valve->land_at[chamber] = NAN;
+  }
   for (int i = 0; i < SB_CYCLE_CHAMBERS * SB_RUN_REST; i++) {
     (&run->bands[0][0])[i].count = 0;
   }
